@@ -1,0 +1,73 @@
+#include "Commands.h"
+
+#include "ViewDisplay.h"
+#include "ViewOptions.h"
+#include "ViewPicture.h"
+#include "ViewScene.h"
+#include "ViewWindow.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+int fail(const std::string& message)
+{
+  fmt::print(stderr, "pointhaptics view: {}\n", message);
+  return kFailed;
+}
+
+bool needsWindow(const ViewOptions& options)
+{
+  return options.screenshot.empty() && (options.forceChart.empty() || options.path.empty());
+}
+
+int runView(CLI::App& command, ViewOptions& options)
+{
+  std::string message;
+  if (!options.complete(command, message))
+  {
+    return fail(message);
+  }
+  if (options.device == "falcon")
+  {
+    return fail(
+      "this version has no driver for the Falcon; use --device simulated, driven by mouse and keys");
+  }
+  ViewScene scene;
+  fmt::print(stderr, "reading {} ...\n", fmt::join(options.files, ", "));
+  if (!scene.open(options.files, options, message) || !scene.build(options, message))
+  {
+    return fail(message);
+  }
+  fmt::print("{} points, {}\n", scene.numberOfPoints(), scene.scaleNote());
+  std::fflush(stdout);
+  if (!displayIsAvailable(message))
+  {
+    return fail(message);
+  }
+  const bool done =
+    needsWindow(options) ? runWindow(scene, options, message) : makePicture(scene, options, message);
+  return done ? kSuccess : fail(message);
+}
+
+} // namespace
+
+void addViewCommand(CLI::App& program, int& exitCode)
+{
+  CLI::App* command = program.add_subcommand("view", "Show point clouds and feel them (the default command)");
+  auto options = std::make_shared<ViewOptions>();
+  options->addTo(*command);
+  command->callback([command, options, &exitCode] { exitCode = runView(*command, *options); });
+}
+
+} // namespace app
+} // namespace pointhaptics

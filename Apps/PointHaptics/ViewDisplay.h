@@ -1,0 +1,16 @@
+/// @file
+/// Is there a display to draw on? Asked before the first render window: VTK crashes without one.
+#pragma once
+
+#include <string>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// True where a render window can be made. Otherwise @p message says what is missing and the cure.
+bool displayIsAvailable(std::string& message);
+
+} // namespace app
+} // namespace pointhaptics

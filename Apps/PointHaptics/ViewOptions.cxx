@@ -1,0 +1,261 @@
+#include "ViewOptions.h"
+
+#include "OptionParsing.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <fstream>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr int kLargestPicture = 16384;
+
+/// One JSON value as it would stand on the command line. False: objects and null have no such form.
+bool textOf(const nlohmann::json& value, std::string& text)
+{
+  if (value.is_string())
+  {
+    text = value.get<std::string>();
+    return true;
+  }
+  if (value.is_array())
+  {
+    text.clear();
+    for (const nlohmann::json& element : value)
+    {
+      std::string part;
+      if (element.is_array() || !textOf(element, part))
+      {
+        return false;
+      }
+      text += (text.empty() ? "" : ",") + part;
+    }
+    return true;
+  }
+  if (value.is_boolean() || value.is_number())
+  {
+    text = value.dump();
+    return true;
+  }
+  return false;
+}
+
+/// Long names of the options a configuration file may set, without the dashes.
+std::vector<std::string> configurableNames(CLI::App& command)
+{
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+  {
+    for (const std::string& name : option->get_lnames())
+    {
+      if (name != "help" && name != "version" && name != "config")
+      {
+        names.push_back(name);
+      }
+    }
+  }
+  return names;
+}
+
+bool isGivenOnCommandLine(const CLI::Option* option, const std::vector<const CLI::Option*>& given)
+{
+  return std::find(given.begin(), given.end(), option) != given.end();
+}
+
+/// The command line wins: also over a key that cannot stand beside one of its options.
+bool isOverruled(CLI::Option* option, const std::vector<const CLI::Option*>& given)
+{
+  if (isGivenOnCommandLine(option, given))
+  {
+    return true;
+  }
+  for (CLI::Option* other : given.empty() ? std::set<CLI::Option*>() : option->get_excludes())
+  {
+    if (isGivenOnCommandLine(other, given))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string applyValue(CLI::Option* option, const std::string& key, const nlohmann::json& value)
+{
+  std::string text;
+  if (!textOf(value, text))
+  {
+    return fmt::format("key \"{}\": give a number, a text, true or false, or a list of numbers", key);
+  }
+  for (const CLI::Option* other : option->get_excludes())
+  {
+    if (other->count() > 0)
+    {
+      return fmt::format(
+        "key \"{}\" cannot stand beside \"{}\"; keep one of them", key, other->get_single_name());
+    }
+  }
+  try
+  {
+    option->add_result(text);
+    option->run_callback();
+  }
+  catch (const CLI::Error& error)
+  {
+    return fmt::format("key \"{}\": {}", key, error.what());
+  }
+  return {};
+}
+
+std::string applyKeys(CLI::App& command, const nlohmann::json& keys)
+{
+  std::vector<const CLI::Option*> given;
+  for (const CLI::Option* option : command.get_options())
+  {
+    if (option->count() > 0)
+    {
+      given.push_back(option);
+    }
+  }
+  const std::vector<std::string> names = configurableNames(command);
+  for (const auto& item : keys.items())
+  {
+    if (std::find(names.begin(), names.end(), item.key()) == names.end())
+    {
+      return fmt::format("unknown key \"{}\"; valid keys: {}", item.key(), fmt::join(names, ", "));
+    }
+    CLI::Option* option = command.get_option("--" + item.key());
+    const std::string problem =
+      isOverruled(option, given) ? std::string() : applyValue(option, item.key(), item.value());
+    if (!problem.empty())
+    {
+      return problem;
+    }
+  }
+  return {};
+}
+
+void addTouchOptions(CLI::App& command, ViewOptions& options)
+{
+  const char* const group = "Touch";
+  CLI::Option* added[] = {
+    addWord(command, "--method", options.method, { "surface-fit", "gradient-steps" },
+      "How the proxy follows the surface; default surface-fit"),
+    addWord(command, "--preset", options.preset, { "tuned", "paper" },
+      "Gains of gradient-steps; default tuned, paper for the printed ones"),
+    addNumber(command, "--stiffness", options.contact.stiffness, { 0.0, 1e5 }, "N_PER_M",
+      "Stiffness of the surface; default 800"),
+    addNumber(command, "--damping", options.contact.damping, { 0.0, 1e3 }, "N_S_PER_M",
+      "Damping along the normal; default 0"),
+    addNumber(command, "--mu-s", options.contact.staticFriction, { 0.0, 10.0 }, "X",
+      "Static friction; default 0, at least --mu-d"),
+    addNumber(
+      command, "--mu-d", options.contact.dynamicFriction, { 0.0, 10.0 }, "X", "Dynamic friction; default 0"),
+  };
+  for (CLI::Option* option : added)
+  {
+    option->group(group);
+  }
+  command.add_flag("--no-covariance", options.noCovariance, "Feel plain voxel means, without second moments")
+    ->group(group);
+}
+
+} // namespace
+
+void ViewOptions::addTo(CLI::App& command)
+{
+  command.add_option("FILE", this->files, "Point clouds: PLY, PCD, LAS, VTP, OBJ or columns of text")
+    ->required();
+  command.add_option("--screenshot", this->screenshot, "Write this PNG instead of opening a window");
+  command
+    .add_option_function<std::string>(
+      "--size",
+      [this](const std::string& text)
+      {
+        char rest = 0;
+        if (std::sscanf(text.c_str(), "%dx%d%c", &this->width, &this->height, &rest) != 2 ||
+          this->width < 16 || this->height < 16 || this->width > kLargestPicture ||
+          this->height > kLargestPicture)
+        {
+          throwUsage("--size", text, fmt::format("give WIDTHxHEIGHT in pixels, 16 to {}", kLargestPicture));
+        }
+      },
+      "Size of the window or picture; default 1280x800")
+    ->type_name("WxH");
+  command.add_option("--path", this->path, "Follow the hand path in this file (header t,x,y,z)")
+    ->type_name("HIP.csv");
+  addWord(command, "--device", this->device, { "auto", "falcon", "simulated", "none" },
+    "What moves the hand; default auto: the simulated hand, driven by mouse and keys");
+  command
+    .add_option("--config", this->config, "Defaults for these options, a JSON object; the command line wins")
+    ->type_name("FILE.json");
+  command.add_option("--force-chart", this->forceChart, "Write force and proxy radius over time as a PNG")
+    ->type_name("OUT.png");
+  command.add_option("--trace", this->trace, "Write one row per tick, as feel does")->type_name("OUT.csv");
+  addWord(command, "--up", this->up, { "auto", "x", "y", "z" },
+    "Axis of the cloud that points up; default: a guess");
+  command
+    .add_option("--color-by", this->colorBy,
+      "Array to colour by: rgb, Height, ProxyRadius, ...; default: rgb, or Height")
+    ->type_name("ARRAY");
+  addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS", "Size of a point; default 3");
+  addTouchOptions(command, *this);
+  this->bandwidth.addTo(command);
+  this->lattice.addTo(command);
+}
+
+bool ViewOptions::complete(CLI::App& command, std::string& message)
+{
+  if (!this->config.empty())
+  {
+    std::ifstream file(this->config);
+    if (!file)
+    {
+      message = fmt::format("{}: cannot be opened; check the name given to --config", this->config);
+      return false;
+    }
+    const nlohmann::json keys = nlohmann::json::parse(file, nullptr, false, true);
+    if (!keys.is_object())
+    {
+      message = fmt::format(
+        "{}: not a JSON object; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", this->config);
+      return false;
+    }
+    const std::string problem = applyKeys(command, keys);
+    if (!problem.empty())
+    {
+      message = fmt::format("{}: {}", this->config, problem);
+      return false;
+    }
+  }
+  for (const char* name : { "--unit", "--scale", "--matrix", "--translate", "--workspace" })
+  {
+    this->fitsWorkspace = this->fitsWorkspace && command.get_option(name)->count() == 0;
+  }
+  if (this->contact.dynamicFriction > this->contact.staticFriction)
+  {
+    // Friction that holds less than it drags is no friction a surface can have.
+    this->contact.staticFriction = this->contact.dynamicFriction;
+  }
+  return true;
+}
+
+HapticParameters ViewOptions::hapticParameters() const
+{
+  HapticParameters parameters;
+  parameters.method = this->method == "gradient-steps" ? ProxyMethod::GradientSteps : ProxyMethod::SurfaceFit;
+  parameters.gradientSteps =
+    this->preset == "paper" ? GradientStepsParameters::paper() : GradientStepsParameters::tuned();
+  parameters.contact = this->contact;
+  return parameters;
+}
+
+} // namespace app
+} // namespace pointhaptics

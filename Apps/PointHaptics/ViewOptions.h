@@ -1,0 +1,53 @@
+/// @file
+/// What a user can say to `pointhaptics view`, on the command line or in a configuration file.
+#pragma once
+
+#include "BandwidthOptions.h"
+#include "LatticeOptions.h"
+
+#include "Haptics/HapticParameters.h"
+
+#include <string>
+#include <vector>
+
+namespace CLI
+{
+class App;
+}
+
+namespace pointhaptics
+{
+namespace app
+{
+
+struct ViewOptions
+{
+  std::vector<std::string> files;
+  LatticeOptions lattice;
+  BandwidthOptions bandwidth;
+  std::string screenshot; ///< PNG to write instead of opening a window.
+  int width = 1280;
+  int height = 800;
+  std::string path; ///< HIP.csv.
+  std::string device = "auto";
+  std::string config;
+  std::string forceChart; ///< PNG.
+  std::string trace;      ///< CSV.
+  std::string up = "auto";
+  std::string colorBy;
+  double pointSize = 3.0; ///< Pixels.
+  bool noCovariance = false;
+  std::string method = "surface-fit";
+  std::string preset = "tuned";
+  ContactParameters contact;
+  bool fitsWorkspace = true; ///< No option says how large the cloud is: it is fitted to the 10 cm cube.
+
+  void addTo(CLI::App& command);
+  /// Takes the values of the JSON file config for the options the command line does not give, and finds out
+  /// fitsWorkspace. False: @p message says what is wrong with the file.
+  bool complete(CLI::App& command, std::string& message);
+  HapticParameters hapticParameters() const;
+};
+
+} // namespace app
+} // namespace pointhaptics

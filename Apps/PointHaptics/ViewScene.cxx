@@ -1,0 +1,354 @@
+#include "ViewScene.h"
+
+#include "CloudAppearance.h"
+#include "HapticSceneBuilder.h"
+#include "vtkHapticProps.h"
+#include "vtkKernelBandwidthFilter.h"
+#include "vtkPointCloudReader.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include "Core/Lattice.h"
+
+#include <fmt/format.h>
+#include <vtkActor.h>
+#include <vtkAppendPolyData.h>
+#include <vtkCamera.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMatrixToLinearTransform.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
+#include <vtkTextProperty.h>
+#include <vtkVariant.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+/// Part of the workspace's edge a fitted cloud takes: the hand needs room to reach it from every side.
+constexpr double kFittedPart = 0.9;
+/// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
+constexpr double kFacingEnough = 0.25;
+
+std::string baseName(const std::string& fileName)
+{
+  const std::size_t slash = fileName.find_last_of('/');
+  return slash == std::string::npos ? fileName : fileName.substr(slash + 1);
+}
+
+/// The points of a file with the arrays the view shows, without its cells.
+vtkSmartPointer<vtkPolyData> readPoints(
+  const std::string& fileName, std::string& format, std::string& message)
+{
+  vtkNew<vtkPointCloudReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  const std::string error = reader->GetErrorMessage();
+  vtkPolyData* read = reader->GetOutput();
+  if (!error.empty() || read->GetNumberOfPoints() == 0)
+  {
+    message = !error.empty() ? error : fmt::format("{}: holds no points; nothing to show", fileName);
+    return nullptr;
+  }
+  format = reader->GetFormat();
+  auto points = vtkSmartPointer<vtkPolyData>::New();
+  points->SetPoints(read->GetPoints());
+  points->GetPointData()->ShallowCopy(read->GetPointData());
+  points->GetFieldData()->ShallowCopy(read->GetFieldData());
+  return points;
+}
+
+/// Every array costs time at every zoom: only those that are looked at stay.
+void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
+{
+  vtkPointData* data = cloud->GetPointData();
+  const bool colors = hasColors(cloud) && (colorBy.empty() || colorBy == "rgb");
+  vtkDataArray* scalars = colors ? data->GetScalars() : nullptr;
+  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    if (array != scalars && name != colorBy && name != kHeightArrayName)
+    {
+      data->RemoveArray(i);
+    }
+  }
+}
+
+void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
+{
+  matrix->Identity();
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      matrix->SetElement(row, column, transform.m[row][column]);
+    }
+  }
+}
+
+/// Bounds of the finite points after @p transform; the corners of a box would be too wide for a turned cloud.
+Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
+{
+  Bounds bounds;
+  Vec3 p;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    cloud->GetPoint(i, &p.x);
+    if (isFinite(p))
+    {
+      bounds.include(transform.apply(p));
+    }
+  }
+  return bounds;
+}
+
+/// The lattice the resampler chose, from its output's field data.
+Bounds latticeBounds(vtkPolyData* output, const Bounds& otherwise)
+{
+  vtkFieldData* field = output->GetFieldData();
+  vtkDataArray* origin = field->GetArray("LatticeOrigin");
+  vtkDataArray* spacing = field->GetArray("LatticeSpacing");
+  vtkDataArray* dimensions = field->GetArray("LatticeDimensions");
+  Bounds bounds;
+  if (!origin || !spacing || !dimensions)
+  {
+    return otherwise;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    bounds.minimum[axis] = origin->GetVariantValue(axis).ToDouble();
+    bounds.maximum[axis] = bounds.minimum[axis] +
+      spacing->GetVariantValue(axis).ToDouble() * dimensions->GetVariantValue(axis).ToDouble();
+  }
+  return bounds;
+}
+
+} // namespace
+
+ViewScene::ViewScene()
+{
+  bandwidth_->SetInputConnection(resampler_->GetOutputPort());
+  mapper_->SetInputConnection(bandwidth_->GetOutputPort());
+  actor_->SetMapper(mapper_);
+  actor_->PickableOff();
+  renderer_->AddActor(actor_);
+  props_->AddTo(renderer_);
+  applyBackground(renderer_);
+  scalarBar_->SetNumberOfLabels(4);
+  scalarBar_->UnconstrainedFontSizeOn();
+  for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty() })
+  {
+    text->SetFontSize(15);
+    text->SetColor(0.1, 0.1, 0.1);
+    text->ItalicOff();
+    text->BoldOff();
+    text->ShadowOff();
+  }
+  scalarBar_->SetLookupTable(mapper_->GetLookupTable());
+  scalarBar_->SetPosition(0.90, 0.28);
+  scalarBar_->SetWidth(0.08);
+  scalarBar_->SetHeight(0.5);
+  scalarBar_->VisibilityOff();
+  renderer_->AddActor2D(scalarBar_);
+}
+
+ViewScene::~ViewScene() = default;
+
+vtkIdType ViewScene::numberOfPoints() const
+{
+  return cloud_ ? cloud_->GetNumberOfPoints() : 0;
+}
+
+void ViewScene::getWorkspaceBounds(double bounds[6]) const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    bounds[2 * axis] = workspace_.minimum[axis];
+    bounds[2 * axis + 1] = workspace_.maximum[axis];
+  }
+}
+
+bool ViewScene::open(const std::vector<std::string>& files, const ViewOptions& options, std::string& message)
+{
+  vtkNew<vtkAppendPolyData> append;
+  std::string format;
+  std::string names;
+  for (const std::string& file : files)
+  {
+    const vtkSmartPointer<vtkPolyData> points = readPoints(file, format, message);
+    if (!points)
+    {
+      return false;
+    }
+    append->AddInputData(points);
+    names += (names.empty() ? "" : ", ") + baseName(file);
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  if (files.size() > 1)
+  {
+    append->Update();
+    cloud->ShallowCopy(append->GetOutput());
+  }
+  else
+  {
+    cloud->ShallowCopy(append->GetInput(0));
+  }
+  const Bounds bounds = transformedBounds(cloud, options.lattice.transform());
+  if (bounds.empty())
+  {
+    message = fmt::format("{}: no point is finite (all are NaN or infinite); nothing to show", names);
+    return false;
+  }
+  orientation_ =
+    options.up == "auto" ? guessCloudOrientation(cloud, format) : orientationForUpAxis(options.up[0]);
+  if (!hasColors(cloud) || !options.colorBy.empty())
+  {
+    addHeightArray(cloud, orientation_.up);
+  }
+  keepArrays(cloud, options.colorBy);
+  cloud_ = cloud;
+  title_ = names;
+  fit(bounds, options);
+  return true;
+}
+
+void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
+{
+  AffineTransform transform = options.lattice.transform();
+  scaleNote_ = "scale as the options say";
+  if (options.fitsWorkspace)
+  {
+    const Vec3 extent = cloud.extent();
+    const double longest = std::max({ extent.x, extent.y, extent.z });
+    const double factor = longest > 0.0 ? kFittedPart * kDefaultWorkspaceEdge / longest : 1.0;
+    transform = AffineTransform::scaling({ factor, factor, factor }) *
+      AffineTransform::translation(-cloud.center()) * transform;
+    scaleNote_ = fmt::format("scale 1:{:.3g} (1 m of the cloud is {:.3g} m in the hand)", factor, factor);
+  }
+  setElements(modelMatrix_, transform);
+  orientation_.up = normalized(transform.applyToVector(orientation_.up));
+  orientation_.front = normalized(transform.applyToVector(orientation_.front));
+
+  resampler_->SetInputData(cloud_);
+  options.lattice.configure(resampler_);
+  resampler_->SetComputeCovariance(!options.noCovariance);
+  if (options.fitsWorkspace)
+  {
+    const double half = 0.5 * kDefaultWorkspaceEdge;
+    resampler_->SetWorkspaceBounds(-half, half, -half, half, -half, half);
+  }
+  vtkNew<vtkMatrixToLinearTransform> linear;
+  linear->SetInput(modelMatrix_);
+  resampler_->SetTransform(linear);
+  options.bandwidth.configure(bandwidth_);
+}
+
+bool ViewScene::build(const ViewOptions& options, std::string& message)
+{
+  bandwidth_->Update();
+  vtkPolyData* output = bandwidth_->GetOutput();
+  if (output->GetNumberOfPoints() == 0)
+  {
+    message = "no point of the cloud lies in the workspace; leave out --workspace, --scale and --translate "
+              "to fit the "
+              "cloud to it";
+    return false;
+  }
+  const double half = 0.5 * kDefaultWorkspaceEdge;
+  Bounds cube;
+  cube.include({ -half, -half, -half });
+  cube.include({ half, half, half });
+  workspace_ = latticeBounds(output, cube);
+  double bounds[6];
+  getWorkspaceBounds(bounds);
+  resampler_->SetWorkspaceBounds(bounds); // from now on it stays, whatever the user does to the model
+  props_->SetWorkspaceBounds(bounds);
+  const Vec3 extent = workspace_.extent();
+  props_->SetForceScale(0.1 * std::max({ extent.x, extent.y, extent.z }));
+
+  if (!applyCloudAppearance(output, mapper_, actor_, options.colorBy, options.pointSize))
+  {
+    message = fmt::format("the cloud has no array \"{}\"; arrays to colour by:", options.colorBy);
+    for (int i = 0; i < output->GetPointData()->GetNumberOfArrays(); ++i)
+    {
+      message += fmt::format(" {}", output->GetPointData()->GetArrayName(i));
+    }
+    return false;
+  }
+  const bool showsBar = !options.colorBy.empty() && options.colorBy != "rgb";
+  scalarBar_->SetVisibility(showsBar);
+  scalarBar_->SetLookupTable(mapper_->GetLookupTable());
+  scalarBar_->SetTitle((options.colorBy + "\n").c_str());
+  return true;
+}
+
+void ViewScene::placeCamera(const ProxyState* contact)
+{
+  const Vec3 extent = workspace_.extent();
+  const double edge = std::max({ extent.x, extent.y, extent.z });
+  const double aside = orientation_.fromSensor ? 10.0 : 28.0;
+  const double above = orientation_.fromSensor ? 8.0 : 18.0;
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  // A contact is wanted on the side we see: the smallest turn that shows it, or else the one that faces it
+  // most.
+  double best = -2.0;
+  double azimuth = aside;
+  for (double turn : { 0.0, -60.0, 60.0, 120.0, -120.0, 180.0 })
+  {
+    pointhaptics::placeCamera(camera, orientation_, workspace_.center(), edge, aside + turn, above);
+    Vec3 forward;
+    camera->GetDirectionOfProjection(&forward.x);
+    const double facing = contact && contact->contact ? -dot(contact->normal, forward) : 1.0;
+    if (facing > best)
+    {
+      best = facing;
+      azimuth = aside + turn;
+    }
+    if (best > kFacingEnough)
+    {
+      break;
+    }
+  }
+  pointhaptics::placeCamera(camera, orientation_, workspace_.center(), edge, azimuth, above);
+  renderer_->ResetCameraClippingRange();
+}
+
+std::shared_ptr<const HapticScene> ViewScene::makeScene(bool useCovariance, Status& status)
+{
+  return makeHapticScene(bandwidth_->GetOutput(), status, useCovariance);
+}
+
+bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message)
+{
+  vtkNew<vtkWindowToImageFilter> grabber;
+  grabber->SetInput(window);
+  grabber->ReadFrontBufferOff();
+  grabber->ShouldRerenderOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(grabber->GetOutputPort());
+  writer->SetFileName(fileName.c_str());
+  writer->Write();
+  if (writer->GetErrorCode() != 0)
+  {
+    message = fmt::format("{}: cannot be written; check that its folder exists and can be written", fileName);
+    return false;
+  }
+  return true;
+}
+
+} // namespace app
+} // namespace pointhaptics

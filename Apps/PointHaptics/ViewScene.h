@@ -1,0 +1,90 @@
+/// @file
+/// The clouds on the command line as a scene: read, fitted, resampled, coloured, with camera and props.
+#pragma once
+
+#include "ViewOptions.h"
+
+#include "CloudOrientation.h"
+#include "Core/AffineTransform.h"
+#include "Core/PointView.h"
+#include "Haptics/HapticScene.h"
+#include "Haptics/Proxy.h"
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkActor;
+class vtkHapticProps;
+class vtkKernelBandwidthFilter;
+class vtkMatrix4x4;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkRenderWindow;
+class vtkRenderer;
+class vtkScalarBarActor;
+class vtkVoxelMeanResampler;
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// GUI thread only. Frames: the cloud's (as in the file) and the workspace's; metres in the latter.
+class ViewScene
+{
+public:
+  ViewScene();
+  ~ViewScene();
+
+  /// Reads @p files into one cloud and sets the pipeline up for it. False: @p message says which file and
+  /// why, and the scene is as it was before.
+  bool open(const std::vector<std::string>& files, const ViewOptions& options, std::string& message);
+  /// Runs the pipeline once and colours the result. False: no point lies in the workspace.
+  bool build(const ViewOptions& options, std::string& message);
+  /// Puts the camera in front of the workspace. @p contact, if given, is turned into view.
+  void placeCamera(const ProxyState* contact = nullptr);
+
+  /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
+  Vec3 towardsViewer() const { return orientation_.front; }
+  std::shared_ptr<const HapticScene> makeScene(bool useCovariance, Status& status);
+  /// "scale 1:0.52 (1 m of the cloud is 0.52 m in the hand)", or what the options say.
+  const std::string& scaleNote() const { return scaleNote_; }
+  vtkMatrix4x4* modelMatrix() { return modelMatrix_; }
+  vtkVoxelMeanResampler* resampler() { return resampler_; }
+  vtkKernelBandwidthFilter* bandwidth() { return bandwidth_; }
+  vtkActor* actor() { return actor_; }
+  vtkRenderer* renderer() { return renderer_; }
+  vtkHapticProps* props() { return props_; }
+  const Bounds& workspace() const { return workspace_; }
+  void getWorkspaceBounds(double bounds[6]) const;
+  /// Text for the window's title: the names of the files.
+  const std::string& title() const { return title_; }
+  vtkIdType numberOfPoints() const;
+
+private:
+  void fit(const Bounds& cloud, const ViewOptions& options);
+
+  vtkSmartPointer<vtkPolyData> cloud_;
+  vtkNew<vtkMatrix4x4> modelMatrix_;
+  vtkNew<vtkVoxelMeanResampler> resampler_;
+  vtkNew<vtkKernelBandwidthFilter> bandwidth_;
+  vtkNew<vtkPolyDataMapper> mapper_;
+  vtkNew<vtkActor> actor_;
+  vtkNew<vtkScalarBarActor> scalarBar_;
+  vtkNew<vtkHapticProps> props_;
+  vtkNew<vtkRenderer> renderer_;
+  Bounds workspace_;
+  CloudOrientation orientation_;
+  std::string scaleNote_;
+  std::string title_;
+};
+
+/// Writes what @p window shows as PNG. False: @p message says why not.
+bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message);
+
+} // namespace app
+} // namespace pointhaptics

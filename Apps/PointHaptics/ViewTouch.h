@@ -1,0 +1,47 @@
+/// @file
+/// What `view` feels along a hand path, in virtual time: the same touch on every machine.
+#pragma once
+
+#include "Devices/HipPath.h"
+#include "Haptics/Proxy.h"
+#include "Haptics/ServoLoop.h"
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// One sample for each tick of @p rateHz along @p path, as `feel` does it.
+std::vector<ServoSample> feelPath(
+  const HapticScene& scene, const HipPath& path, const HapticParameters& parameters, double rateHz);
+
+/// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
+const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
+
+/// Writes OUT.csv of `feel`, row by row.
+class TraceFile
+{
+public:
+  TraceFile() = default;
+  ~TraceFile();
+  TraceFile(const TraceFile&) = delete;
+  TraceFile& operator=(const TraceFile&) = delete;
+
+  /// Creates the file with its header. False: @p message says why not.
+  bool open(const std::string& fileName, std::string& message);
+  void add(const std::vector<ServoSample>& samples);
+  /// False: not all rows could be written, @p message says so.
+  bool close(std::string& message);
+  bool isOpen() const { return file_ != nullptr; }
+
+private:
+  std::FILE* file_ = nullptr;
+  std::string name_;
+};
+
+} // namespace app
+} // namespace pointhaptics

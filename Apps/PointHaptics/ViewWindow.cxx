@@ -1,0 +1,299 @@
+#include "ViewWindow.h"
+
+#include "ViewScene.h"
+#include "ViewTouch.h"
+
+#include "vtkHapticChart.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticProps.h"
+#include "vtkInteractorStyleHaptic.h"
+
+#include "Devices/PathReplay.h"
+#include "Devices/SimulatedDevice.h"
+#include "Haptics/ServoLoop.h"
+
+#include <fmt/format.h>
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkStringArray.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr double kChartHeight = 0.24; // part of the window
+
+/// Everything the window needs while it is open. The servo loop stops before what it works on goes away.
+class Window
+{
+public:
+  Window(ViewScene& scene, const ViewOptions& options)
+    : scene_(scene)
+    , options_(options)
+  {
+  }
+
+  bool run(std::string& message);
+
+private:
+  void setUpRendering();
+  bool startServo(std::string& message);
+  void connectStyle();
+  void observe(unsigned long event, void (Window::*handler)(void*));
+  void onSamples(void* callData);
+  void onFilesDropped(void* callData);
+  void onScreenshot(void*);
+  void say(const std::string& note);
+  bool finish(std::string& message);
+
+  ViewScene& scene_;
+  ViewOptions options_;
+  vtkNew<vtkRenderWindow> window_;
+  vtkNew<vtkRenderWindowInteractor> interactor_;
+  vtkNew<vtkInteractorStyleHaptic> style_;
+  vtkNew<vtkHapticChart> chart_;
+  vtkNew<vtkHapticChart> wholeChart_; // for --force-chart
+  vtkNew<vtkHapticOverlay> overlay_;
+  TraceFile trace_;
+  int screenshots_ = 0;
+  std::unique_ptr<SimulatedDevice> hand_;
+  std::unique_ptr<PathReplayDevice> replay_;
+  ServoLoop servo_; // last: destroyed, and so stopped, first
+};
+
+void Window::setUpRendering()
+{
+  window_->SetMultiSamples(0);
+  window_->SetSize(options_.width, options_.height);
+  window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
+  window_->AddRenderer(scene_.renderer());
+  overlay_->AddTo(scene_.renderer());
+  if (options_.device != "none" || !options_.path.empty())
+  {
+    window_->AddRenderer(chart_->GetRenderer());
+    chart_->GetRenderer()->SetViewport(0.0, 0.0, 1.0, kChartHeight);
+    scene_.renderer()->SetViewport(0.0, kChartHeight, 1.0, 1.0);
+    style_->SetChart(chart_);
+  }
+  interactor_->SetRenderWindow(window_);
+  scene_.placeCamera();
+}
+
+bool Window::startServo(std::string& message)
+{
+  HapticDevice* device = nullptr;
+  if (!options_.path.empty())
+  {
+    HipPath path;
+    if (readHipPath(options_.path, path, message) != Status::Ok)
+    {
+      return false;
+    }
+    replay_ = std::make_unique<PathReplayDevice>(std::move(path), true);
+    device = replay_.get();
+  }
+  else if (options_.device != "none")
+  {
+    SimulatedHandSettings settings;
+    settings.workspace = scene_.workspace();
+    // In front of the cloud, where the person sees it.
+    const Bounds& box = scene_.workspace();
+    const Vec3 front = scene_.towardsViewer();
+    settings.start = box.center() +
+      0.47 * Vec3{ front.x * box.extent().x, front.y * box.extent().y, front.z * box.extent().z };
+    hand_ = std::make_unique<SimulatedDevice>(settings);
+    hand_->setTarget(settings.start);
+    device = hand_.get();
+  }
+  if (!device)
+  {
+    return true;
+  }
+  Status status = device->open();
+  if (status == Status::Ok)
+  {
+    status = servo_.start(*device, options_.hapticParameters());
+  }
+  if (status != Status::Ok)
+  {
+    message = fmt::format("the {} device cannot be used: {}", device->name(), sentence(status));
+    return false;
+  }
+  style_->SetServoLoop(&servo_);
+  style_->SetDevice(hand_.get());
+  return true;
+}
+
+void Window::observe(unsigned long event, void (Window::*handler)(void*))
+{
+  struct Link
+  {
+    Window* window;
+    void (Window::*handler)(void*);
+  };
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(new Link{ this, handler });
+  command->SetClientDataDeleteCallback([](void* link) { delete static_cast<Link*>(link); });
+  command->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void* callData)
+    {
+      const Link* link = static_cast<Link*>(client);
+      (link->window->*link->handler)(callData);
+    });
+  style_->AddObserver(event, command);
+}
+
+void Window::connectStyle()
+{
+  double bounds[6];
+  scene_.getWorkspaceBounds(bounds);
+  style_->SetWorkspaceBounds(bounds);
+  style_->SetUseCovariance(!options_.noCovariance);
+  style_->SetModelMatrix(scene_.modelMatrix());
+  style_->SetResampler(scene_.resampler());
+  style_->SetBandwidthFilter(scene_.bandwidth());
+  style_->SetCloudActor(scene_.actor());
+  style_->SetProps(scene_.props());
+  style_->SetOverlay(overlay_);
+  style_->SetDefaultRenderer(scene_.renderer());
+  style_->SetStatusNote(scene_.scaleNote());
+  this->observe(vtkInteractorStyleHaptic::SamplesEvent, &Window::onSamples);
+  this->observe(vtkInteractorStyleHaptic::FilesDroppedEvent, &Window::onFilesDropped);
+  this->observe(vtkInteractorStyleHaptic::ScreenshotEvent, &Window::onScreenshot);
+  interactor_->SetInteractorStyle(style_);
+}
+
+void Window::onSamples(void* callData)
+{
+  const auto& samples = *static_cast<std::vector<ServoSample>*>(callData);
+  if (trace_.isOpen())
+  {
+    trace_.add(samples);
+  }
+  if (!options_.forceChart.empty())
+  {
+    for (const ServoSample& sample : samples)
+    {
+      wholeChart_->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius);
+    }
+  }
+}
+
+void Window::say(const std::string& note)
+{
+  fmt::print("{}\n", note);
+  std::fflush(stdout);
+  style_->SetStatusNote(scene_.scaleNote() + "\n" + note);
+}
+
+void Window::onFilesDropped(void* callData)
+{
+  auto* names = static_cast<vtkStringArray*>(callData);
+  std::vector<std::string> files;
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    files.push_back(names->GetValue(i));
+  }
+  std::string message;
+  if (files.empty() || !scene_.open(files, options_, message) || !scene_.build(options_, message))
+  {
+    fmt::print(stderr, "pointhaptics: {}\n", message);
+    style_->SetStatusNote(scene_.scaleNote() + "\n" + message);
+    return;
+  }
+  double bounds[6];
+  scene_.getWorkspaceBounds(bounds);
+  style_->SetWorkspaceBounds(bounds);
+  style_->SetModelMatrix(scene_.modelMatrix());
+  style_->SetResampler(scene_.resampler());
+  style_->SetStatusNote(scene_.scaleNote());
+  style_->UpdateModel();
+  scene_.placeCamera();
+  window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
+}
+
+void Window::onScreenshot(void*)
+{
+  std::string name;
+  std::FILE* taken = nullptr;
+  do
+  {
+    name = fmt::format("pointhaptics-{:03}.png", ++screenshots_);
+    taken = std::fopen(name.c_str(), "rb");
+    if (taken)
+    {
+      std::fclose(taken);
+    }
+  } while (taken);
+  std::string message;
+  window_->Render();
+  say(writePicture(window_, name, message) ? "screenshot: " + name : message);
+}
+
+bool Window::finish(std::string& message)
+{
+  style_->StopUpdates();
+  servo_.stop();
+  style_->Refresh(); // the last ticks
+  style_->SetServoLoop(nullptr);
+  style_->SetDevice(nullptr);
+  if (trace_.isOpen())
+  {
+    if (!trace_.close(message))
+    {
+      return false;
+    }
+    fmt::print("trace: {}\n", options_.trace);
+  }
+  if (!options_.forceChart.empty())
+  {
+    if (!wholeChart_->WriteImage(options_.forceChart.c_str()))
+    {
+      message = fmt::format(
+        "{}: cannot be written; check that its folder exists and can be written", options_.forceChart);
+      return false;
+    }
+    fmt::print("force chart: {}\n", options_.forceChart);
+  }
+  return true;
+}
+
+bool Window::run(std::string& message)
+{
+  if (!options_.trace.empty() && !trace_.open(options_.trace, message))
+  {
+    return false;
+  }
+  this->setUpRendering();
+  if (!this->startServo(message))
+  {
+    return false;
+  }
+  this->connectStyle();
+  style_->UpdateModel();
+  window_->Render();
+  interactor_->Initialize();
+  style_->StartUpdates();
+  interactor_->Start();
+  return this->finish(message);
+}
+
+} // namespace
+
+bool runWindow(ViewScene& scene, const ViewOptions& options, std::string& message)
+{
+  Window window(scene, options);
+  return window.run(message);
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,164 @@
+#include "CloudAppearance.h"
+
+#include "vtkActor.h"
+#include "vtkDataArray.h"
+#include "vtkFloatArray.h"
+#include "vtkLookupTable.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace
+{
+
+// Viridis at 1/8 steps (BSD, from matplotlib, CC0), its last step replaced by a darker yellow for light
+// backgrounds.
+constexpr double kColorPoints[9][3] = { { 0.267, 0.005, 0.329 }, { 0.278, 0.175, 0.483 },
+  { 0.231, 0.322, 0.546 }, { 0.173, 0.449, 0.558 }, { 0.128, 0.567, 0.551 }, { 0.153, 0.678, 0.506 },
+  { 0.361, 0.785, 0.388 }, { 0.627, 0.842, 0.224 }, { 0.890, 0.840, 0.130 } };
+
+/// Range of the finite values between the 1st and the 99th percentile (of at most about 10,000 of them).
+void robustRange(vtkDataArray* array, double range[2])
+{
+  std::vector<double> values;
+  const vtkIdType count = array->GetNumberOfTuples();
+  const vtkIdType step = std::max<vtkIdType>(1, count / 10000);
+  for (vtkIdType i = 0; i < count; i += step)
+  {
+    const double value = array->GetComponent(i, 0);
+    if (std::isfinite(value))
+    {
+      values.push_back(value);
+    }
+  }
+  range[0] = 0.0;
+  range[1] = 1.0;
+  if (!values.empty())
+  {
+    std::sort(values.begin(), values.end());
+    range[0] = values[values.size() / 100];
+    range[1] = values[values.size() - 1 - values.size() / 100];
+  }
+  if (!(range[1] > range[0]))
+  {
+    range[1] = range[0] + std::max(1e-12, 1e-6 * std::abs(range[0]));
+  }
+}
+
+void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array)
+{
+  double range[2];
+  robustRange(array, range);
+  vtkLookupTable* colors = newCloudColorMap();
+  colors->SetTableRange(range);
+  mapper->SetLookupTable(colors);
+  colors->Delete();
+  mapper->UseLookupTableScalarRangeOn();
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectColorArray(array->GetName());
+  mapper->SetColorModeToMapScalars();
+  mapper->ScalarVisibilityOn();
+}
+
+} // namespace
+
+vtkLookupTable* newCloudColorMap()
+{
+  vtkLookupTable* colors = vtkLookupTable::New();
+  colors->SetNumberOfTableValues(256);
+  for (int i = 0; i < 256; ++i)
+  {
+    const double position = i / 255.0 * 8.0;
+    const int lower = std::min(7, static_cast<int>(position));
+    const double t = position - lower;
+    double color[3];
+    for (int c = 0; c < 3; ++c)
+    {
+      color[c] = (1.0 - t) * kColorPoints[lower][c] + t * kColorPoints[lower + 1][c];
+    }
+    colors->SetTableValue(i, color[0], color[1], color[2], 1.0);
+  }
+  colors->SetNanColor(0.5, 0.5, 0.5, 1.0);
+  return colors;
+}
+
+void addHeightArray(vtkPolyData* cloud, const Vec3& up)
+{
+  const vtkIdType count = cloud->GetNumberOfPoints();
+  std::vector<double> heights(static_cast<std::size_t>(count));
+  double lowest = INFINITY;
+  Vec3 p;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    cloud->GetPoint(i, &p.x);
+    const double height = isFinite(p) ? dot(p, up) : NAN;
+    heights[static_cast<std::size_t>(i)] = height;
+    lowest = std::min(lowest, std::isnan(height) ? INFINITY : height);
+  }
+  vtkNew<vtkFloatArray> array;
+  array->SetName(kHeightArrayName);
+  array->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double height = heights[static_cast<std::size_t>(i)];
+    array->SetValue(i, std::isnan(height) ? 0.0f : static_cast<float>(height - lowest));
+  }
+  cloud->GetPointData()->AddArray(array);
+}
+
+bool hasColors(vtkPolyData* cloud)
+{
+  vtkDataArray* scalars = cloud ? cloud->GetPointData()->GetScalars() : nullptr;
+  return scalars && scalars->GetDataType() == VTK_UNSIGNED_CHAR &&
+    (scalars->GetNumberOfComponents() == 3 || scalars->GetNumberOfComponents() == 4);
+}
+
+bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper, vtkActor* actor,
+  const std::string& colorBy, double pointSize)
+{
+  actor->GetProperty()->SetPointSize(static_cast<float>(pointSize));
+  actor->GetProperty()->SetColor(0.20, 0.33, 0.55);
+  actor->GetProperty()->LightingOff();
+  const bool wantsColors = colorBy.empty() || colorBy == "rgb";
+  vtkDataArray* array = cloud->GetPointData()->GetArray(colorBy.c_str());
+  if (array && !wantsColors)
+  {
+    colorByArray(mapper, array);
+    return true;
+  }
+  if (wantsColors && hasColors(cloud))
+  {
+    mapper->SetScalarModeToUsePointData();
+    mapper->SetColorModeToDirectScalars();
+    mapper->ScalarVisibilityOn();
+    return true;
+  }
+  vtkDataArray* height = cloud->GetPointData()->GetArray(kHeightArrayName);
+  if (height)
+  {
+    colorByArray(mapper, height);
+  }
+  else
+  {
+    mapper->ScalarVisibilityOff();
+  }
+  return colorBy.empty();
+}
+
+void applyBackground(vtkRenderer* renderer)
+{
+  renderer->GradientBackgroundOn();
+  renderer->SetBackground(0.97, 0.97, 0.96);
+  renderer->SetBackground2(0.80, 0.84, 0.89);
+}
+
+} // namespace pointhaptics

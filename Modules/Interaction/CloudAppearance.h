@@ -1,0 +1,46 @@
+/// @file
+/// How a cloud is drawn: its own colours where it has them, else height by a perceptually uniform map.
+#pragma once
+
+#include "Core/Vector3.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include <string>
+
+class vtkActor;
+class vtkLookupTable;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkRenderer;
+
+namespace pointhaptics
+{
+
+/// Name of the array addHeightArray() makes.
+constexpr const char* kHeightArrayName = "Height";
+
+/// 256 colours from dark violet-blue through green to a yellow that still reads on a light background: even
+/// steps of lightness, and also right for people who do not see red or green. The caller owns the result
+/// (Delete()).
+POINTHAPTICSINTERACTION_EXPORT vtkLookupTable* newCloudColorMap();
+
+/// Adds the float array "Height": the position along @p up, metres above the lowest finite point (0 for
+/// points that are not finite). Taken before the cloud is transformed, so the colours turn with the model.
+POINTHAPTICSINTERACTION_EXPORT void addHeightArray(vtkPolyData* cloud, const Vec3& up);
+
+/// True where the active scalars are colours: unsigned char with 3 or 4 components.
+POINTHAPTICSINTERACTION_EXPORT bool hasColors(vtkPolyData* cloud);
+
+/// Makes @p mapper and @p actor draw the points of the mapper's input as squares of @p pointSize pixels.
+/// @param colorBy name of a point array; "rgb" for the active colours; empty: colours if there, else
+/// "Height", else one colour. An array is coloured over its range, without the 1 % at each end. False: there
+/// is no such array, and the appearance is that of the empty name.
+POINTHAPTICSINTERACTION_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper,
+  vtkActor* actor, const std::string& colorBy = {}, double pointSize = 3.0);
+
+/// A light background, white below to a pale blue-grey above, on which black lines and all colours of the map
+/// read.
+POINTHAPTICSINTERACTION_EXPORT void applyBackground(vtkRenderer* renderer);
+
+} // namespace pointhaptics

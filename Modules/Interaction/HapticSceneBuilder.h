@@ -1,0 +1,23 @@
+/// @file
+/// From a pipeline's vtkPolyData to the snapshot the servo thread feels.
+#pragma once
+
+#include "Haptics/HapticScene.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include <memory>
+
+class vtkPolyData;
+
+namespace pointhaptics
+{
+
+/// Reads the points of @p cloud, with VoxelPointCount, VoxelCovariance, ProxyRadius and the field data
+/// LatticeSpacing and ModelToWorkspace where they are there (the output of vtkVoxelMeanResampler and
+/// vtkKernelBandwidthFilter has them all). @p useCovariance false leaves VoxelCovariance unused. Null on an
+/// error, and @p status says which (see HapticScene::create).
+POINTHAPTICSINTERACTION_EXPORT std::shared_ptr<const HapticScene> makeHapticScene(
+  vtkPolyData* cloud, Status& status, bool useCovariance = true);
+
+} // namespace pointhaptics

@@ -1,0 +1,279 @@
+#include "vtkHapticChart.h"
+
+#include "vtkAxis.h"
+#include "vtkBrush.h"
+#include "vtkChartLegend.h"
+#include "vtkChartXY.h"
+#include "vtkContextActor.h"
+#include "vtkContextScene.h"
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPNGWriter.h"
+#include "vtkPen.h"
+#include "vtkPlot.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkTable.h"
+#include "vtkTextProperty.h"
+#include "vtkWindowToImageFilter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+namespace
+{
+
+constexpr int kSlices = 600;
+constexpr unsigned char kForceColor[3] = { 205, 85, 0 };
+constexpr unsigned char kRadiusColor[3] = { 190, 30, 110 };
+
+struct Sample
+{
+  double seconds;
+  double newtons;
+  double metres;
+};
+
+void styleAxis(vtkAxis* axis, const char* title, const unsigned char color[3])
+{
+  axis->SetTitle(title);
+  vtkTextProperty* texts[2] = { axis->GetTitleProperties(), axis->GetLabelProperties() };
+  for (vtkTextProperty* text : texts)
+  {
+    text->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
+    text->SetFontSize(13);
+    text->BoldOff();
+  }
+  axis->GetGridPen()->SetColor(225, 225, 225);
+  axis->GetPen()->SetColor(90, 90, 90);
+}
+
+/// The next of 1, 2, 5, 10, ... at or above @p value.
+double roundUp(double value)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (double step : { 1.0, 2.0, 5.0 })
+  {
+    if (value <= step * power * (1.0 + 1e-12))
+    {
+      return step * power;
+    }
+  }
+  return 10.0 * power;
+}
+
+void setRange(vtkAxis* axis, double largest, double smallestRange)
+{
+  axis->SetBehavior(vtkAxis::FIXED);
+  axis->SetRange(0.0, roundUp(std::max(smallestRange, 1.05 * largest)));
+}
+
+} // namespace
+
+struct vtkHapticChart::Internals
+{
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkContextActor> actor;
+  vtkNew<vtkChartXY> chart;
+  vtkNew<vtkTable> table;
+  vtkNew<vtkFloatArray> time;
+  vtkNew<vtkFloatArray> force;
+  vtkNew<vtkFloatArray> radius;
+  std::deque<Sample> samples;
+  bool wasFlat = false;
+
+  void fill(double begin, double end);
+  bool isFlat() const;
+};
+
+/// One row for each slice that has samples.
+void vtkHapticChart::Internals::fill(double begin, double end)
+{
+  this->time->Reset();
+  this->force->Reset();
+  this->radius->Reset();
+  const double width = std::max(1e-9, end - begin) / kSlices;
+  std::size_t i = 0;
+  while (i < this->samples.size())
+  {
+    const double slice = std::floor((this->samples[i].seconds - begin) / width);
+    double peak = 0.0;
+    double sum = 0.0;
+    double moment = 0.0;
+    std::size_t count = 0;
+    for (; i < this->samples.size() && std::floor((this->samples[i].seconds - begin) / width) == slice; ++i)
+    {
+      peak = std::max(peak, this->samples[i].newtons);
+      sum += this->samples[i].metres;
+      moment += this->samples[i].seconds;
+      ++count;
+    }
+    this->time->InsertNextValue(static_cast<float>(moment / count));
+    this->force->InsertNextValue(static_cast<float>(peak));
+    this->radius->InsertNextValue(static_cast<float>(1e3 * sum / count));
+  }
+  this->table->Modified();
+}
+
+bool vtkHapticChart::Internals::isFlat() const
+{
+  for (const Sample& sample : this->samples)
+  {
+    if (sample.newtons > 1e-3 || std::abs(sample.metres - this->samples.front().metres) > 1e-6)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+vtkStandardNewMacro(vtkHapticChart);
+
+vtkHapticChart::vtkHapticChart()
+  : Parts(new Internals)
+{
+  Internals& parts = *this->Parts;
+  parts.time->SetName("time");
+  parts.force->SetName("force (N)");
+  parts.radius->SetName("proxy radius (mm)");
+  parts.table->AddColumn(parts.time);
+  parts.table->AddColumn(parts.force);
+  parts.table->AddColumn(parts.radius);
+  vtkPlot* radius = parts.chart->AddPlot(vtkChart::LINE);
+  radius->SetInputData(parts.table, 0, 2);
+  radius->SetColor(kRadiusColor[0], kRadiusColor[1], kRadiusColor[2], 255);
+  radius->SetWidth(2.0f);
+  parts.chart->SetPlotCorner(radius, 1); // bottom and right axes
+  vtkPlot* force = parts.chart->AddPlot(vtkChart::LINE);
+  force->SetInputData(parts.table, 0, 1);
+  force->SetColor(kForceColor[0], kForceColor[1], kForceColor[2], 255);
+  force->SetWidth(2.0f);
+  const unsigned char dark[3] = { 60, 60, 60 };
+  styleAxis(parts.chart->GetAxis(vtkAxis::LEFT), "force (N)", kForceColor);
+  styleAxis(parts.chart->GetAxis(vtkAxis::BOTTOM), "time (s)", dark);
+  styleAxis(parts.chart->GetAxis(vtkAxis::RIGHT), "proxy radius (mm)", kRadiusColor);
+  parts.chart->GetAxis(vtkAxis::RIGHT)->SetGridVisible(false);
+  parts.chart->GetBackgroundBrush()->SetColor(255, 255, 255, 255);
+  parts.chart->SetInteractive(false);
+  parts.actor->GetScene()->AddItem(parts.chart);
+  parts.renderer->AddActor(parts.actor);
+  parts.renderer->SetBackground(1.0, 1.0, 1.0);
+  parts.renderer->InteractiveOff();
+  parts.actor->GetScene()->SetRenderer(parts.renderer);
+  this->Update();
+}
+
+vtkHapticChart::~vtkHapticChart() = default;
+
+void vtkHapticChart::SetVisibility(bool visible)
+{
+  this->Parts->renderer->SetDraw(visible);
+}
+
+bool vtkHapticChart::GetVisibility() const
+{
+  return this->Parts->renderer->GetDraw() != 0;
+}
+
+vtkRenderer* vtkHapticChart::GetRenderer()
+{
+  return this->Parts->renderer;
+}
+
+void vtkHapticChart::AddSample(double seconds, double newtons, double metres)
+{
+  if (std::isfinite(seconds) && std::isfinite(newtons) && std::isfinite(metres))
+  {
+    this->Parts->samples.push_back({ seconds, newtons, metres });
+  }
+}
+
+void vtkHapticChart::Clear()
+{
+  this->Parts->samples.clear();
+}
+
+bool vtkHapticChart::Update()
+{
+  Internals& parts = *this->Parts;
+  double begin = 0.0;
+  double end = this->TimeWindow > 0.0 ? this->TimeWindow : 1.0;
+  if (!parts.samples.empty())
+  {
+    const double newest = parts.samples.back().seconds;
+    if (this->TimeWindow > 0.0)
+    {
+      while (parts.samples.front().seconds < newest - this->TimeWindow)
+      {
+        parts.samples.pop_front();
+      }
+      end = std::max(newest, this->TimeWindow);
+      begin = end - this->TimeWindow;
+    }
+    else
+    {
+      begin = parts.samples.front().seconds;
+      end = std::max(newest, begin + 1e-3);
+    }
+  }
+  const bool flat = parts.isFlat();
+  const bool changed = !(flat && parts.wasFlat);
+  parts.wasFlat = flat;
+  if (!changed)
+  {
+    return false;
+  }
+  parts.fill(begin, end);
+  vtkAxis* bottom = parts.chart->GetAxis(vtkAxis::BOTTOM);
+  bottom->SetBehavior(vtkAxis::FIXED);
+  bottom->SetRange(begin, end);
+  double largestForce = 0.0;
+  double largestRadius = 0.0;
+  for (vtkIdType i = 0; i < parts.time->GetNumberOfTuples(); ++i)
+  {
+    largestForce = std::max<double>(largestForce, parts.force->GetValue(i));
+    largestRadius = std::max<double>(largestRadius, parts.radius->GetValue(i));
+  }
+  setRange(parts.chart->GetAxis(vtkAxis::LEFT), largestForce, 0.1);
+  setRange(parts.chart->GetAxis(vtkAxis::RIGHT), largestRadius, 0.1);
+  return true;
+}
+
+bool vtkHapticChart::WriteImage(const char* fileName, int width, int height)
+{
+  const double window = this->TimeWindow;
+  this->TimeWindow = 0.0;
+  this->Parts->wasFlat = false;
+  this->Update();
+  vtkNew<vtkRenderWindow> renderWindow;
+  renderWindow->SetOffScreenRendering(1);
+  renderWindow->SetMultiSamples(0);
+  renderWindow->SetSize(width, height);
+  renderWindow->AddRenderer(this->Parts->renderer);
+  renderWindow->Render();
+  vtkNew<vtkWindowToImageFilter> grabber;
+  grabber->SetInput(renderWindow);
+  grabber->ReadFrontBufferOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(grabber->GetOutputPort());
+  writer->SetFileName(fileName);
+  writer->Write();
+  renderWindow->RemoveRenderer(this->Parts->renderer);
+  this->TimeWindow = window;
+  if (writer->GetErrorCode() != 0)
+  {
+    vtkErrorMacro(
+      "Cannot write the chart to " << fileName << ": check that its folder exists and can be written.");
+    return false;
+  }
+  return true;
+}
+
+void vtkHapticChart::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "TimeWindow: " << this->TimeWindow << "\n";
+  os << indent << "Visibility: " << this->GetVisibility() << "\n";
+}

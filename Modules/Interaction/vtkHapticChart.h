@@ -1,0 +1,83 @@
+/**
+ * @class   vtkHapticChart
+ * @brief   force and proxy radius over time, live beside the cloud or as a picture of a recorded trace
+ *
+ * Force magnitude in newtons on the left axis, proxy radius in millimetres on the right one, time in seconds
+ * below. The chart lives in a renderer of its own: give it a viewport and add it to the window. Samples may
+ * come at any rate; what is drawn is the largest force and the mean radius of each of at most 600 slices of
+ * the time window, so a short peak is never lost.
+ *
+ * Not thread safe: GUI thread only.
+ * @sa vtkInteractorStyleHaptic
+ */
+#ifndef vtkHapticChart_h
+#define vtkHapticChart_h
+
+#include "PointHapticsInteractionModule.h" // For export macro
+#include "vtkObject.h"
+
+#include <memory> // For Internals
+
+class vtkRenderer;
+
+class POINTHAPTICSINTERACTION_EXPORT vtkHapticChart : public vtkObject
+{
+public:
+  static vtkHapticChart* New();
+  vtkTypeMacro(vtkHapticChart, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Seconds shown, ending with the newest sample; 0 shows all samples from the first. Default: 5.
+   */
+  vtkSetClampMacro(TimeWindow, double, 0.0, 1e9);
+  vtkGetMacro(TimeWindow, double);
+  ///@}
+
+  ///@{
+  /**
+   * Show or hide: hidden, the renderer draws nothing. Default: on.
+   */
+  void SetVisibility(bool visible);
+  bool GetVisibility() const;
+  ///@}
+
+  /**
+   * @param seconds time, not before the last one's; @param newtons force magnitude; @param metres proxy
+   * radius. Values that are not finite are left out.
+   */
+  void AddSample(double seconds, double newtons, double metres);
+  void Clear();
+
+  /**
+   * Bring the chart up to date. True: it looks different now (a flat line that goes on does not).
+   */
+  bool Update();
+
+  /**
+   * The renderer that shows the chart. Default viewport: the whole window.
+   */
+  vtkRenderer* GetRenderer();
+
+  /**
+   * Write all samples as a PNG of @p width by @p height pixels, through a window of its own off the screen.
+   * Needs a display as every VTK window does. False, with vtkErrorMacro: the file cannot be written.
+   */
+  bool WriteImage(const char* fileName, int width = 1000, int height = 420);
+
+protected:
+  vtkHapticChart();
+  ~vtkHapticChart() override;
+
+  double TimeWindow = 5.0;
+
+private:
+  vtkHapticChart(const vtkHapticChart&) = delete;
+  void operator=(const vtkHapticChart&) = delete;
+
+  struct Internals;
+  std::unique_ptr<Internals> Parts;
+};
+
+#endif

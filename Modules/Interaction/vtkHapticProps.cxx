@@ -1,0 +1,275 @@
+#include "vtkHapticProps.h"
+
+#include "vtkActor.h"
+#include "vtkArrowSource.h"
+#include "vtkAutoInit.h"
+#include "vtkLineSource.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOutlineSource.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkSphereSource.h"
+
+#include <algorithm>
+#include <cmath>
+
+// Programs that link this library need not call vtk_module_autoinit() themselves to get a window.
+VTK_MODULE_INIT(vtkInteractionStyle);
+VTK_MODULE_INIT(vtkRenderingContextOpenGL2);
+VTK_MODULE_INIT(vtkRenderingFreeType);
+VTK_MODULE_INIT(vtkRenderingOpenGL2);
+VTK_MODULE_INIT(vtkRenderingUI);
+
+using pointhaptics::ProxyState;
+using pointhaptics::Vec3;
+
+namespace
+{
+
+constexpr double kPink[3] = { 1.0, 0.30, 0.62 };
+constexpr double kPalePink[3] = { 1.0, 0.55, 0.78 };
+constexpr double kGreen[3] = { 0.05, 0.62, 0.15 };
+constexpr double kBlue[3] = { 0.05, 0.25, 0.95 };
+constexpr double kOrange[3] = { 0.95, 0.42, 0.02 };
+constexpr double kSmallestForce = 0.01; // newtons: shorter arrows are not drawn
+
+/// Sizes as parts of the workspace's edge.
+constexpr double kHipRadius = 0.007;
+constexpr double kNormalLength = 0.14;
+constexpr double kLongestArrow = 0.4;
+constexpr double kArrowThickness = 0.06;
+constexpr double kVisibleMotion = 1e-4;
+
+/// One shape with its actor, and a faint copy that is not hidden by what stands in front of it.
+struct Prop
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkPolyDataMapper> ghostMapper;
+  vtkNew<vtkActor> actor;
+  vtkNew<vtkActor> ghost;
+
+  void setUp(vtkAlgorithmOutput* shape, const double color[3], bool lit)
+  {
+    for (vtkPolyDataMapper* each : { mapper.Get(), ghostMapper.Get() })
+    {
+      each->SetInputConnection(shape);
+      each->ScalarVisibilityOff();
+    }
+    actor->SetMapper(mapper);
+    ghost->SetMapper(ghostMapper);
+    // A depth offset beyond the depth range puts the copy in front of everything.
+    ghostMapper->SetResolveCoincidentTopologyToPolygonOffset();
+    ghostMapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -1e6);
+    ghostMapper->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -1e6);
+    ghost->GetProperty()->SetOpacity(0.30);
+    for (vtkActor* each : { actor.Get(), ghost.Get() })
+    {
+      each->GetProperty()->SetColor(const_cast<double*>(color));
+      each->GetProperty()->SetLighting(lit);
+      each->GetProperty()->SetAmbient(0.35);
+      each->GetProperty()->SetDiffuse(0.65);
+      each->PickableOff();
+    }
+  }
+  void setVisible(bool visible)
+  {
+    actor->SetVisibility(visible);
+    ghost->SetVisibility(visible);
+  }
+  void place(vtkMatrix4x4* matrix)
+  {
+    actor->SetUserMatrix(matrix);
+    ghost->SetUserMatrix(matrix);
+  }
+};
+
+/// Columns: @p along, two perpendiculars, each times its length; origin last.
+void setFrame(vtkMatrix4x4* matrix, const Vec3& origin, const Vec3& along, double length, double thickness)
+{
+  const Vec3 second = pointhaptics::anyPerpendicular(along);
+  const Vec3 third = cross(along, second);
+  for (int row = 0; row < 3; ++row)
+  {
+    matrix->SetElement(row, 0, length * along[row]);
+    matrix->SetElement(row, 1, thickness * second[row]);
+    matrix->SetElement(row, 2, thickness * third[row]);
+    matrix->SetElement(row, 3, origin[row]);
+  }
+}
+
+} // namespace
+
+struct vtkHapticProps::Internals
+{
+  vtkNew<vtkOutlineSource> outline;
+  vtkNew<vtkPolyDataMapper> outlineMapper;
+  vtkNew<vtkActor> outlineActor;
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkSphereSource> ball;
+  vtkNew<vtkLineSource> line;
+  vtkNew<vtkArrowSource> arrow;
+  Prop proxy;
+  Prop normal;
+  Prop hip;
+  Prop force;
+  vtkNew<vtkMatrix4x4> proxyMatrix;
+  vtkNew<vtkMatrix4x4> normalMatrix;
+  vtkNew<vtkMatrix4x4> hipMatrix;
+  vtkNew<vtkMatrix4x4> forceMatrix;
+  double edge = 0.1;
+  bool shown = false;
+  ProxyState state;
+};
+
+vtkStandardNewMacro(vtkHapticProps);
+
+vtkHapticProps::vtkHapticProps()
+  : Parts(new Internals)
+{
+  Internals& parts = *this->Parts;
+  parts.outlineMapper->SetInputConnection(parts.outline->GetOutputPort());
+  parts.outlineActor->SetMapper(parts.outlineMapper);
+  parts.outlineActor->GetProperty()->SetColor(0.0, 0.0, 0.0);
+  parts.outlineActor->GetProperty()->LightingOff();
+  parts.outlineActor->GetProperty()->SetLineWidth(1.5f);
+  parts.outlineActor->PickableOff();
+  parts.sphere->SetRadius(1.0);
+  parts.sphere->SetThetaResolution(32);
+  parts.sphere->SetPhiResolution(24);
+  parts.ball->SetRadius(1.0);
+  parts.ball->SetThetaResolution(20);
+  parts.ball->SetPhiResolution(14);
+  parts.line->SetPoint1(0.0, 0.0, 0.0);
+  parts.line->SetPoint2(1.0, 0.0, 0.0);
+  parts.arrow->SetShaftResolution(20);
+  parts.arrow->SetTipResolution(20);
+  parts.arrow->SetShaftRadius(0.10);
+  parts.arrow->SetTipRadius(0.24);
+  parts.arrow->SetTipLength(0.3);
+  parts.proxy.setUp(parts.sphere->GetOutputPort(), kPink, true);
+  parts.normal.setUp(parts.line->GetOutputPort(), kGreen, false);
+  parts.hip.setUp(parts.ball->GetOutputPort(), kBlue, true);
+  parts.force.setUp(parts.arrow->GetOutputPort(), kOrange, true);
+  parts.normal.actor->GetProperty()->SetLineWidth(3.0f);
+  parts.normal.ghost->GetProperty()->SetLineWidth(3.0f);
+  parts.proxy.place(parts.proxyMatrix);
+  parts.normal.place(parts.normalMatrix);
+  parts.hip.place(parts.hipMatrix);
+  parts.force.place(parts.forceMatrix);
+  const double cube[6] = { -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
+  this->SetWorkspaceBounds(cube);
+  this->SetTouchVisibility(false);
+}
+
+vtkHapticProps::~vtkHapticProps() = default;
+
+void vtkHapticProps::SetWorkspaceBounds(const double bounds[6])
+{
+  std::copy(bounds, bounds + 6, this->WorkspaceBounds);
+  this->Parts->outline->SetBounds(this->WorkspaceBounds);
+  this->Parts->edge = std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  this->Modified();
+}
+
+void vtkHapticProps::SetTouchVisibility(bool visible)
+{
+  this->TouchVisibility = visible;
+  this->Parts->shown = false;
+  for (Prop* prop : { &this->Parts->proxy, &this->Parts->normal, &this->Parts->hip, &this->Parts->force })
+  {
+    prop->setVisible(false);
+  }
+  this->Modified();
+}
+
+void vtkHapticProps::AddTo(vtkRenderer* renderer)
+{
+  renderer->AddActor(this->Parts->outlineActor);
+  for (Prop* prop : { &this->Parts->normal, &this->Parts->force, &this->Parts->hip, &this->Parts->proxy })
+  {
+    renderer->AddActor(prop->actor);
+    renderer->AddActor(prop->ghost);
+  }
+}
+
+void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
+{
+  renderer->RemoveActor(this->Parts->outlineActor);
+  for (Prop* prop : { &this->Parts->normal, &this->Parts->force, &this->Parts->hip, &this->Parts->proxy })
+  {
+    renderer->RemoveActor(prop->actor);
+    renderer->RemoveActor(prop->ghost);
+  }
+}
+
+bool vtkHapticProps::Update(const ProxyState& state)
+{
+  Internals& parts = *this->Parts;
+  const double visible = kVisibleMotion * parts.edge;
+  const ProxyState& old = parts.state;
+  const bool same = parts.shown && old.contact == state.contact && norm(old.hip - state.hip) < visible &&
+    norm(old.sphereCenter - state.sphereCenter) < visible && std::abs(old.radius - state.radius) < visible &&
+    norm(old.normal - state.normal) < 1e-3 && norm(old.force - state.force) * this->ForceScale < visible;
+  if (same || !isFinite(state.hip) || !isFinite(state.sphereCenter) || !isFinite(state.force))
+  {
+    return false;
+  }
+  parts.state = state;
+  parts.shown = true;
+  this->TouchVisibility = true;
+  setFrame(parts.proxyMatrix, state.sphereCenter, { 1, 0, 0 }, state.radius, state.radius);
+  setFrame(parts.hipMatrix, state.hip, { 1, 0, 0 }, kHipRadius * parts.edge, kHipRadius * parts.edge);
+  setFrame(parts.normalMatrix, state.proxy, normalized(state.normal), kNormalLength * parts.edge, 1.0);
+  const double force = norm(state.force);
+  const double length = std::min(force * this->ForceScale, kLongestArrow * parts.edge);
+  setFrame(parts.forceMatrix, state.hip, normalized(state.force), length,
+    std::max(1e-9, std::min(length, kArrowThickness * parts.edge)));
+  parts.proxy.setVisible(state.radius > 0.0);
+  parts.hip.setVisible(true);
+  parts.normal.setVisible(state.contact);
+  parts.force.setVisible(state.contact && force > kSmallestForce);
+  vtkProperty* sphere = parts.proxy.actor->GetProperty();
+  sphere->SetColor(const_cast<double*>(state.contact ? kPink : kPalePink));
+  sphere->SetOpacity(state.contact ? 1.0 : 0.45);
+  parts.proxy.ghost->SetVisibility(state.contact && state.radius > 0.0);
+  this->Modified();
+  return true;
+}
+
+vtkActor* vtkHapticProps::GetProxyActor()
+{
+  return this->Parts->proxy.actor;
+}
+
+vtkActor* vtkHapticProps::GetNormalActor()
+{
+  return this->Parts->normal.actor;
+}
+
+vtkActor* vtkHapticProps::GetHipActor()
+{
+  return this->Parts->hip.actor;
+}
+
+vtkActor* vtkHapticProps::GetForceActor()
+{
+  return this->Parts->force.actor;
+}
+
+vtkActor* vtkHapticProps::GetWorkspaceActor()
+{
+  return this->Parts->outlineActor;
+}
+
+void vtkHapticProps::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "WorkspaceBounds: " << this->WorkspaceBounds[0] << ", " << this->WorkspaceBounds[1] << ", "
+     << this->WorkspaceBounds[2] << ", " << this->WorkspaceBounds[3] << ", " << this->WorkspaceBounds[4]
+     << ", " << this->WorkspaceBounds[5] << "\n";
+  os << indent << "ForceScale: " << this->ForceScale << "\n";
+  os << indent << "TouchVisibility: " << this->TouchVisibility << "\n";
+}

@@ -1,0 +1,108 @@
+/**
+ * @class   vtkHapticProps
+ * @brief   what a person sees of the touch: workspace, proxy, normal, hand and force
+ *
+ * The workspace is a black wire frame. The proxy is a pink sphere of its true radius, translucent and pale in
+ * free space, where it sits at the hand; solid in contact, where it rests on the surface. A green line stands
+ * on the contact point along the surface normal. The HIP (the point the hand holds) is a small blue ball, and
+ * an orange arrow from it shows the force on the hand. What the cloud hides of the last three is drawn
+ * faintly over it, so that the hand is never lost inside an object.
+ *
+ * Use:
+ * @code
+ * vtkNew<vtkHapticProps> props;
+ * props->SetWorkspaceBounds(bounds);
+ * props->AddTo(renderer);
+ * props->Update(servoLoop.latest().state); // from the GUI thread, as often as wanted
+ * @endcode
+ *
+ * Frame: workspace, metres and newtons. Not thread safe: GUI thread only.
+ * @sa vtkInteractorStyleHaptic
+ */
+#ifndef vtkHapticProps_h
+#define vtkHapticProps_h
+
+#include "Haptics/Proxy.h" // For ProxyState
+
+#include "PointHapticsInteractionModule.h" // For export macro
+#include "vtkObject.h"
+
+#include <memory> // For Internals
+
+class vtkActor;
+class vtkRenderer;
+
+class POINTHAPTICSINTERACTION_EXPORT vtkHapticProps : public vtkObject
+{
+public:
+  static vtkHapticProps* New();
+  vtkTypeMacro(vtkHapticProps, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Box drawn as the wire frame: xmin, xmax, ymin, ymax, zmin, zmax. Its longest edge also sets the size of
+   * the HIP ball, the normal's length and the lines. Default: the 10 cm cube about the origin.
+   */
+  void SetWorkspaceBounds(const double bounds[6]);
+  vtkGetVector6Macro(WorkspaceBounds, double);
+
+  ///@{
+  /**
+   * Length of the force arrow per newton, metres; above 0. An arrow longer than 40 % of the workspace is cut
+   * to that. Default: 0.01 m/N.
+   */
+  vtkSetClampMacro(ForceScale, double, 1e-9, 1e9);
+  vtkGetMacro(ForceScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * Show the touch (sphere, normal, HIP, force). Off: the wire frame only. Default: off until the first
+   * Update().
+   */
+  void SetTouchVisibility(bool visible);
+  bool GetTouchVisibility() const { return this->TouchVisibility; }
+  ///@}
+
+  ///@{
+  /**
+   * Add all props to @p renderer, or take them out. The renderer is not kept alive.
+   */
+  void AddTo(vtkRenderer* renderer);
+  void RemoveFrom(vtkRenderer* renderer);
+  ///@}
+
+  /**
+   * Move the props to @p state. True: the picture changed (by more than 1/10000 of the workspace) and is
+   * worth a render.
+   */
+  bool Update(const pointhaptics::ProxyState& state);
+
+  ///@{
+  /**
+   * The single actors, for other colours or tests.
+   */
+  vtkActor* GetProxyActor();
+  vtkActor* GetNormalActor();
+  vtkActor* GetHipActor();
+  vtkActor* GetForceActor();
+  vtkActor* GetWorkspaceActor();
+  ///@}
+
+protected:
+  vtkHapticProps();
+  ~vtkHapticProps() override;
+
+  double WorkspaceBounds[6];
+  double ForceScale = 0.01;
+  bool TouchVisibility = false;
+
+private:
+  vtkHapticProps(const vtkHapticProps&) = delete;
+  void operator=(const vtkHapticProps&) = delete;
+
+  struct Internals;
+  std::unique_ptr<Internals> Parts;
+};
+
+#endif

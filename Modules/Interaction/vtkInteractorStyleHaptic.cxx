@@ -1,0 +1,417 @@
+#include "vtkInteractorStyleHaptic.h"
+
+#include "HapticSceneBuilder.h"
+#include "vtkInteractorStyleHapticInternals.h"
+
+#include "vtkCamera.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+#include "vtkRendererCollection.h"
+#include "vtkStringArray.h"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+using pointhaptics::ServoSample;
+using pointhaptics::Vec3;
+using pointhaptics::style::now;
+
+namespace
+{
+
+constexpr double kStatusPeriodSeconds = 0.25;
+
+} // namespace
+
+vtkStandardNewMacro(vtkInteractorStyleHaptic);
+
+vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
+  : Parts(new Internals)
+{
+  this->Parts->model->PostMultiply();
+}
+
+vtkInteractorStyleHaptic::~vtkInteractorStyleHaptic() = default;
+
+void vtkInteractorStyleHaptic::SetServoLoop(pointhaptics::ServoLoop* servo)
+{
+  this->Parts->servo = servo;
+  this->Parts->modelChanged = true;
+}
+
+void vtkInteractorStyleHaptic::SetDevice(pointhaptics::SimulatedDevice* device)
+{
+  this->Parts->device = device;
+}
+
+void vtkInteractorStyleHaptic::SetResampler(vtkVoxelMeanResampler* resampler)
+{
+  this->Parts->resampler = resampler;
+  this->Parts->modelChanged = true;
+  if (resampler)
+  {
+    resampler->SetTransform(this->Parts->resampled);
+  }
+}
+
+void vtkInteractorStyleHaptic::SetBandwidthFilter(vtkKernelBandwidthFilter* filter)
+{
+  this->Parts->bandwidth = filter;
+  this->Parts->modelChanged = true;
+}
+
+void vtkInteractorStyleHaptic::SetCloudActor(vtkActor* actor)
+{
+  this->Parts->cloudActor = actor;
+}
+
+void vtkInteractorStyleHaptic::SetProps(vtkHapticProps* props)
+{
+  this->Parts->props = props;
+}
+
+void vtkInteractorStyleHaptic::SetChart(vtkHapticChart* chart)
+{
+  this->Parts->chart = chart;
+}
+
+void vtkInteractorStyleHaptic::SetOverlay(vtkHapticOverlay* overlay)
+{
+  this->Parts->overlay = overlay;
+}
+
+void vtkInteractorStyleHaptic::SetWorkspaceBounds(const double bounds[6])
+{
+  std::copy(bounds, bounds + 6, this->Parts->workspace.begin());
+}
+
+void vtkInteractorStyleHaptic::SetModelMatrix(vtkMatrix4x4* matrix)
+{
+  this->Parts->initial->DeepCopy(matrix);
+  this->ResetModel();
+}
+
+vtkTransform* vtkInteractorStyleHaptic::GetModelTransform()
+{
+  return this->Parts->model;
+}
+
+void vtkInteractorStyleHaptic::TurnModel(double degrees, const Vec3& axis)
+{
+  if (!std::isfinite(degrees) || !isFinite(axis) || !(norm(axis) > 0.0))
+  {
+    return;
+  }
+  const Vec3 c = this->Parts->center();
+  this->Parts->model->Translate(-c.x, -c.y, -c.z);
+  this->Parts->model->RotateWXYZ(degrees, axis.x, axis.y, axis.z);
+  this->Parts->model->Translate(c.x, c.y, c.z);
+  this->ModelChanged();
+}
+
+void vtkInteractorStyleHaptic::ShiftModel(const Vec3& offset)
+{
+  if (isFinite(offset))
+  {
+    this->Parts->model->Translate(offset.x, offset.y, offset.z);
+    this->ModelChanged();
+  }
+}
+
+void vtkInteractorStyleHaptic::ZoomModel(double factor)
+{
+  if (!std::isfinite(factor) || !(factor > 0.0))
+  {
+    return;
+  }
+  const Vec3 c = this->Parts->center();
+  this->Parts->model->Translate(-c.x, -c.y, -c.z);
+  this->Parts->model->Scale(factor, factor, factor);
+  this->Parts->model->Translate(c.x, c.y, c.z);
+  this->ModelChanged();
+}
+
+void vtkInteractorStyleHaptic::ResetModel()
+{
+  this->Parts->model->SetMatrix(this->Parts->initial);
+  this->ModelChanged();
+}
+
+void vtkInteractorStyleHaptic::ModelChanged()
+{
+  // Many small steps must not grow vtkTransform's list of concatenated matrices without end.
+  vtkNew<vtkMatrix4x4> matrix;
+  matrix->DeepCopy(this->Parts->model->GetMatrix());
+  this->Parts->model->SetMatrix(matrix);
+  this->Parts->modelChanged = true;
+  this->PreviewModel();
+  this->InvokeEvent(ModelChangedEvent);
+}
+
+/// The drawn means are those of the last resampling: show them where the model is now.
+void vtkInteractorStyleHaptic::PreviewModel()
+{
+  Internals& parts = *this->Parts;
+  if (parts.cloudActor)
+  {
+    vtkNew<vtkMatrix4x4> back;
+    vtkMatrix4x4::Invert(parts.resampled->GetMatrix(), back);
+    vtkMatrix4x4::Multiply4x4(parts.model->GetMatrix(), back, parts.preview);
+    parts.cloudActor->SetUserMatrix(parts.preview);
+    parts.rendersWanted = true;
+  }
+}
+
+bool vtkInteractorStyleHaptic::IsModelChanged() const
+{
+  return this->Parts->modelChanged;
+}
+
+bool vtkInteractorStyleHaptic::UpdateModel()
+{
+  Internals& parts = *this->Parts;
+  if (!parts.modelChanged || !parts.resampler)
+  {
+    return !parts.sceneEmpty;
+  }
+  parts.modelShare.run(
+    [this, &parts]
+    {
+      parts.modelChanged = false;
+      parts.resampled->SetMatrix(parts.model->GetMatrix());
+      parts.resampler->Update();
+      vtkPolyData* cloud = parts.resampler->GetOutput();
+      if (parts.bandwidth)
+      {
+        parts.bandwidth->Update();
+        cloud = parts.bandwidth->GetOutput();
+      }
+      this->PublishScene(cloud);
+    });
+  this->PreviewModel();
+  parts.rendersWanted = true;
+  this->InvokeEvent(SceneChangedEvent);
+  return !parts.sceneEmpty;
+}
+
+void vtkInteractorStyleHaptic::PublishScene(vtkPolyData* cloud)
+{
+  Internals& parts = *this->Parts;
+  vtkDataObject* input = parts.resampler->GetInputDataObject(0, 0);
+  vtkDataSet* points = vtkDataSet::SafeDownCast(input);
+  parts.numberOfPoints = points ? points->GetNumberOfPoints() : 0;
+  parts.numberOfVoxels = cloud->GetNumberOfPoints();
+  pointhaptics::Status status = pointhaptics::Status::Ok;
+  auto scene = pointhaptics::makeHapticScene(cloud, status, this->UseCovariance);
+  if (!scene && status != pointhaptics::Status::Empty)
+  {
+    vtkErrorMacro("The model cannot be felt as it stands: " << pointhaptics::sentence(status)
+                                                            << " Key 0 resets the model.");
+  }
+  parts.sceneEmpty = scene == nullptr;
+  if (parts.servo)
+  {
+    parts.servo->publishScene(std::move(scene));
+  }
+}
+
+void vtkInteractorStyleHaptic::StartUpdates(unsigned long milliseconds)
+{
+  this->StopUpdates();
+  if (this->Interactor)
+  {
+    this->Parts->timer = this->Interactor->CreateRepeatingTimer(std::max(1ul, milliseconds));
+  }
+}
+
+void vtkInteractorStyleHaptic::StopUpdates()
+{
+  if (this->Interactor && this->Parts->timer >= 0)
+  {
+    this->Interactor->DestroyTimer(this->Parts->timer);
+  }
+  this->Parts->timer = -1;
+}
+
+void vtkInteractorStyleHaptic::OnTimer()
+{
+  this->Refresh();
+}
+
+void vtkInteractorStyleHaptic::Refresh()
+{
+  Internals& parts = *this->Parts;
+  if (parts.modelChanged && parts.modelShare.due())
+  {
+    this->UpdateModel();
+  }
+  const bool touchMoved = this->ReadServo();
+  const bool statusChanged = this->UpdateStatus();
+  parts.rendersWanted = parts.rendersWanted || touchMoved || statusChanged;
+  if (parts.rendersWanted && parts.renderShare.due())
+  {
+    this->RenderNow();
+  }
+}
+
+bool vtkInteractorStyleHaptic::ReadServo()
+{
+  Internals& parts = *this->Parts;
+  if (!parts.servo)
+  {
+    return false;
+  }
+  parts.samples.clear();
+  parts.servo->takeTrace(parts.samples);
+  bool changed = false;
+  if (parts.chart)
+  {
+    for (const ServoSample& sample : parts.samples)
+    {
+      parts.chart->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius);
+    }
+    // A chart that is drawn seldom costs little; it is brought up to date only where a render would show it.
+    changed = parts.renderShare.due() && parts.chart->GetVisibility() && parts.chart->Update();
+  }
+  if (!parts.samples.empty())
+  {
+    this->InvokeEvent(SamplesEvent, &parts.samples);
+  }
+  const ServoSample latest = parts.servo->latest();
+  if (parts.props && latest.tick > 0)
+  {
+    changed = parts.props->Update(latest.state) || changed;
+  }
+  return changed;
+}
+
+bool vtkInteractorStyleHaptic::UpdateStatus()
+{
+  Internals& parts = *this->Parts;
+  const double time = now();
+  if (!parts.overlay || time - parts.lastStatus < kStatusPeriodSeconds)
+  {
+    return false;
+  }
+  parts.lastStatus = time;
+  char text[320];
+  std::snprintf(text, sizeof(text), "%lld points in %lld active voxels%s",
+    static_cast<long long>(parts.numberOfPoints), static_cast<long long>(parts.numberOfVoxels),
+    parts.sceneEmpty ? " (nothing in the workspace: key 0 resets the model)" : "");
+  std::string status = text;
+  if (parts.servo)
+  {
+    const ServoSample latest = parts.servo->latest();
+    const pointhaptics::ServoStatistics statistics = parts.servo->statistics();
+    std::snprintf(text, sizeof(text),
+      "\nproxy radius %.2f mm    force %.2f N%s\nservo %.0f Hz, %llu ticks missed%s",
+      1e3 * latest.state.radius, norm(latest.state.force), latest.state.contact ? "    in contact" : "",
+      statistics.rateHz, static_cast<unsigned long long>(statistics.missedTicks),
+      parts.handMode ? "    hand follows the mouse" : "");
+    status += text;
+  }
+  if (!parts.note.empty())
+  {
+    status += "\n" + parts.note;
+  }
+  return parts.overlay->SetStatus(status + "\nH: help");
+}
+
+void vtkInteractorStyleHaptic::SetStatusNote(const std::string& note)
+{
+  this->Parts->note = note;
+  this->Parts->lastStatus = -1e9;
+}
+
+void vtkInteractorStyleHaptic::RenderNow()
+{
+  Internals& parts = *this->Parts;
+  parts.rendersWanted = false;
+  if (this->Interactor)
+  {
+    parts.renderShare.run(
+      [this]
+      {
+        if (vtkRenderer* renderer = this->MainRenderer())
+        {
+          renderer->ResetCameraClippingRange();
+        }
+        this->Interactor->Render();
+      });
+  }
+}
+
+vtkRenderer* vtkInteractorStyleHaptic::MainRenderer()
+{
+  if (this->CurrentRenderer)
+  {
+    return this->CurrentRenderer;
+  }
+  if (this->DefaultRenderer)
+  {
+    return this->DefaultRenderer;
+  }
+  vtkRenderWindow* window = this->Interactor ? this->Interactor->GetRenderWindow() : nullptr;
+  return window ? window->GetRenderers()->GetFirstRenderer() : nullptr;
+}
+
+void vtkInteractorStyleHaptic::SetHandMode(bool on)
+{
+  this->Parts->handMode = on;
+  this->Parts->lastStatus = -1e9;
+}
+
+bool vtkInteractorStyleHaptic::GetHandMode() const
+{
+  return this->Parts->handMode;
+}
+
+void vtkInteractorStyleHaptic::MoveHand(const Vec3& offset)
+{
+  Internals& parts = *this->Parts;
+  if (!parts.device || !isFinite(offset))
+  {
+    return;
+  }
+  Vec3 target = parts.device->target() + offset;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    target[axis] = std::min(std::max(target[axis], parts.workspace[2 * axis]), parts.workspace[2 * axis + 1]);
+  }
+  parts.device->setTarget(target);
+}
+
+void vtkInteractorStyleHaptic::MoveHandInDepth(double metres)
+{
+  vtkRenderer* renderer = this->MainRenderer();
+  if (renderer)
+  {
+    Vec3 direction;
+    renderer->GetActiveCamera()->GetDirectionOfProjection(&direction.x);
+    this->MoveHand(metres * direction);
+  }
+}
+
+void vtkInteractorStyleHaptic::ToggleChart()
+{
+  vtkHapticChart* chart = this->Parts->chart;
+  vtkRenderer* renderer = this->MainRenderer();
+  if (chart && renderer)
+  {
+    chart->SetVisibility(!chart->GetVisibility());
+    double viewport[4] = { 0.0, 0.0, 1.0, 1.0 };
+    chart->GetRenderer()->GetViewport(viewport);
+    // The chart is a strip along the lower edge; the picture takes the rest of the window.
+    renderer->SetViewport(0.0, chart->GetVisibility() ? viewport[3] : 0.0, 1.0, 1.0);
+    this->Parts->rendersWanted = true;
+  }
+}
+
+void vtkInteractorStyleHaptic::OnDropFiles(vtkStringArray* filePaths)
+{
+  this->InvokeEvent(FilesDroppedEvent, filePaths);
+}

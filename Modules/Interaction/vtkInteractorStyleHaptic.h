@@ -1,0 +1,226 @@
+/**
+ * @class   vtkInteractorStyleHaptic
+ * @brief   camera, model and hand under the mouse and keys, and the touch shown live
+ *
+ * A trackball camera style that can also turn, shift and zoom the model in the haptic workspace, drive a
+ * simulated hand, and show what the servo loop feels. Every part is optional; set those the program has:
+ * @code
+ * vtkNew<vtkInteractorStyleHaptic> style;
+ * style->SetResampler(resampler);              // its Transform becomes the style's
+ * style->SetBandwidthFilter(bandwidth);        // fed by the resampler
+ * style->SetServoLoop(&servo);                 // gets a new HapticScene after every change of the model
+ * style->SetDevice(&simulatedDevice);
+ * style->SetProps(props);
+ * style->SetCloudActor(actor);                 // moves at once while the pipeline catches up
+ * interactor->SetInteractorStyle(style);
+ * style->SetDefaultRenderer(renderer);
+ * style->UpdateModel();
+ * interactor->Initialize();
+ * style->StartUpdates();
+ * interactor->Start();
+ * @endcode
+ *
+ * Drags: left turns the camera, middle pans, right or the wheel dollies. With Shift they move the model: left
+ * turns it, middle (or Ctrl+Shift+left) shifts it, the wheel zooms it about the workspace's centre. Ctrl+left
+ * drags the hand in the view plane, Ctrl+wheel moves it in depth; in hand mode it follows the mouse without a
+ * button. For the keys see GetHelpText().
+ *
+ * A change of the model marks it; at the next timer event the resampler and the bandwidth filter run, and a
+ * NEW HapticScene is published: the servo thread never waits and never sees a half-made scene. The 33 ms
+ * timer also reads ServoLoop::latest() and moves the props; a render happens only when something changed, and
+ * rendering and resampling each leave at least half of the time to events.
+ *
+ * Events: ModelChangedEvent after the transform changed; SceneChangedEvent after a new scene was published
+ * (also when it is empty); SamplesEvent with the new ticks (call data:
+ * std::vector<pointhaptics::ServoSample>*); FilesDroppedEvent (call data: vtkStringArray*); ScreenshotEvent
+ * when the user asks for a picture.
+ *
+ * Frames: the model transform maps the cloud's frame into the workspace's (x_T = T x + t); metres.
+ * Thread safety: GUI thread only. Ownership: servo loop and device are not owned and must outlive the style
+ * or be set to null; VTK objects are reference counted.
+ * @sa vtkHapticProps vtkHapticChart vtkVoxelMeanResampler
+ */
+#ifndef vtkInteractorStyleHaptic_h
+#define vtkInteractorStyleHaptic_h
+
+#include "Core/Vector3.h" // For Vec3
+
+#include "PointHapticsInteractionModule.h" // For export macro
+#include "vtkCommand.h"                    // For UserEvent
+#include "vtkInteractorStyleTrackballCamera.h"
+
+#include <memory> // For Internals
+#include <string> // For the status note
+
+class vtkActor;
+class vtkHapticChart;
+class vtkHapticOverlay;
+class vtkHapticProps;
+class vtkKernelBandwidthFilter;
+class vtkMatrix4x4;
+class vtkPolyData;
+class vtkTransform;
+class vtkVoxelMeanResampler;
+
+namespace pointhaptics
+{
+class ServoLoop;
+class SimulatedDevice;
+}
+
+class POINTHAPTICSINTERACTION_EXPORT vtkInteractorStyleHaptic : public vtkInteractorStyleTrackballCamera
+{
+public:
+  static vtkInteractorStyleHaptic* New();
+  vtkTypeMacro(vtkInteractorStyleHaptic, vtkInteractorStyleTrackballCamera);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum HapticEvents
+  {
+    ModelChangedEvent = vtkCommand::UserEvent + 7301,
+    SceneChangedEvent,
+    SamplesEvent,
+    FilesDroppedEvent,
+    ScreenshotEvent
+  };
+
+  ///@{
+  /**
+   * The parts the style works on; null takes one away.
+   */
+  void SetServoLoop(pointhaptics::ServoLoop* servo);
+  void SetDevice(pointhaptics::SimulatedDevice* device);
+  void SetResampler(vtkVoxelMeanResampler* resampler);
+  void SetBandwidthFilter(vtkKernelBandwidthFilter* filter);
+  void SetCloudActor(vtkActor* actor);
+  void SetProps(vtkHapticProps* props);
+  void SetChart(vtkHapticChart* chart);
+  void SetOverlay(vtkHapticOverlay* overlay);
+  ///@}
+
+  /**
+   * Box of the hand, xmin, xmax, ymin, ymax, zmin, zmax: the model turns and zooms about its centre, steps of
+   * shift and depth are parts of its longest edge. Default: the 10 cm cube about the origin.
+   */
+  void SetWorkspaceBounds(const double bounds[6]);
+
+  ///@{
+  /**
+   * Use VoxelCovariance in the scenes if the resampler makes it. Default: on.
+   */
+  vtkSetMacro(UseCovariance, bool);
+  vtkGetMacro(UseCovariance, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The model transform. SetModelMatrix() sets it together with what ResetModel() goes back to, and marks the
+   * model as changed; the transform itself is for reading.
+   */
+  void SetModelMatrix(vtkMatrix4x4* matrix);
+  vtkTransform* GetModelTransform();
+  ///@}
+
+  ///@{
+  /**
+   * Change the model: turn about an axis of the workspace through its centre (degrees, right-handed), shift
+   * (metres), zoom about the centre (factor above 0), back to SetModelMatrix(). Values that are not finite
+   * are ignored.
+   */
+  void TurnModel(double degrees, const pointhaptics::Vec3& axis);
+  void ShiftModel(const pointhaptics::Vec3& offset);
+  void ZoomModel(double factor);
+  void ResetModel();
+  ///@}
+
+  /**
+   * Bring the pipeline up to date now and publish the scene, if the model changed since the last time or
+   * never was published. The timer does it otherwise. False: there is no point in the workspace (an empty
+   * scene was published).
+   */
+  bool UpdateModel();
+  bool IsModelChanged() const;
+
+  ///@{
+  /**
+   * Start and stop the repeating timer, after vtkRenderWindowInteractor::Initialize(). Milliseconds, at
+   * least 1.
+   */
+  void StartUpdates(unsigned long milliseconds = 33);
+  void StopUpdates();
+  ///@}
+
+  /**
+   * What the timer does: model, props, chart and status up to date, and a render if something changed.
+   */
+  void Refresh();
+
+  ///@{
+  /**
+   * Hand mode: the simulated hand follows the mouse pointer in the view plane at its depth. Default: off.
+   */
+  void SetHandMode(bool on);
+  bool GetHandMode() const;
+  ///@}
+
+  ///@{
+  /**
+   * Move the simulated hand, metres in the workspace frame; clamped to the workspace.
+   */
+  void MoveHand(const pointhaptics::Vec3& offset);
+  /// Away from the person (positive) or back, along the view direction.
+  void MoveHandInDepth(double metres);
+  ///@}
+
+  /**
+   * Text at the end of the status line, such as the scale of the model.
+   */
+  void SetStatusNote(const std::string& note);
+
+  /**
+   * Keys and drags, one a line.
+   */
+  static const char* GetHelpText();
+
+  void OnMouseMove() override;
+  void OnLeftButtonDown() override;
+  void OnLeftButtonUp() override;
+  void OnMiddleButtonDown() override;
+  void OnMiddleButtonUp() override;
+  void OnMouseWheelForward() override;
+  void OnMouseWheelBackward() override;
+  void OnKeyPress() override;
+  void OnChar() override;
+  void OnTimer() override;
+  void OnDropFiles(vtkStringArray* filePaths) override;
+
+protected:
+  vtkInteractorStyleHaptic();
+  ~vtkInteractorStyleHaptic() override;
+
+  bool UseCovariance = true;
+
+private:
+  vtkInteractorStyleHaptic(const vtkInteractorStyleHaptic&) = delete;
+  void operator=(const vtkInteractorStyleHaptic&) = delete;
+
+  void ModelChanged();
+  void PublishScene(vtkPolyData* cloud);
+  void PreviewModel();
+  void DragModel();
+  void DragHand();
+  void Wheel(int direction);
+  bool ModelKey(const std::string& key);
+  bool HandKey(const std::string& key);
+  bool ProgramKey(const std::string& key);
+  void ToggleChart();
+  bool ReadServo();
+  bool UpdateStatus();
+  void RenderNow();
+  vtkRenderer* MainRenderer();
+
+  struct Internals;
+  std::unique_ptr<Internals> Parts;
+};
+
+#endif

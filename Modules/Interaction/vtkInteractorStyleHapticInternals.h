@@ -1,0 +1,107 @@
+/// @file
+/// Private state of vtkInteractorStyleHaptic, shared by its two source files.
+#pragma once
+
+#include "vtkInteractorStyleHaptic.h"
+
+#include "vtkHapticChart.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticProps.h"
+#include "vtkKernelBandwidthFilter.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include "Devices/SimulatedDevice.h"
+#include "Haptics/ServoLoop.h"
+
+#include "vtkActor.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+#include "vtkTransform.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace style
+{
+
+/// Seconds of a steady clock.
+inline double now()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+enum class Drag
+{
+  None,
+  TurnModel,
+  ShiftModel,
+  Hand
+};
+
+/// Work that may take long leaves as much time to events as it took itself.
+struct FairShare
+{
+  double last = 0.0;
+  double finished = -1e9;
+
+  bool due() const { return now() - this->finished >= this->last; }
+  template <typename Work>
+  void run(Work&& work)
+  {
+    const double begin = now();
+    work();
+    this->finished = now();
+    this->last = this->finished - begin;
+  }
+};
+
+} // namespace style
+} // namespace pointhaptics
+
+struct vtkInteractorStyleHaptic::Internals
+{
+  pointhaptics::ServoLoop* servo = nullptr;
+  pointhaptics::SimulatedDevice* device = nullptr;
+  vtkSmartPointer<vtkVoxelMeanResampler> resampler;
+  vtkSmartPointer<vtkKernelBandwidthFilter> bandwidth;
+  vtkSmartPointer<vtkActor> cloudActor;
+  vtkSmartPointer<vtkHapticProps> props;
+  vtkSmartPointer<vtkHapticChart> chart;
+  vtkSmartPointer<vtkHapticOverlay> overlay;
+
+  vtkNew<vtkTransform> model;     // what the user sees
+  vtkNew<vtkTransform> resampled; // what the resampler runs with
+  vtkNew<vtkMatrix4x4> initial;
+  vtkNew<vtkMatrix4x4> preview;
+  bool modelChanged = true;
+  bool sceneEmpty = true;
+  bool rendersWanted = false;
+  pointhaptics::style::FairShare modelShare;
+  pointhaptics::style::FairShare renderShare;
+
+  std::array<double, 6> workspace{ -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
+  pointhaptics::style::Drag drag = pointhaptics::style::Drag::None;
+  bool handMode = false;
+  int timer = -1;
+  double lastStatus = -1e9;
+  std::string note;
+  vtkIdType numberOfPoints = 0;
+  vtkIdType numberOfVoxels = 0;
+  std::vector<pointhaptics::ServoSample> samples;
+
+  pointhaptics::Vec3 center() const
+  {
+    return { 0.5 * (workspace[0] + workspace[1]), 0.5 * (workspace[2] + workspace[3]),
+      0.5 * (workspace[4] + workspace[5]) };
+  }
+  double edge() const
+  {
+    return std::max(
+      { workspace[1] - workspace[0], workspace[3] - workspace[2], workspace[5] - workspace[4] });
+  }
+};
