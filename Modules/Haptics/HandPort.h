@@ -1,0 +1,32 @@
+/// @file
+/// What the servo loop needs of a device: a hand position in, a force out.
+#pragma once
+
+#include "Core/Status.h"
+#include "Core/Vector3.h"
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+
+/// One reading of the hand. Frame: workspace, metres; x right, y up, z towards the user.
+struct HandState
+{
+  Vec3 position;
+  std::uint32_t buttons = 0; ///< Bit i: button i pressed.
+};
+
+/// Implemented by HapticDevice (Modules/Devices). Called from the servo thread only, between start and stop.
+class HandPort
+{
+public:
+  virtual ~HandPort() = default;
+  /// The hand at @p timeSeconds of the servo clock. Must not wait longer than a tick.
+  /// Ok, EndOfPath (the loop stops), or a fault (the loop sends zero force and counts it).
+  virtual Status read(double timeSeconds, HandState& state) noexcept = 0;
+  /// Force on the hand in newtons, workspace frame; finite and within the limits of the ForceGuard.
+  virtual Status write(double timeSeconds, const Vec3& force) noexcept = 0;
+};
+
+} // namespace pointhaptics

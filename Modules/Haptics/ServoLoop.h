@@ -1,0 +1,96 @@
+/// @file
+/// The 1 kHz thread: reads the hand, steps the proxy, guards the force, writes it, tells the rest of the
+/// program.
+#pragma once
+
+#include "Haptics/ForceGuard.h"
+#include "Haptics/HandPort.h"
+#include "Haptics/LatencyHistogram.h"
+#include "Haptics/Proxy.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointhaptics
+{
+
+struct ServoSettings
+{
+  double rateHz = 1000.0;       ///< 1 to 10000.
+  bool realtimePriority = true; ///< Ask for SCHED_FIFO for this thread; a refusal is reported, not an error.
+  int traceCapacity = 1 << 15; ///< Ticks kept until takeTrace(), 1 to 2^22 (200 bytes each); what comes while
+                               ///< the trace is full is lost and counted.
+  ForceLimits limits;
+};
+
+/// One tick, as traced and published.
+struct ServoSample
+{
+  std::uint64_t tick =
+    0; ///< 1, 2, ...; missed ticks have their numbers too, so that a gap shows where they were.
+  double timeSeconds = 0.0; ///< Deadline of the tick since the first one: (tick - 1) / rate.
+  ProxyState state; ///< force is the one that was sent: after the guard, zero where the device failed.
+  std::uint32_t buttons = 0;
+  double updateSeconds = 0.0; ///< Wall time of the tick's work, reading and writing the device included.
+};
+
+struct ServoStatistics
+{
+  std::uint64_t ticks = 0;
+  std::uint64_t missedTicks =
+    0; ///< Deadlines already followed by the next one when the thread woke; skipped.
+  std::uint64_t deviceFaults = 0; ///< Ticks in which read() or write() failed.
+  std::uint64_t lostTraceSamples = 0;
+  double rateHz = 0.0;                ///< Achieved between the first and the newest tick since start().
+  LatencyHistogram::Summary lateness; ///< Wake-up after the deadline, seconds.
+  LatencyHistogram::Summary update;   ///< Duration of a tick's work, seconds.
+  bool realtime = false;              ///< SCHED_FIFO was granted.
+};
+
+/// Deadlines are absolute times of the steady clock, one period apart; the thread sleeps until each and never
+/// spins. A tick: read the device, take the newest scene and parameters, step the proxy, guard the force,
+/// write it, publish the sample. No step of it allocates, locks, logs or throws.
+///
+/// Faults: a tick whose read() fails sends zero force and steps nothing, and the force grows again from zero
+/// under the guard's slew limit. The proxy keeps its side of the surface over a short fault; after one of 0.1
+/// s or more the hand is taken as new, in free space. EndOfPath from read() ends the loop: zero force, then
+/// running() is false.
+///
+/// Thread safety: start, stop, publishScene, setParameters, takeTrace from one thread (the GUI's); latest(),
+/// statistics() and running() from any. None of them makes the servo thread wait.
+class ServoLoop
+{
+public:
+  ServoLoop();
+  ~ServoLoop(); ///< Stops.
+  ServoLoop(const ServoLoop&) = delete;
+  ServoLoop& operator=(const ServoLoop&) = delete;
+
+  /// Starts the thread on @p port, which must be open and outlive stop(). Statistics and trace start anew; a
+  /// published scene stays. InvalidParameter: a setting, limit or parameter out of range, or already running.
+  /// Throws std::system_error or std::bad_alloc where the system has no thread or memory to give.
+  Status start(HandPort& port, const HapticParameters& parameters, const ServoSettings& settings = {});
+  /// Ends after the current tick, writes zero force, joins; waits one period at most. Safe to call twice.
+  void stop();
+  /// False before start(), after stop() and after the end of a path.
+  bool running() const noexcept;
+
+  /// The servo thread takes the scene at its next tick; the one before is freed here at a later call, never
+  /// there.
+  void publishScene(std::shared_ptr<const HapticScene> scene);
+  /// Taken at the next tick; invalid ones (HapticParameters::check()) are ignored by the proxy.
+  void setParameters(const HapticParameters& parameters);
+
+  /// The newest finished tick; tick 0 means none yet.
+  ServoSample latest() const noexcept;
+  ServoStatistics statistics() const noexcept;
+  /// Moves all ticks since the last call to the end of @p samples, oldest first.
+  void takeTrace(std::vector<ServoSample>& samples);
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace pointhaptics
