@@ -1,0 +1,306 @@
+#include "Devices/HipPath.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include <unistd.h>
+
+namespace pointhaptics
+{
+namespace
+{
+constexpr const char* kHeader = "t,x,y,z";
+constexpr std::size_t kColumns = 4;
+/// No row of four numbers is longer; keeps a binary file from being read as one line.
+constexpr std::size_t kLongestLine = 1000;
+/// Longest part of a file's text repeated in a message.
+constexpr std::size_t kLongestQuote = 40;
+
+std::string quote(const std::string& text)
+{
+  std::string result = "'";
+  for (char c : text.substr(0, kLongestQuote))
+  {
+    const unsigned char byte = static_cast<unsigned char>(c);
+    result += byte < 0x20 || byte == 0x7f ? '?' : c;
+  }
+  return result + (text.size() > kLongestQuote ? "...'" : "'");
+}
+
+std::string shortestDigits(double value)
+{
+  char digits[32];
+  const std::to_chars_result end = std::to_chars(digits, digits + sizeof(digits), value);
+  return std::string(digits, end.ptr);
+}
+
+std::string trimmed(const std::string& text)
+{
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first == std::string::npos ? std::string()
+                                    : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// One line without its LF or CRLF, at most kLongestLine + 1 bytes of it. False at the end of the file.
+bool readLine(std::istream& stream, std::string& line)
+{
+  line.clear();
+  int c = stream.get();
+  if (c == std::char_traits<char>::eof())
+  {
+    return false;
+  }
+  while (c != std::char_traits<char>::eof() && c != '\n' && line.size() <= kLongestLine)
+  {
+    line += char(c);
+    c = stream.get();
+  }
+  if (!line.empty() && line.back() == '\r')
+  {
+    line.pop_back();
+  }
+  return true;
+}
+
+/// A number, or in @p problem why it is none.
+bool parseNumber(const std::string& text, double& value, std::string& problem)
+{
+  const std::from_chars_result parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (parsed.ec == std::errc::result_out_of_range)
+  {
+    problem = quote(text) + " is too large or too small for a double";
+  }
+  else if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size())
+  {
+    problem = quote(text) + " is not a number: write it like 0.0125 or 1.25e-2";
+  }
+  else if (!std::isfinite(value))
+  {
+    problem = quote(text) + " is not finite: leave rows without a position out";
+  }
+  return problem.empty();
+}
+
+/// A row, or in @p problem what is wrong with it and the cure.
+bool parseRow(const std::string& line, HipPathPoint& point, std::string& problem)
+{
+  if (line.size() > kLongestLine)
+  {
+    problem = "the line has more than " + std::to_string(kLongestLine) + " characters: is this a text file?";
+    return false;
+  }
+  double numbers[kColumns];
+  std::size_t column = 0;
+  for (std::size_t begin = 0; begin <= line.size(); ++column)
+  {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    if (column < kColumns && !parseNumber(trimmed(line.substr(begin, end - begin)), numbers[column], problem))
+    {
+      problem = "column " + std::to_string(column + 1) + ": " + problem;
+      return false;
+    }
+    begin = end + 1;
+  }
+  if (column != kColumns)
+  {
+    problem = std::to_string(column) + " columns instead of 4: write t,x,y,z in each row";
+    return false;
+  }
+  point = { numbers[0], { numbers[1], numbers[2], numbers[3] } };
+  return true;
+}
+
+/// The first line, without the byte order mark that spreadsheets write.
+bool isHeader(std::string line)
+{
+  if (line.rfind("\xef\xbb\xbf", 0) == 0)
+  {
+    line.erase(0, 3);
+  }
+  line.erase(std::remove(line.begin(), line.end(), ' '), line.end());
+  return line == kHeader;
+}
+
+/// Reads the rows below the header. False: @p problem and the number of its line are set.
+bool readRows(std::istream& stream, HipPath& path, std::size_t& lineNumber, std::string& problem)
+{
+  std::string line;
+  std::size_t blankLine = 0;
+  while (readLine(stream, line))
+  {
+    ++lineNumber;
+    if (trimmed(line).empty())
+    {
+      blankLine = blankLine ? blankLine : lineNumber;
+      continue;
+    }
+    if (blankLine)
+    {
+      lineNumber = blankLine;
+      problem = "a blank line between rows: remove it";
+      return false;
+    }
+    HipPathPoint point;
+    if (!parseRow(line, point, problem))
+    {
+      return false;
+    }
+    if (!path.points.empty() && !(point.timeSeconds > path.points.back().timeSeconds))
+    {
+      problem = "time " + shortestDigits(point.timeSeconds) + " is not after the time before it, " +
+        shortestDigits(path.points.back().timeSeconds) + ": sort the rows by time and remove duplicates";
+      return false;
+    }
+    path.points.push_back(point);
+  }
+  if (path.points.empty())
+  {
+    problem = "no row below the header: add at least one";
+    return false;
+  }
+  return true;
+}
+
+Status writeRows(const std::string& fileName, const HipPath& path)
+{
+  std::ofstream stream(fileName, std::ios::binary);
+  stream << kHeader << '\n';
+  for (const HipPathPoint& point : path.points)
+  {
+    stream << shortestDigits(point.timeSeconds) << ',' << shortestDigits(point.position.x) << ','
+           << shortestDigits(point.position.y) << ',' << shortestDigits(point.position.z) << '\n';
+  }
+  stream.close();
+  return stream ? Status::Ok : Status::FileNotWritable;
+}
+
+std::string systemReason(int error)
+{
+  return error ? std::string(std::strerror(error)) : "unknown reason";
+}
+}
+
+Status HipPath::check() const noexcept
+{
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const bool later = i == 0 || points[i].timeSeconds > points[i - 1].timeSeconds;
+    if (!std::isfinite(points[i].timeSeconds) || !isFinite(points[i].position) || !later)
+    {
+      return Status::InvalidParameter;
+    }
+  }
+  return Status::Ok;
+}
+
+Vec3 HipPath::position(double timeSeconds, std::size_t& hint) const noexcept
+{
+  if (!(timeSeconds > points.front().timeSeconds))
+  {
+    hint = 0;
+    return points.front().position;
+  }
+  if (timeSeconds >= points.back().timeSeconds)
+  {
+    return points.back().position;
+  }
+  // Most calls stay in the hint's interval or go on to the next one.
+  constexpr int kNear = 4;
+  std::size_t i = std::min(hint, points.size() - 2);
+  for (int step = 0;
+       step < kNear && points[i].timeSeconds <= timeSeconds && points[i + 1].timeSeconds <= timeSeconds;
+       ++step)
+  {
+    ++i;
+  }
+  if (!(points[i].timeSeconds <= timeSeconds && timeSeconds < points[i + 1].timeSeconds))
+  {
+    const auto after = std::upper_bound(points.begin(), points.end(), timeSeconds,
+      [](double time, const HipPathPoint& point) { return time < point.timeSeconds; });
+    i = std::size_t(after - points.begin()) - 1;
+  }
+  hint = i;
+  const HipPathPoint& from = points[i];
+  const HipPathPoint& to = points[i + 1];
+  const double part = (timeSeconds - from.timeSeconds) / (to.timeSeconds - from.timeSeconds);
+  return from.position + part * (to.position - from.position);
+}
+
+Status readHipPath(const std::string& fileName, HipPath& path, std::string& message)
+{
+  path.points.clear();
+  message.clear();
+  std::error_code ignored;
+  errno = 0;
+  std::ifstream stream(fileName, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(fileName, ignored))
+  {
+    const std::string reason = errno ? systemReason(errno) : "it is a folder";
+    message = fileName + ": cannot be opened (" + reason + "): check the name and its permissions";
+    return Status::FileNotReadable;
+  }
+  std::string line;
+  std::size_t lineNumber = 1;
+  std::string problem;
+  if (!readLine(stream, line) || !isHeader(line))
+  {
+    problem = "the header is " + quote(line) + ": make the first line t,x,y,z (seconds and metres)";
+  }
+  else if (readRows(stream, path, lineNumber, problem) && !stream.bad())
+  {
+    return Status::Ok;
+  }
+  path.points.clear();
+  if (stream.bad())
+  {
+    message = fileName + ":" + std::to_string(lineNumber) + ": cannot be read further: check the disk";
+    return Status::FileNotReadable;
+  }
+  message = fileName + ":" + std::to_string(lineNumber) + ": " + problem;
+  return Status::FileMalformed;
+}
+
+Status writeHipPath(const std::string& fileName, const HipPath& path, std::string& message)
+{
+  namespace fs = std::filesystem;
+  message.clear();
+  if (path.check() != Status::Ok)
+  {
+    message = fileName +
+      ": the path holds a number that is not finite, or times that do not ascend: nothing is written";
+    return Status::InvalidParameter;
+  }
+  std::error_code error;
+  const fs::path resolved = fs::weakly_canonical(fileName, error);
+  const std::string target = error ? fileName : resolved.string();
+  const bool replace = !fs::exists(target, error) || fs::is_regular_file(target, error);
+  const std::string written = replace ? target + ".part-" + std::to_string(::getpid()) : target;
+  errno = 0;
+  if (writeRows(written, path) == Status::Ok)
+  {
+    error.clear();
+    if (replace)
+    {
+      fs::rename(written, target, error);
+    }
+    if (!error)
+    {
+      return Status::Ok;
+    }
+    errno = error.value();
+  }
+  message = fileName + ": cannot be written (" + systemReason(errno) +
+    "): check the folder, its permissions and the space";
+  if (replace)
+  {
+    fs::remove(written, error);
+  }
+  return Status::FileNotWritable;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,49 @@
+/// @file
+/// A recorded path of the hand: rows of time and position, read from and written to HIP.csv.
+#pragma once
+
+#include "Core/Status.h"
+#include "Core/Vector3.h"
+
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+
+struct HipPathPoint
+{
+  double timeSeconds = 0.0;
+  Vec3 position; ///< Metres, frame of the transformed cloud.
+};
+
+/// Times strictly ascending, all numbers finite. Plain data; position() may run in any number of threads,
+/// each with its own hint.
+struct HipPath
+{
+  std::vector<HipPathPoint> points;
+
+  /// Ok, or InvalidParameter: a number is not finite, or a time not above the one before it.
+  Status check() const noexcept;
+
+  double duration() const
+  {
+    return points.empty() ? 0.0 : points.back().timeSeconds - points.front().timeSeconds;
+  }
+  /// Linear between two points, the first and last position outside. @pre not empty. @p hint speeds up
+  /// ascending times: pass the same variable, first 0.
+  Vec3 position(double timeSeconds, std::size_t& hint) const noexcept;
+};
+
+/// Reads `t,x,y,z` with that header line: seconds and metres, one row a line, decimal point, spaces about
+/// numbers and CRLF line ends allowed, blank lines at the end only. On an error @p message says file, line,
+/// value and cure, and
+/// @p path is empty: FileNotReadable, FileMalformed (no row among others).
+Status readHipPath(const std::string& fileName, HipPath& path, std::string& message);
+/// Writes the same, shortest digits that read back to the same doubles. The file appears only when it is
+/// complete (it is written beside its place and renamed); what is no regular file, such as /dev/stdout, is
+/// written directly. InvalidParameter (see HipPath::check()), FileNotWritable; @p message then says what,
+/// where and the cure.
+Status writeHipPath(const std::string& fileName, const HipPath& path, std::string& message);
+
+} // namespace pointhaptics

@@ -1,0 +1,144 @@
+#include "Devices/SimulatedDevice.h"
+
+#include <algorithm>
+
+namespace pointhaptics
+{
+namespace
+{
+constexpr double kLongestStepSeconds = 1e-4;
+/// Longest time one call accounts for: after a longer pause the hand goes on from where it was.
+constexpr double kLongestPauseSeconds = 0.1;
+constexpr double kDefaultHalfEdge = 0.05;
+constexpr double kHoldingForce = 8.0;
+constexpr double kServoPeriod = 1e-3;
+constexpr int kButtons = 4;
+
+Vec3 clamped(const Vec3& p, const Bounds& box) noexcept
+{
+  Vec3 result;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result[axis] = std::min(std::max(p[axis], box.minimum[axis]), box.maximum[axis]);
+  }
+  return result;
+}
+
+bool above(double value, double minimum) noexcept
+{
+  return value > minimum && std::isfinite(value);
+}
+}
+
+SimulatedDevice::SimulatedDevice(const SimulatedHandSettings& settings)
+  : settings_(settings)
+{
+  if (settings_.workspace.empty())
+  {
+    settings_.workspace = Bounds();
+    settings_.workspace.include({ -kDefaultHalfEdge, -kDefaultHalfEdge, -kDefaultHalfEdge });
+    settings_.workspace.include({ kDefaultHalfEdge, kDefaultHalfEdge, kDefaultHalfEdge });
+  }
+}
+
+DeviceCapabilities SimulatedDevice::capabilities() const noexcept
+{
+  DeviceCapabilities result;
+  result.workspace = settings_.workspace;
+  result.maximumForce = kHoldingForce;
+  // A sampled spring is passive below 2 b / T.
+  result.maximumStiffness = 2.0 * settings_.gripDamping / kServoPeriod;
+  result.numberOfButtons = kButtons;
+  return result;
+}
+
+Status SimulatedDevice::open()
+{
+  if (!above(settings_.mass, 0.0) || !above(settings_.gripStiffness, 0.0) ||
+    !(settings_.gripDamping >= 0.0 && std::isfinite(settings_.gripDamping)) || !isFinite(settings_.start) ||
+    !isFinite(settings_.workspace.extent()))
+  {
+    return Status::InvalidParameter;
+  }
+  position_ = clamped(settings_.start, settings_.workspace);
+  velocity_ = {};
+  force_ = {};
+  lastTarget_ = position_;
+  target_.write(position_);
+  timed_ = false;
+  open_ = true;
+  return Status::Ok;
+}
+
+void SimulatedDevice::close()
+{
+  force_ = {};
+  open_ = false;
+}
+
+Status SimulatedDevice::read(double timeSeconds, HandState& state) noexcept
+{
+  if (!open_)
+  {
+    return Status::DeviceNotOpen;
+  }
+  // Met half way through a write the target before it serves one tick more.
+  static_cast<void>(target_.tryRead(lastTarget_));
+  const double elapsed = timed_ ? timeSeconds - lastTime_ : 0.0;
+  if (!settings_.yieldsToForce)
+  {
+    position_ = lastTarget_;
+  }
+  else if (elapsed > 0.0)
+  {
+    move(std::min(elapsed, kLongestPauseSeconds));
+  }
+  if (std::isfinite(timeSeconds))
+  {
+    lastTime_ = timeSeconds;
+    timed_ = true;
+  }
+  state.position = position_;
+  state.buttons = buttons_.load(std::memory_order_relaxed);
+  return Status::Ok;
+}
+
+void SimulatedDevice::move(double seconds) noexcept
+{
+  const int steps = int(std::ceil(seconds / kLongestStepSeconds));
+  const double h = seconds / steps;
+  const double k = settings_.gripStiffness / settings_.mass;
+  const double c = settings_.gripDamping / settings_.mass;
+  const double inverse = 1.0 / (1.0 + h * (c + h * k));
+  for (int step = 0; step < steps; ++step)
+  {
+    const Vec3 pull = k * (lastTarget_ - position_) + (1.0 / settings_.mass) * force_;
+    velocity_ = inverse * (velocity_ + h * pull);
+    const Vec3 free = position_ + h * velocity_;
+    position_ = clamped(free, settings_.workspace);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      velocity_[axis] = position_[axis] == free[axis] ? velocity_[axis] : 0.0;
+    }
+  }
+}
+
+Status SimulatedDevice::write(double, const Vec3& force) noexcept
+{
+  if (!open_)
+  {
+    return Status::DeviceNotOpen;
+  }
+  force_ = isFinite(force) ? force : Vec3();
+  return isFinite(force) ? Status::Ok : Status::InvalidParameter;
+}
+
+void SimulatedDevice::setTarget(const Vec3& target) noexcept
+{
+  if (isFinite(target))
+  {
+    target_.write(clamped(target, settings_.workspace));
+  }
+}
+
+} // namespace pointhaptics

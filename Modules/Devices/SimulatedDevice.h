@@ -1,0 +1,70 @@
+/// @file
+/// A hand without hardware: a mass on a spring and a damper, pulled to where the mouse (or a test) points.
+#pragma once
+
+#include "Devices/HapticDevice.h"
+
+#include "Haptics/LatestValue.h"
+
+#include <atomic>
+
+namespace pointhaptics
+{
+
+/// Arm of a person holding the grip; figures of a relaxed grasp.
+struct SimulatedHandSettings
+{
+  double mass = 0.1;            ///< kg, above 0.
+  double gripStiffness = 200.0; ///< N/m between where the person wants the hand and where it is; above 0.
+  double gripDamping = 9.0;     ///< N s/m, 0 or more; critical damping for the defaults.
+  bool yieldsToForce = true;    ///< Off: the hand is exactly at its target, whatever the force.
+  Vec3 start;                   ///< Position at open(), metres; clamped to the workspace.
+  Bounds workspace; ///< The hand and its targets stay in it; empty: the 10 cm cube about the origin.
+};
+
+/// m x'' = k (target - x) - c x' + f, with the force held from one write() to the next, as a real drive does.
+/// Integrated by the implicit Euler rule in steps of at most 0.1 ms (at most 1000 of them a call): stable for
+/// every spring, damper and rate; the trajectory is right to about 0.5 % of a step response with the default
+/// settings (SimulatedDeviceTest asserts 1 %). The workspace has hard ends: position and speed are bounded
+/// whatever the force.
+///
+/// setTarget() and setButtons() may be called from one other thread at any time; neither side waits for the
+/// other.
+class SimulatedDevice : public HapticDevice
+{
+public:
+  explicit SimulatedDevice(const SimulatedHandSettings& settings = {});
+
+  const char* name() const noexcept override { return "simulated"; }
+  DeviceCapabilities capabilities() const noexcept override;
+  /// The hand at rest at settings.start, which is also the target. InvalidParameter: a setting out of its
+  /// range.
+  Status open() override;
+  void close() override;
+  /// Moves the hand to @p timeSeconds. A time that is not after the last one moves nothing.
+  Status read(double timeSeconds, HandState& state) noexcept override;
+  /// InvalidParameter: @p force is not finite; the hand then feels none.
+  Status write(double timeSeconds, const Vec3& force) noexcept override;
+
+  /// Where the person wants the hand, workspace frame, metres; not finite: ignored.
+  void setTarget(const Vec3& target) noexcept;
+  /// The target in effect, after clamping. Any thread.
+  Vec3 target() const noexcept { return target_.read(); }
+  void setButtons(std::uint32_t buttons) noexcept { buttons_.store(buttons, std::memory_order_relaxed); }
+
+private:
+  void move(double seconds) noexcept;
+
+  SimulatedHandSettings settings_;
+  LatestValue<Vec3> target_;
+  std::atomic<std::uint32_t> buttons_{ 0 };
+  Vec3 lastTarget_;
+  Vec3 position_;
+  Vec3 velocity_;
+  Vec3 force_;
+  double lastTime_ = 0.0;
+  bool timed_ = false; ///< lastTime_ is that of a read since open().
+  bool open_ = false;
+};
+
+} // namespace pointhaptics
