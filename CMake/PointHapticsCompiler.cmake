@@ -1,0 +1,38 @@
+# Compiler settings every target of this project takes: warnings and sanitizers. Nothing here is
+# installed or seen by users of the package.
+add_library(pointhaptics_compiler INTERFACE)
+target_compile_options(pointhaptics_compiler INTERFACE -Wall -Wextra -Wshadow)
+if (POINTHAPTICS_WARNINGS_AS_ERRORS)
+  target_compile_options(pointhaptics_compiler INTERFACE -Werror)
+endif ()
+if (POINTHAPTICS_SANITIZE)
+  add_compile_options(-fsanitize=${POINTHAPTICS_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${POINTHAPTICS_SANITIZE})
+endif ()
+
+# pointhaptics_plain_library(<Name> SOURCES ... HEADERS ... [PUBLIC libs...] [PRIVATE libs...])
+# A C++17 library without VTK: target PointHaptics<Name>, alias PointHaptics::<Name>, installed and
+# exported with the package.
+function (pointhaptics_plain_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  set(target "PointHaptics${name}")
+  add_library(${target} ${ARG_SOURCES} ${ARG_HEADERS})
+  add_library(PointHaptics::${name} ALIAS ${target})
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_include_directories(${target} PUBLIC
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/Modules>"
+    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/PointHaptics>")
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:pointhaptics_compiler>)
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  install(TARGETS ${target} EXPORT PointHapticsPlain
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  foreach (header IN LISTS ARG_HEADERS)
+    get_filename_component(folder "${header}" DIRECTORY)
+    install(FILES "${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/PointHaptics/${name}/${folder}")
+  endforeach ()
+endfunction ()

@@ -1,0 +1,82 @@
+#include "PolyDataAccess.h"
+
+#include "vtkAbstractTransform.h"
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkHomogeneousTransform.h"
+#include "vtkIdTypeArray.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+
+#include <numeric>
+
+namespace pointhaptics
+{
+
+PointAccess::PointAccess(vtkPoints* points)
+{
+  if (!points || points->GetNumberOfPoints() == 0)
+  {
+    return;
+  }
+  keep_ = points->GetData();
+  const std::int64_t count = points->GetNumberOfPoints();
+  if (auto* floats = vtkFloatArray::FastDownCast(keep_))
+  {
+    view_ = PointView(floats->GetPointer(0), count);
+    return;
+  }
+  if (!vtkDoubleArray::FastDownCast(keep_))
+  {
+    vtkNew<vtkDoubleArray> copy;
+    copy->DeepCopy(points->GetData());
+    keep_ = copy;
+  }
+  view_ = PointView(vtkDoubleArray::FastDownCast(keep_)->GetPointer(0), count);
+}
+
+bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result)
+{
+  result = AffineTransform();
+  if (!transform)
+  {
+    return true;
+  }
+  auto* homogeneous = vtkHomogeneousTransform::SafeDownCast(transform);
+  if (!homogeneous)
+  {
+    return false;
+  }
+  homogeneous->Update();
+  const vtkMatrix4x4* matrix = homogeneous->GetMatrix();
+  if (matrix->GetElement(3, 0) != 0.0 || matrix->GetElement(3, 1) != 0.0 ||
+    matrix->GetElement(3, 2) != 0.0 || matrix->GetElement(3, 3) != 1.0)
+  {
+    return false;
+  }
+  for (int r = 0; r < 3; ++r)
+  {
+    for (int c = 0; c < 4; ++c)
+    {
+      result.m[r][c] = matrix->GetElement(r, c);
+    }
+  }
+  return true;
+}
+
+vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count)
+{
+  vtkNew<vtkIdTypeArray> offsets;
+  offsets->SetNumberOfValues(count + 1);
+  std::iota(offsets->GetPointer(0), offsets->GetPointer(0) + count + 1, vtkIdType(0));
+  vtkNew<vtkIdTypeArray> connectivity;
+  connectivity->SetNumberOfValues(count);
+  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType(0));
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+} // namespace pointhaptics

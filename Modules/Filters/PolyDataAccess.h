@@ -1,0 +1,37 @@
+/// @file
+/// Between VTK's data objects and Core's views.
+#pragma once
+
+#include "Core/AffineTransform.h"
+#include "Core/PointView.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+class vtkAbstractTransform;
+class vtkCellArray;
+class vtkDataArray;
+class vtkPoints;
+
+namespace pointhaptics
+{
+
+/// The coordinates of a vtkPoints as a view; anything but plain float or double arrays is copied to double first.
+class PointAccess
+{
+public:
+  explicit PointAccess(vtkPoints* points);
+  const PointView& view() const { return view_; }
+
+private:
+  vtkSmartPointer<vtkDataArray> keep_;
+  PointView view_;
+};
+
+/// The matrix of a linear transform; null gives the identity. @return false for a transform that is not affine.
+bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result);
+
+/// @p count vertex cells, one per point, in order.
+vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count);
+
+} // namespace pointhaptics
