@@ -1,0 +1,32 @@
+/// @file
+/// How far a surface fit should look: far enough to average the noise, not so far that curvature bends the answer.
+#pragma once
+
+#include "Core/CellPyramid.h"
+#include "Core/Executor.h"
+#include "Core/RadiusField.h"
+
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// What the cloud says about fits at one place; metres.
+struct FitScale
+{
+  double countRadius = 0.0; ///< Smallest radius with 30 points and 14 cells in the fit, at least 3.6 cells.
+  double radius = 0.0;      ///< Chosen radius: countRadius where the cloud is clean, more where it is noisy.
+  double noise = 0.0;       ///< Standard deviation of the points about the surface.
+};
+
+/// Lepski's rule on a ladder of radii at the cell mean @p seed: a longer radius is taken while it agrees with every
+/// shorter one within three of that one's standard errors, in position and in both slopes.
+/// @p largestCount bounds the radius that is grown for points, @p largest the one grown against noise; metres.
+FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest);
+
+/// chooseFitRadius at each cell of the field's node level, medians of the neighbours taken against outliers, as the
+/// radius and gate of the surface fit.
+std::vector<LocalScale> fitScales(
+  const CellPyramid& pyramid, double largestCount, double largest, const Executor& executor = {});
+
+} // namespace pointhaptics

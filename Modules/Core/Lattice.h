@@ -1,0 +1,81 @@
+/// @file
+/// The regular lattice of voxels over the workspace, and the one home of the floor index.
+#pragma once
+
+#include "Core/PointView.h"
+#include "Core/Status.h"
+
+#include <array>
+#include <cstdint>
+
+namespace pointhaptics
+{
+
+/// Voxels on one axis that a 64-bit key of three axes can hold (2^21).
+constexpr std::int64_t kMaximumLatticeDimension = std::int64_t(1) << 21;
+/// Voxels on each axis unless the user says otherwise (the paper's 300^3).
+constexpr std::int64_t kDefaultLatticeDimension = 300;
+/// Edge of the haptic workspace in metres: the paper's 10 cm cube.
+constexpr double kDefaultWorkspaceEdge = 0.1;
+
+/// Half-open voxels [origin + i spacing, origin + (i + 1) spacing), i from 0 to dimensions - 1 on each axis.
+/// Units: those of the coordinates (metres in the workspace frame). Plain data: copy and read freely.
+struct Lattice
+{
+  Vec3 origin;
+  Vec3 spacing{ 1.0, 1.0, 1.0 };
+  std::array<std::int64_t, 3> dimensions{ 1, 1, 1 };
+
+  /// (x - origin) / spacing, in double.
+  Vec3 continuousIndex(const Vec3& p) const noexcept
+  {
+    return { (p.x - origin.x) / spacing.x, (p.y - origin.y) / spacing.y, (p.z - origin.z) / spacing.z };
+  }
+  /// True where 0 <= u < dimensions on every axis; false for NaN.
+  bool contains(const Vec3& continuous) const noexcept
+  {
+    return continuous.x >= 0.0 && continuous.x < double(dimensions[0]) && continuous.y >= 0.0 &&
+      continuous.y < double(dimensions[1]) && continuous.z >= 0.0 && continuous.z < double(dimensions[2]);
+  }
+  /// Linear index, x fastest. @pre contains() held for the continuous index these were floored from.
+  std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) const noexcept
+  {
+    return std::uint64_t(i) +
+      std::uint64_t(dimensions[0]) * (std::uint64_t(j) + std::uint64_t(dimensions[1]) * std::uint64_t(k));
+  }
+  std::array<std::int64_t, 3> indexOf(std::uint64_t key) const noexcept
+  {
+    const std::uint64_t nx = std::uint64_t(dimensions[0]);
+    const std::uint64_t ny = std::uint64_t(dimensions[1]);
+    return { std::int64_t(key % nx), std::int64_t((key / nx) % ny), std::int64_t(key / nx / ny) };
+  }
+  Bounds bounds() const noexcept
+  {
+    Bounds box;
+    box.include(origin);
+    box.include({ origin.x + spacing.x * double(dimensions[0]), origin.y + spacing.y * double(dimensions[1]),
+      origin.z + spacing.z * double(dimensions[2]) });
+    return box;
+  }
+  /// Ok, InvalidWorkspace, InvalidVoxelSize, InvalidDimensions.
+  Status check() const noexcept;
+};
+
+/// What a user says about the lattice; makeLattice turns it into one.
+struct LatticeSettings
+{
+  std::array<std::int64_t, 3> dimensions{ kDefaultLatticeDimension, kDefaultLatticeDimension,
+    kDefaultLatticeDimension };
+  double voxelSize = 0.0;         ///< Edge of a cubic voxel in metres; above 0 it rules over dimensions.
+  bool automaticWorkspace = true; ///< A cube about the transformed cloud instead of workspace.
+  Bounds workspace;               ///< Used when automaticWorkspace is false.
+};
+
+/// The lattice for a cloud whose transformed, finite points lie in @p cloud (which may be empty).
+/// An automatic workspace is a cube about the cloud, half a voxel wider on each side than its longest extent, so that
+/// no point lies on a face; a cloud without extent gets kDefaultWorkspaceEdge, or 1e-6 of its coordinates if that is
+/// more. With voxelSize the number of voxels is rounded up. Errors: InvalidWorkspace, InvalidDimensions,
+/// InvalidVoxelSize, LatticeNotAddressable; @p lattice is then unchanged.
+Status makeLattice(const LatticeSettings& settings, const Bounds& cloud, Lattice& lattice) noexcept;
+
+} // namespace pointhaptics

@@ -1,0 +1,49 @@
+/// @file
+/// Lengths that vary smoothly over the cloud: the radius of the proxy, or the radius and gate of the surface fit.
+#pragma once
+
+#include "Core/CellPyramid.h"
+
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// What a field tells of a place; both in metres.
+struct LocalScale
+{
+  double radius = 0.0;
+  double gate = 0.0; ///< Depth of the fit's gate; unused in a field of proxy radii.
+};
+
+/// One pair of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact support.
+/// Radii are cut so that neighbours differ by at most half their distance. A function of position only: it knows
+/// nothing of any proxy. Immutable after build(); any number of threads may read.
+class RadiusField
+{
+public:
+  /// Level whose cells carry the values: 8 finest voxels apart, or the coarsest there is.
+  static int nodeLevel(const CellPyramid& pyramid);
+
+  /// @param values one per cell of nodeLevel(pyramid), radii above 0, in that order. Keeps a pointer to nothing.
+  void build(const CellPyramid& pyramid, std::vector<LocalScale> values);
+
+  /// Blended values at @p position, typical() where no node is within reach(). @p pyramid is the one of build().
+  LocalScale at(const CellPyramid& pyramid, const Vec3& position) const noexcept;
+
+  /// Distance from a node beyond which it has no weight.
+  double reach() const { return reach_; }
+  /// Medians of the values: the answer for places far from the cloud.
+  const LocalScale& typical() const { return typical_; }
+
+private:
+  template <typename Member>
+  double median(Member member) const;
+
+  std::vector<LocalScale> values_;
+  LocalScale typical_;
+  double reach_ = 0.0;
+  int level_ = 0;
+};
+
+} // namespace pointhaptics
