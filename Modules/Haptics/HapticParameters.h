@@ -1,0 +1,64 @@
+/// @file
+/// Every constant of the haptic rendering that a user may set, with its unit, default and range.
+#pragma once
+
+#include "Core/Status.h"
+
+namespace pointhaptics
+{
+
+enum class ProxyMethod
+{
+  SurfaceFit,    ///< Local quadric fit to the voxel means: the accurate method, default.
+  GradientSteps, ///< The paper's iteration on the sum of point penetrations.
+};
+
+/// How the proxy meets the surface and what the spring is. Plain data; hand it to Proxy by value.
+struct ContactParameters
+{
+  double stiffness = 800.0;     ///< K, N/m, 0 to 1e5.
+  double damping = 0.0;         ///< Of the HIP's speed along the normal in contact, N s/m, 0 to 1e3.
+  double staticFriction = 0.0;  ///< mu_s, 0 to 10; at least dynamicFriction.
+  double dynamicFriction = 0.0; ///< mu_d, 0 to 10.
+};
+
+/// Gains of GradientSteps. Symbols are the paper's.
+struct GradientStepsParameters
+{
+  double freeGain = 0.002;            ///< k_h: part of the way to the HIP per step in free space, 0 to 1.
+  double normalGain = 0.064;          ///< k_n: step along v_n (the sum of penetrations) per step, 0 to 10.
+  double tangentGain = 8e-6;          ///< delta: part of v_t per step in contact, 0 to 1.
+  double sinkTolerance = 0.05;        ///< zeta / r_p, 0 to 1: the proxy sinks where |v_n| exceeds zeta.
+  double stepPeriodSeconds = 3.28e-5; ///< Time one step stands for: steps per tick = tick / this, at least 1.
+  int maximumStepsPerTick = 64;       ///< Cap of the bounded work per tick, 1 to 10000.
+  double largestStep =
+    0.5; ///< Longest free or tangential step over the radius: keeps the sphere from diving in.
+  bool normalizedByDensity = false; ///< k_n acts on the part of v_n above zeta, divided by the number of
+                                    ///< points in the sphere: a Newton step, whatever the density.
+
+  /// The paper's printed values: they cannot follow a moving hand (see Documentation/Method.md).
+  static GradientStepsParameters paper() { return {}; }
+  /// Gains that track a hand at 50 mm/s.
+  static GradientStepsParameters tuned();
+};
+
+/// Limits the force must keep whatever the proxy says; in newtons and newtons per second.
+struct ForceLimits
+{
+  double maximumForce = 8.0; ///< Clamp of |f|, 0 to infinity; the Falcon's drive ends near 8 N.
+  double maximumSlewRate =
+    4000.0; ///< |df/dt|, 0 to infinity: at 1 kHz the force grows by at most 4 N a tick.
+  /// Ok, or InvalidParameter where a limit is negative or NaN.
+  Status check() const noexcept;
+};
+
+struct HapticParameters
+{
+  ProxyMethod method = ProxyMethod::SurfaceFit;
+  ContactParameters contact;
+  GradientStepsParameters gradientSteps = GradientStepsParameters::tuned();
+  /// Ok, or InvalidParameter where a value is outside its range or not finite.
+  Status check() const noexcept;
+};
+
+} // namespace pointhaptics

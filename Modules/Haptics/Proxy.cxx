@@ -1,0 +1,149 @@
+#include "Haptics/Proxy.h"
+
+#include "Haptics/GradientSteps.h"
+#include "Haptics/SurfaceFitProxy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+/// Time constant and end of the fade of a force whose HIP is not finite.
+constexpr double kFadeSeconds = 0.010;
+}
+
+struct Proxy::Implementation
+{
+  HapticParameters parameters;
+  const HapticScene* scene = nullptr;
+  AffineTransform lastTransform;
+  bool hadScene = false;
+  SurfaceFitProxy surfaceFit;
+  GradientSteps gradientSteps;
+  ProxyState last;
+  Vec3 lastHip;
+  bool hasLastHip = false;
+  double fadedSeconds = 0.0;
+
+  void forget() noexcept
+  {
+    surfaceFit.reset();
+    gradientSteps.reset();
+    last = ProxyState();
+    hasLastHip = false;
+    fadedSeconds = 0.0;
+  }
+
+  /// The last state, its force fading to zero.
+  ProxyState hold(double dt) noexcept
+  {
+    fadedSeconds += dt;
+    const double left = std::max(0.0, 1.0 - fadedSeconds / kFadeSeconds);
+    ProxyState state = last;
+    state.force = left * last.force;
+    state.contact = last.contact && left > 0.0;
+    state.status = kProxyNonFiniteInput;
+    return state;
+  }
+
+  Vec3 forceOf(const ProxyState& state, double dt) const noexcept
+  {
+    if (!state.contact)
+    {
+      return {};
+    }
+    const ContactParameters& contact = parameters.contact;
+    Vec3 force = contact.stiffness * (state.proxy - state.hip);
+    if (contact.damping > 0.0 && hasLastHip && dt > 0.0)
+    {
+      const double speed = dot(state.hip - lastHip, state.normal) / dt;
+      const double spring = dot(force, state.normal);
+      // Damping never pulls the hand into the surface.
+      force += std::max(-contact.damping * speed, -spring) * state.normal;
+    }
+    return force;
+  }
+};
+
+Proxy::Proxy(const HapticParameters& parameters)
+  : implementation_(std::make_unique<Implementation>())
+{
+  implementation_->parameters = parameters;
+}
+Proxy::~Proxy() = default;
+Proxy::Proxy(Proxy&&) noexcept = default;
+Proxy& Proxy::operator=(Proxy&&) noexcept = default;
+
+void Proxy::setParameters(const HapticParameters& parameters) noexcept
+{
+  Implementation& self = *implementation_;
+  if (parameters.check() != Status::Ok)
+  {
+    return;
+  }
+  if (parameters.method != self.parameters.method)
+  {
+    self.forget();
+  }
+  self.parameters = parameters;
+}
+
+const HapticParameters& Proxy::parameters() const noexcept { return implementation_->parameters; }
+
+void Proxy::setScene(const HapticScene* scene) noexcept
+{
+  Implementation& self = *implementation_;
+  if (scene && self.hadScene && !(scene->modelToWorkspace() == self.lastTransform))
+  {
+    self.surfaceFit.carry(self.lastTransform, scene->modelToWorkspace());
+    self.gradientSteps.carry(self.lastTransform, scene->modelToWorkspace());
+  }
+  if (!scene)
+  {
+    self.forget();
+  }
+  else
+  {
+    self.lastTransform = scene->modelToWorkspace();
+  }
+  self.hadScene = scene != nullptr;
+  self.scene = scene;
+}
+
+void Proxy::reset() noexcept { implementation_->forget(); }
+
+ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
+{
+  Implementation& self = *implementation_;
+  if (!isFinite(hip) || !(dt > 0.0))
+  {
+    return self.hold(dt > 0.0 ? dt : kFadeSeconds);
+  }
+  ProxyState state;
+  state.hip = hip;
+  state.proxy = hip;
+  state.sphereCenter = hip;
+  state.normal = self.last.normal;
+  if (!self.scene)
+  {
+    state.status = kProxyNoScene;
+  }
+  else if (self.parameters.method == ProxyMethod::SurfaceFit)
+  {
+    self.surfaceFit.step(*self.scene, self.parameters.contact, hip, state);
+  }
+  else
+  {
+    self.gradientSteps.step(*self.scene, self.parameters, hip, dt, state);
+  }
+  state.force = self.forceOf(state, dt);
+  self.last = state;
+  self.lastHip = hip;
+  self.hasLastHip = true;
+  self.fadedSeconds = 0.0;
+  return state;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,302 @@
+#include "Haptics/SurfaceFitProxy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// A stride of the HIP along its segment, over the fit radius: a surface changes little within it.
+constexpr double kStrideRadii = 0.4;
+/// Strides one tick may walk; the rest of a longer jump is caught up over the next ticks.
+constexpr int kMaximumStrides = 512;
+/// Times one tick may look for a new sheet.
+constexpr int kMaximumAcquisitions = 2;
+/// A sheet is watched when the HIP is nearer than this, over the fit radius.
+constexpr double kWatchRadii = 1.0;
+/// Another sheet is looked for when it is nearer than the watched one by this part of an index cell.
+constexpr double kNearerCells = 0.5;
+constexpr int kRoundsPerTick = 8;
+constexpr int kRoundsWatching = 3;
+constexpr int kHoldTicks = 20;
+/// The HIP comes out of a sheet by its own motion, and by no more than this part of the fit radius besides: a larger
+/// jump is the fit's, at a ridge or in noise.
+constexpr double kReleaseSlack = 0.05;
+
+}
+
+void SurfaceFitProxy::reset() noexcept { *this = SurfaceFitProxy(); }
+
+void SurfaceFitProxy::step(const HapticScene& scene, const ContactParameters& parameters, const Vec3& hip,
+  ProxyState& state) noexcept
+{
+  if (!hasLastHip_)
+  {
+    lastHip_ = hip;
+    hasLastHip_ = true;
+  }
+  const Vec3 path = hip - lastHip_;
+  const double length = norm(path);
+  double walked = 0.0;
+  Vec3 from = lastHip_;
+  int strides = 0;
+  acquisitions_ = 0;
+  do
+  {
+    double stride = kStrideRadii * scene.fitRadius(from);
+    if (mode_ == Mode::Free && !scene.isNear(from))
+    {
+      stride = std::max(stride, scene.clearance());
+    }
+    walked = std::min(length, walked + stride);
+    const Vec3 to = walked < length ? lastHip_ + (walked / length) * path : hip;
+    if (mode_ == Mode::Contact)
+    {
+      touch(scene, to, state.status);
+    }
+    else
+    {
+      moveFree(scene, from, to, state.status);
+    }
+    from = to;
+    if ((++strides >= kMaximumStrides || acquisitions_ >= kMaximumAcquisitions) && walked < length)
+    {
+      state.status |= kProxyStepLimit;
+      break;
+    }
+  } while (walked < length);
+  lastHip_ = from;
+
+  if (mode_ == Mode::Contact)
+  {
+    lastNormal_ = tracker_.normal();
+    applyFriction(parameters, hip);
+  }
+  else
+  {
+    touchedLastTick_ = false;
+    contactPoint_ = hip;
+  }
+  state.contact = mode_ == Mode::Contact;
+  state.proxy = contactPoint_;
+  state.normal = lastNormal_;
+  state.radius = scene.proxyRadius(contactPoint_);
+  state.sphereCenter = state.contact ? contactPoint_ + state.radius * lastNormal_ : hip;
+}
+
+void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& to) noexcept
+{
+  if (mode_ == Mode::Contact)
+  {
+    tracker_.carry(from, to);
+    contactPoint_ = (to * from.inverse()).apply(contactPoint_);
+  }
+  else
+  {
+    mode_ = Mode::Free;
+  }
+}
+
+/// One stride in free space.
+void SurfaceFitProxy::moveFree(
+  const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept
+{
+  if (mode_ == Mode::Watching)
+  {
+    watch(scene, from, to, status);
+    return;
+  }
+  const double reach = kWatchRadii * scene.fitRadius(to);
+  if (seek(scene, from, to, reach))
+  {
+    watch(scene, from, to, status);
+  }
+}
+
+/// Looks for the nearest cell about @p at and starts to watch its sheet, seen from @p from.
+bool SurfaceFitProxy::seek(
+  const HapticScene& scene, const Vec3& from, const Vec3& at, double reach) noexcept
+{
+  double distance = 0.0;
+  const std::int64_t cell = scene.pyramid().nearest(0, at, reach, distance);
+  if (cell < 0)
+  {
+    return false;
+  }
+  SurfaceTracker found;
+  ++acquisitions_;
+  if (!found.acquire(scene, scene.pyramid().level(0).cells[std::size_t(cell)].mean, from))
+  {
+    return false;
+  }
+  tracker_ = found;
+  mode_ = Mode::Watching;
+  return true;
+}
+
+/// Follows the watched sheet from @p from to @p to; contact begins where the HIP goes through it.
+void SurfaceFitProxy::watch(
+  const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept
+{
+  const double before = tracker_.height(from);
+  if (tracker_.follow(scene, to, kRoundsWatching) == TrackResult::Lost)
+  {
+    mode_ = Mode::Free;
+    return;
+  }
+  const double height = tracker_.height(to);
+  const double apart = norm(to - tracker_.point());
+  if (height < 0.0 && before >= 0.0)
+  {
+    mode_ = Mode::Contact;
+    heldTicks_ = 0;
+    lastTouched_ = to;
+    touch(scene, to, status);
+    return;
+  }
+  if (apart > 1.5 * kWatchRadii * tracker_.fitRadius() || height < 0.0)
+  {
+    mode_ = Mode::Free;
+    return;
+  }
+  // Another sheet may have come nearer than this one.
+  double distance = 0.0;
+  const double nearer = apart - kNearerCells * scene.cellSize();
+  if (nearer > 0.0 && scene.pyramid().nearest(0, to, nearer, distance) >= 0)
+  {
+    const SurfaceTracker watched = tracker_;
+    if (!seek(scene, from, to, nearer))
+    {
+      tracker_ = watched;
+      return;
+    }
+    if (tracker_.follow(scene, to, kRoundsWatching) == TrackResult::Lost)
+    {
+      tracker_ = watched;
+      return;
+    }
+    if (tracker_.height(to) < 0.0)
+    {
+      mode_ = Mode::Contact;
+      heldTicks_ = 0;
+      lastTouched_ = to;
+      touch(scene, to, status);
+    }
+  }
+}
+
+/// One stride in contact.
+void SurfaceFitProxy::touch(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept
+{
+  const SurfaceTracker before = tracker_;
+  TrackResult result = tracker_.follow(scene, to, kRoundsPerTick);
+  const double slack = norm(to - lastTouched_) + kReleaseSlack * before.fitRadius();
+  if (result != TrackResult::Lost && tracker_.height(to) > 0.0 && before.height(to) < -slack)
+  {
+    result = TrackResult::Lost;
+  }
+  lastTouched_ = to;
+  if (result == TrackResult::Lost)
+  {
+    status |= kProxyLostSurface;
+    tracker_ = before;
+    if (recover(scene, to))
+    {
+      heldTicks_ = 0;
+    }
+    else if (++heldTicks_ > kHoldTicks)
+    {
+      mode_ = Mode::Free;
+    }
+    return;
+  }
+  heldTicks_ = 0;
+  if (result == TrackResult::RoundLimit)
+  {
+    status |= kProxyRoundLimit;
+  }
+  if (tracker_.height(to) > 0.0)
+  {
+    mode_ = Mode::Watching;
+    return;
+  }
+  if (endsHere(scene, to, status))
+  {
+    mode_ = Mode::Free;
+  }
+}
+
+/// Finds the sheet again where it was last good, from its free side.
+bool SurfaceFitProxy::recover(const HapticScene& scene, const Vec3& to) noexcept
+{
+  const double radius = scene.fitRadius(tracker_.point());
+  double distance = 0.0;
+  const std::int64_t cell = scene.pyramid().nearest(0, tracker_.point(), radius, distance);
+  if (cell < 0)
+  {
+    return false;
+  }
+  const Vec3 freeSide = tracker_.point() + 0.5 * radius * tracker_.normal();
+  SurfaceTracker found;
+  if (!found.acquire(scene, scene.pyramid().level(0).cells[std::size_t(cell)].mean, freeSide) ||
+    dot(found.normal(), tracker_.normal()) < 0.0 ||
+    found.follow(scene, to, kRoundsPerTick) == TrackResult::Lost || found.height(to) > 0.0)
+  {
+    return false;
+  }
+  tracker_ = found;
+  return true;
+}
+
+/// At a rim: goes around a sharp edge where the surface goes on behind it; true where it does not.
+bool SurfaceFitProxy::endsHere(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept
+{
+  Vec3 outward;
+  if (!tracker_.isAtRim(scene, outward))
+  {
+    return false;
+  }
+  if (tracker_.turnAroundEdge(scene, outward, to) && tracker_.height(to) <= 0.0)
+  {
+    return false;
+  }
+  status |= kProxyReleasedAtRim;
+  return true;
+}
+
+/// Coulomb friction as a cone: sticks while the tangential offset is within mu_s depth, else slides on the rim of
+/// mu_d depth.
+void SurfaceFitProxy::applyFriction(const ContactParameters& parameters, const Vec3& hip) noexcept
+{
+  const Vec3 foot = tracker_.point();
+  if (!touchedLastTick_)
+  {
+    touchedLastTick_ = true;
+    // The first foot point: friction has nothing to hold yet.
+    contactPoint_ = foot;
+    sticking_ = true;
+    return;
+  }
+  if (!(parameters.staticFriction > 0.0))
+  {
+    contactPoint_ = foot;
+    return;
+  }
+  const double depth = std::max(0.0, -tracker_.height(hip));
+  const Vec3 offset = contactPoint_ - foot;
+  const Vec3 tangential = offset - dot(offset, tracker_.normal()) * tracker_.normal();
+  const double length = norm(tangential);
+  const double hold = (sticking_ ? parameters.staticFriction : parameters.dynamicFriction) * depth;
+  sticking_ = length <= hold;
+  if (sticking_)
+  {
+    contactPoint_ = tracker_.alongSurface(tangential);
+    return;
+  }
+  const double slide = parameters.dynamicFriction * depth;
+  contactPoint_ = tracker_.alongSurface((slide / length) * tangential);
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,53 @@
+/// @file
+/// The accurate proxy: a point on the local surface fit, with a friction cone.
+#pragma once
+
+#include "Haptics/HapticParameters.h"
+#include "Haptics/Proxy.h"
+#include "Haptics/SurfaceTracker.h"
+
+namespace pointhaptics
+{
+
+/// In free space it watches the segment the HIP moves along and meets the first surface there; in contact it follows
+/// the foot point of the HIP on that sheet, and lets go where the HIP comes out, or where the surface ends.
+/// Everything converges within the tick. One thread; no allocation; bounded work.
+class SurfaceFitProxy
+{
+public:
+  /// A contact moves with the model from one transform to another.
+  void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
+  void reset() noexcept;
+  /// @pre hip finite, scene not null. Fills all of the state but force.
+  void step(const HapticScene& scene, const ContactParameters& parameters, const Vec3& hip, ProxyState& state) noexcept;
+
+private:
+  enum class Mode
+  {
+    Free,     ///< No surface near.
+    Watching, ///< Above a known sheet.
+    Contact,
+  };
+
+  void moveFree(const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept;
+  void watch(const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept;
+  bool seek(const HapticScene& scene, const Vec3& from, const Vec3& at, double reach) noexcept;
+  void touch(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept;
+  bool recover(const HapticScene& scene, const Vec3& to) noexcept;
+  bool endsHere(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept;
+  void applyFriction(const ContactParameters& parameters, const Vec3& hip) noexcept;
+
+  SurfaceTracker tracker_;
+  Mode mode_ = Mode::Free;
+  Vec3 lastHip_;
+  Vec3 lastTouched_;
+  Vec3 contactPoint_;
+  Vec3 lastNormal_{ 0.0, 0.0, 1.0 };
+  bool hasLastHip_ = false;
+  bool sticking_ = false;
+  bool touchedLastTick_ = false;
+  int heldTicks_ = 0;
+  int acquisitions_ = 0;
+};
+
+} // namespace pointhaptics

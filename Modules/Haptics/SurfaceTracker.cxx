@@ -1,0 +1,215 @@
+#include "Haptics/SurfaceTracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Converged when a round moves the point by less than this part of the fit radius.
+constexpr double kConverged = 1e-6;
+/// Part of the noise below which moving on is pointless.
+constexpr double kConvergedNoise = 1e-3;
+constexpr double kSmallestDamping = 0.15;
+/// A point that moves further than this many fit radii from where it started has lost its sheet.
+constexpr double kLostRadii = 2.0;
+constexpr int kAcquireRounds = 8;
+/// Weighted centroid over the fit radius beyond which the surface may end here (0.235 on a straight rim).
+constexpr double kRimCentroid = 0.15;
+/// How far, in index cells, points on the empty side may reach at a rim.
+constexpr double kRimSlack = 0.06;
+constexpr double kRimRadiusInCells = 6.0;
+constexpr double kEdgeReachInCells = 9.0;
+constexpr double kEdgeLeastCosine = -0.5;
+
+}
+
+void SurfaceTracker::adopt(const Vec3& foot, const Vec3& normal) noexcept
+{
+  frame_.origin = foot;
+  frame_.turnTo(normal);
+  for (int i = 0; i < 3; ++i)
+  {
+    curvature_[i] = fit_.k[3 + i] / fit_.radius;
+  }
+}
+
+bool SurfaceTracker::acquire(
+  const HapticScene& scene, const Vec3& onSurface, const Vec3& freeSide) noexcept
+{
+  const double radius = scene.fitRadius(onSurface);
+  SurfaceTracker best;
+  bool found = false;
+  for (const double scale : { 1.0, 0.7, 1.4 })
+  {
+    Vec3 normal;
+    SurfaceTracker attempt;
+    if (!principalNormal(scene.pyramid(), onSurface, scale * radius, normal))
+    {
+      continue;
+    }
+    attempt.frame_.turnTo(normal);
+    if (!settleOnSurface(
+          scene.pyramid(), onSurface, radius, attempt.frame_, attempt.fit_, attempt.curvature_) ||
+      norm2(attempt.point() - onSurface) > radius * radius)
+    {
+      continue;
+    }
+    if (!found || attempt.residual() < 0.8 * best.residual())
+    {
+      best = attempt;
+      found = true;
+    }
+    // A clean sheet needs no second try.
+    if (best.residual() < 0.05 * radius)
+    {
+      break;
+    }
+  }
+  if (!found)
+  {
+    return false;
+  }
+  if (best.height(freeSide) < 0.0)
+  {
+    best.frame_.turnTo(-best.frame_.normal);
+    std::transform(best.curvature_, best.curvature_ + 3, best.curvature_, [](double c) { return -c; });
+  }
+  if (best.follow(scene, freeSide, kAcquireRounds) == TrackResult::Lost)
+  {
+    return false;
+  }
+  if (best.height(freeSide) < 0.0)
+  {
+    best.frame_.turnTo(-best.frame_.normal);
+    std::transform(best.curvature_, best.curvature_ + 3, best.curvature_, [](double c) { return -c; });
+    if (best.follow(scene, freeSide, kAcquireRounds) == TrackResult::Lost || best.height(freeSide) < 0.0)
+    {
+      return false;
+    }
+  }
+  *this = best;
+  return true;
+}
+
+TrackResult SurfaceTracker::follow(const HapticScene& scene, const Vec3& target, int rounds) noexcept
+{
+  const Vec3 start = frame_.origin;
+  Vec3 lastPoint = start;
+  Vec3 lastStep;
+  double lastLength = 0.0;
+  for (int round = 0; round < rounds; ++round)
+  {
+    FitSettings settings;
+    const LocalScale scale = scene.fitScale(frame_.origin);
+    settings.radius = scale.radius;
+    settings.gate = scale.gate;
+    std::copy(curvature_, curvature_ + 3, settings.curvature);
+    const SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings);
+    if (fit.quality == FitQuality::None)
+    {
+      return TrackResult::Lost;
+    }
+    fit_ = fit;
+    Vec3 foot;
+    Vec3 normal;
+    footPoint(fit_, frame_, target, foot, normal);
+    Vec3 step = foot - frame_.origin;
+    const double length = norm(step);
+    // Rounds that shrink too slowly swing about the answer: shorten the tangential step (Barzilai and Borwein's).
+    if (round > 0 && length > 0.5 * lastLength)
+    {
+      const Vec3 s = frame_.origin - lastPoint;
+      const Vec3 y = step - lastStep;
+      const double yy = norm2(y);
+      const double alpha = yy > 0.0 ? std::clamp(-dot(s, y) / yy, kSmallestDamping, 1.0) : 1.0;
+      const double rise = dot(step, frame_.normal);
+      const Vec3 tangential = step - rise * frame_.normal;
+      const Vec3 local = (1.0 / fit_.radius) * Vec3{ alpha * dot(tangential, frame_.a), alpha * dot(tangential, frame_.b), 0.0 };
+      foot = frame_.toWorld(fit_.radius * Vec3{ local.x, local.y, fit_.height(local.x, local.y) });
+    }
+    lastPoint = frame_.origin;
+    lastStep = step;
+    lastLength = length;
+    if (norm2(foot - start) > kLostRadii * kLostRadii * fit_.radius * fit_.radius || !isFinite(foot))
+    {
+      return TrackResult::Lost;
+    }
+    adopt(foot, normal);
+    if (length <= std::max(kConverged * fit_.radius, kConvergedNoise * fit_.residual))
+    {
+      return TrackResult::Converged;
+    }
+  }
+  return TrackResult::RoundLimit;
+}
+
+void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& to) noexcept
+{
+  const AffineTransform change = to * from.inverse();
+  frame_.origin = change.apply(frame_.origin);
+  frame_.turnTo(normalized(change.applyToNormal(frame_.normal), frame_.normal));
+  std::fill(curvature_, curvature_ + 3, 0.0);
+}
+
+bool SurfaceTracker::isAtRim(const HapticScene& scene, Vec3& outward) const noexcept
+{
+  const double c = std::hypot(fit_.centroidU, fit_.centroidV);
+  if (c <= kRimCentroid)
+  {
+    return false;
+  }
+  const Vec3 direction = normalized(-(fit_.centroidU * frame_.a + fit_.centroidV * frame_.b), frame_.a);
+  outward = direction;
+  const double cell = scene.cellSize();
+  const double radius = std::max(kRimRadiusInCells * cell, 2.0 * fit_.radius);
+  const double slack = kRimSlack * cell;
+  bool beyond = false;
+  scene.pyramid().visitBall(0, frame_.origin, radius,
+    [&](std::uint32_t, const Cell& m, double)
+    {
+      // What lies far below the tangent plane is another sheet, not the surface going on.
+      const Vec3 d = m.mean - frame_.origin;
+      beyond = beyond || (dot(d, direction) > slack && std::abs(dot(d, frame_.normal)) < radius);
+    });
+  return !beyond;
+}
+
+bool SurfaceTracker::turnAroundEdge(
+  const HapticScene& scene, const Vec3& outward, const Vec3& target) noexcept
+{
+  for (const double turn : { 1.0, 2.5 })
+  {
+    SurfaceTracker attempt = *this;
+    attempt.frame_.turnTo(normalized(frame_.normal + turn * outward, frame_.normal));
+    std::fill(attempt.curvature_, attempt.curvature_ + 3, 0.0);
+    Vec3 ignored;
+    if (attempt.follow(scene, target, kAcquireRounds) == TrackResult::Lost ||
+      attempt.isAtRim(scene, ignored) || dot(attempt.normal(), normal()) < kEdgeLeastCosine ||
+      norm(attempt.point() - point()) > kEdgeReachInCells * scene.cellSize())
+    {
+      continue;
+    }
+    *this = attempt;
+    return true;
+  }
+  return false;
+}
+
+Vec3 SurfaceTracker::alongSurface(const Vec3& t) const noexcept
+{
+  const double limit = 0.5 * fit_.radius;
+  const double u = dot(t, frame_.a);
+  const double v = dot(t, frame_.b);
+  const double length = std::hypot(u, v);
+  // Past the fit's reach its curvature says nothing: go on along the tangent there.
+  const double scale = length > limit ? limit / length : 1.0;
+  const double cu = scale * u;
+  const double cv = scale * v;
+  const double rise = curvature_[0] * cu * cu + curvature_[1] * cu * cv + curvature_[2] * cv * cv;
+  return frame_.origin + u * frame_.a + v * frame_.b + rise * frame_.normal;
+}
+
+} // namespace pointhaptics

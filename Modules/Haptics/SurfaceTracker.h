@@ -1,0 +1,59 @@
+/// @file
+/// A point that stays on the local surface fit, nearest to where it is told to look.
+#pragma once
+
+#include "Core/SurfaceFit.h"
+#include "Haptics/HapticScene.h"
+
+namespace pointhaptics
+{
+
+/// The result of following the surface to the point nearest to a target.
+enum class TrackResult
+{
+  Converged,
+  RoundLimit, ///< Still moving after the last round; the point is on the surface, its foot is not exact.
+  Lost,       ///< No surface to fit here, or the point ran away.
+};
+
+/// Follows one sheet of a scene. Remembers the side it is on by its normal: no global orientation of the cloud is
+/// needed. Plain state; no allocation; one thread.
+class SurfaceTracker
+{
+public:
+  /// Finds the sheet at the cell mean @p onSurface, its normal towards @p freeSide. False where there is none.
+  bool acquire(const HapticScene& scene, const Vec3& onSurface, const Vec3& freeSide) noexcept;
+
+  /// Moves to the surface point nearest to @p target, at most @p rounds fits.
+  TrackResult follow(const HapticScene& scene, const Vec3& target, int rounds) noexcept;
+
+  /// Carries point and normal along with the model from one transform to another.
+  void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
+
+  /// True where the surface ends at the point: the fit's cells lie all on one side. @p outward receives the unit
+  /// direction in which there is nothing.
+  bool isAtRim(const HapticScene& scene, Vec3& outward) const noexcept;
+
+  /// Around a sharp edge: the sheet that continues behind the rim, if there is one near. The tracker is changed only
+  /// on success.
+  bool turnAroundEdge(const HapticScene& scene, const Vec3& outward, const Vec3& target) noexcept;
+
+  /// Height of a point above the surface, along the normal; negative inside.
+  double height(const Vec3& p) const noexcept { return dot(p - frame_.origin, frame_.normal); }
+  const Vec3& point() const noexcept { return frame_.origin; }
+  const Vec3& normal() const noexcept { return frame_.normal; }
+  /// The surface point above the tangent offset @p t from point(), by the last fit's curvature.
+  Vec3 alongSurface(const Vec3& t) const noexcept;
+  /// RMS distance of the cells from the last fit: the noise, metres.
+  double residual() const noexcept { return fit_.residual; }
+  double fitRadius() const noexcept { return fit_.radius; }
+
+private:
+  void adopt(const Vec3& foot, const Vec3& normal) noexcept;
+
+  SurfaceFrame frame_;
+  SurfaceFit fit_;
+  double curvature_[3] = { 0.0, 0.0, 0.0 };
+};
+
+} // namespace pointhaptics
