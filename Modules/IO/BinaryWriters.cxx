@@ -1,0 +1,234 @@
+#include "FormatWriters.h"
+
+#include "NumericType.h"
+
+#include "vtkFieldData.h"
+#include "vtkVariant.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+const char* plyTypeName(int type)
+{
+  switch (fixedSizeType(type))
+  {
+    case VTK_TYPE_INT8:
+      return "char";
+    case VTK_TYPE_UINT8:
+      return "uchar";
+    case VTK_TYPE_INT16:
+      return "short";
+    case VTK_TYPE_UINT16:
+      return "ushort";
+    case VTK_TYPE_INT32:
+      return "int";
+    case VTK_TYPE_UINT32:
+      return "uint";
+    case VTK_FLOAT:
+      return "float";
+    default:
+      return "double";
+  }
+}
+
+std::string plyPropertyName(const OutputArray& array, int component)
+{
+  static const char* const kColours[] = { "red", "green", "blue", "alpha" };
+  static const char* const kNormals[] = { "nx", "ny", "nz" };
+  switch (array.role)
+  {
+    case ArrayRole::Points:
+      return std::string(1, "xyz"[component]);
+    case ArrayRole::Colours:
+      return kColours[component];
+    case ArrayRole::Normals:
+      return kNormals[component];
+    case ArrayRole::Other:
+      break;
+  }
+  return array.componentName(component);
+}
+
+/// Points are float or double in every format.
+int writtenType(const OutputArray& array)
+{
+  const bool isPoints = array.role == ArrayRole::Points;
+  return isPoints && !isFloatingType(array.type()) ? VTK_DOUBLE : array.type();
+}
+
+const char* pcdTypeLetter(int type)
+{
+  const int plain = fixedSizeType(type);
+  const bool isUnsigned = plain == VTK_TYPE_UINT8 || plain == VTK_TYPE_UINT16 || plain == VTK_TYPE_UINT32 ||
+    plain == VTK_TYPE_UINT64;
+  return isFloatingType(plain) ? "F" : isUnsigned ? "U" : "I";
+}
+
+/// The four header lines that describe the fields.
+struct PcdFieldLines
+{
+  std::string names = "FIELDS";
+  std::string sizes = "SIZE";
+  std::string types = "TYPE";
+  std::string counts = "COUNT";
+
+  void add(const std::string& name, int size, const char* type, int count)
+  {
+    names += " " + name;
+    sizes += " " + std::to_string(size);
+    types += std::string(" ") + type;
+    counts += " " + std::to_string(count);
+  }
+  std::string text() const { return names + "\n" + sizes + "\n" + types + "\n" + counts + "\n"; }
+};
+
+std::string shortest(double value)
+{
+  char text[32];
+  return { text, std::to_chars(text, text + sizeof(text), value).ptr };
+}
+
+std::string pcdShape(vtkFieldData* fieldData, vtkIdType rows)
+{
+  vtkIdType width = rows;
+  vtkIdType height = 1;
+  vtkDataArray* dimensions = fieldData->GetArray("OrganizedDimensions");
+  if (dimensions && dimensions->GetNumberOfValues() == 2)
+  {
+    const double w = dimensions->GetVariantValue(0).ToDouble();
+    const double h = dimensions->GetVariantValue(1).ToDouble();
+    // A filter may have dropped points since the cloud was read: then it is a plain list.
+    if (w >= 1.0 && h >= 1.0 && w * h == static_cast<double>(rows))
+    {
+      width = static_cast<vtkIdType>(w);
+      height = static_cast<vtkIdType>(h);
+    }
+  }
+  std::string viewpoint = "0 0 0 1 0 0 0";
+  vtkDataArray* stored = fieldData->GetArray("Viewpoint");
+  if (stored && stored->GetNumberOfValues() == 7)
+  {
+    viewpoint.clear();
+    for (vtkIdType i = 0; i < 7; ++i)
+    {
+      viewpoint += (i ? " " : "") + shortest(stored->GetVariantValue(i).ToDouble());
+    }
+  }
+  return "WIDTH " + std::to_string(width) + "\nHEIGHT " + std::to_string(height) + "\nVIEWPOINT " +
+    viewpoint + "\nPOINTS " + std::to_string(rows) + "\nDATA binary\n";
+}
+
+/// Colours packed as 0xAARRGGBB; alpha is 0 for three channels, as PCL writes rgb.
+std::vector<std::uint32_t> packColours(const OutputArray& colours)
+{
+  const int channels = colours.components();
+  const std::uint8_t* from = static_cast<const std::uint8_t*>(colours.array->GetVoidPointer(0));
+  std::vector<std::uint32_t> packed(static_cast<std::size_t>(colours.array->GetNumberOfTuples()));
+  for (std::uint32_t& colour : packed)
+  {
+    const std::uint32_t alpha = channels == 4 ? from[3] : 0;
+    colour =
+      alpha << 24 | std::uint32_t{ from[0] } << 16 | std::uint32_t{ from[1] } << 8 | std::uint32_t{ from[2] };
+    from += channels;
+  }
+  return packed;
+}
+
+/// Appends the record fields of @p array; each component stands beside the one before.
+void addRecordFields(std::vector<RecordField>& fields, std::size_t& recordSize, const OutputArray& array)
+{
+  const int type = writtenType(array);
+  for (int component = 0; component < array.components(); ++component)
+  {
+    fields.push_back({ array.column(component), recordSize, type });
+    recordSize += static_cast<std::size_t>(sizeOfType(type));
+  }
+}
+
+} // namespace
+
+void writeRecords(
+  const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType rows, OutputStream& out)
+{
+  constexpr vtkIdType kBlock = 8192;
+  std::vector<char> block(recordSize * static_cast<std::size_t>(std::min(kBlock, rows)));
+  for (vtkIdType row = 0; row < rows; row += kBlock)
+  {
+    const vtkIdType count = std::min(kBlock, rows - row);
+    for (const RecordField& field : fields)
+    {
+      const ConstColumnView source{ field.source.first + row * field.source.stride, field.source.stride,
+        field.source.type };
+      copyStrided(
+        source, { block.data() + field.offset, static_cast<std::ptrdiff_t>(recordSize), field.type }, count);
+    }
+    out.write(block.data(), recordSize * static_cast<std::size_t>(count));
+  }
+}
+
+void writePly(const std::vector<OutputArray>& given, OutputStream& out)
+{
+  const std::vector<OutputArray> arrays = withoutLongIntegers(given);
+  const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
+  std::string header = "ply\nformat ";
+  header += isLittleEndianHost() ? "binary_little_endian" : "binary_big_endian";
+  header += " 1.0\ncomment written by PointHaptics\nelement vertex " + std::to_string(rows) + "\n";
+  std::vector<RecordField> fields;
+  std::size_t recordSize = 0;
+  for (const OutputArray& array : arrays)
+  {
+    for (int component = 0; component < array.components(); ++component)
+    {
+      header += std::string("property ") + plyTypeName(writtenType(array)) + " " +
+        plyPropertyName(array, component) + "\n";
+    }
+    addRecordFields(fields, recordSize, array);
+  }
+  out.write(header + "end_header\n");
+  writeRecords(fields, recordSize, rows, out);
+}
+
+void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, OutputStream& out)
+{
+  const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
+  PcdFieldLines lines;
+  std::vector<RecordField> fields;
+  std::vector<std::uint32_t> packed;
+  std::size_t recordSize = 0;
+  for (const OutputArray& array : arrays)
+  {
+    const int type = writtenType(array);
+    if (array.role == ArrayRole::Colours)
+    {
+      packed = packColours(array);
+      const bool hasAlpha = array.components() == 4;
+      lines.add(hasAlpha ? "rgba" : "rgb", 4, hasAlpha ? "U" : "F", 1);
+      fields.push_back({ { reinterpret_cast<const char*>(packed.data()), 4, VTK_TYPE_UINT32 }, recordSize,
+        VTK_TYPE_UINT32 });
+      recordSize += 4;
+      continue;
+    }
+    if (array.role == ArrayRole::Other)
+    {
+      lines.add(array.name, sizeOfType(type), pcdTypeLetter(type), array.components());
+    }
+    for (int axis = 0; axis < 3 && array.role != ArrayRole::Other; ++axis)
+    {
+      const char* prefix = array.role == ArrayRole::Normals ? "normal_" : "";
+      lines.add(std::string(prefix) + "xyz"[axis], sizeOfType(type), pcdTypeLetter(type), 1);
+    }
+    addRecordFields(fields, recordSize, array);
+  }
+  out.write(
+    "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + lines.text() + pcdShape(fieldData, rows));
+  writeRecords(fields, recordSize, rows, out);
+}
+
+} // namespace pointhaptics::io

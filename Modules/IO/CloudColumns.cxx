@@ -1,0 +1,236 @@
+#include "CloudColumns.h"
+
+#include "FileProblem.h"
+#include "NumericType.h"
+#include "TextScan.h"
+
+#include "vtkCellArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+using Names = std::vector<std::vector<std::string>>;
+
+const Names kCoordinates = { { "x", "y", "z" } };
+const Names kColoursWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
+  { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
+const Names kColours = { { "red", "green", "blue" }, { "r", "g", "b" },
+  { "diffuse_red", "diffuse_green", "diffuse_blue" } };
+const Names kNormals = { { "nx", "ny", "nz" }, { "normal_x", "normal_y", "normal_z" } };
+
+bool isByte(int type)
+{
+  return type == VTK_UNSIGNED_CHAR;
+}
+
+/// The type that holds the values of both.
+int commonType(int a, int b)
+{
+  if (a == b)
+  {
+    return a;
+  }
+  return needsDouble(a) || needsDouble(b) ? VTK_DOUBLE : VTK_FLOAT;
+}
+
+/// Splits "name_12" (or "name:12") at its number. @return false when there is none.
+bool splitNumbered(const std::string& name, std::string& base, unsigned long long& number)
+{
+  const std::size_t separator = name.find_last_of("_:");
+  if (separator == std::string::npos || separator == 0)
+  {
+    return false;
+  }
+  base = name.substr(0, separator);
+  return parseCount(std::string_view(name).substr(separator + 1), number);
+}
+
+} // namespace
+
+CloudColumns::CloudColumns(const std::vector<Column>& columns, vtkIdType rows)
+  : columns_(columns)
+  , rows_(rows)
+  , placed_(columns.size(), false)
+  , places_(columns.size())
+{
+  planPoints();
+  planNamed(kColoursWithAlpha, "RGBA", &isByte);
+  planNamed(kColours, "RGB", &isByte);
+  planNamed(kNormals, "Normals", &isFloatingType);
+  planNumbered();
+}
+
+bool CloudColumns::find(const std::vector<std::string>& names, std::vector<std::size_t>& found) const
+{
+  found.clear();
+  for (const std::string& name : names)
+  {
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+    {
+      if (!placed_[i] && columns_[i].components == 1 && equalNoCase(columns_[i].name, name))
+      {
+        found.push_back(i);
+        break;
+      }
+    }
+  }
+  return found.size() == names.size();
+}
+
+void CloudColumns::planPoints()
+{
+  std::vector<std::size_t> found;
+  if (!find(kCoordinates[0], found))
+  {
+    failFormat("no columns named x, y and z", "name the three coordinates x, y and z in the header");
+  }
+  const bool wide =
+    std::any_of(found.begin(), found.end(), [&](std::size_t i) { return needsDouble(columns_[i].type); });
+  add("Points", found, wide ? VTK_DOUBLE : VTK_FLOAT);
+}
+
+void CloudColumns::planNamed(const Names& names, const char* arrayName, bool (*accepts)(int))
+{
+  std::vector<std::size_t> found;
+  for (const std::vector<std::string>& candidate : names)
+  {
+    if (find(candidate, found) &&
+      std::all_of(found.begin(), found.end(), [&](std::size_t i) { return accepts(columns_[i].type); }))
+    {
+      int type = columns_[found[0]].type;
+      for (const std::size_t i : found)
+      {
+        type = commonType(type, columns_[i].type);
+      }
+      add(arrayName, found, type);
+      return;
+    }
+  }
+}
+
+void CloudColumns::planNumbered()
+{
+  for (std::size_t first = 0; first < columns_.size(); ++first)
+  {
+    if (placed_[first])
+    {
+      continue;
+    }
+    std::vector<std::size_t> members{ first };
+    int type = columns_[first].type;
+    std::string name = columns_[first].name;
+    std::string base;
+    unsigned long long number = 1;
+    if (columns_[first].components == 1 && splitNumbered(name, base, number) && number == 0)
+    {
+      std::string nextBase;
+      for (std::size_t i = first + 1; i < columns_.size() && !placed_[i] && columns_[i].components == 1 &&
+           splitNumbered(columns_[i].name, nextBase, number) && nextBase == base && number == members.size();
+           ++i)
+      {
+        members.push_back(i);
+        type = commonType(type, columns_[i].type);
+      }
+      name = members.size() > 1 ? base : name;
+    }
+    add(name, members, type);
+  }
+}
+
+std::string CloudColumns::unusedName(const std::string& name) const
+{
+  std::string candidate = name.empty() ? "unnamed" : name;
+  const auto isUsed = [&](const vtkSmartPointer<vtkDataArray>& array)
+  { return candidate == array->GetName(); };
+  while (std::any_of(arrays_.begin(), arrays_.end(), isUsed))
+  {
+    candidate += "_again";
+  }
+  return candidate;
+}
+
+void CloudColumns::add(const std::string& name, const std::vector<std::size_t>& columns, int type)
+{
+  const int components =
+    columns.size() == 1 ? columns_[columns[0]].components : static_cast<int>(columns.size());
+  vtkSmartPointer<vtkDataArray> array;
+  array.TakeReference(vtkDataArray::CreateDataArray(type));
+  array->SetName(unusedName(name).c_str());
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(rows_);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    placed_[columns[i]] = true;
+    places_[columns[i]] = { arrays_.size(), static_cast<int>(i) };
+  }
+  arrays_.push_back(array);
+}
+
+ColumnView CloudColumns::target(std::size_t column, int component) const
+{
+  const Place& place = places_[column];
+  vtkDataArray* array = arrays_[place.array];
+  const int size = array->GetDataTypeSize();
+  char* first = static_cast<char*>(array->GetVoidPointer(0));
+  return { first + (place.component + component) * size,
+    std::ptrdiff_t{ size } * array->GetNumberOfComponents(), array->GetDataType() };
+}
+
+void CloudColumns::moveTo(vtkPolyData* cloud)
+{
+  vtkNew<vtkPoints> points;
+  points->SetData(arrays_[0]);
+  cloud->SetPoints(points);
+  for (std::size_t i = 1; i < arrays_.size(); ++i)
+  {
+    cloud->GetPointData()->AddArray(arrays_[i]);
+  }
+  setActiveAttributes(cloud);
+  setOneVertexPerPoint(cloud);
+}
+
+void setOneVertexPerPoint(vtkPolyData* cloud)
+{
+  const vtkIdType count = cloud->GetNumberOfPoints();
+  vtkNew<vtkIdTypeArray> offsets;
+  vtkNew<vtkIdTypeArray> connectivity;
+  offsets->SetNumberOfValues(count + 1);
+  connectivity->SetNumberOfValues(count);
+  std::iota(offsets->GetPointer(0), offsets->GetPointer(0) + count + 1, vtkIdType{ 0 });
+  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{ 0 });
+  vtkNew<vtkCellArray> vertices;
+  vertices->SetData(offsets, connectivity);
+  cloud->SetVerts(vertices);
+}
+
+void setActiveAttributes(vtkPolyData* cloud)
+{
+  vtkPointData* data = cloud->GetPointData();
+  for (const char* name : { "RGB", "RGBA" })
+  {
+    vtkDataArray* colours = data->GetArray(name);
+    if (colours && isByte(colours->GetDataType()))
+    {
+      data->SetActiveScalars(name);
+    }
+  }
+  vtkDataArray* normals = data->GetArray("Normals");
+  if (normals && normals->GetNumberOfComponents() == 3 && isFloatingType(normals->GetDataType()))
+  {
+    data->SetActiveNormals("Normals");
+  }
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,75 @@
+/// @file
+/// Named, typed columns of a file and the vtkPolyData they become.
+#pragma once
+
+#include "StridedCopy.h"
+
+#include "vtkDataArray.h"
+#include "vtkSmartPointer.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace pointhaptics::io
+{
+
+/// One column as its file names it.
+struct Column
+{
+  std::string name;
+  int type = VTK_FLOAT; ///< VTK type
+  int components = 1;
+};
+
+/// Plans where each column goes, owns the arrays, and hands them over when they are filled:
+/// - x y z become the points: double when one of them is double or an integer of 4 bytes and more, else
+/// float;
+/// - red green blue [alpha] (or r g b [a]), all unsigned char, become "RGB" or "RGBA", the active scalars;
+/// - nx ny nz or normal_x normal_y normal_z become "Normals", the active normals;
+/// - name_0 name_1 ... in this order become one array "name" (of the widest of their types);
+/// - every other column becomes an array of its name and type.
+/// The values of an array are undefined until its columns are filled.
+class CloudColumns
+{
+public:
+  /// @throws FileProblem when @p columns have no x, y, z; std::bad_alloc. The caller has checked @p rows
+  /// against the size of the file.
+  CloudColumns(const std::vector<Column>& columns, vtkIdType rows);
+
+  /// Where component @p component of column @p column is to be written.
+  ColumnView target(std::size_t column, int component = 0) const;
+
+  /// Gives points, arrays and one vertex per point to @p cloud.
+  void moveTo(vtkPolyData* cloud);
+
+private:
+  struct Place
+  {
+    std::size_t array = 0;
+    int component = 0;
+  };
+  void planPoints();
+  void planNamed(
+    const std::vector<std::vector<std::string>>& names, const char* arrayName, bool (*accepts)(int));
+  void planNumbered();
+  bool find(const std::vector<std::string>& names, std::vector<std::size_t>& found) const;
+  void add(const std::string& name, const std::vector<std::size_t>& columns, int type);
+  std::string unusedName(const std::string& name) const;
+
+  const std::vector<Column> columns_;
+  const vtkIdType rows_;
+  std::vector<bool> placed_;
+  std::vector<Place> places_;
+  std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< the first one holds the points
+};
+
+/// Gives @p cloud one vertex cell per point and no other cell.
+void setOneVertexPerPoint(vtkPolyData* cloud);
+
+/// Makes the arrays RGB, RGBA and Normals the active scalars and normals where they have the right shape.
+void setActiveAttributes(vtkPolyData* cloud);
+
+} // namespace pointhaptics::io

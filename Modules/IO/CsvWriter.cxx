@@ -1,0 +1,81 @@
+#include "FormatWriters.h"
+
+#include "NumericType.h"
+
+#include <charconv>
+#include <cstring>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr std::size_t kLongestNumber = 32;
+constexpr std::size_t kFlushAt = 1 << 16;
+
+/// Appends one number to the line: a function per type, chosen once per column.
+using Append = char* (*)(const char* from, char* to);
+
+template <typename T>
+char* appendNumber(const char* from, char* to)
+{
+  T value;
+  std::memcpy(&value, from, sizeof(T));
+  if constexpr (sizeof(T) == 1)
+  {
+    return std::to_chars(to, to + kLongestNumber, static_cast<int>(value)).ptr;
+  }
+  else
+  {
+    return std::to_chars(to, to + kLongestNumber, value).ptr;
+  }
+}
+
+struct CsvColumn
+{
+  ConstColumnView view;
+  Append append = nullptr;
+};
+
+} // namespace
+
+void writeCsv(const std::vector<OutputArray>& arrays, OutputStream& out)
+{
+  std::string header;
+  std::vector<CsvColumn> columns;
+  for (const OutputArray& array : arrays)
+  {
+    for (int component = 0; component < array.components(); ++component)
+    {
+      const bool isPoints = array.role == ArrayRole::Points;
+      header += header.empty() ? "" : ",";
+      header += isPoints ? std::string(1, "xyz"[component]) : array.componentName(component);
+      CsvColumn column;
+      column.view = array.column(component);
+      withType(array.type(), [&](auto zero) { column.append = &appendNumber<decltype(zero)>; });
+      columns.push_back(column);
+    }
+  }
+  out.write(header + "\n");
+  std::vector<char> buffer(kFlushAt + columns.size() * (kLongestNumber + 1));
+  char* end = buffer.data();
+  const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
+  for (vtkIdType row = 0; row < rows; ++row)
+  {
+    for (const CsvColumn& column : columns)
+    {
+      end = column.append(column.view.first + row * column.view.stride, end);
+      *end++ = ',';
+    }
+    end[-1] = '\n';
+    if (static_cast<std::size_t>(end - buffer.data()) >= kFlushAt)
+    {
+      out.write(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
+      end = buffer.data();
+    }
+  }
+  out.write(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
+}
+
+} // namespace pointhaptics::io

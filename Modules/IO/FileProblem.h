@@ -1,0 +1,64 @@
+/// @file
+/// How the format readers and writers report a fault: one exception type that never leaves this module.
+/// vtkPointCloudReader and vtkPointCloudWriter turn it into an error code and a message.
+#pragma once
+
+#include "vtkErrorCode.h"
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace pointhaptics::io
+{
+
+/// What is wrong (with line or byte offset and value) and what the user can do about it.
+class FileProblem : public std::runtime_error
+{
+public:
+  FileProblem(unsigned long vtkCode, const std::string& what, const std::string& cure)
+    : std::runtime_error(what + "; " + cure)
+    , code(vtkCode)
+  {
+  }
+  unsigned long code; ///< One of vtkErrorCode::ErrorIds.
+};
+
+/// Reading was stopped from a progress observer (vtkAlgorithm::AbortExecute).
+class ReadingStopped : public std::exception
+{
+};
+
+/// The content is not what the format asks for.
+[[noreturn]] inline void failFormat(const std::string& what, const std::string& cure)
+{
+  throw FileProblem(vtkErrorCode::FileFormatError, what, cure);
+}
+
+/// The file ends before the points its header promises.
+[[noreturn]] inline void failTruncated(const std::string& what)
+{
+  throw FileProblem(vtkErrorCode::PrematureEndOfFileError, what,
+    "the file is cut short or its header is wrong: copy it again");
+}
+
+/// The header is sound and promises nothing.
+[[noreturn]] inline void failNoPoints()
+{
+  failFormat("the file holds no points", "export the cloud again and check that it is not empty");
+}
+
+/// @p text in quotes, cut to 40 characters, with unprintable bytes shown as '?': safe to print.
+inline std::string inQuotes(std::string_view text)
+{
+  constexpr std::size_t kLongest = 40;
+  std::string result = "'";
+  for (const char c : text.substr(0, kLongest))
+  {
+    result += c >= 0x20 && c < 0x7f ? c : '?';
+  }
+  return result + (text.size() > kLongest ? "...'" : "'");
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,32 @@
+/// @file
+/// The readers behind vtkPointCloudReader, one per format. Each fills an empty vtkPolyData with points,
+/// arrays and vertices, names the format in task.format, and throws FileProblem, ReadingStopped or
+/// std::bad_alloc. Sizes that a file claims are checked against its length before anything is allocated.
+#pragma once
+
+#include "ReadTask.h"
+
+class vtkPolyData;
+
+namespace pointhaptics::io
+{
+
+/// ASCII and binary PLY: every scalar property of the element vertex; lists and other elements are skipped.
+void readPly(ReadTask& task, vtkPolyData* cloud);
+
+/// ASCII, binary and binary_compressed PCD. Binary ones need PCL.
+void readPcd(ReadTask& task, vtkPolyData* cloud);
+
+/// VTK's XML PolyData: points, point data and field data; cells are dropped.
+void readVtp(ReadTask& task, vtkPolyData* cloud);
+
+/// Wavefront OBJ: vertices, their colours, and normals when there is one per vertex.
+void readObj(ReadTask& task, vtkPolyData* cloud);
+
+/// Uncompressed LAS 1.0 to 1.4, point formats 0 to 10.
+void readLas(ReadTask& task, vtkPolyData* cloud);
+
+/// Columns of numbers (XYZ, TXT, CSV, PTS): separator and header are found by looking.
+void readText(ReadTask& task, vtkPolyData* cloud);
+
+} // namespace pointhaptics::io

@@ -1,0 +1,34 @@
+/// @file
+/// The writers behind vtkPointCloudWriter that are our own. Each writes a whole file and throws FileProblem.
+#pragma once
+
+#include "OutputColumns.h"
+#include "OutputFile.h"
+
+class vtkFieldData;
+
+namespace pointhaptics::io
+{
+
+/// Binary PLY in this machine's byte order; points as float or double; one scalar property per component.
+void writePly(const std::vector<OutputArray>& arrays, OutputStream& out);
+
+/// Binary PCD; @p fieldData may hold Viewpoint (7) and OrganizedDimensions (width, height).
+void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, OutputStream& out);
+
+/// Comma separated text with a header; each number with the fewest digits that give it back exactly.
+void writeCsv(const std::vector<OutputArray>& arrays, OutputStream& out);
+
+/// One field of a binary record.
+struct RecordField
+{
+  ConstColumnView source;
+  std::size_t offset = 0; ///< inside the record
+  int type = 0;           ///< VTK type in the record
+};
+
+/// Writes @p rows records of @p recordSize bytes, block by block.
+void writeRecords(
+  const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType rows, OutputStream& out);
+
+} // namespace pointhaptics::io

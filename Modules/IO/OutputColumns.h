@@ -1,0 +1,47 @@
+/// @file
+/// The points and point data of a cloud as named arrays, ready to be written.
+#pragma once
+
+#include "StridedCopy.h"
+
+#include "vtkDataArray.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
+
+class vtkPointSet;
+
+namespace pointhaptics::io
+{
+
+enum class ArrayRole
+{
+  Points,
+  Colours, ///< unsigned char, 3 or 4 components
+  Normals, ///< float or double, 3 components
+  Other,
+};
+
+/// One array in contiguous memory, under a name without white space, commas or quotes.
+struct OutputArray
+{
+  ArrayRole role = ArrayRole::Other;
+  std::string name;
+  vtkSmartPointer<vtkDataArray> array;
+
+  int components() const { return array->GetNumberOfComponents(); }
+  int type() const { return array->GetDataType(); }
+  ConstColumnView column(int component) const;
+  /// "name", or "name_2" for component 2 of several.
+  std::string componentName(int component) const;
+};
+
+/// The points first, then every array of numbers in the point data, each under its own name; arrays of
+/// strings are left out. @throws FileProblem when an array is shorter than the cloud.
+std::vector<OutputArray> outputArrays(vtkPointSet* cloud);
+
+/// The same with arrays of 64 bit integers as doubles, for formats without such integers.
+std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays);
+
+} // namespace pointhaptics::io

@@ -1,0 +1,52 @@
+/// @file
+/// The header of a PCD file, checked before anybody allocates what it claims.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pointhaptics::io
+{
+
+enum class PcdEncoding
+{
+  Ascii,
+  Binary,
+  Compressed,
+};
+
+struct PcdField
+{
+  std::string name;
+  int type = 0; ///< VTK type
+  int count = 1;
+  std::size_t offset = 0; ///< inside a binary record
+
+  bool isPadding() const { return name == "_"; }
+  /// "rgb" or "rgba" of 4 bytes: three or four bytes packed into one number.
+  bool isPackedColour() const;
+};
+
+struct PcdHeader
+{
+  PcdEncoding encoding = PcdEncoding::Ascii;
+  std::vector<PcdField> fields;
+  unsigned long long width = 0;
+  unsigned long long height = 1;
+  unsigned long long points = 0;
+  std::array<double, 7> viewpoint{ 0, 0, 0, 1, 0, 0, 0 }; ///< position, then quaternion w x y z
+  std::size_t bodyOffset = 0;
+  std::size_t bodyLine = 0;
+  std::size_t recordSize = 0;     ///< bytes of a binary record
+  std::size_t numbersPerLine = 0; ///< of an ASCII record
+};
+
+/// @throws FileProblem with line and value, also when the file is too short for what the header promises.
+PcdHeader parsePcdHeader(std::string_view bytes);
+
+const char* nameOf(PcdEncoding encoding);
+
+} // namespace pointhaptics::io

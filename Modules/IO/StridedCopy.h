@@ -1,0 +1,41 @@
+/// @file
+/// Copies one column of numbers between records and arrays, converting type and byte order on the way.
+#pragma once
+
+#include "vtkType.h"
+
+#include <cstddef>
+
+namespace pointhaptics::io
+{
+
+/// True where this machine stores the least significant byte first.
+bool isLittleEndianHost() noexcept;
+
+/// A column of values: the first one at @p first, the next @p stride bytes on. Need not be aligned.
+struct ConstColumnView
+{
+  const char* first = nullptr;
+  std::ptrdiff_t stride = 0;
+  int type = 0; ///< VTK type
+};
+
+struct ColumnView
+{
+  char* first = nullptr;
+  std::ptrdiff_t stride = 0;
+  int type = 0; ///< VTK type
+
+  ColumnView fromRow(vtkIdType row) const { return { first + row * stride, stride, type }; }
+};
+
+/// target[i] = source[i] for i in 0..count-1, as by static_cast (a value outside an integer target's range
+/// must not occur). @p swapSource reverses the bytes of each value read.
+void copyStrided(
+  ConstColumnView source, ColumnView target, vtkIdType count, bool swapSource = false) noexcept;
+
+/// target[row] = value. @return false when an integer target cannot hold @p value exactly; then nothing is
+/// written.
+bool storeNumber(ColumnView target, vtkIdType row, double value) noexcept;
+
+} // namespace pointhaptics::io

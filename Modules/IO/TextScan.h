@@ -1,0 +1,67 @@
+/// @file
+/// Lines, words and numbers of a text in memory. Independent of the locale; nothing here allocates.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace pointhaptics::io
+{
+
+/// Walks over lines ended by LF, CR LF or, in a text without any LF, CR.
+class LineReader
+{
+public:
+  explicit LineReader(std::string_view text, std::size_t firstLineNumber = 1)
+    : text_(text)
+    , end_(text.find('\n') == std::string_view::npos ? '\r' : '\n')
+    , lineNumber_(firstLineNumber - 1)
+  {
+  }
+  /// The next line without its end. @return false at the end of the text.
+  bool next(std::string_view& line);
+  std::size_t lineNumber() const { return lineNumber_; } ///< of the line returned last; the first is 1
+  std::size_t position() const { return position_; }     ///< byte just after the line returned last
+
+private:
+  std::string_view text_;
+  std::size_t position_ = 0;
+  char end_;
+  std::size_t lineNumber_;
+};
+
+inline bool isBlank(char c)
+{
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+/// @p text without white space at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// Takes the next word off the front of @p line; empty when there is none left.
+std::string_view takeWord(std::string_view& line);
+
+/// Without regard to case, for ASCII.
+bool equalNoCase(std::string_view a, std::string_view b);
+
+/// Parses a decimal number, nan or inf at @p first, with an optional sign; 0 for one too small for a double.
+/// @return one past its end, or null when there is none or it is too large for a double.
+const char* parseNumber(const char* first, const char* last, double& value) noexcept;
+
+/// Parses the whole of @p word. @return false when it is not exactly one number.
+bool parseNumber(std::string_view word, double& value) noexcept;
+
+/// Parses the whole of @p word as a count. @return false when it is anything else or beyond 64 bits.
+bool parseCount(std::string_view word, unsigned long long& value) noexcept;
+
+/// Decimal digits from the first to the last one that is not 0, of the number written as @p word:
+/// 2 for "-0.0120e5".
+int significantDigits(std::string_view word) noexcept;
+
+/// Most significant digits that every float keeps.
+constexpr int kFloatDigits = 6;
+
+/// Whether the number @p value written as @p word survives in a float: few digits, and within its range.
+bool fitsFloat(std::string_view word, double value) noexcept;
+
+} // namespace pointhaptics::io

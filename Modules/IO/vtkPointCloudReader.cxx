@@ -1,0 +1,136 @@
+#include "vtkPointCloudReader.h"
+
+#include "CloudFormat.h"
+#include "FileBytes.h"
+#include "FormatReaders.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <new>
+
+namespace io = pointhaptics::io;
+
+vtkStandardNewMacro(vtkPointCloudReader);
+
+namespace
+{
+
+void readAs(io::CloudFormat format, io::ReadTask& task, vtkPolyData* cloud)
+{
+  switch (format)
+  {
+    case io::CloudFormat::Ply:
+      return io::readPly(task, cloud);
+    case io::CloudFormat::Pcd:
+      return io::readPcd(task, cloud);
+    case io::CloudFormat::Vtp:
+      return io::readVtp(task, cloud);
+    case io::CloudFormat::Obj:
+      return io::readObj(task, cloud);
+    case io::CloudFormat::Las:
+      return io::readLas(task, cloud);
+    case io::CloudFormat::Text:
+      return io::readText(task, cloud);
+  }
+}
+
+/// Hands the format's name on, also when reading ends in a fault.
+struct FormatName
+{
+  io::ReadTask& task;
+  std::string& target;
+  ~FormatName() { target = task.format; }
+};
+
+} // namespace
+
+vtkPointCloudReader::vtkPointCloudReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkPointCloudReader::~vtkPointCloudReader()
+{
+  this->SetFileName(nullptr);
+}
+
+void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
+{
+  const io::FileBytes bytes(this->FileName);
+  io::ReadTask task;
+  task.path = this->FileName;
+  task.extension = io::lowerExtension(task.path);
+  task.bytes = bytes.view();
+  task.algorithm = this;
+  const io::CloudFormat format = io::identifyFormat(task.bytes, task.extension);
+  task.format = io::nameOf(format);
+  const FormatName keepName{ task, this->Format };
+  readAs(format, task, cloud);
+}
+
+void vtkPointCloudReader::Fail(unsigned long code, const std::string& message)
+{
+  this->ErrorMessage = this->FileName ? this->FileName : "no file name";
+  this->ErrorMessage += ": ";
+  if (!this->Format.empty())
+  {
+    this->ErrorMessage += this->Format + ": ";
+  }
+  this->ErrorMessage += message;
+  this->SetErrorCode(code);
+  vtkErrorMacro(<< this->ErrorMessage);
+}
+
+int vtkPointCloudReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  this->ErrorMessage.clear();
+  this->Format.clear();
+  this->SetErrorCode(vtkErrorCode::NoError);
+  // The pipeline goes on with an empty cloud after a fault: returning 0 would add the executive's own
+  // message, which callers cannot silence.
+  if (!this->FileName || !*this->FileName)
+  {
+    this->Fail(vtkErrorCode::NoFileNameError, "there is nothing to read; set a file name");
+    return 1;
+  }
+  try
+  {
+    this->ReadInto(output);
+    this->UpdateProgress(1.0);
+    return 1;
+  }
+  catch (const io::FileProblem& problem)
+  {
+    this->Fail(problem.code, problem.what());
+  }
+  catch (const io::ReadingStopped&)
+  {
+    this->ErrorMessage = std::string(this->FileName) + ": reading was stopped on request; read it again";
+    this->SetErrorCode(vtkErrorCode::UserError);
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->Fail(
+      vtkErrorCode::UnknownError, "not enough memory for the points; close other programs or thin the cloud");
+  }
+  catch (const std::exception& fault)
+  {
+    this->Fail(vtkErrorCode::UnknownError,
+      std::string(fault.what()) + "; the file is probably damaged: copy it again");
+  }
+  output->Initialize();
+  return 1;
+}
+
+void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Format: " << this->Format << "\n";
+  os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
+}

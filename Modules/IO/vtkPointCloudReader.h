@@ -1,0 +1,90 @@
+/**
+ * @class   vtkPointCloudReader
+ * @brief   read raw point clouds: PLY, PCD, VTP, OBJ, LAS and text
+ *
+ * The format is told by the file's content; the extension decides only between OBJ and columns of text.
+ *
+ * Output: points, one vertex cell per point, and every scalar field of the file as a point data array with
+ * its name and type. Fields that belong together become one array: red green blue [alpha] become "RGB" or
+ * "RGBA" (unsigned char, the active scalars), nx ny nz or normal_x normal_y normal_z become "Normals" (the
+ * active normals), name_0 name_1 ... become "name". Faces and lines are dropped.
+ *
+ * Points are double where the file's numbers need it (double fields, LAS, text and OBJ with more than 6
+ * significant digits), else float. Points that are NaN or infinite are kept. Coordinates are those of the
+ * file: nothing is moved, scaled or turned.
+ *
+ * - PLY: ascii and both binary orders, all scalar types; lists and other elements are skipped.
+ * - PCD: ascii always, binary and binary_compressed when built with PCL. rgb and rgba are unpacked. The
+ *   viewpoint is kept, not applied: field data "Viewpoint" (tx ty tz qw qx qy qz). Organised clouds keep
+ *   their shape in "OrganizedDimensions" (width, height).
+ * - LAS 1.0 to 1.4, point formats 0 to 10, uncompressed: Intensity, ReturnNumber, NumberOfReturns,
+ *   Classification, ScanAngle (float, degrees), UserData, PointSourceId, and where the format has them
+ *   GpsTime, Color16 (as stored), RGB (8 bit), NearInfrared. Extra bytes and waveforms are skipped.
+ * - OBJ: v x y z [r g b]; vn when there is one per v.
+ * - Text (XYZ, TXT, CSV, PTS): separator, header and PTS point count are found by looking; comments start
+ *   with # or //; an empty cell reads as NaN. Without a header 4 columns are x y z intensity, 6 are x y z and
+ *   red green blue (three integers in 0..255) or normals, 7 are x y z intensity red green blue, and others
+ *   are called column_4 and so on. Columns of integers become int arrays.
+ *
+ * Faults give an empty output, an error code (vtkErrorCode), a vtkErrorMacro, and GetErrorMessage() with
+ * `file: format: what, where, value; cure`. Sizes that a file claims are checked against its length before
+ * anything is allocated, so hostile files fail cleanly.
+ *
+ * Costs the file's size in memory beside the output. One reader serves one thread at a time.
+ *
+ * @sa vtkPointCloudWriter
+ */
+#ifndef vtkPointCloudReader_h
+#define vtkPointCloudReader_h
+
+#include "PointHapticsIOModule.h" // For export macro
+#include "vtkPolyDataAlgorithm.h"
+
+#include <string> // For std::string
+
+class POINTHAPTICSIO_EXPORT vtkPointCloudReader : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkPointCloudReader* New();
+  vtkTypeMacro(vtkPointCloudReader, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The file to read. Default: none.
+   */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  /**
+   * What went wrong in the last update, in one line; empty when all went well. Never null; valid until the
+   * next update.
+   */
+  const char* GetErrorMessage() const { return this->ErrorMessage.c_str(); }
+
+  /**
+   * The format found by the last update, such as "PLY (binary little endian)". Never null; empty when it
+   * was not recognised.
+   */
+  const char* GetFormat() const { return this->Format.c_str(); }
+
+protected:
+  vtkPointCloudReader();
+  ~vtkPointCloudReader() override;
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkPointCloudReader(const vtkPointCloudReader&) = delete;
+  void operator=(const vtkPointCloudReader&) = delete;
+
+  void ReadInto(vtkPolyData* cloud);
+  void Fail(unsigned long code, const std::string& message);
+
+  char* FileName = nullptr;
+  std::string ErrorMessage;
+  std::string Format;
+};
+
+#endif

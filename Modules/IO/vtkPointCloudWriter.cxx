@@ -1,0 +1,180 @@
+#include "vtkPointCloudWriter.h"
+
+#include "CloudColumns.h"
+#include "ErrorCollector.h"
+#include "FileBytes.h"
+#include "FileProblem.h"
+#include "FormatWriters.h"
+#include "OutputFile.h"
+
+#include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkXMLPolyDataWriter.h"
+
+#include <new>
+
+namespace io = pointhaptics::io;
+
+vtkStandardNewMacro(vtkPointCloudWriter);
+
+namespace
+{
+
+void writeVtp(vtkPointSet* cloud, const std::string& path)
+{
+  vtkNew<vtkPolyData> written;
+  if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(cloud))
+  {
+    written->ShallowCopy(polyData);
+  }
+  else
+  {
+    written->SetPoints(cloud->GetPoints());
+    written->GetPointData()->ShallowCopy(cloud->GetPointData());
+    written->GetFieldData()->ShallowCopy(cloud->GetFieldData());
+  }
+  if (written->GetNumberOfCells() == 0)
+  {
+    io::setOneVertexPerPoint(written);
+  }
+  vtkNew<io::ErrorCollector> errors;
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  writer->AddObserver(vtkCommand::ErrorEvent, errors);
+  writer->SetInputData(written);
+  writer->SetFileName(path.c_str());
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  if (!writer->Write() || !errors->first().empty())
+  {
+    const bool full = writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError;
+    throw io::FileProblem(full ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError,
+      errors->first().empty() ? "writing stopped" : errors->first(),
+      full ? "free some space on the disk or write elsewhere"
+           : "check the folder, its permissions and the free space");
+  }
+}
+
+} // namespace
+
+vtkPointCloudWriter::vtkPointCloudWriter() = default;
+
+vtkPointCloudWriter::~vtkPointCloudWriter()
+{
+  this->SetFileName(nullptr);
+}
+
+int vtkPointCloudWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return 1;
+}
+
+void vtkPointCloudWriter::Fail(unsigned long code, const std::string& message)
+{
+  this->ErrorMessage = this->FileName ? this->FileName : "no file name";
+  this->ErrorMessage += ": ";
+  if (!this->Format.empty())
+  {
+    this->ErrorMessage += this->Format + ": ";
+  }
+  this->ErrorMessage += message;
+  this->SetErrorCode(code);
+  vtkErrorMacro(<< this->ErrorMessage);
+}
+
+int vtkPointCloudWriter::Write()
+{
+  this->ErrorMessage.clear();
+  this->Format.clear();
+  this->SetErrorCode(vtkErrorCode::NoError);
+  if (this->GetNumberOfInputConnections(0) < 1)
+  {
+    this->Fail(vtkErrorCode::UserError, "there is nothing to write; connect a point cloud");
+    return 0;
+  }
+  const int written = this->Superclass::Write();
+  return written && this->ErrorMessage.empty() ? 1 : 0;
+}
+
+void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
+{
+  const std::string extension = io::lowerExtension(this->FileName);
+  if (extension != "vtp" && extension != "ply" && extension != "pcd" && extension != "csv")
+  {
+    throw io::FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
+      "unknown extension " + io::inQuotes("." + extension), "use .vtp, .ply, .pcd or .csv");
+  }
+  this->Format = extension == "vtp" ? "VTP" : extension == "ply" ? "PLY" : extension == "pcd" ? "PCD" : "CSV";
+  if (!cloud || cloud->GetNumberOfPoints() == 0)
+  {
+    io::failFormat(
+      "the cloud holds no points", "check the steps before: was the workspace away from the cloud?");
+  }
+  io::TemporaryFile file(this->FileName);
+  if (extension == "vtp")
+  {
+    // Creating it first gives the system's reason when the folder is missing or closed.
+    io::OutputStream(file.path()).close();
+    writeVtp(cloud, file.path());
+  }
+  else
+  {
+    const std::vector<io::OutputArray> arrays = io::outputArrays(cloud);
+    io::OutputStream out(file.path());
+    if (extension == "ply")
+    {
+      io::writePly(arrays, out);
+    }
+    else if (extension == "pcd")
+    {
+      io::writePcd(arrays, cloud->GetFieldData(), out);
+    }
+    else
+    {
+      io::writeCsv(arrays, out);
+    }
+    out.close();
+  }
+  file.commit();
+}
+
+void vtkPointCloudWriter::WriteData()
+{
+  if (!this->FileName || !*this->FileName)
+  {
+    this->Fail(vtkErrorCode::NoFileNameError, "there is nowhere to write to; set a file name");
+    return;
+  }
+  try
+  {
+    this->WriteCloud(vtkPointSet::SafeDownCast(this->GetInput()));
+  }
+  catch (const io::FileProblem& problem)
+  {
+    this->Fail(problem.code, problem.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->Fail(
+      vtkErrorCode::UnknownError, "not enough memory to write; close other programs or thin the cloud");
+  }
+  catch (const std::exception& fault)
+  {
+    this->Fail(vtkErrorCode::CannotOpenFileError, std::string(fault.what()) + "; check the path");
+  }
+}
+
+void vtkPointCloudWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
+}

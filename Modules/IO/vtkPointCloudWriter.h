@@ -1,0 +1,82 @@
+/**
+ * @class   vtkPointCloudWriter
+ * @brief   write a point cloud with every array: .vtp, .ply, .pcd or .csv by extension
+ *
+ * Input: any vtkPointSet with at least one point. Points keep their precision (float or double).
+ * vtkPointCloudReader gives the same points and arrays back, within what the format can say:
+ *
+ * - .vtp: everything, cells and field data included (appended raw, uncompressed). A vtkPolyData without
+ *   cells gets one vertex per point.
+ * - .ply: binary. Colours ("RGB", "RGBA" or unsigned char scalars) as red green blue [alpha], normals as nx
+ *   ny nz, other arrays of several components as name_0 name_1 ... ; 64 bit integers as double, exact up to
+ *   2^53.
+ * - .pcd: binary. Colours as packed rgb or rgba, normals as normal_x normal_y normal_z; the field data
+ *   "Viewpoint" and "OrganizedDimensions" as the header's VIEWPOINT, WIDTH and HEIGHT.
+ * - .csv: header x,y,z,<arrays>, arrays of several components as name_0,name_1,...; each number with the
+ *   fewest digits that give back the same value. Types are not stored: float arrays may be read as double.
+ *
+ * Arrays of strings are left out, and white space, commas and quotes in names become '_' (not in .vtp).
+ *
+ * The file is written beside its target under a temporary name and renamed when complete: after a fault the
+ * target is as it was before. Write() returns 1, or 0 with an error code (vtkErrorCode), a vtkErrorMacro and
+ * GetErrorMessage() `file: format: what; cure`.
+ *
+ * One writer serves one thread at a time.
+ *
+ * @sa vtkPointCloudReader
+ */
+#ifndef vtkPointCloudWriter_h
+#define vtkPointCloudWriter_h
+
+#include "PointHapticsIOModule.h" // For export macro
+#include "vtkWriter.h"
+
+#include <string> // For std::string
+
+class vtkPointSet;
+
+class POINTHAPTICSIO_EXPORT vtkPointCloudWriter : public vtkWriter
+{
+public:
+  static vtkPointCloudWriter* New();
+  vtkTypeMacro(vtkPointCloudWriter, vtkWriter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The file to write; its extension chooses the format. Default: none.
+   */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  /**
+   * Write the file. Returns 1 when it is complete under its name, else 0.
+   */
+  int Write() override;
+
+  /**
+   * What went wrong in the last Write(), in one line; empty when all went well. Never null.
+   */
+  const char* GetErrorMessage() const { return this->ErrorMessage.c_str(); }
+
+protected:
+  vtkPointCloudWriter();
+  ~vtkPointCloudWriter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  void WriteData() override;
+
+private:
+  vtkPointCloudWriter(const vtkPointCloudWriter&) = delete;
+  void operator=(const vtkPointCloudWriter&) = delete;
+
+  void WriteCloud(vtkPointSet* cloud);
+  void Fail(unsigned long code, const std::string& message);
+
+  char* FileName = nullptr;
+  std::string ErrorMessage;
+  std::string Format;
+};
+
+#endif

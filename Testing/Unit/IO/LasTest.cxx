@@ -1,0 +1,121 @@
+#include "CloudFiles.h"
+
+#include <cstdint>
+
+namespace
+{
+
+class Las : public CloudFiles
+{
+};
+
+TEST_F(Las, PositionsAreScaledInDouble)
+{
+  const ReadResult result = readCloud(write("a.las", makeLas(2, 0, 20)));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.format, "LAS 1.2 (point format 0)");
+  ASSERT_EQ(result.points(), 2);
+  EXPECT_EQ(result.cloud->GetPoints()->GetDataType(), VTK_DOUBLE);
+  EXPECT_DOUBLE_EQ(result.cloud->GetPoint(1)[0], 1.0);
+  EXPECT_DOUBLE_EQ(result.cloud->GetPoint(1)[1], 1002.0);
+  EXPECT_DOUBLE_EQ(result.cloud->GetPoint(1)[2], 1997.0);
+  EXPECT_EQ(result.array("GpsTime"), nullptr);
+  EXPECT_EQ(result.array("RGB"), nullptr);
+}
+
+TEST_F(Las, LegacyBitFieldsAndColoursAreUnpacked)
+{
+  std::string las = makeLas(2, 3, 36); // two extra bytes
+  put(las, 227 + 36 + 12, std::uint16_t{ 777 });
+  las[227 + 36 + 14] = static_cast<char>(0b11010011); // return 3 of 2, scan direction and edge set
+  las[227 + 36 + 15] = static_cast<char>(0xe2);       // class 2 with all flags
+  las[227 + 36 + 16] = static_cast<char>(-15);
+  put(las, 227 + 36 + 18, std::uint16_t{ 65000 });
+  put(las, 227 + 36 + 20, 123456.789);
+  put(las, 227 + 36 + 30, std::uint16_t{ 0xabcd });
+  const ReadResult result = readCloud(write("a.las", las));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.value("Intensity", 1), 777);
+  EXPECT_EQ(result.array("Intensity")->GetDataType(), VTK_UNSIGNED_SHORT);
+  EXPECT_EQ(result.value("ReturnNumber", 1), 3);
+  EXPECT_EQ(result.value("NumberOfReturns", 1), 2);
+  EXPECT_EQ(result.value("Classification", 1), 2);
+  EXPECT_EQ(result.value("ScanAngle", 1), -15);
+  EXPECT_EQ(result.value("PointSourceId", 1), 65000);
+  EXPECT_EQ(result.value("GpsTime", 1), 123456.789);
+  EXPECT_EQ(result.value("Color16", 1, 1), 0xabcd);
+  EXPECT_EQ(result.value("RGB", 1, 1), 0xab);
+  EXPECT_STREQ(result.cloud->GetPointData()->GetScalars()->GetName(), "RGB");
+}
+
+TEST_F(Las, ExtendedFormatsHaveWideFields)
+{
+  std::string las = makeLas(4, 8, 38);
+  las[375 + 14] = static_cast<char>(0xca); // return 10 of 12
+  las[375 + 16] = static_cast<char>(200);
+  put(las, 375 + 18, std::int16_t{ -15000 });
+  put(las, 375 + 22, 5.5);
+  put(las, 375 + 30, std::uint16_t{ 200 });
+  put(las, 375 + 36, std::uint16_t{ 9 });
+  const ReadResult result = readCloud(write("a.las", las));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.value("ReturnNumber", 0), 10);
+  EXPECT_EQ(result.value("NumberOfReturns", 0), 12);
+  EXPECT_EQ(result.value("Classification", 0), 200);
+  EXPECT_FLOAT_EQ(static_cast<float>(result.value("ScanAngle", 0)), -90.0f);
+  EXPECT_EQ(result.value("GpsTime", 0), 5.5);
+  EXPECT_EQ(result.value("RGB", 0, 0), 200); // 8 bit values in 16 bit fields
+  EXPECT_EQ(result.value("NearInfrared", 0), 9);
+}
+
+TEST_F(Las, EveryPointFormatIsRead)
+{
+  const std::size_t lengths[] = { 20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67 };
+  for (int format = 0; format <= 10; ++format)
+  {
+    const ReadResult result = readCloud(write("a.las", makeLas(4, format, lengths[format])));
+    EXPECT_EQ(result.error, "") << format;
+    EXPECT_EQ(result.points(), 2) << format;
+    const ReadResult tooShort = readCloud(write("b.las", makeLas(4, format, lengths[format] - 1)));
+    expectRefused(tooShort, "too short");
+  }
+}
+
+TEST_F(Las, CompressedPointsAreRefusedWithAConverter)
+{
+  expectRefused(readCloud(write("a.las", makeLas(2, 0x80, 20))), "las2las");
+  std::string las = makeLas(2, 0, 20);
+  std::string record(54, '\0');
+  record.replace(2, 14, "laszip encoded");
+  put(record, 18, std::uint16_t{ 22204 });
+  las.insert(227, record);
+  put(las, 96, std::uint32_t{ 227 + 54 });
+  put(las, 100, std::uint32_t{ 1 });
+  expectRefused(readCloud(write("b.las", las)), "LAZ");
+}
+
+TEST_F(Las, TruncationsAndHostileHeadersAreRefused)
+{
+  const std::string whole = makeLas(2, 3, 34);
+  for (std::size_t size = 0; size < whole.size(); ++size)
+  {
+    EXPECT_NE(readCloud(write("cut.las", whole.substr(0, size))).error, "") << size;
+  }
+  std::string las = makeLas(4, 6, 30);
+  put(las, 247, std::uint64_t{ 0xffffffffffffffff });
+  expectRefused(readCloud(write("h.las", las)), "bytes follow");
+  put(las, 247, std::uint64_t{ 0 });
+  expectRefused(readCloud(write("h.las", las)), "holds no points");
+  las = makeLas(2, 0, 20);
+  put(las, 131, 0.0);
+  expectRefused(readCloud(write("h.las", las)), "scale");
+  las = makeLas(2, 0, 20);
+  put(las, 96, std::uint32_t{ 4000000000u });
+  expectRefused(readCloud(write("h.las", las)), "byte 96");
+  las = makeLas(2, 0, 20);
+  put(las, 100, std::uint32_t{ 0xffffffffu });
+  EXPECT_EQ(readCloud(write("h.las", las)).points(), 2);
+  expectRefused(readCloud(write("h.las", makeLas(2, 11, 80))), "point format 11");
+}
+
+} // namespace

@@ -1,0 +1,167 @@
+#include "CloudFiles.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace
+{
+
+const std::string kAscii = "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 3\n"
+                           "property float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+                           "property uchar green\nproperty uchar blue\nproperty int label\nelement face 1\n"
+                           "property list uchar int vertex_indices\nend_header\n"
+                           "0 0.5 1 255 0 10 -7\n1 nan 2 1 2 3 8\n2 1e-3 -inf 4 5 6 9\n3 0 1 2\n";
+
+/// Vertex with double x y z, a list, a ushort and normals; a face element stands before it.
+template <typename Append>
+std::string makeBinary(const char* encoding, Append add)
+{
+  std::string ply = std::string("ply\r\nformat ") + encoding +
+    " 1.0\r\nelement face 2\r\nproperty list uint8 int32 vertex_indices\r\nproperty float quality\r\n"
+    "element vertex 2\r\nproperty float64 x\r\nproperty float64 y\r\nproperty float64 z\r\n"
+    "property list uchar float unused\r\nproperty uint16 echo\r\nproperty float nx\r\nproperty float ny\r\n"
+    "property float nz\r\nend_header\r\n";
+  for (int face = 0; face < 2; ++face)
+  {
+    add(ply, std::uint8_t{ 3 });
+    for (int i = 0; i < 3; ++i)
+    {
+      add(ply, std::int32_t{ i });
+    }
+    add(ply, 0.5f);
+  }
+  for (int i = 0; i < 2; ++i)
+  {
+    add(ply, 512700.123456789 + i);
+    add(ply, 5403547.000000001 + i);
+    add(ply, -1.0 / 3.0);
+    add(ply, static_cast<std::uint8_t>(i));
+    for (int k = 0; k < i; ++k)
+    {
+      add(ply, 1.0f);
+    }
+    add(ply, static_cast<std::uint16_t>(65535 - i));
+    add(ply, 0.0f);
+    add(ply, 0.6f);
+    add(ply, 0.8f);
+  }
+  return ply;
+}
+
+const auto kNative = [](std::string& bytes, auto value) { append(bytes, value); };
+const auto kSwapped = [](std::string& bytes, auto value) { appendSwapped(bytes, value); };
+
+bool isLittleEndian()
+{
+  const std::uint16_t one = 1;
+  return *reinterpret_cast<const std::uint8_t*>(&one) == 1;
+}
+
+class Ply : public CloudFiles
+{
+protected:
+  void expectBinaryRead(const std::string& file)
+  {
+    const ReadResult result = readCloud(file);
+    ASSERT_EQ(result.error, "");
+    ASSERT_EQ(result.points(), 2);
+    EXPECT_EQ(result.cloud->GetPoints()->GetDataType(), VTK_DOUBLE);
+    EXPECT_EQ(result.cloud->GetPoint(1)[0], 512700.123456789 + 1);
+    EXPECT_EQ(result.cloud->GetPoint(0)[1], 5403547.000000001);
+    EXPECT_EQ(result.cloud->GetPoint(1)[2], -1.0 / 3.0);
+    EXPECT_EQ(result.array("echo")->GetDataType(), VTK_UNSIGNED_SHORT);
+    EXPECT_EQ(result.value("echo", 1), 65534);
+    ASSERT_NE(result.cloud->GetPointData()->GetNormals(), nullptr);
+    EXPECT_EQ(result.value("Normals", 1, 2), static_cast<double>(0.8f));
+    EXPECT_EQ(result.array("unused"), nullptr);
+  }
+};
+
+TEST_F(Ply, AsciiKeepsFieldsColoursAndInvalidPoints)
+{
+  const ReadResult result = readCloud(write("a.ply", kAscii));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.format, "PLY (ascii)");
+  ASSERT_EQ(result.points(), 3);
+  EXPECT_EQ(result.cloud->GetPoints()->GetDataType(), VTK_FLOAT);
+  EXPECT_TRUE(std::isnan(result.cloud->GetPoint(1)[1]));
+  EXPECT_TRUE(std::isinf(result.cloud->GetPoint(2)[2]));
+  EXPECT_EQ(result.array("label")->GetDataType(), VTK_INT);
+  EXPECT_EQ(result.value("label", 0), -7);
+  ASSERT_NE(result.cloud->GetPointData()->GetScalars(), nullptr);
+  EXPECT_STREQ(result.cloud->GetPointData()->GetScalars()->GetName(), "RGB");
+  EXPECT_EQ(result.value("RGB", 0, 2), 10);
+  EXPECT_EQ(result.cloud->GetNumberOfVerts(), 3);
+  EXPECT_EQ(result.cloud->GetNumberOfCells(), 3);
+}
+
+TEST_F(Ply, IsReadWhateverItsExtensionSays)
+{
+  EXPECT_EQ(readCloud(write("a.las", kAscii)).points(), 3);
+}
+
+TEST_F(Ply, BothBinaryOrdersGiveTheSameCloud)
+{
+  const bool little = isLittleEndian();
+  expectBinaryRead(
+    write("l.ply", makeBinary(little ? "binary_little_endian" : "binary_big_endian", kNative)));
+  expectBinaryRead(
+    write("b.ply", makeBinary(little ? "binary_big_endian" : "binary_little_endian", kSwapped)));
+}
+
+TEST_F(Ply, EveryTruncationIsRefusedWithAMessage)
+{
+  const std::string whole =
+    makeBinary(isLittleEndian() ? "binary_little_endian" : "binary_big_endian", kNative);
+  for (std::size_t size = 0; size < whole.size(); ++size)
+  {
+    const ReadResult result = readCloud(write("cut.ply", whole.substr(0, size)));
+    EXPECT_NE(result.error, "") << size;
+    EXPECT_EQ(result.points(), 0) << size;
+  }
+}
+
+TEST_F(Ply, HostileCountsAllocateNothing)
+{
+  for (const char* count : { "4000000000", "9223372036854775807", "18446744073709551615" })
+  {
+    const std::string binary = std::string("ply\nformat binary_little_endian 1.0\nelement vertex ") + count +
+      "\nproperty float x\nproperty float y\nproperty float z\nend_header\n0123456789ab";
+    expectRefused(readCloud(write("h.ply", binary)), "bytes follow");
+    const std::string ascii = std::string("ply\nformat ascii 1.0\nelement vertex ") + count +
+      "\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
+    expectRefused(readCloud(write("h.ply", ascii)), "bytes follow");
+    const std::string faces = std::string("ply\nformat binary_little_endian 1.0\nelement face ") + count +
+      "\nproperty list int int vertex_indices\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n0123456789ab";
+    EXPECT_NE(readCloud(write("h.ply", faces)).error, "");
+  }
+  expectRefused(
+    readCloud(write("n.ply", "ply\nformat ascii 1.0\nelement vertex -5\nend_header\n")), "line 3");
+}
+
+TEST_F(Ply, NamesTheLineOfAMalformedNumber)
+{
+  std::string bad = kAscii;
+  bad.replace(bad.find("1 nan"), 5, "1 n%n");
+  expectRefused(readCloud(write("a.ply", bad)), "line 16: property 'y' is 'n%n', not a number");
+  std::string wide = kAscii;
+  wide.replace(wide.find("255 0 10"), 3, "256");
+  expectRefused(readCloud(write("a.ply", wide)), "line 15: property 'red' is 256");
+  std::string missing = kAscii;
+  missing.replace(missing.find(" 8\n"), 3, "\n");
+  expectRefused(readCloud(write("a.ply", missing)), "line 16: property 'label' is missing");
+}
+
+TEST_F(Ply, RefusesZeroPointsAndMissingCoordinates)
+{
+  const std::string header = "ply\nformat ascii 1.0\nelement vertex ";
+  expectRefused(readCloud(write(
+                  "0.ply", header + "0\nproperty float x\nproperty float y\nproperty float z\nend_header\n")),
+    "holds no points");
+  expectRefused(readCloud(write("n.ply", header + "1\nproperty float x\nend_header\n1\n")), "x, y and z");
+  expectRefused(
+    readCloud(write("f.ply", "ply\nformat ascii 1.0\nelement face 0\nend_header\n")), "element vertex");
+}
+
+} // namespace

@@ -1,0 +1,127 @@
+#include "CloudFiles.h"
+
+#include <cmath>
+
+namespace
+{
+
+class Text : public CloudFiles
+{
+};
+
+TEST_F(Text, PlainXyzWithEverySeparator)
+{
+  for (const char* separator : { " ", "\t", ",", ", ", ";", " ; " })
+  {
+    const std::string s = separator;
+    const ReadResult result = readCloud(write("a.xyz", "1" + s + "2" + s + "3\n4" + s + "5" + s + "6.5\n"));
+    ASSERT_EQ(result.error, "") << "separator '" << s << "'";
+    ASSERT_EQ(result.points(), 2);
+    EXPECT_EQ(result.cloud->GetPoint(1)[2], 6.5);
+    EXPECT_EQ(result.cloud->GetPoints()->GetDataType(), VTK_FLOAT);
+    EXPECT_EQ(result.cloud->GetNumberOfVerts(), 2);
+  }
+}
+
+TEST_F(Text, ManyDigitsMakeDoublePoints)
+{
+  const ReadResult result = readCloud(write("a.txt", "684766.39 5017773.08 1\n684766.4 5017773.1 2\n"));
+  EXPECT_EQ(result.cloud->GetPoints()->GetDataType(), VTK_DOUBLE);
+  EXPECT_EQ(result.cloud->GetPoint(0)[1], 5017773.08);
+}
+
+TEST_F(Text, CarriageReturnsBlankLinesCommentsAndNan)
+{
+  const ReadResult result = readCloud(
+    write("a.xyz", "\xef\xbb\xbf# made by hand\r\n\r\n// again\r\n+1 2 3\r\n\r\nnan NaN inf\r\n-1 -2 -Inf"));
+  ASSERT_EQ(result.error, "");
+  ASSERT_EQ(result.points(), 3);
+  EXPECT_EQ(result.cloud->GetPoint(0)[0], 1.0);
+  EXPECT_TRUE(std::isnan(result.cloud->GetPoint(1)[0]));
+  EXPECT_TRUE(std::isinf(result.cloud->GetPoint(2)[2]));
+}
+
+TEST_F(Text, PtsKeepsItsFirstPoint)
+{
+  const ReadResult result = readCloud(write("a.pts", "2\n1 2 3 -100 10 20 30\n4 5 6 200 40 50 60\n"));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.format, "PTS");
+  ASSERT_EQ(result.points(), 2);
+  EXPECT_EQ(result.cloud->GetPoint(0)[0], 1.0);
+  EXPECT_EQ(result.value("intensity", 0), -100);
+  EXPECT_EQ(result.value("RGB", 1, 2), 60);
+}
+
+TEST_F(Text, PtsMayHoldSeveralScansButNotFewerPointsThanItSays)
+{
+  EXPECT_EQ(readCloud(write("a.pts", "1\n1 2 3 4\n2\n5 6 7 8\n9 8 7 6\n")).points(), 3);
+  expectRefused(readCloud(write("b.pts", "3\n1 2 3 4\n5 6 7 8\n")), "1 points before");
+  expectRefused(readCloud(write("c.pts", "1\n1 2 3 4\n5 6 7 8\n")), "line 3");
+  expectRefused(readCloud(write("d.pts", "99999999999999\n1 2 3 4\n")), "line 1");
+}
+
+TEST_F(Text, ColumnsWithoutHeaderAreGuessed)
+{
+  const ReadResult four = readCloud(write("4.xyz", "1 2 3 0.5\n"));
+  EXPECT_EQ(four.value("intensity", 0), 0.5);
+  const ReadResult colours = readCloud(write("6.xyz", "1 2 3 0 128 255\n"));
+  EXPECT_EQ(colours.value("RGB", 0, 1), 128);
+  const ReadResult normals = readCloud(write("6n.xyz", "1 2 3 0 128 255\n1 2 3 0 0 1.5\n"));
+  EXPECT_EQ(normals.array("RGB"), nullptr);
+  EXPECT_EQ(normals.value("Normals", 1, 2), 1.5);
+  const ReadResult five = readCloud(write("5.xyz", "1 2 3 4 5.5\n"));
+  EXPECT_EQ(five.array("column_4")->GetDataType(), VTK_INT);
+  EXPECT_EQ(five.value("column_5", 0), 5.5);
+}
+
+TEST_F(Text, HeaderNamesTheColumns)
+{
+  const ReadResult csv =
+    readCloud(write("a.csv", "\"gain\",X,Y,Z,Red,Green,Blue,label\n0.25,1,2,3,9,8,7,\n0.5,4,5,6,6,5,4,12\n"));
+  ASSERT_EQ(csv.error, "");
+  EXPECT_EQ(csv.format, "text (comma separated)");
+  EXPECT_EQ(csv.cloud->GetPoint(1)[0], 4.0);
+  EXPECT_EQ(csv.value("gain", 0), 0.25);
+  EXPECT_EQ(csv.value("RGB", 0, 0), 9);
+  EXPECT_TRUE(std::isnan(csv.value("label", 0)));
+  EXPECT_EQ(csv.value("label", 1), 12);
+  const ReadResult commented = readCloud(write("b.txt", "//X Y Z heat\n1 2 3 4\n"));
+  EXPECT_EQ(commented.value("heat", 0), 4);
+  const ReadResult paraview = readCloud(
+    write("c.csv", "\"RGB:0\",\"RGB:1\",\"RGB:2\",\"Points:0\",\"Points:1\",\"Points:2\"\n1,2,3,4,5,6\n"));
+  EXPECT_EQ(paraview.cloud->GetPoint(0)[2], 6.0);
+  EXPECT_EQ(paraview.value("RGB", 0, 2), 3);
+}
+
+TEST_F(Text, NamesTheLineOfWhatIsWrong)
+{
+  expectRefused(readCloud(write("a.xyz", "1 2 3\n4 five 6\n")), "line 2, column 2: 'five'");
+  expectRefused(readCloud(write("a.xyz", "1 2 3\n4 5\n")), "line 2: 2 columns where 3");
+  expectRefused(readCloud(write("a.xyz", "1 2 3\n4 5 6 7\n")), "line 2: 4 columns where 3");
+  expectRefused(readCloud(write("a.xyz", "1 2 3\n1e999 5 6\n")), "1e999");
+  expectRefused(readCloud(write("a.csv", "east,north,up\n1,2,3\n")), "x, y and z");
+  expectRefused(readCloud(write("a.csv", "x,y,z\n")), "holds no points");
+  expectRefused(readCloud(write("a.csv", "# nothing\n")), "holds no points");
+  expectRefused(readCloud(write("a.xyz", "1 2\n3 4\n")), "2 columns");
+}
+
+TEST_F(Text, ObjKeepsColoursAndNormalsAndIgnoresFaces)
+{
+  const ReadResult result = readCloud(write("a.obj",
+    "# comment\no thing\nv 0 1 2 1.0 0.5 0\nv 3 4 5 0 0 1\nvn 0 0 1\nvn 0 1 0\nvt 0 0\nf 1//1 2//2 1//1\n"));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.format, "OBJ");
+  ASSERT_EQ(result.points(), 2);
+  EXPECT_EQ(result.value("RGB", 0, 1), 128);
+  EXPECT_EQ(result.value("Normals", 1, 1), 1.0);
+  EXPECT_EQ(result.cloud->GetNumberOfPolys(), 0);
+  const ReadResult plain = readCloud(write("a.txt", "v 512700.125 1 2 1\nv 1 2 3\nvn 0 0 1\n"));
+  ASSERT_EQ(plain.error, "");
+  EXPECT_EQ(plain.cloud->GetPoints()->GetDataType(), VTK_DOUBLE);
+  EXPECT_EQ(plain.array("Normals"), nullptr);
+  expectRefused(readCloud(write("b.obj", "v 1 2 3\nv 1 two 3\n")), "line 2: 'two'");
+  expectRefused(readCloud(write("b.obj", "v 1 2 3\nv 1 2\n")), "line 2");
+  expectRefused(readCloud(write("b.obj", "o empty\n")), "holds no points");
+}
+
+} // namespace

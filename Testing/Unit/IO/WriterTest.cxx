@@ -1,0 +1,265 @@
+#include "CloudFiles.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnsignedShortArray.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#ifdef __unix__
+#include <csignal>
+#include <sys/resource.h>
+#endif
+
+namespace
+{
+
+constexpr int kPoints = 100;
+
+template <typename Array, typename Make>
+void addArray(vtkPolyData* cloud, const char* name, int components, Make make)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(kPoints);
+  for (vtkIdType i = 0; i < kPoints * components; ++i)
+  {
+    array->SetValue(i, make(i));
+  }
+  cloud->GetPointData()->AddArray(array);
+}
+
+/// A cloud at UTM coordinates with arrays of many types; point 7 is NaN.
+vtkSmartPointer<vtkPolyData> makeCloud(int pointType)
+{
+  std::mt19937_64 random(42);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(pointType);
+  for (int i = 0; i < kPoints; ++i)
+  {
+    points->InsertNextPoint(684766.39 + unit(random), 5017773.08 + unit(random), 100.0 * unit(random));
+  }
+  points->SetPoint(7, std::nan(""), 1.0, std::numeric_limits<double>::infinity());
+  cloud->SetPoints(points);
+  addArray<vtkUnsignedCharArray>(
+    cloud, "RGB", 3, [](vtkIdType i) { return static_cast<unsigned char>(i * 7); });
+  addArray<vtkFloatArray>(cloud, "Normals", 3, [&](vtkIdType) { return static_cast<float>(unit(random)); });
+  addArray<vtkDoubleArray>(cloud, "Bandwidth", 1, [&](vtkIdType) { return unit(random); });
+  addArray<vtkFloatArray>(
+    cloud, "Density", 1, [&](vtkIdType) { return static_cast<float>(1e6 * unit(random)); });
+  addArray<vtkUnsignedShortArray>(
+    cloud, "Intensity", 1, [](vtkIdType i) { return static_cast<unsigned short>(65535 - i); });
+  addArray<vtkIntArray>(cloud, "Label", 1, [](vtkIdType i) { return static_cast<int>(i) - 50; });
+  addArray<vtkTypeInt64Array>(cloud, "VoxelPointCount", 1, [](vtkIdType i) { return (1ll << 40) + i; });
+  addArray<vtkDoubleArray>(cloud, "VoxelCovariance", 6, [&](vtkIdType) { return unit(random); });
+  cloud->GetPointData()->SetActiveScalars("RGB");
+  cloud->GetPointData()->SetActiveNormals("Normals");
+  return cloud;
+}
+
+bool same(double a, double b)
+{
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+void expectSameValues(vtkDataArray* expected, vtkDataArray* actual, bool asFloat)
+{
+  ASSERT_NE(actual, nullptr) << expected->GetName();
+  ASSERT_EQ(actual->GetNumberOfComponents(), expected->GetNumberOfComponents()) << expected->GetName();
+  ASSERT_EQ(actual->GetNumberOfTuples(), expected->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < expected->GetNumberOfTuples(); ++i)
+  {
+    for (int c = 0; c < expected->GetNumberOfComponents(); ++c)
+    {
+      const double value = actual->GetComponent(i, c);
+      const double read = asFloat ? static_cast<double>(static_cast<float>(value)) : value;
+      ASSERT_TRUE(same(read, expected->GetComponent(i, c))) << expected->GetName() << " " << i << " " << c;
+    }
+  }
+}
+
+struct RoundTrip
+{
+  const char* extension;
+  int pointType;
+};
+
+class WriterRoundTrip
+  : public CloudFiles
+  , public ::testing::WithParamInterface<RoundTrip>
+{
+};
+
+TEST_P(WriterRoundTrip, GivesBackPointsAndEveryArray)
+{
+  const std::string extension = GetParam().extension;
+  const bool typesAreStored = extension != "csv";
+  const auto cloud = makeCloud(GetParam().pointType);
+  const std::string file = path("cloud." + extension);
+  ASSERT_EQ(writeCloud(cloud, file), "");
+  const ReadResult result = readCloud(file);
+  if (result.error.find("no PCL") != std::string::npos)
+  {
+    GTEST_SKIP() << result.error;
+  }
+  ASSERT_EQ(result.error, "");
+  if (typesAreStored)
+  {
+    EXPECT_EQ(result.cloud->GetPoints()->GetDataType(), GetParam().pointType);
+  }
+  expectSameValues(
+    cloud->GetPoints()->GetData(), result.cloud->GetPoints()->GetData(), GetParam().pointType == VTK_FLOAT);
+  EXPECT_EQ(result.cloud->GetPointData()->GetNumberOfArrays(), cloud->GetPointData()->GetNumberOfArrays());
+  for (int i = 0; i < cloud->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* expected = cloud->GetPointData()->GetArray(i);
+    vtkDataArray* actual = result.array(expected->GetName());
+    expectSameValues(expected, actual, expected->GetDataType() == VTK_FLOAT);
+    const bool isLong = expected->GetDataTypeSize() == 8 && expected->GetDataType() != VTK_DOUBLE;
+    if (typesAreStored && !(extension == "ply" && isLong))
+    {
+      EXPECT_EQ(actual->GetDataType(), expected->GetDataType()) << expected->GetName();
+    }
+  }
+  ASSERT_NE(result.cloud->GetPointData()->GetScalars(), nullptr);
+  EXPECT_STREQ(result.cloud->GetPointData()->GetScalars()->GetName(), "RGB");
+  ASSERT_NE(result.cloud->GetPointData()->GetNormals(), nullptr);
+  EXPECT_EQ(result.cloud->GetNumberOfVerts(), kPoints);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, WriterRoundTrip,
+  ::testing::Values(RoundTrip{ "vtp", VTK_FLOAT }, RoundTrip{ "vtp", VTK_DOUBLE },
+    RoundTrip{ "ply", VTK_FLOAT }, RoundTrip{ "ply", VTK_DOUBLE }, RoundTrip{ "pcd", VTK_FLOAT },
+    RoundTrip{ "pcd", VTK_DOUBLE }, RoundTrip{ "csv", VTK_FLOAT }, RoundTrip{ "csv", VTK_DOUBLE }),
+  [](const ::testing::TestParamInfo<RoundTrip>& test)
+  { return std::string(test.param.extension) + (test.param.pointType == VTK_FLOAT ? "_float" : "_double"); });
+
+class Writer : public CloudFiles
+{
+};
+
+TEST_F(Writer, PcdKeepsViewpointShapeAndAlpha)
+{
+  const auto cloud = makeCloud(VTK_FLOAT);
+  cloud->GetPointData()->RemoveArray("RGB");
+  addArray<vtkUnsignedCharArray>(cloud, "RGBA", 4, [](vtkIdType i) { return static_cast<unsigned char>(i); });
+  cloud->GetPointData()->SetActiveScalars("RGBA");
+  vtkNew<vtkDoubleArray> viewpoint;
+  viewpoint->SetName("Viewpoint");
+  viewpoint->SetNumberOfComponents(7);
+  const double pose[7] = { 0.1, 2, 3, 0, 1, 0, 0 };
+  viewpoint->InsertNextTuple(pose);
+  cloud->GetFieldData()->AddArray(viewpoint);
+  vtkNew<vtkIntArray> shape;
+  shape->SetName("OrganizedDimensions");
+  shape->InsertNextValue(kPoints / 4);
+  shape->InsertNextValue(4);
+  cloud->GetFieldData()->AddArray(shape);
+  ASSERT_EQ(writeCloud(cloud, path("a.pcd")), "");
+  const ReadResult result = readCloud(path("a.pcd"));
+  if (result.error.find("no PCL") != std::string::npos)
+  {
+    GTEST_SKIP() << result.error;
+  }
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.value("RGBA", 10, 3), 43);
+  EXPECT_EQ(result.cloud->GetFieldData()->GetArray("Viewpoint")->GetComponent(0, 0), 0.1);
+  EXPECT_EQ(result.cloud->GetFieldData()->GetArray("OrganizedDimensions")->GetComponent(0, 1), 4);
+}
+
+TEST_F(Writer, CsvStartsWithTheAgreedHeader)
+{
+  ASSERT_EQ(writeCloud(makeCloud(VTK_FLOAT), path("a.csv")), "");
+  std::ifstream file(path("a.csv"));
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line,
+    "x,y,z,RGB_0,RGB_1,RGB_2,Normals_0,Normals_1,Normals_2,Bandwidth,Density,Intensity,Label,VoxelPointCount,"
+    "VoxelCovariance_0,VoxelCovariance_1,VoxelCovariance_2,VoxelCovariance_3,VoxelCovariance_4,"
+    "VoxelCovariance_5");
+}
+
+TEST_F(Writer, SaysWhatIsWrongAndLeavesNothingBehind)
+{
+  const auto cloud = makeCloud(VTK_FLOAT);
+  EXPECT_NE(writeCloud(cloud, path("a.xls")).find(".vtp, .ply, .pcd or .csv"), std::string::npos);
+  EXPECT_NE(writeCloud(cloud, path("none/a.ply")).find("No such file"), std::string::npos);
+  EXPECT_NE(writeCloud(cloud, path("none/a.vtp")).find("No such file"), std::string::npos);
+  EXPECT_NE(writeCloud(cloud, "").find("file name"), std::string::npos);
+  vtkNew<vtkPolyData> empty;
+  EXPECT_NE(writeCloud(empty, path("a.ply")).find("no points"), std::string::npos);
+  std::filesystem::create_directory(path("d.ply"));
+  EXPECT_NE(writeCloud(cloud, path("d.ply")).find("folder"), std::string::npos);
+  std::filesystem::remove(path("d.ply"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+#ifdef __unix__
+TEST_F(Writer, FullDiskLeavesTheOldFileAsItWas)
+{
+  const auto cloud = makeCloud(VTK_DOUBLE);
+  rlimit before;
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  void (*handler)(int) = std::signal(SIGXFSZ, SIG_IGN);
+  for (const char* name : { "a.ply", "a.pcd", "a.csv", "a.vtp" })
+  {
+    write(name, "old");
+    rlimit small = before;
+    small.rlim_cur = 4096;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const std::string message = writeCloud(cloud, path(name));
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_NE(message, "") << name;
+    EXPECT_EQ(std::filesystem::file_size(path(name)), 3u) << name;
+  }
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 4);
+}
+#endif
+
+TEST_F(Writer, VtpTruncationsAndHostileCountsAreRefused)
+{
+  ASSERT_EQ(writeCloud(makeCloud(VTK_DOUBLE), path("a.vtp")), "");
+  std::ifstream file(path("a.vtp"), std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  EXPECT_EQ(readCloud(path("a.vtp")).points(), kPoints);
+  for (std::size_t size = 1; size + 2 < whole.size(); size += 97)
+  {
+    const ReadResult result = readCloud(write("cut.vtp", whole.substr(0, size)));
+    EXPECT_NE(result.error, "") << size;
+    EXPECT_EQ(result.points(), 0) << size;
+  }
+  std::string hostile = whole;
+  hostile.replace(hostile.find("NumberOfPoints=\"100"), 19, "NumberOfPoints=\"4000000000000");
+  expectRefused(readCloud(write("h.vtp", hostile)), "NumberOfPoints");
+  std::string grid = whole;
+  grid.replace(grid.find("type=\"PolyData\""), 15, "type=\"ImageData\"");
+  expectRefused(readCloud(write("g.vtp", grid)), "ImageData");
+}
+
+TEST_F(Writer, VtpPointsWithoutCellsGetVertices)
+{
+  const ReadResult result = readCloud(write("a.vtp",
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
+    "byte_order=\"LittleEndian\">\n<PolyData>\n"
+    "<Piece NumberOfPoints=\"2\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+    "NumberOfPolys=\"0\">\n"
+    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 2 "
+    "3</DataArray></Points>\n"
+    "</Piece>\n</PolyData>\n</VTKFile>\n"));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.cloud->GetNumberOfVerts(), 2);
+  EXPECT_EQ(result.cloud->GetPoint(1)[2], 3.0);
+}
+
+} // namespace
