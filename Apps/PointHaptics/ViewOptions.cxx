@@ -205,7 +205,8 @@ void ViewOptions::addTo(CLI::App& command)
     .add_option("--color-by", this->colorBy,
       "Array to colour by: rgb, Height, ProxyRadius, ...; default: rgb, or Height")
     ->type_name("ARRAY");
-  addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS", "Size of a point; default 3");
+  addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS",
+    "Size of a point; default: closes the surface, 3 to 9");
   addTouchOptions(command, *this);
   this->bandwidth.addTo(command);
   this->lattice.addTo(command);

@@ -35,7 +35,7 @@ struct ViewOptions
   std::string trace;      ///< CSV.
   std::string up = "auto";
   std::string colorBy;
-  double pointSize = 3.0; ///< Pixels.
+  double pointSize = 0.0; ///< Pixels; 0: from the spacing of the points.
   bool noCovariance = false;
   std::string method = "surface-fit";
   std::string preset = "tuned";

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <vtkActor.h>
 #include <vtkAppendPolyData.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -21,6 +22,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
@@ -40,6 +42,8 @@ namespace
 
 /// Part of the workspace's edge a fitted cloud takes: the hand needs room to reach it from every side.
 constexpr double kFittedPart = 0.9;
+/// Size for applyDepthShading() in edges of the workspace.
+constexpr double kDepthShadingScale = 6.0;
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
 constexpr double kFacingEnough = 0.25;
 
@@ -148,6 +152,11 @@ ViewScene::ViewScene()
   renderer_->AddActor(actor_);
   props_->AddTo(renderer_);
   applyBackground(renderer_);
+  vtkNew<vtkCallbackCommand> sizing;
+  sizing->SetClientData(this);
+  sizing->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void*) { static_cast<ViewScene*>(self)->sizePoints(); });
+  renderer_->AddObserver(vtkCommand::StartEvent, sizing);
   scalarBar_->SetNumberOfLabels(4);
   scalarBar_->UnconstrainedFontSizeOn();
   for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty() })
@@ -166,7 +175,26 @@ ViewScene::ViewScene()
   renderer_->AddActor2D(scalarBar_);
 }
 
-ViewScene::~ViewScene() = default;
+ViewScene::~ViewScene()
+{
+  renderer_->RemoveObservers(vtkCommand::StartEvent);
+}
+
+/// Before every render: points that are about to part grow, so that a surface stays closed.
+void ViewScene::sizePoints()
+{
+  if (pointSize_ > 0.0)
+  {
+    return;
+  }
+  vtkPolyData* shown = bandwidth_->GetOutput();
+  if (shown->GetMTime() != spacingTime_)
+  {
+    spacingTime_ = shown->GetMTime();
+    spacing_ = medianSpacing(shown);
+  }
+  actor_->GetProperty()->SetPointSize(static_cast<float>(pointSizeFor(spacing_, renderer_)));
+}
 
 vtkIdType ViewScene::numberOfPoints() const
 {
@@ -278,9 +306,12 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   resampler_->SetWorkspaceBounds(bounds); // from now on it stays, whatever the user does to the model
   props_->SetWorkspaceBounds(bounds);
   const Vec3 extent = workspace_.extent();
-  props_->SetForceScale(0.1 * std::max({ extent.x, extent.y, extent.z }));
+  const double edge = std::max({ extent.x, extent.y, extent.z });
+  props_->SetForceScale(0.1 * edge);
+  applyDepthShading(renderer_, kDepthShadingScale * edge);
+  pointSize_ = options.pointSize;
 
-  if (!applyCloudAppearance(output, mapper_, actor_, options.colorBy, options.pointSize))
+  if (!applyCloudAppearance(output, mapper_, actor_, options.colorBy, std::max(1.0, pointSize_)))
   {
     message = fmt::format("the cloud has no array \"{}\"; arrays to colour by:", options.colorBy);
     for (int i = 0; i < output->GetPointData()->GetNumberOfArrays(); ++i)
@@ -300,8 +331,8 @@ void ViewScene::placeCamera(const ProxyState* contact)
 {
   const Vec3 extent = workspace_.extent();
   const double edge = std::max({ extent.x, extent.y, extent.z });
-  const double aside = orientation_.fromSensor ? 10.0 : 28.0;
-  const double above = orientation_.fromSensor ? 8.0 : 18.0;
+  const double aside = orientation_.fromSensor ? 16.0 : 28.0;
+  const double above = orientation_.fromSensor ? 12.0 : 18.0;
   vtkCamera* camera = renderer_->GetActiveCamera();
   // A contact is wanted on the side we see: the smallest turn that shows it, or else the one that faces it
   // most.

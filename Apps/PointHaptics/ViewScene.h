@@ -66,6 +66,7 @@ public:
   vtkIdType numberOfPoints() const;
 
 private:
+  void sizePoints();
   void fit(const Bounds& cloud, const ViewOptions& options);
 
   vtkSmartPointer<vtkPolyData> cloud_;
@@ -79,6 +80,9 @@ private:
   vtkNew<vtkRenderer> renderer_;
   Bounds workspace_;
   CloudOrientation orientation_;
+  double pointSize_ = 0.0; // 0: from the spacing
+  double spacing_ = 0.0;
+  unsigned long long spacingTime_ = 0;
   std::string scaleNote_;
   std::string title_;
 };

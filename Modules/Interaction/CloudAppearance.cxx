@@ -1,15 +1,27 @@
 #include "CloudAppearance.h"
 
 #include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkCameraPass.h"
 #include "vtkDataArray.h"
+#include "vtkEDLShading.h"
 #include "vtkFloatArray.h"
+#include "vtkLightsPass.h"
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpaquePass.h"
+#include "vtkOverlayPass.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkProp.h"
+#include "vtkPropCollection.h"
 #include "vtkProperty.h"
+#include "vtkRenderPassCollection.h"
 #include "vtkRenderer.h"
+#include "vtkSequencePass.h"
+#include "vtkTranslucentPass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +38,8 @@ constexpr double kColorPoints[9][3] = { { 0.267, 0.005, 0.329 }, { 0.278, 0.175,
   { 0.231, 0.322, 0.546 }, { 0.173, 0.449, 0.558 }, { 0.128, 0.567, 0.551 }, { 0.153, 0.678, 0.506 },
   { 0.361, 0.785, 0.388 }, { 0.627, 0.842, 0.224 }, { 0.890, 0.840, 0.130 } };
 
-/// Range of the finite values between the 1st and the 99th percentile (of at most about 10,000 of them).
-void robustRange(vtkDataArray* array, double range[2])
+/// The finite ones of at most about 10,000 values of the first component, in ascending order.
+std::vector<double> finiteSample(vtkDataArray* array)
 {
   std::vector<double> values;
   const vtkIdType count = array->GetNumberOfTuples();
@@ -40,11 +52,18 @@ void robustRange(vtkDataArray* array, double range[2])
       values.push_back(value);
     }
   }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+/// Range of the finite values between the 1st and the 99th percentile.
+void robustRange(vtkDataArray* array, double range[2])
+{
+  const std::vector<double> values = finiteSample(array);
   range[0] = 0.0;
   range[1] = 1.0;
   if (!values.empty())
   {
-    std::sort(values.begin(), values.end());
     range[0] = values[values.size() / 100];
     range[1] = values[values.size() - 1 - values.size() / 100];
   }
@@ -68,6 +87,29 @@ void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array)
   mapper->SetColorModeToMapScalars();
   mapper->ScalarVisibilityOn();
 }
+
+/// Draws nothing. vtkEDLShading measures depth in parts of the size of what is visible and has no other
+/// control of its strength; voxel means are rough by a voxel, and at its own strength that roughness is all
+/// one sees.
+class DepthShadingScale : public vtkProp
+{
+public:
+  static DepthShadingScale* New();
+  vtkTypeMacro(DepthShadingScale, vtkProp);
+  double* GetBounds() override { return this->Bounds; }
+
+  void setSize(double sceneSize)
+  {
+    for (int i = 0; i < 6; ++i)
+    {
+      this->Bounds[i] = (i % 2 ? 0.5 : -0.5) * sceneSize;
+    }
+  }
+
+private:
+  double Bounds[6] = { -0.5, 0.5, -0.5, 0.5, -0.5, 0.5 };
+};
+vtkStandardNewMacro(DepthShadingScale);
 
 } // namespace
 
@@ -122,6 +164,29 @@ bool hasColors(vtkPolyData* cloud)
     (scalars->GetNumberOfComponents() == 3 || scalars->GetNumberOfComponents() == 4);
 }
 
+double medianSpacing(vtkPolyData* cloud)
+{
+  // The default radius of the proxy is 2.8 local spacings.
+  constexpr double kRadiusPerSpacing = 2.8;
+  vtkDataArray* radii = cloud->GetPointData()->GetArray("ProxyRadius");
+  std::vector<double> values = radii ? finiteSample(radii) : std::vector<double>();
+  return values.empty() ? 0.0 : values[values.size() / 2] / kRadiusPerSpacing;
+}
+
+double pointSizeFor(double spacing, vtkRenderer* renderer)
+{
+  constexpr double kPixelsPerSpacing = 2.2;
+  constexpr double kSmallest = 3.0;
+  constexpr double kLargest = 9.0;
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const int* size = renderer->GetSize();
+  const double height = camera->GetParallelProjection()
+    ? 2.0 * camera->GetParallelScale()
+    : 2.0 * camera->GetDistance() * std::tan(0.5 * camera->GetViewAngle() * 3.14159265358979323846 / 180.0);
+  const double pixels = kPixelsPerSpacing * spacing / height * size[1];
+  return std::isfinite(pixels) ? std::round(std::min(std::max(pixels, kSmallest), kLargest)) : kSmallest;
+}
+
 bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper, vtkActor* actor,
   const std::string& colorBy, double pointSize)
 {
@@ -159,6 +224,48 @@ void applyBackground(vtkRenderer* renderer)
   renderer->GradientBackgroundOn();
   renderer->SetBackground(0.97, 0.97, 0.96);
   renderer->SetBackground2(0.80, 0.84, 0.89);
+}
+
+void applyDepthShading(vtkRenderer* renderer, double sceneSize)
+{
+  DepthShadingScale* scale = nullptr;
+  vtkPropCollection* props = renderer->GetViewProps();
+  vtkCollectionSimpleIterator cookie;
+  props->InitTraversal(cookie);
+  while (vtkProp* prop = props->GetNextProp(cookie))
+  {
+    scale = scale ? scale : dynamic_cast<DepthShadingScale*>(prop);
+  }
+  if (scale)
+  {
+    scale->setSize(sceneSize);
+    return;
+  }
+  vtkNew<DepthShadingScale> newScale;
+  newScale->setSize(sceneSize);
+  renderer->AddViewProp(newScale);
+
+  vtkNew<vtkLightsPass> lights;
+  vtkNew<vtkOpaquePass> opaque;
+  vtkNew<vtkTranslucentPass> translucent;
+  vtkNew<vtkRenderPassCollection> worldPasses;
+  worldPasses->AddItem(lights);
+  worldPasses->AddItem(opaque);
+  worldPasses->AddItem(translucent);
+  vtkNew<vtkSequencePass> world;
+  world->SetPasses(worldPasses);
+  vtkNew<vtkCameraPass> camera;
+  camera->SetDelegatePass(world);
+  vtkNew<vtkEDLShading> shading;
+  shading->SetDelegatePass(camera);
+  // Text comes after the shading, which would draw shadows around its plates.
+  vtkNew<vtkOverlayPass> overlay;
+  vtkNew<vtkRenderPassCollection> passes;
+  passes->AddItem(shading);
+  passes->AddItem(overlay);
+  vtkNew<vtkSequencePass> all;
+  all->SetPasses(passes);
+  renderer->SetPass(all);
 }
 
 } // namespace pointhaptics

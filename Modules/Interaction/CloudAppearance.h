@@ -43,4 +43,16 @@ POINTHAPTICSINTERACTION_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtk
 /// read.
 POINTHAPTICSINTERACTION_EXPORT void applyBackground(vtkRenderer* renderer);
 
+/// Darkens what lies behind its surroundings (eye-dome lighting): points without normals show their shape.
+/// @param sceneSize depth differences are weighed in parts of this, in the units of the scene: larger is
+/// weaker. About eight times the edge of the workspace suits voxel means. May be called again with another
+/// size.
+POINTHAPTICSINTERACTION_EXPORT void applyDepthShading(vtkRenderer* renderer, double sceneSize);
+
+/// Median distance between neighbours, from the array ProxyRadius of default settings; 0 without it.
+POINTHAPTICSINTERACTION_EXPORT double medianSpacing(vtkPolyData* cloud);
+
+/// Pixels at which points @p spacing apart, at the camera's focal point, close to a surface: 3 to 9.
+POINTHAPTICSINTERACTION_EXPORT double pointSizeFor(double spacing, vtkRenderer* renderer);
+
 } // namespace pointhaptics

@@ -16,6 +16,10 @@ namespace pointhaptics
 namespace
 {
 
+/// An object's longest extent over its shortest, and how many of its lengths it may lie from the origin.
+constexpr double kLongestObject = 4.0;
+constexpr double kFarthestObject = 10.0;
+
 Bounds finiteBounds(vtkPolyData* cloud)
 {
   Bounds bounds;
@@ -54,8 +58,9 @@ bool comesFromCamera(vtkFieldData* field)
   return moved;
 }
 
-/// A depth camera's points are in its own frame, z forward and y down, all in front of it; the viewpoint places that
-/// frame in a world we do not show. Points behind the camera mean that they are in the world's frame already.
+/// A depth camera's points are in its own frame, z forward and y down, all in front of it; the viewpoint
+/// places that frame in a world we do not show. Points behind the camera mean that they are in the world's
+/// frame already.
 bool sensorOrientation(vtkPolyData* cloud, CloudOrientation& orientation)
 {
   if (!comesFromCamera(cloud->GetFieldData()) || !(finiteBounds(cloud).minimum.z > 0.0))
@@ -82,13 +87,15 @@ bool isMeshFormat(std::string format)
   return false;
 }
 
-/// A scanned object that stands on y = 0 or is tallest along y, as model makers leave them.
+/// A scanned object that stands on y = 0 or is tallest along y, as model makers leave them; not a scene:
+/// those are wide, and low along z.
 bool standsAlongY(const Bounds& bounds)
 {
   const Vec3 extent = bounds.extent();
   const double longest = std::max({ extent.x, extent.y, extent.z });
   const double shortest = std::min({ extent.x, extent.y, extent.z });
-  if (!(longest > 0.0) || shortest < longest / 8.0 || norm(bounds.center()) > 10.0 * longest)
+  if (!(longest > 0.0) || shortest < longest / kLongestObject ||
+    norm(bounds.center()) > kFarthestObject * longest)
   {
     return false;
   }
@@ -143,8 +150,9 @@ void placeCamera(vtkCamera* camera, const CloudOrientation& orientation, const V
   const double elevation = elevationDegrees * kDegree;
   const Vec3 direction =
     std::cos(elevation) * (std::cos(azimuth) * front + std::sin(azimuth) * right) + std::sin(elevation) * up;
-  // The cube's corners lie on a sphere of half its diagonal; a little less shows it larger and still whole.
-  const double distance = 0.5 * std::sqrt(3.0) * edge / std::sin(0.5 * kViewAngle * kDegree) * 0.94;
+  // The cube's corners lie on a sphere of half its diagonal; seen obliquely it fills less, so come a little
+  // nearer.
+  const double distance = 0.5 * std::sqrt(3.0) * edge / std::sin(0.5 * kViewAngle * kDegree) * 0.92;
   const Vec3 position = center + distance * direction;
   camera->SetFocalPoint(center.x, center.y, center.z);
   camera->SetPosition(position.x, position.y, position.z);

@@ -415,3 +415,13 @@ void vtkInteractorStyleHaptic::OnDropFiles(vtkStringArray* filePaths)
 {
   this->InvokeEvent(FilesDroppedEvent, filePaths);
 }
+
+void vtkInteractorStyleHaptic::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "UseCovariance: " << this->UseCovariance << "\n";
+  os << indent << "HandMode: " << this->Parts->handMode << "\n";
+  os << indent << "ModelChanged: " << this->Parts->modelChanged << "\n";
+  os << indent << "ModelTransform:\n";
+  this->Parts->model->PrintSelf(os, indent.GetNextIndent());
+}
