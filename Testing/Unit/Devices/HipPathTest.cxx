@@ -1,0 +1,219 @@
+#include "Devices/HipPath.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include <unistd.h>
+
+using namespace pointhaptics;
+namespace fs = std::filesystem;
+
+namespace
+{
+class HipPathFile : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / ("pointhaptics-" + std::to_string(::getpid()) + "-" + info->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string name(const std::string& file) const { return (folder_ / file).string(); }
+  std::string put(const std::string& text) const
+  {
+    std::ofstream(name("path.csv"), std::ios::binary) << text;
+    return name("path.csv");
+  }
+  std::size_t filesInFolder() const
+  {
+    return std::size_t(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+  /// Reads @p text and expects a refusal whose message holds the file's name and every part.
+  void expectRefused(const std::string& text, std::initializer_list<const char*> parts) const
+  {
+    HipPath path;
+    path.points.resize(3);
+    std::string message;
+    EXPECT_EQ(readHipPath(put(text), path, message), Status::FileMalformed) << text;
+    EXPECT_TRUE(path.points.empty());
+    EXPECT_NE(message.find(name("path.csv")), std::string::npos) << message;
+    for (const char* part : parts)
+    {
+      EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
+    }
+  }
+  void expectRead(const std::string& text, std::size_t rows) const
+  {
+    HipPath path;
+    std::string message;
+    EXPECT_EQ(readHipPath(put(text), path, message), Status::Ok) << message;
+    EXPECT_TRUE(message.empty());
+    EXPECT_EQ(path.points.size(), rows);
+  }
+
+  fs::path folder_;
+};
+
+HipPath threePoints()
+{
+  HipPath path;
+  path.points = { { 1.0, { 0.0, 0.0, 0.0 } }, { 2.0, { 0.01, 0.0, 0.0 } }, { 4.0, { 0.01, 0.02, -0.03 } } };
+  return path;
+}
+}
+
+TEST(HipPath, IsLinearBetweenItsPointsAndHeldOutside)
+{
+  const HipPath path = threePoints();
+  std::size_t hint = 0;
+  EXPECT_EQ(path.duration(), 3.0);
+  EXPECT_EQ(path.position(0.0, hint), path.points[0].position);
+  EXPECT_EQ(path.position(1.0, hint), path.points[0].position);
+  EXPECT_NEAR(norm(path.position(1.5, hint) - Vec3(0.005, 0.0, 0.0)), 0.0, 1e-18);
+  EXPECT_EQ(path.position(2.0, hint), path.points[1].position);
+  EXPECT_NEAR(norm(path.position(3.0, hint) - Vec3(0.01, 0.01, -0.015)), 0.0, 1e-18);
+  EXPECT_EQ(path.position(4.0, hint), path.points[2].position);
+  EXPECT_EQ(path.position(9.0, hint), path.points[2].position);
+  EXPECT_EQ(path.position(std::nan(""), hint), path.points[0].position);
+}
+
+TEST(HipPath, GivesTheSamePositionWhateverTheHint)
+{
+  HipPath path;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> number(0.0, 1.0);
+  double time = -3.0;
+  for (int i = 0; i < 500; ++i)
+  {
+    path.points.push_back({ time, { number(random), number(random), number(random) } });
+    time += number(random) * number(random) + 1e-6;
+  }
+  std::size_t kept = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const double t = -3.5 + number(random) * (path.duration() + 1.0);
+    std::size_t fresh = 0;
+    std::size_t wrong = std::size_t(number(random) * 1e6);
+    const Vec3 expected = path.position(t, fresh);
+    ASSERT_EQ(path.position(t, kept), expected);
+    ASSERT_EQ(path.position(t, wrong), expected);
+  }
+}
+
+TEST(HipPath, OfOnePointStaysThere)
+{
+  HipPath path;
+  path.points = { { 2.0, { 1.0, 2.0, 3.0 } } };
+  std::size_t hint = 0;
+  for (double t : { 0.0, 2.0, 5.0 })
+  {
+    EXPECT_EQ(path.position(t, hint), Vec3(1.0, 2.0, 3.0));
+  }
+  EXPECT_EQ(path.duration(), 0.0);
+}
+
+TEST_F(HipPathFile, ReadsRowsWithSpacesCrLfAndBlankLastLines)
+{
+  expectRead("t,x,y,z\n0,0,0,0\n1,0.5,-1e-3,2\n", 2);
+  expectRead("t,x,y,z\n0,0,0,0\n1,0.5,-1e-3,2", 2);
+  expectRead("t,x,y,z\r\n0,0,0,0\r\n1,0.5,-1e-3,2\r\n", 2);
+  expectRead("t,x,y,z\n0,0,0,0\n\n", 1);
+  expectRead("t,x,y,z\r\n0,0,0,0\r\n  \r\n\r\n", 1);
+  expectRead("t, x, y, z\n 0 ,\t0, 0,0 \n", 1);
+  expectRead("\xef\xbb\xbft,x,y,z\n0,0,0,0\n", 1);
+  expectRead("t,x,y,z\n-5,.5,1.,0E0\n", 1);
+}
+
+TEST_F(HipPathFile, SaysWhatIsWrongAndInWhichLine)
+{
+  expectRefused("", { ":1:", "header", "t,x,y,z" });
+  expectRefused("0,0,0,0\n1,0,0,0\n", { ":1:", "header", "'0,0,0,0'" });
+  expectRefused("time,x,y,z\n0,0,0,0\n", { ":1:", "header" });
+  expectRefused("t,x,y,z\n", { "no row" });
+  expectRefused("t,x,y,z\n\n\n", { "no row" });
+  expectRefused("t,x,y,z\n0,0,0\n", { ":2:", "3 columns" });
+  expectRefused("t,x,y,z\n0,0,0,0\n1,0,0,0,0\n", { ":3:", "5 columns" });
+  expectRefused("t,x,y,z\n0,0,0,\n", { ":2:", "column 4", "''" });
+  expectRefused("t,x,y,z\n0,abc,0,0\n", { ":2:", "column 2", "'abc'" });
+  expectRefused("t,x,y,z\n0,0x10,0,0\n", { ":2:", "column 2" });
+  expectRefused("t,x,y,z\n0,1.5mm,0,0\n", { ":2:", "'1.5mm'" });
+  expectRefused("t,x,y,z\n0,0,nan,0\n", { ":2:", "column 3", "not finite" });
+  expectRefused("t,x,y,z\n0,0,0,-inf\n", { ":2:", "column 4", "not finite" });
+  expectRefused("t,x,y,z\n0,1e999,0,0\n", { ":2:", "too large" });
+  expectRefused("t,x,y,z\n0,0,0,0\n0,1,0,0\n", { ":3:", "time 0", "not after" });
+  expectRefused("t,x,y,z\n1,0,0,0\n0.5,1,0,0\n", { ":3:", "0.5", "sort" });
+  expectRefused("t,x,y,z\n0,0,0,0\n\n1,0,0,0\n", { ":3:", "blank line" });
+  expectRefused("t;x;y;z\n0;0;0;0\n", { ":1:", "header" });
+}
+
+TEST_F(HipPathFile, RefusesBinaryFilesWithoutReadingThemWhole)
+{
+  expectRefused(std::string(100000, '\0'), { ":1:", "header" });
+  expectRefused("t,x,y,z\n" + std::string(100000, '7'), { ":2:", "1000 characters" });
+  expectRefused(std::string("t,x,y,z\n0,\0001,0,0\n", 18), { ":2:", "column 2" });
+}
+
+TEST_F(HipPathFile, SaysWhenAFileCannotBeOpened)
+{
+  HipPath path;
+  std::string message;
+  EXPECT_EQ(readHipPath(name("absent.csv"), path, message), Status::FileNotReadable);
+  EXPECT_NE(message.find("No such file"), std::string::npos) << message;
+  EXPECT_EQ(readHipPath(folder_.string(), path, message), Status::FileNotReadable);
+}
+
+TEST_F(HipPathFile, ReadsBackTheVeryDoublesItWrote)
+{
+  HipPath path = threePoints();
+  path.points.push_back({ 4.000000000000001, { 0.1 + 0.2, -0.0, 5e-324 } });
+  path.points.push_back({ 1e300, { std::numeric_limits<double>::max(), 1.0 / 3.0, -1e-300 } });
+  std::string message;
+  ASSERT_EQ(writeHipPath(name("out.csv"), path, message), Status::Ok) << message;
+  HipPath read;
+  ASSERT_EQ(readHipPath(name("out.csv"), read, message), Status::Ok) << message;
+  ASSERT_EQ(read.points.size(), path.points.size());
+  for (std::size_t i = 0; i < path.points.size(); ++i)
+  {
+    EXPECT_EQ(read.points[i].timeSeconds, path.points[i].timeSeconds);
+    EXPECT_EQ(read.points[i].position, path.points[i].position);
+  }
+  EXPECT_EQ(filesInFolder(), 1u) << "no temporary file stays";
+}
+
+TEST_F(HipPathFile, LeavesTheOldFileWhenItCannotWriteTheNewOne)
+{
+  const std::string old = put("t,x,y,z\n0,0,0,0\n");
+  HipPath path = threePoints();
+  path.points[1].position.x = std::nan("");
+  std::string message;
+  EXPECT_EQ(writeHipPath(old, path, message), Status::InvalidParameter);
+  HipPath read;
+  EXPECT_EQ(readHipPath(old, read, message), Status::Ok);
+  EXPECT_EQ(read.points.size(), 1u);
+  EXPECT_EQ(writeHipPath(name("absent/out.csv"), threePoints(), message), Status::FileNotWritable);
+  EXPECT_NE(message.find("absent/out.csv"), std::string::npos) << message;
+  EXPECT_EQ(writeHipPath(folder_.string(), threePoints(), message), Status::FileNotWritable);
+  EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(HipPathFile, WritesThroughLinksAndDevicesInsteadOfReplacingThem)
+{
+  const std::string real = put("old");
+  fs::create_symlink(real, name("link.csv"));
+  std::string message;
+  ASSERT_EQ(writeHipPath(name("link.csv"), threePoints(), message), Status::Ok) << message;
+  EXPECT_TRUE(fs::is_symlink(name("link.csv")));
+  HipPath read;
+  EXPECT_EQ(readHipPath(real, read, message), Status::Ok);
+  EXPECT_EQ(writeHipPath("/dev/null", threePoints(), message), Status::Ok) << message;
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}

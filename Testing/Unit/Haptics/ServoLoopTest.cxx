@@ -1,0 +1,389 @@
+#include "Haptics/ServoLoop.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <thread>
+
+using namespace pointhaptics;
+
+namespace
+{
+/// What the test's device does; every member is set before start() or is atomic.
+class ScriptedPort : public HandPort
+{
+public:
+  std::function<Vec3(double)> path = [](double) { return Vec3(); };
+  std::function<Status(int)> readStatus = [](int) { return Status::Ok; }; ///< Of the n-th read, from 0.
+  std::function<Status(int)> writeStatus = [](int) { return Status::Ok; };
+  std::function<void(int)> onRead = [](int) {};
+
+  std::atomic<int> reads{ 0 };
+  std::atomic<int> writes{ 0 };
+  std::atomic<double> lastForce{ -1.0 };
+  std::atomic<bool> forceAfterFault{ false }; ///< A write after a failed read carried a force.
+
+  Status read(double timeSeconds, HandState& state) noexcept override
+  {
+    const int n = reads.fetch_add(1);
+    onRead(n);
+    const Status status = readStatus(n);
+    failed_ = status != Status::Ok;
+    state.position = path(timeSeconds);
+    state.buttons = 5;
+    return status;
+  }
+  Status write(double, const Vec3& force) noexcept override
+  {
+    lastForce = norm(force);
+    forceAfterFault = forceAfterFault || (failed_ && norm(force) != 0.0);
+    return writeStatus(writes.fetch_add(1));
+  }
+
+private:
+  bool failed_ = false;
+};
+
+/// Waits for a condition, not for a time: a busy machine only makes the test slower.
+bool eventually(const std::function<bool()>& condition)
+{
+  for (int i = 0; i < 60000; ++i)
+  {
+    if (condition())
+    {
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+/// A plane z = 0 of 0.5 mm spacing, 20 mm wide.
+std::shared_ptr<const HapticScene> plane()
+{
+  HapticSceneInput input;
+  for (int i = -20; i <= 20; ++i)
+  {
+    for (int j = -20; j <= 20; ++j)
+    {
+      input.points.push_back({ 0.0005 * i, 0.0005 * j, 0.0 });
+    }
+  }
+  input.cellSize = 0.0005;
+  Status status = Status::Ok;
+  return HapticScene::create(std::move(input), status);
+}
+
+ServoSettings plainSettings()
+{
+  ServoSettings settings;
+  settings.realtimePriority = false;
+  return settings;
+}
+
+/// From 5 mm above the plane to 1 mm below it within 60 ms, then still.
+Vec3 press(double timeSeconds)
+{
+  return { 0.0, 0.0, std::max(-0.001, 0.005 - 0.1 * timeSeconds) };
+}
+}
+
+TEST(ServoLoop, RefusesSettingsOutOfRange)
+{
+  ScriptedPort port;
+  ServoLoop loop;
+  const auto startWith = [&](const std::function<void(ServoSettings&, HapticParameters&)>& change)
+  {
+    ServoSettings settings = plainSettings();
+    HapticParameters parameters;
+    change(settings, parameters);
+    return loop.start(port, parameters, settings);
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (double rate : { 0.0, -1.0, 0.5, 10001.0, infinity, std::nan("") })
+  {
+    EXPECT_EQ(startWith([=](auto& s, auto&) { s.rateHz = rate; }), Status::InvalidParameter) << rate;
+  }
+  EXPECT_EQ(startWith([](auto& s, auto&) { s.traceCapacity = 0; }), Status::InvalidParameter);
+  EXPECT_EQ(startWith([](auto& s, auto&) { s.limits.maximumForce = -1.0; }), Status::InvalidParameter);
+  EXPECT_EQ(startWith([](auto&, auto& p) { p.contact.stiffness = -1.0; }), Status::InvalidParameter);
+  EXPECT_FALSE(loop.running());
+  EXPECT_EQ(port.reads, 0);
+}
+
+TEST(ServoLoop, StartsStopsAndStartsAgain)
+{
+  ScriptedPort port;
+  ServoLoop loop;
+  EXPECT_EQ(loop.latest().tick, 0u);
+  loop.stop();
+  for (int round = 0; round < 3; ++round)
+  {
+    ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+    EXPECT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::InvalidParameter)
+      << "already running";
+    ASSERT_TRUE(eventually([&] { return loop.latest().tick >= 5; }));
+    EXPECT_TRUE(loop.running());
+    loop.stop();
+    loop.stop();
+    EXPECT_FALSE(loop.running());
+  }
+}
+
+TEST(ServoLoop, TicksAreNumberedAndTimedByTheirDeadlines)
+{
+  ScriptedPort port;
+  ServoLoop loop;
+  ServoSettings settings = plainSettings();
+  settings.rateHz = 2000.0;
+  ASSERT_EQ(loop.start(port, HapticParameters(), settings), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.statistics().ticks >= 100; }));
+  loop.stop();
+  std::vector<ServoSample> samples;
+  loop.takeTrace(samples);
+  const ServoStatistics statistics = loop.statistics();
+  ASSERT_EQ(samples.size(), statistics.ticks);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    EXPECT_DOUBLE_EQ(samples[i].timeSeconds, double(samples[i].tick - 1) / 2000.0);
+    EXPECT_GT(samples[i].tick, i > 0 ? samples[i - 1].tick : 0);
+    EXPECT_EQ(samples[i].buttons, 5u);
+  }
+  EXPECT_EQ(samples.back().tick, statistics.ticks + statistics.missedTicks)
+    << "a skipped tick is a counted one";
+  EXPECT_EQ(statistics.update.count, statistics.ticks);
+  EXPECT_EQ(statistics.lateness.count, statistics.ticks);
+  EXPECT_GE(statistics.lateness.maximum, 0.0);
+  EXPECT_GT(statistics.rateHz, 0.0);
+  EXPECT_LE(statistics.rateHz, 2100.0);
+  EXPECT_EQ(statistics.deviceFaults, 0u);
+}
+
+TEST(ServoLoop, SkipsAndCountsTicksThatASlowDeviceHasMissed)
+{
+  ScriptedPort port;
+  port.onRead = [](int n)
+  {
+    if (n == 3)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  };
+  ServoLoop loop;
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.statistics().ticks >= 10; }));
+  loop.stop();
+  EXPECT_GE(loop.statistics().missedTicks, 18u);
+  EXPECT_GE(loop.statistics().update.maximum, 0.02);
+}
+
+TEST(ServoLoop, PushesAgainstAPlaneAndStopsWithZeroForce)
+{
+  ScriptedPort port;
+  port.path = press;
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().timeSeconds > 0.08; }));
+  const ServoSample sample = loop.latest();
+  EXPECT_TRUE(sample.state.contact);
+  EXPECT_NEAR(sample.state.force.z, 0.8, 0.02);
+  loop.stop();
+  EXPECT_EQ(port.lastForce, 0.0);
+}
+
+TEST(ServoLoop, TakesParametersAndScenesWhileItRuns)
+{
+  ScriptedPort port;
+  port.path = press;
+  ServoLoop loop;
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().tick > 0; }));
+  EXPECT_TRUE(loop.latest().state.status & kProxyNoScene);
+  loop.stop();
+
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().state.force.z > 0.5; }));
+  HapticParameters soft;
+  soft.contact.stiffness = 100.0;
+  loop.setParameters(soft);
+  EXPECT_TRUE(eventually([&] { return std::abs(loop.latest().state.force.z - 0.1) < 0.01; }));
+  loop.publishScene(nullptr);
+  EXPECT_TRUE(eventually([&] { return (loop.latest().state.status & kProxyNoScene) != 0; }));
+  loop.stop();
+}
+
+TEST(ServoLoop, FreesAReplacedSceneWhileItRuns)
+{
+  ScriptedPort port;
+  ServoLoop loop;
+  std::shared_ptr<const HapticScene> first = plane();
+  const std::weak_ptr<const HapticScene> watched = first;
+  loop.publishScene(std::move(first));
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().tick > 0; }));
+  loop.publishScene(plane());
+  std::vector<ServoSample> samples;
+  EXPECT_TRUE(eventually(
+    [&]
+    {
+      samples.clear();
+      loop.takeTrace(samples);
+      return watched.expired();
+    }));
+  loop.stop();
+}
+
+TEST(ServoLoop, AnswersAFailedReadWithZeroForceAndCountsIt)
+{
+  ScriptedPort port;
+  port.path = press;
+  port.readStatus = [](int n) { return n % 3 == 1 ? Status::DeviceNotOpen : Status::Ok; };
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.statistics().ticks >= 60 && loop.latest().timeSeconds > 0.08; }));
+  EXPECT_TRUE(loop.running()) << "a fault is a state, not an end";
+  EXPECT_TRUE(eventually([&] { return loop.latest().state.force.z > 0.7; }))
+    << "contact outlives a short fault";
+  loop.stop();
+  EXPECT_GE(loop.statistics().deviceFaults, 19u);
+  EXPECT_FALSE(port.forceAfterFault);
+}
+
+TEST(ServoLoop, TakesTheHandAsNewAfterALongSilence)
+{
+  ScriptedPort port;
+  port.path = press;
+  std::atomic<bool> silent{ false };
+  port.readStatus = [&](int) { return silent ? Status::DeviceNotOpen : Status::Ok; };
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().state.force.z > 0.7; }));
+  silent = true;
+  const std::uint64_t faults = loop.statistics().deviceFaults;
+  ASSERT_TRUE(eventually([&] { return loop.statistics().deviceFaults > faults + 150; }));
+  silent = false;
+  const std::uint64_t tick = loop.latest().tick;
+  ASSERT_TRUE(eventually([&] { return loop.latest().tick > tick + 20; }));
+  EXPECT_FALSE(loop.latest().state.contact) << "no force before the hand has come to the surface again";
+  loop.stop();
+}
+
+TEST(ServoLoop, CountsAFailedWriteAndReportsZeroForce)
+{
+  ScriptedPort port;
+  port.path = press;
+  port.writeStatus = [](int) { return Status::DeviceNotOpen; };
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().timeSeconds > 0.08; }));
+  EXPECT_EQ(norm(loop.latest().state.force), 0.0);
+  loop.stop();
+  EXPECT_EQ(loop.statistics().deviceFaults, loop.statistics().ticks);
+}
+
+TEST(ServoLoop, EndsByItselfAtTheEndOfThePath)
+{
+  ScriptedPort port;
+  port.path = press;
+  port.readStatus = [](int n) { return n < 70 ? Status::Ok : Status::EndOfPath; };
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  EXPECT_TRUE(eventually([&] { return !loop.running(); }));
+  EXPECT_EQ(port.lastForce, 0.0);
+  EXPECT_EQ(loop.statistics().ticks, 70u);
+  EXPECT_EQ(loop.statistics().deviceFaults, 0u);
+  EXPECT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok)
+    << "may start again without stop()";
+}
+
+TEST(ServoLoop, KeepsItsForceLimitsWhateverTheProxySays)
+{
+  ScriptedPort port;
+  port.path = press;
+  ServoSettings settings = plainSettings();
+  settings.limits.maximumForce = 0.25;
+  settings.limits.maximumSlewRate = 20.0;
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), settings), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().timeSeconds > 0.15; }));
+  loop.stop();
+  std::vector<ServoSample> samples;
+  loop.takeTrace(samples);
+  double last = 0.0;
+  double largest = 0.0;
+  for (const ServoSample& sample : samples)
+  {
+    const double force = norm(sample.state.force);
+    EXPECT_LE(force, last + 0.02 + 1e-12) << sample.tick;
+    largest = std::max(largest, force);
+    last = force;
+  }
+  EXPECT_NEAR(largest, 0.25, 1e-9);
+}
+
+TEST(ServoLoop, CountsWhatAFullTraceLoses)
+{
+  ScriptedPort port;
+  ServoSettings settings = plainSettings();
+  settings.traceCapacity = 8;
+  ServoLoop loop;
+  ASSERT_EQ(loop.start(port, HapticParameters(), settings), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.statistics().lostTraceSamples >= 5; }));
+  loop.stop();
+  std::vector<ServoSample> samples;
+  loop.takeTrace(samples);
+  EXPECT_EQ(samples.size(), 8u);
+  EXPECT_EQ(loop.statistics().lostTraceSamples + 8, loop.statistics().ticks);
+}
+
+TEST(ServoLoop, IsReadByManyThreadsWhileItRunsAndRestarts)
+{
+  ScriptedPort port;
+  port.path = press;
+  ServoLoop loop;
+  std::atomic<bool> done{ false };
+  std::vector<std::thread> readers;
+  for (int i = 0; i < 2; ++i)
+  {
+    readers.emplace_back(
+      [&]
+      {
+        while (!done)
+        {
+          const ServoSample sample = loop.latest();
+          const ServoStatistics statistics = loop.statistics();
+          EXPECT_EQ(sample.state.hip.x, 0.0);
+          EXPECT_LE(statistics.ticks, 1u << 20);
+          std::this_thread::yield();
+        }
+      });
+  }
+  for (int round = 0; round < 3; ++round)
+  {
+    ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+    for (int i = 0; i < 5; ++i)
+    {
+      loop.publishScene(plane());
+      loop.setParameters(HapticParameters());
+      const std::uint64_t before = loop.statistics().ticks;
+      EXPECT_TRUE(eventually([&] { return loop.statistics().ticks > before; }));
+    }
+    loop.stop();
+  }
+  done = true;
+  for (std::thread& reader : readers)
+  {
+    reader.join();
+  }
+}
