@@ -1,0 +1,43 @@
+# cmake -DFOLDER=<scratch> -P CheckIncludesSelfTest.cmake
+# Plants one include at a time into a small tree and expects CheckIncludes.cmake to accept or refuse it.
+cmake_minimum_required(VERSION 3.18)
+
+function (check_planted expected file include)
+  file(REMOVE_RECURSE "${FOLDER}")
+  foreach (header IN ITEMS Modules/Core/Lattice.h Modules/Haptics/Proxy.h Modules/Devices/HipPath.h
+      Modules/Filters/vtkFilter.h Modules/IO/vtkReader.h Modules/Interaction/vtkStyle.h Apps/PointHaptics/Options.h)
+    file(WRITE "${FOLDER}/${header}" "#pragma once\n")
+  endforeach ()
+  file(WRITE "${FOLDER}/${file}" "// A file\n  #  include ${include} // why\n")
+  execute_process(COMMAND "${CMAKE_COMMAND}" "-DROOT=${FOLDER}" -P "${CMAKE_CURRENT_LIST_DIR}/CheckIncludes.cmake"
+    RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE error)
+  if (expected STREQUAL "accepted" AND NOT code EQUAL 0)
+    message(SEND_ERROR "${file} including ${include} was refused:\n${error}")
+  elseif (expected STREQUAL "refused" AND (code EQUAL 0 OR NOT error MATCHES "${file}"))
+    message(SEND_ERROR "${file} including ${include} was not refused by name:\n${output}${error}")
+  endif ()
+endfunction ()
+
+check_planted(accepted Modules/Haptics/A.cxx "\"Core/Lattice.h\"")
+check_planted(accepted Modules/Devices/A.h "\"Haptics/Proxy.h\"")
+check_planted(accepted Modules/Core/A.cxx "<vector>")
+check_planted(accepted Modules/Core/Reference/A.cxx "\"Core/Lattice.h\"")
+check_planted(accepted Modules/Filters/A.cxx "\"vtkFilter.h\"")
+check_planted(accepted Modules/Interaction/A.cxx "\"vtkReader.h\"")
+check_planted(accepted Modules/Interaction/A.cxx "\"Devices/HipPath.h\"")
+check_planted(accepted Apps/PointHaptics/A.cxx "\"vtkStyle.h\"")
+
+check_planted(refused Modules/Core/A.cxx "\"Haptics/Proxy.h\"")
+check_planted(refused Modules/Core/Reference/A.h "<Haptics/Proxy.h>")
+check_planted(refused Modules/Core/A.cxx "\"vtkPoints.h\"")
+check_planted(refused Modules/Core/A.h "<vtkPoints.h>")
+check_planted(refused Modules/Core/A.h "<iostream>")
+check_planted(refused Modules/Haptics/A.cxx "\"Devices/HipPath.h\"")
+check_planted(refused Modules/Haptics/A.cxx "\"../Devices/HipPath.h\"")
+check_planted(refused Modules/Devices/A.cxx "\"vtkStyle.h\"")
+check_planted(refused Modules/Filters/A.cxx "\"Haptics/Proxy.h\"")
+check_planted(refused Modules/Filters/A.cxx "\"vtkReader.h\"")
+check_planted(refused Modules/Filters/A.cxx "\"PointHapticsInteractionModule.h\"")
+check_planted(refused Modules/IO/A.h "\"vtkFilter.h\"")
+check_planted(refused Modules/Interaction/A.cxx "\"Options.h\"")
+file(REMOVE_RECURSE "${FOLDER}")
