@@ -8,7 +8,10 @@ namespace
 constexpr double kSingularRatio = 1e-13;
 constexpr double kSmallestDeterminant = 1e-300;
 
-Vec3 row(const AffineTransform& t, int r) { return { t.m[r][0], t.m[r][1], t.m[r][2] }; }
+Vec3 row(const AffineTransform& t, int r)
+{
+  return { t.m[r][0], t.m[r][1], t.m[r][2] };
+}
 }
 
 double AffineTransform::determinant() const noexcept
@@ -16,7 +19,10 @@ double AffineTransform::determinant() const noexcept
   return dot(row(*this, 0), cross(row(*this, 1), row(*this, 2)));
 }
 
-bool AffineTransform::isIdentity() const noexcept { return *this == AffineTransform(); }
+bool AffineTransform::isIdentity() const noexcept
+{
+  return *this == AffineTransform();
+}
 
 Vec3 AffineTransform::applyToNormal(const Vec3& n) const noexcept
 {
@@ -59,8 +65,8 @@ AffineTransform AffineTransform::inverse() const noexcept
     return result;
   }
   const double det = determinant();
-  const Vec3 columns[3] = { cross(row(*this, 1), row(*this, 2)) / det, cross(row(*this, 2), row(*this, 0)) / det,
-    cross(row(*this, 0), row(*this, 1)) / det };
+  const Vec3 columns[3] = { cross(row(*this, 1), row(*this, 2)) / det,
+    cross(row(*this, 2), row(*this, 0)) / det, cross(row(*this, 0), row(*this, 1)) / det };
   for (int r = 0; r < 3; ++r)
   {
     for (int c = 0; c < 3; ++c)

@@ -8,7 +8,8 @@
 namespace pointhaptics
 {
 
-/// An affine transform in double precision; identity by default. Row by row: m[row][0..2] is T, m[row][3] is t.
+/// An affine transform in double precision; identity by default. Row by row: m[row][0..2] is T, m[row][3] is
+/// t.
 struct AffineTransform
 {
   double m[3][4] = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } };
@@ -30,7 +31,8 @@ struct AffineTransform
 
   double determinant() const noexcept;
   bool isIdentity() const noexcept;
-  /// Ok, NonFiniteTransform or SingularTransform (|det T| zero or below 1e-300, or 1e-13 of the product of row lengths).
+  /// Ok, NonFiniteTransform or SingularTransform (|det T| zero or below 1e-300, or 1e-13 of the product of
+  /// row lengths).
   Status check() const noexcept;
   /// The inverse; identity when check() is not Ok.
   AffineTransform inverse() const noexcept;

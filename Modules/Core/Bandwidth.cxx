@@ -68,7 +68,9 @@ private:
     }
     found_.clear();
     query_.visitBall(center, settings_.radius,
-      [this](const Vec3&, double d2, std::int64_t index) { found_.push_back({ d2, index }); });
+      [this](const Vec3&, double d2, std::int64_t index) {
+        found_.push_back({ d2, index });
+      });
     std::sort(found_.begin(), found_.end());
   }
 

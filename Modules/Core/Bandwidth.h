@@ -33,35 +33,37 @@ struct SampleSpread
 /// Sorts @p values. Empty: count 0 and zeros.
 SampleSpread sampleSpread(std::vector<double>& values);
 
-/// b of @p rule for a univariate sample (d = 1) of the given spread. DegenerateSample when n < 2 or the spread is zero
-/// (for SilvermanRobust: min(s, IQR / 1.34), s alone where the IQR is zero); @p bandwidth is then 0.
+/// b of @p rule for a univariate sample (d = 1) of the given spread. DegenerateSample when n < 2 or the
+/// spread is zero (for SilvermanRobust: min(s, IQR / 1.34), s alone where the IQR is zero); @p bandwidth is
+/// then 0.
 Status univariateBandwidth(BandwidthRule rule, const SampleSpread& spread, double& bandwidth) noexcept;
 
-/// b from a standard deviation @p s per dimension of n points in @p dimensions (1 to 3). For SilvermanRobust pass the
-/// smaller of the two spreads. DegenerateSample when n < 2 or s is not above 0.
+/// b from a standard deviation @p s per dimension of n points in @p dimensions (1 to 3). For SilvermanRobust
+/// pass the smaller of the two spreads. DegenerateSample when n < 2 or s is not above 0.
 Status bandwidth(BandwidthRule rule, double s, double n, int dimensions, double& result) noexcept;
 
 /// How local bandwidths and proxy radii are found.
 struct LocalBandwidthSettings
 {
-  bool fixedRadius = false;     ///< Else the k nearest.
-  int numberOfNeighbors = 16;   ///< Besides the point itself; at least 1.
-  double radius = 0.001;        ///< Of the fixed neighbourhood, above 0.
+  bool fixedRadius = false;   ///< Else the k nearest.
+  int numberOfNeighbors = 16; ///< Besides the point itself; at least 1.
+  double radius = 0.001;      ///< Of the fixed neighbourhood, above 0.
   BandwidthRule rule = BandwidthRule::NormalReference;
-  double radiusScale = 4.0;     ///< beta, above 0.
-  double minimumRadius = 0.0;   ///< r1; 0: kNoSinkSpacings local spacings.
-  double maximumRadius = 0.0;   ///< r2; 0: none.
+  double radiusScale = 4.0;   ///< beta, above 0.
+  double minimumRadius = 0.0; ///< r1; 0: kNoSinkSpacings local spacings.
+  double maximumRadius = 0.0; ///< r2; 0: none.
   Status check() const noexcept;
 };
 
 /// The widest gap of a random sample of up to 1e5 points is 2.2 spacings: a smaller sphere falls through.
 constexpr double kNoSinkSpacings = 2.2;
 
-/// b and r_p = clamp(beta b, r1, r2) at each of @p points (both outputs are resized). s = sqrt(trace(C) / 2), C the
-/// sample covariance of the neighbourhood with the point itself; for SilvermanRobust the univariate spread of the
-/// neighbours' distances. Local spacing = sqrt(pi / k) times the distance of the k-th neighbour. A neighbourhood
-/// without spread gets r1 (automatic: the smallest radius found elsewhere, or 1e-3 of the cloud's extent, or 1e-3) and
-/// b = r1 / beta. Points that are not finite get 0. Independent of @p executor. @p query must be built on @p points.
+/// b and r_p = clamp(beta b, r1, r2) at each of @p points (both outputs are resized). s = sqrt(trace(C) / 2),
+/// C the sample covariance of the neighbourhood with the point itself; for SilvermanRobust the univariate
+/// spread of the neighbours' distances. Local spacing = sqrt(pi / k) times the distance of the k-th
+/// neighbour. A neighbourhood without spread gets r1 (automatic: the smallest radius found elsewhere, or 1e-3
+/// of the cloud's extent, or 1e-3) and b = r1 / beta. Points that are not finite get 0. Independent of @p
+/// executor. @p query must be built on @p points.
 Status localBandwidths(const PointView& points, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
   const Executor& executor = {});

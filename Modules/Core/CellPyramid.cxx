@@ -108,8 +108,7 @@ Cell merged(const Cell& a, const Cell& b) noexcept
   return cell;
 }
 
-Status CellPyramid::build(
-  std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex)
+Status CellPyramid::build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex)
 {
   levels_.clear();
   sourceIndex.clear();
@@ -143,8 +142,7 @@ Status CellPyramid::build(
   sourceIndex.resize(cells.size());
   std::iota(sourceIndex.begin(), sourceIndex.end(), 0u);
   std::sort(sourceIndex.begin(), sourceIndex.end(),
-    [&](std::uint32_t a, std::uint32_t b)
-    { return codeOf[a] != codeOf[b] ? codeOf[a] < codeOf[b] : a < b; });
+    [&](std::uint32_t a, std::uint32_t b) { return codeOf[a] != codeOf[b] ? codeOf[a] < codeOf[b] : a < b; });
 
   Level finest;
   finest.voxelSize = voxelSize;

@@ -1,5 +1,6 @@
 /// @file
-/// The cloud as cells on several levels of detail: counts, means and covariances, merged exactly from level to level.
+/// The cloud as cells on several levels of detail: counts, means and covariances, merged exactly from level
+/// to level.
 #pragma once
 
 #include "Core/PointView.h"
@@ -17,12 +18,14 @@ struct Cell
   Vec3 mean;
   double count = 1.0;
   SymMat3 covariance;
-  bool mixed = false; ///< Thick in every direction: two sheets, an edge, or noise. Look at its children instead.
+  bool mixed =
+    false; ///< Thick in every direction: two sheets, an edge, or noise. Look at its children instead.
 };
 
-/// An octree of 4^3-voxel bricks, sorted along the Morton curve: the bricks below a brick stand side by side, so a
-/// search goes from the root to the voxels without hashing. Level 0 is the finest; a voxel of level l has the edge
-/// 2^l voxelSize(0). Immutable after build(); any number of threads may read it. Memory: about 130 bytes a point.
+/// An octree of 4^3-voxel bricks, sorted along the Morton curve: the bricks below a brick stand side by side,
+/// so a search goes from the root to the voxels without hashing. Level 0 is the finest; a voxel of level l
+/// has the edge 2^l voxelSize(0). Immutable after build(); any number of threads may read it. Memory: about
+/// 130 bytes a point.
 class CellPyramid
 {
 public:
@@ -43,20 +46,23 @@ public:
   {
     double voxelSize = 0.0;
     std::vector<Brick> bricks;
-    std::vector<Cell> cells;              ///< In slot order; on levels above kCellLevels empty.
-    std::vector<std::uint32_t> slotBegin; ///< Level 0 only: cells of slot s are [slotBegin[s], slotBegin[s + 1]).
+    std::vector<Cell> cells; ///< In slot order; on levels above kCellLevels empty.
+    std::vector<std::uint32_t>
+      slotBegin; ///< Level 0 only: cells of slot s are [slotBegin[s], slotBegin[s + 1]).
   };
 
   /// @param cells finite means; taken over and re-ordered. @param voxelSize edge of a level-0 voxel, above 0.
   /// @param sourceIndex receives, for each cell of level 0, its index in @p cells as given.
-  /// Errors: Empty, InvalidVoxelSize, LatticeNotAddressable (extent over voxelSize above 2^21, or over 2^32 cells).
+  /// Errors: Empty, InvalidVoxelSize, LatticeNotAddressable (extent over voxelSize above 2^21, or over 2^32
+  /// cells).
   Status build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex);
 
   int numberOfLevels() const { return int(levels_.size()); }
   int numberOfCellLevels() const { return numberOfLevels() < kCellLevels ? numberOfLevels() : kCellLevels; }
   const Level& level(int l) const { return levels_[std::size_t(l)]; }
 
-  /// Calls visit(cellIndex, cell, squaredDistance) for each cell of @p level whose mean is nearer to @p center than
+  /// Calls visit(cellIndex, cell, squaredDistance) for each cell of @p level whose mean is nearer to @p
+  /// center than
   /// @p radius, in Morton order. No allocation. @pre level < numberOfCellLevels()
   template <typename Visitor>
   void visitBall(int level, const Vec3& center, double radius, Visitor&& visit) const

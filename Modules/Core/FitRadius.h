@@ -1,5 +1,6 @@
 /// @file
-/// How far a surface fit should look: far enough to average the noise, not so far that curvature bends the answer.
+/// How far a surface fit should look: far enough to average the noise, not so far that curvature bends the
+/// answer.
 #pragma once
 
 #include "Core/CellPyramid.h"
@@ -19,13 +20,14 @@ struct FitScale
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
 };
 
-/// Lepski's rule on a ladder of radii at the cell mean @p seed: a longer radius is taken while it agrees with every
-/// shorter one within three of that one's standard errors, in position and in both slopes.
-/// @p largestCount bounds the radius that is grown for points, @p largest the one grown against noise; metres.
+/// Lepski's rule on a ladder of radii at the cell mean @p seed: a longer radius is taken while it agrees with
+/// every shorter one within three of that one's standard errors, in position and in both slopes.
+/// @p largestCount bounds the radius that is grown for points, @p largest the one grown against noise;
+/// metres.
 FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest);
 
-/// chooseFitRadius at each cell of the field's node level, medians of the neighbours taken against outliers, as the
-/// radius and gate of the surface fit.
+/// chooseFitRadius at each cell of the field's node level, medians of the neighbours taken against outliers,
+/// as the radius and gate of the surface fit.
 std::vector<LocalScale> fitScales(
   const CellPyramid& pyramid, double largestCount, double largest, const Executor& executor = {});
 

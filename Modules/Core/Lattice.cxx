@@ -25,8 +25,8 @@ Status automaticBounds(const LatticeSettings& settings, const Bounds& cloud, Bou
   }
   const std::int64_t fewest =
     std::min({ settings.dimensions[0], settings.dimensions[1], settings.dimensions[2] });
-  const double margin =
-    settings.voxelSize > 0.0 ? 0.5 * settings.voxelSize : 0.5 * edge / double(std::max<std::int64_t>(fewest - 1, 1));
+  const double margin = settings.voxelSize > 0.0 ? 0.5 * settings.voxelSize
+                                                 : 0.5 * edge / double(std::max<std::int64_t>(fewest - 1, 1));
   const double half = 0.5 * edge + margin;
   const Vec3 corner{ half, half, half };
   box.minimum = center - corner;

@@ -54,8 +54,8 @@ int NeighborQuery::nearest(const Vec3& center, int k, Neighbor* neighbors) const
   return count;
 }
 
-void NeighborQuery::search(std::int64_t first, std::int64_t last, const Vec3& center, int k, Neighbor* heap,
-  int& count) const noexcept
+void NeighborQuery::search(
+  std::int64_t first, std::int64_t last, const Vec3& center, int k, Neighbor* heap, int& count) const noexcept
 {
   const auto offer = [&](const Node& node)
   {
@@ -83,8 +83,8 @@ void NeighborQuery::search(std::int64_t first, std::int64_t last, const Vec3& ce
   const std::int64_t middle = first + (last - first) / 2;
   const Node& node = nodes_[std::size_t(middle)];
   const double side = center[node.axis] - node.point[node.axis];
-  // The half the centre lies in first; the other only if the ball of the k-th neighbour reaches it. Equal distance
-  // counts as reaching: a smaller index may wait there.
+  // The half the centre lies in first; the other only if the ball of the k-th neighbour reaches it. Equal
+  // distance counts as reaching: a smaller index may wait there.
   const bool lowFirst = side < 0.0;
   search(lowFirst ? first : middle + 1, lowFirst ? middle : last, center, k, heap, count);
   offer(node);

@@ -22,9 +22,9 @@ inline bool operator<(const Neighbor& a, const Neighbor& b)
   return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance : a.index < b.index;
 }
 
-/// A balanced k-d tree over a copy of the finite points. Queries are exact (equal to brute force, ties broken by
-/// index), allocate nothing beyond what the caller passes in, and may run in any number of threads after build().
-/// build(): O(n log n), 48 bytes a point. Duplicates and any density are fine.
+/// A balanced k-d tree over a copy of the finite points. Queries are exact (equal to brute force, ties broken
+/// by index), allocate nothing beyond what the caller passes in, and may run in any number of threads after
+/// build(). build(): O(n log n), 48 bytes a point. Duplicates and any density are fine.
 class NeighborQuery
 {
 public:
@@ -34,7 +34,8 @@ public:
   /// Finite points held.
   std::int64_t size() const { return std::int64_t(nodes_.size()); }
 
-  /// The min(k, size()) nearest points, nearest first, written to @p neighbors (room for k). @return how many.
+  /// The min(k, size()) nearest points, nearest first, written to @p neighbors (room for k). @return how
+  /// many.
   int nearest(const Vec3& center, int k, Neighbor* neighbors) const noexcept;
 
   /// Calls visit(point, squaredDistance, index) for each point with distance <= radius, in no stated order.
@@ -61,8 +62,7 @@ private:
     int& count) const noexcept;
 
   template <typename Visitor>
-  void visitRange(
-    std::int64_t first, std::int64_t last, const Vec3& center, double r2, Visitor& visit) const
+  void visitRange(std::int64_t first, std::int64_t last, const Vec3& center, double r2, Visitor& visit) const
   {
     if (last - first <= kLeafSize)
     {

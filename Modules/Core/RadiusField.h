@@ -1,5 +1,6 @@
 /// @file
-/// Lengths that vary smoothly over the cloud: the radius of the proxy, or the radius and gate of the surface fit.
+/// Lengths that vary smoothly over the cloud: the radius of the proxy, or the radius and gate of the surface
+/// fit.
 #pragma once
 
 #include "Core/CellPyramid.h"
@@ -16,19 +17,21 @@ struct LocalScale
   double gate = 0.0; ///< Depth of the fit's gate; unused in a field of proxy radii.
 };
 
-/// One pair of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact support.
-/// Radii are cut so that neighbours differ by at most half their distance. A function of position only: it knows
-/// nothing of any proxy. Immutable after build(); any number of threads may read.
+/// One pair of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact
+/// support. Radii are cut so that neighbours differ by at most half their distance. A function of position
+/// only: it knows nothing of any proxy. Immutable after build(); any number of threads may read.
 class RadiusField
 {
 public:
   /// Level whose cells carry the values: 8 finest voxels apart, or the coarsest there is.
   static int nodeLevel(const CellPyramid& pyramid);
 
-  /// @param values one per cell of nodeLevel(pyramid), radii above 0, in that order. Keeps a pointer to nothing.
+  /// @param values one per cell of nodeLevel(pyramid), radii above 0, in that order. Keeps a pointer to
+  /// nothing.
   void build(const CellPyramid& pyramid, std::vector<LocalScale> values);
 
-  /// Blended values at @p position, typical() where no node is within reach(). @p pyramid is the one of build().
+  /// Blended values at @p position, typical() where no node is within reach(). @p pyramid is the one of
+  /// build().
   LocalScale at(const CellPyramid& pyramid, const Vec3& position) const noexcept;
 
   /// Distance from a node beyond which it has no weight.

@@ -5,25 +5,24 @@
 namespace pointhaptics
 {
 
-enum class [[nodiscard]] Status
-{
+enum class [[nodiscard]] Status{
   Ok,
-  Empty,                   ///< No valid point is left to work on.
-  SingularTransform,       ///< Determinant zero, or so small that the inverse overflows.
-  NonFiniteTransform,      ///< NaN or infinity among the transform's numbers.
-  InvalidWorkspace,        ///< Bounds not finite, or maximum not above minimum.
-  InvalidDimensions,       ///< Fewer than 1 or more than kMaximumLatticeDimension voxels on an axis.
-  InvalidVoxelSize,        ///< Voxel edge zero, negative or not finite.
-  LatticeNotAddressable,   ///< The lattice would need more voxels on an axis than a key can hold.
-  InvalidNeighborhood,     ///< Number of neighbours below 1, or radius not above 0.
-  InvalidRadiusBounds,     ///< r1 > r2, or a bound that is negative or not finite.
-  DegenerateSample,        ///< Fewer than two distinct values: no spread to take a bandwidth from.
-  InvalidParameter,        ///< A parameter outside its documented range.
-  DeviceNotOpen,           ///< Read or write on a device that is not open.
-  EndOfPath,               ///< A replayed path has come to its end.
-  FileNotReadable,         ///< The file cannot be opened.
-  FileMalformed,           ///< The file's content is not what its format asks for.
-  FileNotWritable,         ///< The file cannot be created or written.
+  Empty,                 ///< No valid point is left to work on.
+  SingularTransform,     ///< Determinant zero, or so small that the inverse overflows.
+  NonFiniteTransform,    ///< NaN or infinity among the transform's numbers.
+  InvalidWorkspace,      ///< Bounds not finite, or maximum not above minimum.
+  InvalidDimensions,     ///< Fewer than 1 or more than kMaximumLatticeDimension voxels on an axis.
+  InvalidVoxelSize,      ///< Voxel edge zero, negative or not finite.
+  LatticeNotAddressable, ///< The lattice would need more voxels on an axis than a key can hold.
+  InvalidNeighborhood,   ///< Number of neighbours below 1, or radius not above 0.
+  InvalidRadiusBounds,   ///< r1 > r2, or a bound that is negative or not finite.
+  DegenerateSample,      ///< Fewer than two distinct values: no spread to take a bandwidth from.
+  InvalidParameter,      ///< A parameter outside its documented range.
+  DeviceNotOpen,         ///< Read or write on a device that is not open.
+  EndOfPath,             ///< A replayed path has come to its end.
+  FileNotReadable,       ///< The file cannot be opened.
+  FileMalformed,         ///< The file's content is not what its format asks for.
+  FileNotWritable,       ///< The file cannot be created or written.
 };
 
 /// One sentence in plain words: what happened and what to do about it. Never null; static storage.

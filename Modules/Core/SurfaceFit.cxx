@@ -225,8 +225,8 @@ int fitLevel(const CellPyramid& pyramid, double radius, double& fraction)
   return level;
 }
 
-SurfaceFit fitCells(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
-  SurfaceFitError* error)
+SurfaceFit fitCells(
+  const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings, SurfaceFitError* error)
 {
   SurfaceFit fit;
   fit.radius = settings.radius;
@@ -321,6 +321,16 @@ bool settleOnSurface(const CellPyramid& pyramid, const Vec3& onSurface, double r
   return true;
 }
 
+void pointAt(
+  const SurfaceFit& fit, const SurfaceFrame& frame, double u, double v, Vec3& point, Vec3& normal) noexcept
+{
+  const double* k = fit.k;
+  point = frame.toWorld(fit.radius * Vec3{ u, v, fit.height(u, v) });
+  const double qu = k[1] + 2.0 * k[3] * u + k[4] * v;
+  const double qv = k[2] + k[4] * u + 2.0 * k[5] * v;
+  normal = normalized(frame.normal - qu * frame.a - qv * frame.b, frame.normal);
+}
+
 bool footPoint(
   const SurfaceFit& fit, const SurfaceFrame& frame, const Vec3& target, Vec3& foot, Vec3& normal) noexcept
 {
@@ -367,16 +377,11 @@ bool footPoint(
       break;
     }
   }
-  const double z = fit.height(u, v);
-  foot = frame.toWorld(fit.radius * Vec3{ u, v, z });
-  const double qu = k[1] + 2.0 * k[3] * u + k[4] * v;
-  const double qv = k[2] + k[4] * u + 2.0 * k[5] * v;
-  normal = normalized(frame.normal - qu * frame.a - qv * frame.b, frame.normal);
+  pointAt(fit, frame, u, v, foot, normal);
   return inside;
 }
 
-bool principalNormal(
-  const CellPyramid& pyramid, const Vec3& center, double radius, Vec3& normal) noexcept
+bool principalNormal(const CellPyramid& pyramid, const Vec3& center, double radius, Vec3& normal) noexcept
 {
   double fraction = 0.0;
   const int level = fitLevel(pyramid, radius, fraction);

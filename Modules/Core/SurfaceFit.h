@@ -32,29 +32,31 @@ struct SurfaceFrame
 /// What a fit looks at besides the cells.
 struct FitSettings
 {
-  double radius = 0.0;      ///< rho, metres, above 0.
-  double gate = 0.0;        ///< Cells more than this below the surface (metres) belong to another sheet; 0: no gate.
-  bool twoSidedGate = false; ///< Leave out cells above the surface too: for the first fit, before the side is known.
+  double radius = 0.0; ///< rho, metres, above 0.
+  double gate = 0.0; ///< Cells more than this below the surface (metres) belong to another sheet; 0: no gate.
+  bool twoSidedGate =
+    false; ///< Leave out cells above the surface too: for the first fit, before the side is known.
   double curvature[3] = { 0, 0, 0 }; ///< (uu, uv, vv) of the fit before, per metre: the gate follows it.
 };
 
 enum class FitQuality
 {
-  None,    ///< Fewer than three cells that span a plane.
-  Plane,   ///< Too few cells, or too badly placed, for the curvature.
+  None,  ///< Fewer than three cells that span a plane.
+  Plane, ///< Too few cells, or too badly placed, for the curvature.
   Quadric,
 };
 
-/// Height z over the frame, all lengths divided by the fit radius: z = k0 + k1 u + k2 v + k3 uu + k4 uv + k5 vv.
+/// Height z over the frame, all lengths divided by the fit radius: z = k0 + k1 u + k2 v + k3 uu + k4 uv + k5
+/// vv.
 struct SurfaceFit
 {
   FitQuality quality = FitQuality::None;
   double k[6] = { 0, 0, 0, 0, 0, 0 };
-  double radius = 0.0;      ///< rho the coefficients are scaled by, metres.
-  double residual = 0.0;    ///< Weighted RMS distance of the cells' means from the fit, metres.
-  double centroidU = 0.0;   ///< Weighted centroid over rho: 0 inside a surface, 0.235 on a straight rim.
+  double radius = 0.0;    ///< rho the coefficients are scaled by, metres.
+  double residual = 0.0;  ///< Weighted RMS distance of the cells' means from the fit, metres.
+  double centroidU = 0.0; ///< Weighted centroid over rho: 0 inside a surface, 0.235 on a straight rim.
   double centroidV = 0.0;
-  int cells = 0;            ///< Cells with weight.
+  int cells = 0; ///< Cells with weight.
 
   double height(double u, double v) const noexcept
   {
@@ -62,38 +64,44 @@ struct SurfaceFit
   }
 };
 
-/// Weighted least squares over the cells within the radius, weights count (1 - d^2/rho^2)^4; the quadratic terms use
-/// each cell's covariance, which makes the fit exact for every quadric height field however coarse the cells are.
-/// The level of detail follows the radius and changes without a step. No allocation, no exception; work bounded by
-/// the cells in the ball (30 to 150 for radii the scene chooses).
+/// Weighted least squares over the cells within the radius, weights count (1 - d^2/rho^2)^4; the quadratic
+/// terms use each cell's covariance, which makes the fit exact for every quadric height field however coarse
+/// the cells are. The level of detail follows the radius and changes without a step. No allocation, no
+/// exception; work bounded by the cells in the ball (30 to 150 for radii the scene chooses).
 SurfaceFit fitSurface(
   const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings) noexcept;
 
 /// A fit with what its scatter says of its own error.
 struct SurfaceFitError
 {
-  double noise = 0.0;                       ///< Standard deviation of single points about the surface, metres.
-  double standardError[3] = { 0, 0, 0 };    ///< Of rho k0 (metres), k1 and k2, for noise 1 metre.
+  double noise = 0.0;                    ///< Standard deviation of single points about the surface, metres.
+  double standardError[3] = { 0, 0, 0 }; ///< Of rho k0 (metres), k1 and k2, for noise 1 metre.
 };
 
 /// fitSurface() with the errors of position and slopes; for building scenes, twice the cost.
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
   SurfaceFitError& error) noexcept;
 
-/// Starts on the surface near @p onSurface with the approximate normal in @p frame: a few fits with a two-sided gate,
-/// moving to the foot of the origin each time. @p curvature receives the last fit's, per metre. False: no fit.
+/// Starts on the surface near @p onSurface with the approximate normal in @p frame: a few fits with a
+/// two-sided gate, moving to the foot of the origin each time. @p curvature receives the last fit's, per
+/// metre. False: no fit.
 bool settleOnSurface(const CellPyramid& pyramid, const Vec3& onSurface, double radius, SurfaceFrame& frame,
   SurfaceFit& fit, double curvature[3]) noexcept;
 
 /// Depth of the gate that keeps a second sheet out, over the fit radius.
 constexpr double kGateDepth = 0.2;
 
-/// The fit's point nearest to @p target and the unit normal there. Newton from the frame's origin, steps bounded, at
-/// most half a fit radius from the origin. @return false when it stopped at a bound.
-bool footPoint(const SurfaceFit& fit, const SurfaceFrame& frame, const Vec3& target, Vec3& foot, Vec3& normal) noexcept;
+/// The fit's point over (u, v), both over the fit radius, and the unit normal there.
+void pointAt(
+  const SurfaceFit& fit, const SurfaceFrame& frame, double u, double v, Vec3& point, Vec3& normal) noexcept;
 
-/// Unit normal (either side) of the cells within @p radius of @p center by their covariance; false when the cells do
-/// not span a plane.
+/// The fit's point nearest to @p target and the unit normal there. Newton from the frame's origin, steps
+/// bounded, at most half a fit radius from the origin. @return false when it stopped at a bound.
+bool footPoint(
+  const SurfaceFit& fit, const SurfaceFrame& frame, const Vec3& target, Vec3& foot, Vec3& normal) noexcept;
+
+/// Unit normal (either side) of the cells within @p radius of @p center by their covariance; false when the
+/// cells do not span a plane.
 bool principalNormal(const CellPyramid& pyramid, const Vec3& center, double radius, Vec3& normal) noexcept;
 
 } // namespace pointhaptics

@@ -48,23 +48,59 @@ struct Vec3
   }
 };
 
-inline Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
-inline Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
-inline Vec3 operator-(const Vec3& a) { return { -a.x, -a.y, -a.z }; }
-inline Vec3 operator*(double s, Vec3 a) { return a *= s; }
-inline Vec3 operator*(Vec3 a, double s) { return a *= s; }
-inline Vec3 operator/(const Vec3& a, double s) { return { a.x / s, a.y / s, a.z / s }; }
-inline bool operator==(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-inline bool operator!=(const Vec3& a, const Vec3& b) { return !(a == b); }
+inline Vec3 operator+(Vec3 a, const Vec3& b)
+{
+  return a += b;
+}
+inline Vec3 operator-(Vec3 a, const Vec3& b)
+{
+  return a -= b;
+}
+inline Vec3 operator-(const Vec3& a)
+{
+  return { -a.x, -a.y, -a.z };
+}
+inline Vec3 operator*(double s, Vec3 a)
+{
+  return a *= s;
+}
+inline Vec3 operator*(Vec3 a, double s)
+{
+  return a *= s;
+}
+inline Vec3 operator/(const Vec3& a, double s)
+{
+  return { a.x / s, a.y / s, a.z / s };
+}
+inline bool operator==(const Vec3& a, const Vec3& b)
+{
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+inline bool operator!=(const Vec3& a, const Vec3& b)
+{
+  return !(a == b);
+}
 
-inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double dot(const Vec3& a, const Vec3& b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec3 cross(const Vec3& a, const Vec3& b)
 {
   return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }
-inline double norm2(const Vec3& a) { return dot(a, a); }
-inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
-inline bool isFinite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+inline double norm2(const Vec3& a)
+{
+  return dot(a, a);
+}
+inline double norm(const Vec3& a)
+{
+  return std::sqrt(dot(a, a));
+}
+inline bool isFinite(const Vec3& a)
+{
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 /// a / |a|, or @p fallback where |a| is zero or not finite.
 inline Vec3 normalized(const Vec3& a, const Vec3& fallback = { 0.0, 0.0, 1.0 })
@@ -124,7 +160,10 @@ inline Vec3 operator*(const SymMat3& m, const Vec3& v)
   return { m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
     m.xz * v.x + m.yz * v.y + m.zz * v.z };
 }
-inline bool isFinite(const SymMat3& m) { return std::isfinite(m.trace() + m.xy + m.yz + m.xz); }
+inline bool isFinite(const SymMat3& m)
+{
+  return std::isfinite(m.trace() + m.xy + m.yz + m.xz);
+}
 
 /// Eigenvalues in ascending order, with their unit eigenvectors.
 struct SymEigen

@@ -51,8 +51,8 @@ bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& resul
   }
   homogeneous->Update();
   const vtkMatrix4x4* matrix = homogeneous->GetMatrix();
-  if (matrix->GetElement(3, 0) != 0.0 || matrix->GetElement(3, 1) != 0.0 ||
-    matrix->GetElement(3, 2) != 0.0 || matrix->GetElement(3, 3) != 1.0)
+  if (matrix->GetElement(3, 0) != 0.0 || matrix->GetElement(3, 1) != 0.0 || matrix->GetElement(3, 2) != 0.0 ||
+    matrix->GetElement(3, 3) != 1.0)
   {
     return false;
   }

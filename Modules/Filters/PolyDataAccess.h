@@ -16,7 +16,8 @@ class vtkPoints;
 namespace pointhaptics
 {
 
-/// The coordinates of a vtkPoints as a view; anything but plain float or double arrays is copied to double first.
+/// The coordinates of a vtkPoints as a view; anything but plain float or double arrays is copied to double
+/// first.
 class PointAccess
 {
 public:
@@ -28,7 +29,8 @@ private:
   PointView view_;
 };
 
-/// The matrix of a linear transform; null gives the identity. @return false for a transform that is not affine.
+/// The matrix of a linear transform; null gives the identity. @return false for a transform that is not
+/// affine.
 bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result);
 
 /// @p count vertex cells, one per point, in order.

@@ -11,7 +11,10 @@ namespace pointhaptics
 namespace
 {
 
-bool isIntegral(int type) { return type != VTK_FLOAT && type != VTK_DOUBLE; }
+bool isIntegral(int type)
+{
+  return type != VTK_FLOAT && type != VTK_DOUBLE;
+}
 
 class VoxelReducer
 {
@@ -46,7 +49,8 @@ public:
   }
 
 private:
-  /// Sum of the voxel's tuples about its first one, which keeps large offsets (times, ids) from eating the digits.
+  /// Sum of the voxel's tuples about its first one, which keeps large offsets (times, ids) from eating the
+  /// digits.
   void mean(std::size_t voxel)
   {
     const std::int64_t first = voxels_.begin[voxel];
@@ -119,8 +123,8 @@ private:
 
 }
 
-vtkSmartPointer<vtkDataArray> voxelAttribute(vtkDataArray* input, AttributeKind kind, const VoxelMeans& voxels,
-  const AffineTransform& transform, const Executor& executor)
+vtkSmartPointer<vtkDataArray> voxelAttribute(vtkDataArray* input, AttributeKind kind,
+  const VoxelMeans& voxels, const AffineTransform& transform, const Executor& executor)
 {
   auto output = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(input->GetDataType()));
   output->SetName(input->GetName());

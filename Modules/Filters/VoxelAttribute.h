@@ -21,8 +21,7 @@ enum class AttributeKind
 };
 
 /// One tuple per active voxel, of the type, name and components of @p input.
-vtkSmartPointer<vtkDataArray> voxelAttribute(vtkDataArray* input, AttributeKind kind, const VoxelMeans& voxels,
-  const AffineTransform& transform, const Executor& executor);
+vtkSmartPointer<vtkDataArray> voxelAttribute(vtkDataArray* input, AttributeKind kind,
+  const VoxelMeans& voxels, const AffineTransform& transform, const Executor& executor);
 
 } // namespace pointhaptics
-

@@ -20,7 +20,8 @@ using namespace pointhaptics;
 
 vtkStandardNewMacro(vtkKernelBandwidthFilter);
 
-static_assert(int(vtkKernelBandwidthFilter::SilvermanMultivariate) == int(BandwidthRule::SilvermanMultivariate),
+static_assert(
+  int(vtkKernelBandwidthFilter::SilvermanMultivariate) == int(BandwidthRule::SilvermanMultivariate),
   "the filter's rules are Core's, in the same order");
 
 namespace
@@ -54,10 +55,10 @@ int vtkKernelBandwidthFilter::RequestData(
   const Status status = settings.check();
   if (status != Status::Ok)
   {
-    vtkErrorMacro("NumberOfNeighbors " << this->NumberOfNeighbors << ", Radius " << this->Radius
-                                       << ", RadiusScale " << this->RadiusScale << ", MinimumRadius "
-                                       << this->MinimumRadius << ", MaximumRadius " << this->MaximumRadius << ": "
-                                       << sentence(status) << ".");
+    vtkErrorMacro("NumberOfNeighbors "
+      << this->NumberOfNeighbors << ", Radius " << this->Radius << ", RadiusScale " << this->RadiusScale
+      << ", MinimumRadius " << this->MinimumRadius << ", MaximumRadius " << this->MaximumRadius << ": "
+      << sentence(status) << ".");
     return 1;
   }
   output->ShallowCopy(input);

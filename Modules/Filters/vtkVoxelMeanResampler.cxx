@@ -157,7 +157,10 @@ void vtkVoxelMeanResampler::SetTransform(vtkAbstractTransform* transform)
   }
 }
 
-vtkAbstractTransform* vtkVoxelMeanResampler::GetTransform() { return this->Transform; }
+vtkAbstractTransform* vtkVoxelMeanResampler::GetTransform()
+{
+  return this->Transform;
+}
 
 void vtkVoxelMeanResampler::SetWorkspaceBounds(const double bounds[6])
 {
@@ -321,7 +324,8 @@ int vtkVoxelMeanResampler::RequestData(
     vtkDataArray* array = inputData->GetArray(i);
     if (!array)
     {
-      vtkWarningMacro("Array " << inputData->GetArrayName(i) << " is not numeric: it has no mean and is dropped.");
+      vtkWarningMacro(
+        "Array " << inputData->GetArrayName(i) << " is not numeric: it has no mean and is dropped.");
       continue;
     }
     if (isBookkeeping(inputData, i))

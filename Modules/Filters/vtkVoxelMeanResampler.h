@@ -2,12 +2,13 @@
  * @class   vtkVoxelMeanResampler
  * @brief   replace the points in each voxel of a regular lattice by their mean
  *
- * The points of the input (any vtkPointSet) are mapped by an optional affine transform, sorted into the half-open
- * voxels of a lattice over the workspace, and each voxel that holds points gives one output point: their mean, with
- * the means of all point arrays. This is the paper's "mean filter": zooming in gives more active voxels, zooming out
- * fewer. Voxel index = floor((x - origin) / spacing). Sums are taken about the voxel's centre in 64-bit fixed point
- * (quantum 2^-32 voxel), so a mean is exact to 2^-31 voxel before rounding to the output type and the points and counts
- * do not depend on the order of the input, the number of threads or the SMP back end.
+ * The points of the input (any vtkPointSet) are mapped by an optional affine transform, sorted into the
+ * half-open voxels of a lattice over the workspace, and each voxel that holds points gives one output point:
+ * their mean, with the means of all point arrays. This is the paper's "mean filter": zooming in gives more
+ * active voxels, zooming out fewer. Voxel index = floor((x - origin) / spacing). Sums are taken about the
+ * voxel's centre in 64-bit fixed point (quantum 2^-32 voxel), so a mean is exact to 2^-31 voxel before
+ * rounding to the output type and the points and counts do not depend on the order of the input, the number
+ * of threads or the SMP back end.
  *
  * Use:
  * @code
@@ -17,25 +18,26 @@
  * resampler->Update();
  * @endcode
  *
- * Output: the means as points (order: by voxel index, x fastest), one vertex cell each, the averaged point arrays,
- * the vtkIdTypeArray "VoxelPointCount", and on request "VoxelCovariance" (6 doubles: XX YY ZZ XY YZ XZ, central,
- * divided by the count, in squared units of the output frame). Field data: "LatticeOrigin" and "LatticeSpacing"
- * (3 doubles), "LatticeDimensions" (3 integers), "ModelToWorkspace" (16 doubles, row by row).
+ * Output: the means as points (order: by voxel index, x fastest), one vertex cell each, the averaged point
+ * arrays, the vtkIdTypeArray "VoxelPointCount", and on request "VoxelCovariance" (6 doubles: XX YY ZZ XY YZ
+ * XZ, central, divided by the count, in squared units of the output frame). Field data: "LatticeOrigin" and
+ * "LatticeSpacing" (3 doubles), "LatticeDimensions" (3 integers), "ModelToWorkspace" (16 doubles, row by
+ * row).
  *
- * Arrays: numeric arrays of any type and number of components are averaged in double and rounded to their own type
- * (integers to nearest); the active normals are carried by the inverse transpose and re-normalised; arrays named in
- * CategoricalArrays take the value most points of the voxel have (the smallest one on a tie); string arrays and
- * other non-numeric arrays are dropped with a warning. Field data are passed.
+ * Arrays: numeric arrays of any type and number of components are averaged in double and rounded to their own
+ * type (integers to nearest); the active normals are carried by the inverse transpose and re-normalised;
+ * arrays named in CategoricalArrays take the value most points of the voxel have (the smallest one on a tie);
+ * string arrays and other non-numeric arrays are dropped with a warning. Field data are passed.
  *
- * Points that are NaN or infinite are dropped and counted by GetNumberOfInvalidPoints(), finite points outside the
- * workspace by GetNumberOfClippedPoints().
+ * Points that are NaN or infinite are dropped and counted by GetNumberOfInvalidPoints(), finite points
+ * outside the workspace by GetNumberOfClippedPoints().
  *
- * @warning Errors (singular or non-finite transform, empty bounds, a lattice that cannot be addressed) are reported
- * by vtkErrorMacro with the cure, and the output is a valid empty vtkPolyData.
+ * @warning Errors (singular or non-finite transform, empty bounds, a lattice that cannot be addressed) are
+ * reported by vtkErrorMacro with the cure, and the output is a valid empty vtkPolyData.
  *
- * Cost: about 40 bytes per input point and 50 per active voxel while it runs; nothing is allocated in proportion to
- * the number of voxels of the lattice. Source: Kumari, Sreeni, Chaudhuri, "Scalable Rendering of Variable Density
- * Point Cloud Data"; the exact sums are ours (Documentation/Method.md).
+ * Cost: about 40 bytes per input point and 50 per active voxel while it runs; nothing is allocated in
+ * proportion to the number of voxels of the lattice. Source: Kumari, Sreeni, Chaudhuri, "Scalable Rendering
+ * of Variable Density Point Cloud Data"; the exact sums are ours (Documentation/Method.md).
  *
  * @sa vtkKernelBandwidthFilter vtkVoxelGrid
  */
@@ -69,8 +71,8 @@ public:
 
   ///@{
   /**
-   * Box of the lattice in the frame of the transformed cloud: xmin, xmax, ymin, ymax, zmin, zmax. Setting it turns
-   * AutomaticWorkspace off. Default: the paper's 10 cm cube about the origin.
+   * Box of the lattice in the frame of the transformed cloud: xmin, xmax, ymin, ymax, zmin, zmax. Setting it
+   * turns AutomaticWorkspace off. Default: the paper's 10 cm cube about the origin.
    */
   virtual void SetWorkspaceBounds(const double bounds[6]);
   virtual void SetWorkspaceBounds(double x0, double x1, double y0, double y1, double z0, double z1);
@@ -79,8 +81,8 @@ public:
 
   ///@{
   /**
-   * On: the workspace is a cube about the transformed cloud, half a voxel wider on each side, so that nothing is
-   * clipped. Default: on.
+   * On: the workspace is a cube about the transformed cloud, half a voxel wider on each side, so that nothing
+   * is clipped. Default: on.
    */
   vtkSetMacro(AutomaticWorkspace, bool);
   vtkGetMacro(AutomaticWorkspace, bool);
@@ -89,8 +91,8 @@ public:
 
   ///@{
   /**
-   * Number of voxels on each axis, 1 to 2^21. Default: 300, 300, 300. Setting it sets VoxelSize to 0: of the two,
-   * the one set last rules.
+   * Number of voxels on each axis, 1 to 2^21. Default: 300, 300, 300. Setting it sets VoxelSize to 0: of the
+   * two, the one set last rules.
    */
   virtual void SetDimensions(const int dimensions[3]);
   virtual void SetDimensions(int nx, int ny, int nz);
@@ -99,8 +101,8 @@ public:
 
   ///@{
   /**
-   * Edge of a cubic voxel in the units of the transformed cloud; 0 (default): Dimensions rule. The lattice starts at
-   * the lower corner of the workspace and covers it with whole voxels.
+   * Edge of a cubic voxel in the units of the transformed cloud; 0 (default): Dimensions rule. The lattice
+   * starts at the lower corner of the workspace and covers it with whole voxels.
    */
   virtual void SetVoxelSize(double size);
   vtkGetMacro(VoxelSize, double);
@@ -108,8 +110,8 @@ public:
 
   ///@{
   /**
-   * Type of the output points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION or DEFAULT_PRECISION (that of the
-   * input). Default: DEFAULT_PRECISION.
+   * Type of the output points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION or DEFAULT_PRECISION (that of
+   * the input). Default: DEFAULT_PRECISION.
    */
   vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
   vtkGetMacro(OutputPointsPrecision, int);
@@ -126,8 +128,8 @@ public:
 
   ///@{
   /**
-   * Average the point arrays of the input. Off: only the points and VoxelPointCount (and VoxelCovariance) are made.
-   * Default: on.
+   * Average the point arrays of the input. Off: only the points and VoxelPointCount (and VoxelCovariance) are
+   * made. Default: on.
    */
   vtkSetMacro(PassAttributes, bool);
   vtkGetMacro(PassAttributes, bool);
@@ -136,8 +138,8 @@ public:
 
   ///@{
   /**
-   * Names of the arrays that hold labels: their voxel value is the one most points have, not a mean. Default: none,
-   * but "Classification" (LAS) is in the list from the start.
+   * Names of the arrays that hold labels: their voxel value is the one most points have, not a mean. Default:
+   * none, but "Classification" (LAS) is in the list from the start.
    */
   void AddCategoricalArray(const char* name);
   void RemoveCategoricalArray(const char* name);

@@ -103,8 +103,8 @@ void GradientSteps::oneStep(
   center_ += bounded(part * tangential, gains.largestStep * radius) + bounded(push, longest);
 }
 
-void GradientSteps::step(const HapticScene& scene, const HapticParameters& parameters, const Vec3& hip, double dt,
-  ProxyState& state) noexcept
+void GradientSteps::step(const HapticScene& scene, const HapticParameters& parameters, const Vec3& hip,
+  double dt, ProxyState& state) noexcept
 {
   if (!placed_)
   {

@@ -8,9 +8,9 @@
 namespace pointhaptics
 {
 
-/// v_n = sum over the points in the sphere of (r_p - d) times the unit vector from the point to the centre. With no
-/// point inside the sphere follows the HIP; with |v_n| above zeta it backs off along v_n; in contact it slides along
-/// v_t. One thread; no allocation; at most maximumStepsPerTick steps a call.
+/// v_n = sum over the points in the sphere of (r_p - d) times the unit vector from the point to the centre.
+/// With no point inside the sphere follows the HIP; with |v_n| above zeta it backs off along v_n; in contact
+/// it slides along v_t. One thread; no allocation; at most maximumStepsPerTick steps a call.
 class GradientSteps
 {
 public:
@@ -21,7 +21,8 @@ public:
     ProxyState& state) noexcept;
 
 private:
-  void oneStep(const HapticScene& scene, const HapticParameters& parameters, const Vec3& hip, double radius) noexcept;
+  void oneStep(
+    const HapticScene& scene, const HapticParameters& parameters, const Vec3& hip, double radius) noexcept;
 
   Vec3 center_;
   Vec3 normal_{ 0.0, 0.0, 1.0 };

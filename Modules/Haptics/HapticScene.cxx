@@ -185,7 +185,8 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   }
   scene->radius_.build(scene->pyramid_, std::move(proxyRadii));
   const double largest = std::max(extent, kLargestFitRadiusInCells * size);
-  scene->fitScale_.build(scene->pyramid_, fitScales(scene->pyramid_, largest, kLargestFitRadiusInCells * size, executor));
+  scene->fitScale_.build(
+    scene->pyramid_, fitScales(scene->pyramid_, largest, kLargestFitRadiusInCells * size, executor));
   // Beyond a node's reach no cell of its voxel can be nearer than the reach less the voxel's diagonal.
   const double diagonal = std::sqrt(3.0) * scene->pyramid_.level(nodeLevel).voxelSize;
   scene->clearance_ = scene->fitScale_.reach() - diagonal;

@@ -22,17 +22,19 @@ struct HapticSceneInput
   std::vector<double> counts;       ///< Points each one stands for; empty: 1 each.
   std::vector<SymMat3> covariances; ///< Central second moments of each voxel; empty: zero.
   std::vector<double> proxyRadii;   ///< From the bandwidth; empty: 2.8 local spacings everywhere.
-  double cellSize = 0.0;            ///< Edge of the finest index cell: the voxel size; 0: from the points' spacing.
-  AffineTransform modelToWorkspace; ///< The transform the points went through; carries the proxy into a new snapshot.
+  double cellSize = 0.0; ///< Edge of the finest index cell: the voxel size; 0: from the points' spacing.
+  AffineTransform
+    modelToWorkspace; ///< The transform the points went through; carries the proxy into a new snapshot.
 };
 
 /// Built once by create(), read by any number of threads, never edited: a transform makes a new one.
 class HapticScene
 {
 public:
-  /// Copies nothing it can move. Points that are not finite are left out. Cost O(n log n), about 150 bytes a point.
-  /// Errors: Empty (no finite point), LatticeNotAddressable (cellSize too small for the extent),
-  /// InvalidParameter (vectors of different lengths), the transform's own; @p status says which, the result is null.
+  /// Copies nothing it can move. Points that are not finite are left out. Cost O(n log n), about 150 bytes a
+  /// point. Errors: Empty (no finite point), LatticeNotAddressable (cellSize too small for the extent),
+  /// InvalidParameter (vectors of different lengths), the transform's own; @p status says which, the result
+  /// is null.
   /// @p executor may spread the work over threads; the result is the same.
   static std::shared_ptr<const HapticScene> create(
     HapticSceneInput input, Status& status, const Executor& executor = {});
@@ -43,11 +45,12 @@ public:
   const Bounds& bounds() const { return bounds_; }
   /// Edge of the finest index cell, metres.
   double cellSize() const { return pyramid_.level(0).voxelSize; }
-  /// Radius of the proxy sphere at @p position: smooth, from the radii of the points near it, and the cloud's typical
-  /// one far from all of them; metres, above 0.
+  /// Radius of the proxy sphere at @p position: smooth, from the radii of the points near it, and the cloud's
+  /// typical one far from all of them; metres, above 0.
   double proxyRadius(const Vec3& position) const noexcept;
-  /// Radius and gate of the local surface fit at @p position: large enough for 30 points and 14 cells, more where the
-  /// cloud is noisy. Functions of position only, so that the force does not depend on how the hand came there.
+  /// Radius and gate of the local surface fit at @p position: large enough for 30 points and 14 cells, more
+  /// where the cloud is noisy. Functions of position only, so that the force does not depend on how the hand
+  /// came there.
   LocalScale fitScale(const Vec3& position) const noexcept;
   double fitRadius(const Vec3& position) const noexcept { return fitScale(position).radius; }
   /// False where no cell of the cloud can be within clearance() of @p position: free space to stride through.

@@ -90,7 +90,10 @@ void Proxy::setParameters(const HapticParameters& parameters) noexcept
   self.parameters = parameters;
 }
 
-const HapticParameters& Proxy::parameters() const noexcept { return implementation_->parameters; }
+const HapticParameters& Proxy::parameters() const noexcept
+{
+  return implementation_->parameters;
+}
 
 void Proxy::setScene(const HapticScene* scene) noexcept
 {
@@ -112,7 +115,10 @@ void Proxy::setScene(const HapticScene* scene) noexcept
   self.scene = scene;
 }
 
-void Proxy::reset() noexcept { implementation_->forget(); }
+void Proxy::reset() noexcept
+{
+  implementation_->forget();
+}
 
 ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
 {

@@ -17,27 +17,29 @@ enum ProxyStatus : std::uint32_t
   kProxyOk = 0,
   kProxyNonFiniteInput = 1u << 0, ///< The HIP was NaN or infinite: last state held, force faded out.
   kProxyRoundLimit = 1u << 1,     ///< The foot point did not converge within the rounds of one step.
-  kProxyStepLimit = 1u << 2,      ///< The HIP moved further than one step can follow; it is caught up over the next.
-  kProxyLostSurface = 1u << 3,    ///< No fit where the surface was: held, then let go.
-  kProxyReleasedAtRim = 1u << 4,  ///< Let go past the edge of an open surface.
-  kProxyNoScene = 1u << 5,        ///< No scene is set.
+  kProxyStepLimit =
+    1u << 2, ///< The HIP moved further than one step can follow; it is caught up over the next.
+  kProxyLostSurface = 1u << 3,   ///< No fit where the surface was: held, then let go.
+  kProxyReleasedAtRim = 1u << 4, ///< Let go past the edge of an open surface.
+  kProxyNoScene = 1u << 5,       ///< No scene is set.
 };
 
 /// Result of one step. Frame: workspace; metres and newtons.
 struct ProxyState
 {
-  Vec3 hip;                    ///< The HIP this state answers.
-  Vec3 proxy;                  ///< Contact point: of the proxy sphere, the point nearest the HIP; the HIP itself out of contact.
+  Vec3 hip; ///< The HIP this state answers.
+  Vec3
+    proxy; ///< Contact point: of the proxy sphere, the point nearest the HIP; the HIP itself out of contact.
   Vec3 normal{ 0.0, 0.0, 1.0 }; ///< Outward unit surface normal; out of contact the last one.
-  Vec3 force;                  ///< On the hand: K (proxy - HIP) + damping; 0 out of contact.
-  Vec3 sphereCenter;           ///< Centre of the sphere to draw: proxy + radius normal in contact, else the HIP.
-  double radius = 0.0;         ///< Proxy radius r_p.
+  Vec3 force;                   ///< On the hand: K (proxy - HIP) + damping; 0 out of contact.
+  Vec3 sphereCenter;   ///< Centre of the sphere to draw: proxy + radius normal in contact, else the HIP.
+  double radius = 0.0; ///< Proxy radius r_p.
   bool contact = false;
   std::uint32_t status = kProxyOk;
 };
 
-/// One proxy on one scene. step() is for the servo thread: no allocation, lock, I/O or exception; bounded work; its
-/// result depends on the sequence of calls only. Not thread safe: one thread owns a Proxy.
+/// One proxy on one scene. step() is for the servo thread: no allocation, lock, I/O or exception; bounded
+/// work; its result depends on the sequence of calls only. Not thread safe: one thread owns a Proxy.
 class Proxy
 {
 public:
@@ -46,19 +48,21 @@ public:
   Proxy(Proxy&&) noexcept;
   Proxy& operator=(Proxy&&) noexcept;
 
-  /// Takes effect at the next step; a change of method starts without contact. Parameters whose check() is not Ok are
-  /// ignored.
+  /// Takes effect at the next step; a change of method starts without contact. Parameters whose check() is
+  /// not Ok are ignored.
   void setParameters(const HapticParameters& parameters) noexcept;
   const HapticParameters& parameters() const noexcept;
 
-  /// The scene must outlive its use here (SceneExchange sees to it). A proxy in contact is carried along: its contact
-  /// point and normal move with the model from the old scene's transform to the new one's. Null: no contact.
+  /// The scene must outlive its use here (SceneExchange sees to it). A proxy in contact is carried along: its
+  /// contact point and normal move with the model from the old scene's transform to the new one's. Null: no
+  /// contact.
   void setScene(const HapticScene* scene) noexcept;
 
   /// Out of contact, no memory of a side; the next HIP is taken as free space.
   void reset() noexcept;
 
-  /// @param hip Position of the hand in the workspace frame, metres. @param dt Seconds since the last step, > 0.
+  /// @param hip Position of the hand in the workspace frame, metres. @param dt Seconds since the last step, >
+  /// 0.
   ProxyState step(const Vec3& hip, double dt) noexcept;
 
 private:

@@ -21,16 +21,19 @@ constexpr double kNearerCells = 0.5;
 constexpr int kRoundsPerTick = 8;
 constexpr int kRoundsWatching = 3;
 constexpr int kHoldTicks = 20;
-/// The HIP comes out of a sheet by its own motion, and by no more than this part of the fit radius besides: a larger
-/// jump is the fit's, at a ridge or in noise.
+/// The HIP comes out of a sheet by its own motion, and by no more than this part of the fit radius besides: a
+/// larger jump is the fit's, at a ridge or in noise.
 constexpr double kReleaseSlack = 0.05;
 
 }
 
-void SurfaceFitProxy::reset() noexcept { *this = SurfaceFitProxy(); }
+void SurfaceFitProxy::reset() noexcept
+{
+  *this = SurfaceFitProxy();
+}
 
-void SurfaceFitProxy::step(const HapticScene& scene, const ContactParameters& parameters, const Vec3& hip,
-  ProxyState& state) noexcept
+void SurfaceFitProxy::step(
+  const HapticScene& scene, const ContactParameters& parameters, const Vec3& hip, ProxyState& state) noexcept
 {
   if (!hasLastHip_)
   {
@@ -116,8 +119,7 @@ void SurfaceFitProxy::moveFree(
 }
 
 /// Looks for the nearest cell about @p at and starts to watch its sheet, seen from @p from.
-bool SurfaceFitProxy::seek(
-  const HapticScene& scene, const Vec3& from, const Vec3& at, double reach) noexcept
+bool SurfaceFitProxy::seek(const HapticScene& scene, const Vec3& from, const Vec3& at, double reach) noexcept
 {
   double distance = 0.0;
   const std::int64_t cell = scene.pyramid().nearest(0, at, reach, distance);
@@ -266,8 +268,8 @@ bool SurfaceFitProxy::endsHere(const HapticScene& scene, const Vec3& to, std::ui
   return true;
 }
 
-/// Coulomb friction as a cone: sticks while the tangential offset is within mu_s depth, else slides on the rim of
-/// mu_d depth.
+/// Coulomb friction as a cone: sticks while the tangential offset is within mu_s depth, else slides on the
+/// rim of mu_d depth.
 void SurfaceFitProxy::applyFriction(const ContactParameters& parameters, const Vec3& hip) noexcept
 {
   const Vec3 foot = tracker_.point();

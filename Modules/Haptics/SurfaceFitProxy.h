@@ -9,9 +9,9 @@
 namespace pointhaptics
 {
 
-/// In free space it watches the segment the HIP moves along and meets the first surface there; in contact it follows
-/// the foot point of the HIP on that sheet, and lets go where the HIP comes out, or where the surface ends.
-/// Everything converges within the tick. One thread; no allocation; bounded work.
+/// In free space it watches the segment the HIP moves along and meets the first surface there; in contact it
+/// follows the foot point of the HIP on that sheet, and lets go where the HIP comes out, or where the surface
+/// ends. Everything converges within the tick. One thread; no allocation; bounded work.
 class SurfaceFitProxy
 {
 public:
@@ -19,7 +19,8 @@ public:
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
   void reset() noexcept;
   /// @pre hip finite, scene not null. Fills all of the state but force.
-  void step(const HapticScene& scene, const ContactParameters& parameters, const Vec3& hip, ProxyState& state) noexcept;
+  void step(const HapticScene& scene, const ContactParameters& parameters, const Vec3& hip,
+    ProxyState& state) noexcept;
 
 private:
   enum class Mode

@@ -13,6 +13,7 @@ constexpr double kConverged = 1e-6;
 /// Part of the noise below which moving on is pointless.
 constexpr double kConvergedNoise = 1e-3;
 constexpr double kSmallestDamping = 0.15;
+constexpr double kAwaySlack = 1e-3;
 /// A point that moves further than this many fit radii from where it started has lost its sheet.
 constexpr double kLostRadii = 2.0;
 constexpr int kAcquireRounds = 8;
@@ -36,8 +37,7 @@ void SurfaceTracker::adopt(const Vec3& foot, const Vec3& normal) noexcept
   }
 }
 
-bool SurfaceTracker::acquire(
-  const HapticScene& scene, const Vec3& onSurface, const Vec3& freeSide) noexcept
+bool SurfaceTracker::acquire(const HapticScene& scene, const Vec3& onSurface, const Vec3& freeSide) noexcept
 {
   const double radius = scene.fitRadius(onSurface);
   SurfaceTracker best;
@@ -100,6 +100,7 @@ TrackResult SurfaceTracker::follow(const HapticScene& scene, const Vec3& target,
   Vec3 lastPoint = start;
   Vec3 lastStep;
   double lastLength = 0.0;
+  double lastDistance = 0.0;
   for (int round = 0; round < rounds; ++round)
   {
     FitSettings settings;
@@ -118,18 +119,21 @@ TrackResult SurfaceTracker::follow(const HapticScene& scene, const Vec3& target,
     footPoint(fit_, frame_, target, foot, normal);
     Vec3 step = foot - frame_.origin;
     const double length = norm(step);
-    // Rounds that shrink too slowly swing about the answer: shorten the tangential step (Barzilai and Borwein's).
-    if (round > 0 && length > 0.5 * lastLength)
+    // Rounds that shrink too slowly, or lead away from the target, swing about the answer: shorten the
+    // tangential step, by Barzilai and Borwein's estimate of the slope, at least by half when the last round
+    // went away.
+    const double distance = norm(target - frame_.origin);
+    const bool away = round > 0 && distance > lastDistance + kAwaySlack * fit_.radius;
+    if (round > 0 && (away || length > 0.5 * lastLength))
     {
       const Vec3 s = frame_.origin - lastPoint;
       const Vec3 y = step - lastStep;
       const double yy = norm2(y);
-      const double alpha = yy > 0.0 ? std::clamp(-dot(s, y) / yy, kSmallestDamping, 1.0) : 1.0;
-      const double rise = dot(step, frame_.normal);
-      const Vec3 tangential = step - rise * frame_.normal;
-      const Vec3 local = (1.0 / fit_.radius) * Vec3{ alpha * dot(tangential, frame_.a), alpha * dot(tangential, frame_.b), 0.0 };
-      foot = frame_.toWorld(fit_.radius * Vec3{ local.x, local.y, fit_.height(local.x, local.y) });
+      const double part = std::clamp(yy > 0.0 ? -dot(s, y) / yy : 1.0, kSmallestDamping, away ? 0.5 : 1.0);
+      pointAt(fit_, frame_, part / fit_.radius * dot(step, frame_.a),
+        part / fit_.radius * dot(step, frame_.b), foot, normal);
     }
+    lastDistance = distance;
     lastPoint = frame_.origin;
     lastStep = step;
     lastLength = length;

@@ -16,12 +16,13 @@ enum class TrackResult
   Lost,       ///< No surface to fit here, or the point ran away.
 };
 
-/// Follows one sheet of a scene. Remembers the side it is on by its normal: no global orientation of the cloud is
-/// needed. Plain state; no allocation; one thread.
+/// Follows one sheet of a scene. Remembers the side it is on by its normal: no global orientation of the
+/// cloud is needed. Plain state; no allocation; one thread.
 class SurfaceTracker
 {
 public:
-  /// Finds the sheet at the cell mean @p onSurface, its normal towards @p freeSide. False where there is none.
+  /// Finds the sheet at the cell mean @p onSurface, its normal towards @p freeSide. False where there is
+  /// none.
   bool acquire(const HapticScene& scene, const Vec3& onSurface, const Vec3& freeSide) noexcept;
 
   /// Moves to the surface point nearest to @p target, at most @p rounds fits.
@@ -30,12 +31,12 @@ public:
   /// Carries point and normal along with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
 
-  /// True where the surface ends at the point: the fit's cells lie all on one side. @p outward receives the unit
-  /// direction in which there is nothing.
+  /// True where the surface ends at the point: the fit's cells lie all on one side. @p outward receives the
+  /// unit direction in which there is nothing.
   bool isAtRim(const HapticScene& scene, Vec3& outward) const noexcept;
 
-  /// Around a sharp edge: the sheet that continues behind the rim, if there is one near. The tracker is changed only
-  /// on success.
+  /// Around a sharp edge: the sheet that continues behind the rim, if there is one near. The tracker is
+  /// changed only on success.
   bool turnAroundEdge(const HapticScene& scene, const Vec3& outward, const Vec3& target) noexcept;
 
   /// Height of a point above the surface, along the normal; negative inside.
