@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -281,44 +282,72 @@ struct IdolSeed
   Vec3 point;
 };
 
+/// Points about 1 mm apart all over the idol.
 const std::vector<IdolSeed>& idolSeeds()
 {
   static const std::vector<IdolSeed> seeds = []
   {
     PortableRandom random(2);
-    std::vector<IdolSeed> table(8192);
-    for (IdolSeed& seed : table)
+    const auto& bounds = IdolBounds::get().area;
+    const double largest = *std::max_element(bounds.begin(), bounds.end());
+    std::vector<IdolSeed> table;
+    while (table.size() < 16384)
     {
-      const Sample unit = drawSphere(random);
-      seed = { unit.normal, IdolPatch<1>(unit.normal).point() };
+      const Vec3 q = random.sphere();
+      const IdolPatch<1> patch(q);
+      if (random.uniform() * largest < norm(patch.areaNormal()))
+      {
+        table.push_back({ q, patch.point() });
+      }
     }
     return table;
   }();
   return seeds;
 }
 
-SurfacePoint idolFoot(const Vec3& p)
+/// Where to start the descents: the nearest seeds, at most one in a millimetre, as far as a seed can lie from
+/// the foot point it leads to.
+std::vector<IdolSeed> idolStarts(const Vec3& p)
 {
-  constexpr std::size_t kStarts = 6;
-  std::array<std::pair<double, const IdolSeed*>, kStarts> nearest;
-  nearest.fill({ std::numeric_limits<double>::infinity(), nullptr });
-  for (const IdolSeed& seed : idolSeeds())
+  constexpr double kReach = 0.0025;
+  constexpr double kApart = 0.001;
+  constexpr std::size_t kStarts = 24;
+  const std::vector<IdolSeed>& seeds = idolSeeds();
+  double smallest2 = std::numeric_limits<double>::infinity();
+  for (const IdolSeed& seed : seeds)
+  {
+    smallest2 = std::min(smallest2, norm2(seed.point - p));
+  }
+  std::vector<std::pair<double, const IdolSeed*>> near;
+  for (const IdolSeed& seed : seeds)
   {
     const double distance2 = norm2(seed.point - p);
-    for (std::size_t i = kStarts; i-- > 0 && distance2 < nearest[i].first;)
+    if (distance2 <= smallest2 + kReach * kReach)
     {
-      if (i + 1 < kStarts)
-      {
-        nearest[i + 1] = nearest[i];
-      }
-      nearest[i] = { distance2, &seed };
+      near.emplace_back(distance2, &seed);
     }
   }
-  Vec3 best = nearest[0].second->q;
-  double bestDistance2 = std::numeric_limits<double>::infinity();
-  for (const auto& start : nearest)
+  std::sort(near.begin(), near.end());
+  std::vector<IdolSeed> starts;
+  for (const auto& candidate : near)
   {
-    const Vec3 q = idolDescend(p, start.second->q);
+    const auto isClose = [&](const IdolSeed& start)
+    { return norm2(start.point - candidate.second->point) < kApart * kApart; };
+    if (starts.size() < kStarts && std::none_of(starts.begin(), starts.end(), isClose))
+    {
+      starts.push_back(*candidate.second);
+    }
+  }
+  return starts;
+}
+
+SurfacePoint idolFoot(const Vec3& p)
+{
+  Vec3 best;
+  double bestDistance2 = std::numeric_limits<double>::infinity();
+  for (const IdolSeed& start : idolStarts(p))
+  {
+    const Vec3 q = idolDescend(p, start.q);
     const double distance2 = norm2(IdolPatch<1>(q).point() - p);
     if (distance2 < bestDistance2)
     {
