@@ -1,0 +1,45 @@
+/// @file
+/// --dims --voxel --workspace --scale --rotate --translate --matrix --unit: the same wherever a cloud is
+/// resampled.
+#pragma once
+
+#include "Core/AffineTransform.h"
+
+#include <string>
+#include <vector>
+
+namespace CLI
+{
+class App;
+}
+class vtkVoxelMeanResampler;
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// Options as given; empty vectors mean "not given". validate() has been called by the parser before a
+/// command runs.
+struct LatticeOptions
+{
+  std::vector<int> dimensions;   ///< 1 or 3 numbers.
+  double voxelSize = 0.0;        ///< Metres; 0 = not given.
+  std::vector<double> workspace; ///< 6: x0,x1,y0,y1,z0,z1.
+  std::vector<double> scale;     ///< 1 or 3.
+  std::vector<double> rotate;    ///< 4: degrees, x, y, z.
+  std::vector<double> translate; ///< 3.
+  std::vector<double> matrix;    ///< 16, row by row; excludes scale, rotate and translate.
+  std::string unit = "m";        ///< m, cm, mm, um, km, in, ft: unit of the file's coordinates.
+
+  /// Adds the options to @p command; bad values end the parse with a usage error that names the cure.
+  void addTo(CLI::App& command);
+  /// translate * rotate * scale * unit, or matrix * unit.
+  AffineTransform transform() const;
+  bool hasTransform() const;
+  /// Sets transform, workspace and dimensions or voxel size on @p resampler (those that were given).
+  void configure(vtkVoxelMeanResampler* resampler) const;
+};
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,65 @@
+/// @file
+/// Numbers and choices on the command line: parsed whole, checked against a stated range, refused in one
+/// line.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI
+{
+class App;
+class Option;
+}
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// A closed range of finite numbers; openMinimum takes the minimum itself out.
+struct NumberRange
+{
+  double minimum;
+  double maximum;
+  bool openMinimum = false;
+};
+
+/// The whole of @p text as one decimal number, "inf" and "nan" included. False: it is not one.
+bool parseNumber(const std::string& text, double& value);
+/// Comma-separated numbers. False where one of them is none.
+bool parseNumbers(const std::string& text, std::vector<double>& values);
+
+/// Ends the parse with a usage error `OPTION VALUE: problem`. @p problem says what is wrong and the cure.
+[[noreturn]] void throwUsage(const std::string& option, const std::string& value, const std::string& problem);
+
+/// Adds `--name` taking one number within @p range; @p unit is shown in the help and in the error.
+CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
+  const std::string& unit, const std::string& description);
+/// Adds an option taking one whole number from @p minimum to @p maximum. Forms such as 1e6 are taken.
+CLI::Option* addInteger(CLI::App& command, const std::string& name, std::int64_t& value, std::int64_t minimum,
+  std::int64_t maximum, const std::string& description);
+/// Returns what is wrong with a list, and the cure, or an empty string.
+using NumbersCheck = std::function<std::string(const std::vector<double>&)>;
+/// Adds an option taking a comma-separated list with one of the @p counts of finite numbers. @p check may be
+/// empty.
+CLI::Option* addNumbers(CLI::App& command, const std::string& name, std::vector<double>& values,
+  std::initializer_list<std::size_t> counts, NumbersCheck check, const std::string& form,
+  const std::string& description);
+/// The same; the list is handed to @p keep after the checks.
+CLI::Option* addNumbers(CLI::App& command, const std::string& name,
+  std::function<void(const std::vector<double>&)> keep, std::initializer_list<std::size_t> counts,
+  NumbersCheck check, const std::string& form, const std::string& description);
+/// Adds an option taking one of @p words.
+CLI::Option* addWord(CLI::App& command, const std::string& name, std::string& value,
+  std::vector<std::string> words, const std::string& description);
+/// Adds an option taking one of the words in @p choices; @p value becomes the integer beside it.
+CLI::Option* addChoice(CLI::App& command, const std::string& name, int& value,
+  std::vector<std::pair<std::string, int>> choices, const std::string& description);
+
+} // namespace app
+} // namespace pointhaptics
