@@ -43,7 +43,7 @@ namespace
 /// Part of the workspace's edge a fitted cloud takes: the hand needs room to reach it from every side.
 constexpr double kFittedPart = 0.9;
 /// Size for applyDepthShading() in edges of the workspace.
-constexpr double kDepthShadingScale = 6.0;
+constexpr double kDepthShadingScale = 7.0;
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
 constexpr double kFacingEnough = 0.25;
 

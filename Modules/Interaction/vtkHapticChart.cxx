@@ -50,11 +50,11 @@ void styleAxis(vtkAxis* axis, const char* title, const unsigned char color[3])
   axis->GetPen()->SetColor(90, 90, 90);
 }
 
-/// The next of 1, 2, 5, 10, ... at or above @p value.
+/// The next round number at or above @p value.
 double roundUp(double value)
 {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (double step : { 1.0, 2.0, 5.0 })
+  for (double step : { 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0 })
   {
     if (value <= step * power * (1.0 + 1e-12))
     {
@@ -113,6 +113,11 @@ void vtkHapticChart::Internals::fill(double begin, double end)
     this->time->InsertNextValue(static_cast<float>(moment / count));
     this->force->InsertNextValue(static_cast<float>(peak));
     this->radius->InsertNextValue(static_cast<float>(1e3 * sum / count));
+  }
+  for (int plot = 0; plot < 2; ++plot)
+  {
+    // vtkContext2D takes a line of fewer than two points for an error.
+    this->chart->GetPlot(plot)->SetVisible(this->time->GetNumberOfTuples() > 1);
   }
   this->table->Modified();
 }

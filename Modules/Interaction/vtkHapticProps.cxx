@@ -31,14 +31,14 @@ namespace
 
 constexpr double kPink[3] = { 1.0, 0.30, 0.62 };
 constexpr double kPalePink[3] = { 1.0, 0.55, 0.78 };
-constexpr double kGreen[3] = { 0.05, 0.62, 0.15 };
+constexpr double kGreen[3] = { 0.05, 0.78, 0.15 };
 constexpr double kBlue[3] = { 0.05, 0.25, 0.95 };
 constexpr double kOrange[3] = { 0.95, 0.42, 0.02 };
 constexpr double kSmallestForce = 0.01; // newtons: shorter arrows are not drawn
 
 /// Sizes as parts of the workspace's edge.
 constexpr double kHipRadius = 0.007;
-constexpr double kNormalLength = 0.14;
+constexpr double kNormalLength = 0.18;
 constexpr double kLongestArrow = 0.4;
 constexpr double kArrowThickness = 0.06;
 constexpr double kVisibleMotion = 1e-4;
@@ -51,7 +51,7 @@ struct Prop
   vtkNew<vtkActor> actor;
   vtkNew<vtkActor> ghost;
 
-  void setUp(vtkAlgorithmOutput* shape, const double color[3], bool lit)
+  void setUp(vtkAlgorithmOutput* shape, const double color[3], bool lit, double ghostOpacity)
   {
     for (vtkPolyDataMapper* each : { mapper.Get(), ghostMapper.Get() })
     {
@@ -64,13 +64,13 @@ struct Prop
     ghostMapper->SetResolveCoincidentTopologyToPolygonOffset();
     ghostMapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -1e6);
     ghostMapper->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -1e6);
-    ghost->GetProperty()->SetOpacity(0.30);
+    ghost->GetProperty()->SetOpacity(ghostOpacity);
     for (vtkActor* each : { actor.Get(), ghost.Get() })
     {
       each->GetProperty()->SetColor(const_cast<double*>(color));
       each->GetProperty()->SetLighting(lit);
-      each->GetProperty()->SetAmbient(0.35);
-      each->GetProperty()->SetDiffuse(0.65);
+      each->GetProperty()->SetAmbient(0.5);
+      each->GetProperty()->SetDiffuse(0.5);
       each->PickableOff();
     }
   }
@@ -149,12 +149,12 @@ vtkHapticProps::vtkHapticProps()
   parts.arrow->SetShaftRadius(0.10);
   parts.arrow->SetTipRadius(0.24);
   parts.arrow->SetTipLength(0.3);
-  parts.proxy.setUp(parts.sphere->GetOutputPort(), kPink, true);
-  parts.normal.setUp(parts.line->GetOutputPort(), kGreen, false);
-  parts.hip.setUp(parts.ball->GetOutputPort(), kBlue, true);
-  parts.force.setUp(parts.arrow->GetOutputPort(), kOrange, true);
-  parts.normal.actor->GetProperty()->SetLineWidth(3.0f);
-  parts.normal.ghost->GetProperty()->SetLineWidth(3.0f);
+  parts.proxy.setUp(parts.sphere->GetOutputPort(), kPink, true, 0.75);
+  parts.normal.setUp(parts.line->GetOutputPort(), kGreen, false, 0.75);
+  parts.hip.setUp(parts.ball->GetOutputPort(), kBlue, true, 0.55);
+  parts.force.setUp(parts.arrow->GetOutputPort(), kOrange, true, 0.55);
+  parts.normal.actor->GetProperty()->SetLineWidth(4.0f);
+  parts.normal.ghost->GetProperty()->SetLineWidth(4.0f);
   parts.proxy.place(parts.proxyMatrix);
   parts.normal.place(parts.normalMatrix);
   parts.hip.place(parts.hipMatrix);
@@ -188,7 +188,8 @@ void vtkHapticProps::SetTouchVisibility(bool visible)
 void vtkHapticProps::AddTo(vtkRenderer* renderer)
 {
   renderer->AddActor(this->Parts->outlineActor);
-  for (Prop* prop : { &this->Parts->normal, &this->Parts->force, &this->Parts->hip, &this->Parts->proxy })
+  // The normal last: without friction the force lies along it, and the arrow would hide it.
+  for (Prop* prop : { &this->Parts->force, &this->Parts->hip, &this->Parts->proxy, &this->Parts->normal })
   {
     renderer->AddActor(prop->actor);
     renderer->AddActor(prop->ghost);
@@ -198,7 +199,7 @@ void vtkHapticProps::AddTo(vtkRenderer* renderer)
 void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
 {
   renderer->RemoveActor(this->Parts->outlineActor);
-  for (Prop* prop : { &this->Parts->normal, &this->Parts->force, &this->Parts->hip, &this->Parts->proxy })
+  for (Prop* prop : { &this->Parts->force, &this->Parts->hip, &this->Parts->proxy, &this->Parts->normal })
   {
     renderer->RemoveActor(prop->actor);
     renderer->RemoveActor(prop->ghost);

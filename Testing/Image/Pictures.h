@@ -1,0 +1,20 @@
+/// @file
+/// The pictures of the image regressions: generated clouds, fixed cameras, no text (fonts differ between
+/// machines).
+#pragma once
+
+#include <string>
+
+class vtkRenderer;
+
+namespace pointhaptics
+{
+namespace testing
+{
+
+/// Fills @p renderer with the picture @p name, with the fault @p mutation in it ("": none): dropped-point,
+/// shifted-proxy or wrong-color. False: there is no such picture, or it does not know that fault.
+bool buildPicture(const std::string& name, const std::string& mutation, vtkRenderer* renderer);
+
+} // namespace testing
+} // namespace pointhaptics

@@ -1,0 +1,86 @@
+#include "CloudAppearance.h"
+
+#include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkDataArray.h>
+#include <vtkLookupTable.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <cmath>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+vtkSmartPointer<vtkPolyData> makeColumn()
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(0, 0, 5);
+  points->InsertNextPoint(0, 0, 7);
+  points->InsertNextPoint(NAN, 0, 0);
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  return cloud;
+}
+
+TEST(CloudAppearance, MeasuresHeightFromTheLowestFinitePoint)
+{
+  const auto cloud = makeColumn();
+  addHeightArray(cloud, { 0, 0, 1 });
+  vtkDataArray* height = cloud->GetPointData()->GetArray(kHeightArrayName);
+  ASSERT_TRUE(height);
+  EXPECT_EQ(height->GetTuple1(0), 0.0);
+  EXPECT_EQ(height->GetTuple1(1), 2.0);
+  EXPECT_EQ(height->GetTuple1(2), 0.0);
+}
+
+TEST(CloudAppearance, PrefersTheCloudsOwnColors)
+{
+  const auto cloud = makeColumn();
+  addHeightArray(cloud, { 0, 0, 1 });
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkActor> actor;
+  EXPECT_TRUE(applyCloudAppearance(cloud, mapper, actor));
+  EXPECT_STREQ(mapper->GetArrayName(), kHeightArrayName);
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("RGB");
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(3);
+  colors->Fill(200);
+  cloud->GetPointData()->SetScalars(colors);
+  EXPECT_TRUE(hasColors(cloud));
+  EXPECT_TRUE(applyCloudAppearance(cloud, mapper, actor));
+  EXPECT_EQ(mapper->GetColorMode(), VTK_COLOR_MODE_DIRECT_SCALARS);
+}
+
+TEST(CloudAppearance, SaysThatAnArrayIsNotThere)
+{
+  const auto cloud = makeColumn();
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkActor> actor;
+  EXPECT_FALSE(applyCloudAppearance(cloud, mapper, actor, "Temperature"));
+  EXPECT_FALSE(applyCloudAppearance(cloud, mapper, actor, "rgb"));
+}
+
+TEST(CloudAppearance, GrowsLighterInEvenSteps)
+{
+  vtkLookupTable* colors = newCloudColorMap();
+  double last = -1.0;
+  for (int i = 0; i < 256; i += 16)
+  {
+    const double* c = colors->GetTableValue(i);
+    const double luminance = 0.2126 * c[0] * c[0] + 0.7152 * c[1] * c[1] + 0.0722 * c[2] * c[2];
+    EXPECT_GT(luminance, last) << i;
+    last = luminance;
+  }
+  colors->Delete();
+}
+
+} // namespace

@@ -1,0 +1,87 @@
+#include "vtkHapticProps.h"
+
+#include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkProperty.h>
+
+#include <cmath>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+ProxyState makeContact()
+{
+  ProxyState state;
+  state.contact = true;
+  state.hip = { 0.01, 0.0, -0.002 };
+  state.proxy = { 0.01, 0.0, 0.0 };
+  state.normal = { 0.0, 0.0, 1.0 };
+  state.force = { 0.0, 0.0, 1.6 };
+  state.radius = 0.003;
+  state.sphereCenter = { 0.01, 0.0, 0.003 };
+  return state;
+}
+
+TEST(HapticProps, ShowsNothingOfATouchBeforeTheFirst)
+{
+  vtkNew<vtkHapticProps> props;
+  EXPECT_FALSE(props->GetProxyActor()->GetVisibility());
+  EXPECT_FALSE(props->GetHipActor()->GetVisibility());
+  EXPECT_TRUE(props->GetWorkspaceActor()->GetVisibility());
+}
+
+TEST(HapticProps, PlacesSphereNormalAndArrow)
+{
+  vtkNew<vtkHapticProps> props;
+  props->SetForceScale(0.01);
+  EXPECT_TRUE(props->Update(makeContact()));
+  vtkMatrix4x4* sphere = props->GetProxyActor()->GetUserMatrix();
+  EXPECT_DOUBLE_EQ(sphere->GetElement(2, 3), 0.003);
+  EXPECT_DOUBLE_EQ(sphere->GetElement(0, 0), 0.003); // its radius
+  vtkMatrix4x4* normal = props->GetNormalActor()->GetUserMatrix();
+  EXPECT_DOUBLE_EQ(normal->GetElement(2, 3), 0.0);
+  EXPECT_GT(normal->GetElement(2, 0), 0.0); // along +z
+  vtkMatrix4x4* arrow = props->GetForceActor()->GetUserMatrix();
+  EXPECT_DOUBLE_EQ(arrow->GetElement(2, 0), 0.016); // 1.6 N
+  EXPECT_DOUBLE_EQ(arrow->GetElement(2, 3), -0.002);
+  EXPECT_EQ(props->GetProxyActor()->GetProperty()->GetOpacity(), 1.0);
+}
+
+TEST(HapticProps, AreTranslucentWithoutNormalInFreeSpace)
+{
+  ProxyState state = makeContact();
+  state.contact = false;
+  vtkNew<vtkHapticProps> props;
+  props->Update(state);
+  EXPECT_TRUE(props->GetProxyActor()->GetVisibility());
+  EXPECT_LT(props->GetProxyActor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_FALSE(props->GetNormalActor()->GetVisibility());
+  EXPECT_FALSE(props->GetForceActor()->GetVisibility());
+}
+
+TEST(HapticProps, SayWhetherARenderIsWorthwhile)
+{
+  vtkNew<vtkHapticProps> props;
+  ProxyState state = makeContact();
+  EXPECT_TRUE(props->Update(state));
+  EXPECT_FALSE(props->Update(state));
+  state.hip.x += 1e-3;
+  EXPECT_TRUE(props->Update(state));
+  state.hip.x = NAN;
+  EXPECT_FALSE(props->Update(state));
+}
+
+TEST(HapticProps, CutAnArrowThatWouldLeaveTheWorkspace)
+{
+  vtkNew<vtkHapticProps> props;
+  ProxyState state = makeContact();
+  state.force = { 0.0, 0.0, 1e6 };
+  props->Update(state);
+  EXPECT_LE(props->GetForceActor()->GetUserMatrix()->GetElement(2, 0), 0.05);
+}
+
+} // namespace
