@@ -1,0 +1,139 @@
+#include "Core/FitRadius.h"
+#include "Core/VoxelMean.h"
+
+#include "RandomClouds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+constexpr double kVoxel = 1e-3 / 3;
+
+CellPyramid sphere(int n, double noise, std::uint64_t seed)
+{
+  trial::Random random(seed);
+  std::vector<Vec3> points;
+  for (int i = 0; i < n; ++i)
+  {
+    const Vec3 direction = random.direction();
+    points.push_back((0.025 + noise * random.normal()) * direction);
+  }
+  const PointView view(points.data(), n);
+  LatticeSettings settings;
+  settings.voxelSize = kVoxel;
+  Lattice lattice;
+  EXPECT_EQ(makeLattice(settings, transformedBounds(view, {}), lattice), Status::Ok);
+  VoxelMeans means;
+  EXPECT_EQ(voxelMeans(view, {}, lattice, true, means), Status::Ok);
+  std::vector<Cell> cells(means.keys.size());
+  for (std::size_t v = 0; v < cells.size(); ++v)
+  {
+    cells[v].mean = means.means[v];
+    cells[v].count = double(means.count(v));
+    cells[v].covariance = means.covariances[v];
+  }
+  CellPyramid pyramid;
+  std::vector<std::uint32_t> source;
+  EXPECT_EQ(pyramid.build(std::move(cells), kVoxel, source), Status::Ok);
+  return pyramid;
+}
+
+std::vector<FitScale> scalesOf(const CellPyramid& pyramid)
+{
+  std::vector<FitScale> scales;
+  const std::vector<Cell>& cells = pyramid.level(0).cells;
+  for (std::size_t i = 0; i < cells.size(); i += cells.size() / 40)
+  {
+    scales.push_back(chooseFitRadius(pyramid, cells[i].mean, 8e-3, 8e-3));
+  }
+  return scales;
+}
+
+template <typename Member>
+double median(const std::vector<FitScale>& scales, Member member)
+{
+  std::vector<double> values;
+  for (const FitScale& scale : scales)
+  {
+    values.push_back(scale.*member);
+  }
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+} // namespace
+
+TEST(FitRadius, HoldsEnoughPointsAndCells)
+{
+  const CellPyramid pyramid = sphere(200000, 0.0, 1);
+  for (const FitScale& scale : scalesOf(pyramid))
+  {
+    EXPECT_GE(scale.countRadius, 3.6 * kVoxel * (1 - 1e-9));
+    EXPECT_LE(scale.countRadius, 8e-3);
+    EXPECT_GE(scale.radius, scale.countRadius);
+    EXPECT_LE(scale.radius, 8e-3 * (1 + 1e-9));
+  }
+}
+
+TEST(FitRadius, IsLargerWhereTheCloudIsSparse)
+{
+  const double dense = median(scalesOf(sphere(200000, 0.0, 2)), &FitScale::countRadius);
+  const double sparse = median(scalesOf(sphere(10000, 0.0, 3)), &FitScale::countRadius);
+  EXPECT_GT(sparse, 1.3 * dense);
+}
+
+TEST(FitRadius, GrowsWithTheNoise)
+{
+  const std::vector<FitScale> clean = scalesOf(sphere(200000, 0.0, 4));
+  const std::vector<FitScale> noisy = scalesOf(sphere(200000, 3e-6, 4));
+  const std::vector<FitScale> noisier = scalesOf(sphere(200000, 20e-6, 4));
+  const double cleanRadius = median(clean, &FitScale::radius);
+  EXPECT_LE(cleanRadius, 1.6 * median(clean, &FitScale::countRadius)) << "no growth without noise";
+  EXPECT_GT(median(noisy, &FitScale::radius), 1.2 * cleanRadius);
+  EXPECT_GT(median(noisier, &FitScale::radius), median(noisy, &FitScale::radius));
+  EXPECT_NEAR(median(noisy, &FitScale::noise), 3e-6, 1e-6);
+  EXPECT_NEAR(median(noisier, &FitScale::noise), 20e-6, 7e-6);
+  EXPECT_LT(median(clean, &FitScale::noise), 1e-6);
+}
+
+TEST(FitRadius, OfDegenerateCloudsIsUsable)
+{
+  for (const int n : { 1, 2, 11 })
+  {
+    trial::Random random(5);
+    std::vector<Cell> cells(static_cast<std::size_t>(n));
+    for (Cell& cell : cells)
+    {
+      cell.mean = random.inBox({ 0, 0, 0 }, { 0.01, 0.01, 0.01 });
+    }
+    CellPyramid pyramid;
+    std::vector<std::uint32_t> source;
+    ASSERT_EQ(pyramid.build(cells, kVoxel, source), Status::Ok);
+    const FitScale scale = chooseFitRadius(pyramid, cells[0].mean, 8e-3, 8e-3);
+    EXPECT_GT(scale.radius, 0.0);
+    EXPECT_TRUE(std::isfinite(scale.radius));
+    EXPECT_TRUE(std::isfinite(scale.noise));
+  }
+}
+
+TEST(FitScales, AreOnePerNodeAndDoNotDependOnTheExecutor)
+{
+  const CellPyramid pyramid = sphere(50000, 20e-6, 6);
+  const std::vector<LocalScale> expected = fitScales(pyramid, 8e-3, 8e-3);
+  EXPECT_EQ(expected.size(), pyramid.level(RadiusField::nodeLevel(pyramid)).cells.size());
+  const std::vector<LocalScale> threaded = fitScales(pyramid, 8e-3, 8e-3, trial::ThreadedExecutor(3));
+  ASSERT_EQ(threaded.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    EXPECT_EQ(threaded[i].radius, expected[i].radius);
+    EXPECT_EQ(threaded[i].gate, expected[i].gate);
+    EXPECT_GT(expected[i].radius, 0.0);
+    EXPECT_GT(expected[i].gate, 0.0);
+  }
+}

@@ -1,0 +1,475 @@
+#include "Core/VoxelMean.h"
+#include "Core/Reference/ReferenceVoxelMean.h"
+
+#include "RandomClouds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstring>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+PointView view(const std::vector<Vec3>& points)
+{
+  return { points.data(), std::int64_t(points.size()) };
+}
+
+Lattice unitLattice(std::int64_t n)
+{
+  Lattice lattice;
+  lattice.spacing = { 1.0 / n, 1.0 / n, 1.0 / n };
+  lattice.dimensions = { n, n, n };
+  return lattice;
+}
+
+VoxelMeans meansOf(const PointView& points, const Lattice& lattice, const AffineTransform& transform = {},
+  const Executor& executor = {})
+{
+  VoxelMeans result;
+  EXPECT_EQ(voxelMeans(points, transform, lattice, true, result, executor), Status::Ok);
+  return result;
+}
+
+/// Largest rounding of one coordinate on its way: of the products of the transform, or of the coordinate
+/// itself.
+double coordinateRounding(const PointView& points, const AffineTransform& transform)
+{
+  double largest = 0.0;
+  for (std::int64_t i = 0; i < points.size(); ++i)
+  {
+    if (!isFinite(points[i]))
+    {
+      continue;
+    }
+    for (const auto& row : transform.m)
+    {
+      const Vec3 p = points[i];
+      const double sum = std::fabs(row[0] * p.x) + std::fabs(row[1] * p.y) + std::fabs(row[2] * p.z);
+      largest = std::max(largest, sum + std::fabs(row[3]));
+    }
+  }
+  return 4.0 * DBL_EPSILON * largest;
+}
+
+/// The promise of the header: same voxels and members as the definition, means to 2^-31 voxel and the
+/// rounding of a coordinate, covariances to the same in squared voxels.
+void expectAgrees(const PointView& points, const AffineTransform& transform, const Lattice& lattice)
+{
+  const VoxelMeans result = meansOf(points, lattice, transform);
+  const reference::VoxelMap expected = reference::voxelMeans(points, transform, lattice);
+  EXPECT_EQ(result.clippedPoints, expected.clippedPoints);
+  EXPECT_EQ(result.invalidPoints, expected.invalidPoints);
+  ASSERT_EQ(result.keys.size(), expected.voxels.size());
+  ASSERT_EQ(result.means.size(), result.keys.size());
+  ASSERT_EQ(result.covariances.size(), result.keys.size());
+  ASSERT_EQ(result.begin.size(), result.keys.size() + 1);
+  const double rounding = coordinateRounding(points, transform);
+  std::size_t v = 0;
+  for (const auto& entry : expected.voxels)
+  {
+    const reference::Voxel& voxel = entry.second;
+    ASSERT_EQ(result.keys[v], entry.first);
+    ASSERT_EQ(std::vector<std::int64_t>(
+                result.members.begin() + result.begin[v], result.members.begin() + result.begin[v + 1]),
+      voxel.members);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double error = double(std::fabs(voxel.mean[axis] - result.means[v][axis]));
+      ASSERT_LE(error, 0x1p-31 * lattice.spacing[axis] + rounding) << "voxel " << v << " axis " << axis;
+    }
+    const SymMat3& c = result.covariances[v];
+    const double got[6] = { c.xx, c.yy, c.zz, c.xy, c.yz, c.xz };
+    const int axes[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 0, 2 } };
+    for (int m = 0; m < 6; ++m)
+    {
+      const double a = lattice.spacing[axes[m][0]];
+      const double b = lattice.spacing[axes[m][1]];
+      const double error = double(std::fabs(voxel.covariance[m] - got[m]));
+      ASSERT_LE(error, 0x1p-30 * a * b + rounding * (a + b)) << "voxel " << v << " moment " << m;
+    }
+    ++v;
+  }
+}
+
+template <typename T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
+{
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+void expectSameBits(const VoxelMeans& a, const VoxelMeans& b)
+{
+  EXPECT_TRUE(sameBits(a.keys, b.keys));
+  EXPECT_TRUE(sameBits(a.means, b.means));
+  EXPECT_TRUE(sameBits(a.covariances, b.covariances));
+  EXPECT_TRUE(sameBits(a.begin, b.begin));
+  EXPECT_EQ(a.clippedPoints, b.clippedPoints);
+  EXPECT_EQ(a.invalidPoints, b.invalidPoints);
+}
+
+AffineTransform generalTransform()
+{
+  return AffineTransform::translation({ 0.3, 0.2, 0.25 }) * AffineTransform::rotation(33, { 1, 2, -1 }) *
+    AffineTransform::scaling({ 0.5, -0.7, 0.6 });
+}
+
+} // namespace
+
+TEST(VoxelMean, AgreesWithTheDefinitionOnRandomPoints)
+{
+  const std::vector<Vec3> points = trial::randomBox(50000, 1, { -0.1, -0.1, -0.1 }, { 1.1, 1.1, 1.1 });
+  expectAgrees(view(points), {}, unitLattice(7));
+  expectAgrees(view(points), {}, unitLattice(32));
+  expectAgrees(view(points), {}, unitLattice(1));
+}
+
+TEST(VoxelMean, AgreesUnderAGeneralTransform)
+{
+  const std::vector<Vec3> points = trial::randomBox(20000, 2, { 0, 0, 0 }, { 1, 1, 1 });
+  expectAgrees(view(points), generalTransform(), unitLattice(16));
+}
+
+TEST(VoxelMean, AgreesOnAnisotropicVoxels)
+{
+  Lattice lattice;
+  lattice.origin = { -1, -2, -3 };
+  lattice.spacing = { 0.5, 1e-3, 7 };
+  lattice.dimensions = { 5, 4001, 1 };
+  const std::vector<Vec3> points = trial::randomBox(30000, 3, { -1, -2, -3 }, { 1.5, 2, 4 });
+  expectAgrees(view(points), {}, lattice);
+}
+
+TEST(VoxelMean, AgreesOnSheetsWhoseCovarianceIsNearlySingular)
+{
+  trial::Random random(4);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const double x = random.uniform();
+    const double y = random.uniform();
+    points.emplace_back(x, y, 0.5 + 0.01 * x * x - 1e-7 * random.uniform());
+  }
+  expectAgrees(view(points), {}, unitLattice(10));
+}
+
+TEST(VoxelMean, AgreesAtEveryScale)
+{
+  for (const double scale : { 1e-12, 1e-6, 1e6, 1e12 })
+  {
+    const std::vector<Vec3> points =
+      trial::randomBox(5000, 5, scale * Vec3(-1, -1, -1), scale * Vec3(1, 1, 1));
+    Lattice lattice;
+    ASSERT_EQ(makeLattice({}, transformedBounds(view(points), {}), lattice), Status::Ok);
+    expectAgrees(view(points), {}, lattice);
+  }
+}
+
+TEST(VoxelMean, AgreesOnMapCoordinatesInDouble)
+{
+  const std::vector<Vec3> points =
+    trial::randomBox(20000, 6, { 512700, 4600000, 300 }, { 512701, 4600001, 301 });
+  Lattice lattice;
+  lattice.origin = { 512700, 4600000, 300 };
+  lattice.spacing = { 0.1, 0.1, 0.1 };
+  lattice.dimensions = { 10, 10, 10 };
+  expectAgrees(view(points), {}, lattice);
+}
+
+TEST(VoxelMean, AgreesOnMapCoordinatesInFloat)
+{
+  trial::Random random(7);
+  std::vector<float> points;
+  for (int i = 0; i < 3 * 20000; ++i)
+  {
+    points.push_back(float((i % 3 == 0      ? 512700.0
+                               : i % 3 == 1 ? 4600000.0
+                                            : 300.0) +
+      random.uniform(0, 100)));
+  }
+  const PointView floats(points.data(), 20000);
+  Lattice lattice;
+  ASSERT_EQ(makeLattice({}, transformedBounds(floats, {}), lattice), Status::Ok);
+  expectAgrees(floats, {}, lattice);
+}
+
+TEST(VoxelMean, AMillionMapPointsInOneVoxelKeepTheirMean)
+{
+  // Sums of float coordinates are wrong by kilometres here, sums of doubles by 2.5e-7 m.
+  const std::vector<Vec3> points =
+    trial::randomBox(1000000, 8, { 512700, 4600000, 300 }, { 512700.1, 4600000.1, 300.1 });
+  Lattice lattice;
+  lattice.origin = { 512700, 4600000, 300 };
+  lattice.spacing = { 0.125, 0.125, 0.125 };
+  const VoxelMeans result = meansOf(view(points), lattice);
+  ASSERT_EQ(result.keys.size(), 1u);
+  EXPECT_EQ(result.count(0), 1000000);
+  long double sum[3] = { 0, 0, 0 };
+  for (const Vec3& p : points)
+  {
+    sum[0] += p.x - 512700.0L;
+    sum[1] += p.y - 4600000.0L;
+    sum[2] += p.z - 300.0L;
+  }
+  EXPECT_NEAR(double(result.means[0].x - 512700.0L), double(sum[0] / 1e6L), 1.2e-10);
+  EXPECT_NEAR(double(result.means[0].y - 4600000.0L), double(sum[1] / 1e6L), 1e-9);
+  EXPECT_NEAR(double(result.means[0].z - 300.0L), double(sum[2] / 1e6L), 1e-10);
+}
+
+TEST(VoxelMean, DoesNotDependOnTheOrderOfThePoints)
+{
+  const std::vector<Vec3> points = trial::randomBox(30000, 9, { 0, 0, 0 }, { 1, 1, 1 });
+  const VoxelMeans expected = meansOf(view(points), unitLattice(12), generalTransform());
+  for (const std::uint64_t seed : { 1, 2, 3 })
+  {
+    std::vector<Vec3> shuffled;
+    for (const std::size_t i : trial::randomOrder(points.size(), seed))
+    {
+      shuffled.push_back(points[i]);
+    }
+    expectSameBits(meansOf(view(shuffled), unitLattice(12), generalTransform()), expected);
+  }
+}
+
+TEST(VoxelMean, DoesNotDependOnTheExecutor)
+{
+  const std::vector<Vec3> points = trial::randomBox(30000, 10, { -0.2, 0, 0 }, { 1, 1, 1.2 });
+  const VoxelMeans expected = meansOf(view(points), unitLattice(40));
+  const auto expectSame = [&](const Executor& executor)
+  {
+    const VoxelMeans result = meansOf(view(points), unitLattice(40), {}, executor);
+    expectSameBits(result, expected);
+    EXPECT_TRUE(sameBits(result.members, expected.members));
+  };
+  expectSame(trial::BackwardExecutor(1));
+  expectSame(trial::BackwardExecutor(777));
+  expectSame(trial::ThreadedExecutor(2));
+  expectSame(trial::ThreadedExecutor(3));
+  expectSame(trial::ThreadedExecutor(8));
+}
+
+TEST(VoxelMean, FloatAndDoubleInputsOfTheSameValuesGiveTheSameBits)
+{
+  trial::Random random(12);
+  std::vector<float> floats;
+  std::vector<double> doubles;
+  for (int i = 0; i < 3 * 5000; ++i)
+  {
+    floats.push_back(float(random.uniform()));
+    doubles.push_back(floats.back());
+  }
+  expectSameBits(meansOf(PointView(floats.data(), 5000), unitLattice(9)),
+    meansOf(PointView(doubles.data(), 5000), unitLattice(9)));
+}
+
+TEST(VoxelMean, MembersArePartOfTheCloudExactlyOnceAndKeysAscend)
+{
+  const std::vector<Vec3> points = trial::randomBox(20000, 13, { -0.5, 0, 0 }, { 1, 1, 1 });
+  const VoxelMeans result = meansOf(view(points), unitLattice(11));
+  std::vector<int> seen(points.size(), 0);
+  for (const std::int64_t i : result.members)
+  {
+    ++seen[std::size_t(i)];
+  }
+  EXPECT_LE(*std::max_element(seen.begin(), seen.end()), 1);
+  EXPECT_EQ(std::int64_t(result.members.size()) + result.clippedPoints, 20000);
+  EXPECT_EQ(result.begin.front(), 0);
+  EXPECT_EQ(result.begin.back(), std::int64_t(result.members.size()));
+  for (std::size_t v = 1; v < result.keys.size(); ++v)
+  {
+    EXPECT_LT(result.keys[v - 1], result.keys[v]);
+    EXPECT_GT(result.count(v), 0);
+  }
+}
+
+TEST(VoxelMean, FloorsNegativeCoordinates)
+{
+  Lattice lattice;
+  lattice.origin = { -2, -2, -2 };
+  lattice.dimensions = { 4, 4, 4 };
+  const std::vector<Vec3> points{ { -0.5, -0.5, -0.5 }, { 0.5, 0.5, 0.5 }, { -1.5, -0.5, -0.5 } };
+  const VoxelMeans result = meansOf(view(points), lattice);
+  EXPECT_EQ(result.keys,
+    (std::vector<std::uint64_t>{ lattice.key(0, 1, 1), lattice.key(1, 1, 1), lattice.key(2, 2, 2) }));
+}
+
+TEST(VoxelMean, PointsOnAFaceBelongToTheVoxelAbove)
+{
+  std::vector<Vec3> points;
+  for (int i = 0; i <= 8; ++i)
+  {
+    for (int j = 0; j <= 8; ++j)
+    {
+      points.emplace_back(i / 8.0, j / 8.0, 0.25);
+    }
+  }
+  const VoxelMeans result = meansOf(view(points), unitLattice(8));
+  ASSERT_EQ(result.keys.size(), 64u);
+  EXPECT_EQ(result.clippedPoints, 17);
+  for (std::size_t v = 0; v < 64; ++v)
+  {
+    EXPECT_EQ(result.count(v), 1);
+    EXPECT_EQ(result.means[v], points[std::size_t(result.members[v])]);
+  }
+}
+
+TEST(VoxelMean, LonePointsKeepTheirPlaceToTheQuantum)
+{
+  const std::vector<Vec3> points{ { 0.1, 0.7, 0.3 } };
+  const VoxelMeans result = meansOf(view(points), unitLattice(300));
+  ASSERT_EQ(result.means.size(), 1u);
+  EXPECT_LE(norm(result.means[0] - points[0]), 2 * 0x1p-33 / 300 + 1e-16);
+  EXPECT_EQ(result.covariances[0].trace(), 0.0) << "one point has no spread";
+}
+
+TEST(VoxelMean, IdenticalPointsHaveNoSpread)
+{
+  const std::vector<Vec3> points(1000, Vec3(0.1234567, 0.7654321, 0.5));
+  const VoxelMeans result = meansOf(view(points), unitLattice(300));
+  ASSERT_EQ(result.means.size(), 1u);
+  EXPECT_EQ(result.count(0), 1000);
+  EXPECT_LE(norm(result.means[0] - points[0]), 2 * 0x1p-33 / 300 + 1e-16);
+  const SymMat3& c = result.covariances[0];
+  EXPECT_EQ(c.xx, 0.0);
+  EXPECT_EQ(c.yy, 0.0);
+  EXPECT_EQ(c.zz, 0.0);
+  EXPECT_EQ(c.xy, 0.0);
+}
+
+TEST(VoxelMean, SmallCloudsAgree)
+{
+  for (const std::size_t n : { 0, 1, 2, 11 })
+  {
+    const std::vector<Vec3> points = trial::randomBox(n, 14, { 0, 0, 0 }, { 1, 1, 1 });
+    expectAgrees(view(points), {}, unitLattice(3));
+  }
+  const VoxelMeans none = meansOf({}, unitLattice(3));
+  EXPECT_TRUE(none.keys.empty());
+  EXPECT_EQ(none.begin, std::vector<std::int64_t>{ 0 });
+}
+
+TEST(VoxelMean, NoPointInsideIsNoError)
+{
+  const std::vector<Vec3> points(5, Vec3(10, 10, 10));
+  const VoxelMeans result = meansOf(view(points), unitLattice(3));
+  EXPECT_TRUE(result.keys.empty());
+  EXPECT_EQ(result.clippedPoints, 5);
+}
+
+TEST(VoxelMean, CountsWhatIsNotFinite)
+{
+  std::vector<Vec3> points = trial::randomBox(100, 15, { 0, 0, 0 }, { 1, 1, 1 });
+  points[3].x = NAN;
+  points[50].y = INFINITY;
+  points[99].z = -INFINITY;
+  points[7] = { 2, 2, 2 };
+  const VoxelMeans result = meansOf(view(points), unitLattice(3));
+  EXPECT_EQ(result.invalidPoints, 3);
+  EXPECT_EQ(result.clippedPoints, 1);
+  EXPECT_EQ(result.members.size(), 96u);
+  expectAgrees(view(points), {}, unitLattice(3));
+}
+
+TEST(VoxelMean, HugeAndTinyNumbersAreClippedOrKept)
+{
+  const std::vector<Vec3> points{ { DBL_MAX, 0, 0 }, { -DBL_MAX, 0, 0 }, { DBL_TRUE_MIN, 0, 0 },
+    { -DBL_TRUE_MIN, 0, 0 }, { -0.0, -0.0, -0.0 } };
+  const VoxelMeans result = meansOf(view(points), unitLattice(4));
+  EXPECT_EQ(result.invalidPoints, 0);
+  EXPECT_EQ(result.clippedPoints + std::int64_t(result.members.size()), 5);
+  ASSERT_EQ(result.keys.size(), 1u);
+  EXPECT_LE(norm(result.means[0]), 0x1p-32);
+}
+
+TEST(VoxelMean, ResamplingTwiceKeepsTheVoxels)
+{
+  const std::vector<Vec3> points = trial::randomBox(20000, 16, { 0, 0, 0 }, { 1, 1, 1 });
+  const Lattice lattice = unitLattice(50);
+  const VoxelMeans once = meansOf(view(points), lattice);
+  const VoxelMeans twice = meansOf(view(once.means), lattice);
+  EXPECT_EQ(once.keys, twice.keys);
+}
+
+TEST(VoxelMean, ZoomingInActivatesMoreVoxels)
+{
+  const std::vector<Vec3> points = trial::randomBox(20000, 17, { 0, 0, 0 }, { 0.4, 0.4, 0.4 });
+  std::size_t before = 0;
+  for (const double zoom : { 0.1, 0.5, 1.0, 2.0 })
+  {
+    const std::size_t active =
+      meansOf(view(points), unitLattice(20), AffineTransform::scaling({ zoom, zoom, zoom })).keys.size();
+    EXPECT_GT(active, before);
+    before = active;
+  }
+}
+
+TEST(VoxelMean, RefusesBadTransformsAndLattices)
+{
+  const std::vector<Vec3> points = trial::randomBox(10, 18, { 0, 0, 0 }, { 1, 1, 1 });
+  VoxelMeans result = meansOf(view(points), unitLattice(3));
+  EXPECT_EQ(voxelMeans(view(points), AffineTransform::scaling({ 1, 0, 1 }), unitLattice(3), true, result),
+    Status::SingularTransform);
+  EXPECT_TRUE(result.keys.empty());
+  EXPECT_TRUE(result.means.empty());
+  EXPECT_TRUE(result.members.empty());
+  EXPECT_EQ(
+    voxelMeans(view(points), AffineTransform::translation({ NAN, 0, 0 }), unitLattice(3), true, result),
+    Status::NonFiniteTransform);
+  Lattice bad;
+  bad.spacing.x = 0;
+  EXPECT_EQ(voxelMeans(view(points), {}, bad, true, result), Status::InvalidVoxelSize);
+  bad = Lattice();
+  bad.dimensions[2] = 0;
+  EXPECT_EQ(voxelMeans(view(points), {}, bad, true, result), Status::InvalidDimensions);
+}
+
+TEST(VoxelMean, LeavesCovariancesOutUnlessAskedFor)
+{
+  const std::vector<Vec3> points = trial::randomBox(100, 19, { 0, 0, 0 }, { 1, 1, 1 });
+  VoxelMeans without;
+  ASSERT_EQ(voxelMeans(view(points), {}, unitLattice(3), false, without), Status::Ok);
+  EXPECT_TRUE(without.covariances.empty());
+  EXPECT_TRUE(sameBits(without.means, meansOf(view(points), unitLattice(3)).means));
+}
+
+TEST(VoxelMean, FillsTheLargestLattice)
+{
+  Lattice lattice = unitLattice(kMaximumLatticeDimension);
+  const std::vector<Vec3> points{ { 0, 0, 0 }, { 1 - 1e-9, 1 - 1e-9, 1 - 1e-9 }, { 0.5, 0.25, 0.125 } };
+  expectAgrees(view(points), {}, lattice);
+}
+
+TEST(TransformedBounds, AreThoseOfTheFinitePoints)
+{
+  std::vector<Vec3> points = trial::randomBox(5000, 20, { -1, 2, 3 }, { 1, 4, 9 });
+  points[17] = { NAN, 100, 100 };
+  points[18] = { 100, INFINITY, 100 };
+  const AffineTransform t = generalTransform();
+  Bounds expected;
+  for (const Vec3& p : points)
+  {
+    if (isFinite(p))
+    {
+      expected.include(t.apply(p));
+    }
+  }
+  for (const int threads : { 1, 3 })
+  {
+    const Bounds box = transformedBounds(view(points), t, trial::ThreadedExecutor(threads));
+    EXPECT_EQ(box.minimum, expected.minimum);
+    EXPECT_EQ(box.maximum, expected.maximum);
+  }
+  EXPECT_TRUE(transformedBounds({}, {}).empty());
+}
+
+TEST(TransformedBounds, LeaveOutPointsThatOverflowInTheTransform)
+{
+  const std::vector<Vec3> points{ { 1, 1, 1 }, { 1e300, 0, 0 } };
+  const Bounds box = transformedBounds(view(points), AffineTransform::scaling({ 1e20, 1, 1 }));
+  EXPECT_EQ(box.maximum, Vec3(1e20, 1, 1));
+}
