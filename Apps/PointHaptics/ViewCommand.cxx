@@ -1,5 +1,6 @@
 #include "Commands.h"
 
+#include "Messages.h"
 #include "ViewDisplay.h"
 #include "ViewOptions.h"
 #include "ViewPicture.h"
@@ -19,12 +20,6 @@ namespace app
 namespace
 {
 
-int fail(const std::string& message)
-{
-  fmt::print(stderr, "pointhaptics view: {}\n", message);
-  return kFailed;
-}
-
 bool needsWindow(const ViewOptions& options)
 {
   return options.screenshot.empty() && (options.forceChart.empty() || options.path.empty());
@@ -32,31 +27,31 @@ bool needsWindow(const ViewOptions& options)
 
 int runView(CLI::App& command, ViewOptions& options)
 {
+  collectVtkMessages();
   std::string message;
   if (!options.complete(command, message))
   {
-    return fail(message);
+    return fail("view", message);
   }
   if (options.device == "falcon")
   {
     return fail(
-      "this version has no driver for the Falcon; use --device simulated, driven by mouse and keys");
+      "view", "this version has no driver for the Falcon; use --device simulated, driven by mouse and keys");
   }
   ViewScene scene;
-  fmt::print(stderr, "reading {} ...\n", fmt::join(options.files, ", "));
   if (!scene.open(options.files, options, message) || !scene.build(options, message))
   {
-    return fail(message);
+    return fail("view", message);
   }
   fmt::print("{} points, {}\n", scene.numberOfPoints(), scene.scaleNote());
   std::fflush(stdout);
   if (!displayIsAvailable(message))
   {
-    return fail(message);
+    return fail("view", message);
   }
   const bool done =
     needsWindow(options) ? runWindow(scene, options, message) : makePicture(scene, options, message);
-  return done ? kSuccess : fail(message);
+  return done ? kSuccess : fail("view", message);
 }
 
 } // namespace

@@ -154,8 +154,8 @@ void addTouchOptions(CLI::App& command, ViewOptions& options)
       "Stiffness of the surface; default 800"),
     addNumber(command, "--damping", options.contact.damping, { 0.0, 1e3 }, "N_S_PER_M",
       "Damping along the normal; default 0"),
-    addNumber(command, "--mu-s", options.contact.staticFriction, { 0.0, 10.0 }, "X",
-      "Static friction; default 0, at least --mu-d"),
+    addNumber(command, "--mu-s", options.staticFriction, { 0.0, 10.0 }, "X",
+      "Static friction; default that of --mu-d"),
     addNumber(
       command, "--mu-d", options.contact.dynamicFriction, { 0.0, 10.0 }, "X", "Dynamic friction; default 0"),
   };
@@ -240,10 +240,12 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
   {
     this->fitsWorkspace = this->fitsWorkspace && command.get_option(name)->count() == 0;
   }
+  this->contact.staticFriction =
+    this->staticFriction >= 0.0 ? this->staticFriction : this->contact.dynamicFriction;
   if (this->contact.dynamicFriction > this->contact.staticFriction)
   {
-    // Friction that holds less than it drags is no friction a surface can have.
-    this->contact.staticFriction = this->contact.dynamicFriction;
+    throwUsage("--mu-d", fmt::format("{}", this->contact.dynamicFriction),
+      fmt::format("above --mu-s {}; give mu_d <= mu_s", this->contact.staticFriction));
   }
   return true;
 }

@@ -40,7 +40,8 @@ struct ViewOptions
   std::string method = "surface-fit";
   std::string preset = "tuned";
   ContactParameters contact;
-  bool fitsWorkspace = true; ///< No option says how large the cloud is: it is fitted to the 10 cm cube.
+  double staticFriction = -1.0; ///< Below 0: not given.
+  bool fitsWorkspace = true;    ///< No option says how large the cloud is: it is fitted to the 10 cm cube.
 
   void addTo(CLI::App& command);
   /// Takes the values of the JSON file config for the options the command line does not give, and finds out

@@ -1,10 +1,11 @@
 #include "ViewScene.h"
 
+#include "Pipeline.h"
+
 #include "CloudAppearance.h"
 #include "HapticSceneBuilder.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
-#include "vtkPointCloudReader.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Lattice.h"
@@ -53,25 +54,20 @@ std::string baseName(const std::string& fileName)
   return slash == std::string::npos ? fileName : fileName.substr(slash + 1);
 }
 
-/// The points of a file with the arrays the view shows, without its cells.
+/// The points of a file with all arrays, without its cells.
 vtkSmartPointer<vtkPolyData> readPoints(
   const std::string& fileName, std::string& format, std::string& message)
 {
-  vtkNew<vtkPointCloudReader> reader;
-  reader->SetFileName(fileName.c_str());
-  reader->Update();
-  const std::string error = reader->GetErrorMessage();
-  vtkPolyData* read = reader->GetOutput();
-  if (!error.empty() || read->GetNumberOfPoints() == 0)
+  Cloud read;
+  if (!readCloud(fileName, read, message))
   {
-    message = !error.empty() ? error : fmt::format("{}: holds no points; nothing to show", fileName);
     return nullptr;
   }
-  format = reader->GetFormat();
+  format = read.format;
   auto points = vtkSmartPointer<vtkPolyData>::New();
-  points->SetPoints(read->GetPoints());
-  points->GetPointData()->ShallowCopy(read->GetPointData());
-  points->GetFieldData()->ShallowCopy(read->GetFieldData());
+  points->SetPoints(read.points->GetPoints());
+  points->GetPointData()->ShallowCopy(read.points->GetPointData());
+  points->GetFieldData()->ShallowCopy(read.points->GetFieldData());
   return points;
 }
 
@@ -90,6 +86,32 @@ void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
       data->RemoveArray(i);
     }
   }
+}
+
+/// Arrays the pipeline adds to those of the cloud.
+bool isMadeByPipeline(const std::string& name)
+{
+  return name == kHeightArrayName || name == "ProxyRadius" || name == "Bandwidth" ||
+    name == "VoxelPointCount";
+}
+
+/// False: @p message names the arrays there are.
+bool canColorBy(vtkPolyData* cloud, const std::string& name, std::string& message)
+{
+  vtkPointData* data = cloud->GetPointData();
+  const bool known = name.empty() || (name == "rgb" ? hasColors(cloud) : isMadeByPipeline(name)) ||
+    (name != "rgb" && data->GetArray(name.c_str()));
+  if (!known)
+  {
+    message = fmt::format("--color-by {}: the cloud has no such array; it has", name);
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      message += fmt::format(" {},", data->GetArrayName(i));
+    }
+    message += fmt::format(
+      "{} {}, ProxyRadius, Bandwidth, VoxelPointCount", hasColors(cloud) ? " rgb," : "", kHeightArrayName);
+  }
+  return known;
 }
 
 void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
@@ -241,6 +263,10 @@ bool ViewScene::open(const std::vector<std::string>& files, const ViewOptions& o
     message = fmt::format("{}: no point is finite (all are NaN or infinite); nothing to show", names);
     return false;
   }
+  if (!canColorBy(cloud, options.colorBy, message))
+  {
+    return false;
+  }
   orientation_ =
     options.up == "auto" ? guessCloudOrientation(cloud, format) : orientationForUpAxis(options.up[0]);
   if (!hasColors(cloud) || !options.colorBy.empty())
@@ -257,7 +283,6 @@ bool ViewScene::open(const std::vector<std::string>& files, const ViewOptions& o
 void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
 {
   AffineTransform transform = options.lattice.transform();
-  scaleNote_ = "scale as the options say";
   if (options.fitsWorkspace)
   {
     const Vec3 extent = cloud.extent();
@@ -265,9 +290,9 @@ void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
     const double factor = longest > 0.0 ? kFittedPart * kDefaultWorkspaceEdge / longest : 1.0;
     transform = AffineTransform::scaling({ factor, factor, factor }) *
       AffineTransform::translation(-cloud.center()) * transform;
-    scaleNote_ = fmt::format("scale 1:{:.3g} (1 m of the cloud is {:.3g} m in the hand)", factor, factor);
   }
   setElements(modelMatrix_, transform);
+  scaleNote_ = describeScale(modelMatrix_);
   orientation_.up = normalized(transform.applyToVector(orientation_.up));
   orientation_.front = normalized(transform.applyToVector(orientation_.front));
 
@@ -287,7 +312,10 @@ void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
 
 bool ViewScene::build(const ViewOptions& options, std::string& message)
 {
-  bandwidth_->Update();
+  if (!updateFilter(bandwidth_, "resampling", message))
+  {
+    return false;
+  }
   vtkPolyData* output = bandwidth_->GetOutput();
   if (output->GetNumberOfPoints() == 0)
   {
@@ -307,19 +335,11 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   props_->SetWorkspaceBounds(bounds);
   const Vec3 extent = workspace_.extent();
   const double edge = std::max({ extent.x, extent.y, extent.z });
-  props_->SetForceScale(0.1 * edge);
+  props_->SetForceScale(0.06 * edge);
   applyDepthShading(renderer_, kDepthShadingScale * edge);
   pointSize_ = options.pointSize;
 
-  if (!applyCloudAppearance(output, mapper_, actor_, options.colorBy, std::max(1.0, pointSize_)))
-  {
-    message = fmt::format("the cloud has no array \"{}\"; arrays to colour by:", options.colorBy);
-    for (int i = 0; i < output->GetPointData()->GetNumberOfArrays(); ++i)
-    {
-      message += fmt::format(" {}", output->GetPointData()->GetArrayName(i));
-    }
-    return false;
-  }
+  applyCloudAppearance(output, mapper_, actor_, options.colorBy, std::max(1.0, pointSize_));
   const bool showsBar = !options.colorBy.empty() && options.colorBy != "rgb";
   scalarBar_->SetVisibility(showsBar);
   scalarBar_->SetLookupTable(mapper_->GetLookupTable());
@@ -356,6 +376,12 @@ void ViewScene::placeCamera(const ProxyState* contact)
   }
   pointhaptics::placeCamera(camera, orientation_, workspace_.center(), edge, azimuth, above);
   renderer_->ResetCameraClippingRange();
+}
+
+std::string describeScale(vtkMatrix4x4* modelMatrix)
+{
+  const double scale = std::cbrt(std::abs(modelMatrix->Determinant()));
+  return fmt::format("scale 1:{:.3g} (1 m of the cloud is {:.3g} m in the hand)", scale, scale);
 }
 
 std::shared_ptr<const HapticScene> ViewScene::makeScene(bool useCovariance, Status& status)

@@ -51,7 +51,7 @@ public:
   /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
   Vec3 towardsViewer() const { return orientation_.front; }
   std::shared_ptr<const HapticScene> makeScene(bool useCovariance, Status& status);
-  /// "scale 1:0.52 (1 m of the cloud is 0.52 m in the hand)", or what the options say.
+  /// describeScale() of the model as it was opened, in metres of the file's unit.
   const std::string& scaleNote() const { return scaleNote_; }
   vtkMatrix4x4* modelMatrix() { return modelMatrix_; }
   vtkVoxelMeanResampler* resampler() { return resampler_; }
@@ -86,6 +86,9 @@ private:
   std::string scaleNote_;
   std::string title_;
 };
+
+/// "scale 1:0.52 (1 m of the cloud is 0.52 m in the hand)"; the mean one where the axes differ.
+std::string describeScale(vtkMatrix4x4* modelMatrix);
 
 /// Writes what @p window shows as PNG. False: @p message says why not.
 bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message);

@@ -1,9 +1,8 @@
 #include "ViewTouch.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 namespace pointhaptics
 {
@@ -53,61 +52,32 @@ const ServoSample& mostTelling(const std::vector<ServoSample>& samples)
   return *best;
 }
 
-TraceFile::~TraceFile()
-{
-  if (file_)
-  {
-    std::fclose(file_);
-  }
-}
-
 bool TraceFile::open(const std::string& fileName, std::string& message)
 {
-  file_ = std::fopen(fileName.c_str(), "wb");
-  name_ = fileName;
-  if (!file_)
-  {
-    message = fmt::format("{}: cannot be created; check that its folder exists and can be written", fileName);
-    return false;
-  }
-  std::fputs("t,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,"
-             "force_x,force_y,force_z,radius,contact,update_us\n",
-    file_);
-  return true;
+  isOpen_ = writer_.open(fileName,
+    "t,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,"
+    "force_x,force_y,force_z,radius,contact,update_us",
+    message);
+  return isOpen_;
 }
 
 void TraceFile::add(const std::vector<ServoSample>& samples)
 {
-  fmt::memory_buffer rows;
   for (const ServoSample& sample : samples)
   {
-    fmt::format_to(std::back_inserter(rows), "{}", sample.timeSeconds);
     const ProxyState& state = sample.state;
-    for (const Vec3& v : { state.hip, state.proxy, state.normal, state.force })
-    {
-      fmt::format_to(std::back_inserter(rows), ",{},{},{}", v.x, v.y, v.z);
-    }
-    fmt::format_to(std::back_inserter(rows), ",{},{},{:.3f}\n", state.radius, int(state.contact),
-      1e6 * sample.updateSeconds);
+    const double row[] = { sample.timeSeconds, state.hip.x, state.hip.y, state.hip.z, state.proxy.x,
+      state.proxy.y, state.proxy.z, state.normal.x, state.normal.y, state.normal.z, state.force.x,
+      state.force.y, state.force.z, state.radius, state.contact ? 1.0 : 0.0, 1e6 * sample.updateSeconds };
+    writer_.row(row, std::size(row));
   }
-  std::fwrite(rows.data(), 1, rows.size(), file_);
 }
 
 bool TraceFile::close(std::string& message)
 {
-  if (!file_)
-  {
-    return true;
-  }
-  const bool failed = std::ferror(file_) != 0;
-  const bool closed = std::fclose(file_) == 0;
-  file_ = nullptr;
-  if (failed || !closed)
-  {
-    message = fmt::format("{}: not all rows could be written; is the disk full?", name_);
-    return false;
-  }
-  return true;
+  const bool committed = !isOpen_ || writer_.commit(message);
+  isOpen_ = false;
+  return committed;
 }
 
 } // namespace app

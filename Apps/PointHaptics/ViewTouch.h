@@ -2,11 +2,12 @@
 /// What `view` feels along a hand path, in virtual time: the same touch on every machine.
 #pragma once
 
+#include "CsvWriter.h"
+
 #include "Devices/HipPath.h"
 #include "Haptics/Proxy.h"
 #include "Haptics/ServoLoop.h"
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -22,25 +23,20 @@ std::vector<ServoSample> feelPath(
 /// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
 const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
 
-/// Writes OUT.csv of `feel`, row by row.
+/// Writes OUT.csv of `feel`, row by row; the file appears with close().
 class TraceFile
 {
 public:
-  TraceFile() = default;
-  ~TraceFile();
-  TraceFile(const TraceFile&) = delete;
-  TraceFile& operator=(const TraceFile&) = delete;
-
-  /// Creates the file with its header. False: @p message says why not.
+  /// False: @p message says why the file cannot be created.
   bool open(const std::string& fileName, std::string& message);
   void add(const std::vector<ServoSample>& samples);
   /// False: not all rows could be written, @p message says so.
   bool close(std::string& message);
-  bool isOpen() const { return file_ != nullptr; }
+  bool isOpen() const { return isOpen_; }
 
 private:
-  std::FILE* file_ = nullptr;
-  std::string name_;
+  CsvWriter writer_;
+  bool isOpen_ = false;
 };
 
 } // namespace app

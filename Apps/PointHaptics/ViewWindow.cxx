@@ -1,5 +1,6 @@
 #include "ViewWindow.h"
 
+#include "Messages.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
 
@@ -14,11 +15,13 @@
 
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 #include <vtkStringArray.h>
+#include <vtkTransform.h>
 
 #include <cstdio>
 #include <memory>
@@ -52,7 +55,10 @@ private:
   void onSamples(void* callData);
   void onFilesDropped(void* callData);
   void onScreenshot(void*);
-  void say(const std::string& note);
+  void onModelChanged(void*);
+  void onSceneChanged(void*);
+  void showNote();
+  void say(const std::string& news);
   bool finish(std::string& message);
 
   ViewScene& scene_;
@@ -65,6 +71,7 @@ private:
   vtkNew<vtkHapticOverlay> overlay_;
   TraceFile trace_;
   int screenshots_ = 0;
+  std::string news_; // last line of the status
   std::unique_ptr<SimulatedDevice> hand_;
   std::unique_ptr<PathReplayDevice> replay_;
   ServoLoop servo_; // last: destroyed, and so stopped, first
@@ -165,7 +172,9 @@ void Window::connectStyle()
   style_->SetProps(scene_.props());
   style_->SetOverlay(overlay_);
   style_->SetDefaultRenderer(scene_.renderer());
-  style_->SetStatusNote(scene_.scaleNote());
+  this->showNote();
+  this->observe(vtkInteractorStyleHaptic::ModelChangedEvent, &Window::onModelChanged);
+  this->observe(vtkInteractorStyleHaptic::SceneChangedEvent, &Window::onSceneChanged);
   this->observe(vtkInteractorStyleHaptic::SamplesEvent, &Window::onSamples);
   this->observe(vtkInteractorStyleHaptic::FilesDroppedEvent, &Window::onFilesDropped);
   this->observe(vtkInteractorStyleHaptic::ScreenshotEvent, &Window::onScreenshot);
@@ -188,11 +197,36 @@ void Window::onSamples(void* callData)
   }
 }
 
-void Window::say(const std::string& note)
+void Window::say(const std::string& news)
 {
-  fmt::print("{}\n", note);
+  fmt::print("{}\n", news);
   std::fflush(stdout);
-  style_->SetStatusNote(scene_.scaleNote() + "\n" + note);
+  news_ = news;
+  this->showNote();
+}
+
+/// The scale as it is after all zooming, and the last news.
+void Window::showNote()
+{
+  const std::string scale = describeScale(style_->GetModelTransform()->GetMatrix());
+  style_->SetStatusNote(news_.empty() ? scale : scale + "\n" + news_);
+}
+
+void Window::onModelChanged(void*)
+{
+  news_.clear();
+  this->showNote();
+}
+
+/// What VTK classes complained of while the scene was made goes where the user looks.
+void Window::onSceneChanged(void*)
+{
+  for (const std::string& error : takeVtkErrors())
+  {
+    fail("view", error);
+    news_ = error;
+    this->showNote();
+  }
 }
 
 void Window::onFilesDropped(void* callData)
@@ -206,8 +240,9 @@ void Window::onFilesDropped(void* callData)
   std::string message;
   if (files.empty() || !scene_.open(files, options_, message) || !scene_.build(options_, message))
   {
-    fmt::print(stderr, "pointhaptics: {}\n", message);
-    style_->SetStatusNote(scene_.scaleNote() + "\n" + message);
+    fail("view", message);
+    news_ = message;
+    this->showNote();
     return;
   }
   double bounds[6];
@@ -215,7 +250,6 @@ void Window::onFilesDropped(void* callData)
   style_->SetWorkspaceBounds(bounds);
   style_->SetModelMatrix(scene_.modelMatrix());
   style_->SetResampler(scene_.resampler());
-  style_->SetStatusNote(scene_.scaleNote());
   style_->UpdateModel();
   scene_.placeCamera();
   window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());

@@ -38,7 +38,7 @@ constexpr double kSmallestForce = 0.01; // newtons: shorter arrows are not drawn
 
 /// Sizes as parts of the workspace's edge.
 constexpr double kHipRadius = 0.007;
-constexpr double kNormalLength = 0.18;
+constexpr double kNormalLength = 0.25;
 constexpr double kLongestArrow = 0.4;
 constexpr double kArrowThickness = 0.06;
 constexpr double kVisibleMotion = 1e-4;
@@ -150,7 +150,7 @@ vtkHapticProps::vtkHapticProps()
   parts.arrow->SetTipRadius(0.24);
   parts.arrow->SetTipLength(0.3);
   parts.proxy.setUp(parts.sphere->GetOutputPort(), kPink, true, 0.75);
-  parts.normal.setUp(parts.line->GetOutputPort(), kGreen, false, 0.75);
+  parts.normal.setUp(parts.line->GetOutputPort(), kGreen, false, 1.0);
   parts.hip.setUp(parts.ball->GetOutputPort(), kBlue, true, 0.55);
   parts.force.setUp(parts.arrow->GetOutputPort(), kOrange, true, 0.55);
   parts.normal.actor->GetProperty()->SetLineWidth(4.0f);

@@ -49,7 +49,7 @@ public:
   ///@{
   /**
    * Length of the force arrow per newton, metres; above 0. An arrow longer than 40 % of the workspace is cut
-   * to that. Default: 0.01 m/N.
+   * to that. Default: 0.006 m/N.
    */
   vtkSetClampMacro(ForceScale, double, 1e-9, 1e9);
   vtkGetMacro(ForceScale, double);
@@ -94,7 +94,7 @@ protected:
   ~vtkHapticProps() override;
 
   double WorkspaceBounds[6];
-  double ForceScale = 0.01;
+  double ForceScale = 0.006;
   bool TouchVisibility = false;
 
 private:
