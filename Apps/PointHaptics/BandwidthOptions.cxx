@@ -17,7 +17,7 @@ namespace app
 void BandwidthOptions::addTo(CLI::App& command)
 {
   const char* const group = "Bandwidth and proxy radius";
-  const NumberRange length{ 0.0, 1e300, true };
+  const NumberRange length{ 0.0, kUnbounded, true };
   CLI::Option* nearest = addInteger(command, "--neighbors", this->neighbors, 1,
     std::numeric_limits<int>::max(), "Nearest neighbours the spread is taken from; default 16");
   CLI::Option* ball = addNumber(command, "--radius", this->radius, length, "METRES",
@@ -41,7 +41,8 @@ void BandwidthOptions::addTo(CLI::App& command)
       double value = 0.0;
       if (parseNumber(text, value) && value < this->minimumRadius)
       {
-        throwUsage("--r2", text, fmt::format("below --r1 {}; give r1 <= r2", this->minimumRadius));
+        throw CLI::ValidationError(
+          fmt::format("{} is below --r1 {}; give r1 <= r2", value, this->minimumRadius));
       }
     });
   ball->excludes(nearest);

@@ -107,7 +107,7 @@ void LatticeOptions::addTo(CLI::App& command)
   const auto keepDimensions = [this](const Numbers& n) { this->dimensions.assign(n.begin(), n.end()); };
   CLI::Option* dims = addNumbers(command, "--dims", keepDimensions, { 1, 3 }, checkDimensions, "N|Nx,Ny,Nz",
     "Voxels on each axis of the lattice; default 300");
-  CLI::Option* voxel = addNumber(command, "--voxel", this->voxelSize, { 0.0, 1e300, true }, "METRES",
+  CLI::Option* voxel = addNumber(command, "--voxel", this->voxelSize, { 0.0, kUnbounded, true }, "METRES",
     "Edge of a cubic voxel, instead of --dims");
   CLI::Option* box = addNumbers(command, "--workspace", this->workspace, { 6 }, checkWorkspace,
     "x0,x1,y0,y1,z0,z1", "Box of the lattice; default: a cube about the transformed cloud");

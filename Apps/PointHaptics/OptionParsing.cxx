@@ -24,8 +24,14 @@ std::string shownName(const std::string& name)
 
 std::string describe(const NumberRange& range, const std::string& unit)
 {
-  return fmt::format("give a number {} {} and at most {}{}{}", range.openMinimum ? "above" : "from",
-    range.minimum, range.maximum, unit.empty() ? "" : " ", unit);
+  const std::string shownUnit = unit.empty() ? "" : " (" + unit + ")";
+  if (range.maximum >= kUnbounded)
+  {
+    return fmt::format(
+      "give a number {} {}{}", range.openMinimum ? "above" : "from", range.minimum, shownUnit);
+  }
+  return fmt::format("give a number {} {} and at most {}{}", range.openMinimum ? "above" : "from",
+    range.minimum, range.maximum, shownUnit);
 }
 
 std::string describe(std::initializer_list<std::size_t> counts)

@@ -21,6 +21,9 @@ namespace pointhaptics
 namespace app
 {
 
+/// Stands for "any finite number" as a maximum.
+constexpr double kUnbounded = 1e300;
+
 /// A closed range of finite numbers; openMinimum takes the minimum itself out.
 struct NumberRange
 {

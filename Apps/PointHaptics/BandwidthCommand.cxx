@@ -1,0 +1,132 @@
+#include "Commands.h"
+
+#include "BandwidthOptions.h"
+#include "Messages.h"
+#include "OptionParsing.h"
+#include "Pipeline.h"
+
+#include "vtkKernelBandwidthFilter.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr const char* kCommand = "bandwidth";
+
+struct BandwidthCommandOptions
+{
+  std::string input;
+  std::string output;
+  BandwidthOptions bandwidth;
+  bool json = false;
+  std::int64_t threads = 0;
+};
+
+/// Points that are not finite have radius 0: they take no part.
+struct RadiusRange
+{
+  double minimum = 0.0;
+  double maximum = 0.0;
+  vtkIdType invalid = 0;
+};
+
+RadiusRange radiusRange(vtkPolyData* cloud)
+{
+  RadiusRange range;
+  vtkDataArray* radius = cloud->GetPointData()->GetArray("ProxyRadius");
+  for (vtkIdType i = 0; radius && i < radius->GetNumberOfTuples(); ++i)
+  {
+    double p[3];
+    cloud->GetPoint(i, p);
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+    {
+      ++range.invalid;
+      continue;
+    }
+    const double value = radius->GetComponent(i, 0);
+    range.minimum = i == range.invalid ? value : std::min(range.minimum, value);
+    range.maximum = std::max(range.maximum, value);
+  }
+  return range;
+}
+
+void print(const BandwidthCommandOptions& options, vtkPolyData* result)
+{
+  const vtkIdType points = result->GetNumberOfPoints();
+  const RadiusRange range = radiusRange(result);
+  if (options.json)
+  {
+    const nlohmann::ordered_json object = { { "input", options.input }, { "output", options.output },
+      { "points", points }, { "points_invalid", range.invalid },
+      { "proxy_radius", { { "min", range.minimum }, { "max", range.maximum } } } };
+    fmt::print("{}\n", object.dump());
+    return;
+  }
+  fmt::print("{} points, {} invalid, proxy radius {:.6g} to {:.6g}: {}\n", points, range.invalid,
+    range.minimum, range.maximum, options.output);
+}
+
+int runBandwidth(const BandwidthCommandOptions& options)
+{
+  std::string message;
+  Cloud cloud;
+  if (!canWriteCloud(options.output, message))
+  {
+    return fail(kCommand, message);
+  }
+  useThreads(options.threads);
+  if (!readCloud(options.input, cloud, message))
+  {
+    return fail(kCommand, message);
+  }
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(cloud.points);
+  filter->SetComputeDensity(true);
+  options.bandwidth.configure(filter);
+  if (!updateFilter(filter, "bandwidth", message))
+  {
+    return fail(kCommand, options.input + ": " + message);
+  }
+  showWarnings(kCommand);
+  if (!writeCloud(filter->GetOutput(), options.output, message))
+  {
+    return fail(kCommand, message);
+  }
+  print(options, filter->GetOutput());
+  return kSuccess;
+}
+
+} // namespace
+
+void addBandwidthCommand(CLI::App& program, int& exitCode)
+{
+  CLI::App* command =
+    program.add_subcommand("bandwidth", "Add kernel bandwidth, proxy radius and density to every point");
+  auto options = std::make_shared<BandwidthCommandOptions>();
+  command->add_option("IN", options->input, "Point cloud to read")->required()->type_name("");
+  command->add_option("-o,--output", options->output, "File to write: .vtp, .ply, .pcd or .csv")
+    ->required()
+    ->type_name("OUT");
+  addInteger(*command, "--threads", options->threads, 1, 1024, "Threads to use; default all");
+  command->add_flag("--json", options->json, "Print the figures as JSON");
+  options->bandwidth.addTo(*command);
+  command->callback([options, &exitCode] { exitCode = runBandwidth(*options); });
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,75 @@
+#include "FeelOptions.h"
+
+#include "OptionParsing.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+enum Preset : int
+{
+  kTuned,
+  kPaper,
+};
+
+} // namespace
+
+void FeelOptions::addTo(CLI::App& command)
+{
+  ContactParameters& contact = this->parameters.contact;
+  command.add_option("FILE", this->file, "Point cloud to feel")->required()->type_name("");
+  command.add_option("--path", this->path, "Path of the hand: t,x,y,z in seconds and metres")
+    ->required()
+    ->type_name("HIP.csv");
+  command.add_option("-o,--output", this->output, "Where the felt forces go, one row a tick")
+    ->required()
+    ->type_name("OUT.csv");
+  addChoice(command, "--method", this->method,
+    { { "surface-fit", static_cast<int>(ProxyMethod::SurfaceFit) },
+      { "gradient-steps", static_cast<int>(ProxyMethod::GradientSteps) } },
+    "How the proxy meets the surface; default surface-fit");
+  addChoice(command, "--preset", this->preset, { { "tuned", kTuned }, { "paper", kPaper } },
+    "Gains of gradient-steps; default tuned");
+  addNumber(command, "--stiffness", contact.stiffness, { 0.0, 1e5 }, "N_PER_M", "Spring; default 800");
+  addNumber(command, "--damping", contact.damping, { 0.0, 1e3 }, "N_S_PER_M",
+    "Of the hand's speed along the normal, in contact; default 0");
+  addNumber(
+    command, "--mu-s", this->staticFriction, { 0.0, 10.0 }, "X", "Static friction; default that of --mu-d");
+  addNumber(command, "--mu-d", this->dynamicFriction, { 0.0, 10.0 }, "X", "Dynamic friction; default 0");
+  addNumber(command, "--rate", this->rateHz, { 1.0, 1e5 }, "HZ", "Ticks per second; default 1000");
+  command.add_flag(
+    "--no-covariance", this->noCovariance, "Feel plain voxel means, without their second moments");
+  command.add_flag("--raw", this->raw,
+    "Feel the points themselves, without voxel means; --dims and --voxel then have no effect");
+  command.add_flag("--json", this->json, "Print the summary as JSON");
+  this->lattice.addTo(command);
+  this->bandwidth.addTo(command);
+}
+
+void FeelOptions::complete()
+{
+  ContactParameters& contact = this->parameters.contact;
+  contact.dynamicFriction = std::max(0.0, this->dynamicFriction);
+  contact.staticFriction = this->staticFriction >= 0.0 ? this->staticFriction : contact.dynamicFriction;
+  if (contact.dynamicFriction > contact.staticFriction)
+  {
+    throwUsage("--mu-d", fmt::format("{}", contact.dynamicFriction),
+      fmt::format("above --mu-s {}; give mu_d <= mu_s", contact.staticFriction));
+  }
+  this->parameters.method = static_cast<ProxyMethod>(this->method);
+  if (this->preset == kPaper)
+  {
+    this->parameters.gradientSteps = GradientStepsParameters::paper();
+  }
+}
+
+} // namespace app
+} // namespace pointhaptics

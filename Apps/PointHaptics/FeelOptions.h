@@ -1,0 +1,49 @@
+/// @file
+/// The options of `pointhaptics feel`.
+#pragma once
+
+#include "BandwidthOptions.h"
+#include "LatticeOptions.h"
+
+#include "Haptics/HapticParameters.h"
+
+#include <string>
+
+namespace CLI
+{
+class App;
+}
+
+namespace pointhaptics
+{
+namespace app
+{
+
+struct FeelOptions
+{
+  std::string file;
+  std::string path;
+  std::string output;
+  LatticeOptions lattice;
+  BandwidthOptions bandwidth;
+  HapticParameters parameters;
+  double rateHz = 1000.0;
+  bool noCovariance = false;
+  bool raw = false;
+  bool json = false;
+
+  /// Adds the options to @p command; bad values end the parse with a usage error.
+  void addTo(CLI::App& command);
+  /// What can only be said once all options are known: the preset's gains, mu_s where only mu_d is given.
+  /// Ends in a usage error where they contradict each other.
+  void complete();
+
+private:
+  int method = 0;
+  int preset = 0;
+  double staticFriction = -1.0;
+  double dynamicFriction = -1.0;
+};
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,25 @@
+/// @file
+/// What goes to the user: errors in one line, and the messages of VTK classes collected instead of printed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// Prints `pointhaptics COMMAND: message` on stderr, in one line. @return kFailed.
+int fail(const std::string& command, const std::string& message);
+/// Prints `pointhaptics COMMAND: warning: message` on stderr.
+void warn(const std::string& command, const std::string& message);
+
+/// From here on VTK's errors and warnings are kept, from all threads, instead of printed.
+void collectVtkMessages();
+/// Those since the last call, as plain sentences without file names, lines and addresses; oldest first.
+std::vector<std::string> takeVtkErrors();
+std::vector<std::string> takeVtkWarnings();
+
+} // namespace app
+} // namespace pointhaptics

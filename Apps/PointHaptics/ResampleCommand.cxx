@@ -1,0 +1,111 @@
+#include "Commands.h"
+
+#include "LatticeOptions.h"
+#include "Messages.h"
+#include "OptionParsing.h"
+#include "Pipeline.h"
+
+#include "vtkVoxelMeanResampler.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+
+#include <memory>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr const char* kCommand = "resample";
+
+struct ResampleOptions
+{
+  std::string input;
+  std::string output;
+  LatticeOptions lattice;
+  bool covariance = false;
+  bool json = false;
+  std::int64_t threads = 0;
+};
+
+void print(const ResampleOptions& options, vtkIdType in, vtkVoxelMeanResampler* resampler)
+{
+  const vtkIdType out = resampler->GetOutput()->GetNumberOfPoints();
+  const vtkIdType clipped = resampler->GetNumberOfClippedPoints();
+  const vtkIdType invalid = resampler->GetNumberOfInvalidPoints();
+  if (options.json)
+  {
+    const nlohmann::ordered_json result = { { "input", options.input }, { "output", options.output },
+      { "points_in", in }, { "points_out", out }, { "points_clipped", clipped },
+      { "points_invalid", invalid } };
+    fmt::print("{}\n", result.dump());
+    return;
+  }
+  fmt::print("{} points in, {} out, {} clipped, {} invalid: {}\n", in, out, clipped, invalid, options.output);
+}
+
+int runResample(const ResampleOptions& options)
+{
+  std::string message;
+  Cloud cloud;
+  if (!canWriteCloud(options.output, message))
+  {
+    return fail(kCommand, message);
+  }
+  useThreads(options.threads);
+  if (!readCloud(options.input, cloud, message))
+  {
+    return fail(kCommand, message);
+  }
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud.points);
+  resampler->SetComputeCovariance(options.covariance);
+  options.lattice.configure(resampler);
+  if (!updateFilter(resampler, "resampling", message))
+  {
+    return fail(kCommand, options.input + ": " + message);
+  }
+  showWarnings(kCommand);
+  if (resampler->GetOutput()->GetNumberOfPoints() == 0)
+  {
+    return fail(kCommand,
+      fmt::format(
+        "{}: no point lies in the workspace: {} clipped, {} invalid; leave out --workspace, or mend the "
+        "transform",
+        options.input, resampler->GetNumberOfClippedPoints(), resampler->GetNumberOfInvalidPoints()));
+  }
+  if (!writeCloud(resampler->GetOutput(), options.output, message))
+  {
+    return fail(kCommand, message);
+  }
+  print(options, cloud.points->GetNumberOfPoints(), resampler);
+  return kSuccess;
+}
+
+} // namespace
+
+void addResampleCommand(CLI::App& program, int& exitCode)
+{
+  CLI::App* command =
+    program.add_subcommand("resample", "Replace the points in each voxel of a lattice by their mean");
+  auto options = std::make_shared<ResampleOptions>();
+  command->add_option("IN", options->input, "Point cloud to read")->required()->type_name("");
+  command->add_option("-o,--output", options->output, "File to write: .vtp, .ply, .pcd or .csv")
+    ->required()
+    ->type_name("OUT");
+  command->add_flag(
+    "--covariance", options->covariance, "Add the second moments of each voxel: VoxelCovariance");
+  addInteger(*command, "--threads", options->threads, 1, 1024, "Threads to use; default all");
+  command->add_flag("--json", options->json, "Print the counts as JSON");
+  options->lattice.addTo(*command);
+  command->callback([options, &exitCode] { exitCode = runResample(*options); });
+}
+
+} // namespace app
+} // namespace pointhaptics
