@@ -25,6 +25,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <sstream>
 
 using namespace pointhaptics;
 
@@ -115,6 +116,20 @@ void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFie
   std::copy(&transform.m[0][0], &transform.m[0][0] + 12, matrix);
   matrix[15] = 1.0;
   addField(field, "ModelToWorkspace", matrix, 16);
+}
+
+std::string latticeText(double voxelSize, const int dimensions[3])
+{
+  std::ostringstream text;
+  if (voxelSize != 0.0)
+  {
+    text << "Lattice of voxel size " << voxelSize;
+  }
+  else
+  {
+    text << "Lattice of " << dimensions[0] << " x " << dimensions[1] << " x " << dimensions[2] << " voxels";
+  }
+  return text.str();
 }
 
 /// Identifiers and ghost flags mean nothing once points are merged.
@@ -286,9 +301,8 @@ int vtkVoxelMeanResampler::RequestData(
   const Status latticeStatus = makeLattice(settings, cloud, lattice);
   if (latticeStatus != Status::Ok)
   {
-    vtkErrorMacro("Lattice of " << this->Dimensions[0] << " x " << this->Dimensions[1] << " x "
-                                << this->Dimensions[2] << " voxels, voxel size " << this->VoxelSize << ": "
-                                << sentence(latticeStatus) << ".");
+    vtkErrorMacro(<< latticeText(this->VoxelSize, this->Dimensions) << ": " << sentence(latticeStatus)
+                  << ".");
     return 1;
   }
   this->UpdateProgress(0.1);
