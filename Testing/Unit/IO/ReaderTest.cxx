@@ -116,6 +116,12 @@ struct Shared
   double tolerance;
 };
 
+/// How GoogleTest names a parameter.
+void PrintTo(const Shared& shared, std::ostream* os)
+{
+  *os << shared.file;
+}
+
 class SharedClouds : public ::testing::TestWithParam<Shared>
 {
 };

@@ -94,6 +94,12 @@ struct RoundTrip
   int pointType;
 };
 
+/// How GoogleTest names a parameter.
+void PrintTo(const RoundTrip& roundTrip, std::ostream* os)
+{
+  *os << roundTrip.extension;
+}
+
 class WriterRoundTrip
   : public CloudFiles
   , public ::testing::WithParamInterface<RoundTrip>
