@@ -43,8 +43,9 @@ namespace
 
 /// Part of the workspace's edge a fitted cloud takes: the hand needs room to reach it from every side.
 constexpr double kFittedPart = 0.9;
-/// Size for applyDepthShading() in edges of the workspace.
+/// Sizes for applyDepthShading() in edges of the workspace; photographed colours show the shape themselves.
 constexpr double kDepthShadingScale = 7.0;
+constexpr double kDepthShadingScaleOfColors = 18.0;
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
 constexpr double kFacingEnough = 0.25;
 
@@ -336,7 +337,8 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   const Vec3 extent = workspace_.extent();
   const double edge = std::max({ extent.x, extent.y, extent.z });
   props_->SetForceScale(0.06 * edge);
-  applyDepthShading(renderer_, kDepthShadingScale * edge);
+  const bool showsColors = hasColors(output) && (options.colorBy.empty() || options.colorBy == "rgb");
+  applyDepthShading(renderer_, (showsColors ? kDepthShadingScaleOfColors : kDepthShadingScale) * edge);
   pointSize_ = options.pointSize;
 
   applyCloudAppearance(output, mapper_, actor_, options.colorBy, std::max(1.0, pointSize_));

@@ -49,6 +49,7 @@ public:
 
 private:
   void setUpRendering();
+  bool openDevice(std::string& message);
   bool startServo(std::string& message);
   void connectStyle();
   void observe(unsigned long event, void (Window::*handler)(void*));
@@ -74,6 +75,7 @@ private:
   std::string news_; // last line of the status
   std::unique_ptr<SimulatedDevice> hand_;
   std::unique_ptr<PathReplayDevice> replay_;
+  HapticDevice* device_ = nullptr;
   ServoLoop servo_; // last: destroyed, and so stopped, first
 };
 
@@ -95,9 +97,8 @@ void Window::setUpRendering()
   scene_.placeCamera();
 }
 
-bool Window::startServo(std::string& message)
+bool Window::openDevice(std::string& message)
 {
-  HapticDevice* device = nullptr;
   if (!options_.path.empty())
   {
     HipPath path;
@@ -106,7 +107,7 @@ bool Window::startServo(std::string& message)
       return false;
     }
     replay_ = std::make_unique<PathReplayDevice>(std::move(path), true);
-    device = replay_.get();
+    device_ = replay_.get();
   }
   else if (options_.device != "none")
   {
@@ -119,24 +120,28 @@ bool Window::startServo(std::string& message)
       0.47 * Vec3{ front.x * box.extent().x, front.y * box.extent().y, front.z * box.extent().z };
     hand_ = std::make_unique<SimulatedDevice>(settings);
     hand_->setTarget(settings.start);
-    device = hand_.get();
+    device_ = hand_.get();
   }
-  if (!device)
-  {
-    return true;
-  }
-  Status status = device->open();
-  if (status == Status::Ok)
-  {
-    status = servo_.start(*device, options_.hapticParameters());
-  }
+  const Status status = device_ ? device_->open() : Status::Ok;
   if (status != Status::Ok)
   {
-    message = fmt::format("the {} device cannot be used: {}", device->name(), sentence(status));
+    message = fmt::format("the {} device cannot be used: {}", device_->name(), sentence(status));
     return false;
   }
-  style_->SetServoLoop(&servo_);
   style_->SetDevice(hand_.get());
+  style_->SetServoLoop(device_ ? &servo_ : nullptr);
+  return true;
+}
+
+/// After the first scene was published: a path must not begin in an empty world.
+bool Window::startServo(std::string& message)
+{
+  const Status status = device_ ? servo_.start(*device_, options_.hapticParameters()) : Status::Ok;
+  if (status != Status::Ok)
+  {
+    message = fmt::format("the servo loop cannot start: {}", sentence(status));
+    return false;
+  }
   return true;
 }
 
@@ -308,7 +313,7 @@ bool Window::run(std::string& message)
     return false;
   }
   this->setUpRendering();
-  if (!this->startServo(message))
+  if (!this->openDevice(message))
   {
     return false;
   }
@@ -316,6 +321,10 @@ bool Window::run(std::string& message)
   style_->UpdateModel();
   window_->Render();
   interactor_->Initialize();
+  if (!this->startServo(message))
+  {
+    return false;
+  }
   style_->StartUpdates();
   interactor_->Start();
   return this->finish(message);

@@ -41,6 +41,9 @@ constexpr double kHipRadius = 0.007;
 constexpr double kNormalLength = 0.25;
 constexpr double kLongestArrow = 0.4;
 constexpr double kArrowThickness = 0.06;
+/// Opacity of the sphere where the cloud hides it: in contact, and in free space.
+constexpr double kSphereGhost = 0.75;
+constexpr double kFreeSphereGhost = 0.35;
 constexpr double kVisibleMotion = 1e-4;
 
 /// One shape with its actor, and a faint copy that is not hidden by what stands in front of it.
@@ -149,7 +152,7 @@ vtkHapticProps::vtkHapticProps()
   parts.arrow->SetShaftRadius(0.10);
   parts.arrow->SetTipRadius(0.24);
   parts.arrow->SetTipLength(0.3);
-  parts.proxy.setUp(parts.sphere->GetOutputPort(), kPink, true, 0.75);
+  parts.proxy.setUp(parts.sphere->GetOutputPort(), kPink, true, kSphereGhost);
   parts.normal.setUp(parts.line->GetOutputPort(), kGreen, false, 1.0);
   parts.hip.setUp(parts.ball->GetOutputPort(), kBlue, true, 0.55);
   parts.force.setUp(parts.arrow->GetOutputPort(), kOrange, true, 0.55);
@@ -235,7 +238,9 @@ bool vtkHapticProps::Update(const ProxyState& state)
   vtkProperty* sphere = parts.proxy.actor->GetProperty();
   sphere->SetColor(const_cast<double*>(state.contact ? kPink : kPalePink));
   sphere->SetOpacity(state.contact ? 1.0 : 0.45);
-  parts.proxy.ghost->SetVisibility(state.contact && state.radius > 0.0);
+  vtkProperty* ghost = parts.proxy.ghost->GetProperty();
+  ghost->SetColor(sphere->GetColor());
+  ghost->SetOpacity(state.contact ? kSphereGhost : kFreeSphereGhost);
   this->Modified();
   return true;
 }
