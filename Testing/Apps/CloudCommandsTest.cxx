@@ -1,0 +1,204 @@
+#include "RunProgram.h"
+
+#include "Core/Shapes.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <numeric>
+
+namespace
+{
+
+using namespace pointhaptics;
+using apptest::parseTable;
+using apptest::Table;
+using nlohmann::json;
+
+class CloudCommands : public apptest::CommandLine
+{
+};
+
+TEST_F(CloudCommands, GenerateWritesTheShapeExactlyInEveryFormat)
+{
+  std::vector<Vec3> points, normals;
+  ASSERT_EQ(generateShape(Shape::Torus, 500, 3, 1e-5, points, &normals), Status::Ok);
+  for (const char* extension : { "vtp", "ply", "pcd", "csv" })
+  {
+    const std::string name = std::string("torus.") + extension;
+    this->succeed({ "generate", "torus", "-n", "500", "--seed", "3", "--noise", "1e-5", "-o", name });
+    this->succeed({ "bandwidth", name, "-o", "back.csv" });
+    const Table back = parseTable(this->read("back.csv"));
+    ASSERT_EQ(back.at("x").size(), points.size()) << name;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      ASSERT_EQ(Vec3(back.at("x")[i], back.at("y")[i], back.at("z")[i]), points[i]) << name;
+      ASSERT_EQ(back.at("Normals_2")[i], normals[i].z) << name;
+    }
+  }
+}
+
+TEST_F(CloudCommands, GenerateIsTheSameForTheSameSeed)
+{
+  const auto cloud = [this](const char* seed, const char* name)
+  {
+    this->succeed({ "generate", "idol", "-n", "2000", "--seed", seed, "-o", name });
+    return this->read(name);
+  };
+  EXPECT_EQ(cloud("5", "a.ply"), cloud("5", "b.ply"));
+  EXPECT_NE(cloud("5", "a.ply"), cloud("6", "b.ply"));
+}
+
+TEST_F(CloudCommands, GenerateSaysWhatItMade)
+{
+  const json result =
+    json::parse(this->succeed({ "generate", "saddle", "-n", "1e3", "--seed", "7", "-o", "s.ply", "--json" }));
+  EXPECT_EQ(result["shape"], "saddle");
+  EXPECT_EQ(result["points"], 1000);
+  EXPECT_EQ(result["seed"], 7);
+  EXPECT_EQ(result["output"], "s.ply");
+}
+
+TEST_F(CloudCommands, ResampleCountsEveryPointOnce)
+{
+  this->succeed({ "generate", "sphere", "-n", "20000", "-o", "in.ply" });
+  const json counts = json::parse(
+    this->succeed({ "resample", "in.ply", "-o", "out.csv", "--voxel", "0.002", "--covariance", "--json" }));
+  EXPECT_EQ(counts["points_in"], 20000);
+  EXPECT_EQ(counts["points_clipped"], 0);
+  EXPECT_EQ(counts["points_invalid"], 0);
+  const Table out = parseTable(this->read("out.csv"));
+  const std::vector<double>& voxelCounts = out.at("VoxelPointCount");
+  EXPECT_EQ(std::accumulate(voxelCounts.begin(), voxelCounts.end(), 0.0), 20000.0);
+  EXPECT_EQ(counts["points_out"], voxelCounts.size());
+  EXPECT_EQ(out.count("VoxelCovariance_0"), 1u);
+  EXPECT_EQ(out.count("VoxelCovariance_5"), 1u);
+}
+
+TEST_F(CloudCommands, ResampleDropsWhatIsOutsideOrNotANumber)
+{
+  this->write("in.csv", "x,y,z\n0,0,0\n0.01,0,0\n5,0,0\nnan,0,0\n0,inf,0\n");
+  const json counts = json::parse(this->succeed(
+    { "resample", "in.csv", "-o", "out.csv", "--workspace=-0.05,0.05,-0.05,0.05,-0.05,0.05", "--json" }));
+  EXPECT_EQ(counts["points_in"], 5);
+  EXPECT_EQ(counts["points_out"], 2);
+  EXPECT_EQ(counts["points_clipped"], 1);
+  EXPECT_EQ(counts["points_invalid"], 2);
+}
+
+TEST_F(CloudCommands, TransformsApplyInTheirOrder)
+{
+  this->write("in.csv", "x,y,z\n1,0,0\n");
+  const auto moved = [this](std::vector<std::string> options)
+  {
+    std::vector<std::string> words = { "resample", "in.csv", "-o", "out.csv" };
+    words.insert(words.end(), options.begin(), options.end());
+    this->succeed(words);
+    const Table out = parseTable(this->read("out.csv"));
+    return Vec3(out.at("x").at(0), out.at("y").at(0), out.at("z").at(0));
+  };
+  const auto expectNear = [](const Vec3& a, const Vec3& b)
+  { EXPECT_LT(norm(a - b), 1e-6) << a.x << ' ' << a.y << ' ' << a.z; };
+  expectNear(moved({ "--scale", "2", "--rotate", "90,0,0,1", "--translate", "5,0,0" }), { 5, 2, 0 });
+  expectNear(moved({ "--translate", "5,0,0", "--rotate", "90,0,0,1", "--scale", "2,3,4" }), { 5, 2, 0 });
+  expectNear(moved({ "--unit", "mm", "--translate", "0,0,1" }), { 0.001, 0, 1 });
+  expectNear(moved({ "--matrix", "0,-2,0,5,2,0,0,0,0,0,2,0,0,0,0,1" }), { 5, 2, 0 });
+}
+
+TEST_F(CloudCommands, ResampleDoesNotDependOnTheNumberOfThreads)
+{
+  this->succeed({ "generate", "idol", "-n", "30000", "-o", "in.ply" });
+  this->succeed({ "resample", "in.ply", "-o", "one.csv", "--covariance", "--threads", "1" });
+  this->succeed({ "resample", "in.ply", "-o", "two.csv", "--covariance", "--threads", "2" });
+  EXPECT_EQ(this->read("one.csv"), this->read("two.csv"));
+}
+
+TEST_F(CloudCommands, BandwidthFollowsTheDensityAndKeepsItsBounds)
+{
+  this->succeed({ "generate", "density-step", "-n", "17000", "-o", "in.ply" });
+  const std::string said = this->succeed({ "bandwidth", "in.ply", "-o", "out.csv" });
+  EXPECT_NE(said.find("17000 points"), std::string::npos);
+  const Table out = parseTable(this->read("out.csv"));
+  double sums[2] = {}, counts[2] = {};
+  for (std::size_t i = 0; i < out.at("x").size(); ++i)
+  {
+    const double x = out.at("x")[i];
+    if (std::abs(x) > 0.005)
+    {
+      sums[x > 0.0] += out.at("ProxyRadius")[i];
+      counts[x > 0.0] += 1.0;
+    }
+  }
+  // 16 times the density: a quarter of the spacing.
+  EXPECT_NEAR(sums[0] / counts[0] / (sums[1] / counts[1]), 4.0, 0.4);
+
+  this->succeed(
+    { "bandwidth", "in.ply", "-o", "bounded.csv", "--r1", "0.002", "--r2", "0.003", "--rule", "scott" });
+  const Table bounded = parseTable(this->read("bounded.csv"));
+  for (const double radius : bounded.at("ProxyRadius"))
+  {
+    ASSERT_GE(radius, 0.002);
+    ASSERT_LE(radius, 0.003);
+  }
+}
+
+TEST_F(CloudCommands, OutputMayReplaceItsInput)
+{
+  this->succeed({ "generate", "sphere", "-n", "5000", "-o", "cloud.ply" });
+  this->succeed({ "resample", "cloud.ply", "-o", "cloud.ply", "--voxel", "0.005" });
+  const json info = json::parse(this->succeed({ "info", "cloud.ply", "--json" }));
+  EXPECT_LT(info["files"][0]["points"].get<int>(), 1000);
+  EXPECT_EQ(this->files(), std::vector<std::string>{ "cloud.ply" });
+}
+
+TEST_F(CloudCommands, AFailedWriteLeavesTheOldFileAsItWas)
+{
+  this->succeed({ "generate", "sphere", "-n", "50", "-o", "cloud.ply" });
+  const std::string before = this->read("cloud.ply");
+  this->refuse(
+    1, { "resample", "cloud.ply", "-o", "cloud.ply", "--workspace", "1,2,1,2,1,2" }, { "clipped" });
+  EXPECT_EQ(this->read("cloud.ply"), before);
+}
+
+TEST_F(CloudCommands, InfoSaysWhatIsInAFile)
+{
+  this->write("in.csv", "x,y,z,depth\n0,0,0,1\n3,0,0,2\n0,4,0,nan\nnan,0,0,4\n");
+  const json file = json::parse(this->succeed({ "info", "in.csv", "--json" }))["files"][0];
+  EXPECT_EQ(file["file"], "in.csv");
+  EXPECT_EQ(file["points"], 4);
+  EXPECT_EQ(file["points_invalid"], 1);
+  EXPECT_EQ(file["bounds"]["max"], json({ 3.0, 4.0, 0.0 }));
+  EXPECT_EQ(file["spacing"], 3.0);
+  ASSERT_EQ(file["arrays"].size(), 1u);
+  EXPECT_EQ(file["arrays"][0]["name"], "depth");
+  EXPECT_EQ(file["arrays"][0]["max"], json({ 4.0 }));
+  const std::string text = this->succeed({ "info", "in.csv" });
+  EXPECT_NE(text.find("depth"), std::string::npos);
+  EXPECT_NE(text.find("--scale"), std::string::npos) << "4 m is no size for the hand: " << text;
+}
+
+TEST_F(CloudCommands, InfoHintsOnlyWhereTheSizeIsOdd)
+{
+  this->succeed({ "generate", "idol", "-n", "500", "-o", "idol.ply" });
+  EXPECT_EQ(this->succeed({ "info", "idol.ply" }).find("hint"), std::string::npos);
+  this->succeed({ "resample", "idol.ply", "-o", "mm.ply", "--scale", "1000" });
+  EXPECT_NE(this->succeed({ "info", "mm.ply" }).find("--unit mm"), std::string::npos);
+}
+
+TEST_F(CloudCommands, InfoGoesOnAfterABadFile)
+{
+  this->succeed({ "generate", "sphere", "-n", "50", "-o", "good.ply" });
+  const apptest::Outcome outcome = this->run({ "info", "bad.ply", "good.ply" });
+  EXPECT_EQ(outcome.exitCode, 1);
+  EXPECT_NE(outcome.errors.find("bad.ply"), std::string::npos);
+  EXPECT_NE(outcome.output.find("good.ply"), std::string::npos);
+  const apptest::Outcome asJson = this->run({ "info", "bad.ply", "good.ply", "--json" });
+  EXPECT_EQ(asJson.exitCode, 1);
+  const json files = json::parse(asJson.output)["files"];
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_TRUE(files[0].contains("error"));
+  EXPECT_EQ(files[1]["points"], 50);
+}
+
+} // namespace

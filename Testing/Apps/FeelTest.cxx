@@ -1,0 +1,258 @@
+#include "RunProgram.h"
+
+#include "Core/Shapes.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace
+{
+
+using namespace pointhaptics;
+using apptest::parseTable;
+using apptest::Table;
+
+constexpr const char* kSpherePath = POINTHAPTICS_DATA "/Paths/sphere-press-slide.csv";
+constexpr const char* kIdolPath = POINTHAPTICS_DATA "/Paths/idol-touch.csv";
+constexpr double kStiffness = 800.0;
+
+Vec3 vectorOf(const Table& table, const std::string& name, std::size_t row)
+{
+  return { table.at(name + "_x")[row], table.at(name + "_y")[row], table.at(name + "_z")[row] };
+}
+
+/// RMS of |force - ideal| over RMS of the ideal, in ticks where program and ideal both have contact.
+double relativeForceError(const Table& table, Shape shape, std::size_t& contacts)
+{
+  double error2 = 0.0, ideal2 = 0.0;
+  contacts = 0;
+  for (std::size_t row = 0; row < table.at("t").size(); ++row)
+  {
+    const Vec3 hip = vectorOf(table, "hip", row);
+    const SurfacePoint foot = closestPoint(shape, hip);
+    if (table.at("contact")[row] == 1.0 && foot.distance < 0.0)
+    {
+      const Vec3 ideal = kStiffness * (foot.point - hip);
+      error2 += norm2(vectorOf(table, "force", row) - ideal);
+      ideal2 += norm2(ideal);
+      ++contacts;
+    }
+  }
+  return std::sqrt(error2 / ideal2);
+}
+
+std::string digits(double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// The text without its last column, update_us.
+std::string withoutTimes(const std::string& text)
+{
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);)
+  {
+    result += line.substr(0, line.rfind(',')) + "\n";
+  }
+  return result;
+}
+
+class Feel : public apptest::CommandLine
+{
+protected:
+  Table feel(const std::string& cloud, const std::string& path, std::vector<std::string> options = {}) const
+  {
+    std::vector<std::string> words = { "feel", cloud, "--path", path, "-o", "out.csv" };
+    words.insert(words.end(), options.begin(), options.end());
+    this->succeed(words);
+    return parseTable(this->read("out.csv"));
+  }
+};
+
+TEST_F(Feel, TheSphereOfThePaperIsFeltWithinATwentiethOfAPercent)
+{
+  this->succeed({ "generate", "sphere", "-n", "543652", "-o", "sphere.ply" });
+  std::size_t contacts = 0;
+  const double moments = relativeForceError(this->feel("sphere.ply", kSpherePath), Shape::Sphere, contacts);
+  EXPECT_GT(contacts, 4000u);
+  EXPECT_LT(moments, 0.0005);
+  const double means =
+    relativeForceError(this->feel("sphere.ply", kSpherePath, { "--no-covariance" }), Shape::Sphere, contacts);
+  EXPECT_GT(contacts, 4000u);
+  EXPECT_LT(means, 0.0005);
+  EXPECT_LT(moments, means);
+  this->RecordProperty("rms_percent", digits(100.0 * moments));
+  this->RecordProperty("rms_percent_no_covariance", digits(100.0 * means));
+}
+
+TEST_F(Feel, RawPointsAreFeltToo)
+{
+  this->succeed({ "generate", "sphere", "-n", "47516", "-o", "sphere.ply" });
+  std::size_t contacts = 0;
+  EXPECT_LT(
+    relativeForceError(this->feel("sphere.ply", kSpherePath, { "--raw" }), Shape::Sphere, contacts), 0.0005);
+  EXPECT_GT(contacts, 4000u);
+}
+
+TEST_F(Feel, TheIdolIsTouchedAndFollowed)
+{
+  this->succeed({ "generate", "idol", "-n", "200000", "-o", "idol.ply" });
+  const Table out = this->feel("idol.ply", kIdolPath);
+  // The hand is nearly a radius of curvature deep in places: there the direction to the nearest point is
+  // anybody's guess, but its distance is not, nor that the contact point lies on the surface.
+  double contacts = 0.0, offSurface2 = 0.0, depthError2 = 0.0, depth2 = 0.0;
+  for (std::size_t row = 0; row < out.at("t").size(); row += 5)
+  {
+    if (out.at("contact")[row] == 1.0)
+    {
+      const Vec3 hip = vectorOf(out, "hip", row), proxy = vectorOf(out, "proxy", row);
+      const double offSurface = closestPoint(Shape::Idol, proxy).distance;
+      const double depth = closestPoint(Shape::Idol, hip).distance;
+      offSurface2 += offSurface * offSurface;
+      depthError2 += std::pow(norm(proxy - hip) - std::abs(depth), 2);
+      depth2 += depth * depth;
+      contacts += 1.0;
+    }
+  }
+  EXPECT_GT(contacts, 800.0);
+  EXPECT_LT(std::sqrt(offSurface2 / contacts), 4e-6);
+  EXPECT_LT(std::sqrt(depthError2 / depth2), 0.004);
+  this->RecordProperty("rms_off_surface_metres", digits(std::sqrt(offSurface2 / contacts)));
+  this->RecordProperty("rms_percent", digits(100.0 * std::sqrt(depthError2 / depth2)));
+}
+
+TEST_F(Feel, TheTableIsWhatItsHeaderSays)
+{
+  this->succeed({ "generate", "plane", "-n", "20000", "-o", "plane.ply" });
+  this->write("hip.csv", "t,x,y,z\n1,0,0,0.002\n1.5,0.001,0,-0.002\n");
+  const Table out = this->feel("plane.ply", "hip.csv", { "--rate", "100" });
+  EXPECT_EQ(this->read("out.csv").substr(0, this->read("out.csv").find('\n')),
+    "t,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,force_x,force_y,force_z,radius,"
+    "contact,"
+    "update_us");
+  ASSERT_EQ(out.at("t").size(), 51u);
+  EXPECT_EQ(out.at("t").front(), 1.0);
+  EXPECT_EQ(out.at("t").back(), 1.5);
+  for (std::size_t row = 0; row < 51; ++row)
+  {
+    const Vec3 hip = vectorOf(out, "hip", row), proxy = vectorOf(out, "proxy", row);
+    EXPECT_NEAR(out.at("t")[row], 1.0 + 0.01 * double(row), 1e-12);
+    EXPECT_NEAR(hip.z, 0.002 - 0.00008 * double(row), 1e-12);
+    EXPECT_GT(out.at("radius")[row], 0.0);
+    EXPECT_GE(out.at("update_us")[row], 0.0);
+    EXPECT_NEAR(norm(vectorOf(out, "normal", row)), 1.0, 1e-12);
+    const bool contact = out.at("contact")[row] == 1.0;
+    if (std::abs(hip.z) > 1e-9)
+    {
+      EXPECT_EQ(contact, hip.z < 0.0) << row;
+    }
+    EXPECT_NEAR(norm(vectorOf(out, "force", row) - kStiffness * (proxy - hip)), 0.0, 1e-12);
+    if (!contact)
+    {
+      EXPECT_EQ(proxy, hip);
+    }
+  }
+}
+
+TEST_F(Feel, OnePointOfAPathIsOneTick)
+{
+  this->succeed({ "generate", "plane", "-n", "5000", "-o", "plane.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,0,0,0.01\n");
+  EXPECT_EQ(this->feel("plane.ply", "hip.csv").at("t").size(), 1u);
+}
+
+TEST_F(Feel, TheLastTickFallsOnTheEndOfThePath)
+{
+  this->succeed({ "generate", "plane", "-n", "5000", "-o", "plane.ply" });
+  this->write("hip.csv", "t,x,y,z\n0.1,0,0,0.01\n0.4,0,0,0.02\n"); // 0.3 s times 1 kHz is not exact in binary
+  const Table out = this->feel("plane.ply", "hip.csv");
+  EXPECT_EQ(out.at("t").size(), 301u);
+  EXPECT_NEAR(out.at("hip_z").back(), 0.02, 1e-15);
+}
+
+TEST_F(Feel, SameInputSameOutput)
+{
+  this->succeed({ "generate", "idol", "-n", "50000", "-o", "idol.ply" });
+  for (const std::vector<std::string>& options :
+    { std::vector<std::string>{ "--mu-d", "0.2" }, std::vector<std::string>{ "--method", "gradient-steps" } })
+  {
+    this->feel("idol.ply", kIdolPath, options);
+    const std::string first = withoutTimes(this->read("out.csv"));
+    this->feel("idol.ply", kIdolPath, options);
+    EXPECT_EQ(withoutTimes(this->read("out.csv")), first);
+  }
+}
+
+TEST_F(Feel, StiffnessScalesTheForce)
+{
+  this->succeed({ "generate", "plane", "-n", "20000", "-o", "plane.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,0,0,0.002\n0.2,0,0,-0.001\n");
+  EXPECT_NEAR(this->feel("plane.ply", "hip.csv").at("force_z").back(), 0.8, 1e-6);
+  EXPECT_NEAR(this->feel("plane.ply", "hip.csv", { "--stiffness", "200" }).at("force_z").back(), 0.2, 1e-6);
+}
+
+TEST_F(Feel, SlidingFrictionIsMuTimesTheNormalForce)
+{
+  this->succeed({ "generate", "plane", "-n", "100000", "-o", "plane.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,-0.02,0,0.001\n0.2,-0.02,0,-0.001\n1.2,0.02,0,-0.001\n");
+  const Table out = this->feel("plane.ply", "hip.csv", { "--mu-s", "0.4", "--mu-d", "0.3" });
+  double peak = 0.0;
+  for (std::size_t row = 0; row < out.at("t").size(); ++row)
+  {
+    if (out.at("contact")[row] == 1.0)
+    {
+      const double ratio =
+        std::hypot(out.at("force_x")[row], out.at("force_y")[row]) / out.at("force_z")[row];
+      peak = std::max(peak, ratio);
+      if (out.at("t")[row] > 0.5)
+      {
+        ASSERT_NEAR(ratio, 0.3, 0.003) << out.at("t")[row];
+        ASSERT_LT(out.at("force_x")[row], 0.0) << "friction pulls back";
+      }
+    }
+  }
+  EXPECT_GT(peak, 0.37);
+  EXPECT_LE(peak, 0.405);
+}
+
+TEST_F(Feel, DynamicFrictionAloneSetsTheStaticOne)
+{
+  this->succeed({ "generate", "plane", "-n", "20000", "-o", "plane.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,-0.02,0,0.001\n0.2,-0.02,0,-0.001\n1.2,0.02,0,-0.001\n");
+  const Table out = this->feel("plane.ply", "hip.csv", { "--mu-d", "0.3" });
+  EXPECT_NEAR(-out.at("force_x").back() / out.at("force_z").back(), 0.3, 0.003);
+}
+
+TEST_F(Feel, TheSummaryTellsTicksContactForceAndTime)
+{
+  this->succeed({ "generate", "plane", "-n", "20000", "-o", "plane.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,0,0,0.002\n0.2,0,0,-0.001\n");
+  const nlohmann::json summary = nlohmann::json::parse(
+    this->succeed({ "feel", "plane.ply", "--path", "hip.csv", "-o", "out.csv", "--json" }));
+  EXPECT_EQ(summary["ticks"], 201);
+  EXPECT_NEAR(summary["contact_ticks"].get<double>(), 67.0, 1.0);
+  EXPECT_NEAR(summary["max_force_n"].get<double>(), 0.8, 1e-6);
+  EXPECT_LE(summary["update_us"]["p50"].get<double>(), summary["update_us"]["max"].get<double>());
+}
+
+TEST_F(Feel, TransformAndPathShareTheWorkspaceFrame)
+{
+  this->succeed({ "generate", "sphere", "-n", "100000", "-o", "sphere.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,0.5,0,0.05\n0.2,0.5,0,0.039\n");
+  // The paper's second sphere: radius 0.04, here also moved.
+  const Table out = this->feel("sphere.ply", "hip.csv", { "--scale", "1.6", "--translate", "0.5,0,0" });
+  EXPECT_EQ(out.at("contact").back(), 1.0);
+  EXPECT_NEAR(out.at("proxy_z").back(), 0.04, 1e-6);
+  const Table raw =
+    this->feel("sphere.ply", "hip.csv", { "--scale", "1.6", "--translate", "0.5,0,0", "--raw" });
+  EXPECT_NEAR(raw.at("proxy_z").back(), 0.04, 1e-6);
+}
+
+} // namespace

@@ -1,0 +1,201 @@
+#include "RunProgram.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using Words = std::vector<std::string>;
+
+class Usage : public pointhaptics::apptest::CommandLine
+{
+protected:
+  /// A path and a cloud small enough to be made for every test.
+  void makeInputs() const
+  {
+    this->succeed({ "generate", "sphere", "-n", "200", "-o", "in.ply" });
+    this->write("hip.csv", "t,x,y,z\n0,0,0,0.03\n0.01,0,0,0.029\n");
+  }
+};
+
+TEST_F(Usage, HelpAndVersionWorkEverywhere)
+{
+  EXPECT_EQ(this->succeed({ "--version" }).rfind("pointhaptics ", 0), 0u);
+  EXPECT_NE(this->succeed({ "--help" }).find("resample"), std::string::npos);
+  for (const char* command : { "view", "feel", "resample", "bandwidth", "info", "generate" })
+  {
+    EXPECT_EQ(this->succeed({ command, "--version" }).rfind("pointhaptics ", 0), 0u);
+    EXPECT_NE(this->succeed({ command, "--help" }).find(command), std::string::npos);
+  }
+}
+
+TEST_F(Usage, NothingOrNoCommandIsAUsageError)
+{
+  this->refuse(2, {}, { "--help" });
+  this->refuse(2, { "resampel", "in.ply" }, { "'resampel'", "resample", "--help" });
+  this->refuse(2, { "resample" }, { "pointhaptics resample: ", "IN", "--help" });
+  this->refuse(2, { "resample", "in.ply" }, { "--output", "--help" });
+  this->refuse(2, { "feel", "in.ply", "-o", "out.csv" }, { "--path" });
+  this->refuse(2, { "info" }, { "FILE" });
+}
+
+TEST_F(Usage, UnknownAndSurplusArgumentsAreUsageErrors)
+{
+  this->refuse(2, { "resample", "a.ply", "b.ply", "-o", "c.ply" }, { "pointhaptics resample: ", "b.ply" });
+  this->refuse(2, { "bandwidth", "a.ply", "b.ply", "-o", "c.ply" }, { "b.ply" });
+  this->refuse(2, { "feel", "a.ply", "b.ply", "--path", "h.csv", "-o", "c.csv" }, { "b.ply" });
+  this->refuse(2, { "generate", "sphere", "torus", "-n", "5", "-o", "c.ply" }, { "torus" });
+  this->refuse(2, { "resample", "a.ply", "-o", "c.ply", "--foo", "1" }, { "--foo" });
+  this->refuse(2, { "bandwidth", "a.ply", "-o", "c.ply", "--voxel", "1" }, { "--voxel" });
+  this->refuse(2, { "resample", "a.ply", "-o", "c.ply", "--dims" }, { "--dims" });
+  this->refuse(2, { "resample", "a.ply", "-o", "c.ply", "--dims", "3", "--dims", "4" }, { "--dims" });
+}
+
+TEST_F(Usage, BadLatticeNumbersNameTheRange)
+{
+  const auto refuseOption = [this](const char* option, const char* value, const char* part) {
+    this->refuse(2, { "resample", "a.ply", "-o", "c.ply", option, value }, { option, value, part });
+  };
+  refuseOption("--dims", "0", "from 1 to");
+  refuseOption("--dims", "3,4", "1 or 3");
+  refuseOption("--dims", "2.5", "whole numbers");
+  refuseOption("--dims", "9999999", "2097152");
+  refuseOption("--dims", "3,,4", "not a list");
+  refuseOption("--voxel", "0", "above 0");
+  refuseOption("--voxel", "-1", "above 0");
+  refuseOption("--voxel", "nan", "above 0");
+  refuseOption("--voxel", "inf", "above 0");
+  refuseOption("--voxel", "1mm", "not a number");
+  refuseOption("--workspace", "0,1,0,1,0", "5 numbers");
+  refuseOption("--workspace", "0,1,1,0,0,1", "maximum");
+  refuseOption("--workspace", "0,1,0,1,0,nan", "finite");
+  refuseOption("--scale", "0", "not zero");
+  refuseOption("--scale", "1,0,1", "not zero");
+  refuseOption("--rotate", "90,0,0,0", "axis");
+  refuseOption("--rotate", "90", "4");
+  refuseOption("--translate", "inf,0,0", "finite");
+  refuseOption("--matrix", "1,0,0,0,0,1,0,0,0,0,1,0,0,0,1,1", "0,0,0,1");
+  refuseOption("--matrix", "1,0,0,0,1,0,0,0,0,0,1,0,0,0,0,1", "singular");
+  refuseOption("--unit", "parsec", "mm");
+  refuseOption("--threads", "0", "from 1");
+}
+
+TEST_F(Usage, OptionsThatContradictEachOtherAreRefused)
+{
+  this->refuse(
+    2, { "resample", "a.ply", "-o", "c.ply", "--dims", "3", "--voxel", "1" }, { "--dims", "--voxel" });
+  this->refuse(2,
+    { "resample", "a.ply", "-o", "c.ply", "--scale", "3", "--matrix", "1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1" },
+    { "--scale", "--matrix" });
+  this->refuse(2, { "bandwidth", "a.ply", "-o", "c.ply", "--neighbors", "3", "--radius", "1" },
+    { "--neighbors", "--radius" });
+  this->refuse(
+    2, { "bandwidth", "a.ply", "-o", "c.ply", "--r2", "1", "--r1", "2" }, { "--r1", "--r2", "r1 <= r2" });
+}
+
+TEST_F(Usage, BadBandwidthNumbersNameTheRange)
+{
+  const auto refuseOption = [this](const char* option, const char* value, const char* part) {
+    this->refuse(2, { "bandwidth", "a.ply", "-o", "c.ply", option, value }, { option, value, part });
+  };
+  refuseOption("--neighbors", "0", "from 1");
+  refuseOption("--radius", "0", "above 0");
+  refuseOption("--beta", "-1", "above 0");
+  refuseOption("--r1", "nan", "above 0");
+  refuseOption("--rule", "best", "normal-reference");
+}
+
+TEST_F(Usage, BadFeelNumbersNameTheRange)
+{
+  const auto refuseOption = [this](const Words& options, const Words& parts)
+  {
+    Words words = { "feel", "a.ply", "--path", "h.csv", "-o", "c.csv" };
+    words.insert(words.end(), options.begin(), options.end());
+    this->refuse(2, words, parts);
+  };
+  refuseOption({ "--stiffness", "-1" }, { "--stiffness -1", "100000" });
+  refuseOption({ "--stiffness", "nan" }, { "--stiffness nan" });
+  refuseOption({ "--damping", "inf" }, { "--damping inf", "1000" });
+  refuseOption({ "--mu-d", "-0.1" }, { "--mu-d -0.1" });
+  refuseOption({ "--mu-s", "0.1", "--mu-d", "0.3" }, { "--mu-d 0.3", "--mu-s 0.1", "mu_d <= mu_s" });
+  refuseOption({ "--rate", "0" }, { "--rate 0" });
+  refuseOption({ "--method", "magic" }, { "--method magic", "surface-fit" });
+  refuseOption({ "--preset", "best" }, { "--preset best", "paper" });
+}
+
+TEST_F(Usage, BadShapesAndCountsAreRefused)
+{
+  this->refuse(2, { "generate", "cube", "-n", "5", "-o", "c.ply" }, { "cube", "density-step", "idol" });
+  for (const char* count : { "0", "-5", "1e9", "2.5", "nan", "many" })
+  {
+    this->refuse(2, { "generate", "sphere", "-n", count, "-o", "c.ply" }, { count, "100000000" });
+  }
+  this->refuse(2, { "generate", "sphere", "-n", "5", "--noise", "-1", "-o", "c.ply" }, { "--noise -1" });
+  this->refuse(2, { "generate", "sphere", "-n", "5", "--seed", "-1", "-o", "c.ply" }, { "--seed -1" });
+}
+
+TEST_F(Usage, BadInputFilesAreFailuresInOneLine)
+{
+  this->makeInputs();
+  this->write("empty.ply", "");
+  this->write("cut.ply", this->read("in.ply").substr(0, 1500));
+  this->write("noise.dat", std::string("\x01\x02\x00\xff\xfe garbage", 13));
+  for (const char* file : { "none.ply", ".", "empty.ply", "cut.ply", "noise.dat" })
+  {
+    this->refuse(1, { "resample", file, "-o", "out.ply" }, { "pointhaptics resample: ", file });
+    this->refuse(1, { "bandwidth", file, "-o", "out.ply" }, { "pointhaptics bandwidth: ", file });
+    this->refuse(1, { "feel", file, "--path", "hip.csv", "-o", "out.csv" }, { "pointhaptics feel: ", file });
+    this->refuse(1, { "info", file }, { "pointhaptics info: ", file });
+  }
+}
+
+TEST_F(Usage, BadPathsAreFailuresInOneLine)
+{
+  this->makeInputs();
+  this->write("empty.csv", "");
+  this->write("header.csv", "t,x,y,z\n");
+  this->write("wrong.csv", "a,b\n1,2\n");
+  this->write("back.csv", "t,x,y,z\n0,0,0,0\n1,0,0,0\n0.5,0,0,0\n");
+  this->write("nan.csv", "t,x,y,z\n0,0,0,nan\n");
+  this->write("years.csv", "t,x,y,z\n0,0,0,0\n1e9,0,0,0\n");
+  for (const char* path :
+    { "none.csv", ".", "empty.csv", "header.csv", "wrong.csv", "back.csv", "nan.csv", "years.csv" })
+  {
+    this->refuse(1, { "feel", "in.ply", "--path", path, "-o", "out.csv" }, { "pointhaptics feel: ", path });
+  }
+}
+
+TEST_F(Usage, BadOutputsAreFailuresThatLeaveNothingBehind)
+{
+  this->makeInputs();
+  for (const char* output : { "out.xyz", "out", "none/out.ply" })
+  {
+    this->refuse(1, { "resample", "in.ply", "-o", output }, { "pointhaptics resample: ", output });
+    this->refuse(1, { "bandwidth", "in.ply", "-o", output }, { "pointhaptics bandwidth: ", output });
+    this->refuse(1, { "generate", "sphere", "-n", "9", "-o", output }, { "pointhaptics generate: ", output });
+  }
+  this->refuse(1, { "feel", "in.ply", "--path", "hip.csv", "-o", "none/out.csv" }, { "none/out.csv" });
+  this->refuse(1, { "feel", "in.ply", "--path", "hip.csv", "-o", "." }, { "folder" });
+}
+
+TEST_F(Usage, AWorkspaceWithoutPointsIsAFailure)
+{
+  this->makeInputs();
+  const std::string away = "1,2,1,2,1,2";
+  this->refuse(1, { "resample", "in.ply", "-o", "out.ply", "--workspace", away }, { "200 clipped" });
+  this->refuse(
+    1, { "feel", "in.ply", "--path", "hip.csv", "-o", "out.csv", "--workspace", away }, { "--workspace" });
+  this->refuse(1, { "feel", "in.ply", "--path", "hip.csv", "-o", "out.csv", "--raw", "--workspace", away },
+    { "--workspace" });
+  this->refuse(1, { "resample", "in.ply", "-o", "out.ply", "--voxel", "1e-12" }, { "larger voxel" });
+}
+
+TEST_F(Usage, NegativeNumbersAreNumbersNotOptions)
+{
+  this->makeInputs();
+  this->succeed({ "resample", "in.ply", "-o", "a.csv", "--translate", "-.01,-1e-3,-2" });
+  this->succeed({ "resample", "in.ply", "-o", "b.csv", "--translate=-.01,-1e-3,-2" });
+  EXPECT_EQ(this->read("a.csv"), this->read("b.csv"));
+}
+
+} // namespace
