@@ -57,6 +57,8 @@ finish() {
   fi
   if ((code != 0)); then
     printf '%s: failed: %s\n' "$command_name" "$step"
+    # A signal keeps its code; whatever failed inside is a plain failure here.
+    code=$((code > 128 ? code : 1))
   fi
   exit "$code"
 }
@@ -193,7 +195,7 @@ run_demo() {
 }
 
 run_test() {
-  local log="$BUILD/ctest.log" tests seconds
+  local log="$BUILD/ctest.log" tests seconds skipped
   install_packages
   build ON
   start_display
@@ -205,7 +207,8 @@ run_test() {
   fi
   tests="$(sed -nE 's/^100% tests passed, 0 tests failed out of ([0-9]+)$/\1/p' "$log")"
   seconds="$(sed -nE 's/^Total Test time \(real\) = *([0-9.]+) sec$/\1/p' "$log")"
-  printf 'test: ok: %s tests in %s s\n' "$tests" "$seconds"
+  skipped="$(grep -cE '^ *[0-9]+/[0-9]+ Test .*\*\*\*Skipped' "$log" || true)"
+  printf 'test: ok: %s tests in %s s%s\n' "$tests" "$seconds" "$( ((skipped == 0)) || echo ", $skipped of them skipped")"
 }
 
 main() {
