@@ -1,0 +1,295 @@
+#include "HapticFixtures.h"
+
+#include <algorithm>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+/// What holds for every method.
+class EveryMethod : public ::testing::TestWithParam<ProxyMethod>
+{
+protected:
+  HapticParameters parameters() const
+  {
+    HapticParameters p;
+    p.method = GetParam();
+    return p;
+  }
+};
+
+/// A hand that presses through the origin from three sides, slowly and fast, and comes to rest on it.
+trial::Path probing(double reach)
+{
+  trial::Path path;
+  for (const Vec3& from : { Vec3(0, 0, 1), Vec3(1, 0.5, 0.2), Vec3(-1, 0, 0) })
+  {
+    for (int i = 0; i <= 60; ++i)
+    {
+      path.push_back(reach * (1 - i / 30.0) * from);
+    }
+    for (int i = 0; i <= 4; ++i)
+    {
+      path.push_back(reach * (1 - i / 2.0) * from);
+    }
+    path.insert(path.end(), 20, Vec3(0, 0, 0));
+  }
+  return path;
+}
+
+void expectFinite(const std::vector<ProxyState>& states, double largestForce)
+{
+  for (std::size_t i = 0; i < states.size(); ++i)
+  {
+    ASSERT_TRUE(trial::isFinite(states[i])) << "tick " << i;
+    ASSERT_LE(norm(states[i].force), largestForce) << "tick " << i;
+    ASSERT_NEAR(norm(states[i].normal), 1.0, 1e-6) << "tick " << i;
+  }
+}
+
+} // namespace
+
+TEST_P(EveryMethod, EqualsTheHandInFreeSpace)
+{
+  const trial::Scene scene = trial::resampledScene(trial::spherePoints(20000, 1));
+  trial::Random random(2);
+  trial::Path path;
+  for (int i = 0; i < 300; ++i)
+  {
+    path.push_back((0.04 + 1e-4 * i) * normalized({ std::cos(0.01 * i), std::sin(0.01 * i), 0.5 }));
+  }
+  for (const ProxyState& s : trial::feel(scene, parameters(), path))
+  {
+    ASSERT_EQ(s.proxy, s.hip);
+    // The sphere of GradientSteps is drawn where it is: its last step to the HIP may be missing.
+    ASSERT_LE(norm(s.sphereCenter - s.hip), GetParam() == ProxyMethod::SurfaceFit ? 0.0 : 1e-3 * s.radius);
+    ASSERT_EQ(s.force, Vec3());
+    ASSERT_FALSE(s.contact);
+    ASSERT_EQ(s.status, std::uint32_t(kProxyOk));
+    ASSERT_GT(s.radius, 0.0);
+  }
+}
+
+TEST_P(EveryMethod, WithoutASceneIsFreeAndSaysSo)
+{
+  Proxy proxy(parameters());
+  const ProxyState s = proxy.step({ 1, 2, 3 }, trial::kTick);
+  EXPECT_TRUE(s.status & kProxyNoScene);
+  EXPECT_FALSE(s.contact);
+  EXPECT_EQ(s.force, Vec3());
+  EXPECT_EQ(s.proxy, Vec3(1, 2, 3));
+}
+
+TEST_P(EveryMethod, SurvivesSmallAndDegenerateClouds)
+{
+  std::vector<Vec3> line;
+  std::vector<Vec3> cross;
+  for (int i = -50; i <= 50; ++i)
+  {
+    line.emplace_back(1e-4 * i, 0, 0);
+    cross.emplace_back(1e-4 * i, 0, 0);
+    cross.emplace_back(0, 1e-4 * i, 0);
+  }
+  const std::vector<std::vector<Vec3>> clouds{ { { 0, 0, 0 } }, { { 0, 0, 0 }, { 1e-3, 0, 0 } },
+    trial::randomBox(11, 3, { -2e-3, -2e-3, -1e-4 }, { 2e-3, 2e-3, 1e-4 }), std::vector<Vec3>(300, Vec3()),
+    line, cross };
+  for (std::size_t c = 0; c < clouds.size(); ++c)
+  {
+    SCOPED_TRACE(c);
+    const trial::Scene scene = trial::rawScene(clouds[c]);
+    ASSERT_NE(scene, nullptr);
+    expectFinite(trial::feel(scene, parameters(), probing(5e-3)), 800.0 * 0.05);
+  }
+}
+
+TEST_P(EveryMethod, SurvivesAHandExactlyOnPointsAndVoxelCorners)
+{
+  std::vector<Vec3> grid;
+  for (int i = 0; i < 60 * 60; ++i)
+  {
+    grid.emplace_back(1e-3 * (i % 60 - 30), 1e-3 * (i / 60 - 30), 0);
+  }
+  HapticSceneInput input;
+  input.points = grid;
+  input.cellSize = 1e-3;
+  const trial::Scene scene = trial::sceneOf(std::move(input));
+  trial::Path path;
+  for (int i = 0; i < 40; ++i)
+  {
+    path.emplace_back(0, 0, std::max(0.0, 2e-3 - 1e-4 * i));
+  }
+  for (int i = 0; i < 20; ++i)
+  {
+    path.emplace_back(1e-3 * i, 0, 0);
+  }
+  expectFinite(trial::feel(scene, parameters(), path), 2.0);
+}
+
+TEST_P(EveryMethod, IsTheSameBitForBitWhenRepeated)
+{
+  const std::vector<Vec3> points = trial::spherePoints(50000, 4, 20e-6);
+  const trial::Scene one = trial::resampledScene(points);
+  const trial::Scene two = trial::resampledScene(points);
+  const trial::Path path = trial::sphereSlide(1e-3, 0.05, 500);
+  const auto first = trial::feel(one, parameters(), path);
+  const auto second = trial::feel(two, parameters(), path);
+  Proxy used(parameters());
+  used.setScene(one.get());
+  trial::feel(used, probing(0.03));
+  used.reset();
+  const auto third = trial::feel(used, path);
+  for (std::size_t i = 0; i < path.size(); ++i)
+  {
+    ASSERT_TRUE(trial::operator==(first[i], second[i])) << "tick " << i;
+    ASSERT_TRUE(trial::operator==(first[i], third[i])) << "tick " << i << " after reset()";
+  }
+}
+
+TEST_P(EveryMethod, LeavesNoForceBehindWhenTheHandComesOut)
+{
+  const trial::Scene scene = trial::resampledScene(trial::spherePoints(100000, 5));
+  trial::Path path = trial::sphereSlide(1e-3, 0.05, 200);
+  const Vec3 out = normalized(path.back());
+  for (int i = 0; i < 100; ++i)
+  {
+    path.push_back((0.024 + 2e-4 * i) * out);
+  }
+  const auto states = trial::feel(scene, parameters(), path);
+  EXPECT_EQ(states.back().force, Vec3());
+  EXPECT_FALSE(states.back().contact);
+  EXPECT_EQ(states.back().proxy, states.back().hip);
+}
+
+TEST_P(EveryMethod, StaysFiniteWhileTheHandIsNotANumberAndRecovers)
+{
+  const trial::Scene scene = trial::resampledScene(trial::spherePoints(50000, 6));
+  Proxy proxy(parameters());
+  proxy.setScene(scene.get());
+  // Not a number on the very first tick, too.
+  EXPECT_TRUE(trial::isFinite(proxy.step({ NAN, NAN, NAN }, trial::kTick)));
+  trial::feel(proxy, trial::sphereSlide(1e-3, 0.05, 100));
+  for (int i = 0; i < 12; ++i)
+  {
+    const ProxyState s = proxy.step({ 0, INFINITY, 0 }, trial::kTick);
+    ASSERT_TRUE(trial::isFinite(s));
+    ASSERT_TRUE(s.status & kProxyNonFiniteInput);
+    ASSERT_LE(norm(s.force), 1.6);
+  }
+  EXPECT_EQ(proxy.step({ NAN, 0, 0 }, trial::kTick).force, Vec3());
+  const ProxyState away = trial::feel(proxy, trial::Path(200, Vec3(0.05, 0.05, 0.05))).back();
+  EXPECT_EQ(away.proxy, away.hip);
+}
+
+TEST_P(EveryMethod, SurvivesEverySwapOfItsSceneInContact)
+{
+  const std::vector<Vec3> points = trial::spherePoints(50000, 7);
+  const trial::Scene original = trial::resampledScene(points);
+  for (const double zoom : { 1e-3, 0.5, 1000.0 })
+  {
+    const AffineTransform transform =
+      AffineTransform::rotation(20, { 1, 1, 0 }) * AffineTransform::scaling({ zoom, zoom, zoom });
+    const trial::Scene zoomed =
+      trial::resampledScene(points, transform, std::max(zoom, 1e-2) * trial::kVoxel);
+    Proxy proxy(parameters());
+    proxy.setScene(original.get());
+    trial::feel(proxy, trial::sphereSlide(1e-3, 0.05, 100));
+    proxy.setScene(zoomed.get());
+    expectFinite(trial::feel(proxy, trial::Path(50, Vec3(0.02, 0.01, 0.005))), 800.0 * 30.0);
+    proxy.setScene(nullptr);
+    const ProxyState none = proxy.step({ 0.02, 0.01, 0.005 }, trial::kTick);
+    EXPECT_EQ(none.force, Vec3());
+    EXPECT_FALSE(none.contact);
+    proxy.setScene(original.get());
+    expectFinite(trial::feel(proxy, trial::sphereSlide(1e-3, 0.05, 100)), 100.0);
+  }
+}
+
+TEST_P(EveryMethod, SurvivesTeleports)
+{
+  const trial::Scene scene = trial::resampledScene(trial::spherePoints(50000, 8));
+  trial::Random random(9);
+  trial::Path path;
+  for (int i = 0; i < 400; ++i)
+  {
+    path.insert(path.end(), 1 + random.below(4), random.inBox({ -0.04, -0.04, -0.04 }, { 0.04, 0.04, 0.04 }));
+  }
+  path.push_back({ 1e6, -1e6, 1e6 });
+  path.push_back({ 0, 0, 0 });
+  path.push_back({ 1e300, 0, 0 });
+  path.push_back({ 0.06, 0, 0 });
+  const auto states = trial::feel(scene, parameters(), path);
+  for (std::size_t i = 0; i < states.size(); ++i)
+  {
+    ASSERT_TRUE(trial::isFinite(states[i])) << "tick " << i;
+  }
+}
+
+TEST_P(EveryMethod, StiffnessScalesTheForce)
+{
+  const trial::Scene scene = trial::resampledScene(trial::spherePoints(50000, 10));
+  HapticParameters soft = parameters();
+  soft.contact.stiffness = 400.0;
+  const trial::Path path = trial::sphereSlide(1e-3, 0.05, 100);
+  const auto hard = trial::feel(scene, parameters(), path);
+  const auto half = trial::feel(scene, soft, path);
+  for (std::size_t i = 0; i < path.size(); ++i)
+  {
+    ASSERT_LE(norm(hard[i].force - 2.0 * half[i].force), 1e-12);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Proxy, EveryMethod,
+  ::testing::Values(ProxyMethod::SurfaceFit, ProxyMethod::GradientSteps),
+  [](const ::testing::TestParamInfo<ProxyMethod>& method)
+  { return method.param == ProxyMethod::SurfaceFit ? "SurfaceFit" : "GradientSteps"; });
+
+TEST(Proxy, DampingActsAlongTheNormalInContactOnly)
+{
+  const trial::Scene scene = trial::resampledScene(trial::planePoints(100000, 11));
+  HapticParameters damped;
+  damped.contact.damping = 5.0;
+  trial::Path path;
+  for (int i = 0; i < 40; ++i)
+  {
+    path.emplace_back(1e-5 * i, 0, 2e-3 - 1e-4 * i);
+  }
+  const auto with = trial::feel(scene, damped, path);
+  const auto without = trial::feel(scene, {}, path);
+  for (std::size_t i = 1; i < path.size(); ++i)
+  {
+    const Vec3 extra = with[i].force - without[i].force;
+    if (with[i].contact && with[i - 1].contact)
+    {
+      EXPECT_NEAR(extra.z, 5.0 * 0.1, 1e-6) << "against 0.1 m/s";
+    }
+    else if (!with[i].contact)
+    {
+      EXPECT_EQ(extra, Vec3());
+    }
+    EXPECT_NEAR(extra.x, 0.0, 1e-6) << "the tangential speed is not damped";
+  }
+}
+
+TEST(Proxy, IgnoresParametersThatAreNotOk)
+{
+  Proxy proxy;
+  HapticParameters bad;
+  bad.contact.stiffness = NAN;
+  ASSERT_NE(bad.check(), Status::Ok);
+  proxy.setParameters(bad);
+  EXPECT_EQ(proxy.parameters().contact.stiffness, 800.0);
+}
+
+TEST(Proxy, AChangeOfMethodStartsWithoutContact)
+{
+  const trial::Scene scene = trial::resampledScene(trial::spherePoints(50000, 12));
+  Proxy proxy;
+  proxy.setScene(scene.get());
+  const auto states = trial::feel(proxy, trial::sphereSlide(1e-3, 0.05, 100));
+  ASSERT_TRUE(states.back().contact);
+  proxy.setParameters(trial::gradientSteps(GradientStepsParameters::tuned()));
+  const ProxyState s = proxy.step(states.back().hip, trial::kTick);
+  EXPECT_FALSE(s.contact);
+  EXPECT_EQ(s.force, Vec3());
+}
