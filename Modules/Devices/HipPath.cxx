@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -101,7 +100,7 @@ bool parseRow(const std::string& line, HipPathPoint& point, std::string& problem
     const std::size_t end = std::min(line.find(',', begin), line.size());
     if (column < kColumns && !parseNumber(trimmed(line.substr(begin, end - begin)), numbers[column], problem))
     {
-      problem = "column " + std::to_string(column + 1) + ": " + problem;
+      problem.insert(0, "column " + std::to_string(column + 1) + ": ");
       return false;
     }
     begin = end + 1;
@@ -181,7 +180,7 @@ Status writeRows(const std::string& fileName, const HipPath& path)
 
 std::string systemReason(int error)
 {
-  return error ? std::string(std::strerror(error)) : "unknown reason";
+  return error ? std::generic_category().message(error) : "unknown reason";
 }
 }
 
