@@ -1,0 +1,337 @@
+#include "FilterFixtures.h"
+
+#include "Core/Reference/ReferenceBandwidth.h"
+
+#include "vtkCommand.h"
+#include "vtkKernelBandwidthFilter.h"
+#include "vtkSMPTools.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+vtkDataArray* arrayOf(vtkKernelBandwidthFilter* filter, const char* name)
+{
+  return filter->GetOutput()->GetPointData()->GetArray(name);
+}
+
+void expectError(vtkKernelBandwidthFilter* filter)
+{
+  trial::Ear errors(filter, vtkCommand::ErrorEvent);
+  filter->Update();
+  EXPECT_GE(errors.count, 1);
+  EXPECT_GT(errors.last.size(), 30u) << errors.last;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+/// The bandwidth at a point by the definition.
+double expectedBandwidth(vtkPolyData* cloud, vtkIdType at, int neighbors)
+{
+  std::vector<pointhaptics::Vec3> points;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    const double* p = cloud->GetPoint(i);
+    points.emplace_back(p[0], p[1], p[2]);
+  }
+  const pointhaptics::PointView view(points.data(), std::int64_t(points.size()));
+  std::vector<std::int64_t> indices;
+  for (const auto& n :
+    pointhaptics::reference::nearest(view, points[std::size_t(at)], std::size_t(neighbors) + 1))
+  {
+    indices.push_back(n.index);
+  }
+  return double(pointhaptics::reference::surfaceSpread(view, indices) *
+    pointhaptics::reference::bandwidthFactor(
+      pointhaptics::BandwidthRule::NormalReference, (long double)(indices.size()), 1));
+}
+
+} // namespace
+
+TEST(KernelBandwidthFilter, HasTheDocumentedDefaults)
+{
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  EXPECT_EQ(filter->GetNeighborhood(), vtkKernelBandwidthFilter::KNearest);
+  EXPECT_EQ(filter->GetNumberOfNeighbors(), 16);
+  EXPECT_EQ(filter->GetRule(), vtkKernelBandwidthFilter::NormalReference);
+  EXPECT_EQ(filter->GetRadiusScale(), 4.0);
+  EXPECT_EQ(filter->GetMinimumRadius(), 0.0);
+  EXPECT_EQ(filter->GetMaximumRadius(), 0.0);
+  EXPECT_TRUE(filter->GetComputeBandwidth());
+  EXPECT_TRUE(filter->GetComputeProxyRadius());
+  EXPECT_FALSE(filter->GetComputeDensity());
+}
+
+TEST(KernelBandwidthFilter, AgreesWithTheDefinition)
+{
+  for (const int type : { VTK_FLOAT, VTK_DOUBLE })
+  {
+    const auto cloud = trial::cloudOf(trial::randomPoints(1000, 1, type));
+    vtkNew<vtkKernelBandwidthFilter> filter;
+    filter->SetInputData(cloud);
+    filter->SetNumberOfNeighbors(10);
+    filter->SetMinimumRadius(1e-9);
+    filter->Update();
+    ASSERT_NE(arrayOf(filter, "Bandwidth"), nullptr);
+    ASSERT_NE(arrayOf(filter, "ProxyRadius"), nullptr);
+    EXPECT_EQ(arrayOf(filter, "Density"), nullptr);
+    EXPECT_EQ(arrayOf(filter, "Bandwidth")->GetDataType(), VTK_DOUBLE);
+    for (vtkIdType i = 0; i < 1000; i += 37)
+    {
+      const double b = arrayOf(filter, "Bandwidth")->GetTuple1(i);
+      EXPECT_NEAR(b / expectedBandwidth(cloud, i, 10), 1.0, 1e-9);
+      EXPECT_NEAR(arrayOf(filter, "ProxyRadius")->GetTuple1(i), 4 * b, 1e-12);
+    }
+  }
+}
+
+TEST(KernelBandwidthFilter, PassesItsInputThrough)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(200, 2));
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetName("RGB");
+  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfTuples(200);
+  colours->Fill(7);
+  cloud->GetPointData()->SetScalars(colours);
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(cloud);
+  filter->ComputeDensityOn();
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  EXPECT_EQ(output->GetNumberOfPoints(), 200);
+  ASSERT_NE(output->GetPointData()->GetScalars(), nullptr);
+  EXPECT_STREQ(output->GetPointData()->GetScalars()->GetName(), "RGB") << "the active scalars stay active";
+  for (const char* name : { "RGB", "Bandwidth", "ProxyRadius", "Density" })
+  {
+    ASSERT_NE(arrayOf(filter, name), nullptr) << name;
+    EXPECT_EQ(arrayOf(filter, name)->GetNumberOfTuples(), 200);
+  }
+  EXPECT_EQ(cloud->GetPointData()->GetNumberOfArrays(), 1) << "the input is left alone";
+  filter->ComputeBandwidthOff();
+  filter->ComputeProxyRadiusOff();
+  filter->ComputeDensityOff();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetNumberOfArrays(), 1);
+}
+
+TEST(KernelBandwidthFilter, DensityAgreesWithTheDirectSum)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(1500, 3));
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(cloud);
+  filter->ComputeDensityOn();
+  filter->Update();
+  std::vector<pointhaptics::Vec3> points;
+  for (vtkIdType i = 0; i < 1500; ++i)
+  {
+    const double* p = cloud->GetPoint(i);
+    points.emplace_back(p[0], p[1], p[2]);
+  }
+  const pointhaptics::PointView view(points.data(), 1500);
+  for (vtkIdType i = 0; i < 1500; i += 29)
+  {
+    const double b = arrayOf(filter, "Bandwidth")->GetTuple1(i);
+    const double direct = double(pointhaptics::reference::surfaceDensity(view, points[std::size_t(i)], b));
+    EXPECT_NEAR(arrayOf(filter, "Density")->GetTuple1(i), direct, 2e-8 / (2 * 3.14159265358979 * b * b));
+  }
+}
+
+TEST(KernelBandwidthFilter, DensityDoesNotNeedTheOtherArrays)
+{
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(trial::cloudOf(trial::randomPoints(300, 4)));
+  filter->ComputeDensityOn();
+  filter->Update();
+  const double expected = arrayOf(filter, "Density")->GetTuple1(17);
+  filter->ComputeBandwidthOff();
+  filter->ComputeProxyRadiusOff();
+  filter->Update();
+  ASSERT_NE(arrayOf(filter, "Density"), nullptr);
+  EXPECT_EQ(arrayOf(filter, "Density")->GetTuple1(17), expected);
+}
+
+TEST(KernelBandwidthFilter, RadiusKeepsItsBounds)
+{
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(trial::cloudOf(trial::randomPoints(2000, 5)));
+  filter->SetMinimumRadius(0.15);
+  filter->SetMaximumRadius(0.2);
+  filter->Update();
+  for (vtkIdType i = 0; i < 2000; ++i)
+  {
+    EXPECT_GE(arrayOf(filter, "ProxyRadius")->GetTuple1(i), 0.15);
+    EXPECT_LE(arrayOf(filter, "ProxyRadius")->GetTuple1(i), 0.2);
+  }
+}
+
+TEST(KernelBandwidthFilter, DegenerateCloudsGetUsableRadii)
+{
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->ComputeDensityOn();
+  for (const std::vector<std::vector<double>>& places :
+    { std::vector<std::vector<double>>{ { 1, 2, 3 } }, std::vector<std::vector<double>>(50, { 1, 2, 3 }),
+      std::vector<std::vector<double>>{ { 0, 0, 0 }, { 1, 0, 0 } } })
+  {
+    filter->SetInputData(trial::cloudAt(places));
+    filter->Update();
+    for (vtkIdType i = 0; i < vtkIdType(places.size()); ++i)
+    {
+      for (const char* name : { "Bandwidth", "ProxyRadius", "Density" })
+      {
+        EXPECT_GT(arrayOf(filter, name)->GetTuple1(i), 0.0) << name;
+        EXPECT_TRUE(std::isfinite(arrayOf(filter, name)->GetTuple1(i))) << name;
+      }
+    }
+  }
+}
+
+TEST(KernelBandwidthFilter, PointsThatAreNotFiniteGetZero)
+{
+  const auto points = trial::randomPoints(100, 6);
+  points->SetPoint(3, std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(trial::cloudOf(points));
+  filter->ComputeDensityOn();
+  filter->Update();
+  EXPECT_EQ(arrayOf(filter, "Bandwidth")->GetTuple1(3), 0.0);
+  EXPECT_EQ(arrayOf(filter, "ProxyRadius")->GetTuple1(3), 0.0);
+  EXPECT_EQ(arrayOf(filter, "Density")->GetTuple1(3), 0.0);
+  EXPECT_GT(arrayOf(filter, "Bandwidth")->GetTuple1(4), 0.0);
+}
+
+TEST(KernelBandwidthFilter, EmptyInputIsNoError)
+{
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(empty);
+  trial::Ear errors(filter, vtkCommand::ErrorEvent);
+  filter->Update();
+  EXPECT_EQ(errors.count, 0) << errors.last;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(KernelBandwidthFilter, ErrorsNameTheCureAndGiveAValidEmptyOutput)
+{
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(trial::cloudOf(trial::randomPoints(100, 7)));
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 100);
+  filter->SetNumberOfNeighbors(0);
+  expectError(filter);
+  filter->SetNumberOfNeighbors(16);
+  filter->SetNeighborhoodToFixedRadius();
+  filter->SetRadius(0.0);
+  expectError(filter);
+  filter->SetRadius(std::numeric_limits<double>::quiet_NaN());
+  expectError(filter);
+  filter->SetNeighborhoodToKNearest();
+  filter->SetMinimumRadius(2);
+  filter->SetMaximumRadius(1);
+  expectError(filter);
+  filter->SetMaximumRadius(0);
+  filter->SetRadiusScale(-1);
+  expectError(filter);
+  filter->SetRadiusScale(4);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 100) << "it recovers";
+}
+
+TEST(KernelBandwidthFilter, RunsAgainWhenSomethingChangedAndOnlyThen)
+{
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(trial::cloudOf(trial::randomPoints(100, 8)));
+  filter->Update();
+  trial::Ear runs(filter, vtkCommand::StartEvent);
+  filter->Update();
+  EXPECT_EQ(runs.count, 0);
+  filter->SetNumberOfNeighbors(8);
+  filter->Update();
+  EXPECT_EQ(runs.count, 1);
+  filter->SetNumberOfNeighbors(8);
+  filter->SetRadiusScale(4.0);
+  filter->Update();
+  EXPECT_EQ(runs.count, 1);
+  filter->SetRule(vtkKernelBandwidthFilter::SilvermanRobust);
+  filter->Update();
+  EXPECT_EQ(runs.count, 2);
+}
+
+TEST(KernelBandwidthFilter, GivesTheSameBitsWithEveryBackEndAndThreadCount)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(20000, 9));
+  vtkNew<vtkPolyData> expected;
+  for (const char* backend : { "Sequential", "STDThread", "TBB" })
+  {
+    if (!vtkSMPTools::SetBackend(backend))
+    {
+      continue;
+    }
+    for (const int threads : { 1, 2, 8 })
+    {
+      vtkSMPTools::Initialize(threads);
+      vtkNew<vtkKernelBandwidthFilter> filter;
+      filter->SetInputData(cloud);
+      filter->ComputeDensityOn();
+      filter->Update();
+      if (expected->GetNumberOfPoints() == 0)
+      {
+        expected->DeepCopy(filter->GetOutput());
+      }
+      for (const char* name : { "Bandwidth", "ProxyRadius", "Density" })
+      {
+        for (vtkIdType i = 0; i < 20000; ++i)
+        {
+          ASSERT_EQ(
+            arrayOf(filter, name)->GetTuple1(i), expected->GetPointData()->GetArray(name)->GetTuple1(i))
+            << name << ' ' << backend << ' ' << threads;
+        }
+      }
+    }
+  }
+  vtkSMPTools::Initialize(0);
+}
+
+TEST(Pipeline, ResampledCloudsGetTheirRadii)
+{
+  std::mt19937_64 engine(10);
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < 17000; ++i)
+  {
+    // Sixteen times the density where x < 0.
+    const double x = i < 16000 ? trial::uniform(engine, -1, 0) : trial::uniform(engine, 0, 1);
+    points->InsertNextPoint(0.05 * x, 0.05 * trial::uniform(engine), 0.0);
+  }
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(trial::cloudOf(points));
+  resampler->ComputeCovarianceOn();
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputConnection(resampler->GetOutputPort());
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  ASSERT_GT(output->GetNumberOfPoints(), 1000);
+  EXPECT_EQ(output->GetNumberOfVerts(), output->GetNumberOfPoints());
+  for (const char* name : { "VoxelPointCount", "VoxelCovariance", "Bandwidth", "ProxyRadius" })
+  {
+    ASSERT_NE(arrayOf(filter, name), nullptr) << name;
+    EXPECT_EQ(arrayOf(filter, name)->GetNumberOfTuples(), output->GetNumberOfPoints());
+  }
+  double radius[2] = { 0, 0 };
+  double count[2] = { 0, 0 };
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const int side = output->GetPoint(i)[0] > 0;
+    radius[side] += arrayOf(filter, "ProxyRadius")->GetTuple1(i);
+    count[side] += 1;
+  }
+  EXPECT_GT(radius[1] / count[1], 2.5 * radius[0] / count[0]) << "large where the cloud is sparse";
+  trial::Ear runs(filter, vtkCommand::StartEvent);
+  resampler->SetDimensions(100, 100, 100);
+  filter->Update();
+  EXPECT_EQ(runs.count, 1) << "a change upstream runs the chain";
+}
