@@ -22,6 +22,9 @@ constexpr int kLadderRungs = 16;
 constexpr int kNoiseRungs = 3;
 /// Standard errors by which a longer radius may differ from a shorter one.
 constexpr double kAgreement = 3.0;
+/// Standard errors of the height (over the finest cell) and of the slopes that leave nothing to gain.
+constexpr double kEnoughHeight = 1e-3;
+constexpr double kEnoughSlope = 1e-3;
 /// The gate never cuts into this many standard deviations of noise.
 constexpr double kGateNoise = 4.0;
 /// Neighbouring nodes that vote, in voxels of the node level.
@@ -126,6 +129,12 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
       break;
     }
     scale.radius = radius;
+    // Good enough: looking further would only blur what is there, and see holes and rims late.
+    if (noise * rungs[s].error[0] < kEnoughHeight * pyramid.level(0).voxelSize &&
+      noise * std::max(rungs[s].error[1], rungs[s].error[2]) < kEnoughSlope)
+    {
+      break;
+    }
   }
   scale.noise = std::isfinite(noise) ? noise : 0.0;
   return scale;
@@ -165,6 +174,7 @@ std::vector<LocalScale> fitScales(
     const double radius = radii.empty() ? scales[i].radius : medianOf(radii);
     const double noise = noises.empty() ? scales[i].noise : medianOf(noises);
     result[i].radius = std::max(scales[i].countRadius, radius);
+    result[i].countRadius = scales[i].countRadius;
     result[i].gate = std::max(kGateDepth * scales[i].countRadius, kGateNoise * noise);
   }
   return result;

@@ -49,6 +49,7 @@ void RadiusField::build(const CellPyramid& pyramid, std::vector<LocalScale> valu
   }
   typical_.radius = median([](const LocalScale& v) { return v.radius; });
   typical_.gate = median([](const LocalScale& v) { return v.gate; });
+  typical_.countRadius = median([](const LocalScale& v) { return v.countRadius; });
 }
 
 template <typename Member>
@@ -74,12 +75,13 @@ LocalScale RadiusField::at(const CellPyramid& pyramid, const Vec3& position) con
       weights += weight;
       sum.radius += weight * values_[i].radius;
       sum.gate += weight * values_[i].gate;
+      sum.countRadius += weight * values_[i].countRadius;
     });
   if (!(weights > 0.0))
   {
     return typical_;
   }
-  return { sum.radius / weights, sum.gate / weights };
+  return { sum.radius / weights, sum.gate / weights, sum.countRadius / weights };
 }
 
 } // namespace pointhaptics

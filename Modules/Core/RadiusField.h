@@ -10,14 +10,16 @@
 namespace pointhaptics
 {
 
-/// What a field tells of a place; both in metres.
+/// What a field tells of a place; metres.
 struct LocalScale
 {
   double radius = 0.0;
   double gate = 0.0; ///< Depth of the fit's gate; unused in a field of proxy radii.
+  double countRadius =
+    0.0; ///< Smallest radius with enough points for a fit; unused in a field of proxy radii.
 };
 
-/// One pair of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact
+/// One set of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact
 /// support. Radii are cut so that neighbours differ by at most half their distance. A function of position
 /// only: it knows nothing of any proxy. Immutable after build(); any number of threads may read.
 class RadiusField

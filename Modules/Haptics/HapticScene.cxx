@@ -1,7 +1,6 @@
 #include "Haptics/HapticScene.h"
 
 #include "Core/FitRadius.h"
-#include "Core/NeighborQuery.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +17,15 @@ constexpr double kRadiusInSpacings = 2.8;
 constexpr double kCellInSpacings = 0.8;
 /// Longest fit radius in index cells.
 constexpr double kLargestFitRadiusInCells = 15.0;
-constexpr std::int64_t kSpacingSamples = 2000;
-constexpr int kSpacingNeighbors = 6;
+/// A cell this much larger or smaller than the spacing asks for will do.
+constexpr double kCellTolerance = 1.1;
+/// Index cell of a cloud without any extent, metres.
+constexpr double kCellWithoutExtent = 1e-3;
+/// Finest index cell asked for that is tried as it is, over the extent.
+constexpr double kMostCellsAcross = 1 << 20;
+constexpr std::size_t kSpacingSamples = 500;
+constexpr std::size_t kSpacingNeighbors = 6;
+constexpr double kSpacingGrowth = 1.3;
 
 bool lengthsAgree(const HapticSceneInput& input)
 {
@@ -27,57 +33,72 @@ bool lengthsAgree(const HapticSceneInput& input)
   return agrees(input.counts.size()) && agrees(input.covariances.size()) && agrees(input.proxyRadii.size());
 }
 
-/// Median over a sample of points of sqrt(pi / k) times the distance of the k-th distinct neighbour.
-double typicalSpacing(const std::vector<Cell>& cells)
+/// sqrt(pi / k) times the distance of the k-th distinct cell from @p center; 0 where there are fewer.
+double localSpacing(
+  const CellPyramid& pyramid, const Vec3& center, double extent, std::vector<double>& distances)
 {
-  std::vector<Vec3> points;
-  points.reserve(cells.size());
-  for (const Cell& cell : cells)
+  double radius = pyramid.level(0).voxelSize;
+  do
   {
-    points.push_back(cell.mean);
-  }
-  NeighborQuery query;
-  query.build(PointView(points.data(), std::int64_t(points.size())));
-  std::vector<double> spacings;
-  const std::int64_t step = std::max<std::int64_t>(1, query.size() / kSpacingSamples);
-  for (std::int64_t i = 0; i < query.size(); i += step)
-  {
-    // Duplicates say nothing about spacing: look further until there is a distance.
-    for (int k = kSpacingNeighbors; k <= 1024; k *= 4)
-    {
-      std::vector<Neighbor> found(std::size_t(k) + 1);
-      const int count = query.nearest(points[std::size_t(i)], k + 1, found.data());
-      const double reach = count > 1 ? std::sqrt(found[std::size_t(count) - 1].squaredDistance) : 0.0;
-      if (reach > 0.0)
+    radius *= kSpacingGrowth;
+    distances.clear();
+    pyramid.visitBall(0, center, radius,
+      [&](std::uint32_t, const Cell&, double d2)
       {
-        spacings.push_back(reach * std::sqrt(kPi / double(count - 1)));
-        break;
-      }
+        // Duplicates say nothing about spacing.
+        if (d2 > 0.0)
+        {
+          distances.push_back(d2);
+        }
+      });
+  } while (distances.size() < kSpacingNeighbors && radius < 2.0 * extent);
+  if (distances.empty())
+  {
+    return 0.0;
+  }
+  const std::size_t k = std::min(distances.size(), kSpacingNeighbors);
+  std::nth_element(distances.begin(), distances.begin() + std::ptrdiff_t(k - 1), distances.end());
+  return std::sqrt(distances[k - 1] * kPi / double(k));
+}
+
+/// Median of the local spacing over a sample of the cells.
+double typicalSpacing(const CellPyramid& pyramid, double extent)
+{
+  const auto& cells = pyramid.level(0).cells;
+  std::vector<double> spacings;
+  std::vector<double> distances;
+  const std::size_t step = std::max<std::size_t>(1, cells.size() / kSpacingSamples);
+  for (std::size_t i = 0; i < cells.size(); i += step)
+  {
+    const double spacing = localSpacing(pyramid, cells[i].mean, extent, distances);
+    if (spacing > 0.0)
+    {
+      spacings.push_back(spacing);
     }
   }
   if (spacings.empty())
   {
     return 0.0;
   }
-  std::nth_element(spacings.begin(), spacings.begin() + std::ptrdiff_t(spacings.size() / 2), spacings.end());
-  return spacings[spacings.size() / 2];
+  const auto middle = spacings.begin() + std::ptrdiff_t(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return *middle;
 }
 
-double medianOf(std::vector<double> values)
+/// Builds the pyramid with cells as asked for, or coarser where those would be empty between the points.
+Status buildPyramid(std::vector<Cell> cells, double asked, double extent, CellPyramid& pyramid,
+  std::vector<std::uint32_t>& source)
 {
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
-/// Edge of the finest index cell for a cloud of this extent and spacing.
-double indexCellSize(double asked, double spacing, double extent)
-{
-  double size = std::max(asked, kCellInSpacings * spacing);
-  if (!(size > 0.0))
+  const double guess = extent > 0.0 ? extent / std::sqrt(double(cells.size())) : kCellWithoutExtent;
+  const double first = asked > 0.0 ? std::max(asked, extent / kMostCellsAcross) : guess;
+  const Status status = pyramid.build(cells, first, source);
+  if (status != Status::Ok)
   {
-    size = extent > 0.0 ? 1e-3 * extent : 1e-3;
+    return status;
   }
-  return size;
+  const double wanted = std::max(asked, kCellInSpacings * typicalSpacing(pyramid, extent));
+  const bool fits = wanted <= kCellTolerance * first && (asked > 0.0 || wanted >= first / kCellTolerance);
+  return fits || !(wanted > 0.0) ? Status::Ok : pyramid.build(std::move(cells), wanted, source);
 }
 
 /// Node values: the mean of the cells' radii about each node.
@@ -161,20 +182,28 @@ std::shared_ptr<const HapticScene> HapticScene::create(
     scene->bounds_.include(cell.mean);
   }
   const double extent = norm(scene->bounds_.extent());
-  const double spacing = radii.empty() ? typicalSpacing(cells) : medianOf(radii) / kRadiusInSpacings;
-  const double size = indexCellSize(input.cellSize, spacing, extent);
-  input = HapticSceneInput();
-
   std::vector<std::uint32_t> source;
-  status = scene->pyramid_.build(std::move(cells), size, source);
+  status = buildPyramid(std::move(cells), input.cellSize, extent, scene->pyramid_, source);
+  input = HapticSceneInput();
   if (status != Status::Ok)
   {
     return nullptr;
   }
+  const double size = scene->cellSize();
   const int nodeLevel = RadiusField::nodeLevel(scene->pyramid_);
   const std::size_t nodes = scene->pyramid_.level(nodeLevel).cells.size();
-  std::vector<LocalScale> proxyRadii(nodes, LocalScale{ kRadiusInSpacings * std::max(spacing, size), 0.0 });
-  if (!radii.empty())
+  std::vector<LocalScale> proxyRadii(nodes);
+  if (radii.empty())
+  {
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < nodes; ++i)
+    {
+      const Vec3 node = scene->pyramid_.level(nodeLevel).cells[i].mean;
+      const double spacing = localSpacing(scene->pyramid_, node, extent, distances);
+      proxyRadii[i].radius = kRadiusInSpacings * std::max(spacing, size);
+    }
+  }
+  else
   {
     std::vector<double> sorted(radii.size());
     for (std::size_t i = 0; i < sorted.size(); ++i)

@@ -22,7 +22,9 @@ struct HapticSceneInput
   std::vector<double> counts;       ///< Points each one stands for; empty: 1 each.
   std::vector<SymMat3> covariances; ///< Central second moments of each voxel; empty: zero.
   std::vector<double> proxyRadii;   ///< From the bandwidth; empty: 2.8 local spacings everywhere.
-  double cellSize = 0.0; ///< Edge of the finest index cell: the voxel size; 0: from the points' spacing.
+  /// Edge of the finest index cell: the voxel size; 0: from the points' spacing. Raised to 0.8 typical
+  /// spacings where the points are sparser: finer cells would be empty.
+  double cellSize = 0.0;
   AffineTransform
     modelToWorkspace; ///< The transform the points went through; carries the proxy into a new snapshot.
 };
@@ -32,9 +34,9 @@ class HapticScene
 {
 public:
   /// Copies nothing it can move. Points that are not finite are left out. Cost O(n log n), about 150 bytes a
-  /// point. Errors: Empty (no finite point), LatticeNotAddressable (cellSize too small for the extent),
-  /// InvalidParameter (vectors of different lengths), the transform's own; @p status says which, the result
-  /// is null.
+  /// point. Errors: Empty (no finite point), LatticeNotAddressable (the points' spacing is below
+  /// 2^-21 of the extent), InvalidParameter (vectors of different lengths), the transform's own; @p status
+  /// says which, the result is null.
   /// @p executor may spread the work over threads; the result is the same.
   static std::shared_ptr<const HapticScene> create(
     HapticSceneInput input, Status& status, const Executor& executor = {});

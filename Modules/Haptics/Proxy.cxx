@@ -70,7 +70,7 @@ struct Proxy::Implementation
 Proxy::Proxy(const HapticParameters& parameters)
   : implementation_(std::make_unique<Implementation>())
 {
-  implementation_->parameters = parameters;
+  setParameters(parameters);
 }
 Proxy::~Proxy() = default;
 Proxy::Proxy(Proxy&&) noexcept = default;

@@ -32,7 +32,8 @@ struct ProxyState
     proxy; ///< Contact point: of the proxy sphere, the point nearest the HIP; the HIP itself out of contact.
   Vec3 normal{ 0.0, 0.0, 1.0 }; ///< Outward unit surface normal; out of contact the last one.
   Vec3 force;                   ///< On the hand: K (proxy - HIP) + damping; 0 out of contact.
-  Vec3 sphereCenter;   ///< Centre of the sphere to draw: proxy + radius normal in contact, else the HIP.
+  Vec3 sphereCenter;   ///< Centre of the sphere to draw: proxy + radius normal in contact, else the HIP (with
+                       ///< GradientSteps the sphere itself, which follows the HIP).
   double radius = 0.0; ///< Proxy radius r_p.
   bool contact = false;
   std::uint32_t status = kProxyOk;
@@ -43,6 +44,7 @@ struct ProxyState
 class Proxy
 {
 public:
+  /// Parameters whose check() is not Ok are replaced by the defaults.
   explicit Proxy(const HapticParameters& parameters = {});
   ~Proxy();
   Proxy(Proxy&&) noexcept;

@@ -24,6 +24,13 @@ constexpr int kHoldTicks = 20;
 /// The HIP comes out of a sheet by its own motion, and by no more than this part of the fit radius besides: a
 /// larger jump is the fit's, at a ridge or in noise.
 constexpr double kReleaseSlack = 0.05;
+/// In contact the proxy travels in one stride at most this many times the HIP's motion, and this part of the
+/// fit radius besides: where the nearest point jumps, at a ridge pressed from both sides, the proxy slides
+/// there instead.
+constexpr double kTravelPerMotion = 4.0;
+constexpr double kTravelRadii = 0.1;
+/// Part of the fit radius by which a foot point or a first depth may be off.
+constexpr double kFootSlack = 0.1;
 
 }
 
@@ -95,6 +102,7 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
   {
     tracker_.carry(from, to);
     contactPoint_ = (to * from.inverse()).apply(contactPoint_);
+    carried_ = true;
   }
   else
   {
@@ -129,12 +137,34 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, const Vec3& from, const Vec
   }
   SurfaceTracker found;
   ++acquisitions_;
-  if (!found.acquire(scene, scene.pyramid().level(0).cells[std::size_t(cell)].mean, from))
+  const Vec3 nearest = scene.pyramid().level(0).cells[std::size_t(cell)].mean;
+  if (!found.acquire(scene, nearest, from))
+  {
+    return false;
+  }
+  // The foot of a point is no further from it than any cell: else the tracker slid off to somewhere else.
+  if (norm(from - found.point()) > norm(from - nearest) + kFootSlack * found.fitRadius())
   {
     return false;
   }
   tracker_ = found;
   mode_ = Mode::Watching;
+  return true;
+}
+
+/// True, and contact begins, where the HIP went through the watched sheet by its own motion.
+bool SurfaceFitProxy::meets(
+  const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept
+{
+  const double depth = -tracker_.height(to);
+  if (depth <= 0.0 || depth > 2.0 * norm(to - from) + kFootSlack * tracker_.fitRadius())
+  {
+    return false;
+  }
+  mode_ = Mode::Contact;
+  heldTicks_ = 0;
+  lastTouched_ = to;
+  touch(scene, to, status);
   return true;
 }
 
@@ -150,12 +180,8 @@ void SurfaceFitProxy::watch(
   }
   const double height = tracker_.height(to);
   const double apart = norm(to - tracker_.point());
-  if (height < 0.0 && before >= 0.0)
+  if (before >= 0.0 && meets(scene, from, to, status))
   {
-    mode_ = Mode::Contact;
-    heldTicks_ = 0;
-    lastTouched_ = to;
-    touch(scene, to, status);
     return;
   }
   if (apart > 1.5 * kWatchRadii * tracker_.fitRadius() || height < 0.0)
@@ -169,23 +195,12 @@ void SurfaceFitProxy::watch(
   if (nearer > 0.0 && scene.pyramid().nearest(0, to, nearer, distance) >= 0)
   {
     const SurfaceTracker watched = tracker_;
-    if (!seek(scene, from, to, nearer))
+    if (!seek(scene, from, to, nearer) || tracker_.follow(scene, to, kRoundsWatching) == TrackResult::Lost)
     {
       tracker_ = watched;
       return;
     }
-    if (tracker_.follow(scene, to, kRoundsWatching) == TrackResult::Lost)
-    {
-      tracker_ = watched;
-      return;
-    }
-    if (tracker_.height(to) < 0.0)
-    {
-      mode_ = Mode::Contact;
-      heldTicks_ = 0;
-      lastTouched_ = to;
-      touch(scene, to, status);
-    }
+    static_cast<void>(meets(scene, from, to, status));
   }
 }
 
@@ -193,17 +208,28 @@ void SurfaceFitProxy::watch(
 void SurfaceFitProxy::touch(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept
 {
   const SurfaceTracker before = tracker_;
-  TrackResult result = tracker_.follow(scene, to, kRoundsPerTick);
-  const double slack = norm(to - lastTouched_) + kReleaseSlack * before.fitRadius();
-  if (result != TrackResult::Lost && tracker_.height(to) > 0.0 && before.height(to) < -slack)
+  const double moved = carried_ ? INFINITY : norm(to - lastTouched_);
+  carried_ = false;
+  TrackResult result =
+    tracker_.follow(scene, to, kRoundsPerTick, kTravelPerMotion * moved + kTravelRadii * before.fitRadius());
+  const double slack = moved + kReleaseSlack * before.fitRadius();
+  const bool leaps = tracker_.height(to) > 0.0 && before.height(to) < -slack;
+  const bool recedes =
+    norm(to - tracker_.point()) > norm(to - before.point()) + kReleaseSlack * before.fitRadius();
+  if (leaps || recedes)
   {
     result = TrackResult::Lost;
   }
   lastTouched_ = to;
   if (result == TrackResult::Lost)
   {
-    status |= kProxyLostSurface;
     tracker_ = before;
+    if (endsHere(scene, to, status))
+    {
+      mode_ = Mode::Free;
+      return;
+    }
+    status |= kProxyLostSurface;
     if (recover(scene, to))
     {
       heldTicks_ = 0;

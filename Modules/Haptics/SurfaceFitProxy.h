@@ -33,6 +33,7 @@ private:
   void moveFree(const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept;
   void watch(const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept;
   bool seek(const HapticScene& scene, const Vec3& from, const Vec3& at, double reach) noexcept;
+  bool meets(const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept;
   void touch(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept;
   bool recover(const HapticScene& scene, const Vec3& to) noexcept;
   bool endsHere(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept;
@@ -47,6 +48,7 @@ private:
   bool hasLastHip_ = false;
   bool sticking_ = false;
   bool touchedLastTick_ = false;
+  bool carried_ = false; ///< The model moved since the last step: the contact may have to move any way.
   int heldTicks_ = 0;
   int acquisitions_ = 0;
 };

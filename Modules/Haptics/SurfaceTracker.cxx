@@ -94,13 +94,15 @@ bool SurfaceTracker::acquire(const HapticScene& scene, const Vec3& onSurface, co
   return true;
 }
 
-TrackResult SurfaceTracker::follow(const HapticScene& scene, const Vec3& target, int rounds) noexcept
+TrackResult SurfaceTracker::follow(
+  const HapticScene& scene, const Vec3& target, int rounds, double longestTravel) noexcept
 {
   const Vec3 start = frame_.origin;
   Vec3 lastPoint = start;
   Vec3 lastStep;
   double lastLength = 0.0;
   double lastDistance = 0.0;
+  bool wasLimited = false;
   for (int round = 0; round < rounds; ++round)
   {
     FitSettings settings;
@@ -137,11 +139,29 @@ TrackResult SurfaceTracker::follow(const HapticScene& scene, const Vec3& target,
     lastPoint = frame_.origin;
     lastStep = step;
     lastLength = length;
-    if (norm2(foot - start) > kLostRadii * kLostRadii * fit_.radius * fit_.radius || !isFinite(foot))
+    const double travel = norm(foot - start);
+    if (!(travel <= kLostRadii * fit_.radius) && longestTravel > kLostRadii * fit_.radius)
+    {
+      return TrackResult::Lost;
+    }
+    const bool limited = travel > longestTravel;
+    if (limited)
+    {
+      const Vec3 local =
+        (1.0 / fit_.radius) * frame_.toLocal(start + (longestTravel / travel) * (foot - start));
+      pointAt(fit_, frame_, local.x, local.y, foot, normal);
+    }
+    if (!isFinite(foot))
     {
       return TrackResult::Lost;
     }
     adopt(foot, normal);
+    // The second time the point only settles on the surface there.
+    if (limited && wasLimited)
+    {
+      return TrackResult::RoundLimit;
+    }
+    wasLimited = limited;
     if (length <= std::max(kConverged * fit_.radius, kConvergedNoise * fit_.residual))
     {
       return TrackResult::Converged;
@@ -160,24 +180,39 @@ void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& t
 
 bool SurfaceTracker::isAtRim(const HapticScene& scene, Vec3& outward) const noexcept
 {
-  const double c = std::hypot(fit_.centroidU, fit_.centroidV);
-  if (c <= kRimCentroid)
+  // By the radius that counts points, never the longer one that averages noise: that one reaches over holes.
+  const double near = scene.fitScale(frame_.origin).countRadius;
+  double weights = 0.0;
+  Vec3 sum;
+  scene.pyramid().visitBall(0, frame_.origin, near,
+    [&](std::uint32_t, const Cell& cell, double d2)
+    {
+      const double base = 1.0 - d2 / (near * near);
+      const double weight = cell.count * (base * base) * (base * base);
+      weights += weight;
+      sum += weight * (cell.mean - frame_.origin);
+    });
+  outward = frame_.a;
+  if (!(weights > 0.0))
+  {
+    // Over a hole; the proxy sphere stays on one that it cannot pass.
+    double distance = 0.0;
+    return scene.pyramid().nearest(0, frame_.origin, scene.proxyRadius(frame_.origin), distance) < 0;
+  }
+  const Vec3 centroid = sum / weights;
+  const Vec3 tangential = centroid - dot(centroid, frame_.normal) * frame_.normal;
+  if (norm(tangential) <= kRimCentroid * near)
   {
     return false;
   }
-  const Vec3 direction = normalized(-(fit_.centroidU * frame_.a + fit_.centroidV * frame_.b), frame_.a);
-  outward = direction;
+  outward = normalized(-tangential, frame_.a);
   const double cell = scene.cellSize();
-  const double radius = std::max(kRimRadiusInCells * cell, 2.0 * fit_.radius);
+  const double radius = std::max(kRimRadiusInCells * cell, 2.0 * near);
   const double slack = kRimSlack * cell;
   bool beyond = false;
   scene.pyramid().visitBall(0, frame_.origin, radius,
     [&](std::uint32_t, const Cell& m, double)
-    {
-      // What lies far below the tangent plane is another sheet, not the surface going on.
-      const Vec3 d = m.mean - frame_.origin;
-      beyond = beyond || (dot(d, direction) > slack && std::abs(dot(d, frame_.normal)) < radius);
-    });
+    { beyond = beyond || dot(m.mean - frame_.origin, outward) > slack; });
   return !beyond;
 }
 

@@ -25,14 +25,16 @@ public:
   /// none.
   bool acquire(const HapticScene& scene, const Vec3& onSurface, const Vec3& freeSide) noexcept;
 
-  /// Moves to the surface point nearest to @p target, at most @p rounds fits.
-  TrackResult follow(const HapticScene& scene, const Vec3& target, int rounds) noexcept;
+  /// Moves to the surface point nearest to @p target, at most @p rounds fits and @p longestTravel metres: a
+  /// longer way ends there, on the surface, with RoundLimit.
+  TrackResult follow(
+    const HapticScene& scene, const Vec3& target, int rounds, double longestTravel = INFINITY) noexcept;
 
   /// Carries point and normal along with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
 
-  /// True where the surface ends at the point: the fit's cells lie all on one side. @p outward receives the
-  /// unit direction in which there is nothing.
+  /// True where the surface ends at the point: the cells lie all on one side, or there are none as near as
+  /// the proxy sphere is wide. @p outward receives the unit direction in which there is nothing.
   bool isAtRim(const HapticScene& scene, Vec3& outward) const noexcept;
 
   /// Around a sharp edge: the sheet that continues behind the rim, if there is one near. The tracker is

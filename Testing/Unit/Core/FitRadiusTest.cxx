@@ -103,7 +103,7 @@ TEST(FitRadius, GrowsWithTheNoise)
 }
 
 // On a plane every radius agrees with every other: it grows to the largest, and rims are then seen too late.
-TEST(FitRadius, DISABLED_StaysNearTheCountRadiusOnACleanPlane)
+TEST(FitRadius, StaysNearTheCountRadiusOnACleanPlane)
 {
   trial::Random random(7);
   std::vector<Cell> cells(20000);

@@ -119,7 +119,7 @@ TEST(HapticScene, ProxyRadiusFollowsTheGivenRadii)
 }
 
 // Without radii the scene takes 2.8 typical spacings everywhere; its header promises local ones.
-TEST(HapticScene, DISABLED_ProxyRadiusIsLargerWhereTheCloudIsSparse)
+TEST(HapticScene, ProxyRadiusIsLargerWhereTheCloudIsSparse)
 {
   std::vector<Vec3> points = trial::planePoints(40000, 6);
   const std::size_t dense = points.size();

@@ -267,7 +267,7 @@ TEST(SurfaceFitProxy, LetsGoOverAHoleOnceAndFeelsNothingBeyondIt)
 
 // On a clean plane the fit radius grows to 4.85 mm: let go 5.3 mm late, and not at all across this chord
 // of 13.9 mm.
-TEST(SurfaceFitProxy, DISABLED_LetsGoNearTheRimOfAHole)
+TEST(SurfaceFitProxy, LetsGoNearTheRimOfAHole)
 {
   expectReleaseOverHole(0.0, 0.0015);
   expectReleaseOverHole(0.004, 0.0015);
@@ -435,7 +435,7 @@ TEST(SurfaceFitProxy, ForceDoesNotDependOnTheProxyRadius)
 
 // HapticScene takes the size of its index cells from large radii although cellSize is given: 0.02 % of the
 // force.
-TEST(SurfaceFitProxy, DISABLED_ForceDoesNotDependOnALargeProxyRadius)
+TEST(SurfaceFitProxy, ForceDoesNotDependOnALargeProxyRadius)
 {
   expectForceIndependentOfRadius(1e-3, 5e-3);
 }
