@@ -321,8 +321,7 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   if (output->GetNumberOfPoints() == 0)
   {
     message = "no point of the cloud lies in the workspace; leave out --workspace, --scale and --translate "
-              "to fit the "
-              "cloud to it";
+              "to fit the cloud to it";
     return false;
   }
   const double half = 0.5 * kDefaultWorkspaceEdge;
@@ -351,8 +350,9 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
 
 void ViewScene::placeCamera(const ProxyState* contact)
 {
-  const Vec3 extent = workspace_.extent();
-  const double edge = std::max({ extent.x, extent.y, extent.z });
+  Vec3 center;
+  double edge = 0.0;
+  framingCube(bandwidth_->GetOutput(), workspace_, center, edge);
   const double aside = orientation_.fromSensor ? 16.0 : 28.0;
   const double above = orientation_.fromSensor ? 12.0 : 18.0;
   vtkCamera* camera = renderer_->GetActiveCamera();
@@ -362,7 +362,7 @@ void ViewScene::placeCamera(const ProxyState* contact)
   double azimuth = aside;
   for (double turn : { 0.0, -60.0, 60.0, 120.0, -120.0, 180.0 })
   {
-    pointhaptics::placeCamera(camera, orientation_, workspace_.center(), edge, aside + turn, above);
+    pointhaptics::placeCamera(camera, orientation_, center, edge, aside + turn, above);
     Vec3 forward;
     camera->GetDirectionOfProjection(&forward.x);
     const double facing = contact && contact->contact ? -dot(contact->normal, forward) : 1.0;
@@ -376,7 +376,7 @@ void ViewScene::placeCamera(const ProxyState* contact)
       break;
     }
   }
-  pointhaptics::placeCamera(camera, orientation_, workspace_.center(), edge, azimuth, above);
+  pointhaptics::placeCamera(camera, orientation_, center, edge, azimuth, above);
   renderer_->ResetCameraClippingRange();
 }
 

@@ -64,24 +64,39 @@ double RadiusField::median(Member member) const
 
 LocalScale RadiusField::at(const CellPyramid& pyramid, const Vec3& position) const noexcept
 {
+  Vec3 ignored;
+  return at(pyramid, position, ignored);
+}
+
+LocalScale RadiusField::at(
+  const CellPyramid& pyramid, const Vec3& position, Vec3& radiusGradient) const noexcept
+{
   double weights = 0.0;
   LocalScale sum;
+  Vec3 weightGradient;
+  Vec3 sumGradient;
   const double perReach2 = 1.0 / (reach_ * reach_);
   pyramid.visitBall(level_, position, reach_,
-    [&](std::uint32_t i, const Cell&, double d2)
+    [&](std::uint32_t i, const Cell& node, double d2)
     {
       const double base = 1.0 - d2 * perReach2;
       const double weight = base * base * base;
+      const Vec3 gradient = (-6.0 * base * base * perReach2) * (position - node.mean);
       weights += weight;
+      weightGradient += gradient;
       sum.radius += weight * values_[i].radius;
+      sumGradient += values_[i].radius * gradient;
       sum.gate += weight * values_[i].gate;
       sum.countRadius += weight * values_[i].countRadius;
     });
+  radiusGradient = Vec3();
   if (!(weights > 0.0))
   {
     return typical_;
   }
-  return { sum.radius / weights, sum.gate / weights, sum.countRadius / weights };
+  const double radius = sum.radius / weights;
+  radiusGradient = (sumGradient - radius * weightGradient) / weights;
+  return { radius, sum.gate / weights, sum.countRadius / weights };
 }
 
 } // namespace pointhaptics

@@ -36,6 +36,9 @@ public:
   /// build().
   LocalScale at(const CellPyramid& pyramid, const Vec3& position) const noexcept;
 
+  /// The same, with the gradient of the radius; zero where there is no node.
+  LocalScale at(const CellPyramid& pyramid, const Vec3& position, Vec3& radiusGradient) const noexcept;
+
   /// Distance from a node beyond which it has no weight.
   double reach() const { return reach_; }
   /// Medians of the values: the answer for places far from the cloud.

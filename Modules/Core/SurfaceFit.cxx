@@ -19,12 +19,33 @@ constexpr double kGateOpen = 0.7;
 /// Bound of each curvature term the gate follows, over rho.
 constexpr double kLargestGateCurvature = 0.6;
 constexpr int kSettleRounds = 3;
+/// Bound of what the moving fit may add to a slope.
+constexpr double kLargestSlopeChange = 0.3;
 
 double smoothStep(double t)
 {
   const double s = std::clamp(t, 0.0, 1.0);
   return s * s * (3.0 - 2.0 * s);
 }
+
+/// A cell as the traced slopes look at it again.
+struct SeenCell
+{
+  double p[6];
+  double z;
+  double weight;      ///< n g (1 - e)^4
+  double slopeWeight; ///< 4 n g (1 - e)^3
+  double e;
+  double can; ///< a'C n / rho^2
+  double cbn; ///< b'C n / rho^2
+};
+
+struct SeenCells
+{
+  static constexpr int kCapacity = 512;
+  SeenCell cells[kCapacity];
+  int count = 0; ///< Above kCapacity: some were not kept.
+};
 
 /// Normal equations of up to six coefficients, lower triangle.
 struct NormalEquations
@@ -38,6 +59,7 @@ struct NormalEquations
   int cells = 0;
   // For the errors only: sums of W^2 / n P P' and of W / n.
   bool withErrors = false;
+  SeenCells* seen = nullptr;
   double scatter[6][6] = {};
   double perPoint = 0.0;
 
@@ -199,6 +221,11 @@ void accumulate(const CellPyramid& pyramid, int level, const SurfaceFrame& frame
       {
         eq.addScatter(p, w, cell.count);
       }
+      if (eq.seen && eq.seen->count++ < SeenCells::kCapacity)
+      {
+        eq.seen->cells[eq.seen->count - 1] = { { p[0], p[1], p[2], p[3], p[4], p[5] }, local.z, w,
+          4.0 * w / base, d2 * perRho2, dot(frame.normal, ca) * perRho2, dot(frame.normal, cb) * perRho2 };
+      }
     });
 }
 
@@ -225,8 +252,64 @@ int fitLevel(const CellPyramid& pyramid, double radius, double& fraction)
   return level;
 }
 
-SurfaceFit fitCells(
-  const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings, SurfaceFitError* error)
+/// Adds the derivative of the fit with respect to its own origin to k1 and k2. Moving along a changes every
+/// weight, by the distance and by rho, and turns the frame with the surface; the normal equations
+/// differentiated give A dk = S, of which the height's part counts.
+void traceSlopes(const SeenCells& seen, const double l[6][6], const SurfaceFrame& frame,
+  const TracedSlopes& slopes, SurfaceFit& fit)
+{
+  const double* k = fit.k;
+  const double ra = dot(slopes.radiusGradient, frame.a);
+  const double rb = dot(slopes.radiusGradient, frame.b);
+  double sa[6] = {};
+  double sb[6] = {};
+  double turnA[6] = {};
+  double turnB[6] = {};
+  for (int c = 0; c < seen.count; ++c)
+  {
+    const SeenCell& cell = seen.cells[c];
+    const double u = cell.p[1];
+    const double v = cell.p[2];
+    double r = cell.z;
+    for (int i = 0; i < 6; ++i)
+    {
+      r -= k[i] * cell.p[i];
+    }
+    // What the turning frame does to the cell's row P, and through it to its residual.
+    const double qa[6] = { 0.0, cell.z, 0.0, 2.0 * (u * cell.z + cell.can), v * cell.z + cell.cbn, 0.0 };
+    const double qb[6] = { 0.0, 0.0, cell.z, 0.0, u * cell.z + cell.can, 2.0 * (v * cell.z + cell.cbn) };
+    double kqa = 0.0;
+    double kqb = 0.0;
+    for (int i = 0; i < 6; ++i)
+    {
+      kqa += k[i] * qa[i];
+      kqb += k[i] * qb[i];
+    }
+    const double wa = 2.0 * cell.slopeWeight * (u + cell.e * ra) * r;
+    const double wb = 2.0 * cell.slopeWeight * (v + cell.e * rb) * r;
+    for (int i = 0; i < 6; ++i)
+    {
+      sa[i] += wa * cell.p[i];
+      sb[i] += wb * cell.p[i];
+      turnA[i] += cell.weight * (r * qa[i] - kqa * cell.p[i]);
+      turnB[i] += cell.weight * (r * qb[i] - kqb * cell.p[i]);
+    }
+  }
+  for (int i = 0; i < 6; ++i)
+  {
+    sa[i] += 2.0 * k[3] * turnA[i] + k[4] * turnB[i];
+    sb[i] += k[4] * turnA[i] + 2.0 * k[5] * turnB[i];
+  }
+  double da[6] = {};
+  double db[6] = {};
+  backSolve(l, 6, sa, da);
+  backSolve(l, 6, sb, db);
+  fit.k[1] += std::clamp(slopes.strength * da[0], -kLargestSlopeChange, kLargestSlopeChange);
+  fit.k[2] += std::clamp(slopes.strength * db[0], -kLargestSlopeChange, kLargestSlopeChange);
+}
+
+SurfaceFit fitCells(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
+  SurfaceFitError* error, const TracedSlopes* slopes)
 {
   SurfaceFit fit;
   fit.radius = settings.radius;
@@ -235,6 +318,8 @@ SurfaceFit fitCells(
   const double coarse = smoothStep((fraction - kBlendFrom) / (1.0 - kBlendFrom));
   NormalEquations eq;
   eq.withErrors = error != nullptr;
+  SeenCells seen;
+  eq.seen = slopes && slopes->strength > 0.0 ? &seen : nullptr;
   accumulate(pyramid, level, frame, settings, 1.0 - coarse, eq);
   if (coarse > 0.0)
   {
@@ -273,6 +358,10 @@ SurfaceFit fitCells(
   {
     errorsOf(eq, l, terms, fit.residual, settings.radius, *error);
   }
+  if (eq.seen && terms == 6 && seen.count <= SeenCells::kCapacity)
+  {
+    traceSlopes(seen, l, frame, *slopes, fit);
+  }
   return fit;
 }
 
@@ -281,14 +370,20 @@ SurfaceFit fitCells(
 SurfaceFit fitSurface(
   const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings) noexcept
 {
-  return fitCells(pyramid, frame, settings, nullptr);
+  return fitCells(pyramid, frame, settings, nullptr, nullptr);
 }
 
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
   SurfaceFitError& error) noexcept
 {
   error = SurfaceFitError();
-  return fitCells(pyramid, frame, settings, &error);
+  return fitCells(pyramid, frame, settings, &error, nullptr);
+}
+
+SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
+  const TracedSlopes& slopes) noexcept
+{
+  return fitCells(pyramid, frame, settings, nullptr, &slopes);
 }
 
 bool settleOnSurface(const CellPyramid& pyramid, const Vec3& onSurface, double radius, SurfaceFrame& frame,

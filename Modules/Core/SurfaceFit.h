@@ -39,6 +39,16 @@ struct FitSettings
   double curvature[3] = { 0, 0, 0 }; ///< (uu, uv, vv) of the fit before, per metre: the gate follows it.
 };
 
+/// The fit moves with its origin, so the surface it traces has not quite the slopes of the quadric: with
+/// this, slopes of that traced surface instead, which makes the foot point the true nearest one and closed
+/// paths free of energy.
+struct TracedSlopes
+{
+  double strength =
+    0.0; ///< 0: the quadric's slopes, 1: the traced surface's. Noise is amplified up to twofold at 1.
+  Vec3 radiusGradient; ///< grad rho at the origin.
+};
+
 enum class FitQuality
 {
   None,  ///< Fewer than three cells that span a plane.
@@ -81,6 +91,11 @@ struct SurfaceFitError
 /// fitSurface() with the errors of position and slopes; for building scenes, twice the cost.
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
   SurfaceFitError& error) noexcept;
+
+/// fitSurface() with k1 and k2 of the traced surface; a half more of the cost. Left as they are where the fit
+/// is a plane or looks at more than 512 cells.
+SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
+  const TracedSlopes& slopes) noexcept;
 
 /// Starts on the surface near @p onSurface with the approximate normal in @p frame: a few fits with a
 /// two-sided gate, moving to the foot of the origin each time. @p curvature receives the last fit's, per

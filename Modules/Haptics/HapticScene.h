@@ -54,6 +54,10 @@ public:
   /// where the cloud is noisy. Functions of position only, so that the force does not depend on how the hand
   /// came there.
   LocalScale fitScale(const Vec3& position) const noexcept;
+  LocalScale fitScale(const Vec3& position, Vec3& radiusGradient) const noexcept
+  {
+    return fitScale_.at(pyramid_, position, radiusGradient);
+  }
   double fitRadius(const Vec3& position) const noexcept { return fitScale(position).radius; }
   /// False where no cell of the cloud can be within clearance() of @p position: free space to stride through.
   bool isNear(const Vec3& position) const noexcept;

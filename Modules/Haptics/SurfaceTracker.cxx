@@ -24,6 +24,17 @@ constexpr double kRimSlack = 0.06;
 constexpr double kRimRadiusInCells = 6.0;
 constexpr double kEdgeReachInCells = 9.0;
 constexpr double kEdgeLeastCosine = -0.5;
+/// Fit radius over counted radius at which the traced slopes, which amplify noise, begin to fade and are
+/// gone.
+constexpr double kTracedUpTo = 1.05;
+constexpr double kTracedNoMore = 1.3;
+
+double tracedStrength(const LocalScale& scale)
+{
+  const double growth = scale.radius / scale.countRadius;
+  const double t = std::clamp((growth - kTracedUpTo) / (kTracedNoMore - kTracedUpTo), 0.0, 1.0);
+  return 1.0 - t * t * (3.0 - 2.0 * t);
+}
 
 }
 
@@ -106,11 +117,13 @@ TrackResult SurfaceTracker::follow(
   for (int round = 0; round < rounds; ++round)
   {
     FitSettings settings;
-    const LocalScale scale = scene.fitScale(frame_.origin);
+    TracedSlopes slopes;
+    const LocalScale scale = scene.fitScale(frame_.origin, slopes.radiusGradient);
+    slopes.strength = tracedStrength(scale);
     settings.radius = scale.radius;
     settings.gate = scale.gate;
     std::copy(curvature_, curvature_ + 3, settings.curvature);
-    const SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings);
+    const SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings, slopes);
     if (fit.quality == FitQuality::None)
     {
       return TrackResult::Lost;

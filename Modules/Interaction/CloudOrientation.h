@@ -2,7 +2,7 @@
 /// Which way a cloud stands: its up axis, and the direction from which a person expects to see it.
 #pragma once
 
-#include "Core/Vector3.h"
+#include "Core/PointView.h"
 
 #include "PointHapticsInteractionModule.h" // For export macro
 
@@ -33,6 +33,12 @@ POINTHAPTICSINTERACTION_EXPORT CloudOrientation guessCloudOrientation(
 
 /// The orientation for an up axis the user named: 'x', 'y' or 'z' (anything else: z).
 POINTHAPTICSINTERACTION_EXPORT CloudOrientation orientationForUpAxis(char axis);
+
+/// What a first picture should frame: @p workspace, or, where nearly all points lie in a small part of it
+/// (strays of a scan have set its size), a cube about those points. @p edge is at most the workspace's
+/// longest.
+POINTHAPTICSINTERACTION_EXPORT void framingCube(
+  vtkPolyData* cloud, const Bounds& workspace, Vec3& center, double& edge);
 
 /// Places @p camera so that a cube of edge @p edge about @p center is wholly in view, seen from the front,
 /// turned by

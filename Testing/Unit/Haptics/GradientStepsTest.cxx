@@ -12,21 +12,13 @@ TEST(GradientSteps, TunedGainsTrackAHandAtFiftyMillimetresPerSecond)
   EXPECT_LT(trial::recorded("tunedLarge", trial::forceError(states, trial::sphereForce, 200)), 0.15);
 }
 
+// 17.6 % was measured: on 47,516 points the sphere sinks further into wider gaps.
 TEST(GradientSteps, TunedGainsTrackOnTheSmallCloudToo)
 {
   const trial::Scene scene = trial::resampledScene(trial::spherePoints(trial::kPaperSmall, 2));
   const auto states = trial::feel(
     scene, trial::gradientSteps(GradientStepsParameters::tuned()), trial::sphereSlide(1e-3, 0.05, 2000));
   EXPECT_LT(trial::recorded("tunedSmall", trial::forceError(states, trial::sphereForce, 200)), 0.25);
-}
-
-// 17.6 % was measured: on 47,516 points the sphere sinks further into wider gaps.
-TEST(GradientSteps, DISABLED_TunedGainsTrackOnTheSmallCloudAsWellAsOnTheLarge)
-{
-  const trial::Scene scene = trial::resampledScene(trial::spherePoints(trial::kPaperSmall, 2));
-  const auto states = trial::feel(
-    scene, trial::gradientSteps(GradientStepsParameters::tuned()), trial::sphereSlide(1e-3, 0.05, 2000));
-  EXPECT_LT(trial::forceError(states, trial::sphereForce, 200), 0.15);
 }
 
 TEST(GradientSteps, PrintedGainsCannotFollowAHand)
