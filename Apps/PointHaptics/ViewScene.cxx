@@ -46,6 +46,8 @@ constexpr double kFittedPart = 0.9;
 /// Sizes for applyDepthShading() in edges of the workspace; photographed colours show the shape themselves.
 constexpr double kDepthShadingScale = 7.0;
 constexpr double kDepthShadingScaleOfColors = 18.0;
+/// The proxy sphere is drawn at least this large, over the workspace's edge.
+constexpr double kSmallestSphere = 0.022;
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
 constexpr double kFacingEnough = 0.25;
 
@@ -336,6 +338,7 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   const Vec3 extent = workspace_.extent();
   const double edge = std::max({ extent.x, extent.y, extent.z });
   props_->SetForceScale(0.06 * edge);
+  props_->SetSmallestSphereRadius(kSmallestSphere * edge);
   const bool showsColors = hasColors(output) && (options.colorBy.empty() || options.colorBy == "rgb");
   applyDepthShading(renderer_, (showsColors ? kDepthShadingScaleOfColors : kDepthShadingScale) * edge);
   pointSize_ = options.pointSize;

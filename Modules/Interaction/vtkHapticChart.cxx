@@ -225,11 +225,7 @@ bool vtkHapticChart::Update()
   }
   const bool flat = parts.isFlat();
   const bool changed = !(flat && parts.wasFlat);
-  parts.wasFlat = flat;
-  if (!changed)
-  {
-    return false;
-  }
+  parts.wasFlat = flat && !parts.samples.empty();
   parts.fill(begin, end);
   vtkAxis* bottom = parts.chart->GetAxis(vtkAxis::BOTTOM);
   bottom->SetBehavior(vtkAxis::FIXED);
@@ -243,7 +239,7 @@ bool vtkHapticChart::Update()
   }
   setRange(parts.chart->GetAxis(vtkAxis::LEFT), largestForce, 0.1);
   setRange(parts.chart->GetAxis(vtkAxis::RIGHT), largestRadius, 0.1);
-  return true;
+  return changed;
 }
 
 bool vtkHapticChart::WriteImage(const char* fileName, int width, int height)

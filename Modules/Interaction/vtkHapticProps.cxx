@@ -224,12 +224,15 @@ bool vtkHapticProps::Update(const ProxyState& state)
   parts.state = state;
   parts.shown = true;
   this->TouchVisibility = true;
-  setFrame(parts.proxyMatrix, state.sphereCenter, { 1, 0, 0 }, state.radius, state.radius);
+  const double radius = std::max(state.radius, this->SmallestSphereRadius);
+  const Vec3 center = state.contact ? state.sphereCenter + (radius - state.radius) * normalized(state.normal)
+                                    : state.sphereCenter;
+  setFrame(parts.proxyMatrix, center, { 1, 0, 0 }, radius, radius);
   setFrame(parts.hipMatrix, state.hip, { 1, 0, 0 }, kHipRadius * parts.edge, kHipRadius * parts.edge);
   setFrame(parts.normalMatrix, state.proxy, normalized(state.normal), kNormalLength * parts.edge, 1.0);
   const double force = norm(state.force);
   const double length = std::min(force * this->ForceScale, kLongestArrow * parts.edge);
-  setFrame(parts.forceMatrix, state.hip, normalized(state.force), length,
+  setFrame(parts.forceMatrix, center, normalized(state.force), length,
     std::max(1e-9, std::min(length, kArrowThickness * parts.edge)));
   parts.proxy.setVisible(state.radius > 0.0);
   parts.hip.setVisible(true);
@@ -277,5 +280,6 @@ void vtkHapticProps::PrintSelf(ostream& os, vtkIndent indent)
      << this->WorkspaceBounds[2] << ", " << this->WorkspaceBounds[3] << ", " << this->WorkspaceBounds[4]
      << ", " << this->WorkspaceBounds[5] << "\n";
   os << indent << "ForceScale: " << this->ForceScale << "\n";
+  os << indent << "SmallestSphereRadius: " << this->SmallestSphereRadius << "\n";
   os << indent << "TouchVisibility: " << this->TouchVisibility << "\n";
 }

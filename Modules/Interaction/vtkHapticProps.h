@@ -2,11 +2,12 @@
  * @class   vtkHapticProps
  * @brief   what a person sees of the touch: workspace, proxy, normal, hand and force
  *
- * The workspace is a black wire frame. The proxy is a pink sphere of its true radius, translucent and pale in
- * free space, where it sits at the hand; solid in contact, where it rests on the surface. A green line stands
- * on the contact point along the surface normal. The HIP (the point the hand holds) is a small blue ball, and
- * an orange arrow from it shows the force on the hand. What the cloud hides of the last three is drawn
- * faintly over it, so that the hand is never lost inside an object.
+ * The workspace is a black wire frame. The proxy is a pink sphere of its radius (see
+ * SmallestSphereRadius), translucent and pale in free space, where it sits at the hand; solid in contact,
+ * where it rests on the surface. A green line stands on the contact point along the surface normal. The HIP
+ * (the point the hand holds) is a small blue ball, and an orange arrow from the sphere shows the force on the
+ * hand. What the cloud hides of the last three is drawn faintly over it, so that the hand is never lost
+ * inside an object.
  *
  * Use:
  * @code
@@ -57,6 +58,15 @@ public:
 
   ///@{
   /**
+   * The sphere is drawn no smaller than this, metres, and still touches the contact point: a radius of some
+   * tenths of a millimetre is a few pixels. 0 (default): always as large as the proxy.
+   */
+  vtkSetClampMacro(SmallestSphereRadius, double, 0.0, 1e9);
+  vtkGetMacro(SmallestSphereRadius, double);
+  ///@}
+
+  ///@{
+  /**
    * Show the touch (sphere, normal, HIP, force). Off: the wire frame only. Default: off until the first
    * Update().
    */
@@ -94,6 +104,7 @@ protected:
   ~vtkHapticProps() override;
 
   double WorkspaceBounds[6];
+  double SmallestSphereRadius = 0.0;
   double ForceScale = 0.006;
   bool TouchVisibility = false;
 

@@ -47,8 +47,18 @@ TEST(HapticProps, PlacesSphereNormalAndArrow)
   EXPECT_GT(normal->GetElement(2, 0), 0.0); // along +z
   vtkMatrix4x4* arrow = props->GetForceActor()->GetUserMatrix();
   EXPECT_DOUBLE_EQ(arrow->GetElement(2, 0), 0.016); // 1.6 N
-  EXPECT_DOUBLE_EQ(arrow->GetElement(2, 3), -0.002);
+  EXPECT_DOUBLE_EQ(arrow->GetElement(2, 3), 0.003); // from the sphere's centre
   EXPECT_EQ(props->GetProxyActor()->GetProperty()->GetOpacity(), 1.0);
+}
+
+TEST(HapticProps, DrawASmallSphereLargerOnTheSameContactPoint)
+{
+  vtkNew<vtkHapticProps> props;
+  props->SetSmallestSphereRadius(0.005);
+  props->Update(makeContact());
+  vtkMatrix4x4* sphere = props->GetProxyActor()->GetUserMatrix();
+  EXPECT_DOUBLE_EQ(sphere->GetElement(0, 0), 0.005);
+  EXPECT_DOUBLE_EQ(sphere->GetElement(2, 3), 0.005);
 }
 
 TEST(HapticProps, AreTranslucentWithoutNormalInFreeSpace)
