@@ -1,5 +1,7 @@
 #include "Core/SurfaceFit.h"
 
+#include "Core/QuadricEquations.h"
+
 #include <algorithm>
 
 namespace pointhaptics
@@ -11,165 +13,17 @@ namespace
 constexpr double kVoxelsPerRadius = 3.0;
 /// Part of a level's range after which the next level is blended in.
 constexpr double kBlendFrom = 0.7;
-/// A pivot below this part of its diagonal means the cells do not determine that coefficient.
-constexpr double kPivotTolerance = 1e-7;
 constexpr int kFewestCellsForQuadric = 9;
 /// The gate opens over the last part of its depth.
 constexpr double kGateOpen = 0.7;
 /// Bound of each curvature term the gate follows, over rho.
 constexpr double kLargestGateCurvature = 0.6;
 constexpr int kSettleRounds = 3;
-/// Bound of what the moving fit may add to a slope.
-constexpr double kLargestSlopeChange = 0.3;
 
 double smoothStep(double t)
 {
   const double s = std::clamp(t, 0.0, 1.0);
   return s * s * (3.0 - 2.0 * s);
-}
-
-/// A cell as the traced slopes look at it again.
-struct SeenCell
-{
-  double p[6];
-  double z;
-  double weight;      ///< n g (1 - e)^4
-  double slopeWeight; ///< 4 n g (1 - e)^3
-  double e;
-  double can; ///< a'C n / rho^2
-  double cbn; ///< b'C n / rho^2
-};
-
-struct SeenCells
-{
-  static constexpr int kCapacity = 512;
-  SeenCell cells[kCapacity];
-  int count = 0; ///< Above kCapacity: some were not kept.
-};
-
-/// Normal equations of up to six coefficients, lower triangle.
-struct NormalEquations
-{
-  double a[6][6] = {};
-  double rhs[6] = {};
-  double zz = 0.0;
-  double weights = 0.0;
-  double sumU = 0.0;
-  double sumV = 0.0;
-  int cells = 0;
-  // For the errors only: sums of W^2 / n P P' and of W / n.
-  bool withErrors = false;
-  SeenCells* seen = nullptr;
-  double scatter[6][6] = {};
-  double perPoint = 0.0;
-
-  void addScatter(const double p[6], double w, double count)
-  {
-    perPoint += w / count;
-    const double w2 = w * w / count;
-    for (int i = 0; i < 6; ++i)
-    {
-      for (int j = 0; j < 6; ++j)
-      {
-        scatter[i][j] += w2 * p[i] * p[j];
-      }
-    }
-  }
-
-  void add(const double p[6], double z, double u, double v, double w)
-  {
-    for (int i = 0; i < 6; ++i)
-    {
-      const double wp = w * p[i];
-      rhs[i] += wp * z;
-      for (int j = 0; j <= i; ++j)
-      {
-        a[i][j] += wp * p[j];
-      }
-    }
-    zz += w * z * z;
-    weights += w;
-    sumU += w * u;
-    sumV += w * v;
-    ++cells;
-  }
-};
-
-/// Cholesky factor of the leading n x n block; false at a relative pivot that is too small.
-bool factor(const NormalEquations& eq, int n, double l[6][6])
-{
-  for (int i = 0; i < n; ++i)
-  {
-    for (int j = 0; j <= i; ++j)
-    {
-      double sum = eq.a[i][j];
-      for (int m = 0; m < j; ++m)
-      {
-        sum -= l[i][m] * l[j][m];
-      }
-      if (i == j)
-      {
-        // Negated, so that NaN fails too.
-        if (!(sum > kPivotTolerance * eq.a[i][i]))
-        {
-          return false;
-        }
-        l[i][i] = std::sqrt(sum);
-      }
-      else
-      {
-        l[i][j] = sum / l[j][j];
-      }
-    }
-  }
-  return true;
-}
-
-void backSolve(const double l[6][6], int n, const double rhs[6], double k[6])
-{
-  double y[6];
-  for (int i = 0; i < n; ++i)
-  {
-    double sum = rhs[i];
-    for (int m = 0; m < i; ++m)
-    {
-      sum -= l[i][m] * y[m];
-    }
-    y[i] = sum / l[i][i];
-  }
-  for (int i = n - 1; i >= 0; --i)
-  {
-    double sum = y[i];
-    for (int m = i + 1; m < n; ++m)
-    {
-      sum -= l[m][i] * k[m];
-    }
-    k[i] = sum / l[i][i];
-  }
-}
-
-/// Noise from the weighted residuals, and the diagonal of A^-1 (sum W^2/n P P') A^-1 for k0, k1, k2.
-void errorsOf(
-  const NormalEquations& eq, const double l[6][6], int n, double residual, double rho, SurfaceFitError& error)
-{
-  const double freedom = double(eq.cells) / std::max(1.0, double(eq.cells - n));
-  error.noise = eq.perPoint > 0.0 ? residual * std::sqrt(freedom * eq.weights / eq.perPoint) : 0.0;
-  for (int i = 0; i < 3; ++i)
-  {
-    double unit[6] = {};
-    unit[i] = 1.0;
-    double y[6] = {};
-    backSolve(l, n, unit, y);
-    double variance = 0.0;
-    for (int r = 0; r < n; ++r)
-    {
-      for (int c = 0; c < n; ++c)
-      {
-        variance += y[r] * eq.scatter[r][c] * y[c];
-      }
-    }
-    error.standardError[i] = std::sqrt(std::max(0.0, variance)) / (i == 0 ? 1.0 : rho);
-  }
 }
 
 /// 1 near the surface, 0 beyond the gate, smooth between; heights and gate over rho.
@@ -250,62 +104,6 @@ int fitLevel(const CellPyramid& pyramid, double radius, double& fraction)
   const int level = std::clamp(int(std::floor(exact)), 0, top);
   fraction = level < top ? std::clamp(exact - double(level), 0.0, 1.0) : 0.0;
   return level;
-}
-
-/// Adds the derivative of the fit with respect to its own origin to k1 and k2. Moving along a changes every
-/// weight, by the distance and by rho, and turns the frame with the surface; the normal equations
-/// differentiated give A dk = S, of which the height's part counts.
-void traceSlopes(const SeenCells& seen, const double l[6][6], const SurfaceFrame& frame,
-  const TracedSlopes& slopes, SurfaceFit& fit)
-{
-  const double* k = fit.k;
-  const double ra = dot(slopes.radiusGradient, frame.a);
-  const double rb = dot(slopes.radiusGradient, frame.b);
-  double sa[6] = {};
-  double sb[6] = {};
-  double turnA[6] = {};
-  double turnB[6] = {};
-  for (int c = 0; c < seen.count; ++c)
-  {
-    const SeenCell& cell = seen.cells[c];
-    const double u = cell.p[1];
-    const double v = cell.p[2];
-    double r = cell.z;
-    for (int i = 0; i < 6; ++i)
-    {
-      r -= k[i] * cell.p[i];
-    }
-    // What the turning frame does to the cell's row P, and through it to its residual.
-    const double qa[6] = { 0.0, cell.z, 0.0, 2.0 * (u * cell.z + cell.can), v * cell.z + cell.cbn, 0.0 };
-    const double qb[6] = { 0.0, 0.0, cell.z, 0.0, u * cell.z + cell.can, 2.0 * (v * cell.z + cell.cbn) };
-    double kqa = 0.0;
-    double kqb = 0.0;
-    for (int i = 0; i < 6; ++i)
-    {
-      kqa += k[i] * qa[i];
-      kqb += k[i] * qb[i];
-    }
-    const double wa = 2.0 * cell.slopeWeight * (u + cell.e * ra) * r;
-    const double wb = 2.0 * cell.slopeWeight * (v + cell.e * rb) * r;
-    for (int i = 0; i < 6; ++i)
-    {
-      sa[i] += wa * cell.p[i];
-      sb[i] += wb * cell.p[i];
-      turnA[i] += cell.weight * (r * qa[i] - kqa * cell.p[i]);
-      turnB[i] += cell.weight * (r * qb[i] - kqb * cell.p[i]);
-    }
-  }
-  for (int i = 0; i < 6; ++i)
-  {
-    sa[i] += 2.0 * k[3] * turnA[i] + k[4] * turnB[i];
-    sb[i] += k[4] * turnA[i] + 2.0 * k[5] * turnB[i];
-  }
-  double da[6] = {};
-  double db[6] = {};
-  backSolve(l, 6, sa, da);
-  backSolve(l, 6, sb, db);
-  fit.k[1] += std::clamp(slopes.strength * da[0], -kLargestSlopeChange, kLargestSlopeChange);
-  fit.k[2] += std::clamp(slopes.strength * db[0], -kLargestSlopeChange, kLargestSlopeChange);
 }
 
 SurfaceFit fitCells(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,

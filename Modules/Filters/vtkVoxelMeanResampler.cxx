@@ -258,6 +258,88 @@ int vtkVoxelMeanResampler::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+bool vtkVoxelMeanResampler::ReadTransform(AffineTransform& transform)
+{
+  if (!affineFromTransform(this->Transform, transform))
+  {
+    vtkErrorMacro("Transform " << this->Transform->GetClassName()
+                               << " is not affine; use a vtkTransform or vtkMatrixToLinearTransform.");
+    return false;
+  }
+  const Status status = transform.check();
+  if (status != Status::Ok)
+  {
+    vtkErrorMacro("SetTransform: " << sentence(status) << ".");
+    return false;
+  }
+  return true;
+}
+
+bool vtkVoxelMeanResampler::MakeLattice(
+  const PointView& points, const AffineTransform& transform, Lattice& lattice)
+{
+  LatticeSettings settings;
+  settings.voxelSize = this->VoxelSize;
+  settings.automaticWorkspace = this->AutomaticWorkspace;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    settings.dimensions[std::size_t(axis)] = this->Dimensions[axis];
+    settings.workspace.minimum[axis] = this->WorkspaceBounds[2 * axis];
+    settings.workspace.maximum[axis] = this->WorkspaceBounds[2 * axis + 1];
+  }
+  const Bounds cloud =
+    this->AutomaticWorkspace ? transformedBounds(points, transform, SmpExecutor()) : Bounds();
+  const Status status = makeLattice(settings, cloud, lattice);
+  if (status != Status::Ok)
+  {
+    vtkErrorMacro(<< latticeText(this->VoxelSize, this->Dimensions) << ": " << sentence(status) << ".");
+    return false;
+  }
+  return true;
+}
+
+bool vtkVoxelMeanResampler::AverageArrays(
+  vtkPointSet* input, const VoxelMeans& voxels, const AffineTransform& transform, vtkPolyData* output)
+{
+  vtkPointData* inputData = input->GetPointData();
+  vtkPointData* outputData = output->GetPointData();
+  for (int i = 0; i < inputData->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = inputData->GetArray(i);
+    if (!array)
+    {
+      vtkWarningMacro(
+        "Array " << inputData->GetArrayName(i) << " is not numeric: it has no mean and is dropped.");
+      continue;
+    }
+    if (isBookkeeping(inputData, i))
+    {
+      continue;
+    }
+    AttributeKind kind = AttributeKind::Mean;
+    if (this->IsCategoricalArray(array->GetName()))
+    {
+      kind = AttributeKind::Category;
+    }
+    else if (array == inputData->GetNormals() && array->GetNumberOfComponents() == 3)
+    {
+      kind = AttributeKind::Normal;
+    }
+    const int index = outputData->AddArray(voxelAttribute(array, kind, voxels, transform, SmpExecutor()));
+    const int attribute = inputData->IsArrayAnAttribute(i);
+    if (attribute >= 0)
+    {
+      outputData->SetActiveAttribute(index, attribute);
+    }
+    this->UpdateProgress(0.6 + 0.35 * double(i + 1) / double(inputData->GetNumberOfArrays()));
+    if (this->GetAbortExecute())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 int vtkVoxelMeanResampler::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -270,46 +352,18 @@ int vtkVoxelMeanResampler::RequestData(
   {
     return 1;
   }
-
-  AffineTransform transform;
-  if (!affineFromTransform(this->Transform, transform))
-  {
-    vtkErrorMacro("Transform " << this->Transform->GetClassName()
-                               << " is not affine; use a vtkTransform or vtkMatrixToLinearTransform.");
-    return 1;
-  }
-  const Status transformStatus = transform.check();
-  if (transformStatus != Status::Ok)
-  {
-    vtkErrorMacro("SetTransform: " << sentence(transformStatus) << ".");
-    return 1;
-  }
   const PointAccess points(input->GetPoints());
-  const SmpExecutor executor;
-  LatticeSettings settings;
-  settings.voxelSize = this->VoxelSize;
-  settings.automaticWorkspace = this->AutomaticWorkspace;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    settings.dimensions[std::size_t(axis)] = this->Dimensions[axis];
-    settings.workspace.minimum[axis] = this->WorkspaceBounds[2 * axis];
-    settings.workspace.maximum[axis] = this->WorkspaceBounds[2 * axis + 1];
-  }
+  AffineTransform transform;
   Lattice lattice;
-  const Bounds cloud =
-    this->AutomaticWorkspace ? transformedBounds(points.view(), transform, executor) : Bounds();
-  const Status latticeStatus = makeLattice(settings, cloud, lattice);
-  if (latticeStatus != Status::Ok)
+  if (!this->ReadTransform(transform) || !this->MakeLattice(points.view(), transform, lattice))
   {
-    vtkErrorMacro(<< latticeText(this->VoxelSize, this->Dimensions) << ": " << sentence(latticeStatus)
-                  << ".");
     return 1;
   }
   this->UpdateProgress(0.1);
 
   VoxelMeans voxels;
   const Status status =
-    voxelMeans(points.view(), transform, lattice, this->ComputeCovariance, voxels, executor);
+    voxelMeans(points.view(), transform, lattice, this->ComputeCovariance, voxels, SmpExecutor());
   if (status != Status::Ok)
   {
     vtkErrorMacro(<< sentence(status) << ".");
@@ -330,43 +384,15 @@ int vtkVoxelMeanResampler::RequestData(
   }
   output->SetPoints(makePoints(voxels, type));
   output->SetVerts(makeVertices(vtkIdType(voxels.means.size())));
-
-  vtkPointData* inputData = input->GetPointData();
-  vtkPointData* outputData = output->GetPointData();
-  for (int i = 0; this->PassAttributes && i < inputData->GetNumberOfArrays(); ++i)
+  if (this->PassAttributes && !this->AverageArrays(input, voxels, transform, output))
   {
-    vtkDataArray* array = inputData->GetArray(i);
-    if (!array)
-    {
-      vtkWarningMacro(
-        "Array " << inputData->GetArrayName(i) << " is not numeric: it has no mean and is dropped.");
-      continue;
-    }
-    if (isBookkeeping(inputData, i))
-    {
-      continue;
-    }
-    const bool isNormals = array == inputData->GetNormals() && array->GetNumberOfComponents() == 3;
-    const AttributeKind kind = this->IsCategoricalArray(array->GetName()) ? AttributeKind::Category
-      : isNormals                                                         ? AttributeKind::Normal
-                                                                          : AttributeKind::Mean;
-    const int index = outputData->AddArray(voxelAttribute(array, kind, voxels, transform, executor));
-    const int attribute = inputData->IsArrayAnAttribute(i);
-    if (attribute >= 0)
-    {
-      outputData->SetActiveAttribute(index, attribute);
-    }
-    this->UpdateProgress(0.6 + 0.35 * double(i + 1) / double(inputData->GetNumberOfArrays()));
-    if (this->GetAbortExecute())
-    {
-      output->Initialize();
-      return 1;
-    }
+    output->Initialize();
+    return 1;
   }
-  addCounts(voxels, outputData);
+  addCounts(voxels, output->GetPointData());
   if (this->ComputeCovariance)
   {
-    addCovariances(voxels, outputData);
+    addCovariances(voxels, output->GetPointData());
   }
   addLattice(lattice, transform, output->GetFieldData());
   this->UpdateProgress(1.0);

@@ -52,6 +52,16 @@
 #include <string> // For CategoricalNames
 
 class vtkAbstractTransform;
+class vtkPointSet;
+
+namespace pointhaptics
+{
+class Executor;
+class PointView;
+struct AffineTransform;
+struct Lattice;
+struct VoxelMeans;
+}
 
 class POINTHAPTICSFILTERS_EXPORT vtkVoxelMeanResampler : public vtkPolyDataAlgorithm
 {
@@ -177,6 +187,13 @@ protected:
   vtkIdType NumberOfInvalidPoints;
 
 private:
+  // The steps of RequestData; false after an error was reported, or the execution aborted.
+  bool ReadTransform(pointhaptics::AffineTransform& transform);
+  bool MakeLattice(const pointhaptics::PointView& points, const pointhaptics::AffineTransform& transform,
+    pointhaptics::Lattice& lattice);
+  bool AverageArrays(vtkPointSet* input, const pointhaptics::VoxelMeans& voxels,
+    const pointhaptics::AffineTransform& transform, vtkPolyData* output);
+
   vtkVoxelMeanResampler(const vtkVoxelMeanResampler&) = delete;
   void operator=(const vtkVoxelMeanResampler&) = delete;
 };
