@@ -74,7 +74,7 @@ void print(const BandwidthCommandOptions& options, vtkPolyData* result)
     const nlohmann::ordered_json object = { { "input", options.input }, { "output", options.output },
       { "points", points }, { "points_invalid", range.invalid },
       { "proxy_radius", { { "min", range.minimum }, { "max", range.maximum } } } };
-    fmt::print("{}\n", object.dump());
+    printJson(object);
     return;
   }
   fmt::print("{} points, {} invalid, proxy radius {:.6g} to {:.6g}: {}\n", points, range.invalid,
@@ -96,7 +96,6 @@ int runBandwidth(const BandwidthCommandOptions& options)
   }
   vtkNew<vtkKernelBandwidthFilter> filter;
   filter->SetInputData(cloud.points);
-  filter->SetComputeDensity(true);
   options.bandwidth.configure(filter);
   if (!updateFilter(filter, "bandwidth", message))
   {

@@ -20,8 +20,8 @@ enum ExitCode : int
   kUsage = 2,
 };
 
-/// Each adds its subcommand to @p program; its callback runs the command and stores an ExitCode in @p exitCode,
-/// which must outlive the parsing.
+/// Each adds its subcommand to @p program; its callback runs the command and stores an ExitCode in @p
+/// exitCode, which must outlive the parsing.
 void addViewCommand(CLI::App& program, int& exitCode);
 void addFeelCommand(CLI::App& program, int& exitCode);
 void addResampleCommand(CLI::App& program, int& exitCode);

@@ -33,9 +33,14 @@ bool CsvWriter::open(const std::string& fileName, const std::string& header, std
     message = fileName + ": is a folder; name a file";
     return false;
   }
-  fileName_ = fileName;
-  temporaryName_ = fmt::format("{}.{}.tmp", fileName, getpid());
-  file_ = std::fopen(temporaryName_.c_str(), "wbx");
+  // A link stays a link: the file it points to is replaced. What is no regular file (a pipe, a device) is
+  // written as it stands: it cannot be replaced without harm.
+  const std::filesystem::path resolved = std::filesystem::weakly_canonical(fileName, error);
+  fileName_ = error ? fileName : resolved.string();
+  const std::filesystem::file_status status = std::filesystem::status(fileName_, error);
+  const bool replaces = !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+  temporaryName_ = replaces ? fmt::format("{}.{}.tmp", fileName_, getpid()) : std::string();
+  file_ = replaces ? std::fopen(temporaryName_.c_str(), "wbx") : std::fopen(fileName_.c_str(), "wb");
   if (!file_)
   {
     message = fmt::format(
@@ -67,7 +72,8 @@ bool CsvWriter::commit(std::string& message)
   failed_ = std::fwrite(buffer_.data(), 1, buffer_.size(), file_) != buffer_.size() || failed_;
   failed_ = std::fclose(file_) != 0 || failed_;
   file_ = nullptr;
-  if (failed_ || std::rename(temporaryName_.c_str(), fileName_.c_str()) != 0)
+  const bool replaces = !temporaryName_.empty();
+  if (failed_ || (replaces && std::rename(temporaryName_.c_str(), fileName_.c_str()) != 0))
   {
     message = fmt::format("{}: cannot be written: {}; check the space left", fileName_, std::strerror(errno));
     this->discard();

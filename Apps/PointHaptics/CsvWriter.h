@@ -12,7 +12,7 @@ namespace app
 {
 
 /// Writes to a temporary file beside the target; commit() renames it. Without commit() nothing is left
-/// behind.
+/// behind. A target that is a link keeps being one; a pipe or a device is written to as it stands.
 class CsvWriter
 {
 public:

@@ -3,6 +3,7 @@
 #include "CsvWriter.h"
 #include "FeelOptions.h"
 #include "Messages.h"
+#include "PathTicks.h"
 #include "Pipeline.h"
 #include "ProgressBar.h"
 
@@ -82,6 +83,7 @@ vtkSmartPointer<vtkPolyData> preparedCloud(
 {
   vtkNew<vtkKernelBandwidthFilter> bandwidth;
   options.bandwidth.configure(bandwidth);
+  bandwidth->ComputeDensityOff();
   if (options.raw)
   {
     bandwidth->SetInputData(rawPoints(options, cloud));
@@ -165,7 +167,7 @@ void print(const FeelOptions& options, const HapticScene& scene, const Summary& 
       { "max_force_n", s.maximumForce },
       { "update_us",
         { { "p50", s.p50Microseconds }, { "p99", s.p99Microseconds }, { "max", s.maximumMicroseconds } } } };
-    fmt::print("{}\n", result.dump());
+    printJson(result);
     return;
   }
   fmt::print("{} ticks, {} in contact, max force {:.4g} N, update p50 {:.2f} p99 {:.2f} max {:.2f} us: {}\n",
@@ -181,12 +183,10 @@ int runFeel(const FeelOptions& options)
   {
     return fail(kCommand, message);
   }
-  const double ticks = std::floor(path.duration() * options.rateHz + 1e-6) + 1.0;
-  if (!(ticks <= kMostTicks))
+  std::int64_t ticks = 0;
+  if (!countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message))
   {
-    return fail(kCommand,
-      fmt::format("{}: {} s at {} Hz are more than {} ticks; check that t is in seconds, or lower --rate",
-        options.path, path.duration(), options.rateHz, kMostTicks));
+    return fail(kCommand, message);
   }
   Cloud cloud;
   if (!readCloud(options.file, cloud, message))
@@ -211,7 +211,7 @@ int runFeel(const FeelOptions& options)
   {
     return fail(kCommand, message);
   }
-  const Summary summary = walk(options, *scene, path, static_cast<std::int64_t>(ticks), table);
+  const Summary summary = walk(options, *scene, path, ticks, table);
   if (!table.commit(message))
   {
     return fail(kCommand, message);

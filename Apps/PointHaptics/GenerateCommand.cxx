@@ -81,7 +81,7 @@ int runGenerate(const GenerateOptions& options)
   {
     const nlohmann::ordered_json result = { { "output", options.output }, { "shape", shapeName(shape) },
       { "points", options.count }, { "seed", options.seed }, { "noise", options.noise } };
-    fmt::print("{}\n", result.dump());
+    printJson(result);
   }
   else
   {

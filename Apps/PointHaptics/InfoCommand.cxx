@@ -110,7 +110,7 @@ int runInfo(const InfoOptions& options)
   if (options.json)
   {
     const nlohmann::ordered_json result = { { "files", files } };
-    fmt::print("{}\n", result.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    printJson(result);
   }
   return exitCode;
 }

@@ -3,6 +3,7 @@
 #include "Commands.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -109,6 +110,11 @@ int fail(const std::string& command, const std::string& message)
 void warn(const std::string& command, const std::string& message)
 {
   fmt::print(stderr, "pointhaptics {}: warning: {}\n", command, oneLine(message));
+}
+
+void printJson(const nlohmann::ordered_json& object)
+{
+  fmt::print("{}\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 void collectVtkMessages()

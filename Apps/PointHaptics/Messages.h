@@ -2,6 +2,8 @@
 /// What goes to the user: errors in one line, and the messages of VTK classes collected instead of printed.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
@@ -14,6 +16,9 @@ namespace app
 int fail(const std::string& command, const std::string& message);
 /// Prints `pointhaptics COMMAND: warning: message` on stderr.
 void warn(const std::string& command, const std::string& message);
+
+/// Prints one object on stdout, in one line; names that are no UTF-8 get replacement characters.
+void printJson(const nlohmann::ordered_json& object);
 
 /// From here on VTK's errors and warnings are kept, from all threads, instead of printed.
 void collectVtkMessages();

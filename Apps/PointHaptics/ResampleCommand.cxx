@@ -44,7 +44,7 @@ void print(const ResampleOptions& options, vtkIdType in, vtkVoxelMeanResampler* 
     const nlohmann::ordered_json result = { { "input", options.input }, { "output", options.output },
       { "points_in", in }, { "points_out", out }, { "points_clipped", clipped },
       { "points_invalid", invalid } };
-    fmt::print("{}\n", result.dump());
+    printJson(result);
     return;
   }
   fmt::print("{} points in, {} out, {} clipped, {} invalid: {}\n", in, out, clipped, invalid, options.output);

@@ -20,9 +20,16 @@ namespace app
 namespace
 {
 
+/// Files that a path fills are written at once; without one a session is what fills them.
 bool needsWindow(const ViewOptions& options)
 {
-  return options.screenshot.empty() && (options.forceChart.empty() || options.path.empty());
+  const bool writesTouch = !options.forceChart.empty() || !options.trace.empty();
+  return options.screenshot.empty() && (options.path.empty() || !writesTouch);
+}
+
+bool draws(const ViewOptions& options)
+{
+  return needsWindow(options) || !options.screenshot.empty() || !options.forceChart.empty();
 }
 
 int runView(CLI::App& command, ViewOptions& options)
@@ -45,7 +52,7 @@ int runView(CLI::App& command, ViewOptions& options)
   }
   fmt::print("{} points, {}\n", scene.numberOfPoints(), scene.scaleNote());
   std::fflush(stdout);
-  if (!displayIsAvailable(message))
+  if (draws(options) && !displayIsAvailable(message))
   {
     return fail("view", message);
   }

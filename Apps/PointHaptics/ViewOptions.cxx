@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 namespace pointhaptics
@@ -216,8 +217,9 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
 {
   if (!this->config.empty())
   {
+    std::error_code error;
     std::ifstream file(this->config);
-    if (!file)
+    if (!file || std::filesystem::is_directory(this->config, error))
     {
       message = fmt::format("{}: cannot be opened; check the name given to --config", this->config);
       return false;
@@ -235,6 +237,20 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
       message = fmt::format("{}: {}", this->config, problem);
       return false;
     }
+  }
+  for (const auto& [option, name] :
+    { std::pair{ "--screenshot", &this->screenshot }, std::pair{ "--force-chart", &this->forceChart } })
+  {
+    if (!name->empty() && std::filesystem::path(*name).extension() != ".png")
+    {
+      throwUsage(option, *name, "pictures are written as PNG; end the name in .png");
+    }
+  }
+  if (this->path.empty() && !this->screenshot.empty() && (!this->trace.empty() || !this->forceChart.empty()))
+  {
+    throwUsage(this->trace.empty() ? "--force-chart" : "--trace",
+      this->trace.empty() ? this->forceChart : this->trace,
+      "nothing is felt in a still picture; give the hand's path with --path");
   }
   for (const char* name : { "--unit", "--scale", "--matrix", "--translate", "--workspace" })
   {

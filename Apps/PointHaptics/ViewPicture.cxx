@@ -1,5 +1,6 @@
 #include "ViewPicture.h"
 
+#include "PathTicks.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
 
@@ -21,12 +22,19 @@ namespace
 {
 
 constexpr double kRateHz = 1000.0;
+/// Samples of a path are kept for the picture: about 200 bytes each.
+constexpr double kMostTicks = 2e6;
 
 /// Feels along --path; writes trace and chart. @p shown is the tick for the picture.
 bool feelAlongPath(ViewScene& scene, const ViewOptions& options, ServoSample& shown, std::string& message)
 {
   HipPath path;
   if (readHipPath(options.path, path, message) != Status::Ok)
+  {
+    return false;
+  }
+  std::int64_t ticks = 0;
+  if (!countTicks(path, options.path, kRateHz, kMostTicks, ticks, message))
   {
     return false;
   }
@@ -37,7 +45,8 @@ bool feelAlongPath(ViewScene& scene, const ViewOptions& options, ServoSample& sh
     message = fmt::format("the cloud cannot be felt: {}", sentence(status));
     return false;
   }
-  const std::vector<ServoSample> samples = feelPath(*snapshot, path, options.hapticParameters(), kRateHz);
+  const std::vector<ServoSample> samples =
+    feelPath(*snapshot, path, ticks, options.hapticParameters(), kRateHz);
   shown = mostTelling(samples);
   if (!options.trace.empty())
   {

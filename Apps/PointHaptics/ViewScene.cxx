@@ -300,6 +300,7 @@ void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
   orientation_.front = normalized(transform.applyToVector(orientation_.front));
 
   resampler_->SetInputData(cloud_);
+  resampler_->SetAutomaticWorkspace(true); // unless the options or the fit say otherwise
   options.lattice.configure(resampler_);
   resampler_->SetComputeCovariance(!options.noCovariance);
   if (options.fitsWorkspace)
@@ -311,6 +312,7 @@ void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
   linear->SetInput(modelMatrix_);
   resampler_->SetTransform(linear);
   options.bandwidth.configure(bandwidth_);
+  bandwidth_->ComputeDensityOff();
 }
 
 bool ViewScene::build(const ViewOptions& options, std::string& message)
@@ -386,7 +388,7 @@ void ViewScene::placeCamera(const ProxyState* contact)
 std::string describeScale(vtkMatrix4x4* modelMatrix)
 {
   const double scale = std::cbrt(std::abs(modelMatrix->Determinant()));
-  return fmt::format("scale 1:{:.3g} (1 m of the cloud is {:.3g} m in the hand)", scale, scale);
+  return fmt::format("scale {:.3g} (1 m of the cloud is {:.3g} m in the hand)", scale, scale);
 }
 
 std::shared_ptr<const HapticScene> ViewScene::makeScene(bool useCovariance, Status& status)

@@ -87,7 +87,7 @@ private:
   std::string title_;
 };
 
-/// "scale 1:0.52 (1 m of the cloud is 0.52 m in the hand)"; the mean one where the axes differ.
+/// "scale 0.52 (1 m of the cloud is 0.52 m in the hand)"; the mean one where the axes differ.
 std::string describeScale(vtkMatrix4x4* modelMatrix);
 
 /// Writes what @p window shows as PNG. False: @p message says why not.

@@ -9,24 +9,19 @@ namespace pointhaptics
 namespace app
 {
 
-std::vector<ServoSample> feelPath(
-  const HapticScene& scene, const HipPath& path, const HapticParameters& parameters, double rateHz)
+std::vector<ServoSample> feelPath(const HapticScene& scene, const HipPath& path, std::int64_t ticks,
+  const HapticParameters& parameters, double rateHz)
 {
   using Clock = std::chrono::steady_clock;
   std::vector<ServoSample> samples;
-  if (path.points.empty())
-  {
-    return samples;
-  }
   Proxy proxy(parameters);
   proxy.setScene(&scene);
-  const auto ticks = static_cast<std::uint64_t>(std::floor(path.duration() * rateHz + 1e-6)) + 1;
-  samples.reserve(ticks);
+  samples.reserve(std::size_t(ticks));
   std::size_t hint = 0;
-  for (std::uint64_t tick = 0; tick < ticks; ++tick)
+  for (std::int64_t tick = 0; tick < ticks; ++tick)
   {
     ServoSample sample;
-    sample.tick = tick + 1;
+    sample.tick = std::uint64_t(tick + 1);
     sample.timeSeconds = path.points.front().timeSeconds + double(tick) / rateHz;
     const Clock::time_point begin = Clock::now();
     sample.state = proxy.step(path.position(sample.timeSeconds, hint), 1.0 / rateHz);

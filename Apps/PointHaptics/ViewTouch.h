@@ -16,9 +16,10 @@ namespace pointhaptics
 namespace app
 {
 
-/// One sample for each tick of @p rateHz along @p path, as `feel` does it.
-std::vector<ServoSample> feelPath(
-  const HapticScene& scene, const HipPath& path, const HapticParameters& parameters, double rateHz);
+/// One sample for each of the @p ticks of @p rateHz along @p path (see countTicks), as `feel` does it. @pre
+/// path not empty.
+std::vector<ServoSample> feelPath(const HapticScene& scene, const HipPath& path, std::int64_t ticks,
+  const HapticParameters& parameters, double rateHz);
 
 /// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
 const ServoSample& mostTelling(const std::vector<ServoSample>& samples);

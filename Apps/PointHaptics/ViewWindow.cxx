@@ -59,6 +59,7 @@ private:
   void onModelChanged(void*);
   void onSceneChanged(void*);
   void showNote();
+  void tell(const std::string& message);
   void say(const std::string& news);
   bool finish(std::string& message);
 
@@ -217,6 +218,14 @@ void Window::showNote()
   style_->SetStatusNote(news_.empty() ? scale : scale + "\n" + news_);
 }
 
+/// On the terminal and in the window.
+void Window::tell(const std::string& message)
+{
+  fail("view", message);
+  news_ = message;
+  this->showNote();
+}
+
 void Window::onModelChanged(void*)
 {
   news_.clear();
@@ -228,9 +237,7 @@ void Window::onSceneChanged(void*)
 {
   for (const std::string& error : takeVtkErrors())
   {
-    fail("view", error);
-    news_ = error;
-    this->showNote();
+    this->tell(error);
   }
 }
 
@@ -243,12 +250,15 @@ void Window::onFilesDropped(void* callData)
     files.push_back(names->GetValue(i));
   }
   std::string message;
-  if (files.empty() || !scene_.open(files, options_, message) || !scene_.build(options_, message))
+  if (files.empty() || !scene_.open(files, options_, message))
   {
-    fail("view", message);
-    news_ = message;
-    this->showNote();
+    this->tell(message);
     return;
+  }
+  // From here on the window shows the new cloud, also where nothing of it lies in the workspace.
+  if (!scene_.build(options_, message))
+  {
+    this->tell(message);
   }
   double bounds[6];
   scene_.getWorkspaceBounds(bounds);

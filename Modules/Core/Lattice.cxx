@@ -99,6 +99,10 @@ Status makeLattice(const LatticeSettings& settings, const Bounds& cloud, Lattice
       }
       made.dimensions[axis] = std::max<std::int64_t>(1, std::int64_t(count));
       made.spacing[axis] = settings.voxelSize;
+      if (!settings.automaticWorkspace)
+      {
+        made.end[axis] = extent / settings.voxelSize;
+      }
     }
   }
   const Status status = made.check();

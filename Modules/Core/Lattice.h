@@ -25,17 +25,20 @@ struct Lattice
   Vec3 origin;
   Vec3 spacing{ 1.0, 1.0, 1.0 };
   std::array<std::int64_t, 3> dimensions{ 1, 1, 1 };
+  /// Upper end of the workspace as a continuous index, where it cuts through the last voxels.
+  Vec3 end{ INFINITY, INFINITY, INFINITY };
 
   /// (x - origin) / spacing, in double.
   Vec3 continuousIndex(const Vec3& p) const noexcept
   {
     return { (p.x - origin.x) / spacing.x, (p.y - origin.y) / spacing.y, (p.z - origin.z) / spacing.z };
   }
-  /// True where 0 <= u < dimensions on every axis; false for NaN.
+  /// True where 0 <= u < dimensions and u < end on every axis; false for NaN.
   bool contains(const Vec3& continuous) const noexcept
   {
     return continuous.x >= 0.0 && continuous.x < double(dimensions[0]) && continuous.y >= 0.0 &&
-      continuous.y < double(dimensions[1]) && continuous.z >= 0.0 && continuous.z < double(dimensions[2]);
+      continuous.y < double(dimensions[1]) && continuous.z >= 0.0 && continuous.z < double(dimensions[2]) &&
+      continuous.x < end.x && continuous.y < end.y && continuous.z < end.z;
   }
   /// Linear index, x fastest. @pre contains() held for the continuous index these were floored from.
   std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) const noexcept
@@ -48,6 +51,22 @@ struct Lattice
     const std::uint64_t nx = std::uint64_t(dimensions[0]);
     const std::uint64_t ny = std::uint64_t(dimensions[1]);
     return { std::int64_t(key % nx), std::int64_t((key / nx) % ny), std::int64_t(key / nx / ny) };
+  }
+  /// @p coordinate, which lies in voxel @p i of @p axis up to rounding, moved by single units in the last
+  /// place until it does: a mean that is rounded to its voxel's upper face would be somebody else's.
+  template <typename Real>
+  Real keptInVoxel(Real coordinate, int axis, std::int64_t i) const noexcept
+  {
+    const auto voxel = [&](Real c) { return std::floor((double(c) - origin[axis]) / spacing[axis]); };
+    for (int step = 0; step < 4 && voxel(coordinate) > double(i); ++step)
+    {
+      coordinate = std::nextafter(coordinate, Real(-INFINITY));
+    }
+    for (int step = 0; step < 4 && voxel(coordinate) < double(i); ++step)
+    {
+      coordinate = std::nextafter(coordinate, Real(INFINITY));
+    }
+    return coordinate;
   }
   Bounds bounds() const noexcept
   {

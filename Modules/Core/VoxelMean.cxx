@@ -112,8 +112,9 @@ Vec3 meanOf(
   for (int axis = 0; axis < 3; ++axis)
   {
     const double offset = double(sums.first[axis]) / (count * kQuanta);
-    mean[axis] =
+    const double rounded =
       lattice.origin[axis] + (double(index[std::size_t(axis)]) + 0.5 + offset) * lattice.spacing[axis];
+    mean[axis] = lattice.keptInVoxel(rounded, axis, index[std::size_t(axis)]);
   }
   return mean;
 }

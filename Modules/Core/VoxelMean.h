@@ -36,10 +36,10 @@ Bounds transformedBounds(
 /// Maps @p points by @p transform and averages them voxel by voxel.
 /// Sums are fixed-point int64 offsets from the voxel's centre, quantum 2^-32 voxel (second moments: 128-bit),
 /// so means and covariances do not depend on the order of the points or on @p executor, and a mean differs
-/// from the exact mean of the transformed points by at most 2^-33 voxel plus one rounding of the coordinate.
-/// Any count below 2^31 points in one voxel is safe. Memory while running: 40 bytes a point. Errors: the
-/// transform's, the lattice's; @p result is then empty. A cloud without a point inside is no error here: the
-/// result has no voxels.
+/// from the exact mean of the transformed points by at most 2^-33 voxel plus one rounding of the coordinate,
+/// and lies in its voxel. Any count below 2^31 points in one voxel is safe. Memory while running: 40 bytes a
+/// point. Errors: the transform's, the lattice's; @p result is then empty. A cloud without a point inside is
+/// no error here: the result has no voxels.
 Status voxelMeans(const PointView& points, const AffineTransform& transform, const Lattice& lattice,
   bool withCovariances, VoxelMeans& result, const Executor& executor = {});
 

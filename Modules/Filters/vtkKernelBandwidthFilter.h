@@ -111,7 +111,7 @@ public:
 
   ///@{
   /**
-   * Which arrays to add. Defaults: Bandwidth and ProxyRadius on, Density off (it costs a second search).
+   * Which arrays to add; what is off costs nothing, and Density costs a second search. Default: all on.
    */
   vtkSetMacro(ComputeBandwidth, bool);
   vtkGetMacro(ComputeBandwidth, bool);
@@ -139,7 +139,7 @@ protected:
   double MaximumRadius = 0.0;
   bool ComputeBandwidth = true;
   bool ComputeProxyRadius = true;
-  bool ComputeDensity = false;
+  bool ComputeDensity = true;
 
 private:
   vtkKernelBandwidthFilter(const vtkKernelBandwidthFilter&) = delete;

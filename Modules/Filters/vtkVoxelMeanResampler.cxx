@@ -43,15 +43,24 @@ vtkSmartPointer<vtkPoints> makePoints(const VoxelMeans& voxels, int type)
   {
     return points;
   }
-  const double* xyz = &voxels.means.front().x;
-  const std::size_t values = 3 * voxels.means.size();
   if (auto* doubles = vtkDoubleArray::FastDownCast(points->GetData()))
   {
-    std::copy(xyz, xyz + values, doubles->GetPointer(0));
+    const double* xyz = &voxels.means.front().x;
+    std::copy(xyz, xyz + 3 * voxels.means.size(), doubles->GetPointer(0));
   }
   else if (auto* floats = vtkFloatArray::FastDownCast(points->GetData()))
   {
-    std::transform(xyz, xyz + values, floats->GetPointer(0), [](double v) { return float(v); });
+    float* out = floats->GetPointer(0);
+    for (std::size_t v = 0; v < voxels.means.size(); ++v)
+    {
+      const auto index = voxels.lattice.indexOf(voxels.keys[v]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        // Rounding to float must not carry a mean into the next voxel: resampled again it would join that
+        // one.
+        *out++ = voxels.lattice.keptInVoxel(float(voxels.means[v][axis]), axis, index[std::size_t(axis)]);
+      }
+    }
   }
   return points;
 }
@@ -132,13 +141,16 @@ std::string latticeText(double voxelSize, const int dimensions[3])
   return text.str();
 }
 
-/// Identifiers and ghost flags mean nothing once points are merged.
+/// Identifiers and ghost flags mean nothing once points are merged, and what an earlier resampling said of
+/// its voxels says nothing of these.
 bool isBookkeeping(vtkDataSetAttributes* attributes, int index)
 {
   const int type = attributes->IsArrayAnAttribute(index);
   const char* name = attributes->GetArrayName(index);
   return type == vtkDataSetAttributes::GLOBALIDS || type == vtkDataSetAttributes::PEDIGREEIDS ||
-    (name && std::string(name) == vtkDataSetAttributes::GhostArrayName());
+    (name &&
+      (std::string(name) == vtkDataSetAttributes::GhostArrayName() ||
+        std::string(name) == "VoxelPointCount" || std::string(name) == "VoxelCovariance"));
 }
 
 }

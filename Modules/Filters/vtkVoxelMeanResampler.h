@@ -27,7 +27,8 @@
  * Arrays: numeric arrays of any type and number of components are averaged in double and rounded to their own
  * type (integers to nearest); the active normals are carried by the inverse transpose and re-normalised;
  * arrays named in CategoricalArrays take the value most points of the voxel have (the smallest one on a tie);
- * string arrays and other non-numeric arrays are dropped with a warning. Field data are passed.
+ * string arrays and other non-numeric arrays are dropped with a warning; global ids, ghost flags and the
+ * VoxelPointCount and VoxelCovariance of an earlier resampling are left out. Field data are passed.
  *
  * Points that are NaN or infinite are dropped and counted by GetNumberOfInvalidPoints(), finite points
  * outside the workspace by GetNumberOfClippedPoints().

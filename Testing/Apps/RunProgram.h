@@ -39,6 +39,8 @@ protected:
   void write(const std::string& name, const std::string& content) const;
   std::string read(const std::string& name) const;
   bool exists(const std::string& name) const;
+  /// Where a file of that name in the folder is.
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
   /// Names in the folder, sorted.
   std::vector<std::string> files() const;
 

@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+
 namespace
 {
 
@@ -49,6 +55,44 @@ TEST_F(Usage, UnknownAndSurplusArgumentsAreUsageErrors)
   this->refuse(2, { "bandwidth", "a.ply", "-o", "c.ply", "--voxel", "1" }, { "--voxel" });
   this->refuse(2, { "resample", "a.ply", "-o", "c.ply", "--dims" }, { "--dims" });
   this->refuse(2, { "resample", "a.ply", "-o", "c.ply", "--dims", "3", "--dims", "4" }, { "--dims" });
+}
+
+TEST_F(Usage, AnOutputThroughALinkKeepsTheLink)
+{
+  this->makeInputs();
+  this->write("real.csv", "old");
+  std::filesystem::create_symlink("real.csv", this->path("link.csv"));
+  this->succeed({ "feel", "in.ply", "--path", "hip.csv", "-o", "link.csv" });
+  EXPECT_TRUE(std::filesystem::is_symlink(this->path("link.csv")));
+  EXPECT_EQ(this->read("real.csv").rfind("t,hip_x", 0), 0u);
+}
+
+TEST_F(Usage, AnOutputThatIsNoRegularFileIsNotReplaced)
+{
+  this->makeInputs();
+  ASSERT_EQ(mkfifo(this->path("pipe").c_str(), 0600), 0);
+  const int reader = ::open(this->path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  this->succeed({ "feel", "in.ply", "--path", "hip.csv", "-o", "pipe" });
+  char head[8] = {};
+  EXPECT_EQ(::read(reader, head, 7), 7);
+  EXPECT_STREQ(head, "t,hip_x");
+  ::close(reader);
+  EXPECT_TRUE(std::filesystem::is_fifo(this->path("pipe")));
+}
+
+TEST_F(Usage, PicturesArePng)
+{
+  this->makeInputs();
+  this->refuse(2, { "view", "in.ply", "--screenshot", "a.jpg" }, { "--screenshot", "a.jpg", ".png" });
+}
+
+TEST_F(Usage, AStillPictureHasNoTouchToWrite)
+{
+  this->makeInputs();
+  this->refuse(2, { "view", "in.ply", "--screenshot", "a.png", "--trace", "t.csv" }, { "--trace", "--path" });
+  this->refuse(2, { "view", "in.ply", "--screenshot", "a.png", "--force-chart", "f.png" },
+    { "--force-chart", "--path" });
 }
 
 TEST_F(Usage, BadLatticeNumbersNameTheRange)

@@ -64,7 +64,7 @@ TEST(KernelBandwidthFilter, HasTheDocumentedDefaults)
   EXPECT_EQ(filter->GetMaximumRadius(), 0.0);
   EXPECT_TRUE(filter->GetComputeBandwidth());
   EXPECT_TRUE(filter->GetComputeProxyRadius());
-  EXPECT_FALSE(filter->GetComputeDensity());
+  EXPECT_TRUE(filter->GetComputeDensity());
 }
 
 TEST(KernelBandwidthFilter, AgreesWithTheDefinition)
@@ -76,6 +76,7 @@ TEST(KernelBandwidthFilter, AgreesWithTheDefinition)
     filter->SetInputData(cloud);
     filter->SetNumberOfNeighbors(10);
     filter->SetMinimumRadius(1e-9);
+    filter->ComputeDensityOff();
     filter->Update();
     ASSERT_NE(arrayOf(filter, "Bandwidth"), nullptr);
     ASSERT_NE(arrayOf(filter, "ProxyRadius"), nullptr);

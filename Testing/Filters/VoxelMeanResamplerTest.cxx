@@ -615,6 +615,20 @@ TEST(VoxelMeanResampler, ErrorsNameTheCureAndGiveAValidEmptyOutput)
   EXPECT_GT(resampler->GetOutput()->GetNumberOfPoints(), 0) << "it recovers";
 }
 
+TEST(VoxelMeanResampler, LeavesOutWhatAnEarlierResamplingSaidOfItsVoxels)
+{
+  vtkNew<vtkVoxelMeanResampler> first;
+  first->SetInputData(trial::cloudOf(trial::randomPoints(500, 31, VTK_DOUBLE)));
+  first->SetDimensions(8, 8, 8);
+  first->ComputeCovarianceOn();
+  vtkNew<vtkVoxelMeanResampler> second;
+  second->SetInputConnection(first->GetOutputPort());
+  second->SetDimensions(2, 2, 2);
+  second->Update();
+  EXPECT_EQ(second->GetOutput()->GetPointData()->GetArray("VoxelCovariance"), nullptr);
+  EXPECT_EQ(sum(countsOf(second->GetOutput())), first->GetOutput()->GetNumberOfPoints());
+}
+
 TEST(VoxelMeanResampler, GivesTheSameBitsWithEveryBackEndAndThreadCount)
 {
   const auto cloud = trial::cloudOf(trial::randomPoints(100000, 16, VTK_FLOAT));

@@ -437,6 +437,37 @@ TEST(VoxelMean, LeavesCovariancesOutUnlessAskedFor)
   EXPECT_TRUE(sameBits(without.means, meansOf(view(points), unitLattice(3)).means));
 }
 
+TEST(VoxelMean, KeepsAMeanBelowTheUpperFaceOfItsVoxel)
+{
+  const Vec3 point{ std::nextafter(1.0, 0.0), 0.5, std::nextafter(0.5, 0.0) };
+  Lattice lattice;
+  lattice.spacing = { 0.5, 0.5, 0.5 };
+  lattice.dimensions = { 2, 2, 2 };
+  VoxelMeans once;
+  ASSERT_EQ(voxelMeans(PointView(&point, 1), {}, lattice, false, once), Status::Ok);
+  ASSERT_EQ(once.means.size(), 1u);
+  VoxelMeans twice;
+  ASSERT_EQ(voxelMeans(PointView(once.means.data(), 1), {}, lattice, false, twice), Status::Ok);
+  EXPECT_EQ(twice.clippedPoints, 0);
+  EXPECT_EQ(twice.keys, once.keys);
+}
+
+TEST(VoxelMean, ClipsAtTheWorkspaceWhereItCutsThroughAVoxel)
+{
+  LatticeSettings settings;
+  settings.voxelSize = 0.3;
+  settings.automaticWorkspace = false;
+  settings.workspace.include({ 0, 0, 0 });
+  settings.workspace.include({ 1, 1, 1 });
+  Lattice lattice;
+  ASSERT_EQ(makeLattice(settings, {}, lattice), Status::Ok);
+  const Vec3 points[] = { { 1.1, 0.5, 0.5 }, { 1.0, 0.5, 0.5 }, { 0.95, 0.5, 0.5 } };
+  VoxelMeans means;
+  ASSERT_EQ(voxelMeans(PointView(points, 3), {}, lattice, false, means), Status::Ok);
+  EXPECT_EQ(means.clippedPoints, 2);
+  EXPECT_EQ(means.means.size(), 1u);
+}
+
 TEST(VoxelMean, FillsTheLargestLattice)
 {
   Lattice lattice = unitLattice(kMaximumLatticeDimension);
