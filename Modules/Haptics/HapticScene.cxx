@@ -182,6 +182,8 @@ std::shared_ptr<const HapticScene> HapticScene::create(
     scene->bounds_.include(cell.mean);
   }
   const double extent = norm(scene->bounds_.extent());
+  const auto merged = [](const Cell& cell) { return cell.count > 1.0; };
+  scene->exactMoments_ = !input.covariances.empty() || std::none_of(cells.begin(), cells.end(), merged);
   std::vector<std::uint32_t> source;
   status = buildPyramid(std::move(cells), input.cellSize, extent, scene->pyramid_, source);
   input = HapticSceneInput();

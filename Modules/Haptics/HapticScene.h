@@ -62,6 +62,9 @@ public:
   /// False where no cell of the cloud can be within clearance() of @p position: free space to stride through.
   bool isNear(const Vec3& position) const noexcept;
   double clearance() const { return clearance_; }
+  /// True where the covariances of the voxels are known, or each cell is a single point; false for plain
+  /// means, whose fits ripple with the voxels.
+  bool hasExactMoments() const { return exactMoments_; }
 
 private:
   HapticScene() = default;
@@ -72,6 +75,7 @@ private:
   AffineTransform modelToWorkspace_;
   Bounds bounds_;
   double clearance_ = 0.0;
+  bool exactMoments_ = true;
 };
 
 } // namespace pointhaptics

@@ -119,7 +119,7 @@ TrackResult SurfaceTracker::follow(
     FitSettings settings;
     TracedSlopes slopes;
     const LocalScale scale = scene.fitScale(frame_.origin, slopes.radiusGradient);
-    slopes.strength = tracedStrength(scale);
+    slopes.strength = scene.hasExactMoments() ? tracedStrength(scale) : 0.0;
     settings.radius = scale.radius;
     settings.gate = scale.gate;
     std::copy(curvature_, curvature_ + 3, settings.curvature);
