@@ -1,8 +1,8 @@
 #include "Commands.h"
 
 #include "BandwidthOptions.h"
+#include "CloudToCloud.h"
 #include "Messages.h"
-#include "OptionParsing.h"
 #include "Pipeline.h"
 
 #include "vtkKernelBandwidthFilter.h"
@@ -30,11 +30,8 @@ constexpr const char* kCommand = "bandwidth";
 
 struct BandwidthCommandOptions
 {
-  std::string input;
-  std::string output;
+  CloudToCloudOptions files;
   BandwidthOptions bandwidth;
-  bool json = false;
-  std::int64_t threads = 0;
 };
 
 /// Points that are not finite have radius 0: they take no part.
@@ -69,28 +66,23 @@ void print(const BandwidthCommandOptions& options, vtkPolyData* result)
 {
   const vtkIdType points = result->GetNumberOfPoints();
   const RadiusRange range = radiusRange(result);
-  if (options.json)
+  if (options.files.json)
   {
-    const nlohmann::ordered_json object = { { "input", options.input }, { "output", options.output },
-      { "points", points }, { "points_invalid", range.invalid },
+    const nlohmann::ordered_json object = { { "input", options.files.input },
+      { "output", options.files.output }, { "points", points }, { "points_invalid", range.invalid },
       { "proxy_radius", { { "min", range.minimum }, { "max", range.maximum } } } };
     printJson(object);
     return;
   }
   fmt::print("{} points, {} invalid, proxy radius {:.6g} to {:.6g}: {}\n", points, range.invalid,
-    range.minimum, range.maximum, options.output);
+    range.minimum, range.maximum, options.files.output);
 }
 
 int runBandwidth(const BandwidthCommandOptions& options)
 {
   std::string message;
   Cloud cloud;
-  if (!canWriteCloud(options.output, message))
-  {
-    return fail(kCommand, message);
-  }
-  useThreads(options.threads);
-  if (!readCloud(options.input, cloud, message))
+  if (!options.files.open(cloud, message))
   {
     return fail(kCommand, message);
   }
@@ -99,10 +91,10 @@ int runBandwidth(const BandwidthCommandOptions& options)
   options.bandwidth.configure(filter);
   if (!updateFilter(filter, "bandwidth", message))
   {
-    return fail(kCommand, options.input + ": " + message);
+    return fail(kCommand, options.files.input + ": " + message);
   }
   showWarnings(kCommand);
-  if (!writeCloud(filter->GetOutput(), options.output, message))
+  if (!writeCloud(filter->GetOutput(), options.files.output, message))
   {
     return fail(kCommand, message);
   }
@@ -117,12 +109,7 @@ void addBandwidthCommand(CLI::App& program, int& exitCode)
   CLI::App* command =
     program.add_subcommand("bandwidth", "Add kernel bandwidth, proxy radius and density to every point");
   auto options = std::make_shared<BandwidthCommandOptions>();
-  command->add_option("IN", options->input, "Point cloud to read")->required()->type_name("");
-  command->add_option("-o,--output", options->output, "File to write: .vtp, .ply, .pcd or .csv")
-    ->required()
-    ->type_name("OUT");
-  addInteger(*command, "--threads", options->threads, 1, 1024, "Threads to use; default all");
-  command->add_flag("--json", options->json, "Print the figures as JSON");
+  options->files.addTo(*command);
   options->bandwidth.addTo(*command);
   command->callback([options, &exitCode] { exitCode = runBandwidth(*options); });
 }

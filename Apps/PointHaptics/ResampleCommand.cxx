@@ -1,8 +1,8 @@
 #include "Commands.h"
 
+#include "CloudToCloud.h"
 #include "LatticeOptions.h"
 #include "Messages.h"
-#include "OptionParsing.h"
 #include "Pipeline.h"
 
 #include "vtkVoxelMeanResampler.h"
@@ -26,12 +26,9 @@ constexpr const char* kCommand = "resample";
 
 struct ResampleOptions
 {
-  std::string input;
-  std::string output;
+  CloudToCloudOptions files;
   LatticeOptions lattice;
   bool covariance = false;
-  bool json = false;
-  std::int64_t threads = 0;
 };
 
 void print(const ResampleOptions& options, vtkIdType in, vtkVoxelMeanResampler* resampler)
@@ -39,27 +36,23 @@ void print(const ResampleOptions& options, vtkIdType in, vtkVoxelMeanResampler* 
   const vtkIdType out = resampler->GetOutput()->GetNumberOfPoints();
   const vtkIdType clipped = resampler->GetNumberOfClippedPoints();
   const vtkIdType invalid = resampler->GetNumberOfInvalidPoints();
-  if (options.json)
+  if (options.files.json)
   {
-    const nlohmann::ordered_json result = { { "input", options.input }, { "output", options.output },
-      { "points_in", in }, { "points_out", out }, { "points_clipped", clipped },
-      { "points_invalid", invalid } };
+    const nlohmann::ordered_json result = { { "input", options.files.input },
+      { "output", options.files.output }, { "points_in", in }, { "points_out", out },
+      { "points_clipped", clipped }, { "points_invalid", invalid } };
     printJson(result);
     return;
   }
-  fmt::print("{} points in, {} out, {} clipped, {} invalid: {}\n", in, out, clipped, invalid, options.output);
+  fmt::print(
+    "{} points in, {} out, {} clipped, {} invalid: {}\n", in, out, clipped, invalid, options.files.output);
 }
 
 int runResample(const ResampleOptions& options)
 {
   std::string message;
   Cloud cloud;
-  if (!canWriteCloud(options.output, message))
-  {
-    return fail(kCommand, message);
-  }
-  useThreads(options.threads);
-  if (!readCloud(options.input, cloud, message))
+  if (!options.files.open(cloud, message))
   {
     return fail(kCommand, message);
   }
@@ -69,7 +62,7 @@ int runResample(const ResampleOptions& options)
   options.lattice.configure(resampler);
   if (!updateFilter(resampler, "resampling", message))
   {
-    return fail(kCommand, options.input + ": " + message);
+    return fail(kCommand, options.files.input + ": " + message);
   }
   showWarnings(kCommand);
   if (resampler->GetOutput()->GetNumberOfPoints() == 0)
@@ -78,9 +71,9 @@ int runResample(const ResampleOptions& options)
       fmt::format(
         "{}: no point lies in the workspace: {} clipped, {} invalid; leave out --workspace, or mend the "
         "transform",
-        options.input, resampler->GetNumberOfClippedPoints(), resampler->GetNumberOfInvalidPoints()));
+        options.files.input, resampler->GetNumberOfClippedPoints(), resampler->GetNumberOfInvalidPoints()));
   }
-  if (!writeCloud(resampler->GetOutput(), options.output, message))
+  if (!writeCloud(resampler->GetOutput(), options.files.output, message))
   {
     return fail(kCommand, message);
   }
@@ -95,14 +88,9 @@ void addResampleCommand(CLI::App& program, int& exitCode)
   CLI::App* command =
     program.add_subcommand("resample", "Replace the points in each voxel of a lattice by their mean");
   auto options = std::make_shared<ResampleOptions>();
-  command->add_option("IN", options->input, "Point cloud to read")->required()->type_name("");
-  command->add_option("-o,--output", options->output, "File to write: .vtp, .ply, .pcd or .csv")
-    ->required()
-    ->type_name("OUT");
+  options->files.addTo(*command);
   command->add_flag(
     "--covariance", options->covariance, "Add the second moments of each voxel: VoxelCovariance");
-  addInteger(*command, "--threads", options->threads, 1, 1024, "Threads to use; default all");
-  command->add_flag("--json", options->json, "Print the counts as JSON");
   options->lattice.addTo(*command);
   command->callback([options, &exitCode] { exitCode = runResample(*options); });
 }

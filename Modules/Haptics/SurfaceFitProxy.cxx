@@ -224,9 +224,9 @@ void SurfaceFitProxy::touch(const HapticScene& scene, const Vec3& to, std::uint3
   if (result == TrackResult::Lost)
   {
     tracker_ = before;
-    if (endsHere(scene, to, status))
+    if (meetRim(scene, to, status) != Rim::None)
     {
-      mode_ = Mode::Free;
+      heldTicks_ = 0;
       return;
     }
     status |= kProxyLostSurface;
@@ -250,10 +250,7 @@ void SurfaceFitProxy::touch(const HapticScene& scene, const Vec3& to, std::uint3
     mode_ = Mode::Watching;
     return;
   }
-  if (endsHere(scene, to, status))
-  {
-    mode_ = Mode::Free;
-  }
+  static_cast<void>(meetRim(scene, to, status));
 }
 
 /// Finds the sheet again where it was last good, from its free side.
@@ -278,20 +275,22 @@ bool SurfaceFitProxy::recover(const HapticScene& scene, const Vec3& to) noexcept
   return true;
 }
 
-/// At a rim: goes around a sharp edge where the surface goes on behind it; true where it does not.
-bool SurfaceFitProxy::endsHere(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept
+/// At a rim goes around a sharp edge where the surface goes on behind it.
+SurfaceFitProxy::Rim SurfaceFitProxy::meetRim(
+  const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept
 {
   Vec3 outward;
   if (!tracker_.isAtRim(scene, outward))
   {
-    return false;
+    return Rim::None;
   }
   if (tracker_.turnAroundEdge(scene, outward, to) && tracker_.height(to) <= 0.0)
   {
-    return false;
+    return Rim::Turned;
   }
   status |= kProxyReleasedAtRim;
-  return true;
+  mode_ = Mode::Free;
+  return Rim::Ended;
 }
 
 /// Coulomb friction as a cone: sticks while the tangential offset is within mu_s depth, else slides on the

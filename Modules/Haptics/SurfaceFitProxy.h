@@ -30,13 +30,20 @@ private:
     Contact,
   };
 
+  enum class Rim
+  {
+    None,
+    Turned, ///< The surface goes on around an edge; the tracker is there now.
+    Ended,
+  };
+
   void moveFree(const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept;
   void watch(const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept;
   bool seek(const HapticScene& scene, const Vec3& from, const Vec3& at, double reach) noexcept;
   bool meets(const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept;
   void touch(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept;
   bool recover(const HapticScene& scene, const Vec3& to) noexcept;
-  bool endsHere(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept;
+  Rim meetRim(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept;
   void applyFriction(const ContactParameters& parameters, const Vec3& hip) noexcept;
 
   SurfaceTracker tracker_;
