@@ -1,0 +1,264 @@
+// How exact averaged point arrays are, against the long double twin.
+#include "CountingArray.h"
+#include "VoxelMeanAttributeOracle.h"
+#include "VoxelMeanCases.h"
+
+#include "vtkBitArray.h"
+#include "vtkIntArray.h"
+#include "vtkSOADataArrayTemplate.h"
+#include "vtkUnsignedLongLongArray.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace
+{
+
+constexpr int kPoints = 20000;
+
+/// A cloud of kPoints in the unit cube and a resampler of n^3 voxels for it.
+class VoxelMeanAttributeAccuracy : public testing::Test
+{
+protected:
+  VoxelMeanAttributeAccuracy() { trial::useUnitCube(resampler_, 6); }
+
+  /// Updates; the array @p name of the output.
+  vtkDataArray* averaged(const char* name)
+  {
+    resampler_->SetInputData(cloud_);
+    resampler_->Update();
+    trial::expectValid(resampler_->GetOutput());
+    return resampler_->GetOutput()->GetPointData()->GetArray(name);
+  }
+  void expectMeans(const char* name)
+  {
+    vtkDataArray* out = averaged(name);
+    trial::expectMeansAgree(cloud_->GetPointData()->GetArray(name), out, trial::oracleOf(resampler_, cloud_));
+  }
+  double drawn(double low, double high) { return trial::uniform(engine_, low, high); }
+
+  vtkSmartPointer<vtkPolyData> cloud_ = trial::cloudOf(trial::randomPoints(kPoints, 41));
+  vtkNew<vtkVoxelMeanResampler> resampler_;
+  std::mt19937_64 engine_{ 42 };
+};
+
+template <typename Array>
+class VoxelMeanIntegers : public VoxelMeanAttributeAccuracy
+{
+};
+
+template <typename T>
+using Aos = vtkAOSDataArrayTemplate<T>;
+using Integers =
+  testing::Types<Aos<char>, Aos<signed char>, Aos<unsigned char>, Aos<short>, Aos<unsigned short>, Aos<int>,
+    Aos<unsigned int>, Aos<long>, Aos<unsigned long>, Aos<long long>, Aos<unsigned long long>>;
+TYPED_TEST_SUITE(VoxelMeanIntegers, Integers);
+
+}
+
+TYPED_TEST(VoxelMeanIntegers, AreRoundedToTheNearest)
+{
+  using Value = typename TypeParam::ValueType;
+  constexpr Value lowest = std::numeric_limits<Value>::lowest();
+  constexpr Value highest = std::numeric_limits<Value>::max();
+  const auto bits = [this](vtkIdType, int) { return Value(this->engine_()); };
+  trial::addColumns<TypeParam>(this->cloud_, "Whole range", 1, bits);
+  trial::addColumns<TypeParam>(
+    this->cloud_, "Largest", 2, [](vtkIdType i, int c) { return Value(highest - Value((i + c) % 3)); });
+  trial::addColumns<TypeParam>(
+    this->cloud_, "Smallest", 1, [](vtkIdType i, int) { return Value(lowest + Value(i % 5)); });
+  trial::addColumns<TypeParam>(
+    this->cloud_, "Same", 1, [](vtkIdType, int) { return Value(highest / 2 + 1); });
+  this->resampler_->SetInputData(this->cloud_);
+  this->resampler_->Update();
+  const trial::Oracle oracle = trial::oracleOf(this->resampler_, this->cloud_);
+  for (const char* name : { "Whole range", "Largest", "Smallest", "Same" })
+  {
+    trial::expectMeansAgree(this->cloud_->GetPointData()->GetArray(name),
+      this->resampler_->GetOutput()->GetPointData()->GetArray(name), oracle);
+  }
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, EveryNumberOfComponents)
+{
+  for (int components = 1; components <= 9; ++components)
+  {
+    const std::string name = "C" + std::to_string(components);
+    trial::addColumns<vtkFloatArray>(
+      cloud_, name.c_str(), components, [&](vtkIdType, int c) { return drawn(-1, 1) + 100 * c; });
+    expectMeans(name.c_str());
+  }
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, TimesKeepTheirMicroseconds)
+{
+  trial::addColumns<vtkDoubleArray>(
+    cloud_, "GpsTime", 1, [&](vtkIdType i, int) { return 3e8 + 1e-6 * double(i) + drawn(0, 1e-6); });
+  expectMeans("GpsTime");
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, NumbersOfManyMagnitudes)
+{
+  // Each voxel its own magnitude, so that a quantum common to the array would show.
+  const auto magnitude = [&](vtkIdType i)
+  { return std::pow(10.0, std::floor(24 * cloud_->GetPoint(i)[0]) - 12); };
+  trial::addColumns<vtkDoubleArray>(
+    cloud_, "Doubles", 1, [&](vtkIdType i, int) { return magnitude(i) * drawn(-1, 1); });
+  trial::addColumns<vtkFloatArray>(
+    cloud_, "Floats", 1, [&](vtkIdType i, int) { return magnitude(i) * drawn(0.1, 1); });
+  expectMeans("Doubles");
+  expectMeans("Floats");
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, LargestAndSmallestNumbers)
+{
+  trial::addColumns<vtkDoubleArray>(
+    cloud_, "Denormal", 1, [&](vtkIdType i, int) { return double(i) * 4.9406564584124654e-324; });
+  trial::addColumns<vtkFloatArray>(cloud_, "Large", 1, [&](vtkIdType, int) { return drawn(1e38, 3.4e38); });
+  trial::addColumns<vtkDoubleArray>(cloud_, "Constant", 1, [](vtkIdType, int) { return 0.1; });
+  expectMeans("Denormal");
+  expectMeans("Large");
+  expectMeans("Constant");
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, NanAndInfinityGiveWhatAdditionGives)
+{
+  // Voxel by voxel: finite; some NaN; +Inf; -Inf; both infinities; NaN and Inf.
+  resampler_->SetDimensions(6, 1, 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double odd[6][2] = { { 1, 1 }, { nan, 1 }, { infinity, infinity }, { -infinity, -1 },
+    { infinity, -infinity }, { nan, infinity } };
+  const auto value = [&](vtkIdType i, int c)
+  {
+    const int voxel = int(std::floor(6 * cloud_->GetPoint(i)[0]));
+    return c == 1 || i % 7 > 1 ? 1.0 : odd[voxel][i % 7];
+  };
+  trial::addColumns<vtkDoubleArray>(cloud_, "Double", 2, value);
+  trial::addColumns<vtkFloatArray>(cloud_, "Float", 2, value);
+  for (const char* name : { "Double", "Float" })
+  {
+    for (const bool turned : { false, true })
+    {
+      if (turned)
+      {
+        cloud_ = trial::reordered(cloud_, trial::randomOrder(kPoints, 3));
+      }
+      vtkDataArray* out = averaged(name);
+      ASSERT_EQ(out->GetNumberOfTuples(), 6);
+      EXPECT_EQ(out->GetComponent(0, 0), 1.0);
+      EXPECT_TRUE(std::isnan(out->GetComponent(1, 0)));
+      EXPECT_EQ(out->GetComponent(2, 0), infinity);
+      EXPECT_EQ(out->GetComponent(3, 0), -infinity);
+      EXPECT_TRUE(std::isnan(out->GetComponent(4, 0)));
+      EXPECT_TRUE(std::isnan(out->GetComponent(5, 0)));
+      for (int v = 0; v < 6; ++v)
+      {
+        EXPECT_EQ(out->GetComponent(v, 1), 1.0) << "the other component is not touched";
+      }
+    }
+  }
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, ValuesOfPointsOutsideDoNotMatter)
+{
+  // The first half of the points is left out of the lattice, and their values are no numbers.
+  resampler_->SetWorkspaceBounds(0.5, 1, 0, 1, 0, 1);
+  trial::addColumns<vtkDoubleArray>(cloud_, "Heat", 1,
+    [&](vtkIdType i, int)
+    { return cloud_->GetPoint(i)[0] < 0.5 ? std::numeric_limits<double>::quiet_NaN() : drawn(0, 1); });
+  expectMeans("Heat");
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, ArraysTheDispatcherDoesNotKnow)
+{
+  const auto value = [&](vtkIdType i, int c) { return drawn(-1, 1) + double(c) + 1e-3 * double(i); };
+  trial::addColumns<vtkSOADataArrayTemplate<float>>(cloud_, "SoaFloat", 3, value);
+  trial::addColumns<vtkSOADataArrayTemplate<long long>>(
+    cloud_, "SoaId", 1, [&](vtkIdType i, int) { return (std::int64_t(1) << 62) + 3 * std::int64_t(i); });
+  trial::addColumns<trial::CountingArray>(cloud_, "Unknown", 2, value);
+  expectMeans("SoaFloat");
+  expectMeans("SoaId");
+  expectMeans("Unknown");
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, BitsAreRoundedToTheNearest)
+{
+  vtkNew<vtkBitArray> bits;
+  bits->SetName("Bits");
+  for (int i = 0; i < kPoints; ++i)
+  {
+    bits->InsertNextValue(cloud_->GetPoint(i)[0] < 0.5 ? 1 : (i % 4 == 0));
+  }
+  cloud_->GetPointData()->AddArray(bits);
+  resampler_->SetDimensions(2, 1, 1);
+  vtkDataArray* out = averaged("Bits");
+  ASSERT_NE(out, nullptr);
+  ASSERT_EQ(out->GetNumberOfTuples(), 2);
+  EXPECT_EQ(out->GetComponent(0, 0), 1.0);
+  EXPECT_EQ(out->GetComponent(1, 0), 0.0);
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, CategoriesTakeTheMajorityAndTheSmallestOnATie)
+{
+  resampler_->SetDimensions(12, 12, 12); // few points in a voxel: many ties
+  trial::addColumns<vtkUnsignedCharArray>(
+    cloud_, "Classification", 1, [&](vtkIdType, int) { return engine_() % 4; });
+  trial::addColumns<vtkIntArray>(cloud_, "Signed", 1, [&](vtkIdType, int) { return int(engine_() % 5) - 3; });
+  trial::addColumns<vtkLongLongArray>(
+    cloud_, "Id", 1, [&](vtkIdType, int) { return (std::int64_t(1) << 62) + std::int64_t(engine_() % 3); });
+  trial::addColumns<vtkFloatArray>(
+    cloud_, "Real", 1, [&](vtkIdType, int) { return 0.25 * double(engine_() % 4) - 0.5; });
+  for (const char* name : { "Classification", "Signed", "Id", "Real" })
+  {
+    resampler_->AddCategoricalArray(name);
+    vtkDataArray* out = averaged(name);
+    trial::expectMajorityAgrees(
+      cloud_->GetPointData()->GetArray(name), out, trial::oracleOf(resampler_, cloud_));
+  }
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, NormalsHaveUnitLengthAndTheDirectionOfTheirSum)
+{
+  trial::addScanAttributes(cloud_, 43);
+  vtkDataArray* out = averaged("Normals");
+  EXPECT_EQ(out, resampler_->GetOutput()->GetPointData()->GetNormals());
+  vtkDataArray* in = cloud_->GetPointData()->GetNormals();
+  const trial::Oracle oracle = trial::oracleOf(resampler_, cloud_);
+  vtkIdType v = 0;
+  for (const auto& entry : oracle.map.voxels)
+  {
+    double sum[3] = { 0, 0, 0 };
+    for (const std::int64_t i : entry.second.members)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        sum[c] += in->GetComponent(i, c);
+      }
+    }
+    const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+    for (int c = 0; c < 3; ++c)
+    {
+      ASSERT_NEAR(out->GetComponent(v, c), sum[c] / length, 1e-6) << "voxel " << v;
+    }
+    ++v;
+  }
+}
+
+TEST_F(VoxelMeanAttributeAccuracy, ArraysOfTheWrongLengthDoNoHarm)
+{
+  vtkNew<vtkFloatArray> brief;
+  brief->SetName("Brief");
+  brief->SetNumberOfTuples(kPoints / 2);
+  brief->Fill(1);
+  cloud_->GetPointData()->AddArray(brief);
+  trial::addColumns<vtkFloatArray>(cloud_, "Whole", 1, [&](vtkIdType, int) { return drawn(0, 1); });
+  trial::Ear warnings(resampler_, vtkCommand::WarningEvent);
+  trial::Ear errors(resampler_, vtkCommand::ErrorEvent);
+  expectMeans("Whole");
+  EXPECT_EQ(resampler_->GetOutput()->GetPointData()->GetArray("Brief"), nullptr);
+  EXPECT_EQ(warnings.count + errors.count, 1);
+}

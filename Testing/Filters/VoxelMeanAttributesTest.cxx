@@ -1,0 +1,237 @@
+#include "VoxelMeanFixtures.h"
+
+#include "vtkFloatArray.h"
+#include "vtkIntArray.h"
+#include "vtkStringArray.h"
+#include "vtkTransform.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+TEST(VoxelMeanAttributes, AveragesArraysOfEveryTypeWithMatchingTuples)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(3000, 3));
+  std::vector<int> types{ VTK_CHAR, VTK_SIGNED_CHAR, VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_UNSIGNED_SHORT,
+    VTK_INT, VTK_UNSIGNED_INT, VTK_LONG, VTK_UNSIGNED_LONG, VTK_LONG_LONG, VTK_UNSIGNED_LONG_LONG, VTK_FLOAT,
+    VTK_DOUBLE, VTK_ID_TYPE };
+  std::mt19937_64 engine(4);
+  for (const int type : types)
+  {
+    const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+    array->SetName(("type" + std::to_string(type)).c_str());
+    array->SetNumberOfComponents(2);
+    array->SetNumberOfTuples(3000);
+    for (vtkIdType i = 0; i < 3000; ++i)
+    {
+      array->SetTuple2(i, double(engine() % 100), double(engine() % 7));
+    }
+    cloud->GetPointData()->AddArray(array);
+  }
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  trial::useUnitCube(resampler, 1);
+  resampler->SetInputData(cloud);
+  resampler->Update();
+  vtkPolyData* output = resampler->GetOutput();
+  trial::expectValid(output);
+  ASSERT_EQ(output->GetNumberOfPoints(), 1);
+  for (const int type : types)
+  {
+    const std::string name = "type" + std::to_string(type);
+    vtkDataArray* in = cloud->GetPointData()->GetArray(name.c_str());
+    vtkDataArray* out = output->GetPointData()->GetArray(name.c_str());
+    ASSERT_NE(out, nullptr) << name;
+    EXPECT_EQ(out->GetDataType(), type);
+    ASSERT_EQ(out->GetNumberOfComponents(), 2);
+    for (int c = 0; c < 2; ++c)
+    {
+      double mean = 0;
+      for (vtkIdType i = 0; i < 3000; ++i)
+      {
+        mean += in->GetComponent(i, c) / 3000;
+      }
+      const bool whole = type != VTK_FLOAT && type != VTK_DOUBLE;
+      EXPECT_NEAR(out->GetComponent(0, c), whole ? std::round(mean) : mean, whole ? 0.0 : 1e-5) << name;
+    }
+  }
+}
+
+TEST(VoxelMeanAttributes, RoundsColoursToNearest)
+{
+  const auto cloud = trial::cloudAt({ { 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 } });
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetName("RGB");
+  colours->SetNumberOfComponents(3);
+  colours->InsertNextTuple3(255, 0, 1);
+  colours->InsertNextTuple3(255, 0, 1);
+  colours->InsertNextTuple3(255, 1, 3);
+  cloud->GetPointData()->SetScalars(colours);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->Update();
+  auto* out = vtkUnsignedCharArray::SafeDownCast(resampler->GetOutput()->GetPointData()->GetScalars());
+  ASSERT_NE(out, nullptr) << "the active scalars stay active";
+  EXPECT_EQ(out->GetComponent(0, 0), 255);
+  EXPECT_EQ(out->GetComponent(0, 1), 0);
+  EXPECT_EQ(out->GetComponent(0, 2), 2) << "5/3 is nearer to 2";
+}
+
+TEST(VoxelMeanAttributes, TurnsAndRenormalisesTheActiveNormals)
+{
+  const auto cloud = trial::cloudAt({ { 0, 0, 0 }, { 0, 0, 0 } });
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->InsertNextTuple3(1, 0, 0);
+  normals->InsertNextTuple3(0, 0, 1);
+  cloud->GetPointData()->SetNormals(normals);
+  vtkNew<vtkTransform> transform;
+  transform->RotateZ(90);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->SetTransform(transform);
+  resampler->Update();
+  vtkDataArray* out = resampler->GetOutput()->GetPointData()->GetNormals();
+  ASSERT_NE(out, nullptr);
+  EXPECT_NEAR(out->GetComponent(0, 0), 0.0, 1e-6);
+  EXPECT_NEAR(out->GetComponent(0, 1), std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(out->GetComponent(0, 2), std::sqrt(0.5), 1e-6);
+}
+
+TEST(VoxelMeanAttributes, NormalsStayPerpendicularUnderUnequalScaling)
+{
+  const auto cloud = trial::cloudAt({ { 0, 0, 0 } });
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->InsertNextTuple3(std::sqrt(0.5), std::sqrt(0.5), 0);
+  cloud->GetPointData()->SetNormals(normals);
+  vtkNew<vtkTransform> transform;
+  transform->Scale(2, 1, -1);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->SetTransform(transform);
+  resampler->Update();
+  vtkDataArray* out = resampler->GetOutput()->GetPointData()->GetNormals();
+  ASSERT_NE(out, nullptr);
+  // The tangent (1, -1, 0) became (2, -1, 0).
+  EXPECT_NEAR(2 * out->GetComponent(0, 0) - out->GetComponent(0, 1), 0.0, 1e-12);
+  EXPECT_GT(out->GetComponent(0, 0), 0.0);
+}
+
+TEST(VoxelMeanAttributes, LabelsTakeTheMajorityAndTheSmallestOnATie)
+{
+  const auto cloud = trial::cloudAt(
+    { { 0.1, 0.1, 0.1 }, { 0.1, 0.1, 0.1 }, { 0.1, 0.1, 0.1 }, { 0.9, 0.9, 0.9 }, { 0.9, 0.9, 0.9 } });
+  trial::addArray(cloud, "Classification", { 9, 2, 9, 7, 5 });
+  trial::addArray(cloud, "Label", { 1, 1, 4, 8, 3 });
+  trial::addArray(cloud, "Plain", { 1, 1, 4, 8, 3 });
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  trial::useUnitCube(resampler, 2);
+  resampler->AddCategoricalArray("Label");
+  EXPECT_TRUE(resampler->IsCategoricalArray("Classification")) << "from the start";
+  EXPECT_TRUE(resampler->IsCategoricalArray("Label"));
+  EXPECT_FALSE(resampler->IsCategoricalArray("Plain"));
+  resampler->SetInputData(cloud);
+  resampler->Update();
+  vtkPointData* out = resampler->GetOutput()->GetPointData();
+  ASSERT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 2);
+  EXPECT_EQ(out->GetArray("Classification")->GetTuple1(0), 9);
+  EXPECT_EQ(out->GetArray("Classification")->GetTuple1(1), 5);
+  EXPECT_EQ(out->GetArray("Label")->GetTuple1(0), 1);
+  EXPECT_EQ(out->GetArray("Label")->GetTuple1(1), 3);
+  EXPECT_EQ(out->GetArray("Plain")->GetTuple1(0), 2);
+  resampler->ClearCategoricalArrays();
+  resampler->Update();
+  EXPECT_NEAR(
+    resampler->GetOutput()->GetPointData()->GetArray("Classification")->GetTuple1(0), 20.0 / 3, 1e-12);
+}
+
+TEST(VoxelMeanAttributes, DropsStringArraysWithAWarning)
+{
+  const auto cloud = trial::cloudAt({ { 0, 0, 0 }, { 1, 1, 1 } });
+  vtkNew<vtkStringArray> words;
+  words->SetName("Words");
+  words->InsertNextValue("a");
+  words->InsertNextValue("b");
+  cloud->GetPointData()->AddArray(words);
+  trial::addArray(cloud, "Kept", { 1, 2 });
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  trial::Ear warnings(resampler, vtkCommand::WarningEvent);
+  resampler->Update();
+  EXPECT_EQ(warnings.count, 1);
+  EXPECT_NE(warnings.last.find("Words"), std::string::npos) << warnings.last;
+  EXPECT_EQ(resampler->GetOutput()->GetPointData()->GetAbstractArray("Words"), nullptr);
+  EXPECT_NE(resampler->GetOutput()->GetPointData()->GetArray("Kept"), nullptr);
+}
+
+TEST(VoxelMeanAttributes, KeepsActiveAttributesAndPassesFieldData)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(100, 5));
+  std::vector<double> values(100, 1.0);
+  trial::addArray(cloud, "Other", values);
+  trial::addArray(cloud, "Heat", values);
+  cloud->GetPointData()->SetActiveScalars("Heat");
+  vtkNew<vtkIntArray> year;
+  year->SetName("Year");
+  year->InsertNextValue(2024);
+  cloud->GetFieldData()->AddArray(year);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->Update();
+  vtkPolyData* output = resampler->GetOutput();
+  ASSERT_NE(output->GetPointData()->GetScalars(), nullptr);
+  EXPECT_STREQ(output->GetPointData()->GetScalars()->GetName(), "Heat");
+  ASSERT_NE(output->GetFieldData()->GetArray("Year"), nullptr);
+  EXPECT_EQ(output->GetFieldData()->GetArray("Year")->GetTuple1(0), 2024);
+  for (const char* name : { "LatticeOrigin", "LatticeSpacing", "LatticeDimensions", "ModelToWorkspace" })
+  {
+    EXPECT_NE(output->GetFieldData()->GetArray(name), nullptr) << name;
+  }
+  EXPECT_EQ(output->GetFieldData()->GetArray("ModelToWorkspace")->GetNumberOfValues(), 16);
+}
+
+TEST(VoxelMeanAttributes, LeavesAttributesOutWhenAskedTo)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(100, 6));
+  trial::addArray(cloud, "Heat", std::vector<double>(100, 1.0));
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->PassAttributesOff();
+  resampler->Update();
+  EXPECT_EQ(resampler->GetOutput()->GetPointData()->GetArray("Heat"), nullptr);
+  EXPECT_NE(trial::countsOf(resampler->GetOutput()), nullptr);
+  EXPECT_EQ(resampler->GetOutput()->GetPointData()->GetArray("VoxelCovariance"), nullptr);
+}
+
+TEST(VoxelMeanAttributes, ReplacesArraysOfItsOwnNames)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(1000, 7));
+  vtkNew<vtkVoxelMeanResampler> first;
+  first->SetInputData(cloud);
+  trial::useUnitCube(first, 5);
+  vtkNew<vtkVoxelMeanResampler> second;
+  second->SetInputConnection(first->GetOutputPort());
+  trial::useUnitCube(second, 5);
+  second->Update();
+  trial::expectValid(second->GetOutput());
+  EXPECT_EQ(second->GetOutput()->GetNumberOfPoints(), first->GetOutput()->GetNumberOfPoints());
+  EXPECT_EQ(trial::sum(trial::countsOf(second->GetOutput())), 125)
+    << "the count is that of this filter's input points";
+}
+
+TEST(VoxelMeanAttributes, LeavesOutWhatAnEarlierResamplingSaidOfItsVoxels)
+{
+  vtkNew<vtkVoxelMeanResampler> first;
+  first->SetInputData(trial::cloudOf(trial::randomPoints(500, 31, VTK_DOUBLE)));
+  first->SetDimensions(8, 8, 8);
+  first->ComputeCovarianceOn();
+  vtkNew<vtkVoxelMeanResampler> second;
+  second->SetInputConnection(first->GetOutputPort());
+  second->SetDimensions(2, 2, 2);
+  second->Update();
+  EXPECT_EQ(second->GetOutput()->GetPointData()->GetArray("VoxelCovariance"), nullptr);
+  EXPECT_EQ(trial::sum(trial::countsOf(second->GetOutput())), first->GetOutput()->GetNumberOfPoints());
+}

@@ -1,0 +1,156 @@
+// The resampler as a citizen of the pipeline: progress, abort, and no work that nobody asked for.
+#include "CountingArray.h"
+#include "VoxelMeanCases.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <vector>
+
+namespace
+{
+
+/// Hears every progress event of an algorithm.
+class Progress
+{
+public:
+  explicit Progress(vtkAlgorithm* algorithm)
+    : algorithm_(algorithm)
+  {
+    callback_->SetClientData(this);
+    callback_->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void*)
+      {
+        Progress* progress = static_cast<Progress*>(self);
+        progress->heard.push_back(progress->algorithm_->GetProgress());
+        if (progress->heard.back() >= progress->abortAt)
+        {
+          progress->algorithm_->SetAbortExecute(1);
+        }
+      });
+    tag_ = algorithm->AddObserver(vtkCommand::ProgressEvent, callback_);
+  }
+  ~Progress() { algorithm_->RemoveObserver(tag_); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  std::vector<double> heard;
+  double abortAt = 2.0; ///< Progress at which it asks to stop.
+
+private:
+  vtkAlgorithm* algorithm_;
+  vtkNew<vtkCallbackCommand> callback_;
+  unsigned long tag_ = 0;
+};
+
+}
+
+TEST(VoxelMeanPipeline, ProgressGrowsFromZeroToOne)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(300000, 51, VTK_FLOAT));
+  trial::addScanAttributes(cloud, 52);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->SetDimensions(50, 50, 50);
+  Progress progress(resampler);
+  resampler->Update();
+  ASSERT_GE(progress.heard.size(), 2u);
+  EXPECT_GE(progress.heard.front(), 0.0);
+  EXPECT_EQ(progress.heard.back(), 1.0);
+  for (std::size_t i = 1; i < progress.heard.size(); ++i)
+  {
+    EXPECT_GE(progress.heard[i], progress.heard[i - 1]);
+  }
+}
+
+TEST(VoxelMeanPipeline, AbortStopsALongRunWhichThenStartsAfresh)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(3000000, 53, VTK_FLOAT));
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  trial::useUnitCube(resampler, 100);
+  for (const double stop : { 1e-6, 0.5 })
+  {
+    SCOPED_TRACE(stop);
+    trial::Ear errors(resampler, vtkCommand::ErrorEvent);
+    {
+      Progress progress(resampler);
+      progress.abortAt = stop;
+      resampler->Modified();
+      resampler->Update();
+      ASSERT_FALSE(progress.heard.empty());
+      EXPECT_LT(progress.heard.back(), 1.0) << "no steps left to stop between";
+    }
+    EXPECT_EQ(errors.count, 0) << errors.last;
+    EXPECT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 0);
+    trial::expectValid(resampler->GetOutput());
+    resampler->SetAbortExecute(0);
+    resampler->Update();
+    EXPECT_EQ(trial::sum(trial::countsOf(resampler->GetOutput())), 3000000);
+    EXPECT_GT(resampler->GetOutput()->GetNumberOfPoints(), 900000);
+  }
+}
+
+TEST(VoxelMeanPipeline, ReadsNoArrayThatNobodyAskedFor)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(1000, 54));
+  const auto array =
+    trial::addColumns<trial::CountingArray>(cloud, "Heat", 2, [](vtkIdType, int) { return 1.0; });
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->PassAttributesOff();
+  const long before = array->reads();
+  resampler->Update();
+  EXPECT_EQ(array->reads(), before);
+  EXPECT_EQ(resampler->GetOutput()->GetPointData()->GetNumberOfArrays(), 1);
+  resampler->PassAttributesOn();
+  resampler->Update();
+  EXPECT_GE(array->reads(), before + 2000);
+  EXPECT_NE(resampler->GetOutput()->GetPointData()->GetArray("Heat"), nullptr);
+  const long after = array->reads();
+  resampler->Update();
+  EXPECT_EQ(array->reads(), after) << "nothing changed";
+}
+
+TEST(VoxelMeanPipeline, TakesPointsOfEveryLayoutAndType)
+{
+  // Coordinates 0 to 7, which every type holds.
+  std::mt19937_64 engine(55);
+  vtkNew<vtkPoints> plain;
+  plain->SetDataTypeToDouble();
+  for (int i = 0; i < 500; ++i)
+  {
+    plain->InsertNextPoint(double(engine() % 8), double(engine() % 8), double(engine() % 8));
+  }
+  const auto resampled = [](vtkPoints* points)
+  {
+    vtkNew<vtkVoxelMeanResampler> resampler;
+    resampler->SetInputData(trial::cloudOf(points));
+    resampler->SetWorkspaceBounds(0, 8, 0, 8, 0, 8);
+    resampler->SetDimensions(3, 3, 3);
+    resampler->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+    resampler->Update();
+    return trial::copyOf(resampler->GetOutput());
+  };
+  const auto expected = resampled(plain);
+  ASSERT_EQ(expected->GetNumberOfPoints(), 27);
+  for (const int type : { VTK_FLOAT, VTK_INT, VTK_SHORT, VTK_UNSIGNED_CHAR, VTK_LONG_LONG })
+  {
+    SCOPED_TRACE(type);
+    vtkNew<vtkPoints> points;
+    points->SetDataType(type);
+    points->SetNumberOfPoints(500);
+    for (int i = 0; i < 500; ++i)
+    {
+      points->SetPoint(i, plain->GetPoint(i));
+    }
+    trial::expectSame(resampled(points), expected);
+  }
+  vtkNew<vtkPolyData> holder;
+  holder->SetPoints(plain);
+  const auto unknown = trial::addColumns<trial::CountingArray>(
+    holder, "Points", 3, [&](vtkIdType i, int c) { return plain->GetPoint(i)[c]; });
+  vtkNew<vtkPoints> points;
+  points->SetData(unknown);
+  trial::expectSame(resampled(points), expected);
+}
