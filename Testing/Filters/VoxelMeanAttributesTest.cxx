@@ -235,3 +235,42 @@ TEST(VoxelMeanAttributes, LeavesOutWhatAnEarlierResamplingSaidOfItsVoxels)
   EXPECT_EQ(second->GetOutput()->GetPointData()->GetArray("VoxelCovariance"), nullptr);
   EXPECT_EQ(trial::sum(trial::countsOf(second->GetOutput())), first->GetOutput()->GetNumberOfPoints());
 }
+
+TEST(VoxelMeanAttributes, ArraysWithoutNamesAreAveragedToo)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(100, 32));
+  vtkNew<vtkFloatArray> nameless;
+  nameless->SetNumberOfTuples(100);
+  nameless->Fill(3);
+  cloud->GetPointData()->AddArray(nameless);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  trial::useUnitCube(resampler, 2);
+  resampler->Update();
+  trial::expectValid(resampler->GetOutput());
+  vtkPointData* out = resampler->GetOutput()->GetPointData();
+  ASSERT_EQ(out->GetNumberOfArrays(), 2);
+  for (int a = 0; a < 2; ++a)
+  {
+    EXPECT_TRUE(out->GetArray(a)->GetName() || out->GetArray(a)->GetTuple1(0) == 3.0);
+  }
+}
+
+TEST(VoxelMeanAttributes, NormalsThatCancelStayFinite)
+{
+  const auto cloud = trial::cloudAt({ { 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 } });
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->InsertNextTuple3(0, 0.6, 0.8);
+  normals->InsertNextTuple3(0, -0.6, -0.8);
+  cloud->GetPointData()->SetNormals(normals);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->Update();
+  ASSERT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 1);
+  for (int c = 0; c < 3; ++c)
+  {
+    EXPECT_TRUE(std::isfinite(resampler->GetOutput()->GetPointData()->GetNormals()->GetComponent(0, c)));
+  }
+}

@@ -24,6 +24,10 @@ TEST(VoxelMeanAttributes, AgreeWithTheDefinitionOnRandomCases)
       continue;
     }
     trial::expectValid(resampler->GetOutput());
+    if (resampler->GetOutput()->GetNumberOfPoints() == 0)
+    {
+      continue;
+    }
     const trial::Oracle oracle = trial::oracleOf(resampler, drawn.cloud);
     vtkPointData* in = drawn.cloud->GetPointData();
     vtkPointData* out = resampler->GetOutput()->GetPointData();
