@@ -82,16 +82,29 @@ std::string usageMessage(const CLI::ParseError& error)
 
 int reportUsage(const CLI::App& program, const CLI::ParseError& error)
 {
-  const std::vector<CLI::App*> parsed = program.get_subcommands();
-  const std::string command = parsed.empty() ? "" : " " + parsed.front()->get_name();
+  std::string command;
+  for (const CLI::App* app = &program; !app->get_subcommands().empty();)
+  {
+    app = app->get_subcommands().front();
+    command += " " + app->get_name();
+  }
   fmt::print(
     stderr, "pointhaptics{}: {}; see pointhaptics{} --help\n", command, usageMessage(error), command);
   return kUsage;
 }
 
+/// To @p command and all below it.
+void addVersionFlags(CLI::App& command)
+{
+  command.set_version_flag("--version", "pointhaptics " POINTHAPTICS_VERSION, "Print the version and exit");
+  for (CLI::App* below : command.get_subcommands([](CLI::App*) { return true; }))
+  {
+    addVersionFlags(*below);
+  }
+}
+
 int run(std::vector<std::string> arguments)
 {
-  const std::string version = "pointhaptics " POINTHAPTICS_VERSION;
   CLI::App program("See and feel raw point clouds.\nWithout a command: view.", "pointhaptics");
   int exitCode = kSuccess;
   addViewCommand(program, exitCode);
@@ -100,12 +113,11 @@ int run(std::vector<std::string> arguments)
   addBandwidthCommand(program, exitCode);
   addInfoCommand(program, exitCode);
   addGenerateCommand(program, exitCode);
+#ifdef POINTHAPTICS_HAVE_BENCHMARKS
+  addBenchCommand(program, exitCode);
+#endif
   program.require_subcommand(1);
-  program.set_version_flag("--version", version, "Print the version and exit");
-  for (CLI::App* command : program.get_subcommands([](CLI::App*) { return true; }))
-  {
-    command->set_version_flag("--version", version, "Print the version and exit");
-  }
+  addVersionFlags(program);
   if (!insertDefaultCommand(program, arguments))
   {
     return kUsage;

@@ -1,0 +1,67 @@
+#include "Benchmark/Race.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <random>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace
+{
+
+double steadySeconds()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double runOnce(const Contestant& contestant, const std::function<double()>& clock)
+{
+  if (contestant.before)
+  {
+    contestant.before();
+  }
+  const double begin = clock();
+  contestant.run();
+  return clock() - begin;
+}
+
+} // namespace
+
+std::vector<Lap> race(const std::vector<Contestant>& contestants, const RaceSettings& settings)
+{
+  const std::function<double()> clock = settings.clock ? settings.clock : steadySeconds;
+  std::vector<Lap> laps;
+  std::vector<std::size_t> order;
+  for (const Contestant& contestant : contestants)
+  {
+    Lap lap;
+    lap.name = contestant.name;
+    lap.firstSeconds = runOnce(contestant, clock);
+    lap.checked = !contestant.check || contestant.check();
+    if (lap.checked)
+    {
+      order.push_back(laps.size());
+    }
+    laps.push_back(std::move(lap));
+  }
+  std::mt19937_64 random(settings.seed);
+  for (int round = -settings.warmUps; round < settings.rounds; ++round)
+  {
+    std::shuffle(order.begin(), order.end(), random);
+    for (const std::size_t who : order)
+    {
+      const double seconds = runOnce(contestants[who], clock);
+      if (round >= 0)
+      {
+        laps[who].seconds.push_back(seconds);
+      }
+    }
+  }
+  return laps;
+}
+
+} // namespace bench
+} // namespace pointhaptics

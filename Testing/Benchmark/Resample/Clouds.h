@@ -1,0 +1,40 @@
+/// @file
+/// The clouds of the resampling benchmark: the same on every machine.
+#pragma once
+
+#include "Benchmark/Resample/Rival.h"
+
+#include <vtkSmartPointer.h>
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+namespace bench
+{
+
+enum class PointOrder
+{
+  Random,
+  Scan, ///< Row by row over the surface, as a scanner sees it; the rows are planes of constant x.
+};
+const char* orderName(PointOrder order);
+
+/// Radius of the sphere that the points lie on: the paper's larger one. 543,652 points on it fill about
+/// 204,000 voxels of 300^3 in a cube of 10 cm.
+constexpr double kSphereRadius = 0.04;
+/// Edge of the workspace: the paper's.
+constexpr double kWorkspaceEdge = 0.1;
+
+/// @p count float points on the sphere, without cells and arrays. 24 bytes a point while it runs.
+vtkSmartPointer<vtkPolyData> sphereCloud(std::int64_t count, PointOrder order);
+/// Adds colours (3 unsigned char), normals (3 float) and intensity (float).
+void addAttributes(vtkPolyData* cloud);
+/// A view of the float points.
+PointView viewOf(vtkPolyData* cloud);
+
+/// The cube about the origin with @p dimension voxels on an axis.
+ResampleTask taskOn(vtkPolyData* cloud, std::int64_t dimension);
+
+} // namespace bench
+} // namespace pointhaptics

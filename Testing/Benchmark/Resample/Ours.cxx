@@ -1,0 +1,105 @@
+#include "Benchmark/Resample/Ours.h"
+
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+namespace pointhaptics
+{
+namespace bench
+{
+
+void setTask(vtkVoxelMeanResampler* filter, const ResampleTask& task, bool automaticWorkspace)
+{
+  if (automaticWorkspace)
+  {
+    filter->SetAutomaticWorkspace(true);
+    filter->SetVoxelSize(task.leaf);
+    return;
+  }
+  const Bounds& box = task.workspace;
+  filter->SetWorkspaceBounds(
+    box.minimum.x, box.maximum.x, box.minimum.y, box.maximum.y, box.minimum.z, box.maximum.z);
+  const int n = int(task.dimension);
+  filter->SetDimensions(n, n, n);
+}
+
+ResampleAnswer answerOf(vtkPolyData* output)
+{
+  ResampleAnswer answer;
+  vtkFieldData* field = output->GetFieldData();
+  vtkDataArray* origin = field->GetArray("LatticeOrigin");
+  vtkDataArray* spacing = field->GetArray("LatticeSpacing");
+  vtkDataArray* dimensions = field->GetArray("LatticeDimensions");
+  vtkDataArray* counts = output->GetPointData()->GetArray("VoxelPointCount");
+  if (!origin || !spacing || !dimensions || !counts)
+  {
+    answer.fault = "no result";
+    return answer;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    answer.lattice.origin[axis] = origin->GetComponent(0, axis);
+    answer.lattice.spacing[axis] = spacing->GetComponent(0, axis);
+    answer.lattice.dimensions[std::size_t(axis)] = std::int64_t(dimensions->GetComponent(0, axis));
+  }
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    output->GetPoint(i, p);
+    answer.xyz.insert(answer.xyz.end(), p, p + 3);
+    answer.counts.push_back(std::int64_t(counts->GetComponent(i, 0)));
+  }
+  return answer;
+}
+
+namespace
+{
+
+class Ours : public Rival
+{
+public:
+  explicit Ours(OursSettings settings)
+    : settings_(std::move(settings))
+  {
+  }
+  std::string name() const override { return settings_.name; }
+  bool mustBeExact() const override { return true; }
+  void load(const ResampleTask& task) override
+  {
+    input_->SetPoints(task.cloud->GetPoints());
+    if (settings_.attributes)
+    {
+      input_->GetPointData()->ShallowCopy(task.cloud->GetPointData());
+    }
+    filter_->SetInputData(input_);
+    filter_->SetComputeCovariance(settings_.covariance);
+    setTask(filter_, task, settings_.automaticWorkspace);
+  }
+  void before() override { input_->Modified(); }
+  void run() override { filter_->Update(); }
+  ResampleAnswer answer() const override { return answerOf(filter_->GetOutput()); }
+  std::int64_t resultBytes() const override
+  {
+    return std::int64_t(1024 * filter_->GetOutput()->GetActualMemorySize());
+  }
+
+private:
+  OursSettings settings_;
+  vtkNew<vtkPolyData> input_;
+  vtkNew<vtkVoxelMeanResampler> filter_;
+};
+
+} // namespace
+
+std::unique_ptr<Rival> makeOurs(const OursSettings& settings)
+{
+  return std::make_unique<Ours>(settings);
+}
+
+} // namespace bench
+} // namespace pointhaptics

@@ -1,0 +1,20 @@
+/// @file
+/// The filter under test, for the studies that drive it themselves.
+#pragma once
+
+#include "Benchmark/Resample/Rival.h"
+
+#include "vtkVoxelMeanResampler.h"
+
+namespace pointhaptics
+{
+namespace bench
+{
+
+/// Sets the lattice of @p task; with the automatic workspace only the size of its voxels.
+void setTask(vtkVoxelMeanResampler* filter, const ResampleTask& task, bool automaticWorkspace);
+/// Means, counts and lattice of an output.
+ResampleAnswer answerOf(vtkPolyData* output);
+
+} // namespace bench
+} // namespace pointhaptics

@@ -1,0 +1,109 @@
+#include "Benchmark/Race.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace pointhaptics::bench;
+
+namespace
+{
+
+/// A clock that goes only while a contestant runs.
+struct Course
+{
+  double now = 0.0;
+  std::vector<std::string> log;
+
+  Contestant contestant(const std::string& name, double seconds)
+  {
+    Contestant result;
+    result.name = name;
+    result.before = [this, name] { log.push_back("before " + name); };
+    result.run = [this, name, seconds]
+    {
+      log.push_back(name);
+      now += seconds;
+    };
+    result.check = [this, name]
+    {
+      log.push_back("check " + name);
+      return true;
+    };
+    return result;
+  }
+  RaceSettings settings(int rounds, int warmUps)
+  {
+    RaceSettings result;
+    result.rounds = rounds;
+    result.warmUps = warmUps;
+    result.clock = [this] { return now; };
+    return result;
+  }
+};
+
+} // namespace
+
+TEST(Race, ChecksTheFirstAnswerBeforeAnythingElseRuns)
+{
+  Course course;
+  race({ course.contestant("a", 1.0), course.contestant("b", 2.0) }, course.settings(1, 0));
+  const std::vector<std::string> begin(course.log.begin(), course.log.begin() + 6);
+  EXPECT_EQ(begin, (std::vector<std::string>{ "before a", "a", "check a", "before b", "b", "check b" }));
+}
+
+TEST(Race, TimesEveryRoundAndTheFirstCallApart)
+{
+  Course course;
+  int calls = 0;
+  Contestant slowAtFirst = course.contestant("a", 1.0);
+  slowAtFirst.run = [&] { course.now += ++calls == 1 ? 100.0 : 1.0; };
+  const auto laps = race({ slowAtFirst, course.contestant("b", 2.0) }, course.settings(5, 2));
+  ASSERT_EQ(laps.size(), 2u);
+  EXPECT_EQ(laps[0].firstSeconds, 100.0);
+  EXPECT_EQ(laps[0].seconds, std::vector<double>(5, 1.0));
+  EXPECT_EQ(laps[1].seconds, std::vector<double>(5, 2.0));
+  EXPECT_EQ(calls, 1 + 2 + 5);
+}
+
+TEST(Race, WhatIsDoneBeforeARunIsNotTimed)
+{
+  Course course;
+  Contestant contestant = course.contestant("a", 1.0);
+  contestant.before = [&] { course.now += 50.0; };
+  EXPECT_EQ(quartiles(race({ contestant }, course.settings(3, 0)).front().seconds).maximum, 1.0);
+}
+
+TEST(Race, EveryoneRunsOncePerRoundInChangingOrder)
+{
+  Course course;
+  std::vector<Contestant> contestants;
+  for (const char* name : { "a", "b", "c" })
+  {
+    contestants.push_back(course.contestant(name, 1.0));
+    contestants.back().before = nullptr;
+    contestants.back().check = nullptr;
+  }
+  race(contestants, course.settings(20, 0));
+  ASSERT_EQ(course.log.size(), 3u + 60u);
+  bool changes = false;
+  for (std::size_t round = 3; round < course.log.size(); round += 3)
+  {
+    std::vector<std::string> names(course.log.begin() + long(round), course.log.begin() + long(round) + 3);
+    changes = changes || names != std::vector<std::string>{ "a", "b", "c" };
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, (std::vector<std::string>{ "a", "b", "c" }));
+  }
+  EXPECT_TRUE(changes);
+}
+
+TEST(Race, WhoFailsTheCheckIsNotTimed)
+{
+  Course course;
+  Contestant bad = course.contestant("bad", 1.0);
+  bad.check = [] { return false; };
+  const auto laps = race({ bad, course.contestant("good", 1.0) }, course.settings(4, 1));
+  EXPECT_FALSE(laps[0].checked);
+  EXPECT_TRUE(laps[0].seconds.empty());
+  EXPECT_EQ(laps[1].seconds.size(), 4u);
+}
