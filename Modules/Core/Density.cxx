@@ -1,12 +1,57 @@
 #include "Core/Density.h"
 
+#include "Core/EpanechnikovSum.h"
+#include "Core/GaussianSum.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace pointhaptics
 {
 namespace
 {
+
+constexpr double kPi = 3.14159265358979323846;
 constexpr double kTwoPi = 6.28318530717958647693;
+
+double gaussianOnSurface(const NeighborQuery& query, const Vec3& center, double b)
+{
+  double sum = 0.0;
+  query.visitBall(center, kDensityCutoff * b,
+    [&](const Vec3&, double d2, std::int64_t) { sum += std::exp(-0.5 * d2 / (b * b)); });
+  return sum / (double(query.size()) * kTwoPi * b * b);
+}
+
+double epanechnikovOnSurface(const NeighborQuery& query, const Vec3& center, double b)
+{
+  const double reach = kEpanechnikovReachOnSurface * b;
+  double sum = 0.0;
+  query.visitBall(center, reach,
+    [&](const Vec3&, double d2, std::int64_t) { sum += std::max(0.0, 1.0 - d2 / (reach * reach)); });
+  return sum / (double(query.size()) * 0.5 * kPi * reach * reach);
+}
+
+template <typename Sum>
+Status densitiesBy(const double* sample, std::int64_t count, double width, const double* targets,
+  std::vector<double>& densities, const Executor& executor)
+{
+  Sum sum;
+  const Status status = sum.build(sample, count, width);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  forRange(executor, std::int64_t(densities.size()),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        densities[std::size_t(i)] = sum.density(targets[i]);
+      }
+    });
+  return Status::Ok;
+}
+
 }
 
 double gaussianDensity(double x, const double* sample, std::int64_t count, double bandwidth) noexcept
@@ -24,10 +69,40 @@ double gaussianDensity(double x, const double* sample, std::int64_t count, doubl
   return sum / (double(count) * bandwidth * std::sqrt(kTwoPi));
 }
 
+double epanechnikovDensity(double x, const double* sample, std::int64_t count, double bandwidth) noexcept
+{
+  if (count < 1 || !(bandwidth > 0.0))
+  {
+    return 0.0;
+  }
+  const double reach = kEpanechnikovReachOnLine * bandwidth;
+  double sum = 0.0;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const double u = (x - sample[i]) / reach;
+    sum += std::fabs(u) < 1.0 ? (1.0 - u) * (1.0 + u) : 0.0;
+  }
+  return 0.75 * sum / (double(count) * reach);
+}
+
+Status univariateDensities(DensityKernel kernel, const double* sample, std::int64_t count, double bandwidth,
+  const double* targets, std::int64_t targetCount, std::vector<double>& densities, const Executor& executor)
+{
+  densities.assign(std::size_t(std::max<std::int64_t>(targetCount, 0)), 0.0);
+  if (kernel == DensityKernel::Epanechnikov)
+  {
+    return densitiesBy<EpanechnikovSum>(
+      sample, count, kEpanechnikovReachOnLine * bandwidth, targets, densities, executor);
+  }
+  return densitiesBy<GaussianSum>(sample, count, bandwidth, targets, densities, executor);
+}
+
 void surfaceDensities(const PointView& points, const NeighborQuery& query,
-  const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor)
+  const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor,
+  DensityKernel kernel)
 {
   densities.assign(std::size_t(points.size()), 0.0);
+  const auto density = kernel == DensityKernel::Epanechnikov ? &epanechnikovOnSurface : &gaussianOnSurface;
   forRange(executor, points.size(),
     [&](std::int64_t begin, std::int64_t end)
     {
@@ -35,14 +110,10 @@ void surfaceDensities(const PointView& points, const NeighborQuery& query,
       {
         const double b = bandwidths[std::size_t(i)];
         const Vec3 center = points[i];
-        if (!(b > 0.0) || !isFinite(center))
+        if (b > 0.0 && isFinite(center))
         {
-          continue;
+          densities[std::size_t(i)] = density(query, center, b);
         }
-        double sum = 0.0;
-        query.visitBall(center, kDensityCutoff * b,
-          [&](const Vec3&, double d2, std::int64_t) { sum += std::exp(-0.5 * d2 / (b * b)); });
-        densities[std::size_t(i)] = sum / (double(query.size()) * kTwoPi * b * b);
       }
     });
 }
