@@ -12,19 +12,57 @@ constexpr double kPi = 3.14159265358979323846;
 /// Radius of a cloud without any extent, in its own unit.
 constexpr double kRadiusWithoutExtent = 1e-3;
 
-double quantile(const std::vector<double>& sorted, double p)
+/// IQR / sd of the normal distribution, as rounded by Silverman 1986 and by Sheather and Jones 1991.
+constexpr double kSilvermanQuartiles = 1.34;
+constexpr double kSheatherJonesQuartiles = 1.349;
+
+double quantile(const std::vector<double>& sorted, std::int64_t count, double p)
 {
-  const double position = p * double(sorted.size() - 1);
+  const double position = p * double(count - 1);
   const std::size_t low = std::size_t(position);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
+  const std::size_t high = std::min(low + 1, std::size_t(count - 1));
   return sorted[low] + (position - double(low)) * (sorted[high] - sorted[low]);
 }
 
-/// Neighbourhood of one point: its size with the point itself, spread along the surface, and local spacing.
+double powerOfTwoNear(double range)
+{
+  int exponent = 0;
+  if (range > 0.0 && std::isfinite(range))
+  {
+    std::frexp(range, &exponent);
+  }
+  // The square of the smallest range over its unit must not underflow, nor the unit itself.
+  return std::ldexp(1.0, std::min(std::max(exponent, -1000), 1000));
+}
+
+double usableFallback(double fallback)
+{
+  return fallback > 0.0 && std::isfinite(fallback) ? fallback : kBandwidthWithoutSpread;
+}
+
+/// b / s.
+double ruleFactor(BandwidthRule rule, double n, double d)
+{
+  switch (rule)
+  {
+    case BandwidthRule::NormalReference:
+      return 1.06 * std::pow(n, -0.2);
+    case BandwidthRule::SilvermanRobust:
+      return 0.9 * std::pow(n, -0.2);
+    case BandwidthRule::ScottMultivariate:
+      return std::pow(n, -1.0 / (d + 4.0));
+    case BandwidthRule::SilvermanMultivariate:
+      return std::pow(n * (d + 2.0) / 4.0, -1.0 / (d + 4.0));
+    case BandwidthRule::SheatherJones:
+      break;
+  }
+  return 0.0;
+}
+
+/// What the neighbourhood of one point says; bandwidth is 0 where it has no spread.
 struct Neighborhood
 {
-  double count = 0.0;
-  double spread = 0.0;
+  double bandwidth = 0.0;
   double spacing = 0.0;
 };
 
@@ -44,15 +82,18 @@ public:
   {
     find(center);
     Neighborhood result;
-    result.count = double(found_.size());
     if (found_.size() < 2)
     {
       return result;
     }
+    const double count = double(found_.size());
     const double reach = std::sqrt(found_.back().squaredDistance);
-    result.spacing = reach * std::sqrt(kPi / (result.count - 1.0));
-    result.spread =
-      settings_.rule == BandwidthRule::SilvermanRobust ? distanceSpread() : surfaceSpread(center);
+    result.spacing = reach * std::sqrt(kPi / (count - 1.0));
+    double b = 0.0;
+    if (ruleOfNeighborhood(center, count, b) == Status::Ok)
+    {
+      result.bandwidth = b;
+    }
     return result;
   }
 
@@ -90,16 +131,20 @@ private:
     return std::sqrt(scatter / (n - 1.0) / 2.0);
   }
 
-  double distanceSpread()
+  Status ruleOfNeighborhood(const Vec3& center, double count, double& b)
   {
+    const bool univariate =
+      settings_.rule == BandwidthRule::SilvermanRobust || settings_.rule == BandwidthRule::SheatherJones;
+    if (!univariate)
+    {
+      return bandwidth(settings_.rule, surfaceSpread(center), count, 2, b);
+    }
     distances_.clear();
     for (const Neighbor& neighbor : found_)
     {
       distances_.push_back(std::sqrt(neighbor.squaredDistance));
     }
-    const SampleSpread spread = sampleSpread(distances_);
-    const double robust = spread.interquartileRange / 1.34;
-    return robust > 0.0 ? std::min(spread.standardDeviation, robust) : spread.standardDeviation;
+    return sampleBandwidth(settings_.rule, distances_.data(), std::int64_t(distances_.size()), scratch_, b);
   }
 
   const PointView& points_;
@@ -107,6 +152,7 @@ private:
   const LocalBandwidthSettings& settings_;
   std::vector<Neighbor> found_;
   std::vector<double> distances_;
+  BandwidthScratch scratch_;
 };
 
 double clampedRadius(double radius, double spacing, const LocalBandwidthSettings& settings)
@@ -142,66 +188,92 @@ double fallbackRadius(
 
 }
 
+double SampleSpread::robustDeviation(double quartilesOfNormal) const noexcept
+{
+  return interquartileRange > 0.0 ? std::min(standardDeviation, interquartileRange / quartilesOfNormal)
+                                  : standardDeviation;
+}
+
 SampleSpread sampleSpread(std::vector<double>& values)
 {
+  const auto finite = std::partition(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  std::sort(values.begin(), finite);
   SampleSpread result;
-  result.count = std::int64_t(values.size());
-  if (values.empty())
+  result.count = finite - values.begin();
+  if (result.count < 1)
   {
     return result;
   }
-  std::sort(values.begin(), values.end());
+  // About the smallest value and in units of the range, by a power of two: nothing overflows, and nothing is
+  // lost to a large offset.
+  const double front = values.front();
+  const double unit = powerOfTwoNear(values[std::size_t(result.count - 1)] - front);
+  const double n = double(result.count);
   double sum = 0.0;
-  for (const double v : values)
-  {
-    sum += v - values.front();
-  }
-  const double n = double(values.size());
-  result.mean = values.front() + sum / n;
+  std::for_each(values.begin(), finite, [&](double v) { sum += (v - front) / unit; });
+  const double center = sum / n;
   double squares = 0.0;
-  for (const double v : values)
+  double rest = 0.0;
+  for (auto v = values.begin(); v != finite; ++v)
   {
-    squares += (v - result.mean) * (v - result.mean);
+    const double deviation = (*v - front) / unit - center;
+    squares += deviation * deviation;
+    rest += deviation;
   }
-  result.standardDeviation = values.size() > 1 ? std::sqrt(squares / (n - 1.0)) : 0.0;
-  result.interquartileRange = quantile(values, 0.75) - quantile(values, 0.25);
+  const double scatter = std::max(0.0, squares - rest * rest / n);
+  result.mean = front + center * unit;
+  result.standardDeviation = result.count > 1 ? std::sqrt(scatter / (n - 1.0)) * unit : 0.0;
+  result.interquartileRange = quantile(values, result.count, 0.75) - quantile(values, result.count, 0.25);
   return result;
 }
 
-Status bandwidth(BandwidthRule rule, double s, double n, int dimensions, double& result) noexcept
+Status bandwidth(
+  BandwidthRule rule, double s, double n, int dimensions, double& result, double fallback) noexcept
 {
-  result = 0.0;
-  if (!(n >= 2.0) || !(s > 0.0) || !std::isfinite(s))
+  result = usableFallback(fallback);
+  if (dimensions < 1 || dimensions > 3 || rule == BandwidthRule::SheatherJones)
+  {
+    return Status::InvalidParameter;
+  }
+  if (!(n >= 2.0) || !std::isfinite(n) || !(s > 0.0) || !std::isfinite(s))
   {
     return Status::DegenerateSample;
   }
-  const double d = double(dimensions);
-  switch (rule)
+  const double b = ruleFactor(rule, n, double(dimensions)) * s;
+  if (!(b > 0.0))
   {
-    case BandwidthRule::NormalReference:
-      result = 1.06 * s * std::pow(n, -0.2);
-      break;
-    case BandwidthRule::SilvermanRobust:
-      result = 0.9 * s * std::pow(n, -0.2);
-      break;
-    case BandwidthRule::ScottMultivariate:
-      result = s * std::pow(n, -1.0 / (d + 4.0));
-      break;
-    case BandwidthRule::SilvermanMultivariate:
-      result = s * std::pow(n * (d + 2.0) / 4.0, -1.0 / (d + 4.0));
-      break;
+    return Status::DegenerateSample;
   }
+  result = b;
   return Status::Ok;
 }
 
-Status univariateBandwidth(BandwidthRule rule, const SampleSpread& spread, double& result) noexcept
+Status univariateBandwidth(
+  BandwidthRule rule, const SampleSpread& spread, double& result, double fallback) noexcept
 {
-  double s = spread.standardDeviation;
-  if (rule == BandwidthRule::SilvermanRobust && spread.interquartileRange > 0.0)
+  const bool robust = rule == BandwidthRule::SilvermanRobust;
+  const double s = robust ? spread.robustDeviation(kSilvermanQuartiles) : spread.standardDeviation;
+  return bandwidth(rule, s, double(spread.count), 1, result, fallback);
+}
+
+Status sampleBandwidth(BandwidthRule rule, const double* sample, std::int64_t count,
+  BandwidthScratch& scratch, double& result, double fallback)
+{
+  scratch.values.assign(sample, sample + std::max<std::int64_t>(count, 0));
+  const SampleSpread spread = sampleSpread(scratch.values);
+  if (spread.count != std::int64_t(scratch.values.size()))
   {
-    s = std::min(s, spread.interquartileRange / 1.34);
+    result = usableFallback(fallback);
+    return Status::InvalidParameter;
   }
-  return bandwidth(rule, s, double(spread.count), 1, result);
+  if (rule != BandwidthRule::SheatherJones)
+  {
+    return univariateBandwidth(rule, spread, result, fallback);
+  }
+  const Status status = univariateBandwidth(BandwidthRule::SilvermanRobust, spread, result, fallback);
+  return status != Status::Ok ? status
+                              : scratch.sheatherJones.solveTheEquation(scratch.values.data(), spread.count,
+                                  spread.robustDeviation(kSheatherJonesQuartiles), result);
 }
 
 Status LocalBandwidthSettings::check() const noexcept
@@ -241,11 +313,11 @@ Status localBandwidths(const PointView& points, const NeighborQuery& query,
           continue;
         }
         const Neighborhood near = reader.read(center);
-        double b = 0.0;
-        if (bandwidth(settings.rule, near.spread, near.count, 2, b) == Status::Ok)
+        if (near.bandwidth > 0.0)
         {
-          bandwidths[std::size_t(i)] = b;
-          radii[std::size_t(i)] = clampedRadius(settings.radiusScale * b, near.spacing, settings);
+          bandwidths[std::size_t(i)] = near.bandwidth;
+          radii[std::size_t(i)] =
+            clampedRadius(settings.radiusScale * near.bandwidth, near.spacing, settings);
         }
       }
     });

@@ -1,7 +1,8 @@
 #include "Core/Bandwidth.h"
 #include "Core/Reference/ReferenceBandwidth.h"
+#include "Core/Reference/ReferenceKernelSum.h"
 
-#include "RandomClouds.h"
+#include "RandomSamples.h"
 #include "ReferenceSamples.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,19 @@ using namespace pointhaptics;
 namespace
 {
 
-const BandwidthRule kRules[] = { BandwidthRule::NormalReference, BandwidthRule::SilvermanRobust,
+/// Those that need no more than the spread.
+const BandwidthRule kSpreadRules[] = { BandwidthRule::NormalReference, BandwidthRule::SilvermanRobust,
   BandwidthRule::ScottMultivariate, BandwidthRule::SilvermanMultivariate };
+const BandwidthRule kRules[] = { BandwidthRule::NormalReference, BandwidthRule::SilvermanRobust,
+  BandwidthRule::ScottMultivariate, BandwidthRule::SilvermanMultivariate, BandwidthRule::SheatherJones };
+
+double bandwidthOf(BandwidthRule rule, const std::vector<double>& sample)
+{
+  BandwidthScratch scratch;
+  double b = 0.0;
+  EXPECT_EQ(sampleBandwidth(rule, sample.data(), std::int64_t(sample.size()), scratch, b), Status::Ok);
+  return b;
+}
 
 PointView view(const std::vector<Vec3>& points)
 {
@@ -100,6 +112,32 @@ TEST(SampleSpread, MatchesLongDoubleFarFromZero)
   }
 }
 
+TEST(SampleSpread, LeavesOutWhatIsNotFinite)
+{
+  std::vector<double> values{ 4.0, NAN, 1.0, INFINITY, 2.0, -INFINITY, NAN };
+  std::vector<double> finite{ 4.0, 1.0, 2.0 };
+  const SampleSpread spread = sampleSpread(values);
+  const SampleSpread expected = sampleSpread(finite);
+  EXPECT_EQ(spread.count, 3);
+  EXPECT_EQ(spread.mean, expected.mean);
+  EXPECT_EQ(spread.standardDeviation, expected.standardDeviation);
+  EXPECT_EQ(spread.interquartileRange, expected.interquartileRange);
+  EXPECT_EQ(values[0], 1.0);
+  EXPECT_EQ(values[2], 4.0);
+}
+
+TEST(SampleSpread, NeitherOverflowsNorUnderflows)
+{
+  for (const double unit : { 0x1p-1070, 1e-300, 1e-150, 1e150, 1e306 })
+  {
+    std::vector<double> values{ 0.0, unit, 2 * unit, 3 * unit, 4 * unit };
+    const SampleSpread spread = sampleSpread(values);
+    EXPECT_NEAR(spread.standardDeviation / unit, std::sqrt(2.5), unit < 1e-310 ? 0.05 : 1e-14);
+    EXPECT_NEAR(spread.mean / unit, 2.0, 1e-14);
+    EXPECT_DOUBLE_EQ(spread.interquartileRange / unit, 2.0);
+  }
+}
+
 TEST(SampleSpread, OfNothingIsZero)
 {
   std::vector<double> none;
@@ -147,7 +185,7 @@ TEST(UnivariateBandwidth, MatchesTheDefinitionForEveryRule)
 {
   std::vector<double> values = samples::kEruptions;
   const SampleSpread spread = sampleSpread(values);
-  for (const BandwidthRule rule : kRules)
+  for (const BandwidthRule rule : kSpreadRules)
   {
     const reference::Spread exact = reference::spread(values);
     long double s = exact.standardDeviation;
@@ -161,18 +199,32 @@ TEST(UnivariateBandwidth, MatchesTheDefinitionForEveryRule)
   }
 }
 
-TEST(UnivariateBandwidth, DegenerateSamplesHaveAStatusAndZero)
+TEST(UnivariateBandwidth, DegenerateSamplesHaveAStatusAndTheFallback)
 {
-  for (const BandwidthRule rule : kRules)
+  for (const BandwidthRule rule : kSpreadRules)
   {
     for (std::vector<double> values : { std::vector<double>{}, std::vector<double>{ 5 },
            std::vector<double>(10, 5.0), std::vector<double>{ 3, 3 } })
     {
       double b = 7.0;
-      EXPECT_EQ(univariateBandwidth(rule, sampleSpread(values), b), Status::DegenerateSample);
-      EXPECT_EQ(b, 0.0);
+      EXPECT_EQ(univariateBandwidth(rule, sampleSpread(values), b, 0.25), Status::DegenerateSample);
+      EXPECT_EQ(b, 0.25);
+      for (const double useless : { 0.0, -1.0, double(NAN), double(INFINITY) })
+      {
+        EXPECT_EQ(univariateBandwidth(rule, sampleSpread(values), b, useless), Status::DegenerateSample);
+        EXPECT_EQ(b, kBandwidthWithoutSpread);
+      }
     }
   }
+}
+
+TEST(UnivariateBandwidth, OfSheatherJonesNeedsTheValues)
+{
+  std::vector<double> values = samples::kEruptions;
+  double b = 0.0;
+  EXPECT_EQ(univariateBandwidth(BandwidthRule::SheatherJones, sampleSpread(values), b, 0.5),
+    Status::InvalidParameter);
+  EXPECT_EQ(b, 0.5);
 }
 
 TEST(UnivariateBandwidth, FallsBackToTheDeviationWhereTheQuartilesCoincide)
@@ -188,7 +240,7 @@ TEST(UnivariateBandwidth, FallsBackToTheDeviationWhereTheQuartilesCoincide)
 
 TEST(Bandwidth, ScalesWithTheSampleAndShrinksWithItsSize)
 {
-  for (const BandwidthRule rule : kRules)
+  for (const BandwidthRule rule : kSpreadRules)
   {
     for (const int d : { 1, 2, 3 })
     {
@@ -205,18 +257,166 @@ TEST(Bandwidth, ScalesWithTheSampleAndShrinksWithItsSize)
   }
 }
 
+TEST(Bandwidth, IsTheFactorOfEachRuleInEachDimension)
+{
+  // Worked out by hand for n = 32: 32^(-1/5) = 1/2; (32 * 3/4)^(-1/5), 32^(-1/6), 32^(-1/7), (32 *
+  // 5/4)^(-1/7).
+  const struct
+  {
+    BandwidthRule rule;
+    int dimensions;
+    double factor;
+  } expected[] = {
+    { BandwidthRule::NormalReference, 1, 0.53 },
+    { BandwidthRule::NormalReference, 2, 0.53 },
+    { BandwidthRule::SilvermanRobust, 1, 0.45 },
+    { BandwidthRule::ScottMultivariate, 1, 0.5 },
+    { BandwidthRule::ScottMultivariate, 2, 0.56123102415468651 },
+    { BandwidthRule::ScottMultivariate, 3, 0.60950682710223767 },
+    { BandwidthRule::SilvermanMultivariate, 1, 0.5296119205244061 },
+    { BandwidthRule::SilvermanMultivariate, 2, 0.56123102415468651 },
+    { BandwidthRule::SilvermanMultivariate, 3, 0.5903836027749966 },
+  };
+  for (const auto& line : expected)
+  {
+    double b = 0.0;
+    ASSERT_EQ(bandwidth(line.rule, 2.0, 32, line.dimensions, b), Status::Ok);
+    EXPECT_NEAR(b / (2.0 * line.factor), 1.0, 1e-14) << int(line.rule) << " in " << line.dimensions;
+  }
+}
+
 TEST(Bandwidth, RefusesSamplesWithoutSpread)
+{
+  for (const BandwidthRule rule : kSpreadRules)
+  {
+    for (const double s : { 0.0, -1.0, double(NAN), double(INFINITY) })
+    {
+      double b = 7.0;
+      EXPECT_EQ(bandwidth(rule, s, 100, 2, b, 0.125), Status::DegenerateSample) << s;
+      EXPECT_EQ(b, 0.125);
+    }
+    for (const double n : { 1.0, 0.0, double(NAN), double(INFINITY) })
+    {
+      double b = 7.0;
+      EXPECT_EQ(bandwidth(rule, 1.0, n, 2, b), Status::DegenerateSample) << n;
+      EXPECT_EQ(b, kBandwidthWithoutSpread);
+    }
+    for (const int d : { 0, 4, -1 })
+    {
+      double b = 7.0;
+      EXPECT_EQ(bandwidth(rule, 1.0, 100, d, b), Status::InvalidParameter) << d;
+      EXPECT_EQ(b, kBandwidthWithoutSpread);
+    }
+    double b = 7.0;
+    (void)bandwidth(rule, 5e-324, 1e9, 1, b);
+    EXPECT_GT(b, 0.0) << "even where the product underflows";
+  }
+}
+
+TEST(SampleBandwidth, AgreesWithTheRulesThatTakeASpread)
+{
+  std::vector<double> values = samples::kWaiting;
+  const SampleSpread spread = sampleSpread(values);
+  for (const BandwidthRule rule : kSpreadRules)
+  {
+    double b = 0.0;
+    ASSERT_EQ(univariateBandwidth(rule, spread, b), Status::Ok);
+    EXPECT_EQ(bandwidthOf(rule, samples::kWaiting), b);
+  }
+}
+
+TEST(SampleBandwidth, OfSheatherJonesMatchesR)
+{
+  for (const samples::Expected& expected : samples::kExpected)
+  {
+    if (expected.solveTheEquation > 0.0)
+    {
+      EXPECT_NEAR(
+        bandwidthOf(BandwidthRule::SheatherJones, expected.sample) / expected.solveTheEquation, 1.0, 5e-10);
+    }
+  }
+}
+
+TEST(SampleBandwidth, ScalesAndShiftsWithTheSampleWhateverItsOrder)
 {
   for (const BandwidthRule rule : kRules)
   {
-    for (const double s : { 0.0, -1.0, double(NAN) })
+    for (const int kind : { 0, 1, 2, 4 })
+    {
+      const std::vector<double> sample = trial::randomSample(200, kind, 51);
+      const double b = bandwidthOf(rule, sample);
+      EXPECT_EQ(bandwidthOf(rule, trial::shuffled(sample, 52)), b);
+      for (const double scale : { 1e-9, 0.3, 1e9, 0x1p-900, 0x1p900 })
+      {
+        const std::vector<double> scaled = trial::randomSample(200, kind, 51, 0.0, scale);
+        EXPECT_NEAR(bandwidthOf(rule, scaled) / (scale * b), 1.0, 1e-9) << int(rule) << " " << scale;
+      }
+      for (const double offset : { -3.0, 1e3 })
+      {
+        const std::vector<double> moved = trial::randomSample(200, kind, 51, offset);
+        EXPECT_NEAR(bandwidthOf(rule, moved) / b, 1.0, 1e-9) << int(rule) << " " << offset;
+      }
+    }
+  }
+}
+
+TEST(SampleBandwidth, OfTwoValuesIsAPartOfTheirDistance)
+{
+  for (const BandwidthRule rule : kRules)
+  {
+    for (const double scale : { 1e-9, 1.0, 1e9 })
+    {
+      const double b = bandwidthOf(rule, { 5.0 * scale, 6.0 * scale });
+      EXPECT_GT(b, 0.1 * scale) << int(rule);
+      EXPECT_LT(b, scale) << int(rule);
+    }
+  }
+}
+
+TEST(SampleBandwidth, DegenerateSamplesHaveAStatusAndTheFallback)
+{
+  BandwidthScratch scratch;
+  for (const BandwidthRule rule : kRules)
+  {
+    for (const std::vector<double>& sample : { std::vector<double>{}, std::vector<double>{ 5 },
+           std::vector<double>(10, 5.0), std::vector<double>{ 3, 3 }, std::vector<double>{ -1e308, 1e308 } })
     {
       double b = 7.0;
-      EXPECT_EQ(bandwidth(rule, s, 100, 2, b), Status::DegenerateSample) << s;
+      EXPECT_EQ(sampleBandwidth(rule, sample.data(), std::int64_t(sample.size()), scratch, b, 0.25),
+        Status::DegenerateSample);
+      EXPECT_EQ(b, 0.25);
     }
-    double b = 7.0;
-    EXPECT_EQ(bandwidth(rule, 1.0, 1, 2, b), Status::DegenerateSample);
-    EXPECT_EQ(bandwidth(rule, 1.0, 0, 2, b), Status::DegenerateSample);
+    for (const double bad : { double(NAN), double(INFINITY), -double(INFINITY) })
+    {
+      const double sample[] = { 1.0, bad, 2.0, 4.0, bad };
+      double b = 7.0;
+      EXPECT_EQ(sampleBandwidth(rule, sample, 5, scratch, b, 0.25), Status::InvalidParameter);
+      EXPECT_EQ(b, 0.25);
+      EXPECT_EQ(sampleBandwidth(rule, sample, 5, scratch, b), Status::InvalidParameter);
+      EXPECT_EQ(b, kBandwidthWithoutSpread);
+    }
+  }
+}
+
+TEST(SampleBandwidth, IsUsableForEveryKindOfSample)
+{
+  BandwidthScratch scratch;
+  trial::Random random(53);
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    const int kind = trial % trial::kNumberOfSampleKinds;
+    const std::vector<double> sample = trial::randomSample(random.below(60), kind, std::uint64_t(trial),
+      random.uniform(-1e3, 1e3), trial::randomMagnitude(random, 1e-12, 1e12));
+    for (const BandwidthRule rule : kRules)
+    {
+      double b = 0.0;
+      const Status status =
+        sampleBandwidth(rule, sample.data(), std::int64_t(sample.size()), scratch, b, 1e-5);
+      EXPECT_TRUE(b > 0.0 && std::isfinite(b)) << int(rule) << " kind " << kind;
+      EXPECT_EQ(status == Status::Ok,
+        sample.size() > 1 &&
+          *std::min_element(sample.begin(), sample.end()) < *std::max_element(sample.begin(), sample.end()));
+    }
   }
 }
 
@@ -280,6 +480,32 @@ TEST(LocalBandwidths, MatchTheDefinitionAtEveryPoint)
         double(reference::surfaceSpread(view(points), indices) * reference::bandwidthFactor(rule, 13, d));
       EXPECT_NEAR(local.bandwidths[i] / expected, 1.0, 1e-9) << "rule " << int(rule) << " point " << i;
       EXPECT_NEAR(local.radii[i], 4.0 * local.bandwidths[i], 1e-12);
+    }
+  }
+}
+
+TEST(LocalBandwidths, OfTheRulesForDistancesMatchTheDefinition)
+{
+  const std::vector<Vec3> points = trial::randomBox(900, 39, { 0, 0, 0 }, { 1, 1, 0.1 });
+  for (const BandwidthRule rule : { BandwidthRule::SilvermanRobust, BandwidthRule::SheatherJones })
+  {
+    LocalBandwidthSettings settings;
+    settings.rule = rule;
+    settings.minimumRadius = 1e-9;
+    const Local local = localOf(points, settings);
+    for (std::size_t i = 0; i < points.size(); i += 61)
+    {
+      std::vector<double> distances;
+      for (const Neighbor& n : reference::nearest(view(points), points[i], 17))
+      {
+        distances.push_back(std::sqrt(n.squaredDistance));
+      }
+      const reference::Spread spread = reference::spread(distances);
+      const long double s = std::min(spread.standardDeviation, spread.interquartileRange / 1.34L);
+      const double expected = double(rule == BandwidthRule::SheatherJones
+          ? reference::SheatherJonesOracle(distances).solveTheEquation()
+          : s * reference::bandwidthFactor(rule, 17, 1));
+      EXPECT_NEAR(local.bandwidths[i] / expected, 1.0, 1e-9) << "rule " << int(rule) << " point " << i;
     }
   }
 }

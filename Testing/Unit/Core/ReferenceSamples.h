@@ -2,6 +2,7 @@
 /// Samples of R's package `datasets` with the values that R 4.2.2 finds for them.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 namespace pointhaptics
@@ -636,17 +637,39 @@ inline const std::vector<double> kPrecipitation = {
 };
 
 /// What R finds: sd(x), bw.nrd0(x), bw.nrd(x).
+/// R: qnorm(ppoints(100)), the quantiles of the normal distribution at (i - 1/2) / 100.
+inline std::vector<double> normalQuantiles()
+{
+  std::vector<double> values;
+  for (int i = 0; i < 100; ++i)
+  {
+    double low = -10.0;
+    double high = 10.0;
+    for (int step = 0; step < 60; ++step)
+    {
+      const double middle = 0.5 * (low + high);
+      (0.5 * std::erfc(-middle / std::sqrt(2.0)) < (i + 0.5) / 100 ? low : high) = middle;
+    }
+    values.push_back(0.5 * (low + high));
+  }
+  return values;
+}
+inline const std::vector<double> kNormalQuantiles = normalQuantiles();
+
 struct Expected
 {
   const std::vector<double>& sample;
   double standardDeviation;
   double nrd0;
   double nrd;
+  double solveTheEquation; ///< bw.SJ(method = "ste") by sums that are not binned; ten digits. 0: not known.
+  double directPlugIn;     ///< bw.SJ(method = "dpi"), likewise.
 };
 inline const Expected kExpected[] = {
-  { kEruptions, 1.14137125111, 0.334777034464, 0.394292951702 },
-  { kWaiting, 13.59497379, 3.98755882858, 4.69645817588 },
-  { kPrecipitation, 13.7066500914, 3.84789224259, 4.53196197461 },
+  { kEruptions, 1.14137125111, 0.334777034464, 0.394292951702, 0.1396831046, 0.1653477546 },
+  { kWaiting, 13.59497379, 3.98755882858, 4.69645817588, 2.4968445978, 2.6329845847 },
+  { kPrecipitation, 13.7066500914, 3.84789224259, 4.53196197461, 3.9420123894, 4.0229369586 },
+  { kNormalQuantiles, 0.998640304211, 0.356534637929, 0.41991857356, 0.0, 0.0 },
 };
 
 } // namespace samples

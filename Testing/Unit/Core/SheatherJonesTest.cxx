@@ -1,0 +1,164 @@
+#include "Core/SheatherJones.h"
+#include "Core/Bandwidth.h"
+#include "Core/Reference/ReferenceKernelSum.h"
+
+#include "RandomSamples.h"
+#include "ReferenceSamples.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+struct Found
+{
+  Status status = Status::Ok;
+  double solveTheEquation = 0.0;
+  double directPlugIn = 0.0;
+};
+
+Found bandwidthsOf(std::vector<double> sample)
+{
+  const SampleSpread spread = sampleSpread(sample);
+  const double scale = spread.robustDeviation(1.349);
+  SheatherJones rule;
+  Found found;
+  found.status = rule.solveTheEquation(sample.data(), spread.count, scale, found.solveTheEquation);
+  EXPECT_EQ(rule.directPlugIn(sample.data(), spread.count, scale, found.directPlugIn), found.status);
+  return found;
+}
+
+} // namespace
+
+TEST(SheatherJones, MatchesRAsFarAsItsDigitsGo)
+{
+  for (const samples::Expected& expected : samples::kExpected)
+  {
+    if (expected.solveTheEquation > 0.0)
+    {
+      const Found found = bandwidthsOf(expected.sample);
+      EXPECT_EQ(found.status, Status::Ok);
+      EXPECT_NEAR(found.solveTheEquation, expected.solveTheEquation, 5.1e-11);
+      EXPECT_NEAR(found.directPlugIn, expected.directPlugIn, 5.1e-11);
+    }
+  }
+}
+
+TEST(SheatherJones, MatchesTheLongDoubleSumsOfTheReferenceSamples)
+{
+  for (const samples::Expected& expected : samples::kExpected)
+  {
+    const reference::SheatherJonesOracle oracle(expected.sample);
+    const Found found = bandwidthsOf(expected.sample);
+    EXPECT_NEAR(found.solveTheEquation / double(oracle.solveTheEquation()), 1.0, 1e-11);
+    EXPECT_NEAR(found.directPlugIn / double(oracle.directPlugIn()), 1.0, 1e-12);
+  }
+}
+
+TEST(SheatherJones, MatchesTheLongDoubleSumsForSamplesOfEveryKind)
+{
+  trial::Random random(21);
+  for (int trial = 0; trial < 60; ++trial)
+  {
+    // All but the constant kind.
+    const int kind = trial % (trial::kNumberOfSampleKinds - 1);
+    const std::vector<double> sample = trial::randomSample(10 + random.below(120), kind, std::uint64_t(trial),
+      random.uniform(-10, 10), trial::randomMagnitude(random, 1e-9, 1e9));
+    const reference::SheatherJonesOracle oracle(sample);
+    const Found found = bandwidthsOf(sample);
+    EXPECT_EQ(found.status, Status::Ok);
+    EXPECT_NEAR(found.solveTheEquation / double(oracle.solveTheEquation()), 1.0, 1e-9) << "kind " << kind;
+    EXPECT_NEAR(found.directPlugIn / double(oracle.directPlugIn()), 1.0, 1e-9) << "kind " << kind;
+  }
+}
+
+TEST(SheatherJones, FindsTheBestBandwidthOfALargeNormalSample)
+{
+  // The mean integrated squared error is least at (4/3)^(1/5) s n^(-1/5).
+  const std::size_t n = 30000;
+  const Found found = bandwidthsOf(trial::randomSample(n, 1, 22));
+  const double best = std::pow(4.0 / 3.0, 0.2) * std::pow(double(n), -0.2);
+  EXPECT_NEAR(found.solveTheEquation / best, 1.0, 0.05);
+  EXPECT_NEAR(found.directPlugIn / best, 1.0, 0.05);
+}
+
+TEST(SheatherJones, IsMuchSmallerThanTheNormalReferenceForClustersFarApart)
+{
+  trial::Random random(23);
+  std::vector<double> sample;
+  for (int i = 0; i < 2000; ++i)
+  {
+    sample.push_back(random.normal() + (i % 2 == 0 ? 0.0 : 40.0));
+  }
+  // The clusters alone ask for (4/3 / 1000)^(1/5) = 0.266; the spread of both for 4.6.
+  const double b = bandwidthsOf(sample).solveTheEquation;
+  EXPECT_GT(b, 0.2);
+  EXPECT_LT(b, 0.5);
+}
+
+TEST(SheatherJones, ScalesAndShiftsWithTheSample)
+{
+  const std::vector<double> sample = trial::randomSample(400, 2, 24);
+  const Found expected = bandwidthsOf(sample);
+  for (const double scale : { 0x1p-900, 0x1p-30, 0x1p30, 0x1p900 })
+  {
+    const Found found = bandwidthsOf(trial::randomSample(400, 2, 24, 0.0, scale));
+    EXPECT_EQ(found.solveTheEquation, expected.solveTheEquation * scale);
+    EXPECT_EQ(found.directPlugIn, expected.directPlugIn * scale);
+  }
+  for (const double scale : { 1e-9, 1e9 })
+  {
+    for (const double offset : { 0.0, 50.0, -1e3 })
+    {
+      const Found found = bandwidthsOf(trial::randomSample(400, 2, 24, offset, scale));
+      EXPECT_NEAR(found.solveTheEquation / (expected.solveTheEquation * scale), 1.0, 1e-9);
+      EXPECT_NEAR(found.directPlugIn / (expected.directPlugIn * scale), 1.0, 1e-9);
+    }
+  }
+}
+
+TEST(SheatherJones, HasASolutionForTiesAndTinySamples)
+{
+  const std::vector<std::vector<double>> samples{ { 1, 2 }, { 1, 1, 2 }, { 0, 0, 0, 0, 1 }, { 1, 2, 1e6 },
+    trial::randomSample(5000, 3, 25), { 0, 1e-12, 1 } };
+  for (const std::vector<double>& sample : samples)
+  {
+    const Found found = bandwidthsOf(sample);
+    EXPECT_EQ(found.status, Status::Ok) << sample.size();
+    EXPECT_TRUE(found.solveTheEquation > 0.0 && std::isfinite(found.solveTheEquation));
+    EXPECT_TRUE(found.directPlugIn > 0.0 && std::isfinite(found.directPlugIn));
+  }
+}
+
+TEST(SheatherJones, OfADegenerateSampleHasAStatusAndTouchesNothing)
+{
+  SheatherJones rule;
+  const double same[] = { 5, 5, 5 };
+  double b = 7.0;
+  EXPECT_EQ(rule.solveTheEquation(same, 3, 0.0, b), Status::DegenerateSample);
+  EXPECT_EQ(rule.solveTheEquation(same, 3, NAN, b), Status::DegenerateSample);
+  EXPECT_EQ(rule.solveTheEquation(same, 3, INFINITY, b), Status::DegenerateSample);
+  EXPECT_EQ(rule.solveTheEquation(same, 1, 1.0, b), Status::DegenerateSample);
+  EXPECT_EQ(rule.solveTheEquation(nullptr, 0, 1.0, b), Status::DegenerateSample);
+  EXPECT_EQ(rule.directPlugIn(same, 3, 0.0, b), Status::DegenerateSample);
+  EXPECT_EQ(rule.directPlugIn(nullptr, 0, 1.0, b), Status::DegenerateSample);
+  EXPECT_EQ(b, 7.0);
+}
+
+TEST(SheatherJones, MayBeUsedAgain)
+{
+  std::vector<double> large = trial::randomSample(3000, 0, 26);
+  std::sort(large.begin(), large.end());
+  std::vector<double> small = samples::kPrecipitation;
+  const SampleSpread spread = sampleSpread(small);
+  SheatherJones rule;
+  double b = 0.0;
+  ASSERT_EQ(rule.solveTheEquation(large.data(), 3000, 0.3, b), Status::Ok);
+  ASSERT_EQ(rule.solveTheEquation(small.data(), 70, spread.robustDeviation(1.349), b), Status::Ok);
+  EXPECT_EQ(b, bandwidthsOf(samples::kPrecipitation).solveTheEquation);
+}
