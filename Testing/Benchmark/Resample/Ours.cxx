@@ -1,5 +1,7 @@
 #include "Benchmark/Resample/Ours.h"
 
+#include "Benchmark/Resample/FilterFeatures.h"
+
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
@@ -60,6 +62,19 @@ ResampleAnswer answerOf(vtkPolyData* output)
 namespace
 {
 
+bool processorHas(InstructionSet set)
+{
+#if defined(__x86_64__) || defined(__i386__)
+  if (set == InstructionSet::Avx512)
+  {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+  }
+  return set != InstructionSet::Avx2 || __builtin_cpu_supports("avx2");
+#else
+  return set == InstructionSet::Automatic || set == InstructionSet::Baseline;
+#endif
+}
+
 class Ours : public Rival
 {
 public:
@@ -69,6 +84,10 @@ public:
   }
   std::string name() const override { return settings_.name; }
   bool mustBeExact() const override { return true; }
+  std::string refusal(const ResampleTask&) const override
+  {
+    return processorHas(settings_.instructionSet) ? "" : "the processor does not have them";
+  }
   void load(const ResampleTask& task) override
   {
     input_->SetPoints(task.cloud->GetPoints());
@@ -78,6 +97,8 @@ public:
     }
     filter_->SetInputData(input_);
     filter_->SetComputeCovariance(settings_.covariance);
+    features::setInstructionSet(filter_.Get(), int(settings_.instructionSet));
+    features::setLevels(filter_.Get(), settings_.levels);
     setTask(filter_, task, settings_.automaticWorkspace);
   }
   void before() override { input_->Modified(); }
@@ -85,7 +106,12 @@ public:
   ResampleAnswer answer() const override { return answerOf(filter_->GetOutput()); }
   std::int64_t resultBytes() const override
   {
-    return std::int64_t(1024 * filter_->GetOutput()->GetActualMemorySize());
+    std::int64_t bytes = 0;
+    for (int port = 0; port < filter_->GetNumberOfOutputPorts(); ++port)
+    {
+      bytes += std::int64_t(1024 * filter_->GetOutputDataObject(port)->GetActualMemorySize());
+    }
+    return bytes;
   }
 
 private:
@@ -95,6 +121,22 @@ private:
 };
 
 } // namespace
+
+const char* instructionSetName(InstructionSet set)
+{
+  switch (set)
+  {
+    case InstructionSet::Baseline:
+      return "baseline";
+    case InstructionSet::Avx2:
+      return "AVX2";
+    case InstructionSet::Avx512:
+      return "AVX-512";
+    case InstructionSet::Automatic:
+      break;
+  }
+  return "automatic";
+}
 
 std::unique_ptr<Rival> makeOurs(const OursSettings& settings)
 {

@@ -66,6 +66,14 @@ Rivals thoseThatCan(Rivals rivals, const ResampleTask& task, RaceTable& result)
   return able;
 }
 
+/// Nothing where PCL did not run.
+std::vector<double> pclSeconds(const std::vector<Lap>& laps)
+{
+  const auto pcl =
+    std::find_if(laps.begin(), laps.end(), [](const Lap& lap) { return lap.name.rfind("PCL", 0) == 0; });
+  return pcl == laps.end() ? std::vector<double>() : pcl->seconds;
+}
+
 RaceSettings settingsOf(const StudyContext& context)
 {
   RaceSettings settings;
@@ -97,8 +105,9 @@ RaceTable raceOn(const ResampleTask& task, Rivals rivals, int threads, StudyCont
   {
     const Lap& lap = laps[i];
     context.allRight = context.allRight && (verdicts[i].right || !able[i]->mustBeExact());
-    result.rows.push_back({ lap.name, verdicts[i], lap, quartiles(lap.seconds),
-      pairedRatios(lap.seconds, laps.front().seconds), pairedRatios(lap.seconds, copy.seconds) });
+    result.rows.push_back(
+      { lap.name, verdicts[i], lap, quartiles(lap.seconds), pairedRatios(lap.seconds, laps.front().seconds),
+        pairedRatios(pclSeconds(laps), lap.seconds), pairedRatios(lap.seconds, copy.seconds) });
   }
   return result;
 }
@@ -125,8 +134,8 @@ void setRaceHeader(ReportPart& part, const std::vector<std::string>& leading, co
   {
     part.table.header.push_back(title);
   }
-  for (const std::string& title :
-    { "x " + first, std::string("x copy"), std::string("voxels"), std::string("answer") })
+  for (const std::string& title : { "x " + first, std::string("PCL / it"), std::string("x copy"),
+         std::string("voxels"), std::string("answer") })
   {
     part.table.header.push_back(title);
   }
@@ -140,7 +149,8 @@ std::vector<std::string> raceCells(const RaceRow& row, std::int64_t points)
   return { row.name, milliseconds(row.seconds.median),
     milliseconds(row.seconds.lower) + " - " + milliseconds(row.seconds.upper),
     milliseconds(row.lap.firstSeconds), brief(1e9 * row.seconds.median / double(points)),
-    brief(row.timesOurs.median), brief(row.timesCopy.median), grouped(row.verdict.voxels), row.verdict.text };
+    brief(row.timesOurs.median), row.pclTimes.count > 0 ? brief(row.pclTimes.median) : "",
+    brief(row.timesCopy.median), grouped(row.verdict.voxels), row.verdict.text };
 }
 
 nlohmann::ordered_json raceJson(const RaceRow& row, std::int64_t points)
@@ -150,10 +160,11 @@ nlohmann::ordered_json raceJson(const RaceRow& row, std::int64_t points)
     { "upper_quartile_seconds", row.seconds.upper }, { "fastest_seconds", row.seconds.minimum },
     { "first_seconds", row.lap.firstSeconds }, { "ns_per_point", 1e9 * row.seconds.median / double(points) },
     { "times_ours", row.timesOurs.median }, { "times_ours_lower", row.timesOurs.lower },
-    { "times_ours_upper", row.timesOurs.upper }, { "times_copy", row.timesCopy.median },
-    { "voxels", row.verdict.voxels }, { "expected_voxels", row.verdict.expectedVoxels },
-    { "wrong_voxels", row.verdict.wrongVoxels }, { "worst_error_voxels", row.verdict.worstError },
-    { "right", row.verdict.right }, { "answer", row.verdict.text } };
+    { "times_ours_upper", row.timesOurs.upper }, { "pcl_times", row.pclTimes.median },
+    { "times_copy", row.timesCopy.median }, { "voxels", row.verdict.voxels },
+    { "expected_voxels", row.verdict.expectedVoxels }, { "wrong_voxels", row.verdict.wrongVoxels },
+    { "worst_error_voxels", row.verdict.worstError }, { "right", row.verdict.right },
+    { "answer", row.verdict.text } };
 }
 
 } // namespace

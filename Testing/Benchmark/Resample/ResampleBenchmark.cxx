@@ -20,8 +20,8 @@ struct Study
 
 /// In the order of the report.
 constexpr Study kStudies[] = { { "points", studyPoints }, { "voxels", studyVoxels },
-  { "attributes", studyAttributes }, { "zoom", studyZoom }, { "memory", studyMemory },
-  { "accumulators", studyAccumulators } };
+  { "attributes", studyAttributes }, { "instructions", studyInstructions }, { "zoom", studyZoom },
+  { "memory", studyMemory }, { "accumulators", studyAccumulators } };
 
 constexpr const char* kMethod =
   "Each time is a whole `Update()` (of other libraries: the call that does the same), from points in memory "
@@ -29,7 +29,8 @@ constexpr const char* kMethod =
   "the finished result, with the input marked as modified. The answer is compared with long double before "
   "anything is timed. Then all contestants run once a round, in an order shuffled anew, after rounds to warm "
   "up; the first call is reported apart. Given are the median and the quartiles; ratios are medians of the "
-  "ratios within a round. \"x copy\" is the time over that of copying the coordinates on one thread, the "
+  "ratios within a round. \"x ours\" is the time over ours, \"PCL / it\" how many times as fast as PCL a "
+  "contestant is, \"x copy\" the time over that of copying the coordinates on one thread, the "
   "floor "
   "of any method. Loading the points into another library's own form is not timed. PCL's VoxelGrid and "
   "Open3D's VoxelDownSample run on one thread whatever they are given.";

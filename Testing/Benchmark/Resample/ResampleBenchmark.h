@@ -32,7 +32,7 @@ struct ResampleBenchmarkOptions
   void makeQuick();
 };
 
-/// What --studies takes: points, voxels, attributes, zoom, memory, accumulators.
+/// What --studies takes: points, voxels, attributes, instructions, zoom, memory, accumulators.
 std::vector<std::string> studyWords();
 
 /// Told what is being measured, from time to time.

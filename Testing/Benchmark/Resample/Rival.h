@@ -54,6 +54,16 @@ public:
   virtual std::int64_t resultBytes() const = 0;
 };
 
+/// As vtkVoxelMeanResampler numbers them.
+enum class InstructionSet : int
+{
+  Automatic = 0,
+  Baseline,
+  Avx2,
+  Avx512,
+};
+const char* instructionSetName(InstructionSet set);
+
 /// Which of ours: each of these is a contestant.
 struct OursSettings
 {
@@ -61,6 +71,8 @@ struct OursSettings
   bool automaticWorkspace = false;
   bool covariance = false;
   bool attributes = false; ///< Average the arrays of the cloud; otherwise they are not even passed in.
+  InstructionSet instructionSet = InstructionSet::Automatic;
+  int levels = 1; ///< The answer is that of the finest.
 };
 
 std::unique_ptr<Rival> makeOurs(const OursSettings& settings = {});

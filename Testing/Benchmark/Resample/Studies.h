@@ -33,6 +33,7 @@ struct RaceRow
   Lap lap;
   Quartiles seconds;
   Quartiles timesOurs; ///< Its time over that of the first contestant; 1 for that one.
+  Quartiles pclTimes;  ///< PCL's time over its: how many times as fast as PCL; empty where PCL did not run.
   Quartiles timesCopy; ///< Its time over that of a copy of the coordinates.
 };
 
@@ -52,7 +53,7 @@ RaceTable raceOn(const ResampleTask& task, Rivals rivals, int threads, StudyCont
 /// Ours, first, and the rivals that were asked for.
 Rivals allRivals(const StudyContext& context);
 
-/// Columns @p leading, then contestant, times, "x FIRST", "x copy", voxels and answer.
+/// Columns @p leading, then contestant, times, "x FIRST", "PCL / it", "x copy", voxels and answer.
 void setRaceHeader(
   ReportPart& part, const std::vector<std::string>& leading, const std::string& first = "ours");
 /// Adds the rows of @p race to @p part, each behind the cells and numbers of @p leading, and what was left
@@ -66,6 +67,8 @@ int mostThreads(const StudyContext& context);
 ReportPart studyPoints(StudyContext& context);
 ReportPart studyVoxels(StudyContext& context);
 ReportPart studyAttributes(StudyContext& context);
+/// Without a key where the filter has one path only.
+ReportPart studyInstructions(StudyContext& context);
 ReportPart studyZoom(StudyContext& context);
 ReportPart studyMemory(StudyContext& context);
 ReportPart studyAccumulators(StudyContext& context);

@@ -1,4 +1,5 @@
 #include "Benchmark/Resample/Clouds.h"
+#include "Benchmark/Resample/FilterFeatures.h"
 #include "Benchmark/Resample/Studies.h"
 
 #include <fmt/format.h>
@@ -8,6 +9,33 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace
+{
+
+Rivals withAllThatIsAsked()
+{
+  Rivals rivals;
+  const auto add = [&rivals](const char* name, bool covariance, bool attributes, int levels)
+  {
+    OursSettings settings;
+    settings.name = name;
+    settings.covariance = covariance;
+    settings.attributes = attributes;
+    settings.levels = levels;
+    rivals.push_back(makeOurs(settings));
+  };
+  add("points alone", false, false, 1);
+  add("with covariance", true, false, 1);
+  add("with three arrays", false, true, 1);
+  add("with both", true, true, 1);
+  if (features::kLevels)
+  {
+    add("with three coarser levels", false, false, 4);
+  }
+  return rivals;
+}
+
+} // namespace
 
 ReportPart studyVoxels(StudyContext& context)
 {
@@ -45,10 +73,11 @@ ReportPart studyAttributes(StudyContext& context)
   const int threads = mostThreads(context);
   ReportPart part;
   part.key = "attributes";
-  part.title = "With covariance and with what a point carries";
+  part.title = "With covariance, what a point carries, coarser levels";
   part.text =
     fmt::format("Random order, {} voxels on an axis, {} threads. Arrays: colours (3 unsigned char), "
-                "normals (3 float), intensity (1 float).",
+                "normals (3 float), intensity (1 float). Means and counts are checked here, covariance and "
+                "arrays in the tests of the filter.",
       context.options.dimension, threads);
   setRaceHeader(part, { "points" }, "points alone");
   for (const std::int64_t count : { context.options.voxelPoints, context.options.zoomPoints })
@@ -56,13 +85,8 @@ ReportPart studyAttributes(StudyContext& context)
     context.progress(fmt::format("{} points with covariance and arrays", count));
     const auto cloud = sphereCloud(count, PointOrder::Random);
     addAttributes(cloud);
-    Rivals rivals;
-    rivals.push_back(makeOurs({ "points alone" }));
-    rivals.push_back(makeOurs({ "with covariance", false, true, false }));
-    rivals.push_back(makeOurs({ "with three arrays", false, false, true }));
-    rivals.push_back(makeOurs({ "with both", false, true, true }));
     const RaceTable race =
-      raceOn(taskOn(cloud, context.options.dimension), std::move(rivals), threads, context);
+      raceOn(taskOn(cloud, context.options.dimension), withAllThatIsAsked(), threads, context);
     addRace(part, race, count, { grouped(count) },
       { { "points", count }, { "order", "random" }, { "dimension", context.options.dimension },
         { "threads", threads } });

@@ -1,4 +1,5 @@
 #include "Benchmark/Resample/Clouds.h"
+#include "Benchmark/Resample/FilterFeatures.h"
 #include "Benchmark/Resample/Ours.h"
 #include "Benchmark/Resample/Studies.h"
 
@@ -57,6 +58,7 @@ public:
   {
     input_->SetPoints(task.cloud->GetPoints());
     filter_->SetInputData(input_);
+    features::setPointIndex(filter_.Get(), !inputChanges);
     setTask(filter_, task_, false);
   }
   void before()
