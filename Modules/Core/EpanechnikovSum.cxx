@@ -67,19 +67,13 @@ double EpanechnikovSum::cellSum(
     upTo.second.minus(before.second);
 }
 
-/// How many values are @p before the edge of the kernel at @p position. Values at the edge itself add 0, so
-/// that the rounding of the position does not matter.
+/// How many values are @p before the edge of the kernel, the edge lying in @p cell, after what it holds, or
+/// before all cells. Values at the edge itself add 0, so that a rounding of its position does not matter.
 template <typename Before>
-std::int64_t EpanechnikovSum::edge(double position, Before&& before) const noexcept
+std::int64_t EpanechnikovSum::edge(const SampleCell& cell, Before&& before) const noexcept
 {
-  const std::size_t after = detail::cellAfter(cells_, position);
-  if (after == 0)
-  {
-    return 0;
-  }
-  const auto begin = sorted_.begin() + cells_[after - 1].begin;
-  const auto end = sorted_.begin() + cells_[after - 1].end;
-  return std::partition_point(begin, end, before) - sorted_.begin();
+  return std::partition_point(sorted_.begin() + cell.begin, sorted_.begin() + cell.end, before) -
+    sorted_.begin();
 }
 
 double EpanechnikovSum::sum(double target) const noexcept
@@ -88,17 +82,12 @@ double EpanechnikovSum::sum(double target) const noexcept
   {
     return 0.0;
   }
-  const std::int64_t begin =
-    edge(target - halfWidth_, [&](double value) { return target - value >= halfWidth_; });
-  const std::int64_t end =
-    edge(target + halfWidth_, [&](double value) { return value - target < halfWidth_; });
-  if (begin >= end)
-  {
-    return 0.0;
-  }
+  const std::size_t first = std::max<std::size_t>(detail::cellAfter(cells_, target - halfWidth_), 1) - 1;
+  const std::size_t last = std::max<std::size_t>(detail::cellAfter(cells_, target + halfWidth_), 1) - 1;
+  const std::int64_t begin = edge(cells_[first], [&](double value) { return target - value >= halfWidth_; });
+  const std::int64_t end = edge(cells_[last], [&](double value) { return value - target < halfWidth_; });
   double total = 0.0;
-  for (std::size_t c = detail::cellAfter(cells_, sorted_[std::size_t(begin)]) - 1;
-       c < cells_.size() && cells_[c].begin < end; ++c)
+  for (std::size_t c = first; c <= last; ++c)
   {
     const SampleCell& cell = cells_[c];
     total += cellSum(cell, std::max(begin, cell.begin), std::min(end, cell.end), target);

@@ -34,7 +34,7 @@ private:
     const detail::SampleCell& cell, std::int64_t begin, std::int64_t end, double target) const noexcept;
 
   template <typename Before>
-  std::int64_t edge(double position, Before&& before) const noexcept;
+  std::int64_t edge(const detail::SampleCell& cell, Before&& before) const noexcept;
 
   struct Running
   {

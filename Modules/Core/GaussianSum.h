@@ -14,7 +14,7 @@ namespace pointhaptics
 
 /// G(y) = sum_i exp(-(y - x_i)^2 / (2 h^2)), right relative to G itself, in the tails too.
 ///
-/// Method: after an idea of Raykar and Duraiswami 2006, here for sorted data, cut into cells of some 0.4 h.
+/// Method: after an idea of Raykar and Duraiswami 2006, here for sorted data, cut into cells of 0.4 to 0.5 h.
 /// With u and t the offsets of x and y from a cell's centre over h, exp(-(t - u)^2 / 2) = exp(-t^2 / 2)
 /// exp(-u^2 / 2) exp(u t), and exp(u t) is a power series: sums M_k = sum_i exp(-u_i^2 / 2) u_i^k / k! do not
 /// depend on y. A target walks outwards over the cells from the nearest one. For cells of many values that is
@@ -26,19 +26,22 @@ namespace pointhaptics
 /// - Walk: series are used where z = max |u t| <= 2. Stopped after p terms they leave out at most
 ///   2 z^p / p! m exp(-t^2 / 2), and they stop where that is below 1e-13 G / 64 (a walk meets fewer than 64
 ///   cells), or after 24 terms, where it is below 5e-16 of the cell's own sum, whose terms are all positive.
-/// - Beforehand: used for |t| <= 0.3 around cells of 64 values and more, where G >= 56. Two-fold series of 24
+/// - Beforehand: used for |t| <= 0.3 around cells of 64 values and more, where G >= 55. Two-fold series of 24
 ///   by 24 terms; by Cramer's bound |He_k(t)| exp(-t^2 / 2) <= 1.0865 sqrt(k!) each value leaves out at most
-///   1.0865 sum_(a >= 24 or b >= 24) (0.3 sqrt 2)^a (0.22 sqrt 2)^b / sqrt(a! b!) < 4e-21.
+///   1.0865 sum_(a >= 24 or b >= 24) (0.3 sqrt 2)^a (0.24 sqrt 2)^b / sqrt(a! b!) < 4e-21.
 /// Rounding was measured below 1e-14; GaussianSumTest asserts 1e-12 in all. Kernels below the smallest
 /// normal number (37 h away) lose digits and count as 0 from 39 h on.
 ///
 /// Cost: about 60 multiplications for each value once; for each target a binary search over the cells and 24
 /// multiplications where values are dense, else some 40 cells with an exponential and about ten
-/// multiplications each. Only targets without any value within about 2 h (the condition is |u t| > 2) sum
-/// points of cells one by one. Memory 8 to 70 bytes a value. Range: any h > 0, any finite values whose
-/// differences are finite; large offsets and duplicates lose nothing. The result depends on values and target
-/// only: not on their order, nor on threads. Thread safety: sum() and density() from any number of threads
-/// after build(); they allocate nothing.
+/// multiplications each. Cells with |u t| > 2 are summed point by point: they are more than 8 h away, and
+/// matter only to targets with few values or none nearby, which may cost up to n exponentials. Memory 8 to 70
+/// bytes a value.
+///
+/// Range: any h > 0, any finite values whose differences are finite; large offsets and duplicates lose
+/// nothing. The result depends on values and target only: not on their order, nor on threads.
+///
+/// Thread safety: sum() and density() from any number of threads after build(); they allocate nothing.
 class GaussianSum
 {
 public:

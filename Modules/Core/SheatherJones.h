@@ -18,13 +18,15 @@ namespace pointhaptics
 ///   solveTheEquation: b solves h = (2 sqrt(pi) n S(g(h)))^(-1/5), g(h) = 1.357 (S(a) / T(b))^(1/7) h^(5/7),
 ///   directPlugIn: h = (2 sqrt(pi) n S((2.394 / (n T(b)))^(1/7)))^(-1/5).
 /// The same as R's bw.SJ with methods "ste" and "dpi" on data that are not binned. S and T are never
-/// negative and the equation always has a solution; where it has several, the largest one below
-/// 1.144 s n^(-1/5) is taken, or if there is none below it, the smallest one above.
+/// negative and the equation always has a solution. It may have several where values coincide or cluster. The
+/// search begins at 1.144 s n^(-1/5), goes down if the left-hand side is the larger one there, else up, in
+/// steps of a fifth, and takes the first solution it meets.
 ///
 /// Accuracy: within 1e-9 relative of the exact sums and solution, about 1e-12 as measured
-/// (SheatherJonesTest). b scales with the sample and does not change when it is shifted. Cost: 10 to 20
-/// evaluations of the pair sums, O(n + cells) each: 0.1 s for 400,000 values. An object keeps its memory, so
-/// that later samples of no greater size allocate nothing; one thread at a time.
+/// (SheatherJonesTest). b scales with the sample and does not change when it is shifted.
+///
+/// Cost: 10 to 20 evaluations of the pair sums, O(n + cells) each: 0.1 s for 400,000 values. An object keeps
+/// its memory, so that later samples of no greater size allocate nothing; one thread at a time.
 class SheatherJones
 {
 public:

@@ -135,6 +135,28 @@ TEST(SheatherJones, HasASolutionForTiesAndTinySamples)
   }
 }
 
+TEST(SheatherJones, TakesTheSolutionNearestToItsStartWhereThereAreSeveral)
+{
+  // Solutions, as parts of the start 1.144 s n^(-1/5): 0.748, 0.664, 0.402; and 1.066, 0.793, 0.337.
+  const struct
+  {
+    std::vector<double> sample;
+    double ofStart;
+  } expected[] = {
+    { { -1.35, -1.35, 0.96, 1.73, 3.39, 3.39, 3.39, 3.4, 5.1, 5.1 }, 0.748 },
+    { { 1.73, 1.75, 3.41, 3.41, 5.1 }, 1.066 },
+  };
+  for (const auto& line : expected)
+  {
+    std::vector<double> sample = line.sample;
+    const double start =
+      1.144 * sampleSpread(sample).robustDeviation(1.349) * std::pow(double(sample.size()), -0.2);
+    const double b = bandwidthsOf(sample).solveTheEquation;
+    EXPECT_NEAR(b / start, line.ofStart, 0.03);
+    EXPECT_NEAR(b / double(reference::SheatherJonesOracle(sample).solveTheEquation()), 1.0, 1e-9);
+  }
+}
+
 TEST(SheatherJones, OfADegenerateSampleHasAStatusAndTouchesNothing)
 {
   SheatherJones rule;
