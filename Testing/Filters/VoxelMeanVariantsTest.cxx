@@ -139,7 +139,9 @@ TEST_P(VoxelMeanVariants, ThePointIndexFollowsTheInput)
       cloud_->GetPoint(i, p);
       cloud_->GetPoints()->SetPoint(i, p[1], 1 - p[2], 0.5 * p[0]);
     }
-    cloud_->GetPoints()->Modified();
+    // Whichever object is told of it.
+    vtkObject* const told[3] = { cloud_->GetPoints(), cloud_->GetPoints()->GetData(), cloud_ };
+    told[step % 3]->Modified();
     expectAsFromScratch(resampler_, cloud_);
     // An attribute changed in place, the points not.
     if (vtkDataArray* heat = cloud_->GetPointData()->GetArray("Heat"))

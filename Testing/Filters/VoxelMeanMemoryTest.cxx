@@ -1,0 +1,60 @@
+// What the resampler keeps between updates: bounded by the active voxels and the points, freed on request.
+#include "VoxelMeanCases.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace
+{
+
+/// The bound without an index: 64 bytes a voxel, 16 bytes for each of a million points, a few megabytes.
+double boundInKiB(vtkIdType voxels, vtkIdType points)
+{
+  return (64.0 * double(voxels) + 16.0 * double(std::min<vtkIdType>(points, 1000000))) / 1024 + 8 * 1024;
+}
+
+}
+
+TEST(VoxelMeanMemory, FollowsActiveVoxelsAndPointsNotTheLattice)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(1500000, 91, VTK_FLOAT));
+  for (const int n : { 10, 300, 4096, 1 << 20 })
+  {
+    SCOPED_TRACE(n);
+    vtkNew<vtkVoxelMeanResampler> resampler;
+    resampler->SetInputData(cloud);
+    resampler->SetUsePointIndex(false);
+    trial::useUnitCube(resampler, n);
+    resampler->Update();
+    EXPECT_EQ(trial::sum(trial::countsOf(resampler->GetOutput())), 1500000);
+    EXPECT_LE(double(resampler->GetScratchMemorySize()),
+      boundInKiB(resampler->GetOutput()->GetNumberOfPoints(), 1500000));
+  }
+}
+
+TEST(VoxelMeanMemory, IsFreedOnRequestWithoutChangingTheAnswer)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(300000, 92));
+  trial::addScanAttributes(cloud, 93);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  for (int round = 0; round < 3; ++round)
+  {
+    // Parts of the cloud, again and again, so that an index is made.
+    vtkSmartPointer<vtkPolyData> expected;
+    for (int view = 0; view < 3; ++view)
+    {
+      resampler->SetWorkspaceBounds(0, 0.25, 0, 0.5, 0, 0.5);
+      resampler->SetDimensions(20 + view, 40, 40);
+      resampler->Update();
+    }
+    expected = trial::copyOf(resampler->GetOutput());
+    EXPECT_GT(resampler->GetScratchMemorySize(), 100u);
+    resampler->ReleaseScratch();
+    EXPECT_LT(resampler->GetScratchMemorySize(), 64u);
+    resampler->Modified();
+    resampler->Update();
+    trial::expectSame(resampler->GetOutput(), expected);
+  }
+}
