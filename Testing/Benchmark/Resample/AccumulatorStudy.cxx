@@ -18,7 +18,7 @@ namespace bench
 namespace
 {
 
-/// Where an error of nothing is drawn on a logarithmic axis.
+/// Smaller errors, nothing among them, are drawn here: the axis is logarithmic.
 constexpr double kSmallestDrawn = 1e-13;
 constexpr double kUtmSpacing = 0.1;
 
@@ -210,7 +210,7 @@ void studyCloud(const AccumulatorCloud& cloud, StudyContext& context, ReportPart
   const std::vector<Lap> laps = race(contestants, settings);
   Chart chart{ "resample-accumulators-" + cloud.key, "Accumulators: " + cloud.name,
     { "time of a point (ns), one thread, index included", false },
-    { fmt::format("largest error of a mean (voxels); 0 drawn at {}", kSmallestDrawn), true }, {} };
+    { fmt::format("largest error of a mean (voxels), {} at least", kSmallestDrawn), true }, {} };
   for (std::size_t i = 0; i < laps.size(); ++i)
   {
     addRow(cloud, *entrants[i], laps[i], laps.front(), part);
