@@ -29,6 +29,9 @@ public:
   {
   }
   std::int64_t size() const { return size_; }
+  /// The coordinates themselves; null where they are of the other type.
+  const float* floats() const { return floats_; }
+  const double* doubles() const { return doubles_; }
   /// @pre 0 <= i < size()
   Vec3 operator[](std::int64_t i) const
   {

@@ -32,6 +32,8 @@ const char* sentence(Status status) noexcept
       return "the sample has no spread: fewer than two distinct values";
     case Status::InvalidParameter:
       return "a parameter is outside its documented range";
+    case Status::Aborted:
+      return "the work was ended before it was done, as asked";
     case Status::DeviceNotOpen:
       return "the device is not open: call open() first";
     case Status::EndOfPath:

@@ -18,6 +18,7 @@ enum class [[nodiscard]] Status{
   InvalidRadiusBounds,   ///< r1 > r2, or a bound that is negative or not finite.
   DegenerateSample,      ///< Fewer than two distinct values: no spread to take a bandwidth from.
   InvalidParameter,      ///< A parameter outside its documented range.
+  Aborted,               ///< The caller asked for an end of the work.
   DeviceNotOpen,         ///< Read or write on a device that is not open.
   EndOfPath,             ///< A replayed path has come to its end.
   FileNotReadable,       ///< The file cannot be opened.

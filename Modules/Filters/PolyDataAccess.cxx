@@ -66,14 +66,22 @@ bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& resul
   return true;
 }
 
-vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count)
+vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, const Executor& executor)
 {
   vtkNew<vtkIdTypeArray> offsets;
   offsets->SetNumberOfValues(count + 1);
-  std::iota(offsets->GetPointer(0), offsets->GetPointer(0) + count + 1, vtkIdType(0));
   vtkNew<vtkIdTypeArray> connectivity;
   connectivity->SetNumberOfValues(count);
-  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType(0));
+  vtkIdType* starts = offsets->GetPointer(0);
+  vtkIdType* points = connectivity->GetPointer(0);
+  starts[count] = count;
+  constexpr std::int64_t kGrain = 1 << 14;
+  forRange(executor, count, kGrain,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      std::iota(starts + begin, starts + end, vtkIdType(begin));
+      std::iota(points + begin, points + end, vtkIdType(begin));
+    });
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets, connectivity);
   return cells;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/AffineTransform.h"
+#include "Core/Executor.h"
 #include "Core/PointView.h"
 
 #include "vtkSmartPointer.h"
@@ -34,6 +35,6 @@ private:
 bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result);
 
 /// @p count vertex cells, one per point, in order.
-vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count);
+vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, const Executor& executor = {});
 
 } // namespace pointhaptics

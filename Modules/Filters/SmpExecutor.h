@@ -11,24 +11,21 @@
 namespace pointhaptics
 {
 
-/// Runs each range on vtkSMPTools, in pieces of at least a thousand.
+/// Runs each range on vtkSMPTools, in pieces of the grain asked for or a 64th of the range.
 class SmpExecutor : public Executor
 {
 public:
-  void run(std::int64_t count, void* context, Body body) const override
+  int concurrency() const override { return vtkSMPTools::GetEstimatedNumberOfThreads(); }
+  void run(std::int64_t count, std::int64_t grain, void* context, Body body) const override
   {
-    if (count < 2 * kSmallestPiece)
+    if (count < 2 * grain || this->concurrency() == 1)
     {
-      Executor::run(count, context, body);
+      Executor::run(count, grain, context, body);
       return;
     }
-    const std::int64_t grain = std::max<std::int64_t>(kSmallestPiece, count / 64);
-    vtkSMPTools::For(0, vtkIdType(count), vtkIdType(grain),
+    vtkSMPTools::For(0, vtkIdType(count), vtkIdType(std::max(grain, count / 64)),
       [&](vtkIdType begin, vtkIdType end) { body(context, begin, end); });
   }
-
-private:
-  static constexpr std::int64_t kSmallestPiece = 1024;
 };
 
 } // namespace pointhaptics

@@ -1,146 +1,279 @@
 #include "VoxelAttribute.h"
 
 #include "vtkDataArray.h"
+#include "vtkType.h"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
+#include <type_traits>
 
 namespace pointhaptics
 {
 namespace
 {
 
-bool isIntegral(int type)
+template <typename T>
+ScalarType integerType()
 {
-  return type != VTK_FLOAT && type != VTK_DOUBLE;
+  constexpr bool isSigned = std::is_signed<T>::value;
+  switch (sizeof(T))
+  {
+    case 1:
+      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
+    case 2:
+      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
+    case 4:
+      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
+    default:
+      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
+  }
 }
 
-class VoxelReducer
+ScalarType scalarType(int vtkType)
 {
-public:
-  VoxelReducer(vtkDataArray* input, vtkDataArray* output, AttributeKind kind, const VoxelMeans& voxels,
-    const AffineTransform& transform)
-    : input_(input)
-    , output_(output)
-    , kind_(kind)
-    , voxels_(voxels)
-    , transform_(transform)
-    , tuple_(std::size_t(input->GetNumberOfComponents()))
-    , result_(tuple_.size())
+  switch (vtkType)
   {
+    case VTK_FLOAT:
+      return ScalarType::Float;
+    case VTK_CHAR:
+      return integerType<char>();
+    case VTK_SIGNED_CHAR:
+      return integerType<signed char>();
+    case VTK_UNSIGNED_CHAR:
+      return integerType<unsigned char>();
+    case VTK_SHORT:
+      return integerType<short>();
+    case VTK_UNSIGNED_SHORT:
+      return integerType<unsigned short>();
+    case VTK_INT:
+      return integerType<int>();
+    case VTK_UNSIGNED_INT:
+      return integerType<unsigned int>();
+    case VTK_LONG:
+      return integerType<long>();
+    case VTK_UNSIGNED_LONG:
+      return integerType<unsigned long>();
+    case VTK_LONG_LONG:
+      return integerType<long long>();
+    case VTK_UNSIGNED_LONG_LONG:
+      return integerType<unsigned long long>();
+    case VTK_ID_TYPE:
+      return integerType<vtkIdType>();
+    default:
+      return ScalarType::Double;
   }
+}
 
-  void reduce(std::size_t voxel)
+/// VTK packs bits; everything else is one number after the other once it is in VTK's usual arrays.
+int plainType(int vtkType)
+{
+  return vtkType == VTK_BIT ? VTK_UNSIGNED_CHAR : vtkType;
+}
+
+vtkSmartPointer<vtkDataArray> plainArray(vtkDataArray* array)
+{
+  if (array->HasStandardMemoryLayout() && array->GetDataType() != VTK_BIT)
   {
-    switch (kind_)
+    return array;
+  }
+  auto copy =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(plainType(array->GetDataType())));
+  copy->DeepCopy(array);
+  return copy;
+}
+
+vtkSmartPointer<vtkDataArray> newArray(vtkDataArray* like, int type, std::int64_t tuples)
+{
+  auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  array->SetName(like->GetName());
+  array->SetNumberOfComponents(like->GetNumberOfComponents());
+  array->CopyComponentNames(like);
+  array->SetNumberOfTuples(vtkIdType(tuples));
+  return array;
+}
+
+/// The value that is there most often, the smallest of several. Sorts them.
+template <typename T>
+T mostFrequent(std::vector<T>& values)
+{
+  std::sort(values.begin(), values.end());
+  T best = values.front();
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < values.size();)
+  {
+    std::size_t end = i + 1;
+    while (end < values.size() && values[end] == values[i])
     {
-      case AttributeKind::Mean:
-        mean(voxel);
-        break;
-      case AttributeKind::Normal:
-        normal(voxel);
-        break;
-      case AttributeKind::Category:
-        category(voxel);
-        break;
+      ++end;
     }
-    output_->SetTuple(vtkIdType(voxel), result_.data());
-  }
-
-private:
-  /// Sum of the voxel's tuples about its first one, which keeps large offsets (times, ids) from eating the
-  /// digits.
-  void mean(std::size_t voxel)
-  {
-    const std::int64_t first = voxels_.begin[voxel];
-    const std::int64_t last = voxels_.begin[voxel + 1];
-    std::fill(result_.begin(), result_.end(), 0.0);
-    base_.resize(tuple_.size());
-    input_->GetTuple(vtkIdType(voxels_.members[std::size_t(first)]), base_.data());
-    for (std::int64_t m = first + 1; m < last; ++m)
+    if (end - i > longest)
     {
-      input_->GetTuple(vtkIdType(voxels_.members[std::size_t(m)]), tuple_.data());
-      for (std::size_t c = 0; c < tuple_.size(); ++c)
+      longest = end - i;
+      best = values[i];
+    }
+    i = end;
+  }
+  return best;
+}
+
+/// The points of each voxel.
+struct Members
+{
+  std::vector<std::int64_t> points;
+  std::vector<std::size_t> begin;
+
+  Members(const std::vector<std::int64_t>& voxelOf, std::int64_t voxels)
+    : begin(std::size_t(voxels) + 1, 0)
+  {
+    for (const std::int64_t voxel : voxelOf)
+    {
+      if (voxel >= 0)
       {
-        result_[c] += tuple_[c] - base_[c];
+        ++begin[std::size_t(voxel) + 1];
       }
     }
-    const bool integral = isIntegral(input_->GetDataType());
-    for (std::size_t c = 0; c < tuple_.size(); ++c)
+    for (std::size_t v = 1; v < begin.size(); ++v)
     {
-      result_[c] = base_[c] + result_[c] / double(last - first);
-      result_[c] = integral ? std::round(result_[c]) : result_[c];
+      begin[v] += begin[v - 1];
     }
-  }
-
-  void normal(std::size_t voxel)
-  {
-    mean(voxel);
-    const Vec3 turned = transform_.applyToNormal({ result_[0], result_[1], result_[2] });
-    const Vec3 unit = normalized(turned, Vec3());
-    result_ = { unit.x, unit.y, unit.z };
-  }
-
-  void category(std::size_t voxel)
-  {
-    for (std::size_t c = 0; c < result_.size(); ++c)
+    points.resize(begin.back());
+    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    for (std::size_t i = 0; i < voxelOf.size(); ++i)
     {
-      values_.clear();
-      for (std::int64_t m = voxels_.begin[voxel]; m < voxels_.begin[voxel + 1]; ++m)
+      if (voxelOf[i] >= 0)
       {
-        values_.push_back(input_->GetComponent(vtkIdType(voxels_.members[std::size_t(m)]), int(c)));
-      }
-      std::sort(values_.begin(), values_.end());
-      std::size_t longest = 0;
-      for (std::size_t i = 0; i < values_.size();)
-      {
-        std::size_t end = i + 1;
-        while (end < values_.size() && values_[end] == values_[i])
-        {
-          ++end;
-        }
-        if (end - i > longest)
-        {
-          longest = end - i;
-          result_[c] = values_[i];
-        }
-        i = end;
+        points[next[std::size_t(voxelOf[i])]++] = std::int64_t(i);
       }
     }
   }
-
-  vtkDataArray* input_;
-  vtkDataArray* output_;
-  AttributeKind kind_;
-  const VoxelMeans& voxels_;
-  const AffineTransform& transform_;
-  std::vector<double> tuple_;
-  std::vector<double> result_;
-  std::vector<double> base_;
-  std::vector<double> values_;
 };
 
-}
-
-vtkSmartPointer<vtkDataArray> voxelAttribute(vtkDataArray* input, AttributeKind kind,
-  const VoxelMeans& voxels, const AffineTransform& transform, const Executor& executor)
+template <typename T>
+void writeMostFrequent(
+  const Members& members, const T* input, int components, T* output, const Executor& executor)
 {
-  auto output = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(input->GetDataType()));
-  output->SetName(input->GetName());
-  output->SetNumberOfComponents(input->GetNumberOfComponents());
-  output->CopyComponentNames(input);
-  output->SetNumberOfTuples(vtkIdType(voxels.keys.size()));
-  forRange(executor, std::int64_t(voxels.keys.size()),
-    [&](std::int64_t begin, std::int64_t end)
+  forRange(executor, std::int64_t(members.begin.size()) - 1,
+    [&](std::int64_t first, std::int64_t last)
     {
-      VoxelReducer reducer(input, output, kind, voxels, transform);
-      for (std::int64_t v = begin; v < end; ++v)
+      std::vector<T> values;
+      for (std::int64_t v = first; v < last; ++v)
       {
-        reducer.reduce(std::size_t(v));
+        for (int c = 0; c < components; ++c)
+        {
+          values.clear();
+          for (std::size_t m = members.begin[std::size_t(v)]; m < members.begin[std::size_t(v) + 1]; ++m)
+          {
+            values.push_back(input[components * members.points[m] + c]);
+          }
+          output[components * v + c] = mostFrequent(values);
+        }
       }
     });
-  return output;
+}
+
+}
+
+VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const Executor& executor)
+  : input_(input)
+  , plain_(plainArray(input))
+  , kind_(kind)
+{
+  if (kind != AttributeKind::Category)
+  {
+    const AttributeView view{ plain_->GetVoidPointer(0), scalarType(plain_->GetDataType()),
+      plain_->GetNumberOfComponents(), std::int64_t(plain_->GetNumberOfTuples()) };
+    mean_ = std::make_unique<AttributeMean>(view, executor);
+  }
+}
+
+void VoxelAttribute::prepare(std::int64_t voxels)
+{
+  voxels_ = voxels;
+  if (mean_)
+  {
+    mean_->prepare(voxels);
+  }
+  else
+  {
+    voxelOf_.assign(std::size_t(plain_->GetNumberOfTuples()), -1);
+  }
+}
+
+void VoxelAttribute::add(const std::int64_t* points, const std::int64_t* voxels, int count)
+{
+  if (mean_)
+  {
+    mean_->add(points, voxels, count);
+    return;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    voxelOf_[std::size_t(points[i])] = voxels[i];
+  }
+}
+
+void VoxelAttribute::coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels)
+{
+  voxels_ = voxels;
+  if (mean_)
+  {
+    mean_->coarsen(parents, voxels);
+  }
+  for (std::int64_t& voxel : voxelOf_)
+  {
+    voxel = voxel < 0 ? voxel : parents[std::size_t(voxel)];
+  }
+}
+
+vtkSmartPointer<vtkDataArray> VoxelAttribute::output(
+  const std::int64_t* counts, const AffineTransform& transform, const Executor& executor) const
+{
+  auto result = newArray(input_, plain_->GetDataType(), voxels_);
+  switch (kind_)
+  {
+    case AttributeKind::Mean:
+      mean_->write(counts, result->GetVoidPointer(0), executor);
+      break;
+    case AttributeKind::Normal:
+      writeNormals(result, counts, transform, executor);
+      break;
+    case AttributeKind::Category:
+      writeCategories(result, executor);
+      break;
+  }
+  if (input_->GetDataType() == plain_->GetDataType())
+  {
+    return result;
+  }
+  auto original = newArray(input_, input_->GetDataType(), voxels_);
+  original->DeepCopy(result);
+  original->SetName(input_->GetName());
+  return original;
+}
+
+void VoxelAttribute::writeNormals(vtkDataArray* output, const std::int64_t* counts,
+  const AffineTransform& transform, const Executor& executor) const
+{
+  forRange(executor, voxels_,
+    [&](std::int64_t first, std::int64_t last)
+    {
+      for (std::int64_t v = first; v < last; ++v)
+      {
+        Vec3 mean;
+        mean_->mean(v, counts[v], &mean.x);
+        const Vec3 unit = normalized(transform.applyToNormal(mean), Vec3());
+        output->SetTuple(vtkIdType(v), &unit.x);
+      }
+    });
+}
+
+void VoxelAttribute::writeCategories(vtkDataArray* output, const Executor& executor) const
+{
+  const Members members(voxelOf_, voxels_);
+  switch (output->GetDataType())
+  {
+    vtkTemplateMacro(writeMostFrequent(members, static_cast<const VTK_TT*>(plain_->GetVoidPointer(0)),
+      plain_->GetNumberOfComponents(), static_cast<VTK_TT*>(output->GetVoidPointer(0)), executor));
+  }
 }
 
 } // namespace pointhaptics

@@ -1,12 +1,16 @@
 /// @file
-/// Averages point arrays voxel by voxel.
+/// A point array of the input on its way to one tuple per voxel.
 #pragma once
 
 #include "Core/AffineTransform.h"
+#include "Core/AttributeMean.h"
 #include "Core/Executor.h"
-#include "Core/VoxelMean.h"
 
 #include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 class vtkDataArray;
 
@@ -15,13 +19,37 @@ namespace pointhaptics
 
 enum class AttributeKind
 {
-  Mean,     ///< Averaged in double, integers rounded to nearest.
-  Normal,   ///< Turned with the transform, averaged, re-normalised.
+  Mean,     ///< Averaged, integers rounded to nearest.
+  Normal,   ///< Averaged, turned with the transform, re-normalised.
   Category, ///< The value most points have, component by component; the smallest on a tie.
 };
 
-/// One tuple per active voxel, of the type, name and components of @p input.
-vtkSmartPointer<vtkDataArray> voxelAttribute(vtkDataArray* input, AttributeKind kind,
-  const VoxelMeans& voxels, const AffineTransform& transform, const Executor& executor);
+/// Used as VoxelResampler::assign() and parents() go: prepare(), add() for all points, output(), then for
+/// each coarser level coarsen() and output().
+class VoxelAttribute
+{
+public:
+  /// Holds on to @p input; one whose memory is not plain tuples of numbers is copied first.
+  VoxelAttribute(vtkDataArray* input, AttributeKind kind, const Executor& executor);
+
+  void prepare(std::int64_t voxels);
+  void add(const std::int64_t* points, const std::int64_t* voxels, int count);
+  void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
+  /// One tuple per voxel, of the type, name and components of the input. @p counts: points of each voxel.
+  vtkSmartPointer<vtkDataArray> output(
+    const std::int64_t* counts, const AffineTransform& transform, const Executor& executor) const;
+
+private:
+  void writeNormals(vtkDataArray* output, const std::int64_t* counts, const AffineTransform& transform,
+    const Executor& executor) const;
+  void writeCategories(vtkDataArray* output, const Executor& executor) const;
+
+  vtkSmartPointer<vtkDataArray> input_; ///< As given.
+  vtkSmartPointer<vtkDataArray> plain_; ///< The same as tuples in memory.
+  AttributeKind kind_;
+  std::int64_t voxels_ = 0;
+  std::unique_ptr<AttributeMean> mean_;
+  std::vector<std::int64_t> voxelOf_; ///< Of each point, for categories; -1: outside.
+};
 
 } // namespace pointhaptics

@@ -4,7 +4,9 @@
 #include "SmpExecutor.h"
 #include "VoxelAttribute.h"
 
+#include "Core/PointIndex.h"
 #include "Core/VoxelMean.h"
+#include "Core/VoxelResampler.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellArray.h"
@@ -23,9 +25,11 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkTimeStamp.h"
 
 #include <algorithm>
 #include <sstream>
+#include <vector>
 
 using namespace pointhaptics;
 
@@ -34,52 +38,38 @@ vtkStandardNewMacro(vtkVoxelMeanResampler);
 namespace
 {
 
-vtkSmartPointer<vtkPoints> makePoints(const VoxelMeans& voxels, int type)
+vtkSmartPointer<vtkPoints> makePoints(
+  const VoxelResampler& engine, int level, bool singlePrecision, const Executor& executor)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataType(type);
-  points->SetNumberOfPoints(vtkIdType(voxels.means.size()));
-  if (voxels.means.empty())
+  points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
+  points->SetNumberOfPoints(vtkIdType(engine.size(level)));
+  if (singlePrecision)
   {
-    return points;
+    engine.copyMeans(level, vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
   }
-  if (auto* doubles = vtkDoubleArray::FastDownCast(points->GetData()))
+  else
   {
-    const double* xyz = &voxels.means.front().x;
-    std::copy(xyz, xyz + 3 * voxels.means.size(), doubles->GetPointer(0));
-  }
-  else if (auto* floats = vtkFloatArray::FastDownCast(points->GetData()))
-  {
-    float* out = floats->GetPointer(0);
-    for (std::size_t v = 0; v < voxels.means.size(); ++v)
-    {
-      const auto index = voxels.lattice.indexOf(voxels.keys[v]);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        // Rounding to float must not carry a mean into the next voxel: resampled again it would join that
-        // one.
-        *out++ = voxels.lattice.keptInVoxel(float(voxels.means[v][axis]), axis, index[std::size_t(axis)]);
-      }
-    }
+    engine.copyMeans(level, vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0), executor);
   }
   return points;
 }
 
-void addCounts(const VoxelMeans& voxels, vtkPointData* output)
+vtkSmartPointer<vtkIdTypeArray> makeCounts(const VoxelResampler& engine, int level, const Executor& executor)
 {
-  vtkNew<vtkIdTypeArray> counts;
+  static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
+  auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
   counts->SetName("VoxelPointCount");
-  counts->SetNumberOfValues(vtkIdType(voxels.means.size()));
-  for (std::size_t v = 0; v < voxels.means.size(); ++v)
-  {
-    counts->SetValue(vtkIdType(v), vtkIdType(voxels.count(v)));
-  }
-  output->AddArray(counts);
+  counts->SetNumberOfValues(vtkIdType(engine.size(level)));
+  engine.copyCounts(level, reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
+  return counts;
 }
 
-void addCovariances(const VoxelMeans& voxels, vtkPointData* output)
+vtkSmartPointer<vtkDoubleArray> makeCovariances(
+  const VoxelResampler& engine, int level, const Executor& executor)
 {
-  vtkNew<vtkDoubleArray> array;
+  static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
   array->SetName("VoxelCovariance");
   array->SetNumberOfComponents(6);
   const char* names[6] = { "XX", "YY", "ZZ", "XY", "YZ", "XZ" };
@@ -87,14 +77,9 @@ void addCovariances(const VoxelMeans& voxels, vtkPointData* output)
   {
     array->SetComponentName(c, names[c]);
   }
-  array->SetNumberOfTuples(vtkIdType(voxels.covariances.size()));
-  for (std::size_t v = 0; v < voxels.covariances.size(); ++v)
-  {
-    const SymMat3& m = voxels.covariances[v];
-    const double tuple[6] = { m.xx, m.yy, m.zz, m.xy, m.yz, m.xz };
-    array->SetTypedTuple(vtkIdType(v), tuple);
-  }
-  output->AddArray(array);
+  array->SetNumberOfTuples(vtkIdType(engine.size(level)));
+  engine.copyCovariances(level, reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
+  return array;
 }
 
 void addField(vtkFieldData* field, const char* name, const double* values, int count)
@@ -153,7 +138,59 @@ bool isBookkeeping(vtkDataSetAttributes* attributes, int index)
         std::string(name) == "VoxelPointCount" || std::string(name) == "VoxelCovariance"));
 }
 
+/// The point arrays of the input that are averaged, and where their means go.
+struct NamedAttribute
+{
+  VoxelAttribute attribute;
+  int role; ///< vtkDataSetAttributes::AttributeTypes, or -1.
+};
+
 }
+
+/// One update's steps, and what is kept from one to the next.
+class vtkVoxelMeanResampler::Internals : public Watcher
+{
+public:
+  explicit Internals(vtkVoxelMeanResampler* filter)
+    : Filter(filter)
+  {
+  }
+
+  // The steps of RequestData; false after an error was reported, or the execution aborted.
+  bool ReadTransform();
+  bool MakeLattice(vtkPointSet* input);
+  bool Run(vtkPointSet* input);
+  void Fill(int level, vtkPointSet* input, vtkPolyData* output);
+  /// Lets go of the input and its arrays.
+  void Release();
+  void Forget();
+
+  /// Watcher: passes progress on within [this->From, this->To].
+  bool proceed(double fraction) override;
+
+  VoxelResampler Engine;
+  PointIndex Index;
+  bool Aborted = false;
+  vtkTimeStamp RetryTime;
+
+private:
+  void ChooseArrays(vtkPointSet* input);
+  void UseIndex(vtkPointSet* input);
+  bool Resample(vtkPointSet* input);
+  bool AverageArrays();
+
+  vtkVoxelMeanResampler* Filter;
+  SmpExecutor Smp;
+  VoxelRequest Request;
+  std::unique_ptr<PointAccess> Points;
+  std::vector<NamedAttribute> Attributes;
+  double From = 0.0;
+  double To = 1.0;
+  // Which input was seen last, and how often a part of it.
+  vtkMTimeType PointsTime = 0;
+  int PartialViews = 0;
+  bool Indexed = false;
+};
 
 vtkVoxelMeanResampler::vtkVoxelMeanResampler()
   : AutomaticWorkspace(true)
@@ -162,8 +199,12 @@ vtkVoxelMeanResampler::vtkVoxelMeanResampler()
   , ComputeCovariance(false)
   , PassAttributes(true)
   , CategoricalArrays{ "Classification" }
+  , NumberOfLevels(1)
+  , UsePointIndex(true)
+  , InstructionSet(InstructionSetAutomatic)
   , NumberOfClippedPoints(0)
   , NumberOfInvalidPoints(0)
+  , Inside(std::make_unique<Internals>(this))
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -258,10 +299,42 @@ bool vtkVoxelMeanResampler::IsCategoricalArray(const char* name) const
   return name && this->CategoricalArrays.count(name) > 0;
 }
 
+void vtkVoxelMeanResampler::SetNumberOfLevels(int levels)
+{
+  constexpr int kMostLevels = 22;
+  const int clamped = std::min(std::max(levels, 1), kMostLevels);
+  if (this->NumberOfLevels != clamped)
+  {
+    this->NumberOfLevels = clamped;
+    this->SetNumberOfOutputPorts(clamped);
+    this->Modified();
+  }
+}
+
+unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const
+{
+  return static_cast<unsigned long>(
+    (this->Inside->Engine.scratchBytes() + this->Inside->Index.bytes()) / 1024);
+}
+
+void vtkVoxelMeanResampler::ReleaseScratch()
+{
+  this->Inside->Forget();
+}
+
 vtkMTimeType vtkVoxelMeanResampler::GetMTime()
 {
-  const vtkMTimeType own = this->Superclass::GetMTime();
-  return this->Transform ? std::max(own, this->Transform->GetMTime()) : own;
+  vtkMTimeType time = this->Superclass::GetMTime();
+  if (this->Transform)
+  {
+    time = std::max(time, this->Transform->GetMTime());
+  }
+  if (this->Inside->Aborted)
+  {
+    // The pipeline takes what an aborted execution leaves for an output; ask it for another.
+    this->Inside->RetryTime.Modified();
+  }
+  return std::max(time, this->Inside->RetryTime.GetMTime());
 }
 
 int vtkVoxelMeanResampler::FillInputPortInformation(int, vtkInformation* info)
@@ -270,143 +343,249 @@ int vtkVoxelMeanResampler::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-bool vtkVoxelMeanResampler::ReadTransform(AffineTransform& transform)
+bool vtkVoxelMeanResampler::Internals::ReadTransform()
 {
-  if (!affineFromTransform(this->Transform, transform))
+  vtkAbstractTransform* transform = this->Filter->Transform;
+  if (!affineFromTransform(transform, this->Request.transform))
   {
-    vtkErrorMacro("Transform " << this->Transform->GetClassName()
-                               << " is not affine; use a vtkTransform or vtkMatrixToLinearTransform.");
+    vtkErrorWithObjectMacro(this->Filter,
+      "Transform " << transform->GetClassName()
+                   << " is not affine; use a vtkTransform or vtkMatrixToLinearTransform.");
     return false;
   }
-  const Status status = transform.check();
+  const Status status = this->Request.transform.check();
   if (status != Status::Ok)
   {
-    vtkErrorMacro("SetTransform: " << sentence(status) << ".");
+    vtkErrorWithObjectMacro(this->Filter, "SetTransform: " << sentence(status) << ".");
     return false;
   }
   return true;
 }
 
-bool vtkVoxelMeanResampler::MakeLattice(
-  const PointView& points, const AffineTransform& transform, Lattice& lattice)
+bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
 {
+  this->Points = std::make_unique<PointAccess>(input->GetPoints());
+  this->Request.points = this->Points->view();
   LatticeSettings settings;
-  settings.voxelSize = this->VoxelSize;
-  settings.automaticWorkspace = this->AutomaticWorkspace;
+  settings.voxelSize = this->Filter->VoxelSize;
+  settings.automaticWorkspace = this->Filter->AutomaticWorkspace;
   for (int axis = 0; axis < 3; ++axis)
   {
-    settings.dimensions[std::size_t(axis)] = this->Dimensions[axis];
-    settings.workspace.minimum[axis] = this->WorkspaceBounds[2 * axis];
-    settings.workspace.maximum[axis] = this->WorkspaceBounds[2 * axis + 1];
+    settings.dimensions[std::size_t(axis)] = this->Filter->Dimensions[axis];
+    settings.workspace.minimum[axis] = this->Filter->WorkspaceBounds[2 * axis];
+    settings.workspace.maximum[axis] = this->Filter->WorkspaceBounds[2 * axis + 1];
   }
-  const Bounds cloud =
-    this->AutomaticWorkspace ? transformedBounds(points, transform, SmpExecutor()) : Bounds();
-  const Status status = makeLattice(settings, cloud, lattice);
+  const Bounds cloud = settings.automaticWorkspace
+    ? transformedBounds(this->Request.points, this->Request.transform, this->Smp)
+    : Bounds();
+  const Status status = makeLattice(settings, cloud, this->Request.lattice);
   if (status != Status::Ok)
   {
-    vtkErrorMacro(<< latticeText(this->VoxelSize, this->Dimensions) << ": " << sentence(status) << ".");
+    vtkErrorWithObjectMacro(this->Filter,
+      << latticeText(this->Filter->VoxelSize, this->Filter->Dimensions) << ": " << sentence(status) << ".");
     return false;
   }
   return true;
 }
 
-bool vtkVoxelMeanResampler::AverageArrays(
-  vtkPointSet* input, const VoxelMeans& voxels, const AffineTransform& transform, vtkPolyData* output)
+/// An index pays where parts of the same points are looked at again and again.
+void vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
 {
-  vtkPointData* inputData = input->GetPointData();
-  vtkPointData* outputData = output->GetPointData();
-  for (int i = 0; i < inputData->GetNumberOfArrays(); ++i)
+  const vtkMTimeType time = input->GetPoints()->GetMTime();
+  if (time != this->PointsTime || !this->Filter->UsePointIndex)
   {
-    vtkDataArray* array = inputData->GetArray(i);
+    this->Index = PointIndex();
+    this->Indexed = false;
+    this->PartialViews = 0;
+    this->PointsTime = time;
+  }
+  if (!this->Indexed && this->PartialViews > 0)
+  {
+    this->PartialViews = 0;
+    this->Indexed = this->Index.build(this->Request.points, this->Smp) == Status::Ok;
+  }
+  this->Request.index = this->Indexed ? &this->Index : nullptr;
+}
+
+bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
+{
+  this->UseIndex(input);
+  const int precision = this->Filter->OutputPointsPrecision;
+  this->Request.singlePrecision = precision == vtkAlgorithm::DEFAULT_PRECISION
+    ? input->GetPoints()->GetDataType() == VTK_FLOAT
+    : precision == vtkAlgorithm::SINGLE_PRECISION;
+  this->Request.covariances = this->Filter->ComputeCovariance;
+  this->Request.levels = this->Filter->NumberOfLevels;
+  this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
+  this->Request.keys = !this->Attributes.empty() || this->Request.levels > 1;
+  this->From = 0.0;
+  this->To = this->Attributes.empty() ? 0.95 : 0.5;
+  const Status status = this->Engine.run(this->Request, this->Smp, this);
+  if (status == Status::Aborted)
+  {
+    return false;
+  }
+  if (status != Status::Ok)
+  {
+    vtkErrorWithObjectMacro(this->Filter, << sentence(status) << ".");
+    return false;
+  }
+  this->Filter->NumberOfClippedPoints = vtkIdType(this->Engine.clippedPoints());
+  this->Filter->NumberOfInvalidPoints = vtkIdType(this->Engine.invalidPoints());
+  if (2 * this->Engine.clippedPoints() > this->Request.points.size())
+  {
+    ++this->PartialViews;
+  }
+  return true;
+}
+
+void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
+{
+  this->Attributes.clear();
+  if (!this->Filter->PassAttributes)
+  {
+    return;
+  }
+  vtkPointData* data = input->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
     if (!array)
     {
-      vtkWarningMacro(
-        "Array " << inputData->GetArrayName(i) << " is not numeric: it has no mean and is dropped.");
+      vtkWarningWithObjectMacro(
+        this->Filter, "Array " << data->GetArrayName(i) << " is not numeric: it has no mean and is dropped.");
       continue;
     }
-    if (isBookkeeping(inputData, i))
+    if (isBookkeeping(data, i))
     {
       continue;
     }
     AttributeKind kind = AttributeKind::Mean;
-    if (this->IsCategoricalArray(array->GetName()))
+    if (this->Filter->IsCategoricalArray(array->GetName()))
     {
       kind = AttributeKind::Category;
     }
-    else if (array == inputData->GetNormals() && array->GetNumberOfComponents() == 3)
+    else if (array == data->GetNormals() && array->GetNumberOfComponents() == 3)
     {
       kind = AttributeKind::Normal;
     }
-    const int index = outputData->AddArray(voxelAttribute(array, kind, voxels, transform, SmpExecutor()));
-    const int attribute = inputData->IsArrayAnAttribute(i);
-    if (attribute >= 0)
+    this->Attributes.push_back({ VoxelAttribute(array, kind, this->Smp), data->IsArrayAnAttribute(i) });
+  }
+}
+
+bool vtkVoxelMeanResampler::Internals::AverageArrays()
+{
+  if (this->Attributes.empty())
+  {
+    return true;
+  }
+  this->From = 0.5;
+  this->To = 0.95;
+  for (NamedAttribute& named : this->Attributes)
+  {
+    named.attribute.prepare(this->Engine.size());
+  }
+  const Status status = this->Engine.assign(
+    this->Request,
+    [this](const std::int64_t* points, const std::int64_t* voxels, int count)
     {
-      outputData->SetActiveAttribute(index, attribute);
+      for (NamedAttribute& named : this->Attributes)
+      {
+        named.attribute.add(points, voxels, count);
+      }
+    },
+    this->Smp, this);
+  return status == Status::Ok;
+}
+
+bool vtkVoxelMeanResampler::Internals::Run(vtkPointSet* input)
+{
+  this->ChooseArrays(input);
+  const bool done = this->Resample(input) && this->AverageArrays();
+  if (!done)
+  {
+    this->Release();
+  }
+  return done;
+}
+
+void vtkVoxelMeanResampler::Internals::Release()
+{
+  this->Attributes.clear();
+  this->Request = VoxelRequest();
+  this->Points.reset();
+}
+
+void vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPolyData* output)
+{
+  vtkPointData* data = output->GetPointData();
+  output->SetPoints(makePoints(this->Engine, level, this->Request.singlePrecision, this->Smp));
+  output->SetVerts(makeVertices(vtkIdType(this->Engine.size(level)), this->Smp));
+  const auto counts = makeCounts(this->Engine, level, this->Smp);
+  const auto* countValues = reinterpret_cast<const std::int64_t*>(counts->GetPointer(0));
+  for (NamedAttribute& named : this->Attributes)
+  {
+    if (level > 0)
+    {
+      named.attribute.coarsen(this->Engine.parents(level), this->Engine.size(level));
     }
-    this->UpdateProgress(0.6 + 0.35 * double(i + 1) / double(inputData->GetNumberOfArrays()));
-    if (this->GetAbortExecute())
+    const int index = data->AddArray(named.attribute.output(countValues, this->Request.transform, this->Smp));
+    if (named.role >= 0)
     {
-      return false;
+      data->SetActiveAttribute(index, named.role);
     }
   }
-  return true;
+  data->AddArray(counts);
+  if (this->Filter->ComputeCovariance)
+  {
+    data->AddArray(makeCovariances(this->Engine, level, this->Smp));
+  }
+  output->GetFieldData()->PassData(input->GetFieldData());
+  addLattice(this->Engine.lattice(level), this->Request.transform, output->GetFieldData());
+}
+
+void vtkVoxelMeanResampler::Internals::Forget()
+{
+  this->Engine.releaseScratch();
+  this->Index = PointIndex();
+  this->Indexed = false;
+  this->PartialViews = 0;
+}
+
+bool vtkVoxelMeanResampler::Internals::proceed(double fraction)
+{
+  this->Filter->UpdateProgress(this->From + (this->To - this->From) * fraction);
+  this->Aborted = this->Filter->GetAbortExecute() != 0;
+  return !this->Aborted;
 }
 
 int vtkVoxelMeanResampler::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   auto* input = vtkPointSet::GetData(inputVector[0]);
-  auto* output = vtkPolyData::GetData(outputVector);
+  Internals& inside = *this->Inside;
+  inside.Aborted = false;
   this->NumberOfClippedPoints = 0;
   this->NumberOfInvalidPoints = 0;
-  output->GetFieldData()->PassData(input->GetFieldData());
-  if (input->GetNumberOfPoints() == 0)
+  for (int level = 0; level < this->NumberOfLevels; ++level)
+  {
+    vtkPolyData::GetData(outputVector, level)->GetFieldData()->PassData(input->GetFieldData());
+  }
+  if (input->GetNumberOfPoints() == 0 || !inside.ReadTransform() || !inside.MakeLattice(input))
   {
     return 1;
   }
-  const PointAccess points(input->GetPoints());
-  AffineTransform transform;
-  Lattice lattice;
-  if (!this->ReadTransform(transform) || !this->MakeLattice(points.view(), transform, lattice))
+  if (!inside.Run(input))
   {
+    this->NumberOfClippedPoints = 0;
+    this->NumberOfInvalidPoints = 0;
     return 1;
   }
-  this->UpdateProgress(0.1);
-
-  VoxelMeans voxels;
-  const Status status =
-    voxelMeans(points.view(), transform, lattice, this->ComputeCovariance, voxels, SmpExecutor());
-  if (status != Status::Ok)
+  for (int level = 0; level < this->NumberOfLevels; ++level)
   {
-    vtkErrorMacro(<< sentence(status) << ".");
-    return 1;
+    inside.Fill(level, input, vtkPolyData::GetData(outputVector, level));
   }
-  this->NumberOfClippedPoints = vtkIdType(voxels.clippedPoints);
-  this->NumberOfInvalidPoints = vtkIdType(voxels.invalidPoints);
-  this->UpdateProgress(0.6);
-  if (this->GetAbortExecute())
-  {
-    return 1;
-  }
-
-  int type = input->GetPoints()->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE;
-  if (this->OutputPointsPrecision != vtkAlgorithm::DEFAULT_PRECISION)
-  {
-    type = this->OutputPointsPrecision == vtkAlgorithm::SINGLE_PRECISION ? VTK_FLOAT : VTK_DOUBLE;
-  }
-  output->SetPoints(makePoints(voxels, type));
-  output->SetVerts(makeVertices(vtkIdType(voxels.means.size())));
-  if (this->PassAttributes && !this->AverageArrays(input, voxels, transform, output))
-  {
-    output->Initialize();
-    return 1;
-  }
-  addCounts(voxels, output->GetPointData());
-  if (this->ComputeCovariance)
-  {
-    addCovariances(voxels, output->GetPointData());
-  }
-  addLattice(lattice, transform, output->GetFieldData());
+  inside.Release();
   this->UpdateProgress(1.0);
   return 1;
 }
@@ -434,6 +613,9 @@ void vtkVoxelMeanResampler::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << name;
   }
   os << "\n";
+  os << indent << "NumberOfLevels: " << this->NumberOfLevels << "\n";
+  os << indent << "UsePointIndex: " << this->UsePointIndex << "\n";
+  os << indent << "InstructionSet: " << this->InstructionSet << "\n";
   os << indent << "NumberOfClippedPoints: " << this->NumberOfClippedPoints << "\n";
   os << indent << "NumberOfInvalidPoints: " << this->NumberOfInvalidPoints << "\n";
 }

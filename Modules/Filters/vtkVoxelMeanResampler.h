@@ -2,13 +2,10 @@
  * @class   vtkVoxelMeanResampler
  * @brief   replace the points in each voxel of a regular lattice by their mean
  *
- * The points of the input (any vtkPointSet) are mapped by an optional affine transform, sorted into the
+ * The points of the input (any vtkPointSet) are mapped by an optional affine transform, dealt out to the
  * half-open voxels of a lattice over the workspace, and each voxel that holds points gives one output point:
  * their mean, with the means of all point arrays. This is the paper's "mean filter": zooming in gives more
- * active voxels, zooming out fewer. Voxel index = floor((x - origin) / spacing). Sums are taken about the
- * voxel's centre in 64-bit fixed point (quantum 2^-32 voxel), so a mean is exact to 2^-31 voxel before
- * rounding to the output type and the points and counts do not depend on the order of the input, the number
- * of threads or the SMP back end.
+ * active voxels, zooming out fewer.
  *
  * Use:
  * @code
@@ -20,15 +17,24 @@
  *
  * Output: the means as points (order: by voxel index, x fastest), one vertex cell each, the averaged point
  * arrays, the vtkIdTypeArray "VoxelPointCount", and on request "VoxelCovariance" (6 doubles: XX YY ZZ XY YZ
- * XZ, central, divided by the count, in squared units of the output frame). Field data: "LatticeOrigin" and
- * "LatticeSpacing" (3 doubles), "LatticeDimensions" (3 integers), "ModelToWorkspace" (16 doubles, row by
- * row).
+ * XZ, central, divided by the count, in squared units of the output frame). Field data: that of the input,
+ * "LatticeOrigin" and "LatticeSpacing" (3 doubles), "LatticeDimensions" (3 integers), "ModelToWorkspace" (16
+ * doubles, row by row). With NumberOfLevels above 1 there is an output port per level, each twice as coarse.
  *
- * Arrays: numeric arrays of any type and number of components are averaged in double and rounded to their own
- * type (integers to nearest); the active normals are carried by the inverse transpose and re-normalised;
+ * Arrays: numeric arrays of any type and number of components are averaged and rounded to their own type
+ * (integers to nearest, exactly); the active normals are carried by the inverse transpose and re-normalised;
  * arrays named in CategoricalArrays take the value most points of the voxel have (the smallest one on a tie);
  * string arrays and other non-numeric arrays are dropped with a warning; global ids, ghost flags and the
- * VoxelPointCount and VoxelCovariance of an earlier resampling are left out. Field data are passed.
+ * VoxelPointCount and VoxelCovariance of an earlier resampling are left out. Where a voxel's points have NaN
+ * or infinity in an array, its mean is what IEEE addition gives.
+ *
+ * Accuracy: voxel index = floor((x - origin) / spacing), all in double about a point near the workspace, so
+ * that map coordinates cost no digits. Places in the voxel are summed exactly, in integers whose quantum is
+ * at most 2^-31 of a voxel; that is the largest error of a mean before it is rounded to the output type, and
+ * a mean lies in its voxel. Everything - points, counts, covariances, averaged arrays - is the same bit for
+ * bit for every order of the input points, number of threads, SMP back end and instruction set; a coarser
+ * level is the same as the points resampled at its spacing over the same workspace (lattices of up to 4096
+ * voxels an axis).
  *
  * Points that are NaN or infinite are dropped and counted by GetNumberOfInvalidPoints(), finite points
  * outside the workspace by GetNumberOfClippedPoints().
@@ -36,9 +42,17 @@
  * @warning Errors (singular or non-finite transform, empty bounds, a lattice that cannot be addressed) are
  * reported by vtkErrorMacro with the cure, and the output is a valid empty vtkPolyData.
  *
- * Cost: about 40 bytes per input point and 50 per active voxel while it runs; nothing is allocated in
- * proportion to the number of voxels of the lattice. Source: Kumari, Sreeni, Chaudhuri, "Scalable Rendering
- * of Variable Density Point Cloud Data"; the exact sums are ours (Documentation/Method.md).
+ * Cost: a few nanoseconds a point (Documentation/Performance.md). Memory beyond input and output: 16 bytes
+ * for each of at most a million points, 60 bytes an active voxel and a few megabytes, kept for the next
+ * update until ReleaseScratch() or the filter's end; 16 bytes a voxel and component of averaged arrays while
+ * it runs; nothing in proportion to the voxels of the lattice. A workspace that shows less than half of the
+ * cloud for the second time makes a PointIndex (16 bytes a point; 28 for double coordinates), after which an
+ * update costs in proportion to the points inside.
+ *
+ * Progress events come at least every million points; AbortExecute ends the work there, the output is then
+ * empty and the next Update() starts anew. Like every VTK filter, one object is used by one thread at a time;
+ * inside it runs on vtkSMPTools. Source: Kumari, Sreeni, Chaudhuri, "Scalable Rendering of Variable Density
+ * Point Cloud Data"; the exact sums are ours (Documentation/Method.md).
  *
  * @sa vtkKernelBandwidthFilter vtkVoxelGrid
  */
@@ -49,20 +63,11 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // For Transform
 
-#include <set>    // For CategoricalNames
-#include <string> // For CategoricalNames
+#include <memory> // For Internals
+#include <set>    // For CategoricalArrays
+#include <string> // For CategoricalArrays
 
 class vtkAbstractTransform;
-class vtkPointSet;
-
-namespace pointhaptics
-{
-class Executor;
-class PointView;
-struct AffineTransform;
-struct Lattice;
-struct VoxelMeans;
-}
 
 class POINTHAPTICSFILTERS_EXPORT vtkVoxelMeanResampler : public vtkPolyDataAlgorithm
 {
@@ -160,12 +165,59 @@ public:
 
   ///@{
   /**
+   * Level l, on output port l, is a lattice 2^l times as coarse from the same corner, made from the sums of
+   * level 0 without another look at the points' places. 1 to 22. Default: 1.
+   */
+  virtual void SetNumberOfLevels(int levels);
+  vtkGetMacro(NumberOfLevels, int);
+  ///@}
+
+  ///@{
+  /**
+   * Make an index of the input's points once views of parts of them are asked for again and again. Changes
+   * the cost of updates only. Default: on.
+   */
+  vtkSetMacro(UsePointIndex, bool);
+  vtkGetMacro(UsePointIndex, bool);
+  vtkBooleanMacro(UsePointIndex, bool);
+  ///@}
+
+  enum InstructionSetType
+  {
+    InstructionSetAutomatic = 0, ///< The best the machine has.
+    InstructionSetBaseline,
+    InstructionSetAVX2,
+    InstructionSetAVX512
+  };
+  ///@{
+  /**
+   * The vector instructions of the inner loops; one the machine lacks falls back to the best below. Changes
+   * the speed only: for measurements. Default: InstructionSetAutomatic.
+   */
+  vtkSetClampMacro(InstructionSet, int, InstructionSetAutomatic, InstructionSetAVX512);
+  vtkGetMacro(InstructionSet, int);
+  ///@}
+
+  /**
+   * Memory kept from one update to the next, the index of the points included, in KiB.
+   */
+  unsigned long GetScratchMemorySize() const;
+  /**
+   * Frees that memory.
+   */
+  void ReleaseScratch();
+
+  ///@{
+  /**
    * Of the last update: finite points outside the workspace, points that are NaN or infinite.
    */
   vtkGetMacro(NumberOfClippedPoints, vtkIdType);
   vtkGetMacro(NumberOfInvalidPoints, vtkIdType);
   ///@}
 
+  /**
+   * Later than the transform's; later than the last output if that was cut short.
+   */
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -184,16 +236,15 @@ protected:
   bool ComputeCovariance;
   bool PassAttributes;
   std::set<std::string> CategoricalArrays;
+  int NumberOfLevels;
+  bool UsePointIndex;
+  int InstructionSet;
   vtkIdType NumberOfClippedPoints;
   vtkIdType NumberOfInvalidPoints;
 
 private:
-  // The steps of RequestData; false after an error was reported, or the execution aborted.
-  bool ReadTransform(pointhaptics::AffineTransform& transform);
-  bool MakeLattice(const pointhaptics::PointView& points, const pointhaptics::AffineTransform& transform,
-    pointhaptics::Lattice& lattice);
-  bool AverageArrays(vtkPointSet* input, const pointhaptics::VoxelMeans& voxels,
-    const pointhaptics::AffineTransform& transform, vtkPolyData* output);
+  class Internals;
+  std::unique_ptr<Internals> Inside;
 
   vtkVoxelMeanResampler(const vtkVoxelMeanResampler&) = delete;
   void operator=(const vtkVoxelMeanResampler&) = delete;

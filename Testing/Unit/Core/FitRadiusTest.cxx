@@ -35,7 +35,7 @@ CellPyramid sphere(int n, double noise, std::uint64_t seed)
   for (std::size_t v = 0; v < cells.size(); ++v)
   {
     cells[v].mean = means.means[v];
-    cells[v].count = double(means.count(v));
+    cells[v].count = double(means.counts[v]);
     cells[v].covariance = means.covariances[v];
   }
   CellPyramid pyramid;

@@ -94,7 +94,7 @@ public:
     : piece_(piece)
   {
   }
-  void run(std::int64_t count, void* context, Body body) const override
+  void run(std::int64_t count, std::int64_t, void* context, Body body) const override
   {
     for (std::int64_t end = count; end > 0; end -= piece_)
     {
@@ -114,7 +114,8 @@ public:
     : threads_(threads)
   {
   }
-  void run(std::int64_t count, void* context, Body body) const override
+  int concurrency() const override { return threads_; }
+  void run(std::int64_t count, std::int64_t, void* context, Body body) const override
   {
     std::vector<std::thread> running;
     for (std::int64_t t = 0; t < threads_; ++t)

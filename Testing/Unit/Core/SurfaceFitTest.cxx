@@ -50,7 +50,7 @@ CellPyramid resampled(const std::vector<Vec3>& points, double voxelSize)
   for (std::size_t v = 0; v < cells.size(); ++v)
   {
     cells[v].mean = means.means[v];
-    cells[v].count = double(means.count(v));
+    cells[v].count = double(means.counts[v]);
     cells[v].covariance = means.covariances[v];
   }
   CellPyramid pyramid;

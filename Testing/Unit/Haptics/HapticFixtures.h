@@ -108,7 +108,7 @@ inline HapticSceneInput resampledInput(
   HapticSceneInput input;
   for (std::size_t v = 0; v < means.keys.size(); ++v)
   {
-    input.counts.push_back(double(means.count(v)));
+    input.counts.push_back(double(means.counts[v]));
   }
   input.points = std::move(means.means);
   input.covariances = std::move(means.covariances);

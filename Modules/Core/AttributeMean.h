@@ -1,0 +1,95 @@
+/// @file
+/// Means of what points carry beside their places, voxel by voxel, whatever the order of the points.
+#pragma once
+
+#include "Core/Buffer.h"
+#include "Core/Executor.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+
+enum class ScalarType
+{
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Float,
+  Double,
+};
+
+/// Somebody else's array: tuples of components, one after the other.
+struct AttributeView
+{
+  const void* values = nullptr;
+  ScalarType type = ScalarType::Float;
+  int components = 1;
+  std::int64_t tuples = 0;
+};
+
+/// Sums an attribute over the points of each voxel, exactly, and divides.
+///
+/// Integers are summed as they are. Floating-point numbers are cut to fixed point in two parts of up to 40
+/// bits each below the array's largest magnitude (fewer in clouds of more than 2^22 points, never fewer than
+/// 30): a sum is exact but for what lies 2^-60 below that magnitude, and the same for every order. A voxel
+/// with NaN or infinities has the mean that IEEE addition would give. Memory: 16 bytes a voxel and component
+/// (8 for integers of up to 32 bits).
+class AttributeMean
+{
+public:
+  /// Looks through the values of a floating-point array once.
+  AttributeMean(const AttributeView& view, const Executor& executor);
+
+  /// Forgets all sums and makes room for @p voxels.
+  void prepare(std::int64_t voxels);
+  /// Adds the tuples of points to the sums of their voxels. Several threads may add at once if no two have a
+  /// voxel in common.
+  void add(const std::int64_t* points, const std::int64_t* voxels, int count);
+  /// The sums of voxels become those of their parents: see VoxelResampler::parents().
+  void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
+
+  /// Means of all voxels in the array's own type; integers are rounded to the nearest, halves away from zero.
+  /// @p counts: points of each voxel.
+  void write(const std::int64_t* counts, void* means, const Executor& executor) const;
+  /// The mean of one voxel in double: components numbers.
+  void mean(std::int64_t voxel, std::int64_t count, double* means) const;
+
+  const AttributeView& view() const { return view_; }
+
+private:
+  __extension__ typedef __int128 Int128;
+
+  bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
+  template <typename Real>
+  void scan(const Executor& executor);
+  template <typename Integer>
+  void addIntegers(const std::int64_t* points, const std::int64_t* voxels, int count);
+  template <typename Real>
+  void addReals(const std::int64_t* points, const std::int64_t* voxels, int count);
+  template <typename Integer>
+  void writeIntegers(const std::int64_t* counts, Integer* means, const Executor& executor) const;
+  template <typename Real>
+  void writeReals(const std::int64_t* counts, Real* means, const Executor& executor) const;
+  Int128 sum(std::int64_t voxel, int component) const;
+  double realMean(std::int64_t voxel, int component, std::int64_t count) const;
+
+  AttributeView view_;
+  int lanes_ = 1; ///< Of 64 bits for each component.
+  int partBits_ = 0;
+  double scale_[2] = { 1.0, 1.0 }; ///< Both times a value give its high part.
+  int exponent_ = 0;               ///< All magnitudes are below 2^exponent_.
+  bool hasNonFinite_ = false;
+  std::int64_t voxels_ = 0;
+  Buffer<std::int64_t> sums_;    ///< [voxel][component][lane]
+  Buffer<std::uint8_t> special_; ///< [voxel][component]: which values that are not finite were seen.
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,96 @@
+/// @file
+/// Raw memory that only grows and is kept for the next time: scratch of the inner loops.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <utility>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace pointhaptics
+{
+
+enum class Pages
+{
+  Small,
+  Huge, ///< Asked for where the piece is large: the first touch of small ones costs more than the work there.
+};
+
+/// Aligned, uninitialised elements of a trivial type. Growing loses the content.
+template <typename T>
+class Buffer
+{
+public:
+  Buffer() = default;
+  ~Buffer() { std::free(data_); }
+  Buffer(Buffer&& other) noexcept
+    : data_(std::exchange(other.data_, nullptr))
+    , capacity_(std::exchange(other.capacity_, 0))
+  {
+  }
+  Buffer& operator=(Buffer&& other) noexcept
+  {
+    std::swap(data_, other.data_);
+    std::swap(capacity_, other.capacity_);
+    return *this;
+  }
+
+  /// Room for @p count elements. @return true if the memory is new.
+  bool reserve(std::size_t count, Pages pages = Pages::Small)
+  {
+    if (count <= capacity_)
+    {
+      return false;
+    }
+    std::free(data_);
+    data_ = nullptr;
+    capacity_ = 0;
+    const bool large = pages == Pages::Huge && count * sizeof(T) >= kHugePage;
+    const std::size_t alignment = large ? kHugePage : kSmallAlignment;
+    const std::size_t bytes = (count * sizeof(T) + alignment - 1) / alignment * alignment;
+    void* memory = std::aligned_alloc(alignment, bytes);
+    if (!memory)
+    {
+      throw std::bad_alloc();
+    }
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+    if (large)
+    {
+      static_cast<void>(madvise(memory, bytes, MADV_HUGEPAGE));
+    }
+#endif
+    data_ = static_cast<T*>(memory);
+    capacity_ = count;
+    return true;
+  }
+  void release()
+  {
+    *this = Buffer();
+  }
+
+  T* data() const
+  {
+    return data_;
+  }
+  T& operator[](std::size_t i) const
+  {
+    return data_[i];
+  }
+  std::size_t bytes() const
+  {
+    return capacity_ * sizeof(T);
+  }
+
+private:
+  static constexpr std::size_t kHugePage = std::size_t(1) << 21;
+  static constexpr std::size_t kSmallAlignment = 4096;
+
+  T* data_ = nullptr;
+  std::size_t capacity_ = 0;
+};
+
+} // namespace pointhaptics

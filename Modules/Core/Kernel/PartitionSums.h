@@ -1,0 +1,154 @@
+/// @file
+/// From the records of a partition to the sums of its voxels, in ascending order.
+#pragma once
+
+#include "Core/Buffer.h"
+#include "Core/Kernel/RecordPool.h"
+#include "Core/Kernel/VoxelSink.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+/// How the voxels of a lattice are dealt out to partitions: blocks of rows (voxels along x) of a layer, or
+/// blocks of layers. Keys ascend from partition to partition.
+struct PartitionPlan
+{
+  std::uint32_t columns = 1;
+  std::uint32_t rowsPerLayer = 1;
+  std::uint32_t upperRows = 0; ///< See CellMap.
+  int fractionBits = 0;
+  std::uint32_t blocksPerLayer = 1;
+  int rowShift = 0;   ///< Rows of a block, as a power of two.
+  int layerShift = 0; ///< Layers of a block, likewise; above 0 only with one block per layer.
+  std::uint32_t partitions = 1;
+  /// Sums of all cells of a partition are kept side by side; otherwise its records are sorted.
+  bool dense = true;
+
+  std::uint32_t firstRow(std::uint32_t partition) const
+  {
+    return ((partition / blocksPerLayer) << layerShift) * rowsPerLayer +
+      ((partition % blocksPerLayer) << rowShift);
+  }
+  CellMap cellMap(std::uint32_t partition) const
+  {
+    return { fractionBits, columns, rowsPerLayer, firstRow(partition), upperRows };
+  }
+  std::uint64_t firstKey(std::uint32_t partition) const
+  {
+    return std::uint64_t(firstRow(partition)) * columns;
+  }
+  /// Cells of the largest partition.
+  std::size_t cells() const
+  {
+    const std::size_t rows =
+      blocksPerLayer > 1 ? std::size_t(1) << rowShift : std::size_t(rowsPerLayer) << layerShift;
+    return columns * rows;
+  }
+};
+
+/// A plan for @p points points at a time. @pre dimensions up to 2^kMaximumIndexBits.
+PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t points);
+
+/// The largest of a partition's voxels' number that records and carried voxels allow.
+std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t carried);
+
+/// Works on one partition at a time and is used by one thread at a time.
+class PartitionWorker
+{
+public:
+  PartitionWorker();
+  ~PartitionWorker();
+
+  /// Readies the scratch for partitions of a plan.
+  void prepare(const PartitionPlan& plan, bool covariances);
+  /// Adds the records of a partition to @p old sums and calls emit(batch) with all its voxels.
+  template <typename Emit>
+  void sum(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
+    const CarriedPartition& old, Emit&& emit)
+  {
+    std::size_t position = 0; // among the cells or records
+    std::size_t next = 0;     // among the carried voxels
+    if (plan_.dense)
+    {
+      listed_ = sumDense(kernels, pool, partition, old);
+      while (position < listed_)
+      {
+        collectDense(kernels, partition, old, position, next);
+        emit(*batch_);
+      }
+      return;
+    }
+    listed_ = sortRecords(kernels, pool, partition);
+    while (position < listed_ || next < old.voxels.size())
+    {
+      collectSorted(partition, old, position, next);
+      emit(*batch_);
+    }
+  }
+  /// Calls visit(positions, ranks, count) with the rank of each indexed record's voxel among the
+  /// partition's @p keys (ascending).
+  template <typename Visit>
+  void rank(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
+    const std::uint64_t* keys, std::size_t size, Visit&& visit)
+  {
+    prepareRanks(partition, keys, size);
+    const CellMap map = plan_.cellMap(partition);
+    const std::uint64_t firstKey = plan_.firstKey(partition);
+    pool.forBlocks(partition,
+      [&](const Record* records, const std::uint32_t* indices, int count)
+      {
+        std::uint32_t cells[kBlockRecords];
+        kernels.cells(map, records, count, cells);
+        for (int i = 0; i < count; ++i)
+        {
+          cells[i] = plan_.dense ? ranks_[cells[i]] : rankOf(firstKey + cells[i], keys, size);
+        }
+        visit(indices, cells, count);
+      });
+  }
+  std::size_t bytes() const;
+  /// Sums of the batches it makes are collected here.
+  CarriedPartition carried;
+
+private:
+  struct Entry
+  {
+    std::uint32_t cell;
+    std::uint32_t record;
+  };
+
+  std::size_t sumDense(
+    const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, const CarriedPartition& old);
+  void collectDense(const Kernels& kernels, std::uint32_t partition, const CarriedPartition& old,
+    std::size_t& position, std::size_t& next);
+  std::size_t sortRecords(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition);
+  void sortEntries(std::size_t size);
+  void collectSorted(
+    std::uint32_t partition, const CarriedPartition& old, std::size_t& position, std::size_t& next);
+  void prepareRanks(std::uint32_t partition, const std::uint64_t* keys, std::size_t size);
+  static std::uint32_t rankOf(std::uint64_t key, const std::uint64_t* keys, std::size_t size);
+
+  PartitionPlan plan_;
+  std::size_t listed_ = 0; ///< Cells or records of the partition at work.
+  std::unique_ptr<MomentBatch<std::int64_t>> batch_;
+  std::vector<SecondSums> batchSeconds_;
+  // Dense: all zero between partitions.
+  Buffer<PackedSums> sums_;
+  Buffer<SecondSums> seconds_;
+  Buffer<std::uint64_t> mask_;
+  Buffer<std::uint32_t> cells_;
+  Buffer<std::uint32_t> ranks_;
+  // Sorted.
+  Buffer<Record> records_;
+  Buffer<Entry> entries_;
+  Buffer<Entry> otherEntries_;
+};
+
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,133 @@
+#include "Core/Kernel/PointPlacement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+namespace
+{
+
+using Wide = long double;
+
+/// Solves T p = b by cofactors.
+void solve(const AffineTransform& transform, const Wide b[3], Wide p[3])
+{
+  const auto& m = transform.m;
+  const auto cofactor = [&](int row, int column)
+  {
+    const int r0 = (row + 1) % 3;
+    const int r1 = (row + 2) % 3;
+    const int c0 = (column + 1) % 3;
+    const int c1 = (column + 2) % 3;
+    return Wide(m[r0][c0]) * Wide(m[r1][c1]) - Wide(m[r0][c1]) * Wide(m[r1][c0]);
+  };
+  const Wide determinant =
+    Wide(m[0][0]) * cofactor(0, 0) + Wide(m[0][1]) * cofactor(0, 1) + Wide(m[0][2]) * cofactor(0, 2);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    p[axis] = (cofactor(0, axis) * b[0] + cofactor(1, axis) * b[1] + cofactor(2, axis) * b[2]) / determinant;
+  }
+}
+
+bool isDiagonal(const AffineTransform& t)
+{
+  return t.m[0][1] == 0.0 && t.m[0][2] == 0.0 && t.m[1][0] == 0.0 && t.m[1][2] == 0.0 && t.m[2][0] == 0.0 &&
+    t.m[2][1] == 0.0;
+}
+
+}
+
+int indexBitsOf(const Lattice& lattice)
+{
+  const std::int64_t largest =
+    std::max({ lattice.dimensions[0], lattice.dimensions[1], lattice.dimensions[2] });
+  int bits = 0;
+  while ((std::int64_t(1) << bits) < largest)
+  {
+    ++bits;
+  }
+  return bits;
+}
+
+int positionBitsFor(int indexBits)
+{
+  return indexBits <= kMaximumIndexBits ? kPositionBits : 52;
+}
+
+Placement makePlacement(
+  const AffineTransform& transform, const Lattice& lattice, int indexBits, int positionBits)
+{
+  Placement placement{};
+  placement.diagonal = isDiagonal(transform);
+  Wide toOrigin[3];
+  Wide pivot[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    toOrigin[axis] = Wide(lattice.origin[axis]) - Wide(transform.m[axis][3]);
+    pivot[axis] = toOrigin[axis] / Wide(transform.m[axis][axis]);
+  }
+  if (!placement.diagonal)
+  {
+    solve(transform, toOrigin, pivot);
+  }
+  const bool finite =
+    std::isfinite(double(pivot[0])) && std::isfinite(double(pivot[1])) && std::isfinite(double(pivot[2]));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    placement.pivot[axis] = finite ? double(pivot[axis]) : 0.0;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    Wide mapped = -toOrigin[axis];
+    for (int column = 0; column < 3; ++column)
+    {
+      placement.matrix[axis][column] = transform.m[axis][column];
+      mapped += Wide(transform.m[axis][column]) * Wide(placement.pivot[column]);
+    }
+    placement.offset[axis] = double(mapped);
+    placement.spacing[axis] = lattice.spacing[axis];
+    placement.reciprocal[axis] = 1.0 / lattice.spacing[axis];
+    placement.limit[axis] = std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]);
+  }
+  placement.magic = std::ldexp(1.0, indexBits + 52 - positionBits);
+  placement.fractionBits = positionBits - indexBits;
+  return placement;
+}
+
+bool hasOrdinarySpacing(const Lattice& lattice)
+{
+  constexpr double kTiny = 1e-150;
+  constexpr double kHuge = 1e150;
+  return std::all_of(&lattice.spacing.x, &lattice.spacing.x + 3,
+    [](double spacing) { return spacing > kTiny && spacing < kHuge; });
+}
+
+Place placePoint(const Placement& placement, const Vec3& point, std::uint64_t position[3])
+{
+  constexpr std::uint64_t kMantissa = (std::uint64_t(1) << 52) - 1;
+  const double p[3] = { point.x - placement.pivot[0], point.y - placement.pivot[1],
+    point.z - placement.pivot[2] };
+  bool inside = true;
+  bool finite = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* row = placement.matrix[axis];
+    // The same operations in the same order as the vector loops.
+    double v = placement.diagonal ? p[axis] * row[axis] : (p[0] * row[0] + p[1] * row[1]) + p[2] * row[2];
+    v += placement.offset[axis];
+    const double u = v / placement.spacing[axis];
+    finite = finite && std::isfinite(v);
+    inside = inside && v >= 0.0 && u < placement.limit[axis];
+    const double rounded = u + placement.magic;
+    std::memcpy(&position[axis], &rounded, sizeof rounded);
+    position[axis] = (position[axis] - (rounded - placement.magic > u)) & kMantissa;
+  }
+  return inside ? Place::Inside : finite ? Place::Outside : Place::Invalid;
+}
+
+} // namespace kernel
+} // namespace pointhaptics

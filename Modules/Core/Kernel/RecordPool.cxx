@@ -1,0 +1,150 @@
+#include "Core/Kernel/RecordPool.h"
+
+#include <algorithm>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writers, bool indexed)
+{
+  const std::size_t writerCount = std::size_t(std::max(writers, 1));
+  const std::size_t blocks =
+    std::size_t(points) / kBlockRecords + writerCount * (2 * partitions + kTakenBlocks);
+  records_.reserve(blocks * kBlockRecords, Pages::Huge);
+  previous_.reserve(blocks);
+  if (indexed)
+  {
+    indexStorage_.reserve(blocks * kBlockRecords, Pages::Huge);
+  }
+  indices_ = indexed ? indexStorage_.data() : nullptr;
+  nextBlock_ = 0;
+  while (writers_.size() < writerCount)
+  {
+    writers_.push_back(std::make_unique<Writer>());
+  }
+  writers_.resize(writerCount);
+  for (const std::unique_ptr<Writer>& writer : writers_)
+  {
+    writer->pool = this;
+    writer->cursorStorage.assign(partitions, nullptr);
+    writer->cursors = writer->cursorStorage.data();
+    writer->lastBlocks.assign(partitions, kNone);
+    writer->refill = &RecordPool::refill;
+    writer->indices = indices_;
+    writer->records = records_.data();
+    writer->nextBlock = writer->endBlock = 0;
+    writer->inside = 0;
+    writer->invalid = 0;
+    writer->taken = false;
+  }
+}
+
+Record* RecordPool::refill(RecordWriter& base, std::uint32_t partition)
+{
+  auto& writer = static_cast<Writer&>(base);
+  RecordPool& pool = *writer.pool;
+  if (writer.nextBlock == writer.endBlock)
+  {
+    writer.nextBlock = pool.nextBlock_.fetch_add(kTakenBlocks, std::memory_order_relaxed);
+    writer.endBlock = writer.nextBlock + kTakenBlocks;
+  }
+  const std::uint32_t block = writer.nextBlock++;
+  const bool isFirst = writer.lastBlocks[partition] == kNone;
+  pool.previous_[block] = writer.lastBlocks[partition];
+  writer.lastBlocks[partition] = block;
+  Record* records = pool.records_.data() + std::size_t(block) * kBlockRecords;
+  for (std::size_t i = 0; i < kBlockRecords; i += 64 / sizeof(Record))
+  {
+    __builtin_prefetch(records + i, 1);
+  }
+  return records + (isFirst ? stagger(partition) : 0);
+}
+
+RecordPool::Lease::Lease(RecordPool& pool)
+  : pool_(pool)
+  , slot_(0)
+{
+  std::unique_lock<std::mutex> lock(pool_.mutex_);
+  const auto findFree = [this]
+  {
+    for (slot_ = 0; slot_ < pool_.writers_.size(); ++slot_)
+    {
+      if (!pool_.writers_[slot_]->taken)
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  pool_.returned_.wait(lock, findFree);
+  pool_.writers_[slot_]->taken = true;
+}
+
+RecordPool::Lease::~Lease()
+{
+  {
+    const std::lock_guard<std::mutex> lock(pool_.mutex_);
+    pool_.writers_[slot_]->taken = false;
+  }
+  pool_.returned_.notify_one();
+}
+
+RecordWriter& RecordPool::Lease::writer() const
+{
+  return *pool_.writers_[slot_];
+}
+
+std::size_t RecordPool::count(std::uint32_t partition) const
+{
+  std::size_t sum = 0;
+  for (const std::unique_ptr<Writer>& writer : writers_)
+  {
+    std::uint32_t block = writer->lastBlocks[partition];
+    if (block == kNone)
+    {
+      continue;
+    }
+    sum += std::size_t(writer->cursors[partition] - records_.data()) - block * kBlockRecords;
+    for (; previous_[block] != kNone; block = previous_[block])
+    {
+      sum += kBlockRecords;
+    }
+    sum -= stagger(partition);
+  }
+  return sum;
+}
+
+std::int64_t RecordPool::inside() const
+{
+  std::int64_t sum = 0;
+  for (const std::unique_ptr<Writer>& writer : writers_)
+  {
+    sum += writer->inside;
+  }
+  return sum;
+}
+
+std::int64_t RecordPool::invalid() const
+{
+  std::int64_t sum = 0;
+  for (const std::unique_ptr<Writer>& writer : writers_)
+  {
+    sum += writer->invalid;
+  }
+  return sum;
+}
+
+std::size_t RecordPool::bytes() const
+{
+  std::size_t sum = records_.bytes() + indexStorage_.bytes() + previous_.bytes();
+  for (const std::unique_ptr<Writer>& writer : writers_)
+  {
+    sum += writer->cursorStorage.capacity() * sizeof(Record*) + writer->lastBlocks.capacity() * sizeof(kNone);
+  }
+  return sum;
+}
+
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,187 @@
+/// @file
+/// The inner loops of mean resampling, one set per instruction set. Private to Core: VoxelResampler drives
+/// them. All sets give the same bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+__extension__ typedef __int128 Int128;
+
+/// A coordinate is a fixed-point number of this many bits over the power of two of voxels that covers the
+/// longest axis of the lattice. The quantum is thus the same on a lattice and on one twice as coarse, and the
+/// sums of the fine one are those of the coarse one.
+constexpr int kPositionBits = 43;
+/// Largest power of two of voxels on an axis these records hold with 31 bits left for the place in the voxel.
+constexpr int kMaximumIndexBits = kPositionBits - 31;
+/// And the smallest: one bit of an index is not in the record.
+constexpr int kMinimumIndexBits = 2;
+/// Points taken at once: a packed sum holds fewer than 2^20.
+constexpr std::int64_t kChunkPoints = 1000000;
+
+constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kPositionBits) - 1;
+/// Low bits of z that travel in the first word of a record; as many more are in the second. The top bit of z
+/// is left out: the partition tells it, as none spans half the layers.
+constexpr int kLowBits = 64 - kPositionBits;
+constexpr std::uint64_t kLowMask = (std::uint64_t(1) << kLowBits) - 1;
+
+/// One point: x | low bits of z, y | high bits of z.
+struct alignas(16) Record
+{
+  std::uint64_t first;
+  std::uint64_t second;
+};
+
+/// Records are written into blocks of this size, aligned to it.
+constexpr std::size_t kBlockBytes = 2048;
+constexpr std::size_t kBlockRecords = kBlockBytes / sizeof(Record);
+
+/// How coordinates become positions in the lattice and rows of it.
+/// v = M (p - pivot) + offset in units of the workspace, from the lattice's origin; u = v / spacing.
+struct Placement
+{
+  double pivot[3];
+  double matrix[3][3];
+  double offset[3];
+  double spacing[3];
+  double reciprocal[3]; ///< 1 / spacing, rounded.
+  double limit[3];      ///< u below this is inside.
+  double magic;         ///< Added to u it leaves the position in the low bits of the sum.
+  bool diagonal;        ///< The matrix has no other entries.
+  int fractionBits;     ///< Bits of a position below the voxel.
+  // Which partition: (z >> layerShift) * blocksPerLayer + (y >> rowShift).
+  std::uint32_t blocksPerLayer;
+  int rowShift;
+  int layerShift;
+};
+
+/// Where partition() puts its records: a cursor for each partition.
+struct RecordWriter
+{
+  Record** cursors;
+  /// Called when a cursor stands at the end of its block: gives a new one.
+  Record* (*refill)(RecordWriter& writer, std::uint32_t partition);
+  /// Beside each record the index of its point, or null.
+  std::uint32_t* indices;
+  Record* records; ///< Start of the pool, for indices.
+  std::int64_t inside;
+  std::int64_t invalid;
+};
+
+/// Which cell of a partition a record is in: x + columns (row - firstRow).
+struct CellMap
+{
+  int fractionBits;
+  std::uint32_t columns;
+  std::uint32_t rowsPerLayer;
+  std::uint32_t firstRow;
+  /// Rows in the half of the lattice that the bit of z left out of the records stands for; 0: it is never
+  /// set.
+  std::uint32_t upperRows;
+};
+
+/// Sums of one chunk in one cell: x, y, low bits of z, count | high bits of z.
+struct PackedSums
+{
+  std::uint64_t lanes[4];
+};
+/// The count stands above the sum of the high bits: fewer than 2^20 points of kPositionBits - kLowBits bits.
+constexpr int kCountShift = 43;
+static_assert(kChunkPoints < (std::int64_t(1) << 20) && 20 + kPositionBits - kLowBits <= kCountShift,
+  "the high bits of z must not reach the count");
+
+/// Sums of products of the places in the voxel, in the order of SymMat3: xx yy zz xy yz xz.
+struct SecondSums
+{
+  Int128 lanes[6];
+};
+
+/// Places of a record's point in its voxel. These are static: sources of several instruction sets include
+/// them, and the linker must not choose one set's for all.
+static inline std::uint64_t xPlace(const Record& r, std::uint64_t fractionMask)
+{
+  return r.first & fractionMask;
+}
+static inline std::uint64_t yPlace(const Record& r, std::uint64_t fractionMask)
+{
+  return r.second & fractionMask;
+}
+static inline std::uint64_t zPlace(const Record& r, std::uint64_t fractionMask)
+{
+  return ((r.first >> kPositionBits) | ((r.second >> kPositionBits) << kLowBits)) & fractionMask;
+}
+
+static inline void addProducts(SecondSums& sums, std::uint64_t x, std::uint64_t y, std::uint64_t z)
+{
+  sums.lanes[0] += Int128(x) * Int128(x);
+  sums.lanes[1] += Int128(y) * Int128(y);
+  sums.lanes[2] += Int128(z) * Int128(z);
+  sums.lanes[3] += Int128(x) * Int128(y);
+  sums.lanes[4] += Int128(y) * Int128(z);
+  sums.lanes[5] += Int128(x) * Int128(z);
+}
+
+/// Voxels on their way from the sums to the result, at most this many at once.
+constexpr int kBatch = 256;
+
+/// Sums over the points of each voxel of their places in it, in quanta.
+template <typename Sum>
+struct MomentBatch
+{
+  int size = 0;
+  alignas(64) std::int32_t indices[3][kBatch] = {};
+  alignas(64) std::int64_t counts[kBatch] = {};
+  alignas(64) Sum sums[3][kBatch] = {};
+  SecondSums* seconds = nullptr; ///< kBatch of them, or null.
+};
+
+/// How sums become coordinates. The mean of a voxel is origin + (index + sum / (count 2^fractionBits))
+/// spacing.
+struct MeanMap
+{
+  double origin[3];
+  double spacing[3];
+  double quantum; ///< 2^-fractionBits
+  /// Closer than this to a face, in voxels, rounding may carry a mean into the next voxel.
+  double faceMargin[3];
+};
+
+/// The inner loops for one instruction set.
+struct Kernels
+{
+  /// Places @p count points (x y z interleaved) and appends those inside to their partitions.
+  /// indices, where wanted, are consecutive from firstIndex.
+  void (*partitionFloats)(
+    const Placement&, const float* xyz, std::int64_t count, std::uint32_t firstIndex, RecordWriter&);
+  void (*partitionDoubles)(
+    const Placement&, const double* xyz, std::int64_t count, std::uint32_t firstIndex, RecordWriter&);
+  /// The cell of each record.
+  void (*cells)(const CellMap&, const Record* records, int count, std::uint32_t* cells);
+  /// Adds records to the sums of their cells and marks the cells, a bit each. @p seconds may be null.
+  void (*accumulate)(const CellMap&, const Record* records, int count, PackedSums* sums, SecondSums* seconds,
+    std::uint64_t* mask);
+  /// Lists the marked cells in ascending order and clears the marks; @p words is a multiple of 8, and room
+  /// for 63 cells more than there are is written to. @return their number.
+  std::size_t (*drain)(std::uint64_t* mask, std::size_t words, std::uint32_t* cells);
+  /// Moves the sums of the listed cells into a batch and clears them.
+  void (*collect)(const CellMap&, const std::uint32_t* cells, int count, PackedSums* sums,
+    SecondSums* seconds, MomentBatch<std::int64_t>& batch);
+  /// Coordinates of a batch's means, x y z interleaved. Positions in the batch of those so near a face that
+  /// they need another look go to @p nearFace. @return the number of these.
+  int (*meansFloat)(const MeanMap&, const MomentBatch<std::int64_t>&, float* xyz, int* nearFace);
+  int (*meansDouble)(const MeanMap&, const MomentBatch<std::int64_t>&, double* xyz, int* nearFace);
+};
+
+const Kernels& baselineKernels();
+/// Null where the compiler or the processor family lacks them; whether this machine can run them is asked
+/// elsewhere.
+const Kernels* avx2Kernels();
+const Kernels* avx512Kernels();
+
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,192 @@
+/// The loops with AVX2 and FMA: four points at a time.
+#include "Core/Kernel/VoxelKernelBody.h"
+
+#if defined(__AVX2__) && defined(__FMA__)
+#include <immintrin.h>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+namespace
+{
+
+struct Avx2
+{
+  static constexpr int width = 4;
+  static constexpr unsigned full = 15;
+  using Doubles = __m256d;
+  using Bits = __m256i;
+  using Mask = __m256d;
+  using Shift = __m128i;
+
+  static Doubles all(double value) { return _mm256_set1_pd(value); }
+  static Bits allBits(std::uint64_t value) { return _mm256_set1_epi64x(std::int64_t(value)); }
+  static Shift shift(int bits) { return _mm_cvtsi32_si128(bits); }
+  static Mask allTrue() { return _mm256_castsi256_pd(_mm256_set1_epi64x(-1)); }
+  /// a b c are x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3.
+  static void deinterleave(__m256d a, __m256d b, __m256d c, Doubles& x, Doubles& y, Doubles& z)
+  {
+    const __m256d ab = _mm256_permute2f128_pd(a, b, 0x30);
+    const __m256d ac = _mm256_permute2f128_pd(a, c, 0x21);
+    const __m256d bc = _mm256_permute2f128_pd(b, c, 0x30);
+    x = _mm256_shuffle_pd(ab, ac, 0xA);
+    y = _mm256_shuffle_pd(ab, bc, 0x5);
+    z = _mm256_shuffle_pd(ac, bc, 0xA);
+  }
+  static void load(const float* xyz, Doubles& x, Doubles& y, Doubles& z)
+  {
+    deinterleave(_mm256_cvtps_pd(_mm_loadu_ps(xyz)), _mm256_cvtps_pd(_mm_loadu_ps(xyz + 4)),
+      _mm256_cvtps_pd(_mm_loadu_ps(xyz + 8)), x, y, z);
+  }
+  static void load(const double* xyz, Doubles& x, Doubles& y, Doubles& z)
+  {
+    deinterleave(_mm256_loadu_pd(xyz), _mm256_loadu_pd(xyz + 4), _mm256_loadu_pd(xyz + 8), x, y, z);
+  }
+  static Doubles add(Doubles a, Doubles b) { return _mm256_add_pd(a, b); }
+  static Doubles subtract(Doubles a, Doubles b) { return _mm256_sub_pd(a, b); }
+  static Doubles multiply(Doubles a, Doubles b) { return _mm256_mul_pd(a, b); }
+  /// a / b, correctly rounded: two corrections of a times the rounded reciprocal, each by its exact residual
+  /// (Markstein 1990).
+  static Doubles divide(Doubles a, Doubles b, Doubles reciprocal)
+  {
+    __m256d q = _mm256_mul_pd(a, reciprocal);
+    q = _mm256_fmadd_pd(_mm256_fnmadd_pd(q, b, a), reciprocal, q);
+    return _mm256_fmadd_pd(_mm256_fnmadd_pd(q, b, a), reciprocal, q);
+  }
+  static Mask notNegative(Doubles a) { return _mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GE_OQ); }
+  static Mask less(Doubles a, Doubles b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
+  static Mask finite(Doubles a)
+  {
+    return _mm256_cmp_pd(_mm256_sub_pd(a, a), _mm256_setzero_pd(), _CMP_EQ_OQ);
+  }
+  static Mask both(Mask a, Mask b) { return _mm256_and_pd(a, b); }
+  static unsigned toUnsigned(Mask a) { return unsigned(_mm256_movemask_pd(a)); }
+  static Bits floorBits(Doubles u, Doubles magic)
+  {
+    const __m256d rounded = _mm256_add_pd(u, magic);
+    const __m256d above = _mm256_cmp_pd(_mm256_sub_pd(rounded, magic), u, _CMP_GT_OQ);
+    // A true comparison is -1.
+    const __m256i bits = _mm256_add_epi64(_mm256_castpd_si256(rounded), _mm256_castpd_si256(above));
+    return _mm256_and_si256(bits, allBits(kPositionMask));
+  }
+  static Bits addBits(Bits a, Bits b) { return _mm256_add_epi64(a, b); }
+  static Bits multiply32(Bits a, Bits b) { return _mm256_mul_epu32(a, b); }
+  static Bits either(Bits a, Bits b) { return _mm256_or_si256(a, b); }
+  static Bits right(Bits a, Shift bits) { return _mm256_srl_epi64(a, bits); }
+  template <int bits>
+  static Bits rightBy(Bits a)
+  {
+    return _mm256_srli_epi64(a, bits);
+  }
+  template <int bits>
+  static Bits left(Bits a)
+  {
+    return _mm256_slli_epi64(a, bits);
+  }
+  /// Not negative. The halves are put below and above 2^52 and 2^84; only their sum is rounded.
+  static Doubles fromInts(const std::int64_t* from)
+  {
+    const __m256i value = _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
+    const __m256i low = _mm256_blend_epi32(value, _mm256_set1_epi64x(0x4330000000000000), 0xAA);
+    const __m256i high =
+      _mm256_or_si256(_mm256_srli_epi64(value, 32), _mm256_set1_epi64x(0x4530000000000000));
+    const __m256d offset = _mm256_set1_pd(0x1p84 + 0x1p52);
+    return _mm256_add_pd(_mm256_sub_pd(_mm256_castsi256_pd(high), offset), _mm256_castsi256_pd(low));
+  }
+  static Doubles fromInts(const std::int32_t* from)
+  {
+    return _mm256_cvtepi32_pd(_mm_load_si128(reinterpret_cast<const __m128i*>(from)));
+  }
+  static void store(float* to, Doubles a) { _mm_store_ps(to, _mm256_cvtpd_ps(a)); }
+  static void store(double* to, Doubles a) { _mm256_store_pd(to, a); }
+  static Doubles quotient(Doubles a, Doubles b) { return _mm256_div_pd(a, b); }
+  static void storeBits(std::uint64_t* to, Bits a) { _mm256_store_si256(reinterpret_cast<__m256i*>(to), a); }
+  /// Records 0 and 2, then 1 and 3.
+  static int slot(int i) { return (i & 1) * 2 + (i >> 1); }
+  static void storeRecords(Record* to, Bits first, Bits second)
+  {
+    _mm256_store_si256(reinterpret_cast<__m256i*>(to), _mm256_unpacklo_epi64(first, second));
+    _mm256_store_si256(reinterpret_cast<__m256i*>(to + 2), _mm256_unpackhi_epi64(first, second));
+  }
+
+  static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
+  {
+    const __m256i mask = allBits(kPositionMask);
+    const __m256i columns = allBits(map.columns);
+    const __m256i rows = allBits(map.rowsPerLayer);
+    const __m256i firstRow = allBits(map.firstRow);
+    const __m256i upperRows = allBits(map.upperRows);
+    const __m128i fraction = shift(map.fractionBits);
+    const __m128i high = shift(kPositionBits - kLowBits + map.fractionBits);
+    int i = 0;
+    for (; i + 4 <= count; i += 4)
+    {
+      const __m256i a = _mm256_load_si256(reinterpret_cast<const __m256i*>(records + i));
+      const __m256i b = _mm256_load_si256(reinterpret_cast<const __m256i*>(records + i + 2));
+      const __m256i first = _mm256_unpacklo_epi64(a, b);
+      const __m256i second = _mm256_unpackhi_epi64(a, b);
+      const __m256i x = _mm256_srl_epi64(_mm256_and_si256(first, mask), fraction);
+      const __m256i y = _mm256_srl_epi64(_mm256_and_si256(second, mask), fraction);
+      const __m256i z = _mm256_srl_epi64(second, high);
+      const __m256i low = _mm256_add_epi64(y, _mm256_mul_epu32(z, rows));
+      const __m256i below = _mm256_cmpgt_epi64(firstRow, low);
+      const __m256i row =
+        _mm256_sub_epi64(_mm256_add_epi64(low, _mm256_and_si256(below, upperRows)), firstRow);
+      const __m256i cell = _mm256_add_epi64(x, _mm256_mul_epu32(row, columns));
+      // Lanes are records 0 2 1 3; their low halves go to the front.
+      const __m256i packed = _mm256_permutevar8x32_epi32(cell, _mm256_setr_epi32(0, 4, 2, 6, 0, 4, 2, 6));
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(cells + i), _mm256_castsi256_si128(packed));
+    }
+    for (; i < count; ++i)
+    {
+      cells[i] = cellOf(map, records[i]);
+    }
+  }
+
+  static std::size_t listBits(std::uint64_t bits, std::uint32_t first, std::uint32_t* cells)
+  {
+    return kernel::listBits(bits, first, cells);
+  }
+
+  struct Adder
+  {
+    __m256i masks;
+
+    explicit Adder(int fractionBits)
+    {
+      const auto fraction = std::int64_t((std::uint64_t(1) << fractionBits) - 1);
+      masks = _mm256_setr_epi64x(fraction, fraction, std::int64_t(kLowMask), fraction >> kLowBits);
+    }
+    void add(PackedSums& sums, const Record& r) const
+    {
+      const __m256i words = _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(&r)));
+      const __m256i shifted =
+        _mm256_srlv_epi64(words, _mm256_setr_epi64x(0, 0, kPositionBits, kPositionBits));
+      const __m256i lanes = _mm256_or_si256(
+        _mm256_and_si256(shifted, masks), _mm256_setr_epi64x(0, 0, 0, std::int64_t(1) << kCountShift));
+      auto* to = reinterpret_cast<__m256i*>(sums.lanes);
+      _mm256_storeu_si256(to, _mm256_add_epi64(_mm256_loadu_si256(to), lanes));
+    }
+  };
+};
+
+}
+
+const Kernels* avx2Kernels()
+{
+  static const Kernels kernels = makeKernels<Avx2>();
+  return &kernels;
+}
+
+} // namespace kernel
+} // namespace pointhaptics
+
+#else
+
+const pointhaptics::kernel::Kernels* pointhaptics::kernel::avx2Kernels()
+{
+  return nullptr;
+}
+
+#endif

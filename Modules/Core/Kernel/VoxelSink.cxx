@@ -1,0 +1,176 @@
+#include "Core/Kernel/VoxelSink.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+namespace
+{
+
+std::uint64_t keyOf(const Lattice& lattice, const MomentBatch<std::int64_t>& batch, int i)
+{
+  return lattice.key(batch.indices[0][i], batch.indices[1][i], batch.indices[2][i]);
+}
+
+template <typename Real>
+void keepInVoxels(
+  const Lattice& lattice, const MomentBatch<std::int64_t>& batch, const int* list, int size, Real* xyz)
+{
+  for (int j = 0; j < size; ++j)
+  {
+    const int i = list[j];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      xyz[3 * i + axis] = lattice.keptInVoxel(xyz[3 * i + axis], axis, batch.indices[axis][i]);
+    }
+  }
+}
+
+}
+
+SymMat3 covarianceOf(
+  std::int64_t count, const Int128 sums[3], const SecondSums& seconds, double quantum, const Vec3& spacing)
+{
+  // About the mean rounded down to a quantum nothing is large, and the rest is small: sums = count m + r.
+  Int128 m[3];
+  double rest[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    m[axis] = sums[axis] / count;
+    rest[axis] = double(sums[axis] - m[axis] * count);
+  }
+  const int rows[6] = { 0, 1, 2, 0, 1, 0 };
+  const int columns[6] = { 0, 1, 2, 1, 2, 2 };
+  double values[6];
+  for (int i = 0; i < 6; ++i)
+  {
+    const int a = rows[i];
+    const int b = columns[i];
+    const Int128 central = seconds.lanes[i] - m[a] * sums[b] - m[b] * (sums[a] - m[a] * count);
+    const double value = (double(central) - rest[a] * rest[b] / double(count)) / double(count);
+    values[i] = (i < 3 ? std::max(value, 0.0) : value) * (quantum * spacing[a]) * (quantum * spacing[b]);
+  }
+  return { values[0], values[1], values[2], values[3], values[4], values[5] };
+}
+
+MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecision)
+{
+  MeanMap map;
+  map.quantum = std::ldexp(1.0, -fractionBits);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    map.origin[axis] = lattice.origin[axis];
+    map.spacing[axis] = lattice.spacing[axis];
+    const double cells = double(lattice.dimensions[std::size_t(axis)]);
+    const double largest = std::abs(lattice.origin[axis]) / lattice.spacing[axis] + cells;
+    // A smallest normal number stands for what denormals lose.
+    map.faceMargin[axis] = singlePrecision
+      ? 4.0 * (double(FLT_EPSILON) * largest + double(FLT_MIN) / lattice.spacing[axis])
+      : 4.0 * (DBL_EPSILON * largest + DBL_MIN / lattice.spacing[axis]);
+  }
+  return map;
+}
+
+void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits)
+{
+  layout_ = layout;
+  lattice_ = lattice;
+  map_ = makeMeanMap(lattice, fractionBits, layout.singlePrecision);
+  if (layout.singlePrecision)
+  {
+    floats_.reserve(3 * room);
+  }
+  else
+  {
+    doubles_.reserve(3 * room);
+  }
+  counts_.reserve(room);
+  if (layout.keys)
+  {
+    keys_.reserve(room);
+  }
+  if (layout.covariances)
+  {
+    covariances_.reserve(room);
+  }
+}
+
+void MeanArena::write(const Kernels& kernels, std::size_t place, const MomentBatch<std::int64_t>& batch)
+{
+  int nearFace[kBatch];
+  if (layout_.singlePrecision)
+  {
+    float* xyz = floats_.data() + 3 * place;
+    keepInVoxels(lattice_, batch, nearFace, kernels.meansFloat(map_, batch, xyz, nearFace), xyz);
+  }
+  else
+  {
+    double* xyz = doubles_.data() + 3 * place;
+    keepInVoxels(lattice_, batch, nearFace, kernels.meansDouble(map_, batch, xyz, nearFace), xyz);
+  }
+  std::copy(batch.counts, batch.counts + batch.size, counts_.data() + place);
+  for (int i = 0; layout_.keys && i < batch.size; ++i)
+  {
+    keys_[place + std::size_t(i)] = keyOf(lattice_, batch, i);
+  }
+  for (int i = 0; layout_.covariances && i < batch.size; ++i)
+  {
+    const Int128 sums[3] = { batch.sums[0][i], batch.sums[1][i], batch.sums[2][i] };
+    covariances_[place + std::size_t(i)] =
+      covarianceOf(batch.counts[i], sums, batch.seconds[i], map_.quantum, lattice_.spacing);
+  }
+}
+
+void MeanArena::write(const VoxelSumList& list, const Layout& layout, const Lattice& lattice)
+{
+  prepare(list.voxels.size(), layout, lattice, list.fractionBits);
+  for (std::size_t v = 0; v < list.voxels.size(); ++v)
+  {
+    const VoxelSums& voxel = list.voxels[v];
+    const auto index = lattice.indexOf(voxel.key);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const std::int64_t i = index[std::size_t(axis)];
+      const double place = double(voxel.sums[axis]) / double(voxel.count) * map_.quantum;
+      const double coordinate = map_.origin[axis] + (double(i) + place) * map_.spacing[axis];
+      const std::size_t to = 3 * v + std::size_t(axis);
+      if (layout.singlePrecision)
+      {
+        floats_[to] = lattice.keptInVoxel(float(coordinate), axis, i);
+      }
+      else
+      {
+        doubles_[to] = lattice.keptInVoxel(coordinate, axis, i);
+      }
+    }
+    counts_[v] = voxel.count;
+    if (layout.keys)
+    {
+      keys_[v] = voxel.key;
+    }
+    if (layout.covariances)
+    {
+      covariances_[v] = covarianceOf(voxel.count, voxel.sums, list.seconds[v], map_.quantum, lattice.spacing);
+    }
+  }
+}
+
+void carry(const Lattice& lattice, const MomentBatch<std::int64_t>& batch, CarriedPartition& partition)
+{
+  for (int i = 0; i < batch.size; ++i)
+  {
+    partition.voxels.push_back({ keyOf(lattice, batch, i), batch.counts[i],
+      { batch.sums[0][i], batch.sums[1][i], batch.sums[2][i] } });
+    if (batch.seconds)
+    {
+      partition.seconds.push_back(batch.seconds[i]);
+    }
+  }
+}
+
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,85 @@
+/// @file
+/// What becomes of a partition's sums: the result's numbers, or sums to go on with.
+#pragma once
+
+#include "Core/Buffer.h"
+#include "Core/Kernel/GeneralVoxels.h"
+#include "Core/Kernel/VoxelKernel.h"
+#include "Core/Lattice.h"
+#include "Core/Vector3.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+/// Sums of one voxel over the chunks so far.
+struct CarriedSums
+{
+  std::uint64_t key;
+  std::int64_t count;
+  std::int64_t sums[3];
+};
+
+/// Those of a partition, by key. @p seconds is empty unless covariances are wanted.
+struct CarriedPartition
+{
+  std::vector<CarriedSums> voxels;
+  std::vector<SecondSums> seconds;
+};
+
+/// Covariance of the points of a voxel, divided by their count, from exact integer sums in quanta.
+SymMat3 covarianceOf(
+  std::int64_t count, const Int128 sums[3], const SecondSums& seconds, double quantum, const Vec3& spacing);
+
+/// How sums become coordinates in a lattice with places of @p fractionBits bits, rounded to float or double.
+MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecision);
+
+/// Means, counts and on request keys and covariances of active voxels; partitions write theirs at places of
+/// their own, with room for the most there can be.
+class MeanArena
+{
+public:
+  struct Layout
+  {
+    bool singlePrecision = false;
+    bool keys = false;
+    bool covariances = false;
+  };
+
+  void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits);
+  /// Writes a batch at @p place.
+  void write(const Kernels& kernels, std::size_t place, const MomentBatch<std::int64_t>& batch);
+
+  /// Prepares room for a list's voxels and writes them there.
+  void write(const VoxelSumList& list, const Layout& layout, const Lattice& lattice);
+
+  const float* floats() const { return floats_.data(); }
+  const double* doubles() const { return doubles_.data(); }
+  const std::int64_t* counts() const { return counts_.data(); }
+  const std::uint64_t* keys() const { return keys_.data(); }
+  const SymMat3* covariances() const { return covariances_.data(); }
+  std::size_t bytes() const
+  {
+    return floats_.bytes() + doubles_.bytes() + counts_.bytes() + keys_.bytes() + covariances_.bytes();
+  }
+
+private:
+  Layout layout_;
+  Lattice lattice_;
+  MeanMap map_{};
+  Buffer<float> floats_;
+  Buffer<double> doubles_;
+  Buffer<std::int64_t> counts_;
+  Buffer<std::uint64_t> keys_;
+  Buffer<SymMat3> covariances_;
+};
+
+/// Appends a batch to a partition that is carried over.
+void carry(const Lattice& lattice, const MomentBatch<std::int64_t>& batch, CarriedPartition& partition);
+
+} // namespace kernel
+} // namespace pointhaptics

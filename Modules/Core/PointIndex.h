@@ -1,0 +1,67 @@
+/// @file
+/// Where the points of a cloud are: looked at once, so that a view of a part costs in proportion to the part.
+#pragma once
+
+#include "Core/AffineTransform.h"
+#include "Core/Buffer.h"
+#include "Core/Executor.h"
+#include "Core/Lattice.h"
+#include "Core/PointView.h"
+#include "Core/Status.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// Points [begin, end) of an array.
+struct PointRange
+{
+  std::int64_t begin;
+  std::int64_t end;
+};
+
+/// A copy of the finite points of a cloud, sorted into bricks with bounds.
+/// Memory: the coordinates again and 4 bytes a point (16 for floats). Immutable after build(); any number of
+/// threads may ask.
+class PointIndex
+{
+public:
+  /// Points looked up at once; an index of more than these is not built.
+  static constexpr std::int64_t kMostPoints = (std::int64_t(1) << 32) - 1;
+
+  /// @return InvalidParameter for more than kMostPoints; Empty when no point is finite.
+  Status build(const PointView& points, const Executor& executor = {});
+
+  /// Ranges of points() that hold every point which @p transform moves into @p lattice, and few others.
+  std::vector<PointRange> rangesInside(const AffineTransform& transform, const Lattice& lattice) const;
+
+  /// The finite points, brick by brick.
+  PointView points() const;
+  /// The index in the cloud of a point of points().
+  std::int64_t original(std::int64_t i) const { return std::int64_t(originals_[std::size_t(i)]); }
+  std::int64_t cloudSize() const { return cloudSize_; }
+  std::int64_t invalidPoints() const { return cloudSize_ - size_; }
+  std::size_t bytes() const;
+
+private:
+  struct Brick
+  {
+    Bounds bounds;
+    std::int64_t begin;
+  };
+  template <typename Real>
+  void fill(const PointView& points, const std::vector<std::uint32_t>& bricks,
+    std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor);
+
+  std::int64_t cloudSize_ = 0;
+  std::int64_t size_ = 0;
+  bool single_ = false;
+  Buffer<float> floats_;
+  Buffer<double> doubles_;
+  Buffer<std::uint32_t> originals_;
+  std::vector<Brick> bricks_; ///< Those with points, and an end.
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,620 @@
+#include "Core/VoxelResampler.h"
+
+#include "Core/Kernel/GeneralVoxels.h"
+#include "Core/Kernel/PartitionSums.h"
+#include "Core/Kernel/PointPlacement.h"
+#include "Core/Kernel/RecordPool.h"
+#include "Core/Kernel/VoxelSink.h"
+#include "Core/PointIndex.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+
+namespace pointhaptics
+{
+namespace
+{
+
+using namespace kernel;
+
+/// Points a thread takes at once: enough to forget the cost of taking them.
+constexpr std::int64_t kPieceSize = 1 << 14;
+constexpr int kMostLevels = 22;
+
+const Kernels& kernelsFor(InstructionSet wanted)
+{
+  switch (usableInstructionSet(wanted))
+  {
+    case InstructionSet::Avx512:
+      return *avx512Kernels();
+    case InstructionSet::Avx2:
+      return *avx2Kernels();
+    default:
+      return baselineKernels();
+  }
+}
+
+/// The points to look at, in chunks of pieces.
+class Chunks
+{
+public:
+  Chunks(const VoxelRequest& request, std::int64_t chunkPoints)
+  {
+    if (request.index)
+    {
+      points_ = request.index->points();
+      for (const PointRange& range : request.index->rangesInside(request.transform, request.lattice))
+      {
+        append(range, chunkPoints);
+      }
+    }
+    else
+    {
+      points_ = request.points;
+      append({ 0, points_.size() }, chunkPoints);
+    }
+    chunks_.push_back(pieces_.size());
+  }
+  const PointView& points() const { return points_; }
+  std::size_t count() const { return chunks_.size() - 1; }
+  const PointRange* pieces(std::size_t chunk) const { return pieces_.data() + chunks_[chunk]; }
+  std::int64_t pieceCount(std::size_t chunk) const
+  {
+    return std::int64_t(chunks_[chunk + 1] - chunks_[chunk]);
+  }
+  std::int64_t pointCount(std::size_t chunk) const
+  {
+    std::int64_t sum = 0;
+    for (std::size_t i = chunks_[chunk]; i < chunks_[chunk + 1]; ++i)
+    {
+      sum += pieces_[i].end - pieces_[i].begin;
+    }
+    return sum;
+  }
+
+private:
+  void append(PointRange range, std::int64_t chunkPoints)
+  {
+    while (range.begin < range.end)
+    {
+      if (chunks_.empty() || inChunk_ == chunkPoints)
+      {
+        chunks_.push_back(pieces_.size());
+        inChunk_ = 0;
+      }
+      const std::int64_t size = std::min({ range.end - range.begin, kPieceSize, chunkPoints - inChunk_ });
+      pieces_.push_back({ range.begin, range.begin + size });
+      range.begin += size;
+      inChunk_ += size;
+    }
+  }
+
+  PointView points_;
+  std::vector<PointRange> pieces_;
+  std::vector<std::size_t> chunks_; ///< First pieces, and an end.
+  std::int64_t inChunk_ = 0;
+};
+
+/// A partition's voxels: where they are in the arena and in the result.
+struct Segment
+{
+  std::size_t place = 0;
+  std::size_t size = 0;
+  std::int64_t first = 0;
+};
+
+/// The voxels of one lattice.
+struct Level
+{
+  Lattice lattice;
+  MeanArena arena;
+  std::vector<Segment> segments;
+  std::int64_t size = 0;
+  std::vector<std::int64_t> parents;
+
+  void number()
+  {
+    size = 0;
+    for (Segment& segment : segments)
+    {
+      segment.first = size;
+      size += std::int64_t(segment.size);
+    }
+  }
+};
+
+std::int64_t grainFor(std::int64_t count, const Executor& executor)
+{
+  return std::max<std::int64_t>(1, count / (16 * executor.concurrency()));
+}
+
+}
+
+class VoxelResampler::Implementation
+{
+public:
+  Status run(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
+  Status assign(
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+
+  std::vector<Level> levels = std::vector<Level>(1);
+  std::int64_t clipped = 0;
+  std::int64_t invalid = 0;
+
+  std::size_t scratchBytes() const;
+
+private:
+  /// A worker nobody else uses, for as long as this lives.
+  class WorkerLease
+  {
+  public:
+    WorkerLease(Implementation& owner, bool covariances)
+      : owner_(owner)
+    {
+      {
+        const std::lock_guard<std::mutex> lock(owner_.mutex_);
+        if (!owner_.idle_.empty())
+        {
+          worker_ = std::move(owner_.idle_.back());
+          owner_.idle_.pop_back();
+        }
+      }
+      if (!worker_)
+      {
+        worker_ = std::make_unique<PartitionWorker>();
+      }
+      worker_->prepare(owner_.plan_, covariances);
+    }
+    ~WorkerLease()
+    {
+      const std::lock_guard<std::mutex> lock(owner_.mutex_);
+      owner_.idle_.push_back(std::move(worker_));
+    }
+    WorkerLease(const WorkerLease&) = delete;
+    WorkerLease& operator=(const WorkerLease&) = delete;
+    PartitionWorker& operator*() const { return *worker_; }
+
+  private:
+    Implementation& owner_;
+    std::unique_ptr<PartitionWorker> worker_;
+  };
+
+  void clear();
+  bool isPlanned(const VoxelRequest& request, std::int64_t points) const;
+  Status runPlanned(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
+  Status runGeneral(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
+  void fillPool(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, bool indexed,
+    const Executor& executor);
+  void sumChunk(const VoxelRequest& request, const Executor& executor, bool last);
+  void keepGeneral(const VoxelRequest& request, VoxelSumList list);
+  void addLevels(const VoxelRequest& request, VoxelSumList list);
+  VoxelSumList carriedList() const;
+  Status assignPlanned(
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+  Status assignGeneral(
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+
+  PartitionPlan plan_;
+  Placement placement_{};
+  RecordPool pool_;
+  std::vector<CarriedPartition> carried_;
+  std::vector<std::unique_ptr<PartitionWorker>> idle_;
+  std::mutex mutex_;
+};
+
+bool VoxelResampler::Implementation::isPlanned(const VoxelRequest& request, std::int64_t points) const
+{
+  const int indexBits = indexBitsOf(request.lattice);
+  // The sums of places, over all points in one voxel at worst, must fit 63 bits.
+  return indexBits >= kMinimumIndexBits && indexBits <= kMaximumIndexBits &&
+    double(points) * std::ldexp(1.0, kPositionBits - indexBits) < 0x1p62 &&
+    hasOrdinarySpacing(request.lattice);
+}
+
+Status VoxelResampler::Implementation::run(
+  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+{
+  clear();
+  if (request.levels < 1 || request.levels > kMostLevels)
+  {
+    return Status::InvalidParameter;
+  }
+  for (const Status status : { request.transform.check(), request.lattice.check() })
+  {
+    if (status != Status::Ok)
+    {
+      return status;
+    }
+  }
+  levels[0].lattice = request.lattice;
+  const std::int64_t points = request.points.size();
+  const Status status = isPlanned(request, points) ? runPlanned(request, executor, watcher)
+                                                   : runGeneral(request, executor, watcher);
+  if (status != Status::Ok)
+  {
+    clear();
+  }
+  return status;
+}
+
+void VoxelResampler::Implementation::clear()
+{
+  levels.resize(1);
+  levels[0].segments.clear();
+  levels[0].size = 0;
+  clipped = invalid = 0;
+}
+
+Status VoxelResampler::Implementation::runPlanned(
+  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+{
+  const int indexBits = indexBitsOf(request.lattice);
+  const Chunks chunks(request, kChunkPoints);
+  plan_ = makePlan(request.lattice, indexBits, chunks.count() == 0 ? 0 : chunks.pointCount(0));
+  placement_ = makePlacement(request.transform, request.lattice, indexBits, kPositionBits);
+  placement_.blocksPerLayer = plan_.blocksPerLayer;
+  placement_.rowShift = plan_.rowShift;
+  placement_.layerShift = plan_.layerShift;
+  carried_.clear();
+  carried_.resize(plan_.partitions);
+  std::int64_t inside = 0;
+  invalid = request.index ? request.index->invalidPoints() : 0;
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    fillPool(request, chunks, chunk, false, executor);
+    inside += pool_.inside();
+    invalid += pool_.invalid();
+    sumChunk(request, executor, chunk + 1 == chunks.count());
+    if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
+    {
+      return Status::Aborted;
+    }
+  }
+  clipped = request.points.size() - inside - invalid;
+  levels[0].number();
+  if (request.levels > 1)
+  {
+    addLevels(request, carriedList());
+  }
+  carried_.clear();
+  return Status::Ok;
+}
+
+void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const Chunks& chunks,
+  std::size_t chunk, bool indexed, const Executor& executor)
+{
+  pool_.prepare(chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), indexed);
+  const Kernels& kernels = kernelsFor(request.instructions);
+  const PointRange* pieces = chunks.pieces(chunk);
+  const PointView& points = chunks.points();
+  const std::int64_t base = pieces[0].begin;
+  forRange(executor, chunks.pieceCount(chunk), grainFor(chunks.pieceCount(chunk), executor),
+    [&](std::int64_t first, std::int64_t last)
+    {
+      const RecordPool::Lease lease(pool_);
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const PointRange piece = pieces[i];
+        const std::int64_t count = piece.end - piece.begin;
+        const auto index = std::uint32_t(piece.begin - base);
+        if (points.floats())
+        {
+          kernels.partitionFloats(
+            placement_, points.floats() + 3 * piece.begin, count, index, lease.writer());
+        }
+        else
+        {
+          kernels.partitionDoubles(
+            placement_, points.doubles() + 3 * piece.begin, count, index, lease.writer());
+        }
+      }
+    });
+}
+
+/// Sums of the pool's records and what is carried; in the end, or for levels to come, means of them.
+void VoxelResampler::Implementation::sumChunk(
+  const VoxelRequest& request, const Executor& executor, bool last)
+{
+  Level& level = levels[0];
+  const Kernels& kernels = kernelsFor(request.instructions);
+  const bool keepSums = !last || request.levels > 1;
+  if (last)
+  {
+    std::size_t room = 0;
+    level.segments.assign(plan_.partitions, Segment());
+    for (std::uint32_t p = 0; p < plan_.partitions; ++p)
+    {
+      level.segments[p].place = room;
+      room += mostVoxels(plan_, pool_.count(p), carried_[p].voxels.size());
+    }
+    level.arena.prepare(room, { request.singlePrecision, request.keys, request.covariances }, request.lattice,
+      plan_.fractionBits);
+  }
+  forRange(executor, plan_.partitions, grainFor(plan_.partitions, executor),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      const WorkerLease lease(*this, request.covariances);
+      PartitionWorker& worker = *lease;
+      for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
+      {
+        worker.carried.voxels.clear();
+        worker.carried.seconds.clear();
+        worker.sum(kernels, pool_, p, carried_[p],
+          [&](const MomentBatch<std::int64_t>& batch)
+          {
+            if (last)
+            {
+              Segment& segment = level.segments[p];
+              level.arena.write(kernels, segment.place + segment.size, batch);
+              segment.size += std::size_t(batch.size);
+            }
+            if (keepSums)
+            {
+              carry(request.lattice, batch, worker.carried);
+            }
+          });
+        if (keepSums)
+        {
+          // Copies: exactly as large as they need be.
+          carried_[p] = CarriedPartition(worker.carried);
+        }
+      }
+    });
+}
+
+VoxelSumList VoxelResampler::Implementation::carriedList() const
+{
+  VoxelSumList list;
+  list.fractionBits = plan_.fractionBits;
+  list.voxels.reserve(std::size_t(levels[0].size));
+  for (const CarriedPartition& partition : carried_)
+  {
+    for (const CarriedSums& voxel : partition.voxels)
+    {
+      list.voxels.push_back({ voxel.key, voxel.count, { voxel.sums[0], voxel.sums[1], voxel.sums[2] } });
+    }
+    list.seconds.insert(list.seconds.end(), partition.seconds.begin(), partition.seconds.end());
+  }
+  return list;
+}
+
+Status VoxelResampler::Implementation::runGeneral(
+  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+{
+  const int indexBits = indexBitsOf(request.lattice);
+  placement_ = makePlacement(request.transform, request.lattice, indexBits, positionBitsFor(indexBits));
+  GeneralAdder adder(placement_, request.lattice, request.covariances);
+  for (std::int64_t first = 0; first < request.points.size(); first += kGeneralChunk)
+  {
+    adder.add(request.points, first, std::min(kGeneralChunk, request.points.size() - first), executor);
+    if (watcher &&
+      !watcher->proceed(std::min(1.0, double(first + kGeneralChunk) / double(request.points.size()))))
+    {
+      return Status::Aborted;
+    }
+  }
+  invalid = adder.invalid();
+  clipped = request.points.size() - adder.inside() - invalid;
+  VoxelSumList list = adder.take();
+  levels[0].arena.write(
+    list, { request.singlePrecision, request.keys, request.covariances }, request.lattice);
+  levels[0].segments = { { 0, list.voxels.size(), 0 } };
+  levels[0].number();
+  if (request.levels > 1)
+  {
+    addLevels(request, std::move(list));
+  }
+  return Status::Ok;
+}
+
+void VoxelResampler::Implementation::addLevels(const VoxelRequest& request, VoxelSumList list)
+{
+  for (int l = 1; l < request.levels; ++l)
+  {
+    Level level;
+    level.lattice = coarserLattice(levels.back().lattice);
+    list = coarserSums(list, levels.back().lattice, level.lattice, level.parents);
+    level.arena.write(list, { request.singlePrecision, request.keys, request.covariances }, level.lattice);
+    level.segments = { { 0, list.voxels.size(), 0 } };
+    level.number();
+    levels.push_back(std::move(level));
+  }
+}
+
+Status VoxelResampler::Implementation::assign(
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+{
+  return isPlanned(request, request.points.size()) ? assignPlanned(request, visit, executor, watcher)
+                                                   : assignGeneral(request, visit, executor, watcher);
+}
+
+Status VoxelResampler::Implementation::assignPlanned(
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+{
+  const Level& level = levels[0];
+  const Kernels& kernels = kernelsFor(request.instructions);
+  const Chunks chunks(request, kChunkPoints);
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    fillPool(request, chunks, chunk, true, executor);
+    const std::int64_t base = chunks.pieces(chunk)[0].begin;
+    forRange(executor, plan_.partitions, grainFor(plan_.partitions, executor),
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        const WorkerLease lease(*this, false);
+        std::int64_t points[kBlockRecords];
+        std::int64_t voxels[kBlockRecords];
+        for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
+        {
+          const Segment& segment = level.segments[p];
+          (*lease).rank(kernels, pool_, p, level.arena.keys() + segment.place, segment.size,
+            [&](const std::uint32_t* indices, const std::uint32_t* ranks, int count)
+            {
+              for (int i = 0; i < count; ++i)
+              {
+                points[i] = request.index ? request.index->original(base + indices[i]) : base + indices[i];
+                voxels[i] = segment.first + ranks[i];
+              }
+              visit(points, voxels, count);
+            });
+        }
+      });
+    if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
+    {
+      return Status::Aborted;
+    }
+  }
+  return Status::Ok;
+}
+
+/// Point by point, in this thread.
+Status VoxelResampler::Implementation::assignGeneral(
+  const VoxelRequest& request, const Visitor& visit, const Executor&, Watcher* watcher)
+{
+  const std::uint64_t* keys = levels[0].arena.keys();
+  const std::uint64_t* end = keys + levels[0].size;
+  for (std::int64_t i = 0; i < request.points.size(); ++i)
+  {
+    std::uint64_t position[3];
+    if (placePoint(placement_, request.points[i], position) == Place::Inside)
+    {
+      const std::uint64_t key = request.lattice.key(std::int64_t(position[0] >> placement_.fractionBits),
+        std::int64_t(position[1] >> placement_.fractionBits),
+        std::int64_t(position[2] >> placement_.fractionBits));
+      const std::int64_t voxel = std::lower_bound(keys, end, key) - keys;
+      visit(&i, &voxel, 1);
+    }
+    if (watcher && (i + 1) % kGeneralChunk == 0 &&
+      !watcher->proceed(double(i + 1) / double(request.points.size())))
+    {
+      return Status::Aborted;
+    }
+  }
+  return Status::Ok;
+}
+
+std::size_t VoxelResampler::Implementation::scratchBytes() const
+{
+  std::size_t sum = pool_.bytes();
+  for (const std::unique_ptr<PartitionWorker>& worker : idle_)
+  {
+    sum += worker->bytes();
+  }
+  for (const Level& level : levels)
+  {
+    sum += level.arena.bytes() + level.segments.capacity() * sizeof(Segment);
+  }
+  return sum;
+}
+
+VoxelResampler::VoxelResampler()
+  : implementation_(std::make_unique<Implementation>())
+{
+}
+
+VoxelResampler::~VoxelResampler() = default;
+VoxelResampler::VoxelResampler(VoxelResampler&&) noexcept = default;
+VoxelResampler& VoxelResampler::operator=(VoxelResampler&&) noexcept = default;
+
+Status VoxelResampler::run(const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+{
+  return implementation_->run(request, executor, watcher);
+}
+
+Status VoxelResampler::assign(
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+{
+  return implementation_->assign(request, visit, executor, watcher);
+}
+
+std::int64_t VoxelResampler::clippedPoints() const
+{
+  return implementation_->clipped;
+}
+
+std::int64_t VoxelResampler::invalidPoints() const
+{
+  return implementation_->invalid;
+}
+
+std::int64_t VoxelResampler::size(int level) const
+{
+  return implementation_->levels[std::size_t(level)].size;
+}
+
+const Lattice& VoxelResampler::lattice(int level) const
+{
+  return implementation_->levels[std::size_t(level)].lattice;
+}
+
+const std::vector<std::int64_t>& VoxelResampler::parents(int level) const
+{
+  return implementation_->levels[std::size_t(level)].parents;
+}
+
+namespace
+{
+
+/// Joins the partitions' pieces of an array in the arena.
+template <typename T>
+void copySegments(const Level& level, const T* from, std::size_t components, T* to, const Executor& executor)
+{
+  const auto segments = std::int64_t(level.segments.size());
+  forRange(executor, segments, grainFor(segments, executor),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (auto s = std::size_t(begin); s < std::size_t(end); ++s)
+      {
+        const Segment& segment = level.segments[s];
+        const T* first = from + components * segment.place;
+        std::copy(first, first + components * segment.size, to + components * std::size_t(segment.first));
+      }
+    });
+}
+
+}
+
+void VoxelResampler::copyMeans(int l, float* xyz, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copySegments(level, level.arena.floats(), 3, xyz, executor);
+}
+
+void VoxelResampler::copyMeans(int l, double* xyz, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copySegments(level, level.arena.doubles(), 3, xyz, executor);
+}
+
+void VoxelResampler::copyCounts(int l, std::int64_t* counts, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copySegments(level, level.arena.counts(), 1, counts, executor);
+}
+
+void VoxelResampler::copyKeys(int l, std::uint64_t* keys, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copySegments(level, level.arena.keys(), 1, keys, executor);
+}
+
+void VoxelResampler::copyCovariances(int l, SymMat3* covariances, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copySegments(level, level.arena.covariances(), 1, covariances, executor);
+}
+
+void VoxelResampler::releaseScratch()
+{
+  implementation_ = std::make_unique<Implementation>();
+}
+
+std::size_t VoxelResampler::scratchBytes() const
+{
+  return implementation_->scratchBytes();
+}
+
+} // namespace pointhaptics

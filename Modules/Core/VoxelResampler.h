@@ -1,0 +1,106 @@
+/// @file
+/// Mean resampling: the points in each voxel of a lattice become their mean (the paper's "mean filter").
+#pragma once
+
+#include "Core/AffineTransform.h"
+#include "Core/Executor.h"
+#include "Core/InstructionSet.h"
+#include "Core/Lattice.h"
+#include "Core/PointView.h"
+#include "Core/Status.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace pointhaptics
+{
+
+class PointIndex;
+
+/// Hears how far long work is and may end it.
+class Watcher
+{
+public:
+  virtual ~Watcher() = default;
+  /// @p fraction of the work is done, 0 to 1, never less than before. Called from the thread that called
+  /// run(). @return false to end the work.
+  virtual bool proceed(double fraction) = 0;
+};
+
+/// What to resample, and what to make of it.
+struct VoxelRequest
+{
+  PointView points;
+  /// An index of the same points: those outside are then not looked at one by one. May be null.
+  const PointIndex* index = nullptr;
+  AffineTransform transform; ///< From the cloud's frame into that of the lattice.
+  Lattice lattice;
+  bool singlePrecision = false; ///< Means are rounded to float.
+  bool covariances = false;
+  bool keys = false; ///< For keys(), assign() and parents().
+  int levels = 1;    ///< Level l is a lattice 2^l times as coarse.
+  InstructionSet instructions = InstructionSet::Automatic;
+};
+
+/// Resamples clouds, one after the other; memory for the work is kept between them (releaseScratch()).
+///
+/// A point's place is u = (T p + t - origin) / spacing, in double about a point near the lattice's origin, so
+/// that large coordinates cost no digits; its voxel is floor(u), half-open. Places are then cut to
+/// fixed-point numbers whose quantum is the same on a lattice and on one twice as coarse: at most 2^-31
+/// voxel, 2^-34 on 300^3. Sums of those are exact. Hence results are the same bit for bit for every order of
+/// the points, every executor, instruction set and PointIndex, and a coarser level equals the resampling of
+/// the points at its spacing (on lattices of up to 4096 voxels an axis; beyond, quanta are finer still and a
+/// level that crosses this border may differ by 2^-31 voxel). Error of a mean: at most 2^-31 voxel, then one
+/// rounding to the output's type; a mean lies in its voxel. Counts are 64-bit.
+///
+/// Time: a few nanoseconds a point. Memory beyond input and results: 16 bytes for each of at most a million
+/// points, 60 bytes an active voxel, a few megabytes; lattices beyond 4096 an axis: 64 bytes a point of the
+/// million and 72 an active voxel; covariances: 100 an active voxel more.
+/// One object is used by one thread at a time; the executor's threads may be many.
+class VoxelResampler
+{
+public:
+  VoxelResampler();
+  ~VoxelResampler();
+  VoxelResampler(VoxelResampler&&) noexcept;
+  VoxelResampler& operator=(VoxelResampler&&) noexcept;
+
+  /// Errors: the transform's, the lattice's, InvalidParameter (levels below 1 or above 22), Aborted (the
+  /// watcher said so); there are no voxels then. A cloud without a point inside is no error.
+  Status run(const VoxelRequest& request, const Executor& executor = {}, Watcher* watcher = nullptr);
+
+  // What run() made. Levels count from 0, the lattice asked for.
+  std::int64_t clippedPoints() const;     ///< Finite points outside the lattice.
+  std::int64_t invalidPoints() const;     ///< Points NaN or infinite, before or after the transform.
+  std::int64_t size(int level = 0) const; ///< Active voxels.
+  const Lattice& lattice(int level = 0) const;
+  /// Voxels in ascending order of their keys (x fastest). @p xyz: 3 size(level) numbers, of the type asked
+  /// for.
+  void copyMeans(int level, float* xyz, const Executor& executor = {}) const;
+  void copyMeans(int level, double* xyz, const Executor& executor = {}) const;
+  void copyCounts(int level, std::int64_t* counts, const Executor& executor = {}) const;
+  void copyKeys(int level, std::uint64_t* keys, const Executor& executor = {}) const;
+  void copyCovariances(int level, SymMat3* covariances, const Executor& executor = {}) const;
+  /// Of each voxel of level - 1, the voxel of @p level it lies in. @pre level >= 1, keys were asked for.
+  const std::vector<std::int64_t>& parents(int level) const;
+
+  /// Tells again which voxel of level 0 each point inside lies in: visit(points, voxels, count) is called for
+  /// pieces, possibly by several threads at once, but no two at once have a voxel in common.
+  /// @pre run() was Ok with the same request, keys among it. @return Ok or Aborted.
+  using Visitor = std::function<void(const std::int64_t* points, const std::int64_t* voxels, int count)>;
+  Status assign(const VoxelRequest& request, const Visitor& visit, const Executor& executor = {},
+    Watcher* watcher = nullptr);
+
+  std::size_t scratchBytes() const;
+  /// Frees the memory kept, results included.
+  void releaseScratch();
+
+private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace pointhaptics
