@@ -43,4 +43,21 @@ InstructionSet usableInstructionSet(InstructionSet wanted) noexcept
   return kernel::avx2Kernels() && machineHasAvx2() ? InstructionSet::Avx2 : InstructionSet::Baseline;
 }
 
+namespace kernel
+{
+
+const Kernels& kernelsFor(InstructionSet wanted)
+{
+  switch (usableInstructionSet(wanted))
+  {
+    case InstructionSet::Avx512:
+      return *avx512Kernels();
+    case InstructionSet::Avx2:
+      return *avx2Kernels();
+    default:
+      return baselineKernels();
+  }
+}
+
+} // namespace kernel
 } // namespace pointhaptics

@@ -1,5 +1,6 @@
 #include "Core/VoxelMean.h"
 
+#include "Core/Kernel/VoxelKernel.h"
 #include "Core/VoxelResampler.h"
 
 #include <mutex>
@@ -11,24 +12,25 @@ Bounds transformedBounds(const PointView& points, const AffineTransform& transfo
 {
   Bounds box;
   std::mutex mutex;
-  forRange(executor, points.size(),
+  const kernel::Kernels& kernels = kernel::kernelsFor(InstructionSet::Automatic);
+  constexpr std::int64_t kGrain = 1 << 14;
+  forRange(executor, points.size(), kGrain,
     [&](std::int64_t begin, std::int64_t end)
     {
-      Bounds local;
-      for (std::int64_t i = begin; i < end; ++i)
+      double local[6] = { INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY };
+      if (points.floats())
       {
-        const Vec3 p = points[i];
-        const Vec3 moved = transform.apply(p);
-        if (isFinite(p) && isFinite(moved))
-        {
-          local.include(moved);
-        }
+        kernels.boundsFloats(transform.m, points.floats() + 3 * begin, end - begin, local);
       }
-      if (!local.empty())
+      else
+      {
+        kernels.boundsDoubles(transform.m, points.doubles() + 3 * begin, end - begin, local);
+      }
+      if (local[0] <= local[1])
       {
         const std::lock_guard<std::mutex> lock(mutex);
-        box.include(local.minimum);
-        box.include(local.maximum);
+        box.include({ local[0], local[2], local[4] });
+        box.include({ local[1], local[3], local[5] });
       }
     });
   return box;

@@ -24,19 +24,6 @@ using namespace kernel;
 constexpr std::int64_t kPieceSize = 1 << 14;
 constexpr int kMostLevels = 22;
 
-const Kernels& kernelsFor(InstructionSet wanted)
-{
-  switch (usableInstructionSet(wanted))
-  {
-    case InstructionSet::Avx512:
-      return *avx512Kernels();
-    case InstructionSet::Avx2:
-      return *avx2Kernels();
-    default:
-      return baselineKernels();
-  }
-}
-
 /// The points to look at, in chunks of pieces.
 class Chunks
 {
@@ -258,8 +245,11 @@ Status VoxelResampler::Implementation::runPlanned(
   placement_.blocksPerLayer = plan_.blocksPerLayer;
   placement_.rowShift = plan_.rowShift;
   placement_.layerShift = plan_.layerShift;
-  carried_.clear();
   carried_.resize(plan_.partitions);
+  for (CarriedPartition& partition : carried_)
+  {
+    partition.clear();
+  }
   std::int64_t inside = 0;
   invalid = request.index ? request.index->invalidPoints() : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
@@ -279,7 +269,6 @@ Status VoxelResampler::Implementation::runPlanned(
   {
     addLevels(request, carriedList());
   }
-  carried_.clear();
   return Status::Ok;
 }
 
@@ -328,7 +317,7 @@ void VoxelResampler::Implementation::sumChunk(
     for (std::uint32_t p = 0; p < plan_.partitions; ++p)
     {
       level.segments[p].place = room;
-      room += mostVoxels(plan_, pool_.count(p), carried_[p].voxels.size());
+      room += mostVoxels(plan_, pool_.count(p), carried_[p].size());
     }
     level.arena.prepare(room, { request.singlePrecision, request.keys, request.covariances }, request.lattice,
       plan_.fractionBits);
@@ -340,8 +329,12 @@ void VoxelResampler::Implementation::sumChunk(
       PartitionWorker& worker = *lease;
       for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
       {
-        worker.carried.voxels.clear();
-        worker.carried.seconds.clear();
+        if (!last && plan_.dense)
+        {
+          worker.carryDense(kernels, pool_, p, carried_[p]);
+          continue;
+        }
+        worker.carried.clear();
         worker.sum(kernels, pool_, p, carried_[p],
           [&](const MomentBatch<std::int64_t>& batch)
           {
@@ -502,6 +495,10 @@ std::size_t VoxelResampler::Implementation::scratchBytes() const
   for (const std::unique_ptr<PartitionWorker>& worker : idle_)
   {
     sum += worker->bytes();
+  }
+  for (const CarriedPartition& partition : carried_)
+  {
+    sum += partition.bytes();
   }
   for (const Level& level : levels)
   {

@@ -26,10 +26,13 @@ std::uint32_t blocks(std::uint32_t count, int shift)
 }
 
 /// Words of a bit for each cell, in whole cache lines as drain() wants them.
-std::size_t maskWords(const PartitionPlan& plan)
+std::size_t markWords(const PartitionPlan& plan)
 {
   return (plan.cells() / 512 + 1) * 8;
 }
+
+/// So many points in one voxel are taken out of the packed sums, which hold less than 2^21.
+constexpr std::uint64_t kPackedCounts = std::uint64_t(1) << 19;
 
 template <typename T>
 void reserveZeroed(Buffer<T>& buffer, std::size_t count)
@@ -48,7 +51,7 @@ void addCarried(MomentBatch<std::int64_t>& batch, int i, const CarriedPartition&
   {
     batch.sums[axis][i] += old.sums[axis];
   }
-  for (int m = 0; batch.seconds && m < 6; ++m)
+  for (int m = 0; !carried.seconds.empty() && m < 6; ++m)
   {
     batch.seconds[i].lanes[m] += carried.seconds[voxel].lanes[m];
   }
@@ -130,31 +133,102 @@ void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
   batch_->seconds = covariances ? batchSeconds_.data() : nullptr;
   if (plan.dense)
   {
-    reserveZeroed(sums_, plan.cells());
-    reserveZeroed(mask_, maskWords(plan));
-    cells_.reserve(plan.cells() + 64);
+    const std::size_t most = plan.cells() + 1;
+    reserveZeroed(slots_, plan.cells());
+    reserveZeroed(sums_, most);
+    reserveZeroed(marks_, markWords(plan));
+    slotCells_.reserve(most);
+    cells_.reserve(most + 64);
     if (covariances)
     {
-      reserveZeroed(seconds_, plan.cells());
+      reserveZeroed(seconds_, most);
     }
+    cellSums_ = { slots_.data(), slotCells_.data(), sums_.data(), covariances ? seconds_.data() : nullptr,
+      0 };
   }
 }
 
-std::size_t PartitionWorker::sumDense(
+/// Sums of the carried voxels and the partition's records, and a list of their cells in order.
+void PartitionWorker::sumDense(
   const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, const CarriedPartition& old)
 {
   const CellMap map = plan_.cellMap(partition);
-  SecondSums* seconds = batch_->seconds ? seconds_.data() : nullptr;
+  cellSums_.size = std::uint32_t(old.cells.size());
+  std::copy(old.cells.begin(), old.cells.end(), slotCells_.data());
+  std::copy(old.packed.begin(), old.packed.end(), sums_.data());
+  if (cellSums_.seconds)
+  {
+    std::copy(old.seconds.begin(), old.seconds.end(), seconds_.data());
+  }
+  for (std::uint32_t i = 0; i < cellSums_.size; ++i)
+  {
+    slots_[old.cells[i]] = i + 1;
+  }
+  pool.prefetchFirst(partition + 1);
   pool.forBlocks(partition,
     [&](const Record* records, const std::uint32_t*, int count)
-    { kernels.accumulate(map, records, count, sums_.data(), seconds, mask_.data()); });
-  const std::uint64_t firstKey = plan_.firstKey(partition);
-  for (const CarriedSums& voxel : old.voxels)
+    { kernels.accumulate(map, records, count, cellSums_); });
+  for (std::uint32_t i = 0; i < cellSums_.size; ++i)
   {
-    const std::uint64_t cell = voxel.key - firstKey;
-    mask_[cell / 64] |= std::uint64_t(1) << (cell % 64);
+    const std::uint32_t cell = slotCells_[i];
+    marks_[cell / 64] |= std::uint64_t(1) << (cell % 64);
   }
-  return kernels.drain(mask_.data(), maskWords(plan_), cells_.data());
+  listed_ = kernels.drain(marks_.data(), markWords(plan_), cells_.data());
+}
+
+void PartitionWorker::clearDense()
+{
+  for (std::uint32_t i = 0; i < cellSums_.size; ++i)
+  {
+    slots_[slotCells_[i]] = 0;
+  }
+  std::fill(sums_.data(), sums_.data() + cellSums_.size, PackedSums{ { 0, 0, 0, 0 } });
+  if (cellSums_.seconds)
+  {
+    std::fill(seconds_.data(), seconds_.data() + cellSums_.size, SecondSums{ { 0, 0, 0, 0, 0, 0 } });
+  }
+  cellSums_.size = 0;
+}
+
+void PartitionWorker::carryDense(
+  const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& carriedOver)
+{
+  sumDense(kernels, pool, partition, carriedOver);
+  // Room for what another chunk adds, not for twice as much.
+  const std::size_t size = cellSums_.size;
+  if (carriedOver.cells.capacity() < size)
+  {
+    carriedOver.cells.reserve(size + size / 16);
+    carriedOver.packed.reserve(size + size / 16);
+  }
+  carriedOver.cells.assign(slotCells_.data(), slotCells_.data() + size);
+  carriedOver.packed.assign(sums_.data(), sums_.data() + size);
+  if (cellSums_.seconds)
+  {
+    carriedOver.seconds.assign(seconds_.data(), seconds_.data() + size);
+  }
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    if (carriedOver.packed[i].lanes[3] >> kCountShift >= kPackedCounts)
+    {
+      unpack(plan_.firstKey(partition) + carriedOver.cells[i], carriedOver.packed[i], carriedOver);
+    }
+  }
+  clearDense();
+}
+
+/// Moves packed sums that are nearly full to sums of 64 bits each.
+void PartitionWorker::unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver)
+{
+  const auto place = std::lower_bound(carriedOver.voxels.begin(), carriedOver.voxels.end(), key,
+    [](const CarriedSums& voxel, std::uint64_t wanted) { return voxel.key < wanted; });
+  const bool isNew = place == carriedOver.voxels.end() || place->key != key;
+  CarriedSums& voxel = isNew ? *carriedOver.voxels.insert(place, { key, 0, { 0, 0, 0 } }) : *place;
+  voxel.count += packedCount(packed);
+  voxel.sums[0] += std::int64_t(packed.lanes[0]);
+  voxel.sums[1] += std::int64_t(packed.lanes[1]);
+  voxel.sums[2] += packedZ(packed);
+  packed = PackedSums{ { 0, 0, 0, 0 } };
 }
 
 void PartitionWorker::collectDense(const Kernels& kernels, std::uint32_t partition,
@@ -162,8 +236,7 @@ void PartitionWorker::collectDense(const Kernels& kernels, std::uint32_t partiti
 {
   const int size = int(std::min<std::size_t>(listed_ - position, kBatch));
   const std::uint32_t* cells = cells_.data() + position;
-  SecondSums* seconds = batch_->seconds ? seconds_.data() : nullptr;
-  kernels.collect(plan_.cellMap(partition), cells, size, sums_.data(), seconds, *batch_);
+  kernels.collect(plan_.cellMap(partition), cells, size, cellSums_, *batch_);
   const std::uint64_t firstKey = plan_.firstKey(partition);
   for (int i = 0; i < size && next < old.voxels.size(); ++i)
   {
@@ -279,17 +352,14 @@ void PartitionWorker::collectSorted(
   batch.size = size;
 }
 
-void PartitionWorker::prepareRanks(std::uint32_t partition, const std::uint64_t* keys, std::size_t size)
+/// Sets the ranks of a dense partition's cells, or forgets them.
+void PartitionWorker::setRanks(
+  std::uint32_t partition, const std::uint64_t* keys, std::size_t size, bool known)
 {
-  if (!plan_.dense)
-  {
-    return;
-  }
-  ranks_.reserve(plan_.cells());
   const std::uint64_t firstKey = plan_.firstKey(partition);
-  for (std::size_t i = 0; i < size; ++i)
+  for (std::size_t i = 0; plan_.dense && i < size; ++i)
   {
-    ranks_[keys[i] - firstKey] = std::uint32_t(i);
+    slots_[keys[i] - firstKey] = known ? std::uint32_t(i) + 1 : 0;
   }
 }
 
@@ -300,9 +370,10 @@ std::uint32_t PartitionWorker::rankOf(std::uint64_t key, const std::uint64_t* ke
 
 std::size_t PartitionWorker::bytes() const
 {
-  return sums_.bytes() + seconds_.bytes() + mask_.bytes() + cells_.bytes() + ranks_.bytes() +
-    records_.bytes() + entries_.bytes() + otherEntries_.bytes() + sizeof(MomentBatch<std::int64_t>) +
-    carried.voxels.capacity() * sizeof(CarriedSums) + carried.seconds.capacity() * sizeof(SecondSums);
+  return slots_.bytes() + slotCells_.bytes() + sums_.bytes() + seconds_.bytes() + marks_.bytes() +
+    cells_.bytes() + records_.bytes() + entries_.bytes() + otherEntries_.bytes() +
+    sizeof(MomentBatch<std::int64_t>) + carried.voxels.capacity() * sizeof(CarriedSums) +
+    carried.seconds.capacity() * sizeof(SecondSums);
 }
 
 } // namespace kernel

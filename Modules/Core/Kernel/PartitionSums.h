@@ -76,12 +76,13 @@ public:
     std::size_t next = 0;     // among the carried voxels
     if (plan_.dense)
     {
-      listed_ = sumDense(kernels, pool, partition, old);
+      sumDense(kernels, pool, partition, old);
       while (position < listed_)
       {
         collectDense(kernels, partition, old, position, next);
         emit(*batch_);
       }
+      cellSums_.size = 0;
       return;
     }
     listed_ = sortRecords(kernels, pool, partition);
@@ -91,13 +92,16 @@ public:
       emit(*batch_);
     }
   }
+  /// Adds the records of a partition to what is carried of it. @pre the plan is dense.
+  void carryDense(
+    const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& carriedOver);
   /// Calls visit(positions, ranks, count) with the rank of each indexed record's voxel among the
   /// partition's @p keys (ascending).
   template <typename Visit>
   void rank(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
     const std::uint64_t* keys, std::size_t size, Visit&& visit)
   {
-    prepareRanks(partition, keys, size);
+    setRanks(partition, keys, size, true);
     const CellMap map = plan_.cellMap(partition);
     const std::uint64_t firstKey = plan_.firstKey(partition);
     pool.forBlocks(partition,
@@ -107,10 +111,11 @@ public:
         kernels.cells(map, records, count, cells);
         for (int i = 0; i < count; ++i)
         {
-          cells[i] = plan_.dense ? ranks_[cells[i]] : rankOf(firstKey + cells[i], keys, size);
+          cells[i] = plan_.dense ? slots_[cells[i]] - 1 : rankOf(firstKey + cells[i], keys, size);
         }
         visit(indices, cells, count);
       });
+    setRanks(partition, keys, size, false);
   }
   std::size_t bytes() const;
   /// Sums of the batches it makes are collected here.
@@ -123,27 +128,31 @@ private:
     std::uint32_t record;
   };
 
-  std::size_t sumDense(
+  void sumDense(
     const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, const CarriedPartition& old);
   void collectDense(const Kernels& kernels, std::uint32_t partition, const CarriedPartition& old,
     std::size_t& position, std::size_t& next);
+  void clearDense();
+  static void unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver);
   std::size_t sortRecords(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition);
   void sortEntries(std::size_t size);
   void collectSorted(
     std::uint32_t partition, const CarriedPartition& old, std::size_t& position, std::size_t& next);
-  void prepareRanks(std::uint32_t partition, const std::uint64_t* keys, std::size_t size);
+  void setRanks(std::uint32_t partition, const std::uint64_t* keys, std::size_t size, bool known);
   static std::uint32_t rankOf(std::uint64_t key, const std::uint64_t* keys, std::size_t size);
 
   PartitionPlan plan_;
   std::size_t listed_ = 0; ///< Cells or records of the partition at work.
   std::unique_ptr<MomentBatch<std::int64_t>> batch_;
   std::vector<SecondSums> batchSeconds_;
-  // Dense: all zero between partitions.
+  // Dense: slots, sums and marks are all zero between partitions.
+  Buffer<std::uint32_t> slots_;
+  Buffer<std::uint32_t> slotCells_;
   Buffer<PackedSums> sums_;
   Buffer<SecondSums> seconds_;
-  Buffer<std::uint64_t> mask_;
-  Buffer<std::uint32_t> cells_;
-  Buffer<std::uint32_t> ranks_;
+  Buffer<std::uint64_t> marks_;
+  Buffer<std::uint32_t> cells_; ///< In ascending order.
+  CellSums cellSums_{};
   // Sorted.
   Buffer<Record> records_;
   Buffer<Entry> entries_;

@@ -3,6 +3,8 @@
 /// them. All sets give the same bits.
 #pragma once
 
+#include "Core/InstructionSet.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -38,7 +40,7 @@ struct alignas(16) Record
 };
 
 /// Records are written into blocks of this size, aligned to it.
-constexpr std::size_t kBlockBytes = 2048;
+constexpr std::size_t kBlockBytes = 4096;
 constexpr std::size_t kBlockRecords = kBlockBytes / sizeof(Record);
 
 /// How coordinates become positions in the lattice and rows of it.
@@ -86,7 +88,7 @@ struct CellMap
 };
 
 /// Sums of one chunk in one cell: x, y, low bits of z, count | high bits of z.
-struct PackedSums
+struct alignas(32) PackedSums
 {
   std::uint64_t lanes[4];
 };
@@ -95,10 +97,31 @@ constexpr int kCountShift = 43;
 static_assert(kChunkPoints < (std::int64_t(1) << 20) && 20 + kPositionBits - kLowBits <= kCountShift,
   "the high bits of z must not reach the count");
 
+static inline std::int64_t packedCount(const PackedSums& sums)
+{
+  return std::int64_t(sums.lanes[3] >> kCountShift);
+}
+static inline std::int64_t packedZ(const PackedSums& sums)
+{
+  constexpr std::uint64_t kHighMask = (std::uint64_t(1) << kCountShift) - 1;
+  return std::int64_t(sums.lanes[2] + ((sums.lanes[3] & kHighMask) << kLowBits));
+}
+
 /// Sums of products of the places in the voxel, in the order of SymMat3: xx yy zz xy yz xz.
 struct SecondSums
 {
   Int128 lanes[6];
+};
+
+/// The sums of a partition's cells, in the order the cells were first met: packed so that they stay in the
+/// first-level cache, where the cells of a whole partition would not.
+struct CellSums
+{
+  std::uint32_t* slots; ///< Of each cell of the partition, one more than the place of its sums; 0: none yet.
+  std::uint32_t* cells; ///< Of each place, the cell; with room for one more.
+  PackedSums* sums;     ///< Of each place; zero past the last one.
+  SecondSums* seconds;  ///< Likewise, or null.
+  std::uint32_t size;
 };
 
 /// Places of a record's point in its voxel. These are static: sources of several instruction sets include
@@ -162,20 +185,25 @@ struct Kernels
     const Placement&, const double* xyz, std::int64_t count, std::uint32_t firstIndex, RecordWriter&);
   /// The cell of each record.
   void (*cells)(const CellMap&, const Record* records, int count, std::uint32_t* cells);
-  /// Adds records to the sums of their cells and marks the cells, a bit each. @p seconds may be null.
-  void (*accumulate)(const CellMap&, const Record* records, int count, PackedSums* sums, SecondSums* seconds,
-    std::uint64_t* mask);
+  /// Adds records to the sums of their cells.
+  void (*accumulate)(const CellMap&, const Record* records, int count, CellSums& sums);
   /// Lists the marked cells in ascending order and clears the marks; @p words is a multiple of 8, and room
   /// for 63 cells more than there are is written to. @return their number.
-  std::size_t (*drain)(std::uint64_t* mask, std::size_t words, std::uint32_t* cells);
-  /// Moves the sums of the listed cells into a batch and clears them.
-  void (*collect)(const CellMap&, const std::uint32_t* cells, int count, PackedSums* sums,
-    SecondSums* seconds, MomentBatch<std::int64_t>& batch);
+  std::size_t (*drain)(std::uint64_t* marks, std::size_t words, std::uint32_t* cells);
+  /// Moves the sums of some cells into a batch and forgets the cells.
+  void (*collect)(
+    const CellMap&, const std::uint32_t* cells, int count, CellSums& sums, MomentBatch<std::int64_t>& batch);
   /// Coordinates of a batch's means, x y z interleaved. Positions in the batch of those so near a face that
   /// they need another look go to @p nearFace. @return the number of these.
   int (*meansFloat)(const MeanMap&, const MomentBatch<std::int64_t>&, float* xyz, int* nearFace);
   int (*meansDouble)(const MeanMap&, const MomentBatch<std::int64_t>&, double* xyz, int* nearFace);
+  /// Widens a box (x0 x1 y0 y1 z0 z1) by the transformed points that are finite before and after.
+  void (*boundsFloats)(const double matrix[3][4], const float* xyz, std::int64_t count, double box[6]);
+  void (*boundsDoubles)(const double matrix[3][4], const double* xyz, std::int64_t count, double box[6]);
 };
+
+/// The set that InstructionSet stands for on this machine.
+const Kernels& kernelsFor(InstructionSet wanted);
 
 const Kernels& baselineKernels();
 /// Null where the compiler or the processor family lacks them; whether this machine can run them is asked

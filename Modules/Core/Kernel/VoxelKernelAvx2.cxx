@@ -101,6 +101,9 @@ struct Avx2
   static void store(float* to, Doubles a) { _mm_store_ps(to, _mm256_cvtpd_ps(a)); }
   static void store(double* to, Doubles a) { _mm256_store_pd(to, a); }
   static Doubles quotient(Doubles a, Doubles b) { return _mm256_div_pd(a, b); }
+  static Doubles least(Doubles a, Doubles b) { return _mm256_min_pd(b, a); }
+  static Doubles most(Doubles a, Doubles b) { return _mm256_max_pd(b, a); }
+  static Doubles choose(Mask mask, Doubles a, Doubles b) { return _mm256_blendv_pd(b, a, mask); }
   static void storeBits(std::uint64_t* to, Bits a) { _mm256_store_si256(reinterpret_cast<__m256i*>(to), a); }
   /// Records 0 and 2, then 1 and 3.
   static int slot(int i) { return (i & 1) * 2 + (i >> 1); }

@@ -89,6 +89,9 @@ struct Avx512
   static void store(float* to, Doubles a) { _mm256_store_ps(to, _mm512_cvtpd_ps(a)); }
   static void store(double* to, Doubles a) { _mm512_store_pd(to, a); }
   static Doubles quotient(Doubles a, Doubles b) { return _mm512_div_pd(a, b); }
+  static Doubles least(Doubles a, Doubles b) { return _mm512_min_pd(b, a); }
+  static Doubles most(Doubles a, Doubles b) { return _mm512_max_pd(b, a); }
+  static Doubles choose(Mask mask, Doubles a, Doubles b) { return _mm512_mask_blend_pd(mask, b, a); }
   static void storeBits(std::uint64_t* to, Bits a) { _mm512_store_si512(to, a); }
   /// Records 0 2 4 6, then 1 3 5 7.
   static int slot(int i) { return (i & 1) * 4 + (i >> 1); }

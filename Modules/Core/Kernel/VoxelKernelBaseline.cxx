@@ -69,6 +69,9 @@ struct Scalar
     *to = Real(a);
   }
   static Doubles quotient(Doubles a, Doubles b) { return a / b; }
+  static Doubles least(Doubles a, Doubles b) { return b < a ? b : a; }
+  static Doubles most(Doubles a, Doubles b) { return b > a ? b : a; }
+  static Doubles choose(Mask mask, Doubles a, Doubles b) { return mask ? a : b; }
   static void storeBits(std::uint64_t* to, Bits a) { *to = a; }
   static int slot(int i) { return i; }
   static void storeRecords(Record* to, Bits first, Bits second) { *to = { first, second }; }
@@ -98,11 +101,17 @@ struct Scalar
     }
     void add(PackedSums& sums, const Record& r) const
     {
-      sums.lanes[0] += r.first & fractionMask;
-      sums.lanes[1] += r.second & fractionMask;
-      sums.lanes[2] += r.first >> kPositionBits;
-      sums.lanes[3] += ((r.second >> kPositionBits) & highMask) + (std::uint64_t(1) << kCountShift);
+      // Two lanes at once where the compiler knows how.
+      const Pair low = { r.first & fractionMask, r.second & fractionMask };
+      const Pair high = { r.first >> kPositionBits,
+        ((r.second >> kPositionBits) & highMask) + (std::uint64_t(1) << kCountShift) };
+      auto* lanes = reinterpret_cast<Pair*>(sums.lanes);
+      lanes[0] += low;
+      lanes[1] += high;
     }
+
+  private:
+    typedef std::uint64_t Pair __attribute__((vector_size(16), may_alias));
   };
 };
 

@@ -222,30 +222,50 @@ inline std::uint32_t cellOf(const CellMap& map, const Record& r)
 }
 
 template <class V>
-void accumulate(const CellMap& map, const Record* records, int count, PackedSums* sums, SecondSums* seconds,
-  std::uint64_t* mask)
+void accumulate(const CellMap& map, const Record* records, int count, CellSums& to)
 {
-  std::uint32_t cells[kBlockRecords + kWidest];
+  alignas(64) std::uint32_t cells[kBlockRecords + kWidest];
   V::cells(map, records, count, cells);
   const typename V::Adder adder(map.fractionBits);
-  for (int i = 0; i < count; ++i)
-  {
-    __builtin_prefetch(&sums[cells[i]], 1);
-  }
-  for (int i = 0; i < count; ++i)
+  std::uint32_t* slots = to.slots;
+  std::uint32_t* met = to.cells;
+  PackedSums* sums = to.sums;
+  std::uint32_t size = to.size;
+  const auto addOne = [&](int i)
   {
     const std::uint32_t cell = cells[i];
-    mask[cell >> 6] |= std::uint64_t(1) << (cell & 63);
-    adder.add(sums[cell], records[i]);
+    // No branch: whether a cell is new is anybody's guess.
+    const std::uint32_t known = slots[cell];
+    met[size] = cell;
+    size += known == 0;
+    const std::uint32_t slot = known == 0 ? size : known;
+    slots[cell] = slot;
+    cells[i] = slot - 1;
+    adder.add(sums[slot - 1], records[i]);
+  };
+  // Neighbours in a scan are in one cell, and each sum would wait for the one before: take them from four
+  // places in turn.
+  const int quarter = count / 4;
+  for (int i = 0; i < quarter; ++i)
+  {
+    addOne(i);
+    addOne(i + quarter);
+    addOne(i + 2 * quarter);
+    addOne(i + 3 * quarter);
   }
-  if (seconds)
+  for (int i = 4 * quarter; i < count; ++i)
+  {
+    addOne(i);
+  }
+  to.size = size;
+  if (to.seconds)
   {
     const std::uint64_t fractionMask = (std::uint64_t(1) << map.fractionBits) - 1;
     for (int i = 0; i < count; ++i)
     {
       const Record& r = records[i];
       addProducts(
-        seconds[cells[i]], xPlace(r, fractionMask), yPlace(r, fractionMask), zPlace(r, fractionMask));
+        to.seconds[cells[i]], xPlace(r, fractionMask), yPlace(r, fractionMask), zPlace(r, fractionMask));
     }
   }
 }
@@ -266,16 +286,16 @@ inline std::size_t listBits(std::uint64_t bits, std::uint32_t first, std::uint32
 }
 
 template <class V>
-std::size_t drain(std::uint64_t* mask, std::size_t words, std::uint32_t* cells)
+std::size_t drain(std::uint64_t* marks, std::size_t words, std::uint32_t* cells)
 {
   constexpr std::size_t kGroup = 8;
-  std::size_t size = 0;
+  std::size_t found = 0;
   for (std::size_t group = 0; group < words; group += kGroup)
   {
     std::uint64_t any = 0;
     for (std::size_t i = 0; i < kGroup; ++i)
     {
-      any |= mask[group + i];
+      any |= marks[group + i];
     }
     if (any == 0)
     {
@@ -283,20 +303,19 @@ std::size_t drain(std::uint64_t* mask, std::size_t words, std::uint32_t* cells)
     }
     for (std::size_t w = group; w < group + kGroup; ++w)
     {
-      if (mask[w] != 0)
+      if (marks[w] != 0)
       {
-        size += V::listBits(mask[w], std::uint32_t(64 * w), cells + size);
-        mask[w] = 0;
+        found += V::listBits(marks[w], std::uint32_t(64 * w), cells + found);
+        marks[w] = 0;
       }
     }
   }
-  return size;
+  return found;
 }
 
-void collect(const CellMap& map, const std::uint32_t* cells, int count, PackedSums* sums, SecondSums* seconds,
-  MomentBatch<std::int64_t>& batch)
+void collect(
+  const CellMap& map, const std::uint32_t* cells, int count, CellSums& from, MomentBatch<std::int64_t>& batch)
 {
-  constexpr std::uint64_t kHighMask = (std::uint64_t(1) << kCountShift) - 1;
   // The half keeps the quotients clear of the integers: they come out right by truncation.
   const double perColumn = 1.0 / double(map.columns);
   const double perLayer = 1.0 / double(map.rowsPerLayer);
@@ -313,20 +332,22 @@ void collect(const CellMap& map, const std::uint32_t* cells, int count, PackedSu
   }
   for (int i = 0; i < count; ++i)
   {
-    PackedSums& s = sums[cells[i]];
+    PackedSums& s = from.sums[from.slots[cells[i]] - 1];
     batch.sums[0][i] = std::int64_t(s.lanes[0]);
     batch.sums[1][i] = std::int64_t(s.lanes[1]);
-    batch.sums[2][i] = std::int64_t(s.lanes[2] + ((s.lanes[3] & kHighMask) << kLowBits));
-    batch.counts[i] = std::int64_t(s.lanes[3] >> kCountShift);
+    batch.sums[2][i] = packedZ(s);
+    batch.counts[i] = packedCount(s);
     s = PackedSums{ { 0, 0, 0, 0 } };
   }
-  if (seconds)
+  for (int i = 0; from.seconds && i < count; ++i)
   {
-    for (int i = 0; i < count; ++i)
-    {
-      batch.seconds[i] = seconds[cells[i]];
-      seconds[cells[i]] = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
-    }
+    SecondSums& s = from.seconds[from.slots[cells[i]] - 1];
+    batch.seconds[i] = s;
+    s = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    from.slots[cells[i]] = 0;
   }
 }
 
@@ -381,11 +402,79 @@ int means(const MeanMap& map, const MomentBatch<std::int64_t>& batch, Real* xyz,
   return found;
 }
 
+/// Widens the box by the transformed points that are finite, as AffineTransform::apply() rounds them.
+template <class V, typename Real>
+void bounds(const double matrix[3][4], const Real* xyz, std::int64_t count, double box[6])
+{
+  const double infinity = __builtin_inf();
+  typename V::Doubles low[3], high[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    low[axis] = V::all(infinity);
+    high[axis] = V::all(-infinity);
+  }
+  const auto include = [&](const Real* from)
+  {
+    typename V::Doubles p[3], moved[3];
+    V::load(from, p[0], p[1], p[2]);
+    // What is not finite makes the sum not a number.
+    typename V::Doubles check =
+      V::add(V::add(V::subtract(p[0], p[0]), V::subtract(p[1], p[1])), V::subtract(p[2], p[2]));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double* row = matrix[axis];
+      moved[axis] =
+        V::add(V::add(V::add(V::multiply(V::all(row[0]), p[0]), V::multiply(V::all(row[1]), p[1])),
+                 V::multiply(V::all(row[2]), p[2])),
+          V::all(row[3]));
+      check = V::add(check, V::subtract(moved[axis], moved[axis]));
+    }
+    const typename V::Mask valid = V::finite(check);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = V::least(low[axis], V::choose(valid, moved[axis], low[axis]));
+      high[axis] = V::most(high[axis], V::choose(valid, moved[axis], high[axis]));
+    }
+  };
+  std::int64_t i = 0;
+  for (; i + V::width <= count; i += V::width)
+  {
+    include(xyz + 3 * i);
+  }
+  if (i < count)
+  {
+    Real last[3 * kWidest];
+    for (int j = 0; j < 3 * kWidest; ++j)
+    {
+      last[j] = Real(__builtin_nan(""));
+    }
+    for (std::int64_t j = 0; j < 3 * (count - i); ++j)
+    {
+      last[j] = xyz[3 * i + j];
+    }
+    include(last);
+  }
+  alignas(64) double lanes[kWidest];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    V::store(lanes, low[axis]);
+    for (int j = 0; j < V::width; ++j)
+    {
+      box[2 * axis] = lanes[j] < box[2 * axis] ? lanes[j] : box[2 * axis];
+    }
+    V::store(lanes, high[axis]);
+    for (int j = 0; j < V::width; ++j)
+    {
+      box[2 * axis + 1] = lanes[j] > box[2 * axis + 1] ? lanes[j] : box[2 * axis + 1];
+    }
+  }
+}
+
 template <class V>
 Kernels makeKernels()
 {
   return { &partition<V, float>, &partition<V, double>, &V::cells, &accumulate<V>, &drain<V>, &collect,
-    &means<V, float>, &means<V, double> };
+    &means<V, float>, &means<V, double>, &bounds<V, float>, &bounds<V, double> };
 }
 
 }

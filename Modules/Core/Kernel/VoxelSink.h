@@ -24,11 +24,29 @@ struct CarriedSums
   std::int64_t sums[3];
 };
 
-/// Those of a partition, by key. @p seconds is empty unless covariances are wanted.
+/// Those of a partition. Where its cells' sums are kept side by side: cells with their packed sums, and in
+/// voxels what these could not hold; otherwise voxels by key. Seconds go with the cells, or the voxels, and
+/// are there only if covariances are wanted.
 struct CarriedPartition
 {
+  std::vector<std::uint32_t> cells;
+  std::vector<PackedSums> packed;
   std::vector<CarriedSums> voxels;
   std::vector<SecondSums> seconds;
+
+  std::size_t size() const { return cells.empty() ? voxels.size() : cells.size(); }
+  void clear()
+  {
+    cells.clear();
+    packed.clear();
+    voxels.clear();
+    seconds.clear();
+  }
+  std::size_t bytes() const
+  {
+    return cells.capacity() * sizeof(std::uint32_t) + packed.capacity() * sizeof(PackedSums) +
+      voxels.capacity() * sizeof(CarriedSums) + seconds.capacity() * sizeof(SecondSums);
+  }
 };
 
 /// Covariance of the points of a voxel, divided by their count, from exact integer sums in quanta.
