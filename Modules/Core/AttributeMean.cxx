@@ -13,6 +13,10 @@ namespace
 {
 
 constexpr int kMostPartBits = 40;
+/// The most parts from the largest double to the last bit of the smallest, at 28 bits each.
+constexpr int kMostLanes = 80;
+/// With more parts than this the scale alone would push a small value below the smallest double.
+constexpr int kMostScaledLanes = 8;
 /// Adding and subtracting it rounds to an integer.
 constexpr double kRounder = 0x1.8p52;
 constexpr std::uint8_t kSawNaN = 1;
@@ -91,6 +95,7 @@ void AttributeMean::scan(const Executor& executor)
 {
   const auto* values = static_cast<const Real*>(view_.values);
   double largest = 0.0;
+  double smallest = std::numeric_limits<double>::infinity();
   bool nonFinite = false;
   std::mutex mutex;
   forRange(executor, view_.tuples * view_.components,
@@ -103,6 +108,7 @@ void AttributeMean::scan(const Executor& executor)
       Bits infinite;
       std::memcpy(&infinite, &infinity, sizeof infinite);
       Bits most = 0;
+      Bits leastLessOne = infinite - 1; // Zero becomes the largest of all.
       Bits above = 0;
       for (std::int64_t i = begin; i < end; ++i)
       {
@@ -111,18 +117,30 @@ void AttributeMean::scan(const Executor& executor)
         bits &= kMagnitude;
         const bool finite = bits < infinite;
         most = std::max(most, finite ? bits : Bits(0));
+        leastLessOne = std::min(leastLessOne, Bits(bits - 1));
         above |= Bits(!finite);
       }
-      Real value;
-      std::memcpy(&value, &most, sizeof value);
+      const Bits least = leastLessOne + 1;
+      Real high;
+      Real low;
+      std::memcpy(&high, &most, sizeof high);
+      std::memcpy(&low, &least, sizeof low);
       const std::lock_guard<std::mutex> lock(mutex);
-      largest = std::max(largest, double(value));
+      largest = std::max(largest, double(high));
+      smallest = std::min(smallest, double(low));
       nonFinite = nonFinite || above != 0;
     });
-  lanes_ = 2;
   hasNonFinite_ = nonFinite;
-  std::frexp(largest, &exponent_);
   partBits_ = std::min(kMostPartBits, 62 - bitsOf(view_.tuples));
+  lanes_ = 1;
+  if (largest > 0.0)
+  {
+    int exponent;
+    std::frexp(largest, &exponent_);
+    std::frexp(smallest, &exponent);
+    const int lastBit = exponent - std::numeric_limits<Real>::digits;
+    lanes_ = std::min((exponent_ - lastBit + partBits_ - 1) / partBits_, kMostLanes);
+  }
   // In two factors: for tiny arrays one would overflow.
   const int shift = partBits_ - exponent_;
   scale_[0] = std::ldexp(1.0, std::min(shift, 1000));
@@ -171,12 +189,28 @@ void AttributeMean::addIntegers(const std::int64_t* points, const std::int64_t* 
   }
 }
 
+namespace
+{
+
+/// Adds the parts of a number, the first of which it is in units of.
+inline void addParts(double scaled, double partScale, int parts, std::int64_t* sums)
+{
+  for (int part = 0; part < parts; ++part)
+  {
+    const double whole = (scaled + kRounder) - kRounder;
+    sums[part] += std::int64_t(whole);
+    scaled = (scaled - whole) * partScale;
+  }
+}
+
+}
+
 template <typename Real>
 void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* voxels, int count)
 {
   const auto* values = static_cast<const Real*>(view_.values);
   const int components = view_.components;
-  const double lowScale = std::ldexp(1.0, partBits_);
+  const double partScale = std::ldexp(1.0, partBits_);
   for (int i = 0; i < count; ++i)
   {
     __builtin_prefetch(values + components * points[i]);
@@ -184,19 +218,30 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
   for (int i = 0; i < count; ++i)
   {
     const Real* value = values + components * points[i];
-    std::int64_t* sum = sums_.data() + 2 * std::int64_t(components) * voxels[i];
+    std::int64_t* sum = sums_.data() + std::int64_t(lanes_) * components * voxels[i];
     for (int c = 0; c < components; ++c)
     {
-      const double scaled = double(value[c]) * scale_[0] * scale_[1];
       if (hasNonFinite_ && !std::isfinite(value[c]))
       {
         special_[std::size_t(components * voxels[i] + c)] |= kindOf(value[c]);
-        continue;
       }
-      const double high = (scaled + kRounder) - kRounder;
-      const double low = ((scaled - high) * lowScale + kRounder) - kRounder;
-      sum[2 * c] += std::int64_t(high);
-      sum[2 * c + 1] += std::int64_t(low);
+      else if (lanes_ == 2)
+      {
+        addParts(double(value[c]) * scale_[0] * scale_[1], partScale, 2, sum + 2 * c);
+      }
+      else if (lanes_ <= kMostScaledLanes)
+      {
+        addParts(double(value[c]) * scale_[0] * scale_[1], partScale, lanes_, sum + lanes_ * c);
+      }
+      else if (value[c] != Real(0))
+      {
+        // From the part before the one its first bit is in.
+        int exponent;
+        std::frexp(double(value[c]), &exponent);
+        const int part = std::max(0, (exponent_ - exponent) / partBits_ - 1);
+        const double scaled = std::ldexp(double(value[c]), partBits_ * (part + 1) - exponent_);
+        addParts(scaled, partScale, lanes_ - part, sum + lanes_ * c + part);
+      }
     }
   }
 }
@@ -239,16 +284,56 @@ void AttributeMean::coarsen(const std::vector<std::int64_t>& parents, std::int64
   }
 }
 
-AttributeMean::Int128 AttributeMean::sum(std::int64_t voxel, int component) const
+AttributeMean::Int128 AttributeMean::integerSum(std::int64_t voxel, int component) const
 {
-  const std::int64_t* lanes =
-    sums_.data() + std::int64_t(lanes_) * (std::int64_t(view_.components) * voxel + component);
-  if (lanes_ == 1)
+  const std::int64_t* sum = lanes(voxel, component);
+  return lanes_ == 1 ? Int128(sum[0]) : Int128(sum[0]) * (Int128(1) << 32) + sum[1];
+}
+
+/// The sum is the result times 2^exponent.
+double AttributeMean::realSum(std::int64_t voxel, int component, int& exponent) const
+{
+  const std::int64_t* sum = lanes(voxel, component);
+  exponent = exponent_ - std::min(lanes_, 2) * partBits_;
+  if (lanes_ <= 2)
   {
-    return lanes[0];
+    return lanes_ == 1 ? double(sum[0]) : double(Int128(sum[0]) * (Int128(1) << partBits_) + sum[1]);
   }
-  const int shift = isFloating() ? partBits_ : 32;
-  return Int128(lanes[0]) * (Int128(1) << shift) + lanes[1];
+  // Carries from part to part, all of one sign afterwards; rounded once, from the first part that is not 0.
+  std::int64_t parts[kMostLanes];
+  std::copy(sum, sum + lanes_, parts);
+  const auto carry = [&]
+  {
+    for (int part = lanes_ - 1; part > 0; --part)
+    {
+      const std::int64_t over = parts[part] >> partBits_;
+      parts[part] -= over * (std::int64_t(1) << partBits_);
+      parts[part - 1] += over;
+    }
+  };
+  carry();
+  const bool negative = parts[0] < 0;
+  if (negative)
+  {
+    std::transform(sum, sum + lanes_, parts, [](std::int64_t part) { return -part; });
+    carry();
+  }
+  int first = 0;
+  while (first + 2 < lanes_ && parts[first] == 0)
+  {
+    ++first;
+  }
+  Int128 whole = Int128(parts[first]) * (Int128(1) << partBits_) + parts[first + 1];
+  int last = first + 1;
+  if (last + 1 < lanes_ && parts[first] >> kMostPartBits == 0)
+  {
+    whole = whole * (Int128(1) << partBits_) + parts[++last];
+  }
+  const bool more =
+    std::any_of(parts + last + 1, parts + lanes_, [](std::int64_t part) { return part != 0; });
+  exponent = exponent_ - (last + 1) * partBits_ - 1;
+  const auto rounded = double(2 * whole + more);
+  return negative ? -rounded : rounded;
 }
 
 double AttributeMean::realMean(std::int64_t voxel, int component, std::int64_t count) const
@@ -263,14 +348,16 @@ double AttributeMean::realMean(std::int64_t voxel, int component, std::int64_t c
                             : std::numeric_limits<double>::quiet_NaN();
   }
   // Divided before it is scaled: the scale may reach among the denormals.
-  return std::ldexp(double(sum(voxel, component)) / double(count), exponent_ - 2 * partBits_);
+  int exponent;
+  const double sum = realSum(voxel, component, exponent);
+  return std::ldexp(sum / double(count), exponent);
 }
 
 void AttributeMean::mean(std::int64_t voxel, std::int64_t count, double* means) const
 {
   for (int c = 0; c < view_.components; ++c)
   {
-    means[c] = isFloating() ? realMean(voxel, c, count) : double(sum(voxel, c)) / double(count);
+    means[c] = isFloating() ? realMean(voxel, c, count) : double(integerSum(voxel, c)) / double(count);
   }
 }
 
@@ -287,7 +374,7 @@ void AttributeMean::writeIntegers(const std::int64_t* counts, Integer* means, co
         {
           if constexpr (sizeof(Integer) == 8)
           {
-            const Int128 twice = 2 * sum(v, c);
+            const Int128 twice = 2 * integerSum(v, c);
             const Int128 half = twice < 0 ? -counts[v] : counts[v];
             means[v * components + c] = Integer((twice + half) / (2 * Int128(counts[v])));
           }

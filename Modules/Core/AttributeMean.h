@@ -37,11 +37,12 @@ struct AttributeView
 
 /// Sums an attribute over the points of each voxel, exactly, and divides.
 ///
-/// Integers are summed as they are. Floating-point numbers are cut to fixed point in two parts of up to 40
-/// bits each below the array's largest magnitude (fewer in clouds of more than 2^22 points, never fewer than
-/// 30): a sum is exact but for what lies 2^-60 below that magnitude, and the same for every order. A voxel
-/// with NaN or infinities has the mean that IEEE addition would give. Memory: 16 bytes a voxel and component
-/// (8 for integers of up to 32 bits).
+/// Integers are summed as they are. Floating-point numbers are cut to fixed point in as many parts of up to
+/// 40 bits as reach from the array's largest magnitude down to the last bit of its smallest: two for most
+/// arrays, more where magnitudes differ by more than 2^50. Sums are exact, so a mean is within one rounding
+/// of the exact one (half a unit in the last place for the quotient, as much for the sum), a lone point's is
+/// its value, and none depends on the order. A voxel with NaN or infinities has the mean that IEEE addition
+/// would give. Memory: 8 bytes a voxel, component and part (integers of up to 32 bits: one part, of 64: two).
 class AttributeMean
 {
 public:
@@ -78,13 +79,18 @@ private:
   void writeIntegers(const std::int64_t* counts, Integer* means, const Executor& executor) const;
   template <typename Real>
   void writeReals(const std::int64_t* counts, Real* means, const Executor& executor) const;
-  Int128 sum(std::int64_t voxel, int component) const;
+  const std::int64_t* lanes(std::int64_t voxel, int component) const
+  {
+    return sums_.data() + std::int64_t(lanes_) * (std::int64_t(view_.components) * voxel + component);
+  }
+  Int128 integerSum(std::int64_t voxel, int component) const;
+  double realSum(std::int64_t voxel, int component, int& exponent) const;
   double realMean(std::int64_t voxel, int component, std::int64_t count) const;
 
   AttributeView view_;
   int lanes_ = 1; ///< Of 64 bits for each component.
   int partBits_ = 0;
-  double scale_[2] = { 1.0, 1.0 }; ///< Both times a value give its high part.
+  double scale_[2] = { 1.0, 1.0 }; ///< Both times a value give its first part, and what is left of it.
   int exponent_ = 0;               ///< All magnitudes are below 2^exponent_.
   bool hasNonFinite_ = false;
   std::int64_t voxels_ = 0;

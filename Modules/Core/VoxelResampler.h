@@ -41,7 +41,8 @@ struct VoxelRequest
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
   bool keys = false; ///< For keys(), assign() and parents().
-  int levels = 1;    ///< Level l is a lattice 2^l times as coarse.
+  /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
+  int levels = 1;
   InstructionSet instructions = InstructionSet::Automatic;
 };
 

@@ -2,6 +2,7 @@
 
 #include "vtkDataArray.h"
 #include "vtkType.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -69,6 +70,24 @@ int plainType(int vtkType)
   return vtkType == VTK_BIT ? VTK_UNSIGNED_CHAR : vtkType;
 }
 
+/// VTK copies arrays it has no fast path for by way of double, which has no room for 64-bit integers.
+template <typename Integer>
+void copyIntegers(vtkDataArray* from, Integer* to)
+{
+  for (vtkIdType i = 0; i < from->GetNumberOfValues(); ++i)
+  {
+    to[i] = from->GetVariantValue(i).ToTypeInt64();
+  }
+}
+template <>
+void copyIntegers(vtkDataArray* from, std::uint64_t* to)
+{
+  for (vtkIdType i = 0; i < from->GetNumberOfValues(); ++i)
+  {
+    to[i] = from->GetVariantValue(i).ToTypeUInt64();
+  }
+}
+
 vtkSmartPointer<vtkDataArray> plainArray(vtkDataArray* array)
 {
   if (array->HasStandardMemoryLayout() && array->GetDataType() != VTK_BIT)
@@ -77,7 +96,22 @@ vtkSmartPointer<vtkDataArray> plainArray(vtkDataArray* array)
   }
   auto copy =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(plainType(array->GetDataType())));
-  copy->DeepCopy(array);
+  const ScalarType type = scalarType(copy->GetDataType());
+  if (type != ScalarType::Int64 && type != ScalarType::UInt64)
+  {
+    copy->DeepCopy(array);
+    return copy;
+  }
+  copy->SetNumberOfComponents(array->GetNumberOfComponents());
+  copy->SetNumberOfTuples(array->GetNumberOfTuples());
+  if (type == ScalarType::Int64)
+  {
+    copyIntegers(array, static_cast<std::int64_t*>(copy->GetVoidPointer(0)));
+  }
+  else
+  {
+    copyIntegers(array, static_cast<std::uint64_t*>(copy->GetVoidPointer(0)));
+  }
   return copy;
 }
 

@@ -391,7 +391,7 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
 /// An index pays where parts of the same points are looked at again and again.
 void vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
 {
-  const vtkMTimeType time = input->GetPoints()->GetMTime();
+  const vtkMTimeType time = input->GetMTime();
   if (time != this->PointsTime || !this->Filter->UsePointIndex)
   {
     this->Index = PointIndex();
@@ -458,6 +458,13 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
     }
     if (isBookkeeping(data, i))
     {
+      continue;
+    }
+    if (array->GetNumberOfTuples() != input->GetNumberOfPoints())
+    {
+      vtkWarningWithObjectMacro(this->Filter,
+        "Array " << data->GetArrayName(i) << " has " << array->GetNumberOfTuples() << " tuples for "
+                 << input->GetNumberOfPoints() << " points: it is dropped.");
       continue;
     }
     AttributeKind kind = AttributeKind::Mean;

@@ -166,7 +166,8 @@ public:
   ///@{
   /**
    * Level l, on output port l, is a lattice 2^l times as coarse from the same corner, made from the sums of
-   * level 0 without another look at the points' places. 1 to 22. Default: 1.
+   * level 0 without another look at the points' places; once a level is one voxel, further ones repeat it. 1
+   * to 22. Default: 1.
    */
   virtual void SetNumberOfLevels(int levels);
   vtkGetMacro(NumberOfLevels, int);

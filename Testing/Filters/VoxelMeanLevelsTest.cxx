@@ -87,13 +87,29 @@ TEST(VoxelMeanLevels, EqualResamplingThePointsDirectly)
 {
   const auto cloud = scan(30000, 61);
   for (const Dimensions& dimensions :
-    { Dimensions{ 64, 64, 64 }, Dimensions{ 16, 128, 4 }, Dimensions{ 1, 2, 32 }, Dimensions{ 1, 1, 1 } })
+    { Dimensions{ 64, 64, 64 }, Dimensions{ 16, 128, 4 }, Dimensions{ 1, 2, 32 } })
   {
     SCOPED_TRACE(testing::Message() << dimensions[0] << " " << dimensions[1] << " " << dimensions[2]);
     vtkNew<vtkVoxelMeanResampler> resampler;
     expectLevelsAreDirect(resampler, cloud, dimensions, { 0, 0, 0 },
       { 1.0 / dimensions[0], 1.0 / dimensions[1], 1.0 / dimensions[2] });
   }
+}
+
+TEST(VoxelMeanLevels, StopAtOneVoxel)
+{
+  const auto cloud = scan(1000, 68);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->SetWorkspaceBounds(0, 1, 0, 1, 0, 1);
+  resampler->SetDimensions(2, 1, 1);
+  resampler->SetNumberOfLevels(3);
+  resampler->Update();
+  EXPECT_EQ(vtkPolyData::SafeDownCast(resampler->GetOutputDataObject(0))->GetNumberOfPoints(), 2);
+  vtkPolyData* last = vtkPolyData::SafeDownCast(resampler->GetOutputDataObject(2));
+  trial::expectValid(last);
+  EXPECT_EQ(last->GetNumberOfPoints(), 1);
+  trial::expectSame(vtkPolyData::SafeDownCast(resampler->GetOutputDataObject(1)), last);
 }
 
 TEST(VoxelMeanLevels, RoundOddDimensionsUp)

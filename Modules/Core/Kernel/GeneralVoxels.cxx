@@ -157,9 +157,23 @@ void GeneralAdder::mergeEntries()
   list_ = std::move(merged);
 }
 
+namespace
+{
+
+bool isOneVoxel(const Lattice& lattice)
+{
+  return lattice.dimensions == std::array<std::int64_t, 3>{ 1, 1, 1 };
+}
+
+}
+
 Lattice coarserLattice(const Lattice& lattice)
 {
   Lattice coarse = lattice;
+  if (isOneVoxel(lattice))
+  {
+    return coarse;
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
     const auto a = std::size_t(axis);
@@ -206,6 +220,11 @@ SecondSums shareOfSeconds(const VoxelSums& voxel, const SecondSums& seconds,
 VoxelSumList coarserSums(const VoxelSumList& fine, const Lattice& fineLattice, const Lattice& coarseLattice,
   std::vector<std::int64_t>& parents)
 {
+  if (isOneVoxel(fineLattice))
+  {
+    parents.assign(fine.voxels.size(), 0);
+    return fine;
+  }
   struct Child
   {
     std::uint64_t parentKey;

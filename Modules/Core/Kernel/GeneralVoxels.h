@@ -72,7 +72,7 @@ private:
   std::int64_t invalid_ = 0;
 };
 
-/// The lattice twice as coarse, from the same corner.
+/// The lattice twice as coarse, from the same corner; one voxel has no coarser one and stays as it is.
 Lattice coarserLattice(const Lattice& lattice);
 /// Sums of the coarser lattice's voxels, exactly those of its points; @p parents: of each fine voxel, the
 /// coarse one it lies in.
