@@ -33,6 +33,14 @@ int bitsOf(std::int64_t count)
   return bits;
 }
 
+double powerOfTwo(int exponent)
+{
+  const std::uint64_t bits = std::uint64_t(exponent + 1023) << 52;
+  double value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
 template <typename Real>
 std::uint8_t kindOf(Real value)
 {
@@ -192,14 +200,42 @@ void AttributeMean::addIntegers(const std::int64_t* points, const std::int64_t* 
 namespace
 {
 
-/// Adds the parts of a number, the first of which it is in units of.
+/// The integer a number was rounded to by adding kRounder, read from the bits of the sum.
+inline std::int64_t roundedInteger(double sum)
+{
+  std::int64_t bits;
+  std::int64_t rounder;
+  const double zero = kRounder;
+  std::memcpy(&bits, &sum, sizeof bits);
+  std::memcpy(&rounder, &zero, sizeof rounder);
+  return bits - rounder;
+}
+
+/// Adds the parts of a number that is in units of the first.
 inline void addParts(double scaled, double partScale, int parts, std::int64_t* sums)
 {
   for (int part = 0; part < parts; ++part)
   {
-    const double whole = (scaled + kRounder) - kRounder;
-    sums[part] += std::int64_t(whole);
-    scaled = (scaled - whole) * partScale;
+    const double shifted = scaled + kRounder;
+    sums[part] += roundedInteger(shifted);
+    scaled = (scaled - (shifted - kRounder)) * partScale;
+  }
+}
+
+/// The usual case: two parts, all numbers finite, one scale.
+template <int Components, typename Real>
+void addPairs(const Real* values, int components, const std::int64_t* points, const std::int64_t* voxels,
+  int count, double scale, double partScale, std::int64_t* sums)
+{
+  const int width = Components > 0 ? Components : components;
+  for (int i = 0; i < count; ++i)
+  {
+    const Real* value = values + width * points[i];
+    std::int64_t* sum = sums + 2 * width * voxels[i];
+    for (int c = 0; c < width; ++c)
+    {
+      addParts(double(value[c]) * scale, partScale, 2, sum + 2 * c);
+    }
   }
 }
 
@@ -215,6 +251,14 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
   {
     __builtin_prefetch(values + components * points[i]);
   }
+  if (lanes_ == 2 && !hasNonFinite_ && scale_[1] == 1.0)
+  {
+    const auto pairs = components == 3 ? &addPairs<3, Real>
+      : components == 1                ? &addPairs<1, Real>
+                                       : &addPairs<0, Real>;
+    pairs(values, components, points, voxels, count, scale_[0], partScale, sums_.data());
+    return;
+  }
   for (int i = 0; i < count; ++i)
   {
     const Real* value = values + components * points[i];
@@ -224,10 +268,6 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
       if (hasNonFinite_ && !std::isfinite(value[c]))
       {
         special_[std::size_t(components * voxels[i] + c)] |= kindOf(value[c]);
-      }
-      else if (lanes_ == 2)
-      {
-        addParts(double(value[c]) * scale_[0] * scale_[1], partScale, 2, sum + 2 * c);
       }
       else if (lanes_ <= kMostScaledLanes)
       {
@@ -350,7 +390,9 @@ double AttributeMean::realMean(std::int64_t voxel, int component, std::int64_t c
   // Divided before it is scaled: the scale may reach among the denormals.
   int exponent;
   const double sum = realSum(voxel, component, exponent);
-  return std::ldexp(sum / double(count), exponent);
+  // ldexp() takes as long as all the rest.
+  const double mean = sum / double(count);
+  return exponent > -1000 && exponent < 1000 ? mean * powerOfTwo(exponent) : std::ldexp(mean, exponent);
 }
 
 void AttributeMean::mean(std::int64_t voxel, std::int64_t count, double* means) const

@@ -131,11 +131,11 @@ Status PointIndex::build(const PointView& points, const Executor& executor)
     }
     if (sum > begin)
     {
-      bricks_.push_back({ Bounds(), begin });
+      begins_.push_back(begin);
     }
   }
   size_ = sum;
-  bricks_.push_back({ Bounds(), size_ });
+  begins_.push_back(size_);
   single_ = points.floats() != nullptr;
   originals_.reserve(std::size_t(size_));
   if (single_)
@@ -181,14 +181,27 @@ void PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>&
       }
     });
   const PointView sorted = this->points();
-  forRange(executor, std::int64_t(bricks_.size()) - 1, 64,
+  const std::size_t bricks = begins_.size() - 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    middles_[axis].resize(bricks);
+    halves_[axis].resize(bricks);
+  }
+  constexpr std::int64_t kGrain = 64;
+  forRange(executor, std::int64_t(bricks), kGrain,
     [&](std::int64_t first, std::int64_t last)
     {
       for (std::size_t b = std::size_t(first); b < std::size_t(last); ++b)
       {
-        for (std::int64_t i = bricks_[b].begin; i < bricks_[b + 1].begin; ++i)
+        Bounds box;
+        for (std::int64_t i = begins_[b]; i < begins_[b + 1]; ++i)
         {
-          bricks_[b].bounds.include(sorted[i]);
+          box.include(sorted[i]);
+        }
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          middles_[axis][b] = 0.5 * box.minimum[axis] + 0.5 * box.maximum[axis];
+          halves_[axis][b] = 0.5 * box.maximum[axis] - 0.5 * box.minimum[axis];
         }
       }
     });
@@ -204,42 +217,42 @@ std::vector<PointRange> PointIndex::rangesInside(
 {
   // Far above what rounding can do to a bound, far below a brick.
   constexpr double kSlack = 1e-9;
-  std::vector<PointRange> ranges;
-  for (std::size_t b = 0; b + 1 < bricks_.size(); ++b)
+  const std::size_t bricks = begins_.empty() ? 0 : begins_.size() - 1;
+  std::vector<std::uint8_t> outside(bricks, 0);
+  for (int axis = 0; axis < 3; ++axis)
   {
-    const Vec3 center = bricks_[b].bounds.center();
-    const Vec3 half = 0.5 * bricks_[b].bounds.maximum - 0.5 * bricks_[b].bounds.minimum;
-    bool outside = false;
-    for (int axis = 0; axis < 3; ++axis)
+    const double* row = transform.m[axis];
+    const double low = lattice.origin[axis];
+    const double high = low +
+      std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]) * lattice.spacing[axis];
+    const double fixed = std::abs(row[3]) + std::abs(low);
+    for (std::size_t b = 0; b < bricks; ++b)
     {
-      double middle = transform.m[axis][3];
-      double reach = 0.0;
-      double magnitude = std::abs(middle) + std::abs(lattice.origin[axis]);
-      for (int column = 0; column < 3; ++column)
-      {
-        const double factor = transform.m[axis][column];
-        middle += factor * center[column];
-        reach += std::abs(factor) * half[column];
-        magnitude += std::abs(factor * center[column]);
-      }
-      reach += kSlack * (magnitude + reach);
-      const double low = lattice.origin[axis];
-      const double high = low +
-        std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]) * lattice.spacing[axis];
+      const double x = row[0] * middles_[0][b];
+      const double y = row[1] * middles_[1][b];
+      const double z = row[2] * middles_[2][b];
+      const double middle = row[3] + x + y + z;
+      const double half = std::abs(row[0]) * halves_[0][b] + std::abs(row[1]) * halves_[1][b] +
+        std::abs(row[2]) * halves_[2][b];
+      const double reach = half + kSlack * (fixed + std::abs(x) + std::abs(y) + std::abs(z) + half);
       // What is not a number may be anywhere.
-      outside = outside || middle + reach < low || middle - reach > high;
+      outside[b] |= std::uint8_t(middle + reach < low) | std::uint8_t(middle - reach > high);
     }
-    if (outside)
+  }
+  std::vector<PointRange> ranges;
+  for (std::size_t b = 0; b < bricks; ++b)
+  {
+    if (outside[b] != 0)
     {
       continue;
     }
-    if (!ranges.empty() && ranges.back().end == bricks_[b].begin)
+    if (!ranges.empty() && ranges.back().end == begins_[b])
     {
-      ranges.back().end = bricks_[b + 1].begin;
+      ranges.back().end = begins_[b + 1];
     }
     else
     {
-      ranges.push_back({ bricks_[b].begin, bricks_[b + 1].begin });
+      ranges.push_back({ begins_[b], begins_[b + 1] });
     }
   }
   return ranges;
@@ -247,7 +260,7 @@ std::vector<PointRange> PointIndex::rangesInside(
 
 std::size_t PointIndex::bytes() const
 {
-  return floats_.bytes() + doubles_.bytes() + originals_.bytes() + bricks_.capacity() * sizeof(Brick);
+  return floats_.bytes() + doubles_.bytes() + originals_.bytes() + begins_.capacity() * 7 * sizeof(double);
 }
 
 } // namespace pointhaptics

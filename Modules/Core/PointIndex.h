@@ -46,11 +46,6 @@ public:
   std::size_t bytes() const;
 
 private:
-  struct Brick
-  {
-    Bounds bounds;
-    std::int64_t begin;
-  };
   template <typename Real>
   void fill(const PointView& points, const std::vector<std::uint32_t>& bricks,
     std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor);
@@ -61,7 +56,10 @@ private:
   Buffer<float> floats_;
   Buffer<double> doubles_;
   Buffer<std::uint32_t> originals_;
-  std::vector<Brick> bricks_; ///< Those with points, and an end.
+  // Of each brick with points: where they begin (and an end), the middle of their bounds and half its extent.
+  std::vector<std::int64_t> begins_;
+  std::vector<double> middles_[3];
+  std::vector<double> halves_[3];
 };
 
 } // namespace pointhaptics

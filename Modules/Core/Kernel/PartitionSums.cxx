@@ -25,10 +25,14 @@ std::uint32_t blocks(std::uint32_t count, int shift)
   return ((count - 1) >> shift) + 1;
 }
 
-/// Words of a bit for each cell, in whole cache lines as drain() wants them.
+/// Words of a bit for each cell, and of a bit for each of these.
 std::size_t markWords(const PartitionPlan& plan)
 {
-  return (plan.cells() / 512 + 1) * 8;
+  return plan.cells() / 64 + 1;
+}
+std::size_t summaryWords(const PartitionPlan& plan)
+{
+  return markWords(plan) / 64 + 1;
 }
 
 /// So many points in one voxel are taken out of the packed sums, which hold less than 2^21.
@@ -133,26 +137,32 @@ void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
   batch_->seconds = covariances ? batchSeconds_.data() : nullptr;
   if (plan.dense)
   {
-    const std::size_t most = plan.cells() + 1;
     reserveZeroed(slots_, plan.cells());
-    reserveZeroed(sums_, most);
     reserveZeroed(marks_, markWords(plan));
-    slotCells_.reserve(most);
-    cells_.reserve(most + 64);
-    if (covariances)
-    {
-      reserveZeroed(seconds_, most);
-    }
-    cellSums_ = { slots_.data(), slotCells_.data(), sums_.data(), covariances ? seconds_.data() : nullptr,
-      0 };
+    reserveZeroed(summary_, summaryWords(plan));
   }
 }
 
-/// Sums of the carried voxels and the partition's records, and a list of their cells in order.
+/// Room for the sums of so many cells.
+void PartitionWorker::prepareSums(std::size_t most)
+{
+  reserveZeroed(sums_, most);
+  slotCells_.reserve(most + 1);
+  cells_.reserve(most + 64);
+  if (batch_->seconds)
+  {
+    reserveZeroed(seconds_, most);
+  }
+  cellSums_ = { slots_.data(), slotCells_.data(), sums_.data(), batch_->seconds ? seconds_.data() : nullptr,
+    0 };
+}
+
+/// Sums of the carried voxels and the partition's records.
 void PartitionWorker::sumDense(
   const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, const CarriedPartition& old)
 {
   const CellMap map = plan_.cellMap(partition);
+  prepareSums(mostVoxels(plan_, pool.count(partition), old.size()));
   cellSums_.size = std::uint32_t(old.cells.size());
   std::copy(old.cells.begin(), old.cells.end(), slotCells_.data());
   std::copy(old.packed.begin(), old.packed.end(), sums_.data());
@@ -168,12 +178,18 @@ void PartitionWorker::sumDense(
   pool.forBlocks(partition,
     [&](const Record* records, const std::uint32_t*, int count)
     { kernels.accumulate(map, records, count, cellSums_); });
+}
+
+/// Lists the cells in ascending order.
+void PartitionWorker::listDense(const Kernels& kernels)
+{
   for (std::uint32_t i = 0; i < cellSums_.size; ++i)
   {
     const std::uint32_t cell = slotCells_[i];
     marks_[cell / 64] |= std::uint64_t(1) << (cell % 64);
+    summary_[cell / 4096] |= std::uint64_t(1) << (cell / 64 % 64);
   }
-  listed_ = kernels.drain(marks_.data(), markWords(plan_), cells_.data());
+  listed_ = kernels.drain(marks_.data(), summary_.data(), summaryWords(plan_), cells_.data());
 }
 
 void PartitionWorker::clearDense()
@@ -371,7 +387,7 @@ std::uint32_t PartitionWorker::rankOf(std::uint64_t key, const std::uint64_t* ke
 std::size_t PartitionWorker::bytes() const
 {
   return slots_.bytes() + slotCells_.bytes() + sums_.bytes() + seconds_.bytes() + marks_.bytes() +
-    cells_.bytes() + records_.bytes() + entries_.bytes() + otherEntries_.bytes() +
+    summary_.bytes() + cells_.bytes() + records_.bytes() + entries_.bytes() + otherEntries_.bytes() +
     sizeof(MomentBatch<std::int64_t>) + carried.voxels.capacity() * sizeof(CarriedSums) +
     carried.seconds.capacity() * sizeof(SecondSums);
 }

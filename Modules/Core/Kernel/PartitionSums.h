@@ -77,6 +77,7 @@ public:
     if (plan_.dense)
     {
       sumDense(kernels, pool, partition, old);
+      listDense(kernels);
       while (position < listed_)
       {
         collectDense(kernels, partition, old, position, next);
@@ -132,6 +133,8 @@ private:
     const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, const CarriedPartition& old);
   void collectDense(const Kernels& kernels, std::uint32_t partition, const CarriedPartition& old,
     std::size_t& position, std::size_t& next);
+  void prepareSums(std::size_t most);
+  void listDense(const Kernels& kernels);
   void clearDense();
   static void unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver);
   std::size_t sortRecords(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition);
@@ -145,12 +148,13 @@ private:
   std::size_t listed_ = 0; ///< Cells or records of the partition at work.
   std::unique_ptr<MomentBatch<std::int64_t>> batch_;
   std::vector<SecondSums> batchSeconds_;
-  // Dense: slots, sums and marks are all zero between partitions.
+  // Dense: slots, sums, marks and summary are all zero between partitions.
   Buffer<std::uint32_t> slots_;
   Buffer<std::uint32_t> slotCells_;
   Buffer<PackedSums> sums_;
   Buffer<SecondSums> seconds_;
   Buffer<std::uint64_t> marks_;
+  Buffer<std::uint64_t> summary_;
   Buffer<std::uint32_t> cells_; ///< In ascending order.
   CellSums cellSums_{};
   // Sorted.

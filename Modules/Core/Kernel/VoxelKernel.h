@@ -187,9 +187,11 @@ struct Kernels
   void (*cells)(const CellMap&, const Record* records, int count, std::uint32_t* cells);
   /// Adds records to the sums of their cells.
   void (*accumulate)(const CellMap&, const Record* records, int count, CellSums& sums);
-  /// Lists the marked cells in ascending order and clears the marks; @p words is a multiple of 8, and room
-  /// for 63 cells more than there are is written to. @return their number.
-  std::size_t (*drain)(std::uint64_t* marks, std::size_t words, std::uint32_t* cells);
+  /// Lists the marked cells in ascending order and clears the marks. @p marks has a bit for each cell, @p
+  /// summary one for each word of marks that is not 0; room for 63 cells more than there are is written to.
+  /// @return their number.
+  std::size_t (*drain)(
+    std::uint64_t* marks, std::uint64_t* summary, std::size_t summaryWords, std::uint32_t* cells);
   /// Moves the sums of some cells into a batch and forgets the cells.
   void (*collect)(
     const CellMap&, const std::uint32_t* cells, int count, CellSums& sums, MomentBatch<std::int64_t>& batch);

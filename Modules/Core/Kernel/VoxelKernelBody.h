@@ -286,29 +286,19 @@ inline std::size_t listBits(std::uint64_t bits, std::uint32_t first, std::uint32
 }
 
 template <class V>
-std::size_t drain(std::uint64_t* marks, std::size_t words, std::uint32_t* cells)
+std::size_t drain(
+  std::uint64_t* marks, std::uint64_t* summary, std::size_t summaryWords, std::uint32_t* cells)
 {
-  constexpr std::size_t kGroup = 8;
   std::size_t found = 0;
-  for (std::size_t group = 0; group < words; group += kGroup)
+  for (std::size_t s = 0; s < summaryWords; ++s)
   {
-    std::uint64_t any = 0;
-    for (std::size_t i = 0; i < kGroup; ++i)
+    for (std::uint64_t bits = summary[s]; bits != 0; bits &= bits - 1)
     {
-      any |= marks[group + i];
+      const std::size_t word = 64 * s + std::size_t(__builtin_ctzll(bits));
+      found += V::listBits(marks[word], std::uint32_t(64 * word), cells + found);
+      marks[word] = 0;
     }
-    if (any == 0)
-    {
-      continue;
-    }
-    for (std::size_t w = group; w < group + kGroup; ++w)
-    {
-      if (marks[w] != 0)
-      {
-        found += V::listBits(marks[w], std::uint32_t(64 * w), cells + found);
-        marks[w] = 0;
-      }
-    }
+    summary[s] = 0;
   }
   return found;
 }

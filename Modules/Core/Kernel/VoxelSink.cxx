@@ -16,6 +16,13 @@ std::uint64_t keyOf(const Lattice& lattice, const MomentBatch<std::int64_t>& bat
   return lattice.key(batch.indices[0][i], batch.indices[1][i], batch.indices[2][i]);
 }
 
+/// Rounded once; most fit 64 bits, whose conversion is one instruction.
+double toDouble(Int128 value)
+{
+  const auto low = std::int64_t(value);
+  return Int128(low) == value ? double(low) : double(value);
+}
+
 template <typename Real>
 void keepInVoxels(
   const Lattice& lattice, const MomentBatch<std::int64_t>& batch, const int* list, int size, Real* xyz)
@@ -40,8 +47,10 @@ SymMat3 covarianceOf(
   double rest[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    m[axis] = sums[axis] / count;
-    rest[axis] = double(sums[axis] - m[axis] * count);
+    // Not negative; dividing 64 bits takes a fraction of the time of 128.
+    const bool isShort = sums[axis] >> 63 == 0;
+    m[axis] = isShort ? Int128(std::int64_t(sums[axis]) / count) : sums[axis] / count;
+    rest[axis] = double(std::int64_t(sums[axis] - m[axis] * count));
   }
   const int rows[6] = { 0, 1, 2, 0, 1, 0 };
   const int columns[6] = { 0, 1, 2, 1, 2, 2 };
@@ -51,7 +60,7 @@ SymMat3 covarianceOf(
     const int a = rows[i];
     const int b = columns[i];
     const Int128 central = seconds.lanes[i] - m[a] * sums[b] - m[b] * (sums[a] - m[a] * count);
-    const double value = (double(central) - rest[a] * rest[b] / double(count)) / double(count);
+    const double value = (toDouble(central) - rest[a] * rest[b] / double(count)) / double(count);
     values[i] = (i < 3 ? std::max(value, 0.0) : value) * (quantum * spacing[a]) * (quantum * spacing[b]);
   }
   return { values[0], values[1], values[2], values[3], values[4], values[5] };
