@@ -2,9 +2,10 @@
 
 #include "Core/Kernel/GeneralVoxels.h"
 #include "Core/Kernel/PartitionSums.h"
+#include "Core/Kernel/PointChunks.h"
 #include "Core/Kernel/PointPlacement.h"
 #include "Core/Kernel/RecordPool.h"
-#include "Core/Kernel/VoxelSink.h"
+#include "Core/Kernel/VoxelLevel.h"
 #include "Core/PointIndex.h"
 
 #include <algorithm>
@@ -20,103 +21,7 @@ namespace
 
 using namespace kernel;
 
-/// Points a thread takes at once: enough to forget the cost of taking them.
-constexpr std::int64_t kPieceSize = 1 << 14;
 constexpr int kMostLevels = 22;
-
-/// The points to look at, in chunks of pieces.
-class Chunks
-{
-public:
-  Chunks(const VoxelRequest& request, std::int64_t chunkPoints)
-  {
-    if (request.index)
-    {
-      points_ = request.index->points();
-      for (const PointRange& range : request.index->rangesInside(request.transform, request.lattice))
-      {
-        append(range, chunkPoints);
-      }
-    }
-    else
-    {
-      points_ = request.points;
-      append({ 0, points_.size() }, chunkPoints);
-    }
-    chunks_.push_back(pieces_.size());
-  }
-  const PointView& points() const { return points_; }
-  std::size_t count() const { return chunks_.size() - 1; }
-  const PointRange* pieces(std::size_t chunk) const { return pieces_.data() + chunks_[chunk]; }
-  std::int64_t pieceCount(std::size_t chunk) const
-  {
-    return std::int64_t(chunks_[chunk + 1] - chunks_[chunk]);
-  }
-  std::int64_t pointCount(std::size_t chunk) const
-  {
-    std::int64_t sum = 0;
-    for (std::size_t i = chunks_[chunk]; i < chunks_[chunk + 1]; ++i)
-    {
-      sum += pieces_[i].end - pieces_[i].begin;
-    }
-    return sum;
-  }
-
-private:
-  void append(PointRange range, std::int64_t chunkPoints)
-  {
-    while (range.begin < range.end)
-    {
-      if (chunks_.empty() || inChunk_ == chunkPoints)
-      {
-        chunks_.push_back(pieces_.size());
-        inChunk_ = 0;
-      }
-      const std::int64_t size = std::min({ range.end - range.begin, kPieceSize, chunkPoints - inChunk_ });
-      pieces_.push_back({ range.begin, range.begin + size });
-      range.begin += size;
-      inChunk_ += size;
-    }
-  }
-
-  PointView points_;
-  std::vector<PointRange> pieces_;
-  std::vector<std::size_t> chunks_; ///< First pieces, and an end.
-  std::int64_t inChunk_ = 0;
-};
-
-/// A partition's voxels: where they are in the arena and in the result.
-struct Segment
-{
-  std::size_t place = 0;
-  std::size_t size = 0;
-  std::int64_t first = 0;
-};
-
-/// The voxels of one lattice.
-struct Level
-{
-  Lattice lattice;
-  MeanArena arena;
-  std::vector<Segment> segments;
-  std::int64_t size = 0;
-  std::vector<std::int64_t> parents;
-
-  void number()
-  {
-    size = 0;
-    for (Segment& segment : segments)
-    {
-      segment.first = size;
-      size += std::int64_t(segment.size);
-    }
-  }
-};
-
-std::int64_t grainFor(std::int64_t count, const Executor& executor)
-{
-  return std::max<std::int64_t>(1, count / (16 * executor.concurrency()));
-}
 
 }
 
@@ -550,28 +455,6 @@ const Lattice& VoxelResampler::lattice(int level) const
 const std::vector<std::int64_t>& VoxelResampler::parents(int level) const
 {
   return implementation_->levels[std::size_t(level)].parents;
-}
-
-namespace
-{
-
-/// Joins the partitions' pieces of an array in the arena.
-template <typename T>
-void copySegments(const Level& level, const T* from, std::size_t components, T* to, const Executor& executor)
-{
-  const auto segments = std::int64_t(level.segments.size());
-  forRange(executor, segments, grainFor(segments, executor),
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (auto s = std::size_t(begin); s < std::size_t(end); ++s)
-      {
-        const Segment& segment = level.segments[s];
-        const T* first = from + components * segment.place;
-        std::copy(first, first + components * segment.size, to + components * std::size_t(segment.first));
-      }
-    });
-}
-
 }
 
 void VoxelResampler::copyMeans(int l, float* xyz, const Executor& executor) const

@@ -1,5 +1,4 @@
 #include "Benchmark/Resample/Clouds.h"
-#include "Benchmark/Resample/FilterFeatures.h"
 #include "Benchmark/Resample/Studies.h"
 
 #include <fmt/format.h>
@@ -38,10 +37,6 @@ Rivals instructionSets(const StudyContext& context)
 ReportPart studyInstructions(StudyContext& context)
 {
   ReportPart part;
-  if (!features::kInstructionSets)
-  {
-    return part;
-  }
   part.key = "instructions";
   part.title = "Instruction sets";
   part.text =

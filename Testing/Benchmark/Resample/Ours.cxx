@@ -1,7 +1,5 @@
 #include "Benchmark/Resample/Ours.h"
 
-#include "Benchmark/Resample/FilterFeatures.h"
-
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
@@ -97,8 +95,8 @@ public:
     }
     filter_->SetInputData(input_);
     filter_->SetComputeCovariance(settings_.covariance);
-    features::setInstructionSet(filter_.Get(), int(settings_.instructionSet));
-    features::setLevels(filter_.Get(), settings_.levels);
+    filter_->SetInstructionSet(int(settings_.instructionSet));
+    filter_->SetNumberOfLevels(settings_.levels);
     setTask(filter_, task, settings_.automaticWorkspace);
   }
   void before() override { input_->Modified(); }

@@ -1,5 +1,4 @@
 #include "Benchmark/Resample/Clouds.h"
-#include "Benchmark/Resample/FilterFeatures.h"
 #include "Benchmark/Resample/Studies.h"
 
 #include <fmt/format.h>
@@ -28,10 +27,7 @@ Rivals withAllThatIsAsked()
   add("with covariance", true, false, 1);
   add("with three arrays", false, true, 1);
   add("with both", true, true, 1);
-  if (features::kLevels)
-  {
-    add("with three coarser levels", false, false, 4);
-  }
+  add("with three coarser levels", false, false, 4);
   return rivals;
 }
 

@@ -1,5 +1,4 @@
 #include "Benchmark/Resample/Clouds.h"
-#include "Benchmark/Resample/FilterFeatures.h"
 #include "Benchmark/Resample/Ours.h"
 #include "Benchmark/Resample/Studies.h"
 
@@ -58,7 +57,7 @@ public:
   {
     input_->SetPoints(task.cloud->GetPoints());
     filter_->SetInputData(input_);
-    features::setPointIndex(filter_.Get(), !inputChanges);
+    filter_->SetUsePointIndex(!inputChanges);
     setTask(filter_, task_, false);
   }
   void before()

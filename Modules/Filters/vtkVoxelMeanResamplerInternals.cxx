@@ -1,0 +1,275 @@
+#include "vtkVoxelMeanResamplerInternals.h"
+
+#include "VoxelOutput.h"
+
+#include "Core/VoxelMean.h"
+
+#include "vtkAbstractTransform.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <sstream>
+#include <string>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+std::string latticeText(double voxelSize, const int dimensions[3])
+{
+  std::ostringstream text;
+  if (voxelSize != 0.0)
+  {
+    text << "Lattice of voxel size " << voxelSize;
+  }
+  else
+  {
+    text << "Lattice of " << dimensions[0] << " x " << dimensions[1] << " x " << dimensions[2] << " voxels";
+  }
+  return text.str();
+}
+
+/// Identifiers and ghost flags mean nothing once points are merged, and what an earlier resampling said of
+/// its voxels says nothing of these.
+bool isBookkeeping(vtkDataSetAttributes* attributes, int index)
+{
+  const int type = attributes->IsArrayAnAttribute(index);
+  const char* name = attributes->GetArrayName(index);
+  return type == vtkDataSetAttributes::GLOBALIDS || type == vtkDataSetAttributes::PEDIGREEIDS ||
+    (name &&
+      (std::string(name) == vtkDataSetAttributes::GhostArrayName() ||
+        std::string(name) == "VoxelPointCount" || std::string(name) == "VoxelCovariance"));
+}
+
+}
+
+bool vtkVoxelMeanResampler::Internals::ReadTransform()
+{
+  vtkAbstractTransform* transform = this->Filter->Transform;
+  if (!affineFromTransform(transform, this->Request.transform))
+  {
+    vtkErrorWithObjectMacro(this->Filter,
+      "Transform " << transform->GetClassName()
+                   << " is not affine; use a vtkTransform or vtkMatrixToLinearTransform.");
+    return false;
+  }
+  const Status status = this->Request.transform.check();
+  if (status != Status::Ok)
+  {
+    vtkErrorWithObjectMacro(this->Filter, "SetTransform: " << sentence(status) << ".");
+    return false;
+  }
+  return true;
+}
+
+bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
+{
+  this->Points = std::make_unique<PointAccess>(input->GetPoints());
+  this->Request.points = this->Points->view();
+  LatticeSettings settings;
+  settings.voxelSize = this->Filter->VoxelSize;
+  settings.automaticWorkspace = this->Filter->AutomaticWorkspace;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    settings.dimensions[std::size_t(axis)] = this->Filter->Dimensions[axis];
+    settings.workspace.minimum[axis] = this->Filter->WorkspaceBounds[2 * axis];
+    settings.workspace.maximum[axis] = this->Filter->WorkspaceBounds[2 * axis + 1];
+  }
+  const Bounds cloud = settings.automaticWorkspace
+    ? transformedBounds(this->Request.points, this->Request.transform, this->Smp)
+    : Bounds();
+  const Status status = makeLattice(settings, cloud, this->Request.lattice);
+  if (status != Status::Ok)
+  {
+    vtkErrorWithObjectMacro(this->Filter,
+      << latticeText(this->Filter->VoxelSize, this->Filter->Dimensions) << ": " << sentence(status) << ".");
+    return false;
+  }
+  return true;
+}
+
+/// An index pays where parts of the same points are looked at again and again.
+void vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
+{
+  const vtkMTimeType time = input->GetMTime();
+  if (time != this->PointsTime || !this->Filter->UsePointIndex)
+  {
+    this->Index = PointIndex();
+    this->Indexed = false;
+    this->PartialViews = 0;
+    this->PointsTime = time;
+  }
+  if (!this->Indexed && this->PartialViews > 0)
+  {
+    this->PartialViews = 0;
+    this->Indexed = this->Index.build(this->Request.points, this->Smp) == Status::Ok;
+  }
+  this->Request.index = this->Indexed ? &this->Index : nullptr;
+}
+
+bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
+{
+  this->UseIndex(input);
+  const int precision = this->Filter->OutputPointsPrecision;
+  this->Request.singlePrecision = precision == vtkAlgorithm::DEFAULT_PRECISION
+    ? input->GetPoints()->GetDataType() == VTK_FLOAT
+    : precision == vtkAlgorithm::SINGLE_PRECISION;
+  this->Request.covariances = this->Filter->ComputeCovariance;
+  this->Request.levels = this->Filter->NumberOfLevels;
+  this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
+  this->Request.keys = !this->Attributes.empty() || this->Request.levels > 1;
+  this->From = 0.0;
+  this->To = this->Attributes.empty() ? 0.95 : 0.5;
+  const Status status = this->Engine.run(this->Request, this->Smp, this);
+  if (status == Status::Aborted)
+  {
+    return false;
+  }
+  if (status != Status::Ok)
+  {
+    vtkErrorWithObjectMacro(this->Filter, << sentence(status) << ".");
+    return false;
+  }
+  this->Filter->NumberOfClippedPoints = vtkIdType(this->Engine.clippedPoints());
+  this->Filter->NumberOfInvalidPoints = vtkIdType(this->Engine.invalidPoints());
+  if (2 * this->Engine.clippedPoints() > this->Request.points.size())
+  {
+    ++this->PartialViews;
+  }
+  return true;
+}
+
+void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
+{
+  this->Attributes.clear();
+  if (!this->Filter->PassAttributes)
+  {
+    return;
+  }
+  vtkPointData* data = input->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    if (!array)
+    {
+      vtkWarningWithObjectMacro(
+        this->Filter, "Array " << data->GetArrayName(i) << " is not numeric: it has no mean and is dropped.");
+      continue;
+    }
+    if (isBookkeeping(data, i))
+    {
+      continue;
+    }
+    if (array->GetNumberOfTuples() != input->GetNumberOfPoints())
+    {
+      vtkWarningWithObjectMacro(this->Filter,
+        "Array " << data->GetArrayName(i) << " has " << array->GetNumberOfTuples() << " tuples for "
+                 << input->GetNumberOfPoints() << " points: it is dropped.");
+      continue;
+    }
+    AttributeKind kind = AttributeKind::Mean;
+    if (this->Filter->IsCategoricalArray(array->GetName()))
+    {
+      kind = AttributeKind::Category;
+    }
+    else if (array == data->GetNormals() && array->GetNumberOfComponents() == 3)
+    {
+      kind = AttributeKind::Normal;
+    }
+    this->Attributes.push_back({ VoxelAttribute(array, kind, this->Smp), data->IsArrayAnAttribute(i) });
+  }
+}
+
+bool vtkVoxelMeanResampler::Internals::AverageArrays()
+{
+  if (this->Attributes.empty())
+  {
+    return true;
+  }
+  this->From = 0.5;
+  this->To = 0.95;
+  for (NamedAttribute& named : this->Attributes)
+  {
+    named.attribute.prepare(this->Engine.size());
+  }
+  const Status status = this->Engine.assign(
+    this->Request,
+    [this](const std::int64_t* points, const std::int64_t* voxels, int count)
+    {
+      for (NamedAttribute& named : this->Attributes)
+      {
+        named.attribute.add(points, voxels, count);
+      }
+    },
+    this->Smp, this);
+  return status == Status::Ok;
+}
+
+bool vtkVoxelMeanResampler::Internals::Run(vtkPointSet* input)
+{
+  this->ChooseArrays(input);
+  const bool done = this->Resample(input) && this->AverageArrays();
+  if (!done)
+  {
+    this->Release();
+  }
+  return done;
+}
+
+void vtkVoxelMeanResampler::Internals::Release()
+{
+  this->Attributes.clear();
+  this->Request = VoxelRequest();
+  this->Points.reset();
+}
+
+void vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPolyData* output)
+{
+  vtkPointData* data = output->GetPointData();
+  output->SetPoints(makePoints(this->Engine, level, this->Request.singlePrecision, this->Smp));
+  output->SetVerts(makeVertices(vtkIdType(this->Engine.size(level)), this->Smp));
+  const auto counts = makeCounts(this->Engine, level, this->Smp);
+  const auto* countValues = reinterpret_cast<const std::int64_t*>(counts->GetPointer(0));
+  for (NamedAttribute& named : this->Attributes)
+  {
+    if (level > 0)
+    {
+      named.attribute.coarsen(this->Engine.parents(level), this->Engine.size(level));
+    }
+    const int index = data->AddArray(named.attribute.output(countValues, this->Request.transform, this->Smp));
+    if (named.role >= 0)
+    {
+      data->SetActiveAttribute(index, named.role);
+    }
+  }
+  data->AddArray(counts);
+  if (this->Filter->ComputeCovariance)
+  {
+    data->AddArray(makeCovariances(this->Engine, level, this->Smp));
+  }
+  output->GetFieldData()->PassData(input->GetFieldData());
+  addLattice(this->Engine.lattice(level), this->Request.transform, output->GetFieldData());
+}
+
+void vtkVoxelMeanResampler::Internals::Forget()
+{
+  this->Engine.releaseScratch();
+  this->Index = PointIndex();
+  this->Indexed = false;
+  this->PartialViews = 0;
+}
+
+bool vtkVoxelMeanResampler::Internals::proceed(double fraction)
+{
+  this->Filter->UpdateProgress(this->From + (this->To - this->From) * fraction);
+  this->Aborted = this->Filter->GetAbortExecute() != 0;
+  return !this->Aborted;
+}

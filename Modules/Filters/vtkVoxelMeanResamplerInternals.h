@@ -1,0 +1,71 @@
+/// @file
+/// The steps of vtkVoxelMeanResampler. Private to Filters.
+#pragma once
+
+#include "PolyDataAccess.h"
+#include "SmpExecutor.h"
+#include "VoxelAttribute.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include "Core/PointIndex.h"
+#include "Core/VoxelResampler.h"
+
+#include "vtkTimeStamp.h"
+
+#include <memory>
+#include <vector>
+
+class vtkPointSet;
+class vtkPolyData;
+
+/// One update's steps, and what is kept from one to the next.
+class vtkVoxelMeanResampler::Internals : public pointhaptics::Watcher
+{
+public:
+  explicit Internals(vtkVoxelMeanResampler* filter)
+    : Filter(filter)
+  {
+  }
+
+  // The steps of RequestData; false after an error was reported, or the execution aborted.
+  bool ReadTransform();
+  bool MakeLattice(vtkPointSet* input);
+  bool Run(vtkPointSet* input);
+  void Fill(int level, vtkPointSet* input, vtkPolyData* output);
+  /// Lets go of the input and its arrays.
+  void Release();
+  void Forget();
+
+  /// Watcher: passes progress on within [this->From, this->To].
+  bool proceed(double fraction) override;
+
+  pointhaptics::VoxelResampler Engine;
+  pointhaptics::PointIndex Index;
+  bool Aborted = false;
+  vtkTimeStamp RetryTime;
+
+private:
+  /// The point arrays of the input that are averaged, and where their means go.
+  struct NamedAttribute
+  {
+    pointhaptics::VoxelAttribute attribute;
+    int role; ///< vtkDataSetAttributes::AttributeTypes, or -1.
+  };
+
+  void ChooseArrays(vtkPointSet* input);
+  void UseIndex(vtkPointSet* input);
+  bool Resample(vtkPointSet* input);
+  bool AverageArrays();
+
+  vtkVoxelMeanResampler* Filter;
+  pointhaptics::SmpExecutor Smp;
+  pointhaptics::VoxelRequest Request;
+  std::unique_ptr<pointhaptics::PointAccess> Points;
+  std::vector<NamedAttribute> Attributes;
+  double From = 0.0;
+  double To = 1.0;
+  // Which input was seen last, and how often a part of it.
+  vtkMTimeType PointsTime = 0;
+  int PartialViews = 0;
+  bool Indexed = false;
+};
