@@ -155,12 +155,17 @@ void AttributeMean::scan(const Executor& executor)
   scale_[1] = std::ldexp(1.0, std::max(shift - 1000, 0));
 }
 
-void AttributeMean::prepare(std::int64_t voxels)
+void AttributeMean::prepare(std::int64_t voxels, Buffer<std::int64_t> spare, const Executor& executor)
 {
   voxels_ = voxels;
+  if (spare.bytes() > sums_.bytes())
+  {
+    sums_ = std::move(spare);
+  }
   const std::size_t size = std::size_t(voxels) * std::size_t(view_.components);
   sums_.reserve(size * std::size_t(lanes_), Pages::Huge);
-  std::fill(sums_.data(), sums_.data() + size * std::size_t(lanes_), 0);
+  forRange(executor, std::int64_t(size) * lanes_,
+    [this](std::int64_t begin, std::int64_t end) { std::fill(sums_.data() + begin, sums_.data() + end, 0); });
   if (hasNonFinite_)
   {
     special_.reserve(size);

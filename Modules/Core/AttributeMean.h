@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace pointhaptics
@@ -49,8 +50,10 @@ public:
   /// Looks through the values of a floating-point array once.
   AttributeMean(const AttributeView& view, const Executor& executor);
 
-  /// Forgets all sums and makes room for @p voxels.
-  void prepare(std::int64_t voxels);
+  /// Forgets all sums and makes room for @p voxels, in @p spare if that is large enough.
+  void prepare(std::int64_t voxels, Buffer<std::int64_t> spare = {}, const Executor& executor = {});
+  /// The memory of the sums, which are gone then.
+  Buffer<std::int64_t> takeSums() { return std::move(sums_); }
   /// Adds the tuples of points to the sums of their voxels. Several threads may add at once if no two have a
   /// voxel in common.
   void add(const std::int64_t* points, const std::int64_t* voxels, int count);

@@ -1,16 +1,12 @@
 #include "PolyDataAccess.h"
 
 #include "vtkAbstractTransform.h"
-#include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkHomogeneousTransform.h"
-#include "vtkIdTypeArray.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
-
-#include <numeric>
 
 namespace pointhaptics
 {
@@ -64,27 +60,6 @@ bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& resul
     }
   }
   return true;
-}
-
-vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, const Executor& executor)
-{
-  vtkNew<vtkIdTypeArray> offsets;
-  offsets->SetNumberOfValues(count + 1);
-  vtkNew<vtkIdTypeArray> connectivity;
-  connectivity->SetNumberOfValues(count);
-  vtkIdType* starts = offsets->GetPointer(0);
-  vtkIdType* points = connectivity->GetPointer(0);
-  starts[count] = count;
-  constexpr std::int64_t kGrain = 1 << 14;
-  forRange(executor, count, kGrain,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      std::iota(starts + begin, starts + end, vtkIdType(begin));
-      std::iota(points + begin, points + end, vtkIdType(begin));
-    });
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets, connectivity);
-  return cells;
 }
 
 } // namespace pointhaptics

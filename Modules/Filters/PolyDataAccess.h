@@ -3,14 +3,12 @@
 #pragma once
 
 #include "Core/AffineTransform.h"
-#include "Core/Executor.h"
 #include "Core/PointView.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
 class vtkAbstractTransform;
-class vtkCellArray;
 class vtkDataArray;
 class vtkPoints;
 
@@ -33,8 +31,5 @@ private:
 /// The matrix of a linear transform; null gives the identity. @return false for a transform that is not
 /// affine.
 bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result);
-
-/// @p count vertex cells, one per point, in order.
-vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, const Executor& executor = {});
 
 } // namespace pointhaptics

@@ -115,13 +115,12 @@ vtkSmartPointer<vtkDataArray> plainArray(vtkDataArray* array)
   return copy;
 }
 
-vtkSmartPointer<vtkDataArray> newArray(vtkDataArray* like, int type, std::int64_t tuples)
+vtkSmartPointer<vtkDataArray> newArray(vtkDataArray* like, int type)
 {
   auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
   array->SetName(like->GetName());
   array->SetNumberOfComponents(like->GetNumberOfComponents());
   array->CopyComponentNames(like);
-  array->SetNumberOfTuples(vtkIdType(tuples));
   return array;
 }
 
@@ -219,17 +218,22 @@ VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const Ex
   }
 }
 
-void VoxelAttribute::prepare(std::int64_t voxels)
+void VoxelAttribute::prepare(std::int64_t voxels, Buffer<std::int64_t> spare, const Executor& executor)
 {
   voxels_ = voxels;
   if (mean_)
   {
-    mean_->prepare(voxels);
+    mean_->prepare(voxels, std::move(spare), executor);
   }
   else
   {
     voxelOf_.assign(std::size_t(plain_->GetNumberOfTuples()), -1);
   }
+}
+
+Buffer<std::int64_t> VoxelAttribute::takeSums()
+{
+  return mean_ ? mean_->takeSums() : Buffer<std::int64_t>();
 }
 
 void VoxelAttribute::add(const std::int64_t* points, const std::int64_t* voxels, int count)
@@ -258,10 +262,11 @@ void VoxelAttribute::coarsen(const std::vector<std::int64_t>& parents, std::int6
   }
 }
 
-vtkSmartPointer<vtkDataArray> VoxelAttribute::output(
-  const std::int64_t* counts, const AffineTransform& transform, const Executor& executor) const
+vtkSmartPointer<vtkDataArray> VoxelAttribute::output(const std::int64_t* counts,
+  const AffineTransform& transform, ArrayPool& pool, const Executor& executor) const
 {
-  auto result = newArray(input_, plain_->GetDataType(), voxels_);
+  auto result = newArray(input_, plain_->GetDataType());
+  pool.allocate(result, voxels_);
   switch (kind_)
   {
     case AttributeKind::Mean:
@@ -278,7 +283,7 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::output(
   {
     return result;
   }
-  auto original = newArray(input_, input_->GetDataType(), voxels_);
+  auto original = newArray(input_, input_->GetDataType());
   original->DeepCopy(result);
   original->SetName(input_->GetName());
   return original;

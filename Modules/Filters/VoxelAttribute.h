@@ -2,8 +2,11 @@
 /// A point array of the input on its way to one tuple per voxel.
 #pragma once
 
+#include "ArrayPool.h"
+
 #include "Core/AffineTransform.h"
 #include "Core/AttributeMean.h"
+#include "Core/Buffer.h"
 #include "Core/Executor.h"
 
 #include "vtkSmartPointer.h"
@@ -32,12 +35,14 @@ public:
   /// Holds on to @p input; one whose memory is not plain tuples of numbers is copied first.
   VoxelAttribute(vtkDataArray* input, AttributeKind kind, const Executor& executor);
 
-  void prepare(std::int64_t voxels);
+  /// @p spare: sums another attribute has no more use for, or nothing.
+  void prepare(std::int64_t voxels, Buffer<std::int64_t> spare, const Executor& executor);
+  Buffer<std::int64_t> takeSums();
   void add(const std::int64_t* points, const std::int64_t* voxels, int count);
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
   /// One tuple per voxel, of the type, name and components of the input. @p counts: points of each voxel.
-  vtkSmartPointer<vtkDataArray> output(
-    const std::int64_t* counts, const AffineTransform& transform, const Executor& executor) const;
+  vtkSmartPointer<vtkDataArray> output(const std::int64_t* counts, const AffineTransform& transform,
+    ArrayPool& pool, const Executor& executor) const;
 
 private:
   void writeNormals(vtkDataArray* output, const std::int64_t* counts, const AffineTransform& transform,

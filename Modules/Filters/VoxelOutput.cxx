@@ -1,5 +1,6 @@
 #include "VoxelOutput.h"
 
+#include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -7,18 +8,20 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace pointhaptics
 {
 
 vtkSmartPointer<vtkPoints> makePoints(
-  const VoxelResampler& engine, int level, bool singlePrecision, const Executor& executor)
+  const VoxelResampler& engine, int level, bool singlePrecision, ArrayPool& pool, const Executor& executor)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  points->SetNumberOfPoints(vtkIdType(engine.size(level)));
+  pool.allocate(points->GetData(), engine.size(level));
   if (singlePrecision)
   {
     engine.copyMeans(level, vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
@@ -30,18 +33,40 @@ vtkSmartPointer<vtkPoints> makePoints(
   return points;
 }
 
-vtkSmartPointer<vtkIdTypeArray> makeCounts(const VoxelResampler& engine, int level, const Executor& executor)
+vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor)
+{
+  vtkNew<vtkTypeInt64Array> offsets;
+  vtkNew<vtkTypeInt64Array> connectivity;
+  pool.allocate(offsets, count + 1);
+  pool.allocate(connectivity, count);
+  vtkTypeInt64* starts = offsets->GetPointer(0);
+  vtkTypeInt64* points = connectivity->GetPointer(0);
+  starts[count] = count;
+  constexpr std::int64_t kGrain = 1 << 14;
+  forRange(executor, count, kGrain,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      std::iota(starts + begin, starts + end, vtkTypeInt64(begin));
+      std::iota(points + begin, points + end, vtkTypeInt64(begin));
+    });
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+vtkSmartPointer<vtkIdTypeArray> makeCounts(
+  const VoxelResampler& engine, int level, ArrayPool& pool, const Executor& executor)
 {
   static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
   auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
   counts->SetName("VoxelPointCount");
-  counts->SetNumberOfValues(vtkIdType(engine.size(level)));
+  pool.allocate(counts, engine.size(level));
   engine.copyCounts(level, reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
   return counts;
 }
 
 vtkSmartPointer<vtkDoubleArray> makeCovariances(
-  const VoxelResampler& engine, int level, const Executor& executor)
+  const VoxelResampler& engine, int level, ArrayPool& pool, const Executor& executor)
 {
   static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -52,7 +77,7 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(
   {
     array->SetComponentName(c, names[c]);
   }
-  array->SetNumberOfTuples(vtkIdType(engine.size(level)));
+  pool.allocate(array, engine.size(level));
   engine.copyCovariances(level, reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
   return array;
 }

@@ -137,8 +137,7 @@ void vtkVoxelMeanResampler::SetNumberOfLevels(int levels)
 
 unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const
 {
-  return static_cast<unsigned long>(
-    (this->Inside->Engine.scratchBytes() + this->Inside->Index.bytes()) / 1024);
+  return static_cast<unsigned long>(this->Inside->ScratchBytes() / 1024);
 }
 
 void vtkVoxelMeanResampler::ReleaseScratch()

@@ -198,7 +198,13 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   this->To = 0.95;
   for (NamedAttribute& named : this->Attributes)
   {
-    named.attribute.prepare(this->Engine.size());
+    Buffer<std::int64_t> spare;
+    if (!this->SpareSums.empty())
+    {
+      spare = std::move(this->SpareSums.back());
+      this->SpareSums.pop_back();
+    }
+    named.attribute.prepare(this->Engine.size(), std::move(spare), this->Smp);
   }
   const Status status = this->Engine.assign(
     this->Request,
@@ -226,7 +232,14 @@ bool vtkVoxelMeanResampler::Internals::Run(vtkPointSet* input)
 
 void vtkVoxelMeanResampler::Internals::Release()
 {
+  this->SpareSums.clear();
+  for (NamedAttribute& named : this->Attributes)
+  {
+    this->SpareSums.push_back(named.attribute.takeSums());
+  }
   this->Attributes.clear();
+  // What earlier outputs left and this one had no use for.
+  this->Pool.trim();
   this->Request = VoxelRequest();
   this->Points.reset();
 }
@@ -234,9 +247,9 @@ void vtkVoxelMeanResampler::Internals::Release()
 void vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPolyData* output)
 {
   vtkPointData* data = output->GetPointData();
-  output->SetPoints(makePoints(this->Engine, level, this->Request.singlePrecision, this->Smp));
-  output->SetVerts(makeVertices(vtkIdType(this->Engine.size(level)), this->Smp));
-  const auto counts = makeCounts(this->Engine, level, this->Smp);
+  output->SetPoints(makePoints(this->Engine, level, this->Request.singlePrecision, this->Pool, this->Smp));
+  output->SetVerts(makeVertices(vtkIdType(this->Engine.size(level)), this->Pool, this->Smp));
+  const auto counts = makeCounts(this->Engine, level, this->Pool, this->Smp);
   const auto* countValues = reinterpret_cast<const std::int64_t*>(counts->GetPointer(0));
   for (NamedAttribute& named : this->Attributes)
   {
@@ -244,7 +257,8 @@ void vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
     {
       named.attribute.coarsen(this->Engine.parents(level), this->Engine.size(level));
     }
-    const int index = data->AddArray(named.attribute.output(countValues, this->Request.transform, this->Smp));
+    const int index =
+      data->AddArray(named.attribute.output(countValues, this->Request.transform, this->Pool, this->Smp));
     if (named.role >= 0)
     {
       data->SetActiveAttribute(index, named.role);
@@ -253,15 +267,27 @@ void vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
   data->AddArray(counts);
   if (this->Filter->ComputeCovariance)
   {
-    data->AddArray(makeCovariances(this->Engine, level, this->Smp));
+    data->AddArray(makeCovariances(this->Engine, level, this->Pool, this->Smp));
   }
   output->GetFieldData()->PassData(input->GetFieldData());
   addLattice(this->Engine.lattice(level), this->Request.transform, output->GetFieldData());
 }
 
+std::size_t vtkVoxelMeanResampler::Internals::ScratchBytes() const
+{
+  std::size_t sum = this->Engine.scratchBytes() + this->Index.bytes() + this->Pool.bytes();
+  for (const Buffer<std::int64_t>& sums : this->SpareSums)
+  {
+    sum += sums.bytes();
+  }
+  return sum;
+}
+
 void vtkVoxelMeanResampler::Internals::Forget()
 {
   this->Engine.releaseScratch();
+  this->Pool.trim();
+  this->SpareSums.clear();
   this->Index = PointIndex();
   this->Indexed = false;
   this->PartialViews = 0;

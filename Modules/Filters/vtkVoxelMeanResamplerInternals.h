@@ -2,6 +2,7 @@
 /// The steps of vtkVoxelMeanResampler. Private to Filters.
 #pragma once
 
+#include "ArrayPool.h"
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 #include "VoxelAttribute.h"
@@ -35,6 +36,7 @@ public:
   /// Lets go of the input and its arrays.
   void Release();
   void Forget();
+  std::size_t ScratchBytes() const;
 
   /// Watcher: passes progress on within [this->From, this->To].
   bool proceed(double fraction) override;
@@ -62,6 +64,8 @@ private:
   pointhaptics::VoxelRequest Request;
   std::unique_ptr<pointhaptics::PointAccess> Points;
   std::vector<NamedAttribute> Attributes;
+  std::vector<pointhaptics::Buffer<std::int64_t>> SpareSums; ///< Of the last update's attributes.
+  pointhaptics::ArrayPool Pool;
   double From = 0.0;
   double To = 1.0;
   // Which input was seen last, and how often a part of it.

@@ -1,0 +1,41 @@
+/// @file
+/// Memory of output arrays, used again once nobody holds the arrays any more.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+class vtkDataArray;
+
+namespace pointhaptics
+{
+
+/// A filter makes arrays of much the same size at each update, and the first touch of fresh memory takes
+/// longer than filling it. The pool gives arrays memory that earlier ones have let go of. An array, and
+/// whatever shares its buffer, may outlive the pool and be let go of in any thread.
+class ArrayPool
+{
+public:
+  ArrayPool();
+  ~ArrayPool();
+  ArrayPool(const ArrayPool&) = delete;
+  ArrayPool& operator=(const ArrayPool&) = delete;
+
+  /// Gives @p array, of VTK's usual layout and with its components set, memory for so many tuples, not
+  /// initialised.
+  void allocate(vtkDataArray* array, std::int64_t tuples);
+  /// Frees what no array uses.
+  void trim();
+  /// Bytes no array uses.
+  std::size_t bytes() const;
+
+private:
+  struct State;
+  struct Header;
+  static void giveBack(void* data);
+
+  std::shared_ptr<State> state_;
+};
+
+} // namespace pointhaptics
