@@ -173,15 +173,25 @@ void AttributeMean::prepare(std::int64_t voxels, Buffer<std::int64_t> spare, con
   }
 }
 
+/// What add() will touch lies anywhere in the array, and its sums in those of a partition.
+template <typename T>
+void AttributeMean::prefetch(
+  const T* values, const std::int64_t* points, const std::int64_t* voxels, int count) const
+{
+  const std::int64_t width = std::int64_t(lanes_) * view_.components;
+  for (int i = 0; i < count; ++i)
+  {
+    __builtin_prefetch(values + view_.components * points[i]);
+    __builtin_prefetch(sums_.data() + width * voxels[i], 1);
+  }
+}
+
 template <typename Integer>
 void AttributeMean::addIntegers(const std::int64_t* points, const std::int64_t* voxels, int count)
 {
   const auto* values = static_cast<const Integer*>(view_.values);
   const int components = view_.components;
-  for (int i = 0; i < count; ++i)
-  {
-    __builtin_prefetch(values + components * points[i]);
-  }
+  prefetch(values, points, voxels, count);
   for (int i = 0; i < count; ++i)
   {
     const Integer* value = values + components * points[i];
@@ -252,10 +262,7 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
   const auto* values = static_cast<const Real*>(view_.values);
   const int components = view_.components;
   const double partScale = std::ldexp(1.0, partBits_);
-  for (int i = 0; i < count; ++i)
-  {
-    __builtin_prefetch(values + components * points[i]);
-  }
+  prefetch(values, points, voxels, count);
   if (lanes_ == 2 && !hasNonFinite_ && scale_[1] == 1.0)
   {
     const auto pairs = components == 3 ? &addPairs<3, Real>
@@ -340,9 +347,19 @@ double AttributeMean::realSum(std::int64_t voxel, int component, int& exponent) 
 {
   const std::int64_t* sum = lanes(voxel, component);
   exponent = exponent_ - std::min(lanes_, 2) * partBits_;
-  if (lanes_ <= 2)
+  if (lanes_ == 1)
   {
-    return lanes_ == 1 ? double(sum[0]) : double(Int128(sum[0]) * (Int128(1) << partBits_) + sum[1]);
+    return double(sum[0]);
+  }
+  if (lanes_ == 2)
+  {
+    // Two numbers that are exact in double, so that their sum is rounded once.
+    constexpr std::int64_t kExact = std::int64_t(1) << 53;
+    const std::int64_t carry = sum[1] >> partBits_;
+    const std::int64_t high = sum[0] + carry;
+    const std::int64_t low = sum[1] - carry * (std::int64_t(1) << partBits_);
+    return high > -kExact && high < kExact ? double(high) * powerOfTwo(partBits_) + double(low)
+                                           : double(Int128(high) * (Int128(1) << partBits_) + low);
   }
   // Carries from part to part, all of one sign afterwards; rounded once, from the first part that is not 0.
   std::int64_t parts[kMostLanes];

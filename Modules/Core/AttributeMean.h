@@ -74,6 +74,8 @@ private:
   bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
   template <typename Real>
   void scan(const Executor& executor);
+  template <typename T>
+  void prefetch(const T* values, const std::int64_t* points, const std::int64_t* voxels, int count) const;
   template <typename Integer>
   void addIntegers(const std::int64_t* points, const std::int64_t* voxels, int count);
   template <typename Real>

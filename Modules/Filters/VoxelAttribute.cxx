@@ -292,6 +292,12 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::output(const std::int64_t* counts,
 void VoxelAttribute::writeNormals(vtkDataArray* output, const std::int64_t* counts,
   const AffineTransform& transform, const Executor& executor) const
 {
+  // The inverse transpose, column by column.
+  const Vec3 x = transform.applyToNormal({ 1, 0, 0 });
+  const Vec3 y = transform.applyToNormal({ 0, 1, 0 });
+  const Vec3 z = transform.applyToNormal({ 0, 0, 1 });
+  float* floats =
+    output->GetDataType() == VTK_FLOAT ? static_cast<float*>(output->GetVoidPointer(0)) : nullptr;
   forRange(executor, voxels_,
     [&](std::int64_t first, std::int64_t last)
     {
@@ -299,8 +305,17 @@ void VoxelAttribute::writeNormals(vtkDataArray* output, const std::int64_t* coun
       {
         Vec3 mean;
         mean_->mean(v, counts[v], &mean.x);
-        const Vec3 unit = normalized(transform.applyToNormal(mean), Vec3());
-        output->SetTuple(vtkIdType(v), &unit.x);
+        const Vec3 unit = normalized(mean.x * x + mean.y * y + mean.z * z, Vec3());
+        if (floats)
+        {
+          floats[3 * v] = float(unit.x);
+          floats[3 * v + 1] = float(unit.y);
+          floats[3 * v + 2] = float(unit.z);
+        }
+        else
+        {
+          output->SetTuple(vtkIdType(v), &unit.x);
+        }
       }
     });
 }

@@ -13,9 +13,9 @@ namespace
 
 /// Most cells of a dense partition: what is touched of their sums should stay in the second-level cache.
 constexpr std::size_t kDenseCells = std::size_t(1) << 17;
-/// More partitions than this thrash the first-level cache while records are dealt out.
+/// More partitions than this crowd the first-level cache while records are dealt out.
 constexpr std::uint32_t kMostPartitions = 512;
-/// Partitions of dense cells may be more, where they are many: walking their cells in order matters more.
+/// Dense partitions may be more: not having to sort is worth it.
 constexpr std::uint32_t kMostDensePartitions = 2048;
 /// Fewer points than this in a partition on average are not worth its upkeep.
 constexpr std::int64_t kPointsPerPartition = 128;
@@ -55,16 +55,12 @@ void addCarried(MomentBatch<std::int64_t>& batch, int i, const CarriedPartition&
   {
     batch.sums[axis][i] += old.sums[axis];
   }
-  for (int m = 0; !carried.seconds.empty() && m < 6; ++m)
+  // Where seconds go with the cells they are in the batch already.
+  for (int m = 0; carried.cells.empty() && batch.seconds && m < 6; ++m)
   {
     batch.seconds[i].lanes[m] += carried.seconds[voxel].lanes[m];
   }
 }
-
-}
-
-namespace
-{
 
 /// Blocks of layers, as many as may be: how many cells they have does not matter.
 void planForSorting(PartitionPlan& plan, std::uint32_t layers)

@@ -1,4 +1,5 @@
 /// The loops with AVX2 and FMA: four points at a time.
+#include "Core/Kernel/FourLaneAdder.h"
 #include "Core/Kernel/VoxelKernelBody.h"
 
 #if defined(__AVX2__) && defined(__FMA__)
@@ -152,26 +153,7 @@ struct Avx2
     return kernel::listBits(bits, first, cells);
   }
 
-  struct Adder
-  {
-    __m256i masks;
-
-    explicit Adder(int fractionBits)
-    {
-      const auto fraction = std::int64_t((std::uint64_t(1) << fractionBits) - 1);
-      masks = _mm256_setr_epi64x(fraction, fraction, std::int64_t(kLowMask), fraction >> kLowBits);
-    }
-    void add(PackedSums& sums, const Record& r) const
-    {
-      const __m256i words = _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(&r)));
-      const __m256i shifted =
-        _mm256_srlv_epi64(words, _mm256_setr_epi64x(0, 0, kPositionBits, kPositionBits));
-      const __m256i lanes = _mm256_or_si256(
-        _mm256_and_si256(shifted, masks), _mm256_setr_epi64x(0, 0, 0, std::int64_t(1) << kCountShift));
-      auto* to = reinterpret_cast<__m256i*>(sums.lanes);
-      _mm256_storeu_si256(to, _mm256_add_epi64(_mm256_loadu_si256(to), lanes));
-    }
-  };
+  using Adder = FourLaneAdder;
 };
 
 }

@@ -16,11 +16,16 @@ std::uint64_t keyOf(const Lattice& lattice, const MomentBatch<std::int64_t>& bat
   return lattice.key(batch.indices[0][i], batch.indices[1][i], batch.indices[2][i]);
 }
 
-/// Rounded once; most fit 64 bits, whose conversion is one instruction.
+/// Rounded once, as the compiler's own conversion of 128 bits is; nearly all values take the quick way.
 double toDouble(Int128 value)
 {
-  const auto low = std::int64_t(value);
-  return Int128(low) == value ? double(low) : double(value);
+  constexpr std::int64_t kExact = std::int64_t(1) << 53;
+  const auto high = std::int64_t(value >> 32);
+  if (Int128(high) == value >> 32 && high > -kExact && high < kExact)
+  {
+    return double(high) * 0x1p32 + double(std::uint32_t(value));
+  }
+  return double(value);
 }
 
 template <typename Real>
@@ -42,28 +47,29 @@ void keepInVoxels(
 SymMat3 covarianceOf(
   std::int64_t count, const Int128 sums[3], const SecondSums& seconds, double quantum, const Vec3& spacing)
 {
-  // About the mean rounded down to a quantum nothing is large, and the rest is small: sums = count m + r.
-  Int128 m[3];
-  double rest[3];
+  if (count == 1)
+  {
+    return {};
+  }
+  // About an integer m near the mean nothing is large, and what is left of the sums is small:
+  // sums = count m + rest.
+  const double perPoint = 1.0 / double(count);
+  std::int64_t m[3];
+  std::int64_t rest[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    // Not negative; dividing 64 bits takes a fraction of the time of 128.
-    const bool isShort = sums[axis] >> 63 == 0;
-    m[axis] = isShort ? Int128(std::int64_t(sums[axis]) / count) : sums[axis] / count;
-    rest[axis] = double(std::int64_t(sums[axis] - m[axis] * count));
+    m[axis] = std::int64_t(toDouble(sums[axis]) * perPoint);
+    rest[axis] = std::int64_t(sums[axis] - Int128(m[axis]) * count);
   }
-  const int rows[6] = { 0, 1, 2, 0, 1, 0 };
-  const int columns[6] = { 0, 1, 2, 1, 2, 2 };
-  double values[6];
-  for (int i = 0; i < 6; ++i)
+  const Vec3 unit = quantum * spacing;
+  const auto moment = [&](int i, int a, int b)
   {
-    const int a = rows[i];
-    const int b = columns[i];
-    const Int128 central = seconds.lanes[i] - m[a] * sums[b] - m[b] * (sums[a] - m[a] * count);
-    const double value = (toDouble(central) - rest[a] * rest[b] / double(count)) / double(count);
-    values[i] = (i < 3 ? std::max(value, 0.0) : value) * (quantum * spacing[a]) * (quantum * spacing[b]);
-  }
-  return { values[0], values[1], values[2], values[3], values[4], values[5] };
+    const Int128 central = seconds.lanes[i] - m[a] * sums[b] - Int128(m[b]) * rest[a];
+    const double value = (toDouble(central) - double(rest[a]) * double(rest[b]) * perPoint) * perPoint;
+    return (a == b ? std::max(value, 0.0) : value) * unit[a] * unit[b];
+  };
+  return { moment(0, 0, 0), moment(1, 1, 1), moment(2, 2, 2), moment(3, 0, 1), moment(4, 1, 2),
+    moment(5, 0, 2) };
 }
 
 MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecision)
