@@ -1,0 +1,393 @@
+#include "Core/AttributeMean.h"
+
+#include "ExactSum.h"
+#include "RandomClouds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+using namespace pointhaptics;
+using trial::ExactSum;
+
+namespace
+{
+
+__extension__ typedef __int128 Int128;
+
+template <typename T>
+ScalarType typeOf()
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    return sizeof(T) == 4 ? ScalarType::Float : ScalarType::Double;
+  }
+  else
+  {
+    const int width = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
+    return ScalarType(2 * width + (std::is_unsigned_v<T> ? 1 : 0));
+  }
+}
+
+/// Which voxel each tuple is in, and in which order tuples are added.
+struct Plan
+{
+  std::vector<std::int64_t> voxels;
+  std::vector<std::int64_t> order;
+  std::int64_t size = 1;
+};
+
+Plan planFor(std::size_t tuples, std::int64_t size, std::uint64_t seed)
+{
+  Plan plan;
+  plan.size = size;
+  trial::Random random(seed);
+  for (std::size_t i = 0; i < tuples; ++i)
+  {
+    plan.voxels.push_back(
+      i < std::size_t(size) ? std::int64_t(i) : std::int64_t(random.below(std::size_t(size))));
+    plan.order.push_back(std::int64_t(i));
+  }
+  return plan;
+}
+
+std::vector<std::int64_t> countsOf(const Plan& plan)
+{
+  std::vector<std::int64_t> counts(std::size_t(plan.size), 0);
+  for (const std::int64_t voxel : plan.voxels)
+  {
+    ++counts[std::size_t(voxel)];
+  }
+  return counts;
+}
+
+template <typename T>
+AttributeMean meanOf(const std::vector<T>& values, int components, const Plan& plan,
+  const Executor& executor = {}, int piece = 100)
+{
+  AttributeMean mean(
+    { values.data(), typeOf<T>(), components, std::int64_t(values.size()) / components }, executor);
+  mean.prepare(plan.size);
+  std::vector<std::int64_t> voxels;
+  for (const std::int64_t i : plan.order)
+  {
+    voxels.push_back(plan.voxels[std::size_t(i)]);
+  }
+  for (std::size_t first = 0; first < voxels.size(); first += std::size_t(piece))
+  {
+    const int count = int(std::min(std::size_t(piece), voxels.size() - first));
+    mean.add(plan.order.data() + first, voxels.data() + first, count);
+  }
+  return mean;
+}
+
+template <typename T>
+std::vector<T> written(const AttributeMean& mean, const Plan& plan, const Executor& executor = {})
+{
+  std::vector<T> means(std::size_t(plan.size) * std::size_t(mean.view().components));
+  mean.write(countsOf(plan).data(), means.data(), executor);
+  return means;
+}
+
+template <typename T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
+{
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+/// Integers: exact sums of 128 bits, halves away from zero.
+template <typename T>
+std::vector<T> roundedMeans(const std::vector<T>& values, int components, const Plan& plan)
+{
+  std::vector<T> means;
+  const std::vector<std::int64_t> counts = countsOf(plan);
+  std::vector<Int128> sums(counts.size() * std::size_t(components), 0);
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    const std::size_t c = std::size_t(components);
+    sums[std::size_t(plan.voxels[i / c]) * c + i % c] += Int128(values[i]);
+  }
+  for (std::size_t s = 0; s < sums.size(); ++s)
+  {
+    const Int128 n = counts[s / std::size_t(components)];
+    const Int128 magnitude = sums[s] < 0 ? -sums[s] : sums[s];
+    const Int128 rounded = magnitude / n + (2 * (magnitude % n) >= n ? 1 : 0);
+    means.push_back(T(sums[s] < 0 ? -rounded : rounded));
+  }
+  return means;
+}
+
+/// Real numbers: the mean is the exact one but for two roundings, and a float the nearest to it.
+template <typename T>
+void expectExact(const std::vector<T>& values, int components, const Plan& plan)
+{
+  const AttributeMean mean = meanOf(values, components, plan);
+  const std::vector<T> means = written<T>(mean, plan);
+  const std::vector<std::int64_t> counts = countsOf(plan);
+  std::vector<ExactSum> sums(means.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    const std::size_t c = std::size_t(components);
+    sums[std::size_t(plan.voxels[i / c]) * c + i % c].add(double(values[i]), 1);
+  }
+  std::vector<double> wide(std::size_t(components), 0.0);
+  for (std::size_t s = 0; s < sums.size(); ++s)
+  {
+    const std::int64_t voxel = std::int64_t(s) / components;
+    const std::int64_t count = counts[std::size_t(voxel)];
+    mean.mean(voxel, count, wide.data());
+    const double got = wide[s % std::size_t(components)];
+    ASSERT_TRUE(sums[s].isMean(got, count)) << "sum " << s << " mean " << got;
+    ASSERT_EQ(means[s], T(got)) << "sum " << s;
+  }
+}
+
+template <typename T>
+void expectIndependentOfOrder(const std::vector<T>& values, int components, Plan plan)
+{
+  const std::vector<T> expected = written<T>(meanOf(values, components, plan), plan);
+  for (const std::uint64_t seed : { 1, 2 })
+  {
+    plan.order.clear();
+    for (const std::size_t i : trial::randomOrder(plan.voxels.size(), seed))
+    {
+      plan.order.push_back(std::int64_t(i));
+    }
+    const trial::ThreadedExecutor threads(3);
+    EXPECT_TRUE(sameBits(written<T>(meanOf(values, components, plan, threads, 7), plan, threads), expected));
+    const trial::BackwardExecutor backward(13);
+    EXPECT_TRUE(
+      sameBits(written<T>(meanOf(values, components, plan, backward, 4096), plan, backward), expected));
+  }
+}
+
+template <typename T>
+std::vector<T> extremesOf(std::size_t n, std::uint64_t seed)
+{
+  trial::Random random(seed);
+  const T extremes[] = { std::numeric_limits<T>::lowest(), std::numeric_limits<T>::max(), T(0), T(1), T(-1) };
+  std::vector<T> values;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    values.push_back(extremes[random.below(5)]);
+  }
+  return values;
+}
+
+/// 10^low to 10^high with any sign.
+template <typename T>
+std::vector<T> magnitudes(std::size_t n, double low, double high, std::uint64_t seed)
+{
+  trial::Random random(seed);
+  std::vector<T> values;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double value = std::pow(10.0, random.uniform(low, high));
+    values.push_back(T(random.below(2) == 0 ? value : -value));
+  }
+  return values;
+}
+
+} // namespace
+
+template <typename T>
+class AttributeMeanOfIntegers : public testing::Test
+{
+};
+using Integers = testing::Types<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+  std::uint32_t, std::int64_t, std::uint64_t>;
+TYPED_TEST_SUITE(AttributeMeanOfIntegers, Integers, );
+
+TYPED_TEST(AttributeMeanOfIntegers, IsRoundedFromTheExactSumAtTheExtremes)
+{
+  for (int components = 1; components <= 9; ++components)
+  {
+    const std::vector<TypeParam> values = extremesOf<TypeParam>(2000 * std::size_t(components), 1);
+    const Plan plan = planFor(2000, 300, std::uint64_t(components));
+    EXPECT_EQ(
+      written<TypeParam>(meanOf(values, components, plan), plan), roundedMeans(values, components, plan));
+    expectIndependentOfOrder(values, components, plan);
+  }
+}
+
+TYPED_TEST(AttributeMeanOfIntegers, KeepsTheExtremesWhereAllAreTheSame)
+{
+  using Limits = std::numeric_limits<TypeParam>;
+  for (const TypeParam value : { Limits::min(), Limits::max(), TypeParam(0) })
+  {
+    const std::vector<TypeParam> values(3000, value);
+    const Plan plan = planFor(3000, 2, 2);
+    EXPECT_EQ(written<TypeParam>(meanOf(values, 1, plan), plan), (std::vector<TypeParam>{ value, value }));
+  }
+}
+
+TEST(AttributeMean, RoundsHalvesAwayFromZero)
+{
+  const std::vector<std::int64_t> values{ 1, 2, -1, -2, -3, -2, -1, 0, 4, 5 };
+  Plan plan = planFor(10, 5, 1);
+  plan.voxels = { 0, 0, 1, 1, 2, 2, 3, 3, 4, 4 };
+  EXPECT_EQ(
+    written<std::int64_t>(meanOf(values, 1, plan), plan), (std::vector<std::int64_t>{ 2, -2, -3, -1, 5 }));
+  const std::vector<std::int16_t> shorts(values.begin(), values.end());
+  EXPECT_EQ(
+    written<std::int16_t>(meanOf(shorts, 1, plan), plan), (std::vector<std::int16_t>{ 2, -2, -3, -1, 5 }));
+}
+
+TEST(AttributeMean, OfRealNumbersIsExactForEveryRangeAndWidth)
+{
+  for (int components = 1; components <= 9; ++components)
+  {
+    const auto c = std::size_t(components);
+    const Plan plan = planFor(600, 50, c);
+    for (const double low : { -307.0, -30.0, -2.0, 0.0, 250.0 })
+    {
+      const double high = std::min(300.0, low + 3.0 * components * components);
+      expectExact(magnitudes<double>(600 * c, low, high, 3), components, plan);
+      expectIndependentOfOrder(magnitudes<double>(600 * c, low, high, 3), components, plan);
+    }
+    expectExact(magnitudes<float>(600 * c, -4.0 * components, 3.0 * components, 4), components, plan);
+    expectIndependentOfOrder(
+      magnitudes<float>(600 * c, -4.0 * components, 3.0 * components, 4), components, plan);
+  }
+}
+
+TEST(AttributeMean, OfMixedMagnitudesKeepsWhatIsLeftWhenTheLargeOnesCancel)
+{
+  for (const double tiny : { 1e-300, DBL_TRUE_MIN, 1.0, 1e-16, 3e283 })
+  {
+    std::vector<double> values;
+    for (int i = 0; i < 500; ++i)
+    {
+      values.insert(values.end(), { 1e300 + 1e285 * i, tiny * (1 + i % 3), -1e300 - 1e285 * i });
+    }
+    expectExact(values, 1, planFor(1500, 1, 5));
+    expectExact(values, 3, planFor(500, 7, 6));
+    Plan triples = planFor(1500, 500, 7);
+    for (std::size_t i = 0; i < 1500; ++i)
+    {
+      triples.voxels[i] = std::int64_t(i) / 3;
+    }
+    expectExact(values, 1, triples);
+    expectIndependentOfOrder(values, 1, triples);
+  }
+}
+
+TEST(AttributeMean, OfExtremeRealNumbersIsExact)
+{
+  const Plan plan = planFor(2000, 30, 8);
+  expectExact(extremesOf<float>(2000, 9), 1, plan);
+  expectExact(extremesOf<double>(2000, 9), 1, plan);
+  expectExact(std::vector<double>(2000, DBL_MAX), 1, plan);
+  expectExact(std::vector<double>(2000, -DBL_TRUE_MIN), 1, plan);
+  expectExact(std::vector<float>(2000, FLT_TRUE_MIN), 1, plan);
+  trial::Random random(10);
+  std::vector<double> denormals;
+  std::vector<float> denormalFloats;
+  for (int i = 0; i < 2000; ++i)
+  {
+    denormals.push_back(DBL_TRUE_MIN * std::floor(random.uniform(-1e15, 1e15)));
+    denormalFloats.push_back(FLT_TRUE_MIN * float(std::floor(random.uniform(-8e6, 8e6))));
+  }
+  expectExact(denormals, 1, plan);
+  expectExact(denormalFloats, 1, plan);
+  denormals[7] = DBL_MAX;
+  expectExact(denormals, 2, planFor(1000, 30, 11));
+}
+
+TEST(AttributeMean, OfALonePointIsItsValue)
+{
+  for (const double low : { -323.0, -30.0, -3.0, 0.0 })
+  {
+    const std::vector<double> doubles = magnitudes<double>(900, low, 0.0 - low > 300.0 ? 308.0 : -low, 12);
+    const Plan plan = planFor(300, 300, 13);
+    EXPECT_EQ(written<double>(meanOf(doubles, 3, plan), plan), doubles);
+    const std::vector<float> floats = magnitudes<float>(300, std::max(low, -45.0), 38.0, 14);
+    EXPECT_EQ(written<float>(meanOf(floats, 1, plan), plan), floats);
+  }
+}
+
+TEST(AttributeMean, OfZerosIsZero)
+{
+  const Plan plan = planFor(100, 10, 15);
+  EXPECT_EQ(
+    written<double>(meanOf(std::vector<double>(200, 0.0), 2, plan), plan), std::vector<double>(20, 0.0));
+  EXPECT_EQ(
+    written<float>(meanOf(std::vector<float>(100, -0.0F), 1, plan), plan), std::vector<float>(10, 0.0F));
+}
+
+TEST(AttributeMean, FollowsIeeeAdditionWhereValuesAreNotFinite)
+{
+  const double inf = INFINITY;
+  for (const double finite : { 1.0, 0.0, 1e-300, DBL_MAX })
+  {
+    const std::vector<double> values{ NAN, finite, inf, finite, -inf, -finite, inf, -inf, NAN, inf, finite,
+      finite };
+    Plan plan = planFor(12, 6, 16);
+    plan.voxels = { 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5 };
+    const std::vector<double> means = written<double>(meanOf(values, 1, plan), plan);
+    EXPECT_TRUE(std::isnan(means[0]));
+    EXPECT_EQ(means[1], inf);
+    EXPECT_EQ(means[2], -inf);
+    EXPECT_TRUE(std::isnan(means[3]));
+    EXPECT_TRUE(std::isnan(means[4]));
+    EXPECT_EQ(means[5], finite);
+    const std::vector<float> floats(values.begin(), values.end() - 2);
+    plan.voxels.resize(10);
+    plan.order.resize(10);
+    plan.size = 5;
+    const std::vector<float> narrow = written<float>(meanOf(floats, 1, plan), plan);
+    EXPECT_TRUE(std::isnan(narrow[0]) && std::isnan(narrow[3]) && std::isnan(narrow[4]));
+    EXPECT_TRUE(narrow[1] == float(inf) && narrow[2] == -float(inf));
+  }
+}
+
+TEST(AttributeMean, OfParentsIsThatOfTheirPoints)
+{
+  const auto expectSame = [](const auto& values, int components)
+  {
+    using T = typename std::decay_t<decltype(values)>::value_type;
+    const std::size_t tuples = values.size() / std::size_t(components);
+    Plan plan = planFor(tuples, 200, 17);
+    AttributeMean mean = meanOf(values, components, plan);
+    for (const std::int64_t coarse : { 60, 9, 1 })
+    {
+      const Plan up = planFor(std::size_t(plan.size), coarse, 18);
+      mean.coarsen(up.voxels, coarse);
+      for (std::int64_t& voxel : plan.voxels)
+      {
+        voxel = up.voxels[std::size_t(voxel)];
+      }
+      plan.size = coarse;
+      EXPECT_TRUE(sameBits(written<T>(mean, plan), written<T>(meanOf(values, components, plan), plan)));
+    }
+  };
+  expectSame(extremesOf<std::int64_t>(3000, 19), 3);
+  expectSame(extremesOf<std::uint8_t>(3000, 20), 1);
+  expectSame(magnitudes<double>(3000, -300, 300, 21), 2);
+  std::vector<float> floats = magnitudes<float>(4000, -3, 3, 22);
+  expectSame(floats, 4);
+  floats[17] = INFINITY;
+  expectSame(floats, 4);
+}
+
+TEST(AttributeMean, StartsFromNothingInTheMemoryOfAnother)
+{
+  const std::vector<float> values = magnitudes<float>(900, -3, 3, 23);
+  for (const std::int64_t voxels : { 5, 90, 300 })
+  {
+    const Plan plan = planFor(300, voxels, 24);
+    const std::vector<float> expected = written<float>(meanOf(values, 3, plan), plan);
+    AttributeMean other = meanOf(values, 3, planFor(300, 90, 25));
+    AttributeMean mean({ values.data(), ScalarType::Float, 3, 300 }, {});
+    mean.prepare(voxels, other.takeSums(), trial::BackwardExecutor(17));
+    mean.add(plan.order.data(), plan.voxels.data(), 300);
+    EXPECT_TRUE(sameBits(written<float>(mean, plan), expected));
+    mean.prepare(voxels);
+    mean.add(plan.order.data(), plan.voxels.data(), 300);
+    EXPECT_TRUE(sameBits(written<float>(mean, plan), expected)) << "once more";
+  }
+}

@@ -1,0 +1,182 @@
+// The resampler's kernels where its results alone would not show what is wrong: plans, positions, levels.
+#include "Core/Kernel/GeneralVoxels.h"
+#include "Core/Kernel/PartitionSums.h"
+#include "Core/Kernel/PointPlacement.h"
+
+#include "RandomClouds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace pointhaptics;
+using namespace pointhaptics::kernel;
+
+namespace
+{
+
+Lattice randomLattice(trial::Random& random, double largest)
+{
+  Lattice lattice;
+  for (std::int64_t& n : lattice.dimensions)
+  {
+    n = std::int64_t(std::pow(largest + 0.5, random.uniform()));
+  }
+  return lattice;
+}
+
+std::uint32_t partitionOf(const PartitionPlan& plan, std::int64_t y, std::int64_t z)
+{
+  return std::uint32_t(z >> plan.layerShift) * plan.blocksPerLayer + std::uint32_t(y >> plan.rowShift);
+}
+
+} // namespace
+
+TEST(PartitionPlan, DealsOutEveryRowInAscendingOrder)
+{
+  trial::Random random(1);
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Lattice lattice = randomLattice(random, 4096);
+    const auto& d = lattice.dimensions;
+    const int bits = indexBitsOf(lattice);
+    if (bits < kMinimumIndexBits)
+    {
+      continue;
+    }
+    const PartitionPlan plan = makePlan(lattice, bits, std::int64_t(std::pow(10.0, random.uniform(0, 6))));
+    SCOPED_TRACE(testing::Message() << d[0] << "x" << d[1] << "x" << d[2] << " in " << plan.partitions);
+    ASSERT_GE(plan.partitions, 1u);
+    ASSERT_EQ(plan.firstKey(0), 0u);
+    ASSERT_EQ(partitionOf(plan, d[1] - 1, d[2] - 1), plan.partitions - 1);
+    for (int j = 0; j < 50; ++j)
+    {
+      const auto y = std::int64_t(random.below(std::size_t(d[1])));
+      const auto z = std::int64_t(random.below(std::size_t(d[2])));
+      const std::uint32_t p = partitionOf(plan, y, z);
+      ASSERT_LT(p, plan.partitions);
+      const std::uint64_t key = lattice.key(0, y, z);
+      ASSERT_GE(key, plan.firstKey(p));
+      ASSERT_LE(key + std::uint64_t(d[0]) - plan.firstKey(p), plan.cells());
+      if (p + 1 < plan.partitions)
+      {
+        ASSERT_LT(key, plan.firstKey(p + 1));
+      }
+    }
+  }
+}
+
+TEST(PartitionPlan, KeepsPartitionsWithinHalfTheLayersAndTheirCellsWithin32Bits)
+{
+  trial::Random random(2);
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Lattice lattice = randomLattice(random, 4096);
+    const int bits = indexBitsOf(lattice);
+    if (bits < kMinimumIndexBits)
+    {
+      continue;
+    }
+    const PartitionPlan plan = makePlan(lattice, bits, 1 + std::int64_t(random.below(1000000)));
+    EXPECT_LE(plan.layerShift, bits - 1);
+    EXPECT_LT(plan.cells(), std::size_t(1) << 32);
+    EXPECT_EQ(plan.upperRows != 0, lattice.dimensions[2] > (std::int64_t(1) << (bits - 1)));
+    EXPECT_TRUE(plan.layerShift == 0 || plan.blocksPerLayer == 1);
+    EXPECT_LE(mostVoxels(plan, 1000, 1000), 2000u);
+    EXPECT_LE(mostVoxels(plan, std::size_t(1) << 40, 0), plan.cells());
+  }
+}
+
+TEST(PointPlacement, CutsPlacesDownToTheQuantum)
+{
+  trial::Random random(3);
+  for (int i = 0; i < 300; ++i)
+  {
+    Lattice lattice = randomLattice(random, double(kMaximumLatticeDimension));
+    lattice.origin = random.inBox({ -1e6, -1e6, -1e6 }, { 1e6, 1e6, 1e6 });
+    lattice.spacing = random.inBox({ 0.1, 0.1, 0.1 }, { 3, 3, 3 });
+    AffineTransform transform = AffineTransform::rotation(random.uniform(0, 360), random.direction());
+    if (i % 3 == 0)
+    {
+      transform = AffineTransform::scaling(random.inBox({ 0.5, -4, 0.5 }, { 2, -0.5, 4 }));
+    }
+    const int bits = indexBitsOf(lattice);
+    const Placement placement = makePlacement(transform, lattice, bits, positionBitsFor(bits));
+    EXPECT_LE(std::ldexp(1.0, -placement.fractionBits), 0x1p-31);
+    const AffineTransform back = transform.inverse();
+    for (int j = 0; j < 20; ++j)
+    {
+      Vec3 target;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        target[axis] = lattice.origin[axis] +
+          random.uniform(0.01, 0.99) * double(lattice.dimensions[std::size_t(axis)]) * lattice.spacing[axis];
+      }
+      const Vec3 point = back.apply(target);
+      std::uint64_t position[3];
+      ASSERT_EQ(placePoint(placement, point, position), Place::Inside);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        using Wide = long double;
+        const double* row = transform.m[axis];
+        const Wide moved =
+          Wide(row[0]) * point.x + Wide(row[1]) * point.y + Wide(row[2]) * point.z + Wide(row[3]);
+        const Wide u = (moved - Wide(lattice.origin[axis])) / Wide(lattice.spacing[axis]);
+        const Wide got = std::ldexp(Wide(position[axis]), -placement.fractionBits);
+        // A few roundings of numbers as large as the lattice's extent in voxels, or the pivot's own.
+        const Wide rounding =
+          0x1p-50L * Wide(*std::max_element(lattice.dimensions.begin(), lattice.dimensions.end())) * 30 +
+          0x1p-51L * 1e7L / Wide(lattice.spacing[axis]);
+        ASSERT_LE(got - u, rounding);
+        ASSERT_LE(u - got, std::ldexp(Wide(1), -placement.fractionBits) + rounding);
+      }
+    }
+  }
+}
+
+TEST(PointPlacement, TellsOutsideFromInvalid)
+{
+  Lattice lattice;
+  lattice.dimensions = { 4, 4, 4 };
+  AffineTransform transform = AffineTransform::scaling({ 1, 1e10, 1 });
+  const Placement placement = makePlacement(transform, lattice, 2, kPositionBits);
+  const auto placeOf = [&](const Vec3& point)
+  {
+    std::uint64_t position[3];
+    return placePoint(placement, point, position);
+  };
+  EXPECT_EQ(placeOf({ 1, 1e-10, 1 }), Place::Inside);
+  EXPECT_EQ(placeOf({ 0, 0, 0 }), Place::Inside);
+  EXPECT_EQ(placeOf({ 4, 0, 0 }), Place::Outside);
+  EXPECT_EQ(placeOf({ -1e-300, 0, 0 }), Place::Outside);
+  EXPECT_EQ(placeOf({ 1, 1e307, 1 }), Place::Invalid) << "overflows in the transform";
+  EXPECT_EQ(placeOf({ -1, 1e307, 1 }), Place::Invalid);
+  EXPECT_EQ(placeOf({ NAN, 0, 0 }), Place::Invalid);
+  EXPECT_EQ(placeOf({ 0, 0, -INFINITY }), Place::Invalid);
+}
+
+TEST(CoarserLattice, CoversTheFineOneAndEndsWhereItDoes)
+{
+  trial::Random random(4);
+  for (int i = 0; i < 200; ++i)
+  {
+    Lattice fine = randomLattice(random, double(kMaximumLatticeDimension));
+    fine.origin = random.inBox({ -1, -1, -1 }, { 1, 1, 1 });
+    for (int level = 0; level < 22; ++level)
+    {
+      const Lattice coarse = coarserLattice(fine);
+      const bool isOne = fine.dimensions == std::array<std::int64_t, 3>{ 1, 1, 1 };
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const auto a = std::size_t(axis);
+        ASSERT_EQ(coarse.spacing[axis], (isOne ? 1.0 : 2.0) * fine.spacing[axis]);
+        ASSERT_EQ(coarse.dimensions[a], (fine.dimensions[a] + 1) / 2);
+        ASSERT_EQ(std::min(coarse.end[axis], double(coarse.dimensions[a])) * coarse.spacing[axis],
+          std::min(fine.end[axis], double(fine.dimensions[a])) * fine.spacing[axis]);
+      }
+      fine = coarse;
+    }
+    EXPECT_EQ(fine.dimensions, (std::array<std::int64_t, 3>{ 1, 1, 1 }));
+  }
+}

@@ -1,0 +1,233 @@
+/// @file
+/// What a VoxelResampler made, gathered for comparisons, and the exact answer for points on a grid of quanta.
+#pragma once
+
+#include "Core/VoxelResampler.h"
+
+#include "RandomClouds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace trial
+{
+
+/// The coarsest quantum of any lattice: points on multiples of it lose nothing where voxels have edge 1.
+constexpr double kQuantum = 0x1p-31;
+
+struct LevelResult
+{
+  std::vector<double> means;
+  std::vector<float> floats;
+  std::vector<std::int64_t> counts;
+  std::vector<std::uint64_t> keys;
+  std::vector<SymMat3> covariances;
+  std::vector<std::int64_t> parents;
+};
+
+struct RunResult
+{
+  std::int64_t clipped = 0;
+  std::int64_t invalid = 0;
+  std::vector<LevelResult> levels;
+};
+
+inline LevelResult levelOf(
+  const VoxelResampler& resampler, const VoxelRequest& request, int level, const Executor& executor = {})
+{
+  LevelResult result;
+  const auto size = std::size_t(resampler.size(level));
+  result.counts.resize(size);
+  resampler.copyCounts(level, result.counts.data(), executor);
+  if (request.singlePrecision)
+  {
+    result.floats.resize(3 * size);
+    resampler.copyMeans(level, result.floats.data(), executor);
+  }
+  else
+  {
+    result.means.resize(3 * size);
+    resampler.copyMeans(level, result.means.data(), executor);
+  }
+  if (request.keys)
+  {
+    result.keys.resize(size);
+    resampler.copyKeys(level, result.keys.data(), executor);
+  }
+  if (request.covariances)
+  {
+    result.covariances.resize(size);
+    resampler.copyCovariances(level, result.covariances.data(), executor);
+  }
+  if (level > 0 && request.keys)
+  {
+    result.parents = resampler.parents(level);
+  }
+  return result;
+}
+
+inline RunResult runOf(VoxelResampler& resampler, const VoxelRequest& request, const Executor& executor = {})
+{
+  EXPECT_EQ(resampler.run(request, executor), Status::Ok);
+  RunResult result;
+  result.clipped = resampler.clippedPoints();
+  result.invalid = resampler.invalidPoints();
+  for (int level = 0; level < request.levels; ++level)
+  {
+    result.levels.push_back(levelOf(resampler, request, level, executor));
+  }
+  return result;
+}
+
+inline RunResult runOf(const VoxelRequest& request, const Executor& executor = {})
+{
+  VoxelResampler resampler;
+  return runOf(resampler, request, executor);
+}
+
+template <typename T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
+{
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// All but the parents.
+inline void expectSameVoxels(const LevelResult& a, const LevelResult& b, const std::string& what)
+{
+  EXPECT_TRUE(sameBits(a.counts, b.counts)) << what;
+  EXPECT_TRUE(sameBits(a.means, b.means)) << what;
+  EXPECT_TRUE(sameBits(a.floats, b.floats)) << what;
+  EXPECT_TRUE(sameBits(a.keys, b.keys)) << what;
+  EXPECT_TRUE(sameBits(a.covariances, b.covariances)) << what;
+}
+
+inline void expectSame(const RunResult& a, const RunResult& b, const std::string& what)
+{
+  EXPECT_EQ(a.clipped, b.clipped) << what;
+  EXPECT_EQ(a.invalid, b.invalid) << what;
+  ASSERT_EQ(a.levels.size(), b.levels.size()) << what;
+  for (std::size_t l = 0; l < a.levels.size(); ++l)
+  {
+    expectSameVoxels(a.levels[l], b.levels[l], what + ", level " + std::to_string(l));
+    EXPECT_EQ(a.levels[l].parents, b.levels[l].parents) << what;
+  }
+}
+
+inline Lattice latticeOf(std::int64_t x, std::int64_t y, std::int64_t z)
+{
+  Lattice lattice;
+  lattice.dimensions = { x, y, z };
+  return lattice;
+}
+
+inline std::string nameOf(const Lattice& lattice)
+{
+  const auto& d = lattice.dimensions;
+  return std::to_string(d[0]) + "x" + std::to_string(d[1]) + "x" + std::to_string(d[2]);
+}
+
+/// Lattices of unit voxels for each way through the kernels: cells side by side, sorted records, anything.
+inline std::vector<Lattice> latticesOfAllPaths()
+{
+  return { latticeOf(300, 300, 300), latticeOf(5, 4, 3), latticeOf(4, 1, 1), latticeOf(1, 2, 257),
+    latticeOf(1, 4096, 1), latticeOf(64, 3, 500), latticeOf(1024, 1024, 1024), latticeOf(2048, 2048, 300),
+    latticeOf(4096, 4096, 4096), latticeOf(4096, 4096, 2), latticeOf(1, 1, 1), latticeOf(2, 2, 1),
+    latticeOf(5000, 3, 2), latticeOf(2, 3, kMaximumLatticeDimension) };
+}
+
+/// Points on multiples of a quantum, a few of them outside.
+inline std::vector<Vec3> quantisedPoints(
+  std::size_t n, std::uint64_t seed, const Lattice& lattice, double quantum = kQuantum)
+{
+  Random random(seed);
+  std::vector<Vec3> points(n);
+  for (Vec3& p : points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double u = random.uniform(-0.001, 1.001) * double(lattice.dimensions[std::size_t(axis)]);
+      p[axis] = double(std::int64_t(u * (1.0 / quantum))) * quantum;
+    }
+  }
+  return points;
+}
+
+/// Compares with sums in integers of quanta. @pre unit voxels from the origin, quantised points.
+inline void expectExact(const std::vector<Vec3>& points, const Lattice& lattice, const RunResult& result)
+{
+  __extension__ typedef __int128 Wide;
+  std::vector<std::pair<std::uint64_t, std::size_t>> members;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (lattice.contains(points[i]))
+    {
+      const Vec3& p = points[i];
+      members.emplace_back(lattice.key(std::int64_t(p.x), std::int64_t(p.y), std::int64_t(p.z)), i);
+    }
+  }
+  std::sort(members.begin(), members.end());
+  const LevelResult& level = result.levels[0];
+  EXPECT_EQ(result.clipped, std::int64_t(points.size() - members.size()));
+  std::size_t v = 0;
+  for (std::size_t begin = 0; begin < members.size(); ++v)
+  {
+    const std::uint64_t key = members[begin].first;
+    const auto index = lattice.indexOf(key);
+    std::size_t end = begin;
+    Wide first[3] = { 0, 0, 0 };
+    Wide second[6] = { 0, 0, 0, 0, 0, 0 };
+    const int rows[6] = { 0, 1, 2, 0, 1, 0 };
+    const int columns[6] = { 0, 1, 2, 1, 2, 2 };
+    for (; end < members.size() && members[end].first == key; ++end)
+    {
+      Wide place[3];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double inVoxel = points[members[end].second][axis] - double(index[std::size_t(axis)]);
+        place[axis] = Wide(inVoxel / kQuantum);
+        first[axis] += place[axis];
+      }
+      for (int m = 0; m < 6; ++m)
+      {
+        second[m] += place[rows[m]] * place[columns[m]];
+      }
+    }
+    const auto count = std::int64_t(end - begin);
+    begin = end;
+    ASSERT_LT(v, level.counts.size());
+    ASSERT_EQ(level.keys[v], key);
+    ASSERT_EQ(level.counts[v], count) << "voxel " << v;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double expected = double(
+        (long double)index[std::size_t(axis)] + (long double)first[axis] / (long double)count * kQuantum);
+      ASSERT_NEAR(level.means[3 * v + std::size_t(axis)], expected, 4e-16 * (expected + 1.0))
+        << "voxel " << v;
+    }
+    if (level.covariances.empty())
+    {
+      continue;
+    }
+    const SymMat3& c = level.covariances[v];
+    const double got[6] = { c.xx, c.yy, c.zz, c.xy, c.yz, c.xz };
+    for (int m = 0; m < 6; ++m)
+    {
+      const Wide central = second[m] * count - first[rows[m]] * first[columns[m]];
+      const double expected =
+        double((long double)central / (long double)count / (long double)count) * kQuantum * kQuantum;
+      ASSERT_NEAR(got[m], expected, 1e-15 * std::fabs(expected) + 1e-18) << "voxel " << v << " moment " << m;
+    }
+  }
+  EXPECT_EQ(v, level.counts.size());
+}
+
+} // namespace trial
+} // namespace pointhaptics

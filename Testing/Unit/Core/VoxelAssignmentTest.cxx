@@ -1,0 +1,246 @@
+// What VoxelResampler tells beside means: coarser levels, parents, and which voxel each point is in.
+#include "Core/PointIndex.h"
+#include "Core/VoxelResampler.h"
+
+#include "RandomClouds.h"
+#include "ResamplerRuns.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+using namespace pointhaptics;
+using namespace pointhaptics::trial;
+
+namespace
+{
+
+VoxelRequest requestFor(const std::vector<Vec3>& points, const Lattice& lattice)
+{
+  VoxelRequest request;
+  request.points = { points.data(), std::int64_t(points.size()) };
+  request.lattice = lattice;
+  request.keys = true;
+  request.covariances = true;
+  return request;
+}
+
+/// Every level is what the resampling of the points at its lattice gives, and parents fit.
+void expectLevelsAreDirect(const VoxelRequest& request, const Executor& executor = {})
+{
+  VoxelResampler resampler;
+  const RunResult all = runOf(resampler, request, executor);
+  for (int l = 1; l < request.levels; ++l)
+  {
+    const Lattice& fine = resampler.lattice(l - 1);
+    const Lattice& coarse = resampler.lattice(l);
+    VoxelRequest direct = request;
+    direct.lattice = coarse;
+    direct.levels = 1;
+    const std::string what = nameOf(request.lattice) + " at " + nameOf(coarse);
+    const LevelResult& level = all.levels[std::size_t(l)];
+    expectSameVoxels(level, runOf(direct).levels[0], what);
+    const LevelResult& finer = all.levels[std::size_t(l - 1)];
+    ASSERT_EQ(level.parents.size(), finer.keys.size());
+    const bool repeated = fine.dimensions == std::array<std::int64_t, 3>{ 1, 1, 1 };
+    for (std::size_t v = 0; v < finer.keys.size(); ++v)
+    {
+      auto index = fine.indexOf(finer.keys[v]);
+      for (std::int64_t& i : index)
+      {
+        i = repeated ? i : i / 2;
+      }
+      const auto parent = std::size_t(level.parents[v]);
+      ASSERT_LT(parent, level.keys.size());
+      ASSERT_EQ(level.keys[parent], coarse.key(index[0], index[1], index[2])) << what;
+    }
+  }
+}
+
+/// Every point inside is told once, with the voxel that has its key; no voxel to two threads at a time.
+void expectAssigned(const VoxelRequest& request, const Executor& executor)
+{
+  const std::string what = nameOf(request.lattice) + (request.index ? " with an index" : "");
+  VoxelResampler resampler;
+  const RunResult result = runOf(resampler, request, executor);
+  const LevelResult& level = result.levels[0];
+  const auto points = std::size_t(request.points.size());
+  std::vector<std::atomic<std::int64_t>> voxelOf(points);
+  for (auto& voxel : voxelOf)
+  {
+    voxel = -1;
+  }
+  std::vector<std::atomic<int>> busy(level.keys.size());
+  std::atomic<std::int64_t> faults{ 0 };
+  const auto visit = [&](const std::int64_t* who, const std::int64_t* voxels, int count)
+  {
+    const auto inRange = [&](int i)
+    {
+      return who[i] >= 0 && std::size_t(who[i]) < points && voxels[i] >= 0 &&
+        std::size_t(voxels[i]) < busy.size();
+    };
+    std::vector<std::int64_t> taken;
+    for (int i = 0; i < count; ++i)
+    {
+      if (!inRange(i))
+      {
+        ++faults;
+        continue;
+      }
+      faults += voxelOf[std::size_t(who[i])].exchange(voxels[i]) != -1;
+      taken.push_back(voxels[i]);
+    }
+    std::sort(taken.begin(), taken.end());
+    taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
+    for (const std::int64_t voxel : taken)
+    {
+      faults += busy[std::size_t(voxel)].exchange(1) != 0;
+    }
+    for (const std::int64_t voxel : taken)
+    {
+      busy[std::size_t(voxel)] = 0;
+    }
+  };
+  ASSERT_EQ(resampler.assign(request, visit, executor), Status::Ok);
+  EXPECT_EQ(faults, 0) << what;
+  std::vector<std::int64_t> counts(level.counts.size(), 0);
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    const Vec3 u = request.lattice.continuousIndex(request.points[std::int64_t(i)]);
+    const std::int64_t voxel = voxelOf[i];
+    ASSERT_EQ(voxel >= 0, request.lattice.contains(u)) << what << " point " << i;
+    if (voxel >= 0)
+    {
+      ASSERT_EQ(level.keys[std::size_t(voxel)],
+        request.lattice.key(std::int64_t(u.x), std::int64_t(u.y), std::int64_t(u.z)))
+        << what;
+      ++counts[std::size_t(voxel)];
+    }
+  }
+  EXPECT_EQ(counts, level.counts) << what;
+  expectSame(runOf(resampler, request, executor), result, what + " run again");
+}
+
+} // namespace
+
+TEST(VoxelLevels, AreWhatDirectResamplingGivesBitForBit)
+{
+  const std::vector<Vec3> points = randomBox(6000, 1, { -0.01, 0, 0 }, { 1, 1, 1.01 });
+  for (Lattice lattice : { latticeOf(300, 300, 300), latticeOf(7, 1, 33), latticeOf(1024, 1023, 1024),
+         latticeOf(4096, 4095, 300), latticeOf(3, 3, 3), latticeOf(1, 1, 1) })
+  {
+    lattice.origin = { 0.003, -0.001, 0.002 };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lattice.spacing[axis] = 0.99 / double(lattice.dimensions[std::size_t(axis)]);
+    }
+    VoxelRequest request = requestFor(points, lattice);
+    request.levels = 14;
+    request.transform = AffineTransform::rotation(3, { 1, 1, 0 });
+    expectLevelsAreDirect(request, ThreadedExecutor(2));
+    request.singlePrecision = true;
+    request.levels = 4;
+    expectLevelsAreDirect(request);
+  }
+}
+
+TEST(VoxelLevels, AreWhatDirectResamplingGivesOnTheFinestLattices)
+{
+  const Lattice lattice = latticeOf(kMaximumLatticeDimension, 5, 3);
+  const std::vector<Vec3> points =
+    randomBox(3000, 2, { 0, 0, 0 }, { double(kMaximumLatticeDimension), 5, 3 });
+  VoxelRequest request = requestFor(points, lattice);
+  request.levels = 9; // 8192 voxels: positions have as many bits on all of these.
+  expectLevelsAreDirect(request);
+}
+
+TEST(VoxelLevels, LoseNothingWherePointsFitTheQuantaOnBothSidesOfTheBorder)
+{
+  for (const Lattice& lattice : { latticeOf(5000, 3, 2), latticeOf(kMaximumLatticeDimension, 5, 3) })
+  {
+    const std::vector<Vec3> points = quantisedPoints(3000, 3, lattice, 0x1p-22);
+    VoxelRequest request = requestFor(points, lattice);
+    request.covariances = false; // Those are rounded from other quanta.
+    request.levels = 22;
+    expectLevelsAreDirect(request);
+  }
+}
+
+TEST(VoxelLevels, AreWhatDirectResamplingGivesForMoreThanAChunk)
+{
+  for (const Lattice& lattice : { latticeOf(20, 30, 40), latticeOf(1024, 1024, 1024) })
+  {
+    const std::vector<Vec3> points = quantisedPoints(1010000, 3, lattice);
+    VoxelRequest request = requestFor(points, lattice);
+    request.levels = 2;
+    expectLevelsAreDirect(request);
+  }
+}
+
+TEST(VoxelLevels, StopAtOneVoxelAndRepeatIt)
+{
+  const std::vector<Vec3> points = randomBox(100, 4, { 0, 0, 0 }, { 5, 5, 5 });
+  VoxelRequest request = requestFor(points, latticeOf(5, 5, 5));
+  request.levels = 22;
+  VoxelResampler resampler;
+  const RunResult result = runOf(resampler, request);
+  for (int l = 4; l < 22; ++l)
+  {
+    EXPECT_EQ(nameOf(resampler.lattice(l)), "1x1x1");
+    expectSameVoxels(result.levels[std::size_t(l)], result.levels[3], "level " + std::to_string(l));
+  }
+}
+
+TEST(VoxelAssignment, TellsEveryPointInsideOnceOnEveryPath)
+{
+  for (const Lattice& lattice : latticesOfAllPaths())
+  {
+    std::vector<Vec3> points = quantisedPoints(10000, 5, lattice);
+    points[5].x = NAN;
+    points[9000].z = INFINITY;
+    VoxelRequest request = requestFor(points, lattice);
+    expectAssigned(request, {});
+    expectAssigned(request, ThreadedExecutor(3));
+    PointIndex index;
+    ASSERT_EQ(index.build(request.points), Status::Ok);
+    request.index = &index;
+    expectAssigned(request, ThreadedExecutor(2));
+    request.lattice.end = 0.3 * Vec3(double(lattice.dimensions[0]), double(lattice.dimensions[1]), 1e9);
+    request.lattice.end.z = INFINITY;
+    expectAssigned(request, BackwardExecutor(5));
+  }
+}
+
+TEST(VoxelAssignment, TellsEveryPointOfMoreThanAChunk)
+{
+  const Lattice lattice = latticeOf(1000, 1000, 1000);
+  const std::vector<Vec3> points = quantisedPoints(1300000, 6, lattice);
+  VoxelRequest request = requestFor(points, lattice);
+  request.covariances = false;
+  PointIndex index;
+  ASSERT_EQ(index.build(request.points), Status::Ok);
+  request.index = &index;
+  request.lattice.origin = { 20, 30, 10 };
+  request.lattice.dimensions = { 970, 960, 980 };
+  expectAssigned(request, ThreadedExecutor(2));
+}
+
+TEST(VoxelAssignment, AnIndexChangesNoBit)
+{
+  std::vector<Vec3> points = randomBox(40000, 7, { -1, -1, -1 }, { 1, 1, 1 });
+  points[77].y = -INFINITY;
+  PointIndex index;
+  ASSERT_EQ(index.build({ points.data(), 40000 }), Status::Ok);
+  Random random(8);
+  for (int i = 0; i < 30; ++i)
+  {
+    VoxelRequest request =
+      requestFor(points, i % 2 == 0 ? latticeOf(60, 70, 80) : latticeOf(1024, 1024, 300));
+    request.transform = AffineTransform::translation(random.inBox({ 0, 0, 0 }, { 100, 100, 100 })) *
+      AffineTransform::rotation(random.uniform(0, 360), random.direction()) *
+      AffineTransform::scaling(random.inBox({ 5, -500, 50 }, { 300, 700, 900 }));
+    const RunResult expected = runOf(request);
+    request.index = &index;
+    expectSame(runOf(request, ThreadedExecutor(2)), expected, "transform " + std::to_string(i));
+  }
+}

@@ -1,0 +1,354 @@
+#include "Core/VoxelResampler.h"
+
+#include "Core/PointIndex.h"
+#include "RandomClouds.h"
+#include "ResamplerRuns.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace pointhaptics;
+using namespace pointhaptics::trial;
+
+namespace
+{
+
+VoxelRequest requestFor(const std::vector<Vec3>& points, const Lattice& lattice, bool covariances = true)
+{
+  VoxelRequest request;
+  request.points = { points.data(), std::int64_t(points.size()) };
+  request.lattice = lattice;
+  request.keys = true;
+  request.covariances = covariances;
+  return request;
+}
+
+/// Thirteen of sixteen points are in one voxel.
+std::vector<Vec3> crowdedPoints(std::size_t n, const Lattice& lattice, const Vec3& voxel)
+{
+  std::vector<Vec3> points = quantisedPoints(n, 1, lattice);
+  Random random(2);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    for (int axis = 0; axis < 3 && i % 16 < 13; ++axis)
+    {
+      points[i][axis] = voxel[axis] + double(std::int64_t(random.uniform(0.3, 1.0) / kQuantum)) * kQuantum;
+    }
+  }
+  return points;
+}
+
+AffineTransform generalTransform(double scale)
+{
+  return AffineTransform::translation(scale * Vec3(0.5, 0.4, 0.6)) *
+    AffineTransform::rotation(33, { 1, 2, -1 }) * AffineTransform::scaling(scale * Vec3(0.5, -0.7, 0.6));
+}
+
+/// Keeps the fractions it hears and ends the work at one of them.
+class CountingWatcher : public Watcher
+{
+public:
+  explicit CountingWatcher(std::size_t last = ~std::size_t(0))
+    : last_(last)
+  {
+  }
+  bool proceed(double fraction) override
+  {
+    fractions.push_back(fraction);
+    return fractions.size() < last_;
+  }
+  std::vector<double> fractions;
+
+private:
+  std::size_t last_;
+};
+
+void expectAscendToOne(const std::vector<double>& fractions, std::size_t atLeast)
+{
+  ASSERT_GE(fractions.size(), atLeast);
+  EXPECT_GE(fractions.front(), 0.0);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_EQ(fractions.back(), 1.0);
+}
+
+} // namespace
+
+TEST(VoxelResampler, SumsMillionsOfPointsInOneVoxelExactlyWithTheirProductsOrWithout)
+{
+  const Lattice lattice = latticeOf(300, 300, 300);
+  const std::vector<Vec3> points = crowdedPoints(3200000, lattice, { 123, 45, 299 });
+  const RunResult with = runOf(requestFor(points, lattice, true));
+  expectExact(points, lattice, with);
+  RunResult without = runOf(requestFor(points, lattice, false));
+  without.levels[0].covariances = with.levels[0].covariances;
+  expectSame(without, with, "without covariances");
+}
+
+TEST(VoxelResampler, SumsMillionsOfPointsInOneOfFewVoxelsExactly)
+{
+  for (const Lattice& lattice : { latticeOf(5, 5, 5), latticeOf(4, 4, 4) })
+  {
+    const std::vector<Vec3> points = crowdedPoints(2200000, lattice, { 3, 0, 3 });
+    expectExact(points, lattice, runOf(requestFor(points, lattice, false)));
+  }
+}
+
+TEST(VoxelResampler, IsExactOnEveryPath)
+{
+  for (const Lattice& lattice : latticesOfAllPaths())
+  {
+    SCOPED_TRACE(nameOf(lattice));
+    const std::vector<Vec3> points = quantisedPoints(20000, 3, lattice);
+    expectExact(points, lattice, runOf(requestFor(points, lattice)));
+  }
+}
+
+TEST(VoxelResampler, IsExactForMoreThanAChunkOfScatteredPoints)
+{
+  for (const Lattice& lattice :
+    { latticeOf(300, 300, 300), latticeOf(2048, 2048, 300), latticeOf(5000, 300, 200) })
+  {
+    SCOPED_TRACE(nameOf(lattice));
+    const bool takesSmallChunks = lattice.dimensions[0] > 4096;
+    const std::vector<Vec3> points = quantisedPoints(takesSmallChunks ? 300000 : 1010000, 4, lattice);
+    expectExact(points, lattice, runOf(requestFor(points, lattice)));
+  }
+}
+
+TEST(VoxelResampler, GivesTheSameBitsForEveryOrderExecutorAndInstructionSet)
+{
+  for (const Lattice& lattice : latticesOfAllPaths())
+  {
+    const auto& d = lattice.dimensions;
+    const std::vector<Vec3> points =
+      randomBox(12000, 5, { 0, 0, 0 }, Vec3(double(d[0]), double(d[1]), 1.01 * double(d[2])));
+    VoxelRequest request = requestFor(points, lattice);
+    const RunResult expected = runOf(request);
+    for (const InstructionSet set :
+      { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+    {
+      request.instructions = set;
+      expectSame(runOf(request), expected, nameOf(lattice) + " set " + std::to_string(int(set)));
+      expectSame(runOf(request, ThreadedExecutor(3)), expected, nameOf(lattice) + " on three threads");
+    }
+    request.instructions = InstructionSet::Automatic;
+    expectSame(runOf(request, BackwardExecutor(7)), expected, nameOf(lattice) + " backward");
+    std::vector<Vec3> shuffled;
+    for (const std::size_t i : randomOrder(points.size(), 6))
+    {
+      shuffled.push_back(points[i]);
+    }
+    expectSame(runOf(requestFor(shuffled, lattice)), expected, nameOf(lattice) + " shuffled");
+  }
+}
+
+TEST(VoxelResampler, GivesTheSameBitsUnderAGeneralTransformInBothPrecisions)
+{
+  const std::vector<Vec3> points = randomBox(30000, 7, { -1, -1, -1 }, { 1, 1, 1 });
+  for (const Lattice& lattice : { latticeOf(300, 300, 300), latticeOf(4096, 4096, 4096) })
+  {
+    for (const bool single : { false, true })
+    {
+      VoxelRequest request = requestFor(points, lattice);
+      request.transform = generalTransform(double(lattice.dimensions[0]));
+      request.singlePrecision = single;
+      const RunResult expected = runOf(request);
+      ASSERT_GT(expected.levels[0].counts.size(), 1000u);
+      for (const InstructionSet set :
+        { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+      {
+        request.instructions = set;
+        expectSame(runOf(request, ThreadedExecutor(2)), expected, nameOf(lattice));
+      }
+    }
+  }
+}
+
+TEST(VoxelResampler, GivesTheSameBitsForChunksInAnyOrder)
+{
+  for (const Lattice& lattice : { latticeOf(40, 50, 60), latticeOf(1024, 1024, 1024) })
+  {
+    const std::vector<Vec3> points = quantisedPoints(1100000, 8, lattice);
+    const RunResult expected = runOf(requestFor(points, lattice), ThreadedExecutor(2));
+    const std::vector<Vec3> reversed(points.rbegin(), points.rend());
+    expectSame(runOf(requestFor(reversed, lattice)), expected, nameOf(lattice));
+  }
+}
+
+TEST(VoxelResampler, FloatMeansLieInTheirVoxelsAndRoundTheDoubleOnes)
+{
+  Random random(9);
+  std::vector<Vec3> points;
+  Lattice lattice = latticeOf(50, 50, 50);
+  lattice.origin = { 4600000, -512700, 0 };
+  lattice.spacing = { 1, 0.25, 1.0 / 3.0 };
+  for (int i = 0; i < 20000; ++i)
+  {
+    Vec3 p;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double u = double(random.below(50)) + 1.0 - 0.02 * random.uniform() * random.uniform();
+      p[axis] = lattice.origin[axis] + std::nextafter(u, 0.0) * lattice.spacing[axis];
+    }
+    points.push_back(p);
+  }
+  VoxelRequest request = requestFor(points, lattice);
+  const LevelResult doubles = runOf(request).levels[0];
+  request.singlePrecision = true;
+  const LevelResult floats = runOf(request).levels[0];
+  ASSERT_EQ(floats.keys, doubles.keys);
+  for (std::size_t v = 0; v < floats.keys.size(); ++v)
+  {
+    const auto index = lattice.indexOf(floats.keys[v]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const float f = floats.floats[3 * v + axis];
+      const double u = (double(f) - lattice.origin[int(axis)]) / lattice.spacing[int(axis)];
+      ASSERT_EQ(std::floor(u), double(index[axis])) << "voxel " << v << " axis " << axis;
+      const float ulp = std::nextafter(std::fabs(f), INFINITY) - std::fabs(f);
+      ASSERT_NEAR(double(f), doubles.means[3 * v + axis], double(ulp));
+    }
+  }
+}
+
+TEST(VoxelResampler, OneObjectDoesWhatAFreshOneDoesWhateverItDidBefore)
+{
+  const std::vector<Vec3> points = randomBox(20000, 10, { 0, 0, 0 }, { 70, 70, 70 });
+  VoxelResampler reused;
+  int step = 0;
+  for (int round = 0; round < 2; ++round)
+  {
+    for (const Lattice& lattice : latticesOfAllPaths())
+    {
+      for (const int options : { 0, 3, 5, 6 })
+      {
+        VoxelRequest request = requestFor(points, lattice, (options & 1) != 0);
+        request.singlePrecision = (options & 2) != 0;
+        request.levels = (options & 4) != 0 ? 4 : 1;
+        request.points = { points.data(), 20000 - 37 * step };
+        const ThreadedExecutor threads(1 + step % 3);
+        expectSame(runOf(reused, request, threads), runOf(request), nameOf(lattice));
+        step = (step + 1) % 100;
+      }
+    }
+    VoxelResampler moved = std::move(reused);
+    reused = std::move(moved);
+  }
+}
+
+TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
+{
+  for (const Lattice& lattice : { latticeOf(60, 60, 60), latticeOf(1024, 1024, 1024), latticeOf(5000, 3, 2) })
+  {
+    const std::vector<Vec3> points =
+      quantisedPoints(lattice.dimensions[0] > 4096 ? 300000 : 1010000, 11, lattice);
+    const VoxelRequest request = requestFor(points, lattice);
+    VoxelResampler resampler;
+    CountingWatcher once(1);
+    EXPECT_EQ(resampler.run(request, {}, &once), Status::Aborted);
+    EXPECT_EQ(once.fractions.size(), 1u);
+    EXPECT_EQ(resampler.size(), 0);
+    EXPECT_EQ(resampler.clippedPoints(), 0);
+    EXPECT_EQ(resampler.invalidPoints(), 0);
+    VoxelRequest less = request;
+    less.points = { points.data(), 50000 };
+    expectSame(runOf(resampler, less), runOf(less), nameOf(lattice));
+    CountingWatcher again(1);
+    EXPECT_EQ(resampler.assign(
+                less, [](const std::int64_t*, const std::int64_t*, int) {}, {}, nullptr),
+      Status::Ok);
+    EXPECT_EQ(resampler.run(request), Status::Ok);
+    EXPECT_EQ(resampler.assign(
+                request, [](const std::int64_t*, const std::int64_t*, int) {}, {}, &again),
+      Status::Aborted);
+  }
+}
+
+TEST(VoxelResampler, FractionsAscendToOne)
+{
+  for (const Lattice& lattice : { latticeOf(60, 60, 60), latticeOf(5000, 3, 2) })
+  {
+    const std::vector<Vec3> points = quantisedPoints(2000001, 12, lattice);
+    VoxelRequest request = requestFor(points, lattice, false);
+    request.levels = 3;
+    VoxelResampler resampler;
+    CountingWatcher watcher;
+    ASSERT_EQ(resampler.run(request, ThreadedExecutor(2), &watcher), Status::Ok);
+    expectAscendToOne(watcher.fractions, 3);
+  }
+}
+
+TEST(VoxelResampler, TellsAndFreesItsScratch)
+{
+  const std::vector<Vec3> points = randomBox(50000, 13, { 0, 0, 0 }, { 300, 300, 300 });
+  const VoxelRequest request = requestFor(points, latticeOf(300, 300, 300));
+  VoxelResampler resampler;
+  EXPECT_EQ(resampler.scratchBytes(), 0u);
+  const RunResult expected = runOf(resampler, request);
+  const std::size_t bytes = resampler.scratchBytes();
+  EXPECT_GT(bytes, std::size_t(50000 * 16));
+  runOf(resampler, request);
+  EXPECT_EQ(resampler.scratchBytes(), bytes) << "the same again needs no more";
+  resampler.releaseScratch();
+  EXPECT_EQ(resampler.scratchBytes(), 0u);
+  EXPECT_EQ(resampler.size(), 0);
+  expectSame(runOf(resampler, request), expected, "after releaseScratch()");
+}
+
+TEST(VoxelResampler, RefusesWhatItCannotDoAndHasNoVoxelsThen)
+{
+  const std::vector<Vec3> points = randomBox(100, 14, { 0, 0, 0 }, { 3, 3, 3 });
+  const VoxelRequest good = requestFor(points, latticeOf(3, 3, 3));
+  VoxelResampler resampler;
+  const auto expectRefused = [&](const VoxelRequest& request, Status status)
+  {
+    ASSERT_EQ(resampler.run(good), Status::Ok);
+    ASSERT_GT(resampler.size(), 0);
+    EXPECT_EQ(resampler.run(request), status);
+    EXPECT_EQ(resampler.size(), 0);
+  };
+  VoxelRequest bad = good;
+  bad.levels = 0;
+  expectRefused(bad, Status::InvalidParameter);
+  bad.levels = 23;
+  expectRefused(bad, Status::InvalidParameter);
+  bad = good;
+  bad.transform = AffineTransform::scaling({ 1, 0, 1 });
+  expectRefused(bad, Status::SingularTransform);
+  bad.transform = AffineTransform::translation({ NAN, 0, 0 });
+  expectRefused(bad, Status::NonFiniteTransform);
+  bad = good;
+  bad.lattice.spacing.y = -1;
+  expectRefused(bad, Status::InvalidVoxelSize);
+  bad = good;
+  bad.lattice.dimensions[0] = kMaximumLatticeDimension + 1;
+  expectRefused(bad, Status::InvalidDimensions);
+}
+
+TEST(VoxelResampler, CloudsWithoutAPointInsideAreNoError)
+{
+  const std::vector<Vec3> outside(5, Vec3(-1, 0, 0));
+  const std::vector<Vec3> invalid(4, Vec3(0, NAN, 0));
+  for (const Lattice& lattice : latticesOfAllPaths())
+  {
+    for (const auto* points : { &outside, &invalid })
+    {
+      VoxelRequest request = requestFor(*points, lattice);
+      request.levels = 3;
+      VoxelResampler resampler;
+      const RunResult result = runOf(resampler, request);
+      EXPECT_EQ(result.clipped, points == &outside ? 5 : 0);
+      EXPECT_EQ(result.invalid, points == &outside ? 0 : 4);
+      EXPECT_EQ(resampler.size(0) + resampler.size(1) + resampler.size(2), 0);
+    }
+    VoxelRequest none = requestFor({}, lattice);
+    none.levels = 2;
+    CountingWatcher watcher;
+    VoxelResampler resampler;
+    EXPECT_EQ(resampler.run(none, {}, &watcher), Status::Ok);
+    EXPECT_EQ(resampler.size(0) + resampler.size(1), 0);
+    EXPECT_EQ(
+      resampler.assign(none, [](const std::int64_t*, const std::int64_t*, int) { FAIL(); }), Status::Ok);
+  }
+}
