@@ -2,9 +2,6 @@
 /// Rules of kernel density estimation: from the spread of a sample to a kernel bandwidth.
 #pragma once
 
-#include "Core/Executor.h"
-#include "Core/NeighborQuery.h"
-#include "Core/PointView.h"
 #include "Core/SheatherJones.h"
 #include "Core/Status.h"
 
@@ -69,31 +66,5 @@ struct BandwidthScratch
 /// SilvermanRobust instead of @p fallback. Cost: a sort; for SheatherJones see there.
 Status sampleBandwidth(BandwidthRule rule, const double* sample, std::int64_t count,
   BandwidthScratch& scratch, double& result, double fallback = kBandwidthWithoutSpread);
-
-/// How local bandwidths and proxy radii are found.
-struct LocalBandwidthSettings
-{
-  bool fixedRadius = false;   ///< Else the k nearest.
-  int numberOfNeighbors = 16; ///< Besides the point itself; at least 1.
-  double radius = 0.001;      ///< Of the fixed neighbourhood, above 0.
-  BandwidthRule rule = BandwidthRule::NormalReference;
-  double radiusScale = 4.0;   ///< beta, above 0.
-  double minimumRadius = 0.0; ///< r1; 0: kNoSinkSpacings local spacings.
-  double maximumRadius = 0.0; ///< r2; 0: none.
-  Status check() const noexcept;
-};
-
-/// The widest gap of a random sample of up to 1e5 points is 2.2 spacings: a smaller sphere falls through.
-constexpr double kNoSinkSpacings = 2.2;
-
-/// b and r_p = clamp(beta b, r1, r2) at each of @p points (both outputs are resized). s = sqrt(trace(C) / 2),
-/// C the sample covariance of the neighbourhood with the point itself; for SilvermanRobust and SheatherJones
-/// the sample is the neighbours' distances. Local spacing = sqrt(pi / k) times the distance of the k-th
-/// neighbour. A neighbourhood without spread gets r1 (automatic: the smallest radius found elsewhere, or 1e-3
-/// of the cloud's extent, or 1e-3) and b = r1 / beta. Points that are not finite get 0. Independent of @p
-/// executor. @p query must be built on @p points.
-Status localBandwidths(const PointView& points, const NeighborQuery& query,
-  const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
-  const Executor& executor = {});
 
 } // namespace pointhaptics

@@ -1,96 +1,232 @@
 #include "Core/NeighborQuery.h"
 
+#include "Core/NeighborKernel.h"
+#include "Core/SpatialOrder.h"
+
 #include <algorithm>
 
 namespace pointhaptics
 {
-
-void NeighborQuery::build(const PointView& points)
+namespace
 {
-  nodes_.clear();
-  nodes_.reserve(std::size_t(points.size()));
-  for (std::int64_t i = 0; i < points.size(); ++i)
-  {
-    const Vec3 p = points[i];
-    if (isFinite(p))
-    {
-      nodes_.push_back({ p, i, 0 });
-    }
-  }
-  split(0, size());
+
+using kernel::BoxGroup;
+using kernel::kBranches;
+using kernel::kLeafPoints;
+
+static_assert(NeighborQuery::kMostPoints == kMostOrderedPoints, "the order takes as many");
+
+std::int64_t quotientUp(std::int64_t a, std::int64_t b)
+{
+  return (a + b - 1) / b;
 }
 
-/// Halves the longest axis at the median, again and again; the depth is the logarithm of the size.
-void NeighborQuery::split(std::int64_t first, std::int64_t last)
+void setBox(BoxGroup& group, int box, const Bounds& bounds, std::uint32_t firstIndex)
 {
-  if (last - first <= kLeafSize)
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    group.low[axis][box] = bounds.minimum[axis];
+    group.high[axis][box] = bounds.maximum[axis];
+  }
+  group.firstIndex[box] = firstIndex;
+}
+
+}
+
+void NeighborQuery::build(const PointView& points, const Executor& executor)
+{
+  tree_ = {};
+  kernels_ = &kernel::neighborKernels();
+  indices_ = spatialOrder(points, kLeafPoints, executor);
+  tree_.size = std::int64_t(indices_.size());
+  tree_.indices = indices_.data();
+  if (tree_.size == 0)
   {
     return;
   }
-  Bounds box;
-  for (std::int64_t i = first; i < last; ++i)
+  copyPoints(points, executor);
+  std::int64_t boxes = quotientUp(tree_.size, kLeafPoints);
+  do
   {
-    box.include(nodes_[std::size_t(i)].point);
+    const int level = tree_.levels++;
+    tree_.boxes[level] = boxes;
+    boxes = quotientUp(boxes, kBranches);
+    groups_[level].resize(std::size_t(boxes));
+    tree_.groups[level] = groups_[level].data();
+    level == 0 ? boundLeaves(executor) : boundGroups(level, executor);
+  } while (boxes > 1);
+}
+
+void NeighborQuery::copyPoints(const PointView& points, const Executor& executor)
+{
+  const std::size_t padded = std::size_t(quotientUp(tree_.size, kLeafPoints) * kLeafPoints);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    places_[axis].resize(padded);
+    std::fill(places_[axis].begin() + tree_.size, places_[axis].end(), NAN);
+    tree_.places[axis] = places_[axis].data();
   }
-  const Vec3 extent = box.extent();
-  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-  const std::int64_t middle = first + (last - first) / 2;
-  std::nth_element(nodes_.begin() + first, nodes_.begin() + middle, nodes_.begin() + last,
-    [axis](const Node& a, const Node& b)
-    { return a.point[axis] != b.point[axis] ? a.point[axis] < b.point[axis] : a.index < b.index; });
-  nodes_[std::size_t(middle)].axis = axis;
-  split(first, middle);
-  split(middle + 1, last);
+  forRange(executor, tree_.size,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t slot = begin; slot < end; ++slot)
+      {
+        const Vec3 p = points[index(slot)];
+        places_[0][std::size_t(slot)] = p.x;
+        places_[1][std::size_t(slot)] = p.y;
+        places_[2][std::size_t(slot)] = p.z;
+      }
+    });
+}
+
+void NeighborQuery::boundLeaves(const Executor& executor)
+{
+  forRange(executor, tree_.boxes[0], kSmallestPiece / kLeafPoints,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t leaf = begin; leaf < end; ++leaf)
+      {
+        Bounds bounds;
+        const std::int64_t first = leaf * kLeafPoints;
+        const std::int64_t last = std::min(first + kLeafPoints, tree_.size);
+        for (std::int64_t slot = first; slot < last; ++slot)
+        {
+          bounds.include(point(slot));
+        }
+        const std::uint32_t least = *std::min_element(indices_.begin() + first, indices_.begin() + last);
+        setBox(groups_[0][std::size_t(leaf / kBranches)], int(leaf % kBranches), bounds, least);
+      }
+    });
+}
+
+void NeighborQuery::boundGroups(int level, const Executor& executor)
+{
+  forRange(executor, tree_.boxes[level],
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t child = begin; child < end; ++child)
+      {
+        const BoxGroup& below = groups_[level - 1][std::size_t(child)];
+        const int boxes = kernel::boxesOf(tree_, level - 1, child);
+        Bounds bounds;
+        for (int box = 0; box < boxes; ++box)
+        {
+          bounds.include({ below.low[0][box], below.low[1][box], below.low[2][box] });
+          bounds.include({ below.high[0][box], below.high[1][box], below.high[2][box] });
+        }
+        const std::uint32_t least = *std::min_element(below.firstIndex, below.firstIndex + boxes);
+        setBox(groups_[level][std::size_t(child / kBranches)], int(child % kBranches), bounds, least);
+      }
+    });
 }
 
 int NeighborQuery::nearest(const Vec3& center, int k, Neighbor* neighbors) const noexcept
 {
-  int count = 0;
-  if (k > 0 && !nodes_.empty())
+  const int count = nearestSlots(center, k, neighbors);
+  for (int i = 0; i < count; ++i)
   {
-    search(0, size(), center, k, neighbors, count);
-    std::sort_heap(neighbors, neighbors + count);
+    neighbors[i].index >>= kSlotBits;
   }
   return count;
 }
 
-void NeighborQuery::search(
-  std::int64_t first, std::int64_t last, const Vec3& center, int k, Neighbor* heap, int& count) const noexcept
+/// The best so far: sorted where they are few, else a heap.
+struct NeighborQuery::Search
 {
-  const auto offer = [&](const Node& node)
+  double center[3];
+  int k;
+  Neighbor* best;
+  int count;
+
+  static constexpr int kFew = 64;
+
+  bool few() const { return k <= kFew; }
+  bool full() const { return count == k; }
+  const Neighbor& worst() const { return few() ? best[count - 1] : best[0]; }
+  double reach() const { return full() ? worst().squaredDistance : INFINITY; }
+
+  void offer(const Neighbor& candidate)
   {
-    const Neighbor candidate = { norm2(node.point - center), node.index };
-    if (count < k)
+    if (full() && !(candidate < worst()))
     {
-      heap[count++] = candidate;
-      std::push_heap(heap, heap + count);
+      return;
     }
-    else if (candidate < heap[0])
-    {
-      std::pop_heap(heap, heap + count);
-      heap[count - 1] = candidate;
-      std::push_heap(heap, heap + count);
-    }
-  };
-  if (last - first <= kLeafSize)
-  {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      offer(nodes_[std::size_t(i)]);
-    }
-    return;
+    few() ? insert(candidate) : push(candidate);
   }
-  const std::int64_t middle = first + (last - first) / 2;
-  const Node& node = nodes_[std::size_t(middle)];
-  const double side = center[node.axis] - node.point[node.axis];
-  // The half the centre lies in first; the other only if the ball of the k-th neighbour reaches it. Equal
-  // distance counts as reaching: a smaller index may wait there.
-  const bool lowFirst = side < 0.0;
-  search(lowFirst ? first : middle + 1, lowFirst ? middle : last, center, k, heap, count);
-  offer(node);
-  if (count < k || side * side <= heap[0].squaredDistance)
+  void insert(const Neighbor& candidate)
   {
-    search(lowFirst ? middle + 1 : first, lowFirst ? last : middle, center, k, heap, count);
+    int to = full() ? count - 1 : count++;
+    for (; to > 0 && candidate.squaredDistance < best[to - 1].squaredDistance; --to)
+    {
+      best[to] = best[to - 1];
+    }
+    for (; to > 0 && candidate < best[to - 1]; --to)
+    {
+      best[to] = best[to - 1];
+    }
+    best[to] = candidate;
+  }
+  void push(const Neighbor& candidate)
+  {
+    if (full())
+    {
+      std::pop_heap(best, best + count--);
+    }
+    best[count++] = candidate;
+    std::push_heap(best, best + count);
+  }
+};
+
+int NeighborQuery::nearestSlots(const Vec3& center, int k, Neighbor* neighbors) const noexcept
+{
+  Search search{ { center.x, center.y, center.z }, k, neighbors, 0 };
+  if (k > 0 && size() > 0)
+  {
+    searchGroup(tree_.levels - 1, 0, search);
+    if (!search.few())
+    {
+      std::sort_heap(neighbors, neighbors + search.count);
+    }
+  }
+  return search.count;
+}
+
+/// Boxes nearer first; of those as near as the k-th neighbour only those that may hold a smaller index.
+void NeighborQuery::searchGroup(int level, std::int64_t group, Search& search) const noexcept
+{
+  const BoxGroup& boxes = tree_.groups[level][group];
+  double gaps[kBranches];
+  kernels_->groupGaps(boxes, search.center, gaps);
+  for (unsigned left = (1u << kernel::boxesOf(tree_, level, group)) - 1u; left != 0;)
+  {
+    int next = __builtin_ctz(left);
+    for (unsigned others = left & (left - 1u); others != 0; others &= others - 1u)
+    {
+      const int other = __builtin_ctz(others);
+      next = gaps[other] < gaps[next] ? other : next;
+    }
+    left &= ~(1u << next);
+    const Neighbor least{ gaps[next], std::int64_t(boxes.firstIndex[next]) << kSlotBits };
+    if (search.full() && least.squaredDistance > search.worst().squaredDistance)
+    {
+      return;
+    }
+    if (!search.full() || least < search.worst())
+    {
+      const std::int64_t below = group * kBranches + next;
+      level > 0 ? searchGroup(level - 1, below, search) : searchLeaf(below, search);
+    }
+  }
+}
+
+void NeighborQuery::searchLeaf(std::int64_t leaf, Search& search) const noexcept
+{
+  double distances[kLeafPoints];
+  unsigned within = kernels_->leafDistances(tree_, leaf, search.center, search.reach(), distances);
+  for (; within != 0; within &= within - 1u)
+  {
+    const int at = __builtin_ctz(within);
+    search.offer({ distances[at], packed(leaf * kLeafPoints + at) });
   }
 }
 

@@ -3,7 +3,7 @@
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 
-#include "Core/Bandwidth.h"
+#include "Core/LocalBandwidth.h"
 #include "Core/Density.h"
 
 #include "vtkDoubleArray.h"

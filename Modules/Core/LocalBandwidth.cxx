@@ -1,0 +1,266 @@
+#include "Core/LocalBandwidth.h"
+
+#include "Core/NeighborSweep.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+/// Radius of a cloud without any extent, in its own unit.
+constexpr double kRadiusWithoutExtent = 1e-3;
+
+/// What the neighbourhood of one point says; bandwidth is 0 where it has no spread.
+struct Neighborhood
+{
+  double bandwidth = 0.0;
+  double spacing = 0.0;
+};
+
+/// One worker's memory, reused from point to point.
+class NeighborhoodReader
+{
+public:
+  NeighborhoodReader(const NeighborQuery& query, const LocalBandwidthSettings& settings)
+    : query_(query)
+    , settings_(settings)
+    , ofDistances_(
+        settings.rule == BandwidthRule::SilvermanRobust || settings.rule == BandwidthRule::SheatherJones)
+  {
+  }
+
+  /// Sums go from the nearest to the farthest: they do not depend on how the neighbours were found.
+  Neighborhood read(const NeighborList& list)
+  {
+    Neighborhood result;
+    if (list.count < 2)
+    {
+      return result;
+    }
+    const double count = double(list.count);
+    result.spacing = std::sqrt(list.squaredDistances[list.count - 1]) * std::sqrt(kPi / (count - 1.0));
+    double b = 0.0;
+    const Status status = ofDistances_ ? bandwidthOfDistances(list, b) : bandwidthOfSpread(list, b);
+    if (status == Status::Ok)
+    {
+      result.bandwidth = b;
+    }
+    return result;
+  }
+
+private:
+  /// sqrt(trace(C) / 2) about the neighbourhood's own mean.
+  double surfaceSpread(const NeighborList& list) const
+  {
+    const Vec3 center = query_.point(list.slot);
+    Vec3 sum;
+    double squares = 0.0;
+    for (int i = 0; i < list.count; ++i)
+    {
+      sum += query_.point(list.slots[i]) - center;
+      squares += list.squaredDistances[i];
+    }
+    const double n = double(list.count);
+    const double scatter = std::max(0.0, squares - norm2(sum) / n);
+    return std::sqrt(scatter / (n - 1.0) / 2.0);
+  }
+
+  Status bandwidthOfSpread(const NeighborList& list, double& b)
+  {
+    if (list.count != countOfFactor_)
+    {
+      countOfFactor_ = list.count;
+      statusOfFactor_ = bandwidth(settings_.rule, 1.0, double(list.count), 2, factor_);
+    }
+    const double s = surfaceSpread(list);
+    b = factor_ * s;
+    return b > 0.0 && std::isfinite(b) ? statusOfFactor_ : Status::DegenerateSample;
+  }
+
+  Status bandwidthOfDistances(const NeighborList& list, double& b)
+  {
+    distances_.resize(std::size_t(list.count));
+    std::transform(list.squaredDistances, list.squaredDistances + list.count, distances_.begin(),
+      [](double d2) { return std::sqrt(d2); });
+    return sampleBandwidth(settings_.rule, distances_.data(), std::int64_t(distances_.size()), scratch_, b);
+  }
+
+  const NeighborQuery& query_;
+  const LocalBandwidthSettings& settings_;
+  const bool ofDistances_;
+  // The rule for a spread of 1 and the count it was asked for last.
+  double factor_ = 0.0;
+  int countOfFactor_ = 0;
+  Status statusOfFactor_ = Status::DegenerateSample;
+  std::vector<double> distances_;
+  BandwidthScratch scratch_;
+};
+
+/// The neighbours in a ball about each point, as NeighborSweep gives the nearest.
+class BallSweep
+{
+public:
+  BallSweep(const NeighborQuery& query, double radius)
+    : query_(query)
+    , radius_(radius)
+  {
+  }
+
+  template <typename Visitor>
+  void run(std::int64_t begin, std::int64_t end, Visitor&& visit)
+  {
+    const std::int64_t last = std::min(end * kernel::kLeafPoints, query_.size());
+    for (std::int64_t slot = begin * kernel::kLeafPoints; slot < last; ++slot)
+    {
+      visit(listAbout(slot));
+    }
+  }
+
+private:
+  NeighborList listAbout(std::int64_t slot)
+  {
+    found_.clear();
+    query_.visitBallSlots(query_.point(slot), radius_,
+      [this](double d2, std::int64_t other) {
+        found_.push_back({ d2, query_.packed(other) });
+      });
+    std::sort(found_.begin(), found_.end());
+    squaredDistances_.clear();
+    slots_.clear();
+    for (const Neighbor& neighbor : found_)
+    {
+      squaredDistances_.push_back(neighbor.squaredDistance);
+      slots_.push_back(std::uint32_t(NeighborQuery::slotOf(neighbor)));
+    }
+    return { slot, int(found_.size()), squaredDistances_.data(), slots_.data() };
+  }
+
+  const NeighborQuery& query_;
+  const double radius_;
+  std::vector<Neighbor> found_;
+  std::vector<double> squaredDistances_;
+  std::vector<std::uint32_t> slots_;
+};
+
+double clampedRadius(double radius, double spacing, const LocalBandwidthSettings& settings)
+{
+  const double low = settings.minimumRadius > 0.0 ? settings.minimumRadius : kNoSinkSpacings * spacing;
+  const double raised = std::max(radius, low);
+  return settings.maximumRadius > 0.0 ? std::min(raised, settings.maximumRadius) : raised;
+}
+
+/// The radius of a point whose neighbours all coincide with it.
+double fallbackRadius(
+  const PointView& points, const std::vector<double>& radii, const LocalBandwidthSettings& settings)
+{
+  double radius = settings.minimumRadius;
+  if (!(radius > 0.0))
+  {
+    double smallest = INFINITY;
+    Bounds box;
+    for (std::int64_t i = 0; i < points.size(); ++i)
+    {
+      const double r = radii[std::size_t(i)];
+      smallest = r > 0.0 ? std::min(smallest, r) : smallest;
+      if (isFinite(points[i]))
+      {
+        box.include(points[i]);
+      }
+    }
+    const double extent = box.empty() ? 0.0 : norm(box.extent());
+    radius = std::isfinite(smallest) ? smallest : extent > 0.0 ? 1e-3 * extent : kRadiusWithoutExtent;
+  }
+  return settings.maximumRadius > 0.0 ? std::min(radius, settings.maximumRadius) : radius;
+}
+
+void fillWithout(const PointView& points, const LocalBandwidthSettings& settings,
+  std::vector<double>& bandwidths, std::vector<double>& radii)
+{
+  const double fallback = fallbackRadius(points, radii, settings);
+  for (std::int64_t i = 0; i < points.size(); ++i)
+  {
+    if (!(radii[std::size_t(i)] > 0.0) && isFinite(points[i]))
+    {
+      radii[std::size_t(i)] = fallback;
+      bandwidths[std::size_t(i)] = fallback / settings.radiusScale;
+    }
+  }
+}
+
+/// @return whether every point has got a radius.
+template <typename MakeSweep>
+bool readAll(const NeighborQuery& query, const LocalBandwidthSettings& settings, MakeSweep&& makeSweep,
+  std::vector<double>& bandwidths, std::vector<double>& radii, const Executor& executor)
+{
+  std::atomic<bool> complete{ true };
+  forRange(executor, NeighborSweep::leaves(query), NeighborSweep::kSmallestRange,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      NeighborhoodReader reader(query, settings);
+      makeSweep().run(begin, end,
+        [&](const NeighborList& list)
+        {
+          const Neighborhood near = reader.read(list);
+          if (!(near.bandwidth > 0.0))
+          {
+            complete.store(false, std::memory_order_relaxed);
+            return;
+          }
+          const std::size_t index = std::size_t(query.index(list.slot));
+          bandwidths[index] = near.bandwidth;
+          radii[index] = clampedRadius(settings.radiusScale * near.bandwidth, near.spacing, settings);
+        });
+    });
+  return complete;
+}
+
+}
+
+Status LocalBandwidthSettings::check() const noexcept
+{
+  if (fixedRadius ? !(radius > 0.0) || !std::isfinite(radius) : numberOfNeighbors < 1)
+  {
+    return Status::InvalidNeighborhood;
+  }
+  if (!(minimumRadius >= 0.0) || !(maximumRadius >= 0.0) || !std::isfinite(minimumRadius + maximumRadius) ||
+    (maximumRadius > 0.0 && minimumRadius > maximumRadius))
+  {
+    return Status::InvalidRadiusBounds;
+  }
+  return radiusScale > 0.0 && std::isfinite(radiusScale) ? Status::Ok : Status::InvalidParameter;
+}
+
+Status localBandwidths(const PointView& points, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
+  const Executor& executor)
+{
+  bandwidths.assign(std::size_t(points.size()), 0.0);
+  radii.assign(std::size_t(points.size()), 0.0);
+  const Status status = settings.check();
+  if (status != Status::Ok || points.size() > NeighborQuery::kMostPoints)
+  {
+    return status != Status::Ok ? status : Status::InvalidParameter;
+  }
+  const int wanted = int(std::min<std::int64_t>(settings.numberOfNeighbors, query.size())) + 1;
+  const bool complete = settings.fixedRadius
+    ? readAll(
+        query, settings, [&] { return BallSweep(query, settings.radius); }, bandwidths, radii, executor)
+    : readAll(
+        query, settings, [&] { return NeighborSweep(query, wanted); }, bandwidths, radii, executor);
+  if (!complete)
+  {
+    fillWithout(points, settings, bandwidths, radii);
+  }
+  if (settings.smoothRadius)
+  {
+    limitSlope(query, kRadiusSlope, radii, executor);
+  }
+  return Status::Ok;
+}
+
+} // namespace pointhaptics

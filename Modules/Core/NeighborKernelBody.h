@@ -1,0 +1,415 @@
+/// @file
+/// The loops of NeighborKernel.h over a set of vector operations. Included by one source per instruction set;
+/// all is in an anonymous namespace, so that the linker cannot choose one set's version for the others.
+///
+/// A set has: width; Doubles, Counts, Mask; all, load, add, subtract, multiply, maximum (the second
+/// where one is NaN); atMost (a <= b),
+/// bits; none, countLess (counts + 1 where a < b), store; compress, which stores the chosen lanes one after
+/// the other, and lanes, which stores first + their numbers. Both may write a whole vector.
+#pragma once
+
+#include "Core/NeighborKernel.h"
+
+#include <limits>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+namespace
+{
+
+/// Attempts at a leaf, and how much farther each looks than the one before, squared.
+constexpr int kAttempts = 3;
+constexpr double kFarther = 2.5;
+/// How much farther than the k-th neighbour of the point before to look first, squared: for a point, and for
+/// all points of the next leaf.
+constexpr double kPointMargin = 1.5;
+constexpr double kLeafMargin = 1.2;
+
+struct Box
+{
+  double low[3];
+  double high[3];
+};
+
+Box boxOfLeaf(const NeighborTree& tree, std::int64_t leaf)
+{
+  const BoxGroup& group = tree.groups[0][leaf / kBranches];
+  const int lane = int(leaf % kBranches);
+  Box box;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box.low[axis] = group.low[axis][lane];
+    box.high[axis] = group.high[axis][lane];
+  }
+  return box;
+}
+
+/// Squared distance between boxes, rounded as that between two points is: never above that of any two points
+/// in them.
+template <typename Set>
+typename Set::Doubles squaredGap(
+  const Box& box, const double* const (&low)[3], const double* const (&high)[3], int at)
+{
+  typename Set::Doubles sum = Set::all(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto below = Set::subtract(Set::all(box.low[axis]), Set::load(high[axis] + at));
+    const auto above = Set::subtract(Set::load(low[axis] + at), Set::all(box.high[axis]));
+    // A place that is NaN, behind the last point, must stay one: maximum gives its second argument then.
+    const auto gap = Set::maximum(Set::all(0.0), Set::maximum(below, above));
+    const auto square = Set::multiply(gap, gap);
+    sum = axis == 0 ? square : Set::add(sum, square);
+  }
+  return sum;
+}
+
+template <typename Set>
+unsigned boxesWithin(const BoxGroup& group, const Box& box, double reach)
+{
+  const double* const low[3] = { group.low[0], group.low[1], group.low[2] };
+  const double* const high[3] = { group.high[0], group.high[1], group.high[2] };
+  unsigned within = 0;
+  for (int at = 0; at < kBranches; at += Set::width)
+  {
+    within |= Set::bits(Set::atMost(squaredGap<Set>(box, low, high, at), Set::all(reach))) << at;
+  }
+  return within;
+}
+
+/// Adds the points of @p leaf within @p reach of @p box to the candidates.
+template <typename Set>
+void appendLeaf(const NeighborTree& tree, std::int64_t leaf, const Box& box, double reach, LeafSearch& search)
+{
+  const std::int64_t first = leaf * kLeafPoints;
+  const double* const places[3] = { tree.places[0] + first, tree.places[1] + first, tree.places[2] + first };
+  for (int at = 0; at < kLeafPoints; at += Set::width)
+  {
+    const auto mask = Set::atMost(squaredGap<Set>(box, places, places, at), Set::all(reach));
+    const unsigned bits = Set::bits(mask);
+    const int to = search.candidates;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Set::compress(search.places[axis] + to, bits, Set::load(places[axis] + at));
+    }
+    Set::lanes(search.slots + to, bits, std::uint32_t(first + at));
+    search.candidates += __builtin_popcount(bits);
+  }
+}
+
+/// All points within @p reach of @p box. @return false where they are too many.
+template <typename Set>
+bool gather(const NeighborTree& tree, const Box& box, double reach, LeafSearch& search)
+{
+  struct Place
+  {
+    int level;
+    std::int64_t group;
+  };
+  Place stack[kMostLevels * kBranches];
+  int depth = 0;
+  stack[depth++] = { tree.levels - 1, 0 };
+  search.candidates = 0;
+  while (depth > 0)
+  {
+    const Place here = stack[--depth];
+    unsigned within = boxesWithin<Set>(tree.groups[here.level][here.group], box, reach);
+    within &= (1u << boxesOf(tree, here.level, here.group)) - 1u;
+    for (; within != 0; within &= within - 1u)
+    {
+      const std::int64_t child = here.group * kBranches + __builtin_ctz(within);
+      if (here.level > 0)
+      {
+        stack[depth++] = { here.level - 1, child };
+      }
+      else if (search.candidates + kLeafPoints > kMostCandidates)
+      {
+        return false;
+      }
+      else
+      {
+        appendLeaf<Set>(tree, child, box, reach, search);
+      }
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int i = 0; i < kSlack; ++i)
+    {
+      search.places[axis][search.candidates + i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return true;
+}
+
+/// Lists the candidates within @p reach of a point. @return their number.
+template <typename Set>
+int listNear(const double (&center)[3], double reach, LeafSearch& search)
+{
+  const auto x = Set::all(center[0]);
+  const auto y = Set::all(center[1]);
+  const auto z = Set::all(center[2]);
+  const auto limit = Set::all(reach);
+  int count = 0;
+  for (int at = 0; at < search.candidates; at += Set::width)
+  {
+    const auto dx = Set::subtract(Set::load(search.places[0] + at), x);
+    const auto dy = Set::subtract(Set::load(search.places[1] + at), y);
+    const auto dz = Set::subtract(Set::load(search.places[2] + at), z);
+    const auto d2 = Set::add(Set::add(Set::multiply(dx, dx), Set::multiply(dy, dy)), Set::multiply(dz, dz));
+    const unsigned bits = Set::bits(Set::atMost(d2, limit));
+    Set::compress(search.near + count, bits, d2);
+    Set::lanes(search.nearCandidates + count, bits, std::uint32_t(at));
+    count += __builtin_popcount(bits);
+  }
+  return count;
+}
+
+/// How many of the @p count listed are nearer than each.
+template <typename Set>
+void rankNear(int count, LeafSearch& search)
+{
+  constexpr int kTogether = 4;
+  for (int i = 0; i < kSlack; ++i)
+  {
+    search.near[count + i] = std::numeric_limits<double>::infinity();
+  }
+  for (int at = 0; at < count; at += kTogether * Set::width)
+  {
+    typename Set::Counts counts[kTogether];
+    typename Set::Doubles values[kTogether];
+    for (int v = 0; v < kTogether; ++v)
+    {
+      counts[v] = Set::none();
+      const int from = at + v * Set::width;
+      values[v] = Set::load(search.near + (from < count ? from : at));
+    }
+    for (int i = 0; i < count; ++i)
+    {
+      const auto other = Set::all(search.near[i]);
+      for (int v = 0; v < kTogether; ++v)
+      {
+        counts[v] = Set::countLess(counts[v], other, values[v]);
+      }
+    }
+    for (int v = 0; v < kTogether && at + v * Set::width < count; ++v)
+    {
+      Set::store(search.ranks + at + v * Set::width, counts[v]);
+    }
+  }
+}
+
+/// Equal distances have equal ranks: the smaller index goes first.
+void orderTies(const NeighborTree& tree, int count, int k, LeafSearch& search)
+{
+  const auto index = [&](std::int32_t i) { return tree.indices[search.slots[search.nearCandidates[i]]]; };
+  for (int i = 0; i < k; ++i)
+  {
+    search.order[i] = -1;
+  }
+  for (std::int32_t i = 0; i < count; ++i)
+  {
+    std::int32_t moving = i;
+    std::int64_t at = search.ranks[i];
+    for (; at < k && search.order[at] >= 0; ++at)
+    {
+      const std::int32_t there = search.order[at];
+      if (index(there) > index(moving))
+      {
+        search.order[at] = moving;
+        moving = there;
+      }
+    }
+    if (at < k)
+    {
+      search.order[at] = moving;
+    }
+  }
+}
+
+/// Sorts the listed and writes the first @p k to the answer of point @p at of the leaf.
+template <typename Set>
+void answer(const NeighborTree& tree, int at, int count, int k, LeafSearch& search)
+{
+  rankNear<Set>(count, search);
+  // Without ties each rank up to the one behind the last is taken.
+  const int looked = k < count ? k + 1 : k;
+  for (int i = 0; i < looked; ++i)
+  {
+    search.order[i] = -1;
+  }
+  for (std::int32_t i = 0; i < count; ++i)
+  {
+    search.order[search.ranks[i]] = i;
+  }
+  std::int32_t all = 0;
+  for (int i = 0; i < looked; ++i)
+  {
+    all |= search.order[i];
+  }
+  if (all < 0)
+  {
+    orderTies(tree, count, k, search);
+  }
+  for (int i = 0; i < k; ++i)
+  {
+    search.squaredDistances[at][i] = search.near[search.order[i]];
+    search.neighbors[at][i] = search.slots[search.nearCandidates[search.order[i]]];
+  }
+  search.found |= 1u << at;
+}
+
+/// @param reach what the candidates are complete to. @param first where to look first, at most reach.
+/// @return the squared distance of the k-th neighbour; below 0 where it was not found.
+template <typename Set>
+double searchPoint(
+  const NeighborTree& tree, std::int64_t slot, int at, int k, double first, double reach, LeafSearch& search)
+{
+  const double center[3] = { tree.places[0][slot], tree.places[1][slot], tree.places[2][slot] };
+  double limit = first;
+  int count = listNear<Set>(center, limit, search);
+  if (count < k && limit < reach)
+  {
+    limit = reach;
+    count = listNear<Set>(center, limit, search);
+  }
+  if (count > kMostRanked)
+  {
+    // On a surface the number grows like the squared distance.
+    count = listNear<Set>(center, limit * (0.5 * (k + kMostRanked) / count), search);
+  }
+  if (count < k || count > kMostRanked)
+  {
+    return -1.0;
+  }
+  answer<Set>(tree, at, count, k, search);
+  return search.squaredDistances[at][k - 1];
+}
+
+/// @return the largest squared distance found, 0 for none.
+template <typename Set>
+double searchPoints(const NeighborTree& tree, std::int64_t leaf, int k, double reach, LeafSearch& search)
+{
+  const std::int64_t first = leaf * kLeafPoints;
+  const int points = tree.size - first < kLeafPoints ? int(tree.size - first) : kLeafPoints;
+  double largest = 0.0;
+  double near = reach;
+  for (int at = 0; at < points; ++at)
+  {
+    if ((search.found >> at & 1u) == 0)
+    {
+      const double d2 = searchPoint<Set>(tree, first + at, at, k, near, reach, search);
+      largest = d2 > largest ? d2 : largest;
+      near = d2 >= 0.0 && d2 * kPointMargin < reach ? d2 * kPointMargin : reach;
+    }
+  }
+  return largest;
+}
+
+template <typename Set>
+void searchLeaf(const NeighborTree& tree, std::int64_t leaf, int k, LeafSearch& search)
+{
+  const Box box = boxOfLeaf(tree, leaf);
+  const std::int64_t left = tree.size - leaf * kLeafPoints;
+  const unsigned all = (1u << (left < kLeafPoints ? left : kLeafPoints)) - 1u;
+  search.found = 0;
+  double largest = 0.0;
+  double reach = search.reach;
+  for (int attempt = 0; attempt < kAttempts && search.found != all; ++attempt)
+  {
+    if (!gather<Set>(tree, box, reach, search))
+    {
+      break;
+    }
+    const double d2 = searchPoints<Set>(tree, leaf, k, reach, search);
+    largest = d2 > largest ? d2 : largest;
+    reach *= kFarther;
+  }
+  search.reach = search.found == all ? kLeafMargin * largest : 0.0;
+}
+
+template <typename Set>
+void groupGaps(const BoxGroup& group, const double (&center)[3], double (&gaps)[kBranches])
+{
+  const Box box = { { center[0], center[1], center[2] }, { center[0], center[1], center[2] } };
+  const double* const low[3] = { group.low[0], group.low[1], group.low[2] };
+  const double* const high[3] = { group.high[0], group.high[1], group.high[2] };
+  for (int at = 0; at < kBranches; at += Set::width)
+  {
+    Set::store(gaps + at, squaredGap<Set>(box, low, high, at));
+  }
+}
+
+template <typename Set>
+unsigned leafDistances(const NeighborTree& tree, std::int64_t leaf, const double (&center)[3], double reach,
+  double (&distances)[kLeafPoints])
+{
+  const std::int64_t first = leaf * kLeafPoints;
+  unsigned within = 0;
+  for (int at = 0; at < kLeafPoints; at += Set::width)
+  {
+    const auto dx = Set::subtract(Set::load(tree.places[0] + first + at), Set::all(center[0]));
+    const auto dy = Set::subtract(Set::load(tree.places[1] + first + at), Set::all(center[1]));
+    const auto dz = Set::subtract(Set::load(tree.places[2] + first + at), Set::all(center[2]));
+    const auto d2 = Set::add(Set::add(Set::multiply(dx, dx), Set::multiply(dy, dy)), Set::multiply(dz, dz));
+    Set::store(distances + at, d2);
+    within |= Set::bits(Set::atMost(d2, Set::all(reach))) << at;
+  }
+  return within;
+}
+
+constexpr int kHilbertBits = 10;
+
+/// 10 bits with two free places before every one.
+inline std::uint32_t spreadBits(std::uint32_t v)
+{
+  v = (v | v << 16) & 0x030000FFu;
+  v = (v | v << 8) & 0x0300F00Fu;
+  v = (v | v << 4) & 0x030C30C3u;
+  return (v | v << 2) & 0x09249249u;
+}
+
+/// Skilling's AxesToTranspose without branches, then the bits of the three words in turn. A plain loop, for
+/// the compiler to vectorise.
+void hilbertKeys(
+  const std::uint32_t* xs, const std::uint32_t* ys, const std::uint32_t* zs, int count, std::uint32_t* keys)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    std::uint32_t x = xs[i];
+    std::uint32_t y = ys[i];
+    std::uint32_t z = zs[i];
+    for (int bit = kHilbertBits - 1; bit > 0; --bit)
+    {
+      const std::uint32_t low = (1u << bit) - 1u;
+      x ^= low & (0u - (x >> bit & 1u));
+      const std::uint32_t fromY = 0u - (y >> bit & 1u);
+      const std::uint32_t swapY = (x ^ y) & low & ~fromY;
+      x ^= swapY ^ (low & fromY);
+      y ^= swapY;
+      const std::uint32_t fromZ = 0u - (z >> bit & 1u);
+      const std::uint32_t swapZ = (x ^ z) & low & ~fromZ;
+      x ^= swapZ ^ (low & fromZ);
+      z ^= swapZ;
+    }
+    y ^= x;
+    z ^= y;
+    std::uint32_t flip = 0;
+    for (int bit = kHilbertBits - 1; bit > 0; --bit)
+    {
+      flip ^= ((1u << bit) - 1u) & (0u - (z >> bit & 1u));
+    }
+    keys[i] = spreadBits(x ^ flip) << 2 | spreadBits(y ^ flip) << 1 | spreadBits(z ^ flip);
+  }
+}
+
+template <typename Set>
+NeighborKernels makeNeighborKernels()
+{
+  return { searchLeaf<Set>, groupGaps<Set>, leafDistances<Set>, hilbertKeys };
+}
+
+}
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,240 @@
+#include "Core/NeighborSweep.h"
+#include "Core/Reference/ReferenceNeighbors.h"
+
+#include "RandomClouds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+struct NamedCloud
+{
+  const char* name;
+  std::vector<Vec3> points;
+};
+
+PointView view(const std::vector<Vec3>& points)
+{
+  return { points.data(), std::int64_t(points.size()) };
+}
+
+std::vector<Vec3> scaled(std::vector<Vec3> points, double scale)
+{
+  for (Vec3& p : points)
+  {
+    p *= scale;
+  }
+  return points;
+}
+
+std::vector<Vec3> joined(std::vector<Vec3> points, const std::vector<Vec3>& more)
+{
+  points.insert(points.end(), more.begin(), more.end());
+  return points;
+}
+
+std::vector<Vec3> lattice(double spacing)
+{
+  std::vector<Vec3> points;
+  for (const std::size_t i : trial::randomOrder(1728, 21))
+  {
+    points.push_back(spacing * Vec3(double(i % 12), double(i / 12 % 12), double(i / 144)));
+  }
+  return points;
+}
+
+std::vector<Vec3> withNan(std::vector<Vec3> points)
+{
+  for (std::size_t i = 0; i < points.size(); i += 5)
+  {
+    points[i][int(i % 3)] = i % 2 ? NAN : INFINITY;
+  }
+  return points;
+}
+
+std::vector<NamedCloud> clouds()
+{
+  const std::vector<Vec3> square = trial::randomBox(1500, 11, { 0, 0, 0 }, { 1, 1, 0 });
+  const std::vector<Vec3> cube = trial::randomBox(1500, 12, { -1, -1, -1 }, { 1, 1, 1 });
+  const std::vector<Vec3> sparse = trial::randomBox(90, 13, { 1, 0, 0 }, { 2, 1, 0 });
+  std::vector<Vec3> line;
+  trial::Random random(14);
+  for (int i = 0; i < 800; ++i)
+  {
+    line.push_back(random.uniform() * Vec3(1, 2, 3));
+  }
+  return { { "no point", {} }, { "one point", { { 1, 2, 3 } } },
+    { "two points", { { 0, 0, 0 }, { 1, 0, 0 } } }, { "square", square }, { "cube", cube }, { "line", line },
+    { "lattice, all ties", lattice(0.1) }, { "all identical", std::vector<Vec3>(700, Vec3(0.1, 0.2, 0.3)) },
+    { "every point twice", joined(cube, cube) },
+    { "half of them in one place", joined(square, std::vector<Vec3>(1500, square[3])) },
+    { "sixteen times as dense", joined(square, sparse) },
+    { "a thousand times as dense", joined(scaled(square, 0.03), sparse) },
+    { "points apart", joined(square, { { 50, 0, 0 }, { 0, 1e9, 0 }, { 1e-30, 0, 1e15 } }) },
+    { "tiny", scaled(cube, 1e-9) }, { "huge", scaled(cube, 1e9) },
+    { "squares underflow", scaled(square, 1e-170) }, { "squares overflow", scaled(square, 1e200) },
+    { "denormal", scaled(cube, 1e-310) },
+    { "far from zero", joined({ { 4.6e6, 5e5, 100 } }, scaled(lattice(0.001), 1.0)) },
+    { "not finite", withNan(square) } };
+}
+
+struct All
+{
+  std::vector<Neighbor> neighbors;
+  std::vector<int> counts;
+};
+
+All nearestOf(const std::vector<Vec3>& points, int k, const Executor& executor = {})
+{
+  NeighborQuery query;
+  query.build(view(points), executor);
+  All all{ std::vector<Neighbor>(points.size() * std::size_t(k)), std::vector<int>(points.size(), 0) };
+  nearestOfAll(query, k, all.neighbors.data(), all.counts.data(), executor);
+  return all;
+}
+
+void expectEqual(const All& a, const All& b)
+{
+  ASSERT_EQ(a.counts, b.counts);
+  for (std::size_t i = 0; i < a.neighbors.size(); ++i)
+  {
+    ASSERT_EQ(a.neighbors[i].index, b.neighbors[i].index);
+    ASSERT_EQ(a.neighbors[i].squaredDistance, b.neighbors[i].squaredDistance);
+  }
+}
+
+void expectBruteForce(const std::vector<Vec3>& points, int k, std::size_t step)
+{
+  const All all = nearestOf(points, k);
+  for (std::size_t i = 0; i < points.size(); i += step)
+  {
+    if (!isFinite(points[i]))
+    {
+      ASSERT_EQ(all.counts[i], 0);
+      continue;
+    }
+    const std::vector<Neighbor> expected = reference::nearest(view(points), points[i], std::size_t(k));
+    ASSERT_EQ(all.counts[i], int(expected.size()));
+    for (std::size_t j = 0; j < expected.size(); ++j)
+    {
+      const Neighbor& found = all.neighbors[i * std::size_t(k) + j];
+      ASSERT_EQ(found.index, expected[j].index) << "neighbour " << j << " of point " << i;
+      ASSERT_EQ(found.squaredDistance, expected[j].squaredDistance);
+    }
+  }
+}
+
+} // namespace
+
+TEST(NeighborSweep, EqualsBruteForceOnEveryKindOfCloud)
+{
+  for (const NamedCloud& cloud : clouds())
+  {
+    for (const int k : { 1, 2, 9, 17, 64, 65 })
+    {
+      SCOPED_TRACE(std::string(cloud.name) + ", k = " + std::to_string(k));
+      expectBruteForce(cloud.points, k, 13);
+    }
+  }
+}
+
+TEST(NeighborSweep, GivesTheWholeCloudWhenAskedForMore)
+{
+  for (const std::size_t n : { 3, 16, 17, 40, 200 })
+  {
+    expectBruteForce(trial::randomBox(n, 15, { 0, 0, 0 }, { 1, 1, 1 }), 300, 1);
+  }
+}
+
+TEST(NeighborSweep, AgreesWithSingleQueriesAtEveryPoint)
+{
+  const std::vector<Vec3> points = trial::randomBox(20000, 16, { 0, 0, 0 }, { 1, 1, 0.05 });
+  const All all = nearestOf(points, 17);
+  NeighborQuery query;
+  query.build(view(points));
+  All single{ std::vector<Neighbor>(points.size() * 17), {} };
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    single.counts.push_back(query.nearest(points[i], 17, single.neighbors.data() + 17 * i));
+  }
+  expectEqual(all, single);
+}
+
+TEST(NeighborSweep, GivesTheSameBitsWithEveryInstructionSet)
+{
+  for (const NamedCloud& cloud : clouds())
+  {
+    SCOPED_TRACE(cloud.name);
+    NeighborQuery query;
+    query.build(view(cloud.points));
+    std::vector<double> expected;
+    for (const InstructionSet set :
+      { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512, InstructionSet::Automatic })
+    {
+      std::vector<double> found;
+      NeighborSweep sweep(query, 17, set);
+      sweep.run(0, NeighborSweep::leaves(query),
+        [&](const NeighborList& list)
+        {
+          found.push_back(double(list.slot));
+          found.insert(found.end(), list.squaredDistances, list.squaredDistances + list.count);
+          found.insert(found.end(), list.slots, list.slots + list.count);
+        });
+      expected = set == InstructionSet::Baseline ? found : expected;
+      ASSERT_EQ(found, expected) << int(set);
+    }
+  }
+}
+
+TEST(NeighborSweep, DoesNotDependOnThreadsNorOnTheTypeOfNumber)
+{
+  std::vector<Vec3> points = trial::randomBox(20000, 17, { 0, 0, 0 }, { 1, 1, 0.1 });
+  std::vector<float> floats;
+  for (Vec3& p : points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      floats.push_back(float(p[axis]));
+      p[axis] = double(floats.back());
+    }
+  }
+  const All expected = nearestOf(points, 10);
+  expectEqual(nearestOf(points, 10, trial::BackwardExecutor(7)), expected);
+  for (const int threads : { 2, 8 })
+  {
+    expectEqual(nearestOf(points, 10, trial::ThreadedExecutor(threads)), expected);
+  }
+  NeighborQuery query;
+  query.build({ floats.data(), 20000 });
+  All all{ std::vector<Neighbor>(200000), std::vector<int>(20000) };
+  nearestOfAll(query, 10, all.neighbors.data(), all.counts.data());
+  expectEqual(all, expected);
+}
+
+TEST(NeighborSweep, FindsTheSameNeighborsInEveryOrderOfThePoints)
+{
+  const std::vector<Vec3> points = trial::randomBox(3000, 18, { 0, 0, 0 }, { 1, 1, 0 });
+  const std::vector<std::size_t> order = trial::randomOrder(points.size(), 19);
+  std::vector<Vec3> shuffled;
+  for (const std::size_t i : order)
+  {
+    shuffled.push_back(points[i]);
+  }
+  const All a = nearestOf(points, 12);
+  const All b = nearestOf(shuffled, 12);
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    for (std::size_t j = 0; j < 12; ++j)
+    {
+      const Neighbor& expected = a.neighbors[12 * order[i] + j];
+      const Neighbor& found = b.neighbors[12 * i + j];
+      ASSERT_EQ(std::int64_t(order[std::size_t(found.index)]), expected.index);
+      ASSERT_EQ(found.squaredDistance, expected.squaredDistance);
+    }
+  }
+}
