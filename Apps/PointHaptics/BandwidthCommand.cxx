@@ -3,6 +3,7 @@
 #include "BandwidthOptions.h"
 #include "CloudToCloud.h"
 #include "Messages.h"
+#include "OptionParsing.h"
 #include "Pipeline.h"
 
 #include "vtkKernelBandwidthFilter.h"
@@ -32,7 +33,30 @@ struct BandwidthCommandOptions
 {
   CloudToCloudOptions files;
   BandwidthOptions bandwidth;
+  int density = vtkKernelBandwidthFilter::Gaussian; ///< Kernel, or kNoDensity.
+
+  static constexpr int kNoDensity = -1;
+
+  void addTo(CLI::App& command);
+  void configure(vtkKernelBandwidthFilter* filter) const;
 };
+
+void BandwidthCommandOptions::addTo(CLI::App& command)
+{
+  this->files.addTo(command);
+  this->bandwidth.addTo(command);
+  addChoice(command, "--density", this->density,
+    { { "gaussian", vtkKernelBandwidthFilter::Gaussian },
+      { "epanechnikov", vtkKernelBandwidthFilter::Epanechnikov }, { "none", kNoDensity } },
+    "Kernel of the density, which costs most of the time; default gaussian");
+}
+
+void BandwidthCommandOptions::configure(vtkKernelBandwidthFilter* filter) const
+{
+  this->bandwidth.configure(filter);
+  filter->SetComputeDensity(this->density != kNoDensity);
+  filter->SetDensityKernel(this->density);
+}
 
 /// Points that are not finite have radius 0: they take no part.
 struct RadiusRange
@@ -88,7 +112,7 @@ int runBandwidth(const BandwidthCommandOptions& options)
   }
   vtkNew<vtkKernelBandwidthFilter> filter;
   filter->SetInputData(cloud.points);
-  options.bandwidth.configure(filter);
+  options.configure(filter);
   if (!updateFilter(filter, "bandwidth", message))
   {
     return fail(kCommand, options.files.input + ": " + message);
@@ -109,8 +133,7 @@ void addBandwidthCommand(CLI::App& program, int& exitCode)
   CLI::App* command =
     program.add_subcommand("bandwidth", "Add kernel bandwidth, proxy radius and density to every point");
   auto options = std::make_shared<BandwidthCommandOptions>();
-  options->files.addTo(*command);
-  options->bandwidth.addTo(*command);
+  options->addTo(*command);
   command->callback([options, &exitCode] { exitCode = runBandwidth(*options); });
 }
 

@@ -26,7 +26,8 @@ void BandwidthOptions::addTo(CLI::App& command)
     { { "normal-reference", vtkKernelBandwidthFilter::NormalReference },
       { "silverman-robust", vtkKernelBandwidthFilter::SilvermanRobust },
       { "scott", vtkKernelBandwidthFilter::ScottMultivariate },
-      { "silverman", vtkKernelBandwidthFilter::SilvermanMultivariate } },
+      { "silverman", vtkKernelBandwidthFilter::SilvermanMultivariate },
+      { "sheather-jones", vtkKernelBandwidthFilter::SheatherJones } },
     "From spread to bandwidth; default normal-reference");
   CLI::Option* scale = addNumber(
     command, "--beta", this->beta, { 0.0, 1e6, true }, "B", "Proxy radius over bandwidth; default 4");
@@ -34,6 +35,8 @@ void BandwidthOptions::addTo(CLI::App& command)
     "Smallest proxy radius; default 2.2 local spacings");
   CLI::Option* upper =
     addNumber(command, "--r2", this->maximumRadius, length, "METRES", "Largest proxy radius; default none");
+  CLI::Option* smoothing = command.add_flag("--smooth", this->smooth,
+    "Cut radii so that no two differ by more than half the distance of their points");
   // Options are processed in the order they were added: r1 is known here.
   upper->each(
     [this](const std::string& text)
@@ -46,7 +49,7 @@ void BandwidthOptions::addTo(CLI::App& command)
       }
     });
   ball->excludes(nearest);
-  for (CLI::Option* option : { nearest, ball, ruleOption, scale, lower, upper })
+  for (CLI::Option* option : { nearest, ball, ruleOption, scale, lower, upper, smoothing })
   {
     option->group(group);
   }
@@ -79,6 +82,10 @@ void BandwidthOptions::configure(vtkKernelBandwidthFilter* filter) const
   if (this->maximumRadius > 0.0)
   {
     filter->SetMaximumRadius(this->maximumRadius);
+  }
+  if (this->smooth)
+  {
+    filter->SmoothRadiusOn();
   }
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// --neighbors --radius --rule --beta --r1 --r2: the same wherever a proxy radius is computed.
+/// --neighbors --radius --rule --beta --r1 --r2 --smooth: the same wherever a proxy radius is computed.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,7 @@ struct BandwidthOptions
   double beta = 0.0;          ///< Proxy radius over bandwidth.
   double minimumRadius = 0.0; ///< r1, metres.
   double maximumRadius = 0.0; ///< r2, metres.
+  bool smooth = false;        ///< Radii without jumps.
 
   /// Adds the options to @p command; bad values, r1 > r2 among them, end the parse with a usage error.
   void addTo(CLI::App& command);

@@ -17,8 +17,8 @@ constexpr double kTwoPi = 6.28318530717958647693;
 double gaussianOnSurface(const NeighborQuery& query, const Vec3& center, double b)
 {
   double sum = 0.0;
-  query.visitBall(center, kDensityCutoff * b,
-    [&](const Vec3&, double d2, std::int64_t) { sum += std::exp(-0.5 * d2 / (b * b)); });
+  query.visitBallSlots(
+    center, kDensityCutoff * b, [&](double d2, std::int64_t) { sum += std::exp(-0.5 * d2 / (b * b)); });
   return sum / (double(query.size()) * kTwoPi * b * b);
 }
 
@@ -26,8 +26,8 @@ double epanechnikovOnSurface(const NeighborQuery& query, const Vec3& center, dou
 {
   const double reach = kEpanechnikovReachOnSurface * b;
   double sum = 0.0;
-  query.visitBall(center, reach,
-    [&](const Vec3&, double d2, std::int64_t) { sum += std::max(0.0, 1.0 - d2 / (reach * reach)); });
+  query.visitBallSlots(
+    center, reach, [&](double d2, std::int64_t) { sum += std::max(0.0, 1.0 - d2 / (reach * reach)); });
   return sum / (double(query.size()) * 0.5 * kPi * reach * reach);
 }
 
@@ -103,16 +103,16 @@ void surfaceDensities(const PointView& points, const NeighborQuery& query,
 {
   densities.assign(std::size_t(points.size()), 0.0);
   const auto density = kernel == DensityKernel::Epanechnikov ? &epanechnikovOnSurface : &gaussianOnSurface;
-  forRange(executor, points.size(),
+  // In spatial order, where the points of one ball after the other are close in memory.
+  forRange(executor, query.size(),
     [&](std::int64_t begin, std::int64_t end)
     {
-      for (std::int64_t i = begin; i < end; ++i)
+      for (std::int64_t slot = begin; slot < end; ++slot)
       {
-        const double b = bandwidths[std::size_t(i)];
-        const Vec3 center = points[i];
-        if (b > 0.0 && isFinite(center))
+        const std::size_t i = std::size_t(query.index(slot));
+        if (bandwidths[i] > 0.0)
         {
-          densities[std::size_t(i)] = density(query, center, b);
+          densities[i] = density(query, query.point(slot), bandwidths[i]);
         }
       }
     });

@@ -3,8 +3,8 @@
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 
-#include "Core/LocalBandwidth.h"
 #include "Core/Density.h"
+#include "Core/LocalBandwidth.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
@@ -20,12 +20,65 @@ using namespace pointhaptics;
 
 vtkStandardNewMacro(vtkKernelBandwidthFilter);
 
-static_assert(
-  int(vtkKernelBandwidthFilter::SilvermanMultivariate) == int(BandwidthRule::SilvermanMultivariate),
+static_assert(int(vtkKernelBandwidthFilter::SheatherJones) == int(BandwidthRule::SheatherJones),
   "the filter's rules are Core's, in the same order");
+static_assert(int(vtkKernelBandwidthFilter::Epanechnikov) == int(pointhaptics::DensityKernel::Epanechnikov),
+  "the filter's kernels are Core's, in the same order");
 
 namespace
 {
+
+/// Runs a loop in slices on VTK's threads; between them tells the filter's progress and, once an abort is
+/// asked for, leaves out the rest. What the loop has computed is of no use then.
+class ReportingExecutor : public SmpExecutor
+{
+public:
+  ReportingExecutor(vtkAlgorithm* filter, double from, double to)
+    : Filter(filter)
+    , From(from)
+    , To(to)
+  {
+  }
+
+  void run(std::int64_t count, std::int64_t grain, void* context, Body body) const override
+  {
+    const std::int64_t piece = std::max<std::int64_t>(4 * grain, (count + Slices - 1) / Slices);
+    for (std::int64_t begin = 0; begin < count && !this->Filter->GetAbortExecute(); begin += piece)
+    {
+      Shifted shifted{ context, body, begin };
+      SmpExecutor::run(std::min(piece, count - begin), grain, &shifted,
+        [](void* here, std::int64_t first, std::int64_t last)
+        {
+          const auto* s = static_cast<const Shifted*>(here);
+          s->Inner(s->Context, s->Offset + first, s->Offset + last);
+        });
+      this->Report(double(begin + piece) / double(count));
+    }
+  }
+
+private:
+  static constexpr std::int64_t Slices = 8;
+  struct Shifted
+  {
+    void* Context;
+    Body Inner;
+    std::int64_t Offset;
+  };
+
+  /// Several loops share the range: progress never goes back.
+  void Report(double fraction) const
+  {
+    const double progress = this->From + (this->To - this->From) * std::min(fraction, 1.0);
+    if (progress > this->Filter->GetProgress())
+    {
+      this->Filter->UpdateProgress(progress);
+    }
+  }
+
+  vtkAlgorithm* Filter;
+  double From;
+  double To;
+};
 
 void addArray(vtkPolyData* output, const char* name, const std::vector<double>& values)
 {
@@ -52,6 +105,7 @@ int vtkKernelBandwidthFilter::RequestData(
   settings.radiusScale = this->RadiusScale;
   settings.minimumRadius = this->MinimumRadius;
   settings.maximumRadius = this->MaximumRadius;
+  settings.smoothRadius = this->SmoothRadius && this->ComputeProxyRadius;
   const Status status = settings.check();
   if (status != Status::Ok)
   {
@@ -61,34 +115,50 @@ int vtkKernelBandwidthFilter::RequestData(
       << sentence(status) << ".");
     return 1;
   }
+  if (input->GetNumberOfPoints() > NeighborQuery::kMostPoints)
+  {
+    vtkErrorMacro("The input has " << input->GetNumberOfPoints() << " points, more than "
+                                   << NeighborQuery::kMostPoints << ": resample it first.");
+    return 1;
+  }
   output->ShallowCopy(input);
   const bool wanted = this->ComputeBandwidth || this->ComputeProxyRadius || this->ComputeDensity;
-  if (!wanted)
-  {
-    return 1;
-  }
-
-  const PointAccess points(input->GetPoints());
-  const SmpExecutor executor;
-  NeighborQuery query;
-  query.build(points.view());
-  this->UpdateProgress(0.3);
-  std::vector<double> bandwidths;
-  std::vector<double> radii;
-  if (localBandwidths(points.view(), query, settings, bandwidths, radii, executor) != Status::Ok)
-  {
-    return 1;
-  }
-  this->UpdateProgress(this->ComputeDensity ? 0.6 : 0.95);
-  if (this->GetAbortExecute())
+  if (wanted && !this->Estimate(input, output, settings))
   {
     output->Initialize();
-    return 1;
+  }
+  return 1;
+}
+
+/// @return false where an abort was asked for.
+bool vtkKernelBandwidthFilter::Estimate(
+  vtkPolyData* input, vtkPolyData* output, const LocalBandwidthSettings& settings)
+{
+  const PointAccess points(input->GetPoints());
+  const double found = this->ComputeDensity ? 0.4 : 0.95;
+  NeighborQuery query;
+  query.build(points.view(), SmpExecutor());
+  this->UpdateProgress(0.1);
+  std::vector<double> bandwidths;
+  std::vector<double> radii;
+  std::vector<double> densities;
+  if (this->GetAbortExecute() ||
+    localBandwidths(points.view(), query, settings, bandwidths, radii, ReportingExecutor(this, 0.1, found)) !=
+      Status::Ok)
+  {
+    return false;
+  }
+  if (this->ComputeDensity && !this->GetAbortExecute())
+  {
+    surfaceDensities(points.view(), query, bandwidths, densities, ReportingExecutor(this, found, 0.95),
+      pointhaptics::DensityKernel(this->DensityKernel));
+  }
+  if (this->GetAbortExecute())
+  {
+    return false;
   }
   if (this->ComputeDensity)
   {
-    std::vector<double> densities;
-    surfaceDensities(points.view(), query, bandwidths, densities, executor);
     addArray(output, "Density", densities);
   }
   if (this->ComputeBandwidth)
@@ -100,7 +170,7 @@ int vtkKernelBandwidthFilter::RequestData(
     addArray(output, "ProxyRadius", radii);
   }
   this->UpdateProgress(1.0);
-  return 1;
+  return true;
 }
 
 void vtkKernelBandwidthFilter::PrintSelf(ostream& os, vtkIndent indent)
@@ -113,6 +183,8 @@ void vtkKernelBandwidthFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RadiusScale: " << this->RadiusScale << "\n";
   os << indent << "MinimumRadius: " << this->MinimumRadius << "\n";
   os << indent << "MaximumRadius: " << this->MaximumRadius << "\n";
+  os << indent << "SmoothRadius: " << this->SmoothRadius << "\n";
+  os << indent << "DensityKernel: " << this->DensityKernel << "\n";
   os << indent << "ComputeBandwidth: " << this->ComputeBandwidth << "\n";
   os << indent << "ComputeProxyRadius: " << this->ComputeProxyRadius << "\n";
   os << indent << "ComputeDensity: " << this->ComputeDensity << "\n";

@@ -3,27 +3,40 @@
  * @brief   kernel bandwidth, proxy radius and density at every point, from its neighbourhood
  *
  * For each point the spread s of its neighbourhood gives a kernel bandwidth b by a rule of kernel density
- * estimation, and the bandwidth a radius for the haptic proxy: large where the cloud is sparse, small where
- * it is dense. NormalReference         b = 1.06 s n^(-1/5)                    (the paper's rule with its
- * misprint mended; default) SilvermanRobust         b = 0.9 min(s, IQR / 1.34) n^(-1/5)    (of the distances)
- *   ScottMultivariate       b = s n^(-1/(d + 4)), d = 2
- *   SilvermanMultivariate   b = s (n (d + 2) / 4)^(-1/(d + 4)), d = 2
- * n = the number of points of the neighbourhood, the point itself among them; s = sqrt(trace(C) / 2) with C
- * the neighbourhood's sample covariance (divided by n - 1): the standard deviation along one direction of the
- * surface. Proxy radius = clamp(RadiusScale b, r1, r2).
+ * estimation, and the bandwidth a radius for the haptic proxy, clamp(RadiusScale b, r1, r2): large where the
+ * cloud is sparse, small where it is dense. n is the number of points of the neighbourhood, the point itself
+ * among them.
  *
- * Output: the input with the point arrays added that are asked for: "Bandwidth" and "ProxyRadius" (double,
- * metres, or whatever unit the points have) and "Density" (double, per squared unit: the Gaussian kernel
- * density estimate f_b(x) = 1/(N 2 pi b^2) sum_i exp(-|x - x_i|^2 / (2 b^2)) on a surface, cut off at 6 b,
- * which leaves out less than 2e-8 of a kernel's height for each point beyond).
+ * | Rule                  | b                                                            |
+ * |-----------------------|--------------------------------------------------------------|
+ * | NormalReference       | 1.06 s n^(-1/5): the paper's, its misprint mended; default    |
+ * | SilvermanRobust       | 0.9 min(s', IQR / 1.34) n^(-1/5), of the distances            |
+ * | ScottMultivariate     | s n^(-1/(d + 4)), d = 2                                       |
+ * | SilvermanMultivariate | s (n (d + 2) / 4)^(-1/(d + 4)), d = 2                         |
+ * | SheatherJones         | solve-the-equation, of the distances; 50 times as slow        |
  *
- * Neighbourhoods are exact (k nearest, ties broken by the point's index), points that are NaN or infinite
+ * s = sqrt(trace(C) / 2) with C the neighbourhood's sample covariance (divided by n - 1): the standard
+ * deviation along one direction of the surface. s' and IQR are those of the distances of the neighbours,
+ * which are also the sample of SheatherJones.
+ *
+ * Input: any vtkPolyData; only its points are read, float or double. Output: the input with the point arrays
+ * added that are asked for: "Bandwidth" and "ProxyRadius" (double, metres, or whatever unit the points have)
+ * and "Density" (double, per squared unit: the kernel density estimate on a surface with each point's own
+ * bandwidth, see DensityKernel). Arrays of these names in the input are replaced; the active scalars stay.
+ *
+ * Neighbourhoods are exact (k nearest, ties broken by the point's index). Points that are NaN or infinite
  * take no part and get the value 0. A neighbourhood without spread (duplicates, a single point) gets as its
- * radius the bound r1 and the bandwidth r1 / RadiusScale: never 0, NaN or infinity for a valid point.
+ * radius the bound r1 (where that is automatic: the smallest radius of other points, or a thousandth of the
+ * cloud's diagonal, or 0.001) and the bandwidth r1 / RadiusScale: never 0, NaN or infinity for a valid point.
  *
- * Results do not depend on the number of threads. Cost: O(n log n); about 60 bytes per point while it runs.
- * @warning A number of neighbours below 1, a radius not above 0 or r1 > r2 is reported by vtkErrorMacro and
- * gives an empty output.
+ * Accuracy: bandwidths are within 1e-9 relative of the definition, and all values scale with the cloud.
+ * Results do not depend on the number of threads, the SMP backend or the type of number, bit for bit.
+ * Cost: O(n); 200 ns a point and thread for 16 neighbours, density three times as much. 100 bytes a point
+ * while it runs. Parallel by vtkSMPTools; one thread may use an object at a time.
+ *
+ * Progress is reported, and AbortExecute ends the work within a tenth of it, with an empty output.
+ * @warning A number of neighbours below 1, a radius not above 0, r1 > r2 or a scale not above 0 is reported
+ * by vtkErrorMacro and gives an empty output; so do more than 2^31 - 1 points.
  * @sa vtkVoxelMeanResampler
  */
 #ifndef vtkKernelBandwidthFilter_h
@@ -31,6 +44,11 @@
 
 #include "PointHapticsFiltersModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
+
+namespace pointhaptics
+{
+struct LocalBandwidthSettings;
+}
 
 class POINTHAPTICSFILTERS_EXPORT vtkKernelBandwidthFilter : public vtkPolyDataAlgorithm
 {
@@ -49,7 +67,13 @@ public:
     NormalReference = 0,
     SilvermanRobust = 1,
     ScottMultivariate = 2,
-    SilvermanMultivariate = 3
+    SilvermanMultivariate = 3,
+    SheatherJones = 4
+  };
+  enum DensityKernelType
+  {
+    Gaussian = 0,
+    Epanechnikov = 1
   };
 
   ///@{
@@ -84,8 +108,13 @@ public:
   /**
    * Rule from spread to bandwidth. Default: NormalReference.
    */
-  vtkSetClampMacro(Rule, int, NormalReference, SilvermanMultivariate);
+  vtkSetClampMacro(Rule, int, NormalReference, SheatherJones);
   vtkGetMacro(Rule, int);
+  void SetRuleToNormalReference() { this->SetRule(NormalReference); }
+  void SetRuleToSilvermanRobust() { this->SetRule(SilvermanRobust); }
+  void SetRuleToScottMultivariate() { this->SetRule(ScottMultivariate); }
+  void SetRuleToSilvermanMultivariate() { this->SetRule(SilvermanMultivariate); }
+  void SetRuleToSheatherJones() { this->SetRule(SheatherJones); }
   ///@}
 
   ///@{
@@ -107,6 +136,30 @@ public:
   vtkGetMacro(MinimumRadius, double);
   vtkSetMacro(MaximumRadius, double);
   vtkGetMacro(MaximumRadius, double);
+  ///@}
+
+  ///@{
+  /**
+   * Cut the radii to min_j (r_j + |x_i - x_j| / 2): the largest ones not above their own of which no two
+   * differ by more than half the distance of their points, so that a proxy that moves meets no jump. No
+   * radius falls below the smallest of the cloud, but beside a denser region one may fall below the automatic
+   * r1. Default: off.
+   */
+  vtkSetMacro(SmoothRadius, bool);
+  vtkGetMacro(SmoothRadius, bool);
+  vtkBooleanMacro(SmoothRadius, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Kernel of Density, with t the distance over the bandwidth b. Gaussian (default): 1/(N 2 pi b^2) sum_i
+   * exp(-t_i^2 / 2), cut off at t = 6, which leaves out less than 2e-8 of a kernel's height for each point
+   * beyond. Epanechnikov: 1/(N 3 pi b^2) sum_i (1 - t_i^2 / 6) over t_i^2 < 6, where nothing is cut off.
+   */
+  vtkSetClampMacro(DensityKernel, int, Gaussian, Epanechnikov);
+  vtkGetMacro(DensityKernel, int);
+  void SetDensityKernelToGaussian() { this->SetDensityKernel(Gaussian); }
+  void SetDensityKernelToEpanechnikov() { this->SetDensityKernel(Epanechnikov); }
   ///@}
 
   ///@{
@@ -137,11 +190,16 @@ protected:
   double RadiusScale = 4.0;
   double MinimumRadius = 0.0;
   double MaximumRadius = 0.0;
+  bool SmoothRadius = false;
+  int DensityKernel = Gaussian;
   bool ComputeBandwidth = true;
   bool ComputeProxyRadius = true;
   bool ComputeDensity = true;
 
 private:
+  bool Estimate(
+    vtkPolyData* input, vtkPolyData* output, const pointhaptics::LocalBandwidthSettings& settings);
+
   vtkKernelBandwidthFilter(const vtkKernelBandwidthFilter&) = delete;
   void operator=(const vtkKernelBandwidthFilter&) = delete;
 };

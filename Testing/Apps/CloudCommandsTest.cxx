@@ -141,6 +141,13 @@ TEST_F(CloudCommands, BandwidthFollowsTheDensityAndKeepsItsBounds)
     ASSERT_GE(radius, 0.002);
     ASSERT_LE(radius, 0.003);
   }
+  EXPECT_EQ(bounded.count("Density"), 1u);
+
+  this->succeed({ "bandwidth", "in.ply", "-o", "smooth.csv", "--rule", "sheather-jones", "--smooth",
+    "--density", "none" });
+  const Table smooth = parseTable(this->read("smooth.csv"));
+  EXPECT_EQ(smooth.count("Density"), 0u);
+  EXPECT_EQ(smooth.at("ProxyRadius").size(), 17000u);
 }
 
 TEST_F(CloudCommands, OutputMayReplaceItsInput)

@@ -10,7 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace
@@ -65,6 +67,8 @@ TEST(KernelBandwidthFilter, HasTheDocumentedDefaults)
   EXPECT_TRUE(filter->GetComputeBandwidth());
   EXPECT_TRUE(filter->GetComputeProxyRadius());
   EXPECT_TRUE(filter->GetComputeDensity());
+  EXPECT_FALSE(filter->GetSmoothRadius());
+  EXPECT_EQ(filter->GetDensityKernel(), vtkKernelBandwidthFilter::Gaussian);
 }
 
 TEST(KernelBandwidthFilter, AgreesWithTheDefinition)
@@ -296,6 +300,161 @@ TEST(KernelBandwidthFilter, GivesTheSameBitsWithEveryBackEndAndThreadCount)
     }
   }
   vtkSMPTools::Initialize(0);
+}
+
+TEST(KernelBandwidthFilter, OffersEveryRuleForBothNeighborhoods)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(2000, 11));
+  std::vector<double> seen;
+  for (int neighborhood = vtkKernelBandwidthFilter::KNearest;
+       neighborhood <= vtkKernelBandwidthFilter::FixedRadius; ++neighborhood)
+  {
+    for (int rule = vtkKernelBandwidthFilter::NormalReference;
+         rule <= vtkKernelBandwidthFilter::SheatherJones; ++rule)
+    {
+      vtkNew<vtkKernelBandwidthFilter> filter;
+      filter->SetInputData(cloud);
+      filter->SetNeighborhood(neighborhood);
+      filter->SetRadius(0.3);
+      filter->SetRule(rule);
+      filter->ComputeDensityOff();
+      filter->Update();
+      ASSERT_EQ(filter->GetRule(), rule);
+      const double b = arrayOf(filter, "Bandwidth")->GetTuple1(500);
+      EXPECT_GT(b, 0.0);
+      EXPECT_TRUE(std::isfinite(b));
+      // Scott's and Silverman's multivariate rules are the same on a surface.
+      if (rule != vtkKernelBandwidthFilter::SilvermanMultivariate)
+      {
+        EXPECT_EQ(std::count(seen.begin(), seen.end(), b), 0) << neighborhood << ' ' << rule;
+      }
+      seen.push_back(b);
+    }
+  }
+}
+
+TEST(KernelBandwidthFilter, SmoothRadiiChangeByHalfTheirDistanceAtMost)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(3000, 12));
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(cloud);
+  filter->ComputeDensityOff();
+  filter->Update();
+  std::vector<double> rough;
+  for (vtkIdType i = 0; i < 3000; ++i)
+  {
+    rough.push_back(arrayOf(filter, "ProxyRadius")->GetTuple1(i));
+  }
+  filter->SmoothRadiusOn();
+  filter->Update();
+  vtkDataArray* radius = arrayOf(filter, "ProxyRadius");
+  for (vtkIdType i = 0; i < 3000; i += 31)
+  {
+    EXPECT_LE(radius->GetTuple1(i), rough[std::size_t(i)]);
+    double p[3];
+    cloud->GetPoint(i, p);
+    for (vtkIdType j = 0; j < 3000; ++j)
+    {
+      double q[3];
+      cloud->GetPoint(j, q);
+      const double distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+      ASSERT_LE(std::fabs(radius->GetTuple1(i) - radius->GetTuple1(j)), 0.5 * distance + 1e-12);
+    }
+  }
+}
+
+TEST(KernelBandwidthFilter, EpanechnikovDensityAgreesWithTheDirectSum)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(800, 13));
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(cloud);
+  filter->SetDensityKernelToEpanechnikov();
+  filter->Update();
+  for (vtkIdType i = 0; i < 800; i += 19)
+  {
+    const double b = arrayOf(filter, "Bandwidth")->GetTuple1(i);
+    double p[3];
+    cloud->GetPoint(i, p);
+    double sum = 0.0;
+    for (vtkIdType j = 0; j < 800; ++j)
+    {
+      double q[3];
+      cloud->GetPoint(j, q);
+      const double t = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) / b;
+      sum += std::max(0.0, 1.0 - t * t / 6.0);
+    }
+    const double direct = sum / (800 * 3 * 3.14159265358979 * b * b);
+    EXPECT_NEAR(arrayOf(filter, "Density")->GetTuple1(i) / direct, 1.0, 1e-12);
+  }
+}
+
+TEST(KernelBandwidthFilter, EveryOptionCountsAsAChange)
+{
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  const std::vector<std::function<void()>> changes{ [&] { filter->SetNeighborhoodToFixedRadius(); },
+    [&] { filter->SetNumberOfNeighbors(5); }, [&] { filter->SetRadius(0.5); },
+    [&] { filter->SetRuleToSheatherJones(); }, [&] { filter->SetRadiusScale(2); },
+    [&] { filter->SetMinimumRadius(0.1); }, [&] { filter->SetMaximumRadius(0.2); },
+    [&] { filter->SmoothRadiusOn(); }, [&] { filter->SetDensityKernelToEpanechnikov(); },
+    [&] { filter->ComputeBandwidthOff(); }, [&] { filter->ComputeProxyRadiusOff(); },
+    [&] { filter->ComputeDensityOff(); } };
+  for (std::size_t i = 0; i < changes.size(); ++i)
+  {
+    const vtkMTimeType before = filter->GetMTime();
+    changes[i]();
+    const vtkMTimeType after = filter->GetMTime();
+    EXPECT_GT(after, before) << "option " << i;
+    changes[i]();
+    EXPECT_EQ(filter->GetMTime(), after) << "option " << i;
+  }
+}
+
+namespace
+{
+
+/// Notes the progress of a filter and ends its work at some point.
+struct ProgressNotes
+{
+  std::vector<double> seen;
+  double abortAt = 2.0;
+
+  static void note(vtkObject* caller, unsigned long, void* self, void*)
+  {
+    auto* filter = static_cast<vtkAlgorithm*>(caller);
+    auto* notes = static_cast<ProgressNotes*>(self);
+    notes->seen.push_back(filter->GetProgress());
+    filter->SetAbortExecute(filter->GetProgress() >= notes->abortAt);
+  }
+};
+
+}
+
+TEST(KernelBandwidthFilter, ReportsProgressAndHonoursAnAbort)
+{
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputData(trial::cloudOf(trial::randomPoints(40000, 14)));
+  ProgressNotes notes;
+  vtkNew<vtkCallbackCommand> callback;
+  callback->SetClientData(&notes);
+  callback->SetCallback(ProgressNotes::note);
+  filter->AddObserver(vtkCommand::ProgressEvent, callback);
+  filter->Update();
+  EXPECT_GT(notes.seen.size(), 8u);
+  EXPECT_TRUE(std::is_sorted(notes.seen.begin(), notes.seen.end()));
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 40000);
+  for (const double abortAt : { 0.05, 0.2, 0.6 })
+  {
+    notes.seen.clear();
+    notes.abortAt = abortAt;
+    filter->Modified();
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0) << abortAt;
+    EXPECT_LT(notes.seen.empty() ? 0.0 : notes.seen.back(), 1.0 + 1e-9);
+  }
+  notes.abortAt = 2.0;
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 40000) << "it recovers";
 }
 
 TEST(Pipeline, ResampledCloudsGetTheirRadii)
