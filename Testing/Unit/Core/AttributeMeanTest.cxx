@@ -276,6 +276,20 @@ TEST(AttributeMean, OfMixedMagnitudesKeepsWhatIsLeftWhenTheLargeOnesCancel)
   }
 }
 
+TEST(AttributeMean, RoundsTheSumOnceWhateverIsFarBelow)
+{
+  const Plan plan = planFor(4, 1, 1);
+  for (const double sign : { 1.0, -1.0 })
+  {
+    const std::vector<double> tie{ sign, sign * 0x1p-53, 0.0, 0.0 };
+    EXPECT_EQ(written<double>(meanOf(tie, 1, plan), plan)[0], sign * 0.25);
+    const std::vector<double> above{ sign, sign * 0x1p-53, sign * 0x1p-300, 0.0 };
+    EXPECT_EQ(written<double>(meanOf(above, 1, plan), plan)[0], sign * 0.25 * (1.0 + 0x1p-52));
+    const std::vector<double> below{ sign, sign * 0x1p-53, -sign * 0x1p-300, 0.0 };
+    EXPECT_EQ(written<double>(meanOf(below, 1, plan), plan)[0], sign * 0.25);
+  }
+}
+
 TEST(AttributeMean, OfExtremeRealNumbersIsExact)
 {
   const Plan plan = planFor(2000, 30, 8);

@@ -244,3 +244,30 @@ TEST(VoxelAssignment, AnIndexChangesNoBit)
     expectSame(runOf(request, ThreadedExecutor(2)), expected, "transform " + std::to_string(i));
   }
 }
+
+TEST(VoxelAssignment, AnIndexLosesNoPointThatRoundingPutsOnAFace)
+{
+  Random random(9);
+  for (int i = 0; i < 200; ++i)
+  {
+    // Most are in one brick, so that those on the faces have bricks to themselves.
+    const AffineTransform transform =
+      AffineTransform::translation(random.inBox({ 0, 0, 0 }, { 1e4, 1e4, 1e4 })) *
+      AffineTransform::rotation(random.uniform(0, 360), random.direction());
+    const AffineTransform back = transform.inverse();
+    std::vector<Vec3> points(3000, back.apply({ -1, -1, -1 }));
+    for (int j = 0; j < 60; ++j)
+    {
+      Vec3 target = random.inBox({ 0, 0, 0 }, { 4, 4, 4 });
+      target[j % 3] = j % 2 == 0 ? 0.0 : 4.0;
+      points.push_back(back.apply(target));
+    }
+    VoxelRequest request = requestFor(points, latticeOf(4, 4, 4));
+    request.transform = transform;
+    const RunResult expected = runOf(request);
+    PointIndex index;
+    ASSERT_EQ(index.build(request.points), Status::Ok);
+    request.index = &index;
+    expectSame(runOf(request), expected, "transform " + std::to_string(i));
+  }
+}
