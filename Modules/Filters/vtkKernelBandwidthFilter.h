@@ -13,7 +13,7 @@
  * | SilvermanRobust       | 0.9 min(s', IQR / 1.34) n^(-1/5), of the distances            |
  * | ScottMultivariate     | s n^(-1/(d + 4)), d = 2                                       |
  * | SilvermanMultivariate | s (n (d + 2) / 4)^(-1/(d + 4)), d = 2                         |
- * | SheatherJones         | solve-the-equation, of the distances; 50 times as slow        |
+ * | SheatherJones         | solve-the-equation, of the distances; 75 times as slow        |
  *
  * s = sqrt(trace(C) / 2) with C the neighbourhood's sample covariance (divided by n - 1): the standard
  * deviation along one direction of the surface. s' and IQR are those of the distances of the neighbours,
@@ -31,7 +31,7 @@
  *
  * Accuracy: bandwidths are within 1e-9 relative of the definition, and all values scale with the cloud.
  * Results do not depend on the number of threads, the SMP backend or the type of number, bit for bit.
- * Cost: O(n); 200 ns a point and thread for 16 neighbours, density three times as much. 100 bytes a point
+ * Cost: O(n); 200 ns a point and thread for 16 neighbours, density six times as much. 100 bytes a point
  * while it runs. Parallel by vtkSMPTools; one thread may use an object at a time.
  *
  * Progress is reported, and AbortExecute ends the work within a tenth of it, with an empty output.
