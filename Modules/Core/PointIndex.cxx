@@ -217,8 +217,11 @@ std::vector<PointRange> PointIndex::rangesInside(
 {
   // Far above what rounding can do to a bound, far below a brick.
   constexpr double kSlack = 1e-9;
+  constexpr double kLargest = 1e300;
   const std::size_t bricks = begins_.empty() ? 0 : begins_.size() - 1;
-  std::vector<std::uint8_t> outside(bricks, 0);
+  constexpr std::uint8_t kOutside = 1;
+  constexpr std::uint8_t kAnywhere = 2;
+  std::vector<std::uint8_t> verdicts(bricks, 0);
   for (int axis = 0; axis < 3; ++axis)
   {
     const double* row = transform.m[axis];
@@ -235,14 +238,16 @@ std::vector<PointRange> PointIndex::rangesInside(
       const double half = std::abs(row[0]) * halves_[0][b] + std::abs(row[1]) * halves_[1][b] +
         std::abs(row[2]) * halves_[2][b];
       const double reach = half + kSlack * (fixed + std::abs(x) + std::abs(y) + std::abs(z) + half);
-      // What is not a number may be anywhere.
-      outside[b] |= std::uint8_t(middle + reach < low) | std::uint8_t(middle - reach > high);
+      const bool isOutside = (middle + reach < low) | (middle - reach > high);
+      // Where numbers end, on any axis, a point may be invalid instead of clipped.
+      const bool isKnown = (std::abs(middle) <= kLargest) & (reach <= kLargest);
+      verdicts[b] |= std::uint8_t(isOutside * kOutside) | std::uint8_t(!isKnown * kAnywhere);
     }
   }
   std::vector<PointRange> ranges;
   for (std::size_t b = 0; b < bricks; ++b)
   {
-    if (outside[b] != 0)
+    if (verdicts[b] == kOutside)
     {
       continue;
     }

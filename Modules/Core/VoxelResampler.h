@@ -55,7 +55,8 @@ struct VoxelRequest
 /// the points, every executor, instruction set and PointIndex, and a coarser level equals the resampling of
 /// the points at its spacing (on lattices of up to 4096 voxels an axis; beyond, quanta are finer still and a
 /// level that crosses this border may differ by 2^-31 voxel). Error of a mean: at most 2^-31 voxel, then one
-/// rounding to the output's type; a mean lies in its voxel. Counts are 64-bit.
+/// rounding to the output's type; a mean lies in its voxel. Counts are 64-bit. (A transform that is nearly
+/// singular, of a condition number c above 1e6, costs what it costs: errors grow to about 1e-16 c voxels.)
 ///
 /// Time: a few nanoseconds a point. Memory beyond input and results: 16 bytes for each of at most a million
 /// points, 60 bytes an active voxel, a few megabytes; lattices beyond 4096 an axis: 64 bytes a point of the

@@ -208,9 +208,10 @@ SecondSums shareOfSeconds(const VoxelSums& voxel, const SecondSums& seconds,
   SecondSums share = seconds;
   for (int m = 0; m < 6; ++m)
   {
-    const Int128 a = Int128(index[std::size_t(rows[m])] & 1) << fractionBits;
-    const Int128 b = Int128(index[std::size_t(columns[m])] & 1) << fractionBits;
-    share.lanes[m] += a * voxel.sums[columns[m]] + b * voxel.sums[rows[m]] + a * b * voxel.count;
+    const UInt128 a = UInt128(index[std::size_t(rows[m])] & 1) << fractionBits;
+    const UInt128 b = UInt128(index[std::size_t(columns[m])] & 1) << fractionBits;
+    share.lanes[m] +=
+      a * UInt128(voxel.sums[columns[m]]) + b * UInt128(voxel.sums[rows[m]]) + a * b * UInt128(voxel.count);
   }
   return share;
 }

@@ -14,6 +14,7 @@ namespace kernel
 {
 
 __extension__ typedef __int128 Int128;
+__extension__ typedef unsigned __int128 UInt128;
 
 /// A coordinate is a fixed-point number of this many bits over the power of two of voxels that covers the
 /// longest axis of the lattice. The quantum is thus the same on a lattice and on one twice as coarse, and the
@@ -108,9 +109,10 @@ static inline std::int64_t packedZ(const PackedSums& sums)
 }
 
 /// Sums of products of the places in the voxel, in the order of SymMat3: xx yy zz xy yz xz.
+/// Modulo 2^128: what covarianceOf() takes from them is small.
 struct SecondSums
 {
-  Int128 lanes[6];
+  UInt128 lanes[6];
 };
 
 /// The sums of a partition's cells, in the order the cells were first met: packed so that they stay in the
@@ -141,12 +143,12 @@ static inline std::uint64_t zPlace(const Record& r, std::uint64_t fractionMask)
 
 static inline void addProducts(SecondSums& sums, std::uint64_t x, std::uint64_t y, std::uint64_t z)
 {
-  sums.lanes[0] += Int128(x) * Int128(x);
-  sums.lanes[1] += Int128(y) * Int128(y);
-  sums.lanes[2] += Int128(z) * Int128(z);
-  sums.lanes[3] += Int128(x) * Int128(y);
-  sums.lanes[4] += Int128(y) * Int128(z);
-  sums.lanes[5] += Int128(x) * Int128(z);
+  sums.lanes[0] += UInt128(x) * x;
+  sums.lanes[1] += UInt128(y) * y;
+  sums.lanes[2] += UInt128(z) * z;
+  sums.lanes[3] += UInt128(x) * y;
+  sums.lanes[4] += UInt128(y) * z;
+  sums.lanes[5] += UInt128(x) * z;
 }
 
 /// Voxels on their way from the sums to the result, at most this many at once.

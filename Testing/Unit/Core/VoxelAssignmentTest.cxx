@@ -271,3 +271,21 @@ TEST(VoxelAssignment, AnIndexLosesNoPointThatRoundingPutsOnAFace)
     expectSame(runOf(request), expected, "transform " + std::to_string(i));
   }
 }
+
+TEST(VoxelAssignment, AnIndexCountsPointsThatOverflowInTheTransformAsInvalid)
+{
+  // Outside on x, and beyond all numbers on y.
+  std::vector<Vec3> points = trial::randomBox(500, 1, { 0, 0, 0 }, { 1, 1, 1 });
+  points.insert(points.end(), 500, Vec3(5, 1e300, 0.5));
+  VoxelRequest request;
+  request.points = { points.data(), std::int64_t(points.size()) };
+  request.lattice = trial::latticeOf(4, 4, 4);
+  request.keys = true;
+  request.transform = AffineTransform::scaling({ 1, 1e20, 1 });
+  const trial::RunResult without = trial::runOf(request);
+  EXPECT_GE(without.invalid, 500);
+  PointIndex index;
+  ASSERT_EQ(index.build(request.points), Status::Ok);
+  request.index = &index;
+  trial::expectSame(trial::runOf(request), without, "overflow");
+}
