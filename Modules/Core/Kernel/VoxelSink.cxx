@@ -64,8 +64,8 @@ SymMat3 covarianceOf(
   const Vec3 unit = quantum * spacing;
   const auto moment = [&](int i, int a, int b)
   {
-    const auto central = Int128(
-      seconds.lanes[i] - UInt128(m[a]) * UInt128(sums[b]) - UInt128(Int128(m[b]) * rest[a]));
+    const auto central =
+      Int128(seconds.lanes[i] - UInt128(m[a]) * UInt128(sums[b]) - UInt128(Int128(m[b]) * rest[a]));
     const double value = (toDouble(central) - double(rest[a]) * double(rest[b]) * perPoint) * perPoint;
     return (a == b ? std::max(value, 0.0) : value) * unit[a] * unit[b];
   };
