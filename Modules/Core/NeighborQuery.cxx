@@ -1,6 +1,6 @@
 #include "Core/NeighborQuery.h"
 
-#include "Core/NeighborKernel.h"
+#include "Core/Kernel/NeighborKernel.h"
 #include "Core/SpatialOrder.h"
 
 #include <algorithm>

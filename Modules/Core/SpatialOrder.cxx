@@ -1,6 +1,6 @@
 #include "Core/SpatialOrder.h"
 
-#include "Core/NeighborKernel.h"
+#include "Core/Kernel/NeighborKernel.h"
 
 #include <algorithm>
 #include <array>

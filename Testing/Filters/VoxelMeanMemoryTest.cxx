@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
+#include "vtkDoubleArray.h"
+
 #include <algorithm>
 
 namespace
@@ -57,4 +61,31 @@ TEST(VoxelMeanMemory, IsFreedOnRequestWithoutChangingTheAnswer)
     resampler->Update();
     trial::expectSame(resampler->GetOutput(), expected);
   }
+}
+
+TEST(VoxelMeanMemory, WhatSomebodyHoldsOfAnOutputIsNotWrittenAgain)
+{
+  // Large enough for the memory of outputs to be used again.
+  const auto cloud = trial::cloudOf(trial::randomPoints(60000, 81));
+  vtkNew<vtkDoubleArray> shared;
+  vtkNew<vtkDoubleArray> expected;
+  {
+    vtkNew<vtkVoxelMeanResampler> resampler;
+    resampler->SetInputData(cloud);
+    resampler->SetDimensions(100, 100, 100);
+    resampler->Update();
+    vtkDataArray* points = resampler->GetOutput()->GetPoints()->GetData();
+    ASSERT_GT(points->GetNumberOfTuples(), 30000);
+    shared->ShallowCopy(points);
+    expected->DeepCopy(points);
+    for (const int n : { 101, 99, 100 })
+    {
+      resampler->SetDimensions(n, n, n);
+      resampler->Update();
+    }
+  }
+  ASSERT_EQ(shared->GetNumberOfValues(), expected->GetNumberOfValues());
+  EXPECT_EQ(std::memcmp(shared->GetPointer(0), expected->GetPointer(0),
+              std::size_t(expected->GetNumberOfValues()) * sizeof(double)),
+    0);
 }

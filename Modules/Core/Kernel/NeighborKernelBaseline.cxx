@@ -1,5 +1,5 @@
 /// The loops for every machine: one number at a time.
-#include "Core/NeighborKernelBody.h"
+#include "Core/Kernel/NeighborKernelBody.h"
 
 namespace pointhaptics
 {

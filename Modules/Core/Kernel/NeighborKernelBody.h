@@ -8,8 +8,8 @@
 /// the other, and lanes, which stores first + their numbers. Both may write a whole vector.
 #pragma once
 
-#include "Core/HilbertKeyBody.h"
-#include "Core/NeighborKernel.h"
+#include "Core/Kernel/HilbertKeyBody.h"
+#include "Core/Kernel/NeighborKernel.h"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 /// The loops with AVX2: four numbers at a time.
-#include "Core/NeighborKernelBody.h"
+#include "Core/Kernel/NeighborKernelBody.h"
 
 #if defined(__AVX2__)
 #include <immintrin.h>

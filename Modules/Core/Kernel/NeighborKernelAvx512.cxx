@@ -1,5 +1,5 @@
 /// The loops with AVX-512: eight numbers at a time.
-#include "Core/NeighborKernelBody.h"
+#include "Core/Kernel/NeighborKernelBody.h"
 
 #if defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__)
 #include <immintrin.h>
