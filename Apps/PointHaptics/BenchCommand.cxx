@@ -1,18 +1,15 @@
 #include "Commands.h"
 
+#include "BenchTask.h"
 #include "Messages.h"
 #include "OptionParsing.h"
 #include "ViewDisplay.h"
-
-#include "Benchmark/Resample/ResampleBenchmark.h"
-#include "Benchmark/Resample/Rival.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -27,25 +24,23 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "bench resample";
-constexpr double kMostPoints = 1e8;
-constexpr double kMostVoxels = 2097152;
+/// Every task there is.
+std::vector<BenchTask> allTasks()
+{
+  return { resampleTask() };
+}
+
 constexpr std::int64_t kMostRepetitions = 10000;
 /// Stands in the report for the folder that was named: that one is nobody else's.
 constexpr const char* kShownFolder = "Documentation";
 
 struct BenchOptions
 {
-  std::vector<double> points;
-  std::vector<double> dimensions;
   std::vector<double> threads;
-  std::vector<std::string> rivals;
-  std::vector<std::string> studies;
   std::int64_t repetitions = 0; ///< 0: the default.
   std::string folder;
   bool quick = false;
   bool json = false;
-  bool rivalsAreGiven = false;
 };
 
 int numberOfCores()
@@ -53,83 +48,27 @@ int numberOfCores()
   return int(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-/// A comma-separated list of whole numbers from 1 to @p maximum, sorted, each once.
-void addWholeNumbers(CLI::App& command, const std::string& name, std::vector<double>& values, double maximum,
-  const std::string& description)
+BenchSettings settingsOf(const BenchOptions& options)
 {
-  const auto store = [&values, maximum, name](const std::string& text)
+  BenchSettings settings;
+  settings.threads.assign(options.threads.begin(), options.threads.end());
+  if (settings.threads.empty())
   {
-    const auto isFit = [maximum](double x) { return x == std::floor(x) && x >= 1.0 && x <= maximum; };
-    if (!parseNumbers(text, values) || !std::all_of(values.begin(), values.end(), isFit))
+    settings.threads = { 1 };
+    if (numberOfCores() > 1)
     {
-      throwUsage(
-        name, text, fmt::format("give whole numbers from 1 to {:.0f}, separated by commas", maximum));
+      settings.threads.push_back(numberOfCores());
     }
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-  };
-  command.add_option_function<std::string>(name, store, description)->type_name("N,...");
-}
-
-/// A comma-separated list of some of @p words; "none" where @p mayBeNone gives an empty one.
-void addWords(CLI::App& command, const std::string& name, std::vector<std::string>& values,
-  const std::vector<std::string>& words, bool mayBeNone, const std::string& description)
-{
-  const auto store = [&values, words, mayBeNone, name](const std::string& text)
-  {
-    values.clear();
-    for (const std::string& word : CLI::detail::split(mayBeNone && text == "none" ? "" : text, ','))
-    {
-      if (word.empty() && mayBeNone)
-      {
-        continue;
-      }
-      if (std::find(words.begin(), words.end(), word) == words.end())
-      {
-        throwUsage(name, text, fmt::format("no such choice; give some of {}", fmt::join(words, ",")));
-      }
-      values.push_back(word);
-    }
-  };
-  command.add_option_function<std::string>(name, store, description)
-    ->type_name(fmt::format("{}", fmt::join(words, ",")));
-}
-
-bench::ResampleBenchmarkOptions settingsOf(const BenchOptions& options)
-{
-  bench::ResampleBenchmarkOptions settings;
-  if (options.quick)
-  {
-    settings.makeQuick();
   }
-  const auto take = [](const std::vector<double>& from, auto& to)
-  {
-    if (!from.empty())
-    {
-      to.assign(from.begin(), from.end());
-    }
-  };
-  settings.threads = { 1 };
-  if (numberOfCores() > 1)
-  {
-    settings.threads.push_back(numberOfCores());
-  }
-  take(options.points, settings.points);
-  take(options.dimensions, settings.dimensions);
-  take(options.threads, settings.threads);
-  settings.rivals = options.rivalsAreGiven ? options.rivals : bench::rivalWords();
-  settings.studies = options.studies;
-  if (options.repetitions > 0)
-  {
-    settings.repetitions = int(options.repetitions);
-  }
+  settings.repetitions = int(options.repetitions);
+  settings.quick = options.quick;
   return settings;
 }
 
 /// The command line that repeats the run.
 std::string commandText(const CLI::App& command)
 {
-  std::string text = "pointhaptics bench resample";
+  std::string text = "pointhaptics bench " + command.get_name();
   for (const CLI::Option* option : command.get_options())
   {
     const std::string name = option->get_name();
@@ -147,32 +86,33 @@ std::string commandText(const CLI::App& command)
 }
 
 /// Asked before the long work: can the folder be had, and pictures be drawn?
-bool prepareFolder(const BenchOptions& options, bool& withPictures, std::string& message)
+bool prepareFolder(
+  const std::string& who, const std::string& folder, bool& withPictures, std::string& message)
 {
   std::error_code error;
-  std::filesystem::create_directories(options.folder, error);
-  if (error || ::access(options.folder.c_str(), W_OK) != 0)
+  std::filesystem::create_directories(folder, error);
+  if (error || ::access(folder.c_str(), W_OK) != 0)
   {
-    message =
-      options.folder + ": no folder that can be written; give one, or a name that one can be made under";
+    message = folder + ": no folder that can be written; give one, or a name that one can be made under";
     return false;
   }
   std::string whyNot;
   withPictures = displayIsAvailable(whyNot);
   if (!withPictures)
   {
-    warn(kCommand, "the report goes without pictures: " + whyNot);
+    warn(who, "the report goes without pictures: " + whyNot);
   }
   return true;
 }
 
-int runBench(const BenchOptions& options, const std::string& command)
+int runBench(const BenchRun& run, const BenchOptions& options, const CLI::App& command)
 {
+  const std::string who = "bench " + command.get_name();
   std::string message;
   bool withPictures = false;
-  if (!options.folder.empty() && !prepareFolder(options, withPictures, message))
+  if (!options.folder.empty() && !prepareFolder(who, options.folder, withPictures, message))
   {
-    return fail(kCommand, message);
+    return fail(who, message);
   }
   const bool talks = isatty(STDERR_FILENO) != 0;
   const auto progress = [talks](const std::string& what)
@@ -182,28 +122,46 @@ int runBench(const BenchOptions& options, const std::string& command)
       fmt::print(stderr, "{}\n", what);
     }
   };
-  bool allRight = false;
-  bench::Report report = bench::benchmarkResample(settingsOf(options), progress, allRight);
-  report.command = command;
+  BenchOutcome outcome = run(settingsOf(options), progress);
+  outcome.report.command = commandText(command);
   if (options.json)
   {
-    printJson(bench::toJson(report));
+    printJson(bench::toJson(outcome.report));
   }
   else
   {
-    fmt::print("{}", bench::toText(report));
+    fmt::print("{}", bench::toText(outcome.report));
   }
-  if (!options.folder.empty() && !bench::writeReport(report, options.folder, withPictures, message))
+  if (!options.folder.empty() && !bench::writeReport(outcome.report, options.folder, withPictures, message))
   {
-    return fail(kCommand, message);
+    return fail(who, message);
   }
   if (const std::vector<std::string> errors = takeVtkErrors(); !errors.empty())
   {
-    return fail(kCommand, errors.front());
+    return fail(who, errors.front());
   }
-  return allRight
-    ? kSuccess
-    : fail(kCommand, "an answer of vtkVoxelMeanResampler is wrong; look for \"wrong\" in the tables");
+  return outcome.wrong.empty() ? kSuccess : fail(who, outcome.wrong);
+}
+
+void addTask(CLI::App& bench, const BenchTask& task, int& exitCode)
+{
+  CLI::App* command = bench.add_subcommand(task.name, task.description);
+  auto options = std::make_shared<BenchOptions>();
+  if (task.hasThreads)
+  {
+    addWholeNumbers(*command, "--threads", options->threads, numberOfCores(),
+      "Numbers of threads; default one, and all cores");
+  }
+  addInteger(*command, "--repetitions", options->repetitions, 1, kMostRepetitions,
+    fmt::format("Rounds in which each contestant runs once; default {}", task.repetitions));
+  const BenchRun run = task.addOptions(*command);
+  command->add_flag("--quick", options->quick, "A second or two, to see that everything works");
+  command->add_flag("--json", options->json, "Print the figures as JSON");
+  command
+    ->add_option("-o,--output", options->folder,
+      "Folder for Performance.md, Accuracy.md and Images/*.png; a section already there is replaced")
+    ->type_name("FOLDER");
+  command->callback([run, options, command, &exitCode] { exitCode = runBench(run, *options, *command); });
 }
 
 } // namespace
@@ -211,40 +169,20 @@ int runBench(const BenchOptions& options, const std::string& command)
 void addBenchCommand(CLI::App& program, int& exitCode)
 {
   CLI::App* bench = program.add_subcommand("bench", "Measure this program beside others");
+  std::vector<std::string> names;
+  for (const BenchTask& task : allTasks())
+  {
+    addTask(*bench, task, exitCode);
+    names.push_back(task.name);
+  }
   bench->callback(
-    [bench]
+    [bench, names]
     {
       if (bench->get_subcommands().empty())
       {
-        throw CLI::ParseError("name a task: resample", CLI::ExitCodes::RequiredError);
+        throw CLI::ParseError(
+          fmt::format("name a task: {}", fmt::join(names, ", ")), CLI::ExitCodes::RequiredError);
       }
-    });
-  CLI::App* command = bench->add_subcommand(
-    "resample", "Time mean resampling: ours, PCL's, VTK's, Open3D's; answers checked first");
-  auto options = std::make_shared<BenchOptions>();
-  addWholeNumbers(
-    *command, "--points", options->points, kMostPoints, "Numbers of points; default 1e4,1e5,543652,1e6,5e6");
-  addWholeNumbers(*command, "--dims", options->dimensions, kMostVoxels,
-    "Voxels on an axis, for the study of voxel size; default 75,150,300,600,1200,4096");
-  addWholeNumbers(*command, "--threads", options->threads, numberOfCores(),
-    "Numbers of threads; default one, and all cores");
-  addInteger(*command, "--repetitions", options->repetitions, 1, kMostRepetitions,
-    "Rounds in which each contestant runs once; default 15");
-  addWords(*command, "--rivals", options->rivals, bench::rivalWords(), true,
-    "Who runs beside ours, or none; default all that were found");
-  addWords(
-    *command, "--studies", options->studies, bench::studyWords(), false, "What to measure; default all");
-  command->add_flag("--quick", options->quick, "A second or two, to see that everything works");
-  command->add_flag("--json", options->json, "Print the figures as JSON");
-  command
-    ->add_option("-o,--output", options->folder,
-      "Folder for Performance.md and Images/*.png; a section already there is replaced")
-    ->type_name("FOLDER");
-  command->callback(
-    [options, command, &exitCode]
-    {
-      options->rivalsAreGiven = command->get_option("--rivals")->count() > 0;
-      exitCode = runBench(*options, commandText(*command));
     });
 }
 

@@ -155,6 +155,23 @@ CLI::Option* addNumbers(CLI::App& command, const std::string& name, std::vector<
     std::move(check), form, description);
 }
 
+CLI::Option* addWholeNumbers(CLI::App& command, const std::string& name, std::vector<double>& values,
+  double maximum, const std::string& description)
+{
+  const auto store = [&values, maximum, shown = shownName(name)](const std::string& text)
+  {
+    const auto isFit = [maximum](double x) { return x == std::floor(x) && x >= 1.0 && x <= maximum; };
+    if (!parseNumbers(text, values) || !std::all_of(values.begin(), values.end(), isFit))
+    {
+      throwUsage(
+        shown, text, fmt::format("give whole numbers from 1 to {:.0f}, separated by commas", maximum));
+    }
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  };
+  return command.add_option_function<std::string>(name, store, description)->type_name("N,...");
+}
+
 CLI::Option* addWord(CLI::App& command, const std::string& name, std::string& value,
   std::vector<std::string> words, const std::string& description)
 {
@@ -168,6 +185,29 @@ CLI::Option* addWord(CLI::App& command, const std::string& name, std::string& va
     value = text;
   };
   return command.add_option_function<std::string>(name, store, description)->type_name(form);
+}
+
+CLI::Option* addWords(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+  const std::vector<std::string>& words, bool mayBeNone, const std::string& description)
+{
+  const auto store = [&values, words, mayBeNone, shown = shownName(name)](const std::string& text)
+  {
+    values.clear();
+    for (const std::string& word : CLI::detail::split(mayBeNone && text == "none" ? "" : text, ','))
+    {
+      if (word.empty() && mayBeNone)
+      {
+        continue;
+      }
+      if (std::find(words.begin(), words.end(), word) == words.end())
+      {
+        throwUsage(shown, text, fmt::format("no such choice; give some of {}", fmt::join(words, ",")));
+      }
+      values.push_back(word);
+    }
+  };
+  return command.add_option_function<std::string>(name, store, description)
+    ->type_name(fmt::format("{}", fmt::join(words, ",")));
 }
 
 CLI::Option* addChoice(CLI::App& command, const std::string& name, int& value,

@@ -57,9 +57,16 @@ CLI::Option* addNumbers(CLI::App& command, const std::string& name, std::vector<
 CLI::Option* addNumbers(CLI::App& command, const std::string& name,
   std::function<void(const std::vector<double>&)> keep, std::initializer_list<std::size_t> counts,
   NumbersCheck check, const std::string& form, const std::string& description);
+/// Adds an option taking comma-separated whole numbers from 1 to @p maximum; stored ascending, each once.
+CLI::Option* addWholeNumbers(CLI::App& command, const std::string& name, std::vector<double>& values,
+  double maximum, const std::string& description);
 /// Adds an option taking one of @p words.
 CLI::Option* addWord(CLI::App& command, const std::string& name, std::string& value,
   std::vector<std::string> words, const std::string& description);
+/// Adds an option taking some of @p words, separated by commas; where @p mayBeNone "none" gives an empty
+/// list.
+CLI::Option* addWords(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+  const std::vector<std::string>& words, bool mayBeNone, const std::string& description);
 /// Adds an option taking one of the words in @p choices; @p value becomes the integer beside it.
 CLI::Option* addChoice(CLI::App& command, const std::string& name, int& value,
   std::vector<std::pair<std::string, int>> choices, const std::string& description);

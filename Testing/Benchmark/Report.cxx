@@ -13,11 +13,25 @@ namespace bench
 namespace
 {
 
-constexpr const char* kPage = "Performance.md";
 constexpr const char* kImages = "Images";
-constexpr const char* kPageHead =
+
+struct PageText
+{
+  const char* file;
+  const char* head;
+};
+
+constexpr PageText kPerformance{ "Performance.md",
   "# Performance\n\nWritten by `pointhaptics bench`; run the command of a section to repeat it. Compare the "
-  "ratios, which\ntravel between machines better than the times do.\n";
+  "ratios, which\ntravel between machines better than the times do.\n" };
+constexpr PageText kAccuracy{ "Accuracy.md",
+  "# Accuracy\n\nWritten by `pointhaptics bench`; run the command of a section to repeat it. Errors are the "
+  "same on every\nmachine, but for the last digits; the times beside them are not.\n" };
+
+const PageText& textOf(Page page)
+{
+  return page == Page::Accuracy ? kAccuracy : kPerformance;
+}
 
 std::string beginMark(const std::string& task)
 {
@@ -89,37 +103,44 @@ nlohmann::ordered_json toJson(const Report& report)
   return result;
 }
 
-std::string toMarkdown(const Report& report, const std::string& imageFolder)
+std::string toMarkdown(const Report& report, Page page, const std::string& imageFolder)
 {
-  std::string text = fmt::format("## {}\n\n    {}\n\n{}\n\nMeasured on: {}\n", report.title, report.command,
-    report.method, sentence(report.machine));
+  std::string parts;
   for (const ReportPart& part : report.parts)
   {
-    text += fmt::format("\n### {}\n\n{}\n\n{}", part.title, part.text, toMarkdown(part.table));
+    if (part.page != page)
+    {
+      continue;
+    }
+    parts += fmt::format("\n### {}\n\n{}\n\n{}", part.title, part.text, toMarkdown(part.table));
     for (std::size_t i = 0; i < part.remarks.size(); ++i)
     {
-      text += fmt::format("{}- {}\n", i == 0 ? "\n" : "", part.remarks[i]);
+      parts += fmt::format("{}- {}\n", i == 0 ? "\n" : "", part.remarks[i]);
     }
     for (const Chart& chart : part.charts)
     {
-      text += imageFolder.empty()
+      parts += imageFolder.empty()
         ? std::string()
         : fmt::format("\n![{}]({}/{}.png)\n", chart.title, imageFolder, chart.fileName);
     }
   }
-  return text;
+  const std::string& method = page == Page::Accuracy ? report.accuracyMethod : report.method;
+  return parts.empty() ? parts
+                       : fmt::format("## {}\n\n    {}\n\n{}\n\nMeasured on: {}\n{}", report.title,
+                           report.command, method, sentence(report.machine), parts);
 }
 
-std::string withSection(const std::string& page, const std::string& task, const std::string& section)
+std::string withSection(
+  const std::string& content, Page page, const std::string& task, const std::string& section)
 {
   const std::string block = beginMark(task) + "\n\n" + section + "\n" + endMark(task);
-  const std::size_t begin = page.find(beginMark(task));
-  const std::size_t end = page.find(endMark(task), begin == std::string::npos ? 0 : begin);
+  const std::size_t begin = content.find(beginMark(task));
+  const std::size_t end = content.find(endMark(task), begin == std::string::npos ? 0 : begin);
   if (begin != std::string::npos && end != std::string::npos)
   {
-    return page.substr(0, begin) + block + page.substr(end + endMark(task).size());
+    return content.substr(0, begin) + block + content.substr(end + endMark(task).size());
   }
-  return (page.empty() ? std::string(kPageHead) : page) + "\n" + block + "\n";
+  return (content.empty() ? std::string(textOf(page).head) : content) + "\n" + block + "\n";
 }
 
 bool writeReport(const Report& report, const std::string& folder, bool withPictures, std::string& message)
@@ -132,12 +153,15 @@ bool writeReport(const Report& report, const std::string& folder, bool withPictu
     message = fmt::format("{}: the folder cannot be made ({})", folder, error.message());
     return false;
   }
-  const std::string section = toMarkdown(report, withPictures ? kImages : "");
-  const std::string page = withSection(contentOf(root / kPage), report.task, section);
-  if (!writeContent(root / kPage, page))
+  for (const Page page : { Page::Performance, Page::Accuracy })
   {
-    message = (root / kPage).string() + ": cannot be written; check the folder and the space left";
-    return false;
+    const std::filesystem::path file = root / textOf(page).file;
+    const std::string section = toMarkdown(report, page, withPictures ? kImages : "");
+    if (!section.empty() && !writeContent(file, withSection(contentOf(file), page, report.task, section)))
+    {
+      message = file.string() + ": cannot be written; check the folder and the space left";
+      return false;
+    }
   }
   return !withPictures || writeCharts(report, root / kImages, message);
 }

@@ -12,6 +12,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 
 /// Handed to an accumulator for each point: the coordinate itself and where it is in its voxel.
 struct Coordinate
@@ -122,5 +124,6 @@ struct FixedPoint
   }
 };
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

@@ -19,6 +19,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -136,5 +138,6 @@ ResampleTask taskOn(vtkPolyData* cloud, std::int64_t dimension)
   return task;
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

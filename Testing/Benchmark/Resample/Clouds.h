@@ -12,6 +12,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 
 enum class PointOrder
 {
@@ -36,5 +38,6 @@ PointView viewOf(vtkPolyData* cloud);
 /// The cube about the origin with @p dimension voxels on an axis.
 ResampleTask taskOn(vtkPolyData* cloud, std::int64_t dimension);
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

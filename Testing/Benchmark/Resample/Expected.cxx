@@ -13,6 +13,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -168,5 +170,6 @@ Verdict judge(const ResampleAnswer& answer, const ExpectedMeans& expected, bool 
   return verdict;
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

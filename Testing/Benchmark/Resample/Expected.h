@@ -15,6 +15,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 
 struct ExpectedMeans
 {
@@ -42,5 +44,6 @@ struct Verdict
 /// faces), means by 1e-3 voxel.
 Verdict judge(const ResampleAnswer& answer, const ExpectedMeans& expected, bool exact);
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

@@ -8,6 +8,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -60,5 +62,6 @@ ReportPart studyInstructions(StudyContext& context)
   return part;
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

@@ -12,6 +12,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -123,5 +125,6 @@ ReportPart studyMemory(StudyContext& context)
   return part;
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

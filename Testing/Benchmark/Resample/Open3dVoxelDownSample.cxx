@@ -12,6 +12,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -63,11 +65,12 @@ private:
 
 } // namespace
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics
 
 /// See kMakeRival.
-extern "C" pointhaptics::bench::Rival* pointhapticsMakeRival()
+extern "C" pointhaptics::bench::resample::Rival* pointhapticsMakeRival()
 {
-  return new pointhaptics::bench::Open3dVoxelDownSample;
+  return new pointhaptics::bench::resample::Open3dVoxelDownSample;
 }

@@ -12,6 +12,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 
 void setTask(vtkVoxelMeanResampler* filter, const ResampleTask& task, bool automaticWorkspace)
 {
@@ -141,5 +143,6 @@ std::unique_ptr<Rival> makeOurs(const OursSettings& settings)
   return std::make_unique<Ours>(settings);
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

@@ -10,11 +10,14 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 
 /// Sets the lattice of @p task; with the automatic workspace only the size of its voxels.
 void setTask(vtkVoxelMeanResampler* filter, const ResampleTask& task, bool automaticWorkspace);
 /// Means, counts and lattice of an output.
 ResampleAnswer answerOf(vtkPolyData* output);
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

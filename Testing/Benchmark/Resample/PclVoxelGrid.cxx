@@ -16,6 +16,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -74,11 +76,12 @@ private:
 
 } // namespace
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics
 
 /// See kMakeRival.
-extern "C" pointhaptics::bench::Rival* pointhapticsMakeRival()
+extern "C" pointhaptics::bench::resample::Rival* pointhapticsMakeRival()
 {
-  return new pointhaptics::bench::PclVoxelGrid;
+  return new pointhaptics::bench::resample::PclVoxelGrid;
 }

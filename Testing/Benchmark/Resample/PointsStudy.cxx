@@ -8,6 +8,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -101,5 +103,6 @@ ReportPart studyPoints(StudyContext& context)
   return part;
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

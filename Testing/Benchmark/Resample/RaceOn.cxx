@@ -12,6 +12,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -193,5 +195,6 @@ int mostThreads(const StudyContext& context)
   return *std::max_element(context.options.threads.begin(), context.options.threads.end());
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

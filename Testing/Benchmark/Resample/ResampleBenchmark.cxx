@@ -9,6 +9,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -86,5 +88,6 @@ Report benchmarkResample(const ResampleBenchmarkOptions& options, const Progress
   return report;
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

@@ -5,13 +5,14 @@
 #include "Benchmark/Report.h"
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace pointhaptics
 {
 namespace bench
+{
+namespace resample
 {
 
 struct ResampleBenchmarkOptions
@@ -35,12 +36,10 @@ struct ResampleBenchmarkOptions
 /// What --studies takes: points, voxels, attributes, instructions, zoom, memory, accumulators.
 std::vector<std::string> studyWords();
 
-/// Told what is being measured, from time to time.
-using Progress = std::function<void(const std::string&)>;
-
 /// Runs the studies. VTK's number of threads may be left changed. Throws std::bad_alloc.
 /// @param allRight becomes false where an answer of ours was wrong.
 Report benchmarkResample(const ResampleBenchmarkOptions& options, const Progress& progress, bool& allRight);
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

@@ -15,6 +15,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 
 /// What every contestant of a race is asked to do.
 struct ResampleTask
@@ -84,9 +86,9 @@ std::vector<std::string> rivalWords();
 /// cannot be loaded.
 std::unique_ptr<Rival> makeRival(const std::string& word);
 
-/// What a rival's module exports under the name kMakeRival: a new Rival, the caller's.
+/// What a rival's module exports under the name bench::kMakeRival: a new Rival, the caller's.
 extern "C" using MakeRival = Rival * (*)();
-constexpr const char* kMakeRival = "pointhapticsMakeRival";
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

@@ -16,6 +16,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 
 /// What the studies share.
 struct StudyContext
@@ -73,5 +75,6 @@ ReportPart studyZoom(StudyContext& context);
 ReportPart studyMemory(StudyContext& context);
 ReportPart studyAccumulators(StudyContext& context);
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

@@ -8,6 +8,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -90,5 +92,6 @@ ReportPart studyAttributes(StudyContext& context)
   return part;
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

@@ -12,6 +12,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -86,5 +88,6 @@ std::unique_ptr<Rival> makeVtkVoxelGrid()
   return std::make_unique<VtkVoxelGrid>();
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

@@ -14,6 +14,8 @@ namespace pointhaptics
 {
 namespace bench
 {
+namespace resample
+{
 namespace
 {
 
@@ -183,5 +185,6 @@ ReportPart studyZoom(StudyContext& context)
   return part;
 }
 
+} // namespace resample
 } // namespace bench
 } // namespace pointhaptics

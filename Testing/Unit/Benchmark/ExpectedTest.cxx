@@ -9,7 +9,7 @@
 #include <cmath>
 
 using namespace pointhaptics;
-using namespace pointhaptics::bench;
+using namespace pointhaptics::bench::resample;
 
 namespace
 {

@@ -42,21 +42,40 @@ TEST(Report, JsonHasTheRowsOfEachPart)
 
 TEST(Report, MarkdownNamesTheCommandAndThePictures)
 {
-  const std::string text = toMarkdown(smallReport(), "Images");
+  const std::string text = toMarkdown(smallReport(), Page::Performance, "Images");
   EXPECT_EQ(text.rfind("## Doing nothing\n\n    pointhaptics bench nothing\n", 0), 0u);
   EXPECT_NE(text.find("| ours | 1 |"), std::string::npos);
   EXPECT_NE(text.find("- It rained\n"), std::string::npos);
   EXPECT_NE(text.find("![Waiting](Images/waiting.png)"), std::string::npos);
-  EXPECT_EQ(toMarkdown(smallReport(), "").find("!["), std::string::npos);
+  EXPECT_EQ(toMarkdown(smallReport(), Page::Performance, "").find("!["), std::string::npos);
 }
 
 TEST(Report, ASectionReplacesItselfAndLeavesTheOthers)
 {
-  std::string page = withSection("", "a", "one");
+  std::string page = withSection("", Page::Performance, "a", "one");
   EXPECT_EQ(page.rfind("# Performance\n", 0), 0u);
-  page = withSection(page, "b", "two");
-  const std::string again = withSection(page, "a", "three");
+  page = withSection(page, Page::Performance, "b", "two");
+  const std::string again = withSection(page, Page::Performance, "a", "three");
   EXPECT_EQ(again.find("one"), std::string::npos);
   EXPECT_LT(again.find("three"), again.find("two"));
-  EXPECT_EQ(withSection(again, "a", "one"), page);
+  EXPECT_EQ(withSection(again, Page::Performance, "a", "one"), page);
+}
+
+TEST(Report, APageHoldsItsOwnPartsOnly)
+{
+  Report report = smallReport();
+  report.accuracyMethod = "Compared.";
+  EXPECT_EQ(toMarkdown(report, Page::Accuracy, ""), "");
+  report.parts.push_back(report.parts.front());
+  report.parts.back().title = "Being wrong";
+  report.parts.back().page = Page::Accuracy;
+  const std::string times = toMarkdown(report, Page::Performance, "");
+  const std::string errors = toMarkdown(report, Page::Accuracy, "");
+  EXPECT_NE(times.find("### Waiting"), std::string::npos);
+  EXPECT_EQ(times.find("### Being wrong"), std::string::npos);
+  EXPECT_EQ(errors.find("### Waiting"), std::string::npos);
+  EXPECT_NE(errors.find("### Being wrong"), std::string::npos);
+  EXPECT_NE(errors.find("Compared."), std::string::npos);
+  EXPECT_EQ(errors.find("Waited."), std::string::npos);
+  EXPECT_EQ(withSection("", Page::Accuracy, "nothing", errors).rfind("# Accuracy\n", 0), 0u);
 }
