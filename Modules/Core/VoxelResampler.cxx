@@ -239,6 +239,13 @@ void VoxelResampler::Implementation::sumChunk(
           worker.carryDense(kernels, pool_, p, carried_[p]);
           continue;
         }
+        if (plan_.dense && !keepSums && carried_[p].voxels.empty())
+        {
+          const PartitionVoxels voxels = worker.sumPacked(kernels, pool_, p, carried_[p]);
+          level.segments[p].size = voxels.size;
+          level.arena.write(kernels, level.segments[p].place, voxels);
+          continue;
+        }
         worker.carried.clear();
         worker.sum(kernels, pool_, p, carried_[p],
           [&](const MomentBatch<std::int64_t>& batch)

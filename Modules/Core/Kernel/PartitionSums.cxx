@@ -25,27 +25,14 @@ std::uint32_t blocks(std::uint32_t count, int shift)
   return ((count - 1) >> shift) + 1;
 }
 
-/// Words of a bit for each cell, and of a bit for each of these.
+/// Words of a bit for each cell.
 std::size_t markWords(const PartitionPlan& plan)
 {
-  return plan.cells() / 64 + 1;
-}
-std::size_t summaryWords(const PartitionPlan& plan)
-{
-  return markWords(plan) / 64 + 1;
+  return (plan.cells() - 1) / 64 + 1;
 }
 
 /// So many points in one voxel are taken out of the packed sums, which hold less than 2^21.
 constexpr std::uint64_t kPackedCounts = std::uint64_t(1) << 19;
-
-template <typename T>
-void reserveZeroed(Buffer<T>& buffer, std::size_t count)
-{
-  if (buffer.reserve(count, Pages::Huge))
-  {
-    std::memset(static_cast<void*>(buffer.data()), 0, count * sizeof(T));
-  }
-}
 
 void addCarried(MomentBatch<std::int64_t>& batch, int i, const CarriedPartition& carried, std::size_t voxel)
 {
@@ -131,102 +118,119 @@ void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
   plan_ = plan;
   batchSeconds_.resize(covariances ? kBatch : 0);
   batch_->seconds = covariances ? batchSeconds_.data() : nullptr;
-  if (plan.dense)
+  if (plan.dense && marks_.reserve(markWords(plan)))
   {
-    reserveZeroed(slots_, plan.cells());
-    reserveZeroed(marks_, markWords(plan));
-    reserveZeroed(summary_, summaryWords(plan));
+    std::fill(marks_.data(), marks_.data() + markWords(plan), 0);
   }
+  before_.reserve(plan.dense ? markWords(plan) : 0);
 }
 
-/// Room for the sums of so many cells.
-void PartitionWorker::prepareSums(std::size_t most)
+CellRanks PartitionWorker::ranks() const
 {
-  reserveZeroed(sums_, most);
-  slotCells_.reserve(most + 1);
-  cells_.reserve(most + 64);
-  if (batch_->seconds)
-  {
-    reserveZeroed(seconds_, most);
-  }
-  cellSums_ = { slots_.data(), slotCells_.data(), sums_.data(), batch_->seconds ? seconds_.data() : nullptr,
-    0 };
+  return { marks_.data(), before_.data(), markWords(plan_) };
 }
 
-/// Sums of the carried voxels and the partition's records.
-void PartitionWorker::sumDense(
+void PartitionWorker::clearMarks()
+{
+  if (plan_.dense)
+  {
+    std::fill(marks_.data(), marks_.data() + markWords(plan_), 0);
+  }
+}
+
+/// Puts carried sums at the places of their cells.
+void PartitionWorker::takeCarried(const Kernels& kernels, const CarriedPartition& old)
+{
+  std::uint32_t places[kBatch];
+  for (std::size_t first = 0; first < old.cells.size(); first += kBatch)
+  {
+    const std::size_t size = std::min<std::size_t>(old.cells.size() - first, kBatch);
+    std::copy(old.cells.data() + first, old.cells.data() + first + size, places);
+    kernels.rank(ranks(), places, int(size));
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      cells_[places[i]] = old.cells[first + i];
+      sums_[places[i]] = old.packed[first + i];
+      if (batch_->seconds)
+      {
+        seconds_[places[i]] = old.seconds[first + i];
+      }
+    }
+  }
+}
+
+PartitionVoxels PartitionWorker::sumPacked(
   const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, const CarriedPartition& old)
 {
-  const CellMap map = plan_.cellMap(partition);
-  prepareSums(mostVoxels(plan_, pool.count(partition), old.size()));
-  cellSums_.size = std::uint32_t(old.cells.size());
-  std::copy(old.cells.begin(), old.cells.end(), slotCells_.data());
-  std::copy(old.packed.begin(), old.packed.end(), sums_.data());
-  if (cellSums_.seconds)
+  PartitionVoxels voxels;
+  voxels.map = plan_.cellMap(partition);
+  voxels.firstKey = plan_.firstKey(partition);
+  const std::size_t records = pool.count(partition);
+  if (records == 0 && old.cells.empty())
   {
-    std::copy(old.seconds.begin(), old.seconds.end(), seconds_.data());
+    return voxels;
   }
-  for (std::uint32_t i = 0; i < cellSums_.size; ++i)
-  {
-    slots_[old.cells[i]] = i + 1;
-  }
+  recordCells_.reserve(records + kWidest);
   pool.prefetchFirst(partition + 1);
+  for (const std::uint32_t cell : old.cells)
+  {
+    markCell(cell);
+  }
+  std::uint32_t* cells = recordCells_.data();
   pool.forBlocks(partition,
-    [&](const Record* records, const std::uint32_t*, int count)
-    { kernels.accumulate(map, records, count, cellSums_); });
-}
-
-/// Lists the cells in ascending order.
-void PartitionWorker::listDense(const Kernels& kernels)
-{
-  for (std::uint32_t i = 0; i < cellSums_.size; ++i)
+    [&](const Record* block, const std::uint32_t*, int count)
+    {
+      kernels.mark(voxels.map, block, count, marks_.data(), cells);
+      cells += count;
+    });
+  voxels.size = kernels.number(ranks());
+  cells_.reserve(voxels.size + kWidest);
+  sums_.reserve(voxels.size + kWidest);
+  std::fill(sums_.data(), sums_.data() + voxels.size, PackedSums{ { 0, 0, 0, 0 } });
+  if (batch_->seconds)
   {
-    const std::uint32_t cell = slotCells_[i];
-    marks_[cell / 64] |= std::uint64_t(1) << (cell % 64);
-    summary_[cell / 4096] |= std::uint64_t(1) << (cell / 64 % 64);
+    seconds_.reserve(voxels.size);
+    std::fill(seconds_.data(), seconds_.data() + voxels.size, SecondSums{ { 0, 0, 0, 0, 0, 0 } });
   }
-  listed_ = kernels.drain(marks_.data(), summary_.data(), summaryWords(plan_), cells_.data());
-}
-
-void PartitionWorker::clearDense()
-{
-  for (std::uint32_t i = 0; i < cellSums_.size; ++i)
-  {
-    slots_[slotCells_[i]] = 0;
-  }
-  std::fill(sums_.data(), sums_.data() + cellSums_.size, PackedSums{ { 0, 0, 0, 0 } });
-  if (cellSums_.seconds)
-  {
-    std::fill(seconds_.data(), seconds_.data() + cellSums_.size, SecondSums{ { 0, 0, 0, 0, 0, 0 } });
-  }
-  cellSums_.size = 0;
+  takeCarried(kernels, old);
+  const CellSums sums = { cells_.data(), sums_.data(), batch_->seconds ? seconds_.data() : nullptr };
+  cells = recordCells_.data();
+  pool.forBlocks(partition,
+    [&](const Record* block, const std::uint32_t*, int count)
+    {
+      kernels.accumulate(voxels.map, ranks(), block, cells, count, sums);
+      cells += count;
+    });
+  clearMarks();
+  voxels.cells = sums.cells;
+  voxels.sums = sums.sums;
+  voxels.seconds = sums.seconds;
+  return voxels;
 }
 
 void PartitionWorker::carryDense(
   const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& carriedOver)
 {
-  sumDense(kernels, pool, partition, carriedOver);
+  const PartitionVoxels voxels = sumPacked(kernels, pool, partition, carriedOver);
   // Room for what another chunk adds, not for twice as much.
-  const std::size_t size = cellSums_.size;
-  if (carriedOver.cells.capacity() < size)
+  if (carriedOver.cells.capacity() < voxels.size)
   {
-    carriedOver.cells.reserve(size + size / 16);
-    carriedOver.packed.reserve(size + size / 16);
+    carriedOver.cells.reserve(voxels.size + voxels.size / 16);
+    carriedOver.packed.reserve(voxels.size + voxels.size / 16);
   }
-  carriedOver.cells.assign(slotCells_.data(), slotCells_.data() + size);
-  carriedOver.packed.assign(sums_.data(), sums_.data() + size);
-  if (cellSums_.seconds)
+  carriedOver.cells.assign(voxels.cells, voxels.cells + voxels.size);
+  carriedOver.packed.assign(voxels.sums, voxels.sums + voxels.size);
+  if (voxels.seconds)
   {
-    carriedOver.seconds.assign(seconds_.data(), seconds_.data() + size);
+    carriedOver.seconds.assign(voxels.seconds, voxels.seconds + voxels.size);
   }
-  for (std::size_t i = 0; i < size; ++i)
+  for (std::size_t i = 0; i < voxels.size; ++i)
   {
     if (carriedOver.packed[i].lanes[3] >> kCountShift >= kPackedCounts)
     {
-      unpack(plan_.firstKey(partition) + carriedOver.cells[i], carriedOver.packed[i], carriedOver);
+      unpack(voxels.firstKey + voxels.cells[i], carriedOver.packed[i], carriedOver);
     }
   }
-  clearDense();
 }
 
 /// Moves packed sums that are nearly full to sums of 64 bits each.
@@ -243,21 +247,32 @@ void PartitionWorker::unpack(std::uint64_t key, PackedSums& packed, CarriedParti
   packed = PackedSums{ { 0, 0, 0, 0 } };
 }
 
-void PartitionWorker::collectDense(const Kernels& kernels, std::uint32_t partition,
-  const CarriedPartition& old, std::size_t& position, std::size_t& next)
+void PartitionWorker::collectPacked(
+  const PartitionVoxels& voxels, const CarriedPartition& old, std::size_t& position, std::size_t& next)
 {
-  const int size = int(std::min<std::size_t>(listed_ - position, kBatch));
-  const std::uint32_t* cells = cells_.data() + position;
-  kernels.collect(plan_.cellMap(partition), cells, size, cellSums_, *batch_);
-  const std::uint64_t firstKey = plan_.firstKey(partition);
-  for (int i = 0; i < size && next < old.voxels.size(); ++i)
+  MomentBatch<std::int64_t>& batch = *batch_;
+  batch.size = int(std::min<std::size_t>(voxels.size - position, kBatch));
+  for (int i = 0; i < batch.size; ++i, ++position)
   {
-    if (old.voxels[next].key == firstKey + cells[i])
+    const PackedSums& sums = voxels.sums[position];
+    const std::uint32_t cell = voxels.cells[position];
+    const std::uint32_t row = cell / plan_.columns + voxels.map.firstRow;
+    batch.indices[0][i] = std::int32_t(cell % plan_.columns);
+    batch.indices[1][i] = std::int32_t(row % plan_.rowsPerLayer);
+    batch.indices[2][i] = std::int32_t(row / plan_.rowsPerLayer);
+    batch.counts[i] = packedCount(sums);
+    batch.sums[0][i] = std::int64_t(sums.lanes[0]);
+    batch.sums[1][i] = std::int64_t(sums.lanes[1]);
+    batch.sums[2][i] = packedZ(sums);
+    if (batch.seconds)
     {
-      addCarried(*batch_, i, old, next++);
+      batch.seconds[i] = voxels.seconds[position];
+    }
+    if (next < old.voxels.size() && old.voxels[next].key == voxels.firstKey + cell)
+    {
+      addCarried(batch, i, old, next++);
     }
   }
-  position += std::size_t(size);
 }
 
 std::size_t PartitionWorker::sortRecords(
@@ -321,16 +336,16 @@ void PartitionWorker::sortEntries(std::size_t size)
   }
 }
 
-void PartitionWorker::collectSorted(
-  std::uint32_t partition, const CarriedPartition& old, std::size_t& position, std::size_t& next)
+void PartitionWorker::collectSorted(std::uint32_t partition, const CarriedPartition& old, std::size_t listed,
+  std::size_t& position, std::size_t& next)
 {
   const std::uint64_t firstKey = plan_.firstKey(partition);
   const std::uint64_t fractionMask = (std::uint64_t(1) << plan_.fractionBits) - 1;
   MomentBatch<std::int64_t>& batch = *batch_;
   int size = 0;
-  for (; size < kBatch && (position < listed_ || next < old.voxels.size()); ++size)
+  for (; size < kBatch && (position < listed || next < old.voxels.size()); ++size)
   {
-    const std::uint64_t ours = position < listed_ ? firstKey + entries_[position].cell : ~std::uint64_t(0);
+    const std::uint64_t ours = position < listed ? firstKey + entries_[position].cell : ~std::uint64_t(0);
     const std::uint64_t theirs = next < old.voxels.size() ? old.voxels[next].key : ~std::uint64_t(0);
     const std::uint64_t key = std::min(ours, theirs);
     const std::uint64_t row = key / plan_.columns;
@@ -343,7 +358,7 @@ void PartitionWorker::collectSorted(
     {
       batch.seconds[size] = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
     }
-    for (; position < listed_ && firstKey + entries_[position].cell == key; ++position)
+    for (; position < listed && firstKey + entries_[position].cell == key; ++position)
     {
       const Record& r = records_[entries_[position].record];
       batch.counts[size] += 1;
@@ -364,17 +379,6 @@ void PartitionWorker::collectSorted(
   batch.size = size;
 }
 
-/// Sets the ranks of a dense partition's cells, or forgets them.
-void PartitionWorker::setRanks(
-  std::uint32_t partition, const std::uint64_t* keys, std::size_t size, bool known)
-{
-  const std::uint64_t firstKey = plan_.firstKey(partition);
-  for (std::size_t i = 0; plan_.dense && i < size; ++i)
-  {
-    slots_[keys[i] - firstKey] = known ? std::uint32_t(i) + 1 : 0;
-  }
-}
-
 std::uint32_t PartitionWorker::rankOf(std::uint64_t key, const std::uint64_t* keys, std::size_t size)
 {
   return std::uint32_t(std::lower_bound(keys, keys + size, key) - keys);
@@ -382,8 +386,8 @@ std::uint32_t PartitionWorker::rankOf(std::uint64_t key, const std::uint64_t* ke
 
 std::size_t PartitionWorker::bytes() const
 {
-  return slots_.bytes() + slotCells_.bytes() + sums_.bytes() + seconds_.bytes() + marks_.bytes() +
-    summary_.bytes() + cells_.bytes() + records_.bytes() + entries_.bytes() + otherEntries_.bytes() +
+  return marks_.bytes() + before_.bytes() + recordCells_.bytes() + cells_.bytes() + sums_.bytes() +
+    seconds_.bytes() + records_.bytes() + entries_.bytes() + otherEntries_.bytes() +
     sizeof(MomentBatch<std::int64_t>) + carried.voxels.capacity() * sizeof(CarriedSums) +
     carried.seconds.capacity() * sizeof(SecondSums);
 }

@@ -67,6 +67,10 @@ public:
 
   /// Readies the scratch for partitions of a plan.
   void prepare(const PartitionPlan& plan, bool covariances);
+  /// Sums of the carried voxels and the partition's records, which hold until the next call. @pre the plan is
+  /// dense, and nothing is carried unpacked.
+  PartitionVoxels sumPacked(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
+    const CarriedPartition& old);
   /// Adds the records of a partition to @p old sums and calls emit(batch) with all its voxels.
   template <typename Emit>
   void sum(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
@@ -76,20 +80,18 @@ public:
     std::size_t next = 0;     // among the carried voxels
     if (plan_.dense)
     {
-      sumDense(kernels, pool, partition, old);
-      listDense(kernels);
-      while (position < listed_)
+      const PartitionVoxels voxels = sumPacked(kernels, pool, partition, old);
+      while (position < voxels.size)
       {
-        collectDense(kernels, partition, old, position, next);
+        collectPacked(voxels, old, position, next);
         emit(*batch_);
       }
-      cellSums_.size = 0;
       return;
     }
-    listed_ = sortRecords(kernels, pool, partition);
-    while (position < listed_ || next < old.voxels.size())
+    const std::size_t listed = sortRecords(kernels, pool, partition);
+    while (position < listed || next < old.voxels.size())
     {
-      collectSorted(partition, old, position, next);
+      collectSorted(partition, old, listed, position, next);
       emit(*batch_);
     }
   }
@@ -102,21 +104,32 @@ public:
   void rank(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
     const std::uint64_t* keys, std::size_t size, Visit&& visit)
   {
-    setRanks(partition, keys, size, true);
     const CellMap map = plan_.cellMap(partition);
     const std::uint64_t firstKey = plan_.firstKey(partition);
+    if (plan_.dense)
+    {
+      for (std::size_t i = 0; i < size; ++i)
+      {
+        markCell(std::uint32_t(keys[i] - firstKey));
+      }
+      kernels.number(ranks());
+    }
     pool.forBlocks(partition,
       [&](const Record* records, const std::uint32_t* indices, int count)
       {
         std::uint32_t cells[kBlockRecords];
         kernels.cells(map, records, count, cells);
-        for (int i = 0; i < count; ++i)
+        if (plan_.dense)
         {
-          cells[i] = plan_.dense ? slots_[cells[i]] - 1 : rankOf(firstKey + cells[i], keys, size);
+          kernels.rank(ranks(), cells, count);
+        }
+        for (int i = 0; !plan_.dense && i < count; ++i)
+        {
+          cells[i] = rankOf(firstKey + cells[i], keys, size);
         }
         visit(indices, cells, count);
       });
-    setRanks(partition, keys, size, false);
+    clearMarks();
   }
   std::size_t bytes() const;
   /// Sums of the batches it makes are collected here.
@@ -129,34 +142,29 @@ private:
     std::uint32_t record;
   };
 
-  void sumDense(
-    const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, const CarriedPartition& old);
-  void collectDense(const Kernels& kernels, std::uint32_t partition, const CarriedPartition& old,
-    std::size_t& position, std::size_t& next);
-  void prepareSums(std::size_t most);
-  void listDense(const Kernels& kernels);
-  void clearDense();
+  CellRanks ranks() const;
+  void markCell(std::uint32_t cell) { marks_[cell / 64] |= std::uint64_t(1) << (cell % 64); }
+  void clearMarks();
+  void takeCarried(const Kernels& kernels, const CarriedPartition& old);
+  void collectPacked(
+    const PartitionVoxels& voxels, const CarriedPartition& old, std::size_t& position, std::size_t& next);
   static void unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver);
   std::size_t sortRecords(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition);
   void sortEntries(std::size_t size);
-  void collectSorted(
-    std::uint32_t partition, const CarriedPartition& old, std::size_t& position, std::size_t& next);
-  void setRanks(std::uint32_t partition, const std::uint64_t* keys, std::size_t size, bool known);
+  void collectSorted(std::uint32_t partition, const CarriedPartition& old, std::size_t listed,
+    std::size_t& position, std::size_t& next);
   static std::uint32_t rankOf(std::uint64_t key, const std::uint64_t* keys, std::size_t size);
 
   PartitionPlan plan_;
-  std::size_t listed_ = 0; ///< Cells or records of the partition at work.
   std::unique_ptr<MomentBatch<std::int64_t>> batch_;
   std::vector<SecondSums> batchSeconds_;
-  // Dense: slots, sums, marks and summary are all zero between partitions.
-  Buffer<std::uint32_t> slots_;
-  Buffer<std::uint32_t> slotCells_;
+  // Dense: marks are zero between partitions.
+  Buffer<std::uint64_t> marks_;
+  Buffer<std::uint32_t> before_;
+  Buffer<std::uint32_t> recordCells_;
+  Buffer<std::uint32_t> cells_;
   Buffer<PackedSums> sums_;
   Buffer<SecondSums> seconds_;
-  Buffer<std::uint64_t> marks_;
-  Buffer<std::uint64_t> summary_;
-  Buffer<std::uint32_t> cells_; ///< In ascending order.
-  CellSums cellSums_{};
   // Sorted.
   Buffer<Record> records_;
   Buffer<Entry> entries_;

@@ -33,10 +33,14 @@ void solve(const AffineTransform& transform, const Wide b[3], Wide p[3])
   }
 }
 
-bool isDiagonal(const AffineTransform& t)
+Motion motionOf(const AffineTransform& t)
 {
-  return t.m[0][1] == 0.0 && t.m[0][2] == 0.0 && t.m[1][0] == 0.0 && t.m[1][2] == 0.0 && t.m[2][0] == 0.0 &&
-    t.m[2][1] == 0.0;
+  if (t.m[0][1] != 0.0 || t.m[0][2] != 0.0 || t.m[1][0] != 0.0 || t.m[1][2] != 0.0 || t.m[2][0] != 0.0 ||
+    t.m[2][1] != 0.0)
+  {
+    return Motion::General;
+  }
+  return t.m[0][0] == 1.0 && t.m[1][1] == 1.0 && t.m[2][2] == 1.0 ? Motion::Shift : Motion::Scale;
 }
 
 }
@@ -62,7 +66,7 @@ Placement makePlacement(
   const AffineTransform& transform, const Lattice& lattice, int indexBits, int positionBits)
 {
   Placement placement{};
-  placement.diagonal = isDiagonal(transform);
+  placement.motion = motionOf(transform);
   Wide toOrigin[3];
   Wide pivot[3];
   for (int axis = 0; axis < 3; ++axis)
@@ -70,7 +74,7 @@ Placement makePlacement(
     toOrigin[axis] = Wide(lattice.origin[axis]) - Wide(transform.m[axis][3]);
     pivot[axis] = toOrigin[axis] / Wide(transform.m[axis][axis]);
   }
-  if (!placement.diagonal)
+  if (placement.motion == Motion::General)
   {
     solve(transform, toOrigin, pivot);
   }
@@ -88,7 +92,7 @@ Placement makePlacement(
       placement.matrix[axis][column] = transform.m[axis][column];
       mapped += Wide(transform.m[axis][column]) * Wide(placement.pivot[column]);
     }
-    placement.offset[axis] = double(mapped);
+    placement.offset[axis] = double(mapped) + 0.0; // never -0
     placement.spacing[axis] = lattice.spacing[axis];
     placement.reciprocal[axis] = 1.0 / lattice.spacing[axis];
     placement.limit[axis] = std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]);
@@ -117,7 +121,8 @@ Place placePoint(const Placement& placement, const Vec3& point, std::uint64_t po
   {
     const double* row = placement.matrix[axis];
     // The same operations in the same order as the vector loops.
-    double v = placement.diagonal ? p[axis] * row[axis] : (p[0] * row[0] + p[1] * row[1]) + p[2] * row[2];
+    double v = placement.motion == Motion::General ? (p[0] * row[0] + p[1] * row[1]) + p[2] * row[2]
+                                                   : p[axis] * row[axis];
     v += placement.offset[axis];
     const double u = v / placement.spacing[axis];
     finite = finite && std::isfinite(v);

@@ -44,6 +44,14 @@ struct alignas(16) Record
 constexpr std::size_t kBlockBytes = 4096;
 constexpr std::size_t kBlockRecords = kBlockBytes / sizeof(Record);
 
+/// What of the matrix there is to multiply with.
+enum class Motion
+{
+  Shift, ///< It is the unit matrix.
+  Scale, ///< It is diagonal.
+  General,
+};
+
 /// How coordinates become positions in the lattice and rows of it.
 /// v = M (p - pivot) + offset in units of the workspace, from the lattice's origin; u = v / spacing.
 struct Placement
@@ -55,7 +63,7 @@ struct Placement
   double reciprocal[3]; ///< 1 / spacing, rounded.
   double limit[3];      ///< u below this is inside.
   double magic;         ///< Added to u it leaves the position in the low bits of the sum.
-  bool diagonal;        ///< The matrix has no other entries.
+  Motion motion;
   int fractionBits;     ///< Bits of a position below the voxel.
   // Which partition: (z >> layerShift) * blocksPerLayer + (y >> rowShift).
   std::uint32_t blocksPerLayer;
@@ -115,15 +123,21 @@ struct SecondSums
   UInt128 lanes[6];
 };
 
-/// The sums of a partition's cells, in the order the cells were first met: packed so that they stay in the
-/// first-level cache, where the cells of a whole partition would not.
+/// Which cells of a partition have points, and how many of these come before a cell. A bit for each cell and a
+/// number for 64 of them stay in the first-level cache.
+struct CellRanks
+{
+  std::uint64_t* marks;
+  std::uint32_t* before; ///< Marks in the words before.
+  std::size_t words;
+};
+
+/// The sums of a partition's marked cells, in ascending order.
 struct CellSums
 {
-  std::uint32_t* slots; ///< Of each cell of the partition, one more than the place of its sums; 0: none yet.
-  std::uint32_t* cells; ///< Of each place, the cell; with room for one more.
-  PackedSums* sums;     ///< Of each place; zero past the last one.
-  SecondSums* seconds;  ///< Likewise, or null.
-  std::uint32_t size;
+  std::uint32_t* cells;
+  PackedSums* sums;
+  SecondSums* seconds; ///< Or null.
 };
 
 /// Places of a record's point in its voxel. These are static: sources of several instruction sets include
@@ -176,6 +190,9 @@ struct MeanMap
   double faceMargin[3];
 };
 
+/// Elements of the widest vectors.
+constexpr int kWidest = 8;
+
 /// The inner loops for one instruction set.
 struct Kernels
 {
@@ -187,18 +204,24 @@ struct Kernels
     const Placement&, const double* xyz, std::int64_t count, std::uint32_t firstIndex, RecordWriter&);
   /// The cell of each record.
   void (*cells)(const CellMap&, const Record* records, int count, std::uint32_t* cells);
-  /// Adds records to the sums of their cells.
-  void (*accumulate)(const CellMap&, const Record* records, int count, CellSums& sums);
-  /// Lists the marked cells in ascending order and clears the marks. @p marks has a bit for each cell, @p
-  /// summary one for each word of marks that is not 0; room for 63 cells more than there are is written to.
-  /// @return their number.
-  std::size_t (*drain)(
-    std::uint64_t* marks, std::uint64_t* summary, std::size_t summaryWords, std::uint32_t* cells);
-  /// Moves the sums of some cells into a batch and forgets the cells.
-  void (*collect)(
-    const CellMap&, const std::uint32_t* cells, int count, CellSums& sums, MomentBatch<std::int64_t>& batch);
-  /// Coordinates of a batch's means, x y z interleaved. Positions in the batch of those so near a face that
-  /// they need another look go to @p nearFace. @return the number of these.
+  /// Marks the cells of records; lists them too, with room for kWidest more.
+  void (*mark)(
+    const CellMap&, const Record* records, int count, std::uint64_t* marks, std::uint32_t* cells);
+  /// Counts the marks before each word. @return that of all.
+  std::uint32_t (*number)(const CellRanks& ranks);
+  /// How many marked cells come before each of some: replaces them.
+  void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);
+  /// Adds records to the sums of their @p cells.
+  void (*accumulate)(const CellMap&, const CellRanks& ranks, const Record* records,
+    const std::uint32_t* cells, int count, const CellSums& sums);
+  /// Coordinates, x y z interleaved, and counts of cells with their sums. Positions among them of means so near
+  /// a face that they need another look go to @p nearFace. @return the number of these. Reads, but does not
+  /// use, kWidest elements past the end.
+  int (*packedMeansFloat)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
+    int count, float* xyz, std::int64_t* counts, int* nearFace);
+  int (*packedMeansDouble)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
+    int count, double* xyz, std::int64_t* counts, int* nearFace);
+  /// The same of a batch.
   int (*meansFloat)(const MeanMap&, const MomentBatch<std::int64_t>&, float* xyz, int* nearFace);
   int (*meansDouble)(const MeanMap&, const MomentBatch<std::int64_t>&, double* xyz, int* nearFace);
   /// Widens a box (x0 x1 y0 y1 z0 z1) by the transformed points that are finite before and after.

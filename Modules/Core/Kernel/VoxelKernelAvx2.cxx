@@ -55,7 +55,11 @@ struct Avx2
     q = _mm256_fmadd_pd(_mm256_fnmadd_pd(q, b, a), reciprocal, q);
     return _mm256_fmadd_pd(_mm256_fnmadd_pd(q, b, a), reciprocal, q);
   }
-  static Mask notNegative(Doubles a) { return _mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GE_OQ); }
+  /// 0 <= a < limit, a not -0. Only the signs of a mask count.
+  static Mask below(Mask given, Doubles a, Doubles limit)
+  {
+    return _mm256_and_pd(given, _mm256_andnot_pd(a, _mm256_cmp_pd(a, limit, _CMP_LT_OQ)));
+  }
   static Mask less(Doubles a, Doubles b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
   static Mask finite(Doubles a)
   {
@@ -68,12 +72,12 @@ struct Avx2
     const __m256d rounded = _mm256_add_pd(u, magic);
     const __m256d above = _mm256_cmp_pd(_mm256_sub_pd(rounded, magic), u, _CMP_GT_OQ);
     // A true comparison is -1.
-    const __m256i bits = _mm256_add_epi64(_mm256_castpd_si256(rounded), _mm256_castpd_si256(above));
-    return _mm256_and_si256(bits, allBits(kPositionMask));
+    return _mm256_add_epi64(_mm256_castpd_si256(rounded), _mm256_castpd_si256(above));
   }
   static Bits addBits(Bits a, Bits b) { return _mm256_add_epi64(a, b); }
   static Bits multiply32(Bits a, Bits b) { return _mm256_mul_epu32(a, b); }
-  static Bits either(Bits a, Bits b) { return _mm256_or_si256(a, b); }
+  static Bits onlyPosition(Bits a) { return _mm256_and_si256(a, allBits(kPositionMask)); }
+  static Bits withPosition(Bits high, Bits a) { return _mm256_or_si256(high, onlyPosition(a)); }
   static Bits right(Bits a, Shift bits) { return _mm256_srl_epi64(a, bits); }
   template <int bits>
   static Bits rightBy(Bits a)
@@ -86,32 +90,38 @@ struct Avx2
     return _mm256_slli_epi64(a, bits);
   }
   /// Not negative. The halves are put below and above 2^52 and 2^84; only their sum is rounded.
-  static Doubles fromInts(const std::int64_t* from)
+  static Doubles toDoubles(Bits value)
   {
-    const __m256i value = _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
     const __m256i low = _mm256_blend_epi32(value, _mm256_set1_epi64x(0x4330000000000000), 0xAA);
     const __m256i high =
       _mm256_or_si256(_mm256_srli_epi64(value, 32), _mm256_set1_epi64x(0x4530000000000000));
     const __m256d offset = _mm256_set1_pd(0x1p84 + 0x1p52);
     return _mm256_add_pd(_mm256_sub_pd(_mm256_castsi256_pd(high), offset), _mm256_castsi256_pd(low));
   }
+  static Doubles fromInts(const std::int64_t* from)
+  {
+    return toDoubles(_mm256_load_si256(reinterpret_cast<const __m256i*>(from)));
+  }
   static Doubles fromInts(const std::int32_t* from)
   {
     return _mm256_cvtepi32_pd(_mm_load_si128(reinterpret_cast<const __m128i*>(from)));
   }
-  static void store(float* to, Doubles a) { _mm_store_ps(to, _mm256_cvtpd_ps(a)); }
   static void store(double* to, Doubles a) { _mm256_store_pd(to, a); }
   static Doubles quotient(Doubles a, Doubles b) { return _mm256_div_pd(a, b); }
   static Doubles least(Doubles a, Doubles b) { return _mm256_min_pd(b, a); }
   static Doubles most(Doubles a, Doubles b) { return _mm256_max_pd(b, a); }
   static Doubles choose(Mask mask, Doubles a, Doubles b) { return _mm256_blendv_pd(b, a, mask); }
-  static void storeBits(std::uint64_t* to, Bits a) { _mm256_store_si256(reinterpret_cast<__m256i*>(to), a); }
-  /// Records 0 and 2, then 1 and 3.
-  static int slot(int i) { return (i & 1) * 2 + (i >> 1); }
+  static void storeLow(std::uint32_t* to, Bits a)
+  {
+    const __m256i packed = _mm256_permutevar8x32_epi32(a, _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_castsi256_si128(packed));
+  }
   static void storeRecords(Record* to, Bits first, Bits second)
   {
-    _mm256_store_si256(reinterpret_cast<__m256i*>(to), _mm256_unpacklo_epi64(first, second));
-    _mm256_store_si256(reinterpret_cast<__m256i*>(to + 2), _mm256_unpackhi_epi64(first, second));
+    const __m256i even = _mm256_unpacklo_epi64(first, second);
+    const __m256i odd = _mm256_unpackhi_epi64(first, second);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permute2x128_si256(even, odd, 0x20));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + 2), _mm256_permute2x128_si256(even, odd, 0x31));
   }
 
   static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
@@ -148,9 +158,55 @@ struct Avx2
     }
   }
 
-  static std::size_t listBits(std::uint64_t bits, std::uint32_t first, std::uint32_t* cells)
+  static std::uint32_t ones(std::uint64_t bits) { return std::uint32_t(__builtin_popcountll(bits)); }
+
+  /// The four lanes of four sums.
+  static void loadPacked(const PackedSums* from, Bits lanes[4])
   {
-    return kernel::listBits(bits, first, cells);
+    const auto load = [from](int i)
+    { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from + i)); };
+    const __m256i xz01 = _mm256_unpacklo_epi64(load(0), load(1));
+    const __m256i yz01 = _mm256_unpackhi_epi64(load(0), load(1));
+    const __m256i xz23 = _mm256_unpacklo_epi64(load(2), load(3));
+    const __m256i yz23 = _mm256_unpackhi_epi64(load(2), load(3));
+    lanes[0] = _mm256_permute2x128_si256(xz01, xz23, 0x20);
+    lanes[1] = _mm256_permute2x128_si256(yz01, yz23, 0x20);
+    lanes[2] = _mm256_permute2x128_si256(xz01, xz23, 0x31);
+    lanes[3] = _mm256_permute2x128_si256(yz01, yz23, 0x31);
+  }
+  static Doubles nearest(Doubles a)
+  {
+    return _mm256_round_pd(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+  }
+  static void storeCounts(std::int64_t* to, int room, Bits counts)
+  {
+    const __m256i last = _mm256_cmpgt_epi64(_mm256_set1_epi64x(room), _mm256_setr_epi64x(0, 1, 2, 3));
+    _mm256_maskstore_epi64(reinterpret_cast<long long*>(to), last, counts);
+  }
+  static void storeInterleaved(float* to, const Doubles xyz[3])
+  {
+    const __m128 x = _mm256_cvtpd_ps(xyz[0]);
+    const __m128 y = _mm256_cvtpd_ps(xyz[1]);
+    const __m128 z = _mm256_cvtpd_ps(xyz[2]);
+    const __m128 xy01 = _mm_unpacklo_ps(x, y);
+    const __m128 xy23 = _mm_unpackhi_ps(x, y);
+    const __m128 z01xy1 = _mm_shuffle_ps(z, xy01, _MM_SHUFFLE(3, 2, 1, 0));
+    const __m128 z23xy3 = _mm_shuffle_ps(z, xy23, _MM_SHUFFLE(3, 2, 3, 2));
+    _mm_storeu_ps(to, _mm_shuffle_ps(xy01, z01xy1, _MM_SHUFFLE(2, 0, 1, 0)));
+    _mm_storeu_ps(to + 4, _mm_shuffle_ps(z01xy1, xy23, _MM_SHUFFLE(1, 0, 1, 3)));
+    _mm_storeu_ps(to + 8, _mm_shuffle_ps(z23xy3, z23xy3, _MM_SHUFFLE(1, 3, 2, 0)));
+  }
+  static void storeInterleaved(double* to, const Doubles xyz[3])
+  {
+    alignas(32) double parts[3][width];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      _mm256_store_pd(parts[axis], xyz[axis]);
+    }
+    for (int i = 0; i < 3 * width; ++i)
+    {
+      to[i] = parts[i % 3][i / 3];
+    }
   }
 
   using Adder = FourLaneAdder;

@@ -37,8 +37,16 @@ struct Avx512
   }
   static void load(const float* xyz, Doubles& x, Doubles& y, Doubles& z)
   {
-    deinterleave(_mm512_cvtps_pd(_mm256_loadu_ps(xyz)), _mm512_cvtps_pd(_mm256_loadu_ps(xyz + 8)),
-      _mm512_cvtps_pd(_mm256_loadu_ps(xyz + 16)), x, y, z);
+    const __m512 a = _mm512_loadu_ps(xyz);
+    const __m512 b = _mm512_castps256_ps512(_mm256_loadu_ps(xyz + 16));
+    const auto take = [&](int i0, int i1, int i2, int i3, int i4, int i5, int i6, int i7)
+    {
+      const __m512i which = _mm512_castsi256_si512(_mm256_setr_epi32(i0, i1, i2, i3, i4, i5, i6, i7));
+      return _mm512_cvtps_pd(_mm512_castps512_ps256(_mm512_permutex2var_ps(a, which, b)));
+    };
+    x = take(0, 3, 6, 9, 12, 15, 18, 21);
+    y = take(1, 4, 7, 10, 13, 16, 19, 22);
+    z = take(2, 5, 8, 11, 14, 17, 20, 23);
   }
   static void load(const double* xyz, Doubles& x, Doubles& y, Doubles& z)
   {
@@ -55,7 +63,11 @@ struct Avx512
     q = _mm512_fmadd_pd(_mm512_fnmadd_pd(q, b, a), reciprocal, q);
     return _mm512_fmadd_pd(_mm512_fnmadd_pd(q, b, a), reciprocal, q);
   }
-  static Mask notNegative(Doubles a) { return _mm512_cmp_pd_mask(a, _mm512_setzero_pd(), _CMP_GE_OQ); }
+  /// 0 <= a < limit, a not -0: as numbers, what is not has larger bits.
+  static Mask below(Mask given, Doubles a, Doubles limit)
+  {
+    return _mm512_mask_cmplt_epu64_mask(given, _mm512_castpd_si512(a), _mm512_castpd_si512(limit));
+  }
   static Mask less(Doubles a, Doubles b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
   static Mask finite(Doubles a)
   {
@@ -65,12 +77,16 @@ struct Avx512
   static unsigned toUnsigned(Mask a) { return a; }
   static Bits floorBits(Doubles u, Doubles magic)
   {
-    const __m512d down = _mm512_add_round_pd(u, magic, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
-    return _mm512_and_si512(_mm512_castpd_si512(down), allBits(kPositionMask));
+    return _mm512_castpd_si512(_mm512_add_round_pd(u, magic, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
   }
   static Bits addBits(Bits a, Bits b) { return _mm512_add_epi64(a, b); }
   static Bits multiply32(Bits a, Bits b) { return _mm512_mul_epu32(a, b); }
-  static Bits either(Bits a, Bits b) { return _mm512_or_si512(a, b); }
+  static Bits onlyPosition(Bits a) { return _mm512_and_si512(a, allBits(kPositionMask)); }
+  static Bits withPosition(Bits high, Bits a)
+  {
+
+    return _mm512_ternarylogic_epi64(allBits(kPositionMask), high, a, 0xEC);
+  }
   static Bits right(Bits a, Shift bits) { return _mm512_srl_epi64(a, bits); }
   template <int bits>
   static Bits rightBy(Bits a)
@@ -87,19 +103,21 @@ struct Avx512
   {
     return _mm512_cvtepi32_pd(_mm256_load_si256(reinterpret_cast<const __m256i*>(from)));
   }
-  static void store(float* to, Doubles a) { _mm256_store_ps(to, _mm512_cvtpd_ps(a)); }
   static void store(double* to, Doubles a) { _mm512_store_pd(to, a); }
   static Doubles quotient(Doubles a, Doubles b) { return _mm512_div_pd(a, b); }
   static Doubles least(Doubles a, Doubles b) { return _mm512_min_pd(b, a); }
   static Doubles most(Doubles a, Doubles b) { return _mm512_max_pd(b, a); }
   static Doubles choose(Mask mask, Doubles a, Doubles b) { return _mm512_mask_blend_pd(mask, b, a); }
-  static void storeBits(std::uint64_t* to, Bits a) { _mm512_store_si512(to, a); }
-  /// Records 0 2 4 6, then 1 3 5 7.
-  static int slot(int i) { return (i & 1) * 4 + (i >> 1); }
+  static void storeLow(std::uint32_t* to, Bits a)
+  {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_cvtepi64_epi32(a));
+  }
   static void storeRecords(Record* to, Bits first, Bits second)
   {
-    _mm512_store_si512(to, _mm512_unpacklo_epi64(first, second));
-    _mm512_store_si512(to + 4, _mm512_unpackhi_epi64(first, second));
+    _mm512_storeu_si512(
+      to, _mm512_permutex2var_epi64(first, _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11), second));
+    _mm512_storeu_si512(
+      to + 4, _mm512_permutex2var_epi64(first, _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15), second));
   }
 
   static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
@@ -135,26 +153,56 @@ struct Avx512
     }
   }
 
-  /// The numbers of the set bits, packed.
-  static std::size_t listBits(std::uint64_t bits, std::uint32_t first, std::uint32_t* cells)
+  static std::uint32_t ones(std::uint64_t bits) { return std::uint32_t(__builtin_popcountll(bits)); }
+
+  /// The four lanes of eight sums.
+  static void loadPacked(const PackedSums* from, Bits lanes[4])
   {
-    alignas(64) static const std::uint8_t numbers[64] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14,
-      15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40,
-      41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63 };
-    const int count = __builtin_popcountll(bits);
-    const __m512i packed = _mm512_maskz_compress_epi8(bits, _mm512_load_si512(numbers));
-    const __m512i base = _mm512_set1_epi32(int(first));
-    _mm512_storeu_si512(cells, _mm512_add_epi32(base, _mm512_cvtepu8_epi32(_mm512_castsi512_si128(packed))));
-    if (count > 16)
-    {
-      _mm512_storeu_si512(
-        cells + 16, _mm512_add_epi32(base, _mm512_cvtepu8_epi32(_mm512_extracti32x4_epi32(packed, 1))));
-      _mm512_storeu_si512(
-        cells + 32, _mm512_add_epi32(base, _mm512_cvtepu8_epi32(_mm512_extracti32x4_epi32(packed, 2))));
-      _mm512_storeu_si512(
-        cells + 48, _mm512_add_epi32(base, _mm512_cvtepu8_epi32(_mm512_extracti32x4_epi32(packed, 3))));
-    }
-    return std::size_t(count);
+    const __m512i a = _mm512_loadu_si512(from);
+    const __m512i b = _mm512_loadu_si512(from + 2);
+    const __m512i c = _mm512_loadu_si512(from + 4);
+    const __m512i d = _mm512_loadu_si512(from + 6);
+    const __m512i first = _mm512_setr_epi64(0, 4, 8, 12, 1, 5, 9, 13);
+    const __m512i second = _mm512_setr_epi64(2, 6, 10, 14, 3, 7, 11, 15);
+    const __m512i xyLow = _mm512_permutex2var_epi64(a, first, b);
+    const __m512i xyHigh = _mm512_permutex2var_epi64(c, first, d);
+    const __m512i zLow = _mm512_permutex2var_epi64(a, second, b);
+    const __m512i zHigh = _mm512_permutex2var_epi64(c, second, d);
+    lanes[0] = _mm512_shuffle_i64x2(xyLow, xyHigh, 0x44);
+    lanes[1] = _mm512_shuffle_i64x2(xyLow, xyHigh, 0xEE);
+    lanes[2] = _mm512_shuffle_i64x2(zLow, zHigh, 0x44);
+    lanes[3] = _mm512_shuffle_i64x2(zLow, zHigh, 0xEE);
+  }
+  static Doubles toDoubles(Bits a) { return _mm512_cvtepi64_pd(a); }
+  static Doubles nearest(Doubles a)
+  {
+    return _mm512_roundscale_pd(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+  }
+  static void storeCounts(std::int64_t* to, int room, Bits counts)
+  {
+    _mm512_mask_storeu_epi64(to, room >= width ? __mmask8(full) : __mmask8((1u << room) - 1), counts);
+  }
+  static void storeInterleaved(float* to, const Doubles xyz[3])
+  {
+    const __m512 xy = _mm512_insertf32x8(
+      _mm512_castps256_ps512(_mm512_cvtpd_ps(xyz[0])), _mm512_cvtpd_ps(xyz[1]), 1);
+    const __m512 z = _mm512_castps256_ps512(_mm512_cvtpd_ps(xyz[2]));
+    _mm512_storeu_ps(to,
+      _mm512_permutex2var_ps(
+        xy, _mm512_setr_epi32(0, 8, 16, 1, 9, 17, 2, 10, 18, 3, 11, 19, 4, 12, 20, 5), z));
+    const __m512i rest = _mm512_setr_epi32(13, 21, 6, 14, 22, 7, 15, 23, 0, 0, 0, 0, 0, 0, 0, 0);
+    _mm256_storeu_ps(to + 16, _mm512_castps512_ps256(_mm512_permutex2var_ps(xy, rest, z)));
+  }
+  static void storeInterleaved(double* to, const Doubles xyz[3])
+  {
+    const auto take = [&](__m512i ofXy, __m512i withZ)
+    { return _mm512_permutex2var_pd(_mm512_permutex2var_pd(xyz[0], ofXy, xyz[1]), withZ, xyz[2]); };
+    _mm512_storeu_pd(
+      to, take(_mm512_setr_epi64(0, 8, 0, 1, 9, 0, 2, 10), _mm512_setr_epi64(0, 1, 8, 3, 4, 9, 6, 7)));
+    _mm512_storeu_pd(to + 8,
+      take(_mm512_setr_epi64(0, 3, 11, 0, 4, 12, 0, 5), _mm512_setr_epi64(10, 1, 2, 11, 4, 5, 12, 7)));
+    _mm512_storeu_pd(to + 16,
+      take(_mm512_setr_epi64(13, 0, 6, 14, 0, 7, 15, 0), _mm512_setr_epi64(0, 13, 2, 3, 14, 5, 6, 15)));
   }
 
   using Adder = FourLaneAdder;

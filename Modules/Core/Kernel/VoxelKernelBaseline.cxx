@@ -1,4 +1,4 @@
-/// The loops for every machine: one point at a time, in plain C++.
+/// The loops for every machine: two points at a time, in vectors that the compiler knows everywhere.
 #include "Core/Kernel/VoxelKernelBody.h"
 
 namespace pointhaptics
@@ -8,45 +8,49 @@ namespace kernel
 namespace
 {
 
-struct Scalar
+typedef double DoublePair __attribute__((vector_size(16)));
+typedef std::int64_t IntPair __attribute__((vector_size(16)));
+typedef std::uint64_t BitPair __attribute__((vector_size(16)));
+
+struct Pairs
 {
-  static constexpr int width = 1;
-  static constexpr unsigned full = 1;
-  using Doubles = double;
-  using Bits = std::uint64_t;
-  using Mask = bool;
+  static constexpr int width = 2;
+  static constexpr unsigned full = 3;
+  using Doubles = DoublePair;
+  using Bits = BitPair;
+  using Mask = IntPair;
   using Shift = int;
 
-  static Doubles all(double value) { return value; }
-  static Bits allBits(std::uint64_t value) { return value; }
+  static Doubles all(double value) { return Doubles{ value, value }; }
+  static Bits allBits(std::uint64_t value) { return Bits{ value, value }; }
   static Shift shift(int bits) { return bits; }
-  static Mask allTrue() { return true; }
+  static Mask allTrue() { return Mask{ -1, -1 }; }
   template <typename Real>
   static void load(const Real* xyz, Doubles& x, Doubles& y, Doubles& z)
   {
-    x = double(xyz[0]);
-    y = double(xyz[1]);
-    z = double(xyz[2]);
+    x = Doubles{ double(xyz[0]), double(xyz[3]) };
+    y = Doubles{ double(xyz[1]), double(xyz[4]) };
+    z = Doubles{ double(xyz[2]), double(xyz[5]) };
   }
   static Doubles add(Doubles a, Doubles b) { return a + b; }
   static Doubles subtract(Doubles a, Doubles b) { return a - b; }
   static Doubles multiply(Doubles a, Doubles b) { return a * b; }
   static Doubles divide(Doubles a, Doubles b, Doubles) { return a / b; }
-  static Mask notNegative(Doubles a) { return a >= 0.0; }
+  static Mask below(Mask given, Doubles a, Doubles limit) { return given & (a >= 0.0) & (a < limit); }
   static Mask less(Doubles a, Doubles b) { return a < b; }
   static Mask finite(Doubles a) { return a - a == 0.0; }
   static Mask both(Mask a, Mask b) { return a & b; }
-  static unsigned toUnsigned(Mask a) { return a; }
+  static unsigned toUnsigned(Mask a) { return unsigned(a[0] & 1) | unsigned(a[1] & 2); }
   static Bits floorBits(Doubles u, Doubles magic)
   {
-    const double rounded = u + magic;
-    std::uint64_t bits;
-    __builtin_memcpy(&bits, &rounded, sizeof bits);
-    return (bits - (rounded - magic > u)) & kPositionMask;
+    const Doubles rounded = u + magic;
+    // A true comparison is -1.
+    return reinterpret_cast<Bits>(rounded) + reinterpret_cast<Bits>(rounded - magic > u);
   }
   static Bits addBits(Bits a, Bits b) { return a + b; }
-  static Bits multiply32(Bits a, Bits b) { return a * b; }
-  static Bits either(Bits a, Bits b) { return a | b; }
+  static Bits multiply32(Bits a, Bits b) { return Bits{ a[0] * b[0], a[1] * b[1] }; }
+  static Bits onlyPosition(Bits a) { return a & kPositionMask; }
+  static Bits withPosition(Bits high, Bits a) { return high | onlyPosition(a); }
   static Bits right(Bits a, Shift bits) { return a >> bits; }
   template <int bits>
   static Bits rightBy(Bits a)
@@ -58,23 +62,70 @@ struct Scalar
   {
     return a << bits;
   }
-  template <typename Integer>
-  static Doubles fromInts(const Integer* from)
+  /// Not negative. The halves are put below and above 2^52 and 2^84; only their sum is rounded.
+  static Doubles toDoubles(Bits value)
   {
-    return double(*from);
+    const Bits low = (value & 0xFFFFFFFFu) | std::uint64_t(0x4330000000000000);
+    const Bits high = (value >> 32) | std::uint64_t(0x4530000000000000);
+    return (reinterpret_cast<Doubles>(high) - (0x1p84 + 0x1p52)) + reinterpret_cast<Doubles>(low);
+  }
+  static Doubles fromInts(const std::int64_t* from)
+  {
+    return toDoubles(Bits{ std::uint64_t(from[0]), std::uint64_t(from[1]) });
+  }
+  static Doubles fromInts(const std::int32_t* from) { return Doubles{ double(from[0]), double(from[1]) }; }
+  static void store(double* to, Doubles a)
+  {
+    to[0] = a[0];
+    to[1] = a[1];
   }
   template <typename Real>
-  static void store(Real* to, Doubles a)
+  static void storeInterleaved(Real* to, const Doubles xyz[3])
   {
-    *to = Real(a);
+    for (int i = 0; i < 3 * width; ++i)
+    {
+      to[i] = Real(xyz[i % 3][i / 3]);
+    }
   }
   static Doubles quotient(Doubles a, Doubles b) { return a / b; }
+  /// Of what is far below 2^51: adding so much leaves no room for a fraction.
+  static Doubles nearest(Doubles a) { return (a + 0x1.8p52) - 0x1.8p52; }
   static Doubles least(Doubles a, Doubles b) { return b < a ? b : a; }
   static Doubles most(Doubles a, Doubles b) { return b > a ? b : a; }
   static Doubles choose(Mask mask, Doubles a, Doubles b) { return mask ? a : b; }
-  static void storeBits(std::uint64_t* to, Bits a) { *to = a; }
-  static int slot(int i) { return i; }
-  static void storeRecords(Record* to, Bits first, Bits second) { *to = { first, second }; }
+  static void storeLow(std::uint32_t* to, Bits a)
+  {
+    to[0] = std::uint32_t(a[0]);
+    to[1] = std::uint32_t(a[1]);
+  }
+  static void storeRecords(Record* to, Bits first, Bits second)
+  {
+    to[0] = { first[0], second[0] };
+    to[1] = { first[1], second[1] };
+  }
+  static void storeCounts(std::int64_t* to, int room, Bits counts)
+  {
+    to[0] = std::int64_t(counts[0]);
+    if (room > 1)
+    {
+      to[1] = std::int64_t(counts[1]);
+    }
+  }
+  static void loadPacked(const PackedSums* from, Bits lanes[4])
+  {
+    for (int lane = 0; lane < 4; ++lane)
+    {
+      lanes[lane] = Bits{ from[0].lanes[lane], from[1].lanes[lane] };
+    }
+  }
+  /// Not every machine has an instruction for it.
+  static std::uint32_t ones(std::uint64_t bits)
+  {
+    bits -= (bits >> 1) & 0x5555555555555555u;
+    bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
+    bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
+    return std::uint32_t((bits * 0x0101010101010101u) >> 56);
+  }
 
   static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
   {
@@ -82,11 +133,6 @@ struct Scalar
     {
       cells[i] = cellOf(map, records[i]);
     }
-  }
-
-  static std::size_t listBits(std::uint64_t bits, std::uint32_t first, std::uint32_t* cells)
-  {
-    return kernel::listBits(bits, first, cells);
   }
 
   struct Adder
@@ -119,7 +165,7 @@ struct Scalar
 
 const Kernels& baselineKernels()
 {
-  static const Kernels kernels = makeKernels<Scalar>();
+  static const Kernels kernels = makeKernels<Pairs>();
   return kernels;
 }
 

@@ -13,31 +13,18 @@ namespace kernel
 namespace
 {
 
-constexpr int kWidest = 8;
+/// Points placed before their records are dealt out: two loops over what stays in the first-level cache take
+/// less time than one that does both.
+constexpr int kPlacedAtOnce = 256;
 
-/// The positions of a group of points, ready to be stored.
-struct PlacedGroup
+/// Records on their way to their partitions.
+struct PlacedPoints
 {
-  alignas(64) Record records[kWidest];
-  alignas(64) std::uint64_t partitions[kWidest];
+  int size = 0;
+  alignas(64) Record records[kPlacedAtOnce];
+  alignas(64) std::uint32_t partitions[kPlacedAtOnce];
+  alignas(64) std::uint32_t indices[kPlacedAtOnce];
 };
-
-inline void appendRecord(RecordWriter& writer, std::uint64_t partition, const Record& record)
-{
-  Record*& cursor = writer.cursors[partition];
-  if ((reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1)) == 0)
-  {
-    cursor = writer.refill(writer, std::uint32_t(partition));
-  }
-  *cursor++ = record;
-}
-
-inline void appendIndexed(
-  RecordWriter& writer, std::uint64_t partition, const Record& record, std::uint32_t index)
-{
-  appendRecord(writer, partition, record);
-  writer.indices[writer.cursors[partition] - 1 - writer.records] = index;
-}
 
 /// The vectors that stay the same over all points.
 template <class V>
@@ -68,11 +55,11 @@ struct PlacementVectors
   }
 };
 
-/// Places V::width points. Bit i of the result: point i is inside; of @p finite: it has finite coordinates,
-/// told only where one is outside.
-template <class V, bool Diagonal, typename Real>
+/// Places V::width points at @p to and after it. Bit i of the result: point i is inside; of @p finite: it has
+/// finite coordinates, told only where one is outside.
+template <class V, Motion motion, typename Real>
 inline unsigned placeGroup(
-  const PlacementVectors<V>& c, const Real* xyz, PlacedGroup& group, unsigned& finite)
+  const PlacementVectors<V>& c, const Real* xyz, PlacedPoints& placed, int to, unsigned& finite)
 {
   typename V::Doubles p[3], v[3];
   typename V::Bits position[3];
@@ -84,7 +71,11 @@ inline unsigned placeGroup(
   typename V::Mask inside = V::allTrue();
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (Diagonal)
+    if (motion == Motion::Shift)
+    {
+      v[axis] = p[axis];
+    }
+    else if (motion == Motion::Scale)
     {
       v[axis] = V::multiply(p[axis], c.matrix[axis][axis]);
     }
@@ -95,16 +86,17 @@ inline unsigned placeGroup(
     }
     v[axis] = V::add(v[axis], c.offset[axis]);
     const typename V::Doubles u = V::divide(v[axis], c.spacing[axis], c.reciprocal[axis]);
-    inside = V::both(inside, V::both(V::notNegative(v[axis]), V::less(u, c.limit[axis])));
+    inside = V::below(inside, u, c.limit[axis]);
     position[axis] = V::floorBits(u, c.magic);
   }
-  V::storeBits(group.partitions,
-    V::addBits(V::right(position[1], c.toRowBlock),
-      V::multiply32(V::right(position[2], c.toLayerBlock), c.blocksPerLayer)));
-  const typename V::Bits first = V::either(position[0], V::template left<kPositionBits>(position[2]));
-  const typename V::Bits second =
-    V::either(position[1], V::template left<kPositionBits>(V::template rightBy<kLowBits>(position[2])));
-  V::storeRecords(group.records, first, second);
+  V::storeLow(placed.partitions + to,
+    V::addBits(V::right(V::onlyPosition(position[1]), c.toRowBlock),
+      V::multiply32(V::right(V::onlyPosition(position[2]), c.toLayerBlock), c.blocksPerLayer)));
+  const typename V::Bits first =
+    V::withPosition(V::template left<kPositionBits>(position[2]), position[0]);
+  const typename V::Bits second = V::withPosition(
+    V::template left<kPositionBits>(V::template rightBy<kLowBits>(position[2])), position[1]);
+  V::storeRecords(placed.records + to, first, second);
   const unsigned bits = V::toUnsigned(inside);
   if (bits != V::full)
   {
@@ -113,102 +105,124 @@ inline unsigned placeGroup(
   return bits;
 }
 
-template <class V, bool Indexed>
-inline void appendGroup(RecordWriter& writer, const PlacedGroup& group, unsigned inside, std::uint32_t index)
+/// Moves the records of a group that are inside together. @p group is where the first of it is.
+template <bool Indexed>
+inline void keepInside(PlacedPoints& placed, int group, unsigned inside, std::uint32_t index)
 {
-  if (inside == V::full)
-  {
-#pragma GCC unroll 8
-    for (int i = 0; i < V::width; ++i)
-    {
-      if (Indexed)
-      {
-        appendIndexed(writer, group.partitions[i], group.records[V::slot(i)], index + std::uint32_t(i));
-      }
-      else
-      {
-        appendRecord(writer, group.partitions[i], group.records[V::slot(i)]);
-      }
-    }
-    return;
-  }
   for (; inside != 0; inside &= inside - 1)
   {
     const int i = __builtin_ctz(inside);
+    placed.records[placed.size] = placed.records[group + i];
+    placed.partitions[placed.size] = placed.partitions[group + i];
     if (Indexed)
     {
-      appendIndexed(writer, group.partitions[i], group.records[V::slot(i)], index + std::uint32_t(i));
+      placed.indices[placed.size] = index + std::uint32_t(i);
     }
-    else
-    {
-      appendRecord(writer, group.partitions[i], group.records[V::slot(i)]);
-    }
+    ++placed.size;
   }
 }
 
-template <class V, bool Diagonal, bool Indexed, typename Real>
+/// Appends the records to their partitions.
+template <bool Indexed>
+inline void deal(const PlacedPoints& placed, RecordWriter& writer)
+{
+  Record** cursors = writer.cursors;
+  for (int i = 0; i < placed.size; ++i)
+  {
+    const std::uint32_t partition = placed.partitions[i];
+    Record* cursor = cursors[partition];
+    if (__builtin_expect((reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1)) == 0, 0))
+    {
+      cursor = writer.refill(writer, partition);
+    }
+    *cursor = placed.records[i];
+    if (Indexed)
+    {
+      writer.indices[cursor - writer.records] = placed.indices[i];
+    }
+    ++cursor;
+    __builtin_prefetch(cursor + 64 / sizeof(Record), 1);
+    cursors[partition] = cursor;
+  }
+}
+
+template <class V, Motion motion, bool Indexed, typename Real>
 void partitionAll(
   const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
 {
   constexpr int kAhead = 4096 / int(sizeof(Real));
   const PlacementVectors<V> constants(placement);
-  PlacedGroup group;
-  const unsigned full = V::full;
+  PlacedPoints placed;
   std::int64_t inside = 0;
   std::int64_t invalid = 0;
-  unsigned finite = 0;
-  std::int64_t i = 0;
-  for (; i + V::width <= count; i += V::width)
+  const auto place = [&](const Real* from, unsigned present, std::uint32_t first)
   {
-    const Real* p = xyz + 3 * i;
-    __builtin_prefetch(p + kAhead);
-    if (V::width * 3 * sizeof(Real) > 64)
+    const int group = placed.size;
+    unsigned finite = 0;
+    const unsigned bits = placeGroup<V, motion>(constants, from, placed, group, finite);
+    if (bits == V::full && present == V::full)
     {
-      __builtin_prefetch(p + kAhead + 64 / sizeof(Real));
+      for (int j = 0; Indexed && j < V::width; ++j)
+      {
+        placed.indices[group + j] = first + std::uint32_t(j);
+      }
+      placed.size += V::width;
+      return;
     }
-    const unsigned bits = placeGroup<V, Diagonal>(constants, p, group, finite);
-    inside += __builtin_popcount(bits);
-    if (bits != full)
-    {
-      invalid += __builtin_popcount(full & ~bits & ~finite);
-    }
-    appendGroup<V, Indexed>(writer, group, bits, index + std::uint32_t(i));
-  }
-  if (i < count)
+    // Where the padding alone is outside, finite was told too: some lane was outside.
+    const unsigned kept = bits & present;
+    invalid += kept == present ? 0 : __builtin_popcount(present & ~bits & ~finite);
+    keepInside<Indexed>(placed, group, kept, first);
+  };
+  for (std::int64_t i = 0; i < count; inside += placed.size)
   {
-    Real last[3 * kWidest] = {};
-    for (std::int64_t j = 0; j < 3 * (count - i); ++j)
+    placed.size = 0;
+    for (int room = kPlacedAtOnce / V::width; room > 0 && i < count; --room, i += V::width)
     {
-      last[j] = xyz[3 * i + j];
+      const Real* p = xyz + 3 * i;
+      if (i + V::width <= count)
+      {
+        __builtin_prefetch(p + kAhead);
+        if (V::width * 3 * sizeof(Real) > 64)
+        {
+          __builtin_prefetch(p + kAhead + 64 / sizeof(Real));
+        }
+        place(p, V::full, index + std::uint32_t(i));
+        continue;
+      }
+      Real last[3 * kWidest] = {};
+      for (std::int64_t j = 0; j < 3 * (count - i); ++j)
+      {
+        last[j] = p[j];
+      }
+      place(last, (1u << unsigned(count - i)) - 1, index + std::uint32_t(i));
     }
-    const unsigned present = (1u << unsigned(count - i)) - 1;
-    const unsigned bits = placeGroup<V, Diagonal>(constants, last, group, finite) & present;
-    inside += __builtin_popcount(bits);
-    if (bits != present)
-    {
-      // Where the padding alone is outside, finite was told too: some lane was outside.
-      invalid += __builtin_popcount(present & ~bits & ~finite);
-    }
-    appendGroup<V, Indexed>(writer, group, bits == full ? full : bits, index + std::uint32_t(i));
+    deal<Indexed>(placed, writer);
   }
   writer.inside += inside;
   writer.invalid += invalid;
+}
+
+template <class V, Motion motion, typename Real>
+void partitionMoved(
+  const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
+{
+  writer.indices ? partitionAll<V, motion, true>(placement, xyz, count, index, writer)
+                 : partitionAll<V, motion, false>(placement, xyz, count, index, writer);
 }
 
 template <class V, typename Real>
 void partition(
   const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
 {
-  const bool indexed = writer.indices != nullptr;
-  if (placement.diagonal)
+  switch (placement.motion)
   {
-    indexed ? partitionAll<V, true, true>(placement, xyz, count, index, writer)
-            : partitionAll<V, true, false>(placement, xyz, count, index, writer);
-  }
-  else
-  {
-    indexed ? partitionAll<V, false, true>(placement, xyz, count, index, writer)
-            : partitionAll<V, false, false>(placement, xyz, count, index, writer);
+    case Motion::Shift:
+      return partitionMoved<V, Motion::Shift>(placement, xyz, count, index, writer);
+    case Motion::Scale:
+      return partitionMoved<V, Motion::Scale>(placement, xyz, count, index, writer);
+    case Motion::General:
+      return partitionMoved<V, Motion::General>(placement, xyz, count, index, writer);
   }
 }
 
@@ -222,122 +236,85 @@ inline std::uint32_t cellOf(const CellMap& map, const Record& r)
 }
 
 template <class V>
-void accumulate(const CellMap& map, const Record* records, int count, CellSums& to)
+void mark(
+  const CellMap& map, const Record* records, int count, std::uint64_t* marks, std::uint32_t* cells)
 {
-  alignas(64) std::uint32_t cells[kBlockRecords + kWidest];
   V::cells(map, records, count, cells);
-  const typename V::Adder adder(map.fractionBits);
-  std::uint32_t* slots = to.slots;
-  std::uint32_t* met = to.cells;
-  PackedSums* sums = to.sums;
-  std::uint32_t size = to.size;
-  const auto addOne = [&](int i)
+  for (int i = 0; i < count; ++i)
   {
-    const std::uint32_t cell = cells[i];
-    // No branch: whether a cell is new is anybody's guess.
-    const std::uint32_t known = slots[cell];
-    met[size] = cell;
-    size += known == 0;
-    const std::uint32_t slot = known == 0 ? size : known;
-    slots[cell] = slot;
-    cells[i] = slot - 1;
-    adder.add(sums[slot - 1], records[i]);
-  };
-  // Neighbours in a scan are in one cell, and each sum would wait for the one before: take them from four
-  // places in turn.
-  const int quarter = count / 4;
-  for (int i = 0; i < quarter; ++i)
-  {
-    addOne(i);
-    addOne(i + quarter);
-    addOne(i + 2 * quarter);
-    addOne(i + 3 * quarter);
+    marks[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64);
   }
-  for (int i = 4 * quarter; i < count; ++i)
-  {
-    addOne(i);
-  }
-  to.size = size;
-  if (to.seconds)
-  {
-    const std::uint64_t fractionMask = (std::uint64_t(1) << map.fractionBits) - 1;
-    for (int i = 0; i < count; ++i)
-    {
-      const Record& r = records[i];
-      addProducts(
-        to.seconds[cells[i]], xPlace(r, fractionMask), yPlace(r, fractionMask), zPlace(r, fractionMask));
-    }
-  }
-}
-
-/// Four bits at a time, whether there are as many or not: a branch on each would be a coin toss.
-inline std::size_t listBits(std::uint64_t bits, std::uint32_t first, std::uint32_t* cells)
-{
-  const int count = __builtin_popcountll(bits);
-  for (int i = 0; i < count; i += 4)
-  {
-    for (int j = 0; j < 4; ++j)
-    {
-      cells[i + j] = first + std::uint32_t(__builtin_ctzll(bits | std::uint64_t(1) << 63));
-      bits &= bits - 1;
-    }
-  }
-  return std::size_t(count);
 }
 
 template <class V>
-std::size_t drain(
-  std::uint64_t* marks, std::uint64_t* summary, std::size_t summaryWords, std::uint32_t* cells)
+std::uint32_t number(const CellRanks& ranks)
 {
-  std::size_t found = 0;
-  for (std::size_t s = 0; s < summaryWords; ++s)
+  std::uint32_t sum = 0;
+  for (std::size_t w = 0; w < ranks.words; ++w)
   {
-    for (std::uint64_t bits = summary[s]; bits != 0; bits &= bits - 1)
-    {
-      const std::size_t word = 64 * s + std::size_t(__builtin_ctzll(bits));
-      found += V::listBits(marks[word], std::uint32_t(64 * word), cells + found);
-      marks[word] = 0;
-    }
-    summary[s] = 0;
+    ranks.before[w] = sum;
+    sum += V::ones(ranks.marks[w]);
   }
-  return found;
+  return sum;
 }
 
-void collect(
-  const CellMap& map, const std::uint32_t* cells, int count, CellSums& from, MomentBatch<std::int64_t>& batch)
+template <class V>
+inline std::uint32_t rankOf(const CellRanks& ranks, std::uint32_t cell)
 {
-  // The half keeps the quotients clear of the integers: they come out right by truncation.
-  const double perColumn = 1.0 / double(map.columns);
-  const double perLayer = 1.0 / double(map.rowsPerLayer);
-  batch.size = count;
+  const std::uint64_t below = (std::uint64_t(1) << (cell % 64)) - 1;
+  return ranks.before[cell / 64] + V::ones(ranks.marks[cell / 64] & below);
+}
+
+template <class V>
+void rank(const CellRanks& ranks, std::uint32_t* cells, int count)
+{
   for (int i = 0; i < count; ++i)
   {
-    const auto cell = std::int32_t(cells[i]);
-    const auto local = std::int32_t((double(cell) + 0.5) * perColumn);
-    const std::int32_t row = local + std::int32_t(map.firstRow);
-    const auto layer = std::int32_t((double(row) + 0.5) * perLayer);
-    batch.indices[0][i] = cell - local * std::int32_t(map.columns);
-    batch.indices[1][i] = row - layer * std::int32_t(map.rowsPerLayer);
-    batch.indices[2][i] = layer;
+    cells[i] = rankOf<V>(ranks, cells[i]);
   }
-  for (int i = 0; i < count; ++i)
+}
+
+/// Calls visit(i) for all i below @p count. Neighbours in a scan are in one voxel, and what is done to it waits
+/// for what was done before: takes them from four places in turn.
+template <typename Visit>
+inline void fromFourPlaces(int count, Visit&& visit)
+{
+  const int quarter = count / 4;
+  for (int i = 0; i < quarter; ++i)
   {
-    PackedSums& s = from.sums[from.slots[cells[i]] - 1];
-    batch.sums[0][i] = std::int64_t(s.lanes[0]);
-    batch.sums[1][i] = std::int64_t(s.lanes[1]);
-    batch.sums[2][i] = packedZ(s);
-    batch.counts[i] = packedCount(s);
-    s = PackedSums{ { 0, 0, 0, 0 } };
+    visit(i);
+    visit(i + quarter);
+    visit(i + 2 * quarter);
+    visit(i + 3 * quarter);
   }
-  for (int i = 0; from.seconds && i < count; ++i)
+  for (int i = 4 * quarter; i < count; ++i)
   {
-    SecondSums& s = from.seconds[from.slots[cells[i]] - 1];
-    batch.seconds[i] = s;
-    s = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
+    visit(i);
   }
-  for (int i = 0; i < count; ++i)
+}
+
+template <class V>
+void accumulate(const CellMap& map, const CellRanks& ranks, const Record* records, const std::uint32_t* cells,
+  int count, const CellSums& to)
+{
+  const typename V::Adder adder(map.fractionBits);
+  fromFourPlaces(count,
+    [&](int i)
+    {
+      const std::uint32_t place = rankOf<V>(ranks, cells[i]);
+      to.cells[place] = cells[i];
+      adder.add(to.sums[place], records[i]);
+    });
+  if (to.seconds)
   {
-    from.slots[cells[i]] = 0;
+    const std::uint64_t fractionMask = (std::uint64_t(1) << map.fractionBits) - 1;
+    fromFourPlaces(count,
+      [&](int i)
+      {
+        const Record& r = records[i];
+        addProducts(to.seconds[rankOf<V>(ranks, cells[i])], xPlace(r, fractionMask),
+          yPlace(r, fractionMask), zPlace(r, fractionMask));
+      });
   }
 }
 
@@ -355,39 +332,120 @@ inline int listLanes(unsigned lanes, int first, int last, int* list, int found)
   return found;
 }
 
+/// Stores the first of a vector's points, at most @p room.
+template <class V, typename Real>
+inline void storePoints(Real* to, int room, const typename V::Doubles xyz[3])
+{
+  if (room >= V::width)
+  {
+    V::storeInterleaved(to, xyz);
+    return;
+  }
+  Real all[3 * kWidest];
+  V::storeInterleaved(all, xyz);
+  for (int i = 0; i < 3 * room; ++i)
+  {
+    to[i] = all[i];
+  }
+}
+
+/// The constants of MeanMap, in vectors.
+template <class V>
+struct MeanVectors
+{
+  using Doubles = typename V::Doubles;
+  Doubles origin[3], spacing[3], margin[3], quantum, one;
+
+  explicit MeanVectors(const MeanMap& map)
+    : quantum(V::all(map.quantum))
+    , one(V::all(1.0))
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      origin[axis] = V::all(map.origin[axis]);
+      spacing[axis] = V::all(map.spacing[axis]);
+      margin[axis] = V::all(map.faceMargin[axis]);
+    }
+  }
+  /// Coordinates of a vector's means. Bit i of the result: that of voxel i is clear of the faces.
+  unsigned mean(Doubles count, const Doubles sums[3], const Doubles indices[3], Doubles xyz[3]) const
+  {
+    const Doubles reciprocal = V::quotient(one, count);
+    typename V::Mask clear = V::allTrue();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Doubles place = V::multiply(V::divide(sums[axis], count, reciprocal), quantum);
+      const Doubles u = V::add(indices[axis], place);
+      xyz[axis] = V::add(origin[axis], V::multiply(u, spacing[axis]));
+      clear = V::both(
+        clear, V::both(V::less(margin[axis], place), V::less(margin[axis], V::subtract(one, place))));
+    }
+    return V::toUnsigned(clear);
+  }
+};
+
 template <class V, typename Real>
 int means(const MeanMap& map, const MomentBatch<std::int64_t>& batch, Real* xyz, int* nearFace)
 {
-  const typename V::Doubles one = V::all(1.0);
-  const typename V::Doubles quantum = V::all(map.quantum);
-  alignas(64) Real coordinates[3][kBatch];
+  const MeanVectors<V> constants(map);
   int found = 0;
   // Whole vectors: past the batch's end they work on what an earlier one left there.
   for (int i = 0; i < batch.size; i += V::width)
   {
-    const typename V::Doubles count = V::fromInts(batch.counts + i);
-    typename V::Mask clear = V::allTrue();
+    typename V::Doubles sums[3], indices[3], means[3];
     for (int axis = 0; axis < 3; ++axis)
     {
-      const typename V::Doubles place =
-        V::multiply(V::quotient(V::fromInts(batch.sums[axis] + i), count), quantum);
-      const typename V::Doubles u = V::add(V::fromInts(batch.indices[axis] + i), place);
-      V::store(
-        coordinates[axis] + i, V::add(V::all(map.origin[axis]), V::multiply(u, V::all(map.spacing[axis]))));
-      const typename V::Doubles margin = V::all(map.faceMargin[axis]);
-      clear = V::both(clear, V::both(V::less(margin, place), V::less(margin, V::subtract(one, place))));
+      sums[axis] = V::fromInts(batch.sums[axis] + i);
+      indices[axis] = V::fromInts(batch.indices[axis] + i);
     }
-    const unsigned bits = V::toUnsigned(clear);
-    if (bits != V::full)
+    const unsigned clear = constants.mean(V::fromInts(batch.counts + i), sums, indices, means);
+    storePoints<V>(xyz + 3 * i, batch.size - i, means);
+    if (clear != V::full)
     {
-      found = listLanes(V::full & ~bits, i, batch.size, nearFace, found);
+      found = listLanes(V::full & ~clear, i, batch.size, nearFace, found);
     }
   }
-  for (int i = 0; i < batch.size; ++i)
+  return found;
+}
+
+template <class V, typename Real>
+int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t* cells,
+  const PackedSums* packed, int size, Real* xyz, std::int64_t* counts, int* nearFace)
+{
+  using Doubles = typename V::Doubles;
+  const MeanVectors<V> constants(map);
+  const Doubles columns = V::all(double(cellMap.columns));
+  const Doubles perColumn = V::all(1.0 / double(cellMap.columns));
+  const Doubles rows = V::all(double(cellMap.rowsPerLayer));
+  const Doubles perLayer = V::all(1.0 / double(cellMap.rowsPerLayer));
+  const Doubles firstRow = V::all(double(cellMap.firstRow));
+  const Doubles half = V::all(0.5);
+  // The integer below a quotient a / b of integers, from 1 / b: halves keep it clear of the integers.
+  const auto below = [&](Doubles a, Doubles perB)
+  { return V::nearest(V::subtract(V::multiply(V::add(a, half), perB), half)); };
+  int found = 0;
+  for (int i = 0; i < size; i += V::width)
   {
-    xyz[3 * i] = coordinates[0][i];
-    xyz[3 * i + 1] = coordinates[1][i];
-    xyz[3 * i + 2] = coordinates[2][i];
+    typename V::Bits lanes[4];
+    V::loadPacked(packed + i, lanes);
+    const typename V::Bits count = V::template rightBy<kCountShift>(lanes[3]);
+    const typename V::Bits z =
+      V::addBits(lanes[2], V::template left<kLowBits>(V::onlyPosition(lanes[3])));
+    const Doubles sums[3] = { V::toDoubles(lanes[0]), V::toDoubles(lanes[1]), V::toDoubles(z) };
+    const Doubles cell = V::fromInts(reinterpret_cast<const std::int32_t*>(cells + i));
+    const Doubles localRow = below(cell, perColumn);
+    const Doubles row = V::add(localRow, firstRow);
+    const Doubles layer = below(row, perLayer);
+    const Doubles indices[3] = { V::subtract(cell, V::multiply(localRow, columns)),
+      V::subtract(row, V::multiply(layer, rows)), layer };
+    Doubles means[3];
+    const unsigned clear = constants.mean(V::toDoubles(count), sums, indices, means);
+    storePoints<V>(xyz + 3 * i, size - i, means);
+    V::storeCounts(counts + i, size - i, count);
+    if (clear != V::full)
+    {
+      found = listLanes(V::full & ~clear, i, size, nearFace, found);
+    }
   }
   return found;
 }
@@ -463,8 +521,9 @@ void bounds(const double matrix[3][4], const Real* xyz, std::int64_t count, doub
 template <class V>
 Kernels makeKernels()
 {
-  return { &partition<V, float>, &partition<V, double>, &V::cells, &accumulate<V>, &drain<V>, &collect,
-    &means<V, float>, &means<V, double>, &bounds<V, float>, &bounds<V, double> };
+  return { &partition<V, float>, &partition<V, double>, &V::cells, &mark<V>, &number<V>, &rank<V>,
+    &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>, &means<V, float>, &means<V, double>,
+    &bounds<V, float>, &bounds<V, double> };
 }
 
 }

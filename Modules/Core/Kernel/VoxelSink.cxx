@@ -42,6 +42,21 @@ void keepInVoxels(
   }
 }
 
+template <typename Real>
+void keepInVoxels(const Lattice& lattice, const PartitionVoxels& voxels, std::size_t first, const int* list,
+  int size, Real* xyz)
+{
+  for (int j = 0; j < size; ++j)
+  {
+    const auto index = lattice.indexOf(voxels.firstKey + voxels.cells[first + std::size_t(list[j])]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Real& coordinate = xyz[3 * list[j] + axis];
+      coordinate = lattice.keptInVoxel(coordinate, axis, index[std::size_t(axis)]);
+    }
+  }
+}
+
 }
 
 SymMat3 covarianceOf(
@@ -138,6 +153,43 @@ void MeanArena::write(const Kernels& kernels, std::size_t place, const MomentBat
     const Int128 sums[3] = { batch.sums[0][i], batch.sums[1][i], batch.sums[2][i] };
     covariances_[place + std::size_t(i)] =
       covarianceOf(batch.counts[i], sums, batch.seconds[i], map_.quantum, lattice_.spacing);
+  }
+}
+
+void MeanArena::write(const Kernels& kernels, std::size_t place, const PartitionVoxels& voxels)
+{
+  int nearFace[kBatch];
+  for (std::size_t first = 0; first < voxels.size; first += kBatch)
+  {
+    const int size = int(std::min<std::size_t>(voxels.size - first, kBatch));
+    const std::uint32_t* cells = voxels.cells + first;
+    const PackedSums* sums = voxels.sums + first;
+    std::int64_t* counts = counts_.data() + place + first;
+    if (layout_.singlePrecision)
+    {
+      float* xyz = floats_.data() + 3 * (place + first);
+      const int found =
+        kernels.packedMeansFloat(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
+      keepInVoxels(lattice_, voxels, first, nearFace, found, xyz);
+    }
+    else
+    {
+      double* xyz = doubles_.data() + 3 * (place + first);
+      const int found =
+        kernels.packedMeansDouble(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
+      keepInVoxels(lattice_, voxels, first, nearFace, found, xyz);
+    }
+  }
+  for (std::size_t i = 0; layout_.keys && i < voxels.size; ++i)
+  {
+    keys_[place + i] = voxels.firstKey + voxels.cells[i];
+  }
+  for (std::size_t i = 0; layout_.covariances && i < voxels.size; ++i)
+  {
+    const PackedSums& packed = voxels.sums[i];
+    const Int128 sums[3] = { Int128(packed.lanes[0]), Int128(packed.lanes[1]), packedZ(packed) };
+    covariances_[place + i] =
+      covarianceOf(packedCount(packed), sums, voxels.seconds[i], map_.quantum, lattice_.spacing);
   }
 }
 

@@ -49,6 +49,17 @@ struct CarriedPartition
   }
 };
 
+/// The voxels of a partition, in ascending order.
+struct PartitionVoxels
+{
+  CellMap map{};
+  std::uint64_t firstKey = 0;
+  const std::uint32_t* cells = nullptr;
+  const PackedSums* sums = nullptr;
+  const SecondSums* seconds = nullptr; ///< Or null.
+  std::size_t size = 0;
+};
+
 /// Covariance of the points of a voxel, divided by their count, from exact integer sums in quanta.
 SymMat3 covarianceOf(
   std::int64_t count, const Int128 sums[3], const SecondSums& seconds, double quantum, const Vec3& spacing);
@@ -69,7 +80,8 @@ public:
   };
 
   void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits);
-  /// Writes a batch at @p place.
+  /// Writes the voxels of a partition, or a batch of voxels, at @p place.
+  void write(const Kernels& kernels, std::size_t place, const PartitionVoxels& voxels);
   void write(const Kernels& kernels, std::size_t place, const MomentBatch<std::int64_t>& batch);
 
   /// Prepares room for a list's voxels and writes them there.
