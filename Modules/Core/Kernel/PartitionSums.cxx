@@ -138,8 +138,47 @@ void PartitionWorker::clearMarks()
   }
 }
 
-/// Puts carried sums at the places of their cells.
-void PartitionWorker::takeCarried(const Kernels& kernels, const CarriedPartition& old)
+/// Marks the cells of what is carried and of the records. @return how many there are.
+std::size_t PartitionWorker::markAll(const Kernels& kernels, const CellMap& map, const RecordPool& pool,
+  std::uint32_t partition, const CarriedPartition& old)
+{
+  const std::size_t records = pool.count(partition);
+  if (records == 0 && old.cells.empty())
+  {
+    return 0;
+  }
+  recordCells_.reserve(records + kWidest);
+  for (const std::uint32_t cell : old.cells)
+  {
+    markCell(cell);
+  }
+  std::uint32_t* cells = recordCells_.data();
+  pool.forBlocks(partition,
+    [&](const Record* block, const std::uint32_t*, int count, const Record* next)
+    {
+      kernels.mark(map, block, count, next, marks_.data(), cells);
+      cells += count;
+    });
+  return kernels.number(ranks());
+}
+
+/// Adds the records whose cells are marked, and forgets the marks.
+void PartitionWorker::addRecords(const Kernels& kernels, const CellMap& map, const RecordPool& pool,
+  std::uint32_t partition, const CellSums& sums)
+{
+  const std::uint32_t* cells = recordCells_.data();
+  pool.forBlocks(partition,
+    [&](const Record* block, const std::uint32_t*, int count, const Record*)
+    {
+      kernels.accumulate(map, ranks(), block, cells, count, sums);
+      cells += count;
+    });
+  clearMarks();
+}
+
+/// Calls visit(i, rank) for each carried cell.
+template <typename Visit>
+void PartitionWorker::rankCarried(const Kernels& kernels, const CarriedPartition& old, Visit&& visit)
 {
   std::uint32_t places[kBatch];
   for (std::size_t first = 0; first < old.cells.size(); first += kBatch)
@@ -149,12 +188,7 @@ void PartitionWorker::takeCarried(const Kernels& kernels, const CarriedPartition
     kernels.rank(ranks(), places, int(size));
     for (std::size_t i = 0; i < size; ++i)
     {
-      cells_[places[i]] = old.cells[first + i];
-      sums_[places[i]] = old.packed[first + i];
-      if (batch_->seconds)
-      {
-        seconds_[places[i]] = old.seconds[first + i];
-      }
+      visit(first + i, places[i]);
     }
   }
 }
@@ -165,25 +199,11 @@ PartitionVoxels PartitionWorker::sumPacked(
   PartitionVoxels voxels;
   voxels.map = plan_.cellMap(partition);
   voxels.firstKey = plan_.firstKey(partition);
-  const std::size_t records = pool.count(partition);
-  if (records == 0 && old.cells.empty())
+  voxels.size = markAll(kernels, voxels.map, pool, partition, old);
+  if (voxels.size == 0)
   {
     return voxels;
   }
-  recordCells_.reserve(records + kWidest);
-  pool.prefetchFirst(partition + 1);
-  for (const std::uint32_t cell : old.cells)
-  {
-    markCell(cell);
-  }
-  std::uint32_t* cells = recordCells_.data();
-  pool.forBlocks(partition,
-    [&](const Record* block, const std::uint32_t*, int count)
-    {
-      kernels.mark(voxels.map, block, count, marks_.data(), cells);
-      cells += count;
-    });
-  voxels.size = kernels.number(ranks());
   cells_.reserve(voxels.size + kWidest);
   sums_.reserve(voxels.size + kWidest);
   std::fill(sums_.data(), sums_.data() + voxels.size, PackedSums{ { 0, 0, 0, 0 } });
@@ -192,19 +212,23 @@ PartitionVoxels PartitionWorker::sumPacked(
     seconds_.reserve(voxels.size);
     std::fill(seconds_.data(), seconds_.data() + voxels.size, SecondSums{ { 0, 0, 0, 0, 0, 0 } });
   }
-  takeCarried(kernels, old);
-  const CellSums sums = { cells_.data(), sums_.data(), batch_->seconds ? seconds_.data() : nullptr };
-  cells = recordCells_.data();
-  pool.forBlocks(partition,
-    [&](const Record* block, const std::uint32_t*, int count)
+  voxels.cells = cells_.data();
+  voxels.sums = sums_.data();
+  voxels.seconds = batch_->seconds ? seconds_.data() : nullptr;
+  const PackedSums* packed = old.packed.data();
+  rankCarried(kernels, old,
+    [&](std::size_t i, std::uint32_t rank)
     {
-      kernels.accumulate(voxels.map, ranks(), block, cells, count, sums);
-      cells += count;
+      __builtin_prefetch(packed + i + kBatch / 16);
+      cells_[rank] = old.cells[i];
+      sums_[rank] = packed[i];
+      if (voxels.seconds)
+      {
+        seconds_[rank] = old.seconds[i];
+      }
     });
-  clearMarks();
-  voxels.cells = sums.cells;
-  voxels.sums = sums.sums;
-  voxels.seconds = sums.seconds;
+  addRecords(kernels, voxels.map, pool, partition,
+    { cells_.data(), sums_.data(), voxels.seconds ? seconds_.data() : nullptr });
   return voxels;
 }
 
@@ -285,7 +309,7 @@ std::size_t PartitionWorker::sortRecords(
   std::size_t filled = 0;
   const CellMap map = plan_.cellMap(partition);
   pool.forBlocks(partition,
-    [&](const Record* records, const std::uint32_t*, int count)
+    [&](const Record* records, const std::uint32_t*, int count, const Record*)
     {
       std::uint32_t cells[kBlockRecords];
       kernels.cells(map, records, count, cells);

@@ -115,7 +115,7 @@ public:
       kernels.number(ranks());
     }
     pool.forBlocks(partition,
-      [&](const Record* records, const std::uint32_t* indices, int count)
+      [&](const Record* records, const std::uint32_t* indices, int count, const Record*)
       {
         std::uint32_t cells[kBlockRecords];
         kernels.cells(map, records, count, cells);
@@ -145,7 +145,12 @@ private:
   CellRanks ranks() const;
   void markCell(std::uint32_t cell) { marks_[cell / 64] |= std::uint64_t(1) << (cell % 64); }
   void clearMarks();
-  void takeCarried(const Kernels& kernels, const CarriedPartition& old);
+  std::size_t markAll(const Kernels& kernels, const CellMap& map, const RecordPool& pool,
+    std::uint32_t partition, const CarriedPartition& old);
+  void addRecords(const Kernels& kernels, const CellMap& map, const RecordPool& pool, std::uint32_t partition,
+    const CellSums& sums);
+  template <typename Visit>
+  void rankCarried(const Kernels& kernels, const CarriedPartition& old, Visit&& visit);
   void collectPacked(
     const PartitionVoxels& voxels, const CarriedPartition& old, std::size_t& position, std::size_t& next);
   static void unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver);

@@ -96,6 +96,22 @@ RecordWriter& RecordPool::Lease::writer() const
   return *pool_.writers_[slot_];
 }
 
+std::uint32_t RecordPool::firstBlock(std::uint32_t partition, std::size_t writer) const
+{
+  for (; partition < writers_[0]->lastBlocks.size(); ++partition, writer = 0)
+  {
+    for (; writer < writers_.size(); ++writer)
+    {
+      const std::uint32_t block = writers_[writer]->lastBlocks[partition];
+      if (block != kNone)
+      {
+        return block;
+      }
+    }
+  }
+  return 0;
+}
+
 std::size_t RecordPool::count(std::uint32_t partition) const
 {
   std::size_t sum = 0;

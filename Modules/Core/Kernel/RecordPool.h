@@ -42,38 +42,30 @@ public:
     std::size_t slot_;
   };
 
-  /// Calls visit(records, indices, count) for each block of a partition; indices is null without.
+  /// Calls visit(records, indices, count, next) for each block of a partition; indices is null without. next is
+  /// where the block begins that will be visited then, if all goes by partitions: fetch it while at work on this.
   template <typename Visit>
   void forBlocks(std::uint32_t partition, Visit&& visit) const
   {
-    for (const std::unique_ptr<Writer>& writer : writers_)
+    for (std::size_t w = 0; w < writers_.size(); ++w)
     {
-      std::uint32_t block = writer->lastBlocks[partition];
+      const Writer& writer = *writers_[w];
+      std::uint32_t block = writer.lastBlocks[partition];
       if (block == kNone)
       {
         continue;
       }
-      auto end = std::size_t(writer->cursors[partition] - records_.data());
+      auto end = std::size_t(writer.cursors[partition] - records_.data());
       while (block != kNone)
       {
-        const std::uint32_t next = previous_[block];
-        prefetch(next);
+        const std::uint32_t before = previous_[block];
+        const std::uint32_t next = before == kNone ? firstBlock(partition, w + 1) : before;
         const std::size_t first =
-          std::size_t(block) * kBlockRecords + (next == kNone ? stagger(partition) : 0);
-        visit(records_.data() + first, indices_ ? indices_ + first : nullptr, int(end - first));
-        block = next;
+          std::size_t(block) * kBlockRecords + (before == kNone ? stagger(partition) : 0);
+        visit(records_.data() + first, indices_ ? indices_ + first : nullptr, int(end - first),
+          records_.data() + std::size_t(next) * kBlockRecords);
+        block = before;
         end = (std::size_t(block) + 1) * kBlockRecords;
-      }
-    }
-  }
-  /// Fetches where forBlocks() will begin.
-  void prefetchFirst(std::uint32_t partition) const
-  {
-    for (const std::unique_ptr<Writer>& writer : writers_)
-    {
-      if (partition < writer->lastBlocks.size())
-      {
-        prefetch(writer->lastBlocks[partition]);
       }
     }
   }
@@ -105,18 +97,9 @@ private:
     bool taken = false;
   };
   static Record* refill(RecordWriter& writer, std::uint32_t partition);
-  void prefetch(std::uint32_t block) const
-  {
-    if (block != kNone)
-    {
-      const Record* records = records_.data() + std::size_t(block) * kBlockRecords;
-      // The rest comes by itself once the first lines are read.
-      for (std::size_t i = 0; i < kBlockRecords / 4; i += 64 / sizeof(Record))
-      {
-        __builtin_prefetch(records + i);
-      }
-    }
-  }
+  /// The first block in the order of visits of a partition from writer @p writer on, or of the partition after
+  /// it; any block where there is none.
+  std::uint32_t firstBlock(std::uint32_t partition, std::size_t writer) const;
 
   Buffer<Record> records_;
   Buffer<std::uint32_t> indexStorage_;

@@ -204,9 +204,10 @@ struct Kernels
     const Placement&, const double* xyz, std::int64_t count, std::uint32_t firstIndex, RecordWriter&);
   /// The cell of each record.
   void (*cells)(const CellMap&, const Record* records, int count, std::uint32_t* cells);
-  /// Marks the cells of records; lists them too, with room for kWidest more.
-  void (*mark)(
-    const CellMap&, const Record* records, int count, std::uint64_t* marks, std::uint32_t* cells);
+  /// Marks the cells of records; lists them too, with room for kWidest more. Fetches a block of records that
+  /// will be asked for @p next: those follow each other in memory too seldom for the machine to guess.
+  void (*mark)(const CellMap&, const Record* records, int count, const Record* next, std::uint64_t* marks,
+    std::uint32_t* cells);
   /// Counts the marks before each word. @return that of all.
   std::uint32_t (*number)(const CellRanks& ranks);
   /// How many marked cells come before each of some: replaces them.

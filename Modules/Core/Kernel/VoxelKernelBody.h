@@ -236,13 +236,23 @@ inline std::uint32_t cellOf(const CellMap& map, const Record& r)
 }
 
 template <class V>
-void mark(
-  const CellMap& map, const Record* records, int count, std::uint64_t* marks, std::uint32_t* cells)
+void mark(const CellMap& map, const Record* records, int count, const Record* next, std::uint64_t* marks,
+  std::uint32_t* cells)
 {
-  V::cells(map, records, count, cells);
-  for (int i = 0; i < count; ++i)
+  constexpr int kLine = 64 / sizeof(Record);
+  constexpr int kStep = 64;
+  for (int first = 0; first < count; first += kStep)
   {
-    marks[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64);
+    const int last = first + kStep < count ? first + kStep : count;
+    for (int i = first; i < first + kStep; i += kLine)
+    {
+      __builtin_prefetch(next + i);
+    }
+    V::cells(map, records + first, last - first, cells + first);
+    for (int i = first; i < last; ++i)
+    {
+      marks[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64);
+    }
   }
 }
 
@@ -294,22 +304,25 @@ inline void fromFourPlaces(int count, Visit&& visit)
 }
 
 template <class V>
-void accumulate(const CellMap& map, const CellRanks& ranks, const Record* records, const std::uint32_t* cells,
-  int count, const CellSums& to)
+void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* records,
+  const std::uint32_t* cells, int count, const CellSums& given)
 {
+  // Copies, which no store can change.
+  const CellRanks ranks = givenRanks;
+  const CellSums to = given;
   const typename V::Adder adder(map.fractionBits);
   fromFourPlaces(count,
-    [&](int i)
+    [=](int i)
     {
-      const std::uint32_t place = rankOf<V>(ranks, cells[i]);
-      to.cells[place] = cells[i];
-      adder.add(to.sums[place], records[i]);
+      const std::uint32_t rank = rankOf<V>(ranks, cells[i]);
+      to.cells[rank] = cells[i];
+      adder.add(to.sums[rank], records[i]);
     });
   if (to.seconds)
   {
     const std::uint64_t fractionMask = (std::uint64_t(1) << map.fractionBits) - 1;
     fromFourPlaces(count,
-      [&](int i)
+      [=](int i)
       {
         const Record& r = records[i];
         addProducts(to.seconds[rankOf<V>(ranks, cells[i])], xPlace(r, fractionMask),
