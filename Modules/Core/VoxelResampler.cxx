@@ -80,8 +80,11 @@ private:
   Status runGeneral(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
   void fillPool(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, bool indexed,
     const Executor& executor);
-  void sumChunk(const VoxelRequest& request, const Executor& executor, bool last);
-  void keepGeneral(const VoxelRequest& request, VoxelSumList list);
+  template <typename Work>
+  void forPartitions(const VoxelRequest& request, const Executor& executor, Work&& work);
+  void carryChunk(const VoxelRequest& request, const Executor& executor);
+  void keepBatches(const VoxelRequest& request, PartitionWorker& worker, std::uint32_t partition);
+  void finish(const VoxelRequest& request, const Executor& executor);
   void addLevels(const VoxelRequest& request, VoxelSumList list);
   VoxelSumList carriedList() const;
   Status assignPlanned(
@@ -135,7 +138,7 @@ Status VoxelResampler::Implementation::run(
 void VoxelResampler::Implementation::clear()
 {
   levels.resize(1);
-  levels[0].segments.clear();
+  levels[0].firsts.clear();
   levels[0].size = 0;
   clipped = invalid = 0;
 }
@@ -162,14 +165,13 @@ Status VoxelResampler::Implementation::runPlanned(
     fillPool(request, chunks, chunk, false, executor);
     inside += pool_.inside();
     invalid += pool_.invalid();
-    sumChunk(request, executor, chunk + 1 == chunks.count());
+    chunk + 1 < chunks.count() ? carryChunk(request, executor) : finish(request, executor);
     if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }
   }
   clipped = request.points.size() - inside - invalid;
-  levels[0].number();
   if (request.levels > 1)
   {
     addLevels(request, carriedList());
@@ -208,66 +210,121 @@ void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const
     });
 }
 
-/// Sums of the pool's records and what is carried; in the end, or for levels to come, means of them.
-void VoxelResampler::Implementation::sumChunk(
-  const VoxelRequest& request, const Executor& executor, bool last)
+/// Calls work(worker, partition) for all partitions: each thread takes the next one, so that those before any
+/// are done or at work.
+template <typename Work>
+void VoxelResampler::Implementation::forPartitions(
+  const VoxelRequest& request, const Executor& executor, Work&& work)
 {
-  Level& level = levels[0];
-  const Kernels& kernels = kernelsFor(request.instructions);
-  const bool keepSums = !last || request.levels > 1;
-  if (last)
-  {
-    std::size_t room = 0;
-    level.segments.assign(plan_.partitions, Segment());
-    for (std::uint32_t p = 0; p < plan_.partitions; ++p)
-    {
-      level.segments[p].place = room;
-      room += mostVoxels(plan_, pool_.count(p), carried_[p].size());
-    }
-    level.arena.prepare(room, { request.singlePrecision, request.keys, request.covariances }, request.lattice,
-      plan_.fractionBits);
-  }
-  forRange(executor, plan_.partitions, grainFor(plan_.partitions, executor),
-    [&](std::int64_t begin, std::int64_t end)
+  std::atomic<std::uint32_t> next{ 0 };
+  forRange(executor, executor.concurrency(), 1,
+    [&](std::int64_t, std::int64_t)
     {
       const WorkerLease lease(*this, request.covariances);
-      PartitionWorker& worker = *lease;
-      for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
+      for (std::uint32_t p = next++; p < plan_.partitions; p = next++)
       {
-        if (!last && plan_.dense)
-        {
-          worker.carryDense(kernels, pool_, p, carried_[p]);
-          continue;
-        }
-        if (plan_.dense && !keepSums && carried_[p].voxels.empty())
-        {
-          const PartitionVoxels voxels = worker.sumPacked(kernels, pool_, p, carried_[p]);
-          level.segments[p].size = voxels.size;
-          level.arena.write(kernels, level.segments[p].place, voxels);
-          continue;
-        }
-        worker.carried.clear();
-        worker.sum(kernels, pool_, p, carried_[p],
-          [&](const MomentBatch<std::int64_t>& batch)
-          {
-            if (last)
-            {
-              Segment& segment = level.segments[p];
-              level.arena.write(kernels, segment.place + segment.size, batch);
-              segment.size += std::size_t(batch.size);
-            }
-            if (keepSums)
-            {
-              carry(request.lattice, batch, worker.carried);
-            }
-          });
-        if (keepSums)
-        {
-          // Copies: exactly as large as they need be.
-          carried_[p] = CarriedPartition(worker.carried);
-        }
+        work(*lease, p);
       }
     });
+}
+
+/// Adds the pool's records to what is carried.
+void VoxelResampler::Implementation::carryChunk(const VoxelRequest& request, const Executor& executor)
+{
+  const Kernels& kernels = kernelsFor(request.instructions);
+  forPartitions(request, executor,
+    [&](PartitionWorker& worker, std::uint32_t p)
+    {
+      if (plan_.dense)
+      {
+        worker.carryDense(kernels, pool_, p, carried_[p]);
+        return;
+      }
+      worker.load(kernels, pool_, p, carried_[p], [](std::size_t) {});
+      keepBatches(request, worker, p);
+    });
+}
+
+/// Carries the voxels of a partition over, unpacked.
+void VoxelResampler::Implementation::keepBatches(
+  const VoxelRequest& request, PartitionWorker& worker, std::uint32_t partition)
+{
+  worker.carried.clear();
+  worker.forBatches(
+    [&](const MomentBatch<std::int64_t>& batch) { carry(request.lattice, batch, worker.carried); });
+  // Copies: exactly as large as they need be.
+  carried_[partition] = CarriedPartition(worker.carried);
+}
+
+/// Means of the pool's records and what is carried. A partition writes its voxels where they belong if those
+/// before it have been counted by then, as they nearly always are; otherwise they are moved there in the end.
+void VoxelResampler::Implementation::finish(const VoxelRequest& request, const Executor& executor)
+{
+  const Kernels& kernels = kernelsFor(request.instructions);
+  const MeanArena::Layout layout = { request.singlePrecision, request.keys, request.covariances };
+  Level& level = levels[0];
+  std::size_t room = 0;
+  for (std::uint32_t p = 0; p < plan_.partitions; ++p)
+  {
+    room += mostVoxels(plan_, pool_.count(p), carried_[p].size());
+  }
+  level.arena.prepare(room, layout, request.lattice, plan_.fractionBits, request.memory);
+  struct Late
+  {
+    std::uint32_t partition;
+    std::size_t size;
+    MeanArena arena;
+  };
+  std::vector<Late> late;
+  PartitionOrder order(plan_.partitions);
+  forPartitions(request, executor,
+    [&](PartitionWorker& worker, std::uint32_t p)
+    {
+      std::size_t size = 0;
+      worker.load(kernels, pool_, p, carried_[p],
+        [&](std::size_t known)
+        {
+          size = known;
+          order.tell(p, size);
+        });
+      std::size_t place = order.first(p);
+      const bool isLate = place == PartitionOrder::kUnknown;
+      MeanArena aside;
+      if (isLate)
+      {
+        aside.prepare(size, layout, request.lattice, plan_.fractionBits);
+        place = 0;
+      }
+      MeanArena& arena = isLate ? aside : level.arena;
+      if (const PartitionVoxels* voxels = worker.packed())
+      {
+        arena.write(kernels, place, *voxels);
+      }
+      else
+      {
+        worker.forBatches(
+          [&](const MomentBatch<std::int64_t>& batch)
+          {
+            arena.write(kernels, place, batch);
+            place += std::size_t(batch.size);
+          });
+      }
+      if (request.levels > 1)
+      {
+        keepBatches(request, worker, p);
+      }
+      if (isLate)
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        late.push_back({ p, size, std::move(aside) });
+      }
+    });
+  level.firsts = order.take();
+  level.size = std::int64_t(level.firsts.back());
+  for (const Late& piece : late)
+  {
+    level.arena.write(level.firsts[piece.partition], piece.arena, piece.size);
+  }
 }
 
 VoxelSumList VoxelResampler::Implementation::carriedList() const
@@ -304,10 +361,9 @@ Status VoxelResampler::Implementation::runGeneral(
   invalid = adder.invalid();
   clipped = request.points.size() - adder.inside() - invalid;
   VoxelSumList list = adder.take();
-  levels[0].arena.write(
-    list, { request.singlePrecision, request.keys, request.covariances }, request.lattice);
-  levels[0].segments = { { 0, list.voxels.size(), 0 } };
-  levels[0].number();
+  levels[0].arena.write(list, { request.singlePrecision, request.keys, request.covariances }, request.lattice,
+    request.memory);
+  levels[0].size = std::int64_t(list.voxels.size());
   if (request.levels > 1)
   {
     addLevels(request, std::move(list));
@@ -323,8 +379,7 @@ void VoxelResampler::Implementation::addLevels(const VoxelRequest& request, Voxe
     level.lattice = coarserLattice(levels.back().lattice);
     list = coarserSums(list, levels.back().lattice, level.lattice, level.parents);
     level.arena.write(list, { request.singlePrecision, request.keys, request.covariances }, level.lattice);
-    level.segments = { { 0, list.voxels.size(), 0 } };
-    level.number();
+    level.size = std::int64_t(list.voxels.size());
     levels.push_back(std::move(level));
   }
 }
@@ -354,14 +409,14 @@ Status VoxelResampler::Implementation::assignPlanned(
         std::int64_t voxels[kBlockRecords];
         for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
         {
-          const Segment& segment = level.segments[p];
-          (*lease).rank(kernels, pool_, p, level.arena.keys() + segment.place, segment.size,
+          const std::size_t firstVoxel = level.firsts[p];
+          (*lease).rank(kernels, pool_, p, level.arena.keys() + firstVoxel, level.firsts[p + 1] - firstVoxel,
             [&](const std::uint32_t* indices, const std::uint32_t* ranks, int count)
             {
               for (int i = 0; i < count; ++i)
               {
                 points[i] = request.index ? request.index->original(base + indices[i]) : base + indices[i];
-                voxels[i] = segment.first + ranks[i];
+                voxels[i] = std::int64_t(firstVoxel + ranks[i]);
               }
               visit(points, voxels, count);
             });
@@ -414,7 +469,7 @@ std::size_t VoxelResampler::Implementation::scratchBytes() const
   }
   for (const Level& level : levels)
   {
-    sum += level.arena.bytes() + level.segments.capacity() * sizeof(Segment);
+    sum += level.arena.bytes() + level.firsts.capacity() * sizeof(std::size_t);
   }
   return sum;
 }
@@ -467,31 +522,31 @@ const std::vector<std::int64_t>& VoxelResampler::parents(int level) const
 void VoxelResampler::copyMeans(int l, float* xyz, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copySegments(level, level.arena.floats(), 3, xyz, executor);
+  copyArray(level.arena.floats(), 3 * level.size, xyz, executor);
 }
 
 void VoxelResampler::copyMeans(int l, double* xyz, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copySegments(level, level.arena.doubles(), 3, xyz, executor);
+  copyArray(level.arena.doubles(), 3 * level.size, xyz, executor);
 }
 
 void VoxelResampler::copyCounts(int l, std::int64_t* counts, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copySegments(level, level.arena.counts(), 1, counts, executor);
+  copyArray(level.arena.counts(), level.size, counts, executor);
 }
 
 void VoxelResampler::copyKeys(int l, std::uint64_t* keys, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copySegments(level, level.arena.keys(), 1, keys, executor);
+  copyArray(level.arena.keys(), level.size, keys, executor);
 }
 
 void VoxelResampler::copyCovariances(int l, SymMat3* covariances, const Executor& executor) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  copySegments(level, level.arena.covariances(), 1, covariances, executor);
+  copyArray(level.arena.covariances(), level.size, covariances, executor);
 }
 
 void VoxelResampler::releaseScratch()

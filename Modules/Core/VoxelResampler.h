@@ -30,6 +30,23 @@ public:
   virtual bool proceed(double fraction) = 0;
 };
 
+/// Memory of the caller's for the results of the finest level: run() leaves them where they are to stay, and
+/// copying them there does nothing.
+class ResultMemory
+{
+public:
+  enum class Part
+  {
+    Means,
+    Counts,
+    Covariances,
+  };
+  virtual ~ResultMemory() = default;
+  /// At least so many bytes, aligned for their type, which are the result's until the next run(): more than it
+  /// needs in the end. Called from the thread that called run(), at most once for each part.
+  virtual void* reserve(Part part, std::size_t bytes) = 0;
+};
+
 /// What to resample, and what to make of it.
 struct VoxelRequest
 {
@@ -44,6 +61,7 @@ struct VoxelRequest
   /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
   int levels = 1;
   InstructionSet instructions = InstructionSet::Automatic;
+  ResultMemory* memory = nullptr; ///< Null: the resampler's own.
 };
 
 /// Resamples clouds, one after the other; memory for the work is kept between them (releaseScratch()).
@@ -59,7 +77,8 @@ struct VoxelRequest
 /// singular, of a condition number c above 1e6, costs what it costs: errors grow to about 1e-16 c voxels.)
 ///
 /// Time: a few nanoseconds a point. Memory beyond input and results: 16 bytes for each of at most a million
-/// points, 60 bytes an active voxel, a few megabytes; lattices beyond 4096 an axis: 64 bytes a point of the
+/// points, 60 bytes an active voxel (20 of them its results, where these are not in the caller's memory), a few
+/// megabytes; lattices beyond 4096 an axis: 64 bytes a point of the
 /// million and 72 an active voxel; covariances: 100 an active voxel more.
 /// One object is used by one thread at a time; the executor's threads may be many.
 class VoxelResampler

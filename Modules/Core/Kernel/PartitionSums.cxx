@@ -138,104 +138,89 @@ void PartitionWorker::clearMarks()
   }
 }
 
-/// Marks the cells of what is carried and of the records. @return how many there are.
-std::size_t PartitionWorker::markAll(const Kernels& kernels, const CellMap& map, const RecordPool& pool,
-  std::uint32_t partition, const CarriedPartition& old)
+/// Marks the cells of what is carried and of the records, and counts them.
+void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
 {
-  const std::size_t records = pool.count(partition);
-  if (records == 0 && old.cells.empty())
+  voxels_ = { plan_.cellMap(partition_), plan_.firstKey(partition_), nullptr, nullptr, nullptr, 0 };
+  const std::size_t records = pool.count(partition_);
+  if (records == 0 && old_->cells.empty())
   {
-    return 0;
+    return;
   }
   recordCells_.reserve(records + kWidest);
-  for (const std::uint32_t cell : old.cells)
+  for (const std::uint32_t cell : old_->cells)
   {
     markCell(cell);
   }
   std::uint32_t* cells = recordCells_.data();
-  pool.forBlocks(partition,
+  pool.forBlocks(partition_,
     [&](const Record* block, const std::uint32_t*, int count, const Record* next)
     {
-      kernels.mark(map, block, count, next, marks_.data(), cells);
+      kernels.mark(voxels_.map, block, count, next, marks_.data(), cells);
       cells += count;
     });
-  return kernels.number(ranks());
+  voxels_.size = kernels.number(ranks());
 }
 
-/// Adds the records whose cells are marked, and forgets the marks.
-void PartitionWorker::addRecords(const Kernels& kernels, const CellMap& map, const RecordPool& pool,
-  std::uint32_t partition, const CellSums& sums)
+void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool)
 {
+  if (voxels_.size == 0)
+  {
+    return;
+  }
+  cells_.reserve(voxels_.size + kWidest);
+  sums_.reserve(voxels_.size + kWidest);
+  std::fill(sums_.data(), sums_.data() + voxels_.size, PackedSums{ { 0, 0, 0, 0 } });
+  if (batch_->seconds)
+  {
+    seconds_.reserve(voxels_.size);
+    std::fill(seconds_.data(), seconds_.data() + voxels_.size, SecondSums{ { 0, 0, 0, 0, 0, 0 } });
+  }
+  voxels_.cells = cells_.data();
+  voxels_.sums = sums_.data();
+  voxels_.seconds = batch_->seconds ? seconds_.data() : nullptr;
+  takeCarried(kernels);
+  const CellSums sums = { cells_.data(), sums_.data(), batch_->seconds ? seconds_.data() : nullptr };
   const std::uint32_t* cells = recordCells_.data();
-  pool.forBlocks(partition,
+  pool.forBlocks(partition_,
     [&](const Record* block, const std::uint32_t*, int count, const Record*)
     {
-      kernels.accumulate(map, ranks(), block, cells, count, sums);
+      kernels.accumulate(voxels_.map, ranks(), block, cells, count, sums);
       cells += count;
     });
   clearMarks();
 }
 
-/// Calls visit(i, rank) for each carried cell.
-template <typename Visit>
-void PartitionWorker::rankCarried(const Kernels& kernels, const CarriedPartition& old, Visit&& visit)
+/// Puts carried sums at the places of their cells.
+void PartitionWorker::takeCarried(const Kernels& kernels)
 {
+  constexpr std::size_t kAhead = 16;
   std::uint32_t places[kBatch];
-  for (std::size_t first = 0; first < old.cells.size(); first += kBatch)
+  for (std::size_t first = 0; first < old_->cells.size(); first += kBatch)
   {
-    const std::size_t size = std::min<std::size_t>(old.cells.size() - first, kBatch);
-    std::copy(old.cells.data() + first, old.cells.data() + first + size, places);
+    const std::size_t size = std::min<std::size_t>(old_->cells.size() - first, kBatch);
+    const std::uint32_t* cells = old_->cells.data() + first;
+    const PackedSums* packed = old_->packed.data() + first;
+    std::copy(cells, cells + size, places);
     kernels.rank(ranks(), places, int(size));
     for (std::size_t i = 0; i < size; ++i)
     {
-      visit(first + i, places[i]);
+      __builtin_prefetch(packed + i + kAhead);
+      cells_[places[i]] = cells[i];
+      sums_[places[i]] = packed[i];
+      if (batch_->seconds)
+      {
+        seconds_[places[i]] = old_->seconds[first + i];
+      }
     }
   }
-}
-
-PartitionVoxels PartitionWorker::sumPacked(
-  const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, const CarriedPartition& old)
-{
-  PartitionVoxels voxels;
-  voxels.map = plan_.cellMap(partition);
-  voxels.firstKey = plan_.firstKey(partition);
-  voxels.size = markAll(kernels, voxels.map, pool, partition, old);
-  if (voxels.size == 0)
-  {
-    return voxels;
-  }
-  cells_.reserve(voxels.size + kWidest);
-  sums_.reserve(voxels.size + kWidest);
-  std::fill(sums_.data(), sums_.data() + voxels.size, PackedSums{ { 0, 0, 0, 0 } });
-  if (batch_->seconds)
-  {
-    seconds_.reserve(voxels.size);
-    std::fill(seconds_.data(), seconds_.data() + voxels.size, SecondSums{ { 0, 0, 0, 0, 0, 0 } });
-  }
-  voxels.cells = cells_.data();
-  voxels.sums = sums_.data();
-  voxels.seconds = batch_->seconds ? seconds_.data() : nullptr;
-  const PackedSums* packed = old.packed.data();
-  rankCarried(kernels, old,
-    [&](std::size_t i, std::uint32_t rank)
-    {
-      __builtin_prefetch(packed + i + kBatch / 16);
-      cells_[rank] = old.cells[i];
-      sums_[rank] = packed[i];
-      if (voxels.seconds)
-      {
-        seconds_[rank] = old.seconds[i];
-      }
-    });
-  addRecords(kernels, voxels.map, pool, partition,
-    { cells_.data(), sums_.data(), voxels.seconds ? seconds_.data() : nullptr });
-  return voxels;
 }
 
 void PartitionWorker::carryDense(
   const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& carriedOver)
 {
-  const PartitionVoxels voxels = sumPacked(kernels, pool, partition, carriedOver);
+  load(kernels, pool, partition, carriedOver, [](std::size_t) {});
+  const PartitionVoxels& voxels = voxels_;
   // Room for what another chunk adds, not for twice as much.
   if (carriedOver.cells.capacity() < voxels.size)
   {
@@ -271,16 +256,15 @@ void PartitionWorker::unpack(std::uint64_t key, PackedSums& packed, CarriedParti
   packed = PackedSums{ { 0, 0, 0, 0 } };
 }
 
-void PartitionWorker::collectPacked(
-  const PartitionVoxels& voxels, const CarriedPartition& old, std::size_t& position, std::size_t& next)
+void PartitionWorker::collectDense(std::size_t& position, std::size_t& next)
 {
   MomentBatch<std::int64_t>& batch = *batch_;
-  batch.size = int(std::min<std::size_t>(voxels.size - position, kBatch));
+  batch.size = int(std::min<std::size_t>(voxels_.size - position, kBatch));
   for (int i = 0; i < batch.size; ++i, ++position)
   {
-    const PackedSums& sums = voxels.sums[position];
-    const std::uint32_t cell = voxels.cells[position];
-    const std::uint32_t row = cell / plan_.columns + voxels.map.firstRow;
+    const PackedSums& sums = voxels_.sums[position];
+    const std::uint32_t cell = voxels_.cells[position];
+    const std::uint32_t row = cell / plan_.columns + voxels_.map.firstRow;
     batch.indices[0][i] = std::int32_t(cell % plan_.columns);
     batch.indices[1][i] = std::int32_t(row % plan_.rowsPerLayer);
     batch.indices[2][i] = std::int32_t(row / plan_.rowsPerLayer);
@@ -290,25 +274,24 @@ void PartitionWorker::collectPacked(
     batch.sums[2][i] = packedZ(sums);
     if (batch.seconds)
     {
-      batch.seconds[i] = voxels.seconds[position];
+      batch.seconds[i] = voxels_.seconds[position];
     }
-    if (next < old.voxels.size() && old.voxels[next].key == voxels.firstKey + cell)
+    if (next < old_->voxels.size() && old_->voxels[next].key == voxels_.firstKey + cell)
     {
-      addCarried(batch, i, old, next++);
+      addCarried(batch, i, *old_, next++);
     }
   }
 }
 
-std::size_t PartitionWorker::sortRecords(
-  const Kernels& kernels, const RecordPool& pool, std::uint32_t partition)
+void PartitionWorker::sortRecords(const Kernels& kernels, const RecordPool& pool)
 {
-  const std::size_t size = pool.count(partition);
-  records_.reserve(size);
-  entries_.reserve(size);
-  otherEntries_.reserve(size);
+  listed_ = pool.count(partition_);
+  records_.reserve(listed_);
+  entries_.reserve(listed_);
+  otherEntries_.reserve(listed_);
   std::size_t filled = 0;
-  const CellMap map = plan_.cellMap(partition);
-  pool.forBlocks(partition,
+  const CellMap map = plan_.cellMap(partition_);
+  pool.forBlocks(partition_,
     [&](const Record* records, const std::uint32_t*, int count, const Record*)
     {
       std::uint32_t cells[kBlockRecords];
@@ -319,8 +302,29 @@ std::size_t PartitionWorker::sortRecords(
         entries_[filled] = { cells[i], std::uint32_t(filled) };
       }
     });
-  sortEntries(size);
-  return size;
+  sortEntries(listed_);
+}
+
+/// Voxels of the sorted records and of what is carried.
+std::size_t PartitionWorker::countSorted() const
+{
+  const std::uint64_t firstKey = plan_.firstKey(partition_);
+  std::size_t count = old_->voxels.size();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < listed_; ++i)
+  {
+    if (i > 0 && entries_[i].cell == entries_[i - 1].cell)
+    {
+      continue;
+    }
+    const std::uint64_t key = firstKey + entries_[i].cell;
+    while (next < old_->voxels.size() && old_->voxels[next].key < key)
+    {
+      ++next;
+    }
+    count += next == old_->voxels.size() || old_->voxels[next].key != key;
+  }
+  return count;
 }
 
 /// Least significant digit first, leaving out the digits in which no two differ.
@@ -360,16 +364,16 @@ void PartitionWorker::sortEntries(std::size_t size)
   }
 }
 
-void PartitionWorker::collectSorted(std::uint32_t partition, const CarriedPartition& old, std::size_t listed,
-  std::size_t& position, std::size_t& next)
+void PartitionWorker::collectSorted(std::size_t& position, std::size_t& next)
 {
-  const std::uint64_t firstKey = plan_.firstKey(partition);
+  const CarriedPartition& old = *old_;
+  const std::uint64_t firstKey = plan_.firstKey(partition_);
   const std::uint64_t fractionMask = (std::uint64_t(1) << plan_.fractionBits) - 1;
   MomentBatch<std::int64_t>& batch = *batch_;
   int size = 0;
-  for (; size < kBatch && (position < listed || next < old.voxels.size()); ++size)
+  for (; size < kBatch && (position < listed_ || next < old.voxels.size()); ++size)
   {
-    const std::uint64_t ours = position < listed ? firstKey + entries_[position].cell : ~std::uint64_t(0);
+    const std::uint64_t ours = position < listed_ ? firstKey + entries_[position].cell : ~std::uint64_t(0);
     const std::uint64_t theirs = next < old.voxels.size() ? old.voxels[next].key : ~std::uint64_t(0);
     const std::uint64_t key = std::min(ours, theirs);
     const std::uint64_t row = key / plan_.columns;
@@ -382,7 +386,7 @@ void PartitionWorker::collectSorted(std::uint32_t partition, const CarriedPartit
     {
       batch.seconds[size] = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
     }
-    for (; position < listed && firstKey + entries_[position].cell == key; ++position)
+    for (; position < listed_ && firstKey + entries_[position].cell == key; ++position)
     {
       const Record& r = records_[entries_[position].record];
       batch.counts[size] += 1;

@@ -67,31 +67,38 @@ public:
 
   /// Readies the scratch for partitions of a plan.
   void prepare(const PartitionPlan& plan, bool covariances);
-  /// Sums of the carried voxels and the partition's records, which hold until the next call. @pre the plan is
-  /// dense, and nothing is carried unpacked.
-  PartitionVoxels sumPacked(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
-    const CarriedPartition& old);
-  /// Adds the records of a partition to @p old sums and calls emit(batch) with all its voxels.
-  template <typename Emit>
-  void sum(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
-    const CarriedPartition& old, Emit&& emit)
+  /// Adds the records of a partition to @p old sums; calls tell(size) as soon as it knows the number of its
+  /// voxels. They hold until the next call.
+  template <typename Tell>
+  void load(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
+    const CarriedPartition& old, Tell&& tell)
   {
-    std::size_t position = 0; // among the cells or records
-    std::size_t next = 0;     // among the carried voxels
+    partition_ = partition;
+    old_ = &old;
     if (plan_.dense)
     {
-      const PartitionVoxels voxels = sumPacked(kernels, pool, partition, old);
-      while (position < voxels.size)
-      {
-        collectPacked(voxels, old, position, next);
-        emit(*batch_);
-      }
+      markDense(kernels, pool);
+      tell(voxels_.size);
+      sumDense(kernels, pool);
       return;
     }
-    const std::size_t listed = sortRecords(kernels, pool, partition);
-    while (position < listed || next < old.voxels.size())
+    sortRecords(kernels, pool);
+    tell(countSorted());
+  }
+  /// The voxels, if the plan is dense and nothing was carried unpacked; else null.
+  const PartitionVoxels* packed() const
+  {
+    return plan_.dense && old_->voxels.empty() ? &voxels_ : nullptr;
+  }
+  /// Calls emit(batch) with all the voxels.
+  template <typename Emit>
+  void forBatches(Emit&& emit)
+  {
+    std::size_t position = 0; // among the voxels or records
+    std::size_t next = 0;     // among the carried voxels
+    while (position < (plan_.dense ? voxels_.size : listed_) || (!plan_.dense && next < old_->voxels.size()))
     {
-      collectSorted(partition, old, listed, position, next);
+      plan_.dense ? collectDense(position, next) : collectSorted(position, next);
       emit(*batch_);
     }
   }
@@ -145,22 +152,21 @@ private:
   CellRanks ranks() const;
   void markCell(std::uint32_t cell) { marks_[cell / 64] |= std::uint64_t(1) << (cell % 64); }
   void clearMarks();
-  std::size_t markAll(const Kernels& kernels, const CellMap& map, const RecordPool& pool,
-    std::uint32_t partition, const CarriedPartition& old);
-  void addRecords(const Kernels& kernels, const CellMap& map, const RecordPool& pool, std::uint32_t partition,
-    const CellSums& sums);
-  template <typename Visit>
-  void rankCarried(const Kernels& kernels, const CarriedPartition& old, Visit&& visit);
-  void collectPacked(
-    const PartitionVoxels& voxels, const CarriedPartition& old, std::size_t& position, std::size_t& next);
+  void markDense(const Kernels& kernels, const RecordPool& pool);
+  void sumDense(const Kernels& kernels, const RecordPool& pool);
+  void takeCarried(const Kernels& kernels);
+  void collectDense(std::size_t& position, std::size_t& next);
   static void unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver);
-  std::size_t sortRecords(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition);
+  void sortRecords(const Kernels& kernels, const RecordPool& pool);
   void sortEntries(std::size_t size);
-  void collectSorted(std::uint32_t partition, const CarriedPartition& old, std::size_t listed,
-    std::size_t& position, std::size_t& next);
+  std::size_t countSorted() const;
+  void collectSorted(std::size_t& position, std::size_t& next);
   static std::uint32_t rankOf(std::uint64_t key, const std::uint64_t* keys, std::size_t size);
 
   PartitionPlan plan_;
+  std::uint32_t partition_ = 0;
+  const CarriedPartition* old_ = nullptr;
+  PartitionVoxels voxels_;
   std::unique_ptr<MomentBatch<std::int64_t>> batch_;
   std::vector<SecondSums> batchSeconds_;
   // Dense: marks are zero between partitions.
@@ -171,6 +177,7 @@ private:
   Buffer<PackedSums> sums_;
   Buffer<SecondSums> seconds_;
   // Sorted.
+  std::size_t listed_ = 0; ///< Records.
   Buffer<Record> records_;
   Buffer<Entry> entries_;
   Buffer<Entry> otherEntries_;

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace pointhaptics
@@ -14,55 +16,71 @@ namespace pointhaptics
 namespace kernel
 {
 
+/// Elements worth a thread of their own to copy.
+constexpr std::int64_t kCopyGrain = 1 << 14;
+
 /// So many partitions at once that threads find work to the end.
 inline std::int64_t grainFor(std::int64_t count, const Executor& executor)
 {
   return std::max<std::int64_t>(1, count / (16 * executor.concurrency()));
 }
 
-/// A partition's voxels: where they are in the arena and in the result.
-struct Segment
-{
-  std::size_t place = 0;
-  std::size_t size = 0;
-  std::int64_t first = 0;
-};
-
 /// The voxels of one lattice.
 struct Level
 {
   Lattice lattice;
   MeanArena arena;
-  std::vector<Segment> segments;
+  /// Where those of each partition begin, and an end.
+  std::vector<std::size_t> firsts;
   std::int64_t size = 0;
   std::vector<std::int64_t> parents;
-
-  void number()
-  {
-    size = 0;
-    for (Segment& segment : segments)
-    {
-      segment.first = size;
-      size += std::int64_t(segment.size);
-    }
-  }
 };
 
-/// Joins the partitions' pieces of an array in the arena.
-template <typename T>
-void copySegments(const Level& level, const T* from, std::size_t components, T* to, const Executor& executor)
+/// Tells partitions where their voxels go, as soon as all before them have told how many theirs are.
+class PartitionOrder
 {
-  const auto segments = std::int64_t(level.segments.size());
-  forRange(executor, segments, grainFor(segments, executor),
-    [&](std::int64_t begin, std::int64_t end)
+public:
+  explicit PartitionOrder(std::uint32_t partitions)
+    : sizes_(partitions, kUnknown)
+    , firsts_(1, 0)
+  {
+    firsts_.reserve(std::size_t(partitions) + 1);
+  }
+  static constexpr std::size_t kUnknown = ~std::size_t(0);
+
+  void tell(std::uint32_t partition, std::size_t size)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sizes_[partition] = size;
+    while (firsts_.size() <= sizes_.size() && sizes_[firsts_.size() - 1] != kUnknown)
     {
-      for (auto s = std::size_t(begin); s < std::size_t(end); ++s)
-      {
-        const Segment& segment = level.segments[s];
-        const T* first = from + components * segment.place;
-        std::copy(first, first + components * segment.size, to + components * std::size_t(segment.first));
-      }
-    });
+      firsts_.push_back(firsts_.back() + sizes_[firsts_.size() - 1]);
+    }
+  }
+  /// Or kUnknown.
+  std::size_t first(std::uint32_t partition)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return partition < firsts_.size() ? firsts_[partition] : kUnknown;
+  }
+  /// @pre all have told.
+  std::vector<std::size_t> take() { return std::move(firsts_); }
+
+private:
+  std::mutex mutex_;
+  std::vector<std::size_t> sizes_;
+  std::vector<std::size_t> firsts_; ///< Of those that are known, and what comes next.
+};
+
+/// Copies an array unless it is there already.
+template <typename T>
+void copyArray(const T* from, std::int64_t count, T* to, const Executor& executor)
+{
+  if (from != to)
+  {
+    forRange(executor, count, kCopyGrain,
+      [&](std::int64_t begin, std::int64_t end) { std::copy(from + begin, from + end, to + begin); });
+  }
 }
 
 } // namespace kernel

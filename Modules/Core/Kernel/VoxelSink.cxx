@@ -28,6 +28,18 @@ double toDouble(Int128 value)
   return double(value);
 }
 
+/// The caller's memory for a part of the result, or the arena's own.
+template <typename T>
+T* memoryFor(ResultMemory::Part part, std::size_t count, ResultMemory* memory, Buffer<T>& own)
+{
+  if (memory)
+  {
+    return static_cast<T*>(memory->reserve(part, count * sizeof(T)));
+  }
+  own.reserve(count);
+  return own.data();
+}
+
 template <typename Real>
 void keepInVoxels(
   const Lattice& lattice, const MomentBatch<std::int64_t>& batch, const int* list, int size, Real* xyz)
@@ -106,27 +118,50 @@ MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecisi
   return map;
 }
 
-void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits)
+void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
+  ResultMemory* memory)
 {
   layout_ = layout;
   lattice_ = lattice;
   map_ = makeMeanMap(lattice, fractionBits, layout.singlePrecision);
+  floats_ = nullptr;
+  doubles_ = nullptr;
+  covariances_ = nullptr;
   if (layout.singlePrecision)
   {
-    floats_.reserve(3 * room);
+    floats_ = memoryFor(ResultMemory::Part::Means, 3 * room, memory, ownFloats_);
   }
   else
   {
-    doubles_.reserve(3 * room);
+    doubles_ = memoryFor(ResultMemory::Part::Means, 3 * room, memory, ownDoubles_);
   }
-  counts_.reserve(room);
+  counts_ = memoryFor(ResultMemory::Part::Counts, room, memory, ownCounts_);
+  if (layout.covariances)
+  {
+    covariances_ = memoryFor(ResultMemory::Part::Covariances, room, memory, ownCovariances_);
+  }
   if (layout.keys)
   {
     keys_.reserve(room);
   }
-  if (layout.covariances)
+}
+
+void MeanArena::write(std::size_t place, const MeanArena& other, std::size_t size)
+{
+  const auto copy = [&](const auto* from, auto* to, std::size_t components)
   {
-    covariances_.reserve(room);
+    if (from)
+    {
+      std::copy(from, from + components * size, to + components * place);
+    }
+  };
+  copy(other.floats_, floats_, 3);
+  copy(other.doubles_, doubles_, 3);
+  copy(other.counts_, counts_, 1);
+  copy(other.covariances_, covariances_, 1);
+  if (layout_.keys)
+  {
+    copy(other.keys_.data(), keys_.data(), 1);
   }
 }
 
@@ -135,15 +170,15 @@ void MeanArena::write(const Kernels& kernels, std::size_t place, const MomentBat
   int nearFace[kBatch];
   if (layout_.singlePrecision)
   {
-    float* xyz = floats_.data() + 3 * place;
+    float* xyz = floats_ + 3 * place;
     keepInVoxels(lattice_, batch, nearFace, kernels.meansFloat(map_, batch, xyz, nearFace), xyz);
   }
   else
   {
-    double* xyz = doubles_.data() + 3 * place;
+    double* xyz = doubles_ + 3 * place;
     keepInVoxels(lattice_, batch, nearFace, kernels.meansDouble(map_, batch, xyz, nearFace), xyz);
   }
-  std::copy(batch.counts, batch.counts + batch.size, counts_.data() + place);
+  std::copy(batch.counts, batch.counts + batch.size, counts_ + place);
   for (int i = 0; layout_.keys && i < batch.size; ++i)
   {
     keys_[place + std::size_t(i)] = keyOf(lattice_, batch, i);
@@ -164,17 +199,17 @@ void MeanArena::write(const Kernels& kernels, std::size_t place, const Partition
     const int size = int(std::min<std::size_t>(voxels.size - first, kBatch));
     const std::uint32_t* cells = voxels.cells + first;
     const PackedSums* sums = voxels.sums + first;
-    std::int64_t* counts = counts_.data() + place + first;
+    std::int64_t* counts = counts_ + place + first;
     if (layout_.singlePrecision)
     {
-      float* xyz = floats_.data() + 3 * (place + first);
+      float* xyz = floats_ + 3 * (place + first);
       const int found =
         kernels.packedMeansFloat(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
       keepInVoxels(lattice_, voxels, first, nearFace, found, xyz);
     }
     else
     {
-      double* xyz = doubles_.data() + 3 * (place + first);
+      double* xyz = doubles_ + 3 * (place + first);
       const int found =
         kernels.packedMeansDouble(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
       keepInVoxels(lattice_, voxels, first, nearFace, found, xyz);
@@ -193,9 +228,10 @@ void MeanArena::write(const Kernels& kernels, std::size_t place, const Partition
   }
 }
 
-void MeanArena::write(const VoxelSumList& list, const Layout& layout, const Lattice& lattice)
+void MeanArena::write(
+  const VoxelSumList& list, const Layout& layout, const Lattice& lattice, ResultMemory* memory)
 {
-  prepare(list.voxels.size(), layout, lattice, list.fractionBits);
+  prepare(list.voxels.size(), layout, lattice, list.fractionBits, memory);
   for (std::size_t v = 0; v < list.voxels.size(); ++v)
   {
     const VoxelSums& voxel = list.voxels[v];

@@ -7,6 +7,7 @@
 #include "Core/Kernel/VoxelKernel.h"
 #include "Core/Lattice.h"
 #include "Core/Vector3.h"
+#include "Core/VoxelResampler.h"
 
 #include <cstdint>
 #include <vector>
@@ -67,8 +68,8 @@ SymMat3 covarianceOf(
 /// How sums become coordinates in a lattice with places of @p fractionBits bits, rounded to float or double.
 MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecision);
 
-/// Means, counts and on request keys and covariances of active voxels; partitions write theirs at places of
-/// their own, with room for the most there can be.
+/// Means, counts and on request keys and covariances of active voxels, in the arena's own memory or, where
+/// asked for, in the caller's.
 class MeanArena
 {
 public:
@@ -79,33 +80,42 @@ public:
     bool covariances = false;
   };
 
-  void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits);
+  void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
+    ResultMemory* memory = nullptr);
   /// Writes the voxels of a partition, or a batch of voxels, at @p place.
   void write(const Kernels& kernels, std::size_t place, const PartitionVoxels& voxels);
   void write(const Kernels& kernels, std::size_t place, const MomentBatch<std::int64_t>& batch);
+  /// Copies what another arena of the same layout has.
+  void write(std::size_t place, const MeanArena& other, std::size_t size);
 
   /// Prepares room for a list's voxels and writes them there.
-  void write(const VoxelSumList& list, const Layout& layout, const Lattice& lattice);
+  void write(
+    const VoxelSumList& list, const Layout& layout, const Lattice& lattice, ResultMemory* memory = nullptr);
 
-  const float* floats() const { return floats_.data(); }
-  const double* doubles() const { return doubles_.data(); }
-  const std::int64_t* counts() const { return counts_.data(); }
+  const float* floats() const { return floats_; }
+  const double* doubles() const { return doubles_; }
+  const std::int64_t* counts() const { return counts_; }
   const std::uint64_t* keys() const { return keys_.data(); }
-  const SymMat3* covariances() const { return covariances_.data(); }
+  const SymMat3* covariances() const { return covariances_; }
   std::size_t bytes() const
   {
-    return floats_.bytes() + doubles_.bytes() + counts_.bytes() + keys_.bytes() + covariances_.bytes();
+    return ownFloats_.bytes() + ownDoubles_.bytes() + ownCounts_.bytes() + keys_.bytes() +
+      ownCovariances_.bytes();
   }
 
 private:
   Layout layout_;
   Lattice lattice_;
   MeanMap map_{};
-  Buffer<float> floats_;
-  Buffer<double> doubles_;
-  Buffer<std::int64_t> counts_;
+  float* floats_ = nullptr;
+  double* doubles_ = nullptr;
+  std::int64_t* counts_ = nullptr;
+  SymMat3* covariances_ = nullptr;
+  Buffer<float> ownFloats_;
+  Buffer<double> ownDoubles_;
+  Buffer<std::int64_t> ownCounts_;
+  Buffer<SymMat3> ownCovariances_;
   Buffer<std::uint64_t> keys_;
-  Buffer<SymMat3> covariances_;
 };
 
 /// Appends a batch to a partition that is carried over.
