@@ -361,8 +361,8 @@ Status VoxelResampler::Implementation::runGeneral(
   invalid = adder.invalid();
   clipped = request.points.size() - adder.inside() - invalid;
   VoxelSumList list = adder.take();
-  levels[0].arena.write(list, { request.singlePrecision, request.keys, request.covariances }, request.lattice,
-    request.memory);
+  levels[0].arena.write(
+    list, { request.singlePrecision, request.keys, request.covariances }, request.lattice, request.memory);
   levels[0].size = std::int64_t(list.voxels.size());
   if (request.levels > 1)
   {

@@ -42,8 +42,8 @@ public:
     Covariances,
   };
   virtual ~ResultMemory() = default;
-  /// At least so many bytes, aligned for their type, which are the result's until the next run(): more than it
-  /// needs in the end. Called from the thread that called run(), at most once for each part.
+  /// At least so many bytes, aligned for their type, which are the result's until the next run(): more than
+  /// it needs in the end. Called from the thread that called run(), at most once for each part.
   virtual void* reserve(Part part, std::size_t bytes) = 0;
 };
 
@@ -77,10 +77,10 @@ struct VoxelRequest
 /// singular, of a condition number c above 1e6, costs what it costs: errors grow to about 1e-16 c voxels.)
 ///
 /// Time: a few nanoseconds a point. Memory beyond input and results: 16 bytes for each of at most a million
-/// points, 60 bytes an active voxel (20 of them its results, where these are not in the caller's memory), a few
-/// megabytes; lattices beyond 4096 an axis: 64 bytes a point of the
-/// million and 72 an active voxel; covariances: 100 an active voxel more.
-/// One object is used by one thread at a time; the executor's threads may be many.
+/// points, 60 bytes an active voxel (20 of them its results, where these are not in the caller's memory), a
+/// few megabytes; lattices beyond 4096 an axis: 64 bytes a point of the million and 72 an active voxel;
+/// covariances: 100 an active voxel more. One object is used by one thread at a time; the executor's threads
+/// may be many.
 class VoxelResampler
 {
 public:

@@ -62,6 +62,11 @@ void ArrayPool::allocate(vtkDataArray* array, std::int64_t tuples)
     array->SetNumberOfTuples(vtkIdType(tuples));
     return;
   }
+  take(reserve(bytes), array, tuples);
+}
+
+void* ArrayPool::reserve(std::size_t bytes)
+{
   Header* block = nullptr;
   {
     // The smallest that is large enough, but none that would waste more than it holds.
@@ -94,7 +99,13 @@ void ArrayPool::allocate(vtkDataArray* array, std::int64_t tuples)
     block->bytes = size - sizeof(Header);
   }
   block->state = state_;
-  array->SetVoidArray(block + 1, vtkIdType(values), 0, vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
+  return block + 1;
+}
+
+void ArrayPool::take(void* memory, vtkDataArray* array, std::int64_t tuples)
+{
+  array->SetVoidArray(memory, vtkIdType(tuples * array->GetNumberOfComponents()), 0,
+    vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
   array->SetArrayFreeFunction(&ArrayPool::giveBack);
 }
 

@@ -25,6 +25,12 @@ public:
   /// Gives @p array, of VTK's usual layout and with its components set, memory for so many tuples, not
   /// initialised.
   void allocate(vtkDataArray* array, std::int64_t tuples);
+  /// Memory for at least so many bytes, until it is taken or given back.
+  void* reserve(std::size_t bytes);
+  /// Gives @p array such memory, with so many tuples in it.
+  void take(void* memory, vtkDataArray* array, std::int64_t tuples);
+  /// Lets go of reserved memory that no array took.
+  static void giveBack(void* memory);
   /// Frees what no array uses.
   void trim();
   /// Bytes no array uses.
@@ -33,7 +39,6 @@ public:
 private:
   struct State;
   struct Header;
-  static void giveBack(void* data);
 
   std::shared_ptr<State> state_;
 };

@@ -16,12 +16,47 @@
 namespace pointhaptics
 {
 
-vtkSmartPointer<vtkPoints> makePoints(
-  const VoxelResampler& engine, int level, bool singlePrecision, ArrayPool& pool, const Executor& executor)
+void* OutputMemory::reserve(Part part, std::size_t bytes)
+{
+  void*& memory = memory_[int(part)];
+  if (memory)
+  {
+    ArrayPool::giveBack(memory);
+  }
+  memory = pool_.reserve(bytes);
+  return memory;
+}
+
+void OutputMemory::take(Part part, vtkDataArray* array, std::int64_t tuples)
+{
+  void*& memory = memory_[int(part)];
+  if (memory)
+  {
+    pool_.take(memory, array, tuples);
+    memory = nullptr;
+    return;
+  }
+  pool_.allocate(array, tuples);
+}
+
+void OutputMemory::release()
+{
+  for (void*& memory : memory_)
+  {
+    if (memory)
+    {
+      ArrayPool::giveBack(memory);
+      memory = nullptr;
+    }
+  }
+}
+
+vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, int level, bool singlePrecision,
+  OutputMemory& memory, const Executor& executor)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  pool.allocate(points->GetData(), engine.size(level));
+  memory.take(ResultMemory::Part::Means, points->GetData(), engine.size(level));
   if (singlePrecision)
   {
     engine.copyMeans(level, vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
@@ -55,18 +90,18 @@ vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, con
 }
 
 vtkSmartPointer<vtkIdTypeArray> makeCounts(
-  const VoxelResampler& engine, int level, ArrayPool& pool, const Executor& executor)
+  const VoxelResampler& engine, int level, OutputMemory& memory, const Executor& executor)
 {
   static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
   auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
   counts->SetName("VoxelPointCount");
-  pool.allocate(counts, engine.size(level));
+  memory.take(ResultMemory::Part::Counts, counts, engine.size(level));
   engine.copyCounts(level, reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
   return counts;
 }
 
 vtkSmartPointer<vtkDoubleArray> makeCovariances(
-  const VoxelResampler& engine, int level, ArrayPool& pool, const Executor& executor)
+  const VoxelResampler& engine, int level, OutputMemory& memory, const Executor& executor)
 {
   static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -77,7 +112,7 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(
   {
     array->SetComponentName(c, names[c]);
   }
-  pool.allocate(array, engine.size(level));
+  memory.take(ResultMemory::Part::Covariances, array, engine.size(level));
   engine.copyCovariances(level, reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
   return array;
 }

@@ -1,7 +1,5 @@
 #include "vtkVoxelMeanResamplerInternals.h"
 
-#include "VoxelOutput.h"
-
 #include "Core/VoxelMean.h"
 
 #include "vtkAbstractTransform.h"
@@ -126,6 +124,7 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
   this->Request.levels = this->Filter->NumberOfLevels;
   this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
   this->Request.keys = !this->Attributes.empty() || this->Request.levels > 1;
+  this->Request.memory = &this->Memory;
   this->From = 0.0;
   this->To = this->Attributes.empty() ? 0.95 : 0.5;
   const Status status = this->Engine.run(this->Request, this->Smp, this);
@@ -238,6 +237,7 @@ void vtkVoxelMeanResampler::Internals::Release()
     this->SpareSums.push_back(named.attribute.takeSums());
   }
   this->Attributes.clear();
+  this->Memory.release();
   // What earlier outputs left and this one had no use for.
   this->Pool.trim();
   this->Request = VoxelRequest();
@@ -247,9 +247,9 @@ void vtkVoxelMeanResampler::Internals::Release()
 void vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPolyData* output)
 {
   vtkPointData* data = output->GetPointData();
-  output->SetPoints(makePoints(this->Engine, level, this->Request.singlePrecision, this->Pool, this->Smp));
+  output->SetPoints(makePoints(this->Engine, level, this->Request.singlePrecision, this->Memory, this->Smp));
   output->SetVerts(makeVertices(vtkIdType(this->Engine.size(level)), this->Pool, this->Smp));
-  const auto counts = makeCounts(this->Engine, level, this->Pool, this->Smp);
+  const auto counts = makeCounts(this->Engine, level, this->Memory, this->Smp);
   const auto* countValues = reinterpret_cast<const std::int64_t*>(counts->GetPointer(0));
   for (NamedAttribute& named : this->Attributes)
   {
@@ -267,7 +267,7 @@ void vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
   data->AddArray(counts);
   if (this->Filter->ComputeCovariance)
   {
-    data->AddArray(makeCovariances(this->Engine, level, this->Pool, this->Smp));
+    data->AddArray(makeCovariances(this->Engine, level, this->Memory, this->Smp));
   }
   output->GetFieldData()->PassData(input->GetFieldData());
   addLattice(this->Engine.lattice(level), this->Request.transform, output->GetFieldData());

@@ -2,10 +2,10 @@
 /// The steps of vtkVoxelMeanResampler. Private to Filters.
 #pragma once
 
-#include "ArrayPool.h"
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 #include "VoxelAttribute.h"
+#include "VoxelOutput.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/PointIndex.h"
@@ -66,6 +66,7 @@ private:
   std::vector<NamedAttribute> Attributes;
   std::vector<pointhaptics::Buffer<std::int64_t>> SpareSums; ///< Of the last update's attributes.
   pointhaptics::ArrayPool Pool;
+  pointhaptics::OutputMemory Memory{ this->Pool };
   double From = 0.0;
   double To = 1.0;
   // Which input was seen last, and how often a part of it.

@@ -86,10 +86,7 @@ public:
     tell(countSorted());
   }
   /// The voxels, if the plan is dense and nothing was carried unpacked; else null.
-  const PartitionVoxels* packed() const
-  {
-    return plan_.dense && old_->voxels.empty() ? &voxels_ : nullptr;
-  }
+  const PartitionVoxels* packed() const { return plan_.dense && old_->voxels.empty() ? &voxels_ : nullptr; }
   /// Calls emit(batch) with all the voxels.
   template <typename Emit>
   void forBatches(Emit&& emit)

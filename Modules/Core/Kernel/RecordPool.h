@@ -42,8 +42,9 @@ public:
     std::size_t slot_;
   };
 
-  /// Calls visit(records, indices, count, next) for each block of a partition; indices is null without. next is
-  /// where the block begins that will be visited then, if all goes by partitions: fetch it while at work on this.
+  /// Calls visit(records, indices, count, next) for each block of a partition; indices is null without. next
+  /// is where the block begins that will be visited then, if all goes by partitions: fetch it while at work
+  /// on this.
   template <typename Visit>
   void forBlocks(std::uint32_t partition, Visit&& visit) const
   {
@@ -97,8 +98,8 @@ private:
     bool taken = false;
   };
   static Record* refill(RecordWriter& writer, std::uint32_t partition);
-  /// The first block in the order of visits of a partition from writer @p writer on, or of the partition after
-  /// it; any block where there is none.
+  /// The first block in the order of visits of a partition from writer @p writer on, or of the partition
+  /// after it; any block where there is none.
   std::uint32_t firstBlock(std::uint32_t partition, std::size_t writer) const;
 
   Buffer<Record> records_;

@@ -64,7 +64,7 @@ struct Placement
   double limit[3];      ///< u below this is inside.
   double magic;         ///< Added to u it leaves the position in the low bits of the sum.
   Motion motion;
-  int fractionBits;     ///< Bits of a position below the voxel.
+  int fractionBits; ///< Bits of a position below the voxel.
   // Which partition: (z >> layerShift) * blocksPerLayer + (y >> rowShift).
   std::uint32_t blocksPerLayer;
   int rowShift;
@@ -123,8 +123,8 @@ struct SecondSums
   UInt128 lanes[6];
 };
 
-/// Which cells of a partition have points, and how many of these come before a cell. A bit for each cell and a
-/// number for 64 of them stay in the first-level cache.
+/// Which cells of a partition have points, and how many of these come before a cell. A bit for each cell and
+/// a number for 64 of them stay in the first-level cache.
 struct CellRanks
 {
   std::uint64_t* marks;
@@ -215,9 +215,9 @@ struct Kernels
   /// Adds records to the sums of their @p cells.
   void (*accumulate)(const CellMap&, const CellRanks& ranks, const Record* records,
     const std::uint32_t* cells, int count, const CellSums& sums);
-  /// Coordinates, x y z interleaved, and counts of cells with their sums. Positions among them of means so near
-  /// a face that they need another look go to @p nearFace. @return the number of these. Reads, but does not
-  /// use, kWidest elements past the end.
+  /// Coordinates, x y z interleaved, and counts of cells with their sums. Positions among them of means so
+  /// near a face that they need another look go to @p nearFace. @return the number of these. Reads, but does
+  /// not use, kWidest elements past the end.
   int (*packedMeansFloat)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
     int count, float* xyz, std::int64_t* counts, int* nearFace);
   int (*packedMeansDouble)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,

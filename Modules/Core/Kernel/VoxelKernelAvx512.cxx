@@ -184,8 +184,8 @@ struct Avx512
   }
   static void storeInterleaved(float* to, const Doubles xyz[3])
   {
-    const __m512 xy = _mm512_insertf32x8(
-      _mm512_castps256_ps512(_mm512_cvtpd_ps(xyz[0])), _mm512_cvtpd_ps(xyz[1]), 1);
+    const __m512 xy =
+      _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(xyz[0])), _mm512_cvtpd_ps(xyz[1]), 1);
     const __m512 z = _mm512_castps256_ps512(_mm512_cvtpd_ps(xyz[2]));
     _mm512_storeu_ps(to,
       _mm512_permutex2var_ps(

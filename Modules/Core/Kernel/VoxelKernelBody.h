@@ -92,10 +92,9 @@ inline unsigned placeGroup(
   V::storeLow(placed.partitions + to,
     V::addBits(V::right(V::onlyPosition(position[1]), c.toRowBlock),
       V::multiply32(V::right(V::onlyPosition(position[2]), c.toLayerBlock), c.blocksPerLayer)));
-  const typename V::Bits first =
-    V::withPosition(V::template left<kPositionBits>(position[2]), position[0]);
-  const typename V::Bits second = V::withPosition(
-    V::template left<kPositionBits>(V::template rightBy<kLowBits>(position[2])), position[1]);
+  const typename V::Bits first = V::withPosition(V::template left<kPositionBits>(position[2]), position[0]);
+  const typename V::Bits second =
+    V::withPosition(V::template left<kPositionBits>(V::template rightBy<kLowBits>(position[2])), position[1]);
   V::storeRecords(placed.records + to, first, second);
   const unsigned bits = V::toUnsigned(inside);
   if (bits != V::full)
@@ -284,8 +283,8 @@ void rank(const CellRanks& ranks, std::uint32_t* cells, int count)
   }
 }
 
-/// Calls visit(i) for all i below @p count. Neighbours in a scan are in one voxel, and what is done to it waits
-/// for what was done before: takes them from four places in turn.
+/// Calls visit(i) for all i below @p count. Neighbours in a scan are in one voxel, and what is done to it
+/// waits for what was done before: takes them from four places in turn.
 template <typename Visit>
 inline void fromFourPlaces(int count, Visit&& visit)
 {
@@ -325,8 +324,8 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
       [=](int i)
       {
         const Record& r = records[i];
-        addProducts(to.seconds[rankOf<V>(ranks, cells[i])], xPlace(r, fractionMask),
-          yPlace(r, fractionMask), zPlace(r, fractionMask));
+        addProducts(to.seconds[rankOf<V>(ranks, cells[i])], xPlace(r, fractionMask), yPlace(r, fractionMask),
+          zPlace(r, fractionMask));
       });
   }
 }
@@ -390,8 +389,8 @@ struct MeanVectors
       const Doubles place = V::multiply(V::divide(sums[axis], count, reciprocal), quantum);
       const Doubles u = V::add(indices[axis], place);
       xyz[axis] = V::add(origin[axis], V::multiply(u, spacing[axis]));
-      clear = V::both(
-        clear, V::both(V::less(margin[axis], place), V::less(margin[axis], V::subtract(one, place))));
+      clear =
+        V::both(clear, V::both(V::less(margin[axis], place), V::less(margin[axis], V::subtract(one, place))));
     }
     return V::toUnsigned(clear);
   }
@@ -442,8 +441,7 @@ int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t*
     typename V::Bits lanes[4];
     V::loadPacked(packed + i, lanes);
     const typename V::Bits count = V::template rightBy<kCountShift>(lanes[3]);
-    const typename V::Bits z =
-      V::addBits(lanes[2], V::template left<kLowBits>(V::onlyPosition(lanes[3])));
+    const typename V::Bits z = V::addBits(lanes[2], V::template left<kLowBits>(V::onlyPosition(lanes[3])));
     const Doubles sums[3] = { V::toDoubles(lanes[0]), V::toDoubles(lanes[1]), V::toDoubles(z) };
     const Doubles cell = V::fromInts(reinterpret_cast<const std::int32_t*>(cells + i));
     const Doubles localRow = below(cell, perColumn);

@@ -118,8 +118,8 @@ MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecisi
   return map;
 }
 
-void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
-  ResultMemory* memory)
+void MeanArena::prepare(
+  std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits, ResultMemory* memory)
 {
   layout_ = layout;
   lattice_ = lattice;
@@ -203,15 +203,13 @@ void MeanArena::write(const Kernels& kernels, std::size_t place, const Partition
     if (layout_.singlePrecision)
     {
       float* xyz = floats_ + 3 * (place + first);
-      const int found =
-        kernels.packedMeansFloat(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
+      const int found = kernels.packedMeansFloat(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
       keepInVoxels(lattice_, voxels, first, nearFace, found, xyz);
     }
     else
     {
       double* xyz = doubles_ + 3 * (place + first);
-      const int found =
-        kernels.packedMeansDouble(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
+      const int found = kernels.packedMeansDouble(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
       keepInVoxels(lattice_, voxels, first, nearFace, found, xyz);
     }
   }
