@@ -43,6 +43,19 @@ Motion motionOf(const AffineTransform& t)
   return t.m[0][0] == 1.0 && t.m[1][1] == 1.0 && t.m[2][2] == 1.0 ? Motion::Shift : Motion::Scale;
 }
 
+/// Whether fma(v, r, v t), with r = 1 / d and t = 1 / d - r rounded, is v / d correctly rounded for all v:
+/// the idea of Brisebarre, Muller and Raina (IEEE Transactions on Computers 53, 2004). With d = D 2^e, D <
+/// 2^53 an integer, no quotient is nearer to the midpoint of two doubles than 2^-54 / D, relatively; what r
+/// and t leave of 1 / d and the rounding of v t are off by less, or not.
+bool dividesAsPair(double d, double r, double t)
+{
+  const double residual = std::fma(r, d, -1.0);
+  const double left = std::abs(std::fma(t, d, residual)) + std::ldexp(std::abs(t) * d, -53);
+  int exponent = 0;
+  const double integer = std::ldexp(std::frexp(d, &exponent), 53);
+  return left < 0.999 * std::ldexp(1.0, -54) / integer;
+}
+
 }
 
 int indexBitsOf(const Lattice& lattice)
@@ -67,6 +80,7 @@ Placement makePlacement(
 {
   Placement placement{};
   placement.motion = motionOf(transform);
+  placement.pairDivides = true;
   Wide toOrigin[3];
   Wide pivot[3];
   for (int axis = 0; axis < 3; ++axis)
@@ -95,6 +109,10 @@ Placement makePlacement(
     placement.offset[axis] = double(mapped) + 0.0; // never -0
     placement.spacing[axis] = lattice.spacing[axis];
     placement.reciprocal[axis] = 1.0 / lattice.spacing[axis];
+    placement.remainder[axis] =
+      -std::fma(placement.reciprocal[axis], lattice.spacing[axis], -1.0) / lattice.spacing[axis];
+    placement.pairDivides = placement.pairDivides &&
+      dividesAsPair(lattice.spacing[axis], placement.reciprocal[axis], placement.remainder[axis]);
     placement.limit[axis] = std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]);
   }
   placement.magic = std::ldexp(1.0, indexBits + 52 - positionBits);

@@ -61,8 +61,11 @@ struct Placement
   double offset[3];
   double spacing[3];
   double reciprocal[3]; ///< 1 / spacing, rounded.
-  double limit[3];      ///< u below this is inside.
-  double magic;         ///< Added to u it leaves the position in the low bits of the sum.
+  double remainder[3];  ///< What rounding took from it, rounded.
+  /// fma(v, reciprocal, v remainder), which takes half the time, is v / spacing correctly rounded for all v.
+  bool pairDivides;
+  double limit[3]; ///< u below this is inside.
+  double magic;    ///< Added to u it leaves the position in the low bits of the sum.
   Motion motion;
   int fractionBits; ///< Bits of a position below the voxel.
   // Which partition: (z >> layerShift) * blocksPerLayer + (y >> rowShift).

@@ -20,6 +20,7 @@ struct Avx2
   using Bits = __m256i;
   using Mask = __m256d;
   using Shift = __m128i;
+  static constexpr bool hasFusedMultiply = true;
 
   static Doubles all(double value) { return _mm256_set1_pd(value); }
   static Bits allBits(std::uint64_t value) { return _mm256_set1_epi64x(std::int64_t(value)); }
@@ -47,6 +48,11 @@ struct Avx2
   static Doubles add(Doubles a, Doubles b) { return _mm256_add_pd(a, b); }
   static Doubles subtract(Doubles a, Doubles b) { return _mm256_sub_pd(a, b); }
   static Doubles multiply(Doubles a, Doubles b) { return _mm256_mul_pd(a, b); }
+  /// a (high + low), the rest of the product rounded first.
+  static Doubles multiplyByPair(Doubles a, Doubles high, Doubles low)
+  {
+    return _mm256_fmadd_pd(a, high, _mm256_mul_pd(a, low));
+  }
   /// a / b, correctly rounded: two corrections of a times the rounded reciprocal, each by its exact residual
   /// (Markstein 1990).
   static Doubles divide(Doubles a, Doubles b, Doubles reciprocal)

@@ -20,6 +20,7 @@ struct Avx512
   using Bits = __m512i;
   using Mask = __mmask8;
   using Shift = __m128i;
+  static constexpr bool hasFusedMultiply = true;
 
   static Doubles all(double value) { return _mm512_set1_pd(value); }
   static Bits allBits(std::uint64_t value) { return _mm512_set1_epi64(std::int64_t(value)); }
@@ -55,6 +56,11 @@ struct Avx512
   static Doubles add(Doubles a, Doubles b) { return _mm512_add_pd(a, b); }
   static Doubles subtract(Doubles a, Doubles b) { return _mm512_sub_pd(a, b); }
   static Doubles multiply(Doubles a, Doubles b) { return _mm512_mul_pd(a, b); }
+  /// a (high + low), the rest of the product rounded first.
+  static Doubles multiplyByPair(Doubles a, Doubles high, Doubles low)
+  {
+    return _mm512_fmadd_pd(a, high, _mm512_mul_pd(a, low));
+  }
   /// a / b, correctly rounded: two corrections of a times the rounded reciprocal, each by its exact residual
   /// (Markstein 1990).
   static Doubles divide(Doubles a, Doubles b, Doubles reciprocal)

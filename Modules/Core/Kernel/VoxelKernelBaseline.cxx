@@ -20,6 +20,7 @@ struct Pairs
   using Bits = BitPair;
   using Mask = IntPair;
   using Shift = int;
+  static constexpr bool hasFusedMultiply = false;
 
   static Doubles all(double value) { return Doubles{ value, value }; }
   static Bits allBits(std::uint64_t value) { return Bits{ value, value }; }
@@ -36,6 +37,8 @@ struct Pairs
   static Doubles subtract(Doubles a, Doubles b) { return a - b; }
   static Doubles multiply(Doubles a, Doubles b) { return a * b; }
   static Doubles divide(Doubles a, Doubles b, Doubles) { return a / b; }
+  /// Of no use without a fused multiplication.
+  static Doubles multiplyByPair(Doubles a, Doubles high, Doubles low) { return a * high + a * low; }
   static Mask below(Mask given, Doubles a, Doubles limit) { return given & (a >= 0.0) & (a < limit); }
   static Mask less(Doubles a, Doubles b) { return a < b; }
   static Mask finite(Doubles a) { return a - a == 0.0; }

@@ -30,7 +30,8 @@ struct PlacedPoints
 template <class V>
 struct PlacementVectors
 {
-  typename V::Doubles pivot[3], matrix[3][3], offset[3], spacing[3], reciprocal[3], limit[3], magic;
+  typename V::Doubles pivot[3], matrix[3][3], offset[3], spacing[3], reciprocal[3], remainder[3], limit[3],
+    magic;
   typename V::Bits blocksPerLayer;
   typename V::Shift toRowBlock, toLayerBlock;
 
@@ -46,6 +47,7 @@ struct PlacementVectors
       offset[axis] = V::all(p.offset[axis]);
       spacing[axis] = V::all(p.spacing[axis]);
       reciprocal[axis] = V::all(p.reciprocal[axis]);
+      remainder[axis] = V::all(p.remainder[axis]);
       limit[axis] = V::all(p.limit[axis]);
       for (int column = 0; column < 3; ++column)
       {
@@ -57,7 +59,7 @@ struct PlacementVectors
 
 /// Places V::width points at @p to and after it. Bit i of the result: point i is inside; of @p finite: it has
 /// finite coordinates, told only where one is outside.
-template <class V, Motion motion, typename Real>
+template <class V, Motion motion, bool Pair, typename Real>
 inline unsigned placeGroup(
   const PlacementVectors<V>& c, const Real* xyz, PlacedPoints& placed, int to, unsigned& finite)
 {
@@ -85,7 +87,8 @@ inline unsigned placeGroup(
         V::multiply(p[2], c.matrix[axis][2]));
     }
     v[axis] = V::add(v[axis], c.offset[axis]);
-    const typename V::Doubles u = V::divide(v[axis], c.spacing[axis], c.reciprocal[axis]);
+    const typename V::Doubles u = Pair ? V::multiplyByPair(v[axis], c.reciprocal[axis], c.remainder[axis])
+                                       : V::divide(v[axis], c.spacing[axis], c.reciprocal[axis]);
     inside = V::below(inside, u, c.limit[axis]);
     position[axis] = V::floorBits(u, c.magic);
   }
@@ -145,7 +148,7 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   }
 }
 
-template <class V, Motion motion, bool Indexed, typename Real>
+template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
 void partitionAll(
   const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
 {
@@ -158,7 +161,7 @@ void partitionAll(
   {
     const int group = placed.size;
     unsigned finite = 0;
-    const unsigned bits = placeGroup<V, motion>(constants, from, placed, group, finite);
+    const unsigned bits = placeGroup<V, motion, Pair>(constants, from, placed, group, finite);
     if (bits == V::full && present == V::full)
     {
       for (int j = 0; Indexed && j < V::width; ++j)
@@ -206,8 +209,14 @@ template <class V, Motion motion, typename Real>
 void partitionMoved(
   const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
 {
-  writer.indices ? partitionAll<V, motion, true>(placement, xyz, count, index, writer)
-                 : partitionAll<V, motion, false>(placement, xyz, count, index, writer);
+  if (V::hasFusedMultiply && placement.pairDivides)
+  {
+    writer.indices ? partitionAll<V, motion, true, true>(placement, xyz, count, index, writer)
+                   : partitionAll<V, motion, true, false>(placement, xyz, count, index, writer);
+    return;
+  }
+  writer.indices ? partitionAll<V, motion, false, true>(placement, xyz, count, index, writer)
+                 : partitionAll<V, motion, false, false>(placement, xyz, count, index, writer);
 }
 
 template <class V, typename Real>
