@@ -53,10 +53,17 @@ std::vector<Lap> race(const std::vector<Contestant>& contestants, const RaceSett
     std::shuffle(order.begin(), order.end(), random);
     for (const std::size_t who : order)
     {
-      const double seconds = runOnce(contestants[who], clock);
-      if (round >= 0)
+      for (int call = 1; call <= settings.inARow; ++call)
       {
-        laps[who].seconds.push_back(seconds);
+        const double seconds = runOnce(contestants[who], clock);
+        if (round >= 0 && call == settings.inARow)
+        {
+          laps[who].seconds.push_back(seconds);
+        }
+        else if (round >= 0 && call == 1)
+        {
+          laps[who].afterOthers.push_back(seconds);
+        }
       }
     }
   }

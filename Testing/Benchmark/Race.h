@@ -32,6 +32,10 @@ struct RaceSettings
 {
   int rounds = 15;
   int warmUps = 2;
+  /// Calls of a contestant in each round, one after the other. The last is timed: it finds the caches and the
+  /// threads as its own call left them, like all calls in a program that does nothing else. Above 1, the
+  /// first is kept too: it finds them as the others left them.
+  int inARow = 1;
   std::uint64_t seed = 1;
   /// Seconds since some fixed moment. Default: std::chrono::steady_clock.
   std::function<double()> clock;
@@ -40,9 +44,10 @@ struct RaceSettings
 struct Lap
 {
   std::string name;
-  bool checked = false;        ///< The check held, or there was none; false: not timed.
-  double firstSeconds = 0.0;   ///< The first call: memory and threads still to be had.
-  std::vector<double> seconds; ///< One a round, the same round at the same place for everyone.
+  bool checked = false;            ///< The check held, or there was none; false: not timed.
+  double firstSeconds = 0.0;       ///< The first call: memory and threads still to be had.
+  std::vector<double> seconds;     ///< One a round, the same round at the same place for everyone.
+  std::vector<double> afterOthers; ///< The first call in each round's row; empty where that is the only one.
 };
 
 /// One lap per contestant, in their order. Exceptions of a contestant pass through.

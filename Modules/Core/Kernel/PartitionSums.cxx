@@ -148,14 +148,21 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
     return;
   }
   recordCells_.reserve(records + kWidest);
-  for (const std::uint32_t cell : old_->cells)
-  {
-    markCell(cell);
-  }
+  kernels.markCells(old_->cells.data(), int(old_->cells.size()), marks_.data());
+  // The carried sums come next and are far away: fetch a part of them with each block.
+  const auto* line = reinterpret_cast<const char*>(old_->packed.data());
+  const std::size_t bytes = old_->packed.size() * sizeof(PackedSums);
+  const char* end = line + bytes;
+  const std::size_t part = bytes * kBlockRecords / std::max<std::size_t>(records, 1);
   std::uint32_t* cells = recordCells_.data();
   pool.forBlocks(partition_,
     [&](const Record* block, const std::uint32_t*, int count, const Record* next)
     {
+      const char* partEnd = line + std::min(part, std::size_t(end - line));
+      for (; line < partEnd; line += 64)
+      {
+        __builtin_prefetch(line);
+      }
       kernels.mark(voxels_.map, block, count, next, marks_.data(), cells);
       cells += count;
     });
@@ -170,11 +177,9 @@ void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool)
   }
   cells_.reserve(voxels_.size + kWidest);
   sums_.reserve(voxels_.size + kWidest);
-  std::fill(sums_.data(), sums_.data() + voxels_.size, PackedSums{ { 0, 0, 0, 0 } });
   if (batch_->seconds)
   {
     seconds_.reserve(voxels_.size);
-    std::fill(seconds_.data(), seconds_.data() + voxels_.size, SecondSums{ { 0, 0, 0, 0, 0, 0 } });
   }
   voxels_.cells = cells_.data();
   voxels_.sums = sums_.data();
@@ -191,11 +196,22 @@ void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool)
   clearMarks();
 }
 
-/// Puts carried sums at the places of their cells.
+/// Puts carried sums, which are in ascending order, at the places of their cells, and zeros between them.
 void PartitionWorker::takeCarried(const Kernels& kernels)
 {
-  constexpr std::size_t kAhead = 16;
   std::uint32_t places[kBatch];
+  std::size_t place = 0;
+  const auto clearTo = [&](std::size_t end)
+  {
+    for (; place < end; ++place)
+    {
+      sums_[place] = PackedSums{ { 0, 0, 0, 0 } };
+      if (batch_->seconds)
+      {
+        seconds_[place] = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
+      }
+    }
+  };
   for (std::size_t first = 0; first < old_->cells.size(); first += kBatch)
   {
     const std::size_t size = std::min<std::size_t>(old_->cells.size() - first, kBatch);
@@ -205,15 +221,17 @@ void PartitionWorker::takeCarried(const Kernels& kernels)
     kernels.rank(ranks(), places, int(size));
     for (std::size_t i = 0; i < size; ++i)
     {
-      __builtin_prefetch(packed + i + kAhead);
-      cells_[places[i]] = cells[i];
-      sums_[places[i]] = packed[i];
+      clearTo(places[i]);
+      cells_[place] = cells[i];
+      sums_[place] = packed[i];
       if (batch_->seconds)
       {
-        seconds_[places[i]] = old_->seconds[first + i];
+        seconds_[place] = old_->seconds[first + i];
       }
+      ++place;
     }
   }
+  clearTo(voxels_.size);
 }
 
 void PartitionWorker::carryDense(
@@ -233,7 +251,9 @@ void PartitionWorker::carryDense(
   {
     carriedOver.seconds.assign(voxels.seconds, voxels.seconds + voxels.size);
   }
-  for (std::size_t i = 0; i < voxels.size; ++i)
+  // No voxel has more points than all have together.
+  carriedOver.points += std::int64_t(pool.count(partition));
+  for (std::size_t i = 0; carriedOver.points >= std::int64_t(kPackedCounts) && i < voxels.size; ++i)
   {
     if (carriedOver.packed[i].lanes[3] >> kCountShift >= kPackedCounts)
     {

@@ -112,10 +112,12 @@ public:
     const std::uint64_t firstKey = plan_.firstKey(partition);
     if (plan_.dense)
     {
+      recordCells_.reserve(size);
       for (std::size_t i = 0; i < size; ++i)
       {
-        markCell(std::uint32_t(keys[i] - firstKey));
+        recordCells_[i] = std::uint32_t(keys[i] - firstKey);
       }
+      kernels.markCells(recordCells_.data(), int(size), marks_.data());
       kernels.number(ranks());
     }
     pool.forBlocks(partition,
@@ -147,7 +149,6 @@ private:
   };
 
   CellRanks ranks() const;
-  void markCell(std::uint32_t cell) { marks_[cell / 64] |= std::uint64_t(1) << (cell % 64); }
   void clearMarks();
   void markDense(const Kernels& kernels, const RecordPool& pool);
   void sumDense(const Kernels& kernels, const RecordPool& pool);

@@ -78,7 +78,7 @@ struct Placement
 struct RecordWriter
 {
   Record** cursors;
-  /// Called when a cursor stands at the end of its block: gives a new one.
+  /// Called when a cursor stands at the end of its block: gives one at the start of a new block.
   Record* (*refill)(RecordWriter& writer, std::uint32_t partition);
   /// Beside each record the index of its point, or null.
   std::uint32_t* indices;
@@ -211,6 +211,8 @@ struct Kernels
   /// will be asked for @p next: those follow each other in memory too seldom for the machine to guess.
   void (*mark)(const CellMap&, const Record* records, int count, const Record* next, std::uint64_t* marks,
     std::uint32_t* cells);
+  /// Marks given cells.
+  void (*markCells)(const std::uint32_t* cells, int count, std::uint64_t* marks);
   /// Counts the marks before each word. @return that of all.
   std::uint32_t (*number)(const CellRanks& ranks);
   /// How many marked cells come before each of some: replaces them.

@@ -20,6 +20,7 @@ struct Avx2
   using Bits = __m256i;
   using Mask = __m256d;
   using Shift = __m128i;
+  static constexpr bool countsFast = true; ///< ones() is an instruction.
   static constexpr bool hasFusedMultiply = true;
 
   static Doubles all(double value) { return _mm256_set1_pd(value); }

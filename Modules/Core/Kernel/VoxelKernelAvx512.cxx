@@ -20,6 +20,7 @@ struct Avx512
   using Bits = __m512i;
   using Mask = __mmask8;
   using Shift = __m128i;
+  static constexpr bool countsFast = true; ///< ones() is an instruction.
   static constexpr bool hasFusedMultiply = true;
 
   static Doubles all(double value) { return _mm512_set1_pd(value); }

@@ -1,6 +1,10 @@
 /// The loops for every machine: two points at a time, in vectors that the compiler knows everywhere.
 #include "Core/Kernel/VoxelKernelBody.h"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 namespace pointhaptics
 {
 namespace kernel
@@ -20,6 +24,7 @@ struct Pairs
   using Bits = BitPair;
   using Mask = IntPair;
   using Shift = int;
+  static constexpr bool countsFast = false; ///< ones() is an instruction.
   static constexpr bool hasFusedMultiply = false;
 
   static Doubles all(double value) { return Doubles{ value, value }; }
@@ -39,22 +44,63 @@ struct Pairs
   static Doubles divide(Doubles a, Doubles b, Doubles) { return a / b; }
   /// Of no use without a fused multiplication.
   static Doubles multiplyByPair(Doubles a, Doubles high, Doubles low) { return a * high + a * low; }
-  static Mask below(Mask given, Doubles a, Doubles limit) { return given & (a >= 0.0) & (a < limit); }
-  static Mask less(Doubles a, Doubles b) { return a < b; }
-  static Mask finite(Doubles a) { return a - a == 0.0; }
-  static Mask both(Mask a, Mask b) { return a & b; }
-  static unsigned toUnsigned(Mask a) { return unsigned(a[0] & 1) | unsigned(a[1] & 2); }
+  /// 0 <= a < limit. GCC takes the plain form for a bool of each number, and apart.
+  static Mask below(Mask given, Doubles a, Doubles limit)
+  {
+#if defined(__SSE2__)
+    const __m128d both = _mm_and_pd(_mm_cmpge_pd(a, _mm_setzero_pd()), _mm_cmplt_pd(a, limit));
+    return given & reinterpret_cast<Mask>(both);
+#else
+    return given & (a >= 0.0) & (a < limit);
+#endif
+  }
+  static Mask less(Doubles a, Doubles b)
+  {
+    return a < b;
+  }
+  static Mask finite(Doubles a)
+  {
+    return a - a == 0.0;
+  }
+  static Mask both(Mask a, Mask b)
+  {
+    return a & b;
+  }
+  static unsigned toUnsigned(Mask a)
+  {
+#if defined(__SSE2__)
+    return unsigned(_mm_movemask_pd(reinterpret_cast<__m128d>(a)));
+#else
+    return unsigned(a[0] & 1) | unsigned(a[1] & 2);
+#endif
+  }
   static Bits floorBits(Doubles u, Doubles magic)
   {
     const Doubles rounded = u + magic;
     // A true comparison is -1.
-    return reinterpret_cast<Bits>(rounded) + reinterpret_cast<Bits>(rounded - magic > u);
+    const Mask above = rounded - magic > u;
+    return reinterpret_cast<Bits>(rounded) + reinterpret_cast<Bits>(above);
   }
-  static Bits addBits(Bits a, Bits b) { return a + b; }
-  static Bits multiply32(Bits a, Bits b) { return Bits{ a[0] * b[0], a[1] * b[1] }; }
-  static Bits onlyPosition(Bits a) { return a & kPositionMask; }
-  static Bits withPosition(Bits high, Bits a) { return high | onlyPosition(a); }
-  static Bits right(Bits a, Shift bits) { return a >> bits; }
+  static Bits addBits(Bits a, Bits b)
+  {
+    return a + b;
+  }
+  static Bits multiply32(Bits a, Bits b)
+  {
+    return Bits{ a[0] * b[0], a[1] * b[1] };
+  }
+  static Bits onlyPosition(Bits a)
+  {
+    return a & kPositionMask;
+  }
+  static Bits withPosition(Bits high, Bits a)
+  {
+    return high | onlyPosition(a);
+  }
+  static Bits right(Bits a, Shift bits)
+  {
+    return a >> bits;
+  }
   template <int bits>
   static Bits rightBy(Bits a)
   {
@@ -76,7 +122,10 @@ struct Pairs
   {
     return toDoubles(Bits{ std::uint64_t(from[0]), std::uint64_t(from[1]) });
   }
-  static Doubles fromInts(const std::int32_t* from) { return Doubles{ double(from[0]), double(from[1]) }; }
+  static Doubles fromInts(const std::int32_t* from)
+  {
+    return Doubles{ double(from[0]), double(from[1]) };
+  }
   static void store(double* to, Doubles a)
   {
     to[0] = a[0];
@@ -90,12 +139,27 @@ struct Pairs
       to[i] = Real(xyz[i % 3][i / 3]);
     }
   }
-  static Doubles quotient(Doubles a, Doubles b) { return a / b; }
+  static Doubles quotient(Doubles a, Doubles b)
+  {
+    return a / b;
+  }
   /// Of what is far below 2^51: adding so much leaves no room for a fraction.
-  static Doubles nearest(Doubles a) { return (a + 0x1.8p52) - 0x1.8p52; }
-  static Doubles least(Doubles a, Doubles b) { return b < a ? b : a; }
-  static Doubles most(Doubles a, Doubles b) { return b > a ? b : a; }
-  static Doubles choose(Mask mask, Doubles a, Doubles b) { return mask ? a : b; }
+  static Doubles nearest(Doubles a)
+  {
+    return (a + 0x1.8p52) - 0x1.8p52;
+  }
+  static Doubles least(Doubles a, Doubles b)
+  {
+    return b < a ? b : a;
+  }
+  static Doubles most(Doubles a, Doubles b)
+  {
+    return b > a ? b : a;
+  }
+  static Doubles choose(Mask mask, Doubles a, Doubles b)
+  {
+    return mask ? a : b;
+  }
   static void storeLow(std::uint32_t* to, Bits a)
   {
     to[0] = std::uint32_t(a[0]);

@@ -34,12 +34,14 @@ struct PlacementVectors
     magic;
   typename V::Bits blocksPerLayer;
   typename V::Shift toRowBlock, toLayerBlock;
+  bool layersAreCut;
 
   explicit PlacementVectors(const Placement& p)
     : magic(V::all(p.magic))
     , blocksPerLayer(V::allBits(p.blocksPerLayer))
     , toRowBlock(V::shift(p.fractionBits + p.rowShift))
     , toLayerBlock(V::shift(p.fractionBits + p.layerShift))
+    , layersAreCut(p.blocksPerLayer > 1)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -92,9 +94,13 @@ inline unsigned placeGroup(
     inside = V::below(inside, u, c.limit[axis]);
     position[axis] = V::floorBits(u, c.magic);
   }
-  V::storeLow(placed.partitions + to,
-    V::addBits(V::right(V::onlyPosition(position[1]), c.toRowBlock),
-      V::multiply32(V::right(V::onlyPosition(position[2]), c.toLayerBlock), c.blocksPerLayer)));
+  typename V::Bits partition = V::right(V::onlyPosition(position[2]), c.toLayerBlock);
+  if (c.layersAreCut)
+  {
+    partition = V::addBits(
+      V::multiply32(partition, c.blocksPerLayer), V::right(V::onlyPosition(position[1]), c.toRowBlock));
+  }
+  V::storeLow(placed.partitions + to, partition);
   const typename V::Bits first = V::withPosition(V::template left<kPositionBits>(position[2]), position[0]);
   const typename V::Bits second =
     V::withPosition(V::template left<kPositionBits>(V::template rightBy<kLowBits>(position[2])), position[1]);
@@ -124,27 +130,58 @@ inline void keepInside(PlacedPoints& placed, int group, unsigned inside, std::ui
   }
 }
 
-/// Appends the records to their partitions.
+template <bool Indexed>
+inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
+{
+  const std::uint32_t partition = placed.partitions[i];
+  Record* cursor = writer.cursors[partition];
+  if ((reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1)) == 0)
+  {
+    cursor = writer.refill(writer, partition);
+  }
+  *cursor = placed.records[i];
+  if (Indexed)
+  {
+    writer.indices[cursor - writer.records] = placed.indices[i];
+  }
+  ++cursor;
+  __builtin_prefetch(cursor + 64 / sizeof(Record), 1);
+  writer.cursors[partition] = cursor;
+}
+
+/// Appends the records to their partitions. Neighbours in a scan go to the same one, and a cursor that is
+/// moved waits for the move before: where four go to one they move it together.
 template <bool Indexed>
 inline void deal(const PlacedPoints& placed, RecordWriter& writer)
 {
-  Record** cursors = writer.cursors;
-  for (int i = 0; i < placed.size; ++i)
+  constexpr int kTogether = 4;
+  int i = 0;
+  for (; i + kTogether <= placed.size; i += kTogether)
   {
-    const std::uint32_t partition = placed.partitions[i];
-    Record* cursor = cursors[partition];
-    if (__builtin_expect((reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1)) == 0, 0))
+    const std::uint32_t* partitions = placed.partitions + i;
+    Record* cursor = writer.cursors[partitions[0]];
+    const auto inBlock = reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1);
+    const bool areOne = ((partitions[0] ^ partitions[1]) | (partitions[2] ^ partitions[3]) |
+                          (partitions[0] ^ partitions[2])) == 0;
+    if (!Indexed && areOne && inBlock != 0 && inBlock <= kBlockBytes - kTogether * sizeof(Record))
     {
-      cursor = writer.refill(writer, partition);
+      for (int j = 0; j < kTogether; ++j)
+      {
+        cursor[j] = placed.records[i + j];
+      }
+      cursor += kTogether;
+      __builtin_prefetch(cursor + 64 / sizeof(Record), 1);
+      writer.cursors[partitions[0]] = cursor;
+      continue;
     }
-    *cursor = placed.records[i];
-    if (Indexed)
+    for (int j = 0; j < kTogether; ++j)
     {
-      writer.indices[cursor - writer.records] = placed.indices[i];
+      dealOne<Indexed>(placed, i + j, writer);
     }
-    ++cursor;
-    __builtin_prefetch(cursor + 64 / sizeof(Record), 1);
-    cursors[partition] = cursor;
+  }
+  for (; i < placed.size; ++i)
+  {
+    dealOne<Indexed>(placed, i, writer);
   }
 }
 
@@ -234,6 +271,9 @@ void partition(
   }
 }
 
+/// Makes the number of a byte in memory from that of a byte of a word.
+constexpr std::uint32_t kByteOrder = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? 7 : 0;
+
 inline std::uint32_t cellOf(const CellMap& map, const Record& r)
 {
   const auto x = std::uint32_t((r.first & kPositionMask) >> map.fractionBits);
@@ -241,55 +281,6 @@ inline std::uint32_t cellOf(const CellMap& map, const Record& r)
   const auto z = std::uint32_t(r.second >> (kPositionBits - kLowBits + map.fractionBits));
   const std::uint32_t row = y + map.rowsPerLayer * z;
   return x + map.columns * ((row < map.firstRow ? row + map.upperRows : row) - map.firstRow);
-}
-
-template <class V>
-void mark(const CellMap& map, const Record* records, int count, const Record* next, std::uint64_t* marks,
-  std::uint32_t* cells)
-{
-  constexpr int kLine = 64 / sizeof(Record);
-  constexpr int kStep = 64;
-  for (int first = 0; first < count; first += kStep)
-  {
-    const int last = first + kStep < count ? first + kStep : count;
-    for (int i = first; i < first + kStep; i += kLine)
-    {
-      __builtin_prefetch(next + i);
-    }
-    V::cells(map, records + first, last - first, cells + first);
-    for (int i = first; i < last; ++i)
-    {
-      marks[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64);
-    }
-  }
-}
-
-template <class V>
-std::uint32_t number(const CellRanks& ranks)
-{
-  std::uint32_t sum = 0;
-  for (std::size_t w = 0; w < ranks.words; ++w)
-  {
-    ranks.before[w] = sum;
-    sum += V::ones(ranks.marks[w]);
-  }
-  return sum;
-}
-
-template <class V>
-inline std::uint32_t rankOf(const CellRanks& ranks, std::uint32_t cell)
-{
-  const std::uint64_t below = (std::uint64_t(1) << (cell % 64)) - 1;
-  return ranks.before[cell / 64] + V::ones(ranks.marks[cell / 64] & below);
-}
-
-template <class V>
-void rank(const CellRanks& ranks, std::uint32_t* cells, int count)
-{
-  for (int i = 0; i < count; ++i)
-  {
-    cells[i] = rankOf<V>(ranks, cells[i]);
-  }
 }
 
 /// Calls visit(i) for all i below @p count. Neighbours in a scan are in one voxel, and what is done to it
@@ -308,6 +299,66 @@ inline void fromFourPlaces(int count, Visit&& visit)
   for (int i = 4 * quarter; i < count; ++i)
   {
     visit(i);
+  }
+}
+
+/// By bytes, which neighbours in a scan have in common less often than words.
+inline void markCells(const std::uint32_t* cells, int count, std::uint64_t* marks)
+{
+  auto* bytes = reinterpret_cast<unsigned char*>(marks);
+  fromFourPlaces(count,
+    [=](int i)
+    {
+      unsigned char& byte = bytes[(cells[i] / 8) ^ kByteOrder];
+      byte = static_cast<unsigned char>(byte | 1u << (cells[i] % 8));
+    });
+}
+
+template <class V>
+void mark(const CellMap& map, const Record* records, int count, const Record* next, std::uint64_t* marks,
+  std::uint32_t* cells)
+{
+  constexpr int kLine = 64 / sizeof(Record);
+  constexpr int kStep = 64;
+  for (int first = 0; first < count; first += kStep)
+  {
+    for (int i = first; i < first + kStep; i += kLine)
+    {
+      __builtin_prefetch(next + i);
+    }
+    V::cells(map, records + first, count - first < kStep ? count - first : kStep, cells + first);
+  }
+  markCells(cells, count, marks);
+}
+
+template <class V>
+std::uint32_t number(const CellRanks& ranks)
+{
+  std::uint32_t sum = 0;
+  for (std::size_t w = 0; w < ranks.words; ++w)
+  {
+    ranks.before[w] = sum;
+    if (V::countsFast || ranks.marks[w] != 0)
+    {
+      sum += V::ones(ranks.marks[w]);
+    }
+  }
+  return sum;
+}
+
+template <class V>
+inline std::uint32_t rankOf(const CellRanks& ranks, std::uint32_t cell)
+{
+  const std::uint64_t below = (std::uint64_t(1) << (cell % 64)) - 1;
+  return ranks.before[cell / 64] + V::ones(ranks.marks[cell / 64] & below);
+}
+
+template <class V>
+void rank(const CellRanks& ranks, std::uint32_t* cells, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    cells[i] = rankOf<V>(ranks, cells[i]);
   }
 }
 
@@ -541,7 +592,7 @@ void bounds(const double matrix[3][4], const Real* xyz, std::int64_t count, doub
 template <class V>
 Kernels makeKernels()
 {
-  return { &partition<V, float>, &partition<V, double>, &V::cells, &mark<V>, &number<V>, &rank<V>,
+  return { &partition<V, float>, &partition<V, double>, &V::cells, &mark<V>, &markCells, &number<V>, &rank<V>,
     &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>, &means<V, float>, &means<V, double>,
     &bounds<V, float>, &bounds<V, double> };
 }

@@ -34,6 +34,7 @@ struct CarriedPartition
   std::vector<PackedSums> packed;
   std::vector<CarriedSums> voxels;
   std::vector<SecondSums> seconds;
+  std::int64_t points = 0; ///< In cells; as many or fewer are in their packed sums.
 
   std::size_t size() const { return cells.empty() ? voxels.size() : cells.size(); }
   void clear()
@@ -42,6 +43,7 @@ struct CarriedPartition
     packed.clear();
     voxels.clear();
     seconds.clear();
+    points = 0;
   }
   std::size_t bytes() const
   {

@@ -81,6 +81,7 @@ RaceSettings settingsOf(const StudyContext& context)
   RaceSettings settings;
   settings.rounds = context.options.repetitions;
   settings.warmUps = context.options.warmUps;
+  settings.inARow = 2;
   return settings;
 }
 
@@ -132,7 +133,8 @@ Rivals allRivals(const StudyContext& context)
 void setRaceHeader(ReportPart& part, const std::vector<std::string>& leading, const std::string& first)
 {
   part.table.header = leading;
-  for (const char* title : { "contestant", "median ms", "quartiles ms", "first ms", "ns/point" })
+  for (const char* title :
+    { "contestant", "median ms", "quartiles ms", "after others ms", "first ms", "ns/point" })
   {
     part.table.header.push_back(title);
   }
@@ -150,9 +152,10 @@ std::vector<std::string> raceCells(const RaceRow& row, std::int64_t points)
 {
   return { row.name, milliseconds(row.seconds.median),
     milliseconds(row.seconds.lower) + " - " + milliseconds(row.seconds.upper),
-    milliseconds(row.lap.firstSeconds), brief(1e9 * row.seconds.median / double(points)),
-    brief(row.timesOurs.median), row.pclTimes.count > 0 ? brief(row.pclTimes.median) : "",
-    brief(row.timesCopy.median), grouped(row.verdict.voxels), row.verdict.text };
+    milliseconds(quartiles(row.lap.afterOthers).median), milliseconds(row.lap.firstSeconds),
+    brief(1e9 * row.seconds.median / double(points)), brief(row.timesOurs.median),
+    row.pclTimes.count > 0 ? brief(row.pclTimes.median) : "", brief(row.timesCopy.median),
+    grouped(row.verdict.voxels), row.verdict.text };
 }
 
 nlohmann::ordered_json raceJson(const RaceRow& row, std::int64_t points)
@@ -160,6 +163,7 @@ nlohmann::ordered_json raceJson(const RaceRow& row, std::int64_t points)
   return { { "contestant", row.name }, { "repetitions", row.seconds.count },
     { "median_seconds", row.seconds.median }, { "lower_quartile_seconds", row.seconds.lower },
     { "upper_quartile_seconds", row.seconds.upper }, { "fastest_seconds", row.seconds.minimum },
+    { "after_others_seconds", quartiles(row.lap.afterOthers).median },
     { "first_seconds", row.lap.firstSeconds }, { "ns_per_point", 1e9 * row.seconds.median / double(points) },
     { "times_ours", row.timesOurs.median }, { "times_ours_lower", row.timesOurs.lower },
     { "times_ours_upper", row.timesOurs.upper }, { "pcl_times", row.pclTimes.median },

@@ -127,6 +127,7 @@ ZoomRace runRace(const ResampleTask& whole, StudyContext& context)
   RaceSettings settings;
   settings.rounds = context.options.repetitions;
   settings.warmUps = std::max(2, context.options.warmUps); // an index may be built on the second update
+  settings.inARow = 2;
   vtkSMPTools::LocalScope(
     vtkSMPTools::Config(mostThreads(context)), [&] { zoom.laps = race(contestants, settings); });
   return zoom;

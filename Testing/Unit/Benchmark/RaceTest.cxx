@@ -66,6 +66,20 @@ TEST(Race, TimesEveryRoundAndTheFirstCallApart)
   EXPECT_EQ(calls, 1 + 2 + 5);
 }
 
+TEST(Race, OfCallsInARowTheLastIsTimedAndTheFirstKeptToo)
+{
+  Course course;
+  int calls = 0;
+  Contestant contestant = course.contestant("a", 1.0);
+  contestant.run = [&] { course.now += ++calls % 3 == 2 ? 7.0 : calls % 3 == 0 ? 3.0 : 1.0; };
+  RaceSettings settings = course.settings(4, 1);
+  settings.inARow = 3;
+  const auto laps = race({ contestant }, settings);
+  EXPECT_EQ(calls, 1 + 5 * 3);
+  EXPECT_EQ(laps[0].afterOthers, std::vector<double>(4, 7.0));
+  EXPECT_EQ(laps[0].seconds, std::vector<double>(4, 1.0));
+}
+
 TEST(Race, WhatIsDoneBeforeARunIsNotTimed)
 {
   Course course;
