@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 
 namespace pointhaptics
 {
@@ -205,6 +206,14 @@ void PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>&
         }
       }
     });
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    farthest_[axis] = 0.0;
+    for (std::size_t b = 0; b < bricks; ++b)
+    {
+      farthest_[axis] = std::max(farthest_[axis], std::abs(middles_[axis][b]) + halves_[axis][b]);
+    }
+  }
 }
 
 PointView PointIndex::points() const
@@ -217,11 +226,14 @@ std::vector<PointRange> PointIndex::rangesInside(
 {
   // Far above what rounding can do to a bound, far below a brick.
   constexpr double kSlack = 1e-9;
-  constexpr double kLargest = 1e300;
   const std::size_t bricks = begins_.empty() ? 0 : begins_.size() - 1;
-  constexpr std::uint8_t kOutside = 1;
-  constexpr std::uint8_t kAnywhere = 2;
-  std::vector<std::uint8_t> verdicts(bricks, 0);
+  if (bricks > 0 && !staysFinite(transform))
+  {
+    return { { 0, size_ } };
+  }
+  // Those that are outside on an axis are not asked about the next.
+  std::vector<std::uint32_t> left(bricks);
+  std::iota(left.begin(), left.end(), 0u);
   for (int axis = 0; axis < 3; ++axis)
   {
     const double* row = transform.m[axis];
@@ -229,7 +241,8 @@ std::vector<PointRange> PointIndex::rangesInside(
     const double high = low +
       std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]) * lattice.spacing[axis];
     const double fixed = std::abs(row[3]) + std::abs(low);
-    for (std::size_t b = 0; b < bricks; ++b)
+    std::size_t size = 0;
+    for (const std::uint32_t b : left)
     {
       const double x = row[0] * middles_[0][b];
       const double y = row[1] * middles_[1][b];
@@ -238,19 +251,14 @@ std::vector<PointRange> PointIndex::rangesInside(
       const double half = std::abs(row[0]) * halves_[0][b] + std::abs(row[1]) * halves_[1][b] +
         std::abs(row[2]) * halves_[2][b];
       const double reach = half + kSlack * (fixed + std::abs(x) + std::abs(y) + std::abs(z) + half);
-      const bool isOutside = (middle + reach < low) | (middle - reach > high);
-      // Where numbers end, on any axis, a point may be invalid instead of clipped.
-      const bool isKnown = (std::abs(middle) <= kLargest) & (reach <= kLargest);
-      verdicts[b] |= std::uint8_t(isOutside * kOutside) | std::uint8_t(!isKnown * kAnywhere);
+      left[size] = b;
+      size += (middle + reach >= low) & (middle - reach <= high);
     }
+    left.resize(size);
   }
   std::vector<PointRange> ranges;
-  for (std::size_t b = 0; b < bricks; ++b)
+  for (const std::uint32_t b : left)
   {
-    if (verdicts[b] == kOutside)
-    {
-      continue;
-    }
     if (!ranges.empty() && ranges.back().end == begins_[b])
     {
       ranges.back().end = begins_[b + 1];
@@ -261,6 +269,25 @@ std::vector<PointRange> PointIndex::rangesInside(
     }
   }
   return ranges;
+}
+
+/// Whether no point can become infinite, which would make it invalid instead of clipped.
+bool PointIndex::staysFinite(const AffineTransform& transform) const
+{
+  constexpr double kLargest = 1e300;
+  for (const auto& row : transform.m)
+  {
+    double sum = std::abs(row[3]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sum += std::abs(row[axis]) * farthest_[axis];
+    }
+    if (!(sum <= kLargest))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 std::size_t PointIndex::bytes() const

@@ -46,6 +46,7 @@ public:
   std::size_t bytes() const;
 
 private:
+  bool staysFinite(const AffineTransform& transform) const;
   template <typename Real>
   void fill(const PointView& points, const std::vector<std::uint32_t>& bricks,
     std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor);
@@ -60,6 +61,7 @@ private:
   std::vector<std::int64_t> begins_;
   std::vector<double> middles_[3];
   std::vector<double> halves_[3];
+  double farthest_[3] = {}; ///< Largest absolute coordinates.
 };
 
 } // namespace pointhaptics

@@ -28,7 +28,8 @@ std::uint32_t blocks(std::uint32_t count, int shift)
 /// Words of a bit for each cell.
 std::size_t markWords(const PartitionPlan& plan)
 {
-  return (plan.cells() - 1) / 64 + 1;
+  constexpr std::size_t kGroupCells = 64 * kMarkGroup;
+  return ((plan.cells() - 1) / kGroupCells + 1) * kMarkGroup;
 }
 
 /// So many points in one voxel are taken out of the packed sums, which hold less than 2^21.

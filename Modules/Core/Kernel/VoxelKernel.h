@@ -132,8 +132,10 @@ struct CellRanks
 {
   std::uint64_t* marks;
   std::uint32_t* before; ///< Marks in the words before.
-  std::size_t words;
+  std::size_t words;     ///< A multiple of kMarkGroup.
 };
+/// Words of marks looked at together.
+constexpr std::size_t kMarkGroup = 8;
 
 /// The sums of a partition's marked cells, in ascending order.
 struct CellSums
@@ -213,7 +215,7 @@ struct Kernels
     std::uint32_t* cells);
   /// Marks given cells.
   void (*markCells)(const std::uint32_t* cells, int count, std::uint64_t* marks);
-  /// Counts the marks before each word. @return that of all.
+  /// Counts the marks before each word that has any. @return that of all.
   std::uint32_t (*number)(const CellRanks& ranks);
   /// How many marked cells come before each of some: replaces them.
   void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);

@@ -20,7 +20,6 @@ struct Avx2
   using Bits = __m256i;
   using Mask = __m256d;
   using Shift = __m128i;
-  static constexpr bool countsFast = true; ///< ones() is an instruction.
   static constexpr bool hasFusedMultiply = true;
 
   static Doubles all(double value) { return _mm256_set1_pd(value); }
@@ -165,6 +164,13 @@ struct Avx2
     }
   }
 
+  /// Whether any of kMarkGroup words is not zero.
+  static bool hasMarks(const std::uint64_t* words)
+  {
+    const auto* from = reinterpret_cast<const __m256i*>(words);
+    const __m256i all = _mm256_or_si256(_mm256_loadu_si256(from), _mm256_loadu_si256(from + 1));
+    return _mm256_testz_si256(all, all) == 0;
+  }
   static std::uint32_t ones(std::uint64_t bits) { return std::uint32_t(__builtin_popcountll(bits)); }
 
   /// The four lanes of four sums.

@@ -20,7 +20,6 @@ struct Avx512
   using Bits = __m512i;
   using Mask = __mmask8;
   using Shift = __m128i;
-  static constexpr bool countsFast = true; ///< ones() is an instruction.
   static constexpr bool hasFusedMultiply = true;
 
   static Doubles all(double value) { return _mm512_set1_pd(value); }
@@ -160,6 +159,12 @@ struct Avx512
     }
   }
 
+  /// Whether any of kMarkGroup words is not zero.
+  static bool hasMarks(const std::uint64_t* words)
+  {
+    const __m512i all = _mm512_loadu_si512(words);
+    return _mm512_test_epi64_mask(all, all) != 0;
+  }
   static std::uint32_t ones(std::uint64_t bits) { return std::uint32_t(__builtin_popcountll(bits)); }
 
   /// The four lanes of eight sums.

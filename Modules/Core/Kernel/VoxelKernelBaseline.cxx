@@ -24,7 +24,6 @@ struct Pairs
   using Bits = BitPair;
   using Mask = IntPair;
   using Shift = int;
-  static constexpr bool countsFast = false; ///< ones() is an instruction.
   static constexpr bool hasFusedMultiply = false;
 
   static Doubles all(double value) { return Doubles{ value, value }; }
@@ -184,6 +183,16 @@ struct Pairs
     {
       lanes[lane] = Bits{ from[0].lanes[lane], from[1].lanes[lane] };
     }
+  }
+  /// Whether any of kMarkGroup words is not zero.
+  static bool hasMarks(const std::uint64_t* words)
+  {
+    std::uint64_t all = 0;
+    for (std::size_t w = 0; w < kMarkGroup; ++w)
+    {
+      all |= words[w];
+    }
+    return all != 0;
   }
   /// Not every machine has an instruction for it.
   static std::uint32_t ones(std::uint64_t bits)

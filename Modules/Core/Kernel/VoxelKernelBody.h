@@ -335,11 +335,16 @@ template <class V>
 std::uint32_t number(const CellRanks& ranks)
 {
   std::uint32_t sum = 0;
-  for (std::size_t w = 0; w < ranks.words; ++w)
+  for (std::size_t group = 0; group < ranks.words; group += kMarkGroup)
   {
-    ranks.before[w] = sum;
-    if (V::countsFast || ranks.marks[w] != 0)
+    // Nobody asks for what comes before a word without marks.
+    if (!V::hasMarks(ranks.marks + group))
     {
+      continue;
+    }
+    for (std::size_t w = group; w < group + kMarkGroup; ++w)
+    {
+      ranks.before[w] = sum;
       sum += V::ones(ranks.marks[w]);
     }
   }
