@@ -11,7 +11,7 @@ enum class InstructionSet
   Automatic, ///< The best this machine has.
   Baseline,  ///< What every processor of the family has (SSE2 on x86-64).
   Avx2,      ///< AVX2 and FMA.
-  Avx512,    ///< AVX-512 F, DQ, BW, VL and VBMI2.
+  Avx512,    ///< AVX-512 F, DQ, BW, VL and VPOPCNTDQ.
 };
 
 /// The best set that this machine and this build have, not above @p wanted. Thread-safe.

@@ -164,13 +164,7 @@ struct Avx2
     }
   }
 
-  /// Whether any of kMarkGroup words is not zero.
-  static bool hasMarks(const std::uint64_t* words)
-  {
-    const auto* from = reinterpret_cast<const __m256i*>(words);
-    const __m256i all = _mm256_or_si256(_mm256_loadu_si256(from), _mm256_loadu_si256(from + 1));
-    return _mm256_testz_si256(all, all) == 0;
-  }
+  static std::uint32_t number(const CellRanks& ranks) { return numberWords<Avx2, false>(ranks); }
   static std::uint32_t ones(std::uint64_t bits) { return std::uint32_t(__builtin_popcountll(bits)); }
 
   /// The four lanes of four sums.

@@ -2,7 +2,7 @@
 #include "Core/Kernel/FourLaneAdder.h"
 #include "Core/Kernel/VoxelKernelBody.h"
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && defined(__AVX512VBMI2__)
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && defined(__AVX512VPOPCNTDQ__)
 #include <immintrin.h>
 
 namespace pointhaptics
@@ -159,11 +159,22 @@ struct Avx512
     }
   }
 
-  /// Whether any of kMarkGroup words is not zero.
-  static bool hasMarks(const std::uint64_t* words)
+  static std::uint32_t number(const CellRanks& ranks)
   {
-    const __m512i all = _mm512_loadu_si512(words);
-    return _mm512_test_epi64_mask(all, all) != 0;
+    const __m512i zero = _mm512_setzero_si512();
+    __m512i sum = zero;
+    for (std::size_t w = 0; w < ranks.words; w += kMarkGroup)
+    {
+      // Sums over one, two, four and eight words.
+      const __m512i counts = _mm512_popcnt_epi64(_mm512_loadu_si512(ranks.marks + w));
+      __m512i sums = _mm512_add_epi64(counts, _mm512_alignr_epi64(counts, zero, 7));
+      sums = _mm512_add_epi64(sums, _mm512_alignr_epi64(sums, zero, 6));
+      sums = _mm512_add_epi64(sums, _mm512_alignr_epi64(sums, zero, 4));
+      const __m512i before = _mm512_sub_epi64(_mm512_add_epi64(sum, sums), counts);
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(ranks.before + w), _mm512_cvtepi64_epi32(before));
+      sum = _mm512_add_epi64(sum, _mm512_permutexvar_epi64(_mm512_set1_epi64(7), sums));
+    }
+    return std::uint32_t(_mm_cvtsi128_si32(_mm512_castsi512_si128(sum)));
   }
   static std::uint32_t ones(std::uint64_t bits) { return std::uint32_t(__builtin_popcountll(bits)); }
 

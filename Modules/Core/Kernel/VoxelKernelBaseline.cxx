@@ -184,15 +184,9 @@ struct Pairs
       lanes[lane] = Bits{ from[0].lanes[lane], from[1].lanes[lane] };
     }
   }
-  /// Whether any of kMarkGroup words is not zero.
-  static bool hasMarks(const std::uint64_t* words)
+  static std::uint32_t number(const CellRanks& ranks)
   {
-    std::uint64_t all = 0;
-    for (std::size_t w = 0; w < kMarkGroup; ++w)
-    {
-      all |= words[w];
-    }
-    return all != 0;
+    return numberWords<Pairs, true>(ranks);
   }
   /// Not every machine has an instruction for it.
   static std::uint32_t ones(std::uint64_t bits)
