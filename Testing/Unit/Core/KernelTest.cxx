@@ -2,6 +2,7 @@
 #include "Core/Kernel/GeneralVoxels.h"
 #include "Core/Kernel/PartitionSums.h"
 #include "Core/Kernel/PointPlacement.h"
+#include "Core/Kernel/VoxelLevel.h"
 
 #include "RandomClouds.h"
 
@@ -133,6 +134,58 @@ TEST(PointPlacement, CutsPlacesDownToTheQuantum)
       }
     }
   }
+}
+
+TEST(PointPlacement, DividesAsAPairOnlyWhereThatIsTheQuotient)
+{
+  trial::Random random(5);
+  int pairs = 0;
+  int wrong = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    // The quotients nearest to the middle of two doubles: V 2^54 = S M -+ 1 with M odd, so M = +-1 / S mod
+    // 2^54.
+    constexpr std::uint64_t kModulus = std::uint64_t(1) << 54;
+    const std::uint64_t integer = std::uint64_t(random.uniform(0x1p52, 0x1p53)) | 1u;
+    std::uint64_t inverse = 1;
+    for (int step = 0; step < 6; ++step)
+    {
+      inverse *= 2 - integer * inverse;
+    }
+    Lattice lattice;
+    lattice.dimensions = { 300, 300, 300 };
+    const double spacing = std::ldexp(double(integer), -52);
+    lattice.spacing = { spacing, spacing, spacing };
+    const Placement placement = makePlacement({}, lattice, 9, kPositionBits);
+    pairs += placement.pairDivides;
+    for (const std::uint64_t middle : { inverse % kModulus, kModulus - inverse % kModulus })
+    {
+      const auto v =
+        double(std::uint64_t(UInt128(integer) * middle >> 54) + (middle == inverse % kModulus ? 0 : 1));
+      const double asPair = std::fma(v, placement.reciprocal[0], v * placement.remainder[0]);
+      ASSERT_TRUE(asPair == v / spacing || !placement.pairDivides) << integer << ' ' << v;
+      wrong += asPair != v / spacing;
+    }
+  }
+  EXPECT_GT(pairs, 10000) << "worth having";
+  EXPECT_GT(wrong, 0) << "not so for all spacings";
+}
+
+TEST(PartitionOrder, TellsPlacesAsSoonAsAllBeforeAreKnown)
+{
+  PartitionOrder order(4);
+  EXPECT_EQ(order.first(0), 0u);
+  EXPECT_EQ(order.first(1), PartitionOrder::kUnknown);
+  order.tell(1, 20);
+  EXPECT_EQ(order.first(2), PartitionOrder::kUnknown);
+  order.tell(0, 3);
+  EXPECT_EQ(order.first(1), 3u);
+  EXPECT_EQ(order.first(2), 23u);
+  order.tell(3, 5);
+  EXPECT_EQ(order.first(3), PartitionOrder::kUnknown);
+  order.tell(2, 0);
+  EXPECT_EQ(order.first(3), 23u);
+  EXPECT_EQ(order.take(), (std::vector<std::size_t>{ 0, 3, 23, 23, 28 }));
 }
 
 TEST(PointPlacement, TellsOutsideFromInvalid)
