@@ -12,6 +12,8 @@ namespace
 
 /// A cell is mixed when it is thicker than this part of its voxel in its thinnest direction.
 constexpr double kMixedThickness = 0.10;
+/// Standard deviations of the noise up to which a mixed cell may still be one sheet.
+constexpr double kNoiseThickness = 2.0;
 
 /// Spreads the low 21 bits of v to every third bit.
 std::uint64_t spread(std::uint64_t v)
@@ -208,6 +210,21 @@ void CellPyramid::buildUpperLevels(const std::vector<std::uint64_t>& codes)
     linkChildren(level.bricks, finer.bricks);
     below = std::move(here);
     levels_.push_back(std::move(level));
+  }
+}
+
+void CellPyramid::forgiveNoise(const std::function<double(const Vec3&)>& noiseAt)
+{
+  for (Level& level : levels_)
+  {
+    for (Cell& cell : level.cells)
+    {
+      if (cell.mixed)
+      {
+        const double limit = kNoiseThickness * noiseAt(cell.mean);
+        cell.mixed = symmetricEigen(cell.covariance).values[0] > limit * limit;
+      }
+    }
   }
 }
 

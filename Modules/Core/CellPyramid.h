@@ -7,6 +7,7 @@
 #include "Core/Status.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace pointhaptics
@@ -56,6 +57,11 @@ public:
   /// Errors: Empty, InvalidVoxelSize, LatticeNotAddressable (extent over voxelSize above 2^21, or over 2^32
   /// cells).
   Status build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex);
+
+  /// Mixed cells that are no thicker than noise makes a single sheet count as one sheet again. Call it before
+  /// anybody else reads. @param noiseAt the standard deviation of the points about the surface at a place,
+  /// metres; called with the means of mixed cells.
+  void forgiveNoise(const std::function<double(const Vec3&)>& noiseAt);
 
   int numberOfLevels() const { return int(levels_.size()); }
   int numberOfCellLevels() const { return numberOfLevels() < kCellLevels ? numberOfLevels() : kCellLevels; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace pointhaptics
 {
@@ -21,7 +22,7 @@ constexpr int kLadderRungs = 16;
 /// Rungs whose residuals may tell the noise: longer ones see curvature too.
 constexpr int kNoiseRungs = 3;
 /// Standard errors by which a longer radius may differ from a shorter one.
-constexpr double kAgreement = 3.0;
+constexpr double kAgreement = 2.0;
 /// Standard errors of the height (over the finest cell) and of the slopes that leave nothing to gain.
 constexpr double kEnoughHeight = 1e-3;
 constexpr double kEnoughSlope = 1e-3;
@@ -82,7 +83,8 @@ double medianOf(std::vector<double>& values)
 
 }
 
-FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest)
+FitScale chooseFitRadius(
+  const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest, FitCells& memory)
 {
   FitScale scale;
   scale.countRadius = countRadius(pyramid, seed, largestCount);
@@ -96,7 +98,8 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
     return scale;
   }
   frame.turnTo(normal);
-  if (!settleOnSurface(pyramid, seed, scale.countRadius, frame, fit, curvature))
+  if (!settleOnSurface(pyramid, seed, scale.countRadius, 2.0 * kGateDepth * scale.countRadius, memory, frame,
+        fit, curvature))
   {
     return scale;
   }
@@ -111,7 +114,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
     settings.twoSidedGate = true;
     std::copy(curvature, curvature + 3, settings.curvature);
     SurfaceFitError error;
-    const SurfaceFit here = fitSurface(pyramid, frame, settings, error);
+    const SurfaceFit here = fitSurface(pyramid, frame, settings, memory, error);
     if (here.quality != FitQuality::Quadric)
     {
       break;
@@ -149,13 +152,14 @@ std::vector<LocalScale> fitScales(
   forRange(executor, std::int64_t(scales.size()),
     [&](std::int64_t begin, std::int64_t end)
     {
+      const auto memory = std::make_unique<FitCells>();
       for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
       {
         double distance = 0.0;
         const Vec3 node = nodes.cells[i].mean;
         const std::int64_t seed = pyramid.nearest(0, node, 2.0 * nodes.voxelSize, distance);
-        scales[i] = chooseFitRadius(
-          pyramid, seed < 0 ? node : pyramid.level(0).cells[std::size_t(seed)].mean, largestCount, largest);
+        const Vec3 place = seed < 0 ? node : pyramid.level(0).cells[std::size_t(seed)].mean;
+        scales[i] = chooseFitRadius(pyramid, place, largestCount, largest, *memory);
       }
     });
   std::vector<LocalScale> result(scales.size());
@@ -175,6 +179,7 @@ std::vector<LocalScale> fitScales(
     const double noise = noises.empty() ? scales[i].noise : medianOf(noises);
     result[i].radius = std::max(scales[i].countRadius, radius);
     result[i].countRadius = scales[i].countRadius;
+    result[i].noise = noise;
     result[i].gate = std::max(kGateDepth * scales[i].countRadius, kGateNoise * noise);
   }
   return result;

@@ -5,6 +5,7 @@
 
 #include "Core/CellPyramid.h"
 #include "Core/Executor.h"
+#include "Core/FitCells.h"
 #include "Core/RadiusField.h"
 
 #include <vector>
@@ -21,10 +22,11 @@ struct FitScale
 };
 
 /// Lepski's rule on a ladder of radii at the cell mean @p seed: a longer radius is taken while it agrees with
-/// every shorter one within three of that one's standard errors, in position and in both slopes.
+/// every shorter one within two of that one's standard errors, in position and in both slopes.
 /// @p largestCount bounds the radius that is grown for points, @p largest the one grown against noise;
 /// metres.
-FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest);
+FitScale chooseFitRadius(
+  const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest, FitCells& memory);
 
 /// chooseFitRadius at each cell of the field's node level, medians of the neighbours taken against outliers,
 /// as the radius and gate of the surface fit.

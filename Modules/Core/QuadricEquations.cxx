@@ -15,13 +15,13 @@ constexpr double kLargestSlopeChange = 0.3;
 
 }
 
-bool factor(const NormalEquations& eq, int n, double l[6][6]) noexcept
+bool factor(const kernel::FitSums& sums, int n, double l[6][6]) noexcept
 {
-  for (int i = 0; i < n; ++i)
+  for (int i = 0, at = 0; i < n; ++i)
   {
-    for (int j = 0; j <= i; ++j)
+    for (int j = 0; j <= i; ++j, ++at)
     {
-      double sum = eq.a[i][j];
+      double sum = sums.a[at];
       for (int m = 0; m < j; ++m)
       {
         sum -= l[i][m] * l[j][m];
@@ -29,15 +29,15 @@ bool factor(const NormalEquations& eq, int n, double l[6][6]) noexcept
       if (i == j)
       {
         // Negated, so that NaN fails too.
-        if (!(sum > kPivotTolerance * eq.a[i][i]))
+        if (!(sum > kPivotTolerance * sums.a[at]))
         {
           return false;
         }
-        l[i][i] = std::sqrt(sum);
+        l[i][i] = 1.0 / std::sqrt(sum);
       }
       else
       {
-        l[i][j] = sum / l[j][j];
+        l[i][j] = sum * l[j][j];
       }
     }
   }
@@ -54,7 +54,7 @@ void backSolve(const double l[6][6], int n, const double rhs[6], double k[6]) no
     {
       sum -= l[i][m] * y[m];
     }
-    y[i] = sum / l[i][i];
+    y[i] = sum * l[i][i];
   }
   for (int i = n - 1; i >= 0; --i)
   {
@@ -63,15 +63,35 @@ void backSolve(const double l[6][6], int n, const double rhs[6], double k[6]) no
     {
       sum -= l[m][i] * k[m];
     }
-    k[i] = sum / l[i][i];
+    k[i] = sum * l[i][i];
   }
 }
 
-void errorsOf(const NormalEquations& eq, const double l[6][6], int n, double residual, double rho,
-  SurfaceFitError& error) noexcept
+void errorsOf(const kernel::FitRows& rows, const kernel::FitSums& sums, const double l[6][6], int n,
+  double residual, double rho, SurfaceFitError& error) noexcept
 {
-  const double freedom = double(eq.cells) / std::max(1.0, double(eq.cells - n));
-  error.noise = eq.perPoint > 0.0 ? residual * std::sqrt(freedom * eq.weights / eq.perPoint) : 0.0;
+  double scatter[6][6] = {};
+  double perPoint = 0.0;
+  for (int row = 0; row < rows.size; ++row)
+  {
+    const double w = rows.weight[row];
+    if (!(w > 0.0))
+    {
+      continue;
+    }
+    perPoint += w / rows.count[row];
+    const double w2 = w * w / rows.count[row];
+    const double p[6] = { 1.0, rows.u[row], rows.v[row], rows.uu[row], rows.uv[row], rows.vv[row] };
+    for (int i = 0; i < n; ++i)
+    {
+      for (int j = 0; j <= i; ++j)
+      {
+        scatter[i][j] += w2 * p[i] * p[j];
+      }
+    }
+  }
+  const double freedom = sums.cells / std::max(1.0, sums.cells - n);
+  error.noise = perPoint > 0.0 ? residual * std::sqrt(freedom * sums.a[0] / perPoint) : 0.0;
   for (int i = 0; i < 3; ++i)
   {
     double unit[6] = {};
@@ -83,64 +103,37 @@ void errorsOf(const NormalEquations& eq, const double l[6][6], int n, double res
     {
       for (int c = 0; c < n; ++c)
       {
-        variance += y[r] * eq.scatter[r][c] * y[c];
+        variance += y[r] * scatter[std::max(r, c)][std::min(r, c)] * y[c];
       }
     }
     error.standardError[i] = std::sqrt(std::max(0.0, variance)) / (i == 0 ? 1.0 : rho);
   }
 }
 
-void traceSlopes(const SeenCells& seen, const double l[6][6], const SurfaceFrame& frame,
-  const TracedSlopes& slopes, SurfaceFit& fit) noexcept
+void traceSlopes(
+  const kernel::TraceSums& sums, const double l[6][6], double strength, SurfaceFit& fit) noexcept
 {
   const double* k = fit.k;
-  const double ra = dot(slopes.radiusGradient, frame.a);
-  const double rb = dot(slopes.radiusGradient, frame.b);
-  double sa[6] = {};
-  double sb[6] = {};
-  double turnA[6] = {};
-  double turnB[6] = {};
-  for (int c = 0; c < seen.count; ++c)
-  {
-    const SeenCell& cell = seen.cells[c];
-    const double u = cell.p[1];
-    const double v = cell.p[2];
-    double r = cell.z;
-    for (int i = 0; i < 6; ++i)
-    {
-      r -= k[i] * cell.p[i];
-    }
-    // What the turning frame does to the cell's row P, and through it to its residual.
-    const double qa[6] = { 0.0, cell.z, 0.0, 2.0 * (u * cell.z + cell.can), v * cell.z + cell.cbn, 0.0 };
-    const double qb[6] = { 0.0, 0.0, cell.z, 0.0, u * cell.z + cell.can, 2.0 * (v * cell.z + cell.cbn) };
-    double kqa = 0.0;
-    double kqb = 0.0;
-    for (int i = 0; i < 6; ++i)
-    {
-      kqa += k[i] * qa[i];
-      kqb += k[i] * qb[i];
-    }
-    const double wa = 2.0 * cell.slopeWeight * (u + cell.e * ra) * r;
-    const double wb = 2.0 * cell.slopeWeight * (v + cell.e * rb) * r;
-    for (int i = 0; i < 6; ++i)
-    {
-      sa[i] += wa * cell.p[i];
-      sb[i] += wb * cell.p[i];
-      turnA[i] += cell.weight * (r * qa[i] - kqa * cell.p[i]);
-      turnB[i] += cell.weight * (r * qb[i] - kqb * cell.p[i]);
-    }
-  }
+  double sa[6];
+  double sb[6];
   for (int i = 0; i < 6; ++i)
   {
-    sa[i] += 2.0 * k[3] * turnA[i] + k[4] * turnB[i];
-    sb[i] += k[4] * turnA[i] + 2.0 * k[5] * turnB[i];
+    sa[i] = sums.moveA[i] + 2.0 * k[3] * sums.turnA[i] + k[4] * sums.turnB[i];
+    sb[i] = sums.moveB[i] + k[4] * sums.turnA[i] + 2.0 * k[5] * sums.turnB[i];
   }
-  double da[6] = {};
-  double db[6] = {};
-  backSolve(l, 6, sa, da);
-  backSolve(l, 6, sb, db);
-  fit.k[1] += std::clamp(slopes.strength * da[0], -kLargestSlopeChange, kLargestSlopeChange);
-  fit.k[2] += std::clamp(slopes.strength * db[0], -kLargestSlopeChange, kLargestSlopeChange);
+  // Of A^-1 S only the height: one solution serves both directions.
+  const double unit[6] = { 1.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+  double row[6];
+  backSolve(l, 6, unit, row);
+  double da = 0.0;
+  double db = 0.0;
+  for (int i = 0; i < 6; ++i)
+  {
+    da += row[i] * sa[i];
+    db += row[i] * sb[i];
+  }
+  fit.k[1] += std::clamp(strength * da, -kLargestSlopeChange, kLargestSlopeChange);
+  fit.k[2] += std::clamp(strength * db, -kLargestSlopeChange, kLargestSlopeChange);
 }
 
 } // namespace pointhaptics

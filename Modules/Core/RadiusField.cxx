@@ -25,16 +25,28 @@ void RadiusField::build(const CellPyramid& pyramid, std::vector<LocalScale> valu
   values_ = std::move(values);
   const auto& level = pyramid.level(level_);
   reach_ = kReachInVoxels * level.voxelSize;
+  limitSlope(pyramid, &LocalScale::radius);
+  limitSlope(pyramid, &LocalScale::proxyRadius);
+  for (double LocalScale::*member :
+    { &LocalScale::radius, &LocalScale::gate, &LocalScale::countRadius, &LocalScale::proxyRadius })
+  {
+    typical_.*member = median(member);
+  }
+}
+
+void RadiusField::limitSlope(const CellPyramid& pyramid, double LocalScale::*radius)
+{
+  const auto& level = pyramid.level(level_);
   for (int pass = 0; pass < kSlopePasses; ++pass)
   {
     bool changed = false;
     for (std::size_t i = 0; i < level.cells.size(); ++i)
     {
-      double& value = values_[i].radius;
+      double& value = values_[i].*radius;
       pyramid.visitBall(level_, level.cells[i].mean, reach_,
         [&](std::uint32_t j, const Cell&, double d2)
         {
-          const double bound = values_[j].radius + kSlope * std::sqrt(d2);
+          const double bound = values_[j].*radius + kSlope * std::sqrt(d2);
           if (bound < value)
           {
             value = bound;
@@ -47,16 +59,13 @@ void RadiusField::build(const CellPyramid& pyramid, std::vector<LocalScale> valu
       break;
     }
   }
-  typical_.radius = median([](const LocalScale& v) { return v.radius; });
-  typical_.gate = median([](const LocalScale& v) { return v.gate; });
-  typical_.countRadius = median([](const LocalScale& v) { return v.countRadius; });
 }
 
-template <typename Member>
-double RadiusField::median(Member member) const
+double RadiusField::median(double LocalScale::*member) const
 {
   std::vector<double> sorted(values_.size());
-  std::transform(values_.begin(), values_.end(), sorted.begin(), member);
+  std::transform(values_.begin(), values_.end(), sorted.begin(),
+    [member](const LocalScale& value) { return value.*member; });
   const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   return *middle;
@@ -71,10 +80,7 @@ LocalScale RadiusField::at(const CellPyramid& pyramid, const Vec3& position) con
 LocalScale RadiusField::at(
   const CellPyramid& pyramid, const Vec3& position, Vec3& radiusGradient) const noexcept
 {
-  double weights = 0.0;
-  LocalScale sum;
-  Vec3 weightGradient;
-  Vec3 sumGradient;
+  kernel::FieldSums sums;
   const double perReach2 = 1.0 / (reach_ * reach_);
   pyramid.visitBall(level_, position, reach_,
     [&](std::uint32_t i, const Cell& node, double d2)
@@ -82,21 +88,70 @@ LocalScale RadiusField::at(
       const double base = 1.0 - d2 * perReach2;
       const double weight = base * base * base;
       const Vec3 gradient = (-6.0 * base * base * perReach2) * (position - node.mean);
-      weights += weight;
-      weightGradient += gradient;
-      sum.radius += weight * values_[i].radius;
-      sumGradient += values_[i].radius * gradient;
-      sum.gate += weight * values_[i].gate;
-      sum.countRadius += weight * values_[i].countRadius;
+      sums.weights += weight;
+      sums.radius += weight * values_[i].radius;
+      sums.gate += weight * values_[i].gate;
+      sums.countRadius += weight * values_[i].countRadius;
+      sums.proxyRadius += weight * values_[i].proxyRadius;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        sums.weightGradient[axis] += gradient[axis];
+        sums.radiusGradient[axis] += values_[i].radius * gradient[axis];
+      }
     });
+  return scaleFrom(sums, radiusGradient);
+}
+
+double RadiusField::noiseAt(const CellPyramid& pyramid, const Vec3& position) const noexcept
+{
+  double distance = 0.0;
+  const std::int64_t node = pyramid.nearest(level_, position, reach_, distance);
+  return node < 0 ? 0.0 : values_[std::size_t(node)].noise;
+}
+
+bool RadiusField::gather(
+  const CellPyramid& pyramid, const Vec3& center, double reach, kernel::FieldBlock& block) const noexcept
+{
+  block.center = center;
+  block.reach = reach;
+  block.size = 0;
+  bool fits = true;
+  pyramid.visitBall(level_, center, reach,
+    [&](std::uint32_t i, const Cell& node, double)
+    {
+      if (block.size == kernel::FieldBlock::kCapacity)
+      {
+        fits = false;
+        return;
+      }
+      const int at = block.size++;
+      const Vec3 place = node.mean - center;
+      block.x[at] = place.x;
+      block.y[at] = place.y;
+      block.z[at] = place.z;
+      block.present[at] = 1.0;
+      block.radius[at] = values_[i].radius;
+      block.gate[at] = values_[i].gate;
+      block.countRadius[at] = values_[i].countRadius;
+      block.proxyRadius[at] = values_[i].proxyRadius;
+    });
+  return fits;
+}
+
+LocalScale RadiusField::scaleFrom(const kernel::FieldSums& sums, Vec3& radiusGradient) const noexcept
+{
   radiusGradient = Vec3();
-  if (!(weights > 0.0))
+  if (!(sums.weights > 0.0))
   {
     return typical_;
   }
-  const double radius = sum.radius / weights;
-  radiusGradient = (sumGradient - radius * weightGradient) / weights;
-  return { radius, sum.gate / weights, sum.countRadius / weights };
+  const double per = 1.0 / sums.weights;
+  const double radius = sums.radius * per;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    radiusGradient[axis] = (sums.radiusGradient[axis] - radius * sums.weightGradient[axis]) * per;
+  }
+  return { radius, sums.gate * per, sums.countRadius * per, sums.proxyRadius * per, 0.0 };
 }
 
 } // namespace pointhaptics

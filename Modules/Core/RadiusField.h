@@ -1,9 +1,10 @@
 /// @file
-/// Lengths that vary smoothly over the cloud: the radius of the proxy, or the radius and gate of the surface
+/// Lengths that vary smoothly over the cloud: the radius of the proxy, the radius and gate of the surface
 /// fit.
 #pragma once
 
 #include "Core/CellPyramid.h"
+#include "Core/Kernel/FitKernel.h"
 
 #include <vector>
 
@@ -13,15 +14,17 @@ namespace pointhaptics
 /// What a field tells of a place; metres.
 struct LocalScale
 {
-  double radius = 0.0;
-  double gate = 0.0; ///< Depth of the fit's gate; unused in a field of proxy radii.
-  double countRadius =
-    0.0; ///< Smallest radius with enough points for a fit; unused in a field of proxy radii.
+  double radius = 0.0;      ///< Of the surface fit.
+  double gate = 0.0;        ///< Depth of the fit's gate.
+  double countRadius = 0.0; ///< Smallest radius with enough points for a fit.
+  double proxyRadius = 0.0; ///< Of the proxy sphere.
+  double noise = 0.0;       ///< Standard deviation of the points about the surface.
 };
 
 /// One set of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact
-/// support. Radii are cut so that neighbours differ by at most half their distance. A function of position
-/// only: it knows nothing of any proxy. Immutable after build(); any number of threads may read.
+/// support. Radii of fit and proxy are cut so that neighbours differ by at most half their distance. A
+/// function of position only: it knows nothing of any proxy. Immutable after build(); any number of threads
+/// may read.
 class RadiusField
 {
 public:
@@ -32,12 +35,21 @@ public:
   /// nothing.
   void build(const CellPyramid& pyramid, std::vector<LocalScale> values);
 
-  /// Blended values at @p position, typical() where no node is within reach(). @p pyramid is the one of
-  /// build().
+  /// Blended values (all but the noise) at @p position, typical() where no node is within reach(). @p pyramid
+  /// is the one of build().
   LocalScale at(const CellPyramid& pyramid, const Vec3& position) const noexcept;
 
   /// The same, with the gradient of the radius; zero where there is no node.
   LocalScale at(const CellPyramid& pyramid, const Vec3& position, Vec3& radiusGradient) const noexcept;
+
+  /// The noise at the node nearest to @p position; 0 where there is none within reach().
+  double noiseAt(const CellPyramid& pyramid, const Vec3& position) const noexcept;
+
+  /// The nodes within @p reach of @p center. False: more than a block holds.
+  bool gather(
+    const CellPyramid& pyramid, const Vec3& center, double reach, kernel::FieldBlock& block) const noexcept;
+  /// The answer of at() from the sums over the nodes near a place.
+  LocalScale scaleFrom(const kernel::FieldSums& sums, Vec3& radiusGradient) const noexcept;
 
   /// Distance from a node beyond which it has no weight.
   double reach() const { return reach_; }
@@ -45,8 +57,8 @@ public:
   const LocalScale& typical() const { return typical_; }
 
 private:
-  template <typename Member>
-  double median(Member member) const;
+  void limitSlope(const CellPyramid& pyramid, double LocalScale::*radius);
+  double median(double LocalScale::*member) const;
 
   std::vector<LocalScale> values_;
   LocalScale typical_;

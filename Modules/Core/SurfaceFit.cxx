@@ -14,73 +14,16 @@ constexpr double kVoxelsPerRadius = 3.0;
 /// Part of a level's range after which the next level is blended in.
 constexpr double kBlendFrom = 0.7;
 constexpr int kFewestCellsForQuadric = 9;
-/// The gate opens over the last part of its depth.
-constexpr double kGateOpen = 0.7;
 /// Bound of each curvature term the gate follows, over rho.
 constexpr double kLargestGateCurvature = 0.6;
 constexpr int kSettleRounds = 3;
+/// The first gate over the others: where a search begins may be off the surface by the noise.
+constexpr double kFirstGate = 1.5;
 
 double smoothStep(double t)
 {
   const double s = std::clamp(t, 0.0, 1.0);
   return s * s * (3.0 - 2.0 * s);
-}
-
-/// 1 near the surface, 0 beyond the gate, smooth between; heights and gate over rho.
-double gateWeight(double height, double gate, bool twoSided)
-{
-  const double depth = twoSided ? std::abs(height) : -height;
-  if (depth <= kGateOpen * gate)
-  {
-    return 1.0;
-  }
-  return depth >= gate ? 0.0 : 1.0 - smoothStep((depth - kGateOpen * gate) / ((1.0 - kGateOpen) * gate));
-}
-
-void accumulate(const CellPyramid& pyramid, int level, const SurfaceFrame& frame, const FitSettings& settings,
-  double share, NormalEquations& eq)
-{
-  const double perRho = 1.0 / settings.radius;
-  const double perRho2 = perRho * perRho;
-  double bend[3];
-  for (int i = 0; i < 3; ++i)
-  {
-    bend[i] =
-      std::clamp(settings.curvature[i] * settings.radius, -kLargestGateCurvature, kLargestGateCurvature);
-  }
-  const double gate = settings.gate * perRho;
-  pyramid.visitBallUnmixed(level, frame.origin, settings.radius,
-    [&](const Cell& cell, double d2)
-    {
-      const Vec3 local = perRho * frame.toLocal(cell.mean);
-      const double u = local.x;
-      const double v = local.y;
-      const double base = 1.0 - d2 * perRho2;
-      double w = share * cell.count * (base * base) * (base * base);
-      if (gate > 0.0)
-      {
-        const double below = local.z - (bend[0] * u * u + bend[1] * u * v + bend[2] * v * v);
-        w *= gateWeight(below, gate, settings.twoSidedGate);
-      }
-      if (!(w > 0.0))
-      {
-        return;
-      }
-      const Vec3 ca = cell.covariance * frame.a;
-      const Vec3 cb = cell.covariance * frame.b;
-      const double p[6] = { 1.0, u, v, u * u + dot(frame.a, ca) * perRho2, u * v + dot(frame.b, ca) * perRho2,
-        v * v + dot(frame.b, cb) * perRho2 };
-      eq.add(p, local.z, u, v, w);
-      if (eq.withErrors)
-      {
-        eq.addScatter(p, w, cell.count);
-      }
-      if (eq.seen && eq.seen->count++ < SeenCells::kCapacity)
-      {
-        eq.seen->cells[eq.seen->count - 1] = { { p[0], p[1], p[2], p[3], p[4], p[5] }, local.z, w,
-          4.0 * w / base, d2 * perRho2, dot(frame.normal, ca) * perRho2, dot(frame.normal, cb) * perRho2 };
-      }
-    });
 }
 
 }
@@ -106,37 +49,66 @@ int fitLevel(const CellPyramid& pyramid, double radius, double& fraction)
   return level;
 }
 
-SurfaceFit fitCells(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
-  SurfaceFitError* error, const TracedSlopes* slopes)
+kernel::FitView viewOf(const SurfaceFrame& frame, const FitSettings& settings)
+{
+  kernel::FitView view;
+  view.a = frame.a;
+  view.b = frame.b;
+  view.normal = frame.normal;
+  view.radius = settings.radius;
+  view.gate = settings.gate / settings.radius;
+  view.twoSidedGate = settings.twoSidedGate;
+  for (int i = 0; i < 3; ++i)
+  {
+    view.bend[i] =
+      std::clamp(settings.curvature[i] * settings.radius, -kLargestGateCurvature, kLargestGateCurvature);
+  }
+  return view;
+}
+
+/// The rows of one or two levels, the coarser one blended in over the last part of the finer one's range.
+void collectRows(
+  const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings, FitCells& memory)
+{
+  double fraction = 0.0;
+  int level = fitLevel(pyramid, settings.radius, fraction);
+  const double coarse = smoothStep((fraction - kBlendFrom) / (1.0 - kBlendFrom));
+  kernel::FitView view = viewOf(frame, settings);
+  memory.rows().size = 0;
+  const auto append = [&](double share)
+  {
+    const kernel::FitBlock& block = memory.near(pyramid, level, frame.origin, settings.radius);
+    view.origin = frame.origin - block.center;
+    view.share = share;
+    memory.kernels().appendRows(block, view, memory.rows());
+  };
+  append(1.0 - coarse);
+  if (coarse > 0.0 && level + 1 < pyramid.numberOfCellLevels())
+  {
+    ++level;
+    append(coarse);
+  }
+}
+
+/// The fit of the rows; @p terms receives how many coefficients it has, @p l the factor.
+SurfaceFit solve(const kernel::FitSums& sums, double radius, double l[6][6], int& terms)
 {
   SurfaceFit fit;
-  fit.radius = settings.radius;
-  double fraction = 0.0;
-  const int level = fitLevel(pyramid, settings.radius, fraction);
-  const double coarse = smoothStep((fraction - kBlendFrom) / (1.0 - kBlendFrom));
-  NormalEquations eq;
-  eq.withErrors = error != nullptr;
-  SeenCells seen;
-  eq.seen = slopes && slopes->strength > 0.0 ? &seen : nullptr;
-  accumulate(pyramid, level, frame, settings, 1.0 - coarse, eq);
-  if (coarse > 0.0)
-  {
-    accumulate(pyramid, level + 1, frame, settings, coarse, eq);
-  }
-  fit.cells = eq.cells;
-  if (eq.cells < 3 || !(eq.weights > 0.0))
+  fit.radius = radius;
+  fit.cells = int(sums.cells);
+  terms = 0;
+  if (fit.cells < 3 || !(sums.a[0] > 0.0))
   {
     return fit;
   }
-  fit.centroidU = eq.sumU / eq.weights;
-  fit.centroidV = eq.sumV / eq.weights;
-  double l[6][6];
-  int terms = 6;
-  if (eq.cells >= kFewestCellsForQuadric && factor(eq, 6, l))
+  fit.centroidU = sums.a[1] / sums.a[0];
+  fit.centroidV = sums.a[3] / sums.a[0];
+  if (fit.cells >= kFewestCellsForQuadric && factor(sums, 6, l))
   {
+    terms = 6;
     fit.quality = FitQuality::Quadric;
   }
-  else if (factor(eq, 3, l))
+  else if (factor(sums, 3, l))
   {
     terms = 3;
     fit.quality = FitQuality::Plane;
@@ -145,47 +117,56 @@ SurfaceFit fitCells(const CellPyramid& pyramid, const SurfaceFrame& frame, const
   {
     return fit;
   }
-  backSolve(l, terms, eq.rhs, fit.k);
+  backSolve(l, terms, sums.rhs, fit.k);
   double explained = 0.0;
   for (int i = 0; i < terms; ++i)
   {
-    explained += fit.k[i] * eq.rhs[i];
+    explained += fit.k[i] * sums.rhs[i];
   }
-  fit.residual = std::sqrt(std::max(0.0, (eq.zz - explained) / eq.weights)) * settings.radius;
-  if (error)
-  {
-    errorsOf(eq, l, terms, fit.residual, settings.radius, *error);
-  }
-  if (eq.seen && terms == 6 && seen.count <= SeenCells::kCapacity)
-  {
-    traceSlopes(seen, l, frame, *slopes, fit);
-  }
+  fit.residual = std::sqrt(std::max(0.0, (sums.zz - explained) / sums.a[0])) * radius;
   return fit;
 }
 
 }
 
-SurfaceFit fitSurface(
-  const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings) noexcept
+SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
+  FitCells& memory, const TracedSlopes* slopes) noexcept
 {
-  return fitCells(pyramid, frame, settings, nullptr, nullptr);
+  collectRows(pyramid, frame, settings, memory);
+  kernel::FitSums sums;
+  memory.kernels().sumRows(memory.rows(), sums);
+  double l[6][6];
+  int terms = 0;
+  SurfaceFit fit = solve(sums, settings.radius, l, terms);
+  if (slopes && slopes->strength > 0.0 && terms == 6)
+  {
+    kernel::TraceSums trace;
+    memory.kernels().traceRows(memory.rows(), fit.k, dot(slopes->radiusGradient, frame.a),
+      dot(slopes->radiusGradient, frame.b), trace);
+    traceSlopes(trace, l, slopes->strength, fit);
+  }
+  return fit;
 }
 
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
-  SurfaceFitError& error) noexcept
+  FitCells& memory, SurfaceFitError& error) noexcept
 {
   error = SurfaceFitError();
-  return fitCells(pyramid, frame, settings, &error, nullptr);
+  collectRows(pyramid, frame, settings, memory);
+  kernel::FitSums sums;
+  memory.kernels().sumRows(memory.rows(), sums);
+  double l[6][6];
+  int terms = 0;
+  const SurfaceFit fit = solve(sums, settings.radius, l, terms);
+  if (terms > 0)
+  {
+    errorsOf(memory.rows(), sums, l, terms, fit.residual, settings.radius, error);
+  }
+  return fit;
 }
 
-SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
-  const TracedSlopes& slopes) noexcept
-{
-  return fitCells(pyramid, frame, settings, nullptr, &slopes);
-}
-
-bool settleOnSurface(const CellPyramid& pyramid, const Vec3& onSurface, double radius, SurfaceFrame& frame,
-  SurfaceFit& fit, double curvature[3]) noexcept
+bool settleOnSurface(const CellPyramid& pyramid, const Vec3& onSurface, double radius, double gate,
+  FitCells& memory, SurfaceFrame& frame, SurfaceFit& fit, double curvature[3]) noexcept
 {
   frame.origin = onSurface;
   std::fill(curvature, curvature + 3, 0.0);
@@ -193,10 +174,10 @@ bool settleOnSurface(const CellPyramid& pyramid, const Vec3& onSurface, double r
   {
     FitSettings settings;
     settings.radius = radius;
-    settings.gate = round == 0 ? 0.0 : 2.0 * kGateDepth * radius;
+    settings.gate = round == 0 ? kFirstGate * gate : gate;
     settings.twoSidedGate = true;
     std::copy(curvature, curvature + 3, settings.curvature);
-    fit = fitSurface(pyramid, frame, settings);
+    fit = fitSurface(pyramid, frame, settings, memory);
     if (fit.quality == FitQuality::None)
     {
       return false;
@@ -229,7 +210,8 @@ bool footPoint(
 {
   constexpr int kMaximumIterations = 12;
   constexpr double kReach = 0.5;
-  constexpr double kConverged = 1e-12;
+  // The last step squared is the error left.
+  constexpr double kConverged = 1e-9;
   const double* k = fit.k;
   const Vec3 h = frame.toLocal(target) * (1.0 / fit.radius);
   double u = 0.0;

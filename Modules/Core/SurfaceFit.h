@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/CellPyramid.h"
+#include "Core/FitCells.h"
 
 namespace pointhaptics
 {
@@ -74,13 +75,6 @@ struct SurfaceFit
   }
 };
 
-/// Weighted least squares over the cells within the radius, weights count (1 - d^2/rho^2)^4; the quadratic
-/// terms use each cell's covariance, which makes the fit exact for every quadric height field however coarse
-/// the cells are. The level of detail follows the radius and changes without a step. No allocation, no
-/// exception; work bounded by the cells in the ball (30 to 150 for radii the scene chooses).
-SurfaceFit fitSurface(
-  const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings) noexcept;
-
 /// A fit with what its scatter says of its own error.
 struct SurfaceFitError
 {
@@ -88,20 +82,25 @@ struct SurfaceFitError
   double standardError[3] = { 0, 0, 0 }; ///< Of rho k0 (metres), k1 and k2, for noise 1 metre.
 };
 
-/// fitSurface() with the errors of position and slopes; for building scenes, twice the cost.
+/// Weighted least squares over the cells within the radius, weights count (1 - d^2/rho^2)^4; the quadratic
+/// terms use each cell's covariance, which makes the fit exact for every quadric height field however coarse
+/// the cells are. The level of detail follows the radius and changes without a step. No allocation, no
+/// exception; work bounded by the blocks of @p memory. 0.3 to 0.8 us where the cells are gathered already.
+/// @param slopes where given, k1 and k2 are those of the traced surface, for half as much again; left as they
+/// are where the fit is a plane.
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
-  SurfaceFitError& error) noexcept;
+  FitCells& memory, const TracedSlopes* slopes = nullptr) noexcept;
 
-/// fitSurface() with k1 and k2 of the traced surface; a half more of the cost. Left as they are where the fit
-/// is a plane or looks at more than 512 cells.
+/// The same with the errors of position and slopes; for building scenes, several times the cost.
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
-  const TracedSlopes& slopes) noexcept;
+  FitCells& memory, SurfaceFitError& error) noexcept;
 
-/// Starts on the surface near @p onSurface with the approximate normal in @p frame: a few fits with a
-/// two-sided gate, moving to the foot of the origin each time. @p curvature receives the last fit's, per
+/// Starts on the surface near @p onSurface with the approximate normal in @p frame: a few fits, moving to the
+/// foot of the origin each time. Cells further than @p gate (metres; half as much again in the first fit)
+/// above or below the fit before, at first the plane, have no part. @p curvature receives the last fit's, per
 /// metre. False: no fit.
-bool settleOnSurface(const CellPyramid& pyramid, const Vec3& onSurface, double radius, SurfaceFrame& frame,
-  SurfaceFit& fit, double curvature[3]) noexcept;
+bool settleOnSurface(const CellPyramid& pyramid, const Vec3& onSurface, double radius, double gate,
+  FitCells& memory, SurfaceFrame& frame, SurfaceFit& fit, double curvature[3]) noexcept;
 
 /// Depth of the gate that keeps a second sheet out, over the fit radius.
 constexpr double kGateDepth = 0.2;

@@ -20,6 +20,13 @@ struct ContactParameters
   double damping = 0.0;         ///< Of the HIP's speed along the normal in contact, N s/m, 0 to 1e3.
   double staticFriction = 0.0;  ///< mu_s, 0 to 10; at least dynamicFriction.
   double dynamicFriction = 0.0; ///< mu_d, 0 to 10.
+  /// With SurfaceFit the force follows the hand by at most 2 K |dH| a tick, and changes that are not the
+  /// hand's (a zoom in touch, a rim, a jump of the nearest point) at this rate; N/s, above 0 to infinity: at
+  /// once.
+  double settleRate = 100.0;
+  /// Of the device itself, N s/m, 0 to 1e3; 0: unknown. Where it is known the stiffness is kept at
+  /// 2 (deviceDamping - damping) / T, T the tick: more would feed energy to the hand (Colgate).
+  double deviceDamping = 0.0;
 };
 
 /// Gains of GradientSteps. Symbols are the paper's.

@@ -101,12 +101,11 @@ Status buildPyramid(std::vector<Cell> cells, double asked, double extent, CellPy
   return fits || !(wanted > 0.0) ? Status::Ok : pyramid.build(std::move(cells), wanted, source);
 }
 
-/// Node values: the mean of the cells' radii about each node.
-std::vector<LocalScale> averageRadii(
-  const CellPyramid& pyramid, int nodeLevel, const std::vector<double>& radii)
+/// Proxy radii of the nodes: the mean of the cells' about each.
+void averageRadii(const CellPyramid& pyramid, int nodeLevel, const std::vector<double>& radii,
+  std::vector<LocalScale>& values)
 {
   const auto& nodes = pyramid.level(nodeLevel);
-  std::vector<LocalScale> values(nodes.cells.size());
   for (std::size_t i = 0; i < values.size(); ++i)
   {
     double sum = 0.0;
@@ -122,9 +121,8 @@ std::vector<LocalScale> averageRadii(
         });
       reach *= 2.0;
     }
-    values[i].radius = sum / count;
+    values[i].proxyRadius = sum / count;
   }
-  return values;
 }
 
 std::vector<Cell> finiteCells(const HapticSceneInput& input, std::vector<double>& radii)
@@ -194,7 +192,9 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   const double size = scene->cellSize();
   const int nodeLevel = RadiusField::nodeLevel(scene->pyramid_);
   const std::size_t nodes = scene->pyramid_.level(nodeLevel).cells.size();
-  std::vector<LocalScale> proxyRadii(nodes);
+  const double largest = std::max(extent, kLargestFitRadiusInCells * size);
+  std::vector<LocalScale> scales =
+    fitScales(scene->pyramid_, largest, kLargestFitRadiusInCells * size, executor);
   if (radii.empty())
   {
     std::vector<double> distances;
@@ -202,7 +202,7 @@ std::shared_ptr<const HapticScene> HapticScene::create(
     {
       const Vec3 node = scene->pyramid_.level(nodeLevel).cells[i].mean;
       const double spacing = localSpacing(scene->pyramid_, node, extent, distances);
-      proxyRadii[i].radius = kRadiusInSpacings * std::max(spacing, size);
+      scales[i].proxyRadius = kRadiusInSpacings * std::max(spacing, size);
     }
   }
   else
@@ -212,32 +212,31 @@ std::shared_ptr<const HapticScene> HapticScene::create(
     {
       sorted[i] = radii[source[i]];
     }
-    proxyRadii = averageRadii(scene->pyramid_, nodeLevel, sorted);
+    averageRadii(scene->pyramid_, nodeLevel, sorted, scales);
   }
-  scene->radius_.build(scene->pyramid_, std::move(proxyRadii));
-  const double largest = std::max(extent, kLargestFitRadiusInCells * size);
-  scene->fitScale_.build(
-    scene->pyramid_, fitScales(scene->pyramid_, largest, kLargestFitRadiusInCells * size, executor));
+  scene->scale_.build(scene->pyramid_, std::move(scales));
+  scene->pyramid_.forgiveNoise(
+    [&scene](const Vec3& place) { return scene->scale_.noiseAt(scene->pyramid_, place); });
   // Beyond a node's reach no cell of its voxel can be nearer than the reach less the voxel's diagonal.
   const double diagonal = std::sqrt(3.0) * scene->pyramid_.level(nodeLevel).voxelSize;
-  scene->clearance_ = scene->fitScale_.reach() - diagonal;
+  scene->clearance_ = scene->scale_.reach() - diagonal;
   return scene;
 }
 
 double HapticScene::proxyRadius(const Vec3& position) const noexcept
 {
-  return radius_.at(pyramid_, position).radius;
+  return scale_.at(pyramid_, position).proxyRadius;
 }
 
 LocalScale HapticScene::fitScale(const Vec3& position) const noexcept
 {
-  return fitScale_.at(pyramid_, position);
+  return scale_.at(pyramid_, position);
 }
 
 bool HapticScene::isNear(const Vec3& position) const noexcept
 {
   bool found = false;
-  pyramid_.visitBall(RadiusField::nodeLevel(pyramid_), position, fitScale_.reach(),
+  pyramid_.visitBall(RadiusField::nodeLevel(pyramid_), position, scale_.reach(),
     [&](std::uint32_t, const Cell&, double) { found = true; });
   return found;
 }

@@ -5,6 +5,7 @@
 #include "Core/AffineTransform.h"
 #include "Core/CellPyramid.h"
 #include "Core/Executor.h"
+#include "Core/FitCells.h"
 #include "Core/RadiusField.h"
 #include "Core/Status.h"
 
@@ -54,9 +55,11 @@ public:
   /// where the cloud is noisy. Functions of position only, so that the force does not depend on how the hand
   /// came there.
   LocalScale fitScale(const Vec3& position) const noexcept;
-  LocalScale fitScale(const Vec3& position, Vec3& radiusGradient) const noexcept
+  /// The same up to rounding, faster while the positions stay near each other; and the gradient of the
+  /// radius.
+  LocalScale fitScale(const Vec3& position, FitCells& memory, Vec3& radiusGradient) const noexcept
   {
-    return fitScale_.at(pyramid_, position, radiusGradient);
+    return memory.scaleAt(pyramid_, scale_, position, radiusGradient);
   }
   double fitRadius(const Vec3& position) const noexcept { return fitScale(position).radius; }
   /// False where no cell of the cloud can be within clearance() of @p position: free space to stride through.
@@ -70,8 +73,7 @@ private:
   HapticScene() = default;
 
   CellPyramid pyramid_;
-  RadiusField radius_;
-  RadiusField fitScale_;
+  RadiusField scale_;
   AffineTransform modelToWorkspace_;
   Bounds bounds_;
   double clearance_ = 0.0;

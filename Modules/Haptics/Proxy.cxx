@@ -1,6 +1,7 @@
 #include "Haptics/Proxy.h"
 
 #include "Haptics/GradientSteps.h"
+#include "Haptics/OffsetSettler.h"
 #include "Haptics/SurfaceFitProxy.h"
 
 #include <algorithm>
@@ -21,6 +22,8 @@ struct Proxy::Implementation
   AffineTransform lastTransform;
   bool hadScene = false;
   SurfaceFitProxy surfaceFit;
+  FitCells fitCells;
+  OffsetSettler settler;
   GradientSteps gradientSteps;
   ProxyState last;
   Vec3 lastHip;
@@ -31,6 +34,7 @@ struct Proxy::Implementation
   {
     surfaceFit.reset();
     gradientSteps.reset();
+    settler.reset();
     last = ProxyState();
     hasLastHip = false;
     fadedSeconds = 0.0;
@@ -45,17 +49,43 @@ struct Proxy::Implementation
     state.force = left * last.force;
     state.contact = last.contact && left > 0.0;
     state.status = kProxyNonFiniteInput;
+    settler.resumeFrom(left * (last.proxy - last.hip));
     return state;
   }
 
-  Vec3 forceOf(const ProxyState& state, double dt) const noexcept
+  /// Colgate's bound: a spring and damper sampled every dt are passive on a device that damps enough.
+  double passiveStiffness(double dt, std::uint32_t& status) const noexcept
+  {
+    const ContactParameters& contact = parameters.contact;
+    const double limit = 2.0 * std::max(0.0, contact.deviceDamping - contact.damping) / dt;
+    const bool limited = contact.deviceDamping > 0.0 && contact.stiffness > limit;
+    status |= std::uint32_t(limited ? kProxyStiffnessLimit : kProxyOk);
+    return limited ? limit : contact.stiffness;
+  }
+
+  /// Lets the contact point follow the hand at once, and the surface at the settle rate.
+  void settle(ProxyState& state, double stiffness, double dt) noexcept
+  {
+    const double shrink = stiffness > 0.0 ? parameters.contact.settleRate * dt / stiffness : INFINITY;
+    const Vec3 offset = state.contact ? state.proxy - state.hip : Vec3();
+    const Vec3 felt = settler.settle(offset, hasLastHip ? norm(state.hip - lastHip) : INFINITY, shrink);
+    if (settler.settling())
+    {
+      state.proxy = state.hip + felt;
+      state.sphereCenter = state.proxy + state.radius * state.normal;
+      state.contact = true;
+      state.status |= kProxySettling;
+    }
+  }
+
+  Vec3 forceOf(const ProxyState& state, double stiffness, double dt) const noexcept
   {
     if (!state.contact)
     {
       return {};
     }
     const ContactParameters& contact = parameters.contact;
-    Vec3 force = contact.stiffness * (state.proxy - state.hip);
+    Vec3 force = stiffness * (state.proxy - state.hip);
     if (contact.damping > 0.0 && hasLastHip && dt > 0.0)
     {
       const double speed = dot(state.hip - lastHip, state.normal) / dt;
@@ -111,6 +141,8 @@ void Proxy::setScene(const HapticScene* scene) noexcept
   {
     self.lastTransform = scene->modelToWorkspace();
   }
+  // A new scene may lie where an old one lay.
+  self.fitCells.forget();
   self.hadScene = scene != nullptr;
   self.scene = scene;
 }
@@ -132,19 +164,21 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   state.proxy = hip;
   state.sphereCenter = hip;
   state.normal = self.last.normal;
+  const double stiffness = self.passiveStiffness(dt, state.status);
   if (!self.scene)
   {
-    state.status = kProxyNoScene;
+    state.status |= kProxyNoScene;
   }
   else if (self.parameters.method == ProxyMethod::SurfaceFit)
   {
-    self.surfaceFit.step(*self.scene, self.parameters.contact, hip, state);
+    self.surfaceFit.step(*self.scene, self.fitCells, self.parameters.contact, hip, state);
+    self.settle(state, stiffness, dt);
   }
   else
   {
     self.gradientSteps.step(*self.scene, self.parameters, hip, dt, state);
   }
-  state.force = self.forceOf(state, dt);
+  state.force = self.forceOf(state, stiffness, dt);
   self.last = state;
   self.lastHip = hip;
   self.hasLastHip = true;

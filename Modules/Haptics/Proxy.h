@@ -19,9 +19,13 @@ enum ProxyStatus : std::uint32_t
   kProxyRoundLimit = 1u << 1,     ///< The foot point did not converge within the rounds of one step.
   kProxyStepLimit =
     1u << 2, ///< The HIP moved further than one step can follow; it is caught up over the next.
-  kProxyLostSurface = 1u << 3,   ///< No fit where the surface was: held, then let go.
-  kProxyReleasedAtRim = 1u << 4, ///< Let go past the edge of an open surface.
-  kProxyNoScene = 1u << 5,       ///< No scene is set.
+  kProxyLostSurface = 1u << 3,    ///< No fit where the surface was: held, then let go.
+  kProxyReleasedAtRim = 1u << 4,  ///< Let go past the edge of an open surface.
+  kProxyNoScene = 1u << 5,        ///< No scene is set.
+  kProxySettling = 1u << 7,       ///< The force is behind the surface by the settle rate.
+  kProxyStiffnessLimit = 1u << 8, ///< The stiffness was kept at the passivity limit: a higher rate cures it.
+  kProxyCellLimit =
+    1u << 6, ///< More cells in a fit than there is room for: coarser ones served. Larger voxels.
 };
 
 /// Result of one step. Frame: workspace; metres and newtons.

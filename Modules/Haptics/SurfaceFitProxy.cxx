@@ -29,8 +29,12 @@ constexpr double kReleaseSlack = 0.05;
 /// there instead.
 constexpr double kTravelPerMotion = 4.0;
 constexpr double kTravelRadii = 0.1;
+/// Where no sheet could be made out, it is tried again after this part of the reach.
+constexpr double kSeekAgain = 0.05;
 /// Part of the fit radius by which a foot point or a first depth may be off.
 constexpr double kFootSlack = 0.1;
+/// The surface is looked at for a rim each time the contact has gone this part of the counting radius.
+constexpr double kRimStride = 0.1;
 
 }
 
@@ -39,9 +43,11 @@ void SurfaceFitProxy::reset() noexcept
   *this = SurfaceFitProxy();
 }
 
-void SurfaceFitProxy::step(
-  const HapticScene& scene, const ContactParameters& parameters, const Vec3& hip, ProxyState& state) noexcept
+void SurfaceFitProxy::step(const HapticScene& scene, FitCells& memory, const ContactParameters& parameters,
+  const Vec3& hip, ProxyState& state) noexcept
 {
+  memory_ = &memory;
+  memory.forgetOverflow();
   if (!hasLastHip_)
   {
     lastHip_ = hip;
@@ -55,7 +61,10 @@ void SurfaceFitProxy::step(
   acquisitions_ = 0;
   do
   {
-    double stride = kStrideRadii * scene.fitRadius(from);
+    Vec3 ignored;
+    const double radius =
+      mode_ == Mode::Free ? scene.fitScale(from, memory, ignored).radius : tracker_.fitRadius();
+    double stride = kStrideRadii * radius;
     if (mode_ == Mode::Free && !scene.isNear(from))
     {
       stride = std::max(stride, scene.clearance());
@@ -92,17 +101,25 @@ void SurfaceFitProxy::step(
   state.contact = mode_ == Mode::Contact;
   state.proxy = contactPoint_;
   state.normal = lastNormal_;
-  state.radius = scene.proxyRadius(contactPoint_);
+  state.status |= std::uint32_t(memory.overflowed() ? kProxyCellLimit : kProxyOk);
+  Vec3 ignored;
+  state.radius = state.contact ? tracker_.proxyRadius() : scene.fitScale(hip, memory, ignored).proxyRadius;
   state.sphereCenter = state.contact ? contactPoint_ + state.radius * lastNormal_ : hip;
 }
 
 void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& to) noexcept
 {
+  const AffineTransform change = to * from.inverse();
+  // Seen from the model it is the hand that moved: what it passes on that way it meets, whatever the
+  // transform.
+  lastHip_ = change.apply(lastHip_);
+  lastTouched_ = change.apply(lastTouched_);
+  hasLastInner_ = false;
+  hasFailedAt_ = false;
   if (mode_ == Mode::Contact)
   {
     tracker_.carry(from, to);
-    contactPoint_ = (to * from.inverse()).apply(contactPoint_);
-    carried_ = true;
+    contactPoint_ = change.apply(contactPoint_);
   }
   else
   {
@@ -119,7 +136,8 @@ void SurfaceFitProxy::moveFree(
     watch(scene, from, to, status);
     return;
   }
-  const double reach = kWatchRadii * scene.fitRadius(to);
+  Vec3 ignored;
+  const double reach = kWatchRadii * scene.fitScale(to, *memory_, ignored).radius;
   if (seek(scene, from, to, reach))
   {
     watch(scene, from, to, status);
@@ -129,6 +147,12 @@ void SurfaceFitProxy::moveFree(
 /// Looks for the nearest cell about @p at and starts to watch its sheet, seen from @p from.
 bool SurfaceFitProxy::seek(const HapticScene& scene, const Vec3& from, const Vec3& at, double reach) noexcept
 {
+  const double again = kSeekAgain * reach;
+  if (hasFailedAt_ && norm2(at - failedAt_) < again * again)
+  {
+    return false;
+  }
+  hasFailedAt_ = false;
   double distance = 0.0;
   const std::int64_t cell = scene.pyramid().nearest(0, at, reach, distance);
   if (cell < 0)
@@ -138,13 +162,12 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, const Vec3& from, const Vec
   SurfaceTracker found;
   ++acquisitions_;
   const Vec3 nearest = scene.pyramid().level(0).cells[std::size_t(cell)].mean;
-  if (!found.acquire(scene, nearest, from))
-  {
-    return false;
-  }
   // The foot of a point is no further from it than any cell: else the tracker slid off to somewhere else.
-  if (norm(from - found.point()) > norm(from - nearest) + kFootSlack * found.fitRadius())
+  hasFailedAt_ = !found.acquire(scene, *memory_, nearest, from) ||
+    norm(from - found.point()) > norm(from - nearest) + kFootSlack * found.fitRadius();
+  if (hasFailedAt_)
   {
+    failedAt_ = at;
     return false;
   }
   tracker_ = found;
@@ -162,6 +185,7 @@ bool SurfaceFitProxy::meets(
     return false;
   }
   mode_ = Mode::Contact;
+  hasLastInner_ = false;
   heldTicks_ = 0;
   lastTouched_ = to;
   touch(scene, to, status);
@@ -173,7 +197,7 @@ void SurfaceFitProxy::watch(
   const HapticScene& scene, const Vec3& from, const Vec3& to, std::uint32_t& status) noexcept
 {
   const double before = tracker_.height(from);
-  if (tracker_.follow(scene, to, kRoundsWatching) == TrackResult::Lost)
+  if (tracker_.follow(scene, *memory_, to, kRoundsWatching) == TrackResult::Lost)
   {
     mode_ = Mode::Free;
     return;
@@ -195,7 +219,8 @@ void SurfaceFitProxy::watch(
   if (nearer > 0.0 && scene.pyramid().nearest(0, to, nearer, distance) >= 0)
   {
     const SurfaceTracker watched = tracker_;
-    if (!seek(scene, from, to, nearer) || tracker_.follow(scene, to, kRoundsWatching) == TrackResult::Lost)
+    if (!seek(scene, from, to, nearer) ||
+      tracker_.follow(scene, *memory_, to, kRoundsWatching) == TrackResult::Lost)
     {
       tracker_ = watched;
       return;
@@ -208,10 +233,9 @@ void SurfaceFitProxy::watch(
 void SurfaceFitProxy::touch(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept
 {
   const SurfaceTracker before = tracker_;
-  const double moved = carried_ ? INFINITY : norm(to - lastTouched_);
-  carried_ = false;
-  TrackResult result =
-    tracker_.follow(scene, to, kRoundsPerTick, kTravelPerMotion * moved + kTravelRadii * before.fitRadius());
+  const double moved = norm(to - lastTouched_);
+  TrackResult result = tracker_.follow(
+    scene, *memory_, to, kRoundsPerTick, kTravelPerMotion * moved + kTravelRadii * before.fitRadius());
   const double slack = moved + kReleaseSlack * before.fitRadius();
   const bool leaps = tracker_.height(to) > 0.0 && before.height(to) < -slack;
   const bool recedes =
@@ -224,6 +248,7 @@ void SurfaceFitProxy::touch(const HapticScene& scene, const Vec3& to, std::uint3
   if (result == TrackResult::Lost)
   {
     tracker_ = before;
+    hasLastInner_ = false;
     if (meetRim(scene, to, status) != Rim::None)
     {
       heldTicks_ = 0;
@@ -265,9 +290,9 @@ bool SurfaceFitProxy::recover(const HapticScene& scene, const Vec3& to) noexcept
   }
   const Vec3 freeSide = tracker_.point() + 0.5 * radius * tracker_.normal();
   SurfaceTracker found;
-  if (!found.acquire(scene, scene.pyramid().level(0).cells[std::size_t(cell)].mean, freeSide) ||
+  if (!found.acquire(scene, *memory_, scene.pyramid().level(0).cells[std::size_t(cell)].mean, freeSide) ||
     dot(found.normal(), tracker_.normal()) < 0.0 ||
-    found.follow(scene, to, kRoundsPerTick) == TrackResult::Lost || found.height(to) > 0.0)
+    found.follow(scene, *memory_, to, kRoundsPerTick) == TrackResult::Lost || found.height(to) > 0.0)
   {
     return false;
   }
@@ -279,12 +304,20 @@ bool SurfaceFitProxy::recover(const HapticScene& scene, const Vec3& to) noexcept
 SurfaceFitProxy::Rim SurfaceFitProxy::meetRim(
   const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept
 {
-  Vec3 outward;
-  if (!tracker_.isAtRim(scene, outward))
+  // A rim is not met without a way to it.
+  const double near = kRimStride * tracker_.countRadius();
+  if (hasLastInner_ && norm2(tracker_.point() - lastInner_) < near * near)
   {
     return Rim::None;
   }
-  if (tracker_.turnAroundEdge(scene, outward, to) && tracker_.height(to) <= 0.0)
+  Vec3 outward;
+  hasLastInner_ = !tracker_.isAtRim(scene, *memory_, outward);
+  if (hasLastInner_)
+  {
+    lastInner_ = tracker_.point();
+    return Rim::None;
+  }
+  if (tracker_.turnAroundEdge(scene, *memory_, outward, to) && tracker_.height(to) <= 0.0)
   {
     return Rim::Turned;
   }

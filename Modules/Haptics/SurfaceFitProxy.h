@@ -19,7 +19,8 @@ public:
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
   void reset() noexcept;
   /// @pre hip finite, scene not null. Fills all of the state but force.
-  void step(const HapticScene& scene, const ContactParameters& parameters, const Vec3& hip,
+  /// @param memory of the fits; the same one at every step.
+  void step(const HapticScene& scene, FitCells& memory, const ContactParameters& parameters, const Vec3& hip,
     ProxyState& state) noexcept;
 
 private:
@@ -46,16 +47,20 @@ private:
   Rim meetRim(const HapticScene& scene, const Vec3& to, std::uint32_t& status) noexcept;
   void applyFriction(const ContactParameters& parameters, const Vec3& hip) noexcept;
 
+  FitCells* memory_ = nullptr; ///< Of the step that runs.
   SurfaceTracker tracker_;
   Mode mode_ = Mode::Free;
   Vec3 lastHip_;
   Vec3 lastTouched_;
   Vec3 contactPoint_;
   Vec3 lastNormal_{ 0.0, 0.0, 1.0 };
+  Vec3 lastInner_; ///< Where the surface was last seen to go on all around.
+  Vec3 failedAt_;  ///< Where no sheet could be made out of the cells near the HIP.
+  bool hasFailedAt_ = false;
+  bool hasLastInner_ = false;
   bool hasLastHip_ = false;
   bool sticking_ = false;
   bool touchedLastTick_ = false;
-  bool carried_ = false; ///< The model moved since the last step: the contact may have to move any way.
   int heldTicks_ = 0;
   int acquisitions_ = 0;
 };

@@ -9,7 +9,7 @@ namespace
 {
 
 /// Converged when a round moves the point by less than this part of the fit radius.
-constexpr double kConverged = 1e-6;
+constexpr double kConverged = 3e-5;
 /// Part of the noise below which moving on is pointless.
 constexpr double kConvergedNoise = 1e-3;
 constexpr double kSmallestDamping = 0.15;
@@ -48,22 +48,26 @@ void SurfaceTracker::adopt(const Vec3& foot, const Vec3& normal) noexcept
   }
 }
 
-bool SurfaceTracker::acquire(const HapticScene& scene, const Vec3& onSurface, const Vec3& freeSide) noexcept
+bool SurfaceTracker::acquire(
+  const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& freeSide) noexcept
 {
-  const double radius = scene.fitRadius(onSurface);
+  Vec3 ignored;
+  const LocalScale scale = scene.fitScale(onSurface, memory, ignored);
+  const double radius = scale.radius;
+  const double gate = std::max(2.0 * kGateDepth * scale.countRadius, scale.gate);
   SurfaceTracker best;
   bool found = false;
-  for (const double scale : { 1.0, 0.7, 1.4 })
+  for (const double part : { 1.0, 0.7, 1.4 })
   {
     Vec3 normal;
     SurfaceTracker attempt;
-    if (!principalNormal(scene.pyramid(), onSurface, scale * radius, normal))
+    if (!principalNormal(scene.pyramid(), onSurface, part * radius, normal))
     {
       continue;
     }
     attempt.frame_.turnTo(normal);
-    if (!settleOnSurface(
-          scene.pyramid(), onSurface, radius, attempt.frame_, attempt.fit_, attempt.curvature_) ||
+    if (!settleOnSurface(scene.pyramid(), onSurface, radius, gate, memory, attempt.frame_, attempt.fit_,
+          attempt.curvature_) ||
       norm2(attempt.point() - onSurface) > radius * radius)
     {
       continue;
@@ -87,8 +91,9 @@ bool SurfaceTracker::acquire(const HapticScene& scene, const Vec3& onSurface, co
   {
     best.frame_.turnTo(-best.frame_.normal);
     std::transform(best.curvature_, best.curvature_ + 3, best.curvature_, [](double c) { return -c; });
+    best.fresh_ = false;
   }
-  if (best.follow(scene, freeSide, kAcquireRounds) == TrackResult::Lost)
+  if (best.follow(scene, memory, freeSide, kAcquireRounds) == TrackResult::Lost)
   {
     return false;
   }
@@ -96,7 +101,9 @@ bool SurfaceTracker::acquire(const HapticScene& scene, const Vec3& onSurface, co
   {
     best.frame_.turnTo(-best.frame_.normal);
     std::transform(best.curvature_, best.curvature_ + 3, best.curvature_, [](double c) { return -c; });
-    if (best.follow(scene, freeSide, kAcquireRounds) == TrackResult::Lost || best.height(freeSide) < 0.0)
+    best.fresh_ = false;
+    if (best.follow(scene, memory, freeSide, kAcquireRounds) == TrackResult::Lost ||
+      best.height(freeSide) < 0.0)
     {
       return false;
     }
@@ -105,8 +112,28 @@ bool SurfaceTracker::acquire(const HapticScene& scene, const Vec3& onSurface, co
   return true;
 }
 
+bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
+{
+  FitSettings settings;
+  TracedSlopes slopes;
+  const LocalScale scale = scene.fitScale(frame_.origin, memory, slopes.radiusGradient);
+  slopes.strength = scene.hasExactMoments() ? tracedStrength(scale) : 0.0;
+  settings.radius = scale.radius;
+  settings.gate = scale.gate;
+  std::copy(curvature_, curvature_ + 3, settings.curvature);
+  const SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings, memory, &slopes);
+  if (fit.quality == FitQuality::None)
+  {
+    return false;
+  }
+  fit_ = fit;
+  fitFrame_ = frame_;
+  scale_ = scale;
+  return true;
+}
+
 TrackResult SurfaceTracker::follow(
-  const HapticScene& scene, const Vec3& target, int rounds, double longestTravel) noexcept
+  const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds, double longestTravel) noexcept
 {
   const Vec3 start = frame_.origin;
   Vec3 lastPoint = start;
@@ -116,22 +143,15 @@ TrackResult SurfaceTracker::follow(
   bool wasLimited = false;
   for (int round = 0; round < rounds; ++round)
   {
-    FitSettings settings;
-    TracedSlopes slopes;
-    const LocalScale scale = scene.fitScale(frame_.origin, slopes.radiusGradient);
-    slopes.strength = scene.hasExactMoments() ? tracedStrength(scale) : 0.0;
-    settings.radius = scale.radius;
-    settings.gate = scale.gate;
-    std::copy(curvature_, curvature_ + 3, settings.curvature);
-    const SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings, slopes);
-    if (fit.quality == FitQuality::None)
+    // The first round takes the fit of the last call: it was made a step too small to matter away.
+    if (!fresh_ && !refit(scene, memory))
     {
       return TrackResult::Lost;
     }
-    fit_ = fit;
+    fresh_ = false;
     Vec3 foot;
     Vec3 normal;
-    footPoint(fit_, frame_, target, foot, normal);
+    footPoint(fit_, fitFrame_, target, foot, normal);
     Vec3 step = foot - frame_.origin;
     const double length = norm(step);
     // Rounds that shrink too slowly, or lead away from the target, swing about the answer: shorten the
@@ -145,8 +165,8 @@ TrackResult SurfaceTracker::follow(
       const Vec3 y = step - lastStep;
       const double yy = norm2(y);
       const double part = std::clamp(yy > 0.0 ? -dot(s, y) / yy : 1.0, kSmallestDamping, away ? 0.5 : 1.0);
-      pointAt(fit_, frame_, part / fit_.radius * dot(step, frame_.a),
-        part / fit_.radius * dot(step, frame_.b), foot, normal);
+      pointAt(fit_, fitFrame_, part / fit_.radius * dot(step, fitFrame_.a),
+        part / fit_.radius * dot(step, fitFrame_.b), foot, normal);
     }
     lastDistance = distance;
     lastPoint = frame_.origin;
@@ -161,8 +181,8 @@ TrackResult SurfaceTracker::follow(
     if (limited)
     {
       const Vec3 local =
-        (1.0 / fit_.radius) * frame_.toLocal(start + (longestTravel / travel) * (foot - start));
-      pointAt(fit_, frame_, local.x, local.y, foot, normal);
+        (1.0 / fit_.radius) * fitFrame_.toLocal(start + (longestTravel / travel) * (foot - start));
+      pointAt(fit_, fitFrame_, local.x, local.y, foot, normal);
     }
     if (!isFinite(foot))
     {
@@ -177,6 +197,7 @@ TrackResult SurfaceTracker::follow(
     wasLimited = limited;
     if (length <= std::max(kConverged * fit_.radius, kConvergedNoise * fit_.residual))
     {
+      fresh_ = true;
       return TrackResult::Converged;
     }
   }
@@ -189,30 +210,40 @@ void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& t
   frame_.origin = change.apply(frame_.origin);
   frame_.turnTo(normalized(change.applyToNormal(frame_.normal), frame_.normal));
   std::fill(curvature_, curvature_ + 3, 0.0);
+  fresh_ = false;
 }
 
-bool SurfaceTracker::isAtRim(const HapticScene& scene, Vec3& outward) const noexcept
+bool SurfaceTracker::isAtRim(const HapticScene& scene, FitCells& memory, Vec3& outward) const noexcept
 {
   // By the radius that counts points, never the longer one that averages noise: that one reaches over holes.
-  const double near = scene.fitScale(frame_.origin).countRadius;
-  double weights = 0.0;
-  Vec3 sum;
-  scene.pyramid().visitBall(0, frame_.origin, near,
-    [&](std::uint32_t, const Cell& cell, double d2)
-    {
-      const double base = 1.0 - d2 / (near * near);
-      const double weight = cell.count * (base * base) * (base * base);
-      weights += weight;
-      sum += weight * (cell.mean - frame_.origin);
-    });
+  const double near = scale_.countRadius;
+  kernel::CentroidSums sums{};
+  if (const kernel::FitBlock* block = memory.finestNear(scene.pyramid(), frame_.origin, near))
+  {
+    memory.kernels().sumPlaces(*block, frame_.origin - block->center, near, sums);
+  }
+  else
+  {
+    scene.pyramid().visitBall(0, frame_.origin, near,
+      [&](std::uint32_t, const Cell& cell, double d2)
+      {
+        const double base = 1.0 - d2 / (near * near);
+        const double weight = cell.count * (base * base) * (base * base);
+        sums.weights += weight;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          sums.place[axis] += weight * (cell.mean[axis] - frame_.origin[axis]);
+        }
+      });
+  }
   outward = frame_.a;
-  if (!(weights > 0.0))
+  if (!(sums.weights > 0.0))
   {
     // Over a hole; the proxy sphere stays on one that it cannot pass.
     double distance = 0.0;
     return scene.pyramid().nearest(0, frame_.origin, scene.proxyRadius(frame_.origin), distance) < 0;
   }
-  const Vec3 centroid = sum / weights;
+  const Vec3 centroid = Vec3(sums.place[0], sums.place[1], sums.place[2]) / sums.weights;
   const Vec3 tangential = centroid - dot(centroid, frame_.normal) * frame_.normal;
   if (norm(tangential) <= kRimCentroid * near)
   {
@@ -230,16 +261,17 @@ bool SurfaceTracker::isAtRim(const HapticScene& scene, Vec3& outward) const noex
 }
 
 bool SurfaceTracker::turnAroundEdge(
-  const HapticScene& scene, const Vec3& outward, const Vec3& target) noexcept
+  const HapticScene& scene, FitCells& memory, const Vec3& outward, const Vec3& target) noexcept
 {
   for (const double turn : { 1.0, 2.5 })
   {
     SurfaceTracker attempt = *this;
     attempt.frame_.turnTo(normalized(frame_.normal + turn * outward, frame_.normal));
     std::fill(attempt.curvature_, attempt.curvature_ + 3, 0.0);
+    attempt.fresh_ = false;
     Vec3 ignored;
-    if (attempt.follow(scene, target, kAcquireRounds) == TrackResult::Lost ||
-      attempt.isAtRim(scene, ignored) || dot(attempt.normal(), normal()) < kEdgeLeastCosine ||
+    if (attempt.follow(scene, memory, target, kAcquireRounds) == TrackResult::Lost ||
+      attempt.isAtRim(scene, memory, ignored) || dot(attempt.normal(), normal()) < kEdgeLeastCosine ||
       norm(attempt.point() - point()) > kEdgeReachInCells * scene.cellSize())
     {
       continue;

@@ -23,23 +23,25 @@ class SurfaceTracker
 public:
   /// Finds the sheet at the cell mean @p onSurface, its normal towards @p freeSide. False where there is
   /// none.
-  bool acquire(const HapticScene& scene, const Vec3& onSurface, const Vec3& freeSide) noexcept;
+  bool acquire(
+    const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& freeSide) noexcept;
 
   /// Moves to the surface point nearest to @p target, at most @p rounds fits and @p longestTravel metres: a
   /// longer way ends there, on the surface, with RoundLimit.
-  TrackResult follow(
-    const HapticScene& scene, const Vec3& target, int rounds, double longestTravel = INFINITY) noexcept;
+  TrackResult follow(const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds,
+    double longestTravel = INFINITY) noexcept;
 
   /// Carries point and normal along with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
 
   /// True where the surface ends at the point: the cells lie all on one side, or there are none as near as
   /// the proxy sphere is wide. @p outward receives the unit direction in which there is nothing.
-  bool isAtRim(const HapticScene& scene, Vec3& outward) const noexcept;
+  bool isAtRim(const HapticScene& scene, FitCells& memory, Vec3& outward) const noexcept;
 
   /// Around a sharp edge: the sheet that continues behind the rim, if there is one near. The tracker is
   /// changed only on success.
-  bool turnAroundEdge(const HapticScene& scene, const Vec3& outward, const Vec3& target) noexcept;
+  bool turnAroundEdge(
+    const HapticScene& scene, FitCells& memory, const Vec3& outward, const Vec3& target) noexcept;
 
   /// Height of a point above the surface, along the normal; negative inside.
   double height(const Vec3& p) const noexcept { return dot(p - frame_.origin, frame_.normal); }
@@ -50,12 +52,19 @@ public:
   /// RMS distance of the cells from the last fit: the noise, metres.
   double residual() const noexcept { return fit_.residual; }
   double fitRadius() const noexcept { return fit_.radius; }
+  double countRadius() const noexcept { return scale_.countRadius; }
+  double proxyRadius() const noexcept { return scale_.proxyRadius; }
 
 private:
+  /// Fits anew at frame_. False: there is no surface to fit.
+  bool refit(const HapticScene& scene, FitCells& memory) noexcept;
   void adopt(const Vec3& foot, const Vec3& normal) noexcept;
 
   SurfaceFrame frame_;
   SurfaceFit fit_;
+  SurfaceFrame fitFrame_; ///< The frame of fit_: a little behind frame_.
+  LocalScale scale_;      ///< At the origin of fitFrame_.
+  bool fresh_ = false;    ///< fit_ tells of the surface about frame_: the next step may begin with it.
   double curvature_[3] = { 0.0, 0.0, 0.0 };
 };
 

@@ -291,6 +291,36 @@ TEST(CellPyramid, TwoSheetsInOneVoxelAreMixedAndOneSheetIsNot)
   EXPECT_GT(mixedShare(pyramidOf(two, 5e-4), 3), 0.5);
 }
 
+TEST(CellPyramid, ForgivesThicknessThatIsNoiseAndNoOther)
+{
+  constexpr double kNoise = 1e-4;
+  trial::Random random(18);
+  std::vector<Cell> noisy;
+  std::vector<Cell> apart;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const Vec3 p = random.inBox({ 0, 0, 0 }, { 0.02, 0.02, 0 });
+    noisy.push_back(cellAt(p + Vec3(0, 0, kNoise * random.normal())));
+    apart.push_back(cellAt(p + Vec3(0, 0, 0.0005 + 0.0011 * (i % 2))));
+  }
+  const auto mixedCells = [](const CellPyramid& pyramid, int level)
+  {
+    const std::vector<Cell>& cells = pyramid.level(level).cells;
+    return std::count_if(cells.begin(), cells.end(), [](const Cell& cell) { return cell.mixed; });
+  };
+  CellPyramid sheet = pyramidOf(noisy, 2.5e-4);
+  CellPyramid sheets = pyramidOf(apart, 5e-4);
+  const auto noisyBefore = mixedCells(sheet, 1);
+  const auto apartBefore = mixedCells(sheets, 3);
+  ASSERT_GT(noisyBefore, 0);
+  ASSERT_GT(apartBefore, 0);
+  const auto noise = [](const Vec3&) { return kNoise; };
+  sheet.forgiveNoise(noise);
+  sheets.forgiveNoise(noise);
+  EXPECT_LE(mixedCells(sheet, 1), noisyBefore / 100);
+  EXPECT_EQ(mixedCells(sheets, 3), apartBefore);
+}
+
 TEST(CellPyramid, NearestEqualsBruteForce)
 {
   const CellPyramid pyramid = pyramidOf(variedCells(2000, 9), 1e-3);

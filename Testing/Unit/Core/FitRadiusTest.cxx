@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 using namespace pointhaptics;
 
@@ -46,11 +47,12 @@ CellPyramid sphere(int n, double noise, std::uint64_t seed)
 
 std::vector<FitScale> scalesOf(const CellPyramid& pyramid)
 {
+  const auto memory = std::make_unique<FitCells>();
   std::vector<FitScale> scales;
   const std::vector<Cell>& cells = pyramid.level(0).cells;
   for (std::size_t i = 0; i < cells.size(); i += cells.size() / 40)
   {
-    scales.push_back(chooseFitRadius(pyramid, cells[i].mean, 8e-3, 8e-3));
+    scales.push_back(chooseFitRadius(pyramid, cells[i].mean, 8e-3, 8e-3, *memory));
   }
   return scales;
 }
@@ -114,7 +116,7 @@ TEST(FitRadius, StaysNearTheCountRadiusOnACleanPlane)
   CellPyramid pyramid;
   std::vector<std::uint32_t> source;
   ASSERT_EQ(pyramid.build(cells, kVoxel, source), Status::Ok);
-  const FitScale scale = chooseFitRadius(pyramid, pyramid.level(0).cells[10000].mean, 8e-3, 8e-3);
+  const FitScale scale = chooseFitRadius(pyramid, pyramid.level(0).cells[10000].mean, 8e-3, 8e-3, *std::make_unique<FitCells>());
   EXPECT_LE(scale.radius, 1.6 * scale.countRadius);
 }
 
@@ -131,7 +133,7 @@ TEST(FitRadius, OfDegenerateCloudsIsUsable)
     CellPyramid pyramid;
     std::vector<std::uint32_t> source;
     ASSERT_EQ(pyramid.build(cells, kVoxel, source), Status::Ok);
-    const FitScale scale = chooseFitRadius(pyramid, cells[0].mean, 8e-3, 8e-3);
+    const FitScale scale = chooseFitRadius(pyramid, cells[0].mean, 8e-3, 8e-3, *std::make_unique<FitCells>());
     EXPECT_GT(scale.radius, 0.0);
     EXPECT_TRUE(std::isfinite(scale.radius));
     EXPECT_TRUE(std::isfinite(scale.noise));

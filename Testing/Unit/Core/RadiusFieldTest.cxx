@@ -29,6 +29,14 @@ CellPyramid sheet()
   return pyramid;
 }
 
+LocalScale scaleOf(double radius, double gate)
+{
+  LocalScale scale;
+  scale.radius = radius;
+  scale.gate = gate;
+  return scale;
+}
+
 std::size_t nodes(const CellPyramid& pyramid)
 {
   return pyramid.level(RadiusField::nodeLevel(pyramid)).cells.size();
@@ -50,7 +58,7 @@ TEST(RadiusField, OfEqualValuesIsConstant)
 {
   const CellPyramid pyramid = sheet();
   RadiusField field;
-  field.build(pyramid, std::vector<LocalScale>(nodes(pyramid), { 0.003, 0.001 }));
+  field.build(pyramid, std::vector<LocalScale>(nodes(pyramid), scaleOf(0.003, 0.001)));
   for (const Vec3& p : trial::randomBox(500, 2, { -0.05, -0.05, -0.05 }, { 0.15, 0.15, 0.05 }))
   {
     EXPECT_NEAR(field.at(pyramid, p).radius, 0.003, 1e-15);
@@ -65,7 +73,7 @@ TEST(RadiusField, StaysBetweenItsSmallestAndLargestValue)
   std::vector<LocalScale> values;
   for (std::size_t i = 0; i < nodes(pyramid); ++i)
   {
-    values.push_back({ random.uniform(0.002, 0.02), random.uniform(0.0, 0.001) });
+    values.push_back(scaleOf(random.uniform(0.002, 0.02), random.uniform(0.0, 0.001)));
   }
   RadiusField field;
   field.build(pyramid, values);
@@ -82,10 +90,10 @@ TEST(RadiusField, StaysBetweenItsSmallestAndLargestValue)
 TEST(RadiusField, IsTypicalFarFromEveryNode)
 {
   const CellPyramid pyramid = sheet();
-  std::vector<LocalScale> values(nodes(pyramid), { 0.003, 0.001 });
+  std::vector<LocalScale> values(nodes(pyramid), scaleOf(0.003, 0.001));
   for (std::size_t i = 0; i < values.size() / 3; ++i)
   {
-    values[i] = { 0.004, 0.002 };
+    values[i] = scaleOf(0.004, 0.002);
   }
   RadiusField field;
   field.build(pyramid, values);
@@ -103,7 +111,7 @@ TEST(RadiusField, AJumpOfRadiiIsCutToHalfTheDistance)
   std::vector<LocalScale> values;
   for (const Cell& cell : cells)
   {
-    values.push_back({ cell.mean.x < 0.05 ? 0.001 : 0.05, 0.0 });
+    values.push_back(scaleOf(cell.mean.x < 0.05 ? 0.001 : 0.05, 0.0));
   }
   RadiusField field;
   field.build(pyramid, values);
@@ -126,7 +134,7 @@ TEST(RadiusField, IsContinuousAcrossTheReachOfItsNodes)
   std::vector<LocalScale> values;
   for (std::size_t i = 0; i < nodes(pyramid); ++i)
   {
-    values.push_back({ random.uniform(0.002, 0.004), random.uniform(0.0, 0.001) });
+    values.push_back(scaleOf(random.uniform(0.002, 0.004), random.uniform(0.0, 0.001)));
   }
   RadiusField field;
   field.build(pyramid, values);

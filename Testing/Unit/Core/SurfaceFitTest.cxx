@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 using namespace pointhaptics;
 
@@ -35,6 +36,12 @@ std::vector<Vec3> sampled(
     points.push_back(frame.toWorld({ x, y, q.height(x, y) }));
   }
   return points;
+}
+
+SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings)
+{
+  const auto memory = std::make_unique<FitCells>();
+  return pointhaptics::fitSurface(pyramid, frame, settings, *memory);
 }
 
 CellPyramid resampled(const std::vector<Vec3>& points, double voxelSize)
@@ -246,6 +253,7 @@ TEST(SurfaceFit, TellsTheNoiseOfTheCloudAndItsOwnErrors)
   const CellPyramid pyramid = resampled(sphere(300000, 0.025, 6, noise), 1e-3 / 3);
   FitSettings settings;
   settings.radius = 2e-3;
+  const auto memory = std::make_unique<FitCells>();
   trial::Random random(12);
   double variance = 0.0;
   double actual[3] = { 0, 0, 0 };
@@ -254,7 +262,8 @@ TEST(SurfaceFit, TellsTheNoiseOfTheCloudAndItsOwnErrors)
   {
     const Vec3 direction = random.direction();
     SurfaceFitError error;
-    const SurfaceFit fit = fitSurface(pyramid, frameAlong(direction, 0.025 * direction), settings, error);
+    const SurfaceFit fit =
+      pointhaptics::fitSurface(pyramid, frameAlong(direction, 0.025 * direction), settings, *memory, error);
     ASSERT_EQ(fit.quality, FitQuality::Quadric);
     variance += error.noise * error.noise / 100;
     const double found[3] = { fit.radius * fit.k[0], fit.k[1], fit.k[2] };
@@ -361,6 +370,7 @@ TEST(PrincipalNormal, RefusesLinesAndEmptiness)
 TEST(SettleOnSurface, FindsTheSphereItsNormalAndItsCurvature)
 {
   const CellPyramid pyramid = resampled(sphere(300000, 0.025, 10), 1e-3 / 3);
+  const auto memory = std::make_unique<FitCells>();
   trial::Random random(11);
   for (int i = 0; i < 50; ++i)
   {
@@ -368,11 +378,29 @@ TEST(SettleOnSurface, FindsTheSphereItsNormalAndItsCurvature)
     SurfaceFrame frame = frameAlong(normalized(direction + 0.1 * random.direction()), {});
     SurfaceFit fit;
     double curvature[3];
-    ASSERT_TRUE(settleOnSurface(pyramid, (0.025 + 5e-5) * direction, 1.5e-3, frame, fit, curvature));
+    ASSERT_TRUE(
+      settleOnSurface(pyramid, (0.025 + 5e-5) * direction, 1.5e-3, 6e-4, *memory, frame, fit, curvature));
     EXPECT_NEAR(norm(frame.origin), 0.025, 2e-8);
     EXPECT_GE(dot(frame.normal, normalized(frame.origin)), std::cos(2e-4));
     EXPECT_NEAR(curvature[0], -20.0, 0.2) << "-1/(2R) along a";
     EXPECT_NEAR(curvature[2], -20.0, 0.2) << "-1/(2R) along b";
     EXPECT_NEAR(curvature[1], 0.0, 0.2);
+  }
+}
+
+TEST(SettleOnSurface, StaysOnTheSheetItBeginsOn)
+{
+  std::vector<Vec3> points = trial::randomBox(40000, 21, { -0.02, -0.02, 0 }, { 0.02, 0.02, 0 });
+  const std::vector<Vec3> below = trial::randomBox(40000, 22, { -0.02, -0.02, -8e-4 }, { 0.02, 0.02, -8e-4 });
+  points.insert(points.end(), below.begin(), below.end());
+  const CellPyramid pyramid = resampled(points, 1e-3 / 3);
+  const auto memory = std::make_unique<FitCells>();
+  for (const double sheet : { 0.0, -8e-4 })
+  {
+    SurfaceFrame frame;
+    SurfaceFit fit;
+    double curvature[3];
+    ASSERT_TRUE(settleOnSurface(pyramid, { 1e-3, 2e-3, sheet }, 3e-3, 5e-4, *memory, frame, fit, curvature));
+    EXPECT_NEAR(frame.origin.z, sheet, 1e-9);
   }
 }

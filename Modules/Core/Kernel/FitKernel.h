@@ -1,0 +1,169 @@
+/// @file
+/// The inner loops of the local surface fit, one version per instruction set. Private to Core: SurfaceFit
+/// drives them. All versions give the same bits: eight lanes, joined in one order, no fused multiply-adds.
+#pragma once
+
+#include "Core/InstructionSet.h"
+#include "Core/Vector3.h"
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+constexpr int kFitLanes = 8;
+
+/// Cells near a center, each quantity in an array of its own; positions relative to the center.
+struct alignas(64) FitBlock
+{
+  static constexpr int kCapacity = 1024;
+
+  double x[kCapacity];
+  double y[kCapacity];
+  double z[kCapacity];
+  double count[kCapacity];
+  double xx[kCapacity];
+  double xy[kCapacity];
+  double xz[kCapacity];
+  double yy[kCapacity];
+  double yz[kCapacity];
+  double zz[kCapacity];
+  int size = 0;
+  int level = -1; ///< -1: holds nothing.
+  Vec3 center;
+  double reach = 0.0; ///< All cells nearer to the center than this are here.
+
+  void set(int i, const Vec3& p, double n, const SymMat3& c)
+  {
+    x[i] = p.x;
+    y[i] = p.y;
+    z[i] = p.z;
+    count[i] = n;
+    xx[i] = c.xx;
+    xy[i] = c.xy;
+    xz[i] = c.xz;
+    yy[i] = c.yy;
+    yz[i] = c.yz;
+    zz[i] = c.zz;
+  }
+  /// A cell without weight.
+  void clear(int i) { set(i, Vec3(), 0.0, SymMat3()); }
+};
+
+/// Nodes of the field of fit radii near a center.
+struct alignas(64) FieldBlock
+{
+  static constexpr int kCapacity = 128;
+
+  double x[kCapacity];
+  double y[kCapacity];
+  double z[kCapacity];
+  double present[kCapacity]; ///< 1, or 0 in the padding.
+  double radius[kCapacity];
+  double gate[kCapacity];
+  double countRadius[kCapacity];
+  double proxyRadius[kCapacity];
+  int size = 0;
+  Vec3 center;
+  double reach = -1.0;
+
+  void clear(int i)
+  {
+    x[i] = y[i] = z[i] = present[i] = radius[i] = gate[i] = countRadius[i] = proxyRadius[i] = 0.0;
+  }
+};
+
+struct FieldSums
+{
+  double weights = 0.0;
+  double radius = 0.0;
+  double gate = 0.0;
+  double countRadius = 0.0;
+  double proxyRadius = 0.0;
+  double weightGradient[3] = { 0.0, 0.0, 0.0 };
+  double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Of the sum of weight times radius.
+};
+
+/// Where the fit looks from; lengths of the block's unit.
+struct FitView
+{
+  Vec3 origin; ///< Relative to the block's center.
+  Vec3 a;
+  Vec3 b;
+  Vec3 normal;
+  double radius = 0.0;
+  double share = 1.0; ///< Of this level in the fit.
+  double gate = 0.0;  ///< Over the radius; 0: none.
+  bool twoSidedGate = false;
+  double bend[3] = { 0.0, 0.0, 0.0 };
+};
+
+/// One row per cell with its terms P, height, weights; lengths over the radius.
+struct alignas(64) FitRows
+{
+  static constexpr int kCapacity = 2 * FitBlock::kCapacity;
+
+  double u[kCapacity];
+  double v[kCapacity];
+  double uu[kCapacity];
+  double uv[kCapacity];
+  double vv[kCapacity];
+  double height[kCapacity];
+  double weight[kCapacity];      ///< n g (1 - e)^4
+  double slopeWeight[kCapacity]; ///< 4 n g (1 - e)^3
+  double e[kCapacity];
+  double can[kCapacity]; ///< a'C n
+  double cbn[kCapacity]; ///< b'C n
+  double count[kCapacity];
+  int size = 0; ///< A multiple of kFitLanes; rows without a cell have weight 0.
+};
+
+/// Sums of W P P' (lower triangle, row by row), W P z, W z z, and how many weights are above 0.
+struct FitSums
+{
+  double a[21];
+  double rhs[6];
+  double zz;
+  double cells;
+};
+
+/// What a moving origin does to the normal equations' right-hand sides; see traceSlopes().
+struct TraceSums
+{
+  double moveA[6];
+  double moveB[6];
+  double turnA[6];
+  double turnB[6];
+};
+
+/// Sums of weights count (1 - d^2/radius^2)^4 and of weight times place.
+struct CentroidSums
+{
+  double weights;
+  double place[3];
+};
+
+struct FitKernels
+{
+  /// Appends a row for each cell of @p block. Groups of cells beyond the radius may be left out.
+  void (*appendRows)(const FitBlock& block, const FitView& view, FitRows& rows);
+  void (*sumRows)(const FitRows& rows, FitSums& sums);
+  /// @param k the fit; @param ra, rb gradient of the radius along a and b.
+  void (*traceRows)(const FitRows& rows, const double* k, double ra, double rb, TraceSums& sums);
+  /// Of the cells within @p radius of @p origin, both places relative to the block's center, the second to the
+  /// origin.
+  void (*sumPlaces)(const FitBlock& block, const Vec3& origin, double radius, CentroidSums& sums);
+  /// Weights (1 - d^2/reach^2)^3 of the nodes about @p position, relative to the block's center.
+  void (*sumField)(const FieldBlock& block, const Vec3& position, double reach, FieldSums& sums);
+};
+
+/// Those of usableInstructionSet(@p wanted).
+const FitKernels& fitKernels(InstructionSet wanted = InstructionSet::Automatic) noexcept;
+
+const FitKernels& baselineFitKernels();
+/// Null where the compiler or the processor family lacks them.
+const FitKernels* avx2FitKernels();
+const FitKernels* avx512FitKernels();
+
+} // namespace kernel
+} // namespace pointhaptics
