@@ -27,7 +27,7 @@ namespace
 /// Every task there is.
 std::vector<BenchTask> allTasks()
 {
-  return { resampleTask() };
+  return { resampleTask(), proxyTask(), frictionTask() };
 }
 
 constexpr std::int64_t kMostRepetitions = 10000;
@@ -123,6 +123,10 @@ int runBench(const BenchRun& run, const BenchOptions& options, const CLI::App& c
     }
   };
   BenchOutcome outcome = run(settingsOf(options), progress);
+  if (outcome.report.parts.empty() && !outcome.wrong.empty())
+  {
+    return fail(who, outcome.wrong);
+  }
   outcome.report.command = commandText(command);
   if (options.json)
   {

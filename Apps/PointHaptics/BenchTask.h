@@ -31,7 +31,8 @@ struct BenchSettings
 struct BenchOutcome
 {
   bench::Report report; ///< Without its command, which is filled in afterwards.
-  std::string wrong;    ///< Which answer of ours is wrong and where to look; empty: none is.
+  std::string wrong;    ///< Which answer of ours is wrong and where to look; empty: none is. With a report
+                        ///< without parts: why nothing could be measured.
 };
 
 /// Measures. Called once, after the command line was parsed.
@@ -48,6 +49,8 @@ struct BenchTask
 };
 
 BenchTask resampleTask();
+BenchTask proxyTask();
+BenchTask frictionTask();
 
 } // namespace app
 } // namespace pointhaptics

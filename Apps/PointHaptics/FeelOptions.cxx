@@ -1,5 +1,6 @@
 #include "FeelOptions.h"
 
+#include "Messages.h"
 #include "OptionParsing.h"
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,7 @@ namespace
 
 enum Preset : int
 {
-  kTuned,
+  kTuned = 1,
   kPaper,
 };
 
@@ -37,7 +38,7 @@ void FeelOptions::addTo(CLI::App& command)
       { "gradient-steps", static_cast<int>(ProxyMethod::GradientSteps) } },
     "How the proxy meets the surface; default surface-fit");
   addChoice(command, "--preset", this->preset, { { "tuned", kTuned }, { "paper", kPaper } },
-    "Gains of gradient-steps; default tuned");
+    "Gains of --method gradient-steps; default tuned");
   addNumber(command, "--stiffness", contact.stiffness, { 0.0, 1e5 }, "N_PER_M", "Spring; default 800");
   addNumber(command, "--damping", contact.damping, { 0.0, 1e3 }, "N_S_PER_M",
     "Of the hand's speed along the normal, in contact; default 0");
@@ -65,6 +66,10 @@ void FeelOptions::complete()
       fmt::format("above --mu-s {}; give mu_d <= mu_s", contact.staticFriction));
   }
   this->parameters.method = static_cast<ProxyMethod>(this->method);
+  if (this->preset != 0 && this->parameters.method != ProxyMethod::GradientSteps)
+  {
+    warn("feel", kPresetIsIdle);
+  }
   if (this->preset == kPaper)
   {
     this->parameters.gradientSteps = GradientStepsParameters::paper();

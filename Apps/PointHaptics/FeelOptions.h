@@ -35,12 +35,12 @@ struct FeelOptions
   /// Adds the options to @p command; bad values end the parse with a usage error.
   void addTo(CLI::App& command);
   /// What can only be said once all options are known: the preset's gains, mu_s where only mu_d is given.
-  /// Ends in a usage error where they contradict each other.
+  /// Ends in a usage error where they contradict each other; warns of one that has no effect.
   void complete();
 
 private:
   int method = 0;
-  int preset = 0;
+  int preset = 0; ///< 0: not given.
   double staticFriction = -1.0;
   double dynamicFriction = -1.0;
 };

@@ -21,6 +21,10 @@ namespace pointhaptics
 namespace app
 {
 
+/// Warning for --preset with another method than the one that has gains.
+constexpr const char* kPresetIsIdle =
+  "--preset has no effect on --method surface-fit; give --method gradient-steps too, or leave it out";
+
 /// Stands for "any finite number" as a maximum.
 constexpr double kUnbounded = 1e300;
 

@@ -1,5 +1,6 @@
 #include "ViewOptions.h"
 
+#include "Messages.h"
 #include "OptionParsing.h"
 
 #include <CLI/CLI.hpp>
@@ -150,7 +151,7 @@ void addTouchOptions(CLI::App& command, ViewOptions& options)
     addWord(command, "--method", options.method, { "surface-fit", "gradient-steps" },
       "How the proxy follows the surface; default surface-fit"),
     addWord(command, "--preset", options.preset, { "tuned", "paper" },
-      "Gains of gradient-steps; default tuned, paper for the printed ones"),
+      "Gains of --method gradient-steps; default tuned, paper for the printed ones"),
     addNumber(command, "--stiffness", options.contact.stiffness, { 0.0, 1e5 }, "N_PER_M",
       "Stiffness of the surface; default 800"),
     addNumber(command, "--damping", options.contact.damping, { 0.0, 1e3 }, "N_S_PER_M",
@@ -255,6 +256,10 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
   for (const char* name : { "--unit", "--scale", "--matrix", "--translate", "--workspace" })
   {
     this->fitsWorkspace = this->fitsWorkspace && command.get_option(name)->count() == 0;
+  }
+  if (command.get_option("--preset")->count() > 0 && this->method != "gradient-steps")
+  {
+    warn("view", kPresetIsIdle);
   }
   this->contact.staticFriction =
     this->staticFriction >= 0.0 ? this->staticFriction : this->contact.dynamicFriction;

@@ -47,6 +47,7 @@ GradientStepsParameters GradientStepsParameters::tuned()
   parameters.freeGain = 0.5;
   parameters.normalGain = 1.0;
   parameters.tangentGain = 0.3;
+  parameters.sinkTolerance = 0.1;
   parameters.largestStep = 0.02;
   parameters.normalizedByDensity = true;
   return parameters;

@@ -35,6 +35,15 @@ constexpr double kSeekAgain = 0.05;
 constexpr double kFootSlack = 0.1;
 /// The surface is looked at for a rim each time the contact has gone this part of the counting radius.
 constexpr double kRimStride = 0.1;
+constexpr int kFrictionRounds = 4;
+
+/// Of a spring's pull the part along a surface over that across it; infinite where nothing presses.
+double pullRatio(const Vec3& pull, const Vec3& normal) noexcept
+{
+  const double across = dot(pull, normal);
+  const double along = norm(pull - across * normal);
+  return across > 0.0 ? along / across : along > 0.0 ? INFINITY : 0.0;
+}
 
 }
 
@@ -326,8 +335,9 @@ SurfaceFitProxy::Rim SurfaceFitProxy::meetRim(
   return Rim::Ended;
 }
 
-/// Coulomb friction as a cone: sticks while the tangential offset is within mu_s depth, else slides on the
-/// rim of mu_d depth.
+/// Coulomb friction as a cone about the normal at the contact point, wherever that is on a curved surface:
+/// sticks while the spring's pull along the surface is within mu_s of that across it, else slides to where it
+/// is mu_d of it.
 void SurfaceFitProxy::applyFriction(const ContactParameters& parameters, const Vec3& hip) noexcept
 {
   const Vec3 foot = tracker_.point();
@@ -344,19 +354,30 @@ void SurfaceFitProxy::applyFriction(const ContactParameters& parameters, const V
     contactPoint_ = foot;
     return;
   }
-  const double depth = std::max(0.0, -tracker_.height(hip));
   const Vec3 offset = contactPoint_ - foot;
   const Vec3 tangential = offset - dot(offset, tracker_.normal()) * tracker_.normal();
   const double length = norm(tangential);
-  const double hold = (sticking_ ? parameters.staticFriction : parameters.dynamicFriction) * depth;
-  sticking_ = length <= hold;
-  if (sticking_)
+  Vec3 normal;
+  tracker_.alongSurface(tangential, contactPoint_, normal);
+  const double hold = sticking_ ? parameters.staticFriction : parameters.dynamicFriction;
+  sticking_ = pullRatio(contactPoint_ - hip, normal) <= hold;
+  if (sticking_ || !(length > 0.0))
   {
-    contactPoint_ = tracker_.alongSurface(tangential);
     return;
   }
-  const double slide = parameters.dynamicFriction * depth;
-  contactPoint_ = tracker_.alongSurface((slide / length) * tangential);
+  // The ratio is nearly proportional to the way from the foot.
+  double slide = std::min(length, parameters.dynamicFriction * std::max(0.0, -tracker_.height(hip)));
+  for (int round = 0; round < kFrictionRounds; ++round)
+  {
+    tracker_.alongSurface((slide / length) * tangential, contactPoint_, normal);
+    const double ratio = pullRatio(contactPoint_ - hip, normal);
+    if (!(ratio > 0.0))
+    {
+      break;
+    }
+    slide = std::clamp(slide * parameters.dynamicFriction / ratio, 0.0, length);
+  }
+  tracker_.alongSurface((slide / length) * tangential, contactPoint_, normal);
 }
 
 } // namespace pointhaptics

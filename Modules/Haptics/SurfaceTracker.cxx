@@ -17,6 +17,8 @@ constexpr double kAwaySlack = 1e-3;
 /// A point that moves further than this many fit radii from where it started has lost its sheet.
 constexpr double kLostRadii = 2.0;
 constexpr int kAcquireRounds = 8;
+/// Part of the fit radius in which the fit stands for the surface.
+constexpr double kReach = 0.5;
 /// Weighted centroid over the fit radius beyond which the surface may end here (0.235 on a straight rim).
 constexpr double kRimCentroid = 0.15;
 /// How far, in index cells, points on the empty side may reach at a rim.
@@ -282,18 +284,15 @@ bool SurfaceTracker::turnAroundEdge(
   return false;
 }
 
-Vec3 SurfaceTracker::alongSurface(const Vec3& t) const noexcept
+void SurfaceTracker::alongSurface(const Vec3& t, Vec3& point, Vec3& normal) const noexcept
 {
-  const double limit = 0.5 * fit_.radius;
-  const double u = dot(t, frame_.a);
-  const double v = dot(t, frame_.b);
-  const double length = std::hypot(u, v);
-  // Past the fit's reach its curvature says nothing: go on along the tangent there.
-  const double scale = length > limit ? limit / length : 1.0;
-  const double cu = scale * u;
-  const double cv = scale * v;
-  const double rise = curvature_[0] * cu * cu + curvature_[1] * cu * cv + curvature_[2] * cv * cv;
-  return frame_.origin + u * frame_.a + v * frame_.b + rise * frame_.normal;
+  const Vec3 local = (1.0 / fit_.radius) * fitFrame_.toLocal(frame_.origin + t);
+  const double length = std::hypot(local.x, local.y);
+  const double scale = length > kReach ? kReach / length : 1.0;
+  pointAt(fit_, fitFrame_, scale * local.x, scale * local.y, point, normal);
+  // Past the fit's reach its curvature says nothing.
+  const Vec3 rest = (1.0 - scale) * fit_.radius * (local.x * fitFrame_.a + local.y * fitFrame_.b);
+  point += rest - dot(rest, normal) * normal;
 }
 
 } // namespace pointhaptics

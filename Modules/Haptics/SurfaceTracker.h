@@ -47,8 +47,9 @@ public:
   double height(const Vec3& p) const noexcept { return dot(p - frame_.origin, frame_.normal); }
   const Vec3& point() const noexcept { return frame_.origin; }
   const Vec3& normal() const noexcept { return frame_.normal; }
-  /// The surface point above the tangent offset @p t from point(), by the last fit's curvature.
-  Vec3 alongSurface(const Vec3& t) const noexcept;
+  /// The surface point above the tangent offset @p t from point(), and the normal there, by the last fit;
+  /// past half a fit radius along the tangent there.
+  void alongSurface(const Vec3& t, Vec3& point, Vec3& normal) const noexcept;
   /// RMS distance of the cells from the last fit: the noise, metres.
   double residual() const noexcept { return fit_.residual; }
   double fitRadius() const noexcept { return fit_.radius; }

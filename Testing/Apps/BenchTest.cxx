@@ -103,6 +103,74 @@ TEST_F(Bench, TheReportIsAPageThatKeepsItsOtherSections)
   EXPECT_EQ(outcome.errors.find("without pictures") == std::string::npos, hasDisplay);
 }
 
+TEST_F(Bench, TheProxyIsJudgedOnEveryPathAndMethod)
+{
+  const json result = json::parse(this->succeed({ "bench", "proxy", "--quick", "--json" }));
+  for (const json& row : result["shapes"]["rows"])
+  {
+    const bool clean = row["noise_metres"] == 0.0;
+    EXPECT_LT(row["rms_percent"], clean ? 0.01 : 0.5) << row;
+    EXPECT_GT(row["rms_percent"], 0.0) << row;
+    EXPECT_GE(row["max_percent"], row["rms_percent"]) << row;
+    EXPECT_EQ(row["pop_throughs"], 0) << row;
+    EXPECT_GT(row["p50_us"], 0.0) << row;
+    EXPECT_LE(row["p50_us"], row["p99_us"]) << row;
+    EXPECT_LE(row["p99_us"], row["max_us"]) << row;
+  }
+  EXPECT_EQ(result["shapes"]["rows"].size(), 2u * 2u);
+  EXPECT_EQ(result["paths"]["rows"].size(), 2u * 4u);
+  double ours = 0.0;
+  double papers = 0.0;
+  for (const json& row : result["methods"]["rows"])
+  {
+    if (row["noise_metres"] == 0.0)
+    {
+      (row["method"] == "surface-fit (default)" ? ours : papers) = row["rms_percent"];
+    }
+  }
+  EXPECT_LT(ours, 0.2);
+  EXPECT_GT(papers, 100.0) << "the printed gains do not follow a hand";
+  EXPECT_EQ(result["validation"]["rows"].size(), 4u);
+  EXPECT_EQ(result["size"]["rows"].size(), 2u);
+  EXPECT_FALSE(result.contains("scans")) << "none was given";
+}
+
+TEST_F(Bench, ScansAreFeltAndMeshesAreTheirJudges)
+{
+  this->succeed({ "generate", "sphere", "-n", "20000", "-o", "ball.ply" });
+  this->write("tetra.ply",
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+    "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+  const json result = json::parse(this->succeed({ "bench", "proxy", "--quick", "--json", "--studies",
+    "scans,meshes", "--scans", "ball.ply,tetra.ply", "--strokes", "2" }));
+  ASSERT_EQ(result["scans"]["rows"].size(), 4u);
+  for (const json& row : result["scans"]["rows"])
+  {
+    EXPECT_EQ(row["drops"], 0) << row;
+    EXPECT_EQ(row["not_finite"], 0) << row;
+    EXPECT_LE(row["largest_change_newton"], 0.1 + 1e-6) << row;
+  }
+  EXPECT_EQ(result["scans"]["rows"][0]["strokes"], 2);
+  ASSERT_EQ(result["meshes"]["rows"].size(), 1u);
+  EXPECT_EQ(result["meshes"]["rows"][0]["triangles"], 4);
+  this->refuse(1, { "bench", "proxy", "--quick", "--scans", "none.ply" }, { "none.ply" });
+}
+
+TEST_F(Bench, FrictionIsJudgedAtEverySpeed)
+{
+  const json result = json::parse(this->succeed({ "bench", "friction", "--quick", "--json" }));
+  ASSERT_EQ(result["ratio"]["rows"].size(), 2u * 2u);
+  for (const json& row : result["ratio"]["rows"])
+  {
+    if (row["method"] == "surface-fit")
+    {
+      EXPECT_NEAR(row["mean_ratio"].get<double>(), 0.3, 3e-4) << row;
+      EXPECT_LE(row["peak"].get<double>(), 0.4 * (1 + 1e-6)) << row;
+    }
+  }
+}
+
 TEST_F(Bench, HelpAndVersionWorkOnBothLevels)
 {
   EXPECT_NE(this->succeed({ "--help" }).find("bench"), std::string::npos);
@@ -125,7 +193,9 @@ TEST_F(Bench, BadOptionsAreUsageErrors)
   refuseOption("--repetitions", "0", "from 1 to");
   refuseOption("--rivals", "cgal", "vtk");
   refuseOption("--studies", "speed", "accumulators");
-  this->refuse(2, { "bench" }, { "pointhaptics bench: ", "resample", "--help" });
+  this->refuse(2, { "bench", "proxy", "--shapes", "idol" }, { "bench proxy", "idol", "torus" });
+  this->refuse(2, { "bench", "proxy", "--strokes", "0" }, { "bench proxy", "--strokes" });
+  this->refuse(2, { "bench" }, { "pointhaptics bench: ", "resample", "proxy", "--help" });
   this->refuse(2, { "bench", "sorting" }, { "bench", "sorting" });
 }
 

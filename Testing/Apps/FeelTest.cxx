@@ -230,6 +230,23 @@ TEST_F(Feel, DynamicFrictionAloneSetsTheStaticOne)
   EXPECT_NEAR(-out.at("force_x").back() / out.at("force_z").back(), 0.3, 0.003);
 }
 
+TEST_F(Feel, APresetWithoutItsMethodIsWarnedOf)
+{
+  this->succeed({ "generate", "plane", "-n", "5000", "-o", "plane.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,0,0,0.002\n0.01,0,0,0.001\n");
+  const std::vector<std::string> words = { "feel", "plane.ply", "--path", "hip.csv", "-o", "out.csv" };
+  const auto errorsWith = [&](std::vector<std::string> options)
+  {
+    options.insert(options.begin(), words.begin(), words.end());
+    const auto outcome = this->run(options);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+    return outcome.errors;
+  };
+  EXPECT_NE(errorsWith({ "--preset", "tuned" }).find("--method gradient-steps"), std::string::npos);
+  EXPECT_EQ(errorsWith({ "--preset", "paper", "--method", "gradient-steps" }), "");
+  EXPECT_EQ(errorsWith({}), "");
+}
+
 TEST_F(Feel, TheSummaryTellsTicksContactForceAndTime)
 {
   this->succeed({ "generate", "plane", "-n", "20000", "-o", "plane.ply" });
