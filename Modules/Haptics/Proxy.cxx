@@ -68,7 +68,7 @@ struct Proxy::Implementation
   {
     const double shrink = stiffness > 0.0 ? parameters.contact.settleRate * dt / stiffness : INFINITY;
     const Vec3 offset = state.contact ? state.proxy - state.hip : Vec3();
-    const Vec3 felt = settler.settle(offset, hasLastHip ? norm(state.hip - lastHip) : INFINITY, shrink);
+    const Vec3 felt = settler.settle(offset, hasLastHip ? norm(state.hip - lastHip) : 0.0, shrink);
     if (settler.settling())
     {
       state.proxy = state.hip + felt;

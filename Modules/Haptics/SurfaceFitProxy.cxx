@@ -11,7 +11,7 @@ namespace
 /// A stride of the HIP along its segment, over the fit radius: a surface changes little within it.
 constexpr double kStrideRadii = 0.4;
 /// Strides one tick may walk; the rest of a longer jump is caught up over the next ticks.
-constexpr int kMaximumStrides = 512;
+constexpr int kMaximumStrides = 128;
 /// Times one tick may look for a new sheet.
 constexpr int kMaximumAcquisitions = 2;
 /// A sheet is watched when the HIP is nearer than this, over the fit radius.

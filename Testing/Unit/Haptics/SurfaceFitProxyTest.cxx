@@ -339,6 +339,37 @@ TEST(SurfaceFitProxy, SlidesWithTheDynamicFrictionAtAnySpeed)
   }
 }
 
+TEST(SurfaceFitProxy, SlidesWithTheDynamicFrictionOnCurvedSurfacesToo)
+{
+  const struct
+  {
+    trial::Scene scene;
+    Vec3 (*normalAt)(const Vec3& onSurface);
+    trial::Path path;
+    double tolerance;
+  } cases[] = { { trial::resampledScene(trial::spherePoints(300000, 29)),
+                  [](const Vec3& p) { return normalized(p); }, trial::sphereSlide(1e-3, 0.05, 400), 1e-4 },
+    { trial::resampledScene(trial::torusPoints(300000, 30)),
+      [](const Vec3& p) {
+        return normalized(p - trial::kRingRadius * normalized({ p.x, p.y, 0 }));
+      },
+      closedPath(torusCourse, { 0.04, 0, 0.01 }, 2000, 1), 1e-3 } };
+  for (const auto& c : cases)
+  {
+    const auto states = trial::feel(c.scene, withFriction(0.4, 0.3), c.path);
+    double squares = 0.0;
+    for (std::size_t i = 250; i < states.size(); ++i)
+    {
+      const Vec3 n = c.normalAt(states[i].proxy);
+      const double across = dot(states[i].force, n);
+      const double error = norm(states[i].force - across * n) / across / 0.3 - 1.0;
+      ASSERT_LE(std::abs(error), 4.0 * c.tolerance) << "tick " << i;
+      squares += error * error / double(states.size() - 250);
+    }
+    EXPECT_LE(trial::recorded("frictionError", std::sqrt(squares)), c.tolerance);
+  }
+}
+
 TEST(SurfaceFitProxy, SticksBelowTheStaticFriction)
 {
   const trial::Scene scene = trial::resampledScene(trial::planePoints(100000, 15));
