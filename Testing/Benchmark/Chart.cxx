@@ -33,6 +33,8 @@ namespace bench
 namespace
 {
 
+/// A line of more points is drawn without their marks: they would hide it.
+constexpr vtkIdType kMostMarks = 60;
 /// Okabe and Ito's palette: told apart with every kind of colour vision.
 constexpr unsigned char kColors[8][3] = { { 0, 0, 0 }, { 213, 94, 0 }, { 0, 114, 178 }, { 0, 158, 115 },
   { 204, 121, 167 }, { 230, 159, 0 }, { 86, 180, 233 }, { 120, 120, 120 } };
@@ -169,7 +171,8 @@ void addSeries(vtkChartXY* chart, vtkTable* table, const Series& series, std::si
   plot->SetWidth(2.5f);
   if (auto* points = vtkPlotPoints::SafeDownCast(plot))
   {
-    points->SetMarkerStyle(kMarks[index % 3]);
+    const bool dense = joined && table->GetNumberOfRows() > kMostMarks;
+    points->SetMarkerStyle(dense ? int(vtkPlotPoints::NONE) : int(kMarks[index % 3]));
     points->SetMarkerSize(joined ? 9.0f : 14.0f);
   }
 }

@@ -23,7 +23,7 @@ struct Series
   std::string name; ///< In the legend.
   std::vector<double> x;
   std::vector<double> y;
-  bool line = true; ///< Join the points, which are drawn in any case.
+  bool line = true; ///< Join the points, which are marked unless there are very many.
 };
 
 struct Chart

@@ -125,7 +125,10 @@ ReportPart studyValidation(StudyContext& context)
     const Course course = slideCourse(Shape::Sphere, scale);
     Chart forces{ fmt::format("proxy-validation-force-{:.0f}mm", 25 * scale),
       "Force over time, sphere of radius " + size, { "time (s)", false }, { "force (N)", false }, {} };
-    for (const bool paper : { false, true })
+    Chart errors{ fmt::format("proxy-validation-error-{:.0f}mm", 25 * scale),
+      "Length of the force's error over time, sphere of radius " + size, { "time (s)", false },
+      { "error (N)" }, {} };
+    for (const bool paper : { true, false })
     {
       const HapticParameters parameters =
         paper ? gradientSteps(GradientStepsParameters::tuned()) : HapticParameters();
@@ -139,10 +142,12 @@ ReportPart studyValidation(StudyContext& context)
       for (std::size_t i = 0; i < course.hip.size(); i += stride)
       {
         const double time = double(i) * kTickSeconds;
+        const Vec3 ideal = scaledSphere(scale)(course.hip[i]).force;
         addPoint(forces.series, name, time, norm(trial.states[i].force));
+        addPoint(errors.series, name, time, norm(trial.states[i].force - ideal));
         if (paper)
         {
-          addPoint(forces.series, "ideal", time, norm(scaledSphere(scale)(course.hip[i]).force));
+          addPoint(forces.series, "ideal", time, norm(ideal));
         }
         else
         {
@@ -151,6 +156,7 @@ ReportPart studyValidation(StudyContext& context)
       }
     }
     part.charts.push_back(std::move(forces));
+    part.charts.push_back(std::move(errors));
   }
   part.charts.push_back(std::move(radii));
   return part;

@@ -1,5 +1,7 @@
 #include "Benchmark/Proxy/Scenes.h"
 
+#include "Core/LocalBandwidth.h"
+#include "Core/NeighborQuery.h"
 #include "Core/VoxelMean.h"
 
 #include <fmt/format.h>
@@ -59,8 +61,13 @@ Scene sceneOf(const std::vector<Vec3>& points, const SceneSettings& settings)
   {
     return nullptr;
   }
-  Status status = Status::Ok;
-  return HapticScene::create(std::move(input), status);
+  // The proxy's radius from the bandwidth, as the program does.
+  const PointView felt(input.points.data(), std::int64_t(input.points.size()));
+  NeighborQuery query;
+  query.build(felt);
+  std::vector<double> bandwidths;
+  Status status = localBandwidths(felt, query, {}, bandwidths, input.proxyRadii);
+  return status == Status::Ok ? HapticScene::create(std::move(input), status) : nullptr;
 }
 
 std::vector<Vec3> pointsOf(Shape shape, std::int64_t count, double noise)
