@@ -15,17 +15,22 @@ namespace pointhaptics
 enum ProxyStatus : std::uint32_t
 {
   kProxyOk = 0,
-  kProxyNonFiniteInput = 1u << 0, ///< The HIP was NaN or infinite: last state held, force faded out.
-  kProxyRoundLimit = 1u << 1,     ///< The foot point did not converge within the rounds of one step.
-  kProxyStepLimit =
-    1u << 2, ///< The HIP moved further than one step can follow; it is caught up over the next.
-  kProxyLostSurface = 1u << 3,    ///< No fit where the surface was: held, then let go.
-  kProxyReleasedAtRim = 1u << 4,  ///< Let go past the edge of an open surface.
-  kProxyNoScene = 1u << 5,        ///< No scene is set.
-  kProxySettling = 1u << 7,       ///< The force is behind the surface by the settle rate.
-  kProxyStiffnessLimit = 1u << 8, ///< The stiffness was kept at the passivity limit: a higher rate cures it.
-  kProxyCellLimit =
-    1u << 6, ///< More cells in a fit than there is room for: coarser ones served. Larger voxels.
+  kProxyNonFiniteInput = 1u << 0, ///< The HIP was NaN or infinite: last state held, force faded out. Cure:
+                                  ///< the device.
+  kProxyRoundLimit = 1u << 1,  ///< The foot point did not converge within a step's rounds; it goes on in the
+                               ///< next. Cure: larger voxels (a noisy cloud), or a higher rate.
+  kProxyStepLimit = 1u << 2,   ///< The HIP moved further than one step can follow; it is caught up over the
+                               ///< next. Cure: a higher rate; with GradientSteps maximumStepsPerTick.
+  kProxyLostSurface = 1u << 3, ///< No fit where the surface was: held, then let go. Cure: larger voxels.
+  kProxyReleasedAtRim = 1u << 4,  ///< Let go past the edge of an open surface. Cure, where it is a gap of the
+                                  ///< scan: a larger minimum proxy radius (r1), which does not enter it.
+  kProxyNoScene = 1u << 5,        ///< No scene is set. Cure: setScene().
+  kProxyCellLimit = 1u << 6,      ///< More cells in a fit than there is room for: coarser ones served. Cure:
+                                  ///< larger voxels.
+  kProxySettling = 1u << 7,       ///< The force follows a surface that moved by itself at the limited rate.
+                                  ///< Cure: settleRate.
+  kProxyStiffnessLimit = 1u << 8, ///< The stiffness was kept at the passivity limit. Cure: a higher rate,
+                                  ///< less damping, or a lower stiffness.
 };
 
 /// Result of one step. Frame: workspace; metres and newtons.
@@ -35,7 +40,8 @@ struct ProxyState
   Vec3
     proxy; ///< Contact point: of the proxy sphere, the point nearest the HIP; the HIP itself out of contact.
   Vec3 normal{ 0.0, 0.0, 1.0 }; ///< Outward unit surface normal; out of contact the last one.
-  Vec3 force;                   ///< On the hand: K (proxy - HIP) + damping; 0 out of contact.
+  Vec3 force; ///< On the hand: K (proxy - HIP) + damping; 0 out of contact. With SurfaceFit it changes by at
+              ///< most 2 K |dH| + settleRate dt a step, damping aside.
   Vec3 sphereCenter;   ///< Centre of the sphere to draw: proxy + radius normal in contact, else the HIP (with
                        ///< GradientSteps the sphere itself, which follows the HIP).
   double radius = 0.0; ///< Proxy radius r_p.
@@ -59,9 +65,10 @@ public:
   void setParameters(const HapticParameters& parameters) noexcept;
   const HapticParameters& parameters() const noexcept;
 
-  /// The scene must outlive its use here (SceneExchange sees to it). A proxy in contact is carried along: its
-  /// contact point and normal move with the model from the old scene's transform to the new one's. Null: no
-  /// contact.
+  /// The scene must outlive its use here (SceneExchange sees to it). From the old scene's transform to the
+  /// new one's the contact point and normal move with the model, and so does the HIP of the last step: what
+  /// the model passes the hand with counts as met by the hand, so that a surface never ends up on its wrong
+  /// side. Null: no contact.
   void setScene(const HapticScene* scene) noexcept;
 
   /// Out of contact, no memory of a side; the next HIP is taken as free space.

@@ -21,6 +21,8 @@ constexpr double kNearerCells = 0.5;
 constexpr int kRoundsPerTick = 8;
 constexpr int kRoundsWatching = 3;
 constexpr int kHoldTicks = 20;
+/// While held the sheet is sought again every so many ticks: what failed a moment ago mostly fails again.
+constexpr int kRecoverEvery = 4;
 /// The HIP comes out of a sheet by its own motion, and by no more than this part of the fit radius besides: a
 /// larger jump is the fit's, at a ridge or in noise.
 constexpr double kReleaseSlack = 0.05;
@@ -264,7 +266,7 @@ void SurfaceFitProxy::touch(const HapticScene& scene, const Vec3& to, std::uint3
       return;
     }
     status |= kProxyLostSurface;
-    if (recover(scene, to))
+    if (heldTicks_ % kRecoverEvery == 0 && recover(scene, to))
     {
       heldTicks_ = 0;
     }

@@ -150,8 +150,8 @@ struct FitKernels
   void (*sumRows)(const FitRows& rows, FitSums& sums);
   /// @param k the fit; @param ra, rb gradient of the radius along a and b.
   void (*traceRows)(const FitRows& rows, const double* k, double ra, double rb, TraceSums& sums);
-  /// Of the cells within @p radius of @p origin, both places relative to the block's center, the second to the
-  /// origin.
+  /// Of the cells within @p radius of @p origin, both places relative to the block's center, the second to
+  /// the origin.
   void (*sumPlaces)(const FitBlock& block, const Vec3& origin, double radius, CentroidSums& sums);
   /// Weights (1 - d^2/reach^2)^3 of the nodes about @p position, relative to the block's center.
   void (*sumField)(const FieldBlock& block, const Vec3& position, double reach, FieldSums& sums);

@@ -116,7 +116,8 @@ TEST(FitRadius, StaysNearTheCountRadiusOnACleanPlane)
   CellPyramid pyramid;
   std::vector<std::uint32_t> source;
   ASSERT_EQ(pyramid.build(cells, kVoxel, source), Status::Ok);
-  const FitScale scale = chooseFitRadius(pyramid, pyramid.level(0).cells[10000].mean, 8e-3, 8e-3, *std::make_unique<FitCells>());
+  const FitScale scale =
+    chooseFitRadius(pyramid, pyramid.level(0).cells[10000].mean, 8e-3, 8e-3, *std::make_unique<FitCells>());
   EXPECT_LE(scale.radius, 1.6 * scale.countRadius);
 }
 

@@ -191,6 +191,44 @@ inline Path sphereSlide(double depth, double speed, int ticks)
   return path;
 }
 
+/// Slides around the tube while going around the ring, at depth 1 mm, closed after one turn of the ring.
+inline Vec3 torusCourse(double angle)
+{
+  const double tube = 0.8 + 1.5 * std::sin(angle);
+  const double r = kRingRadius + (kTubeRadius - 1e-3) * std::cos(tube);
+  return { r * std::cos(angle), r * std::sin(angle), (kTubeRadius - 1e-3) * std::sin(tube) };
+}
+
+/// From outside to the course's start, then @p turns closed turns of @p ticks ticks each.
+inline Path closedPath(Vec3 (*course)(double), const Vec3& outside, int ticks, int turns)
+{
+  Path path;
+  for (int i = 0; i < 200; ++i)
+  {
+    path.push_back(outside + (i / 200.0) * (course(0.0) - outside));
+  }
+  for (int i = 0; i <= ticks * turns; ++i)
+  {
+    path.push_back(course(2 * kPi * i / ticks));
+  }
+  return path;
+}
+
+/// Down to @p depth below the plane z = 0, then along x at @p speed.
+inline Path planeSlide(double depth, double speed, int ticks)
+{
+  Path path;
+  for (int i = 0; i <= 100; ++i)
+  {
+    path.emplace_back(-0.02, 0.001, 0.002 - (0.002 + depth) * i / 100);
+  }
+  for (int i = 1; i <= ticks; ++i)
+  {
+    path.emplace_back(-0.02 + i * kTick * speed, 0.001, -depth);
+  }
+  return path;
+}
+
 /// Exact force of a spring of 800 N/m on the outside of the sphere.
 inline Vec3 sphereForce(const Vec3& hip)
 {

@@ -15,34 +15,11 @@ HapticParameters withFriction(double staticFriction, double dynamicFriction)
   return parameters;
 }
 
-/// Slides around the tube while going around the ring, at depth 1 mm, closed after one turn of the ring.
-Vec3 torusCourse(double angle)
-{
-  const double tube = 0.8 + 1.5 * std::sin(angle);
-  const double r = trial::kRingRadius + (trial::kTubeRadius - 1e-3) * std::cos(tube);
-  return { r * std::cos(angle), r * std::sin(angle), (trial::kTubeRadius - 1e-3) * std::sin(tube) };
-}
-
 Vec3 sphereCourse(double angle)
 {
   const double tilt = 0.9 + 0.4 * std::sin(2 * angle);
   return (trial::kSphereRadius - 1e-3 - 3e-4 * std::cos(angle)) *
     Vec3(std::sin(tilt) * std::cos(angle), std::sin(tilt) * std::sin(angle), std::cos(tilt));
-}
-
-/// From outside to the course's start, then @p turns closed turns of @p ticks ticks each.
-trial::Path closedPath(Vec3 (*course)(double), const Vec3& outside, int ticks, int turns)
-{
-  trial::Path path;
-  for (int i = 0; i < 200; ++i)
-  {
-    path.push_back(outside + (i / 200.0) * (course(0.0) - outside));
-  }
-  for (int i = 0; i <= ticks * turns; ++i)
-  {
-    path.push_back(course(2 * trial::kPi * i / ticks));
-  }
-  return path;
 }
 
 /// Work done on the hand over the path from tick @p first to the last, by the trapezoid rule.
@@ -54,21 +31,6 @@ double workOnHand(const std::vector<ProxyState>& states, std::size_t first)
     work += 0.5 * dot(states[i].force + states[i - 1].force, states[i].hip - states[i - 1].hip);
   }
   return work;
-}
-
-/// Down to @p depth below the plane z = 0, then along x at @p speed.
-trial::Path planeSlide(double depth, double speed, int ticks)
-{
-  trial::Path path;
-  for (int i = 0; i <= 100; ++i)
-  {
-    path.emplace_back(-0.02, 0.001, 0.002 - (0.002 + depth) * i / 100);
-  }
-  for (int i = 1; i <= ticks; ++i)
-  {
-    path.emplace_back(-0.02 + i * trial::kTick * speed, 0.001, -depth);
-  }
-  return path;
 }
 
 double tangentOverNormal(const ProxyState& s)
@@ -157,7 +119,8 @@ TEST(SurfaceFitProxy, FeelsTheTorus)
   for (const auto& [points, bound] : cases)
   {
     const trial::Scene scene = trial::resampledScene(trial::torusPoints(points, 6));
-    const auto states = trial::feel(scene, {}, closedPath(torusCourse, { 0.04, 0, 0.01 }, 4000, 1));
+    const auto states =
+      trial::feel(scene, {}, trial::closedPath(trial::torusCourse, { 0.04, 0, 0.01 }, 4000, 1));
     EXPECT_LT(trial::recorded("torus", trial::forceError(states, trial::torusForce, 200)), bound) << points;
   }
 }
@@ -165,7 +128,7 @@ TEST(SurfaceFitProxy, FeelsTheTorus)
 TEST(SurfaceFitProxy, FeelsThePlaneExactly)
 {
   const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 7));
-  const auto states = trial::feel(scene, {}, planeSlide(1e-3, 0.05, 700));
+  const auto states = trial::feel(scene, {}, trial::planeSlide(1e-3, 0.05, 700));
   const auto exact = [](const Vec3& hip) { return Vec3(0, 0, 800.0 * std::max(0.0, -hip.z)); };
   EXPECT_LT(trial::recorded("plane", trial::forceError(states, exact)), 1e-6);
 }
@@ -225,7 +188,7 @@ namespace
 void expectReleaseOverHole(double aside, double late)
 {
   const trial::Scene scene = trial::resampledScene(trial::planePoints(100000, 11, 0.0, 0.008));
-  trial::Path path = planeSlide(5e-4, 0.05, 700);
+  trial::Path path = trial::planeSlide(5e-4, 0.05, 700);
   for (Vec3& hip : path)
   {
     hip.y = aside;
@@ -320,8 +283,8 @@ TEST(SurfaceFitProxy, SlidesWithTheDynamicFrictionAtAnySpeed)
   for (const double speed : { 0.002, 0.01, 0.05, 0.2 })
   {
     const double travel = std::min(0.03, std::max(0.004, speed * 0.3));
-    const auto states =
-      trial::feel(scene, withFriction(0.4, 0.3), planeSlide(1e-3, speed, int(travel / speed / trial::kTick)));
+    const auto states = trial::feel(
+      scene, withFriction(0.4, 0.3), trial::planeSlide(1e-3, speed, int(travel / speed / trial::kTick)));
     double peak = 0.0;
     for (std::size_t i = 101; i < states.size(); ++i)
     {
@@ -353,7 +316,7 @@ TEST(SurfaceFitProxy, SlidesWithTheDynamicFrictionOnCurvedSurfacesToo)
       [](const Vec3& p) {
         return normalized(p - trial::kRingRadius * normalized({ p.x, p.y, 0 }));
       },
-      closedPath(torusCourse, { 0.04, 0, 0.01 }, 2000, 1), 1e-3 } };
+      trial::closedPath(trial::torusCourse, { 0.04, 0, 0.01 }, 2000, 1), 1e-3 } };
   for (const auto& c : cases)
   {
     const auto states = trial::feel(c.scene, withFriction(0.4, 0.3), c.path);
@@ -373,7 +336,7 @@ TEST(SurfaceFitProxy, SlidesWithTheDynamicFrictionOnCurvedSurfacesToo)
 TEST(SurfaceFitProxy, SticksBelowTheStaticFriction)
 {
   const trial::Scene scene = trial::resampledScene(trial::planePoints(100000, 15));
-  const auto states = trial::feel(scene, withFriction(0.4, 0.3), planeSlide(1e-3, 0.001, 380));
+  const auto states = trial::feel(scene, withFriction(0.4, 0.3), trial::planeSlide(1e-3, 0.001, 380));
   const Vec3 anchor = states[100].proxy;
   for (std::size_t i = 101; i < states.size(); ++i)
   {
@@ -387,17 +350,18 @@ TEST(SurfaceFitProxy, FrictionOnlyTakesEnergy)
 {
   const trial::Scene scene = trial::resampledScene(trial::spherePoints(100000, 16));
   const auto states =
-    trial::feel(scene, withFriction(0.4, 0.3), closedPath(sphereCourse, { 0.04, 0, 0.03 }, 3000, 1));
+    trial::feel(scene, withFriction(0.4, 0.3), trial::closedPath(sphereCourse, { 0.04, 0, 0.03 }, 3000, 1));
   EXPECT_LT(workOnHand(states, 200), 0.0);
 }
 
 TEST(SurfaceFitProxy, ClosedFrictionlessPathsReturnNoEnergy)
 {
   const trial::Scene sphere = trial::resampledScene(trial::spherePoints(trial::kPaperLarge, 17));
-  const auto onSphere = trial::feel(sphere, {}, closedPath(sphereCourse, { 0.04, 0, 0.03 }, 3000, 2));
+  const auto onSphere = trial::feel(sphere, {}, trial::closedPath(sphereCourse, { 0.04, 0, 0.03 }, 3000, 2));
   EXPECT_LT(std::fabs(trial::recorded("sphereEnergy", workOnHand(onSphere, 3200))), 1e-9);
   const trial::Scene torus = trial::resampledScene(trial::torusPoints(trial::kPaperLarge, 18));
-  const auto onTorus = trial::feel(torus, {}, closedPath(torusCourse, { 0.04, 0, 0.01 }, 4000, 2));
+  const auto onTorus =
+    trial::feel(torus, {}, trial::closedPath(trial::torusCourse, { 0.04, 0, 0.01 }, 4000, 2));
   EXPECT_LT(std::fabs(trial::recorded("torusEnergy", workOnHand(onTorus, 4200))), 1e-8);
 }
 
@@ -454,179 +418,6 @@ TEST(SurfaceFitProxy, ForceDoesNotDependOnTheProxyRadius)
 TEST(SurfaceFitProxy, ForceDoesNotDependOnALargeProxyRadius)
 {
   expectForceIndependentOfRadius(1e-3, 5e-3);
-}
-
-TEST(SurfaceFitProxy, IsCarriedAlongWhenTheModelTurnsInContact)
-{
-  const std::vector<Vec3> points = trial::torusPoints(200000, 21);
-  const trial::Scene before = trial::resampledScene(points);
-  Proxy proxy;
-  proxy.setScene(before.get());
-  const Vec3 hip = torusCourse(0.0);
-  trial::feel(proxy, closedPath(torusCourse, { 0.04, 0, 0.01 }, 4000, 0));
-  ASSERT_TRUE(proxy.step(hip, trial::kTick).contact);
-  trial::Scene keep = before;
-  for (int i = 1; i <= 20; ++i)
-  {
-    const AffineTransform turn = AffineTransform::rotation(0.5 * i, { 0, 0, 1 });
-    const trial::Scene next = trial::resampledScene(points, turn);
-    proxy.setScene(next.get());
-    const ProxyState s = proxy.step(hip, trial::kTick);
-    ASSERT_TRUE(s.contact) << i;
-    ASSERT_LE(norm(s.force - trial::torusForce(hip)), 2e-3 * norm(trial::torusForce(hip))) << i;
-    keep = next;
-  }
-}
-
-namespace
-{
-
-/// What a tick may change of the force where the hand moves by @p moved.
-double largestStep(const HapticParameters& parameters, double moved)
-{
-  return 2.0 * parameters.contact.stiffness * moved + parameters.contact.settleRate * trial::kTick + 1e-9;
-}
-
-} // namespace
-
-TEST(SurfaceFitProxy, KeepsItsSideWhenTheModelIsZoomedInContact)
-{
-  const std::vector<Vec3> points = trial::spherePoints(200000, 22);
-  const trial::Scene before = trial::resampledScene(points);
-  for (const double zoom : { 0.93, 0.98, 1.02, 1.2, 1.5 })
-  {
-    Proxy proxy;
-    proxy.setScene(before.get());
-    const auto states = trial::feel(proxy, trial::sphereSlide(2e-3, 0.05, 100));
-    const Vec3 hip = states.back().hip;
-    const trial::Scene after = trial::resampledScene(points, AffineTransform::scaling({ zoom, zoom, zoom }));
-    proxy.setScene(after.get());
-    Vec3 last = states.back().force;
-    for (int i = 0; i < 150; ++i)
-    {
-      const ProxyState s = proxy.step(hip, trial::kTick);
-      ASSERT_TRUE(s.contact) << zoom;
-      ASSERT_GT(dot(s.normal, normalized(hip)), 0.99) << zoom;
-      ASSERT_LE(norm(s.force - last), largestStep(proxy.parameters(), 0.0)) << zoom << " tick " << i;
-      last = s.force;
-    }
-    EXPECT_NEAR(norm(last), 800.0 * (zoom * trial::kSphereRadius - norm(hip)), 1e-3) << zoom;
-  }
-}
-
-TEST(SurfaceFitProxy, MeetsASurfaceThatGrowsPastAFreeHand)
-{
-  const std::vector<Vec3> points = trial::spherePoints(200000, 24);
-  const trial::Scene before = trial::resampledScene(points);
-  // The hand rests outside, at a part of the radius that the zoom passes; in one step or in many.
-  const Vec3 hip = 1.1 * trial::kSphereRadius * normalized({ 1, -0.5, 0.7 });
-  for (const int steps : { 1, 7 })
-  {
-    Proxy proxy;
-    proxy.setScene(before.get());
-    ASSERT_FALSE(trial::feel(proxy, trial::Path(5, hip)).back().contact);
-    trial::Scene keep = before;
-    Vec3 last;
-    for (int i = 1; i <= steps; ++i)
-    {
-      const double zoom = 1.0 + 0.2 * i / steps;
-      const trial::Scene next = trial::resampledScene(points, AffineTransform::scaling({ zoom, zoom, zoom }));
-      proxy.setScene(next.get());
-      const ProxyState s = proxy.step(hip, trial::kTick);
-      ASSERT_LE(norm(s.force - last), largestStep(proxy.parameters(), 0.0)) << "zoom " << zoom;
-      last = s.force;
-      keep = next;
-    }
-    const ProxyState s = trial::feel(proxy, trial::Path(100, hip)).back();
-    ASSERT_TRUE(s.contact) << steps;
-    EXPECT_NEAR(norm(s.force), 800.0 * 0.1 * trial::kSphereRadius, 1e-3);
-    EXPECT_GT(dot(s.force, hip), 0.0) << "pushed out, the way it came from";
-  }
-}
-
-TEST(SurfaceFitProxy, MeetsASurfaceThatIsShiftedOrTurnedOntoAFreeHand)
-{
-  const std::vector<Vec3> points = trial::torusPoints(200000, 25);
-  const trial::Scene before = trial::resampledScene(points);
-  // Above the tube; the ring comes up, or the whole torus turns about the x axis into the hand.
-  const Vec3 hip{ 0.0, trial::kRingRadius, trial::kTubeRadius + 1e-3 };
-  const AffineTransform shift = AffineTransform::translation({ 0.0, 0.0, 2e-3 });
-  const AffineTransform turn = AffineTransform::rotation(5.0, { 1, 0, 0 });
-  for (const AffineTransform& change : { shift, turn })
-  {
-    Proxy proxy;
-    proxy.setScene(before.get());
-    ASSERT_FALSE(trial::feel(proxy, trial::Path(3, hip)).back().contact);
-    const trial::Scene after = trial::resampledScene(points, change);
-    proxy.setScene(after.get());
-    const ProxyState s = trial::feel(proxy, trial::Path(60, hip)).back();
-    const Vec3 inModel = change.inverse().apply(hip);
-    const Vec3 exact = change.applyToNormal(trial::torusForce(inModel));
-    ASSERT_TRUE(s.contact);
-    EXPECT_LE(norm(s.force - norm(trial::torusForce(inModel)) * normalized(exact)), 2e-3);
-  }
-}
-
-TEST(SurfaceFitProxy, ZoomsByAnyFactorStepNoFurtherThanTheSettleRate)
-{
-  const std::vector<Vec3> points = trial::spherePoints(60000, 26);
-  Proxy proxy;
-  trial::Scene keep = trial::resampledScene(points);
-  proxy.setScene(keep.get());
-  const auto states = trial::feel(proxy, trial::sphereSlide(1e-3, 0.05, 50));
-  const Vec3 hip = states.back().hip;
-  Vec3 last = states.back().force;
-  for (const double zoom : { 1000.0, 1.0, 0.001, 3.0, 0.5, 1.0 })
-  {
-    const double voxel = zoom > 100.0 ? 0.3 : zoom < 0.01 ? 1e-6 : trial::kVoxel;
-    const trial::Scene next =
-      trial::resampledScene(points, AffineTransform::scaling({ zoom, zoom, zoom }), voxel);
-    proxy.setScene(next.get());
-    for (int i = 0; i < 40; ++i)
-    {
-      const ProxyState s = proxy.step(hip, trial::kTick);
-      ASSERT_TRUE(trial::isFinite(s)) << zoom;
-      ASSERT_LE(norm(s.force - last), largestStep(proxy.parameters(), 0.0)) << zoom << " tick " << i;
-      last = s.force;
-    }
-    keep = next;
-  }
-}
-
-TEST(SurfaceFitProxy, LetsGoOfARimAtTheSettleRate)
-{
-  const trial::Scene scene = trial::resampledScene(trial::planePoints(100000, 27, 0.0, 0.008));
-  const auto states = trial::feel(scene, {}, planeSlide(1e-3, 0.05, 700));
-  bool released = false;
-  for (std::size_t i = 1; i < states.size(); ++i)
-  {
-    const double moved = norm(states[i].hip - states[i - 1].hip);
-    ASSERT_LE(norm(states[i].force - states[i - 1].force), largestStep({}, moved)) << "tick " << i;
-    released = released || (states[i].status & kProxyReleasedAtRim) != 0;
-  }
-  EXPECT_TRUE(released);
-}
-
-TEST(SurfaceFitProxy, KeepsTheStiffnessThatTheDeviceCanBear)
-{
-  const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 28));
-  const auto slide = planeSlide(1e-3, 0.05, 10);
-  HapticParameters parameters;
-  const struct
-  {
-    double deviceDamping;
-    double damping;
-    double expected;
-  } cases[] = { { 0.0, 0.0, 800.0 }, { 0.5, 0.0, 800.0 }, { 0.3, 0.0, 600.0 }, { 0.3, 0.1, 400.0 },
-    { 0.3, 0.5, 0.0 } };
-  for (const auto& c : cases)
-  {
-    parameters.contact.deviceDamping = c.deviceDamping;
-    parameters.contact.damping = c.damping;
-    const ProxyState s = trial::feel(scene, parameters, slide).back();
-    EXPECT_NEAR(s.force.z, c.expected * 1e-3, 1e-6);
-    EXPECT_EQ((s.status & kProxyStiffnessLimit) != 0, c.expected < 800.0);
-  }
 }
 
 TEST(SurfaceFitProxy, TurnsAroundTheEdgeOfABoxWithoutAFalseForce)

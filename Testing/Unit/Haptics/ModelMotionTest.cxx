@@ -1,0 +1,176 @@
+#include "HapticFixtures.h"
+
+using namespace pointhaptics;
+
+namespace
+{
+
+/// What a tick may change of the force where the hand moves by @p moved.
+double largestStep(const HapticParameters& parameters, double moved)
+{
+  return 2.0 * parameters.contact.stiffness * moved + parameters.contact.settleRate * trial::kTick + 1e-9;
+}
+
+} // namespace
+
+TEST(ModelMotion, IsCarriedAlongWhenTheModelTurnsInContact)
+{
+  const std::vector<Vec3> points = trial::torusPoints(200000, 21);
+  const trial::Scene before = trial::resampledScene(points);
+  Proxy proxy;
+  proxy.setScene(before.get());
+  const Vec3 hip = trial::torusCourse(0.0);
+  trial::feel(proxy, trial::closedPath(trial::torusCourse, { 0.04, 0, 0.01 }, 4000, 0));
+  ASSERT_TRUE(proxy.step(hip, trial::kTick).contact);
+  trial::Scene keep = before;
+  for (int i = 1; i <= 20; ++i)
+  {
+    const AffineTransform turn = AffineTransform::rotation(0.5 * i, { 0, 0, 1 });
+    const trial::Scene next = trial::resampledScene(points, turn);
+    proxy.setScene(next.get());
+    const ProxyState s = proxy.step(hip, trial::kTick);
+    ASSERT_TRUE(s.contact) << i;
+    ASSERT_LE(norm(s.force - trial::torusForce(hip)), 2e-3 * norm(trial::torusForce(hip))) << i;
+    keep = next;
+  }
+}
+
+TEST(ModelMotion, KeepsItsSideWhenTheModelIsZoomedInContact)
+{
+  const std::vector<Vec3> points = trial::spherePoints(200000, 22);
+  const trial::Scene before = trial::resampledScene(points);
+  for (const double zoom : { 0.93, 0.98, 1.02, 1.2, 1.5 })
+  {
+    Proxy proxy;
+    proxy.setScene(before.get());
+    const auto states = trial::feel(proxy, trial::sphereSlide(2e-3, 0.05, 100));
+    const Vec3 hip = states.back().hip;
+    const trial::Scene after = trial::resampledScene(points, AffineTransform::scaling({ zoom, zoom, zoom }));
+    proxy.setScene(after.get());
+    Vec3 last = states.back().force;
+    for (int i = 0; i < 150; ++i)
+    {
+      const ProxyState s = proxy.step(hip, trial::kTick);
+      ASSERT_TRUE(s.contact) << zoom;
+      ASSERT_GT(dot(s.normal, normalized(hip)), 0.99) << zoom;
+      ASSERT_LE(norm(s.force - last), largestStep(proxy.parameters(), 0.0)) << zoom << " tick " << i;
+      last = s.force;
+    }
+    EXPECT_NEAR(norm(last), 800.0 * (zoom * trial::kSphereRadius - norm(hip)), 1e-3) << zoom;
+  }
+}
+
+TEST(ModelMotion, MeetsASurfaceThatGrowsPastAFreeHand)
+{
+  const std::vector<Vec3> points = trial::spherePoints(200000, 24);
+  const trial::Scene before = trial::resampledScene(points);
+  // The hand rests outside, at a part of the radius that the zoom passes; in one step or in many.
+  const Vec3 hip = 1.1 * trial::kSphereRadius * normalized({ 1, -0.5, 0.7 });
+  for (const int steps : { 1, 7 })
+  {
+    Proxy proxy;
+    proxy.setScene(before.get());
+    ASSERT_FALSE(trial::feel(proxy, trial::Path(5, hip)).back().contact);
+    trial::Scene keep = before;
+    Vec3 last;
+    for (int i = 1; i <= steps; ++i)
+    {
+      const double zoom = 1.0 + 0.2 * i / steps;
+      const trial::Scene next = trial::resampledScene(points, AffineTransform::scaling({ zoom, zoom, zoom }));
+      proxy.setScene(next.get());
+      const ProxyState s = proxy.step(hip, trial::kTick);
+      ASSERT_LE(norm(s.force - last), largestStep(proxy.parameters(), 0.0)) << "zoom " << zoom;
+      last = s.force;
+      keep = next;
+    }
+    const ProxyState s = trial::feel(proxy, trial::Path(100, hip)).back();
+    ASSERT_TRUE(s.contact) << steps;
+    EXPECT_NEAR(norm(s.force), 800.0 * 0.1 * trial::kSphereRadius, 1e-3);
+    EXPECT_GT(dot(s.force, hip), 0.0) << "pushed out, the way it came from";
+  }
+}
+
+TEST(ModelMotion, MeetsASurfaceThatIsShiftedOrTurnedOntoAFreeHand)
+{
+  const std::vector<Vec3> points = trial::torusPoints(200000, 25);
+  const trial::Scene before = trial::resampledScene(points);
+  // Above the tube; the ring comes up, or the whole torus turns about the x axis into the hand.
+  const Vec3 hip{ 0.0, trial::kRingRadius, trial::kTubeRadius + 1e-3 };
+  const AffineTransform shift = AffineTransform::translation({ 0.0, 0.0, 2e-3 });
+  const AffineTransform turn = AffineTransform::rotation(5.0, { 1, 0, 0 });
+  for (const AffineTransform& change : { shift, turn })
+  {
+    Proxy proxy;
+    proxy.setScene(before.get());
+    ASSERT_FALSE(trial::feel(proxy, trial::Path(3, hip)).back().contact);
+    const trial::Scene after = trial::resampledScene(points, change);
+    proxy.setScene(after.get());
+    const ProxyState s = trial::feel(proxy, trial::Path(60, hip)).back();
+    const Vec3 inModel = change.inverse().apply(hip);
+    const Vec3 exact = change.applyToNormal(trial::torusForce(inModel));
+    ASSERT_TRUE(s.contact);
+    EXPECT_LE(norm(s.force - norm(trial::torusForce(inModel)) * normalized(exact)), 2e-3);
+  }
+}
+
+TEST(ModelMotion, ZoomsByAnyFactorStepNoFurtherThanTheSettleRate)
+{
+  const std::vector<Vec3> points = trial::spherePoints(60000, 26);
+  Proxy proxy;
+  trial::Scene keep = trial::resampledScene(points);
+  proxy.setScene(keep.get());
+  const auto states = trial::feel(proxy, trial::sphereSlide(1e-3, 0.05, 50));
+  const Vec3 hip = states.back().hip;
+  Vec3 last = states.back().force;
+  for (const double zoom : { 1000.0, 1.0, 0.001, 3.0, 0.5, 1.0 })
+  {
+    const double voxel = zoom > 100.0 ? 0.3 : zoom < 0.01 ? 1e-6 : trial::kVoxel;
+    const trial::Scene next =
+      trial::resampledScene(points, AffineTransform::scaling({ zoom, zoom, zoom }), voxel);
+    proxy.setScene(next.get());
+    for (int i = 0; i < 40; ++i)
+    {
+      const ProxyState s = proxy.step(hip, trial::kTick);
+      ASSERT_TRUE(trial::isFinite(s)) << zoom;
+      ASSERT_LE(norm(s.force - last), largestStep(proxy.parameters(), 0.0)) << zoom << " tick " << i;
+      last = s.force;
+    }
+    keep = next;
+  }
+}
+
+TEST(SurfaceFitSettling, LetsGoOfARimAtTheSettleRate)
+{
+  const trial::Scene scene = trial::resampledScene(trial::planePoints(100000, 27, 0.0, 0.008));
+  const auto states = trial::feel(scene, {}, trial::planeSlide(1e-3, 0.05, 700));
+  bool released = false;
+  for (std::size_t i = 1; i < states.size(); ++i)
+  {
+    const double moved = norm(states[i].hip - states[i - 1].hip);
+    ASSERT_LE(norm(states[i].force - states[i - 1].force), largestStep({}, moved)) << "tick " << i;
+    released = released || (states[i].status & kProxyReleasedAtRim) != 0;
+  }
+  EXPECT_TRUE(released);
+}
+
+TEST(Passivity, KeepsTheStiffnessThatTheDeviceCanBear)
+{
+  const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 28));
+  const auto slide = trial::planeSlide(1e-3, 0.05, 10);
+  HapticParameters parameters;
+  const struct
+  {
+    double deviceDamping;
+    double damping;
+    double expected;
+  } cases[] = { { 0.0, 0.0, 800.0 }, { 0.5, 0.0, 800.0 }, { 0.3, 0.0, 600.0 }, { 0.3, 0.1, 400.0 },
+    { 0.3, 0.5, 0.0 } };
+  for (const auto& c : cases)
+  {
+    parameters.contact.deviceDamping = c.deviceDamping;
+    parameters.contact.damping = c.damping;
+    const ProxyState s = trial::feel(scene, parameters, slide).back();
+    EXPECT_NEAR(s.force.z, c.expected * 1e-3, 1e-6);
+    EXPECT_EQ((s.status & kProxyStiffnessLimit) != 0, c.expected < 800.0);
+  }
+}
