@@ -390,8 +390,10 @@ TEST(SettleOnSurface, FindsTheSphereItsNormalAndItsCurvature)
 
 TEST(SettleOnSurface, StaysOnTheSheetItBeginsOn)
 {
+  // The lower one has more points: a fit to both would lie nearer to it.
   std::vector<Vec3> points = trial::randomBox(40000, 21, { -0.02, -0.02, 0 }, { 0.02, 0.02, 0 });
-  const std::vector<Vec3> below = trial::randomBox(40000, 22, { -0.02, -0.02, -8e-4 }, { 0.02, 0.02, -8e-4 });
+  const std::vector<Vec3> below =
+    trial::randomBox(200000, 22, { -0.02, -0.02, -8e-4 }, { 0.02, 0.02, -8e-4 });
   points.insert(points.end(), below.begin(), below.end());
   const CellPyramid pyramid = resampled(points, 1e-3 / 3);
   const auto memory = std::make_unique<FitCells>();
@@ -403,4 +405,57 @@ TEST(SettleOnSurface, StaysOnTheSheetItBeginsOn)
     ASSERT_TRUE(settleOnSurface(pyramid, { 1e-3, 2e-3, sheet }, 3e-3, 5e-4, *memory, frame, fit, curvature));
     EXPECT_NEAR(frame.origin.z, sheet, 1e-9);
   }
+}
+
+TEST(SurfaceFit, TracedSlopesAreThoseOfTheSurfaceThatTheMovingFitTraces)
+{
+  // No quadric: only there do the fit's own slopes differ from those of what it traces.
+  trial::Random random(31);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 60000; ++i)
+  {
+    const Vec3 p = random.inBox({ -0.01, -0.01, 0 }, { 0.01, 0.01, 0 });
+    points.emplace_back(p.x, p.y, 4e-4 * std::sin(900.0 * p.x + 0.7) * std::cos(700.0 * p.y + 0.4));
+  }
+  const CellPyramid pyramid = resampled(points, 1e-3 / 3);
+  const auto memory = std::make_unique<FitCells>();
+  FitSettings settings;
+  settings.radius = 1.6e-3;
+  TracedSlopes slopes;
+  slopes.strength = 1.0;
+  slopes.radiusGradient = { 0.2, -0.1, 0.0 };
+  SurfaceFrame frame;
+  SurfaceFit fit;
+  double curvature[3];
+  ASSERT_TRUE(settleOnSurface(pyramid, { 1e-3, -5e-4, 0.0 }, 1.6e-3, 1e-2, *memory, frame, fit, curvature));
+  // The normal along the traced slopes, as in a converged step.
+  for (int round = 0; round < 10; ++round)
+  {
+    fit = pointhaptics::fitSurface(pyramid, frame, settings, *memory, &slopes);
+    Vec3 point;
+    Vec3 normal;
+    pointAt(fit, frame, 0.0, 0.0, point, normal);
+    frame.origin = point;
+    frame.turnTo(normal);
+  }
+  const SurfaceFit plain = fitSurface(pyramid, frame, settings);
+  const SurfaceFit traced = pointhaptics::fitSurface(pyramid, frame, settings, *memory, &slopes);
+  // The traced surface near by: the same fit from moved, turned frames with the radius there.
+  const auto tracedHeight = [&](double u, double v)
+  {
+    SurfaceFrame moved = frame;
+    Vec3 normal;
+    pointAt(traced, frame, u, v, moved.origin, normal);
+    moved.turnTo(normal);
+    FitSettings there = settings;
+    there.radius += dot(slopes.radiusGradient, moved.origin - frame.origin);
+    const SurfaceFit other = fitSurface(pyramid, moved, there);
+    return frame.toLocal(moved.toWorld({ 0.0, 0.0, other.radius * other.k[0] })).z / settings.radius;
+  };
+  constexpr double kStep = 1e-4;
+  const double byU = (tracedHeight(kStep, 0.0) - tracedHeight(-kStep, 0.0)) / (2.0 * kStep);
+  const double byV = (tracedHeight(0.0, kStep) - tracedHeight(0.0, -kStep)) / (2.0 * kStep);
+  EXPECT_NEAR(traced.k[1], byU, 1e-6);
+  EXPECT_NEAR(traced.k[2], byV, 1e-6);
+  EXPECT_GT(std::abs(plain.k[1] - byU) + std::abs(plain.k[2] - byV), 1e-3) << "the fit's own slopes are not";
 }

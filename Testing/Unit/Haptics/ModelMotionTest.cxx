@@ -153,6 +153,26 @@ TEST(SurfaceFitSettling, LetsGoOfARimAtTheSettleRate)
   EXPECT_TRUE(released);
 }
 
+TEST(SurfaceFitSettling, GrowsBackAtTheSettleRateAfterAHandThatWasNoNumber)
+{
+  const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 31));
+  Proxy proxy;
+  proxy.setScene(scene.get());
+  const Vec3 hip = trial::feel(proxy, trial::planeSlide(1e-3, 0.05, 10)).back().hip;
+  for (int i = 0; i < 20; ++i)
+  {
+    static_cast<void>(proxy.step({ NAN, 0.0, 0.0 }, trial::kTick));
+  }
+  Vec3 last;
+  for (int i = 0; i < 10; ++i)
+  {
+    const ProxyState s = proxy.step(hip, trial::kTick);
+    ASSERT_LE(norm(s.force - last), largestStep({}, 0.0)) << "tick " << i;
+    last = s.force;
+  }
+  EXPECT_NEAR(last.z, 0.8, 1e-6);
+}
+
 TEST(Passivity, KeepsTheStiffnessThatTheDeviceCanBear)
 {
   const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 28));
