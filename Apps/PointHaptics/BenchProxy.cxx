@@ -144,9 +144,11 @@ BenchRun addProxyOptions(CLI::App& command)
   addWords(command, "--shapes", options->shapes, shapeWords(), false, "Shapes to feel; default all");
   addWords(command, "--studies", options->studies, bench::proxy::studyWords(), false,
     "What to measure; default all, scans and meshes where there are some");
-  command.add_option("--scans", options->scans, "Clouds of your own to feel, with or without a mesh")
-    ->type_name("FILE,...")
-    ->delimiter(',');
+  command
+    .add_option_function<std::string>(
+      "--scans", [options](const std::string& text) { options->scans = CLI::detail::split(text, ','); },
+      "Clouds of your own to feel, with or without a mesh")
+    ->type_name("FILE,...");
   addInteger(command, "--strokes", options->strokes, 1, kMostStrokes, "Strokes over each scan; default 60");
   return [options](const BenchSettings& shared, const bench::Progress& progress)
   { return runProxy(*options, shared, progress); };
