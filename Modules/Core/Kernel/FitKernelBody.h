@@ -14,18 +14,20 @@ namespace
 {
 
 using Eight = double __attribute__((vector_size(64)));
+/// The same where it overlays eight numbers of an array.
+using EightAt = double __attribute__((vector_size(64), may_alias));
 
 /// The gate opens over the last part of its depth.
 constexpr double kGateOpen = 0.7;
 
-inline const Eight& eight(const double* from)
+inline const EightAt& eight(const double* from)
 {
-  return *reinterpret_cast<const Eight*>(from);
+  return *reinterpret_cast<const EightAt*>(from);
 }
 
-inline Eight& eight(double* to)
+inline EightAt& eight(double* to)
 {
-  return *reinterpret_cast<Eight*>(to);
+  return *reinterpret_cast<EightAt*>(to);
 }
 
 inline double joined(const Eight& v)
