@@ -35,10 +35,10 @@ struct TrialFigures
   double p99 = 0.0;
   double p999 = 0.0;
   double maximum = 0.0;
-  double freeP50 = 0.0; ///< Of the update times out of contact.
+  double freeP50 = 0.0;      ///< Of the update times out of contact.
   double firstContact = 0.0; ///< The longest update out of contact or into it: finding the surface.
-  std::uint32_t status = 0; ///< All bits that were reported.
-  int cappedTicks = 0;      ///< Ticks that reached the cap of rounds.
+  std::uint32_t status = 0;  ///< All bits that were reported.
+  int cappedTicks = 0;       ///< Ticks that reached the cap of rounds.
 };
 
 struct Trial
