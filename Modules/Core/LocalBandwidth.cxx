@@ -46,7 +46,7 @@ public:
     result.spacing = std::sqrt(list.squaredDistances[list.count - 1]) * std::sqrt(kPi / (count - 1.0));
     double b = 0.0;
     const Status status = ofDistances_ ? bandwidthOfDistances(list, b) : bandwidthOfSpread(list, b);
-    if (status == Status::Ok)
+    if (status == Status::Ok || status == Status::EquationUnsolved) // then b is that of SilvermanRobust
     {
       result.bandwidth = b;
     }

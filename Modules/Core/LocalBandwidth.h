@@ -34,12 +34,13 @@ constexpr double kRadiusSlope = 0.5;
 
 /// b and r_p = clamp(beta b, r1, r2) at each of @p points (both outputs are resized). s = sqrt(trace(C) / 2),
 /// C the sample covariance of the neighbourhood with the point itself; for SilvermanRobust and SheatherJones
-/// the sample is the neighbours' distances. Local spacing = sqrt(pi / k) times the distance of the k-th
+/// the sample is the neighbours' distances
+/// (SilvermanRobust's answer stands in where the equation of SheatherJones has none). Local spacing = sqrt(pi / k) times the distance of the k-th
 /// neighbour. A neighbourhood without spread gets r1 (automatic: the smallest radius found elsewhere, or 1e-3
 /// of the cloud's extent, or 1e-3) and b = r1 / beta. Points that are not finite get 0.
 /// @p query must be built on @p points. Errors: those of settings.check(), InvalidParameter for more points
 /// than NeighborQuery takes.
-/// Cost: for the k nearest, k up to 63, about 200 ns a point at k = 16; else that of a query for each point.
+/// Cost: for the k nearest, k up to 71, about 200 ns a point at k = 16; else that of a query for each point.
 /// Results are the same bit for bit for every @p executor, and for float and double points of equal values; b
 /// is within 1e-9 relative of the definition (LocalBandwidthTest), and scales with the cloud.
 Status localBandwidths(const PointView& points, const NeighborQuery& query,

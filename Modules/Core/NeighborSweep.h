@@ -32,7 +32,7 @@ struct NeighborList
 /// One worker's memory for the neighbours of many points: 60 KiB and 28 bytes per neighbour asked for. The
 /// results are those of NeighborQuery::nearest, bit for bit; leaf by leaf they cost a fraction, as the points
 /// of a leaf share their candidates and each search begins with what the one before has found. Where the
-/// neighbours are more than 64, or the guesses fail (a point apart, a crowd of duplicates), the points are
+/// neighbours are more than 72, or the guesses fail (a point apart, a crowd of duplicates), the points are
 /// asked for one by one. Allocates in the constructor only. One thread at a time.
 class NeighborSweep
 {
