@@ -34,8 +34,22 @@ public:
   {
   }
 
-  /// Sums go from the nearest to the farthest: they do not depend on how the neighbours were found.
   Neighborhood read(const NeighborList& list)
+  {
+    // Points at one place stand side by side and have one neighbourhood.
+    const Vec3 place = query_.point(list.slot);
+    if (!hasLast_ || !(place == lastPlace_))
+    {
+      last_ = readAnew(list);
+      lastPlace_ = place;
+      hasLast_ = true;
+    }
+    return last_;
+  }
+
+private:
+  /// Sums go from the nearest to the farthest: they do not depend on how the neighbours were found.
+  Neighborhood readAnew(const NeighborList& list)
   {
     Neighborhood result;
     if (list.count < 2)
@@ -53,7 +67,6 @@ public:
     return result;
   }
 
-private:
   /// sqrt(trace(C) / 2) about the neighbourhood's own mean.
   double surfaceSpread(const NeighborList& list) const
   {
@@ -99,6 +112,9 @@ private:
   Status statusOfFactor_ = Status::DegenerateSample;
   std::vector<double> distances_;
   BandwidthScratch scratch_;
+  bool hasLast_ = false;
+  Vec3 lastPlace_;
+  Neighborhood last_;
 };
 
 /// The neighbours in a ball about each point, as NeighborSweep gives the nearest.

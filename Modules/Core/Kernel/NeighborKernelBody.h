@@ -291,6 +291,30 @@ double searchPoint(
   return search.squaredDistances[at][k - 1];
 }
 
+/// Points at one place stand side by side and have one answer. @return whether it was there to be copied from
+/// the point before.
+bool copyFromTwin(const NeighborTree& tree, std::int64_t slot, int at, int k, LeafSearch& search)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (at == 0 || tree.places[axis][slot] != tree.places[axis][slot - 1])
+    {
+      return false;
+    }
+  }
+  if ((search.found >> (at - 1) & 1u) == 0)
+  {
+    return false;
+  }
+  for (int i = 0; i < k; ++i)
+  {
+    search.squaredDistances[at][i] = search.squaredDistances[at - 1][i];
+    search.neighbors[at][i] = search.neighbors[at - 1][i];
+  }
+  search.found |= 1u << at;
+  return true;
+}
+
 /// @return the largest squared distance found, 0 for none.
 template <typename Set>
 double searchPoints(const NeighborTree& tree, std::int64_t leaf, int k, double reach, LeafSearch& search)
@@ -301,7 +325,7 @@ double searchPoints(const NeighborTree& tree, std::int64_t leaf, int k, double r
   double near = reach;
   for (int at = 0; at < points; ++at)
   {
-    if ((search.found >> at & 1u) == 0)
+    if ((search.found >> at & 1u) == 0 && !copyFromTwin(tree, first + at, at, k, search))
     {
       const double d2 = searchPoint<Set>(tree, first + at, at, k, near, reach, search);
       largest = d2 > largest ? d2 : largest;

@@ -111,7 +111,9 @@ TEST(LocalBandwidthSettings, CheckFindsEveryMistake)
 
 TEST(LocalBandwidths, MatchTheDefinitionAtEveryPoint)
 {
-  const std::vector<Vec3> points = trial::randomBox(1500, 33, { 0, 0, 0 }, { 1, 1, 0.1 });
+  std::vector<Vec3> points = trial::randomBox(1500, 33, { 0, 0, 0 }, { 1, 1, 0.1 });
+  const std::vector<Vec3> twins(points.begin(), points.begin() + 400);
+  points.insert(points.end(), twins.begin(), twins.end());
   for (const BandwidthRule rule : { BandwidthRule::NormalReference, BandwidthRule::ScottMultivariate,
          BandwidthRule::SilvermanMultivariate })
   {
