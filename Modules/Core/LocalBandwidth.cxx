@@ -133,12 +133,11 @@ public:
     const std::int64_t last = std::min(end * kernel::kLeafPoints, query_.size());
     for (std::int64_t slot = begin * kernel::kLeafPoints; slot < last; ++slot)
     {
-      visit(listAbout(slot));
+      visit(alone(slot));
     }
   }
-
-private:
-  NeighborList listAbout(std::int64_t slot)
+  /// Valid until the next call.
+  NeighborList alone(std::int64_t slot)
   {
     found_.clear();
     query_.visitBallSlots(query_.point(slot), radius_,
@@ -156,6 +155,7 @@ private:
     return { slot, int(found_.size()), squaredDistances_.data(), slots_.data() };
   }
 
+private:
   const NeighborQuery& query_;
   const double radius_;
   std::vector<Neighbor> found_;
@@ -163,10 +163,10 @@ private:
   std::vector<std::uint32_t> slots_;
 };
 
-double clampedRadius(double radius, double spacing, const LocalBandwidthSettings& settings)
+double radiusOf(const Neighborhood& near, const LocalBandwidthSettings& settings)
 {
-  const double low = settings.minimumRadius > 0.0 ? settings.minimumRadius : kNoSinkSpacings * spacing;
-  const double raised = std::max(radius, low);
+  const double low = settings.minimumRadius > 0.0 ? settings.minimumRadius : kNoSinkSpacings * near.spacing;
+  const double raised = std::max(settings.radiusScale * near.bandwidth, low);
   return settings.maximumRadius > 0.0 ? std::min(raised, settings.maximumRadius) : raised;
 }
 
@@ -229,10 +229,55 @@ bool readAll(const NeighborQuery& query, const LocalBandwidthSettings& settings,
           }
           const std::size_t index = std::size_t(query.index(list.slot));
           bandwidths[index] = near.bandwidth;
-          radii[index] = clampedRadius(settings.radiusScale * near.bandwidth, near.spacing, settings);
+          radii[index] = radiusOf(near, settings);
         });
     });
   return complete;
+}
+
+/// Calls withSweep(makeSweep) for the neighbourhoods that @p settings ask for.
+template <typename Function>
+bool withNeighborhoods(
+  const NeighborQuery& query, const LocalBandwidthSettings& settings, Function&& withSweep)
+{
+  if (settings.fixedRadius)
+  {
+    return withSweep([&] { return BallSweep(query, settings.radius); });
+  }
+  const int wanted = int(std::min<std::int64_t>(settings.numberOfNeighbors, query.size())) + 1;
+  return withSweep([&] { return NeighborSweep(query, wanted); });
+}
+
+/// @return whether each of @p slots has got a radius.
+template <typename MakeSweep>
+bool readSome(const NeighborQuery& query, const LocalBandwidthSettings& settings, MakeSweep&& makeSweep,
+  const std::vector<std::int64_t>& slots, std::vector<double>& radii, const Executor& executor)
+{
+  constexpr std::int64_t kSmallestRange = 64;
+  std::atomic<bool> complete{ true };
+  forRange(executor, std::int64_t(slots.size()), kSmallestRange,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      NeighborhoodReader reader(query, settings);
+      auto&& sweep = makeSweep();
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const Neighborhood near = reader.read(sweep.alone(slots[std::size_t(i)]));
+        radii[std::size_t(i)] = radiusOf(near, settings);
+        if (!(near.bandwidth > 0.0))
+        {
+          complete.store(false, std::memory_order_relaxed);
+        }
+      }
+    });
+  return complete;
+}
+
+Status checked(const PointView& points, const LocalBandwidthSettings& settings)
+{
+  const Status status = settings.check();
+  return status == Status::Ok && points.size() > NeighborQuery::kMostPoints ? Status::InvalidParameter
+                                                                            : status;
 }
 
 }
@@ -257,17 +302,13 @@ Status localBandwidths(const PointView& points, const NeighborQuery& query,
 {
   bandwidths.assign(std::size_t(points.size()), 0.0);
   radii.assign(std::size_t(points.size()), 0.0);
-  const Status status = settings.check();
-  if (status != Status::Ok || points.size() > NeighborQuery::kMostPoints)
+  const Status status = checked(points, settings);
+  if (status != Status::Ok)
   {
-    return status != Status::Ok ? status : Status::InvalidParameter;
+    return status;
   }
-  const int wanted = int(std::min<std::int64_t>(settings.numberOfNeighbors, query.size())) + 1;
-  const bool complete = settings.fixedRadius
-    ? readAll(
-        query, settings, [&] { return BallSweep(query, settings.radius); }, bandwidths, radii, executor)
-    : readAll(
-        query, settings, [&] { return NeighborSweep(query, wanted); }, bandwidths, radii, executor);
+  const bool complete = withNeighborhoods(query, settings,
+    [&](auto&& makeSweep) { return readAll(query, settings, makeSweep, bandwidths, radii, executor); });
   if (!complete)
   {
     fillWithout(points, settings, bandwidths, radii);
@@ -275,6 +316,31 @@ Status localBandwidths(const PointView& points, const NeighborQuery& query,
   if (settings.smoothRadius)
   {
     limitSlope(query, kRadiusSlope, radii, executor);
+  }
+  return Status::Ok;
+}
+
+Status localRadiiAt(const PointView& points, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
+  const Executor& executor)
+{
+  radii.assign(slots.size(), 0.0);
+  const Status status = checked(points, settings);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  const bool complete = !settings.smoothRadius &&
+    withNeighborhoods(query, settings,
+      [&](auto&& makeSweep) { return readSome(query, settings, makeSweep, slots, radii, executor); });
+  if (!complete)
+  {
+    std::vector<double> bandwidths;
+    std::vector<double> all;
+    const Status whole = localBandwidths(points, query, settings, bandwidths, all, executor);
+    std::transform(slots.begin(), slots.end(), radii.begin(),
+      [&](std::int64_t slot) { return all[std::size_t(query.index(slot))]; });
+    return whole;
   }
   return Status::Ok;
 }

@@ -39,7 +39,7 @@ int NeighborSweep::searchLeaf(std::int64_t leaf)
   {
     if (!(search_->reach > 0.0))
     {
-      const NeighborList list = searchAlone(first);
+      const NeighborList list = alone(first);
       search_->reach = kFirstMargin * list.squaredDistances[list.count - 1];
     }
     kernels_->searchLeaf(query_.tree(), leaf, k_, *search_);
@@ -54,10 +54,10 @@ NeighborList NeighborSweep::listOf(std::int64_t leaf, int i)
   {
     return { slot, k_, search_->squaredDistances[i], search_->neighbors[i] };
   }
-  return searchAlone(slot);
+  return alone(slot);
 }
 
-NeighborList NeighborSweep::searchAlone(std::int64_t slot)
+NeighborList NeighborSweep::alone(std::int64_t slot)
 {
   const int count = query_.nearestSlots(query_.point(slot), k_, alone_.data());
   for (int i = 0; i < count; ++i)

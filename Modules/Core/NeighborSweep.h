@@ -63,10 +63,12 @@ public:
     }
   }
 
+  /// The neighbours of one point. Valid until the next call.
+  NeighborList alone(std::int64_t slot);
+
 private:
   int searchLeaf(std::int64_t leaf);
   NeighborList listOf(std::int64_t leaf, int i);
-  NeighborList searchAlone(std::int64_t slot);
 
   const NeighborQuery& query_;
   const int k_;

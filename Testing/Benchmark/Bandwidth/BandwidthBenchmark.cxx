@@ -23,7 +23,7 @@ struct Study
 };
 
 /// In the order of the report.
-constexpr Study kStudies[] = { { "search", studySearch }, { "rules", studyRules },
+constexpr Study kStudies[] = { { "search", studySearch }, { "rules", studyRules }, { "touch", studyTouch },
   { "settling", studySettling }, { "lattice", studyLattice }, { "truncation", studyTruncation },
   { "sums", studySums } };
 

@@ -34,7 +34,7 @@ struct BandwidthBenchmarkOptions
   void makeQuick();
 };
 
-/// What --studies takes: search, rules, settling, lattice, truncation, sums.
+/// What --studies takes: search, rules, touch, settling, lattice, truncation, sums.
 std::vector<std::string> studyWords();
 
 /// Runs the studies. VTK's number of threads may be left changed. Throws std::bad_alloc, and

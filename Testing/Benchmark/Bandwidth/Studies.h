@@ -38,6 +38,7 @@ std::string quartilesText(const Quartiles& seconds);
 
 ReportPart studySearch(StudyContext& context);
 ReportPart studyRules(StudyContext& context);
+ReportPart studyTouch(StudyContext& context);
 ReportPart studySettling(StudyContext& context);
 ReportPart studyLattice(StudyContext& context);
 ReportPart studyTruncation(StudyContext& context);
