@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace pointhaptics
 {
@@ -139,8 +140,13 @@ public:
   /// Valid until the next call.
   NeighborList alone(std::int64_t slot)
   {
+    if (!found_.empty() && query_.point(slot) == lastPlace_)
+    {
+      return { slot, int(found_.size()), squaredDistances_.data(), slots_.data() };
+    }
+    lastPlace_ = query_.point(slot);
     found_.clear();
-    query_.visitBallSlots(query_.point(slot), radius_,
+    query_.visitBallSlots(lastPlace_, radius_,
       [this](double d2, std::int64_t other) {
         found_.push_back({ d2, query_.packed(other) });
       });
@@ -158,6 +164,7 @@ public:
 private:
   const NeighborQuery& query_;
   const double radius_;
+  Vec3 lastPlace_; ///< Whose neighbours are those found.
   std::vector<Neighbor> found_;
   std::vector<double> squaredDistances_;
   std::vector<std::uint32_t> slots_;
@@ -170,7 +177,21 @@ double radiusOf(const Neighborhood& near, const LocalBandwidthSettings& settings
   return settings.maximumRadius > 0.0 ? std::min(raised, settings.maximumRadius) : raised;
 }
 
-/// The radius of a point whose neighbours all coincide with it.
+/// @p part of the length of a box's diagonal, whose square, or which itself, may be out of range.
+double partOfDiagonal(const Bounds& box, double part)
+{
+  const Vec3 half = 0.5 * box.maximum - 0.5 * box.minimum;
+  const double largest = std::max({ half.x, half.y, half.z });
+  if (!(largest > 0.0))
+  {
+    return 0.0;
+  }
+  const Vec3 shape(half.x / largest, half.y / largest, half.z / largest);
+  return std::max(2.0 * part * norm(shape) * largest, std::numeric_limits<double>::denorm_min());
+}
+
+/// The radius of a point whose neighbours all coincide with it, or are so near or so far that their squared
+/// distances are out of range.
 double fallbackRadius(
   const PointView& points, const std::vector<double>& radii, const LocalBandwidthSettings& settings)
 {
@@ -188,8 +209,8 @@ double fallbackRadius(
         box.include(points[i]);
       }
     }
-    const double extent = box.empty() ? 0.0 : norm(box.extent());
-    radius = std::isfinite(smallest) ? smallest : extent > 0.0 ? 1e-3 * extent : kRadiusWithoutExtent;
+    const double part = box.empty() ? 0.0 : partOfDiagonal(box, 1e-3);
+    radius = std::isfinite(smallest) ? smallest : part > 0.0 ? part : kRadiusWithoutExtent;
   }
   return settings.maximumRadius > 0.0 ? std::min(radius, settings.maximumRadius) : radius;
 }
@@ -222,14 +243,15 @@ bool readAll(const NeighborQuery& query, const LocalBandwidthSettings& settings,
         [&](const NeighborList& list)
         {
           const Neighborhood near = reader.read(list);
-          if (!(near.bandwidth > 0.0))
+          const double radius = radiusOf(near, settings);
+          if (!(near.bandwidth > 0.0) || !std::isfinite(radius))
           {
             complete.store(false, std::memory_order_relaxed);
             return;
           }
           const std::size_t index = std::size_t(query.index(list.slot));
           bandwidths[index] = near.bandwidth;
-          radii[index] = radiusOf(near, settings);
+          radii[index] = radius;
         });
     });
   return complete;
@@ -264,7 +286,7 @@ bool readSome(const NeighborQuery& query, const LocalBandwidthSettings& settings
       {
         const Neighborhood near = reader.read(sweep.alone(slots[std::size_t(i)]));
         radii[std::size_t(i)] = radiusOf(near, settings);
-        if (!(near.bandwidth > 0.0))
+        if (!(near.bandwidth > 0.0) || !std::isfinite(radii[std::size_t(i)]))
         {
           complete.store(false, std::memory_order_relaxed);
         }

@@ -36,7 +36,8 @@ constexpr double kRadiusSlope = 0.5;
 /// C the sample covariance of the neighbourhood with the point itself; for SilvermanRobust and SheatherJones
 /// the sample is the neighbours' distances
 /// (SilvermanRobust's answer stands in where the equation of SheatherJones has none). Local spacing = sqrt(pi
-/// / k) times the distance of the k-th neighbour. A neighbourhood without spread gets r1 (automatic: the
+/// / k) times the distance of the k-th neighbour. A neighbourhood without spread, or with squared distances
+/// out of range (lengths beyond 1e150 or below 1e-150), gets r1 (automatic: the
 /// smallest radius found elsewhere, or 1e-3 of the cloud's extent, or 1e-3) and b = r1 / beta. Points that
 /// are not finite get 0.
 /// @p query must be built on @p points. Errors: those of settings.check(), InvalidParameter for more points

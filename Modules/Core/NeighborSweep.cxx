@@ -59,7 +59,14 @@ NeighborList NeighborSweep::listOf(std::int64_t leaf, int i)
 
 NeighborList NeighborSweep::alone(std::int64_t slot)
 {
+  // Points at one place stand side by side and have one answer: a crowd of them is asked for once.
+  if (lastCount_ > 0 && query_.point(slot) == lastPlace_)
+  {
+    return { slot, lastCount_, squaredDistances_.data(), slots_.data() };
+  }
   const int count = query_.nearestSlots(query_.point(slot), k_, alone_.data());
+  lastCount_ = count;
+  lastPlace_ = query_.point(slot);
   for (int i = 0; i < count; ++i)
   {
     squaredDistances_[std::size_t(i)] = alone_[std::size_t(i)].squaredDistance;

@@ -74,6 +74,9 @@ private:
   const int k_;
   const kernel::NeighborKernels* kernels_; ///< Null: every point alone.
   std::unique_ptr<kernel::LeafSearch> search_;
+  // The last point that was asked for alone, and its neighbours.
+  Vec3 lastPlace_;
+  int lastCount_ = 0;
   std::vector<Neighbor> alone_;
   std::vector<double> squaredDistances_;
   std::vector<std::uint32_t> slots_;

@@ -1,4 +1,5 @@
 #include "Core/LocalBandwidth.h"
+#include "Core/Density.h"
 #include "Core/Reference/ReferenceBandwidth.h"
 #include "Core/Reference/ReferenceKernelSum.h"
 #include "Core/Shapes.h"
@@ -366,7 +367,26 @@ TEST(LocalBandwidths, AreTheSameBitsForFloatsAndDoublesAndEveryNumberOfThreads)
   }
 }
 
-TEST(LocalBandwidths, ScaleWithTheCloudFromNanometresToGigametres)
+TEST(LocalBandwidths, OfACrowdAtOnePlaceTakeNoLongerThanOfOthers)
+{
+  // Searched for one by one, or their balls read one by one, these would take minutes.
+  std::vector<Vec3> points = trial::randomBox(2000, 48, { 0, 0, 0 }, { 1, 1, 0 });
+  points.insert(points.end(), 100000, points[3]);
+  LocalBandwidthSettings settings;
+  const Local nearest = localOf(points, settings);
+  expectUsable(nearest);
+  EXPECT_EQ(nearest.radii.back(), *std::min_element(nearest.radii.begin(), nearest.radii.end()));
+  settings.fixedRadius = true;
+  settings.radius = 0.001;
+  expectUsable(localOf(points, settings));
+  NeighborQuery query;
+  query.build(view(points));
+  std::vector<double> densities;
+  surfaceDensities(view(points), query, nearest.bandwidths, densities);
+  EXPECT_EQ(densities.back(), densities[3]);
+}
+
+TEST(LocalBandwidths, ScaleWithTheCloudFromPicometresToTerametres)
 {
   std::vector<Vec3> points;
   ASSERT_EQ(generateShape(Shape::DensityStep, 3000, 1, 0.0, points), Status::Ok);
@@ -375,7 +395,7 @@ TEST(LocalBandwidths, ScaleWithTheCloudFromNanometresToGigametres)
     LocalBandwidthSettings settings;
     settings.smoothRadius = smooth;
     const Local local = localOf(points, settings);
-    for (double scale = 1e-9; scale < 2e9; scale *= 10)
+    for (double scale = 1e-12; scale < 2e12; scale *= 10)
     {
       std::vector<Vec3> scaled = points;
       for (Vec3& p : scaled)
@@ -447,13 +467,22 @@ TEST(LocalBandwidths, SurviveEveryCloudWithUsableRadii)
   twice.insert(twice.end(), twice.begin(), twice.begin() + 300);
   std::vector<Vec3> denormal = trial::randomBox(300, 44, { 0, 0, 0 }, { 1, 1, 0 });
   std::vector<Vec3> far = denormal;
+  std::vector<Vec3> tiny = denormal;
+  std::vector<Vec3> wide = denormal;
+  std::vector<Vec3> widest = denormal;
   for (std::size_t i = 0; i < denormal.size(); ++i)
   {
     denormal[i] *= 1e-312;
     far[i] = Vec3(5e5, 4.6e6, 100) + 0.01 * far[i];
+    tiny[i] *= 1e-170;
+    wide[i] *= 1e170;
+    widest[i] = 3.4e307 * (10.0 * widest[i] - Vec3(5, 5, 5)); // to the end of double numbers
   }
-  const std::vector<std::vector<Vec3>> clouds{ line, apart, twice, denormal, far,
-    trial::randomBox(11, 45, { 0, 0, 0 }, { 1, 1, 1 }) };
+  std::vector<Vec3> crowd = trial::randomBox(300, 46, { 0, 0, 0 }, { 1, 1, 0 });
+  crowd.insert(crowd.end(), 1500, crowd[3]);
+  const std::vector<std::vector<Vec3>> clouds{ line, apart, twice, denormal, far, tiny, wide, widest, crowd,
+    trial::randomBox(300, 47, { -9, -8, -7 }, { -3, -2, -1 }), { { 1, 2, 3 } }, { { 0, 0, 0 }, { 1, 0, 0 } },
+    std::vector<Vec3>(40, Vec3(0.1, 0.2, 0.3)), trial::randomBox(11, 45, { 0, 0, 0 }, { 1, 1, 1 }) };
   for (std::size_t c = 0; c < clouds.size(); ++c)
   {
     for (const BandwidthRule rule : kRules)
