@@ -94,4 +94,4 @@ TEST_P(KernelBandwidthRealClouds, HaveTheRadiiOfTheDefinition)
 // A density that varies by 281:1, every point twice; a scan of an object; coordinates in millions of metres.
 INSTANTIATE_TEST_SUITE_P(Scans, KernelBandwidthRealClouds,
   testing::Values("room_scan1.pcd", "bun_zipper.ply", "samp11-utm.pcd"),
-  [](const testing::TestParamInfo<const char*>& scan) { return std::string(info.param).substr(0, 4); });
+  [](const testing::TestParamInfo<const char*>& scan) { return std::string(scan.param).substr(0, 4); });
