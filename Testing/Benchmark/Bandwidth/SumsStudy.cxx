@@ -154,7 +154,10 @@ Line epanechnikovLine(
 
 double secondsOf(const std::function<void()>& work)
 {
-  const std::vector<Lap> laps = race({ { "", work, nullptr, nullptr } }, { 3, 0, 1, {} });
+  RaceSettings settings;
+  settings.rounds = 3;
+  settings.warmUps = 0;
+  const std::vector<Lap> laps = race({ { "", work, nullptr, nullptr } }, settings);
   return quartiles(laps.front().seconds).median;
 }
 
