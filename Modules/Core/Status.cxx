@@ -47,6 +47,30 @@ const char* sentence(Status status) noexcept
       return "the file's content does not fit its format";
     case Status::FileNotWritable:
       return "the file cannot be written: check the folder, its permissions and the free space";
+    case Status::DeviceNotFound:
+      return "no such device is plugged in: check its cable and its power supply";
+    case Status::DeviceNotPermitted:
+      return "this user may not open the device: install the udev rule (see Documentation/Devices.md) and plug "
+             "it in again";
+    case Status::DeviceNotReady:
+      return "the device is not ready yet: it is starting or waits to be homed";
+    case Status::DeviceLost:
+      return "the device was unplugged: plug it in again, it starts by itself";
+    case Status::DeviceSilent:
+      return "the device does not answer: check its power supply, unplug it and plug it in again";
+    case Status::DeviceBadReply:
+      return "the device reported a position that cannot be: no force until its replies make sense again";
+    case Status::FirmwareMissing:
+      return "the device needs its firmware: name the file with --falcon-firmware (see "
+             "Documentation/Devices.md)";
+    case Status::FirmwareNotTaken:
+      return "the device did not take its firmware: check the file, unplug the device for ten seconds and try "
+             "again";
+    case Status::NotPassive:
+      return "stiffness and damping are above what the device can render without shaking: use less of them or "
+             "a higher rate";
+    case Status::RateNotSupported:
+      return "the device cannot be served that often: use a lower rate";
   }
   return "unknown status";
 }

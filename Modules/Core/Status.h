@@ -25,6 +25,16 @@ enum class [[nodiscard]] Status{
   FileNotReadable,       ///< The file cannot be opened.
   FileMalformed,         ///< The file's content is not what its format asks for.
   FileNotWritable,       ///< The file cannot be created or written.
+  DeviceNotFound,        ///< No such device is plugged in.
+  DeviceNotPermitted,    ///< The device is there, but this user may not open it.
+  DeviceNotReady,        ///< Still starting, homing or taking a moment: no position yet, no force.
+  DeviceLost,            ///< The device was unplugged or its connection broke.
+  DeviceSilent,          ///< The device is there but does not answer.
+  DeviceBadReply,        ///< The device answered what cannot be: held position, no force.
+  FirmwareMissing,       ///< The device needs a firmware file that was not named or cannot be used.
+  FirmwareNotTaken,      ///< The device did not accept its firmware.
+  NotPassive,            ///< Stiffness and damping above what the device can render without giving energy.
+  RateNotSupported,      ///< The servo rate is above what the device can do.
 };
 
 /// One sentence in plain words: what happened and what to do about it. Never null; static storage.

@@ -6,28 +6,44 @@
 
 #include "Core/PointView.h"
 
+#include <string>
+
 namespace pointhaptics
 {
 
-/// What a device can do. Metres, newtons, hertz.
+/// What a device can do. Metres, newtons, seconds, hertz; workspace frame: x right, y up, z towards the
+/// person.
 struct DeviceCapabilities
 {
-  Bounds workspace;              ///< Where the hand can be, workspace frame.
-  double maximumForce = 0.0;     ///< Newtons the device can hold.
-  double maximumStiffness = 0.0; ///< N/m a passive spring may have.
+  Bounds workspace;              ///< Where the hand can be.
+  double maximumForce = 0.0;     ///< N the device can hold.
+  double maximumStiffness = 0.0; ///< N/m that a spring without damping may have at 1 kHz or the highest rate.
+  double maximumDamping = 0.0;   ///< N s/m that a damper without spring may have there.
+  double maximumRateHz = 0.0;    ///< Ticks per second that make sense; 0: any.
   int numberOfButtons = 0;
+  bool pushes = false; ///< There are motors: somebody's hand is in it.
 };
 
-/// open() and close() belong to the thread that owns the device; read() and write() to the servo thread.
+/// Life: open(), then read() and write() in turn, once a tick, then close(). open() and close() belong to the
+/// thread that owns the device; read() and write() to the servo thread, between the two, and never wait
+/// longer than a tick. limits() (see HandPort) tells the servo loop which springs the device can render.
+///
+/// Positions and forces are in the workspace frame: metres and newtons, x right, y up, z towards the person,
+/// the origin in the middle of the workspace.
 class HapticDevice : public HandPort
 {
 public:
-  /// Short name for people: "simulated", "path".
+  /// Short name for people: "simulated", "path", "falcon".
   virtual const char* name() const noexcept = 0;
+  /// The same before and after open().
   virtual DeviceCapabilities capabilities() const noexcept = 0;
+  /// Ok, or a status whose sentence says what to do; message() may say more.
   virtual Status open() = 0;
   /// Zero force, then release. Safe on a closed device.
   virtual void close() = 0;
+  /// What open() or the device itself has to say to the user: empty, or one sentence with what and cure. Any
+  /// thread but the servo thread.
+  virtual std::string message() const { return {}; }
 };
 
 } // namespace pointhaptics

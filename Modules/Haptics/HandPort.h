@@ -4,6 +4,7 @@
 
 #include "Core/Status.h"
 #include "Core/Vector3.h"
+#include "Haptics/PassivityLimit.h"
 
 #include <cstdint>
 
@@ -23,10 +24,14 @@ class HandPort
 public:
   virtual ~HandPort() = default;
   /// The hand at @p timeSeconds of the servo clock. Must not wait longer than a tick.
-  /// Ok, EndOfPath (the loop stops), or a fault (the loop sends zero force and counts it).
+  /// Ok, EndOfPath (the loop stops), DeviceNotReady (no position yet: the loop sends zero force and goes on),
+  /// or a fault (the same, and the loop counts it).
   virtual Status read(double timeSeconds, HandState& state) noexcept = 0;
   /// Force on the hand in newtons, workspace frame; finite and within the limits of the ForceGuard.
   virtual Status write(double timeSeconds, const Vec3& force) noexcept = 0;
+  /// What the loop must keep to. Asked by the thread that starts the loop or sets its parameters; the same at
+  /// all times. Default: a hand that nothing moves, without any limit.
+  virtual HandLimits limits() const noexcept { return {}; }
 };
 
 } // namespace pointhaptics

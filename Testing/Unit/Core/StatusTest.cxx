@@ -10,7 +10,7 @@ using namespace pointhaptics;
 TEST(Status, HasAnOwnSentenceForEveryValue)
 {
   std::set<std::string> sentences;
-  for (int value = 0; value <= int(Status::FileNotWritable); ++value)
+  for (int value = 0; value <= int(Status::RateNotSupported); ++value)
   {
     const char* text = sentence(Status(value));
     ASSERT_NE(text, nullptr) << value;

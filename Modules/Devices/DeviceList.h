@@ -1,0 +1,23 @@
+/// @file
+/// Which devices are there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+
+struct ListedDevice
+{
+  std::string kind;    ///< What --device or the program calls it: "falcon", "spacemouse", "simulated".
+  std::string name;    ///< For people.
+  std::string place;   ///< "bus 1 device 7", "/dev/hidraw3"; empty for one without hardware.
+  std::string problem; ///< Empty: it can be used; else why not, with the cure.
+};
+
+/// Falcons, SpaceMice, then the simulated hand, which is always there. Opens and closes each device it finds;
+/// not beside a driver that uses one. @p notes gets what is missing from this build.
+std::vector<ListedDevice> listDevices(std::vector<std::string>& notes);
+
+} // namespace pointhaptics

@@ -1,0 +1,319 @@
+#include "Devices/Falcon/FalconDevice.h"
+
+#include "Devices/Falcon/FalconFirmware.h"
+#include "Devices/Falcon/FalconServo.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace pointhaptics
+{
+namespace
+{
+constexpr double kHalfWorkspace = 0.05;
+constexpr double kRateHz = 1000.0;
+constexpr int kButtons = 4;
+// What the drive and the hand in it dissipate at least, and what a count is worth at the grip. Assumed, to be
+// confirmed on hardware: at 1 kHz they allow 1667 N/m, in the middle of what other programs use (800 to
+// 3000).
+constexpr double kLeastDamping = 2.5;
+constexpr double kLeastFriction = 0.1;
+/// Within the 4 cm ball about the centre a count moves the grip by at most this (FalconKinematicsTest).
+constexpr double kLargestCountStep = 60e-6;
+/// Position of the last answer; the command goes out at the end of the tick.
+constexpr double kDelayTicks = 1.0;
+constexpr double kRampDownSeconds = 0.06;
+}
+
+struct FalconDevice::Implementation
+{
+  enum Owner : int
+  {
+    kSupervisor,
+    kServo,
+  };
+
+  explicit Implementation(const FalconSettings& s)
+    : settings(s)
+    , servo(s)
+  {
+  }
+
+  const FalconSettings settings;
+  std::unique_ptr<FtdiBus> bus;
+  std::unique_ptr<FtdiLink> link; ///< The owner's.
+  FalconServo servo;              ///< The owner's.
+  std::atomic<int> owner{ kSupervisor };
+  std::atomic<int> state{ int(FalconState::Closed) }; ///< While the supervisor owns the link.
+  std::atomic<bool> quit{ false };
+  std::atomic<bool> armed{ true };
+  std::atomic<int> lamps{ -1 };
+  std::atomic<double> progress{ 0.0 };
+  std::thread supervisor;
+  mutable std::mutex mutex; ///< Of what follows; never the servo thread's.
+  std::condition_variable changed;
+  std::string message;
+  Status started = Status::DeviceNotReady;
+
+  void happen(FalconEvent event) { state = int(next(FalconState(state.load()), event)); }
+  void supervise();
+  Status start(std::string& text);
+  void report(Status status, const std::string& text);
+  void fail() noexcept;
+};
+
+/// Finds and starts the device. Ok: the link is ready for the servo thread.
+Status FalconDevice::Implementation::start(std::string& text)
+{
+  Status status = Status::Ok;
+  link = bus->open(status, text);
+  if (!link)
+  {
+    return status;
+  }
+  happen(FalconEvent::Connected);
+  FalconFirmware firmware;
+  const Status read = readFalconFirmware(falconFirmwareFile(settings.firmwareFile), firmware, text);
+  if (read != Status::Ok && !settings.firmwareFile.empty())
+  {
+    return read;
+  }
+  status = bootFalcon(
+    *link, settings.boot, firmware.bytes, quit, [this] { happen(FalconEvent::BootDone); },
+    [this](double part) { progress = part; });
+  if (status != Status::FirmwareMissing)
+  {
+    text = status == Status::Ok ? firmware.note : std::string("falcon: ") + sentence(status);
+  }
+  return status;
+}
+
+void FalconDevice::Implementation::report(Status status, const std::string& text)
+{
+  const std::lock_guard<std::mutex> lock(mutex);
+  message = text;
+  started = status;
+  changed.notify_all();
+}
+
+void FalconDevice::Implementation::supervise()
+{
+  bool everRan = settings.waitForDevice;
+  const auto pause = std::chrono::duration_cast<std::chrono::nanoseconds>(
+    std::chrono::duration<double>(settings.retrySeconds));
+  while (!quit)
+  {
+    if (owner.load(std::memory_order_acquire) == kSupervisor)
+    {
+      link.reset();
+      happen(FalconState(state.load()) == FalconState::Closed ? FalconEvent::Open : FalconEvent::Retry);
+      std::string text;
+      const Status status = start(text);
+      if (status == Status::Ok)
+      {
+        happen(FalconEvent::Running);
+        servo.begin();
+        owner.store(kServo, std::memory_order_release);
+      }
+      else
+      {
+        link.reset();
+        happen(FalconEvent::Failed);
+      }
+      report(status, text);
+      everRan = everRan || status == Status::Ok;
+      if (!everRan)
+      {
+        return;
+      }
+    }
+    std::unique_lock<std::mutex> lock(mutex);
+    changed.wait_for(lock, pause, [this] { return quit.load(); });
+  }
+}
+
+/// Servo thread: the connection is of no use any more.
+void FalconDevice::Implementation::fail() noexcept
+{
+  state.store(int(FalconState::Fault), std::memory_order_relaxed);
+  owner.store(kSupervisor, std::memory_order_release);
+}
+
+FalconDevice::FalconDevice(const FalconSettings& settings)
+  : FalconDevice(settings, makeUsbFtdiBus())
+{
+}
+
+FalconDevice::FalconDevice(const FalconSettings& settings, std::unique_ptr<FtdiBus> bus)
+  : implementation_(std::make_unique<Implementation>(settings))
+{
+  implementation_->bus = std::move(bus);
+  implementation_->armed = settings.armWhenHomed;
+}
+
+FalconDevice::~FalconDevice()
+{
+  close();
+}
+
+HandLimits FalconDevice::limits() const noexcept
+{
+  HandLimits result;
+  result.damping = kLeastDamping;
+  result.friction = kLeastFriction;
+  result.positionStep = kLargestCountStep;
+  result.delayTicks = kDelayTicks;
+  result.maximumRateHz = kRateHz;
+  result.rampDownSeconds = kRampDownSeconds;
+  return result;
+}
+
+DeviceCapabilities FalconDevice::capabilities() const noexcept
+{
+  DeviceCapabilities result;
+  result.workspace.include({ -kHalfWorkspace, -kHalfWorkspace, -kHalfWorkspace });
+  result.workspace.include({ kHalfWorkspace, kHalfWorkspace, kHalfWorkspace });
+  result.maximumForce = implementation_->settings.limits.maximumForce;
+  result.maximumStiffness = largestPassiveStiffness(limits(), 0.0, kRateHz);
+  result.maximumDamping = largestPassiveDamping(limits(), 0.0, kRateHz);
+  result.maximumRateHz = kRateHz;
+  result.numberOfButtons = kButtons;
+  result.pushes = true;
+  return result;
+}
+
+Status FalconDevice::open()
+{
+  close();
+  Implementation& self = *implementation_;
+  if (self.settings.limits.check() != Status::Ok || !(self.settings.retrySeconds >= 0.0))
+  {
+    self.report(Status::InvalidParameter,
+      "falcon: a limit is out of its range: at most 8 N and 0.4096 N m, and a ramp of 1 s or more");
+    return Status::InvalidParameter;
+  }
+  if (!self.bus)
+  {
+    self.report(Status::DeviceNotFound,
+      "falcon: built without libusb; install libusb-1.0-0-dev and configure the build again");
+    return Status::DeviceNotFound;
+  }
+  self.quit = false;
+  self.progress = 0.0;
+  self.servo.clearStatistics();
+  self.report(Status::DeviceNotReady, {});
+  self.supervisor = std::thread([&self] { self.supervise(); });
+  std::unique_lock<std::mutex> lock(self.mutex);
+  self.changed.wait(lock, [&self] { return self.started != Status::DeviceNotReady; });
+  const Status status = self.started;
+  lock.unlock();
+  if (status != Status::Ok && !self.settings.waitForDevice)
+  {
+    const std::string text = message();
+    close();
+    self.report(status, text);
+    return status;
+  }
+  return Status::Ok;
+}
+
+void FalconDevice::close()
+{
+  Implementation& self = *implementation_;
+  self.quit = true;
+  if (self.supervisor.joinable())
+  {
+    {
+      const std::lock_guard<std::mutex> lock(self.mutex);
+      self.changed.notify_all();
+    }
+    self.supervisor.join();
+  }
+  if (self.link && self.owner.load(std::memory_order_acquire) == Implementation::kServo)
+  {
+    self.servo.sayGoodbye(*self.link);
+  }
+  self.link.reset();
+  self.owner = Implementation::kSupervisor;
+  self.happen(FalconEvent::Close);
+}
+
+Status FalconDevice::read(double timeSeconds, HandState& state) noexcept
+{
+  Implementation& self = *implementation_;
+  if (self.owner.load(std::memory_order_acquire) != Implementation::kServo)
+  {
+    return FalconState(self.state.load(std::memory_order_relaxed)) == FalconState::Closed
+      ? Status::DeviceNotOpen
+      : Status::DeviceNotReady;
+  }
+  const Status status =
+    self.servo.read(*self.link, timeSeconds, self.armed.load(std::memory_order_relaxed), state);
+  if (status == Status::DeviceLost)
+  {
+    self.fail();
+  }
+  return status;
+}
+
+Status FalconDevice::write(double timeSeconds, const Vec3& force) noexcept
+{
+  Implementation& self = *implementation_;
+  if (self.owner.load(std::memory_order_acquire) != Implementation::kServo)
+  {
+    return FalconState(self.state.load(std::memory_order_relaxed)) == FalconState::Closed
+      ? Status::DeviceNotOpen
+      : Status::DeviceNotReady;
+  }
+  const Status status =
+    self.servo.write(*self.link, timeSeconds, force, self.lamps.load(std::memory_order_relaxed));
+  if (status == Status::DeviceLost)
+  {
+    self.fail();
+  }
+  return status;
+}
+
+std::string FalconDevice::message() const
+{
+  const std::lock_guard<std::mutex> lock(implementation_->mutex);
+  return implementation_->message;
+}
+
+void FalconDevice::setArmed(bool armed) noexcept
+{
+  implementation_->armed.store(armed, std::memory_order_relaxed);
+}
+
+FalconState FalconDevice::state() const noexcept
+{
+  const Implementation& self = *implementation_;
+  return self.owner.load(std::memory_order_acquire) == Implementation::kServo
+    ? self.servo.state()
+    : FalconState(self.state.load(std::memory_order_relaxed));
+}
+
+FalconStatistics FalconDevice::statistics() const noexcept
+{
+  return implementation_->servo.statistics();
+}
+
+FalconRaw FalconDevice::raw() const noexcept
+{
+  return implementation_->servo.raw();
+}
+
+double FalconDevice::loadProgress() const noexcept
+{
+  return implementation_->progress.load(std::memory_order_relaxed);
+}
+
+void FalconDevice::showLamps(int lamps) noexcept
+{
+  implementation_->lamps.store(lamps, std::memory_order_relaxed);
+}
+
+} // namespace pointhaptics

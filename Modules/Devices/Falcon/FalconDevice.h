@@ -1,0 +1,111 @@
+/// @file
+/// The Novint Falcon as a haptic device: found, started, homed, served, and found again after it was
+/// unplugged.
+#pragma once
+
+#include "Devices/Falcon/FalconBoot.h"
+#include "Devices/Falcon/FalconForceChain.h"
+#include "Devices/Falcon/FalconState.h"
+#include "Devices/Falcon/FtdiLink.h"
+#include "Devices/HapticDevice.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace pointhaptics
+{
+
+struct FalconSettings
+{
+  std::string firmwareFile; ///< Empty: what the environment names (kFirmwareVariable), if anything.
+  FalconForceLimits limits;
+  FalconBootSettings boot;
+  bool armWhenHomed = true;   ///< Off: forces pass only after setArmed(true).
+  bool waitForDevice = false; ///< open() succeeds without a device; it is used as soon as it is plugged in.
+  double retrySeconds = 0.5;  ///< Between two looks for a device that is gone.
+  double replyWaitSeconds = 3e-4; ///< Longest time that read() waits for an answer that is late.
+  double silenceSeconds = 0.02;   ///< Without an answer for so long: no force, and the command is sent anew.
+};
+
+/// Counted since open(). Each may be read by any thread.
+struct FalconStatistics
+{
+  std::uint64_t replies = 0;
+  std::uint64_t lateReplies = 0;     ///< Reads without a new answer; the position before was used again.
+  std::uint64_t timeouts = 0;        ///< Silences of silenceSeconds.
+  std::uint64_t badReplies = 0;      ///< Answers whose position cannot be: out of reach, or too far away.
+  std::uint64_t droppedBytes = 0;    ///< Bytes outside whole frames.
+  std::uint64_t skippedCommands = 0; ///< Commands not sent since the one before was still on its way.
+  std::uint64_t connections = 0;     ///< Times the device came to run.
+};
+
+/// What the device said last, unprocessed, for diagnosis.
+struct FalconRaw
+{
+  FalconReply reply;
+  FalconCommand command;
+  FalconState state = FalconState::Closed;
+};
+
+/// Threads: a supervisor thread of its own finds, starts and loads the device, and looks for it again after
+/// a fault; the connection then belongs to the servo thread, which reads and writes without waiting for
+/// anybody. An atomic word says whose it is. state(), statistics(), raw(), message() and setArmed() are for
+/// any thread. The step itself does not allocate, lock, log or throw; libusb, below it, allocates some tens
+/// of bytes for each transfer and takes locks that nobody else holds.
+///
+/// A tick: read() takes the answer to the command of the tick before (one tick of delay, no waiting for the
+/// wire) and gives the position; write() sends the force through FalconForceChain. Lamps: red: start or
+/// fault, blue: pull the grip out and push it in (homing), green: forces pass, blue and green: homed, no
+/// force.
+///
+/// read() gives DeviceNotReady until the device is homed, DeviceSilent and DeviceBadReply for a moment,
+/// DeviceLost after it was unplugged: in all of them no force passes, and the ramp begins anew.
+class FalconDevice : public HapticDevice
+{
+public:
+  /// On the libusb of this machine.
+  explicit FalconDevice(const FalconSettings& settings = {});
+  /// On another bus, for tests.
+  FalconDevice(const FalconSettings& settings, std::unique_ptr<FtdiBus> bus);
+  ~FalconDevice() override; ///< Closes.
+  FalconDevice(const FalconDevice&) = delete;
+  FalconDevice& operator=(const FalconDevice&) = delete;
+
+  const char* name() const noexcept override { return "falcon"; }
+  DeviceCapabilities capabilities() const noexcept override;
+  HandLimits limits() const noexcept override;
+
+  /// Waits for the first start: 0.1 s where the firmware runs, some seconds where it must be loaded.
+  /// DeviceNotFound, DeviceNotPermitted, FirmwareMissing, FirmwareNotTaken, DeviceSilent, DeviceLost,
+  /// InvalidParameter; message() then has what and cure.
+  Status open() override;
+  /// Sends commands without force until three were answered, lamps off, releases. The servo loop must be
+  /// stopped; 0.1 s at most where the device answers.
+  void close() override;
+  Status read(double timeSeconds, HandState& state) noexcept override;
+  Status write(double timeSeconds, const Vec3& force) noexcept override;
+  std::string message() const override;
+
+  /// Lets forces pass or not; they begin with the ramp.
+  void setArmed(bool armed) noexcept;
+  FalconState state() const noexcept;
+  FalconStatistics statistics() const noexcept;
+  /// The newest exchange, for diagnosis.
+  FalconRaw raw() const noexcept;
+  /// Part of the firmware that was sent, 0 to 1.
+  double loadProgress() const noexcept;
+  /// For diagnosis: lamps to show instead of the usual ones (FalconLamp bits; -1: the usual ones).
+  void showLamps(int lamps) noexcept;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// The libusb bus; null where the package was built without libusb.
+std::unique_ptr<FtdiBus> makeUsbFtdiBus();
+
+} // namespace pointhaptics

@@ -1,0 +1,226 @@
+#include "Devices/Falcon/FalconServo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace pointhaptics
+{
+namespace
+{
+const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
+/// A hand at 5 m/s turns a joint of 6 cm by 83 rad/s, 131,000 counts a second: faster is a broken answer.
+constexpr double kCountsPerSecond = 150000.0;
+constexpr double kFewCounts = 150.0;
+/// So many answers in a row far from the last good one, and near each other, are believed.
+constexpr int kBelieved = 5;
+constexpr int kSilencesToPurge = 3;
+constexpr int kSilencesToGiveUp = 50;
+constexpr int kGoodbyes = 3;
+constexpr int kMostGoodbyes = 50;
+constexpr double kGoodbyeWait = 2e-3;
+constexpr int kBytes = 4 * kFtdiPacket;
+
+double largestDifference(
+  const std::array<std::int16_t, kFalconLegs>& a, const std::array<std::int16_t, kFalconLegs>& b) noexcept
+{
+  int result = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    result = std::max(result, std::abs(int(a[i]) - int(b[i])));
+  }
+  return double(result);
+}
+}
+
+FalconServo::FalconServo(const FalconSettings& settings)
+  : settings_(settings)
+  , chain_(settings.limits)
+{
+}
+
+void FalconServo::happen(FalconEvent event) noexcept
+{
+  const FalconState before = state();
+  const FalconState after = next(before, event);
+  if (after != before)
+  {
+    chain_.restart();
+    state_.store(int(after), std::memory_order_relaxed);
+  }
+}
+
+void FalconServo::begin() noexcept
+{
+  chain_.restart();
+  finder_.reset();
+  reply_ = FalconReply();
+  command_ = FalconCommand();
+  positioned_ = false;
+  jumps_ = 0;
+  silences_ = 0;
+  timed_ = false;
+  answered_ = false;
+  ++count_.connections;
+  shown_.write(count_);
+  state_.store(int(FalconState::Unhomed), std::memory_order_relaxed);
+}
+
+/// True: at least one whole answer has come; reply_ is the newest.
+bool FalconServo::receive(FtdiLink& link, double waitSeconds, Status& status) noexcept
+{
+  std::uint8_t bytes[kBytes];
+  int count = 0;
+  status = link.poll(bytes, kBytes, count, waitSeconds);
+  bool whole = false;
+  for (int i = 0; status == Status::Ok && i < count; ++i)
+  {
+    if (finder_.take(bytes[i]) && decode(finder_.frame(), reply_))
+    {
+      whole = true;
+      ++count_.replies;
+    }
+  }
+  count_.droppedBytes = finder_.droppedBytes();
+  return whole;
+}
+
+Status FalconServo::take(const FalconReply& reply, double elapsed) noexcept
+{
+  if (!reply.allHomed())
+  {
+    happen(FalconEvent::HomingLost);
+    positioned_ = false;
+    return Status::DeviceNotReady;
+  }
+  const double allowed = kFewCounts + kCountsPerSecond * std::max(0.0, elapsed);
+  const bool jumped = positioned_ && largestDifference(reply.encoders, encoders_) > allowed;
+  const FalconAngles angles = falcon::anglesFromCounts(
+    { double(reply.encoders[0]), double(reply.encoders[1]), double(reply.encoders[2]) });
+  Vec3 position = position_;
+  if (jumped || !falcon::forward(angles, positioned_ ? position_ : kCenter, position))
+  {
+    ++count_.badReplies;
+    chain_.restart();
+    // A hand that stays where it cannot have come to has been there: the answers between were lost.
+    positioned_ = positioned_ && ++jumps_ < kBelieved;
+    return Status::DeviceBadReply;
+  }
+  jumps_ = 0;
+  encoders_ = reply.encoders;
+  angles_ = angles;
+  position_ = position;
+  if (!positioned_)
+  {
+    positioned_ = true;
+    chain_.restart();
+  }
+  happen(FalconEvent::HomedAll);
+  return Status::Ok;
+}
+
+/// No answer at @p timeSeconds. Ok: it is only late, the last position serves.
+Status FalconServo::silence(double timeSeconds) noexcept
+{
+  ++count_.lateReplies;
+  if (timeSeconds - lastReply_ < settings_.silenceSeconds * (silences_ + 1))
+  {
+    const bool serves = silences_ == 0 && positioned_;
+    return serves ? Status::Ok : silences_ > 0 ? Status::DeviceSilent : Status::DeviceNotReady;
+  }
+  ++count_.timeouts;
+  ++silences_;
+  chain_.restart();
+  if (silences_ % kSilencesToPurge == 0)
+  {
+    finder_.reset();
+  }
+  return silences_ >= kSilencesToGiveUp ? Status::DeviceLost : Status::DeviceSilent;
+}
+
+Status FalconServo::read(FtdiLink& link, double timeSeconds, bool wantArmed, HandState& hand) noexcept
+{
+  answered_ = false;
+  if (!timed_)
+  {
+    lastReply_ = lastWrite_ = timeSeconds;
+  }
+  Status status = Status::Ok;
+  bool whole = receive(link, 0.0, status);
+  if (status == Status::Ok && !whole && timed_)
+  {
+    whole = receive(link, settings_.replyWaitSeconds, status);
+  }
+  timed_ = true;
+  if (status == Status::Ok)
+  {
+    status = whole ? take(reply_, timeSeconds - lastReply_) : silence(timeSeconds);
+  }
+  if (whole)
+  {
+    lastReply_ = timeSeconds;
+    silences_ = 0;
+  }
+  happen(wantArmed ? FalconEvent::Arm : FalconEvent::Disarm);
+  if (status == Status::Ok)
+  {
+    answered_ = true;
+    hand.position = position_ - kCenter;
+    hand.buttons = reply_.buttons;
+  }
+  return status;
+}
+
+std::uint8_t FalconServo::usualLamps() const noexcept
+{
+  switch (state())
+  {
+    case FalconState::Unhomed:
+      return kFalconLampBlue;
+    case FalconState::Homed:
+      return kFalconLampBlue | kFalconLampGreen;
+    case FalconState::Armed:
+      return chain_.ramp() > 0.0 || answered_ ? kFalconLampGreen : kFalconLampRed;
+    default:
+      return kFalconLampRed;
+  }
+}
+
+Status FalconServo::write(FtdiLink& link, double timeSeconds, const Vec3& force, int lamps) noexcept
+{
+  const bool mayPush = answered_ && state() == FalconState::Armed;
+  const double dt = timeSeconds - lastWrite_;
+  lastWrite_ = timeSeconds;
+  command_.motors = chain_.step(force, position_, angles_, mayPush, dt);
+  command_.lamps = std::uint8_t((lamps >= 0 ? lamps : usualLamps()) | kFalconHomingBit);
+  const FalconFrame frame = encode(command_);
+  const Status status = link.submit(frame.data(), int(frame.size()));
+  count_.skippedCommands += status == Status::DeviceNotReady ? 1 : 0;
+  raw_.write({ reply_, command_, state() });
+  shown_.write(count_);
+  return status == Status::DeviceNotReady ? Status::Ok : status;
+}
+
+void FalconServo::sayGoodbye(FtdiLink& link) noexcept
+{
+  const auto exchange = [&](const FalconCommand& command)
+  {
+    const FalconFrame frame = encode(command);
+    Status status = link.submit(frame.data(), int(frame.size()));
+    status = status == Status::DeviceNotReady ? Status::Ok : status;
+    const bool answered = status == Status::Ok && receive(link, kGoodbyeWait, status);
+    return status != Status::Ok ? -1 : answered ? 1 : 0;
+  };
+  int answers = 0;
+  for (int i = 0; i < kMostGoodbyes && answers < kGoodbyes; ++i)
+  {
+    const int answer = exchange(FalconCommand());
+    if (answer < 0)
+    {
+      return;
+    }
+    answers += answer;
+  }
+}
+
+} // namespace pointhaptics

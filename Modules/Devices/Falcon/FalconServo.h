@@ -1,0 +1,61 @@
+/// @file
+/// The Falcon's side of a servo tick: answers to positions, forces to commands. Private to the driver.
+#pragma once
+
+#include "Devices/Falcon/FalconDevice.h"
+
+#include "Haptics/LatestValue.h"
+
+namespace pointhaptics
+{
+
+/// Owned and used by one thread at a time; statistics and raw values may be read by any.
+class FalconServo
+{
+public:
+  explicit FalconServo(const FalconSettings& settings);
+
+  /// Begins with a device that has just come to run, and is not homed as far as anybody knows.
+  void begin() noexcept;
+  /// Takes what has come. Ok: @p hand is the newest position. DeviceLost ends the connection.
+  Status read(FtdiLink& link, double timeSeconds, bool wantArmed, HandState& hand) noexcept;
+  /// Sends @p force (workspace frame) through the chain. DeviceLost ends the connection.
+  Status write(FtdiLink& link, double timeSeconds, const Vec3& force, int lamps) noexcept;
+  /// Sends commands without force until three were answered, then lamps off.
+  void sayGoodbye(FtdiLink& link) noexcept;
+
+  FalconState state() const noexcept { return FalconState(state_.load(std::memory_order_relaxed)); }
+  FalconStatistics statistics() const noexcept { return shown_.read(); }
+  FalconRaw raw() const noexcept { return raw_.read(); }
+  void clearStatistics() noexcept { count_ = FalconStatistics(); }
+
+private:
+  bool receive(FtdiLink& link, double waitSeconds, Status& status) noexcept;
+  Status take(const FalconReply& reply, double elapsed) noexcept;
+  Status silence(double timeSeconds) noexcept;
+  void happen(FalconEvent event) noexcept;
+  std::uint8_t usualLamps() const noexcept;
+
+  FalconSettings settings_;
+  FalconForceChain chain_;
+  FalconFrameFinder finder_;
+  FalconReply reply_;
+  FalconCommand command_;
+  FalconStatistics count_;
+  LatestValue<FalconStatistics> shown_;
+  LatestValue<FalconRaw> raw_;
+  std::atomic<int> state_{ int(FalconState::Closed) };
+
+  Vec3 position_; ///< Device frame.
+  FalconAngles angles_{};
+  bool positioned_ = false; ///< position_ belongs to encoders_.
+  std::array<std::int16_t, kFalconLegs> encoders_{};
+  int jumps_ = 0;          ///< Bad replies in a row.
+  int silences_ = 0;       ///< Timeouts in a row.
+  double lastReply_ = 0.0; ///< Servo time.
+  double lastWrite_ = 0.0;
+  bool timed_ = false;    ///< The two times are valid.
+  bool answered_ = false; ///< read() was Ok in this tick: a force may pass.
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,18 @@
+// In the place of UsbFtdiLink.cxx where libusb is not installed.
+#include "Devices/Falcon/FalconDevice.h"
+#include "Devices/Falcon/UsbFtdi.h"
+
+namespace pointhaptics
+{
+
+std::unique_ptr<FtdiBus> makeUsbFtdiBus()
+{
+  return nullptr;
+}
+
+std::vector<UsbFalcon> findUsbFalcons()
+{
+  return {};
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,44 @@
+/// @file
+/// What the SpaceMouse driver asks of HID, so that a test can stand in.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+
+struct HidFound
+{
+  std::uint16_t vendor = 0;
+  std::uint16_t product = 0;
+  std::string path; ///< For open(): "/dev/hidraw3".
+  std::string name; ///< For people.
+};
+
+/// An open device; closed by its destructor. One thread.
+class HidLink
+{
+public:
+  virtual ~HidLink() = default;
+  /// The next report: its bytes, 0 after the timeout, -1 where the device is gone.
+  virtual int read(std::uint8_t* bytes, int capacity, int timeoutMilliseconds) = 0;
+  /// An output report, its number first. False: not taken.
+  virtual bool write(const std::uint8_t* bytes, int count) = 0;
+};
+
+class HidBus
+{
+public:
+  virtual ~HidBus() = default;
+  virtual std::vector<HidFound> find() = 0;
+  /// Null: @p message says why, with the cure.
+  virtual std::unique_ptr<HidLink> open(const HidFound& device, std::string& message) = 0;
+};
+
+/// hidapi; null where the package was built without it.
+std::unique_ptr<HidBus> makeHidapiBus();
+
+} // namespace pointhaptics

@@ -1,0 +1,12 @@
+// In the place of HidapiBus.cxx where hidapi is not installed.
+#include "Devices/SpaceMouse/HidBus.h"
+
+namespace pointhaptics
+{
+
+std::unique_ptr<HidBus> makeHidapiBus()
+{
+  return nullptr;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,185 @@
+#include "Devices/SpaceMouse/SpaceMouse.h"
+
+#include "Haptics/LatestValue.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace pointhaptics
+{
+namespace
+{
+constexpr int kReadMilliseconds = 20;
+constexpr int kLongestReport = 64;
+constexpr std::uint8_t kLampReport = 0x04;
+
+double now() noexcept
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void setLamp(HidLink& link, bool on)
+{
+  const std::uint8_t report[] = { kLampReport, std::uint8_t(on ? 1 : 0) };
+  // A device without a lamp refuses; nothing depends on it.
+  static_cast<void>(link.write(report, int(sizeof(report))));
+}
+}
+
+struct SpaceMouse::Implementation
+{
+  SpaceMouseSettings settings;
+  std::unique_ptr<HidBus> bus;
+  std::thread thread;
+  std::atomic<bool> quit{ false };
+  std::atomic<int> battery{ -1 };
+  /// The decoder with all its times, so that whoever asks sees what is stale at that moment.
+  LatestValue<SpaceMouseDecoder> newest;
+  std::atomic<bool> connected{ false };
+  mutable std::mutex mutex;
+  std::condition_variable changed;
+  std::string message;
+
+  void run();
+  std::unique_ptr<HidLink> find();
+  void serve(HidLink& link);
+  void say(const std::string& text)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    message = text;
+  }
+};
+
+std::unique_ptr<HidLink> SpaceMouse::Implementation::find()
+{
+  const std::vector<HidFound> all = bus->find();
+  const auto found = std::find_if(all.begin(), all.end(),
+    [](const HidFound& device) { return isSpaceMouse(device.vendor, device.product); });
+  if (found == all.end())
+  {
+    say("spacemouse: none is plugged in");
+    return nullptr;
+  }
+  std::string text;
+  std::unique_ptr<HidLink> link = bus->open(*found, text);
+  say(link ? found->name : text);
+  return link;
+}
+
+void SpaceMouse::Implementation::serve(HidLink& link)
+{
+  SpaceMouseDecoder decoder(settings);
+  newest.write(decoder);
+  connected = true;
+  setLamp(link, true);
+  while (!quit)
+  {
+    std::uint8_t bytes[kLongestReport];
+    const int count = link.read(bytes, kLongestReport, kReadMilliseconds);
+    if (count < 0)
+    {
+      break;
+    }
+    if (count > 0 && decoder.take(bytes, count, now()))
+    {
+      battery = decoder.battery();
+      newest.write(decoder);
+    }
+  }
+  if (quit)
+  {
+    setLamp(link, false);
+  }
+  connected = false;
+  decoder.reset();
+  newest.write(decoder);
+  battery = -1;
+}
+
+void SpaceMouse::Implementation::run()
+{
+  const auto pause = std::chrono::duration_cast<std::chrono::nanoseconds>(
+    std::chrono::duration<double>(settings.retrySeconds));
+  while (!quit)
+  {
+    if (const std::unique_ptr<HidLink> link = find())
+    {
+      serve(*link);
+      if (!quit)
+      {
+        say("spacemouse: it was unplugged; plug it in again, it starts by itself");
+      }
+    }
+    std::unique_lock<std::mutex> lock(mutex);
+    changed.wait_for(lock, pause, [this] { return quit.load(); });
+  }
+}
+
+SpaceMouse::SpaceMouse(const SpaceMouseSettings& settings)
+  : SpaceMouse(settings, makeHidapiBus())
+{
+}
+
+SpaceMouse::SpaceMouse(const SpaceMouseSettings& settings, std::unique_ptr<HidBus> bus)
+  : implementation_(std::make_unique<Implementation>())
+{
+  implementation_->settings = settings;
+  implementation_->bus = std::move(bus);
+}
+
+SpaceMouse::~SpaceMouse()
+{
+  stop();
+}
+
+Status SpaceMouse::start()
+{
+  stop();
+  Implementation& self = *implementation_;
+  if (!self.bus)
+  {
+    self.say("spacemouse: built without hidapi; install libhidapi-dev and configure the build again");
+    return Status::DeviceNotFound;
+  }
+  self.quit = false;
+  self.thread = std::thread([&self] { self.run(); });
+  return Status::Ok;
+}
+
+void SpaceMouse::stop()
+{
+  Implementation& self = *implementation_;
+  {
+    const std::lock_guard<std::mutex> lock(self.mutex);
+    self.quit = true;
+    self.changed.notify_all();
+  }
+  if (self.thread.joinable())
+  {
+    self.thread.join();
+  }
+}
+
+SpaceMouseMotion SpaceMouse::motion() const noexcept
+{
+  SpaceMouseMotion result = implementation_->newest.read().motion(now());
+  result.connected = implementation_->connected.load(std::memory_order_relaxed);
+  return result;
+}
+
+int SpaceMouse::battery() const noexcept
+{
+  return implementation_->battery.load(std::memory_order_relaxed);
+}
+
+std::string SpaceMouse::message() const
+{
+  const std::lock_guard<std::mutex> lock(implementation_->mutex);
+  return implementation_->message;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,47 @@
+/// @file
+/// A SpaceMouse that moves the model: found, read, and found again after it was unplugged.
+#pragma once
+
+#include "Devices/SpaceMouse/HidBus.h"
+#include "Devices/SpaceMouse/SpaceMouseReport.h"
+
+#include "Core/Status.h"
+
+#include <memory>
+#include <string>
+
+namespace pointhaptics
+{
+
+/// A thread of its own waits for reports, 20 ms at a time, and looks for the device while there is none, so
+/// that it may be plugged in at any time. Its lamp is on while it is in use.
+/// Thread safety: start() and stop() from one thread; motion(), battery() and message() from any, without
+/// waiting for the device.
+class SpaceMouse
+{
+public:
+  /// On the hidapi of this machine.
+  explicit SpaceMouse(const SpaceMouseSettings& settings = {});
+  /// On another bus, for tests.
+  SpaceMouse(const SpaceMouseSettings& settings, std::unique_ptr<HidBus> bus);
+  ~SpaceMouse(); ///< Stops.
+  SpaceMouse(const SpaceMouse&) = delete;
+  SpaceMouse& operator=(const SpaceMouse&) = delete;
+
+  /// DeviceNotFound where the package was built without hidapi. Ok does not mean that one is plugged in.
+  Status start();
+  /// Lamp off, closes; 0.1 s at most.
+  void stop();
+
+  /// The cap now; at rest where no report came for staleSeconds or none is plugged in.
+  SpaceMouseMotion motion() const noexcept;
+  int battery() const noexcept; ///< Per cent; -1: not told.
+  /// Name of the device in use, or what the user should know: one sentence with its cure.
+  std::string message() const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace pointhaptics

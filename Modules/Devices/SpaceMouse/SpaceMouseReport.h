@@ -1,0 +1,60 @@
+/// @file
+/// What a 3Dconnexion SpaceMouse says: its reports, and the motion they stand for.
+#pragma once
+
+#include "Core/Vector3.h"
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+
+/// How far the cap is pushed and turned, each axis from -1 to 1 (after the dead zone). Workspace frame: x
+/// right, y up, z towards the person; turns are right-handed about these axes.
+struct SpaceMouseMotion
+{
+  Vec3 shift;
+  Vec3 turn;
+  std::uint32_t buttons = 0; ///< Bit i: button i pressed.
+  bool connected = false;
+  bool resting() const noexcept { return shift == Vec3() && turn == Vec3(); }
+};
+
+struct SpaceMouseSettings
+{
+  double deadZone = 0.06; ///< Part of the range that counts as rest, 0 to 0.9; beyond it motion begins at 0.
+  double staleSeconds = 0.1; ///< A value that old means the cap is at rest: a last report may get lost.
+  double retrySeconds = 0.5; ///< Between two looks for a device that is gone.
+};
+
+/// True for the products that speak this language. The vendor number alone would also match ordinary mice.
+bool isSpaceMouse(std::uint16_t vendor, std::uint16_t product) noexcept;
+
+/// Keeps the newest values of each kind of report. One thread; no allocation.
+///
+/// Report 1 holds the shift (7 bytes) or shift and turn (13 bytes or more), report 2 the turn, report 3 the
+/// buttons, report 0x17 the battery. Numbers are little-endian 16 bit, +-350, absolute. The device's axes are
+/// X right, Y towards the person, Z down. Anything else is ignored.
+class SpaceMouseDecoder
+{
+public:
+  explicit SpaceMouseDecoder(const SpaceMouseSettings& settings = {});
+  /// @return true where @p bytes are a report that is known and whole.
+  bool take(const std::uint8_t* bytes, int count, double timeSeconds) noexcept;
+  /// The motion at @p timeSeconds; buttons do not become stale.
+  SpaceMouseMotion motion(double timeSeconds) const noexcept;
+  /// Per cent; -1: not told.
+  int battery() const noexcept { return battery_; }
+  void reset() noexcept;
+
+private:
+  SpaceMouseSettings settings_;
+  Vec3 shift_;
+  Vec3 turn_;
+  double shiftTime_ = -1e9;
+  double turnTime_ = -1e9;
+  std::uint32_t buttons_ = 0;
+  int battery_ = -1;
+};
+
+} // namespace pointhaptics
