@@ -19,14 +19,19 @@ double secondsFromPositionToForce(const HandLimits& limits, double rateHz) noexc
 double largestPassiveStiffness(const HandLimits& limits, double damping, double rateHz) noexcept
 {
   const double byDamping = (limits.damping - damping) / secondsFromPositionToForce(limits, rateHz);
-  const double byFriction = limits.positionStep > 0.0 ? 2.0 * limits.friction / limits.positionStep
-                                                      : std::numeric_limits<double>::infinity();
+  const double byFriction = limits.positionStep > 0.0
+    ? 2.0 * limits.friction / limits.positionStep - damping * rateHz
+    : std::numeric_limits<double>::infinity();
   return std::max(0.0, std::min(byDamping, byFriction));
 }
 
 double largestPassiveDamping(const HandLimits& limits, double stiffness, double rateHz) noexcept
 {
-  return std::max(0.0, limits.damping - stiffness * secondsFromPositionToForce(limits, rateHz));
+  const double byDamping = limits.damping - stiffness * secondsFromPositionToForce(limits, rateHz);
+  const double byFriction = limits.positionStep > 0.0
+    ? (2.0 * limits.friction / limits.positionStep - stiffness) / rateHz
+    : std::numeric_limits<double>::infinity();
+  return std::max(0.0, std::min(byDamping, byFriction));
 }
 
 Status checkPassive(const HandLimits& limits, double stiffness, double damping, double rateHz) noexcept

@@ -1,11 +1,13 @@
 #include "Haptics/ServoLoop.h"
 
+#include "Haptics/ForceGate.h"
 #include "Haptics/LatestValue.h"
 #include "Haptics/SceneExchange.h"
 #include "Haptics/ServoThread.h"
 #include "Haptics/TraceRing.h"
 
 #include <atomic>
+#include <system_error>
 #include <thread>
 
 namespace pointhaptics
@@ -15,11 +17,51 @@ namespace
 /// A device silent for longer than this may have moved anywhere: its hand is taken as new.
 constexpr double kForgetAfterSeconds = 0.1;
 constexpr int kLargestTrace = 1 << 22;
+constexpr double kLongestWatch = 3600.0;
 
 bool valid(const ServoSettings& settings)
 {
   return settings.rateHz >= 1.0 && settings.rateHz <= 10000.0 && settings.traceCapacity >= 1 &&
-    settings.traceCapacity <= kLargestTrace && settings.limits.check() == Status::Ok;
+    settings.traceCapacity <= kLargestTrace && settings.limits.check() == Status::Ok &&
+    settings.watchdogSeconds >= 0.0 && settings.watchdogSeconds <= kLongestWatch;
+}
+
+/// Three digits are enough for a limit.
+std::string number(double value)
+{
+  std::string text = std::to_string(value);
+  return text.substr(0, text.find('.') + (value < 100.0 ? 3 : 0));
+}
+
+/// @p status itself, with the limit in @p message where a spring or a rate is refused.
+Status explained(Status status, const HandLimits& limits, const ContactParameters& contact, double rateHz,
+  std::string* message)
+{
+  if (message && status == Status::RateNotSupported)
+  {
+    *message = "the device cannot be served at " + number(rateHz) + " Hz; use at most " +
+      number(limits.maximumRateHz) + " Hz";
+  }
+  else if (message && status == Status::NotPassive)
+  {
+    *message = "stiffness " + number(contact.stiffness) + " N/m with damping " + number(contact.damping) +
+      " N s/m at " + number(rateHz) + " Hz would make the hand shake; use a stiffness of at most " +
+      number(largestPassiveStiffness(limits, contact.damping, rateHz)) + " N/m beside this damping (" +
+      number(largestPassiveStiffness(limits, 0.0, rateHz)) + " N/m without damping)";
+  }
+  else if (message)
+  {
+    *message = status == Status::Ok ? "" : sentence(status);
+  }
+  return status;
+}
+
+Status checkSpring(const HandLimits& limits, const HapticParameters& parameters, double rateHz)
+{
+  const Status status = parameters.check();
+  return status == Status::Ok
+    ? checkPassive(limits, parameters.contact.stiffness, parameters.contact.damping, rateHz)
+    : status;
 }
 
 /// One writer; read by any thread.
@@ -41,9 +83,15 @@ struct ServoLoop::Implementation
   std::atomic<std::uint64_t> ticks{ 0 };
   std::atomic<std::uint64_t> missedTicks{ 0 };
   std::atomic<std::uint64_t> deviceFaults{ 0 };
+  std::atomic<std::uint64_t> waitingTicks{ 0 };
+  std::atomic<std::uint64_t> staleTicks{ 0 };
+  std::atomic<std::int64_t> newestSign{ 0 }; ///< Of life, steadyNanoseconds().
   std::atomic<std::int64_t> firstWake{ 0 };
   std::atomic<std::int64_t> newestWake{ 0 };
   std::atomic<bool> realtime{ false };
+  std::atomic<int> realtimeRefusal{ 0 };
+  std::atomic<bool> memoryLocked{ false };
+  std::atomic<int> memoryRefusal{ 0 };
   std::atomic<bool> running{ false };
   std::atomic<bool> stopRequested{ false };
 
@@ -53,6 +101,8 @@ struct ServoLoop::Implementation
   HandPort* port = nullptr;
   Proxy proxy;
   ForceGuard guard;
+  HandLimits limits;
+  ForceGate gate;
   const HapticScene* scene = nullptr;
   std::uint64_t parametersVersion = 0;
   std::uint64_t lastSteppedTick = 0;
@@ -63,6 +113,9 @@ struct ServoLoop::Implementation
   Status tick(std::uint64_t number, std::int64_t wake) noexcept;
   Vec3 answer(const HandState& hand, std::uint64_t number) noexcept;
   void takeNews() noexcept;
+  bool gateIsOpen(std::int64_t wake) noexcept;
+  bool pushes() const noexcept { return sample.state.force != Vec3(); }
+  void signOfLife() noexcept { newestSign.store(steadyNanoseconds(), std::memory_order_relaxed); }
 };
 
 void ServoLoop::Implementation::prepare(
@@ -72,6 +125,8 @@ void ServoLoop::Implementation::prepare(
   settings = newSettings;
   proxy = Proxy(newParameters);
   guard = ForceGuard(settings.limits);
+  limits = port->limits();
+  gate = ForceGate(limits.rampDownSeconds, limits.rampUpSeconds);
   scene = nullptr;
   lastSteppedTick = 0;
   sample = ServoSample();
@@ -81,13 +136,18 @@ void ServoLoop::Implementation::prepare(
   trace.resize(std::size_t(settings.traceCapacity));
   lateness.clear();
   update.clear();
-  for (auto* counter : { &ticks, &missedTicks, &deviceFaults })
+  for (auto* counter : { &ticks, &missedTicks, &deviceFaults, &waitingTicks, &staleTicks })
   {
     counter->store(0, std::memory_order_relaxed);
   }
   firstWake.store(0, std::memory_order_relaxed);
   newestWake.store(0, std::memory_order_relaxed);
   realtime.store(false, std::memory_order_relaxed);
+  realtimeRefusal.store(0, std::memory_order_relaxed);
+  const int refusal = settings.lockMemory ? lockMemory() : 0;
+  memoryRefusal.store(refusal, std::memory_order_relaxed);
+  memoryLocked.store(settings.lockMemory && refusal == 0, std::memory_order_relaxed);
+  newestSign.store(steadyNanoseconds(), std::memory_order_relaxed);
   stopRequested.store(false, std::memory_order_relaxed);
   running.store(true, std::memory_order_release);
 }
@@ -96,14 +156,21 @@ void ServoLoop::Implementation::run() noexcept
 {
   flushDenormalsToZero();
   setFinestTimerSlack();
-  realtime.store(settings.realtimePriority && requestRealtimePriority(), std::memory_order_relaxed);
+  touchStack();
+  if (settings.realtimePriority)
+  {
+    const int refusal = requestRealtimePriority();
+    realtimeRefusal.store(refusal, std::memory_order_relaxed);
+    realtime.store(refusal == 0, std::memory_order_relaxed);
+  }
 
   const double period = 1e9 / settings.rateHz;
   const std::int64_t start = steadyNanoseconds();
   const auto deadline = [&](std::uint64_t number)
   { return start + std::int64_t(double(number - 1) * period); };
   std::uint64_t number = 1;
-  while (!stopRequested.load(std::memory_order_acquire))
+  // A stop is obeyed once the gate has closed, and at once where nothing pushes.
+  while (!stopRequested.load(std::memory_order_acquire) || (gate.part() > 0.0 && pushes()))
   {
     sleepUntil(deadline(number));
     const std::int64_t wake = steadyNanoseconds();
@@ -139,18 +206,23 @@ Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) 
   takeNews();
   sample.tick = number;
   sample.timeSeconds = time;
-  bool healthy = reading == Status::Ok;
+  const double opening = gate.step(gateIsOpen(wake), 1.0 / settings.rateHz);
+  const bool healthy = reading == Status::Ok;
   if (healthy)
   {
     sample.buttons = hand.buttons;
-    sample.state.force = answer(hand, number);
+    // One period even after missed ticks: a force that the hand did not feel grow must not arrive all at
+    // once.
+    sample.state.force = guard.limit(opening * answer(hand, number), 1.0 / settings.rateHz);
   }
-  healthy = port->write(time, healthy ? sample.state.force : Vec3()) == Status::Ok && healthy;
-  if (!healthy)
+  const Status writing = port->write(time, healthy ? sample.state.force : Vec3());
+  if (!healthy || writing != Status::Ok)
   {
     sample.state.force = {};
     guard.reset();
-    increase(deviceFaults, 1);
+    const bool waits = (healthy || reading == Status::DeviceNotReady) &&
+      (writing == Status::Ok || writing == Status::DeviceNotReady);
+    increase(waits ? waitingTicks : deviceFaults, 1);
   }
   sample.updateSeconds = 1e-9 * double(steadyNanoseconds() - wake);
   update.record(sample.updateSeconds);
@@ -165,7 +237,15 @@ Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) 
   return Status::Ok;
 }
 
-/// Steps the proxy; fills the sample's state. @return the guarded force.
+bool ServoLoop::Implementation::gateIsOpen(std::int64_t wake) noexcept
+{
+  const double silence = 1e-9 * double(wake - newestSign.load(std::memory_order_relaxed));
+  const bool stale = settings.watchdogSeconds > 0.0 && silence > settings.watchdogSeconds;
+  increase(staleTicks, stale ? 1 : 0);
+  return !stale && !stopRequested.load(std::memory_order_acquire);
+}
+
+/// Steps the proxy; fills the sample's state. @return the proxy's force.
 Vec3 ServoLoop::Implementation::answer(const HandState& hand, std::uint64_t number) noexcept
 {
   const double elapsed = double(number - lastSteppedTick) / settings.rateHz;
@@ -175,8 +255,7 @@ Vec3 ServoLoop::Implementation::answer(const HandState& hand, std::uint64_t numb
   }
   lastSteppedTick = number;
   sample.state = proxy.step(hand.position, elapsed);
-  // One period even after missed ticks: a force that the hand did not feel grow must not arrive all at once.
-  return guard.limit(sample.state.force, 1.0 / settings.rateHz);
+  return sample.state.force;
 }
 
 void ServoLoop::Implementation::takeNews() noexcept
@@ -204,11 +283,15 @@ ServoLoop::~ServoLoop()
   stop();
 }
 
-Status ServoLoop::start(HandPort& port, const HapticParameters& parameters, const ServoSettings& settings)
+Status ServoLoop::start(
+  HandPort& port, const HapticParameters& parameters, const ServoSettings& settings, std::string* message)
 {
-  if (running() || !valid(settings) || parameters.check() != Status::Ok)
+  const HandLimits limits = port.limits();
+  const Status status = running() || !valid(settings) ? Status::InvalidParameter
+                                                      : checkSpring(limits, parameters, settings.rateHz);
+  if (explained(status, limits, parameters.contact, settings.rateHz, message) != Status::Ok)
   {
-    return Status::InvalidParameter;
+    return status;
   }
   stop();
   Implementation& self = *implementation_;
@@ -243,12 +326,25 @@ bool ServoLoop::running() const noexcept
 
 void ServoLoop::publishScene(std::shared_ptr<const HapticScene> scene)
 {
+  implementation_->signOfLife();
   implementation_->scenes.publish(std::move(scene));
 }
 
-void ServoLoop::setParameters(const HapticParameters& parameters)
+Status ServoLoop::setParameters(const HapticParameters& parameters, std::string* message)
 {
-  implementation_->parameters.write(parameters);
+  Implementation& self = *implementation_;
+  self.signOfLife();
+  const Status status = checkSpring(self.limits, parameters, self.settings.rateHz);
+  if (status == Status::Ok)
+  {
+    self.parameters.write(parameters);
+  }
+  return explained(status, self.limits, parameters.contact, self.settings.rateHz, message);
+}
+
+void ServoLoop::keepAlive() noexcept
+{
+  implementation_->signOfLife();
 }
 
 ServoSample ServoLoop::latest() const noexcept
@@ -269,12 +365,35 @@ ServoStatistics ServoLoop::statistics() const noexcept
   result.rateHz = elapsed > 0 && result.ticks > 1 ? double(result.ticks - 1) * 1e9 / double(elapsed) : 0.0;
   result.lateness = self.lateness.summary();
   result.update = self.update.summary();
+  result.waitingTicks = self.waitingTicks.load(std::memory_order_relaxed);
+  result.staleTicks = self.staleTicks.load(std::memory_order_relaxed);
   result.realtime = self.realtime.load(std::memory_order_relaxed);
+  result.realtimeRefusal = self.realtimeRefusal.load(std::memory_order_relaxed);
+  result.memoryLocked = self.memoryLocked.load(std::memory_order_relaxed);
+  result.memoryRefusal = self.memoryRefusal.load(std::memory_order_relaxed);
   return result;
+}
+
+std::string describeRefusals(const ServoStatistics& statistics)
+{
+  std::string text;
+  const auto reason = [](int error) { return std::generic_category().message(error); };
+  if (statistics.realtimeRefusal != 0)
+  {
+    text = "the servo thread got no real-time priority (" + reason(statistics.realtimeRefusal) +
+      "): ticks may come late on a busy machine; allow rtprio 40 for this user in /etc/security/limits.d";
+  }
+  if (statistics.memoryRefusal != 0)
+  {
+    text += (text.empty() ? "" : "\n") + std::string("the program may be swapped out (") +
+      reason(statistics.memoryRefusal) + "); allow memlock unlimited for this user in /etc/security/limits.d";
+  }
+  return text;
 }
 
 void ServoLoop::takeTrace(std::vector<ServoSample>& samples)
 {
+  implementation_->signOfLife();
   implementation_->trace.take(samples);
   implementation_->scenes.collect();
 }

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace pointhaptics
@@ -19,6 +20,9 @@ struct ServoSettings
 {
   double rateHz = 1000.0;       ///< 1 to 10000.
   bool realtimePriority = true; ///< Ask for SCHED_FIFO for this thread; a refusal is reported, not an error.
+  bool lockMemory = false;      ///< Ask that the process stays in memory (mlockall); a refusal is reported.
+  double watchdogSeconds = 0.0; ///< Without a sign of life (ServoLoop::keepAlive()) for so long the force is
+                                ///< taken away; 0: never. 0 to 3600.
   int traceCapacity = 1 << 15; ///< Ticks kept until takeTrace(), 1 to 2^22 (200 bytes each); what comes while
                                ///< the trace is full is lost and counted.
   ForceLimits limits;
@@ -41,12 +45,20 @@ struct ServoStatistics
   std::uint64_t missedTicks =
     0; ///< Deadlines already followed by the next one when the thread woke; skipped.
   std::uint64_t deviceFaults = 0; ///< Ticks in which read() or write() failed.
+  std::uint64_t waitingTicks = 0; ///< Ticks in which the device was not ready (starting, not homed).
+  std::uint64_t staleTicks = 0;   ///< Ticks without a sign of life for longer than the watchdog allows.
   std::uint64_t lostTraceSamples = 0;
   double rateHz = 0.0;                ///< Achieved between the first and the newest tick since start().
   LatencyHistogram::Summary lateness; ///< Wake-up after the deadline, seconds.
   LatencyHistogram::Summary update;   ///< Duration of a tick's work, seconds.
   bool realtime = false;              ///< SCHED_FIFO was granted.
+  bool memoryLocked = false;          ///< mlockall was granted.
+  int realtimeRefusal = 0;            ///< errno of a refused SCHED_FIFO; 0: granted or not asked for.
+  int memoryRefusal = 0;              ///< errno of a refused mlockall; 0: granted or not asked for.
 };
+
+/// What the system refused, one sentence each with the cure; empty where nothing was.
+std::string describeRefusals(const ServoStatistics& statistics);
 
 /// Deadlines are absolute times of the steady clock, one period apart; the thread sleeps until each and never
 /// spins. A tick: read the device, take the newest scene and parameters, step the proxy, guard the force,
@@ -54,11 +66,16 @@ struct ServoStatistics
 ///
 /// Faults: a tick whose read() fails sends zero force and steps nothing, and the force grows again from zero
 /// under the guard's slew limit. The proxy keeps its side of the surface over a short fault; after one of 0.1
-/// s or more the hand is taken as new, in free space. EndOfPath from read() ends the loop: zero force, then
-/// running() is false.
+/// s or more the hand is taken as new, in free space. DeviceNotReady is answered the same way and counted
+/// apart. EndOfPath from read() ends the loop: zero force, then running() is false.
 ///
-/// Thread safety: start, stop, publishScene, setParameters, takeTrace from one thread (the GUI's); latest(),
-/// statistics() and running() from any. None of them makes the servo thread wait.
+/// Springs that the port cannot render without giving energy to the hand (HandPort::limits()) are refused by
+/// start() and setParameters(). When the loop stops, and when the watchdog finds that the program gives no
+/// sign of life, the force goes to zero over the port's rampDownSeconds; when life returns, it comes back
+/// over its rampUpSeconds.
+///
+/// Thread safety: start, stop, publishScene, setParameters, takeTrace, keepAlive from one thread (the GUI's);
+/// latest(), statistics() and running() from any. None of them makes the servo thread wait.
 class ServoLoop
 {
 public:
@@ -69,9 +86,12 @@ public:
 
   /// Starts the thread on @p port, which must be open and outlive stop(). Statistics and trace start anew; a
   /// published scene stays. InvalidParameter: a setting, limit or parameter out of range, or already running.
+  /// NotPassive, RateNotSupported: the port cannot render this; @p message, where given, names the limit.
   /// Throws std::system_error or std::bad_alloc where the system has no thread or memory to give.
-  Status start(HandPort& port, const HapticParameters& parameters, const ServoSettings& settings = {});
-  /// Ends after the current tick, writes zero force, joins; waits one period at most. Safe to call twice.
+  Status start(HandPort& port, const HapticParameters& parameters, const ServoSettings& settings = {},
+    std::string* message = nullptr);
+  /// Takes the force away over the port's rampDownSeconds, writes zero force, joins; waits that long and two
+  /// periods at most. Safe to call twice.
   void stop();
   /// False before start(), after stop() and after the end of a path.
   bool running() const noexcept;
@@ -79,8 +99,11 @@ public:
   /// The servo thread takes the scene at its next tick; the one before is freed here at a later call, never
   /// there.
   void publishScene(std::shared_ptr<const HapticScene> scene);
-  /// Taken at the next tick; invalid ones (HapticParameters::check()) are ignored by the proxy.
-  void setParameters(const HapticParameters& parameters);
+  /// Taken at the next tick. InvalidParameter, NotPassive: nothing changes; @p message, where given, names
+  /// the limit.
+  Status setParameters(const HapticParameters& parameters, std::string* message = nullptr);
+  /// The program lives: for the watchdog. publishScene(), setParameters() and takeTrace() say so too.
+  void keepAlive() noexcept;
 
   /// The newest finished tick; tick 0 means none yet.
   ServoSample latest() const noexcept;

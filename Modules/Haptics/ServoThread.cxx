@@ -1,12 +1,18 @@
 #include "Haptics/ServoThread.h"
 
 #include <cerrno>
+#include <cstddef>
 #include <ctime>
 #include <pthread.h>
 #include <sched.h>
 
 #ifdef __linux__
+#include <linux/capability.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 #endif
 #ifdef __SSE__
 #include <xmmintrin.h>
@@ -19,6 +25,19 @@ namespace
 constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
 /// Below the kernel's interrupt threads (50), which carry the device's own USB replies.
 constexpr int kRealtimePriority = 40;
+constexpr std::size_t kTouchedStack = 65536;
+constexpr std::size_t kSmallestPage = 4096;
+
+#ifdef __linux__
+/// The privilege CAP_IPC_LOCK: no limit counts.
+bool mayLockMemory() noexcept
+{
+  __user_cap_header_struct header{};
+  header.version = _LINUX_CAPABILITY_VERSION_3;
+  __user_cap_data_struct data[2] = {};
+  return syscall(SYS_capget, &header, data) == 0 && (data[0].effective & (1u << CAP_IPC_LOCK)) != 0;
+}
+#endif
 }
 
 void flushDenormalsToZero() noexcept
@@ -37,11 +56,36 @@ void setFinestTimerSlack() noexcept
 #endif
 }
 
-bool requestRealtimePriority() noexcept
+int requestRealtimePriority() noexcept
 {
   sched_param parameter{};
   parameter.sched_priority = kRealtimePriority;
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter) == 0;
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
+}
+
+int lockMemory() noexcept
+{
+#ifdef __linux__
+  rlimit limit{};
+  const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
+  if (!unlimited && !mayLockMemory())
+  {
+    return EPERM;
+  }
+  return mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0 ? 0 : errno;
+#else
+  return ENOSYS;
+#endif
+}
+
+void touchStack() noexcept
+{
+  char stack[kTouchedStack];
+  volatile char* const bytes = stack;
+  for (std::size_t i = 0; i < kTouchedStack; i += kSmallestPage)
+  {
+    bytes[i] = 0;
+  }
 }
 
 std::int64_t steadyNanoseconds() noexcept

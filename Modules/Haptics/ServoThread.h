@@ -1,6 +1,6 @@
 /// @file
-/// What the servo thread asks of the operating system and the processor. Each call acts on the calling thread
-/// alone.
+/// What the servo thread asks of the operating system and the processor. Each call but lockMemory() acts on
+/// the calling thread alone.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,18 @@ void flushDenormalsToZero() noexcept;
 /// Lets the kernel wake this thread at its deadline instead of up to 50 us later. Linux only.
 void setFinestTimerSlack() noexcept;
 
-/// Asks for SCHED_FIFO. @return false where the system refuses (no privilege): the thread then runs as
+/// Asks for SCHED_FIFO. @return 0, or the errno of the refusal (EPERM: no privilege); the thread then runs as
 /// before.
-bool requestRealtimePriority() noexcept;
+int requestRealtimePriority() noexcept;
+
+/// Keeps all pages of the process in memory from now on, those of the future as they are first touched, so
+/// that no tick waits for a disk. @return 0, or the errno of the refusal. EPERM also where only part of the
+/// memory could be locked (a finite limit and no privilege): then nothing is, since later allocations would
+/// fail.
+int lockMemory() noexcept;
+
+/// Touches 64 KiB of the calling thread's stack, so that no tick has to.
+void touchStack() noexcept;
 
 /// Nanoseconds of the steady clock that sleepUntil() uses.
 std::int64_t steadyNanoseconds() noexcept;

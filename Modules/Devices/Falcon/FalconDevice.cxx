@@ -168,6 +168,7 @@ HandLimits FalconDevice::limits() const noexcept
   result.delayTicks = kDelayTicks;
   result.maximumRateHz = kRateHz;
   result.rampDownSeconds = kRampDownSeconds;
+  result.rampUpSeconds = implementation_->settings.limits.rampSeconds;
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 #include <thread>
 
 using namespace pointhaptics;
@@ -21,6 +22,7 @@ public:
   std::function<Status(int)> readStatus = [](int) { return Status::Ok; }; ///< Of the n-th read, from 0.
   std::function<Status(int)> writeStatus = [](int) { return Status::Ok; };
   std::function<void(int)> onRead = [](int) {};
+  HandLimits bounds; ///< What limits() says.
 
   std::atomic<int> reads{ 0 };
   std::atomic<int> writes{ 0 };
@@ -43,6 +45,8 @@ public:
     forceAfterFault = forceAfterFault || (failed_ && norm(force) != 0.0);
     return writeStatus(writes.fetch_add(1));
   }
+
+  HandLimits limits() const noexcept override { return bounds; }
 
 private:
   bool failed_ = false;
@@ -110,6 +114,7 @@ TEST(ServoLoop, RefusesSettingsOutOfRange)
   }
   EXPECT_EQ(startWith([](auto& s, auto&) { s.traceCapacity = 0; }), Status::InvalidParameter);
   EXPECT_EQ(startWith([](auto& s, auto&) { s.limits.maximumForce = -1.0; }), Status::InvalidParameter);
+  EXPECT_EQ(startWith([](auto& s, auto&) { s.watchdogSeconds = -1.0; }), Status::InvalidParameter);
   EXPECT_EQ(startWith([](auto&, auto& p) { p.contact.stiffness = -1.0; }), Status::InvalidParameter);
   EXPECT_FALSE(loop.running());
   EXPECT_EQ(port.reads, 0);
@@ -211,7 +216,7 @@ TEST(ServoLoop, TakesParametersAndScenesWhileItRuns)
   ASSERT_TRUE(eventually([&] { return loop.latest().state.force.z > 0.5; }));
   HapticParameters soft;
   soft.contact.stiffness = 100.0;
-  loop.setParameters(soft);
+  EXPECT_EQ(loop.setParameters(soft), Status::Ok);
   EXPECT_TRUE(eventually([&] { return std::abs(loop.latest().state.force.z - 0.1) < 0.01; }));
   loop.publishScene(nullptr);
   EXPECT_TRUE(eventually([&] { return (loop.latest().state.status & kProxyNoScene) != 0; }));
@@ -375,7 +380,7 @@ TEST(ServoLoop, IsReadByManyThreadsWhileItRunsAndRestarts)
     for (int i = 0; i < 5; ++i)
     {
       loop.publishScene(plane());
-      loop.setParameters(HapticParameters());
+      EXPECT_EQ(loop.setParameters(HapticParameters()), Status::Ok);
       const std::uint64_t before = loop.statistics().ticks;
       EXPECT_TRUE(eventually([&] { return loop.statistics().ticks > before; }));
     }
@@ -386,4 +391,151 @@ TEST(ServoLoop, IsReadByManyThreadsWhileItRunsAndRestarts)
   {
     reader.join();
   }
+}
+
+TEST(ServoLoop, RunsAtRatesFromHalfAKilohertzToTen)
+{
+  for (double rate : { 500.0, 10000.0 })
+  {
+    ScriptedPort port;
+    ServoLoop loop;
+    ServoSettings settings = plainSettings();
+    settings.rateHz = rate;
+    ASSERT_EQ(loop.start(port, HapticParameters(), settings), Status::Ok);
+    ASSERT_TRUE(eventually([&] { return loop.latest().timeSeconds > 0.05; }));
+    const ServoSample sample = loop.latest();
+    EXPECT_DOUBLE_EQ(sample.timeSeconds, double(sample.tick - 1) / rate);
+    loop.stop();
+  }
+}
+
+TEST(ServoLoop, RefusesSpringsAndRatesBeyondThePortWithTheLimitInTheMessage)
+{
+  ScriptedPort port;
+  port.bounds.damping = 2.5;
+  port.bounds.delayTicks = 1.0;
+  port.bounds.maximumRateHz = 1000.0;
+  ServoLoop loop;
+  std::string message;
+  HapticParameters parameters;
+  parameters.contact.stiffness = 1700.0;
+  EXPECT_EQ(loop.start(port, parameters, plainSettings(), &message), Status::NotPassive);
+  for (const char* part : { "1700 N/m", "0.00 N s/m", "1000 Hz", "1666 N/m" })
+  {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+  parameters.contact = { 1000.0, 1.5, 0.0, 0.0 };
+  EXPECT_EQ(loop.start(port, parameters, plainSettings(), &message), Status::NotPassive);
+  EXPECT_NE(message.find("666 N/m beside"), std::string::npos) << message;
+  ServoSettings fast = plainSettings();
+  fast.rateHz = 2000.0;
+  EXPECT_EQ(loop.start(port, HapticParameters(), fast, &message), Status::RateNotSupported);
+  EXPECT_NE(message.find("at most 1000 Hz"), std::string::npos) << message;
+  EXPECT_FALSE(loop.running());
+
+  parameters.contact = { 1600.0, 0.0, 0.0, 0.0 };
+  ASSERT_EQ(loop.start(port, parameters, plainSettings(), &message), Status::Ok);
+  EXPECT_TRUE(message.empty());
+  parameters.contact.damping = 1.0;
+  EXPECT_EQ(loop.setParameters(parameters, &message), Status::NotPassive);
+  EXPECT_NE(message.find("at most 1000 N/m"), std::string::npos) << message;
+  parameters.contact.stiffness = 999.0;
+  EXPECT_EQ(loop.setParameters(parameters), Status::Ok);
+  parameters.contact.stiffness = -1.0;
+  EXPECT_EQ(loop.setParameters(parameters), Status::InvalidParameter);
+  loop.stop();
+}
+
+TEST(ServoLoop, CountsTicksOfADeviceThatIsNotReadyApartFromFaults)
+{
+  ScriptedPort port;
+  port.path = press;
+  port.readStatus = [](int n) { return n < 30 ? Status::DeviceNotReady : Status::Ok; };
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.statistics().ticks >= 50; }));
+  loop.stop();
+  EXPECT_EQ(loop.statistics().waitingTicks, 30u);
+  EXPECT_EQ(loop.statistics().deviceFaults, 0u);
+  EXPECT_FALSE(port.forceAfterFault);
+}
+
+TEST(ServoLoop, TakesTheForceAwaySlowlyWhenItStops)
+{
+  ScriptedPort port;
+  port.path = press;
+  port.bounds.rampDownSeconds = 0.06;
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().state.force.z > 0.79; }));
+  std::vector<ServoSample> samples;
+  loop.takeTrace(samples);
+  samples.clear();
+  loop.stop();
+  loop.takeTrace(samples);
+  // Pulled back by less than 3 percent of it a tick, to zero: no kick when the program ends.
+  double last = 0.8;
+  int falling = 0;
+  for (const ServoSample& sample : samples)
+  {
+    EXPECT_GE(sample.state.force.z, last - 0.8 / 60.0 - 1e-3);
+    falling += sample.state.force.z < last - 1e-6 ? 1 : 0;
+    last = sample.state.force.z;
+  }
+  EXPECT_GE(falling, 59);
+  EXPECT_EQ(last, 0.0);
+  EXPECT_EQ(port.lastForce, 0.0);
+}
+
+TEST(ServoLoop, TakesTheForceAwayWhenTheProgramGivesNoSignOfLife)
+{
+  ScriptedPort port;
+  port.path = press;
+  port.bounds.rampDownSeconds = 0.02;
+  port.bounds.rampUpSeconds = 0.02;
+  ServoSettings settings = plainSettings();
+  settings.watchdogSeconds = 0.05;
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), settings), Status::Ok);
+  const auto aliveUntil = [&](const std::function<bool()>& condition)
+  {
+    return eventually(
+      [&]
+      {
+        loop.keepAlive();
+        return condition();
+      });
+  };
+  ASSERT_TRUE(aliveUntil([&] { return loop.latest().state.force.z > 0.79; }));
+  EXPECT_TRUE(eventually([&] { return loop.latest().state.force.z == 0.0; })) << "nobody said anything";
+  EXPECT_TRUE(loop.latest().state.contact) << "the touch itself goes on";
+  EXPECT_GT(loop.statistics().staleTicks, 0u);
+  EXPECT_TRUE(aliveUntil([&] { return loop.latest().state.force.z > 0.79; })) << "and comes back with life";
+  loop.stop();
+}
+
+TEST(ServoLoop, ReportsWhatTheSystemRefuses)
+{
+  ScriptedPort port;
+  ServoLoop loop;
+  ServoSettings settings;
+  settings.lockMemory = true;
+  ASSERT_EQ(loop.start(port, HapticParameters(), settings), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().tick > 0; }));
+  const ServoStatistics statistics = loop.statistics();
+  loop.stop();
+  EXPECT_EQ(statistics.realtime, statistics.realtimeRefusal == 0);
+  EXPECT_EQ(statistics.memoryLocked, statistics.memoryRefusal == 0);
+  const std::string text = describeRefusals(statistics);
+  EXPECT_EQ(text.find("rtprio") != std::string::npos, !statistics.realtime);
+  EXPECT_EQ(text.find("memlock") != std::string::npos, !statistics.memoryLocked);
+  EXPECT_TRUE(describeRefusals(ServoStatistics()).empty());
+  ServoStatistics refused;
+  refused.realtimeRefusal = 1;
+  refused.memoryRefusal = 1;
+  EXPECT_NE(describeRefusals(refused).find("rtprio 40"), std::string::npos);
+  EXPECT_NE(describeRefusals(refused).find("memlock unlimited"), std::string::npos);
 }
