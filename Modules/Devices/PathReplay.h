@@ -45,6 +45,8 @@ public:
 
   const char* name() const noexcept override { return device_.name(); }
   DeviceCapabilities capabilities() const noexcept override { return device_.capabilities(); }
+  HandLimits limits() const noexcept override { return device_.limits(); }
+  std::string message() const override { return device_.message(); }
   Status open() override { return device_.open(); }
   void close() override { device_.close(); }
   Status read(double timeSeconds, HandState& state) noexcept override;

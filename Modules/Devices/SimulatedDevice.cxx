@@ -11,7 +11,9 @@ constexpr double kLongestStepSeconds = 1e-4;
 constexpr double kLongestPauseSeconds = 0.1;
 constexpr double kDefaultHalfEdge = 0.05;
 constexpr double kHoldingForce = 8.0;
-constexpr double kServoPeriod = 1e-3;
+constexpr double kServoRateHz = 1000.0;
+/// Rounding of (tick / rate) against the times of a file.
+constexpr double kTimeTolerance = 1e-9;
 constexpr int kButtons = 4;
 
 Vec3 clamped(const Vec3& p, const Bounds& box) noexcept
@@ -46,9 +48,19 @@ DeviceCapabilities SimulatedDevice::capabilities() const noexcept
   DeviceCapabilities result;
   result.workspace = settings_.workspace;
   result.maximumForce = kHoldingForce;
-  // A sampled spring is passive below 2 b / T.
-  result.maximumStiffness = 2.0 * settings_.gripDamping / kServoPeriod;
+  result.maximumStiffness = largestPassiveStiffness(limits(), 0.0, kServoRateHz);
+  result.maximumDamping = largestPassiveDamping(limits(), 0.0, kServoRateHz);
   result.numberOfButtons = kButtons;
+  return result;
+}
+
+HandLimits SimulatedDevice::limits() const noexcept
+{
+  HandLimits result;
+  if (settings_.yieldsToForce)
+  {
+    result.damping = settings_.gripDamping;
+  }
   return result;
 }
 
@@ -56,11 +68,13 @@ Status SimulatedDevice::open()
 {
   if (!above(settings_.mass, 0.0) || !above(settings_.gripStiffness, 0.0) ||
     !(settings_.gripDamping >= 0.0 && std::isfinite(settings_.gripDamping)) || !isFinite(settings_.start) ||
-    !isFinite(settings_.workspace.extent()))
+    !isFinite(settings_.workspace.extent()) || path_.check() != Status::Ok)
   {
     return Status::InvalidParameter;
   }
-  position_ = clamped(settings_.start, settings_.workspace);
+  hint_ = 0;
+  const Vec3& start = path_.points.empty() ? settings_.start : path_.points.front().position;
+  position_ = clamped(start, settings_.workspace);
   velocity_ = {};
   force_ = {};
   lastTarget_ = position_;
@@ -82,8 +96,20 @@ Status SimulatedDevice::read(double timeSeconds, HandState& state) noexcept
   {
     return Status::DeviceNotOpen;
   }
-  // Met half way through a write the target before it serves one tick more.
-  static_cast<void>(target_.tryRead(lastTarget_));
+  if (!path_.points.empty())
+  {
+    if (timeSeconds > path_.duration() + kTimeTolerance)
+    {
+      return Status::EndOfPath;
+    }
+    const double pathTime = path_.points.front().timeSeconds + timeSeconds;
+    lastTarget_ = clamped(path_.position(pathTime, hint_), settings_.workspace);
+  }
+  else
+  {
+    // Met half way through a write the target before it serves one tick more.
+    static_cast<void>(target_.tryRead(lastTarget_));
+  }
   const double elapsed = timed_ ? timeSeconds - lastTime_ : 0.0;
   if (!settings_.yieldsToForce)
   {

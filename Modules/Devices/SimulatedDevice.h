@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Devices/HapticDevice.h"
+#include "Devices/HipPath.h"
 
 #include "Haptics/LatestValue.h"
 
@@ -28,6 +29,8 @@ struct SimulatedHandSettings
 /// settings (SimulatedDeviceTest asserts 1 %). The workspace has hard ends: position and speed are bounded
 /// whatever the force.
 ///
+/// The person's target comes from setTarget(), such as the mouse, or from a path (setPath()).
+///
 /// setTarget() and setButtons() may be called from one other thread at any time; neither side waits for the
 /// other.
 class SimulatedDevice : public HapticDevice
@@ -37,8 +40,13 @@ public:
 
   const char* name() const noexcept override { return "simulated"; }
   DeviceCapabilities capabilities() const noexcept override;
-  /// The hand at rest at settings.start, which is also the target. InvalidParameter: a setting out of its
-  /// range.
+  /// The grip's damping bounds the springs it can bear; none where the hand does not yield.
+  HandLimits limits() const noexcept override;
+  /// From the next open() on the target follows @p path in servo time, its first point at time 0, instead of
+  /// setTarget(); read() gives EndOfPath after its end. An empty path: setTarget() again. Not while open.
+  void setPath(HipPath path) { path_ = std::move(path); }
+  /// The hand at rest at settings.start (or at the path's first point), which is also the target.
+  /// InvalidParameter: a setting out of its range, or a path that is none (HipPath::check()).
   Status open() override;
   void close() override;
   /// Moves the hand to @p timeSeconds. A time that is not after the last one moves nothing.
@@ -56,6 +64,8 @@ private:
   void move(double seconds) noexcept;
 
   SimulatedHandSettings settings_;
+  HipPath path_;
+  std::size_t hint_ = 0;
   LatestValue<Vec3> target_;
   std::atomic<std::uint32_t> buttons_{ 0 };
   Vec3 lastTarget_;

@@ -204,3 +204,49 @@ TEST(SimulatedDevice, TakesTargetsFromAnotherThreadWhole)
   }
   mouse.join();
 }
+
+TEST(SimulatedDevice, FollowsAPathAsAPersonWouldAndEndsWithIt)
+{
+  SimulatedDevice device;
+  HipPath path;
+  path.points = { { 5.0, { 0.0, 0.0, 0.02 } }, { 5.2, { 0.0, 0.0, 0.01 } }, { 6.2, { 0.0, 0.0, 0.01 } } };
+  device.setPath(path);
+  ASSERT_EQ(device.open(), Status::Ok);
+  EXPECT_EQ(readZ(device, 0.0), 0.02);
+  device.setTarget({ 0.0, 0.0, -0.04 });
+  EXPECT_LT(readZ(device, 0.1), 0.02);
+  EXPECT_GT(readZ(device, 0.2), 0.01) << "a mass lags behind";
+  EXPECT_NEAR(readZ(device, 0.3), 0.01, 2e-3);
+  for (int tick = 301; tick <= 1200; ++tick)
+  {
+    readZ(device, tick / 1000.0);
+    ASSERT_EQ(device.write(tick / 1000.0, { 0.0, 0.0, 0.4 }), Status::Ok);
+  }
+  EXPECT_NEAR(readZ(device, 1.2), 0.012, 1e-4) << "and yields to forces";
+  HandState hand;
+  EXPECT_EQ(device.read(1.201, hand), Status::EndOfPath);
+  ASSERT_EQ(device.open(), Status::Ok);
+  EXPECT_EQ(readZ(device, 0.0), 0.02) << "from the beginning";
+}
+
+TEST(SimulatedDevice, RefusesAPathThatIsNone)
+{
+  SimulatedDevice device;
+  HipPath path;
+  path.points = { { 1.0, Vec3() }, { 0.0, Vec3() } };
+  device.setPath(path);
+  EXPECT_EQ(device.open(), Status::InvalidParameter);
+}
+
+TEST(SimulatedDevice, TellsWhatItsGripBears)
+{
+  SimulatedHandSettings settings;
+  settings.gripDamping = 3.0;
+  const SimulatedDevice yielding(settings);
+  EXPECT_DOUBLE_EQ(yielding.capabilities().maximumStiffness, 6000.0);
+  EXPECT_DOUBLE_EQ(yielding.capabilities().maximumDamping, 3.0);
+  EXPECT_EQ(checkPassive(yielding.limits(), 6001.0, 0.0, 1000.0), Status::NotPassive);
+  EXPECT_EQ(checkPassive(yielding.limits(), 6001.0, 0.0, 2000.0), Status::Ok);
+  settings.yieldsToForce = false;
+  EXPECT_EQ(checkPassive(SimulatedDevice(settings).limits(), 1e5, 1e3, 500.0), Status::Ok);
+}

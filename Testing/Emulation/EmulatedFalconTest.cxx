@@ -1,0 +1,197 @@
+#include "EmulatedFalcon.h"
+#include "UnderUmockdev.h"
+
+#include "../Unit/Devices/FalconBench.h"
+
+#include "Core/Shapes.h"
+#include "Devices/DeviceList.h"
+#include "Haptics/ServoLoop.h"
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+
+using namespace pointhaptics;
+using namespace pointhaptics::trial;
+
+namespace
+{
+const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
+
+/// An emulated machine with one Falcon, and the driver on the real libusb.
+class EmulatedUsb : public UnderUmockdev
+{
+protected:
+  EmulatedUsb()
+    : file(madeUpFirmware())
+    , falcon(bed())
+  {
+    falcon.with([](FalconModel& model) { model.expectedFirmware = madeUpFirmware(); });
+  }
+
+  FalconSettings settings() const
+  {
+    FalconSettings result;
+    result.firmwareFile = file.path();
+    result.retrySeconds = 0.02;
+    result.boot.replyMilliseconds = 20;
+    result.boot.probeMilliseconds = 30;
+    result.boot.greetings = 20;
+    // The emulator's answers come through sockets, on a machine that may be busy.
+    result.silenceSeconds = 0.2;
+    result.replyWaitSeconds = 2e-3;
+    return result;
+  }
+
+  static std::shared_ptr<const HapticScene> sphere()
+  {
+    HapticSceneInput input;
+    EXPECT_EQ(generateShape(Shape::Sphere, 40000, 3, 0.0, input.points), Status::Ok);
+    input.cellSize = 0.0005;
+    Status status = Status::Ok;
+    return HapticScene::create(std::move(input), status);
+  }
+
+  /// The hand waits outside the sphere of 25 mm: where a touch begins is free space.
+  void comeFromOutside()
+  {
+    falcon.with(
+      [](FalconModel& model) { model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030); });
+  }
+
+  FirmwareFile file;
+  EmulatedFalcon falcon;
+};
+}
+
+TEST_F(EmulatedUsb, IsEmptyWithoutADevice)
+{
+  FalconDevice device(settings());
+  EXPECT_EQ(device.open(), Status::DeviceNotFound);
+  EXPECT_NE(device.message().find("0403:cb48"), std::string::npos) << device.message();
+}
+
+TEST_F(EmulatedUsb, BootsAFalconWhoseFirstTriesFail)
+{
+  falcon.plugIn();
+  falcon.with(
+    [](FalconModel& model)
+    {
+      model.deafGreetings = 3;
+      model.wrongEchoes = 1;
+      model.zeroBeforeReply = true;
+    });
+  std::vector<std::string> notes;
+  const std::vector<ListedDevice> list = listDevices(notes);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0].kind, "falcon");
+  EXPECT_EQ(list[0].place, "bus 1 device 2");
+  EXPECT_TRUE(list[0].problem.empty()) << list[0].problem;
+  FalconDevice device(settings());
+  ASSERT_EQ(device.open(), Status::Ok) << device.message();
+  EXPECT_TRUE(falcon.claimed());
+  EXPECT_EQ(falcon.with([](FalconModel& model) { return model.firmware; }), madeUpFirmware());
+  device.close();
+  EXPECT_FALSE(falcon.claimed());
+  EXPECT_EQ(falcon.pendingTransfers(), 0) << "all transfers came back";
+}
+
+TEST_F(EmulatedUsb, SaysWhoHoldsADeviceThatIsBusy)
+{
+  falcon.plugIn();
+  falcon.refuseClaims(EBUSY);
+  FalconDevice device(settings());
+  EXPECT_EQ(device.open(), Status::DeviceLost);
+  EXPECT_NE(device.message().find("another program"), std::string::npos) << device.message();
+}
+
+TEST_F(EmulatedUsb, TheServoLoopFeelsASphereAndTheHandSettlesInBalance)
+{
+  falcon.plugIn();
+  comeFromOutside();
+  FalconDevice device(settings());
+  ASSERT_EQ(device.open(), Status::Ok) << device.message();
+  ServoLoop loop;
+  loop.publishScene(sphere());
+  HapticParameters parameters;
+  ASSERT_EQ(loop.start(device, parameters), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return device.state() == FalconState::Armed; }));
+  ASSERT_TRUE(eventually([&] { return loop.latest().state.hip.z > 0.029; }));
+  falcon.with([](FalconModel& model) { model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.019); });
+  // 200 N/m towards 6 mm depth against 800 N/m: at rest at 1.2 mm.
+  const double expected = 0.025 - 0.006 * 200.0 / 1000.0;
+  const auto resting = [&]
+  {
+    const double speed = falcon.with([](FalconModel& model) { return norm(model.hand.velocity); });
+    return std::abs(norm(loop.latest().state.force) - 0.96) < 0.03 && speed < 1e-4;
+  };
+  EXPECT_TRUE(eventually(resting)) << loop.latest().state.hip.z << " " << norm(loop.latest().state.force);
+  const Vec3 hand = falcon.with([](FalconModel& model) { return model.hand.position; });
+  EXPECT_NEAR(hand.z - kCenter.z, expected, 60e-6);
+  loop.stop();
+  device.close();
+  falcon.with(
+    [](FalconModel& model)
+    {
+      EXPECT_GE(model.frozenFrames, 3);
+      EXPECT_EQ(model.command.lamps, kFalconLampNone);
+    });
+  const FalconStatistics statistics = device.statistics();
+  std::printf("[ figure   ] round trips %llu, late %llu, timeouts %llu\n",
+    static_cast<unsigned long long>(statistics.replies),
+    static_cast<unsigned long long>(statistics.lateReplies),
+    static_cast<unsigned long long>(statistics.timeouts));
+}
+
+TEST_F(EmulatedUsb, SurvivesGarbageAndSilence)
+{
+  falcon.plugIn();
+  FalconDevice device(settings());
+  ASSERT_EQ(device.open(), Status::Ok) << device.message();
+  ServoLoop loop;
+  ASSERT_EQ(loop.start(device, HapticParameters()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return device.state() == FalconState::Armed; }));
+  for (int i = 0; i < 20; ++i)
+  {
+    falcon.garbage({ '<', 'A', 0xff, '>', '<', '<', 'Z' });
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_TRUE(eventually([&] { return device.statistics().droppedBytes > 20; }));
+  falcon.with([](FalconModel& model) { model.silent = true; });
+  EXPECT_TRUE(eventually([&] { return device.statistics().timeouts >= 2; }));
+  EXPECT_EQ(norm(loop.latest().state.force), 0.0);
+  falcon.with([](FalconModel& model) { model.silent = false; });
+  const std::uint64_t replies = device.statistics().replies;
+  EXPECT_TRUE(eventually([&] { return device.statistics().replies > replies + 20; }));
+  EXPECT_TRUE(loop.running());
+  loop.stop();
+}
+
+TEST_F(EmulatedUsb, SurvivesUnpluggingInContactThreeTimes)
+{
+  falcon.plugIn();
+  comeFromOutside();
+  FalconDevice device(settings());
+  ASSERT_EQ(device.open(), Status::Ok) << device.message();
+  ServoLoop loop;
+  loop.publishScene(sphere());
+  ASSERT_EQ(loop.start(device, HapticParameters()), Status::Ok);
+  for (std::uint64_t round = 1; round <= 3; ++round)
+  {
+    ASSERT_TRUE(eventually([&] { return loop.latest().state.hip.z > 0.029; })) << round;
+    ASSERT_TRUE(eventually([&] { return device.state() == FalconState::Armed; })) << round;
+    falcon.with([](FalconModel& model) { model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.019); });
+    ASSERT_TRUE(eventually([&] { return loop.latest().state.force.z > 0.1; })) << round;
+    falcon.unplug();
+    EXPECT_TRUE(eventually([&] { return device.state() != FalconState::Armed; }));
+    EXPECT_TRUE(eventually([&] { return norm(loop.latest().state.force) == 0.0; }));
+    EXPECT_TRUE(loop.running()) << "an unplugged device is a state";
+    comeFromOutside();
+    falcon.plugIn();
+    ASSERT_TRUE(eventually([&] { return device.statistics().connections == round + 1; }))
+      << round << " " << device.message();
+  }
+  loop.stop();
+  device.close();
+  EXPECT_FALSE(falcon.claimed());
+}
