@@ -28,6 +28,7 @@ void addResampleCommand(CLI::App& program, int& exitCode);
 void addBandwidthCommand(CLI::App& program, int& exitCode);
 void addInfoCommand(CLI::App& program, int& exitCode);
 void addGenerateCommand(CLI::App& program, int& exitCode);
+void addDevicesCommand(CLI::App& program, int& exitCode);
 /// Only where the benchmarks are built (POINTHAPTICS_HAVE_BENCHMARKS).
 void addBenchCommand(CLI::App& program, int& exitCode);
 

@@ -1,6 +1,7 @@
 #include "Commands.h"
 
 #include "CsvWriter.h"
+#include "FeelLive.h"
 #include "FeelOptions.h"
 #include "Messages.h"
 #include "PathTicks.h"
@@ -8,6 +9,7 @@
 #include "ProgressBar.h"
 
 #include "Devices/HipPath.h"
+#include "Devices/SimulatedDevice.h"
 #include "HapticSceneBuilder.h"
 #include "Haptics/Proxy.h"
 #include "vtkKernelBandwidthFilter.h"
@@ -41,6 +43,8 @@ constexpr const char* kHeader = "t,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,nor
                                 "force_x,force_y,force_z,radius,contact,update_us";
 /// A day at 1 kHz; more is a mistake in the path's times.
 constexpr double kMostTicks = 1e8;
+/// Room about the path for a hand that yields, metres.
+constexpr double kHandMargin = 0.1;
 
 struct Summary
 {
@@ -122,15 +126,96 @@ std::array<double, 16> rowOf(double time, const ProxyState& state, double micros
     state.contact ? 1.0 : 0.0, microseconds };
 }
 
+/// Rows and their summary.
+class Rows
+{
+public:
+  explicit Rows(CsvWriter& table)
+    : table_(table)
+  {
+  }
+  void add(double time, const ProxyState& state, double microseconds)
+  {
+    ++summary_.ticks;
+    summary_.contactTicks += state.contact;
+    summary_.maximumForce = std::max(summary_.maximumForce, norm(state.force));
+    durations_.push_back(static_cast<float>(microseconds));
+    const std::array<double, 16> row = rowOf(time, state, microseconds);
+    table_.row(row.data(), row.size());
+  }
+  Summary summary()
+  {
+    std::sort(durations_.begin(), durations_.end());
+    summary_.p50Microseconds = quantile(durations_, 0.50);
+    summary_.p99Microseconds = quantile(durations_, 0.99);
+    summary_.maximumMicroseconds = quantile(durations_, 1.0);
+    return summary_;
+  }
+
+private:
+  CsvWriter& table_;
+  Summary summary_;
+  std::vector<float> durations_;
+};
+
+/// A person pulled along @p path, who yields to the force; in virtual time.
+bool walkYielding(const FeelOptions& options, const HapticScene& scene, const HipPath& path,
+  std::int64_t ticks, Rows& rows, std::string& message)
+{
+  SimulatedHandSettings settings;
+  for (const HipPathPoint& point : path.points)
+  {
+    settings.workspace.include(point.position);
+  }
+  // Forces may push the hand off its path.
+  const Vec3 margin(kHandMargin, kHandMargin, kHandMargin);
+  settings.workspace.minimum -= margin;
+  settings.workspace.maximum += margin;
+  SimulatedDevice hand(settings);
+  hand.setPath(path);
+  const ContactParameters& contact = options.parameters.contact;
+  const HandLimits limits = hand.limits();
+  if (checkPassive(limits, contact.stiffness, contact.damping, options.rateHz) != Status::Ok)
+  {
+    message =
+      fmt::format("stiffness {} N/m with damping {} N s/m would make the hand shake at {} Hz; use at most "
+                  "{:.0f} N/m beside this damping",
+        contact.stiffness, contact.damping, options.rateHz,
+        largestPassiveStiffness(limits, contact.damping, options.rateHz));
+    return false;
+  }
+  if (const Status status = hand.open(); status != Status::Ok)
+  {
+    message = options.path + ": " + sentence(status);
+    return false;
+  }
+  Proxy proxy(options.parameters);
+  proxy.setScene(&scene);
+  ProgressBar bar("feeling");
+  for (std::int64_t tick = 0; tick < ticks; ++tick)
+  {
+    const double time = double(tick) / options.rateHz;
+    HandState state;
+    if (hand.read(std::min(time, path.duration()), state) != Status::Ok)
+    {
+      break;
+    }
+    const auto before = std::chrono::steady_clock::now();
+    const ProxyState felt = proxy.step(state.position, 1.0 / options.rateHz);
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;
+    static_cast<void>(hand.write(time, felt.force));
+    rows.add(path.points.front().timeSeconds + time, felt, took.count());
+    bar.show(double(tick) / double(ticks));
+  }
+  return true;
+}
+
 /// Moves the hand along @p path in virtual time.
-Summary walk(const FeelOptions& options, const HapticScene& scene, const HipPath& path, std::int64_t ticks,
-  CsvWriter& table)
+void walk(
+  const FeelOptions& options, const HapticScene& scene, const HipPath& path, std::int64_t ticks, Rows& rows)
 {
   Proxy proxy(options.parameters);
   proxy.setScene(&scene);
-  Summary summary;
-  summary.ticks = ticks;
-  std::vector<float> durations(static_cast<std::size_t>(ticks));
   const double start = path.points.front().timeSeconds;
   const double end = path.points.back().timeSeconds;
   std::size_t hint = 0;
@@ -142,18 +227,45 @@ Summary walk(const FeelOptions& options, const HapticScene& scene, const HipPath
     const auto before = std::chrono::steady_clock::now();
     const ProxyState state = proxy.step(hip, 1.0 / options.rateHz);
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;
-    summary.contactTicks += state.contact;
-    summary.maximumForce = std::max(summary.maximumForce, norm(state.force));
-    durations[static_cast<std::size_t>(tick)] = static_cast<float>(took.count());
-    const std::array<double, 16> row = rowOf(time, state, took.count());
-    table.row(row.data(), row.size());
+    rows.add(time, state, took.count());
     bar.show(double(tick) / double(ticks));
   }
-  std::sort(durations.begin(), durations.end());
-  summary.p50Microseconds = quantile(durations, 0.50);
-  summary.p99Microseconds = quantile(durations, 0.99);
-  summary.maximumMicroseconds = quantile(durations, 1.0);
-  return summary;
+}
+
+/// The hand in the device, until the time is over or the user ends it.
+bool touch(
+  const FeelOptions& options, std::shared_ptr<const HapticScene> scene, Rows& rows, std::string& message)
+{
+  LiveSettings live;
+  live.falcon = options.falcon;
+  live.parameters = options.parameters;
+  live.rateHz = options.rateHz;
+  live.seconds = options.seconds;
+  ServoStatistics statistics;
+  const auto row = [&rows](const ServoSample& sample)
+  { rows.add(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds); };
+  if (!feelLive(live, std::move(scene), row, statistics, message))
+  {
+    return false;
+  }
+  fmt::print(stderr, "{:.0f} Hz, {} ticks missed, {} device faults, lateness p99 {:.0f} us\n",
+    statistics.rateHz, statistics.missedTicks, statistics.deviceFaults, 1e6 * statistics.lateness.p99);
+  return true;
+}
+
+bool feelAs(const FeelOptions& options, const std::shared_ptr<const HapticScene>& scene, const HipPath& path,
+  std::int64_t ticks, Rows& rows, std::string& message)
+{
+  if (options.device == "falcon")
+  {
+    return touch(options, scene, rows, message);
+  }
+  if (options.device == "simulated")
+  {
+    return walkYielding(options, *scene, path, ticks, rows, message);
+  }
+  walk(options, *scene, path, ticks, rows);
+  return true;
 }
 
 void print(const FeelOptions& options, const HapticScene& scene, const Summary& s)
@@ -177,12 +289,13 @@ int runFeel(const FeelOptions& options)
 {
   std::string message;
   HipPath path;
-  if (readHipPath(options.path, path, message) != Status::Ok)
+  std::int64_t ticks = 0;
+  const bool follows = options.device != "falcon";
+  if (follows && readHipPath(options.path, path, message) != Status::Ok)
   {
     return fail(kCommand, message);
   }
-  std::int64_t ticks = 0;
-  if (!countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message))
+  if (follows && !countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message))
   {
     return fail(kCommand, message);
   }
@@ -213,12 +326,12 @@ int runFeel(const FeelOptions& options)
   {
     return fail(kCommand, message);
   }
-  const Summary summary = walk(options, *scene, path, ticks, table);
-  if (!table.commit(message))
+  Rows rows(table);
+  if (!feelAs(options, scene, path, ticks, rows, message) || !table.commit(message))
   {
     return fail(kCommand, message);
   }
-  print(options, *scene, summary);
+  print(options, *scene, rows.summary());
   return kSuccess;
 }
 
@@ -226,7 +339,8 @@ int runFeel(const FeelOptions& options)
 
 void addFeelCommand(CLI::App& program, int& exitCode)
 {
-  CLI::App* command = program.add_subcommand("feel", "Feel a point cloud along a path, in virtual time");
+  CLI::App* command =
+    program.add_subcommand("feel", "Feel a point cloud along a path, in virtual time, or with a Falcon");
   auto options = std::make_shared<FeelOptions>();
   options->addTo(*command);
   command->callback(

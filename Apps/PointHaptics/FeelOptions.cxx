@@ -27,8 +27,9 @@ void FeelOptions::addTo(CLI::App& command)
 {
   ContactParameters& contact = this->parameters.contact;
   command.add_option("FILE", this->file, "Point cloud to feel")->required()->type_name("");
-  command.add_option("--path", this->path, "Path of the hand: t,x,y,z in seconds and metres")
-    ->required()
+  command
+    .add_option("--path", this->path,
+      "Path of the hand: t,x,y,z in seconds and metres; needed unless --device is falcon")
     ->type_name("HIP.csv");
   command.add_option("-o,--output", this->output, "Where the felt forces go, one row a tick")
     ->required()
@@ -45,6 +46,13 @@ void FeelOptions::addTo(CLI::App& command)
   addNumber(
     command, "--mu-s", this->staticFriction, { 0.0, 10.0 }, "X", "Static friction; default that of --mu-d");
   addNumber(command, "--mu-d", this->dynamicFriction, { 0.0, 10.0 }, "X", "Dynamic friction; default 0");
+  addWord(command, "--device", this->device, { "none", "simulated", "falcon" },
+    "none: the hand is where the path says (default); simulated: a hand that is pulled there and yields to "
+    "the "
+    "force; falcon: the hand in the device, in real time");
+  addNumber(command, "--seconds", this->seconds, { 0.0, 86400.0 }, "S",
+    "Falcon: stop after so many seconds of touch; default 0: at Ctrl+C");
+  this->falcon.addTo(command);
   addNumber(command, "--rate", this->rateHz, { 1.0, 1e5 }, "HZ", "Ticks per second; default 1000");
   command.add_flag(
     "--no-covariance", this->noCovariance, "Feel plain voxel means, without their second moments");
@@ -57,6 +65,12 @@ void FeelOptions::addTo(CLI::App& command)
 
 void FeelOptions::complete()
 {
+  if (this->device == "falcon" ? !this->path.empty() : this->path.empty())
+  {
+    throwUsage("--path", this->path.empty() ? "(none)" : this->path,
+      this->path.empty() ? "give the path of the hand, or --device falcon"
+                         : "a Falcon's hand goes where it likes; leave out --path or --device falcon");
+  }
   ContactParameters& contact = this->parameters.contact;
   contact.dynamicFriction = std::max(0.0, this->dynamicFriction);
   contact.staticFriction = this->staticFriction >= 0.0 ? this->staticFriction : contact.dynamicFriction;

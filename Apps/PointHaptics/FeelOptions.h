@@ -3,6 +3,7 @@
 #pragma once
 
 #include "BandwidthOptions.h"
+#include "HandDevice.h"
 #include "LatticeOptions.h"
 
 #include "Haptics/HapticParameters.h"
@@ -27,6 +28,10 @@ struct FeelOptions
   LatticeOptions lattice;
   BandwidthOptions bandwidth;
   HapticParameters parameters;
+  std::string device =
+    "none"; ///< none: the hand is where the path says; simulated: it is pulled there; falcon.
+  FalconOptions falcon;
+  double seconds = 0.0; ///< Falcon: of touch; 0: until a stop signal.
   double rateHz = 1000.0;
   bool noCovariance = false;
   bool raw = false;

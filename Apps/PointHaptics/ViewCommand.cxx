@@ -40,11 +40,6 @@ int runView(CLI::App& command, ViewOptions& options)
   {
     return fail("view", message);
   }
-  if (options.device == "falcon")
-  {
-    return fail(
-      "view", "this version has no driver for the Falcon; use --device simulated, driven by mouse and keys");
-  }
   ViewScene scene;
   if (!scene.open(options.files, options, message) || !scene.build(options, message))
   {

@@ -194,7 +194,10 @@ void ViewOptions::addTo(CLI::App& command)
   command.add_option("--path", this->path, "Follow the hand path in this file (header t,x,y,z)")
     ->type_name("HIP.csv");
   addWord(command, "--device", this->device, { "auto", "falcon", "simulated", "none" },
-    "What moves the hand; default auto: the simulated hand, driven by mouse and keys");
+    "What moves the hand; default auto: a Falcon where one can be used, else the simulated hand, driven by "
+    "mouse "
+    "and keys");
+  this->falcon.addTo(command);
   command
     .add_option("--config", this->config, "Defaults for these options, a JSON object; the command line wins")
     ->type_name("FILE.json");

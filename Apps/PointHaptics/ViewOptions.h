@@ -3,6 +3,7 @@
 #pragma once
 
 #include "BandwidthOptions.h"
+#include "HandDevice.h"
 #include "LatticeOptions.h"
 
 #include "Haptics/HapticParameters.h"
@@ -28,8 +29,9 @@ struct ViewOptions
   std::string screenshot; ///< PNG to write instead of opening a window.
   int width = 1280;
   int height = 800;
-  std::string path; ///< HIP.csv.
-  std::string device = "auto";
+  std::string path;            ///< HIP.csv.
+  std::string device = "auto"; ///< auto: a Falcon where one is plugged in.
+  FalconOptions falcon;
   std::string config;
   std::string forceChart; ///< PNG.
   std::string trace;      ///< CSV.

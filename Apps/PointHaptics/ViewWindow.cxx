@@ -1,6 +1,8 @@
 #include "ViewWindow.h"
 
+#include "HandDevice.h"
 #include "Messages.h"
+#include "StopSignals.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
 
@@ -9,12 +11,15 @@
 #include "vtkHapticProps.h"
 #include "vtkInteractorStyleHaptic.h"
 
+#include "Devices/DeviceList.h"
 #include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
+#include "Devices/SpaceMouse/SpaceMouse.h"
 #include "Haptics/ServoLoop.h"
 
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
@@ -50,6 +55,9 @@ public:
 private:
   void setUpRendering();
   bool openDevice(std::string& message);
+  void openSimulated();
+  void openFalcon();
+  void onTimer();
   bool startServo(std::string& message);
   void connectStyle();
   void observe(unsigned long event, void (Window::*handler)(void*));
@@ -76,6 +84,9 @@ private:
   std::string news_; // last line of the status
   std::unique_ptr<SimulatedDevice> hand_;
   std::unique_ptr<PathReplayDevice> replay_;
+  std::unique_ptr<FalconDevice> falcon_;
+  FalconState falconState_ = FalconState::Closed; ///< As the user was told.
+  SpaceMouse spaceMouse_;
   HapticDevice* device_ = nullptr;
   ServoLoop servo_; // last: destroyed, and so stopped, first
 };
@@ -98,6 +109,36 @@ void Window::setUpRendering()
   scene_.placeCamera();
 }
 
+void Window::openSimulated()
+{
+  SimulatedHandSettings settings;
+  settings.workspace = scene_.workspace();
+  // In front of the cloud, where the person sees it.
+  const Bounds& box = scene_.workspace();
+  const Vec3 front = scene_.towardsViewer();
+  settings.start = box.center() +
+    0.47 * Vec3{ front.x * box.extent().x, front.y * box.extent().y, front.z * box.extent().z };
+  hand_ = std::make_unique<SimulatedDevice>(settings);
+  hand_->setTarget(settings.start);
+  device_ = hand_.get();
+}
+
+/// Its workspace is the 10 cm cube about the origin, which the cloud is fitted to.
+void Window::openFalcon()
+{
+  falcon_ = std::make_unique<FalconDevice>(options_.falcon.settings());
+  device_ = falcon_.get();
+  fmt::print("falcon: starting; loading its firmware takes some seconds\n");
+  std::fflush(stdout);
+}
+
+bool falconIsUsable()
+{
+  std::vector<std::string> notes;
+  const std::vector<ListedDevice> devices = listDevices(notes);
+  return !devices.empty() && devices.front().kind == "falcon" && devices.front().problem.empty();
+}
+
 bool Window::openDevice(std::string& message)
 {
   if (!options_.path.empty())
@@ -110,40 +151,36 @@ bool Window::openDevice(std::string& message)
     replay_ = std::make_unique<PathReplayDevice>(std::move(path), true);
     device_ = replay_.get();
   }
+  else if (options_.device == "falcon" || (options_.device == "auto" && falconIsUsable()))
+  {
+    this->openFalcon();
+  }
   else if (options_.device != "none")
   {
-    SimulatedHandSettings settings;
-    settings.workspace = scene_.workspace();
-    // In front of the cloud, where the person sees it.
-    const Bounds& box = scene_.workspace();
-    const Vec3 front = scene_.towardsViewer();
-    settings.start = box.center() +
-      0.47 * Vec3{ front.x * box.extent().x, front.y * box.extent().y, front.z * box.extent().z };
-    hand_ = std::make_unique<SimulatedDevice>(settings);
-    hand_->setTarget(settings.start);
-    device_ = hand_.get();
+    this->openSimulated();
   }
   const Status status = device_ ? device_->open() : Status::Ok;
   if (status != Status::Ok)
   {
-    message = fmt::format("the {} device cannot be used: {}", device_->name(), sentence(status));
+    message = fmt::format("the {} device cannot be used: {}", device_->name(),
+      device_->message().empty() ? sentence(status) : device_->message());
     return false;
   }
   style_->SetDevice(hand_.get());
   style_->SetServoLoop(device_ ? &servo_ : nullptr);
+  // Where there is none, it may be plugged in later; where there is no driver, the window does without.
+  static_cast<void>(spaceMouse_.start());
+  style_->SetSpaceMouse(&spaceMouse_);
   return true;
 }
 
 /// After the first scene was published: a path must not begin in an empty world.
 bool Window::startServo(std::string& message)
 {
-  const Status status = device_ ? servo_.start(*device_, options_.hapticParameters()) : Status::Ok;
-  if (status != Status::Ok)
-  {
-    message = fmt::format("the servo loop cannot start: {}", sentence(status));
-    return false;
-  }
-  return true;
+  const ServoSettings settings = falcon_ ? pushingServoSettings(1000.0) : ServoSettings();
+  const Status status =
+    device_ ? servo_.start(*device_, options_.hapticParameters(), settings, &message) : Status::Ok;
+  return status == Status::Ok;
 }
 
 void Window::observe(unsigned long event, void (Window::*handler)(void*))
@@ -185,6 +222,11 @@ void Window::connectStyle()
   this->observe(vtkInteractorStyleHaptic::FilesDroppedEvent, &Window::onFilesDropped);
   this->observe(vtkInteractorStyleHaptic::ScreenshotEvent, &Window::onScreenshot);
   interactor_->SetInteractorStyle(style_);
+  vtkNew<vtkCallbackCommand> timer;
+  timer->SetClientData(this);
+  timer->SetCallback(
+    [](vtkObject*, unsigned long, void* window, void*) { static_cast<Window*>(window)->onTimer(); });
+  interactor_->AddObserver(vtkCommand::TimerEvent, timer);
 }
 
 void Window::onSamples(void* callData)
@@ -200,6 +242,21 @@ void Window::onSamples(void* callData)
     {
       wholeChart_->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius);
     }
+  }
+}
+
+/// 30 times a second: what the device has to say, and whether the program is asked to end.
+void Window::onTimer()
+{
+  if (stopIsRequested())
+  {
+    interactor_->TerminateApp();
+  }
+  const FalconState state = falcon_ ? falcon_->state() : FalconState::Closed;
+  if (state != falconState_)
+  {
+    falconState_ = state;
+    this->say(advice(state));
   }
 }
 
@@ -295,6 +352,16 @@ bool Window::finish(std::string& message)
   style_->Refresh(); // the last ticks
   style_->SetServoLoop(nullptr);
   style_->SetDevice(nullptr);
+  style_->SetSpaceMouse(nullptr);
+  spaceMouse_.stop();
+  if (device_)
+  {
+    device_->close();
+  }
+  if (const std::string refusals = describeRefusals(servo_.statistics()); falcon_ && !refusals.empty())
+  {
+    warn("view", refusals);
+  }
   if (trace_.isOpen())
   {
     if (!trace_.close(message))
@@ -336,6 +403,7 @@ bool Window::run(std::string& message)
     return false;
   }
   style_->StartUpdates();
+  rememberStopSignals();
   interactor_->Start();
   return this->finish(message);
 }

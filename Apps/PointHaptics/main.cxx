@@ -113,6 +113,7 @@ int run(std::vector<std::string> arguments)
   addBandwidthCommand(program, exitCode);
   addInfoCommand(program, exitCode);
   addGenerateCommand(program, exitCode);
+  addDevicesCommand(program, exitCode);
 #ifdef POINTHAPTICS_HAVE_BENCHMARKS
   addBenchCommand(program, exitCode);
 #endif

@@ -216,7 +216,8 @@ Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) 
     sample.state.force = guard.limit(opening * answer(hand, number), 1.0 / settings.rateHz);
   }
   const Status writing = port->write(time, healthy ? sample.state.force : Vec3());
-  if (!healthy || writing != Status::Ok)
+  sample.device = healthy ? writing : reading;
+  if (sample.device != Status::Ok)
   {
     sample.state.force = {};
     guard.reset();

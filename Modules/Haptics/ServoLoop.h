@@ -36,6 +36,8 @@ struct ServoSample
   double timeSeconds = 0.0; ///< Deadline of the tick since the first one: (tick - 1) / rate.
   ProxyState state; ///< force is the one that was sent: after the guard, zero where the device failed.
   std::uint32_t buttons = 0;
+  Status device =
+    Status::Ok; ///< What the device said; unless Ok, state is that of the tick before, without force.
   double updateSeconds = 0.0; ///< Wall time of the tick's work, reading and writing the device included.
 };
 

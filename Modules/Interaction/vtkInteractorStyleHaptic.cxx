@@ -48,6 +48,11 @@ void vtkInteractorStyleHaptic::SetDevice(pointhaptics::SimulatedDevice* device)
   this->Parts->device = device;
 }
 
+void vtkInteractorStyleHaptic::SetSpaceMouse(pointhaptics::SpaceMouse* mouse)
+{
+  this->Parts->mouse = mouse;
+}
+
 void vtkInteractorStyleHaptic::SetResampler(vtkVoxelMeanResampler* resampler)
 {
   this->Parts->resampler = resampler;
@@ -250,6 +255,7 @@ void vtkInteractorStyleHaptic::OnTimer()
 void vtkInteractorStyleHaptic::Refresh()
 {
   Internals& parts = *this->Parts;
+  this->MoveBySpaceMouse();
   if (parts.modelChanged && parts.modelShare.due())
   {
     this->UpdateModel();

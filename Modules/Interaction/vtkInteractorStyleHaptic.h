@@ -10,6 +10,7 @@
  * style->SetBandwidthFilter(bandwidth);        // fed by the resampler
  * style->SetServoLoop(&servo);                 // gets a new HapticScene after every change of the model
  * style->SetDevice(&simulatedDevice);
+ * style->SetSpaceMouse(&spaceMouse);
  * style->SetProps(props);
  * style->SetCloudActor(actor);                 // moves at once while the pipeline catches up
  * interactor->SetInteractorStyle(style);
@@ -23,7 +24,9 @@
  * Drags: left turns the camera, middle pans, right or the wheel dollies. With Shift they move the model: left
  * turns it, middle (or Ctrl+Shift+left) shifts it, the wheel zooms it about the workspace's centre. Ctrl+left
  * drags the hand in the view plane, Ctrl+wheel moves it in depth; in hand mode it follows the mouse without a
- * button. For the keys see GetHelpText().
+ * button. For the keys see GetHelpText(). A SpaceMouse turns and shifts the model as the cap is turned and
+ * shifted on the screen; with its first button held, pushing and pulling zooms; its second one resets the
+ * model.
  *
  * A change of the model marks it; at the next timer event the resampler and the bandwidth filter run, and a
  * NEW HapticScene is published: the servo thread never waits and never sees a half-made scene. The 33 ms
@@ -36,8 +39,8 @@
  * when the user asks for a picture.
  *
  * Frames: the model transform maps the cloud's frame into the workspace's (x_T = T x + t); metres.
- * Thread safety: GUI thread only. Ownership: servo loop and device are not owned and must outlive the style
- * or be set to null; VTK objects are reference counted.
+ * Thread safety: GUI thread only. Ownership: servo loop, device and SpaceMouse are not owned and must outlive
+ * the style or be set to null; VTK objects are reference counted.
  * @sa vtkHapticProps vtkHapticChart vtkVoxelMeanResampler
  */
 #ifndef vtkInteractorStyleHaptic_h
@@ -66,6 +69,7 @@ namespace pointhaptics
 {
 class ServoLoop;
 class SimulatedDevice;
+class SpaceMouse;
 }
 
 class POINTHAPTICSINTERACTION_EXPORT vtkInteractorStyleHaptic : public vtkInteractorStyleTrackballCamera
@@ -90,6 +94,7 @@ public:
    */
   void SetServoLoop(pointhaptics::ServoLoop* servo);
   void SetDevice(pointhaptics::SimulatedDevice* device);
+  void SetSpaceMouse(pointhaptics::SpaceMouse* mouse);
   void SetResampler(vtkVoxelMeanResampler* resampler);
   void SetBandwidthFilter(vtkKernelBandwidthFilter* filter);
   void SetCloudActor(vtkActor* actor);
@@ -210,6 +215,7 @@ private:
   void DragModel();
   void DragHand();
   void Wheel(int direction);
+  void MoveBySpaceMouse();
   bool ModelKey(const std::string& key);
   bool HandKey(const std::string& key);
   bool ProgramKey(const std::string& key);

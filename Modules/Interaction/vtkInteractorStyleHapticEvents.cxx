@@ -20,6 +20,14 @@ constexpr double kZoomPerStep = 1.1;
 constexpr double kShiftPerKey = 0.02;
 constexpr double kDepthPerKey = 0.02;
 constexpr double kDepthPerWheelStep = 0.01;
+/// The cap of a SpaceMouse at its end: a second of it.
+constexpr double kCapEdgesPerSecond = 0.5;
+constexpr double kCapDegreesPerSecond = 90.0;
+constexpr double kCapZoomPerSecond = 2.0;
+/// Longest time between two looks that counts: after a pause the model does not jump.
+constexpr double kLongestCapStep = 0.2;
+constexpr std::uint32_t kZoomButton = 1;
+constexpr std::uint32_t kResetButton = 2;
 
 Vec3 displayToWorld(vtkRenderer* renderer, double x, double y, double depth)
 {
@@ -253,6 +261,51 @@ bool vtkInteractorStyleHaptic::ModelKey(const std::string& key)
   const double step = kShiftPerKey * this->Parts->edge();
   this->ShiftModel(step * (double(right) * cross(forward, up) + double(upward) * up));
   return true;
+}
+
+void vtkInteractorStyleHaptic::MoveBySpaceMouse()
+{
+  Internals& parts = *this->Parts;
+  vtkRenderer* renderer = this->MainRenderer();
+  if (!parts.mouse || !renderer)
+  {
+    return;
+  }
+  const pointhaptics::SpaceMouseMotion motion = parts.mouse->motion();
+  const double time = pointhaptics::style::now();
+  const double seconds = std::min(time - parts.mouseRead, kLongestCapStep);
+  parts.mouseRead = time;
+  const std::uint32_t pressed = motion.buttons & ~parts.mouseButtons;
+  parts.mouseButtons = motion.buttons;
+  if (pressed & kResetButton)
+  {
+    this->ResetModel();
+  }
+  if (motion.resting())
+  {
+    return;
+  }
+  Vec3 up;
+  Vec3 forward;
+  renderer->GetActiveCamera()->OrthogonalizeViewUp();
+  renderer->GetActiveCamera()->GetViewUp(&up.x);
+  renderer->GetActiveCamera()->GetDirectionOfProjection(&forward.x);
+  const Vec3 right = cross(forward, up);
+  // The cap's axes are those of the screen.
+  const auto onScreen = [&](const Vec3& v) { return v.x * right + v.y * up - v.z * forward; };
+  if (motion.buttons & kZoomButton)
+  {
+    this->ZoomModel(std::pow(kCapZoomPerSecond, motion.shift.z * seconds));
+    return;
+  }
+  if (motion.shift != Vec3())
+  {
+    this->ShiftModel(kCapEdgesPerSecond * parts.edge() * seconds * onScreen(motion.shift));
+  }
+  if (motion.turn != Vec3())
+  {
+    this->TurnModel(kCapDegreesPerSecond * seconds * norm(motion.turn), onScreen(motion.turn));
+  }
 }
 
 bool vtkInteractorStyleHaptic::HandKey(const std::string& key)

@@ -11,6 +11,7 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include "Devices/SimulatedDevice.h"
+#include "Devices/SpaceMouse/SpaceMouse.h"
 #include "Haptics/ServoLoop.h"
 
 #include "vtkActor.h"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <vector>
 
 namespace pointhaptics
@@ -67,6 +69,9 @@ struct vtkInteractorStyleHaptic::Internals
 {
   pointhaptics::ServoLoop* servo = nullptr;
   pointhaptics::SimulatedDevice* device = nullptr;
+  pointhaptics::SpaceMouse* mouse = nullptr;
+  double mouseRead = -1e9;
+  std::uint32_t mouseButtons = 0;
   vtkSmartPointer<vtkVoxelMeanResampler> resampler;
   vtkSmartPointer<vtkKernelBandwidthFilter> bandwidth;
   vtkSmartPointer<vtkActor> cloudActor;

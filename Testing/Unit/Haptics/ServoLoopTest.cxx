@@ -456,6 +456,11 @@ TEST(ServoLoop, CountsTicksOfADeviceThatIsNotReadyApartFromFaults)
   ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
   ASSERT_TRUE(eventually([&] { return loop.statistics().ticks >= 50; }));
   loop.stop();
+  std::vector<ServoSample> samples;
+  loop.takeTrace(samples);
+  ASSERT_GE(samples.size(), 50u);
+  EXPECT_EQ(samples[29].device, Status::DeviceNotReady);
+  EXPECT_EQ(samples[30].device, Status::Ok);
   EXPECT_EQ(loop.statistics().waitingTicks, 30u);
   EXPECT_EQ(loop.statistics().deviceFaults, 0u);
   EXPECT_FALSE(port.forceAfterFault);

@@ -1,0 +1,298 @@
+#include "FalconDiagnosis.h"
+
+#include "StopSignals.h"
+
+#include "Haptics/LatestValue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <sstream>
+#include <thread>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr double kRateHz = 1000.0;
+constexpr double kTinyForce = 0.5; // N
+/// The ramp takes one of them.
+constexpr double kPushSeconds = 1.5;
+constexpr double kLampSeconds = 0.3;
+constexpr double kRateSeconds = 5.0;
+/// Nobody is there to see and feel it.
+constexpr double kPartWithoutAPerson = 0.2;
+constexpr double kLongestHoming = 120.0;
+
+/// A virtual finger: no scene, a force of our own. Gives the diagnosis the servo thread for itself.
+class PushPort : public HandPort
+{
+public:
+  explicit PushPort(FalconDevice& device)
+    : device_(device)
+  {
+  }
+  Status read(double timeSeconds, HandState& state) noexcept override
+  {
+    return device_.read(timeSeconds, state);
+  }
+  Status write(double timeSeconds, const Vec3&) noexcept override
+  {
+    return device_.write(timeSeconds, force_.read());
+  }
+  HandLimits limits() const noexcept override { return device_.limits(); }
+  void push(const Vec3& force) noexcept { force_.write(force); }
+
+private:
+  FalconDevice& device_;
+  LatestValue<Vec3> force_;
+};
+
+class Diagnosis
+{
+public:
+  Diagnosis(const FalconOptions& options, bool yes)
+    : settings_(options.settings())
+    , yes_(yes)
+  {
+    settings_.armWhenHomed = false;
+    settings_.limits.maximumForce = std::min(settings_.limits.maximumForce, kTinyForce);
+  }
+
+  bool run(std::string& message);
+  std::string report() const { return report_.str(); }
+
+private:
+  void note(const std::string& line)
+  {
+    fmt::print("{}\n", line);
+    report_ << line << "\n";
+  }
+  std::string ask(const std::string& question);
+  bool waitFor(const std::function<bool()>& condition, double seconds);
+  void rest(double seconds)
+  {
+    waitFor([] { return false; }, seconds);
+  }
+  double patience(double seconds) const { return yes_ ? kPartWithoutAPerson * seconds : seconds; }
+  void checkLamps(FalconDevice& device);
+  bool checkHoming(FalconDevice& device);
+  void checkEncoders(FalconDevice& device);
+  void checkRate(const FalconDevice& device, const ServoLoop& loop);
+  void checkMotors(FalconDevice& device, PushPort& port);
+
+  FalconSettings settings_;
+  bool yes_;
+  ServoLoop* loop_ = nullptr;
+  std::ostringstream report_;
+};
+
+/// The answer, also into the report. The loop goes on meanwhile.
+std::string Diagnosis::ask(const std::string& question)
+{
+  fmt::print("{} ", question);
+  std::fflush(stdout);
+  std::string answer;
+  if (yes_)
+  {
+    fmt::print("\n");
+  }
+  else if (!stopIsRequested())
+  {
+    std::getline(std::cin, answer);
+  }
+  report_ << question << " " << answer << "\n";
+  return answer;
+}
+
+bool Diagnosis::waitFor(const std::function<bool()>& condition, double seconds)
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (!condition())
+  {
+    if (stopIsRequested() || std::chrono::steady_clock::now() > end)
+    {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+void Diagnosis::checkLamps(FalconDevice& device)
+{
+  note("\n1. Lights");
+  const std::pair<int, const char*> lamps[] = { { kFalconLampGreen, "green" }, { kFalconLampBlue, "blue" },
+    { kFalconLampRed, "red" } };
+  for (const auto& [bit, name] : lamps)
+  {
+    device.showLamps(bit);
+    rest(patience(kLampSeconds));
+    ask(fmt::format("   Bit {} should be {}. Which light is on? [{}]", bit, name, name));
+  }
+  device.showLamps(-1);
+}
+
+bool Diagnosis::checkHoming(FalconDevice& device)
+{
+  note("\n2. Homing");
+  fmt::print(
+    "   Pull the grip all the way out, then push it all the way in; do it again if nothing happens.\n");
+  int last = -1;
+  const bool homed = waitFor(
+    [&]
+    {
+      const int bits = device.raw().reply.homed;
+      if (bits != last)
+      {
+        note(fmt::format("   homing bits {}{}{}", bits & 1, (bits >> 1) & 1, (bits >> 2) & 1));
+        last = bits;
+      }
+      return device.state() == FalconState::Homed;
+    },
+    patience(kLongestHoming));
+  note(homed ? "   homed" : "   NOT homed: does the light change while you move? Is bit 1 the homing bit?");
+  return homed;
+}
+
+void Diagnosis::checkEncoders(FalconDevice& device)
+{
+  note("\n3. Encoders: positions should grow to the right (x), up (y) and towards you (z)");
+  const char* const directions[] = { "to the right", "up", "towards you" };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    ask("   Hold the grip in the middle, then press Enter.");
+    const Vec3 from = loop_->latest().state.hip;
+    const std::array<std::int16_t, 3> countsFrom = device.raw().reply.encoders;
+    ask(fmt::format("   Move it {} by about 2 cm, hold, press Enter.", directions[axis]));
+    const Vec3 moved = loop_->latest().state.hip - from;
+    const std::array<std::int16_t, 3> counts = device.raw().reply.encoders;
+    note(fmt::format("   moved by ({:.1f}, {:.1f}, {:.1f}) mm, counts ({}, {}, {}): {}", 1e3 * moved.x,
+      1e3 * moved.y, 1e3 * moved.z, counts[0] - countsFrom[0], counts[1] - countsFrom[1],
+      counts[2] - countsFrom[2],
+      moved[axis] > 0.5 * norm(moved) && norm(moved) > 5e-3 ? "as expected" : "NOT as expected"));
+  }
+}
+
+void Diagnosis::checkRate(const FalconDevice& device, const ServoLoop& loop)
+{
+  note("\n4. Rate");
+  const FalconStatistics before = device.statistics();
+  const ServoStatistics servoBefore = loop.statistics();
+  rest(patience(kRateSeconds));
+  const FalconStatistics after = device.statistics();
+  const ServoStatistics servo = loop.statistics();
+  note(fmt::format(
+    "   {} ticks, {} answers, {} late, {} timeouts, {} bad, {} bytes dropped, {} commands skipped",
+    servo.ticks - servoBefore.ticks, after.replies - before.replies, after.lateReplies - before.lateReplies,
+    after.timeouts - before.timeouts, after.badReplies - before.badReplies,
+    after.droppedBytes - before.droppedBytes, after.skippedCommands - before.skippedCommands));
+  note(
+    fmt::format("   servo {:.0f} Hz, {} ticks missed; step p50 {:.0f} p99 {:.0f} max {:.0f} us; lateness p50 "
+                "{:.0f} p99 {:.0f} max {:.0f} us; real-time priority {}",
+      servo.rateHz, servo.missedTicks, 1e6 * servo.update.p50, 1e6 * servo.update.p99,
+      1e6 * servo.update.maximum, 1e6 * servo.lateness.p50, 1e6 * servo.lateness.p99,
+      1e6 * servo.lateness.maximum, servo.realtime ? "yes" : "no"));
+}
+
+void Diagnosis::checkMotors(FalconDevice& device, PushPort& port)
+{
+  note(fmt::format("\n5. Motors, at most {} N", settings_.limits.maximumForce));
+  ask("   Hold the grip loosely in the middle, then press Enter.");
+  const char* const directions[] = { "to the right", "up", "towards you" };
+  for (int axis = 0; axis < 3 && !stopIsRequested(); ++axis)
+  {
+    const Vec3 from = loop_->latest().state.hip;
+    Vec3 force;
+    force[axis] = settings_.limits.maximumForce;
+    port.push(force);
+    device.setArmed(true);
+    rest(patience(kPushSeconds));
+    const Vec3 moved = loop_->latest().state.hip - from;
+    const std::array<std::int16_t, 3> motors = device.raw().command.motors;
+    device.setArmed(false);
+    port.push(Vec3());
+    note(fmt::format("   pushed {}: motors ({}, {}, {}), moved by ({:.1f}, {:.1f}, {:.1f}) mm: {}",
+      directions[axis], motors[0], motors[1], motors[2], 1e3 * moved.x, 1e3 * moved.y, 1e3 * moved.z,
+      moved[axis] > 0.5 * norm(moved) && norm(moved) > 5e-4 ? "as expected" : "NOT as expected"));
+    ask(fmt::format("   Did it push {}, gently? [yes]", directions[axis]));
+  }
+  note("   Scale: hang a known weight from the grip and note the force that holds it; 0.5 N lifts 51 g.");
+}
+
+bool Diagnosis::run(std::string& message)
+{
+  note(
+    "Novint Falcon, checks with its owner. Nothing pushes with more than 0.5 N; Ctrl+C ends it at any time.");
+  FalconDevice device(settings_);
+  fmt::print("Starting the Falcon; loading its firmware takes some seconds.\n");
+  const Status status = device.open();
+  if (status != Status::Ok)
+  {
+    message = device.message();
+    note("NOT started: " + message);
+    return false;
+  }
+  note("started" + (device.message().empty() ? "" : "; " + device.message()));
+  PushPort port(device);
+  ServoLoop loop;
+  loop_ = &loop;
+  if (loop.start(port, HapticParameters(), ServoSettings(), &message) != Status::Ok)
+  {
+    return false;
+  }
+  checkLamps(device);
+  const bool homed = checkHoming(device);
+  if (homed && !stopIsRequested())
+  {
+    checkEncoders(device);
+    checkMotors(device, port);
+  }
+  checkRate(device, loop);
+  port.push(Vec3());
+  loop.stop();
+  if (const std::string refusals = describeRefusals(loop.statistics()); !refusals.empty())
+  {
+    note(refusals);
+  }
+  device.close();
+  return true;
+}
+
+} // namespace
+
+bool diagnoseFalcon(
+  const FalconOptions& options, const std::string& reportFile, bool yes, std::string& message)
+{
+  // Before anything moves: a report that cannot be written is no use.
+  std::ofstream file(reportFile);
+  if (!file)
+  {
+    message = reportFile + ": cannot be written; name another file with --report";
+    return false;
+  }
+  rememberStopSignals();
+  Diagnosis diagnosis(options, yes);
+  const bool done = diagnosis.run(message);
+  file << diagnosis.report();
+  file.close();
+  if (!file)
+  {
+    message = reportFile + ": not all of it could be written; check the space left";
+    return false;
+  }
+  fmt::print("\nreport: {}\n", reportFile);
+  return done;
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,71 @@
+#include "HandDevice.h"
+
+#include "OptionParsing.h"
+
+#include <CLI/CLI.hpp>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr double kLargestForce = 8.0;
+constexpr double kSilenceOfTheProgram = 2.0;
+
+} // namespace
+
+std::string advice(FalconState state)
+{
+  switch (state)
+  {
+    case FalconState::Opening:
+      return "falcon: not there; plug it in, it starts by itself";
+    case FalconState::Boot:
+    case FalconState::Loading:
+      return "falcon: starting";
+    case FalconState::Unhomed:
+      return "falcon: blue light: pull the grip all the way out, then push it all the way in";
+    case FalconState::Homed:
+      return "falcon: ready, without force";
+    case FalconState::Armed:
+      return "falcon: green light: forces come up within a second";
+    case FalconState::Fault:
+      return "falcon: lost; check its cable and its power supply, it starts again by itself";
+    case FalconState::Closed:
+      break;
+  }
+  return {};
+}
+
+void FalconOptions::addTo(CLI::App& command)
+{
+  command
+    .add_option("--falcon-firmware", this->firmware,
+      std::string("Firmware of the Falcon, from Novint's own driver; default: what ") +
+        "POINTHAPTICS_FALCON_FIRMWARE names")
+    ->type_name("FILE");
+  addNumber(command, "--max-force", this->maximumForce, { 0.0, kLargestForce }, "N",
+    "Largest force of the Falcon; default 4");
+}
+
+FalconSettings FalconOptions::settings() const
+{
+  FalconSettings result;
+  result.firmwareFile = this->firmware;
+  result.limits.maximumForce = this->maximumForce;
+  return result;
+}
+
+ServoSettings pushingServoSettings(double rateHz)
+{
+  ServoSettings settings;
+  settings.rateHz = rateHz;
+  settings.lockMemory = true;
+  settings.watchdogSeconds = kSilenceOfTheProgram;
+  return settings;
+}
+
+} // namespace app
+} // namespace pointhaptics

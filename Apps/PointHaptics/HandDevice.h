@@ -1,0 +1,39 @@
+/// @file
+/// The device that --device names, and what its user is told while it starts and works.
+#pragma once
+
+#include "Devices/Falcon/FalconDevice.h"
+
+#include "Haptics/ServoLoop.h"
+
+#include <string>
+
+namespace CLI
+{
+class App;
+}
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// What the person has to do or should know in @p state; empty where there is nothing.
+std::string advice(FalconState state);
+
+/// Adds --falcon-firmware and --max-force.
+struct FalconOptions
+{
+  std::string firmware;
+  double maximumForce = 4.0;
+
+  void addTo(CLI::App& command);
+  FalconSettings settings() const;
+};
+
+/// How the servo loop runs where somebody's hand is in the device: SCHED_FIFO, memory locked, and no force
+/// when the program has given no sign of life for two seconds.
+ServoSettings pushingServoSettings(double rateHz);
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,18 @@
+/// @file
+/// Ctrl+C and the like as a question the program asks, so that a device in somebody's hand is let go in
+/// order.
+#pragma once
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// From here on SIGINT, SIGTERM and SIGHUP are remembered instead of ending the program; a second one ends
+/// it.
+void rememberStopSignals();
+/// A signal has come since. Any thread.
+bool stopIsRequested() noexcept;
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,181 @@
+// The program itself, on an emulated machine: it inherits umockdev's library and test bed.
+#include "EmulatedFalcon.h"
+#include "UnderUmockdev.h"
+
+#include "../Unit/Devices/FalconBench.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace pointhaptics;
+using namespace pointhaptics::trial;
+
+namespace
+{
+const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
+
+class EmulatedMachine : public UnderUmockdev
+{
+protected:
+  EmulatedMachine()
+    : file(madeUpFirmware())
+    , falcon(bed())
+    , folder(std::filesystem::path(::testing::TempDir()) / ("pointhaptics-" + std::to_string(getpid())))
+  {
+    std::filesystem::create_directories(folder);
+    falcon.with(
+      [](FalconModel& model)
+      {
+        model.expectedFirmware = madeUpFirmware();
+        model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030);
+      });
+  }
+  ~EmulatedMachine() override { std::filesystem::remove_all(folder); }
+
+  pid_t begin(std::vector<std::string> words)
+  {
+    words.insert(words.begin(), POINTHAPTICS_PROGRAM);
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      std::vector<char*> arguments;
+      for (std::string& word : words)
+      {
+        arguments.push_back(word.data());
+      }
+      arguments.push_back(nullptr);
+      const int out = open(path("out.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+      const int none = open("/dev/null", O_RDONLY);
+      dup2(out, 1);
+      dup2(out, 2);
+      dup2(none, 0);
+      execv(arguments[0], arguments.data());
+      _exit(127);
+    }
+    return child;
+  }
+  static int finish(pid_t child)
+  {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  int run(std::vector<std::string> words) { return finish(begin(std::move(words))); }
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+  std::string output() const { return read("out.txt"); }
+  std::string read(const std::string& name) const
+  {
+    std::ifstream stream(path(name));
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+
+  FirmwareFile file;
+  EmulatedFalcon falcon;
+  std::filesystem::path folder;
+};
+}
+
+TEST_F(EmulatedMachine, ListsItsFalcon)
+{
+  ASSERT_EQ(run({ "devices" }), 0) << output();
+  EXPECT_EQ(output().find("falcon"), std::string::npos) << output();
+  EXPECT_NE(output().find("simulated"), std::string::npos);
+  falcon.plugIn();
+  ASSERT_EQ(run({ "devices" }), 0) << output();
+  EXPECT_NE(output().find("bus 1 device 2: can be used"), std::string::npos) << output();
+}
+
+TEST_F(EmulatedMachine, SaysWhatTheFirmwareIsWhereItIsMissing)
+{
+  falcon.plugIn();
+  ASSERT_EQ(run({ "generate", "sphere", "-n", "2000", "-o", path("sphere.ply") }), 0) << output();
+  const std::vector<std::string> feel = { "feel", path("sphere.ply"), "--device", "falcon", "-o",
+    path("out.csv") };
+  EXPECT_EQ(run(feel), 1);
+  for (const char* part : { "licence", "--falcon-firmware", "POINTHAPTICS_FALCON_FIRMWARE" })
+  {
+    EXPECT_NE(output().find(part), std::string::npos) << output();
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("out.csv"))) << "no half-made file";
+}
+
+TEST_F(EmulatedMachine, FeelsASphereUntilTheUserEndsItAndLetsGoInOrder)
+{
+  falcon.plugIn();
+  ASSERT_EQ(run({ "generate", "sphere", "-n", "40000", "-o", path("sphere.ply") }), 0) << output();
+  const pid_t child = begin({ "feel", path("sphere.ply"), "--device", "falcon", "--falcon-firmware",
+    file.path(), "-o", path("out.csv") });
+  ASSERT_TRUE(eventually(
+    [&]
+    {
+      return falcon.with([](FalconModel& model)
+        { return (model.command.lamps & kFalconLampGreen) != 0 && model.frames > 20; });
+    }))
+    << output();
+  falcon.with([](FalconModel& model) { model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.019); });
+  // 200 N/m towards 6 mm below the surface against 800 N/m: at rest at 1.2 mm, where both give 0.96 N.
+  const double expected = 0.025 - 0.0012;
+  EXPECT_TRUE(eventually(
+    [&]
+    {
+      return falcon.with(
+        [&](FalconModel& model)
+        {
+          return std::abs(model.hand.position.z - kCenter.z - expected) < 60e-6 &&
+            norm(model.hand.velocity) < 1e-4 && std::abs(model.force.z - 0.96) < 0.03;
+        });
+    }))
+    << output();
+  kill(child, SIGINT);
+  EXPECT_EQ(finish(child), 0) << output();
+  falcon.with(
+    [](FalconModel& model)
+    {
+      EXPECT_GE(model.frozenFrames, 3) << "commands without force, answered";
+      EXPECT_EQ(model.command.lamps, kFalconLampNone);
+    });
+  EXPECT_FALSE(falcon.claimed());
+  const std::string table = read("out.csv");
+  EXPECT_EQ(table.rfind("t,hip_x,", 0), 0u);
+  EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 500);
+  EXPECT_NE(output().find("blue light"), std::string::npos) << output();
+}
+
+TEST_F(EmulatedMachine, RefusesASpringTheFalconCannotBear)
+{
+  falcon.plugIn();
+  ASSERT_EQ(run({ "generate", "sphere", "-n", "2000", "-o", path("sphere.ply") }), 0) << output();
+  EXPECT_EQ(run({ "feel", path("sphere.ply"), "--device", "falcon", "--falcon-firmware", file.path(),
+              "--stiffness", "3000", "-o", path("out.csv") }),
+    1);
+  EXPECT_NE(output().find("at most 1666 N/m"), std::string::npos) << output();
+}
+
+TEST_F(EmulatedMachine, DiagnosesAFalconAndWritesTheReport)
+{
+  falcon.plugIn();
+  falcon.with([](FalconModel& model) { model.hand.wanted = model.hand.position = kCenter; });
+  ASSERT_EQ(run({ "devices", "--diagnose", "--yes", "--falcon-firmware", file.path(), "--report",
+              path("report.txt") }),
+    0)
+    << output();
+  const std::string report = read("report.txt");
+  for (const char* part : { "1. Lights", "homing bits 111", "homed", "3. Encoders", "4. Rate", "0 timeouts",
+         "5. Motors", "pushed towards you", "as expected" })
+  {
+    EXPECT_NE(report.find(part), std::string::npos) << part << "\n" << report;
+  }
+  // The model's motors push where they should, with no more than was promised.
+  EXPECT_NE(report.find("pushed up: motors"), std::string::npos);
+  EXPECT_LT(falcon.with([](FalconModel& model) { return model.largestForce; }), 0.51);
+}
