@@ -272,4 +272,29 @@ TEST_F(Feel, TransformAndPathShareTheWorkspaceFrame)
   EXPECT_NEAR(raw.at("proxy_z").back(), 0.04, 1e-6);
 }
 
+TEST_F(Feel, ASimulatedHandYieldsToTheForceOnItsPath)
+{
+  this->succeed({ "generate", "plane", "-n", "100000", "-o", "plane.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,0,0,0.01\n0.2,0,0,-0.005\n2,0,0,-0.005\n");
+  const Table out = this->feel("plane.ply", "hip.csv", { "--device", "simulated" });
+  // A person of 200 N/m who wants to be 5 mm below a wall of 800 N/m rests at 1 mm.
+  EXPECT_NEAR(out.at("hip_z").back(), -0.001, 1e-6);
+  EXPECT_NEAR(out.at("force_z").back(), 0.8, 1e-3);
+  EXPECT_NEAR(out.at("t").back(), 2.0, 1e-9);
+}
+
+TEST_F(Feel, DevicesAndPathsThatDoNotFitAreRefused)
+{
+  this->succeed({ "generate", "plane", "-n", "20000", "-o", "plane.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,0,0,0.01\n0.2,0,0,-0.005\n");
+  this->refuse(2, { "feel", "plane.ply", "-o", "out.csv" }, { "--path", "--device falcon" });
+  this->refuse(2, { "feel", "plane.ply", "--path", "hip.csv", "--device", "falcon", "-o", "out.csv" },
+    { "--path hip.csv", "leave out" });
+  this->refuse(1,
+    { "feel", "plane.ply", "--path", "hip.csv", "--device", "simulated", "--stiffness", "20000", "-o",
+      "out.csv" },
+    { "20000 N/m", "at most 18000 N/m" });
+  EXPECT_FALSE(this->exists("out.csv"));
+}
+
 } // namespace

@@ -44,6 +44,15 @@ Watch::~Watch()
 {
   --watches;
 }
+Pause::Pause()
+  : watches_(watches)
+{
+  watches = 0;
+}
+Pause::~Pause()
+{
+  watches = watches_;
+}
 long count()
 {
   return calls;

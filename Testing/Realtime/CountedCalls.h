@@ -15,6 +15,19 @@ public:
   Watch& operator=(const Watch&) = delete;
 };
 
+/// While one lives, nothing of its own thread is counted: for parts of a test that stand for hardware.
+class Pause
+{
+public:
+  Pause();
+  ~Pause();
+  Pause(const Pause&) = delete;
+  Pause& operator=(const Pause&) = delete;
+
+private:
+  int watches_;
+};
+
 /// Calls counted in this thread since its first Watch.
 long count();
 /// Name of the first function counted in this thread; null before.

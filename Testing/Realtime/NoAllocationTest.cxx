@@ -1,5 +1,8 @@
 #include "CountedCalls.h"
 
+#include "../Unit/Devices/FalconModel.h"
+
+#include "Devices/Falcon/FalconDevice.h"
 #include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/Proxy.h"
@@ -205,4 +208,104 @@ TEST(NoAllocation, InTheServoLoopWhileScenesAndParametersChange)
   loop.stop();
   EXPECT_EQ(port.calls, 0) << port.function.load();
   EXPECT_TRUE(port.pushed);
+}
+
+namespace
+{
+/// A wire to a model that is not under the watch: the driver above it is.
+class UnwatchedLink : public FtdiLink
+{
+public:
+  explicit UnwatchedLink(trial::FalconModel& model)
+    : model_(model)
+  {
+  }
+  Status control(std::uint8_t request, std::uint16_t value) override
+  {
+    model_.control(request, value);
+    return Status::Ok;
+  }
+  Status send(const std::uint8_t* bytes, int count, int) override
+  {
+    model_.write(bytes, std::size_t(count));
+    return Status::Ok;
+  }
+  Status receive(std::uint8_t* bytes, int& count, int) override
+  {
+    count = int(model_.read(bytes, kFtdiPacket));
+    return Status::Ok;
+  }
+  Status submit(const std::uint8_t* bytes, int count) noexcept override
+  {
+    const countedcalls::Pause pause;
+    model_.write(bytes, std::size_t(count));
+    model_.move(kTick);
+    return Status::Ok;
+  }
+  Status poll(std::uint8_t* bytes, int capacity, int& count, double) noexcept override
+  {
+    const countedcalls::Pause pause;
+    count = int(model_.read(bytes, std::size_t(capacity)));
+    return Status::Ok;
+  }
+
+private:
+  trial::FalconModel& model_;
+};
+
+class UnwatchedBus : public FtdiBus
+{
+public:
+  explicit UnwatchedBus(trial::FalconModel& model)
+    : model_(model)
+  {
+  }
+  std::unique_ptr<FtdiLink> open(Status& status, std::string&) override
+  {
+    status = Status::Ok;
+    return std::make_unique<UnwatchedLink>(model_);
+  }
+
+private:
+  trial::FalconModel& model_;
+};
+}
+
+TEST(NoAllocation, InAHundredThousandTicksOfTheFalconsDriver)
+{
+  trial::FalconModel model;
+  model.runs = true;
+  FalconDevice device(FalconSettings(), std::make_unique<UnwatchedBus>(model));
+  ASSERT_EQ(device.open(), Status::Ok) << device.message();
+  long calls = -1;
+  const char* function = nullptr;
+  int answered = 0;
+  std::thread servo(
+    [&]
+    {
+      const countedcalls::Watch watch;
+      for (int tick = 0; tick < 100000; ++tick)
+      {
+        const double time = tick * kTick;
+        HandState hand;
+        const bool ok = device.read(time, hand) == Status::Ok;
+        answered += ok ? 1 : 0;
+        // A wall, and now and then what is no number or beyond all limits.
+        const double push = tick % 997 == 0 ? std::nan("") : tick % 991 == 0 ? 1e9 : -800.0 * hand.position.z;
+        static_cast<void>(device.write(time, { 0.0, 0.0, push }));
+        // Silence and a jump: faults are part of the job.
+        model.silent = tick % 10007 > 9900;
+        if (tick % 5003 == 5002)
+        {
+          model.hand.position.x = model.hand.position.x > 0.0 ? -0.02 : 0.02;
+        }
+      }
+      calls = countedcalls::count();
+      function = countedcalls::firstFunction();
+    });
+  servo.join();
+  device.close();
+  EXPECT_EQ(calls, 0) << function;
+  EXPECT_GT(answered, 90000);
+  EXPECT_GT(device.statistics().timeouts, 5u);
 }
