@@ -52,6 +52,7 @@ BenchTask bandwidthTask();
 BenchTask resampleTask();
 BenchTask proxyTask();
 BenchTask frictionTask();
+BenchTask servoTask();
 
 } // namespace app
 } // namespace pointhaptics

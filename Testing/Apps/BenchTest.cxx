@@ -256,4 +256,24 @@ TEST_F(Bench, AFolderThatCannotBeMadeIsAFailureBeforeTheWork)
   this->refuse(1, { "bench", "resample", "--quick", "-o", "file/below" }, { "file/below" });
 }
 
+TEST_F(Bench, ServoLoopTouchesRightlyAndTellsItsTimes)
+{
+  const json result =
+    json::parse(this->succeed({ "bench", "servo", "--quick", "--seconds", "0.5", "--json" }));
+  EXPECT_EQ(result["task"], "servo");
+  const json& rows = result["loop"]["rows"];
+  ASSERT_EQ(rows.size(), 6u);
+  for (const json& row : rows)
+  {
+    EXPECT_EQ(row["right"], true) << row;
+    EXPECT_GT(row["ticks"], 50) << row;
+    for (const char* times : { "step_seconds", "lateness_seconds" })
+    {
+      EXPECT_LE(row[times]["p50"], row[times]["p99"]) << row;
+      EXPECT_LE(row[times]["p99"], row[times]["max"]) << row;
+      EXPECT_GT(row[times]["max"], 0.0) << row;
+    }
+  }
+}
+
 } // namespace

@@ -1,7 +1,5 @@
 #include "FalconBench.h"
 
-#include "Devices/Falcon/FalconFirmware.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,51 +24,6 @@ double felt(FalconBench& bench)
   bench.wire.model.largestForce = 0.0;
   return result;
 }
-}
-
-TEST(FalconState, PushesOnlyAfterHomingAndArming)
-{
-  constexpr int kStates = 8;
-  constexpr int kEvents = 11;
-  for (int s = 0; s < kStates; ++s)
-  {
-    const auto state = FalconState(s);
-    for (int e = 0; e < kEvents; ++e)
-    {
-      const FalconState after = next(state, FalconEvent(e));
-      if (after == FalconState::Armed && state != FalconState::Armed)
-      {
-        EXPECT_EQ(state, FalconState::Homed);
-        EXPECT_EQ(FalconEvent(e), FalconEvent::Arm);
-      }
-      if (after == FalconState::Homed && state != FalconState::Homed)
-      {
-        EXPECT_TRUE(state == FalconState::Unhomed || state == FalconState::Armed) << name(state);
-      }
-    }
-    EXPECT_EQ(next(state, FalconEvent::Close), FalconState::Closed);
-    EXPECT_EQ(next(state, FalconEvent::Failed),
-      state == FalconState::Closed ? FalconState::Closed : FalconState::Fault);
-    EXPECT_STRNE(name(state), "unknown");
-  }
-}
-
-TEST(FalconState, WalksFromClosedToArmedAndBackFromAFault)
-{
-  FalconState state = FalconState::Closed;
-  const std::pair<FalconEvent, FalconState> steps[] = { { FalconEvent::Arm, FalconState::Closed },
-    { FalconEvent::Open, FalconState::Opening }, { FalconEvent::HomedAll, FalconState::Opening },
-    { FalconEvent::Connected, FalconState::Boot }, { FalconEvent::BootDone, FalconState::Loading },
-    { FalconEvent::Running, FalconState::Unhomed }, { FalconEvent::Arm, FalconState::Unhomed },
-    { FalconEvent::HomedAll, FalconState::Homed }, { FalconEvent::Arm, FalconState::Armed },
-    { FalconEvent::Disarm, FalconState::Homed }, { FalconEvent::Arm, FalconState::Armed },
-    { FalconEvent::HomingLost, FalconState::Unhomed }, { FalconEvent::Failed, FalconState::Fault },
-    { FalconEvent::Arm, FalconState::Fault }, { FalconEvent::Retry, FalconState::Opening } };
-  for (const auto& [event, expected] : steps)
-  {
-    state = next(state, event);
-    EXPECT_EQ(state, expected);
-  }
 }
 
 TEST(FalconDevice, LoadsItsFirmwareHomesAndArms)
@@ -428,34 +381,4 @@ TEST(FalconDevice, TellsWhatItCanDo)
   ASSERT_EQ(bench.device->open(), Status::Ok);
   ASSERT_TRUE(bench.arm());
   EXPECT_EQ(bench.hand.buttons, 9u);
-}
-
-TEST(FalconFirmware, IsReadFromTheFileThatIsNamed)
-{
-  FalconFirmware firmware;
-  std::string message;
-  const FirmwareFile right(madeUpFirmware());
-  EXPECT_EQ(readFalconFirmware(right.path(), firmware, message), Status::Ok);
-  EXPECT_EQ(firmware.bytes, madeUpFirmware());
-  EXPECT_TRUE(firmware.note.empty());
-  const FirmwareFile small(madeUpFirmware(100));
-  EXPECT_EQ(readFalconFirmware(small.path(), firmware, message), Status::Ok);
-  EXPECT_NE(firmware.note.find("8492"), std::string::npos);
-  const FirmwareFile empty(madeUpFirmware(0));
-  EXPECT_EQ(readFalconFirmware(empty.path(), firmware, message), Status::FirmwareMissing);
-  const FirmwareFile large(madeUpFirmware(70000));
-  EXPECT_EQ(readFalconFirmware(large.path(), firmware, message), Status::FirmwareMissing);
-  EXPECT_EQ(readFalconFirmware(::testing::TempDir(), firmware, message), Status::FirmwareMissing);
-  EXPECT_EQ(readFalconFirmware("", firmware, message), Status::FirmwareMissing);
-  EXPECT_NE(message.find("licence"), std::string::npos);
-  EXPECT_TRUE(firmware.bytes.empty());
-}
-
-TEST(FalconFirmware, IsNamedByTheEnvironmentWhereNoOptionDoes)
-{
-  ASSERT_EQ(setenv(kFirmwareVariable, "/from/the/environment", 1), 0);
-  EXPECT_EQ(falconFirmwareFile(""), "/from/the/environment");
-  EXPECT_EQ(falconFirmwareFile("/from/the/option"), "/from/the/option");
-  ASSERT_EQ(unsetenv(kFirmwareVariable), 0);
-  EXPECT_EQ(falconFirmwareFile(""), "");
 }

@@ -1,0 +1,70 @@
+#include "BenchTask.h"
+
+#include "OptionParsing.h"
+#include "ViewDisplay.h"
+
+#include "Benchmark/Servo/ServoBenchmark.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr std::int64_t kMostPoints = 100000000;
+constexpr double kLongestRun = 86400.0;
+constexpr double kQuickSeconds = 0.4;
+constexpr std::int64_t kQuickPoints = 30000;
+
+struct ServoOptions
+{
+  std::int64_t points = 0;
+  double seconds = 0.0;
+};
+
+BenchOutcome runServo(
+  const ServoOptions& options, const BenchSettings& shared, const bench::Progress& progress)
+{
+  bench::servo::ServoBenchmarkOptions settings;
+  std::string whyNot;
+  settings.rendering = !shared.quick && displayIsAvailable(whyNot);
+  settings.points = int(options.points > 0 ? options.points : shared.quick ? kQuickPoints : settings.points);
+  settings.seconds = options.seconds > 0.0 ? options.seconds
+    : shared.quick                         ? kQuickSeconds
+                                           : settings.seconds;
+  bool allRight = false;
+  BenchOutcome outcome;
+  outcome.report = bench::servo::benchmarkServo(settings, progress, allRight);
+  outcome.wrong = allRight ? "" : "a force of the servo loop is wrong; look for \"wrong\" in the table";
+  return outcome;
+}
+
+BenchRun addServoOptions(CLI::App& command)
+{
+  auto options = std::make_shared<ServoOptions>();
+  addInteger(command, "--points", options->points, 1000, kMostPoints, "Points of the cloud; default 543652");
+  addNumber(command, "--seconds", options->seconds, { 0.0, kLongestRun, true }, "S",
+    "Length of each run; default 10");
+  return [options](const BenchSettings& shared, const bench::Progress& progress)
+  { return runServo(*options, shared, progress); };
+}
+
+} // namespace
+
+BenchTask servoTask()
+{
+  BenchTask task;
+  task.name = "servo";
+  task.description = "Time the servo loop: step, lateness, missed ticks; idle, loaded, drawing";
+  task.hasThreads = false;
+  task.addOptions = addServoOptions;
+  return task;
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,116 @@
+#include "Benchmark/Servo/ServoBenchmark.h"
+
+#include "Benchmark/Servo/ServoRun.h"
+
+#include <fmt/format.h>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace servo
+{
+namespace
+{
+
+/// 2 mm at 800 N/m are 1.6 N.
+constexpr double kLargestError = 0.08;
+
+std::string microseconds(double seconds)
+{
+  return brief(1e6 * seconds);
+}
+
+nlohmann::ordered_json toJson(const LatencyHistogram::Summary& s)
+{
+  return { { "p50", s.p50 }, { "p99", s.p99 }, { "p999", s.p999 }, { "max", s.maximum } };
+}
+
+std::string fourOf(const LatencyHistogram::Summary& s)
+{
+  return fmt::format("{} / {} / {} / {}", microseconds(s.p50), microseconds(s.p99), microseconds(s.p999),
+    microseconds(s.maximum));
+}
+
+bool addRow(const Setting& setting, const Outcome& outcome, ReportPart& part)
+{
+  const ServoStatistics& s = outcome.statistics;
+  const bool right = outcome.contactShare > 0.3 && outcome.largestError < kLargestError;
+  const std::string load = setting.load == Load::Rendering
+    ? fmt::format("{}, {:.0f} fps", name(setting.load), outcome.framesPerSecond)
+    : name(setting.load);
+  part.table.rows.push_back({ name(setting.hand), load, brief(setting.rateHz), fourOf(s.update),
+    fourOf(s.lateness), grouped((long long)s.ticks), grouped((long long)s.missedTicks),
+    fmt::format("{:.1f}", s.rateHz), right ? "right" : "wrong" });
+  part.rows.push_back(
+    { { "hand", name(setting.hand) }, { "load", name(setting.load) }, { "rate_hz", setting.rateHz },
+      { "step_seconds", toJson(s.update) }, { "lateness_seconds", toJson(s.lateness) }, { "ticks", s.ticks },
+      { "missed_ticks", s.missedTicks }, { "achieved_hz", s.rateHz }, { "real_time_priority", s.realtime },
+      { "memory_locked", s.memoryLocked }, { "frames_per_second", outcome.framesPerSecond },
+      { "largest_force_error_n", outcome.largestError }, { "right", right } });
+  return right;
+}
+
+std::string grant(const ServoStatistics& s)
+{
+  return fmt::format("SCHED_FIFO was {}, locking the memory was {}.", s.realtime ? "granted" : "refused",
+    s.memoryLocked ? "granted" : "refused");
+}
+
+} // namespace
+
+Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& progress, bool& allRight)
+{
+  Report report;
+  report.task = "servo";
+  report.title = "Servo loop";
+  report.machine = thisMachine();
+  report.method =
+    "A hand presses up to 2 mm into a sphere and slides over it at 50 mm/s, in real time. A step is the "
+    "whole "
+    "tick: read the device, take scene and parameters, step the proxy, guard the force, write the device, "
+    "publish and trace the sample. Lateness is the time from the deadline to the first instruction of the "
+    "tick. "
+    "Percentiles are upper edges of bins that grow by 19 %; maxima are exact. The Falcon's driver runs on a "
+    "wire "
+    "in memory: codec, kinematics and force chain are in its step, USB is not.";
+  ReportPart part;
+  part.key = "loop";
+  part.title = "Step, lateness and missed ticks";
+  part.text = fmt::format("{} points; {:g} s for each row.", grouped(options.points), options.seconds);
+  part.table.header = { "hand", "machine", "Hz", "step us: p50 / p99 / p99.9 / max",
+    "lateness us: p50 / p99 / p99.9 / max", "ticks", "missed", "achieved Hz", "force" };
+  const auto scene = sphereScene(options.points);
+  allRight = scene != nullptr;
+  ServoStatistics last;
+  for (const Hand hand : { Hand::Simulated, Hand::Falcon })
+  {
+    for (const Load load : { Load::Idle, Load::Busy, Load::Rendering })
+    {
+      for (const double rate : { 1000.0, 10000.0 })
+      {
+        const bool tooFast = rate > 1000.0 && hand == Hand::Falcon;
+        if (tooFast || (load == Load::Rendering && !options.rendering))
+        {
+          continue;
+        }
+        progress(fmt::format("{}, {}, {:g} Hz", name(hand), name(load), rate));
+        const Setting setting{ hand, load, rate, options.seconds };
+        const Outcome outcome = run(setting, scene);
+        allRight = addRow(setting, outcome, part) && allRight;
+        last = outcome.statistics;
+      }
+    }
+  }
+  part.remarks.push_back(grant(last));
+  if (!options.rendering)
+  {
+    part.remarks.push_back("Without a display: the rows with drawing were left out.");
+  }
+  report.parts.push_back(std::move(part));
+  return report;
+}
+
+} // namespace servo
+} // namespace bench
+} // namespace pointhaptics

@@ -1,0 +1,57 @@
+/// @file
+/// One run of the servo loop under a stated load, and what its statistics say.
+#pragma once
+
+#include "Haptics/ServoLoop.h"
+
+#include <memory>
+#include <string>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace servo
+{
+
+enum class Hand
+{
+  Simulated, ///< A mass on a spring, pulled along the path.
+  Falcon,    ///< The Falcon's driver on a wire in memory: codec, kinematics, force chain; no USB.
+};
+
+enum class Load
+{
+  Idle,
+  Busy,      ///< A thread per core that never rests.
+  Rendering, ///< The calling thread draws the cloud, 30 times a second or as often as it can.
+};
+
+struct Setting
+{
+  Hand hand = Hand::Simulated;
+  Load load = Load::Idle;
+  double rateHz = 1000.0;
+  double seconds = 10.0;
+};
+
+struct Outcome
+{
+  ServoStatistics statistics;
+  double contactShare = 0.0; ///< Of the traced ticks.
+  double largestError = 0.0; ///< Of the force against that of the ideal sphere, N.
+  double framesPerSecond = 0.0;
+};
+
+const char* name(Hand hand);
+const char* name(Load load);
+
+/// A sphere of 25 mm radius, @p count points at random.
+std::shared_ptr<const HapticScene> sphereScene(int count);
+
+/// The hand presses up to 2 mm into the sphere and slides over it at 50 mm/s.
+Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& scene);
+
+} // namespace servo
+} // namespace bench
+} // namespace pointhaptics
