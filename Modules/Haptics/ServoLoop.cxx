@@ -16,6 +16,8 @@ namespace
 {
 /// A device silent for longer than this may have moved anywhere: its hand is taken as new.
 constexpr double kForgetAfterSeconds = 0.1;
+/// A machine that stood still for less leaves the hand where it was: on its side of the surface.
+constexpr double kForgetAfterStall = 1.0;
 constexpr int kLargestTrace = 1 << 22;
 constexpr double kLongestWatch = 3600.0;
 
@@ -106,6 +108,7 @@ struct ServoLoop::Implementation
   const HapticScene* scene = nullptr;
   std::uint64_t parametersVersion = 0;
   std::uint64_t lastSteppedTick = 0;
+  std::uint64_t firstFailedTick = 0; ///< Of the reads that failed in a row; 0: the last one did not.
   ServoSample sample;
 
   void prepare(HandPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings);
@@ -129,6 +132,7 @@ void ServoLoop::Implementation::prepare(
   gate = ForceGate(limits.rampDownSeconds, limits.rampUpSeconds);
   scene = nullptr;
   lastSteppedTick = 0;
+  firstFailedTick = 0;
   sample = ServoSample();
   parameters.write(newParameters);
   parametersVersion = parameters.version();
@@ -208,6 +212,7 @@ Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) 
   sample.timeSeconds = time;
   const double opening = gate.step(gateIsOpen(wake), 1.0 / settings.rateHz);
   const bool healthy = reading == Status::Ok;
+  firstFailedTick = healthy || firstFailedTick != 0 ? firstFailedTick : number;
   if (healthy)
   {
     sample.buttons = hand.buttons;
@@ -250,10 +255,13 @@ bool ServoLoop::Implementation::gateIsOpen(std::int64_t wake) noexcept
 Vec3 ServoLoop::Implementation::answer(const HandState& hand, std::uint64_t number) noexcept
 {
   const double elapsed = double(number - lastSteppedTick) / settings.rateHz;
-  if (lastSteppedTick != 0 && elapsed > kForgetAfterSeconds && number - lastSteppedTick > 1)
+  const double silence = firstFailedTick != 0 ? double(number - firstFailedTick) / settings.rateHz : 0.0;
+  const bool stoodStill = number - lastSteppedTick > 1 && elapsed > kForgetAfterStall;
+  if (lastSteppedTick != 0 && (stoodStill || silence > kForgetAfterSeconds))
   {
     proxy.reset();
   }
+  firstFailedTick = 0;
   lastSteppedTick = number;
   sample.state = proxy.step(hand.position, elapsed);
   return sample.state.force;

@@ -60,7 +60,7 @@ protected:
   }
 
   /// Moves the hand's wish 6 mm below the surface until it feels that. Again from outside where the machine
-  /// stood still for 0.1 s on the way: the loop then takes the hand as new, inside the sphere.
+  /// stood still for a second on the way: the loop then takes the hand as new, inside the sphere.
   bool touch(const ServoLoop& loop)
   {
     bool felt = false;

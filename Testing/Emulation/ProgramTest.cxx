@@ -122,7 +122,7 @@ TEST_F(EmulatedMachine, FeelsASphereUntilTheUserEndsItAndLetsGoInOrder)
         { return (model.command.lamps & kFalconLampGreen) != 0 && model.frames > 20; });
     }))
     << output();
-  // Again where the machine stood still for 0.1 s on the way: the loop then takes the hand as new, inside.
+  // Again where the machine stood still for a second on the way: the loop then takes the hand as new, inside.
   const auto touches = [&]
   {
     falcon.with(
@@ -162,6 +162,35 @@ TEST_F(EmulatedMachine, FeelsASphereUntilTheUserEndsItAndLetsGoInOrder)
   EXPECT_EQ(table.rfind("t,hip_x,", 0), 0u);
   EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 500);
   EXPECT_NE(output().find("blue light"), std::string::npos) << output();
+}
+
+TEST_F(EmulatedMachine, TheWindowFeelsWithTheFalconAndLetsGoInOrder)
+{
+  const char* const display = std::getenv("DISPLAY");
+  if (!display || !*display)
+  {
+    GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
+  }
+  falcon.plugIn();
+  ASSERT_EQ(run({ "generate", "sphere", "-n", "20000", "-o", path("sphere.ply") }), 0) << output();
+  const pid_t child = begin({ "view", path("sphere.ply"), "--device", "auto", "--falcon-firmware",
+    file.path(), "--size", "320x240" });
+  EXPECT_TRUE(eventually(
+    [&]
+    {
+      return falcon.with([](FalconModel& model)
+        { return (model.command.lamps & kFalconLampGreen) != 0 && model.frames > 300; });
+    }))
+    << output();
+  kill(child, SIGTERM);
+  EXPECT_EQ(finish(child), 0) << output();
+  falcon.with(
+    [](FalconModel& model)
+    {
+      EXPECT_GE(model.frozenFrames, 3);
+      EXPECT_EQ(model.command.lamps, kFalconLampNone);
+    });
+  EXPECT_NE(output().find("falcon: green light"), std::string::npos) << output();
 }
 
 TEST_F(EmulatedMachine, RefusesASpringTheFalconCannotBear)

@@ -281,6 +281,30 @@ TEST(ServoLoop, TakesTheHandAsNewAfterALongSilence)
   loop.stop();
 }
 
+TEST(ServoLoop, KeepsTheHandOnItsSideWhenTheMachineStoodStill)
+{
+  ScriptedPort port;
+  port.path = press;
+  std::atomic<bool> stall{ false };
+  port.onRead = [&](int)
+  {
+    if (stall.exchange(false))
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    }
+  };
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().state.force.z > 0.7; }));
+  stall = true;
+  ASSERT_TRUE(eventually([&] { return loop.statistics().missedTicks >= 200; }));
+  const std::uint64_t tick = loop.latest().tick;
+  ASSERT_TRUE(eventually([&] { return loop.latest().tick > tick + 5; }));
+  EXPECT_GT(loop.latest().state.force.z, 0.7) << "a wall does not vanish because a computer was busy";
+  loop.stop();
+}
+
 TEST(ServoLoop, CountsAFailedWriteAndReportsZeroForce)
 {
   ScriptedPort port;
