@@ -15,6 +15,8 @@ namespace
 
 /// 2 mm at 800 N/m are 1.6 N.
 constexpr double kLargestError = 0.08;
+/// Above this the machine has other things to do.
+constexpr double kQuietLoad = 0.3;
 
 std::string microseconds(double seconds)
 {
@@ -103,6 +105,13 @@ Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& prog
     }
   }
   part.remarks.push_back(grant(last));
+  if (report.machine.load > kQuietLoad)
+  {
+    part.remarks.push_back(
+      fmt::format("Other programs ran beside these (load {:.1f} before the run): lateness and "
+                  "missed ticks are theirs too, and \"idle\" means idle as far as we were.",
+        report.machine.load));
+  }
   if (!options.rendering)
   {
     part.remarks.push_back("Without a display: the rows with drawing were left out.");
