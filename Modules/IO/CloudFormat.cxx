@@ -34,7 +34,7 @@ constexpr std::string_view operator""_bytes(const char* text, std::size_t size)
 const Foreign kForeign[] = {
   { "ASTM-E57", "this is an E57 file, which is not read here",
     "convert it first: pdal translate in.e57 out.las, or CloudCompare" },
-  { "\x1f\x8b"_bytes, "this file is gzip-compressed", "unpack it first: gunzip -k FILE" },
+  { "\x1f\x8b"_bytes, "this is a gzip file inside a gzip file", "unpack it once: gunzip -k FILE" },
   { "PK\x03\x04", "this is a zip archive", "unpack it first: unzip FILE" },
   { "BZh", "this file is bzip2-compressed", "unpack it first: bunzip2 -k FILE" },
   { "\xfd"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "OutputColumns.h"
-#include "OutputFile.h"
+#include "OutputStream.h"
 
 class vtkFieldData;
 

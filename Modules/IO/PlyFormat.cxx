@@ -200,22 +200,14 @@ public:
   }
   double takeNumber(const PlyProperty& property)
   {
-    std::size_t begin = 0;
-    while (begin < rest_.size() && isBlank(rest_[begin]))
-    {
-      ++begin;
-    }
-    const char* last = rest_.data() + rest_.size();
     double value = 0.0;
-    const char* end = parseNumber(rest_.data() + begin, last, value);
-    if (!end || (end != last && !isBlank(*end)))
+    if (!io::takeNumber(rest_, value))
     {
-      std::string_view word = takeWord(rest_);
+      const std::string_view word = takeWord(rest_);
       failFormat(where() + "property " + inQuotes(property.name) + " is " +
           (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
         "write one number per property and one vertex per line");
     }
-    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
     return value;
   }
   void skipList(const PlyProperty& list)

@@ -2,8 +2,9 @@
 /// Numbers in columns of text: how they are separated, what a header calls them, and their values.
 #pragma once
 
-#include "DecimalColumn.h"
+#include "NumberColumn.h"
 #include "ReadTask.h"
+#include "StridedCopy.h"
 
 #include <cstddef>
 #include <string>
@@ -24,11 +25,24 @@ struct TextLayout
   std::size_t columns = 0;        ///< in the first line of data; 0 when there is none
 };
 
-/// Looks at the lines up to the first one that holds numbers.
+/// Looks at the lines up to the first one that holds numbers. @throws FileProblem when one of them has more
+/// than kMostColumns columns.
 TextLayout inspectText(std::string_view text);
 
-/// Every column of @p text. @throws FileProblem with the line number of what is not a number, or of a line
-/// with more or fewer columns than the first; ReadingStopped.
-std::vector<DecimalColumn> parseTable(const ReadTask& task, std::string_view text, const TextLayout& layout);
+/// What a first pass over the text finds.
+struct TextTable
+{
+  std::vector<NumberColumn> columns;
+  vtkIdType rows = 0;
+};
+
+/// Looks at every number of @p text, and keeps none: the arrays can be made as large as they must be.
+/// @throws FileProblem with the line number of what is not a number, or of a line with more or fewer columns
+/// than the first; ReadingStopped.
+TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout);
+
+/// Stores every number in its place, one target per column. @pre surveyTable() went well.
+void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
+  const std::vector<ColumnView>& targets);
 
 } // namespace pointhaptics::io

@@ -125,6 +125,11 @@ void checkArrays(vtkPolyData* read)
 void readVtp(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "VTP (VTK XML PolyData)";
+  if (task.wasPacked)
+  {
+    throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "VTK's XML reader does not read gzip files",
+      "unpack it first: gunzip -k FILE");
+  }
   checkIsPolyData(task.bytes);
   checkIsComplete(task.bytes);
   checkClaims(task.bytes);

@@ -59,15 +59,22 @@ vtkPointCloudReader::~vtkPointCloudReader()
 
 void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
 {
-  const io::FileBytes bytes(this->FileName);
   io::ReadTask task;
   task.path = this->FileName;
-  task.extension = io::lowerExtension(task.path);
-  task.bytes = bytes.view();
   task.algorithm = this;
-  const io::CloudFormat format = io::identifyFormat(task.bytes, task.extension);
-  task.format = io::nameOf(format);
   const FormatName keepName{ task, this->Format };
+  const bool isNamedGz = io::lowerExtension(task.path) == "gz";
+  const std::string innerName = task.path.substr(0, task.path.size() - (isNamedGz ? 3 : 0));
+  io::CloudFormat format = io::CloudFormat::Text;
+  const io::FileBytes bytes(
+    task.path, [&](double done) { task.readingProgress(done); },
+    [&](std::string_view start)
+    {
+      format = io::identifyFormat(start, io::lowerExtension(innerName));
+      task.format = io::nameOf(format);
+    });
+  task.bytes = bytes.view();
+  task.wasPacked = bytes.wasPacked();
   readAs(format, task, cloud);
 }
 

@@ -5,7 +5,7 @@
 #include "FileBytes.h"
 #include "FileProblem.h"
 #include "FormatWriters.h"
-#include "OutputFile.h"
+#include "OutputStream.h"
 
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
@@ -118,17 +118,20 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
     io::failFormat(
       "the cloud holds no points", "check the steps before: was the workspace away from the cloud?");
   }
-  io::TemporaryFile file(this->FileName);
+  io::OutputStream out(this->FileName);
   if (extension == "vtp")
   {
-    // Creating it first gives the system's reason when the folder is missing or closed.
-    io::OutputStream(file.path()).close();
-    writeVtp(cloud, file.path());
+    if (!out.isReplacing())
+    {
+      throw io::FileProblem(vtkErrorCode::CannotOpenFileError,
+        "VTP files cannot be written to a pipe or a device",
+        "choose the name of a new file, or .ply, .pcd or .csv");
+    }
+    writeVtp(cloud, out.path());
   }
   else
   {
     const std::vector<io::OutputArray> arrays = io::outputArrays(cloud);
-    io::OutputStream out(file.path());
     if (extension == "ply")
     {
       io::writePly(arrays, out);
@@ -141,9 +144,8 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
     {
       io::writeCsv(arrays, out);
     }
-    out.close();
   }
-  file.commit();
+  out.commit();
 }
 
 void vtkPointCloudWriter::WriteData()
