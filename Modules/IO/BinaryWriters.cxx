@@ -178,7 +178,7 @@ void writePly(const std::vector<OutputArray>& given, OutputStream& out)
   const std::vector<OutputArray> arrays = withoutLongIntegers(given);
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
   std::string header = "ply\nformat ";
-  header += isLittleEndianHost() ? "binary_little_endian" : "binary_big_endian";
+  header += kIsLittleEndianHost ? "binary_little_endian" : "binary_big_endian";
   header += " 1.0\ncomment written by PointHaptics\nelement vertex " + std::to_string(rows) + "\n";
   std::vector<RecordField> fields;
   std::size_t recordSize = 0;

@@ -168,7 +168,7 @@ void fillRecordsWithLists(BinaryBody& body, const PlyElement& vertex, const Vert
 void readBinaryBody(const ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
 {
   const bool littleEndianFile = header.encoding == PlyEncoding::LittleEndian;
-  BinaryBody body(task.bytes, header.bodyOffset, littleEndianFile != isLittleEndianHost());
+  BinaryBody body(task.bytes, header.bodyOffset, littleEndianFile != kIsLittleEndianHost);
   const std::size_t vertexIndex = header.vertexElement();
   for (std::size_t i = 0; i < vertexIndex; ++i)
   {
