@@ -118,7 +118,7 @@ int runBandwidth(const BandwidthCommandOptions& options)
     return fail(kCommand, options.files.input + ": " + message);
   }
   showWarnings(kCommand);
-  if (!writeCloud(filter->GetOutput(), options.files.output, message))
+  if (!writeCloud(filter->GetOutput(), options.files.output, kCommand, message))
   {
     return fail(kCommand, message);
   }

@@ -209,7 +209,7 @@ void FileBytes::unpack(File& file, const Progress& progress, const Inspect& insp
       failFormat(where(inflater) + (stream.msg ? stream.msg : "damaged data"),
         "the file is damaged: copy it again, or test it with gunzip -t");
     }
-    if (!inspected && (size_ == kInspected || ended))
+    if (!inspected && size_ > 0 && (size_ == kInspected || ended))
     {
       inspect(view());
       inspected = true;

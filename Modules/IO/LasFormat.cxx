@@ -6,6 +6,7 @@
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -363,6 +364,10 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   records.moveTo(cloud);
   addTriple(cloud, "LasScale", header.scale);
   addTriple(cloud, "LasOffset", header.offset);
+  vtkNew<vtkIntArray> encoding;
+  encoding->SetName("LasGlobalEncoding");
+  encoding->InsertNextValue(header.globalEncoding);
+  cloud->GetFieldData()->AddArray(encoding);
   addText(cloud, "CoordinateSystem", header.coordinateSystem);
   addText(cloud, "LengthUnit", header.lengthUnit);
 }

@@ -235,6 +235,7 @@ LasHeader parseLasHeader(std::string_view bytes)
     failFormat("byte 24: version " + std::to_string(major) + "." + std::to_string(header.minorVersion),
       "convert it to LAS 1.0 to 1.4");
   }
+  header.globalEncoding = numberAt<std::uint16_t>(bytes, 6);
   header.headerSize = numberAt<std::uint16_t>(bytes, 94);
   if (header.headerSize < kLasHeaderOf12)
   {

@@ -61,6 +61,7 @@ struct LasExtraField
 struct LasHeader
 {
   int minorVersion = 0;
+  int globalEncoding = 0; ///< bit 0: how gps time counts; bit 4: well-known text
   int pointFormat = 0;
   std::size_t headerSize = 0;
   std::size_t pointsOffset = 0;

@@ -8,6 +8,7 @@
 #include "OutputStream.h"
 
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -16,6 +17,7 @@
 #include "vtkPolyData.h"
 #include "vtkXMLPolyDataWriter.h"
 
+#include <algorithm>
 #include <new>
 
 namespace io = pointhaptics::io;
@@ -62,9 +64,63 @@ void writeVtp(vtkPointSet* cloud, const std::string& path)
   }
 }
 
+struct FileFormat
+{
+  const char* extension;
+  const char* name;
+  const char* keptFieldData; ///< names, separated by spaces
+};
+
+const FileFormat kFormats[] = {
+  { "vtp", "VTP", "" },
+  { "ply", "PLY", "" },
+  { "pcd", "PCD", "Viewpoint OrganizedDimensions" },
+  { "las", "LAS", "LasScale LasOffset LasGlobalEncoding CoordinateSystem LengthUnit" },
+  { "csv", "CSV", "" },
+};
+
+/// Null where no format has the extension.
+const FileFormat* formatOf(const std::string& fileName)
+{
+  const std::string extension = io::lowerExtension(fileName);
+  const FileFormat* found = std::find_if(std::begin(kFormats), std::end(kFormats),
+    [&](const FileFormat& format) { return extension == format.extension; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+void noteWhatIsNoColumn(vtkPointSet* cloud, const std::string& keptFieldData, io::WriterNotes& notes)
+{
+  const std::string kept = " " + keptFieldData + " ";
+  vtkFieldData* fieldData = cloud->GetFieldData();
+  for (int i = 0; i < fieldData->GetNumberOfArrays(); ++i)
+  {
+    const char* name = fieldData->GetAbstractArray(i)->GetName();
+    if (name && kept.find(" " + std::string(name) + " ") == std::string::npos)
+    {
+      notes.add("field data " + io::inQuotes(name) + " is left out");
+    }
+  }
+  vtkPolyData* polyData = vtkPolyData::SafeDownCast(cloud);
+  const vtkIdType faces = polyData ? polyData->GetNumberOfCells() - polyData->GetNumberOfVerts() : 0;
+  if (faces > 0)
+  {
+    notes.add(std::to_string(faces) + " lines and faces are left out");
+  }
+}
+
 } // namespace
 
 vtkPointCloudWriter::vtkPointCloudWriter() = default;
+
+bool vtkPointCloudWriter::CanWrite(const std::string& fileName)
+{
+  return formatOf(fileName) != nullptr;
+}
+
+const char* vtkPointCloudWriter::GetExtensions()
+{
+  return ".vtp, .ply, .pcd, .las or .csv";
+}
 
 vtkPointCloudWriter::~vtkPointCloudWriter()
 {
@@ -94,6 +150,7 @@ int vtkPointCloudWriter::Write()
 {
   this->ErrorMessage.clear();
   this->Format.clear();
+  this->Notes.clear();
   this->SetErrorCode(vtkErrorCode::NoError);
   if (this->GetNumberOfInputConnections(0) < 1)
   {
@@ -106,39 +163,46 @@ int vtkPointCloudWriter::Write()
 
 void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
 {
-  const std::string extension = io::lowerExtension(this->FileName);
-  if (extension != "vtp" && extension != "ply" && extension != "pcd" && extension != "csv")
+  const FileFormat* format = formatOf(this->FileName);
+  if (!format)
   {
     throw io::FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
-      "unknown extension " + io::inQuotes("." + extension), "use .vtp, .ply, .pcd or .csv");
+      "unknown extension " + io::inQuotes("." + io::lowerExtension(this->FileName)),
+      std::string("use ") + GetExtensions());
   }
-  this->Format = extension == "vtp" ? "VTP" : extension == "ply" ? "PLY" : extension == "pcd" ? "PCD" : "CSV";
+  this->Format = format->name;
   if (!cloud || cloud->GetNumberOfPoints() == 0)
   {
     io::failFormat(
       "the cloud holds no points", "check the steps before: was the workspace away from the cloud?");
   }
   io::OutputStream out(this->FileName);
-  if (extension == "vtp")
+  io::WriterNotes notes;
+  if (this->Format == "VTP")
   {
     if (!out.isReplacing())
     {
       throw io::FileProblem(vtkErrorCode::CannotOpenFileError,
         "VTP files cannot be written to a pipe or a device",
-        "choose the name of a new file, or .ply, .pcd or .csv");
+        "choose the name of a new file, or .ply, .pcd, .las or .csv");
     }
     writeVtp(cloud, out.path());
   }
   else
   {
-    const std::vector<io::OutputArray> arrays = io::outputArrays(cloud);
-    if (extension == "ply")
+    noteWhatIsNoColumn(cloud, format->keptFieldData, notes);
+    const std::vector<io::OutputArray> arrays = io::outputArrays(cloud, notes);
+    if (this->Format == "PLY")
     {
-      io::writePly(arrays, out);
+      io::writePly(arrays, out, notes);
     }
-    else if (extension == "pcd")
+    else if (this->Format == "PCD")
     {
       io::writePcd(arrays, cloud->GetFieldData(), out);
+    }
+    else if (this->Format == "LAS")
+    {
+      io::writeLas(arrays, cloud->GetFieldData(), out, notes);
     }
     else
     {
@@ -146,6 +210,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
     }
   }
   out.commit();
+  this->Notes = notes.all;
 }
 
 void vtkPointCloudWriter::WriteData()
