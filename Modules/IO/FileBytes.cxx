@@ -164,7 +164,7 @@ void FileBytes::readPlain(File& file, const Progress& progress, const Inspect& i
     file.read(data_.get() + size_, piece);
     if (size_ == 0)
     {
-      inspect({ data_.get(), piece });
+      inspect({ data_.get(), piece }, file.size());
     }
     size_ += piece;
     progress(file.done());
@@ -211,7 +211,7 @@ void FileBytes::unpack(File& file, const Progress& progress, const Inspect& insp
     }
     if (!inspected && size_ > 0 && (size_ == kInspected || ended))
     {
-      inspect(view());
+      inspect(view(), ended && file.position() == file.size() ? size_ : 0);
       inspected = true;
     }
     if (!ended && size_ < capacity && stream.avail_in == 0 && file.position() == file.size())

@@ -18,8 +18,9 @@ class FileBytes
 public:
   /// Is told how much is done, 0..1; may throw to end the reading.
   using Progress = std::function<void(double)>;
-  /// Is shown the first unpacked bytes; throws when it is not worth going on.
-  using Inspect = std::function<void(std::string_view)>;
+  /// Is shown the first unpacked bytes and how many there will be (0: not known); throws when it is not worth
+  /// going on.
+  using Inspect = std::function<void(std::string_view, std::size_t)>;
 
   /// Reads @p path. A gzip file is unpacked on the way, up to kMostGzipRatio times its size (or kGzipFloor,
   /// where that is more): honest clouds stay far below, and a file made to fill the memory does not come

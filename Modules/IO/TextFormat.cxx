@@ -81,22 +81,8 @@ const char* separatorName(const TextLayout& layout)
 
 } // namespace
 
-void readText(ReadTask& task, vtkPolyData* cloud)
+void readTable(const ReadTask& task, std::string_view text, const TextLayout& layout, vtkPolyData* cloud)
 {
-  task.format = "text";
-  const std::string_view text = withoutByteOrderMark(task.bytes);
-  const TextLayout layout = inspectText(text);
-  task.format = layout.hasPointCount ? "PTS" : std::string("text (") + separatorName(layout) + ")";
-  if (layout.columns == 0)
-  {
-    failNoPoints();
-  }
-  if (layout.columns < 3 || (!layout.names.empty() && layout.names.size() != layout.columns))
-  {
-    failFormat("the first line of data has " + std::to_string(layout.columns) + " columns" +
-        (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())),
-      "write one point per line: x y z, then one column per name of the header");
-  }
   const TextTable table = surveyTable(task, text, layout);
   if (table.rows == 0)
   {
@@ -116,6 +102,25 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   }
   storeTable(task, text, layout, targets);
   columns.moveTo(cloud);
+}
+
+void readText(ReadTask& task, vtkPolyData* cloud)
+{
+  task.format = "text";
+  const std::string_view text = withoutByteOrderMark(task.bytes);
+  const TextLayout layout = inspectText(text);
+  task.format = layout.hasPointCount ? "PTS" : std::string("text (") + separatorName(layout) + ")";
+  if (layout.columns == 0)
+  {
+    failNoPoints();
+  }
+  if (layout.columns < 3 || (!layout.names.empty() && layout.names.size() != layout.columns))
+  {
+    failFormat("the first line of data has " + std::to_string(layout.columns) + " columns" +
+        (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())),
+      "write one point per line: x y z, then one column per name of the header");
+  }
+  readTable(task, text, layout, cloud);
 }
 
 } // namespace pointhaptics::io

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+class vtkPolyData;
+
 namespace pointhaptics::io
 {
 
@@ -44,5 +46,9 @@ TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLay
 /// Stores every number in its place, one target per column. @pre surveyTable() went well.
 void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
   const std::vector<ColumnView>& targets);
+
+/// Fills @p cloud with the points and arrays of a table: the columns are called as in @p layout, or as their
+/// number and values suggest. @throws FileProblem; ReadingStopped.
+void readTable(const ReadTask& task, std::string_view text, const TextLayout& layout, vtkPolyData* cloud);
 
 } // namespace pointhaptics::io

@@ -9,9 +9,13 @@
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkXMLPolyDataReader.h"
+#include "vtkXMLUnstructuredDataReader.h"
+#include "vtkXMLUnstructuredGridReader.h"
 
 #include <algorithm>
 
@@ -57,7 +61,7 @@ void checkClaims(std::string_view bytes)
     const std::size_t end = std::min(xml.find('>', at), xml.size());
     const std::string_view tag = xml.substr(at, end - at);
     for (const char* name : { "NumberOfPoints", "NumberOfVerts", "NumberOfLines", "NumberOfStrips",
-           "NumberOfPolys", "NumberOfComponents" })
+           "NumberOfPolys", "NumberOfCells", "NumberOfComponents" })
     {
       const std::string_view value = attributeOf(tag, name);
       unsigned long long count = 0;
@@ -80,16 +84,26 @@ void checkClaims(std::string_view bytes)
   }
 }
 
-void checkIsPolyData(std::string_view bytes)
+std::string_view typeOf(std::string_view bytes)
 {
   const std::size_t at = bytes.find("<VTKFile");
   const std::size_t end = std::min(bytes.find('>', at), bytes.size());
-  const std::string_view type = attributeOf(bytes.substr(at, end - at), "type");
-  if (type != "PolyData")
+  return attributeOf(bytes.substr(at, end - at), "type");
+}
+
+/// The reader for @p type. @throws FileProblem when it holds no list of points.
+vtkSmartPointer<vtkXMLUnstructuredDataReader> makeReader(std::string_view type)
+{
+  if (type == "PolyData")
   {
-    throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "a VTK file of the type " + inQuotes(type),
-      "save it as PolyData (.vtp), for example with ParaView's filter Extract Surface");
+    return vtkSmartPointer<vtkXMLPolyDataReader>::New();
   }
+  if (type == "UnstructuredGrid")
+  {
+    return vtkSmartPointer<vtkXMLUnstructuredGridReader>::New();
+  }
+  throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "a VTK file of the type " + inQuotes(type),
+    "save it as PolyData (.vtp), for example with ParaView's filter Extract Surface");
 }
 
 /// VTK's reader accepts a file whose last bytes are missing.
@@ -104,7 +118,7 @@ void checkIsComplete(std::string_view bytes)
 }
 
 /// Arrays of a wrong length crash later filters: they are a fault of the file.
-void checkArrays(vtkPolyData* read)
+void checkArrays(vtkPointSet* read)
 {
   vtkPointData* data = read->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
@@ -122,20 +136,20 @@ void checkArrays(vtkPolyData* read)
 
 } // namespace
 
-void readVtp(ReadTask& task, vtkPolyData* cloud)
+void readVtkXml(ReadTask& task, vtkPolyData* cloud)
 {
-  task.format = "VTP (VTK XML PolyData)";
+  const std::string_view type = typeOf(task.bytes);
+  task.format = type == "UnstructuredGrid" ? "VTU (VTK XML UnstructuredGrid)" : "VTP (VTK XML PolyData)";
+  const vtkSmartPointer<vtkXMLUnstructuredDataReader> reader = makeReader(type);
   if (task.wasPacked)
   {
     throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "VTK's XML reader does not read gzip files",
       "unpack it first: gunzip -k FILE");
   }
-  checkIsPolyData(task.bytes);
   checkIsComplete(task.bytes);
   checkClaims(task.bytes);
   task.progress(0.1);
   vtkNew<ErrorCollector> errors;
-  vtkNew<vtkXMLPolyDataReader> reader;
   // The executive adds a message of its own to each failure of its algorithm.
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
@@ -144,7 +158,7 @@ void readVtp(ReadTask& task, vtkPolyData* cloud)
   reader->SetParserErrorObserver(errors);
   reader->SetFileName(task.path.c_str());
   reader->Update();
-  vtkPolyData* read = reader->GetOutput();
+  vtkPointSet* read = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (!errors->first().empty() || reader->GetErrorCode() != vtkErrorCode::NoError)
   {
     const std::string what = errors->first().empty() ? "VTK's XML reader failed" : errors->first();
