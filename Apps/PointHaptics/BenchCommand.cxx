@@ -27,7 +27,7 @@ namespace
 /// Every task there is.
 std::vector<BenchTask> allTasks()
 {
-  return { resampleTask(), proxyTask(), frictionTask() };
+  return { resampleTask(), proxyTask(), frictionTask(), ioTask() };
 }
 
 constexpr std::int64_t kMostRepetitions = 10000;
