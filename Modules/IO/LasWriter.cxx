@@ -78,6 +78,7 @@ private:
   T largestOf(const OutputArray* array) const;
   bool needsExtended() const;
   void takeStandardArrays();
+  void refuseInvalidPoints() const;
   void planPositions();
   void planBits();
   void planStandardFields();
@@ -206,23 +207,33 @@ std::vector<Byte>& LasWriter::newBytes(std::size_t offset)
   return bytes_.back();
 }
 
+void LasWriter::refuseInvalidPoints() const
+{
+  withType(arrays_[0].type(),
+    [&](auto zero)
+    {
+      using T = decltype(zero);
+      const T* values = static_cast<const T*>(arrays_[0].array->GetVoidPointer(0));
+      const T* end = values + 3 * rows_;
+      const T* found =
+        std::find_if(values, end, [](T value) { return !std::isfinite(static_cast<double>(value)); });
+      if (found != end)
+      {
+        failFormat("point " + std::to_string((found - values) / 3) +
+            " is NaN or infinite, and LAS stores coordinates as integers",
+          "take such points out, or write .vtp, .ply or .pcd");
+      }
+    });
+}
+
 void LasWriter::planPositions()
 {
+  refuseInvalidPoints();
   double worst = 0.0;
   double step = 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
     const ConstColumnView column = arrays_[0].column(axis);
-    for (vtkIdType i = 0; i < rows_; ++i)
-    {
-      const double value = arrays_[0].array->GetComponent(i, axis);
-      if (!std::isfinite(value))
-      {
-        failFormat(
-          "point " + std::to_string(i) + " is NaN or infinite, and LAS stores coordinates as integers",
-          "take such points out, or write .vtp, .ply or .pcd");
-      }
-    }
     LasGrid& grid = grids_[axis];
     grid = LasGrid::fit(column, rows_, fieldValue("LasScale", axis, 0.0), fieldValue("LasOffset", axis, 0.0));
     fields_.push_back({ { reinterpret_cast<const char*>(grid.integers.data()), 4, VTK_TYPE_INT32 },

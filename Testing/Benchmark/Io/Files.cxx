@@ -218,9 +218,14 @@ Files::~Files()
   std::filesystem::remove_all(folder_, ignored);
 }
 
+std::string Files::pathOf(FileKind kind) const
+{
+  return this->path(std::to_string(int(kind)) + extensionOf(kind));
+}
+
 std::string Files::write(FileKind kind, vtkPolyData* cloud) const
 {
-  const std::string name = this->path(std::to_string(int(kind)) + extensionOf(kind));
+  const std::string name = this->pathOf(kind);
   const std::unique_ptr<Rival> ours = makeOurs();
   if (!ours->writerOf(kind).empty() && kind != FileKind::Csv)
   {
@@ -237,7 +242,7 @@ std::string Files::write(FileKind kind, vtkPolyData* cloud) const
   return name;
 }
 
-double largestError(vtkPolyData* expected, const std::vector<double>& points)
+double largestError(vtkPolyData* expected, const std::vector<double>& points, bool asFloats)
 {
   const vtkIdType count = expected->GetNumberOfPoints();
   if (points.size() != 3 * std::size_t(count))
@@ -251,7 +256,8 @@ double largestError(vtkPolyData* expected, const std::vector<double>& points)
     expected->GetPoint(i, p);
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double error = std::abs(points[3 * std::size_t(i) + std::size_t(axis)] - p[axis]);
+      const double point = points[3 * std::size_t(i) + std::size_t(axis)];
+      const double error = std::abs((asFloats ? double(float(point)) : point) - p[axis]);
       largest = error <= largest ? largest : error; // NaN stays
     }
   }

@@ -33,6 +33,8 @@ public:
   Files(const Files&) = delete;
   Files& operator=(const Files&) = delete;
 
+  /// Where write() puts such a file.
+  std::string pathOf(FileKind kind) const;
   /// Writes @p cloud, with as many digits as bring its floats back. Throws std::runtime_error.
   std::string write(FileKind kind, vtkPolyData* cloud) const;
   /// A name in the folder.
@@ -42,8 +44,9 @@ private:
   std::filesystem::path folder_;
 };
 
-/// Largest difference of any coordinate; infinite where the number of points differs.
-double largestError(vtkPolyData* expected, const std::vector<double>& points);
+/// Largest difference of any coordinate, with @p points rounded to floats where @p asFloats; infinite where
+/// the number of points differs.
+double largestError(vtkPolyData* expected, const std::vector<double>& points, bool asFloats);
 
 } // namespace io
 } // namespace bench

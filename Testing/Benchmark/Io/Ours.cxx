@@ -83,8 +83,15 @@ private:
 class Bytes : public Rival
 {
 public:
+  explicit Bytes(bool intoFreshMemory)
+    : fresh_(intoFreshMemory)
+  {
+  }
   ~Bytes() override { this->release(); }
-  std::string readerOf(FileKind) const override { return "bytes alone"; }
+  std::string readerOf(FileKind) const override
+  {
+    return fresh_ ? "bytes into new memory" : "bytes into old memory";
+  }
   std::string writerOf(FileKind) const override { return {}; }
   void read(FileKind, const std::string& path) override
   {
@@ -95,7 +102,10 @@ public:
       throw std::runtime_error(path + ": cannot be read");
     }
     size_ = std::size_t(status.st_size);
-    memory_ = ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (!memory_)
+    {
+      memory_ = ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    }
     std::size_t done = 0;
     for (ssize_t got = 1; got > 0 && done < size_ && memory_ != MAP_FAILED; done += std::size_t(got))
     {
@@ -107,7 +117,13 @@ public:
       throw std::runtime_error(path + ": cannot be read");
     }
   }
-  void forget() override { this->release(); }
+  void forget() override
+  {
+    if (fresh_)
+    {
+      this->release();
+    }
+  }
   std::vector<double> points() const override { return {}; }
   std::int64_t resultBytes() const override { return std::int64_t(size_); }
   void load(vtkPolyData*) override {}
@@ -123,6 +139,7 @@ private:
     memory_ = nullptr;
   }
 
+  const bool fresh_;
   void* memory_ = nullptr;
   std::size_t size_ = 0;
 };
@@ -134,9 +151,9 @@ std::unique_ptr<Rival> makeOurs()
   return std::make_unique<Ours>();
 }
 
-std::unique_ptr<Rival> makeBytes()
+std::unique_ptr<Rival> makeBytes(bool intoFreshMemory)
 {
-  return std::make_unique<Bytes>();
+  return std::make_unique<Bytes>(intoFreshMemory);
 }
 
 } // namespace io

@@ -58,8 +58,8 @@ public:
 
 std::unique_ptr<Rival> makeOurs();
 std::unique_ptr<Rival> makeVtk();
-/// No reader: the bytes of the file, read into memory that was not used before. The floor of any method.
-std::unique_ptr<Rival> makeBytes();
+/// No reader: the bytes of the file, into memory that was not used before, or always into the same.
+std::unique_ptr<Rival> makeBytes(bool intoFreshMemory);
 
 /// The words of --rivals, those that were built.
 std::vector<std::string> rivalWords();

@@ -129,6 +129,34 @@ TEST_F(LasWriting, SaysHowFarCoordinatesAreRounded)
   EXPECT_EQ(result.cloud->GetPoint(1)[2], 2.0);
 }
 
+TEST_F(LasWriting, FindsAGridForAnyFiniteCoordinates)
+{
+  for (const double size : { 0.0, 1e-280, 1e-12, 1.0 / 3.0, 1e12, 1e29 })
+  {
+    for (const double centre : { 0.0, 86192.56269872189, -1e29 })
+    {
+      vtkNew<vtkPolyData> cloud;
+      vtkNew<vtkPoints> points;
+      points->SetDataTypeToDouble();
+      points->InsertNextPoint(centre, centre - size, -size);
+      points->InsertNextPoint(centre + size, centre, size / 3.0);
+      cloud->SetPoints(points);
+      ASSERT_EQ(writeCloud(cloud, path("a.las")), "");
+      const ReadResult result = readCloud(path("a.las"));
+      ASSERT_EQ(result.error, "") << size << " about " << centre;
+      for (vtkIdType i = 0; i < 2; ++i)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const double tolerance = 1e-9 * size + 1e-15 * std::abs(centre);
+          EXPECT_NEAR(result.cloud->GetPoint(i)[axis], points->GetPoint(i)[axis], tolerance)
+            << size << " " << centre;
+        }
+      }
+    }
+  }
+}
+
 TEST_F(LasWriting, PutsOtherArraysIntoExtraBytes)
 {
   vtkNew<vtkPolyData> cloud;
