@@ -17,7 +17,7 @@ bool nextSignificant(LineReader& lines, std::string_view& line)
   while (lines.next(line))
   {
     line = trimmed(line.substr(0, line.find('#')));
-    if (!line.empty())
+    if (!line.empty() && line.substr(0, 2) != "//")
     {
       return true;
     }
@@ -56,8 +56,14 @@ void readOff(ReadTask& task, vtkPolyData* cloud)
   std::string_view line;
   nextSignificant(lines, line);
   const std::string_view keyword = takeWord(line);
+  if (keyword.size() < 3 || keyword.substr(keyword.size() - 3) != "OFF")
+  {
+    failFormat(
+      "line " + std::to_string(lines.lineNumber()) + ": " + inQuotes(keyword) + " where OFF was expected",
+      "make the first line OFF, NOFF, COFF or CNOFF");
+  }
   const std::string_view prefix = keyword.substr(0, keyword.size() - 3);
-  task.format = std::string(keyword);
+  task.format = inQuotes(keyword).substr(1, keyword.size());
   if (prefix.find_first_of("4n") != std::string_view::npos || equalNoCase(trimmed(line), "BINARY"))
   {
     throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError,

@@ -88,17 +88,38 @@ const FileFormat* formatOf(const std::string& fileName)
   return found == std::end(kFormats) ? nullptr : found;
 }
 
+/// What vtkPointCloudReader tells of a whole cloud; a filter's own notes in the field data are no loss.
+constexpr const char* kOfTheCloud[] = { "Viewpoint", "OrganizedDimensions", "CoordinateSystem",
+  "LengthUnit" };
+
+/// Whether the viewpoint is that of files that say nothing of it.
+bool isAtOrigin(vtkPointSet* cloud)
+{
+  const double usual[] = { 0, 0, 0, 1, 0, 0, 0 };
+  vtkDataArray* viewpoint = cloud->GetFieldData()->GetArray("Viewpoint");
+  bool same = viewpoint && viewpoint->GetNumberOfComponents() == 7 && viewpoint->GetNumberOfTuples() == 1;
+  for (int i = 0; i < 7 && same; ++i)
+  {
+    same = viewpoint->GetComponent(0, i) == usual[i];
+  }
+  return same;
+}
+
 void noteWhatIsNoColumn(vtkPointSet* cloud, const std::string& keptFieldData, io::WriterNotes& notes)
 {
-  const std::string kept = " " + keptFieldData + " ";
-  vtkFieldData* fieldData = cloud->GetFieldData();
-  for (int i = 0; i < fieldData->GetNumberOfArrays(); ++i)
+  std::string lost;
+  for (const std::string name : kOfTheCloud)
   {
-    const char* name = fieldData->GetAbstractArray(i)->GetName();
-    if (name && kept.find(" " + std::string(name) + " ") == std::string::npos)
+    const bool isKept = (" " + keptFieldData + " ").find(" " + name + " ") != std::string::npos;
+    if (!isKept && cloud->GetFieldData()->HasArray(name.c_str()) &&
+      !(name == "Viewpoint" && isAtOrigin(cloud)))
     {
-      notes.add("field data " + io::inQuotes(name) + " is left out");
+      lost += (lost.empty() ? "" : ", ") + name;
     }
+  }
+  if (!lost.empty())
+  {
+    notes.add("field data " + lost + (lost.find(',') == std::string::npos ? " is" : " are") + " left out");
   }
   vtkPolyData* polyData = vtkPolyData::SafeDownCast(cloud);
   const vtkIdType faces = polyData ? polyData->GetNumberOfCells() - polyData->GetNumberOfVerts() : 0;

@@ -224,6 +224,7 @@ TEST_F(MeshFormats, OffGivesVerticesNormalsAndColours)
   expectRefused(readCloud(write("d.off", "OFF\n2 0 0\n1 2 3\n1 b 3\n")), "line 4");
   expectRefused(readCloud(write("d.off", "OFF BINARY\nxxxx")), "binary");
   expectRefused(readCloud(write("d.off", "OFF")), "counts");
+  EXPECT_EQ(readCloud(write("e.off", "// note\nOFF\n1 0 0\n1 2 3\n")).points(), 1);
 }
 
 } // namespace
