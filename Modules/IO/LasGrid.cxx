@@ -68,8 +68,9 @@ LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, double wantedScale
   }
   // At most 2^31 steps to either side of a centre that is itself a multiple of the step, and one of fewer
   // than 2^53 steps: else it would be no double.
-  const double half = 0.5 * largest - 0.5 * smallest;
-  const double farthest = std::max(std::abs(smallest), std::abs(largest));
+  constexpr double kTiny = std::numeric_limits<double>::min();
+  const double half = std::max(0.5 * largest - 0.5 * smallest, kTiny);
+  const double farthest = std::max({ std::abs(smallest), std::abs(largest), kTiny });
   grid.scale = std::ldexp(1.0, std::max({ std::ilogb(half) + 1 - 31, std::ilogb(farthest) - 51, -1021 }));
   grid.offset = grid.scale * std::nearbyint((0.5 * smallest + 0.5 * largest) / grid.scale);
   place(coordinates, false, grid);

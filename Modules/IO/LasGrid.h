@@ -18,7 +18,8 @@ struct LasGrid
   std::vector<std::int32_t> integers;
   double largestError = 0.0; ///< of what a reader gives back
 
-  /// Puts the @p count coordinates of @p column on a grid that gives each of them back bit for bit where there is one: that of
+  /// Puts the @p count coordinates of @p column on a grid that gives each of them back bit for bit where
+  /// there is one: that of
   /// @p wantedScale and @p wantedOffset (the file the cloud came from; scale 0: none), or one of whole
   /// decimals. Otherwise on the finest one that spans them, with steps of a power of two. @pre all are
   /// finite.

@@ -2,12 +2,11 @@
 
 #include "LasGrid.h"
 #include "LasHeader.h"
+#include "LasRecordWriter.h"
 #include "NumericType.h"
-#include "TextScan.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
-#include "vtkStringArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,26 +25,6 @@ using Byte = std::uint8_t;
 constexpr std::size_t kLongestName = 32;
 constexpr std::size_t kMostRecord = 65535; ///< 16 bits hold the length of a record
 constexpr double kScanAngleStep = 0.006;   ///< degrees, point formats 6 to 10
-constexpr std::uint16_t kWellKnownTextBit = 16;
-
-template <typename T>
-void putLittle(std::string& bytes, std::size_t offset, T value)
-{
-  std::memcpy(&bytes[offset], &value, sizeof(T));
-  if (!kIsLittleEndianHost)
-  {
-    std::reverse(&bytes[offset], &bytes[offset] + sizeof(T));
-  }
-}
-
-std::string recordHeader(const std::string& user, int id, std::size_t size)
-{
-  std::string header(kLasVlrHeader, '\0');
-  header.replace(2, user.size(), user);
-  putLittle(header, 18, static_cast<std::uint16_t>(id));
-  putLittle(header, 20, static_cast<std::uint16_t>(size));
-  return header;
-}
 
 /// LAS's number for the type of an extra field.
 int codeOf(int type)
@@ -86,7 +65,6 @@ private:
   void planExtraFields();
   void addField(const OutputArray* array, int component, std::size_t offset, int type);
   std::vector<Byte>& newBytes(std::size_t offset);
-  std::string coordinateSystemRecord(std::uint16_t& encoding) const;
   std::string header(std::size_t pointsOffset, std::uint32_t records, std::uint16_t encoding) const;
   double fieldValue(const char* name, int component, double otherwise) const;
 
@@ -365,34 +343,9 @@ void LasWriter::planExtraFields()
   }
 }
 
-std::string LasWriter::coordinateSystemRecord(std::uint16_t& encoding) const
-{
-  vtkStringArray* array = vtkStringArray::SafeDownCast(fieldData_->GetAbstractArray("CoordinateSystem"));
-  const std::string system = array && array->GetNumberOfValues() == 1 ? array->GetValue(0) : std::string();
-  unsigned long long code = 0;
-  if (system.rfind("EPSG:", 0) == 0 && parseCount(std::string_view(system).substr(5), code) && code < 32767)
-  {
-    const bool geographic = code >= 4000 && code < 5000;
-    const int keys[] = { 1, 1, 0, 2, 1024, 0, 1, geographic ? 2 : 1, geographic ? 2048 : 3072, 0, 1,
-      static_cast<int>(code) };
-    std::string content(sizeof(keys) / sizeof(keys[0]) * 2, '\0');
-    for (std::size_t i = 0; i < content.size() / 2; ++i)
-    {
-      putLittle(content, 2 * i, static_cast<std::uint16_t>(keys[i]));
-    }
-    return recordHeader("LASF_Projection", 34735, content.size()) + content;
-  }
-  if (!system.empty() && system.size() < kMostRecord)
-  {
-    encoding = static_cast<std::uint16_t>(encoding | kWellKnownTextBit);
-    return recordHeader("LASF_Projection", 2112, system.size() + 1) + system + '\0';
-  }
-  return {};
-}
-
 std::string LasWriter::header(std::size_t pointsOffset, std::uint32_t records, std::uint16_t encoding) const
 {
-  const bool isOf14 = extended_ || (encoding & kWellKnownTextBit) != 0;
+  const bool isOf14 = extended_ || (encoding & kLasWellKnownTextBit) != 0;
   std::string bytes(isOf14 ? kLasHeaderOf14 : kLasHeaderOf12, '\0');
   bytes.replace(0, 4, "LASF");
   putLittle(bytes, 6, encoding);
@@ -464,11 +417,11 @@ void LasWriter::write(OutputStream& out)
   constexpr std::uint16_t kKeptEncoding = 15; // how gps time counts, and the like
   std::uint16_t encoding = static_cast<std::uint16_t>(
     static_cast<int>(std::clamp(fieldValue("LasGlobalEncoding", 0, 0.0), 0.0, 65535.0)) & kKeptEncoding);
-  std::string records = coordinateSystemRecord(encoding);
+  std::string records = lasCoordinateSystemRecord(fieldData_, encoding);
   std::uint32_t count = records.empty() ? 0 : 1;
   if (!descriptors_.empty())
   {
-    records += recordHeader("LASF_Spec", kLasExtraBytesRecord, descriptors_.size()) + descriptors_;
+    records += lasRecordHeader("LASF_Spec", kLasExtraBytesRecord, descriptors_.size()) + descriptors_;
     ++count;
   }
   const std::size_t headerSize = header(0, count, encoding).size();
