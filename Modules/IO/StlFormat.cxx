@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 namespace pointhaptics::io
@@ -52,7 +53,7 @@ private:
   {
     std::array<std::uint32_t, 3> bits;
     std::memcpy(bits.data(), vertex.data(), sizeof(bits));
-    std::uint64_t hash = 0;
+    std::uint64_t hash = seed_;
     for (const std::uint32_t word : bits)
     {
       hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
@@ -75,6 +76,8 @@ private:
     }
   }
 
+  /// Another one each time: no file can be made to meet the same slot again and again.
+  const std::uint64_t seed_ = std::uint64_t{ std::random_device()() } << 32 | std::random_device()();
   std::vector<Vertex> vertices_;
   std::vector<std::uint32_t> slots_;
 };
