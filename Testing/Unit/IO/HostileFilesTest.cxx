@@ -1,5 +1,7 @@
 #include "CloudFiles.h"
 
+#include <cstdint>
+
 namespace
 {
 
@@ -88,6 +90,52 @@ TEST_F(HostileFiles, DamagedLzfDataAreRefused)
   expectRefused(readCloud(write("a.pcd", file(literal.substr(0, 20)))), "damaged LZF data");
   expectRefused(readCloud(write("a.pcd", file(literal + std::string("\x00z", 2)))), "more compressed data");
   expectRefused(readCloud(write("a.pcd", file(literal, 25))), "header needs 24");
+}
+
+/// A VTP file of two points whose array starts with @p words and goes on with @p data.
+std::string makeVtp(const std::vector<std::uint32_t>& words, const std::string& data, bool isPacked,
+  const std::string& offset = "0", const std::string& before = "")
+{
+  std::string vtp = "<?xml version=\"1.0\"?>\n" + before +
+    "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"" +
+    (isPacked ? " compressor=\"vtkZLibDataCompressor\"" : "") +
+    ">\n<PolyData>\n<Piece NumberOfPoints=\"2\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+    "NumberOfPolys=\"0\">\n<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"appended\" "
+    "offset = \"" +
+    offset + "\"/></Points>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  for (const std::uint32_t word : words)
+  {
+    append(vtp, word);
+  }
+  return vtp + data + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+TEST_F(HostileFiles, SizesThatVtkWouldBelieveAreCheckedFirst)
+{
+  std::string points;
+  for (const float value : { 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f })
+  {
+    append(points, value);
+  }
+  const ReadResult plain = readCloud(write("a.vtp", makeVtp({ 24 }, points, false)));
+  ASSERT_EQ(plain.error, "");
+  EXPECT_EQ(plain.cloud->GetPoint(1)[2], 6.0);
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 4000000000u }, points, false))), "array of 4000000000 bytes");
+  expectRefused(readCloud(write("a.vtp", makeVtp({ 24 }, points, false, "9999"))), "which is not there");
+  expectRefused(readCloud(write("a.vtp", makeVtp({ 24 }, points, false, "-1"))), "which is not there");
+  const std::string packed(60, 'z');
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 0xffffffff, 24, 0, 9 }, packed, true))), "blocks, but only");
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 1, 0xffffffff, 24, 9 }, packed, true))), "blocks of 4294967295");
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 1, 24, 0xffffffff, 9 }, packed, true))), "said to be packed");
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 2, 24, 0, 50, 0xfffffff0 }, packed, true))), "that follow");
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 24 }, points, false, "0", "<!DOCTYPE a [<!ENTITY b \"c\">]>\n"))),
+    "entities");
 }
 
 TEST_F(HostileFiles, LasRecordsThatLieAreKeptAsBytes)
