@@ -12,7 +12,7 @@ readonly DEMO_POINTS=543652
 readonly PACKAGES=(
   cmake ninja-build g++
   libvtk9-dev libpcl-dev libx11-dev libgl1-mesa-dri xvfb
-  libcli11-dev libfmt-dev nlohmann-json3-dev libgtest-dev)
+  libcli11-dev libfmt-dev nlohmann-json3-dev libgtest-dev libnanoflann-dev)
 
 usage() {
   cat <<'TEXT'

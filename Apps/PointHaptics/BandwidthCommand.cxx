@@ -86,10 +86,8 @@ RadiusRange radiusRange(vtkPolyData* cloud)
   return range;
 }
 
-void print(const BandwidthCommandOptions& options, vtkPolyData* result)
+void print(const BandwidthCommandOptions& options, vtkIdType points, const RadiusRange& range)
 {
-  const vtkIdType points = result->GetNumberOfPoints();
-  const RadiusRange range = radiusRange(result);
   if (options.files.json)
   {
     const nlohmann::ordered_json object = { { "input", options.files.input },
@@ -118,11 +116,19 @@ int runBandwidth(const BandwidthCommandOptions& options)
     return fail(kCommand, options.files.input + ": " + message);
   }
   showWarnings(kCommand);
+  const vtkIdType points = filter->GetOutput()->GetNumberOfPoints();
+  const RadiusRange range = radiusRange(filter->GetOutput());
+  if (range.invalid == points)
+  {
+    return fail(kCommand,
+      fmt::format("{}: each of the {} points has a coordinate that is NaN or infinite; mend the file",
+        options.files.input, points));
+  }
   if (!writeCloud(filter->GetOutput(), options.files.output, kCommand, message))
   {
     return fail(kCommand, message);
   }
-  print(options, filter->GetOutput());
+  print(options, points, range);
   return kSuccess;
 }
 

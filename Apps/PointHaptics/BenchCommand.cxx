@@ -27,11 +27,12 @@ namespace
 /// Every task there is.
 std::vector<BenchTask> allTasks()
 {
-  return { resampleTask(), proxyTask(), frictionTask(), ioTask() };
+  return { bandwidthTask(), resampleTask(), proxyTask(), frictionTask(), ioTask() };
 }
 
 constexpr std::int64_t kMostRepetitions = 10000;
-/// Stands in the report for the folder that was named: that one is nobody else's.
+/// Stands in the report for the folder that was named: that one is nobody else's. Of files their names are
+/// shown.
 constexpr const char* kShownFolder = "Documentation";
 
 struct BenchOptions
@@ -79,7 +80,11 @@ std::string commandText(const CLI::App& command)
     text += " " + name;
     if (option->get_expected_max() > 0)
     {
-      text += " " + (name == "--output" ? kShownFolder : option->as<std::string>());
+      const std::string value = option->as<std::string>();
+      text += " " +
+        (name == "--output"    ? kShownFolder
+            : name == "--file" ? std::filesystem::path(value).filename().string()
+                               : value);
     }
   }
   return text;

@@ -48,6 +48,7 @@ struct BenchTask
   std::function<BenchRun(CLI::App& command)> addOptions;
 };
 
+BenchTask bandwidthTask();
 BenchTask ioTask();
 BenchTask resampleTask();
 BenchTask proxyTask();

@@ -77,16 +77,14 @@ vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* 
   return moved;
 }
 
-/// The cloud as the proxy will feel it: resampled or raw, with proxy radii.
+/// The cloud as the proxy will feel it: resampled or raw.
 vtkSmartPointer<vtkPolyData> preparedCloud(
   const FeelOptions& options, vtkPolyData* cloud, std::string& message)
 {
-  vtkNew<vtkKernelBandwidthFilter> bandwidth;
-  options.bandwidth.configure(bandwidth);
-  bandwidth->ComputeDensityOff();
+  vtkSmartPointer<vtkPolyData> prepared;
   if (options.raw)
   {
-    bandwidth->SetInputData(rawPoints(options, cloud));
+    prepared = rawPoints(options, cloud);
   }
   else
   {
@@ -100,15 +98,15 @@ vtkSmartPointer<vtkPolyData> preparedCloud(
     {
       return nullptr;
     }
-    bandwidth->SetInputData(resampler->GetOutput());
+    prepared = resampler->GetOutput();
   }
-  if (vtkPolyData::SafeDownCast(bandwidth->GetInput())->GetNumberOfPoints() == 0)
+  if (prepared->GetNumberOfPoints() == 0)
   {
     message =
       options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform";
     return nullptr;
   }
-  return updateFilter(bandwidth, "bandwidth", message) ? bandwidth->GetOutput() : nullptr;
+  return prepared;
 }
 
 double quantile(const std::vector<float>& sorted, double part)
@@ -201,7 +199,11 @@ int runFeel(const FeelOptions& options)
   }
   cloud = {};
   Status status = Status::Ok;
-  const std::shared_ptr<const HapticScene> scene = makeHapticScene(prepared, status, !options.noCovariance);
+  // No picture is drawn: the scene computes the few radii it needs.
+  vtkNew<vtkKernelBandwidthFilter> bandwidth;
+  options.bandwidth.configure(bandwidth);
+  const std::shared_ptr<const HapticScene> scene =
+    makeHapticScene(prepared, status, !options.noCovariance, bandwidth->GetSettings());
   if (!scene)
   {
     return fail(kCommand, options.file + ": " + sentence(status));

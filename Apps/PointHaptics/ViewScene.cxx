@@ -312,7 +312,10 @@ void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
   linear->SetInput(modelMatrix_);
   resampler_->SetTransform(linear);
   options.bandwidth.configure(bandwidth_);
+  // The picture needs the arrays it is coloured by; the scene computes the few radii it needs.
   bandwidth_->ComputeDensityOff();
+  bandwidth_->SetComputeBandwidth(options.colorBy == "Bandwidth");
+  bandwidth_->SetComputeProxyRadius(options.colorBy == "ProxyRadius");
 }
 
 bool ViewScene::build(const ViewOptions& options, std::string& message)
@@ -393,7 +396,7 @@ std::string describeScale(vtkMatrix4x4* modelMatrix)
 
 std::shared_ptr<const HapticScene> ViewScene::makeScene(bool useCovariance, Status& status)
 {
-  return makeHapticScene(bandwidth_->GetOutput(), status, useCovariance);
+  return makeHapticScene(bandwidth_->GetOutput(), status, useCovariance, bandwidth_->GetSettings());
 }
 
 bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message)

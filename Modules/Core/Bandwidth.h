@@ -62,7 +62,7 @@ struct BandwidthScratch
 
 /// b of any @p rule (d = 1) for the @p count values of @p sample, in their unit; independent of their order.
 /// Errors and @p fallback as for bandwidth(), and a value that is not finite is an InvalidParameter. Where
-/// the equation of SheatherJones cannot be solved in double numbers: DegenerateSample, and the bandwidth of
+/// the equation of SheatherJones cannot be solved in double numbers: EquationUnsolved, and the bandwidth of
 /// SilvermanRobust instead of @p fallback. Cost: a sort; for SheatherJones see there.
 Status sampleBandwidth(BandwidthRule rule, const double* sample, std::int64_t count,
   BandwidthScratch& scratch, double& result, double fallback = kBandwidthWithoutSpread);

@@ -107,13 +107,24 @@ void surfaceDensities(const PointView& points, const NeighborQuery& query,
   forRange(executor, query.size(),
     [&](std::int64_t begin, std::int64_t end)
     {
+      // Points at one place stand side by side: with one bandwidth they have one density.
+      Vec3 lastPlace;
+      double lastBandwidth = 0.0;
+      double last = 0.0;
       for (std::int64_t slot = begin; slot < end; ++slot)
       {
         const std::size_t i = std::size_t(query.index(slot));
-        if (bandwidths[i] > 0.0)
+        if (!(bandwidths[i] > 0.0))
         {
-          densities[i] = density(query, query.point(slot), bandwidths[i]);
+          continue;
         }
+        if (bandwidths[i] != lastBandwidth || !(query.point(slot) == lastPlace))
+        {
+          lastPlace = query.point(slot);
+          lastBandwidth = bandwidths[i];
+          last = density(query, lastPlace, lastBandwidth);
+        }
+        densities[i] = last;
       }
     });
 }

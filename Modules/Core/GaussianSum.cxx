@@ -13,10 +13,11 @@ using detail::SampleCell;
 constexpr double kSqrtTwoPi = 2.50662827463100050242;
 /// Largest |u t| that a series is used for.
 constexpr double kLargestArgument = 2.0;
-/// Part of the sum that the values beyond reach may make up.
-constexpr double kLeftOut = 5e-14;
-/// Part of the sum that the rest of one cell's series may make up: 1e-13 over 64 cells.
-constexpr double kSeriesRest = 1e-13 / 64.0;
+/// Shares of the error: a quarter is for the values beyond reach, half for the rests of the series of 64
+/// cells.
+constexpr double kLeftOutShare = 1.0 / 4.0;
+constexpr double kSeriesRestShare = 1.0 / 2.0 / 64.0;
+constexpr double kLargestError = 0.1;
 /// exp(-t^2 / 2) is 0 from here on.
 constexpr double kNothingBeyond = 39.0;
 /// Cells of this many points get an expansion, used as far as this from their centre.
@@ -25,17 +26,23 @@ constexpr double kExpansionReach = 0.3;
 
 }
 
-Status GaussianSum::build(const double* sample, std::int64_t count, double bandwidth)
+Status GaussianSum::build(const double* sample, std::int64_t count, double bandwidth, double relativeError)
 {
   cells_.clear();
   expansions_.clear();
-  const Status status = detail::copySorted(sample, count, bandwidth, sorted_);
+  Status status = detail::copySorted(sample, count, bandwidth, sorted_);
+  if (status == Status::Ok && !(relativeError >= kSmallestError && relativeError <= kLargestError))
+  {
+    sorted_.clear();
+    status = Status::InvalidParameter;
+  }
   if (status != Status::Ok)
   {
     return status;
   }
   bandwidth_ = bandwidth;
-  logBudget_ = 2.0 * std::log(double(count) / kLeftOut);
+  logBudget_ = 2.0 * std::log(double(count) / (kLeftOutShare * relativeError));
+  seriesRest_ = kSeriesRestShare * relativeError;
   // Where a value is near, series then do for all that is within reach.
   const double width = 2.0 * kLargestArgument / std::sqrt(logBudget_);
   const std::int64_t series = detail::splitIntoCells(sorted_.data(), count, bandwidth, width, cells_);
@@ -146,7 +153,7 @@ double GaussianSum::cellSum(const SampleCell& cell, double target, double total)
   static constexpr std::array<double, kTerms + 1> kInverse = detail::inverseFactorials<kTerms + 1>();
   const double* moments = weightedMoments_.data() + cell.series * kTerms;
   const double height = std::exp(-0.5 * t * t);
-  const double enough = kSeriesRest * total / (2.0 * height * double(cell.count()));
+  const double enough = seriesRest_ * total / (2.0 * height * double(cell.count()));
   double sum = 0.0;
   double powerOfT = 1.0;
   double powerOfZ = 1.0;

@@ -20,12 +20,13 @@ namespace pointhaptics
 /// depend on y. A target walks outwards over the cells from the nearest one. For cells of many values that is
 /// done beforehand: there G itself is a power series in t.
 ///
-/// Error: truncation is below 2e-13 G(y) for n <= 5e8.
+/// Error: truncation is below epsilon G(y), epsilon = 2e-13 unless told otherwise, for n <= 5e8.
 /// - The nearest cell, of m values no further than r, gives G >= m exp(-r^2 / 2). What lies further than
-///   sqrt(r^2 + 2 ln(n / (5e-14 m))) is left out: at most 5e-14 G.
+///   sqrt(r^2 + 2 ln(4 n / (epsilon m))) is left out: at most epsilon G / 4.
 /// - Walk: series are used where z = max |u t| <= 2. Stopped after p terms they leave out at most
-///   2 z^p / p! m exp(-t^2 / 2), and they stop where that is below 1e-13 G / 64 (a walk meets fewer than 64
-///   cells), or after 24 terms, where it is below 5e-16 of the cell's own sum, whose terms are all positive.
+///   2 z^p / p! m exp(-t^2 / 2), and they stop where that is below epsilon G / 128 (a walk meets fewer than
+///   64 cells), or after 24 terms, where it is below 5e-16 of the cell's own sum, whose terms are all
+///   positive.
 /// - Beforehand: used for |t| <= 0.3 around cells of 64 values and more, where G >= 55. Two-fold series of 24
 ///   by 24 terms; by Cramer's bound |He_k(t)| exp(-t^2 / 2) <= 1.0865 sqrt(k!) each value leaves out at most
 ///   1.0865 sum_(a >= 24 or b >= 24) (0.3 sqrt 2)^a (0.24 sqrt 2)^b / sqrt(a! b!) < 4e-21.
@@ -45,9 +46,13 @@ namespace pointhaptics
 class GaussianSum
 {
 public:
-  /// Copies and sorts @p count values. InvalidParameter where @p bandwidth is not above 0 or not finite or a
-  /// value is not finite, Empty where count < 1: every sum is then 0.
-  Status build(const double* sample, std::int64_t count, double bandwidth);
+  static constexpr double kSmallestError = 2e-13;
+
+  /// Copies and sorts @p count values. @param relativeError epsilon, from kSmallestError to 0.1: a larger one
+  /// saves time where values are sparse. InvalidParameter where @p bandwidth is not above 0 or not finite, a
+  /// value is not finite or relativeError out of its range, Empty where count < 1: every sum is then 0.
+  Status build(
+    const double* sample, std::int64_t count, double bandwidth, double relativeError = kSmallestError);
   /// G at @p target; 0 where that is not finite.
   double sum(double target) const noexcept;
   /// Density estimate G / (n h sqrt(2 pi)), per unit of the values.
@@ -65,7 +70,8 @@ private:
   double walk(std::size_t nearest, double target) const noexcept;
 
   double bandwidth_ = 1.0;
-  double logBudget_ = 0.0; ///< 2 ln(n / part that may be left out).
+  double logBudget_ = 0.0;  ///< 2 ln(n / part that may be left out).
+  double seriesRest_ = 0.0; ///< Part of the sum that the rest of one cell's series may make up.
   std::vector<double> sorted_;
   std::vector<detail::SampleCell> cells_;
   /// kTerms for each cell with a series: sum_i u^k / k!, and the same with the weight exp(-u^2 / 2).

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace pointhaptics
 {
@@ -34,8 +35,22 @@ public:
   {
   }
 
-  /// Sums go from the nearest to the farthest: they do not depend on how the neighbours were found.
   Neighborhood read(const NeighborList& list)
+  {
+    // Points at one place stand side by side and have one neighbourhood.
+    const Vec3 place = query_.point(list.slot);
+    if (!hasLast_ || !(place == lastPlace_))
+    {
+      last_ = readAnew(list);
+      lastPlace_ = place;
+      hasLast_ = true;
+    }
+    return last_;
+  }
+
+private:
+  /// Sums go from the nearest to the farthest: they do not depend on how the neighbours were found.
+  Neighborhood readAnew(const NeighborList& list)
   {
     Neighborhood result;
     if (list.count < 2)
@@ -46,14 +61,13 @@ public:
     result.spacing = std::sqrt(list.squaredDistances[list.count - 1]) * std::sqrt(kPi / (count - 1.0));
     double b = 0.0;
     const Status status = ofDistances_ ? bandwidthOfDistances(list, b) : bandwidthOfSpread(list, b);
-    if (status == Status::Ok)
+    if (status == Status::Ok || status == Status::EquationUnsolved) // then b is that of SilvermanRobust
     {
       result.bandwidth = b;
     }
     return result;
   }
 
-private:
   /// sqrt(trace(C) / 2) about the neighbourhood's own mean.
   double surfaceSpread(const NeighborList& list) const
   {
@@ -99,6 +113,9 @@ private:
   Status statusOfFactor_ = Status::DegenerateSample;
   std::vector<double> distances_;
   BandwidthScratch scratch_;
+  bool hasLast_ = false;
+  Vec3 lastPlace_;
+  Neighborhood last_;
 };
 
 /// The neighbours in a ball about each point, as NeighborSweep gives the nearest.
@@ -117,15 +134,19 @@ public:
     const std::int64_t last = std::min(end * kernel::kLeafPoints, query_.size());
     for (std::int64_t slot = begin * kernel::kLeafPoints; slot < last; ++slot)
     {
-      visit(listAbout(slot));
+      visit(alone(slot));
     }
   }
-
-private:
-  NeighborList listAbout(std::int64_t slot)
+  /// Valid until the next call.
+  NeighborList alone(std::int64_t slot)
   {
+    if (!found_.empty() && query_.point(slot) == lastPlace_)
+    {
+      return { slot, int(found_.size()), squaredDistances_.data(), slots_.data() };
+    }
+    lastPlace_ = query_.point(slot);
     found_.clear();
-    query_.visitBallSlots(query_.point(slot), radius_,
+    query_.visitBallSlots(lastPlace_, radius_,
       [this](double d2, std::int64_t other) {
         found_.push_back({ d2, query_.packed(other) });
       });
@@ -140,21 +161,37 @@ private:
     return { slot, int(found_.size()), squaredDistances_.data(), slots_.data() };
   }
 
+private:
   const NeighborQuery& query_;
   const double radius_;
+  Vec3 lastPlace_; ///< Whose neighbours are those found.
   std::vector<Neighbor> found_;
   std::vector<double> squaredDistances_;
   std::vector<std::uint32_t> slots_;
 };
 
-double clampedRadius(double radius, double spacing, const LocalBandwidthSettings& settings)
+double radiusOf(const Neighborhood& near, const LocalBandwidthSettings& settings)
 {
-  const double low = settings.minimumRadius > 0.0 ? settings.minimumRadius : kNoSinkSpacings * spacing;
-  const double raised = std::max(radius, low);
+  const double low = settings.minimumRadius > 0.0 ? settings.minimumRadius : kNoSinkSpacings * near.spacing;
+  const double raised = std::max(settings.radiusScale * near.bandwidth, low);
   return settings.maximumRadius > 0.0 ? std::min(raised, settings.maximumRadius) : raised;
 }
 
-/// The radius of a point whose neighbours all coincide with it.
+/// @p part of the length of a box's diagonal, whose square, or which itself, may be out of range.
+double partOfDiagonal(const Bounds& box, double part)
+{
+  const Vec3 half = 0.5 * box.maximum - 0.5 * box.minimum;
+  const double largest = std::max({ half.x, half.y, half.z });
+  if (!(largest > 0.0))
+  {
+    return 0.0;
+  }
+  const Vec3 shape(half.x / largest, half.y / largest, half.z / largest);
+  return std::max(2.0 * part * norm(shape) * largest, std::numeric_limits<double>::denorm_min());
+}
+
+/// The radius of a point whose neighbours all coincide with it, or are so near or so far that their squared
+/// distances are out of range.
 double fallbackRadius(
   const PointView& points, const std::vector<double>& radii, const LocalBandwidthSettings& settings)
 {
@@ -172,8 +209,8 @@ double fallbackRadius(
         box.include(points[i]);
       }
     }
-    const double extent = box.empty() ? 0.0 : norm(box.extent());
-    radius = std::isfinite(smallest) ? smallest : extent > 0.0 ? 1e-3 * extent : kRadiusWithoutExtent;
+    const double part = box.empty() ? 0.0 : partOfDiagonal(box, 1e-3);
+    radius = std::isfinite(smallest) ? smallest : part > 0.0 ? part : kRadiusWithoutExtent;
   }
   return settings.maximumRadius > 0.0 ? std::min(radius, settings.maximumRadius) : radius;
 }
@@ -206,17 +243,63 @@ bool readAll(const NeighborQuery& query, const LocalBandwidthSettings& settings,
         [&](const NeighborList& list)
         {
           const Neighborhood near = reader.read(list);
-          if (!(near.bandwidth > 0.0))
+          const double radius = radiusOf(near, settings);
+          if (!(near.bandwidth > 0.0) || !std::isfinite(radius))
           {
             complete.store(false, std::memory_order_relaxed);
             return;
           }
           const std::size_t index = std::size_t(query.index(list.slot));
           bandwidths[index] = near.bandwidth;
-          radii[index] = clampedRadius(settings.radiusScale * near.bandwidth, near.spacing, settings);
+          radii[index] = radius;
         });
     });
   return complete;
+}
+
+/// Calls withSweep(makeSweep) for the neighbourhoods that @p settings ask for.
+template <typename Function>
+bool withNeighborhoods(
+  const NeighborQuery& query, const LocalBandwidthSettings& settings, Function&& withSweep)
+{
+  if (settings.fixedRadius)
+  {
+    return withSweep([&] { return BallSweep(query, settings.radius); });
+  }
+  const int wanted = int(std::min<std::int64_t>(settings.numberOfNeighbors, query.size())) + 1;
+  return withSweep([&] { return NeighborSweep(query, wanted); });
+}
+
+/// @return whether each of @p slots has got a radius.
+template <typename MakeSweep>
+bool readSome(const NeighborQuery& query, const LocalBandwidthSettings& settings, MakeSweep&& makeSweep,
+  const std::vector<std::int64_t>& slots, std::vector<double>& radii, const Executor& executor)
+{
+  constexpr std::int64_t kSmallestRange = 64;
+  std::atomic<bool> complete{ true };
+  forRange(executor, std::int64_t(slots.size()), kSmallestRange,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      NeighborhoodReader reader(query, settings);
+      auto&& sweep = makeSweep();
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const Neighborhood near = reader.read(sweep.alone(slots[std::size_t(i)]));
+        radii[std::size_t(i)] = radiusOf(near, settings);
+        if (!(near.bandwidth > 0.0) || !std::isfinite(radii[std::size_t(i)]))
+        {
+          complete.store(false, std::memory_order_relaxed);
+        }
+      }
+    });
+  return complete;
+}
+
+Status checked(const PointView& points, const LocalBandwidthSettings& settings)
+{
+  const Status status = settings.check();
+  return status == Status::Ok && points.size() > NeighborQuery::kMostPoints ? Status::InvalidParameter
+                                                                            : status;
 }
 
 }
@@ -241,17 +324,13 @@ Status localBandwidths(const PointView& points, const NeighborQuery& query,
 {
   bandwidths.assign(std::size_t(points.size()), 0.0);
   radii.assign(std::size_t(points.size()), 0.0);
-  const Status status = settings.check();
-  if (status != Status::Ok || points.size() > NeighborQuery::kMostPoints)
+  const Status status = checked(points, settings);
+  if (status != Status::Ok)
   {
-    return status != Status::Ok ? status : Status::InvalidParameter;
+    return status;
   }
-  const int wanted = int(std::min<std::int64_t>(settings.numberOfNeighbors, query.size())) + 1;
-  const bool complete = settings.fixedRadius
-    ? readAll(
-        query, settings, [&] { return BallSweep(query, settings.radius); }, bandwidths, radii, executor)
-    : readAll(
-        query, settings, [&] { return NeighborSweep(query, wanted); }, bandwidths, radii, executor);
+  const bool complete = withNeighborhoods(query, settings,
+    [&](auto&& makeSweep) { return readAll(query, settings, makeSweep, bandwidths, radii, executor); });
   if (!complete)
   {
     fillWithout(points, settings, bandwidths, radii);
@@ -259,6 +338,31 @@ Status localBandwidths(const PointView& points, const NeighborQuery& query,
   if (settings.smoothRadius)
   {
     limitSlope(query, kRadiusSlope, radii, executor);
+  }
+  return Status::Ok;
+}
+
+Status localRadiiAt(const PointView& points, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
+  const Executor& executor)
+{
+  radii.assign(slots.size(), 0.0);
+  const Status status = checked(points, settings);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  const bool complete = !settings.smoothRadius &&
+    withNeighborhoods(query, settings,
+      [&](auto&& makeSweep) { return readSome(query, settings, makeSweep, slots, radii, executor); });
+  if (!complete)
+  {
+    std::vector<double> bandwidths;
+    std::vector<double> all;
+    const Status whole = localBandwidths(points, query, settings, bandwidths, all, executor);
+    std::transform(slots.begin(), slots.end(), radii.begin(),
+      [&](std::int64_t slot) { return all[std::size_t(query.index(slot))]; });
+    return whole;
   }
   return Status::Ok;
 }

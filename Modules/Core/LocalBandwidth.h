@@ -34,16 +34,27 @@ constexpr double kRadiusSlope = 0.5;
 
 /// b and r_p = clamp(beta b, r1, r2) at each of @p points (both outputs are resized). s = sqrt(trace(C) / 2),
 /// C the sample covariance of the neighbourhood with the point itself; for SilvermanRobust and SheatherJones
-/// the sample is the neighbours' distances. Local spacing = sqrt(pi / k) times the distance of the k-th
-/// neighbour. A neighbourhood without spread gets r1 (automatic: the smallest radius found elsewhere, or 1e-3
-/// of the cloud's extent, or 1e-3) and b = r1 / beta. Points that are not finite get 0.
+/// the sample is the neighbours' distances
+/// (SilvermanRobust's answer stands in where the equation of SheatherJones has none). Local spacing = sqrt(pi
+/// / k) times the distance of the k-th neighbour. A neighbourhood without spread, or with squared distances
+/// out of range (lengths beyond 1e150 or below 1e-150), gets r1 (automatic: the
+/// smallest radius found elsewhere, or 1e-3 of the cloud's extent, or 1e-3) and b = r1 / beta. Points that
+/// are not finite get 0.
 /// @p query must be built on @p points. Errors: those of settings.check(), InvalidParameter for more points
 /// than NeighborQuery takes.
-/// Cost: for the k nearest, k up to 63, about 200 ns a point at k = 16; else that of a query for each point.
+/// Cost: for the k nearest, k up to 71, about 200 ns a point at k = 16; else that of a query for each point.
 /// Results are the same bit for bit for every @p executor, and for float and double points of equal values; b
 /// is within 1e-9 relative of the definition (LocalBandwidthTest), and scales with the cloud.
 Status localBandwidths(const PointView& points, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
+  const Executor& executor = {});
+
+/// The radii of the points at @p slots of @p query alone, in that order: those of localBandwidths, bit for
+/// bit, without its work for all the others. For a few of many points: about 2 us each at k = 16. All points
+/// are looked at only where that is asked for (smoothRadius) or needed (one of the neighbourhoods has no
+/// spread). Errors as for localBandwidths. Independent of @p executor.
+Status localRadiiAt(const PointView& points, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
   const Executor& executor = {});
 
 /// Cuts @p radii (one per point that @p query was built on, in their order) to min_j (r_j + slope |x_i -

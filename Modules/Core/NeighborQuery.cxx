@@ -180,6 +180,18 @@ struct NeighborQuery::Search
 int NeighborQuery::nearestSlots(const Vec3& center, int k, Neighbor* neighbors) const noexcept
 {
   Search search{ { center.x, center.y, center.z }, k, neighbors, 0 };
+  if (k > 0 && k <= kernel::kMostSwept && k <= size())
+  {
+    kernel::LeafSearch around;
+    if (kernels_->searchPlace(tree_, search.center, k, around))
+    {
+      for (int i = 0; i < k; ++i)
+      {
+        neighbors[i] = { around.squaredDistances[0][i], packed(around.neighbors[0][i]) };
+      }
+      return k;
+    }
+  }
   if (k > 0 && size() > 0)
   {
     searchGroup(tree_.levels - 1, 0, search);

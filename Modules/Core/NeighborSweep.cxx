@@ -39,7 +39,7 @@ int NeighborSweep::searchLeaf(std::int64_t leaf)
   {
     if (!(search_->reach > 0.0))
     {
-      const NeighborList list = searchAlone(first);
+      const NeighborList list = alone(first);
       search_->reach = kFirstMargin * list.squaredDistances[list.count - 1];
     }
     kernels_->searchLeaf(query_.tree(), leaf, k_, *search_);
@@ -54,12 +54,19 @@ NeighborList NeighborSweep::listOf(std::int64_t leaf, int i)
   {
     return { slot, k_, search_->squaredDistances[i], search_->neighbors[i] };
   }
-  return searchAlone(slot);
+  return alone(slot);
 }
 
-NeighborList NeighborSweep::searchAlone(std::int64_t slot)
+NeighborList NeighborSweep::alone(std::int64_t slot)
 {
+  // Points at one place stand side by side and have one answer: a crowd of them is asked for once.
+  if (lastCount_ > 0 && query_.point(slot) == lastPlace_)
+  {
+    return { slot, lastCount_, squaredDistances_.data(), slots_.data() };
+  }
   const int count = query_.nearestSlots(query_.point(slot), k_, alone_.data());
+  lastCount_ = count;
+  lastPlace_ = query_.point(slot);
   for (int i = 0; i < count; ++i)
   {
     squaredDistances_[std::size_t(i)] = alone_[std::size_t(i)].squaredDistance;

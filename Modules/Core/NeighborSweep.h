@@ -32,7 +32,7 @@ struct NeighborList
 /// One worker's memory for the neighbours of many points: 60 KiB and 28 bytes per neighbour asked for. The
 /// results are those of NeighborQuery::nearest, bit for bit; leaf by leaf they cost a fraction, as the points
 /// of a leaf share their candidates and each search begins with what the one before has found. Where the
-/// neighbours are more than 64, or the guesses fail (a point apart, a crowd of duplicates), the points are
+/// neighbours are more than 72, or the guesses fail (a point apart, a crowd of duplicates), the points are
 /// asked for one by one. Allocates in the constructor only. One thread at a time.
 class NeighborSweep
 {
@@ -63,15 +63,20 @@ public:
     }
   }
 
+  /// The neighbours of one point. Valid until the next call.
+  NeighborList alone(std::int64_t slot);
+
 private:
   int searchLeaf(std::int64_t leaf);
   NeighborList listOf(std::int64_t leaf, int i);
-  NeighborList searchAlone(std::int64_t slot);
 
   const NeighborQuery& query_;
   const int k_;
   const kernel::NeighborKernels* kernels_; ///< Null: every point alone.
   std::unique_ptr<kernel::LeafSearch> search_;
+  // The last point that was asked for alone, and its neighbours.
+  Vec3 lastPlace_;
+  int lastCount_ = 0;
   std::vector<Neighbor> alone_;
   std::vector<double> squaredDistances_;
   std::vector<std::uint32_t> slots_;

@@ -25,11 +25,11 @@ bool isUsable(double value)
 
 }
 
-bool SheatherJones::begin(const double* sorted, std::int64_t count, double scale)
+Status SheatherJones::begin(const double* sorted, std::int64_t count, double scale)
 {
   if (count < 2 || !isUsable(scale))
   {
-    return false;
+    return Status::DegenerateSample;
   }
   sorted_ = sorted;
   count_ = count;
@@ -38,7 +38,7 @@ bool SheatherJones::begin(const double* sorted, std::int64_t count, double scale
   thirdDerivative_ = roughness(1.23 * std::pow(n_, -1.0 / 9.0), 3);
   pilotFactor_ =
     1.357 * std::pow(roughness(1.24 * std::pow(n_, -1.0 / 7.0), 2) / thirdDerivative_, 1.0 / 7.0);
-  return isUsable(thirdDerivative_) && isUsable(pilotFactor_);
+  return isUsable(thirdDerivative_) && isUsable(pilotFactor_) ? Status::Ok : Status::EquationUnsolved;
 }
 
 /// Integral of the squared second or third derivative of the density with unit scale.
@@ -131,15 +131,19 @@ double SheatherJones::root(double low, double high, double atLow, double atHigh)
 Status SheatherJones::solveTheEquation(
   const double* sorted, std::int64_t count, double scale, double& bandwidth)
 {
-  double low = 0.0, high = 0.0, atLow = 0.0, atHigh = 0.0;
-  if (!begin(sorted, count, scale) || !bracket(low, high, atLow, atHigh))
+  if (const Status status = begin(sorted, count, scale); status != Status::Ok)
   {
-    return Status::DegenerateSample;
+    return status;
+  }
+  double low = 0.0, high = 0.0, atLow = 0.0, atHigh = 0.0;
+  if (!bracket(low, high, atLow, atHigh))
+  {
+    return Status::EquationUnsolved;
   }
   const double result = std::exp(root(low, high, atLow, atHigh)) * scale_;
   if (!isUsable(result))
   {
-    return Status::DegenerateSample;
+    return Status::EquationUnsolved;
   }
   bandwidth = result;
   return Status::Ok;
@@ -147,14 +151,14 @@ Status SheatherJones::solveTheEquation(
 
 Status SheatherJones::directPlugIn(const double* sorted, std::int64_t count, double scale, double& bandwidth)
 {
-  if (!begin(sorted, count, scale))
+  if (const Status status = begin(sorted, count, scale); status != Status::Ok)
   {
-    return Status::DegenerateSample;
+    return status;
   }
   const double result = optimal(std::pow(2.394 / (n_ * thirdDerivative_), 1.0 / 7.0)) * scale_;
   if (!isUsable(result))
   {
-    return Status::DegenerateSample;
+    return Status::EquationUnsolved;
   }
   bandwidth = result;
   return Status::Ok;

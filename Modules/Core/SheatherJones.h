@@ -31,14 +31,15 @@ class SheatherJones
 {
 public:
   /// @p sorted: @p count ascending finite values; @p scale s in their unit: min(sd, IQR / 1.349), or sd where
-  /// the quartiles coincide. @p bandwidth in their unit. DegenerateSample, and @p bandwidth untouched, where
-  /// count < 2, scale is not above 0 or not finite, or no positive finite solution was found within a factor
-  /// of 1e15.
+  /// the quartiles coincide. @p bandwidth in their unit. Errors, which leave @p bandwidth untouched:
+  /// DegenerateSample where count < 2 or scale is not above 0 or not finite; EquationUnsolved where no positive
+  /// finite solution was found within a factor of 1e15, as where the values stand at the end of the range of
+  /// double numbers.
   Status solveTheEquation(const double* sorted, std::int64_t count, double scale, double& bandwidth);
   Status directPlugIn(const double* sorted, std::int64_t count, double scale, double& bandwidth);
 
 private:
-  bool begin(const double* sorted, std::int64_t count, double scale);
+  Status begin(const double* sorted, std::int64_t count, double scale);
   double roughness(double g, int derivative);
   double optimal(double g);
   double excess(double logarithm);

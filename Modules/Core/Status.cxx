@@ -30,6 +30,9 @@ const char* sentence(Status status) noexcept
       return "the radius bounds must be finite, not negative, and r1 not above r2";
     case Status::DegenerateSample:
       return "the sample has no spread: fewer than two distinct values";
+    case Status::EquationUnsolved:
+      return "the equation of the rule has no solution in double numbers: scale the values, or use another "
+             "rule";
     case Status::InvalidParameter:
       return "a parameter is outside its documented range";
     case Status::Aborted:

@@ -17,6 +17,7 @@ enum class [[nodiscard]] Status{
   InvalidNeighborhood,   ///< Number of neighbours below 1, or radius not above 0.
   InvalidRadiusBounds,   ///< r1 > r2, or a bound that is negative or not finite.
   DegenerateSample,      ///< Fewer than two distinct values: no spread to take a bandwidth from.
+  EquationUnsolved,      ///< The rule's equation has no solution in double numbers.
   InvalidParameter,      ///< A parameter outside its documented range.
   Aborted,               ///< The caller asked for an end of the work.
   DeviceNotOpen,         ///< Read or write on a device that is not open.

@@ -91,12 +91,8 @@ void addArray(vtkPolyData* output, const char* name, const std::vector<double>& 
 
 }
 
-int vtkKernelBandwidthFilter::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+LocalBandwidthSettings vtkKernelBandwidthFilter::GetSettings() const
 {
-  auto* input = vtkPolyData::GetData(inputVector[0]);
-  auto* output = vtkPolyData::GetData(outputVector);
-
   LocalBandwidthSettings settings;
   settings.fixedRadius = this->Neighborhood == FixedRadius;
   settings.numberOfNeighbors = this->NumberOfNeighbors;
@@ -105,6 +101,17 @@ int vtkKernelBandwidthFilter::RequestData(
   settings.radiusScale = this->RadiusScale;
   settings.minimumRadius = this->MinimumRadius;
   settings.maximumRadius = this->MaximumRadius;
+  settings.smoothRadius = this->SmoothRadius;
+  return settings;
+}
+
+int vtkKernelBandwidthFilter::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  auto* input = vtkPolyData::GetData(inputVector[0]);
+  auto* output = vtkPolyData::GetData(outputVector);
+
+  LocalBandwidthSettings settings = this->GetSettings();
   settings.smoothRadius = this->SmoothRadius && this->ComputeProxyRadius;
   const Status status = settings.check();
   if (status != Status::Ok)

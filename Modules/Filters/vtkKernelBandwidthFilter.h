@@ -177,6 +177,12 @@ public:
   vtkBooleanMacro(ComputeDensity, bool);
   ///@}
 
+  /**
+   * The settings as Core's functions take them, for those who want the radii of a few points only, as
+   * pointhaptics::HapticScene does. Include Core/LocalBandwidth.h for it.
+   */
+  pointhaptics::LocalBandwidthSettings GetSettings() const;
+
 protected:
   vtkKernelBandwidthFilter() = default;
   ~vtkKernelBandwidthFilter() override = default;

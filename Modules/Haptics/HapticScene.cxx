@@ -1,5 +1,7 @@
 #include "Haptics/HapticScene.h"
 
+#include "Haptics/NodeRadii.h"
+
 #include "Core/FitRadius.h"
 
 #include <algorithm>
@@ -86,9 +88,9 @@ double typicalSpacing(const CellPyramid& pyramid, double extent)
 }
 
 /// Builds the pyramid with cells as asked for, or coarser where those would be empty between the points.
-Status buildPyramid(std::vector<Cell> cells, double asked, double extent, CellPyramid& pyramid,
-  std::vector<std::uint32_t>& source)
+Status buildPyramid(std::vector<Cell> cells, double asked, double extent, CellPyramid& pyramid)
 {
+  std::vector<std::uint32_t> source;
   const double guess = extent > 0.0 ? extent / std::sqrt(double(cells.size())) : kCellWithoutExtent;
   const double first = asked > 0.0 ? std::max(asked, extent / kMostCellsAcross) : guess;
   const Status status = pyramid.build(cells, first, source);
@@ -101,31 +103,7 @@ Status buildPyramid(std::vector<Cell> cells, double asked, double extent, CellPy
   return fits || !(wanted > 0.0) ? Status::Ok : pyramid.build(std::move(cells), wanted, source);
 }
 
-/// Proxy radii of the nodes: the mean of the cells' about each.
-void averageRadii(const CellPyramid& pyramid, int nodeLevel, const std::vector<double>& radii,
-  std::vector<LocalScale>& values)
-{
-  const auto& nodes = pyramid.level(nodeLevel);
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    double sum = 0.0;
-    double count = 0.0;
-    double reach = nodes.voxelSize;
-    while (count == 0.0)
-    {
-      pyramid.visitBall(0, nodes.cells[i].mean, reach,
-        [&](std::uint32_t cell, const Cell&, double)
-        {
-          sum += radii[cell];
-          count += 1.0;
-        });
-      reach *= 2.0;
-    }
-    values[i].proxyRadius = sum / count;
-  }
-}
-
-std::vector<Cell> finiteCells(const HapticSceneInput& input, std::vector<double>& radii)
+std::vector<Cell> finiteCells(const HapticSceneInput& input)
 {
   std::vector<Cell> cells;
   cells.reserve(input.points.size());
@@ -143,10 +121,6 @@ std::vector<Cell> finiteCells(const HapticSceneInput& input, std::vector<double>
       cell.covariance = input.covariances[i];
     }
     cells.push_back(cell);
-    if (!input.proxyRadii.empty())
-    {
-      radii.push_back(input.proxyRadii[i]);
-    }
   }
   return cells;
 }
@@ -166,8 +140,7 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   {
     return nullptr;
   }
-  std::vector<double> radii;
-  std::vector<Cell> cells = finiteCells(input, radii);
+  std::vector<Cell> cells = finiteCells(input);
   if (cells.empty())
   {
     status = Status::Empty;
@@ -182,37 +155,39 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   const double extent = norm(scene->bounds_.extent());
   const auto merged = [](const Cell& cell) { return cell.count > 1.0; };
   scene->exactMoments_ = !input.covariances.empty() || std::none_of(cells.begin(), cells.end(), merged);
-  std::vector<std::uint32_t> source;
-  status = buildPyramid(std::move(cells), input.cellSize, extent, scene->pyramid_, source);
-  input = HapticSceneInput();
+  status = buildPyramid(std::move(cells), input.cellSize, extent, scene->pyramid_);
   if (status != Status::Ok)
   {
     return nullptr;
   }
   const double size = scene->cellSize();
   const int nodeLevel = RadiusField::nodeLevel(scene->pyramid_);
-  const std::size_t nodes = scene->pyramid_.level(nodeLevel).cells.size();
-  const double largest = std::max(extent, kLargestFitRadiusInCells * size);
-  std::vector<LocalScale> scales =
-    fitScales(scene->pyramid_, largest, kLargestFitRadiusInCells * size, executor);
-  if (radii.empty())
+  const CellPyramid::Level& nodes = scene->pyramid_.level(nodeLevel);
+  std::vector<double> radii;
+  if (input.proxyRadii.empty() && !input.bandwidth)
   {
     std::vector<double> distances;
-    for (std::size_t i = 0; i < nodes; ++i)
+    for (const Cell& node : nodes.cells)
     {
-      const Vec3 node = scene->pyramid_.level(nodeLevel).cells[i].mean;
-      const double spacing = localSpacing(scene->pyramid_, node, extent, distances);
-      scales[i].proxyRadius = kRadiusInSpacings * std::max(spacing, size);
+      const double spacing = localSpacing(scene->pyramid_, node.mean, extent, distances);
+      radii.push_back(kRadiusInSpacings * std::max(spacing, size));
     }
   }
   else
   {
-    std::vector<double> sorted(radii.size());
-    for (std::size_t i = 0; i < sorted.size(); ++i)
+    status = nodeRadii(nodes, input, radii, executor);
+    if (status != Status::Ok)
     {
-      sorted[i] = radii[source[i]];
+      return nullptr;
     }
-    averageRadii(scene->pyramid_, nodeLevel, sorted, scales);
+  }
+  input = HapticSceneInput();
+  const double largest = std::max(extent, kLargestFitRadiusInCells * size);
+  std::vector<LocalScale> scales =
+    fitScales(scene->pyramid_, largest, kLargestFitRadiusInCells * size, executor);
+  for (std::size_t i = 0; i < radii.size(); ++i)
+  {
+    scales[i].proxyRadius = radii[i];
   }
   scene->scale_.build(scene->pyramid_, std::move(scales));
   scene->pyramid_.forgiveNoise(

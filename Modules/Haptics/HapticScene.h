@@ -6,10 +6,12 @@
 #include "Core/CellPyramid.h"
 #include "Core/Executor.h"
 #include "Core/FitCells.h"
+#include "Core/LocalBandwidth.h"
 #include "Core/RadiusField.h"
 #include "Core/Status.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pointhaptics
@@ -22,7 +24,11 @@ struct HapticSceneInput
   std::vector<Vec3> points;         ///< Voxel means, or raw points.
   std::vector<double> counts;       ///< Points each one stands for; empty: 1 each.
   std::vector<SymMat3> covariances; ///< Central second moments of each voxel; empty: zero.
-  std::vector<double> proxyRadii;   ///< From the bandwidth; empty: 2.8 local spacings everywhere.
+  std::vector<double> proxyRadii;   ///< From the bandwidth; empty: found as the next line says.
+  /// The rule for the radii, of which only those that the scene needs are computed, a few in a hundred: the
+  /// scene is the same, bit for bit, as with the proxyRadii of localBandwidths. Neither: 2.8 local spacings
+  /// everywhere.
+  std::optional<LocalBandwidthSettings> bandwidth;
   /// Edge of the finest index cell: the voxel size; 0: from the points' spacing. Raised to 0.8 typical
   /// spacings where the points are sparser: finer cells would be empty.
   double cellSize = 0.0;
@@ -36,8 +42,8 @@ class HapticScene
 public:
   /// Copies nothing it can move. Points that are not finite are left out. Cost O(n log n), about 150 bytes a
   /// point. Errors: Empty (no finite point), LatticeNotAddressable (the points' spacing is below
-  /// 2^-21 of the extent), InvalidParameter (vectors of different lengths), the transform's own; @p status
-  /// says which, the result is null.
+  /// 2^-21 of the extent), InvalidParameter (vectors of different lengths), those of the bandwidth's
+  /// settings, the transform's own; @p status says which, the result is null.
   /// @p executor may spread the work over threads; the result is the same.
   static std::shared_ptr<const HapticScene> create(
     HapticSceneInput input, Status& status, const Executor& executor = {});

@@ -1,5 +1,9 @@
 #include "CloudAppearance.h"
 
+#include "SmpExecutor.h"
+
+#include "Core/LocalBandwidth.h"
+
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCameraPass.h"
@@ -168,9 +172,29 @@ double medianSpacing(vtkPolyData* cloud)
 {
   // The default radius of the proxy is 2.8 local spacings.
   constexpr double kRadiusPerSpacing = 2.8;
-  vtkDataArray* radii = cloud->GetPointData()->GetArray("ProxyRadius");
-  std::vector<double> values = radii ? finiteSample(radii) : std::vector<double>();
-  return values.empty() ? 0.0 : values[values.size() / 2] / kRadiusPerSpacing;
+  constexpr std::int64_t kSample = 1000;
+  std::vector<Vec3> places(std::size_t(cloud->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    cloud->GetPoint(vtkIdType(i), &places[i].x);
+  }
+  const PointView points(places.data(), std::int64_t(places.size()));
+  NeighborQuery query;
+  query.build(points, SmpExecutor());
+  std::vector<std::int64_t> slots;
+  for (std::int64_t slot = 0; slot < query.size(); slot += 1 + query.size() / kSample)
+  {
+    slots.push_back(slot);
+  }
+  std::vector<double> radii;
+  if (localRadiiAt(points, query, LocalBandwidthSettings(), slots, radii, SmpExecutor()) != Status::Ok ||
+    radii.empty())
+  {
+    return 0.0;
+  }
+  const auto middle = radii.begin() + std::ptrdiff_t(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle / kRadiusPerSpacing;
 }
 
 double pointSizeFor(double spacing, vtkRenderer* renderer)

@@ -49,7 +49,7 @@ POINTHAPTICSINTERACTION_EXPORT void applyBackground(vtkRenderer* renderer);
 /// size.
 POINTHAPTICSINTERACTION_EXPORT void applyDepthShading(vtkRenderer* renderer, double sceneSize);
 
-/// Median distance between neighbours, from the array ProxyRadius of default settings; 0 without it.
+/// Median distance between neighbours, of a sample of the points; 0 where there are none.
 POINTHAPTICSINTERACTION_EXPORT double medianSpacing(vtkPolyData* cloud);
 
 /// Pixels at which points @p spacing apart, at the camera's focal point, close to a surface: 3 to 9.

@@ -68,7 +68,8 @@ std::vector<SymMat3> copyCovariances(vtkDataArray* array)
 
 } // namespace
 
-std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& status, bool useCovariance)
+std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& status, bool useCovariance,
+  const std::optional<LocalBandwidthSettings>& bandwidth)
 {
   if (!cloud || cloud->GetNumberOfPoints() == 0)
   {
@@ -83,6 +84,7 @@ std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& s
   }
   input.counts = copyScalars(pointArray(cloud, "VoxelPointCount", 1));
   input.proxyRadii = copyScalars(pointArray(cloud, "ProxyRadius", 1));
+  input.bandwidth = bandwidth;
   if (useCovariance)
   {
     input.covariances = copyCovariances(pointArray(cloud, "VoxelCovariance", 6));

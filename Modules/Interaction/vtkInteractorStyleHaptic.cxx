@@ -206,7 +206,12 @@ void vtkInteractorStyleHaptic::PublishScene(vtkPolyData* cloud)
   parts.numberOfPoints = points ? points->GetNumberOfPoints() : 0;
   parts.numberOfVoxels = cloud->GetNumberOfPoints();
   pointhaptics::Status status = pointhaptics::Status::Ok;
-  auto scene = pointhaptics::makeHapticScene(cloud, status, this->UseCovariance);
+  std::optional<pointhaptics::LocalBandwidthSettings> bandwidth;
+  if (parts.bandwidth)
+  {
+    bandwidth = parts.bandwidth->GetSettings();
+  }
+  auto scene = pointhaptics::makeHapticScene(cloud, status, this->UseCovariance, bandwidth);
   if (!scene && status != pointhaptics::Status::Empty)
   {
     vtkErrorMacro("The model cannot be felt as it stands: " << pointhaptics::sentence(status)

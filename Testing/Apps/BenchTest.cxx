@@ -85,6 +85,51 @@ TEST_F(Bench, TheChosenContestantsRunAndNoOthers)
   EXPECT_FALSE(result.contains("zoom"));
 }
 
+TEST_F(Bench, EveryAnswerOfTheBandwidthStudiesIsRight)
+{
+  const json result =
+    json::parse(this->succeed({ "bench", "bandwidth", "--quick", "--repetitions", "1", "--json" }));
+  EXPECT_EQ(result["task"], "bandwidth");
+  ASSERT_FALSE(result["search"]["rows"].empty());
+  for (const json& row : result["search"]["rows"])
+  {
+    EXPECT_EQ(row["right"], true) << row;
+    EXPECT_GT(row["times_ours"], 0.0) << row;
+    EXPECT_LE(row["worst_relative_error"], row["contestant"] == "ours" ? 1e-14 : 1e-6) << row;
+  }
+  for (const char* study : { "touch", "truncation", "sums" })
+  {
+    ASSERT_FALSE(result[study]["rows"].empty()) << study;
+    for (const json& row : result[study]["rows"])
+    {
+      EXPECT_EQ(row["right"], true) << row;
+    }
+  }
+  // A ball hardly follows the density; the nearest neighbours do.
+  for (const json& row : result["settling"]["rows"])
+  {
+    if (row["neighbors"] == 16)
+    {
+      EXPECT_NEAR(row["step_radius_ratio"], row["neighborhood"] == "ball" ? 1.7 : 4.0, 0.5) << row;
+    }
+  }
+  EXPECT_GT(result["lattice"]["rows"][0]["points"], result["lattice"]["rows"][5]["points"]);
+  EXPECT_EQ(result["rules"]["rows"].size(), 8u);
+}
+
+TEST_F(Bench, ARealCloudJoinsTheSearchAndIsCalledByItsName)
+{
+  this->succeed({ "generate", "torus", "-n", "2000", "-o", "ring.ply" });
+  const json result =
+    json::parse(this->succeed({ "bench", "bandwidth", "--quick", "--repetitions", "1", "--studies", "search",
+      "--rivals", "none", "--threads", "1", "--file", this->path("ring.ply"), "--json" }));
+  ASSERT_EQ(result["search"]["rows"].size(), 3u);
+  EXPECT_EQ(result["search"]["rows"][2]["cloud"], "ring.ply");
+  EXPECT_NE(result["command"].get<std::string>().find("--file ring.ply"), std::string::npos);
+  this->refuse(1, { "bench", "bandwidth", "--quick", "--studies", "search", "--file", "none.ply" },
+    { "bench", "none.ply" });
+}
+
 TEST_F(Bench, TheReportIsAPageThatKeepsItsOtherSections)
 {
   std::filesystem::create_directory(this->path("doc"));
@@ -217,6 +262,8 @@ TEST_F(Bench, BadOptionsAreUsageErrors)
   const auto refuseOption = [this](const char* option, const char* value, const char* part) {
     this->refuse(2, { "bench", "resample", option, value }, { "bench resample", option, value, part });
   };
+  this->refuse(2, { "bench", "bandwidth", "--neighbors", "0" }, { "bench bandwidth", "--neighbors" });
+  this->refuse(2, { "bench", "bandwidth", "--rivals", "cgal" }, { "bench bandwidth", "--rivals", "vtk" });
   refuseOption("--points", "0", "from 1 to");
   refuseOption("--points", "1e9", "100000000");
   refuseOption("--points", "ten", "whole numbers");

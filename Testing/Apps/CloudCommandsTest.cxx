@@ -87,6 +87,13 @@ TEST_F(CloudCommands, ResampleDropsWhatIsOutsideOrNotANumber)
   EXPECT_EQ(counts["points_invalid"], 2);
 }
 
+TEST_F(CloudCommands, BandwidthRefusesACloudWithoutAValidPoint)
+{
+  this->write("in.csv", "x,y,z\nnan,0,0\n0,inf,0\n");
+  this->refuse(1, { "bandwidth", "in.csv", "-o", "out.csv" }, { "bandwidth", "in.csv", "2 points", "NaN" });
+  EXPECT_FALSE(this->exists("out.csv"));
+}
+
 TEST_F(CloudCommands, TransformsApplyInTheirOrder)
 {
   this->write("in.csv", "x,y,z\n1,0,0\n");

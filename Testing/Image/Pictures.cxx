@@ -2,12 +2,14 @@
 
 #include "CloudAppearance.h"
 #include "CloudOrientation.h"
+#include "HapticSceneBuilder.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Shapes.h"
 #include "Core/Vector3.h"
+#include "Haptics/Proxy.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -23,7 +25,10 @@
 #include <vtkScalarsToColors.h>
 #include <vtkSmartPointer.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace pointhaptics
@@ -144,9 +149,13 @@ ProxyState contactAt(const Vec3& point, const Vec3& normal, double depth, double
   return state;
 }
 
-void showTouch(vtkRenderer* renderer, const ProxyState& state)
+void showTouch(vtkRenderer* renderer, const ProxyState& state, const double* workspace = nullptr)
 {
   vtkNew<vtkHapticProps> props;
+  if (workspace)
+  {
+    props->SetWorkspaceBounds(workspace);
+  }
   props->AddTo(renderer);
   props->Update(state);
 }
@@ -158,13 +167,13 @@ void showWorkspace(vtkRenderer* renderer)
 }
 
 /// Voxel means of a sphere, far enough apart to tell them from each other, in the workspace.
-void buildVoxelMeans(bool dropsPoint, vtkRenderer* renderer)
+void buildVoxelMeans(const std::string& fault, vtkRenderer* renderer)
 {
   const vtkSmartPointer<vtkPolyData> cloud = cloudOf(spiralSphere(4000, 0.038));
   addHeightArray(cloud, { 0, 0, 1 });
   vtkSmartPointer<vtkPolyData> means = resample(cloud, 0.008);
   look(renderer);
-  if (dropsPoint)
+  if (fault == "dropped-point")
   {
     Vec3 camera;
     renderer->GetActiveCamera()->GetPosition(&camera.x);
@@ -175,7 +184,7 @@ void buildVoxelMeans(bool dropsPoint, vtkRenderer* renderer)
 }
 
 /// The proxy on a sphere: pink sphere, green normal, force arrow.
-void buildSphereContact(bool shiftsProxy, vtkRenderer* renderer)
+void buildSphereContact(const std::string& fault, vtkRenderer* renderer)
 {
   const vtkSmartPointer<vtkPolyData> cloud = cloudOf(spiralSphere(20000, 0.03));
   addHeightArray(cloud, { 0, 0, 1 });
@@ -183,15 +192,30 @@ void buildSphereContact(bool shiftsProxy, vtkRenderer* renderer)
   showCloud(renderer, resample(cloud, 0.002), kHeightArrayName, 4.0);
   const Vec3 normal = normalized(Vec3{ 0.9, -0.6, 0.7 });
   ProxyState state = contactAt(0.03 * normal, normal, 0.004, 0.004);
-  if (shiftsProxy)
+  if (fault == "shifted-proxy")
   {
     state.sphereCenter += Vec3{ 0.0, 0.0, kProxyShift };
   }
   showTouch(renderer, state);
 }
 
-/// ProxyRadius as colour over a step of density, with the small and the large proxy it gives.
-void buildProxyRadiusMap(bool wrongColors, vtkRenderer* renderer)
+/// What a hand feels that comes down at @p place, to @p depth below z = 0.
+ProxyState touchFromAbove(const HapticScene& scene, const Vec3& place, double depth)
+{
+  Proxy proxy;
+  proxy.setScene(&scene);
+  ProxyState state;
+  Vec3 hip = place;
+  for (hip.z = 0.01; hip.z > -depth; hip.z -= 1e-4)
+  {
+    state = proxy.step(hip, 0.001);
+  }
+  return state;
+}
+
+/// A dense and a sparse region, coloured by ProxyRadius, with the small and the large proxy that stand there
+/// and their normals: the paper's figure.
+void buildDensityProxies(const std::string& fault, vtkRenderer* renderer)
 {
   std::vector<Vec3> points;
   if (generateShape(Shape::DensityStep, 12000, 7, 0.0, points) != Status::Ok)
@@ -199,41 +223,67 @@ void buildProxyRadiusMap(bool wrongColors, vtkRenderer* renderer)
     return;
   }
   const vtkSmartPointer<vtkPolyData> means = resample(cloudOf(points), 0.0005);
+  Status status = Status::Ok;
+  const std::shared_ptr<const HapticScene> scene = makeHapticScene(means, status);
+  if (!scene)
+  {
+    return;
+  }
   look(renderer);
-  renderer->GetActiveCamera()->Elevation(25.0);
+  renderer->GetActiveCamera()->Elevation(12.0);
   renderer->GetActiveCamera()->OrthogonalizeViewUp();
-  showCloud(renderer, means, "ProxyRadius", 4.0, wrongColors ? kColorShift : 0.0);
-  double range[2];
-  means->GetPointData()->GetArray("ProxyRadius")->GetRange(range);
-  const Vec3 up{ 0, 0, 1 };
-  showTouch(renderer, contactAt({ 0.025, 0, 0 }, up, 0.002, 0.25 * range[1]));
-  showTouch(renderer, contactAt({ -0.025, 0, 0 }, up, 0.002, range[1]));
+  renderer->GetActiveCamera()->Zoom(1.75);
+  showCloud(renderer, means, "ProxyRadius", 4.0, fault == "wrong-color" ? kColorShift : 0.0);
+  const ProxyState small = touchFromAbove(*scene, { 0.018, 0.0, 0.0 }, 0.002);
+  ProxyState large = touchFromAbove(*scene, { -0.018, 0.0, 0.0 }, 0.002);
+  if (fault == "equal-radii")
+  {
+    large.sphereCenter += (small.radius - large.radius) * large.normal;
+    large.radius = small.radius;
+  }
+  // A frame close about the two, where the workspace's would be.
+  const double frame[6] = { -0.04, 0.04, -0.04, 0.04, -0.001, 0.015 };
+  showTouch(renderer, small, frame);
+  showTouch(renderer, large, frame);
+}
+
+/// The statue coloured by ProxyRadius: dark blue where it is dense, at the face, yellow where it is sparse.
+void buildIdolRadius(const std::string& fault, vtkRenderer* renderer)
+{
+  std::vector<Vec3> points;
+  if (generateShape(Shape::Idol, 40000, 3, 0.0, points) != Status::Ok)
+  {
+    return;
+  }
+  look(renderer);
+  renderer->GetActiveCamera()->Zoom(1.65);
+  showCloud(renderer, resample(cloudOf(points), 0.0005), "ProxyRadius", 3.0,
+    fault == "wrong-color" ? kColorShift : 0.0);
 }
 
 } // namespace
 
 bool buildPicture(const std::string& name, const std::string& mutation, vtkRenderer* renderer)
 {
-  const auto build = [&](void (*function)(bool, vtkRenderer*), const char* fault)
+  struct Picture
   {
-    const bool known = mutation.empty() || mutation == fault;
-    if (known)
-    {
-      function(!mutation.empty(), renderer);
-    }
-    return known;
+    const char* name;
+    std::vector<std::string> faults;
+    void (*build)(const std::string& fault, vtkRenderer* renderer);
   };
-  if (name == "VoxelMeans")
+  const Picture pictures[] = { { "VoxelMeans", { "dropped-point" }, buildVoxelMeans },
+    { "SphereContact", { "shifted-proxy" }, buildSphereContact },
+    { "DensityProxies", { "wrong-color", "equal-radii" }, buildDensityProxies },
+    { "IdolRadius", { "wrong-color" }, buildIdolRadius } };
+  for (const Picture& picture : pictures)
   {
-    return build(buildVoxelMeans, "dropped-point");
-  }
-  if (name == "SphereContact")
-  {
-    return build(buildSphereContact, "shifted-proxy");
-  }
-  if (name == "ProxyRadiusMap")
-  {
-    return build(buildProxyRadiusMap, "wrong-color");
+    const bool known = mutation.empty() ||
+      std::find(picture.faults.begin(), picture.faults.end(), mutation) != picture.faults.end();
+    if (name == picture.name && known)
+    {
+      picture.build(mutation, renderer);
+      return true;
+    }
   }
   return false;
 }

@@ -13,7 +13,7 @@ namespace testing
 {
 
 /// Fills @p renderer with the picture @p name, with the fault @p mutation in it ("": none): dropped-point,
-/// shifted-proxy or wrong-color. False: there is no such picture, or it does not know that fault.
+/// shifted-proxy, wrong-color or equal-radii. False: there is no such picture, or it does not know that fault.
 bool buildPicture(const std::string& name, const std::string& mutation, vtkRenderer* renderer);
 
 } // namespace testing

@@ -14,7 +14,7 @@ namespace kernel
 {
 
 /// Most neighbours these loops look for, the point itself among them.
-constexpr int kMostSwept = 64;
+constexpr int kMostSwept = 72;
 /// Most points that may be within reach of a leaf.
 constexpr int kMostCandidates = 1024;
 /// Most points within reach of a point that are ranked by comparing each with each.
@@ -49,6 +49,9 @@ struct NeighborKernels
   /// The @p k nearest points (1 to kMostSwept) of each point of @p leaf. Points that the guess does not do
   /// for are left out of search.found.
   void (*searchLeaf)(const NeighborTree& tree, std::int64_t leaf, int k, LeafSearch& search);
+  /// The @p k nearest points (1 to kMostSwept) of a place, nearest first: the first row of the answers. False
+  /// where there are fewer in its surroundings, or too many at the same distance: no answer then.
+  bool (*searchPlace)(const NeighborTree& tree, const double (&center)[3], int k, LeafSearch& search);
   /// Squared distances of a point from all boxes of a group (those not in use too), each never above that of
   /// a point in the box.
   void (*groupGaps)(const BoxGroup& group, const double (&center)[3], double (&gaps)[kBranches]);

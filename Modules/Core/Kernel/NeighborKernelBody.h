@@ -27,6 +27,9 @@ constexpr double kFarther = 2.5;
 /// all points of the next leaf.
 constexpr double kPointMargin = 1.5;
 constexpr double kLeafMargin = 1.2;
+/// Candidates beyond half as many again as are wanted that make it worth while to lower a single search's
+/// reach.
+constexpr int kSurplus = 4;
 
 struct Box
 {
@@ -288,6 +291,30 @@ double searchPoint(
   return search.squaredDistances[at][k - 1];
 }
 
+/// Points at one place stand side by side and have one answer. @return whether it was there to be copied from
+/// the point before.
+bool copyFromTwin(const NeighborTree& tree, std::int64_t slot, int at, int k, LeafSearch& search)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (at == 0 || tree.places[axis][slot] != tree.places[axis][slot - 1])
+    {
+      return false;
+    }
+  }
+  if ((search.found >> (at - 1) & 1u) == 0)
+  {
+    return false;
+  }
+  for (int i = 0; i < k; ++i)
+  {
+    search.squaredDistances[at][i] = search.squaredDistances[at - 1][i];
+    search.neighbors[at][i] = search.neighbors[at - 1][i];
+  }
+  search.found |= 1u << at;
+  return true;
+}
+
 /// @return the largest squared distance found, 0 for none.
 template <typename Set>
 double searchPoints(const NeighborTree& tree, std::int64_t leaf, int k, double reach, LeafSearch& search)
@@ -298,7 +325,7 @@ double searchPoints(const NeighborTree& tree, std::int64_t leaf, int k, double r
   double near = reach;
   for (int at = 0; at < points; ++at)
   {
-    if ((search.found >> at & 1u) == 0)
+    if ((search.found >> at & 1u) == 0 && !copyFromTwin(tree, first + at, at, k, search))
     {
       const double d2 = searchPoint<Set>(tree, first + at, at, k, near, reach, search);
       largest = d2 > largest ? d2 : largest;
@@ -330,6 +357,31 @@ void searchLeaf(const NeighborTree& tree, std::int64_t leaf, int k, LeafSearch& 
   search.reach = search.found == all ? kLeafMargin * largest : 0.0;
 }
 
+/// Of the points from @p slot, one vector of them.
+template <typename Set>
+typename Set::Doubles squaredDistances(const NeighborTree& tree, std::int64_t slot, const double (&center)[3])
+{
+  const auto dx = Set::subtract(Set::load(tree.places[0] + slot), Set::all(center[0]));
+  const auto dy = Set::subtract(Set::load(tree.places[1] + slot), Set::all(center[1]));
+  const auto dz = Set::subtract(Set::load(tree.places[2] + slot), Set::all(center[2]));
+  return Set::add(Set::add(Set::multiply(dx, dx), Set::multiply(dy, dy)), Set::multiply(dz, dz));
+}
+
+template <typename Set>
+unsigned leafDistances(const NeighborTree& tree, std::int64_t leaf, const double (&center)[3], double reach,
+  double (&distances)[kLeafPoints])
+{
+  const std::int64_t first = leaf * kLeafPoints;
+  unsigned within = 0;
+  for (int at = 0; at < kLeafPoints; at += Set::width)
+  {
+    const auto d2 = squaredDistances<Set>(tree, first + at, center);
+    Set::store(distances + at, d2);
+    within |= Set::bits(Set::atMost(d2, Set::all(reach))) << at;
+  }
+  return within;
+}
+
 template <typename Set>
 void groupGaps(const BoxGroup& group, const double (&center)[3], double (&gaps)[kBranches])
 {
@@ -342,28 +394,111 @@ void groupGaps(const BoxGroup& group, const double (&center)[3], double (&gaps)[
   }
 }
 
-template <typename Set>
-unsigned leafDistances(const NeighborTree& tree, std::int64_t leaf, const double (&center)[3], double reach,
-  double (&distances)[kLeafPoints])
+/// The search about one place: its candidates are unordered, and complete to a reach that falls now and then.
+struct PlaceSearch
 {
+  const NeighborTree& tree;
+  const double (&center)[3];
+  const int k;
+  LeafSearch& memory; ///< near and slots hold the candidates.
+  int count = 0;
+  double reach = std::numeric_limits<double>::infinity();
+};
+
+/// Lowers the reach to the k-th distance so far and leaves out what is beyond.
+template <typename Set>
+void lowerReach(PlaceSearch& search)
+{
+  LeafSearch& memory = search.memory;
+  rankNear<Set>(search.count, memory);
+  double reach = 0.0;
+  for (int i = 0; i < search.count; ++i)
+  {
+    const double d2 = memory.ranks[i] < search.k ? memory.near[i] : 0.0;
+    reach = d2 > reach ? d2 : reach;
+  }
+  int kept = 0;
+  for (int i = 0; i < search.count; ++i)
+  {
+    memory.near[kept] = memory.near[i];
+    memory.slots[kept] = memory.slots[i];
+    kept += memory.near[i] <= reach ? 1 : 0;
+  }
+  search.count = kept;
+  search.reach = reach;
+}
+
+/// @return false where too many are at the same distance.
+template <typename Set>
+bool searchLeafAbout(std::int64_t leaf, PlaceSearch& search)
+{
+  LeafSearch& memory = search.memory;
   const std::int64_t first = leaf * kLeafPoints;
-  unsigned within = 0;
   for (int at = 0; at < kLeafPoints; at += Set::width)
   {
-    const auto dx = Set::subtract(Set::load(tree.places[0] + first + at), Set::all(center[0]));
-    const auto dy = Set::subtract(Set::load(tree.places[1] + first + at), Set::all(center[1]));
-    const auto dz = Set::subtract(Set::load(tree.places[2] + first + at), Set::all(center[2]));
-    const auto d2 = Set::add(Set::add(Set::multiply(dx, dx), Set::multiply(dy, dy)), Set::multiply(dz, dz));
-    Set::store(distances + at, d2);
-    within |= Set::bits(Set::atMost(d2, Set::all(reach))) << at;
+    const auto d2 = squaredDistances<Set>(search.tree, first + at, search.center);
+    const unsigned bits = Set::bits(Set::atMost(d2, Set::all(search.reach)));
+    Set::compress(memory.near + search.count, bits, d2);
+    Set::lanes(memory.slots + search.count, bits, std::uint32_t(first + at));
+    search.count += __builtin_popcount(bits);
   }
-  return within;
+  if (search.count >= search.k + search.k / 2 + kSurplus)
+  {
+    lowerReach<Set>(search);
+  }
+  return search.count + kLeafPoints <= kMostRanked;
+}
+
+/// Nearer boxes first; none beyond the reach.
+template <typename Set>
+bool searchGroupAbout(int level, std::int64_t group, PlaceSearch& search)
+{
+  const BoxGroup& boxes = search.tree.groups[level][group];
+  double gaps[kBranches];
+  groupGaps<Set>(boxes, search.center, gaps);
+  unsigned left = (1u << boxesOf(search.tree, level, group)) - 1u;
+  while (left != 0)
+  {
+    int next = __builtin_ctz(left);
+    for (unsigned others = left & (left - 1u); others != 0; others &= others - 1u)
+    {
+      const int other = __builtin_ctz(others);
+      next = gaps[other] < gaps[next] ? other : next;
+    }
+    left &= ~(1u << next);
+    if (!(gaps[next] <= search.reach))
+    {
+      return true;
+    }
+    const std::int64_t below = group * kBranches + next;
+    if (!(level > 0 ? searchGroupAbout<Set>(level - 1, below, search) : searchLeafAbout<Set>(below, search)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+template <typename Set>
+bool searchPlace(const NeighborTree& tree, const double (&center)[3], int k, LeafSearch& memory)
+{
+  PlaceSearch search{ tree, center, k, memory };
+  if (!searchGroupAbout<Set>(tree.levels - 1, 0, search) || search.count < k)
+  {
+    return false;
+  }
+  for (int i = 0; i < search.count; ++i)
+  {
+    memory.nearCandidates[i] = std::uint32_t(i);
+  }
+  answer<Set>(tree, 0, search.count, k, memory);
+  return true;
 }
 
 template <typename Set>
 NeighborKernels makeNeighborKernels()
 {
-  return { searchLeaf<Set>, groupGaps<Set>, leafDistances<Set>, hilbertKeys };
+  return { searchLeaf<Set>, searchPlace<Set>, groupGaps<Set>, leafDistances<Set>, hilbertKeys };
 }
 
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace pointhaptics;
 
@@ -346,6 +347,18 @@ TEST(SampleBandwidth, DegenerateSamplesHaveAStatusAndTheFallback)
       EXPECT_EQ(b, kBandwidthWithoutSpread);
     }
   }
+}
+
+TEST(SampleBandwidth, OfAnUnsolvedEquationIsThatOfTheRobustRule)
+{
+  BandwidthScratch scratch;
+  const double sample[] = { 0.0, 2.0 * std::numeric_limits<double>::denorm_min() };
+  double robust = 0.0;
+  double b = 0.0;
+  ASSERT_EQ(sampleBandwidth(BandwidthRule::SilvermanRobust, sample, 2, scratch, robust, 0.25), Status::Ok);
+  EXPECT_EQ(
+    sampleBandwidth(BandwidthRule::SheatherJones, sample, 2, scratch, b, 0.25), Status::EquationUnsolved);
+  EXPECT_EQ(b, robust);
 }
 
 TEST(SampleBandwidth, IsUsableForEveryKindOfSample)

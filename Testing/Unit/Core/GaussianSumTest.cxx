@@ -69,6 +69,37 @@ TEST(GaussianSum, IsWithinItsRelativeErrorForSamplesOfEveryKindInTheTailsToo)
   }
 }
 
+TEST(GaussianSum, KeepsTheErrorItWasAskedFor)
+{
+  const std::vector<double> sample = trial::randomSample(900, 1, 87);
+  double worst = 0.0;
+  for (const double epsilon : { 1e-3, 1e-6, 1e-9 })
+  {
+    for (const double h : { 0.3, 0.01 })
+    {
+      GaussianSum sum;
+      ASSERT_EQ(sum.build(sample.data(), 900, h, epsilon), Status::Ok);
+      for (const double target : targetsOf(sample, h, 88))
+      {
+        EXPECT_LE(errorAt(sum, sample, h, target), epsilon) << "h " << h << ", target " << target;
+        worst = std::max(worst, errorAt(sum, sample, h, target));
+      }
+    }
+  }
+  EXPECT_GT(worst, 1e-9) << "a large error was allowed and not made use of";
+}
+
+TEST(GaussianSum, RefusesAnErrorOutOfRange)
+{
+  const double sample[] = { 1.0, 2.0 };
+  GaussianSum sum;
+  for (const double epsilon : { 0.0, -1.0, 1e-14, 0.2, double(NAN) })
+  {
+    EXPECT_EQ(sum.build(sample, 2, 1.0, epsilon), Status::InvalidParameter) << epsilon;
+    EXPECT_EQ(sum.sum(1.0), 0.0);
+  }
+}
+
 TEST(GaussianSum, IsRightWhereValuesAreDense)
 {
   const std::vector<double> sample = trial::randomSample(20000, 1, 82);

@@ -1,4 +1,5 @@
 #include "Core/LocalBandwidth.h"
+#include "Core/Density.h"
 #include "Core/Reference/ReferenceBandwidth.h"
 #include "Core/Reference/ReferenceKernelSum.h"
 #include "Core/Shapes.h"
@@ -111,7 +112,9 @@ TEST(LocalBandwidthSettings, CheckFindsEveryMistake)
 
 TEST(LocalBandwidths, MatchTheDefinitionAtEveryPoint)
 {
-  const std::vector<Vec3> points = trial::randomBox(1500, 33, { 0, 0, 0 }, { 1, 1, 0.1 });
+  std::vector<Vec3> points = trial::randomBox(1500, 33, { 0, 0, 0 }, { 1, 1, 0.1 });
+  const std::vector<Vec3> twins(points.begin(), points.begin() + 400);
+  points.insert(points.end(), twins.begin(), twins.end());
   for (const BandwidthRule rule : { BandwidthRule::NormalReference, BandwidthRule::ScottMultivariate,
          BandwidthRule::SilvermanMultivariate })
   {
@@ -364,7 +367,26 @@ TEST(LocalBandwidths, AreTheSameBitsForFloatsAndDoublesAndEveryNumberOfThreads)
   }
 }
 
-TEST(LocalBandwidths, ScaleWithTheCloudFromNanometresToGigametres)
+TEST(LocalBandwidths, OfACrowdAtOnePlaceTakeNoLongerThanOfOthers)
+{
+  // Searched for one by one, or their balls read one by one, these would take minutes.
+  std::vector<Vec3> points = trial::randomBox(2000, 48, { 0, 0, 0 }, { 1, 1, 0 });
+  points.insert(points.end(), 100000, points[3]);
+  LocalBandwidthSettings settings;
+  const Local nearest = localOf(points, settings);
+  expectUsable(nearest);
+  EXPECT_EQ(nearest.radii.back(), *std::min_element(nearest.radii.begin(), nearest.radii.end()));
+  settings.fixedRadius = true;
+  settings.radius = 0.001;
+  expectUsable(localOf(points, settings));
+  NeighborQuery query;
+  query.build(view(points));
+  std::vector<double> densities;
+  surfaceDensities(view(points), query, nearest.bandwidths, densities);
+  EXPECT_EQ(densities.back(), densities[3]);
+}
+
+TEST(LocalBandwidths, ScaleWithTheCloudFromPicometresToTerametres)
 {
   std::vector<Vec3> points;
   ASSERT_EQ(generateShape(Shape::DensityStep, 3000, 1, 0.0, points), Status::Ok);
@@ -373,7 +395,7 @@ TEST(LocalBandwidths, ScaleWithTheCloudFromNanometresToGigametres)
     LocalBandwidthSettings settings;
     settings.smoothRadius = smooth;
     const Local local = localOf(points, settings);
-    for (double scale = 1e-9; scale < 2e9; scale *= 10)
+    for (double scale = 1e-12; scale < 2e12; scale *= 10)
     {
       std::vector<Vec3> scaled = points;
       for (Vec3& p : scaled)
@@ -445,13 +467,22 @@ TEST(LocalBandwidths, SurviveEveryCloudWithUsableRadii)
   twice.insert(twice.end(), twice.begin(), twice.begin() + 300);
   std::vector<Vec3> denormal = trial::randomBox(300, 44, { 0, 0, 0 }, { 1, 1, 0 });
   std::vector<Vec3> far = denormal;
+  std::vector<Vec3> tiny = denormal;
+  std::vector<Vec3> wide = denormal;
+  std::vector<Vec3> widest = denormal;
   for (std::size_t i = 0; i < denormal.size(); ++i)
   {
     denormal[i] *= 1e-312;
     far[i] = Vec3(5e5, 4.6e6, 100) + 0.01 * far[i];
+    tiny[i] *= 1e-170;
+    wide[i] *= 1e170;
+    widest[i] = 3.4e307 * (10.0 * widest[i] - Vec3(5, 5, 5)); // to the end of double numbers
   }
-  const std::vector<std::vector<Vec3>> clouds{ line, apart, twice, denormal, far,
-    trial::randomBox(11, 45, { 0, 0, 0 }, { 1, 1, 1 }) };
+  std::vector<Vec3> crowd = trial::randomBox(300, 46, { 0, 0, 0 }, { 1, 1, 0 });
+  crowd.insert(crowd.end(), 1500, crowd[3]);
+  const std::vector<std::vector<Vec3>> clouds{ line, apart, twice, denormal, far, tiny, wide, widest, crowd,
+    trial::randomBox(300, 47, { -9, -8, -7 }, { -3, -2, -1 }), { { 1, 2, 3 } }, { { 0, 0, 0 }, { 1, 0, 0 } },
+    std::vector<Vec3>(40, Vec3(0.1, 0.2, 0.3)), trial::randomBox(11, 45, { 0, 0, 0 }, { 1, 1, 1 }) };
   for (std::size_t c = 0; c < clouds.size(); ++c)
   {
     for (const BandwidthRule rule : kRules)
@@ -482,6 +513,57 @@ TEST(LocalBandwidths, OfHugeNumbersOfNeighborsAreThoseOfTheWholeCloud)
   LocalBandwidthSettings more;
   more.numberOfNeighbors = std::numeric_limits<int>::max();
   EXPECT_EQ(localOf(points, more).bandwidths, localOf(points, all).bandwidths);
+}
+
+TEST(LocalRadiiAt, AreTheBitsOfTheWholeArray)
+{
+  std::vector<Vec3> points = trial::randomBox(1500, 61, { 0, 0, 0 }, { 1, 1, 0.1 });
+  points[40].y = NAN;
+  points.insert(points.end(), 5, points[7]);
+  const std::vector<Vec3> spread = points;
+  points.insert(points.end(), 60, points[9]); // more than a neighbourhood at one place
+  for (const std::vector<Vec3>& cloud : { spread, points })
+  {
+    NeighborQuery query;
+    query.build(view(cloud));
+    std::vector<std::int64_t> slots;
+    for (std::int64_t slot = query.size() - 1; slot >= 0; slot -= 7)
+    {
+      slots.push_back(slot);
+    }
+    for (const BandwidthRule rule : kRules)
+    {
+      for (const int kind : { 0, 1, 2 })
+      {
+        LocalBandwidthSettings settings;
+        settings.rule = rule;
+        settings.fixedRadius = kind == 1;
+        settings.radius = 0.06;
+        settings.smoothRadius = kind == 2;
+        const Local whole = localOf(cloud, settings);
+        std::vector<double> radii;
+        ASSERT_EQ(
+          localRadiiAt(view(cloud), query, settings, slots, radii, trial::ThreadedExecutor(3)), Status::Ok);
+        ASSERT_EQ(radii.size(), slots.size());
+        for (std::size_t i = 0; i < slots.size(); ++i)
+        {
+          ASSERT_EQ(radii[i], whole.radii[std::size_t(query.index(slots[i]))])
+            << int(rule) << " kind " << kind;
+        }
+      }
+    }
+  }
+}
+
+TEST(LocalRadiiAt, RefuseBadSettings)
+{
+  const std::vector<Vec3> points = trial::randomBox(50, 62, { 0, 0, 0 }, { 1, 1, 1 });
+  NeighborQuery query;
+  query.build(view(points));
+  LocalBandwidthSettings settings;
+  settings.numberOfNeighbors = 0;
+  std::vector<double> radii;
+  EXPECT_EQ(localRadiiAt(view(points), query, settings, { 0 }, radii), Status::InvalidNeighborhood);
 }
 
 TEST(LimitSlope, GivesTheLargestRadiiWithinTheSlope)

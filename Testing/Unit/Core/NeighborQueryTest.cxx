@@ -1,9 +1,13 @@
 #include "Core/NeighborQuery.h"
+#include "Core/Kernel/NeighborKernel.h"
 #include "Core/Reference/ReferenceNeighbors.h"
 
 #include "RandomClouds.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
 
 using namespace pointhaptics;
 
@@ -65,7 +69,7 @@ TEST(NeighborQuery, EqualsBruteForceOnRandomPoints)
 {
   const std::vector<Vec3> points = trial::randomBox(3000, 1, { -1, -1, -1 }, { 1, 1, 1 });
   const std::vector<Vec3> centers = trial::randomBox(60, 2, { -1.5, -1.5, -1.5 }, { 1.5, 1.5, 1.5 });
-  for (const int k : { 1, 2, 7, 16, 100 })
+  for (const int k : { 1, 2, 7, 16, 64, 72, 73, 100 })
   {
     expectNearest(points, centers, k);
   }
@@ -161,6 +165,42 @@ TEST(NeighborQuery, BallIsClosed)
   expectBall(grid, { 4, 4, 4 }, 1.0);
   expectBall(grid, { 4, 4, 4 }, 2.0);
   expectBall(grid, { 4, 4, 4 }, 0.0);
+}
+
+TEST(NeighborQuery, FindsTheSameBitsWithEveryInstructionSet)
+{
+  std::vector<Vec3> points = trial::randomBox(3000, 21, { 0, 0, 0 }, { 1, 1, 0.1 });
+  points.insert(points.end(), 40, points[5]);
+  NeighborQuery query;
+  query.build(view(points));
+  auto memory = std::make_unique<kernel::LeafSearch>();
+  for (const Vec3& center : trial::randomBox(200, 22, { 0, 0, 0 }, { 1, 1, 0.1 }))
+  {
+    std::vector<double> expected;
+    for (const InstructionSet set :
+      { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+    {
+      const double place[3] = { center.x, center.y, center.z };
+      ASSERT_TRUE(kernel::neighborKernels(set).searchPlace(query.tree(), place, 17, *memory));
+      std::vector<double> found(memory->squaredDistances[0], memory->squaredDistances[0] + 17);
+      found.insert(found.end(), memory->neighbors[0], memory->neighbors[0] + 17);
+      expected = set == InstructionSet::Baseline ? found : expected;
+      ASSERT_EQ(found, expected) << int(set);
+    }
+  }
+}
+
+TEST(NeighborQuery, OfPlacesThatAreNotFiniteOrFarAwayEnds)
+{
+  const std::vector<Vec3> points = trial::randomBox(3000, 23, { 0, 0, 0 }, { 1, 1, 1 });
+  NeighborQuery query;
+  query.build(view(points));
+  Neighbor found[17];
+  for (const double bad : { double(NAN), double(INFINITY), 1e200 })
+  {
+    EXPECT_LE(query.nearest({ bad, 0.0, 0.0 }, 17, found), 17);
+  }
+  expectNearest(points, { { 1e100, 0.0, 0.0 }, { -3e5, 7e5, 2e5 } }, 17);
 }
 
 TEST(NeighborQuery, EmptyQueryFindsNothing)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace pointhaptics;
 
@@ -169,6 +170,17 @@ TEST(SheatherJones, OfADegenerateSampleHasAStatusAndTouchesNothing)
   EXPECT_EQ(rule.solveTheEquation(nullptr, 0, 1.0, b), Status::DegenerateSample);
   EXPECT_EQ(rule.directPlugIn(same, 3, 0.0, b), Status::DegenerateSample);
   EXPECT_EQ(rule.directPlugIn(nullptr, 0, 1.0, b), Status::DegenerateSample);
+  EXPECT_EQ(b, 7.0);
+}
+
+TEST(SheatherJones, TellsAnEquationItCannotSolveFromASampleWithoutSpread)
+{
+  // Two denormal steps apart: the solution would be below the least double number.
+  SheatherJones rule;
+  const double least = std::numeric_limits<double>::denorm_min();
+  const double sample[] = { 0.0, 2.0 * least };
+  double b = 7.0;
+  EXPECT_EQ(rule.solveTheEquation(sample, 2, least, b), Status::EquationUnsolved);
   EXPECT_EQ(b, 7.0);
 }
 

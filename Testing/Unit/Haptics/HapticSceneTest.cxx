@@ -1,3 +1,5 @@
+#include "Core/Shapes.h"
+
 #include "HapticFixtures.h"
 
 using namespace pointhaptics;
@@ -43,6 +45,10 @@ TEST(HapticScene, RefusesCloudsItCannotUse)
   input.proxyRadii = { 1.0 };
   EXPECT_EQ(statusOf(input), Status::InvalidParameter);
   input.proxyRadii.clear();
+  input.bandwidth = LocalBandwidthSettings();
+  input.bandwidth->numberOfNeighbors = 0;
+  EXPECT_EQ(statusOf(input), Status::InvalidNeighborhood);
+  input.bandwidth.reset();
   input.modelToWorkspace = AffineTransform::scaling({ 1, 0, 1 });
   EXPECT_EQ(statusOf(input), Status::SingularTransform);
   input.modelToWorkspace = AffineTransform::translation({ NAN, 0, 0 });
@@ -138,9 +144,55 @@ TEST(HapticScene, ProxyRadiusIsLargerWhereTheCloudIsSparse)
   EXPECT_NEAR(scene->proxyRadius({ 0.02, 0, 0 }) / (2.8 * 4 * spacing), 1.0, 0.2);
 }
 
+// The scene asks for the radii of a few points only: it must not show.
+TEST(HapticScene, WithARuleIsThatOfTheWholeArrayOfRadii)
+{
+  for (const bool duplicates : { false, true })
+  {
+    HapticSceneInput lazy = trial::resampledInput(trial::spherePoints(50000, 14, 20e-6));
+    if (duplicates)
+    {
+      lazy.points.insert(lazy.points.end(), 100, lazy.points[5]);
+      lazy.counts.resize(lazy.points.size(), 1.0);
+      lazy.covariances.resize(lazy.points.size());
+    }
+    lazy.bandwidth = LocalBandwidthSettings();
+    HapticSceneInput whole = lazy;
+    whole.bandwidth.reset();
+    const PointView points(lazy.points.data(), std::int64_t(lazy.points.size()));
+    NeighborQuery query;
+    query.build(points);
+    std::vector<double> bandwidths;
+    ASSERT_EQ(localBandwidths(points, query, *lazy.bandwidth, bandwidths, whole.proxyRadii), Status::Ok);
+    const trial::Scene one = trial::sceneOf(lazy);
+    const trial::Scene other = trial::sceneOf(whole);
+    for (const Vec3& p : trial::randomBox(500, 15, { -0.03, -0.03, -0.03 }, { 0.03, 0.03, 0.03 }))
+    {
+      ASSERT_EQ(one->proxyRadius(p), other->proxyRadius(p));
+    }
+  }
+}
+
+TEST(HapticScene, RadiusByARuleFollowsTheDensityWithoutJumps)
+{
+  HapticSceneInput input;
+  ASSERT_EQ(generateShape(Shape::DensityStep, 60000, 16, 0.0, input.points), Status::Ok);
+  input.bandwidth = LocalBandwidthSettings();
+  const trial::Scene scene = trial::sceneOf(input);
+  EXPECT_NEAR(scene->proxyRadius({ -0.025, 0, 0 }) / scene->proxyRadius({ 0.025, 0, 0 }), 4.0, 0.5);
+  double last = scene->proxyRadius({ -0.03, 0.001, 0 });
+  for (double x = -0.03; x < 0.03; x += 1e-5)
+  {
+    const double radius = scene->proxyRadius({ x, 0.001, 0 });
+    EXPECT_LE(std::fabs(radius - last), 0.75 * 1e-5) << "at " << x;
+    last = radius;
+  }
+}
+
 TEST(HapticScene, DoesNotDependOnTheExecutor)
 {
-  const HapticSceneInput input = trial::resampledInput(trial::spherePoints(50000, 8, 20e-6));
+  HapticSceneInput input = trial::resampledInput(trial::spherePoints(50000, 8, 20e-6));
+  input.bandwidth = LocalBandwidthSettings();
   Status status = Status::Ok;
   const trial::Scene one = HapticScene::create(input, status);
   const trial::Scene three = HapticScene::create(input, status, trial::ThreadedExecutor(3));

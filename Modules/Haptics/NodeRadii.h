@@ -1,0 +1,21 @@
+/// @file
+/// Proxy radii at the nodes of a scene's fields.
+#pragma once
+
+#include "Haptics/HapticScene.h"
+
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// One radius per cell of @p nodes: that of the point of @p input nearest to the cell's mean (ties: the
+/// smaller index), taken from input.proxyRadii, or where those are empty found by input.bandwidth for these
+/// points alone; the result is the same bit for bit. @p nodes is a level of a pyramid built on the finite
+/// points of
+/// @p input. Errors: those of input.bandwidth. Independent of @p executor.
+/// @pre proxyRadii or bandwidth is there.
+Status nodeRadii(const CellPyramid::Level& nodes, const HapticSceneInput& input, std::vector<double>& radii,
+  const Executor& executor);
+
+} // namespace pointhaptics
