@@ -9,6 +9,13 @@ if (POINTHAPTICS_SANITIZE)
   add_compile_options(-fsanitize=${POINTHAPTICS_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${POINTHAPTICS_SANITIZE})
 endif ()
+if (POINTHAPTICS_BUILD_FUZZERS)
+  if (NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "POINTHAPTICS_BUILD_FUZZERS needs clang: add -DCMAKE_CXX_COMPILER=clang++ to a new build folder")
+  endif ()
+  # Every file tells libFuzzer which of its branches were taken.
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif ()
 
 # pointhaptics_plain_library(<Name> SOURCES ... HEADERS ... [PUBLIC libs...] [PRIVATE libs...])
 # A C++17 library without VTK: target PointHaptics<Name>, alias PointHaptics::<Name>, installed and

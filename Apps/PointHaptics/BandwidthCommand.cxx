@@ -124,7 +124,7 @@ int runBandwidth(const BandwidthCommandOptions& options)
       fmt::format("{}: each of the {} points has a coordinate that is NaN or infinite; mend the file",
         options.files.input, points));
   }
-  if (!writeCloud(filter->GetOutput(), options.files.output, message))
+  if (!writeCloud(filter->GetOutput(), options.files.output, kCommand, message))
   {
     return fail(kCommand, message);
   }

@@ -27,7 +27,7 @@ namespace
 /// Every task there is.
 std::vector<BenchTask> allTasks()
 {
-  return { bandwidthTask(), resampleTask(), proxyTask(), frictionTask(), servoTask() };
+  return { bandwidthTask(), resampleTask(), proxyTask(), frictionTask(), ioTask(), servoTask() };
 }
 
 constexpr std::int64_t kMostRepetitions = 10000;

@@ -49,6 +49,7 @@ struct BenchTask
 };
 
 BenchTask bandwidthTask();
+BenchTask ioTask();
 BenchTask resampleTask();
 BenchTask proxyTask();
 BenchTask frictionTask();

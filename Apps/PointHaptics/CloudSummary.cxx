@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +21,14 @@ namespace app
 namespace
 {
 
-constexpr std::size_t kSamples = 1000;
+constexpr std::size_t kSamples = 10000;
+/// Map coordinates have at least six digits before the point.
+constexpr double kMapCoordinate = 1e5;
+/// Longest side of what is taken for metres, and for millimetres.
+constexpr double kLargestInMetres = 100.0;
+constexpr double kLargestInMillimetres = 1e5;
+/// A surface with a point every spacing has four in a voxel of twice that.
+constexpr double kSpacingsPerVoxel = 2.0;
 /// Points in one search tree; larger clouds are searched piece by piece.
 constexpr std::int64_t kPiece = 4'000'000;
 /// A duplicate is no neighbour: how many of them are looked past.
@@ -56,7 +65,15 @@ std::vector<Vec3> finitePoints(vtkPolyData* cloud)
   return points;
 }
 
-double medianSpacing(const std::vector<Vec3>& points)
+/// The point behind sample @p i: all of them where they are few. Every k-th would meet the rings of a scanner
+/// in step; a multiplicative hash does not.
+std::size_t sampled(std::size_t i, std::size_t samples, std::size_t points)
+{
+  return samples == points ? i : std::size_t((i * 0x9e3779b97f4a7c15u >> 11) % points);
+}
+
+/// At the places of kSpacingPercents.
+std::array<double, 5> spacingOf(const std::vector<Vec3>& points)
 {
   const std::size_t samples = std::min(kSamples, points.size());
   std::vector<double> nearest(samples, std::numeric_limits<double>::infinity());
@@ -67,7 +84,7 @@ double medianSpacing(const std::vector<Vec3>& points)
     query.build(PointView(points.data() + begin, std::min(kPiece, std::int64_t(points.size()) - begin)));
     for (std::size_t i = 0; i < samples; ++i)
     {
-      const Vec3& center = points[i * (points.size() / samples)];
+      const Vec3& center = points[sampled(i, samples, points.size())];
       const int found = query.nearest(center, kNeighbors, neighbors);
       const Neighbor* other = std::find_if(neighbors, neighbors + found,
         [](const Neighbor& neighbor) { return neighbor.squaredDistance > 0.0; });
@@ -79,12 +96,38 @@ double medianSpacing(const std::vector<Vec3>& points)
   }
   nearest.erase(
     std::remove_if(nearest.begin(), nearest.end(), [](double d) { return std::isinf(d); }), nearest.end());
-  if (nearest.empty())
+  std::sort(nearest.begin(), nearest.end());
+  std::array<double, 5> result{};
+  for (std::size_t i = 0; i < result.size() && !nearest.empty(); ++i)
   {
-    return 0.0;
+    result[i] = nearest[(nearest.size() - 1) * std::size_t(kSpacingPercents[i]) / 100];
   }
-  std::nth_element(nearest.begin(), nearest.begin() + std::ptrdiff_t(nearest.size() / 2), nearest.end());
-  return nearest[nearest.size() / 2];
+  return result;
+}
+
+std::int64_t countDuplicates(std::vector<Vec3> points)
+{
+  std::sort(points.begin(), points.end(),
+    [](const Vec3& a, const Vec3& b) { return a.x != b.x ? a.x < b.x
+                                         : a.y != b.y    ? a.y < b.y
+                                                         : a.z < b.z; });
+  return points.end() - std::unique(points.begin(), points.end());
+}
+
+std::string textIn(vtkPolyData* cloud, const char* name)
+{
+  vtkStringArray* array = vtkStringArray::SafeDownCast(cloud->GetFieldData()->GetAbstractArray(name));
+  return array && array->GetNumberOfValues() > 0 ? array->GetValue(0) : std::string();
+}
+
+/// Scanners measure in metres, map coordinates are far from the origin, and models of things are in
+/// millimetres.
+std::string guessUnit(const Bounds& bounds, double longest)
+{
+  const double farthest = std::max({ std::abs(bounds.minimum.x), std::abs(bounds.maximum.x),
+    std::abs(bounds.minimum.y), std::abs(bounds.maximum.y) });
+  const bool isMap = farthest > kMapCoordinate && longest < farthest;
+  return isMap || longest < kLargestInMetres ? "m" : longest < kLargestInMillimetres ? "mm" : "um";
 }
 
 std::vector<ArraySummary> arraysOf(vtkPolyData* cloud)
@@ -154,7 +197,18 @@ CloudSummary summarize(const Cloud& cloud)
   {
     summary.bounds.include(p);
   }
-  summary.spacing = medianSpacing(points);
+  summary.spacing = spacingOf(points);
+  summary.densityVariation = summary.spacing[0] > 0.0 ? summary.spacing[4] / summary.spacing[0] : 0.0;
+  summary.suggestedVoxel = kSpacingsPerVoxel * summary.spacing[2];
+  summary.duplicates = countDuplicates(points);
+  summary.coordinateSystem = textIn(cloud.points, "CoordinateSystem");
+  summary.unit = textIn(cloud.points, "LengthUnit");
+  summary.unitIsGuess = summary.unit.empty();
+  if (summary.unitIsGuess && !summary.bounds.empty())
+  {
+    const Vec3 size = summary.bounds.extent();
+    summary.unit = guessUnit(summary.bounds, std::max({ size.x, size.y, size.z }));
+  }
   summary.arrays = arraysOf(cloud.points);
   suggest(summary);
   return summary;

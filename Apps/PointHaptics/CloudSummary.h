@@ -6,6 +6,7 @@
 
 #include "Core/PointView.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -28,15 +29,27 @@ struct CloudSummary
 {
   std::string format;
   std::int64_t points = 0;
-  std::int64_t invalid = 0; ///< NaN or infinite.
-  Bounds bounds;            ///< Of the finite points.
-  double spacing = 0.0;     ///< Median distance to the nearest distinct point, of a sample of the points.
+  std::int64_t invalid = 0;    ///< NaN or infinite.
+  Bounds bounds;               ///< Of the finite points.
+  std::int64_t duplicates = 0; ///< Finite points at the very place of an earlier one.
+  /// Distance to the nearest distinct point, of a sample of the points: what 5, 25, 50, 75 and 95 percent of
+  /// them do not exceed. Zero where there are no two places.
+  std::array<double, 5> spacing{};
+  double densityVariation = 0.0; ///< Last of these over the first; 1 on a grid.
+  double suggestedVoxel =
+    0.0; ///< Edge of a voxel that holds a few points of a surface at the median spacing.
+  std::string coordinateSystem; ///< As the file says it.
+  std::string unit;             ///< "m"; what the file says, or a guess.
+  bool unitIsGuess = true;
   std::vector<ArraySummary> arrays;
   std::string hint;            ///< Unit or scale to try where the size is not about that of the workspace.
   double suggestedScale = 1.0; ///< Makes the cloud fill most of the workspace.
 };
 
-/// Cost: O(n log n) for the spacing, 48 bytes a point up to 4 million points.
+/// What spacing holds.
+constexpr std::array<int, 5> kSpacingPercents{ 5, 25, 50, 75, 95 };
+
+/// Cost: O(n log n) for spacing and duplicates, 72 bytes a point up to 4 million points.
 CloudSummary summarize(const Cloud& cloud);
 
 } // namespace app

@@ -3,7 +3,8 @@
 /// complete.
 #pragma once
 
-#include <cstdio>
+#include "Core/OutputFile.h"
+
 #include <string>
 
 namespace pointhaptics
@@ -11,16 +12,10 @@ namespace pointhaptics
 namespace app
 {
 
-/// Writes to a temporary file beside the target; commit() renames it. Without commit() nothing is left
-/// behind. A target that is a link keeps being one; a pipe or a device is written to as it stands.
+/// Rows of numbers into an OutputFile: without commit() nothing is left behind.
 class CsvWriter
 {
 public:
-  CsvWriter() = default;
-  ~CsvWriter();
-  CsvWriter(const CsvWriter&) = delete;
-  CsvWriter& operator=(const CsvWriter&) = delete;
-
   /// False: @p message says why the file cannot be created.
   bool open(const std::string& fileName, const std::string& header, std::string& message);
   void row(const double* values, std::size_t count);
@@ -28,13 +23,9 @@ public:
   bool commit(std::string& message);
 
 private:
-  void discard();
-
   std::string fileName_;
-  std::string temporaryName_;
-  std::FILE* file_ = nullptr;
-  std::string buffer_;
-  bool failed_ = false;
+  OutputFile file_;
+  std::string line_;
 };
 
 } // namespace app

@@ -40,11 +40,25 @@ nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
       { "min", array.minima }, { "max", array.maxima } });
   }
   nlohmann::ordered_json result = { { "file", file }, { "format", s.format }, { "points", s.points },
-    { "points_invalid", s.invalid } };
+    { "points_invalid", s.invalid }, { "points_duplicate", s.duplicates } };
   if (!s.bounds.empty())
   {
     result["bounds"] = { { "min", numbers(s.bounds.minimum) }, { "max", numbers(s.bounds.maximum) } };
-    result["spacing"] = s.spacing;
+    nlohmann::ordered_json percentiles;
+    for (std::size_t i = 0; i < s.spacing.size(); ++i)
+    {
+      percentiles[std::to_string(kSpacingPercents[i])] = s.spacing[i];
+    }
+    result["spacing"] = s.spacing[2];
+    result["spacing_percentiles"] = percentiles;
+    result["density_variation"] = s.densityVariation;
+    result["suggested_voxel"] = s.suggestedVoxel;
+    result["unit"] = s.unit;
+    result["unit_is_guess"] = s.unitIsGuess;
+  }
+  if (!s.coordinateSystem.empty())
+  {
+    result["coordinate_system"] = s.coordinateSystem;
   }
   result["arrays"] = arrays;
   if (!s.hint.empty())
@@ -57,15 +71,26 @@ nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
 
 void print(const std::string& file, const CloudSummary& s)
 {
-  fmt::print("{}\n  format   {}\n  points   {}{}\n", file, s.format, s.points,
-    s.invalid > 0 ? fmt::format(", {} of them NaN or infinite", s.invalid) : "");
+  fmt::print("{}\n  format   {}\n  points   {}{}{}\n", file, s.format, s.points,
+    s.invalid > 0 ? fmt::format(", {} of them NaN or infinite", s.invalid) : "",
+    s.duplicates > 0 ? fmt::format(", {} at the place of another", s.duplicates) : "");
   if (!s.bounds.empty())
   {
     const Vec3 low = s.bounds.minimum, high = s.bounds.maximum, size = s.bounds.extent();
     fmt::print(
       "  bounds   x {} .. {}  y {} .. {}  z {} .. {}\n", low.x, high.x, low.y, high.y, low.z, high.z);
     fmt::print("  size     {:.6g} x {:.6g} x {:.6g}\n", size.x, size.y, size.z);
-    fmt::print("  spacing  {:.4g} (median distance to the nearest other point)\n", s.spacing);
+    fmt::print("  unit     {} ({})\n", s.unit, s.unitIsGuess ? "a guess by the size" : "the file says so");
+    fmt::print(
+      "  spacing  {:.4g} (median distance to the nearest other point; 5 % {:.4g}, 25 % {:.4g}, 75 % {:.4g}, "
+      "95 % {:.4g})\n",
+      s.spacing[2], s.spacing[0], s.spacing[1], s.spacing[3], s.spacing[4]);
+    fmt::print("  density  spacing varies {:.3g} : 1 (95 % over 5 %)\n", s.densityVariation);
+    fmt::print("  voxel    {:.3g} holds a few points of a surface (--voxel)\n", s.suggestedVoxel);
+  }
+  if (!s.coordinateSystem.empty())
+  {
+    fmt::print("  system   {}\n", s.coordinateSystem);
   }
   for (const ArraySummary& array : s.arrays)
   {

@@ -15,8 +15,6 @@
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 namespace pointhaptics
@@ -66,25 +64,31 @@ bool updateFilter(vtkAlgorithm* filter, const std::string& label, std::string& m
 
 bool canWriteCloud(const std::string& fileName, std::string& message)
 {
-  std::string extension = std::filesystem::path(fileName).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".vtp" || extension == ".ply" || extension == ".pcd" || extension == ".csv")
+  if (vtkPointCloudWriter::CanWrite(fileName))
   {
     return true;
   }
-  message = fmt::format(
-    "{}: unknown extension \"{}\"; end the name in .vtp, .ply, .pcd or .csv", fileName, extension);
+  message = fmt::format("{}: unknown extension \"{}\"; end the name in {}", fileName,
+    std::filesystem::path(fileName).extension().string(), vtkPointCloudWriter::GetExtensions());
   return false;
 }
 
-bool writeCloud(vtkPointSet* points, const std::string& fileName, std::string& message)
+bool writeCloud(
+  vtkPointSet* points, const std::string& fileName, const std::string& command, std::string& message)
 {
   vtkNew<vtkPointCloudWriter> writer;
   writer->SetFileName(fileName.c_str());
   writer->SetInputDataObject(points);
-  const ProgressBar bar("writing", writer);
-  if (writer->Write() == 1)
+  bool written = false;
+  {
+    const ProgressBar bar("writing", writer);
+    written = writer->Write() == 1;
+  }
+  for (const std::string& note : writer->GetNotes())
+  {
+    warn(command, fileName + ": " + note);
+  }
+  if (written)
   {
     return true;
   }

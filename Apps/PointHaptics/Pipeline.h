@@ -31,8 +31,10 @@ bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message);
 bool updateFilter(vtkAlgorithm* filter, const std::string& label, std::string& message);
 /// False, and @p message, where no writer knows the extension of @p fileName. Worth asking before long work.
 bool canWriteCloud(const std::string& fileName, std::string& message);
-/// Writes .vtp, .ply, .pcd or .csv; the file appears only when complete.
-bool writeCloud(vtkPointSet* points, const std::string& fileName, std::string& message);
+/// Writes what vtkPointCloudWriter writes; the file appears only when complete. What its format cannot hold
+/// is shown as warnings of @p command.
+bool writeCloud(
+  vtkPointSet* points, const std::string& fileName, const std::string& command, std::string& message);
 
 /// The finite points of @p cloud, moved by @p transform, in double precision, without arrays; the others are
 /// counted.

@@ -73,7 +73,7 @@ int runResample(const ResampleOptions& options)
         "transform",
         options.files.input, resampler->GetNumberOfClippedPoints(), resampler->GetNumberOfInvalidPoints()));
   }
-  if (!writeCloud(resampler->GetOutput(), options.files.output, message))
+  if (!writeCloud(resampler->GetOutput(), options.files.output, kCommand, message))
   {
     return fail(kCommand, message);
   }

@@ -1,13 +1,13 @@
 #include "Devices/HipPath.h"
 
+#include "Core/OutputFile.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
-
-#include <unistd.h>
 
 namespace pointhaptics
 {
@@ -165,17 +165,15 @@ bool readRows(std::istream& stream, HipPath& path, std::size_t& lineNumber, std:
   return true;
 }
 
-Status writeRows(const std::string& fileName, const HipPath& path)
+std::string textOf(const HipPath& path)
 {
-  std::ofstream stream(fileName, std::ios::binary);
-  stream << kHeader << '\n';
+  std::string text = std::string(kHeader) + '\n';
   for (const HipPathPoint& point : path.points)
   {
-    stream << shortestDigits(point.timeSeconds) << ',' << shortestDigits(point.position.x) << ','
-           << shortestDigits(point.position.y) << ',' << shortestDigits(point.position.z) << '\n';
+    text += shortestDigits(point.timeSeconds) + ',' + shortestDigits(point.position.x) + ',' +
+      shortestDigits(point.position.y) + ',' + shortestDigits(point.position.z) + '\n';
   }
-  stream.close();
-  return stream ? Status::Ok : Status::FileNotWritable;
+  return text;
 }
 
 std::string systemReason(int error)
@@ -266,7 +264,6 @@ Status readHipPath(const std::string& fileName, HipPath& path, std::string& mess
 
 Status writeHipPath(const std::string& fileName, const HipPath& path, std::string& message)
 {
-  namespace fs = std::filesystem;
   message.clear();
   if (path.check() != Status::Ok)
   {
@@ -274,31 +271,13 @@ Status writeHipPath(const std::string& fileName, const HipPath& path, std::strin
       ": the path holds a number that is not finite, or times that do not ascend: nothing is written";
     return Status::InvalidParameter;
   }
-  std::error_code error;
-  const fs::path resolved = fs::weakly_canonical(fileName, error);
-  const std::string target = error ? fileName : resolved.string();
-  const bool replace = !fs::exists(target, error) || fs::is_regular_file(target, error);
-  const std::string written = replace ? target + ".part-" + std::to_string(::getpid()) : target;
-  errno = 0;
-  if (writeRows(written, path) == Status::Ok)
+  OutputFile file;
+  if (file.open(fileName) == Status::Ok && file.write(textOf(path)) == Status::Ok &&
+    file.commit() == Status::Ok)
   {
-    error.clear();
-    if (replace)
-    {
-      fs::rename(written, target, error);
-    }
-    if (!error)
-    {
-      return Status::Ok;
-    }
-    errno = error.value();
+    return Status::Ok;
   }
-  message = fileName + ": cannot be written (" + systemReason(errno) +
-    "): check the folder, its permissions and the space";
-  if (replace)
-  {
-    fs::remove(written, error);
-  }
+  message = fileName + ": cannot be written (" + file.reason() + "): " + file.cure();
   return Status::FileNotWritable;
 }
 

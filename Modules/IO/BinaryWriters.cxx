@@ -89,12 +89,6 @@ struct PcdFieldLines
   std::string text() const { return names + "\n" + sizes + "\n" + types + "\n" + counts + "\n"; }
 };
 
-std::string shortest(double value)
-{
-  char text[32];
-  return { text, std::to_chars(text, text + sizeof(text), value).ptr };
-}
-
 std::string pcdShape(vtkFieldData* fieldData, vtkIdType rows)
 {
   vtkIdType width = rows;
@@ -118,7 +112,7 @@ std::string pcdShape(vtkFieldData* fieldData, vtkIdType rows)
     viewpoint.clear();
     for (vtkIdType i = 0; i < 7; ++i)
     {
-      viewpoint += (i ? " " : "") + shortest(stored->GetVariantValue(i).ToDouble());
+      viewpoint += (i ? " " : "") + shortestDecimal(stored->GetVariantValue(i).ToDouble());
     }
   }
   return "WIDTH " + std::to_string(width) + "\nHEIGHT " + std::to_string(height) + "\nVIEWPOINT " +
@@ -154,6 +148,12 @@ void addRecordFields(std::vector<RecordField>& fields, std::size_t& recordSize, 
 
 } // namespace
 
+std::string shortestDecimal(double value)
+{
+  char text[32];
+  return { text, std::to_chars(text, text + sizeof(text), value).ptr };
+}
+
 void writeRecords(
   const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType rows, OutputStream& out)
 {
@@ -173,12 +173,12 @@ void writeRecords(
   }
 }
 
-void writePly(const std::vector<OutputArray>& given, OutputStream& out)
+void writePly(const std::vector<OutputArray>& given, OutputStream& out, WriterNotes& notes)
 {
-  const std::vector<OutputArray> arrays = withoutLongIntegers(given);
+  const std::vector<OutputArray> arrays = withoutLongIntegers(given, notes);
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
   std::string header = "ply\nformat ";
-  header += isLittleEndianHost() ? "binary_little_endian" : "binary_big_endian";
+  header += kIsLittleEndianHost ? "binary_little_endian" : "binary_big_endian";
   header += " 1.0\ncomment written by PointHaptics\nelement vertex " + std::to_string(rows) + "\n";
   std::vector<RecordField> fields;
   std::size_t recordSize = 0;

@@ -5,14 +5,17 @@
 #include "TextScan.h"
 
 #include "vtkCellArray.h"
-#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 
 namespace pointhaptics::io
@@ -201,17 +204,30 @@ void CloudColumns::moveTo(vtkPolyData* cloud)
   setOneVertexPerPoint(cloud);
 }
 
+namespace
+{
+
+/// Cells of one point each, in the smallest integers that number them.
+template <typename Array>
+void fillVertices(vtkCellArray* vertices, vtkIdType count)
+{
+  vtkNew<Array> offsets;
+  vtkNew<Array> connectivity;
+  offsets->SetNumberOfValues(count + 1);
+  connectivity->SetNumberOfValues(count);
+  std::iota(offsets->GetPointer(0), offsets->GetPointer(0) + count + 1, 0);
+  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, 0);
+  vertices->SetData(offsets, connectivity);
+}
+
+} // namespace
+
 void setOneVertexPerPoint(vtkPolyData* cloud)
 {
   const vtkIdType count = cloud->GetNumberOfPoints();
-  vtkNew<vtkIdTypeArray> offsets;
-  vtkNew<vtkIdTypeArray> connectivity;
-  offsets->SetNumberOfValues(count + 1);
-  connectivity->SetNumberOfValues(count);
-  std::iota(offsets->GetPointer(0), offsets->GetPointer(0) + count + 1, vtkIdType{ 0 });
-  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{ 0 });
   vtkNew<vtkCellArray> vertices;
-  vertices->SetData(offsets, connectivity);
+  count < std::numeric_limits<std::int32_t>::max() ? fillVertices<vtkTypeInt32Array>(vertices, count)
+                                                   : fillVertices<vtkTypeInt64Array>(vertices, count);
   cloud->SetVerts(vertices);
 }
 

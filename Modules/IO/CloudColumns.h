@@ -16,6 +16,9 @@ class vtkPolyData;
 namespace pointhaptics::io
 {
 
+/// More columns than any cloud has: headers with more are refused before anybody compares their names.
+constexpr std::size_t kMostColumns = 4096;
+
 /// One column as its file names it.
 struct Column
 {

@@ -34,14 +34,12 @@ constexpr std::string_view operator""_bytes(const char* text, std::size_t size)
 const Foreign kForeign[] = {
   { "ASTM-E57", "this is an E57 file, which is not read here",
     "convert it first: pdal translate in.e57 out.las, or CloudCompare" },
-  { "\x1f\x8b"_bytes, "this file is gzip-compressed", "unpack it first: gunzip -k FILE" },
+  { "\x1f\x8b"_bytes, "this is a gzip file inside a gzip file", "unpack it once: gunzip -k FILE" },
   { "PK\x03\x04", "this is a zip archive", "unpack it first: unzip FILE" },
   { "BZh", "this file is bzip2-compressed", "unpack it first: bunzip2 -k FILE" },
   { "\xfd"
     "7zXZ",
     "this file is xz-compressed", "unpack it first: unxz -k FILE" },
-  { "# vtk DataFile", "this is a legacy VTK file, which is not read here",
-    "save it as .vtp, for example with ParaView" },
   { "glTF", "this is a glTF file, which is not read here",
     "convert it to PLY, for example with meshio or Blender" },
 };
@@ -102,6 +100,31 @@ bool looksLikeText(std::string_view bytes)
     });
 }
 
+/// OFF with letters in front for normals, colours and so on.
+bool looksLikeOff(std::string_view bytes)
+{
+  std::string_view line = firstSignificantLine(bytes.substr(0, kLookedAt));
+  const std::string_view word = takeWord(line);
+  return word.size() >= 3 && word.size() <= 8 && word.substr(word.size() - 3) == "OFF" &&
+    word.find_first_not_of("STCN4nOF") == std::string_view::npos;
+}
+
+/// It has no mark, but its length is that of the triangles it counts.
+bool looksLikeBinaryStl(std::string_view bytes, std::size_t size)
+{
+  constexpr std::size_t kHeader = 84;
+  if (bytes.size() < kHeader || size <= kHeader)
+  {
+    return false;
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 4; i > 0; --i)
+  {
+    count = count << 8 | static_cast<unsigned char>(bytes[79 + i]);
+  }
+  return size == kHeader + 50 * count;
+}
+
 bool isColumnExtension(const std::string& extension)
 {
   const std::string_view known[] = { "xyz", "txt", "csv", "pts", "asc", "tsv", "dat" };
@@ -154,7 +177,27 @@ std::string_view withoutByteOrderMark(std::string_view bytes)
   return startsWith(bytes, "\xef\xbb\xbf") ? bytes.substr(3) : bytes;
 }
 
-CloudFormat identifyFormat(std::string_view bytes, const std::string& extension)
+bool looksLikeStlText(std::string_view bytes)
+{
+  bytes = bytes.substr(0, kLookedAt);
+  LineReader lines(bytes);
+  std::string_view line;
+  if (!lines.next(line) || !equalNoCase(takeWord(line), "solid"))
+  {
+    return false;
+  }
+  while (lines.next(line))
+  {
+    const std::string_view word = takeWord(line);
+    if (!word.empty())
+    {
+      return equalNoCase(word, "facet") || equalNoCase(word, "endsolid");
+    }
+  }
+  return false;
+}
+
+CloudFormat identifyFormat(std::string_view bytes, std::size_t size, const std::string& extension)
 {
   bytes = withoutByteOrderMark(bytes);
   refuseForeign(bytes);
@@ -166,13 +209,25 @@ CloudFormat identifyFormat(std::string_view bytes, const std::string& extension)
   {
     return CloudFormat::Las;
   }
+  if (startsWith(bytes, "# vtk DataFile"))
+  {
+    return CloudFormat::VtkLegacy;
+  }
   if (looksLikeXml(bytes))
   {
-    return CloudFormat::Vtp;
+    return CloudFormat::VtkXml;
   }
   if (looksLikePcd(bytes))
   {
     return CloudFormat::Pcd;
+  }
+  if (looksLikeOff(bytes))
+  {
+    return CloudFormat::Off;
+  }
+  if (looksLikeStlText(bytes) || looksLikeBinaryStl(bytes, size))
+  {
+    return CloudFormat::Stl;
   }
   if (looksLikeText(bytes))
   {
@@ -186,9 +241,13 @@ CloudFormat identifyFormat(std::string_view bytes, const std::string& extension)
       return CloudFormat::Text;
     }
   }
+  if (extension == "stl")
+  {
+    return CloudFormat::Stl;
+  }
   throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
     "unknown format: starts with " + inQuotes(bytes.substr(0, 16)),
-    "use PLY, PCD, VTP, OBJ, LAS, or text with columns x y z");
+    "use PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS, or text with columns x y z");
 }
 
 const char* nameOf(CloudFormat format)
@@ -199,10 +258,16 @@ const char* nameOf(CloudFormat format)
       return "PLY";
     case CloudFormat::Pcd:
       return "PCD";
-    case CloudFormat::Vtp:
-      return "VTP";
+    case CloudFormat::VtkXml:
+      return "VTK XML";
+    case CloudFormat::VtkLegacy:
+      return "VTK (legacy)";
     case CloudFormat::Obj:
       return "OBJ";
+    case CloudFormat::Off:
+      return "OFF";
+    case CloudFormat::Stl:
+      return "STL";
     case CloudFormat::Las:
       return "LAS";
     case CloudFormat::Text:

@@ -12,16 +12,24 @@ enum class CloudFormat
 {
   Ply,
   Pcd,
-  Vtp,
+  VtkXml,
+  VtkLegacy,
   Obj,
+  Off,
+  Stl,
   Las,
   Text,
 };
 
-/// Looks at the first bytes; @p extension (lower case, no dot) decides only between OBJ and columns of text.
-/// @throws FileProblem for what is recognised but not read here (E57, gzip, ...), naming a converter, and for
+/// Looks at the first bytes of a file; @p extension (lower case, no dot) decides only between OBJ and columns
+/// of text, and where binary STL, which begins with anything, was not told by the file's size. @p size: of
+/// the whole file, 0 when it is not known.
+/// @throws FileProblem for what is recognised but not read here (E57, zip, ...), naming a converter, and for
 /// what is not recognised at all.
-CloudFormat identifyFormat(std::string_view bytes, const std::string& extension);
+CloudFormat identifyFormat(std::string_view start, std::size_t size, const std::string& extension);
+
+/// Whether ASCII STL starts like @p bytes: "solid", then "facet" or "endsolid".
+bool looksLikeStlText(std::string_view bytes);
 
 /// "PLY" and so on: the format's short name.
 const char* nameOf(CloudFormat format);

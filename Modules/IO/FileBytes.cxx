@@ -2,11 +2,15 @@
 
 #include "FileProblem.h"
 
+#include "vtk_zlib.h"
+
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <new>
 
 namespace fs = std::filesystem;
 
@@ -15,6 +19,13 @@ namespace pointhaptics::io
 
 namespace
 {
+
+constexpr std::size_t kReadAtOnce = std::size_t{ 1 } << 22;
+constexpr std::size_t kPackedAtOnce = std::size_t{ 1 } << 16;
+/// Unpacked bytes that are looked at before the rest is unpacked.
+constexpr std::size_t kInspected = std::size_t{ 1 } << 16;
+constexpr int kGzipOnly = 16; ///< zlib: add to the window's bits to ask for gzip's header
+constexpr std::string_view kGzipMagic = "\x1f\x8b";
 
 void checkIsReadable(const std::string& path)
 {
@@ -40,40 +51,194 @@ void checkIsReadable(const std::string& path)
   }
 }
 
+std::string lowerCase(std::string text)
+{
+  for (char& c : text)
+  {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return text;
+}
+
+/// Frees what zlib allocates.
+struct Inflater
+{
+  z_stream stream{};
+
+  Inflater()
+  {
+    if (inflateInit2(&stream, MAX_WBITS + kGzipOnly) != Z_OK)
+    {
+      throw std::bad_alloc();
+    }
+  }
+  ~Inflater() { inflateEnd(&stream); }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+};
+
 } // namespace
 
-FileBytes::FileBytes(const std::string& path)
+/// A file that is read from its beginning to its end.
+class FileBytes::File
+{
+public:
+  explicit File(const std::string& path)
+    : file_(std::fopen(path.c_str(), "rb"), &std::fclose)
+  {
+    if (!file_)
+    {
+      throw FileProblem(
+        vtkErrorCode::CannotOpenFileError, std::strerror(errno), "check that you may read the file");
+    }
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+    size_ = static_cast<std::size_t>(fs::file_size(path));
+  }
+  std::size_t size() const { return size_; }
+  std::size_t position() const { return position_; }
+  double done() const { return static_cast<double>(position_) / static_cast<double>(size_); }
+  /// Reads exactly @p size bytes. @throws FileProblem when there are fewer.
+  void read(char* to, std::size_t size)
+  {
+    const std::size_t got = std::fread(to, 1, size, file_.get());
+    position_ += got;
+    if (got != size)
+    {
+      throw FileProblem(vtkErrorCode::CannotOpenFileError,
+        "reading stopped at byte " + std::to_string(position_) + " of " + std::to_string(size_),
+        "check the disk, or wait until the file is completely written");
+    }
+  }
+  std::string_view peek(char* to, std::size_t size)
+  {
+    const std::size_t got = std::fread(to, 1, std::min(size, size_), file_.get());
+    std::rewind(file_.get());
+    return { to, got };
+  }
+
+private:
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::size_t size_ = 0;
+  std::size_t position_ = 0;
+};
+
+FileBytes::FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect)
 {
   checkIsReadable(path);
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file)
-  {
-    throw FileProblem(
-      vtkErrorCode::CannotOpenFileError, std::strerror(errno), "check that you may read the file");
-  }
-  size_ = static_cast<std::size_t>(fs::file_size(path));
-  if (size_ == 0)
+  File file(path);
+  if (file.size() == 0)
   {
     throw FileProblem(vtkErrorCode::PrematureEndOfFileError, "the file is empty (0 bytes)",
       "export the cloud again or copy the file again");
   }
-  data_.reset(new char[size_]);
-  const std::size_t got = std::fread(data_.get(), 1, size_, file.get());
-  if (got != size_)
+  char start[2];
+  wasPacked_ = file.peek(start, sizeof(start)) == kGzipMagic;
+  if (wasPacked_)
   {
-    throw FileProblem(vtkErrorCode::CannotOpenFileError,
-      "reading stopped at byte " + std::to_string(got) + " of " + std::to_string(size_),
-      "check the disk, or wait until the file is completely written");
+    unpack(file, progress, inspect);
+  }
+  else
+  {
+    readPlain(file, progress, inspect);
+  }
+}
+
+/// Memory that was never touched costs nothing: growing by much is cheap.
+void FileBytes::resize(std::size_t size)
+{
+  void* grown = std::realloc(data_.get(), size);
+  if (!grown)
+  {
+    throw std::bad_alloc();
+  }
+  static_cast<void>(data_.release());
+  data_.reset(static_cast<char*>(grown));
+}
+
+void FileBytes::readPlain(File& file, const Progress& progress, const Inspect& inspect)
+{
+  resize(file.size());
+  while (size_ < file.size())
+  {
+    const std::size_t piece = std::min(kReadAtOnce, file.size() - size_);
+    file.read(data_.get() + size_, piece);
+    if (size_ == 0)
+    {
+      inspect({ data_.get(), piece }, file.size());
+    }
+    size_ += piece;
+    progress(file.done());
+  }
+}
+
+void FileBytes::unpack(File& file, const Progress& progress, const Inspect& inspect)
+{
+  const std::size_t limit = std::max(kGzipFloor, kMostGzipRatio * file.size());
+  const auto where = [&](const Inflater& inflater)
+  { return "byte " + std::to_string(file.position() - inflater.stream.avail_in) + " of the gzip file: "; };
+  Inflater inflater;
+  z_stream& stream = inflater.stream;
+  std::unique_ptr<char[]> packed(new char[kPackedAtOnce]);
+  std::size_t capacity = kInspected;
+  resize(capacity);
+  bool inspected = false;
+  bool ended = false;
+  while (!ended || stream.avail_in > 0 || file.position() < file.size())
+  {
+    if (stream.avail_in == 0 && file.position() < file.size())
+    {
+      const std::size_t piece = std::min(kPackedAtOnce, file.size() - file.position());
+      file.read(packed.get(), piece);
+      stream.next_in = reinterpret_cast<Bytef*>(packed.get());
+      stream.avail_in = static_cast<uInt>(piece);
+      progress(file.done());
+    }
+    if (ended)
+    {
+      inflateReset(&stream); // another member follows
+      ended = false;
+    }
+    stream.next_out = reinterpret_cast<Bytef*>(data_.get() + size_);
+    const std::size_t room = std::min(capacity - size_, kReadAtOnce);
+    stream.avail_out = static_cast<uInt>(room);
+    const int result = inflate(&stream, Z_NO_FLUSH);
+    size_ += room - stream.avail_out;
+    ended = result == Z_STREAM_END;
+    if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
+    {
+      failFormat(where(inflater) + (stream.msg ? stream.msg : "damaged data"),
+        "the file is damaged: copy it again, or test it with gunzip -t");
+    }
+    if (!inspected && size_ > 0 && (size_ == kInspected || ended))
+    {
+      inspect(view(), ended && file.position() == file.size() ? size_ : 0);
+      inspected = true;
+    }
+    if (!ended && size_ < capacity && stream.avail_in == 0 && file.position() == file.size())
+    {
+      failTruncated(where(inflater) + "the compressed data end too early");
+    }
+    if (size_ == capacity)
+    {
+      if (capacity == limit)
+      {
+        failFormat(where(inflater) + "unpacks to more than " + std::to_string(limit) + " bytes from " +
+            std::to_string(file.size()),
+          "if this is no attack, unpack it first: gunzip -k FILE");
+      }
+      capacity = std::min(limit, 2 * capacity);
+      resize(capacity);
+    }
+  }
+  if (size_ == 0)
+  {
+    failTruncated("the gzip file holds 0 bytes");
   }
 }
 
 std::string lowerExtension(const std::string& path)
 {
-  std::string extension = fs::path(path).extension().string();
-  for (char& c : extension)
-  {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  const std::string extension = lowerCase(fs::path(path).extension().string());
   return extension.empty() ? extension : extension.substr(1);
 }
 

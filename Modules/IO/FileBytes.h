@@ -1,8 +1,10 @@
 /// @file
-/// The whole content of one file in memory.
+/// The whole content of one file in memory, unpacked when it is gzip-compressed.
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -10,18 +12,43 @@
 namespace pointhaptics::io
 {
 
-/// Owns the bytes. Costs the file's size in memory while it lives.
+/// Owns the bytes. Costs the size of the (unpacked) content in memory while it lives.
 class FileBytes
 {
 public:
-  /// Reads @p path. @throws FileProblem when it is missing, a folder, not a regular file, empty or
-  /// unreadable.
-  explicit FileBytes(const std::string& path);
+  /// Is told how much is done, 0..1; may throw to end the reading.
+  using Progress = std::function<void(double)>;
+  /// Is shown the first unpacked bytes and how many there will be (0: not known); throws when it is not worth
+  /// going on.
+  using Inspect = std::function<void(std::string_view, std::size_t)>;
+
+  /// Reads @p path. A gzip file is unpacked on the way, up to kMostGzipRatio times its size (or kGzipFloor,
+  /// where that is more): honest clouds stay far below, and a file made to fill the memory does not come
+  /// through.
+  /// @throws FileProblem when the file is missing, a folder, not a regular file, empty, unreadable, or its
+  /// gzip data are damaged, cut short or beyond the limit; what @p progress and @p inspect throw.
+  FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect);
   std::string_view view() const { return { data_.get(), size_ }; }
+  /// Whether view() is the unpacked content of a gzip file.
+  bool wasPacked() const { return wasPacked_; }
+
+  static constexpr std::size_t kMostGzipRatio = 100;
+  static constexpr std::size_t kGzipFloor = std::size_t{ 1 } << 26;
 
 private:
-  std::unique_ptr<char[]> data_;
+  struct Free
+  {
+    void operator()(char* data) const { std::free(data); }
+  };
+  class File;
+
+  void readPlain(File& file, const Progress& progress, const Inspect& inspect);
+  void unpack(File& file, const Progress& progress, const Inspect& inspect);
+  void resize(std::size_t size);
+
+  std::unique_ptr<char, Free> data_;
   std::size_t size_ = 0;
+  bool wasPacked_ = false;
 };
 
 /// The extension of @p path in lower case without its dot; empty when there is none.

@@ -14,11 +14,20 @@ namespace pointhaptics::io
 /// ASCII and binary PLY: every scalar property of the element vertex; lists and other elements are skipped.
 void readPly(ReadTask& task, vtkPolyData* cloud);
 
-/// ASCII, binary and binary_compressed PCD. Binary ones need PCL.
+/// ASCII, binary and binary_compressed PCD.
 void readPcd(ReadTask& task, vtkPolyData* cloud);
 
-/// VTK's XML PolyData: points, point data and field data; cells are dropped.
-void readVtp(ReadTask& task, vtkPolyData* cloud);
+/// VTK's XML PolyData and UnstructuredGrid: points, point data and field data; cells are dropped.
+void readVtkXml(ReadTask& task, vtkPolyData* cloud);
+
+/// VTK's legacy format, ASCII and binary: POINTS and POINT_DATA of grids with a list of points.
+void readVtkLegacy(ReadTask& task, vtkPolyData* cloud);
+
+/// OFF, NOFF, COFF, CNOFF as text: vertices with normals and colours; faces are dropped.
+void readOff(ReadTask& task, vtkPolyData* cloud);
+
+/// STL, ASCII and binary: each distinct vertex once, as float; normals of faces are dropped.
+void readStl(ReadTask& task, vtkPolyData* cloud);
 
 /// Wavefront OBJ: vertices, their colours, and normals when there is one per vertex.
 void readObj(ReadTask& task, vtkPolyData* cloud);

@@ -3,7 +3,10 @@
 #pragma once
 
 #include "OutputColumns.h"
-#include "OutputFile.h"
+#include "OutputStream.h"
+
+#include <string>
+#include <vector>
 
 class vtkFieldData;
 
@@ -11,13 +14,22 @@ namespace pointhaptics::io
 {
 
 /// Binary PLY in this machine's byte order; points as float or double; one scalar property per component.
-void writePly(const std::vector<OutputArray>& arrays, OutputStream& out);
+void writePly(const std::vector<OutputArray>& arrays, OutputStream& out, WriterNotes& notes);
 
 /// Binary PCD; @p fieldData may hold Viewpoint (7) and OrganizedDimensions (width, height).
 void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, OutputStream& out);
 
 /// Comma separated text with a header; each number with the fewest digits that give it back exactly.
 void writeCsv(const std::vector<OutputArray>& arrays, OutputStream& out);
+
+/// LAS 1.2, or 1.4 where the arrays or well-known text need it. Arrays that the reader makes of LAS fields
+/// become these again, others extra bytes; @p fieldData may hold LasScale, LasOffset, LasGlobalEncoding and
+/// CoordinateSystem.
+void writeLas(
+  const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, OutputStream& out, WriterNotes& notes);
+
+/// The fewest digits that give @p value back.
+std::string shortestDecimal(double value);
 
 /// One field of a binary record.
 struct RecordField

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <set>
+#include <type_traits>
 
 namespace pointhaptics::io
 {
@@ -91,7 +92,7 @@ std::string OutputArray::componentName(int component) const
   return components() == 1 ? name : name + "_" + std::to_string(component);
 }
 
-std::vector<OutputArray> outputArrays(vtkPointSet* cloud)
+std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
 {
   std::vector<OutputArray> arrays;
   arrays.push_back({ ArrayRole::Points, "Points", inPlainMemory(cloud->GetPoints()->GetData()) });
@@ -102,6 +103,8 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud)
     vtkDataArray* array = data->GetArray(i);
     if (!array || array->GetNumberOfComponents() < 1)
     {
+      const char* name = data->GetAbstractArray(i)->GetName();
+      notes.add("array " + inQuotes(name ? name : "") + " holds no numbers and is left out");
       continue;
     }
     OutputArray output{ roleOf(array, data), plainName(array->GetName()), inPlainMemory(array) };
@@ -115,6 +118,11 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud)
     {
       output.name += "_again";
     }
+    const std::string given = array->GetName() ? array->GetName() : "";
+    if (output.name != given)
+    {
+      notes.add("array " + inQuotes(given) + " is called " + output.name);
+    }
     arrays.push_back(output);
   }
   keepFirstOfRole(arrays, ArrayRole::Colours, data->GetScalars());
@@ -122,17 +130,37 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud)
   return arrays;
 }
 
-std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays)
+std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, WriterNotes& notes)
 {
   for (OutputArray& each : arrays)
   {
-    if (!isFloatingType(each.type()) && sizeOfType(each.type()) == 8)
+    if (isFloatingType(each.type()) || sizeOfType(each.type()) != 8)
     {
-      vtkSmartPointer<vtkDataArray> copy;
-      copy.TakeReference(vtkDataArray::CreateDataArray(VTK_DOUBLE));
-      copy->DeepCopy(each.array);
-      each.array = copy;
+      continue;
     }
+    vtkSmartPointer<vtkDataArray> copy;
+    copy.TakeReference(vtkDataArray::CreateDataArray(VTK_DOUBLE));
+    copy->DeepCopy(each.array);
+    vtkIdType changed = 0;
+    withType(each.type(),
+      [&](auto zero)
+      {
+        using T = decltype(zero);
+        const T* from = static_cast<const T*>(each.array->GetVoidPointer(0));
+        const double* to = static_cast<const double*>(copy->GetVoidPointer(0));
+        for (vtkIdType i = 0; i < copy->GetNumberOfValues(); ++i)
+        {
+          // 2^64 itself, to which the largest ones are rounded, is no T.
+          constexpr double kAbove = std::is_signed_v<T> ? 0x1p63 : 0x1p64;
+          changed += to[i] < kAbove && static_cast<T>(to[i]) == from[i] ? 0 : 1;
+        }
+      });
+    if (changed > 0)
+    {
+      notes.add(std::to_string(changed) + " integers of array " + each.name +
+        " are beyond 2^53 and rounded to doubles; write .vtp or .pcd to keep every bit");
+    }
+    each.array = copy;
   }
   return arrays;
 }

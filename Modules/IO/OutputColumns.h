@@ -37,11 +37,19 @@ struct OutputArray
   std::string componentName(int component) const;
 };
 
+/// What a format could not hold: one sentence each, without end mark.
+struct WriterNotes
+{
+  std::vector<std::string> all;
+
+  void add(const std::string& note) { all.push_back(note); }
+};
+
 /// The points first, then every array of numbers in the point data, each under its own name; arrays of
 /// strings are left out. @throws FileProblem when an array is shorter than the cloud.
-std::vector<OutputArray> outputArrays(vtkPointSet* cloud);
+std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes);
 
 /// The same with arrays of 64 bit integers as doubles, for formats without such integers.
-std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays);
+std::vector<OutputArray> withoutLongIntegers(std::vector<OutputArray> arrays, WriterNotes& notes);
 
 } // namespace pointhaptics::io

@@ -1,9 +1,9 @@
 #include "FormatReaders.h"
 
 #include "CloudColumns.h"
+#include "LzfStream.h"
 #include "NumericType.h"
 #include "PcdHeader.h"
-#include "PcdPcl.h"
 #include "TextScan.h"
 
 #include "vtkDoubleArray.h"
@@ -23,34 +23,185 @@ namespace pointhaptics::io
 namespace
 {
 
-/// Stores one number of an ASCII record in its place in a binary record.
-void storeInRecord(char* record, const PcdField& field, int component, std::string_view word, double value,
-  std::size_t lineNumber)
+/// Bytes of one field that are unpacked at a time: they stay in the cache.
+constexpr std::size_t kBlockBytes = 1 << 18;
+
+/// PCD packs colours as 0xAARRGGBB. Copies @p count of them into bytes R G B [A].
+void unpackColours(ConstColumnView packed, ColumnView target, vtkIdType count)
 {
-  char* first = record + field.offset + static_cast<std::size_t>(component * sizeOfType(field.type));
-  if (!storeNumber({ first, 0, field.type }, 0, value))
+  const char* from = packed.first;
+  char* to = target.first;
+  for (vtkIdType i = 0; i < count; ++i, from += packed.stride, to += target.stride)
   {
-    failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(field.name) + " is " +
-        inQuotes(word) + ", which its integer type cannot hold",
-      "give the field TYPE F in the header");
+    std::uint32_t colour = 0;
+    std::memcpy(&colour, from, sizeof(colour));
+    const std::uint32_t bytes[4] = { colour >> 16, colour >> 8, colour, colour >> 24 };
+    for (std::ptrdiff_t channel = 0; channel < target.stride; ++channel)
+    {
+      to[channel] = static_cast<char>(static_cast<std::uint8_t>(bytes[channel] & 0xff));
+    }
   }
 }
 
-void parseAsciiRecord(std::string_view line, std::size_t lineNumber, const PcdHeader& header, char* record)
+/// The fields that are read, each with its place in the output.
+struct PcdTable
 {
-  for (const PcdField& field : header.fields)
+  struct Entry
   {
-    for (int component = 0; component < field.count; ++component)
+    PcdField field;
+    std::size_t column = 0; ///< unless the field is padding
+  };
+  std::vector<Entry> entries;
+  std::vector<Column> columns;
+
+  explicit PcdTable(const PcdHeader& header)
+  {
+    for (const PcdField& field : header.fields)
+    {
+      entries.push_back({ field, columns.size() });
+      if (field.isPackedColour())
+      {
+        const bool hasAlpha = field.name == "rgba";
+        columns.push_back({ hasAlpha ? "RGBA" : "RGB", VTK_TYPE_UINT8, hasAlpha ? 4 : 3 });
+      }
+      else if (!field.isPadding())
+      {
+        columns.push_back({ field.name, field.type, field.count });
+      }
+    }
+  }
+};
+
+/// Copies one field of @p count records, the first of which has it at @p first.
+void copyField(const PcdTable::Entry& entry, const char* first, std::ptrdiff_t stride,
+  const CloudColumns& columns, vtkIdType row, vtkIdType count)
+{
+  const PcdField& field = entry.field;
+  if (field.isPackedColour())
+  {
+    unpackColours({ first, stride, field.type }, columns.target(entry.column).fromRow(row), count);
+    return;
+  }
+  for (int component = 0; component < field.count; ++component)
+  {
+    copyStrided({ first + component * sizeOfType(field.type), stride, field.type },
+      columns.target(entry.column, component).fromRow(row), count);
+  }
+}
+
+void fillFromRecords(
+  const ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
+{
+  const char* records = task.bytes.data() + header.bodyOffset;
+  const vtkIdType rows = static_cast<vtkIdType>(header.points);
+  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(header.recordSize);
+  for (vtkIdType row = 0; row < rows; row += kProgressRows)
+  {
+    const vtkIdType count = std::min(kProgressRows, rows - row);
+    for (const PcdTable::Entry& entry : table.entries)
+    {
+      if (!entry.field.isPadding())
+      {
+        copyField(entry, records + row * stride + entry.field.offset, stride, columns, row, count);
+      }
+    }
+    task.progress(static_cast<double>(row + count) / static_cast<double>(rows));
+  }
+}
+
+/// Compressed files hold field after field, without padding.
+void fillFromCompressed(
+  const ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
+{
+  const std::size_t packedAt = header.bodyOffset + 8;
+  LzfStream stream(task.bytes.substr(packedAt, header.compressedSize));
+  const vtkIdType rows = static_cast<vtkIdType>(header.points);
+  std::vector<char> block;
+  std::size_t done = 0;
+  for (const PcdTable::Entry& entry : table.entries)
+  {
+    const PcdField& field = entry.field;
+    const std::size_t size = static_cast<std::size_t>(sizeOfType(field.type) * field.count);
+    const vtkIdType most = std::max<vtkIdType>(1, static_cast<vtkIdType>(kBlockBytes / size));
+    for (vtkIdType row = 0; row < rows && !field.isPadding(); row += most)
+    {
+      const vtkIdType count = std::min(most, rows - row);
+      block.resize(size * static_cast<std::size_t>(count));
+      if (!stream.read(block.data(), block.size()))
+      {
+        failFormat("byte " + std::to_string(packedAt + stream.position()) + ": damaged LZF data in field " +
+            inQuotes(field.name),
+          "the file is damaged: copy or write it again");
+      }
+      copyField(entry, block.data(), static_cast<std::ptrdiff_t>(size), columns, row, count);
+      done += block.size();
+      task.progress(
+        static_cast<double>(done) / static_cast<double>(header.points * header.compressedRecordSize));
+    }
+  }
+  if (!stream.isAtEnd())
+  {
+    failFormat("byte " + std::to_string(packedAt + stream.position()) + ": more compressed data than points",
+      "the file is damaged or its header is wrong: copy it again");
+  }
+}
+
+/// Where one number of an ASCII line goes.
+struct AsciiNumber
+{
+  const PcdField* field;
+  ColumnView target; ///< of a packed colour: its bytes
+};
+
+std::vector<AsciiNumber> asciiNumbers(const PcdTable& table, const CloudColumns& columns)
+{
+  std::vector<AsciiNumber> numbers;
+  for (const PcdTable::Entry& entry : table.entries)
+  {
+    for (int component = 0; component < entry.field.count; ++component)
+    {
+      numbers.push_back(
+        { &entry.field, entry.field.isPadding() ? ColumnView{} : columns.target(entry.column, component) });
+    }
+  }
+  return numbers;
+}
+
+bool storeAsciiNumber(const AsciiNumber& number, vtkIdType row, double value)
+{
+  if (number.field->isPadding())
+  {
+    return true;
+  }
+  if (!number.field->isPackedColour())
+  {
+    return storeNumber(number.target, row, value);
+  }
+  std::uint32_t packed = 0;
+  const bool stored = storeNumber({ reinterpret_cast<char*>(&packed), 0, number.field->type }, 0, value);
+  unpackColours(
+    { reinterpret_cast<const char*>(&packed), 0, VTK_TYPE_UINT32 }, number.target.fromRow(row), 1);
+  return stored;
+}
+
+void parseAsciiRow(
+  std::string_view line, std::size_t lineNumber, const std::vector<AsciiNumber>& numbers, vtkIdType row)
+{
+  for (const AsciiNumber& number : numbers)
+  {
+    double value = 0.0;
+    if (!takeNumber(line, value))
     {
       const std::string_view word = takeWord(line);
-      double value = 0.0;
-      if (!parseNumber(word, value))
-      {
-        failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(field.name) + " is " +
-            (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
-          "write one number per field and one point per line");
-      }
-      storeInRecord(record, field, component, word, value, lineNumber);
+      failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(number.field->name) + " is " +
+          (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
+        "write one number per field and one point per line");
+    }
+    if (!storeAsciiNumber(number, row, value))
+    {
+      failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(number.field->name) + " is " +
+          std::to_string(value) + ", which its integer type cannot hold",
+        "give the field TYPE F in the header");
     }
   }
   const std::string_view extra = takeWord(line);
@@ -61,94 +212,31 @@ void parseAsciiRecord(std::string_view line, std::size_t lineNumber, const PcdHe
   }
 }
 
-/// The ASCII points as binary records. Not left to PCL, which names no line when a number is malformed.
-std::vector<std::uint8_t> readAsciiRecords(const ReadTask& task, const PcdHeader& header)
+/// Not left to PCL, which names no line when a number is malformed.
+void fillFromAscii(
+  const ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
 {
-  std::vector<std::uint8_t> records(header.points * header.recordSize);
+  const std::vector<AsciiNumber> numbers = asciiNumbers(table, columns);
   LineReader lines(task.bytes.substr(header.bodyOffset), header.bodyLine);
   std::string_view line;
-  unsigned long long point = 0;
-  while (point < header.points && lines.next(line))
+  vtkIdType point = 0;
+  const vtkIdType rows = static_cast<vtkIdType>(header.points);
+  while (point < rows && lines.next(line))
   {
     if (trimmed(line).empty())
     {
       continue;
     }
-    char* record = reinterpret_cast<char*>(records.data()) + point * header.recordSize;
-    parseAsciiRecord(line, lines.lineNumber(), header, record);
+    parseAsciiRow(line, lines.lineNumber(), numbers, point);
     if (++point % kProgressRows == 0)
     {
-      task.progress(static_cast<double>(point) / static_cast<double>(header.points));
+      task.progress(static_cast<double>(point) / static_cast<double>(rows));
     }
   }
-  if (point < header.points)
+  if (point < rows)
   {
     failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " after " +
-      std::to_string(point) + " of " + std::to_string(header.points) + " points");
-  }
-  return records;
-}
-
-/// PCD packs colours as 0xAARRGGBB.
-void unpackColours(ConstColumnView packed, const CloudColumns& columns, std::size_t column, int channels,
-  vtkIdType row, vtkIdType count)
-{
-  char* to = columns.target(column).fromRow(row).first;
-  const char* from = packed.first;
-  for (vtkIdType i = 0; i < count; ++i, from += packed.stride, to += channels)
-  {
-    std::uint32_t colour = 0;
-    std::memcpy(&colour, from, sizeof(colour));
-    const std::uint32_t bytes[4] = { colour >> 16, colour >> 8, colour, colour >> 24 };
-    for (int channel = 0; channel < channels; ++channel)
-    {
-      to[channel] = static_cast<char>(static_cast<std::uint8_t>(bytes[channel] & 0xff));
-    }
-  }
-}
-
-std::vector<Column> columnsOf(const std::vector<PcdField>& fields)
-{
-  std::vector<Column> columns;
-  for (const PcdField& field : fields)
-  {
-    if (field.isPackedColour())
-    {
-      const bool hasAlpha = field.name == "rgba";
-      columns.push_back({ hasAlpha ? "RGBA" : "RGB", VTK_TYPE_UINT8, hasAlpha ? 4 : 3 });
-    }
-    else
-    {
-      columns.push_back({ field.name, field.type, field.count });
-    }
-  }
-  return columns;
-}
-
-void fillColumns(const ReadTask& task, const PcdHeader& header, const std::vector<PcdField>& fields,
-  const char* records, const CloudColumns& columns)
-{
-  const vtkIdType rows = static_cast<vtkIdType>(header.points);
-  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(header.recordSize);
-  for (vtkIdType row = 0; row < rows; row += kProgressRows)
-  {
-    const vtkIdType count = std::min(kProgressRows, rows - row);
-    for (std::size_t i = 0; i < fields.size(); ++i)
-    {
-      const char* first = records + row * stride + fields[i].offset;
-      if (fields[i].isPackedColour())
-      {
-        unpackColours(
-          { first, stride, fields[i].type }, columns, i, fields[i].name == "rgba" ? 4 : 3, row, count);
-        continue;
-      }
-      for (int component = 0; component < fields[i].count; ++component)
-      {
-        copyStrided({ first + component * sizeOfType(fields[i].type), stride, fields[i].type },
-          columns.target(i, component).fromRow(row), count);
-      }
-    }
-    task.progress(0.5 + 0.5 * static_cast<double>(row + count) / static_cast<double>(rows));
+      std::to_string(point) + " of " + std::to_string(rows) + " points");
   }
 }
 
@@ -177,15 +265,20 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
 {
   const PcdHeader header = parsePcdHeader(task.bytes);
   task.format = std::string("PCD (") + nameOf(header.encoding) + ")";
-  std::vector<PcdField> fields;
-  std::copy_if(header.fields.begin(), header.fields.end(), std::back_inserter(fields),
-    [](const PcdField& field) { return !field.isPadding(); });
-  task.progress(0.0);
-  const std::vector<std::uint8_t> records = header.encoding == PcdEncoding::Ascii
-    ? readAsciiRecords(task, header)
-    : readPcdRecords(task.path, header);
-  CloudColumns columns(columnsOf(fields), static_cast<vtkIdType>(header.points));
-  fillColumns(task, header, fields, reinterpret_cast<const char*>(records.data()), columns);
+  const PcdTable table(header);
+  CloudColumns columns(table.columns, static_cast<vtkIdType>(header.points));
+  switch (header.encoding)
+  {
+    case PcdEncoding::Ascii:
+      fillFromAscii(task, header, table, columns);
+      break;
+    case PcdEncoding::Binary:
+      fillFromRecords(task, header, table, columns);
+      break;
+    case PcdEncoding::Compressed:
+      fillFromCompressed(task, header, table, columns);
+      break;
+  }
   columns.moveTo(cloud);
   addFieldData(header, cloud);
 }

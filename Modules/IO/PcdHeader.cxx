@@ -1,9 +1,11 @@
 #include "PcdHeader.h"
 
+#include "CloudColumns.h"
 #include "FileProblem.h"
 #include "NumericType.h"
 #include "TextScan.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <set>
@@ -14,8 +16,7 @@ namespace pointhaptics::io
 namespace
 {
 
-constexpr unsigned long long kMostPcdBytes = 0x7fffffff; ///< PCL counts bytes with 32 bits
-constexpr unsigned long long kMostLzfRatio = 90;         ///< LZF packs at most 264 bytes into 3
+constexpr unsigned long long kMostLzfRatio = 90; ///< LZF packs at most 264 bytes into 3
 
 [[noreturn]] void failLine(std::size_t line, const std::string& what, const std::string& cure)
 {
@@ -76,6 +77,11 @@ std::vector<std::string> HeaderParser::wordsPerField(std::string_view rest) cons
   std::vector<std::string> words;
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
   {
+    if (words.size() == kMostColumns)
+    {
+      failLine(lines_.lineNumber(), "more than " + std::to_string(kMostColumns) + " entries",
+        "use COUNT for fields of many numbers");
+    }
     words.emplace_back(word);
   }
   if (!names_.empty() && words.size() != names_.size())
@@ -203,6 +209,7 @@ void HeaderParser::buildFields()
     field.count = static_cast<int>(count);
     field.offset = header_.recordSize;
     header_.recordSize += size * count;
+    header_.compressedRecordSize += field.isPadding() ? 0 : size * count;
     header_.numbersPerLine += count;
     header_.fields.push_back(field);
   }
@@ -256,7 +263,7 @@ std::uint32_t numberAt(std::string_view bytes, std::size_t offset)
   return value;
 }
 
-void checkCompressedSize(std::string_view bytes, const PcdHeader& header, unsigned long long unpacked)
+void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned long long unpacked)
 {
   const std::size_t available = bytes.size() - header.bodyOffset;
   if (available < 8)
@@ -277,9 +284,10 @@ void checkCompressedSize(std::string_view bytes, const PcdHeader& header, unsign
         std::to_string(unpacked),
       "the file is damaged or its header is wrong: copy it again");
   }
+  header.compressedSize = static_cast<std::size_t>(packed);
 }
 
-void checkSizes(std::string_view bytes, const PcdHeader& header)
+void checkSizes(std::string_view bytes, PcdHeader& header)
 {
   // Division, because the product of two claims may overflow.
   const bool matches = header.width == 0 || header.height == 0
@@ -296,9 +304,12 @@ void checkSizes(std::string_view bytes, const PcdHeader& header)
     failNoPoints();
   }
   const std::size_t available = bytes.size() - header.bodyOffset;
-  const unsigned long long least =
-    header.encoding == PcdEncoding::Ascii ? 2 * header.numbersPerLine : header.recordSize;
-  const unsigned long long ratio = header.encoding == PcdEncoding::Compressed ? kMostLzfRatio : 1;
+  const bool isCompressed = header.encoding == PcdEncoding::Compressed;
+  const unsigned long long least = std::max<std::size_t>(1,
+    header.encoding == PcdEncoding::Ascii ? 2 * header.numbersPerLine
+      : isCompressed                      ? header.compressedRecordSize
+                                          : header.recordSize);
+  const unsigned long long ratio = isCompressed ? kMostLzfRatio : 1;
   if (header.points > ratio * (available + 1) / least)
   {
     failTruncated("the header counts " + std::to_string(header.points) + " points of at least " +
@@ -310,14 +321,9 @@ void checkSizes(std::string_view bytes, const PcdHeader& header)
     failTruncated("the header needs " + std::to_string(total) + " bytes of points, but only " +
       std::to_string(available) + " follow");
   }
-  if (header.encoding != PcdEncoding::Ascii && (total > kMostPcdBytes || header.bodyOffset > kMostPcdBytes))
+  if (isCompressed)
   {
-    failFormat("the points take " + std::to_string(total) + " bytes, more than PCL reads",
-      "split the cloud, or convert it to PLY, LAS or VTP");
-  }
-  if (header.encoding == PcdEncoding::Compressed)
-  {
-    checkCompressedSize(bytes, header, total);
+    checkCompressedSize(bytes, header, header.points * header.compressedRecordSize);
   }
 }
 
@@ -330,7 +336,7 @@ bool PcdField::isPackedColour() const
 
 PcdHeader parsePcdHeader(std::string_view bytes)
 {
-  const PcdHeader header = HeaderParser(bytes).parse();
+  PcdHeader header = HeaderParser(bytes).parse();
   checkSizes(bytes, header);
   return header;
 }

@@ -168,7 +168,7 @@ void fillRecordsWithLists(BinaryBody& body, const PlyElement& vertex, const Vert
 void readBinaryBody(const ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
 {
   const bool littleEndianFile = header.encoding == PlyEncoding::LittleEndian;
-  BinaryBody body(task.bytes, header.bodyOffset, littleEndianFile != isLittleEndianHost());
+  BinaryBody body(task.bytes, header.bodyOffset, littleEndianFile != kIsLittleEndianHost);
   const std::size_t vertexIndex = header.vertexElement();
   for (std::size_t i = 0; i < vertexIndex; ++i)
   {
@@ -200,22 +200,14 @@ public:
   }
   double takeNumber(const PlyProperty& property)
   {
-    std::size_t begin = 0;
-    while (begin < rest_.size() && isBlank(rest_[begin]))
-    {
-      ++begin;
-    }
-    const char* last = rest_.data() + rest_.size();
     double value = 0.0;
-    const char* end = parseNumber(rest_.data() + begin, last, value);
-    if (!end || (end != last && !isBlank(*end)))
+    if (!io::takeNumber(rest_, value))
     {
-      std::string_view word = takeWord(rest_);
+      const std::string_view word = takeWord(rest_);
       failFormat(where() + "property " + inQuotes(property.name) + " is " +
           (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
         "write one number per property and one vertex per line");
     }
-    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
     return value;
   }
   void skipList(const PlyProperty& list)

@@ -1,5 +1,6 @@
 #include "PlyHeader.h"
 
+#include "CloudColumns.h"
 #include "FileProblem.h"
 #include "NumericType.h"
 #include "TextScan.h"
@@ -176,6 +177,10 @@ PlyHeader parsePlyHeader(std::string_view bytes)
       if (header.elements.empty())
       {
         failLine(number, "a property before any element", "write the element's line first");
+      }
+      if (header.elements.back().properties.size() == kMostColumns)
+      {
+        failLine(number, "more than " + std::to_string(kMostColumns) + " properties", "use lists");
       }
       header.elements.back().properties.push_back(parseProperty(line, number));
     }

@@ -42,14 +42,6 @@ void copyColumn(ConstColumnView source, ColumnView target, vtkIdType count, bool
 
 } // namespace
 
-bool isLittleEndianHost() noexcept
-{
-  const std::uint16_t one = 1;
-  char first = 0;
-  std::memcpy(&first, &one, 1);
-  return first == 1;
-}
-
 void copyStrided(ConstColumnView source, ColumnView target, vtkIdType count, bool swapSource) noexcept
 {
   withType(source.type,

@@ -9,8 +9,12 @@
 namespace pointhaptics::io
 {
 
-/// True where this machine stores the least significant byte first.
-bool isLittleEndianHost() noexcept;
+/// Whether this machine stores the least significant byte first.
+#if defined(__BYTE_ORDER__)
+constexpr bool kIsLittleEndianHost = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
+#else
+constexpr bool kIsLittleEndianHost = true;
+#endif
 
 /// A column of values: the first one at @p first, the next @p stride bytes on. Need not be aligned.
 struct ConstColumnView

@@ -12,13 +12,13 @@ namespace pointhaptics::io
 namespace
 {
 
-bool areBytes(const std::vector<DecimalColumn>& table, std::size_t first)
+bool areBytes(const std::vector<NumberColumn>& table, std::size_t first)
 {
   return table[first].isByte() && table[first + 1].isByte() && table[first + 2].isByte();
 }
 
 /// Names for a table without header.
-std::vector<std::string> guessNames(const std::vector<DecimalColumn>& table)
+std::vector<std::string> guessNames(const std::vector<NumberColumn>& table)
 {
   const std::size_t count = table.size();
   if (count == 4)
@@ -57,7 +57,7 @@ bool isColourName(const std::string& name)
       "RGB:2", "RGBA_0", "RGBA_1", "RGBA_2", "RGBA_3", "RGBA:0", "RGBA:1", "RGBA:2", "RGBA:3" });
 }
 
-int typeOf(const std::string& name, const DecimalColumn& column)
+int typeOf(const std::string& name, const NumberColumn& column)
 {
   if (isOneOf(name, { "x", "y", "z", "nx", "ny", "nz", "normal_x", "normal_y", "normal_z" }))
   {
@@ -81,6 +81,29 @@ const char* separatorName(const TextLayout& layout)
 
 } // namespace
 
+void readTable(const ReadTask& task, std::string_view text, const TextLayout& layout, vtkPolyData* cloud)
+{
+  const TextTable table = surveyTable(task, text, layout);
+  if (table.rows == 0)
+  {
+    failNoPoints();
+  }
+  const std::vector<std::string> names = layout.names.empty() ? guessNames(table.columns) : layout.names;
+  std::vector<Column> planned;
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    planned.push_back({ names[i], typeOf(names[i], table.columns[i]) });
+  }
+  CloudColumns columns(planned, table.rows);
+  std::vector<ColumnView> targets;
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    targets.push_back(columns.target(i));
+  }
+  storeTable(task, text, layout, targets);
+  columns.moveTo(cloud);
+}
+
 void readText(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "text";
@@ -97,25 +120,7 @@ void readText(ReadTask& task, vtkPolyData* cloud)
         (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())),
       "write one point per line: x y z, then one column per name of the header");
   }
-  const std::vector<DecimalColumn> table = parseTable(task, text, layout);
-  if (table[0].values().empty())
-  {
-    failNoPoints();
-  }
-  const std::vector<std::string> names = layout.names.empty() ? guessNames(table) : layout.names;
-  std::vector<Column> planned;
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    planned.push_back({ names[i], typeOf(names[i], table[i]) });
-  }
-  CloudColumns columns(planned, static_cast<vtkIdType>(table[0].values().size()));
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    const std::vector<double>& values = table[i].values();
-    copyStrided({ reinterpret_cast<const char*>(values.data()), sizeof(double), VTK_DOUBLE },
-      columns.target(i), static_cast<vtkIdType>(values.size()));
-  }
-  columns.moveTo(cloud);
+  readTable(task, text, layout, cloud);
 }
 
 } // namespace pointhaptics::io

@@ -44,24 +44,29 @@ std::string_view takeWord(std::string_view& line);
 /// Without regard to case, for ASCII.
 bool equalNoCase(std::string_view a, std::string_view b);
 
-/// Parses a decimal number, nan or inf at @p first, with an optional sign; 0 for one too small for a double.
-/// @return one past its end, or null when there is none or it is too large for a double.
-const char* parseNumber(const char* first, const char* last, double& value) noexcept;
-
-/// Parses the whole of @p word. @return false when it is not exactly one number.
-bool parseNumber(std::string_view word, double& value) noexcept;
-
-/// Parses the whole of @p word as a count. @return false when it is anything else or beyond 64 bits.
-bool parseCount(std::string_view word, unsigned long long& value) noexcept;
-
-/// Decimal digits from the first to the last one that is not 0, of the number written as @p word:
-/// 2 for "-0.0120e5".
-int significantDigits(std::string_view word) noexcept;
+/// How a number was written, which tells what type keeps it.
+struct NumberShape
+{
+  bool isInteger = false; ///< digits only: no point, exponent, nan or inf
+  bool fitsFloat = false; ///< at most kFloatDigits significant digits, and well within a float's range
+};
 
 /// Most significant digits that every float keeps.
 constexpr int kFloatDigits = 6;
 
-/// Whether the number @p value written as @p word survives in a float: few digits, and within its range.
-bool fitsFloat(std::string_view word, double value) noexcept;
+/// Parses a decimal number, nan or inf at @p first, with an optional sign; 0 for one too small for a double.
+/// Correctly rounded. @return one past its end, or null when there is none or it is too large for a double.
+const char* parseNumber(
+  const char* first, const char* last, double& value, NumberShape* shape = nullptr) noexcept;
+
+/// Parses the whole of @p word. @return false when it is not exactly one number.
+bool parseNumber(std::string_view word, double& value, NumberShape* shape = nullptr) noexcept;
+
+/// Takes a number and the blanks before it off the front of @p line. @return false, and only the blanks are
+/// taken, when the next word is not exactly one number.
+bool takeNumber(std::string_view& line, double& value, NumberShape* shape = nullptr) noexcept;
+
+/// Parses the whole of @p word as a count. @return false when it is anything else or beyond 64 bits.
+bool parseCount(std::string_view word, unsigned long long& value) noexcept;
 
 } // namespace pointhaptics::io

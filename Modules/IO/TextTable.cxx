@@ -1,6 +1,9 @@
 #include "TextTable.h"
 
+#include "CloudColumns.h"
+
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 namespace pointhaptics::io
@@ -8,6 +11,9 @@ namespace pointhaptics::io
 
 namespace
 {
+
+/// Bytes of a comment that may be a header: enough for kMostColumns one-letter names, and never more.
+constexpr std::size_t kLongestHeader = 2 * kMostColumns;
 
 std::string_view withoutCommentMark(std::string_view line)
 {
@@ -47,12 +53,18 @@ bool takeCell(std::string_view& line, char separator, std::string_view& cell)
   return true;
 }
 
-std::vector<std::string_view> cellsOf(std::string_view line, char separator)
+std::vector<std::string_view> cellsOf(std::string_view line, char separator, std::size_t lineNumber)
 {
   std::vector<std::string_view> cells;
   std::string_view cell;
   while (takeCell(line, separator, cell))
   {
+    if (cells.size() == kMostColumns)
+    {
+      failFormat(
+        "line " + std::to_string(lineNumber) + ": more than " + std::to_string(kMostColumns) + " columns",
+        "write one point per line");
+    }
     cells.push_back(cell);
   }
   while (!cells.empty() && cells.back().empty())
@@ -111,103 +123,209 @@ bool namesCoordinates(const std::vector<std::string>& names)
   return true;
 }
 
-/// Parses the lines of data; one object per file.
-class TableParser
+/// Walks over the lines of data and shows each number to a Sink: number(column, value, shape),
+/// empty(column), endRow().
+template <typename Sink>
+class TableWalk
 {
 public:
-  TableParser(const TextLayout& layout, std::size_t bytes)
+  TableWalk(const TextLayout& layout, std::size_t bytes, Sink& sink)
     : layout_(layout)
-    , table_(layout.columns)
+    , sink_(sink)
     , remainingLines_(layout.hasPointCount ? 0 : std::numeric_limits<unsigned long long>::max())
     , bytes_(bytes)
   {
   }
-  void addLine(std::string_view line, std::size_t lineNumber);
-  void finish() const;
-  std::vector<DecimalColumn> take() { return std::move(table_); }
+  void run(const ReadTask& task, std::string_view text, double from, double to);
 
 private:
-  void startBlock(std::string_view line, std::size_t lineNumber);
-  void addCell(std::size_t column, std::string_view cell, std::size_t lineNumber);
+  void addLine(std::string_view line);
+  void addWords(std::string_view line);
+  void addSeparated(std::string_view line);
+  void startBlock(std::string_view line);
+  std::string where() const { return "line " + std::to_string(lineNumber_); }
+  [[noreturn]] void failCell(std::size_t column, std::string_view cell) const;
+  [[noreturn]] void failColumns(std::string_view line) const;
 
   const TextLayout& layout_;
-  std::vector<DecimalColumn> table_;
+  Sink& sink_;
   unsigned long long remainingLines_;
   std::size_t bytes_;
+  std::size_t lineNumber_ = 0;
 };
 
-void TableParser::startBlock(std::string_view line, std::size_t lineNumber)
+template <typename Sink>
+void TableWalk<Sink>::failCell(std::size_t column, std::string_view cell) const
 {
-  const std::string where = "line " + std::to_string(lineNumber) + ": ";
+  failFormat(where() + ", column " + std::to_string(column + 1) + ": " + inQuotes(cell) + " is not a number",
+    "write numbers with a decimal point, the same separator on every line, and comments after #");
+}
+
+template <typename Sink>
+void TableWalk<Sink>::failColumns(std::string_view line) const
+{
+  failFormat(where() + ": " + std::to_string(cellsOf(line, layout_.separator, lineNumber_).size()) +
+      " columns where " + std::to_string(layout_.columns) + " were expected",
+    "write the same number of columns on every line");
+}
+
+template <typename Sink>
+void TableWalk<Sink>::startBlock(std::string_view line)
+{
   if (!parseCount(trimmed(line), remainingLines_))
   {
-    failFormat(where + inQuotes(line) + " stands where a count of points was expected",
+    failFormat(where() + ": " + inQuotes(line) + " stands where a count of points was expected",
       "write the right number of points in the first line");
   }
   if (remainingLines_ > bytes_)
   {
-    failTruncated(where + "the count of points is " + std::to_string(remainingLines_) + " in a file of " +
+    failTruncated(where() + ": the count of points is " + std::to_string(remainingLines_) + " in a file of " +
       std::to_string(bytes_) + " bytes");
   }
 }
 
-void TableParser::addCell(std::size_t column, std::string_view cell, std::size_t lineNumber)
+template <typename Sink>
+void TableWalk<Sink>::addWords(std::string_view line)
 {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  if (cell.empty())
+  std::string_view rest = line;
+  for (std::size_t column = 0; column < layout_.columns; ++column)
   {
-    table_[column].add("nan", value); // a spreadsheet's way to say: not measured
-    return;
+    double value = 0.0;
+    NumberShape shape;
+    if (!takeNumber(rest, value, &shape))
+    {
+      const std::string_view word = takeWord(rest);
+      word.empty() ? failColumns(line) : failCell(column, word);
+    }
+    sink_.number(column, value, shape);
   }
-  if (!parseNumber(cell, value))
+  const std::string_view extra = takeWord(rest);
+  if (!extra.empty() && !isComment(extra))
   {
-    failFormat("line " + std::to_string(lineNumber) + ", column " + std::to_string(column + 1) + ": " +
-        inQuotes(cell) + " is not a number",
-      "write numbers with a decimal point, the same separator on every line, and comments after #");
+    failColumns(line);
   }
-  table_[column].add(cell, value);
 }
 
-void TableParser::addLine(std::string_view line, std::size_t lineNumber)
+template <typename Sink>
+void TableWalk<Sink>::addSeparated(std::string_view line)
 {
-  if (remainingLines_ == 0)
-  {
-    startBlock(line, lineNumber);
-    return;
-  }
   std::string_view rest = line;
   std::string_view cell;
   std::size_t column = 0;
-  bool tooMany = false;
   while (takeCell(rest, layout_.separator, cell))
   {
-    if (column < table_.size())
+    if (column >= layout_.columns)
     {
-      addCell(column++, cell, lineNumber);
+      if (!cell.empty()) // a separator at the end of a line is common
+      {
+        failColumns(line);
+      }
+      continue;
+    }
+    double value = 0.0;
+    NumberShape shape;
+    if (cell.empty())
+    {
+      sink_.empty(column); // a spreadsheet's way to say: not measured
+    }
+    else if (parseNumber(cell, value, &shape))
+    {
+      sink_.number(column, value, shape);
     }
     else
     {
-      tooMany = tooMany || !cell.empty(); // a separator at the end of a line is common
+      failCell(column, cell);
     }
+    ++column;
   }
-  if (column < table_.size() || tooMany)
+  if (column < layout_.columns)
   {
-    failFormat("line " + std::to_string(lineNumber) + ": " +
-        std::to_string(cellsOf(line, layout_.separator).size()) + " columns where " +
-        std::to_string(table_.size()) + " were expected",
-      "write the same number of columns on every line");
+    failColumns(line);
   }
+}
+
+template <typename Sink>
+void TableWalk<Sink>::addLine(std::string_view line)
+{
+  if (remainingLines_ == 0)
+  {
+    startBlock(line);
+    return;
+  }
+  layout_.separator == ' ' ? addWords(line) : addSeparated(line);
+  sink_.endRow();
   --remainingLines_;
 }
 
-void TableParser::finish() const
+template <typename Sink>
+void TableWalk<Sink>::run(const ReadTask& task, std::string_view text, double from, double to)
 {
+  LineReader lines(text.substr(layout_.bodyOffset), layout_.bodyLine);
+  std::string_view line;
+  while (lines.next(line))
+  {
+    line = trimmed(line);
+    lineNumber_ = lines.lineNumber();
+    if (!line.empty() && !isComment(line))
+    {
+      addLine(line);
+    }
+    if (lineNumber_ % static_cast<std::size_t>(kProgressRows) == 0)
+    {
+      const double part =
+        static_cast<double>(layout_.bodyOffset + lines.position()) / static_cast<double>(text.size());
+      task.progress(from + (to - from) * part);
+    }
+  }
   if (layout_.hasPointCount && remainingLines_ > 0)
   {
     failTruncated("the file ends " + std::to_string(remainingLines_) +
       " points before the count in its first line is reached");
   }
 }
+
+struct SurveySink
+{
+  TextTable table;
+
+  void number(std::size_t column, double value, NumberShape shape)
+  {
+    table.columns[column].add(value, shape);
+  }
+  void empty(std::size_t column) { table.columns[column].addEmpty(); }
+  void endRow() { ++table.rows; }
+};
+
+struct StoreSink
+{
+  const std::vector<ColumnView>& targets;
+  vtkIdType row = 0;
+
+  void number(std::size_t column, double value, NumberShape)
+  {
+    const ColumnView& target = targets[column];
+    char* to = target.first + row * target.stride;
+    switch (target.type)
+    {
+      case VTK_FLOAT:
+        return put(to, static_cast<float>(value));
+      case VTK_DOUBLE:
+        return put(to, value);
+      case VTK_TYPE_UINT8:
+        return put(to, static_cast<unsigned char>(value));
+      default:
+        return put(to, static_cast<int>(value));
+    }
+  }
+  void empty(std::size_t column) { number(column, std::numeric_limits<double>::quiet_NaN(), {}); }
+  void endRow() { ++row; }
+
+  template <typename T>
+  static void put(char* to, T value)
+  {
+    std::memcpy(to, &value, sizeof(T));
+  }
+};
 
 } // namespace
 
@@ -232,7 +350,7 @@ TextLayout inspectText(std::string_view text)
       continue;
     }
     const char separator = separatorOf(line);
-    const std::vector<std::string_view> cells = cellsOf(line, separator);
+    const std::vector<std::string_view> cells = cellsOf(line, separator, lines.lineNumber());
     unsigned long long count = 0;
     if (layout.names.empty() && isHeader(cells))
     {
@@ -254,7 +372,10 @@ TextLayout inspectText(std::string_view text)
   }
   if (layout.names.empty() && !lastComment.empty())
   {
-    const std::vector<std::string> names = columnNames(cellsOf(lastComment, separatorOf(lastComment)));
+    // Prose in a comment is no header, however long it is.
+    const std::string_view start = lastComment.substr(0, kLongestHeader);
+    const std::vector<std::string> names =
+      columnNames(cellsOf(start, separatorOf(start), lines.lineNumber()));
     if (names.size() == layout.columns && namesCoordinates(names))
     {
       layout.names = names;
@@ -268,26 +389,19 @@ TextLayout inspectText(std::string_view text)
   return layout;
 }
 
-std::vector<DecimalColumn> parseTable(const ReadTask& task, std::string_view text, const TextLayout& layout)
+TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout)
 {
-  TableParser parser(layout, text.size());
-  LineReader lines(text.substr(layout.bodyOffset), layout.bodyLine);
-  std::string_view line;
-  while (lines.next(line))
-  {
-    line = trimmed(line);
-    if (!line.empty() && !isComment(line))
-    {
-      parser.addLine(line, lines.lineNumber());
-    }
-    if (lines.lineNumber() % static_cast<std::size_t>(kProgressRows) == 0)
-    {
-      task.progress(
-        static_cast<double>(layout.bodyOffset + lines.position()) / static_cast<double>(text.size()));
-    }
-  }
-  parser.finish();
-  return parser.take();
+  SurveySink sink;
+  sink.table.columns.resize(layout.columns);
+  TableWalk<SurveySink>(layout, text.size(), sink).run(task, text, 0.0, 0.5);
+  return std::move(sink.table);
+}
+
+void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
+  const std::vector<ColumnView>& targets)
+{
+  StoreSink sink{ targets };
+  TableWalk<StoreSink>(layout, text.size(), sink).run(task, text, 0.5, 1.0);
 }
 
 } // namespace pointhaptics::io

@@ -2,13 +2,16 @@
 /// Numbers in columns of text: how they are separated, what a header calls them, and their values.
 #pragma once
 
-#include "DecimalColumn.h"
+#include "NumberColumn.h"
 #include "ReadTask.h"
+#include "StridedCopy.h"
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
+
+class vtkPolyData;
 
 namespace pointhaptics::io
 {
@@ -24,11 +27,28 @@ struct TextLayout
   std::size_t columns = 0;        ///< in the first line of data; 0 when there is none
 };
 
-/// Looks at the lines up to the first one that holds numbers.
+/// Looks at the lines up to the first one that holds numbers. @throws FileProblem when one of them has more
+/// than kMostColumns columns.
 TextLayout inspectText(std::string_view text);
 
-/// Every column of @p text. @throws FileProblem with the line number of what is not a number, or of a line
-/// with more or fewer columns than the first; ReadingStopped.
-std::vector<DecimalColumn> parseTable(const ReadTask& task, std::string_view text, const TextLayout& layout);
+/// What a first pass over the text finds.
+struct TextTable
+{
+  std::vector<NumberColumn> columns;
+  vtkIdType rows = 0;
+};
+
+/// Looks at every number of @p text, and keeps none: the arrays can be made as large as they must be.
+/// @throws FileProblem with the line number of what is not a number, or of a line with more or fewer columns
+/// than the first; ReadingStopped.
+TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout);
+
+/// Stores every number in its place, one target per column. @pre surveyTable() went well.
+void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
+  const std::vector<ColumnView>& targets);
+
+/// Fills @p cloud with the points and arrays of a table: the columns are called as in @p layout, or as their
+/// number and values suggest. @throws FileProblem; ReadingStopped.
+void readTable(const ReadTask& task, std::string_view text, const TextLayout& layout, vtkPolyData* cloud);
 
 } // namespace pointhaptics::io

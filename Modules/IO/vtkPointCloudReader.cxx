@@ -4,12 +4,19 @@
 #include "FileBytes.h"
 #include "FormatReaders.h"
 
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <new>
+#include <sstream>
 
 namespace io = pointhaptics::io;
 
@@ -17,6 +24,9 @@ vtkStandardNewMacro(vtkPointCloudReader);
 
 namespace
 {
+
+/// The universe spans 9e26 metres.
+constexpr double kMostCoordinate = 1e30;
 
 void readAs(io::CloudFormat format, io::ReadTask& task, vtkPolyData* cloud)
 {
@@ -26,14 +36,70 @@ void readAs(io::CloudFormat format, io::ReadTask& task, vtkPolyData* cloud)
       return io::readPly(task, cloud);
     case io::CloudFormat::Pcd:
       return io::readPcd(task, cloud);
-    case io::CloudFormat::Vtp:
-      return io::readVtp(task, cloud);
+    case io::CloudFormat::VtkXml:
+      return io::readVtkXml(task, cloud);
+    case io::CloudFormat::VtkLegacy:
+      return io::readVtkLegacy(task, cloud);
     case io::CloudFormat::Obj:
       return io::readObj(task, cloud);
+    case io::CloudFormat::Off:
+      return io::readOff(task, cloud);
+    case io::CloudFormat::Stl:
+      return io::readStl(task, cloud);
     case io::CloudFormat::Las:
       return io::readLas(task, cloud);
     case io::CloudFormat::Text:
       return io::readText(task, cloud);
+  }
+}
+
+/// The first coordinate of @p count that is finite and beyond what anything measures; @p count where none is.
+template <typename T>
+vtkIdType firstImpossible(const T* values, vtkIdType count)
+{
+  constexpr T kMost = T(kMostCoordinate);
+  constexpr vtkIdType kBlock = 4096;
+  for (vtkIdType begin = 0; begin < count; begin += kBlock)
+  {
+    const vtkIdType end = std::min(begin + kBlock, count);
+    bool found = false;
+    for (vtkIdType i = begin; i < end; ++i)
+    {
+      const T size = std::abs(values[i]);
+      found |= (size > kMost) & (size <= std::numeric_limits<T>::max());
+    }
+    for (vtkIdType i = begin; i < end && found; ++i)
+    {
+      if (std::abs(values[i]) > kMost && std::isfinite(values[i]))
+      {
+        return i;
+      }
+    }
+  }
+  return count;
+}
+
+/// Numbers that can be no position, whatever the unit, betray a damaged file.
+void checkCoordinates(vtkPolyData* cloud)
+{
+  vtkDataArray* array = cloud->GetPoints()->GetData();
+  const vtkIdType count = array->GetNumberOfValues();
+  vtkIdType at = count;
+  if (vtkFloatArray* floats = vtkFloatArray::FastDownCast(array))
+  {
+    at = firstImpossible(floats->GetPointer(0), count);
+  }
+  else if (vtkDoubleArray* doubles = vtkDoubleArray::FastDownCast(array))
+  {
+    at = firstImpossible(doubles->GetPointer(0), count);
+  }
+  if (at < count)
+  {
+    const double value = array->GetComponent(at / 3, static_cast<int>(at % 3));
+    std::ostringstream text;
+    text << "point " << at / 3 << " of " << count / 3 << ": "
+         << "xyz"[at % 3] << " is " << value << ", which can be no position";
+    io::failFormat(text.str(), "the file is damaged: copy or write it again");
   }
 }
 
@@ -59,16 +125,24 @@ vtkPointCloudReader::~vtkPointCloudReader()
 
 void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
 {
-  const io::FileBytes bytes(this->FileName);
   io::ReadTask task;
   task.path = this->FileName;
-  task.extension = io::lowerExtension(task.path);
-  task.bytes = bytes.view();
   task.algorithm = this;
-  const io::CloudFormat format = io::identifyFormat(task.bytes, task.extension);
-  task.format = io::nameOf(format);
   const FormatName keepName{ task, this->Format };
+  const bool isNamedGz = io::lowerExtension(task.path) == "gz";
+  const std::string innerName = task.path.substr(0, task.path.size() - (isNamedGz ? 3 : 0));
+  io::CloudFormat format = io::CloudFormat::Text;
+  const io::FileBytes bytes(
+    task.path, [&](double done) { task.readingProgress(done); },
+    [&](std::string_view start, std::size_t size)
+    {
+      format = io::identifyFormat(start, size, io::lowerExtension(innerName));
+      task.format = io::nameOf(format);
+    });
+  task.bytes = bytes.view();
+  task.wasPacked = bytes.wasPacked();
   readAs(format, task, cloud);
+  checkCoordinates(cloud);
 }
 
 void vtkPointCloudReader::Fail(unsigned long code, const std::string& message)

@@ -1,8 +1,10 @@
 /**
  * @class   vtkPointCloudReader
- * @brief   read raw point clouds: PLY, PCD, VTP, OBJ, LAS and text
+ * @brief   read raw point clouds: PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS and text
  *
- * The format is told by the file's content; the extension decides only between OBJ and columns of text.
+ * The format is told by the file's content; the extension decides only between OBJ and columns of text, and
+ * for a binary STL inside a gzip file. Files packed by gzip are read as if they were unpacked (VTP and VTU
+ * are not).
  *
  * Output: points, one vertex cell per point, and every scalar field of the file as a point data array with
  * its name and type. Fields that belong together become one array: red green blue [alpha] become "RGB" or
@@ -10,16 +12,23 @@
  * active normals), name_0 name_1 ... become "name". Faces and lines are dropped.
  *
  * Points are double where the file's numbers need it (double fields, LAS, text and OBJ with more than 6
- * significant digits), else float. Points that are NaN or infinite are kept. Coordinates are those of the
- * file: nothing is moved, scaled or turned.
+ * significant digits), else float. Points that are NaN or infinite are kept; a finite coordinate beyond 1e30
+ * is taken for damage. Coordinates are those of the file: nothing is moved, scaled or turned.
  *
  * - PLY: ascii and both binary orders, all scalar types; lists and other elements are skipped.
- * - PCD: ascii always, binary and binary_compressed when built with PCL. rgb and rgba are unpacked. The
- *   viewpoint is kept, not applied: field data "Viewpoint" (tx ty tz qw qx qy qz). Organised clouds keep
- *   their shape in "OrganizedDimensions" (width, height).
+ * - PCD: ascii, binary and binary_compressed. rgb and rgba are unpacked. The viewpoint is kept, not applied:
+ *   field data "Viewpoint" (tx ty tz qw qx qy qz). Organised clouds keep their shape in
+ *   "OrganizedDimensions" (width, height).
  * - LAS 1.0 to 1.4, point formats 0 to 10, uncompressed: Intensity, ReturnNumber, NumberOfReturns,
  *   Classification, ScanAngle (float, degrees), UserData, PointSourceId, and where the format has them
- *   GpsTime, Color16 (as stored), RGB (8 bit), NearInfrared. Extra bytes and waveforms are skipped.
+ *   GpsTime, Color16 (as stored), RGB (8 bit), NearInfrared. ClassificationFlags (1 synthetic, 2 key point,
+ *   4 withheld, 8 overlap), ScannerChannel, ScanDirection and EdgeOfFlightLine are there where one point
+ *   sets them. Extra bytes become arrays of their names, scaled ones as double; those without a description
+ *   become "ExtraBytes". Field data: LasScale, LasOffset, LasGlobalEncoding, CoordinateSystem (well-known
+ *   text or "EPSG:26917") and LengthUnit. Waveforms are skipped. LAZ and COPC are refused with a converter.
+ * - VTP, VTU and legacy VTK (PolyData, UnstructuredGrid, StructuredGrid): points and point data; cells are
+ *   dropped. Legacy files with strings or bits are refused.
+ * - OFF, NOFF, COFF, CNOFF as text; STL, both kinds: each distinct vertex once, as float, without normals.
  * - OBJ: v x y z [r g b]; vn when there is one per v.
  * - Text (XYZ, TXT, CSV, PTS): separator, header and PTS point count are found by looking; comments start
  *   with # or //; an empty cell reads as NaN. Without a header 4 columns are x y z intensity, 6 are x y z and
@@ -30,7 +39,9 @@
  * `file: format: what, where, value; cure`. Sizes that a file claims are checked against its length before
  * anything is allocated, so hostile files fail cleanly.
  *
- * Costs the file's size in memory beside the output. One reader serves one thread at a time.
+ * Costs the file's (unpacked) size in memory beside the output, and less than 64 MB more; STL needs its
+ * vertices twice. A gzip file may unpack to 100 times its size (64 MB at least), no more. One reader serves
+ * one thread at a time.
  *
  * @sa vtkPointCloudWriter
  */

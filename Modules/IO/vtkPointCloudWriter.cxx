@@ -5,9 +5,10 @@
 #include "FileBytes.h"
 #include "FileProblem.h"
 #include "FormatWriters.h"
-#include "OutputFile.h"
+#include "OutputStream.h"
 
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -16,6 +17,7 @@
 #include "vtkPolyData.h"
 #include "vtkXMLPolyDataWriter.h"
 
+#include <algorithm>
 #include <new>
 
 namespace io = pointhaptics::io;
@@ -62,9 +64,84 @@ void writeVtp(vtkPointSet* cloud, const std::string& path)
   }
 }
 
+struct FileFormat
+{
+  const char* extension;
+  const char* name;
+  const char* keptFieldData; ///< names, separated by spaces
+};
+
+const FileFormat kFormats[] = {
+  { "vtp", "VTP", "" },
+  { "ply", "PLY", "" },
+  { "pcd", "PCD", "Viewpoint OrganizedDimensions" },
+  { "las", "LAS", "LasScale LasOffset LasGlobalEncoding CoordinateSystem LengthUnit" },
+  { "csv", "CSV", "" },
+};
+
+/// Null where no format has the extension.
+const FileFormat* formatOf(const std::string& fileName)
+{
+  const std::string extension = io::lowerExtension(fileName);
+  const FileFormat* found = std::find_if(std::begin(kFormats), std::end(kFormats),
+    [&](const FileFormat& format) { return extension == format.extension; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+/// What vtkPointCloudReader tells of a whole cloud; a filter's own notes in the field data are no loss.
+constexpr const char* kOfTheCloud[] = { "Viewpoint", "OrganizedDimensions", "CoordinateSystem",
+  "LengthUnit" };
+
+/// Whether the viewpoint is that of files that say nothing of it.
+bool isAtOrigin(vtkPointSet* cloud)
+{
+  const double usual[] = { 0, 0, 0, 1, 0, 0, 0 };
+  vtkDataArray* viewpoint = cloud->GetFieldData()->GetArray("Viewpoint");
+  bool same = viewpoint && viewpoint->GetNumberOfComponents() == 7 && viewpoint->GetNumberOfTuples() == 1;
+  for (int i = 0; i < 7 && same; ++i)
+  {
+    same = viewpoint->GetComponent(0, i) == usual[i];
+  }
+  return same;
+}
+
+void noteWhatIsNoColumn(vtkPointSet* cloud, const std::string& keptFieldData, io::WriterNotes& notes)
+{
+  std::string lost;
+  for (const std::string name : kOfTheCloud)
+  {
+    const bool isKept = (" " + keptFieldData + " ").find(" " + name + " ") != std::string::npos;
+    if (!isKept && cloud->GetFieldData()->HasArray(name.c_str()) &&
+      !(name == "Viewpoint" && isAtOrigin(cloud)))
+    {
+      lost += (lost.empty() ? "" : ", ") + name;
+    }
+  }
+  if (!lost.empty())
+  {
+    notes.add("field data " + lost + (lost.find(',') == std::string::npos ? " is" : " are") + " left out");
+  }
+  vtkPolyData* polyData = vtkPolyData::SafeDownCast(cloud);
+  const vtkIdType faces = polyData ? polyData->GetNumberOfCells() - polyData->GetNumberOfVerts() : 0;
+  if (faces > 0)
+  {
+    notes.add(std::to_string(faces) + " lines and faces are left out");
+  }
+}
+
 } // namespace
 
 vtkPointCloudWriter::vtkPointCloudWriter() = default;
+
+bool vtkPointCloudWriter::CanWrite(const std::string& fileName)
+{
+  return formatOf(fileName) != nullptr;
+}
+
+const char* vtkPointCloudWriter::GetExtensions()
+{
+  return ".vtp, .ply, .pcd, .las or .csv";
+}
 
 vtkPointCloudWriter::~vtkPointCloudWriter()
 {
@@ -94,6 +171,7 @@ int vtkPointCloudWriter::Write()
 {
   this->ErrorMessage.clear();
   this->Format.clear();
+  this->Notes.clear();
   this->SetErrorCode(vtkErrorCode::NoError);
   if (this->GetNumberOfInputConnections(0) < 1)
   {
@@ -106,44 +184,54 @@ int vtkPointCloudWriter::Write()
 
 void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
 {
-  const std::string extension = io::lowerExtension(this->FileName);
-  if (extension != "vtp" && extension != "ply" && extension != "pcd" && extension != "csv")
+  const FileFormat* format = formatOf(this->FileName);
+  if (!format)
   {
     throw io::FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
-      "unknown extension " + io::inQuotes("." + extension), "use .vtp, .ply, .pcd or .csv");
+      "unknown extension " + io::inQuotes("." + io::lowerExtension(this->FileName)),
+      std::string("use ") + GetExtensions());
   }
-  this->Format = extension == "vtp" ? "VTP" : extension == "ply" ? "PLY" : extension == "pcd" ? "PCD" : "CSV";
+  this->Format = format->name;
   if (!cloud || cloud->GetNumberOfPoints() == 0)
   {
     io::failFormat(
       "the cloud holds no points", "check the steps before: was the workspace away from the cloud?");
   }
-  io::TemporaryFile file(this->FileName);
-  if (extension == "vtp")
+  io::OutputStream out(this->FileName);
+  io::WriterNotes notes;
+  if (this->Format == "VTP")
   {
-    // Creating it first gives the system's reason when the folder is missing or closed.
-    io::OutputStream(file.path()).close();
-    writeVtp(cloud, file.path());
+    if (!out.isReplacing())
+    {
+      throw io::FileProblem(vtkErrorCode::CannotOpenFileError,
+        "VTP files cannot be written to a pipe or a device",
+        "choose the name of a new file, or .ply, .pcd, .las or .csv");
+    }
+    writeVtp(cloud, out.path());
   }
   else
   {
-    const std::vector<io::OutputArray> arrays = io::outputArrays(cloud);
-    io::OutputStream out(file.path());
-    if (extension == "ply")
+    noteWhatIsNoColumn(cloud, format->keptFieldData, notes);
+    const std::vector<io::OutputArray> arrays = io::outputArrays(cloud, notes);
+    if (this->Format == "PLY")
     {
-      io::writePly(arrays, out);
+      io::writePly(arrays, out, notes);
     }
-    else if (extension == "pcd")
+    else if (this->Format == "PCD")
     {
       io::writePcd(arrays, cloud->GetFieldData(), out);
+    }
+    else if (this->Format == "LAS")
+    {
+      io::writeLas(arrays, cloud->GetFieldData(), out, notes);
     }
     else
     {
       io::writeCsv(arrays, out);
     }
-    out.close();
   }
-  file.commit();
+  out.commit();
+  this->Notes = notes.all;
 }
 
 void vtkPointCloudWriter::WriteData()

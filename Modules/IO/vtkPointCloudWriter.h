@@ -1,6 +1,6 @@
 /**
  * @class   vtkPointCloudWriter
- * @brief   write a point cloud with every array: .vtp, .ply, .pcd or .csv by extension
+ * @brief   write a point cloud with every array: .vtp, .ply, .pcd, .las or .csv by extension
  *
  * Input: any vtkPointSet with at least one point. Points keep their precision (float or double).
  * vtkPointCloudReader gives the same points and arrays back, within what the format can say:
@@ -12,10 +12,15 @@
  *   2^53.
  * - .pcd: binary. Colours as packed rgb or rgba, normals as normal_x normal_y normal_z; the field data
  *   "Viewpoint" and "OrganizedDimensions" as the header's VIEWPOINT, WIDTH and HEIGHT.
+ * - .las: LAS 1.2, or 1.4 where needed. Coordinates become integers: on the grid of the file they come from
+ *   (field data "LasScale", "LasOffset"), or on one of whole decimals, where that gives every bit back, else
+ * on the finest one that spans the cloud. Arrays under the names vtkPointCloudReader gives to LAS fields
+ * become these, "RGB" becomes the colour, and all others become extra bytes. NaN points are refused.
  * - .csv: header x,y,z,<arrays>, arrays of several components as name_0,name_1,...; each number with the
  *   fewest digits that give back the same value. Types are not stored: float arrays may be read as double.
  *
  * Arrays of strings are left out, and white space, commas and quotes in names become '_' (not in .vtp).
+ * Whatever the format could not hold of this very cloud, GetNotes() tells.
  *
  * The file is written beside its target under a temporary name and renamed when complete: after a fault the
  * target is as it was before. Write() returns 1, or 0 with an error code (vtkErrorCode), a vtkErrorMacro and
@@ -32,6 +37,7 @@
 #include "vtkWriter.h"
 
 #include <string> // For std::string
+#include <vector> // For std::vector
 
 class vtkPointSet;
 
@@ -60,6 +66,22 @@ public:
    */
   const char* GetErrorMessage() const { return this->ErrorMessage.c_str(); }
 
+  /**
+   * What the format could not hold in the last Write(), one sentence each; empty when a reader gets back
+   * all there was.
+   */
+  const std::vector<std::string>& GetNotes() const { return this->Notes; }
+
+  /**
+   * Whether a file of this name can be written: asked of its extension.
+   */
+  static bool CanWrite(const std::string& fileName);
+
+  /**
+   * The extensions that can be written, for messages: ".vtp, .ply, .pcd, .las or .csv". Static storage.
+   */
+  static const char* GetExtensions();
+
 protected:
   vtkPointCloudWriter();
   ~vtkPointCloudWriter() override;
@@ -77,6 +99,7 @@ private:
   char* FileName = nullptr;
   std::string ErrorMessage;
   std::string Format;
+  std::vector<std::string> Notes;
 };
 
 #endif

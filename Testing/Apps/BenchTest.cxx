@@ -5,6 +5,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
+#include <string>
 
 namespace
 {
@@ -217,6 +219,33 @@ TEST_F(Bench, FrictionIsJudgedAtEverySpeed)
       EXPECT_LE(row["peak"].get<double>(), 0.4 * (1 + 1e-6)) << row;
     }
   }
+}
+
+TEST_F(Bench, FilesAreReadAndWrittenRightlyAndComparedWithRivals)
+{
+  const json result =
+    json::parse(this->succeed({ "bench", "io", "--quick", "--repetitions", "1", "--json" }));
+  EXPECT_EQ(result["task"], "io");
+  std::set<std::string> kinds;
+  for (const char* study : { "read", "write" })
+  {
+    for (const json& row : result[study]["rows"])
+    {
+      EXPECT_EQ(row["right"], true) << row;
+      EXPECT_GT(row["median_seconds"], 0.0) << row;
+      EXPECT_GT(row["times_ours"], 0.0) << row;
+      kinds.insert(row["file"].get<std::string>());
+    }
+  }
+  EXPECT_EQ(kinds.size(), 9u);
+  for (const json& row : result["memory"]["rows"])
+  {
+    EXPECT_TRUE(row["contestant"] != "ours" || row["beyond_bytes"] <= 64e6) << row;
+  }
+  const json alone = json::parse(this->succeed(
+    { "bench", "io", "--quick", "--studies", "write", "--rivals", "none", "--points", "50", "--json" }));
+  EXPECT_EQ(alone["write"]["rows"].size(), 5u);
+  EXPECT_FALSE(alone.contains("read"));
 }
 
 TEST_F(Bench, HelpAndVersionWorkOnBothLevels)

@@ -192,6 +192,44 @@ TEST_F(CloudCommands, InfoSaysWhatIsInAFile)
   EXPECT_NE(text.find("--scale"), std::string::npos) << "4 m is no size for the hand: " << text;
 }
 
+TEST_F(CloudCommands, InfoTellsDuplicatesSpacingAndUnit)
+{
+  // A square grid with a step of 0.5, and its first two points again.
+  std::string text = "x,y,z\n0,0,0\n0.5,0,0\n";
+  for (int i = 0; i < 100; ++i)
+  {
+    text += std::to_string(0.5 * (i % 10)) + "," + std::to_string(0.5 * (i / 10)) + ",0\n";
+  }
+  this->write("grid.csv", text);
+  const json grid = json::parse(this->succeed({ "info", "grid.csv", "--json" }))["files"][0];
+  EXPECT_EQ(grid["points"], 102);
+  EXPECT_EQ(grid["points_duplicate"], 2);
+  EXPECT_EQ(grid["spacing_percentiles"]["5"], 0.5);
+  EXPECT_EQ(grid["spacing_percentiles"]["95"], 0.5);
+  EXPECT_EQ(grid["density_variation"], 1.0);
+  EXPECT_EQ(grid["suggested_voxel"], 1.0);
+  EXPECT_EQ(grid["unit"], "m");
+  EXPECT_EQ(grid["unit_is_guess"], true);
+  EXPECT_NE(this->succeed({ "info", "grid.csv" }).find("2 at the place of another"), std::string::npos);
+  this->write("map.csv", "x,y,z\n684766.39,5017773.08,0\n684993.29,5018007.25,30\n");
+  EXPECT_EQ(json::parse(this->succeed({ "info", "map.csv", "--json" }))["files"][0]["unit"], "m");
+  this->write("part.csv", "x,y,z\n0,0,0\n400,0,0\n");
+  EXPECT_EQ(json::parse(this->succeed({ "info", "part.csv", "--json" }))["files"][0]["unit"], "mm");
+}
+
+TEST_F(CloudCommands, WhatAFormatCannotHoldIsSaid)
+{
+  this->succeed({ "generate", "torus", "-n", "500", "-o", "torus.ply" });
+  const apptest::Outcome las = this->run({ "bandwidth", "torus.ply", "-o", "torus.las" });
+  EXPECT_EQ(las.exitCode, 0);
+  EXPECT_NE(las.errors.find("bandwidth: warning: torus.las: coordinates are rounded"), std::string::npos)
+    << las.errors;
+  const apptest::Outcome vtp = this->run({ "bandwidth", "torus.ply", "-o", "torus.vtp" });
+  EXPECT_EQ(vtp.errors.find("torus.vtp: "), std::string::npos) << vtp.errors;
+  const json info = json::parse(this->succeed({ "info", "torus.las", "--json" }))["files"][0];
+  EXPECT_EQ(info["points"], 500);
+}
+
 TEST_F(CloudCommands, InfoHintsOnlyWhereTheSizeIsOdd)
 {
   this->succeed({ "generate", "idol", "-n", "500", "-o", "idol.ply" });

@@ -85,8 +85,9 @@ inline ReadResult readCloud(const std::string& path)
   return result;
 }
 
-/// Empty on success, else the message.
-inline std::string writeCloud(vtkDataObject* cloud, const std::string& path)
+/// Empty on success, else the message. @p notes gets what the format could not hold.
+inline std::string writeCloud(
+  vtkDataObject* cloud, const std::string& path, std::vector<std::string>* notes = nullptr)
 {
   int events = 0;
   vtkNew<vtkCallbackCommand> observer;
@@ -100,7 +101,24 @@ inline std::string writeCloud(vtkDataObject* cloud, const std::string& path)
   const std::string message = writer->GetErrorMessage();
   EXPECT_EQ(written == 1, message.empty());
   EXPECT_EQ(events > 0, !message.empty());
+  if (notes)
+  {
+    *notes = writer->GetNotes();
+  }
   return message;
+}
+
+/// Same type, same shape, same bits.
+inline void expectSameBits(vtkDataArray* expected, vtkDataArray* actual)
+{
+  ASSERT_NE(actual, nullptr) << expected->GetName();
+  ASSERT_EQ(actual->GetDataType(), expected->GetDataType()) << expected->GetName();
+  ASSERT_EQ(actual->GetNumberOfComponents(), expected->GetNumberOfComponents()) << expected->GetName();
+  ASSERT_EQ(actual->GetNumberOfTuples(), expected->GetNumberOfTuples()) << expected->GetName();
+  const std::size_t size = static_cast<std::size_t>(expected->GetNumberOfValues()) *
+    static_cast<std::size_t>(expected->GetDataTypeSize());
+  EXPECT_EQ(std::memcmp(expected->GetVoidPointer(0), actual->GetVoidPointer(0), size), 0)
+    << expected->GetName();
 }
 
 /// What every refused file must give: a message with the file's name and a cure, an error code, an event and

@@ -92,6 +92,10 @@ TEST_F(Las, CompressedPointsAreRefusedWithAConverter)
   put(las, 96, std::uint32_t{ 227 + 54 });
   put(las, 100, std::uint32_t{ 1 });
   expectRefused(readCloud(write("b.las", las)), "LAZ");
+  std::string copc = las;
+  put(copc, 227 + 18, std::uint16_t{ 1 });
+  copc.replace(227 + 2, 14, std::string("copc").append(10, '\0'));
+  expectRefused(readCloud(write("c.las", copc)), "COPC");
 }
 
 TEST_F(Las, TruncationsAndHostileHeadersAreRefused)

@@ -5,10 +5,12 @@
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
+#include "vtkStringArray.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnsignedShortArray.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -114,10 +116,6 @@ TEST_P(WriterRoundTrip, GivesBackPointsAndEveryArray)
   const std::string file = path("cloud." + extension);
   ASSERT_EQ(writeCloud(cloud, file), "");
   const ReadResult result = readCloud(file);
-  if (result.error.find("no PCL") != std::string::npos)
-  {
-    GTEST_SKIP() << result.error;
-  }
   ASSERT_EQ(result.error, "");
   if (typesAreStored)
   {
@@ -150,6 +148,101 @@ INSTANTIATE_TEST_SUITE_P(Formats, WriterRoundTrip,
   [](const ::testing::TestParamInfo<RoundTrip>& test)
   { return std::string(test.param.extension) + (test.param.pointType == VTK_FLOAT ? "_float" : "_double"); });
 
+/// Arrays of @p types with random bits: every NaN, denormal and -0 is among them sooner or later.
+vtkSmartPointer<vtkPolyData> makeRandomBits(std::initializer_list<int> types)
+{
+  std::mt19937_64 random(11);
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(kPoints);
+  for (vtkIdType i = 0; i < kPoints; ++i)
+  {
+    points->SetPoint(i, static_cast<double>(i) / 4.0, -0.0, 1e6 - static_cast<double>(i) / 8.0);
+  }
+  cloud->SetPoints(points);
+  for (const int type : types)
+  {
+    const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+    array->SetName(("type" + std::to_string(type)).c_str());
+    array->SetNumberOfComponents(2);
+    array->SetNumberOfTuples(kPoints);
+    char* bytes = static_cast<char*>(array->GetVoidPointer(0));
+    for (vtkIdType i = 0; i < array->GetNumberOfValues() * array->GetDataTypeSize(); ++i)
+    {
+      bytes[i] = static_cast<char>(random());
+    }
+    cloud->GetPointData()->AddArray(array);
+  }
+  return cloud;
+}
+
+class BitRoundTrip
+  : public CloudFiles
+  , public ::testing::WithParamInterface<const char*>
+{
+};
+
+TEST_P(BitRoundTrip, GivesBackEveryTypeBitForBit)
+{
+  const std::string extension = GetParam();
+  auto cloud = makeRandomBits({ VTK_TYPE_INT8, VTK_TYPE_UINT8, VTK_TYPE_INT16, VTK_TYPE_UINT16,
+    VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_FLOAT, VTK_DOUBLE });
+  if (extension != "ply") // which has no integers of 64 bits
+  {
+    cloud = makeRandomBits({ VTK_TYPE_INT8, VTK_TYPE_UINT8, VTK_TYPE_INT16, VTK_TYPE_UINT16, VTK_TYPE_INT32,
+      VTK_TYPE_UINT32, VTK_TYPE_INT64, VTK_TYPE_UINT64, VTK_FLOAT, VTK_DOUBLE });
+  }
+  if (extension == "las") // whose grid of integers has no -0
+  {
+    for (vtkIdType i = 0; i < kPoints; ++i)
+    {
+      cloud->GetPoints()->SetPoint(i, cloud->GetPoint(i)[0], 0.0, cloud->GetPoint(i)[2]);
+    }
+  }
+  std::vector<std::string> notes;
+  ASSERT_EQ(writeCloud(cloud, path("a." + extension), &notes), "");
+  EXPECT_TRUE(notes.empty()) << notes[0];
+  const ReadResult result = readCloud(path("a." + extension));
+  ASSERT_EQ(result.error, "");
+  expectSameBits(cloud->GetPoints()->GetData(), result.cloud->GetPoints()->GetData());
+  for (int i = 0; i < cloud->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = cloud->GetPointData()->GetArray(i);
+    expectSameBits(array, result.array(array->GetName()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, BitRoundTrip, ::testing::Values("vtp", "ply", "pcd", "las"));
+
+TEST_P(BitRoundTrip, SaysWhatItCannotHold)
+{
+  const std::string extension = GetParam();
+  const auto cloud = makeRandomBits({ VTK_TYPE_INT64 });
+  cloud->GetPointData()->GetArray(0)->SetName("a b");
+  vtkNew<vtkStringArray> words;
+  words->SetName("words");
+  words->SetNumberOfValues(kPoints);
+  cloud->GetPointData()->AddArray(words);
+  vtkNew<vtkDoubleArray> viewpoint;
+  viewpoint->SetName("Viewpoint");
+  viewpoint->SetNumberOfComponents(7);
+  const double pose[7] = { 1, 2, 3, 0, 1, 0, 0 };
+  viewpoint->InsertNextTuple(pose);
+  cloud->GetFieldData()->AddArray(viewpoint);
+  std::vector<std::string> notes;
+  ASSERT_EQ(writeCloud(cloud, path("a." + extension), &notes), "");
+  const auto isSaid = [&](const std::string& part)
+  {
+    return std::any_of(notes.begin(), notes.end(),
+      [&](const std::string& note) { return note.find(part) != std::string::npos; });
+  };
+  EXPECT_EQ(isSaid("'words' holds no numbers"), extension != "vtp");
+  EXPECT_EQ(isSaid("is called a_b"), extension != "vtp");
+  EXPECT_EQ(isSaid("Viewpoint"), extension == "ply" || extension == "las");
+  EXPECT_EQ(isSaid("beyond 2^53"), extension == "ply");
+}
+
 class Writer : public CloudFiles
 {
 };
@@ -173,10 +266,6 @@ TEST_F(Writer, PcdKeepsViewpointShapeAndAlpha)
   cloud->GetFieldData()->AddArray(shape);
   ASSERT_EQ(writeCloud(cloud, path("a.pcd")), "");
   const ReadResult result = readCloud(path("a.pcd"));
-  if (result.error.find("no PCL") != std::string::npos)
-  {
-    GTEST_SKIP() << result.error;
-  }
   ASSERT_EQ(result.error, "");
   EXPECT_EQ(result.value("RGBA", 10, 3), 43);
   EXPECT_EQ(result.cloud->GetFieldData()->GetArray("Viewpoint")->GetComponent(0, 0), 0.1);
@@ -198,7 +287,7 @@ TEST_F(Writer, CsvStartsWithTheAgreedHeader)
 TEST_F(Writer, SaysWhatIsWrongAndLeavesNothingBehind)
 {
   const auto cloud = makeCloud(VTK_FLOAT);
-  EXPECT_NE(writeCloud(cloud, path("a.xls")).find(".vtp, .ply, .pcd or .csv"), std::string::npos);
+  EXPECT_NE(writeCloud(cloud, path("a.xls")).find(".vtp, .ply, .pcd, .las or .csv"), std::string::npos);
   EXPECT_NE(writeCloud(cloud, path("none/a.ply")).find("No such file"), std::string::npos);
   EXPECT_NE(writeCloud(cloud, path("none/a.vtp")).find("No such file"), std::string::npos);
   EXPECT_NE(writeCloud(cloud, "").find("file name"), std::string::npos);
@@ -217,7 +306,7 @@ TEST_F(Writer, FullDiskLeavesTheOldFileAsItWas)
   rlimit before;
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   void (*handler)(int) = std::signal(SIGXFSZ, SIG_IGN);
-  for (const char* name : { "a.ply", "a.pcd", "a.csv", "a.vtp" })
+  for (const char* name : { "a.ply", "a.pcd", "a.csv", "a.vtp", "a.las" })
   {
     write(name, "old");
     rlimit small = before;
@@ -229,7 +318,7 @@ TEST_F(Writer, FullDiskLeavesTheOldFileAsItWas)
     EXPECT_EQ(std::filesystem::file_size(path(name)), 3u) << name;
   }
   std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 4);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 5);
 }
 #endif
 

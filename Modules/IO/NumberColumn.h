@@ -1,5 +1,5 @@
 /// @file
-/// A column of decimal numbers from a text, which remembers what type they need.
+/// What the numbers in one column of a text have in common, which tells the array they need.
 #pragma once
 
 #include "TextScan.h"
@@ -8,32 +8,26 @@
 
 #include <algorithm>
 #include <limits>
-#include <string_view>
-#include <vector>
 
 namespace pointhaptics::io
 {
 
-/// Integers beyond 2^53 lose their last digits.
-class DecimalColumn
+/// Knows the numbers it was shown, and keeps none. Integers beyond 2^53 lose their last digits.
+class NumberColumn
 {
 public:
-  /// Appends the number @p value, written as @p word.
-  void add(std::string_view word, double value)
+  void add(double value, NumberShape shape)
   {
-    fitsFloat_ = fitsFloat_ && fitsFloat(word, value);
-    isInteger_ = isInteger_ && word.find_first_of(".eEnN") == std::string_view::npos;
-    if (isInteger_)
-    {
-      smallest_ = std::min(smallest_, value);
-      largest_ = std::max(largest_, value);
-    }
-    values_.push_back(value);
+    fitsFloat_ = fitsFloat_ && shape.fitsFloat;
+    isInteger_ = isInteger_ && shape.isInteger;
+    smallest_ = std::min(smallest_, value);
+    largest_ = std::max(largest_, value);
   }
-  const std::vector<double>& values() const { return values_; }
-  bool isInteger() const { return isInteger_; }
+  /// An empty cell reads as NaN.
+  void addEmpty() { isInteger_ = false; }
   /// Whether all are integers in 0..255.
   bool isByte() const { return isInteger_ && smallest_ >= 0.0 && largest_ <= 255.0; }
+  double largest() const { return largest_; }
   /// VTK_FLOAT when a float keeps every digit, else VTK_DOUBLE.
   int floatingType() const { return fitsFloat_ ? VTK_FLOAT : VTK_DOUBLE; }
   /// VTK_INT for integers that fit it, else floatingType().
@@ -45,7 +39,6 @@ public:
   }
 
 private:
-  std::vector<double> values_;
   bool fitsFloat_ = true;
   bool isInteger_ = true;
   double smallest_ = std::numeric_limits<double>::infinity();

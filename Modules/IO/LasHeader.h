@@ -1,0 +1,102 @@
+/// @file
+/// The header of a LAS file and the records that describe its points, checked before anybody allocates what
+/// they claim. Layouts: ASPRS, LAS Specification 1.4 R15.
+#pragma once
+
+#include "StridedCopy.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pointhaptics::io
+{
+
+/// Byte offsets inside a record of each point format; 0 = the format has no such field.
+struct LasPointFormat
+{
+  std::size_t size;
+  std::size_t gpsTime;
+  std::size_t rgb;
+  std::size_t nearInfrared;
+};
+constexpr int kMostLasFormat = 10;
+constexpr LasPointFormat kLasPointFormats[kMostLasFormat + 1] = {
+  { 20, 0, 0, 0 },
+  { 28, 20, 0, 0 },
+  { 26, 0, 20, 0 },
+  { 34, 20, 28, 0 },
+  { 57, 20, 0, 0 },
+  { 63, 20, 28, 0 },
+  { 30, 22, 0, 0 },
+  { 36, 22, 30, 0 },
+  { 38, 22, 30, 36 },
+  { 59, 22, 0, 0 },
+  { 67, 22, 30, 36 },
+};
+
+constexpr std::size_t kLasHeaderOf12 = 227; ///< bytes, also of 1.0 and 1.1
+constexpr std::size_t kLasHeaderOf14 = 375;
+constexpr std::size_t kLasVlrHeader = 54;
+constexpr std::size_t kLasExtraDescriptor = 192;
+constexpr int kLasExtraBytesRecord = 4; ///< of the user LASF_Spec
+
+/// One field among the extra bytes of a point.
+struct LasExtraField
+{
+  std::string name;
+  int type = 0; ///< VTK type in the record
+  int components = 1;
+  std::size_t offset = 0; ///< inside the record
+  bool isScaled = false;  ///< value = scale * stored + shift, as double
+  std::array<double, 3> scale{ 1, 1, 1 };
+  std::array<double, 3> shift{};
+};
+
+struct LasHeader
+{
+  int minorVersion = 0;
+  int globalEncoding = 0; ///< bit 0: how gps time counts; bit 4: well-known text
+  int pointFormat = 0;
+  std::size_t headerSize = 0;
+  std::size_t pointsOffset = 0;
+  std::size_t recordLength = 0;
+  std::uint64_t count = 0;
+  std::array<double, 3> scale{};
+  std::array<double, 3> offset{};
+  std::vector<LasExtraField> extraFields;
+  std::string coordinateSystem; ///< WKT or "EPSG:26917"; empty when the file does not say
+  std::string lengthUnit;       ///< of a projected system: "metre"; empty when the file does not say
+
+  bool isExtended() const { return pointFormat >= 6; }
+  const LasPointFormat& fields() const { return kLasPointFormats[pointFormat]; }
+};
+
+/// Little-endian number at @p at, which need not be aligned.
+template <typename T>
+T loadLittle(const char* at) noexcept
+{
+  T value;
+  if constexpr (kIsLittleEndianHost)
+  {
+    std::memcpy(&value, at, sizeof(T));
+  }
+  else
+  {
+    char raw[sizeof(T)];
+    std::reverse_copy(at, at + sizeof(T), raw);
+    std::memcpy(&value, raw, sizeof(T));
+  }
+  return value;
+}
+
+/// @throws FileProblem with byte offset and value: also for LAZ and COPC, and when the file is too short for
+/// the points the header counts.
+LasHeader parseLasHeader(std::string_view bytes);
+
+} // namespace pointhaptics::io

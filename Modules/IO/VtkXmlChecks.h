@@ -1,0 +1,21 @@
+/// @file
+/// What a VTK XML file claims of its sizes, held against its length before VTK's reader, which believes them,
+/// sees the file.
+#pragma once
+
+#include <string_view>
+
+namespace pointhaptics::io
+{
+
+/// The value of attribute @p name in one tag; empty when it is not there.
+std::string_view xmlAttribute(std::string_view tag, std::string_view name);
+
+/// The first tag <VTKFile ...>, without its closing mark. @pre there is one.
+std::string_view vtkFileTag(std::string_view bytes);
+
+/// @throws FileProblem with the byte offset of a count, an offset or a block of data that the file cannot
+/// hold, of XML entities, and when the file's end is missing.
+void checkVtkXml(std::string_view bytes);
+
+} // namespace pointhaptics::io

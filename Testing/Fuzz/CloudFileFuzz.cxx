@@ -1,0 +1,113 @@
+// Any bytes as a point cloud file. With POINTHAPTICS_BUILD_FUZZERS this becomes a libFuzzer program; the test
+// Fuzz.CloudFiles replays the same function on the files of Data/Fuzz.
+//
+// What must hold: either points, or a message of one line with a cure and no points; and what was read can be
+// written and read again.
+#include "CloudFileFuzz.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkNew.h"
+#include "vtkPointCloudReader.h"
+#include "vtkPointCloudWriter.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+namespace
+{
+
+void ignoreEvent(vtkObject*, unsigned long, void*, void*) {}
+
+void require(bool condition, const char* what)
+{
+  if (!condition)
+  {
+    std::fprintf(stderr, "broken promise: %s\n", what);
+    std::abort();
+  }
+}
+
+/// A folder in memory where there is one, removed at the end.
+class Scratch
+{
+public:
+  Scratch()
+  {
+    const std::filesystem::path memory = "/dev/shm";
+    const std::filesystem::path root =
+      std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
+    folder_ = root / ("pointhaptics-fuzz-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  ~Scratch()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  std::string path(const char* name) const { return (folder_ / name).string(); }
+
+private:
+  std::filesystem::path folder_;
+};
+
+vtkSmartPointer<vtkPolyData> read(const std::string& path, std::string& error)
+{
+  vtkNew<vtkCallbackCommand> silence;
+  silence->SetCallback(&ignoreEvent);
+  vtkNew<vtkPointCloudReader> reader;
+  reader->AddObserver(vtkCommand::ErrorEvent, silence);
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  error = reader->GetErrorMessage();
+  return reader->GetOutput();
+}
+
+void writeAndReadAgain(vtkPolyData* cloud, const std::string& path)
+{
+  vtkNew<vtkCallbackCommand> silence;
+  silence->SetCallback(&ignoreEvent);
+  vtkNew<vtkPointCloudWriter> writer;
+  writer->AddObserver(vtkCommand::ErrorEvent, silence);
+  writer->SetInputData(cloud);
+  writer->SetFileName(path.c_str());
+  const bool written = writer->Write() == 1;
+  require(written == std::string(writer->GetErrorMessage()).empty(), "writing fails with a message only");
+  if (!written)
+  {
+    return; // LAS holds neither NaN nor more than 65535 bytes per point
+  }
+  std::string error;
+  const vtkSmartPointer<vtkPolyData> again = read(path, error);
+  require(again->GetNumberOfPoints() == cloud->GetNumberOfPoints(), "what was written can be read");
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size)
+{
+  static const Scratch scratch;
+  const std::string path = scratch.path("cloud");
+  std::ofstream(path, std::ios::binary)
+    .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  std::string error;
+  const vtkSmartPointer<vtkPolyData> cloud = read(path, error);
+  require(error.empty() == (cloud->GetNumberOfPoints() > 0), "either points or a message");
+  require(error.find('\n') == std::string::npos, "a message of one line");
+  require(error.empty() || error.find("; ") != std::string::npos, "a message with a cure");
+  constexpr vtkIdType kMostWritten = 200;
+  if (error.empty() && cloud->GetNumberOfPoints() <= kMostWritten)
+  {
+    for (const char* name : { "again.ply", "again.pcd", "again.las" })
+    {
+      writeAndReadAgain(cloud, scratch.path(name));
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,101 @@
+#include "CloudFiles.h"
+
+#include "vtk_zlib.h"
+
+#include <random>
+
+namespace
+{
+
+std::string gzip(const std::string& content)
+{
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string packed(deflateBound(&stream, static_cast<uLong>(content.size())) + 64, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  stream.next_out = reinterpret_cast<Bytef*>(&packed[0]);
+  stream.avail_out = static_cast<uInt>(packed.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  packed.resize(packed.size() - stream.avail_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+std::string manyLines(int count)
+{
+  std::mt19937 random(5);
+  std::string text;
+  for (int i = 0; i < count; ++i)
+  {
+    text += std::to_string(random() % 1000) + " " + std::to_string(random() % 1000) + " 0.25\n";
+  }
+  return text;
+}
+
+class Gzip : public CloudFiles
+{
+};
+
+TEST_F(Gzip, EveryFormatIsReadAsIfItWereUnpacked)
+{
+  std::string ply =
+    "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+    "property float z\nend_header\n";
+  append(ply, 1.0f);
+  append(ply, 2.0f);
+  append(ply, 3.0f);
+  const std::string pcd = "FIELDS x y z\nWIDTH 1\nDATA ascii\n1 2 3\n";
+  for (const std::string& content :
+    { ply, pcd, std::string("1 2 3\n"), std::string("v 1 2 3\n"), makeLas(2, 0, 20) })
+  {
+    const ReadResult plain = readCloud(write("a", content));
+    const ReadResult packed = readCloud(write("b.gz", gzip(content)));
+    EXPECT_EQ(packed.error, "");
+    EXPECT_EQ(packed.format, plain.format);
+    ASSERT_EQ(packed.points(), plain.points());
+    EXPECT_EQ(packed.cloud->GetPoint(0)[2], plain.cloud->GetPoint(0)[2]);
+  }
+}
+
+TEST_F(Gzip, LongAndJoinedFilesAreReadToTheirEnd)
+{
+  const std::string text = manyLines(100000);
+  const ReadResult result = readCloud(write("a.xyz.gz", gzip(text) + gzip("7 8 9\n")));
+  ASSERT_EQ(result.error, "");
+  ASSERT_EQ(result.points(), 100001);
+  EXPECT_EQ(result.cloud->GetPoint(100000)[2], 9.0);
+}
+
+TEST_F(Gzip, TruncatedAndDamagedFilesAreRefused)
+{
+  const std::string whole = gzip(manyLines(50));
+  for (std::size_t size = 2; size < whole.size(); ++size)
+  {
+    const ReadResult result = readCloud(write("cut.gz", whole.substr(0, size)));
+    EXPECT_NE(result.error.find("gz"), std::string::npos) << size << result.error;
+    EXPECT_EQ(result.points(), 0);
+  }
+  std::string wrong = whole;
+  wrong[wrong.size() - 6] = static_cast<char>(wrong[wrong.size() - 6] + 1); // its checksum
+  expectRefused(readCloud(write("wrong.gz", wrong)), "incorrect data check");
+  expectRefused(readCloud(write("twice.gz", gzip(whole))), "gzip file inside a gzip file");
+  expectRefused(readCloud(write("none.gz", gzip(""))), "0 bytes");
+}
+
+TEST_F(Gzip, BombsAreRefusedBeforeTheyFillTheMemory)
+{
+  // Nothing known at the beginning: given up after the first bytes.
+  expectRefused(readCloud(write("zero.gz", gzip(std::string(20000000, '\0')))), "unknown format");
+  // A cloud at the beginning, and then 80 MB from 80 kB.
+  expectRefused(
+    readCloud(write("bomb.gz", gzip("1 2 3\n" + std::string(80000000, '\n')))), "unpacks to more than");
+}
+
+TEST_F(Gzip, XmlOfVtkAsksToBeUnpacked)
+{
+  expectRefused(
+    readCloud(write("a.vtp.gz", gzip("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">"))), "gunzip");
+}
+
+} // namespace

@@ -1,0 +1,161 @@
+#include "CloudFiles.h"
+
+#include <cstdint>
+
+namespace
+{
+
+class HostileFiles : public CloudFiles
+{
+};
+
+TEST_F(HostileFiles, HugeLinesAndHeadersAreRefusedAtOnce)
+{
+  std::string wide;
+  for (int i = 0; i < 200000; ++i)
+  {
+    wide += "1 ";
+  }
+  expectRefused(readCloud(write("a.xyz", wide + "\n" + wide)), "more than 4096 columns");
+  expectRefused(readCloud(write("a.xyz", "1 2 3\n" + wide)), "columns");
+  expectRefused(readCloud(write("a.xyz", std::string(3000000, '7'))), "");
+  std::string names;
+  std::string properties;
+  for (int i = 0; i < 100000; ++i)
+  {
+    names += " f" + std::to_string(i);
+    properties += "property float f" + std::to_string(i) + "\n";
+  }
+  expectRefused(readCloud(write("a.pcd", "FIELDS" + names + "\nWIDTH 1\nDATA ascii\n")), "more than 4096");
+  expectRefused(
+    readCloud(write("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + properties + "end_header\n1\n")),
+    "more than 4096");
+}
+
+TEST_F(HostileFiles, CoordinatesThatNothingMeasuresAreRefused)
+{
+  expectRefused(readCloud(write("a.xyz", "1 2 3\n4 3e38 6\n")), "point 1 of 2: y is 3e+38");
+  expectRefused(readCloud(write("a.xyz", "1 2 3\n4 5 -1.23456789e300\n")), "point 1 of 2: z");
+  std::string ply =
+    "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+    "property float z\nend_header\n";
+  for (const float value : { 1.0f, 2.0f, 3.0f, 4.0f, 3.39e38f, 6.0f })
+  {
+    append(ply, value);
+  }
+  expectRefused(readCloud(write("a.ply", ply)), "point 1 of 2: y");
+  EXPECT_EQ(readCloud(write("b.xyz", "1 2 3\n4 9e29 6\n")).points(), 2);
+  EXPECT_EQ(readCloud(write("c.xyz", "1 2 3\n4 nan -inf\n")).points(), 2) << "not measured, and known to be";
+}
+
+TEST_F(HostileFiles, CorruptModelOfDebianIsRefused)
+{
+  const std::string pond = "/usr/share/assimp/models/PLY/pond.0.ply";
+  if (!std::filesystem::exists(pond))
+  {
+    GTEST_SKIP() << "install assimp-testmodels to read " << pond;
+  }
+  expectRefused(readCloud(pond), "PLY");
+}
+
+TEST_F(HostileFiles, DamagedLzfDataAreRefused)
+{
+  const std::string header =
+    "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\n"
+    "DATA binary_compressed\n";
+  const auto file = [&](const std::string& packed, std::uint32_t unpacked = 24)
+  {
+    std::string pcd = header;
+    append(pcd, static_cast<std::uint32_t>(packed.size()));
+    append(pcd, unpacked);
+    return pcd + packed;
+  };
+  std::string values;
+  for (const float value : { 1.0f, 4.0f, 2.0f, 5.0f, 3.0f, 6.0f }) // field after field
+  {
+    append(values, value);
+  }
+  const std::string literal = std::string(1, static_cast<char>(23)) + values;
+  const ReadResult good = readCloud(write("a.pcd", file(literal)));
+  ASSERT_EQ(good.error, "");
+  EXPECT_EQ(good.cloud->GetPoint(1)[0], 4.0);
+  EXPECT_EQ(good.cloud->GetPoint(0)[2], 3.0);
+  // One value, then 20 bytes that repeat it from 4 bytes back: length 20 = 2 + 7 + 11.
+  const std::string repeated = std::string("\x03", 1) + values.substr(0, 4) + std::string("\xe0\x0b\x03", 3);
+  const ReadResult same = readCloud(write("a.pcd", file(repeated)));
+  ASSERT_EQ(same.error, "");
+  EXPECT_EQ(same.cloud->GetPoint(1)[2], 1.0);
+  const std::string before = std::string("\x03", 1) + values.substr(0, 4) + std::string("\xe0\x0b\x04", 3);
+  expectRefused(readCloud(write("a.pcd", file(before))), "damaged LZF data");
+  expectRefused(readCloud(write("a.pcd", file(literal.substr(0, 20)))), "damaged LZF data");
+  expectRefused(readCloud(write("a.pcd", file(literal + std::string("\x00z", 2)))), "more compressed data");
+  expectRefused(readCloud(write("a.pcd", file(literal, 25))), "header needs 24");
+}
+
+/// A VTP file of two points whose array starts with @p words and goes on with @p data.
+std::string makeVtp(const std::vector<std::uint32_t>& words, const std::string& data, bool isPacked,
+  const std::string& offset = "0", const std::string& before = "")
+{
+  std::string vtp = "<?xml version=\"1.0\"?>\n" + before +
+    "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"" +
+    (isPacked ? " compressor=\"vtkZLibDataCompressor\"" : "") +
+    ">\n<PolyData>\n<Piece NumberOfPoints=\"2\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+    "NumberOfPolys=\"0\">\n<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"appended\" "
+    "offset = \"" +
+    offset + "\"/></Points>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  for (const std::uint32_t word : words)
+  {
+    append(vtp, word);
+  }
+  return vtp + data + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+TEST_F(HostileFiles, SizesThatVtkWouldBelieveAreCheckedFirst)
+{
+  std::string points;
+  for (const float value : { 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f })
+  {
+    append(points, value);
+  }
+  const ReadResult plain = readCloud(write("a.vtp", makeVtp({ 24 }, points, false)));
+  ASSERT_EQ(plain.error, "");
+  EXPECT_EQ(plain.cloud->GetPoint(1)[2], 6.0);
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 4000000000u }, points, false))), "array of 4000000000 bytes");
+  expectRefused(readCloud(write("a.vtp", makeVtp({ 24 }, points, false, "9999"))), "which is not there");
+  expectRefused(readCloud(write("a.vtp", makeVtp({ 24 }, points, false, "-1"))), "which is not there");
+  const std::string packed(60, 'z');
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 0xffffffff, 24, 0, 9 }, packed, true))), "blocks, but only");
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 1, 0xffffffff, 24, 9 }, packed, true))), "blocks of 4294967295");
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 1, 24, 0xffffffff, 9 }, packed, true))), "said to be packed");
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 2, 24, 0, 50, 0xfffffff0 }, packed, true))), "that follow");
+  expectRefused(
+    readCloud(write("a.vtp", makeVtp({ 24 }, points, false, "0", "<!DOCTYPE a [<!ENTITY b \"c\">]>\n"))),
+    "entities");
+}
+
+TEST_F(HostileFiles, LasRecordsThatLieAreKeptAsBytes)
+{
+  // A description of 8 bytes where a record has 2 to spare.
+  std::string las = makeLas(2, 0, 22);
+  std::string record(54 + 192, '\0');
+  record.replace(2, 9, "LASF_Spec");
+  put(record, 18, std::uint16_t{ 4 });
+  put(record, 20, std::uint16_t{ 192 });
+  record[54 + 2] = 10; // double
+  record.replace(54 + 4, 5, "wrong");
+  las.insert(227, record);
+  put(las, 96, static_cast<std::uint32_t>(227 + record.size()));
+  put(las, 100, std::uint32_t{ 1 });
+  const ReadResult result = readCloud(write("a.las", las));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.array("wrong"), nullptr);
+  ASSERT_NE(result.array("ExtraBytes"), nullptr);
+  EXPECT_EQ(result.array("ExtraBytes")->GetNumberOfComponents(), 2);
+}
+
+} // namespace

@@ -1,0 +1,261 @@
+#include "CloudFiles.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIntArray.h"
+#include "vtkPointCloudWriter.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+namespace
+{
+
+class LasWriting : public CloudFiles
+{
+protected:
+  std::string bytesOf(const std::string& name) const
+  {
+    std::ifstream file(path(name), std::ios::binary);
+    return { std::istreambuf_iterator<char>(file), {} };
+  }
+};
+
+/// A LAS file of @p points points whose every byte is random, but for what must be within range.
+std::string makeRandomLas(int minor, int format, std::size_t recordLength, int points)
+{
+  std::string las = makeLas(minor, format, recordLength);
+  const std::size_t start = las.size() - 2 * recordLength;
+  las.resize(start);
+  std::mt19937 random(static_cast<unsigned>(format));
+  const bool extended = format >= 6;
+  const std::size_t gpsTime = extended ? 22 : format == 1 || format >= 3 ? 20 : 0;
+  for (int i = 0; i < points; ++i)
+  {
+    std::string record(recordLength, '\0');
+    for (char& c : record)
+    {
+      c = static_cast<char>(random() & 255);
+    }
+    if (gpsTime != 0)
+    {
+      put(record, gpsTime, 1e5 + 0.001 * i);
+    }
+    las += record;
+  }
+  put(las, 107, static_cast<std::uint32_t>(extended ? 0 : points));
+  if (minor == 4)
+  {
+    put(las, 247, static_cast<std::uint64_t>(points));
+  }
+  return las;
+}
+
+TEST_F(LasWriting, GivesBackEveryByteOfEveryRecord)
+{
+  struct Case
+  {
+    int minor, format;
+    std::size_t length;
+  };
+  for (const Case& each : { Case{ 2, 0, 20 }, { 2, 1, 28 }, { 2, 2, 26 }, { 2, 3, 34 }, { 4, 6, 30 },
+         { 4, 7, 36 }, { 4, 8, 38 }, { 2, 3, 41 }, { 4, 8, 47 } })
+  {
+    constexpr int kPoints = 300;
+    const std::string original = makeRandomLas(each.minor, each.format, each.length, kPoints);
+    const ReadResult first = readCloud(write("a.las", original));
+    ASSERT_EQ(first.error, "");
+    std::vector<std::string> notes;
+    ASSERT_EQ(writeCloud(first.cloud, path("b.las"), &notes), "");
+    EXPECT_EQ(notes, std::vector<std::string>());
+    const std::string copy = bytesOf("b.las");
+    // RGB repeats what Color16 has, and extra bytes get a description.
+    const std::size_t records = kPoints * each.length;
+    ASSERT_GT(copy.size(), records);
+    EXPECT_TRUE(copy.substr(copy.size() - records) == original.substr(original.size() - records))
+      << "point format " << each.format << ", record of " << each.length;
+    const ReadResult second = readCloud(path("b.las"));
+    EXPECT_EQ(second.format, first.format);
+    EXPECT_EQ(
+      second.cloud->GetPointData()->GetNumberOfArrays(), first.cloud->GetPointData()->GetNumberOfArrays());
+  }
+}
+
+TEST_F(LasWriting, KeepsFloatsOnAGridOfBinarySteps)
+{
+  vtkNew<vtkPolyData> cloud;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToFloat();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> unit(0.5f, 1.0f);
+  for (int i = 0; i < 1000; ++i)
+  {
+    points->InsertNextPoint(unit(random), -unit(random), 100.0f + unit(random));
+  }
+  cloud->SetPoints(points);
+  std::vector<std::string> notes;
+  ASSERT_EQ(writeCloud(cloud, path("a.las"), &notes), "");
+  EXPECT_TRUE(notes.empty()) << notes[0];
+  const ReadResult result = readCloud(path("a.las"));
+  for (vtkIdType i = 0; i < 1000; ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ASSERT_EQ(result.cloud->GetPoint(i)[axis], points->GetPoint(i)[axis]);
+    }
+  }
+}
+
+TEST_F(LasWriting, SaysHowFarCoordinatesAreRounded)
+{
+  vtkNew<vtkPolyData> cloud;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(1.0 / 3.0, 0.0, 0.0);
+  points->InsertNextPoint(684766.123456789, 1.0, 2.0);
+  cloud->SetPoints(points);
+  std::vector<std::string> notes;
+  ASSERT_EQ(writeCloud(cloud, path("a.las"), &notes), "");
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("rounded"), std::string::npos);
+  const ReadResult result = readCloud(path("a.las"));
+  EXPECT_NEAR(result.cloud->GetPoint(0)[0], 1.0 / 3.0, 2e-4);
+  EXPECT_NEAR(result.cloud->GetPoint(1)[0], 684766.123456789, 2e-4);
+  EXPECT_EQ(result.cloud->GetPoint(1)[2], 2.0);
+}
+
+TEST_F(LasWriting, FindsAGridForAnyFiniteCoordinates)
+{
+  for (const double size : { 0.0, 1e-280, 1e-12, 1.0 / 3.0, 1e12, 1e29 })
+  {
+    for (const double centre : { 0.0, 86192.56269872189, -1e29 })
+    {
+      vtkNew<vtkPolyData> cloud;
+      vtkNew<vtkPoints> points;
+      points->SetDataTypeToDouble();
+      points->InsertNextPoint(centre, centre - size, -size);
+      points->InsertNextPoint(centre + size, centre, size / 3.0);
+      cloud->SetPoints(points);
+      ASSERT_EQ(writeCloud(cloud, path("a.las")), "");
+      const ReadResult result = readCloud(path("a.las"));
+      ASSERT_EQ(result.error, "") << size << " about " << centre;
+      for (vtkIdType i = 0; i < 2; ++i)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const double tolerance = 1e-9 * size + 1e-15 * std::abs(centre);
+          EXPECT_NEAR(result.cloud->GetPoint(i)[axis], points->GetPoint(i)[axis], tolerance)
+            << size << " " << centre;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(LasWriting, PutsOtherArraysIntoExtraBytes)
+{
+  vtkNew<vtkPolyData> cloud;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(1, 2, 3);
+  points->InsertNextPoint(4, 5, 6);
+  cloud->SetPoints(points);
+  vtkNew<vtkDoubleArray> covariance;
+  covariance->SetName("VoxelCovariance");
+  covariance->SetNumberOfComponents(6);
+  covariance->SetNumberOfTuples(2);
+  const auto count = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTK_TYPE_INT64));
+  count->SetName("VoxelPointCount");
+  vtkNew<vtkUnsignedCharArray> colour;
+  colour->SetName("RGB");
+  colour->SetNumberOfComponents(3);
+  colour->SetNumberOfTuples(2);
+  for (vtkIdType i = 0; i < 12; ++i)
+  {
+    covariance->SetValue(i, std::sqrt(static_cast<double>(i)));
+    colour->SetValue(i % 6, static_cast<unsigned char>(40 * i % 256));
+  }
+  count->SetNumberOfTuples(2);
+  const std::int64_t values[] = { std::numeric_limits<std::int64_t>::max(), -7 };
+  std::memcpy(count->GetVoidPointer(0), values, sizeof(values));
+  vtkNew<vtkFloatArray> named;
+  named->SetName("a name that is far longer than thirty-two bytes");
+  named->InsertNextValue(0.1f);
+  named->InsertNextValue(std::nanf(""));
+  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{ covariance, count.Get(), colour, named })
+  {
+    cloud->GetPointData()->AddArray(array);
+  }
+  std::vector<std::string> notes;
+  ASSERT_EQ(writeCloud(cloud, path("a.las"), &notes), "");
+  ASSERT_EQ(notes.size(), 2u) << "the name changes twice: blanks, and its length";
+  const ReadResult result = readCloud(path("a.las"));
+  ASSERT_EQ(result.error, "");
+  ASSERT_EQ(result.array("VoxelCovariance")->GetNumberOfComponents(), 6);
+  EXPECT_EQ(result.value("VoxelCovariance", 1, 5), std::sqrt(11.0));
+  expectSameBits(count, result.array("VoxelPointCount"));
+  EXPECT_EQ(result.value("RGB", 1, 2), colour->GetComponent(1, 2));
+  EXPECT_EQ(static_cast<float>(result.value("a_name_that_is_far_longer_than_t", 0)), 0.1f);
+}
+
+TEST_F(LasWriting, KeepsTheCoordinateSystem)
+{
+  for (const std::string& system : { std::string("EPSG:26917"), std::string("EPSG:4326"),
+         std::string("PROJCS[\"made up\",GEOGCS[\"g\",UNIT[\"degree\",0.017]],UNIT[\"metre\",1]]") })
+  {
+    const ReadResult plain = readCloud(write("a.las", makeLas(2, 0, 20)));
+    vtkNew<vtkStringArray> text;
+    text->SetName("CoordinateSystem");
+    text->InsertNextValue(system);
+    plain.cloud->GetFieldData()->AddArray(text);
+    ASSERT_EQ(writeCloud(plain.cloud, path("b.las")), "");
+    const ReadResult result = readCloud(path("b.las"));
+    ASSERT_EQ(result.error, "");
+    vtkAbstractArray* read = result.cloud->GetFieldData()->GetAbstractArray("CoordinateSystem");
+    ASSERT_NE(read, nullptr);
+    EXPECT_EQ(vtkStringArray::SafeDownCast(read)->GetValue(0), system);
+    vtkAbstractArray* unit = result.cloud->GetFieldData()->GetAbstractArray("LengthUnit");
+    EXPECT_EQ(unit != nullptr, system[0] == 'P');
+  }
+}
+
+TEST_F(LasWriting, RefusesNan)
+{
+  vtkNew<vtkPolyData> cloud;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(1, 2, 3);
+  points->InsertNextPoint(4, std::nan(""), 6);
+  cloud->SetPoints(points);
+  EXPECT_NE(writeCloud(cloud, path("a.las")).find("point 1 is NaN"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(LasWriting, RealAirborneCloudComesBackAsItWas)
+{
+  const std::string folder = sharedData();
+  if (folder.empty())
+  {
+    GTEST_SKIP() << "no real clouds beside this checkout (set POINTHAPTICS_SHARED_DATA to their folder)";
+  }
+  for (const char* name : { "Megaplot.las", "pine.las" })
+  {
+    const ReadResult first = readCloud(folder + "/" + name);
+    std::vector<std::string> notes;
+    ASSERT_EQ(writeCloud(first.cloud, path(name), &notes), "");
+    EXPECT_TRUE(notes.empty()) << notes[0];
+    const ReadResult second = readCloud(path(name));
+    ASSERT_EQ(second.points(), first.points());
+    expectSameBits(first.cloud->GetPoints()->GetData(), second.cloud->GetPoints()->GetData());
+    for (int i = 0; i < first.cloud->GetPointData()->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* array = first.cloud->GetPointData()->GetArray(i);
+      expectSameBits(array, second.array(array->GetName()));
+    }
+  }
+}
+
+} // namespace
