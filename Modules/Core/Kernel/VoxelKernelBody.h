@@ -149,10 +149,9 @@ inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
   writer.cursors[partition] = cursor;
 }
 
-/// Appends the records to their partitions. Neighbours in a scan go to the same one, and a cursor that is
-/// moved waits for the move before: where four go to one they move it together.
-template <bool Indexed>
-inline void deal(const PlacedPoints& placed, RecordWriter& writer)
+/// Appends records that nearly all go to one partition. A cursor that is moved waits for the move before:
+/// where four go to one they move it together. @return how many were appended: all but the last few.
+inline int dealRun(const PlacedPoints& placed, RecordWriter& writer)
 {
   constexpr int kTogether = 4;
   int i = 0;
@@ -163,7 +162,7 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
     const auto inBlock = reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1);
     const bool areOne = ((partitions[0] ^ partitions[1]) | (partitions[2] ^ partitions[3]) |
                           (partitions[0] ^ partitions[2])) == 0;
-    if (!Indexed && areOne && inBlock != 0 && inBlock <= kBlockBytes - kTogether * sizeof(Record))
+    if (areOne && inBlock != 0 && inBlock <= kBlockBytes - kTogether * sizeof(Record))
     {
       for (int j = 0; j < kTogether; ++j)
       {
@@ -176,8 +175,24 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
     }
     for (int j = 0; j < kTogether; ++j)
     {
-      dealOne<Indexed>(placed, i + j, writer);
+      dealOne<false>(placed, i + j, writer);
     }
+  }
+  return i;
+}
+
+/// Appends the records to their partitions. Whether they are a run, as in a scan, is asked once for all: a
+/// branch on each few guesses wrong where the runs are short.
+template <bool Indexed>
+inline void deal(const PlacedPoints& placed, RecordWriter& writer)
+{
+  int i = 0;
+  if (!Indexed && placed.size > 0)
+  {
+    const std::uint32_t first = placed.partitions[0];
+    const bool isRun =
+      first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
+    i = isRun ? dealRun(placed, writer) : 0;
   }
   for (; i < placed.size; ++i)
   {
