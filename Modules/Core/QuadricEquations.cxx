@@ -12,6 +12,37 @@ namespace
 constexpr double kPivotTolerance = 1e-7;
 /// Bound of what the moving fit may add to a slope.
 constexpr double kLargestSlopeChange = 0.3;
+/// Pivots of the cubic terms, over their diagonals, at which these begin to count and count in full.
+constexpr double kCubicPivotFrom = 1e-4;
+constexpr double kCubicPivotTo = 1e-3;
+
+/// L y = rhs.
+void halfSolve(const double l[6][6], int n, const double rhs[6], double y[6])
+{
+  for (int i = 0; i < n; ++i)
+  {
+    double sum = rhs[i];
+    for (int m = 0; m < i; ++m)
+    {
+      sum -= l[i][m] * y[m];
+    }
+    y[i] = sum * l[i][i];
+  }
+}
+
+/// L' k = y.
+void otherHalf(const double l[6][6], int n, const double y[6], double k[6])
+{
+  for (int i = n - 1; i >= 0; --i)
+  {
+    double sum = y[i];
+    for (int m = i + 1; m < n; ++m)
+    {
+      sum -= l[m][i] * k[m];
+    }
+    k[i] = sum * l[i][i];
+  }
+}
 
 }
 
@@ -47,24 +78,8 @@ bool factor(const kernel::FitSums& sums, int n, double l[6][6]) noexcept
 void backSolve(const double l[6][6], int n, const double rhs[6], double k[6]) noexcept
 {
   double y[6];
-  for (int i = 0; i < n; ++i)
-  {
-    double sum = rhs[i];
-    for (int m = 0; m < i; ++m)
-    {
-      sum -= l[i][m] * y[m];
-    }
-    y[i] = sum * l[i][i];
-  }
-  for (int i = n - 1; i >= 0; --i)
-  {
-    double sum = y[i];
-    for (int m = i + 1; m < n; ++m)
-    {
-      sum -= l[m][i] * k[m];
-    }
-    k[i] = sum * l[i][i];
-  }
+  halfSolve(l, n, rhs, y);
+  otherHalf(l, n, y, k);
 }
 
 void errorsOf(const kernel::FitRows& rows, const kernel::FitSums& sums, const double l[6][6], int n,
@@ -110,28 +125,90 @@ void errorsOf(const kernel::FitRows& rows, const kernel::FitSums& sums, const do
   }
 }
 
-void traceSlopes(
-  const kernel::TraceSums& sums, const double l[6][6], double strength, SurfaceFit& fit) noexcept
+kernel::TracedFit withCubicTerms(
+  const kernel::FitSums& sums, const kernel::CubicSums& cubic, const double l[6][6], double share) noexcept
+{
+  // The factor goes on below l with (half, m).
+  double half[4][6];
+  double m[4][4];
+  for (int i = 0, at = 0; i < 4 && share > 0.0; ++i)
+  {
+    halfSolve(l, 6, cubic.qp + 6 * i, half[i]);
+    for (int j = 0; j <= i; ++j, ++at)
+    {
+      double sum = cubic.qq[at];
+      for (int n = 0; n < 6; ++n)
+      {
+        sum -= half[i][n] * half[j][n];
+      }
+      for (int n = 0; n < j; ++n)
+      {
+        sum -= m[i][n] * m[j][n];
+      }
+      if (i != j)
+      {
+        m[i][j] = sum * m[j][j];
+        continue;
+      }
+      // Zero where sum is not a number, too.
+      const double pivot = sum > kCubicPivotFrom * cubic.qq[at] ? sum / cubic.qq[at] : 0.0;
+      const double t = std::clamp((pivot - kCubicPivotFrom) / (kCubicPivotTo - kCubicPivotFrom), 0.0, 1.0);
+      share *= t * t * (3.0 - 2.0 * t);
+      m[i][i] = 1.0 / std::sqrt(sum);
+    }
+  }
+  const auto solve = [&](const double p[6], const double q[4], double x[10])
+  {
+    double y[6];
+    halfSolve(l, 6, p, y);
+    if (share > 0.0)
+    {
+      double z[4];
+      for (int i = 0; i < 4; ++i)
+      {
+        double sum = q[i];
+        for (int n = 0; n < 6; ++n)
+        {
+          sum -= half[i][n] * y[n];
+        }
+        for (int n = 0; n < i; ++n)
+        {
+          sum -= m[i][n] * z[n];
+        }
+        z[i] = sum * m[i][i];
+      }
+      for (int i = 3; i >= 0; --i)
+      {
+        for (int n = i + 1; n < 4; ++n)
+        {
+          z[i] -= m[n][i] * z[n];
+        }
+        z[i] *= m[i][i];
+      }
+      for (int i = 0; i < 4; ++i)
+      {
+        x[6 + i] = share * z[i];
+        for (int n = 0; n < 6; ++n)
+        {
+          y[n] -= half[i][n] * x[6 + i];
+        }
+      }
+    }
+    otherHalf(l, 6, y, x);
+  };
+  const double unit[6] = { 1.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+  const double none[4] = { 0.0, 0.0, 0.0, 0.0 };
+  kernel::TracedFit fit;
+  solve(sums.rhs, cubic.rhs, fit.k);
+  solve(unit, none, fit.row);
+  return fit;
+}
+
+void traceSlopes(const kernel::TraceSums& sums, double strength, SurfaceFit& fit) noexcept
 {
   const double* k = fit.k;
-  double sa[6];
-  double sb[6];
-  for (int i = 0; i < 6; ++i)
-  {
-    sa[i] = sums.moveA[i] + 2.0 * k[3] * sums.turnA[i] + k[4] * sums.turnB[i];
-    sb[i] = sums.moveB[i] + k[4] * sums.turnA[i] + 2.0 * k[5] * sums.turnB[i];
-  }
-  // Of A^-1 S only the height: one solution serves both directions.
-  const double unit[6] = { 1.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
-  double row[6];
-  backSolve(l, 6, unit, row);
-  double da = 0.0;
-  double db = 0.0;
-  for (int i = 0; i < 6; ++i)
-  {
-    da += row[i] * sa[i];
-    db += row[i] * sb[i];
-  }
+  const double da = sums.moveA + 2.0 * k[3] * sums.turnA + k[4] * sums.turnB;
+  const double db = sums.moveB + k[4] * sums.turnA + 2.0 * k[5] * sums.turnB;
   fit.k[1] += std::clamp(strength * da, -kLargestSlopeChange, kLargestSlopeChange);
   fit.k[2] += std::clamp(strength * db, -kLargestSlopeChange, kLargestSlopeChange);
 }

@@ -19,10 +19,15 @@ void backSolve(const double l[6][6], int n, const double rhs[6], double k[6]) no
 void errorsOf(const kernel::FitRows& rows, const kernel::FitSums& sums, const double l[6][6], int n,
   double residual, double rho, SurfaceFitError& error) noexcept;
 
+/// Solves the ten equations of quadratic and cubic terms together, from the factor @p l of the six. The cubic
+/// terms are multiplied by @p share, 0 to 1, and fade out where the cells hardly determine them; the others
+/// are then the best beside what is left of those.
+kernel::TracedFit withCubicTerms(
+  const kernel::FitSums& sums, const kernel::CubicSums& cubic, const double l[6][6], double share) noexcept;
+
 /// Adds the derivative of the fit with respect to its own origin to k1 and k2. Moving along a changes every
 /// weight, by the distance and by rho, and turns the frame with the surface; the normal equations
 /// differentiated give A dk = S, of which the height's part counts.
-void traceSlopes(
-  const kernel::TraceSums& sums, const double l[6][6], double strength, SurfaceFit& fit) noexcept;
+void traceSlopes(const kernel::TraceSums& sums, double strength, SurfaceFit& fit) noexcept;
 
 } // namespace pointhaptics

@@ -140,10 +140,14 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
   SurfaceFit fit = solve(sums, settings.radius, l, terms);
   if (slopes && slopes->strength > 0.0 && terms == 6)
   {
+    kernel::CubicSums cubic;
+    memory.kernels().sumCubicRows(memory.rows(), cubic);
+    const kernel::TracedFit traced = withCubicTerms(sums, cubic, l, slopes->strength);
+    std::copy(traced.k, traced.k + 6, fit.k);
     kernel::TraceSums trace;
-    memory.kernels().traceRows(memory.rows(), fit.k, dot(slopes->radiusGradient, frame.a),
+    memory.kernels().traceRows(memory.rows(), traced, dot(slopes->radiusGradient, frame.a),
       dot(slopes->radiusGradient, frame.b), trace);
-    traceSlopes(trace, l, slopes->strength, fit);
+    traceSlopes(trace, slopes->strength, fit);
   }
   return fit;
 }

@@ -42,7 +42,8 @@ struct FitSettings
 
 /// The fit moves with its origin, so the surface it traces has not quite the slopes of the quadric: with
 /// this, slopes of that traced surface instead, which makes the foot point the true nearest one and closed
-/// paths free of energy.
+/// paths free of energy. The height is then fitted with cubic terms beside the quadratic ones, so that k0 to
+/// k5 are right where the curvature changes.
 struct TracedSlopes
 {
   double strength =

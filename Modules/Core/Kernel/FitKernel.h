@@ -127,13 +127,30 @@ struct FitSums
   double cells;
 };
 
-/// What a moving origin does to the normal equations' right-hand sides; see traceSlopes().
+/// The same for the cubic terms Q = (uuu, uuv, uvv, vvv): W Q P' (Q by Q), W Q Q' (lower triangle, row by
+/// row), W Q z.
+struct CubicSums
+{
+  double qp[24];
+  double qq[10];
+  double rhs[4];
+};
+
+/// A height over the frame with ten terms, P and Q, and the row of the inverse normal matrix that gives k0.
+struct TracedFit
+{
+  double k[10] = {};
+  double row[10] = {};
+};
+
+/// What a moving origin does to the height, as the part of the moving weights and that of the turning frame;
+/// see traceSlopes().
 struct TraceSums
 {
-  double moveA[6];
-  double moveB[6];
-  double turnA[6];
-  double turnB[6];
+  double moveA;
+  double moveB;
+  double turnA;
+  double turnB;
 };
 
 /// Sums of weights count (1 - d^2/radius^2)^4 and of weight times place.
@@ -148,8 +165,9 @@ struct FitKernels
   /// Appends a row for each cell of @p block. Groups of cells beyond the radius may be left out.
   void (*appendRows)(const FitBlock& block, const FitView& view, FitRows& rows);
   void (*sumRows)(const FitRows& rows, FitSums& sums);
-  /// @param k the fit; @param ra, rb gradient of the radius along a and b.
-  void (*traceRows)(const FitRows& rows, const double* k, double ra, double rb, TraceSums& sums);
+  void (*sumCubicRows)(const FitRows& rows, CubicSums& sums);
+  /// @param ra, rb gradient of the radius along a and b.
+  void (*traceRows)(const FitRows& rows, const TracedFit& fit, double ra, double rb, TraceSums& sums);
   /// Of the cells within @p radius of @p origin, both places relative to the block's center, the second to
   /// the origin.
   void (*sumPlaces)(const FitBlock& block, const Vec3& origin, double radius, CentroidSums& sums);

@@ -143,55 +143,116 @@ void sumRows(const FitRows& rows, FitSums& sums)
   sums.cells = joined(cells);
 }
 
-void traceRows(const FitRows& rows, const double* k, double ra, double rb, TraceSums& sums)
+/// The means over a cell of uuu, uuv, uvv and vvv, as far as its second moments tell them.
+inline void cubicTerms(
+  const Eight& u, const Eight& v, const Eight& uu, const Eight& uv, const Eight& vv, Eight q[4])
 {
-  Eight moveA[6] = {};
-  Eight moveB[6] = {};
-  Eight turnA[6] = {};
-  Eight turnB[6] = {};
+  // uuu = u^3 + 3 u Caa where Caa = uu - u^2, and so on.
+  const Eight twoUv = 2.0 * uv;
+  q[0] = u * (3.0 * uu - 2.0 * (u * u));
+  q[1] = u * (twoUv - 2.0 * (u * v)) + v * uu;
+  q[2] = v * (twoUv - 2.0 * (u * v)) + u * vv;
+  q[3] = v * (3.0 * vv - 2.0 * (v * v));
+}
+
+void sumCubicRows(const FitRows& rows, CubicSums& sums)
+{
   const Eight one = Eight{} + 1.0;
+  Eight qp[24] = {};
+  Eight qq[10] = {};
+  Eight rhs[4] = {};
+  for (int i = 0; i < rows.size; i += kFitLanes)
+  {
+    const Eight weight = eight(rows.weight + i);
+    const Eight height = eight(rows.height + i);
+    const Eight p[6] = { one, eight(rows.u + i), eight(rows.v + i), eight(rows.uu + i), eight(rows.uv + i),
+      eight(rows.vv + i) };
+    Eight q[4];
+    cubicTerms(p[1], p[2], p[3], p[4], p[5], q);
+    int at = 0;
+#pragma GCC unroll 4
+    for (int r = 0; r < 4; ++r)
+    {
+      const Eight wq = weight * q[r];
+      rhs[r] += wq * height;
+      qp[6 * r] += wq;
+#pragma GCC unroll 6
+      for (int c = 1; c < 6; ++c)
+      {
+        qp[6 * r + c] += wq * p[c];
+      }
+#pragma GCC unroll 4
+      for (int c = 0; c <= r; ++c)
+      {
+        qq[at++] += wq * q[c];
+      }
+    }
+  }
+  for (int i = 0; i < 24; ++i)
+  {
+    sums.qp[i] = joined(qp[i]);
+  }
+  for (int i = 0; i < 10; ++i)
+  {
+    sums.qq[i] = joined(qq[i]);
+  }
+  for (int i = 0; i < 4; ++i)
+  {
+    sums.rhs[i] = joined(rhs[i]);
+  }
+}
+
+void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, TraceSums& sums)
+{
+  const double* k = fit.k;
+  const double* x = fit.row;
+  Eight moveA = {};
+  Eight moveB = {};
+  Eight turnA = {};
+  Eight turnB = {};
   for (int i = 0; i < rows.size; i += kFitLanes)
   {
     const Eight u = eight(rows.u + i);
     const Eight v = eight(rows.v + i);
     const Eight h = eight(rows.height + i);
-    const Eight p[6] = { one, u, v, eight(rows.uu + i), eight(rows.uv + i), eight(rows.vv + i) };
-    const Eight r = h - (k[0] + k[1] * p[1] + k[2] * p[2] + k[3] * p[3] + k[4] * p[4] + k[5] * p[5]);
-    // What the turning frame does to the cell's row P, and through it to its residual.
-    const Eight uh = u * h + eight(rows.can + i);
-    const Eight vh = v * h + eight(rows.cbn + i);
-    const Eight kqa = k[1] * h + k[3] * (2.0 * uh) + k[4] * vh;
-    const Eight kqb = k[2] * h + k[4] * uh + k[5] * (2.0 * vh);
+    const Eight uu = eight(rows.uu + i);
+    const Eight uv = eight(rows.uv + i);
+    const Eight vv = eight(rows.vv + i);
+    const Eight can = eight(rows.can + i);
+    const Eight cbn = eight(rows.cbn + i);
+    Eight q[4];
+    cubicTerms(u, v, uu, uv, vv, q);
+    const Eight r = h -
+      (k[0] + k[1] * u + k[2] * v + k[3] * uu + k[4] * uv + k[5] * vv + k[6] * q[0] + k[7] * q[1] +
+        k[8] * q[2] + k[9] * q[3]);
+    const Eight reach = x[0] + x[1] * u + x[2] * v + x[3] * uu + x[4] * uv + x[5] * vv + x[6] * q[0] +
+      x[7] * q[1] + x[8] * q[2] + x[9] * q[3];
+    // What the turning frame does to the cell's terms: u gains h as it turns along a, v as it turns along b.
+    const Eight uh = u * h + can;
+    const Eight vh = v * h + cbn;
+    const Eight uuh = uu * h + 2.0 * (u * can);
+    const Eight uvh = uv * h + (u * cbn + v * can);
+    const Eight vvh = vv * h + 2.0 * (v * cbn);
+    const Eight ka =
+      k[1] * h + k[3] * (2.0 * uh) + k[4] * vh + k[6] * (3.0 * uuh) + k[7] * (2.0 * uvh) + k[8] * vvh;
+    const Eight kb =
+      k[2] * h + k[4] * uh + k[5] * (2.0 * vh) + k[7] * uuh + k[8] * (2.0 * uvh) + k[9] * (3.0 * vvh);
+    const Eight xa =
+      x[1] * h + x[3] * (2.0 * uh) + x[4] * vh + x[6] * (3.0 * uuh) + x[7] * (2.0 * uvh) + x[8] * vvh;
+    const Eight xb =
+      x[2] * h + x[4] * uh + x[5] * (2.0 * vh) + x[7] * uuh + x[8] * (2.0 * uvh) + x[9] * (3.0 * vvh);
     const Eight e = eight(rows.e + i);
-    const Eight w = 2.0 * eight(rows.slopeWeight + i) * r;
-    const Eight wa = w * (u + e * ra);
-    const Eight wb = w * (v + e * rb);
+    const Eight moved = 2.0 * eight(rows.slopeWeight + i) * r * reach;
     const Eight weight = eight(rows.weight + i);
-    const Eight ta = weight * kqa;
-    const Eight tb = weight * kqb;
-#pragma GCC unroll 6
-    for (int c = 0; c < 6; ++c)
-    {
-      moveA[c] += wa * p[c];
-      moveB[c] += wb * p[c];
-      turnA[c] -= ta * p[c];
-      turnB[c] -= tb * p[c];
-    }
-    const Eight wr = weight * r;
-    turnA[1] += wr * h;
-    turnA[3] += wr * (2.0 * uh);
-    turnA[4] += wr * vh;
-    turnB[2] += wr * h;
-    turnB[4] += wr * uh;
-    turnB[5] += wr * (2.0 * vh);
+    moveA += moved * (u + e * ra);
+    moveB += moved * (v + e * rb);
+    turnA += weight * (r * xa - reach * ka);
+    turnB += weight * (r * xb - reach * kb);
   }
-  for (int c = 0; c < 6; ++c)
-  {
-    sums.moveA[c] = joined(moveA[c]);
-    sums.moveB[c] = joined(moveB[c]);
-    sums.turnA[c] = joined(turnA[c]);
-    sums.turnB[c] = joined(turnB[c]);
-  }
+  sums.moveA = joined(moveA);
+  sums.moveB = joined(moveB);
+  sums.turnA = joined(turnA);
+  sums.turnB = joined(turnB);
 }
 
 void sumPlaces(const FitBlock& block, const Vec3& origin, double radius, CentroidSums& sums)
@@ -267,7 +328,7 @@ void sumField(const FieldBlock& block, const Vec3& position, double reach, Field
   }
 }
 
-constexpr FitKernels kKernels = { appendRows, sumRows, traceRows, sumPlaces, sumField };
+constexpr FitKernels kKernels = { appendRows, sumRows, sumCubicRows, traceRows, sumPlaces, sumField };
 
 }
 } // namespace kernel

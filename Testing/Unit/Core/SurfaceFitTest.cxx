@@ -154,6 +154,42 @@ TEST(SurfaceFit, IsExactForAnyQuadricHoweverCoarseTheCells)
   }
 }
 
+TEST(SurfaceFit, TracedFitIsExactForAnyCubicOnSinglePoints)
+{
+  trial::Random random(12);
+  const SurfaceFrame frame = frameAlong(random.direction(), { 0.01, -0.02, 0.03 });
+  constexpr double kRadius = 3e-3;
+  // Over the radius: z = k0 + k1 u + ... + k5 vv and the cubic terms.
+  const double k[10] = { 1e-3, 0.1, -0.05, 0.08, -0.06, 0.04, 0.03, -0.02, 0.05, -0.04 };
+  std::vector<Cell> cells;
+  for (int i = 0; i < 400; ++i)
+  {
+    const double u = random.uniform(-1.0, 1.0);
+    const double v = random.uniform(-1.0, 1.0);
+    const double z = k[0] + k[1] * u + k[2] * v + k[3] * u * u + k[4] * u * v + k[5] * v * v +
+      k[6] * u * u * u + k[7] * u * u * v + k[8] * u * v * v + k[9] * v * v * v;
+    cells.emplace_back();
+    cells.back().count = 1.0;
+    cells.back().mean = frame.toWorld(kRadius * Vec3(u, v, z));
+  }
+  CellPyramid pyramid;
+  std::vector<std::uint32_t> source;
+  ASSERT_EQ(pyramid.build(std::move(cells), kRadius / 40.0, source), Status::Ok);
+  const auto memory = std::make_unique<FitCells>();
+  FitSettings settings;
+  settings.radius = kRadius;
+  TracedSlopes slopes;
+  slopes.strength = 1.0;
+  const SurfaceFit traced = pointhaptics::fitSurface(pyramid, frame, settings, *memory, &slopes);
+  const SurfaceFit quadric = fitSurface(pyramid, frame, settings);
+  for (int i = 0; i < 6; ++i)
+  {
+    // Cells that hold two of the points have no third moments.
+    EXPECT_NEAR(traced.k[i], k[i], 1e-4) << i;
+  }
+  EXPECT_GT(std::abs(quadric.k[1] - k[1]) + std::abs(quadric.k[2] - k[2]), 0.01) << "a quadric bends";
+}
+
 TEST(SurfaceFit, HasNoResidualOnSinglePointsOfAQuadric)
 {
   const SurfaceFrame frame = frameAlong(normalized({ 1, -1, 2 }), { 0, 0, 0 });
@@ -449,7 +485,7 @@ TEST(SurfaceFit, TracedSlopesAreThoseOfTheSurfaceThatTheMovingFitTraces)
     moved.turnTo(normal);
     FitSettings there = settings;
     there.radius += dot(slopes.radiusGradient, moved.origin - frame.origin);
-    const SurfaceFit other = fitSurface(pyramid, moved, there);
+    const SurfaceFit other = pointhaptics::fitSurface(pyramid, moved, there, *memory, &slopes);
     return frame.toLocal(moved.toWorld({ 0.0, 0.0, other.radius * other.k[0] })).z / settings.radius;
   };
   constexpr double kStep = 1e-4;
