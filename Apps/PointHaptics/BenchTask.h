@@ -53,6 +53,7 @@ BenchTask ioTask();
 BenchTask resampleTask();
 BenchTask proxyTask();
 BenchTask frictionTask();
+BenchTask renderTask();
 BenchTask servoTask();
 
 } // namespace app

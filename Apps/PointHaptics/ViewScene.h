@@ -62,6 +62,7 @@ public:
   vtkHapticProps* props() { return props_; }
   /// Off until it is enabled: then the picture must be refined when it rests.
   CloudDetail& detail() { return detail_; }
+  const CloudDetail& detail() const { return detail_; }
   const Bounds& workspace() const { return workspace_; }
   void getWorkspaceBounds(double bounds[6]) const;
   /// Text for the window's title: the names of the files.

@@ -61,6 +61,7 @@ public:
   bool showsAll() const { return drawn_ >= total_; }
   bool isMoving() const { return moving_; }
   std::int64_t drawnPoints() const { return drawn_; }
+  std::int64_t allPoints() const { return total_; }
   /// All points over those drawn, square root: how much farther apart the drawn ones lie on a surface.
   double spacingFactor() const;
   /// Pixels, for the points of the coming frame where it does not show all.
