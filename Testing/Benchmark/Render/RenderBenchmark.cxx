@@ -58,8 +58,9 @@ Quartiles timeOfFrames(Turntable& table, int frames, double& drawn)
     const double begin = seconds();
     table.turn(kDegreesPerFrame);
     times.push_back(seconds() - begin);
-    drawn += double(table.drawnPoints()) / frames;
+    drawn += double(table.drawnPoints());
   }
+  drawn /= frames;
   return quartiles(times);
 }
 
