@@ -189,8 +189,7 @@ ReportPart studyFirstPicture(Context& context)
   part.title = "Time to the first picture, and memory";
   part.text = fmt::format(
     "The whole process, from its start until the picture of {} x {} pixels is written and it has ended. Ours "
-    "shows all voxel means. Memory is the highest that was resident, libraries included. f3d 1.3 shows a PLY "
-    "file without faces as an empty picture, for which it still reads the file.",
+    "shows all voxel means, f3d all points. Memory is the highest that was resident, libraries included.",
     context.options.width, context.options.height);
   part.table.header = { "points", "program", "median s", "quartiles s", "x ours", "peak MB", "" };
   for (const std::int64_t points : context.options.points)
