@@ -73,6 +73,7 @@ BenchTask ioTask();
 BenchTask resampleTask();
 BenchTask proxyTask();
 BenchTask frictionTask();
+BenchTask renderTask();
 BenchTask servoTask();
 
 } // namespace app

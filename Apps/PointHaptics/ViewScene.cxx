@@ -32,6 +32,7 @@
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace pointhaptics
@@ -43,9 +44,11 @@ namespace
 
 /// Part of the workspace's edge a fitted cloud takes: the hand needs room to reach it from every side.
 constexpr double kFittedPart = 0.9;
-/// Sizes for applyDepthShading() in edges of the workspace; photographed colours show the shape themselves.
-constexpr double kDepthShadingScale = 7.0;
-constexpr double kDepthShadingScaleOfColors = 18.0;
+/// Scales for applyDepthShading() in edges of the workspace; photographed colours show the shape themselves.
+constexpr double kDepthShadingScale = 0.03;
+constexpr double kDepthShadingScaleOfColors = 0.08;
+/// Pixels of the points where not all are shown.
+constexpr double kLargestCoarsePoint = 16.0;
 /// The proxy sphere is drawn at least this large, over the workspace's edge.
 constexpr double kSmallestSphere = 0.022;
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
@@ -205,20 +208,24 @@ ViewScene::~ViewScene()
   renderer_->RemoveObservers(vtkCommand::StartEvent);
 }
 
-/// Before every render: points that are about to part grow, so that a surface stays closed.
+/// Before every render: how many points it shows; those about to part grow, so that a surface stays closed.
 void ViewScene::sizePoints()
 {
-  if (pointSize_ > 0.0)
-  {
-    return;
-  }
+  detail_.beginFrame(
+    std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());
   vtkPolyData* shown = bandwidth_->GetOutput();
-  if (shown->GetMTime() != spacingTime_)
+  // Measuring it takes as long as a frame: while everything moves that of the picture before will do.
+  if (!(pointSize_ > 0.0) && shown->GetMTime() != spacingTime_ && (!detail_.isMoving() || spacing_ == 0.0))
   {
     spacingTime_ = shown->GetMTime();
     spacing_ = medianSpacing(shown);
   }
-  actor_->GetProperty()->SetPointSize(static_cast<float>(pointSizeFor(spacing_, renderer_)));
+  const double factor = detail_.spacingFactor();
+  const bool fixed = pointSize_ > 0.0;
+  actor_->GetProperty()->SetPointSize(
+    static_cast<float>(fixed ? pointSize_ : pointSizeFor(spacing_, renderer_)));
+  detail_.setCoarsePointSize(
+    fixed ? factor * pointSize_ : pointSizeFor(factor * spacing_, renderer_, kLargestCoarsePoint));
 }
 
 vtkIdType ViewScene::numberOfPoints() const

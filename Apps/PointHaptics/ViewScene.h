@@ -4,6 +4,7 @@
 
 #include "ViewOptions.h"
 
+#include "CloudDetail.h"
 #include "CloudOrientation.h"
 #include "Core/AffineTransform.h"
 #include "Core/PointView.h"
@@ -59,6 +60,9 @@ public:
   vtkActor* actor() { return actor_; }
   vtkRenderer* renderer() { return renderer_; }
   vtkHapticProps* props() { return props_; }
+  /// Off until it is enabled: then the picture must be refined when it rests.
+  CloudDetail& detail() { return detail_; }
+  const CloudDetail& detail() const { return detail_; }
   const Bounds& workspace() const { return workspace_; }
   void getWorkspaceBounds(double bounds[6]) const;
   /// Text for the window's title: the names of the files.
@@ -78,6 +82,7 @@ private:
   vtkNew<vtkScalarBarActor> scalarBar_;
   vtkNew<vtkHapticProps> props_;
   vtkNew<vtkRenderer> renderer_;
+  CloudDetail detail_{ renderer_, actor_ };
   Bounds workspace_;
   CloudOrientation orientation_;
   double pointSize_ = 0.0; // 0: from the spacing

@@ -28,6 +28,7 @@
 #include <vtkStringArray.h>
 #include <vtkTransform.h>
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 
@@ -106,6 +107,7 @@ void Window::setUpRendering()
     style_->SetChart(chart_);
   }
   interactor_->SetRenderWindow(window_);
+  scene_.detail().setEnabled(true);
   scene_.placeCamera();
 }
 
@@ -245,9 +247,15 @@ void Window::onSamples(void* callData)
   }
 }
 
-/// 30 times a second: what the device has to say, and whether the program is asked to end.
+/// 30 times a second: what the device has to say, whether the program is asked to end, and whether a picture
+/// that rests is to become finer.
 void Window::onTimer()
 {
+  if (scene_.detail().refinementDue(
+        std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count()))
+  {
+    interactor_->Render();
+  }
   if (stopIsRequested())
   {
     interactor_->TerminateApp();
@@ -341,6 +349,7 @@ void Window::onScreenshot(void*)
     }
   } while (taken);
   std::string message;
+  scene_.detail().showAllOnce();
   window_->Render();
   say(writePicture(window_, name, message) ? "screenshot: " + name : message);
 }

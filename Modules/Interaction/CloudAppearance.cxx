@@ -8,19 +8,16 @@
 #include "vtkCamera.h"
 #include "vtkCameraPass.h"
 #include "vtkDataArray.h"
-#include "vtkEDLShading.h"
+#include "vtkDepthShadingPass.h"
 #include "vtkFloatArray.h"
 #include "vtkLightsPass.h"
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
-#include "vtkObjectFactory.h"
 #include "vtkOpaquePass.h"
 #include "vtkOverlayPass.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
-#include "vtkProp.h"
-#include "vtkPropCollection.h"
 #include "vtkProperty.h"
 #include "vtkRenderPassCollection.h"
 #include "vtkRenderer.h"
@@ -91,29 +88,6 @@ void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array)
   mapper->SetColorModeToMapScalars();
   mapper->ScalarVisibilityOn();
 }
-
-/// Draws nothing. vtkEDLShading measures depth in parts of the size of what is visible and has no other
-/// control of its strength; voxel means are rough by a voxel, and at its own strength that roughness is all
-/// one sees.
-class DepthShadingScale : public vtkProp
-{
-public:
-  static DepthShadingScale* New();
-  vtkTypeMacro(DepthShadingScale, vtkProp);
-  double* GetBounds() override { return this->Bounds; }
-
-  void setSize(double sceneSize)
-  {
-    for (int i = 0; i < 6; ++i)
-    {
-      this->Bounds[i] = (i % 2 ? 0.5 : -0.5) * sceneSize;
-    }
-  }
-
-private:
-  double Bounds[6] = { -0.5, 0.5, -0.5, 0.5, -0.5, 0.5 };
-};
-vtkStandardNewMacro(DepthShadingScale);
 
 } // namespace
 
@@ -197,18 +171,17 @@ double medianSpacing(vtkPolyData* cloud)
   return *middle / kRadiusPerSpacing;
 }
 
-double pointSizeFor(double spacing, vtkRenderer* renderer)
+double pointSizeFor(double spacing, vtkRenderer* renderer, double largest)
 {
   constexpr double kPixelsPerSpacing = 2.2;
   constexpr double kSmallest = 3.0;
-  constexpr double kLargest = 9.0;
   vtkCamera* camera = renderer->GetActiveCamera();
   const int* size = renderer->GetSize();
   const double height = camera->GetParallelProjection()
     ? 2.0 * camera->GetParallelScale()
     : 2.0 * camera->GetDistance() * std::tan(0.5 * camera->GetViewAngle() * 3.14159265358979323846 / 180.0);
   const double pixels = kPixelsPerSpacing * spacing / height * size[1];
-  return std::isfinite(pixels) ? std::round(std::min(std::max(pixels, kSmallest), kLargest)) : kSmallest;
+  return std::isfinite(pixels) ? std::round(std::min(std::max(pixels, kSmallest), largest)) : kSmallest;
 }
 
 bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper, vtkActor* actor,
@@ -250,25 +223,17 @@ void applyBackground(vtkRenderer* renderer)
   renderer->SetBackground2(0.80, 0.84, 0.89);
 }
 
-void applyDepthShading(vtkRenderer* renderer, double sceneSize)
+void applyDepthShading(vtkRenderer* renderer, double depthScale)
 {
-  DepthShadingScale* scale = nullptr;
-  vtkPropCollection* props = renderer->GetViewProps();
-  vtkCollectionSimpleIterator cookie;
-  props->InitTraversal(cookie);
-  while (vtkProp* prop = props->GetNextProp(cookie))
+  auto* sequence = vtkSequencePass::SafeDownCast(renderer->GetPass());
+  vtkRenderPass* first = sequence && sequence->GetPasses()->GetNumberOfItems() > 0
+    ? vtkRenderPass::SafeDownCast(sequence->GetPasses()->GetItemAsObject(0))
+    : nullptr;
+  if (auto* present = vtkDepthShadingPass::SafeDownCast(first))
   {
-    scale = scale ? scale : dynamic_cast<DepthShadingScale*>(prop);
-  }
-  if (scale)
-  {
-    scale->setSize(sceneSize);
+    present->SetDepthScale(depthScale);
     return;
   }
-  vtkNew<DepthShadingScale> newScale;
-  newScale->setSize(sceneSize);
-  renderer->AddViewProp(newScale);
-
   vtkNew<vtkLightsPass> lights;
   vtkNew<vtkOpaquePass> opaque;
   vtkNew<vtkTranslucentPass> translucent;
@@ -280,9 +245,10 @@ void applyDepthShading(vtkRenderer* renderer, double sceneSize)
   world->SetPasses(worldPasses);
   vtkNew<vtkCameraPass> camera;
   camera->SetDelegatePass(world);
-  vtkNew<vtkEDLShading> shading;
+  vtkNew<vtkDepthShadingPass> shading;
   shading->SetDelegatePass(camera);
-  // Text comes after the shading, which would draw shadows around its plates.
+  shading->SetDepthScale(depthScale);
+  // Text comes after the shading: it has no depth.
   vtkNew<vtkOverlayPass> overlay;
   vtkNew<vtkRenderPassCollection> passes;
   passes->AddItem(shading);

@@ -43,16 +43,17 @@ POINTHAPTICSINTERACTION_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtk
 /// read.
 POINTHAPTICSINTERACTION_EXPORT void applyBackground(vtkRenderer* renderer);
 
-/// Darkens what lies behind its surroundings (eye-dome lighting): points without normals show their shape.
-/// @param sceneSize depth differences are weighed in parts of this, in the units of the scene: larger is
-/// weaker. About eight times the edge of the workspace suits voxel means. May be called again with another
-/// size.
-POINTHAPTICSINTERACTION_EXPORT void applyDepthShading(vtkRenderer* renderer, double sceneSize);
+/// Darkens what lies behind its surroundings (eye-dome lighting, vtkDepthShadingPass): points without normals
+/// show their shape.
+/// @param depthScale a point this far behind its neighbours, in the units of the scene, keeps 1/e of its
+/// lightness: larger is weaker. May be called again with another one.
+POINTHAPTICSINTERACTION_EXPORT void applyDepthShading(vtkRenderer* renderer, double depthScale);
 
 /// Median distance between neighbours, of a sample of the points; 0 where there are none.
 POINTHAPTICSINTERACTION_EXPORT double medianSpacing(vtkPolyData* cloud);
 
-/// Pixels at which points @p spacing apart, at the camera's focal point, close to a surface: 3 to 9.
-POINTHAPTICSINTERACTION_EXPORT double pointSizeFor(double spacing, vtkRenderer* renderer);
+/// Pixels at which points @p spacing apart, at the camera's focal point, close to a surface: 3 to @p largest.
+POINTHAPTICSINTERACTION_EXPORT double pointSizeFor(
+  double spacing, vtkRenderer* renderer, double largest = 9.0);
 
 } // namespace pointhaptics

@@ -248,6 +248,26 @@ TEST_F(Bench, FilesAreReadAndWrittenRightlyAndComparedWithRivals)
   EXPECT_FALSE(alone.contains("read"));
 }
 
+TEST_F(Bench, ThePictureTurnsWithFewerPointsAndRestsWithAll)
+{
+  if (!std::getenv("DISPLAY"))
+  {
+    this->refuse(1, { "bench", "render", "--quick" }, { "bench render", "no display" });
+    return;
+  }
+  const json result =
+    json::parse(this->succeed({ "bench", "render", "--quick", "--points", "200000", "--no-f3d", "--json" }));
+  ASSERT_EQ(result["turning"]["rows"].size(), 2u);
+  for (const json& row : result["turning"]["rows"])
+  {
+    EXPECT_GT(row["frames_per_second"], 0.0) << row;
+    EXPECT_EQ(row["drawn"] == row["means"], row["detail"] == false) << row;
+  }
+  ASSERT_EQ(result["first_picture"]["rows"].size(), 1u);
+  EXPECT_EQ(result["first_picture"]["rows"][0]["failed"], false);
+  EXPECT_GT(result["first_picture"]["rows"][0]["peak_bytes"], 1e7);
+}
+
 TEST_F(Bench, HelpAndVersionWorkOnBothLevels)
 {
   EXPECT_NE(this->succeed({ "--help" }).find("bench"), std::string::npos);

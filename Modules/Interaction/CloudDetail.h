@@ -1,0 +1,109 @@
+/// @file
+/// Draws fewer points while the picture moves, so that it keeps moving, and all of them when it rests.
+#pragma once
+
+#include "FrameBudget.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkActor;
+class vtkCallbackCommand;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkProperty;
+class vtkRenderWindow;
+class vtkRenderer;
+
+namespace pointhaptics
+{
+
+/// Stands beside the actor of a cloud in a renderer. A frame that differs from the last one by its camera,
+/// its cloud or another actor is drawn with as many points, in fairOrder(), as fit the frame budget, which is
+/// learnt from the times such frames take; the points grow so that surfaces stay closed. After
+/// kRestSeconds without such a frame refinementDue() asks for frames with four times as many points each,
+/// until the cloud's own actor is drawn: the picture at rest is the one without this class. Text may change
+/// without the detail changing. Points are uploaded when they are first drawn.
+///
+/// The picture only gets finer when somebody renders: call refinementDue() from a timer. GUI thread only. To
+/// be destroyed before the actor's renderer.
+class POINTHAPTICSINTERACTION_EXPORT CloudDetail
+{
+public:
+  static constexpr double kRestSeconds = 0.15;
+
+  /// @param actor draws the whole cloud with a vtkPolyDataMapper, in @p renderer.
+  CloudDetail(vtkRenderer* renderer, vtkActor* actor);
+  ~CloudDetail();
+  CloudDetail(const CloudDetail&) = delete;
+  CloudDetail& operator=(const CloudDetail&) = delete;
+
+  /// Off (the default): every frame shows all points.
+  void setEnabled(bool enabled);
+  bool isEnabled() const { return enabled_; }
+
+  /// Chooses what the coming frame shows. To be called when the renderer starts (vtkCommand::StartEvent),
+  /// after the cloud was brought up to date. @param now seconds of a steady clock.
+  void beginFrame(double now);
+
+  /// The picture rests and does not show all points: render it.
+  bool refinementDue(double now) const;
+  /// The next frame shows all points, whatever moves: for pictures that are kept.
+  void showAllOnce() { allOnce_ = true; }
+
+  /// Whether the last frame showed all points.
+  bool showsAll() const { return drawn_ >= total_; }
+  bool isMoving() const { return moving_; }
+  std::int64_t drawnPoints() const { return drawn_; }
+  std::int64_t allPoints() const { return total_; }
+  /// All points over those drawn, square root: how much farther apart the drawn ones lie on a surface.
+  double spacingFactor() const;
+  /// Pixels, for the points of the coming frame where it does not show all.
+  void setCoarsePointSize(double pixels);
+  const FrameBudget& budget() const { return budget_; }
+
+private:
+  struct Level
+  {
+    std::int64_t end = 0; // points in this level and those before
+    vtkSmartPointer<vtkActor> actor;
+  };
+
+  void watchWindow();
+  void endFrame();
+  bool sceneChanged(vtkPolyData* cloud);
+  std::int64_t wanted(double now);
+  std::int64_t levelFor(std::int64_t points) const;
+  void show(vtkPolyData* cloud, std::int64_t points);
+  void addLevel(vtkPolyData* cloud);
+  void dropLevels();
+
+  vtkWeakPointer<vtkRenderer> renderer_;
+  vtkSmartPointer<vtkActor> actor_;
+  vtkNew<vtkProperty> coarse_;
+  vtkNew<vtkCallbackCommand> onEnd_;
+  vtkWeakPointer<vtkRenderWindow> window_;
+  std::vector<std::int64_t> order_;
+  std::vector<Level> levels_;
+  FrameBudget budget_;
+  bool enabled_ = false;
+  bool allOnce_ = false;
+  bool moving_ = false;
+  bool cloudChanged_ = false;
+  bool frameIsTypical_ = false; // nothing is uploaded in it
+  std::int64_t total_ = 0;
+  std::int64_t drawn_ = 0;
+  double lastMotion_ = -1e9;
+  double frameBegin_ = 0.0;
+  unsigned long long cloudTime_ = 0;
+  unsigned long long propsTime_ = 0;
+  std::vector<double> placement_; // of camera, cloud and window, in the last frame
+};
+
+} // namespace pointhaptics

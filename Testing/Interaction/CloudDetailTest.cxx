@@ -1,0 +1,245 @@
+#include "CloudDetail.h"
+#include "CloudAppearance.h"
+
+#include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <utility>
+#include <vector>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+constexpr int kPoints = 120000;
+constexpr int kSize = 200;
+
+/// A sphere of 4 cm about the origin, on a spiral.
+vtkSmartPointer<vtkPolyData> makeSphere()
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> vertices;
+  vertices->InsertNextCell(kPoints);
+  for (int i = 0; i < kPoints; ++i)
+  {
+    const double z = 1.0 - 2.0 * (i + 0.5) / kPoints;
+    const double r = std::sqrt(1.0 - z * z);
+    points->InsertNextPoint(0.04 * r * std::cos(2.4 * i), 0.04 * r * std::sin(2.4 * i), 0.04 * z);
+    vertices->InsertCellPoint(i);
+  }
+  auto sphere = vtkSmartPointer<vtkPolyData>::New();
+  sphere->SetPoints(points);
+  sphere->SetVerts(vertices);
+  addHeightArray(sphere, { 0, 1, 0 });
+  return sphere;
+}
+
+/// A window that shows a cloud, with the detail that belongs to it; time passes as the test says.
+class CloudDetailTest : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const char* display = std::getenv("DISPLAY");
+    if (!display || !*display)
+    {
+      GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
+    }
+    cloud_ = makeSphere();
+    mapper_->SetInputData(cloud_);
+    actor_->SetMapper(mapper_);
+    applyCloudAppearance(cloud_, mapper_, actor_);
+    renderer_->AddActor(actor_);
+    applyBackground(renderer_);
+    applyDepthShading(renderer_, 0.003);
+    window_->SetOffScreenRendering(1);
+    window_->SetMultiSamples(0);
+    window_->SetSize(kSize, kSize);
+    window_->AddRenderer(renderer_);
+    renderer_->GetActiveCamera()->SetPosition(0, 0, 0.2);
+    renderer_->GetActiveCamera()->SetFocalPoint(0, 0, 0);
+    renderer_->ResetCameraClippingRange();
+    detail_.setEnabled(true);
+    detail_.setCoarsePointSize(5.0);
+    begin_->SetClientData(this);
+    begin_->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void*)
+      {
+        auto* test = static_cast<CloudDetailTest*>(self);
+        test->detail_.beginFrame(test->now_);
+      });
+    renderer_->AddObserver(vtkCommand::StartEvent, begin_);
+  }
+
+  void TearDown() override { renderer_->RemoveObserver(begin_); }
+
+  void render(double later)
+  {
+    now_ += later;
+    window_->Render();
+  }
+
+  std::vector<unsigned char> pixels()
+  {
+    vtkNew<vtkUnsignedCharArray> data;
+    window_->GetPixelData(0, 0, kSize - 1, kSize - 1, 0, data);
+    return { data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues() };
+  }
+
+  void renderUntilFine()
+  {
+    for (int i = 0; i < 20 && !detail_.showsAll(); ++i)
+    {
+      this->render(1.0);
+    }
+  }
+
+  double now_ = 100.0;
+  vtkSmartPointer<vtkPolyData> cloud_;
+  vtkNew<vtkPolyDataMapper> mapper_;
+  vtkNew<vtkActor> actor_;
+  vtkNew<vtkRenderer> renderer_;
+  vtkNew<vtkRenderWindow> window_;
+  vtkNew<vtkCallbackCommand> begin_;
+  CloudDetail detail_{ renderer_, actor_ };
+};
+
+TEST_F(CloudDetailTest, MovesWithFewPointsAndRestsWithThePictureOfAllPoints)
+{
+  detail_.setEnabled(false);
+  this->render(0.0);
+  const std::vector<unsigned char> whole = this->pixels();
+  detail_.setEnabled(true);
+  this->render(0.01);
+  EXPECT_TRUE(detail_.isMoving());
+  EXPECT_LT(detail_.drawnPoints(), kPoints / 2);
+  EXPECT_GE(detail_.drawnPoints(), FrameBudget::kFewestPoints);
+  EXPECT_NEAR(detail_.spacingFactor(), std::sqrt(double(kPoints) / double(detail_.drawnPoints())), 1e-12);
+  EXPECT_NE(this->pixels(), whole);
+  EXPECT_FALSE(detail_.refinementDue(now_));
+  EXPECT_TRUE(detail_.refinementDue(now_ + 2.0 * CloudDetail::kRestSeconds));
+  std::int64_t last = detail_.drawnPoints();
+  while (detail_.refinementDue(now_ + 1.0))
+  {
+    this->render(1.0);
+    ASSERT_GT(detail_.drawnPoints(), last);
+    last = detail_.drawnPoints();
+  }
+  EXPECT_TRUE(detail_.showsAll());
+  EXPECT_EQ(this->pixels(), whole);
+}
+
+TEST_F(CloudDetailTest, TheCoarsePictureCoversWhatTheWholeOneDoes)
+{
+  detail_.setEnabled(false);
+  actor_->VisibilityOff();
+  this->render(0.0);
+  const std::vector<unsigned char> nothing = this->pixels();
+  actor_->VisibilityOn();
+  this->render(0.0);
+  const std::vector<unsigned char> whole = this->pixels();
+  detail_.setEnabled(true);
+  this->render(0.01);
+  ASSERT_FALSE(detail_.showsAll());
+  const std::vector<unsigned char> coarse = this->pixels();
+  int covered = 0;
+  int missed = 0;
+  for (std::size_t i = 0; i < whole.size(); i += 3)
+  {
+    const bool isCloud = whole[i] != nothing[i] || whole[i + 1] != nothing[i + 1];
+    const bool isCoarse = coarse[i] != nothing[i] || coarse[i + 1] != nothing[i + 1];
+    covered += isCloud;
+    missed += isCloud && !isCoarse;
+  }
+  EXPECT_GT(covered, 3000);
+  EXPECT_LE(missed, covered / 100);
+}
+
+TEST_F(CloudDetailTest, KeepsItsDetailWhereNothingButTextChanges)
+{
+  this->render(0.0);
+  this->renderUntilFine();
+  ASSERT_TRUE(detail_.showsAll());
+  this->render(0.01);
+  EXPECT_TRUE(detail_.showsAll());
+  EXPECT_FALSE(detail_.refinementDue(now_ + 10.0));
+}
+
+TEST_F(CloudDetailTest, CameraCloudModelAndOtherActorsAreMotion)
+{
+  vtkNew<vtkActor> proxy;
+  renderer_->AddActor(proxy);
+  this->render(0.0);
+  const std::vector<std::pair<const char*, std::function<void()>>> motions = {
+    { "camera", [this] { renderer_->GetActiveCamera()->Azimuth(3); } },
+    { "model", [this] { actor_->SetPosition(0.001, 0, 0); } },
+    { "cloud", [this] { cloud_->Modified(); } },
+    { "proxy", [&proxy] { proxy->SetPosition(0, 0, 0.01); } },
+  };
+  for (const auto& [name, move] : motions)
+  {
+    this->renderUntilFine();
+    ASSERT_TRUE(detail_.showsAll()) << name;
+    move();
+    this->render(1.0);
+    EXPECT_FALSE(detail_.showsAll()) << name;
+  }
+}
+
+TEST_F(CloudDetailTest, ShowsAllForAPictureThatIsKept)
+{
+  this->render(0.0);
+  ASSERT_FALSE(detail_.showsAll());
+  renderer_->GetActiveCamera()->Azimuth(3);
+  detail_.showAllOnce();
+  this->render(0.01);
+  EXPECT_TRUE(detail_.showsAll());
+}
+
+TEST_F(CloudDetailTest, DepthShadingLeavesTheBackgroundAsItIs)
+{
+  detail_.setEnabled(false);
+  renderer_->GradientBackgroundOff();
+  renderer_->SetBackground(1.0, 1.0, 1.0);
+  mapper_->ScalarVisibilityOff();
+  actor_->GetProperty()->SetColor(0.5, 0.5, 0.5);
+  this->render(0.0);
+  const std::vector<unsigned char> shaded = this->pixels();
+  renderer_->SetPass(nullptr);
+  this->render(0.0);
+  const std::vector<unsigned char> plain = this->pixels();
+  int darker = 0;
+  for (std::size_t i = 0; i < plain.size(); i += 3)
+  {
+    if (plain[i] == 255)
+    {
+      ASSERT_EQ(shaded[i], 255) << "pixel " << i / 3;
+    }
+    else
+    {
+      EXPECT_LE(int(shaded[i]), int(plain[i])) << "pixel " << i / 3;
+      darker += shaded[i] < plain[i];
+    }
+  }
+  EXPECT_GT(darker, 300); // the rim of the sphere falls away from the eye
+}
+
+} // namespace
