@@ -472,7 +472,6 @@ void Window::onWriteSettings(void*)
 void Window::connectSliders()
 {
   sliders_->SetInteractor(interactor_);
-  sliders_->SetRenderer(scene_.renderer());
   this->showSliderValues();
   vtkNew<vtkCallbackCommand> moved;
   moved->SetClientData(this);

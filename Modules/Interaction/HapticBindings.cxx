@@ -95,6 +95,25 @@ const std::vector<Line>& lines()
   return all;
 }
 
+/// Without its modifiers.
+std::string nameOf(const std::string& gesture)
+{
+  const std::size_t plus = gesture.rfind('+');
+  return plus == std::string::npos ? gesture : gesture.substr(plus + 1);
+}
+
+bool isButton(const std::string& name)
+{
+  return name == "left" || name == "middle" || name == "right";
+}
+
+bool isDrag(HapticAction action)
+{
+  return action == HapticAction::TurnViewDrag || action == HapticAction::PanViewDrag ||
+    action == HapticAction::DollyViewDrag || action == HapticAction::TurnModelDrag ||
+    action == HapticAction::ShiftModelDrag || action == HapticAction::MoveHandDrag;
+}
+
 /// As it stands on the keyboard.
 std::string spoken(std::string gesture)
 {
@@ -121,6 +140,25 @@ std::string label(const HapticBindings& bindings, const std::string& gesture)
     capital.back() = static_cast<char>(std::toupper(static_cast<unsigned char>(capital.back())));
     text[last] = bindings.find(capital) == bindings.find(gesture) ? capital.back() : text[last];
   }
+  return isButton(nameOf(gesture)) ? text + (isDrag(bindings.find(gesture)) ? " drag" : " click") : text;
+}
+
+std::string joined(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+  {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  const std::string arrows = "Left, Right, Up, Down";
+  const std::size_t found = text.find(arrows);
+  return found == std::string::npos ? text : text.replace(found, arrows.size(), "arrow keys");
+}
+
+std::string row(const std::string& group, const std::string& gestures, const char* words)
+{
+  char text[200];
+  std::snprintf(text, sizeof(text), "%-8s %-34s %s", group.c_str(), gestures.c_str(), words);
   return text;
 }
 
@@ -181,10 +219,8 @@ HapticAction HapticBindings::find(const std::string& gesture) const
     return HapticAction::None;
   };
   const HapticAction found = exact(gesture);
-  const std::size_t plus = gesture.rfind('+');
-  std::string name = plus == std::string::npos ? gesture : gesture.substr(plus + 1);
-  if (found != HapticAction::None || name.empty() || name == "left" || name == "middle" || name == "right" ||
-    name == "wheel")
+  std::string name = nameOf(gesture);
+  if (found != HapticAction::None || name.empty() || isButton(name) || name == "wheel")
   {
     return found;
   }
@@ -215,25 +251,23 @@ std::string HapticBindings::describe() const
   {
     group = *line.group ? line.group : group;
     // The first gesture of each action; an action alone in its line shows two.
-    std::string gesturesOfLine;
+    std::vector<std::string> gesturesOfLine;
     for (HapticAction action : line.actions)
     {
       std::istringstream gestures(this->get(action));
-      const bool alone = line.actions.size() == 1;
       std::string gesture;
-      for (int i = 0; i < (alone ? 2 : 1) && gestures >> gesture; ++i)
+      for (int i = 0; i < (line.actions.size() == 1 ? 2 : 1) && gestures >> gesture; ++i)
       {
-        gesturesOfLine += (gesturesOfLine.empty() ? "" : ", ") + label(*this, gesture);
+        gesturesOfLine.push_back(label(*this, gesture));
       }
     }
     if (!gesturesOfLine.empty())
     {
-      char row[160];
-      std::snprintf(row, sizeof(row), "%-8s %-36s %s", group.c_str(), gesturesOfLine.c_str(), line.words);
-      text += (text.empty() ? "" : "\n") + std::string(row);
+      text += row(group, joined(gesturesOfLine), line.words) + "\n";
       group = " ";
     }
   }
+  text += row("", "files dropped on the window", "open them");
   return text;
 }
 

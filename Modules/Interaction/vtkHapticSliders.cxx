@@ -5,10 +5,12 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkProperty2D.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 #include "vtkSliderRepresentation2D.h"
 #include "vtkSliderWidget.h"
+#include "vtkTextActor.h"
 #include "vtkTextProperty.h"
 
 #include <algorithm>
@@ -37,17 +39,19 @@ constexpr Kind kKinds[vtkHapticSliders::NumberOfSliders] = {
   { "voxel (mm)", 0.1, 10.0, 1.0, true },
 };
 
-/// Normalized viewport: the lowest slider, and the step to the one above it.
-constexpr double kLeft = 0.70;
-constexpr double kRight = 0.96;
-constexpr double kLowest = 0.07;
-constexpr double kStep = 0.11;
+/// Normalized to the window: the lowest slider, and the step to the one above it.
+constexpr double kLeft = 0.83;
+constexpr double kRight = 0.98;
+constexpr double kLowest = 0.30;
+constexpr double kStep = 0.085;
+constexpr double kTextAbove = 0.022;
 
 struct One
 {
   Kind kind;
   vtkNew<vtkSliderRepresentation2D> picture;
   vtkNew<vtkSliderWidget> widget;
+  vtkNew<vtkTextActor> text;
   vtkNew<vtkCallbackCommand> command;
   vtkHapticSliders* owner = nullptr;
   int index = 0;
@@ -67,38 +71,41 @@ struct One
   void take(double value)
   {
     this->kind.value = value;
-    char text[80];
-    std::snprintf(text, sizeof(text), "%s  %.3g", this->kind.title, value);
-    this->picture->SetTitleText(text);
+    char words[80];
+    std::snprintf(words, sizeof(words), "%s  %.3g", this->kind.title, value);
+    this->text->SetInput(words);
     this->picture->SetValue(this->toPart(value));
   }
 };
 
-void style(vtkSliderRepresentation2D* picture, int place)
+void place(One& one)
 {
-  const double row = kLowest + kStep * (vtkHapticSliders::NumberOfSliders - 1 - place);
+  const double row = kLowest + kStep * (vtkHapticSliders::NumberOfSliders - 1 - one.index);
+  vtkSliderRepresentation2D* picture = one.picture;
   picture->SetMinimumValue(0.0);
   picture->SetMaximumValue(1.0);
   picture->ShowSliderLabelOff();
+  picture->SetTitleText("");
   picture->GetPoint1Coordinate()->SetCoordinateSystemToNormalizedViewport();
   picture->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedViewport();
   picture->GetPoint1Coordinate()->SetValue(kLeft, row);
   picture->GetPoint2Coordinate()->SetValue(kRight, row);
-  picture->SetTubeWidth(0.006);
-  picture->SetSliderLength(0.014);
-  picture->SetSliderWidth(0.030);
-  picture->SetEndCapLength(0.003);
-  picture->SetEndCapWidth(0.016);
-  picture->SetTitleHeight(0.026);
-  picture->GetTubeProperty()->SetColor(0.55, 0.56, 0.60);
-  picture->GetCapProperty()->SetColor(0.55, 0.56, 0.60);
+  picture->SetTubeWidth(0.004);
+  picture->SetSliderLength(0.010);
+  picture->SetSliderWidth(0.024);
+  picture->SetEndCapLength(0.002);
+  picture->SetEndCapWidth(0.012);
+  picture->GetTubeProperty()->SetColor(0.45, 0.46, 0.50);
+  picture->GetCapProperty()->SetColor(0.45, 0.46, 0.50);
   picture->GetSliderProperty()->SetColor(0.10, 0.35, 0.65);
   picture->GetSelectedProperty()->SetColor(0.80, 0.33, 0.0);
-  vtkTextProperty* text = picture->GetTitleProperty();
+  one.text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  one.text->SetPosition(kLeft, row + kTextAbove);
+  vtkTextProperty* text = one.text->GetTextProperty();
+  text->SetFontSize(15);
   text->SetColor(0.08, 0.08, 0.10);
-  text->BoldOff();
-  text->ItalicOff();
-  text->ShadowOff();
+  text->SetBackgroundColor(1.0, 1.0, 1.0);
+  text->SetBackgroundOpacity(0.6);
 }
 
 } // namespace
@@ -106,6 +113,8 @@ void style(vtkSliderRepresentation2D* picture, int place)
 struct vtkHapticSliders::Internals
 {
   std::array<One, NumberOfSliders> sliders;
+  /// Over the whole window: VTK's sliders are drawn and caught at different places in a part of one.
+  vtkNew<vtkRenderer> renderer;
   vtkRenderWindowInteractor* interactor = nullptr;
   bool visible = false;
 };
@@ -113,16 +122,21 @@ struct vtkHapticSliders::Internals
 vtkHapticSliders::vtkHapticSliders()
   : Parts(new Internals)
 {
+  this->Parts->renderer->SetLayer(1);
+  this->Parts->renderer->InteractiveOff();
+  this->Parts->renderer->DrawOff();
   for (int i = 0; i < NumberOfSliders; ++i)
   {
     One& one = this->Parts->sliders[i];
     one.kind = kKinds[i];
     one.owner = this;
     one.index = i;
-    style(one.picture, i);
+    place(one);
+    this->Parts->renderer->AddActor2D(one.text);
     one.take(one.kind.value);
     one.widget->SetRepresentation(one.picture);
     one.widget->SetAnimationModeToJump();
+    one.widget->KeyPressActivationOff(); // its key is one of the style's
     one.command->SetClientData(&one);
     one.command->SetCallback(
       [](vtkObject*, unsigned long, void* client, void*)
@@ -141,19 +155,22 @@ vtkHapticSliders::~vtkHapticSliders()
 
 void vtkHapticSliders::SetInteractor(vtkRenderWindowInteractor* interactor)
 {
-  this->Parts->interactor = interactor;
-  for (One& one : this->Parts->sliders)
+  Internals& parts = *this->Parts;
+  this->SetVisibility(false);
+  if (parts.interactor && parts.interactor->GetRenderWindow())
+  {
+    parts.interactor->GetRenderWindow()->RemoveRenderer(parts.renderer);
+  }
+  parts.interactor = interactor;
+  if (interactor && interactor->GetRenderWindow())
+  {
+    interactor->GetRenderWindow()->SetNumberOfLayers(2);
+    interactor->GetRenderWindow()->AddRenderer(parts.renderer);
+  }
+  for (One& one : parts.sliders)
   {
     one.widget->SetInteractor(interactor);
-  }
-}
-
-void vtkHapticSliders::SetRenderer(vtkRenderer* renderer)
-{
-  for (One& one : this->Parts->sliders)
-  {
-    one.widget->SetDefaultRenderer(renderer);
-    one.widget->SetCurrentRenderer(renderer);
+    one.widget->SetCurrentRenderer(interactor ? parts.renderer.Get() : nullptr);
   }
 }
 
@@ -195,6 +212,7 @@ void vtkHapticSliders::SetVisibility(bool visible)
     return;
   }
   this->Parts->visible = visible;
+  this->Parts->renderer->SetDraw(visible);
   for (One& one : this->Parts->sliders)
   {
     one.widget->SetEnabled(visible);

@@ -3,12 +3,11 @@
  * @brief   sliders over the picture for what the touch depends on
  *
  * Stiffness (N/m), friction (mu_d), beta (proxy radius over bandwidth) and voxel size (mm), one below the
- * other in the lower right corner. They only hold numbers: ValueChangedEvent (call data: int*, the Slider
+ * other at the right. They only hold numbers: ValueChangedEvent (call data: int*, the Slider
  * that moved) tells the program, which sets them where they belong. Stiffness, beta and voxel size move in
  * proportion (logarithmic), friction evenly.
  * @code
  * sliders->SetInteractor(interactor);   // after it has its window
- * sliders->SetRenderer(renderer);
  * sliders->SetValue(vtkHapticSliders::Stiffness, 800.0);
  * style->SetSliders(sliders);           // its key shows and hides them
  * @endcode
@@ -25,7 +24,6 @@
 #include <memory> // For Internals
 
 class vtkRenderWindowInteractor;
-class vtkRenderer;
 
 class POINTHAPTICSINTERACTION_EXPORT vtkHapticSliders : public vtkObject
 {
@@ -48,13 +46,11 @@ public:
     ValueChangedEvent = vtkCommand::UserEvent + 7401
   };
 
-  ///@{
   /**
-   * Where the sliders live; both are needed before they can be shown. Null takes them away.
+   * Where the sliders live: in a renderer of their own, in layer 1 over the whole window of @p interactor,
+   * which must have its window and outlive this or be set to null. Null takes them away.
    */
   void SetInteractor(vtkRenderWindowInteractor* interactor);
-  void SetRenderer(vtkRenderer* renderer);
-  ///@}
 
   ///@{
   /**
