@@ -24,8 +24,7 @@ struct BandwidthBenchOptions
   std::int64_t points = 0; ///< 0: the default.
   std::int64_t neighbors = 16;
   std::string file;
-  std::vector<std::string> rivals = bench::bandwidth::rivalWords();
-  std::vector<std::string> studies;
+  BenchChoices choices;
 };
 
 BenchOutcome runBandwidthBench(
@@ -40,9 +39,7 @@ BenchOutcome runBandwidthBench(
   settings.neighbors = int(options.neighbors);
   settings.file = options.file;
   settings.threads = shared.threads;
-  settings.rivals = options.rivals;
-  settings.studies = options.studies;
-  settings.repetitions = shared.repetitions > 0 ? shared.repetitions : settings.repetitions;
+  takeChoices(settings, options.choices, shared);
   bool allRight = false;
   BenchOutcome outcome;
   outcome.report = bench::bandwidth::benchmarkBandwidth(settings, progress, allRight);
@@ -60,10 +57,7 @@ BenchRun addBandwidthOptions(CLI::App& command)
     "Nearest neighbours the spread is taken from; default 16");
   command.add_option("--file", options->file, "A cloud of your own that joins the study of neighbour search")
     ->type_name("FILE");
-  addWords(command, "--rivals", options->rivals, bench::bandwidth::rivalWords(), true,
-    "Who runs beside ours, or none; default all that were found");
-  addWords(command, "--studies", options->studies, bench::bandwidth::studyWords(), false,
-    "What to measure; default all");
+  addChoices(command, options->choices, bench::bandwidth::rivalWords(), bench::bandwidth::studyWords());
   return [options](const BenchSettings& shared, const bench::Progress& progress)
   { return runBandwidthBench(*options, shared, progress); };
 }

@@ -175,6 +175,15 @@ void addTask(CLI::App& bench, const BenchTask& task, int& exitCode)
 
 } // namespace
 
+void addChoices(CLI::App& command, BenchChoices& choices, const std::vector<std::string>& rivalWords,
+  const std::vector<std::string>& studyWords)
+{
+  choices.rivals = rivalWords;
+  addWords(command, "--rivals", choices.rivals, rivalWords, true,
+    "Who runs beside ours, or none; default all that were found");
+  addWords(command, "--studies", choices.studies, studyWords, false, "What to measure; default all");
+}
+
 void addBenchCommand(CLI::App& program, int& exitCode)
 {
   CLI::App* bench = program.add_subcommand("bench", "Measure this program beside others");

@@ -21,8 +21,7 @@ constexpr std::int64_t kMostPoints = 100'000'000;
 struct IoOptions
 {
   std::int64_t points = 0; ///< 0: the default.
-  std::vector<std::string> rivals = bench::io::rivalWords();
-  std::vector<std::string> studies;
+  BenchChoices choices;
 };
 
 BenchOutcome runIo(const IoOptions& options, const BenchSettings& shared, const bench::Progress& progress)
@@ -33,9 +32,7 @@ BenchOutcome runIo(const IoOptions& options, const BenchSettings& shared, const 
     settings.makeQuick();
   }
   settings.points = options.points > 0 ? options.points : settings.points;
-  settings.rivals = options.rivals;
-  settings.studies = options.studies;
-  settings.repetitions = shared.repetitions > 0 ? shared.repetitions : settings.repetitions;
+  takeChoices(settings, options.choices, shared);
   bool allRight = false;
   BenchOutcome outcome;
   outcome.report = bench::io::benchmarkIo(settings, progress, allRight);
@@ -49,10 +46,7 @@ BenchRun addIoOptions(CLI::App& command)
   auto options = std::make_shared<IoOptions>();
   addInteger(command, "--points", options->points, 1, kMostPoints,
     "Points of the files that are read and written; default 543652");
-  addWords(command, "--rivals", options->rivals, bench::io::rivalWords(), true,
-    "Who runs beside ours, or none; default all that were found");
-  addWords(
-    command, "--studies", options->studies, bench::io::studyWords(), false, "What to measure; default all");
+  addChoices(command, options->choices, bench::io::rivalWords(), bench::io::studyWords());
   return [options](const BenchSettings& shared, const bench::Progress& progress)
   { return runIo(*options, shared, progress); };
 }

@@ -23,8 +23,7 @@ struct ResampleOptions
 {
   std::vector<double> points;
   std::vector<double> dimensions;
-  std::vector<std::string> rivals = bench::resample::rivalWords();
-  std::vector<std::string> studies;
+  BenchChoices choices;
 };
 
 BenchOutcome runResample(
@@ -44,9 +43,7 @@ BenchOutcome runResample(
     settings.dimensions.assign(options.dimensions.begin(), options.dimensions.end());
   }
   settings.threads = shared.threads;
-  settings.rivals = options.rivals;
-  settings.studies = options.studies;
-  settings.repetitions = shared.repetitions > 0 ? shared.repetitions : settings.repetitions;
+  takeChoices(settings, options.choices, shared);
   bool allRight = false;
   BenchOutcome outcome;
   outcome.report = bench::resample::benchmarkResample(settings, progress, allRight);
@@ -62,10 +59,7 @@ BenchRun addResampleOptions(CLI::App& command)
     command, "--points", options->points, kMostPoints, "Numbers of points; default 1e4,1e5,543652,1e6,5e6");
   addWholeNumbers(command, "--dims", options->dimensions, kMostVoxels,
     "Voxels on an axis, for the study of voxel size; default 75,150,300,600,1200,4096");
-  addWords(command, "--rivals", options->rivals, bench::resample::rivalWords(), true,
-    "Who runs beside ours, or none; default all that were found");
-  addWords(command, "--studies", options->studies, bench::resample::studyWords(), false,
-    "What to measure; default all");
+  addChoices(command, options->choices, bench::resample::rivalWords(), bench::resample::studyWords());
   return [options](const BenchSettings& shared, const bench::Progress& progress)
   { return runResample(*options, shared, progress); };
 }

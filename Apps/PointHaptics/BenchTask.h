@@ -35,6 +35,26 @@ struct BenchOutcome
                         ///< without parts: why nothing could be measured.
 };
 
+/// The options --rivals and --studies, of tasks that run beside other libraries and in several studies.
+struct BenchChoices
+{
+  std::vector<std::string> rivals;  ///< All that were built, until some are asked for.
+  std::vector<std::string> studies; ///< Empty: all.
+};
+
+/// Adds both options, with the task's words. @p choices must outlive the parsing.
+void addChoices(CLI::App& command, BenchChoices& choices, const std::vector<std::string>& rivalWords,
+  const std::vector<std::string>& studyWords);
+
+/// Puts what was chosen, and what all tasks share, into a task's settings after its own.
+template <class Settings>
+void takeChoices(Settings& settings, const BenchChoices& choices, const BenchSettings& shared)
+{
+  settings.rivals = choices.rivals;
+  settings.studies = choices.studies;
+  settings.repetitions = shared.repetitions > 0 ? shared.repetitions : settings.repetitions;
+}
+
 /// Measures. Called once, after the command line was parsed.
 using BenchRun = std::function<BenchOutcome(const BenchSettings& settings, const bench::Progress& progress)>;
 

@@ -123,5 +123,15 @@ std::string brief(double number)
   return fmt::format("{:.{}f}", number, digits);
 }
 
+std::string milliseconds(double seconds)
+{
+  return brief(1e3 * seconds);
+}
+
+std::string quartilesText(const Quartiles& seconds)
+{
+  return milliseconds(seconds.lower) + " - " + milliseconds(seconds.upper);
+}
+
 } // namespace bench
 } // namespace pointhaptics

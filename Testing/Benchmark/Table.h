@@ -2,6 +2,8 @@
 /// A table of text: lined up for a terminal, or as Markdown.
 #pragma once
 
+#include "Benchmark/Statistics.h"
+
 #include <string>
 #include <vector>
 
@@ -24,6 +26,10 @@ std::string toMarkdown(const Table& table);
 std::string grouped(long long number);
 /// Three significant digits without an exponent where that stays short: 0.0123, 1.23, 12.3, 123, 1235.
 std::string brief(double number);
+/// A time of @p seconds in milliseconds, without the unit.
+std::string milliseconds(double seconds);
+/// "lower - upper" in milliseconds.
+std::string quartilesText(const Quartiles& seconds);
 
 } // namespace bench
 } // namespace pointhaptics

@@ -1,11 +1,11 @@
 #include "Benchmark/Bandwidth/BandwidthBenchmark.h"
 
 #include "Benchmark/Bandwidth/Studies.h"
+#include "Benchmark/StudyList.h"
 
 #include <vtkSMPTools.h>
 
 #include <algorithm>
-#include <iterator>
 
 namespace pointhaptics
 {
@@ -16,16 +16,10 @@ namespace bandwidth
 namespace
 {
 
-struct Study
-{
-  const char* word;
-  ReportPart (*run)(StudyContext&);
-};
-
 /// In the order of the report.
-constexpr Study kStudies[] = { { "search", studySearch }, { "rules", studyRules }, { "touch", studyTouch },
-  { "settling", studySettling }, { "lattice", studyLattice }, { "truncation", studyTruncation },
-  { "sums", studySums } };
+constexpr Study<StudyContext> kStudies[] = { { "search", studySearch }, { "rules", studyRules },
+  { "touch", studyTouch }, { "settling", studySettling }, { "lattice", studyLattice },
+  { "truncation", studyTruncation }, { "sums", studySums } };
 
 constexpr const char* kMethod =
   "Each time is that of the whole work, from points in memory to the finished arrays, the search tree among "
@@ -54,10 +48,7 @@ void BandwidthBenchmarkOptions::makeQuick()
 
 std::vector<std::string> studyWords()
 {
-  std::vector<std::string> words;
-  std::transform(std::begin(kStudies), std::end(kStudies), std::back_inserter(words),
-    [](const Study& study) { return std::string(study.word); });
-  return words;
+  return wordsOf(kStudies);
 }
 
 Report benchmarkBandwidth(const BandwidthBenchmarkOptions& options, const Progress& progress, bool& allRight)
@@ -69,15 +60,7 @@ Report benchmarkBandwidth(const BandwidthBenchmarkOptions& options, const Progre
   report.accuracyMethod = kAccuracyMethod;
   report.machine = thisMachine();
   StudyContext context{ options, progress };
-  for (const Study& study : kStudies)
-  {
-    if (options.studies.empty() ||
-      std::find(options.studies.begin(), options.studies.end(), study.word) != options.studies.end())
-    {
-      report.parts.push_back(study.run(context));
-      report.parts.back().key = study.word;
-    }
-  }
+  report.parts = runStudies(kStudies, options.studies, context);
   allRight = context.allRight;
   return report;
 }
@@ -92,16 +75,6 @@ std::vector<Lap> timed(
   std::vector<Lap> laps;
   vtkSMPTools::LocalScope(vtkSMPTools::Config(threads), [&] { laps = race(contestants, settings); });
   return laps;
-}
-
-std::string milliseconds(double seconds)
-{
-  return brief(1e3 * seconds);
-}
-
-std::string quartilesText(const Quartiles& seconds)
-{
-  return milliseconds(seconds.lower) + " - " + milliseconds(seconds.upper);
 }
 
 } // namespace bandwidth

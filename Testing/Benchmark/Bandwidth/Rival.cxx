@@ -2,8 +2,6 @@
 
 #include "Benchmark/RivalModule.h"
 
-#include <stdexcept>
-
 namespace pointhaptics
 {
 namespace bench
@@ -13,48 +11,26 @@ namespace bandwidth
 namespace
 {
 
-struct Module
-{
-  const char* word;
-  const char* file;
-};
-
-constexpr Module kModules[] = {
+constexpr RivalChoice<Rival> kRivals[] = {
 #ifdef POINTHAPTICS_RIVAL_BANDWIDTH_PCL
-  { "pcl", POINTHAPTICS_RIVAL_BANDWIDTH_PCL },
+  { "pcl", POINTHAPTICS_RIVAL_BANDWIDTH_PCL, nullptr },
 #endif
 #ifdef POINTHAPTICS_RIVAL_BANDWIDTH_NANOFLANN
-  { "nanoflann", POINTHAPTICS_RIVAL_BANDWIDTH_NANOFLANN },
+  { "nanoflann", POINTHAPTICS_RIVAL_BANDWIDTH_NANOFLANN, nullptr },
 #endif
-  { "vtk", nullptr } // linked already
+  { "vtk", nullptr, makeVtkStaticPointLocator }
 };
 
 } // namespace
 
 std::vector<std::string> rivalWords()
 {
-  std::vector<std::string> words;
-  for (const Module& module : kModules)
-  {
-    words.emplace_back(module.word);
-  }
-  return words;
+  return wordsOf(kRivals);
 }
 
 std::unique_ptr<Rival> makeRival(const std::string& word)
 {
-  for (const Module& module : kModules)
-  {
-    if (word == module.word && module.file)
-    {
-      return std::unique_ptr<Rival>(reinterpret_cast<MakeRival>(loadRivalModule(module.file, word))());
-    }
-    if (word == module.word)
-    {
-      return makeVtkStaticPointLocator();
-    }
-  }
-  throw std::runtime_error("no rival is called " + word);
+  return bench::makeRival(kRivals, word);
 }
 
 } // namespace bandwidth

@@ -32,10 +32,6 @@ struct StudyContext
 std::vector<Lap> timed(
   const std::vector<Contestant>& contestants, int threads, const StudyContext& context, double part = 1.0);
 
-/// Milliseconds, and the quartiles as "a - b".
-std::string milliseconds(double seconds);
-std::string quartilesText(const Quartiles& seconds);
-
 ReportPart studySearch(StudyContext& context);
 ReportPart studyRules(StudyContext& context);
 ReportPart studyTouch(StudyContext& context);

@@ -3,6 +3,7 @@
 #include "Benchmark/Io/Files.h"
 #include "Benchmark/PeakMemory.h"
 #include "Benchmark/Race.h"
+#include "Benchmark/StudyList.h"
 
 #include <fmt/format.h>
 #include <vtkPolyData.h>
@@ -59,11 +60,6 @@ bool isBytes(const std::string& name)
   return name == kNewMemory || name == kOldMemory;
 }
 
-std::string milliseconds(double seconds)
-{
-  return brief(1e3 * seconds);
-}
-
 std::vector<std::unique_ptr<Rival>> everyone(const Context& context)
 {
   std::vector<std::unique_ptr<Rival>> all;
@@ -107,8 +103,8 @@ void addRaceRows(const std::vector<Lap>& laps, const std::vector<std::string>& v
     const double timesOurs = pairedRatios(lap.seconds, ours->seconds).median;
     const double ofBytes = floor ? pairedRatios(floor->seconds, lap.seconds).median : 0.0;
     std::vector<std::string> row = { nameOf(kind), brief(double(bytes) / 1e6), lap.name,
-      milliseconds(q.median), fmt::format("{} - {}", milliseconds(q.lower), milliseconds(q.upper)),
-      milliseconds(lap.firstSeconds), brief(double(bytes) / 1e6 / q.median), brief(timesOurs) };
+      milliseconds(q.median), quartilesText(q), milliseconds(lap.firstSeconds),
+      brief(double(bytes) / 1e6 / q.median), brief(timesOurs) };
     if (floor)
     {
       row.push_back(fmt::format("{:.1f} %", 100.0 * ofBytes));
@@ -191,7 +187,6 @@ void readKind(
 ReportPart studyRead(Context& context)
 {
   ReportPart part;
-  part.key = "read";
   part.title = "Reading";
   part.text =
     fmt::format("{} points drawn at random. The compressed PCD holds literals only, as random numbers do "
@@ -255,7 +250,6 @@ void writeKind(
 ReportPart studyWrite(Context& context)
 {
   ReportPart part;
-  part.key = "write";
   part.title = "Writing";
   part.text =
     fmt::format("{} points, to a file that is replaced in each round. MB is the size of our file; PCL writes "
@@ -327,7 +321,6 @@ void measureMemory(Context& context, FileKind kind, vtkPolyData* cloud, ReportPa
 ReportPart studyMemory(Context& context)
 {
   ReportPart part;
-  part.key = "memory";
   part.title = "Memory of reading";
   part.text =
     fmt::format("{} points. Highest resident memory during the call, in a process of its own. \"beyond\" is "
@@ -343,14 +336,9 @@ ReportPart studyMemory(Context& context)
   return part;
 }
 
-struct Study
-{
-  const char* word;
-  ReportPart (*run)(Context&);
-};
-
-/// Memory first: it needs children of a process without threads.
-constexpr Study kStudies[] = { { "memory", studyMemory }, { "read", studyRead }, { "write", studyWrite } };
+/// In the order of the report.
+constexpr Study<Context> kStudies[] = { { "read", studyRead }, { "write", studyWrite },
+  { "memory", studyMemory, true } };
 
 } // namespace
 
@@ -363,7 +351,7 @@ void IoBenchmarkOptions::makeQuick()
 
 std::vector<std::string> studyWords()
 {
-  return { "read", "write", "memory" };
+  return wordsOf(kStudies);
 }
 
 Report benchmarkIo(const IoBenchmarkOptions& options, const Progress& progress, bool& allRight)
@@ -374,16 +362,7 @@ Report benchmarkIo(const IoBenchmarkOptions& options, const Progress& progress, 
   report.method = kMethod;
   report.machine = thisMachine();
   Context context{ options, progress, {}, true };
-  for (const Study& study : kStudies)
-  {
-    if (options.studies.empty() ||
-      std::find(options.studies.begin(), options.studies.end(), study.word) != options.studies.end())
-    {
-      report.parts.push_back(study.run(context));
-    }
-  }
-  std::stable_sort(report.parts.begin(), report.parts.end(),
-    [](const ReportPart& a, const ReportPart& b) { return a.key != "memory" && b.key == "memory"; });
+  report.parts = runStudies(kStudies, options.studies, context);
   allRight = context.allRight;
   return report;
 }

@@ -2,14 +2,23 @@
 
 #include "Benchmark/RivalModule.h"
 
-#include <stdexcept>
-
 namespace pointhaptics
 {
 namespace bench
 {
 namespace io
 {
+namespace
+{
+
+constexpr RivalChoice<Rival> kRivals[] = {
+#ifdef POINTHAPTICS_RIVAL_IO_PCL
+  { "pcl", POINTHAPTICS_RIVAL_IO_PCL, nullptr },
+#endif
+  { "vtk", nullptr, makeVtk }
+};
+
+} // namespace
 
 const char* nameOf(FileKind kind)
 {
@@ -39,28 +48,12 @@ const char* nameOf(FileKind kind)
 
 std::vector<std::string> rivalWords()
 {
-  return {
-#ifdef POINTHAPTICS_RIVAL_IO_PCL
-    "pcl",
-#endif
-    "vtk"
-  };
+  return wordsOf(kRivals);
 }
 
 std::unique_ptr<Rival> makeRival(const std::string& word)
 {
-#ifdef POINTHAPTICS_RIVAL_IO_PCL
-  if (word == "pcl")
-  {
-    return std::unique_ptr<Rival>(
-      reinterpret_cast<MakeRival>(loadRivalModule(POINTHAPTICS_RIVAL_IO_PCL, word))());
-  }
-#endif
-  if (word == "vtk")
-  {
-    return makeVtk();
-  }
-  throw std::runtime_error("no rival is called " + word);
+  return bench::makeRival(kRivals, word);
 }
 
 } // namespace io

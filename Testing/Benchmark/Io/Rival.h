@@ -66,9 +66,6 @@ std::vector<std::string> rivalWords();
 /// @p word must be one of them. Throws std::runtime_error where its module cannot be loaded.
 std::unique_ptr<Rival> makeRival(const std::string& word);
 
-/// What a rival's module exports under the name bench::kMakeRival: a new Rival, the caller's.
-extern "C" using MakeRival = Rival * (*)();
-
 } // namespace io
 } // namespace bench
 } // namespace pointhaptics

@@ -63,7 +63,6 @@ ExactAnswer scaledSphere(double scale)
 ReportPart studyMethods(StudyContext& context)
 {
   ReportPart part;
-  part.key = "methods";
   part.page = Page::Accuracy;
   part.title = "Every method and setting";
   part.text =
@@ -104,7 +103,6 @@ ReportPart studyMethods(StudyContext& context)
 ReportPart studyValidation(StudyContext& context)
 {
   ReportPart part;
-  part.key = "validation";
   part.page = Page::Accuracy;
   part.title = "The paper's validation, redrawn";
   part.text = fmt::format(
@@ -165,7 +163,6 @@ ReportPart studyValidation(StudyContext& context)
 ReportPart studyEdges(StudyContext& context)
 {
   ReportPart part;
-  part.key = "edges";
   part.page = Page::Accuracy;
   part.title = "At the edge and the corner of a box";
   part.text = fmt::format("Sliding 1 mm below the top of the clean box of 50 mm, {} points, straight towards "

@@ -1,11 +1,11 @@
 #include "Benchmark/Proxy/ProxyBenchmark.h"
 
 #include "Benchmark/Proxy/Studies.h"
+#include "Benchmark/StudyList.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 namespace pointhaptics
 {
@@ -16,14 +16,8 @@ namespace proxy
 namespace
 {
 
-struct Study
-{
-  const char* word;
-  ReportPart (*run)(StudyContext&);
-};
-
 /// In the order of the report.
-constexpr Study kStudies[] = { { "shapes", studyShapes }, { "methods", studyMethods },
+constexpr Study<StudyContext> kStudies[] = { { "shapes", studyShapes }, { "methods", studyMethods },
   { "validation", studyValidation }, { "paths", studyPaths }, { "edges", studyEdges }, { "size", studySize },
   { "scans", studyScans }, { "meshes", studyMeshes } };
 
@@ -58,10 +52,7 @@ void ProxyBenchmarkOptions::makeQuick()
 
 std::vector<std::string> studyWords()
 {
-  std::vector<std::string> words;
-  std::transform(std::begin(kStudies), std::end(kStudies), std::back_inserter(words),
-    [](const Study& study) { return std::string(study.word); });
-  return words;
+  return wordsOf(kStudies);
 }
 
 Report benchmarkProxy(const ProxyBenchmarkOptions& options, const Progress& progress, std::string& wrong)
@@ -73,19 +64,7 @@ Report benchmarkProxy(const ProxyBenchmarkOptions& options, const Progress& prog
   report.method = kMethod;
   report.machine = thisMachine();
   StudyContext context{ options, progress, {} };
-  for (const Study& study : kStudies)
-  {
-    const bool wanted = options.studies.empty() ||
-      std::find(options.studies.begin(), options.studies.end(), study.word) != options.studies.end();
-    if (wanted)
-    {
-      ReportPart part = study.run(context);
-      if (!part.key.empty())
-      {
-        report.parts.push_back(std::move(part));
-      }
-    }
-  }
+  report.parts = runStudies(kStudies, options.studies, context);
   wrong = context.wrong;
   return report;
 }

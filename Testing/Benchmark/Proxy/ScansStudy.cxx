@@ -138,7 +138,6 @@ ReportPart studyScans(StudyContext& context)
   {
     return part;
   }
-  part.key = "scans";
   part.page = Page::Accuracy;
   part.title = "Real scans";
   part.text =
@@ -209,7 +208,6 @@ ReportPart studyMeshes(StudyContext& context)
     {
       continue;
     }
-    part.key = "meshes";
     context.progress("the mesh of " + scan.name);
     double scale = 1.0;
     Vec3 middle;

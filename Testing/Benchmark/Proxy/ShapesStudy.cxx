@@ -70,7 +70,6 @@ TrialFigures worstCrossing(const HapticScene& scene, Shape shape, int repetition
 ReportPart studyShapes(StudyContext& context)
 {
   ReportPart part;
-  part.key = "shapes";
   part.page = Page::Accuracy;
   part.title = "The default on every shape";
   part.text =
@@ -99,7 +98,6 @@ ReportPart studyShapes(StudyContext& context)
 ReportPart studyPaths(StudyContext& context)
 {
   ReportPart part;
-  part.key = "paths";
   part.page = Page::Accuracy;
   part.title = "Pressing, circling, tapping, and crossing at 1 m/s";
   part.text = fmt::format(
@@ -130,7 +128,6 @@ ReportPart studyPaths(StudyContext& context)
 ReportPart studySize(StudyContext& context)
 {
   ReportPart part;
-  part.key = "size";
   part.title = "The update's time against the size of the cloud";
   part.text =
     "`surface-fit` on the clean sphere, the slide as above. Built: from points in memory to a scene that can "

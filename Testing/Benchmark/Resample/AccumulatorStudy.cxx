@@ -229,7 +229,6 @@ ReportPart studyAccumulators(StudyContext& context)
 {
   const std::int64_t count = context.options.accumulatorPoints;
   ReportPart part;
-  part.key = "accumulators";
   part.title = "Accumulators: time against error";
   part.text = fmt::format(
     "{} points, one thread, one plain pass: voxel index, then the sums, in a dense array. The error is that "

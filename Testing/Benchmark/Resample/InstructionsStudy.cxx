@@ -39,7 +39,6 @@ Rivals instructionSets(const StudyContext& context)
 ReportPart studyInstructions(StudyContext& context)
 {
   ReportPart part;
-  part.key = "instructions";
   part.title = "Instruction sets";
   part.text =
     fmt::format("The paths of one build, chosen at run time; \"ours\" chooses by itself. Random order, "

@@ -101,7 +101,6 @@ void measureCase(const MemoryCase& memoryCase, StudyContext& context, ReportPart
 ReportPart studyMemory(StudyContext& context)
 {
   ReportPart part;
-  part.key = "memory";
   part.title = "Memory, and the very first call";
   part.text = fmt::format(
     "Each contestant in a process of its own, one update, {} threads: the kernel's high-water mark of "

@@ -72,7 +72,6 @@ void racePoints(std::int64_t count, PointOrder order, StudyContext& context, Rep
 ReportPart studyPoints(StudyContext& context)
 {
   ReportPart part;
-  part.key = "points";
   part.title = "Against points, order and threads";
   part.text = fmt::format("Points on a sphere of radius {} m in a workspace of {} m, {} voxels on an axis. "
                           "Order: as drawn at random, or row by row as a scanner gives them.",

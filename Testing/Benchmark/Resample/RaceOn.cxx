@@ -17,11 +17,6 @@ namespace resample
 namespace
 {
 
-std::string milliseconds(double seconds)
-{
-  return brief(1e3 * seconds);
-}
-
 /// The floor under every time: the coordinates, read and written once.
 Contestant copyOf(vtkPolyData* cloud, std::vector<float>& target)
 {
@@ -150,8 +145,7 @@ namespace
 
 std::vector<std::string> raceCells(const RaceRow& row, std::int64_t points)
 {
-  return { row.name, milliseconds(row.seconds.median),
-    milliseconds(row.seconds.lower) + " - " + milliseconds(row.seconds.upper),
+  return { row.name, milliseconds(row.seconds.median), quartilesText(row.seconds),
     milliseconds(quartiles(row.lap.afterOthers).median), milliseconds(row.lap.firstSeconds),
     brief(1e9 * row.seconds.median / double(points)), brief(row.timesOurs.median),
     row.pclTimes.count > 0 ? brief(row.pclTimes.median) : "", brief(row.timesCopy.median),

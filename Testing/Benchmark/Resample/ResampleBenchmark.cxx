@@ -1,9 +1,7 @@
 #include "Benchmark/Resample/ResampleBenchmark.h"
 
 #include "Benchmark/Resample/Studies.h"
-
-#include <algorithm>
-#include <iterator>
+#include "Benchmark/StudyList.h"
 
 namespace pointhaptics
 {
@@ -14,16 +12,10 @@ namespace resample
 namespace
 {
 
-struct Study
-{
-  const char* word;
-  ReportPart (*run)(StudyContext&);
-};
-
 /// In the order of the report.
-constexpr Study kStudies[] = { { "points", studyPoints }, { "voxels", studyVoxels },
+constexpr Study<StudyContext> kStudies[] = { { "points", studyPoints }, { "voxels", studyVoxels },
   { "attributes", studyAttributes }, { "instructions", studyInstructions }, { "zoom", studyZoom },
-  { "memory", studyMemory }, { "accumulators", studyAccumulators } };
+  { "memory", studyMemory, true }, { "accumulators", studyAccumulators } };
 
 constexpr const char* kMethod =
   "Each time is a whole `Update()` (of other libraries: the call that does the same), from points in memory "
@@ -53,10 +45,7 @@ void ResampleBenchmarkOptions::makeQuick()
 
 std::vector<std::string> studyWords()
 {
-  std::vector<std::string> words;
-  std::transform(std::begin(kStudies), std::end(kStudies), std::back_inserter(words),
-    [](const Study& study) { return std::string(study.word); });
-  return words;
+  return wordsOf(kStudies);
 }
 
 Report benchmarkResample(const ResampleBenchmarkOptions& options, const Progress& progress, bool& allRight)
@@ -67,23 +56,7 @@ Report benchmarkResample(const ResampleBenchmarkOptions& options, const Progress
   report.method = kMethod;
   report.machine = thisMachine();
   StudyContext context{ options, progress };
-  // Memory first: it needs children of a process without threads, and loops leave threads behind.
-  std::vector<ReportPart> parts(std::size(kStudies));
-  for (const bool memoryTurn : { true, false })
-  {
-    for (std::size_t i = 0; i < std::size(kStudies); ++i)
-    {
-      const std::string word = kStudies[i].word;
-      const bool wanted = options.studies.empty() ||
-        std::find(options.studies.begin(), options.studies.end(), word) != options.studies.end();
-      if (wanted && (word == "memory") == memoryTurn)
-      {
-        parts[i] = kStudies[i].run(context);
-      }
-    }
-  }
-  std::copy_if(std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()),
-    std::back_inserter(report.parts), [](const ReportPart& part) { return !part.key.empty(); });
+  report.parts = runStudies(kStudies, options.studies, context);
   allRight = context.allRight;
   return report;
 }

@@ -86,9 +86,6 @@ std::vector<std::string> rivalWords();
 /// cannot be loaded.
 std::unique_ptr<Rival> makeRival(const std::string& word);
 
-/// What a rival's module exports under the name bench::kMakeRival: a new Rival, the caller's.
-extern "C" using MakeRival = Rival * (*)();
-
 } // namespace resample
 } // namespace bench
 } // namespace pointhaptics

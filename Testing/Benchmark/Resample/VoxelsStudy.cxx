@@ -40,7 +40,6 @@ ReportPart studyVoxels(StudyContext& context)
   const std::int64_t count = context.options.voxelPoints;
   const int threads = mostThreads(context);
   ReportPart part;
-  part.key = "voxels";
   part.title = "Against the size of the voxels";
   part.text = fmt::format("{} points in random order, {} threads. A lattice of 4096 voxels on an axis is one "
                           "that no dense array could hold.",
@@ -70,7 +69,6 @@ ReportPart studyAttributes(StudyContext& context)
 {
   const int threads = mostThreads(context);
   ReportPart part;
-  part.key = "attributes";
   part.title = "With covariance, what a point carries, coarser levels";
   part.text =
     fmt::format("Random order, {} voxels on an axis, {} threads. Arrays: colours (3 unsigned char), "

@@ -161,7 +161,6 @@ ReportPart studyZoom(StudyContext& context)
   const std::int64_t count = context.options.zoomPoints;
   context.progress(fmt::format("zooming into {} points", count));
   ReportPart part;
-  part.key = "zoom";
   part.title = "Zooming: only the workspace changed";
   part.text = fmt::format(
     "{} points in random order, {} voxels on an axis of each view, {} threads. Moved: the workspace changed, "

@@ -1,0 +1,146 @@
+/// @file
+/// Part of VoxelKernelBody.h: marks the cells of a partition, numbers them and sums the records of each.
+#pragma once
+
+#include "Core/Kernel/VoxelKernel.h"
+
+namespace pointhaptics
+{
+namespace kernel
+{
+namespace
+{
+
+/// Makes the number of a byte in memory from that of a byte of a word.
+constexpr std::uint32_t kByteOrder = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? 7 : 0;
+
+inline std::uint32_t cellOf(const CellMap& map, const Record& r)
+{
+  const auto x = std::uint32_t((r.first & kPositionMask) >> map.fractionBits);
+  const auto y = std::uint32_t((r.second & kPositionMask) >> map.fractionBits);
+  const auto z = std::uint32_t(r.second >> (kPositionBits - kLowBits + map.fractionBits));
+  const std::uint32_t row = y + map.rowsPerLayer * z;
+  return x + map.columns * ((row < map.firstRow ? row + map.upperRows : row) - map.firstRow);
+}
+
+/// Calls visit(i) for all i below @p count. Neighbours in a scan are in one voxel, and what is done to it
+/// waits for what was done before: takes them from four places in turn.
+template <typename Visit>
+inline void fromFourPlaces(int count, Visit&& visit)
+{
+  const int quarter = count / 4;
+  for (int i = 0; i < quarter; ++i)
+  {
+    visit(i);
+    visit(i + quarter);
+    visit(i + 2 * quarter);
+    visit(i + 3 * quarter);
+  }
+  for (int i = 4 * quarter; i < count; ++i)
+  {
+    visit(i);
+  }
+}
+
+/// By bytes, which neighbours in a scan have in common less often than words.
+inline void markCells(const std::uint32_t* cells, int count, std::uint64_t* marks)
+{
+  auto* bytes = reinterpret_cast<unsigned char*>(marks);
+  fromFourPlaces(count,
+    [=](int i)
+    {
+      unsigned char& byte = bytes[(cells[i] / 8) ^ kByteOrder];
+      byte = static_cast<unsigned char>(byte | 1u << (cells[i] % 8));
+    });
+}
+
+template <class V>
+void mark(const CellMap& map, const Record* records, int count, const Record* next, std::uint64_t* marks,
+  std::uint32_t* cells)
+{
+  constexpr int kLine = 64 / sizeof(Record);
+  constexpr int kStep = 64;
+  for (int first = 0; first < count; first += kStep)
+  {
+    for (int i = first; i < first + kStep; i += kLine)
+    {
+      __builtin_prefetch(next + i);
+    }
+    V::cells(map, records + first, count - first < kStep ? count - first : kStep, cells + first);
+  }
+  markCells(cells, count, marks);
+}
+
+/// Counts word by word. @tparam Skips: counting takes so long that groups of words without marks are left
+/// out; else it is less than the branches that guess wrong.
+template <class V, bool Skips>
+inline std::uint32_t numberWords(const CellRanks& ranks)
+{
+  std::uint32_t sum = 0;
+  for (std::size_t group = 0; group < ranks.words; group += kMarkGroup)
+  {
+    std::uint64_t all = 0;
+    for (std::size_t w = group; Skips && w < group + kMarkGroup; ++w)
+    {
+      all |= ranks.marks[w];
+    }
+    if (Skips && all == 0)
+    {
+      continue;
+    }
+    for (std::size_t w = group; w < group + kMarkGroup; ++w)
+    {
+      ranks.before[w] = sum;
+      sum += V::ones(ranks.marks[w]);
+    }
+  }
+  return sum;
+}
+
+template <class V>
+inline std::uint32_t rankOf(const CellRanks& ranks, std::uint32_t cell)
+{
+  const std::uint64_t below = (std::uint64_t(1) << (cell % 64)) - 1;
+  return ranks.before[cell / 64] + V::ones(ranks.marks[cell / 64] & below);
+}
+
+template <class V>
+void rank(const CellRanks& ranks, std::uint32_t* cells, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    cells[i] = rankOf<V>(ranks, cells[i]);
+  }
+}
+
+template <class V>
+void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* records,
+  const std::uint32_t* cells, int count, const CellSums& given)
+{
+  // Copies, which no store can change.
+  const CellRanks ranks = givenRanks;
+  const CellSums to = given;
+  const typename V::Adder adder(map.fractionBits);
+  fromFourPlaces(count,
+    [=](int i)
+    {
+      const std::uint32_t rank = rankOf<V>(ranks, cells[i]);
+      to.cells[rank] = cells[i];
+      adder.add(to.sums[rank], records[i]);
+    });
+  if (to.seconds)
+  {
+    const std::uint64_t fractionMask = (std::uint64_t(1) << map.fractionBits) - 1;
+    fromFourPlaces(count,
+      [=](int i)
+      {
+        const Record& r = records[i];
+        addProducts(to.seconds[rankOf<V>(ranks, cells[i])], xPlace(r, fractionMask), yPlace(r, fractionMask),
+          zPlace(r, fractionMask));
+      });
+  }
+}
+
+}
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,147 @@
+/// @file
+/// Part of VoxelKernelBody.h: from sums to means.
+#pragma once
+
+#include "Core/Kernel/VoxelKernel.h"
+
+namespace pointhaptics
+{
+namespace kernel
+{
+namespace
+{
+
+/// Lists the lanes of a group that are not clear of the faces.
+inline int listLanes(unsigned lanes, int first, int last, int* list, int found)
+{
+  for (; lanes != 0; lanes &= lanes - 1)
+  {
+    const int i = first + __builtin_ctz(lanes);
+    if (i < last)
+    {
+      list[found++] = i;
+    }
+  }
+  return found;
+}
+
+/// Stores the first of a vector's points, at most @p room.
+template <class V, typename Real>
+inline void storePoints(Real* to, int room, const typename V::Doubles xyz[3])
+{
+  if (room >= V::width)
+  {
+    V::storeInterleaved(to, xyz);
+    return;
+  }
+  Real all[3 * kWidest];
+  V::storeInterleaved(all, xyz);
+  for (int i = 0; i < 3 * room; ++i)
+  {
+    to[i] = all[i];
+  }
+}
+
+/// The constants of MeanMap, in vectors.
+template <class V>
+struct MeanVectors
+{
+  using Doubles = typename V::Doubles;
+  Doubles origin[3], spacing[3], margin[3], quantum, one;
+
+  explicit MeanVectors(const MeanMap& map)
+    : quantum(V::all(map.quantum))
+    , one(V::all(1.0))
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      origin[axis] = V::all(map.origin[axis]);
+      spacing[axis] = V::all(map.spacing[axis]);
+      margin[axis] = V::all(map.faceMargin[axis]);
+    }
+  }
+  /// Coordinates of a vector's means. Bit i of the result: that of voxel i is clear of the faces.
+  unsigned mean(Doubles count, const Doubles sums[3], const Doubles indices[3], Doubles xyz[3]) const
+  {
+    const Doubles reciprocal = V::quotient(one, count);
+    typename V::Mask clear = V::allTrue();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Doubles place = V::multiply(V::divide(sums[axis], count, reciprocal), quantum);
+      const Doubles u = V::add(indices[axis], place);
+      xyz[axis] = V::add(origin[axis], V::multiply(u, spacing[axis]));
+      clear =
+        V::both(clear, V::both(V::less(margin[axis], place), V::less(margin[axis], V::subtract(one, place))));
+    }
+    return V::toUnsigned(clear);
+  }
+};
+
+template <class V, typename Real>
+int means(const MeanMap& map, const MomentBatch<std::int64_t>& batch, Real* xyz, int* nearFace)
+{
+  const MeanVectors<V> constants(map);
+  int found = 0;
+  // Whole vectors: past the batch's end they work on what an earlier one left there.
+  for (int i = 0; i < batch.size; i += V::width)
+  {
+    typename V::Doubles sums[3], indices[3], means[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sums[axis] = V::fromInts(batch.sums[axis] + i);
+      indices[axis] = V::fromInts(batch.indices[axis] + i);
+    }
+    const unsigned clear = constants.mean(V::fromInts(batch.counts + i), sums, indices, means);
+    storePoints<V>(xyz + 3 * i, batch.size - i, means);
+    if (clear != V::full)
+    {
+      found = listLanes(V::full & ~clear, i, batch.size, nearFace, found);
+    }
+  }
+  return found;
+}
+
+template <class V, typename Real>
+int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t* cells,
+  const PackedSums* packed, int size, Real* xyz, std::int64_t* counts, int* nearFace)
+{
+  using Doubles = typename V::Doubles;
+  const MeanVectors<V> constants(map);
+  const Doubles columns = V::all(double(cellMap.columns));
+  const Doubles perColumn = V::all(1.0 / double(cellMap.columns));
+  const Doubles rows = V::all(double(cellMap.rowsPerLayer));
+  const Doubles perLayer = V::all(1.0 / double(cellMap.rowsPerLayer));
+  const Doubles firstRow = V::all(double(cellMap.firstRow));
+  const Doubles half = V::all(0.5);
+  // The integer below a quotient a / b of integers, from 1 / b: halves keep it clear of the integers.
+  const auto below = [&](Doubles a, Doubles perB)
+  { return V::nearest(V::subtract(V::multiply(V::add(a, half), perB), half)); };
+  int found = 0;
+  for (int i = 0; i < size; i += V::width)
+  {
+    typename V::Bits lanes[4];
+    V::loadPacked(packed + i, lanes);
+    const typename V::Bits count = V::template rightBy<kCountShift>(lanes[3]);
+    const typename V::Bits z = V::addBits(lanes[2], V::template left<kLowBits>(V::onlyPosition(lanes[3])));
+    const Doubles sums[3] = { V::toDoubles(lanes[0]), V::toDoubles(lanes[1]), V::toDoubles(z) };
+    const Doubles cell = V::fromInts(reinterpret_cast<const std::int32_t*>(cells + i));
+    const Doubles localRow = below(cell, perColumn);
+    const Doubles row = V::add(localRow, firstRow);
+    const Doubles layer = below(row, perLayer);
+    const Doubles indices[3] = { V::subtract(cell, V::multiply(localRow, columns)),
+      V::subtract(row, V::multiply(layer, rows)), layer };
+    Doubles means[3];
+    const unsigned clear = constants.mean(V::toDoubles(count), sums, indices, means);
+    storePoints<V>(xyz + 3 * i, size - i, means);
+    V::storeCounts(counts + i, size - i, count);
+    if (clear != V::full)
+    {
+      found = listLanes(V::full & ~clear, i, size, nearFace, found);
+    }
+  }
+  return found;
+}
+
+}
+} // namespace kernel
+} // namespace pointhaptics

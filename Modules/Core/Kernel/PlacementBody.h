@@ -1,0 +1,289 @@
+/// @file
+/// Part of VoxelKernelBody.h: places points in the lattice and deals their records out to the partitions.
+#pragma once
+
+#include "Core/Kernel/VoxelKernel.h"
+
+namespace pointhaptics
+{
+namespace kernel
+{
+namespace
+{
+
+/// Points placed before their records are dealt out: two loops over what stays in the first-level cache take
+/// less time than one that does both.
+constexpr int kPlacedAtOnce = 256;
+
+/// Records on their way to their partitions.
+struct PlacedPoints
+{
+  int size = 0;
+  alignas(64) Record records[kPlacedAtOnce];
+  alignas(64) std::uint32_t partitions[kPlacedAtOnce];
+  alignas(64) std::uint32_t indices[kPlacedAtOnce];
+};
+
+/// The vectors that stay the same over all points.
+template <class V>
+struct PlacementVectors
+{
+  typename V::Doubles pivot[3], matrix[3][3], offset[3], spacing[3], reciprocal[3], remainder[3], limit[3],
+    magic;
+  typename V::Bits blocksPerLayer;
+  typename V::Shift toRowBlock, toLayerBlock;
+  bool layersAreCut;
+
+  explicit PlacementVectors(const Placement& p)
+    : magic(V::all(p.magic))
+    , blocksPerLayer(V::allBits(p.blocksPerLayer))
+    , toRowBlock(V::shift(p.fractionBits + p.rowShift))
+    , toLayerBlock(V::shift(p.fractionBits + p.layerShift))
+    , layersAreCut(p.blocksPerLayer > 1)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      pivot[axis] = V::all(p.pivot[axis]);
+      offset[axis] = V::all(p.offset[axis]);
+      spacing[axis] = V::all(p.spacing[axis]);
+      reciprocal[axis] = V::all(p.reciprocal[axis]);
+      remainder[axis] = V::all(p.remainder[axis]);
+      limit[axis] = V::all(p.limit[axis]);
+      for (int column = 0; column < 3; ++column)
+      {
+        matrix[axis][column] = V::all(p.matrix[axis][column]);
+      }
+    }
+  }
+};
+
+/// Places V::width points at @p to and after it. Bit i of the result: point i is inside; of @p finite: it has
+/// finite coordinates, told only where one is outside.
+template <class V, Motion motion, bool Pair, typename Real>
+inline unsigned placeGroup(
+  const PlacementVectors<V>& c, const Real* xyz, PlacedPoints& placed, int to, unsigned& finite)
+{
+  typename V::Doubles p[3], v[3];
+  typename V::Bits position[3];
+  V::load(xyz, p[0], p[1], p[2]);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    p[axis] = V::subtract(p[axis], c.pivot[axis]);
+  }
+  typename V::Mask inside = V::allTrue();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (motion == Motion::Shift)
+    {
+      v[axis] = p[axis];
+    }
+    else if (motion == Motion::Scale)
+    {
+      v[axis] = V::multiply(p[axis], c.matrix[axis][axis]);
+    }
+    else
+    {
+      v[axis] = V::add(V::add(V::multiply(p[0], c.matrix[axis][0]), V::multiply(p[1], c.matrix[axis][1])),
+        V::multiply(p[2], c.matrix[axis][2]));
+    }
+    v[axis] = V::add(v[axis], c.offset[axis]);
+    const typename V::Doubles u = Pair ? V::multiplyByPair(v[axis], c.reciprocal[axis], c.remainder[axis])
+                                       : V::divide(v[axis], c.spacing[axis], c.reciprocal[axis]);
+    inside = V::below(inside, u, c.limit[axis]);
+    position[axis] = V::floorBits(u, c.magic);
+  }
+  typename V::Bits partition = V::right(V::onlyPosition(position[2]), c.toLayerBlock);
+  if (c.layersAreCut)
+  {
+    partition = V::addBits(
+      V::multiply32(partition, c.blocksPerLayer), V::right(V::onlyPosition(position[1]), c.toRowBlock));
+  }
+  V::storeLow(placed.partitions + to, partition);
+  const typename V::Bits first = V::withPosition(V::template left<kPositionBits>(position[2]), position[0]);
+  const typename V::Bits second =
+    V::withPosition(V::template left<kPositionBits>(V::template rightBy<kLowBits>(position[2])), position[1]);
+  V::storeRecords(placed.records + to, first, second);
+  const unsigned bits = V::toUnsigned(inside);
+  if (bits != V::full)
+  {
+    finite = V::toUnsigned(V::both(V::finite(v[0]), V::both(V::finite(v[1]), V::finite(v[2]))));
+  }
+  return bits;
+}
+
+/// Moves the records of a group that are inside together. @p group is where the first of it is.
+template <bool Indexed>
+inline void keepInside(PlacedPoints& placed, int group, unsigned inside, std::uint32_t index)
+{
+  for (; inside != 0; inside &= inside - 1)
+  {
+    const int i = __builtin_ctz(inside);
+    placed.records[placed.size] = placed.records[group + i];
+    placed.partitions[placed.size] = placed.partitions[group + i];
+    if (Indexed)
+    {
+      placed.indices[placed.size] = index + std::uint32_t(i);
+    }
+    ++placed.size;
+  }
+}
+
+template <bool Indexed>
+inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
+{
+  const std::uint32_t partition = placed.partitions[i];
+  Record* cursor = writer.cursors[partition];
+  if ((reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1)) == 0)
+  {
+    cursor = writer.refill(writer, partition);
+  }
+  *cursor = placed.records[i];
+  if (Indexed)
+  {
+    writer.indices[cursor - writer.records] = placed.indices[i];
+  }
+  ++cursor;
+  __builtin_prefetch(cursor + 64 / sizeof(Record), 1);
+  writer.cursors[partition] = cursor;
+}
+
+/// Appends records that nearly all go to one partition. A cursor that is moved waits for the move before:
+/// where four go to one they move it together. @return how many were appended: all but the last few.
+inline int dealRun(const PlacedPoints& placed, RecordWriter& writer)
+{
+  constexpr int kTogether = 4;
+  int i = 0;
+  for (; i + kTogether <= placed.size; i += kTogether)
+  {
+    const std::uint32_t* partitions = placed.partitions + i;
+    Record* cursor = writer.cursors[partitions[0]];
+    const auto inBlock = reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1);
+    const bool areOne = ((partitions[0] ^ partitions[1]) | (partitions[2] ^ partitions[3]) |
+                          (partitions[0] ^ partitions[2])) == 0;
+    if (areOne && inBlock != 0 && inBlock <= kBlockBytes - kTogether * sizeof(Record))
+    {
+      for (int j = 0; j < kTogether; ++j)
+      {
+        cursor[j] = placed.records[i + j];
+      }
+      cursor += kTogether;
+      __builtin_prefetch(cursor + 64 / sizeof(Record), 1);
+      writer.cursors[partitions[0]] = cursor;
+      continue;
+    }
+    for (int j = 0; j < kTogether; ++j)
+    {
+      dealOne<false>(placed, i + j, writer);
+    }
+  }
+  return i;
+}
+
+/// Appends the records to their partitions. Whether they are a run, as in a scan, is asked once for all: a
+/// branch on each few guesses wrong where the runs are short.
+template <bool Indexed>
+inline void deal(const PlacedPoints& placed, RecordWriter& writer)
+{
+  int i = 0;
+  if (!Indexed && placed.size > 0)
+  {
+    const std::uint32_t first = placed.partitions[0];
+    const bool isRun =
+      first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
+    i = isRun ? dealRun(placed, writer) : 0;
+  }
+  for (; i < placed.size; ++i)
+  {
+    dealOne<Indexed>(placed, i, writer);
+  }
+}
+
+template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
+void partitionAll(
+  const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
+{
+  constexpr int kAhead = 4096 / int(sizeof(Real));
+  const PlacementVectors<V> constants(placement);
+  PlacedPoints placed;
+  std::int64_t inside = 0;
+  std::int64_t invalid = 0;
+  const auto place = [&](const Real* from, unsigned present, std::uint32_t first)
+  {
+    const int group = placed.size;
+    unsigned finite = 0;
+    const unsigned bits = placeGroup<V, motion, Pair>(constants, from, placed, group, finite);
+    if (bits == V::full && present == V::full)
+    {
+      for (int j = 0; Indexed && j < V::width; ++j)
+      {
+        placed.indices[group + j] = first + std::uint32_t(j);
+      }
+      placed.size += V::width;
+      return;
+    }
+    // Where the padding alone is outside, finite was told too: some lane was outside.
+    const unsigned kept = bits & present;
+    invalid += kept == present ? 0 : __builtin_popcount(present & ~bits & ~finite);
+    keepInside<Indexed>(placed, group, kept, first);
+  };
+  for (std::int64_t i = 0; i < count; inside += placed.size)
+  {
+    placed.size = 0;
+    for (int room = kPlacedAtOnce / V::width; room > 0 && i < count; --room, i += V::width)
+    {
+      const Real* p = xyz + 3 * i;
+      if (i + V::width <= count)
+      {
+        __builtin_prefetch(p + kAhead);
+        if (V::width * 3 * sizeof(Real) > 64)
+        {
+          __builtin_prefetch(p + kAhead + 64 / sizeof(Real));
+        }
+        place(p, V::full, index + std::uint32_t(i));
+        continue;
+      }
+      Real last[3 * kWidest] = {};
+      for (std::int64_t j = 0; j < 3 * (count - i); ++j)
+      {
+        last[j] = p[j];
+      }
+      place(last, (1u << unsigned(count - i)) - 1, index + std::uint32_t(i));
+    }
+    deal<Indexed>(placed, writer);
+  }
+  writer.inside += inside;
+  writer.invalid += invalid;
+}
+
+template <class V, Motion motion, typename Real>
+void partitionMoved(
+  const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
+{
+  if (V::hasFusedMultiply && placement.pairDivides)
+  {
+    writer.indices ? partitionAll<V, motion, true, true>(placement, xyz, count, index, writer)
+                   : partitionAll<V, motion, true, false>(placement, xyz, count, index, writer);
+    return;
+  }
+  writer.indices ? partitionAll<V, motion, false, true>(placement, xyz, count, index, writer)
+                 : partitionAll<V, motion, false, false>(placement, xyz, count, index, writer);
+}
+
+template <class V, typename Real>
+void partition(
+  const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
+{
+  switch (placement.motion)
+  {
+    case Motion::Shift:
+      return partitionMoved<V, Motion::Shift>(placement, xyz, count, index, writer);
+    case Motion::Scale:
+      return partitionMoved<V, Motion::Scale>(placement, xyz, count, index, writer);
+    case Motion::General:
+      return partitionMoved<V, Motion::General>(placement, xyz, count, index, writer);
+  }
+}
+
+}
+} // namespace kernel
+} // namespace pointhaptics
