@@ -43,7 +43,7 @@ constexpr Kind kKinds[vtkHapticSliders::NumberOfSliders] = {
 constexpr double kLeft = 0.83;
 constexpr double kRight = 0.98;
 constexpr double kLowest = 0.30;
-constexpr double kStep = 0.085;
+constexpr double kStep = 0.1;
 constexpr double kTextAbove = 0.022;
 
 struct One
@@ -100,9 +100,10 @@ void place(One& one)
   picture->GetSliderProperty()->SetColor(0.10, 0.35, 0.65);
   picture->GetSelectedProperty()->SetColor(0.80, 0.33, 0.0);
   one.text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  one.text->SetPosition(kLeft, row + kTextAbove);
+  one.text->SetPosition(kRight, row + kTextAbove);
   vtkTextProperty* text = one.text->GetTextProperty();
   text->SetFontSize(15);
+  text->SetJustificationToRight(); // in a small window it grows over the picture, not out of it
   text->SetColor(0.08, 0.08, 0.10);
   text->SetBackgroundColor(1.0, 1.0, 1.0);
   text->SetBackgroundOpacity(0.6);

@@ -467,7 +467,7 @@ TEST_F(InteractorStyleHaptic, MovesASliderByTheMouseAndNothingElse)
     { *static_cast<int*>(client) = *static_cast<int*>(slider); });
   sliders->AddObserver(vtkHapticSliders::ValueChangedEvent, command);
   // Friction starts at the left end of its way; see the positions in vtkHapticSliders.
-  const int row = int(600 * (0.30 + 2 * 0.085));
+  const int row = int(600 * (0.30 + 2 * 0.1));
   double before[3];
   renderer_->GetActiveCamera()->GetPosition(before);
   interactor_->SetEventInformation(int(0.836 * 800), row);
