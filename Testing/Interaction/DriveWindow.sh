@@ -47,7 +47,7 @@ until_true() {
 said() { until_true "it never said: $1" grep -qF -- "$1" said.txt; }
 key() { xdotool key "$1"; }
 
-# turned FILE: the written model matrix is turned: its element in row 0, column 2 is not 0.
+# element FILE: row 0, column 2 of the written model matrix.
 element() { tr -d ' \n' <"$1" | sed -E 's/.*"matrix":\[[^,]*,[^,]*,([^,]*),.*/\1/'; }
 
 : >said.txt
@@ -85,6 +85,19 @@ key u
 key w
 said "settings: pointhaptics-003.json"
 [[ "$(element pointhaptics-001.json)" == "$(element pointhaptics-003.json)" ]] || fail "U did not take the drag back"
+
+# The sliders of friction and of the voxel size, from where they stand to the middle of their ways.
+key v
+sleep 0.3
+xdotool mousemove --window "$window" 535 240 mousedown 1 mousemove --window "$window" 579 240 mouseup 1
+key w
+said "settings: pointhaptics-004.json"
+grep -qE '"mu-d": 0\.[45]' pointhaptics-004.json || fail "the slider did not set the friction"
+grep -q '"voxel"' pointhaptics-004.json && fail "a voxel size that nobody chose"
+xdotool mousemove --window "$window" 558 336 mousedown 1 mousemove --window "$window" 579 336 mouseup 1
+key w
+said "settings: pointhaptics-005.json"
+grep -q '"voxel"' pointhaptics-005.json || fail "the slider did not set the voxel size"
 
 key s
 said "screenshot: pointhaptics-001.png"
