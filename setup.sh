@@ -11,7 +11,7 @@ readonly KILOBYTES_PER_JOB=1500000
 readonly DEMO_POINTS=543652
 readonly PACKAGES=(
   cmake ninja-build g++
-  libvtk9-dev libpcl-dev libx11-dev libgl1-mesa-dri xvfb
+  libvtk9-dev libpcl-dev libx11-dev libgl1-mesa-dri xvfb xdotool
   libusb-1.0-0-dev libhidapi-dev libumockdev-dev umockdev pkg-config
   libcli11-dev libfmt-dev nlohmann-json3-dev libgtest-dev libnanoflann-dev)
 

@@ -29,6 +29,8 @@ void addBandwidthCommand(CLI::App& program, int& exitCode);
 void addInfoCommand(CLI::App& program, int& exitCode);
 void addGenerateCommand(CLI::App& program, int& exitCode);
 void addDevicesCommand(CLI::App& program, int& exitCode);
+/// Hidden: for the build.
+void addManualCommand(CLI::App& program);
 /// Only where the benchmarks are built (POINTHAPTICS_HAVE_BENCHMARKS).
 void addBenchCommand(CLI::App& program, int& exitCode);
 

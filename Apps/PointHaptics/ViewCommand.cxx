@@ -5,11 +5,16 @@
 #include "ViewOptions.h"
 #include "ViewPicture.h"
 #include "ViewScene.h"
+#include "ViewSettings.h"
 #include "ViewWindow.h"
+
+#include "vtkKernelBandwidthFilter.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <vtkPolyData.h>
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 
@@ -32,6 +37,16 @@ bool draws(const ViewOptions& options)
   return needsWindow(options) || !options.screenshot.empty() || !options.forceChart.empty();
 }
 
+class Stopwatch
+{
+public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_ = Clock::now();
+};
+
 int runView(CLI::App& command, ViewOptions& options)
 {
   collectVtkMessages();
@@ -40,10 +55,35 @@ int runView(CLI::App& command, ViewOptions& options)
   {
     return fail("view", message);
   }
+  if (!options.writeConfig.empty())
+  {
+    if (!writeSettings(options.given, options.writeConfig, message))
+    {
+      return fail("view", message);
+    }
+    fmt::print("settings: {}\n", options.writeConfig);
+    return kSuccess;
+  }
   ViewScene scene;
-  if (!scene.open(options.files, options, message) || !scene.build(options, message))
+  const Stopwatch opening;
+  if (!scene.open(options.firstFiles(), options, message))
   {
     return fail("view", message);
+  }
+  const Stopwatch building;
+  if (!scene.build(options, message))
+  {
+    return fail("view", message);
+  }
+  if (options.verbose)
+  {
+    if (!options.config.empty())
+    {
+      fmt::print(stderr, "view: settings from {}\n", options.config);
+    }
+    fmt::print(stderr, "view: read in {:.2f} s, resampled in {:.2f} s: {} active voxels\n",
+      opening.seconds() - building.seconds(), building.seconds(),
+      scene.bandwidth()->GetOutput()->GetNumberOfPoints());
   }
   fmt::print("{} points, {}\n", scene.numberOfPoints(), scene.scaleNote());
   std::fflush(stdout);

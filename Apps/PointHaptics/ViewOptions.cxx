@@ -2,6 +2,7 @@
 
 #include "Messages.h"
 #include "OptionParsing.h"
+#include "ViewSettings.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 namespace pointhaptics
 {
@@ -58,7 +60,8 @@ std::vector<std::string> configurableNames(CLI::App& command)
   {
     for (const std::string& name : option->get_lnames())
     {
-      if (name != "help" && name != "version" && name != "config")
+      const std::set<std::string> others = { "help", "version", "config", "write-config", "recent" };
+      if (others.count(name) == 0)
       {
         names.push_back(name);
       }
@@ -175,6 +178,9 @@ void ViewOptions::addTo(CLI::App& command)
 {
   command.add_option("FILE", this->files, "Point clouds: PLY, PCD, LAS, VTP, OBJ or columns of text")
     ->required();
+  command.add_flag(
+    "--together", this->together, "All files as one cloud; default: one at a time, keys N and B");
+  command.add_flag("--watch", this->watch, "Read a file again when it changes");
   command.add_option("--screenshot", this->screenshot, "Write this PNG instead of opening a window");
   command
     .add_option_function<std::string>(
@@ -201,6 +207,11 @@ void ViewOptions::addTo(CLI::App& command)
   command
     .add_option("--config", this->config, "Defaults for these options, a JSON object; the command line wins")
     ->type_name("FILE.json");
+  command
+    .add_option("--write-config", this->writeConfig,
+      "Write the options in force as a file for --config, and end; key W writes those of the window")
+    ->type_name("OUT.json");
+  command.add_flag("--recent", this->recent, "Begin with the settings the last window ended with");
   command.add_option("--force-chart", this->forceChart, "Write force and proxy radius over time as a PNG")
     ->type_name("OUT.png");
   command.add_option("--trace", this->trace, "Write one row per tick, as feel does")->type_name("OUT.csv");
@@ -212,6 +223,7 @@ void ViewOptions::addTo(CLI::App& command)
     ->type_name("ARRAY");
   addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS",
     "Size of a point; default: closes the surface, 3 to 9");
+  command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long, and what draws");
   addTouchOptions(command, *this);
   this->bandwidth.addTo(command);
   this->lattice.addTo(command);
@@ -219,6 +231,11 @@ void ViewOptions::addTo(CLI::App& command)
 
 bool ViewOptions::complete(CLI::App& command, std::string& message)
 {
+  std::error_code missing;
+  if (this->recent && this->config.empty() && std::filesystem::exists(recentSettingsFile(), missing))
+  {
+    this->config = recentSettingsFile();
+  }
   if (!this->config.empty())
   {
     std::error_code error;
@@ -271,7 +288,13 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
     throwUsage("--mu-d", fmt::format("{}", this->contact.dynamicFriction),
       fmt::format("above --mu-s {}; give mu_d <= mu_s", this->contact.staticFriction));
   }
+  this->given = givenSettings(command);
   return true;
+}
+
+std::vector<std::string> ViewOptions::firstFiles() const
+{
+  return this->together ? this->files : std::vector<std::string>{ this->files.front() };
 }
 
 HapticParameters ViewOptions::hapticParameters() const

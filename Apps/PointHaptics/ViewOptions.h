@@ -8,6 +8,8 @@
 
 #include "Haptics/HapticParameters.h"
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <vector>
 
@@ -33,8 +35,14 @@ struct ViewOptions
   std::string device = "auto"; ///< auto: a Falcon where one is plugged in.
   FalconOptions falcon;
   std::string config;
-  std::string forceChart; ///< PNG.
-  std::string trace;      ///< CSV.
+  std::string writeConfig; ///< JSON file to write with the options in force instead of showing anything.
+  bool recent = false;     ///< Begin with what the last window ended with.
+  bool together = false;   ///< All files as one cloud; else one at a time.
+  bool watch = false;      ///< Read files again when they change.
+  bool verbose = false;
+  nlohmann::ordered_json given; ///< Options with a value, filled in by complete(): see givenSettings().
+  std::string forceChart;       ///< PNG.
+  std::string trace;            ///< CSV.
   std::string up = "auto";
   std::string colorBy;
   double pointSize = 0.0; ///< Pixels; 0: from the spacing of the points.
@@ -50,6 +58,8 @@ struct ViewOptions
   /// fitsWorkspace. False: @p message says what is wrong with the file.
   bool complete(CLI::App& command, std::string& message);
   HapticParameters hapticParameters() const;
+  /// What is shown first: all files, or the first of them.
+  std::vector<std::string> firstFiles() const;
 };
 
 } // namespace app

@@ -242,6 +242,15 @@ void ViewScene::getWorkspaceBounds(double bounds[6]) const
   }
 }
 
+void ViewScene::getVoxel(double edges[3]) const
+{
+  vtkDataArray* spacing = bandwidth_->GetOutput()->GetFieldData()->GetArray("LatticeSpacing");
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    edges[axis] = spacing ? spacing->GetVariantValue(axis).ToDouble() : 0.0;
+  }
+}
+
 bool ViewScene::open(const std::vector<std::string>& files, const ViewOptions& options, std::string& message)
 {
   vtkNew<vtkAppendPolyData> append;

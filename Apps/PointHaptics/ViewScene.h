@@ -65,6 +65,8 @@ public:
   const CloudDetail& detail() const { return detail_; }
   const Bounds& workspace() const { return workspace_; }
   void getWorkspaceBounds(double bounds[6]) const;
+  /// Edges of a voxel, metres; 0 before build().
+  void getVoxel(double edges[3]) const;
   /// Text for the window's title: the names of the files.
   const std::string& title() const { return title_; }
   vtkIdType numberOfPoints() const;

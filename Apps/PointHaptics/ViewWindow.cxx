@@ -1,15 +1,20 @@
 #include "ViewWindow.h"
 
+#include "FileWatch.h"
 #include "HandDevice.h"
 #include "Messages.h"
 #include "StopSignals.h"
 #include "ViewScene.h"
+#include "ViewSettings.h"
 #include "ViewTouch.h"
 
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
+#include "vtkHapticSliders.h"
 #include "vtkInteractorStyleHaptic.h"
+#include "vtkKernelBandwidthFilter.h"
+#include "vtkVoxelMeanResampler.h"
 
 #include "Devices/DeviceList.h"
 #include "Devices/PathReplay.h"
@@ -28,8 +33,11 @@
 #include <vtkStringArray.h>
 #include <vtkTransform.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 namespace pointhaptics
@@ -40,6 +48,20 @@ namespace
 {
 
 constexpr double kChartHeight = 0.24; // part of the window
+/// Calls of the timer, of 33 ms each, between two looks at the files.
+constexpr int kLooksApart = 8;
+
+/// The first of STEM-001.EXTENSION, STEM-002.EXTENSION, ... after @p last that is not there yet.
+std::string freeFileName(const char* extension, int& last)
+{
+  std::string name;
+  std::error_code error;
+  do
+  {
+    name = fmt::format("pointhaptics-{:03}.{}", ++last, extension);
+  } while (std::filesystem::exists(name, error));
+  return name;
+}
 
 /// Everything the window needs while it is open. The servo loop stops before what it works on goes away.
 class Window
@@ -48,6 +70,8 @@ public:
   Window(ViewScene& scene, const ViewOptions& options)
     : scene_(scene)
     , options_(options)
+    , parameters_(options.hapticParameters())
+    , files_(options.files)
   {
   }
 
@@ -65,6 +89,16 @@ private:
   void onSamples(void* callData);
   void onFilesDropped(void* callData);
   void onScreenshot(void*);
+  void onNextFile(void*);
+  void onPreviousFile(void*);
+  void onWriteSettings(void*);
+  void onSlider(int slider);
+  void connectSliders();
+  void setContact(const ContactParameters& contact);
+  void showSliderValues();
+  bool show(const std::vector<std::string>& files, bool keepsModel);
+  void showFile(std::size_t index);
+  nlohmann::ordered_json settings();
   void onModelChanged(void*);
   void onSceneChanged(void*);
   void showNote();
@@ -74,12 +108,21 @@ private:
 
   ViewScene& scene_;
   ViewOptions options_;
+  HapticParameters parameters_; ///< As the servo loop has them.
+  double voxelSize_ = 0.0;      ///< As the slider set it, metres; 0: as the options say.
+  std::vector<std::string> files_;
+  std::size_t fileIndex_ = 0;
+  std::vector<std::string> shown_; ///< What the window shows: one of files_, or all together.
+  FileWatch watch_;
+  int sinceLook_ = 0;
+  int writtenSettings_ = 0;
   vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkRenderWindowInteractor> interactor_;
   vtkNew<vtkInteractorStyleHaptic> style_;
   vtkNew<vtkHapticChart> chart_;
   vtkNew<vtkHapticChart> wholeChart_; // for --force-chart
   vtkNew<vtkHapticOverlay> overlay_;
+  vtkNew<vtkHapticSliders> sliders_;
   TraceFile trace_;
   int screenshots_ = 0;
   std::string news_; // last line of the status
@@ -170,6 +213,7 @@ bool Window::openDevice(std::string& message)
   }
   style_->SetDevice(hand_.get());
   style_->SetServoLoop(device_ ? &servo_ : nullptr);
+  style_->SetDeviceNote(device_ ? device_->name() : "none");
   // Where there is none, it may be plugged in later; where there is no driver, the window does without.
   static_cast<void>(spaceMouse_.start());
   style_->SetSpaceMouse(&spaceMouse_);
@@ -180,8 +224,7 @@ bool Window::openDevice(std::string& message)
 bool Window::startServo(std::string& message)
 {
   const ServoSettings settings = falcon_ ? pushingServoSettings(1000.0) : ServoSettings();
-  const Status status =
-    device_ ? servo_.start(*device_, options_.hapticParameters(), settings, &message) : Status::Ok;
+  const Status status = device_ ? servo_.start(*device_, parameters_, settings, &message) : Status::Ok;
   return status == Status::Ok;
 }
 
@@ -223,7 +266,11 @@ void Window::connectStyle()
   this->observe(vtkInteractorStyleHaptic::SamplesEvent, &Window::onSamples);
   this->observe(vtkInteractorStyleHaptic::FilesDroppedEvent, &Window::onFilesDropped);
   this->observe(vtkInteractorStyleHaptic::ScreenshotEvent, &Window::onScreenshot);
+  this->observe(vtkInteractorStyleHaptic::NextFileEvent, &Window::onNextFile);
+  this->observe(vtkInteractorStyleHaptic::PreviousFileEvent, &Window::onPreviousFile);
+  this->observe(vtkInteractorStyleHaptic::WriteSettingsEvent, &Window::onWriteSettings);
   interactor_->SetInteractorStyle(style_);
+  this->connectSliders();
   vtkNew<vtkCallbackCommand> timer;
   timer->SetClientData(this);
   timer->SetCallback(
@@ -264,7 +311,16 @@ void Window::onTimer()
   if (state != falconState_)
   {
     falconState_ = state;
+    style_->SetDeviceNote(fmt::format("falcon, {}", name(state)));
     this->say(advice(state));
+  }
+  if (options_.watch && ++sinceLook_ >= kLooksApart)
+  {
+    sinceLook_ = 0;
+    if (watch_.look() && this->show(shown_, true))
+    {
+      this->say("read again: " + scene_.title());
+    }
   }
 }
 
@@ -314,12 +370,32 @@ void Window::onFilesDropped(void* callData)
   {
     files.push_back(names->GetValue(i));
   }
+  if (!files.empty() &&
+    this->show(options_.together ? files : std::vector<std::string>{ files.front() }, false))
+  {
+    files_ = files;
+    fileIndex_ = 0;
+  }
+}
+
+/// False: they cannot be read, which the window says; it shows what it showed before.
+bool Window::show(const std::vector<std::string>& files, bool keepsModel)
+{
   std::string message;
-  if (files.empty() || !scene_.open(files, options_, message))
+  if (!scene_.open(files, options_, message))
   {
     this->tell(message);
-    return;
+    return false;
   }
+  shown_ = files;
+  watch_.watch(shown_);
+  if (voxelSize_ > 0.0)
+  {
+    scene_.resampler()->SetVoxelSize(voxelSize_);
+  }
+  scene_.bandwidth()->SetRadiusScale(sliders_->GetValue(vtkHapticSliders::RadiusScale));
+  vtkNew<vtkMatrix4x4> model;
+  model->DeepCopy(keepsModel ? style_->GetModelTransform()->GetMatrix() : scene_.modelMatrix());
   // From here on the window shows the new cloud, also where nothing of it lies in the workspace.
   if (!scene_.build(options_, message))
   {
@@ -328,26 +404,146 @@ void Window::onFilesDropped(void* callData)
   double bounds[6];
   scene_.getWorkspaceBounds(bounds);
   style_->SetWorkspaceBounds(bounds);
-  style_->SetModelMatrix(scene_.modelMatrix());
+  style_->SetModelMatrix(model);
   style_->SetResampler(scene_.resampler());
   style_->UpdateModel();
-  scene_.placeCamera();
+  if (!keepsModel)
+  {
+    scene_.placeCamera();
+  }
   window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
+  this->showSliderValues();
+  return true;
+}
+
+void Window::showFile(std::size_t index)
+{
+  if (options_.together || files_.size() < 2)
+  {
+    this->say("there is no other file");
+  }
+  else if (this->show({ files_[index] }, false))
+  {
+    fileIndex_ = index;
+    this->say(fmt::format("file {} of {}: {}", index + 1, files_.size(), scene_.title()));
+  }
+  else
+  {
+    fileIndex_ = index; // the next key goes on from here, not to the broken file again
+  }
+}
+
+void Window::onNextFile(void*)
+{
+  this->showFile((fileIndex_ + 1) % files_.size());
+}
+
+void Window::onPreviousFile(void*)
+{
+  this->showFile((fileIndex_ + files_.size() - 1) % files_.size());
+}
+
+/// All that --config needs to come back to what the window shows.
+nlohmann::ordered_json Window::settings()
+{
+  nlohmann::ordered_json settings = options_.given;
+  double bounds[6];
+  scene_.getWorkspaceBounds(bounds);
+  setModel(settings, style_->GetModelTransform()->GetMatrix(), bounds);
+  if (voxelSize_ > 0.0)
+  {
+    setVoxel(settings, voxelSize_);
+  }
+  settings["stiffness"] = parameters_.contact.stiffness;
+  settings["mu-s"] = parameters_.contact.staticFriction;
+  settings["mu-d"] = parameters_.contact.dynamicFriction;
+  settings["beta"] = sliders_->GetValue(vtkHapticSliders::RadiusScale);
+  const int* size = window_->GetSize();
+  settings["size"] = fmt::format("{}x{}", size[0], size[1]);
+  return settings;
+}
+
+void Window::onWriteSettings(void*)
+{
+  const std::string name = freeFileName("json", writtenSettings_);
+  std::string message;
+  if (writeSettings(this->settings(), name, message))
+  {
+    this->say("settings: " + name);
+  }
+  else
+  {
+    this->tell(message);
+  }
+}
+
+void Window::connectSliders()
+{
+  sliders_->SetInteractor(interactor_);
+  this->showSliderValues();
+  vtkNew<vtkCallbackCommand> moved;
+  moved->SetClientData(this);
+  moved->SetCallback([](vtkObject*, unsigned long, void* window, void* slider)
+    { static_cast<Window*>(window)->onSlider(*static_cast<int*>(slider)); });
+  sliders_->AddObserver(vtkHapticSliders::ValueChangedEvent, moved);
+  style_->SetSliders(sliders_);
+}
+
+void Window::showSliderValues()
+{
+  double voxel[3];
+  scene_.getVoxel(voxel);
+  sliders_->SetValue(vtkHapticSliders::Stiffness, parameters_.contact.stiffness);
+  sliders_->SetValue(vtkHapticSliders::Friction, parameters_.contact.dynamicFriction);
+  sliders_->SetValue(vtkHapticSliders::RadiusScale, scene_.bandwidth()->GetRadiusScale());
+  sliders_->SetValue(vtkHapticSliders::VoxelSize, 1e3 * std::cbrt(voxel[0] * voxel[1] * voxel[2]));
+}
+
+void Window::onSlider(int slider)
+{
+  const double value = sliders_->GetValue(slider);
+  ContactParameters contact = parameters_.contact;
+  switch (slider)
+  {
+    case vtkHapticSliders::Stiffness:
+      contact.stiffness = value;
+      this->setContact(contact);
+      break;
+    case vtkHapticSliders::Friction:
+      contact.dynamicFriction = value;
+      contact.staticFriction = std::max(value, options_.contact.staticFriction);
+      this->setContact(contact);
+      break;
+    case vtkHapticSliders::RadiusScale:
+      scene_.bandwidth()->SetRadiusScale(value);
+      style_->InvalidateModel();
+      break;
+    default:
+      voxelSize_ = 1e-3 * value;
+      scene_.resampler()->SetVoxelSize(voxelSize_);
+      style_->InvalidateModel();
+  }
+}
+
+/// A device may refuse what it cannot render: then everything stays as it was, and the window says why.
+void Window::setContact(const ContactParameters& contact)
+{
+  HapticParameters parameters = parameters_;
+  parameters.contact = contact;
+  std::string message;
+  const Status status = device_ ? servo_.setParameters(parameters, &message) : parameters.check();
+  if (status == Status::Ok)
+  {
+    parameters_ = parameters;
+    return;
+  }
+  this->showSliderValues();
+  this->tell(message.empty() ? sentence(status) : message);
 }
 
 void Window::onScreenshot(void*)
 {
-  std::string name;
-  std::FILE* taken = nullptr;
-  do
-  {
-    name = fmt::format("pointhaptics-{:03}.png", ++screenshots_);
-    taken = std::fopen(name.c_str(), "rb");
-    if (taken)
-    {
-      std::fclose(taken);
-    }
-  } while (taken);
+  const std::string name = freeFileName("png", screenshots_);
   std::string message;
   scene_.detail().showAllOnce();
   window_->Render();
@@ -357,6 +553,7 @@ void Window::onScreenshot(void*)
 bool Window::finish(std::string& message)
 {
   style_->StopUpdates();
+  rememberSettings(this->settings());
   servo_.stop();
   style_->Refresh(); // the last ticks
   style_->SetServoLoop(nullptr);
@@ -403,6 +600,8 @@ bool Window::run(std::string& message)
   {
     return false;
   }
+  shown_ = options_.firstFiles();
+  watch_.watch(shown_);
   this->connectStyle();
   style_->UpdateModel();
   window_->Render();

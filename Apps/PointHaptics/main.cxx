@@ -117,6 +117,7 @@ int run(std::vector<std::string> arguments)
 #ifdef POINTHAPTICS_HAVE_BENCHMARKS
   addBenchCommand(program, exitCode);
 #endif
+  addManualCommand(program);
   program.require_subcommand(1);
   addVersionFlags(program);
   if (!insertDefaultCommand(program, arguments))

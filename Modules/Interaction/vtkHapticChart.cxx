@@ -82,6 +82,7 @@ struct vtkHapticChart::Internals
   vtkNew<vtkFloatArray> force;
   vtkNew<vtkFloatArray> radius;
   std::deque<Sample> samples;
+  bool paused = false;
   bool wasFlat = false;
 
   void fill(double begin, double end);
@@ -182,6 +183,16 @@ bool vtkHapticChart::GetVisibility() const
   return this->Parts->renderer->GetDraw() != 0;
 }
 
+void vtkHapticChart::SetPaused(bool paused)
+{
+  this->Parts->paused = paused;
+}
+
+bool vtkHapticChart::GetPaused() const
+{
+  return this->Parts->paused;
+}
+
 vtkRenderer* vtkHapticChart::GetRenderer()
 {
   return this->Parts->renderer;
@@ -191,7 +202,13 @@ void vtkHapticChart::AddSample(double seconds, double newtons, double metres)
 {
   if (std::isfinite(seconds) && std::isfinite(newtons) && std::isfinite(metres))
   {
-    this->Parts->samples.push_back({ seconds, newtons, metres });
+    std::deque<Sample>& samples = this->Parts->samples;
+    samples.push_back({ seconds, newtons, metres });
+    while (
+      this->Parts->paused && this->TimeWindow > 0.0 && samples.front().seconds < seconds - this->TimeWindow)
+    {
+      samples.pop_front(); // nobody will see them: a long pause must not fill the memory
+    }
   }
 }
 
@@ -203,6 +220,10 @@ void vtkHapticChart::Clear()
 bool vtkHapticChart::Update()
 {
   Internals& parts = *this->Parts;
+  if (parts.paused)
+  {
+    return false;
+  }
   double begin = 0.0;
   double end = this->TimeWindow > 0.0 ? this->TimeWindow : 1.0;
   if (!parts.samples.empty())
@@ -245,9 +266,12 @@ bool vtkHapticChart::Update()
 bool vtkHapticChart::WriteImage(const char* fileName, int width, int height)
 {
   const double window = this->TimeWindow;
+  const bool paused = this->Parts->paused;
   this->TimeWindow = 0.0;
   this->Parts->wasFlat = false;
+  this->Parts->paused = false;
   this->Update();
+  this->Parts->paused = paused;
   vtkNew<vtkRenderWindow> renderWindow;
   renderWindow->SetOffScreenRendering(1);
   renderWindow->SetMultiSamples(0);

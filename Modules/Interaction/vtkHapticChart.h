@@ -43,6 +43,15 @@ public:
   bool GetVisibility() const;
   ///@}
 
+  ///@{
+  /**
+   * Keep what is drawn: samples that come are kept out of the picture until this is off again; then the chart
+   * goes on with the newest. Default: off.
+   */
+  void SetPaused(bool paused);
+  bool GetPaused() const;
+  ///@}
+
   /**
    * @param seconds time, not before the last one's; @param newtons force magnitude; @param metres proxy
    * radius. Values that are not finite are left out.

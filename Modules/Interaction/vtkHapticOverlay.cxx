@@ -44,15 +44,38 @@ std::string padded(const std::string& text)
   return result + "\n" + std::string(longest + 4, ' ');
 }
 
+void placeCorner(vtkTextActor* actor, bool right, bool top)
+{
+  styleText(actor->GetTextProperty(), 15, 0.6);
+  right ? actor->GetTextProperty()->SetJustificationToRight()
+        : actor->GetTextProperty()->SetJustificationToLeft();
+  top ? actor->GetTextProperty()->SetVerticalJustificationToTop()
+      : actor->GetTextProperty()->SetVerticalJustificationToBottom();
+  actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  actor->SetPosition(right ? 0.988 : 0.012, top ? 0.985 : 0.015);
+  actor->VisibilityOff();
+}
+
+/// Empty hides it. True: it is another text than before.
+bool show(vtkTextActor* actor, std::string& shown, const std::string& text)
+{
+  if (text == shown)
+  {
+    return false;
+  }
+  shown = text;
+  actor->SetInput(text.c_str());
+  actor->SetVisibility(!text.empty());
+  return true;
+}
+
 } // namespace
 
 vtkHapticOverlay::vtkHapticOverlay()
 {
-  styleText(this->Status->GetTextProperty(), 15, 0.6);
-  this->Status->GetTextProperty()->SetVerticalJustificationToTop();
-  this->Status->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  this->Status->SetPosition(0.012, 0.985);
-  this->Status->VisibilityOff();
+  placeCorner(this->Status, false, true);
+  placeCorner(this->Panel, true, true);
+  placeCorner(this->Detail, false, false);
   styleText(this->Help->GetTextProperty(), 16, 0.92);
   this->Help->GetTextProperty()->SetFontFamilyToCourier();
   this->Help->GetTextProperty()->SetJustificationToCentered();
@@ -67,19 +90,28 @@ vtkHapticOverlay::~vtkHapticOverlay() = default;
 
 bool vtkHapticOverlay::SetStatus(const std::string& text)
 {
-  if (text == this->StatusText)
-  {
-    return false;
-  }
-  this->StatusText = text;
-  this->Status->SetInput(text.c_str());
-  this->Status->SetVisibility(!text.empty());
-  return true;
+  return show(this->Status, this->StatusText, text);
+}
+
+bool vtkHapticOverlay::SetPanel(const std::string& text)
+{
+  return show(this->Panel, this->PanelText, text);
+}
+
+bool vtkHapticOverlay::SetDetail(const std::string& text)
+{
+  return show(this->Detail, this->DetailText, text);
 }
 
 void vtkHapticOverlay::SetHelp(const std::string& text)
 {
+  this->HelpText = text;
   this->Help->SetInput(padded(text).c_str());
+}
+
+std::string vtkHapticOverlay::GetHelp() const
+{
+  return this->HelpText;
 }
 
 void vtkHapticOverlay::SetHelpVisibility(bool visible)
@@ -95,12 +127,16 @@ bool vtkHapticOverlay::GetHelpVisibility() const
 void vtkHapticOverlay::AddTo(vtkRenderer* renderer)
 {
   renderer->AddActor2D(this->Status);
+  renderer->AddActor2D(this->Panel);
+  renderer->AddActor2D(this->Detail);
   renderer->AddActor2D(this->Help);
 }
 
 void vtkHapticOverlay::RemoveFrom(vtkRenderer* renderer)
 {
   renderer->RemoveActor2D(this->Status);
+  renderer->RemoveActor2D(this->Panel);
+  renderer->RemoveActor2D(this->Detail);
   renderer->RemoveActor2D(this->Help);
 }
 

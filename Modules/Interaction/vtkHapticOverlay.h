@@ -1,6 +1,6 @@
 /**
  * @class   vtkHapticOverlay
- * @brief   words over the picture: a status line, and the list of keys on request
+ * @brief   words over the picture: status, panel and detail in three corners, the list of keys on request
  *
  * Text on a translucent plate, so that it reads on every cloud. GUI thread only.
  * @sa vtkInteractorStyleHaptic
@@ -29,6 +29,22 @@ public:
    */
   bool SetStatus(const std::string& text);
 
+  ///@{
+  /**
+   * The same at the upper right (a panel of numbers) and at the lower left (details of what was picked).
+   */
+  bool SetPanel(const std::string& text);
+  bool SetDetail(const std::string& text);
+  ///@}
+
+  ///@{
+  /// The texts as they are shown.
+  const std::string& GetStatus() const { return this->StatusText; }
+  const std::string& GetPanel() const { return this->PanelText; }
+  const std::string& GetDetail() const { return this->DetailText; }
+  std::string GetHelp() const;
+  ///@}
+
   /**
    * Text of the help plate in the middle. Default: the keys and drags of vtkInteractorStyleHaptic.
    */
@@ -44,7 +60,7 @@ public:
 
   ///@{
   /**
-   * Add both to @p renderer, or take them out.
+   * Add all to @p renderer, or take them out.
    */
   void AddTo(vtkRenderer* renderer);
   void RemoveFrom(vtkRenderer* renderer);
@@ -55,8 +71,13 @@ protected:
   ~vtkHapticOverlay() override;
 
   vtkNew<vtkTextActor> Status;
+  vtkNew<vtkTextActor> Panel;
+  vtkNew<vtkTextActor> Detail;
   vtkNew<vtkTextActor> Help;
   std::string StatusText;
+  std::string PanelText;
+  std::string DetailText;
+  std::string HelpText;
 
 private:
   vtkHapticOverlay(const vtkHapticOverlay&) = delete;

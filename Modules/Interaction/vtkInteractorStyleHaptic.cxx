@@ -13,17 +13,15 @@
 #include "vtkStringArray.h"
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 using pointhaptics::ServoSample;
 using pointhaptics::Vec3;
-using pointhaptics::style::now;
 
 namespace
 {
 
-constexpr double kStatusPeriodSeconds = 0.25;
+constexpr std::size_t kLongestHistory = 100;
 
 } // namespace
 
@@ -87,6 +85,29 @@ void vtkInteractorStyleHaptic::SetChart(vtkHapticChart* chart)
 void vtkInteractorStyleHaptic::SetOverlay(vtkHapticOverlay* overlay)
 {
   this->Parts->overlay = overlay;
+  if (overlay)
+  {
+    overlay->SetHelp(this->Parts->bindings.describe());
+  }
+}
+
+void vtkInteractorStyleHaptic::SetSliders(vtkHapticSliders* sliders)
+{
+  this->Parts->sliders = sliders;
+}
+
+void vtkInteractorStyleHaptic::SetBinding(pointhaptics::HapticAction action, const std::string& gestures)
+{
+  if (this->Parts->bindings.set(action, gestures))
+  {
+    this->SetOverlay(this->Parts->overlay);
+    this->Parts->rendersWanted = true;
+  }
+}
+
+std::string vtkInteractorStyleHaptic::GetBinding(pointhaptics::HapticAction action) const
+{
+  return this->Parts->bindings.get(action);
 }
 
 void vtkInteractorStyleHaptic::SetWorkspaceBounds(const double bounds[6])
@@ -98,6 +119,7 @@ void vtkInteractorStyleHaptic::SetModelMatrix(vtkMatrix4x4* matrix)
 {
   this->Parts->initial->DeepCopy(matrix);
   this->ResetModel();
+  this->Parts->history.clear();
 }
 
 vtkTransform* vtkInteractorStyleHaptic::GetModelTransform()
@@ -111,6 +133,7 @@ void vtkInteractorStyleHaptic::TurnModel(double degrees, const Vec3& axis)
   {
     return;
   }
+  this->RememberModel();
   const Vec3 c = this->Parts->center();
   this->Parts->model->Translate(-c.x, -c.y, -c.z);
   this->Parts->model->RotateWXYZ(degrees, axis.x, axis.y, axis.z);
@@ -122,6 +145,7 @@ void vtkInteractorStyleHaptic::ShiftModel(const Vec3& offset)
 {
   if (isFinite(offset))
   {
+    this->RememberModel();
     this->Parts->model->Translate(offset.x, offset.y, offset.z);
     this->ModelChanged();
   }
@@ -133,6 +157,7 @@ void vtkInteractorStyleHaptic::ZoomModel(double factor)
   {
     return;
   }
+  this->RememberModel();
   const Vec3 c = this->Parts->center();
   this->Parts->model->Translate(-c.x, -c.y, -c.z);
   this->Parts->model->Scale(factor, factor, factor);
@@ -142,8 +167,49 @@ void vtkInteractorStyleHaptic::ZoomModel(double factor)
 
 void vtkInteractorStyleHaptic::ResetModel()
 {
+  this->RememberModel();
   this->Parts->model->SetMatrix(this->Parts->initial);
   this->ModelChanged();
+}
+
+void vtkInteractorStyleHaptic::RememberModel()
+{
+  Internals& parts = *this->Parts;
+  if (parts.inGesture && parts.gestureRemembered)
+  {
+    return;
+  }
+  parts.gestureRemembered = true;
+  std::array<double, 16> elements;
+  std::copy_n(parts.model->GetMatrix()->GetData(), elements.size(), elements.begin());
+  parts.history.push_back(elements);
+  if (parts.history.size() > kLongestHistory)
+  {
+    parts.history.pop_front();
+  }
+}
+
+bool vtkInteractorStyleHaptic::UndoModel()
+{
+  Internals& parts = *this->Parts;
+  while (!parts.history.empty())
+  {
+    const std::array<double, 16> elements = parts.history.back();
+    parts.history.pop_back();
+    // A reset of a model that had not moved changed nothing.
+    if (!std::equal(elements.begin(), elements.end(), parts.model->GetMatrix()->GetData()))
+    {
+      parts.model->SetMatrix(elements.data());
+      this->ModelChanged();
+      return true;
+    }
+  }
+  return false;
+}
+
+void vtkInteractorStyleHaptic::InvalidateModel()
+{
+  this->Parts->modelChanged = true;
 }
 
 void vtkInteractorStyleHaptic::ModelChanged()
@@ -300,44 +366,6 @@ bool vtkInteractorStyleHaptic::ReadServo()
   return changed;
 }
 
-bool vtkInteractorStyleHaptic::UpdateStatus()
-{
-  Internals& parts = *this->Parts;
-  const double time = now();
-  if (!parts.overlay || time - parts.lastStatus < kStatusPeriodSeconds)
-  {
-    return false;
-  }
-  parts.lastStatus = time;
-  char text[320];
-  std::snprintf(text, sizeof(text), "%lld points in %lld active voxels%s",
-    static_cast<long long>(parts.numberOfPoints), static_cast<long long>(parts.numberOfVoxels),
-    parts.sceneEmpty ? " (nothing in the workspace: key 0 resets the model)" : "");
-  std::string status = text;
-  if (parts.servo)
-  {
-    const ServoSample latest = parts.servo->latest();
-    const pointhaptics::ServoStatistics statistics = parts.servo->statistics();
-    std::snprintf(text, sizeof(text),
-      "\nproxy radius %.2f mm    force %.2f N%s\nservo %.0f Hz, %llu ticks missed%s",
-      1e3 * latest.state.radius, norm(latest.state.force), latest.state.contact ? "    in contact" : "",
-      statistics.rateHz, static_cast<unsigned long long>(statistics.missedTicks),
-      parts.handMode ? "    hand follows the mouse" : "");
-    status += text;
-  }
-  if (!parts.note.empty())
-  {
-    status += "\n" + parts.note;
-  }
-  return parts.overlay->SetStatus(status + "\nH: help");
-}
-
-void vtkInteractorStyleHaptic::SetStatusNote(const std::string& note)
-{
-  this->Parts->note = note;
-  this->Parts->lastStatus = -1e9;
-}
-
 void vtkInteractorStyleHaptic::RenderNow()
 {
   Internals& parts = *this->Parts;
@@ -404,21 +432,6 @@ void vtkInteractorStyleHaptic::MoveHandInDepth(double metres)
     Vec3 direction;
     renderer->GetActiveCamera()->GetDirectionOfProjection(&direction.x);
     this->MoveHand(metres * direction);
-  }
-}
-
-void vtkInteractorStyleHaptic::ToggleChart()
-{
-  vtkHapticChart* chart = this->Parts->chart;
-  vtkRenderer* renderer = this->MainRenderer();
-  if (chart && renderer)
-  {
-    chart->SetVisibility(!chart->GetVisibility());
-    double viewport[4] = { 0.0, 0.0, 1.0, 1.0 };
-    chart->GetRenderer()->GetViewport(viewport);
-    // The chart is a strip along the lower edge; the picture takes the rest of the window.
-    renderer->SetViewport(0.0, chart->GetVisibility() ? viewport[3] : 0.0, 1.0, 1.0);
-    this->Parts->rendersWanted = true;
   }
 }
 

@@ -24,7 +24,8 @@
  * Drags: left turns the camera, middle pans, right or the wheel dollies. With Shift they move the model: left
  * turns it, middle (or Ctrl+Shift+left) shifts it, the wheel zooms it about the workspace's centre. Ctrl+left
  * drags the hand in the view plane, Ctrl+wheel moves it in depth; in hand mode it follows the mouse without a
- * button. For the keys see GetHelpText(). A SpaceMouse turns and shifts the model as the cap is turned and
+ * button. These are the defaults: SetBinding() gives any key or gesture to any action; for all of them see
+ * GetHelpText(). A SpaceMouse turns and shifts the model as the cap is turned and
  * shifted on the screen; with its first button held, pushing and pulling zooms; its second one resets the
  * model.
  *
@@ -35,8 +36,8 @@
  *
  * Events: ModelChangedEvent after the transform changed; SceneChangedEvent after a new scene was published
  * (also when it is empty); SamplesEvent with the new ticks (call data:
- * std::vector<pointhaptics::ServoSample>*); FilesDroppedEvent (call data: vtkStringArray*); ScreenshotEvent
- * when the user asks for a picture.
+ * std::vector<pointhaptics::ServoSample>*); FilesDroppedEvent (call data: vtkStringArray*); ScreenshotEvent,
+ * NextFileEvent, PreviousFileEvent and WriteSettingsEvent when the user asks for it.
  *
  * Frames: the model transform maps the cloud's frame into the workspace's (x_T = T x + t); metres.
  * Thread safety: GUI thread only. Ownership: servo loop, device and SpaceMouse are not owned and must outlive
@@ -46,7 +47,8 @@
 #ifndef vtkInteractorStyleHaptic_h
 #define vtkInteractorStyleHaptic_h
 
-#include "Core/Vector3.h" // For Vec3
+#include "Core/Vector3.h"   // For Vec3
+#include "HapticBindings.h" // For HapticAction
 
 #include "PointHapticsInteractionModule.h" // For export macro
 #include "vtkCommand.h"                    // For UserEvent
@@ -59,6 +61,7 @@ class vtkActor;
 class vtkHapticChart;
 class vtkHapticOverlay;
 class vtkHapticProps;
+class vtkHapticSliders;
 class vtkKernelBandwidthFilter;
 class vtkMatrix4x4;
 class vtkPolyData;
@@ -85,7 +88,10 @@ public:
     SceneChangedEvent,
     SamplesEvent,
     FilesDroppedEvent,
-    ScreenshotEvent
+    ScreenshotEvent,
+    NextFileEvent,
+    PreviousFileEvent,
+    WriteSettingsEvent
   };
 
   ///@{
@@ -101,6 +107,16 @@ public:
   void SetProps(vtkHapticProps* props);
   void SetChart(vtkHapticChart* chart);
   void SetOverlay(vtkHapticOverlay* overlay);
+  void SetSliders(vtkHapticSliders* sliders);
+  ///@}
+
+  ///@{
+  /**
+   * The gestures of an action, separated by spaces (see HapticBindings); SetBinding() takes them from the
+   * actions that had them, and brings the overlay's help up to date.
+   */
+  void SetBinding(pointhaptics::HapticAction action, const std::string& gestures);
+  std::string GetBinding(pointhaptics::HapticAction action) const;
   ///@}
 
   /**
@@ -137,6 +153,18 @@ public:
   void ZoomModel(double factor);
   void ResetModel();
   ///@}
+
+  /**
+   * Take back the last change of the model: a whole drag, a key, a turn of the wheel's notch, a push of the
+   * SpaceMouse's cap. The last 100 are kept; SetModelMatrix() forgets them. False: there is none.
+   */
+  bool UndoModel();
+
+  /**
+   * Something else changed that the scene is made from, such as the voxel size or the filters' settings: the
+   * next UpdateModel() makes a new one.
+   */
+  void InvalidateModel();
 
   /**
    * Bring the pipeline up to date now and publish the scene, if the model changed since the last time or
@@ -183,7 +211,26 @@ public:
   void SetStatusNote(const std::string& note);
 
   /**
-   * Keys and drags, one a line.
+   * The device's own line in the panel of the servo loop: what it is and how it is.
+   */
+  void SetDeviceNote(const std::string& note);
+
+  /**
+   * Show position, voxel, bandwidth and arrays of the voxel mean at a display position in the overlay. False:
+   * no mean is drawn within 8 pixels of it; the overlay shows none then.
+   */
+  bool PickAt(int x, int y);
+
+  ///@{
+  /**
+   * Show rate, latencies, missed ticks, faults and the device in the overlay. Default: off.
+   */
+  void SetServoPanelVisibility(bool visible);
+  bool GetServoPanelVisibility() const;
+  ///@}
+
+  /**
+   * What the default keys and gestures do, one thing a line.
    */
   static const char* GetHelpText();
 
@@ -192,6 +239,8 @@ public:
   void OnLeftButtonUp() override;
   void OnMiddleButtonDown() override;
   void OnMiddleButtonUp() override;
+  void OnRightButtonDown() override;
+  void OnRightButtonUp() override;
   void OnMouseWheelForward() override;
   void OnMouseWheelBackward() override;
   void OnKeyPress() override;
@@ -216,10 +265,15 @@ private:
   void DragHand();
   void Wheel(int direction);
   void MoveBySpaceMouse();
-  bool ModelKey(const std::string& key);
-  bool HandKey(const std::string& key);
-  bool ProgramKey(const std::string& key);
+  void Press(const char* button);
+  void Release();
+  void RememberModel();
+  bool ModelKey(pointhaptics::HapticAction action);
+  bool HandKey(pointhaptics::HapticAction action);
+  bool ShowKey(pointhaptics::HapticAction action);
+  bool ProgramKey(pointhaptics::HapticAction action);
   void ToggleChart();
+  std::string ServoPanelText();
   bool ReadServo();
   bool UpdateStatus();
   void RenderNow();

@@ -7,8 +7,9 @@
 
 #include <cmath>
 
+using pointhaptics::HapticAction;
+using pointhaptics::HapticBindings;
 using pointhaptics::Vec3;
-using pointhaptics::style::Drag;
 
 namespace
 {
@@ -56,76 +57,104 @@ Vec3 dragged(vtkRenderer* renderer, vtkRenderWindowInteractor* interactor, const
 
 const char* vtkInteractorStyleHaptic::GetHelpText()
 {
-  return "Look     left drag      turn the view\n"
-         "         middle drag    pan\n"
-         "         right, wheel   nearer, farther\n"
-         "         R              whole workspace\n"
-         "Model    Shift+left     turn    (x X y Y z Z)\n"
-         "         Shift+middle   shift   (arrow keys)\n"
-         "         Shift+wheel    zoom    (+ -)\n"
-         "         0 or Home      back to the start\n"
-         "Hand     Ctrl+left      move in the view plane\n"
-         "         Ctrl+wheel     depth   (Page Up, Down)\n"
-         "         F or Space     hand follows the mouse\n"
-         "Program  H  this help       C  chart\n"
-         "         S  screenshot      Q  quit\n"
-         "         drop a file on the window to open it";
+  static const std::string text = pointhaptics::HapticBindings().describe();
+  return text.c_str();
+}
+
+void vtkInteractorStyleHaptic::Press(const char* button)
+{
+  Internals& parts = *this->Parts;
+  if (parts.drag != HapticAction::None || this->State != VTKIS_NONE)
+  {
+    return; // another button is down already
+  }
+  const int* position = this->Interactor->GetEventPosition();
+  this->FindPokedRenderer(position[0], position[1]);
+  const HapticAction action = parts.bindings.find(HapticBindings::gestureOf(
+    button, this->Interactor->GetControlKey() != 0, this->Interactor->GetShiftKey() != 0));
+  switch (action)
+  {
+    case HapticAction::TurnViewDrag:
+      this->StartRotate();
+      break;
+    case HapticAction::PanViewDrag:
+      this->StartPan();
+      break;
+    case HapticAction::DollyViewDrag:
+      this->StartDolly();
+      break;
+    case HapticAction::TurnModelDrag:
+    case HapticAction::ShiftModelDrag:
+    case HapticAction::MoveHandDrag:
+      parts.drag = action;
+      parts.inGesture = true;
+      parts.gestureRemembered = false;
+      break;
+    default:
+      if (!this->ModelKey(action) && !this->HandKey(action) && !this->ShowKey(action))
+      {
+        this->ProgramKey(action);
+      }
+  }
+}
+
+void vtkInteractorStyleHaptic::Release()
+{
+  this->Parts->drag = HapticAction::None;
+  this->Parts->inGesture = false;
+  if (this->State == VTKIS_ROTATE)
+  {
+    this->EndRotate();
+  }
+  else if (this->State == VTKIS_PAN)
+  {
+    this->EndPan();
+  }
+  else if (this->State == VTKIS_DOLLY)
+  {
+    this->EndDolly();
+  }
 }
 
 void vtkInteractorStyleHaptic::OnLeftButtonDown()
 {
-  const bool shift = this->Interactor->GetShiftKey() != 0;
-  const bool control = this->Interactor->GetControlKey() != 0;
-  if (!shift && !control)
-  {
-    this->Superclass::OnLeftButtonDown();
-    return;
-  }
-  const int* position = this->Interactor->GetEventPosition();
-  this->FindPokedRenderer(position[0], position[1]);
-  this->Parts->drag = !shift ? Drag::Hand : control ? Drag::ShiftModel : Drag::TurnModel;
+  this->Press("left");
 }
 
 void vtkInteractorStyleHaptic::OnLeftButtonUp()
 {
-  if (this->Parts->drag != Drag::None)
-  {
-    this->Parts->drag = Drag::None;
-    return;
-  }
-  this->Superclass::OnLeftButtonUp();
+  this->Release();
 }
 
 void vtkInteractorStyleHaptic::OnMiddleButtonDown()
 {
-  if (!this->Interactor->GetShiftKey())
-  {
-    this->Superclass::OnMiddleButtonDown();
-    return;
-  }
-  const int* position = this->Interactor->GetEventPosition();
-  this->FindPokedRenderer(position[0], position[1]);
-  this->Parts->drag = Drag::ShiftModel;
+  this->Press("middle");
 }
 
 void vtkInteractorStyleHaptic::OnMiddleButtonUp()
 {
-  if (this->Parts->drag != Drag::None)
-  {
-    this->Parts->drag = Drag::None;
-    return;
-  }
-  this->Superclass::OnMiddleButtonUp();
+  this->Release();
+}
+
+void vtkInteractorStyleHaptic::OnRightButtonDown()
+{
+  this->Press("right");
+}
+
+void vtkInteractorStyleHaptic::OnRightButtonUp()
+{
+  this->Release();
 }
 
 void vtkInteractorStyleHaptic::OnMouseMove()
 {
-  if (this->Parts->drag == Drag::Hand ||
-    (this->Parts->handMode && this->State == VTKIS_NONE && this->Parts->drag == Drag::None))
+  const HapticAction drag = this->Parts->drag;
+  const bool follows = this->Parts->handMode && this->State == VTKIS_NONE && drag == HapticAction::None;
+  if (drag == HapticAction::MoveHandDrag || follows)
   {
     this->DragHand();
   }
-  else if (this->Parts->drag != Drag::None)
+  else if (drag != HapticAction::None)
   {
     this->DragModel();
   }
@@ -142,7 +171,7 @@ void vtkInteractorStyleHaptic::DragModel()
   {
     return;
   }
-  if (this->Parts->drag == Drag::ShiftModel)
+  if (this->Parts->drag == HapticAction::ShiftModelDrag)
   {
     this->ShiftModel(dragged(renderer, this->Interactor, this->Parts->center()));
     return;
@@ -169,7 +198,7 @@ void vtkInteractorStyleHaptic::DragHand()
     return;
   }
   const Vec3 target = this->Parts->device->target();
-  if (this->Parts->drag == Drag::Hand)
+  if (this->Parts->drag == HapticAction::MoveHandDrag)
   {
     this->MoveHand(dragged(renderer, this->Interactor, target));
     return;
@@ -190,19 +219,25 @@ void vtkInteractorStyleHaptic::OnMouseWheelBackward()
 
 void vtkInteractorStyleHaptic::Wheel(int direction)
 {
-  if (this->Interactor->GetShiftKey())
+  HapticAction action = this->Parts->bindings.find(HapticBindings::gestureOf(
+    "wheel", this->Interactor->GetControlKey() != 0, this->Interactor->GetShiftKey() != 0));
+  if (action == HapticAction::DollyViewWheel && this->Parts->handMode)
+  {
+    action = HapticAction::HandDepthWheel;
+  }
+  if (action == HapticAction::ZoomModelWheel)
   {
     this->ZoomModel(std::pow(kZoomPerStep, direction));
   }
-  else if (this->Interactor->GetControlKey() || this->Parts->handMode)
+  else if (action == HapticAction::HandDepthWheel)
   {
     this->MoveHandInDepth(direction * kDepthPerWheelStep * this->Parts->edge());
   }
-  else if (direction > 0)
+  else if (action == HapticAction::DollyViewWheel && direction > 0)
   {
     this->Superclass::OnMouseWheelForward();
   }
-  else
+  else if (action == HapticAction::DollyViewWheel)
   {
     this->Superclass::OnMouseWheelBackward();
   }
@@ -211,8 +246,10 @@ void vtkInteractorStyleHaptic::Wheel(int direction)
 void vtkInteractorStyleHaptic::OnKeyPress()
 {
   const char* symbol = this->Interactor->GetKeySym();
-  const std::string key = symbol ? symbol : "";
-  if (!this->ModelKey(key) && !this->HandKey(key) && !this->ProgramKey(key))
+  const HapticAction action = this->Parts->bindings.find(HapticBindings::gestureOf(
+    symbol ? symbol : "", this->Interactor->GetControlKey() != 0, this->Interactor->GetShiftKey() != 0));
+  if (!this->ModelKey(action) && !this->HandKey(action) && !this->ShowKey(action) &&
+    !this->ProgramKey(action))
   {
     this->Superclass::OnKeyPress();
   }
@@ -221,33 +258,37 @@ void vtkInteractorStyleHaptic::OnKeyPress()
 // All keys are handled in OnKeyPress; the base class would read some of them as wire frame, stereo or exit.
 void vtkInteractorStyleHaptic::OnChar() {}
 
-bool vtkInteractorStyleHaptic::ModelKey(const std::string& key)
+bool vtkInteractorStyleHaptic::ModelKey(HapticAction action)
 {
-  if (key.size() == 1 && std::string("xyzXYZ").find(key) != std::string::npos)
+  switch (action)
   {
-    const bool backwards = key[0] < 'a' || this->Interactor->GetShiftKey();
-    const char axis = static_cast<char>(key[0] | 0x20);
-    this->TurnModel(backwards ? -kDegreesPerKey : kDegreesPerKey,
-      { axis == 'x' ? 1.0 : 0.0, axis == 'y' ? 1.0 : 0.0, axis == 'z' ? 1.0 : 0.0 });
-    return true;
+    case HapticAction::TurnX:
+    case HapticAction::TurnBackX:
+      this->TurnModel(action == HapticAction::TurnX ? kDegreesPerKey : -kDegreesPerKey, { 1.0, 0.0, 0.0 });
+      return true;
+    case HapticAction::TurnY:
+    case HapticAction::TurnBackY:
+      this->TurnModel(action == HapticAction::TurnY ? kDegreesPerKey : -kDegreesPerKey, { 0.0, 1.0, 0.0 });
+      return true;
+    case HapticAction::TurnZ:
+    case HapticAction::TurnBackZ:
+      this->TurnModel(action == HapticAction::TurnZ ? kDegreesPerKey : -kDegreesPerKey, { 0.0, 0.0, 1.0 });
+      return true;
+    case HapticAction::ZoomIn:
+    case HapticAction::ZoomOut:
+      this->ZoomModel(action == HapticAction::ZoomIn ? kZoomPerStep : 1.0 / kZoomPerStep);
+      return true;
+    case HapticAction::ResetModel:
+      this->ResetModel();
+      return true;
+    case HapticAction::UndoModel:
+      this->UndoModel();
+      return true;
+    default:
+      break;
   }
-  if (key == "plus" || key == "equal" || key == "KP_Add")
-  {
-    this->ZoomModel(kZoomPerStep);
-    return true;
-  }
-  if (key == "minus" || key == "underscore" || key == "KP_Subtract")
-  {
-    this->ZoomModel(1.0 / kZoomPerStep);
-    return true;
-  }
-  if (key == "0" || key == "KP_0" || key == "Home" || key == "KP_Home")
-  {
-    this->ResetModel();
-    return true;
-  }
-  const int right = key == "Right" ? 1 : key == "Left" ? -1 : 0;
-  const int upward = key == "Up" ? 1 : key == "Down" ? -1 : 0;
+  const int right = int(action == HapticAction::ShiftRight) - int(action == HapticAction::ShiftLeft);
+  const int upward = int(action == HapticAction::ShiftUp) - int(action == HapticAction::ShiftDown);
   vtkRenderer* renderer = this->MainRenderer();
   if ((right == 0 && upward == 0) || !renderer)
   {
@@ -283,7 +324,13 @@ void vtkInteractorStyleHaptic::MoveBySpaceMouse()
   }
   if (motion.resting())
   {
+    parts.inGesture = parts.inGesture && parts.drag != HapticAction::None;
     return;
+  }
+  if (!parts.inGesture)
+  {
+    parts.inGesture = true;
+    parts.gestureRemembered = false;
   }
   Vec3 up;
   Vec3 forward;
@@ -308,56 +355,87 @@ void vtkInteractorStyleHaptic::MoveBySpaceMouse()
   }
 }
 
-bool vtkInteractorStyleHaptic::HandKey(const std::string& key)
+bool vtkInteractorStyleHaptic::HandKey(HapticAction action)
 {
-  if (key == "f" || key == "F" || key == "space")
+  if (action == HapticAction::HandMode)
   {
     this->SetHandMode(!this->GetHandMode());
     return true;
   }
-  const bool away = key == "Prior" || key == "KP_Prior" || key == "Page_Up";
-  const bool back = key == "Next" || key == "KP_Next" || key == "Page_Down";
-  if (away || back)
+  if (action == HapticAction::HandAway || action == HapticAction::HandBack)
   {
-    this->MoveHandInDepth((away ? 1.0 : -1.0) * kDepthPerKey * this->Parts->edge());
+    this->MoveHandInDepth(
+      (action == HapticAction::HandAway ? 1.0 : -1.0) * kDepthPerKey * this->Parts->edge());
     return true;
   }
   return false;
 }
 
-bool vtkInteractorStyleHaptic::ProgramKey(const std::string& key)
+bool vtkInteractorStyleHaptic::ShowKey(HapticAction action)
 {
-  if (key == "h" || key == "H" || key == "question")
+  Internals& parts = *this->Parts;
+  switch (action)
   {
-    if (vtkHapticOverlay* overlay = this->Parts->overlay)
-    {
-      overlay->SetHelpVisibility(!overlay->GetHelpVisibility());
-      this->Parts->rendersWanted = true;
-    }
+    case HapticAction::Help:
+      if (parts.overlay)
+      {
+        parts.overlay->SetHelpVisibility(!parts.overlay->GetHelpVisibility());
+      }
+      break;
+    case HapticAction::Pick:
+      this->PickAt(this->Interactor->GetEventPosition()[0], this->Interactor->GetEventPosition()[1]);
+      break;
+    case HapticAction::Sliders:
+      if (parts.sliders)
+      {
+        parts.sliders->SetVisibility(!parts.sliders->GetVisibility());
+      }
+      break;
+    case HapticAction::ServoPanel:
+      this->SetServoPanelVisibility(!parts.servoPanel);
+      break;
+    case HapticAction::Chart:
+      this->ToggleChart();
+      break;
+    case HapticAction::PauseChart:
+      if (parts.chart)
+      {
+        parts.chart->SetPaused(!parts.chart->GetPaused());
+      }
+      break;
+    case HapticAction::ResetView:
+      if (vtkRenderer* renderer = this->MainRenderer())
+      {
+        renderer->ResetCamera(parts.workspace.data());
+      }
+      break;
+    default:
+      return false;
   }
-  else if (key == "c" || key == "C")
-  {
-    this->ToggleChart();
-  }
-  else if (key == "r" || key == "R")
-  {
-    if (vtkRenderer* renderer = this->MainRenderer())
-    {
-      renderer->ResetCamera(this->Parts->workspace.data());
-      this->Parts->rendersWanted = true;
-    }
-  }
-  else if (key == "s" || key == "S")
-  {
-    this->InvokeEvent(ScreenshotEvent);
-  }
-  else if (key == "q" || key == "Q" || key == "Escape")
-  {
-    this->Interactor->ExitCallback();
-  }
-  else
-  {
-    return false;
-  }
+  parts.rendersWanted = true;
   return true;
+}
+
+bool vtkInteractorStyleHaptic::ProgramKey(HapticAction action)
+{
+  switch (action)
+  {
+    case HapticAction::NextFile:
+      this->InvokeEvent(NextFileEvent);
+      return true;
+    case HapticAction::PreviousFile:
+      this->InvokeEvent(PreviousFileEvent);
+      return true;
+    case HapticAction::Screenshot:
+      this->InvokeEvent(ScreenshotEvent);
+      return true;
+    case HapticAction::WriteSettings:
+      this->InvokeEvent(WriteSettingsEvent);
+      return true;
+    case HapticAction::Quit:
+      this->Interactor->ExitCallback();
+      return true;
+    default:
+      return false;
+  }
 }

@@ -7,6 +7,7 @@
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
+#include "vtkHapticSliders.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -24,6 +25,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace pointhaptics
@@ -36,14 +38,6 @@ inline double now()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-enum class Drag
-{
-  None,
-  TurnModel,
-  ShiftModel,
-  Hand
-};
 
 /// Work that may take long leaves as much time to events as it took itself.
 struct FairShare
@@ -78,11 +72,17 @@ struct vtkInteractorStyleHaptic::Internals
   vtkSmartPointer<vtkHapticProps> props;
   vtkSmartPointer<vtkHapticChart> chart;
   vtkSmartPointer<vtkHapticOverlay> overlay;
+  vtkSmartPointer<vtkHapticSliders> sliders;
+  pointhaptics::HapticBindings bindings;
 
   vtkNew<vtkTransform> model;     // what the user sees
   vtkNew<vtkTransform> resampled; // what the resampler runs with
   vtkNew<vtkMatrix4x4> initial;
   vtkNew<vtkMatrix4x4> preview;
+  /// Matrices before the last changes, oldest first. A gesture of many steps is one change.
+  std::deque<std::array<double, 16>> history;
+  bool inGesture = false;
+  bool gestureRemembered = false;
   bool modelChanged = true;
   bool sceneEmpty = true;
   bool rendersWanted = false;
@@ -90,11 +90,13 @@ struct vtkInteractorStyleHaptic::Internals
   pointhaptics::style::FairShare renderShare;
 
   std::array<double, 6> workspace{ -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
-  pointhaptics::style::Drag drag = pointhaptics::style::Drag::None;
+  pointhaptics::HapticAction drag = pointhaptics::HapticAction::None;
   bool handMode = false;
   int timer = -1;
   double lastStatus = -1e9;
   std::string note;
+  std::string deviceNote;
+  bool servoPanel = false;
   vtkIdType numberOfPoints = 0;
   vtkIdType numberOfVoxels = 0;
   std::vector<pointhaptics::ServoSample> samples;

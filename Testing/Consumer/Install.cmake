@@ -7,3 +7,13 @@ execute_process(
 if (NOT code EQUAL 0)
   message(FATAL_ERROR "cmake --install ${BUILD} failed:\n${error}")
 endif ()
+if (EXISTS "${SCRATCH}/prefix/bin/pointhaptics")
+  foreach (pattern share/man/man1/pointhaptics.1 share/bash-completion/completions/pointhaptics
+      share/applications/pointhaptics.desktop share/mime/packages/pointhaptics.xml
+      share/icons/hicolor/scalable/apps/pointhaptics.svg)
+    file(GLOB found "${SCRATCH}/prefix/${pattern}")
+    if (NOT found)
+      message(FATAL_ERROR "cmake --install has not installed ${pattern}")
+    endif ()
+  endforeach ()
+endif ()

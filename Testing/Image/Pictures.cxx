@@ -3,6 +3,7 @@
 #include "CloudAppearance.h"
 #include "CloudOrientation.h"
 #include "HapticSceneBuilder.h"
+#include "OverlayPictures.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -274,7 +275,10 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
   const Picture pictures[] = { { "VoxelMeans", { "dropped-point" }, buildVoxelMeans },
     { "SphereContact", { "shifted-proxy" }, buildSphereContact },
     { "DensityProxies", { "wrong-color", "equal-radii" }, buildDensityProxies },
-    { "IdolRadius", { "wrong-color" }, buildIdolRadius } };
+    { "IdolRadius", { "wrong-color" }, buildIdolRadius },
+    { "HelpOverlay", { "missing-line" }, buildHelpOverlay },
+    { "StatusOverlay", { "wrong-number" }, buildStatusOverlay },
+    { "Sliders", { "wrong-value" }, buildSliders }, { "Chart", { "wrong-force" }, buildChart } };
   for (const Picture& picture : pictures)
   {
     const bool known = mutation.empty() ||

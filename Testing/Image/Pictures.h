@@ -1,6 +1,6 @@
 /// @file
-/// The pictures of the image regressions: generated clouds, fixed cameras, no text (fonts differ between
-/// machines).
+/// The pictures of the image regressions: generated clouds and fixed cameras, and what OverlayPictures.h puts
+/// over them.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ namespace testing
 {
 
 /// Fills @p renderer with the picture @p name, with the fault @p mutation in it ("": none): dropped-point,
-/// shifted-proxy, wrong-color or equal-radii. False: there is no such picture, or it does not know that fault.
+/// shifted-proxy, wrong-color, equal-radii or one of OverlayPictures.h. False: there is no such picture, or
+/// it does not know that fault.
 bool buildPicture(const std::string& name, const std::string& mutation, vtkRenderer* renderer);
 
 } // namespace testing

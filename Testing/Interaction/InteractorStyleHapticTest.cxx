@@ -1,6 +1,8 @@
+#include "PointPicking.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
+#include "vtkHapticSliders.h"
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -12,8 +14,11 @@
 #include <vtkActor.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkDataArray.h>
+#include <vtkInteractorObserver.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
@@ -23,6 +28,7 @@
 #include <vtkTransform.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 #include <thread>
@@ -311,6 +317,189 @@ TEST_F(InteractorStyleHaptic, ShowsHelpAndChartOnTheirKeys)
   EXPECT_EQ(renderer_->GetViewport()[1], 0.25);
 }
 
+TEST_F(InteractorStyleHaptic, TakesBackTheLastMoveAsAWhole)
+{
+  this->press("x");
+  const double turned = this->element(1, 1);
+  interactor_->SetEventInformation(100, 100, 0, 1);
+  interactor_->InvokeEvent(vtkCommand::LeftButtonPressEvent);
+  for (int x = 101; x < 130; ++x)
+  {
+    interactor_->SetEventInformation(x, 100, 0, 1);
+    interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
+  }
+  interactor_->InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
+  EXPECT_GT(std::abs(this->element(0, 2)), 0.1);
+  this->press("u");
+  EXPECT_EQ(this->element(0, 2), 0.0);
+  EXPECT_EQ(this->element(1, 1), turned);
+  EXPECT_TRUE(style_->IsModelChanged());
+  this->press("u");
+  EXPECT_TRUE(this->modelIsIdentity());
+  EXPECT_FALSE(style_->UndoModel());
+}
+
+TEST_F(InteractorStyleHaptic, TakesAResetBackButNotTheMatrixOfAnotherCloud)
+{
+  style_->ZoomModel(2.0);
+  style_->ResetModel();
+  style_->ResetModel(); // changes nothing
+  EXPECT_TRUE(style_->UndoModel());
+  EXPECT_EQ(this->element(0, 0), 2.0);
+  vtkNew<vtkMatrix4x4> other;
+  style_->SetModelMatrix(other);
+  EXPECT_FALSE(style_->UndoModel());
+}
+
+TEST_F(InteractorStyleHaptic, DoesOnAnotherKeyWhatItIsToldTo)
+{
+  vtkNew<vtkHapticOverlay> overlay;
+  style_->SetOverlay(overlay);
+  style_->SetBinding(HapticAction::TurnX, "F5");
+  EXPECT_EQ(style_->GetBinding(HapticAction::TurnX), "F5");
+  EXPECT_NE(overlay->GetHelp().find("F5"), std::string::npos);
+  this->press("F5");
+  EXPECT_FALSE(this->modelIsIdentity());
+  this->press("u");
+  style_->SetBinding(HapticAction::TurnModelDrag, "left");
+  this->drag(vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, 30, 0, false, false);
+  EXPECT_FALSE(this->modelIsIdentity());
+}
+
+TEST_F(InteractorStyleHaptic, PicksTheMeanUnderTheMouseAlsoInAPartOfTheWindow)
+{
+  vtkNew<vtkHapticOverlay> overlay;
+  style_->SetOverlay(overlay);
+  renderer_->SetViewport(0.0, 0.25, 1.0, 1.0);
+  window_->Render();
+  vtkPolyData* cloud = bandwidth_->GetOutput();
+  const vtkIdType wanted = cloud->FindPoint(0.012, -0.007, 0.0);
+  double p[3];
+  cloud->GetPoint(wanted, p);
+  double display[3];
+  vtkInteractorObserver::ComputeWorldToDisplay(renderer_, p[0], p[1], p[2], display);
+  PickedPoint picked;
+  ASSERT_TRUE(pickPoint(cloud, renderer_, display[0], display[1], 0.5, picked));
+  EXPECT_EQ(picked.index, wanted);
+  EXPECT_NEAR(picked.inCloud->x, p[0], 1e-12);
+  EXPECT_EQ(picked.voxel->x, std::floor((p[0] + 0.05) / 0.001));
+  interactor_->SetEventInformation(int(display[0]), int(display[1]), 0, 0);
+  interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
+  this->press("p");
+  EXPECT_NE(overlay->GetDetail().find("bandwidth"), std::string::npos) << overlay->GetDetail();
+  EXPECT_FALSE(style_->PickAt(1, 199));
+  EXPECT_EQ(overlay->GetDetail(), "");
+}
+
+TEST_F(InteractorStyleHaptic, MeasuresAtThePickedPointWhatTheFilterComputesForAll)
+{
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  filter->SetInputConnection(resampler_->GetOutputPort());
+  filter->ComputeBandwidthOn();
+  filter->ComputeProxyRadiusOn();
+  for (const bool ball : { false, true })
+  {
+    ball ? filter->SetNeighborhoodToFixedRadius() : filter->SetNeighborhoodToKNearest();
+    filter->SetRadius(0.004);
+    filter->Update();
+    vtkPolyData* cloud = filter->GetOutput();
+    PickedPoint picked;
+    picked.index = 40;
+    cloud->GetPoint(picked.index, &picked.inWorkspace.x);
+    ASSERT_EQ(measurePicked(cloud, filter->GetSettings(), picked), Status::Ok);
+    vtkDataArray* bandwidths = cloud->GetPointData()->GetArray("Bandwidth");
+    vtkDataArray* radii = cloud->GetPointData()->GetArray("ProxyRadius");
+    EXPECT_NEAR(picked.bandwidth, bandwidths->GetComponent(40, 0), 1e-9 * picked.bandwidth);
+    EXPECT_NEAR(picked.radius, radii->GetComponent(40, 0), 1e-9 * picked.radius);
+  }
+}
+
+TEST_F(InteractorStyleHaptic, ShowsTheServoPanelWithTheDevice)
+{
+  vtkNew<vtkHapticOverlay> overlay;
+  style_->SetOverlay(overlay);
+  style_->SetDeviceNote("falcon, unhomed");
+  style_->Refresh();
+  EXPECT_EQ(overlay->GetPanel(), "");
+  this->press("i");
+  style_->Refresh();
+  EXPECT_EQ(overlay->GetPanel(), "servo loop: none\ndevice: falcon, unhomed");
+  ServoLoop servo;
+  SimulatedDevice device;
+  style_->SetServoLoop(&servo);
+  ASSERT_EQ(servo.start(device, {}), Status::Ok);
+  style_->SetDeviceNote("simulated");
+  style_->Refresh();
+  servo.stop();
+  style_->SetServoLoop(nullptr);
+  EXPECT_NE(overlay->GetPanel().find("running"), std::string::npos);
+  EXPECT_NE(overlay->GetPanel().find("missed"), std::string::npos);
+}
+
+TEST_F(InteractorStyleHaptic, KeepsAPausedChartAsItIs)
+{
+  vtkNew<vtkHapticChart> chart;
+  style_->SetChart(chart);
+  chart->AddSample(0.0, 1.0, 0.001);
+  chart->AddSample(1.0, 2.0, 0.001);
+  EXPECT_TRUE(chart->Update());
+  this->press("t");
+  EXPECT_TRUE(chart->GetPaused());
+  chart->AddSample(2.0, 3.0, 0.001);
+  EXPECT_FALSE(chart->Update());
+  this->press("t");
+  EXPECT_TRUE(chart->Update());
+}
+
+TEST_F(InteractorStyleHaptic, MovesASliderByTheMouseAndNothingElse)
+{
+  vtkNew<vtkHapticSliders> sliders;
+  sliders->SetInteractor(interactor_);
+  style_->SetSliders(sliders);
+  window_->SetSize(800, 600);
+  this->press("v");
+  EXPECT_TRUE(sliders->GetVisibility());
+  window_->Render();
+  int moved = -1;
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(&moved);
+  command->SetCallback([](vtkObject*, unsigned long, void* client, void* slider)
+    { *static_cast<int*>(client) = *static_cast<int*>(slider); });
+  sliders->AddObserver(vtkHapticSliders::ValueChangedEvent, command);
+  // Friction starts at the left end of its way; see the positions in vtkHapticSliders.
+  const int row = int(600 * (0.30 + 2 * 0.1));
+  double before[3];
+  renderer_->GetActiveCamera()->GetPosition(before);
+  interactor_->SetEventInformation(int(0.836 * 800), row);
+  interactor_->InvokeEvent(vtkCommand::LeftButtonPressEvent);
+  interactor_->SetEventInformation(int(0.905 * 800), row);
+  interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
+  interactor_->InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
+  EXPECT_EQ(moved, vtkHapticSliders::Friction);
+  EXPECT_NEAR(sliders->GetValue(vtkHapticSliders::Friction), 0.5, 0.1);
+  EXPECT_EQ(renderer_->GetActiveCamera()->GetPosition()[0], before[0]);
+  this->press("i"); // the key VTK's widgets would switch themselves off with
+  window_->Render();
+  this->press("v");
+  EXPECT_FALSE(sliders->GetVisibility());
+  sliders->SetInteractor(nullptr);
+}
+
+TEST(HapticSliders, MoveLengthsInProportionAndIgnoreWhatIsNoNumber)
+{
+  vtkNew<vtkHapticSliders> sliders;
+  sliders->MoveTo(vtkHapticSliders::Stiffness, 0.5);
+  EXPECT_NEAR(sliders->GetValue(vtkHapticSliders::Stiffness), 500.0, 1e-9); // between 50 and 5000
+  sliders->MoveTo(vtkHapticSliders::Friction, 0.25);
+  EXPECT_NEAR(sliders->GetValue(vtkHapticSliders::Friction), 0.25, 1e-12);
+  sliders->SetValue(vtkHapticSliders::Stiffness, -1.0);
+  sliders->SetValue(vtkHapticSliders::Stiffness, NAN);
+  EXPECT_NEAR(sliders->GetValue(vtkHapticSliders::Stiffness), 500.0, 1e-9);
+  sliders->SetValue(vtkHapticSliders::Stiffness, 20000.0);
+  sliders->MoveTo(vtkHapticSliders::Stiffness, 2.0);
+  EXPECT_NEAR(sliders->GetValue(vtkHapticSliders::Stiffness), 20000.0, 1e-6);
+}
+
 TEST_F(InteractorStyleHaptic, PassesDroppedFilesOn)
 {
   vtkNew<vtkStringArray> files;
@@ -323,7 +512,8 @@ TEST_F(InteractorStyleHaptic, WorksWithoutAnyPart)
 {
   vtkNew<vtkInteractorStyleHaptic> bare;
   interactor_->SetInteractorStyle(bare);
-  for (const char* key : { "x", "Left", "plus", "0", "f", "Prior", "h", "c", "s" })
+  for (const char* key :
+    { "x", "Left", "plus", "0", "f", "Prior", "h", "c", "s", "u", "p", "v", "i", "t", "n", "w" })
   {
     this->press(key);
   }

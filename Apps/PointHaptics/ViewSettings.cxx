@@ -1,0 +1,126 @@
+#include "ViewSettings.h"
+
+#include "OptionParsing.h"
+
+#include "Core/OutputFile.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <vtkMatrix4x4.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+const std::set<std::string>& deeds()
+{
+  static const std::set<std::string> names = { "help", "version", "config", "write-config", "recent",
+    "verbose", "screenshot", "force-chart", "trace" };
+  return names;
+}
+
+/// Of the cloud at hand, and of no other.
+constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
+  "translate", "unit", "path", "up", "color-by", "together" };
+
+nlohmann::ordered_json valueOf(const CLI::Option& option)
+{
+  const std::string text = fmt::format("{}", fmt::join(option.results(), ","));
+  double number = 0.0;
+  if (option.get_expected_max() == 0) // a flag
+  {
+    return text != "false";
+  }
+  if (parseNumber(text, number) && std::isfinite(number))
+  {
+    return number;
+  }
+  return text;
+}
+
+} // namespace
+
+nlohmann::ordered_json givenSettings(CLI::App& command)
+{
+  nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+  for (const CLI::Option* option : command.get_options())
+  {
+    for (const std::string& name : option->get_lnames())
+    {
+      if (option->count() > 0 && deeds().count(name) == 0)
+      {
+        settings[name] = valueOf(*option);
+      }
+    }
+  }
+  return settings;
+}
+
+void setModel(nlohmann::ordered_json& settings, vtkMatrix4x4* matrix, const double workspace[6])
+{
+  for (const char* name : { "unit", "scale", "rotate", "translate" })
+  {
+    settings.erase(name);
+  }
+  settings["matrix"] = std::vector<double>(matrix->GetData(), matrix->GetData() + 16);
+  settings["workspace"] = std::vector<double>(workspace, workspace + 6);
+}
+
+void setVoxel(nlohmann::ordered_json& settings, double metres)
+{
+  settings.erase("dims");
+  settings["voxel"] = metres;
+}
+
+bool writeSettings(const nlohmann::ordered_json& settings, const std::string& fileName, std::string& message)
+{
+  OutputFile file;
+  Status status = file.open(fileName);
+  if (status == Status::Ok)
+  {
+    static_cast<void>(file.write(settings.dump(2) + "\n"));
+    status = file.commit();
+  }
+  if (status != Status::Ok)
+  {
+    message = fmt::format("{}: cannot be written: {}; {}", fileName, file.reason(), file.cure());
+  }
+  return status == Status::Ok;
+}
+
+std::string recentSettingsFile()
+{
+  const char* state = std::getenv("XDG_STATE_HOME");
+  const char* home = std::getenv("HOME");
+  if (state && *state == '/')
+  {
+    return std::string(state) + "/pointhaptics/view.json";
+  }
+  return home && *home ? std::string(home) + "/.local/state/pointhaptics/view.json" : std::string();
+}
+
+void rememberSettings(nlohmann::ordered_json settings)
+{
+  for (const char* name : kOfTheCloud)
+  {
+    settings.erase(name);
+  }
+  const std::string file = recentSettingsFile();
+  std::error_code error;
+  std::string message;
+  if (!file.empty())
+  {
+    std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
+    static_cast<void>(writeSettings(settings, file, message));
+  }
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,42 @@
+/// @file
+/// The state of `view` as a JSON object that --config reads: what was given, and what the window changed.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace CLI
+{
+class App;
+}
+class vtkMatrix4x4;
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// Every option of @p command that has a value, by its long name; files that are written and the options
+/// about configuration itself are left out: they are deeds, not state.
+nlohmann::ordered_json givenSettings(CLI::App& command);
+
+/// Puts a model matrix (cloud to workspace, metres) and workspace bounds in place of the options that led to
+/// them.
+void setModel(nlohmann::ordered_json& settings, vtkMatrix4x4* matrix, const double workspace[6]);
+
+/// Puts a voxel edge in metres in place of --dims.
+void setVoxel(nlohmann::ordered_json& settings, double metres);
+
+/// False: @p message says why the file cannot be written.
+bool writeSettings(const nlohmann::ordered_json& settings, const std::string& fileName, std::string& message);
+
+/// $XDG_STATE_HOME/pointhaptics/view.json, in ~/.local/state where that is not set. Empty without a home.
+std::string recentSettingsFile();
+
+/// Writes to recentSettingsFile() what is worth keeping for another cloud: all but model, lattice and paths.
+/// A state that cannot be kept is no reason to complain.
+void rememberSettings(nlohmann::ordered_json settings);
+
+} // namespace app
+} // namespace pointhaptics

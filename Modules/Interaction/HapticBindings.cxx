@@ -1,0 +1,274 @@
+#include "HapticBindings.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <sstream>
+
+namespace pointhaptics
+{
+namespace
+{
+
+struct Default
+{
+  HapticAction action;
+  const char* gestures;
+};
+
+constexpr Default kDefaults[] = {
+  { HapticAction::TurnViewDrag, "left" },
+  { HapticAction::PanViewDrag, "middle" },
+  { HapticAction::DollyViewDrag, "right" },
+  { HapticAction::DollyViewWheel, "wheel" },
+  { HapticAction::ResetView, "r" },
+  { HapticAction::TurnModelDrag, "Shift+left" },
+  { HapticAction::TurnX, "x" },
+  { HapticAction::TurnBackX, "X" },
+  { HapticAction::TurnY, "y" },
+  { HapticAction::TurnBackY, "Y" },
+  { HapticAction::TurnZ, "z" },
+  { HapticAction::TurnBackZ, "Z" },
+  { HapticAction::ShiftModelDrag, "Shift+middle Ctrl+Shift+left" },
+  { HapticAction::ShiftLeft, "Left" },
+  { HapticAction::ShiftRight, "Right" },
+  { HapticAction::ShiftUp, "Up" },
+  { HapticAction::ShiftDown, "Down" },
+  { HapticAction::ZoomModelWheel, "Shift+wheel" },
+  { HapticAction::ZoomIn, "plus equal KP_Add" },
+  { HapticAction::ZoomOut, "minus underscore KP_Subtract" },
+  { HapticAction::ResetModel, "0 Home KP_0 KP_Home" },
+  { HapticAction::UndoModel, "u Ctrl+z" },
+  { HapticAction::MoveHandDrag, "Ctrl+left" },
+  { HapticAction::HandDepthWheel, "Ctrl+wheel" },
+  { HapticAction::HandAway, "Prior KP_Prior Page_Up" },
+  { HapticAction::HandBack, "Next KP_Next Page_Down" },
+  { HapticAction::HandMode, "f space" },
+  { HapticAction::Pick, "p" },
+  { HapticAction::Help, "h question" },
+  { HapticAction::Sliders, "v" },
+  { HapticAction::ServoPanel, "i" },
+  { HapticAction::Chart, "c" },
+  { HapticAction::PauseChart, "t" },
+  { HapticAction::NextFile, "n" },
+  { HapticAction::PreviousFile, "b" },
+  { HapticAction::Screenshot, "s" },
+  { HapticAction::WriteSettings, "w" },
+  { HapticAction::Quit, "q Escape" },
+};
+
+/// A line of the help: what the actions have in common, and their gestures one after the other.
+struct Line
+{
+  const char* group;
+  const char* words;
+  std::vector<HapticAction> actions;
+};
+
+const std::vector<Line>& lines()
+{
+  using A = HapticAction;
+  static const std::vector<Line> all = {
+    { "Look", "turn the view", { A::TurnViewDrag } },
+    { "", "pan", { A::PanViewDrag } },
+    { "", "nearer, farther", { A::DollyViewDrag, A::DollyViewWheel } },
+    { "", "whole workspace", { A::ResetView } },
+    { "Model", "turn",
+      { A::TurnModelDrag, A::TurnX, A::TurnBackX, A::TurnY, A::TurnBackY, A::TurnZ, A::TurnBackZ } },
+    { "", "shift", { A::ShiftModelDrag, A::ShiftLeft, A::ShiftRight, A::ShiftUp, A::ShiftDown } },
+    { "", "zoom", { A::ZoomModelWheel, A::ZoomIn, A::ZoomOut } },
+    { "", "undo the last move", { A::UndoModel } },
+    { "", "back to the start", { A::ResetModel } },
+    { "Hand", "move in the view plane", { A::MoveHandDrag } },
+    { "", "depth", { A::HandDepthWheel, A::HandAway, A::HandBack } },
+    { "", "hand follows the mouse", { A::HandMode } },
+    { "Show", "this help", { A::Help } },
+    { "", "the point under the mouse", { A::Pick } },
+    { "", "sliders of the touch", { A::Sliders } },
+    { "", "servo loop and device", { A::ServoPanel } },
+    { "", "chart, pause the chart", { A::Chart, A::PauseChart } },
+    { "Program", "next, previous file", { A::NextFile, A::PreviousFile } },
+    { "", "screenshot", { A::Screenshot } },
+    { "", "write the settings to a file", { A::WriteSettings } },
+    { "", "quit", { A::Quit } },
+  };
+  return all;
+}
+
+/// Without its modifiers.
+std::string nameOf(const std::string& gesture)
+{
+  const std::size_t plus = gesture.rfind('+');
+  return plus == std::string::npos ? gesture : gesture.substr(plus + 1);
+}
+
+bool isButton(const std::string& name)
+{
+  return name == "left" || name == "middle" || name == "right";
+}
+
+bool isDrag(HapticAction action)
+{
+  return action == HapticAction::TurnViewDrag || action == HapticAction::PanViewDrag ||
+    action == HapticAction::DollyViewDrag || action == HapticAction::TurnModelDrag ||
+    action == HapticAction::ShiftModelDrag || action == HapticAction::MoveHandDrag;
+}
+
+/// As it stands on the keyboard.
+std::string spoken(std::string gesture)
+{
+  static const std::map<std::string, std::string> names = { { "plus", "+" }, { "minus", "-" },
+    { "Prior", "Page Up" }, { "Next", "Page Down" }, { "space", "Space" }, { "question", "?" },
+    { "equal", "=" }, { "underscore", "_" } };
+  const std::size_t plus = gesture.rfind('+');
+  const std::size_t begin = plus == std::string::npos ? 0 : plus + 1;
+  const std::string name = gesture.substr(begin);
+  const auto known = names.find(name);
+  return gesture.substr(0, begin) + (known == names.end() ? name : known->second);
+}
+
+/// Letters in capitals, as on the keys, where both cases do the same.
+std::string label(const HapticBindings& bindings, const std::string& gesture)
+{
+  std::string text = spoken(gesture);
+  const std::size_t last = text.size() - 1;
+  const bool isLetter =
+    std::islower(static_cast<unsigned char>(text[last])) && (last == 0 || text[last - 1] == '+');
+  if (isLetter)
+  {
+    std::string capital = gesture;
+    capital.back() = static_cast<char>(std::toupper(static_cast<unsigned char>(capital.back())));
+    text[last] = bindings.find(capital) == bindings.find(gesture) ? capital.back() : text[last];
+  }
+  return isButton(nameOf(gesture)) ? text + (isDrag(bindings.find(gesture)) ? " drag" : " click") : text;
+}
+
+std::string joined(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+  {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  const std::string arrows = "Left, Right, Up, Down";
+  const std::size_t found = text.find(arrows);
+  return found == std::string::npos ? text : text.replace(found, arrows.size(), "arrow keys");
+}
+
+std::string row(const std::string& group, const std::string& gestures, const char* words)
+{
+  char text[200];
+  std::snprintf(text, sizeof(text), "%-8s %-34s %s", group.c_str(), gestures.c_str(), words);
+  return text;
+}
+
+} // namespace
+
+HapticBindings::HapticBindings()
+{
+  for (const Default& entry : kDefaults)
+  {
+    this->set(entry.action, entry.gestures);
+  }
+}
+
+bool HapticBindings::set(HapticAction action, const std::string& gestures)
+{
+  if (action == HapticAction::None)
+  {
+    return false;
+  }
+  std::vector<std::string> own;
+  std::istringstream stream(gestures);
+  for (std::string gesture; stream >> gesture;)
+  {
+    for (auto& entry : gestures_)
+    {
+      std::vector<std::string>& others = entry.second;
+      others.erase(std::remove(others.begin(), others.end(), gesture), others.end());
+    }
+    own.erase(std::remove(own.begin(), own.end(), gesture), own.end());
+    own.push_back(gesture);
+  }
+  gestures_[action] = own;
+  return true;
+}
+
+std::string HapticBindings::get(HapticAction action) const
+{
+  std::string text;
+  const auto found = gestures_.find(action);
+  for (const std::string& gesture : found == gestures_.end() ? std::vector<std::string>() : found->second)
+  {
+    text += (text.empty() ? "" : " ") + gesture;
+  }
+  return text;
+}
+
+HapticAction HapticBindings::find(const std::string& gesture) const
+{
+  const auto exact = [this](const std::string& wanted)
+  {
+    for (const auto& [action, gestures] : gestures_)
+    {
+      if (std::find(gestures.begin(), gestures.end(), wanted) != gestures.end())
+      {
+        return action;
+      }
+    }
+    return HapticAction::None;
+  };
+  const HapticAction found = exact(gesture);
+  std::string name = nameOf(gesture);
+  if (found != HapticAction::None || name.empty() || isButton(name) || name == "wheel")
+  {
+    return found;
+  }
+  if (exact(name) != HapticAction::None)
+  {
+    return exact(name);
+  }
+  name[0] = name.size() == 1 ? static_cast<char>(std::tolower(static_cast<unsigned char>(name[0]))) : name[0];
+  return exact(name);
+}
+
+std::string HapticBindings::gestureOf(const std::string& name, bool control, bool shift)
+{
+  const bool isLetter = name.size() == 1 && std::isalpha(static_cast<unsigned char>(name[0]));
+  std::string text = control ? "Ctrl+" : "";
+  if (isLetter && shift)
+  {
+    return text + static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  }
+  return text + (shift ? "Shift+" : "") + name;
+}
+
+std::string HapticBindings::describe() const
+{
+  std::string text;
+  std::string group;
+  for (const Line& line : lines())
+  {
+    group = *line.group ? line.group : group;
+    // The first gesture of each action; an action alone in its line shows two.
+    std::vector<std::string> gesturesOfLine;
+    for (HapticAction action : line.actions)
+    {
+      std::istringstream gestures(this->get(action));
+      std::string gesture;
+      for (int i = 0; i < (line.actions.size() == 1 ? 2 : 1) && gestures >> gesture; ++i)
+      {
+        gesturesOfLine.push_back(label(*this, gesture));
+      }
+    }
+    if (!gesturesOfLine.empty())
+    {
+      text += row(group, joined(gesturesOfLine), line.words) + "\n";
+      group = " ";
+    }
+  }
+  text += row("", "files dropped on the window", "open them");
+  return text;
+}
+
+} // namespace pointhaptics

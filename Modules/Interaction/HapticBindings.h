@@ -1,0 +1,89 @@
+/// @file
+/// What each key and mouse gesture of vtkInteractorStyleHaptic does, and the words for it in the help.
+#pragma once
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// Drags last from a button's press to its release; *Wheel actions take both directions of the wheel; the
+/// others happen once per key or click.
+enum class HapticAction
+{
+  TurnViewDrag,
+  PanViewDrag,
+  DollyViewDrag,
+  DollyViewWheel,
+  ResetView,
+  TurnModelDrag,
+  TurnX,
+  TurnBackX,
+  TurnY,
+  TurnBackY,
+  TurnZ,
+  TurnBackZ,
+  ShiftModelDrag,
+  ShiftLeft,
+  ShiftRight,
+  ShiftUp,
+  ShiftDown,
+  ZoomModelWheel,
+  ZoomIn,
+  ZoomOut,
+  ResetModel,
+  UndoModel,
+  MoveHandDrag,
+  HandDepthWheel,
+  HandAway,
+  HandBack,
+  HandMode,
+  Pick,
+  Help,
+  Sliders,
+  ServoPanel,
+  Chart,
+  PauseChart,
+  NextFile,
+  PreviousFile,
+  Screenshot,
+  WriteSettings,
+  Quit,
+  None
+};
+
+/// A table from gestures to actions. A gesture is a button (left, middle, right), wheel, or a key by its X11
+/// name (h, H, Prior, Left, plus), after the modifiers it takes in this order: Ctrl+, Shift+. Letters carry
+/// Shift themselves: X, not Shift+x. A gesture has one action at most. Not thread safe.
+class POINTHAPTICSINTERACTION_EXPORT HapticBindings
+{
+public:
+  /// The default table.
+  HapticBindings();
+
+  /// Gives @p action these gestures, separated by spaces, in place of those it has; they are taken from the
+  /// actions that had them. Empty: the action cannot be reached. False, and nothing changes: @p action is
+  /// None.
+  bool set(HapticAction action, const std::string& gestures);
+  /// The gestures of @p action, separated by spaces, in the order they were given.
+  std::string get(HapticAction action) const;
+
+  /// What @p gesture does, or None. Keys that have no action of their own do what they do without modifiers
+  /// and in lower case.
+  HapticAction find(const std::string& gesture) const;
+  /// "Ctrl+Shift+left" and the like of an event; @p name is a button, wheel or a key.
+  static std::string gestureOf(const std::string& name, bool control, bool shift);
+
+  /// What can be done, one thing a line, in columns: group, gestures, words. Actions without a gesture are
+  /// left out.
+  std::string describe() const;
+
+private:
+  std::map<HapticAction, std::vector<std::string>> gestures_;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,46 @@
+/// @file
+/// The point under the mouse, and what is known of it.
+#pragma once
+
+#include "Core/LocalBandwidth.h"
+#include "Core/Vector3.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include "vtkType.h"
+
+#include <optional>
+#include <string>
+
+class vtkPolyData;
+class vtkRenderer;
+
+namespace pointhaptics
+{
+
+struct PickedPoint
+{
+  vtkIdType index = -1;        ///< In the picked cloud.
+  Vec3 inWorkspace;            ///< Metres.
+  std::optional<Vec3> inCloud; ///< In the frame of the file, where the cloud says how it was mapped.
+  std::optional<Vec3> voxel;   ///< Whole numbers from 0, where the cloud has a lattice.
+  double bandwidth = 0.0;      ///< b, metres; 0: none asked for.
+  double radius = 0.0;         ///< Of the proxy, metres; not smoothed (see LocalBandwidthSettings).
+};
+
+/// Of the points of @p cloud (in the workspace's frame: the output of vtkVoxelMeanResampler) that are drawn
+/// within @p pixels of the display position (@p x, @p y) of @p renderer's window, the one nearest to the
+/// camera. False: there is none. Cost: a few ns a point. GUI thread only.
+POINTHAPTICSINTERACTION_EXPORT bool pickPoint(
+  vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, double pixels, PickedPoint& picked);
+
+/// Fills in bandwidth and radius: those vtkKernelBandwidthFilter gives the point with @p settings. Searches
+/// its neighbours among all points of @p cloud: about 0.1 s for a million. Errors: those of localBandwidths.
+POINTHAPTICSINTERACTION_EXPORT Status measurePicked(
+  vtkPolyData* cloud, const LocalBandwidthSettings& settings, PickedPoint& picked);
+
+/// Position, voxel, bandwidth and the values of all point arrays of @p cloud, one a line; lengths of the
+/// workspace in millimetres.
+POINTHAPTICSINTERACTION_EXPORT std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked);
+
+} // namespace pointhaptics

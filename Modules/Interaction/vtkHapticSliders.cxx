@@ -1,0 +1,236 @@
+#include "vtkHapticSliders.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCoordinate.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkProperty2D.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+#include "vtkSliderRepresentation2D.h"
+#include "vtkSliderWidget.h"
+#include "vtkTextActor.h"
+#include "vtkTextProperty.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+vtkStandardNewMacro(vtkHapticSliders);
+
+namespace
+{
+
+struct Kind
+{
+  const char* title;
+  double minimum;
+  double maximum;
+  double value;
+  bool logarithmic;
+};
+
+constexpr Kind kKinds[vtkHapticSliders::NumberOfSliders] = {
+  { "stiffness (N/m)", 50.0, 5000.0, 800.0, true },
+  { "friction", 0.0, 1.0, 0.0, false },
+  { "beta", 1.0, 16.0, 4.0, true },
+  { "voxel (mm)", 0.1, 10.0, 1.0, true },
+};
+
+/// Normalized to the window: the lowest slider, and the step to the one above it.
+constexpr double kLeft = 0.83;
+constexpr double kRight = 0.98;
+constexpr double kLowest = 0.30;
+constexpr double kStep = 0.1;
+constexpr double kTextAbove = 0.022;
+
+struct One
+{
+  Kind kind;
+  vtkNew<vtkSliderRepresentation2D> picture;
+  vtkNew<vtkSliderWidget> widget;
+  vtkNew<vtkTextActor> text;
+  vtkNew<vtkCallbackCommand> command;
+  vtkHapticSliders* owner = nullptr;
+  int index = 0;
+
+  double toPart(double value) const
+  {
+    return this->kind.logarithmic
+      ? std::log(value / this->kind.minimum) / std::log(this->kind.maximum / this->kind.minimum)
+      : (value - this->kind.minimum) / (this->kind.maximum - this->kind.minimum);
+  }
+  double toValue(double part) const
+  {
+    return this->kind.logarithmic
+      ? this->kind.minimum * std::pow(this->kind.maximum / this->kind.minimum, part)
+      : this->kind.minimum + part * (this->kind.maximum - this->kind.minimum);
+  }
+  void take(double value)
+  {
+    this->kind.value = value;
+    char words[80];
+    std::snprintf(words, sizeof(words), "%s  %.3g", this->kind.title, value);
+    this->text->SetInput(words);
+    this->picture->SetValue(this->toPart(value));
+  }
+};
+
+void place(One& one)
+{
+  const double row = kLowest + kStep * (vtkHapticSliders::NumberOfSliders - 1 - one.index);
+  vtkSliderRepresentation2D* picture = one.picture;
+  picture->SetMinimumValue(0.0);
+  picture->SetMaximumValue(1.0);
+  picture->ShowSliderLabelOff();
+  picture->SetTitleText("");
+  picture->GetPoint1Coordinate()->SetCoordinateSystemToNormalizedViewport();
+  picture->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedViewport();
+  picture->GetPoint1Coordinate()->SetValue(kLeft, row);
+  picture->GetPoint2Coordinate()->SetValue(kRight, row);
+  picture->SetTubeWidth(0.004);
+  picture->SetSliderLength(0.010);
+  picture->SetSliderWidth(0.024);
+  picture->SetEndCapLength(0.002);
+  picture->SetEndCapWidth(0.012);
+  picture->GetTubeProperty()->SetColor(0.45, 0.46, 0.50);
+  picture->GetCapProperty()->SetColor(0.45, 0.46, 0.50);
+  picture->GetSliderProperty()->SetColor(0.10, 0.35, 0.65);
+  picture->GetSelectedProperty()->SetColor(0.80, 0.33, 0.0);
+  one.text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  one.text->SetPosition(kRight, row + kTextAbove);
+  vtkTextProperty* text = one.text->GetTextProperty();
+  text->SetFontSize(15);
+  text->SetJustificationToRight(); // in a small window it grows over the picture, not out of it
+  text->SetColor(0.08, 0.08, 0.10);
+  text->SetBackgroundColor(1.0, 1.0, 1.0);
+  text->SetBackgroundOpacity(0.6);
+}
+
+} // namespace
+
+struct vtkHapticSliders::Internals
+{
+  std::array<One, NumberOfSliders> sliders;
+  /// Over the whole window: VTK's sliders are drawn and caught at different places in a part of one.
+  vtkNew<vtkRenderer> renderer;
+  vtkRenderWindowInteractor* interactor = nullptr;
+  bool visible = false;
+};
+
+vtkHapticSliders::vtkHapticSliders()
+  : Parts(new Internals)
+{
+  this->Parts->renderer->SetLayer(1);
+  this->Parts->renderer->InteractiveOff();
+  this->Parts->renderer->DrawOff();
+  for (int i = 0; i < NumberOfSliders; ++i)
+  {
+    One& one = this->Parts->sliders[i];
+    one.kind = kKinds[i];
+    one.owner = this;
+    one.index = i;
+    place(one);
+    this->Parts->renderer->AddActor2D(one.text);
+    one.take(one.kind.value);
+    one.widget->SetRepresentation(one.picture);
+    one.widget->SetAnimationModeToJump();
+    one.widget->KeyPressActivationOff(); // its key is one of the style's
+    one.command->SetClientData(&one);
+    one.command->SetCallback(
+      [](vtkObject*, unsigned long, void* client, void*)
+      {
+        One* moved = static_cast<One*>(client);
+        moved->owner->MoveTo(moved->index, moved->picture->GetValue());
+      });
+    one.widget->AddObserver(vtkCommand::InteractionEvent, one.command);
+  }
+}
+
+vtkHapticSliders::~vtkHapticSliders()
+{
+  this->SetVisibility(false);
+}
+
+void vtkHapticSliders::SetInteractor(vtkRenderWindowInteractor* interactor)
+{
+  Internals& parts = *this->Parts;
+  this->SetVisibility(false);
+  if (parts.interactor && parts.interactor->GetRenderWindow())
+  {
+    parts.interactor->GetRenderWindow()->RemoveRenderer(parts.renderer);
+  }
+  parts.interactor = interactor;
+  if (interactor && interactor->GetRenderWindow())
+  {
+    interactor->GetRenderWindow()->SetNumberOfLayers(2);
+    interactor->GetRenderWindow()->AddRenderer(parts.renderer);
+  }
+  for (One& one : parts.sliders)
+  {
+    one.widget->SetInteractor(interactor);
+    one.widget->SetCurrentRenderer(interactor ? parts.renderer.Get() : nullptr);
+  }
+}
+
+void vtkHapticSliders::SetValue(int slider, double value)
+{
+  if (slider < 0 || slider >= NumberOfSliders || !std::isfinite(value))
+  {
+    return;
+  }
+  One& one = this->Parts->sliders[slider];
+  if (one.kind.logarithmic && !(value > 0.0))
+  {
+    return;
+  }
+  one.kind.minimum = std::min(one.kind.minimum, value);
+  one.kind.maximum = std::max(one.kind.maximum, value);
+  one.take(value);
+}
+
+double vtkHapticSliders::GetValue(int slider) const
+{
+  return slider >= 0 && slider < NumberOfSliders ? this->Parts->sliders[slider].kind.value : 0.0;
+}
+
+void vtkHapticSliders::MoveTo(int slider, double part)
+{
+  if (slider >= 0 && slider < NumberOfSliders && std::isfinite(part))
+  {
+    One& one = this->Parts->sliders[slider];
+    one.take(one.toValue(std::min(std::max(part, 0.0), 1.0)));
+    this->InvokeEvent(ValueChangedEvent, &slider);
+  }
+}
+
+void vtkHapticSliders::SetVisibility(bool visible)
+{
+  if (!this->Parts->interactor)
+  {
+    return;
+  }
+  this->Parts->visible = visible;
+  this->Parts->renderer->SetDraw(visible);
+  for (One& one : this->Parts->sliders)
+  {
+    one.widget->SetEnabled(visible);
+  }
+}
+
+bool vtkHapticSliders::GetVisibility() const
+{
+  return this->Parts->visible;
+}
+
+void vtkHapticSliders::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Visibility: " << this->Parts->visible << "\n";
+  for (const One& one : this->Parts->sliders)
+  {
+    os << indent << one.kind.title << ": " << one.kind.value << "\n";
+  }
+}

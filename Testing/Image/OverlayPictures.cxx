@@ -1,0 +1,80 @@
+#include "OverlayPictures.h"
+
+#include "CloudAppearance.h"
+#include "vtkHapticChart.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticSliders.h"
+
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace testing
+{
+namespace
+{
+
+/// The one object of its type, until the program ends.
+template <typename Type>
+Type* lasting()
+{
+  static const vtkSmartPointer<Type> object = vtkSmartPointer<Type>::New();
+  return object;
+}
+
+} // namespace
+
+void buildHelpOverlay(const std::string& fault, vtkRenderer* renderer)
+{
+  applyBackground(renderer);
+  auto* overlay = lasting<vtkHapticOverlay>();
+  const std::string last = fault == "missing-line" ? "" : "\n         U      undo";
+  overlay->SetHelp("Look     left   turn the view\nModel    0      back" + last);
+  overlay->SetHelpVisibility(true);
+  overlay->AddTo(renderer);
+}
+
+void buildStatusOverlay(const std::string& fault, vtkRenderer* renderer)
+{
+  applyBackground(renderer);
+  auto* overlay = lasting<vtkHapticOverlay>();
+  overlay->SetStatus("20000 points\nH: help");
+  overlay->SetPanel(fault == "wrong-number" ? "rate: 961.5 Hz\nmissed: 38" : "rate: 1000.0 Hz\nmissed: 0");
+  overlay->SetDetail("voxel  12  40  7\nbandwidth 0.31 mm");
+  overlay->AddTo(renderer);
+}
+
+void buildSliders(const std::string& fault, vtkRenderer* renderer)
+{
+  applyBackground(renderer);
+  auto* interactor = lasting<vtkRenderWindowInteractor>();
+  interactor->SetRenderWindow(renderer->GetRenderWindow());
+  auto* sliders = lasting<vtkHapticSliders>();
+  sliders->SetInteractor(interactor);
+  sliders->SetValue(vtkHapticSliders::Friction, fault == "wrong-value" ? 0.65 : 0.3);
+  sliders->SetVisibility(true);
+}
+
+void buildChart(const std::string& fault, vtkRenderer* renderer)
+{
+  auto* chart = lasting<vtkHapticChart>();
+  const double peak = fault == "wrong-force" ? 1.8 : 1.5;
+  for (int i = 0; i <= 2000; ++i)
+  {
+    const double seconds = 0.001 * i;
+    const double newtons = peak * std::max(0.0, std::sin(3.0 * seconds));
+    chart->AddSample(seconds, newtons, 0.002 + 0.0005 * std::sin(2.0 * seconds));
+  }
+  chart->Update();
+  renderer->DrawOff();
+  renderer->GetRenderWindow()->AddRenderer(chart->GetRenderer());
+}
+
+} // namespace testing
+} // namespace pointhaptics

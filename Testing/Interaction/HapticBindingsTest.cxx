@@ -1,0 +1,60 @@
+#include "HapticBindings.h"
+
+#include <gtest/gtest.h>
+
+using pointhaptics::HapticAction;
+using pointhaptics::HapticBindings;
+
+namespace
+{
+
+TEST(HapticBindings, FindsKeysWithWhateverModifiersAreHeld)
+{
+  const HapticBindings bindings;
+  EXPECT_EQ(bindings.find("h"), HapticAction::Help);
+  EXPECT_EQ(bindings.find("H"), HapticAction::Help);
+  EXPECT_EQ(bindings.find(HapticBindings::gestureOf("plus", false, true)), HapticAction::ZoomIn);
+  EXPECT_EQ(bindings.find(HapticBindings::gestureOf("Prior", true, false)), HapticAction::HandAway);
+  EXPECT_EQ(bindings.find("F13"), HapticAction::None);
+  EXPECT_EQ(bindings.find(""), HapticAction::None);
+}
+
+TEST(HapticBindings, TellsCasesAndModifiersApartWhereBothAreBound)
+{
+  const HapticBindings bindings;
+  EXPECT_EQ(bindings.find("z"), HapticAction::TurnZ);
+  EXPECT_EQ(bindings.find(HapticBindings::gestureOf("z", false, true)), HapticAction::TurnBackZ);
+  EXPECT_EQ(bindings.find(HapticBindings::gestureOf("z", true, false)), HapticAction::UndoModel);
+}
+
+TEST(HapticBindings, DoesNotTakeAnUnboundDragForThePlainOne)
+{
+  const HapticBindings bindings;
+  EXPECT_EQ(bindings.find("Ctrl+Shift+left"), HapticAction::ShiftModelDrag);
+  EXPECT_EQ(bindings.find("Ctrl+right"), HapticAction::None);
+}
+
+TEST(HapticBindings, TakesAGestureFromTheActionThatHadIt)
+{
+  HapticBindings bindings;
+  EXPECT_TRUE(bindings.set(HapticAction::TurnModelDrag, "left Shift+right left"));
+  EXPECT_EQ(bindings.get(HapticAction::TurnModelDrag), "Shift+right left");
+  EXPECT_EQ(bindings.get(HapticAction::TurnViewDrag), "");
+  EXPECT_EQ(bindings.find("left"), HapticAction::TurnModelDrag);
+  EXPECT_EQ(bindings.find("Shift+left"), HapticAction::None);
+  EXPECT_FALSE(bindings.set(HapticAction::None, "h"));
+  EXPECT_EQ(bindings.find("h"), HapticAction::Help);
+}
+
+TEST(HapticBindings, DescribesWhatIsBoundAndNothingElse)
+{
+  HapticBindings bindings;
+  bindings.set(HapticAction::Screenshot, "F2");
+  bindings.set(HapticAction::UndoModel, "");
+  const std::string text = bindings.describe();
+  EXPECT_NE(text.find("F2 "), std::string::npos);
+  EXPECT_EQ(text.find("undo"), std::string::npos);
+  EXPECT_NE(text.find("Shift+left drag, x, X, y, Y, z, Z"), std::string::npos);
+}
+
+} // namespace
