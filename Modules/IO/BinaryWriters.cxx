@@ -154,13 +154,18 @@ std::string shortestDecimal(double value)
   return { text, std::to_chars(text, text + sizeof(text), value).ptr };
 }
 
-void writeRecords(
-  const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType rows, OutputStream& out)
+void writeRecords(const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType rows,
+  WriteTask& task, double begin)
 {
   constexpr vtkIdType kBlock = 8192;
+  static_assert(kProgressRows % kBlock == 0, "a report falls on the start of a block");
   std::vector<char> block(recordSize * static_cast<std::size_t>(std::min(kBlock, rows)));
   for (vtkIdType row = 0; row < rows; row += kBlock)
   {
+    if (row % kProgressRows == 0)
+    {
+      task.progress(begin + (1.0 - begin) * static_cast<double>(row) / static_cast<double>(rows));
+    }
     const vtkIdType count = std::min(kBlock, rows - row);
     for (const RecordField& field : fields)
     {
@@ -169,13 +174,14 @@ void writeRecords(
       copyStrided(
         source, { block.data() + field.offset, static_cast<std::ptrdiff_t>(recordSize), field.type }, count);
     }
-    out.write(block.data(), recordSize * static_cast<std::size_t>(count));
+    task.out.write(block.data(), recordSize * static_cast<std::size_t>(count));
   }
+  task.progress(1.0);
 }
 
-void writePly(const std::vector<OutputArray>& given, OutputStream& out, WriterNotes& notes)
+void writePly(const std::vector<OutputArray>& given, WriteTask& task)
 {
-  const std::vector<OutputArray> arrays = withoutLongIntegers(given, notes);
+  const std::vector<OutputArray> arrays = withoutLongIntegers(given, task.notes);
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
   std::string header = "ply\nformat ";
   header += kIsLittleEndianHost ? "binary_little_endian" : "binary_big_endian";
@@ -191,11 +197,11 @@ void writePly(const std::vector<OutputArray>& given, OutputStream& out, WriterNo
     }
     addRecordFields(fields, recordSize, array);
   }
-  out.write(header + "end_header\n");
-  writeRecords(fields, recordSize, rows, out);
+  task.out.write(header + "end_header\n");
+  writeRecords(fields, recordSize, rows, task);
 }
 
-void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, OutputStream& out)
+void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task)
 {
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
   PcdFieldLines lines;
@@ -226,9 +232,9 @@ void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, O
     }
     addRecordFields(fields, recordSize, array);
   }
-  out.write(
+  task.out.write(
     "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + lines.text() + pcdShape(fieldData, rows));
-  writeRecords(fields, recordSize, rows, out);
+  writeRecords(fields, recordSize, rows, task);
 }
 
 } // namespace pointhaptics::io

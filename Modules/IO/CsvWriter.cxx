@@ -40,7 +40,7 @@ struct CsvColumn
 
 } // namespace
 
-void writeCsv(const std::vector<OutputArray>& arrays, OutputStream& out)
+void writeCsv(const std::vector<OutputArray>& arrays, WriteTask& task)
 {
   std::string header;
   std::vector<CsvColumn> columns;
@@ -57,12 +57,16 @@ void writeCsv(const std::vector<OutputArray>& arrays, OutputStream& out)
       columns.push_back(column);
     }
   }
-  out.write(header + "\n");
+  task.out.write(header + "\n");
   std::vector<char> buffer(kFlushAt + columns.size() * (kLongestNumber + 1));
   char* end = buffer.data();
   const vtkIdType rows = arrays[0].array->GetNumberOfTuples();
   for (vtkIdType row = 0; row < rows; ++row)
   {
+    if (row % kProgressRows == 0)
+    {
+      task.progress(static_cast<double>(row) / static_cast<double>(rows));
+    }
     for (const CsvColumn& column : columns)
     {
       end = column.append(column.view.first + row * column.view.stride, end);
@@ -71,11 +75,12 @@ void writeCsv(const std::vector<OutputArray>& arrays, OutputStream& out)
     end[-1] = '\n';
     if (static_cast<std::size_t>(end - buffer.data()) >= kFlushAt)
     {
-      out.write(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
+      task.out.write(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
       end = buffer.data();
     }
   }
-  out.write(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
+  task.out.write(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
+  task.progress(1.0);
 }
 
 } // namespace pointhaptics::io

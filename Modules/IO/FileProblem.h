@@ -25,8 +25,8 @@ public:
   unsigned long code; ///< One of vtkErrorCode::ErrorIds.
 };
 
-/// Reading was stopped from a progress observer (vtkAlgorithm::AbortExecute).
-class ReadingStopped : public std::exception
+/// Reading or writing was stopped from a progress observer (vtkAlgorithm::AbortExecute).
+class StoppedOnRequest : public std::exception
 {
 };
 

@@ -1,6 +1,6 @@
 /// @file
 /// The readers behind vtkPointCloudReader, one per format. Each fills an empty vtkPolyData with points,
-/// arrays and vertices, names the format in task.format, and throws FileProblem, ReadingStopped or
+/// arrays and vertices, names the format in task.format, and throws FileProblem, StoppedOnRequest or
 /// std::bad_alloc. Sizes that a file claims are checked against its length before anything is allocated.
 #pragma once
 

@@ -1,9 +1,9 @@
 /// @file
-/// The writers behind vtkPointCloudWriter that are our own. Each writes a whole file and throws FileProblem.
+/// The writers behind vtkPointCloudWriter that are our own. Each writes a whole file, reports progress up to
+/// 1, and throws FileProblem or StoppedOnRequest.
 #pragma once
 
-#include "OutputColumns.h"
-#include "OutputStream.h"
+#include "WriteTask.h"
 
 #include <string>
 #include <vector>
@@ -14,19 +14,18 @@ namespace pointhaptics::io
 {
 
 /// Binary PLY in this machine's byte order; points as float or double; one scalar property per component.
-void writePly(const std::vector<OutputArray>& arrays, OutputStream& out, WriterNotes& notes);
+void writePly(const std::vector<OutputArray>& arrays, WriteTask& task);
 
 /// Binary PCD; @p fieldData may hold Viewpoint (7) and OrganizedDimensions (width, height).
-void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, OutputStream& out);
+void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task);
 
 /// Comma separated text with a header; each number with the fewest digits that give it back exactly.
-void writeCsv(const std::vector<OutputArray>& arrays, OutputStream& out);
+void writeCsv(const std::vector<OutputArray>& arrays, WriteTask& task);
 
 /// LAS 1.2, or 1.4 where the arrays or well-known text need it. Arrays that the reader makes of LAS fields
 /// become these again, others extra bytes; @p fieldData may hold LasScale, LasOffset, LasGlobalEncoding and
 /// CoordinateSystem.
-void writeLas(
-  const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, OutputStream& out, WriterNotes& notes);
+void writeLas(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task);
 
 /// The fewest digits that give @p value back.
 std::string shortestDecimal(double value);
@@ -39,8 +38,8 @@ struct RecordField
   int type = 0;           ///< VTK type in the record
 };
 
-/// Writes @p rows records of @p recordSize bytes, block by block.
-void writeRecords(
-  const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType rows, OutputStream& out);
+/// Writes @p rows records of @p recordSize bytes, block by block, with progress from @p begin to 1.
+void writeRecords(const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType rows,
+  WriteTask& task, double begin = 0.0);
 
 } // namespace pointhaptics::io

@@ -25,6 +25,8 @@ using Byte = std::uint8_t;
 constexpr std::size_t kLongestName = 32;
 constexpr std::size_t kMostRecord = 65535; ///< 16 bits hold the length of a record
 constexpr double kScanAngleStep = 0.006;   ///< degrees, point formats 6 to 10
+constexpr double kGridPart = 0.6;          ///< of the work: finding the grid
+constexpr double kPlanningPart = 0.7;      ///< of the work: all that comes before the first record
 
 /// LAS's number for the type of an extra field.
 int codeOf(int type)
@@ -41,15 +43,16 @@ int codeOf(int type)
 class LasWriter
 {
 public:
-  LasWriter(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriterNotes& notes)
+  LasWriter(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task)
     : arrays_(arrays)
     , taken_(arrays.size(), false)
     , fieldData_(fieldData)
-    , notes_(notes)
+    , task_(task)
+    , notes_(task.notes)
     , rows_(arrays[0].array->GetNumberOfTuples())
   {
   }
-  void write(OutputStream& out);
+  void write();
 
 private:
   const OutputArray* take(const char* name, int type, int components = 1);
@@ -71,6 +74,7 @@ private:
   const std::vector<OutputArray>& arrays_;
   std::vector<bool> taken_;
   vtkFieldData* fieldData_;
+  WriteTask& task_;
   WriterNotes& notes_;
   const vtkIdType rows_;
 
@@ -218,6 +222,7 @@ void LasWriter::planPositions()
       static_cast<std::size_t>(4 * axis), VTK_TYPE_INT32 });
     step = grid.largestError > worst ? grid.scale : step;
     worst = std::max(worst, grid.largestError);
+    task_.progress(kGridPart * (axis + 1) / 3);
   }
   if (worst > 0.0)
   {
@@ -401,7 +406,7 @@ std::string LasWriter::header(std::size_t pointsOffset, std::uint32_t records, s
   return bytes;
 }
 
-void LasWriter::write(OutputStream& out)
+void LasWriter::write()
 {
   takeStandardArrays();
   extended_ = needsExtended();
@@ -425,16 +430,15 @@ void LasWriter::write(OutputStream& out)
     ++count;
   }
   const std::size_t headerSize = header(0, count, encoding).size();
-  out.write(header(headerSize + records.size(), count, encoding) + records);
-  writeRecords(fields_, recordSize_, rows_, out);
+  task_.out.write(header(headerSize + records.size(), count, encoding) + records);
+  writeRecords(fields_, recordSize_, rows_, task_, kPlanningPart);
 }
 
 } // namespace
 
-void writeLas(
-  const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, OutputStream& out, WriterNotes& notes)
+void writeLas(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task)
 {
-  LasWriter(arrays, fieldData, notes).write(out);
+  LasWriter(arrays, fieldData, task).write();
 }
 
 } // namespace pointhaptics::io

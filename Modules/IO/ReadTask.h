@@ -3,18 +3,15 @@
 #pragma once
 
 #include "FileProblem.h"
-
-#include "vtkAlgorithm.h"
-#include "vtkType.h"
+#include "Progress.h"
 
 #include <string>
 #include <string_view>
 
+class vtkAlgorithm;
+
 namespace pointhaptics::io
 {
-
-/// Rows between two progress reports: a few reports per 100,000 points.
-constexpr vtkIdType kProgressRows = 32768;
 
 /// Part of the progress that reading the bytes takes; parsing them takes the rest.
 constexpr double kReadingPart = 0.3;
@@ -28,20 +25,12 @@ struct ReadTask
   vtkAlgorithm* algorithm = nullptr;
   std::string format; ///< out: "PLY (binary little endian)", as soon as it is known
 
-  /// Reports how much of the parsing is done, 0..1. @throws ReadingStopped when an observer asked to stop.
-  void progress(double fraction) const { report(kReadingPart + (1.0 - kReadingPart) * fraction); }
+  /// Reports how much of the parsing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop.
+  void progress(double fraction) const { reportProgress(algorithm, overall(fraction)); }
+  /// What part of the whole work is done when @p fraction of the parsing is.
+  static double overall(double fraction) { return kReadingPart + (1.0 - kReadingPart) * fraction; }
   /// The same for reading the bytes.
-  void readingProgress(double fraction) const { report(kReadingPart * fraction); }
-
-private:
-  void report(double fraction) const
-  {
-    algorithm->UpdateProgress(fraction);
-    if (algorithm->GetAbortExecute())
-    {
-      throw ReadingStopped();
-    }
-  }
+  void readingProgress(double fraction) const { reportProgress(algorithm, kReadingPart * fraction); }
 };
 
 } // namespace pointhaptics::io

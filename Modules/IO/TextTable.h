@@ -40,7 +40,7 @@ struct TextTable
 
 /// Looks at every number of @p text, and keeps none: the arrays can be made as large as they must be.
 /// @throws FileProblem with the line number of what is not a number, or of a line with more or fewer columns
-/// than the first; ReadingStopped.
+/// than the first; StoppedOnRequest.
 TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout);
 
 /// Stores every number in its place, one target per column. @pre surveyTable() went well.
@@ -48,7 +48,7 @@ void storeTable(const ReadTask& task, std::string_view text, const TextLayout& l
   const std::vector<ColumnView>& targets);
 
 /// Fills @p cloud with the points and arrays of a table: the columns are called as in @p layout, or as their
-/// number and values suggest. @throws FileProblem; ReadingStopped.
+/// number and values suggest. @throws FileProblem; StoppedOnRequest.
 void readTable(const ReadTask& task, std::string_view text, const TextLayout& layout, vtkPolyData* cloud);
 
 } // namespace pointhaptics::io

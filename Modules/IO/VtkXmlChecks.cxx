@@ -136,12 +136,17 @@ void checkArrayBytes(const DataLayout& layout, std::size_t position, bool isBase
     failTruncated(at(position) + "an array of " + std::to_string(first) + " blocks, but only " +
       std::to_string(words.remaining()) + " bytes follow");
   }
-  if (first == 0)
-  {
-    return;
-  }
   const std::uint64_t blockSize = words.next();
   const std::uint64_t lastSize = words.next();
+  if (first == 0)
+  {
+    // VTK would take the last block's size for that of data which are there.
+    if (lastSize > 0)
+    {
+      failDamaged(position, "an array of no blocks, the last of " + std::to_string(lastSize) + " bytes");
+    }
+    return;
+  }
   const double unpacked = static_cast<double>(first) * static_cast<double>(blockSize);
   const std::uint64_t most = words.remaining();
   if (lastSize > blockSize ||

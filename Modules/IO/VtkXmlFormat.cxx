@@ -70,7 +70,8 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
       "unpack it first: gunzip -k FILE");
   }
   checkVtkXml(task.bytes);
-  task.progress(0.1);
+  constexpr double kCheckPart = 0.1;
+  task.progress(kCheckPart);
   vtkNew<ErrorCollector> errors;
   // The executive adds a message of its own to each failure of its algorithm.
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
@@ -79,7 +80,9 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
   reader->SetReaderErrorObserver(errors);
   reader->SetParserErrorObserver(errors);
   reader->SetFileName(task.path.c_str());
+  RelayedProgress progress(reader, task.algorithm, task.overall(kCheckPart), 1.0);
   reader->Update();
+  progress.finish();
   vtkPointSet* read = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (!errors->first().empty() || reader->GetErrorCode() != vtkErrorCode::NoError)
   {

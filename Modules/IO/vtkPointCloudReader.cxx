@@ -182,7 +182,7 @@ int vtkPointCloudReader::RequestData(
   {
     this->Fail(problem.code, problem.what());
   }
-  catch (const io::ReadingStopped&)
+  catch (const io::StoppedOnRequest&)
   {
     this->ErrorMessage = std::string(this->FileName) + ": reading was stopped on request; read it again";
     this->SetErrorCode(vtkErrorCode::UserError);

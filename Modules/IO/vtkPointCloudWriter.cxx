@@ -5,7 +5,7 @@
 #include "FileBytes.h"
 #include "FileProblem.h"
 #include "FormatWriters.h"
-#include "OutputStream.h"
+#include "WriteTask.h"
 
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
@@ -27,7 +27,27 @@ vtkStandardNewMacro(vtkPointCloudWriter);
 namespace
 {
 
-void writeVtp(vtkPointSet* cloud, const std::string& path)
+/// VTK's writer takes no notice of AbortExecute; this one does at each progress report, at least once an
+/// array: the rest is written nowhere, and Write() fails.
+class VtpWriter : public vtkXMLPolyDataWriter
+{
+public:
+  static VtpWriter* New();
+  vtkTypeMacro(VtpWriter, vtkXMLPolyDataWriter);
+
+protected:
+  void UpdateProgressDiscrete(float progress) override
+  {
+    this->Superclass::UpdateProgressDiscrete(progress);
+    if (this->AbortExecute && this->Stream)
+    {
+      this->Stream->setstate(std::ios::badbit);
+    }
+  }
+};
+vtkStandardNewMacro(VtpWriter);
+
+void writeVtp(vtkPointSet* cloud, const io::WriteTask& task)
 {
   vtkNew<vtkPolyData> written;
   if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(cloud))
@@ -45,16 +65,19 @@ void writeVtp(vtkPointSet* cloud, const std::string& path)
     io::setOneVertexPerPoint(written);
   }
   vtkNew<io::ErrorCollector> errors;
-  vtkNew<vtkXMLPolyDataWriter> writer;
+  vtkNew<VtpWriter> writer;
   writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   writer->AddObserver(vtkCommand::ErrorEvent, errors);
   writer->SetInputData(written);
-  writer->SetFileName(path.c_str());
+  writer->SetFileName(task.out.path().c_str());
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToNone();
   writer->SetHeaderTypeToUInt64();
-  if (!writer->Write() || !errors->first().empty())
+  io::RelayedProgress progress(writer, task.algorithm, 0.0, 1.0);
+  const bool isWritten = writer->Write() == 1;
+  progress.finish();
+  if (!isWritten || !errors->first().empty())
   {
     const bool full = writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError;
     throw io::FileProblem(full ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError,
@@ -197,41 +220,41 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
     io::failFormat(
       "the cloud holds no points", "check the steps before: was the workspace away from the cloud?");
   }
-  io::OutputStream out(this->FileName);
-  io::WriterNotes notes;
+  io::WriteTask task(this->FileName, this);
+  task.progress(0.0);
   if (this->Format == "VTP")
   {
-    if (!out.isReplacing())
+    if (!task.out.isReplacing())
     {
       throw io::FileProblem(vtkErrorCode::CannotOpenFileError,
         "VTP files cannot be written to a pipe or a device",
         "choose the name of a new file, or .ply, .pcd, .las or .csv");
     }
-    writeVtp(cloud, out.path());
+    writeVtp(cloud, task);
   }
   else
   {
-    noteWhatIsNoColumn(cloud, format->keptFieldData, notes);
-    const std::vector<io::OutputArray> arrays = io::outputArrays(cloud, notes);
+    noteWhatIsNoColumn(cloud, format->keptFieldData, task.notes);
+    const std::vector<io::OutputArray> arrays = io::outputArrays(cloud, task.notes);
     if (this->Format == "PLY")
     {
-      io::writePly(arrays, out, notes);
+      io::writePly(arrays, task);
     }
     else if (this->Format == "PCD")
     {
-      io::writePcd(arrays, cloud->GetFieldData(), out);
+      io::writePcd(arrays, cloud->GetFieldData(), task);
     }
     else if (this->Format == "LAS")
     {
-      io::writeLas(arrays, cloud->GetFieldData(), out, notes);
+      io::writeLas(arrays, cloud->GetFieldData(), task);
     }
     else
     {
-      io::writeCsv(arrays, out);
+      io::writeCsv(arrays, task);
     }
   }
-  out.commit();
-  this->Notes = notes.all;
+  task.out.commit();
+  this->Notes = task.notes.all;
 }
 
 void vtkPointCloudWriter::WriteData()
@@ -248,6 +271,11 @@ void vtkPointCloudWriter::WriteData()
   catch (const io::FileProblem& problem)
   {
     this->Fail(problem.code, problem.what());
+  }
+  catch (const io::StoppedOnRequest&)
+  {
+    this->ErrorMessage = std::string(this->FileName) + ": writing was stopped on request; write it again";
+    this->SetErrorCode(vtkErrorCode::UserError);
   }
   catch (const std::bad_alloc&)
   {

@@ -14,8 +14,8 @@
  *   "Viewpoint" and "OrganizedDimensions" as the header's VIEWPOINT, WIDTH and HEIGHT.
  * - .las: LAS 1.2, or 1.4 where needed. Coordinates become integers: on the grid of the file they come from
  *   (field data "LasScale", "LasOffset"), or on one of whole decimals, where that gives every bit back, else
- * on the finest one that spans the cloud. Arrays under the names vtkPointCloudReader gives to LAS fields
- * become these, "RGB" becomes the colour, and all others become extra bytes. NaN points are refused.
+ *   on the finest one that spans the cloud. Arrays under the names vtkPointCloudReader gives to LAS fields
+ *   become these, "RGB" becomes the colour, and all others become extra bytes. NaN points are refused.
  * - .csv: header x,y,z,<arrays>, arrays of several components as name_0,name_1,...; each number with the
  *   fewest digits that give back the same value. Types are not stored: float arrays may be read as double.
  *
@@ -25,6 +25,11 @@
  * The file is written beside its target under a temporary name and renamed when complete: after a fault the
  * target is as it was before. Write() returns 1, or 0 with an error code (vtkErrorCode), a vtkErrorMacro and
  * GetErrorMessage() `file: format: what; cure`.
+ *
+ * ProgressEvent is invoked from 0 to 1 while it writes. An observer that sets AbortExecute stops it, within
+ * 32768 points (.ply, .pcd, .csv), one axis (.las, while it seeks a grid) or one array (.vtp):
+ * Write() returns 0 with vtkErrorCode::UserError and a message, without an error event, and the target is as
+ * it was before.
  *
  * One writer serves one thread at a time.
  *

@@ -305,4 +305,16 @@ TEST_F(Bench, ServoLoopTouchesRightlyAndTellsItsTimes)
   }
 }
 
+TEST_F(Bench, ServoLoopRunsOnlyTheRowsThatWereAskedFor)
+{
+  const json result = json::parse(this->succeed({ "bench", "servo", "--quick", "--seconds", "0.5", "--hands",
+    "simulated", "--loads", "idle", "--rates", "10000", "--json" }));
+  const json& rows = result["loop"]["rows"];
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0]["rate_hz"], 10000.0);
+  EXPECT_EQ(rows[0]["load"], "idle");
+  this->refuse(1, { "bench", "servo", "--quick", "--hands", "falcon", "--rates", "10000" },
+    { "1000 Hz only", "--rates" });
+}
+
 } // namespace

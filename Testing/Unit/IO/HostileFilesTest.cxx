@@ -133,6 +133,8 @@ TEST_F(HostileFiles, SizesThatVtkWouldBelieveAreCheckedFirst)
     readCloud(write("a.vtp", makeVtp({ 1, 24, 0xffffffff, 9 }, packed, true))), "said to be packed");
   expectRefused(
     readCloud(write("a.vtp", makeVtp({ 2, 24, 0, 50, 0xfffffff0 }, packed, true))), "that follow");
+  expectRefused(readCloud(write("a.vtp", makeVtp({ 0, 24, 9 }, packed, true))), "array of no blocks");
+  expectRefused(readCloud(write("a.vtp", makeVtp({ 0, 0, 24 }, packed, true))), "array of no blocks");
   expectRefused(
     readCloud(write("a.vtp", makeVtp({ 24 }, points, false, "0", "<!DOCTYPE a [<!ENTITY b \"c\">]>\n"))),
     "entities");

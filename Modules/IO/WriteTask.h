@@ -1,0 +1,34 @@
+/// @file
+/// What every format writer gets: where the bytes go, where to report progress, and where to note losses.
+#pragma once
+
+#include "OutputColumns.h"
+#include "OutputStream.h"
+#include "Progress.h"
+
+#include <string>
+
+class vtkAlgorithm;
+
+namespace pointhaptics::io
+{
+
+/// Lives during one write, in one thread.
+struct WriteTask
+{
+  WriteTask(const std::string& target, vtkAlgorithm* writer)
+    : out(target)
+    , algorithm(writer)
+  {
+  }
+
+  OutputStream out;
+  WriterNotes notes;
+  vtkAlgorithm* algorithm;
+
+  /// Reports how much of the writing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop:
+  /// then the unfinished file goes with this object.
+  void progress(double fraction) const { reportProgress(algorithm, fraction); }
+};
+
+} // namespace pointhaptics::io
