@@ -1,7 +1,5 @@
 #include "ViewSettings.h"
 
-#include "OptionParsing.h"
-
 #include "Core/OutputFile.h"
 
 #include <CLI/CLI.hpp>
@@ -30,19 +28,16 @@ const std::set<std::string>& deeds()
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
   "translate", "unit", "path", "up", "color-by", "together" };
 
+/// A number where it reads back as it was written, else text: an array may be called 1e3.
 nlohmann::ordered_json valueOf(const CLI::Option& option)
 {
   const std::string text = fmt::format("{}", fmt::join(option.results(), ","));
-  double number = 0.0;
   if (option.get_expected_max() == 0) // a flag
   {
     return text != "false";
   }
-  if (parseNumber(text, number) && std::isfinite(number))
-  {
-    return number;
-  }
-  return text;
+  const nlohmann::ordered_json value = nlohmann::ordered_json::parse(text, nullptr, false);
+  return value.is_number() && value.dump() == text ? value : nlohmann::ordered_json(text);
 }
 
 } // namespace

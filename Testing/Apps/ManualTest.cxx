@@ -76,6 +76,15 @@ TEST_F(ViewConfiguration, ComesBackThroughConfigAndGivesWayToTheCommandLine)
   EXPECT_EQ(settings, nlohmann::json::parse(R"({"stiffness": 300.0, "dims": 50.0, "smooth": true})"));
 }
 
+TEST_F(ViewConfiguration, KeepsNamesThatLookLikeNumbers)
+{
+  const nlohmann::json settings =
+    this->written({ "--color-by", "1e3", "--neighbors", "20", "--beta", "2.50" });
+  EXPECT_EQ(settings, nlohmann::json::parse(R"({"color-by": "1e3", "neighbors": 20, "beta": "2.50"})"));
+  this->write("first.json", settings.dump());
+  EXPECT_EQ(this->written({ "--config", "first.json" }), settings);
+}
+
 TEST_F(ViewConfiguration, LeavesOutWhatIsADeedAndNoState)
 {
   EXPECT_EQ(this->written({ "--screenshot", "picture.png", "--verbose" }), nlohmann::json::object());
