@@ -312,8 +312,8 @@ TEST_F(Bench, ServoTimesTheRoundTripWhereAFalconCanBeEmulated)
   {
     GTEST_SKIP() << "built without umockdev (packages libumockdev-dev, umockdev)";
   }
-  const json result =
-    json::parse(this->succeed({ "bench", "servo", "--quick", "--seconds", "0.5", "--json" }));
+  const json result = json::parse(this->succeed({ "bench", "servo", "--quick", "--seconds", "0.5", "--hands",
+    "simulated", "--loads", "idle", "--rates", "1000", "--json" }));
   const json& rows = result["round_trip"]["rows"];
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0]["right"], true) << rows;
@@ -321,6 +321,18 @@ TEST_F(Bench, ServoTimesTheRoundTripWhereAFalconCanBeEmulated)
   const json& times = rows[0]["round_trip_seconds"];
   EXPECT_GT(times["p50"], 0.0);
   EXPECT_LE(times["p50"], times["max"]);
+}
+
+TEST_F(Bench, ServoLoopRunsOnlyTheRowsThatWereAskedFor)
+{
+  const json result = json::parse(this->succeed({ "bench", "servo", "--quick", "--seconds", "0.5", "--hands",
+    "simulated", "--loads", "idle", "--rates", "10000", "--json" }));
+  const json& rows = result["loop"]["rows"];
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0]["rate_hz"], 10000.0);
+  EXPECT_EQ(rows[0]["load"], "idle");
+  this->refuse(1, { "bench", "servo", "--quick", "--hands", "falcon", "--rates", "10000" },
+    { "1000 Hz only", "--rates" });
 }
 
 } // namespace

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+
 namespace pointhaptics
 {
 namespace bench
@@ -35,6 +38,57 @@ std::string fourOf(const LatencyHistogram::Summary& s)
     microseconds(s.maximum));
 }
 
+/// A row's place on one of the three axes, as the command line and the code call it.
+template <class Value>
+struct Choice
+{
+  const char* word;
+  Value value;
+};
+
+constexpr Choice<Hand> kHands[] = { { "simulated", Hand::Simulated }, { "falcon", Hand::Falcon } };
+constexpr Choice<Load> kLoads[] = { { "idle", Load::Idle }, { "busy", Load::Busy },
+  { "drawing", Load::Rendering } };
+constexpr Choice<double> kRates[] = { { "1000", 1000.0 }, { "10000", 10000.0 } };
+
+template <class Value, std::size_t Count>
+std::vector<std::string> wordsOf(const Choice<Value> (&choices)[Count])
+{
+  std::vector<std::string> words;
+  for (const Choice<Value>& choice : choices)
+  {
+    words.emplace_back(choice.word);
+  }
+  return words;
+}
+
+bool isWanted(const char* word, const std::vector<std::string>& wanted)
+{
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), word) != wanted.end();
+}
+
+std::vector<Setting> settingsOf(const ServoBenchmarkOptions& options)
+{
+  std::vector<Setting> settings;
+  for (const auto& hand : kHands)
+  {
+    for (const auto& load : kLoads)
+    {
+      for (const auto& rate : kRates)
+      {
+        const bool tooFast = rate.value > 1000.0 && hand.value == Hand::Falcon;
+        const bool cannot = tooFast || (load.value == Load::Rendering && !options.rendering);
+        if (!cannot && isWanted(hand.word, options.hands) && isWanted(load.word, options.loads) &&
+          isWanted(rate.word, options.rates))
+        {
+          settings.push_back({ hand.value, load.value, rate.value, options.seconds });
+        }
+      }
+    }
+  }
+  return settings;
+}
+
 bool addRow(const Setting& setting, const Outcome& outcome, ReportPart& part)
 {
   const ServoStatistics& s = outcome.statistics;
@@ -62,6 +116,21 @@ std::string grant(const ServoStatistics& s)
 
 } // namespace
 
+std::vector<std::string> handWords()
+{
+  return wordsOf(kHands);
+}
+
+std::vector<std::string> loadWords()
+{
+  return wordsOf(kLoads);
+}
+
+std::vector<std::string> rateWords()
+{
+  return wordsOf(kRates);
+}
+
 Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& progress, bool& allRight)
 {
   Report report;
@@ -83,27 +152,21 @@ Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& prog
   part.text = fmt::format("{} points; {:g} s for each row.", grouped(options.points), options.seconds);
   part.table.header = { "hand", "machine", "Hz", "step us: p50 / p99 / p99.9 / max",
     "lateness us: p50 / p99 / p99.9 / max", "ticks", "missed", "achieved Hz", "force" };
+  const std::vector<Setting> settings = settingsOf(options);
+  if (settings.empty())
+  {
+    allRight = true;
+    return report;
+  }
   const auto scene = sphereScene(options.points);
   allRight = scene != nullptr;
   ServoStatistics last;
-  for (const Hand hand : { Hand::Simulated, Hand::Falcon })
+  for (const Setting& setting : settings)
   {
-    for (const Load load : { Load::Idle, Load::Busy, Load::Rendering })
-    {
-      for (const double rate : { 1000.0, 10000.0 })
-      {
-        const bool tooFast = rate > 1000.0 && hand == Hand::Falcon;
-        if (tooFast || (load == Load::Rendering && !options.rendering))
-        {
-          continue;
-        }
-        progress(fmt::format("{}, {}, {:g} Hz", name(hand), name(load), rate));
-        const Setting setting{ hand, load, rate, options.seconds };
-        const Outcome outcome = run(setting, scene);
-        allRight = addRow(setting, outcome, part) && allRight;
-        last = outcome.statistics;
-      }
-    }
+    progress(fmt::format("{}, {}, {:g} Hz", name(setting.hand), name(setting.load), setting.rateHz));
+    const Outcome outcome = run(setting, scene);
+    allRight = addRow(setting, outcome, part) && allRight;
+    last = outcome.statistics;
   }
   part.remarks.push_back(grant(last));
   if (report.machine.load > kQuietLoad)

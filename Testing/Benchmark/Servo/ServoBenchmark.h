@@ -4,6 +4,9 @@
 
 #include "Benchmark/Report.h"
 
+#include <string>
+#include <vector>
+
 namespace pointhaptics
 {
 namespace bench
@@ -16,8 +19,15 @@ struct ServoBenchmarkOptions
   int points = 543652;
   double seconds = 10.0; ///< Of each run.
   bool rendering = true; ///< There is a display.
+  /// Which rows: of handWords(), loadWords(), rateWords(); empty: all.
+  std::vector<std::string> hands, loads, rates;
 };
 
+std::vector<std::string> handWords();
+std::vector<std::string> loadWords();
+std::vector<std::string> rateWords();
+
+/// A report without parts where no row is left: the Falcon runs at 1000 Hz only, drawing needs a display.
 /// @p allRight: in every run the hand touched, and the force was that of the ideal sphere within 5 % of the
 /// largest one.
 Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& progress, bool& allRight);
