@@ -325,6 +325,24 @@ TEST_F(Bench, ServoLoopTouchesRightlyAndTellsItsTimes)
   }
 }
 
+TEST_F(Bench, ServoTimesTheRoundTripWhereAFalconCanBeEmulated)
+{
+  const std::filesystem::path program(POINTHAPTICS_PROGRAM);
+  if (!std::filesystem::exists(program.parent_path() / "PointHapticsRoundTrip"))
+  {
+    GTEST_SKIP() << "built without umockdev (packages libumockdev-dev, umockdev)";
+  }
+  const json result = json::parse(this->succeed({ "bench", "servo", "--quick", "--seconds", "0.5", "--hands",
+    "simulated", "--loads", "idle", "--rates", "1000", "--json" }));
+  const json& rows = result["round_trip"]["rows"];
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0]["right"], true) << rows;
+  EXPECT_GT(rows[0]["exchanges"], 5) << rows;
+  const json& times = rows[0]["round_trip_seconds"];
+  EXPECT_GT(times["p50"], 0.0);
+  EXPECT_LE(times["p50"], times["max"]);
+}
+
 TEST_F(Bench, ServoLoopRunsOnlyTheRowsThatWereAskedFor)
 {
   const json result = json::parse(this->succeed({ "bench", "servo", "--quick", "--seconds", "0.5", "--hands",

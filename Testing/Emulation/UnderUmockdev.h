@@ -11,8 +11,12 @@ namespace pointhaptics
 namespace trial
 {
 
-/// True where umockdev's library was loaded before all others, as main() of these tests sees to.
+/// True where umockdev's library was loaded before all others, as startUnderUmockdev() sees to.
 bool underUmockdev();
+
+/// The first call of main(): starts the program again with umockdev's library before all others, which is
+/// what makes the devices up. True in the program so started; false where that failed.
+bool startUnderUmockdev(char* argv[]);
 
 class UnderUmockdev : public ::testing::Test
 {

@@ -1,52 +1,13 @@
-// Starts itself again with umockdev's library before all others, which is what makes the devices up.
 #include "UnderUmockdev.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <string>
-
-#include <dlfcn.h>
-#include <sys/prctl.h>
-#include <unistd.h>
-
-namespace
-{
-constexpr const char* kPreload = "libumockdev-preload.so.0";
-constexpr const char* kMark = "POINTHAPTICS_TEST_PRELOADED";
-}
-
-namespace pointhaptics
-{
-namespace trial
-{
-bool underUmockdev()
-{
-  const char* const preload = std::getenv("LD_PRELOAD");
-  return preload && std::string(preload).find(kPreload) != std::string::npos;
-}
-}
-}
-
 int main(int argc, char* argv[])
 {
-  if (!pointhaptics::trial::underUmockdev())
+  if (!pointhaptics::trial::startUnderUmockdev(argv))
   {
-    if (std::getenv(kMark))
-    {
-      std::fprintf(stderr, "umockdev's library cannot be loaded first\n");
-      return 1;
-    }
-    setenv(kMark, "1", 1);
-    // A sanitizer wants to be the very first.
-    void* const sanitizer = dlopen("libasan.so.8", RTLD_NOLOAD | RTLD_LAZY);
-    setenv("LD_PRELOAD", sanitizer ? (std::string("libasan.so.8:") + kPreload).c_str() : kPreload, 1);
-    execv("/proc/self/exe", argv);
-    std::perror("execv");
     return 1;
   }
-  prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -1,5 +1,6 @@
 #include "Benchmark/Servo/ServoBenchmark.h"
 
+#include "Benchmark/Servo/RoundTrip.h"
 #include "Benchmark/Servo/ServoRun.h"
 
 #include <fmt/format.h>
@@ -179,7 +180,21 @@ Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& prog
   {
     part.remarks.push_back("Without a display: the rows with drawing were left out.");
   }
+  progress("round trip against an emulated Falcon");
+  ReportPart roundTrip;
+  const bool hasRoundTrip = roundTripStudy(options.seconds, roundTrip, allRight);
+  if (!hasRoundTrip)
+  {
+    part.remarks.push_back(
+      fmt::format("The round trip against an emulated Falcon was left out: {}, which the tests build where "
+                  "umockdev is found, is not beside this program.",
+        kRoundTripProgram));
+  }
   report.parts.push_back(std::move(part));
+  if (hasRoundTrip)
+  {
+    report.parts.push_back(std::move(roundTrip));
+  }
   return report;
 }
 
