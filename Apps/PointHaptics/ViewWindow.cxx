@@ -1,20 +1,17 @@
 #include "ViewWindow.h"
 
-#include "FileWatch.h"
 #include "HandDevice.h"
 #include "Messages.h"
 #include "StopSignals.h"
 #include "ViewScene.h"
 #include "ViewSettings.h"
-#include "ViewTouch.h"
+#include "ViewWindowInternals.h"
 
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
 #include "vtkHapticSliders.h"
 #include "vtkInteractorStyleHaptic.h"
-#include "vtkKernelBandwidthFilter.h"
-#include "vtkVoxelMeanResampler.h"
 
 #include "Devices/DeviceList.h"
 #include "Devices/PathReplay.h"
@@ -25,19 +22,14 @@
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
-#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
-#include <vtkStringArray.h>
 #include <vtkTransform.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 namespace pointhaptics
@@ -51,91 +43,16 @@ constexpr double kChartHeight = 0.24; // part of the window
 /// Calls of the timer, of 33 ms each, between two looks at the files.
 constexpr int kLooksApart = 8;
 
-/// The first of STEM-001.EXTENSION, STEM-002.EXTENSION, ... after @p last that is not there yet.
-std::string freeFileName(const char* extension, int& last)
+bool falconIsUsable()
 {
-  std::string name;
-  std::error_code error;
-  do
-  {
-    name = fmt::format("pointhaptics-{:03}.{}", ++last, extension);
-  } while (std::filesystem::exists(name, error));
-  return name;
+  std::vector<std::string> notes;
+  const std::vector<ListedDevice> devices = listDevices(notes);
+  return !devices.empty() && devices.front().kind == "falcon" && devices.front().problem.empty();
 }
 
-/// Everything the window needs while it is open. The servo loop stops before what it works on goes away.
-class Window
-{
-public:
-  Window(ViewScene& scene, const ViewOptions& options)
-    : scene_(scene)
-    , options_(options)
-    , parameters_(options.hapticParameters())
-    , files_(options.files)
-  {
-  }
+} // namespace
 
-  bool run(std::string& message);
-
-private:
-  void setUpRendering();
-  bool openDevice(std::string& message);
-  void openSimulated();
-  void openFalcon();
-  void onTimer();
-  bool startServo(std::string& message);
-  void connectStyle();
-  void observe(unsigned long event, void (Window::*handler)(void*));
-  void onSamples(void* callData);
-  void onFilesDropped(void* callData);
-  void onScreenshot(void*);
-  void onNextFile(void*);
-  void onPreviousFile(void*);
-  void onWriteSettings(void*);
-  void onSlider(int slider);
-  void connectSliders();
-  void setContact(const ContactParameters& contact);
-  void showSliderValues();
-  bool show(const std::vector<std::string>& files, bool keepsModel);
-  void showFile(std::size_t index);
-  nlohmann::ordered_json settings();
-  void onModelChanged(void*);
-  void onSceneChanged(void*);
-  void showNote();
-  void tell(const std::string& message);
-  void say(const std::string& news);
-  bool finish(std::string& message);
-
-  ViewScene& scene_;
-  ViewOptions options_;
-  HapticParameters parameters_; ///< As the servo loop has them.
-  double voxelSize_ = 0.0;      ///< As the slider set it, metres; 0: as the options say.
-  std::vector<std::string> files_;
-  std::size_t fileIndex_ = 0;
-  std::vector<std::string> shown_; ///< What the window shows: one of files_, or all together.
-  FileWatch watch_;
-  int sinceLook_ = 0;
-  int writtenSettings_ = 0;
-  vtkNew<vtkRenderWindow> window_;
-  vtkNew<vtkRenderWindowInteractor> interactor_;
-  vtkNew<vtkInteractorStyleHaptic> style_;
-  vtkNew<vtkHapticChart> chart_;
-  vtkNew<vtkHapticChart> wholeChart_; // for --force-chart
-  vtkNew<vtkHapticOverlay> overlay_;
-  vtkNew<vtkHapticSliders> sliders_;
-  TraceFile trace_;
-  int screenshots_ = 0;
-  std::string news_; // last line of the status
-  std::unique_ptr<SimulatedDevice> hand_;
-  std::unique_ptr<PathReplayDevice> replay_;
-  std::unique_ptr<FalconDevice> falcon_;
-  FalconState falconState_ = FalconState::Closed; ///< As the user was told.
-  SpaceMouse spaceMouse_;
-  HapticDevice* device_ = nullptr;
-  ServoLoop servo_; // last: destroyed, and so stopped, first
-};
-
-void Window::setUpRendering()
+void ViewWindow::setUpRendering()
 {
   window_->SetMultiSamples(0);
   window_->SetSize(options_.width, options_.height);
@@ -154,7 +71,7 @@ void Window::setUpRendering()
   scene_.placeCamera();
 }
 
-void Window::openSimulated()
+void ViewWindow::openSimulated()
 {
   SimulatedHandSettings settings;
   settings.workspace = scene_.workspace();
@@ -169,7 +86,7 @@ void Window::openSimulated()
 }
 
 /// Its workspace is the 10 cm cube about the origin, which the cloud is fitted to.
-void Window::openFalcon()
+void ViewWindow::openFalcon()
 {
   falcon_ = std::make_unique<FalconDevice>(options_.falcon.settings());
   device_ = falcon_.get();
@@ -177,14 +94,7 @@ void Window::openFalcon()
   std::fflush(stdout);
 }
 
-bool falconIsUsable()
-{
-  std::vector<std::string> notes;
-  const std::vector<ListedDevice> devices = listDevices(notes);
-  return !devices.empty() && devices.front().kind == "falcon" && devices.front().problem.empty();
-}
-
-bool Window::openDevice(std::string& message)
+bool ViewWindow::openDevice(std::string& message)
 {
   if (!options_.path.empty())
   {
@@ -221,19 +131,19 @@ bool Window::openDevice(std::string& message)
 }
 
 /// After the first scene was published: a path must not begin in an empty world.
-bool Window::startServo(std::string& message)
+bool ViewWindow::startServo(std::string& message)
 {
   const ServoSettings settings = falcon_ ? pushingServoSettings(1000.0) : ServoSettings();
   const Status status = device_ ? servo_.start(*device_, parameters_, settings, &message) : Status::Ok;
   return status == Status::Ok;
 }
 
-void Window::observe(unsigned long event, void (Window::*handler)(void*))
+void ViewWindow::observe(unsigned long event, void (ViewWindow::*handler)(void*))
 {
   struct Link
   {
-    Window* window;
-    void (Window::*handler)(void*);
+    ViewWindow* window;
+    void (ViewWindow::*handler)(void*);
   };
   vtkNew<vtkCallbackCommand> command;
   command->SetClientData(new Link{ this, handler });
@@ -247,7 +157,7 @@ void Window::observe(unsigned long event, void (Window::*handler)(void*))
   style_->AddObserver(event, command);
 }
 
-void Window::connectStyle()
+void ViewWindow::connectStyle()
 {
   double bounds[6];
   scene_.getWorkspaceBounds(bounds);
@@ -261,24 +171,24 @@ void Window::connectStyle()
   style_->SetOverlay(overlay_);
   style_->SetDefaultRenderer(scene_.renderer());
   this->showNote();
-  this->observe(vtkInteractorStyleHaptic::ModelChangedEvent, &Window::onModelChanged);
-  this->observe(vtkInteractorStyleHaptic::SceneChangedEvent, &Window::onSceneChanged);
-  this->observe(vtkInteractorStyleHaptic::SamplesEvent, &Window::onSamples);
-  this->observe(vtkInteractorStyleHaptic::FilesDroppedEvent, &Window::onFilesDropped);
-  this->observe(vtkInteractorStyleHaptic::ScreenshotEvent, &Window::onScreenshot);
-  this->observe(vtkInteractorStyleHaptic::NextFileEvent, &Window::onNextFile);
-  this->observe(vtkInteractorStyleHaptic::PreviousFileEvent, &Window::onPreviousFile);
-  this->observe(vtkInteractorStyleHaptic::WriteSettingsEvent, &Window::onWriteSettings);
+  this->observe(vtkInteractorStyleHaptic::ModelChangedEvent, &ViewWindow::onModelChanged);
+  this->observe(vtkInteractorStyleHaptic::SceneChangedEvent, &ViewWindow::onSceneChanged);
+  this->observe(vtkInteractorStyleHaptic::SamplesEvent, &ViewWindow::onSamples);
+  this->observe(vtkInteractorStyleHaptic::FilesDroppedEvent, &ViewWindow::onFilesDropped);
+  this->observe(vtkInteractorStyleHaptic::ScreenshotEvent, &ViewWindow::onScreenshot);
+  this->observe(vtkInteractorStyleHaptic::NextFileEvent, &ViewWindow::onNextFile);
+  this->observe(vtkInteractorStyleHaptic::PreviousFileEvent, &ViewWindow::onPreviousFile);
+  this->observe(vtkInteractorStyleHaptic::WriteSettingsEvent, &ViewWindow::onWriteSettings);
   interactor_->SetInteractorStyle(style_);
   this->connectSliders();
   vtkNew<vtkCallbackCommand> timer;
   timer->SetClientData(this);
   timer->SetCallback(
-    [](vtkObject*, unsigned long, void* window, void*) { static_cast<Window*>(window)->onTimer(); });
+    [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onTimer(); });
   interactor_->AddObserver(vtkCommand::TimerEvent, timer);
 }
 
-void Window::onSamples(void* callData)
+void ViewWindow::onSamples(void* callData)
 {
   const auto& samples = *static_cast<std::vector<ServoSample>*>(callData);
   if (trace_.isOpen())
@@ -296,7 +206,7 @@ void Window::onSamples(void* callData)
 
 /// 30 times a second: what the device has to say, whether the program is asked to end, and whether a picture
 /// that rests is to become finer.
-void Window::onTimer()
+void ViewWindow::onTimer()
 {
   if (scene_.detail().refinementDue(
         std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count()))
@@ -324,7 +234,7 @@ void Window::onTimer()
   }
 }
 
-void Window::say(const std::string& news)
+void ViewWindow::say(const std::string& news)
 {
   fmt::print("{}\n", news);
   std::fflush(stdout);
@@ -333,28 +243,28 @@ void Window::say(const std::string& news)
 }
 
 /// The scale as it is after all zooming, and the last news.
-void Window::showNote()
+void ViewWindow::showNote()
 {
   const std::string scale = describeScale(style_->GetModelTransform()->GetMatrix());
   style_->SetStatusNote(news_.empty() ? scale : scale + "\n" + news_);
 }
 
 /// On the terminal and in the window.
-void Window::tell(const std::string& message)
+void ViewWindow::tell(const std::string& message)
 {
   fail("view", message);
   news_ = message;
   this->showNote();
 }
 
-void Window::onModelChanged(void*)
+void ViewWindow::onModelChanged(void*)
 {
   news_.clear();
   this->showNote();
 }
 
 /// What VTK classes complained of while the scene was made goes where the user looks.
-void Window::onSceneChanged(void*)
+void ViewWindow::onSceneChanged(void*)
 {
   for (const std::string& error : takeVtkErrors())
   {
@@ -362,195 +272,7 @@ void Window::onSceneChanged(void*)
   }
 }
 
-void Window::onFilesDropped(void* callData)
-{
-  auto* names = static_cast<vtkStringArray*>(callData);
-  std::vector<std::string> files;
-  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
-  {
-    files.push_back(names->GetValue(i));
-  }
-  if (!files.empty() &&
-    this->show(options_.together ? files : std::vector<std::string>{ files.front() }, false))
-  {
-    files_ = files;
-    fileIndex_ = 0;
-  }
-}
-
-/// False: they cannot be read, which the window says; it shows what it showed before.
-bool Window::show(const std::vector<std::string>& files, bool keepsModel)
-{
-  std::string message;
-  if (!scene_.open(files, options_, message))
-  {
-    this->tell(message);
-    return false;
-  }
-  shown_ = files;
-  watch_.watch(shown_);
-  if (voxelSize_ > 0.0)
-  {
-    scene_.resampler()->SetVoxelSize(voxelSize_);
-  }
-  scene_.bandwidth()->SetRadiusScale(sliders_->GetValue(vtkHapticSliders::RadiusScale));
-  vtkNew<vtkMatrix4x4> model;
-  model->DeepCopy(keepsModel ? style_->GetModelTransform()->GetMatrix() : scene_.modelMatrix());
-  // From here on the window shows the new cloud, also where nothing of it lies in the workspace.
-  if (!scene_.build(options_, message))
-  {
-    this->tell(message);
-  }
-  double bounds[6];
-  scene_.getWorkspaceBounds(bounds);
-  style_->SetWorkspaceBounds(bounds);
-  style_->SetModelMatrix(model);
-  style_->SetResampler(scene_.resampler());
-  style_->UpdateModel();
-  if (!keepsModel)
-  {
-    scene_.placeCamera();
-  }
-  window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
-  this->showSliderValues();
-  return true;
-}
-
-void Window::showFile(std::size_t index)
-{
-  if (options_.together || files_.size() < 2)
-  {
-    this->say("there is no other file");
-  }
-  else if (this->show({ files_[index] }, false))
-  {
-    fileIndex_ = index;
-    this->say(fmt::format("file {} of {}: {}", index + 1, files_.size(), scene_.title()));
-  }
-  else
-  {
-    fileIndex_ = index; // the next key goes on from here, not to the broken file again
-  }
-}
-
-void Window::onNextFile(void*)
-{
-  this->showFile((fileIndex_ + 1) % files_.size());
-}
-
-void Window::onPreviousFile(void*)
-{
-  this->showFile((fileIndex_ + files_.size() - 1) % files_.size());
-}
-
-/// All that --config needs to come back to what the window shows.
-nlohmann::ordered_json Window::settings()
-{
-  nlohmann::ordered_json settings = options_.given;
-  double bounds[6];
-  scene_.getWorkspaceBounds(bounds);
-  setModel(settings, style_->GetModelTransform()->GetMatrix(), bounds);
-  if (voxelSize_ > 0.0)
-  {
-    setVoxel(settings, voxelSize_);
-  }
-  settings["stiffness"] = parameters_.contact.stiffness;
-  settings["mu-s"] = parameters_.contact.staticFriction;
-  settings["mu-d"] = parameters_.contact.dynamicFriction;
-  settings["beta"] = sliders_->GetValue(vtkHapticSliders::RadiusScale);
-  const int* size = window_->GetSize();
-  settings["size"] = fmt::format("{}x{}", size[0], size[1]);
-  return settings;
-}
-
-void Window::onWriteSettings(void*)
-{
-  const std::string name = freeFileName("json", writtenSettings_);
-  std::string message;
-  if (writeSettings(this->settings(), name, message))
-  {
-    this->say("settings: " + name);
-  }
-  else
-  {
-    this->tell(message);
-  }
-}
-
-void Window::connectSliders()
-{
-  sliders_->SetInteractor(interactor_);
-  this->showSliderValues();
-  vtkNew<vtkCallbackCommand> moved;
-  moved->SetClientData(this);
-  moved->SetCallback([](vtkObject*, unsigned long, void* window, void* slider)
-    { static_cast<Window*>(window)->onSlider(*static_cast<int*>(slider)); });
-  sliders_->AddObserver(vtkHapticSliders::ValueChangedEvent, moved);
-  style_->SetSliders(sliders_);
-}
-
-void Window::showSliderValues()
-{
-  double voxel[3];
-  scene_.getVoxel(voxel);
-  sliders_->SetValue(vtkHapticSliders::Stiffness, parameters_.contact.stiffness);
-  sliders_->SetValue(vtkHapticSliders::Friction, parameters_.contact.dynamicFriction);
-  sliders_->SetValue(vtkHapticSliders::RadiusScale, scene_.bandwidth()->GetRadiusScale());
-  sliders_->SetValue(vtkHapticSliders::VoxelSize, 1e3 * std::cbrt(voxel[0] * voxel[1] * voxel[2]));
-}
-
-void Window::onSlider(int slider)
-{
-  const double value = sliders_->GetValue(slider);
-  ContactParameters contact = parameters_.contact;
-  switch (slider)
-  {
-    case vtkHapticSliders::Stiffness:
-      contact.stiffness = value;
-      this->setContact(contact);
-      break;
-    case vtkHapticSliders::Friction:
-      contact.dynamicFriction = value;
-      contact.staticFriction = std::max(value, options_.contact.staticFriction);
-      this->setContact(contact);
-      break;
-    case vtkHapticSliders::RadiusScale:
-      scene_.bandwidth()->SetRadiusScale(value);
-      style_->InvalidateModel();
-      break;
-    default:
-      voxelSize_ = 1e-3 * value;
-      scene_.resampler()->SetVoxelSize(voxelSize_);
-      style_->InvalidateModel();
-  }
-}
-
-/// A device may refuse what it cannot render: then everything stays as it was, and the window says why.
-void Window::setContact(const ContactParameters& contact)
-{
-  HapticParameters parameters = parameters_;
-  parameters.contact = contact;
-  std::string message;
-  const Status status = device_ ? servo_.setParameters(parameters, &message) : parameters.check();
-  if (status == Status::Ok)
-  {
-    parameters_ = parameters;
-    return;
-  }
-  this->showSliderValues();
-  this->tell(message.empty() ? sentence(status) : message);
-}
-
-void Window::onScreenshot(void*)
-{
-  const std::string name = freeFileName("png", screenshots_);
-  std::string message;
-  scene_.detail().showAllOnce();
-  window_->Render();
-  say(writePicture(window_, name, message) ? "screenshot: " + name : message);
-}
-
-bool Window::finish(std::string& message)
+bool ViewWindow::finish(std::string& message)
 {
   style_->StopUpdates();
   rememberSettings(this->settings());
@@ -589,7 +311,7 @@ bool Window::finish(std::string& message)
   return true;
 }
 
-bool Window::run(std::string& message)
+bool ViewWindow::run(std::string& message)
 {
   if (!options_.trace.empty() && !trace_.open(options_.trace, message))
   {
@@ -616,11 +338,9 @@ bool Window::run(std::string& message)
   return this->finish(message);
 }
 
-} // namespace
-
 bool runWindow(ViewScene& scene, const ViewOptions& options, std::string& message)
 {
-  Window window(scene, options);
+  ViewWindow window(scene, options);
   return window.run(message);
 }
 

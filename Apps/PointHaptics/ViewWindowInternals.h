@@ -1,0 +1,109 @@
+/// @file
+/// What the window of `view` holds while it is open: ViewWindow.cxx sets it up, runs it and closes it,
+/// ViewWindowActions.cxx does what the user asks of it.
+#pragma once
+
+#include "FileWatch.h"
+#include "ViewOptions.h"
+#include "ViewScene.h"
+#include "ViewTouch.h"
+
+#include "vtkHapticChart.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticSliders.h"
+#include "vtkInteractorStyleHaptic.h"
+
+#include "Devices/Falcon/FalconDevice.h"
+#include "Devices/PathReplay.h"
+#include "Devices/SimulatedDevice.h"
+#include "Devices/SpaceMouse/SpaceMouse.h"
+#include "Haptics/ServoLoop.h"
+
+#include <nlohmann/json.hpp>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// Everything the window needs while it is open. The servo loop stops before what it works on goes away.
+class ViewWindow
+{
+public:
+  ViewWindow(ViewScene& scene, const ViewOptions& options)
+    : scene_(scene)
+    , options_(options)
+    , parameters_(options.hapticParameters())
+    , files_(options.files)
+  {
+  }
+
+  bool run(std::string& message);
+
+private:
+  void setUpRendering();
+  bool openDevice(std::string& message);
+  void openSimulated();
+  void openFalcon();
+  void onTimer();
+  bool startServo(std::string& message);
+  void connectStyle();
+  void observe(unsigned long event, void (ViewWindow::*handler)(void*));
+  void onSamples(void* callData);
+  void onFilesDropped(void* callData);
+  void onScreenshot(void*);
+  void onNextFile(void*);
+  void onPreviousFile(void*);
+  void onWriteSettings(void*);
+  void onSlider(int slider);
+  void connectSliders();
+  void setContact(const ContactParameters& contact);
+  void showSliderValues();
+  bool show(const std::vector<std::string>& files, bool keepsModel);
+  void showFile(std::size_t index);
+  nlohmann::ordered_json settings();
+  void onModelChanged(void*);
+  void onSceneChanged(void*);
+  void showNote();
+  void tell(const std::string& message);
+  void say(const std::string& news);
+  bool finish(std::string& message);
+
+  ViewScene& scene_;
+  ViewOptions options_;
+  HapticParameters parameters_; ///< As the servo loop has them.
+  double voxelSize_ = 0.0;      ///< As the slider set it, metres; 0: as the options say.
+  std::vector<std::string> files_;
+  std::size_t fileIndex_ = 0;
+  std::vector<std::string> shown_; ///< What the window shows: one of files_, or all together.
+  FileWatch watch_;
+  int sinceLook_ = 0;
+  int writtenSettings_ = 0;
+  vtkNew<vtkRenderWindow> window_;
+  vtkNew<vtkRenderWindowInteractor> interactor_;
+  vtkNew<vtkInteractorStyleHaptic> style_;
+  vtkNew<vtkHapticChart> chart_;
+  vtkNew<vtkHapticChart> wholeChart_; // for --force-chart
+  vtkNew<vtkHapticOverlay> overlay_;
+  vtkNew<vtkHapticSliders> sliders_;
+  TraceFile trace_;
+  int screenshots_ = 0;
+  std::string news_; // last line of the status
+  std::unique_ptr<SimulatedDevice> hand_;
+  std::unique_ptr<PathReplayDevice> replay_;
+  std::unique_ptr<FalconDevice> falcon_;
+  FalconState falconState_ = FalconState::Closed; ///< As the user was told.
+  SpaceMouse spaceMouse_;
+  HapticDevice* device_ = nullptr;
+  ServoLoop servo_; // last: destroyed, and so stopped, first
+};
+
+} // namespace app
+} // namespace pointhaptics
