@@ -223,7 +223,7 @@ void ViewOptions::addTo(CLI::App& command)
     ->type_name("ARRAY");
   addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS",
     "Size of a point; default: closes the surface, 3 to 9");
-  command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long, and what draws");
+  command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");
   addTouchOptions(command, *this);
   this->bandwidth.addTo(command);
   this->lattice.addTo(command);

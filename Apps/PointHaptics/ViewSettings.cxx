@@ -26,7 +26,7 @@ const std::set<std::string>& deeds()
 
 /// Of the cloud at hand, and of no other.
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
-  "translate", "unit", "path", "up", "color-by", "together" };
+  "translate", "unit", "path", "up", "color-by", "together", "watch" };
 
 /// A number where it reads back as it was written, else text: an array may be called 1e3.
 nlohmann::ordered_json valueOf(const CLI::Option& option)
