@@ -11,12 +11,10 @@ namespace pointhaptics
 namespace
 {
 
+constexpr double kSmallestRadiusInCells = 3.6;
 constexpr double kPoints = 30.0;
 constexpr double kCells = 14.0;
 constexpr double kCountGrowth = 1.1;
-/// The first rung of the ladder: shorter fits tell little of the noise.
-constexpr double kFirstRungInCells = 3.6;
-constexpr double kSmallestRadiusInCells = kFirstRungInCells / kCountGrowth;
 constexpr int kCountSteps = 120;
 
 constexpr double kLadderGrowth = 1.15;
@@ -107,8 +105,7 @@ FitScale chooseFitRadius(
   }
   Rung rungs[kLadderRungs];
   double noise = INFINITY;
-  const double first = std::max(scale.countRadius, kFirstRungInCells * pyramid.level(0).voxelSize);
-  double radius = first;
+  double radius = scale.countRadius;
   for (int s = 0; s < kLadderRungs && (s == 0 || radius <= largest); ++s, radius *= kLadderGrowth)
   {
     FitSettings settings;
@@ -139,7 +136,6 @@ FitScale chooseFitRadius(
     if (noise * rungs[s].error[0] < kEnoughHeight * pyramid.level(0).voxelSize &&
       noise * std::max(rungs[s].error[1], rungs[s].error[2]) < kEnoughSlope)
     {
-      scale.radius = s == 0 ? scale.countRadius : radius;
       break;
     }
   }

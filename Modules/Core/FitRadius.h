@@ -16,14 +16,13 @@ namespace pointhaptics
 /// What the cloud says about fits at one place; metres.
 struct FitScale
 {
-  double countRadius = 0.0; ///< Smallest radius with 30 points and 14 cells in the fit, at least 3.3 cells.
+  double countRadius = 0.0; ///< Smallest radius with 30 points and 14 cells in the fit, at least 3.6 cells.
   double radius = 0.0;      ///< Chosen radius: countRadius where the cloud is clean, more where it is noisy.
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
 };
 
 /// Lepski's rule on a ladder of radii at the cell mean @p seed: a longer radius is taken while it agrees with
 /// every shorter one within two of that one's standard errors, in position and in both slopes.
-/// Begins at 3.6 cells; where already that fit leaves nothing to gain, countRadius is taken.
 /// @p largestCount bounds the radius that is grown for points, @p largest the one grown against noise;
 /// metres.
 FitScale chooseFitRadius(

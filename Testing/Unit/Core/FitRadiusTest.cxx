@@ -76,7 +76,7 @@ TEST(FitRadius, HoldsEnoughPointsAndCells)
   const CellPyramid pyramid = sphere(200000, 0.0, 1);
   for (const FitScale& scale : scalesOf(pyramid))
   {
-    EXPECT_GE(scale.countRadius, 3.6 / 1.1 * kVoxel * (1 - 1e-9));
+    EXPECT_GE(scale.countRadius, 3.6 * kVoxel * (1 - 1e-9));
     EXPECT_LE(scale.countRadius, 8e-3);
     EXPECT_GE(scale.radius, scale.countRadius);
     EXPECT_LE(scale.radius, 8e-3 * (1 + 1e-9));
