@@ -192,10 +192,8 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
       first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
     i = isRun ? dealRun(placed, writer) : 0;
   }
-  for (; i < placed.size; ++i)
-  {
-    dealOne<Indexed>(placed, i, writer);
-  }
+  const int from = i;
+  fromFourPlaces(placed.size - from, [&](int j) { dealOne<Indexed>(placed, from + j, writer); });
 }
 
 template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
