@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
-#include <numeric>
 
 namespace pointhaptics
 {
@@ -16,6 +15,8 @@ constexpr std::uint32_t kNoBrick = ~std::uint32_t(0);
 /// Bricks per axis: a surface then has a few hundred points in each that is not empty.
 constexpr double kPointsPerCell = 20.0;
 constexpr int kMostCells = 128;
+/// Bricks that are looked at one by one only if the bounds around them all touch a view.
+constexpr std::size_t kGroupBricks = 32;
 
 int cellsPerAxis(std::int64_t points)
 {
@@ -183,38 +184,90 @@ void PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>&
     });
   const PointView sorted = this->points();
   const std::size_t bricks = begins_.size() - 1;
-  for (int axis = 0; axis < 3; ++axis)
+  boxes_.resize(bricks);
+  groups_.resize((bricks - 1) / kGroupBricks + 1);
+  const auto boxOf = [](const Bounds& bounds)
   {
-    middles_[axis].resize(bricks);
-    halves_[axis].resize(bricks);
-  }
-  constexpr std::int64_t kGrain = 64;
-  forRange(executor, std::int64_t(bricks), kGrain,
+    Box box;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      box.middle[axis] = 0.5 * bounds.minimum[axis] + 0.5 * bounds.maximum[axis];
+      box.half[axis] = 0.5 * bounds.maximum[axis] - 0.5 * bounds.minimum[axis];
+    }
+    return box;
+  };
+  forRange(executor, std::int64_t(groups_.size()), 1,
     [&](std::int64_t first, std::int64_t last)
     {
-      for (std::size_t b = std::size_t(first); b < std::size_t(last); ++b)
+      for (std::size_t group = std::size_t(first); group < std::size_t(last); ++group)
       {
-        Bounds box;
-        for (std::int64_t i = begins_[b]; i < begins_[b + 1]; ++i)
+        Bounds all;
+        for (std::size_t b = group * kGroupBricks; b < std::min((group + 1) * kGroupBricks, bricks); ++b)
         {
-          box.include(sorted[i]);
+          Bounds bounds;
+          for (std::int64_t i = begins_[b]; i < begins_[b + 1]; ++i)
+          {
+            bounds.include(sorted[i]);
+          }
+          all.include(bounds.minimum);
+          all.include(bounds.maximum);
+          boxes_[b] = boxOf(bounds);
         }
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          middles_[axis][b] = 0.5 * box.minimum[axis] + 0.5 * box.maximum[axis];
-          halves_[axis][b] = 0.5 * box.maximum[axis] - 0.5 * box.minimum[axis];
-        }
+        groups_[group] = boxOf(all);
       }
     });
   for (int axis = 0; axis < 3; ++axis)
   {
     farthest_[axis] = 0.0;
-    for (std::size_t b = 0; b < bricks; ++b)
+    for (const Box& box : groups_)
     {
-      farthest_[axis] = std::max(farthest_[axis], std::abs(middles_[axis][b]) + halves_[axis][b]);
+      farthest_[axis] = std::max(farthest_[axis], std::abs(box.middle[axis]) + box.half[axis]);
     }
   }
 }
+
+/// Whether a moved box can have a point in a lattice.
+class PointIndex::BoxTest
+{
+public:
+  BoxTest(const AffineTransform& transform, const Lattice& lattice)
+    : transform_(transform)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low_[axis] = lattice.origin[axis];
+      high_[axis] = low_[axis] +
+        std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]) * lattice.spacing[axis];
+      fixed_[axis] = std::abs(transform.m[axis][3]) + std::abs(low_[axis]);
+    }
+  }
+  bool mayTouch(const Box& box) const
+  {
+    bool touches = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double* row = transform_.m[axis];
+      const double x = row[0] * box.middle[0];
+      const double y = row[1] * box.middle[1];
+      const double z = row[2] * box.middle[2];
+      const double middle = row[3] + x + y + z;
+      const double half =
+        std::abs(row[0]) * box.half[0] + std::abs(row[1]) * box.half[1] + std::abs(row[2]) * box.half[2];
+      const double reach = half + kSlack * (fixed_[axis] + std::abs(x) + std::abs(y) + std::abs(z) + half);
+      touches = touches & (middle + reach >= low_[axis]) & (middle - reach <= high_[axis]);
+    }
+    return touches;
+  }
+
+private:
+  /// Far above what rounding can do to a bound, far below a brick.
+  static constexpr double kSlack = 1e-9;
+
+  const AffineTransform& transform_;
+  double low_[3];
+  double high_[3];
+  double fixed_[3];
+};
 
 PointView PointIndex::points() const
 {
@@ -224,48 +277,34 @@ PointView PointIndex::points() const
 std::vector<PointRange> PointIndex::rangesInside(
   const AffineTransform& transform, const Lattice& lattice) const
 {
-  // Far above what rounding can do to a bound, far below a brick.
-  constexpr double kSlack = 1e-9;
   const std::size_t bricks = begins_.empty() ? 0 : begins_.size() - 1;
   if (bricks > 0 && !staysFinite(transform))
   {
     return { { 0, size_ } };
   }
-  // Those that are outside on an axis are not asked about the next.
-  std::vector<std::uint32_t> left(bricks);
-  std::iota(left.begin(), left.end(), 0u);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double* row = transform.m[axis];
-    const double low = lattice.origin[axis];
-    const double high = low +
-      std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]) * lattice.spacing[axis];
-    const double fixed = std::abs(row[3]) + std::abs(low);
-    std::size_t size = 0;
-    for (const std::uint32_t b : left)
-    {
-      const double x = row[0] * middles_[0][b];
-      const double y = row[1] * middles_[1][b];
-      const double z = row[2] * middles_[2][b];
-      const double middle = row[3] + x + y + z;
-      const double half = std::abs(row[0]) * halves_[0][b] + std::abs(row[1]) * halves_[1][b] +
-        std::abs(row[2]) * halves_[2][b];
-      const double reach = half + kSlack * (fixed + std::abs(x) + std::abs(y) + std::abs(z) + half);
-      left[size] = b;
-      size += (middle + reach >= low) & (middle - reach <= high);
-    }
-    left.resize(size);
-  }
+  const BoxTest test(transform, lattice);
   std::vector<PointRange> ranges;
-  for (const std::uint32_t b : left)
+  for (std::size_t group = 0; group < groups_.size(); ++group)
   {
-    if (!ranges.empty() && ranges.back().end == begins_[b])
+    if (!test.mayTouch(groups_[group]))
     {
-      ranges.back().end = begins_[b + 1];
+      continue;
     }
-    else
+    const std::size_t end = std::min((group + 1) * kGroupBricks, bricks);
+    for (std::size_t b = group * kGroupBricks; b < end; ++b)
     {
-      ranges.push_back({ begins_[b], begins_[b + 1] });
+      if (!test.mayTouch(boxes_[b]))
+      {
+        continue;
+      }
+      if (!ranges.empty() && ranges.back().end == begins_[b])
+      {
+        ranges.back().end = begins_[b + 1];
+      }
+      else
+      {
+        ranges.push_back({ begins_[b], begins_[b + 1] });
+      }
     }
   }
   return ranges;
@@ -292,7 +331,8 @@ bool PointIndex::staysFinite(const AffineTransform& transform) const
 
 std::size_t PointIndex::bytes() const
 {
-  return floats_.bytes() + doubles_.bytes() + originals_.bytes() + begins_.capacity() * 7 * sizeof(double);
+  return floats_.bytes() + doubles_.bytes() + originals_.bytes() + begins_.capacity() * sizeof(std::int64_t) +
+    (boxes_.capacity() + groups_.capacity()) * sizeof(Box);
 }
 
 } // namespace pointhaptics

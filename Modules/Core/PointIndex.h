@@ -57,10 +57,18 @@ private:
   Buffer<float> floats_;
   Buffer<double> doubles_;
   Buffer<std::uint32_t> originals_;
-  // Of each brick with points: where they begin (and an end), the middle of their bounds and half its extent.
+  /// Bounds: their middle and half their extent.
+  struct Box
+  {
+    double middle[3];
+    double half[3];
+  };
+  class BoxTest;
+
+  // Of each brick with points: where they begin (and an end) and their bounds.
   std::vector<std::int64_t> begins_;
-  std::vector<double> middles_[3];
-  std::vector<double> halves_[3];
+  std::vector<Box> boxes_;
+  std::vector<Box> groups_; ///< The bounds of so many bricks each that follow each other.
   double farthest_[3] = {}; ///< Largest absolute coordinates.
 };
 

@@ -34,6 +34,8 @@ std::size_t markWords(const PartitionPlan& plan)
 
 /// So many points in one voxel are taken out of the packed sums, which hold less than 2^21.
 constexpr std::uint64_t kPackedCounts = std::uint64_t(1) << 19;
+static_assert(kPackedCounts + std::uint64_t(kChunkPoints) < (std::uint64_t(1) << 21),
+  "a packed sum must hold a chunk in one voxel and what was carried of it");
 
 void addCarried(MomentBatch<std::int64_t>& batch, int i, const CarriedPartition& carried, std::size_t voxel)
 {
@@ -44,7 +46,7 @@ void addCarried(MomentBatch<std::int64_t>& batch, int i, const CarriedPartition&
     batch.sums[axis][i] += old.sums[axis];
   }
   // Where seconds go with the cells they are in the batch already.
-  for (int m = 0; carried.cells.empty() && batch.seconds && m < 6; ++m)
+  for (int m = 0; carried.cellCount == 0 && batch.seconds && m < 6; ++m)
   {
     batch.seconds[i].lanes[m] += carried.seconds[voxel].lanes[m];
   }
@@ -144,15 +146,15 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
 {
   voxels_ = { plan_.cellMap(partition_), plan_.firstKey(partition_), nullptr, nullptr, nullptr, 0 };
   const std::size_t records = pool.count(partition_);
-  if (records == 0 && old_->cells.empty())
+  if (records == 0 && old_->cellCount == 0)
   {
     return;
   }
   recordCells_.reserve(records + kWidest);
-  kernels.markCells(old_->cells.data(), int(old_->cells.size()), marks_.data());
+  kernels.markCells(old_->cells.data(), int(old_->cellCount), marks_.data());
   // The carried sums come next and are far away: fetch a part of them with each block.
   const auto* line = reinterpret_cast<const char*>(old_->packed.data());
-  const std::size_t bytes = old_->packed.size() * sizeof(PackedSums);
+  const std::size_t bytes = old_->cellCount * sizeof(PackedSums);
   const char* end = line + bytes;
   const std::size_t part = bytes * kBlockRecords / std::max<std::size_t>(records, 1);
   std::uint32_t* cells = recordCells_.data();
@@ -170,23 +172,22 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
   voxels_.size = kernels.number(ranks());
 }
 
-void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool)
+/// Adds the records to the sums at @p to, which become the voxels.
+void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool, CarriedPartition& to)
 {
   if (voxels_.size == 0)
   {
     return;
   }
-  cells_.reserve(voxels_.size + kWidest);
-  sums_.reserve(voxels_.size + kWidest);
-  if (batch_->seconds)
+  if (&to == &own_)
   {
-    seconds_.reserve(voxels_.size);
+    own_.cellCount = 0;
   }
-  voxels_.cells = cells_.data();
-  voxels_.sums = sums_.data();
-  voxels_.seconds = batch_->seconds ? seconds_.data() : nullptr;
-  takeCarried(kernels);
-  const CellSums sums = { cells_.data(), sums_.data(), batch_->seconds ? seconds_.data() : nullptr };
+  makeRoom(kernels, to);
+  const CellSums sums = { to.cells.data(), to.packed.data(), batch_->seconds ? to.seconds.data() : nullptr };
+  voxels_.cells = sums.cells;
+  voxels_.sums = sums.sums;
+  voxels_.seconds = sums.seconds;
   const std::uint32_t* cells = recordCells_.data();
   pool.forBlocks(partition_,
     [&](const Record* block, const std::uint32_t*, int count, const Record*)
@@ -197,68 +198,77 @@ void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool)
   clearMarks();
 }
 
-/// Puts carried sums, which are in ascending order, at the places of their cells, and zeros between them.
-void PartitionWorker::takeCarried(const Kernels& kernels)
+/// Moves sums, which are in ascending order, to the places of their cells among all voxels: zeros between.
+void PartitionWorker::makeRoom(const Kernels& kernels, CarriedPartition& sums) const
 {
-  std::uint32_t places[kBatch];
-  std::size_t place = 0;
-  const auto clearTo = [&](std::size_t end)
+  const std::size_t size = voxels_.size;
+  if (sums.packed.size() < size + kWidest)
   {
-    for (; place < end; ++place)
+    // Room for what another chunk adds, not for twice as much.
+    const std::size_t room = size + size / 16 + kWidest;
+    sums.cells.reserve(room);
+    sums.packed.reserve(room);
+    sums.cells.resize(size + kWidest);
+    sums.packed.resize(size + kWidest);
+  }
+  if (batch_->seconds && sums.seconds.size() < size)
+  {
+    sums.seconds.reserve(size + size / 16);
+    sums.seconds.resize(size);
+  }
+  std::size_t end = size; // From here on all are at their places.
+  const auto clearTo = [&](std::size_t place)
+  {
+    while (end > place)
     {
-      sums_[place] = PackedSums{ { 0, 0, 0, 0 } };
+      --end;
+      sums.packed[end] = PackedSums{ { 0, 0, 0, 0 } };
       if (batch_->seconds)
       {
-        seconds_[place] = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
+        sums.seconds[end] = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
       }
     }
   };
-  for (std::size_t first = 0; first < old_->cells.size(); first += kBatch)
+  std::uint32_t places[kBatch];
+  std::size_t left = sums.cellCount;
+  sums.cellCount = size;
+  while (left > 0 && left < end)
   {
-    const std::size_t size = std::min<std::size_t>(old_->cells.size() - first, kBatch);
-    const std::uint32_t* cells = old_->cells.data() + first;
-    const PackedSums* packed = old_->packed.data() + first;
-    std::copy(cells, cells + size, places);
-    kernels.rank(ranks(), places, int(size));
-    for (std::size_t i = 0; i < size; ++i)
+    const std::size_t first = left - std::min<std::size_t>(left, kBatch);
+    std::copy(sums.cells.data() + first, sums.cells.data() + left, places);
+    kernels.rank(ranks(), places, int(left - first));
+    for (; left > first && left < end; --left)
     {
-      clearTo(places[i]);
-      cells_[place] = cells[i];
-      sums_[place] = packed[i];
+      const std::size_t from = left - 1;
+      const std::size_t place = places[from - first];
+      clearTo(place + 1);
+      sums.packed[place] = sums.packed[from];
+      sums.cells[place] = sums.cells[from];
       if (batch_->seconds)
       {
-        seconds_[place] = old_->seconds[first + i];
+        sums.seconds[place] = sums.seconds[from];
       }
-      ++place;
+      end = place;
     }
   }
-  clearTo(voxels_.size);
+  clearTo(left);
 }
 
 void PartitionWorker::carryDense(
   const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& carriedOver)
 {
-  load(kernels, pool, partition, carriedOver, [](std::size_t) {});
-  const PartitionVoxels& voxels = voxels_;
-  // Room for what another chunk adds, not for twice as much.
-  if (carriedOver.cells.capacity() < voxels.size)
-  {
-    carriedOver.cells.reserve(voxels.size + voxels.size / 16);
-    carriedOver.packed.reserve(voxels.size + voxels.size / 16);
-  }
-  carriedOver.cells.assign(voxels.cells, voxels.cells + voxels.size);
-  carriedOver.packed.assign(voxels.sums, voxels.sums + voxels.size);
-  if (voxels.seconds)
-  {
-    carriedOver.seconds.assign(voxels.seconds, voxels.seconds + voxels.size);
-  }
+  partition_ = partition;
+  old_ = &carriedOver;
+  markDense(kernels, pool);
+  sumDense(kernels, pool, carriedOver);
   // No voxel has more points than all have together.
   carriedOver.points += std::int64_t(pool.count(partition));
-  for (std::size_t i = 0; carriedOver.points >= std::int64_t(kPackedCounts) && i < voxels.size; ++i)
+  const std::uint64_t firstKey = plan_.firstKey(partition);
+  for (std::size_t i = 0; carriedOver.points >= std::int64_t(kPackedCounts) && i < carriedOver.cellCount; ++i)
   {
     if (carriedOver.packed[i].lanes[3] >> kCountShift >= kPackedCounts)
     {
-      unpack(voxels.firstKey + voxels.cells[i], carriedOver.packed[i], carriedOver);
+      unpack(firstKey + carriedOver.cells[i], carriedOver.packed[i], carriedOver);
     }
   }
 }
@@ -435,10 +445,9 @@ std::uint32_t PartitionWorker::rankOf(std::uint64_t key, const std::uint64_t* ke
 
 std::size_t PartitionWorker::bytes() const
 {
-  return marks_.bytes() + before_.bytes() + recordCells_.bytes() + cells_.bytes() + sums_.bytes() +
-    seconds_.bytes() + records_.bytes() + entries_.bytes() + otherEntries_.bytes() +
-    sizeof(MomentBatch<std::int64_t>) + carried.voxels.capacity() * sizeof(CarriedSums) +
-    carried.seconds.capacity() * sizeof(SecondSums);
+  return marks_.bytes() + before_.bytes() + recordCells_.bytes() + own_.bytes() + records_.bytes() +
+    entries_.bytes() + otherEntries_.bytes() + sizeof(MomentBatch<std::int64_t>) +
+    carried.voxels.capacity() * sizeof(CarriedSums) + carried.seconds.capacity() * sizeof(SecondSums);
 }
 
 } // namespace kernel

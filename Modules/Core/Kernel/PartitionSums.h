@@ -67,11 +67,11 @@ public:
 
   /// Readies the scratch for partitions of a plan.
   void prepare(const PartitionPlan& plan, bool covariances);
-  /// Adds the records of a partition to @p old sums; calls tell(size) as soon as it knows the number of its
-  /// voxels. They hold until the next call.
+  /// Adds the records of a partition to @p old sums, which it may change; calls tell(size) as soon as it
+  /// knows the number of its voxels. They hold until the next call.
   template <typename Tell>
-  void load(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
-    const CarriedPartition& old, Tell&& tell)
+  void load(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& old,
+    Tell&& tell)
   {
     partition_ = partition;
     old_ = &old;
@@ -79,7 +79,7 @@ public:
     {
       markDense(kernels, pool);
       tell(voxels_.size);
-      sumDense(kernels, pool);
+      sumDense(kernels, pool, old_->cellCount > 0 ? *old_ : own_);
       return;
     }
     sortRecords(kernels, pool);
@@ -151,8 +151,8 @@ private:
   CellRanks ranks() const;
   void clearMarks();
   void markDense(const Kernels& kernels, const RecordPool& pool);
-  void sumDense(const Kernels& kernels, const RecordPool& pool);
-  void takeCarried(const Kernels& kernels);
+  void sumDense(const Kernels& kernels, const RecordPool& pool, CarriedPartition& to);
+  void makeRoom(const Kernels& kernels, CarriedPartition& sums) const;
   void collectDense(std::size_t& position, std::size_t& next);
   static void unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver);
   void sortRecords(const Kernels& kernels, const RecordPool& pool);
@@ -163,7 +163,7 @@ private:
 
   PartitionPlan plan_;
   std::uint32_t partition_ = 0;
-  const CarriedPartition* old_ = nullptr;
+  CarriedPartition* old_ = nullptr;
   PartitionVoxels voxels_;
   std::unique_ptr<MomentBatch<std::int64_t>> batch_;
   std::vector<SecondSums> batchSeconds_;
@@ -171,9 +171,7 @@ private:
   Buffer<std::uint64_t> marks_;
   Buffer<std::uint32_t> before_;
   Buffer<std::uint32_t> recordCells_;
-  Buffer<std::uint32_t> cells_;
-  Buffer<PackedSums> sums_;
-  Buffer<SecondSums> seconds_;
+  CarriedPartition own_; ///< Sums of voxels that are not carried.
   // Sorted.
   std::size_t listed_ = 0; ///< Records.
   Buffer<Record> records_;

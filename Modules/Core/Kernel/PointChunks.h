@@ -16,7 +16,7 @@ namespace kernel
 {
 
 /// Points a thread takes at once: enough to forget the cost of taking them.
-constexpr std::int64_t kPieceSize = 1 << 14;
+constexpr std::int64_t kPieceSize = 1 << 12;
 
 /// A chunk goes through all steps before the next one; threads take its pieces one by one.
 class Chunks

@@ -24,8 +24,8 @@ constexpr int kPositionBits = 43;
 constexpr int kMaximumIndexBits = kPositionBits - 31;
 /// And the smallest: one bit of an index is not in the record.
 constexpr int kMinimumIndexBits = 2;
-/// Points taken at once: a packed sum holds fewer than 2^20.
-constexpr std::int64_t kChunkPoints = 1000000;
+/// Points taken at once: fewer than a packed sum holds together with kPackedCounts carried ones.
+constexpr std::int64_t kChunkPoints = 1250000;
 
 constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kPositionBits) - 1;
 /// Low bits of z that travel in the first word of a record; as many more are in the second. The top bit of z
@@ -104,9 +104,9 @@ struct alignas(32) PackedSums
 {
   std::uint64_t lanes[4];
 };
-/// The count stands above the sum of the high bits: fewer than 2^20 points of kPositionBits - kLowBits bits.
+/// The count stands above the sum of the high bits: fewer than 2^21 points of kPositionBits - kLowBits bits.
 constexpr int kCountShift = 43;
-static_assert(kChunkPoints < (std::int64_t(1) << 20) && 20 + kPositionBits - kLowBits <= kCountShift,
+static_assert(kChunkPoints < (std::int64_t(1) << 21) && 21 + kPositionBits - kLowBits <= kCountShift,
   "the high bits of z must not reach the count");
 
 static inline std::int64_t packedCount(const PackedSums& sums)

@@ -30,17 +30,17 @@ struct CarriedSums
 /// are there only if covariances are wanted.
 struct CarriedPartition
 {
+  std::size_t cellCount = 0; ///< The vectors may have more elements: nothing is said of those.
   std::vector<std::uint32_t> cells;
   std::vector<PackedSums> packed;
   std::vector<CarriedSums> voxels;
   std::vector<SecondSums> seconds;
   std::int64_t points = 0; ///< In cells; as many or fewer are in their packed sums.
 
-  std::size_t size() const { return cells.empty() ? voxels.size() : cells.size(); }
+  std::size_t size() const { return cellCount == 0 ? voxels.size() : cellCount; }
   void clear()
   {
-    cells.clear();
-    packed.clear();
+    cellCount = 0;
     voxels.clear();
     seconds.clear();
     points = 0;

@@ -170,7 +170,7 @@ TEST(VoxelLevels, AreWhatDirectResamplingGivesForMoreThanAChunk)
 {
   for (const Lattice& lattice : { latticeOf(20, 30, 40), latticeOf(1024, 1024, 1024) })
   {
-    const std::vector<Vec3> points = quantisedPoints(1010000, 3, lattice);
+    const std::vector<Vec3> points = quantisedPoints(1260000, 3, lattice);
     VoxelRequest request = requestFor(points, lattice);
     request.levels = 2;
     expectLevelsAreDirect(request);

@@ -111,7 +111,7 @@ TEST(VoxelResampler, IsExactForMoreThanAChunkOfScatteredPoints)
   {
     SCOPED_TRACE(nameOf(lattice));
     const bool takesSmallChunks = lattice.dimensions[0] > 4096;
-    const std::vector<Vec3> points = quantisedPoints(takesSmallChunks ? 300000 : 1010000, 4, lattice);
+    const std::vector<Vec3> points = quantisedPoints(takesSmallChunks ? 300000 : 1260000, 4, lattice);
     expectExact(points, lattice, runOf(requestFor(points, lattice)));
   }
 }
@@ -169,7 +169,7 @@ TEST(VoxelResampler, GivesTheSameBitsForChunksInAnyOrder)
 {
   for (const Lattice& lattice : { latticeOf(40, 50, 60), latticeOf(1024, 1024, 1024) })
   {
-    const std::vector<Vec3> points = quantisedPoints(1100000, 8, lattice);
+    const std::vector<Vec3> points = quantisedPoints(1350000, 8, lattice);
     const RunResult expected = runOf(requestFor(points, lattice), ThreadedExecutor(2));
     const std::vector<Vec3> reversed(points.rbegin(), points.rend());
     expectSame(runOf(requestFor(reversed, lattice)), expected, nameOf(lattice));
@@ -242,7 +242,7 @@ TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
   for (const Lattice& lattice : { latticeOf(60, 60, 60), latticeOf(1024, 1024, 1024), latticeOf(5000, 3, 2) })
   {
     const std::vector<Vec3> points =
-      quantisedPoints(lattice.dimensions[0] > 4096 ? 300000 : 1010000, 11, lattice);
+      quantisedPoints(lattice.dimensions[0] > 4096 ? 300000 : 1260000, 11, lattice);
     const VoxelRequest request = requestFor(points, lattice);
     VoxelResampler resampler;
     CountingWatcher once(1);
@@ -269,7 +269,7 @@ TEST(VoxelResampler, FractionsAscendToOne)
 {
   for (const Lattice& lattice : { latticeOf(60, 60, 60), latticeOf(5000, 3, 2) })
   {
-    const std::vector<Vec3> points = quantisedPoints(2000001, 12, lattice);
+    const std::vector<Vec3> points = quantisedPoints(3000001, 12, lattice);
     VoxelRequest request = requestFor(points, lattice, false);
     request.levels = 3;
     VoxelResampler resampler;
