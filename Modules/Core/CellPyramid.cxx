@@ -1,9 +1,9 @@
 #include "Core/CellPyramid.h"
 
 #include "Core/Lattice.h"
+#include "Core/RadixSort.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace pointhaptics
 {
@@ -14,6 +14,9 @@ namespace
 constexpr double kMixedThickness = 0.10;
 /// Standard deviations of the noise up to which a mixed cell may still be one sheet.
 constexpr double kNoiseThickness = 2.0;
+
+/// First reach of the search for the nearest cell, in voxels.
+constexpr double kFirstReach = 2.0;
 
 /// Spreads the low 21 bits of v to every third bit.
 std::uint64_t spread(std::uint64_t v)
@@ -38,10 +41,11 @@ std::int32_t gather(std::uint64_t v)
   return std::int32_t(v);
 }
 
-std::uint64_t mortonCode(const Vec3& index)
+/// Of the voxel that a place, in voxels and not negative, is in.
+std::uint64_t mortonCode(const Vec3& place)
 {
-  return spread(std::uint64_t(index.x)) | spread(std::uint64_t(index.y)) << 1 |
-    spread(std::uint64_t(index.z)) << 2;
+  return spread(std::uint64_t(place.x)) | spread(std::uint64_t(place.y)) << 1 |
+    spread(std::uint64_t(place.z)) << 2;
 }
 
 /// Bricks of a level from its sorted, distinct voxel codes.
@@ -83,10 +87,23 @@ void linkChildren(std::vector<CellPyramid::Brick>& bricks, const std::vector<Cel
   }
 }
 
-bool isMixed(const Cell& cell, double voxelSize)
+/// Whether a covariance's standard deviation is above @p limit in every direction: what is left without that
+/// much of each is positive definite, so that all pivots are above zero.
+bool isThick(const SymMat3& covariance, double limit)
 {
-  const double limit = kMixedThickness * voxelSize;
-  return symmetricEigen(cell.covariance).values[0] > limit * limit;
+  const double variance = limit * limit;
+  const double x = covariance.xx - variance;
+  if (!(x > 0.0))
+  {
+    return false;
+  }
+  const double y = covariance.yy - variance - covariance.xy / x * covariance.xy;
+  if (!(y > 0.0))
+  {
+    return false;
+  }
+  const double yz = covariance.yz - covariance.xy / x * covariance.xz;
+  return covariance.zz - variance - covariance.xz / x * covariance.xz - yz / y * yz > 0.0;
 }
 
 }
@@ -135,29 +152,33 @@ Status CellPyramid::build(std::vector<Cell> cells, double voxelSize, std::vector
     return Status::LatticeNotAddressable;
   }
 
-  std::vector<std::uint64_t> codeOf(cells.size());
+  struct Entry
+  {
+    std::uint64_t code;
+    std::uint32_t source;
+  };
+  std::vector<Entry> entries(cells.size());
+  std::vector<Entry> otherEntries(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    const Vec3 u = (cells[i].mean - origin_) / voxelSize;
-    codeOf[i] = mortonCode({ std::floor(u.x), std::floor(u.y), std::floor(u.z) });
+    entries[i] = { mortonCode((cells[i].mean - origin_) / voxelSize), std::uint32_t(i) };
   }
-  sourceIndex.resize(cells.size());
-  std::iota(sourceIndex.begin(), sourceIndex.end(), 0u);
-  std::sort(sourceIndex.begin(), sourceIndex.end(),
-    [&](std::uint32_t a, std::uint32_t b) { return codeOf[a] != codeOf[b] ? codeOf[a] < codeOf[b] : a < b; });
+  radixSort(entries, otherEntries, entries.size(), [](const Entry& entry) { return entry.code; });
 
   Level finest;
   finest.voxelSize = voxelSize;
   finest.cells.reserve(cells.size());
   std::vector<std::uint64_t> codes;
-  for (std::uint32_t source : sourceIndex)
+  sourceIndex.reserve(cells.size());
+  for (const Entry& entry : entries)
   {
-    if (codes.empty() || codes.back() != codeOf[source])
+    if (codes.empty() || codes.back() != entry.code)
     {
-      codes.push_back(codeOf[source]);
+      codes.push_back(entry.code);
       finest.slotBegin.push_back(std::uint32_t(finest.cells.size()));
     }
-    finest.cells.push_back(cells[source]);
+    sourceIndex.push_back(entry.source);
+    finest.cells.push_back(cells[entry.source]);
     finest.cells.back().mixed = false;
   }
   finest.slotBegin.push_back(std::uint32_t(finest.cells.size()));
@@ -204,7 +225,7 @@ void CellPyramid::buildUpperLevels(const std::vector<std::uint64_t>& codes)
     }
     for (Cell& cell : level.cells)
     {
-      cell.mixed = isMixed(cell, level.voxelSize);
+      cell.mixed = isThick(cell.covariance, kMixedThickness * level.voxelSize);
     }
     level.bricks = makeBricks(here);
     linkChildren(level.bricks, finer.bricks);
@@ -221,8 +242,7 @@ void CellPyramid::forgiveNoise(const std::function<double(const Vec3&)>& noiseAt
     {
       if (cell.mixed)
       {
-        const double limit = kNoiseThickness * noiseAt(cell.mean);
-        cell.mixed = symmetricEigen(cell.covariance).values[0] > limit * limit;
+        cell.mixed = isThick(cell.covariance, kNoiseThickness * noiseAt(cell.mean));
       }
     }
   }
@@ -231,19 +251,27 @@ void CellPyramid::forgiveNoise(const std::function<double(const Vec3&)>& noiseAt
 std::int64_t CellPyramid::nearest(
   int level, const Vec3& center, double radius, double& distance) const noexcept
 {
-  std::int64_t found = -1;
-  double best = radius * radius;
-  visitBall(level, center, radius,
-    [&](std::uint32_t i, const Cell&, double d2)
-    {
-      if (d2 < best || (d2 == best && found >= 0 && std::int64_t(i) < found))
+  // The smallest of the balls, each twice as large as the one before, that has a cell has the nearest.
+  for (double reach = std::min(radius, kFirstReach * this->level(level).voxelSize);; reach *= 2.0)
+  {
+    reach = std::min(reach, radius);
+    std::int64_t found = -1;
+    double best = reach * reach;
+    visitBall(level, center, reach,
+      [&](std::uint32_t i, const Cell&, double d2)
       {
-        best = d2;
-        found = i;
-      }
-    });
-  distance = std::sqrt(best);
-  return found;
+        if (d2 < best || (d2 == best && found >= 0 && std::int64_t(i) < found))
+        {
+          best = d2;
+          found = i;
+        }
+      });
+    if (found >= 0 || !(reach < radius))
+    {
+      distance = std::sqrt(best);
+      return found;
+    }
+  }
 }
 
 } // namespace pointhaptics

@@ -25,8 +25,9 @@ void RadiusField::build(const CellPyramid& pyramid, std::vector<LocalScale> valu
   values_ = std::move(values);
   const auto& level = pyramid.level(level_);
   reach_ = kReachInVoxels * level.voxelSize;
-  limitSlope(pyramid, &LocalScale::radius);
-  limitSlope(pyramid, &LocalScale::proxyRadius);
+  const std::vector<Link> links = neighborLinks(pyramid);
+  limitSlope(links, &LocalScale::radius);
+  limitSlope(links, &LocalScale::proxyRadius);
   for (double LocalScale::*member :
     { &LocalScale::radius, &LocalScale::gate, &LocalScale::countRadius, &LocalScale::proxyRadius })
   {
@@ -34,29 +35,36 @@ void RadiusField::build(const CellPyramid& pyramid, std::vector<LocalScale> valu
   }
 }
 
-void RadiusField::limitSlope(const CellPyramid& pyramid, double LocalScale::*radius)
+/// All pairs of nodes within reach, by their first node.
+std::vector<RadiusField::Link> RadiusField::neighborLinks(const CellPyramid& pyramid) const
 {
-  const auto& level = pyramid.level(level_);
-  for (int pass = 0; pass < kSlopePasses; ++pass)
+  const auto& cells = pyramid.level(level_).cells;
+  std::vector<Link> links;
+  for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    bool changed = false;
-    for (std::size_t i = 0; i < level.cells.size(); ++i)
+    pyramid.visitBall(level_, cells[i].mean, reach_,
+      [&](std::uint32_t j, const Cell&, double d2) {
+        links.push_back({ std::uint32_t(i), j, kSlope * std::sqrt(d2) });
+      });
+  }
+  return links;
+}
+
+void RadiusField::limitSlope(const std::vector<Link>& links, double LocalScale::*radius)
+{
+  bool changed = true;
+  for (int pass = 0; pass < kSlopePasses && changed; ++pass)
+  {
+    changed = false;
+    for (const Link& link : links)
     {
-      double& value = values_[i].*radius;
-      pyramid.visitBall(level_, level.cells[i].mean, reach_,
-        [&](std::uint32_t j, const Cell&, double d2)
-        {
-          const double bound = values_[j].*radius + kSlope * std::sqrt(d2);
-          if (bound < value)
-          {
-            value = bound;
-            changed = true;
-          }
-        });
-    }
-    if (!changed)
-    {
-      break;
+      double& value = values_[link.node].*radius;
+      const double bound = values_[link.neighbor].*radius + link.rise;
+      if (bound < value)
+      {
+        value = bound;
+        changed = true;
+      }
     }
   }
 }

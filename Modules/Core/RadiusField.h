@@ -57,7 +57,15 @@ public:
   const LocalScale& typical() const { return typical_; }
 
 private:
-  void limitSlope(const CellPyramid& pyramid, double LocalScale::*radius);
+  /// A node's value is at most rise above its neighbour's.
+  struct Link
+  {
+    std::uint32_t node;
+    std::uint32_t neighbor;
+    double rise;
+  };
+  std::vector<Link> neighborLinks(const CellPyramid& pyramid) const;
+  void limitSlope(const std::vector<Link>& links, double LocalScale::*radius);
   double median(double LocalScale::*member) const;
 
   std::vector<LocalScale> values_;

@@ -1,5 +1,7 @@
 #include "Core/Kernel/GeneralVoxels.h"
 
+#include "Core/RadixSort.h"
+
 #include "Core/Kernel/PointPlacement.h"
 
 #include <algorithm>
@@ -77,41 +79,9 @@ void GeneralAdder::add(
     }
   }
   inside_ += std::int64_t(entries_.size());
-  sortEntries();
-  mergeEntries();
-}
-
-/// Least significant digit first, leaving out the digits in which no two differ.
-void GeneralAdder::sortEntries()
-{
-  constexpr int kDigitBits = 11;
-  constexpr std::size_t kDigits = std::size_t(1) << kDigitBits;
-  std::uint64_t differing = 0;
-  for (const Entry& entry : entries_)
-  {
-    differing |= entry.key ^ entries_.front().key;
-  }
   otherEntries_.resize(entries_.size());
-  for (int shift = 0; shift < 64 && differing >> shift != 0; shift += kDigitBits)
-  {
-    std::array<std::size_t, kDigits> places{};
-    for (const Entry& entry : entries_)
-    {
-      ++places[entry.key >> shift & (kDigits - 1)];
-    }
-    std::size_t sum = 0;
-    for (std::size_t& place : places)
-    {
-      const std::size_t here = place;
-      place = sum;
-      sum += here;
-    }
-    for (const Entry& entry : entries_)
-    {
-      otherEntries_[places[entry.key >> shift & (kDigits - 1)]++] = entry;
-    }
-    entries_.swap(otherEntries_);
-  }
+  radixSort(entries_, otherEntries_, entries_.size(), [](const Entry& entry) { return entry.key; });
+  mergeEntries();
 }
 
 void GeneralAdder::mergeEntries()

@@ -58,7 +58,6 @@ private:
     std::uint64_t key;
     std::uint64_t point;
   };
-  void sortEntries();
   void mergeEntries();
 
   Placement placement_;

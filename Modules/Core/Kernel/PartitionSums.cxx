@@ -1,7 +1,8 @@
 #include "Core/Kernel/PartitionSums.h"
 
+#include "Core/RadixSort.h"
+
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 namespace pointhaptics
@@ -333,7 +334,7 @@ void PartitionWorker::sortRecords(const Kernels& kernels, const RecordPool& pool
         entries_[filled] = { cells[i], std::uint32_t(filled) };
       }
     });
-  sortEntries(listed_);
+  radixSort(entries_, otherEntries_, listed_, [](const Entry& entry) { return entry.cell; });
 }
 
 /// Voxels of the sorted records and of what is carried.
@@ -356,43 +357,6 @@ std::size_t PartitionWorker::countSorted() const
     count += next == old_->voxels.size() || old_->voxels[next].key != key;
   }
   return count;
-}
-
-/// Least significant digit first, leaving out the digits in which no two differ.
-void PartitionWorker::sortEntries(std::size_t size)
-{
-  constexpr int kDigitBits = 11;
-  constexpr std::size_t kDigits = std::size_t(1) << kDigitBits;
-  std::uint32_t differing = 0;
-  for (std::size_t i = 1; i < size; ++i)
-  {
-    differing |= entries_[i].cell ^ entries_[0].cell;
-  }
-  for (int shift = 0; shift < 32 && differing >> shift != 0; shift += kDigitBits)
-  {
-    if ((differing >> shift & (kDigits - 1)) == 0)
-    {
-      continue;
-    }
-    std::array<std::uint32_t, kDigits> places{};
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      ++places[entries_[i].cell >> shift & (kDigits - 1)];
-    }
-    std::uint32_t sum = 0;
-    for (std::uint32_t& place : places)
-    {
-      const std::uint32_t here = place;
-      place = sum;
-      sum += here;
-    }
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      const Entry entry = entries_[i];
-      otherEntries_[places[entry.cell >> shift & (kDigits - 1)]++] = entry;
-    }
-    std::swap(entries_, otherEntries_);
-  }
 }
 
 void PartitionWorker::collectSorted(std::size_t& position, std::size_t& next)

@@ -156,7 +156,6 @@ private:
   void collectDense(std::size_t& position, std::size_t& next);
   static void unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver);
   void sortRecords(const Kernels& kernels, const RecordPool& pool);
-  void sortEntries(std::size_t size);
   std::size_t countSorted() const;
   void collectSorted(std::size_t& position, std::size_t& next);
   static std::uint32_t rankOf(std::uint64_t key, const std::uint64_t* keys, std::size_t size);
