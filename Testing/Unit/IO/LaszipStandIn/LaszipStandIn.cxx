@@ -4,6 +4,7 @@
 
 #include <laszip/laszip_api.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -173,7 +174,7 @@ laszip_I32 laszip_read_point(laszip_POINTER pointer)
   reader.point.Z = reader.number<std::int32_t>(8);
   reader.point.intensity = reader.number<std::uint16_t>(12);
   reader.format < 6 ? reader.unpackLegacy() : reader.unpackExtended();
-  std::memcpy(reader.extra.data(), reader.record.data() + reader.record.size() - reader.extra.size(),
-    reader.extra.size());
+  std::copy_n(reader.record.end() - static_cast<std::ptrdiff_t>(reader.extra.size()), reader.extra.size(),
+    reader.extra.begin());
   return 0;
 }
