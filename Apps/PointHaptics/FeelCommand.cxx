@@ -261,7 +261,6 @@ bool feelAs(const FeelOptions& options, const std::shared_ptr<const HapticScene>
   {
     return touch(options, scene, rows, message);
   }
-  rememberStopSignals();
   if (options.device == "simulated" && !walkYielding(options, *scene, path, ticks, rows, message))
   {
     return false;
@@ -330,6 +329,7 @@ int runFeel(const FeelOptions& options)
   {
     return fail(kCommand, options.file + ": " + sentence(status));
   }
+  rememberStopSignals(); // before there is an unfinished file
   CsvWriter table;
   if (!table.open(options.output, kHeader, message))
   {

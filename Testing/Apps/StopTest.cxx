@@ -117,7 +117,7 @@ TEST_F(Stop, InTheMiddleOfReadingOrFilteringLeavesNoFileBehind)
 TEST_F(Stop, InTheMiddleOfFeelingLeavesNoFileBehind)
 {
   this->succeed({ "generate", "sphere", "-n", "5000", "-o", "in.ply" });
-  this->write("path.csv", "t,x,y,z\n0,0,0,0.03\n3600,0,0,0.02\n");
+  this->write("path.csv", "t,x,y,z\n0,0,0,0.03\n36000,0,0,0.02\n");
   for (const char* device : { "none", "simulated" })
   {
     const Outcome outcome = this->runAndStop(
