@@ -1,6 +1,7 @@
 #include "CloudToCloud.h"
 
 #include "OptionParsing.h"
+#include "StopSignals.h"
 
 #include <CLI/CLI.hpp>
 
@@ -26,6 +27,7 @@ bool CloudToCloudOptions::open(Cloud& cloud, std::string& message) const
     return false;
   }
   useThreads(this->threads);
+  rememberStopSignals();
   return readCloud(this->input, cloud, message);
 }
 

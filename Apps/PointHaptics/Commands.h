@@ -17,7 +17,7 @@ enum ExitCode : int
 {
   kSuccess = 0,
   kFailed = 1,
-  kUsage = 2,
+  kUsage = 2, ///< beside these: stopExitCode() where a signal ended the work
 };
 
 /// Each adds its subcommand to @p program; its callback runs the command and stores an ExitCode in @p

@@ -7,6 +7,7 @@
 #include "PathTicks.h"
 #include "Pipeline.h"
 #include "ProgressBar.h"
+#include "StopSignals.h"
 
 #include "Devices/HipPath.h"
 #include "Devices/SimulatedDevice.h"
@@ -192,7 +193,7 @@ bool walkYielding(const FeelOptions& options, const HapticScene& scene, const Hi
   Proxy proxy(options.parameters);
   proxy.setScene(&scene);
   ProgressBar bar("feeling");
-  for (std::int64_t tick = 0; tick < ticks; ++tick)
+  for (std::int64_t tick = 0; tick < ticks && !stopIsRequested(); ++tick)
   {
     const double time = double(tick) / options.rateHz;
     HandState state;
@@ -220,7 +221,7 @@ void walk(
   const double end = path.points.back().timeSeconds;
   std::size_t hint = 0;
   ProgressBar bar("feeling");
-  for (std::int64_t tick = 0; tick < ticks; ++tick)
+  for (std::int64_t tick = 0; tick < ticks && !stopIsRequested(); ++tick)
   {
     const double time = std::min(start + double(tick) / options.rateHz, end);
     const Vec3 hip = path.position(time, hint);
@@ -260,12 +261,19 @@ bool feelAs(const FeelOptions& options, const std::shared_ptr<const HapticScene>
   {
     return touch(options, scene, rows, message);
   }
-  if (options.device == "simulated")
+  if (options.device == "simulated" && !walkYielding(options, *scene, path, ticks, rows, message))
   {
-    return walkYielding(options, *scene, path, ticks, rows, message);
+    return false;
   }
-  walk(options, *scene, path, ticks, rows);
-  return true;
+  if (options.device != "simulated")
+  {
+    walk(options, *scene, path, ticks, rows);
+  }
+  if (stopIsRequested())
+  {
+    message = options.output + ": feeling was stopped on request; start it again";
+  }
+  return !stopIsRequested();
 }
 
 void print(const FeelOptions& options, const HapticScene& scene, const Summary& s)
@@ -321,6 +329,7 @@ int runFeel(const FeelOptions& options)
   {
     return fail(kCommand, options.file + ": " + sentence(status));
   }
+  rememberStopSignals(); // before there is an unfinished file
   CsvWriter table;
   if (!table.open(options.output, kHeader, message))
   {

@@ -2,6 +2,7 @@
 
 #include "Messages.h"
 #include "ProgressBar.h"
+#include "StopSignals.h"
 
 #include "vtkPointCloudReader.h"
 #include "vtkPointCloudWriter.h"
@@ -59,6 +60,10 @@ bool updateFilter(vtkAlgorithm* filter, const std::string& label, std::string& m
   const ProgressBar bar(label, filter);
   filter->Update();
   message = firstOf(takeVtkErrors());
+  if (stopIsRequested())
+  {
+    message = label + " was stopped on request; start it again";
+  }
   return message.empty();
 }
 
@@ -76,6 +81,7 @@ bool canWriteCloud(const std::string& fileName, std::string& message)
 bool writeCloud(
   vtkPointSet* points, const std::string& fileName, const std::string& command, std::string& message)
 {
+  rememberStopSignals();
   vtkNew<vtkPointCloudWriter> writer;
   writer->SetFileName(fileName.c_str());
   writer->SetInputDataObject(points);

@@ -27,12 +27,12 @@ struct Cloud
 /// Reads @p fileName. False: @p message says what, where and the cure. A file without points is a fault.
 bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message);
 /// Updates @p filter with a progress bar. False: @p message is the first error of any VTK class during the
-/// update.
+/// update, or says that a remembered signal (StopSignals.h) ended it.
 bool updateFilter(vtkAlgorithm* filter, const std::string& label, std::string& message);
 /// False, and @p message, where no writer knows the extension of @p fileName. Worth asking before long work.
 bool canWriteCloud(const std::string& fileName, std::string& message);
 /// Writes what vtkPointCloudWriter writes; the file appears only when complete. What its format cannot hold
-/// is shown as warnings of @p command.
+/// is shown as warnings of @p command. From here on a signal stops the writing: no unfinished file stays.
 bool writeCloud(
   vtkPointSet* points, const std::string& fileName, const std::string& command, std::string& message);
 

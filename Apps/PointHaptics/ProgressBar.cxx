@@ -1,5 +1,7 @@
 #include "ProgressBar.h"
 
+#include "StopSignals.h"
+
 #include <fmt/format.h>
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
@@ -41,6 +43,10 @@ ProgressBar::ProgressBar(std::string label, vtkAlgorithm* algorithm)
   command->SetCallback(
     [](vtkObject*, unsigned long, void* self, void* fraction)
     {
+      if (stopIsRequested())
+      {
+        static_cast<ProgressBar*>(self)->algorithm_->SetAbortExecute(1);
+      }
       if (fraction)
       {
         static_cast<ProgressBar*>(self)->show(*static_cast<double*>(fraction));

@@ -18,7 +18,8 @@ class ProgressBar
 {
 public:
   explicit ProgressBar(std::string label);
-  /// Follows the progress events of @p algorithm, which must outlive the bar.
+  /// Follows the progress events of @p algorithm, which must outlive the bar, and stops it (AbortExecute) at
+  /// the first one after a remembered signal (StopSignals.h).
   ProgressBar(std::string label, vtkAlgorithm* algorithm);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;

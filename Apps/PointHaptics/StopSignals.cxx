@@ -17,18 +17,30 @@ volatile std::sig_atomic_t requested = 0;
 void rememberStopSignals()
 {
   struct sigaction action = {};
-  action.sa_handler = [](int) { requested = 1; };
+  action.sa_handler = [](int signal) { requested = signal; };
   // Once: whoever presses Ctrl+C again means it.
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   for (const int signal : { SIGINT, SIGTERM, SIGHUP })
   {
-    sigaction(signal, &action, nullptr);
+    // What nohup or a shell in the background ignores stays ignored.
+    struct sigaction before = {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN)
+    {
+      sigaction(signal, &action, nullptr);
+    }
   }
 }
 
 bool stopIsRequested() noexcept
 {
   return requested != 0;
+}
+
+int stopExitCode() noexcept
+{
+  constexpr int kEndedBySignal = 128; // as shells count
+  return kEndedBySignal + requested;
 }
 
 } // namespace app

@@ -1,6 +1,6 @@
 /// @file
 /// Ctrl+C and the like as a question the program asks, so that a device in somebody's hand is let go in
-/// order.
+/// order, and no half-written file stays behind.
 #pragma once
 
 namespace pointhaptics
@@ -13,6 +13,9 @@ namespace app
 void rememberStopSignals();
 /// A signal has come since. Any thread.
 bool stopIsRequested() noexcept;
+/// What a program ends with that gave up its work for the signal: 130 for SIGINT, 143 for SIGTERM.
+/// @pre stopIsRequested()
+int stopExitCode() noexcept;
 
 } // namespace app
 } // namespace pointhaptics

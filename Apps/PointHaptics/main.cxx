@@ -1,6 +1,7 @@
 /// The program pointhaptics: one subcommand per task, `view` where none is named.
 #include "Commands.h"
 #include "Messages.h"
+#include "StopSignals.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -141,7 +142,7 @@ int run(std::vector<std::string> arguments)
   {
     return reportUsage(program, error);
   }
-  return exitCode;
+  return exitCode == kFailed && stopIsRequested() ? stopExitCode() : exitCode;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "CloudColumns.h"
 #include "LasHeader.h"
+#include "LazPoints.h"
 #include "NumericType.h"
 
 #include "vtkDoubleArray.h"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 namespace pointhaptics::io
 {
@@ -140,15 +142,15 @@ Byte byteAt(const char* record, std::size_t offset)
 class LasRecords
 {
 public:
-  LasRecords(std::string_view bytes, const LasHeader& header)
+  explicit LasRecords(const LasHeader& header)
     : header_(header)
     , names_(header)
     , rows_(static_cast<vtkIdType>(header.count))
     , columns_(names_.all, rows_)
-    , records_(bytes.data() + header.pointsOffset)
   {
   }
-  void fill(vtkIdType row, vtkIdType count);
+  /// @p records: @p count of them, the first of which is the point @p row.
+  void fill(const char* records, vtkIdType row, vtkIdType count);
   void fillColours();
   void moveTo(vtkPolyData* cloud);
 
@@ -186,7 +188,6 @@ private:
   const LasColumns names_;
   const vtkIdType rows_;
   CloudColumns columns_;
-  const char* records_;
   const char* first_ = nullptr; ///< of the block
   vtkIdType row_ = 0;           ///< of the block
   vtkIdType count_ = 0;         ///< of the block
@@ -270,11 +271,11 @@ void LasRecords::fillExtra() const
   }
 }
 
-void LasRecords::fill(vtkIdType row, vtkIdType count)
+void LasRecords::fill(const char* records, vtkIdType row, vtkIdType count)
 {
   row_ = row;
   count_ = count;
-  first_ = records_ + static_cast<std::size_t>(row) * header_.recordLength;
+  first_ = records;
   const LasPointFormat& fields = header_.fields();
   fillPosition();
   copyColumn<std::uint16_t>(kIntensity, 12);
@@ -343,18 +344,25 @@ void addTriple(vtkPolyData* cloud, const char* name, const std::array<double, 3>
 
 void readLas(ReadTask& task, vtkPolyData* cloud)
 {
-  if (task.bytes.size() > 25)
-  {
-    task.format = "LAS 1." + std::to_string(byteAt(task.bytes.data(), 25));
-  }
+  const std::string version =
+    task.bytes.size() > 25 ? " 1." + std::to_string(byteAt(task.bytes.data(), 25)) : std::string();
+  task.format = "LAS" + version;
   const LasHeader header = parseLasHeader(task.bytes);
-  task.format += " (point format " + std::to_string(header.pointFormat) + ")";
-  LasRecords records(task.bytes, header);
+  task.format = (header.packing.empty() ? "LAS" : header.packing) + version + " (point format " +
+    std::to_string(header.pointFormat) + ")";
+  std::optional<LazPoints> packed;
+  if (!header.packing.empty())
+  {
+    packed.emplace(task, header);
+  }
+  LasRecords records(header);
   const vtkIdType rows = static_cast<vtkIdType>(header.count);
+  const char* plain = task.bytes.data() + header.pointsOffset;
   for (vtkIdType row = 0; row < rows; row += kBlockRows)
   {
     const vtkIdType count = std::min(kBlockRows, rows - row);
-    records.fill(row, count);
+    records.fill(
+      packed ? packed->next(count) : plain + static_cast<std::size_t>(row) * header.recordLength, row, count);
     if (row % (16 * kBlockRows) == 0)
     {
       task.progress(static_cast<double>(row + count) / static_cast<double>(rows));

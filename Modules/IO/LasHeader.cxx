@@ -27,14 +27,6 @@ std::string_view untilZero(std::string_view text)
   return text.substr(0, text.find('\0'));
 }
 
-[[noreturn]] void failCompressed(const std::string& what)
-{
-  throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
-    "the points are " + what + "-compressed, which is not read here",
-    "unpack it first: laszip -i in.laz -o out.las, las2las -i in.laz -o out.las, or pdal translate in.laz "
-    "out.las");
-}
-
 /// Calls @p visit(user, id, content) for each variable length record that lies inside the file; a damaged
 /// list ends where it leaves it.
 template <typename Visit>
@@ -68,25 +60,23 @@ void forEachRecord(std::string_view bytes, const LasHeader& header, Visit visit)
   }
 }
 
-void refuseCompressed(std::string_view bytes, const LasHeader& header, int formatByte)
+/// "LAZ" by the mark in the point format or by LASzip's record, "COPC" by its own; else empty.
+std::string packingOf(std::string_view bytes, const LasHeader& header, int formatByte)
 {
-  std::string found = (formatByte & 0xc0) != 0 ? "LAZ" : "";
+  std::string found = (formatByte & kLasPackedMark) != 0 ? "LAZ" : "";
   forEachRecord(bytes, header,
     [&](std::string_view user, int id, std::string_view)
     {
       if (user == "copc" && id == 1)
       {
-        found = "COPC (LAZ)";
+        found = "COPC";
       }
-      else if (found.empty() && user == "laszip encoded" && id == 22204)
+      else if (found.empty() && user == kLaszipUser && id == kLaszipRecord)
       {
         found = "LAZ";
       }
     });
-  if (!found.empty())
-  {
-    failCompressed(found);
-  }
+  return found;
 }
 
 /// VTK's type for an extra field of data type @p code, 1..10.
@@ -211,7 +201,7 @@ void checkLayout(std::string_view bytes, const LasHeader& header)
     failNoPoints();
   }
   const std::size_t available = bytes.size() - header.pointsOffset;
-  if (header.count > available / header.recordLength)
+  if (header.packing.empty() && header.count > available / header.recordLength)
   {
     failTruncated("the header counts " + std::to_string(header.count) + " points of " +
       std::to_string(header.recordLength) + " bytes, but only " + std::to_string(available) +
@@ -243,8 +233,9 @@ LasHeader parseLasHeader(std::string_view bytes)
       "LAS headers take at least 227");
   }
   header.pointsOffset = numberAt<std::uint32_t>(bytes, 96);
-  const int format = numberAt<std::uint8_t>(bytes, 104);
-  refuseCompressed(bytes, header, format);
+  const int formatByte = numberAt<std::uint8_t>(bytes, 104);
+  header.packing = packingOf(bytes, header, formatByte);
+  const int format = header.packing.empty() ? formatByte : formatByte & ~kLasPackedMark;
   if (format > kMostLasFormat)
   {
     failFormat(

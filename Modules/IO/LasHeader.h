@@ -45,6 +45,9 @@ constexpr std::size_t kLasHeaderOf14 = 375;
 constexpr std::size_t kLasVlrHeader = 54;
 constexpr std::size_t kLasExtraDescriptor = 192;
 constexpr int kLasExtraBytesRecord = 4; ///< of the user LASF_Spec
+constexpr int kLasPackedMark = 0xc0;    ///< bits of the point format that LAZ sets
+constexpr std::string_view kLaszipUser = "laszip encoded";
+constexpr int kLaszipRecord = 22204; ///< how the points are compressed
 
 /// One field among the extra bytes of a point.
 struct LasExtraField
@@ -72,6 +75,7 @@ struct LasHeader
   std::vector<LasExtraField> extraFields;
   std::string coordinateSystem; ///< WKT or "EPSG:26917"; empty when the file does not say
   std::string lengthUnit;       ///< of a projected system: "metre"; empty when the file does not say
+  std::string packing;          ///< "LAZ" or "COPC" where the points are compressed, else empty
 
   bool isExtended() const { return pointFormat >= 6; }
   const LasPointFormat& fields() const { return kLasPointFormats[pointFormat]; }
@@ -95,8 +99,8 @@ T loadLittle(const char* at) noexcept
   return value;
 }
 
-/// @throws FileProblem with byte offset and value: also for LAZ and COPC, and when the file is too short for
-/// the points the header counts.
+/// @throws FileProblem with byte offset and value; also when the file is too short for the points the header
+/// counts. Compressed points are only recognised: see LazLayout.h.
 LasHeader parseLasHeader(std::string_view bytes);
 
 } // namespace pointhaptics::io

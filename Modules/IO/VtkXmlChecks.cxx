@@ -2,6 +2,7 @@
 
 #include "FileProblem.h"
 #include "TextScan.h"
+#include "XmlTags.h"
 
 #include <algorithm>
 #include <array>
@@ -257,13 +258,15 @@ DataLayout layoutOf(std::string_view bytes)
   layout.isPacked = !xmlAttribute(file, "compressor").empty();
   layout.isBigEndian = xmlAttribute(file, "byte_order") == "BigEndian";
   layout.wordSize = xmlAttribute(file, "header_type") == "UInt64" ? 8 : 4;
-  const std::size_t appended = bytes.find("<AppendedData");
-  if (appended != std::string_view::npos)
+  XmlTags tags(bytes);
+  while (tags.next())
   {
-    const std::size_t end = std::min(bytes.find('>', appended), bytes.size());
-    layout.appendedIsBase64 = xmlAttribute(bytes.substr(appended, end - appended), "encoding") != "raw";
-    const std::size_t mark = bytes.find('_', end);
-    layout.appendedAt = mark == std::string_view::npos ? 0 : mark + 1;
+    if (tags.tag().substr(0, 13) == "<AppendedData")
+    {
+      layout.appendedIsBase64 = xmlAttribute(tags.tag(), "encoding") != "raw";
+      const std::size_t mark = bytes.find('_', tags.end());
+      layout.appendedAt = mark == std::string_view::npos ? 0 : mark + 1;
+    }
   }
   return layout;
 }
@@ -283,56 +286,51 @@ void checkIsComplete(std::string_view bytes)
 
 std::string_view xmlAttribute(std::string_view tag, std::string_view name)
 {
-  for (std::size_t found = tag.find(name); found != std::string_view::npos; found = tag.find(name, found + 1))
+  constexpr std::string_view kSpaces = " \t\r\n";
+  std::size_t at = tag.find_first_of(kSpaces);
+  while (at != std::string_view::npos && (at = tag.find_first_not_of(kSpaces, at)) != std::string_view::npos)
   {
-    std::size_t next = found + name.size();
-    while (next < tag.size() && isSpace(tag[next]))
+    const std::size_t nameEnd = std::min(tag.find_first_of(" \t\r\n=", at), tag.size());
+    const std::size_t quote = tag.find_first_of("\"'", nameEnd);
+    const std::size_t end =
+      quote == std::string_view::npos ? std::string_view::npos : tag.find(tag[quote], quote + 1);
+    if (end == std::string_view::npos)
     {
-      ++next;
+      break;
     }
-    const bool isWholeName = found > 0 && isSpace(tag[found - 1]);
-    if (!isWholeName || next >= tag.size() || tag[next] != '=')
+    if (tag.substr(at, nameEnd - at) == name)
     {
-      continue;
+      return tag.substr(quote + 1, end - quote - 1);
     }
-    ++next;
-    while (next < tag.size() && isSpace(tag[next]))
-    {
-      ++next;
-    }
-    const std::size_t end = next < tag.size() ? tag.find(tag[next], next + 1) : std::string_view::npos;
-    return end == std::string_view::npos ? std::string_view{} : tag.substr(next + 1, end - next - 1);
+    at = end + 1;
   }
   return {};
 }
 
 std::string_view vtkFileTag(std::string_view bytes)
 {
-  const std::size_t begin = bytes.find("<VTKFile");
-  return bytes.substr(begin, std::min(bytes.find('>', begin), bytes.size()) - begin);
+  XmlTags tags(bytes);
+  if (!tags.next() || tags.tag().substr(0, 8) != "<VTKFile")
+  {
+    failDamaged(0, "the first XML element is not VTKFile");
+  }
+  return tags.tag();
 }
 
 void checkVtkXml(std::string_view bytes)
 {
   checkIsComplete(bytes);
   const DataLayout layout = layoutOf(bytes);
-  const std::string_view xml = bytes.substr(0, bytes.find("<AppendedData"));
-  const std::size_t entity = std::min(xml.find("<!DOCTYPE"), xml.find("<!ENTITY"));
-  if (entity != std::string_view::npos)
-  {
-    failDamaged(entity, "XML entities have no place in a point cloud");
-  }
   CountCheck counts(layout);
-  for (std::size_t begin = xml.find('<'); begin != std::string_view::npos;)
+  XmlTags tags(bytes);
+  while (tags.next())
   {
-    const std::size_t end = std::min(xml.find('>', begin), xml.size());
-    const std::string_view tag = xml.substr(begin, end - begin);
-    counts.check(tag, begin);
+    const std::string_view tag = tags.tag();
+    counts.check(tag, tags.begin());
     if (tag.substr(0, 10) == "<DataArray" || tag.substr(0, 6) == "<Array")
     {
-      checkArray(layout, tag, begin, end + 1);
+      checkArray(layout, tag, tags.begin(), tags.end());
     }
-    begin = xml.find('<', end);
   }
 }
 

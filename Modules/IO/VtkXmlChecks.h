@@ -11,11 +11,11 @@ namespace pointhaptics::io
 /// The value of attribute @p name in one tag; empty when it is not there.
 std::string_view xmlAttribute(std::string_view tag, std::string_view name);
 
-/// The first tag <VTKFile ...>, without its closing mark. @pre there is one.
+/// The tag <VTKFile ...>, without its closing mark. @throws FileProblem where it is not the first one.
 std::string_view vtkFileTag(std::string_view bytes);
 
 /// @throws FileProblem with the byte offset of a count, an offset or a block of data that the file cannot
-/// hold, of XML entities, and when the file's end is missing.
+/// hold, of XML entities and elements nested too deeply (XmlTags.h), and when the file's end is missing.
 void checkVtkXml(std::string_view bytes);
 
 } // namespace pointhaptics::io

@@ -101,6 +101,7 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
   {
     setActiveAttributes(cloud);
   }
+  read->ReleaseData(); // its cells would lie beside those that take their place
   setOneVertexPerPoint(cloud);
 }
 

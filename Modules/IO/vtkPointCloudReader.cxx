@@ -25,8 +25,8 @@ vtkStandardNewMacro(vtkPointCloudReader);
 namespace
 {
 
-/// The universe spans 9e26 metres.
-constexpr double kMostCoordinate = 1e30;
+/// The universe spans 9e26 metres. A float, so that float and double points have the same limit.
+constexpr float kMostCoordinate = 1e30f;
 
 void readAs(io::CloudFormat format, io::ReadTask& task, vtkPolyData* cloud)
 {

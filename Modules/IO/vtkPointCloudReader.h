@@ -1,6 +1,6 @@
 /**
  * @class   vtkPointCloudReader
- * @brief   read raw point clouds: PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS and text
+ * @brief   read raw point clouds: PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS, LAZ and text
  *
  * The format is told by the file's content; the extension decides only between OBJ and columns of text, and
  * for a binary STL inside a gzip file. Files packed by gzip are read as if they were unpacked (VTP and VTU
@@ -25,7 +25,9 @@
  *   4 withheld, 8 overlap), ScannerChannel, ScanDirection and EdgeOfFlightLine are there where one point
  *   sets them. Extra bytes become arrays of their names, scaled ones as double; those without a description
  *   become "ExtraBytes". Field data: LasScale, LasOffset, LasGlobalEncoding, CoordinateSystem (well-known
- *   text or "EPSG:26917") and LengthUnit. Waveforms are skipped. LAZ and COPC are refused with a converter.
+ *   text or "EPSG:26917") and LengthUnit. Waveforms are skipped.
+ * - LAZ and COPC give the same arrays where CMake found LASzip, in the file's order of points; elsewhere they
+ *   are refused with a converter. More than 100 times the file's size (64 MB at least) is not unpacked.
  * - VTP, VTU and legacy VTK (PolyData, UnstructuredGrid, StructuredGrid): points and point data; cells are
  *   dropped. Legacy files with strings or bits are refused.
  * - OFF, NOFF, COFF, CNOFF as text; STL, both kinds: each distinct vertex once, as float, without normals.

@@ -117,6 +117,24 @@ TEST_F(Bench, EveryAnswerOfTheBandwidthStudiesIsRight)
   EXPECT_EQ(result["rules"]["rows"].size(), 8u);
 }
 
+TEST_F(Bench, EveryReaderAndWriterOfFilesGivesTheSamePoints)
+{
+  const json result =
+    json::parse(this->succeed({ "bench", "io", "--quick", "--repetitions", "1", "--json" }));
+  std::set<std::string> readers;
+  for (const char* study : { "read", "write" })
+  {
+    ASSERT_FALSE(result[study]["rows"].empty()) << study;
+    for (const json& row : result[study]["rows"])
+    {
+      EXPECT_EQ(row["right"], true) << row;
+      readers.insert(row["contestant"]);
+    }
+  }
+  EXPECT_EQ(readers.count("ours"), 1u);
+  EXPECT_EQ(readers.count("vtkXMLPolyDataReader"), 1u);
+}
+
 TEST_F(Bench, ARealCloudJoinsTheSearchAndIsCalledByItsName)
 {
   this->succeed({ "generate", "torus", "-n", "2000", "-o", "ring.ply" });

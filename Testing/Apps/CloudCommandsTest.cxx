@@ -217,6 +217,27 @@ TEST_F(CloudCommands, InfoTellsDuplicatesSpacingAndUnit)
   EXPECT_EQ(json::parse(this->succeed({ "info", "part.csv", "--json" }))["files"][0]["unit"], "mm");
 }
 
+TEST_F(CloudCommands, InfoTellsTheCoordinateSystemAndItsUnit)
+{
+  // VTK keeps strings as the codes of their letters: EPSG:2225 and foot.
+  this->write("feet.vtp",
+    "<VTKFile type=\"PolyData\"><PolyData><FieldData>"
+    "<Array type=\"String\" Name=\"CoordinateSystem\" NumberOfTuples=\"1\" format=\"ascii\">"
+    "69 80 83 71 58 50 50 50 53 0</Array>"
+    "<Array type=\"String\" Name=\"LengthUnit\" NumberOfTuples=\"1\" format=\"ascii\">102 111 111 116 "
+    "0</Array>"
+    "</FieldData><Piece NumberOfPoints=\"2\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+    "format=\"ascii\">6000000 2000000 10 6000001 2000000 "
+    "10</DataArray></Points></Piece></PolyData></VTKFile>\n");
+  const json feet = json::parse(this->succeed({ "info", "feet.vtp", "--json" }))["files"][0];
+  EXPECT_EQ(feet["coordinate_system"], "EPSG:2225");
+  EXPECT_EQ(feet["unit"], "foot");
+  EXPECT_EQ(feet["unit_is_guess"], false);
+  const std::string text = this->succeed({ "info", "feet.vtp" });
+  EXPECT_NE(text.find("EPSG:2225"), std::string::npos) << text;
+  EXPECT_NE(text.find("the file says so"), std::string::npos) << text;
+}
+
 TEST_F(CloudCommands, WhatAFormatCannotHoldIsSaid)
 {
   this->succeed({ "generate", "torus", "-n", "500", "-o", "torus.ply" });

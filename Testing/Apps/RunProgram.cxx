@@ -49,7 +49,7 @@ CommandLine::~CommandLine()
   std::filesystem::remove_all(folder_ + ".err", error);
 }
 
-Outcome CommandLine::run(const std::vector<std::string>& arguments) const
+pid_t CommandLine::start(const std::vector<std::string>& arguments) const
 {
   std::vector<char*> words = { const_cast<char*>(POINTHAPTICS_PROGRAM) };
   for (const std::string& argument : arguments)
@@ -68,6 +68,16 @@ Outcome CommandLine::run(const std::vector<std::string>& arguments) const
     }
     _exit(127);
   }
+  return child;
+}
+
+Outcome CommandLine::run(const std::vector<std::string>& arguments) const
+{
+  return this->finish(this->start(arguments));
+}
+
+Outcome CommandLine::finish(pid_t child) const
+{
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR)
   {

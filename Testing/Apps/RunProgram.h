@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/types.h>
+
 namespace pointhaptics
 {
 namespace apptest
@@ -29,6 +31,9 @@ protected:
 
   /// Runs `pointhaptics arguments...` in the folder, without a shell.
   Outcome run(const std::vector<std::string>& arguments) const;
+  /// The two halves of run(), for a test that does something in between; one program at a time.
+  pid_t start(const std::vector<std::string>& arguments) const;
+  Outcome finish(pid_t child) const;
   /// Expects success and nothing on stderr. @return stdout.
   std::string succeed(const std::vector<std::string>& arguments) const;
   /// Expects @p exitCode, nothing on stdout and one line on stderr that begins `pointhaptics COMMAND: ` and

@@ -251,11 +251,12 @@ ReportPart studyWrite(Context& context)
 {
   ReportPart part;
   part.title = "Writing";
-  part.text =
-    fmt::format("{} points, to a file that is replaced in each round. MB is the size of our file; PCL writes "
-                "no colours here, and "
-                "vtkPLYWriter no intensity. What was written is read again by our reader and compared.",
-      grouped(context.options.points));
+  part.text = fmt::format(
+    "{} points, to a file that is replaced in each round. MB is the size of our file; PCL writes "
+    "no colours here, and vtkPLYWriter no intensity. What was written is read again by our reader "
+    "and compared. We rename the complete file over the old one, which makes ext4 write its blocks "
+    "out at once; \"first\" is without an old file.",
+    grouped(context.options.points));
   part.table.header = { "file", "MB", "contestant", "median ms", "quartiles ms", "first ms", "MB/s", "x ours",
     "answer" };
   const vtkSmartPointer<vtkPolyData> cloud = makeCloud(context.options.points);

@@ -140,6 +140,47 @@ TEST_F(HostileFiles, SizesThatVtkWouldBelieveAreCheckedFirst)
     "entities");
 }
 
+TEST_F(HostileFiles, XmlIsCheckedAsVtkReadsItWhateverStandsAround)
+{
+  std::string points;
+  for (const float value : { 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f })
+  {
+    append(points, value);
+  }
+  const auto around = [&](const std::string& before, const std::vector<std::uint32_t>& words = { 24 })
+  { return readCloud(write("a.vtp", makeVtp(words, points, false, "0", before))); };
+  std::string deep;
+  for (int i = 0; i < 1000000; ++i)
+  {
+    deep += "<a>";
+  }
+  for (int i = 0; i < 1000000; ++i)
+  {
+    deep += "</a>";
+  }
+  std::string vtp = makeVtp({ 24 }, points, false);
+  vtp.insert(vtp.find("<Points>"), deep);
+  expectRefused(readCloud(write("a.vtp", vtp)), "more than 64 XML elements inside each other");
+  // Elements that only look closed, and text that only looks like tags.
+  std::string hidden;
+  for (int i = 0; i < 100; ++i)
+  {
+    hidden += "<a b='/>'><!-- </a> --><![CDATA[</a>]]>";
+  }
+  vtp = makeVtp({ 24 }, points, false);
+  vtp.insert(vtp.find("<Points>"), hidden);
+  expectRefused(readCloud(write("a.vtp", vtp)), "more than 64 XML elements inside each other");
+  EXPECT_EQ(around("<!-- <a><VTKFile> -->\n").points(), 2);
+  expectRefused(
+    around("<!-- <VTKFile compressor='none'> -->\n", { 4000000000u }), "array of 4000000000 bytes");
+  expectRefused(around("<!-- <AppendedData encoding='raw'>_ -->\n", { 4000000000u }), "where it is no tag");
+  expectRefused(around("<!-- no end "), "has no end");
+  vtp = makeVtp({ 24 }, points, false);
+  vtp.replace(
+    vtp.find("NumberOfPoints=\"2\""), 18, "x=\" NumberOfPoints='2'\" NumberOfPoints=\"1000000000000\"");
+  expectRefused(readCloud(write("a.vtp", vtp)), "NumberOfPoints is '1000000000000'");
+}
+
 TEST_F(HostileFiles, LasRecordsThatLieAreKeptAsBytes)
 {
   // A description of 8 bytes where a record has 2 to spare.

@@ -30,6 +30,19 @@ TEST_F(Text, ManyDigitsMakeDoublePoints)
   EXPECT_EQ(result.cloud->GetPoint(0)[1], 5017773.08);
 }
 
+TEST_F(Text, DecimalExponentsAreNumbers)
+{
+  const ReadResult result = readCloud(write("a.xyz", "1.5e-3 2E+2 -3.25e0\n1e5,1E-5,+.5e1\n"));
+  EXPECT_NE(result.error, "") << "two separators";
+  const ReadResult same = readCloud(write("b.xyz", "1.5e-3 2E+2 -3.25e0\n1e5 1E-5 +.5e1\n"));
+  ASSERT_EQ(same.error, "");
+  EXPECT_FLOAT_EQ(static_cast<float>(same.cloud->GetPoint(0)[0]), 0.0015f);
+  EXPECT_EQ(same.cloud->GetPoint(0)[1], 200.0);
+  EXPECT_EQ(same.cloud->GetPoint(0)[2], -3.25);
+  EXPECT_EQ(same.cloud->GetPoint(1)[0], 100000.0);
+  EXPECT_EQ(same.cloud->GetPoint(1)[2], 5.0);
+}
+
 TEST_F(Text, CarriageReturnsBlankLinesCommentsAndNan)
 {
   const ReadResult result = readCloud(

@@ -1,0 +1,131 @@
+// Signals sent to the real program in the middle of its work.
+#include "RunProgram.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+namespace
+{
+
+using namespace pointhaptics;
+using apptest::Outcome;
+
+/// How a program runs on until it is stopped: long enough for most machines, then longer and longer.
+constexpr const char* kSizes[] = { "200000", "800000", "3200000", "12800000" };
+
+class Stop : public apptest::CommandLine
+{
+protected:
+  /// Sends @p signal to the program once @p isTime(process).
+  Outcome runAndStop(
+    const std::vector<std::string>& arguments, int signal, const std::function<bool(pid_t)>& isTime) const
+  {
+    const pid_t child = this->start(arguments);
+    while (!isTime(child) && !hasEnded(child))
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    kill(child, signal);
+    return this->finish(child);
+  }
+  std::ptrdiff_t unfinishedFiles() const
+  {
+    const std::vector<std::string> names = this->files();
+    return std::count_if(names.begin(), names.end(),
+      [](const std::string& name) { return name.find(".part") != std::string::npos; });
+  }
+  /// Whether the program remembers SIGINT by now.
+  static bool remembers(pid_t child)
+  {
+    const std::string mask = statusOf(child, "SigCgt:");
+    return !mask.empty() && (std::stoull(mask, nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+  }
+  static bool hasEnded(pid_t child) { return statusOf(child, "State:").rfind("Z", 0) == 0; }
+
+  void expectStopped(const Outcome& outcome, int exitCode, const std::string& said) const
+  {
+    EXPECT_EQ(outcome.exitCode, exitCode);
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(said), std::string::npos) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("stopped on request"), std::string::npos) << outcome.errors;
+  }
+
+private:
+  static std::string statusOf(pid_t child, const std::string& field)
+  {
+    std::ifstream status("/proc/" + std::to_string(child) + "/status");
+    std::string word;
+    while (status >> word)
+    {
+      if (word == field)
+      {
+        status >> word;
+        return word;
+      }
+    }
+    return {};
+  }
+};
+
+TEST_F(Stop, InTheMiddleOfWritingLeavesNoFileBehind)
+{
+  for (const int signal : { SIGINT, SIGTERM })
+  {
+    Outcome outcome;
+    for (const char* size : kSizes)
+    {
+      this->write("out.csv", "old");
+      outcome = this->runAndStop({ "generate", "sphere", "-n", size, "-o", "out.csv" }, signal,
+        [this](pid_t) { return this->unfinishedFiles() > 0; });
+      if (outcome.exitCode != 0)
+      {
+        break;
+      }
+    }
+    this->expectStopped(outcome, 128 + signal, "pointhaptics generate: out.csv: writing was");
+    EXPECT_EQ(this->files(), std::vector<std::string>{ "out.csv" });
+    EXPECT_EQ(this->read("out.csv"), "old");
+  }
+}
+
+TEST_F(Stop, InTheMiddleOfReadingOrFilteringLeavesNoFileBehind)
+{
+  for (const char* command : { "bandwidth", "resample" })
+  {
+    Outcome outcome;
+    for (const char* size : kSizes)
+    {
+      this->succeed({ "generate", "idol", "-n", size, "-o", "in.ply" });
+      outcome = this->runAndStop({ command, "in.ply", "-o", "out.csv" }, SIGINT, &remembers);
+      if (outcome.exitCode != 0)
+      {
+        break;
+      }
+    }
+    this->expectStopped(outcome, 130, std::string("pointhaptics ") + command + ": ");
+    EXPECT_EQ(this->files(), std::vector<std::string>{ "in.ply" });
+  }
+}
+
+TEST_F(Stop, InTheMiddleOfFeelingLeavesNoFileBehind)
+{
+  this->succeed({ "generate", "sphere", "-n", "5000", "-o", "in.ply" });
+  this->write("path.csv", "t,x,y,z\n0,0,0,0.03\n36000,0,0,0.02\n");
+  for (const char* device : { "none", "simulated" })
+  {
+    const Outcome outcome = this->runAndStop(
+      { "feel", "in.ply", "--unit", "m", "--path", "path.csv", "--device", device, "-o", "out.csv" }, SIGINT,
+      [this](pid_t) { return this->unfinishedFiles() > 0; });
+    this->expectStopped(outcome, 130, "pointhaptics feel: out.csv: feeling was");
+    EXPECT_EQ(this->files(), (std::vector<std::string>{ "in.ply", "path.csv" }));
+  }
+}
+
+} // namespace
