@@ -16,6 +16,8 @@ namespace
 {
 
 constexpr double kStatusPeriodSeconds = 0.25;
+/// While nothing moves.
+constexpr double kRestingPeriodSeconds = 2.0;
 constexpr double kPickPixels = 8.0;
 
 } // namespace
@@ -24,7 +26,9 @@ bool vtkInteractorStyleHaptic::UpdateStatus()
 {
   Internals& parts = *this->Parts;
   const double time = now();
-  if (!parts.overlay || time - parts.lastStatus < kStatusPeriodSeconds)
+  const bool rests = time - parts.touchMoved > kRestingPeriodSeconds && !this->IsModelChanged();
+  const double period = rests ? kRestingPeriodSeconds : kStatusPeriodSeconds;
+  if (!parts.overlay || time - parts.lastStatus < period)
   {
     return false;
   }
@@ -135,6 +139,7 @@ void vtkInteractorStyleHaptic::ToggleChart()
   if (chart && renderer)
   {
     chart->SetVisibility(!chart->GetVisibility());
+    this->Parts->chartChanged = true;
     double viewport[4] = { 0.0, 0.0, 1.0, 1.0 };
     chart->GetRenderer()->GetViewport(viewport);
     // The chart is a strip along the lower edge; the picture takes the rest of the window.
