@@ -1,5 +1,8 @@
 #include "PictureState.h"
 
+#include "vtkSplatMapper.h"
+
+#include "vtkActor.h"
 #include "vtkActor2D.h"
 #include "vtkCamera.h"
 #include "vtkLight.h"
@@ -36,6 +39,14 @@ void addProp(std::vector<double>& state, vtkProp* prop)
   {
     placed->ComputeMatrix();
     add(state, placed->GetMatrix()->GetData(), 16);
+  }
+  // Nor do the sizes of splats change that of their mapper.
+  auto* actor = vtkActor::SafeDownCast(prop);
+  if (auto* splats = actor ? vtkSplatMapper::SafeDownCast(actor->GetMapper()) : nullptr)
+  {
+    state.insert(state.end(),
+      { splats->GetSizeScale(), splats->GetSmallestPixels(), splats->GetLargestPixels(),
+        splats->GetFixedPixels() });
   }
 }
 
