@@ -185,6 +185,7 @@ void ServoLoop::Implementation::run() noexcept
   const auto deadline = [&](std::uint64_t number)
   { return start + std::int64_t(double(number - 1) * period); };
   std::uint64_t number = 1;
+  std::uint64_t rest = 0; // deadlines passed over since the last tick
   // A stop is obeyed once the gate has closed, and at once where nothing pushes.
   while (!stopRequested.load(std::memory_order_acquire) || (gate.part() > 0.0 && pushes()))
   {
@@ -199,12 +200,14 @@ void ServoLoop::Implementation::run() noexcept
       missed = std::uint64_t(double(wake - deadline(number)) / period);
     }
     increase(missedTicks, missed);
+    increase(restedTicks, rest);
     number += missed;
     if (tick(number, wake) == Status::EndOfPath)
     {
       break;
     }
-    number += 1 + ticksToRest();
+    rest = ticksToRest();
+    number += 1 + rest;
   }
   static_cast<void>(port->write(double(number - 1) / settings.rateHz, Vec3()));
   running.store(false, std::memory_order_release);
@@ -274,9 +277,7 @@ std::uint64_t ServoLoop::Implementation::ticksToRest() noexcept
   {
     return 0;
   }
-  const auto ticksOfRest = std::uint64_t(kRestSeconds * settings.rateHz) - 1;
-  increase(restedTicks, ticksOfRest);
-  return ticksOfRest;
+  return std::uint64_t(kRestSeconds * settings.rateHz) - 1;
 }
 
 /// Steps the proxy; fills the sample's state. @return the proxy's force.

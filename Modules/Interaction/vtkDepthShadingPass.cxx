@@ -2,6 +2,7 @@
 
 #include "PictureState.h"
 
+#include "vtkActor2D.h"
 #include "vtkCamera.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -124,6 +125,14 @@ void vtkDepthShadingPass::Render(const vtkRenderState* state)
     ++this->NumberOfPictures;
     this->Shade(renderer, window);
     return;
+  }
+  // Text makes its image where it has nothing to draw yet.
+  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  {
+    if (auto* text = vtkActor2D::SafeDownCast(state->GetPropArray()[i]))
+    {
+      text->RenderOpaqueGeometry(renderer);
+    }
   }
   this->Shade(renderer, window);
   if (!this->KeptIsShaded)

@@ -73,13 +73,13 @@ std::string vtkInteractorStyleHaptic::ServoPanelText()
     "rate: %.1f Hz\n"
     "late: p50 %.0f us, p99 %.0f us, most %.0f us\n"
     "work of a tick: p50 %.0f us, p99 %.0f us, most %.0f us\n"
-    "ticks: %llu, missed: %llu\n"
+    "ticks: %llu, missed: %llu, rested: %llu\n"
     "device faults: %llu, waiting: %llu\n"
     "device: %s",
     parts.servo->running() ? "running" : "stopped", statistics.realtime ? ", SCHED_FIFO" : "",
     statistics.rateHz, 1e6 * statistics.lateness.p50, 1e6 * statistics.lateness.p99,
     1e6 * statistics.lateness.maximum, 1e6 * statistics.update.p50, 1e6 * statistics.update.p99,
-    1e6 * statistics.update.maximum, count(statistics.ticks), count(statistics.missedTicks),
+    1e6 * statistics.update.maximum, count(statistics.ticks), count(statistics.missedTicks), count(statistics.restedTicks),
     count(statistics.deviceFaults), count(statistics.waitingTicks), device.substr(0, 200).c_str());
   return text;
 }

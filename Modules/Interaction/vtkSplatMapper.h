@@ -44,8 +44,8 @@ public:
 
   ///@{
   /**
-   * Diameter of a splat over its length in the array, above 0. Default: 3, at which voxel means close to a
-   * surface: 2.1 times their spacing for the bandwidths of 16 neighbours.
+   * Diameter of a splat over its length in the array, above 0. Default: 3.6, at which voxel means close to a
+   * surface: 2.5 times their spacing for the bandwidths of 16 neighbours.
    */
   void SetSizeScale(double scale);
   double GetSizeScale() const { return this->SizeScale; }
@@ -98,7 +98,7 @@ private:
   void operator=(const vtkSplatMapper&) = delete;
 
   std::string SizeArrayName = "Bandwidth";
-  double SizeScale = 3.0;
+  double SizeScale = 3.6;
   double LargestRatio = 2.5;
   double SmallestPixels = 2.0;
   double LargestPixels = 64.0;
