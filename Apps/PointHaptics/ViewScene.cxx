@@ -341,6 +341,7 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   getWorkspaceBounds(bounds);
   resampler_->SetWorkspaceBounds(bounds); // from now on it stays, whatever the user does to the model
   props_->SetWorkspaceBounds(bounds);
+  detail_.setWorkspace(workspace_);
   const Vec3 extent = workspace_.extent();
   const double edge = std::max({ extent.x, extent.y, extent.z });
   props_->SetForceScale(0.06 * edge);

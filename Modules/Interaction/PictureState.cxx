@@ -47,6 +47,10 @@ void addProp(std::vector<double>& state, vtkProp* prop)
     state.insert(state.end(),
       { splats->GetSizeScale(), splats->GetSmallestPixels(), splats->GetLargestPixels(),
         splats->GetFixedPixels() });
+    for (const auto& range : splats->GetRanges())
+    {
+      state.insert(state.end(), { double(range[0]), double(range[1]) });
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLHelper.h"
+#include "vtkOpenGLIndexBufferObject.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkRenderer.h"
@@ -17,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace
@@ -90,6 +93,11 @@ void vtkSplatMapper::SetFixedPixels(double pixels)
   this->FixedPixels = pixels >= 0.0 && std::isfinite(pixels) ? pixels : this->FixedPixels;
 }
 
+void vtkSplatMapper::SetRanges(std::vector<std::array<vtkIdType, 2>> ranges)
+{
+  this->Ranges = std::move(ranges);
+}
+
 void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double factor)
 {
   this->SetSizeArrayName(other->SizeArrayName);
@@ -126,7 +134,24 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
 void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
   glEnable(GL_PROGRAM_POINT_SIZE);
-  this->Superclass::RenderPieceDraw(renderer, actor);
+  vtkOpenGLHelper& points = this->Primitives[PrimitivePoints];
+  if (this->Ranges.empty() || renderer->GetSelector())
+  {
+    this->Superclass::RenderPieceDraw(renderer, actor);
+  }
+  else if (points.IBO->IndexCount > 0)
+  {
+    this->UpdateShaders(points, renderer, actor);
+    points.IBO->Bind();
+    for (const auto& [begin, end] : this->Ranges)
+    {
+      const auto last = std::min(end, static_cast<vtkIdType>(points.IBO->IndexCount));
+      const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(GLuint);
+      glDrawElements(GL_POINTS, static_cast<GLsizei>(std::max<vtkIdType>(0, last - begin)), GL_UNSIGNED_INT,
+        reinterpret_cast<const void*>(offset));
+    }
+    points.IBO->Release();
+  }
   glDisable(GL_PROGRAM_POINT_SIZE);
 }
 

@@ -25,7 +25,9 @@
 
 #include "vtkOpenGLPolyDataMapper.h"
 
+#include <array>  // For ranges
 #include <string> // For the array's name
+#include <vector> // For ranges
 
 class POINTHAPTICSINTERACTION_EXPORT vtkSplatMapper : public vtkOpenGLPolyDataMapper
 {
@@ -79,6 +81,13 @@ public:
   ///@}
 
   /**
+   * Parts of the input's vertices that are drawn, in the order of its cells: the first and the one after the
+   * last of each. Empty (default): all. Free to change; for input whose cells are vertices of one point each.
+   */
+  void SetRanges(std::vector<std::array<vtkIdType, 2>> ranges);
+  const std::vector<std::array<vtkIdType, 2>>& GetRanges() const { return this->Ranges; }
+
+  /**
    * Takes over all numbers and the array's name, SizeScale times @p factor.
    */
   void CopySizes(const vtkSplatMapper* other, double factor);
@@ -103,6 +112,7 @@ private:
   double SmallestPixels = 2.0;
   double LargestPixels = 64.0;
   double FixedPixels = 0.0;
+  std::vector<std::array<vtkIdType, 2>> Ranges;
   bool HasSizes = false; // the shader in use reads the array
   double MedianLength = 0.0;
   vtkMTimeType MedianTime = 0; // of the array it is from

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
+#include <vtkActorCollection.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -300,6 +301,62 @@ TEST_F(CloudDetailTest, DrawsTheCloudAnewOnlyWhereMoreThanTextChanged)
     this->render(0.0);
     EXPECT_NE(this->pixels(), before) << name;
   }
+}
+
+TEST_F(CloudDetailTest, LeavesOutWhatIsOutOfViewWithoutChangingThePicture)
+{
+  vtkNew<vtkFloatArray> lengths;
+  lengths->SetName("Bandwidth");
+  lengths->SetNumberOfValues(kPoints);
+  lengths->FillValue(0.0003f);
+  cloud_->GetPointData()->AddArray(lengths);
+  vtkNew<vtkSplatMapper> splats;
+  splats->SetInputData(cloud_);
+  actor_->SetMapper(splats);
+  applyCloudAppearance(cloud_, splats, actor_);
+  this->render(0.01);
+  ASSERT_FALSE(detail_.showsAll());
+  EXPECT_EQ(detail_.visiblePoints(), detail_.drawnPoints());
+  // Near the upper part of the sphere.
+  renderer_->GetActiveCamera()->SetPosition(0.0, 0.03, 0.12);
+  renderer_->GetActiveCamera()->SetFocalPoint(0.0, 0.035, 0.0);
+  renderer_->GetActiveCamera()->SetViewAngle(15.0);
+  renderer_->ResetCameraClippingRange();
+  this->render(0.01);
+  ASSERT_FALSE(detail_.showsAll());
+  EXPECT_LT(double(detail_.visiblePoints()), 0.65 * double(detail_.drawnPoints()));
+  EXPECT_GT(detail_.visiblePoints(), 100);
+  const std::vector<unsigned char> few = this->pixels();
+  vtkActorCollection* actors = renderer_->GetActors();
+  vtkCollectionSimpleIterator cookie;
+  actors->InitTraversal(cookie);
+  while (vtkActor* actor = actors->GetNextActor(cookie))
+  {
+    if (auto* mapper = vtkSplatMapper::SafeDownCast(actor->GetMapper()))
+    {
+      mapper->SetRanges({});
+    }
+  }
+  renderer_->RemoveObserver(begin_);
+  this->render(0.0);
+  EXPECT_EQ(this->pixels(), few);
+}
+
+TEST_F(CloudDetailTest, LeavesOutWhatTheWorkspaceClips)
+{
+  vtkNew<vtkSplatMapper> splats;
+  splats->SetInputData(cloud_);
+  actor_->SetMapper(splats);
+  applyCloudAppearance(cloud_, splats, actor_);
+  Bounds box;
+  box.include({ -1.0, -1.0, -1.0 });
+  box.include({ 0.0, 1.0, 1.0 });
+  detail_.setWorkspace(box);
+  this->render(0.01);
+  ASSERT_FALSE(detail_.showsAll());
+  // Half of the sphere, and the bricks on the border.
+  EXPECT_LT(double(detail_.visiblePoints()), 0.75 * double(detail_.drawnPoints()));
+  EXPECT_GT(double(detail_.visiblePoints()), 0.5 * double(detail_.drawnPoints()));
 }
 
 TEST_F(CloudDetailTest, SplatsAreDiscsAsLargeAsTheirLengthSays)
