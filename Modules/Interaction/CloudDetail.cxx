@@ -1,6 +1,7 @@
 #include "CloudDetail.h"
 
 #include "FairOrder.h"
+#include "vtkSplatMapper.h"
 
 #include "vtkActor.h"
 #include "vtkActorCollection.h"
@@ -33,6 +34,8 @@ constexpr std::int64_t kRefinement = 4;
 /// A moving picture keeps its level while the budget is between these parts of it.
 constexpr double kLeastShare = 0.9;
 constexpr double kMostShare = 1.6;
+/// Part in view that is reckoned with at least: the next frame may show more.
+constexpr double kLeastSeen = 0.1;
 
 double steadySeconds()
 {
@@ -88,7 +91,18 @@ void colorAlike(vtkMapper* from, vtkMapper* to)
   }
 }
 
-/// The points @p ids of @p cloud with the array they are coloured by.
+/// Adds the tuples @p ids of @p array to @p part.
+int addTuples(vtkDataArray* array, vtkIdList* ids, vtkPolyData* part)
+{
+  const auto some = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+  some->SetName(array->GetName());
+  some->SetNumberOfComponents(array->GetNumberOfComponents());
+  some->SetNumberOfTuples(ids->GetNumberOfIds());
+  array->GetTuples(ids, some);
+  return part->GetPointData()->AddArray(some);
+}
+
+/// The points @p ids of @p cloud with the arrays of their colours and sizes.
 vtkSmartPointer<vtkPolyData> pick(vtkPolyData* cloud, vtkMapper* mapper, vtkIdList* ids)
 {
   auto part = vtkSmartPointer<vtkPolyData>::New();
@@ -98,16 +112,18 @@ vtkSmartPointer<vtkPolyData> pick(vtkPolyData* cloud, vtkMapper* mapper, vtkIdLi
   part->SetPoints(points);
   if (vtkDataArray* colors = colorArray(cloud, mapper))
   {
-    const auto some = vtkSmartPointer<vtkDataArray>::Take(colors->NewInstance());
-    some->SetName(colors->GetName());
-    some->SetNumberOfComponents(colors->GetNumberOfComponents());
-    some->SetNumberOfTuples(ids->GetNumberOfIds());
-    colors->GetTuples(ids, some);
-    const int index = part->GetPointData()->AddArray(some);
+    const int index = addTuples(colors, ids, part);
     if (colors == cloud->GetPointData()->GetScalars())
     {
       part->GetPointData()->SetActiveAttribute(index, vtkDataSetAttributes::SCALARS);
     }
+  }
+  auto* splats = vtkSplatMapper::SafeDownCast(mapper);
+  vtkDataArray* sizes =
+    splats ? cloud->GetPointData()->GetArray(splats->GetSizeArrayName().c_str()) : nullptr;
+  if (sizes && !part->GetPointData()->HasArray(sizes->GetName()))
+  {
+    addTuples(sizes, ids, part);
   }
   vtkNew<vtkCellArray> vertices;
   vertices->InsertNextCell(static_cast<int>(ids->GetNumberOfIds()));
@@ -226,8 +242,11 @@ std::int64_t CloudDetail::wanted(double now)
     const bool wentOn = now - lastMotion_ < kRestSeconds && drawn_ < total_;
     lastMotion_ = now;
     // The level changes for a reason only: points that grow and shrink catch the eye.
-    const double share = double(budget_.points()) / double(std::max<std::int64_t>(1, drawn_));
-    return wentOn && share > kLeastShare && share < kMostShare ? drawn_ : budget_.points();
+    const double seen =
+      double(std::max<std::int64_t>(1, visible_)) / double(std::max<std::int64_t>(1, drawn_));
+    const double fitting = double(budget_.points()) / std::max(seen, kLeastSeen);
+    const double share = fitting / double(std::max<std::int64_t>(1, drawn_));
+    return wentOn && share > kLeastShare && share < kMostShare ? drawn_ : std::int64_t(fitting);
   }
   return now - lastMotion_ >= kRestSeconds ? kRefinement * drawn_ : drawn_;
 }
@@ -239,7 +258,7 @@ void CloudDetail::beginFrame(double now)
   frameIsTypical_ = false;
   if (!enabled_ || !renderer_ || !cloud || cloud->GetNumberOfPoints() == 0)
   {
-    total_ = drawn_ = cloud ? cloud->GetNumberOfPoints() : 0;
+    total_ = drawn_ = visible_ = cloud ? cloud->GetNumberOfPoints() : 0;
     return;
   }
   this->watchWindow();
@@ -260,7 +279,7 @@ void CloudDetail::endFrame()
   if (frameIsTypical_ && window_)
   {
     window_->WaitForCompletion();
-    budget_.add(drawn_, steadySeconds() - frameBegin_);
+    budget_.add(visible_, steadySeconds() - frameBegin_);
   }
   frameIsTypical_ = false;
 }
@@ -290,23 +309,91 @@ void CloudDetail::show(vtkPolyData* cloud, std::int64_t points)
   }
   actor_->SetVisibility(all);
   std::int64_t begin = 0;
+  auto* whole = vtkSplatMapper::SafeDownCast(actor_->GetMapper());
   for (const Level& level : levels_)
   {
     level.actor->SetVisibility(!all && begin < drawn_);
     level.actor->SetUserMatrix(actor_->GetUserMatrix());
+    if (auto* splats = vtkSplatMapper::SafeDownCast(level.actor->GetMapper()))
+    {
+      splats->CopySizes(whole, this->spacingFactor());
+    }
     begin = level.end;
+  }
+  visible_ = drawn_;
+  if (!all)
+  {
+    this->leaveOutUnseen();
   }
   coarse_->SetOpacity(actor_->GetProperty()->GetOpacity());
   coarse_->SetColor(actor_->GetProperty()->GetColor());
   coarse_->SetLighting(actor_->GetProperty()->GetLighting());
 }
 
+/// The sides of the frustum and of the workspace.
+std::vector<HalfSpace> CloudDetail::view() const
+{
+  constexpr int kSides = 4; // left, right, bottom, top; the clipping range holds the whole scene
+  double planes[24];
+  renderer_->GetActiveCamera()->GetFrustumPlanes(renderer_->GetTiledAspectRatio(), planes);
+  std::vector<HalfSpace> result;
+  for (int side = 0; side < kSides; ++side)
+  {
+    result.push_back({ planes[4 * side], planes[4 * side + 1], planes[4 * side + 2], planes[4 * side + 3] });
+  }
+  for (int axis = 0; axis < 3 && !workspace_.empty(); ++axis)
+  {
+    HalfSpace lower{};
+    HalfSpace upper{};
+    lower[std::size_t(axis)] = 1.0;
+    lower[3] = -workspace_.minimum[axis];
+    upper[std::size_t(axis)] = -1.0;
+    upper[3] = workspace_.maximum[axis];
+    result.push_back(lower);
+    result.push_back(upper);
+  }
+  return result;
+}
+
+void CloudDetail::leaveOutUnseen()
+{
+  const std::vector<HalfSpace> halfSpaces = this->view();
+  visible_ = 0;
+  std::int64_t begin = 0;
+  for (const Level& level : levels_)
+  {
+    const std::int64_t size = level.end - begin;
+    const bool isDrawn = begin < drawn_;
+    begin = level.end;
+    auto* splats = vtkSplatMapper::SafeDownCast(level.actor->GetMapper());
+    if (!isDrawn)
+    {
+      continue;
+    }
+    if (!splats)
+    {
+      visible_ += size;
+      continue;
+    }
+    const double margin = 0.5 * splats->GetSizeScale() * level.largestLength;
+    std::vector<std::array<vtkIdType, 2>> ranges =
+      visibleRanges(level.bricks, halfSpaces, actor_->GetMatrix(), margin);
+    for (const auto& range : ranges)
+    {
+      visible_ += range[1] - range[0];
+    }
+    level.actor->SetVisibility(!ranges.empty());
+    splats->SetRanges(std::move(ranges));
+  }
+}
+
 void CloudDetail::addLevel(vtkPolyData* cloud)
 {
+  std::vector<Vec3> copy;
+  const PointView points = viewOf(cloud, copy);
   if (order_.empty())
   {
-    std::vector<Vec3> copy;
-    order_ = fairOrder(viewOf(cloud, copy));
+    order_ = fairOrder(points);
   }
   const std::int64_t begin = levels_.empty() ? 0 : levels_.back().end;
   double end = double(FrameBudget::kFewestPoints);
@@ -316,12 +403,21 @@ void CloudDetail::addLevel(vtkPolyData* cloud)
   }
   Level level;
   level.end = std::min(total_, std::int64_t(end));
+  std::vector<std::int64_t> members(order_.begin() + begin, order_.begin() + level.end);
+  level.bricks = makeBricks(points, members);
   vtkNew<vtkIdList> ids;
   ids->SetNumberOfIds(level.end - begin);
-  std::copy(order_.begin() + begin, order_.begin() + level.end, ids->GetPointer(0));
-  vtkNew<vtkPolyDataMapper> mapper;
+  std::copy(members.begin(), members.end(), ids->GetPointer(0));
+  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::Take(
+    vtkSplatMapper::SafeDownCast(actor_->GetMapper()) ? vtkSplatMapper::New() : vtkPolyDataMapper::New());
   colorAlike(actor_->GetMapper(), mapper);
-  mapper->SetInputData(pick(cloud, actor_->GetMapper(), ids));
+  const vtkSmartPointer<vtkPolyData> part = pick(cloud, actor_->GetMapper(), ids);
+  mapper->SetInputData(part);
+  if (auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper()))
+  {
+    vtkDataArray* sizes = part->GetPointData()->GetArray(splats->GetSizeArrayName().c_str());
+    level.largestLength = sizes ? sizes->GetRange()[1] : 0.0;
+  }
   level.actor = vtkSmartPointer<vtkActor>::New();
   level.actor->SetMapper(mapper);
   level.actor->SetProperty(coarse_);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "FrameBudget.h"
+#include "SplatBricks.h"
 
 #include "PointHapticsInteractionModule.h" // For export macro
 
@@ -26,10 +27,12 @@ namespace pointhaptics
 
 /// Stands beside the actor of a cloud in a renderer. A frame that differs from the last one by its camera,
 /// its cloud or another actor is drawn with as many points, in fairOrder(), as fit the frame budget, which is
-/// learnt from the times such frames take; the points grow so that surfaces stay closed. After
-/// kRestSeconds without such a frame refinementDue() asks for frames with four times as many points each,
-/// until the cloud's own actor is drawn: the picture at rest is the one without this class. Text may change
-/// without the detail changing. Points are uploaded when they are first drawn.
+/// learnt from the times such frames take; the splats of a vtkSplatMapper grow so that surfaces stay closed.
+/// After kRestSeconds without such a frame refinementDue() asks for frames with four times as many points
+/// each, until the cloud's own actor is drawn: the picture at rest is the one without this class. Of the
+/// splats of a vtkSplatMapper only the bricks in view, and in the workspace if there is one, are drawn in
+/// such a frame, and only they count: a part of the cloud seen from near by is shown with more points. Text
+/// may change without the detail changing. Points are uploaded when they are first drawn.
 ///
 /// The picture only gets finer when somebody renders: call refinementDue() from a timer. GUI thread only. To
 /// be destroyed before the actor's renderer.
@@ -44,6 +47,8 @@ public:
   CloudDetail(const CloudDetail&) = delete;
   CloudDetail& operator=(const CloudDetail&) = delete;
 
+  /// A box in the frame of the scene: what lies outside is not drawn while the picture moves. Default: none.
+  void setWorkspace(const Bounds& box) { workspace_ = box; }
   /// Off (the default): every frame shows all points.
   void setEnabled(bool enabled);
   bool isEnabled() const { return enabled_; }
@@ -60,11 +65,14 @@ public:
   /// Whether the last frame showed all points.
   bool showsAll() const { return drawn_ >= total_; }
   bool isMoving() const { return moving_; }
+  /// Points in the last frame, those out of view included; and without them.
   std::int64_t drawnPoints() const { return drawn_; }
+  std::int64_t visiblePoints() const { return visible_; }
   std::int64_t allPoints() const { return total_; }
   /// All points over those drawn, square root: how much farther apart the drawn ones lie on a surface.
   double spacingFactor() const;
-  /// Pixels, for the points of the coming frame where it does not show all.
+  /// Pixels, for the points of the coming frame where it does not show all and the actor's mapper is no
+  /// vtkSplatMapper.
   void setCoarsePointSize(double pixels);
   const FrameBudget& budget() const { return budget_; }
 
@@ -73,6 +81,8 @@ private:
   {
     std::int64_t end = 0; // points in this level and those before
     vtkSmartPointer<vtkActor> actor;
+    std::vector<SplatBrick> bricks; // where the mapper draws splats
+    double largestLength = 0.0;     // of a splat, in the array
   };
 
   void watchWindow();
@@ -82,6 +92,8 @@ private:
   std::int64_t levelFor(std::int64_t points) const;
   void show(vtkPolyData* cloud, std::int64_t points);
   void addLevel(vtkPolyData* cloud);
+  void leaveOutUnseen();
+  std::vector<HalfSpace> view() const;
   void dropLevels();
 
   vtkWeakPointer<vtkRenderer> renderer_;
@@ -99,6 +111,8 @@ private:
   bool frameIsTypical_ = false; // nothing is uploaded in it
   std::int64_t total_ = 0;
   std::int64_t drawn_ = 0;
+  std::int64_t visible_ = 0;
+  Bounds workspace_;
   double lastMotion_ = -1e9;
   double frameBegin_ = 0.0;
   unsigned long long cloudTime_ = 0;

@@ -4,6 +4,7 @@
 #include "CloudOrientation.h"
 #include "HapticSceneBuilder.h"
 #include "OverlayPictures.h"
+#include "SplatPictures.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -275,7 +276,8 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
   const Picture pictures[] = { { "VoxelMeans", { "dropped-point" }, buildVoxelMeans },
     { "SphereContact", { "shifted-proxy" }, buildSphereContact },
     { "DensityProxies", { "wrong-color", "equal-radii" }, buildDensityProxies },
-    { "IdolRadius", { "wrong-color" }, buildIdolRadius },
+    { "IdolRadius", { "wrong-color" }, buildIdolRadius }, { "Splats", { "equal-sizes" }, buildSplats },
+    { "CoarseSplats", { "equal-sizes", "all-points" }, buildCoarseSplats },
     { "HelpOverlay", { "missing-line" }, buildHelpOverlay },
     { "StatusOverlay", { "wrong-number" }, buildStatusOverlay },
     { "Sliders", { "wrong-value" }, buildSliders }, { "Chart", { "wrong-force" }, buildChart } };
