@@ -59,11 +59,12 @@ enum class FitQuality
 };
 
 /// Height z over the frame, all lengths divided by the fit radius: z = k0 + k1 u + k2 v + k3 uu + k4 uv + k5
-/// vv.
+/// vv, and where they were fitted the cubic terms c0 uuu + c1 uuv + c2 uvv + c3 vvv.
 struct SurfaceFit
 {
   FitQuality quality = FitQuality::None;
   double k[6] = { 0, 0, 0, 0, 0, 0 };
+  double cubic[4] = { 0, 0, 0, 0 };
   double radius = 0.0;    ///< rho the coefficients are scaled by, metres.
   double residual = 0.0;  ///< Weighted RMS distance of the cells' means from the fit, metres.
   double centroidU = 0.0; ///< Weighted centroid over rho: 0 inside a surface, 0.235 on a straight rim.
@@ -72,7 +73,17 @@ struct SurfaceFit
 
   double height(double u, double v) const noexcept
   {
-    return k[0] + k[1] * u + k[2] * v + k[3] * u * u + k[4] * u * v + k[5] * v * v;
+    const double* c = cubic;
+    return k[0] + u * (k[1] + u * (k[3] + c[0] * u + c[1] * v) + v * k[4]) +
+      v * (k[2] + v * (k[5] + c[2] * u + c[3] * v));
+  }
+  double slopeU(double u, double v) const noexcept
+  {
+    return k[1] + u * (2.0 * k[3] + 3.0 * cubic[0] * u + 2.0 * cubic[1] * v) + v * (k[4] + cubic[2] * v);
+  }
+  double slopeV(double u, double v) const noexcept
+  {
+    return k[2] + v * (2.0 * k[5] + 3.0 * cubic[3] * v + 2.0 * cubic[2] * u) + u * (k[4] + cubic[1] * u);
   }
 };
 

@@ -12,22 +12,25 @@ namespace kernel
 {
 
 constexpr int kFitLanes = 8;
+/// Numbers left free behind each array: without them equal places of all arrays would compete for the same
+/// few lines of the cache.
+constexpr int kFitGap = kFitLanes;
 
 /// Cells near a center, each quantity in an array of its own; positions relative to the center.
 struct alignas(64) FitBlock
 {
   static constexpr int kCapacity = 1024;
 
-  double x[kCapacity];
-  double y[kCapacity];
-  double z[kCapacity];
-  double count[kCapacity];
-  double xx[kCapacity];
-  double xy[kCapacity];
-  double xz[kCapacity];
-  double yy[kCapacity];
-  double yz[kCapacity];
-  double zz[kCapacity];
+  double x[kCapacity + kFitGap];
+  double y[kCapacity + kFitGap];
+  double z[kCapacity + kFitGap];
+  double count[kCapacity + kFitGap];
+  double xx[kCapacity + kFitGap];
+  double xy[kCapacity + kFitGap];
+  double xz[kCapacity + kFitGap];
+  double yy[kCapacity + kFitGap];
+  double yz[kCapacity + kFitGap];
+  double zz[kCapacity + kFitGap];
   int size = 0;
   int level = -1; ///< -1: holds nothing.
   Vec3 center;
@@ -103,18 +106,18 @@ struct alignas(64) FitRows
 {
   static constexpr int kCapacity = 2 * FitBlock::kCapacity;
 
-  double u[kCapacity];
-  double v[kCapacity];
-  double uu[kCapacity];
-  double uv[kCapacity];
-  double vv[kCapacity];
-  double height[kCapacity];
-  double weight[kCapacity];      ///< n g (1 - e)^4
-  double slopeWeight[kCapacity]; ///< 4 n g (1 - e)^3
-  double e[kCapacity];
-  double can[kCapacity]; ///< a'C n
-  double cbn[kCapacity]; ///< b'C n
-  double count[kCapacity];
+  double u[kCapacity + kFitGap];
+  double v[kCapacity + kFitGap];
+  double uu[kCapacity + kFitGap];
+  double uv[kCapacity + kFitGap];
+  double vv[kCapacity + kFitGap];
+  double height[kCapacity + kFitGap];
+  double weight[kCapacity + kFitGap];      ///< n g (1 - e)^4
+  double slopeWeight[kCapacity + kFitGap]; ///< 4 n g (1 - e)^3
+  double e[kCapacity + kFitGap];
+  double can[kCapacity + kFitGap]; ///< a'C n
+  double cbn[kCapacity + kFitGap]; ///< b'C n
+  double count[kCapacity + kFitGap];
   int size = 0; ///< A multiple of kFitLanes; rows without a cell have weight 0.
 };
 
