@@ -138,23 +138,27 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
   double l[6][6];
   int terms = 0;
   SurfaceFit fit = solve(sums, settings.radius, l, terms);
-  if (slopes && slopes->strength > 0.0 && terms == 6)
+  const double share = slopes ? std::max(slopes->strength, slopes->cubic) : 0.0;
+  if (share > 0.0 && terms == 6)
   {
     kernel::CubicSums cubic;
     memory.kernels().sumCubicRows(memory.rows(), cubic);
-    const kernel::TracedFit traced = withCubicTerms(sums, cubic, l, slopes->strength);
+    const kernel::TracedFit traced = withCubicTerms(sums, cubic, l, share);
     std::copy(traced.k, traced.k + 6, fit.k);
     std::copy(traced.k + 6, traced.k + 10, fit.cubic);
-    kernel::TraceSums trace;
-    memory.kernels().traceRows(memory.rows(), traced, dot(slopes->radiusGradient, frame.a),
-      dot(slopes->radiusGradient, frame.b), trace);
-    traceSlopes(trace, slopes->strength, fit);
+    if (slopes->strength > 0.0)
+    {
+      kernel::TraceSums trace;
+      memory.kernels().traceRows(memory.rows(), traced, dot(slopes->radiusGradient, frame.a),
+        dot(slopes->radiusGradient, frame.b), trace);
+      traceSlopes(trace, slopes->strength, fit);
+    }
   }
   return fit;
 }
 
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
-  FitCells& memory, SurfaceFitError& error) noexcept
+  FitCells& memory, SurfaceFitError& error, bool cubic) noexcept
 {
   error = SurfaceFitError();
   collectRows(pyramid, frame, settings, memory);
@@ -162,10 +166,40 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
   memory.kernels().sumRows(memory.rows(), sums);
   double l[6][6];
   int terms = 0;
-  const SurfaceFit fit = solve(sums, settings.radius, l, terms);
+  SurfaceFit fit = solve(sums, settings.radius, l, terms);
+  double inverse[3][10] = {};
+  for (int i = 0; i < 3 && terms > 0; ++i)
+  {
+    double unit[6] = {};
+    unit[i] = 1.0;
+    backSolve(l, terms, unit, inverse[i]);
+  }
+  if (cubic && terms == 6)
+  {
+    kernel::CubicSums cubicSums;
+    memory.kernels().sumCubicRows(memory.rows(), cubicSums);
+    const CubicFactor factor = factorCubic(cubicSums, l, 1.0);
+    if (factor.share < 1.0)
+    {
+      fit.quality = FitQuality::Plane;
+      return fit;
+    }
+    double x[10];
+    solveCubic(factor, l, sums.rhs, cubicSums.rhs, x);
+    std::copy(x, x + 6, fit.k);
+    std::copy(x + 6, x + 10, fit.cubic);
+    const double none[4] = { 0.0, 0.0, 0.0, 0.0 };
+    for (int i = 0; i < 3; ++i)
+    {
+      double unit[6] = {};
+      unit[i] = 1.0;
+      solveCubic(factor, l, unit, none, inverse[i]);
+    }
+    terms = 10;
+  }
   if (terms > 0)
   {
-    errorsOf(memory.rows(), sums, l, terms, fit.residual, settings.radius, error);
+    errorsOf(memory.rows(), sums, inverse, terms, fit.residual, settings.radius, error);
   }
   return fit;
 }

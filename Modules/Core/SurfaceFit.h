@@ -49,6 +49,7 @@ struct TracedSlopes
   double strength =
     0.0; ///< 0: the quadric's slopes, 1: the traced surface's. Noise is amplified up to twofold at 1.
   Vec3 radiusGradient; ///< grad rho at the origin.
+  double cubic = 0.0;  ///< Share of the cubic terms where it is above the strength, 0 to 1.
 };
 
 enum class FitQuality
@@ -90,7 +91,8 @@ struct SurfaceFit
 /// A fit with what its scatter says of its own error.
 struct SurfaceFitError
 {
-  double noise = 0.0;                    ///< Standard deviation of single points about the surface, metres.
+  double noise = 0.0;   ///< Standard deviation of single points about the surface, metres.
+  double leftOut = 0.0; ///< Part of the points, weighted, that the gate left out: of other sheets.
   double standardError[3] = { 0, 0, 0 }; ///< Of rho k0 (metres), k1 and k2, for noise 1 metre.
 };
 
@@ -98,14 +100,15 @@ struct SurfaceFitError
 /// terms use each cell's covariance, which makes the fit exact for every quadric height field however coarse
 /// the cells are. The level of detail follows the radius and changes without a step. No allocation, no
 /// exception; work bounded by the blocks of @p memory. 0.3 to 0.8 us where the cells are gathered already.
-/// @param slopes where given, k1 and k2 are those of the traced surface, for half as much again; left as they
+/// @param slopes where given, with cubic terms, and k1 and k2 those of the traced surface; left as they
 /// are where the fit is a plane.
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
   FitCells& memory, const TracedSlopes* slopes = nullptr) noexcept;
 
 /// The same with the errors of position and slopes; for building scenes, several times the cost.
+/// @param cubic with the cubic terms; less than a Quadric where the cells do not determine them.
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
-  FitCells& memory, SurfaceFitError& error) noexcept;
+  FitCells& memory, SurfaceFitError& error, bool cubic = false) noexcept;
 
 /// Starts on the surface near @p onSurface with the approximate normal in @p frame: a few fits, moving to the
 /// foot of the origin each time. Cells further than @p gate (metres; half as much again in the first fit)

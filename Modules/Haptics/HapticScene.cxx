@@ -19,7 +19,7 @@ constexpr double kRadiusInSpacings = 2.8;
 /// The index cell is at least this part of the typical spacing: finer ones would be empty.
 constexpr double kCellInSpacings = 0.8;
 /// Longest fit radius in index cells.
-constexpr double kLargestFitRadiusInCells = 15.0;
+constexpr double kLargestFitRadiusInCells = 18.0;
 /// A cell this much larger or smaller than the spacing asks for will do.
 constexpr double kCellTolerance = 1.1;
 /// Index cell of a cloud without any extent, metres.

@@ -66,13 +66,14 @@ struct alignas(64) FieldBlock
   double gate[kCapacity];
   double countRadius[kCapacity];
   double proxyRadius[kCapacity];
+  double cubic[kCapacity];
   int size = 0;
   Vec3 center;
   double reach = -1.0;
 
   void clear(int i)
   {
-    x[i] = y[i] = z[i] = present[i] = radius[i] = gate[i] = countRadius[i] = proxyRadius[i] = 0.0;
+    x[i] = y[i] = z[i] = present[i] = radius[i] = gate[i] = countRadius[i] = proxyRadius[i] = cubic[i] = 0.0;
   }
 };
 
@@ -83,6 +84,7 @@ struct FieldSums
   double gate = 0.0;
   double countRadius = 0.0;
   double proxyRadius = 0.0;
+  double cubic = 0.0;
   double weightGradient[3] = { 0.0, 0.0, 0.0 };
   double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Of the sum of weight times radius.
 };

@@ -341,6 +341,7 @@ void sumField(const FieldBlock& block, const Vec3& position, double reach, Field
   Eight gate = zero;
   Eight countRadius = zero;
   Eight proxyRadius = zero;
+  Eight cubic = zero;
   Eight weightGradient[3] = { zero, zero, zero };
   Eight radiusGradient[3] = { zero, zero, zero };
   for (int i = 0; i < block.size; i += kFitLanes)
@@ -358,25 +359,27 @@ void sumField(const FieldBlock& block, const Vec3& position, double reach, Field
     gate += weight * eight(block.gate + i);
     countRadius += weight * eight(block.countRadius + i);
     proxyRadius += weight * eight(block.proxyRadius + i);
+    cubic += weight * eight(block.cubic + i);
     for (int axis = 0; axis < 3; ++axis)
     {
       weightGradient[axis] += slope * d[axis];
       radiusGradient[axis] += slope * d[axis] * value;
     }
   }
-  const Eight all[11] = { weights, radius, gate, countRadius, proxyRadius, weightGradient[0],
+  const Eight all[12] = { weights, radius, gate, countRadius, proxyRadius, cubic, weightGradient[0],
     weightGradient[1], weightGradient[2], radiusGradient[0], radiusGradient[1], radiusGradient[2] };
-  double joinedAll[11];
+  double joinedAll[12];
   joinEach(all, joinedAll);
   sums.weights = joinedAll[0];
   sums.radius = joinedAll[1];
   sums.gate = joinedAll[2];
   sums.countRadius = joinedAll[3];
   sums.proxyRadius = joinedAll[4];
+  sums.cubic = joinedAll[5];
   for (int axis = 0; axis < 3; ++axis)
   {
-    sums.weightGradient[axis] = joinedAll[5 + axis];
-    sums.radiusGradient[axis] = joinedAll[8 + axis];
+    sums.weightGradient[axis] = joinedAll[6 + axis];
+    sums.radiusGradient[axis] = joinedAll[9 + axis];
   }
 }
 

@@ -93,6 +93,20 @@ TEST(ProxyTrial, NeverPopsThroughASheetWithMuchNoise)
   EXPECT_GT(f.contactTicks, 1000);
 }
 
+TEST(ProxyTrial, FeelsNoisyShapesAsExactlyAsAskedFor)
+{
+  const struct
+  {
+    Shape shape;
+    double rmsPercent;
+  } cases[] = { { Shape::Sphere, 0.06 }, { Shape::Torus, 0.16 } };
+  for (const auto& [shape, rmsPercent] : cases)
+  {
+    const Scene scene = sceneOf(pointsOf(shape, 543652, 20e-6));
+    EXPECT_LT(runTrial(*scene, {}, slideCourse(shape), answerOf(shape), 1).figures.rmsPercent, rmsPercent);
+  }
+}
+
 TEST(ProxyCourse, SlidesAtTheDepthItSaysAndIsClosed)
 {
   for (const Shape shape : { Shape::Sphere, Shape::Torus, Shape::Saddle, Shape::Sheet })

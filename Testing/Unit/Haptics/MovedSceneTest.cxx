@@ -84,13 +84,15 @@ TEST(MovedScene, AnswersInItsOwnFrameWhateverTheTransform)
       for (std::size_t i = 0; i < path.size(); ++i)
       {
         ASSERT_EQ(states[i].contact, expected[i].contact) << i;
-        // Rounding may end the search for the foot point a round earlier or later.
-        ASSERT_LE(norm(states[i].force - change.applyToVector(expected[i].force)), 2e-4 * scale) << i;
-        ASSERT_LE(norm(states[i].proxy - change.apply(expected[i].proxy)), 2e-7 * scale) << i;
-        ASSERT_LE(norm(states[i].sphereCenter - change.apply(expected[i].sphereCenter)), 1e-6 * scale) << i;
-        ASSERT_LE(norm(scale * states[i].normal - change.applyToVector(expected[i].normal)), 1e-3 * scale)
+        // Rounding may end the search for the foot point a round earlier or later, or put a point inside the
+        // sphere of the gradient steps.
+        const double slack = scale * (parameters.method == ProxyMethod::SurfaceFit ? 1.0 : 20.0);
+        ASSERT_LE(norm(states[i].force - change.applyToVector(expected[i].force)), 2e-4 * slack) << i;
+        ASSERT_LE(norm(states[i].proxy - change.apply(expected[i].proxy)), 2e-7 * slack) << i;
+        ASSERT_LE(norm(states[i].sphereCenter - change.apply(expected[i].sphereCenter)), 1e-6 * slack) << i;
+        ASSERT_LE(norm(scale * states[i].normal - change.applyToVector(expected[i].normal)), 1e-3 * slack)
           << i;
-        ASSERT_NEAR(states[i].radius, scale * expected[i].radius, 1e-6 * scale) << i;
+        ASSERT_NEAR(states[i].radius, scale * expected[i].radius, 1e-6 * slack) << i;
       }
     }
   }
