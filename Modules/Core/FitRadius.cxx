@@ -42,14 +42,14 @@ constexpr double kCubicErrorAtMost = 3.0;
 constexpr double kDisagreement = 1.0;
 /// Part of the points within reach that other sheets may have where cubic terms are weighed: they would bend
 /// to what of those comes through the gate.
-constexpr double kOtherSheets = 0.02;
+constexpr double kOtherSheets = 0.01;
 /// Parts of the neighbours that prefer cubic terms at which these begin to count and count in full.
-constexpr double kCubicVotesFrom = 0.25;
+constexpr double kCubicVotesFrom = 0.3;
 constexpr double kCubicVotesTo = 0.75;
 /// The gate never cuts into this many standard deviations of noise.
 constexpr double kGateNoise = 4.0;
 /// Neighbouring nodes that vote, in voxels of the node level.
-constexpr double kVoteReach = 3.0;
+constexpr double kVoteReach = 2.0;
 
 double countRadius(const CellPyramid& pyramid, const Vec3& seed, double largest)
 {
@@ -118,7 +118,7 @@ public:
     std::copy(curvature, curvature + 3, curvature_);
   }
 
-  /// Without cubic terms first: that tells the noise.
+  /// Without cubic terms first: that tells the noise. Radius 0: another sheet is in reach.
   Climb climb(double largest, bool cubic)
   {
     Climb result;
@@ -148,9 +148,13 @@ public:
         const double tolerance = (cubic ? kCubicAgreement : kAgreement) * noise_;
         const bool accepted = std::all_of(
           rungs, rungs + size, [&](const Rung& shorter) { return agrees(rungs[size], shorter, tolerance); });
-        if (!accepted || (cubic && error.leftOut > kOtherSheets))
+        if (!accepted)
         {
           break;
+        }
+        if (cubic && error.leftOut > kOtherSheets)
+        {
+          return {};
         }
         result = { settings.radius, rungs[size] };
         // Further on the gate follows what is known of the curvature by now.
