@@ -67,25 +67,36 @@ public:
   int numberOfCellLevels() const { return numberOfLevels() < kCellLevels ? numberOfLevels() : kCellLevels; }
   const Level& level(int l) const { return levels_[std::size_t(l)]; }
 
-  /// Calls visit(cellIndex, cell, squaredDistance) for each cell of @p level whose mean is nearer to @p
-  /// center than
-  /// @p radius, in Morton order. No allocation. @pre level < numberOfCellLevels()
+  /// Calls visit(first, last) for runs of cells of @p level that hold all whose mean is nearer to @p center than
+  /// @p radius, and others near by, in Morton order.
   template <typename Visitor>
-  void visitBall(int level, const Vec3& center, double radius, Visitor&& visit) const
+  void visitRuns(int level, const Vec3& center, double radius, Visitor&& visit) const
   {
     visitBricks(level, center, radius,
       [&](const Level& l, const Brick& brick)
       {
         const std::uint32_t end = brick.slot + std::uint32_t(__builtin_popcountll(brick.mask));
         const bool ranged = !l.slotBegin.empty();
-        const std::uint32_t first = ranged ? l.slotBegin[brick.slot] : brick.slot;
-        const std::uint32_t last = ranged ? l.slotBegin[end] : end;
+        visit(ranged ? l.slotBegin[brick.slot] : brick.slot, ranged ? l.slotBegin[end] : end);
+      });
+  }
+
+  /// Calls visit(cellIndex, cell, squaredDistance) for each cell of @p level whose mean is nearer to @p
+  /// center than
+  /// @p radius, in Morton order. No allocation. @pre level < numberOfCellLevels()
+  template <typename Visitor>
+  void visitBall(int level, const Vec3& center, double radius, Visitor&& visit) const
+  {
+    const std::vector<Cell>& cells = levels_[std::size_t(level)].cells;
+    visitRuns(level, center, radius,
+      [&](std::uint32_t first, std::uint32_t last)
+      {
         for (std::uint32_t i = first; i < last; ++i)
         {
-          const double d2 = norm2(l.cells[i].mean - center);
+          const double d2 = norm2(cells[i].mean - center);
           if (d2 < radius * radius)
           {
-            visit(i, l.cells[i], d2);
+            visit(i, cells[i], d2);
           }
         }
       });

@@ -46,6 +46,25 @@ bool FitCells::gather(
   block.reach = reach;
   block.size = 0;
   bool fits = true;
+  if (level == 0)
+  {
+    // Which cells lie inside is hard to predict: each is written, and the next one over it unless it does.
+    const Cell* const cells = pyramid.level(0).cells.data();
+    pyramid.visitRuns(0, center, reach,
+      [&](std::uint32_t first, std::uint32_t last)
+      {
+        for (std::uint32_t i = first; i < last && fits; ++i)
+        {
+          const Vec3 place = cells[i].mean - center;
+          block.set(block.size, place, cells[i].count, cells[i].covariance);
+          block.size += norm2(place) < reach * reach ? 1 : 0;
+          fits = block.size <= kernel::FitBlock::kCapacity;
+        }
+      });
+    block.size = fits ? block.size : kernel::FitBlock::kCapacity;
+    pad(block);
+    return fits;
+  }
   pyramid.visitBallUnmixed(level, center, reach,
     [&](const Cell& cell, double)
     {

@@ -23,9 +23,29 @@ constexpr int kLadderRungs = 16;
 constexpr int kNoiseRungs = 3;
 /// Standard errors by which a longer radius may differ from a shorter one.
 constexpr double kAgreement = 2.0;
+/// The same with cubic terms, whose errors are large where the radius is short.
+constexpr double kCubicAgreement = 2.5;
 /// Standard errors of the height (over the finest cell) and of the slopes that leave nothing to gain.
 constexpr double kEnoughHeight = 1e-3;
 constexpr double kEnoughSlope = 1e-3;
+/// Growth of the radius from which on a cloud counts as noisy, and cubic terms at a longer radius are
+/// weighed.
+constexpr double kNoisyGrowth = 1.3;
+/// How much longer than a quadratic fit one with cubic terms may look at most.
+constexpr double kCubicReach = 1.1;
+/// Standard error of its slopes over that of the quadratic fit up to which a fit with cubic terms is as good
+/// anyway, and up to which it is preferred where the slopes of the two disagree: then the quadratic one is
+/// bent.
+constexpr double kCubicErrorAsGood = 1.2;
+constexpr double kCubicErrorAtMost = 3.0;
+/// Standard errors by which they disagree.
+constexpr double kDisagreement = 1.0;
+/// Part of the points within reach that other sheets may have where cubic terms are weighed: they would bend
+/// to what of those comes through the gate.
+constexpr double kOtherSheets = 0.01;
+/// Parts of the neighbours that prefer cubic terms at which these begin to count and count in full.
+constexpr double kCubicVotesFrom = 0.3;
+constexpr double kCubicVotesTo = 0.75;
 /// The gate never cuts into this many standard deviations of noise.
 constexpr double kGateNoise = 4.0;
 /// Neighbouring nodes that vote, in voxels of the node level.
@@ -62,16 +82,133 @@ struct Rung
   double error[3];
 };
 
-bool agrees(const Rung& longer, const Rung& shorter, double noise)
+/// @param tolerance length of a standard error.
+bool agrees(const Rung& longer, const Rung& shorter, double tolerance)
 {
   for (int i = 0; i < 3; ++i)
   {
-    if (std::abs(longer.value[i] - shorter.value[i]) > kAgreement * noise * shorter.error[i])
+    if (std::abs(longer.value[i] - shorter.value[i]) > tolerance * shorter.error[i])
     {
       return false;
     }
   }
   return true;
+}
+
+/// Where a climb ended.
+struct Climb
+{
+  double radius = 0.0;
+  Rung rung{ { 0.0, 0.0, 0.0 }, { INFINITY, INFINITY, INFINITY } };
+
+  double slopeError() const { return std::max(rung.error[1], rung.error[2]); }
+};
+
+/// Longer and longer radii in one frame.
+class Ladder
+{
+public:
+  Ladder(const CellPyramid& pyramid, const SurfaceFrame& frame, const double curvature[3], double countRadius,
+    FitCells& memory)
+    : pyramid_(pyramid)
+    , frame_(frame)
+    , countRadius_(countRadius)
+    , memory_(memory)
+  {
+    std::copy(curvature, curvature + 3, curvature_);
+  }
+
+  /// Without cubic terms first: that tells the noise. Radius 0: another sheet is in reach.
+  Climb climb(double largest, bool cubic)
+  {
+    Climb result;
+    result.radius = countRadius_;
+    Rung rungs[kLadderRungs];
+    int size = 0;
+    FitSettings settings;
+    settings.radius = countRadius_;
+    settings.gate = 2.0 * kGateDepth * countRadius_;
+    settings.twoSidedGate = true;
+    std::copy(curvature_, curvature_ + 3, settings.curvature);
+    for (int s = 0; s < kLadderRungs; ++s)
+    {
+      SurfaceFitError error;
+      const SurfaceFit here = fitSurface(pyramid_, frame_, settings, memory_, error, cubic);
+      const bool usable = here.quality == FitQuality::Quadric;
+      // So many terms may ask for a longer radius than the first.
+      if (!usable && !(cubic && size == 0))
+      {
+        break;
+      }
+      if (usable)
+      {
+        noise_ = !cubic && s < kNoiseRungs ? std::min(noise_, error.noise) : noise_;
+        rungs[size] = { { settings.radius * here.k[0], here.k[1], here.k[2] },
+          { error.standardError[0], error.standardError[1], error.standardError[2] } };
+        const double tolerance = (cubic ? kCubicAgreement : kAgreement) * noise_;
+        const bool accepted = std::all_of(
+          rungs, rungs + size, [&](const Rung& shorter) { return agrees(rungs[size], shorter, tolerance); });
+        if (!accepted)
+        {
+          break;
+        }
+        if (cubic && error.leftOut > kOtherSheets)
+        {
+          return {};
+        }
+        result = { settings.radius, rungs[size] };
+        // Further on the gate follows what is known of the curvature by now.
+        std::transform(
+          here.k + 3, here.k + 6, settings.curvature, [&](double k) { return k / settings.radius; });
+        ++size;
+        if (isEnough(result))
+        {
+          break;
+        }
+      }
+      if (!(settings.radius < largest))
+      {
+        break;
+      }
+      settings.radius = std::min(largest, kLadderGrowth * settings.radius);
+    }
+    return result;
+  }
+
+  double noise() const { return noise_; }
+
+private:
+  /// Looking further would only blur what is there, and see holes and rims late.
+  bool isEnough(const Climb& climb) const
+  {
+    return noise_ * climb.rung.error[0] < kEnoughHeight * pyramid_.level(0).voxelSize &&
+      noise_ * climb.slopeError() < kEnoughSlope;
+  }
+
+  const CellPyramid& pyramid_;
+  const SurfaceFrame& frame_;
+  double curvature_[3];
+  double countRadius_;
+  FitCells& memory_;
+  double noise_ = INFINITY;
+};
+
+/// True where a fit with cubic terms tells more than one without: its slopes are about as exact, or differ
+/// from the other's by more than they may be off.
+bool prefersCubic(const Climb& cubic, const Climb& quadratic, double noise)
+{
+  const double ratio = cubic.slopeError() / quadratic.slopeError();
+  if (!(cubic.radius >= quadratic.radius) || !(ratio < kCubicErrorAtMost))
+  {
+    return false;
+  }
+  bool differs = false;
+  for (int i = 1; i < 3; ++i)
+  {
+    differs = differs ||
+      std::abs(cubic.rung.value[i] - quadratic.rung.value[i]) > kDisagreement * noise * cubic.rung.error[i];
+  }
+  return differs || ratio < kCubicErrorAsGood;
 }
 
 double medianOf(std::vector<double>& values)
@@ -103,43 +240,16 @@ FitScale chooseFitRadius(
   {
     return scale;
   }
-  Rung rungs[kLadderRungs];
-  double noise = INFINITY;
-  double radius = scale.countRadius;
-  for (int s = 0; s < kLadderRungs && (s == 0 || radius <= largest); ++s, radius *= kLadderGrowth)
+  Ladder ladder(pyramid, frame, curvature, scale.countRadius, memory);
+  const Climb quadratic = ladder.climb(largest, false);
+  scale.radius = quadratic.radius;
+  scale.noise = std::isfinite(ladder.noise()) ? ladder.noise() : 0.0;
+  if (quadratic.radius > kNoisyGrowth * scale.countRadius)
   {
-    FitSettings settings;
-    settings.radius = radius;
-    settings.gate = 2.0 * kGateDepth * scale.countRadius;
-    settings.twoSidedGate = true;
-    std::copy(curvature, curvature + 3, settings.curvature);
-    SurfaceFitError error;
-    const SurfaceFit here = fitSurface(pyramid, frame, settings, memory, error);
-    if (here.quality != FitQuality::Quadric)
-    {
-      break;
-    }
-    noise = s < kNoiseRungs ? std::min(noise, error.noise) : noise;
-    rungs[s] = { { radius * here.k[0], here.k[1], here.k[2] },
-      { error.standardError[0], error.standardError[1], error.standardError[2] } };
-    bool accepted = true;
-    for (int o = 0; o < s && accepted; ++o)
-    {
-      accepted = agrees(rungs[s], rungs[o], noise);
-    }
-    if (!accepted)
-    {
-      break;
-    }
-    scale.radius = radius;
-    // Good enough: looking further would only blur what is there, and see holes and rims late.
-    if (noise * rungs[s].error[0] < kEnoughHeight * pyramid.level(0).voxelSize &&
-      noise * std::max(rungs[s].error[1], rungs[s].error[2]) < kEnoughSlope)
-    {
-      break;
-    }
+    const Climb cubic = ladder.climb(kCubicReach * largest, true);
+    scale.cubic = prefersCubic(cubic, quadratic, scale.noise);
+    scale.radius = scale.cubic ? cubic.radius : quadratic.radius;
   }
-  scale.noise = std::isfinite(noise) ? noise : 0.0;
   return scale;
 }
 
@@ -165,21 +275,26 @@ std::vector<LocalScale> fitScales(
   std::vector<LocalScale> result(scales.size());
   std::vector<double> radii;
   std::vector<double> noises;
+  double cubic = 0.0;
   for (std::size_t i = 0; i < scales.size(); ++i)
   {
     radii.clear();
     noises.clear();
+    cubic = 0.0;
     pyramid.visitBall(nodeLevel, nodes.cells[i].mean, kVoteReach * nodes.voxelSize,
       [&](std::uint32_t j, const Cell&, double)
       {
         radii.push_back(scales[j].radius);
         noises.push_back(scales[j].noise);
+        cubic += scales[j].cubic ? 1.0 : 0.0;
       });
     const double radius = radii.empty() ? scales[i].radius : medianOf(radii);
     const double noise = noises.empty() ? scales[i].noise : medianOf(noises);
     result[i].radius = std::max(scales[i].countRadius, radius);
     result[i].countRadius = scales[i].countRadius;
     result[i].noise = noise;
+    const double votes = radii.empty() ? 0.0 : cubic / double(radii.size());
+    result[i].cubic = std::clamp((votes - kCubicVotesFrom) / (kCubicVotesTo - kCubicVotesFrom), 0.0, 1.0);
     result[i].gate = std::max(kGateDepth * scales[i].countRadius, kGateNoise * noise);
   }
   return result;

@@ -19,10 +19,13 @@ struct FitScale
   double countRadius = 0.0; ///< Smallest radius with 30 points and 14 cells in the fit, at least 3.6 cells.
   double radius = 0.0;      ///< Chosen radius: countRadius where the cloud is clean, more where it is noisy.
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
+  bool cubic = false;       ///< The radius is one for a fit with cubic terms.
 };
 
 /// Lepski's rule on a ladder of radii at the cell mean @p seed: a longer radius is taken while it agrees with
-/// every shorter one within two of that one's standard errors, in position and in both slopes.
+/// every shorter one within two of that one's standard errors, in position and in both slopes. Where that is
+/// longer than the count radius by a third, the same for a fit with cubic terms, up to a tenth longer than @p
+/// largest; it is taken where it tells more.
 /// @p largestCount bounds the radius that is grown for points, @p largest the one grown against noise;
 /// metres.
 FitScale chooseFitRadius(

@@ -16,12 +16,18 @@ constexpr double kLargestSlopeChange = 0.3;
 constexpr double kCubicPivotFrom = 1e-4;
 constexpr double kCubicPivotTo = 1e-3;
 
+// Numbers of unknowns are template arguments, and the loops unrolled: short loops of ever other lengths cost
+// more than what they compute.
+
 /// L y = rhs.
-void halfSolve(const double l[6][6], int n, const double rhs[6], double y[6])
+template <int N>
+inline void halfSolve(const double l[6][6], const double rhs[6], double y[6])
 {
-  for (int i = 0; i < n; ++i)
+#pragma GCC unroll 6
+  for (int i = 0; i < N; ++i)
   {
     double sum = rhs[i];
+#pragma GCC unroll 6
     for (int m = 0; m < i; ++m)
     {
       sum -= l[i][m] * y[m];
@@ -31,12 +37,15 @@ void halfSolve(const double l[6][6], int n, const double rhs[6], double y[6])
 }
 
 /// L' k = y.
-void otherHalf(const double l[6][6], int n, const double y[6], double k[6])
+template <int N>
+inline void otherHalf(const double l[6][6], const double y[6], double k[6])
 {
-  for (int i = n - 1; i >= 0; --i)
+#pragma GCC unroll 6
+  for (int i = N - 1; i >= 0; --i)
   {
     double sum = y[i];
-    for (int m = i + 1; m < n; ++m)
+#pragma GCC unroll 6
+    for (int m = i + 1; m < N; ++m)
     {
       sum -= l[m][i] * k[m];
     }
@@ -44,163 +53,204 @@ void otherHalf(const double l[6][6], int n, const double y[6], double k[6])
   }
 }
 
-}
-
-bool factor(const kernel::FitSums& sums, int n, double l[6][6]) noexcept
+template <int N>
+inline bool factorLeading(const kernel::FitSums& sums, double l[6][6])
 {
-  for (int i = 0, at = 0; i < n; ++i)
+#pragma GCC unroll 6
+  for (int i = 0; i < N; ++i)
   {
-    for (int j = 0; j <= i; ++j, ++at)
+    const double* row = sums.a + i * (i + 1) / 2;
+#pragma GCC unroll 6
+    for (int j = 0; j <= i; ++j)
     {
-      double sum = sums.a[at];
+      double sum = row[j];
+#pragma GCC unroll 6
       for (int m = 0; m < j; ++m)
       {
         sum -= l[i][m] * l[j][m];
       }
-      if (i == j)
-      {
-        // Negated, so that NaN fails too.
-        if (!(sum > kPivotTolerance * sums.a[at]))
-        {
-          return false;
-        }
-        l[i][i] = 1.0 / std::sqrt(sum);
-      }
-      else
+      if (i != j)
       {
         l[i][j] = sum * l[j][j];
+        continue;
       }
+      // Negated, so that NaN fails too.
+      if (!(sum > kPivotTolerance * row[i]))
+      {
+        return false;
+      }
+      l[i][i] = 1.0 / std::sqrt(sum);
     }
   }
   return true;
 }
 
+}
+
+bool factor(const kernel::FitSums& sums, int n, double l[6][6]) noexcept
+{
+  return n == 6 ? factorLeading<6>(sums, l) : factorLeading<3>(sums, l);
+}
+
 void backSolve(const double l[6][6], int n, const double rhs[6], double k[6]) noexcept
 {
   double y[6];
-  halfSolve(l, n, rhs, y);
-  otherHalf(l, n, y, k);
+  if (n == 6)
+  {
+    halfSolve<6>(l, rhs, y);
+    otherHalf<6>(l, y, k);
+  }
+  else
+  {
+    halfSolve<3>(l, rhs, y);
+    otherHalf<3>(l, y, k);
+  }
 }
 
-void errorsOf(const kernel::FitRows& rows, const kernel::FitSums& sums, const double l[6][6], int n,
-  double residual, double rho, SurfaceFitError& error) noexcept
+void errorsOf(const kernel::FitRows& rows, const kernel::FitSums& sums, const double inverse[3][10],
+  int terms, double residual, double rho, SurfaceFitError& error) noexcept
 {
-  double scatter[6][6] = {};
+  double variances[3] = { 0.0, 0.0, 0.0 };
   double perPoint = 0.0;
+  double all = 0.0;
+  double leftOut = 0.0;
   for (int row = 0; row < rows.size; ++row)
   {
     const double w = rows.weight[row];
+    const double base = std::max(0.0, 1.0 - rows.e[row]);
+    const double ungated = rows.count[row] * (base * base) * (base * base);
+    all += ungated;
     if (!(w > 0.0))
     {
+      leftOut += ungated;
       continue;
     }
     perPoint += w / rows.count[row];
-    const double w2 = w * w / rows.count[row];
-    const double p[6] = { 1.0, rows.u[row], rows.v[row], rows.uu[row], rows.uv[row], rows.vv[row] };
-    for (int i = 0; i < n; ++i)
+    const double u = rows.u[row];
+    const double v = rows.v[row];
+    const double uu = rows.uu[row];
+    const double uv = rows.uv[row];
+    const double vv = rows.vv[row];
+    const double p[10] = { 1.0, u, v, uu, uv, vv, u * (3.0 * uu - 2.0 * u * u),
+      2.0 * u * (uv - u * v) + v * uu, 2.0 * v * (uv - u * v) + u * vv, v * (3.0 * vv - 2.0 * v * v) };
+    for (int i = 0; i < 3; ++i)
     {
-      for (int j = 0; j <= i; ++j)
+      double change = 0.0;
+      for (int n = 0; n < terms; ++n)
       {
-        scatter[i][j] += w2 * p[i] * p[j];
+        change += inverse[i][n] * p[n];
       }
+      variances[i] += w * w / rows.count[row] * change * change;
     }
   }
-  const double freedom = sums.cells / std::max(1.0, sums.cells - n);
+  error.leftOut = all > 0.0 ? leftOut / all : 0.0;
+  const double freedom = sums.cells / std::max(1.0, sums.cells - terms);
   error.noise = perPoint > 0.0 ? residual * std::sqrt(freedom * sums.a[0] / perPoint) : 0.0;
   for (int i = 0; i < 3; ++i)
   {
-    double unit[6] = {};
-    unit[i] = 1.0;
-    double y[6] = {};
-    backSolve(l, n, unit, y);
-    double variance = 0.0;
-    for (int r = 0; r < n; ++r)
+    error.standardError[i] = std::sqrt(variances[i]) / (i == 0 ? 1.0 : rho);
+  }
+}
+
+CubicFactor factorCubic(const kernel::CubicSums& cubic, const double l[6][6], double share) noexcept
+{
+  CubicFactor factor;
+  factor.share = share;
+#pragma GCC unroll 4
+  for (int i = 0; i < 4; ++i)
+  {
+    const double* row = cubic.qq + i * (i + 1) / 2;
+    halfSolve<6>(l, cubic.qp + 6 * i, factor.half[i]);
+#pragma GCC unroll 4
+    for (int j = 0; j <= i; ++j)
     {
-      for (int c = 0; c < n; ++c)
+      double sum = row[j];
+#pragma GCC unroll 6
+      for (int n = 0; n < 6; ++n)
       {
-        variance += y[r] * scatter[std::max(r, c)][std::min(r, c)] * y[c];
+        sum -= factor.half[i][n] * factor.half[j][n];
+      }
+#pragma GCC unroll 6
+      for (int n = 0; n < j; ++n)
+      {
+        sum -= factor.m[i][n] * factor.m[j][n];
+      }
+      if (i != j)
+      {
+        factor.m[i][j] = sum * factor.m[j][j];
+        continue;
+      }
+      // Zero where sum is not a number, too.
+      const double pivot = sum > kCubicPivotFrom * row[i] ? sum / row[i] : 0.0;
+      const double t = std::clamp((pivot - kCubicPivotFrom) / (kCubicPivotTo - kCubicPivotFrom), 0.0, 1.0);
+      factor.share *= t * t * (3.0 - 2.0 * t);
+      factor.m[i][i] = 1.0 / std::sqrt(sum);
+    }
+  }
+  return factor;
+}
+
+void solveCubic(const CubicFactor& factor, const double l[6][6], const double p[6], const double q[4],
+  double x[10]) noexcept
+{
+  double y[6];
+  halfSolve<6>(l, p, y);
+  if (factor.share > 0.0)
+  {
+    double z[4];
+#pragma GCC unroll 6
+    for (int i = 0; i < 4; ++i)
+    {
+      double sum = q[i];
+#pragma GCC unroll 6
+      for (int n = 0; n < 6; ++n)
+      {
+        sum -= factor.half[i][n] * y[n];
+      }
+#pragma GCC unroll 6
+      for (int n = 0; n < i; ++n)
+      {
+        sum -= factor.m[i][n] * z[n];
+      }
+      z[i] = sum * factor.m[i][i];
+    }
+#pragma GCC unroll 6
+    for (int i = 3; i >= 0; --i)
+    {
+#pragma GCC unroll 6
+      for (int n = i + 1; n < 4; ++n)
+      {
+        z[i] -= factor.m[n][i] * z[n];
+      }
+      z[i] *= factor.m[i][i];
+    }
+#pragma GCC unroll 6
+    for (int i = 0; i < 4; ++i)
+    {
+      x[6 + i] = factor.share * z[i];
+#pragma GCC unroll 6
+      for (int n = 0; n < 6; ++n)
+      {
+        y[n] -= factor.half[i][n] * x[6 + i];
       }
     }
-    error.standardError[i] = std::sqrt(std::max(0.0, variance)) / (i == 0 ? 1.0 : rho);
   }
+  else
+  {
+    std::fill(x + 6, x + 10, 0.0);
+  }
+  otherHalf<6>(l, y, x);
 }
 
 kernel::TracedFit withCubicTerms(
   const kernel::FitSums& sums, const kernel::CubicSums& cubic, const double l[6][6], double share) noexcept
 {
-  // The factor goes on below l with (half, m).
-  double half[4][6];
-  double m[4][4];
-  for (int i = 0, at = 0; i < 4 && share > 0.0; ++i)
-  {
-    halfSolve(l, 6, cubic.qp + 6 * i, half[i]);
-    for (int j = 0; j <= i; ++j, ++at)
-    {
-      double sum = cubic.qq[at];
-      for (int n = 0; n < 6; ++n)
-      {
-        sum -= half[i][n] * half[j][n];
-      }
-      for (int n = 0; n < j; ++n)
-      {
-        sum -= m[i][n] * m[j][n];
-      }
-      if (i != j)
-      {
-        m[i][j] = sum * m[j][j];
-        continue;
-      }
-      // Zero where sum is not a number, too.
-      const double pivot = sum > kCubicPivotFrom * cubic.qq[at] ? sum / cubic.qq[at] : 0.0;
-      const double t = std::clamp((pivot - kCubicPivotFrom) / (kCubicPivotTo - kCubicPivotFrom), 0.0, 1.0);
-      share *= t * t * (3.0 - 2.0 * t);
-      m[i][i] = 1.0 / std::sqrt(sum);
-    }
-  }
-  const auto solve = [&](const double p[6], const double q[4], double x[10])
-  {
-    double y[6];
-    halfSolve(l, 6, p, y);
-    if (share > 0.0)
-    {
-      double z[4];
-      for (int i = 0; i < 4; ++i)
-      {
-        double sum = q[i];
-        for (int n = 0; n < 6; ++n)
-        {
-          sum -= half[i][n] * y[n];
-        }
-        for (int n = 0; n < i; ++n)
-        {
-          sum -= m[i][n] * z[n];
-        }
-        z[i] = sum * m[i][i];
-      }
-      for (int i = 3; i >= 0; --i)
-      {
-        for (int n = i + 1; n < 4; ++n)
-        {
-          z[i] -= m[n][i] * z[n];
-        }
-        z[i] *= m[i][i];
-      }
-      for (int i = 0; i < 4; ++i)
-      {
-        x[6 + i] = share * z[i];
-        for (int n = 0; n < 6; ++n)
-        {
-          y[n] -= half[i][n] * x[6 + i];
-        }
-      }
-    }
-    otherHalf(l, 6, y, x);
-  };
+  const CubicFactor factor = factorCubic(cubic, l, share);
   const double unit[6] = { 1.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
   const double none[4] = { 0.0, 0.0, 0.0, 0.0 };
   kernel::TracedFit fit;
-  solve(sums.rhs, cubic.rhs, fit.k);
-  solve(unit, none, fit.row);
+  solveCubic(factor, l, sums.rhs, cubic.rhs, fit.k);
+  solveCubic(factor, l, unit, none, fit.row);
   return fit;
 }
 

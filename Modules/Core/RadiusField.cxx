@@ -101,6 +101,7 @@ LocalScale RadiusField::at(
       sums.gate += weight * values_[i].gate;
       sums.countRadius += weight * values_[i].countRadius;
       sums.proxyRadius += weight * values_[i].proxyRadius;
+      sums.cubic += weight * values_[i].cubic;
       for (int axis = 0; axis < 3; ++axis)
       {
         sums.weightGradient[axis] += gradient[axis];
@@ -142,6 +143,7 @@ bool RadiusField::gather(
       block.gate[at] = values_[i].gate;
       block.countRadius[at] = values_[i].countRadius;
       block.proxyRadius[at] = values_[i].proxyRadius;
+      block.cubic[at] = values_[i].cubic;
     });
   return fits;
 }
@@ -159,7 +161,7 @@ LocalScale RadiusField::scaleFrom(const kernel::FieldSums& sums, Vec3& radiusGra
   {
     radiusGradient[axis] = (sums.radiusGradient[axis] - radius * sums.weightGradient[axis]) * per;
   }
-  return { radius, sums.gate * per, sums.countRadius * per, sums.proxyRadius * per, 0.0 };
+  return { radius, sums.gate * per, sums.countRadius * per, sums.proxyRadius * per, 0.0, sums.cubic * per };
 }
 
 } // namespace pointhaptics

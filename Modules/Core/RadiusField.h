@@ -19,6 +19,7 @@ struct LocalScale
   double countRadius = 0.0; ///< Smallest radius with enough points for a fit.
   double proxyRadius = 0.0; ///< Of the proxy sphere.
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
+  double cubic = 0.0;       ///< Share of the fit's cubic terms, 0 to 1.
 };
 
 /// One set of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact

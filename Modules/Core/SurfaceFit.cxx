@@ -138,22 +138,27 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
   double l[6][6];
   int terms = 0;
   SurfaceFit fit = solve(sums, settings.radius, l, terms);
-  if (slopes && slopes->strength > 0.0 && terms == 6)
+  const double share = slopes ? std::max(slopes->strength, slopes->cubic) : 0.0;
+  if (share > 0.0 && terms == 6)
   {
     kernel::CubicSums cubic;
     memory.kernels().sumCubicRows(memory.rows(), cubic);
-    const kernel::TracedFit traced = withCubicTerms(sums, cubic, l, slopes->strength);
+    const kernel::TracedFit traced = withCubicTerms(sums, cubic, l, share);
     std::copy(traced.k, traced.k + 6, fit.k);
-    kernel::TraceSums trace;
-    memory.kernels().traceRows(memory.rows(), traced, dot(slopes->radiusGradient, frame.a),
-      dot(slopes->radiusGradient, frame.b), trace);
-    traceSlopes(trace, slopes->strength, fit);
+    std::copy(traced.k + 6, traced.k + 10, fit.cubic);
+    if (slopes->strength > 0.0)
+    {
+      kernel::TraceSums trace;
+      memory.kernels().traceRows(memory.rows(), traced, dot(slopes->radiusGradient, frame.a),
+        dot(slopes->radiusGradient, frame.b), trace);
+      traceSlopes(trace, slopes->strength, fit);
+    }
   }
   return fit;
 }
 
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
-  FitCells& memory, SurfaceFitError& error) noexcept
+  FitCells& memory, SurfaceFitError& error, bool cubic) noexcept
 {
   error = SurfaceFitError();
   collectRows(pyramid, frame, settings, memory);
@@ -161,10 +166,40 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
   memory.kernels().sumRows(memory.rows(), sums);
   double l[6][6];
   int terms = 0;
-  const SurfaceFit fit = solve(sums, settings.radius, l, terms);
+  SurfaceFit fit = solve(sums, settings.radius, l, terms);
+  double inverse[3][10] = {};
+  for (int i = 0; i < 3 && terms > 0; ++i)
+  {
+    double unit[6] = {};
+    unit[i] = 1.0;
+    backSolve(l, terms, unit, inverse[i]);
+  }
+  if (cubic && terms == 6)
+  {
+    kernel::CubicSums cubicSums;
+    memory.kernels().sumCubicRows(memory.rows(), cubicSums);
+    const CubicFactor factor = factorCubic(cubicSums, l, 1.0);
+    if (factor.share < 1.0)
+    {
+      fit.quality = FitQuality::Plane;
+      return fit;
+    }
+    double x[10];
+    solveCubic(factor, l, sums.rhs, cubicSums.rhs, x);
+    std::copy(x, x + 6, fit.k);
+    std::copy(x + 6, x + 10, fit.cubic);
+    const double none[4] = { 0.0, 0.0, 0.0, 0.0 };
+    for (int i = 0; i < 3; ++i)
+    {
+      double unit[6] = {};
+      unit[i] = 1.0;
+      solveCubic(factor, l, unit, none, inverse[i]);
+    }
+    terms = 10;
+  }
   if (terms > 0)
   {
-    errorsOf(memory.rows(), sums, l, terms, fit.residual, settings.radius, error);
+    errorsOf(memory.rows(), sums, inverse, terms, fit.residual, settings.radius, error);
   }
   return fit;
 }
@@ -202,11 +237,8 @@ bool settleOnSurface(const CellPyramid& pyramid, const Vec3& onSurface, double r
 void pointAt(
   const SurfaceFit& fit, const SurfaceFrame& frame, double u, double v, Vec3& point, Vec3& normal) noexcept
 {
-  const double* k = fit.k;
   point = frame.toWorld(fit.radius * Vec3{ u, v, fit.height(u, v) });
-  const double qu = k[1] + 2.0 * k[3] * u + k[4] * v;
-  const double qv = k[2] + k[4] * u + 2.0 * k[5] * v;
-  normal = normalized(frame.normal - qu * frame.a - qv * frame.b, frame.normal);
+  normal = normalized(frame.normal - fit.slopeU(u, v) * frame.a - fit.slopeV(u, v) * frame.b, frame.normal);
 }
 
 bool footPoint(
@@ -217,6 +249,7 @@ bool footPoint(
   // The last step squared is the error left.
   constexpr double kConverged = 1e-9;
   const double* k = fit.k;
+  const double* c = fit.cubic;
   const Vec3 h = frame.toLocal(target) * (1.0 / fit.radius);
   double u = 0.0;
   double v = 0.0;
@@ -224,13 +257,13 @@ bool footPoint(
   for (int i = 0; i < kMaximumIterations; ++i)
   {
     const double gap = fit.height(u, v) - h.z;
-    const double qu = k[1] + 2.0 * k[3] * u + k[4] * v;
-    const double qv = k[2] + k[4] * u + 2.0 * k[5] * v;
+    const double qu = fit.slopeU(u, v);
+    const double qv = fit.slopeV(u, v);
     const double gu = u - h.x + gap * qu;
     const double gv = v - h.y + gap * qv;
-    double huu = 1.0 + qu * qu + 2.0 * gap * k[3];
-    double huv = qu * qv + gap * k[4];
-    double hvv = 1.0 + qv * qv + 2.0 * gap * k[5];
+    double huu = 1.0 + qu * qu + 2.0 * gap * (k[3] + 3.0 * c[0] * u + c[1] * v);
+    double huv = qu * qv + gap * (k[4] + 2.0 * (c[1] * u + c[2] * v));
+    double hvv = 1.0 + qv * qv + 2.0 * gap * (k[5] + 3.0 * c[3] * v + c[2] * u);
     // Far on the hollow side the Hessian turns: Gauss-Newton is always downhill.
     if (huu * hvv - huv * huv <= 0.02 || huu <= 0.1)
     {

@@ -49,6 +49,7 @@ struct TracedSlopes
   double strength =
     0.0; ///< 0: the quadric's slopes, 1: the traced surface's. Noise is amplified up to twofold at 1.
   Vec3 radiusGradient; ///< grad rho at the origin.
+  double cubic = 0.0;  ///< Share of the cubic terms where it is above the strength, 0 to 1.
 };
 
 enum class FitQuality
@@ -59,11 +60,12 @@ enum class FitQuality
 };
 
 /// Height z over the frame, all lengths divided by the fit radius: z = k0 + k1 u + k2 v + k3 uu + k4 uv + k5
-/// vv.
+/// vv, and where they were fitted the cubic terms c0 uuu + c1 uuv + c2 uvv + c3 vvv.
 struct SurfaceFit
 {
   FitQuality quality = FitQuality::None;
   double k[6] = { 0, 0, 0, 0, 0, 0 };
+  double cubic[4] = { 0, 0, 0, 0 };
   double radius = 0.0;    ///< rho the coefficients are scaled by, metres.
   double residual = 0.0;  ///< Weighted RMS distance of the cells' means from the fit, metres.
   double centroidU = 0.0; ///< Weighted centroid over rho: 0 inside a surface, 0.235 on a straight rim.
@@ -72,14 +74,25 @@ struct SurfaceFit
 
   double height(double u, double v) const noexcept
   {
-    return k[0] + k[1] * u + k[2] * v + k[3] * u * u + k[4] * u * v + k[5] * v * v;
+    const double* c = cubic;
+    return k[0] + u * (k[1] + u * (k[3] + c[0] * u + c[1] * v) + v * k[4]) +
+      v * (k[2] + v * (k[5] + c[2] * u + c[3] * v));
+  }
+  double slopeU(double u, double v) const noexcept
+  {
+    return k[1] + u * (2.0 * k[3] + 3.0 * cubic[0] * u + 2.0 * cubic[1] * v) + v * (k[4] + cubic[2] * v);
+  }
+  double slopeV(double u, double v) const noexcept
+  {
+    return k[2] + v * (2.0 * k[5] + 3.0 * cubic[3] * v + 2.0 * cubic[2] * u) + u * (k[4] + cubic[1] * u);
   }
 };
 
 /// A fit with what its scatter says of its own error.
 struct SurfaceFitError
 {
-  double noise = 0.0;                    ///< Standard deviation of single points about the surface, metres.
+  double noise = 0.0;   ///< Standard deviation of single points about the surface, metres.
+  double leftOut = 0.0; ///< Part of the points, weighted, that the gate left out: of other sheets.
   double standardError[3] = { 0, 0, 0 }; ///< Of rho k0 (metres), k1 and k2, for noise 1 metre.
 };
 
@@ -87,14 +100,15 @@ struct SurfaceFitError
 /// terms use each cell's covariance, which makes the fit exact for every quadric height field however coarse
 /// the cells are. The level of detail follows the radius and changes without a step. No allocation, no
 /// exception; work bounded by the blocks of @p memory. 0.3 to 0.8 us where the cells are gathered already.
-/// @param slopes where given, k1 and k2 are those of the traced surface, for half as much again; left as they
+/// @param slopes where given, with cubic terms, and k1 and k2 those of the traced surface; left as they
 /// are where the fit is a plane.
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
   FitCells& memory, const TracedSlopes* slopes = nullptr) noexcept;
 
 /// The same with the errors of position and slopes; for building scenes, several times the cost.
+/// @param cubic with the cubic terms; less than a Quadric where the cells do not determine them.
 SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, const FitSettings& settings,
-  FitCells& memory, SurfaceFitError& error) noexcept;
+  FitCells& memory, SurfaceFitError& error, bool cubic = false) noexcept;
 
 /// Starts on the surface near @p onSurface with the approximate normal in @p frame: a few fits, moving to the
 /// foot of the origin each time. Cells further than @p gate (metres; half as much again in the first fit)

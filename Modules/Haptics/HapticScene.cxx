@@ -5,6 +5,7 @@
 #include "Core/FitRadius.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace pointhaptics
@@ -18,7 +19,7 @@ constexpr double kRadiusInSpacings = 2.8;
 /// The index cell is at least this part of the typical spacing: finer ones would be empty.
 constexpr double kCellInSpacings = 0.8;
 /// Longest fit radius in index cells.
-constexpr double kLargestFitRadiusInCells = 15.0;
+constexpr double kLargestFitRadiusInCells = 18.0;
 /// A cell this much larger or smaller than the spacing asks for will do.
 constexpr double kCellTolerance = 1.1;
 /// Index cell of a cloud without any extent, metres.
@@ -28,6 +29,10 @@ constexpr double kMostCellsAcross = 1 << 20;
 constexpr std::size_t kSpacingSamples = 500;
 constexpr std::size_t kSpacingNeighbors = 6;
 constexpr double kSpacingGrowth = 1.3;
+
+/// Part of a length by which a similarity may change it with its direction: rounding, also of products of
+/// many transforms.
+constexpr double kSimilarityTolerance = 1e-9;
 
 bool lengthsAgree(const HapticSceneInput& input)
 {
@@ -103,6 +108,31 @@ Status buildPyramid(std::vector<Cell> cells, double asked, double extent, CellPy
   return fits || !(wanted > 0.0) ? Status::Ok : pyramid.build(std::move(cells), wanted, source);
 }
 
+std::uint64_t nextCloudNumber()
+{
+  static std::atomic<std::uint64_t> last{ 0 };
+  return ++last;
+}
+
+/// True where @p transform keeps angles; @p scale receives what it does to lengths.
+bool isSimilarity(const AffineTransform& transform, double& scale)
+{
+  const Vec3 axes[3] = { transform.applyToVector({ 1, 0, 0 }), transform.applyToVector({ 0, 1, 0 }),
+    transform.applyToVector({ 0, 0, 1 }) };
+  const double square = (norm2(axes[0]) + norm2(axes[1]) + norm2(axes[2])) / 3.0;
+  scale = std::sqrt(square);
+  for (int i = 0; i < 3; ++i)
+  {
+    // Negated, so that NaN fails too.
+    if (!(std::abs(norm2(axes[i]) - square) <= kSimilarityTolerance * square) ||
+      !(std::abs(dot(axes[i], axes[(i + 1) % 3])) <= kSimilarityTolerance * square))
+    {
+      return false;
+    }
+  }
+  return scale > 0.0;
+}
+
 std::vector<Cell> finiteCells(const HapticSceneInput& input)
 {
   std::vector<Cell> cells;
@@ -146,30 +176,31 @@ std::shared_ptr<const HapticScene> HapticScene::create(
     status = Status::Empty;
     return nullptr;
   }
-  std::shared_ptr<HapticScene> scene(new HapticScene());
-  scene->modelToWorkspace_ = input.modelToWorkspace;
+  const auto cloud = std::make_shared<Cloud>();
+  cloud->number = nextCloudNumber();
+  cloud->modelToLattice = input.modelToWorkspace;
   for (const Cell& cell : cells)
   {
-    scene->bounds_.include(cell.mean);
+    cloud->bounds.include(cell.mean);
   }
-  const double extent = norm(scene->bounds_.extent());
+  const double extent = norm(cloud->bounds.extent());
   const auto merged = [](const Cell& cell) { return cell.count > 1.0; };
-  scene->exactMoments_ = !input.covariances.empty() || std::none_of(cells.begin(), cells.end(), merged);
-  status = buildPyramid(std::move(cells), input.cellSize, extent, scene->pyramid_);
+  cloud->exactMoments = !input.covariances.empty() || std::none_of(cells.begin(), cells.end(), merged);
+  status = buildPyramid(std::move(cells), input.cellSize, extent, cloud->pyramid);
   if (status != Status::Ok)
   {
     return nullptr;
   }
-  const double size = scene->cellSize();
-  const int nodeLevel = RadiusField::nodeLevel(scene->pyramid_);
-  const CellPyramid::Level& nodes = scene->pyramid_.level(nodeLevel);
+  const double size = cloud->pyramid.level(0).voxelSize;
+  const int nodeLevel = RadiusField::nodeLevel(cloud->pyramid);
+  const CellPyramid::Level& nodes = cloud->pyramid.level(nodeLevel);
   std::vector<double> radii;
   if (input.proxyRadii.empty() && !input.bandwidth)
   {
     std::vector<double> distances;
     for (const Cell& node : nodes.cells)
     {
-      const double spacing = localSpacing(scene->pyramid_, node.mean, extent, distances);
+      const double spacing = localSpacing(cloud->pyramid, node.mean, extent, distances);
       radii.push_back(kRadiusInSpacings * std::max(spacing, size));
     }
   }
@@ -184,34 +215,62 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   input = HapticSceneInput();
   const double largest = std::max(extent, kLargestFitRadiusInCells * size);
   std::vector<LocalScale> scales =
-    fitScales(scene->pyramid_, largest, kLargestFitRadiusInCells * size, executor);
+    fitScales(cloud->pyramid, largest, kLargestFitRadiusInCells * size, executor);
   for (std::size_t i = 0; i < radii.size(); ++i)
   {
     scales[i].proxyRadius = radii[i];
   }
-  scene->scale_.build(scene->pyramid_, std::move(scales));
-  scene->pyramid_.forgiveNoise(
-    [&scene](const Vec3& place) { return scene->scale_.noiseAt(scene->pyramid_, place); });
+  cloud->scale.build(cloud->pyramid, std::move(scales));
+  cloud->pyramid.forgiveNoise(
+    [&cloud](const Vec3& place) { return cloud->scale.noiseAt(cloud->pyramid, place); });
   // Beyond a node's reach no cell of its voxel can be nearer than the reach less the voxel's diagonal.
-  const double diagonal = std::sqrt(3.0) * scene->pyramid_.level(nodeLevel).voxelSize;
-  scene->clearance_ = scene->scale_.reach() - diagonal;
+  const double diagonal = std::sqrt(3.0) * cloud->pyramid.level(nodeLevel).voxelSize;
+  cloud->clearance = cloud->scale.reach() - diagonal;
+  std::shared_ptr<HapticScene> scene(new HapticScene());
+  scene->modelToWorkspace_ = cloud->modelToLattice;
+  scene->cloud_ = cloud;
+  return scene;
+}
+
+std::shared_ptr<const HapticScene> HapticScene::moved(
+  const AffineTransform& modelToWorkspace, Status& status) const
+{
+  status = modelToWorkspace.check();
+  if (status != Status::Ok)
+  {
+    return nullptr;
+  }
+  std::shared_ptr<HapticScene> scene(new HapticScene());
+  scene->cloud_ = cloud_;
+  scene->modelToWorkspace_ = modelToWorkspace;
+  scene->isMoved_ = !(modelToWorkspace == modelToLattice());
+  if (scene->isMoved_)
+  {
+    scene->latticeToWorkspace_ = modelToWorkspace * modelToLattice().inverse();
+    scene->workspaceToLattice_ = scene->latticeToWorkspace_.inverse();
+    if (!isSimilarity(scene->latticeToWorkspace_, scene->scale_))
+    {
+      status = Status::InvalidParameter;
+      return nullptr;
+    }
+  }
   return scene;
 }
 
 double HapticScene::proxyRadius(const Vec3& position) const noexcept
 {
-  return scale_.at(pyramid_, position).proxyRadius;
+  return cloud_->scale.at(pyramid(), position).proxyRadius;
 }
 
 LocalScale HapticScene::fitScale(const Vec3& position) const noexcept
 {
-  return scale_.at(pyramid_, position);
+  return cloud_->scale.at(pyramid(), position);
 }
 
 bool HapticScene::isNear(const Vec3& position) const noexcept
 {
   bool found = false;
-  pyramid_.visitBall(RadiusField::nodeLevel(pyramid_), position, scale_.reach(),
+  pyramid().visitBall(RadiusField::nodeLevel(pyramid()), position, cloud_->scale.reach(),
     [&](std::uint32_t, const Cell&, double) { found = true; });
   return found;
 }

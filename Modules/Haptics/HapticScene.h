@@ -10,6 +10,7 @@
 #include "Core/RadiusField.h"
 #include "Core/Status.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -36,7 +37,12 @@ struct HapticSceneInput
     modelToWorkspace; ///< The transform the points went through; carries the proxy into a new snapshot.
 };
 
-/// Built once by create(), read by any number of threads, never edited: a transform makes a new one.
+/// Built once by create(), read by any number of threads, never edited: a transform makes a new one. That is
+/// either a cloud resampled anew, by create(), or the same cloud put elsewhere, by moved().
+///
+/// Frames: what a scene tells of its cloud, all places and lengths of it, is in the frame the cloud was
+/// resampled in, which stays with it when it is moved: the lattice frame. toLattice() and toWorkspace() go
+/// between that and the workspace; unless the scene was moved they are the same frame. Metres in both.
 class HapticScene
 {
 public:
@@ -48,12 +54,35 @@ public:
   static std::shared_ptr<const HapticScene> create(
     HapticSceneInput input, Status& status, const Executor& executor = {});
 
-  std::size_t numberOfPoints() const { return pyramid_.level(0).cells.size(); }
-  const CellPyramid& pyramid() const { return pyramid_; }
+  /// The same cloud where @p modelToWorkspace puts the model: turned, shifted, mirrored or uniformly scaled
+  /// against how it was resampled. The HIP is taken into the lattice frame and the answer back, so this costs
+  /// nothing per point (below a microsecond) and shares all memory; the force is that of a cloud resampled
+  /// under @p modelToWorkspace up to the accuracy of either. What create() clipped stays away, and the voxels
+  /// keep their place in the model: a finer or wider cut is a matter of a new create(), whose scene takes
+  /// over any time. Errors, the result null: the transform's own, and InvalidParameter where it is no
+  /// similarity against the one of create() (shear, or a scale that differs by axis): resample. Any thread.
+  std::shared_ptr<const HapticScene> moved(const AffineTransform& modelToWorkspace, Status& status) const;
+
+  std::size_t numberOfPoints() const { return pyramid().level(0).cells.size(); }
+  const CellPyramid& pyramid() const { return cloud_->pyramid; }
   const AffineTransform& modelToWorkspace() const { return modelToWorkspace_; }
-  const Bounds& bounds() const { return bounds_; }
+  /// The transform the points went through.
+  const AffineTransform& modelToLattice() const { return cloud_->modelToLattice; }
+  bool isMoved() const { return isMoved_; }
+  /// The same for scenes that share their cloud, and for no others of this run.
+  std::uint64_t cloudNumber() const { return cloud_->number; }
+  Vec3 toLattice(const Vec3& p) const noexcept { return isMoved_ ? workspaceToLattice_.apply(p) : p; }
+  Vec3 toWorkspace(const Vec3& p) const noexcept { return isMoved_ ? latticeToWorkspace_.apply(p) : p; }
+  /// A unit vector of the lattice frame in the workspace.
+  Vec3 directionToWorkspace(const Vec3& v) const noexcept
+  {
+    return isMoved_ ? latticeToWorkspace_.applyToVector(v) / scale_ : v;
+  }
+  /// Length in the workspace of one metre of the lattice frame.
+  double latticeScale() const { return scale_; }
+  const Bounds& bounds() const { return cloud_->bounds; }
   /// Edge of the finest index cell, metres.
-  double cellSize() const { return pyramid_.level(0).voxelSize; }
+  double cellSize() const { return pyramid().level(0).voxelSize; }
   /// Radius of the proxy sphere at @p position: smooth, from the radii of the points near it, and the cloud's
   /// typical one far from all of them; metres, above 0.
   double proxyRadius(const Vec3& position) const noexcept;
@@ -65,25 +94,37 @@ public:
   /// radius.
   LocalScale fitScale(const Vec3& position, FitCells& memory, Vec3& radiusGradient) const noexcept
   {
-    return memory.scaleAt(pyramid_, scale_, position, radiusGradient);
+    return memory.scaleAt(pyramid(), cloud_->scale, position, radiusGradient);
   }
   double fitRadius(const Vec3& position) const noexcept { return fitScale(position).radius; }
   /// False where no cell of the cloud can be within clearance() of @p position: free space to stride through.
   bool isNear(const Vec3& position) const noexcept;
-  double clearance() const { return clearance_; }
+  double clearance() const { return cloud_->clearance; }
   /// True where the covariances of the voxels are known, or each cell is a single point; false for plain
   /// means, whose fits ripple with the voxels.
-  bool hasExactMoments() const { return exactMoments_; }
+  bool hasExactMoments() const { return cloud_->exactMoments; }
 
 private:
   HapticScene() = default;
 
-  CellPyramid pyramid_;
-  RadiusField scale_;
+  /// What does not change when the model moves.
+  struct Cloud
+  {
+    CellPyramid pyramid;
+    RadiusField scale;
+    AffineTransform modelToLattice;
+    Bounds bounds;
+    double clearance = 0.0;
+    bool exactMoments = true;
+    std::uint64_t number = 0;
+  };
+
+  std::shared_ptr<const Cloud> cloud_;
   AffineTransform modelToWorkspace_;
-  Bounds bounds_;
-  double clearance_ = 0.0;
-  bool exactMoments_ = true;
+  AffineTransform latticeToWorkspace_;
+  AffineTransform workspaceToLattice_;
+  double scale_ = 1.0;
+  bool isMoved_ = false;
 };
 
 } // namespace pointhaptics

@@ -19,7 +19,8 @@ struct Proxy::Implementation
 {
   HapticParameters parameters;
   const HapticScene* scene = nullptr;
-  AffineTransform lastTransform;
+  AffineTransform lastLattice; ///< modelToLattice of the last scene: the methods' state is in that frame.
+  std::uint64_t lastCloud = 0;
   bool hadScene = false;
   SurfaceFitProxy surfaceFit;
   FitCells fitCells;
@@ -61,6 +62,18 @@ struct Proxy::Implementation
     const bool limited = contact.deviceDamping > 0.0 && contact.stiffness > limit;
     status |= std::uint32_t(limited ? kProxyStiffnessLimit : kProxyOk);
     return limited ? limit : contact.stiffness;
+  }
+
+  /// What a method found in the lattice frame.
+  void toWorkspace(ProxyState& state) const noexcept
+  {
+    if (scene->isMoved())
+    {
+      state.proxy = state.contact ? scene->toWorkspace(state.proxy) : state.hip;
+      state.sphereCenter = scene->toWorkspace(state.sphereCenter);
+      state.normal = scene->directionToWorkspace(state.normal);
+      state.radius *= scene->latticeScale();
+    }
   }
 
   /// Lets the contact point follow the hand at once, and the surface at the settle rate.
@@ -128,21 +141,22 @@ const HapticParameters& Proxy::parameters() const noexcept
 void Proxy::setScene(const HapticScene* scene) noexcept
 {
   Implementation& self = *implementation_;
-  if (scene && self.hadScene && !(scene->modelToWorkspace() == self.lastTransform))
+  if (scene && self.hadScene && !(scene->modelToLattice() == self.lastLattice))
   {
-    self.surfaceFit.carry(self.lastTransform, scene->modelToWorkspace());
-    self.gradientSteps.carry(self.lastTransform, scene->modelToWorkspace());
+    self.surfaceFit.carry(self.lastLattice, scene->modelToLattice());
+    self.gradientSteps.carry(self.lastLattice, scene->modelToLattice());
   }
   if (!scene)
   {
     self.forget();
   }
-  else
+  // A new cloud may lie where an old one lay.
+  if (!scene || scene->cloudNumber() != self.lastCloud)
   {
-    self.lastTransform = scene->modelToWorkspace();
+    self.fitCells.forget();
   }
-  // A new scene may lie where an old one lay.
-  self.fitCells.forget();
+  self.lastCloud = scene ? scene->cloudNumber() : 0;
+  self.lastLattice = scene ? scene->modelToLattice() : AffineTransform();
   self.hadScene = scene != nullptr;
   self.scene = scene;
 }
@@ -171,12 +185,15 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   }
   else if (self.parameters.method == ProxyMethod::SurfaceFit)
   {
-    self.surfaceFit.step(*self.scene, self.fitCells, self.parameters.contact, hip, state);
+    self.surfaceFit.step(
+      *self.scene, self.fitCells, self.parameters.contact, self.scene->toLattice(hip), state);
+    self.toWorkspace(state);
     self.settle(state, stiffness, dt);
   }
   else
   {
-    self.gradientSteps.step(*self.scene, self.parameters, hip, dt, state);
+    self.gradientSteps.step(*self.scene, self.parameters, self.scene->toLattice(hip), dt, state);
+    self.toWorkspace(state);
   }
   state.force = self.forceOf(state, stiffness, dt);
   self.last = state;

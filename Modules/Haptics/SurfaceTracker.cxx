@@ -120,6 +120,7 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
   TracedSlopes slopes;
   const LocalScale scale = scene.fitScale(frame_.origin, memory, slopes.radiusGradient);
   slopes.strength = scene.hasExactMoments() ? tracedStrength(scale) : 0.0;
+  slopes.cubic = scale.cubic;
   settings.radius = scale.radius;
   settings.gate = scale.gate;
   std::copy(curvature_, curvature_ + 3, settings.curvature);

@@ -69,7 +69,11 @@ struct Outcome
 /// Steps in a thread of its own, whose counters are fresh; nothing but proxy calls is under the watch.
 Outcome stepProxy(ProxyMethod method, int steps)
 {
-  const std::shared_ptr<const HapticScene> scenes[2] = { sphere(20000, 1.0), sphere(20000, 1.1) };
+  const std::shared_ptr<const HapticScene> first = sphere(20000, 1.0);
+  Status moving = Status::Empty;
+  const std::shared_ptr<const HapticScene> scenes[3] = { first, sphere(20000, 1.1),
+    first->moved(AffineTransform::rotation(20.0, { 1, 2, 3 }), moving) };
+  EXPECT_EQ(moving, Status::Ok);
   HapticParameters parameters;
   parameters.method = method;
   parameters.contact.staticFriction = 0.4;
@@ -84,7 +88,7 @@ Outcome stepProxy(ProxyMethod method, int steps)
       {
         if (tick % 2500 == 0)
         {
-          proxy.setScene(scenes[(tick / 2500) % 2].get());
+          proxy.setScene(scenes[(tick / 2500) % 3].get());
           parameters.contact.stiffness = 500.0 + tick % 1000;
           proxy.setParameters(parameters);
         }

@@ -12,22 +12,25 @@ namespace kernel
 {
 
 constexpr int kFitLanes = 8;
+/// Numbers left free behind each array: without them equal places of all arrays would compete for the same
+/// few lines of the cache.
+constexpr int kFitGap = kFitLanes;
 
 /// Cells near a center, each quantity in an array of its own; positions relative to the center.
 struct alignas(64) FitBlock
 {
   static constexpr int kCapacity = 1024;
 
-  double x[kCapacity];
-  double y[kCapacity];
-  double z[kCapacity];
-  double count[kCapacity];
-  double xx[kCapacity];
-  double xy[kCapacity];
-  double xz[kCapacity];
-  double yy[kCapacity];
-  double yz[kCapacity];
-  double zz[kCapacity];
+  double x[kCapacity + kFitGap];
+  double y[kCapacity + kFitGap];
+  double z[kCapacity + kFitGap];
+  double count[kCapacity + kFitGap];
+  double xx[kCapacity + kFitGap];
+  double xy[kCapacity + kFitGap];
+  double xz[kCapacity + kFitGap];
+  double yy[kCapacity + kFitGap];
+  double yz[kCapacity + kFitGap];
+  double zz[kCapacity + kFitGap];
   int size = 0;
   int level = -1; ///< -1: holds nothing.
   Vec3 center;
@@ -63,13 +66,14 @@ struct alignas(64) FieldBlock
   double gate[kCapacity];
   double countRadius[kCapacity];
   double proxyRadius[kCapacity];
+  double cubic[kCapacity];
   int size = 0;
   Vec3 center;
   double reach = -1.0;
 
   void clear(int i)
   {
-    x[i] = y[i] = z[i] = present[i] = radius[i] = gate[i] = countRadius[i] = proxyRadius[i] = 0.0;
+    x[i] = y[i] = z[i] = present[i] = radius[i] = gate[i] = countRadius[i] = proxyRadius[i] = cubic[i] = 0.0;
   }
 };
 
@@ -80,6 +84,7 @@ struct FieldSums
   double gate = 0.0;
   double countRadius = 0.0;
   double proxyRadius = 0.0;
+  double cubic = 0.0;
   double weightGradient[3] = { 0.0, 0.0, 0.0 };
   double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Of the sum of weight times radius.
 };
@@ -103,18 +108,18 @@ struct alignas(64) FitRows
 {
   static constexpr int kCapacity = 2 * FitBlock::kCapacity;
 
-  double u[kCapacity];
-  double v[kCapacity];
-  double uu[kCapacity];
-  double uv[kCapacity];
-  double vv[kCapacity];
-  double height[kCapacity];
-  double weight[kCapacity];      ///< n g (1 - e)^4
-  double slopeWeight[kCapacity]; ///< 4 n g (1 - e)^3
-  double e[kCapacity];
-  double can[kCapacity]; ///< a'C n
-  double cbn[kCapacity]; ///< b'C n
-  double count[kCapacity];
+  double u[kCapacity + kFitGap];
+  double v[kCapacity + kFitGap];
+  double uu[kCapacity + kFitGap];
+  double uv[kCapacity + kFitGap];
+  double vv[kCapacity + kFitGap];
+  double height[kCapacity + kFitGap];
+  double weight[kCapacity + kFitGap];      ///< n g (1 - e)^4
+  double slopeWeight[kCapacity + kFitGap]; ///< 4 n g (1 - e)^3
+  double e[kCapacity + kFitGap];
+  double can[kCapacity + kFitGap]; ///< a'C n
+  double cbn[kCapacity + kFitGap]; ///< b'C n
+  double count[kCapacity + kFitGap];
   int size = 0; ///< A multiple of kFitLanes; rows without a cell have weight 0.
 };
 

@@ -30,9 +30,53 @@ inline EightAt& eight(double* to)
   return *reinterpret_cast<EightAt*>(to);
 }
 
-inline double joined(const Eight& v)
+/// True where a number of @p v, none of them below 0, is not 0.
+inline bool anyAboveZero(const Eight& v)
 {
-  return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
+  const Eight four = v + __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3);
+  const Eight two = four + __builtin_shufflevector(four, four, 2, 3, 0, 1, 6, 7, 4, 5);
+  return two[0] + two[1] > 0.0;
+}
+
+/// The sums of eight vectors, each as ((v0 + v1) + (v2 + v3)) + ((v4 + v5) + (v6 + v7)).
+inline Eight joinedEach(const Eight v[8])
+{
+  Eight pairs[4];
+  for (int i = 0; i < 4; ++i)
+  {
+    const Eight& a = v[2 * i];
+    const Eight& b = v[2 * i + 1];
+    pairs[i] = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14) +
+      __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  const auto halves = [](const Eight& a, const Eight& b)
+  {
+    return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13) +
+      __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15);
+  };
+  return halves(halves(pairs[0], pairs[1]), halves(pairs[2], pairs[3]));
+}
+
+/// The sum of each vector, as joinedEach() does it.
+template <int N>
+inline void joinEach(const Eight (&v)[N], double* to)
+{
+#pragma GCC unroll 8
+  for (int first = 0; first < N; first += 8)
+  {
+    Eight part[8] = {};
+#pragma GCC unroll 8
+    for (int i = 0; i < 8 && first + i < N; ++i)
+    {
+      part[i] = v[first + i];
+    }
+    const Eight sums = joinedEach(part);
+#pragma GCC unroll 8
+    for (int i = 0; i < 8 && first + i < N; ++i)
+    {
+      to[first + i] = sums[i];
+    }
+  }
 }
 
 void appendRows(const FitBlock& block, const FitView& view, FitRows& rows)
@@ -54,7 +98,7 @@ void appendRows(const FitBlock& block, const FitView& view, FitRows& rows)
     // Most groups of a neighbourhood gathered with a margin lie inside; those that do not are cheap to leave
     // out.
     const Eight base2 = inside * inside;
-    if (joined(base2) == 0.0)
+    if (!anyAboveZero(base2))
     {
       continue;
     }
@@ -131,16 +175,15 @@ void sumRows(const FitRows& rows, FitSums& sums)
     squares += weight * height * height;
     cells += weight > 0.0 ? one : zero;
   }
-  for (int i = 0; i < 21; ++i)
-  {
-    sums.a[i] = joined(a[i]);
-  }
+  joinEach(a, sums.a);
+  const Eight others[8] = { rhs[0], rhs[1], rhs[2], rhs[3], rhs[4], rhs[5], squares, cells };
+  const Eight joinedOthers = joinedEach(others);
   for (int i = 0; i < 6; ++i)
   {
-    sums.rhs[i] = joined(rhs[i]);
+    sums.rhs[i] = joinedOthers[i];
   }
-  sums.zz = joined(squares);
-  sums.cells = joined(cells);
+  sums.zz = joinedOthers[6];
+  sums.cells = joinedOthers[7];
 }
 
 /// The means over a cell of uuu, uuv, uvv and vvv, as far as its second moments tell them.
@@ -155,51 +198,50 @@ inline void cubicTerms(
   q[3] = v * (3.0 * vv - 2.0 * (v * v));
 }
 
-void sumCubicRows(const FitRows& rows, CubicSums& sums)
+/// The sums of the cubic terms @p First and the next one: two at a time, or the registers do not hold them.
+template <int First>
+inline void sumTwoCubicRows(const FitRows& rows, CubicSums& sums)
 {
-  const Eight one = Eight{} + 1.0;
-  Eight qp[24] = {};
-  Eight qq[10] = {};
-  Eight rhs[4] = {};
+  constexpr int kProducts = 2 * First + 3;
+  Eight qp[12] = {};
+  Eight qq[kProducts] = {};
+  Eight rhs[2] = {};
   for (int i = 0; i < rows.size; i += kFitLanes)
   {
     const Eight weight = eight(rows.weight + i);
     const Eight height = eight(rows.height + i);
-    const Eight p[6] = { one, eight(rows.u + i), eight(rows.v + i), eight(rows.uu + i), eight(rows.uv + i),
+    const Eight p[5] = { eight(rows.u + i), eight(rows.v + i), eight(rows.uu + i), eight(rows.uv + i),
       eight(rows.vv + i) };
     Eight q[4];
-    cubicTerms(p[1], p[2], p[3], p[4], p[5], q);
+    cubicTerms(p[0], p[1], p[2], p[3], p[4], q);
     int at = 0;
-#pragma GCC unroll 4
-    for (int r = 0; r < 4; ++r)
+#pragma GCC unroll 2
+    for (int r = 0; r < 2; ++r)
     {
-      const Eight wq = weight * q[r];
+      const Eight wq = weight * q[First + r];
       rhs[r] += wq * height;
       qp[6 * r] += wq;
-#pragma GCC unroll 6
-      for (int c = 1; c < 6; ++c)
+#pragma GCC unroll 5
+      for (int c = 0; c < 5; ++c)
       {
-        qp[6 * r + c] += wq * p[c];
+        qp[6 * r + 1 + c] += wq * p[c];
       }
 #pragma GCC unroll 4
-      for (int c = 0; c <= r; ++c)
+      for (int c = 0; c <= First + r; ++c)
       {
         qq[at++] += wq * q[c];
       }
     }
   }
-  for (int i = 0; i < 24; ++i)
-  {
-    sums.qp[i] = joined(qp[i]);
-  }
-  for (int i = 0; i < 10; ++i)
-  {
-    sums.qq[i] = joined(qq[i]);
-  }
-  for (int i = 0; i < 4; ++i)
-  {
-    sums.rhs[i] = joined(rhs[i]);
-  }
+  joinEach(qp, sums.qp + 6 * First);
+  joinEach(qq, sums.qq + First * (First + 1) / 2);
+  joinEach(rhs, sums.rhs + First);
+}
+
+void sumCubicRows(const FitRows& rows, CubicSums& sums)
+{
+  sumTwoCubicRows<0>(rows, sums);
+  sumTwoCubicRows<2>(rows, sums);
 }
 
 void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, TraceSums& sums)
@@ -249,10 +291,13 @@ void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, 
     turnA += weight * (r * xa - reach * ka);
     turnB += weight * (r * xb - reach * kb);
   }
-  sums.moveA = joined(moveA);
-  sums.moveB = joined(moveB);
-  sums.turnA = joined(turnA);
-  sums.turnB = joined(turnB);
+  const Eight all[4] = { moveA, moveB, turnA, turnB };
+  double joinedAll[4];
+  joinEach(all, joinedAll);
+  sums.moveA = joinedAll[0];
+  sums.moveB = joinedAll[1];
+  sums.turnA = joinedAll[2];
+  sums.turnB = joinedAll[3];
 }
 
 void sumPlaces(const FitBlock& block, const Vec3& origin, double radius, CentroidSums& sums)
@@ -276,10 +321,13 @@ void sumPlaces(const FitBlock& block, const Vec3& origin, double radius, Centroi
       place[axis] += weight * d[axis];
     }
   }
-  sums.weights = joined(weights);
+  const Eight all[4] = { weights, place[0], place[1], place[2] };
+  double joinedAll[4];
+  joinEach(all, joinedAll);
+  sums.weights = joinedAll[0];
   for (int axis = 0; axis < 3; ++axis)
   {
-    sums.place[axis] = joined(place[axis]);
+    sums.place[axis] = joinedAll[1 + axis];
   }
 }
 
@@ -293,6 +341,7 @@ void sumField(const FieldBlock& block, const Vec3& position, double reach, Field
   Eight gate = zero;
   Eight countRadius = zero;
   Eight proxyRadius = zero;
+  Eight cubic = zero;
   Eight weightGradient[3] = { zero, zero, zero };
   Eight radiusGradient[3] = { zero, zero, zero };
   for (int i = 0; i < block.size; i += kFitLanes)
@@ -310,21 +359,27 @@ void sumField(const FieldBlock& block, const Vec3& position, double reach, Field
     gate += weight * eight(block.gate + i);
     countRadius += weight * eight(block.countRadius + i);
     proxyRadius += weight * eight(block.proxyRadius + i);
+    cubic += weight * eight(block.cubic + i);
     for (int axis = 0; axis < 3; ++axis)
     {
       weightGradient[axis] += slope * d[axis];
       radiusGradient[axis] += slope * d[axis] * value;
     }
   }
-  sums.weights = joined(weights);
-  sums.radius = joined(radius);
-  sums.gate = joined(gate);
-  sums.countRadius = joined(countRadius);
-  sums.proxyRadius = joined(proxyRadius);
+  const Eight all[12] = { weights, radius, gate, countRadius, proxyRadius, cubic, weightGradient[0],
+    weightGradient[1], weightGradient[2], radiusGradient[0], radiusGradient[1], radiusGradient[2] };
+  double joinedAll[12];
+  joinEach(all, joinedAll);
+  sums.weights = joinedAll[0];
+  sums.radius = joinedAll[1];
+  sums.gate = joinedAll[2];
+  sums.countRadius = joinedAll[3];
+  sums.proxyRadius = joinedAll[4];
+  sums.cubic = joinedAll[5];
   for (int axis = 0; axis < 3; ++axis)
   {
-    sums.weightGradient[axis] = joined(weightGradient[axis]);
-    sums.radiusGradient[axis] = joined(radiusGradient[axis]);
+    sums.weightGradient[axis] = joinedAll[6 + axis];
+    sums.radiusGradient[axis] = joinedAll[9 + axis];
   }
 }
 

@@ -81,6 +81,33 @@ TEST(ProxyTrial, FindsFastRippleAndNoSlowOne)
   EXPECT_LT(rippled(atCut - 20), 1e-6);
 }
 
+// The noise is an eighth of the sheet's thickness. Fits that begin at 3.27 cells instead of 3.6 are off by 3
+// %, and were popped through for a thousand ticks where they chose longer radii from shorter ones less
+// carefully.
+TEST(ProxyTrial, NeverPopsThroughASheetWithMuchNoise)
+{
+  const Scene scene = sceneOf(pointsOf(Shape::Sheet, 543652, 100e-6));
+  const TrialFigures f = runTrial(*scene, {}, slideCourse(Shape::Sheet), answerOf(Shape::Sheet), 1).figures;
+  EXPECT_EQ(f.popThroughs, 0);
+  EXPECT_EQ(f.falseTicks, 0);
+  EXPECT_LT(f.rmsPercent, 2.2);
+  EXPECT_GT(f.contactTicks, 1000);
+}
+
+TEST(ProxyTrial, FeelsNoisyShapesAsExactlyAsAskedFor)
+{
+  const struct
+  {
+    Shape shape;
+    double rmsPercent;
+  } cases[] = { { Shape::Sphere, 0.06 }, { Shape::Torus, 0.16 } };
+  for (const auto& [shape, rmsPercent] : cases)
+  {
+    const Scene scene = sceneOf(pointsOf(shape, 543652, 20e-6));
+    EXPECT_LT(runTrial(*scene, {}, slideCourse(shape), answerOf(shape), 1).figures.rmsPercent, rmsPercent);
+  }
+}
+
 TEST(ProxyCourse, SlidesAtTheDepthItSaysAndIsClosed)
 {
   for (const Shape shape : { Shape::Sphere, Shape::Torus, Shape::Saddle, Shape::Sheet })

@@ -1,4 +1,5 @@
 #include "Core/FitRadius.h"
+#include "Core/Shapes.h"
 #include "Core/VoxelMean.h"
 
 #include "RandomClouds.h"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 using namespace pointhaptics;
@@ -16,16 +18,9 @@ namespace
 
 constexpr double kVoxel = 1e-3 / 3;
 
-CellPyramid sphere(int n, double noise, std::uint64_t seed)
+CellPyramid resampled(const std::vector<Vec3>& points)
 {
-  trial::Random random(seed);
-  std::vector<Vec3> points;
-  for (int i = 0; i < n; ++i)
-  {
-    const Vec3 direction = random.direction();
-    points.push_back((0.025 + noise * random.normal()) * direction);
-  }
-  const PointView view(points.data(), n);
+  const PointView view(points.data(), std::int64_t(points.size()));
   LatticeSettings settings;
   settings.voxelSize = kVoxel;
   Lattice lattice;
@@ -43,6 +38,36 @@ CellPyramid sphere(int n, double noise, std::uint64_t seed)
   std::vector<std::uint32_t> source;
   EXPECT_EQ(pyramid.build(std::move(cells), kVoxel, source), Status::Ok);
   return pyramid;
+}
+
+CellPyramid sphere(int n, double noise, std::uint64_t seed)
+{
+  trial::Random random(seed);
+  std::vector<Vec3> points;
+  for (int i = 0; i < n; ++i)
+  {
+    const Vec3 direction = random.direction();
+    points.push_back((0.025 + noise * random.normal()) * direction);
+  }
+  return resampled(points);
+}
+
+/// Mean share of the cubic terms over the nodes of a shape.
+double cubicShare(Shape shape, double noise)
+{
+  std::vector<Vec3> points;
+  EXPECT_EQ(generateShape(shape, 200000, 9, noise, points), Status::Ok);
+  const std::vector<LocalScale> scales = fitScales(resampled(points), 6e-3, 6e-3, trial::ThreadedExecutor(2));
+  double sum = 0.0;
+  for (const LocalScale& scale : scales)
+  {
+    EXPECT_GE(scale.cubic, 0.0);
+    EXPECT_LE(scale.cubic, 1.0);
+    sum += scale.cubic;
+  }
+  const double share = sum / double(scales.size());
+  std::printf("[ figure   ] share of cubic terms on the %s = %.2f\n", shapeName(shape), share);
+  return share;
 }
 
 std::vector<FitScale> scalesOf(const CellPyramid& pyramid)
@@ -119,6 +144,15 @@ TEST(FitRadius, StaysNearTheCountRadiusOnACleanPlane)
   const FitScale scale =
     chooseFitRadius(pyramid, pyramid.level(0).cells[10000].mean, 8e-3, 8e-3, *std::make_unique<FitCells>());
   EXPECT_LE(scale.radius, 1.6 * scale.countRadius);
+}
+
+TEST(FitScales, PreferCubicTermsWhereNoiseHidesAChangeOfCurvature)
+{
+  EXPECT_GT(cubicShare(Shape::Ellipsoid, 20e-6), 0.5);
+  EXPECT_GT(cubicShare(Shape::Torus, 20e-6), 0.3);
+  EXPECT_LT(cubicShare(Shape::Sphere, 20e-6), 0.35) << "no change of curvature: they would only add noise";
+  EXPECT_EQ(cubicShare(Shape::Torus, 0.0), 0.0) << "clean clouds have them anyway";
+  EXPECT_LT(cubicShare(Shape::Sheet, 20e-6), 0.1) << "the other sheet is in reach";
 }
 
 TEST(FitRadius, OfDegenerateCloudsIsUsable)

@@ -283,12 +283,16 @@ TEST(SurfaceFit, WithFewPointsIsAPlane)
   EXPECT_NEAR(fit.height(0.1, 0.2), 0.0, 1e-9);
 }
 
-TEST(SurfaceFit, TellsTheNoiseOfTheCloudAndItsOwnErrors)
+namespace
+{
+
+/// On a noisy sphere, with or without cubic terms.
+void expectHonestErrors(bool cubic)
 {
   const double noise = 20e-6;
   const CellPyramid pyramid = resampled(sphere(300000, 0.025, 6, noise), 1e-3 / 3);
   FitSettings settings;
-  settings.radius = 2e-3;
+  settings.radius = cubic ? 3e-3 : 2e-3;
   const auto memory = std::make_unique<FitCells>();
   trial::Random random(12);
   double variance = 0.0;
@@ -298,8 +302,8 @@ TEST(SurfaceFit, TellsTheNoiseOfTheCloudAndItsOwnErrors)
   {
     const Vec3 direction = random.direction();
     SurfaceFitError error;
-    const SurfaceFit fit =
-      pointhaptics::fitSurface(pyramid, frameAlong(direction, 0.025 * direction), settings, *memory, error);
+    const SurfaceFit fit = pointhaptics::fitSurface(
+      pyramid, frameAlong(direction, 0.025 * direction), settings, *memory, error, cubic);
     ASSERT_EQ(fit.quality, FitQuality::Quadric);
     variance += error.noise * error.noise / 100;
     const double found[3] = { fit.radius * fit.k[0], fit.k[1], fit.k[2] };
@@ -314,6 +318,64 @@ TEST(SurfaceFit, TellsTheNoiseOfTheCloudAndItsOwnErrors)
   {
     EXPECT_NEAR(std::log(std::sqrt(actual[j] / predicted[j])), 0.0, std::log(1.5)) << j;
   }
+}
+
+} // namespace
+
+TEST(SurfaceFit, TellsTheNoiseOfTheCloudAndItsOwnErrors)
+{
+  expectHonestErrors(false);
+}
+
+TEST(SurfaceFit, TellsItsErrorsWithCubicTermsToo)
+{
+  expectHonestErrors(true);
+}
+
+TEST(SurfaceFit, TellsHowMuchTheGateLeftOut)
+{
+  std::vector<Vec3> points = trial::randomBox(60000, 41, { -0.02, -0.02, 0 }, { 0.02, 0.02, 0 });
+  const std::vector<Vec3> below = trial::randomBox(20000, 42, { -0.02, -0.02, -8e-4 }, { 0.02, 0.02, -8e-4 });
+  points.insert(points.end(), below.begin(), below.end());
+  const CellPyramid pyramid = resampled(points, 1e-3 / 3);
+  const auto memory = std::make_unique<FitCells>();
+  FitSettings settings;
+  settings.radius = 4e-3;
+  SurfaceFitError error;
+  pointhaptics::fitSurface(pyramid, SurfaceFrame(), settings, *memory, error);
+  EXPECT_EQ(error.leftOut, 0.0) << "no gate";
+  settings.gate = 4e-4;
+  pointhaptics::fitSurface(pyramid, SurfaceFrame(), settings, *memory, error);
+  EXPECT_NEAR(error.leftOut, 0.22, 0.03) << "a quarter of the points, further from the middle";
+}
+
+TEST(SurfaceFit, CubicTermsGoOnAlongTheSurface)
+{
+  SurfaceFit fit;
+  fit.quality = FitQuality::Quadric;
+  fit.radius = 2e-3;
+  const double k[6] = { 0.01, 0.1, -0.2, 0.3, 0.1, -0.2 };
+  const double c[4] = { 0.2, -0.1, 0.3, 0.15 };
+  std::copy(k, k + 6, fit.k);
+  std::copy(c, c + 4, fit.cubic);
+  const double u = 0.3;
+  const double v = -0.2;
+  EXPECT_NEAR(fit.height(u, v),
+    0.01 + 0.1 * u - 0.2 * v + 0.3 * u * u + 0.1 * u * v - 0.2 * v * v + 0.2 * u * u * u - 0.1 * u * u * v +
+      0.3 * u * v * v + 0.15 * v * v * v,
+    1e-15);
+  constexpr double kStep = 1e-6;
+  EXPECT_NEAR(fit.slopeU(u, v), (fit.height(u + kStep, v) - fit.height(u - kStep, v)) / (2 * kStep), 1e-9);
+  EXPECT_NEAR(fit.slopeV(u, v), (fit.height(u, v + kStep) - fit.height(u, v - kStep)) / (2 * kStep), 1e-9);
+  const SurfaceFrame frame = frameAlong(normalized({ 1, 2, 3 }), { 4e-3, 5e-3, 6e-3 });
+  Vec3 point;
+  Vec3 normal;
+  Vec3 foot;
+  Vec3 footNormal;
+  pointAt(fit, frame, u, v, point, normal);
+  ASSERT_TRUE(footPoint(fit, frame, point - 5e-4 * normal, foot, footNormal));
+  EXPECT_LE(norm(foot - point), 1e-12);
+  EXPECT_LE(norm(footNormal - normal), 1e-9);
 }
 
 TEST(FootPoint, IsTheNearestPointOfTheFit)
