@@ -67,8 +67,8 @@ public:
   int numberOfCellLevels() const { return numberOfLevels() < kCellLevels ? numberOfLevels() : kCellLevels; }
   const Level& level(int l) const { return levels_[std::size_t(l)]; }
 
-  /// Calls visit(first, last) for runs of cells of @p level that hold all whose mean is nearer to @p center than
-  /// @p radius, and others near by, in Morton order.
+  /// Calls visit(first, last) for runs of cells of @p level that hold all whose mean is nearer to @p center
+  /// than @p radius, and others near by, in Morton order.
   template <typename Visitor>
   void visitRuns(int level, const Vec3& center, double radius, Visitor&& visit) const
   {

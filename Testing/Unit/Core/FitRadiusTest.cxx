@@ -56,7 +56,7 @@ CellPyramid sphere(int n, double noise, std::uint64_t seed)
 double cubicShare(Shape shape, double noise)
 {
   std::vector<Vec3> points;
-  EXPECT_EQ(generateShape(shape, 200000, 9, noise, points), Status::Ok);
+  EXPECT_EQ(generateShape(shape, 100000, 9, noise, points), Status::Ok);
   const std::vector<LocalScale> scales = fitScales(resampled(points), 6e-3, 6e-3, trial::ThreadedExecutor(2));
   double sum = 0.0;
   for (const LocalScale& scale : scales)
@@ -148,9 +148,9 @@ TEST(FitRadius, StaysNearTheCountRadiusOnACleanPlane)
 
 TEST(FitScales, PreferCubicTermsWhereNoiseHidesAChangeOfCurvature)
 {
-  EXPECT_GT(cubicShare(Shape::Ellipsoid, 20e-6), 0.5);
-  EXPECT_GT(cubicShare(Shape::Torus, 20e-6), 0.3);
-  EXPECT_LT(cubicShare(Shape::Sphere, 20e-6), 0.35) << "no change of curvature: they would only add noise";
+  EXPECT_GT(cubicShare(Shape::Ellipsoid, 20e-6), 0.8);
+  EXPECT_GT(cubicShare(Shape::Torus, 20e-6), 0.7);
+  EXPECT_LT(cubicShare(Shape::Sphere, 20e-6), 0.45) << "no change of curvature: they would only add noise";
   EXPECT_EQ(cubicShare(Shape::Torus, 0.0), 0.0) << "clean clouds have them anyway";
   EXPECT_LT(cubicShare(Shape::Sheet, 20e-6), 0.1) << "the other sheet is in reach";
 }
