@@ -72,6 +72,14 @@ void vtkInteractorStyleHaptic::SetServoLoop(pointhaptics::ServoLoop* servo)
 {
   this->StopBuilding();
   this->Parts->servo = servo;
+  this->Parts->publisher.setSink(
+    [servo](std::shared_ptr<const pointhaptics::HapticScene> scene)
+    {
+      if (servo)
+      {
+        servo->publishScene(std::move(scene));
+      }
+    });
   this->Parts->modelChanged = true;
 }
 

@@ -263,6 +263,7 @@ private:
   void operator=(const vtkInteractorStyleHaptic&) = delete;
 
   void ModelChanged();
+  void MoveScene();
   void PreviewModel();
   void StopBuilding();
   void SendCloud();

@@ -4,6 +4,7 @@
 
 #include "vtkInteractorStyleHaptic.h"
 
+#include "ScenePublisher.h"
 #include "SceneWorker.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
@@ -108,6 +109,7 @@ struct vtkInteractorStyleHaptic::Internals
   vtkIdType numberOfVoxels = 0;
   std::vector<pointhaptics::ServoSample> samples;
 
+  pointhaptics::ScenePublisher publisher;
   pointhaptics::SceneWorker worker; // last: it ends first
 
   pointhaptics::Vec3 center() const

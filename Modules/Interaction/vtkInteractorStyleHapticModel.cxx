@@ -1,6 +1,8 @@
 // From a change of the model to the scene that is felt and the means that are shown.
 #include "vtkInteractorStyleHapticInternals.h"
 
+#include "PolyDataAccess.h"
+
 #include "vtkMapper.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
@@ -29,12 +31,23 @@ void vtkInteractorStyleHaptic::ModelChanged()
   matrix->DeepCopy(parts.model->GetMatrix());
   parts.model->SetMatrix(matrix);
   parts.modelChanged = true;
+  this->MoveScene();
   this->PreviewModel();
   if (parts.timer >= 0 && parts.resampler)
   {
     this->RequestScene(); // the timer, and what it has to draw, would come later
   }
   this->InvokeEvent(ModelChangedEvent);
+}
+
+/// The hand feels the model where it is before it is resampled there.
+void vtkInteractorStyleHaptic::MoveScene()
+{
+  pointhaptics::AffineTransform modelToWorkspace;
+  if (pointhaptics::affineFromTransform(this->Parts->model, modelToWorkspace))
+  {
+    this->Parts->publisher.move(modelToWorkspace);
+  }
 }
 
 /// The drawn means are those of the last resampling: show them where the model is now.
@@ -101,6 +114,7 @@ void vtkInteractorStyleHaptic::SendCloud()
     copy.TakeReference(vtkPointSet::SafeDownCast(cloud->NewInstance()));
     copy->ShallowCopy(cloud);
   }
+  parts.publisher.forget();
   parts.worker.setCloud(std::move(copy));
 }
 
@@ -109,16 +123,12 @@ void vtkInteractorStyleHaptic::RequestScene()
   Internals& parts = *this->Parts;
   parts.modelChanged = false;
   this->SendCloud();
+  this->MoveScene();
   SceneRequest request = SceneRequest::of(parts.resampler, parts.bandwidth);
   std::copy_n(parts.model->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
   request.useCovariance = this->UseCovariance;
-  request.publish = [servo = parts.servo](std::shared_ptr<const pointhaptics::HapticScene> scene)
-  {
-    if (servo)
-    {
-      servo->publishScene(std::move(scene));
-    }
-  };
+  request.publish = [publisher = &parts.publisher](std::shared_ptr<const pointhaptics::HapticScene> scene)
+  { publisher->publish(std::move(scene)); };
   parts.requested = parts.worker.request(std::move(request));
 }
 

@@ -1,0 +1,55 @@
+#include "ScenePublisher.h"
+
+#include <utility>
+
+namespace pointhaptics
+{
+
+void ScenePublisher::setSink(Sink sink)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sink_ = std::move(sink);
+}
+
+void ScenePublisher::move(const AffineTransform& modelToWorkspace)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const bool isThere = isMoved_ && modelToWorkspace == modelToWorkspace_;
+  modelToWorkspace_ = modelToWorkspace;
+  isMoved_ = true;
+  if (isThere || !newest_ || !sink_)
+  {
+    return;
+  }
+  Status status = Status::Ok;
+  if (std::shared_ptr<const HapticScene> moved = newest_->moved(modelToWorkspace, status))
+  {
+    sink_(std::move(moved));
+  }
+}
+
+void ScenePublisher::publish(std::shared_ptr<const HapticScene> scene)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  newest_ = scene;
+  if (scene && isMoved_ && !(scene->modelToWorkspace() == modelToWorkspace_))
+  {
+    Status status = Status::Ok;
+    if (std::shared_ptr<const HapticScene> moved = scene->moved(modelToWorkspace_, status))
+    {
+      scene = std::move(moved);
+    }
+  }
+  if (sink_)
+  {
+    sink_(std::move(scene));
+  }
+}
+
+void ScenePublisher::forget()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  newest_.reset();
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,43 @@
+/// @file
+/// Which scene the hand feels while the model moves and scenes of it are being made.
+#pragma once
+
+#include "Core/AffineTransform.h"
+#include "Haptics/HapticScene.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include <functional>
+#include <memory>
+#include <mutex>
+
+namespace pointhaptics
+{
+
+/// A model that is turned, shifted or uniformly scaled is felt where it is at once: the newest scene is moved
+/// (HapticScene::moved, below a microsecond), until the one of the cloud resampled there is made. A scene
+/// that was made for where the model no longer is comes moved to where it is. Any thread.
+class POINTHAPTICSINTERACTION_EXPORT ScenePublisher
+{
+public:
+  using Sink = std::function<void(std::shared_ptr<const HapticScene>)>;
+
+  /// Who gets the scenes from now on, one at a time, under a lock; may be empty.
+  void setSink(Sink sink);
+  /// The model is moved. Publishes the newest scene there, if there is one that can be moved so: not under
+  /// shear, nor scales that differ by axis.
+  void move(const AffineTransform& modelToWorkspace);
+  /// A scene is made, or null where there is nothing to feel. Publishes it where the model is by now.
+  void publish(std::shared_ptr<const HapticScene> scene);
+  /// The newest scene is of a cloud that is gone: it is not moved any more.
+  void forget();
+
+private:
+  std::mutex mutex_;
+  Sink sink_;
+  std::shared_ptr<const HapticScene> newest_;
+  AffineTransform modelToWorkspace_;
+  bool isMoved_ = false; ///< By move(), since the newest scene was asked for or before.
+};
+
+} // namespace pointhaptics

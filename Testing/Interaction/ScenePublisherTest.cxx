@@ -1,0 +1,109 @@
+#include "ScenePublisher.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+/// A square of 2 cm about the origin, put where the transform says.
+std::shared_ptr<const HapticScene> sceneAt(const AffineTransform& modelToWorkspace)
+{
+  HapticSceneInput input;
+  input.modelToWorkspace = modelToWorkspace;
+  for (int i = -10; i <= 10; ++i)
+  {
+    for (int j = -10; j <= 10; ++j)
+    {
+      input.points.push_back(modelToWorkspace.apply({ 0.001 * i, 0.001 * j, 0.0 }));
+    }
+  }
+  Status status = Status::Ok;
+  auto scene = HapticScene::create(std::move(input), status);
+  EXPECT_EQ(status, Status::Ok);
+  return scene;
+}
+
+AffineTransform shiftBy(double z)
+{
+  return AffineTransform::translation({ 0.0, 0.0, z });
+}
+
+class ScenePublisherTest : public ::testing::Test
+{
+protected:
+  ScenePublisherTest()
+  {
+    publisher_.setSink(
+      [this](std::shared_ptr<const HapticScene> scene) { felt_.push_back(std::move(scene)); });
+  }
+
+  ScenePublisher publisher_;
+  std::vector<std::shared_ptr<const HapticScene>> felt_;
+};
+
+TEST_F(ScenePublisherTest, AMovedModelIsFeltThereBeforeItIsResampled)
+{
+  const auto first = sceneAt(shiftBy(0.0));
+  publisher_.publish(first);
+  publisher_.move(shiftBy(0.003));
+  ASSERT_EQ(felt_.size(), 2u);
+  EXPECT_EQ(felt_[0], first);
+  EXPECT_EQ(felt_[1]->modelToWorkspace(), shiftBy(0.003));
+  EXPECT_EQ(felt_[1]->cloudNumber(), first->cloudNumber());
+}
+
+TEST_F(ScenePublisherTest, ASceneMadeForAnEarlierPlaceIsFeltWhereTheModelIs)
+{
+  publisher_.publish(sceneAt(shiftBy(0.0)));
+  publisher_.move(shiftBy(0.001));
+  const auto late = sceneAt(shiftBy(0.001));
+  publisher_.move(shiftBy(0.002));
+  publisher_.publish(late);
+  ASSERT_EQ(felt_.size(), 4u);
+  EXPECT_EQ(felt_[3]->cloudNumber(), late->cloudNumber());
+  EXPECT_EQ(felt_[3]->modelToWorkspace(), shiftBy(0.002));
+  const auto inTime = sceneAt(shiftBy(0.002));
+  publisher_.publish(inTime);
+  EXPECT_EQ(felt_.back(), inTime);
+}
+
+TEST_F(ScenePublisherTest, AStretchedModelWaitsForItsResampling)
+{
+  const auto first = sceneAt(shiftBy(0.0));
+  publisher_.publish(first);
+  const AffineTransform stretched = AffineTransform::scaling({ 1.0, 1.0, 2.0 });
+  publisher_.move(stretched);
+  EXPECT_EQ(felt_.size(), 1u);
+  const auto there = sceneAt(stretched);
+  publisher_.publish(there);
+  EXPECT_EQ(felt_.back(), there);
+  // Made for where the model was; it cannot be moved, and something is better than nothing.
+  publisher_.publish(first);
+  EXPECT_EQ(felt_.back(), first);
+}
+
+TEST_F(ScenePublisherTest, NothingToFeelIsPublishedToo)
+{
+  publisher_.publish(sceneAt(shiftBy(0.0)));
+  publisher_.publish(nullptr);
+  ASSERT_EQ(felt_.size(), 2u);
+  EXPECT_EQ(felt_[1], nullptr);
+  publisher_.move(shiftBy(0.001));
+  EXPECT_EQ(felt_.size(), 2u);
+}
+
+TEST_F(ScenePublisherTest, ACloudThatIsGoneIsNotMoved)
+{
+  publisher_.publish(sceneAt(shiftBy(0.0)));
+  publisher_.forget();
+  publisher_.move(shiftBy(0.001));
+  EXPECT_EQ(felt_.size(), 1u);
+}
+
+} // namespace
