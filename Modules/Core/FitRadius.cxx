@@ -253,13 +253,46 @@ FitScale chooseFitRadius(
   return scale;
 }
 
+namespace
+{
+
+/// What the nodes about a node agree on.
+LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<FitScale>& scales, std::size_t i)
+{
+  const auto& nodes = pyramid.level(nodeLevel);
+  std::vector<double> radii;
+  std::vector<double> noises;
+  double cubic = 0.0;
+  pyramid.visitBall(nodeLevel, nodes.cells[i].mean, kVoteReach * nodes.voxelSize,
+    [&](std::uint32_t j, const Cell&, double)
+    {
+      radii.push_back(scales[j].radius);
+      noises.push_back(scales[j].noise);
+      cubic += scales[j].cubic ? 1.0 : 0.0;
+    });
+  const double radius = radii.empty() ? scales[i].radius : medianOf(radii);
+  const double noise = noises.empty() ? scales[i].noise : medianOf(noises);
+  const double votes = radii.empty() ? 0.0 : cubic / double(radii.size());
+  LocalScale result;
+  result.radius = std::max(scales[i].countRadius, radius);
+  result.countRadius = scales[i].countRadius;
+  result.noise = noise;
+  result.cubic = std::clamp((votes - kCubicVotesFrom) / (kCubicVotesTo - kCubicVotesFrom), 0.0, 1.0);
+  result.gate = std::max(kGateDepth * scales[i].countRadius, kGateNoise * noise);
+  return result;
+}
+
+}
+
 std::vector<LocalScale> fitScales(
   const CellPyramid& pyramid, double largestCount, double largest, const Executor& executor)
 {
+  // A node takes some ten microseconds, and more where there is noise.
+  constexpr std::int64_t kSmallestRange = 16;
   const int nodeLevel = RadiusField::nodeLevel(pyramid);
   const auto& nodes = pyramid.level(nodeLevel);
   std::vector<FitScale> scales(nodes.cells.size());
-  forRange(executor, std::int64_t(scales.size()),
+  forRange(executor, std::int64_t(scales.size()), kSmallestRange,
     [&](std::int64_t begin, std::int64_t end)
     {
       const auto memory = std::make_unique<FitCells>();
@@ -273,30 +306,14 @@ std::vector<LocalScale> fitScales(
       }
     });
   std::vector<LocalScale> result(scales.size());
-  std::vector<double> radii;
-  std::vector<double> noises;
-  double cubic = 0.0;
-  for (std::size_t i = 0; i < scales.size(); ++i)
-  {
-    radii.clear();
-    noises.clear();
-    cubic = 0.0;
-    pyramid.visitBall(nodeLevel, nodes.cells[i].mean, kVoteReach * nodes.voxelSize,
-      [&](std::uint32_t j, const Cell&, double)
+  forRange(executor, std::int64_t(scales.size()), kSmallestRange,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
       {
-        radii.push_back(scales[j].radius);
-        noises.push_back(scales[j].noise);
-        cubic += scales[j].cubic ? 1.0 : 0.0;
-      });
-    const double radius = radii.empty() ? scales[i].radius : medianOf(radii);
-    const double noise = noises.empty() ? scales[i].noise : medianOf(noises);
-    result[i].radius = std::max(scales[i].countRadius, radius);
-    result[i].countRadius = scales[i].countRadius;
-    result[i].noise = noise;
-    const double votes = radii.empty() ? 0.0 : cubic / double(radii.size());
-    result[i].cubic = std::clamp((votes - kCubicVotesFrom) / (kCubicVotesTo - kCubicVotesFrom), 0.0, 1.0);
-    result[i].gate = std::max(kGateDepth * scales[i].countRadius, kGateNoise * noise);
-  }
+        result[i] = vote(pyramid, nodeLevel, scales, i);
+      }
+    });
   return result;
 }
 
