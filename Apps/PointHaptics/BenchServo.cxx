@@ -92,7 +92,7 @@ BenchOutcome runServo(
       "other --hands, --loads or --rates";
     return outcome;
   }
-  outcome.wrong = allRight ? "" : "a force of the servo loop is wrong; look for \"wrong\" in the table";
+  outcome.wrong = allRight ? "" : "a force of the servo loop or a round trip is wrong; look for \"wrong\" in the table";
   return outcome;
 }
 
