@@ -2,20 +2,14 @@
 #include "BenchTask.h"
 
 #include "OptionParsing.h"
+#include "SceneTurntable.h"
 #include "ViewDisplay.h"
-#include "ViewScene.h"
 
 #include "Benchmark/Render/RenderBenchmark.h"
 
 #include <CLI/CLI.hpp>
-#include <vtkCamera.h>
-#include <vtkNew.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 
-#include <chrono>
 #include <memory>
-#include <thread>
 
 namespace pointhaptics
 {
@@ -25,63 +19,6 @@ namespace
 {
 
 constexpr double kMostPoints = 1e8;
-
-/// The viewer's scene in a window of its own.
-class SceneTurntable : public bench::render::Turntable
-{
-public:
-  bool open(const std::string& file, int width, int height, std::string& message)
-  {
-    ViewOptions options;
-    options.files = { file };
-    if (!scene_.open(options.files, options, message) || !scene_.build(options, message))
-    {
-      return false;
-    }
-    window_->SetOffScreenRendering(1);
-    window_->SetMultiSamples(0);
-    window_->SetSize(width, height);
-    window_->AddRenderer(scene_.renderer());
-    scene_.placeCamera();
-    this->render();
-    return true;
-  }
-
-  ~SceneTurntable() override { window_->RemoveRenderer(scene_.renderer()); }
-
-  void setDetail(bool on) override { scene_.detail().setEnabled(on); }
-
-  void turn(double degrees) override
-  {
-    scene_.renderer()->GetActiveCamera()->Azimuth(degrees);
-    this->render();
-  }
-
-  int rest() override
-  {
-    int frames = 0;
-    std::this_thread::sleep_for(std::chrono::duration<double>(CloudDetail::kRestSeconds));
-    for (; !scene_.detail().showsAll() && frames < 100; ++frames)
-    {
-      this->render();
-    }
-    return frames;
-  }
-
-  std::int64_t allPoints() const override { return scene_.detail().allPoints(); }
-  std::int64_t drawnPoints() const override { return scene_.detail().drawnPoints(); }
-
-private:
-  void render()
-  {
-    scene_.renderer()->ResetCameraClippingRange();
-    window_->Render();
-    window_->WaitForCompletion();
-  }
-
-  ViewScene scene_;
-  vtkNew<vtkRenderWindow> window_;
-};
 
 struct RenderOptions
 {
@@ -108,12 +45,7 @@ BenchOutcome runRender(
   }
   settings.repetitions = shared.repetitions > 0 ? shared.repetitions : settings.repetitions;
   settings.withF3d = !options.noF3d;
-  settings.makeTurntable = [](const std::string& file, int width, int height, std::string& message)
-  {
-    auto table = std::make_unique<SceneTurntable>();
-    const bool opened = table->open(file, width, height, message);
-    return std::unique_ptr<bench::render::Turntable>(opened ? std::move(table) : nullptr);
-  };
+  settings.makeTurntable = makeSceneTurntable;
   settings.makeModelMover = makeModelMover;
   outcome.report = bench::render::benchmarkRender(settings, progress, outcome.wrong);
   return outcome;

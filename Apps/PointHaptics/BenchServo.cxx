@@ -1,12 +1,17 @@
 #include "BenchTask.h"
 
 #include "OptionParsing.h"
+#include "SceneTurntable.h"
 #include "ViewDisplay.h"
 
+#include "Benchmark/Render/WholeProcess.h"
 #include "Benchmark/Servo/ServoBenchmark.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 
 namespace pointhaptics
@@ -28,12 +33,43 @@ struct ServoOptions
   std::vector<std::string> hands, loads, rates;
 };
 
+/// The viewer's picture of the cloud of @p points, turned by a degree a call. Null: there is none, and rows
+/// with drawing are left out.
+std::function<void()> makeDrawing(int points)
+{
+  constexpr int kWidth = 1280;
+  constexpr int kHeight = 720;
+  std::string folder = (std::filesystem::temp_directory_path() / "pointhaptics-servo-XXXXXX").string();
+  if (!::mkdtemp(folder.data()))
+  {
+    return nullptr;
+  }
+  const std::string file = folder + "/sphere.ply";
+  const bench::render::ProcessRun made = bench::render::runProcess(
+    { bench::render::thisProgram(), "generate", "sphere", "-n", std::to_string(points), "-o", file });
+  std::string message;
+  const std::shared_ptr<bench::render::Turntable> table =
+    made.exitCode == 0 ? makeSceneTurntable(file, kWidth, kHeight, message) : nullptr;
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+  if (!table)
+  {
+    return nullptr;
+  }
+  table->setDetail(true);
+  return [table] { table->turn(1.0); };
+}
+
+bool isWanted(const std::string& word, const std::vector<std::string>& words)
+{
+  return words.empty() || std::find(words.begin(), words.end(), word) != words.end();
+}
+
 BenchOutcome runServo(
   const ServoOptions& options, const BenchSettings& shared, const bench::Progress& progress)
 {
   bench::servo::ServoBenchmarkOptions settings;
   std::string whyNot;
-  settings.rendering = !shared.quick && displayIsAvailable(whyNot);
   settings.points = int(options.points > 0 ? options.points : shared.quick ? kQuickPoints : settings.points);
   settings.seconds = options.seconds > 0.0 ? options.seconds
     : shared.quick                         ? kQuickSeconds
@@ -41,6 +77,11 @@ BenchOutcome runServo(
   settings.hands = options.hands;
   settings.loads = options.loads;
   settings.rates = options.rates;
+  if (!shared.quick && isWanted("drawing", options.loads) && displayIsAvailable(whyNot))
+  {
+    progress("making the viewer's picture");
+    settings.draw = makeDrawing(settings.points);
+  }
   bool allRight = false;
   BenchOutcome outcome;
   outcome.report = bench::servo::benchmarkServo(settings, progress, allRight);
@@ -51,7 +92,7 @@ BenchOutcome runServo(
       "other --hands, --loads or --rates";
     return outcome;
   }
-  outcome.wrong = allRight ? "" : "a force of the servo loop is wrong; look for \"wrong\" in the table";
+  outcome.wrong = allRight ? "" : "a force of the servo loop or a round trip is wrong; look for \"wrong\" in the table";
   return outcome;
 }
 

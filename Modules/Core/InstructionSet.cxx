@@ -10,7 +10,8 @@ namespace
 bool machineHasAvx2() noexcept
 {
 #if defined(__x86_64__) || defined(__i386__)
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+    __builtin_cpu_supports("bmi2");
 #else
   return false;
 #endif
@@ -36,11 +37,12 @@ InstructionSet usableInstructionSet(InstructionSet wanted) noexcept
   {
     return InstructionSet::Baseline;
   }
-  if (!atMostAvx2 && kernel::avx512Kernels() && machineHasAvx512())
+  // The machine first: the functions that hand out kernels are built of the same instructions as they.
+  if (!atMostAvx2 && machineHasAvx512() && kernel::avx512Kernels())
   {
     return InstructionSet::Avx512;
   }
-  return kernel::avx2Kernels() && machineHasAvx2() ? InstructionSet::Avx2 : InstructionSet::Baseline;
+  return machineHasAvx2() && kernel::avx2Kernels() ? InstructionSet::Avx2 : InstructionSet::Baseline;
 }
 
 namespace kernel

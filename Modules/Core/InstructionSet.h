@@ -10,7 +10,7 @@ enum class InstructionSet
 {
   Automatic, ///< The best this machine has.
   Baseline,  ///< What every processor of the family has (SSE2 on x86-64).
-  Avx2,      ///< AVX2 and FMA.
+  Avx2,      ///< AVX2, FMA, BMI and BMI2.
   Avx512,    ///< AVX-512 F, DQ, BW, VL and VPOPCNTDQ.
 };
 

@@ -24,8 +24,9 @@ struct ContactParameters
   /// hand's (a zoom in touch, a rim, a jump of the nearest point) at this rate; N/s, above 0 to infinity: at
   /// once.
   double settleRate = 100.0;
-  /// Of the device itself, N s/m, 0 to 1e3; 0: unknown. Where it is known the stiffness is kept at
-  /// 2 (deviceDamping - damping) / T, T the tick: more would feed energy to the hand (Colgate).
+  /// Of the device itself, N s/m, 0 to 1e3; 0: unknown. For programs that step a Proxy without ServoLoop,
+  /// which refuses such springs by HandPort::limits(): where it is known the stiffness is kept at
+  /// largestPassiveStiffness(), here 2 (deviceDamping - damping) / T, T the tick.
   double deviceDamping = 0.0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "Haptics/GradientSteps.h"
 #include "Haptics/OffsetSettler.h"
+#include "Haptics/PassivityLimit.h"
 #include "Haptics/SurfaceFitProxy.h"
 
 #include <algorithm>
@@ -24,11 +25,15 @@ struct Proxy::Implementation
   bool hadScene = false;
   SurfaceFitProxy surfaceFit;
   FitCells fitCells;
+  FitCells
+    rehearsalCells; ///< What the rehearsal gathers must not serve a step: it is gathered about another place.
   OffsetSettler settler;
   GradientSteps gradientSteps;
   ProxyState last;
   Vec3 lastHip;
+  Vec3 lastMove; ///< Of the HIP in the last step.
   bool hasLastHip = false;
+  double lastDt = 0.0; ///< Of the last step, seconds.
   double fadedSeconds = 0.0;
 
   void forget() noexcept
@@ -38,6 +43,7 @@ struct Proxy::Implementation
     settler.reset();
     last = ProxyState();
     hasLastHip = false;
+    lastMove = Vec3();
     fadedSeconds = 0.0;
   }
 
@@ -54,11 +60,13 @@ struct Proxy::Implementation
     return state;
   }
 
-  /// Colgate's bound: a spring and damper sampled every dt are passive on a device that damps enough.
+  /// The servo loop's rule for a device of which the damping alone is known, answered in the same tick.
   double passiveStiffness(double dt, std::uint32_t& status) const noexcept
   {
     const ContactParameters& contact = parameters.contact;
-    const double limit = 2.0 * std::max(0.0, contact.deviceDamping - contact.damping) / dt;
+    HandLimits device;
+    device.damping = contact.deviceDamping;
+    const double limit = largestPassiveStiffness(device, contact.damping, 1.0 / dt);
     const bool limited = contact.deviceDamping > 0.0 && contact.stiffness > limit;
     status |= std::uint32_t(limited ? kProxyStiffnessLimit : kProxyOk);
     return limited ? limit : contact.stiffness;
@@ -197,10 +205,36 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   }
   state.force = self.forceOf(state, stiffness, dt);
   self.last = state;
+  self.lastMove = self.hasLastHip ? hip - self.lastHip : Vec3();
   self.lastHip = hip;
   self.hasLastHip = true;
+  self.lastDt = dt;
   self.fadedSeconds = 0.0;
   return state;
+}
+
+void Proxy::rehearse() noexcept
+{
+  Implementation& self = *implementation_;
+  const Vec3 hip = self.lastHip + self.lastMove;
+  if (!self.scene || !self.hasLastHip || !isFinite(hip))
+  {
+    return;
+  }
+  ProxyState state = self.last;
+  state.hip = hip;
+  if (self.parameters.method == ProxyMethod::SurfaceFit)
+  {
+    SurfaceFitProxy copy = self.surfaceFit;
+    // Gathered anew each time: whether the step will have to gather is not known here.
+    self.rehearsalCells.forget();
+    copy.step(*self.scene, self.rehearsalCells, self.parameters.contact, hip, state);
+  }
+  else
+  {
+    GradientSteps copy = self.gradientSteps;
+    copy.step(*self.scene, self.parameters, hip, self.lastDt, state);
+  }
 }
 
 } // namespace pointhaptics

@@ -78,6 +78,12 @@ public:
   /// 0.
   ProxyState step(const Vec3& hip, double dt) noexcept;
 
+  /// Steps a copy to where the HIP will be if it goes on as in the last step: what the next step will read
+  /// and run is then in the processor's caches. Changes no result of any later call, bit for bit. Costs more
+  /// than a step, about 10 us after a sleep; the step after it then takes a third of its time. Safe in the
+  /// servo thread, as step() is.
+  void rehearse() noexcept;
+
 private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;

@@ -6,6 +6,7 @@
 #include "Haptics/ServoThread.h"
 #include "Haptics/TraceRing.h"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <system_error>
@@ -25,11 +26,15 @@ constexpr double kRestAfterSeconds = 0.5;
 constexpr double kRestSeconds = 0.02;
 constexpr int kLargestTrace = 1 << 22;
 constexpr double kLongestWatch = 3600.0;
+constexpr double kEarliestWake = 1e-3;
+/// Of a period, to wake early by: the rest of the core is for others.
+constexpr double kLargestEarlyPart = 0.5;
 
 bool valid(const ServoSettings& settings)
 {
   return settings.rateHz >= 1.0 && settings.rateHz <= 10000.0 && settings.traceCapacity >= 1 &&
-    settings.traceCapacity <= kLargestTrace && settings.limits.check() == Status::Ok &&
+    settings.traceCapacity <= kLargestTrace && settings.wakeEarlySeconds >= 0.0 &&
+    settings.wakeEarlySeconds <= kEarliestWake && settings.limits.check() == Status::Ok &&
     settings.watchdogSeconds >= 0.0 && settings.watchdogSeconds <= kLongestWatch;
 }
 
@@ -123,6 +128,7 @@ struct ServoLoop::Implementation
 
   void prepare(HandPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings);
   void run() noexcept;
+  void waitFor(std::int64_t deadline) noexcept;
   Status tick(std::uint64_t number, std::int64_t wake) noexcept;
   Vec3 answer(const HandState& hand, std::uint64_t number) noexcept;
   void takeNews() noexcept;
@@ -189,7 +195,7 @@ void ServoLoop::Implementation::run() noexcept
   // A stop is obeyed once the gate has closed, and at once where nothing pushes.
   while (!stopRequested.load(std::memory_order_acquire) || (gate.part() > 0.0 && pushes()))
   {
-    sleepUntil(deadline(number));
+    waitFor(deadline(number));
     const std::int64_t wake = steadyNanoseconds();
     lateness.record(1e-9 * double(wake - deadline(number)));
     std::uint64_t missed = 0;
@@ -211,6 +217,19 @@ void ServoLoop::Implementation::run() noexcept
   }
   static_cast<void>(port->write(double(number - 1) / settings.rateHz, Vec3()));
   running.store(false, std::memory_order_release);
+}
+
+/// Returns at @p deadline, with the tick's code and data at hand; late where the system wakes the thread
+/// late.
+void ServoLoop::Implementation::waitFor(std::int64_t deadline) noexcept
+{
+  const double early = std::min(settings.wakeEarlySeconds, kLargestEarlyPart / settings.rateHz);
+  sleepUntil(deadline - std::int64_t(1e9 * early));
+  if (early > 0.0 && steadyNanoseconds() < deadline)
+  {
+    proxy.rehearse();
+    spinUntil(deadline);
+  }
 }
 
 Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) noexcept

@@ -105,4 +105,11 @@ void sleepUntil(std::int64_t deadline) noexcept
   }
 }
 
+void spinUntil(std::int64_t deadline) noexcept
+{
+  while (steadyNanoseconds() < deadline)
+  {
+  }
+}
+
 } // namespace pointhaptics

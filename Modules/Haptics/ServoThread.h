@@ -32,5 +32,8 @@ void touchStack() noexcept;
 std::int64_t steadyNanoseconds() noexcept;
 /// Sleeps until @p deadline (of steadyNanoseconds()); returns at once where it has passed.
 void sleepUntil(std::int64_t deadline) noexcept;
+/// Waits for @p deadline without giving the processor up: for some tens of microseconds. Returns at once
+/// where it has passed.
+void spinUntil(std::int64_t deadline) noexcept;
 
 } // namespace pointhaptics

@@ -34,7 +34,8 @@ protected:
     FalconSettings result;
     result.firmwareFile = file.path();
     result.retrySeconds = 0.02;
-    result.boot.replyMilliseconds = 20;
+    // On a busy machine an answer may take its time; where one comes at all, waiting longer costs nothing.
+    result.boot.replyMilliseconds = 1000;
     result.boot.probeMilliseconds = 30;
     result.boot.greetings = 20;
     // The emulator's answers come through sockets, on a machine that may be busy.
@@ -103,7 +104,9 @@ TEST_F(EmulatedUsb, BootsAFalconWhoseFirstTriesFail)
   EXPECT_EQ(list[0].kind, "falcon");
   EXPECT_EQ(list[0].place, "bus 1 device 2");
   EXPECT_TRUE(list[0].problem.empty()) << list[0].problem;
-  FalconDevice device(settings());
+  FalconSettings patient = settings();
+  patient.boot.replyMilliseconds = 100; // three greetings are not answered
+  FalconDevice device(patient);
   ASSERT_EQ(device.open(), Status::Ok) << device.message();
   EXPECT_TRUE(falcon.claimed());
   EXPECT_EQ(falcon.with([](FalconModel& model) { return model.firmware; }), madeUpFirmware());
@@ -195,13 +198,14 @@ TEST_F(EmulatedUsb, SurvivesUnpluggingInContactThreeTimes)
   {
     ASSERT_TRUE(eventually([&] { return device.state() == FalconState::Armed; })) << round;
     ASSERT_TRUE(touch(loop)) << round;
+    const std::uint64_t connections = device.statistics().connections;
     falcon.unplug();
     EXPECT_TRUE(eventually([&] { return device.state() != FalconState::Armed; }));
     EXPECT_TRUE(eventually([&] { return norm(loop.latest().state.force) == 0.0; }));
     EXPECT_TRUE(loop.running()) << "an unplugged device is a state";
     comeFromOutside();
     falcon.plugIn();
-    ASSERT_TRUE(eventually([&] { return device.statistics().connections == round + 1; }))
+    ASSERT_TRUE(eventually([&] { return device.statistics().connections > connections; }))
       << round << " " << device.message();
   }
   loop.stop();

@@ -1,6 +1,6 @@
 #include "CountedCalls.h"
 
-#include "../Unit/Devices/FalconModel.h"
+#include "../Unit/Devices/MemoryLink.h"
 
 #include "Devices/Falcon/FalconDevice.h"
 #include "Devices/PathReplay.h"
@@ -93,6 +93,10 @@ Outcome stepProxy(ProxyMethod method, int steps)
           proxy.setParameters(parameters);
         }
         outcome.contacts += proxy.step(wildHand(tick), kTick).contact ? 1 : 0;
+        if (tick % 4 == 0)
+        {
+          proxy.rehearse();
+        }
       }
       outcome.calls = countedcalls::count();
       outcome.function = countedcalls::firstFunction();
@@ -214,72 +218,14 @@ TEST(NoAllocation, InTheServoLoopWhileScenesAndParametersChange)
   EXPECT_TRUE(port.pushed);
 }
 
-namespace
-{
-/// A wire to a model that is not under the watch: the driver above it is.
-class UnwatchedLink : public FtdiLink
-{
-public:
-  explicit UnwatchedLink(trial::FalconModel& model)
-    : model_(model)
-  {
-  }
-  Status control(std::uint8_t request, std::uint16_t value) override
-  {
-    model_.control(request, value);
-    return Status::Ok;
-  }
-  Status send(const std::uint8_t* bytes, int count, int) override
-  {
-    model_.write(bytes, std::size_t(count));
-    return Status::Ok;
-  }
-  Status receive(std::uint8_t* bytes, int& count, int) override
-  {
-    count = int(model_.read(bytes, kFtdiPacket));
-    return Status::Ok;
-  }
-  Status submit(const std::uint8_t* bytes, int count) noexcept override
-  {
-    const countedcalls::Pause pause;
-    model_.write(bytes, std::size_t(count));
-    model_.move(kTick);
-    return Status::Ok;
-  }
-  Status poll(std::uint8_t* bytes, int capacity, int& count, double) noexcept override
-  {
-    const countedcalls::Pause pause;
-    count = int(model_.read(bytes, std::size_t(capacity)));
-    return Status::Ok;
-  }
-
-private:
-  trial::FalconModel& model_;
-};
-
-class UnwatchedBus : public FtdiBus
-{
-public:
-  explicit UnwatchedBus(trial::FalconModel& model)
-    : model_(model)
-  {
-  }
-  std::unique_ptr<FtdiLink> open(Status& status, std::string&) override
-  {
-    status = Status::Ok;
-    return std::make_unique<UnwatchedLink>(model_);
-  }
-
-private:
-  trial::FalconModel& model_;
-};
-}
-
 TEST(NoAllocation, InAHundredThousandTicksOfTheFalconsDriver)
 {
-  trial::FalconModel model;
+  const auto shared = std::make_shared<trial::FalconModel>();
+  trial::FalconModel& model = *shared;
   model.runs = true;
-  FalconDevice device(FalconSettings(), std::make_unique<UnwatchedBus>(model));
+  FalconDevice device(FalconSettings(),
+    std::make_unique<trial::MemoryBus<countedcalls::Pause>>(
+      shared, [](trial::FalconModel& m) { m.move(kTick); }));
   ASSERT_EQ(device.open(), Status::Ok) << device.message();
   long calls = -1;
   const char* function = nullptr;

@@ -59,6 +59,7 @@ void FalconServo::begin() noexcept
   positioned_ = false;
   jumps_ = 0;
   silences_ = 0;
+  unanswered_ = 0;
   timed_ = false;
   answered_ = false;
   ++count_.connections;
@@ -79,6 +80,7 @@ bool FalconServo::receive(FtdiLink& link, double waitSeconds, Status& status) no
     {
       whole = true;
       ++count_.replies;
+      unanswered_ -= unanswered_ > 0 ? 1 : 0;
     }
   }
   count_.droppedBytes = finder_.droppedBytes();
@@ -130,6 +132,7 @@ Status FalconServo::silence(double timeSeconds) noexcept
   }
   ++count_.timeouts;
   ++silences_;
+  unanswered_ = 0;
   chain_.restart();
   if (silences_ % kSilencesToPurge == 0)
   {
@@ -196,6 +199,7 @@ Status FalconServo::write(FtdiLink& link, double timeSeconds, const Vec3& force,
   const FalconFrame frame = encode(command_);
   const Status status = link.submit(frame.data(), int(frame.size()));
   count_.skippedCommands += status == Status::DeviceNotReady ? 1 : 0;
+  unanswered_ += status == Status::Ok ? 1 : 0;
   raw_.write({ reply_, command_, state() });
   shown_.write(count_);
   return status == Status::DeviceNotReady ? Status::Ok : status;
@@ -203,23 +207,21 @@ Status FalconServo::write(FtdiLink& link, double timeSeconds, const Vec3& force,
 
 void FalconServo::sayGoodbye(FtdiLink& link) noexcept
 {
-  const auto exchange = [&](const FalconCommand& command)
+  const FalconFrame frame = encode(FalconCommand());
+  // Answers to the commands of the last ticks come first.
+  const std::uint64_t enough = count_.replies + std::uint64_t(unanswered_ + kGoodbyes);
+  for (int i = 0; i < kMostGoodbyes && count_.replies < enough; ++i)
   {
-    const FalconFrame frame = encode(command);
     Status status = link.submit(frame.data(), int(frame.size()));
-    status = status == Status::DeviceNotReady ? Status::Ok : status;
-    const bool answered = status == Status::Ok && receive(link, kGoodbyeWait, status);
-    return status != Status::Ok ? -1 : answered ? 1 : 0;
-  };
-  int answers = 0;
-  for (int i = 0; i < kMostGoodbyes && answers < kGoodbyes; ++i)
-  {
-    const int answer = exchange(FalconCommand());
-    if (answer < 0)
+    if (status != Status::Ok && status != Status::DeviceNotReady)
     {
       return;
     }
-    answers += answer;
+    static_cast<void>(receive(link, kGoodbyeWait, status));
+    if (status != Status::Ok)
+    {
+      return;
+    }
   }
 }
 

@@ -52,6 +52,7 @@ private:
   std::array<std::int16_t, kFalconLegs> encoders_{};
   int jumps_ = 0;          ///< Bad replies in a row.
   int silences_ = 0;       ///< Timeouts in a row.
+  int unanswered_ = 0;     ///< Commands since begin() or the last timeout that have no answer yet.
   double lastReply_ = 0.0; ///< Servo time.
   double lastWrite_ = 0.0;
   bool timed_ = false;    ///< The two times are valid.

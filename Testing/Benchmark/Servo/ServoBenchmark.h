@@ -4,6 +4,7 @@
 
 #include "Benchmark/Report.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct ServoBenchmarkOptions
 {
   int points = 543652;
   double seconds = 10.0; ///< Of each run.
-  bool rendering = true; ///< There is a display.
+  /// One frame of the viewer, turned a little; null: no display, and no rows with drawing.
+  std::function<void()> draw;
   /// Which rows: of handWords(), loadWords(), rateWords(); empty: all.
   std::vector<std::string> hands, loads, rates;
 };

@@ -1,19 +1,10 @@
 #include "Benchmark/Servo/ServoRun.h"
 
-#include "Unit/Devices/FalconModel.h"
+#include "Unit/Devices/MemoryLink.h"
 
 #include "Core/Shapes.h"
 #include "Devices/Falcon/FalconDevice.h"
 #include "Devices/SimulatedDevice.h"
-
-#include <vtkActor.h>
-#include <vtkCellArray.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 
 #include <algorithm>
 #include <atomic>
@@ -48,59 +39,19 @@ Vec3 handAt(double time)
   return (kRadius - depth) * direction;
 }
 
-/// The Falcon's wire in memory: every command is answered at once; the hand goes its way.
-class MemoryLink : public FtdiLink
-{
-public:
-  Status control(std::uint8_t request, std::uint16_t value) override
-  {
-    model_.control(request, value);
-    return Status::Ok;
-  }
-  Status send(const std::uint8_t* bytes, int count, int) override
-  {
-    model_.write(bytes, std::size_t(count));
-    return Status::Ok;
-  }
-  Status receive(std::uint8_t* bytes, int& count, int) override
-  {
-    count = int(model_.read(bytes, kFtdiPacket));
-    return Status::Ok;
-  }
-  Status submit(const std::uint8_t* bytes, int count) noexcept override
-  {
-    time_ += 1e-3;
-    model_.hand.position = handAt(time_) + Vec3(0.0, 0.0, falcon::kCenterZ);
-    model_.write(bytes, std::size_t(count));
-    return Status::Ok;
-  }
-  Status poll(std::uint8_t* bytes, int capacity, int& count, double) noexcept override
-  {
-    count = int(model_.read(bytes, std::size_t(capacity)));
-    return Status::Ok;
-  }
-  MemoryLink() { model_.runs = true; }
-
-private:
-  trial::FalconModel model_;
-  double time_ = 0.0;
-};
-
-class MemoryBus : public FtdiBus
-{
-public:
-  std::unique_ptr<FtdiLink> open(Status& status, std::string&) override
-  {
-    status = Status::Ok;
-    return std::make_unique<MemoryLink>();
-  }
-};
-
 std::unique_ptr<HapticDevice> makeDevice(const Setting& setting)
 {
   if (setting.hand == Hand::Falcon)
   {
-    return std::make_unique<FalconDevice>(FalconSettings(), std::make_unique<MemoryBus>());
+    auto model = std::make_shared<trial::FalconModel>();
+    model->runs = true;
+    const auto onCommand = [time = 0.0](trial::FalconModel& moved) mutable
+    {
+      time += 1e-3;
+      moved.hand.position = handAt(time) + Vec3(0.0, 0.0, falcon::kCenterZ);
+    };
+    return std::make_unique<FalconDevice>(
+      FalconSettings(), std::make_unique<trial::MemoryBus<>>(std::move(model), onCommand));
   }
   auto hand = std::make_unique<SimulatedDevice>();
   HipPath path;
@@ -112,37 +63,15 @@ std::unique_ptr<HapticDevice> makeDevice(const Setting& setting)
   return hand;
 }
 
-/// Draws the points until @p goesOn says no. @return frames a second.
-double render(const std::function<bool()>& goesOn)
+/// Draws until @p goesOn says no. @return frames a second.
+double render(const std::function<void()>& draw, const std::function<bool()>& goesOn)
 {
-  std::vector<Vec3> cloud;
-  static_cast<void>(generateShape(Shape::Sphere, 543652, 1, 0.0, cloud));
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> vertices;
-  for (const Vec3& p : cloud)
-  {
-    const vtkIdType id = points->InsertNextPoint(p.x, p.y, p.z);
-    vertices->InsertNextCell(1, &id);
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetVerts(vertices);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  vtkNew<vtkRenderer> renderer;
-  renderer->AddActor(actor);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetSize(1280, 800);
-  window->AddRenderer(renderer);
+  draw(); // the first one uploads
   const auto begin = std::chrono::steady_clock::now();
   int frames = 0;
   while (goesOn())
   {
-    actor->RotateY(1.0);
-    window->Render();
+    draw();
     ++frames;
     std::this_thread::sleep_until(begin + std::chrono::duration<double>(frames / kFramesPerSecond));
   }
@@ -251,7 +180,7 @@ Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& sc
   };
   if (setting.load == Load::Rendering)
   {
-    outcome.framesPerSecond = render(goesOn);
+    outcome.framesPerSecond = render(setting.draw, goesOn);
   }
   while (goesOn())
   {

@@ -4,6 +4,7 @@
 
 #include "Haptics/ServoLoop.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -24,7 +25,7 @@ enum class Load
 {
   Idle,
   Busy,      ///< A thread per core that never rests.
-  Rendering, ///< The calling thread draws the cloud, 30 times a second or as often as it can.
+  Rendering, ///< The calling thread draws, 30 times a second or as often as it can.
 };
 
 struct Setting
@@ -33,6 +34,7 @@ struct Setting
   Load load = Load::Idle;
   double rateHz = 1000.0;
   double seconds = 10.0;
+  std::function<void()> draw; ///< One frame; needed where the load is Rendering.
 };
 
 struct Outcome

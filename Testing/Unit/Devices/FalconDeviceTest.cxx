@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <deque>
 
 using namespace pointhaptics;
 using namespace pointhaptics::trial;
@@ -289,6 +290,27 @@ TEST(FalconDevice, ClosesWithAnsweredCommandsWithoutForceAndLampsOff)
   bench.device->close();
   ASSERT_EQ(bench.device->open(), Status::Ok) << "may be opened again";
   EXPECT_TRUE(bench.arm());
+}
+
+TEST(FalconDevice, AwaitsAnswersToItsLastCommandsAndNotToThoseBefore)
+{
+  FalconBench bench;
+  ASSERT_EQ(bench.device->open(), Status::Ok);
+  ASSERT_TRUE(bench.arm([](const Vec3&) { return Vec3(0.0, 2.0, 0.0); }));
+  // From now on every answer is three readings old.
+  std::deque<std::vector<std::uint8_t>> onTheWay(3);
+  bench.wire.distort = [&](std::vector<std::uint8_t>& bytes)
+  {
+    onTheWay.push_back(bytes);
+    bytes = onTheWay.front();
+    onTheWay.pop_front();
+  };
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_EQ(bench.tick([](const Vec3&) { return Vec3(0.0, 2.0, 0.0); }), Status::Ok);
+  }
+  bench.device->close();
+  EXPECT_GE(bench.wire.model.frozenFrames, 3 + 3);
 }
 
 TEST(FalconDevice, CountsCommandsThatCouldNotBeSent)

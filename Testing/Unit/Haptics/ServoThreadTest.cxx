@@ -42,3 +42,12 @@ TEST(ServoThread, FlushesDenormalsInItsOwnThreadOnly)
   EXPECT_TRUE(halfOfTheSmallest());
 }
 #endif
+
+TEST(ServoThread, SpinsUntilADeadlineAndNotAtAllForOneThatHasPassed)
+{
+  const std::int64_t begin = steadyNanoseconds();
+  spinUntil(begin + 50000);
+  EXPECT_GE(steadyNanoseconds(), begin + 50000);
+  spinUntil(begin);
+  spinUntil(std::numeric_limits<std::int64_t>::min());
+}

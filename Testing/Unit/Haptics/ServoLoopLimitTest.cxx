@@ -1,0 +1,162 @@
+// What the loop refuses, holds back and takes away.
+#include "ServoLoopFixtures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace pointhaptics;
+using namespace pointhaptics::trial;
+
+TEST(ServoLoop, RefusesSettingsOutOfRange)
+{
+  ScriptedPort port;
+  ServoLoop loop;
+  const auto startWith = [&](const std::function<void(ServoSettings&, HapticParameters&)>& change)
+  {
+    ServoSettings settings = plainSettings();
+    HapticParameters parameters;
+    change(settings, parameters);
+    return loop.start(port, parameters, settings);
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (double rate : { 0.0, -1.0, 0.5, 10001.0, infinity, std::nan("") })
+  {
+    EXPECT_EQ(startWith([=](auto& s, auto&) { s.rateHz = rate; }), Status::InvalidParameter) << rate;
+  }
+  EXPECT_EQ(startWith([](auto& s, auto&) { s.traceCapacity = 0; }), Status::InvalidParameter);
+  EXPECT_EQ(startWith([](auto& s, auto&) { s.limits.maximumForce = -1.0; }), Status::InvalidParameter);
+  EXPECT_EQ(startWith([](auto& s, auto&) { s.watchdogSeconds = -1.0; }), Status::InvalidParameter);
+  for (double early : { -1e-6, 1.1e-3, std::nan("") })
+  {
+    EXPECT_EQ(startWith([=](auto& s, auto&) { s.wakeEarlySeconds = early; }), Status::InvalidParameter)
+      << early;
+  }
+  EXPECT_EQ(startWith([](auto&, auto& p) { p.contact.stiffness = -1.0; }), Status::InvalidParameter);
+  EXPECT_FALSE(loop.running());
+  EXPECT_EQ(port.reads, 0);
+}
+
+TEST(ServoLoop, KeepsItsForceLimitsWhateverTheProxySays)
+{
+  ScriptedPort port;
+  port.path = press;
+  ServoSettings settings = plainSettings();
+  settings.limits.maximumForce = 0.25;
+  settings.limits.maximumSlewRate = 20.0;
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), settings), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().timeSeconds > 0.15; }));
+  loop.stop();
+  std::vector<ServoSample> samples;
+  loop.takeTrace(samples);
+  double last = 0.0;
+  double largest = 0.0;
+  for (const ServoSample& sample : samples)
+  {
+    const double force = norm(sample.state.force);
+    EXPECT_LE(force, last + 0.02 + 1e-12) << sample.tick;
+    largest = std::max(largest, force);
+    last = force;
+  }
+  EXPECT_NEAR(largest, 0.25, 1e-9);
+}
+
+TEST(ServoLoop, RefusesSpringsAndRatesBeyondThePortWithTheLimitInTheMessage)
+{
+  ScriptedPort port;
+  port.bounds.damping = 2.5;
+  port.bounds.delayTicks = 1.0;
+  port.bounds.maximumRateHz = 1000.0;
+  ServoLoop loop;
+  std::string message;
+  HapticParameters parameters;
+  parameters.contact.stiffness = 1700.0;
+  EXPECT_EQ(loop.start(port, parameters, plainSettings(), &message), Status::NotPassive);
+  for (const char* part : { "1700 N/m", "0.00 N s/m", "1000 Hz", "1666 N/m" })
+  {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+  parameters.contact = { 1000.0, 1.5, 0.0, 0.0 };
+  EXPECT_EQ(loop.start(port, parameters, plainSettings(), &message), Status::NotPassive);
+  EXPECT_NE(message.find("666 N/m beside"), std::string::npos) << message;
+  ServoSettings fast = plainSettings();
+  fast.rateHz = 2000.0;
+  EXPECT_EQ(loop.start(port, HapticParameters(), fast, &message), Status::RateNotSupported);
+  EXPECT_NE(message.find("at most 1000 Hz"), std::string::npos) << message;
+  EXPECT_FALSE(loop.running());
+
+  parameters.contact = { 1600.0, 0.0, 0.0, 0.0 };
+  ASSERT_EQ(loop.start(port, parameters, plainSettings(), &message), Status::Ok);
+  EXPECT_TRUE(message.empty());
+  parameters.contact.damping = 1.0;
+  EXPECT_EQ(loop.setParameters(parameters, &message), Status::NotPassive);
+  EXPECT_NE(message.find("at most 1000 N/m"), std::string::npos) << message;
+  parameters.contact.stiffness = 999.0;
+  EXPECT_EQ(loop.setParameters(parameters), Status::Ok);
+  parameters.contact.stiffness = -1.0;
+  EXPECT_EQ(loop.setParameters(parameters), Status::InvalidParameter);
+  loop.stop();
+}
+
+TEST(ServoLoop, TakesTheForceAwaySlowlyWhenItStops)
+{
+  ScriptedPort port;
+  port.path = press;
+  port.bounds.rampDownSeconds = 0.06;
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().state.force.z > 0.79; }));
+  std::vector<ServoSample> samples;
+  loop.takeTrace(samples);
+  samples.clear();
+  loop.stop();
+  loop.takeTrace(samples);
+  // Pulled back by less than 3 percent of it a tick, to zero: no kick when the program ends.
+  double last = 0.8;
+  int falling = 0;
+  for (const ServoSample& sample : samples)
+  {
+    EXPECT_GE(sample.state.force.z, last - 0.8 / 60.0 - 1e-3);
+    falling += sample.state.force.z < last - 1e-6 ? 1 : 0;
+    last = sample.state.force.z;
+  }
+  EXPECT_GE(falling, 59);
+  EXPECT_EQ(last, 0.0);
+  EXPECT_EQ(port.lastForce, 0.0);
+}
+
+TEST(ServoLoop, TakesTheForceAwayWhenTheProgramGivesNoSignOfLife)
+{
+  ScriptedPort port;
+  port.path = press;
+  port.bounds.rampDownSeconds = 0.02;
+  port.bounds.rampUpSeconds = 0.02;
+  ServoSettings settings = plainSettings();
+  settings.watchdogSeconds = 0.05;
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, HapticParameters(), settings), Status::Ok);
+  const auto aliveUntil = [&](const std::function<bool()>& condition)
+  {
+    return eventually(
+      [&]
+      {
+        loop.keepAlive();
+        return condition();
+      });
+  };
+  ASSERT_TRUE(aliveUntil([&] { return loop.latest().state.force.z > 0.79; }));
+  EXPECT_TRUE(eventually([&] { return loop.latest().state.force.z == 0.0; })) << "nobody said anything";
+  EXPECT_TRUE(loop.latest().state.contact) << "the touch itself goes on";
+  EXPECT_GT(loop.statistics().staleTicks, 0u);
+  EXPECT_TRUE(aliveUntil([&] { return loop.latest().state.force.z > 0.79; })) << "and comes back with life";
+  loop.stop();
+}

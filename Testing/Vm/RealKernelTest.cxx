@@ -1,0 +1,277 @@
+// The drivers on the real libusb and hidapi, and these on a real kernel that takes our devices for plugged
+// in.
+#include "UhidCap.h"
+#include "UsbipFalcon.h"
+
+#include "../Unit/Devices/FalconBench.h"
+
+#include "Core/Shapes.h"
+#include "Devices/DeviceList.h"
+#include "Devices/SpaceMouse/SpaceMouse.h"
+#include "Haptics/ServoLoop.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+using namespace pointhaptics;
+using namespace pointhaptics::trial;
+
+namespace
+{
+const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
+/// An emulated processor is some thirty times slower than the one it runs on.
+constexpr double kRate = 100.0;
+constexpr double kStiffness = 150.0; ///< N/m; the Falcon bears 166 at this rate.
+constexpr double kSecondsToWait = 10.0;
+constexpr double kSecondsToSettle = 3.0;
+
+/// As the one of FalconBench.h, but with an end before that of the machine.
+bool soon(const std::function<bool()>& condition, double seconds = kSecondsToWait)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  while (!condition())
+  {
+    if (std::chrono::steady_clock::now() - begin > std::chrono::duration<double>(seconds))
+    {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+HapticParameters soft()
+{
+  HapticParameters parameters;
+  parameters.contact.stiffness = kStiffness;
+  return parameters;
+}
+
+ServoSettings servoSettings()
+{
+  ServoSettings settings;
+  settings.rateHz = kRate;
+  // The device's own thread needs the processor too.
+  settings.realtimePriority = false;
+  return settings;
+}
+
+class RealKernel : public ::testing::Test
+{
+protected:
+  RealKernel()
+    : file(madeUpFirmware())
+  {
+    falcon.with([](FalconModel& model) { model.expectedFirmware = madeUpFirmware(); });
+  }
+
+  FalconSettings settings() const
+  {
+    FalconSettings result;
+    result.firmwareFile = file.path();
+    result.retrySeconds = 0.02;
+    result.boot.replyMilliseconds = 100;
+    result.boot.probeMilliseconds = 100;
+    result.boot.greetings = 20;
+    result.silenceSeconds = 0.2;
+    result.replyWaitSeconds = 2e-3;
+    return result;
+  }
+
+  static std::shared_ptr<const HapticScene> sphere()
+  {
+    HapticSceneInput input;
+    EXPECT_EQ(generateShape(Shape::Sphere, 10000, 3, 0.0, input.points), Status::Ok);
+    input.cellSize = 0.001;
+    Status status = Status::Ok;
+    return HapticScene::create(std::move(input), status);
+  }
+
+  /// From outside to 6 mm below the surface, until that is felt. Again where the machine stood still for a
+  /// second on the way: the loop then takes the hand as new, inside the sphere.
+  bool touch(const ServoLoop& loop)
+  {
+    bool felt = false;
+    for (int attempt = 0; attempt < 5 && !felt; ++attempt)
+    {
+      falcon.with([](FalconModel& model)
+        { model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030); });
+      EXPECT_TRUE(soon([&] { return loop.latest().state.hip.z > 0.029; }));
+      falcon.with([](FalconModel& model) { model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.019); });
+      EXPECT_TRUE(soon([&] { return loop.latest().state.hip.z < 0.0243; }));
+      felt = soon([&] { return loop.latest().state.force.z > 0.1 || loop.latest().state.hip.z < 0.0193; }) &&
+        loop.latest().state.force.z > 0.1;
+    }
+    return felt;
+  }
+
+  FirmwareFile file;
+  UsbipFalcon falcon;
+};
+
+std::string wordOf(const std::filesystem::path& file)
+{
+  std::ifstream stream(file);
+  std::string word;
+  stream >> word;
+  return word;
+}
+}
+
+TEST_F(RealKernel, EnumeratesTheFalcon)
+{
+  ASSERT_TRUE(falcon.plugIn());
+  std::filesystem::path found;
+  EXPECT_TRUE(soon(
+    [&]
+    {
+      for (const auto& entry : std::filesystem::directory_iterator("/sys/bus/usb/devices"))
+      {
+        found = wordOf(entry.path() / "idVendor") == "0403" ? entry.path() : found;
+      }
+      return !found.empty() && wordOf(found / "bConfigurationValue") == "1";
+    }));
+  EXPECT_EQ(wordOf(found / "idProduct"), "cb48");
+  EXPECT_EQ(wordOf(found / "speed"), "12");
+  EXPECT_EQ(wordOf(found / "product"), "Falcon");
+  std::vector<std::string> notes;
+  const std::vector<ListedDevice> list = listDevices(notes);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0].kind, "falcon");
+  EXPECT_EQ(list[0].place, "bus 1 device " + wordOf(found / "devnum"));
+  EXPECT_TRUE(list[0].problem.empty()) << list[0].problem;
+}
+
+TEST_F(RealKernel, BootsLoadsHomesAndTheHandSettlesInBalance)
+{
+  falcon.with(
+    [](FalconModel& model)
+    {
+      model.deafGreetings = 2;
+      model.wrongEchoes = 1;
+      model.zeroBeforeReply = true;
+      model.homesByItself = false;
+      model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030);
+    });
+  ASSERT_TRUE(falcon.plugIn());
+  FalconDevice device(settings());
+  ASSERT_EQ(device.open(), Status::Ok) << device.message();
+  EXPECT_EQ(falcon.with([](FalconModel& model) { return model.firmware; }), madeUpFirmware());
+  ServoLoop loop;
+  loop.publishScene(sphere());
+  ASSERT_EQ(loop.start(device, soft(), servoSettings()), Status::Ok);
+  EXPECT_TRUE(soon([&] { return device.statistics().replies > 5; }));
+  EXPECT_EQ(device.state(), FalconState::Unhomed);
+  EXPECT_EQ(
+    falcon.with([](FalconModel& model) { return model.command.lamps; }), kFalconLampBlue | kFalconHomingBit);
+  falcon.with([](FalconModel& model) { model.home(); });
+  ASSERT_TRUE(soon([&] { return device.state() == FalconState::Armed; }));
+  // 200 N/m towards 6 mm depth against the surface's: at rest where both push alike.
+  const double depth = 0.006 * 200.0 / (200.0 + kStiffness);
+  const auto rests = [&]
+  {
+    const double speed = falcon.with([](FalconModel& model) { return norm(model.hand.velocity); });
+    return std::abs(norm(loop.latest().state.force) - kStiffness * depth) < 0.015 && speed < 1e-4;
+  };
+  const auto settles = [&] { return touch(loop) && soon(rests, kSecondsToSettle); };
+  EXPECT_TRUE(settles() || settles() || settles()) << norm(loop.latest().state.force);
+  EXPECT_NEAR(
+    falcon.with([](FalconModel& model) { return model.hand.position.z; }) - kCenter.z, 0.025 - depth, 60e-6);
+  loop.stop();
+  device.close();
+  falcon.with(
+    [](FalconModel& model)
+    {
+      EXPECT_GE(model.frozenFrames, 3);
+      EXPECT_EQ(model.command.lamps, kFalconLampNone);
+    });
+  const FalconStatistics statistics = device.statistics();
+  std::printf("[ figure   ] round trips %llu, late %llu, timeouts %llu\n",
+    static_cast<unsigned long long>(statistics.replies),
+    static_cast<unsigned long long>(statistics.lateReplies),
+    static_cast<unsigned long long>(statistics.timeouts));
+}
+
+TEST_F(RealKernel, LetsTheFalconBeUnpluggedInContactAndComeBack)
+{
+  falcon.with(
+    [](FalconModel& model) { model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030); });
+  ASSERT_TRUE(falcon.plugIn());
+  FalconDevice device(settings());
+  ASSERT_EQ(device.open(), Status::Ok) << device.message();
+  ServoLoop loop;
+  loop.publishScene(sphere());
+  ASSERT_EQ(loop.start(device, soft(), servoSettings()), Status::Ok);
+  ASSERT_TRUE(soon([&] { return device.state() == FalconState::Armed; }));
+  ASSERT_TRUE(touch(loop));
+  falcon.unplug();
+  EXPECT_TRUE(soon([&] { return device.state() != FalconState::Armed; }));
+  EXPECT_TRUE(soon([&] { return norm(loop.latest().state.force) == 0.0; }));
+  EXPECT_TRUE(loop.running()) << "an unplugged device is a state";
+  EXPECT_TRUE(soon([&] { return device.message().find("none is plugged in") != std::string::npos; }))
+    << device.message();
+  falcon.with(
+    [](FalconModel& model) { model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030); });
+  ASSERT_TRUE(falcon.plugIn());
+  ASSERT_TRUE(soon([&] { return device.statistics().connections == 2; })) << device.message();
+  ASSERT_TRUE(soon([&] { return device.state() == FalconState::Armed; }));
+  EXPECT_TRUE(touch(loop));
+  loop.stop();
+  device.close();
+}
+
+TEST_F(RealKernel, GivesTheFalconUpToUsAndTakesItBack)
+{
+  // Debian's serial driver leaves the Falcon alone until somebody tells it not to.
+  std::ofstream("/sys/bus/usb-serial/drivers/ftdi_sio/new_id") << "0403 cb48" << std::flush;
+  ASSERT_TRUE(falcon.plugIn());
+  const std::filesystem::path port = "/dev/ttyUSB0";
+  ASSERT_TRUE(soon([&] { return std::filesystem::exists(port); })) << "ftdi_sio did not take it";
+  FalconDevice device(settings());
+  ASSERT_EQ(device.open(), Status::Ok) << device.message();
+  EXPECT_FALSE(std::filesystem::exists(port));
+  device.close();
+  EXPECT_TRUE(soon([&] { return std::filesystem::exists(port); })) << "it may be a serial port again";
+}
+
+TEST(RealKernelHid, ReadsTheSpaceMouseSetsItsLampAndFindsItAgain)
+{
+  UhidCap cap;
+  SpaceMouseSettings settings;
+  settings.deadZone = 0.0;
+  settings.staleSeconds = 100.0;
+  settings.retrySeconds = 0.02;
+  SpaceMouse mouse(settings);
+  ASSERT_EQ(mouse.start(), Status::Ok) << mouse.message();
+  EXPECT_FALSE(mouse.motion().connected);
+  for (int round = 0; round < 2; ++round)
+  {
+    ASSERT_TRUE(cap.plugIn());
+    ASSERT_TRUE(soon([&] { return mouse.motion().connected && cap.lamp() == 1; }))
+      << round << " " << mouse.message();
+    std::vector<std::string> notes;
+    const std::vector<ListedDevice> list = listDevices(notes);
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(list[0].kind, "spacemouse");
+    EXPECT_NE(list[0].name.find("SpaceMouse"), std::string::npos) << list[0].name;
+    EXPECT_TRUE(list[0].problem.empty()) << list[0].problem;
+    cap.say({ 1, 35, 0, 70, 0, 0x5e, 0x01 }); // 35, 70, 350
+    cap.say({ 2, 0x5e, 0x01, 0, 0, 0, 0 });   // 350
+    cap.say({ 3, 2, 0 });
+    EXPECT_TRUE(soon([&] { return mouse.motion().buttons == 2; }));
+    EXPECT_DOUBLE_EQ(mouse.motion().shift.x, 0.1);
+    EXPECT_DOUBLE_EQ(mouse.motion().shift.y, -1.0);
+    EXPECT_DOUBLE_EQ(mouse.motion().shift.z, 0.2);
+    EXPECT_DOUBLE_EQ(mouse.motion().turn.x, 1.0);
+    cap.unplug();
+    EXPECT_TRUE(soon([&] { return !mouse.motion().connected; }));
+    EXPECT_TRUE(mouse.motion().resting());
+  }
+  ASSERT_TRUE(cap.plugIn());
+  ASSERT_TRUE(soon([&] { return mouse.motion().connected && cap.lamp() == 1; }));
+  mouse.stop();
+  EXPECT_EQ(cap.lamp(), 0);
+}
