@@ -1,5 +1,7 @@
 #include "vtkHapticProps.h"
 
+#include "vtkHapticGauge.h"
+
 #include "vtkActor.h"
 #include "vtkArrowSource.h"
 #include "vtkAutoInit.h"
@@ -122,6 +124,7 @@ struct vtkHapticProps::Internals
   vtkNew<vtkMatrix4x4> normalMatrix;
   vtkNew<vtkMatrix4x4> hipMatrix;
   vtkNew<vtkMatrix4x4> forceMatrix;
+  vtkNew<vtkHapticGauge> gauge;
   double edge = 0.1;
   bool shown = false;
   ProxyState state;
@@ -185,7 +188,20 @@ void vtkHapticProps::SetTouchVisibility(bool visible)
   {
     prop->setVisible(false);
   }
+  this->Parts->gauge->SetVisibility(false);
   this->Modified();
+}
+
+void vtkHapticProps::SetGaugeVisibility(bool visible)
+{
+  this->GaugeVisibility = visible;
+  this->Parts->gauge->SetVisibility(visible && this->Parts->force.actor->GetVisibility());
+  this->Modified();
+}
+
+vtkHapticGauge* vtkHapticProps::GetGauge()
+{
+  return this->Parts->gauge;
 }
 
 void vtkHapticProps::AddTo(vtkRenderer* renderer)
@@ -197,6 +213,7 @@ void vtkHapticProps::AddTo(vtkRenderer* renderer)
     renderer->AddActor(prop->actor);
     renderer->AddActor(prop->ghost);
   }
+  this->Parts->gauge->AddTo(renderer);
 }
 
 void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
@@ -207,6 +224,7 @@ void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
     renderer->RemoveActor(prop->actor);
     renderer->RemoveActor(prop->ghost);
   }
+  this->Parts->gauge->RemoveFrom(renderer);
 }
 
 bool vtkHapticProps::Update(const ProxyState& state)
@@ -237,7 +255,17 @@ bool vtkHapticProps::Update(const ProxyState& state)
   parts.proxy.setVisible(state.radius > 0.0);
   parts.hip.setVisible(true);
   parts.normal.setVisible(state.contact);
-  parts.force.setVisible(state.contact && force > kSmallestForce);
+  const bool pushes = state.contact && force > kSmallestForce;
+  parts.force.setVisible(pushes);
+  const Vec3 tip = center + length * normalized(state.force);
+  if (pushes && this->GaugeVisibility)
+  {
+    parts.gauge->Show(&tip.x, force);
+  }
+  else
+  {
+    parts.gauge->SetVisibility(false);
+  }
   vtkProperty* sphere = parts.proxy.actor->GetProperty();
   sphere->SetColor(const_cast<double*>(state.contact ? kPink : kPalePink));
   sphere->SetOpacity(state.contact ? 1.0 : 0.45);
@@ -281,5 +309,6 @@ void vtkHapticProps::PrintSelf(ostream& os, vtkIndent indent)
      << ", " << this->WorkspaceBounds[5] << "\n";
   os << indent << "ForceScale: " << this->ForceScale << "\n";
   os << indent << "SmallestSphereRadius: " << this->SmallestSphereRadius << "\n";
+  os << indent << "GaugeVisibility: " << this->GaugeVisibility << "\n";
   os << indent << "TouchVisibility: " << this->TouchVisibility << "\n";
 }

@@ -153,6 +153,7 @@ ProxyState contactAt(const Vec3& point, const Vec3& normal, double depth, double
 void showTouch(vtkRenderer* renderer, const ProxyState& state, const double* workspace = nullptr)
 {
   vtkNew<vtkHapticProps> props;
+  props->SetGaugeVisibility(false); // it has a picture of its own
   if (workspace)
   {
     props->SetWorkspaceBounds(workspace);
