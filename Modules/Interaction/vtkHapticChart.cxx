@@ -182,6 +182,8 @@ vtkHapticChart::vtkHapticChart()
   legend->SetHorizontalAlignment(vtkChartLegend::LEFT);
   legend->SetVerticalAlignment(vtkChartLegend::TOP);
   legend->GetLabelProperties()->SetFontSize(12);
+  legend->GetBrush()->SetOpacityF(0.6);
+  legend->GetPen()->SetLineType(vtkPen::NO_PEN);
   const unsigned char dark[3] = { 60, 60, 60 };
   styleAxis(parts.chart->GetAxis(vtkAxis::LEFT), "force (N)", kForceColor);
   styleAxis(parts.chart->GetAxis(vtkAxis::BOTTOM), "time (s)", dark);

@@ -279,7 +279,6 @@ public:
   void OnMouseWheelBackward() override;
   void OnKeyPress() override;
   void OnKeyRelease() override;
-  void OnEnter() override;
   void OnLeave() override;
   void OnChar() override;
   void OnTimer() override;

@@ -114,6 +114,7 @@ void vtkInteractorStyleHaptic::OnRightButtonUp()
 
 void vtkInteractorStyleHaptic::OnMouseMove()
 {
+  this->Parts->pointerInside = true;
   const HapticAction drag = this->Parts->drag;
   const bool follows = this->Parts->handMode && this->State == VTKIS_NONE && drag == HapticAction::None;
   if (drag == HapticAction::MoveHandDrag || follows)

@@ -1,5 +1,6 @@
 // The hand of vtkInteractorStyleHaptic: driven by mouse and keys, holding the model by the device's buttons,
 // and the SpaceMouse of the other hand.
+#include "MousePointer.h"
 #include "vtkInteractorStyleHapticInternals.h"
 
 #include "vtkRenderWindow.h"
@@ -137,12 +138,6 @@ bool vtkInteractorStyleHaptic::GetPushPointer() const
   return this->Parts->pushesPointer;
 }
 
-void vtkInteractorStyleHaptic::OnEnter()
-{
-  this->Parts->pointerInside = true;
-  this->Superclass::OnEnter();
-}
-
 void vtkInteractorStyleHaptic::OnLeave()
 {
   this->Parts->pointerInside = false;
@@ -177,8 +172,8 @@ void vtkInteractorStyleHaptic::PlacePointer(const Vec3& point)
   const int* pointer = this->Interactor->GetEventPosition();
   if (std::hypot(place.x - pointer[0], place.y - pointer[1]) > kPointerSlack)
   {
-    this->Interactor->GetRenderWindow()->SetCursorPosition(
-      int(std::lround(place.x)), int(std::lround(place.y)));
+    pointhaptics::movePointer(
+      this->Interactor->GetRenderWindow(), int(std::lround(place.x)), int(std::lround(place.y)));
   }
 }
 
