@@ -187,7 +187,7 @@ vtkHapticChart::vtkHapticChart()
   const unsigned char dark[3] = { 60, 60, 60 };
   styleAxis(parts.chart->GetAxis(vtkAxis::LEFT), "force (N)", kForceColor);
   styleAxis(parts.chart->GetAxis(vtkAxis::BOTTOM), "time (s)", dark);
-  styleAxis(parts.chart->GetAxis(vtkAxis::RIGHT), "proxy radius (mm)", kRadiusColor);
+  styleAxis(parts.chart->GetAxis(vtkAxis::RIGHT), "radius (mm)", kRadiusColor);
   parts.chart->GetAxis(vtkAxis::RIGHT)->SetGridVisible(false);
   parts.chart->GetBackgroundBrush()->SetColor(255, 255, 255, 255);
   parts.chart->SetInteractive(false);
