@@ -49,12 +49,12 @@ struct Bar
     this->actor->GetPositionCoordinate()->SetCoordinateSystemToWorld();
     this->actor->VisibilityOff();
   }
-  void setHeight(double bottom, double top)
+  void setHeight(double bottom, double top, double side)
   {
-    this->points->SetPoint(0, kAside, bottom, 0.0);
-    this->points->SetPoint(1, kAside + kWidth, bottom, 0.0);
-    this->points->SetPoint(2, kAside + kWidth, top, 0.0);
-    this->points->SetPoint(3, kAside, top, 0.0);
+    this->points->SetPoint(0, side * kAside, bottom, 0.0);
+    this->points->SetPoint(1, side * (kAside + kWidth), bottom, 0.0);
+    this->points->SetPoint(2, side * (kAside + kWidth), top, 0.0);
+    this->points->SetPoint(3, side * kAside, top, 0.0);
     this->points->Modified();
     this->shape->Modified();
   }
@@ -70,7 +70,21 @@ struct vtkHapticGauge::Internals
   /// The text's own position is pixels from a corner that follows the anchor.
   vtkNew<vtkTextActor> number;
   vtkNew<vtkCoordinate> anchor;
+  double part = 0.0; // of the full bar
+  double side = 1.0; // -1: left
+
+  void place();
 };
+
+void vtkHapticGauge::Internals::place()
+{
+  this->ground.setHeight(-0.5 * kHeight, 0.5 * kHeight, this->side);
+  this->frame.setHeight(-0.5 * kHeight, 0.5 * kHeight, this->side);
+  this->fill.setHeight(-0.5 * kHeight, (this->part - 0.5) * kHeight, this->side);
+  this->number->SetPosition(this->side * kTextAside, 0.0);
+  vtkTextProperty* text = this->number->GetTextProperty();
+  this->side > 0.0 ? text->SetJustificationToLeft() : text->SetJustificationToRight();
+}
 
 vtkStandardNewMacro(vtkHapticGauge);
 
@@ -81,8 +95,6 @@ vtkHapticGauge::vtkHapticGauge()
   parts.ground.setUp(true, 1.0, 1.0, 1.0, 0.75);
   parts.fill.setUp(true, 0.95, 0.42, 0.02, 1.0);
   parts.frame.setUp(false, 0.15, 0.15, 0.18, 1.0);
-  parts.ground.setHeight(-0.5 * kHeight, 0.5 * kHeight);
-  parts.frame.setHeight(-0.5 * kHeight, 0.5 * kHeight);
   parts.anchor->SetCoordinateSystemToWorld();
   vtkTextProperty* text = parts.number->GetTextProperty();
   text->SetFontSize(15);
@@ -93,8 +105,8 @@ vtkHapticGauge::vtkHapticGauge()
   text->SetVerticalJustificationToCentered();
   parts.number->GetPositionCoordinate()->SetCoordinateSystemToViewport();
   parts.number->GetPositionCoordinate()->SetReferenceCoordinate(parts.anchor);
-  parts.number->SetPosition(kTextAside, 0.0);
   parts.number->VisibilityOff();
+  parts.place();
 }
 
 vtkHapticGauge::~vtkHapticGauge() = default;
@@ -106,8 +118,8 @@ void vtkHapticGauge::Show(const double anchor[3], double newtons)
     return;
   }
   Internals& parts = *this->Parts;
-  const double part = std::min(1.0, std::abs(newtons) / this->MaximumForce);
-  parts.fill.setHeight(-0.5 * kHeight, -0.5 * kHeight + part * kHeight);
+  parts.part = std::min(1.0, std::abs(newtons) / this->MaximumForce);
+  parts.place();
   for (Bar* bar : { &parts.ground, &parts.fill, &parts.frame })
   {
     bar->actor->GetPositionCoordinate()->SetValue(anchor[0], anchor[1], anchor[2]);
@@ -117,6 +129,17 @@ void vtkHapticGauge::Show(const double anchor[3], double newtons)
   std::snprintf(words, sizeof(words), " %.2f N ", newtons);
   parts.number->SetInput(words);
   this->SetVisibility(true);
+}
+
+void vtkHapticGauge::SetLeft(bool left)
+{
+  this->Parts->side = left ? -1.0 : 1.0;
+  this->Parts->place();
+}
+
+bool vtkHapticGauge::GetLeft() const
+{
+  return this->Parts->side < 0.0;
 }
 
 void vtkHapticGauge::SetVisibility(bool visible)

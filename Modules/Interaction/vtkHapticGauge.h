@@ -40,6 +40,14 @@ public:
 
   ///@{
   /**
+   * Stand to the left of the anchor instead of to the right. Default: off.
+   */
+  void SetLeft(bool left);
+  bool GetLeft() const;
+  ///@}
+
+  ///@{
+  /**
    * Show or hide. Default: off until the first Show().
    */
   void SetVisibility(bool visible);

@@ -5,6 +5,7 @@
 #include "vtkActor.h"
 #include "vtkArrowSource.h"
 #include "vtkAutoInit.h"
+#include "vtkCamera.h"
 #include "vtkLineSource.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -14,6 +15,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkSphereSource.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,9 +127,25 @@ struct vtkHapticProps::Internals
   vtkNew<vtkMatrix4x4> hipMatrix;
   vtkNew<vtkMatrix4x4> forceMatrix;
   vtkNew<vtkHapticGauge> gauge;
+  vtkWeakPointer<vtkRenderer> renderer;
   double edge = 0.1;
   bool shown = false;
   ProxyState state;
+
+  /// On the screen: the gauge stands where the arrow goes, not over what it comes from.
+  bool pointsLeft(const Vec3& begin, const Vec3& tip) const
+  {
+    if (!this->renderer)
+    {
+      return false;
+    }
+    vtkCamera* camera = this->renderer->GetActiveCamera();
+    Vec3 forward;
+    Vec3 up;
+    camera->GetDirectionOfProjection(&forward.x);
+    camera->GetViewUp(&up.x);
+    return dot(tip - begin, cross(forward, up)) < 0.0;
+  }
 };
 
 vtkStandardNewMacro(vtkHapticProps);
@@ -206,6 +224,7 @@ vtkHapticGauge* vtkHapticProps::GetGauge()
 
 void vtkHapticProps::AddTo(vtkRenderer* renderer)
 {
+  this->Parts->renderer = renderer;
   renderer->AddActor(this->Parts->outlineActor);
   // The normal last: without friction the force lies along it, and the arrow would hide it.
   for (Prop* prop : { &this->Parts->force, &this->Parts->hip, &this->Parts->proxy, &this->Parts->normal })
@@ -260,6 +279,7 @@ bool vtkHapticProps::Update(const ProxyState& state)
   const Vec3 tip = center + length * normalized(state.force);
   if (pushes && this->GaugeVisibility)
   {
+    parts.gauge->SetLeft(parts.pointsLeft(center, tip));
     parts.gauge->Show(&tip.x, force);
   }
   else

@@ -345,7 +345,7 @@ void vtkInteractorStyleHaptic::MoveModelByHand()
 void vtkInteractorStyleHaptic::LetGoOfModel()
 {
   Internals& parts = *this->Parts;
-  if (parts.clutched && parts.hold == HapticAction::None && (!parts.modelChanged || !parts.resampler))
+  if (parts.clutched && parts.hold == HapticAction::None && (!this->IsModelChanged() || !parts.resampler))
   {
     parts.clutched = false;
     parts.servo->setClutched(false);

@@ -51,6 +51,10 @@ key() { xdotool key "$1"; }
 
 # element FILE [COLUMN]: of row 0 of the written model matrix, columns from 0; without it column 2.
 element() { tr -d ' \n' <"$1" | sed -E 's/.*"matrix":\[([^]]*)\].*/\1/' | cut -d, -f$((${2:-2} + 1)); }
+# setting NAME FILE: its value, without blanks, numbers to eight digits.
+setting() {
+  tr -d ' \n' <"$2" | grep -oE "\"$1\":(\[[^]]*\]|\"[^\"]*\"|[^,}]*)" | sed -E 's/(\.[0-9]{8})[0-9]+/\1/g'
+}
 # pointer_x: where the mouse pointer stands in the window.
 pointer_x() { xdotool getmouselocation --shell | sed -n 's/^X=//p'; }
 pointer_is_left_of() { (($(pointer_x) < $1)); }
@@ -160,7 +164,13 @@ grep -q '"size": "640x480"' recent.json || fail "--recent does not bring the set
 viewer=$!
 until_true "no second window appeared" xdotool search --name "PointHaptics: first.ply"
 said "3000 points"
-sleep 0.5
+xdotool mousemove --window "$(xdotool search --name "PointHaptics: first.ply" | head -n 1)" 320 150
+key w
+said "settings: pointhaptics-008.json"
+for name in camera matrix bind size; do
+  [[ "$(setting $name pointhaptics-006.json)" == "$(setting $name pointhaptics-008.json)" ]] || fail "--config lost $name"
+  [[ -n "$(setting $name pointhaptics-008.json)" ]] || fail "no $name in the written settings"
+done
 kill -INT "$viewer"
 until_true "Ctrl+C did not end the program" bash -c "! kill -0 $viewer"
 wait "$viewer" || fail "exit code $? after Ctrl+C"
