@@ -114,6 +114,9 @@ key F2
 said "screenshot: pointhaptics-001.png"
 [[ -s pointhaptics-001.png ]] || fail "the screenshot is empty"
 
+# The view, for the camera in the settings.
+xdotool mousemove --window "$window" 320 150 mousedown 1 mousemove_relative -- 20 8 mousemove_relative -- 20 8 mouseup 1
+
 # The hand holds the model as long as key 1 is down, which repeats as keys do, and goes aside with the mouse.
 xdotool mousemove --window "$window" 300 150
 key f
@@ -125,6 +128,7 @@ xdotool keyup 1
 sleep 0.3
 key w
 said "settings: pointhaptics-006.json"
+[[ "$(setting camera pointhaptics-005.json)" != "$(setting camera pointhaptics-006.json)" ]] || fail "the camera is not written"
 [[ "$(element pointhaptics-005.json 3)" != "$(element pointhaptics-006.json 3)" ]] || fail "the hand did not shift the model"
 xdotool mousemove --window "$window" 300 150
 sleep 0.3

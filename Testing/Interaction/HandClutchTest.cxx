@@ -288,7 +288,8 @@ TEST_F(HandClutch, DoesWhatElseAButtonIsBoundToWhenItIsPressed)
   style->SetBinding(HapticAction::ZoomIn, "hand2");
   hold(2);
   style->Refresh();
-  style->Refresh();
+  const std::uint64_t then = servo.latest().tick;
+  ASSERT_TRUE(eventually([&] { return servo.latest().tick > then + 10; }));
   hold(0);
   settle();
   EXPECT_NEAR(element(0, 0), 1.1, 1e-9) << "once, however long it is held";
@@ -309,6 +310,9 @@ TEST_F(HandClutch, HoldsAButtonOfTheSimulatedHandAsLongAsItsKey)
   for (int repeat = 0; repeat < 3; ++repeat)
   {
     key(vtkCommand::KeyReleaseEvent);
+    const std::uint64_t then = servo.latest().tick;
+    EXPECT_TRUE(eventually([&] { return servo.latest().tick > then + 3; }));
+    EXPECT_EQ(servo.latest().buttons, 1u) << "the timer decides";
     key(vtkCommand::KeyPressEvent);
     style->Refresh();
     EXPECT_EQ(style->GetHold(), HapticAction::ShiftModelByHand) << "a key that repeats stays down";
