@@ -24,6 +24,8 @@ constexpr double kDepthPerKey = 0.02;
 constexpr double kBallRadius = 0.25;
 constexpr double kWayPerZoom = 0.25;
 constexpr int kHandButtons = 4;
+/// A key that is pressed again so soon was held all the time.
+constexpr double kKeyRepeatSeconds = 0.05;
 /// Pixels: a pointer nearer to the hand is left where it is.
 constexpr double kPointerSlack = 1.0;
 /// The cap of a SpaceMouse at its end: a second of it.
@@ -194,18 +196,19 @@ bool vtkInteractorStyleHaptic::PressHandButton(HapticAction action)
   return true;
 }
 
-/// A key that repeats is released and pressed again at once: whether it stays up is seen at the next timer.
+/// A key that repeats is released and pressed again at once: whether it stays up is seen a little later.
 bool vtkInteractorStyleHaptic::ReleaseHandButton(HapticAction action)
 {
   const std::uint32_t button = buttonOf(action);
   this->Parts->releasedKeys |= button;
+  this->Parts->keyReleased = pointhaptics::style::now();
   return button != 0;
 }
 
 void vtkInteractorStyleHaptic::ReleaseHandKeys()
 {
   Internals& parts = *this->Parts;
-  if (parts.releasedKeys != 0)
+  if (parts.releasedKeys != 0 && pointhaptics::style::now() - parts.keyReleased > kKeyRepeatSeconds)
   {
     parts.heldKeys &= ~parts.releasedKeys;
     parts.releasedKeys = 0;

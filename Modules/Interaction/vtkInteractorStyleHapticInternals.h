@@ -150,6 +150,7 @@ struct vtkInteractorStyleHaptic::Internals
   bool clutched = false;          // as the servo loop was told
   std::uint32_t heldKeys = 0;     // buttons of the simulated hand that keys press
   std::uint32_t releasedKeys = 0; // to be released unless the key repeats
+  double keyReleased = -1e9;
   int timer = -1;
   double lastStatus = -1e9;
   std::string note;

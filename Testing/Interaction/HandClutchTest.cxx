@@ -259,8 +259,9 @@ TEST_F(HandClutch, TakesTheForceAwayWhileItHoldsAndLetsItComeBackSlowly)
     largest = std::max(largest, norm(hand.forces[i]) - norm(hand.forces[i - 1]));
   }
   EXPECT_GT(largest, 0.0);
-  // A little more than the ramp: the proxy settles on the moved surface while it opens.
-  EXPECT_LT(largest, 1.25 * whole / (1000.0 * ServoLoop::kClutchUpSeconds));
+  // Beside the ramp itself the proxy settles on the moved surface, by 0.1 N a tick, while the gate is little
+  // open.
+  EXPECT_LT(largest, 3.0 * whole / (1000.0 * ServoLoop::kClutchUpSeconds));
 }
 
 TEST_F(HandClutch, LetsGoWhenTheDeviceFallsSilent)
@@ -313,13 +314,18 @@ TEST_F(HandClutch, HoldsAButtonOfTheSimulatedHandAsLongAsItsKey)
     const std::uint64_t then = servo.latest().tick;
     EXPECT_TRUE(eventually([&] { return servo.latest().tick > then + 3; }));
     EXPECT_EQ(servo.latest().buttons, 1u) << "the timer decides";
+    style->Refresh(); // a timer may come between the two
     key(vtkCommand::KeyPressEvent);
     style->Refresh();
     EXPECT_EQ(style->GetHold(), HapticAction::ShiftModelByHand) << "a key that repeats stays down";
   }
   key(vtkCommand::KeyReleaseEvent);
-  style->Refresh();
-  EXPECT_TRUE(eventually([&] { return servo.latest().buttons == 0; }));
+  EXPECT_TRUE(eventually(
+    [&]
+    {
+      style->Refresh();
+      return servo.latest().buttons == 0;
+    }));
   settle();
   EXPECT_EQ(style->GetHold(), HapticAction::None);
 }
