@@ -6,8 +6,8 @@
  * SmallestSphereRadius), translucent and pale in free space, where it sits at the hand; solid in contact,
  * where it rests on the surface. A green line stands on the contact point along the surface normal. The HIP
  * (the point the hand holds) is a small blue ball, and an orange arrow from the sphere shows the force on the
- * hand, with a gauge in newtons beside its tip (vtkHapticGauge). What the cloud hides of the last three is drawn faintly over it, so that the hand is never lost
- * inside an object.
+ * hand, with a gauge in newtons beside its tip (vtkHapticGauge). What the cloud hides of the last three is
+ * drawn faintly over it, so that the hand is never lost inside an object.
  *
  * Use:
  * @code
