@@ -1,3 +1,4 @@
+#include "BenchModelMover.h"
 #include "BenchTask.h"
 
 #include "OptionParsing.h"
@@ -113,6 +114,7 @@ BenchOutcome runRender(
     const bool opened = table->open(file, width, height, message);
     return std::unique_ptr<bench::render::Turntable>(opened ? std::move(table) : nullptr);
   };
+  settings.makeModelMover = makeModelMover;
   outcome.report = bench::render::benchmarkRender(settings, progress, outcome.wrong);
   return outcome;
 }

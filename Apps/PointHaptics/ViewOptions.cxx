@@ -301,7 +301,7 @@ void ViewOptions::addTo(CLI::App& command)
       "Array to colour by: rgb, Height, ProxyRadius, ...; default: rgb, or Height")
     ->type_name("ARRAY");
   addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS",
-    "Size of a point; default: closes the surface, 3 to 9");
+    "Diameter of a point; default: as the kernel bandwidth says, so that surfaces close");
   command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");
   addWindowOptions(command, *this);
   addTouchOptions(command, *this);

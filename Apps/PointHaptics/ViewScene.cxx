@@ -6,6 +6,7 @@
 #include "HapticSceneBuilder.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
+#include "vtkSplatMapper.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Lattice.h"
@@ -22,8 +23,6 @@
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
@@ -47,8 +46,6 @@ constexpr double kFittedPart = 0.9;
 /// Scales for applyDepthShading() in edges of the workspace; photographed colours show the shape themselves.
 constexpr double kDepthShadingScale = 0.03;
 constexpr double kDepthShadingScaleOfColors = 0.08;
-/// Pixels of the points where not all are shown.
-constexpr double kLargestCoarsePoint = 16.0;
 /// The proxy sphere is drawn at least this large, over the workspace's edge.
 constexpr double kSmallestSphere = 0.022;
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
@@ -183,7 +180,7 @@ ViewScene::ViewScene()
   vtkNew<vtkCallbackCommand> sizing;
   sizing->SetClientData(this);
   sizing->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*) { static_cast<ViewScene*>(self)->sizePoints(); });
+    [](vtkObject*, unsigned long, void* self, void*) { static_cast<ViewScene*>(self)->beginFrame(); });
   renderer_->AddObserver(vtkCommand::StartEvent, sizing);
   scalarBar_->SetNumberOfLabels(4);
   scalarBar_->UnconstrainedFontSizeOn();
@@ -208,24 +205,11 @@ ViewScene::~ViewScene()
   renderer_->RemoveObservers(vtkCommand::StartEvent);
 }
 
-/// Before every render: how many points it shows; those about to part grow, so that a surface stays closed.
-void ViewScene::sizePoints()
+/// Before every render: how many points it shows.
+void ViewScene::beginFrame()
 {
   detail_.beginFrame(
     std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());
-  vtkPolyData* shown = bandwidth_->GetOutput();
-  // Measuring it takes as long as a frame: while everything moves that of the picture before will do.
-  if (!(pointSize_ > 0.0) && shown->GetMTime() != spacingTime_ && (!detail_.isMoving() || spacing_ == 0.0))
-  {
-    spacingTime_ = shown->GetMTime();
-    spacing_ = medianSpacing(shown);
-  }
-  const double factor = detail_.spacingFactor();
-  const bool fixed = pointSize_ > 0.0;
-  actor_->GetProperty()->SetPointSize(
-    static_cast<float>(fixed ? pointSize_ : pointSizeFor(spacing_, renderer_)));
-  detail_.setCoarsePointSize(
-    fixed ? factor * pointSize_ : pointSizeFor(factor * spacing_, renderer_, kLargestCoarsePoint));
 }
 
 vtkIdType ViewScene::numberOfPoints() const
@@ -328,9 +312,10 @@ void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
   linear->SetInput(modelMatrix_);
   resampler_->SetTransform(linear);
   options.bandwidth.configure(bandwidth_);
-  // The picture needs the arrays it is coloured by; the scene computes the few radii it needs.
+  // The picture needs the sizes of its splats and what it is coloured by; the scene computes the few radii it
+  // needs.
   bandwidth_->ComputeDensityOff();
-  bandwidth_->SetComputeBandwidth(options.colorBy == "Bandwidth");
+  bandwidth_->ComputeBandwidthOn();
   bandwidth_->SetComputeProxyRadius(options.colorBy == "ProxyRadius");
 }
 
@@ -362,9 +347,8 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   props_->SetSmallestSphereRadius(kSmallestSphere * edge);
   const bool showsColors = hasColors(output) && (options.colorBy.empty() || options.colorBy == "rgb");
   applyDepthShading(renderer_, (showsColors ? kDepthShadingScaleOfColors : kDepthShadingScale) * edge);
-  pointSize_ = options.pointSize;
-
-  applyCloudAppearance(output, mapper_, actor_, options.colorBy, std::max(1.0, pointSize_));
+  mapper_->SetFixedPixels(options.pointSize);
+  applyCloudAppearance(output, mapper_, actor_, options.colorBy);
   const bool showsBar = !options.colorBy.empty() && options.colorBy != "rgb";
   scalarBar_->SetVisibility(showsBar);
   scalarBar_->SetLookupTable(mapper_->GetLookupTable());

@@ -23,10 +23,10 @@ class vtkHapticProps;
 class vtkKernelBandwidthFilter;
 class vtkMatrix4x4;
 class vtkPolyData;
-class vtkPolyDataMapper;
 class vtkRenderWindow;
 class vtkRenderer;
 class vtkScalarBarActor;
+class vtkSplatMapper;
 class vtkVoxelMeanResampler;
 
 namespace pointhaptics
@@ -72,14 +72,14 @@ public:
   vtkIdType numberOfPoints() const;
 
 private:
-  void sizePoints();
+  void beginFrame();
   void fit(const Bounds& cloud, const ViewOptions& options);
 
   vtkSmartPointer<vtkPolyData> cloud_;
   vtkNew<vtkMatrix4x4> modelMatrix_;
   vtkNew<vtkVoxelMeanResampler> resampler_;
   vtkNew<vtkKernelBandwidthFilter> bandwidth_;
-  vtkNew<vtkPolyDataMapper> mapper_;
+  vtkNew<vtkSplatMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkScalarBarActor> scalarBar_;
   vtkNew<vtkHapticProps> props_;
@@ -87,9 +87,6 @@ private:
   CloudDetail detail_{ renderer_, actor_ };
   Bounds workspace_;
   CloudOrientation orientation_;
-  double pointSize_ = 0.0; // 0: from the spacing
-  double spacing_ = 0.0;
-  unsigned long long spacingTime_ = 0;
   std::string scaleNote_;
   std::string title_;
 };

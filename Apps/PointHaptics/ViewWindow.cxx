@@ -3,6 +3,7 @@
 #include "HandDevice.h"
 #include "Messages.h"
 #include "StopSignals.h"
+#include "ViewEvents.h"
 #include "ViewScene.h"
 #include "ViewSettings.h"
 #include "ViewWindowInternals.h"
@@ -135,7 +136,8 @@ bool ViewWindow::openDevice(std::string& message)
 /// After the first scene was published: a path must not begin in an empty world.
 bool ViewWindow::startServo(std::string& message)
 {
-  const ServoSettings settings = falcon_ ? pushingServoSettings(1000.0) : ServoSettings();
+  ServoSettings settings = falcon_ ? pushingServoSettings(1000.0) : ServoSettings();
+  settings.restsWhenIdle = options_.trace.empty(); // a trace has all ticks
   const Status status = device_ ? servo_.start(*device_, parameters_, settings, &message) : Status::Ok;
   return status == Status::Ok;
 }
@@ -346,7 +348,7 @@ bool ViewWindow::run(std::string& message)
   }
   style_->StartUpdates();
   rememberStopSignals();
-  interactor_->Start();
+  runEvents(interactor_);
   return this->finish(message);
 }
 

@@ -14,6 +14,14 @@ constexpr double kSlope = 0.5;
 constexpr int kSlopePasses = 6;
 }
 
+/// Which nodes are within reach of each, and how much larger than there a radius may be here.
+struct RadiusField::Neighbors
+{
+  std::vector<std::size_t> begins;
+  std::vector<std::uint32_t> nodes;
+  std::vector<double> rises;
+};
+
 int RadiusField::nodeLevel(const CellPyramid& pyramid)
 {
   return std::min(kNodeLevel, pyramid.numberOfCellLevels() - 1);
@@ -25,8 +33,9 @@ void RadiusField::build(const CellPyramid& pyramid, std::vector<LocalScale> valu
   values_ = std::move(values);
   const auto& level = pyramid.level(level_);
   reach_ = kReachInVoxels * level.voxelSize;
-  limitSlope(pyramid, &LocalScale::radius);
-  limitSlope(pyramid, &LocalScale::proxyRadius);
+  const Neighbors near = findNeighbors(pyramid);
+  limitSlope(near, &LocalScale::radius);
+  limitSlope(near, &LocalScale::proxyRadius);
   for (double LocalScale::*member :
     { &LocalScale::radius, &LocalScale::gate, &LocalScale::countRadius, &LocalScale::proxyRadius })
   {
@@ -34,25 +43,40 @@ void RadiusField::build(const CellPyramid& pyramid, std::vector<LocalScale> valu
   }
 }
 
-void RadiusField::limitSlope(const CellPyramid& pyramid, double LocalScale::*radius)
+RadiusField::Neighbors RadiusField::findNeighbors(const CellPyramid& pyramid) const
 {
-  const auto& level = pyramid.level(level_);
+  Neighbors near;
+  near.begins.push_back(0);
+  for (const Cell& cell : pyramid.level(level_).cells)
+  {
+    pyramid.visitBall(level_, cell.mean, reach_,
+      [&](std::uint32_t j, const Cell&, double d2)
+      {
+        near.nodes.push_back(j);
+        near.rises.push_back(kSlope * std::sqrt(d2));
+      });
+    near.begins.push_back(near.nodes.size());
+  }
+  return near;
+}
+
+void RadiusField::limitSlope(const Neighbors& near, double LocalScale::*radius)
+{
   for (int pass = 0; pass < kSlopePasses; ++pass)
   {
     bool changed = false;
-    for (std::size_t i = 0; i < level.cells.size(); ++i)
+    for (std::size_t i = 0; i + 1 < near.begins.size(); ++i)
     {
       double& value = values_[i].*radius;
-      pyramid.visitBall(level_, level.cells[i].mean, reach_,
-        [&](std::uint32_t j, const Cell&, double d2)
+      for (std::size_t k = near.begins[i]; k < near.begins[i + 1]; ++k)
+      {
+        const double bound = values_[near.nodes[k]].*radius + near.rises[k];
+        if (bound < value)
         {
-          const double bound = values_[j].*radius + kSlope * std::sqrt(d2);
-          if (bound < value)
-          {
-            value = bound;
-            changed = true;
-          }
-        });
+          value = bound;
+          changed = true;
+        }
+      }
     }
     if (!changed)
     {

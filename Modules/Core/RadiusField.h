@@ -57,7 +57,9 @@ public:
   const LocalScale& typical() const { return typical_; }
 
 private:
-  void limitSlope(const CellPyramid& pyramid, double LocalScale::*radius);
+  struct Neighbors;
+  Neighbors findNeighbors(const CellPyramid& pyramid) const;
+  void limitSlope(const Neighbors& near, double LocalScale::*radius);
   double median(double LocalScale::*member) const;
 
   std::vector<LocalScale> values_;

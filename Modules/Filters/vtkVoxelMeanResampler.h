@@ -161,6 +161,7 @@ public:
   void RemoveCategoricalArray(const char* name);
   void ClearCategoricalArrays();
   bool IsCategoricalArray(const char* name) const;
+  const std::set<std::string>& GetCategoricalArrays() const { return this->CategoricalArrays; }
   ///@}
 
   ///@{

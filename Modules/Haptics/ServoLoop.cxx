@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <system_error>
 #include <thread>
 
@@ -19,6 +20,10 @@ namespace
 constexpr double kForgetAfterSeconds = 0.1;
 /// A machine that stood still for less leaves the hand where it was: on its side of the surface.
 constexpr double kForgetAfterStall = 1.0;
+/// A hand that moved less in a tick stood still, metres.
+constexpr double kStill = 1e-8;
+constexpr double kRestAfterSeconds = 0.5;
+constexpr double kRestSeconds = 0.02;
 constexpr int kLargestTrace = 1 << 22;
 constexpr double kLongestWatch = 3600.0;
 
@@ -78,6 +83,7 @@ struct ServoLoop::Implementation
 {
   // Shared between the threads, each by a hand-over that makes nobody wait.
   SceneExchange scenes;
+  std::mutex publishing; ///< Of its publishing side; the servo thread never takes it.
   LatestValue<HapticParameters> parameters;
   LatestValue<ServoSample> newest;
   TraceRing<ServoSample> trace;
@@ -87,6 +93,7 @@ struct ServoLoop::Implementation
   std::atomic<std::uint64_t> missedTicks{ 0 };
   std::atomic<std::uint64_t> deviceFaults{ 0 };
   std::atomic<std::uint64_t> waitingTicks{ 0 };
+  std::atomic<std::uint64_t> restedTicks{ 0 };
   std::atomic<std::uint64_t> staleTicks{ 0 };
   std::atomic<std::int64_t> newestSign{ 0 }; ///< Of life, steadyNanoseconds().
   std::atomic<std::int64_t> firstWake{ 0 };
@@ -112,6 +119,9 @@ struct ServoLoop::Implementation
   std::uint64_t parametersVersion = 0;
   std::uint64_t lastSteppedTick = 0;
   std::uint64_t firstFailedTick = 0; ///< Of the reads that failed in a row; 0: the last one did not.
+  Vec3 lastHip;
+  std::uint64_t stillTicks = 0; ///< In a row, without anything to do.
+  bool newsCame = false;        ///< In this tick.
   ServoSample sample;
 
   void prepare(HandPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings);
@@ -120,6 +130,7 @@ struct ServoLoop::Implementation
   Vec3 answer(const HandState& hand, std::uint64_t number) noexcept;
   void takeNews() noexcept;
   bool gateIsOpen(std::int64_t wake) noexcept;
+  std::uint64_t ticksToRest() noexcept;
   bool pushes() const noexcept { return sample.state.force != Vec3(); }
   void signOfLife() noexcept { newestSign.store(steadyNanoseconds(), std::memory_order_relaxed); }
 };
@@ -139,6 +150,7 @@ void ServoLoop::Implementation::prepare(
   scene = nullptr;
   lastSteppedTick = 0;
   firstFailedTick = 0;
+  stillTicks = 0;
   sample = ServoSample();
   parameters.write(newParameters);
   parametersVersion = parameters.version();
@@ -146,7 +158,7 @@ void ServoLoop::Implementation::prepare(
   trace.resize(std::size_t(settings.traceCapacity));
   lateness.clear();
   update.clear();
-  for (auto* counter : { &ticks, &missedTicks, &deviceFaults, &waitingTicks, &staleTicks })
+  for (auto* counter : { &ticks, &missedTicks, &deviceFaults, &waitingTicks, &restedTicks, &staleTicks })
   {
     counter->store(0, std::memory_order_relaxed);
   }
@@ -179,6 +191,7 @@ void ServoLoop::Implementation::run() noexcept
   const auto deadline = [&](std::uint64_t number)
   { return start + std::int64_t(double(number - 1) * period); };
   std::uint64_t number = 1;
+  std::uint64_t rest = 0; // deadlines passed over since the last tick
   // A stop is obeyed once the gate has closed, and at once where nothing pushes.
   while (!stopRequested.load(std::memory_order_acquire) || (gate.part() > 0.0 && pushes()))
   {
@@ -193,12 +206,14 @@ void ServoLoop::Implementation::run() noexcept
       missed = std::uint64_t(double(wake - deadline(number)) / period);
     }
     increase(missedTicks, missed);
+    increase(restedTicks, rest);
     number += missed;
     if (tick(number, wake) == Status::EndOfPath)
     {
       break;
     }
-    ++number;
+    rest = ticksToRest();
+    number += 1 + rest;
   }
   static_cast<void>(port->write(double(number - 1) / settings.rateHz, Vec3()));
   running.store(false, std::memory_order_release);
@@ -260,6 +275,20 @@ bool ServoLoop::Implementation::gateIsOpen(std::int64_t wake) noexcept
   return !stale && !stopRequested.load(std::memory_order_acquire);
 }
 
+/// After a tick: how many of the next ones nobody would miss.
+std::uint64_t ServoLoop::Implementation::ticksToRest() noexcept
+{
+  const bool still = settings.restsWhenIdle && !newsCame && sample.device == Status::Ok &&
+    !sample.state.contact && !pushes() && norm(sample.state.hip - lastHip) < kStill && port->mayRest();
+  lastHip = sample.state.hip;
+  stillTicks = still ? stillTicks + 1 : 0;
+  if (double(stillTicks) < kRestAfterSeconds * settings.rateHz || kRestSeconds * settings.rateHz < 2.0)
+  {
+    return 0;
+  }
+  return std::uint64_t(kRestSeconds * settings.rateHz) - 1;
+}
+
 /// Steps the proxy; fills the sample's state. @return the proxy's force.
 Vec3 ServoLoop::Implementation::answer(const HandState& hand, std::uint64_t number) noexcept
 {
@@ -279,15 +308,18 @@ Vec3 ServoLoop::Implementation::answer(const HandState& hand, std::uint64_t numb
 void ServoLoop::Implementation::takeNews() noexcept
 {
   const HapticScene* const newScene = scenes.acquire();
+  newsCame = newScene != scene;
   if (newScene != scene)
   {
     scene = newScene;
+    ++sample.scenes;
     proxy.setScene(scene);
   }
   HapticParameters newParameters;
   if (parameters.version() != parametersVersion && parameters.tryRead(newParameters, &parametersVersion))
   {
     proxy.setParameters(newParameters);
+    newsCame = true;
   }
 }
 
@@ -334,6 +366,7 @@ void ServoLoop::stop()
   {
     self.thread.join();
   }
+  const std::lock_guard<std::mutex> lock(self.publishing);
   self.scenes.collect();
 }
 
@@ -345,6 +378,7 @@ bool ServoLoop::running() const noexcept
 void ServoLoop::publishScene(std::shared_ptr<const HapticScene> scene)
 {
   implementation_->signOfLife();
+  const std::lock_guard<std::mutex> lock(implementation_->publishing);
   implementation_->scenes.publish(std::move(scene));
 }
 
@@ -385,7 +419,9 @@ ServoStatistics ServoLoop::statistics() const noexcept
   result.lostTraceSamples = self.trace.lost();
   const std::int64_t elapsed =
     self.newestWake.load(std::memory_order_relaxed) - self.firstWake.load(std::memory_order_relaxed);
-  result.rateHz = elapsed > 0 && result.ticks > 1 ? double(result.ticks - 1) * 1e9 / double(elapsed) : 0.0;
+  result.restedTicks = self.restedTicks.load(std::memory_order_relaxed);
+  const double answered = double(result.ticks + result.restedTicks);
+  result.rateHz = elapsed > 0 && result.ticks > 1 ? (answered - 1.0) * 1e9 / double(elapsed) : 0.0;
   result.lateness = self.lateness.summary();
   result.update = self.update.summary();
   result.waitingTicks = self.waitingTicks.load(std::memory_order_relaxed);
@@ -418,6 +454,7 @@ void ServoLoop::takeTrace(std::vector<ServoSample>& samples)
 {
   implementation_->signOfLife();
   implementation_->trace.take(samples);
+  const std::lock_guard<std::mutex> lock(implementation_->publishing);
   implementation_->scenes.collect();
 }
 

@@ -25,6 +25,9 @@ struct ServoSettings
                                 ///< taken away; 0: never. 0 to 3600.
   int traceCapacity = 1 << 15; ///< Ticks kept until takeTrace(), 1 to 2^22 (200 bytes each); what comes while
                                ///< the trace is full is lost and counted.
+  bool restsWhenIdle = false;  ///< Where the port allows it (HandPort::mayRest()): after half a second in
+                              ///< which the hand stood still and touched nothing and no news came, only every
+                              ///< fiftieth of a second is a tick, until that changes.
   ForceLimits limits;
 };
 
@@ -39,6 +42,7 @@ struct ServoSample
   Status device =
     Status::Ok; ///< What the device said; unless Ok, state is that of the tick before, without force.
   double updateSeconds = 0.0; ///< Wall time of the tick's work, reading and writing the device included.
+  std::uint64_t scenes = 0;   ///< Scenes taken since start(), this tick's included.
 };
 
 struct ServoStatistics
@@ -48,9 +52,11 @@ struct ServoStatistics
     0; ///< Deadlines already followed by the next one when the thread woke; skipped.
   std::uint64_t deviceFaults = 0; ///< Ticks in which read() or write() failed.
   std::uint64_t waitingTicks = 0; ///< Ticks in which the device was not ready (starting, not homed).
+  std::uint64_t restedTicks = 0;  ///< Deadlines passed over because nothing was to be done.
   std::uint64_t staleTicks = 0;   ///< Ticks without a sign of life for longer than the watchdog allows.
   std::uint64_t lostTraceSamples = 0;
-  double rateHz = 0.0;                ///< Achieved between the first and the newest tick since start().
+  double rateHz = 0.0; ///< Achieved between the first and the newest tick since start(); where the loop
+                       ///< rested it counts as having ticked.
   LatencyHistogram::Summary lateness; ///< Wake-up after the deadline, seconds.
   LatencyHistogram::Summary update;   ///< Duration of a tick's work, seconds.
   bool realtime = false;              ///< SCHED_FIFO was granted.
@@ -77,8 +83,9 @@ std::string describeRefusals(const ServoStatistics& statistics);
 /// sign of life, the force goes to zero over the port's rampDownSeconds; when life returns, it comes back
 /// over its rampUpSeconds.
 ///
-/// Thread safety: start, stop, publishScene, setParameters, setClutched, takeTrace, keepAlive from one thread
-/// (the GUI's); latest(), statistics() and running() from any. None of them makes the servo thread wait.
+/// Thread safety: start, stop, setParameters, setClutched, takeTrace, keepAlive from one thread (the GUI's);
+/// publishScene from any one thread at a time; latest(), statistics() and running() from any. None of them
+/// makes the servo thread wait.
 class ServoLoop
 {
 public:

@@ -1,6 +1,7 @@
 #include "CloudDetail.h"
 
 #include "FairOrder.h"
+#include "vtkSplatMapper.h"
 
 #include "vtkActor.h"
 #include "vtkActorCollection.h"
@@ -88,7 +89,18 @@ void colorAlike(vtkMapper* from, vtkMapper* to)
   }
 }
 
-/// The points @p ids of @p cloud with the array they are coloured by.
+/// Adds the tuples @p ids of @p array to @p part.
+int addTuples(vtkDataArray* array, vtkIdList* ids, vtkPolyData* part)
+{
+  const auto some = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+  some->SetName(array->GetName());
+  some->SetNumberOfComponents(array->GetNumberOfComponents());
+  some->SetNumberOfTuples(ids->GetNumberOfIds());
+  array->GetTuples(ids, some);
+  return part->GetPointData()->AddArray(some);
+}
+
+/// The points @p ids of @p cloud with the arrays of their colours and sizes.
 vtkSmartPointer<vtkPolyData> pick(vtkPolyData* cloud, vtkMapper* mapper, vtkIdList* ids)
 {
   auto part = vtkSmartPointer<vtkPolyData>::New();
@@ -98,16 +110,18 @@ vtkSmartPointer<vtkPolyData> pick(vtkPolyData* cloud, vtkMapper* mapper, vtkIdLi
   part->SetPoints(points);
   if (vtkDataArray* colors = colorArray(cloud, mapper))
   {
-    const auto some = vtkSmartPointer<vtkDataArray>::Take(colors->NewInstance());
-    some->SetName(colors->GetName());
-    some->SetNumberOfComponents(colors->GetNumberOfComponents());
-    some->SetNumberOfTuples(ids->GetNumberOfIds());
-    colors->GetTuples(ids, some);
-    const int index = part->GetPointData()->AddArray(some);
+    const int index = addTuples(colors, ids, part);
     if (colors == cloud->GetPointData()->GetScalars())
     {
       part->GetPointData()->SetActiveAttribute(index, vtkDataSetAttributes::SCALARS);
     }
+  }
+  auto* splats = vtkSplatMapper::SafeDownCast(mapper);
+  vtkDataArray* sizes =
+    splats ? cloud->GetPointData()->GetArray(splats->GetSizeArrayName().c_str()) : nullptr;
+  if (sizes && !part->GetPointData()->HasArray(sizes->GetName()))
+  {
+    addTuples(sizes, ids, part);
   }
   vtkNew<vtkCellArray> vertices;
   vertices->InsertNextCell(static_cast<int>(ids->GetNumberOfIds()));
@@ -290,10 +304,15 @@ void CloudDetail::show(vtkPolyData* cloud, std::int64_t points)
   }
   actor_->SetVisibility(all);
   std::int64_t begin = 0;
+  auto* whole = vtkSplatMapper::SafeDownCast(actor_->GetMapper());
   for (const Level& level : levels_)
   {
     level.actor->SetVisibility(!all && begin < drawn_);
     level.actor->SetUserMatrix(actor_->GetUserMatrix());
+    if (auto* splats = vtkSplatMapper::SafeDownCast(level.actor->GetMapper()))
+    {
+      splats->CopySizes(whole, this->spacingFactor());
+    }
     begin = level.end;
   }
   coarse_->SetOpacity(actor_->GetProperty()->GetOpacity());
@@ -319,7 +338,8 @@ void CloudDetail::addLevel(vtkPolyData* cloud)
   vtkNew<vtkIdList> ids;
   ids->SetNumberOfIds(level.end - begin);
   std::copy(order_.begin() + begin, order_.begin() + level.end, ids->GetPointer(0));
-  vtkNew<vtkPolyDataMapper> mapper;
+  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::Take(
+    vtkSplatMapper::SafeDownCast(actor_->GetMapper()) ? vtkSplatMapper::New() : vtkPolyDataMapper::New());
   colorAlike(actor_->GetMapper(), mapper);
   mapper->SetInputData(pick(cloud, actor_->GetMapper(), ids));
   level.actor = vtkSmartPointer<vtkActor>::New();

@@ -26,7 +26,7 @@ namespace pointhaptics
 
 /// Stands beside the actor of a cloud in a renderer. A frame that differs from the last one by its camera,
 /// its cloud or another actor is drawn with as many points, in fairOrder(), as fit the frame budget, which is
-/// learnt from the times such frames take; the points grow so that surfaces stay closed. After
+/// learnt from the times such frames take; the splats of a vtkSplatMapper grow so that surfaces stay closed. After
 /// kRestSeconds without such a frame refinementDue() asks for frames with four times as many points each,
 /// until the cloud's own actor is drawn: the picture at rest is the one without this class. Text may change
 /// without the detail changing. Points are uploaded when they are first drawn.
@@ -64,7 +64,8 @@ public:
   std::int64_t allPoints() const { return total_; }
   /// All points over those drawn, square root: how much farther apart the drawn ones lie on a surface.
   double spacingFactor() const;
-  /// Pixels, for the points of the coming frame where it does not show all.
+  /// Pixels, for the points of the coming frame where it does not show all and the actor's mapper is no
+  /// vtkSplatMapper.
   void setCoarsePointSize(double pixels);
   const FrameBudget& budget() const { return budget_; }
 

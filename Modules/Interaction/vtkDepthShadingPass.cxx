@@ -1,5 +1,8 @@
 #include "vtkDepthShadingPass.h"
 
+#include "PictureState.h"
+
+#include "vtkActor2D.h"
 #include "vtkCamera.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -26,6 +29,7 @@ uniform vec2 clipping;
 uniform int isParallel;
 uniform float depthScale;
 uniform float minimumLightness;
+uniform int isShaded;
 // A line far in front of a surface, which few neighbours see, must not draw a black band on it.
 const float mostBehind = 1.5;
 
@@ -48,7 +52,7 @@ void main()
   float depth = texelFetch(depths, place, 0).r;
   vec4 color = texelFetch(colors, place, 0);
   gl_FragDepth = depth;
-  if (depth < 1.0)
+  if (depth < 1.0 && isShaded == 0)
   {
     float here = distanceAt(depth);
     float sum = behind(place + ivec2(3, 0), last, here) + behind(place + ivec2(-3, 0), last, here) +
@@ -78,6 +82,7 @@ void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
     this->Colors->SetContext(window);
     this->Depths = vtkSmartPointer<vtkTextureObject>::New();
     this->Depths->SetContext(window);
+    this->Kept.clear();
   }
   const auto width = static_cast<unsigned int>(this->W);
   const auto height = static_cast<unsigned int>(this->H);
@@ -85,6 +90,7 @@ void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
   {
     this->Colors->Create2D(width, height, 4, VTK_UNSIGNED_CHAR, false);
     this->Depths->AllocateDepth(width, height, vtkTextureObject::Float32);
+    this->Kept.clear();
   }
 }
 
@@ -104,12 +110,44 @@ void vtkDepthShadingPass::Render(const vtkRenderState* state)
   this->H = this->Height;
   this->PrepareTargets(window);
 
-  window->GetState()->PushFramebufferBindings();
-  this->Frame->Bind();
-  this->RenderDelegate(
-    state, this->Width, this->Height, this->W, this->H, this->Frame, this->Colors, this->Depths);
-  window->GetState()->PopFramebufferBindings();
+  std::vector<double> wanted = pointhaptics::pictureState(renderer);
+  const bool sameShades = !this->KeptIsShaded ||
+    (this->KeptDepthScale == this->DepthScale && this->KeptMinimumLightness == this->MinimumLightness);
+  if (wanted != this->Kept || !sameShades || renderer->GetSelector())
+  {
+    window->GetState()->PushFramebufferBindings();
+    this->Frame->Bind();
+    this->RenderDelegate(
+      state, this->Width, this->Height, this->W, this->H, this->Frame, this->Colors, this->Depths);
+    window->GetState()->PopFramebufferBindings();
+    this->Kept = renderer->GetSelector() ? std::vector<double>() : std::move(wanted);
+    this->KeptIsShaded = false;
+    ++this->NumberOfPictures;
+    this->Shade(renderer, window);
+    return;
+  }
+  // Text makes its image where it has nothing to draw yet.
+  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  {
+    if (auto* text = vtkActor2D::SafeDownCast(state->GetPropArray()[i]))
+    {
+      text->RenderOpaqueGeometry(renderer);
+    }
+  }
   this->Shade(renderer, window);
+  if (!this->KeptIsShaded)
+  {
+    // The first of a row of equal pictures: from now on it need not be shaded either.
+    int width = 0;
+    int height = 0;
+    int x = 0;
+    int y = 0;
+    renderer->GetTiledSizeAndOrigin(&width, &height, &x, &y);
+    this->Colors->CopyFromFrameBuffer(x, y, 0, 0, width, height);
+    this->KeptIsShaded = true;
+    this->KeptDepthScale = this->DepthScale;
+    this->KeptMinimumLightness = this->MinimumLightness;
+  }
 }
 
 void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
@@ -155,6 +193,7 @@ void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
   program->SetUniformi("depths", this->Depths->GetTextureUnit());
   program->SetUniform2f("clipping", clipping);
   program->SetUniformi("isParallel", camera->GetParallelProjection() ? 1 : 0);
+  program->SetUniformi("isShaded", this->KeptIsShaded ? 1 : 0);
   program->SetUniformf("depthScale", static_cast<float>(this->DepthScale));
   program->SetUniformf("minimumLightness", static_cast<float>(this->MinimumLightness));
   this->Quad->Render();
@@ -176,6 +215,7 @@ void vtkDepthShadingPass::ReleaseGraphicsResources(vtkWindow* window)
     this->Colors = nullptr;
     this->Depths = nullptr;
   }
+  this->Kept.clear();
 }
 
 void vtkDepthShadingPass::PrintSelf(ostream& os, vtkIndent indent)
@@ -183,4 +223,5 @@ void vtkDepthShadingPass::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "DepthScale: " << this->DepthScale << "\n";
   os << indent << "MinimumLightness: " << this->MinimumLightness << "\n";
+  os << indent << "NumberOfPictures: " << this->NumberOfPictures << "\n";
 }

@@ -10,6 +10,8 @@
  * - its strength is a number (DepthScale), not that of the bounds of what is visible;
  * - it is one step at full resolution, which costs a software renderer less than half as much.
  *
+ * A picture in which only text changed (vtkActor2D) is not drawn anew: the delegate's last one is taken.
+ *
  * The depth of the delegate's picture becomes that of the frame buffer: what is picked by depth still is.
  *
  * @warning Needs the OpenGL back end. GUI thread only.
@@ -23,6 +25,7 @@
 #include "vtkSmartPointer.h" // For members
 
 #include <memory> // For std::unique_ptr
+#include <vector> // For members
 
 class vtkOpenGLFramebufferObject;
 class vtkOpenGLQuadHelper;
@@ -54,6 +57,11 @@ public:
   vtkGetMacro(MinimumLightness, double);
   ///@}
 
+  /**
+   * How often the delegate has drawn.
+   */
+  vtkGetMacro(NumberOfPictures, vtkTypeUInt64);
+
   void Render(const vtkRenderState* state) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
@@ -74,4 +82,9 @@ private:
   vtkSmartPointer<vtkTextureObject> Colors;
   vtkSmartPointer<vtkTextureObject> Depths;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
+  std::vector<double> Kept; // what Colors and Depths show, see pictureState()
+  bool KeptIsShaded = false;
+  double KeptDepthScale = 0.0;
+  double KeptMinimumLightness = 0.0;
+  vtkTypeUInt64 NumberOfPictures = 0;
 };

@@ -1,6 +1,5 @@
 #include "vtkInteractorStyleHaptic.h"
 
-#include "HapticSceneBuilder.h"
 #include "vtkInteractorStyleHapticInternals.h"
 
 #include "vtkCamera.h"
@@ -14,8 +13,10 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 using pointhaptics::ServoSample;
 using pointhaptics::Vec3;
@@ -24,6 +25,38 @@ namespace
 {
 
 constexpr std::size_t kLongestHistory = 100;
+
+/// While it lives, a chart that did not change is not drawn: the window keeps what it shows of it.
+class ChartPause
+{
+public:
+  ChartPause(vtkRenderer* chart, bool changed, std::vector<double>& picture)
+  {
+    const int* size = chart->GetVTKWindow() ? chart->GetVTKWindow()->GetActualSize() : nullptr;
+    std::vector<double> wanted(4);
+    chart->GetViewport(wanted.data());
+    wanted.push_back(size ? size[0] : 0);
+    wanted.push_back(size ? size[1] : 0);
+    if (chart->GetDraw() && !changed && wanted == picture)
+    {
+      chart_ = chart;
+      chart_->DrawOff();
+    }
+    picture = chart->GetDraw() || chart_ ? wanted : std::vector<double>();
+  }
+  ~ChartPause()
+  {
+    if (chart_)
+    {
+      chart_->DrawOn();
+    }
+  }
+  ChartPause(const ChartPause&) = delete;
+  ChartPause& operator=(const ChartPause&) = delete;
+
+private:
+  vtkRenderer* chart_ = nullptr;
+};
 
 } // namespace
 
@@ -45,6 +78,7 @@ void vtkInteractorStyleHaptic::SetServoLoop(pointhaptics::ServoLoop* servo)
   }
   this->Parts->clutched = false;
   this->Parts->hold = pointhaptics::HapticAction::None;
+  this->StopBuilding();
   this->Parts->servo = servo;
   this->Parts->modelChanged = true;
 }
@@ -226,90 +260,6 @@ void vtkInteractorStyleHaptic::InvalidateModel()
   this->ForgetPicked();
 }
 
-void vtkInteractorStyleHaptic::ModelChanged()
-{
-  // Many small steps must not grow vtkTransform's list of concatenated matrices without end.
-  vtkNew<vtkMatrix4x4> matrix;
-  matrix->DeepCopy(this->Parts->model->GetMatrix());
-  this->Parts->model->SetMatrix(matrix);
-  this->Parts->modelChanged = true;
-  this->ForgetPicked();
-  this->PreviewModel();
-  this->InvokeEvent(ModelChangedEvent);
-}
-
-/// The drawn means are those of the last resampling: show them where the model is now.
-void vtkInteractorStyleHaptic::PreviewModel()
-{
-  Internals& parts = *this->Parts;
-  if (parts.cloudActor)
-  {
-    vtkNew<vtkMatrix4x4> back;
-    vtkMatrix4x4::Invert(parts.resampled->GetMatrix(), back);
-    vtkMatrix4x4::Multiply4x4(parts.model->GetMatrix(), back, parts.preview);
-    parts.cloudActor->SetUserMatrix(parts.preview);
-    parts.rendersWanted = true;
-  }
-}
-
-bool vtkInteractorStyleHaptic::IsModelChanged() const
-{
-  return this->Parts->modelChanged;
-}
-
-bool vtkInteractorStyleHaptic::UpdateModel()
-{
-  Internals& parts = *this->Parts;
-  if (!parts.modelChanged || !parts.resampler)
-  {
-    return !parts.sceneEmpty;
-  }
-  parts.modelShare.run(
-    [this, &parts]
-    {
-      parts.modelChanged = false;
-      parts.resampled->SetMatrix(parts.model->GetMatrix());
-      parts.resampler->Update();
-      vtkPolyData* cloud = parts.resampler->GetOutput();
-      if (parts.bandwidth)
-      {
-        parts.bandwidth->Update();
-        cloud = parts.bandwidth->GetOutput();
-      }
-      this->PublishScene(cloud);
-    });
-  this->PreviewModel();
-  parts.rendersWanted = true;
-  this->InvokeEvent(SceneChangedEvent);
-  return !parts.sceneEmpty;
-}
-
-void vtkInteractorStyleHaptic::PublishScene(vtkPolyData* cloud)
-{
-  Internals& parts = *this->Parts;
-  vtkDataObject* input = parts.resampler->GetInputDataObject(0, 0);
-  vtkDataSet* points = vtkDataSet::SafeDownCast(input);
-  parts.numberOfPoints = points ? points->GetNumberOfPoints() : 0;
-  parts.numberOfVoxels = cloud->GetNumberOfPoints();
-  pointhaptics::Status status = pointhaptics::Status::Ok;
-  std::optional<pointhaptics::LocalBandwidthSettings> bandwidth;
-  if (parts.bandwidth)
-  {
-    bandwidth = parts.bandwidth->GetSettings();
-  }
-  auto scene = pointhaptics::makeHapticScene(cloud, status, this->UseCovariance, bandwidth);
-  if (!scene && status != pointhaptics::Status::Empty)
-  {
-    vtkErrorMacro("The model cannot be felt as it stands: " << pointhaptics::sentence(status)
-                                                            << " Key 0 resets the model.");
-  }
-  parts.sceneEmpty = scene == nullptr;
-  if (parts.servo)
-  {
-    parts.servo->publishScene(std::move(scene));
-  }
-}
-
 void vtkInteractorStyleHaptic::StartUpdates(unsigned long milliseconds)
 {
   this->StopUpdates();
@@ -337,15 +287,17 @@ void vtkInteractorStyleHaptic::Refresh()
 {
   Internals& parts = *this->Parts;
   this->MoveBySpaceMouse();
-  if (parts.modelChanged && parts.modelShare.due())
+  if (parts.modelChanged && parts.resampler)
   {
-    this->UpdateModel();
+    this->RequestScene();
   }
+  this->ShowScene();
   const bool touchMoved = this->ReadServo();
   this->MoveByHand();
   this->PushPointer();
   const bool statusChanged = this->UpdateStatus();
   parts.rendersWanted = parts.rendersWanted || touchMoved || statusChanged;
+  parts.touchMoved = touchMoved ? pointhaptics::style::now() : parts.touchMoved;
   if (parts.rendersWanted && parts.renderShare.due())
   {
     this->RenderNow();
@@ -372,6 +324,7 @@ bool vtkInteractorStyleHaptic::ReadServo()
     }
     // A chart that is drawn seldom costs little; it is brought up to date only where a render would show it.
     changed = parts.renderShare.due() && parts.chart->GetVisibility() && parts.chart->Update();
+    parts.chartChanged = parts.chartChanged || changed;
   }
   if (!parts.samples.empty())
   {
@@ -392,12 +345,18 @@ void vtkInteractorStyleHaptic::RenderNow()
   if (this->Interactor)
   {
     parts.renderShare.run(
-      [this]
+      [this, &parts]
       {
         if (vtkRenderer* renderer = this->MainRenderer())
         {
           renderer->ResetCameraClippingRange();
         }
+        std::optional<ChartPause> pause;
+        if (parts.chart)
+        {
+          pause.emplace(parts.chart->GetRenderer(), parts.chartChanged, parts.chartPicture);
+        }
+        parts.chartChanged = false;
         this->Interactor->Render();
       });
   }

@@ -39,10 +39,14 @@
  * that are bound to a button of the device happen when it is pressed. Keys press the buttons of the simulated
  * hand.
  *
- * A change of the model marks it; at the next timer event the resampler and the bandwidth filter run, and a
- * NEW HapticScene is published: the servo thread never waits and never sees a half-made scene. The 33 ms
- * timer also reads ServoLoop::latest() and moves the props; a render happens only when something changed, and
- * rendering and resampling each leave at least half of the time to events.
+ * A change of the model makes a NEW HapticScene, in a thread of its own (pointhaptics::SceneWorker) with
+ * filters of its own, which have the settings of those given here; it goes to the servo loop as soon as it is
+ * finished: the servo thread never waits and never sees a half-made scene. Changes that come while one is
+ * made are made up for by the next one. Until the next timer event the cloud's actor shows the old voxel
+ * means where the model is now; then the output of the given filters becomes what the thread has made,
+ * without their running, and the actor's mapper, where it is connected to them, is given that data instead.
+ * The 33 ms timer also reads ServoLoop::latest() and moves the props; a render happens only when something
+ * changed, and rendering leaves at least half of the time to events.
  *
  * Events: ModelChangedEvent after the transform changed; SceneChangedEvent after a new scene was published
  * (also when it is empty); SamplesEvent with the new ticks (call data:
@@ -180,14 +184,14 @@ public:
 
   /**
    * Something else changed that the scene is made from, such as the voxel size or the filters' settings: the
-   * next UpdateModel() makes a new one.
+   * next UpdateModel() or timer event makes a new one.
    */
   void InvalidateModel();
 
   /**
-   * Bring the pipeline up to date now and publish the scene, if the model changed since the last time or
-   * never was published. The timer does it otherwise. False: there is no point in the workspace (an empty
-   * scene was published).
+   * Wait until the scene of the model as it is now is made, published and shown, if it is not yet. The timer
+   * does it otherwise, without waiting. False: there is no point in the workspace (an empty scene was
+   * published).
    */
   bool UpdateModel();
   bool IsModelChanged() const;
@@ -295,8 +299,11 @@ private:
   void operator=(const vtkInteractorStyleHaptic&) = delete;
 
   void ModelChanged();
-  void PublishScene(vtkPolyData* cloud);
   void PreviewModel();
+  void StopBuilding();
+  void SendCloud();
+  void RequestScene();
+  bool ShowScene();
   void DragModel();
   void DragHand();
   void Wheel(int direction);

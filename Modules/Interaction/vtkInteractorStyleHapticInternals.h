@@ -4,6 +4,7 @@
 
 #include "vtkInteractorStyleHaptic.h"
 
+#include "SceneWorker.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
@@ -132,7 +133,13 @@ struct vtkInteractorStyleHaptic::Internals
   bool modelChanged = true;
   bool sceneEmpty = true;
   bool rendersWanted = false;
-  pointhaptics::style::FairShare modelShare;
+  bool chartChanged = true;         // since it was drawn
+  std::vector<double> chartPicture; // what else its picture depends on
+  double touchMoved = -1e9;
+  std::uint64_t requested = 0; // the newest request for a scene, and the one that is shown
+  std::uint64_t shown = 0;
+  const void* sentCloud = nullptr;
+  vtkMTimeType sentCloudTime = 0;
   pointhaptics::style::FairShare renderShare;
 
   std::array<double, 6> workspace{ -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
@@ -159,6 +166,8 @@ struct vtkInteractorStyleHaptic::Internals
   vtkIdType numberOfPoints = 0;
   vtkIdType numberOfVoxels = 0;
   std::vector<pointhaptics::ServoSample> samples;
+
+  pointhaptics::SceneWorker worker; // last: it ends first
 
   bool inGesture() const
   {

@@ -16,6 +16,8 @@ namespace
 {
 
 constexpr double kStatusPeriodSeconds = 0.25;
+/// While nothing moves.
+constexpr double kRestingPeriodSeconds = 2.0;
 constexpr double kPickPixels = 8.0;
 
 } // namespace
@@ -24,7 +26,9 @@ bool vtkInteractorStyleHaptic::UpdateStatus()
 {
   Internals& parts = *this->Parts;
   const double time = now();
-  if (!parts.overlay || time - parts.lastStatus < kStatusPeriodSeconds)
+  const bool rests = time - parts.touchMoved > kRestingPeriodSeconds && !this->IsModelChanged();
+  const double period = rests ? kRestingPeriodSeconds : kStatusPeriodSeconds;
+  if (!parts.overlay || time - parts.lastStatus < period)
   {
     return false;
   }
@@ -71,14 +75,15 @@ std::string vtkInteractorStyleHaptic::ServoPanelText()
     "rate: %.1f Hz\n"
     "late: p50 %.0f us, p99 %.0f us, most %.0f us\n"
     "work of a tick: p50 %.0f us, p99 %.0f us, most %.0f us\n"
-    "ticks: %llu, missed: %llu\n"
+    "ticks: %llu, missed: %llu, rested: %llu\n"
     "device faults: %llu, waiting: %llu\n"
     "device: %s",
     parts.servo->running() ? "running" : "stopped", statistics.realtime ? ", SCHED_FIFO" : "",
     statistics.rateHz, 1e6 * statistics.lateness.p50, 1e6 * statistics.lateness.p99,
     1e6 * statistics.lateness.maximum, 1e6 * statistics.update.p50, 1e6 * statistics.update.p99,
     1e6 * statistics.update.maximum, count(statistics.ticks), count(statistics.missedTicks),
-    count(statistics.deviceFaults), count(statistics.waitingTicks), device.substr(0, 200).c_str());
+    count(statistics.restedTicks), count(statistics.deviceFaults), count(statistics.waitingTicks),
+    device.substr(0, 200).c_str());
   return text;
 }
 
@@ -158,6 +163,7 @@ void vtkInteractorStyleHaptic::ToggleChart()
   if (chart && renderer)
   {
     chart->SetVisibility(!chart->GetVisibility());
+    this->Parts->chartChanged = true;
     double viewport[4] = { 0.0, 0.0, 1.0, 1.0 };
     chart->GetRenderer()->GetViewport(viewport);
     // The chart is a strip along the lower edge; the picture takes the rest of the window.

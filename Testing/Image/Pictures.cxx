@@ -7,6 +7,7 @@
 #include "InteractionPictures.h"
 #include "OverlayPictures.h"
 #include "PolyDataAccess.h"
+#include "SplatPictures.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkPickMarker.h"
@@ -345,7 +346,8 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
   const Picture pictures[] = { { "VoxelMeans", { "dropped-point" }, buildVoxelMeans },
     { "SphereContact", { "shifted-proxy" }, buildSphereContact },
     { "DensityProxies", { "wrong-color", "equal-radii" }, buildDensityProxies },
-    { "IdolRadius", { "wrong-color" }, buildIdolRadius },
+    { "IdolRadius", { "wrong-color" }, buildIdolRadius }, { "Splats", { "equal-sizes" }, buildSplats },
+    { "CoarseSplats", { "equal-sizes", "all-points" }, buildCoarseSplats },
     { "HelpOverlay", { "missing-line" }, buildHelpOverlay },
     { "StatusOverlay", { "wrong-number" }, buildStatusOverlay },
     { "Sliders", { "wrong-value" }, buildSliders }, { "Chart", { "wrong-force" }, buildChart },

@@ -1,5 +1,7 @@
 #include "CloudDetail.h"
 #include "CloudAppearance.h"
+#include "vtkDepthShadingPass.h"
+#include "vtkSplatMapper.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
@@ -8,16 +10,23 @@
 #include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkFloatArray.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRenderPassCollection.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkSequencePass.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -240,6 +249,114 @@ TEST_F(CloudDetailTest, DepthShadingLeavesTheBackgroundAsItIs)
     }
   }
   EXPECT_GT(darker, 300); // the rim of the sphere falls away from the eye
+}
+
+TEST_F(CloudDetailTest, DrawsTheCloudAnewOnlyWhereMoreThanTextChanged)
+{
+  detail_.setEnabled(false);
+  auto* passes = vtkSequencePass::SafeDownCast(renderer_->GetPass())->GetPasses();
+  auto* shading = vtkDepthShadingPass::SafeDownCast(passes->GetItemAsObject(0));
+  ASSERT_NE(shading, nullptr);
+  vtkNew<vtkTextActor> text;
+  text->SetInput("text");
+  text->GetTextProperty()->SetColor(0, 0, 0);
+  text->SetPosition(90, 90);
+  vtkNew<vtkActor> proxy;
+  vtkNew<vtkPolyDataMapper> sphere;
+  sphere->SetInputData(cloud_);
+  proxy->SetMapper(sphere);
+  vtkNew<vtkMatrix4x4> place;
+  proxy->SetUserMatrix(place);
+  renderer_->AddActor(proxy);
+  this->render(0.0);
+  this->render(0.0); // the first one makes a light
+  const std::vector<unsigned char> first = this->pixels();
+  const auto drawn = shading->GetNumberOfPictures();
+  this->render(0.0); // keeps what it has shaded
+  this->render(0.0);
+  EXPECT_EQ(this->pixels(), first);
+  renderer_->AddActor2D(text);
+  this->render(0.0);
+  EXPECT_NE(this->pixels(), first);
+  renderer_->RemoveActor2D(text);
+  this->render(0.0);
+  EXPECT_EQ(this->pixels(), first);
+  EXPECT_EQ(shading->GetNumberOfPictures(), drawn);
+  const std::vector<std::pair<const char*, std::function<void()>>> changes = {
+    { "camera", [this] { renderer_->GetActiveCamera()->Azimuth(3); } },
+    { "matrix in place", [&place] { place->SetElement(0, 3, 0.01); } },
+    { "colour", [&proxy] { proxy->GetProperty()->SetColor(1, 0, 0); } },
+    { "visibility", [&proxy] { proxy->VisibilityOff(); } },
+    { "depth scale", [shading] { shading->SetDepthScale(0.001); } },
+    { "background", [this] { renderer_->SetBackground(1, 0, 0); } },
+    { "size", [this] { window_->SetSize(kSize + 10, kSize); } },
+  };
+  for (const auto& [name, change] : changes)
+  {
+    this->render(0.0);
+    this->render(0.0);
+    const std::vector<unsigned char> before = this->pixels();
+    change();
+    this->render(0.0);
+    EXPECT_NE(this->pixels(), before) << name;
+  }
+}
+
+TEST_F(CloudDetailTest, SplatsAreDiscsAsLargeAsTheirLengthSays)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> vertices;
+  vtkNew<vtkFloatArray> lengths;
+  lengths->SetName("Length");
+  for (vtkIdType i = 0; i < 3; ++i)
+  {
+    points->InsertNextPoint(0.03 * double(i) - 0.03, 0.0, 0.0);
+    vertices->InsertNextCell(1, &i);
+    lengths->InsertNextValue(float(0.002 * double(i + 1))); // 2, 4, 6 mm
+  }
+  vtkNew<vtkPolyData> three;
+  three->SetPoints(points);
+  three->SetVerts(vertices);
+  three->GetPointData()->AddArray(lengths);
+  vtkNew<vtkSplatMapper> splats;
+  splats->SetInputData(three);
+  splats->SetSizeArrayName("Length");
+  splats->SetSizeScale(2.0);
+  splats->ScalarVisibilityOff();
+  actor_->SetMapper(splats);
+  actor_->GetProperty()->SetColor(0, 0, 0);
+  detail_.setEnabled(false);
+  renderer_->SetPass(nullptr);
+  renderer_->GradientBackgroundOff();
+  renderer_->SetBackground(1, 1, 1);
+  for (const bool parallel : { false, true })
+  {
+    renderer_->GetActiveCamera()->SetParallelProjection(parallel);
+    renderer_->GetActiveCamera()->SetParallelScale(0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
+    renderer_->ResetCameraClippingRange();
+    this->render(0.0);
+    const std::vector<unsigned char> seen = this->pixels();
+    const double perMetre = kSize / (2.0 * 0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
+    for (int i = 0; i < 3; ++i)
+    {
+      int dark = 0;
+      const int middle = int(kSize / 2 + (0.03 * i - 0.03) * perMetre);
+      for (int y = 0; y < kSize; ++y)
+      {
+        for (int x = middle - 25; x < middle + 25; ++x)
+        {
+          dark += x >= 0 && x < kSize && seen[std::size_t(3 * (y * kSize + x))] < 128;
+        }
+      }
+      const double radius = 0.002 * (i + 1) * perMetre;
+      EXPECT_NEAR(dark, 3.14159 * radius * radius, 0.1 * 3.14159 * radius * radius + 8.0) << i << parallel;
+    }
+  }
+  // A point far from all others is no ball.
+  splats->SetLargestRatio(1.0);
+  this->render(0.0);
+  const std::vector<unsigned char> cut = this->pixels();
+  EXPECT_LT(std::count(cut.begin(), cut.end(), 0), 3 * 900);
 }
 
 } // namespace

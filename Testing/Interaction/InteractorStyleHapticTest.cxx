@@ -26,12 +26,14 @@
 #include <vtkRenderer.h>
 #include <vtkStringArray.h>
 #include <vtkTransform.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <string>
 #include <thread>
+#include <vector>
 
 using namespace pointhaptics;
 
@@ -315,6 +317,63 @@ TEST_F(InteractorStyleHaptic, ShowsHelpAndChartOnTheirKeys)
   this->press("c");
   EXPECT_TRUE(chart->GetVisibility());
   EXPECT_EQ(renderer_->GetViewport()[1], 0.25);
+}
+
+TEST_F(InteractorStyleHaptic, KeepsThePictureOfAChartThatDidNotChange)
+{
+  vtkNew<vtkHapticOverlay> overlay;
+  vtkNew<vtkHapticChart> chart;
+  overlay->AddTo(renderer_);
+  chart->GetRenderer()->SetViewport(0.0, 0.0, 1.0, 0.5);
+  renderer_->SetViewport(0.0, 0.5, 1.0, 1.0);
+  window_->AddRenderer(chart->GetRenderer());
+  style_->SetOverlay(overlay);
+  style_->SetChart(chart);
+  chart->AddSample(0.0, 1.0, 0.001);
+  chart->AddSample(1.0, 2.0, 0.001);
+  chart->Update();
+  const auto chartPixels = [this]
+  {
+    vtkNew<vtkUnsignedCharArray> data;
+    window_->GetPixelData(0, 0, 199, 99, 0, data);
+    return std::vector<unsigned char>(data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues());
+  };
+  int drawings = 0;
+  int frames = 0;
+  const auto countStarts = [](vtkRenderer* renderer, int& counter)
+  {
+    vtkNew<vtkCallbackCommand> command;
+    command->SetClientData(&counter);
+    command->SetCallback(
+      [](vtkObject*, unsigned long, void* client, void*) { ++*static_cast<int*>(client); });
+    renderer->AddObserver(vtkCommand::StartEvent, command);
+  };
+  countStarts(renderer_, frames);
+  countStarts(chart->GetRenderer(), drawings);
+  const auto draw = [&](const char* note)
+  {
+    style_->SetStatusNote(note);
+    const int before = frames;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (frames == before && std::chrono::steady_clock::now() < deadline)
+    {
+      style_->Refresh(); // renders once its share of the time has come
+    }
+    EXPECT_EQ(frames, before + 1) << note;
+  };
+  interactor_->Initialize();
+  draw("first");
+  const std::vector<unsigned char> first = chartPixels();
+  EXPECT_GT(drawings, 0);
+  drawings = 0;
+  draw("second");
+  EXPECT_EQ(drawings, 0);
+  EXPECT_EQ(chartPixels(), first);
+  EXPECT_TRUE(chart->GetVisibility());
+  this->press("c"); // hides it, and shows it again
+  this->press("c");
+  draw("third");
+  EXPECT_GT(drawings, 0);
 }
 
 TEST_F(InteractorStyleHaptic, TakesBackTheLastMoveAsAWhole)

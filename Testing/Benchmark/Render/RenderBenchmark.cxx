@@ -203,6 +203,67 @@ ReportPart studyFirstPicture(Context& context)
   return part;
 }
 
+void addResponse(Context& context, std::int64_t points, ReportPart& part)
+{
+  std::string message;
+  const std::unique_ptr<ModelMover> mover = context.options.makeModelMover(
+    context.fileOf(points), context.options.width, context.options.height, message);
+  if (!mover)
+  {
+    context.wrong = message;
+    return;
+  }
+  struct Action
+  {
+    const char* name;
+    const char* keys[2]; // there and back
+  };
+  for (const Action& action : { Action{ "turn", { "y", "Y" } }, Action{ "shift", { "Left", "Right" } },
+         Action{ "zoom", { "plus", "minus" } } })
+  {
+    context.progress(fmt::format("response of {} points: {}", grouped(points), action.name));
+    std::vector<double> times;
+    for (int i = 0; i < context.options.presses; ++i)
+    {
+      const double time = mover->press(action.keys[i % 2]);
+      if (time < 0.0)
+      {
+        context.wrong = "a key was pressed and no scene came of it; look at SceneWorker";
+        return;
+      }
+      times.push_back(time);
+    }
+    std::sort(times.begin(), times.end());
+    const auto at = [&times](double share)
+    { return times[std::size_t(share * double(times.size() - 1) + 0.5)]; };
+    part.table.rows.push_back({ grouped(points), action.name, fmt::format("{}", times.size()),
+      brief(1e3 * at(0.5)), brief(1e3 * at(0.95)), brief(1e3 * times.back()) });
+    part.rows.push_back({ { "points", points }, { "action", action.name }, { "presses", times.size() },
+      { "median_seconds", at(0.5) }, { "p95_seconds", at(0.95) }, { "largest_seconds", times.back() } });
+  }
+}
+
+ReportPart studyResponse(Context& context)
+{
+  ReportPart part;
+  part.key = "response";
+  part.title = "From a key to the new lattice in the hand";
+  part.text = fmt::format("Keys that turn the model by 5 degrees, shift it by 2 % of the workspace and zoom "
+                          "it by 10 %, and back, in a "
+                          "window of {} x {} pixels, off the screen, with level of detail, a still hand and "
+                          "a servo loop of 1 kHz; the "
+                          "viewer's timer goes on meanwhile and renders. From the key's event until the "
+                          "servo thread had the scene: new "
+                          "voxel means with covariance, and the fields of radii.",
+    context.options.width, context.options.height);
+  part.table.header = { "points in the file", "key", "presses", "p50 ms", "p95 ms", "largest ms" };
+  for (const std::int64_t points : context.options.points)
+  {
+    addResponse(context, points, part);
+  }
+  return part;
+}
+
 bool makeFiles(Context& context)
 {
   for (const std::int64_t points : context.options.points)
@@ -227,6 +288,7 @@ void RenderBenchmarkOptions::makeQuick()
 {
   points = { 100000 };
   frames = 6;
+  presses = 4;
   repetitions = 1;
   width = 320;
   height = 180;
@@ -252,6 +314,7 @@ Report benchmarkRender(const RenderBenchmarkOptions& options, const Progress& pr
     // Processes first: this one is small then.
     ReportPart first = studyFirstPicture(context);
     report.parts.push_back(studyTurning(context));
+    report.parts.push_back(studyResponse(context));
     report.parts.push_back(std::move(first));
   }
   std::error_code ignored;

@@ -37,6 +37,20 @@ public:
 using MakeTurntable = std::function<std::unique_ptr<Turntable>(
   const std::string& file, int width, int height, std::string& message)>;
 
+/// The viewer with a servo loop and a still hand.
+class ModelMover
+{
+public:
+  virtual ~ModelMover() = default;
+  /// Presses @p key, which moves the model, and goes on as the viewer's window does. Returns the seconds
+  /// until the servo loop had the scene of it; below 0: it did not come.
+  virtual double press(const char* key) = 0;
+};
+
+/// Null: @p message says why there is none.
+using MakeModelMover = std::function<std::unique_ptr<ModelMover>(
+  const std::string& file, int width, int height, std::string& message)>;
+
 struct RenderBenchmarkOptions
 {
   std::vector<std::int64_t> points = { 543652, 5000000 };
@@ -45,7 +59,9 @@ struct RenderBenchmarkOptions
   int frames = 60; ///< Of a turn; half as many come before, untimed, for the budget to settle.
   int repetitions = 5;
   bool withF3d = true;
+  int presses = 60; ///< Of each key.
   MakeTurntable makeTurntable;
+  MakeModelMover makeModelMover;
 
   /// A second or two: to see that everything works. The figures mean little.
   void makeQuick();

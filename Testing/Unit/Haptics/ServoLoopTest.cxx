@@ -47,6 +47,7 @@ public:
   }
 
   HandLimits limits() const noexcept override { return bounds; }
+  bool mayRest() const noexcept override { return true; }
 
 private:
   bool failed_ = false;
@@ -600,4 +601,53 @@ TEST(ServoLoop, ReportsWhatTheSystemRefuses)
   refused.memoryRefusal = 1;
   EXPECT_NE(describeRefusals(refused).find("rtprio 40"), std::string::npos);
   EXPECT_NE(describeRefusals(refused).find("memlock unlimited"), std::string::npos);
+}
+
+TEST(ServoLoop, RestsOnlyWhileAStillHandTouchesNothing)
+{
+  std::atomic<double> height{ 0.01 };
+  std::atomic<bool> trembles{ false };
+  ScriptedPort port;
+  port.path = [&](double t) { return Vec3(0.0, 0.0, height + (trembles ? 1e-6 * std::sin(1e3 * t) : 0.0)); };
+  ServoSettings settings;
+  settings.realtimePriority = false;
+  settings.restsWhenIdle = true;
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, {}, settings), Status::Ok);
+  const auto rested = [&] { return loop.statistics().restedTicks; };
+  const auto ticksLater = [&](std::uint64_t more)
+  {
+    const std::uint64_t wanted = loop.statistics().ticks + more;
+    return eventually([&, wanted] { return loop.statistics().ticks >= wanted; });
+  };
+  ASSERT_TRUE(eventually([&] { return rested() > 0; }));
+  // Ticks that were left out have their numbers, and are not missed.
+  EXPECT_GE(loop.latest().tick, loop.statistics().ticks + rested());
+  trembles = true;
+  ASSERT_TRUE(ticksLater(2));
+  std::uint64_t before = rested();
+  ASSERT_TRUE(ticksLater(600));
+  EXPECT_EQ(rested(), before);
+  trembles = false;
+  height = -0.001;
+  ASSERT_TRUE(eventually([&] { return loop.latest().state.contact; }));
+  before = rested();
+  ASSERT_TRUE(ticksLater(700));
+  EXPECT_EQ(rested(), before);
+  loop.stop();
+}
+
+TEST(ServoLoop, CountsTheScenesItTakes)
+{
+  ScriptedPort port;
+  ServoSettings settings;
+  settings.realtimePriority = false;
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(port, {}, settings), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().scenes == 1; }));
+  loop.publishScene(plane());
+  EXPECT_TRUE(eventually([&] { return loop.latest().scenes == 2; }));
+  loop.stop();
 }

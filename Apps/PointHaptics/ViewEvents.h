@@ -1,0 +1,19 @@
+/// @file
+/// The event loop of the window.
+#pragma once
+
+class vtkRenderWindowInteractor;
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// Handles the window's events until the interactor is told to end, as its Start() does, and invokes
+/// vtkCommand::TimerEvent 30 times a second. On X11 it sleeps until there is an event or the timer is due;
+/// Start() of VTK 9.1 looks for events a thousand times a second, which costs 3 % of a core. To be called
+/// after Initialize().
+void runEvents(vtkRenderWindowInteractor* interactor);
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,90 @@
+#include "PictureState.h"
+
+#include "vtkSplatMapper.h"
+
+#include "vtkActor.h"
+#include "vtkActor2D.h"
+#include "vtkCamera.h"
+#include "vtkLight.h"
+#include "vtkLightCollection.h"
+#include "vtkMatrix4x4.h"
+#include "vtkProp3D.h"
+#include "vtkPropCollection.h"
+#include "vtkRenderer.h"
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Times of modification are counts, exact as doubles.
+void add(std::vector<double>& state, vtkMTimeType time)
+{
+  state.push_back(double(time));
+}
+
+void add(std::vector<double>& state, const double* values, int count)
+{
+  state.insert(state.end(), values, values + count);
+}
+
+void addProp(std::vector<double>& state, vtkProp* prop)
+{
+  state.push_back(double(reinterpret_cast<std::uintptr_t>(prop)));
+  add(state, prop->GetRedrawMTime());
+  // A matrix that is changed in place does not change its actor's time.
+  if (auto* placed = vtkProp3D::SafeDownCast(prop))
+  {
+    placed->ComputeMatrix();
+    add(state, placed->GetMatrix()->GetData(), 16);
+  }
+  // Nor do the sizes of splats change that of their mapper.
+  auto* actor = vtkActor::SafeDownCast(prop);
+  if (auto* splats = actor ? vtkSplatMapper::SafeDownCast(actor->GetMapper()) : nullptr)
+  {
+    state.insert(state.end(),
+      { splats->GetSizeScale(), splats->GetSmallestPixels(), splats->GetLargestPixels(),
+        splats->GetFixedPixels() });
+  }
+}
+
+} // namespace
+
+std::vector<double> pictureState(vtkRenderer* renderer)
+{
+  std::vector<double> state;
+  vtkCamera* camera = renderer->GetActiveCamera();
+  add(state, camera->GetViewTransformMatrix()->GetData(), 16);
+  add(state, camera->GetClippingRange(), 2);
+  const double lens = camera->GetParallelProjection() ? -camera->GetParallelScale() : camera->GetViewAngle();
+  state.push_back(lens);
+  add(state, camera->GetWindowCenter(), 2);
+  const int* size = renderer->GetSize();
+  const int* origin = renderer->GetOrigin();
+  state.insert(state.end(), { double(size[0]), double(size[1]), double(origin[0]), double(origin[1]) });
+  add(state, renderer->GetBackground(), 3);
+  add(state, renderer->GetBackground2(), 3);
+  state.push_back(double(renderer->GetGradientBackground()));
+
+  vtkCollectionSimpleIterator cookie;
+  renderer->GetLights()->InitTraversal(cookie);
+  while (vtkLight* light = renderer->GetLights()->GetNextLight(cookie))
+  {
+    state.insert(state.end(), { double(light->GetSwitch()), light->GetIntensity() });
+    add(state, light->GetDiffuseColor(), 3);
+    add(state, light->GetPosition(), 3);
+  }
+  renderer->GetViewProps()->InitTraversal(cookie);
+  while (vtkProp* prop = renderer->GetViewProps()->GetNextProp(cookie))
+  {
+    if (prop->GetVisibility() && !vtkActor2D::SafeDownCast(prop))
+    {
+      addProp(state, prop);
+    }
+  }
+  return state;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,92 @@
+/// @file
+/// Makes scenes in a thread of its own: resampling, the servo loop's snapshot, the arrays of the picture.
+#pragma once
+
+#include "Core/Status.h"
+#include "Haptics/HapticScene.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+class vtkKernelBandwidthFilter;
+class vtkPointSet;
+class vtkPolyData;
+class vtkVoxelMeanResampler;
+
+namespace pointhaptics
+{
+
+/// What one scene is made with. The settings of the filters are copied when it is made: what is set on them
+/// later belongs to the next request.
+struct SceneRequest
+{
+  using Setting = std::function<void(vtkVoxelMeanResampler*, vtkKernelBandwidthFilter*)>;
+
+  /// Copies the settings of @p resampler, its input and transform aside, and those of @p bandwidth, which may
+  /// be null.
+  POINTHAPTICSINTERACTION_EXPORT static SceneRequest of(
+    vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* bandwidth);
+
+  std::array<double, 16> modelToWorkspace{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 }; ///< Row by row.
+  bool useCovariance = true;
+  std::vector<Setting> settings; ///< Applied, in this order, to the worker's own filters.
+  bool hasBandwidth = false;     ///< The radii follow the bandwidth filter's rule.
+  /// Called in the worker's thread with the finished scene, or null; before the picture's arrays are made.
+  std::function<void(std::shared_ptr<const HapticScene>)> publish;
+};
+
+/// What came of a request.
+struct BuiltScene
+{
+  std::uint64_t number = 0; ///< Of the request: 1, 2, ...
+  std::array<double, 16> modelToWorkspace{};
+  vtkSmartPointer<vtkPolyData> means; ///< With the arrays of both filters; nobody else has it.
+  vtkIdType numberOfPoints = 0;       ///< Of the cloud.
+  bool empty = true;                  ///< No scene was made: @p status says why.
+  Status status = Status::Empty;
+};
+
+/// One build is in flight at a time; of the requests that come meanwhile only the newest is built. The
+/// picture may be left out of a build that is followed by another, but not for longer than kPictureSeconds.
+///
+/// request(), setCloud(), take(), wait() and cancel() from one thread (the GUI's), which waits in the last
+/// two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and what one
+/// side hands over it lets go of.
+class POINTHAPTICSINTERACTION_EXPORT SceneWorker
+{
+public:
+  static constexpr double kPictureSeconds = 0.1;
+
+  SceneWorker();
+  ~SceneWorker(); ///< Waits for the build in flight.
+  SceneWorker(const SceneWorker&) = delete;
+  SceneWorker& operator=(const SceneWorker&) = delete;
+
+  /// The cloud of the requests from now on. Its points and arrays are shared and must not be changed; the
+  /// object itself is the worker's.
+  void setCloud(vtkSmartPointer<vtkPointSet> cloud);
+  /// @return the request's number.
+  std::uint64_t request(SceneRequest request);
+  /// The newest finished build that was not taken yet. False: there is none.
+  bool take(BuiltScene& built);
+  /// Whether a build is in flight or waits.
+  bool busy() const;
+  /// Returns when nothing is in flight and nothing waits.
+  void wait();
+  /// Forgets the request that waits and the result that was not taken, and waits for the build in flight.
+  void cancel();
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace pointhaptics

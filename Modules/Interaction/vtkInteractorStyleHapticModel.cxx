@@ -1,0 +1,156 @@
+// From a change of the model to the scene that is felt and the means that are shown.
+#include "vtkInteractorStyleHapticInternals.h"
+
+#include "vtkMapper.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+#include <utility>
+
+using pointhaptics::BuiltScene;
+using pointhaptics::SceneRequest;
+
+namespace
+{
+
+/// The data object that others see: the output of the last filter there is.
+vtkPolyData* shownCloud(vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* bandwidth)
+{
+  return bandwidth ? bandwidth->GetOutput() : resampler->GetOutput();
+}
+
+} // namespace
+
+void vtkInteractorStyleHaptic::ModelChanged()
+{
+  Internals& parts = *this->Parts;
+  // Many small steps must not grow vtkTransform's list of concatenated matrices without end.
+  vtkNew<vtkMatrix4x4> matrix;
+  matrix->DeepCopy(parts.model->GetMatrix());
+  parts.model->SetMatrix(matrix);
+  parts.modelChanged = true;
+  this->ForgetPicked();
+  this->PreviewModel();
+  if (parts.timer >= 0 && parts.resampler)
+  {
+    this->RequestScene(); // the timer, and what it has to draw, would come later
+  }
+  this->InvokeEvent(ModelChangedEvent);
+}
+
+/// The drawn means are those of the last resampling: show them where the model is now.
+void vtkInteractorStyleHaptic::PreviewModel()
+{
+  Internals& parts = *this->Parts;
+  if (parts.cloudActor)
+  {
+    vtkNew<vtkMatrix4x4> back;
+    vtkMatrix4x4::Invert(parts.resampled->GetMatrix(), back);
+    vtkMatrix4x4::Multiply4x4(parts.model->GetMatrix(), back, parts.preview);
+    parts.cloudActor->SetUserMatrix(parts.preview);
+    parts.rendersWanted = true;
+  }
+}
+
+bool vtkInteractorStyleHaptic::IsModelChanged() const
+{
+  return this->Parts->modelChanged || this->Parts->requested != this->Parts->shown;
+}
+
+bool vtkInteractorStyleHaptic::UpdateModel()
+{
+  Internals& parts = *this->Parts;
+  if (parts.resampler && this->IsModelChanged())
+  {
+    if (parts.modelChanged)
+    {
+      this->RequestScene();
+    }
+    parts.worker.wait();
+    this->ShowScene();
+  }
+  return !parts.sceneEmpty;
+}
+
+/// To be called before anything that the worker's requests hold goes away.
+void vtkInteractorStyleHaptic::StopBuilding()
+{
+  Internals& parts = *this->Parts;
+  parts.worker.cancel();
+  parts.modelChanged = parts.modelChanged || parts.requested != parts.shown;
+  parts.shown = parts.requested;
+}
+
+void vtkInteractorStyleHaptic::SendCloud()
+{
+  Internals& parts = *this->Parts;
+  if (vtkAlgorithm* source = parts.resampler->GetInputAlgorithm())
+  {
+    source->Update();
+  }
+  auto* cloud = vtkPointSet::SafeDownCast(parts.resampler->GetInputDataObject(0, 0));
+  const vtkMTimeType time = cloud ? cloud->GetMTime() : 0;
+  if (cloud == parts.sentCloud && time == parts.sentCloudTime)
+  {
+    return;
+  }
+  parts.sentCloud = cloud;
+  parts.sentCloudTime = time;
+  vtkSmartPointer<vtkPointSet> copy;
+  if (cloud)
+  {
+    copy.TakeReference(vtkPointSet::SafeDownCast(cloud->NewInstance()));
+    copy->ShallowCopy(cloud);
+  }
+  parts.worker.setCloud(std::move(copy));
+}
+
+void vtkInteractorStyleHaptic::RequestScene()
+{
+  Internals& parts = *this->Parts;
+  parts.modelChanged = false;
+  this->SendCloud();
+  SceneRequest request = SceneRequest::of(parts.resampler, parts.bandwidth);
+  std::copy_n(parts.model->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
+  request.useCovariance = this->UseCovariance;
+  request.publish = [servo = parts.servo](std::shared_ptr<const pointhaptics::HapticScene> scene)
+  {
+    if (servo)
+    {
+      servo->publishScene(std::move(scene));
+    }
+  };
+  parts.requested = parts.worker.request(std::move(request));
+}
+
+/// What the worker has made becomes the output of the filters that the program knows, as if they had run.
+bool vtkInteractorStyleHaptic::ShowScene()
+{
+  Internals& parts = *this->Parts;
+  BuiltScene built;
+  if (!parts.worker.take(built))
+  {
+    return false;
+  }
+  parts.shown = built.number;
+  parts.sceneEmpty = built.empty;
+  parts.numberOfPoints = built.numberOfPoints;
+  parts.numberOfVoxels = built.means->GetNumberOfPoints();
+  if (built.empty && built.status != pointhaptics::Status::Empty)
+  {
+    vtkErrorMacro("The model cannot be felt as it stands: " << pointhaptics::sentence(built.status)
+                                                            << " Key 0 resets the model.");
+  }
+  parts.resampled->SetMatrix(built.modelToWorkspace.data());
+  vtkPolyData* shown = shownCloud(parts.resampler, parts.bandwidth);
+  shown->ShallowCopy(built.means);
+  vtkMapper* mapper = parts.cloudActor ? parts.cloudActor->GetMapper() : nullptr;
+  if (mapper && mapper->GetInputDataObject(0, 0) == shown)
+  {
+    mapper->SetInputDataObject(shown); // a connection to the filters would make them run
+  }
+  this->PreviewModel();
+  parts.rendersWanted = true;
+  this->InvokeEvent(SceneChangedEvent);
+  return true;
+}

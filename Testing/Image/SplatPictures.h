@@ -1,0 +1,18 @@
+/// @file
+/// Pictures of clouds drawn by vtkSplatMapper, at rest and in motion.
+#pragma once
+
+#include <string>
+
+class vtkRenderer;
+
+namespace pointhaptics
+{
+namespace testing
+{
+
+void buildSplats(const std::string& fault, vtkRenderer* renderer);
+void buildCoarseSplats(const std::string& fault, vtkRenderer* renderer);
+
+} // namespace testing
+} // namespace pointhaptics

@@ -1,0 +1,220 @@
+#include "SceneWorker.h"
+
+#include "vtkKernelBandwidthFilter.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include "Haptics/ServoLoop.h"
+
+#include <gtest/gtest.h>
+#include <vtkDataArray.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMatrixToLinearTransform.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+/// A wavy square of 6 cm, points half a millimetre apart.
+vtkSmartPointer<vtkPolyData> makeCloud()
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int i = -60; i <= 60; ++i)
+  {
+    for (int j = -60; j <= 60; ++j)
+    {
+      points->InsertNextPoint(0.0005 * i, 0.0005 * j, 0.002 * std::sin(0.1 * i));
+    }
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  return cloud;
+}
+
+/// The filters of a program, with the scenes that were published.
+class SceneWorkerTest : public ::testing::Test
+{
+protected:
+  SceneWorkerTest()
+  {
+    resampler_->SetWorkspaceBounds(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
+    resampler_->SetDimensions(80, 80, 80);
+    resampler_->ComputeCovarianceOn();
+    bandwidth_->SetRadiusScale(5.0);
+    worker_.setCloud(makeCloud());
+  }
+
+  SceneRequest shifted(double z)
+  {
+    SceneRequest request = SceneRequest::of(resampler_, bandwidth_);
+    request.modelToWorkspace[11] = z;
+    request.publish = [this](std::shared_ptr<const HapticScene> scene)
+    {
+      newest_ = std::move(scene); // the worker's until wait()
+      ++published_;
+    };
+    return request;
+  }
+
+  vtkNew<vtkVoxelMeanResampler> resampler_;
+  vtkNew<vtkKernelBandwidthFilter> bandwidth_;
+  std::shared_ptr<const HapticScene> newest_;
+  std::atomic<int> published_{ 0 };
+  SceneWorker worker_;
+};
+
+TEST_F(SceneWorkerTest, MakesWhatTheFiltersWouldMake)
+{
+  worker_.request(this->shifted(0.003));
+  worker_.wait();
+  BuiltScene built;
+  ASSERT_TRUE(worker_.take(built));
+  vtkNew<vtkMatrix4x4> matrix;
+  matrix->SetElement(2, 3, 0.003);
+  vtkNew<vtkMatrixToLinearTransform> transform;
+  transform->SetInput(matrix);
+  resampler_->SetInputData(makeCloud());
+  resampler_->SetTransform(transform);
+  bandwidth_->SetInputConnection(resampler_->GetOutputPort());
+  bandwidth_->Update();
+  vtkPolyData* expected = bandwidth_->GetOutput();
+  ASSERT_EQ(built.means->GetNumberOfPoints(), expected->GetNumberOfPoints());
+  EXPECT_EQ(built.numberOfPoints, 121 * 121);
+  for (const char* name : { "VoxelPointCount", "VoxelCovariance", "Bandwidth", "ProxyRadius", "Density" })
+  {
+    vtkDataArray* array = built.means->GetPointData()->GetArray(name);
+    ASSERT_NE(array, nullptr) << name;
+    EXPECT_EQ(array->GetComponent(17, 0), expected->GetPointData()->GetArray(name)->GetComponent(17, 0))
+      << name;
+  }
+  ASSERT_NE(newest_, nullptr);
+  EXPECT_EQ(newest_->numberOfPoints(), std::size_t(expected->GetNumberOfPoints()));
+  EXPECT_FALSE(worker_.take(built));
+}
+
+TEST_F(SceneWorkerTest, EndsWithTheNewestOfManyRequests)
+{
+  for (int i = 1; i <= 200; ++i)
+  {
+    worker_.request(this->shifted(1e-5 * i));
+  }
+  worker_.wait();
+  BuiltScene built;
+  ASSERT_TRUE(worker_.take(built));
+  EXPECT_EQ(built.number, 200u);
+  EXPECT_EQ(built.modelToWorkspace[11], 1e-5 * 200);
+  ASSERT_NE(newest_, nullptr);
+  EXPECT_EQ(newest_->modelToWorkspace().m[2][3], 1e-5 * 200);
+  EXPECT_LT(published_, 200); // those that were overtaken are not built
+}
+
+TEST_F(SceneWorkerTest, KeepsTheSettingsThatTheRequestWasMadeWith)
+{
+  SceneRequest request = this->shifted(0.0);
+  resampler_->SetDimensions(10, 10, 10);
+  bandwidth_->SetComputeBandwidth(false);
+  worker_.request(std::move(request));
+  worker_.wait();
+  BuiltScene built;
+  ASSERT_TRUE(worker_.take(built));
+  EXPECT_GT(built.means->GetNumberOfPoints(), 1000);
+  EXPECT_NE(built.means->GetPointData()->GetArray("Bandwidth"), nullptr);
+  worker_.request(this->shifted(0.0));
+  worker_.wait();
+  ASSERT_TRUE(worker_.take(built));
+  EXPECT_LT(built.means->GetNumberOfPoints(), 200);
+  EXPECT_EQ(built.means->GetPointData()->GetArray("Bandwidth"), nullptr);
+}
+
+TEST_F(SceneWorkerTest, PublishesThatNothingIsLeftInTheWorkspace)
+{
+  worker_.request(this->shifted(0.0));
+  worker_.wait();
+  ASSERT_NE(newest_, nullptr);
+  worker_.request(this->shifted(1.0));
+  worker_.wait();
+  BuiltScene built;
+  ASSERT_TRUE(worker_.take(built));
+  EXPECT_TRUE(built.empty);
+  EXPECT_EQ(built.status, Status::Empty);
+  EXPECT_EQ(newest_, nullptr);
+  worker_.setCloud(nullptr);
+  worker_.request(this->shifted(0.0));
+  worker_.wait();
+  ASSERT_TRUE(worker_.take(built));
+  EXPECT_TRUE(built.empty);
+  EXPECT_EQ(built.means->GetNumberOfPoints(), 0);
+}
+
+TEST_F(SceneWorkerTest, ForgetsWhatIsCancelled)
+{
+  worker_.request(this->shifted(0.0));
+  worker_.cancel();
+  EXPECT_FALSE(worker_.busy());
+  BuiltScene built;
+  EXPECT_FALSE(worker_.take(built));
+}
+
+/// A hand that stays where it is.
+class StillPort : public HandPort
+{
+public:
+  Status read(double, HandState& state) noexcept override
+  {
+    state.position = { 0.0, 0.0, 0.01 };
+    return Status::Ok;
+  }
+  Status write(double, const Vec3&) noexcept override { return Status::Ok; }
+};
+
+// Also to be run under the thread sanitizer.
+TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
+{
+  StillPort port;
+  ServoLoop loop;
+  ServoSettings settings;
+  settings.realtimePriority = false;
+  ASSERT_EQ(loop.start(port, {}, settings), Status::Ok);
+  std::vector<ServoSample> samples;
+  int shown = 0;
+  double sum = 0.0;
+  for (int i = 0; i < 60; ++i)
+  {
+    SceneRequest request = this->shifted(1e-4 * (i % 7));
+    request.publish = [&loop](std::shared_ptr<const HapticScene> scene)
+    { loop.publishScene(std::move(scene)); };
+    worker_.request(std::move(request));
+    if (i % 3 == 0)
+    {
+      worker_.wait();
+    }
+    loop.takeTrace(samples);
+    BuiltScene built;
+    if (worker_.take(built))
+    {
+      ++shown;
+      sum += built.means->GetPointData()->GetArray("Bandwidth")->GetRange()[1];
+      sum += built.means->GetBounds()[5];
+    }
+  }
+  worker_.wait();
+  while (loop.latest().scenes == 0)
+  {
+    loop.takeTrace(samples);
+  }
+  loop.stop();
+  EXPECT_GE(shown, 20);
+  EXPECT_GT(sum, 0.0);
+}
+
+} // namespace
