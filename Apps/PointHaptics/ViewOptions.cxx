@@ -4,14 +4,22 @@
 #include "OptionParsing.h"
 #include "ViewSettings.h"
 
+#include "HapticBindings.h"
+
+#include "Core/Shapes.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <vtkCamera.h>
+#include <vtkRenderer.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 namespace pointhaptics
 {
@@ -147,6 +155,77 @@ std::string applyKeys(CLI::App& command, const nlohmann::json& keys)
   return {};
 }
 
+/// Ends the parse where @p text is not ACTION=GESTURES.
+void checkBinding(const std::string& text)
+{
+  const std::size_t equals = text.find('=');
+  const std::string action = text.substr(0, equals);
+  if (equals == std::string::npos || hapticActionFromName(action) == HapticAction::None)
+  {
+    std::vector<std::string> names;
+    for (HapticAction each : hapticActions())
+    {
+      names.emplace_back(hapticActionName(each));
+    }
+    throwUsage("--bind", text,
+      fmt::format("{}; give ACTION=KEY, such as help=F1, with one of: {}",
+        equals == std::string::npos ? "no key" : "no such action", fmt::join(names, ", ")));
+  }
+  std::istringstream gestures(text.substr(equals + 1));
+  for (std::string gesture; gestures >> gesture;)
+  {
+    if (!HapticBindings::isGesture(gesture))
+    {
+      throwUsage("--bind", text,
+        fmt::format("\"{}\" is no key or gesture; give names such as F1, plus, Ctrl+z, Shift+left or hand1, "
+                    "with blanks between them",
+          gesture));
+    }
+  }
+}
+
+std::string checkCamera(const std::vector<double>& numbers)
+{
+  const Vec3 direction{ numbers[3] - numbers[0], numbers[4] - numbers[1], numbers[5] - numbers[2] };
+  const Vec3 up{ numbers[6], numbers[7], numbers[8] };
+  return norm(cross(direction, up)) > 0.0
+    ? ""
+    : "no view; give different points, and an upward direction that is not along the view";
+}
+
+void addWindowOptions(CLI::App& command, ViewOptions& options)
+{
+  const char* const group = "Window";
+  const auto keepBindings = [&options](const std::vector<std::string>& bindings)
+  {
+    std::for_each(bindings.begin(), bindings.end(), checkBinding);
+    options.bindings = bindings;
+  };
+  command
+    .add_option_function<std::vector<std::string>>("--bind", keepBindings,
+      "Gives an action other keys or gestures, such as help=F1 or shift-model-by-hand=hand2; several "
+      "separated by commas")
+    ->delimiter(',')
+    ->type_name("ACTION=KEY,...")
+    ->group(group);
+  addNumbers(command, "--camera", options.camera, { 9 }, checkCamera, "X,Y,Z,FX,FY,FZ,UX,UY,UZ",
+    "Where the person looks from, at, and what is up; metres of the workspace; default: from in front")
+    ->group(group);
+  command
+    .add_flag("--push-pointer", options.pushPointer,
+      "The touch pushes the mouse pointer while the hand follows it; key G")
+    ->group(group);
+  std::vector<std::string> shapes = { "auto", "none" };
+  for (int shape = 0; shape < kNumberOfShapes; ++shape)
+  {
+    shapes.emplace_back(shapeName(static_cast<Shape>(shape)));
+  }
+  addWord(command, "--ideal", options.ideal, shapes,
+    "The chart shows the exact force of this shape of generate too; default auto: where the cloud is one, "
+    "without noise")
+    ->group(group);
+}
+
 void addTouchOptions(CLI::App& command, ViewOptions& options)
 {
   const char* const group = "Touch";
@@ -224,6 +303,7 @@ void ViewOptions::addTo(CLI::App& command)
   addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS",
     "Diameter of a point; default: as the kernel bandwidth says, so that surfaces close");
   command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");
+  addWindowOptions(command, *this);
   addTouchOptions(command, *this);
   this->bandwidth.addTo(command);
   this->lattice.addTo(command);
@@ -295,6 +375,19 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
 std::vector<std::string> ViewOptions::firstFiles() const
 {
   return this->together ? this->files : std::vector<std::string>{ this->files.front() };
+}
+
+void applyCamera(const ViewOptions& options, vtkRenderer* renderer)
+{
+  if (!options.camera.empty())
+  {
+    vtkCamera* camera = renderer->GetActiveCamera();
+    camera->SetPosition(&options.camera[0]);
+    camera->SetFocalPoint(&options.camera[3]);
+    camera->SetViewUp(&options.camera[6]);
+    camera->OrthogonalizeViewUp();
+    renderer->ResetCameraClippingRange();
+  }
 }
 
 HapticParameters ViewOptions::hapticParameters() const

@@ -17,6 +17,7 @@ namespace CLI
 {
 class App;
 }
+class vtkRenderer;
 
 namespace pointhaptics
 {
@@ -45,7 +46,11 @@ struct ViewOptions
   std::string trace;            ///< CSV.
   std::string up = "auto";
   std::string colorBy;
-  double pointSize = 0.0; ///< Pixels; 0: from the spacing of the points.
+  double pointSize = 0.0;            ///< Pixels; 0: from the spacing of the points.
+  std::vector<std::string> bindings; ///< ACTION=GESTURES, as SetBinding() takes them; checked.
+  std::vector<double> camera;        ///< Position, focal point, view up, of the workspace; empty: in front.
+  bool pushPointer = false;
+  std::string ideal = "auto"; ///< Name of the shape whose exact force the chart shows, auto or none.
   bool noCovariance = false;
   std::string method = "surface-fit";
   std::string preset = "tuned";
@@ -61,6 +66,9 @@ struct ViewOptions
   /// What is shown first: all files, or the first of them.
   std::vector<std::string> firstFiles() const;
 };
+
+/// Looks as --camera says, where it was given.
+void applyCamera(const ViewOptions& options, vtkRenderer* renderer);
 
 } // namespace app
 } // namespace pointhaptics

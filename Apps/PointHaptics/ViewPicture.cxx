@@ -9,6 +9,9 @@
 
 #include "Devices/HipPath.h"
 
+#include <cmath>
+#include <memory>
+
 #include <fmt/format.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
@@ -65,9 +68,11 @@ bool feelAlongPath(ViewScene& scene, const ViewOptions& options, ServoSample& sh
   if (!options.forceChart.empty())
   {
     vtkNew<vtkHapticChart> chart;
+    const std::shared_ptr<IdealForce> ideal = idealFor(scene, options);
     for (const ServoSample& sample : samples)
     {
-      chart->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius);
+      chart->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius,
+        ideal ? idealForce(*ideal, scene, sample.state.hip, options.contact.stiffness) : NAN);
     }
     if (!chart->WriteImage(options.forceChart.c_str()))
     {
@@ -104,6 +109,7 @@ bool makePicture(ViewScene& scene, const ViewOptions& options, std::string& mess
     scene.props()->Update(shown.state);
   }
   scene.placeCamera(feels ? &shown.state : nullptr);
+  applyCamera(options, scene.renderer());
   window->Render();
   if (!writePicture(window, options.screenshot, message))
   {

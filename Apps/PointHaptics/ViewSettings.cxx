@@ -4,11 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -26,7 +28,7 @@ const std::set<std::string>& deeds()
 
 /// Of the cloud at hand, and of no other.
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
-  "translate", "unit", "path", "up", "color-by", "together", "watch" };
+  "translate", "unit", "path", "up", "color-by", "together", "watch", "camera", "ideal" };
 
 /// A number where it reads back as it was written, else text: an array may be called 1e3.
 nlohmann::ordered_json valueOf(const CLI::Option& option)
@@ -72,6 +74,15 @@ void setVoxel(nlohmann::ordered_json& settings, double metres)
 {
   settings.erase("dims");
   settings["voxel"] = metres;
+}
+
+void setCamera(nlohmann::ordered_json& settings, vtkCamera* camera)
+{
+  std::vector<double> numbers(9);
+  camera->GetPosition(&numbers[0]);
+  camera->GetFocalPoint(&numbers[3]);
+  camera->GetViewUp(&numbers[6]);
+  settings["camera"] = numbers;
 }
 
 bool writeSettings(const nlohmann::ordered_json& settings, const std::string& fileName, std::string& message)

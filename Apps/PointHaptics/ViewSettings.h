@@ -10,6 +10,7 @@ namespace CLI
 {
 class App;
 }
+class vtkCamera;
 class vtkMatrix4x4;
 
 namespace pointhaptics
@@ -27,6 +28,9 @@ void setModel(nlohmann::ordered_json& settings, vtkMatrix4x4* matrix, const doub
 
 /// Puts a voxel edge in metres in place of --dims.
 void setVoxel(nlohmann::ordered_json& settings, double metres);
+
+/// Where the person looks from: what --camera takes.
+void setCamera(nlohmann::ordered_json& settings, vtkCamera* camera);
 
 /// False: @p message says why the file cannot be written.
 bool writeSettings(const nlohmann::ordered_json& settings, const std::string& fileName, std::string& message);

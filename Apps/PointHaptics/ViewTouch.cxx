@@ -1,5 +1,14 @@
 #include "ViewTouch.h"
 
+#include "ViewOptions.h"
+#include "ViewScene.h"
+
+#include "PolyDataAccess.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include <vtkPointSet.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -45,6 +54,26 @@ const ServoSample& mostTelling(const std::vector<ServoSample>& samples)
     }
   }
   return *best;
+}
+
+std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const ViewOptions& options)
+{
+  Shape shape = Shape::Plane;
+  vtkPointSet* cloud = vtkPointSet::SafeDownCast(scene.resampler()->GetInputDataObject(0, 0));
+  if (options.ideal == "none" || !cloud || !cloud->GetPoints())
+  {
+    return nullptr;
+  }
+  const bool known = options.ideal == "auto" ? recognizeShape(PointAccess(cloud->GetPoints()).view(), shape)
+                                             : shapeFromName(options.ideal, shape);
+  return known ? std::make_shared<IdealForce>(shape) : nullptr;
+}
+
+double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, double stiffness)
+{
+  AffineTransform model;
+  const bool isAffine = affineFromTransform(scene.resampler()->GetTransform(), model);
+  return isAffine ? std::min(ideal.at(hip, model, stiffness), ForceLimits().maximumForce) : NAN;
 }
 
 bool TraceFile::open(const std::string& fileName, std::string& message)

@@ -5,9 +5,11 @@
 #include "CsvWriter.h"
 
 #include "Devices/HipPath.h"
+#include "Haptics/IdealForce.h"
 #include "Haptics/Proxy.h"
 #include "Haptics/ServoLoop.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,9 @@ namespace pointhaptics
 namespace app
 {
 
+class ViewScene;
+struct ViewOptions;
+
 /// One sample for each of the @p ticks of @p rateHz along @p path (see countTicks), as `feel` does it. @pre
 /// path not empty.
 std::vector<ServoSample> feelPath(const HapticScene& scene, const HipPath& path, std::int64_t ticks,
@@ -23,6 +28,12 @@ std::vector<ServoSample> feelPath(const HapticScene& scene, const HipPath& path,
 
 /// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
 const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
+
+/// The exact surface that --ideal names, or that the cloud of @p scene turns out to be. Null: none.
+std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const ViewOptions& options);
+
+/// Newtons where the model stands in @p scene at this moment; NaN: not known.
+double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, double stiffness);
 
 /// Writes OUT.csv of `feel`, row by row; the file appears with close().
 class TraceFile

@@ -30,6 +30,7 @@
 #include <vtkTransform.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -70,6 +71,7 @@ void ViewWindow::setUpRendering()
   interactor_->SetRenderWindow(window_);
   scene_.detail().setEnabled(true);
   scene_.placeCamera();
+  applyCamera(options_, scene_.renderer());
 }
 
 void ViewWindow::openSimulated()
@@ -171,6 +173,13 @@ void ViewWindow::connectStyle()
   style_->SetCloudActor(scene_.actor());
   style_->SetProps(scene_.props());
   style_->SetOverlay(overlay_);
+  style_->SetPushPointer(options_.pushPointer);
+  for (const std::string& binding : options_.bindings)
+  {
+    const std::size_t equals = binding.find('=');
+    style_->SetBinding(hapticActionFromName(binding.substr(0, equals)), binding.substr(equals + 1));
+  }
+  this->findIdeal();
   style_->SetDefaultRenderer(scene_.renderer());
   this->showNote();
   this->observe(vtkInteractorStyleHaptic::ModelChangedEvent, &ViewWindow::onModelChanged);
@@ -201,7 +210,10 @@ void ViewWindow::onSamples(void* callData)
   {
     for (const ServoSample& sample : samples)
     {
-      wholeChart_->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius);
+      const double newtons = norm(sample.state.force);
+      wholeChart_->AddSample(sample.timeSeconds, newtons, sample.state.radius,
+        wholeIdeal_ ? idealForce(*wholeIdeal_, scene_, sample.state.hip, parameters_.contact.stiffness)
+                    : NAN);
     }
   }
 }

@@ -8,12 +8,15 @@
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
 #include <vtkMatrix4x4.h>
+#include <vtkRenderer.h>
 #include <vtkStringArray.h>
 #include <vtkTransform.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <memory>
 
 namespace pointhaptics
 {
@@ -87,7 +90,18 @@ bool ViewWindow::show(const std::vector<std::string>& files, bool keepsModel)
   }
   window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
   this->showSliderValues();
+  this->findIdeal();
   return true;
+}
+
+/// The exact force for the chart, where the shown cloud is a shape that has one.
+void ViewWindow::findIdeal()
+{
+  const std::shared_ptr<IdealForce> ideal = idealFor(scene_, options_);
+  wholeIdeal_ = ideal ? std::make_shared<IdealForce>(*ideal) : nullptr;
+  style_->SetIdealForce(ideal ? [this, ideal](const Vec3& hip)
+      { return idealForce(*ideal, scene_, hip, parameters_.contact.stiffness); }
+                              : std::function<double(const Vec3&)>());
 }
 
 void ViewWindow::showFile(std::size_t index)
@@ -132,6 +146,8 @@ nlohmann::ordered_json ViewWindow::settings()
   settings["mu-s"] = parameters_.contact.staticFriction;
   settings["mu-d"] = parameters_.contact.dynamicFriction;
   settings["beta"] = sliders_->GetValue(vtkHapticSliders::RadiusScale);
+  setCamera(settings, scene_.renderer()->GetActiveCamera());
+  settings["push-pointer"] = style_->GetPushPointer();
   const int* size = window_->GetSize();
   settings["size"] = fmt::format("{}x{}", size[0], size[1]);
   return settings;

@@ -68,6 +68,7 @@ private:
   void showSliderValues();
   bool show(const std::vector<std::string>& files, bool keepsModel);
   void showFile(std::size_t index);
+  void findIdeal();
   nlohmann::ordered_json settings();
   void onModelChanged(void*);
   void onSceneChanged(void*);
@@ -93,6 +94,7 @@ private:
   vtkNew<vtkHapticChart> wholeChart_; // for --force-chart
   vtkNew<vtkHapticOverlay> overlay_;
   vtkNew<vtkHapticSliders> sliders_;
+  std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   TraceFile trace_;
   int screenshots_ = 0;
   std::string news_; // last line of the status

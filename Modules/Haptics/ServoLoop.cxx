@@ -108,6 +108,7 @@ struct ServoLoop::Implementation
   std::atomic<int> memoryRefusal{ 0 };
   std::atomic<bool> running{ false };
   std::atomic<bool> stopRequested{ false };
+  std::atomic<bool> clutched{ false };
 
   // The servo thread's from start() to the join in stop().
   std::thread thread;
@@ -117,6 +118,7 @@ struct ServoLoop::Implementation
   ForceGuard guard;
   HandLimits limits;
   ForceGate gate;
+  ForceGate clutch;
   const HapticScene* scene = nullptr;
   std::uint64_t parametersVersion = 0;
   std::uint64_t lastSteppedTick = 0;
@@ -147,6 +149,9 @@ void ServoLoop::Implementation::prepare(
   guard = ForceGuard(settings.limits);
   limits = port->limits();
   gate = ForceGate(limits.rampDownSeconds, limits.rampUpSeconds);
+  clutch = ForceGate(std::max(limits.rampDownSeconds, ServoLoop::kClutchDownSeconds),
+    std::max(limits.rampUpSeconds, ServoLoop::kClutchUpSeconds));
+  clutched.store(false, std::memory_order_relaxed);
   scene = nullptr;
   lastSteppedTick = 0;
   firstFailedTick = 0;
@@ -241,10 +246,13 @@ Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) 
   {
     return reading;
   }
+  // Before the news: whoever let go had published the scene that is to be felt.
+  const bool holdsModel = clutched.load(std::memory_order_acquire);
   takeNews();
   sample.tick = number;
   sample.timeSeconds = time;
-  const double opening = gate.step(gateIsOpen(wake), 1.0 / settings.rateHz);
+  const double opening =
+    gate.step(gateIsOpen(wake), 1.0 / settings.rateHz) * clutch.step(!holdsModel, 1.0 / settings.rateHz);
   const bool healthy = reading == Status::Ok;
   firstFailedTick = healthy || firstFailedTick != 0 ? firstFailedTick : number;
   if (healthy)
@@ -402,6 +410,11 @@ Status ServoLoop::setParameters(const HapticParameters& parameters, std::string*
     self.parameters.write(parameters);
   }
   return explained(status, self.limits, parameters.contact, self.settings.rateHz, message);
+}
+
+void ServoLoop::setClutched(bool clutched) noexcept
+{
+  implementation_->clutched.store(clutched, std::memory_order_release);
 }
 
 void ServoLoop::keepAlive() noexcept

@@ -88,9 +88,9 @@ std::string describeRefusals(const ServoStatistics& statistics);
 /// sign of life, the force goes to zero over the port's rampDownSeconds; when life returns, it comes back
 /// over its rampUpSeconds.
 ///
-/// Thread safety: start, stop, setParameters, takeTrace, keepAlive from one thread (the GUI's); publishScene
-/// from any one thread at a time; latest(), statistics() and running() from any. None of them makes the servo
-/// thread wait.
+/// Thread safety: start, stop, setParameters, setClutched, takeTrace, keepAlive from one thread (the GUI's);
+/// publishScene from any one thread at a time; latest(), statistics() and running() from any. None of them
+/// makes the servo thread wait.
 class ServoLoop
 {
 public:
@@ -117,6 +117,13 @@ public:
   /// Taken at the next tick. InvalidParameter, NotPassive: nothing changes; @p message, where given, names
   /// the limit.
   Status setParameters(const HapticParameters& parameters, std::string* message = nullptr);
+  /// While true the hand holds the model instead of feeling it: the force goes to zero over the port's
+  /// rampDownSeconds, at least kClutchDownSeconds, and stays there. After setClutched(false) it comes back
+  /// over rampUpSeconds, at least kClutchUpSeconds, in the newest scene published before that call. The proxy
+  /// steps on, so that a surface the hand holds stays on its side. start() begins unclutched.
+  void setClutched(bool clutched) noexcept;
+  static constexpr double kClutchDownSeconds = 0.05;
+  static constexpr double kClutchUpSeconds = 0.3;
   /// The program lives: for the watchdog. publishScene(), setParameters() and takeTrace() say so too.
   void keepAlive() noexcept;
 

@@ -13,48 +13,58 @@ namespace
 struct Default
 {
   HapticAction action;
+  const char* name;
   const char* gestures;
 };
 
 constexpr Default kDefaults[] = {
-  { HapticAction::TurnViewDrag, "left" },
-  { HapticAction::PanViewDrag, "middle" },
-  { HapticAction::DollyViewDrag, "right" },
-  { HapticAction::DollyViewWheel, "wheel" },
-  { HapticAction::ResetView, "r" },
-  { HapticAction::TurnModelDrag, "Shift+left" },
-  { HapticAction::TurnX, "x" },
-  { HapticAction::TurnBackX, "X" },
-  { HapticAction::TurnY, "y" },
-  { HapticAction::TurnBackY, "Y" },
-  { HapticAction::TurnZ, "z" },
-  { HapticAction::TurnBackZ, "Z" },
-  { HapticAction::ShiftModelDrag, "Shift+middle Ctrl+Shift+left" },
-  { HapticAction::ShiftLeft, "Left" },
-  { HapticAction::ShiftRight, "Right" },
-  { HapticAction::ShiftUp, "Up" },
-  { HapticAction::ShiftDown, "Down" },
-  { HapticAction::ZoomModelWheel, "Shift+wheel" },
-  { HapticAction::ZoomIn, "plus equal KP_Add" },
-  { HapticAction::ZoomOut, "minus underscore KP_Subtract" },
-  { HapticAction::ResetModel, "0 Home KP_0 KP_Home" },
-  { HapticAction::UndoModel, "u Ctrl+z" },
-  { HapticAction::MoveHandDrag, "Ctrl+left" },
-  { HapticAction::HandDepthWheel, "Ctrl+wheel" },
-  { HapticAction::HandAway, "Prior KP_Prior Page_Up" },
-  { HapticAction::HandBack, "Next KP_Next Page_Down" },
-  { HapticAction::HandMode, "f space" },
-  { HapticAction::Pick, "p" },
-  { HapticAction::Help, "h question" },
-  { HapticAction::Sliders, "v" },
-  { HapticAction::ServoPanel, "i" },
-  { HapticAction::Chart, "c" },
-  { HapticAction::PauseChart, "t" },
-  { HapticAction::NextFile, "n" },
-  { HapticAction::PreviousFile, "b" },
-  { HapticAction::Screenshot, "s" },
-  { HapticAction::WriteSettings, "w" },
-  { HapticAction::Quit, "q Escape" },
+  { HapticAction::TurnViewDrag, "turn-view-drag", "left" },
+  { HapticAction::PanViewDrag, "pan-view-drag", "middle" },
+  { HapticAction::DollyViewDrag, "dolly-view-drag", "right" },
+  { HapticAction::DollyViewWheel, "dolly-view-wheel", "wheel" },
+  { HapticAction::ResetView, "reset-view", "r" },
+  { HapticAction::TurnModelDrag, "turn-model-drag", "Shift+left" },
+  { HapticAction::TurnX, "turn-x", "x" },
+  { HapticAction::TurnBackX, "turn-back-x", "X" },
+  { HapticAction::TurnY, "turn-y", "y" },
+  { HapticAction::TurnBackY, "turn-back-y", "Y" },
+  { HapticAction::TurnZ, "turn-z", "z" },
+  { HapticAction::TurnBackZ, "turn-back-z", "Z" },
+  { HapticAction::ShiftModelDrag, "shift-model-drag", "Shift+middle Ctrl+Shift+left" },
+  { HapticAction::ShiftLeft, "shift-left", "Left" },
+  { HapticAction::ShiftRight, "shift-right", "Right" },
+  { HapticAction::ShiftUp, "shift-up", "Up" },
+  { HapticAction::ShiftDown, "shift-down", "Down" },
+  { HapticAction::ZoomModelWheel, "zoom-model-wheel", "Shift+wheel" },
+  { HapticAction::ZoomIn, "zoom-in", "plus equal KP_Add" },
+  { HapticAction::ZoomOut, "zoom-out", "minus underscore KP_Subtract" },
+  { HapticAction::ResetModel, "reset-model", "0 Home KP_0 KP_Home" },
+  { HapticAction::UndoModel, "undo-model", "u Ctrl+z" },
+  { HapticAction::MoveHandDrag, "move-hand-drag", "Ctrl+left" },
+  { HapticAction::HandDepthWheel, "hand-depth-wheel", "Ctrl+wheel" },
+  { HapticAction::HandAway, "hand-away", "Prior KP_Prior Page_Up" },
+  { HapticAction::HandBack, "hand-back", "Next KP_Next Page_Down" },
+  { HapticAction::HandMode, "hand-mode", "f space" },
+  { HapticAction::PushPointer, "push-pointer", "g" },
+  { HapticAction::ShiftModelByHand, "shift-model-by-hand", "hand1" },
+  { HapticAction::TurnModelByHand, "turn-model-by-hand", "hand2" },
+  { HapticAction::IndexByHand, "index-by-hand", "hand3" },
+  { HapticAction::ZoomModelByHand, "zoom-model-by-hand", "hand4" },
+  { HapticAction::HandButton1, "hand-button-1", "1 KP_1" },
+  { HapticAction::HandButton2, "hand-button-2", "2 KP_2" },
+  { HapticAction::HandButton3, "hand-button-3", "3 KP_3" },
+  { HapticAction::HandButton4, "hand-button-4", "4 KP_4" },
+  { HapticAction::Pick, "pick", "p" },
+  { HapticAction::Help, "help", "h question" },
+  { HapticAction::Sliders, "sliders", "v" },
+  { HapticAction::ServoPanel, "servo-panel", "i" },
+  { HapticAction::Chart, "chart", "c" },
+  { HapticAction::PauseChart, "pause-chart", "t" },
+  { HapticAction::NextFile, "next-file", "n" },
+  { HapticAction::PreviousFile, "previous-file", "b" },
+  { HapticAction::Screenshot, "screenshot", "s" },
+  { HapticAction::WriteSettings, "write-settings", "w" },
+  { HapticAction::Quit, "quit", "q Escape" },
 };
 
 /// A line of the help: what the actions have in common, and their gestures one after the other.
@@ -82,6 +92,13 @@ const std::vector<Line>& lines()
     { "Hand", "move in the view plane", { A::MoveHandDrag } },
     { "", "depth", { A::HandDepthWheel, A::HandAway, A::HandBack } },
     { "", "hand follows the mouse", { A::HandMode } },
+    { "", "touch pushes the mouse pointer", { A::PushPointer } },
+    { "", "held: hand shifts the model", { A::ShiftModelByHand } },
+    { "", "held: hand turns the model", { A::TurnModelByHand } },
+    { "", "held: workspace moves over the model", { A::IndexByHand } },
+    { "", "held: hand zooms the model", { A::ZoomModelByHand } },
+    { "", "buttons of the simulated hand",
+      { A::HandButton1, A::HandButton2, A::HandButton3, A::HandButton4 } },
     { "Show", "this help", { A::Help } },
     { "", "the point under the mouse", { A::Pick } },
     { "", "sliders of the touch", { A::Sliders } },
@@ -107,6 +124,11 @@ bool isButton(const std::string& name)
   return name == "left" || name == "middle" || name == "right";
 }
 
+bool isHandButton(const std::string& name)
+{
+  return name.size() == 5 && name.compare(0, 4, "hand") == 0 && name[4] >= '1' && name[4] <= '4';
+}
+
 bool isDrag(HapticAction action)
 {
   return action == HapticAction::TurnViewDrag || action == HapticAction::PanViewDrag ||
@@ -124,7 +146,8 @@ std::string spoken(std::string gesture)
   const std::size_t begin = plus == std::string::npos ? 0 : plus + 1;
   const std::string name = gesture.substr(begin);
   const auto known = names.find(name);
-  return gesture.substr(0, begin) + (known == names.end() ? name : known->second);
+  const std::string word = isHandButton(name) ? "device's button " + name.substr(4) : name;
+  return gesture.substr(0, begin) + (known == names.end() ? word : known->second);
 }
 
 /// Letters in capitals, as on the keys, where both cases do the same.
@@ -163,6 +186,40 @@ std::string row(const std::string& group, const std::string& gestures, const cha
 }
 
 } // namespace
+
+const char* hapticActionName(HapticAction action) noexcept
+{
+  for (const Default& entry : kDefaults)
+  {
+    if (entry.action == action)
+    {
+      return entry.name;
+    }
+  }
+  return "none";
+}
+
+HapticAction hapticActionFromName(const std::string& name) noexcept
+{
+  for (const Default& entry : kDefaults)
+  {
+    if (name == entry.name)
+    {
+      return entry.action;
+    }
+  }
+  return HapticAction::None;
+}
+
+std::vector<HapticAction> hapticActions()
+{
+  std::vector<HapticAction> actions;
+  for (const Default& entry : kDefaults)
+  {
+    actions.push_back(entry.action);
+  }
+  return actions;
+}
 
 HapticBindings::HapticBindings()
 {
@@ -230,6 +287,18 @@ HapticAction HapticBindings::find(const std::string& gesture) const
   }
   name[0] = name.size() == 1 ? static_cast<char>(std::tolower(static_cast<unsigned char>(name[0]))) : name[0];
   return exact(name);
+}
+
+bool HapticBindings::isGesture(const std::string& gesture)
+{
+  std::string rest = gesture;
+  for (const char* modifier : { "Ctrl+", "Shift+" })
+  {
+    const std::size_t length = std::string(modifier).size();
+    rest = rest.compare(0, length, modifier) == 0 ? rest.substr(length) : rest;
+  }
+  const auto partOfWord = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  return !rest.empty() && std::all_of(rest.begin(), rest.end(), partOfWord);
 }
 
 std::string HapticBindings::gestureOf(const std::string& name, bool control, bool shift)

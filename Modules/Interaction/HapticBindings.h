@@ -11,8 +11,9 @@
 namespace pointhaptics
 {
 
-/// Drags last from a button's press to its release; *Wheel actions take both directions of the wheel; the
-/// others happen once per key or click.
+/// Drags last from a button's press to its release, and so do the *ByHand actions, for the buttons of the
+/// haptic device; HandButtons press those of the simulated one as long as their keys are held; *Wheel actions
+/// take both directions of the wheel; the others happen once per key or click.
 enum class HapticAction
 {
   TurnViewDrag,
@@ -42,6 +43,15 @@ enum class HapticAction
   HandAway,
   HandBack,
   HandMode,
+  PushPointer,
+  ShiftModelByHand,
+  TurnModelByHand,
+  IndexByHand,
+  ZoomModelByHand,
+  HandButton1,
+  HandButton2,
+  HandButton3,
+  HandButton4,
   Pick,
   Help,
   Sliders,
@@ -56,9 +66,18 @@ enum class HapticAction
   None
 };
 
-/// A table from gestures to actions. A gesture is a button (left, middle, right), wheel, or a key by its X11
-/// name (h, H, Prior, Left, plus), after the modifiers it takes in this order: Ctrl+, Shift+. Letters carry
-/// Shift themselves: X, not Shift+x. A gesture has one action at most. Not thread safe.
+/// The name of an action on the command line: "turn-x", "shift-model-by-hand"; "none" for None. Static
+/// storage.
+POINTHAPTICSINTERACTION_EXPORT const char* hapticActionName(HapticAction action) noexcept;
+/// None for a name that is none of them.
+POINTHAPTICSINTERACTION_EXPORT HapticAction hapticActionFromName(const std::string& name) noexcept;
+/// All but None, in the order of the enumeration.
+POINTHAPTICSINTERACTION_EXPORT std::vector<HapticAction> hapticActions();
+
+/// A table from gestures to actions. A gesture is a button of the mouse (left, middle, right), wheel, a
+/// button of the haptic device (hand1 to hand4), or a key by its X11 name (h, H, Prior, Left, plus), after
+/// the modifiers it takes in this order: Ctrl+, Shift+. Letters carry Shift themselves: X, not Shift+x. A
+/// gesture has one action at most. Not thread safe.
 class POINTHAPTICSINTERACTION_EXPORT HapticBindings
 {
 public:
@@ -75,6 +94,9 @@ public:
   /// What @p gesture does, or None. Keys that have no action of their own do what they do without modifiers
   /// and in lower case.
   HapticAction find(const std::string& gesture) const;
+  /// Whether @p gesture can be made at all: modifiers in their order, then a button, the wheel or one word. A
+  /// key is known by its keyboard only, so that every other word counts as one.
+  static bool isGesture(const std::string& gesture);
   /// "Ctrl+Shift+left" and the like of an event; @p name is a button, wheel or a key.
   static std::string gestureOf(const std::string& name, bool control, bool shift);
 

@@ -60,21 +60,25 @@ std::optional<Vec3> placeInCloud(vtkPolyData* cloud, const Vec3& inWorkspace)
   return Vec3{ q[0], q[1], q[2] };
 }
 
-std::optional<Vec3> voxelOf(vtkPolyData* cloud, const Vec3& inWorkspace)
+void findVoxel(vtkPolyData* cloud, PickedPoint& picked)
 {
   Vec3 origin;
   Vec3 spacing;
   if (!fieldValues(cloud, "LatticeOrigin", 3, &origin.x) ||
     !fieldValues(cloud, "LatticeSpacing", 3, &spacing.x))
   {
-    return {};
+    return;
   }
   Vec3 voxel;
+  Bounds bounds;
   for (int axis = 0; axis < 3; ++axis)
   {
-    voxel[axis] = std::floor((inWorkspace[axis] - origin[axis]) / spacing[axis]);
+    voxel[axis] = std::floor((picked.inWorkspace[axis] - origin[axis]) / spacing[axis]);
+    bounds.minimum[axis] = origin[axis] + voxel[axis] * spacing[axis];
+    bounds.maximum[axis] = bounds.minimum[axis] + spacing[axis];
   }
-  return voxel;
+  picked.voxel = voxel;
+  picked.voxelBounds = bounds;
 }
 
 } // namespace
@@ -119,7 +123,7 @@ bool pickPoint(
   picked.index = found;
   cloud->GetPoint(found, &picked.inWorkspace.x);
   picked.inCloud = placeInCloud(cloud, picked.inWorkspace);
-  picked.voxel = voxelOf(cloud, picked.inWorkspace);
+  findVoxel(cloud, picked);
   return true;
 }
 

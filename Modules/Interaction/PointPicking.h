@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/LocalBandwidth.h"
+#include "Core/PointView.h"
 #include "Core/Vector3.h"
 
 #include "PointHapticsInteractionModule.h" // For export macro
@@ -20,12 +21,13 @@ namespace pointhaptics
 
 struct PickedPoint
 {
-  vtkIdType index = -1;        ///< In the picked cloud.
-  Vec3 inWorkspace;            ///< Metres.
-  std::optional<Vec3> inCloud; ///< In the frame of the file, where the cloud says how it was mapped.
-  std::optional<Vec3> voxel;   ///< Whole numbers from 0, where the cloud has a lattice.
-  double bandwidth = 0.0;      ///< b, metres; 0: none asked for.
-  double radius = 0.0;         ///< Of the proxy, metres; not smoothed (see LocalBandwidthSettings).
+  vtkIdType index = -1;              ///< In the picked cloud.
+  Vec3 inWorkspace;                  ///< Metres.
+  std::optional<Vec3> inCloud;       ///< In the frame of the file, where the cloud says how it was mapped.
+  std::optional<Vec3> voxel;         ///< Whole numbers from 0, where the cloud has a lattice.
+  std::optional<Bounds> voxelBounds; ///< Of the same, in the workspace.
+  double bandwidth = 0.0;            ///< b, metres; 0: none asked for.
+  double radius = 0.0;               ///< Of the proxy, metres; not smoothed (see LocalBandwidthSettings).
 };
 
 /// Of the points of @p cloud (in the workspace's frame: the output of vtkVoxelMeanResampler) that are drawn

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 
 namespace
 {
@@ -28,12 +29,15 @@ namespace
 constexpr int kSlices = 600;
 constexpr unsigned char kForceColor[3] = { 205, 85, 0 };
 constexpr unsigned char kRadiusColor[3] = { 190, 30, 110 };
+constexpr unsigned char kIdealColor[3] = { 20, 90, 200 };
+constexpr int kIdealPlot = 2; // of the chart; 0 and 1 are radius and force
 
 struct Sample
 {
   double seconds;
   double newtons;
   double metres;
+  double idealNewtons; // NaN: not known
 };
 
 void styleAxis(vtkAxis* axis, const char* title, const unsigned char color[3])
@@ -81,6 +85,7 @@ struct vtkHapticChart::Internals
   vtkNew<vtkFloatArray> time;
   vtkNew<vtkFloatArray> force;
   vtkNew<vtkFloatArray> radius;
+  vtkNew<vtkFloatArray> ideal;
   std::deque<Sample> samples;
   bool paused = false;
   bool wasFlat = false;
@@ -95,18 +100,23 @@ void vtkHapticChart::Internals::fill(double begin, double end)
   this->time->Reset();
   this->force->Reset();
   this->radius->Reset();
+  this->ideal->Reset();
+  bool knowsIdeal = false;
   const double width = std::max(1e-9, end - begin) / kSlices;
   std::size_t i = 0;
   while (i < this->samples.size())
   {
     const double slice = std::floor((this->samples[i].seconds - begin) / width);
     double peak = 0.0;
+    double idealPeak = 0.0;
     double sum = 0.0;
     double moment = 0.0;
     std::size_t count = 0;
     for (; i < this->samples.size() && std::floor((this->samples[i].seconds - begin) / width) == slice; ++i)
     {
       peak = std::max(peak, this->samples[i].newtons);
+      knowsIdeal = knowsIdeal || std::isfinite(this->samples[i].idealNewtons);
+      idealPeak = std::fmax(idealPeak, this->samples[i].idealNewtons); // NaN counts as none
       sum += this->samples[i].metres;
       moment += this->samples[i].seconds;
       ++count;
@@ -114,12 +124,16 @@ void vtkHapticChart::Internals::fill(double begin, double end)
     this->time->InsertNextValue(static_cast<float>(moment / count));
     this->force->InsertNextValue(static_cast<float>(peak));
     this->radius->InsertNextValue(static_cast<float>(1e3 * sum / count));
+    this->ideal->InsertNextValue(static_cast<float>(idealPeak));
   }
   for (int plot = 0; plot < 2; ++plot)
   {
     // vtkContext2D takes a line of fewer than two points for an error.
     this->chart->GetPlot(plot)->SetVisible(this->time->GetNumberOfTuples() > 1);
   }
+  knowsIdeal = knowsIdeal && this->time->GetNumberOfTuples() > 1;
+  this->chart->GetPlot(kIdealPlot)->SetVisible(knowsIdeal);
+  this->chart->SetShowLegend(knowsIdeal);
   this->table->Modified();
 }
 
@@ -146,7 +160,9 @@ vtkHapticChart::vtkHapticChart()
   parts.radius->SetName("proxy radius (mm)");
   parts.table->AddColumn(parts.time);
   parts.table->AddColumn(parts.force);
+  parts.ideal->SetName("ideal force (N)");
   parts.table->AddColumn(parts.radius);
+  parts.table->AddColumn(parts.ideal);
   vtkPlot* radius = parts.chart->AddPlot(vtkChart::LINE);
   radius->SetInputData(parts.table, 0, 2);
   radius->SetColor(kRadiusColor[0], kRadiusColor[1], kRadiusColor[2], 255);
@@ -156,10 +172,22 @@ vtkHapticChart::vtkHapticChart()
   force->SetInputData(parts.table, 0, 1);
   force->SetColor(kForceColor[0], kForceColor[1], kForceColor[2], 255);
   force->SetWidth(2.0f);
+  vtkPlot* ideal = parts.chart->AddPlot(vtkChart::LINE);
+  ideal->SetInputData(parts.table, 0, 3);
+  ideal->SetColor(kIdealColor[0], kIdealColor[1], kIdealColor[2], 255);
+  ideal->SetWidth(1.5f);
+  ideal->GetPen()->SetLineType(vtkPen::DASH_LINE);
+  ideal->SetVisible(false);
+  vtkChartLegend* legend = parts.chart->GetLegend();
+  legend->SetHorizontalAlignment(vtkChartLegend::LEFT);
+  legend->SetVerticalAlignment(vtkChartLegend::TOP);
+  legend->GetLabelProperties()->SetFontSize(12);
+  legend->GetBrush()->SetOpacityF(0.6);
+  legend->GetPen()->SetLineType(vtkPen::NO_PEN);
   const unsigned char dark[3] = { 60, 60, 60 };
   styleAxis(parts.chart->GetAxis(vtkAxis::LEFT), "force (N)", kForceColor);
   styleAxis(parts.chart->GetAxis(vtkAxis::BOTTOM), "time (s)", dark);
-  styleAxis(parts.chart->GetAxis(vtkAxis::RIGHT), "proxy radius (mm)", kRadiusColor);
+  styleAxis(parts.chart->GetAxis(vtkAxis::RIGHT), "radius (mm)", kRadiusColor);
   parts.chart->GetAxis(vtkAxis::RIGHT)->SetGridVisible(false);
   parts.chart->GetBackgroundBrush()->SetColor(255, 255, 255, 255);
   parts.chart->SetInteractive(false);
@@ -200,10 +228,15 @@ vtkRenderer* vtkHapticChart::GetRenderer()
 
 void vtkHapticChart::AddSample(double seconds, double newtons, double metres)
 {
+  this->AddSample(seconds, newtons, metres, std::numeric_limits<double>::quiet_NaN());
+}
+
+void vtkHapticChart::AddSample(double seconds, double newtons, double metres, double idealNewtons)
+{
   if (std::isfinite(seconds) && std::isfinite(newtons) && std::isfinite(metres))
   {
     std::deque<Sample>& samples = this->Parts->samples;
-    samples.push_back({ seconds, newtons, metres });
+    samples.push_back({ seconds, newtons, metres, idealNewtons });
     while (
       this->Parts->paused && this->TimeWindow > 0.0 && samples.front().seconds < seconds - this->TimeWindow)
     {
@@ -256,6 +289,7 @@ bool vtkHapticChart::Update()
   for (vtkIdType i = 0; i < parts.time->GetNumberOfTuples(); ++i)
   {
     largestForce = std::max<double>(largestForce, parts.force->GetValue(i));
+    largestForce = std::max<double>(largestForce, parts.ideal->GetValue(i));
     largestRadius = std::max<double>(largestRadius, parts.radius->GetValue(i));
   }
   setRange(parts.chart->GetAxis(vtkAxis::LEFT), largestForce, 0.1);

@@ -2,10 +2,11 @@
  * @class   vtkHapticChart
  * @brief   force and proxy radius over time, live beside the cloud or as a picture of a recorded trace
  *
- * Force magnitude in newtons on the left axis, proxy radius in millimetres on the right one, time in seconds
- * below. The chart lives in a renderer of its own: give it a viewport and add it to the window. Samples may
- * come at any rate; what is drawn is the largest force and the mean radius of each of at most 600 slices of
- * the time window, so a short peak is never lost.
+ * Force magnitude in newtons on the left axis, beside it the ideal one where the surface is known exactly,
+ * proxy radius in millimetres on the right one, time in seconds below. The chart lives in a renderer of its
+ * own: give it a viewport and add it to the window. Samples may come at any rate; what is drawn is the
+ * largest force and the mean radius of each of at most 600 slices of the time window, so a short peak is
+ * never lost.
  *
  * Not thread safe: GUI thread only.
  * @sa vtkInteractorStyleHaptic
@@ -54,8 +55,10 @@ public:
 
   /**
    * @param seconds time, not before the last one's; @param newtons force magnitude; @param metres proxy
-   * radius. Values that are not finite are left out.
+   * radius; @param idealNewtons what an exact surface would answer, NaN: not known. Where another value is
+   * not finite the sample is left out.
    */
+  void AddSample(double seconds, double newtons, double metres, double idealNewtons);
   void AddSample(double seconds, double newtons, double metres);
   void Clear();
 

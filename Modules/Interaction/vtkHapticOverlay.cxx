@@ -1,5 +1,7 @@
 #include "vtkHapticOverlay.h"
 
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
 #include "vtkCoordinate.h"
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkObjectFactory.h"
@@ -15,6 +17,11 @@ vtkStandardNewMacro(vtkHapticOverlay);
 
 namespace
 {
+
+constexpr int kLargestHelp = 16;
+constexpr int kSmallestHelp = 7;
+/// Part of the renderer that the list of keys may take.
+constexpr double kHelpPart = 0.98;
 
 void styleText(vtkTextProperty* text, int size, double plateOpacity)
 {
@@ -76,7 +83,7 @@ vtkHapticOverlay::vtkHapticOverlay()
   placeCorner(this->Status, false, true);
   placeCorner(this->Panel, true, true);
   placeCorner(this->Detail, false, false);
-  styleText(this->Help->GetTextProperty(), 16, 0.92);
+  styleText(this->Help->GetTextProperty(), kLargestHelp, 0.92);
   this->Help->GetTextProperty()->SetFontFamilyToCourier();
   this->Help->GetTextProperty()->SetJustificationToCentered();
   this->Help->GetTextProperty()->SetVerticalJustificationToCentered();
@@ -84,9 +91,40 @@ vtkHapticOverlay::vtkHapticOverlay()
   this->Help->SetPosition(0.5, 0.5);
   this->Help->VisibilityOff();
   this->SetHelp(vtkInteractorStyleHaptic::GetHelpText());
+  this->Fitting->SetClientData(this);
+  this->Fitting->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void*) { static_cast<vtkHapticOverlay*>(self)->FitHelp(); });
 }
 
-vtkHapticOverlay::~vtkHapticOverlay() = default;
+vtkHapticOverlay::~vtkHapticOverlay()
+{
+  if (this->Renderer)
+  {
+    this->Renderer->RemoveObserver(this->Fitting);
+  }
+}
+
+/// Before every render: the largest font with which all lines are seen.
+void vtkHapticOverlay::FitHelp()
+{
+  const int* size = this->Renderer->GetSize();
+  const bool fits = size[0] == this->FittedTo[0] && size[1] == this->FittedTo[1];
+  if (fits || !this->GetHelpVisibility() || size[0] < 1 || size[1] < 1)
+  {
+    return;
+  }
+  std::copy(size, size + 2, this->FittedTo);
+  double needed[2] = { 0.0, 0.0 };
+  for (int font = kLargestHelp; font >= kSmallestHelp; --font)
+  {
+    this->Help->GetTextProperty()->SetFontSize(font);
+    this->Help->GetSize(this->Renderer, needed);
+    if (needed[0] <= kHelpPart * size[0] && needed[1] <= kHelpPart * size[1])
+    {
+      return;
+    }
+  }
+}
 
 bool vtkHapticOverlay::SetStatus(const std::string& text)
 {
@@ -107,6 +145,7 @@ void vtkHapticOverlay::SetHelp(const std::string& text)
 {
   this->HelpText = text;
   this->Help->SetInput(padded(text).c_str());
+  this->FittedTo[0] = 0;
 }
 
 std::string vtkHapticOverlay::GetHelp() const
@@ -126,6 +165,9 @@ bool vtkHapticOverlay::GetHelpVisibility() const
 
 void vtkHapticOverlay::AddTo(vtkRenderer* renderer)
 {
+  this->Renderer = renderer;
+  this->FittedTo[0] = 0;
+  renderer->AddObserver(vtkCommand::StartEvent, this->Fitting);
   renderer->AddActor2D(this->Status);
   renderer->AddActor2D(this->Panel);
   renderer->AddActor2D(this->Detail);
@@ -134,6 +176,7 @@ void vtkHapticOverlay::AddTo(vtkRenderer* renderer)
 
 void vtkHapticOverlay::RemoveFrom(vtkRenderer* renderer)
 {
+  renderer->RemoveObserver(this->Fitting);
   renderer->RemoveActor2D(this->Status);
   renderer->RemoveActor2D(this->Panel);
   renderer->RemoveActor2D(this->Detail);

@@ -2,7 +2,8 @@
  * @class   vtkHapticOverlay
  * @brief   words over the picture: status, panel and detail in three corners, the list of keys on request
  *
- * Text on a translucent plate, so that it reads on every cloud. GUI thread only.
+ * Text on a translucent plate, so that it reads on every cloud. The list of keys takes a smaller font where
+ * the renderer is too small for it, down to 7 pixels. GUI thread only.
  * @sa vtkInteractorStyleHaptic
  */
 #ifndef vtkHapticOverlay_h
@@ -11,9 +12,11 @@
 #include "PointHapticsInteractionModule.h" // For export macro
 #include "vtkNew.h"                        // For the actors
 #include "vtkObject.h"
+#include "vtkWeakPointer.h" // For the renderer
 
 #include <string> // For the texts
 
+class vtkCallbackCommand;
 class vtkRenderer;
 class vtkTextActor;
 
@@ -60,7 +63,7 @@ public:
 
   ///@{
   /**
-   * Add all to @p renderer, or take them out.
+   * Add all to @p renderer, one at a time, or take them out.
    */
   void AddTo(vtkRenderer* renderer);
   void RemoveFrom(vtkRenderer* renderer);
@@ -78,6 +81,12 @@ protected:
   std::string PanelText;
   std::string DetailText;
   std::string HelpText;
+
+  void FitHelp();
+
+  vtkNew<vtkCallbackCommand> Fitting;
+  vtkWeakPointer<vtkRenderer> Renderer;
+  int FittedTo[2] = { 0, 0 };
 
 private:
   vtkHapticOverlay(const vtkHapticOverlay&) = delete;

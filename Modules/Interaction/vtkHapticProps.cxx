@@ -1,8 +1,11 @@
 #include "vtkHapticProps.h"
 
+#include "vtkHapticGauge.h"
+
 #include "vtkActor.h"
 #include "vtkArrowSource.h"
 #include "vtkAutoInit.h"
+#include "vtkCamera.h"
 #include "vtkLineSource.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -12,6 +15,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkSphereSource.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,9 +126,26 @@ struct vtkHapticProps::Internals
   vtkNew<vtkMatrix4x4> normalMatrix;
   vtkNew<vtkMatrix4x4> hipMatrix;
   vtkNew<vtkMatrix4x4> forceMatrix;
+  vtkNew<vtkHapticGauge> gauge;
+  vtkWeakPointer<vtkRenderer> renderer;
   double edge = 0.1;
   bool shown = false;
   ProxyState state;
+
+  /// On the screen: the gauge stands where the arrow goes, not over what it comes from.
+  bool pointsLeft(const Vec3& begin, const Vec3& tip) const
+  {
+    if (!this->renderer)
+    {
+      return false;
+    }
+    vtkCamera* camera = this->renderer->GetActiveCamera();
+    Vec3 forward;
+    Vec3 up;
+    camera->GetDirectionOfProjection(&forward.x);
+    camera->GetViewUp(&up.x);
+    return dot(tip - begin, cross(forward, up)) < 0.0;
+  }
 };
 
 vtkStandardNewMacro(vtkHapticProps);
@@ -185,11 +206,25 @@ void vtkHapticProps::SetTouchVisibility(bool visible)
   {
     prop->setVisible(false);
   }
+  this->Parts->gauge->SetVisibility(false);
   this->Modified();
+}
+
+void vtkHapticProps::SetGaugeVisibility(bool visible)
+{
+  this->GaugeVisibility = visible;
+  this->Parts->gauge->SetVisibility(visible && this->Parts->force.actor->GetVisibility());
+  this->Modified();
+}
+
+vtkHapticGauge* vtkHapticProps::GetGauge()
+{
+  return this->Parts->gauge;
 }
 
 void vtkHapticProps::AddTo(vtkRenderer* renderer)
 {
+  this->Parts->renderer = renderer;
   renderer->AddActor(this->Parts->outlineActor);
   // The normal last: without friction the force lies along it, and the arrow would hide it.
   for (Prop* prop : { &this->Parts->force, &this->Parts->hip, &this->Parts->proxy, &this->Parts->normal })
@@ -197,6 +232,7 @@ void vtkHapticProps::AddTo(vtkRenderer* renderer)
     renderer->AddActor(prop->actor);
     renderer->AddActor(prop->ghost);
   }
+  this->Parts->gauge->AddTo(renderer);
 }
 
 void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
@@ -207,6 +243,7 @@ void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
     renderer->RemoveActor(prop->actor);
     renderer->RemoveActor(prop->ghost);
   }
+  this->Parts->gauge->RemoveFrom(renderer);
 }
 
 bool vtkHapticProps::Update(const ProxyState& state)
@@ -237,7 +274,18 @@ bool vtkHapticProps::Update(const ProxyState& state)
   parts.proxy.setVisible(state.radius > 0.0);
   parts.hip.setVisible(true);
   parts.normal.setVisible(state.contact);
-  parts.force.setVisible(state.contact && force > kSmallestForce);
+  const bool pushes = state.contact && force > kSmallestForce;
+  parts.force.setVisible(pushes);
+  const Vec3 tip = center + length * normalized(state.force);
+  if (pushes && this->GaugeVisibility)
+  {
+    parts.gauge->SetLeft(parts.pointsLeft(center, tip));
+    parts.gauge->Show(&tip.x, force);
+  }
+  else
+  {
+    parts.gauge->SetVisibility(false);
+  }
   vtkProperty* sphere = parts.proxy.actor->GetProperty();
   sphere->SetColor(const_cast<double*>(state.contact ? kPink : kPalePink));
   sphere->SetOpacity(state.contact ? 1.0 : 0.45);
@@ -281,5 +329,6 @@ void vtkHapticProps::PrintSelf(ostream& os, vtkIndent indent)
      << ", " << this->WorkspaceBounds[5] << "\n";
   os << indent << "ForceScale: " << this->ForceScale << "\n";
   os << indent << "SmallestSphereRadius: " << this->SmallestSphereRadius << "\n";
+  os << indent << "GaugeVisibility: " << this->GaugeVisibility << "\n";
   os << indent << "TouchVisibility: " << this->TouchVisibility << "\n";
 }

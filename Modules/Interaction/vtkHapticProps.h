@@ -6,8 +6,8 @@
  * SmallestSphereRadius), translucent and pale in free space, where it sits at the hand; solid in contact,
  * where it rests on the surface. A green line stands on the contact point along the surface normal. The HIP
  * (the point the hand holds) is a small blue ball, and an orange arrow from the sphere shows the force on the
- * hand. What the cloud hides of the last three is drawn faintly over it, so that the hand is never lost
- * inside an object.
+ * hand, with a gauge in newtons beside its tip (vtkHapticGauge). What the cloud hides of the last three is
+ * drawn faintly over it, so that the hand is never lost inside an object.
  *
  * Use:
  * @code
@@ -31,6 +31,7 @@
 #include <memory> // For Internals
 
 class vtkActor;
+class vtkHapticGauge;
 class vtkRenderer;
 
 class POINTHAPTICSINTERACTION_EXPORT vtkHapticProps : public vtkObject
@@ -76,6 +77,19 @@ public:
 
   ///@{
   /**
+   * Show the gauge beside the force arrow. Default: on.
+   */
+  void SetGaugeVisibility(bool visible);
+  bool GetGaugeVisibility() const { return this->GaugeVisibility; }
+  ///@}
+
+  /**
+   * The gauge, to set its range.
+   */
+  vtkHapticGauge* GetGauge();
+
+  ///@{
+  /**
    * Add all props to @p renderer, or take them out. The renderer is not kept alive.
    */
   void AddTo(vtkRenderer* renderer);
@@ -107,6 +121,7 @@ protected:
   double SmallestSphereRadius = 0.0;
   double ForceScale = 0.006;
   bool TouchVisibility = false;
+  bool GaugeVisibility = true;
 
 private:
   vtkHapticProps(const vtkHapticProps&) = delete;

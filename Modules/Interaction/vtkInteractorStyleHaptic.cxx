@@ -12,8 +12,10 @@
 #include "vtkStringArray.h"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using pointhaptics::ServoSample;
@@ -70,6 +72,12 @@ vtkInteractorStyleHaptic::~vtkInteractorStyleHaptic() = default;
 
 void vtkInteractorStyleHaptic::SetServoLoop(pointhaptics::ServoLoop* servo)
 {
+  if (this->Parts->clutched)
+  {
+    this->Parts->servo->setClutched(false);
+  }
+  this->Parts->clutched = false;
+  this->Parts->hold = pointhaptics::HapticAction::None;
   this->StopBuilding();
   this->Parts->servo = servo;
   this->Parts->publisher.setSink(
@@ -136,6 +144,11 @@ void vtkInteractorStyleHaptic::SetOverlay(vtkHapticOverlay* overlay)
 void vtkInteractorStyleHaptic::SetSliders(vtkHapticSliders* sliders)
 {
   this->Parts->sliders = sliders;
+}
+
+void vtkInteractorStyleHaptic::SetIdealForce(std::function<double(const Vec3&)> ideal)
+{
+  this->Parts->idealForce = std::move(ideal);
 }
 
 void vtkInteractorStyleHaptic::SetBinding(pointhaptics::HapticAction action, const std::string& gestures)
@@ -217,7 +230,7 @@ void vtkInteractorStyleHaptic::ResetModel()
 void vtkInteractorStyleHaptic::RememberModel()
 {
   Internals& parts = *this->Parts;
-  if (parts.inGesture && parts.gestureRemembered)
+  if (parts.inGesture() && parts.gestureRemembered)
   {
     return;
   }
@@ -252,6 +265,7 @@ bool vtkInteractorStyleHaptic::UndoModel()
 void vtkInteractorStyleHaptic::InvalidateModel()
 {
   this->Parts->modelChanged = true;
+  this->ForgetPicked();
 }
 
 void vtkInteractorStyleHaptic::StartUpdates(unsigned long milliseconds)
@@ -287,6 +301,8 @@ void vtkInteractorStyleHaptic::Refresh()
   }
   this->ShowScene();
   const bool touchMoved = this->ReadServo();
+  this->MoveByHand();
+  this->PushPointer();
   const bool statusChanged = this->UpdateStatus();
   parts.rendersWanted = parts.rendersWanted || touchMoved || statusChanged;
   parts.touchMoved = touchMoved ? pointhaptics::style::now() : parts.touchMoved;
@@ -299,18 +315,20 @@ void vtkInteractorStyleHaptic::Refresh()
 bool vtkInteractorStyleHaptic::ReadServo()
 {
   Internals& parts = *this->Parts;
+  parts.samples.clear();
   if (!parts.servo)
   {
     return false;
   }
-  parts.samples.clear();
   parts.servo->takeTrace(parts.samples);
   bool changed = false;
   if (parts.chart)
   {
     for (const ServoSample& sample : parts.samples)
     {
-      parts.chart->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius);
+      const double ideal =
+        parts.idealForce ? parts.idealForce(sample.state.hip) : std::numeric_limits<double>::quiet_NaN();
+      parts.chart->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius, ideal);
     }
     // A chart that is drawn seldom costs little; it is brought up to date only where a render would show it.
     changed = parts.renderShare.due() && parts.chart->GetVisibility() && parts.chart->Update();
@@ -364,43 +382,6 @@ vtkRenderer* vtkInteractorStyleHaptic::MainRenderer()
   }
   vtkRenderWindow* window = this->Interactor ? this->Interactor->GetRenderWindow() : nullptr;
   return window ? window->GetRenderers()->GetFirstRenderer() : nullptr;
-}
-
-void vtkInteractorStyleHaptic::SetHandMode(bool on)
-{
-  this->Parts->handMode = on;
-  this->Parts->lastStatus = -1e9;
-}
-
-bool vtkInteractorStyleHaptic::GetHandMode() const
-{
-  return this->Parts->handMode;
-}
-
-void vtkInteractorStyleHaptic::MoveHand(const Vec3& offset)
-{
-  Internals& parts = *this->Parts;
-  if (!parts.device || !isFinite(offset))
-  {
-    return;
-  }
-  Vec3 target = parts.device->target() + offset;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    target[axis] = std::min(std::max(target[axis], parts.workspace[2 * axis]), parts.workspace[2 * axis + 1]);
-  }
-  parts.device->setTarget(target);
-}
-
-void vtkInteractorStyleHaptic::MoveHandInDepth(double metres)
-{
-  vtkRenderer* renderer = this->MainRenderer();
-  if (renderer)
-  {
-    Vec3 direction;
-    renderer->GetActiveCamera()->GetDirectionOfProjection(&direction.x);
-    this->MoveHand(metres * direction);
-  }
 }
 
 void vtkInteractorStyleHaptic::OnDropFiles(vtkStringArray* filePaths)

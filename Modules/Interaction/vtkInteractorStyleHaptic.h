@@ -29,6 +29,16 @@
  * shifted on the screen; with its first button held, pushing and pulling zooms; its second one resets the
  * model.
  *
+ * The haptic device has a clutch: while one of its buttons is held the hand holds the model instead of
+ * feeling it. The first button shifts the model with the hand; the second turns it about the workspace's
+ * centre, as if a ball of a quarter of the workspace were rolled under the hand; the third moves the
+ * workspace over the model, which stays where it is on the screen, and so reaches every part of a model
+ * larger than the workspace; the fourth zooms by pulling and pushing. The model follows each tick in which
+ * the button was down, and no other. From the moment the style sees the button the force goes to zero
+ * (ServoLoop::setClutched()); once the scene of the new place is felt, it comes back slowly. Other actions
+ * that are bound to a button of the device happen when it is pressed. Keys press the buttons of the simulated
+ * hand.
+ *
  * A change of the model makes a NEW HapticScene, in a thread of its own (pointhaptics::SceneWorker) with
  * filters of its own, which have the settings of those given here; it goes to the servo loop as soon as it is
  * finished: the servo thread never waits and never sees a half-made scene. Changes that come while one is
@@ -58,8 +68,9 @@
 #include "vtkCommand.h"                    // For UserEvent
 #include "vtkInteractorStyleTrackballCamera.h"
 
-#include <memory> // For Internals
-#include <string> // For the status note
+#include <functional> // For the ideal force
+#include <memory>     // For Internals
+#include <string>     // For the status note
 
 class vtkActor;
 class vtkHapticChart;
@@ -75,6 +86,7 @@ class vtkVoxelMeanResampler;
 namespace pointhaptics
 {
 class ServoLoop;
+struct ServoSample;
 class SimulatedDevice;
 class SpaceMouse;
 }
@@ -113,6 +125,12 @@ public:
   void SetOverlay(vtkHapticOverlay* overlay);
   void SetSliders(vtkHapticSliders* sliders);
   ///@}
+
+  /**
+   * What an exact surface would answer the hand of a tick, in newtons, for the chart; NaN: not known. Called
+   * for every tick in the order of time (pointhaptics::IdealForce is made for it). Empty (default): none.
+   */
+  void SetIdealForce(std::function<double(const pointhaptics::Vec3& hip)> ideal);
 
   ///@{
   /**
@@ -202,6 +220,21 @@ public:
 
   ///@{
   /**
+   * In hand mode, push the mouse pointer out of what the hand touches: the pointer goes to where the surface
+   * has pushed the simulated hand, and the person has to push against it. Default: off.
+   */
+  void SetPushPointer(bool on);
+  bool GetPushPointer() const;
+  ///@}
+
+  /**
+   * What the hand does to the model at this moment: ShiftModelByHand, TurnModelByHand, IndexByHand,
+   * ZoomModelByHand, or None.
+   */
+  pointhaptics::HapticAction GetHold() const;
+
+  ///@{
+  /**
    * Move the simulated hand, metres in the workspace frame; clamped to the workspace.
    */
   void MoveHand(const pointhaptics::Vec3& offset);
@@ -220,8 +253,9 @@ public:
   void SetDeviceNote(const std::string& note);
 
   /**
-   * Show position, voxel, bandwidth and arrays of the voxel mean at a display position in the overlay. False:
-   * no mean is drawn within 8 pixels of it; the overlay shows none then.
+   * Show position, voxel, bandwidth and arrays of the voxel mean at a display position in the overlay, and
+   * mark it in the picture (vtkPickMarker), until the model moves. False: no mean is drawn within 8 pixels of
+   * it; none is shown then.
    */
   bool PickAt(int x, int y);
 
@@ -248,6 +282,8 @@ public:
   void OnMouseWheelForward() override;
   void OnMouseWheelBackward() override;
   void OnKeyPress() override;
+  void OnKeyRelease() override;
+  void OnLeave() override;
   void OnChar() override;
   void OnTimer() override;
   void OnDropFiles(vtkStringArray* filePaths) override;
@@ -273,6 +309,18 @@ private:
   void DragHand();
   void Wheel(int direction);
   void MoveBySpaceMouse();
+  void MoveByHand();
+  void TakeHandSample(const pointhaptics::ServoSample& sample);
+  void BeginHold(pointhaptics::HapticAction action, const pointhaptics::Vec3& hand);
+  void EndHold();
+  void MoveModelByHand();
+  void LetGoOfModel();
+  bool PressHandButton(pointhaptics::HapticAction action);
+  bool ReleaseHandButton(pointhaptics::HapticAction action);
+  void ReleaseHandKeys();
+  void PushPointer();
+  void PlacePointer(const pointhaptics::Vec3& point);
+  bool Do(pointhaptics::HapticAction action);
   void Press(const char* button);
   void Release();
   void RememberModel();
@@ -284,6 +332,7 @@ private:
   std::string ServoPanelText();
   bool ReadServo();
   bool UpdateStatus();
+  void ForgetPicked();
   void RenderNow();
   vtkRenderer* MainRenderer();
 

@@ -1,4 +1,5 @@
-// Mouse and keys of vtkInteractorStyleHaptic; what they do is in vtkInteractorStyleHaptic.cxx.
+// Mouse and keys of vtkInteractorStyleHaptic; what they do is in vtkInteractorStyleHaptic.cxx and, for the
+// hand, in vtkInteractorStyleHapticHand.cxx.
 #include "vtkInteractorStyleHapticInternals.h"
 
 #include "vtkCamera.h"
@@ -10,6 +11,8 @@
 using pointhaptics::HapticAction;
 using pointhaptics::HapticBindings;
 using pointhaptics::Vec3;
+using pointhaptics::style::dragged;
+using pointhaptics::style::ScreenAxes;
 
 namespace
 {
@@ -19,39 +22,7 @@ constexpr double kDegreesPerKey = 5.0;
 constexpr double kZoomPerStep = 1.1;
 /// Parts of the workspace's longest edge.
 constexpr double kShiftPerKey = 0.02;
-constexpr double kDepthPerKey = 0.02;
 constexpr double kDepthPerWheelStep = 0.01;
-/// The cap of a SpaceMouse at its end: a second of it.
-constexpr double kCapEdgesPerSecond = 0.5;
-constexpr double kCapDegreesPerSecond = 90.0;
-constexpr double kCapZoomPerSecond = 2.0;
-/// Longest time between two looks that counts: after a pause the model does not jump.
-constexpr double kLongestCapStep = 0.2;
-constexpr std::uint32_t kZoomButton = 1;
-constexpr std::uint32_t kResetButton = 2;
-
-Vec3 displayToWorld(vtkRenderer* renderer, double x, double y, double depth)
-{
-  double world[4];
-  vtkInteractorObserver::ComputeDisplayToWorld(renderer, x, y, depth, world);
-  return { world[0], world[1], world[2] };
-}
-
-double depthOf(vtkRenderer* renderer, const Vec3& point)
-{
-  double display[3];
-  vtkInteractorObserver::ComputeWorldToDisplay(renderer, point.x, point.y, point.z, display);
-  return display[2];
-}
-
-/// How far @p anchor moves in the view plane when the mouse goes from its last position to this one.
-Vec3 dragged(vtkRenderer* renderer, vtkRenderWindowInteractor* interactor, const Vec3& anchor)
-{
-  const double depth = depthOf(renderer, anchor);
-  const int* to = interactor->GetEventPosition();
-  const int* from = interactor->GetLastEventPosition();
-  return displayToWorld(renderer, to[0], to[1], depth) - displayToWorld(renderer, from[0], from[1], depth);
-}
 
 } // namespace
 
@@ -86,22 +57,17 @@ void vtkInteractorStyleHaptic::Press(const char* button)
     case HapticAction::TurnModelDrag:
     case HapticAction::ShiftModelDrag:
     case HapticAction::MoveHandDrag:
+      parts.beginGesture();
       parts.drag = action;
-      parts.inGesture = true;
-      parts.gestureRemembered = false;
       break;
     default:
-      if (!this->ModelKey(action) && !this->HandKey(action) && !this->ShowKey(action))
-      {
-        this->ProgramKey(action);
-      }
+      this->Do(action);
   }
 }
 
 void vtkInteractorStyleHaptic::Release()
 {
   this->Parts->drag = HapticAction::None;
-  this->Parts->inGesture = false;
   if (this->State == VTKIS_ROTATE)
   {
     this->EndRotate();
@@ -148,6 +114,7 @@ void vtkInteractorStyleHaptic::OnRightButtonUp()
 
 void vtkInteractorStyleHaptic::OnMouseMove()
 {
+  this->Parts->pointerInside = true;
   const HapticAction drag = this->Parts->drag;
   const bool follows = this->Parts->handMode && this->State == VTKIS_NONE && drag == HapticAction::None;
   if (drag == HapticAction::MoveHandDrag || follows)
@@ -178,33 +145,12 @@ void vtkInteractorStyleHaptic::DragModel()
   }
   const int* to = this->Interactor->GetEventPosition();
   const int* from = this->Interactor->GetLastEventPosition();
-  Vec3 up;
-  Vec3 forward;
-  renderer->GetActiveCamera()->OrthogonalizeViewUp();
-  renderer->GetActiveCamera()->GetViewUp(&up.x);
-  renderer->GetActiveCamera()->GetDirectionOfProjection(&forward.x);
+  const ScreenAxes screen(renderer);
   // The mouse rolls a ball: the axis lies in the view plane, across the motion.
   const double dx = to[0] - from[0];
   const double dy = to[1] - from[1];
-  const Vec3 axis = dx * up - dy * cross(forward, up);
+  const Vec3 axis = dx * screen.up - dy * screen.right;
   this->TurnModel(kDegreesPerPixel * std::hypot(dx, dy), axis);
-}
-
-void vtkInteractorStyleHaptic::DragHand()
-{
-  vtkRenderer* renderer = this->MainRenderer();
-  if (!this->Parts->device || !renderer)
-  {
-    return;
-  }
-  const Vec3 target = this->Parts->device->target();
-  if (this->Parts->drag == HapticAction::MoveHandDrag)
-  {
-    this->MoveHand(dragged(renderer, this->Interactor, target));
-    return;
-  }
-  const int* position = this->Interactor->GetEventPosition();
-  this->MoveHand(displayToWorld(renderer, position[0], position[1], depthOf(renderer, target)) - target);
 }
 
 void vtkInteractorStyleHaptic::OnMouseWheelForward()
@@ -248,11 +194,26 @@ void vtkInteractorStyleHaptic::OnKeyPress()
   const char* symbol = this->Interactor->GetKeySym();
   const HapticAction action = this->Parts->bindings.find(HapticBindings::gestureOf(
     symbol ? symbol : "", this->Interactor->GetControlKey() != 0, this->Interactor->GetShiftKey() != 0));
-  if (!this->ModelKey(action) && !this->HandKey(action) && !this->ShowKey(action) &&
-    !this->ProgramKey(action))
+  if (!this->PressHandButton(action) && !this->Do(action))
   {
     this->Superclass::OnKeyPress();
   }
+}
+
+void vtkInteractorStyleHaptic::OnKeyRelease()
+{
+  const char* symbol = this->Interactor->GetKeySym();
+  const HapticAction action = this->Parts->bindings.find(symbol ? symbol : "");
+  if (!this->ReleaseHandButton(action))
+  {
+    this->Superclass::OnKeyRelease();
+  }
+}
+
+/// What is done at once. False: @p action is none of that kind.
+bool vtkInteractorStyleHaptic::Do(HapticAction action)
+{
+  return this->ModelKey(action) || this->HandKey(action) || this->ShowKey(action) || this->ProgramKey(action);
 }
 
 // All keys are handled in OnKeyPress; the base class would read some of them as wire frame, stereo or exit.
@@ -294,81 +255,10 @@ bool vtkInteractorStyleHaptic::ModelKey(HapticAction action)
   {
     return false;
   }
-  Vec3 up;
-  Vec3 forward;
-  renderer->GetActiveCamera()->OrthogonalizeViewUp();
-  renderer->GetActiveCamera()->GetViewUp(&up.x);
-  renderer->GetActiveCamera()->GetDirectionOfProjection(&forward.x);
+  const ScreenAxes screen(renderer);
   const double step = kShiftPerKey * this->Parts->edge();
-  this->ShiftModel(step * (double(right) * cross(forward, up) + double(upward) * up));
+  this->ShiftModel(step * (double(right) * screen.right + double(upward) * screen.up));
   return true;
-}
-
-void vtkInteractorStyleHaptic::MoveBySpaceMouse()
-{
-  Internals& parts = *this->Parts;
-  vtkRenderer* renderer = this->MainRenderer();
-  if (!parts.mouse || !renderer)
-  {
-    return;
-  }
-  const pointhaptics::SpaceMouseMotion motion = parts.mouse->motion();
-  const double time = pointhaptics::style::now();
-  const double seconds = std::min(time - parts.mouseRead, kLongestCapStep);
-  parts.mouseRead = time;
-  const std::uint32_t pressed = motion.buttons & ~parts.mouseButtons;
-  parts.mouseButtons = motion.buttons;
-  if (pressed & kResetButton)
-  {
-    this->ResetModel();
-  }
-  if (motion.resting())
-  {
-    parts.inGesture = parts.inGesture && parts.drag != HapticAction::None;
-    return;
-  }
-  if (!parts.inGesture)
-  {
-    parts.inGesture = true;
-    parts.gestureRemembered = false;
-  }
-  Vec3 up;
-  Vec3 forward;
-  renderer->GetActiveCamera()->OrthogonalizeViewUp();
-  renderer->GetActiveCamera()->GetViewUp(&up.x);
-  renderer->GetActiveCamera()->GetDirectionOfProjection(&forward.x);
-  const Vec3 right = cross(forward, up);
-  // The cap's axes are those of the screen.
-  const auto onScreen = [&](const Vec3& v) { return v.x * right + v.y * up - v.z * forward; };
-  if (motion.buttons & kZoomButton)
-  {
-    this->ZoomModel(std::pow(kCapZoomPerSecond, motion.shift.z * seconds));
-    return;
-  }
-  if (motion.shift != Vec3())
-  {
-    this->ShiftModel(kCapEdgesPerSecond * parts.edge() * seconds * onScreen(motion.shift));
-  }
-  if (motion.turn != Vec3())
-  {
-    this->TurnModel(kCapDegreesPerSecond * seconds * norm(motion.turn), onScreen(motion.turn));
-  }
-}
-
-bool vtkInteractorStyleHaptic::HandKey(HapticAction action)
-{
-  if (action == HapticAction::HandMode)
-  {
-    this->SetHandMode(!this->GetHandMode());
-    return true;
-  }
-  if (action == HapticAction::HandAway || action == HapticAction::HandBack)
-  {
-    this->MoveHandInDepth(
-      (action == HapticAction::HandAway ? 1.0 : -1.0) * kDepthPerKey * this->Parts->edge());
-    return true;
-  }
-  return false;
 }
 
 bool vtkInteractorStyleHaptic::ShowKey(HapticAction action)

@@ -31,6 +31,7 @@ void vtkInteractorStyleHaptic::ModelChanged()
   matrix->DeepCopy(parts.model->GetMatrix());
   parts.model->SetMatrix(matrix);
   parts.modelChanged = true;
+  this->ForgetPicked();
   this->MoveScene();
   this->PreviewModel();
   if (parts.timer >= 0 && parts.resampler)

@@ -46,7 +46,9 @@ bool vtkInteractorStyleHaptic::UpdateStatus()
       "\nproxy radius %.2f mm    force %.2f N%s\nservo %.0f Hz, %llu ticks missed%s",
       1e3 * latest.state.radius, norm(latest.state.force), latest.state.contact ? "    in contact" : "",
       statistics.rateHz, static_cast<unsigned long long>(statistics.missedTicks),
-      parts.handMode ? "    hand follows the mouse" : "");
+      parts.hold != pointhaptics::HapticAction::None ? "    the hand holds the model"
+        : parts.handMode                             ? "    hand follows the mouse"
+                                                     : "");
     status += text;
   }
   if (!parts.note.empty())
@@ -111,20 +113,41 @@ bool vtkInteractorStyleHaptic::PickAt(int x, int y)
                                        : nullptr;
   pointhaptics::PickedPoint picked;
   const bool found = renderer && cloud && pointhaptics::pickPoint(cloud, renderer, x, y, kPickPixels, picked);
-  std::string text;
-  if (found)
+  if (!found)
   {
-    // A neighbourhood that has no bandwidth leaves it at 0, which is not shown.
-    static_cast<void>(parts.bandwidth
-        ? pointhaptics::measurePicked(cloud, parts.bandwidth->GetSettings(), picked)
-        : pointhaptics::Status::Ok);
-    text = pointhaptics::describePicked(cloud, picked);
+    this->ForgetPicked();
+    return false;
   }
-  if (parts.overlay && parts.overlay->SetDetail(text))
+  // A neighbourhood that has no bandwidth leaves it at 0, which is not shown.
+  static_cast<void>(parts.bandwidth
+      ? pointhaptics::measurePicked(cloud, parts.bandwidth->GetSettings(), picked)
+      : pointhaptics::Status::Ok);
+  double voxel[6];
+  for (int axis = 0; picked.voxelBounds && axis < 3; ++axis)
   {
-    parts.rendersWanted = true;
+    voxel[2 * axis] = picked.voxelBounds->minimum[axis];
+    voxel[2 * axis + 1] = picked.voxelBounds->maximum[axis];
   }
-  return found;
+  parts.marker->AddTo(renderer);
+  parts.marker->Mark(&picked.inWorkspace.x, picked.voxelBounds ? voxel : nullptr, picked.bandwidth);
+  if (parts.overlay)
+  {
+    parts.overlay->SetDetail(pointhaptics::describePicked(cloud, picked));
+  }
+  parts.rendersWanted = true;
+  return true;
+}
+
+/// Voxel and bandwidth are those of one resampling: the next one has others.
+void vtkInteractorStyleHaptic::ForgetPicked()
+{
+  Internals& parts = *this->Parts;
+  parts.rendersWanted = parts.rendersWanted || parts.marker->GetVisibility();
+  parts.marker->SetVisibility(false);
+  if (parts.overlay)
+  {
+    parts.overlay->SetDetail("");
+  }
 }
 
 void vtkInteractorStyleHaptic::SetStatusNote(const std::string& note)

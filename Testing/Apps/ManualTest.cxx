@@ -1,7 +1,6 @@
 #include "RunProgram.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <iterator>
@@ -48,53 +47,6 @@ TEST_F(Manual, BashCompletesCommandsAndOptions)
   EXPECT_EQ(complete("pointhaptics view --stif", 2), "--stiffness\n");
   EXPECT_EQ(complete("pointhaptics info --stif", 2), "\n");
   EXPECT_EQ(complete("pointhaptics info compl", 2), "completion\n");
-}
-
-class ViewConfiguration : public pointhaptics::apptest::CommandLine
-{
-protected:
-  nlohmann::json written(std::vector<std::string> arguments) const
-  {
-    arguments.insert(arguments.begin(), { "view", "in.ply", "--write-config", "out.json" });
-    EXPECT_EQ(this->succeed(arguments), "settings: out.json\n");
-    return nlohmann::json::parse(this->read("out.json"));
-  }
-};
-
-TEST_F(ViewConfiguration, HoldsTheOptionsThatWereGiven)
-{
-  const nlohmann::json settings =
-    this->written({ "--stiffness", "400", "--watch", "--translate", "0,0.01,0", "--up", "y" });
-  EXPECT_EQ(settings,
-    nlohmann::json::parse(R"({"stiffness": 400.0, "watch": true, "translate": "0,0.01,0", "up": "y"})"));
-}
-
-TEST_F(ViewConfiguration, ComesBackThroughConfigAndGivesWayToTheCommandLine)
-{
-  this->write("first.json", this->written({ "--stiffness", "400", "--dims", "50", "--smooth" }).dump());
-  const nlohmann::json settings = this->written({ "--config", "first.json", "--stiffness", "300" });
-  EXPECT_EQ(settings, nlohmann::json::parse(R"({"stiffness": 300.0, "dims": 50.0, "smooth": true})"));
-}
-
-TEST_F(ViewConfiguration, KeepsNamesThatLookLikeNumbers)
-{
-  const nlohmann::json settings =
-    this->written({ "--color-by", "1e3", "--neighbors", "20", "--beta", "2.50" });
-  EXPECT_EQ(settings, nlohmann::json::parse(R"({"color-by": "1e3", "neighbors": 20, "beta": "2.50"})"));
-  this->write("first.json", settings.dump());
-  EXPECT_EQ(this->written({ "--config", "first.json" }), settings);
-}
-
-TEST_F(ViewConfiguration, LeavesOutWhatIsADeedAndNoState)
-{
-  EXPECT_EQ(this->written({ "--screenshot", "picture.png", "--verbose" }), nlohmann::json::object());
-  EXPECT_FALSE(this->exists("picture.png")) << "writing the configuration is all that is done";
-}
-
-TEST_F(ViewConfiguration, SaysThatItCannotBeWritten)
-{
-  this->refuse(
-    1, { "view", "in.ply", "--write-config", "nowhere/out.json" }, { "nowhere/out.json", "folder" });
 }
 
 } // namespace

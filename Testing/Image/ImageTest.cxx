@@ -1,6 +1,8 @@
 // PointHapticsImageTest PICTURE --baselines DIR [--output DIR] [--pixels N] [--mutate FAULT] [--record]
+// PointHapticsImageTest PICTURE --baselines DIR --record-events FILE: records what is done in a window
 // Exit code 0: as it should be; 1: not; 2: usage; 77: skipped, there is no display.
 #include "ImageComparison.h"
+#include "InteractionPictures.h"
 #include "Pictures.h"
 
 #include <vtkImageData.h>
@@ -10,6 +12,7 @@
 #include <vtkWindowToImageFilter.h>
 #include <vtksys/SystemTools.hxx>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -23,6 +26,8 @@ namespace
 {
 
 constexpr int kSkipped = 77;
+/// Of the state after an interaction: metres, matrix elements.
+constexpr double kSameNumber = 1e-6;
 
 struct Arguments
 {
@@ -30,6 +35,7 @@ struct Arguments
   std::string baselines;
   std::string output = ".";
   std::string mutation;
+  std::string events;
   long long pixels = 0;
   bool record = false;
 };
@@ -51,6 +57,10 @@ bool parse(int argc, char** argv, Arguments& arguments)
     else if (word == "--output" && hasValue)
     {
       arguments.output = argv[++i];
+    }
+    else if (word == "--record-events" && hasValue)
+    {
+      arguments.events = argv[++i];
     }
     else if (word == "--mutate" && hasValue)
     {
@@ -94,6 +104,30 @@ std::string contentOf(const std::string& fileName)
   return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
 }
 
+/// Whether both have the same words, and numbers that differ by rounding only.
+bool sameState(const std::string& test, const std::string& baseline)
+{
+  std::istringstream tests(test);
+  std::istringstream baselines(baseline);
+  std::string one;
+  std::string other;
+  while (tests >> one)
+  {
+    if (!(baselines >> other))
+    {
+      return false;
+    }
+    const bool isNumber = one.find_first_not_of("-.0123456789") == std::string::npos;
+    const bool same =
+      isNumber ? std::abs(std::atof(one.c_str()) - std::atof(other.c_str())) < kSameNumber : one == other;
+    if (!same)
+    {
+      return false;
+    }
+  }
+  return !(baselines >> other);
+}
+
 /// Three files to look at, with their paths.
 void keepEvidence(
   const Arguments& arguments, vtkImageData* test, vtkImageData* baseline, vtkImageData* difference)
@@ -117,6 +151,10 @@ int record(const Arguments& arguments, vtkImageData* test, const std::string& re
   const std::string stem = arguments.baselines + "/" + arguments.picture;
   std::ofstream note(stem + ".renderer.txt");
   note << renderer;
+  if (const std::string state = interactionState(); !state.empty())
+  {
+    std::ofstream(stem + ".state.txt") << state;
+  }
   const bool written = writePng(stem + ".png", test) && note.good();
   std::printf("%s %s.png\n", written ? "recorded" : "cannot write", stem.c_str());
   return written ? 0 : 1;
@@ -136,7 +174,14 @@ int compare(const Arguments& arguments, vtkImageData* test, const std::string& r
     return 1;
   }
   const bool isExact = contentOf(stem + ".renderer.txt") == renderer;
-  const bool tolerable = difference.visible <= arguments.pixels;
+  const std::string state = interactionState();
+  const bool sameAfterwards = state.empty() || sameState(state, contentOf(stem + ".state.txt"));
+  if (!sameAfterwards)
+  {
+    std::printf("the state after the interaction is\n%sinstead of\n%s", state.c_str(),
+      contentOf(stem + ".state.txt").c_str());
+  }
+  const bool tolerable = difference.visible <= arguments.pixels && sameAfterwards;
   const bool exactlyRight = !isExact || difference.any == 0;
   std::printf("%s: %lld pixels differ visibly (at most %lld may), %lld at all%s, largest step %d of 255\n",
     arguments.picture.c_str(), difference.visible, arguments.pixels, difference.any,
@@ -179,6 +224,11 @@ int main(int argc, char** argv)
   window->SetSize(400, 300);
   vtkNew<vtkRenderer> renderer;
   window->AddRenderer(renderer);
+  if (!arguments.events.empty())
+  {
+    recordInteraction(arguments.events, renderer);
+    return 0;
+  }
   if (!buildPicture(arguments.picture, arguments.mutation, renderer))
   {
     std::fprintf(

@@ -5,6 +5,7 @@
 #include "vtkHapticOverlay.h"
 #include "vtkHapticSliders.h"
 
+#include <vtkCommand.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
@@ -74,6 +75,50 @@ void buildChart(const std::string& fault, vtkRenderer* renderer)
   chart->Update();
   renderer->DrawOff();
   renderer->GetRenderWindow()->AddRenderer(chart->GetRenderer());
+}
+
+void buildIdealChart(const std::string& fault, vtkRenderer* renderer)
+{
+  auto* chart = lasting<vtkHapticChart>();
+  const double part = fault == "wrong-ideal" ? 0.8 : 0.9;
+  for (int i = 0; i <= 2000; ++i)
+  {
+    const double seconds = 0.001 * i;
+    const double newtons = 1.5 * std::max(0.0, std::sin(3.0 * seconds));
+    chart->AddSample(seconds, newtons, 0.002, part * newtons);
+  }
+  chart->Update();
+  renderer->DrawOff();
+  renderer->GetRenderWindow()->AddRenderer(chart->GetRenderer());
+}
+
+/// All keys in a window that is small for them.
+void buildHelpFits(const std::string& fault, vtkRenderer* renderer)
+{
+  applyBackground(renderer);
+  auto* overlay = lasting<vtkHapticOverlay>();
+  std::string lines;
+  for (int i = 0; i < 24; ++i)
+  {
+    lines += std::string(i ? "\n" : "") + "Group    Shift+left drag, x, X     what it does";
+  }
+  overlay->SetHelp(lines);
+  overlay->SetHelpVisibility(true);
+  overlay->AddTo(renderer);
+  if (fault == "large-font")
+  {
+    renderer->RemoveObservers(vtkCommand::StartEvent);
+  }
+}
+
+/// What the window says when something fails.
+void buildErrorOverlay(const std::string& fault, vtkRenderer* renderer)
+{
+  applyBackground(renderer);
+  auto* overlay = lasting<vtkHapticOverlay>();
+  const std::string message = fault == "no-message" ? "" : "\nbroken.ply: row 7 has 2 values";
+  overlay->SetStatus("20000 points in 1 active voxels" + message + "\nH: help");
+  overlay->AddTo(renderer);
 }
 
 } // namespace testing

@@ -19,5 +19,9 @@ void buildStatusOverlay(const std::string& fault, vtkRenderer* renderer);
 void buildSliders(const std::string& fault, vtkRenderer* renderer);
 void buildChart(const std::string& fault, vtkRenderer* renderer);
 
+void buildIdealChart(const std::string& fault, vtkRenderer* renderer);   ///< "wrong-ideal"
+void buildHelpFits(const std::string& fault, vtkRenderer* renderer);     ///< "large-font"
+void buildErrorOverlay(const std::string& fault, vtkRenderer* renderer); ///< "no-message"
+
 } // namespace testing
 } // namespace pointhaptics

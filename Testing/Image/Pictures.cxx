@@ -2,11 +2,15 @@
 
 #include "CloudAppearance.h"
 #include "CloudOrientation.h"
+#include "FairOrder.h"
 #include "HapticSceneBuilder.h"
+#include "InteractionPictures.h"
 #include "OverlayPictures.h"
+#include "PolyDataAccess.h"
 #include "SplatPictures.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
+#include "vtkPickMarker.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Shapes.h"
@@ -29,6 +33,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -154,6 +159,7 @@ ProxyState contactAt(const Vec3& point, const Vec3& normal, double depth, double
 void showTouch(vtkRenderer* renderer, const ProxyState& state, const double* workspace = nullptr)
 {
   vtkNew<vtkHapticProps> props;
+  props->SetGaugeVisibility(false); // it has a picture of its own
   if (workspace)
   {
     props->SetWorkspaceBounds(workspace);
@@ -249,6 +255,67 @@ void buildDensityProxies(const std::string& fault, vtkRenderer* renderer)
   showTouch(renderer, large, frame);
 }
 
+/// The proxy close up, with the gauge beside its arrow.
+void buildForceGauge(const std::string& fault, vtkRenderer* renderer)
+{
+  look(renderer);
+  renderer->GetActiveCamera()->Zoom(2.5);
+  vtkNew<vtkHapticProps> props;
+  props->AddTo(renderer);
+  ProxyState state = contactAt({ 0, 0, 0 }, { 0, 0, 1 }, 0.004, 0.004);
+  state.force *= fault == "wrong-force" ? 1.15 : 1.0;
+  props->Update(state);
+}
+
+/// The voxel and the bandwidth of a picked point.
+void buildPickMarker(const std::string& fault, vtkRenderer* renderer)
+{
+  static const auto marker = vtkSmartPointer<vtkPickMarker>::New();
+  look(renderer);
+  const vtkSmartPointer<vtkPolyData> cloud = cloudOf(spiralSphere(4000, 0.038));
+  addHeightArray(cloud, { 0, 0, 1 });
+  showCloud(renderer, resample(cloud, 0.008), kHeightArrayName, 5.0);
+  const double edge = fault == "wrong-voxel" ? 0.007 : 0.008;
+  const double point[3] = { 0.012, -0.036, 0.004 };
+  const double voxel[6] = { 0.008, 0.008 + edge, -0.040, -0.040 + edge, 0.0, edge };
+  marker->Mark(point, voxel, fault == "wrong-bandwidth" ? 0.010 : 0.012);
+  marker->AddTo(renderer);
+}
+
+/// A beginning of the fair order, as a picture that moves shows it. Points in the order of the file would be
+/// those of one end.
+void showLevel(const std::string& fault, vtkRenderer* renderer, int part, double pointSize)
+{
+  std::vector<Vec3> points;
+  if (generateShape(Shape::Idol, 40000, 3, 0.0, points) != Status::Ok)
+  {
+    return;
+  }
+  const vtkSmartPointer<vtkPolyData> means = resample(cloudOf(points), 0.0005);
+  const PointAccess access(means->GetPoints());
+  const std::vector<std::int64_t> order = fairOrder(access.view());
+  vtkNew<vtkCellArray> vertices;
+  for (vtkIdType i = 0; i < means->GetNumberOfPoints() / part; ++i)
+  {
+    const vtkIdType index = fault == "unfair-order" ? i : static_cast<vtkIdType>(order[std::size_t(i)]);
+    vertices->InsertNextCell(1, &index);
+  }
+  means->SetVerts(vertices);
+  look(renderer);
+  renderer->GetActiveCamera()->Zoom(1.65);
+  showCloud(renderer, means, "ProxyRadius", pointSize);
+}
+
+void buildCoarseLevel(const std::string& fault, vtkRenderer* renderer)
+{
+  showLevel(fault, renderer, 16, 8.0);
+}
+
+void buildMiddleLevel(const std::string& fault, vtkRenderer* renderer)
+{
+  showLevel(fault, renderer, 4, 5.0);
+}
+
 /// The statue coloured by ProxyRadius: dark blue where it is dense, at the face, yellow where it is sparse.
 void buildIdolRadius(const std::string& fault, vtkRenderer* renderer)
 {
@@ -271,8 +338,11 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
   {
     const char* name;
     std::vector<std::string> faults;
-    void (*build)(const std::string& fault, vtkRenderer* renderer);
+    std::function<void(const std::string& fault, vtkRenderer* renderer)> build;
   };
+  const auto interaction = [](const char* log)
+  { return [log](const std::string& fault, vtkRenderer* window) { buildInteraction(log, fault, window); }; };
+  const std::vector<std::string> wrong = { "other-bindings", "lost-press" };
   const Picture pictures[] = { { "VoxelMeans", { "dropped-point" }, buildVoxelMeans },
     { "SphereContact", { "shifted-proxy" }, buildSphereContact },
     { "DensityProxies", { "wrong-color", "equal-radii" }, buildDensityProxies },
@@ -280,7 +350,17 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
     { "CoarseSplats", { "equal-sizes", "all-points" }, buildCoarseSplats },
     { "HelpOverlay", { "missing-line" }, buildHelpOverlay },
     { "StatusOverlay", { "wrong-number" }, buildStatusOverlay },
-    { "Sliders", { "wrong-value" }, buildSliders }, { "Chart", { "wrong-force" }, buildChart } };
+    { "Sliders", { "wrong-value" }, buildSliders }, { "Chart", { "wrong-force" }, buildChart },
+    { "IdealChart", { "wrong-ideal" }, buildIdealChart },
+    { "ForceGauge", { "wrong-force" }, buildForceGauge },
+    { "PickMarker", { "wrong-bandwidth", "wrong-voxel" }, buildPickMarker },
+    { "HelpFits", { "large-font" }, buildHelpFits }, { "ErrorOverlay", { "no-message" }, buildErrorOverlay },
+    { "CoarseLevel", { "unfair-order" }, buildCoarseLevel },
+    { "MiddleLevel", { "unfair-order" }, buildMiddleLevel },
+    { "ModelInteraction", wrong, interaction("ModelInteraction") },
+    { "CameraInteraction", wrong, interaction("CameraInteraction") },
+    { "HandInteraction", wrong, interaction("HandInteraction") },
+    { "OverlayInteraction", wrong, interaction("OverlayInteraction") } };
   for (const Picture& picture : pictures)
   {
     const bool known = mutation.empty() ||

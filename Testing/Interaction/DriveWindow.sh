@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# DriveWindow.sh PROGRAM FOLDER: a real window on an X server of its own, driven by keys and drags as a person would.
+# DriveWindow.sh PROGRAM FOLDER [DROPFILE]: a real window on an X server of its own, driven by keys, drags and dropped
+# files as a person would.
 # Exit code 0: all happened as it should; 1: not, the last line says what; 77: skipped, Xvfb or xdotool is missing.
 set -euo pipefail
 program="$1"
 folder="$2"
+drop_file="${3:-}"
 for tool in Xvfb xdotool; do
   if ! command -v "$tool" >/dev/null; then
     echo "skipped: $tool is not installed (package ${tool,,})"
@@ -47,8 +49,15 @@ until_true() {
 said() { until_true "it never said: $1" grep -qF -- "$1" said.txt; }
 key() { xdotool key "$1"; }
 
-# element FILE: row 0, column 2 of the written model matrix.
-element() { tr -d ' \n' <"$1" | sed -E 's/.*"matrix":\[[^,]*,[^,]*,([^,]*),.*/\1/'; }
+# element FILE [COLUMN]: of row 0 of the written model matrix, columns from 0; without it column 2.
+element() { tr -d ' \n' <"$1" | sed -E 's/.*"matrix":\[([^]]*)\].*/\1/' | cut -d, -f$((${2:-2} + 1)); }
+# setting NAME FILE: its value, without blanks, numbers to eight digits.
+setting() {
+  tr -d ' \n' <"$2" | grep -oE "\"$1\":(\[[^]]*\]|\"[^\"]*\"|[^,}]*)" | sed -E 's/(\.[0-9]{8})[0-9]+/\1/g'
+}
+# pointer_x: where the mouse pointer stands in the window.
+pointer_x() { xdotool getmouselocation --shell | sed -n 's/^X=//p'; }
+pointer_is_left_of() { (($(pointer_x) < $1)); }
 
 : >said.txt
 Xvfb -displayfd 3 -noreset -nolisten tcp -screen 0 800x600x24 3>display >/dev/null 2>&1 &
@@ -59,7 +68,8 @@ export DISPLAY
 
 "$program" generate sphere -n 3000 -o first.ply >/dev/null
 "$program" generate plane -n 3000 -o second.ply >/dev/null
-"$program" view first.ply second.ply --watch --size 640x480 --device simulated >said.txt 2>&1 &
+"$program" view first.ply second.ply --watch --size 640x480 --device simulated --bind "screenshot=s F2" \
+  >said.txt 2>&1 &
 viewer=$!
 until_true "no window appeared" xdotool search --name "PointHaptics: first.ply"
 window="$(xdotool search --name "PointHaptics: first.ply" | head -n 1)"
@@ -99,9 +109,53 @@ key w
 said "settings: pointhaptics-005.json"
 grep -q '"voxel"' pointhaptics-005.json || fail "the slider did not set the voxel size"
 
-key s
+key v
+key F2
 said "screenshot: pointhaptics-001.png"
 [[ -s pointhaptics-001.png ]] || fail "the screenshot is empty"
+
+# The view, for the camera in the settings.
+xdotool mousemove --window "$window" 320 150 mousedown 1 mousemove_relative -- 20 8 mousemove_relative -- 20 8 mouseup 1
+
+# The hand holds the model as long as key 1 is down, which repeats as keys do, and goes aside with the mouse.
+xdotool mousemove --window "$window" 300 150
+key f
+xdotool keydown 1
+sleep 0.8
+xdotool mousemove --window "$window" 360 150
+sleep 0.5
+xdotool keyup 1
+sleep 0.3
+key w
+said "settings: pointhaptics-006.json"
+[[ "$(setting camera pointhaptics-005.json)" != "$(setting camera pointhaptics-006.json)" ]] || fail "the camera is not written"
+[[ "$(element pointhaptics-005.json 3)" != "$(element pointhaptics-006.json 3)" ]] || fail "the hand did not shift the model"
+xdotool mousemove --window "$window" 300 150
+sleep 0.3
+key w
+said "settings: pointhaptics-007.json"
+[[ "$(element pointhaptics-006.json 3)" == "$(element pointhaptics-007.json 3)" ]] || fail "the hand still holds the model"
+
+# From the left into a sphere: the touch pushes the pointer back.
+key b
+until_true "key B did not go back to the sphere" xdotool search --name "PointHaptics: first.ply"
+xdotool mousemove --window "$window" 225 180
+for ((i = 0; i < 23; ++i)); do key Prior; done
+sleep 0.3
+key g
+xdotool mousemove --window "$window" 290 180
+until_true "the touch did not push the pointer" pointer_is_left_of 275
+key g
+key f
+
+if [[ -n "$drop_file" ]]; then
+  "$program" generate torus -n 3000 -o dropped.ply >/dev/null
+  "$drop_file" "$window" 320 100 "$PWD/dropped.ply" || fail "the drop did not end well"
+  until_true "the dropped file is not shown" xdotool search --name "PointHaptics: dropped.ply"
+  "$drop_file" "$window" 320 100 "$PWD/nothing.ply" || fail "the drop of nothing did not end well"
+  said "nothing.ply"
+  xdotool search --name "PointHaptics: dropped.ply" >/dev/null || fail "a bad drop took the cloud away"
+fi
 key q
 until_true "key Q did not end the program" bash -c "! kill -0 $viewer"
 wait "$viewer" || fail "exit code $?"
@@ -109,4 +163,20 @@ viewer=""
 grep -q '"stiffness"' state/pointhaptics/view.json || fail "the settings are not remembered"
 "$program" view first.ply --recent --write-config recent.json >/dev/null
 grep -q '"size": "640x480"' recent.json || fail "--recent does not bring the settings back"
+
+"$program" view first.ply --config pointhaptics-006.json >said.txt 2>&1 &
+viewer=$!
+until_true "no second window appeared" xdotool search --name "PointHaptics: first.ply"
+said "3000 points"
+xdotool mousemove --window "$(xdotool search --name "PointHaptics: first.ply" | head -n 1)" 320 150
+key w
+said "settings: pointhaptics-008.json"
+for name in camera matrix bind size; do
+  [[ "$(setting $name pointhaptics-006.json)" == "$(setting $name pointhaptics-008.json)" ]] || fail "--config lost $name"
+  [[ -n "$(setting $name pointhaptics-008.json)" ]] || fail "no $name in the written settings"
+done
+kill -INT "$viewer"
+until_true "Ctrl+C did not end the program" bash -c "! kill -0 $viewer"
+wait "$viewer" || fail "exit code $? after Ctrl+C"
+viewer=""
 echo "the window did what it was told"

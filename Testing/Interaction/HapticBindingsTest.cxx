@@ -46,6 +46,39 @@ TEST(HapticBindings, TakesAGestureFromTheActionThatHadIt)
   EXPECT_EQ(bindings.find("h"), HapticAction::Help);
 }
 
+TEST(HapticBindings, FindsTheButtonsOfTheDeviceWithWhateverModifiersAreHeld)
+{
+  const HapticBindings bindings;
+  EXPECT_EQ(bindings.find("hand1"), HapticAction::ShiftModelByHand);
+  EXPECT_EQ(bindings.find("Ctrl+hand3"), HapticAction::IndexByHand);
+  EXPECT_EQ(bindings.find("hand5"), HapticAction::None);
+  EXPECT_EQ(bindings.find("1"), HapticAction::HandButton1);
+}
+
+TEST(HapticBindings, HasANameForEachActionAndFindsItByThat)
+{
+  const auto actions = pointhaptics::hapticActions();
+  EXPECT_EQ(int(actions.size()), int(HapticAction::None)) << "an action without a line in the table";
+  for (HapticAction action : actions)
+  {
+    EXPECT_EQ(pointhaptics::hapticActionFromName(pointhaptics::hapticActionName(action)), action);
+  }
+  EXPECT_STREQ(pointhaptics::hapticActionName(HapticAction::TurnBackX), "turn-back-x");
+  EXPECT_EQ(pointhaptics::hapticActionFromName("TurnBackX"), HapticAction::None);
+}
+
+TEST(HapticBindings, TellsGesturesFromWhatCannotBeMade)
+{
+  for (const char* gesture : { "x", "F1", "plus", "Ctrl+z", "Ctrl+Shift+left", "hand2", "KP_Add", "wheel" })
+  {
+    EXPECT_TRUE(HapticBindings::isGesture(gesture)) << gesture;
+  }
+  for (const char* gesture : { "", "Ctrl+", "Alt+x", "Shift+Ctrl+x", "x y", "+", "Strg-x" })
+  {
+    EXPECT_FALSE(HapticBindings::isGesture(gesture)) << gesture;
+  }
+}
+
 TEST(HapticBindings, DescribesWhatIsBoundAndNothingElse)
 {
   HapticBindings bindings;

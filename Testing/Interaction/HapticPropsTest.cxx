@@ -1,10 +1,13 @@
+#include "vtkHapticGauge.h"
 #include "vtkHapticProps.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
+#include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkProperty.h>
+#include <vtkRenderer.h>
 
 #include <cmath>
 
@@ -83,6 +86,33 @@ TEST(HapticProps, SayWhetherARenderIsWorthwhile)
   EXPECT_TRUE(props->Update(state));
   state.hip.x = NAN;
   EXPECT_FALSE(props->Update(state));
+}
+
+TEST(HapticProps, ShowTheGaugeOnTheArrowsSideAndOnlyWhereThereIsForce)
+{
+  vtkNew<vtkRenderer> renderer;
+  renderer->GetActiveCamera()->SetPosition(0, -1, 0);
+  renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
+  vtkNew<vtkHapticProps> props;
+  props->AddTo(renderer);
+  EXPECT_FALSE(props->GetGauge()->GetVisibility());
+  ProxyState state = makeContact();
+  state.force = { 1.6, 0.0, 0.0 };
+  props->Update(state);
+  EXPECT_TRUE(props->GetGauge()->GetVisibility());
+  EXPECT_FALSE(props->GetGauge()->GetLeft());
+  state.force = { -1.6, 0.0, 0.0 };
+  props->Update(state);
+  EXPECT_TRUE(props->GetGauge()->GetLeft());
+  props->SetGaugeVisibility(false);
+  EXPECT_FALSE(props->GetGauge()->GetVisibility());
+  props->SetGaugeVisibility(true);
+  EXPECT_TRUE(props->GetGauge()->GetVisibility());
+  state.force = {};
+  props->Update(state);
+  EXPECT_FALSE(props->GetGauge()->GetVisibility());
+  props->SetGaugeVisibility(true);
+  EXPECT_FALSE(props->GetGauge()->GetVisibility()) << "there is nothing to gauge";
 }
 
 TEST(HapticProps, CutAnArrowThatWouldLeaveTheWorkspace)

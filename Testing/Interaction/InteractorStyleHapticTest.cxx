@@ -446,8 +446,13 @@ TEST_F(InteractorStyleHaptic, PicksTheMeanUnderTheMouseAlsoInAPartOfTheWindow)
   interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
   this->press("p");
   EXPECT_NE(overlay->GetDetail().find("bandwidth"), std::string::npos) << overlay->GetDetail();
+  EXPECT_NEAR(picked.voxelBounds->minimum.x, -0.05 + 0.001 * picked.voxel->x, 1e-12);
+  EXPECT_NEAR(picked.voxelBounds->extent().y, 0.001, 1e-12);
   EXPECT_FALSE(style_->PickAt(1, 199));
   EXPECT_EQ(overlay->GetDetail(), "");
+  EXPECT_TRUE(style_->PickAt(int(display[0]), int(display[1])));
+  this->press("x");
+  EXPECT_EQ(overlay->GetDetail(), "") << "another place has another voxel";
 }
 
 TEST_F(InteractorStyleHaptic, MeasuresAtThePickedPointWhatTheFilterComputesForAll)
