@@ -47,8 +47,9 @@ bool vtkInteractorStyleHaptic::UpdateStatus()
       1e3 * latest.state.radius, norm(latest.state.force), latest.state.contact ? "    in contact" : "",
       statistics.rateHz, static_cast<unsigned long long>(statistics.missedTicks),
       parts.hold != pointhaptics::HapticAction::None ? "    the hand holds the model"
-        : parts.handMode                             ? "    hand follows the mouse"
-                                                     : "");
+        : !parts.handMode                            ? ""
+        : parts.pushesPointer                        ? "    hand follows the mouse, touch pushes it"
+                                                     : "    hand follows the mouse");
     status += text;
   }
   if (!parts.note.empty())

@@ -51,6 +51,12 @@ key() { xdotool key "$1"; }
 
 # element FILE [COLUMN]: of row 0 of the written model matrix, columns from 0; without it column 2.
 element() { tr -d ' \n' <"$1" | sed -E 's/.*"matrix":\[([^]]*)\].*/\1/' | cut -d, -f$((${2:-2} + 1)); }
+# takes_keys: the pointer goes into the window, which takes the focus as soon as it looks at events.
+takes_keys() {
+  xdotool mousemove 790 590 mousemove --window "$window" 320 150
+  sleep 0.1
+  [[ "$(xdotool getwindowfocus 2>/dev/null)" == "$window" ]]
+}
 # setting NAME FILE: its value, without blanks, numbers to eight digits.
 setting() {
   tr -d ' \n' <"$2" | grep -oE "\"$1\":(\[[^]]*\]|\"[^\"]*\"|[^,}]*)" | sed -E 's/(\.[0-9]{8})[0-9]+/\1/g'
@@ -73,7 +79,7 @@ export DISPLAY
 viewer=$!
 until_true "no window appeared" xdotool search --name "PointHaptics: first.ply"
 window="$(xdotool search --name "PointHaptics: first.ply" | head -n 1)"
-xdotool mousemove --window "$window" 320 150
+until_true "the window does not take the focus" takes_keys
 
 key n
 said "file 2 of 2: second.ply"
@@ -168,7 +174,8 @@ grep -q '"size": "640x480"' recent.json || fail "--recent does not bring the set
 viewer=$!
 until_true "no second window appeared" xdotool search --name "PointHaptics: first.ply"
 said "3000 points"
-xdotool mousemove --window "$(xdotool search --name "PointHaptics: first.ply" | head -n 1)" 320 150
+window="$(xdotool search --name "PointHaptics: first.ply" | head -n 1)"
+until_true "the second window does not take the focus" takes_keys
 key w
 said "settings: pointhaptics-008.json"
 for name in camera matrix bind size; do

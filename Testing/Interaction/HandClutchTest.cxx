@@ -1,4 +1,5 @@
 // The hand holds the model by the buttons of the device: no window, no display.
+#include "vtkHapticOverlay.h"
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -21,6 +22,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -262,6 +264,23 @@ TEST_F(HandClutch, TakesTheForceAwayWhileItHoldsAndLetsItComeBackSlowly)
   // Beside the ramp itself the proxy settles on the moved surface, by 0.1 N a tick, while the gate is little
   // open.
   EXPECT_LT(largest, 3.0 * whole / (1000.0 * ServoLoop::kClutchUpSeconds));
+}
+
+TEST_F(HandClutch, SaysInTheWindowThatTheHandHoldsTheModel)
+{
+  begin(-0.03, 0.03);
+  vtkNew<vtkHapticOverlay> overlay;
+  style->SetOverlay(overlay);
+  style->SetHandMode(true);
+  style->SetPushPointer(true);
+  style->Refresh();
+  EXPECT_NE(overlay->GetStatus().find("touch pushes it"), std::string::npos) << overlay->GetStatus();
+  hold(4);
+  style->Refresh();
+  EXPECT_NE(overlay->GetStatus().find("the hand holds the model"), std::string::npos) << overlay->GetStatus();
+  hold(0);
+  settle();
+  EXPECT_EQ(overlay->GetStatus().find("holds the model"), std::string::npos) << overlay->GetStatus();
 }
 
 TEST_F(HandClutch, LetsGoWhenTheDeviceFallsSilent)
