@@ -31,7 +31,7 @@ constexpr auto kTimerPeriod = std::chrono::milliseconds(33);
 constexpr auto kLookPeriod = std::chrono::microseconds(200);
 constexpr auto kLongestWait = std::chrono::seconds(10);
 /// After a scene: the picture is refined, and the next key meets a window at rest or not.
-constexpr double kPauseSeconds[2] = { 0.1, 0.5 };
+constexpr double kPauseSeconds[2] = { 0.05, 0.35 };
 
 double seconds()
 {

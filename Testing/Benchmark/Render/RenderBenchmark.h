@@ -59,7 +59,7 @@ struct RenderBenchmarkOptions
   int frames = 60; ///< Of a turn; half as many come before, untimed, for the budget to settle.
   int repetitions = 5;
   bool withF3d = true;
-  int presses = 60; ///< Of each key.
+  int presses = 30; ///< Of each key.
   MakeTurntable makeTurntable;
   MakeModelMover makeModelMover;
 
