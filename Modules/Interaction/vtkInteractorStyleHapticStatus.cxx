@@ -16,8 +16,8 @@ namespace
 {
 
 constexpr double kStatusPeriodSeconds = 0.25;
-/// While nothing moves.
-constexpr double kRestingPeriodSeconds = 2.0;
+/// While nothing moves: a line of text costs a frame.
+constexpr double kRestingPeriodSeconds = 4.0;
 constexpr double kPickPixels = 8.0;
 
 } // namespace
