@@ -300,6 +300,7 @@ private:
 
   void ModelChanged();
   void MoveScene();
+  bool IsCloudSent() const;
   void PreviewModel();
   void StopBuilding();
   void SendCloud();

@@ -41,10 +41,15 @@ void vtkInteractorStyleHaptic::ModelChanged()
   this->InvokeEvent(ModelChangedEvent);
 }
 
-/// The hand feels the model where it is before it is resampled there.
+/// The hand feels the model where it is before it is resampled there. Not with another cloud than before:
+/// what is felt until that is resampled stays where it was.
 void vtkInteractorStyleHaptic::MoveScene()
 {
   pointhaptics::AffineTransform modelToWorkspace;
+  if (!this->IsCloudSent())
+  {
+    this->Parts->publisher.forget();
+  }
   if (pointhaptics::affineFromTransform(this->Parts->model, modelToWorkspace))
   {
     this->Parts->publisher.move(modelToWorkspace);
@@ -94,6 +99,14 @@ void vtkInteractorStyleHaptic::StopBuilding()
   parts.shown = parts.requested;
 }
 
+bool vtkInteractorStyleHaptic::IsCloudSent() const
+{
+  const Internals& parts = *this->Parts;
+  auto* cloud =
+    parts.resampler ? vtkPointSet::SafeDownCast(parts.resampler->GetInputDataObject(0, 0)) : nullptr;
+  return cloud == parts.sentCloud && (cloud ? cloud->GetMTime() : 0) == parts.sentCloudTime;
+}
+
 void vtkInteractorStyleHaptic::SendCloud()
 {
   Internals& parts = *this->Parts;
@@ -101,14 +114,13 @@ void vtkInteractorStyleHaptic::SendCloud()
   {
     source->Update();
   }
-  auto* cloud = vtkPointSet::SafeDownCast(parts.resampler->GetInputDataObject(0, 0));
-  const vtkMTimeType time = cloud ? cloud->GetMTime() : 0;
-  if (cloud == parts.sentCloud && time == parts.sentCloudTime)
+  if (this->IsCloudSent())
   {
     return;
   }
+  auto* cloud = vtkPointSet::SafeDownCast(parts.resampler->GetInputDataObject(0, 0));
   parts.sentCloud = cloud;
-  parts.sentCloudTime = time;
+  parts.sentCloudTime = cloud ? cloud->GetMTime() : 0;
   vtkSmartPointer<vtkPointSet> copy;
   if (cloud)
   {

@@ -170,7 +170,8 @@ grep -q '"stiffness"' state/pointhaptics/view.json || fail "the settings are not
 "$program" view first.ply --recent --write-config recent.json >/dev/null
 grep -q '"size": "640x480"' recent.json || fail "--recent does not bring the settings back"
 
-"$program" view first.ply --config pointhaptics-006.json >said.txt 2>&1 &
+# A shell lets what runs in the background ignore Ctrl+C; this program must not.
+env --default-signal=INT "$program" view first.ply --config pointhaptics-006.json >said.txt 2>&1 &
 viewer=$!
 until_true "no second window appeared" xdotool search --name "PointHaptics: first.ply"
 said "3000 points"

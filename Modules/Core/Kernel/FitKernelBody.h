@@ -58,24 +58,23 @@ inline Eight joinedEach(const Eight v[8])
 }
 
 /// The sum of each vector, as joinedEach() does it.
-template <int N>
+template <int N, int First = 0>
 inline void joinEach(const Eight (&v)[N], double* to)
 {
-#pragma GCC unroll 8
-  for (int first = 0; first < N; first += 8)
+  constexpr int kCount = N - First < 8 ? N - First : 8;
+  Eight part[8] = {};
+  for (int i = 0; i < kCount; ++i)
   {
-    Eight part[8] = {};
-#pragma GCC unroll 8
-    for (int i = 0; i < 8 && first + i < N; ++i)
-    {
-      part[i] = v[first + i];
-    }
-    const Eight sums = joinedEach(part);
-#pragma GCC unroll 8
-    for (int i = 0; i < 8 && first + i < N; ++i)
-    {
-      to[first + i] = sums[i];
-    }
+    part[i] = v[First + i];
+  }
+  const Eight sums = joinedEach(part);
+  for (int i = 0; i < kCount; ++i)
+  {
+    to[First + i] = sums[i];
+  }
+  if constexpr (First + 8 < N)
+  {
+    joinEach<N, First + 8>(v, to);
   }
 }
 
