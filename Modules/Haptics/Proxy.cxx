@@ -216,8 +216,12 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
 void Proxy::rehearse() noexcept
 {
   Implementation& self = *implementation_;
-  const Vec3 hip = self.lastHip + self.lastMove;
-  if (!self.scene || !self.hasLastHip || !isFinite(hip))
+  if (!self.scene || !self.hasLastHip)
+  {
+    return;
+  }
+  const Vec3 hip = self.scene->toLattice(self.lastHip + self.lastMove);
+  if (!isFinite(hip))
   {
     return;
   }

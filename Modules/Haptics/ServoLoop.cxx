@@ -130,7 +130,7 @@ struct ServoLoop::Implementation
 
   void prepare(HandPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings);
   void run() noexcept;
-  void waitFor(std::int64_t deadline) noexcept;
+  void waitFor(std::int64_t deadline, double early) noexcept;
   Status tick(std::uint64_t number, std::int64_t wake) noexcept;
   Vec3 answer(const HandState& hand, std::uint64_t number) noexcept;
   void takeNews() noexcept;
@@ -200,7 +200,9 @@ void ServoLoop::Implementation::run() noexcept
   // A stop is obeyed once the gate has closed, and at once where nothing pushes.
   while (!stopRequested.load(std::memory_order_acquire) || (gate.part() > 0.0 && pushes()))
   {
-    waitFor(deadline(number));
+    // A loop that rests saves its work too.
+    waitFor(deadline(number),
+      rest > 0 ? 0.0 : std::min(settings.wakeEarlySeconds, kLargestEarlyPart * 1e-9 * period));
     const std::int64_t wake = steadyNanoseconds();
     lateness.record(1e-9 * double(wake - deadline(number)));
     std::uint64_t missed = 0;
@@ -224,11 +226,10 @@ void ServoLoop::Implementation::run() noexcept
   running.store(false, std::memory_order_release);
 }
 
-/// Returns at @p deadline, with the tick's code and data at hand; late where the system wakes the thread
-/// late.
-void ServoLoop::Implementation::waitFor(std::int64_t deadline) noexcept
+/// Returns at @p deadline, and with the tick's code and data at hand if it may wake @p early seconds before;
+/// late where the system wakes the thread late.
+void ServoLoop::Implementation::waitFor(std::int64_t deadline, double early) noexcept
 {
-  const double early = std::min(settings.wakeEarlySeconds, kLargestEarlyPart / settings.rateHz);
   sleepUntil(deadline - std::int64_t(1e9 * early));
   if (early > 0.0 && steadyNanoseconds() < deadline)
   {

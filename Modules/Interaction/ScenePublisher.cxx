@@ -28,9 +28,13 @@ void ScenePublisher::move(const AffineTransform& modelToWorkspace)
   }
 }
 
-void ScenePublisher::publish(std::shared_ptr<const HapticScene> scene)
+void ScenePublisher::publish(std::shared_ptr<const HapticScene> scene, std::uint64_t cloud)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (cloud != cloud_)
+  {
+    return;
+  }
   newest_ = scene;
   if (scene && isMoved_ && !(scene->modelToWorkspace() == modelToWorkspace_))
   {
@@ -46,10 +50,17 @@ void ScenePublisher::publish(std::shared_ptr<const HapticScene> scene)
   }
 }
 
-void ScenePublisher::forget()
+void ScenePublisher::startCloud()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_.reset();
+  ++cloud_;
+}
+
+std::uint64_t ScenePublisher::cloud() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return cloud_;
 }
 
 } // namespace pointhaptics

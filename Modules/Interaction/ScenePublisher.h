@@ -7,6 +7,7 @@
 
 #include "PointHapticsInteractionModule.h" // For export macro
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -27,16 +28,20 @@ public:
   /// The model is moved. Publishes the newest scene there, if there is one that can be moved so: not under
   /// shear, nor scales that differ by axis.
   void move(const AffineTransform& modelToWorkspace);
-  /// A scene is made, or null where there is nothing to feel. Publishes it where the model is by now.
-  void publish(std::shared_ptr<const HapticScene> scene);
-  /// The newest scene is of a cloud that is gone: it is not moved any more.
-  void forget();
+  /// A scene of cloud @p cloud is made, or null where there is nothing to feel. Publishes it where the model
+  /// is by now; nothing, if that cloud is gone.
+  void publish(std::shared_ptr<const HapticScene> scene, std::uint64_t cloud);
+  /// Another cloud comes: what is felt of the old one is not moved any more.
+  void startCloud();
+  /// The number of the present one.
+  std::uint64_t cloud() const;
 
 private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   Sink sink_;
   std::shared_ptr<const HapticScene> newest_;
   AffineTransform modelToWorkspace_;
+  std::uint64_t cloud_ = 0;
   bool isMoved_ = false; ///< By move(), since the newest scene was asked for or before.
 };
 

@@ -46,11 +46,7 @@ void vtkInteractorStyleHaptic::ModelChanged()
 void vtkInteractorStyleHaptic::MoveScene()
 {
   pointhaptics::AffineTransform modelToWorkspace;
-  if (!this->IsCloudSent())
-  {
-    this->Parts->publisher.forget();
-  }
-  if (pointhaptics::affineFromTransform(this->Parts->model, modelToWorkspace))
+  if (this->IsCloudSent() && pointhaptics::affineFromTransform(this->Parts->model, modelToWorkspace))
   {
     this->Parts->publisher.move(modelToWorkspace);
   }
@@ -127,7 +123,7 @@ void vtkInteractorStyleHaptic::SendCloud()
     copy.TakeReference(vtkPointSet::SafeDownCast(cloud->NewInstance()));
     copy->ShallowCopy(cloud);
   }
-  parts.publisher.forget();
+  parts.publisher.startCloud();
   parts.worker.setCloud(std::move(copy));
 }
 
@@ -140,8 +136,9 @@ void vtkInteractorStyleHaptic::RequestScene()
   SceneRequest request = SceneRequest::of(parts.resampler, parts.bandwidth);
   std::copy_n(parts.model->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
   request.useCovariance = this->UseCovariance;
-  request.publish = [publisher = &parts.publisher](std::shared_ptr<const pointhaptics::HapticScene> scene)
-  { publisher->publish(std::move(scene)); };
+  request.publish = [publisher = &parts.publisher, cloud = parts.publisher.cloud()](
+                      std::shared_ptr<const pointhaptics::HapticScene> scene)
+  { publisher->publish(std::move(scene), cloud); };
   parts.requested = parts.worker.request(std::move(request));
 }
 
