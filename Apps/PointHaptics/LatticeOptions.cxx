@@ -134,6 +134,11 @@ void LatticeOptions::addTo(CLI::App& command)
   }
 }
 
+double LatticeOptions::metresPerUnit() const
+{
+  return metresPer(this->unit);
+}
+
 AffineTransform LatticeOptions::transform() const
 {
   const double metres = metresPer(this->unit);

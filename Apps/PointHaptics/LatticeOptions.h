@@ -36,6 +36,8 @@ struct LatticeOptions
   void addTo(CLI::App& command);
   /// translate * rotate * scale * unit, or matrix * unit.
   AffineTransform transform() const;
+  /// What a unit of the file's coordinates is.
+  double metresPerUnit() const;
   bool hasTransform() const;
   /// Sets transform, workspace and dimensions or voxel size on @p resampler (those that were given).
   void configure(vtkVoxelMeanResampler* resampler) const;

@@ -215,6 +215,10 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
     .add_flag("--push-pointer", options.pushPointer,
       "The touch pushes the mouse pointer while the hand follows it; key G")
     ->group(group);
+  command
+    .add_flag("--axes", options.axes,
+      "A box about the cloud with its bounds in metres of the file, and where its axes point; key A")
+    ->group(group);
   std::vector<std::string> shapes = { "auto", "none" };
   for (int shape = 0; shape < kNumberOfShapes; ++shape)
   {

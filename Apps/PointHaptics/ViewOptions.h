@@ -50,6 +50,7 @@ struct ViewOptions
   std::vector<std::string> bindings; ///< ACTION=GESTURES, as SetBinding() takes them; checked.
   std::vector<double> camera;        ///< Position, focal point, view up, of the workspace; empty: in front.
   bool pushPointer = false;
+  bool axes = false;
   std::string ideal = "auto"; ///< Name of the shape whose exact force the chart shows, auto or none.
   bool noCovariance = false;
   std::string method = "surface-fit";

@@ -108,6 +108,8 @@ bool makePicture(ViewScene& scene, const ViewOptions& options, std::string& mess
   {
     scene.props()->Update(shown.state);
   }
+  scene.showAxes(options.axes);
+  scene.placeAxes(scene.modelMatrix());
   scene.placeCamera(feels ? &shown.state : nullptr);
   applyCamera(options, scene.renderer());
   window->Render();

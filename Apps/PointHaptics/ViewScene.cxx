@@ -4,6 +4,7 @@
 
 #include "CloudAppearance.h"
 #include "HapticSceneBuilder.h"
+#include "vtkCloudAxes.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkSplatMapper.h"
@@ -176,6 +177,7 @@ ViewScene::ViewScene()
   actor_->PickableOff();
   renderer_->AddActor(actor_);
   props_->AddTo(renderer_);
+  axes_->AddTo(renderer_);
   applyBackground(renderer_);
   vtkNew<vtkCallbackCommand> sizing;
   sizing->SetClientData(this);
@@ -278,6 +280,8 @@ bool ViewScene::open(const std::vector<std::string>& files, const ViewOptions& o
   }
   keepArrays(cloud, options.colorBy);
   cloud_ = cloud;
+  cloudBounds_ = {};
+  axes_->SetMetresPerUnit(options.lattice.metresPerUnit());
   title_ = names;
   fit(bounds, options);
   return true;
@@ -355,6 +359,50 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   scalarBar_->SetLookupTable(mapper_->GetLookupTable());
   scalarBar_->SetTitle((options.colorBy + "\n").c_str());
   return true;
+}
+
+void ViewScene::showAxes(bool visible)
+{
+  axes_->SetVisibility(visible);
+}
+
+bool ViewScene::showsAxes() const
+{
+  return axes_->GetVisibility();
+}
+
+/// The box ends where the workspace does: of a monument the part in reach is what is looked at.
+void ViewScene::placeAxes(vtkMatrix4x4* model)
+{
+  if (!axes_->GetVisibility() || !cloud_)
+  {
+    return;
+  }
+  if (cloudBounds_.empty())
+  {
+    cloudBounds_ = transformedBounds(cloud_, AffineTransform());
+  }
+  vtkNew<vtkMatrix4x4> toCloud;
+  vtkMatrix4x4::Invert(model, toCloud);
+  Bounds reach;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const double in[4] = { corner & 1 ? workspace_.maximum.x : workspace_.minimum.x,
+      corner & 2 ? workspace_.maximum.y : workspace_.minimum.y,
+      corner & 4 ? workspace_.maximum.z : workspace_.minimum.z, 1.0 };
+    double out[4];
+    toCloud->MultiplyPoint(in, out);
+    reach.include({ out[0], out[1], out[2] });
+  }
+  double bounds[6];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    bounds[2 * axis] = std::max(cloudBounds_.minimum[axis], reach.minimum[axis]);
+    bounds[2 * axis + 1] =
+      std::max(bounds[2 * axis], std::min(cloudBounds_.maximum[axis], reach.maximum[axis]));
+  }
+  axes_->SetBounds(bounds);
+  axes_->SetModelMatrix(model);
 }
 
 void ViewScene::placeCamera(const ProxyState* contact)

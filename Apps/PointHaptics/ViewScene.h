@@ -19,6 +19,7 @@
 #include <vector>
 
 class vtkActor;
+class vtkCloudAxes;
 class vtkHapticProps;
 class vtkKernelBandwidthFilter;
 class vtkMatrix4x4;
@@ -48,6 +49,12 @@ public:
   bool build(const ViewOptions& options, std::string& message);
   /// Puts the camera in front of the workspace. @p contact, if given, is turned into view.
   void placeCamera(const ProxyState* contact = nullptr);
+
+  /// Box, bounds and directions of the cloud's own frame. They stay where the model was until placeAxes().
+  void showAxes(bool visible);
+  bool showsAxes() const;
+  /// Where @p model, from the file to the workspace, puts the cloud.
+  void placeAxes(vtkMatrix4x4* model);
 
   /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
   Vec3 towardsViewer() const { return orientation_.front; }
@@ -83,6 +90,8 @@ private:
   vtkNew<vtkActor> actor_;
   vtkNew<vtkScalarBarActor> scalarBar_;
   vtkNew<vtkHapticProps> props_;
+  vtkNew<vtkCloudAxes> axes_;
+  Bounds cloudBounds_; ///< Of the finite points, as in the file; empty until the axes are shown.
   vtkNew<vtkRenderer> renderer_;
   CloudDetail detail_{ renderer_, actor_ };
   Bounds workspace_;

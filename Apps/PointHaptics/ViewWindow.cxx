@@ -72,6 +72,8 @@ void ViewWindow::setUpRendering()
   scene_.detail().setEnabled(true);
   scene_.placeCamera();
   applyCamera(options_, scene_.renderer());
+  scene_.showAxes(options_.axes);
+  scene_.placeAxes(scene_.modelMatrix());
 }
 
 void ViewWindow::openSimulated()
@@ -190,6 +192,7 @@ void ViewWindow::connectStyle()
   this->observe(vtkInteractorStyleHaptic::NextFileEvent, &ViewWindow::onNextFile);
   this->observe(vtkInteractorStyleHaptic::PreviousFileEvent, &ViewWindow::onPreviousFile);
   this->observe(vtkInteractorStyleHaptic::WriteSettingsEvent, &ViewWindow::onWriteSettings);
+  this->observe(vtkInteractorStyleHaptic::AxesEvent, &ViewWindow::onAxes);
   interactor_->SetInteractorStyle(style_);
   this->connectSliders();
   vtkNew<vtkCallbackCommand> timer;
@@ -274,6 +277,7 @@ void ViewWindow::tell(const std::string& message)
 void ViewWindow::onModelChanged(void*)
 {
   news_.clear();
+  scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
   this->showNote();
 }
 

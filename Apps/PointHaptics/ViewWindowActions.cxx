@@ -84,6 +84,7 @@ bool ViewWindow::show(const std::vector<std::string>& files, bool keepsModel)
   style_->SetModelMatrix(model);
   style_->SetResampler(scene_.resampler());
   style_->UpdateModel();
+  scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
   if (!keepsModel)
   {
     scene_.placeCamera();
@@ -148,6 +149,7 @@ nlohmann::ordered_json ViewWindow::settings()
   settings["beta"] = sliders_->GetValue(vtkHapticSliders::RadiusScale);
   setCamera(settings, scene_.renderer()->GetActiveCamera());
   settings["push-pointer"] = style_->GetPushPointer();
+  settings["axes"] = scene_.showsAxes();
   const int* size = window_->GetSize();
   settings["size"] = fmt::format("{}x{}", size[0], size[1]);
   return settings;
@@ -229,6 +231,12 @@ void ViewWindow::setContact(const ContactParameters& contact)
   }
   this->showSliderValues();
   this->tell(message.empty() ? sentence(status) : message);
+}
+
+void ViewWindow::onAxes(void*)
+{
+  scene_.showAxes(!scene_.showsAxes());
+  scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
 }
 
 void ViewWindow::onScreenshot(void*)

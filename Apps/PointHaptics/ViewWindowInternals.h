@@ -62,6 +62,7 @@ private:
   void onNextFile(void*);
   void onPreviousFile(void*);
   void onWriteSettings(void*);
+  void onAxes(void*);
   void onSlider(int slider);
   void connectSliders();
   void setContact(const ContactParameters& contact);

@@ -58,6 +58,7 @@ enum class HapticAction
   ServoPanel,
   Chart,
   PauseChart,
+  Axes,
   NextFile,
   PreviousFile,
   Screenshot,

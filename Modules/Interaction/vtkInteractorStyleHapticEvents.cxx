@@ -293,6 +293,9 @@ bool vtkInteractorStyleHaptic::ShowKey(HapticAction action)
         parts.chart->SetPaused(!parts.chart->GetPaused());
       }
       break;
+    case HapticAction::Axes:
+      this->InvokeEvent(AxesEvent);
+      break;
     case HapticAction::ResetView:
       if (vtkRenderer* renderer = this->MainRenderer())
       {

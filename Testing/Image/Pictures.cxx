@@ -8,6 +8,7 @@
 #include "OverlayPictures.h"
 #include "PolyDataAccess.h"
 #include "SplatPictures.h"
+#include "vtkCloudAxes.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkPickMarker.h"
@@ -22,6 +23,7 @@
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkLookupTable.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -282,6 +284,33 @@ void buildPickMarker(const std::string& fault, vtkRenderer* renderer)
   marker->AddTo(renderer);
 }
 
+/// Box, labels and marker about a cloud of a map in millimetres, which the model turns and shrinks.
+void buildCloudAxes(const std::string& fault, vtkRenderer* renderer)
+{
+  static const auto axes = vtkSmartPointer<vtkCloudAxes>::New();
+  look(renderer);
+  const double angle = fault == "no-turn" ? 0.0 : 0.3;
+  const double scale = 4e-5;
+  vtkNew<vtkMatrix4x4> model;
+  const double rows[16] = { scale * std::cos(angle), -scale * std::sin(angle), 0, 0, scale * std::sin(angle),
+    scale * std::cos(angle), 0, 0, 0, 0, scale, 0, 0, 0, 0, 1 };
+  model->DeepCopy(rows);
+  // The middle of the box, kilometres from the origin, comes to that of the workspace.
+  const double middle[4] = { 4545600.0, 351200.0, 400.0, 1.0 };
+  double there[4];
+  model->MultiplyPoint(middle, there);
+  for (int row = 0; row < 3; ++row)
+  {
+    model->SetElement(row, 3, -there[row]);
+  }
+  const double bounds[6] = { 4544900.0, 4546300.0, 350300.0, 352100.0, 0.0, 800.0 };
+  axes->SetBounds(bounds);
+  axes->SetMetresPerUnit(fault == "wrong-unit" ? 1.0 : 1e-3);
+  axes->SetModelMatrix(model);
+  axes->AddTo(renderer);
+  axes->SetVisibility(fault != "hidden");
+}
+
 /// A beginning of the fair order, as a picture that moves shows it. Points in the order of the file would be
 /// those of one end.
 void showLevel(const std::string& fault, vtkRenderer* renderer, int part, double pointSize)
@@ -355,6 +384,7 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
     { "ForceGauge", { "wrong-force" }, buildForceGauge },
     { "PickMarker", { "wrong-bandwidth", "wrong-voxel" }, buildPickMarker },
     { "HelpFits", { "large-font" }, buildHelpFits }, { "ErrorOverlay", { "no-message" }, buildErrorOverlay },
+    { "CloudAxes", { "hidden", "no-turn", "wrong-unit" }, buildCloudAxes },
     { "CoarseLevel", { "unfair-order" }, buildCoarseLevel },
     { "MiddleLevel", { "unfair-order" }, buildMiddleLevel },
     { "ModelInteraction", wrong, interaction("ModelInteraction") },
