@@ -219,6 +219,10 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
     .add_flag("--axes", options.axes,
       "A box about the cloud with its bounds in metres of the file, and where its axes point; key A")
     ->group(group);
+  command
+    .add_flag("--figure", options.figure,
+      "Nothing but the cloud in one colour on white, the workspace, proxy and normal; key O")
+    ->group(group);
   std::vector<std::string> shapes = { "auto", "none" };
   for (int shape = 0; shape < kNumberOfShapes; ++shape)
   {

@@ -51,6 +51,7 @@ struct ViewOptions
   std::vector<double> camera;        ///< Position, focal point, view up, of the workspace; empty: in front.
   bool pushPointer = false;
   bool axes = false;
+  bool figure = false;
   std::string ideal = "auto"; ///< Name of the shape whose exact force the chart shows, auto or none.
   bool noCovariance = false;
   std::string method = "surface-fit";

@@ -109,6 +109,7 @@ bool makePicture(ViewScene& scene, const ViewOptions& options, std::string& mess
     scene.props()->Update(shown.state);
   }
   scene.showAxes(options.axes);
+  scene.showFigure(options.figure);
   scene.placeAxes(scene.modelMatrix());
   scene.placeCamera(feels ? &shown.state : nullptr);
   applyCamera(options, scene.renderer());

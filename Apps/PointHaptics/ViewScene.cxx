@@ -353,22 +353,39 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   const bool showsColors = hasColors(output) && (options.colorBy.empty() || options.colorBy == "rgb");
   applyDepthShading(renderer_, (showsColors ? kDepthShadingScaleOfColors : kDepthShadingScale) * edge);
   mapper_->SetFixedPixels(options.pointSize);
-  applyCloudAppearance(output, mapper_, actor_, options.colorBy);
-  const bool showsBar = !options.colorBy.empty() && options.colorBy != "rgb";
-  scalarBar_->SetVisibility(showsBar);
-  scalarBar_->SetLookupTable(mapper_->GetLookupTable());
-  scalarBar_->SetTitle((options.colorBy + "\n").c_str());
+  colorBy_ = options.colorBy;
+  this->applyLook();
   return true;
 }
 
 void ViewScene::showAxes(bool visible)
 {
-  axes_->SetVisibility(visible);
+  wantsAxes_ = visible;
+  axes_->SetVisibility(wantsAxes_ && !figure_);
 }
 
-bool ViewScene::showsAxes() const
+void ViewScene::showFigure(bool figure)
 {
-  return axes_->GetVisibility();
+  figure_ = figure;
+  this->applyLook();
+}
+
+/// Colours of the cloud and the background, and what stands beside the cloud.
+void ViewScene::applyLook()
+{
+  vtkPolyData* output = bandwidth_->GetOutput();
+  applyCloudAppearance(output, mapper_, actor_, colorBy_);
+  applyBackground(renderer_);
+  scalarBar_->SetLookupTable(mapper_->GetLookupTable());
+  scalarBar_->SetTitle((colorBy_ + "\n").c_str());
+  scalarBar_->SetVisibility(!figure_ && !colorBy_.empty() && colorBy_ != "rgb");
+  if (figure_)
+  {
+    applyFigureAppearance(mapper_, actor_, renderer_);
+  }
+  axes_->SetVisibility(wantsAxes_ && !figure_);
+  props_->SetHandVisibility(!figure_);
+  detail_.recolor();
 }
 
 /// The box ends where the workspace does: of a monument the part in reach is what is looked at.

@@ -52,9 +52,13 @@ public:
 
   /// Box, bounds and directions of the cloud's own frame. They stay where the model was until placeAxes().
   void showAxes(bool visible);
-  bool showsAxes() const;
+  bool showsAxes() const { return wantsAxes_; }
   /// Where @p model, from the file to the workspace, puts the cloud.
   void placeAxes(vtkMatrix4x4* model);
+
+  /// Nothing but the cloud in one colour on white, the workspace, proxy and normal.
+  void showFigure(bool figure);
+  bool isFigure() const { return figure_; }
 
   /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
   Vec3 towardsViewer() const { return orientation_.front; }
@@ -80,6 +84,7 @@ public:
 
 private:
   void beginFrame();
+  void applyLook();
   void fit(const Bounds& cloud, const ViewOptions& options);
 
   vtkSmartPointer<vtkPolyData> cloud_;
@@ -91,6 +96,9 @@ private:
   vtkNew<vtkScalarBarActor> scalarBar_;
   vtkNew<vtkHapticProps> props_;
   vtkNew<vtkCloudAxes> axes_;
+  bool wantsAxes_ = false;
+  bool figure_ = false;
+  std::string colorBy_;
   Bounds cloudBounds_; ///< Of the finite points, as in the file; empty until the axes are shown.
   vtkNew<vtkRenderer> renderer_;
   CloudDetail detail_{ renderer_, actor_ };

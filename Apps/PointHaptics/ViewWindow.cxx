@@ -193,8 +193,13 @@ void ViewWindow::connectStyle()
   this->observe(vtkInteractorStyleHaptic::PreviousFileEvent, &ViewWindow::onPreviousFile);
   this->observe(vtkInteractorStyleHaptic::WriteSettingsEvent, &ViewWindow::onWriteSettings);
   this->observe(vtkInteractorStyleHaptic::AxesEvent, &ViewWindow::onAxes);
+  this->observe(vtkInteractorStyleHaptic::FigureEvent, &ViewWindow::onFigure);
   interactor_->SetInteractorStyle(style_);
   this->connectSliders();
+  if (options_.figure)
+  {
+    this->showFigure(true);
+  }
   vtkNew<vtkCallbackCommand> timer;
   timer->SetClientData(this);
   timer->SetCallback(

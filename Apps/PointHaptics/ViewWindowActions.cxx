@@ -150,6 +150,7 @@ nlohmann::ordered_json ViewWindow::settings()
   setCamera(settings, scene_.renderer()->GetActiveCamera());
   settings["push-pointer"] = style_->GetPushPointer();
   settings["axes"] = scene_.showsAxes();
+  settings["figure"] = scene_.isFigure();
   const int* size = window_->GetSize();
   settings["size"] = fmt::format("{}x{}", size[0], size[1]);
   return settings;
@@ -237,6 +238,29 @@ void ViewWindow::onAxes(void*)
 {
   scene_.showAxes(!scene_.showsAxes());
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
+}
+
+void ViewWindow::onFigure(void*)
+{
+  this->showFigure(!scene_.isFigure());
+}
+
+/// Texts, chart and sliders go; those that the user opens in the figure are shown.
+void ViewWindow::showFigure(bool figure)
+{
+  scene_.showFigure(figure);
+  scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
+  overlay_->RemoveFrom(scene_.renderer());
+  if (figure)
+  {
+    sliders_->SetVisibility(false);
+    chartBesideFigure_ = chart_->GetVisibility();
+  }
+  else
+  {
+    overlay_->AddTo(scene_.renderer());
+  }
+  style_->SetChartVisibility(!figure && chartBesideFigure_);
 }
 
 void ViewWindow::onScreenshot(void*)

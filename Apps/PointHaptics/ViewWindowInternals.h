@@ -63,6 +63,8 @@ private:
   void onPreviousFile(void*);
   void onWriteSettings(void*);
   void onAxes(void*);
+  void onFigure(void*);
+  void showFigure(bool figure);
   void onSlider(int slider);
   void connectSliders();
   void setContact(const ContactParameters& contact);
@@ -98,6 +100,7 @@ private:
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   TraceFile trace_;
   int screenshots_ = 0;
+  bool chartBesideFigure_ = true; ///< Comes back when the figure goes.
   std::string news_; // last line of the status
   std::unique_ptr<SimulatedDevice> hand_;
   std::unique_ptr<PathReplayDevice> replay_;

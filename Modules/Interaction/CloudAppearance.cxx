@@ -223,6 +223,14 @@ void applyBackground(vtkRenderer* renderer)
   renderer->SetBackground2(0.80, 0.84, 0.89);
 }
 
+void applyFigureAppearance(vtkPolyDataMapper* mapper, vtkActor* actor, vtkRenderer* renderer)
+{
+  mapper->ScalarVisibilityOff();
+  actor->GetProperty()->SetColor(0.60, 0.68, 0.80);
+  renderer->GradientBackgroundOff();
+  renderer->SetBackground(1.0, 1.0, 1.0);
+}
+
 void applyDepthShading(vtkRenderer* renderer, double depthScale)
 {
   auto* sequence = vtkSequencePass::SafeDownCast(renderer->GetPass());

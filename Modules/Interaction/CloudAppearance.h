@@ -43,6 +43,11 @@ POINTHAPTICSINTERACTION_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtk
 /// read.
 POINTHAPTICSINTERACTION_EXPORT void applyBackground(vtkRenderer* renderer);
 
+/// One plain colour on white, as in a printed figure. applyCloudAppearance() and applyBackground() take it
+/// back.
+POINTHAPTICSINTERACTION_EXPORT void applyFigureAppearance(
+  vtkPolyDataMapper* mapper, vtkActor* actor, vtkRenderer* renderer);
+
 /// Darkens what lies behind its surroundings (eye-dome lighting, vtkDepthShadingPass): points without normals
 /// show their shape.
 /// @param depthScale a point this far behind its neighbours, in the units of the scene, keeps 1/e of its

@@ -426,7 +426,7 @@ void CloudDetail::addLevel(vtkPolyData* cloud)
   levels_.push_back(level);
 }
 
-void CloudDetail::dropLevels()
+void CloudDetail::removeLevels()
 {
   for (const Level& level : levels_)
   {
@@ -436,6 +436,11 @@ void CloudDetail::dropLevels()
     }
   }
   levels_.clear();
+}
+
+void CloudDetail::dropLevels()
+{
+  this->removeLevels();
   order_.clear();
 }
 

@@ -62,6 +62,9 @@ public:
   /// The next frame shows all points, whatever moves: for pictures that are kept.
   void showAllOnce() { allOnce_ = true; }
 
+  /// The actor's mapper colours otherwise now: the parts of the picture that moves are made anew.
+  void recolor() { this->removeLevels(); }
+
   /// Whether the last frame showed all points.
   bool showsAll() const { return drawn_ >= total_; }
   bool isMoving() const { return moving_; }
@@ -94,6 +97,7 @@ private:
   void addLevel(vtkPolyData* cloud);
   void leaveOutUnseen();
   std::vector<HalfSpace> view() const;
+  void removeLevels();
   void dropLevels();
 
   vtkWeakPointer<vtkRenderer> renderer_;

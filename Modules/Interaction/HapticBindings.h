@@ -59,6 +59,7 @@ enum class HapticAction
   Chart,
   PauseChart,
   Axes,
+  Figure,
   NextFile,
   PreviousFile,
   Screenshot,

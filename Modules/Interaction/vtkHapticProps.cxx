@@ -217,6 +217,17 @@ void vtkHapticProps::SetGaugeVisibility(bool visible)
   this->Modified();
 }
 
+void vtkHapticProps::SetHandVisibility(bool visible)
+{
+  this->HandVisibility = visible;
+  if (this->Parts->shown)
+  {
+    this->Parts->shown = false;
+    this->Update(this->Parts->state);
+  }
+  this->Modified();
+}
+
 vtkHapticGauge* vtkHapticProps::GetGauge()
 {
   return this->Parts->gauge;
@@ -272,9 +283,9 @@ bool vtkHapticProps::Update(const ProxyState& state)
   setFrame(parts.forceMatrix, center, normalized(state.force), length,
     std::max(1e-9, std::min(length, kArrowThickness * parts.edge)));
   parts.proxy.setVisible(state.radius > 0.0);
-  parts.hip.setVisible(true);
+  parts.hip.setVisible(this->HandVisibility);
   parts.normal.setVisible(state.contact);
-  const bool pushes = state.contact && force > kSmallestForce;
+  const bool pushes = this->HandVisibility && state.contact && force > kSmallestForce;
   parts.force.setVisible(pushes);
   const Vec3 tip = center + length * normalized(state.force);
   if (pushes && this->GaugeVisibility)
@@ -330,5 +341,6 @@ void vtkHapticProps::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ForceScale: " << this->ForceScale << "\n";
   os << indent << "SmallestSphereRadius: " << this->SmallestSphereRadius << "\n";
   os << indent << "GaugeVisibility: " << this->GaugeVisibility << "\n";
+  os << indent << "HandVisibility: " << this->HandVisibility << "\n";
   os << indent << "TouchVisibility: " << this->TouchVisibility << "\n";
 }

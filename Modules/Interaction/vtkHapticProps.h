@@ -83,6 +83,15 @@ public:
   bool GetGaugeVisibility() const { return this->GaugeVisibility; }
   ///@}
 
+  ///@{
+  /**
+   * Show the hand and what it feels (HIP ball, force arrow, gauge) with the touch. Off: proxy sphere and
+   * normal only, as in a figure. Default: on.
+   */
+  void SetHandVisibility(bool visible);
+  bool GetHandVisibility() const { return this->HandVisibility; }
+  ///@}
+
   /**
    * The gauge, to set its range.
    */
@@ -122,6 +131,7 @@ protected:
   double ForceScale = 0.006;
   bool TouchVisibility = false;
   bool GaugeVisibility = true;
+  bool HandVisibility = true;
 
 private:
   vtkHapticProps(const vtkHapticProps&) = delete;

@@ -51,7 +51,7 @@
  * Events: ModelChangedEvent after the transform changed; SceneChangedEvent after a new scene was published
  * (also when it is empty); SamplesEvent with the new ticks (call data:
  * std::vector<pointhaptics::ServoSample>*); FilesDroppedEvent (call data: vtkStringArray*); ScreenshotEvent,
- * NextFileEvent, PreviousFileEvent, WriteSettingsEvent and AxesEvent when the user asks for it.
+ * NextFileEvent, PreviousFileEvent, WriteSettingsEvent, AxesEvent and FigureEvent when the user asks for it.
  *
  * Frames: the model transform maps the cloud's frame into the workspace's (x_T = T x + t); metres.
  * Thread safety: GUI thread only. Ownership: servo loop, device and SpaceMouse are not owned and must outlive
@@ -108,7 +108,8 @@ public:
     NextFileEvent,
     PreviousFileEvent,
     WriteSettingsEvent,
-    AxesEvent
+    AxesEvent,
+    FigureEvent
   };
 
   ///@{
@@ -259,6 +260,11 @@ public:
    * it; none is shown then.
    */
   bool PickAt(int x, int y);
+
+  /**
+   * Show or hide the chart; the picture takes the room it leaves.
+   */
+  void SetChartVisibility(bool visible);
 
   ///@{
   /**

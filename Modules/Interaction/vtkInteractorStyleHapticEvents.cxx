@@ -296,6 +296,10 @@ bool vtkInteractorStyleHaptic::ShowKey(HapticAction action)
     case HapticAction::Axes:
       this->InvokeEvent(AxesEvent);
       break;
+    case HapticAction::Figure:
+      this->ForgetPicked();
+      this->InvokeEvent(FigureEvent);
+      break;
     case HapticAction::ResetView:
       if (vtkRenderer* renderer = this->MainRenderer())
       {

@@ -157,6 +157,14 @@ void vtkInteractorStyleHaptic::SetStatusNote(const std::string& note)
   this->Parts->lastStatus = -1e9;
 }
 
+void vtkInteractorStyleHaptic::SetChartVisibility(bool visible)
+{
+  if (this->Parts->chart && this->Parts->chart->GetVisibility() != visible)
+  {
+    this->ToggleChart();
+  }
+}
+
 void vtkInteractorStyleHaptic::ToggleChart()
 {
   vtkHapticChart* chart = this->Parts->chart;

@@ -284,6 +284,30 @@ void buildPickMarker(const std::string& fault, vtkRenderer* renderer)
   marker->AddTo(renderer);
 }
 
+/// A touch on a sphere as a printed figure has it: one colour, cube, proxy and normal, nothing else.
+void buildFigure(const std::string& fault, vtkRenderer* renderer)
+{
+  const vtkSmartPointer<vtkPolyData> cloud = cloudOf(spiralSphere(20000, 0.03));
+  addHeightArray(cloud, { 0, 0, 1 });
+  look(renderer);
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkActor> actor;
+  const vtkSmartPointer<vtkPolyData> means = resample(cloud, 0.002);
+  mapper->SetInputData(means);
+  actor->SetMapper(mapper);
+  applyCloudAppearance(means, mapper, actor, kHeightArrayName, 5.0);
+  renderer->AddActor(actor);
+  if (fault != "colored")
+  {
+    applyFigureAppearance(mapper, actor, renderer);
+  }
+  vtkNew<vtkHapticProps> props;
+  props->AddTo(renderer);
+  const Vec3 normal = normalized(Vec3{ 0.9, -0.6, 0.7 });
+  props->Update(contactAt(0.03 * normal, normal, 0.004, 0.004));
+  props->SetHandVisibility(fault == "hand-shown");
+}
+
 /// Box, labels and marker about a cloud of a map in millimetres, which the model turns and shrinks.
 void buildCloudAxes(const std::string& fault, vtkRenderer* renderer)
 {
@@ -384,6 +408,7 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
     { "ForceGauge", { "wrong-force" }, buildForceGauge },
     { "PickMarker", { "wrong-bandwidth", "wrong-voxel" }, buildPickMarker },
     { "HelpFits", { "large-font" }, buildHelpFits }, { "ErrorOverlay", { "no-message" }, buildErrorOverlay },
+    { "Figure", { "colored", "hand-shown" }, buildFigure },
     { "CloudAxes", { "hidden", "no-turn", "wrong-unit" }, buildCloudAxes },
     { "CoarseLevel", { "unfair-order" }, buildCoarseLevel },
     { "MiddleLevel", { "unfair-order" }, buildMiddleLevel },

@@ -133,9 +133,12 @@ sleep 0.5
 xdotool keyup 1
 sleep 0.3
 key a
+key o
 key w
 said "settings: pointhaptics-006.json"
 [[ "$(setting axes pointhaptics-005.json) $(setting axes pointhaptics-006.json)" == '"axes":false "axes":true' ]] || fail "key A did not show the axes"
+[[ "$(setting figure pointhaptics-005.json) $(setting figure pointhaptics-006.json)" == '"figure":false "figure":true' ]] || fail "key O did not make the figure"
+key o
 [[ "$(setting camera pointhaptics-005.json)" != "$(setting camera pointhaptics-006.json)" ]] || fail "the camera is not written"
 [[ "$(element pointhaptics-005.json 3)" != "$(element pointhaptics-006.json 3)" ]] || fail "the hand did not shift the model"
 xdotool mousemove --window "$window" 300 150
@@ -181,7 +184,7 @@ window="$(xdotool search --name "PointHaptics: first.ply" | head -n 1)"
 until_true "the second window does not take the focus" takes_keys
 key w
 said "settings: pointhaptics-008.json"
-for name in camera matrix bind size axes; do
+for name in camera matrix bind size axes figure; do
   [[ "$(setting $name pointhaptics-006.json)" == "$(setting $name pointhaptics-008.json)" ]] || fail "--config lost $name"
   [[ -n "$(setting $name pointhaptics-008.json)" ]] || fail "no $name in the written settings"
 done
