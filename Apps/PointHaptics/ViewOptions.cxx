@@ -306,8 +306,10 @@ void ViewOptions::addTo(CLI::App& command)
     "Axis of the cloud that points up; default: a guess");
   command
     .add_option("--color-by", this->colorBy,
-      "Array to colour by: rgb, Height, ProxyRadius, ...; default: rgb, or Height")
-    ->type_name("ARRAY");
+      "Array to colour by: rgb, Height, ProxyRadius, ..., with :x, :0 or :magnitude for a component of a "
+      "vector; default: "
+      "rgb, or Height")
+    ->type_name("ARRAY[:COMPONENT]");
   addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS",
     "Diameter of a point; default: as the kernel bandwidth says, so that surfaces close");
   command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");

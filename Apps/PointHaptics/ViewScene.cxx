@@ -34,6 +34,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 namespace pointhaptics
 {
@@ -80,12 +81,14 @@ void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
 {
   vtkPointData* data = cloud->GetPointData();
   const bool colors = hasColors(cloud) && (colorBy.empty() || colorBy == "rgb");
+  const std::optional<ColorSource> source = findColorSource(cloud, colorBy);
+  const std::string kept = source ? source->array : colorBy;
   vtkDataArray* scalars = colors ? data->GetScalars() : nullptr;
   for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
     const std::string name = array->GetName() ? array->GetName() : "";
-    if (array != scalars && name != colorBy && name != kHeightArrayName)
+    if (array != scalars && name != kept && name != kHeightArrayName)
     {
       data->RemoveArray(i);
     }
@@ -99,23 +102,47 @@ bool isMadeByPipeline(const std::string& name)
     name == "VoxelPointCount";
 }
 
-/// False: @p message names the arrays there are.
+/// "Velocity (:x, :y, :z, :magnitude)": what can be said of @p array.
+std::string withComponents(vtkPolyData* cloud, vtkDataArray* array)
+{
+  std::string text;
+  for (int i = 0; array->GetNumberOfComponents() > 1 && i <= array->GetNumberOfComponents(); ++i)
+  {
+    const int component = i < array->GetNumberOfComponents() ? i : kMagnitude;
+    const std::string whole = describeColorSource(cloud, { array->GetName(), component });
+    text += (i > 0 ? ", " : "") + whole.substr(std::string(array->GetName()).size());
+  }
+  return array->GetName() + (text.empty() ? text : " (" + text + ")");
+}
+
+/// False: @p message names the arrays and components there are.
 bool canColorBy(vtkPolyData* cloud, const std::string& name, std::string& message)
 {
   vtkPointData* data = cloud->GetPointData();
   const bool known = name.empty() || (name == "rgb" ? hasColors(cloud) : isMadeByPipeline(name)) ||
-    (name != "rgb" && data->GetArray(name.c_str()));
-  if (!known)
+    (name != "rgb" && findColorSource(cloud, name));
+  if (known)
   {
-    message = fmt::format("--color-by {}: the cloud has no such array; it has", name);
-    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-    {
-      message += fmt::format(" {},", data->GetArrayName(i));
-    }
-    message += fmt::format(
-      "{} {}, ProxyRadius, Bandwidth, VoxelPointCount", hasColors(cloud) ? " rgb," : "", kHeightArrayName);
+    return true;
   }
-  return known;
+  vtkDataArray* array = data->GetArray(name.substr(0, name.rfind(':')).c_str());
+  if (array && array->GetNumberOfComponents() > 1)
+  {
+    message = fmt::format(
+      "--color-by {}: the array has no such component; give one of {}", name, withComponents(cloud, array));
+    return false;
+  }
+  message = fmt::format("--color-by {}: the cloud has no such array; it has", name);
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* each = data->GetArray(i); each && each->GetName())
+    {
+      message += fmt::format(" {},", withComponents(cloud, each));
+    }
+  }
+  message += fmt::format(
+    "{} {}, ProxyRadius, Bandwidth, VoxelPointCount", hasColors(cloud) ? " rgb," : "", kHeightArrayName);
+  return false;
 }
 
 void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
@@ -377,7 +404,8 @@ void ViewScene::applyLook()
   applyCloudAppearance(output, mapper_, actor_, colorBy_);
   applyBackground(renderer_);
   scalarBar_->SetLookupTable(mapper_->GetLookupTable());
-  scalarBar_->SetTitle((colorBy_ + "\n").c_str());
+  const std::optional<ColorSource> source = findColorSource(output, colorBy_);
+  scalarBar_->SetTitle(((source ? describeColorSource(output, *source) : colorBy_) + "\n").c_str());
   scalarBar_->SetVisibility(!figure_ && !colorBy_.empty() && colorBy_ != "rgb");
   if (figure_)
   {

@@ -39,15 +39,29 @@ constexpr double kColorPoints[9][3] = { { 0.267, 0.005, 0.329 }, { 0.278, 0.175,
   { 0.231, 0.322, 0.546 }, { 0.173, 0.449, 0.558 }, { 0.128, 0.567, 0.551 }, { 0.153, 0.678, 0.506 },
   { 0.361, 0.785, 0.388 }, { 0.627, 0.842, 0.224 }, { 0.890, 0.840, 0.130 } };
 
-/// The finite ones of at most about 10,000 values of the first component, in ascending order.
-std::vector<double> finiteSample(vtkDataArray* array)
+double valueOf(vtkDataArray* array, vtkIdType tuple, int component)
+{
+  if (component != kMagnitude)
+  {
+    return array->GetComponent(tuple, component);
+  }
+  double sum = 0.0;
+  for (int i = 0; i < array->GetNumberOfComponents(); ++i)
+  {
+    sum += array->GetComponent(tuple, i) * array->GetComponent(tuple, i);
+  }
+  return std::sqrt(sum);
+}
+
+/// The finite ones of at most about 10,000 values, in ascending order.
+std::vector<double> finiteSample(vtkDataArray* array, int component)
 {
   std::vector<double> values;
   const vtkIdType count = array->GetNumberOfTuples();
   const vtkIdType step = std::max<vtkIdType>(1, count / 10000);
   for (vtkIdType i = 0; i < count; i += step)
   {
-    const double value = array->GetComponent(i, 0);
+    const double value = valueOf(array, i, component);
     if (std::isfinite(value))
     {
       values.push_back(value);
@@ -57,10 +71,25 @@ std::vector<double> finiteSample(vtkDataArray* array)
   return values;
 }
 
-/// Range of the finite values between the 1st and the 99th percentile.
-void robustRange(vtkDataArray* array, double range[2])
+/// The word for a component: its own name, x to z of three, or its number.
+std::string componentName(vtkDataArray* array, int component)
 {
-  const std::vector<double> values = finiteSample(array);
+  if (component == kMagnitude)
+  {
+    return "magnitude";
+  }
+  const char* own = array->GetComponentName(component);
+  if (own && *own)
+  {
+    return own;
+  }
+  return array->GetNumberOfComponents() == 3 ? std::string(1, "xyz"[component]) : std::to_string(component);
+}
+
+/// Range of the finite values between the 1st and the 99th percentile.
+void robustRange(vtkDataArray* array, int component, double range[2])
+{
+  const std::vector<double> values = finiteSample(array, component);
   range[0] = 0.0;
   range[1] = 1.0;
   if (!values.empty())
@@ -74,11 +103,20 @@ void robustRange(vtkDataArray* array, double range[2])
   }
 }
 
-void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array)
+void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
 {
   double range[2];
-  robustRange(array, range);
+  robustRange(array, component, range);
   vtkLookupTable* colors = newCloudColorMap();
+  if (component == kMagnitude)
+  {
+    colors->SetVectorModeToMagnitude();
+  }
+  else
+  {
+    colors->SetVectorModeToComponent();
+    colors->SetVectorComponent(component);
+  }
   colors->SetTableRange(range);
   mapper->SetLookupTable(colors);
   colors->Delete();
@@ -133,6 +171,35 @@ void addHeightArray(vtkPolyData* cloud, const Vec3& up)
     array->SetValue(i, std::isnan(height) ? 0.0f : static_cast<float>(height - lowest));
   }
   cloud->GetPointData()->AddArray(array);
+}
+
+std::optional<ColorSource> findColorSource(vtkPolyData* cloud, const std::string& colorBy)
+{
+  vtkPointData* data = cloud->GetPointData();
+  if (vtkDataArray* array = data->GetArray(colorBy.c_str()))
+  {
+    return ColorSource{ colorBy, array->GetNumberOfComponents() > 1 ? kMagnitude : 0 };
+  }
+  const std::size_t colon = colorBy.rfind(':');
+  const std::string name = colorBy.substr(0, colon);
+  vtkDataArray* array = colon == std::string::npos ? nullptr : data->GetArray(name.c_str());
+  const std::string word = array ? colorBy.substr(colon + 1) : "";
+  for (int i = kMagnitude; array && i < array->GetNumberOfComponents(); ++i)
+  {
+    if (word == componentName(array, i) || (i != kMagnitude && word == std::to_string(i)))
+    {
+      return ColorSource{ name, i };
+    }
+  }
+  return std::nullopt;
+}
+
+std::string describeColorSource(vtkPolyData* cloud, const ColorSource& source)
+{
+  vtkDataArray* array = cloud->GetPointData()->GetArray(source.array.c_str());
+  return array && array->GetNumberOfComponents() > 1
+    ? source.array + ":" + componentName(array, source.component)
+    : source.array;
 }
 
 bool hasColors(vtkPolyData* cloud)
@@ -191,10 +258,10 @@ bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper, vtkActo
   actor->GetProperty()->SetColor(0.20, 0.33, 0.55);
   actor->GetProperty()->LightingOff();
   const bool wantsColors = colorBy.empty() || colorBy == "rgb";
-  vtkDataArray* array = cloud->GetPointData()->GetArray(colorBy.c_str());
-  if (array && !wantsColors)
+  const std::optional<ColorSource> source = wantsColors ? std::nullopt : findColorSource(cloud, colorBy);
+  if (source)
   {
-    colorByArray(mapper, array);
+    colorByArray(mapper, cloud->GetPointData()->GetArray(source->array.c_str()), source->component);
     return true;
   }
   if (wantsColors && hasColors(cloud))
@@ -207,7 +274,7 @@ bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper, vtkActo
   vtkDataArray* height = cloud->GetPointData()->GetArray(kHeightArrayName);
   if (height)
   {
-    colorByArray(mapper, height);
+    colorByArray(mapper, height, 0);
   }
   else
   {

@@ -6,6 +6,7 @@
 
 #include "PointHapticsInteractionModule.h" // For export macro
 
+#include <optional>
 #include <string>
 
 class vtkActor;
@@ -32,8 +33,26 @@ POINTHAPTICSINTERACTION_EXPORT void addHeightArray(vtkPolyData* cloud, const Vec
 /// True where the active scalars are colours: unsigned char with 3 or 4 components.
 POINTHAPTICSINTERACTION_EXPORT bool hasColors(vtkPolyData* cloud);
 
+/// What the points are coloured by.
+struct ColorSource
+{
+  std::string array;
+  int component = 0; ///< From 0; kMagnitude: the length of the vector.
+};
+constexpr int kMagnitude = -1;
+
+/// The array and the component that @p colorBy names: "ARRAY", "ARRAY:0" and so on, "ARRAY:magnitude", and by
+/// the names of the components, where the array has them; "ARRAY:x" to "ARRAY:z" of one with three. A name
+/// alone means the magnitude of an array with several components. None: @p cloud has no such point array or
+/// component.
+POINTHAPTICSINTERACTION_EXPORT std::optional<ColorSource> findColorSource(
+  vtkPolyData* cloud, const std::string& colorBy);
+
+/// "ARRAY", or with its component as the user would write it where there are several: for a scalar bar.
+POINTHAPTICSINTERACTION_EXPORT std::string describeColorSource(vtkPolyData* cloud, const ColorSource& source);
+
 /// Makes @p mapper and @p actor draw the points of the mapper's input as squares of @p pointSize pixels.
-/// @param colorBy name of a point array; "rgb" for the active colours; empty: colours if there, else
+/// @param colorBy what findColorSource() takes; "rgb" for the active colours; empty: colours if there, else
 /// "Height", else one colour. An array is coloured over its range, without the 1 % at each end. False: there
 /// is no such array, and the appearance is that of the empty name.
 POINTHAPTICSINTERACTION_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper,

@@ -22,6 +22,7 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
+#include <vtkFloatArray.h>
 #include <vtkLookupTable.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
@@ -308,6 +309,24 @@ void buildFigure(const std::string& fault, vtkRenderer* renderer)
   props->SetHandVisibility(fault == "hand-shown");
 }
 
+/// A sphere coloured by the second component of a vector.
+void buildComponentColors(const std::string& fault, vtkRenderer* renderer)
+{
+  const std::vector<Vec3> points = spiralSphere(20000, 0.03);
+  const vtkSmartPointer<vtkPolyData> cloud = cloudOf(points);
+  vtkNew<vtkFloatArray> flow;
+  flow->SetName("Flow:rate"); // a colon of its own
+  flow->SetNumberOfComponents(3);
+  for (const Vec3& p : points)
+  {
+    flow->InsertNextTuple3(p.x, p.y, 2.0 * p.z);
+  }
+  cloud->GetPointData()->AddArray(flow);
+  look(renderer);
+  const char* component = fault == "other-component" ? ":z" : (fault == "magnitude" ? "" : ":1");
+  showCloud(renderer, resample(cloud, 0.002), std::string("Flow:rate") + component, 5.0);
+}
+
 /// Box, labels and marker about a cloud of a map in millimetres, which the model turns and shrinks.
 void buildCloudAxes(const std::string& fault, vtkRenderer* renderer)
 {
@@ -409,6 +428,7 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
     { "PickMarker", { "wrong-bandwidth", "wrong-voxel" }, buildPickMarker },
     { "HelpFits", { "large-font" }, buildHelpFits }, { "ErrorOverlay", { "no-message" }, buildErrorOverlay },
     { "Figure", { "colored", "hand-shown" }, buildFigure },
+    { "ComponentColors", { "other-component", "magnitude" }, buildComponentColors },
     { "CloudAxes", { "hidden", "no-turn", "wrong-unit" }, buildCloudAxes },
     { "CoarseLevel", { "unfair-order" }, buildCoarseLevel },
     { "MiddleLevel", { "unfair-order" }, buildMiddleLevel },
