@@ -91,6 +91,11 @@ keep() {
 # Method: the radii.
 "$program" view idol.ply --unit m --color-by ProxyRadius --size 760x600 --screenshot "$folder/idol-radius.png"
 
+# Tour: axes and bounds; the figure.
+"$program" view idol.ply --unit m --axes --size 1000x700 --screenshot "$folder/tour-axes.png"
+"$program" view idol.ply --unit m --figure --path "$here/../Data/Paths/idol-touch.csv" --size 760x600 \
+  --screenshot "$folder/tour-figure.png"
+
 # Tour: the hand of the mouse presses on the statue.
 open_window idol.ply --size 1000x700
 keys f Prior Prior Prior Prior Prior Prior Prior Prior Prior Prior Prior Prior Prior Prior

@@ -27,7 +27,6 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
-#include <vtkTextProperty.h>
 #include <vtkVariant.h>
 #include <vtkWindowToImageFilter.h>
 
@@ -211,20 +210,8 @@ ViewScene::ViewScene()
   sizing->SetCallback(
     [](vtkObject*, unsigned long, void* self, void*) { static_cast<ViewScene*>(self)->beginFrame(); });
   renderer_->AddObserver(vtkCommand::StartEvent, sizing);
-  scalarBar_->SetNumberOfLabels(4);
-  scalarBar_->UnconstrainedFontSizeOn();
-  for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty() })
-  {
-    text->SetFontSize(15);
-    text->SetColor(0.1, 0.1, 0.1);
-    text->ItalicOff();
-    text->BoldOff();
-    text->ShadowOff();
-  }
+  setUpScalarBar(scalarBar_);
   scalarBar_->SetLookupTable(mapper_->GetLookupTable());
-  scalarBar_->SetPosition(0.90, 0.28);
-  scalarBar_->SetWidth(0.08);
-  scalarBar_->SetHeight(0.5);
   scalarBar_->VisibilityOff();
   renderer_->AddActor2D(scalarBar_);
 }
@@ -234,9 +221,13 @@ ViewScene::~ViewScene()
   renderer_->RemoveObservers(vtkCommand::StartEvent);
 }
 
-/// Before every render: how many points it shows.
+/// Before every render: how many points it shows, and room for the scalar bar.
 void ViewScene::beginFrame()
 {
+  if (scalarBar_->GetVisibility())
+  {
+    placeScalarBar(scalarBar_, renderer_);
+  }
   detail_.beginFrame(
     std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());
 }

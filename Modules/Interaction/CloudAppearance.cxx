@@ -21,11 +21,14 @@
 #include "vtkProperty.h"
 #include "vtkRenderPassCollection.h"
 #include "vtkRenderer.h"
+#include "vtkScalarBarActor.h"
 #include "vtkSequencePass.h"
+#include "vtkTextProperty.h"
 #include "vtkTranslucentPass.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 namespace pointhaptics
@@ -38,6 +41,8 @@ namespace
 constexpr double kColorPoints[9][3] = { { 0.267, 0.005, 0.329 }, { 0.278, 0.175, 0.483 },
   { 0.231, 0.322, 0.546 }, { 0.173, 0.449, 0.558 }, { 0.128, 0.567, 0.551 }, { 0.153, 0.678, 0.506 },
   { 0.361, 0.785, 0.388 }, { 0.627, 0.842, 0.224 }, { 0.890, 0.840, 0.130 } };
+
+constexpr int kScalarBarFont = 15;
 
 double valueOf(vtkDataArray* array, vtkIdType tuple, int component)
 {
@@ -281,6 +286,41 @@ bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper, vtkActo
     mapper->ScalarVisibilityOff();
   }
   return colorBy.empty();
+}
+
+void setUpScalarBar(vtkScalarBarActor* bar)
+{
+  bar->SetNumberOfLabels(4);
+  bar->UnconstrainedFontSizeOn();
+  for (vtkTextProperty* text : { bar->GetTitleTextProperty(), bar->GetLabelTextProperty() })
+  {
+    text->SetFontSize(kScalarBarFont);
+    text->SetColor(0.1, 0.1, 0.1);
+    text->ItalicOff();
+    text->BoldOff();
+    text->ShadowOff();
+  }
+  bar->SetLabelFormat("%#.3g ");
+  bar->SetTextPositionToPrecedeScalarBar(); // a long title grows away from the edge
+}
+
+void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer)
+{
+  constexpr double kMargin = 12.0;
+  constexpr double kBarWidth = 24.0;
+  constexpr double kNumberLetters = 9.0; // -1.23e-05
+  constexpr double kLetterWidth = 0.57;  // of the font's size
+  const double size = renderer->GetSize()[0];
+  const double letter = kLetterWidth * kScalarBarFont;
+  const double title = letter * double(bar->GetTitle() ? std::strlen(bar->GetTitle()) : 0);
+  const double width = std::min(size, std::max(title, kBarWidth + letter * kNumberLetters));
+  if (width > 0.0)
+  {
+    bar->SetPosition(std::max(0.0, (size - kMargin - width) / size), 0.28);
+    bar->SetWidth(width / size);
+    bar->SetHeight(0.5);
+    bar->SetBarRatio(std::min(1.0, kBarWidth / width));
+  }
 }
 
 void applyBackground(vtkRenderer* renderer)

@@ -14,6 +14,7 @@ class vtkLookupTable;
 class vtkPolyData;
 class vtkPolyDataMapper;
 class vtkRenderer;
+class vtkScalarBarActor;
 
 namespace pointhaptics
 {
@@ -57,6 +58,13 @@ POINTHAPTICSINTERACTION_EXPORT std::string describeColorSource(vtkPolyData* clou
 /// is no such array, and the appearance is that of the empty name.
 POINTHAPTICSINTERACTION_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper,
   vtkActor* actor, const std::string& colorBy = {}, double pointSize = 3.0);
+
+/// Dark text on the light background, at the right edge: see placeScalarBar().
+POINTHAPTICSINTERACTION_EXPORT void setUpScalarBar(vtkScalarBarActor* bar);
+
+/// Makes room for the title and the numbers of @p bar at the right edge of @p renderer, in pixels: to be
+/// called before a render whose size or title may be another one.
+POINTHAPTICSINTERACTION_EXPORT void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer);
 
 /// A light background, white below to a pale blue-grey above, on which black lines and all colours of the map
 /// read.

@@ -31,6 +31,7 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
 #include <vtkScalarsToColors.h>
 #include <vtkSmartPointer.h>
 
@@ -327,6 +328,25 @@ void buildComponentColors(const std::string& fault, vtkRenderer* renderer)
   showCloud(renderer, resample(cloud, 0.002), std::string("Flow:rate") + component, 5.0);
 }
 
+/// A long title and negative numbers, all within the picture.
+void buildScalarBar(const std::string& fault, vtkRenderer* renderer)
+{
+  look(renderer);
+  vtkNew<vtkScalarBarActor> bar;
+  setUpScalarBar(bar);
+  const auto colors = vtkSmartPointer<vtkLookupTable>::Take(newCloudColorMap());
+  colors->SetTableRange(-0.00077, fault == "wrong-range" ? 0.0026 : 0.0025);
+  bar->SetLookupTable(colors);
+  bar->SetTitle("DistanceToSurface:x\n");
+  placeScalarBar(bar, renderer);
+  if (fault == "at-the-edge")
+  {
+    bar->SetPosition(0.90, 0.28);
+    bar->SetWidth(0.08);
+  }
+  renderer->AddActor2D(bar);
+}
+
 /// Box, labels and marker about a cloud of a map in millimetres, which the model turns and shrinks.
 void buildCloudAxes(const std::string& fault, vtkRenderer* renderer)
 {
@@ -429,6 +449,7 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
     { "HelpFits", { "large-font" }, buildHelpFits }, { "ErrorOverlay", { "no-message" }, buildErrorOverlay },
     { "Figure", { "colored", "hand-shown" }, buildFigure },
     { "ComponentColors", { "other-component", "magnitude" }, buildComponentColors },
+    { "ScalarBar", { "wrong-range", "at-the-edge" }, buildScalarBar },
     { "CloudAxes", { "hidden", "no-turn", "wrong-unit" }, buildCloudAxes },
     { "CoarseLevel", { "unfair-order" }, buildCoarseLevel },
     { "MiddleLevel", { "unfair-order" }, buildMiddleLevel },
