@@ -24,6 +24,7 @@
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
@@ -372,6 +373,9 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   applyDepthShading(renderer_, (showsColors ? kDepthShadingScaleOfColors : kDepthShadingScale) * edge);
   mapper_->SetFixedPixels(options.pointSize);
   colorBy_ = options.colorBy;
+  applyCloudAppearance(output, mapper_, actor_, colorBy_);
+  isColored_ = mapper_->GetScalarVisibility() != 0;
+  actor_->GetProperty()->GetColor(plainColor_);
   this->applyLook();
   return true;
 }
@@ -392,7 +396,8 @@ void ViewScene::showFigure(bool figure)
 void ViewScene::applyLook()
 {
   vtkPolyData* output = bandwidth_->GetOutput();
-  applyCloudAppearance(output, mapper_, actor_, colorBy_);
+  mapper_->SetScalarVisibility(isColored_); // the range of the colours stays
+  actor_->GetProperty()->SetColor(plainColor_);
   applyBackground(renderer_);
   scalarBar_->SetLookupTable(mapper_->GetLookupTable());
   const std::optional<ColorSource> source = findColorSource(output, colorBy_);

@@ -98,6 +98,8 @@ private:
   vtkNew<vtkCloudAxes> axes_;
   bool wantsAxes_ = false;
   bool figure_ = false;
+  bool isColored_ = false; ///< By an array or its own colours, when it is no figure.
+  double plainColor_[3] = { 0.0, 0.0, 0.0 };
   std::string colorBy_;
   Bounds cloudBounds_; ///< Of the finite points, as in the file; empty until the axes are shown.
   vtkNew<vtkRenderer> renderer_;
