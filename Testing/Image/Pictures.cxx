@@ -355,7 +355,7 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
     { "ForceGauge", { "wrong-force" }, buildForceGauge },
     { "PickMarker", { "wrong-bandwidth", "wrong-voxel" }, buildPickMarker },
     { "HelpFits", { "large-font" }, buildHelpFits }, { "ErrorOverlay", { "no-message" }, buildErrorOverlay },
-    { "CoarseLevel", { "unfair-order" }, buildCoarseLevel },
+    { "Progress", { "wrong-part" }, buildProgress }, { "CoarseLevel", { "unfair-order" }, buildCoarseLevel },
     { "MiddleLevel", { "unfair-order" }, buildMiddleLevel },
     { "ModelInteraction", wrong, interaction("ModelInteraction") },
     { "CameraInteraction", wrong, interaction("CameraInteraction") },
