@@ -112,7 +112,6 @@ bool ViewWindow::awaitCloud(const CloudLoader& loader)
   interactor_->DestroyTimer(timer);
   interactor_->RemoveObserver(ticks);
   interactor_->RemoveObserver(keys);
-  this->forgiveEscape();
   return loader.waitFor(0.0);
 }
 
@@ -412,6 +411,7 @@ bool ViewWindow::run(std::string& message)
   {
     return false;
   }
+  const bool hasWaited = isOpen_;
   this->setUpRendering();
   if (!this->openDevice(message))
   {
@@ -429,6 +429,10 @@ bool ViewWindow::run(std::string& message)
   }
   style_->StartUpdates();
   rememberStopSignals();
+  if (hasWaited)
+  {
+    this->forgiveEscape();
+  }
   runEvents(interactor_);
   return this->finish(message);
 }

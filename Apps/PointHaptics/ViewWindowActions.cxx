@@ -87,9 +87,10 @@ void ViewWindow::followLoading()
   std::string message;
   if (!loader_.take(cloud, message))
   {
-    if (loader_.seconds() > kSilence &&
-      progress_->SetProgress("reading " + titleOf(loading_.files), loader_.progress()))
+    const std::string words = "reading " + titleOf(loading_.files);
+    if (loader_.seconds() > kSilence && progress_->SetProgress(words, loader_.progress()))
     {
+      window_->SetWindowName(("PointHaptics: " + words).c_str());
       interactor_->Render();
     }
     return;
@@ -109,6 +110,7 @@ void ViewWindow::endLoading(bool isShown)
 {
   if (progress_->Hide())
   {
+    window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
     this->forgiveEscape();
     interactor_->Render();
   }
