@@ -204,6 +204,23 @@ escape_while_it_reads() {
   kill -CONT "$viewer"
   return "$seen"
 }
+# interrupts_while_it_reads: Ctrl+C where Escape was in time already; left out where the bar is not seen.
+interrupts_while_it_reads() {
+  env --default-signal=INT "$program" view large.csv --size 640x480 --device none >said.txt 2>&1 &
+  viewer=$!
+  until_true "the file is not read again" reads_or_has_read
+  kill -STOP "$viewer"
+  local expected=0 code=0
+  if is_reading; then
+    expected=130
+    kill -INT "$viewer"
+  else
+    kill -TERM "$viewer"
+  fi
+  kill -CONT "$viewer"
+  wait "$viewer" || code=$?
+  ((code == expected)) || fail "exit code $code after Ctrl+C at the start"
+}
 answered() { grep -qE "large.csv: not read|file 2 of 2: large.csv|reading was stopped|^[0-9]{6,} points" said.txt; }
 kept="" ended=""
 for points in 500000 2000000 8000000; do
@@ -240,6 +257,7 @@ for points in 500000 2000000 8000000; do
         ended=yes
         wait "$viewer" || code=$?
         ((code == 130)) || fail "exit code $code after Escape at the start"
+        interrupts_while_it_reads
       fi
     fi
     kill "$viewer" 2>/dev/null || true
