@@ -97,24 +97,21 @@ public:
     window_->RemoveRenderer(scene_.renderer());
   }
 
-  double press(const char* key) override
+  Response press(const char* key) override
   {
     this->goOn(std::uniform_real_distribution<double>(kPauseSeconds[0], kPauseSeconds[1])(random_));
     const std::uint64_t before = scenes_;
+    movedAt_ = takenAt_ = -1.0;
     const double pressed = seconds();
     interactor_->SetKeyEventInformation(0, 0, 0, 0, key);
     interactor_->InvokeEvent(vtkCommand::KeyPressEvent);
     const Clock::time_point end = Clock::now() + kLongestWait;
-    while (scenes_ == before && Clock::now() < end)
+    while ((scenes_ < before + 2 || style_->IsModelChanged()) && Clock::now() < end)
     {
       this->goOn(0.0);
     }
-    const double time = scenes_ == before ? -1.0 : takenAt_ - pressed;
-    while (style_->IsModelChanged() && Clock::now() < end)
-    {
-      this->goOn(0.0);
-    }
-    return time;
+    const bool came = scenes_ >= before + 2;
+    return { came ? movedAt_ - pressed : -1.0, came ? takenAt_ - pressed : -1.0 };
   }
 
 private:
@@ -146,6 +143,7 @@ private:
       if (scenes != scenes_)
       {
         takenAt_ = seconds();
+        movedAt_ = movedAt_ < 0.0 ? takenAt_.load() : movedAt_.load();
         scenes_ = scenes;
       }
       std::this_thread::sleep_for(kLookPeriod);
@@ -161,7 +159,8 @@ private:
   std::mt19937 random_{ 8 };
   Clock::time_point due_ = Clock::now();
   std::atomic<std::uint64_t> scenes_{ 0 };
-  std::atomic<double> takenAt_{ 0.0 };
+  std::atomic<double> movedAt_{ -1.0 }; ///< The first scene after the key, and the last one.
+  std::atomic<double> takenAt_{ -1.0 };
   std::atomic<bool> ending_{ false };
   std::thread watch_;
 };

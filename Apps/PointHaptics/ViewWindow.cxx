@@ -61,6 +61,7 @@ void ViewWindow::openWindow()
 {
   window_->SetMultiSamples(0);
   window_->SetSize(options_.width, options_.height);
+  window_->SetWindowName("PointHaptics");
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(nullptr); // until there is something to move
   isOpen_ = true;
@@ -71,13 +72,14 @@ bool ViewWindow::awaitCloud(const CloudLoader& loader)
 {
   const std::string title = titleOf(options_.firstFiles());
   this->openWindow();
-  window_->SetWindowName(("PointHaptics: reading " + title).c_str());
   applyBackground(waiting_);
   progress_->SetProgress("reading " + title, loader.progress());
   progress_->AddTo(waiting_);
   window_->AddRenderer(waiting_);
   window_->Render();
   interactor_->Initialize();
+  // Not before it hears keys: who waits for the title may press one.
+  window_->SetWindowName(("PointHaptics: reading " + title).c_str());
 
   struct Wait
   {

@@ -41,10 +41,16 @@ using MakeTurntable = std::function<std::unique_ptr<Turntable>(
 class ModelMover
 {
 public:
+  /// From a key's event until the servo loop had a scene of it; below 0: it did not come.
+  struct Response
+  {
+    double movedSeconds;     ///< The old voxels where the model is now.
+    double resampledSeconds; ///< Its new voxels.
+  };
+
   virtual ~ModelMover() = default;
-  /// Presses @p key, which moves the model, and goes on as the viewer's window does. Returns the seconds
-  /// until the servo loop had the scene of it; below 0: it did not come.
-  virtual double press(const char* key) = 0;
+  /// Presses @p key, which moves the model, and goes on as the viewer's window does until both came.
+  virtual Response press(const char* key) = 0;
 };
 
 /// Null: @p message says why there is none.
