@@ -187,6 +187,8 @@ bool CloudLoader::take(LoadedCloud& loaded, std::string& message)
   if (message.empty())
   {
     loaded = std::move(load->loaded);
+    load->loaded.cloud =
+      nullptr; // vtkSmartPointer copies where it is assigned: the thread must not hold it too
   }
   return true;
 }
