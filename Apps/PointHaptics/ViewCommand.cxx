@@ -1,6 +1,8 @@
 #include "Commands.h"
 
+#include "CloudLoader.h"
 #include "Messages.h"
+#include "ProgressBar.h"
 #include "ViewDisplay.h"
 #include "ViewOptions.h"
 #include "ViewPicture.h"
@@ -17,6 +19,8 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -24,6 +28,12 @@ namespace app
 {
 namespace
 {
+
+/// Seconds in which most files are read: a window with a bar would only flicker.
+constexpr double kSilence = 0.2;
+constexpr double kLookPeriod = 0.05;
+/// As after Ctrl+C.
+constexpr int kCancelled = 130;
 
 /// Files that a path fills are written at once; without one a session is what fills them.
 bool needsWindow(const ViewOptions& options)
@@ -47,6 +57,16 @@ private:
   Clock::time_point begin_ = Clock::now();
 };
 
+/// Without a window the bar is on the terminal.
+void awaitOnTerminal(const CloudLoader& loader)
+{
+  ProgressBar bar("reading");
+  while (!loader.waitFor(kLookPeriod))
+  {
+    bar.show(loader.progress());
+  }
+}
+
 int runView(CLI::App& command, ViewOptions& options)
 {
   collectVtkMessages();
@@ -65,11 +85,27 @@ int runView(CLI::App& command, ViewOptions& options)
     return kSuccess;
   }
   ViewScene scene;
+  std::unique_ptr<ViewSession> session;
   const Stopwatch opening;
-  if (!scene.open(options.firstFiles(), options, message))
+  CloudLoader loader;
+  loader.start(options.cloudRequest(options.firstFiles()));
+  if (!loader.waitFor(kSilence) && needsWindow(options) && displayIsAvailable(message))
+  {
+    session = std::make_unique<ViewSession>(scene, options);
+    if (!session->awaitCloud(loader))
+    {
+      fail("view", titleOf(options.firstFiles()) + ": reading was stopped on request; nothing is shown");
+      return kCancelled;
+    }
+  }
+  LoadedCloud cloud;
+  awaitOnTerminal(loader);
+  loader.take(cloud, message);
+  if (!message.empty())
   {
     return fail("view", message);
   }
+  scene.open(std::move(cloud), options);
   const Stopwatch building;
   if (!scene.build(options, message))
   {
@@ -91,8 +127,11 @@ int runView(CLI::App& command, ViewOptions& options)
   {
     return fail("view", message);
   }
-  const bool done =
-    needsWindow(options) ? runWindow(scene, options, message) : makePicture(scene, options, message);
+  if (needsWindow(options) && !session)
+  {
+    session = std::make_unique<ViewSession>(scene, options);
+  }
+  const bool done = session ? session->run(message) : makePicture(scene, options, message);
   return done ? kSuccess : fail("view", message);
 }
 

@@ -382,6 +382,16 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
   return true;
 }
 
+CloudRequest ViewOptions::cloudRequest(const std::vector<std::string>& wanted) const
+{
+  CloudRequest request;
+  request.files = wanted;
+  request.colorBy = colorBy;
+  request.up = up;
+  request.transform = lattice.transform();
+  return request;
+}
+
 std::vector<std::string> ViewOptions::firstFiles() const
 {
   return this->together ? this->files : std::vector<std::string>{ this->files.front() };

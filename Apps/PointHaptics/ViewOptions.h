@@ -5,6 +5,7 @@
 #include "BandwidthOptions.h"
 #include "HandDevice.h"
 #include "LatticeOptions.h"
+#include "LoadedCloud.h"
 
 #include "Haptics/HapticParameters.h"
 
@@ -67,6 +68,8 @@ struct ViewOptions
   HapticParameters hapticParameters() const;
   /// What is shown first: all files, or the first of them.
   std::vector<std::string> firstFiles() const;
+  /// To read @p wanted as these options say.
+  CloudRequest cloudRequest(const std::vector<std::string>& wanted) const;
 };
 
 /// Looks as --camera says, where it was given.

@@ -14,7 +14,6 @@
 
 #include <fmt/format.h>
 #include <vtkActor.h>
-#include <vtkAppendPolyData.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkDataArray.h>
@@ -35,6 +34,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -53,98 +53,6 @@ constexpr double kSmallestSphere = 0.022;
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
 constexpr double kFacingEnough = 0.25;
 
-std::string baseName(const std::string& fileName)
-{
-  const std::size_t slash = fileName.find_last_of('/');
-  return slash == std::string::npos ? fileName : fileName.substr(slash + 1);
-}
-
-/// The points of a file with all arrays, without its cells.
-vtkSmartPointer<vtkPolyData> readPoints(
-  const std::string& fileName, std::string& format, std::string& message)
-{
-  Cloud read;
-  if (!readCloud(fileName, read, message))
-  {
-    return nullptr;
-  }
-  format = read.format;
-  auto points = vtkSmartPointer<vtkPolyData>::New();
-  points->SetPoints(read.points->GetPoints());
-  points->GetPointData()->ShallowCopy(read.points->GetPointData());
-  points->GetFieldData()->ShallowCopy(read.points->GetFieldData());
-  return points;
-}
-
-/// Every array costs time at every zoom: only those that are looked at stay.
-void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
-{
-  vtkPointData* data = cloud->GetPointData();
-  const bool colors = hasColors(cloud) && (colorBy.empty() || colorBy == "rgb");
-  const std::optional<ColorSource> source = findColorSource(cloud, colorBy);
-  const std::string kept = source ? source->array : colorBy;
-  vtkDataArray* scalars = colors ? data->GetScalars() : nullptr;
-  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
-  {
-    vtkAbstractArray* array = data->GetAbstractArray(i);
-    const std::string name = array->GetName() ? array->GetName() : "";
-    if (array != scalars && name != kept && name != kHeightArrayName)
-    {
-      data->RemoveArray(i);
-    }
-  }
-}
-
-/// Arrays the pipeline adds to those of the cloud.
-bool isMadeByPipeline(const std::string& name)
-{
-  return name == kHeightArrayName || name == "ProxyRadius" || name == "Bandwidth" ||
-    name == "VoxelPointCount";
-}
-
-/// "Velocity (:x, :y, :z, :magnitude)": what can be said of @p array.
-std::string withComponents(vtkPolyData* cloud, vtkDataArray* array)
-{
-  std::string text;
-  for (int i = 0; array->GetNumberOfComponents() > 1 && i <= array->GetNumberOfComponents(); ++i)
-  {
-    const int component = i < array->GetNumberOfComponents() ? i : kMagnitude;
-    const std::string whole = describeColorSource(cloud, { array->GetName(), component });
-    text += (i > 0 ? ", " : "") + whole.substr(std::string(array->GetName()).size());
-  }
-  return array->GetName() + (text.empty() ? text : " (" + text + ")");
-}
-
-/// False: @p message names the arrays and components there are.
-bool canColorBy(vtkPolyData* cloud, const std::string& name, std::string& message)
-{
-  vtkPointData* data = cloud->GetPointData();
-  const bool known = name.empty() || (name == "rgb" ? hasColors(cloud) : isMadeByPipeline(name)) ||
-    (name != "rgb" && findColorSource(cloud, name));
-  if (known)
-  {
-    return true;
-  }
-  vtkDataArray* array = data->GetArray(name.substr(0, name.rfind(':')).c_str());
-  if (array && array->GetNumberOfComponents() > 1)
-  {
-    message = fmt::format(
-      "--color-by {}: the array has no such component; give one of {}", name, withComponents(cloud, array));
-    return false;
-  }
-  message = fmt::format("--color-by {}: the cloud has no such array; it has", name);
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    if (vtkDataArray* each = data->GetArray(i); each && each->GetName())
-    {
-      message += fmt::format(" {},", withComponents(cloud, each));
-    }
-  }
-  message += fmt::format(
-    "{} {}, ProxyRadius, Bandwidth, VoxelPointCount", hasColors(cloud) ? " rgb," : "", kHeightArrayName);
-  return false;
-}
-
 void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
 {
   matrix->Identity();
@@ -155,22 +63,6 @@ void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
       matrix->SetElement(row, column, transform.m[row][column]);
     }
   }
-}
-
-/// Bounds of the finite points after @p transform; the corners of a box would be too wide for a turned cloud.
-Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
-{
-  Bounds bounds;
-  Vec3 p;
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-  {
-    cloud->GetPoint(i, &p.x);
-    if (isFinite(p))
-    {
-      bounds.include(transform.apply(p));
-    }
-  }
-  return bounds;
 }
 
 /// The lattice the resampler chose, from its output's field data.
@@ -258,52 +150,24 @@ void ViewScene::getVoxel(double edges[3]) const
 
 bool ViewScene::open(const std::vector<std::string>& files, const ViewOptions& options, std::string& message)
 {
-  vtkNew<vtkAppendPolyData> append;
-  std::string format;
-  std::string names;
-  for (const std::string& file : files)
+  LoadedCloud loaded;
+  const bool isRead = loadCloud(
+    options.cloudRequest(files), [](double) { return true; }, loaded, message);
+  if (isRead)
   {
-    const vtkSmartPointer<vtkPolyData> points = readPoints(file, format, message);
-    if (!points)
-    {
-      return false;
-    }
-    append->AddInputData(points);
-    names += (names.empty() ? "" : ", ") + baseName(file);
+    this->open(std::move(loaded), options);
   }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  if (files.size() > 1)
-  {
-    append->Update();
-    cloud->ShallowCopy(append->GetOutput());
-  }
-  else
-  {
-    cloud->ShallowCopy(append->GetInput(0));
-  }
-  const Bounds bounds = transformedBounds(cloud, options.lattice.transform());
-  if (bounds.empty())
-  {
-    message = fmt::format("{}: no point is finite (all are NaN or infinite); nothing to show", names);
-    return false;
-  }
-  if (!canColorBy(cloud, options.colorBy, message))
-  {
-    return false;
-  }
-  orientation_ =
-    options.up == "auto" ? guessCloudOrientation(cloud, format) : orientationForUpAxis(options.up[0]);
-  if (!hasColors(cloud) || !options.colorBy.empty())
-  {
-    addHeightArray(cloud, orientation_.up);
-  }
-  keepArrays(cloud, options.colorBy);
-  cloud_ = cloud;
+  return isRead;
+}
+
+void ViewScene::open(LoadedCloud loaded, const ViewOptions& options)
+{
+  cloud_ = std::move(loaded.cloud);
   cloudBounds_ = {};
   axes_->SetMetresPerUnit(options.lattice.metresPerUnit());
-  title_ = names;
-  fit(bounds, options);
-  return true;
+  orientation_ = loaded.orientation;
+  title_ = loaded.title;
+  fit(loaded.bounds, options);
 }
 
 void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)

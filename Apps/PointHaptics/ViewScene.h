@@ -2,6 +2,7 @@
 /// The clouds on the command line as a scene: read, fitted, resampled, coloured, with camera and props.
 #pragma once
 
+#include "LoadedCloud.h"
 #include "ViewOptions.h"
 
 #include "CloudDetail.h"
@@ -45,6 +46,8 @@ public:
   /// Reads @p files into one cloud and sets the pipeline up for it. False: @p message says which file and
   /// why, and the scene is as it was before.
   bool open(const std::vector<std::string>& files, const ViewOptions& options, std::string& message);
+  /// The same with what loadCloud() made.
+  void open(LoadedCloud loaded, const ViewOptions& options);
   /// Runs the pipeline once and colours the result. False: no point lies in the workspace.
   bool build(const ViewOptions& options, std::string& message);
   /// Puts the camera in front of the workspace. @p contact, if given, is turned into view.

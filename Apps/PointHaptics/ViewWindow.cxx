@@ -2,12 +2,14 @@
 
 #include "HandDevice.h"
 #include "Messages.h"
+#include "ProgressBar.h"
 #include "StopSignals.h"
 #include "ViewEvents.h"
 #include "ViewScene.h"
 #include "ViewSettings.h"
 #include "ViewWindowInternals.h"
 
+#include "CloudAppearance.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
@@ -54,13 +56,80 @@ bool falconIsUsable()
 
 } // namespace
 
-void ViewWindow::setUpRendering()
+/// Once, with or without a cloud.
+void ViewWindow::openWindow()
 {
   window_->SetMultiSamples(0);
   window_->SetSize(options_.width, options_.height);
+  window_->SetWindowName("PointHaptics");
+  interactor_->SetRenderWindow(window_);
+  interactor_->SetInteractorStyle(nullptr); // until there is something to move
+  isOpen_ = true;
+}
+
+/// A renderer of its own: the scene's would ask filters that have no cloud.
+bool ViewWindow::awaitCloud(const CloudLoader& loader)
+{
+  const std::string title = titleOf(options_.firstFiles());
+  this->openWindow();
+  applyBackground(waiting_);
+  progress_->SetProgress("reading " + title, loader.progress());
+  progress_->AddTo(waiting_);
+  window_->AddRenderer(waiting_);
+  window_->Render();
+  interactor_->Initialize();
+  // Not before it hears keys: who waits for the title may press one.
+  window_->SetWindowName(("PointHaptics: reading " + title).c_str());
+
+  struct Wait
+  {
+    ViewWindow& self;
+    const CloudLoader& loader;
+    std::string words;
+    ProgressBar terminal{ "reading" };
+  } wait{ *this, loader, "reading " + title };
+  vtkNew<vtkCallbackCommand> events;
+  events->SetClientData(&wait);
+  events->SetCallback(
+    [](vtkObject*, unsigned long event, void* client, void*)
+    {
+      auto& [self, reader, words, terminal] = *static_cast<Wait*>(client);
+      const std::string key = self.interactor_->GetKeySym() ? self.interactor_->GetKeySym() : "";
+      const bool cancels =
+        event == vtkCommand::KeyPressEvent && (key == "Escape" || key == "q" || key == "Q");
+      if (cancels || reader.waitFor(0.0))
+      {
+        self.interactor_->TerminateApp();
+      }
+      terminal.show(reader.progress());
+      if (self.progress_->SetProgress(words, reader.progress()))
+      {
+        self.window_->Render();
+      }
+    });
+  const unsigned long ticks = interactor_->AddObserver(vtkCommand::TimerEvent, events);
+  const unsigned long keys = interactor_->AddObserver(vtkCommand::KeyPressEvent, events);
+  const int timer = interactor_->CreateRepeatingTimer(33);
+  runEvents(interactor_);
+  interactor_->DestroyTimer(timer);
+  interactor_->RemoveObserver(ticks);
+  interactor_->RemoveObserver(keys);
+  return loader.waitFor(0.0);
+}
+
+void ViewWindow::setUpRendering()
+{
+  if (!isOpen_)
+  {
+    this->openWindow();
+  }
+  progress_->Hide();
+  progress_->RemoveFrom(waiting_);
+  window_->RemoveRenderer(waiting_);
   window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
   window_->AddRenderer(scene_.renderer());
   overlay_->AddTo(scene_.renderer());
+  progress_->AddTo(scene_.renderer());
   if (options_.device != "none" || !options_.path.empty())
   {
     window_->AddRenderer(chart_->GetRenderer());
@@ -68,7 +137,6 @@ void ViewWindow::setUpRendering()
     scene_.renderer()->SetViewport(0.0, kChartHeight, 1.0, 1.0);
     style_->SetChart(chart_);
   }
-  interactor_->SetRenderWindow(window_);
   scene_.detail().setEnabled(true);
   scene_.placeCamera();
   applyCamera(options_, scene_.renderer());
@@ -205,6 +273,11 @@ void ViewWindow::connectStyle()
   timer->SetCallback(
     [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onTimer(); });
   interactor_->AddObserver(vtkCommand::TimerEvent, timer);
+  // Before the style, for which Escape may have another meaning.
+  cancelKey_->SetClientData(this);
+  cancelKey_->SetCallback(
+    [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onKey(); });
+  interactor_->AddObserver(vtkCommand::KeyPressEvent, cancelKey_, 1.0F);
 }
 
 void ViewWindow::onSamples(void* callData)
@@ -226,8 +299,8 @@ void ViewWindow::onSamples(void* callData)
   }
 }
 
-/// 30 times a second: what the device has to say, whether the program is asked to end, and whether a picture
-/// that rests is to become finer.
+/// 30 times a second: whether a file has been read, what the device has to say, whether the program is asked
+/// to end, and whether a picture that rests is to become finer.
 void ViewWindow::onTimer()
 {
   if (scene_.detail().refinementDue(
@@ -246,12 +319,20 @@ void ViewWindow::onTimer()
     style_->SetDeviceNote(fmt::format("falcon, {}", name(state)));
     this->say(advice(state));
   }
-  if (options_.watch && ++sinceLook_ >= kLooksApart)
+  this->followLoading();
+  if (options_.watch && ++sinceLook_ >= kLooksApart && !loader_.busy())
   {
     sinceLook_ = 0;
-    if (watch_.look() && this->show(shown_, true))
+    if (watch_.look())
     {
-      this->say("read again: " + scene_.title());
+      this->load(shown_, true,
+        [this](bool isShown)
+        {
+          if (isShown)
+          {
+            this->say("read again: " + scene_.title());
+          }
+        });
     }
   }
 }
@@ -297,6 +378,7 @@ void ViewWindow::onSceneChanged(void*)
 
 bool ViewWindow::finish(std::string& message)
 {
+  loader_.cancel();
   style_->StopUpdates();
   rememberSettings(this->settings());
   servo_.stop();
@@ -340,6 +422,7 @@ bool ViewWindow::run(std::string& message)
   {
     return false;
   }
+  const bool hasWaited = isOpen_;
   this->setUpRendering();
   if (!this->openDevice(message))
   {
@@ -357,14 +440,29 @@ bool ViewWindow::run(std::string& message)
   }
   style_->StartUpdates();
   rememberStopSignals();
+  if (hasWaited)
+  {
+    this->forgiveEscape();
+  }
   runEvents(interactor_);
   return this->finish(message);
 }
 
-bool runWindow(ViewScene& scene, const ViewOptions& options, std::string& message)
+ViewSession::ViewSession(ViewScene& scene, const ViewOptions& options)
+  : window_(std::make_unique<ViewWindow>(scene, options))
 {
-  ViewWindow window(scene, options);
-  return window.run(message);
+}
+
+ViewSession::~ViewSession() = default;
+
+bool ViewSession::awaitCloud(const CloudLoader& loader)
+{
+  return window_->awaitCloud(loader);
+}
+
+bool ViewSession::run(std::string& message)
+{
+  return window_->run(message);
 }
 
 } // namespace app

@@ -13,10 +13,13 @@
 #include <vtkTransform.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -24,6 +27,10 @@ namespace app
 {
 namespace
 {
+
+/// Seconds; what is read sooner shows no bar.
+constexpr double kSilence = 0.2;
+constexpr auto kLateEscape = std::chrono::milliseconds(700);
 
 /// The first of STEM-001.EXTENSION, STEM-002.EXTENSION, ... after @p last that is not there yet.
 std::string freeFileName(const char* extension, int& last)
@@ -47,25 +54,105 @@ void ViewWindow::onFilesDropped(void* callData)
   {
     files.push_back(names->GetValue(i));
   }
-  if (!files.empty() &&
-    this->show(options_.together ? files : std::vector<std::string>{ files.front() }, false))
+  if (!files.empty())
   {
-    files_ = files;
-    fileIndex_ = 0;
+    this->load(options_.together ? files : std::vector<std::string>{ files.front() }, false,
+      [this, files](bool isShown)
+      {
+        if (isShown)
+        {
+          files_ = files;
+          fileIndex_ = 0;
+        }
+      });
   }
 }
 
-/// False: they cannot be read, which the window says; it shows what it showed before.
-bool ViewWindow::show(const std::vector<std::string>& files, bool keepsModel)
+/// Begins to read; what is being read already is given up.
+void ViewWindow::load(const std::vector<std::string>& files, bool keepsModel, std::function<void(bool)> then)
 {
-  std::string message;
-  if (!scene_.open(files, options_, message))
+  loading_ = { files, keepsModel, std::move(then), FileWatch() };
+  loading_.watch.watch(files);
+  loader_.start(options_.cloudRequest(files));
+}
+
+/// At every call of the timer.
+void ViewWindow::followLoading()
+{
+  if (!loader_.busy())
   {
-    this->tell(message);
-    return false;
+    return;
   }
-  shown_ = files;
-  watch_.watch(shown_);
+  LoadedCloud cloud;
+  std::string message;
+  if (!loader_.take(cloud, message))
+  {
+    const std::string words = "reading " + titleOf(loading_.files);
+    if (loader_.seconds() > kSilence && progress_->SetProgress(words, loader_.progress()))
+    {
+      window_->SetWindowName(("PointHaptics: " + words).c_str());
+      interactor_->Render();
+    }
+    return;
+  }
+  if (message.empty())
+  {
+    this->show(std::move(cloud));
+  }
+  else
+  {
+    this->tell(message); // the window shows what it showed before
+  }
+  this->endLoading(message.empty());
+}
+
+void ViewWindow::endLoading(bool isShown)
+{
+  if (progress_->Hide())
+  {
+    window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
+    this->forgiveEscape();
+    interactor_->Render();
+  }
+  const Loading ended = std::move(loading_);
+  loading_ = Loading();
+  ended.then(isShown);
+}
+
+void ViewWindow::cancelLoading()
+{
+  loader_.cancel();
+  this->say(titleOf(loading_.files) + ": not read, it was cancelled; the former cloud stays");
+  this->endLoading(false);
+}
+
+void ViewWindow::forgiveEscape()
+{
+  escapeIsLate_ = std::chrono::steady_clock::now() + kLateEscape;
+}
+
+/// Escape while a file is read is for the reader, and does not reach the style.
+void ViewWindow::onKey()
+{
+  const char* key = interactor_->GetKeySym();
+  const bool isLate = std::chrono::steady_clock::now() < escapeIsLate_;
+  if (key && std::string(key) == "Escape" && (loader_.busy() || isLate))
+  {
+    if (loader_.busy())
+    {
+      this->cancelLoading();
+    }
+    cancelKey_->AbortFlagOn();
+  }
+}
+
+void ViewWindow::show(LoadedCloud cloud)
+{
+  const bool keepsModel = loading_.keepsModel;
+  std::string message;
+  scene_.open(std::move(cloud), options_);
+  shown_ = loading_.files;
+  watch_ = loading_.watch;
   if (voxelSize_ > 0.0)
   {
     scene_.resampler()->SetVoxelSize(voxelSize_);
@@ -92,7 +179,6 @@ bool ViewWindow::show(const std::vector<std::string>& files, bool keepsModel)
   window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
   this->showSliderValues();
   this->findIdeal();
-  return true;
 }
 
 /// The exact force for the chart, where the shown cloud is a shape that has one.
@@ -111,14 +197,18 @@ void ViewWindow::showFile(std::size_t index)
   {
     this->say("there is no other file");
   }
-  else if (this->show({ files_[index] }, false))
-  {
-    fileIndex_ = index;
-    this->say(fmt::format("file {} of {}: {}", index + 1, files_.size(), scene_.title()));
-  }
   else
   {
-    fileIndex_ = index; // the next key goes on from here, not to the broken file again
+    // The next key goes on from here, not to a broken or cancelled file again.
+    fileIndex_ = index;
+    this->load({ files_[index] }, false,
+      [this, index](bool isShown)
+      {
+        if (isShown)
+        {
+          this->say(fmt::format("file {} of {}: {}", index + 1, files_.size(), scene_.title()));
+        }
+      });
   }
 }
 

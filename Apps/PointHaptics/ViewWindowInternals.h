@@ -3,6 +3,7 @@
 /// ViewWindowActions.cxx does what the user asks of it.
 #pragma once
 
+#include "CloudLoader.h"
 #include "FileWatch.h"
 #include "ViewOptions.h"
 #include "ViewScene.h"
@@ -10,6 +11,7 @@
 
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
+#include "vtkHapticProgress.h"
 #include "vtkHapticSliders.h"
 #include "vtkInteractorStyleHaptic.h"
 
@@ -20,10 +22,14 @@
 #include "Haptics/ServoLoop.h"
 
 #include <nlohmann/json.hpp>
+#include <vtkCallbackCommand.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
 
+#include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,9 +51,19 @@ public:
   {
   }
 
+  bool awaitCloud(const CloudLoader& loader);
   bool run(std::string& message);
 
 private:
+  /// Files that are being read to be shown.
+  struct Loading
+  {
+    std::vector<std::string> files;
+    bool keepsModel = false;
+    std::function<void(bool isShown)> then; ///< Also after a cancel.
+    FileWatch watch;                        ///< From before the first byte was read.
+  };
+  void openWindow();
   void setUpRendering();
   bool openDevice(std::string& message);
   void openSimulated();
@@ -69,7 +85,13 @@ private:
   void connectSliders();
   void setContact(const ContactParameters& contact);
   void showSliderValues();
-  bool show(const std::vector<std::string>& files, bool keepsModel);
+  void load(const std::vector<std::string>& files, bool keepsModel, std::function<void(bool)> then);
+  void followLoading();
+  void endLoading(bool isShown);
+  void cancelLoading();
+  void forgiveEscape();
+  void onKey();
+  void show(LoadedCloud cloud);
   void showFile(std::size_t index);
   void findIdeal();
   nlohmann::ordered_json settings();
@@ -85,10 +107,14 @@ private:
   HapticParameters parameters_; ///< As the servo loop has them.
   double voxelSize_ = 0.0;      ///< As the slider set it, metres; 0: as the options say.
   std::vector<std::string> files_;
-  std::size_t fileIndex_ = 0;
+  std::size_t fileIndex_ = 0;      ///< Of the last one that was asked for.
   std::vector<std::string> shown_; ///< What the window shows: one of files_, or all together.
   FileWatch watch_;
   int sinceLook_ = 0;
+  Loading loading_; ///< While loader_ is busy.
+  /// Until then Escape is taken as meant for the bar that has just gone.
+  std::chrono::steady_clock::time_point escapeIsLate_;
+  bool isOpen_ = false;
   int writtenSettings_ = 0;
   vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkRenderWindowInteractor> interactor_;
@@ -97,6 +123,9 @@ private:
   vtkNew<vtkHapticChart> wholeChart_; // for --force-chart
   vtkNew<vtkHapticOverlay> overlay_;
   vtkNew<vtkHapticSliders> sliders_;
+  vtkNew<vtkHapticProgress> progress_;
+  vtkNew<vtkRenderer> waiting_; // before the first cloud
+  vtkNew<vtkCallbackCommand> cancelKey_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   TraceFile trace_;
   int screenshots_ = 0;
@@ -108,6 +137,7 @@ private:
   FalconState falconState_ = FalconState::Closed; ///< As the user was told.
   SpaceMouse spaceMouse_;
   HapticDevice* device_ = nullptr;
+  CloudLoader loader_;
   ServoLoop servo_; // last: destroyed, and so stopped, first
 };
 

@@ -340,7 +340,8 @@ std::string HapticBindings::describe() const
       group = " ";
     }
   }
-  text += row("", "files dropped on the window", "open them");
+  text += row("", "files dropped on the window", "open them") + "\n";
+  text += row("", "Escape while a file is read", "keep the former cloud");
   return text;
 }
 

@@ -3,6 +3,7 @@
 #include "CloudAppearance.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
+#include "vtkHapticProgress.h"
 #include "vtkHapticSliders.h"
 
 #include <vtkCommand.h>
@@ -119,6 +120,16 @@ void buildErrorOverlay(const std::string& fault, vtkRenderer* renderer)
   const std::string message = fault == "no-message" ? "" : "\nbroken.ply: row 7 has 2 values";
   overlay->SetStatus("20000 points in 1 active voxels" + message + "\nH: help");
   overlay->AddTo(renderer);
+}
+
+/// While a file with a long name is read.
+void buildProgress(const std::string& fault, vtkRenderer* renderer)
+{
+  applyBackground(renderer);
+  auto* progress = lasting<vtkHapticProgress>();
+  progress->SetProgress(
+    "reading a-name-that-is-too-long-for-the-plate-001.ply", fault == "wrong-part" ? 0.47 : 0.42);
+  progress->AddTo(renderer);
 }
 
 } // namespace testing

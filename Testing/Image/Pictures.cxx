@@ -451,7 +451,7 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
     { "ComponentColors", { "other-component", "magnitude" }, buildComponentColors },
     { "ScalarBar", { "wrong-range", "at-the-edge" }, buildScalarBar },
     { "CloudAxes", { "hidden", "no-turn", "wrong-unit" }, buildCloudAxes },
-    { "CoarseLevel", { "unfair-order" }, buildCoarseLevel },
+    { "Progress", { "wrong-part" }, buildProgress }, { "CoarseLevel", { "unfair-order" }, buildCoarseLevel },
     { "MiddleLevel", { "unfair-order" }, buildMiddleLevel },
     { "ModelInteraction", wrong, interaction("ModelInteraction") },
     { "CameraInteraction", wrong, interaction("CameraInteraction") },

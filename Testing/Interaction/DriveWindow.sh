@@ -192,4 +192,86 @@ kill -INT "$viewer"
 until_true "Ctrl+C did not end the program" bash -c "! kill -0 $viewer"
 wait "$viewer" || fail "exit code $? after Ctrl+C"
 viewer=""
+# A file that is read for long: Escape leaves the former cloud, and ends a program that has none yet. The key is pressed
+# while the program stands still with the bar in the window, so that it is never too late; where a machine reads the
+# file before the bar is there, a larger one is tried.
+is_reading() { xdotool search --name "PointHaptics: reading large.csv" >/dev/null 2>&1; }
+reads_or_has_read() { is_reading || grep -qE "file 2 of 2: large.csv|^[0-9]{6,} points" said.txt; }
+# escape_while_it_reads: false: the bar was not seen.
+escape_while_it_reads() {
+  until_true "the file is not read" reads_or_has_read
+  kill -STOP "$viewer"
+  local seen=1
+  if is_reading; then
+    seen=0
+    xdotool key --window "$(xdotool search --name "PointHaptics: reading large.csv" | head -n 1)" Escape
+  fi
+  kill -CONT "$viewer"
+  return "$seen"
+}
+# interrupts_while_it_reads: Ctrl+C where Escape was in time already; left out where the bar is not seen.
+interrupts_while_it_reads() {
+  env --default-signal=INT "$program" view large.csv --size 640x480 --device none >said.txt 2>&1 &
+  viewer=$!
+  until_true "the file is not read again" reads_or_has_read
+  kill -STOP "$viewer"
+  local expected=0 code=0
+  if is_reading; then
+    expected=130
+    kill -INT "$viewer"
+  else
+    kill -TERM "$viewer"
+  fi
+  kill -CONT "$viewer"
+  wait "$viewer" || code=$?
+  ((code == expected)) || fail "exit code $code after Ctrl+C at the start"
+}
+answered() { grep -qE "large.csv: not read|file 2 of 2: large.csv|reading was stopped|^[0-9]{6,} points" said.txt; }
+kept="" ended=""
+for points in 500000 2000000 8000000; do
+  "$program" generate plane -n "$points" -o large.csv >/dev/null
+  if [[ -z "$kept" ]]; then
+    "$program" view first.ply large.csv --size 640x480 --device none >said.txt 2>&1 &
+    viewer=$!
+    until_true "no third window appeared" xdotool search --name "PointHaptics: first.ply"
+    window="$(xdotool search --name "PointHaptics: first.ply" | head -n 1)"
+    until_true "the third window does not take the focus" takes_keys
+    key n
+    if escape_while_it_reads; then
+      until_true "Escape was not heard" answered
+      if grep -qF "large.csv: not read, it was cancelled" said.txt; then
+        kept=yes
+        until_true "the former cloud is gone" xdotool search --name "PointHaptics: first.ply"
+        key s
+        said "screenshot: pointhaptics-"
+        grep -qF "file 2 of 2" said.txt && fail "the cancelled file is shown"
+      fi
+    fi
+    kill -0 "$viewer" || fail "Escape while a file is read ended the program"
+    kill -TERM "$viewer"
+    wait "$viewer" || fail "exit code $? after a cancel"
+    viewer=""
+  fi
+  if [[ -z "$ended" ]]; then
+    "$program" view large.csv --size 640x480 --device none >said.txt 2>&1 &
+    viewer=$!
+    code=0
+    if escape_while_it_reads; then
+      until_true "Escape was not heard at the start" answered
+      if grep -qF "large.csv: reading was stopped on request" said.txt; then
+        ended=yes
+        wait "$viewer" || code=$?
+        ((code == 130)) || fail "exit code $code after Escape at the start"
+        interrupts_while_it_reads
+      fi
+    fi
+    kill "$viewer" 2>/dev/null || true
+    wait "$viewer" 2>/dev/null || true
+    viewer=""
+  fi
+  [[ -z "$kept" || -z "$ended" ]] || break
+done
+rm -f large.csv
+[[ -n "$kept" ]] || fail "Escape never left the former cloud: each file was read too soon"
+[[ -n "$ended" ]] || fail "Escape never ended the start: each file was read too soon"
 echo "the window did what it was told"

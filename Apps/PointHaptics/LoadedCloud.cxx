@@ -1,0 +1,229 @@
+#include "LoadedCloud.h"
+
+#include "CloudAppearance.h"
+#include "vtkPointCloudReader.h"
+
+#include <fmt/format.h>
+#include <vtkAppendPolyData.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <optional>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+std::string baseName(const std::string& fileName)
+{
+  const std::size_t slash = fileName.find_last_of('/');
+  return slash == std::string::npos ? fileName : fileName.substr(slash + 1);
+}
+
+/// What the reader says while it reads, and what it is told.
+struct Listener
+{
+  vtkPointCloudReader* reader;
+  std::function<bool(double)> goesOn;
+};
+
+/// The points of a file with all arrays, without its cells. Null: @p message says why.
+vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName,
+  const std::function<bool(double)>& goesOn, std::string& format, std::string& message)
+{
+  vtkNew<vtkPointCloudReader> reader;
+  Listener listener{ reader, goesOn };
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetClientData(&listener);
+  progress->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void* fraction)
+    {
+      const auto& self = *static_cast<Listener*>(client);
+      if (fraction && !self.goesOn(*static_cast<double*>(fraction)))
+      {
+        self.reader->SetAbortExecute(1);
+      }
+    });
+  reader->AddObserver(vtkCommand::ProgressEvent, progress);
+  // Its error is in its message; without an observer it would go where the errors of the scene are collected.
+  vtkNew<vtkCallbackCommand> silence;
+  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  reader->AddObserver(vtkCommand::ErrorEvent, silence);
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  message = reader->GetErrorMessage();
+  vtkPolyData* read = reader->GetOutput();
+  if (message.empty() && read->GetNumberOfPoints() == 0)
+  {
+    message = fileName + ": holds no points; give a file with at least one";
+  }
+  if (!message.empty())
+  {
+    return nullptr;
+  }
+  format = reader->GetFormat();
+  auto points = vtkSmartPointer<vtkPolyData>::New();
+  points->SetPoints(read->GetPoints());
+  points->GetPointData()->ShallowCopy(read->GetPointData());
+  points->GetFieldData()->ShallowCopy(read->GetFieldData());
+  return points;
+}
+
+/// Every array costs time at every zoom: only those that are looked at stay.
+void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
+{
+  vtkPointData* data = cloud->GetPointData();
+  const bool colors = hasColors(cloud) && (colorBy.empty() || colorBy == "rgb");
+  const std::optional<ColorSource> source = findColorSource(cloud, colorBy);
+  const std::string kept = source ? source->array : colorBy;
+  vtkDataArray* scalars = colors ? data->GetScalars() : nullptr;
+  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    if (array != scalars && name != kept && name != kHeightArrayName)
+    {
+      data->RemoveArray(i);
+    }
+  }
+}
+
+/// Arrays the pipeline adds to those of the cloud.
+bool isMadeByPipeline(const std::string& name)
+{
+  return name == kHeightArrayName || name == "ProxyRadius" || name == "Bandwidth" ||
+    name == "VoxelPointCount";
+}
+
+/// "Velocity (:x, :y, :z, :magnitude)": what can be said of @p array.
+std::string withComponents(vtkPolyData* cloud, vtkDataArray* array)
+{
+  std::string text;
+  for (int i = 0; array->GetNumberOfComponents() > 1 && i <= array->GetNumberOfComponents(); ++i)
+  {
+    const int component = i < array->GetNumberOfComponents() ? i : kMagnitude;
+    const std::string whole = describeColorSource(cloud, { array->GetName(), component });
+    text += (i > 0 ? ", " : "") + whole.substr(std::string(array->GetName()).size());
+  }
+  return array->GetName() + (text.empty() ? text : " (" + text + ")");
+}
+
+/// False: @p message names the arrays and components there are.
+bool canColorBy(vtkPolyData* cloud, const std::string& name, std::string& message)
+{
+  vtkPointData* data = cloud->GetPointData();
+  const bool known = name.empty() || (name == "rgb" ? hasColors(cloud) : isMadeByPipeline(name)) ||
+    (name != "rgb" && findColorSource(cloud, name));
+  if (known)
+  {
+    return true;
+  }
+  vtkDataArray* array = data->GetArray(name.substr(0, name.rfind(':')).c_str());
+  if (array && array->GetNumberOfComponents() > 1)
+  {
+    message = fmt::format(
+      "--color-by {}: the array has no such component; give one of {}", name, withComponents(cloud, array));
+    return false;
+  }
+  message = fmt::format("--color-by {}: the cloud has no such array; it has", name);
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* each = data->GetArray(i); each && each->GetName())
+    {
+      message += fmt::format(" {},", withComponents(cloud, each));
+    }
+  }
+  message += fmt::format(
+    "{} {}, ProxyRadius, Bandwidth, VoxelPointCount", hasColors(cloud) ? " rgb," : "", kHeightArrayName);
+  return false;
+}
+
+} // namespace
+
+Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
+{
+  Bounds bounds;
+  Vec3 p;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    cloud->GetPoint(i, &p.x);
+    if (isFinite(p))
+    {
+      bounds.include(transform.apply(p));
+    }
+  }
+  return bounds;
+}
+
+std::string titleOf(const std::vector<std::string>& files)
+{
+  std::string names;
+  for (const std::string& file : files)
+  {
+    names += (names.empty() ? "" : ", ") + baseName(file);
+  }
+  return names;
+}
+
+bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
+  std::string& message)
+{
+  vtkNew<vtkAppendPolyData> append;
+  std::string format;
+  double begin = 0.0;
+  const double share = 1.0 / double(request.files.size());
+  for (const std::string& file : request.files)
+  {
+    const auto askOn = [&](double part) { return goesOn(begin + share * part); };
+    const vtkSmartPointer<vtkPolyData> points = readPoints(file, askOn, format, message);
+    if (!points)
+    {
+      return false;
+    }
+    append->AddInputData(points);
+    begin += share;
+  }
+  LoadedCloud result;
+  result.title = titleOf(request.files);
+  result.cloud = vtkSmartPointer<vtkPolyData>::New();
+  if (request.files.size() > 1)
+  {
+    append->Update();
+    result.cloud->ShallowCopy(append->GetOutput());
+  }
+  else
+  {
+    result.cloud->ShallowCopy(append->GetInput(0));
+  }
+  result.bounds = transformedBounds(result.cloud, request.transform);
+  if (result.bounds.empty())
+  {
+    message = fmt::format("{}: no point is finite (all are NaN or infinite); nothing to show", result.title);
+    return false;
+  }
+  if (!canColorBy(result.cloud, request.colorBy, message))
+  {
+    return false;
+  }
+  result.orientation =
+    request.up == "auto" ? guessCloudOrientation(result.cloud, format) : orientationForUpAxis(request.up[0]);
+  if (!hasColors(result.cloud) || !request.colorBy.empty())
+  {
+    addHeightArray(result.cloud, result.orientation.up);
+  }
+  keepArrays(result.cloud, request.colorBy);
+  loaded = std::move(result);
+  return true;
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,160 @@
+#include "vtkHapticProgress.h"
+
+#include "vtkActor2D.h"
+#include "vtkCellArray.h"
+#include "vtkCoordinate.h"
+#include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper2D.h"
+#include "vtkProperty2D.h"
+#include "vtkRenderer.h"
+#include "vtkTextActor.h"
+#include "vtkTextProperty.h"
+
+#include <algorithm>
+#include <cmath>
+
+vtkStandardNewMacro(vtkHapticProgress);
+
+namespace
+{
+
+// Pixels from the middle of the renderer.
+constexpr double kHalfPlate = 190.0;
+constexpr double kPlateTop = 54.0;
+constexpr double kPlateBottom = -34.0;
+constexpr double kHalfBar = 170.0;
+constexpr double kBarTop = -6.0;
+constexpr double kBarBottom = -20.0;
+constexpr std::size_t kLongestText = 38;
+
+void setCorners(vtkPoints* corners, double left, double right, double bottom, double top)
+{
+  corners->SetNumberOfPoints(4);
+  corners->SetPoint(0, left, bottom, 0.0);
+  corners->SetPoint(1, right, bottom, 0.0);
+  corners->SetPoint(2, right, top, 0.0);
+  corners->SetPoint(3, left, top, 0.0);
+  corners->Modified();
+}
+
+void setUpRectangle(vtkActor2D* actor, vtkPoints* corners, double red, double green, double blue)
+{
+  vtkNew<vtkCellArray> polygons;
+  polygons->InsertNextCell({ 0, 1, 2, 3 });
+  vtkNew<vtkPolyData> rectangle;
+  rectangle->SetPoints(corners);
+  rectangle->SetPolys(polygons);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(rectangle);
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(red, green, blue);
+  actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  actor->SetPosition(0.5, 0.5);
+  actor->VisibilityOff();
+}
+
+/// The middle is what names of files of one series have in common.
+std::string shortened(const std::string& text)
+{
+  if (text.size() <= kLongestText)
+  {
+    return text;
+  }
+  // Not within a character of UTF-8.
+  const auto goesOn = [&](std::size_t i)
+  { return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U; };
+  std::size_t begin = kLongestText * 2 / 3;
+  std::size_t end = text.size() - kLongestText / 3 + 3;
+  while (begin > 0 && goesOn(begin))
+  {
+    --begin;
+  }
+  while (goesOn(end))
+  {
+    ++end;
+  }
+  return text.substr(0, begin) + "..." + text.substr(end);
+}
+
+} // namespace
+
+vtkHapticProgress::vtkHapticProgress()
+{
+  vtkNew<vtkPoints> plate;
+  setCorners(plate, -kHalfPlate, kHalfPlate, kPlateBottom, kPlateTop);
+  setUpRectangle(this->Plate, plate, 1.0, 1.0, 1.0);
+  this->Plate->GetProperty()->SetOpacity(0.88);
+  vtkNew<vtkPoints> trough;
+  setCorners(trough, -kHalfBar, kHalfBar, kBarBottom, kBarTop);
+  setUpRectangle(this->Trough, trough, 0.80, 0.82, 0.85);
+  setCorners(this->BarCorners, -kHalfBar, -kHalfBar, kBarBottom, kBarTop);
+  setUpRectangle(this->Bar, this->BarCorners, 0.13, 0.40, 0.67);
+
+  vtkTextProperty* style = this->Text->GetTextProperty();
+  style->SetFontSize(15);
+  style->SetColor(0.08, 0.08, 0.10);
+  style->SetLineSpacing(1.15);
+  style->SetJustificationToCentered();
+  style->SetVerticalJustificationToBottom();
+  this->Text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  this->Text->SetPosition(0.5, 0.5);
+  this->Text->VisibilityOff();
+}
+
+vtkHapticProgress::~vtkHapticProgress() = default;
+
+bool vtkHapticProgress::SetProgress(const std::string& what, double part)
+{
+  const double done = std::isfinite(part) ? std::clamp(part, 0.0, 1.0) : 0.0;
+  const int percent = static_cast<int>(100.0 * done); // 100 only when all of it is done
+  const std::string text = shortened(what) + "  " + std::to_string(percent) + " %\nEscape: cancel";
+  if (text == this->ShownText)
+  {
+    return false;
+  }
+  this->ShownText = text;
+  this->Text->SetInput(text.c_str());
+  setCorners(this->BarCorners, -kHalfBar, -kHalfBar + 2.0 * kHalfBar * percent / 100.0, kBarBottom, kBarTop);
+  for (vtkActor2D* actor : { this->Plate.Get(), this->Trough.Get(), this->Bar.Get() })
+  {
+    actor->VisibilityOn();
+  }
+  this->Text->VisibilityOn();
+  return true;
+}
+
+bool vtkHapticProgress::Hide()
+{
+  const bool wasSeen = !this->ShownText.empty();
+  this->ShownText.clear();
+  for (vtkActor2D* actor : { this->Plate.Get(), this->Trough.Get(), this->Bar.Get() })
+  {
+    actor->VisibilityOff();
+  }
+  this->Text->VisibilityOff();
+  return wasSeen;
+}
+
+void vtkHapticProgress::AddTo(vtkRenderer* renderer)
+{
+  renderer->AddActor2D(this->Plate);
+  renderer->AddActor2D(this->Trough);
+  renderer->AddActor2D(this->Bar);
+  renderer->AddActor2D(this->Text);
+}
+
+void vtkHapticProgress::RemoveFrom(vtkRenderer* renderer)
+{
+  renderer->RemoveActor2D(this->Plate);
+  renderer->RemoveActor2D(this->Trough);
+  renderer->RemoveActor2D(this->Bar);
+  renderer->RemoveActor2D(this->Text);
+}
+
+void vtkHapticProgress::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Text: " << this->ShownText << "\n";
+}

@@ -1,0 +1,68 @@
+/**
+ * @class   vtkHapticProgress
+ * @brief   a bar in the middle of the picture: what is being done, how much of it, and how to stop it
+ *
+ * Of fixed size in pixels. It only shows; who does the work says how far it is, and asks for a render where
+ * SetProgress() returns true. GUI thread only.
+ * @sa vtkHapticOverlay
+ */
+#ifndef vtkHapticProgress_h
+#define vtkHapticProgress_h
+
+#include "PointHapticsInteractionModule.h" // For export macro
+#include "vtkNew.h"                        // For the actors
+#include "vtkObject.h"
+
+#include <string> // For the text
+
+class vtkActor2D;
+class vtkPoints;
+class vtkRenderer;
+class vtkTextActor;
+
+class POINTHAPTICSINTERACTION_EXPORT vtkHapticProgress : public vtkObject
+{
+public:
+  static vtkHapticProgress* New();
+  vtkTypeMacro(vtkHapticProgress, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Shows the bar: @p what is done, such as "reading cloud.ply" (long words are shortened in the middle), and
+   * the @p part of it that is, 0 to 1. True: it looks different than before.
+   */
+  bool SetProgress(const std::string& what, double part);
+
+  /**
+   * Hides the bar. True: it was seen before.
+   */
+  bool Hide();
+
+  /// What is written over the bar; empty: it is hidden.
+  const std::string& GetText() const { return this->ShownText; }
+
+  ///@{
+  /**
+   * Add the bar to @p renderer, one at a time, or take it out.
+   */
+  void AddTo(vtkRenderer* renderer);
+  void RemoveFrom(vtkRenderer* renderer);
+  ///@}
+
+protected:
+  vtkHapticProgress();
+  ~vtkHapticProgress() override;
+
+  vtkNew<vtkActor2D> Plate;
+  vtkNew<vtkActor2D> Trough;
+  vtkNew<vtkActor2D> Bar;
+  vtkNew<vtkTextActor> Text;
+  vtkNew<vtkPoints> BarCorners;
+  std::string ShownText;
+
+private:
+  vtkHapticProgress(const vtkHapticProgress&) = delete;
+  void operator=(const vtkHapticProgress&) = delete;
+};
+
+#endif

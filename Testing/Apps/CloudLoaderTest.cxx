@@ -1,0 +1,212 @@
+#include "CloudLoader.h"
+
+#include <gtest/gtest.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+namespace
+{
+
+using namespace pointhaptics;
+using namespace pointhaptics::app;
+
+class CloudLoaderTest : public ::testing::Test
+{
+protected:
+  CloudLoaderTest()
+    : folder_(std::filesystem::temp_directory_path() / ("CloudLoaderTest-" + std::to_string(getpid())))
+  {
+    std::filesystem::create_directories(folder_);
+  }
+  ~CloudLoaderTest() override
+  {
+    std::error_code error;
+    std::filesystem::remove_all(folder_, error);
+  }
+
+  /// A text file of @p rows points, whose reading takes a while.
+  std::string writeCloud(const std::string& name, int rows) const
+  {
+    const std::string path = (folder_ / name).string();
+    std::ofstream file(path);
+    file << "x,y,z\n";
+    for (int i = 0; i < rows; ++i)
+    {
+      file << 0.001 * (i % 100) << ',' << 0.001 * (i / 100) << ",0.5\n";
+    }
+    return path;
+  }
+
+  static CloudRequest requestOf(const std::vector<std::string>& files)
+  {
+    CloudRequest request;
+    request.files = files;
+    return request;
+  }
+
+  static constexpr double kLong = 60.0;
+  std::filesystem::path folder_;
+};
+
+TEST_F(CloudLoaderTest, ReadsOneCloudOfAllFiles)
+{
+  CloudLoader loader;
+  EXPECT_FALSE(loader.busy());
+  EXPECT_EQ(loader.progress(), 0.0);
+  loader.start(requestOf({ this->writeCloud("a.csv", 300), this->writeCloud("b.csv", 200) }));
+  EXPECT_TRUE(loader.busy());
+  ASSERT_TRUE(loader.waitFor(kLong));
+  EXPECT_EQ(loader.progress(), 1.0);
+  LoadedCloud loaded;
+  std::string message = "old";
+  ASSERT_TRUE(loader.take(loaded, message));
+  EXPECT_EQ(message, "");
+  ASSERT_TRUE(loaded.cloud);
+  EXPECT_EQ(loaded.cloud->GetNumberOfPoints(), 500);
+  EXPECT_EQ(loaded.cloud->GetReferenceCount(), 1);
+  EXPECT_EQ(loaded.title, "a.csv, b.csv");
+  EXPECT_DOUBLE_EQ(loaded.bounds.maximum.z, 0.5);
+  EXPECT_FALSE(loader.busy());
+  EXPECT_FALSE(loader.take(loaded, message)); // once
+}
+
+TEST_F(CloudLoaderTest, ProgressAscendsOverAllFiles)
+{
+  const std::string file = this->writeCloud("a.csv", 300000);
+  std::vector<double> seen;
+  LoadedCloud loaded;
+  std::string message;
+  const auto note = [&seen](double part)
+  {
+    seen.push_back(part);
+    return true;
+  };
+  ASSERT_TRUE(loadCloud(requestOf({ file, file }), note, loaded, message)) << message;
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_GT(
+    std::count_if(seen.begin(), seen.end(), [](double part) { return part > 0.05 && part < 0.45; }), 2);
+  EXPECT_GT(
+    std::count_if(seen.begin(), seen.end(), [](double part) { return part > 0.55 && part < 0.95; }), 2);
+  EXPECT_DOUBLE_EQ(seen.back(), 1.0);
+
+  CloudLoader loader;
+  loader.start(requestOf({ file, file }));
+  double last = 0.0;
+  while (!loader.waitFor(0.0))
+  {
+    const double now = loader.progress();
+    EXPECT_GE(now, last);
+    EXPECT_LE(now, 1.0);
+    last = now;
+  }
+}
+
+TEST_F(CloudLoaderTest, StopsAtTheReportThatIsAnsweredByNo)
+{
+  const std::string file = this->writeCloud("a.csv", 300000);
+  int asked = 0;
+  LoadedCloud loaded;
+  loaded.title = "the former";
+  std::string message;
+  EXPECT_FALSE(loadCloud(
+    requestOf({ file, file }), [&asked](double) { return ++asked < 3; }, loaded, message));
+  EXPECT_EQ(asked, 3);
+  EXPECT_NE(message.find("stopped on request"), std::string::npos) << message;
+  EXPECT_EQ(loaded.title, "the former");
+  EXPECT_FALSE(loaded.cloud);
+}
+
+TEST_F(CloudLoaderTest, CancelLeavesNothing)
+{
+  const std::string file = this->writeCloud("a.csv", 300000);
+  CloudLoader loader;
+  LoadedCloud loaded;
+  std::string message;
+  loader.start(requestOf({ file }));
+  while (loader.progress() == 0.0)
+  {
+    std::this_thread::yield();
+  }
+  loader.cancel();
+  EXPECT_FALSE(loader.busy());
+  EXPECT_FALSE(loader.waitFor(0.05));
+  EXPECT_EQ(loader.progress(), 0.0);
+  EXPECT_FALSE(loader.take(loaded, message));
+  EXPECT_FALSE(loaded.cloud);
+
+  // Nor what was finished before the cancel.
+  const std::string small = this->writeCloud("small.csv", 30);
+  loader.start(requestOf({ small }));
+  ASSERT_TRUE(loader.waitFor(kLong));
+  loader.cancel();
+  EXPECT_FALSE(loader.take(loaded, message));
+}
+
+TEST_F(CloudLoaderTest, TheNewestOfSeveralIsTheOneThatCounts)
+{
+  const std::string file = this->writeCloud("a.csv", 300000);
+  const std::string small = this->writeCloud("small.csv", 30);
+  CloudLoader loader;
+  for (int i = 0; i < 20; ++i)
+  {
+    loader.start(requestOf({ file }));
+  }
+  loader.start(requestOf({ small }));
+  ASSERT_TRUE(loader.waitFor(kLong));
+  LoadedCloud loaded;
+  std::string message;
+  ASSERT_TRUE(loader.take(loaded, message));
+  EXPECT_EQ(message, "");
+  EXPECT_EQ(loaded.title, "small.csv");
+  EXPECT_EQ(loaded.cloud->GetNumberOfPoints(), 30);
+}
+
+TEST_F(CloudLoaderTest, SaysWhyAFileCannotBeShown)
+{
+  CloudLoader loader;
+  LoadedCloud loaded;
+  loaded.title = "the former";
+  const auto complaint = [&](const CloudRequest& request)
+  {
+    std::string message;
+    loader.start(request);
+    EXPECT_TRUE(loader.waitFor(kLong));
+    EXPECT_TRUE(loader.take(loaded, message));
+    return message;
+  };
+  const std::string missing = (folder_ / "missing.ply").string();
+  EXPECT_EQ(complaint(requestOf({ missing })).rfind(missing + ": ", 0), 0U);
+
+  const std::string nowhere = (folder_ / "nowhere.csv").string();
+  std::ofstream(nowhere) << "x,y,z\nnan,0,0\n";
+  EXPECT_NE(complaint(requestOf({ nowhere })).find("no point is finite"), std::string::npos);
+
+  CloudRequest warm = requestOf({ this->writeCloud("a.csv", 10) });
+  warm.colorBy = "Warmth";
+  EXPECT_NE(complaint(warm).find("no such array; it has"), std::string::npos);
+  EXPECT_EQ(loaded.title, "the former");
+}
+
+TEST_F(CloudLoaderTest, MayGoWhileItReads)
+{
+  const std::string file = this->writeCloud("a.csv", 300000);
+  for (const bool hasBegun : { false, true })
+  {
+    CloudLoader loader;
+    loader.start(requestOf({ file }));
+    while (hasBegun && loader.progress() == 0.0)
+    {
+      std::this_thread::yield();
+    }
+  }
+}
+
+} // namespace
