@@ -130,7 +130,7 @@ private:
   TraceFile trace_;
   int screenshots_ = 0;
   bool chartBesideFigure_ = true; ///< Comes back when the figure goes.
-  std::string news_; // last line of the status
+  std::string news_;              // last line of the status
   std::unique_ptr<SimulatedDevice> hand_;
   std::unique_ptr<PathReplayDevice> replay_;
   std::unique_ptr<FalconDevice> falcon_;
