@@ -63,14 +63,19 @@ inline void joinEach(const Eight (&v)[N], double* to)
 {
   constexpr int kCount = N - First < 8 ? N - First : 8;
   Eight part[8] = {};
-  for (int i = 0; i < kCount; ++i)
+#pragma GCC unroll 8
+  for (int i = 0; i < 8; ++i)
   {
-    part[i] = v[First + i];
+    part[i] = i < kCount ? v[First + i < N ? First + i : First] : part[i];
   }
   const Eight sums = joinedEach(part);
-  for (int i = 0; i < kCount; ++i)
+#pragma GCC unroll 8
+  for (int i = 0; i < 8; ++i)
   {
-    to[First + i] = sums[i];
+    if (i < kCount)
+    {
+      to[First + i] = sums[i];
+    }
   }
   if constexpr (First + 8 < N)
   {
