@@ -66,7 +66,10 @@ inline void joinEach(const Eight (&v)[N], double* to)
 #pragma GCC unroll 8
   for (int i = 0; i < 8; ++i)
   {
-    part[i] = i < kCount ? v[First + i < N ? First + i : First] : part[i];
+    if (i < kCount)
+    {
+      part[i] = v[First + i];
+    }
   }
   const Eight sums = joinedEach(part);
 #pragma GCC unroll 8
