@@ -63,6 +63,7 @@ ServoSettings pushingServoSettings(double rateHz)
   ServoSettings settings;
   settings.rateHz = rateHz;
   settings.lockMemory = true;
+  settings.keepCoresAwake = true;
   settings.watchdogSeconds = kSilenceOfTheProgram;
   return settings;
 }

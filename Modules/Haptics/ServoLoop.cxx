@@ -106,9 +106,13 @@ struct ServoLoop::Implementation
   std::atomic<int> realtimeRefusal{ 0 };
   std::atomic<bool> memoryLocked{ false };
   std::atomic<int> memoryRefusal{ 0 };
+  std::atomic<bool> coresAwake{ false };
+  std::atomic<int> awakeRefusal{ 0 };
   std::atomic<bool> running{ false };
   std::atomic<bool> stopRequested{ false };
   std::atomic<bool> clutched{ false };
+
+  WakefulCores wakefulCores; ///< Of the thread that starts and stops.
 
   // The servo thread's from start() to the join in stop().
   std::thread thread;
@@ -174,6 +178,9 @@ void ServoLoop::Implementation::prepare(
   const int refusal = settings.lockMemory ? lockMemory() : 0;
   memoryRefusal.store(refusal, std::memory_order_relaxed);
   memoryLocked.store(settings.lockMemory && refusal == 0, std::memory_order_relaxed);
+  const int awakeError = settings.keepCoresAwake ? wakefulCores.request() : 0;
+  awakeRefusal.store(awakeError, std::memory_order_relaxed);
+  coresAwake.store(settings.keepCoresAwake && awakeError == 0, std::memory_order_relaxed);
   newestSign.store(steadyNanoseconds(), std::memory_order_relaxed);
   stopRequested.store(false, std::memory_order_relaxed);
   running.store(true, std::memory_order_release);
@@ -372,6 +379,7 @@ Status ServoLoop::start(
   catch (...)
   {
     self.running.store(false, std::memory_order_release);
+    self.wakefulCores.release();
     throw;
   }
   return Status::Ok;
@@ -385,6 +393,7 @@ void ServoLoop::stop()
   {
     self.thread.join();
   }
+  self.wakefulCores.release();
   const std::lock_guard<std::mutex> lock(self.publishing);
   self.scenes.collect();
 }
@@ -449,23 +458,28 @@ ServoStatistics ServoLoop::statistics() const noexcept
   result.realtimeRefusal = self.realtimeRefusal.load(std::memory_order_relaxed);
   result.memoryLocked = self.memoryLocked.load(std::memory_order_relaxed);
   result.memoryRefusal = self.memoryRefusal.load(std::memory_order_relaxed);
+  result.coresAwake = self.coresAwake.load(std::memory_order_relaxed);
+  result.awakeRefusal = self.awakeRefusal.load(std::memory_order_relaxed);
   return result;
 }
 
 std::string describeRefusals(const ServoStatistics& statistics)
 {
   std::string text;
-  const auto reason = [](int error) { return std::generic_category().message(error); };
-  if (statistics.realtimeRefusal != 0)
+  const auto add = [&](int error, const std::string& what, const std::string& cure)
   {
-    text = "the servo thread got no real-time priority (" + reason(statistics.realtimeRefusal) +
-      "): ticks may come late on a busy machine; allow rtprio 40 for this user in /etc/security/limits.d";
-  }
-  if (statistics.memoryRefusal != 0)
-  {
-    text += (text.empty() ? "" : "\n") + std::string("the program may be swapped out (") +
-      reason(statistics.memoryRefusal) + "); allow memlock unlimited for this user in /etc/security/limits.d";
-  }
+    if (error != 0)
+    {
+      text += (text.empty() ? "" : "\n") + what + " (" + std::generic_category().message(error) + ")" + cure;
+    }
+  };
+  add(statistics.realtimeRefusal, "the servo thread got no real-time priority",
+    ": ticks may come late on a busy machine; allow rtprio 40 for this user in /etc/security/limits.d");
+  add(statistics.memoryRefusal, "the program may be swapped out",
+    "; allow memlock unlimited for this user in /etc/security/limits.d");
+  add(statistics.awakeRefusal, "the processor may fall asleep between ticks",
+    ": they may come some hundreds of microseconds late; let this user write /dev/cpu_dma_latency, as "
+    "70-pointhaptics.rules does for group plugdev");
   return text;
 }
 

@@ -21,6 +21,9 @@ struct ServoSettings
   double rateHz = 1000.0;       ///< 1 to 10000.
   bool realtimePriority = true; ///< Ask for SCHED_FIFO for this thread; a refusal is reported, not an error.
   bool lockMemory = false;      ///< Ask that the process stays in memory (mlockall); a refusal is reported.
+  /// Ask that no core falls asleep while the loop runs (/dev/cpu_dma_latency), so that ticks find the core
+  /// awake and its caches full; costs power. A refusal is reported.
+  bool keepCoresAwake = false;
   /// The thread wakes so long before each deadline, rehearses its step (Proxy::rehearse()) and spins until
   /// the deadline: neither the time to wake up nor cold caches are the tick's then. 0 to 1e-3, at most a
   /// half of the period is used; 0: sleep until the deadline. Costs that part of one core, 10 % at 1 kHz.
@@ -65,8 +68,10 @@ struct ServoStatistics
   LatencyHistogram::Summary update;   ///< Duration of a tick's work, seconds.
   bool realtime = false;              ///< SCHED_FIFO was granted.
   bool memoryLocked = false;          ///< mlockall was granted.
+  bool coresAwake = false;            ///< The cores are kept from falling asleep.
   int realtimeRefusal = 0;            ///< errno of a refused SCHED_FIFO; 0: granted or not asked for.
   int memoryRefusal = 0;              ///< errno of a refused mlockall; 0: granted or not asked for.
+  int awakeRefusal = 0;               ///< errno of refused keepCoresAwake; 0: granted or not asked for.
 };
 
 /// What the system refused, one sentence each with the cure; empty where nothing was.

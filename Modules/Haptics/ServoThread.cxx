@@ -7,6 +7,7 @@
 #include <sched.h>
 
 #ifdef __linux__
+#include <fcntl.h>
 #include <linux/capability.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -75,6 +76,40 @@ int lockMemory() noexcept
   return mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0 ? 0 : errno;
 #else
   return ENOSYS;
+#endif
+}
+
+WakefulCores::~WakefulCores()
+{
+  release();
+}
+
+int WakefulCores::request() noexcept
+{
+#ifdef __linux__
+  release();
+  file_ = open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
+  const std::int32_t microseconds = 0;
+  if (file_ >= 0 && write(file_, &microseconds, sizeof(microseconds)) == ssize_t(sizeof(microseconds)))
+  {
+    return 0;
+  }
+  const int error = errno;
+  release();
+  return error;
+#else
+  return ENOSYS;
+#endif
+}
+
+void WakefulCores::release() noexcept
+{
+#ifdef __linux__
+  if (file_ >= 0)
+  {
+    close(file_); // the kernel drops the request
+    file_ = -1;
+  }
 #endif
 }
 

@@ -1,6 +1,6 @@
 /// @file
 /// What the servo thread asks of the operating system and the processor. Each call but lockMemory() acts on
-/// the calling thread alone.
+/// the calling thread alone; WakefulCores on the whole machine.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,25 @@ int requestRealtimePriority() noexcept;
 /// memory could be locked (a finite limit and no privilege): then nothing is, since later allocations would
 /// fail.
 int lockMemory() noexcept;
+
+/// While it holds its request no core of the machine sleeps deeper than a spinning one (the kernel's power
+/// management quality of service, /dev/cpu_dma_latency): a core asleep needs up to some hundreds of
+/// microseconds to wake, and finds its caches empty. Costs power. Linux only. One thread at a time.
+class WakefulCores
+{
+public:
+  WakefulCores() = default;
+  ~WakefulCores();
+  WakefulCores(const WakefulCores&) = delete;
+  WakefulCores& operator=(const WakefulCores&) = delete;
+  /// @return 0, or the errno of the refusal (EACCES: no permission, ENOENT: no such kernel). Held until
+  /// release().
+  int request() noexcept;
+  void release() noexcept;
+
+private:
+  int file_ = -1;
+};
 
 /// Touches 64 KiB of the calling thread's stack, so that no tick has to.
 void touchStack() noexcept;

@@ -1,52 +1,24 @@
 // The hand holds the model by the buttons of the device: no window, no display.
+#include "ClutchFixture.h"
 #include "vtkHapticOverlay.h"
-#include "vtkInteractorStyleHaptic.h"
-#include "vtkKernelBandwidthFilter.h"
-#include "vtkVoxelMeanResampler.h"
 
 #include "Devices/SimulatedDevice.h"
-#include "Haptics/ServoLoop.h"
 
 #include <gtest/gtest.h>
-#include <vtkCamera.h>
-#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkRenderer.h>
-#include <vtkTransform.h>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <functional>
 #include <string>
-#include <thread>
 #include <vector>
 
 using namespace pointhaptics;
+using namespace pointhaptics::trial;
 
 namespace
 {
-
-/// A strip at z = 0, points 1 mm apart: from @p x0 to @p x1, 4 cm wide; metres.
-vtkSmartPointer<vtkPolyData> strip(double x0, double x1)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (int i = 0; i <= int(std::lround((x1 - x0) / 0.001)); ++i)
-  {
-    for (int j = -20; j <= 20; ++j)
-    {
-      points->InsertNextPoint(x0 + 0.001 * i, 0.001 * j, 0.0);
-    }
-  }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  return cloud;
-}
 
 /// A hand that is exactly where it is told to be, and what was sent to its motors.
 class TestHand : public HandPort
@@ -86,45 +58,12 @@ public:
   std::atomic<bool> silent{ false };
 };
 
-class HandClutch : public ::testing::Test
+class HandClutch : public ClutchFixture
 {
 protected:
-  HandClutch()
-  {
-    renderer->GetActiveCamera()->SetPosition(0, 0, 0.4);
-    renderer->GetActiveCamera()->SetFocalPoint(0, 0, 0);
-    renderer->GetActiveCamera()->SetViewUp(0, 1, 0);
-    style->SetDefaultRenderer(renderer);
-    style->SetDevice(&hand.device);
-    style->SetServoLoop(&servo);
-    resampler->SetWorkspaceBounds(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
-    resampler->SetDimensions(100, 100, 100);
-    bandwidth->SetInputConnection(resampler->GetOutputPort());
-  }
-  ~HandClutch() override
-  {
-    servo.stop();
-    style->SetServoLoop(nullptr);
-  }
-  void begin(double x0, double x1)
-  {
-    resampler->SetInputData(strip(x0, x1));
-    style->SetResampler(resampler);
-    style->SetBandwidthFilter(bandwidth);
-    style->UpdateModel();
-    ServoSettings settings;
-    settings.realtimePriority = false;
-    ASSERT_EQ(servo.start(hand, HapticParameters(), settings), Status::Ok);
-    ASSERT_TRUE(eventually([&] { return servo.latest().tick > 2; }));
-  }
-  static bool eventually(const std::function<bool()>& condition)
-  {
-    for (int i = 0; i < 20000 && !condition(); ++i)
-    {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return condition();
-  }
+  HandClutch() { style->SetDevice(&hand.device); }
+  ~HandClutch() override { this->letGo(); }
+  void begin(double x0, double x1) { ClutchFixture::begin(hand, x0, x1); }
   /// The servo loop has seen both.
   void hold(std::uint32_t buttons)
   {
@@ -136,27 +75,8 @@ protected:
     hand.device.setTarget(place);
     ASSERT_TRUE(eventually([&] { return servo.latest().state.hip == place; }));
   }
-  /// As the timer does it, until the hand feels the model where it is now.
-  void settle()
-  {
-    for (int i = 0; i < 5000 && (style->IsModelChanged() || i < 3); ++i)
-    {
-      style->Refresh();
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    ASSERT_FALSE(style->IsModelChanged());
-  }
-  double element(int row, int column)
-  {
-    return style->GetModelTransform()->GetMatrix()->GetElement(row, column);
-  }
 
   TestHand hand;
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  vtkNew<vtkKernelBandwidthFilter> bandwidth;
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkInteractorStyleHaptic> style;
-  ServoLoop servo; // stops before the hand goes
 };
 
 TEST_F(HandClutch, ShiftsTheModelByTheWayOfTheHandWhileTheButtonIsDownAndByNoOther)

@@ -1,5 +1,6 @@
 #include "Benchmark/Servo/ServoRun.h"
 
+#include "Benchmark/Servo/EmptyLoop.h"
 #include "Unit/Devices/MemoryLink.h"
 
 #include "Core/Shapes.h"
@@ -160,6 +161,7 @@ Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& sc
   ServoSettings settings;
   settings.rateHz = setting.rateHz;
   settings.lockMemory = true;
+  settings.keepCoresAwake = true;
   HapticParameters parameters;
   parameters.contact.stiffness = kStiffness;
   if (device->open() != Status::Ok || loop.start(*device, parameters, settings) != Status::Ok)
@@ -167,6 +169,11 @@ Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& sc
     return outcome;
   }
   const BusyThreads busy(setting.load == Load::Busy ? std::max(1u, std::thread::hardware_concurrency()) : 0);
+  std::optional<EmptyLoop> empty;
+  if (setting.load == Load::Idle && std::thread::hardware_concurrency() > 1)
+  {
+    empty.emplace(setting.rateHz, settings.wakeEarlySeconds);
+  }
   std::size_t traced = 0;
   std::size_t touched = 0;
   std::vector<ServoSample> samples;
@@ -187,6 +194,11 @@ Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& sc
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   outcome.statistics = loop.statistics();
+  if (empty)
+  {
+    empty->stop();
+    outcome.missedByEmptyLoop = empty->missedTicks();
+  }
   loop.stop();
   device->close();
   outcome.contactShare = traced > 0 ? double(touched) / double(traced) : 0.0;

@@ -4,8 +4,10 @@
 
 #include "Haptics/ServoLoop.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace pointhaptics
@@ -43,6 +45,9 @@ struct Outcome
   double contactShare = 0.0; ///< Of the traced ticks.
   double largestError = 0.0; ///< Of the force against that of the ideal sphere, N.
   double framesPerSecond = 0.0;
+  /// What an empty loop beside this one missed in the same time; where the machine was idle otherwise and a
+  /// core was left for it.
+  std::optional<std::uint64_t> missedByEmptyLoop;
 };
 
 const char* name(Hand hand);

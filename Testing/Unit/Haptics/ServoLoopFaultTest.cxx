@@ -147,19 +147,24 @@ TEST(ServoLoop, ReportsWhatTheSystemRefuses)
   ServoLoop loop;
   ServoSettings settings;
   settings.lockMemory = true;
+  settings.keepCoresAwake = true;
   ASSERT_EQ(loop.start(port, HapticParameters(), settings), Status::Ok);
   ASSERT_TRUE(eventually([&] { return loop.latest().tick > 0; }));
   const ServoStatistics statistics = loop.statistics();
   loop.stop();
   EXPECT_EQ(statistics.realtime, statistics.realtimeRefusal == 0);
   EXPECT_EQ(statistics.memoryLocked, statistics.memoryRefusal == 0);
+  EXPECT_EQ(statistics.coresAwake, statistics.awakeRefusal == 0);
   const std::string text = describeRefusals(statistics);
   EXPECT_EQ(text.find("rtprio") != std::string::npos, !statistics.realtime);
   EXPECT_EQ(text.find("memlock") != std::string::npos, !statistics.memoryLocked);
+  EXPECT_EQ(text.find("cpu_dma_latency") != std::string::npos, !statistics.coresAwake);
   EXPECT_TRUE(describeRefusals(ServoStatistics()).empty());
   ServoStatistics refused;
   refused.realtimeRefusal = 1;
   refused.memoryRefusal = 1;
+  refused.awakeRefusal = 13;
   EXPECT_NE(describeRefusals(refused).find("rtprio 40"), std::string::npos);
   EXPECT_NE(describeRefusals(refused).find("memlock unlimited"), std::string::npos);
+  EXPECT_NE(describeRefusals(refused).find("/dev/cpu_dma_latency"), std::string::npos);
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <fstream>
 #include <limits>
 #include <thread>
 
@@ -51,3 +53,36 @@ TEST(ServoThread, SpinsUntilADeadlineAndNotAtAllForOneThatHasPassed)
   spinUntil(begin);
   spinUntil(std::numeric_limits<std::int64_t>::min());
 }
+
+#ifdef __linux__
+namespace
+{
+/// Microseconds a core may take to wake; -1: the kernel does not say.
+std::int32_t allowedWakeTime()
+{
+  std::ifstream file("/dev/cpu_dma_latency", std::ios::binary);
+  std::int32_t result = -1;
+  file.read(reinterpret_cast<char*>(&result), sizeof(result));
+  return result;
+}
+}
+
+TEST(ServoThread, KeepsTheCoresAwakeUntilItLetsGo)
+{
+  const std::int32_t before = allowedWakeTime();
+  WakefulCores cores;
+  if (before <= 0 || cores.request() != 0)
+  {
+    GTEST_SKIP() << "no permission to write /dev/cpu_dma_latency, or another program holds it";
+  }
+  EXPECT_EQ(allowedWakeTime(), 0);
+  EXPECT_EQ(cores.request(), 0) << "a second time is no error";
+  cores.release();
+  EXPECT_EQ(allowedWakeTime(), before);
+  {
+    WakefulCores others;
+    ASSERT_EQ(others.request(), 0);
+  }
+  EXPECT_EQ(allowedWakeTime(), before);
+}
+#endif
