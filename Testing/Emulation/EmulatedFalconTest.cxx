@@ -1,9 +1,8 @@
 #include "EmulatedFalcon.h"
 #include "UnderUmockdev.h"
 
-#include "../Unit/Devices/FalconBench.h"
+#include "../Unit/Devices/FalconTouch.h"
 
-#include "Core/Shapes.h"
 #include "Devices/DeviceList.h"
 #include "Haptics/ServoLoop.h"
 
@@ -22,62 +21,17 @@ const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
 class EmulatedUsb : public UnderUmockdev
 {
 protected:
-  EmulatedUsb()
-    : file(madeUpFirmware())
-    , falcon(bed())
-  {
-    falcon.with([](FalconModel& model) { model.expectedFirmware = madeUpFirmware(); });
-  }
-
   FalconSettings settings() const
   {
-    FalconSettings result;
-    result.firmwareFile = file.path();
-    result.retrySeconds = 0.02;
+    FalconSettings result = desk.settings();
     // On a busy machine an answer may take its time; where one comes at all, waiting longer costs nothing.
     result.boot.replyMilliseconds = 1000;
     result.boot.probeMilliseconds = 30;
-    result.boot.greetings = 20;
-    // The emulator's answers come through sockets, on a machine that may be busy.
-    result.silenceSeconds = 0.2;
-    result.replyWaitSeconds = 2e-3;
     return result;
   }
 
-  static std::shared_ptr<const HapticScene> sphere()
-  {
-    HapticSceneInput input;
-    EXPECT_EQ(generateShape(Shape::Sphere, 40000, 3, 0.0, input.points), Status::Ok);
-    input.cellSize = 0.0005;
-    Status status = Status::Ok;
-    return HapticScene::create(std::move(input), status);
-  }
-
-  /// The hand waits outside the sphere of 25 mm: where a touch begins is free space.
-  void comeFromOutside()
-  {
-    falcon.with(
-      [](FalconModel& model) { model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030); });
-  }
-
-  /// Moves the hand's wish 6 mm below the surface until it feels that. Again from outside where the machine
-  /// stood still for a second on the way: the loop then takes the hand as new, inside the sphere.
-  bool touch(const ServoLoop& loop)
-  {
-    bool felt = false;
-    for (int attempt = 0; attempt < 5 && !felt; ++attempt)
-    {
-      comeFromOutside();
-      EXPECT_TRUE(eventually([&] { return loop.latest().state.hip.z > 0.029; }));
-      falcon.with([](FalconModel& model) { model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.019); });
-      EXPECT_TRUE(eventually([&] { return loop.latest().state.hip.z < 0.0243; }));
-      felt = loop.latest().state.force.z > 0.1;
-    }
-    return felt;
-  }
-
-  FirmwareFile file;
-  EmulatedFalcon falcon;
+  EmulatedFalcon falcon{ bed() };
+  FalconTouch<EmulatedFalcon> desk{ falcon, 60.0 };
 };
 }
 
@@ -127,15 +81,15 @@ TEST_F(EmulatedUsb, SaysWhoHoldsADeviceThatIsBusy)
 TEST_F(EmulatedUsb, TheServoLoopFeelsASphereAndTheHandSettlesInBalance)
 {
   falcon.plugIn();
-  comeFromOutside();
+  desk.comeFromOutside();
   FalconDevice device(settings());
   ASSERT_EQ(device.open(), Status::Ok) << device.message();
   ServoLoop loop;
-  loop.publishScene(sphere());
+  loop.publishScene(desk.sphere(40000, 0.0005));
   HapticParameters parameters;
   ASSERT_EQ(loop.start(device, parameters), Status::Ok);
   ASSERT_TRUE(eventually([&] { return device.state() == FalconState::Armed; }));
-  ASSERT_TRUE(touch(loop));
+  ASSERT_TRUE(desk.touch(loop));
   // 200 N/m towards 6 mm depth against 800 N/m: at rest at 1.2 mm.
   const double expected = 0.025 - 0.006 * 200.0 / 1000.0;
   const auto resting = [&]
@@ -188,22 +142,22 @@ TEST_F(EmulatedUsb, SurvivesGarbageAndSilence)
 TEST_F(EmulatedUsb, SurvivesUnpluggingInContactThreeTimes)
 {
   falcon.plugIn();
-  comeFromOutside();
+  desk.comeFromOutside();
   FalconDevice device(settings());
   ASSERT_EQ(device.open(), Status::Ok) << device.message();
   ServoLoop loop;
-  loop.publishScene(sphere());
+  loop.publishScene(desk.sphere(40000, 0.0005));
   ASSERT_EQ(loop.start(device, HapticParameters()), Status::Ok);
   for (std::uint64_t round = 1; round <= 3; ++round)
   {
     ASSERT_TRUE(eventually([&] { return device.state() == FalconState::Armed; })) << round;
-    ASSERT_TRUE(touch(loop)) << round;
+    ASSERT_TRUE(desk.touch(loop)) << round;
     const std::uint64_t connections = device.statistics().connections;
     falcon.unplug();
     EXPECT_TRUE(eventually([&] { return device.state() != FalconState::Armed; }));
     EXPECT_TRUE(eventually([&] { return norm(loop.latest().state.force) == 0.0; }));
     EXPECT_TRUE(loop.running()) << "an unplugged device is a state";
-    comeFromOutside();
+    desk.comeFromOutside();
     falcon.plugIn();
     ASSERT_TRUE(eventually([&] { return device.statistics().connections > connections; }))
       << round << " " << device.message();

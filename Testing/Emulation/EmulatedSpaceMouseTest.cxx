@@ -1,5 +1,7 @@
 #include "UnderUmockdev.h"
 
+#include "../Unit/Eventually.h"
+
 #include "Devices/DeviceList.h"
 #include "Devices/SpaceMouse/SpaceMouse.h"
 
@@ -28,19 +30,6 @@ constexpr const char* kHidPath = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-3/
 
 /// A multi-axis controller on the generic desktop page; nothing else of it matters here.
 const std::vector<std::uint8_t> kDescriptor = { 0x05, 0x01, 0x09, 0x08, 0xa1, 0x01, 0xc0 };
-
-bool eventually(const std::function<bool()>& condition)
-{
-  for (int i = 0; i < 20000; ++i)
-  {
-    if (condition())
-    {
-      return true;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
 
 /// A SpaceMouse behind /dev/hidraw0: the real hidapi reads its reports and sets its lamp.
 class EmulatedCap

@@ -6,6 +6,8 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
+#include "../Unit/Eventually.h"
+
 #include "Haptics/ServoLoop.h"
 
 #include <gtest/gtest.h>
@@ -43,15 +45,6 @@ inline vtkSmartPointer<vtkPolyData> strip(double x0, double x1)
   auto cloud = vtkSmartPointer<vtkPolyData>::New();
   cloud->SetPoints(points);
   return cloud;
-}
-
-inline bool eventually(const std::function<bool()>& condition)
-{
-  for (int i = 0; i < 20000 && !condition(); ++i)
-  {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return condition();
 }
 
 /// The device is the test's. Whoever derives calls letGo() before the device goes.

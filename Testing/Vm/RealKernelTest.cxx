@@ -3,9 +3,8 @@
 #include "UhidCap.h"
 #include "UsbipFalcon.h"
 
-#include "../Unit/Devices/FalconBench.h"
+#include "../Unit/Devices/FalconTouch.h"
 
-#include "Core/Shapes.h"
 #include "Devices/DeviceList.h"
 #include "Devices/SpaceMouse/SpaceMouse.h"
 #include "Haptics/ServoLoop.h"
@@ -28,19 +27,9 @@ constexpr double kStiffness = 150.0; ///< N/m; the Falcon bears 166 at this rate
 constexpr double kSecondsToWait = 10.0;
 constexpr double kSecondsToSettle = 3.0;
 
-/// As the one of FalconBench.h, but with an end before that of the machine.
 bool soon(const std::function<bool()>& condition, double seconds = kSecondsToWait)
 {
-  const auto begin = std::chrono::steady_clock::now();
-  while (!condition())
-  {
-    if (std::chrono::steady_clock::now() - begin > std::chrono::duration<double>(seconds))
-    {
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
+  return eventually(condition, seconds); // an end before that of the machine
 }
 
 HapticParameters soft()
@@ -62,54 +51,16 @@ ServoSettings servoSettings()
 class RealKernel : public ::testing::Test
 {
 protected:
-  RealKernel()
-    : file(madeUpFirmware())
-  {
-    falcon.with([](FalconModel& model) { model.expectedFirmware = madeUpFirmware(); });
-  }
-
   FalconSettings settings() const
   {
-    FalconSettings result;
-    result.firmwareFile = file.path();
-    result.retrySeconds = 0.02;
+    FalconSettings result = desk.settings();
     result.boot.replyMilliseconds = 100;
     result.boot.probeMilliseconds = 100;
-    result.boot.greetings = 20;
-    result.silenceSeconds = 0.2;
-    result.replyWaitSeconds = 2e-3;
     return result;
   }
 
-  static std::shared_ptr<const HapticScene> sphere()
-  {
-    HapticSceneInput input;
-    EXPECT_EQ(generateShape(Shape::Sphere, 10000, 3, 0.0, input.points), Status::Ok);
-    input.cellSize = 0.001;
-    Status status = Status::Ok;
-    return HapticScene::create(std::move(input), status);
-  }
-
-  /// From outside to 6 mm below the surface, until that is felt. Again where the machine stood still for a
-  /// second on the way: the loop then takes the hand as new, inside the sphere.
-  bool touch(const ServoLoop& loop)
-  {
-    bool felt = false;
-    for (int attempt = 0; attempt < 5 && !felt; ++attempt)
-    {
-      falcon.with([](FalconModel& model)
-        { model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030); });
-      EXPECT_TRUE(soon([&] { return loop.latest().state.hip.z > 0.029; }));
-      falcon.with([](FalconModel& model) { model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.019); });
-      EXPECT_TRUE(soon([&] { return loop.latest().state.hip.z < 0.0243; }));
-      felt = soon([&] { return loop.latest().state.force.z > 0.1 || loop.latest().state.hip.z < 0.0193; }) &&
-        loop.latest().state.force.z > 0.1;
-    }
-    return felt;
-  }
-
-  FirmwareFile file;
   UsbipFalcon falcon;
+  FalconTouch<UsbipFalcon> desk{ falcon, kSecondsToWait };
 };
 
 std::string wordOf(const std::filesystem::path& file)
@@ -161,7 +112,7 @@ TEST_F(RealKernel, BootsLoadsHomesAndTheHandSettlesInBalance)
   ASSERT_EQ(device.open(), Status::Ok) << device.message();
   EXPECT_EQ(falcon.with([](FalconModel& model) { return model.firmware; }), madeUpFirmware());
   ServoLoop loop;
-  loop.publishScene(sphere());
+  loop.publishScene(desk.sphere(10000, 0.001));
   ASSERT_EQ(loop.start(device, soft(), servoSettings()), Status::Ok);
   EXPECT_TRUE(soon([&] { return device.statistics().replies > 5; }));
   EXPECT_EQ(device.state(), FalconState::Unhomed);
@@ -176,7 +127,7 @@ TEST_F(RealKernel, BootsLoadsHomesAndTheHandSettlesInBalance)
     const double speed = falcon.with([](FalconModel& model) { return norm(model.hand.velocity); });
     return std::abs(norm(loop.latest().state.force) - kStiffness * depth) < 0.015 && speed < 1e-4;
   };
-  const auto settles = [&] { return touch(loop) && soon(rests, kSecondsToSettle); };
+  const auto settles = [&] { return desk.touch(loop) && soon(rests, kSecondsToSettle); };
   EXPECT_TRUE(settles() || settles() || settles()) << norm(loop.latest().state.force);
   EXPECT_NEAR(
     falcon.with([](FalconModel& model) { return model.hand.position.z; }) - kCenter.z, 0.025 - depth, 60e-6);
@@ -197,28 +148,26 @@ TEST_F(RealKernel, BootsLoadsHomesAndTheHandSettlesInBalance)
 
 TEST_F(RealKernel, LetsTheFalconBeUnpluggedInContactAndComeBack)
 {
-  falcon.with(
-    [](FalconModel& model) { model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030); });
+  desk.comeFromOutside();
   ASSERT_TRUE(falcon.plugIn());
   FalconDevice device(settings());
   ASSERT_EQ(device.open(), Status::Ok) << device.message();
   ServoLoop loop;
-  loop.publishScene(sphere());
+  loop.publishScene(desk.sphere(10000, 0.001));
   ASSERT_EQ(loop.start(device, soft(), servoSettings()), Status::Ok);
   ASSERT_TRUE(soon([&] { return device.state() == FalconState::Armed; }));
-  ASSERT_TRUE(touch(loop));
+  ASSERT_TRUE(desk.touch(loop));
   falcon.unplug();
   EXPECT_TRUE(soon([&] { return device.state() != FalconState::Armed; }));
   EXPECT_TRUE(soon([&] { return norm(loop.latest().state.force) == 0.0; }));
   EXPECT_TRUE(loop.running()) << "an unplugged device is a state";
   EXPECT_TRUE(soon([&] { return device.message().find("none is plugged in") != std::string::npos; }))
     << device.message();
-  falcon.with(
-    [](FalconModel& model) { model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030); });
+  desk.comeFromOutside();
   ASSERT_TRUE(falcon.plugIn());
   ASSERT_TRUE(soon([&] { return device.statistics().connections == 2; })) << device.message();
   ASSERT_TRUE(soon([&] { return device.state() == FalconState::Armed; }));
-  EXPECT_TRUE(touch(loop));
+  EXPECT_TRUE(desk.touch(loop));
   loop.stop();
   device.close();
 }

@@ -1,5 +1,7 @@
 #include "UsbipFalcon.h"
 
+#include "../Unit/Eventually.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -23,7 +25,7 @@ constexpr int kFullSpeed = 2;
 constexpr int kBusAndDevice = 0x10002;
 constexpr auto kLatency = std::chrono::milliseconds(1);
 constexpr std::size_t kPacket = 64;
-constexpr int kMillisecondsToWait = 5000;
+constexpr double kSecondsToWait = 5.0;
 
 // Words of a USB/IP header; those after the endpoint differ between the commands.
 enum Word : std::size_t
@@ -94,15 +96,6 @@ bool say(const std::string& file, const std::string& text)
   return bool(stream);
 }
 
-bool eventually(const std::function<bool()>& condition)
-{
-  for (int i = 0; i < kMillisecondsToWait && !condition(); ++i)
-  {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return condition();
-}
-
 /// The first port is in state "not assigned".
 bool portIsFree()
 {
@@ -129,7 +122,7 @@ bool UsbipFalcon::plugIn()
   const bool taken = say("attach",
     "0 " + std::to_string(ends[1]) + " " + std::to_string(kBusAndDevice) + " " + std::to_string(kFullSpeed));
   close(ends[1]); // the kernel has its own hold on it
-  return taken && eventually([this] { return configured_.load(); });
+  return taken && eventually([this] { return configured_.load(); }, kSecondsToWait);
 }
 
 void UsbipFalcon::unplug()
@@ -143,7 +136,7 @@ void UsbipFalcon::unplug()
   close(socket_);
   socket_ = -1;
   waiting_.clear();
-  eventually(portIsFree);
+  eventually(portIsFree, kSecondsToWait);
 }
 
 void UsbipFalcon::serve()

@@ -4,6 +4,8 @@
 
 #include "FalconModel.h"
 
+#include "../Eventually.h"
+
 #include "Devices/Falcon/FalconDevice.h"
 
 #include <gtest/gtest.h>
@@ -137,19 +139,6 @@ public:
 private:
   std::string path_;
 };
-
-inline bool eventually(const std::function<bool()>& condition)
-{
-  for (int i = 0; i < 20000; ++i)
-  {
-    if (condition())
-    {
-      return true;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
 
 /// Device, wire and firmware in one place, and ticks of a millisecond.
 class FalconBench

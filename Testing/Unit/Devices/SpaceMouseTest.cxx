@@ -1,3 +1,5 @@
+#include "../Eventually.h"
+
 #include "Devices/SpaceMouse/SpaceMouse.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +13,7 @@
 #include <thread>
 
 using namespace pointhaptics;
+using namespace pointhaptics::trial;
 
 namespace
 {
@@ -140,18 +143,6 @@ private:
   Desk& desk_;
 };
 
-bool eventually(const std::function<bool()>& condition)
-{
-  for (int i = 0; i < 20000; ++i)
-  {
-    if (condition())
-    {
-      return true;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
 }
 
 TEST(SpaceMouseReport, MatchesItsProductsAndNoOrdinaryMouse)

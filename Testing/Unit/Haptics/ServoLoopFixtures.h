@@ -2,6 +2,8 @@
 /// A device that does as it is told, and what the tests of the servo loop share.
 #pragma once
 
+#include "../Eventually.h"
+
 #include "Haptics/ServoLoop.h"
 
 #include <algorithm>
@@ -53,20 +55,6 @@ public:
 private:
   bool failed_ = false;
 };
-
-/// Waits for a condition, not for a time: a busy machine only makes the test slower.
-inline bool eventually(const std::function<bool()>& condition)
-{
-  for (int i = 0; i < 60000; ++i)
-  {
-    if (condition())
-    {
-      return true;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
 
 /// A plane z = 0 of 0.5 mm spacing, 20 mm wide.
 inline std::shared_ptr<const HapticScene> plane()

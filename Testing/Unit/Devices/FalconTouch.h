@@ -1,0 +1,90 @@
+/// @file
+/// What the tests of the driver on a real libusb share, whatever is below that: patience, a sphere, a hand
+/// that touches it.
+#pragma once
+
+#include "FalconBench.h"
+
+#include "Core/Shapes.h"
+#include "Haptics/ServoLoop.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace pointhaptics
+{
+namespace trial
+{
+
+/// @tparam Falcon a device around a FalconModel, with(use).
+template <typename Falcon>
+class FalconTouch
+{
+public:
+  /// @param secondsToWait for each step of touch().
+  FalconTouch(Falcon& falcon, double secondsToWait)
+    : falcon_(falcon)
+    , secondsToWait_(secondsToWait)
+    , file_(madeUpFirmware())
+  {
+    falcon.with([](FalconModel& model) { model.expectedFirmware = madeUpFirmware(); });
+  }
+
+  /// Answers come through sockets, on a machine that may be busy.
+  FalconSettings settings() const
+  {
+    FalconSettings result;
+    result.firmwareFile = file_.path();
+    result.retrySeconds = 0.02;
+    result.boot.greetings = 20;
+    result.silenceSeconds = 0.2;
+    result.replyWaitSeconds = 2e-3;
+    return result;
+  }
+
+  /// Of 25 mm radius; @p cellSize in metres.
+  static std::shared_ptr<const HapticScene> sphere(int points, double cellSize)
+  {
+    HapticSceneInput input;
+    EXPECT_EQ(generateShape(Shape::Sphere, points, 3, 0.0, input.points), Status::Ok);
+    input.cellSize = cellSize;
+    Status status = Status::Ok;
+    return HapticScene::create(std::move(input), status);
+  }
+
+  /// The hand waits outside the sphere: where a touch begins is free space.
+  void comeFromOutside()
+  {
+    falcon_.with(
+      [](FalconModel& model) { model.hand.wanted = model.hand.position = center() + Vec3(0.0, 0.0, 0.030); });
+  }
+
+  /// Moves the hand's wish 6 mm below the surface until it feels that. Again from outside where the machine
+  /// stood still for a second on the way: the loop then takes the hand as new, inside the sphere.
+  bool touch(const ServoLoop& loop)
+  {
+    bool felt = false;
+    for (int attempt = 0; attempt < 5 && !felt; ++attempt)
+    {
+      comeFromOutside();
+      EXPECT_TRUE(eventually([&] { return loop.latest().state.hip.z > 0.029; }, secondsToWait_));
+      falcon_.with([](FalconModel& model) { model.hand.wanted = center() + Vec3(0.0, 0.0, 0.019); });
+      EXPECT_TRUE(eventually([&] { return loop.latest().state.hip.z < 0.0243; }, secondsToWait_));
+      const auto pushed = [&] { return loop.latest().state.force.z > 0.1; };
+      felt = eventually([&] { return pushed() || loop.latest().state.hip.z < 0.0193; }, secondsToWait_) &&
+        pushed();
+    }
+    return felt;
+  }
+
+private:
+  static Vec3 center() { return { 0.0, 0.0, falcon::kCenterZ }; }
+
+  Falcon& falcon_;
+  double secondsToWait_;
+  FirmwareFile file_;
+};
+
+} // namespace trial
+} // namespace pointhaptics
