@@ -1,6 +1,7 @@
 #include "LoadedCloud.h"
 
 #include "CloudAppearance.h"
+#include "LatticeChoice.h"
 #include "vtkPointCloudReader.h"
 
 #include <fmt/format.h>
@@ -221,6 +222,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
     addHeightArray(result.cloud, result.orientation.up);
   }
   keepArrays(result.cloud, request.colorBy);
+  result.latticeDimension = request.choosesLattice ? chooseLatticeDimension(result.cloud) : 0;
   loaded = std::move(result);
   return true;
 }

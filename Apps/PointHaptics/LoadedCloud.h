@@ -23,9 +23,10 @@ namespace app
 struct CloudRequest
 {
   std::vector<std::string> files;
-  std::string colorBy;       ///< What findColorSource() takes, rgb, or nothing.
-  std::string up = "auto";   ///< auto or an axis.
-  AffineTransform transform; ///< Of the cloud, for its bounds.
+  std::string colorBy;         ///< What findColorSource() takes, rgb, or nothing.
+  std::string up = "auto";     ///< auto or an axis.
+  AffineTransform transform;   ///< Of the cloud, for its bounds.
+  bool choosesLattice = false; ///< Nobody else does.
 };
 
 struct LoadedCloud
@@ -33,7 +34,8 @@ struct LoadedCloud
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
   Bounds bounds;                      ///< Of the finite points, after CloudRequest::transform.
   CloudOrientation orientation;
-  std::string title; ///< The names of the files, without their folders.
+  int latticeDimension = 0; ///< chooseLatticeDimension(), where that was wanted; else 0.
+  std::string title;        ///< The names of the files, without their folders.
 };
 
 /// Bounds of the finite points after @p transform; the corners of a box would be too wide for a turned cloud.

@@ -317,6 +317,8 @@ void ViewOptions::addTo(CLI::App& command)
   addTouchOptions(command, *this);
   this->bandwidth.addTo(command);
   this->lattice.addTo(command);
+  command.get_option("--dims")->description(
+    "Voxels on each axis of the lattice; default 300, up to 1200 where these leave little of a cloud");
 }
 
 bool ViewOptions::complete(CLI::App& command, std::string& message)
@@ -389,6 +391,7 @@ CloudRequest ViewOptions::cloudRequest(const std::vector<std::string>& wanted) c
   request.colorBy = colorBy;
   request.up = up;
   request.transform = lattice.transform();
+  request.choosesLattice = fitsWorkspace && lattice.dimensions.empty() && lattice.voxelSize == 0.0;
   return request;
 }
 

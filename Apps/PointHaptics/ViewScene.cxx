@@ -48,6 +48,8 @@ constexpr double kFittedPart = 0.9;
 /// Scales for applyDepthShading() in edges of the workspace; photographed colours show the shape themselves.
 constexpr double kDepthShadingScale = 0.03;
 constexpr double kDepthShadingScaleOfColors = 0.08;
+/// Above the noise of a depth camera in a room: the splats of a wall cast no shadows on each other.
+constexpr double kDepthToleranceOfColors = 0.015;
 /// The proxy sphere is drawn at least this large, over the workspace's edge.
 constexpr double kSmallestSphere = 0.022;
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
@@ -168,6 +170,10 @@ void ViewScene::open(LoadedCloud loaded, const ViewOptions& options)
   orientation_ = loaded.orientation;
   title_ = loaded.title;
   fit(loaded.bounds, options);
+  if (const int n = loaded.latticeDimension; n > 0)
+  {
+    resampler_->SetDimensions(n, n, n);
+  }
 }
 
 void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
@@ -234,7 +240,8 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   props_->SetForceScale(0.06 * edge);
   props_->SetSmallestSphereRadius(kSmallestSphere * edge);
   const bool showsColors = hasColors(output) && (options.colorBy.empty() || options.colorBy == "rgb");
-  applyDepthShading(renderer_, (showsColors ? kDepthShadingScaleOfColors : kDepthShadingScale) * edge);
+  applyDepthShading(renderer_, (showsColors ? kDepthShadingScaleOfColors : kDepthShadingScale) * edge,
+    showsColors ? kDepthToleranceOfColors * edge : 0.0);
   mapper_->SetFixedPixels(options.pointSize);
   colorBy_ = options.colorBy;
   applyCloudAppearance(output, mapper_, actor_, colorBy_);

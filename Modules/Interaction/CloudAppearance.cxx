@@ -338,7 +338,7 @@ void applyFigureAppearance(vtkPolyDataMapper* mapper, vtkActor* actor, vtkRender
   renderer->SetBackground(1.0, 1.0, 1.0);
 }
 
-void applyDepthShading(vtkRenderer* renderer, double depthScale)
+void applyDepthShading(vtkRenderer* renderer, double depthScale, double depthTolerance)
 {
   auto* sequence = vtkSequencePass::SafeDownCast(renderer->GetPass());
   vtkRenderPass* first = sequence && sequence->GetPasses()->GetNumberOfItems() > 0
@@ -347,6 +347,7 @@ void applyDepthShading(vtkRenderer* renderer, double depthScale)
   if (auto* present = vtkDepthShadingPass::SafeDownCast(first))
   {
     present->SetDepthScale(depthScale);
+    present->SetDepthTolerance(depthTolerance);
     return;
   }
   vtkNew<vtkLightsPass> lights;
@@ -363,6 +364,7 @@ void applyDepthShading(vtkRenderer* renderer, double depthScale)
   vtkNew<vtkDepthShadingPass> shading;
   shading->SetDelegatePass(camera);
   shading->SetDepthScale(depthScale);
+  shading->SetDepthTolerance(depthTolerance);
   // Text comes after the shading: it has no depth.
   vtkNew<vtkOverlayPass> overlay;
   vtkNew<vtkRenderPassCollection> passes;

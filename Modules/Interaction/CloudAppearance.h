@@ -78,8 +78,10 @@ POINTHAPTICSINTERACTION_EXPORT void applyFigureAppearance(
 /// Darkens what lies behind its surroundings (eye-dome lighting, vtkDepthShadingPass): points without normals
 /// show their shape.
 /// @param depthScale a point this far behind its neighbours, in the units of the scene, keeps 1/e of its
-/// lightness: larger is weaker. May be called again with another one.
-POINTHAPTICSINTERACTION_EXPORT void applyDepthShading(vtkRenderer* renderer, double depthScale);
+/// lightness: larger is weaker. May be called again with other ones.
+/// @param depthTolerance what lies less than this behind its neighbours is not darkened.
+POINTHAPTICSINTERACTION_EXPORT void applyDepthShading(
+  vtkRenderer* renderer, double depthScale, double depthTolerance = 0.0);
 
 /// Median distance between neighbours, of a sample of the points; 0 where there are none.
 POINTHAPTICSINTERACTION_EXPORT double medianSpacing(vtkPolyData* cloud);

@@ -28,6 +28,7 @@ uniform sampler2D depths;
 uniform vec2 clipping;
 uniform int isParallel;
 uniform float depthScale;
+uniform float depthTolerance;
 uniform float minimumLightness;
 uniform int isShaded;
 // A line far in front of a surface, which few neighbours see, must not draw a black band on it.
@@ -42,7 +43,7 @@ float distanceAt(float depth)
 float behind(ivec2 place, ivec2 last, float here)
 {
   float depth = texelFetch(depths, clamp(place, ivec2(0), last), 0).r;
-  return depth < 1.0 ? clamp(here - distanceAt(depth), 0.0, mostBehind * depthScale) : 0.0;
+  return depth < 1.0 ? clamp(here - distanceAt(depth) - depthTolerance, 0.0, mostBehind * depthScale) : 0.0;
 }
 
 void main()
@@ -112,7 +113,8 @@ void vtkDepthShadingPass::Render(const vtkRenderState* state)
 
   std::vector<double> wanted = pointhaptics::pictureState(renderer);
   const bool sameShades = !this->KeptIsShaded ||
-    (this->KeptDepthScale == this->DepthScale && this->KeptMinimumLightness == this->MinimumLightness);
+    (this->KeptDepthScale == this->DepthScale && this->KeptDepthTolerance == this->DepthTolerance &&
+      this->KeptMinimumLightness == this->MinimumLightness);
   if (wanted != this->Kept || !sameShades || renderer->GetSelector())
   {
     window->GetState()->PushFramebufferBindings();
@@ -146,6 +148,7 @@ void vtkDepthShadingPass::Render(const vtkRenderState* state)
     this->Colors->CopyFromFrameBuffer(x, y, 0, 0, width, height);
     this->KeptIsShaded = true;
     this->KeptDepthScale = this->DepthScale;
+    this->KeptDepthTolerance = this->DepthTolerance;
     this->KeptMinimumLightness = this->MinimumLightness;
   }
 }
@@ -195,6 +198,7 @@ void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
   program->SetUniformi("isParallel", camera->GetParallelProjection() ? 1 : 0);
   program->SetUniformi("isShaded", this->KeptIsShaded ? 1 : 0);
   program->SetUniformf("depthScale", static_cast<float>(this->DepthScale));
+  program->SetUniformf("depthTolerance", static_cast<float>(this->DepthTolerance));
   program->SetUniformf("minimumLightness", static_cast<float>(this->MinimumLightness));
   this->Quad->Render();
   this->Depths->Deactivate();
@@ -222,6 +226,7 @@ void vtkDepthShadingPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "DepthScale: " << this->DepthScale << "\n";
+  os << indent << "DepthTolerance: " << this->DepthTolerance << "\n";
   os << indent << "MinimumLightness: " << this->MinimumLightness << "\n";
   os << indent << "NumberOfPictures: " << this->NumberOfPictures << "\n";
 }

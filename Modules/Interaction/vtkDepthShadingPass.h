@@ -51,6 +51,15 @@ public:
 
   ///@{
   /**
+   * What lies less than this behind its neighbours, in the units of the scene, stays as light as they are:
+   * the splats of a noisy wall do not cast shadows on each other. 0 and above; default 0.
+   */
+  vtkSetClampMacro(DepthTolerance, double, 0.0, 1e12);
+  vtkGetMacro(DepthTolerance, double);
+  ///@}
+
+  ///@{
+  /**
    * Lightness that is left to the darkest points, 0 to 1; default 0.35.
    */
   vtkSetClampMacro(MinimumLightness, double, 0.0, 1.0);
@@ -77,6 +86,7 @@ private:
   void Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
 
   double DepthScale = 0.01;
+  double DepthTolerance = 0.0;
   double MinimumLightness = 0.35;
   vtkSmartPointer<vtkOpenGLFramebufferObject> Frame;
   vtkSmartPointer<vtkTextureObject> Colors;
@@ -85,6 +95,7 @@ private:
   std::vector<double> Kept; // what Colors and Depths show, see pictureState()
   bool KeptIsShaded = false;
   double KeptDepthScale = 0.0;
+  double KeptDepthTolerance = 0.0;
   double KeptMinimumLightness = 0.0;
   vtkTypeUInt64 NumberOfPictures = 0;
 };

@@ -209,4 +209,35 @@ TEST_F(CloudLoaderTest, MayGoWhileItReads)
   }
 }
 
+TEST_F(CloudLoaderTest, ChoosesAFinerLatticeWhereTheUsualOneLosesMostOfTheCloud)
+{
+  // A scanner's sweep: 40,000 points within half a metre of it, one 80 m away.
+  const std::string sweep = (folder_ / "sweep.csv").string();
+  {
+    std::ofstream file(sweep);
+    file << "x,y,z\n";
+    for (int i = 0; i < 40000; ++i)
+    {
+      file << 0.0025 * (i % 200) << ',' << 0.0025 * (i / 200) << ",0.5\n";
+    }
+    file << "80,0,0.5\n";
+  }
+  const auto dimensionOf = [&](const std::string& path, bool chooses)
+  {
+    CloudRequest request = requestOf({ path });
+    request.choosesLattice = chooses;
+    LoadedCloud loaded;
+    std::string message;
+    EXPECT_TRUE(loadCloud(
+      request, [](double) { return true; }, loaded, message))
+      << message;
+    return loaded.latticeDimension;
+  };
+  EXPECT_EQ(dimensionOf(sweep, true), 1200);
+  EXPECT_EQ(dimensionOf(sweep, false), 0);
+  // Every point has its voxel: finer ones would show no more.
+  EXPECT_EQ(dimensionOf(writeCloud("even.csv", 9000), true), 300);
+  EXPECT_EQ(dimensionOf(writeCloud("point.csv", 1), true), 300);
+}
+
 } // namespace

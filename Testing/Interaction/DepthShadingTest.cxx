@@ -1,0 +1,87 @@
+// What the shading by depth darkens, pixel by pixel: needs a window, skips itself without a display.
+#include "CloudAppearance.h"
+
+#include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkNew.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+using namespace pointhaptics;
+
+namespace
+{
+constexpr int kSize = 100;
+constexpr double kScale = 0.003;
+constexpr double kStep = 0.001;
+
+/// A white wall, and 1 mm in front of its left half another one.
+class DepthShading : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const char* display = std::getenv("DISPLAY");
+    if (!display || !*display)
+    {
+      GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
+    }
+    addWall(-0.02, 0.02, 0.0);
+    addWall(-0.02, 0.0, kStep);
+    renderer_->GetActiveCamera()->SetPosition(0, 0, 0.2);
+    renderer_->GetActiveCamera()->SetFocalPoint(0, 0, 0);
+    renderer_->GetActiveCamera()->SetViewAngle(8.0);
+    renderer_->ResetCameraClippingRange();
+    window_->SetOffScreenRendering(1);
+    window_->SetMultiSamples(0);
+    window_->SetSize(kSize, kSize);
+    window_->AddRenderer(renderer_);
+  }
+
+  void addWall(double x0, double x1, double z)
+  {
+    vtkNew<vtkPlaneSource> wall;
+    wall->SetOrigin(x0, -0.02, z);
+    wall->SetPoint1(x1, -0.02, z);
+    wall->SetPoint2(x0, 0.02, z);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(wall->GetOutputPort());
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    actor->GetProperty()->LightingOff();
+    renderer_->AddActor(actor);
+  }
+
+  /// Of the middle row, 0 to 255.
+  int darkest(double tolerance)
+  {
+    applyDepthShading(renderer_, kScale, tolerance);
+    window_->Render();
+    vtkNew<vtkUnsignedCharArray> row;
+    window_->GetPixelData(0, kSize / 2, kSize - 1, kSize / 2, 0, row);
+    return *std::min_element(row->GetPointer(0), row->GetPointer(0) + row->GetNumberOfValues());
+  }
+
+  vtkNew<vtkRenderer> renderer_;
+  vtkNew<vtkRenderWindow> window_;
+};
+
+TEST_F(DepthShading, DarkensAStepThatIsLargerThanTheToleranceOnly)
+{
+  EXPECT_LT(darkest(0.0), 245);
+  EXPECT_EQ(darkest(1.5 * kStep), 255) << "the same pass, another tolerance";
+  const int half = darkest(0.5 * kStep);
+  EXPECT_LT(half, 255);
+  EXPECT_GT(half, darkest(0.0));
+}
+
+} // namespace
