@@ -3,13 +3,13 @@
 #include "Haptics/ForceGate.h"
 #include "Haptics/LatestValue.h"
 #include "Haptics/SceneExchange.h"
+#include "Haptics/ServoMessages.h"
 #include "Haptics/ServoThread.h"
 #include "Haptics/TraceRing.h"
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
-#include <system_error>
 #include <thread>
 
 namespace pointhaptics
@@ -36,36 +36,6 @@ bool valid(const ServoSettings& settings)
     settings.traceCapacity <= kLargestTrace && settings.wakeEarlySeconds >= 0.0 &&
     settings.wakeEarlySeconds <= kEarliestWake && settings.limits.check() == Status::Ok &&
     settings.watchdogSeconds >= 0.0 && settings.watchdogSeconds <= kLongestWatch;
-}
-
-/// Three digits are enough for a limit.
-std::string number(double value)
-{
-  std::string text = std::to_string(value);
-  return text.substr(0, text.find('.') + (value < 100.0 ? 3 : 0));
-}
-
-/// @p status itself, with the limit in @p message where a spring or a rate is refused.
-Status explained(Status status, const HandLimits& limits, const ContactParameters& contact, double rateHz,
-  std::string* message)
-{
-  if (message && status == Status::RateNotSupported)
-  {
-    *message = "the device cannot be served at " + number(rateHz) + " Hz; use at most " +
-      number(limits.maximumRateHz) + " Hz";
-  }
-  else if (message && status == Status::NotPassive)
-  {
-    *message = "stiffness " + number(contact.stiffness) + " N/m with damping " + number(contact.damping) +
-      " N s/m at " + number(rateHz) + " Hz would make the hand shake; use a stiffness of at most " +
-      number(largestPassiveStiffness(limits, contact.damping, rateHz)) + " N/m beside this damping (" +
-      number(largestPassiveStiffness(limits, 0.0, rateHz)) + " N/m without damping)";
-  }
-  else if (message)
-  {
-    *message = status == Status::Ok ? "" : sentence(status);
-  }
-  return status;
 }
 
 Status checkSpring(const HandLimits& limits, const HapticParameters& parameters, double rateHz)
@@ -461,26 +431,6 @@ ServoStatistics ServoLoop::statistics() const noexcept
   result.coresAwake = self.coresAwake.load(std::memory_order_relaxed);
   result.awakeRefusal = self.awakeRefusal.load(std::memory_order_relaxed);
   return result;
-}
-
-std::string describeRefusals(const ServoStatistics& statistics)
-{
-  std::string text;
-  const auto add = [&](int error, const std::string& what, const std::string& cure)
-  {
-    if (error != 0)
-    {
-      text += (text.empty() ? "" : "\n") + what + " (" + std::generic_category().message(error) + ")" + cure;
-    }
-  };
-  add(statistics.realtimeRefusal, "the servo thread got no real-time priority",
-    ": ticks may come late on a busy machine; allow rtprio 40 for this user in /etc/security/limits.d");
-  add(statistics.memoryRefusal, "the program may be swapped out",
-    "; allow memlock unlimited for this user in /etc/security/limits.d");
-  add(statistics.awakeRefusal, "the processor may fall asleep between ticks",
-    ": they may come some hundreds of microseconds late; let this user write /dev/cpu_dma_latency, as "
-    "70-pointhaptics.rules does for group plugdev");
-  return text;
 }
 
 void ServoLoop::takeTrace(std::vector<ServoSample>& samples)

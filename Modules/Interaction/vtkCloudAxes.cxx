@@ -1,13 +1,13 @@
 #include "vtkCloudAxes.h"
 
+#include "ScreenMarks.h"
+
 #include "Core/Vector3.h"
 
 #include "vtkActor.h"
-#include "vtkActor2D.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -15,13 +15,8 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
-#include "vtkPolyDataMapper2D.h"
 #include "vtkProperty.h"
-#include "vtkProperty2D.h"
 #include "vtkRenderer.h"
-#include "vtkTextActor.h"
-#include "vtkTextProperty.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
@@ -30,14 +25,16 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
-#include <vector>
 
+using pointhaptics::Pixel;
+using pointhaptics::ScreenLines;
+using pointhaptics::ScreenProjection;
+using pointhaptics::ScreenTexts;
 using pointhaptics::Vec3;
 
 namespace
 {
 
-constexpr int kTexts = 48;
 /// Pixels.
 constexpr double kTick = 6.0;
 constexpr double kGap = 4.0;
@@ -46,63 +43,10 @@ constexpr double kShortestEdge = 40.0;
 constexpr double kFarthest = 200.0;
 constexpr double kArm = 34.0;
 constexpr double kCorner = 58.0;
-/// Estimates for the font, parts of its size.
-constexpr double kLetterWidth = 0.62;
-constexpr double kLetterHeight = 1.25;
 /// Windows from this height on take the larger font.
 constexpr int kTallWindow = 600;
 
 constexpr unsigned char kAxisColors[3][3] = { { 190, 30, 30 }, { 15, 125, 30 }, { 30, 60, 190 } };
-
-struct Pixel
-{
-  double x = 0.0;
-  double y = 0.0;
-  bool seen = false; // in front of the camera
-};
-
-struct Rectangle
-{
-  double left;
-  double right;
-  double bottom;
-  double top;
-
-  bool meets(const Rectangle& other) const
-  {
-    return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
-  }
-};
-
-/// From coordinates of the picture to pixels of the viewport.
-class Projection
-{
-public:
-  explicit Projection(vtkRenderer* renderer)
-  {
-    matrix_->DeepCopy(renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
-      renderer->GetTiledAspectRatio(), -1.0, 1.0));
-    width_ = renderer->GetSize()[0];
-    height_ = renderer->GetSize()[1];
-  }
-  Pixel operator()(const Vec3& p) const
-  {
-    const double in[4] = { p.x, p.y, p.z, 1.0 };
-    double out[4];
-    matrix_->MultiplyPoint(in, out);
-    Pixel pixel;
-    pixel.seen = out[3] > 0.0;
-    const double w = pixel.seen ? out[3] : 1.0;
-    pixel.x = 0.5 * (out[0] / w + 1.0) * width_;
-    pixel.y = 0.5 * (out[1] / w + 1.0) * height_;
-    return pixel;
-  }
-
-private:
-  vtkNew<vtkMatrix4x4> matrix_;
-  double width_ = 0.0;
-  double height_ = 0.0;
-};
 
 /// 1, 2 or 5 times a power of ten, at least @p least.
 double niceStep(double least)
@@ -131,50 +75,6 @@ std::string numberText(double value, int decimals)
   return isZero && text[0] == '-' ? text + 1 : text;
 }
 
-/// Lines in pixels of the viewport, each of a colour.
-struct Lines
-{
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> cells;
-  vtkNew<vtkUnsignedCharArray> colors;
-  vtkNew<vtkPolyData> shape;
-  vtkNew<vtkPolyDataMapper2D> mapper;
-  vtkNew<vtkActor2D> actor;
-
-  explicit Lines(float width)
-  {
-    this->colors->SetNumberOfComponents(3);
-    this->shape->SetPoints(this->points);
-    this->shape->SetLines(this->cells);
-    this->shape->GetCellData()->SetScalars(this->colors);
-    this->mapper->SetInputData(this->shape);
-    this->mapper->SetScalarModeToUseCellData();
-    this->actor->SetMapper(this->mapper);
-    this->actor->GetProperty()->SetLineWidth(width);
-    this->actor->VisibilityOff();
-  }
-  void clear()
-  {
-    this->points->Reset();
-    this->cells->Reset();
-    this->colors->Reset();
-  }
-  void add(double x0, double y0, double x1, double y1, const unsigned char color[3])
-  {
-    const vtkIdType ends[2] = { this->points->InsertNextPoint(x0, y0, 0.0),
-      this->points->InsertNextPoint(x1, y1, 0.0) };
-    this->cells->InsertNextCell(2, ends);
-    this->colors->InsertNextTypedTuple(color);
-  }
-  void finish()
-  {
-    this->points->Modified();
-    this->cells->Modified();
-    this->colors->Modified();
-    this->shape->Modified();
-  }
-};
-
 /// One edge of the box and how it lies in the picture.
 struct Edge
 {
@@ -197,12 +97,9 @@ struct vtkCloudAxes::Internals
   vtkNew<vtkPolyData> box;
   vtkNew<vtkPolyDataMapper> boxMapper;
   vtkNew<vtkActor> boxActor;
-  Lines ticks{ 1.0f };
-  Lines marker{ 3.0f };
-  std::array<vtkNew<vtkTextActor>, kTexts> texts;
-  int used = 0;
-  int fontSize = 13;
-  std::vector<Rectangle> taken;
+  ScreenLines ticks{ 1.0f };
+  ScreenLines marker{ 3.0f };
+  ScreenTexts texts;
   vtkNew<vtkCallbackCommand> onStart;
   vtkWeakPointer<vtkRenderer> renderer;
 
@@ -212,53 +109,14 @@ struct vtkCloudAxes::Internals
     this->corners->GetPoint(index, &p.x);
     return p;
   }
-  double widthOf(const std::string& words) const
-  {
-    return kLetterWidth * this->fontSize * double(words.size());
-  }
-  bool put(
-    const std::string& words, double x, double y, double outX, double outY, const unsigned char color[3]);
-  bool findEdge(const Projection& project, int axis, Edge& best) const;
-  void label(const Projection& project, const Edge& edge, double low, double high);
+  bool findEdge(const ScreenProjection& project, int axis, Edge& best) const;
+  void label(const ScreenProjection& project, const Edge& edge, double low, double high);
   void drawMarker();
 };
 
-/// Text with its nearest corner or side at (@p x, @p y), on the side of the direction out. False: there is no
-/// room.
-bool vtkCloudAxes::Internals::put(
-  const std::string& words, double x, double y, double outX, double outY, const unsigned char color[3])
-{
-  const double width = this->widthOf(words);
-  const double height = kLetterHeight * this->fontSize;
-  const int across = outX < -0.4 ? -1 : (outX > 0.4 ? 1 : 0);
-  const int upward = outY < -0.4 ? -1 : (outY > 0.4 ? 1 : 0);
-  const double left = x + 0.5 * (across - 1) * width;
-  const double bottom = y + 0.5 * (upward - 1) * height;
-  const Rectangle place{ left, left + width, bottom, bottom + height };
-  const int* size = this->renderer->GetSize();
-  const bool outside = place.left < 0.0 || place.right > size[0] || place.bottom < 0.0 || place.top > size[1];
-  const auto meets = [&place](const Rectangle& other) { return place.meets(other); };
-  if (this->used >= kTexts || outside || std::any_of(this->taken.begin(), this->taken.end(), meets))
-  {
-    return false;
-  }
-  this->taken.push_back(place);
-  vtkTextActor* text = this->texts[std::size_t(this->used++)];
-  vtkTextProperty* look = text->GetTextProperty();
-  look->SetFontSize(this->fontSize);
-  look->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
-  look->SetJustification(across < 0 ? VTK_TEXT_RIGHT : (across > 0 ? VTK_TEXT_LEFT : VTK_TEXT_CENTERED));
-  look->SetVerticalJustification(
-    upward < 0 ? VTK_TEXT_TOP : (upward > 0 ? VTK_TEXT_BOTTOM : VTK_TEXT_CENTERED));
-  text->SetInput(words.c_str());
-  text->SetPosition(std::round(x), std::round(y));
-  text->VisibilityOn();
-  return true;
-}
-
 /// Of the edges along @p axis that lie at the outline of the picture, the one farthest down and to the left.
 /// False: none is long enough to be read.
-bool vtkCloudAxes::Internals::findEdge(const Projection& project, int axis, Edge& best) const
+bool vtkCloudAxes::Internals::findEdge(const ScreenProjection& project, int axis, Edge& best) const
 {
   std::array<Pixel, 8> pixels;
   Pixel middle;
@@ -312,7 +170,8 @@ bool vtkCloudAxes::Internals::findEdge(const Projection& project, int axis, Edge
 }
 
 /// Ticks with numbers from @p low to @p high, metres, along @p edge, and the bounds beside its middle.
-void vtkCloudAxes::Internals::label(const Projection& project, const Edge& edge, double low, double high)
+void vtkCloudAxes::Internals::label(
+  const ScreenProjection& project, const Edge& edge, double low, double high)
 {
   static const unsigned char dark[3] = { 40, 40, 45 };
   const double range = high - low;
@@ -322,7 +181,8 @@ void vtkCloudAxes::Internals::label(const Projection& project, const Edge& edge,
   const auto longest = [&](double each)
   {
     const int decimals = decimalsFor(each);
-    return std::max(this->widthOf(numberText(low, decimals)), this->widthOf(numberText(high, decimals)));
+    return std::max(
+      this->texts.widthOf(numberText(low, decimals)), this->texts.widthOf(numberText(high, decimals)));
   };
   while (step < range && step / range * edge.length < kLeastStep + 1.2 * along * longest(step))
   {
@@ -331,12 +191,12 @@ void vtkCloudAxes::Internals::label(const Projection& project, const Edge& edge,
   const int decimals = decimalsFor(step);
   const double first = std::ceil(low / step - 1e-6);
   const double last = std::floor(high / step + 1e-6);
-  for (double i = first; i <= last && i - first < kTexts; ++i)
+  for (double i = first; i <= last && i - first < ScreenTexts::kMost; ++i)
   {
     const double part = std::clamp((i * step - low) / range, 0.0, 1.0);
     const Pixel p = project(edge.begin + part * (edge.end - edge.begin));
     this->ticks.add(p.x, p.y, p.x + kTick * edge.outX, p.y + kTick * edge.outY, dark);
-    this->put(numberText(i * step, decimals), p.x + (kTick + kGap) * edge.outX,
+    this->texts.put(numberText(i * step, decimals), p.x + (kTick + kGap) * edge.outX,
       p.y + (kTick + kGap) * edge.outY, edge.outX, edge.outY, dark);
   }
   const std::string bounds = std::string(1, "xyz"[edge.axis]) + "  " + numberText(low, decimals + 1) +
@@ -347,8 +207,8 @@ void vtkCloudAxes::Internals::label(const Projection& project, const Edge& edge,
   {
     for (double away = kTick + 2.0 * kGap; away < kFarthest; away += kGap)
     {
-      if (this->put(words, middle.x + away * edge.outX, middle.y + away * edge.outY, edge.outX, edge.outY,
-            kAxisColors[edge.axis]))
+      if (this->texts.put(words, middle.x + away * edge.outX, middle.y + away * edge.outY, edge.outX,
+            edge.outY, kAxisColors[edge.axis]))
       {
         return;
       }
@@ -381,7 +241,7 @@ void vtkCloudAxes::Internals::drawMarker()
     const double toX = dot(axes[std::size_t(axis)], right);
     const double toY = dot(axes[std::size_t(axis)], up);
     this->marker.add(x, y, x + kArm * toX, y + kArm * toY, kAxisColors[axis]);
-    this->put(std::string(1, "xyz"[axis]), x + (kArm + 9.0) * toX, y + (kArm + 9.0) * toY, 0.0, 0.0,
+    this->texts.put(std::string(1, "xyz"[axis]), x + (kArm + 9.0) * toX, y + (kArm + 9.0) * toY, 0.0, 0.0,
       kAxisColors[axis]);
   }
 }
@@ -414,13 +274,6 @@ vtkCloudAxes::vtkCloudAxes()
   parts.boxActor->GetProperty()->LightingOff();
   parts.boxActor->PickableOff();
   parts.boxActor->VisibilityOff();
-  for (auto& text : parts.texts)
-  {
-    text->PickableOff();
-    text->GetTextProperty()->SetBackgroundColor(0.93, 0.94, 0.95);
-    text->GetTextProperty()->SetBackgroundOpacity(0.6);
-    text->VisibilityOff();
-  }
   parts.onStart->SetClientData(this);
   parts.onStart->SetCallback(
     [](vtkObject*, unsigned long, void* self, void*) { static_cast<vtkCloudAxes*>(self)->PlaceLabels(); });
@@ -461,12 +314,9 @@ void vtkCloudAxes::SetVisibility(bool visible)
   Internals& parts = *this->Parts;
   this->Visibility = visible;
   parts.boxActor->SetVisibility(visible);
-  parts.ticks.actor->SetVisibility(visible);
-  parts.marker.actor->SetVisibility(visible);
-  for (auto& text : parts.texts)
-  {
-    text->VisibilityOff(); // until the next render places it
-  }
+  parts.ticks.actor()->SetVisibility(visible);
+  parts.marker.actor()->SetVisibility(visible);
+  parts.texts.hide(); // until the next render places them
   this->Modified();
 }
 
@@ -496,10 +346,8 @@ void vtkCloudAxes::PlaceLabels()
   }
   parts.ticks.clear();
   parts.marker.clear();
-  parts.taken.clear();
-  parts.used = 0;
-  parts.fontSize = parts.renderer->GetSize()[1] < kTallWindow ? 12 : 14;
-  const Projection project(parts.renderer);
+  parts.texts.clear(parts.renderer, parts.renderer->GetSize()[1] < kTallWindow ? 12 : 14);
+  const ScreenProjection project(parts.renderer);
   for (int axis = 0; axis < 3; ++axis)
   {
     const double low = this->MetresPerUnit * this->Bounds[2 * axis];
@@ -511,10 +359,7 @@ void vtkCloudAxes::PlaceLabels()
     }
   }
   parts.drawMarker();
-  for (int i = parts.used; i < kTexts; ++i)
-  {
-    parts.texts[std::size_t(i)]->VisibilityOff();
-  }
+  parts.texts.finish();
   parts.ticks.finish();
   parts.marker.finish();
 }
@@ -524,12 +369,9 @@ void vtkCloudAxes::AddTo(vtkRenderer* renderer)
   Internals& parts = *this->Parts;
   parts.renderer = renderer;
   renderer->AddActor(parts.boxActor);
-  renderer->AddActor2D(parts.ticks.actor);
-  renderer->AddActor2D(parts.marker.actor);
-  for (auto& text : parts.texts)
-  {
-    renderer->AddActor2D(text);
-  }
+  renderer->AddActor2D(parts.ticks.actor());
+  renderer->AddActor2D(parts.marker.actor());
+  parts.texts.addTo(renderer);
   renderer->AddObserver(vtkCommand::StartEvent, parts.onStart);
 }
 
@@ -538,12 +380,9 @@ void vtkCloudAxes::RemoveFrom(vtkRenderer* renderer)
   Internals& parts = *this->Parts;
   renderer->RemoveObserver(parts.onStart);
   renderer->RemoveActor(parts.boxActor);
-  renderer->RemoveActor2D(parts.ticks.actor);
-  renderer->RemoveActor2D(parts.marker.actor);
-  for (auto& text : parts.texts)
-  {
-    renderer->RemoveActor2D(text);
-  }
+  renderer->RemoveActor2D(parts.ticks.actor());
+  renderer->RemoveActor2D(parts.marker.actor());
+  parts.texts.removeFrom(renderer);
   parts.renderer = nullptr;
 }
 
