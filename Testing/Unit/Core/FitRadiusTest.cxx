@@ -1,8 +1,7 @@
 #include "Core/FitRadius.h"
 #include "Core/Shapes.h"
-#include "Core/VoxelMean.h"
 
-#include "RandomClouds.h"
+#include "FitFixtures.h"
 
 #include <gtest/gtest.h>
 
@@ -20,36 +19,12 @@ constexpr double kVoxel = 1e-3 / 3;
 
 CellPyramid resampled(const std::vector<Vec3>& points)
 {
-  const PointView view(points.data(), std::int64_t(points.size()));
-  LatticeSettings settings;
-  settings.voxelSize = kVoxel;
-  Lattice lattice;
-  EXPECT_EQ(makeLattice(settings, transformedBounds(view, {}), lattice), Status::Ok);
-  VoxelMeans means;
-  EXPECT_EQ(voxelMeans(view, {}, lattice, true, means), Status::Ok);
-  std::vector<Cell> cells(means.keys.size());
-  for (std::size_t v = 0; v < cells.size(); ++v)
-  {
-    cells[v].mean = means.means[v];
-    cells[v].count = double(means.counts[v]);
-    cells[v].covariance = means.covariances[v];
-  }
-  CellPyramid pyramid;
-  std::vector<std::uint32_t> source;
-  EXPECT_EQ(pyramid.build(std::move(cells), kVoxel, source), Status::Ok);
-  return pyramid;
+  return trial::resampled(points, kVoxel);
 }
 
 CellPyramid sphere(int n, double noise, std::uint64_t seed)
 {
-  trial::Random random(seed);
-  std::vector<Vec3> points;
-  for (int i = 0; i < n; ++i)
-  {
-    const Vec3 direction = random.direction();
-    points.push_back((0.025 + noise * random.normal()) * direction);
-  }
-  return resampled(points);
+  return resampled(trial::sphere(n, 0.025, seed, noise));
 }
 
 /// Mean share of the cubic terms over the nodes of a shape.
