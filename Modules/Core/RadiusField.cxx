@@ -35,6 +35,16 @@ void RadiusField::build(const CellPyramid& pyramid, std::vector<LocalScale> valu
   }
 }
 
+void RadiusField::setTypical(const LocalScale& typical, double scale)
+{
+  typical_ = typical;
+  for (double LocalScale::*length : { &LocalScale::radius, &LocalScale::gate, &LocalScale::countRadius,
+         &LocalScale::proxyRadius, &LocalScale::noise })
+  {
+    typical_.*length *= scale;
+  }
+}
+
 /// All pairs of nodes within reach, by their first node.
 std::vector<RadiusField::Link> RadiusField::neighborLinks(const CellPyramid& pyramid) const
 {

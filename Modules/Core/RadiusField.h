@@ -56,6 +56,8 @@ public:
   double reach() const { return reach_; }
   /// Medians of the values: the answer for places far from the cloud.
   const LocalScale& typical() const { return typical_; }
+  /// Of a larger cloud that this one is a part of, lengths times @p scale.
+  void setTypical(const LocalScale& typical, double scale);
 
 private:
   /// A node's value is at most rise above its neighbour's.

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pointhaptics
@@ -55,6 +56,10 @@ struct VoxelRequest
   const PointIndex* index = nullptr;
   AffineTransform transform; ///< From the cloud's frame into that of the lattice.
   Lattice lattice;
+  /// With an index: points outside the box of this lattice, whose voxels are ones of the other, may be left
+  /// out; they count as clipped. Voxels inside are the same as without, bit for bit; others may lack points, or
+  /// be missing.
+  std::optional<Lattice> part;
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
   bool keys = false; ///< For keys(), assign() and parents().

@@ -93,19 +93,20 @@ double typicalSpacing(const CellPyramid& pyramid, double extent)
 }
 
 /// Builds the pyramid with cells as asked for, or coarser where those would be empty between the points.
-Status buildPyramid(std::vector<Cell> cells, double asked, double extent, CellPyramid& pyramid)
+Status buildPyramid(
+  std::vector<Cell> cells, double asked, double extent, const Vec3* corner, CellPyramid& pyramid)
 {
   std::vector<std::uint32_t> source;
   const double guess = extent > 0.0 ? extent / std::sqrt(double(cells.size())) : kCellWithoutExtent;
   const double first = asked > 0.0 ? std::max(asked, extent / kMostCellsAcross) : guess;
-  const Status status = pyramid.build(cells, first, source);
+  const Status status = pyramid.build(cells, first, source, corner);
   if (status != Status::Ok)
   {
     return status;
   }
   const double wanted = std::max(asked, kCellInSpacings * typicalSpacing(pyramid, extent));
   const bool fits = wanted <= kCellTolerance * first && (asked > 0.0 || wanted >= first / kCellTolerance);
-  return fits || !(wanted > 0.0) ? Status::Ok : pyramid.build(std::move(cells), wanted, source);
+  return fits || !(wanted > 0.0) ? Status::Ok : pyramid.build(std::move(cells), wanted, source, corner);
 }
 
 std::uint64_t nextCloudNumber()
@@ -139,7 +140,7 @@ std::vector<Cell> finiteCells(const HapticSceneInput& input)
   cells.reserve(input.points.size());
   for (std::size_t i = 0; i < input.points.size(); ++i)
   {
-    if (!isFinite(input.points[i]))
+    if (!isFinite(input.points[i]) || (input.part && !input.part->holds(input.points[i])))
     {
       continue;
     }
@@ -186,12 +187,26 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   const double extent = norm(cloud->bounds.extent());
   const auto merged = [](const Cell& cell) { return cell.count > 1.0; };
   cloud->exactMoments = !input.covariances.empty() || std::none_of(cells.begin(), cells.end(), merged);
-  status = buildPyramid(std::move(cells), input.cellSize, extent, cloud->pyramid);
+  const Vec3 above = input.corner ? cloud->bounds.minimum - *input.corner : Vec3{ -1.0, -1.0, -1.0 };
+  cloud->aligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
+  const Vec3* const corner = cloud->aligned ? &*input.corner : nullptr;
+  if (input.part)
+  {
+    std::vector<std::uint32_t> source;
+    status = cloud->aligned
+      ? cloud->pyramid.build(std::move(cells), input.part->cellSize(), source, corner)
+      : Status::InvalidParameter;
+  }
+  else
+  {
+    status = buildPyramid(std::move(cells), input.cellSize, extent, corner, cloud->pyramid);
+  }
   if (status != Status::Ok)
   {
     return nullptr;
   }
   const double size = cloud->pyramid.level(0).voxelSize;
+  cloud->latticeCells = size == input.cellSize;
   const int nodeLevel = RadiusField::nodeLevel(cloud->pyramid);
   const CellPyramid::Level& nodes = cloud->pyramid.level(nodeLevel);
   std::vector<double> radii;
@@ -212,8 +227,11 @@ std::shared_ptr<const HapticScene> HapticScene::create(
       return nullptr;
     }
   }
+  const std::optional<ScenePart> part = std::move(input.part);
   input = HapticSceneInput();
-  const double largest = std::max(extent, kLargestFitRadiusInCells * size);
+  // Where there are few points a fit may grow over the whole cloud.
+  const double whole = part ? part->scale() * norm(part->whole()->bounds().extent()) : extent;
+  const double largest = std::max(whole, kLargestFitRadiusInCells * size);
   std::vector<LocalScale> scales =
     fitScales(cloud->pyramid, largest, kLargestFitRadiusInCells * size, executor);
   for (std::size_t i = 0; i < radii.size(); ++i)
@@ -228,6 +246,16 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   cloud->clearance = cloud->scale.reach() - diagonal;
   std::shared_ptr<HapticScene> scene(new HapticScene());
   scene->modelToWorkspace_ = cloud->modelToLattice;
+  if (part)
+  {
+    cloud->covered = part->covered();
+    cloud->scale.setTypical(part->whole()->typicalScale(), part->scale());
+    scene->beyond_ = part->whole()->moved(cloud->modelToLattice, status);
+    if (!scene->beyond_)
+    {
+      return nullptr;
+    }
+  }
   scene->cloud_ = cloud;
   return scene;
 }
@@ -254,7 +282,18 @@ std::shared_ptr<const HapticScene> HapticScene::moved(
       return nullptr;
     }
   }
-  return scene;
+  if (beyond_)
+  {
+    scene->beyond_ = beyond_->moved(modelToWorkspace, status);
+  }
+  return status == Status::Ok ? scene : nullptr;
+}
+
+std::shared_ptr<const HapticScene> HapticScene::withBeyond(const HapticScene& whole, Status& status) const
+{
+  std::shared_ptr<HapticScene> scene(new HapticScene(*this));
+  scene->beyond_ = whole.moved(modelToWorkspace_, status);
+  return scene->beyond_ ? scene : nullptr;
 }
 
 double HapticScene::proxyRadius(const Vec3& position) const noexcept

@@ -43,14 +43,21 @@ protected:
       [this](std::shared_ptr<const HapticScene> scene) { felt_.push_back(std::move(scene)); });
   }
 
+  /// As of one request after the other.
+  void publish(std::shared_ptr<const HapticScene> scene, std::uint64_t cloud)
+  {
+    publisher_.publish(std::move(scene), cloud, ++requests_);
+  }
+
   ScenePublisher publisher_;
+  std::uint64_t requests_ = 0;
   std::vector<std::shared_ptr<const HapticScene>> felt_;
 };
 
 TEST_F(ScenePublisherTest, AMovedModelIsFeltThereBeforeItIsResampled)
 {
   const auto first = sceneAt(shiftBy(0.0));
-  publisher_.publish(first, publisher_.cloud());
+  this->publish(first, publisher_.cloud());
   publisher_.move(shiftBy(0.003));
   ASSERT_EQ(felt_.size(), 2u);
   EXPECT_EQ(felt_[0], first);
@@ -60,38 +67,38 @@ TEST_F(ScenePublisherTest, AMovedModelIsFeltThereBeforeItIsResampled)
 
 TEST_F(ScenePublisherTest, ASceneMadeForAnEarlierPlaceIsFeltWhereTheModelIs)
 {
-  publisher_.publish(sceneAt(shiftBy(0.0)), publisher_.cloud());
+  this->publish(sceneAt(shiftBy(0.0)), publisher_.cloud());
   publisher_.move(shiftBy(0.001));
   const auto late = sceneAt(shiftBy(0.001));
   publisher_.move(shiftBy(0.002));
-  publisher_.publish(late, publisher_.cloud());
+  this->publish(late, publisher_.cloud());
   ASSERT_EQ(felt_.size(), 4u);
   EXPECT_EQ(felt_[3]->cloudNumber(), late->cloudNumber());
   EXPECT_EQ(felt_[3]->modelToWorkspace(), shiftBy(0.002));
   const auto inTime = sceneAt(shiftBy(0.002));
-  publisher_.publish(inTime, publisher_.cloud());
+  this->publish(inTime, publisher_.cloud());
   EXPECT_EQ(felt_.back(), inTime);
 }
 
 TEST_F(ScenePublisherTest, AStretchedModelWaitsForItsResampling)
 {
   const auto first = sceneAt(shiftBy(0.0));
-  publisher_.publish(first, publisher_.cloud());
+  this->publish(first, publisher_.cloud());
   const AffineTransform stretched = AffineTransform::scaling({ 1.0, 1.0, 2.0 });
   publisher_.move(stretched);
   EXPECT_EQ(felt_.size(), 1u);
   const auto there = sceneAt(stretched);
-  publisher_.publish(there, publisher_.cloud());
+  this->publish(there, publisher_.cloud());
   EXPECT_EQ(felt_.back(), there);
   // Made for where the model was; it cannot be moved, and something is better than nothing.
-  publisher_.publish(first, publisher_.cloud());
+  this->publish(first, publisher_.cloud());
   EXPECT_EQ(felt_.back(), first);
 }
 
 TEST_F(ScenePublisherTest, NothingToFeelIsPublishedToo)
 {
-  publisher_.publish(sceneAt(shiftBy(0.0)), publisher_.cloud());
-  publisher_.publish(nullptr, publisher_.cloud());
+  this->publish(sceneAt(shiftBy(0.0)), publisher_.cloud());
+  this->publish(nullptr, publisher_.cloud());
   ASSERT_EQ(felt_.size(), 2u);
   EXPECT_EQ(felt_[1], nullptr);
   publisher_.move(shiftBy(0.001));
@@ -101,12 +108,12 @@ TEST_F(ScenePublisherTest, NothingToFeelIsPublishedToo)
 TEST_F(ScenePublisherTest, ACloudThatIsGoneIsNeitherMovedNorPublished)
 {
   const std::uint64_t old = publisher_.cloud();
-  publisher_.publish(sceneAt(shiftBy(0.0)), old);
+  this->publish(sceneAt(shiftBy(0.0)), old);
   publisher_.startCloud();
   publisher_.move(shiftBy(0.001));
-  publisher_.publish(sceneAt(shiftBy(0.001)), old);
+  this->publish(sceneAt(shiftBy(0.001)), old);
   EXPECT_EQ(felt_.size(), 1u);
-  publisher_.publish(sceneAt(shiftBy(0.001)), publisher_.cloud());
+  this->publish(sceneAt(shiftBy(0.001)), publisher_.cloud());
   EXPECT_EQ(felt_.size(), 2u);
 }
 
