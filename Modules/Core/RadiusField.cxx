@@ -14,6 +14,16 @@ constexpr double kSlope = 0.5;
 constexpr int kSlopePasses = 6;
 }
 
+LocalScale scaled(LocalScale scale, double factor)
+{
+  for (double LocalScale::*length : { &LocalScale::radius, &LocalScale::gate, &LocalScale::countRadius,
+         &LocalScale::proxyRadius, &LocalScale::noise })
+  {
+    scale.*length *= factor;
+  }
+  return scale;
+}
+
 int RadiusField::nodeLevel(const CellPyramid& pyramid)
 {
   return std::min(kNodeLevel, pyramid.numberOfCellLevels() - 1);
@@ -32,16 +42,6 @@ void RadiusField::build(const CellPyramid& pyramid, std::vector<LocalScale> valu
     { &LocalScale::radius, &LocalScale::gate, &LocalScale::countRadius, &LocalScale::proxyRadius })
   {
     typical_.*member = median(member);
-  }
-}
-
-void RadiusField::setTypical(const LocalScale& typical, double scale)
-{
-  typical_ = typical;
-  for (double LocalScale::*length : { &LocalScale::radius, &LocalScale::gate, &LocalScale::countRadius,
-         &LocalScale::proxyRadius, &LocalScale::noise })
-  {
-    typical_.*length *= scale;
   }
 }
 

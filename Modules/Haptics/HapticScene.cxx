@@ -156,6 +156,39 @@ std::vector<Cell> finiteCells(const HapticSceneInput& input)
   return cells;
 }
 
+/// What the fields tell at each of their nodes.
+Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, double extent,
+  const Executor& executor, std::vector<LocalScale>& scales)
+{
+  const double size = pyramid.level(0).voxelSize;
+  const CellPyramid::Level& nodes = pyramid.level(RadiusField::nodeLevel(pyramid));
+  std::vector<double> radii;
+  if (input.proxyRadii.empty() && !input.bandwidth)
+  {
+    std::vector<double> distances;
+    for (const Cell& node : nodes.cells)
+    {
+      const double spacing = localSpacing(pyramid, node.mean, extent, distances);
+      radii.push_back(kRadiusInSpacings * std::max(spacing, size));
+    }
+  }
+  else
+  {
+    const Status status = nodeRadii(nodes, input, radii, executor);
+    if (status != Status::Ok)
+    {
+      return status;
+    }
+  }
+  const double largest = std::max(extent, kLargestFitRadiusInCells * size);
+  scales = fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor);
+  for (std::size_t i = 0; i < radii.size(); ++i)
+  {
+    scales[i].proxyRadius = radii[i];
+  }
+  return Status::Ok;
+}
+
 }
 
 std::shared_ptr<const HapticScene> HapticScene::create(
@@ -207,41 +240,26 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   }
   const double size = cloud->pyramid.level(0).voxelSize;
   cloud->latticeCells = size == input.cellSize;
-  const int nodeLevel = RadiusField::nodeLevel(cloud->pyramid);
-  const CellPyramid::Level& nodes = cloud->pyramid.level(nodeLevel);
-  std::vector<double> radii;
-  if (input.proxyRadii.empty() && !input.bandwidth)
+  const std::optional<ScenePart> part = std::move(input.part);
+  std::vector<LocalScale> scales;
+  if (part)
   {
-    std::vector<double> distances;
-    for (const Cell& node : nodes.cells)
-    {
-      const double spacing = localSpacing(cloud->pyramid, node.mean, extent, distances);
-      radii.push_back(kRadiusInSpacings * std::max(spacing, size));
-    }
+    scales = part->scales(cloud->pyramid);
   }
   else
   {
-    status = nodeRadii(nodes, input, radii, executor);
+    status = newScales(input, cloud->pyramid, extent, executor, scales);
     if (status != Status::Ok)
     {
       return nullptr;
     }
   }
-  const std::optional<ScenePart> part = std::move(input.part);
   input = HapticSceneInput();
-  // Where there are few points a fit may grow over the whole cloud.
-  const double whole = part ? part->scale() * norm(part->whole()->bounds().extent()) : extent;
-  const double largest = std::max(whole, kLargestFitRadiusInCells * size);
-  std::vector<LocalScale> scales =
-    fitScales(cloud->pyramid, largest, kLargestFitRadiusInCells * size, executor);
-  for (std::size_t i = 0; i < radii.size(); ++i)
-  {
-    scales[i].proxyRadius = radii[i];
-  }
   cloud->scale.build(cloud->pyramid, std::move(scales));
   cloud->pyramid.forgiveNoise(
     [&cloud](const Vec3& place) { return cloud->scale.noiseAt(cloud->pyramid, place); });
   // Beyond a node's reach no cell of its voxel can be nearer than the reach less the voxel's diagonal.
+  const int nodeLevel = RadiusField::nodeLevel(cloud->pyramid);
   const double diagonal = std::sqrt(3.0) * cloud->pyramid.level(nodeLevel).voxelSize;
   cloud->clearance = cloud->scale.reach() - diagonal;
   std::shared_ptr<HapticScene> scene(new HapticScene());
@@ -249,7 +267,7 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   if (part)
   {
     cloud->covered = part->covered();
-    cloud->scale.setTypical(part->whole()->typicalScale(), part->scale());
+    cloud->scale.setTypical(scaled(part->whole()->typicalScale(), part->scale()));
     scene->beyond_ = part->whole()->moved(cloud->modelToLattice, status);
     if (!scene->beyond_)
     {
@@ -299,6 +317,11 @@ std::shared_ptr<const HapticScene> HapticScene::withBeyond(const HapticScene& wh
 double HapticScene::proxyRadius(const Vec3& position) const noexcept
 {
   return cloud_->scale.at(pyramid(), position).proxyRadius;
+}
+
+double HapticScene::noise(const Vec3& position) const noexcept
+{
+  return cloud_->scale.noiseAt(pyramid(), position);
 }
 
 LocalScale HapticScene::fitScale(const Vec3& position) const noexcept

@@ -125,6 +125,8 @@ public:
   bool isAligned() const { return cloud_->aligned; }
   /// Whether the index cells have the size that create() was given: the points are dense enough.
   bool hasLatticeCells() const { return cloud_->latticeCells; }
+  /// Standard deviation of the points about the surface near @p position, metres; 0 where no cell is near.
+  double noise(const Vec3& position) const noexcept;
   /// What the fields tell of places far from the cloud.
   const LocalScale& typicalScale() const { return cloud_->scale.typical(); }
   /// True where the covariances of the voxels are known, or each cell is a single point; false for plain

@@ -5,32 +5,36 @@
 #include "Core/AffineTransform.h"
 #include "Core/CellPyramid.h"
 #include "Core/Lattice.h"
+#include "Core/RadiusField.h"
 
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace pointhaptics
 {
 
 class HapticScene;
 
-/// A box about the hand, and what a scene of the cells in it takes from the newest one of the whole cloud. Within
-/// covered() such a scene answers as one of the whole cloud would: the cells it has reach further by what fits
-/// and radii look at. Frame: the lattice of the new scene. Immutable.
+/// A box about the hand, and what a scene of the cells in it takes from the newest one of the whole cloud. The
+/// cells are those a scene of the whole cloud would have, bit for bit; the radii of fit and proxy, which cost most
+/// of a scene's time and belong to the place on the model more than to its voxels, are taken over. Within covered()
+/// forces are those of a whole scene made anew up to what the radii matter: 0.5 % of the force (NearSceneTest).
+/// Frame: the lattice of the new scene. Immutable.
 class ScenePart
 {
 public:
-  /// How far beyond covered() there are cells, in index cells: what the nodes of the radius fields reach (18),
-  /// those that vote on their radii (16), and the fits of these.
-  static constexpr double kMarginCells = 48.0;
-  /// Half-width of covered() about the hand, in index cells: 7 mm in the default workspace.
-  static constexpr double kReachCells = 20.0;
+  /// Half-width of covered() about the hand, in index cells: 5 mm in the default workspace.
+  static constexpr double kReachCells = 16.0;
+  /// Lengths on the model, new over old, up to which radii are taken over; and one over that.
+  static constexpr double kMostScale = 1.25;
 
   /// @param hand what is to be within reach: the HIP and the point of contact. @param whole the scene of the
   /// whole cloud made last; its index cells are counted from a corner. @param modelToLattice, @p lattice those
-  /// of the new scene. Nothing: the whole has no corner, or its cloud would not keep its shape.
+  /// of the new scene. Nothing: the whole has no corner, its cloud would not keep its shape or nearly its size, or
+  /// the hand is far from the workspace.
   static std::optional<ScenePart> about(const Bounds& hand, std::shared_ptr<const HapticScene> whole,
     const AffineTransform& modelToLattice, const Lattice& lattice);
 
@@ -44,9 +48,16 @@ public:
   bool holds(const Vec3& mean) const noexcept;
   /// Voxels of @p lattice that have all means that the part holds.
   const Lattice& voxels() const { return voxels_; }
+  /// About which part of the whole scene's cells are in it, 0 to 1.
+  double share() const;
+  /// The whole scene's answer for each cell of the field's node level; where it has no nodes near by the radii are
+  /// chosen by that cell alone, and the proxy radius is the typical one.
+  std::vector<LocalScale> scales(const CellPyramid& pyramid) const;
 
 private:
   std::shared_ptr<const HapticScene> whole_;
+  AffineTransform toWhole_; ///< Into the whole one's lattice frame.
+  AffineTransform fromWhole_;
   Bounds covered_;
   Lattice voxels_;
   Vec3 corner_;

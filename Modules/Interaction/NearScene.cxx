@@ -17,8 +17,8 @@ namespace pointhaptics
 namespace
 {
 
-/// Part of the workspace's points near the hand from which on the whole cloud comes about as soon.
-constexpr double kMostNear = 0.5;
+/// Part of the cells near the hand from which on it does not pay.
+constexpr double kMostNear = 0.7;
 
 AffineTransform affineFromRows(const std::array<double, 16>& rows)
 {
@@ -31,16 +31,6 @@ AffineTransform affineFromRows(const std::array<double, 16>& rows)
     }
   }
   return transform;
-}
-
-std::int64_t pointsIn(const std::vector<PointRange>& ranges)
-{
-  std::int64_t sum = 0;
-  for (const PointRange& range : ranges)
-  {
-    sum += range.end - range.begin;
-  }
-  return sum;
 }
 
 template <typename Real>
@@ -79,13 +69,7 @@ std::shared_ptr<const HapticScene> NearSceneBuilder::build(
   }
   std::optional<ScenePart> part =
     ScenePart::about(hand, std::move(whole), voxels_.transform, voxels_.lattice);
-  if (!part)
-  {
-    return nullptr;
-  }
-  const std::int64_t near = pointsIn(index_.rangesInside(voxels_.transform, part->voxels()));
-  const std::int64_t all = pointsIn(index_.rangesInside(voxels_.transform, voxels_.lattice));
-  if (near == 0 || double(near) > kMostNear * double(all))
+  if (!part || part->share() > kMostNear)
   {
     return nullptr;
   }

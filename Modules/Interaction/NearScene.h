@@ -32,8 +32,8 @@ public:
 
   /// A scene of what is near the hand of @p request, with @p whole, the newest scene of the whole cloud, beside
   /// it: within what it covers it is felt as the whole cloud resampled by @p request would be. Null where that
-  /// is of no use or cannot be: no hand, no such whole, nothing near the hand, more than half of the points of
-  /// the workspace near it; or on an error, which the scene of the whole cloud will tell of.
+  /// is of no use or cannot be: no hand, no such whole (ScenePart::about()), nothing near the hand or most of the
+  /// cloud; or on an error, which the scene of the whole cloud will tell of.
   std::shared_ptr<const HapticScene> build(
     const SceneRequest& request, std::shared_ptr<const HapticScene> whole);
 

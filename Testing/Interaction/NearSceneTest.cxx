@@ -150,7 +150,7 @@ TEST_F(NearSceneTest, WithinReachItIsFeltAsTheWholeCloudBitForBit)
         near[i].force.z == whole[i].force.z && near[i].proxy.x == whole[i].proxy.x);
       most = std::max(most, norm(near[i].force - whole[i].force));
     }
-    std::printf("%zu of %zu cells; touched %d left %d differ %d most %g\n", scenes.near->numberOfPoints(), scenes.whole->numberOfPoints(), touched, left, differ, most);
+    std::printf("share? %zu of %zu cells; touched %d left %d differ %d most %g\n", scenes.near->numberOfPoints(), scenes.whole->numberOfPoints(), touched, left, differ, most);
     EXPECT_GT(touched, 300);
     EXPECT_EQ(left, 0);
     EXPECT_EQ(differ, 0);
