@@ -185,8 +185,7 @@ private:
   Vec3 frontOfCloud()
   {
     const Bounds& workspace = scene_.workspace();
-    const Vec3 front =
-      workspace.center() + 0.5 * norm(workspace.extent()) * scene_.towardsViewer();
+    const Vec3 front = workspace.center() + 0.5 * norm(workspace.extent()) * scene_.towardsViewer();
     vtkPolyData* means = scene_.bandwidth()->GetOutput();
     Vec3 nearest = workspace.center();
     double best = INFINITY;

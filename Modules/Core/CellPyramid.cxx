@@ -127,8 +127,8 @@ Cell merged(const Cell& a, const Cell& b) noexcept
   return cell;
 }
 
-Status CellPyramid::build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex,
-  const Vec3* corner)
+Status CellPyramid::build(
+  std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex, const Vec3* corner)
 {
   levels_.clear();
   sourceIndex.clear();

@@ -54,11 +54,11 @@ public:
 
   /// @param cells finite means; taken over and re-ordered. @param voxelSize edge of a level-0 voxel, above 0.
   /// @param sourceIndex receives, for each cell of level 0, its index in @p cells as given.
-  /// @param corner where given, a place no mean is below on any axis: the voxels of all levels are counted from
-  /// there, not from the means' own corner, and all levels with cells are made. Pyramids with the same corner
-  /// and voxels are then the same wherever their cells are, block of 2^(kCellLevels - 1) voxels by block.
-  /// Errors: Empty, InvalidVoxelSize, LatticeNotAddressable (extent, from the corner, over voxelSize above 2^21,
-  /// or over 2^32 cells), InvalidParameter (a mean below the corner).
+  /// @param corner where given, a place no mean is below on any axis: the voxels of all levels are counted
+  /// from there, not from the means' own corner, and all levels with cells are made. Pyramids with the same
+  /// corner and voxels are then the same wherever their cells are, block of 2^(kCellLevels - 1) voxels by
+  /// block. Errors: Empty, InvalidVoxelSize, LatticeNotAddressable (extent, from the corner, over voxelSize
+  /// above 2^21, or over 2^32 cells), InvalidParameter (a mean below the corner).
   Status build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex,
     const Vec3* corner = nullptr);
 

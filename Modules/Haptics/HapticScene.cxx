@@ -226,9 +226,8 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   if (input.part)
   {
     std::vector<std::uint32_t> source;
-    status = cloud->aligned
-      ? cloud->pyramid.build(std::move(cells), input.part->cellSize(), source, corner)
-      : Status::InvalidParameter;
+    status = cloud->aligned ? cloud->pyramid.build(std::move(cells), input.part->cellSize(), source, corner)
+                            : Status::InvalidParameter;
   }
   else
   {

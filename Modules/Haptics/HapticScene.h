@@ -69,8 +69,8 @@ public:
   /// similarity against the one of create() (shear, or a scale that differs by axis): resample. Any thread.
   std::shared_ptr<const HapticScene> moved(const AffineTransform& modelToWorkspace, Status& status) const;
 
-  /// A scene of a part of the cloud has beside it the newest scene of the whole, moved to the same place: that
-  /// is to be felt, instead of this one, from where this one does not cover(). Null: this one is whole.
+  /// A scene of a part of the cloud has beside it the newest scene of the whole, moved to the same place:
+  /// that is to be felt, instead of this one, from where this one does not cover(). Null: this one is whole.
   const HapticScene* beyond() const { return beyond_.get(); }
   /// Whether a hand at @p p (lattice frame) feels what it would feel in a scene of the whole cloud.
   bool covers(const Vec3& p) const noexcept

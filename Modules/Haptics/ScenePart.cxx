@@ -14,8 +14,8 @@ namespace
 
 /// Cells of the coarsest level of a pyramid, in index cells.
 constexpr double kBlockCells = 1 << (CellPyramid::kCellLevels - 1);
-/// How far beyond what is covered there are cells: what the nodes of the fields reach (2.2 voxels of 8 cells each),
-/// or a fit at a surface that is watched from a fit radius away; and a little more.
+/// How far beyond what is covered there are cells: what the nodes of the fields reach (2.2 voxels of 8 cells
+/// each), or a fit at a surface that is watched from a fit radius away; and a little more.
 constexpr double kNodeReachCells = 17.6;
 constexpr double kSlackCells = 4.0;
 /// Longest fit radius that is grown for a node the whole scene does not know.
@@ -44,10 +44,9 @@ std::optional<ScenePart> ScenePart::about(const Bounds& hand, std::shared_ptr<co
   const double spacing = std::max({ lattice.spacing.x, lattice.spacing.y, lattice.spacing.z });
   part.cellSize_ = whole->hasLatticeCells() ? spacing : part.scale_ * whole->cellSize();
   part.corner_ = lattice.origin;
-  const double fit =
-    part.scale_ * std::max(whole->typicalScale().radius, whole->fitRadius(part.toWhole_.apply(hand.center())));
-  const double margin =
-    std::max(kNodeReachCells * part.cellSize_, 2.0 * fit) + kSlackCells * part.cellSize_;
+  const double fit = part.scale_ *
+    std::max(whole->typicalScale().radius, whole->fitRadius(part.toWhole_.apply(hand.center())));
+  const double margin = std::max(kNodeReachCells * part.cellSize_, 2.0 * fit) + kSlackCells * part.cellSize_;
   part.whole_ = std::move(whole);
   part.voxels_ = lattice;
   const double reach = kReachCells * part.cellSize_;
@@ -68,10 +67,8 @@ std::optional<ScenePart> ScenePart::about(const Bounds& hand, std::shared_ptr<co
     part.end_[std::size_t(axis)] = std::int64_t(kBlockCells * std::min(blocks, high));
     // A voxel more on either side: blocks need not end where voxels do.
     const double perVoxel = part.cellSize_ / lattice.spacing[axis];
-    const double first =
-      std::max(0.0, std::floor(double(part.first_[std::size_t(axis)]) * perVoxel) - 1.0);
-    const double end =
-      std::min(dimension, std::ceil(double(part.end_[std::size_t(axis)]) * perVoxel) + 1.0);
+    const double first = std::max(0.0, std::floor(double(part.first_[std::size_t(axis)]) * perVoxel) - 1.0);
+    const double end = std::min(dimension, std::ceil(double(part.end_[std::size_t(axis)]) * perVoxel) + 1.0);
     part.voxels_.origin[axis] = lattice.origin[axis] + first * lattice.spacing[axis];
     part.voxels_.dimensions[std::size_t(axis)] = std::int64_t(end - first);
     part.voxels_.end[axis] = lattice.end[axis] - first;
@@ -83,8 +80,8 @@ double ScenePart::share() const
 {
   const CellPyramid& pyramid = whole_->pyramid();
   const auto& nodes = pyramid.level(RadiusField::nodeLevel(pyramid)).cells;
-  const auto held = std::count_if(
-    nodes.begin(), nodes.end(), [this](const Cell& node) { return this->holds(fromWhole_.apply(node.mean)); });
+  const auto held = std::count_if(nodes.begin(), nodes.end(),
+    [this](const Cell& node) { return this->holds(fromWhole_.apply(node.mean)); });
   return double(held) / double(nodes.size());
 }
 
@@ -105,7 +102,7 @@ std::vector<LocalScale> ScenePart::scales(const CellPyramid& pyramid) const
       {
         memory = std::make_unique<FitCells>();
       }
-        double distance = 0.0;
+      double distance = 0.0;
       const std::int64_t seed = pyramid.nearest(0, node.mean, 2.0 * nodes.voxelSize, distance);
       const Vec3 at = seed < 0 ? node.mean : pyramid.level(0).cells[std::size_t(seed)].mean;
       const FitScale fit =

@@ -18,11 +18,11 @@ namespace pointhaptics
 
 class HapticScene;
 
-/// A box about the hand, and what a scene of the cells in it takes from the newest one of the whole cloud. The
-/// cells are those a scene of the whole cloud would have, bit for bit; the radii of fit and proxy, which cost most
-/// of a scene's time and belong to the place on the model more than to its voxels, are taken over. Within covered()
-/// forces are those of a whole scene made anew up to what the radii matter: 0.5 % of the force (NearSceneTest).
-/// Frame: the lattice of the new scene. Immutable.
+/// A box about the hand, and what a scene of the cells in it takes from the newest one of the whole cloud.
+/// The cells are those a scene of the whole cloud would have, bit for bit; the radii of fit and proxy, which
+/// cost most of a scene's time and belong to the place on the model more than to its voxels, are taken over.
+/// Within covered() forces are those of a whole scene made anew up to what the radii matter: 0.5 % of the
+/// force (NearSceneTest). Frame: the lattice of the new scene. Immutable.
 class ScenePart
 {
 public:
@@ -32,9 +32,9 @@ public:
   static constexpr double kMostScale = 1.25;
 
   /// @param hand what is to be within reach: the HIP and the point of contact. @param whole the scene of the
-  /// whole cloud made last; its index cells are counted from a corner. @param modelToLattice, @p lattice those
-  /// of the new scene. Nothing: the whole has no corner, its cloud would not keep its shape or nearly its size, or
-  /// the hand is far from the workspace.
+  /// whole cloud made last; its index cells are counted from a corner. @param modelToLattice, @p lattice
+  /// those of the new scene. Nothing: the whole has no corner, its cloud would not keep its shape or nearly
+  /// its size, or the hand is far from the workspace.
   static std::optional<ScenePart> about(const Bounds& hand, std::shared_ptr<const HapticScene> whole,
     const AffineTransform& modelToLattice, const Lattice& lattice);
 
@@ -43,15 +43,15 @@ public:
   double cellSize() const { return cellSize_; }
   /// Lengths of the new scene over those of the whole one's lattice frame.
   double scale() const { return scale_; }
-  /// Whether a cell with this mean belongs to the part: it lies in one of its blocks, which are as large as the
-  /// coarsest cells.
+  /// Whether a cell with this mean belongs to the part: it lies in one of its blocks, which are as large as
+  /// the coarsest cells.
   bool holds(const Vec3& mean) const noexcept;
   /// Voxels of @p lattice that have all means that the part holds.
   const Lattice& voxels() const { return voxels_; }
   /// About which part of the whole scene's cells are in it, 0 to 1.
   double share() const;
-  /// The whole scene's answer for each cell of the field's node level; where it has no nodes near by the radii are
-  /// chosen by that cell alone, and the proxy radius is the typical one.
+  /// The whole scene's answer for each cell of the field's node level; where it has no nodes near by the
+  /// radii are chosen by that cell alone, and the proxy radius is the typical one.
   std::vector<LocalScale> scales(const CellPyramid& pyramid) const;
 
 private:

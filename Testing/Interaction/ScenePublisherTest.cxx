@@ -12,9 +12,11 @@ namespace
 {
 
 /// A square of 2 cm about the origin, put where the transform says.
-std::shared_ptr<const HapticScene> sceneAt(const AffineTransform& modelToWorkspace)
+HapticSceneInput squareAt(const AffineTransform& modelToWorkspace)
 {
   HapticSceneInput input;
+  input.cellSize = 0.001;
+  input.corner = Vec3{ -0.05, -0.05, -0.05 };
   input.modelToWorkspace = modelToWorkspace;
   for (int i = -10; i <= 10; ++i)
   {
@@ -23,8 +25,13 @@ std::shared_ptr<const HapticScene> sceneAt(const AffineTransform& modelToWorkspa
       input.points.push_back(modelToWorkspace.apply({ 0.001 * i, 0.001 * j, 0.0 }));
     }
   }
+  return input;
+}
+
+std::shared_ptr<const HapticScene> sceneAt(const AffineTransform& modelToWorkspace)
+{
   Status status = Status::Ok;
-  auto scene = HapticScene::create(std::move(input), status);
+  auto scene = HapticScene::create(squareAt(modelToWorkspace), status);
   EXPECT_EQ(status, Status::Ok);
   return scene;
 }
@@ -115,6 +122,63 @@ TEST_F(ScenePublisherTest, ACloudThatIsGoneIsNeitherMovedNorPublished)
   EXPECT_EQ(felt_.size(), 1u);
   this->publish(sceneAt(shiftBy(0.001)), publisher_.cloud());
   EXPECT_EQ(felt_.size(), 2u);
+}
+
+/// As sceneAt(), of the part about the origin.
+std::shared_ptr<const HapticScene> partAt(
+  const AffineTransform& modelToWorkspace, const std::shared_ptr<const HapticScene>& whole)
+{
+  Lattice lattice;
+  lattice.origin = { -0.05, -0.05, -0.05 };
+  lattice.spacing = { 0.001, 0.001, 0.001 };
+  lattice.dimensions = { 100, 100, 100 };
+  Bounds hand;
+  hand.include({ 0.0, 0.0, 0.0 });
+  HapticSceneInput input = squareAt(modelToWorkspace);
+  input.part = ScenePart::about(hand, whole, modelToWorkspace, lattice);
+  EXPECT_TRUE(input.part);
+  Status status = Status::Ok;
+  auto scene = HapticScene::create(std::move(input), status);
+  EXPECT_EQ(status, Status::Ok);
+  return scene;
+}
+
+TEST_F(ScenePublisherTest, APartIsFeltUntilTheWholeOfTheSameRequestIsThere)
+{
+  const std::uint64_t cloud = publisher_.cloud();
+  const auto first = sceneAt(shiftBy(0.0));
+  publisher_.publish(first, cloud, 1);
+  const auto part = partAt(shiftBy(0.002), first);
+  publisher_.publish(part, cloud, 2);
+  EXPECT_EQ(felt_.back(), part);
+  const auto whole = sceneAt(shiftBy(0.002));
+  publisher_.publish(whole, cloud, 2);
+  EXPECT_EQ(felt_.back(), whole);
+  publisher_.publish(part, cloud, 2);
+  EXPECT_EQ(felt_.back(), whole);
+}
+
+TEST_F(ScenePublisherTest, AnEarlierWholeIsFeltBeyondALaterPart)
+{
+  const std::uint64_t cloud = publisher_.cloud();
+  const auto first = sceneAt(shiftBy(0.0));
+  publisher_.publish(first, cloud, 1);
+  publisher_.move(shiftBy(0.003));
+  const auto part = partAt(shiftBy(0.003), first);
+  publisher_.publish(part, cloud, 3);
+  const auto second = sceneAt(shiftBy(0.002));
+  publisher_.publish(second, cloud, 2);
+  EXPECT_EQ(felt_.back()->cloudNumber(), part->cloudNumber());
+  ASSERT_NE(felt_.back()->beyond(), nullptr);
+  EXPECT_EQ(felt_.back()->beyond()->cloudNumber(), second->cloudNumber());
+  EXPECT_EQ(felt_.back()->beyond()->modelToWorkspace(), shiftBy(0.003));
+  // Both go where the model goes.
+  publisher_.move(shiftBy(0.004));
+  EXPECT_EQ(felt_.back()->modelToWorkspace(), shiftBy(0.004));
+  EXPECT_EQ(felt_.back()->beyond()->modelToWorkspace(), shiftBy(0.004));
+  const std::size_t published = felt_.size();
+  publisher_.publish(partAt(shiftBy(0.002), first), cloud, 2);
+  EXPECT_EQ(felt_.size(), published) << "overtaken";
 }
 
 } // namespace
