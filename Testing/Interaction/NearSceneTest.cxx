@@ -215,7 +215,7 @@ TEST_F(NearSceneTest, AHandThatIsFasterThanTheScenesLosesNoContact)
     const double angle = 0.4 / 0.034 * time;
     return Vec3{ 0.034 * std::cos(angle), 0.034 * std::sin(angle), 0.0 };
   };
-  constexpr int kTicksPerStep = 33;
+  constexpr int kTicksPerStep = 60;
   constexpr int kTicksOfBuild = 12;
   Scenes scenes = this->request({}, handAt(0.0));
   ASSERT_NE(scenes.whole, nullptr);
