@@ -1,6 +1,6 @@
 #include "BenchModelMover.h"
 
-#include "ViewScene.h"
+#include "SceneWindow.h"
 
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkKernelBandwidthFilter.h"
@@ -50,38 +50,32 @@ class WindowMover : public bench::render::ModelMover
 public:
   bool open(const std::string& file, int width, int height, std::string& message)
   {
-    ViewOptions options;
-    options.files = { file };
-    if (!scene_.open(options.files, options, message) || !scene_.build(options, message))
+    if (!view_.open(file, width, height, message))
     {
       return false;
     }
-    window_->SetOffScreenRendering(1);
-    window_->SetMultiSamples(0);
-    window_->SetSize(width, height);
-    window_->AddRenderer(scene_.renderer());
-    interactor_->SetRenderWindow(window_);
-    scene_.detail().setEnabled(true);
-    scene_.placeCamera();
+    interactor_->SetRenderWindow(view_.window());
+    ViewScene& scene = view_.scene();
+    scene.detail().setEnabled(true);
     SimulatedHandSettings hand;
     const Vec3 touched = this->frontOfCloud();
-    const Vec3 front = scene_.towardsViewer();
+    const Vec3 front = scene.towardsViewer();
     hand.start = touched + kHandBefore * front;
     hand.yieldsToForce = false;
     hand_ = std::make_unique<SimulatedDevice>(hand);
     double bounds[6];
-    scene_.getWorkspaceBounds(bounds);
+    scene.getWorkspaceBounds(bounds);
     style_->SetWorkspaceBounds(bounds);
-    style_->SetModelMatrix(scene_.modelMatrix());
-    style_->SetResampler(scene_.resampler());
-    style_->SetBandwidthFilter(scene_.bandwidth());
-    style_->SetCloudActor(scene_.actor());
-    style_->SetProps(scene_.props());
+    style_->SetModelMatrix(scene.modelMatrix());
+    style_->SetResampler(scene.resampler());
+    style_->SetBandwidthFilter(scene.bandwidth());
+    style_->SetCloudActor(scene.actor());
+    style_->SetProps(scene.props());
     style_->SetServoLoop(&servo_);
-    style_->SetDefaultRenderer(scene_.renderer());
+    style_->SetDefaultRenderer(scene.renderer());
     interactor_->SetInteractorStyle(style_);
     style_->UpdateModel();
-    window_->Render();
+    view_.window()->Render();
     interactor_->Initialize();
     style_->StartUpdates();
     if (hand_->open() != Status::Ok || servo_.start(*hand_, HapticParameters(), {}, &message) != Status::Ok)
@@ -111,7 +105,6 @@ public:
     style_->StopUpdates();
     style_->SetServoLoop(nullptr);
     servo_.stop();
-    window_->RemoveRenderer(scene_.renderer());
   }
 
   Response press(const char* key) override
@@ -154,9 +147,9 @@ private:
       {
         due_ = Clock::now() + kTimerPeriod;
         style_->Refresh();
-        if (scene_.detail().refinementDue(seconds()))
+        if (view_.scene().detail().refinementDue(seconds()))
         {
-          window_->Render();
+          view_.window()->Render();
         }
       }
     } while (Clock::now() < end);
@@ -184,9 +177,9 @@ private:
   /// The mean nearest to the middle of the workspace's front.
   Vec3 frontOfCloud()
   {
-    const Bounds& workspace = scene_.workspace();
-    const Vec3 front = workspace.center() + 0.5 * norm(workspace.extent()) * scene_.towardsViewer();
-    vtkPolyData* means = scene_.bandwidth()->GetOutput();
+    const Bounds& workspace = view_.scene().workspace();
+    const Vec3 front = workspace.center() + 0.5 * norm(workspace.extent()) * view_.scene().towardsViewer();
+    vtkPolyData* means = view_.scene().bandwidth()->GetOutput();
     Vec3 nearest = workspace.center();
     double best = INFINITY;
     for (vtkIdType i = 0; i < means->GetNumberOfPoints(); ++i)
@@ -200,8 +193,7 @@ private:
     return nearest;
   }
 
-  ViewScene scene_;
-  vtkNew<vtkRenderWindow> window_;
+  SceneWindow view_;
   vtkNew<vtkRenderWindowInteractor> interactor_;
   vtkNew<vtkInteractorStyleHaptic> style_;
   std::unique_ptr<SimulatedDevice> hand_;
