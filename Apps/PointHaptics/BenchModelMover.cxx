@@ -1,20 +1,24 @@
 #include "BenchModelMover.h"
 
-#include "ViewScene.h"
+#include "SceneWindow.h"
 
 #include "vtkInteractorStyleHaptic.h"
+#include "vtkKernelBandwidthFilter.h"
 
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/ServoLoop.h"
 
 #include <vtkCommand.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <random>
 #include <thread>
 
@@ -30,6 +34,9 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kTimerPeriod = std::chrono::milliseconds(33);
 constexpr auto kLookPeriod = std::chrono::microseconds(200);
 constexpr auto kLongestWait = std::chrono::seconds(10);
+/// Of the hand in front of the surface, and in it when it touches; metres.
+constexpr double kHandBefore = 0.005;
+constexpr double kHandDepth = 0.001;
 /// After a scene: the picture is refined, and the next key meets a window at rest or not.
 constexpr double kPauseSeconds[2] = { 0.05, 0.35 };
 
@@ -43,35 +50,32 @@ class WindowMover : public bench::render::ModelMover
 public:
   bool open(const std::string& file, int width, int height, std::string& message)
   {
-    ViewOptions options;
-    options.files = { file };
-    if (!scene_.open(options.files, options, message) || !scene_.build(options, message))
+    if (!view_.open(file, width, height, message))
     {
       return false;
     }
-    window_->SetOffScreenRendering(1);
-    window_->SetMultiSamples(0);
-    window_->SetSize(width, height);
-    window_->AddRenderer(scene_.renderer());
-    interactor_->SetRenderWindow(window_);
-    scene_.detail().setEnabled(true);
-    scene_.placeCamera();
+    interactor_->SetRenderWindow(view_.window());
+    ViewScene& scene = view_.scene();
+    scene.detail().setEnabled(true);
     SimulatedHandSettings hand;
-    hand.start = { 0.0, 0.0, 0.049 };
+    const Vec3 touched = this->frontOfCloud();
+    const Vec3 front = scene.towardsViewer();
+    hand.start = touched + kHandBefore * front;
+    hand.yieldsToForce = false;
     hand_ = std::make_unique<SimulatedDevice>(hand);
     double bounds[6];
-    scene_.getWorkspaceBounds(bounds);
+    scene.getWorkspaceBounds(bounds);
     style_->SetWorkspaceBounds(bounds);
-    style_->SetModelMatrix(scene_.modelMatrix());
-    style_->SetResampler(scene_.resampler());
-    style_->SetBandwidthFilter(scene_.bandwidth());
-    style_->SetCloudActor(scene_.actor());
-    style_->SetProps(scene_.props());
+    style_->SetModelMatrix(scene.modelMatrix());
+    style_->SetResampler(scene.resampler());
+    style_->SetBandwidthFilter(scene.bandwidth());
+    style_->SetCloudActor(scene.actor());
+    style_->SetProps(scene.props());
     style_->SetServoLoop(&servo_);
-    style_->SetDefaultRenderer(scene_.renderer());
+    style_->SetDefaultRenderer(scene.renderer());
     interactor_->SetInteractorStyle(style_);
     style_->UpdateModel();
-    window_->Render();
+    view_.window()->Render();
     interactor_->Initialize();
     style_->StartUpdates();
     if (hand_->open() != Status::Ok || servo_.start(*hand_, HapticParameters(), {}, &message) != Status::Ok)
@@ -80,7 +84,14 @@ public:
       return false;
     }
     watch_ = std::thread([this] { this->watch(); });
-    this->goOn(1.0);
+    this->goOn(0.5);
+    hand_->setTarget(touched - kHandDepth * front);
+    this->goOn(0.5);
+    if (!servo_.latest().state.contact)
+    {
+      message = "the hand does not touch the cloud";
+      return false;
+    }
     return true;
   }
 
@@ -94,14 +105,17 @@ public:
     style_->StopUpdates();
     style_->SetServoLoop(nullptr);
     servo_.stop();
-    window_->RemoveRenderer(scene_.renderer());
   }
 
   Response press(const char* key) override
   {
     this->goOn(std::uniform_real_distribution<double>(kPauseSeconds[0], kPauseSeconds[1])(random_));
     const std::uint64_t before = scenes_;
-    movedAt_ = takenAt_ = -1.0;
+    firstScene_ = before;
+    for (std::atomic<double>& time : takenAt_)
+    {
+      time = -1.0;
+    }
     const double pressed = seconds();
     interactor_->SetKeyEventInformation(0, 0, 0, 0, key);
     interactor_->InvokeEvent(vtkCommand::KeyPressEvent);
@@ -110,8 +124,14 @@ public:
     {
       this->goOn(0.0);
     }
-    const bool came = scenes_ >= before + 2;
-    return { came ? movedAt_ - pressed : -1.0, came ? takenAt_ - pressed : -1.0 };
+    Response response{ -1.0, -1.0, -1.0 };
+    if (scenes_ >= before + 2)
+    {
+      response.movedSeconds = takenAt_[0] - pressed;
+      response.nearSeconds = takenAt_[1] - pressed;
+      response.wholeSeconds = takenAt_[scenes_ >= before + 3 ? 2 : 1] - pressed;
+    }
+    return response;
   }
 
 private:
@@ -127,9 +147,9 @@ private:
       {
         due_ = Clock::now() + kTimerPeriod;
         style_->Refresh();
-        if (scene_.detail().refinementDue(seconds()))
+        if (view_.scene().detail().refinementDue(seconds()))
         {
-          window_->Render();
+          view_.window()->Render();
         }
       }
     } while (Clock::now() < end);
@@ -142,16 +162,38 @@ private:
       const std::uint64_t scenes = servo_.latest().scenes;
       if (scenes != scenes_)
       {
-        takenAt_ = seconds();
-        movedAt_ = movedAt_ < 0.0 ? takenAt_.load() : movedAt_.load();
+        // Of two within one look the former is as late as the latter.
+        const double now = seconds();
+        for (std::uint64_t i = scenes_ - firstScene_; i < scenes - firstScene_ && i < 3; ++i)
+        {
+          takenAt_[i] = now;
+        }
         scenes_ = scenes;
       }
       std::this_thread::sleep_for(kLookPeriod);
     }
   }
 
-  ViewScene scene_;
-  vtkNew<vtkRenderWindow> window_;
+  /// The mean nearest to the middle of the workspace's front.
+  Vec3 frontOfCloud()
+  {
+    const Bounds& workspace = view_.scene().workspace();
+    const Vec3 front = workspace.center() + 0.5 * norm(workspace.extent()) * view_.scene().towardsViewer();
+    vtkPolyData* means = view_.scene().bandwidth()->GetOutput();
+    Vec3 nearest = workspace.center();
+    double best = INFINITY;
+    for (vtkIdType i = 0; i < means->GetNumberOfPoints(); ++i)
+    {
+      Vec3 mean;
+      means->GetPoint(i, &mean.x);
+      const double distance = norm2(mean - front);
+      nearest = distance < best ? mean : nearest;
+      best = std::min(best, distance);
+    }
+    return nearest;
+  }
+
+  SceneWindow view_;
   vtkNew<vtkRenderWindowInteractor> interactor_;
   vtkNew<vtkInteractorStyleHaptic> style_;
   std::unique_ptr<SimulatedDevice> hand_;
@@ -159,8 +201,8 @@ private:
   std::mt19937 random_{ 8 };
   Clock::time_point due_ = Clock::now();
   std::atomic<std::uint64_t> scenes_{ 0 };
-  std::atomic<double> movedAt_{ -1.0 }; ///< The first scene after the key, and the last one.
-  std::atomic<double> takenAt_{ -1.0 };
+  std::atomic<std::uint64_t> firstScene_{ 0 };
+  std::atomic<double> takenAt_[3]{}; ///< The scenes after the key: moved, near the hand, whole.
   std::atomic<bool> ending_{ false };
   std::thread watch_;
 };

@@ -1,9 +1,8 @@
 #include "SceneTurntable.h"
 
-#include "ViewScene.h"
+#include "SceneWindow.h"
 
 #include <vtkCamera.h>
-#include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
@@ -23,28 +22,19 @@ class SceneTurntable : public bench::render::Turntable
 public:
   bool open(const std::string& file, int width, int height, std::string& message)
   {
-    ViewOptions options;
-    options.files = { file };
-    if (!scene_.open(options.files, options, message) || !scene_.build(options, message))
+    if (!view_.open(file, width, height, message))
     {
       return false;
     }
-    window_->SetOffScreenRendering(1);
-    window_->SetMultiSamples(0);
-    window_->SetSize(width, height);
-    window_->AddRenderer(scene_.renderer());
-    scene_.placeCamera();
     this->render();
     return true;
   }
 
-  ~SceneTurntable() override { window_->RemoveRenderer(scene_.renderer()); }
-
-  void setDetail(bool on) override { scene_.detail().setEnabled(on); }
+  void setDetail(bool on) override { view_.scene().detail().setEnabled(on); }
 
   void turn(double degrees) override
   {
-    scene_.renderer()->GetActiveCamera()->Azimuth(degrees);
+    view_.scene().renderer()->GetActiveCamera()->Azimuth(degrees);
     this->render();
   }
 
@@ -52,26 +42,25 @@ public:
   {
     int frames = 0;
     std::this_thread::sleep_for(std::chrono::duration<double>(CloudDetail::kRestSeconds));
-    for (; !scene_.detail().showsAll() && frames < 100; ++frames)
+    for (; !view_.scene().detail().showsAll() && frames < 100; ++frames)
     {
       this->render();
     }
     return frames;
   }
 
-  std::int64_t allPoints() const override { return scene_.detail().allPoints(); }
-  std::int64_t drawnPoints() const override { return scene_.detail().drawnPoints(); }
+  std::int64_t allPoints() const override { return view_.scene().detail().allPoints(); }
+  std::int64_t drawnPoints() const override { return view_.scene().detail().drawnPoints(); }
 
 private:
   void render()
   {
-    scene_.renderer()->ResetCameraClippingRange();
-    window_->Render();
-    window_->WaitForCompletion();
+    view_.scene().renderer()->ResetCameraClippingRange();
+    view_.window()->Render();
+    view_.window()->WaitForCompletion();
   }
 
-  ViewScene scene_;
-  vtkNew<vtkRenderWindow> window_;
+  SceneWindow view_;
 };
 
 } // namespace

@@ -127,7 +127,8 @@ Cell merged(const Cell& a, const Cell& b) noexcept
   return cell;
 }
 
-Status CellPyramid::build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex)
+Status CellPyramid::build(
+  std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex, const Vec3* corner)
 {
   levels_.clear();
   sourceIndex.clear();
@@ -144,12 +145,17 @@ Status CellPyramid::build(std::vector<Cell> cells, double voxelSize, std::vector
   {
     box.include(cell.mean);
   }
-  origin_ = box.minimum;
-  const Vec3 extent = box.extent();
+  origin_ = corner ? *corner : box.minimum;
+  const Vec3 extent = box.maximum - origin_;
   const double longest = std::max({ extent.x, extent.y, extent.z });
   if (!(longest / voxelSize < double(kMaximumLatticeDimension)) || cells.size() > 0xfffffff0u)
   {
     return Status::LatticeNotAddressable;
+  }
+  const Vec3 above = box.minimum - origin_;
+  if (!(above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0))
+  {
+    return Status::InvalidParameter;
   }
 
   struct Entry
@@ -184,14 +190,14 @@ Status CellPyramid::build(std::vector<Cell> cells, double voxelSize, std::vector
   finest.slotBegin.push_back(std::uint32_t(finest.cells.size()));
   finest.bricks = makeBricks(codes);
   levels_.push_back(std::move(finest));
-  buildUpperLevels(codes);
+  buildUpperLevels(codes, corner ? kCellLevels : 1);
   return Status::Ok;
 }
 
-void CellPyramid::buildUpperLevels(const std::vector<std::uint64_t>& codes)
+void CellPyramid::buildUpperLevels(const std::vector<std::uint64_t>& codes, int leastLevels)
 {
   std::vector<std::uint64_t> below = codes;
-  while (levels_.back().bricks.size() > 1)
+  while (levels_.back().bricks.size() > 1 || numberOfLevels() < leastLevels)
   {
     const Level& finer = levels_.back();
     Level level;

@@ -54,9 +54,13 @@ public:
 
   /// @param cells finite means; taken over and re-ordered. @param voxelSize edge of a level-0 voxel, above 0.
   /// @param sourceIndex receives, for each cell of level 0, its index in @p cells as given.
-  /// Errors: Empty, InvalidVoxelSize, LatticeNotAddressable (extent over voxelSize above 2^21, or over 2^32
-  /// cells).
-  Status build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex);
+  /// @param corner where given, a place no mean is below on any axis: the voxels of all levels are counted
+  /// from there, not from the means' own corner, and all levels with cells are made. Pyramids with the same
+  /// corner and voxels are then the same wherever their cells are, block of 2^(kCellLevels - 1) voxels by
+  /// block. Errors: Empty, InvalidVoxelSize, LatticeNotAddressable (extent, from the corner, over voxelSize
+  /// above 2^21, or over 2^32 cells), InvalidParameter (a mean below the corner).
+  Status build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex,
+    const Vec3* corner = nullptr);
 
   /// Mixed cells that are no thicker than noise makes a single sheet count as one sheet again. Call it before
   /// anybody else reads. @param noiseAt the standard deviation of the points about the surface at a place,
@@ -243,7 +247,7 @@ private:
     }
   }
 
-  void buildUpperLevels(const std::vector<std::uint64_t>& codes);
+  void buildUpperLevels(const std::vector<std::uint64_t>& codes, int leastLevels);
 
   static constexpr int kMaximumLevels = 22;
   std::vector<Level> levels_;

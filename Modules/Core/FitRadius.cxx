@@ -11,7 +11,6 @@ namespace pointhaptics
 namespace
 {
 
-constexpr double kSmallestRadiusInCells = 3.6;
 constexpr double kPoints = 30.0;
 constexpr double kCells = 14.0;
 constexpr double kCountGrowth = 1.1;
@@ -53,7 +52,7 @@ constexpr double kVoteReach = 2.0;
 
 double countRadius(const CellPyramid& pyramid, const Vec3& seed, double largest)
 {
-  double radius = kSmallestRadiusInCells * pyramid.level(0).voxelSize;
+  double radius = kSmallestFitRadiusInCells * pyramid.level(0).voxelSize;
   for (int i = 0; i < kCountSteps && radius < largest; ++i)
   {
     double points = 0.0;
@@ -220,6 +219,11 @@ double medianOf(std::vector<double>& values)
 
 }
 
+double fitGate(double countRadius, double noise)
+{
+  return std::max(kGateDepth * countRadius, kGateNoise * noise);
+}
+
 FitScale chooseFitRadius(
   const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest, FitCells& memory)
 {
@@ -278,7 +282,7 @@ LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<Fit
   result.countRadius = scales[i].countRadius;
   result.noise = noise;
   result.cubic = std::clamp((votes - kCubicVotesFrom) / (kCubicVotesTo - kCubicVotesFrom), 0.0, 1.0);
-  result.gate = std::max(kGateDepth * scales[i].countRadius, kGateNoise * noise);
+  result.gate = fitGate(scales[i].countRadius, noise);
   return result;
 }
 

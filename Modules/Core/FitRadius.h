@@ -13,6 +13,12 @@
 namespace pointhaptics
 {
 
+/// No fit radius is shorter, in finest cells.
+constexpr double kSmallestFitRadiusInCells = 3.6;
+
+/// Depth of the fit's gate: a part of the counting radius, and never within the noise. Metres.
+double fitGate(double countRadius, double noise);
+
 /// What the cloud says about fits at one place; metres.
 struct FitScale
 {

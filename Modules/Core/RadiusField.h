@@ -22,6 +22,9 @@ struct LocalScale
   double cubic = 0.0;       ///< Share of the fit's cubic terms, 0 to 1.
 };
 
+/// The same where the cloud is @p factor times as large.
+LocalScale scaled(LocalScale scale, double factor);
+
 /// One set of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact
 /// support. Radii of fit and proxy are cut so that neighbours differ by at most half their distance. A
 /// function of position only: it knows nothing of any proxy. Immutable after build(); any number of threads
@@ -56,6 +59,8 @@ public:
   double reach() const { return reach_; }
   /// Medians of the values: the answer for places far from the cloud.
   const LocalScale& typical() const { return typical_; }
+  /// Those of a larger cloud that this one is a part of.
+  void setTypical(const LocalScale& typical) { typical_ = typical; }
 
 private:
   /// A node's value is at most rise above its neighbour's.

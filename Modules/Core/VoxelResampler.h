@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pointhaptics
@@ -55,6 +56,10 @@ struct VoxelRequest
   const PointIndex* index = nullptr;
   AffineTransform transform; ///< From the cloud's frame into that of the lattice.
   Lattice lattice;
+  /// With an index: points outside the box of this lattice, whose voxels are ones of the other, may be left
+  /// out; they count as clipped. Voxels inside are the same as without, bit for bit; others may lack points,
+  /// or be missing.
+  std::optional<Lattice> part;
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
   bool keys = false; ///< For keys(), assign() and parents().
@@ -76,11 +81,11 @@ struct VoxelRequest
 /// rounding to the output's type; a mean lies in its voxel. Counts are 64-bit. (A transform that is nearly
 /// singular, of a condition number c above 1e6, costs what it costs: errors grow to about 1e-16 c voxels.)
 ///
-/// Time: a few nanoseconds a point. Memory beyond input and results: 16 bytes for each of at most 1.25 million
-/// points, 60 bytes an active voxel (20 of them its results, where these are not in the caller's memory), a
-/// few megabytes; lattices beyond 4096 an axis: 64 bytes for each of at most a million points and 72 an active
-/// voxel; covariances: 100 an active voxel more. One object is used by one thread at a time; the executor's
-/// threads may be many.
+/// Time: a few nanoseconds a point. Memory beyond input and results: 16 bytes for each of at most 1.25
+/// million points, 60 bytes an active voxel (20 of them its results, where these are not in the caller's
+/// memory), a few megabytes; lattices beyond 4096 an axis: 64 bytes for each of at most a million points and
+/// 72 an active voxel; covariances: 100 an active voxel more. One object is used by one thread at a time; the
+/// executor's threads may be many.
 class VoxelResampler
 {
 public:

@@ -93,19 +93,20 @@ double typicalSpacing(const CellPyramid& pyramid, double extent)
 }
 
 /// Builds the pyramid with cells as asked for, or coarser where those would be empty between the points.
-Status buildPyramid(std::vector<Cell> cells, double asked, double extent, CellPyramid& pyramid)
+Status buildPyramid(
+  std::vector<Cell> cells, double asked, double extent, const Vec3* corner, CellPyramid& pyramid)
 {
   std::vector<std::uint32_t> source;
   const double guess = extent > 0.0 ? extent / std::sqrt(double(cells.size())) : kCellWithoutExtent;
   const double first = asked > 0.0 ? std::max(asked, extent / kMostCellsAcross) : guess;
-  const Status status = pyramid.build(cells, first, source);
+  const Status status = pyramid.build(cells, first, source, corner);
   if (status != Status::Ok)
   {
     return status;
   }
   const double wanted = std::max(asked, kCellInSpacings * typicalSpacing(pyramid, extent));
   const bool fits = wanted <= kCellTolerance * first && (asked > 0.0 || wanted >= first / kCellTolerance);
-  return fits || !(wanted > 0.0) ? Status::Ok : pyramid.build(std::move(cells), wanted, source);
+  return fits || !(wanted > 0.0) ? Status::Ok : pyramid.build(std::move(cells), wanted, source, corner);
 }
 
 std::uint64_t nextCloudNumber()
@@ -139,7 +140,7 @@ std::vector<Cell> finiteCells(const HapticSceneInput& input)
   cells.reserve(input.points.size());
   for (std::size_t i = 0; i < input.points.size(); ++i)
   {
-    if (!isFinite(input.points[i]))
+    if (!isFinite(input.points[i]) || (input.part && !input.part->holds(input.points[i])))
     {
       continue;
     }
@@ -153,6 +154,39 @@ std::vector<Cell> finiteCells(const HapticSceneInput& input)
     cells.push_back(cell);
   }
   return cells;
+}
+
+/// What the fields tell at each of their nodes.
+Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, double extent,
+  const Executor& executor, std::vector<LocalScale>& scales)
+{
+  const double size = pyramid.level(0).voxelSize;
+  const CellPyramid::Level& nodes = pyramid.level(RadiusField::nodeLevel(pyramid));
+  std::vector<double> radii;
+  if (input.proxyRadii.empty() && !input.bandwidth)
+  {
+    std::vector<double> distances;
+    for (const Cell& node : nodes.cells)
+    {
+      const double spacing = localSpacing(pyramid, node.mean, extent, distances);
+      radii.push_back(kRadiusInSpacings * std::max(spacing, size));
+    }
+  }
+  else
+  {
+    const Status status = nodeRadii(nodes, input, radii, executor);
+    if (status != Status::Ok)
+    {
+      return status;
+    }
+  }
+  const double largest = std::max(extent, kLargestFitRadiusInCells * size);
+  scales = fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor);
+  for (std::size_t i = 0; i < radii.size(); ++i)
+  {
+    scales[i].proxyRadius = radii[i];
+  }
+  return Status::Ok;
 }
 
 }
@@ -186,48 +220,59 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   const double extent = norm(cloud->bounds.extent());
   const auto merged = [](const Cell& cell) { return cell.count > 1.0; };
   cloud->exactMoments = !input.covariances.empty() || std::none_of(cells.begin(), cells.end(), merged);
-  status = buildPyramid(std::move(cells), input.cellSize, extent, cloud->pyramid);
+  const Vec3 above = input.corner ? cloud->bounds.minimum - *input.corner : Vec3{ -1.0, -1.0, -1.0 };
+  cloud->aligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
+  const Vec3* const corner = cloud->aligned ? &*input.corner : nullptr;
+  if (input.part)
+  {
+    std::vector<std::uint32_t> source;
+    status = cloud->aligned ? cloud->pyramid.build(std::move(cells), input.part->cellSize(), source, corner)
+                            : Status::InvalidParameter;
+  }
+  else
+  {
+    status = buildPyramid(std::move(cells), input.cellSize, extent, corner, cloud->pyramid);
+  }
   if (status != Status::Ok)
   {
     return nullptr;
   }
   const double size = cloud->pyramid.level(0).voxelSize;
-  const int nodeLevel = RadiusField::nodeLevel(cloud->pyramid);
-  const CellPyramid::Level& nodes = cloud->pyramid.level(nodeLevel);
-  std::vector<double> radii;
-  if (input.proxyRadii.empty() && !input.bandwidth)
+  cloud->latticeCells = size == input.cellSize;
+  const std::optional<ScenePart> part = std::move(input.part);
+  std::vector<LocalScale> scales;
+  if (part)
   {
-    std::vector<double> distances;
-    for (const Cell& node : nodes.cells)
-    {
-      const double spacing = localSpacing(cloud->pyramid, node.mean, extent, distances);
-      radii.push_back(kRadiusInSpacings * std::max(spacing, size));
-    }
+    scales = part->scales(cloud->pyramid);
   }
   else
   {
-    status = nodeRadii(nodes, input, radii, executor);
+    status = newScales(input, cloud->pyramid, extent, executor, scales);
     if (status != Status::Ok)
     {
       return nullptr;
     }
   }
   input = HapticSceneInput();
-  const double largest = std::max(extent, kLargestFitRadiusInCells * size);
-  std::vector<LocalScale> scales =
-    fitScales(cloud->pyramid, largest, kLargestFitRadiusInCells * size, executor);
-  for (std::size_t i = 0; i < radii.size(); ++i)
-  {
-    scales[i].proxyRadius = radii[i];
-  }
   cloud->scale.build(cloud->pyramid, std::move(scales));
   cloud->pyramid.forgiveNoise(
     [&cloud](const Vec3& place) { return cloud->scale.noiseAt(cloud->pyramid, place); });
   // Beyond a node's reach no cell of its voxel can be nearer than the reach less the voxel's diagonal.
+  const int nodeLevel = RadiusField::nodeLevel(cloud->pyramid);
   const double diagonal = std::sqrt(3.0) * cloud->pyramid.level(nodeLevel).voxelSize;
   cloud->clearance = cloud->scale.reach() - diagonal;
   std::shared_ptr<HapticScene> scene(new HapticScene());
   scene->modelToWorkspace_ = cloud->modelToLattice;
+  if (part)
+  {
+    cloud->covered = part->covered();
+    cloud->scale.setTypical(scaled(part->whole()->typicalScale(), part->scale()));
+    scene->beyond_ = part->whole()->moved(cloud->modelToLattice, status);
+    if (!scene->beyond_)
+    {
+      return nullptr;
+    }
+  }
   scene->cloud_ = cloud;
   return scene;
 }
@@ -254,12 +299,28 @@ std::shared_ptr<const HapticScene> HapticScene::moved(
       return nullptr;
     }
   }
-  return scene;
+  if (beyond_)
+  {
+    scene->beyond_ = beyond_->moved(modelToWorkspace, status);
+  }
+  return status == Status::Ok ? scene : nullptr;
+}
+
+std::shared_ptr<const HapticScene> HapticScene::withBeyond(const HapticScene& whole, Status& status) const
+{
+  std::shared_ptr<HapticScene> scene(new HapticScene(*this));
+  scene->beyond_ = whole.moved(modelToWorkspace_, status);
+  return scene->beyond_ ? scene : nullptr;
 }
 
 double HapticScene::proxyRadius(const Vec3& position) const noexcept
 {
   return cloud_->scale.at(pyramid(), position).proxyRadius;
+}
+
+double HapticScene::noise(const Vec3& position) const noexcept
+{
+  return cloud_->scale.noiseAt(pyramid(), position);
 }
 
 LocalScale HapticScene::fitScale(const Vec3& position) const noexcept

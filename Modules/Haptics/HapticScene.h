@@ -9,6 +9,7 @@
 #include "Core/LocalBandwidth.h"
 #include "Core/RadiusField.h"
 #include "Core/Status.h"
+#include "Haptics/ScenePart.h"
 
 #include <cstdint>
 #include <memory>
@@ -33,6 +34,11 @@ struct HapticSceneInput
   /// Edge of the finest index cell: the voxel size; 0: from the points' spacing. Raised to 0.8 typical
   /// spacings where the points are sparser: finer cells would be empty.
   double cellSize = 0.0;
+  /// A place no point is below on any axis, such as the lattice's corner: index cells are counted from there,
+  /// and not from the points' own corner. Without effect where a point is below it.
+  std::optional<Vec3> corner;
+  /// The scene is of these cells of the cloud alone; points that the part does not hold are left out.
+  std::optional<ScenePart> part;
   AffineTransform
     modelToWorkspace; ///< The transform the points went through; carries the proxy into a new snapshot.
 };
@@ -62,6 +68,21 @@ public:
   /// over any time. Errors, the result null: the transform's own, and InvalidParameter where it is no
   /// similarity against the one of create() (shear, or a scale that differs by axis): resample. Any thread.
   std::shared_ptr<const HapticScene> moved(const AffineTransform& modelToWorkspace, Status& status) const;
+
+  /// A scene of a part of the cloud has beside it the newest scene of the whole, moved to the same place:
+  /// that is to be felt, instead of this one, from where this one does not cover(). Null: this one is whole.
+  const HapticScene* beyond() const { return beyond_.get(); }
+  /// Whether a hand at @p p (lattice frame) feels what it would feel in a scene of the whole cloud.
+  bool covers(const Vec3& p) const noexcept
+  {
+    const Bounds& box = cloud_->covered;
+    return !beyond_ ||
+      (p.x >= box.minimum.x && p.y >= box.minimum.y && p.z >= box.minimum.z && p.x <= box.maximum.x &&
+        p.y <= box.maximum.y && p.z <= box.maximum.z);
+  }
+  /// The same scene of a part with another scene of the whole beside it, which is moved to where this one is;
+  /// null where it cannot be (see moved()).
+  std::shared_ptr<const HapticScene> withBeyond(const HapticScene& whole, Status& status) const;
 
   std::size_t numberOfPoints() const { return pyramid().level(0).cells.size(); }
   const CellPyramid& pyramid() const { return cloud_->pyramid; }
@@ -100,6 +121,14 @@ public:
   /// False where no cell of the cloud can be within clearance() of @p position: free space to stride through.
   bool isNear(const Vec3& position) const noexcept;
   double clearance() const { return cloud_->clearance; }
+  /// Whether the index cells are counted from the corner that create() was given.
+  bool isAligned() const { return cloud_->aligned; }
+  /// Whether the index cells have the size that create() was given: the points are dense enough.
+  bool hasLatticeCells() const { return cloud_->latticeCells; }
+  /// Standard deviation of the points about the surface near @p position, metres; 0 where no cell is near.
+  double noise(const Vec3& position) const noexcept;
+  /// What the fields tell of places far from the cloud.
+  const LocalScale& typicalScale() const { return cloud_->scale.typical(); }
   /// True where the covariances of the voxels are known, or each cell is a single point; false for plain
   /// means, whose fits ripple with the voxels.
   bool hasExactMoments() const { return cloud_->exactMoments; }
@@ -114,12 +143,16 @@ private:
     RadiusField scale;
     AffineTransform modelToLattice;
     Bounds bounds;
+    Bounds covered; ///< Of a part.
     double clearance = 0.0;
     bool exactMoments = true;
+    bool aligned = false;
+    bool latticeCells = false;
     std::uint64_t number = 0;
   };
 
   std::shared_ptr<const Cloud> cloud_;
+  std::shared_ptr<const HapticScene> beyond_;
   AffineTransform modelToWorkspace_;
   AffineTransform latticeToWorkspace_;
   AffineTransform workspaceToLattice_;

@@ -36,6 +36,51 @@ struct Proxy::Implementation
   double lastDt = 0.0; ///< Of the last step, seconds.
   double fadedSeconds = 0.0;
 
+  void take(const HapticScene* newScene) noexcept
+  {
+    if (newScene && hadScene && !(newScene->modelToLattice() == lastLattice))
+    {
+      surfaceFit.carry(lastLattice, newScene->modelToLattice());
+      gradientSteps.carry(lastLattice, newScene->modelToLattice());
+    }
+    if (!newScene)
+    {
+      forget();
+    }
+    // A new cloud may lie where an old one lay.
+    if (!newScene || newScene->cloudNumber() != lastCloud)
+    {
+      fitCells.forget();
+    }
+    lastCloud = newScene ? newScene->cloudNumber() : 0;
+    lastLattice = newScene ? newScene->modelToLattice() : AffineTransform();
+    hadScene = newScene != nullptr;
+    scene = newScene;
+  }
+
+  /// Whether the last step, seen from the model, lies in what a scene of a part covers: the next one begins
+  /// there.
+  bool isCoveredBy(const HapticScene& part) const noexcept
+  {
+    if (!scene || !hasLastHip)
+    {
+      return true;
+    }
+    const AffineTransform change = part.modelToLattice() * lastLattice.inverse();
+    return part.covers(change.apply(scene->toLattice(lastHip))) &&
+      part.covers(change.apply(scene->toLattice(last.proxy))) &&
+      part.covers(change.apply(scene->toLattice(last.sphereCenter)));
+  }
+
+  /// Goes over to the whole cloud where a part of it is left.
+  void leavePart(const Vec3& place) noexcept
+  {
+    if (scene && scene->beyond() && !scene->covers(scene->toLattice(place)))
+    {
+      take(scene->beyond());
+    }
+  }
+
   void forget() noexcept
   {
     surfaceFit.reset();
@@ -149,24 +194,8 @@ const HapticParameters& Proxy::parameters() const noexcept
 void Proxy::setScene(const HapticScene* scene) noexcept
 {
   Implementation& self = *implementation_;
-  if (scene && self.hadScene && !(scene->modelToLattice() == self.lastLattice))
-  {
-    self.surfaceFit.carry(self.lastLattice, scene->modelToLattice());
-    self.gradientSteps.carry(self.lastLattice, scene->modelToLattice());
-  }
-  if (!scene)
-  {
-    self.forget();
-  }
-  // A new cloud may lie where an old one lay.
-  if (!scene || scene->cloudNumber() != self.lastCloud)
-  {
-    self.fitCells.forget();
-  }
-  self.lastCloud = scene ? scene->cloudNumber() : 0;
-  self.lastLattice = scene ? scene->modelToLattice() : AffineTransform();
-  self.hadScene = scene != nullptr;
-  self.scene = scene;
+  const bool reaches = !scene || !scene->beyond() || self.isCoveredBy(*scene);
+  self.take(reaches ? scene : scene->beyond());
 }
 
 void Proxy::reset() noexcept
@@ -187,6 +216,7 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   state.sphereCenter = hip;
   state.normal = self.last.normal;
   const double stiffness = self.passiveStiffness(dt, state.status);
+  self.leavePart(hip);
   if (!self.scene)
   {
     state.status |= kProxyNoScene;
@@ -203,6 +233,8 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
     self.gradientSteps.step(*self.scene, self.parameters, self.scene->toLattice(hip), dt, state);
     self.toWorkspace(state);
   }
+  self.leavePart(state.proxy);
+  self.leavePart(state.sphereCenter);
   state.force = self.forceOf(state, stiffness, dt);
   self.last = state;
   self.lastMove = self.hasLastHip ? hip - self.lastHip : Vec3();

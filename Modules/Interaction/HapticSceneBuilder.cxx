@@ -93,6 +93,10 @@ std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& s
   {
     input.cellSize = std::max({ fieldValue(spacing, 0), fieldValue(spacing, 1), fieldValue(spacing, 2) });
   }
+  if (vtkDataArray* origin = fieldArray(cloud, "LatticeOrigin", 3))
+  {
+    input.corner = Vec3{ fieldValue(origin, 0), fieldValue(origin, 1), fieldValue(origin, 2) };
+  }
   if (vtkDataArray* matrix = fieldArray(cloud, "ModelToWorkspace", 16))
   {
     for (int row = 0; row < 3; ++row)

@@ -15,10 +15,11 @@ namespace pointhaptics
 {
 
 /// Reads the points of @p cloud, with VoxelPointCount, VoxelCovariance, ProxyRadius and the field data
-/// LatticeSpacing and ModelToWorkspace where they are there (the output of vtkVoxelMeanResampler and
-/// vtkKernelBandwidthFilter has them all). @p useCovariance false leaves VoxelCovariance unused. Where there
-/// is no ProxyRadius the scene computes the radii it needs by @p bandwidth, if given: the same as with the
-/// whole array, and sooner. Null on an error, and @p status says which (see HapticScene::create).
+/// LatticeOrigin, LatticeSpacing and ModelToWorkspace where they are there (the output of
+/// vtkVoxelMeanResampler and vtkKernelBandwidthFilter has them all). @p useCovariance false leaves
+/// VoxelCovariance unused. Where there is no ProxyRadius the scene computes the radii it needs by @p
+/// bandwidth, if given: the same as with the whole array, and sooner. Null on an error, and @p status says
+/// which (see HapticScene::create).
 POINTHAPTICSINTERACTION_EXPORT std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud,
   Status& status, bool useCovariance = true, const std::optional<LocalBandwidthSettings>& bandwidth = {});
 

@@ -28,12 +28,28 @@ void ScenePublisher::move(const AffineTransform& modelToWorkspace)
   }
 }
 
-void ScenePublisher::publish(std::shared_ptr<const HapticScene> scene, std::uint64_t cloud)
+void ScenePublisher::publish(
+  std::shared_ptr<const HapticScene> scene, std::uint64_t cloud, std::uint64_t number)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (cloud != cloud_)
   {
     return;
+  }
+  const bool isPart = scene && scene->beyond();
+  if (number < number_ || (isPart && number == number_))
+  {
+    Status status = Status::Ok;
+    const bool joins = !isPart && scene && newest_ && newest_->beyond();
+    scene = joins ? newest_->withBeyond(*scene, status) : nullptr;
+    if (!scene)
+    {
+      return;
+    }
+  }
+  else
+  {
+    number_ = number;
   }
   newest_ = scene;
   if (scene && isMoved_ && !(scene->modelToWorkspace() == modelToWorkspace_))
@@ -54,6 +70,7 @@ void ScenePublisher::startCloud()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_.reset();
+  number_ = 0;
   ++cloud_;
 }
 

@@ -28,9 +28,11 @@ public:
   /// The model is moved. Publishes the newest scene there, if there is one that can be moved so: not under
   /// shear, nor scales that differ by axis.
   void move(const AffineTransform& modelToWorkspace);
-  /// A scene of cloud @p cloud is made, or null where there is nothing to feel. Publishes it where the model
-  /// is by now; nothing, if that cloud is gone.
-  void publish(std::shared_ptr<const HapticScene> scene, std::uint64_t cloud);
+  /// A scene of cloud @p cloud is made for request @p number, or null where there is nothing to feel.
+  /// Publishes it where the model is by now; nothing, if that cloud is gone or a later request's is there.
+  /// But an earlier scene of the whole cloud takes its place beside a later one of a part
+  /// (HapticScene::beyond()).
+  void publish(std::shared_ptr<const HapticScene> scene, std::uint64_t cloud, std::uint64_t number);
   /// Another cloud comes: what is felt of the old one is not moved any more.
   void startCloud();
   /// The number of the present one.
@@ -42,7 +44,8 @@ private:
   std::shared_ptr<const HapticScene> newest_;
   AffineTransform modelToWorkspace_;
   std::uint64_t cloud_ = 0;
-  bool isMoved_ = false; ///< By move(), since the newest scene was asked for or before.
+  std::uint64_t number_ = 0; ///< Of the newest scene.
+  bool isMoved_ = false;     ///< By move(), since the newest scene was asked for or before.
 };
 
 } // namespace pointhaptics

@@ -1,6 +1,7 @@
 #include "SceneWorker.h"
 
 #include "HapticSceneBuilder.h"
+#include "NearScene.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -43,8 +44,8 @@ public:
     numberOfPoints_ = cloud ? cloud->GetNumberOfPoints() : 0;
   }
 
-  /// Resamples and publishes.
-  void feel(const SceneRequest& request, BuiltScene& built)
+  /// Resamples; null where there is nothing to feel.
+  std::shared_ptr<const HapticScene> feel(const SceneRequest& request, BuiltScene& built)
   {
     built.modelToWorkspace = request.modelToWorkspace;
     built.numberOfPoints = numberOfPoints_;
@@ -65,10 +66,7 @@ public:
       scene = makeHapticScene(resampler_->GetOutput(), built.status, request.useCovariance, rule);
     }
     built.empty = scene == nullptr;
-    if (request.publish)
-    {
-      request.publish(std::move(scene));
-    }
+    return scene;
   }
 
   /// Makes the arrays of the picture and hands all of it over.
@@ -162,72 +160,143 @@ SceneRequest SceneRequest::of(vtkVoxelMeanResampler* resampler, vtkKernelBandwid
   return request;
 }
 
+namespace
+{
+
+/// What a thread of the worker is to do.
+struct Job
+{
+  SceneRequest request;
+  std::uint64_t number = 0;
+  std::uint64_t cloudNumber = 0;
+  vtkSmartPointer<vtkPointSet> cloud; // if it is a new one
+  bool cloudIsNew = false;
+};
+
+/// A thread of the worker, and what it does next. All but the thread under the worker's mutex.
+struct Builder
+{
+  std::optional<SceneRequest> waiting;
+  vtkSmartPointer<vtkPointSet> cloud; // not yet the thread's own
+  bool cloudIsNew = false;
+  bool inFlight = false;
+  std::thread thread;
+
+  bool busy() const { return this->inFlight || this->waiting.has_value(); }
+};
+
+} // namespace
+
 struct SceneWorker::Implementation
 {
   mutable std::mutex mutex;
   std::condition_variable changed;
   // Under the mutex.
-  std::optional<SceneRequest> waiting;
-  vtkSmartPointer<vtkPointSet> cloud; // not yet the pipeline's
-  bool cloudIsNew = false;
+  Builder whole;
+  Builder near;
+  std::uint64_t number = 0;
+  std::uint64_t cloudNumber = 0;
+  std::shared_ptr<const HapticScene> newestWhole; // of this cloud
   BuiltScene finished;
   bool hasFinished = false;
-  bool inFlight = false;
   bool ending = false;
-  std::uint64_t number = 0;
 
-  std::thread thread;
-
-  void run();
+  void start(Builder& builder, void (Implementation::*build)());
+  std::optional<Job> next(Builder& builder);
   bool isFollowed() const;
+  void buildWholes();
+  void buildNear();
 };
+
+void SceneWorker::Implementation::start(Builder& builder, void (Implementation::*build)())
+{
+  if (!builder.thread.joinable())
+  {
+    builder.thread = std::thread([this, build] { (this->*build)(); });
+  }
+}
+
+/// The thread is done with its last job, and waits for the next one. Nothing: the end.
+std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
+{
+  std::unique_lock<std::mutex> lock(this->mutex);
+  builder.inFlight = false;
+  this->changed.notify_all();
+  this->changed.wait(lock, [&] { return this->ending || builder.waiting.has_value(); });
+  if (this->ending)
+  {
+    return {};
+  }
+  builder.inFlight = true;
+  Job job;
+  job.request = std::move(*builder.waiting);
+  builder.waiting.reset();
+  job.number = this->number;
+  job.cloudNumber = this->cloudNumber;
+  job.cloudIsNew = std::exchange(builder.cloudIsNew, false);
+  job.cloud = std::move(builder.cloud);
+  return job;
+}
 
 bool SceneWorker::Implementation::isFollowed() const
 {
   const std::lock_guard<std::mutex> lock(this->mutex);
-  return this->waiting.has_value();
+  return this->whole.waiting.has_value();
 }
 
-void SceneWorker::Implementation::run()
+void SceneWorker::Implementation::buildWholes()
 {
   Pipeline pipeline;
   Clock::time_point shown = Clock::now() - std::chrono::hours(1);
-  std::unique_lock<std::mutex> lock(this->mutex);
-  while (true)
+  while (std::optional<Job> job = this->next(this->whole))
   {
-    this->changed.wait(lock, [this] { return this->ending || this->waiting.has_value(); });
-    if (this->ending)
+    if (job->cloudIsNew)
     {
-      return;
+      pipeline.setCloud(std::move(job->cloud));
     }
-    const SceneRequest request = std::move(*this->waiting);
-    this->waiting.reset();
-    this->inFlight = true;
     BuiltScene built;
-    built.number = this->number;
-    const bool newCloud = std::exchange(this->cloudIsNew, false);
-    vtkSmartPointer<vtkPointSet> newest = std::move(this->cloud);
-    lock.unlock();
-    if (newCloud)
+    built.number = job->number;
+    std::shared_ptr<const HapticScene> scene = pipeline.feel(job->request, built);
     {
-      pipeline.setCloud(std::move(newest));
+      const std::lock_guard<std::mutex> lock(this->mutex);
+      this->newestWhole = job->cloudNumber == this->cloudNumber ? scene : this->newestWhole;
     }
-    pipeline.feel(request, built);
+    if (job->request.publish)
+    {
+      job->request.publish(std::move(scene), job->number);
+    }
     const std::chrono::duration<double> since = Clock::now() - shown;
-    const bool shows = !this->isFollowed() || since.count() > kPictureSeconds;
-    if (shows)
+    if (this->isFollowed() && since.count() <= kPictureSeconds)
     {
-      pipeline.show(request, built);
-      shown = Clock::now();
+      continue;
     }
-    lock.lock();
-    this->inFlight = false;
-    if (shows)
+    pipeline.show(job->request, built);
+    shown = Clock::now();
+    const std::lock_guard<std::mutex> lock(this->mutex);
+    this->finished = std::move(built);
+    this->hasFinished = true;
+  }
+}
+
+void SceneWorker::Implementation::buildNear()
+{
+  NearSceneBuilder builder;
+  while (std::optional<Job> job = this->next(this->near))
+  {
+    if (job->cloudIsNew)
     {
-      this->finished = std::move(built);
-      this->hasFinished = true;
+      builder.setCloud(std::move(job->cloud));
     }
-    this->changed.notify_all();
+    std::shared_ptr<const HapticScene> newest;
+    {
+      const std::lock_guard<std::mutex> lock(this->mutex);
+      newest = job->cloudNumber == this->cloudNumber ? this->newestWhole : nullptr;
+    }
+    std::shared_ptr<const HapticScene> scene = builder.build(job->request, std::move(newest));
+    if (scene && job->request.publish)
+    {
+      job->request.publish(std::move(scene), job->number);
+    }
   }
 }
 
@@ -244,30 +313,46 @@ SceneWorker::~SceneWorker()
     self.ending = true;
   }
   self.changed.notify_all();
-  if (self.thread.joinable())
+  for (Builder* builder : { &self.whole, &self.near })
   {
-    self.thread.join();
+    if (builder->thread.joinable())
+    {
+      builder->thread.join();
+    }
   }
 }
 
 void SceneWorker::setCloud(vtkSmartPointer<vtkPointSet> cloud)
 {
-  const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  implementation_->cloud = std::move(cloud);
-  implementation_->cloudIsNew = true;
+  vtkSmartPointer<vtkPointSet> copy;
+  if (cloud)
+  {
+    copy.TakeReference(vtkPointSet::SafeDownCast(cloud->NewInstance()));
+    copy->ShallowCopy(cloud);
+  }
+  Implementation& self = *implementation_;
+  const std::lock_guard<std::mutex> lock(self.mutex);
+  self.whole.cloud = std::move(cloud);
+  self.near.cloud = std::move(copy);
+  self.whole.cloudIsNew = self.near.cloudIsNew = true;
+  self.newestWhole.reset();
+  ++self.cloudNumber;
 }
 
 std::uint64_t SceneWorker::request(SceneRequest request)
 {
   Implementation& self = *implementation_;
-  if (!self.thread.joinable())
+  const bool hasHand = bool(request.hand);
+  self.start(self.whole, &Implementation::buildWholes);
+  if (hasHand)
   {
-    self.thread = std::thread([&self] { self.run(); });
+    self.start(self.near, &Implementation::buildNear);
   }
   std::uint64_t number = 0;
   {
     const std::lock_guard<std::mutex> lock(self.mutex);
-    self.waiting = std::move(request);
+    self.near.waiting = hasHand ? std::optional<SceneRequest>(request) : std::nullopt;
+    self.whole.waiting = std::move(request);
     number = ++self.number;
   }
   self.changed.notify_all();
@@ -290,14 +375,14 @@ bool SceneWorker::take(BuiltScene& built)
 bool SceneWorker::busy() const
 {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  return implementation_->inFlight || implementation_->waiting.has_value();
+  return implementation_->whole.busy() || implementation_->near.busy();
 }
 
 void SceneWorker::wait()
 {
   Implementation& self = *implementation_;
   std::unique_lock<std::mutex> lock(self.mutex);
-  self.changed.wait(lock, [&self] { return !self.inFlight && !self.waiting.has_value(); });
+  self.changed.wait(lock, [&self] { return !self.whole.busy() && !self.near.busy(); });
 }
 
 void SceneWorker::cancel()
@@ -305,7 +390,8 @@ void SceneWorker::cancel()
   Implementation& self = *implementation_;
   {
     const std::lock_guard<std::mutex> lock(self.mutex);
-    self.waiting.reset();
+    self.whole.waiting.reset();
+    self.near.waiting.reset();
   }
   this->wait();
   const std::lock_guard<std::mutex> lock(self.mutex);

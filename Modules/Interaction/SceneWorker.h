@@ -39,8 +39,13 @@ struct SceneRequest
   bool useCovariance = true;
   std::vector<Setting> settings; ///< Applied, in this order, to the worker's own filters.
   bool hasBandwidth = false;     ///< The radii follow the bandwidth filter's rule.
-  /// Called in the worker's thread with the finished scene, or null; before the picture's arrays are made.
-  std::function<void(std::shared_ptr<const HapticScene>)> publish;
+  /// A box about the hand and what it touches, in the workspace; empty: there is no hand. May be missing.
+  /// Called in the worker's threads.
+  std::function<Bounds()> hand;
+  /// Called in the worker's threads with a finished scene and the request's number: a scene of what is near
+  /// the hand, where one is made, and that of the whole cloud, or null where there is nothing in the
+  /// workspace; before the picture's arrays are made. Two calls may meet.
+  std::function<void(std::shared_ptr<const HapticScene>, std::uint64_t)> publish;
 };
 
 /// What came of a request.
@@ -54,8 +59,10 @@ struct BuiltScene
   Status status = Status::Empty;
 };
 
-/// One build is in flight at a time; of the requests that come meanwhile only the newest is built. The
-/// picture may be left out of a build that is followed by another, but not for longer than kPictureSeconds.
+/// One build of the whole cloud is in flight at a time; of the requests that come meanwhile only the newest
+/// is built. The picture may be left out of a build that is followed by another, but not for longer than
+/// kPictureSeconds. A second thread builds what is near the hand (NearSceneBuilder) in the same way, so that
+/// new voxels are felt before the whole cloud is resampled.
 ///
 /// request(), setCloud(), take(), wait() and cancel() from one thread (the GUI's), which waits in the last
 /// two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and what one
@@ -66,7 +73,7 @@ public:
   static constexpr double kPictureSeconds = 0.1;
 
   SceneWorker();
-  ~SceneWorker(); ///< Waits for the build in flight.
+  ~SceneWorker(); ///< Waits for the builds in flight.
   SceneWorker(const SceneWorker&) = delete;
   SceneWorker& operator=(const SceneWorker&) = delete;
 
@@ -81,7 +88,7 @@ public:
   bool busy() const;
   /// Returns when nothing is in flight and nothing waits.
   void wait();
-  /// Forgets the request that waits and the result that was not taken, and waits for the build in flight.
+  /// Forgets the requests that wait and the result that was not taken, and waits for the builds in flight.
   void cancel();
 
 private:

@@ -21,6 +21,19 @@ vtkPolyData* shownCloud(vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilt
   return bandwidth ? bandwidth->GetOutput() : resampler->GetOutput();
 }
 
+/// What must be within reach of the hand: itself and what it touches.
+pointhaptics::Bounds handBounds(const pointhaptics::ServoLoop* servo)
+{
+  pointhaptics::Bounds bounds;
+  const pointhaptics::ServoSample latest = servo ? servo->latest() : pointhaptics::ServoSample();
+  if (latest.tick > 0)
+  {
+    bounds.include(latest.state.hip);
+    bounds.include(latest.state.proxy);
+  }
+  return bounds;
+}
+
 } // namespace
 
 void vtkInteractorStyleHaptic::ModelChanged()
@@ -136,9 +149,10 @@ void vtkInteractorStyleHaptic::RequestScene()
   SceneRequest request = SceneRequest::of(parts.resampler, parts.bandwidth);
   std::copy_n(parts.model->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
   request.useCovariance = this->UseCovariance;
+  request.hand = [servo = parts.servo] { return handBounds(servo); };
   request.publish = [publisher = &parts.publisher, cloud = parts.publisher.cloud()](
-                      std::shared_ptr<const pointhaptics::HapticScene> scene)
-  { publisher->publish(std::move(scene), cloud); };
+                      std::shared_ptr<const pointhaptics::HapticScene> scene, std::uint64_t number)
+  { publisher->publish(std::move(scene), cloud, number); };
   parts.requested = parts.worker.request(std::move(request));
 }
 

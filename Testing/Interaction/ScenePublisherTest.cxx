@@ -12,9 +12,11 @@ namespace
 {
 
 /// A square of 2 cm about the origin, put where the transform says.
-std::shared_ptr<const HapticScene> sceneAt(const AffineTransform& modelToWorkspace)
+HapticSceneInput squareAt(const AffineTransform& modelToWorkspace)
 {
   HapticSceneInput input;
+  input.cellSize = 0.001;
+  input.corner = Vec3{ -0.05, -0.05, -0.05 };
   input.modelToWorkspace = modelToWorkspace;
   for (int i = -10; i <= 10; ++i)
   {
@@ -23,8 +25,13 @@ std::shared_ptr<const HapticScene> sceneAt(const AffineTransform& modelToWorkspa
       input.points.push_back(modelToWorkspace.apply({ 0.001 * i, 0.001 * j, 0.0 }));
     }
   }
+  return input;
+}
+
+std::shared_ptr<const HapticScene> sceneAt(const AffineTransform& modelToWorkspace)
+{
   Status status = Status::Ok;
-  auto scene = HapticScene::create(std::move(input), status);
+  auto scene = HapticScene::create(squareAt(modelToWorkspace), status);
   EXPECT_EQ(status, Status::Ok);
   return scene;
 }
@@ -43,14 +50,21 @@ protected:
       [this](std::shared_ptr<const HapticScene> scene) { felt_.push_back(std::move(scene)); });
   }
 
+  /// As of one request after the other.
+  void publish(std::shared_ptr<const HapticScene> scene, std::uint64_t cloud)
+  {
+    publisher_.publish(std::move(scene), cloud, ++requests_);
+  }
+
   ScenePublisher publisher_;
+  std::uint64_t requests_ = 0;
   std::vector<std::shared_ptr<const HapticScene>> felt_;
 };
 
 TEST_F(ScenePublisherTest, AMovedModelIsFeltThereBeforeItIsResampled)
 {
   const auto first = sceneAt(shiftBy(0.0));
-  publisher_.publish(first, publisher_.cloud());
+  this->publish(first, publisher_.cloud());
   publisher_.move(shiftBy(0.003));
   ASSERT_EQ(felt_.size(), 2u);
   EXPECT_EQ(felt_[0], first);
@@ -60,38 +74,38 @@ TEST_F(ScenePublisherTest, AMovedModelIsFeltThereBeforeItIsResampled)
 
 TEST_F(ScenePublisherTest, ASceneMadeForAnEarlierPlaceIsFeltWhereTheModelIs)
 {
-  publisher_.publish(sceneAt(shiftBy(0.0)), publisher_.cloud());
+  this->publish(sceneAt(shiftBy(0.0)), publisher_.cloud());
   publisher_.move(shiftBy(0.001));
   const auto late = sceneAt(shiftBy(0.001));
   publisher_.move(shiftBy(0.002));
-  publisher_.publish(late, publisher_.cloud());
+  this->publish(late, publisher_.cloud());
   ASSERT_EQ(felt_.size(), 4u);
   EXPECT_EQ(felt_[3]->cloudNumber(), late->cloudNumber());
   EXPECT_EQ(felt_[3]->modelToWorkspace(), shiftBy(0.002));
   const auto inTime = sceneAt(shiftBy(0.002));
-  publisher_.publish(inTime, publisher_.cloud());
+  this->publish(inTime, publisher_.cloud());
   EXPECT_EQ(felt_.back(), inTime);
 }
 
 TEST_F(ScenePublisherTest, AStretchedModelWaitsForItsResampling)
 {
   const auto first = sceneAt(shiftBy(0.0));
-  publisher_.publish(first, publisher_.cloud());
+  this->publish(first, publisher_.cloud());
   const AffineTransform stretched = AffineTransform::scaling({ 1.0, 1.0, 2.0 });
   publisher_.move(stretched);
   EXPECT_EQ(felt_.size(), 1u);
   const auto there = sceneAt(stretched);
-  publisher_.publish(there, publisher_.cloud());
+  this->publish(there, publisher_.cloud());
   EXPECT_EQ(felt_.back(), there);
   // Made for where the model was; it cannot be moved, and something is better than nothing.
-  publisher_.publish(first, publisher_.cloud());
+  this->publish(first, publisher_.cloud());
   EXPECT_EQ(felt_.back(), first);
 }
 
 TEST_F(ScenePublisherTest, NothingToFeelIsPublishedToo)
 {
-  publisher_.publish(sceneAt(shiftBy(0.0)), publisher_.cloud());
-  publisher_.publish(nullptr, publisher_.cloud());
+  this->publish(sceneAt(shiftBy(0.0)), publisher_.cloud());
+  this->publish(nullptr, publisher_.cloud());
   ASSERT_EQ(felt_.size(), 2u);
   EXPECT_EQ(felt_[1], nullptr);
   publisher_.move(shiftBy(0.001));
@@ -101,13 +115,70 @@ TEST_F(ScenePublisherTest, NothingToFeelIsPublishedToo)
 TEST_F(ScenePublisherTest, ACloudThatIsGoneIsNeitherMovedNorPublished)
 {
   const std::uint64_t old = publisher_.cloud();
-  publisher_.publish(sceneAt(shiftBy(0.0)), old);
+  this->publish(sceneAt(shiftBy(0.0)), old);
   publisher_.startCloud();
   publisher_.move(shiftBy(0.001));
-  publisher_.publish(sceneAt(shiftBy(0.001)), old);
+  this->publish(sceneAt(shiftBy(0.001)), old);
   EXPECT_EQ(felt_.size(), 1u);
-  publisher_.publish(sceneAt(shiftBy(0.001)), publisher_.cloud());
+  this->publish(sceneAt(shiftBy(0.001)), publisher_.cloud());
   EXPECT_EQ(felt_.size(), 2u);
+}
+
+/// As sceneAt(), of the part about the origin.
+std::shared_ptr<const HapticScene> partAt(
+  const AffineTransform& modelToWorkspace, const std::shared_ptr<const HapticScene>& whole)
+{
+  Lattice lattice;
+  lattice.origin = { -0.05, -0.05, -0.05 };
+  lattice.spacing = { 0.001, 0.001, 0.001 };
+  lattice.dimensions = { 100, 100, 100 };
+  Bounds hand;
+  hand.include({ 0.0, 0.0, 0.0 });
+  HapticSceneInput input = squareAt(modelToWorkspace);
+  input.part = ScenePart::about(hand, whole, modelToWorkspace, lattice);
+  EXPECT_TRUE(input.part);
+  Status status = Status::Ok;
+  auto scene = HapticScene::create(std::move(input), status);
+  EXPECT_EQ(status, Status::Ok);
+  return scene;
+}
+
+TEST_F(ScenePublisherTest, APartIsFeltUntilTheWholeOfTheSameRequestIsThere)
+{
+  const std::uint64_t cloud = publisher_.cloud();
+  const auto first = sceneAt(shiftBy(0.0));
+  publisher_.publish(first, cloud, 1);
+  const auto part = partAt(shiftBy(0.002), first);
+  publisher_.publish(part, cloud, 2);
+  EXPECT_EQ(felt_.back(), part);
+  const auto whole = sceneAt(shiftBy(0.002));
+  publisher_.publish(whole, cloud, 2);
+  EXPECT_EQ(felt_.back(), whole);
+  publisher_.publish(part, cloud, 2);
+  EXPECT_EQ(felt_.back(), whole);
+}
+
+TEST_F(ScenePublisherTest, AnEarlierWholeIsFeltBeyondALaterPart)
+{
+  const std::uint64_t cloud = publisher_.cloud();
+  const auto first = sceneAt(shiftBy(0.0));
+  publisher_.publish(first, cloud, 1);
+  publisher_.move(shiftBy(0.003));
+  const auto part = partAt(shiftBy(0.003), first);
+  publisher_.publish(part, cloud, 3);
+  const auto second = sceneAt(shiftBy(0.002));
+  publisher_.publish(second, cloud, 2);
+  EXPECT_EQ(felt_.back()->cloudNumber(), part->cloudNumber());
+  ASSERT_NE(felt_.back()->beyond(), nullptr);
+  EXPECT_EQ(felt_.back()->beyond()->cloudNumber(), second->cloudNumber());
+  EXPECT_EQ(felt_.back()->beyond()->modelToWorkspace(), shiftBy(0.003));
+  // Both go where the model goes.
+  publisher_.move(shiftBy(0.004));
+  EXPECT_EQ(felt_.back()->modelToWorkspace(), shiftBy(0.004));
+  EXPECT_EQ(felt_.back()->beyond()->modelToWorkspace(), shiftBy(0.004));
+  const std::size_t published = felt_.size();
+  publisher_.publish(partAt(shiftBy(0.002), first), cloud, 2);
+  EXPECT_EQ(felt_.size(), published) << "overtaken";
 }
 
 } // namespace

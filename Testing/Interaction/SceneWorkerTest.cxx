@@ -58,7 +58,7 @@ protected:
   {
     SceneRequest request = SceneRequest::of(resampler_, bandwidth_);
     request.modelToWorkspace[11] = z;
-    request.publish = [this](std::shared_ptr<const HapticScene> scene)
+    request.publish = [this](std::shared_ptr<const HapticScene> scene, std::uint64_t)
     {
       newest_ = std::move(scene); // the worker's until wait()
       ++published_;
@@ -191,7 +191,7 @@ TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
   for (int i = 0; i < 60; ++i)
   {
     SceneRequest request = this->shifted(1e-4 * (i % 7));
-    request.publish = [&loop](std::shared_ptr<const HapticScene> scene)
+    request.publish = [&loop](std::shared_ptr<const HapticScene> scene, std::uint64_t)
     { loop.publishScene(std::move(scene)); };
     worker_.request(std::move(request));
     if (i % 3 == 0)

@@ -27,7 +27,8 @@ public:
     if (request.index)
     {
       points_ = request.index->points();
-      for (const PointRange& range : request.index->rangesInside(request.transform, request.lattice))
+      const Lattice& lattice = request.part ? *request.part : request.lattice;
+      for (const PointRange& range : request.index->rangesInside(request.transform, lattice))
       {
         append(range, chunkPoints);
       }

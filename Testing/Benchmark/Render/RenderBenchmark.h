@@ -37,15 +37,16 @@ public:
 using MakeTurntable = std::function<std::unique_ptr<Turntable>(
   const std::string& file, int width, int height, std::string& message)>;
 
-/// The viewer with a servo loop and a still hand.
+/// The viewer with a servo loop and a still hand that touches the cloud.
 class ModelMover
 {
 public:
   /// From a key's event until the servo loop had a scene of it; below 0: it did not come.
   struct Response
   {
-    double movedSeconds;     ///< The old voxels where the model is now.
-    double resampledSeconds; ///< Its new voxels.
+    double movedSeconds; ///< The old voxels where the model is now.
+    double nearSeconds;  ///< New voxels, resampled there, within reach of the hand.
+    double wholeSeconds; ///< New voxels of the whole cloud.
   };
 
   virtual ~ModelMover() = default;

@@ -352,3 +352,43 @@ TEST(VoxelResampler, CloudsWithoutAPointInsideAreNoError)
       resampler.assign(none, [](const std::int64_t*, const std::int64_t*, int) { FAIL(); }), Status::Ok);
   }
 }
+
+TEST(VoxelResampler, OfAPartItsVoxelsAreTheSameBitForBit)
+{
+  const Lattice lattice = latticeOf(120, 120, 120);
+  const std::vector<Vec3> points = randomBox(300000, 5, { -150, -150, -150 }, { 150, 150, 150 });
+  PointIndex index;
+  ASSERT_EQ(index.build({ points.data(), std::int64_t(points.size()) }), Status::Ok);
+  VoxelRequest request = requestFor(points, lattice);
+  request.transform = generalTransform(100.0);
+  request.transform = AffineTransform::scaling({ 0.01, 0.01, 0.01 }) * request.transform;
+  request.index = &index;
+  VoxelResampler resampler;
+  const LevelResult whole = runOf(resampler, request).levels[0];
+  request.part = lattice;
+  request.part->origin =
+    lattice.origin + Vec3{ 40 * lattice.spacing.x, 30 * lattice.spacing.y, 50 * lattice.spacing.z };
+  request.part->dimensions = { 20, 35, 10 };
+  const RunResult run = runOf(resampler, request);
+  const LevelResult& part = run.levels[0];
+  EXPECT_LT(part.keys.size(), whole.keys.size() / 10);
+  EXPECT_GT(run.clipped, 200000);
+  int inside = 0;
+  for (std::size_t i = 0; i < whole.keys.size(); ++i)
+  {
+    const auto voxel = lattice.indexOf(whole.keys[i]);
+    if (voxel[0] < 40 || voxel[0] >= 60 || voxel[1] < 30 || voxel[1] >= 65 || voxel[2] < 50 || voxel[2] >= 60)
+    {
+      continue;
+    }
+    const auto at =
+      std::size_t(std::lower_bound(part.keys.begin(), part.keys.end(), whole.keys[i]) - part.keys.begin());
+    ASSERT_LT(at, part.keys.size());
+    ASSERT_EQ(part.keys[at], whole.keys[i]);
+    EXPECT_EQ(part.counts[at], whole.counts[i]);
+    EXPECT_EQ(part.means[3 * at + 1], whole.means[3 * i + 1]);
+    EXPECT_EQ(part.covariances[at].xz, whole.covariances[i].xz);
+    ++inside;
+  }
+  EXPECT_GT(inside, 100);
+}

@@ -1,0 +1,70 @@
+/// @file
+/// Which part of a cloud a hand can feel before the next scene comes.
+#pragma once
+
+#include "Core/AffineTransform.h"
+#include "Core/CellPyramid.h"
+#include "Core/Lattice.h"
+#include "Core/RadiusField.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pointhaptics
+{
+
+class HapticScene;
+
+/// A box about the hand, and what a scene of the cells in it takes from the newest one of the whole cloud.
+/// The cells are those a scene of the whole cloud would have, bit for bit; the radii of fit and proxy, which
+/// cost most of a scene's time and belong to the place on the model more than to its voxels, are taken over.
+/// Within covered() forces are those of a whole scene made anew up to what the radii matter: 0.5 % of the
+/// force (NearSceneTest). Frame: the lattice of the new scene. Immutable.
+class ScenePart
+{
+public:
+  /// Half-width of covered() about the hand, in index cells: 5 mm in the default workspace.
+  static constexpr double kReachCells = 16.0;
+  /// Lengths on the model, new over old, up to which radii are taken over; and one over that.
+  static constexpr double kMostScale = 1.25;
+
+  /// @param hand what is to be within reach: the HIP and the point of contact. @param whole the scene of the
+  /// whole cloud made last; its index cells are counted from a corner. @param modelToLattice, @p lattice
+  /// those of the new scene. Nothing: the whole has no corner, its cloud would not keep its shape or nearly
+  /// its size, or the hand is far from the workspace.
+  static std::optional<ScenePart> about(const Bounds& hand, std::shared_ptr<const HapticScene> whole,
+    const AffineTransform& modelToLattice, const Lattice& lattice);
+
+  const std::shared_ptr<const HapticScene>& whole() const { return whole_; }
+  const Bounds& covered() const { return covered_; }
+  double cellSize() const { return cellSize_; }
+  /// Lengths of the new scene over those of the whole one's lattice frame.
+  double scale() const { return scale_; }
+  /// Whether a cell with this mean belongs to the part: it lies in one of its blocks, which are as large as
+  /// the coarsest cells.
+  bool holds(const Vec3& mean) const noexcept;
+  /// Voxels of @p lattice that have all means that the part holds.
+  const Lattice& voxels() const { return voxels_; }
+  /// About which part of the whole scene's cells are in it, 0 to 1.
+  double share() const;
+  /// The whole scene's answer for each cell of the field's node level; where it has no nodes near by the
+  /// radii are chosen by that cell alone, and the proxy radius is the typical one.
+  std::vector<LocalScale> scales(const CellPyramid& pyramid) const;
+
+private:
+  std::shared_ptr<const HapticScene> whole_;
+  AffineTransform toWhole_; ///< Into the whole one's lattice frame.
+  AffineTransform fromWhole_;
+  Bounds covered_;
+  Lattice voxels_;
+  Vec3 corner_;
+  double cellSize_ = 0.0;
+  double scale_ = 1.0;
+  std::array<std::int64_t, 3> first_{}; ///< Index cells of the part's blocks, and an end.
+  std::array<std::int64_t, 3> end_{};
+};
+
+} // namespace pointhaptics
