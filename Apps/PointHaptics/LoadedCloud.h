@@ -33,7 +33,8 @@ struct LoadedCloud
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
   Bounds bounds;                      ///< Of the finite points, after CloudRequest::transform.
   CloudOrientation orientation;
-  std::string title; ///< The names of the files, without their folders.
+  std::string colorBy; ///< What was asked for, by the name it has: arrays of the pipeline in any case.
+  std::string title;   ///< The names of the files, without their folders.
 };
 
 /// Bounds of the finite points after @p transform; the corners of a box would be too wide for a turned cloud.

@@ -102,7 +102,7 @@ int addTuples(vtkDataArray* array, vtkIdList* ids, vtkPolyData* part)
   return part->GetPointData()->AddArray(some);
 }
 
-/// The points @p ids of @p cloud with the arrays of their colours and sizes.
+/// The points @p ids of @p cloud with the arrays of their colours, sizes and light.
 vtkSmartPointer<vtkPolyData> pick(vtkPolyData* cloud, vtkMapper* mapper, vtkIdList* ids)
 {
   auto part = vtkSmartPointer<vtkPolyData>::New();
@@ -119,11 +119,15 @@ vtkSmartPointer<vtkPolyData> pick(vtkPolyData* cloud, vtkMapper* mapper, vtkIdLi
     }
   }
   auto* splats = vtkSplatMapper::SafeDownCast(mapper);
-  vtkDataArray* sizes =
-    splats ? cloud->GetPointData()->GetArray(splats->GetSizeArrayName().c_str()) : nullptr;
-  if (sizes && !part->GetPointData()->HasArray(sizes->GetName()))
+  const std::string names[] = { splats ? splats->GetSizeArrayName() : std::string(),
+    splats && splats->GetAmbientLight() ? splats->GetNormalArrayName() : std::string() };
+  for (const std::string& name : names)
   {
-    addTuples(sizes, ids, part);
+    vtkDataArray* array = name.empty() ? nullptr : cloud->GetPointData()->GetArray(name.c_str());
+    if (array && !part->GetPointData()->HasArray(name.c_str()))
+    {
+      addTuples(array, ids, part);
+    }
   }
   vtkNew<vtkCellArray> vertices;
   vertices->InsertNextCell(static_cast<int>(ids->GetNumberOfIds()));

@@ -1,6 +1,7 @@
 #include "SceneWorker.h"
 
 #include "HapticSceneBuilder.h"
+#include "SurfaceArrays.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -65,6 +66,7 @@ public:
       scene = makeHapticScene(resampler_->GetOutput(), built.status, request.useCovariance, rule);
     }
     built.empty = scene == nullptr;
+    scene_ = request.hasResiduals || request.hasNormals ? scene : nullptr;
     if (request.publish)
     {
       request.publish(std::move(scene));
@@ -85,6 +87,10 @@ public:
       }
       built.means->ShallowCopy(result);
     }
+    if (scene_)
+    {
+      addSurfaceArrays(built.means, *scene_, request.hasResiduals, request.hasNormals);
+    }
     this->letGo();
   }
 
@@ -93,6 +99,7 @@ public:
   {
     bandwidth_->GetOutput()->ReleaseData();
     resampler_->GetOutput()->ReleaseData();
+    scene_.reset();
   }
 
 private:
@@ -101,6 +108,7 @@ private:
   vtkNew<vtkVoxelMeanResampler> resampler_;
   vtkNew<vtkKernelBandwidthFilter> bandwidth_;
   vtkIdType numberOfPoints_ = 0;
+  std::shared_ptr<const HapticScene> scene_; // for the arrays of the picture
 };
 
 } // namespace
@@ -214,7 +222,8 @@ void SceneWorker::Implementation::run()
     }
     pipeline.feel(request, built);
     const std::chrono::duration<double> since = Clock::now() - shown;
-    const bool shows = !this->isFollowed() || since.count() > kPictureSeconds;
+    const bool isSlow = request.hasResiduals || request.hasNormals;
+    const bool shows = !this->isFollowed() || (!isSlow && since.count() > kPictureSeconds);
     if (shows)
     {
       pipeline.show(request, built);

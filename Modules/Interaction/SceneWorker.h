@@ -39,6 +39,10 @@ struct SceneRequest
   bool useCovariance = true;
   std::vector<Setting> settings; ///< Applied, in this order, to the worker's own filters.
   bool hasBandwidth = false;     ///< The radii follow the bandwidth filter's rule.
+  /// Arrays of the picture that take long: see SurfaceArrays.h. A picture with them is left out of a build
+  /// that is followed by another.
+  bool hasResiduals = false;
+  bool hasNormals = false;
   /// Called in the worker's thread with the finished scene, or null; before the picture's arrays are made.
   std::function<void(std::shared_ptr<const HapticScene>)> publish;
 };

@@ -136,6 +136,8 @@ void vtkInteractorStyleHaptic::RequestScene()
   SceneRequest request = SceneRequest::of(parts.resampler, parts.bandwidth);
   std::copy_n(parts.model->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
   request.useCovariance = this->UseCovariance;
+  request.hasResiduals = this->ComputeResiduals;
+  request.hasNormals = this->ComputeNormals;
   request.publish = [publisher = &parts.publisher, cloud = parts.publisher.cloud()](
                       std::shared_ptr<const pointhaptics::HapticScene> scene)
   { publisher->publish(std::move(scene), cloud); };
