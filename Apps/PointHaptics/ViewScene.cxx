@@ -53,8 +53,6 @@ constexpr double kDepthShadingScaleOfColors = 0.08;
 constexpr double kSmallestSphere = 0.022;
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
 constexpr double kFacingEnough = 0.25;
-/// The ends of the colours stay where they are while the values' ends are within this part of their width.
-constexpr double kSameRange = 0.1;
 
 void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
 {
@@ -344,18 +342,9 @@ void ViewScene::meansChanged()
     return;
   }
   auto* colors = vtkLookupTable::SafeDownCast(mapper_->GetLookupTable());
-  if (cloud_->GetPointData()->HasArray(source->array.c_str()) || !colors)
+  if (colors && !cloud_->GetPointData()->HasArray(source->array.c_str()))
   {
-    return;
-  }
-  double range[2];
-  colorRange(output, *source, range);
-  const double* shown = colors->GetTableRange();
-  const double width = shown[1] - shown[0];
-  if (std::abs(range[0] - shown[0]) > kSameRange * width ||
-    std::abs(range[1] - shown[1]) > kSameRange * width)
-  {
-    colors->SetTableRange(range);
+    followColorRange(output, *source, colors);
   }
 }
 

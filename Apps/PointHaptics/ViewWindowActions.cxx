@@ -229,7 +229,7 @@ nlohmann::ordered_json ViewWindow::settings()
   nlohmann::ordered_json settings = options_.given;
   double bounds[6];
   scene_.getWorkspaceBounds(bounds);
-  setModel(settings, style_->GetModelTransform()->GetMatrix(), bounds);
+  setModel(settings, style_->GetModelTransform()->GetMatrix(), options_.lattice.metresPerUnit(), bounds);
   if (voxelSize_ > 0.0)
   {
     setVoxel(settings, voxelSize_);

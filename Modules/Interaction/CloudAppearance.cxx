@@ -44,6 +44,8 @@ constexpr double kColorPoints[9][3] = { { 0.267, 0.005, 0.329 }, { 0.278, 0.175,
 
 /// Of the larger end of a range of colours: an error's least value is an accident.
 constexpr double kAsGoodAsZero = 1e-3;
+/// Of the width of a range that stays.
+constexpr double kSameRange = 0.1;
 constexpr int kScalarBarFont = 15;
 
 double valueOf(vtkDataArray* array, vtkIdType tuple, int component)
@@ -213,6 +215,20 @@ std::string describeColorSource(vtkPolyData* cloud, const ColorSource& source)
 void colorRange(vtkPolyData* cloud, const ColorSource& source, double range[2])
 {
   robustRange(cloud->GetPointData()->GetArray(source.array.c_str()), source.component, range);
+}
+
+bool followColorRange(vtkPolyData* cloud, const ColorSource& source, vtkLookupTable* colors)
+{
+  double range[2];
+  colorRange(cloud, source, range);
+  const double* shown = colors->GetTableRange();
+  const double slack = kSameRange * (shown[1] - shown[0]);
+  const bool isOther = std::abs(range[0] - shown[0]) > slack || std::abs(range[1] - shown[1]) > slack;
+  if (isOther)
+  {
+    colors->SetTableRange(range);
+  }
+  return isOther;
 }
 
 bool hasColors(vtkPolyData* cloud)

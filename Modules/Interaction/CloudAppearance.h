@@ -58,6 +58,12 @@ POINTHAPTICSINTERACTION_EXPORT std::string describeColorSource(vtkPolyData* clou
 POINTHAPTICSINTERACTION_EXPORT void colorRange(
   vtkPolyData* cloud, const ColorSource& source, double range[2]);
 
+/// Sets the range of @p colors to the colorRange() of @p source, unless both ends are within a tenth of its
+/// width of that already: colours that creep while the model moves would tell nothing. @return whether it was
+/// set.
+POINTHAPTICSINTERACTION_EXPORT bool followColorRange(
+  vtkPolyData* cloud, const ColorSource& source, vtkLookupTable* colors);
+
 /// Makes @p mapper and @p actor draw the points of the mapper's input as squares of @p pointSize pixels.
 /// @param colorBy what findColorSource() takes; "rgb" for the active colours; empty: colours if there, else
 /// "Height", else one colour. An array is coloured over its colorRange(), grey where it is NaN. False: there
