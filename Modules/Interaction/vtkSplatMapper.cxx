@@ -215,15 +215,18 @@ void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
   glEnable(GL_PROGRAM_POINT_SIZE);
   vtkOpenGLHelper& points = this->Primitives[PrimitivePoints];
-  if (this->Ranges.empty() || renderer->GetSelector())
+  if (renderer->GetSelector())
   {
     this->Superclass::RenderPieceDraw(renderer, actor);
   }
   else if (points.IBO->IndexCount > 0)
   {
+    // All by the same call as parts: others round otherwise.
+    const std::vector<std::array<vtkIdType, 2>> all = { { 0,
+      static_cast<vtkIdType>(points.IBO->IndexCount) } };
     this->UpdateShaders(points, renderer, actor);
     points.IBO->Bind();
-    for (const auto& [begin, end] : this->Ranges)
+    for (const auto& [begin, end] : this->Ranges.empty() ? all : this->Ranges)
     {
       const auto last = std::min(end, static_cast<vtkIdType>(points.IBO->IndexCount));
       const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(GLuint);
