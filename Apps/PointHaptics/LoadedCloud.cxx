@@ -2,6 +2,7 @@
 
 #include "CloudAppearance.h"
 #include "LatticeChoice.h"
+#include "SurfaceArrays.h"
 #include "vtkPointCloudReader.h"
 
 #include <fmt/format.h>
@@ -14,6 +15,9 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
+#include <cctype>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -83,10 +87,9 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName,
 void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
 {
   vtkPointData* data = cloud->GetPointData();
-  const bool colors = hasColors(cloud) && (colorBy.empty() || colorBy == "rgb");
   const std::optional<ColorSource> source = findColorSource(cloud, colorBy);
   const std::string kept = source ? source->array : colorBy;
-  vtkDataArray* scalars = colors ? data->GetScalars() : nullptr;
+  vtkDataArray* scalars = hasColors(cloud) ? data->GetScalars() : nullptr; // a key goes back to them
   for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
@@ -99,10 +102,32 @@ void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
 }
 
 /// Arrays the pipeline adds to those of the cloud.
+constexpr const char* kMadeByPipeline[] = { kHeightArrayName, "Density", "ProxyRadius", "Bandwidth",
+  "VoxelPointCount", kResidualArrayName };
+
 bool isMadeByPipeline(const std::string& name)
 {
-  return name == kHeightArrayName || name == "ProxyRadius" || name == "Bandwidth" ||
-    name == "VoxelPointCount";
+  return std::find(std::begin(kMadeByPipeline), std::end(kMadeByPipeline), name) != std::end(kMadeByPipeline);
+}
+
+std::string lowered(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+/// An array of the cloud by its own name, else one of the pipeline in whatever case it was written.
+std::string fullName(vtkPolyData* cloud, const std::string& colorBy)
+{
+  for (const char* made : kMadeByPipeline)
+  {
+    if (!findColorSource(cloud, colorBy) && lowered(made) == lowered(colorBy))
+    {
+      return made;
+    }
+  }
+  return colorBy;
 }
 
 /// "Velocity (:x, :y, :z, :magnitude)": what can be said of @p array.
@@ -143,8 +168,7 @@ bool canColorBy(vtkPolyData* cloud, const std::string& name, std::string& messag
       message += fmt::format(" {},", withComponents(cloud, each));
     }
   }
-  message += fmt::format(
-    "{} {}, ProxyRadius, Bandwidth, VoxelPointCount", hasColors(cloud) ? " rgb," : "", kHeightArrayName);
+  message += fmt::format("{} {}", hasColors(cloud) ? " rgb," : "", fmt::join(kMadeByPipeline, ", "));
   return false;
 }
 
@@ -211,7 +235,8 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
     message = fmt::format("{}: no point is finite (all are NaN or infinite); nothing to show", result.title);
     return false;
   }
-  if (!canColorBy(result.cloud, request.colorBy, message))
+  result.colorBy = fullName(result.cloud, request.colorBy);
+  if (!canColorBy(result.cloud, result.colorBy, message))
   {
     return false;
   }
@@ -221,7 +246,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   {
     addHeightArray(result.cloud, result.orientation.up);
   }
-  keepArrays(result.cloud, request.colorBy);
+  keepArrays(result.cloud, result.colorBy);
   result.latticeDimension = request.choosesLattice ? chooseLatticeDimension(result.cloud) : 0;
   loaded = std::move(result);
   return true;

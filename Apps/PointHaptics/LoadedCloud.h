@@ -34,6 +34,7 @@ struct LoadedCloud
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
   Bounds bounds;                      ///< Of the finite points, after CloudRequest::transform.
   CloudOrientation orientation;
+  std::string colorBy;      ///< What was asked for, by the name it has: arrays of the pipeline in any case.
   int latticeDimension = 0; ///< chooseLatticeDimension(), where that was wanted; else 0.
   std::string title;        ///< The names of the files, without their folders.
 };

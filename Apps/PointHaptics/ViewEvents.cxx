@@ -1,5 +1,7 @@
 #include "ViewEvents.h"
 
+#include "XLibrary.h"
+
 #include <vtkCommand.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
@@ -8,7 +10,6 @@
 #include <chrono>
 
 #if defined(__unix__) && !defined(__APPLE__)
-#include <dlfcn.h>
 #include <poll.h>
 #endif
 
@@ -25,12 +26,9 @@ constexpr auto kTimerPeriod = std::chrono::milliseconds(33);
 /// The socket on which the X server's events of @p window come; -1: there is none.
 int eventSocket(vtkRenderWindow* window)
 {
-  // VTK brings the library in; asking for it by name here saves a dependency of our own.
-  void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
   using ConnectionNumber = int (*)(void*);
-  const auto connectionNumber =
-    library ? reinterpret_cast<ConnectionNumber>(dlsym(library, "XConnectionNumber")) : nullptr;
-  void* display = window->IsA("vtkXOpenGLRenderWindow") ? window->GetGenericDisplayId() : nullptr;
+  const auto connectionNumber = reinterpret_cast<ConnectionNumber>(findXFunction("XConnectionNumber"));
+  void* display = xDisplayOf(window);
   return connectionNumber && display ? connectionNumber(display) : -1;
 }
 #endif

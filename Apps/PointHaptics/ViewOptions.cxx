@@ -223,6 +223,11 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
     .add_flag("--figure", options.figure,
       "Nothing but the cloud in one colour on white, the workspace, proxy and normal; key O")
     ->group(group);
+  command
+    .add_flag("--ambient", options.ambient,
+      "Ambient light from the normals of the surface that is felt: shows the shape of a cloud without "
+      "colours; key L")
+    ->group(group);
   std::vector<std::string> shapes = { "auto", "none" };
   for (int shape = 0; shape < kNumberOfShapes; ++shape)
   {
@@ -306,9 +311,9 @@ void ViewOptions::addTo(CLI::App& command)
     "Axis of the cloud that points up; default: a guess");
   command
     .add_option("--color-by", this->colorBy,
-      "Array to colour by: rgb, Height, ProxyRadius, ..., with :x, :0 or :magnitude for a component of a "
-      "vector; default: "
-      "rgb, or Height")
+      "Array to colour by: rgb, height, density, proxyradius, residual (the distance of each voxel mean from "
+      "the surface that is felt) or one of the file, with :x, :0 or :magnitude for a component of a vector; "
+      "key M; default: rgb, or height")
     ->type_name("ARRAY[:COMPONENT]");
   addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS",
     "Diameter of a point; default: as the kernel bandwidth says, so that surfaces close");

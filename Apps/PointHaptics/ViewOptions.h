@@ -53,6 +53,7 @@ struct ViewOptions
   bool pushPointer = false;
   bool axes = false;
   bool figure = false;
+  bool ambient = false;
   std::string ideal = "auto"; ///< Name of the shape whose exact force the chart shows, auto or none.
   bool noCovariance = false;
   std::string method = "surface-fit";

@@ -108,6 +108,8 @@ bool makePicture(ViewScene& scene, const ViewOptions& options, std::string& mess
   {
     scene.props()->Update(shown.state);
   }
+  scene.showAmbient(options.ambient);
+  scene.completeMeans(!options.noCovariance);
   scene.showAxes(options.axes);
   scene.showFigure(options.figure);
   scene.placeAxes(scene.modelMatrix());

@@ -4,10 +4,10 @@
 
 #include "CloudAppearance.h"
 #include "HapticSceneBuilder.h"
+#include "SurfaceArrays.h"
 #include "vtkCloudAxes.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
-#include "vtkSplatMapper.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include "Core/Lattice.h"
@@ -18,6 +18,7 @@
 #include <vtkCamera.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkLookupTable.h>
 #include <vtkMatrix4x4.h>
 #include <vtkMatrixToLinearTransform.h>
 #include <vtkPNGWriter.h>
@@ -166,6 +167,10 @@ void ViewScene::open(LoadedCloud loaded, const ViewOptions& options)
 {
   cloud_ = std::move(loaded.cloud);
   cloudBounds_ = {};
+  colorBy_ = loaded.colorBy;
+  ownColor_ = colorBy_ != "rgb" && findColorSource(cloud_, colorBy_) ? colorBy_ : std::string();
+  unit_ = options.lattice.unit;
+  cloudUp_ = loaded.orientation.up;
   axes_->SetMetresPerUnit(options.lattice.metresPerUnit());
   orientation_ = loaded.orientation;
   title_ = loaded.title;
@@ -207,9 +212,14 @@ void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
   options.bandwidth.configure(bandwidth_);
   // The picture needs the sizes of its splats and what it is coloured by; the scene computes the few radii it
   // needs.
-  bandwidth_->ComputeDensityOff();
   bandwidth_->ComputeBandwidthOn();
-  bandwidth_->SetComputeProxyRadius(options.colorBy == "ProxyRadius");
+  this->chooseArrays();
+}
+
+void ViewScene::chooseArrays()
+{
+  bandwidth_->SetComputeDensity(colorBy_ == "Density");
+  bandwidth_->SetComputeProxyRadius(colorBy_ == "ProxyRadius");
 }
 
 bool ViewScene::build(const ViewOptions& options, std::string& message)
@@ -239,16 +249,109 @@ bool ViewScene::build(const ViewOptions& options, std::string& message)
   const double edge = std::max({ extent.x, extent.y, extent.z });
   props_->SetForceScale(0.06 * edge);
   props_->SetSmallestSphereRadius(kSmallestSphere * edge);
-  const bool showsColors = hasColors(output) && (options.colorBy.empty() || options.colorBy == "rgb");
+  mapper_->SetFixedPixels(options.pointSize);
+  mapper_->SetSkyDirection(&orientation_.up.x);
+  this->applyColors();
+  return true;
+}
+
+/// Colours the means by what is asked for, or as if nothing were where they do not have it.
+void ViewScene::applyColors()
+{
+  vtkPolyData* output = bandwidth_->GetOutput();
+  const Vec3 extent = workspace_.extent();
+  const bool showsColors = hasColors(output) && (colorBy_.empty() || colorBy_ == "rgb");
+  const double edge = std::max({ extent.x, extent.y, extent.z });
   applyDepthShading(renderer_, (showsColors ? kDepthShadingScaleOfColors : kDepthShadingScale) * edge,
     showsColors ? kDepthToleranceOfColors * edge : 0.0);
-  mapper_->SetFixedPixels(options.pointSize);
-  colorBy_ = options.colorBy;
   applyCloudAppearance(output, mapper_, actor_, colorBy_);
+  coloredBy_ = showsColors || findColorSource(output, colorBy_) ? colorBy_ : std::string();
   isColored_ = mapper_->GetScalarVisibility() != 0;
   actor_->GetProperty()->GetColor(plainColor_);
   this->applyLook();
-  return true;
+}
+
+std::vector<std::string> ViewScene::colorChoices() const
+{
+  std::vector<std::string> names;
+  if (hasColors(cloud_))
+  {
+    names.emplace_back("rgb");
+  }
+  names.emplace_back(kHeightArrayName);
+  if (!ownColor_.empty())
+  {
+    names.push_back(ownColor_);
+  }
+  for (const char* name : { "Density", "ProxyRadius", kResidualArrayName })
+  {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+    {
+      names.emplace_back(name);
+    }
+  }
+  return names;
+}
+
+bool ViewScene::setColorBy(const std::string& name)
+{
+  colorBy_ = name;
+  this->chooseArrays();
+  vtkPointData* data = cloud_->GetPointData();
+  const bool lacksHeight = name == kHeightArrayName && !data->HasArray(kHeightArrayName);
+  if (lacksHeight)
+  {
+    addHeightArray(cloud_, cloudUp_);
+  }
+  vtkPolyData* output = bandwidth_->GetOutput();
+  const bool isThere = name.empty() || (name == "rgb" && hasColors(output)) || findColorSource(output, name);
+  if (isThere)
+  {
+    this->applyColors();
+  }
+  return !isThere;
+}
+
+void ViewScene::showAmbient(bool ambient)
+{
+  mapper_->SetAmbientLight(ambient);
+  detail_.recolor();
+}
+
+bool ViewScene::wantsResiduals() const
+{
+  return colorBy_ == kResidualArrayName && !cloud_->GetPointData()->HasArray(kResidualArrayName);
+}
+
+void ViewScene::completeMeans(bool useCovariance)
+{
+  Status status = Status::Ok;
+  const bool isNeeded = this->wantsResiduals() || this->isAmbient();
+  bandwidth_->Update(); // the workspace was set since: the render must not run the filters again
+  if (const auto scene = isNeeded ? this->makeScene(useCovariance, status) : nullptr)
+  {
+    addSurfaceArrays(bandwidth_->GetOutput(), *scene, this->wantsResiduals(), this->isAmbient());
+    this->meansChanged();
+  }
+}
+
+void ViewScene::meansChanged()
+{
+  vtkPolyData* output = bandwidth_->GetOutput();
+  const std::optional<ColorSource> source = findColorSource(output, colorBy_);
+  if (!source || coloredBy_ != colorBy_)
+  {
+    if (source)
+    {
+      this->applyColors();
+    }
+    return;
+  }
+  auto* colors = vtkLookupTable::SafeDownCast(mapper_->GetLookupTable());
+  if (colors && !cloud_->GetPointData()->HasArray(source->array.c_str()))
+  {
+    followColorRange(output, *source, colors);
+  }
 }
 
 void ViewScene::showAxes(bool visible)
@@ -272,8 +375,9 @@ void ViewScene::applyLook()
   applyBackground(renderer_);
   scalarBar_->SetLookupTable(mapper_->GetLookupTable());
   const std::optional<ColorSource> source = findColorSource(output, colorBy_);
-  scalarBar_->SetTitle(((source ? describeColorSource(output, *source) : colorBy_) + "\n").c_str());
-  scalarBar_->SetVisibility(!figure_ && !colorBy_.empty() && colorBy_ != "rgb");
+  const std::string name = source ? describeColorSource(output, *source) : std::string();
+  scalarBar_->SetTitle((name + (this->wantsResiduals() ? " (" + unit_ + ")\n" : "\n")).c_str());
+  scalarBar_->SetVisibility(!figure_ && source.has_value());
   if (figure_)
   {
     applyFigureAppearance(mapper_, actor_, renderer_);

@@ -11,6 +11,7 @@
 #include "Core/PointView.h"
 #include "Haptics/HapticScene.h"
 #include "Haptics/Proxy.h"
+#include "vtkSplatMapper.h"
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -28,7 +29,6 @@ class vtkPolyData;
 class vtkRenderWindow;
 class vtkRenderer;
 class vtkScalarBarActor;
-class vtkSplatMapper;
 class vtkVoxelMeanResampler;
 
 namespace pointhaptics
@@ -63,6 +63,24 @@ public:
   void showFigure(bool figure);
   bool isFigure() const { return figure_; }
 
+  /// Another thing to colour by: one of colorChoices(). It is shown at once where the means have it, else
+  /// with the next scene that has; @return whether one is needed, with the filters as they are set now.
+  bool setColorBy(const std::string& name);
+  const std::string& colorBy() const { return colorBy_; }
+  /// rgb where there are colours, Height, the array the user named, and what the pipeline makes.
+  std::vector<std::string> colorChoices() const;
+  /// Light from the normals, of means that have them.
+  void showAmbient(bool ambient);
+  bool isAmbient() const { return mapper_->GetAmbientLight(); }
+  /// Whether the picture needs the residuals of addSurfaceArrays().
+  bool wantsResiduals() const;
+  /// Makes the arrays of addSurfaceArrays() that the picture needs, and waits for them: for pictures without
+  /// a window.
+  void completeMeans(bool useCovariance);
+  /// To be called when the means are others: colours what has come, and follows the range of the arrays that
+  /// the pipeline makes; those of the file keep the colours they had.
+  void meansChanged();
+
   /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
   Vec3 towardsViewer() const { return orientation_.front; }
   std::shared_ptr<const HapticScene> makeScene(bool useCovariance, Status& status);
@@ -88,6 +106,8 @@ public:
 private:
   void beginFrame();
   void applyLook();
+  void applyColors();
+  void chooseArrays();
   void fit(const Bounds& cloud, const ViewOptions& options);
 
   vtkSmartPointer<vtkPolyData> cloud_;
@@ -104,7 +124,11 @@ private:
   bool isColored_ = false; ///< By an array or its own colours, when it is no figure.
   double plainColor_[3] = { 0.0, 0.0, 0.0 };
   std::string colorBy_;
-  Bounds cloudBounds_; ///< Of the finite points, as in the file; empty until the axes are shown.
+  std::string ownColor_;  ///< An array of the file that the user named.
+  std::string coloredBy_; ///< What the picture shows by now.
+  std::string unit_;      ///< Of the file.
+  Vec3 cloudUp_;          ///< In the frame of the file.
+  Bounds cloudBounds_;    ///< Of the finite points, as in the file; empty until the axes are shown.
   vtkNew<vtkRenderer> renderer_;
   CloudDetail detail_{ renderer_, actor_ };
   Bounds workspace_;

@@ -60,13 +60,23 @@ nlohmann::ordered_json givenSettings(CLI::App& command)
   return settings;
 }
 
-void setModel(nlohmann::ordered_json& settings, vtkMatrix4x4* matrix, const double workspace[6])
+void setModel(
+  nlohmann::ordered_json& settings, vtkMatrix4x4* matrix, double metresPerUnit, const double workspace[6])
 {
-  for (const char* name : { "unit", "scale", "rotate", "translate" })
+  for (const char* name : { "scale", "rotate", "translate" })
   {
     settings.erase(name);
   }
-  settings["matrix"] = std::vector<double>(matrix->GetData(), matrix->GetData() + 16);
+  // --matrix works on metres.
+  std::vector<double> elements(matrix->GetData(), matrix->GetData() + 16);
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    for (std::size_t column = 0; column < 3; ++column)
+    {
+      elements[4 * row + column] /= metresPerUnit;
+    }
+  }
+  settings["matrix"] = elements;
   settings["workspace"] = std::vector<double>(workspace, workspace + 6);
 }
 

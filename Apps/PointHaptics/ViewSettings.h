@@ -22,9 +22,10 @@ namespace app
 /// about configuration itself are left out: they are deeds, not state.
 nlohmann::ordered_json givenSettings(CLI::App& command);
 
-/// Puts a model matrix (cloud to workspace, metres) and workspace bounds in place of the options that led to
-/// them.
-void setModel(nlohmann::ordered_json& settings, vtkMatrix4x4* matrix, const double workspace[6]);
+/// Puts a model matrix (from the file's coordinates to the workspace, metres) and workspace bounds in place
+/// of the options that led to them; but --unit, of @p metresPerUnit, stays what it is, for the axes.
+void setModel(
+  nlohmann::ordered_json& settings, vtkMatrix4x4* matrix, double metresPerUnit, const double workspace[6]);
 
 /// Puts a voxel edge in metres in place of --dims.
 void setVoxel(nlohmann::ordered_json& settings, double metres);

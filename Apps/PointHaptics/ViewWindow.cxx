@@ -237,6 +237,9 @@ void ViewWindow::connectStyle()
   scene_.getWorkspaceBounds(bounds);
   style_->SetWorkspaceBounds(bounds);
   style_->SetUseCovariance(!options_.noCovariance);
+  scene_.showAmbient(options_.ambient);
+  style_->SetComputeNormals(options_.ambient);
+  style_->SetComputeResiduals(scene_.wantsResiduals());
   style_->SetModelMatrix(scene_.modelMatrix());
   style_->SetResampler(scene_.resampler());
   style_->SetBandwidthFilter(scene_.bandwidth());
@@ -262,6 +265,8 @@ void ViewWindow::connectStyle()
   this->observe(vtkInteractorStyleHaptic::WriteSettingsEvent, &ViewWindow::onWriteSettings);
   this->observe(vtkInteractorStyleHaptic::AxesEvent, &ViewWindow::onAxes);
   this->observe(vtkInteractorStyleHaptic::FigureEvent, &ViewWindow::onFigure);
+  this->observe(vtkInteractorStyleHaptic::ColorsEvent, &ViewWindow::onColors);
+  this->observe(vtkInteractorStyleHaptic::AmbientEvent, &ViewWindow::onAmbient);
   interactor_->SetInteractorStyle(style_);
   this->connectSliders();
   if (options_.figure)
@@ -367,9 +372,11 @@ void ViewWindow::onModelChanged(void*)
   this->showNote();
 }
 
-/// What VTK classes complained of while the scene was made goes where the user looks.
+/// New means may have what the picture waits for. What VTK classes complained of while the scene was made
+/// goes where the user looks.
 void ViewWindow::onSceneChanged(void*)
 {
+  scene_.meansChanged();
   for (const std::string& error : takeVtkErrors())
   {
     this->tell(error);

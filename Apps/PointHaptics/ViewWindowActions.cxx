@@ -170,6 +170,7 @@ void ViewWindow::show(LoadedCloud cloud)
   style_->SetWorkspaceBounds(bounds);
   style_->SetModelMatrix(model);
   style_->SetResampler(scene_.resampler());
+  style_->SetComputeResiduals(scene_.wantsResiduals());
   style_->UpdateModel();
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
   if (!keepsModel)
@@ -228,7 +229,7 @@ nlohmann::ordered_json ViewWindow::settings()
   nlohmann::ordered_json settings = options_.given;
   double bounds[6];
   scene_.getWorkspaceBounds(bounds);
-  setModel(settings, style_->GetModelTransform()->GetMatrix(), bounds);
+  setModel(settings, style_->GetModelTransform()->GetMatrix(), options_.lattice.metresPerUnit(), bounds);
   if (voxelSize_ > 0.0)
   {
     setVoxel(settings, voxelSize_);
@@ -241,6 +242,12 @@ nlohmann::ordered_json ViewWindow::settings()
   settings["push-pointer"] = style_->GetPushPointer();
   settings["axes"] = scene_.showsAxes();
   settings["figure"] = scene_.isFigure();
+  settings["ambient"] = options_.ambient;
+  settings.erase("color-by");
+  if (!options_.colorBy.empty())
+  {
+    settings["color-by"] = options_.colorBy;
+  }
   const int* size = window_->GetSize();
   settings["size"] = fmt::format("{}x{}", size[0], size[1]);
   return settings;
@@ -333,6 +340,31 @@ void ViewWindow::onAxes(void*)
 void ViewWindow::onFigure(void*)
 {
   this->showFigure(!scene_.isFigure());
+}
+
+/// The next of what the cloud can be coloured by.
+void ViewWindow::onColors(void*)
+{
+  const std::vector<std::string> choices = scene_.colorChoices();
+  const auto shown = std::find(choices.begin(), choices.end(), scene_.colorBy());
+  const std::size_t place = shown == choices.end() ? 0 : std::size_t(shown - choices.begin());
+  const std::string& next = choices[(place + 1) % choices.size()];
+  // Another file may have no colours: they are what comes of itself.
+  options_.colorBy = next == "rgb" ? std::string() : next;
+  const bool waits = scene_.setColorBy(options_.colorBy);
+  style_->SetComputeResiduals(scene_.wantsResiduals());
+  if (waits)
+  {
+    style_->InvalidateModel();
+  }
+  this->say("coloured by " + next + (waits ? ", as soon as it is computed" : ""));
+}
+
+void ViewWindow::onAmbient(void*)
+{
+  options_.ambient = !options_.ambient;
+  scene_.showAmbient(options_.ambient);
+  style_->SetComputeNormals(options_.ambient);
 }
 
 /// Texts, chart and sliders go; those that the user opens in the figure are shown.

@@ -80,6 +80,8 @@ private:
   void onWriteSettings(void*);
   void onAxes(void*);
   void onFigure(void*);
+  void onColors(void*);
+  void onAmbient(void*);
   void showFigure(bool figure);
   void onSlider(int slider);
   void connectSliders();

@@ -50,8 +50,7 @@ void SurfaceTracker::adopt(const Vec3& foot, const Vec3& normal) noexcept
   }
 }
 
-bool SurfaceTracker::acquire(
-  const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& freeSide) noexcept
+bool SurfaceTracker::findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept
 {
   Vec3 ignored;
   const LocalScale scale = scene.fitScale(onSurface, memory, ignored);
@@ -85,7 +84,30 @@ bool SurfaceTracker::acquire(
       break;
     }
   }
-  if (!found)
+  if (found)
+  {
+    *this = best;
+  }
+  return found;
+}
+
+bool SurfaceTracker::settle(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept
+{
+  SurfaceTracker best;
+  if (!best.findSheet(scene, memory, onSurface) ||
+    best.follow(scene, memory, onSurface, kAcquireRounds) == TrackResult::Lost)
+  {
+    return false;
+  }
+  *this = best;
+  return true;
+}
+
+bool SurfaceTracker::acquire(
+  const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& freeSide) noexcept
+{
+  SurfaceTracker best;
+  if (!best.findSheet(scene, memory, onSurface))
   {
     return false;
   }

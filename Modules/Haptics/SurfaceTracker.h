@@ -26,6 +26,9 @@ public:
   bool acquire(
     const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& freeSide) noexcept;
 
+  /// The same without a free side: to the surface point nearest to @p onSurface, the normal on either side.
+  bool settle(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
+
   /// Moves to the surface point nearest to @p target, at most @p rounds fits and @p longestTravel metres: a
   /// longer way ends there, on the surface, with RoundLimit.
   TrackResult follow(const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds,
@@ -57,6 +60,8 @@ public:
   double proxyRadius() const noexcept { return scale_.proxyRadius; }
 
 private:
+  /// The sheet through the cells about @p onSurface, near enough to follow it.
+  bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
   /// Fits anew at frame_. False: there is no surface to fit.
   bool refit(const HapticScene& scene, FitCells& memory) noexcept;
   void adopt(const Vec3& foot, const Vec3& normal) noexcept;

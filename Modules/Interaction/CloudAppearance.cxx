@@ -42,6 +42,10 @@ constexpr double kColorPoints[9][3] = { { 0.267, 0.005, 0.329 }, { 0.278, 0.175,
   { 0.231, 0.322, 0.546 }, { 0.173, 0.449, 0.558 }, { 0.128, 0.567, 0.551 }, { 0.153, 0.678, 0.506 },
   { 0.361, 0.785, 0.388 }, { 0.627, 0.842, 0.224 }, { 0.890, 0.840, 0.130 } };
 
+/// Of the larger end of a range of colours: an error's least value is an accident.
+constexpr double kAsGoodAsZero = 1e-3;
+/// Of the width of a range that stays.
+constexpr double kSameRange = 0.1;
 constexpr int kScalarBarFont = 15;
 
 double valueOf(vtkDataArray* array, vtkIdType tuple, int component)
@@ -101,6 +105,7 @@ void robustRange(vtkDataArray* array, int component, double range[2])
   {
     range[0] = values[values.size() / 100];
     range[1] = values[values.size() - 1 - values.size() / 100];
+    range[0] = range[0] > 0.0 && range[0] < kAsGoodAsZero * range[1] ? 0.0 : range[0];
   }
   if (!(range[1] > range[0]))
   {
@@ -205,6 +210,25 @@ std::string describeColorSource(vtkPolyData* cloud, const ColorSource& source)
   return array && array->GetNumberOfComponents() > 1
     ? source.array + ":" + componentName(array, source.component)
     : source.array;
+}
+
+void colorRange(vtkPolyData* cloud, const ColorSource& source, double range[2])
+{
+  robustRange(cloud->GetPointData()->GetArray(source.array.c_str()), source.component, range);
+}
+
+bool followColorRange(vtkPolyData* cloud, const ColorSource& source, vtkLookupTable* colors)
+{
+  double range[2];
+  colorRange(cloud, source, range);
+  const double* shown = colors->GetTableRange();
+  const double slack = kSameRange * (shown[1] - shown[0]);
+  const bool isOther = std::abs(range[0] - shown[0]) > slack || std::abs(range[1] - shown[1]) > slack;
+  if (isOther)
+  {
+    colors->SetTableRange(range);
+  }
+  return isOther;
 }
 
 bool hasColors(vtkPolyData* cloud)

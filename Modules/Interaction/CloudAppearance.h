@@ -52,9 +52,21 @@ POINTHAPTICSINTERACTION_EXPORT std::optional<ColorSource> findColorSource(
 /// "ARRAY", or with its component as the user would write it where there are several: for a scalar bar.
 POINTHAPTICSINTERACTION_EXPORT std::string describeColorSource(vtkPolyData* cloud, const ColorSource& source);
 
+/// The values of @p source between which the colours run: those of the finite points, without the 1 % at each
+/// end, from 0 where the lower one is hardly more, and never of no width; 0 to 1 where no value is finite. Of
+/// at most about 10,000 points.
+POINTHAPTICSINTERACTION_EXPORT void colorRange(
+  vtkPolyData* cloud, const ColorSource& source, double range[2]);
+
+/// Sets the range of @p colors to the colorRange() of @p source, unless both ends are within a tenth of its
+/// width of that already: colours that creep while the model moves would tell nothing. @return whether it was
+/// set.
+POINTHAPTICSINTERACTION_EXPORT bool followColorRange(
+  vtkPolyData* cloud, const ColorSource& source, vtkLookupTable* colors);
+
 /// Makes @p mapper and @p actor draw the points of the mapper's input as squares of @p pointSize pixels.
 /// @param colorBy what findColorSource() takes; "rgb" for the active colours; empty: colours if there, else
-/// "Height", else one colour. An array is coloured over its range, without the 1 % at each end. False: there
+/// "Height", else one colour. An array is coloured over its colorRange(), grey where it is NaN. False: there
 /// is no such array, and the appearance is that of the empty name.
 POINTHAPTICSINTERACTION_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper,
   vtkActor* actor, const std::string& colorBy = {}, double pointSize = 3.0);

@@ -1,5 +1,6 @@
 #include "CloudDetail.h"
 
+#include "CloudParts.h"
 #include "FairOrder.h"
 #include "vtkSplatMapper.h"
 
@@ -7,10 +8,7 @@
 #include "vtkActorCollection.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
-#include "vtkCellArray.h"
 #include "vtkCommand.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
@@ -37,102 +35,15 @@ constexpr double kMostShare = 1.6;
 /// Part in view that is reckoned with at least: the next frame may show more.
 constexpr double kLeastSeen = 0.1;
 
+/// Points nearer to each other on the screen than this cannot be told apart: half of the smallest splat lies
+/// on its neighbour.
+constexpr double kFinestPixels = 0.5;
+/// Spacing of voxel means over their bandwidth: see vtkSplatMapper::SetSizeScale().
+constexpr double kSpacingPerLength = 1.44;
+
 double steadySeconds()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// @p copy is filled where the coordinates are neither float nor double.
-PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy)
-{
-  vtkDataArray* data = cloud->GetPoints()->GetData();
-  if (auto* floats = vtkFloatArray::SafeDownCast(data))
-  {
-    return { floats->GetPointer(0), cloud->GetNumberOfPoints() };
-  }
-  if (auto* doubles = vtkDoubleArray::SafeDownCast(data))
-  {
-    return { doubles->GetPointer(0), cloud->GetNumberOfPoints() };
-  }
-  copy.resize(std::size_t(cloud->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < copy.size(); ++i)
-  {
-    cloud->GetPoint(vtkIdType(i), &copy[i].x);
-  }
-  return { copy.data(), std::int64_t(copy.size()) };
-}
-
-/// The array @p mapper colours the points of @p cloud by; null: none.
-vtkDataArray* colorArray(vtkPolyData* cloud, vtkMapper* mapper)
-{
-  if (!mapper->GetScalarVisibility())
-  {
-    return nullptr;
-  }
-  return mapper->GetScalarMode() == VTK_SCALAR_MODE_USE_POINT_FIELD_DATA
-    ? cloud->GetPointData()->GetArray(mapper->GetArrayName())
-    : cloud->GetPointData()->GetScalars();
-}
-
-/// What vtkPolyDataMapper::ShallowCopy() would do, without its warnings of deprecated shaders.
-void colorAlike(vtkMapper* from, vtkMapper* to)
-{
-  to->SetLookupTable(from->GetLookupTable());
-  to->SetUseLookupTableScalarRange(from->GetUseLookupTableScalarRange());
-  to->SetScalarRange(from->GetScalarRange());
-  to->SetScalarVisibility(from->GetScalarVisibility());
-  to->SetScalarMode(from->GetScalarMode());
-  to->SetColorMode(from->GetColorMode());
-  to->SetInterpolateScalarsBeforeMapping(from->GetInterpolateScalarsBeforeMapping());
-  if (from->GetArrayName() && from->GetScalarMode() == VTK_SCALAR_MODE_USE_POINT_FIELD_DATA)
-  {
-    to->SelectColorArray(from->GetArrayName());
-    to->SetArrayComponent(from->GetArrayComponent());
-  }
-}
-
-/// Adds the tuples @p ids of @p array to @p part.
-int addTuples(vtkDataArray* array, vtkIdList* ids, vtkPolyData* part)
-{
-  const auto some = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
-  some->SetName(array->GetName());
-  some->SetNumberOfComponents(array->GetNumberOfComponents());
-  some->SetNumberOfTuples(ids->GetNumberOfIds());
-  array->GetTuples(ids, some);
-  return part->GetPointData()->AddArray(some);
-}
-
-/// The points @p ids of @p cloud with the arrays of their colours and sizes.
-vtkSmartPointer<vtkPolyData> pick(vtkPolyData* cloud, vtkMapper* mapper, vtkIdList* ids)
-{
-  auto part = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(cloud->GetPoints()->GetDataType());
-  cloud->GetPoints()->GetPoints(ids, points);
-  part->SetPoints(points);
-  if (vtkDataArray* colors = colorArray(cloud, mapper))
-  {
-    const int index = addTuples(colors, ids, part);
-    if (colors == cloud->GetPointData()->GetScalars())
-    {
-      part->GetPointData()->SetActiveAttribute(index, vtkDataSetAttributes::SCALARS);
-    }
-  }
-  auto* splats = vtkSplatMapper::SafeDownCast(mapper);
-  vtkDataArray* sizes =
-    splats ? cloud->GetPointData()->GetArray(splats->GetSizeArrayName().c_str()) : nullptr;
-  if (sizes && !part->GetPointData()->HasArray(sizes->GetName()))
-  {
-    addTuples(sizes, ids, part);
-  }
-  vtkNew<vtkCellArray> vertices;
-  vertices->InsertNextCell(static_cast<int>(ids->GetNumberOfIds()));
-  for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
-  {
-    vertices->InsertCellPoint(i);
-  }
-  part->SetVerts(vertices);
-  return part;
 }
 
 } // namespace
@@ -162,6 +73,10 @@ void CloudDetail::setEnabled(bool enabled)
   {
     this->dropLevels();
     actor_->VisibilityOn();
+    if (auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper()))
+    {
+      splats->SetRanges({});
+    }
   }
 }
 
@@ -235,6 +150,7 @@ std::int64_t CloudDetail::wanted(double now)
   if (allOnce_)
   {
     allOnce_ = false;
+    finest_ = total_;
     return total_;
   }
   if (moving_)
@@ -258,7 +174,7 @@ void CloudDetail::beginFrame(double now)
   frameIsTypical_ = false;
   if (!enabled_ || !renderer_ || !cloud || cloud->GetNumberOfPoints() == 0)
   {
-    total_ = drawn_ = visible_ = cloud ? cloud->GetNumberOfPoints() : 0;
+    total_ = finest_ = drawn_ = visible_ = cloud ? cloud->GetNumberOfPoints() : 0;
     return;
   }
   this->watchWindow();
@@ -268,6 +184,7 @@ void CloudDetail::beginFrame(double now)
     this->dropLevels();
   }
   total_ = cloud->GetNumberOfPoints();
+  finest_ = this->finestFor(cloud);
   const std::int64_t before = cloudChanged_ ? -1 : drawn_;
   this->show(cloud, this->wanted(now));
   frameIsTypical_ = drawn_ == before;
@@ -301,7 +218,7 @@ std::int64_t CloudDetail::levelFor(std::int64_t points) const
 
 void CloudDetail::show(vtkPolyData* cloud, std::int64_t points)
 {
-  drawn_ = this->levelFor(points);
+  drawn_ = points >= finest_ ? finest_ : this->levelFor(points);
   const bool all = drawn_ >= total_;
   while (!all && (levels_.empty() || levels_.back().end < drawn_))
   {
@@ -321,7 +238,11 @@ void CloudDetail::show(vtkPolyData* cloud, std::int64_t points)
     begin = level.end;
   }
   visible_ = drawn_;
-  if (!all)
+  if (all)
+  {
+    this->leaveOutOfView(cloud);
+  }
+  else
   {
     this->leaveOutUnseen();
   }
@@ -330,17 +251,34 @@ void CloudDetail::show(vtkPolyData* cloud, std::int64_t points)
   coarse_->SetLighting(actor_->GetProperty()->GetLighting());
 }
 
+/// Left, right, bottom and top of the frustum, @p pixels outside of the picture; the clipping range holds the
+/// whole scene.
+std::vector<HalfSpace> CloudDetail::sides(double pixels) const
+{
+  vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
+    renderer_->GetTiledAspectRatio(), -1, 1);
+  std::vector<HalfSpace> result;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double wider = 1.0 + 2.0 * pixels / std::max(1, renderer_->GetSize()[axis]);
+    for (const double sign : { 1.0, -1.0 })
+    {
+      HalfSpace side{};
+      for (int column = 0; column < 4; ++column)
+      {
+        side[std::size_t(column)] =
+          wider * toClip->GetElement(3, column) + sign * toClip->GetElement(axis, column);
+      }
+      result.push_back(side);
+    }
+  }
+  return result;
+}
+
 /// The sides of the frustum and of the workspace.
 std::vector<HalfSpace> CloudDetail::view() const
 {
-  constexpr int kSides = 4; // left, right, bottom, top; the clipping range holds the whole scene
-  double planes[24];
-  renderer_->GetActiveCamera()->GetFrustumPlanes(renderer_->GetTiledAspectRatio(), planes);
-  std::vector<HalfSpace> result;
-  for (int side = 0; side < kSides; ++side)
-  {
-    result.push_back({ planes[4 * side], planes[4 * side + 1], planes[4 * side + 2], planes[4 * side + 3] });
-  }
+  std::vector<HalfSpace> result = this->sides(0.0);
   for (int axis = 0; axis < 3 && !workspace_.empty(); ++axis)
   {
     HalfSpace lower{};
@@ -353,6 +291,87 @@ std::vector<HalfSpace> CloudDetail::view() const
     result.push_back(upper);
   }
   return result;
+}
+
+/// Of the whole cloud, by its own mapper: what no pixel can show.
+void CloudDetail::leaveOutOfView(vtkPolyData* cloud)
+{
+  auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper());
+  if (!splats)
+  {
+    return;
+  }
+  if (!hasRows_)
+  {
+    std::vector<Vec3> copy;
+    rows_ = drawsInOrder(cloud) ? makeRows(viewOf(cloud, copy)) : std::vector<SplatBrick>();
+    hasRows_ = true;
+  }
+  if (rows_.empty())
+  {
+    splats->SetRanges({});
+    return;
+  }
+  vtkDataArray* lengths = cloud->GetPointData()->GetArray(splats->GetSizeArrayName().c_str());
+  const double margin = lengths ? 0.5 * splats->GetSizeScale() * lengths->GetRange()[1] : 0.0;
+  const double pixels = 1.0 + 0.5 * std::max(splats->GetSmallestPixels(), splats->GetFixedPixels());
+  std::vector<std::array<vtkIdType, 2>> ranges =
+    visibleRanges(rows_, this->sides(pixels), actor_->GetMatrix(), margin);
+  visible_ = 0;
+  for (const auto& range : ranges)
+  {
+    visible_ += range[1] - range[0];
+  }
+  if (ranges.empty())
+  {
+    ranges.push_back({ 0, 0 }); // none is not all
+  }
+  splats->SetRanges(std::move(ranges));
+}
+
+/// All points, or as many of the fair order as lie kFinestPixels apart where the cloud is nearest.
+std::int64_t CloudDetail::finestFor(vtkPolyData* cloud)
+{
+  auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper());
+  vtkDataArray* lengths =
+    splats ? cloud->GetPointData()->GetArray(splats->GetSizeArrayName().c_str()) : nullptr;
+  if (!lengths || splats->GetFixedPixels() > 0.0)
+  {
+    return total_;
+  }
+  if (spacing_ < 0.0)
+  {
+    spacing_ = kSpacingPerLength * upperDecile(lengths);
+  }
+  vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
+    renderer_->GetTiledAspectRatio(), -1, 1);
+  const double* bounds = actor_->GetBounds();
+  double nearest = INFINITY; // w of the nearest corner: 1 everywhere in a parallel projection
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const double in[4] = { bounds[corner & 1], bounds[2 + (corner >> 1 & 1)], bounds[4 + (corner >> 2 & 1)],
+      1.0 };
+    double out[4];
+    toClip->MultiplyPoint(in, out);
+    nearest = std::min(nearest, out[3]);
+  }
+  const double perUnit = 0.5 * renderer_->GetSize()[1] *
+    renderer_->GetActiveCamera()
+      ->GetProjectionTransformMatrix(renderer_->GetTiledAspectRatio(), -1, 1)
+      ->GetElement(1, 1);
+  const double scale = std::cbrt(std::abs(actor_->GetMatrix()->Determinant()));
+  const double pixels = spacing_ * scale * perUnit / nearest; // between neighbours
+  const double needed = double(total_) * (pixels / kFinestPixels) * (pixels / kFinestPixels);
+  if (!(nearest > 0.0) || !(spacing_ > 0.0) || !(needed < double(total_) / kLevelRatio))
+  {
+    return total_;
+  }
+  double end = double(FrameBudget::kFewestPoints);
+  while (end < needed)
+  {
+    end *= kLevelRatio;
+  }
+  return std::min(total_, std::int64_t(end));
 }
 
 void CloudDetail::leaveOutUnseen()
@@ -411,7 +430,7 @@ void CloudDetail::addLevel(vtkPolyData* cloud)
   const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::Take(
     vtkSplatMapper::SafeDownCast(actor_->GetMapper()) ? vtkSplatMapper::New() : vtkPolyDataMapper::New());
   colorAlike(actor_->GetMapper(), mapper);
-  const vtkSmartPointer<vtkPolyData> part = pick(cloud, actor_->GetMapper(), ids);
+  const vtkSmartPointer<vtkPolyData> part = pickPoints(cloud, actor_->GetMapper(), ids);
   mapper->SetInputData(part);
   if (auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper()))
   {
@@ -442,6 +461,9 @@ void CloudDetail::dropLevels()
 {
   this->removeLevels();
   order_.clear();
+  rows_.clear();
+  hasRows_ = false;
+  spacing_ = -1.0;
 }
 
 } // namespace pointhaptics

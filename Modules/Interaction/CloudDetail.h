@@ -31,8 +31,11 @@ namespace pointhaptics
 /// After kRestSeconds without such a frame refinementDue() asks for frames with four times as many points
 /// each, until the cloud's own actor is drawn: the picture at rest is the one without this class. Of the
 /// splats of a vtkSplatMapper only the bricks in view, and in the workspace if there is one, are drawn in
-/// such a frame, and only they count: a part of the cloud seen from near by is shown with more points. Text
-/// may change without the detail changing. Points are uploaded when they are first drawn.
+/// such a frame, and only they count: a part of the cloud seen from near by is shown with more points. In the
+/// picture at rest what is out of view is left out too, which changes no pixel. From so far that neighbours
+/// are much less than a pixel apart the picture is as fine as it gets with a part of the points: the others
+/// are neither drawn nor uploaded. Text may change without the detail changing. Points are uploaded when they
+/// are first drawn.
 ///
 /// The picture only gets finer when somebody renders: call refinementDue() from a timer. GUI thread only. To
 /// be destroyed before the actor's renderer.
@@ -65,8 +68,8 @@ public:
   /// The actor's mapper colours otherwise now: the parts of the picture that moves are made anew.
   void recolor() { this->removeLevels(); }
 
-  /// Whether the last frame showed all points.
-  bool showsAll() const { return drawn_ >= total_; }
+  /// Whether the last frame was as fine as it gets: all points, but for those below a pixel.
+  bool showsAll() const { return drawn_ >= finest_; }
   bool isMoving() const { return moving_; }
   /// Points in the last frame, those out of view included; and without them.
   std::int64_t drawnPoints() const { return drawn_; }
@@ -96,7 +99,10 @@ private:
   void show(vtkPolyData* cloud, std::int64_t points);
   void addLevel(vtkPolyData* cloud);
   void leaveOutUnseen();
+  void leaveOutOfView(vtkPolyData* cloud);
+  std::vector<HalfSpace> sides(double pixels) const;
   std::vector<HalfSpace> view() const;
+  std::int64_t finestFor(vtkPolyData* cloud);
   void removeLevels();
   void dropLevels();
 
@@ -112,8 +118,12 @@ private:
   bool allOnce_ = false;
   bool moving_ = false;
   bool cloudChanged_ = false;
-  bool frameIsTypical_ = false; // nothing is uploaded in it
+  bool frameIsTypical_ = false;  // nothing is uploaded in it
+  std::vector<SplatBrick> rows_; // of the whole cloud, in its order
+  bool hasRows_ = false;         // and they were made
+  double spacing_ = -1.0;        // of most neighbours; 0: not known; below 0: not looked at
   std::int64_t total_ = 0;
+  std::int64_t finest_ = 0; // so many points tell apart what pixels can
   std::int64_t drawn_ = 0;
   std::int64_t visible_ = 0;
   Bounds workspace_;

@@ -60,6 +60,8 @@ enum class HapticAction
   PauseChart,
   Axes,
   Figure,
+  Colors,
+  Ambient,
   NextFile,
   PreviousFile,
   Screenshot,

@@ -47,6 +47,9 @@ void addProp(std::vector<double>& state, vtkProp* prop)
     state.insert(state.end(),
       { splats->GetSizeScale(), splats->GetSmallestPixels(), splats->GetLargestPixels(),
         splats->GetFixedPixels() });
+    double sky[3];
+    splats->GetSkyDirection(sky);
+    add(state, sky, 3);
     for (const auto& range : splats->GetRanges())
     {
       state.insert(state.end(), { double(range[0]), double(range[1]) });

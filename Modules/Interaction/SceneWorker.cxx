@@ -2,6 +2,7 @@
 
 #include "HapticSceneBuilder.h"
 #include "NearScene.h"
+#include "SurfaceArrays.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -66,6 +67,7 @@ public:
       scene = makeHapticScene(resampler_->GetOutput(), built.status, request.useCovariance, rule);
     }
     built.empty = scene == nullptr;
+    scene_ = request.hasResiduals || request.hasNormals ? scene : nullptr;
     return scene;
   }
 
@@ -83,6 +85,10 @@ public:
       }
       built.means->ShallowCopy(result);
     }
+    if (scene_)
+    {
+      addSurfaceArrays(built.means, *scene_, request.hasResiduals, request.hasNormals);
+    }
     this->letGo();
   }
 
@@ -91,6 +97,7 @@ public:
   {
     bandwidth_->GetOutput()->ReleaseData();
     resampler_->GetOutput()->ReleaseData();
+    scene_.reset();
   }
 
 private:
@@ -99,6 +106,7 @@ private:
   vtkNew<vtkVoxelMeanResampler> resampler_;
   vtkNew<vtkKernelBandwidthFilter> bandwidth_;
   vtkIdType numberOfPoints_ = 0;
+  std::shared_ptr<const HapticScene> scene_; // for the arrays of the picture
 };
 
 } // namespace
@@ -266,7 +274,8 @@ void SceneWorker::Implementation::buildWholes()
       job->request.publish(std::move(scene), job->number);
     }
     const std::chrono::duration<double> since = Clock::now() - shown;
-    if (this->isFollowed() && since.count() <= kPictureSeconds)
+    const bool isSlow = job->request.hasResiduals || job->request.hasNormals;
+    if (this->isFollowed() && (isSlow || since.count() <= kPictureSeconds))
     {
       continue;
     }

@@ -39,6 +39,10 @@ struct SceneRequest
   bool useCovariance = true;
   std::vector<Setting> settings; ///< Applied, in this order, to the worker's own filters.
   bool hasBandwidth = false;     ///< The radii follow the bandwidth filter's rule.
+  /// Arrays of the picture that take long: see SurfaceArrays.h. A picture with them is left out of a build
+  /// that is followed by another.
+  bool hasResiduals = false;
+  bool hasNormals = false;
   /// A box about the hand and what it touches, in the workspace; empty: there is no hand. May be missing.
   /// Called in the worker's threads.
   std::function<Bounds()> hand;

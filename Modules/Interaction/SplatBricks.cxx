@@ -96,6 +96,26 @@ std::vector<SplatBrick> makeBricks(const PointView& points, std::vector<std::int
   return bricks;
 }
 
+std::vector<SplatBrick> makeRows(const PointView& points, std::int64_t size)
+{
+  std::vector<SplatBrick> rows;
+  for (std::int64_t begin = 0; begin < points.size(); begin += size)
+  {
+    rows.push_back({ begin, std::min(begin + size, points.size()), Bounds() });
+    bool isFinite = true;
+    for (std::int64_t i = begin; i < rows.back().end; ++i)
+    {
+      isFinite = isFinite && pointhaptics::isFinite(points[i]);
+      rows.back().box.include(points[i]);
+    }
+    if (!isFinite)
+    {
+      rows.back().box = Bounds(); // always drawn
+    }
+  }
+  return rows;
+}
+
 std::vector<std::array<vtkIdType, 2>> visibleRanges(const std::vector<SplatBrick>& bricks,
   const std::vector<HalfSpace>& halfSpaces, vtkMatrix4x4* toWorld, double margin)
 {

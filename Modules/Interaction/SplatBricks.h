@@ -33,6 +33,11 @@ struct SplatBrick
 POINTHAPTICSINTERACTION_EXPORT std::vector<SplatBrick> makeBricks(
   const PointView& points, std::vector<std::int64_t>& ids, std::int64_t size = 128);
 
+/// Cuts all @p points, in the order they have, into bricks of @p size: longer boxes than those of
+/// makeBricks(), for pictures whose order of drawing must stay.
+POINTHAPTICSINTERACTION_EXPORT std::vector<SplatBrick> makeRows(
+  const PointView& points, std::int64_t size = 64);
+
 /// The parts of the row of which something, or what lies within @p margin of it, is in all @p halfSpaces;
 /// bricks side by side are one part. @p toWorld, which may be null, maps the points' frame to that of the
 /// half spaces; @p margin is in the points' frame.

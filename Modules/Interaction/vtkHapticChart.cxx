@@ -179,7 +179,9 @@ vtkHapticChart::vtkHapticChart()
   ideal->GetPen()->SetLineType(vtkPen::DASH_LINE);
   ideal->SetVisible(false);
   vtkChartLegend* legend = parts.chart->GetLegend();
-  legend->SetHorizontalAlignment(vtkChartLegend::LEFT);
+  // Beside the curves: they may be anywhere in the plot.
+  legend->SetInline(false);
+  legend->SetHorizontalAlignment(vtkChartLegend::RIGHT);
   legend->SetVerticalAlignment(vtkChartLegend::TOP);
   legend->GetLabelProperties()->SetFontSize(12);
   legend->GetBrush()->SetOpacityF(0.6);

@@ -268,6 +268,24 @@ void vtkInteractorStyleHaptic::InvalidateModel()
   this->ForgetPicked();
 }
 
+void vtkInteractorStyleHaptic::SetComputeResiduals(bool on)
+{
+  if (on != this->ComputeResiduals)
+  {
+    this->ComputeResiduals = on;
+    this->InvalidateModel();
+  }
+}
+
+void vtkInteractorStyleHaptic::SetComputeNormals(bool on)
+{
+  if (on != this->ComputeNormals)
+  {
+    this->ComputeNormals = on;
+    this->InvalidateModel();
+  }
+}
+
 void vtkInteractorStyleHaptic::StartUpdates(unsigned long milliseconds)
 {
   this->StopUpdates();
@@ -393,6 +411,8 @@ void vtkInteractorStyleHaptic::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "UseCovariance: " << this->UseCovariance << "\n";
+  os << indent << "ComputeResiduals: " << this->ComputeResiduals << "\n";
+  os << indent << "ComputeNormals: " << this->ComputeNormals << "\n";
   os << indent << "HandMode: " << this->Parts->handMode << "\n";
   os << indent << "ModelChanged: " << this->Parts->modelChanged << "\n";
   os << indent << "ModelTransform:\n";

@@ -51,7 +51,8 @@
  * Events: ModelChangedEvent after the transform changed; SceneChangedEvent after a new scene was published
  * (also when it is empty); SamplesEvent with the new ticks (call data:
  * std::vector<pointhaptics::ServoSample>*); FilesDroppedEvent (call data: vtkStringArray*); ScreenshotEvent,
- * NextFileEvent, PreviousFileEvent, WriteSettingsEvent, AxesEvent and FigureEvent when the user asks for it.
+ * NextFileEvent, PreviousFileEvent, WriteSettingsEvent, AxesEvent, FigureEvent, ColorsEvent and AmbientEvent
+ * when the user asks for it.
  *
  * Frames: the model transform maps the cloud's frame into the workspace's (x_T = T x + t); metres.
  * Thread safety: GUI thread only. Ownership: servo loop, device and SpaceMouse are not owned and must outlive
@@ -109,7 +110,9 @@ public:
     PreviousFileEvent,
     WriteSettingsEvent,
     AxesEvent,
-    FigureEvent
+    FigureEvent,
+    ColorsEvent,
+    AmbientEvent
   };
 
   ///@{
@@ -155,6 +158,18 @@ public:
    */
   vtkSetMacro(UseCovariance, bool);
   vtkGetMacro(UseCovariance, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Add the arrays of pointhaptics::addSurfaceArrays() to the means that are shown: the distance of each from
+   * the surface that is felt, and its normals. They come some time after the scene is felt, and while the
+   * model moves the picture keeps those it has. A change marks the model as changed. Default: off.
+   */
+  void SetComputeResiduals(bool on);
+  bool GetComputeResiduals() const { return this->ComputeResiduals; }
+  void SetComputeNormals(bool on);
+  bool GetComputeNormals() const { return this->ComputeNormals; }
   ///@}
 
   ///@{
@@ -300,6 +315,8 @@ protected:
   ~vtkInteractorStyleHaptic() override;
 
   bool UseCovariance = true;
+  bool ComputeResiduals = false;
+  bool ComputeNormals = false;
 
 private:
   vtkInteractorStyleHaptic(const vtkInteractorStyleHaptic&) = delete;

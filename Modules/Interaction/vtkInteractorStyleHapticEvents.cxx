@@ -300,6 +300,12 @@ bool vtkInteractorStyleHaptic::ShowKey(HapticAction action)
       this->ForgetPicked();
       this->InvokeEvent(FigureEvent);
       break;
+    case HapticAction::Colors:
+      this->InvokeEvent(ColorsEvent);
+      break;
+    case HapticAction::Ambient:
+      this->InvokeEvent(AmbientEvent);
+      break;
     case HapticAction::ResetView:
       if (vtkRenderer* renderer = this->MainRenderer())
       {

@@ -150,6 +150,8 @@ void vtkInteractorStyleHaptic::RequestScene()
   std::copy_n(parts.model->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
   request.useCovariance = this->UseCovariance;
   request.hand = [servo = parts.servo] { return handBounds(servo); };
+  request.hasResiduals = this->ComputeResiduals;
+  request.hasNormals = this->ComputeNormals;
   request.publish = [publisher = &parts.publisher, cloud = parts.publisher.cloud()](
                       std::shared_ptr<const pointhaptics::HapticScene> scene, std::uint64_t number)
   { publisher->publish(std::move(scene), cloud, number); };

@@ -4,10 +4,14 @@
 #include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLIndexBufferObject.h"
+#include "vtkOpenGLVertexBufferObject.h"
+#include "vtkOpenGLVertexBufferObjectGroup.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkRenderer.h"
@@ -26,7 +30,34 @@ namespace
 {
 
 constexpr const char* kAttribute = "splatLength";
+constexpr const char* kNormalAttribute = "splatNormal";
 constexpr double kPixelsWithoutArray = 3.0;
+/// From the viewer's left and above, in view coordinates.
+constexpr double kLightDirection[3] = { -0.45, 0.55, 0.70 };
+
+/// The light on a side of a splat is that of the sky, which is darker below, and the part of the lamp's that
+/// wraps around the shape. Near the outline, where noise turns normals away, both sides count.
+constexpr const char* kLightFunctions = R"(
+in vec3 splatNormal;
+uniform vec3 splatSky;
+uniform vec3 splatLamp;
+uniform vec4 splatEye;
+uniform vec3 splatUnscale;
+out float splatLight;
+float lightOn(vec3 normal)
+{
+  float sky = 0.5 + 0.5 * dot(normal, splatSky);
+  float lamp = 0.5 + 0.5 * dot(normal, splatLamp);
+  return 0.30 + 0.28 * sky + 0.58 * lamp * lamp;
+}
+)";
+constexpr const char* kLightStatements = R"(
+  vec3 splatSight = normalize((splatEye.xyz - splatEye.w * vertexMC.xyz) * splatUnscale);
+  float splatFacing = smoothstep(-0.2, 0.2, dot(splatNormal, splatSight));
+  splatLight = dot(splatNormal, splatNormal) < 0.25
+    ? 0.85
+    : mix(lightOn(-splatNormal), lightOn(splatNormal), splatFacing);
+)";
 
 /// Of the values above 0 among at most about 10,000; 0 where there is none.
 double medianOf(vtkDataArray* array)
@@ -93,6 +124,40 @@ void vtkSplatMapper::SetFixedPixels(double pixels)
   this->FixedPixels = pixels >= 0.0 && std::isfinite(pixels) ? pixels : this->FixedPixels;
 }
 
+void vtkSplatMapper::SetAmbientLight(bool on)
+{
+  if (on != this->AmbientLight)
+  {
+    this->AmbientLight = on;
+    this->Modified();
+  }
+}
+
+void vtkSplatMapper::SetNormalArrayName(const std::string& name)
+{
+  if (name != this->NormalArrayName)
+  {
+    this->NormalArrayName = name;
+    this->HasNormals = false;
+    this->RemoveVertexAttributeMapping(kNormalAttribute);
+    this->Modified();
+  }
+}
+
+void vtkSplatMapper::SetSkyDirection(const double direction[3])
+{
+  const double length = vtkMath::Norm(direction);
+  for (std::size_t axis = 0; axis < 3 && length > 0.0 && std::isfinite(length); ++axis)
+  {
+    this->SkyDirection[axis] = direction[axis] / length;
+  }
+}
+
+void vtkSplatMapper::GetSkyDirection(double direction[3]) const
+{
+  std::copy(this->SkyDirection.begin(), this->SkyDirection.end(), direction);
+}
+
 void vtkSplatMapper::SetRanges(std::vector<std::array<vtkIdType, 2>> ranges)
 {
   this->Ranges = std::move(ranges);
@@ -105,25 +170,40 @@ void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double factor)
   this->SetLargestRatio(other->LargestRatio);
   this->SetPixelRange(other->SmallestPixels, other->LargestPixels);
   this->SetFixedPixels(factor * other->FixedPixels);
+  this->SetAmbientLight(other->AmbientLight);
+  this->SetNormalArrayName(other->NormalArrayName);
+  this->SkyDirection = other->SkyDirection;
+}
+
+/// Uploads @p array, or what was uploaded no more where it is null.
+void vtkSplatMapper::MapArray(
+  vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped)
+{
+  if ((array != nullptr) != isMapped)
+  {
+    isMapped = array != nullptr;
+    this->RemoveVertexAttributeMapping(attribute);
+    if (array)
+    {
+      this->MapDataArrayToVertexAttribute(attribute, name.c_str(), vtkDataObject::FIELD_ASSOCIATION_POINTS);
+    }
+    this->Modified();
+  }
 }
 
 void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkDataArray* sizes =
-    this->CurrentInput ? this->CurrentInput->GetPointData()->GetArray(this->SizeArrayName.c_str()) : nullptr;
-  const bool hasSizes = sizes && sizes->GetNumberOfComponents() == 1;
-  if (hasSizes != this->HasSizes)
+  const auto arrayOf = [this](const std::string& name, int components)
   {
-    this->HasSizes = hasSizes;
-    this->RemoveVertexAttributeMapping(kAttribute);
-    if (hasSizes)
-    {
-      this->MapDataArrayToVertexAttribute(
-        kAttribute, this->SizeArrayName.c_str(), vtkDataObject::FIELD_ASSOCIATION_POINTS);
-    }
-    this->Modified();
-  }
-  if (hasSizes && sizes->GetMTime() != this->MedianTime)
+    vtkDataArray* array =
+      this->CurrentInput ? this->CurrentInput->GetPointData()->GetArray(name.c_str()) : nullptr;
+    return array && array->GetNumberOfComponents() == components ? array : nullptr;
+  };
+  vtkDataArray* sizes = arrayOf(this->SizeArrayName, 1);
+  this->MapArray(sizes, this->SizeArrayName, kAttribute, this->HasSizes);
+  this->MapArray(this->AmbientLight ? arrayOf(this->NormalArrayName, 3) : nullptr, this->NormalArrayName,
+    kNormalAttribute, this->HasNormals);
+  if (sizes && sizes->GetMTime() != this->MedianTime)
   {
     this->MedianTime = sizes->GetMTime();
     this->MedianLength = medianOf(sizes);
@@ -135,15 +215,18 @@ void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
   glEnable(GL_PROGRAM_POINT_SIZE);
   vtkOpenGLHelper& points = this->Primitives[PrimitivePoints];
-  if (this->Ranges.empty() || renderer->GetSelector())
+  if (renderer->GetSelector())
   {
     this->Superclass::RenderPieceDraw(renderer, actor);
   }
   else if (points.IBO->IndexCount > 0)
   {
+    // All by the same call as parts: others round otherwise.
+    const std::vector<std::array<vtkIdType, 2>> all = { { 0,
+      static_cast<vtkIdType>(points.IBO->IndexCount) } };
     this->UpdateShaders(points, renderer, actor);
     points.IBO->Bind();
-    for (const auto& [begin, end] : this->Ranges)
+    for (const auto& [begin, end] : this->Ranges.empty() ? all : this->Ranges)
     {
       const auto last = std::min(end, static_cast<vtkIdType>(points.IBO->IndexCount));
       const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(GLuint);
@@ -160,20 +243,28 @@ void vtkSplatMapper::ReplaceShaderValues(
 {
   // In front of the superclass, which takes the marks away.
   std::string vertex = shaders[vtkShader::Vertex]->GetSource();
-  const std::string declared = this->HasSizes ? std::string("in float ") + kAttribute + ";\n" : std::string();
+  const std::string declared = (this->HasSizes ? std::string("in float ") + kAttribute + ";\n" : "") +
+    (this->HasNormals ? kLightFunctions : "");
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Dec",
     "//VTK::PositionVC::Dec\n" + declared +
       "uniform float splatPixels;\nuniform float splatLongest;\nuniform vec2 splatRange;\n");
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Impl",
     std::string("//VTK::PositionVC::Impl\n  gl_PointSize = clamp(splatPixels") +
       (this->HasSizes ? std::string(" * min(splatLongest, ") + kAttribute + ") / gl_Position.w" : "") +
-      ", splatRange.x, splatRange.y);\n");
+      ", splatRange.x, splatRange.y);\n" + (this->HasNormals ? kLightStatements : ""));
   shaders[vtkShader::Vertex]->SetSource(vertex);
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
   vtkShaderProgram::Substitute(fragment, "//VTK::Clip::Impl",
     "  vec2 splatPlace = 2.0 * gl_PointCoord - vec2(1.0);\n"
     "  if (dot(splatPlace, splatPlace) > 1.0) { discard; }\n"
     "//VTK::Clip::Impl\n");
+  if (this->HasNormals)
+  {
+    vtkShaderProgram::Substitute(
+      fragment, "//VTK::PositionVC::Dec", "//VTK::PositionVC::Dec\nin float splatLight;\n");
+    vtkShaderProgram::Substitute(
+      fragment, "//VTK::Light::Impl", "//VTK::Light::Impl\n  gl_FragData[0].rgb *= splatLight;\n");
+  }
   shaders[vtkShader::Fragment]->SetSource(fragment);
   this->Superclass::ReplaceShaderValues(shaders, renderer, actor);
 }
@@ -181,6 +272,10 @@ void vtkSplatMapper::ReplaceShaderValues(
 void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
 {
   this->Superclass::SetMapperShaderParameters(cells, renderer, actor);
+  if (this->HasNormals)
+  {
+    this->SetLightParameters(cells, renderer, actor);
+  }
   double pixels = this->FixedPixels > 0.0 ? this->FixedPixels : kPixelsWithoutArray;
   double range[2] = { 1.0, std::max(this->FixedPixels, this->LargestPixels) };
   if (this->HasSizes && this->FixedPixels == 0.0)
@@ -212,6 +307,63 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
   }
 }
 
+/// All in the frame of the uploaded points.
+void vtkSplatMapper::SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkNew<vtkMatrix4x4> toModel;
+  vtkMatrix4x4::Invert(actor->GetMatrix(), toModel);
+  vtkNew<vtkMatrix4x4> fromView;
+  vtkMatrix4x4::Invert(camera->GetViewTransformMatrix(), fromView);
+  const auto taken = [](vtkMatrix4x4* matrix, const double* vector, double w, double* result)
+  {
+    const double in[4] = { vector[0], vector[1], vector[2], w };
+    double out[4];
+    matrix->MultiplyPoint(in, out);
+    std::copy(out, out + 3, result);
+  };
+  double lamp[3];
+  taken(fromView, kLightDirection, 0.0, lamp);
+  taken(toModel, lamp, 0.0, lamp);
+  vtkMath::Normalize(lamp);
+  double sky[3];
+  taken(toModel, this->SkyDirection.data(), 0.0, sky);
+  vtkMath::Normalize(sky);
+  const bool isParallel = camera->GetParallelProjection() != 0;
+  double eye[3];
+  double towardsViewer[3];
+  camera->GetDirectionOfProjection(towardsViewer);
+  std::transform(towardsViewer, towardsViewer + 3, towardsViewer, [](double c) { return -c; });
+  taken(toModel, isParallel ? towardsViewer : camera->GetPosition(), isParallel ? 0.0 : 1.0, eye);
+  // Points far from the origin are uploaded shifted and scaled.
+  double unscale[3] = { 1.0, 1.0, 1.0 };
+  vtkOpenGLVertexBufferObject* points = this->VBOs->GetVBO("vertexMC");
+  for (std::size_t axis = 0; points && points->GetCoordShiftAndScaleEnabled() && axis < 3; ++axis)
+  {
+    const double scale = points->GetScale()[axis];
+    unscale[axis] = 1.0 / scale;
+    eye[axis] = scale * (eye[axis] - (isParallel ? 0.0 : points->GetShift()[axis]));
+  }
+  const auto set = [&cells](const char* name, const double* vector)
+  {
+    const float values[3] = { static_cast<float>(vector[0]), static_cast<float>(vector[1]),
+      static_cast<float>(vector[2]) };
+    if (cells.Program->IsUniformUsed(name))
+    {
+      cells.Program->SetUniform3f(name, values);
+    }
+  };
+  set("splatLamp", lamp);
+  set("splatSky", sky);
+  set("splatUnscale", unscale);
+  const float place[4] = { static_cast<float>(eye[0]), static_cast<float>(eye[1]), static_cast<float>(eye[2]),
+    isParallel ? 0.0F : 1.0F };
+  if (cells.Program->IsUniformUsed("splatEye"))
+  {
+    cells.Program->SetUniform4f("splatEye", place);
+  }
+}
+
 void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -221,4 +373,8 @@ void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SmallestPixels: " << this->SmallestPixels << "\n";
   os << indent << "LargestPixels: " << this->LargestPixels << "\n";
   os << indent << "FixedPixels: " << this->FixedPixels << "\n";
+  os << indent << "AmbientLight: " << this->AmbientLight << "\n";
+  os << indent << "NormalArrayName: " << this->NormalArrayName << "\n";
+  os << indent << "SkyDirection: " << this->SkyDirection[0] << ", " << this->SkyDirection[1] << ", "
+     << this->SkyDirection[2] << "\n";
 }

@@ -12,6 +12,10 @@
  * mapper->SetSizeArrayName("Bandwidth");
  * @endcode
  *
+ * With AmbientLight and an array of normals each splat is as light as the sky makes it, more above than
+ * below, and as a soft light from beside the viewer does: a cloud without colours shows its shape. The
+ * normals need no side: the one towards the viewer counts.
+ *
  * Changing a number is free; changing the array uploads the points again. Colours, lookup tables and lighting
  * are those of vtkPolyDataMapper; other cells than vertices have no place in the input.
  *
@@ -28,6 +32,8 @@
 #include <array>  // For ranges
 #include <string> // For the array's name
 #include <vector> // For ranges
+
+class vtkDataArray;
 
 class POINTHAPTICSINTERACTION_EXPORT vtkSplatMapper : public vtkOpenGLPolyDataMapper
 {
@@ -87,8 +93,34 @@ public:
   void SetRanges(std::vector<std::array<vtkIdType, 2>> ranges);
   const std::vector<std::array<vtkIdType, 2>>& GetRanges() const { return this->Ranges; }
 
+  ///@{
   /**
-   * Takes over all numbers and the array's name, SizeScale times @p factor.
+   * Shade the splats by their normals, where the input has them. Default: off. A change uploads the points
+   * again.
+   */
+  void SetAmbientLight(bool on);
+  bool GetAmbientLight() const { return this->AmbientLight; }
+  ///@}
+
+  ///@{
+  /**
+   * Point array of three components with a unit normal of each point, on either side; zero: the splat has the
+   * middle light. Default: "SurfaceNormal".
+   */
+  void SetNormalArrayName(const std::string& name);
+  const std::string& GetNormalArrayName() const { return this->NormalArrayName; }
+  ///@}
+
+  ///@{
+  /**
+   * Where the sky is, in the frame of the scene; any length above 0. Default: 0, 0, 1.
+   */
+  void SetSkyDirection(const double direction[3]);
+  void GetSkyDirection(double direction[3]) const;
+  ///@}
+
+  /**
+   * Takes over all numbers, the names of the arrays and the light, SizeScale times @p factor.
    */
   void CopySizes(const vtkSplatMapper* other, double factor);
 
@@ -103,6 +135,9 @@ protected:
   void SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor) override;
 
 private:
+  void MapArray(vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped);
+  void SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor);
+
   vtkSplatMapper(const vtkSplatMapper&) = delete;
   void operator=(const vtkSplatMapper&) = delete;
 
@@ -112,8 +147,12 @@ private:
   double SmallestPixels = 2.0;
   double LargestPixels = 64.0;
   double FixedPixels = 0.0;
+  bool AmbientLight = false;
+  std::string NormalArrayName = "SurfaceNormal";
+  std::array<double, 3> SkyDirection = { 0.0, 0.0, 1.0 };
   std::vector<std::array<vtkIdType, 2>> Ranges;
-  bool HasSizes = false; // the shader in use reads the array
+  bool HasNormals = false; // the shader in use reads the normals
+  bool HasSizes = false;   // the shader in use reads the array
   double MedianLength = 0.0;
   vtkMTimeType MedianTime = 0; // of the array it is from
 };

@@ -11,6 +11,9 @@ namespace pointhaptics
 namespace testing
 {
 
+void buildResiduals(const std::string& fault, vtkRenderer* renderer);
+void buildAmbientLight(const std::string& fault, vtkRenderer* renderer);
+void buildCoarseAmbientLight(const std::string& fault, vtkRenderer* renderer);
 void buildSplats(const std::string& fault, vtkRenderer* renderer);
 void buildCoarseSplats(const std::string& fault, vtkRenderer* renderer);
 

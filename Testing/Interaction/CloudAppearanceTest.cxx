@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkDataArray.h>
+#include <vtkFloatArray.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -67,6 +68,52 @@ TEST(CloudAppearance, SaysThatAnArrayIsNotThere)
   vtkNew<vtkActor> actor;
   EXPECT_FALSE(applyCloudAppearance(cloud, mapper, actor, "Temperature"));
   EXPECT_FALSE(applyCloudAppearance(cloud, mapper, actor, "rgb"));
+}
+
+/// 1001 points whose values ascend evenly to @p most.
+vtkSmartPointer<vtkPolyData> makeRamp(double most)
+{
+  vtkNew<vtkFloatArray> values;
+  values->SetName("Density");
+  for (int i = 0; i <= 1000; ++i)
+  {
+    values->InsertNextValue(static_cast<float>(most * i / 1000.0));
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->GetPointData()->AddArray(values);
+  return cloud;
+}
+
+TEST(CloudAppearance, LetsTheColorsFollowOtherValuesButNotSmallChanges)
+{
+  vtkNew<vtkLookupTable> colors;
+  const ColorSource source{ "Density", 0 };
+  EXPECT_TRUE(followColorRange(makeRamp(100.0), source, colors));
+  EXPECT_NEAR(colors->GetTableRange()[0], 1.0, 1e-5);
+  EXPECT_NEAR(colors->GetTableRange()[1], 99.0, 1e-5);
+  EXPECT_FALSE(followColorRange(makeRamp(105.0), source, colors));
+  EXPECT_NEAR(colors->GetTableRange()[1], 99.0, 1e-5);
+  EXPECT_TRUE(followColorRange(makeRamp(25.0), source, colors)); // after a zoom
+  EXPECT_NEAR(colors->GetTableRange()[1], 24.75, 1e-5);
+}
+
+TEST(CloudAppearance, BeginsTheColorsOfErrorsAtZero)
+{
+  const auto cloud = makeRamp(100.0);
+  auto* values = vtkFloatArray::SafeDownCast(cloud->GetPointData()->GetArray("Density"));
+  for (int i = 0; i < 500; ++i)
+  {
+    values->SetValue(i, 1e-6F); // by accident
+  }
+  double range[2];
+  colorRange(cloud, { "Density", 0 }, range);
+  EXPECT_EQ(range[0], 0.0);
+  for (int i = 0; i < 500; ++i)
+  {
+    values->SetValue(i, -1e-6F);
+  }
+  colorRange(cloud, { "Density", 0 }, range);
+  EXPECT_LT(range[0], 0.0);
 }
 
 TEST(CloudAppearance, GrowsLighterInEvenSteps)

@@ -12,6 +12,7 @@
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkFloatArray.h>
+#include <vtkMath.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -28,6 +29,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -340,6 +342,187 @@ TEST_F(CloudDetailTest, LeavesOutWhatIsOutOfViewWithoutChangingThePicture)
   renderer_->RemoveObserver(begin_);
   this->render(0.0);
   EXPECT_EQ(this->pixels(), few);
+}
+
+/// The points of @p cloud in the order of voxel means: x fastest, z slowest.
+void sortAsMeans(vtkPolyData* cloud)
+{
+  std::vector<std::array<double, 3>> places(std::size_t(cloud->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    cloud->GetPoint(vtkIdType(i), places[i].data());
+  }
+  const auto cell = [](double c) { return std::floor(c / 0.0004); };
+  std::sort(places.begin(), places.end(),
+    [&](const auto& a, const auto& b)
+    {
+      return std::array<double, 3>{ cell(a[2]), cell(a[1]), a[0] } <
+        std::array<double, 3>{ cell(b[2]), cell(b[1]), b[0] };
+    });
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    cloud->GetPoints()->SetPoint(vtkIdType(i), places[i].data());
+  }
+  cloud->GetPoints()->Modified();
+  addHeightArray(cloud, { 0, 1, 0 });
+}
+
+/// Pixels that differ visibly, and those of them that have no other colour like theirs next to them.
+struct Difference
+{
+  int visible = 0;
+  int lasting = 0;
+};
+
+Difference differenceOf(const std::vector<unsigned char>& one, const std::vector<unsigned char>& other)
+{
+  constexpr int kVisible = 16;
+  const auto differ = [&](int x, int y, int atX, int atY)
+  {
+    int most = 0;
+    for (int c = 0; c < 3; ++c)
+    {
+      most = std::max(most,
+        std::abs(int(one[std::size_t(3 * (y * kSize + x) + c)]) -
+          int(other[std::size_t(3 * (atY * kSize + atX) + c)])));
+    }
+    return most >= kVisible;
+  };
+  Difference difference;
+  for (int y = 1; y < kSize - 1; ++y)
+  {
+    for (int x = 1; x < kSize - 1; ++x)
+    {
+      if (!differ(x, y, x, y))
+      {
+        continue;
+      }
+      ++difference.visible;
+      bool isNear = false;
+      for (int at = 0; at < 9; ++at)
+      {
+        isNear = isNear || !differ(x, y, x + at % 3 - 1, y + at / 3 - 1);
+      }
+      difference.lasting += isNear ? 0 : 1;
+    }
+  }
+  return difference;
+}
+
+TEST_F(CloudDetailTest, LeavesOutOfThePictureAtRestWhatIsOutOfViewWithoutChangingAPixel)
+{
+  vtkNew<vtkFloatArray> lengths;
+  lengths->SetName("Bandwidth");
+  lengths->SetNumberOfValues(kPoints);
+  for (int i = 0; i < kPoints; ++i)
+  {
+    lengths->SetValue(i, i % 100 == 0 ? 0.0008f : 0.0003f);
+  }
+  cloud_->GetPointData()->AddArray(lengths);
+  sortAsMeans(cloud_);
+  vtkNew<vtkSplatMapper> splats;
+  splats->SetInputData(cloud_);
+  actor_->SetMapper(splats);
+  applyCloudAppearance(cloud_, splats, actor_);
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  for (const bool parallel : { false, true })
+  {
+    for (const double pixels : { 0.0, 9.0 })
+    {
+      splats->SetFixedPixels(pixels);
+      splats->Modified();
+      camera->SetParallelProjection(parallel);
+      camera->SetParallelScale(0.012);
+      camera->SetPosition(0.12, 0.03, 0.02);
+      camera->SetFocalPoint(0.03, 0.02, 0.01);
+      camera->SetViewAngle(12.0);
+      renderer_->ResetCameraClippingRange();
+      this->render(0.01);
+      this->renderUntilFine();
+      EXPECT_EQ(detail_.drawnPoints(), kPoints);
+      EXPECT_LT(detail_.visiblePoints(), kPoints / 2);
+      EXPECT_GT(detail_.visiblePoints(), 1000);
+      const std::vector<unsigned char> some = this->pixels();
+      detail_.setEnabled(false);
+      this->render(0.0);
+      EXPECT_EQ(detail_.visiblePoints(), kPoints);
+      EXPECT_TRUE(this->pixels() == some) << parallel << pixels;
+      detail_.setEnabled(true);
+    }
+  }
+  // Nothing in view is nothing, not all.
+  camera->SetFocalPoint(0.0, 1.0, 0.12);
+  camera->SetPosition(0.0, 0.5, 0.12);
+  camera->SetViewUp(1, 0, 0);
+  this->render(0.01);
+  this->renderUntilFine();
+  EXPECT_EQ(detail_.visiblePoints(), 0);
+  EXPECT_FALSE(splats->GetRanges().empty());
+}
+
+TEST_F(CloudDetailTest, DrawsPointsInAnotherOrderThanTheirOwnAll)
+{
+  vtkNew<vtkCellArray> backwards;
+  for (vtkIdType i = kPoints - 1; i >= 0; --i)
+  {
+    backwards->InsertNextCell(1, &i);
+  }
+  cloud_->SetVerts(backwards);
+  vtkNew<vtkSplatMapper> splats;
+  splats->SetInputData(cloud_);
+  actor_->SetMapper(splats);
+  applyCloudAppearance(cloud_, splats, actor_);
+  renderer_->GetActiveCamera()->SetViewAngle(5.0);
+  this->render(0.01);
+  this->renderUntilFine();
+  EXPECT_EQ(detail_.visiblePoints(), kPoints);
+}
+
+TEST_F(CloudDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
+{
+  vtkNew<vtkFloatArray> lengths;
+  lengths->SetName("Bandwidth");
+  lengths->SetNumberOfValues(kPoints);
+  lengths->FillValue(0.0003f); // 0.43 mm apart
+  cloud_->GetPointData()->AddArray(lengths);
+  vtkNew<vtkSplatMapper> splats;
+  splats->SetInputData(cloud_);
+  actor_->SetMapper(splats);
+  applyCloudAppearance(cloud_, splats, actor_);
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  std::int64_t last = kPoints + 1;
+  for (const bool parallel : { false, true })
+  {
+    for (const double distance : { 0.3, 0.6, 2.0 })
+    {
+      camera->SetParallelProjection(parallel);
+      camera->SetParallelScale(distance * std::tan(vtkMath::RadiansFromDegrees(15.0)));
+      camera->SetPosition(0, 0, distance);
+      renderer_->ResetCameraClippingRange();
+      this->render(0.01);
+      this->renderUntilFine();
+      EXPECT_TRUE(detail_.showsAll());
+      EXPECT_FALSE(detail_.refinementDue(now_ + 10.0));
+      const std::int64_t drawn = detail_.drawnPoints();
+      const std::vector<unsigned char> part = this->pixels();
+      detail_.showAllOnce();
+      this->render(0.01);
+      EXPECT_EQ(detail_.drawnPoints(), kPoints) << "a picture that is kept has all";
+      const Difference difference = differenceOf(part, this->pixels());
+      const double radius = 0.04 / distance / std::tan(vtkMath::RadiansFromDegrees(15.0)) * kSize / 2;
+      const double covered = vtkMath::Pi() * radius * radius;
+      if (distance < 0.5)
+      {
+        EXPECT_EQ(drawn, kPoints);
+        continue;
+      }
+      EXPECT_LT(drawn, parallel ? kPoints : last);
+      EXPECT_LT(difference.visible, 0.05 * covered + 4.0);
+      EXPECT_EQ(difference.lasting, 0) << "a colour that was not next to it before";
+      last = drawn;
+    }
+    last = kPoints + 1;
+  }
 }
 
 TEST_F(CloudDetailTest, LeavesOutWhatTheWorkspaceClips)

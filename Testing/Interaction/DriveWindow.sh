@@ -59,7 +59,7 @@ takes_keys() {
 }
 # setting NAME FILE: its value, without blanks, numbers to eight digits.
 setting() {
-  tr -d ' \n' <"$2" | grep -oE "\"$1\":(\[[^]]*\]|\"[^\"]*\"|[^,}]*)" | sed -E 's/(\.[0-9]{8})[0-9]+/\1/g'
+  tr -d ' \n' <"$2" | { grep -oE "\"$1\":(\[[^]]*\]|\"[^\"]*\"|[^,}]*)" || true; } | sed -E 's/(\.[0-9]{8})[0-9]+/\1/g'
 }
 # pointer_x: where the mouse pointer stands in the window.
 pointer_x() { xdotool getmouselocation --shell | sed -n 's/^X=//p'; }
@@ -139,6 +139,9 @@ said "settings: pointhaptics-006.json"
 [[ "$(setting axes pointhaptics-005.json) $(setting axes pointhaptics-006.json)" == '"axes":false "axes":true' ]] || fail "key A did not show the axes"
 [[ "$(setting figure pointhaptics-005.json) $(setting figure pointhaptics-006.json)" == '"figure":false "figure":true' ]] || fail "key O did not make the figure"
 key o
+key m
+said "coloured by Density, as soon as it is computed"
+key l
 [[ "$(setting camera pointhaptics-005.json)" != "$(setting camera pointhaptics-006.json)" ]] || fail "the camera is not written"
 [[ "$(element pointhaptics-005.json 3)" != "$(element pointhaptics-006.json 3)" ]] || fail "the hand did not shift the model"
 xdotool mousemove --window "$window" 300 150
@@ -146,6 +149,14 @@ sleep 0.3
 key w
 said "settings: pointhaptics-007.json"
 [[ "$(element pointhaptics-006.json 3)" == "$(element pointhaptics-007.json 3)" ]] || fail "the hand still holds the model"
+[[ "$(setting color-by pointhaptics-006.json)" == "" ]] || fail "a colour that nobody chose"
+[[ "$(setting color-by pointhaptics-007.json)" == '"color-by":"Density"' ]] || fail "key M did not change the colours"
+[[ "$(setting ambient pointhaptics-006.json) $(setting ambient pointhaptics-007.json)" == '"ambient":false "ambient":true' ]] || fail "key L did not light the cloud"
+key m
+key m
+said "coloured by Residual, as soon as it is computed"
+key m
+said "coloured by Height"
 
 # From the left into a sphere: the touch pushes the pointer back.
 key b

@@ -1,5 +1,7 @@
 #include "SceneWorker.h"
 
+#include "SurfaceArrays.h"
+
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -100,6 +102,41 @@ TEST_F(SceneWorkerTest, MakesWhatTheFiltersWouldMake)
   ASSERT_NE(newest_, nullptr);
   EXPECT_EQ(newest_->numberOfPoints(), std::size_t(expected->GetNumberOfPoints()));
   EXPECT_FALSE(worker_.take(built));
+}
+
+TEST_F(SceneWorkerTest, AddsResidualsAndNormalsToThePictureOnRequest)
+{
+  for (const bool wanted : { false, true })
+  {
+    SceneRequest request = this->shifted(0.003);
+    request.hasResiduals = wanted;
+    request.hasNormals = wanted;
+    worker_.request(std::move(request));
+    worker_.wait();
+    BuiltScene built;
+    ASSERT_TRUE(worker_.take(built));
+    vtkPointData* data = built.means->GetPointData();
+    EXPECT_EQ(data->HasArray(kResidualArrayName) != 0, wanted);
+    EXPECT_EQ(data->HasArray(kSurfaceNormalArrayName) != 0, wanted);
+    EXPECT_NE(data->GetArray("Bandwidth"), nullptr);
+  }
+}
+
+TEST_F(SceneWorkerTest, PublishesAllScenesWhileResidualsAreWanted)
+{
+  for (int i = 1; i <= 20; ++i)
+  {
+    SceneRequest request = this->shifted(1e-4 * i);
+    request.hasResiduals = true;
+    worker_.request(std::move(request));
+  }
+  worker_.wait();
+  BuiltScene built;
+  ASSERT_TRUE(worker_.take(built));
+  EXPECT_EQ(built.number, 20u);
+  EXPECT_TRUE(built.means->GetPointData()->HasArray(kResidualArrayName));
+  ASSERT_NE(newest_, nullptr);
+  EXPECT_NEAR(newest_->modelToWorkspace().m[2][3], 0.002, 1e-15);
 }
 
 TEST_F(SceneWorkerTest, EndsWithTheNewestOfManyRequests)

@@ -1,0 +1,55 @@
+#include "ViewSettings.h"
+
+#include "LatticeOptions.h"
+
+#include <gtest/gtest.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+
+#include <string>
+
+using namespace pointhaptics;
+using namespace pointhaptics::app;
+
+namespace
+{
+
+/// What --config makes of the settings.
+LatticeOptions readBack(const nlohmann::ordered_json& settings)
+{
+  LatticeOptions options;
+  options.unit = settings.value("unit", "m");
+  options.matrix = settings.at("matrix").get<std::vector<double>>();
+  options.workspace = settings.at("workspace").get<std::vector<double>>();
+  return options;
+}
+
+TEST(ViewSettings, KeepTheUnitOfTheFileBesideTheModelMatrix)
+{
+  const double elements[16] = { 0, -0.004, 0, 0.01, 0.004, 0, 0, 0.02, 0, 0, 0.004, -0.03, 0, 0, 0, 1 };
+  const double workspace[6] = { -0.05, 0.05, -0.04, 0.04, -0.03, 0.03 };
+  vtkNew<vtkMatrix4x4> model;
+  model->DeepCopy(elements);
+  for (const std::string unit : { "m", "mm", "in" })
+  {
+    nlohmann::ordered_json settings = { { "unit", unit }, { "scale", "4" }, { "axes", true } };
+    LatticeOptions given;
+    given.unit = unit;
+    setModel(settings, model, given.metresPerUnit(), workspace);
+    EXPECT_EQ(settings.count("scale"), 0u);
+    EXPECT_EQ(settings["axes"], true);
+    const LatticeOptions again = readBack(settings);
+    EXPECT_EQ(again.metresPerUnit(), given.metresPerUnit()) << unit;
+    const AffineTransform transform = again.transform();
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int column = 0; column < 4; ++column)
+      {
+        EXPECT_NEAR(transform.m[row][column], elements[4 * row + column], 1e-17) << unit;
+      }
+      EXPECT_EQ(again.workspace[std::size_t(2 * row)], workspace[2 * row]);
+    }
+  }
+}
+
+} // namespace
