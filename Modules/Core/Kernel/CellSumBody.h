@@ -58,11 +58,10 @@ template <class V>
 void mark(const CellMap& map, const Record* records, int count, const Record* next, std::uint64_t* marks,
   std::uint32_t* cells)
 {
-  constexpr int kLine = 64 / sizeof(Record);
   constexpr int kStep = 64;
   for (int first = 0; first < count; first += kStep)
   {
-    for (int i = first; i < first + kStep; i += kLine)
+    for (int i = first; i < first + kStep; i += kLineRecords)
     {
       __builtin_prefetch(next + i);
     }

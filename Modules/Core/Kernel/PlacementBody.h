@@ -129,7 +129,8 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
   return to;
 }
 
-template <bool Indexed>
+/// @tparam InScan: blocks are filled faster than they could be fetched line by line.
+template <bool Indexed, bool InScan>
 inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
 {
   const std::uint32_t partition = placed.partitions[i];
@@ -137,6 +138,10 @@ inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
   if ((reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1)) == 0)
   {
     cursor = writer.refill(writer, partition);
+    for (std::size_t line = 0; InScan && line < kBlockRecords; line += kLineRecords)
+    {
+      __builtin_prefetch(cursor + line, 1);
+    }
   }
   *cursor = placed.records[i];
   if (Indexed)
@@ -144,7 +149,7 @@ inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
     writer.indices[cursor - writer.records] = placed.indices[i];
   }
   ++cursor;
-  __builtin_prefetch(cursor + 64 / sizeof(Record), 1);
+  __builtin_prefetch(cursor + kLineRecords, 1);
   writer.cursors[partition] = cursor;
 }
 
@@ -168,13 +173,13 @@ inline int dealRun(const PlacedPoints& placed, RecordWriter& writer)
         cursor[j] = placed.records[i + j];
       }
       cursor += kTogether;
-      __builtin_prefetch(cursor + 64 / sizeof(Record), 1);
+      __builtin_prefetch(cursor + kLineRecords, 1);
       writer.cursors[partitions[0]] = cursor;
       continue;
     }
     for (int j = 0; j < kTogether; ++j)
     {
-      dealOne<false>(placed, i + j, writer);
+      dealOne<false, true>(placed, i + j, writer);
     }
   }
   return i;
@@ -188,7 +193,7 @@ inline bool isScan(const PlacedPoints& placed)
   const int step = placed.size / 4;
   return placed.size >= 16 &&
     int(p[0] == p[1]) + int(p[step] == p[step + 1]) + int(p[2 * step] == p[2 * step + 1]) +
-        int(p[3 * step] == p[3 * step + 1]) >=
+      int(p[3 * step] == p[3 * step + 1]) >=
     2;
 }
 
@@ -200,7 +205,7 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   {
     for (int i = 0; i < placed.size; ++i)
     {
-      dealOne<Indexed>(placed, i, writer);
+      dealOne<Indexed, false>(placed, i, writer);
     }
     return;
   }
@@ -208,12 +213,12 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   const bool isRun =
     first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
   const int from = !Indexed && isRun ? dealRun(placed, writer) : 0;
-  fromFourPlaces(placed.size - from, [&](int j) { dealOne<Indexed>(placed, from + j, writer); });
+  fromFourPlaces(placed.size - from, [&](int j) { dealOne<Indexed, true>(placed, from + j, writer); });
 }
 
-/// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p present:
-/// point i of a group is one. @return how many are not finite. A function of its own, without calls: the
-/// constants stay in registers.
+/// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p
+/// present: point i of a group is one. @return how many are not finite. A function of its own, without calls:
+/// the constants stay in registers.
 template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
 __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, const Real* xyz, int groups,
   unsigned present, std::uint32_t index, PlacedPoints& placed)
