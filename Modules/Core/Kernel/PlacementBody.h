@@ -129,8 +129,12 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
   return to;
 }
 
-/// @tparam InScan: blocks are filled faster than they could be fetched line by line.
-template <bool Indexed, bool InScan>
+/// Lines after that of a cursor that are fetched, where nothing is known of the order of points and in a scan,
+/// which fills several at once.
+constexpr int kFetchAhead = 1;
+constexpr int kScanFetchAhead = 3;
+
+template <bool Indexed, int fetchAhead>
 inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
 {
   const std::uint32_t partition = placed.partitions[i];
@@ -138,10 +142,6 @@ inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
   if ((reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1)) == 0)
   {
     cursor = writer.refill(writer, partition);
-    for (std::size_t line = 0; InScan && line < kBlockRecords; line += kLineRecords)
-    {
-      __builtin_prefetch(cursor + line, 1);
-    }
   }
   *cursor = placed.records[i];
   if (Indexed)
@@ -149,7 +149,7 @@ inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
     writer.indices[cursor - writer.records] = placed.indices[i];
   }
   ++cursor;
-  __builtin_prefetch(cursor + kLineRecords, 1);
+  __builtin_prefetch(cursor + fetchAhead * kLineRecords, 1);
   writer.cursors[partition] = cursor;
 }
 
@@ -173,13 +173,13 @@ inline int dealRun(const PlacedPoints& placed, RecordWriter& writer)
         cursor[j] = placed.records[i + j];
       }
       cursor += kTogether;
-      __builtin_prefetch(cursor + kLineRecords, 1);
+      __builtin_prefetch(cursor + kScanFetchAhead * kLineRecords, 1);
       writer.cursors[partitions[0]] = cursor;
       continue;
     }
     for (int j = 0; j < kTogether; ++j)
     {
-      dealOne<false, true>(placed, i + j, writer);
+      dealOne<false, kScanFetchAhead>(placed, i + j, writer);
     }
   }
   return i;
@@ -205,7 +205,7 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   {
     for (int i = 0; i < placed.size; ++i)
     {
-      dealOne<Indexed, false>(placed, i, writer);
+      dealOne<Indexed, kFetchAhead>(placed, i, writer);
     }
     return;
   }
@@ -213,7 +213,7 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   const bool isRun =
     first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
   const int from = !Indexed && isRun ? dealRun(placed, writer) : 0;
-  fromFourPlaces(placed.size - from, [&](int j) { dealOne<Indexed, true>(placed, from + j, writer); });
+  fromPlaces<8>(placed.size - from, [&](int j) { dealOne<Indexed, kScanFetchAhead>(placed, from + j, writer); });
 }
 
 /// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p
