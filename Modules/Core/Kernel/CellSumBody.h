@@ -23,20 +23,23 @@ inline std::uint32_t cellOf(const CellMap& map, const Record& r)
   return x + map.columns * ((row < map.firstRow ? row + map.upperRows : row) - map.firstRow);
 }
 
+/// So many places hide the wait.
+constexpr int kSumPlaces = 4;
+
 /// Calls visit(i) for all i below @p count. Neighbours in a scan are in one voxel, and what is done to it
-/// waits for what was done before: takes them from four places in turn.
-template <typename Visit>
-inline void fromFourPlaces(int count, Visit&& visit)
+/// waits for what was done before: takes them from so many places in turn.
+template <int places, typename Visit>
+inline void fromPlaces(int count, Visit&& visit)
 {
-  const int quarter = count / 4;
-  for (int i = 0; i < quarter; ++i)
+  const int part = count / places;
+  for (int i = 0; i < part; ++i)
   {
-    visit(i);
-    visit(i + quarter);
-    visit(i + 2 * quarter);
-    visit(i + 3 * quarter);
+    for (int place = 0; place < places; ++place)
+    {
+      visit(i + place * part);
+    }
   }
-  for (int i = 4 * quarter; i < count; ++i)
+  for (int i = places * part; i < count; ++i)
   {
     visit(i);
   }
@@ -46,7 +49,7 @@ inline void fromFourPlaces(int count, Visit&& visit)
 inline void markCells(const std::uint32_t* cells, int count, std::uint64_t* marks)
 {
   auto* bytes = reinterpret_cast<unsigned char*>(marks);
-  fromFourPlaces(count,
+  fromPlaces<kSumPlaces>(count,
     [=](int i)
     {
       unsigned char& byte = bytes[(cells[i] / 8) ^ kByteOrder];
@@ -58,11 +61,10 @@ template <class V>
 void mark(const CellMap& map, const Record* records, int count, const Record* next, std::uint64_t* marks,
   std::uint32_t* cells)
 {
-  constexpr int kLine = 64 / sizeof(Record);
   constexpr int kStep = 64;
   for (int first = 0; first < count; first += kStep)
   {
-    for (int i = first; i < first + kStep; i += kLine)
+    for (int i = first; i < first + kStep; i += kLineRecords)
     {
       __builtin_prefetch(next + i);
     }
@@ -121,7 +123,7 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
   const CellRanks ranks = givenRanks;
   const CellSums to = given;
   const typename V::Adder adder(map.fractionBits);
-  fromFourPlaces(count,
+  fromPlaces<kSumPlaces>(count,
     [=](int i)
     {
       const std::uint32_t rank = rankOf<V>(ranks, cells[i]);
@@ -131,7 +133,7 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
   if (to.seconds)
   {
     const std::uint64_t fractionMask = (std::uint64_t(1) << map.fractionBits) - 1;
-    fromFourPlaces(count,
+    fromPlaces<kSumPlaces>(count,
       [=](int i)
       {
         const Record& r = records[i];

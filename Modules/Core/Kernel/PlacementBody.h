@@ -111,24 +111,30 @@ inline unsigned placeGroup(
   return bits;
 }
 
-/// Moves the records of a group that are inside together. @p group is where the first of it is.
+/// Moves the records of a group at @p group that are inside together. @return where the next group goes.
 template <bool Indexed>
-inline void keepInside(PlacedPoints& placed, int group, unsigned inside, std::uint32_t index)
+inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uint32_t index)
 {
-  for (; inside != 0; inside &= inside - 1)
+  int to = group;
+  for (; inside != 0; inside &= inside - 1, ++to)
   {
     const int i = __builtin_ctz(inside);
-    placed.records[placed.size] = placed.records[group + i];
-    placed.partitions[placed.size] = placed.partitions[group + i];
+    placed.records[to] = placed.records[group + i];
+    placed.partitions[to] = placed.partitions[group + i];
     if (Indexed)
     {
-      placed.indices[placed.size] = index + std::uint32_t(i);
+      placed.indices[to] = index + std::uint32_t(i);
     }
-    ++placed.size;
   }
+  return to;
 }
 
-template <bool Indexed>
+/// Lines after that of a cursor that are fetched, where nothing is known of the order of points and in a scan,
+/// which fills several at once.
+constexpr int kFetchAhead = 1;
+constexpr int kScanFetchAhead = 3;
+
+template <bool Indexed, int fetchAhead>
 inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
 {
   const std::uint32_t partition = placed.partitions[i];
@@ -143,7 +149,7 @@ inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
     writer.indices[cursor - writer.records] = placed.indices[i];
   }
   ++cursor;
-  __builtin_prefetch(cursor + 64 / sizeof(Record), 1);
+  __builtin_prefetch(cursor + fetchAhead * kLineRecords, 1);
   writer.cursors[partition] = cursor;
 }
 
@@ -167,90 +173,116 @@ inline int dealRun(const PlacedPoints& placed, RecordWriter& writer)
         cursor[j] = placed.records[i + j];
       }
       cursor += kTogether;
-      __builtin_prefetch(cursor + 64 / sizeof(Record), 1);
+      __builtin_prefetch(cursor + kScanFetchAhead * kLineRecords, 1);
       writer.cursors[partitions[0]] = cursor;
       continue;
     }
     for (int j = 0; j < kTogether; ++j)
     {
-      dealOne<false>(placed, i + j, writer);
+      dealOne<false, kScanFetchAhead>(placed, i + j, writer);
     }
   }
   return i;
 }
 
-/// Appends the records to their partitions. Whether they are a run, as in a scan, is asked once for all: a
-/// branch on each few guesses wrong where the runs are short.
+/// Whether many of some records go where the one before goes, as in a scan. Samples tell: fewer than would
+/// pay as vectors.
+inline bool isScan(const PlacedPoints& placed)
+{
+  const std::uint32_t* p = placed.partitions;
+  const int step = placed.size / 4;
+  return placed.size >= 16 &&
+    int(p[0] == p[1]) + int(p[step] == p[step + 1]) + int(p[2 * step] == p[2 * step + 1]) +
+      int(p[3 * step] == p[3 * step + 1]) >=
+    2;
+}
+
+/// Appends the records to their partitions. How is asked once for all: a branch on each few guesses wrong.
 template <bool Indexed>
 inline void deal(const PlacedPoints& placed, RecordWriter& writer)
 {
-  int i = 0;
-  if (!Indexed && placed.size > 0)
+  if (!isScan(placed))
   {
-    const std::uint32_t first = placed.partitions[0];
-    const bool isRun =
-      first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
-    i = isRun ? dealRun(placed, writer) : 0;
+    for (int i = 0; i < placed.size; ++i)
+    {
+      dealOne<Indexed, kFetchAhead>(placed, i, writer);
+    }
+    return;
   }
-  const int from = i;
-  fromFourPlaces(placed.size - from, [&](int j) { dealOne<Indexed>(placed, from + j, writer); });
+  const std::uint32_t first = placed.partitions[0];
+  const bool isRun =
+    first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
+  const int from = !Indexed && isRun ? dealRun(placed, writer) : 0;
+  fromPlaces<8>(placed.size - from, [&](int j) { dealOne<Indexed, kScanFetchAhead>(placed, from + j, writer); });
+}
+
+/// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p
+/// present: point i of a group is one. @return how many are not finite. A function of its own, without calls:
+/// the constants stay in registers.
+template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
+__attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, const Real* xyz, int groups,
+  unsigned present, std::uint32_t index, PlacedPoints& placed)
+{
+  constexpr int kAhead = 4096 / int(sizeof(Real));
+  const PlacementVectors<V> constants = given;
+  int size = 0;
+  int invalid = 0;
+  for (int g = 0; g < groups; ++g, xyz += 3 * V::width, index += V::width)
+  {
+    __builtin_prefetch(xyz + kAhead);
+    if (V::width * 3 * sizeof(Real) > 64)
+    {
+      __builtin_prefetch(xyz + kAhead + 64 / sizeof(Real));
+    }
+    unsigned finite = 0;
+    const unsigned inside = placeGroup<V, motion, Pair>(constants, xyz, placed, size, finite);
+    if ((inside & present) == V::full)
+    {
+      for (int i = 0; Indexed && i < V::width; ++i)
+      {
+        placed.indices[size + i] = index + std::uint32_t(i);
+      }
+      size += V::width;
+      continue;
+    }
+    // Where not all of a group were present, finite was told if any of those was outside.
+    const unsigned kept = inside & present;
+    invalid += kept == present ? 0 : __builtin_popcount(present & ~inside & ~finite);
+    size = keepInside<Indexed>(placed, size, kept, index);
+  }
+  placed.size = size;
+  return invalid;
 }
 
 template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
 void partitionAll(
   const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
 {
-  constexpr int kAhead = 4096 / int(sizeof(Real));
   const PlacementVectors<V> constants(placement);
   PlacedPoints placed;
-  std::int64_t inside = 0;
-  std::int64_t invalid = 0;
-  const auto place = [&](const Real* from, unsigned present, std::uint32_t first)
+  const auto place = [&](const Real* from, int groups, unsigned present, std::int64_t first)
   {
-    const int group = placed.size;
-    unsigned finite = 0;
-    const unsigned bits = placeGroup<V, motion, Pair>(constants, from, placed, group, finite);
-    if (bits == V::full && present == V::full)
-    {
-      for (int j = 0; Indexed && j < V::width; ++j)
-      {
-        placed.indices[group + j] = first + std::uint32_t(j);
-      }
-      placed.size += V::width;
-      return;
-    }
-    // Where the padding alone is outside, finite was told too: some lane was outside.
-    const unsigned kept = bits & present;
-    invalid += kept == present ? 0 : __builtin_popcount(present & ~bits & ~finite);
-    keepInside<Indexed>(placed, group, kept, first);
-  };
-  for (std::int64_t i = 0; i < count; inside += placed.size)
-  {
-    placed.size = 0;
-    for (int room = kPlacedAtOnce / V::width; room > 0 && i < count; --room, i += V::width)
-    {
-      const Real* p = xyz + 3 * i;
-      if (i + V::width <= count)
-      {
-        __builtin_prefetch(p + kAhead);
-        if (V::width * 3 * sizeof(Real) > 64)
-        {
-          __builtin_prefetch(p + kAhead + 64 / sizeof(Real));
-        }
-        place(p, V::full, index + std::uint32_t(i));
-        continue;
-      }
-      Real last[3 * kWidest] = {};
-      for (std::int64_t j = 0; j < 3 * (count - i); ++j)
-      {
-        last[j] = p[j];
-      }
-      place(last, (1u << unsigned(count - i)) - 1, index + std::uint32_t(i));
-    }
+    writer.invalid += placeGroups<V, motion, Pair, Indexed>(
+      constants, from, groups, present, index + std::uint32_t(first), placed);
+    writer.inside += placed.size;
     deal<Indexed>(placed, writer);
+  };
+  const std::int64_t whole = count / V::width;
+  for (std::int64_t group = 0; group < whole; group += kPlacedAtOnce / V::width)
+  {
+    const std::int64_t left = whole - group;
+    const int groups = left < kPlacedAtOnce / V::width ? int(left) : kPlacedAtOnce / V::width;
+    place(xyz + 3 * V::width * group, groups, V::full, V::width * group);
   }
-  writer.inside += inside;
-  writer.invalid += invalid;
+  if (const std::int64_t rest = count - V::width * whole)
+  {
+    Real last[3 * kWidest] = {};
+    for (std::int64_t i = 0; i < 3 * rest; ++i)
+    {
+      last[i] = xyz[3 * V::width * whole + i];
+    }
+    place(last, 1, (1u << unsigned(rest)) - 1, V::width * whole);
+  }
 }
 
 template <class V, Motion motion, typename Real>

@@ -55,11 +55,6 @@ Record* RecordPool::refill(RecordWriter& base, std::uint32_t partition)
   pool.previous_[block] = writer.lastBlocks[partition];
   writer.lastBlocks[partition] = block;
   Record* records = pool.records_.data() + std::size_t(block) * kBlockRecords;
-  // In a scan it is filled faster than it can be fetched line by line.
-  for (std::size_t i = 0; i < kBlockRecords; i += 64 / sizeof(Record))
-  {
-    __builtin_prefetch(records + i, 1);
-  }
   return records + (isFirst ? stagger(partition) : 0);
 }
 

@@ -84,8 +84,7 @@ private:
   /// this they would crowd the same few sets of the first-level cache.
   static std::size_t stagger(std::uint32_t partition)
   {
-    constexpr std::uint32_t kLine = 64 / sizeof(Record);
-    return kLine * (partition % std::uint32_t(kBlockRecords / kLine));
+    return kLineRecords * (partition % std::uint32_t(kBlockRecords / kLineRecords));
   }
 
   struct Writer : RecordWriter

@@ -43,6 +43,8 @@ struct alignas(16) Record
 /// Records are written into blocks of this size, aligned to it.
 constexpr std::size_t kBlockBytes = 4096;
 constexpr std::size_t kBlockRecords = kBlockBytes / sizeof(Record);
+/// Records of a line of the caches.
+constexpr int kLineRecords = 64 / sizeof(Record);
 
 /// What of the matrix there is to multiply with.
 enum class Motion
