@@ -139,29 +139,47 @@ void AttributeMean::scan(const Executor& executor)
       nonFinite = nonFinite || above != 0;
     });
   hasNonFinite_ = nonFinite;
-  partBits_ = std::min(kMostPartBits, 62 - bitsOf(view_.tuples));
-  lanes_ = 1;
+  exponent_ = lastBit_ = 0;
   if (largest > 0.0)
   {
     int exponent;
     std::frexp(largest, &exponent_);
     std::frexp(smallest, &exponent);
-    const int lastBit = exponent - std::numeric_limits<Real>::digits;
-    lanes_ = std::min((exponent_ - lastBit + partBits_ - 1) / partBits_, kMostLanes);
+    lastBit_ = exponent - std::numeric_limits<Real>::digits;
   }
+}
+
+/// How to cut floating-point numbers.
+void AttributeMean::chooseParts(std::int64_t mostPoints)
+{
+  const int bits = exponent_ - lastBit_;
+  const int sumBits = bitsOf(mostPoints);
+  const bool inOne = bits + sumBits <= 63;
+  partBits_ = inOne ? bits : std::min(kMostPartBits, 62 - sumBits);
+  lanes_ = inOne ? 1 : std::min((bits + partBits_ - 1) / partBits_, kMostLanes);
   // In two factors: for tiny arrays one would overflow.
   const int shift = partBits_ - exponent_;
   scale_[0] = std::ldexp(1.0, std::min(shift, 1000));
   scale_[1] = std::ldexp(1.0, std::max(shift - 1000, 0));
 }
 
-void AttributeMean::prepare(std::int64_t voxels, Buffer<std::int64_t> spare, const Executor& executor)
+void AttributeMean::prepare(
+  std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor)
 {
-  voxels_ = voxels;
+  if (isFloating())
+  {
+    chooseParts(mostPoints);
+  }
   if (spare.bytes() > sums_.bytes())
   {
     sums_ = std::move(spare);
   }
+  clear(voxels, executor);
+}
+
+void AttributeMean::clear(std::int64_t voxels, const Executor& executor)
+{
+  voxels_ = voxels;
   const std::size_t size = std::size_t(voxels) * std::size_t(view_.components);
   sums_.reserve(size * std::size_t(lanes_), Pages::Huge);
   forRange(executor, std::int64_t(size) * lanes_,
@@ -237,7 +255,24 @@ inline void addParts(double scaled, double partScale, int parts, std::int64_t* s
   }
 }
 
-/// The usual case: two parts, all numbers finite, one scale.
+/// The usual cases: all numbers finite, one scale, and either one part
+template <int Components, typename Real>
+void addWhole(const Real* values, int components, const std::int64_t* points, const std::int64_t* voxels,
+  int count, double scale, std::int64_t* sums)
+{
+  const int width = Components > 0 ? Components : components;
+  for (int i = 0; i < count; ++i)
+  {
+    const Real* value = values + width * points[i];
+    std::int64_t* sum = sums + width * voxels[i];
+    for (int c = 0; c < width; ++c)
+    {
+      sum[c] += std::int64_t(double(value[c]) * scale);
+    }
+  }
+}
+
+/// or two.
 template <int Components, typename Real>
 void addPairs(const Real* values, int components, const std::int64_t* points, const std::int64_t* voxels,
   int count, double scale, double partScale, std::int64_t* sums)
@@ -263,6 +298,14 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
   const int components = view_.components;
   const double partScale = std::ldexp(1.0, partBits_);
   prefetch(values, points, voxels, count);
+  if (lanes_ == 1 && !hasNonFinite_ && scale_[1] == 1.0)
+  {
+    const auto whole = components == 3 ? &addWhole<3, Real>
+      : components == 1                ? &addWhole<1, Real>
+                                       : &addWhole<0, Real>;
+    whole(values, components, points, voxels, count, scale_[0], sums_.data());
+    return;
+  }
   if (lanes_ == 2 && !hasNonFinite_ && scale_[1] == 1.0)
   {
     const auto pairs = components == 3 ? &addPairs<3, Real>
@@ -280,6 +323,10 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
       if (hasNonFinite_ && !std::isfinite(value[c]))
       {
         special_[std::size_t(components * voxels[i] + c)] |= kindOf(value[c]);
+      }
+      else if (lanes_ == 1)
+      {
+        sum[c] += std::int64_t(double(value[c]) * scale_[0] * scale_[1]);
       }
       else if (lanes_ <= kMostScaledLanes)
       {
@@ -319,7 +366,7 @@ void AttributeMean::coarsen(const std::vector<std::int64_t>& parents, std::int64
 {
   const Buffer<std::int64_t> fine = std::move(sums_);
   const Buffer<std::uint8_t> fineSpecial = std::move(special_);
-  prepare(voxels);
+  clear(voxels, Executor());
   const std::size_t components = std::size_t(view_.components);
   const std::size_t width = components * std::size_t(lanes_);
   for (std::size_t v = 0; v < parents.size(); ++v)

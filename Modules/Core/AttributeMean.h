@@ -38,9 +38,10 @@ struct AttributeView
 
 /// Sums an attribute over the points of each voxel, exactly, and divides.
 ///
-/// Integers are summed as they are. Floating-point numbers are cut to fixed point in as many parts of up to
-/// 40 bits as reach from the array's largest magnitude down to the last bit of its smallest: two for most
-/// arrays, more where magnitudes differ by more than 2^50. Sums are exact, so a mean is within one rounding
+/// Integers are summed as they are. Floating-point numbers are cut to fixed point, from the array's largest
+/// magnitude down to the last bit of its smallest: in one part where sums of the most points of a voxel fit 63
+/// bits, as those of most arrays of floats do, else in parts of up to 40 bits: two for most arrays, more
+/// where magnitudes differ by more than 2^50. Sums are exact, so a mean is within one rounding
 /// of the exact one (half a unit in the last place for the quotient, as much for the sum), a lone point's is
 /// its value, and none depends on the order. A voxel with NaN or infinities has the mean that IEEE addition
 /// would give. Memory: 8 bytes a voxel, component and part (integers of up to 32 bits: one part, of 64: two).
@@ -50,8 +51,10 @@ public:
   /// Looks through the values of a floating-point array once.
   AttributeMean(const AttributeView& view, const Executor& executor);
 
-  /// Forgets all sums and makes room for @p voxels, in @p spare if that is large enough.
-  void prepare(std::int64_t voxels, Buffer<std::int64_t> spare = {}, const Executor& executor = {});
+  /// Forgets all sums and makes room for @p voxels of at most @p mostPoints points each, at coarser levels
+  /// too, in @p spare if that is large enough.
+  void prepare(std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare = {},
+    const Executor& executor = {});
   /// The memory of the sums, which are gone then.
   Buffer<std::int64_t> takeSums() { return std::move(sums_); }
   /// Adds the tuples of points to the sums of their voxels. Several threads may add at once if no two have a
@@ -74,6 +77,8 @@ private:
   bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
   template <typename Real>
   void scan(const Executor& executor);
+  void chooseParts(std::int64_t mostPoints);
+  void clear(std::int64_t voxels, const Executor& executor);
   template <typename T>
   void prefetch(const T* values, const std::int64_t* points, const std::int64_t* voxels, int count) const;
   template <typename Integer>
@@ -97,6 +102,7 @@ private:
   int partBits_ = 0;
   double scale_[2] = { 1.0, 1.0 }; ///< Both times a value give its first part, and what is left of it.
   int exponent_ = 0;               ///< All magnitudes are below 2^exponent_.
+  int lastBit_ = 0;                ///< And multiples of 2^lastBit_.
   bool hasNonFinite_ = false;
   std::int64_t voxels_ = 0;
   Buffer<std::int64_t> sums_;    ///< [voxel][component][lane]

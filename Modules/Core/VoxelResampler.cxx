@@ -509,6 +509,13 @@ std::int64_t VoxelResampler::size(int level) const
   return implementation_->levels[std::size_t(level)].size;
 }
 
+std::int64_t VoxelResampler::mostPoints(int l) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  const std::int64_t* counts = level.arena.counts();
+  return level.size == 0 ? 0 : *std::max_element(counts, counts + level.size);
+}
+
 const Lattice& VoxelResampler::lattice(int level) const
 {
   return implementation_->levels[std::size_t(level)].lattice;

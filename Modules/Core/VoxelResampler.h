@@ -97,6 +97,8 @@ public:
   std::int64_t clippedPoints() const;     ///< Finite points outside the lattice.
   std::int64_t invalidPoints() const;     ///< Points NaN or infinite, before or after the transform.
   std::int64_t size(int level = 0) const; ///< Active voxels.
+  /// Of the voxel that has most of them.
+  std::int64_t mostPoints(int level = 0) const;
   const Lattice& lattice(int level = 0) const;
   /// Voxels in ascending order of their keys (x fastest). @p xyz: 3 size(level) numbers, of the type asked
   /// for.

@@ -218,12 +218,13 @@ VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const Ex
   }
 }
 
-void VoxelAttribute::prepare(std::int64_t voxels, Buffer<std::int64_t> spare, const Executor& executor)
+void VoxelAttribute::prepare(
+  std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor)
 {
   voxels_ = voxels;
   if (mean_)
   {
-    mean_->prepare(voxels, std::move(spare), executor);
+    mean_->prepare(voxels, mostPoints, std::move(spare), executor);
   }
   else
   {

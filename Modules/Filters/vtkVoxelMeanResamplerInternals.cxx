@@ -195,6 +195,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   }
   this->From = 0.5;
   this->To = 0.95;
+  const std::int64_t mostPoints = this->Engine.mostPoints(this->Request.levels - 1);
   for (NamedAttribute& named : this->Attributes)
   {
     Buffer<std::int64_t> spare;
@@ -203,7 +204,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
       spare = std::move(this->SpareSums.back());
       this->SpareSums.pop_back();
     }
-    named.attribute.prepare(this->Engine.size(), std::move(spare), this->Smp);
+    named.attribute.prepare(this->Engine.size(), mostPoints, std::move(spare), this->Smp);
   }
   const Status status = this->Engine.assign(
     this->Request,
