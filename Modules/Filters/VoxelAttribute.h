@@ -33,7 +33,8 @@ class VoxelAttribute
 {
 public:
   /// Holds on to @p input; one whose memory is not plain tuples of numbers is copied first.
-  VoxelAttribute(vtkDataArray* input, AttributeKind kind, const Executor& executor);
+  VoxelAttribute(
+    vtkDataArray* input, AttributeKind kind, InstructionSet instructions, const Executor& executor);
 
   /// @p spare: sums another attribute has no more use for, or nothing.
   /// @p mostPoints: of a voxel, at coarser levels too.

@@ -183,7 +183,9 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
     {
       kind = AttributeKind::Normal;
     }
-    this->Attributes.push_back({ VoxelAttribute(array, kind, this->Smp), data->IsArrayAnAttribute(i) });
+    this->Attributes.push_back(
+      { VoxelAttribute(array, kind, pointhaptics::InstructionSet(this->Filter->InstructionSet), this->Smp),
+        data->IsArrayAnAttribute(i) });
   }
 }
 
