@@ -36,19 +36,24 @@ inline Magnitudes magnitudes(const Real* values, std::int64_t count)
   };
   const Bits infinite = bitsOf(Real(__builtin_inf()));
   Bits most = 0;
-  Bits leastLessOne = infinite - 1;
-  Bits above = 0;
+  Bits leastLessOne = infinite - 1; // Zero becomes the largest of all.
   for (std::int64_t i = 0; i < count; ++i)
   {
     const Bits bits = bitsOf(values[i]) & kMagnitude;
-    const Bits finite = bits < infinite ? bits : Bits(0);
-    most = most < finite ? finite : most;
-    // Zero becomes the largest of all.
-    const Bits lessOne = bits - 1;
-    leastLessOne = lessOne < leastLessOne ? lessOne : leastLessOne;
-    above |= bits ^ finite;
+    most = bits > most ? bits : most;
+    leastLessOne = bits - 1 < leastLessOne ? bits - 1 : leastLessOne;
   }
-  return { numberOf(most), numberOf(leastLessOne + 1), above == 0 };
+  const bool allFinite = most < infinite;
+  if (!allFinite)
+  {
+    most = 0;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      const Bits bits = bitsOf(values[i]) & kMagnitude;
+      most = bits < infinite && bits > most ? bits : most;
+    }
+  }
+  return { numberOf(most), numberOf(leastLessOne + 1), allFinite };
 }
 
 template <int Components>
