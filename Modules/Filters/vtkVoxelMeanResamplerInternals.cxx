@@ -124,6 +124,7 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
   this->Request.levels = this->Filter->NumberOfLevels;
   this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
   this->Request.keys = !this->Attributes.empty() || this->Request.levels > 1;
+  this->Request.assigned = !this->Attributes.empty();
   this->Request.memory = &this->Memory;
   this->From = 0.0;
   this->To = this->Attributes.empty() ? 0.95 : 0.5;
