@@ -4,6 +4,9 @@
 
 #include "Core/Buffer.h"
 #include "Core/Executor.h"
+#include "Core/InstructionSet.h"
+#include "Core/ScalarType.h"
+#include "Core/Vector3.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,20 +15,11 @@
 
 namespace pointhaptics
 {
-
-enum class ScalarType
+namespace kernel
 {
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Int64,
-  UInt64,
-  Float,
-  Double,
-};
+struct AttributeKernels;
+struct WordSums;
+}
 
 /// Somebody else's array: tuples of components, one after the other.
 struct AttributeView
@@ -38,9 +32,10 @@ struct AttributeView
 
 /// Sums an attribute over the points of each voxel, exactly, and divides.
 ///
-/// Integers are summed as they are. Floating-point numbers are cut to fixed point in as many parts of up to
-/// 40 bits as reach from the array's largest magnitude down to the last bit of its smallest: two for most
-/// arrays, more where magnitudes differ by more than 2^50. Sums are exact, so a mean is within one rounding
+/// Integers are summed as they are. Floating-point numbers are cut to fixed point, from the array's largest
+/// magnitude down to the last bit of its smallest: in one part where sums of the most points of a voxel fit
+/// 63 bits, as those of most arrays of floats do, else in parts of up to 40 bits: two for most arrays, more
+/// where magnitudes differ by more than 2^50. Sums are exact, so a mean is within one rounding
 /// of the exact one (half a unit in the last place for the quotient, as much for the sum), a lone point's is
 /// its value, and none depends on the order. A voxel with NaN or infinities has the mean that IEEE addition
 /// would give. Memory: 8 bytes a voxel, component and part (integers of up to 32 bits: one part, of 64: two).
@@ -48,10 +43,13 @@ class AttributeMean
 {
 public:
   /// Looks through the values of a floating-point array once.
-  AttributeMean(const AttributeView& view, const Executor& executor);
+  AttributeMean(const AttributeView& view, const Executor& executor,
+    InstructionSet instructions = InstructionSet::Automatic);
 
-  /// Forgets all sums and makes room for @p voxels, in @p spare if that is large enough.
-  void prepare(std::int64_t voxels, Buffer<std::int64_t> spare = {}, const Executor& executor = {});
+  /// Forgets all sums and makes room for @p voxels of at most @p mostPoints points each, at coarser levels
+  /// too, in @p spare if that is large enough.
+  void prepare(std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare = {},
+    const Executor& executor = {});
   /// The memory of the sums, which are gone then.
   Buffer<std::int64_t> takeSums() { return std::move(sums_); }
   /// Adds the tuples of points to the sums of their voxels. Several threads may add at once if no two have a
@@ -63,6 +61,10 @@ public:
   /// Means of all voxels in the array's own type; integers are rounded to the nearest, halves away from zero.
   /// @p counts: points of each voxel.
   void write(const std::int64_t* counts, void* means, const Executor& executor) const;
+  /// Means of vectors of three floating-point numbers, turned - mean.x times the first of @p columns and so
+  /// on - and made unit vectors; 0 where they have no direction. Of the array's own type.
+  void writeUnitVectors(
+    const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const;
   /// The mean of one voxel in double: components numbers.
   void mean(std::int64_t voxel, std::int64_t count, double* means) const;
 
@@ -70,10 +72,18 @@ public:
 
 private:
   __extension__ typedef __int128 Int128;
+  static constexpr int kMostPartBits = 40;
+  /// The most parts from the largest double to the last bit of the smallest, at 28 bits each.
+  static constexpr int kMostLanes = 80;
+  static constexpr std::uint8_t kSawNaN = 1;
+  static constexpr std::uint8_t kSawPlus = 2;
+  static constexpr std::uint8_t kSawMinus = 4;
 
   bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
   template <typename Real>
   void scan(const Executor& executor);
+  void chooseParts(std::int64_t mostPoints);
+  void clear(std::int64_t voxels, const Executor& executor);
   template <typename T>
   void prefetch(const T* values, const std::int64_t* points, const std::int64_t* voxels, int count) const;
   template <typename Integer>
@@ -84,6 +94,11 @@ private:
   void writeIntegers(const std::int64_t* counts, Integer* means, const Executor& executor) const;
   template <typename Real>
   void writeReals(const std::int64_t* counts, Real* means, const Executor& executor) const;
+  template <typename Real>
+  void writeVectors(
+    const std::int64_t* counts, const Vec3 (&columns)[3], Real* vectors, const Executor& executor) const;
+  bool sumsAreWords() const;
+  kernel::WordSums wordSums(const std::int64_t* counts, std::int64_t begin, std::int64_t end) const;
   const std::int64_t* lanes(std::int64_t voxel, int component) const
   {
     return sums_.data() + std::int64_t(lanes_) * (std::int64_t(view_.components) * voxel + component);
@@ -93,12 +108,15 @@ private:
   double realMean(std::int64_t voxel, int component, std::int64_t count) const;
 
   AttributeView view_;
+  const kernel::AttributeKernels* kernels_;
   int lanes_ = 1; ///< Of 64 bits for each component.
   int partBits_ = 0;
   double scale_[2] = { 1.0, 1.0 }; ///< Both times a value give its first part, and what is left of it.
   int exponent_ = 0;               ///< All magnitudes are below 2^exponent_.
+  int lastBit_ = 0;                ///< And multiples of 2^lastBit_.
   bool hasNonFinite_ = false;
   std::int64_t voxels_ = 0;
+  std::int64_t mostPoints_ = 0;
   Buffer<std::int64_t> sums_;    ///< [voxel][component][lane]
   Buffer<std::uint8_t> special_; ///< [voxel][component]: which values that are not finite were seen.
 };

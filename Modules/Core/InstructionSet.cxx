@@ -22,7 +22,7 @@ bool machineHasAvx512() noexcept
 #if defined(__x86_64__) || defined(__i386__)
   return machineHasAvx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
     __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-    __builtin_cpu_supports("avx512vpopcntdq");
+    __builtin_cpu_supports("avx512vpopcntdq") && __builtin_cpu_supports("avx512ifma");
 #else
   return false;
 #endif

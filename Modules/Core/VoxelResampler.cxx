@@ -95,6 +95,7 @@ private:
   PartitionPlan plan_;
   Placement placement_{};
   RecordPool pool_;
+  bool poolHoldsAll_ = false; ///< All points of the last run, with their indices.
   std::vector<CarriedPartition> carried_;
   std::vector<std::unique_ptr<PartitionWorker>> idle_;
   std::mutex mutex_;
@@ -141,6 +142,7 @@ void VoxelResampler::Implementation::clear()
   levels[0].firsts.clear();
   levels[0].size = 0;
   clipped = invalid = 0;
+  poolHoldsAll_ = false;
 }
 
 Status VoxelResampler::Implementation::runPlanned(
@@ -158,11 +160,12 @@ Status VoxelResampler::Implementation::runPlanned(
   {
     partition.clear();
   }
+  const bool holdsAll = request.assigned && chunks.count() == 1;
   std::int64_t inside = 0;
   invalid = request.index ? request.index->invalidPoints() : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    fillPool(request, chunks, chunk, false, executor);
+    fillPool(request, chunks, chunk, holdsAll, executor);
     inside += pool_.inside();
     invalid += pool_.invalid();
     chunk + 1 < chunks.count() ? carryChunk(request, executor) : finish(request, executor);
@@ -172,6 +175,7 @@ Status VoxelResampler::Implementation::runPlanned(
     }
   }
   clipped = request.points.size() - inside - invalid;
+  poolHoldsAll_ = holdsAll;
   if (request.levels > 1)
   {
     addLevels(request, carriedList());
@@ -399,7 +403,10 @@ Status VoxelResampler::Implementation::assignPlanned(
   const Chunks chunks(request, kChunkPoints);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    fillPool(request, chunks, chunk, true, executor);
+    if (!poolHoldsAll_)
+    {
+      fillPool(request, chunks, chunk, true, executor);
+    }
     const std::int64_t base = chunks.pieces(chunk)[0].begin;
     forRange(executor, plan_.partitions, grainFor(plan_.partitions, executor),
       [&](std::int64_t begin, std::int64_t end)
@@ -415,8 +422,12 @@ Status VoxelResampler::Implementation::assignPlanned(
             {
               for (int i = 0; i < count; ++i)
               {
-                points[i] = request.index ? request.index->original(base + indices[i]) : base + indices[i];
+                points[i] = base + indices[i];
                 voxels[i] = std::int64_t(firstVoxel + ranks[i]);
+              }
+              for (int i = 0; request.index && i < count; ++i)
+              {
+                points[i] = request.index->original(points[i]);
               }
               visit(points, voxels, count);
             });
@@ -507,6 +518,13 @@ std::int64_t VoxelResampler::invalidPoints() const
 std::int64_t VoxelResampler::size(int level) const
 {
   return implementation_->levels[std::size_t(level)].size;
+}
+
+std::int64_t VoxelResampler::mostPoints(int l) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  const std::int64_t* counts = level.arena.counts();
+  return level.size == 0 ? 0 : *std::max_element(counts, counts + level.size);
 }
 
 const Lattice& VoxelResampler::lattice(int level) const

@@ -63,6 +63,8 @@ struct VoxelRequest
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
   bool keys = false; ///< For keys(), assign() and parents().
+  /// assign() will follow: run() remembers, if the points are few, which is where, so that it takes less time.
+  bool assigned = false;
   /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
   int levels = 1;
   InstructionSet instructions = InstructionSet::Automatic;
@@ -102,6 +104,8 @@ public:
   std::int64_t clippedPoints() const;     ///< Finite points outside the lattice.
   std::int64_t invalidPoints() const;     ///< Points NaN or infinite, before or after the transform.
   std::int64_t size(int level = 0) const; ///< Active voxels.
+  /// Of the voxel that has most of them.
+  std::int64_t mostPoints(int level = 0) const;
   const Lattice& lattice(int level = 0) const;
   /// Voxels in ascending order of their keys (x fastest). @p xyz: 3 size(level) numbers, of the type asked
   /// for.

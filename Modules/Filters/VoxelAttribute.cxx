@@ -205,7 +205,8 @@ void writeMostFrequent(
 
 }
 
-VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const Executor& executor)
+VoxelAttribute::VoxelAttribute(
+  vtkDataArray* input, AttributeKind kind, InstructionSet instructions, const Executor& executor)
   : input_(input)
   , plain_(plainArray(input))
   , kind_(kind)
@@ -214,16 +215,17 @@ VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const Ex
   {
     const AttributeView view{ plain_->GetVoidPointer(0), scalarType(plain_->GetDataType()),
       plain_->GetNumberOfComponents(), std::int64_t(plain_->GetNumberOfTuples()) };
-    mean_ = std::make_unique<AttributeMean>(view, executor);
+    mean_ = std::make_unique<AttributeMean>(view, executor, instructions);
   }
 }
 
-void VoxelAttribute::prepare(std::int64_t voxels, Buffer<std::int64_t> spare, const Executor& executor)
+void VoxelAttribute::prepare(
+  std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor)
 {
   voxels_ = voxels;
   if (mean_)
   {
-    mean_->prepare(voxels, std::move(spare), executor);
+    mean_->prepare(voxels, mostPoints, std::move(spare), executor);
   }
   else
   {
@@ -296,8 +298,11 @@ void VoxelAttribute::writeNormals(vtkDataArray* output, const std::int64_t* coun
   const Vec3 x = transform.applyToNormal({ 1, 0, 0 });
   const Vec3 y = transform.applyToNormal({ 0, 1, 0 });
   const Vec3 z = transform.applyToNormal({ 0, 0, 1 });
-  float* floats =
-    output->GetDataType() == VTK_FLOAT ? static_cast<float*>(output->GetVoidPointer(0)) : nullptr;
+  if (output->GetDataType() == VTK_FLOAT || output->GetDataType() == VTK_DOUBLE)
+  {
+    mean_->writeUnitVectors(counts, { x, y, z }, output->GetVoidPointer(0), executor);
+    return;
+  }
   forRange(executor, voxels_,
     [&](std::int64_t first, std::int64_t last)
     {
@@ -306,16 +311,7 @@ void VoxelAttribute::writeNormals(vtkDataArray* output, const std::int64_t* coun
         Vec3 mean;
         mean_->mean(v, counts[v], &mean.x);
         const Vec3 unit = normalized(mean.x * x + mean.y * y + mean.z * z, Vec3());
-        if (floats)
-        {
-          floats[3 * v] = float(unit.x);
-          floats[3 * v + 1] = float(unit.y);
-          floats[3 * v + 2] = float(unit.z);
-        }
-        else
-        {
-          output->SetTuple(vtkIdType(v), &unit.x);
-        }
+        output->SetTuple(vtkIdType(v), &unit.x);
       }
     });
 }

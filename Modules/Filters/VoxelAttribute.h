@@ -33,10 +33,13 @@ class VoxelAttribute
 {
 public:
   /// Holds on to @p input; one whose memory is not plain tuples of numbers is copied first.
-  VoxelAttribute(vtkDataArray* input, AttributeKind kind, const Executor& executor);
+  VoxelAttribute(
+    vtkDataArray* input, AttributeKind kind, InstructionSet instructions, const Executor& executor);
 
   /// @p spare: sums another attribute has no more use for, or nothing.
-  void prepare(std::int64_t voxels, Buffer<std::int64_t> spare, const Executor& executor);
+  /// @p mostPoints: of a voxel, at coarser levels too.
+  void prepare(
+    std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor);
   Buffer<std::int64_t> takeSums();
   void add(const std::int64_t* points, const std::int64_t* voxels, int count);
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);

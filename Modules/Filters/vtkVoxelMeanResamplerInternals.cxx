@@ -124,6 +124,7 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
   this->Request.levels = this->Filter->NumberOfLevels;
   this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
   this->Request.keys = !this->Attributes.empty() || this->Request.levels > 1;
+  this->Request.assigned = !this->Attributes.empty();
   this->Request.memory = &this->Memory;
   this->From = 0.0;
   this->To = this->Attributes.empty() ? 0.95 : 0.5;
@@ -183,7 +184,9 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
     {
       kind = AttributeKind::Normal;
     }
-    this->Attributes.push_back({ VoxelAttribute(array, kind, this->Smp), data->IsArrayAnAttribute(i) });
+    this->Attributes.push_back(
+      { VoxelAttribute(array, kind, pointhaptics::InstructionSet(this->Filter->InstructionSet), this->Smp),
+        data->IsArrayAnAttribute(i) });
   }
 }
 
@@ -195,6 +198,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   }
   this->From = 0.5;
   this->To = 0.95;
+  const std::int64_t mostPoints = this->Engine.mostPoints(this->Request.levels - 1);
   for (NamedAttribute& named : this->Attributes)
   {
     Buffer<std::int64_t> spare;
@@ -203,7 +207,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
       spare = std::move(this->SpareSums.back());
       this->SpareSums.pop_back();
     }
-    named.attribute.prepare(this->Engine.size(), std::move(spare), this->Smp);
+    named.attribute.prepare(this->Engine.size(), mostPoints, std::move(spare), this->Smp);
   }
   const Status status = this->Engine.assign(
     this->Request,

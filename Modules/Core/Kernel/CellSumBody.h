@@ -132,14 +132,9 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
     });
   if (to.seconds)
   {
-    const std::uint64_t fractionMask = (std::uint64_t(1) << map.fractionBits) - 1;
-    fromPlaces<kSumPlaces>(count,
-      [=](int i)
-      {
-        const Record& r = records[i];
-        addProducts(to.seconds[rankOf<V>(ranks, cells[i])], xPlace(r, fractionMask), yPlace(r, fractionMask),
-          zPlace(r, fractionMask));
-      });
+    const typename V::ProductAdder productAdder(map.fractionBits);
+    fromPlaces<kSumPlaces>(
+      count, [=](int i) { productAdder.add(to.seconds[rankOf<V>(ranks, cells[i])], records[i]); });
   }
 }
 

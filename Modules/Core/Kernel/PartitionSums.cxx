@@ -185,7 +185,8 @@ void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool, C
     own_.cellCount = 0;
   }
   makeRoom(kernels, to);
-  const CellSums sums = { to.cells.data(), to.packed.data(), batch_->seconds ? to.seconds.data() : nullptr };
+  const CellSums sums = { to.cells.data(), to.packed.data(),
+    batch_->seconds ? to.splitSeconds.data() : nullptr };
   voxels_.cells = sums.cells;
   voxels_.sums = sums.sums;
   voxels_.seconds = sums.seconds;
@@ -212,23 +213,24 @@ void PartitionWorker::makeRoom(const Kernels& kernels, CarriedPartition& sums) c
     sums.cells.resize(size + kWidest);
     sums.packed.resize(size + kWidest);
   }
-  if (batch_->seconds && sums.seconds.size() < size)
+  if (batch_->seconds && sums.splitSeconds.size() < size)
   {
-    sums.seconds.reserve(size + size / 16);
-    sums.seconds.resize(size);
+    sums.splitSeconds.reserve(size + size / 16);
+    sums.splitSeconds.resize(size);
   }
   std::size_t end = size; // From here on all are at their places.
   const auto clearTo = [&](std::size_t place)
   {
-    while (end > place)
+    if (end <= place)
     {
-      --end;
-      sums.packed[end] = PackedSums{ { 0, 0, 0, 0 } };
-      if (batch_->seconds)
-      {
-        sums.seconds[end] = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
-      }
+      return;
     }
+    std::memset(sums.packed.data() + place, 0, (end - place) * sizeof(PackedSums));
+    if (batch_->seconds)
+    {
+      std::memset(sums.splitSeconds.data() + place, 0, (end - place) * sizeof(SplitSeconds));
+    }
+    end = place;
   };
   std::uint32_t places[kBatch];
   std::size_t left = sums.cellCount;
@@ -247,7 +249,7 @@ void PartitionWorker::makeRoom(const Kernels& kernels, CarriedPartition& sums) c
       sums.cells[place] = sums.cells[from];
       if (batch_->seconds)
       {
-        sums.seconds[place] = sums.seconds[from];
+        sums.splitSeconds[place] = sums.splitSeconds[from];
       }
       end = place;
     }
@@ -306,7 +308,7 @@ void PartitionWorker::collectDense(std::size_t& position, std::size_t& next)
     batch.sums[2][i] = packedZ(sums);
     if (batch.seconds)
     {
-      batch.seconds[i] = voxels_.seconds[position];
+      batch.seconds[i] = whole(voxels_.seconds[position], plan_.fractionBits);
     }
     if (next < old_->voxels.size() && old_->voxels[next].key == voxels_.firstKey + cell)
     {

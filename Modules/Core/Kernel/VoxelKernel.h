@@ -128,6 +128,24 @@ struct SecondSums
   UInt128 lanes[6];
 };
 
+/// The same from two sums each, which do not overflow where the sums of the places do not: of the products
+/// shifted right by the bits of a place, and of the bits that this leaves out.
+struct SplitSeconds
+{
+  std::uint64_t high[6];
+  std::uint64_t low[6];
+};
+
+static inline SecondSums whole(const SplitSeconds& split, int fractionBits)
+{
+  SecondSums sums;
+  for (int m = 0; m < 6; ++m)
+  {
+    sums.lanes[m] = (UInt128(split.high[m]) << fractionBits) + split.low[m];
+  }
+  return sums;
+}
+
 /// Which cells of a partition have points, and how many of these come before a cell. A bit for each cell and
 /// a number for 64 of them stay in the first-level cache.
 struct CellRanks
@@ -144,7 +162,7 @@ struct CellSums
 {
   std::uint32_t* cells;
   PackedSums* sums;
-  SecondSums* seconds; ///< Or null.
+  SplitSeconds* seconds; ///< Or null.
 };
 
 /// Places of a record's point in its voxel. These are static: sources of several instruction sets include
@@ -197,6 +215,13 @@ struct MeanMap
   double faceMargin[3];
 };
 
+/// How sums of products of places become covariances.
+struct CovarianceMap
+{
+  int fractionBits;
+  double unit[3]; ///< A quantum in the frame of the lattice.
+};
+
 /// Elements of the widest vectors.
 constexpr int kWidest = 8;
 
@@ -231,7 +256,12 @@ struct Kernels
     int count, float* xyz, std::int64_t* counts, int* nearFace);
   int (*packedMeansDouble)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
     int count, double* xyz, std::int64_t* counts, int* nearFace);
-  /// The same of a batch.
+  /// Covariances of cells, six numbers each in the order of SecondSums. Positions among them of those with
+  /// too many points for this go to @p full, at most @p count: theirs are not valid. @return the number of
+  /// these.
+  int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSeconds* seconds, int count,
+    double* covariances, int* full);
+  /// The same as packedMeans of a batch.
   int (*meansFloat)(const MeanMap&, const MomentBatch<std::int64_t>&, float* xyz, int* nearFace);
   int (*meansDouble)(const MeanMap&, const MomentBatch<std::int64_t>&, double* xyz, int* nearFace);
   /// Widens a box (x0 x1 y0 y1 z0 z1) by the transformed points that are finite before and after.

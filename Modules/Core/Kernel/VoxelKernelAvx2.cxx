@@ -216,7 +216,14 @@ struct Avx2
     }
   }
 
+  static int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
+    int count, double* covariances, int* full)
+  {
+    return covariancesOneByOne(map, sums, seconds, 0, count, covariances, full);
+  }
+
   using Adder = FourLaneAdder;
+  using ProductAdder = ScalarProductAdder;
 };
 
 }

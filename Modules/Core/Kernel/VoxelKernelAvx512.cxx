@@ -1,8 +1,10 @@
 /// The loops with AVX-512: eight points at a time.
+#include "Core/Kernel/CovarianceAvx512.h"
 #include "Core/Kernel/FourLaneAdder.h"
 #include "Core/Kernel/VoxelKernelBody.h"
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && defined(__AVX512VPOPCNTDQ__)
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) &&                                \
+  defined(__AVX512VPOPCNTDQ__) && defined(__AVX512IFMA__)
 #include <immintrin.h>
 
 namespace pointhaptics
@@ -228,7 +230,14 @@ struct Avx512
       take(_mm512_setr_epi64(13, 0, 6, 14, 0, 7, 15, 0), _mm512_setr_epi64(0, 13, 2, 3, 14, 5, 6, 15)));
   }
 
+  static int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
+    int count, double* covariances, int* full)
+  {
+    return covariancesByEight(map, sums, seconds, count, covariances, full);
+  }
+
   using Adder = FourLaneAdder;
+  using ProductAdder = TwelveLaneAdder;
 };
 
 }

@@ -205,6 +205,13 @@ struct Pairs
     }
   }
 
+  static int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
+    int count, double* covariances, int* full)
+  {
+    return covariancesOneByOne(map, sums, seconds, 0, count, covariances, full);
+  }
+
+  using ProductAdder = ScalarProductAdder;
   struct Adder
   {
     std::uint64_t fractionMask;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Core/Kernel/CellSumBody.h"
+#include "Core/Kernel/CovarianceBody.h"
 #include "Core/Kernel/MeanBody.h"
 #include "Core/Kernel/PlacementBody.h"
 #include "Core/Kernel/VoxelKernel.h"
@@ -88,8 +89,8 @@ template <class V>
 Kernels makeKernels()
 {
   return { &partition<V, float>, &partition<V, double>, &V::cells, &mark<V>, &markCells, &V::number, &rank<V>,
-    &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>, &means<V, float>, &means<V, double>,
-    &bounds<V, float>, &bounds<V, double> };
+    &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>, &V::covariances, &means<V, float>,
+    &means<V, double>, &bounds<V, float>, &bounds<V, double> };
 }
 
 }

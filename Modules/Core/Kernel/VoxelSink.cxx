@@ -217,12 +217,33 @@ void MeanArena::write(const Kernels& kernels, std::size_t place, const Partition
   {
     keys_[place + i] = voxels.firstKey + voxels.cells[i];
   }
-  for (std::size_t i = 0; layout_.covariances && i < voxels.size; ++i)
+  if (layout_.covariances)
   {
-    const PackedSums& packed = voxels.sums[i];
-    const Int128 sums[3] = { Int128(packed.lanes[0]), Int128(packed.lanes[1]), packedZ(packed) };
-    covariances_[place + i] =
-      covarianceOf(packedCount(packed), sums, voxels.seconds[i], map_.quantum, lattice_.spacing);
+    writeCovariances(kernels, place, voxels);
+  }
+}
+
+void MeanArena::writeCovariances(const Kernels& kernels, std::size_t place, const PartitionVoxels& voxels)
+{
+  static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
+  const int fractionBits = voxels.map.fractionBits;
+  const Vec3 unit = map_.quantum * lattice_.spacing;
+  const CovarianceMap map = { fractionBits, { unit.x, unit.y, unit.z } };
+  int full[kBatch];
+  for (std::size_t first = 0; first < voxels.size; first += kBatch)
+  {
+    const int size = int(std::min<std::size_t>(voxels.size - first, kBatch));
+    const PackedSums* packed = voxels.sums + first;
+    const SplitSeconds* seconds = voxels.seconds + first;
+    SymMat3* to = covariances_ + place + first;
+    const int found = kernels.covariances(map, packed, seconds, size, &to->xx, full);
+    for (int j = 0; j < found; ++j)
+    {
+      const int i = full[j];
+      const Int128 sums[3] = { Int128(packed[i].lanes[0]), Int128(packed[i].lanes[1]), packedZ(packed[i]) };
+      to[i] = covarianceOf(
+        packedCount(packed[i]), sums, whole(seconds[i], fractionBits), map_.quantum, lattice_.spacing);
+    }
   }
 }
 

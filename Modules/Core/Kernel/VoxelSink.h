@@ -26,13 +26,14 @@ struct CarriedSums
 };
 
 /// Those of a partition. Where its cells' sums are kept side by side: cells with their packed sums, and in
-/// voxels what these could not hold; otherwise voxels by key. Seconds go with the cells, or the voxels, and
-/// are there only if covariances are wanted.
+/// voxels what these could not hold; otherwise voxels by key. Seconds go with the cells, split, or with the
+/// voxels, and are there only if covariances are wanted.
 struct CarriedPartition
 {
   std::size_t cellCount = 0; ///< The vectors may have more elements: nothing is said of those.
   std::vector<std::uint32_t> cells;
   std::vector<PackedSums> packed;
+  std::vector<SplitSeconds> splitSeconds;
   std::vector<CarriedSums> voxels;
   std::vector<SecondSums> seconds;
   std::int64_t points = 0; ///< In cells; as many or fewer are in their packed sums.
@@ -48,7 +49,8 @@ struct CarriedPartition
   std::size_t bytes() const
   {
     return cells.capacity() * sizeof(std::uint32_t) + packed.capacity() * sizeof(PackedSums) +
-      voxels.capacity() * sizeof(CarriedSums) + seconds.capacity() * sizeof(SecondSums);
+      splitSeconds.capacity() * sizeof(SplitSeconds) + voxels.capacity() * sizeof(CarriedSums) +
+      seconds.capacity() * sizeof(SecondSums);
   }
 };
 
@@ -59,7 +61,7 @@ struct PartitionVoxels
   std::uint64_t firstKey = 0;
   const std::uint32_t* cells = nullptr;
   const PackedSums* sums = nullptr;
-  const SecondSums* seconds = nullptr; ///< Or null.
+  const SplitSeconds* seconds = nullptr; ///< Or null.
   std::size_t size = 0;
 };
 
@@ -106,6 +108,8 @@ public:
   }
 
 private:
+  void writeCovariances(const Kernels& kernels, std::size_t place, const PartitionVoxels& voxels);
+
   Layout layout_;
   Lattice lattice_;
   MeanMap map_{};

@@ -67,11 +67,11 @@ std::vector<std::int64_t> countsOf(const Plan& plan)
 
 template <typename T>
 AttributeMean meanOf(const std::vector<T>& values, int components, const Plan& plan,
-  const Executor& executor = {}, int piece = 100)
+  const Executor& executor = {}, int piece = 100, std::int64_t mostPoints = 0)
 {
   AttributeMean mean(
     { values.data(), typeOf<T>(), components, std::int64_t(values.size()) / components }, executor);
-  mean.prepare(plan.size);
+  mean.prepare(plan.size, mostPoints > 0 ? mostPoints : mean.view().tuples);
   std::vector<std::int64_t> voxels;
   for (const std::int64_t i : plan.order)
   {
@@ -397,10 +397,10 @@ TEST(AttributeMean, StartsFromNothingInTheMemoryOfAnother)
     const std::vector<float> expected = written<float>(meanOf(values, 3, plan), plan);
     AttributeMean other = meanOf(values, 3, planFor(300, 90, 25));
     AttributeMean mean({ values.data(), ScalarType::Float, 3, 300 }, {});
-    mean.prepare(voxels, other.takeSums(), trial::BackwardExecutor(17));
+    mean.prepare(voxels, 300, other.takeSums(), trial::BackwardExecutor(17));
     mean.add(plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected));
-    mean.prepare(voxels);
+    mean.prepare(voxels, 300);
     mean.add(plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected)) << "once more";
   }
