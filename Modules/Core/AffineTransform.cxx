@@ -1,17 +1,49 @@
 #include "Core/AffineTransform.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace pointhaptics
 {
 namespace
 {
-/// Below this fraction of the product of its row lengths a determinant is rounding noise.
+/// Below this fraction of the products of its row and column lengths a determinant is rounding noise.
 constexpr double kSingularRatio = 1e-13;
-constexpr double kSmallestDeterminant = 1e-300;
 
 Vec3 row(const AffineTransform& t, int r)
 {
   return { t.m[r][0], t.m[r][1], t.m[r][2] };
 }
+
+/// T = 2^exponent rows, whose largest entry is about 1: products of three neither overflow nor vanish.
+struct ScaledRows
+{
+  Vec3 rows[3];
+  int exponent = 0;
+
+  explicit ScaledRows(const AffineTransform& t)
+  {
+    double largest = 0.0;
+    for (const auto& r : t.m)
+    {
+      largest = std::max({ largest, std::abs(r[0]), std::abs(r[1]), std::abs(r[2]) });
+    }
+    if (std::isfinite(largest))
+    {
+      std::frexp(largest, &exponent);
+    }
+    for (int r = 0; r < 3; ++r)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        rows[r][c] = std::ldexp(t.m[r][c], -exponent);
+      }
+    }
+  }
+  double determinant() const { return dot(rows[0], cross(rows[1], rows[2])); }
+  /// Row r of the cofactor matrix, det(T) T^-T.
+  Vec3 cofactors(int r) const { return cross(rows[(r + 1) % 3], rows[(r + 2) % 3]); }
+};
 }
 
 double AffineTransform::determinant() const noexcept
@@ -27,16 +59,14 @@ bool AffineTransform::isIdentity() const noexcept
 Vec3 AffineTransform::applyToNormal(const Vec3& n) const noexcept
 {
   // The cofactor matrix is det(T) T^-T: no division, and a mirror keeps its sign through the determinant.
-  const Vec3 r0 = row(*this, 0);
-  const Vec3 r1 = row(*this, 1);
-  const Vec3 r2 = row(*this, 2);
-  const Vec3 result = { dot(cross(r1, r2), n), dot(cross(r2, r0), n), dot(cross(r0, r1), n) };
-  return determinant() < 0.0 ? -result : result;
+  const ScaledRows scaled(*this);
+  const Vec3 result = { dot(scaled.cofactors(0), n), dot(scaled.cofactors(1), n),
+    dot(scaled.cofactors(2), n) };
+  return scaled.determinant() < 0.0 ? -result : result;
 }
 
 Status AffineTransform::check() const noexcept
 {
-  double lengths = 1.0;
   for (const auto& r : m)
   {
     for (double value : r)
@@ -46,11 +76,22 @@ Status AffineTransform::check() const noexcept
         return Status::NonFiniteTransform;
       }
     }
-    lengths *= norm({ r[0], r[1], r[2] });
   }
-  const double det = std::abs(determinant());
-  // Negated comparisons, so that an overflow to NaN or infinity counts as singular too.
-  if (!(det > kSmallestDeterminant) || !(det > kSingularRatio * lengths) || !std::isfinite(det))
+  const ScaledRows scaled(*this);
+  // Each product in the determinant has one entry of each row and one of each column.
+  double rowLengths = 1.0;
+  double columnLengths = 1.0;
+  double largestCofactor = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    rowLengths *= norm(scaled.rows[i]);
+    columnLengths *= norm({ scaled.rows[0][i], scaled.rows[1][i], scaled.rows[2][i] });
+    const Vec3 c = scaled.cofactors(i);
+    largestCofactor = std::max({ largestCofactor, std::abs(c.x), std::abs(c.y), std::abs(c.z) });
+  }
+  const double det = std::abs(scaled.determinant());
+  if (!(det > kSingularRatio * std::min(rowLengths, columnLengths)) ||
+    !std::isfinite(std::ldexp(largestCofactor / det, -scaled.exponent)))
   {
     return Status::SingularTransform;
   }
@@ -64,14 +105,14 @@ AffineTransform AffineTransform::inverse() const noexcept
   {
     return result;
   }
-  const double det = determinant();
-  const Vec3 columns[3] = { cross(row(*this, 1), row(*this, 2)) / det,
-    cross(row(*this, 2), row(*this, 0)) / det, cross(row(*this, 0), row(*this, 1)) / det };
-  for (int r = 0; r < 3; ++r)
+  const ScaledRows scaled(*this);
+  const double det = scaled.determinant();
+  for (int c = 0; c < 3; ++c)
   {
-    for (int c = 0; c < 3; ++c)
+    const Vec3 column = scaled.cofactors(c) / det;
+    for (int r = 0; r < 3; ++r)
     {
-      result.m[r][c] = columns[c][r];
+      result.m[r][c] = std::ldexp(column[r], -scaled.exponent);
     }
   }
   const Vec3 t = result.applyToVector({ m[0][3], m[1][3], m[2][3] });

@@ -31,8 +31,8 @@ struct AffineTransform
 
   double determinant() const noexcept;
   bool isIdentity() const noexcept;
-  /// Ok, NonFiniteTransform or SingularTransform (|det T| zero or below 1e-300, or 1e-13 of the product of
-  /// row lengths).
+  /// Ok, NonFiniteTransform or SingularTransform (|det T| below 1e-13 of the product of its row lengths and
+  /// of that of its column lengths, or an inverse too large for a double).
   Status check() const noexcept;
   /// The inverse; identity when check() is not Ok.
   AffineTransform inverse() const noexcept;

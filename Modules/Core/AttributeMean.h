@@ -62,7 +62,8 @@ public:
   /// @p counts: points of each voxel.
   void write(const std::int64_t* counts, void* means, const Executor& executor) const;
   /// Means of vectors of three floating-point numbers, turned - mean.x times the first of @p columns and so
-  /// on - and made unit vectors; 0 where they have no direction. Of the array's own type.
+  /// on - and made unit vectors; 0 where they have no direction, NaN where they are not finite. Of the
+  /// array's own type.
   void writeUnitVectors(
     const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const;
   /// The mean of one voxel in double: components numbers.

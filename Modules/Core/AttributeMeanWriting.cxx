@@ -219,7 +219,9 @@ void AttributeMean::writeVectors(
       {
         Vec3 sum;
         mean(v, counts[v], &sum.x);
-        const Vec3 unit = normalized(sum.x * x + sum.y * y + sum.z * z, Vec3());
+        const Vec3 turned = sum.x * x + sum.y * y + sum.z * z;
+        constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+        const Vec3 unit = isFinite(sum) ? normalized(turned, Vec3()) : Vec3(kNaN, kNaN, kNaN);
         for (int axis = 0; axis < 3; ++axis)
         {
           vectors[3 * v + axis] = Real(unit[axis]);

@@ -7,7 +7,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Cube about the cloud with half a voxel to spare on each side.
+/// Cube about the cloud with half a voxel to spare on each side, of the axis that has most of them.
 Status automaticBounds(const LatticeSettings& settings, const Bounds& cloud, Bounds& box) noexcept
 {
   const Vec3 center = cloud.empty() ? Vec3() : cloud.center();
@@ -23,10 +23,10 @@ Status automaticBounds(const LatticeSettings& settings, const Bounds& cloud, Bou
   {
     edge = std::max(kDefaultWorkspaceEdge, 1e-6 * coordinate);
   }
-  const std::int64_t fewest =
-    std::min({ settings.dimensions[0], settings.dimensions[1], settings.dimensions[2] });
+  const std::int64_t most =
+    std::max({ settings.dimensions[0], settings.dimensions[1], settings.dimensions[2] });
   const double margin = settings.voxelSize > 0.0 ? 0.5 * settings.voxelSize
-                                                 : 0.5 * edge / double(std::max<std::int64_t>(fewest - 1, 1));
+                                                 : 0.5 * edge / double(std::max<std::int64_t>(most - 1, 1));
   const double half = 0.5 * edge + margin;
   const Vec3 corner{ half, half, half };
   box.minimum = center - corner;

@@ -91,7 +91,7 @@ struct LatticeSettings
 };
 
 /// The lattice for a cloud whose transformed, finite points lie in @p cloud (which may be empty).
-/// An automatic workspace is a cube about the cloud, half a voxel wider on each side than its longest extent,
+/// An automatic workspace is a cube about the cloud, half a voxel (on its finest axis) wider on each side,
 /// so that no point lies on a face; a cloud without extent gets kDefaultWorkspaceEdge, or 1e-6 of its
 /// coordinates if that is more. With voxelSize the number of voxels is rounded up. Errors: InvalidWorkspace,
 /// InvalidDimensions, InvalidVoxelSize, LatticeNotAddressable; @p lattice is then unchanged.

@@ -23,6 +23,12 @@ using namespace kernel;
 
 constexpr int kMostLevels = 22;
 
+/// The part of the work of run() that the finest level is.
+double shareOfFinest(const VoxelRequest& request)
+{
+  return request.levels > 1 ? 0.5 : 1.0;
+}
+
 }
 
 class VoxelResampler::Implementation
@@ -85,7 +91,7 @@ private:
   void carryChunk(const VoxelRequest& request, const Executor& executor);
   void keepBatches(const VoxelRequest& request, PartitionWorker& worker, std::uint32_t partition);
   void finish(const VoxelRequest& request, const Executor& executor);
-  void addLevels(const VoxelRequest& request, VoxelSumList list);
+  Status addLevels(const VoxelRequest& request, VoxelSumList list, Watcher* watcher);
   VoxelSumList carriedList() const;
   Status assignPlanned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
@@ -114,7 +120,8 @@ Status VoxelResampler::Implementation::run(
   const VoxelRequest& request, const Executor& executor, Watcher* watcher)
 {
   clear();
-  if (request.levels < 1 || request.levels > kMostLevels)
+  if (request.levels < 1 || request.levels > kMostLevels ||
+    (request.index && request.index->cloudSize() != request.points.size()))
   {
     return Status::InvalidParameter;
   }
@@ -169,18 +176,14 @@ Status VoxelResampler::Implementation::runPlanned(
     inside += pool_.inside();
     invalid += pool_.invalid();
     chunk + 1 < chunks.count() ? carryChunk(request, executor) : finish(request, executor);
-    if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
+    if (watcher && !watcher->proceed(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }
   }
   clipped = request.points.size() - inside - invalid;
   poolHoldsAll_ = holdsAll;
-  if (request.levels > 1)
-  {
-    addLevels(request, carriedList());
-  }
-  return Status::Ok;
+  return request.levels > 1 ? addLevels(request, carriedList(), watcher) : Status::Ok;
 }
 
 void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const Chunks& chunks,
@@ -357,7 +360,8 @@ Status VoxelResampler::Implementation::runGeneral(
   {
     adder.add(request.points, first, std::min(kGeneralChunk, request.points.size() - first), executor);
     if (watcher &&
-      !watcher->proceed(std::min(1.0, double(first + kGeneralChunk) / double(request.points.size()))))
+      !watcher->proceed(shareOfFinest(request) *
+        std::min(1.0, double(first + kGeneralChunk) / double(request.points.size()))))
     {
       return Status::Aborted;
     }
@@ -368,14 +372,11 @@ Status VoxelResampler::Implementation::runGeneral(
   levels[0].arena.write(
     list, { request.singlePrecision, request.keys, request.covariances }, request.lattice, request.memory);
   levels[0].size = std::int64_t(list.voxels.size());
-  if (request.levels > 1)
-  {
-    addLevels(request, std::move(list));
-  }
-  return Status::Ok;
+  return request.levels > 1 ? addLevels(request, std::move(list), watcher) : Status::Ok;
 }
 
-void VoxelResampler::Implementation::addLevels(const VoxelRequest& request, VoxelSumList list)
+Status VoxelResampler::Implementation::addLevels(
+  const VoxelRequest& request, VoxelSumList list, Watcher* watcher)
 {
   for (int l = 1; l < request.levels; ++l)
   {
@@ -385,7 +386,13 @@ void VoxelResampler::Implementation::addLevels(const VoxelRequest& request, Voxe
     level.arena.write(list, { request.singlePrecision, request.keys, request.covariances }, level.lattice);
     level.size = std::int64_t(list.voxels.size());
     levels.push_back(std::move(level));
+    const double share = shareOfFinest(request);
+    if (watcher && !watcher->proceed(share + (1.0 - share) * double(l) / double(request.levels - 1)))
+    {
+      return Status::Aborted;
+    }
   }
+  return Status::Ok;
 }
 
 Status VoxelResampler::Implementation::assign(

@@ -96,7 +96,8 @@ public:
   VoxelResampler(VoxelResampler&&) noexcept;
   VoxelResampler& operator=(VoxelResampler&&) noexcept;
 
-  /// Errors: the transform's, the lattice's, InvalidParameter (levels below 1 or above 22), Aborted (the
+  /// Errors: the transform's, the lattice's, InvalidParameter (levels below 1 or above 22, an index of
+  /// another number of points), Aborted (the
   /// watcher said so); there are no voxels then. A cloud without a point inside is no error.
   Status run(const VoxelRequest& request, const Executor& executor = {}, Watcher* watcher = nullptr);
 

@@ -5,6 +5,8 @@
 #include "vtkVariant.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace pointhaptics
@@ -124,17 +126,39 @@ vtkSmartPointer<vtkDataArray> newArray(vtkDataArray* like, int type)
   return array;
 }
 
+/// One value for all that are told apart by their bits only: the zeroes, the NaNs.
+template <typename T>
+T canonical(T value)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    return std::isnan(value) ? std::numeric_limits<T>::quiet_NaN() : value + T(0);
+  }
+  return value;
+}
+
+/// NaN is a value like others, the largest one.
+template <typename T>
+bool isLess(T a, T b)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    return std::isnan(b) ? !std::isnan(a) : a < b;
+  }
+  return a < b;
+}
+
 /// The value that is there most often, the smallest of several. Sorts them.
 template <typename T>
 T mostFrequent(std::vector<T>& values)
 {
-  std::sort(values.begin(), values.end());
+  std::sort(values.begin(), values.end(), isLess<T>);
   T best = values.front();
   std::size_t longest = 0;
   for (std::size_t i = 0; i < values.size();)
   {
     std::size_t end = i + 1;
-    while (end < values.size() && values[end] == values[i])
+    while (end < values.size() && !isLess(values[i], values[end]))
     {
       ++end;
     }
@@ -195,7 +219,7 @@ void writeMostFrequent(
           values.clear();
           for (std::size_t m = members.begin[std::size_t(v)]; m < members.begin[std::size_t(v) + 1]; ++m)
           {
-            values.push_back(input[components * members.points[m] + c]);
+            values.push_back(canonical(input[components * members.points[m] + c]));
           }
           output[components * v + c] = mostFrequent(values);
         }
@@ -222,7 +246,7 @@ VoxelAttribute::VoxelAttribute(
 void VoxelAttribute::prepare(
   std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor)
 {
-  voxels_ = voxels;
+  voxels_ = finestVoxels_ = voxels;
   if (mean_)
   {
     mean_->prepare(voxels, mostPoints, std::move(spare), executor);
@@ -235,7 +259,14 @@ void VoxelAttribute::prepare(
 
 Buffer<std::int64_t> VoxelAttribute::takeSums()
 {
-  return mean_ ? mean_->takeSums() : Buffer<std::int64_t>();
+  Buffer<std::int64_t> sums = mean_ ? mean_->takeSums() : Buffer<std::int64_t>();
+  // Numbers of very different magnitudes take many parts: as memory to keep these are too large.
+  constexpr std::size_t kMostKept = 4 * sizeof(std::int64_t);
+  if (sums.bytes() > kMostKept * std::size_t(finestVoxels_) * std::size_t(plain_->GetNumberOfComponents()))
+  {
+    sums.release();
+  }
+  return sums;
 }
 
 void VoxelAttribute::add(const std::int64_t* points, const std::int64_t* voxels, int count)
@@ -303,15 +334,25 @@ void VoxelAttribute::writeNormals(vtkDataArray* output, const std::int64_t* coun
     mean_->writeUnitVectors(counts, { x, y, z }, output->GetVoidPointer(0), executor);
     return;
   }
+  const double low = output->GetDataTypeMin();
+  // The largest 64-bit integer is no double; the one below is.
+  const double high =
+    output->GetDataTypeSize() < 8 ? output->GetDataTypeMax() : std::nextafter(output->GetDataTypeMax(), 0.0);
   forRange(executor, voxels_,
     [&](std::int64_t first, std::int64_t last)
     {
       for (std::int64_t v = first; v < last; ++v)
       {
+        // Integers have a scale of their own: they keep the length of their mean.
         Vec3 mean;
         mean_->mean(v, counts[v], &mean.x);
-        const Vec3 unit = normalized(mean.x * x + mean.y * y + mean.z * z, Vec3());
-        output->SetTuple(vtkIdType(v), &unit.x);
+        const Vec3 turned = mean.x * x + mean.y * y + mean.z * z;
+        const double length = norm(turned);
+        const double scale = length > 0.0 ? norm(mean) / length : 0.0;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          output->SetComponent(vtkIdType(v), axis, std::clamp(std::round(scale * turned[axis]), low, high));
+        }
       }
     });
 }

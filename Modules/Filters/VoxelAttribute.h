@@ -40,6 +40,7 @@ public:
   /// @p mostPoints: of a voxel, at coarser levels too.
   void prepare(
     std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor);
+  /// The memory of the sums, for a spare: nothing if it is more than 32 bytes a voxel and component.
   Buffer<std::int64_t> takeSums();
   void add(const std::int64_t* points, const std::int64_t* voxels, int count);
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
@@ -56,6 +57,7 @@ private:
   vtkSmartPointer<vtkDataArray> plain_; ///< The same as tuples in memory.
   AttributeKind kind_;
   std::int64_t voxels_ = 0;
+  std::int64_t finestVoxels_ = 0;
   std::unique_ptr<AttributeMean> mean_;
   std::vector<std::int64_t> voxelOf_; ///< Of each point, for categories; -1: outside.
 };

@@ -11,6 +11,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <vector>
 
 using namespace pointhaptics;
 
@@ -170,30 +171,24 @@ int vtkVoxelMeanResampler::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   auto* input = vtkPointSet::GetData(inputVector[0]);
-  Internals& inside = *this->Inside;
-  inside.Aborted = false;
   this->NumberOfClippedPoints = 0;
   this->NumberOfInvalidPoints = 0;
+  // Observers of progress may ask for another number of levels, which is then that of the next update.
+  std::vector<vtkSmartPointer<vtkPolyData>> outputs;
   for (int level = 0; level < this->NumberOfLevels; ++level)
   {
-    vtkPolyData::GetData(outputVector, level)->GetFieldData()->PassData(input->GetFieldData());
+    outputs.emplace_back(vtkPolyData::GetData(outputVector, level));
+    outputs.back()->GetFieldData()->PassData(input->GetFieldData());
   }
-  if (input->GetNumberOfPoints() == 0 || !inside.ReadTransform() || !inside.MakeLattice(input))
+  if (this->Inside->Update(input, outputs))
   {
-    return 1;
+    this->UpdateProgress(1.0);
   }
-  if (!inside.Run(input))
+  else
   {
     this->NumberOfClippedPoints = 0;
     this->NumberOfInvalidPoints = 0;
-    return 1;
   }
-  for (int level = 0; level < this->NumberOfLevels; ++level)
-  {
-    inside.Fill(level, input, vtkPolyData::GetData(outputVector, level));
-  }
-  inside.Release();
-  this->UpdateProgress(1.0);
   return 1;
 }
 

@@ -22,11 +22,13 @@
  * doubles, row by row). With NumberOfLevels above 1 there is an output port per level, each twice as coarse.
  *
  * Arrays: numeric arrays of any type and number of components are averaged and rounded to their own type
- * (integers to nearest, exactly); the active normals are carried by the inverse transpose and re-normalised;
- * arrays named in CategoricalArrays take the value most points of the voxel have (the smallest one on a tie);
+ * (integers to nearest, exactly); the active normals are carried by the inverse transpose and re-normalised,
+ * those in integers keep the length of their mean; arrays named in CategoricalArrays take the value most
+ * points of the voxel have (the smallest one on a tie; NaN counts as the largest, and both zeroes as one);
  * string arrays and other non-numeric arrays are dropped with a warning; global ids, ghost flags and the
  * VoxelPointCount and VoxelCovariance of an earlier resampling are left out. Where a voxel's points have NaN
- * or infinity in an array, its mean is what IEEE addition gives.
+ * or infinity in an array, its mean is what IEEE addition gives. Points flagged as ghosts, and blanked ones,
+ * are averaged like all others: remove duplicates first.
  *
  * Accuracy: voxel index = floor((x - origin) / spacing), all in double about a point near the workspace, so
  * that map coordinates cost no digits. Places in the voxel are summed exactly, in integers whose quantum is
@@ -44,15 +46,15 @@
  *
  * Cost: a few nanoseconds a point (Documentation/Performance.md). Memory beyond input and output: 16 bytes
  * for each of at most 1.25 million points, 60 bytes an active voxel and a few megabytes, kept for the next
- * update until ReleaseScratch() or the filter's end; 16 bytes a voxel and component of averaged arrays while
- * it runs; nothing in proportion to the voxels of the lattice. A workspace that shows less than half of the
- * cloud for the second time makes a PointIndex (16 bytes a point; 28 for double coordinates), after which an
- * update costs in proportion to the points inside.
+ * update until ReleaseScratch() or the filter's end; 8 or 16 bytes a voxel and component of averaged arrays,
+ * more where magnitudes differ by more than 2^50 (at most 32 of them kept); nothing in proportion to the
+ * lattice. A workspace that shows less than half of the cloud for the second time makes a PointIndex (16
+ * bytes a point; 28 for double coordinates), after which an update costs in proportion to the points inside.
  *
- * Progress events come at least every 1.25 million points; AbortExecute ends the work there, the output is then
- * empty and the next Update() starts anew. Like every VTK filter, one object is used by one thread at a time;
- * inside it runs on vtkSMPTools. Source: Kumari, Sreeni, Chaudhuri, "Scalable Rendering of Variable Density
- * Point Cloud Data"; the exact sums are ours (Documentation/Method.md).
+ * Progress events come at least every 1.25 million points; AbortExecute ends the work there, the output is
+ * then empty and the next Update() starts anew. Like every VTK filter, one object is used by one thread at a
+ * time; inside it runs on vtkSMPTools. Source: Kumari, Sreeni, Chaudhuri, "Scalable Rendering of Variable
+ * Density Point Cloud Data"; the exact sums are ours (Documentation/Method.md).
  *
  * @sa vtkKernelBandwidthFilter vtkVoxelGrid
  */
@@ -97,8 +99,8 @@ public:
 
   ///@{
   /**
-   * On: the workspace is a cube about the transformed cloud, half a voxel wider on each side, so that nothing
-   * is clipped. Default: on.
+   * On: the workspace is a cube about the transformed cloud, half a voxel (on its finest axis) wider on
+   * each side, so that nothing is clipped. Default: on.
    */
   vtkSetMacro(AutomaticWorkspace, bool);
   vtkGetMacro(AutomaticWorkspace, bool);

@@ -2,6 +2,7 @@
 
 #include "Core/VoxelMean.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkAbstractTransform.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -13,6 +14,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 
@@ -35,18 +37,87 @@ std::string latticeText(double voxelSize, const int dimensions[3])
   return text.str();
 }
 
-/// Identifiers and ghost flags mean nothing once points are merged, and what an earlier resampling said of
-/// its voxels says nothing of these.
-bool isBookkeeping(vtkDataSetAttributes* attributes, int index)
+std::string nameOf(vtkAbstractArray* array)
 {
-  const int type = attributes->IsArrayAnAttribute(index);
-  const char* name = attributes->GetArrayName(index);
-  return type == vtkDataSetAttributes::GLOBALIDS || type == vtkDataSetAttributes::PEDIGREEIDS ||
-    (name &&
-      (std::string(name) == vtkDataSetAttributes::GhostArrayName() ||
-        std::string(name) == "VoxelPointCount" || std::string(name) == "VoxelCovariance"));
+  return array->GetName() ? array->GetName() : "";
 }
 
+/// Identifiers and ghost flags mean nothing once points are merged, and what an earlier resampling said of
+/// its voxels says nothing of these.
+bool isBookkeeping(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
+{
+  const std::string name = nameOf(array);
+  return array == attributes->GetGlobalIds() || array == attributes->GetPedigreeIds() ||
+    name == vtkDataSetAttributes::GhostArrayName() || name == "VoxelPointCount" || name == "VoxelCovariance";
+}
+
+/// An array may be the active one of several types.
+std::vector<int> rolesOf(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
+{
+  std::vector<int> roles;
+  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+  {
+    if (attributes->GetAbstractAttribute(type) == array)
+    {
+      roles.push_back(type);
+    }
+  }
+  return roles;
+}
+
+}
+
+/// While this lives, what the update needs is not freed; then the input is let go.
+class vtkVoxelMeanResampler::Internals::Running
+{
+public:
+  explicit Running(Internals& owner)
+    : Owner(owner)
+  {
+    this->Owner.IsRunning = true;
+  }
+  ~Running()
+  {
+    this->Owner.Release();
+    this->Owner.IsRunning = false;
+    if (this->Owner.ForgetAtTheEnd)
+    {
+      this->Owner.Forget();
+    }
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+private:
+  Internals& Owner;
+};
+
+bool vtkVoxelMeanResampler::Internals::Update(
+  vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs)
+{
+  const Running running(*this);
+  this->Aborted = false;
+  this->Request.levels = int(outputs.size());
+  if (input->GetNumberOfPoints() == 0 || !this->ReadTransform() || !this->MakeLattice(input) ||
+    !this->Run(input))
+  {
+    return false;
+  }
+  this->From = 0.9;
+  this->To = 0.99;
+  for (int level = 0; level < this->Request.levels; ++level)
+  {
+    if (!this->Fill(level, input, outputs[std::size_t(level)]))
+    {
+      for (vtkPolyData* output : outputs)
+      {
+        output->Initialize();
+        output->GetFieldData()->PassData(input->GetFieldData());
+      }
+      return false;
+    }
+  }
+  return true;
 }
 
 bool vtkVoxelMeanResampler::Internals::ReadTransform()
@@ -94,16 +165,31 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
   return true;
 }
 
+vtkVoxelMeanResampler::Internals::PointsSeen::PointsSeen(vtkPointSet* input)
+  : data(input->GetPoints()->GetData())
+  , address(data->HasStandardMemoryLayout() ? data->GetVoidPointer(0) : nullptr)
+  , size(input->GetNumberOfPoints())
+  // The data set's own time, without that of its arrays: some write coordinates and mark nothing else.
+  , time(std::max({ input->GetPoints()->GetMTime(), data->GetMTime(), input->vtkObject::GetMTime() }))
+{
+}
+
+bool vtkVoxelMeanResampler::Internals::PointsSeen::operator==(const PointsSeen& other) const
+{
+  return this->data == other.data && this->address == other.address && this->size == other.size &&
+    this->time == other.time;
+}
+
 /// An index pays where parts of the same points are looked at again and again.
 void vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
 {
-  const vtkMTimeType time = input->GetMTime();
-  if (time != this->PointsTime || !this->Filter->UsePointIndex)
+  const PointsSeen seen(input);
+  if (!(seen == this->Seen) || !this->Filter->UsePointIndex)
   {
     this->Index = PointIndex();
     this->Indexed = false;
     this->PartialViews = 0;
-    this->PointsTime = time;
+    this->Seen = seen;
   }
   if (!this->Indexed && this->PartialViews > 0)
   {
@@ -121,13 +207,12 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
     ? input->GetPoints()->GetDataType() == VTK_FLOAT
     : precision == vtkAlgorithm::SINGLE_PRECISION;
   this->Request.covariances = this->Filter->ComputeCovariance;
-  this->Request.levels = this->Filter->NumberOfLevels;
   this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
   this->Request.keys = !this->Attributes.empty() || this->Request.levels > 1;
   this->Request.assigned = !this->Attributes.empty();
   this->Request.memory = &this->Memory;
   this->From = 0.0;
-  this->To = this->Attributes.empty() ? 0.95 : 0.5;
+  this->To = this->Attributes.empty() ? 0.9 : 0.5;
   const Status status = this->Engine.run(this->Request, this->Smp, this);
   if (status == Status::Aborted)
   {
@@ -157,22 +242,23 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
   vtkPointData* data = input->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
-    vtkDataArray* array = data->GetArray(i);
+    vtkAbstractArray* any = data->GetAbstractArray(i);
+    vtkDataArray* array = vtkDataArray::SafeDownCast(any);
     if (!array)
     {
       vtkWarningWithObjectMacro(
-        this->Filter, "Array " << data->GetArrayName(i) << " is not numeric: it has no mean and is dropped.");
+        this->Filter, "Array \"" << nameOf(any) << "\" is not numeric: it has no mean and is dropped.");
       continue;
     }
-    if (isBookkeeping(data, i))
+    if (isBookkeeping(data, array))
     {
       continue;
     }
     if (array->GetNumberOfTuples() != input->GetNumberOfPoints())
     {
       vtkWarningWithObjectMacro(this->Filter,
-        "Array " << data->GetArrayName(i) << " has " << array->GetNumberOfTuples() << " tuples for "
-                 << input->GetNumberOfPoints() << " points: it is dropped.");
+        "Array \"" << nameOf(array) << "\" has " << array->GetNumberOfTuples() << " tuples for "
+                   << input->GetNumberOfPoints() << " points: it is dropped.");
       continue;
     }
     AttributeKind kind = AttributeKind::Mean;
@@ -186,7 +272,7 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
     }
     this->Attributes.push_back(
       { VoxelAttribute(array, kind, pointhaptics::InstructionSet(this->Filter->InstructionSet), this->Smp),
-        data->IsArrayAnAttribute(i) });
+        rolesOf(data, array) });
   }
 }
 
@@ -197,7 +283,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
     return true;
   }
   this->From = 0.5;
-  this->To = 0.95;
+  this->To = 0.9;
   const std::int64_t mostPoints = this->Engine.mostPoints(this->Request.levels - 1);
   for (NamedAttribute& named : this->Attributes)
   {
@@ -225,12 +311,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
 bool vtkVoxelMeanResampler::Internals::Run(vtkPointSet* input)
 {
   this->ChooseArrays(input);
-  const bool done = this->Resample(input) && this->AverageArrays();
-  if (!done)
-  {
-    this->Release();
-  }
-  return done;
+  return this->Resample(input) && this->AverageArrays();
 }
 
 void vtkVoxelMeanResampler::Internals::Release()
@@ -248,33 +329,41 @@ void vtkVoxelMeanResampler::Internals::Release()
   this->Points.reset();
 }
 
-void vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPolyData* output)
+bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPolyData* output)
 {
   vtkPointData* data = output->GetPointData();
   output->SetPoints(makePoints(this->Engine, level, this->Request.singlePrecision, this->Memory, this->Smp));
   output->SetVerts(makeVertices(vtkIdType(this->Engine.size(level)), this->Pool, this->Smp));
   const auto counts = makeCounts(this->Engine, level, this->Memory, this->Smp);
   const auto* countValues = reinterpret_cast<const std::int64_t*>(counts->GetPointer(0));
+  // Steps of the filling of all levels.
+  const auto steps = double(this->Attributes.size() + 1);
+  double done = steps * level;
   for (NamedAttribute& named : this->Attributes)
   {
+    if (!this->proceed(++done / (steps * this->Request.levels)))
+    {
+      return false;
+    }
     if (level > 0)
     {
       named.attribute.coarsen(this->Engine.parents(level), this->Engine.size(level));
     }
     const int index =
       data->AddArray(named.attribute.output(countValues, this->Request.transform, this->Pool, this->Smp));
-    if (named.role >= 0)
+    for (const int role : named.roles)
     {
-      data->SetActiveAttribute(index, named.role);
+      data->SetActiveAttribute(index, role);
     }
   }
   data->AddArray(counts);
-  if (this->Filter->ComputeCovariance)
+  if (this->Request.covariances)
   {
     data->AddArray(makeCovariances(this->Engine, level, this->Memory, this->Smp));
   }
   output->GetFieldData()->PassData(input->GetFieldData());
   addLattice(this->Engine.lattice(level), this->Request.transform, output->GetFieldData());
+  return true;
 }
 
 std::size_t vtkVoxelMeanResampler::Internals::ScratchBytes() const
@@ -289,6 +378,11 @@ std::size_t vtkVoxelMeanResampler::Internals::ScratchBytes() const
 
 void vtkVoxelMeanResampler::Internals::Forget()
 {
+  this->ForgetAtTheEnd = this->IsRunning;
+  if (this->IsRunning)
+  {
+    return;
+  }
   this->Engine.releaseScratch();
   this->Pool.trim();
   this->SpareSums.clear();

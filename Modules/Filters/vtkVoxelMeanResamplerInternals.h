@@ -11,7 +11,10 @@
 #include "Core/PointIndex.h"
 #include "Core/VoxelResampler.h"
 
+#include "vtkDataArray.h" // For Seen
+#include "vtkSmartPointer.h"
 #include "vtkTimeStamp.h"
+#include "vtkWeakPointer.h" // For Seen
 
 #include <memory>
 #include <vector>
@@ -28,13 +31,10 @@ public:
   {
   }
 
-  // The steps of RequestData; false after an error was reported, or the execution aborted.
-  bool ReadTransform();
-  bool MakeLattice(vtkPointSet* input);
-  bool Run(vtkPointSet* input);
-  void Fill(int level, vtkPointSet* input, vtkPolyData* output);
-  /// Lets go of the input and its arrays.
-  void Release();
+  /// RequestData: an output for each level. @return false if it stays empty: there are no points, an error
+  /// was reported, or the execution aborted.
+  bool Update(vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs);
+  /// Frees what is kept from one update to the next; during one, at its end.
   void Forget();
   std::size_t ScratchBytes() const;
 
@@ -51,8 +51,29 @@ private:
   struct NamedAttribute
   {
     pointhaptics::VoxelAttribute attribute;
-    int role; ///< vtkDataSetAttributes::AttributeTypes, or -1.
+    std::vector<int> roles; ///< vtkDataSetAttributes::AttributeTypes it is the active one of.
   };
+  /// Which coordinates an index is of.
+  struct PointsSeen
+  {
+    vtkWeakPointer<vtkDataArray> data;
+    const void* address = nullptr;
+    vtkIdType size = 0;
+    vtkMTimeType time = 0;
+
+    PointsSeen() = default;
+    explicit PointsSeen(vtkPointSet* input);
+    bool operator==(const PointsSeen& other) const;
+  };
+  class Running;
+
+  // The steps of an update; false after an error was reported, or the execution aborted.
+  bool ReadTransform();
+  bool MakeLattice(vtkPointSet* input);
+  bool Run(vtkPointSet* input);
+  bool Fill(int level, vtkPointSet* input, vtkPolyData* output);
+  /// Lets go of the input and its arrays.
+  void Release();
 
   void ChooseArrays(vtkPointSet* input);
   void UseIndex(vtkPointSet* input);
@@ -69,8 +90,10 @@ private:
   pointhaptics::OutputMemory Memory{ this->Pool };
   double From = 0.0;
   double To = 1.0;
+  bool IsRunning = false;
+  bool ForgetAtTheEnd = false;
   // Which input was seen last, and how often a part of it.
-  vtkMTimeType PointsTime = 0;
+  PointsSeen Seen;
   int PartialViews = 0;
   bool Indexed = false;
 };

@@ -1,7 +1,10 @@
 #include "VoxelMeanFixtures.h"
 
+#include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
+#include "vtkSignedCharArray.h"
 #include "vtkStringArray.h"
 #include "vtkTransform.h"
 #include "vtkUnsignedCharArray.h"
@@ -254,6 +257,119 @@ TEST(VoxelMeanAttributes, ArraysWithoutNamesAreAveragedToo)
   {
     EXPECT_TRUE(out->GetArray(a)->GetName() || out->GetArray(a)->GetTuple1(0) == 3.0);
   }
+}
+
+TEST(VoxelMeanAttributes, AnArrayKeepsAllTheRolesItHad)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(100, 33));
+  vtkPointData* in = cloud->GetPointData();
+  const auto normals =
+    trial::addColumns<vtkFloatArray>(cloud, "N", 3, [](vtkIdType, int c) { return c == 2 ? 2.0 : 0.0; });
+  in->SetNormals(normals);
+  in->SetActiveScalars("N");
+  in->SetActiveVectors("N");
+  const auto ids = trial::addColumns<vtkIdTypeArray>(cloud, "Ids", 1, [](vtkIdType i, int) { return i; });
+  in->SetGlobalIds(ids);
+  in->SetPedigreeIds(ids);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->Update();
+  vtkPointData* out = resampler->GetOutput()->GetPointData();
+  ASSERT_NE(out->GetNormals(), nullptr);
+  EXPECT_EQ(out->GetScalars(), out->GetNormals());
+  EXPECT_EQ(out->GetVectors(), out->GetNormals());
+  EXPECT_EQ(out->GetNormals()->GetComponent(0, 2), 1.0) << "of unit length, as normals are";
+  EXPECT_EQ(out->GetArray("Ids"), nullptr);
+}
+
+TEST(VoxelMeanAttributes, WarningsOfNamelessArraysAreWholeSentences)
+{
+  const auto cloud = trial::cloudAt({ { 0, 0, 0 }, { 1, 1, 1 } });
+  vtkNew<vtkStringArray> words;
+  words->InsertNextValue("a");
+  words->InsertNextValue("b");
+  cloud->GetPointData()->AddArray(words);
+  vtkNew<vtkFloatArray> shorter;
+  shorter->InsertNextValue(1);
+  cloud->GetPointData()->AddArray(shorter);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  trial::Ear warnings(resampler, vtkCommand::WarningEvent);
+  resampler->Update();
+  EXPECT_EQ(warnings.count, 2);
+  EXPECT_NE(warnings.last.find("has 1 tuples for 2 points: it is dropped"), std::string::npos)
+    << warnings.last;
+}
+
+TEST(VoxelMeanAttributes, NormalsInIntegersTurnAndKeepTheirLength)
+{
+  const auto cloud = trial::cloudAt({ { 0, 0, 0 }, { 0, 0, 0 } });
+  vtkNew<vtkSignedCharArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->InsertNextTuple3(73, 72, -73);
+  normals->InsertNextTuple3(73, 74, -73);
+  cloud->GetPointData()->SetNormals(normals);
+  vtkNew<vtkTransform> transform;
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->SetTransform(transform);
+  const auto expectNormal = [&](double x, double y, double z)
+  {
+    resampler->Update();
+    vtkDataArray* out = resampler->GetOutput()->GetPointData()->GetNormals();
+    ASSERT_NE(out, nullptr);
+    EXPECT_EQ(out->GetComponent(0, 0), x);
+    EXPECT_EQ(out->GetComponent(0, 1), y);
+    EXPECT_EQ(out->GetComponent(0, 2), z);
+  };
+  expectNormal(73, 73, -73);
+  transform->RotateZ(90);
+  transform->Scale(5, 5, 5);
+  expectNormal(-73, 73, -73);
+  // 1.41 times as long on one axis: cut off at the type's end, not wrapped round it.
+  normals->FillComponent(0, 127);
+  normals->FillComponent(1, 127);
+  normals->FillComponent(2, 0);
+  normals->Modified();
+  transform->RotateZ(-45);
+  expectNormal(0, 127, 0);
+}
+
+TEST(VoxelMeanAttributes, NormalsThatAreNotNumbersMakeTheirVoxelsSo)
+{
+  const auto cloud = trial::cloudAt({ { 0.2, 0.5, 0.5 }, { 0.2, 0.5, 0.5 }, { 0.7, 0.5, 0.5 } });
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->InsertNextTuple3(0, 0, NAN);
+  normals->InsertNextTuple3(0, 0, 1);
+  normals->InsertNextTuple3(0, 3, 4);
+  cloud->GetPointData()->SetNormals(normals);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  trial::useUnitCube(resampler, 2);
+  resampler->Update();
+  vtkDataArray* out = resampler->GetOutput()->GetPointData()->GetNormals();
+  ASSERT_EQ(out->GetNumberOfTuples(), 2);
+  EXPECT_TRUE(std::isnan(out->GetComponent(0, 2)));
+  EXPECT_NEAR(out->GetComponent(1, 1), 0.6, 1e-7);
+  EXPECT_NEAR(out->GetComponent(1, 2), 0.8, 1e-7);
+}
+
+TEST(VoxelMeanAttributes, NormalsKeepTheirDirectionUnderTinyScales)
+{
+  const auto cloud = trial::cloudAt({ { 0, 0, 0 } });
+  trial::addColumns<vtkDoubleArray>(cloud, "Normals", 3, [](vtkIdType, int c) { return c == 2 ? 1.0 : 0.0; });
+  cloud->GetPointData()->SetActiveNormals("Normals");
+  vtkNew<vtkTransform> transform;
+  transform->Scale(1e-100, 1e-100, 1e-100);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->SetTransform(transform);
+  resampler->Update();
+  ASSERT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 1);
+  EXPECT_EQ(resampler->GetOutput()->GetPointData()->GetNormals()->GetComponent(0, 2), 1.0);
 }
 
 TEST(VoxelMeanAttributes, NormalsThatCancelStayFinite)

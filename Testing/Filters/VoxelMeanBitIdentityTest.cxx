@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace
@@ -142,6 +143,44 @@ TEST_P(VoxelMeanBits, DoNotDependOnTheTypeOfEqualCoordinates)
     fromDouble->Update();
     trial::expectSame(fromFloat->GetOutput(), fromDouble->GetOutput());
   }
+}
+
+TEST(VoxelMeanBitsOfCategories, DoNotDependOnTheOrderOfNansAndZeroes)
+{
+  constexpr int kPoints = 2000;
+  const auto cloud = trial::cloudOf(trial::randomPoints(kPoints, 61));
+  std::mt19937_64 engine(62);
+  const double values[6] = { 0.0, -0.0, std::nan("1"), -std::nan("2"), 1.0, 2.0 };
+  const auto drawn = [&](vtkIdType, int) { return values[engine() % 6]; };
+  trial::addColumns<vtkFloatArray>(cloud, "Floats", 2, drawn);
+  trial::addColumns<vtkDoubleArray>(cloud, "Doubles", 1, drawn);
+  vtkSmartPointer<vtkPolyData> expected;
+  for (int round = 0; round < 8; ++round)
+  {
+    vtkNew<vtkVoxelMeanResampler> resampler;
+    resampler->SetInputData(trial::reordered(cloud, trial::randomOrder(kPoints, 63 + std::uint64_t(round))));
+    trial::useUnitCube(resampler, 4);
+    resampler->AddCategoricalArray("Floats");
+    resampler->AddCategoricalArray("Doubles");
+    resampler->Update();
+    if (round == 0)
+    {
+      expected = trial::copyOf(resampler->GetOutput());
+    }
+    trial::expectSame(resampler->GetOutput(), expected);
+  }
+  // Where the two zeroes together, or the NaNs, are the most, the answer says so.
+  int zeroes = 0;
+  int nans = 0;
+  vtkDataArray* doubles = expected->GetPointData()->GetArray("Doubles");
+  for (vtkIdType v = 0; v < doubles->GetNumberOfTuples(); ++v)
+  {
+    zeroes += doubles->GetTuple1(v) == 0.0 && !std::signbit(doubles->GetTuple1(v));
+    nans += std::isnan(doubles->GetTuple1(v));
+  }
+  EXPECT_GT(zeroes, 15);
+  EXPECT_GT(nans, 15);
+  EXPECT_GE(zeroes + nans, 56) << "twice as frequent as the other two";
 }
 
 INSTANTIATE_TEST_SUITE_P(AllTypes, VoxelMeanBits,

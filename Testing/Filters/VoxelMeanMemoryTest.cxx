@@ -63,6 +63,25 @@ TEST(VoxelMeanMemory, IsFreedOnRequestWithoutChangingTheAnswer)
   }
 }
 
+TEST(VoxelMeanMemory, KeepsLittleForArraysOfManyMagnitudes)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(20000, 94, VTK_FLOAT));
+  const auto array = trial::addColumns<vtkDoubleArray>(
+    cloud, "Weight", 3, [](vtkIdType i, int) { return 1.0 + double(i % 10); });
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->SetUsePointIndex(false);
+  trial::useUnitCube(resampler, 100);
+  resampler->Update();
+  const vtkIdType voxels = resampler->GetOutput()->GetNumberOfPoints();
+  ASSERT_GT(voxels, 15000);
+  const unsigned long plain = resampler->GetScratchMemorySize();
+  array->SetValue(5, 1e-300);
+  array->Modified();
+  resampler->Update();
+  EXPECT_LE(resampler->GetScratchMemorySize(), plain + 32ul * 3 * static_cast<unsigned long>(voxels) / 1024);
+}
+
 TEST(VoxelMeanMemory, WhatSomebodyHoldsOfAnOutputIsNotWrittenAgain)
 {
   // Large enough for the memory of outputs to be used again.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -27,6 +28,10 @@ public:
         {
           progress->algorithm_->SetAbortExecute(1);
         }
+        if (progress->then && progress->heard.back() > 0.0 && progress->heard.back() < 1.0)
+        {
+          progress->then();
+        }
       });
     tag_ = algorithm->AddObserver(vtkCommand::ProgressEvent, callback_);
   }
@@ -35,7 +40,8 @@ public:
   Progress& operator=(const Progress&) = delete;
 
   std::vector<double> heard;
-  double abortAt = 2.0; ///< Progress at which it asks to stop.
+  std::function<void()> then; ///< Called at each event within the work.
+  double abortAt = 2.0;       ///< Progress at which it asks to stop.
 
 private:
   vtkAlgorithm* algorithm_;
@@ -89,6 +95,113 @@ TEST(VoxelMeanPipeline, AbortStopsALongRunWhichThenStartsAfresh)
     EXPECT_EQ(trial::sum(trial::countsOf(resampler->GetOutput())), 3000000);
     EXPECT_GT(resampler->GetOutput()->GetNumberOfPoints(), 900000);
   }
+}
+
+TEST(VoxelMeanPipeline, LevelsAndArraysCanBeStoppedBetween)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(20000, 59, VTK_FLOAT));
+  trial::addScanAttributes(cloud, 60);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  trial::useUnitCube(resampler, 40);
+  resampler->SetNumberOfLevels(4);
+  std::vector<double> heard;
+  {
+    Progress progress(resampler);
+    resampler->Update();
+    heard = progress.heard;
+  }
+  const auto between = [&](double low, double high)
+  {
+    return std::count_if(
+      heard.begin(), heard.end(), [=](double fraction) { return fraction > low && fraction < high; });
+  };
+  EXPECT_GE(between(0.25, 0.501), 3) << "a step for each coarser level";
+  EXPECT_GE(between(0.9, 1.0), 4 * cloud->GetPointData()->GetNumberOfArrays()) << "a step for each array";
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+  const auto whole = trial::copyOf(resampler->GetOutput());
+  const auto coarse = trial::copyOf(resampler->GetOutput(3));
+  for (const double stop : { 0.26, 0.49, 0.91, 0.98 })
+  {
+    SCOPED_TRACE(stop);
+    resampler->Modified();
+    {
+      Progress progress(resampler);
+      progress.abortAt = stop;
+      resampler->Update();
+      EXPECT_LT(progress.heard.back(), 1.0);
+    }
+    for (int level = 0; level < 4; ++level)
+    {
+      EXPECT_EQ(resampler->GetOutput(level)->GetNumberOfPoints(), 0);
+      EXPECT_EQ(resampler->GetOutput(level)->GetPointData()->GetNumberOfArrays(), 0);
+    }
+    resampler->SetAbortExecute(0);
+    resampler->Update();
+    trial::expectSame(resampler->GetOutput(), whole);
+    trial::expectSame(resampler->GetOutput(3), coarse);
+  }
+}
+
+TEST(VoxelMeanPipeline, WhatAnObserverOfProgressAsksForIsOfTheNextUpdate)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(50000, 56, VTK_FLOAT));
+  trial::addScanAttributes(cloud, 57);
+  const auto prepared = [&](vtkVoxelMeanResampler* resampler)
+  {
+    resampler->SetInputData(cloud);
+    trial::useUnitCube(resampler, 30);
+    resampler->SetNumberOfLevels(2);
+  };
+  vtkNew<vtkVoxelMeanResampler> quiet;
+  prepared(quiet);
+  quiet->Update();
+  const std::vector<std::function<void(vtkVoxelMeanResampler*)>> requests = {
+    [](vtkVoxelMeanResampler* r) { r->ComputeCovarianceOn(); },
+    [](vtkVoxelMeanResampler* r) { r->SetNumberOfLevels(4); },
+    [](vtkVoxelMeanResampler* r) { r->SetNumberOfLevels(1); },
+    [](vtkVoxelMeanResampler* r) { r->PassAttributesOff(); },
+    [](vtkVoxelMeanResampler* r) { r->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION); },
+    [](vtkVoxelMeanResampler* r) { r->SetDimensions(7, 7, 7); },
+    [](vtkVoxelMeanResampler* r) { r->SetUsePointIndex(false); },
+    [](vtkVoxelMeanResampler* r) { r->SetInstructionSet(vtkVoxelMeanResampler::InstructionSetBaseline); },
+    [](vtkVoxelMeanResampler* r) { r->ReleaseScratch(); },
+  };
+  for (std::size_t i = 0; i < requests.size(); ++i)
+  {
+    SCOPED_TRACE(i);
+    vtkNew<vtkVoxelMeanResampler> resampler;
+    prepared(resampler);
+    vtkSmartPointer<vtkPolyData> second = resampler->GetOutput(1);
+    Progress progress(resampler);
+    int calls = 0;
+    progress.then = [&]()
+    {
+      ++calls;
+      requests[i](resampler);
+    };
+    resampler->Update();
+    EXPECT_GE(calls, 1);
+    trial::expectSame(resampler->GetOutput(), quiet->GetOutput());
+    trial::expectSame(second, quiet->GetOutput(1));
+    if (i + 1 == requests.size())
+    {
+      EXPECT_LT(resampler->GetScratchMemorySize(), 64u) << "freed at the end";
+    }
+  }
+}
+
+TEST(VoxelMeanPipeline, HoldsOnToNothingOfItsInput)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(1000, 58));
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  const int before = cloud->GetPoints()->GetData()->GetReferenceCount();
+  resampler->Update();
+  EXPECT_EQ(cloud->GetPoints()->GetData()->GetReferenceCount(), before);
+  resampler->SetVoxelSize(-1);
+  trial::expectError(resampler);
+  EXPECT_EQ(cloud->GetPoints()->GetData()->GetReferenceCount(), before) << "after an error";
 }
 
 TEST(VoxelMeanPipeline, ReadsNoArrayThatNobodyAskedFor)

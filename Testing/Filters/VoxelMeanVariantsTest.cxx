@@ -194,6 +194,62 @@ TEST_P(VoxelMeanVariants, ThePointIndexFollowsPointsReplacedInTheSameInput)
   }
 }
 
+TEST(VoxelMeanPointIndex, IsNotThatOfAnotherInputWithAnArrayInCommon)
+{
+  const auto large = trial::cloudOf(trial::randomPoints(100000, 71));
+  const auto small = trial::cloudOf(trial::randomPoints(1000, 72));
+  trial::addScanAttributes(large, 73);
+  trial::addScanAttributes(small, 74);
+  vtkNew<vtkDoubleArray> shared;
+  shared->SetName("Calibration");
+  shared->InsertNextValue(1);
+  large->GetFieldData()->AddArray(shared);
+  small->GetFieldData()->AddArray(shared);
+  shared->Modified();
+  ASSERT_EQ(large->GetMTime(), small->GetMTime());
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(large);
+  for (int view = 0; view < 3; ++view)
+  {
+    resampler->SetWorkspaceBounds(0, 0.3 + 0.01 * view, 0, 0.3, 0, 0.3);
+    resampler->SetDimensions(20, 20, 20);
+    resampler->Update();
+  }
+  resampler->SetInputData(small);
+  resampler->Update();
+  vtkNew<vtkVoxelMeanResampler> fresh;
+  fresh->SetInputData(small);
+  fresh->SetWorkspaceBounds(resampler->GetWorkspaceBounds());
+  fresh->SetDimensions(20, 20, 20);
+  fresh->Update();
+  trial::expectSame(resampler->GetOutput(), fresh->GetOutput());
+  EXPECT_EQ(resampler->GetNumberOfClippedPoints(), fresh->GetNumberOfClippedPoints());
+}
+
+TEST(VoxelMeanPointIndex, StaysWhenOnlyAnArrayChanges)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(100000, 75));
+  const auto heat =
+    trial::addColumns<vtkFloatArray>(cloud, "Heat", 1, [](vtkIdType i, int) { return double(i); });
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->PassAttributesOff();
+  const auto look = [&](double edge)
+  {
+    resampler->SetWorkspaceBounds(0, edge, 0, 0.1, 0, 0.1);
+    resampler->SetDimensions(20, 20, 20);
+    resampler->Update();
+    return resampler->GetScratchMemorySize();
+  };
+  const unsigned long without = look(0.11);
+  const unsigned long indexKiB = 100000 * 16 / 1024;
+  ASSERT_GT(look(0.12), without + indexKiB);
+  heat->Modified();
+  EXPECT_GT(look(0.13), without + indexKiB);
+  cloud->GetPoints()->GetData()->Modified();
+  EXPECT_LT(look(0.14), without + indexKiB);
+}
+
 TEST_P(VoxelMeanVariants, EveryInstructionSetGivesTheSameBits)
 {
   for (int step = 0; step < 8; ++step)

@@ -172,5 +172,33 @@ TEST(AffineTransform, TransformsThatOverflowAreErrorsNotNumbers)
       EXPECT_EQ(inverse.check() == Status::NonFiniteTransform, false);
     }
   }
-  EXPECT_EQ(AffineTransform::scaling({ 1e-110, 1e-110, 1e-110 }).check(), Status::SingularTransform);
+  EXPECT_EQ(AffineTransform::scaling({ 1e-310, 1e-310, 1e-310 }).check(), Status::SingularTransform);
+}
+
+TEST(AffineTransform, AcceptsUniformScalesWhoseDeterminantIsNoNumber)
+{
+  for (const double s : { 1e-300, 1e-110, 1e-101, 1e110, 1e300 })
+  {
+    const AffineTransform t =
+      AffineTransform::scaling({ s, s, s }) * AffineTransform::rotation(30, { 1, 2, 3 });
+    ASSERT_EQ(t.check(), Status::Ok) << s;
+    expectNear(t.inverse().apply(t.apply({ 1, 2, 3 })), { 1, 2, 3 }, 1e-14);
+    expectNear(normalized(t.applyToNormal({ 1, 0, 0 })), t.applyToVector({ 1, 0, 0 }) / s, 1e-15);
+  }
+}
+
+TEST(AffineTransform, AcceptsStretchingBeforeARotationAsAfterIt)
+{
+  const AffineTransform turn = AffineTransform::rotation(40, { 1, 2, 3 });
+  for (const Vec3& factors : { Vec3(1e6, 1, 1e-6), Vec3(1e12, 1e12, 1e-2), Vec3(1e-9, 1e3, 1) })
+  {
+    const AffineTransform stretch = AffineTransform::scaling(factors);
+    EXPECT_EQ((turn * stretch).check(), Status::Ok) << factors.x;
+    EXPECT_EQ((stretch * turn).check(), Status::Ok) << factors.x;
+  }
+  // Neither order makes a flat one regular.
+  const AffineTransform flat = AffineTransform::scaling({ 1, 1e6, 0 });
+  EXPECT_EQ((turn * flat).check(), Status::SingularTransform);
+  EXPECT_EQ((flat * turn).check(), Status::SingularTransform);
+  EXPECT_EQ((turn * flat * turn).check(), Status::SingularTransform);
 }

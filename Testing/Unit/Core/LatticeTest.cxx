@@ -175,6 +175,16 @@ TEST(MakeLattice, AutomaticWorkspaceIsACubeAboutTheCloudHalfAVoxelWider)
   EXPECT_NEAR(box.extent().x, 2.0 + lattice.spacing.x, 1e-12) << "half a voxel on each side";
 }
 
+TEST(MakeLattice, AutomaticWorkspaceOfFewLayersIsNoWiderForThat)
+{
+  LatticeSettings settings;
+  settings.dimensions = { 300, 300, 1 };
+  Lattice lattice;
+  ASSERT_EQ(makeLattice(settings, boxOf({ 0, 0, 0 }, { 1, 1, 1 }), lattice), Status::Ok);
+  EXPECT_NEAR(lattice.spacing.x, 1.0 / 299, 1e-12);
+  expectHolds({ 0, 0, 0 }, { 1, 1, 1 }, settings);
+}
+
 TEST(MakeLattice, AutomaticWorkspaceClipsNothingAtAnyScale)
 {
   trial::Random random(21);

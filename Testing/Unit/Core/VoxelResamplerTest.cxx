@@ -324,6 +324,12 @@ TEST(VoxelResampler, RefusesWhatItCannotDoAndHasNoVoxelsThen)
   bad = good;
   bad.lattice.dimensions[0] = kMaximumLatticeDimension + 1;
   expectRefused(bad, Status::InvalidDimensions);
+  const std::vector<Vec3> others = randomBox(50, 15, { 0, 0, 0 }, { 3, 3, 3 });
+  PointIndex index;
+  ASSERT_EQ(index.build(PointView(&others[0].x, 50)), Status::Ok);
+  bad = good;
+  bad.index = &index;
+  expectRefused(bad, Status::InvalidParameter);
 }
 
 TEST(VoxelResampler, CloudsWithoutAPointInsideAreNoError)
