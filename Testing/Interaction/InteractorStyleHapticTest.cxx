@@ -144,6 +144,28 @@ TEST_F(InteractorStyleHaptic, PublishesANewSceneAfterEachKeyThatMovesTheModel)
   }
 }
 
+TEST_F(InteractorStyleHaptic, ShowsTheOldMeansWhereTheModelIsUntilTheNewOnesCome)
+{
+  vtkNew<vtkActor> cloud;
+  style_->SetCloudActor(cloud);
+  const auto shift = [&cloud]
+  {
+    cloud->ComputeMatrix();
+    return cloud->GetMatrix()->GetElement(0, 3);
+  };
+  style_->UpdateModel();
+  EXPECT_EQ(shift(), 0.0);
+  for (int step = 1; step <= 3; ++step)
+  {
+    style_->ShiftModel({ 0.002, 0.0, 0.0 });
+    EXPECT_NEAR(shift(), 0.002 * step, 1e-12) << step;
+  }
+  style_->UpdateModel();
+  EXPECT_NEAR(shift(), 0.0, 1e-12); // the new means are there themselves
+  style_->ShiftModel({ 0.002, 0.0, 0.0 });
+  EXPECT_NEAR(shift(), 0.002, 1e-12);
+}
+
 TEST_F(InteractorStyleHaptic, UndoesEachKeyWithItsOpposite)
 {
   for (const auto& pair : { std::make_pair("x", "X"), std::make_pair("z", "Z"),
