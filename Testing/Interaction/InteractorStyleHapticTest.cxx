@@ -1,4 +1,5 @@
 #include "PointPicking.h"
+#include "SurfaceArrays.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
@@ -164,6 +165,24 @@ TEST_F(InteractorStyleHaptic, ShowsTheOldMeansWhereTheModelIsUntilTheNewOnesCome
   EXPECT_NEAR(shift(), 0.0, 1e-12); // the new means are there themselves
   style_->ShiftModel({ 0.002, 0.0, 0.0 });
   EXPECT_NEAR(shift(), 0.002, 1e-12);
+}
+
+TEST_F(InteractorStyleHaptic, ComputesArraysOfTheFeltSurfaceOnRequest)
+{
+  vtkPointData* data = bandwidth_->GetOutput()->GetPointData();
+  EXPECT_FALSE(data->HasArray(kResidualArrayName));
+  style_->SetComputeResiduals(true);
+  style_->SetComputeNormals(true);
+  EXPECT_TRUE(style_->IsModelChanged());
+  style_->UpdateModel();
+  EXPECT_TRUE(data->HasArray(kResidualArrayName));
+  EXPECT_TRUE(data->HasArray(kSurfaceNormalArrayName));
+  style_->SetComputeResiduals(true);
+  EXPECT_FALSE(style_->IsModelChanged()) << "nothing is other than it was";
+  style_->SetComputeResiduals(false);
+  style_->UpdateModel();
+  EXPECT_FALSE(data->HasArray(kResidualArrayName));
+  EXPECT_TRUE(data->HasArray(kSurfaceNormalArrayName));
 }
 
 TEST_F(InteractorStyleHaptic, UndoesEachKeyWithItsOpposite)
