@@ -1,4 +1,5 @@
 #include "SceneWorker.h"
+#include "ScenePublisher.h"
 
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -186,13 +187,27 @@ TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
   settings.realtimePriority = false;
   ASSERT_EQ(loop.start(port, {}, settings), Status::Ok);
   std::vector<ServoSample> samples;
+  resampler_->SetDimensions(200, 200, 200);
+  ScenePublisher publisher;
+  publisher.setSink(
+    [&loop](std::shared_ptr<const HapticScene> scene) { loop.publishScene(std::move(scene)); });
+  std::atomic<int> parts{ 0 };
   int shown = 0;
   double sum = 0.0;
   for (int i = 0; i < 60; ++i)
   {
     SceneRequest request = this->shifted(1e-4 * (i % 7));
-    request.publish = [&loop](std::shared_ptr<const HapticScene> scene, std::uint64_t)
-    { loop.publishScene(std::move(scene)); };
+    request.hand = [&loop]
+    {
+      Bounds bounds;
+      bounds.include(loop.latest().state.hip);
+      return bounds;
+    };
+    request.publish = [&](std::shared_ptr<const HapticScene> scene, std::uint64_t number)
+    {
+      parts += scene && scene->beyond();
+      publisher.publish(std::move(scene), publisher.cloud(), number);
+    };
     worker_.request(std::move(request));
     if (i % 3 == 0)
     {
@@ -214,6 +229,7 @@ TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
   }
   loop.stop();
   EXPECT_GE(shown, 20);
+  EXPECT_GE(parts, 10);
   EXPECT_GT(sum, 0.0);
 }
 
