@@ -129,8 +129,8 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
   return to;
 }
 
-/// Lines after that of a cursor that are fetched, where nothing is known of the order of points and in a scan,
-/// which fills several at once.
+/// Lines after that of a cursor that are fetched, where nothing is known of the order of points and in a
+/// scan, which fills several at once.
 constexpr int kFetchAhead = 1;
 constexpr int kScanFetchAhead = 3;
 
@@ -213,7 +213,8 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   const bool isRun =
     first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
   const int from = !Indexed && isRun ? dealRun(placed, writer) : 0;
-  fromPlaces<8>(placed.size - from, [&](int j) { dealOne<Indexed, kScanFetchAhead>(placed, from + j, writer); });
+  fromPlaces<8>(
+    placed.size - from, [&](int j) { dealOne<Indexed, kScanFetchAhead>(placed, from + j, writer); });
 }
 
 /// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p
