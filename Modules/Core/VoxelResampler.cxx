@@ -59,6 +59,7 @@ void VoxelResampler::Implementation::clear()
   levels[0].firsts.clear();
   levels[0].size = 0;
   clipped = invalid = 0;
+  poolHoldsAll_ = false;
 }
 
 Status VoxelResampler::Implementation::runGeneral(
@@ -186,6 +187,13 @@ std::int64_t VoxelResampler::invalidPoints() const
 std::int64_t VoxelResampler::size(int level) const
 {
   return implementation_->levels[std::size_t(level)].size;
+}
+
+std::int64_t VoxelResampler::mostPoints(int l) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  const std::int64_t* counts = level.arena.counts();
+  return level.size == 0 ? 0 : *std::max_element(counts, counts + level.size);
 }
 
 const Lattice& VoxelResampler::lattice(int level) const

@@ -55,6 +55,7 @@ private:
   kernel::PartitionPlan plan_;
   kernel::Placement placement_{};
   kernel::RecordPool pool_;
+  bool poolHoldsAll_ = false; ///< All points of the last run, with their indices.
   std::vector<kernel::CarriedPartition> carried_;
   std::vector<std::unique_ptr<kernel::PartitionWorker>> idle_;
   std::mutex mutex_;

@@ -59,11 +59,12 @@ Status VoxelResampler::Implementation::runPlanned(
   {
     partition.clear();
   }
+  const bool holdsAll = request.assigned && chunks.count() == 1;
   std::int64_t inside = 0;
   invalid = request.index ? request.index->invalidPoints() : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    fillPool(request, chunks, chunk, false, executor);
+    fillPool(request, chunks, chunk, holdsAll, executor);
     inside += pool_.inside();
     invalid += pool_.invalid();
     chunk + 1 < chunks.count() ? carryChunk(request, executor) : finish(request, executor);
@@ -73,6 +74,7 @@ Status VoxelResampler::Implementation::runPlanned(
     }
   }
   clipped = request.points.size() - inside - invalid;
+  poolHoldsAll_ = holdsAll;
   if (request.levels > 1)
   {
     addLevels(request, carriedList());
@@ -252,7 +254,10 @@ Status VoxelResampler::Implementation::assignPlanned(
   const Chunks chunks(request, kChunkPoints);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    fillPool(request, chunks, chunk, true, executor);
+    if (!poolHoldsAll_)
+    {
+      fillPool(request, chunks, chunk, true, executor);
+    }
     const std::int64_t base = chunks.pieces(chunk)[0].begin;
     forRange(executor, plan_.partitions, grainFor(plan_.partitions, executor),
       [&](std::int64_t begin, std::int64_t end)
@@ -268,8 +273,12 @@ Status VoxelResampler::Implementation::assignPlanned(
             {
               for (int i = 0; i < count; ++i)
               {
-                points[i] = request.index ? request.index->original(base + indices[i]) : base + indices[i];
+                points[i] = base + indices[i];
                 voxels[i] = std::int64_t(firstVoxel + ranks[i]);
+              }
+              for (int i = 0; request.index && i < count; ++i)
+              {
+                points[i] = request.index->original(points[i]);
               }
               visit(points, voxels, count);
             });
