@@ -31,6 +31,8 @@ public:
   Status run(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
   Status assign(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+  void assignInSets(const VoxelRequest& request, const SetWork& work, const Executor& executor);
+  bool poolHoldsAll() const { return poolHoldsAll_; }
 
   std::vector<Level> levels = std::vector<Level>(1);
   std::int64_t clipped = 0;
@@ -89,6 +91,8 @@ private:
   VoxelSumList carriedList() const;
   Status assignPlanned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+  void visitPartition(const VoxelRequest& request, PartitionWorker& worker, std::uint32_t partition,
+    std::int64_t base, std::int64_t firstVoxel, const Visitor& visit);
   Status assignGeneral(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
 
@@ -398,8 +402,6 @@ Status VoxelResampler::Implementation::assign(
 Status VoxelResampler::Implementation::assignPlanned(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
 {
-  const Level& level = levels[0];
-  const Kernels& kernels = kernelsFor(request.instructions);
   const Chunks chunks(request, kChunkPoints);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
@@ -412,25 +414,9 @@ Status VoxelResampler::Implementation::assignPlanned(
       [&](std::int64_t begin, std::int64_t end)
       {
         const WorkerLease lease(*this, false);
-        std::int64_t points[kBlockRecords];
-        std::int64_t voxels[kBlockRecords];
         for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
         {
-          const std::size_t firstVoxel = level.firsts[p];
-          (*lease).rank(kernels, pool_, p, level.arena.keys() + firstVoxel, level.firsts[p + 1] - firstVoxel,
-            [&](const std::uint32_t* indices, const std::uint32_t* ranks, int count)
-            {
-              for (int i = 0; i < count; ++i)
-              {
-                points[i] = base + indices[i];
-                voxels[i] = std::int64_t(firstVoxel + ranks[i]);
-              }
-              for (int i = 0; request.index && i < count; ++i)
-              {
-                points[i] = request.index->original(points[i]);
-              }
-              visit(points, voxels, count);
-            });
+          visitPartition(request, *lease, p, base, std::int64_t(levels[0].firsts[p]), visit);
         }
       });
     if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
@@ -439,6 +425,49 @@ Status VoxelResampler::Implementation::assignPlanned(
     }
   }
   return Status::Ok;
+}
+
+/// Visits the points of the pool in a partition, which are numbered from @p base on. Its voxels get numbers
+/// from @p firstVoxel on.
+void VoxelResampler::Implementation::visitPartition(const VoxelRequest& request, PartitionWorker& worker,
+  std::uint32_t partition, std::int64_t base, std::int64_t firstVoxel, const Visitor& visit)
+{
+  const Level& level = levels[0];
+  const std::size_t first = level.firsts[partition];
+  std::int64_t points[kBlockRecords];
+  std::int64_t voxels[kBlockRecords];
+  worker.rank(kernelsFor(request.instructions), pool_, partition, level.arena.keys() + first,
+    level.firsts[partition + 1] - first,
+    [&](const std::uint32_t* indices, const std::uint32_t* ranks, int count)
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        points[i] = base + indices[i];
+        voxels[i] = firstVoxel + ranks[i];
+      }
+      for (int i = 0; request.index && i < count; ++i)
+      {
+        points[i] = request.index->original(points[i]);
+      }
+      visit(points, voxels, count);
+    });
+}
+
+void VoxelResampler::Implementation::assignInSets(
+  const VoxelRequest& request, const SetWork& work, const Executor& executor)
+{
+  const std::vector<std::size_t>& firsts = levels[0].firsts;
+  const Chunks chunks(request, kChunkPoints);
+  const std::int64_t base = chunks.pieces(0)[0].begin;
+  forPartitions(request, executor,
+    [&](PartitionWorker& worker, std::uint32_t p)
+    {
+      if (firsts[p + 1] > firsts[p])
+      {
+        work(std::int64_t(firsts[p]), std::int64_t(firsts[p + 1] - firsts[p]),
+          [&](const Visitor& visit) { visitPartition(request, worker, p, base, 0, visit); });
+      }
+    });
 }
 
 /// Point by point, in this thread.
@@ -505,6 +534,16 @@ Status VoxelResampler::assign(
   return implementation_->assign(request, visit, executor, watcher);
 }
 
+void VoxelResampler::assignInSets(const VoxelRequest& request, const SetWork& work, const Executor& executor)
+{
+  implementation_->assignInSets(request, work, executor);
+}
+
+bool VoxelResampler::canAssignInSets() const
+{
+  return implementation_->poolHoldsAll();
+}
+
 std::int64_t VoxelResampler::clippedPoints() const
 {
   return implementation_->clipped;
@@ -523,8 +562,7 @@ std::int64_t VoxelResampler::size(int level) const
 std::int64_t VoxelResampler::mostPoints(int l) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  const std::int64_t* counts = level.arena.counts();
-  return level.size == 0 ? 0 : *std::max_element(counts, counts + level.size);
+  return level.size == 0 ? 0 : *std::max_element(counts(l), counts(l) + level.size);
 }
 
 const Lattice& VoxelResampler::lattice(int level) const
@@ -553,6 +591,11 @@ void VoxelResampler::copyCounts(int l, std::int64_t* counts, const Executor& exe
 {
   const Level& level = implementation_->levels[std::size_t(l)];
   copyArray(level.arena.counts(), level.size, counts, executor);
+}
+
+const std::int64_t* VoxelResampler::counts(int l) const
+{
+  return implementation_->levels[std::size_t(l)].arena.counts();
 }
 
 void VoxelResampler::copyKeys(int l, std::uint64_t* keys, const Executor& executor) const
