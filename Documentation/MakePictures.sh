@@ -10,57 +10,32 @@ fi
 here="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)"
 program="$(realpath -- "$1")"
 folder="$(realpath -- "${2:-$here/Images}")"
-for tool in Xvfb xdotool; do
-  command -v "$tool" >/dev/null || {
-    echo "failed: $tool is not installed (package ${tool,,})"
-    exit 1
-  }
-done
+# shellcheck source=../Testing/Interaction/Window.sh
+source "$here/../Testing/Interaction/Window.sh"
+need_tools failed 1
+patience=60
 work="$(mktemp -d)"
-server=""
-viewer=""
 finish() {
   local code=$?
-  [[ -z "$viewer" ]] || kill "$viewer" 2>/dev/null || true
-  [[ -z "$server" ]] || kill "$server" 2>/dev/null || true
+  stop_window
   rm -rf -- "$work"
   exit "$code"
 }
 trap finish EXIT
 cd -- "$work"
 export XDG_STATE_HOME="$work/state"
-Xvfb -displayfd 3 -noreset -nolisten tcp -screen 0 1600x1200x24 3>display >/dev/null 2>&1 &
-server=$!
-for ((i = 0; i < 200; ++i)); do
-  [[ ! -s display ]] || break
-  sleep 0.05
-done
-DISPLAY=":$(<display)"
-export DISPLAY
-
-# until_true WORDS COMMAND...: waits for the command to succeed, for 60 s at most.
-until_true() {
-  local words="$1" tries
-  shift
-  for ((tries = 0; tries < 1200; ++tries)); do
-    if "$@" >/dev/null 2>&1; then
-      return
-    fi
-    sleep 0.05
-  done
-  echo "failed: $words"
-  exit 1
-}
+start_server 1600x1200
 
 # open_window ARGUMENTS...: a window with the pointer in it; its number is in $window.
 open_window() {
   rm -f pointhaptics-*.png
   "$program" view "$@" --device simulated >said.txt 2>&1 &
   viewer=$!
-  until_true "no window for $*" xdotool search --name "PointHaptics: "
-  window="$(xdotool search --name "PointHaptics: " | head -n 1)"
   until_true "no points in the window for $*" grep -q points said.txt
-  sleep 2
+  until_true "no window for $*" find_window "PointHaptics: "
+  sleep 2 # the first window may make room for another
+  until_true "no window stays for $*" find_window "PointHaptics: "
+  until_true "the window does not take the focus for $*" takes_keys
   xdotool mousemove --window "$window" 500 260
 }
 keys() {
@@ -91,10 +66,12 @@ keep() {
 # Method: the radii.
 "$program" view idol.ply --unit m --color-by ProxyRadius --size 760x600 --screenshot "$folder/idol-radius.png"
 
-# Tour: axes and bounds; the figure.
+# Tour: axes and bounds; the figure; where the felt surface and the voxel means differ, and light.
 "$program" view idol.ply --unit m --axes --size 1000x700 --screenshot "$folder/tour-axes.png"
 "$program" view idol.ply --unit m --figure --path "$here/../Data/Paths/idol-touch.csv" --size 760x600 \
   --screenshot "$folder/tour-figure.png"
+"$program" view idol.ply --unit m --color-by residual --size 760x600 --screenshot "$folder/tour-residual.png"
+"$program" view idol.ply --unit m --ambient --size 760x600 --screenshot "$folder/tour-ambient.png"
 
 # Tour: the hand of the mouse presses on the statue.
 open_window idol.ply --size 1000x700

@@ -247,7 +247,8 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
     addHeightArray(result.cloud, result.orientation.up);
   }
   keepArrays(result.cloud, result.colorBy);
-  result.latticeDimension = request.choosesLattice ? chooseLatticeDimension(result.cloud) : 0;
+  result.latticeDimension =
+    request.choosesLattice ? chooseLatticeDimension(result.cloud, [&] { return goesOn(1.0); }) : 0;
   loaded = std::move(result);
   return true;
 }

@@ -11,6 +11,7 @@ namespace pointhaptics
 namespace
 {
 
+constexpr double kSmallestRadiusInCells = 3.6;
 constexpr double kPoints = 30.0;
 constexpr double kCells = 14.0;
 constexpr double kCountGrowth = 1.1;
@@ -52,7 +53,7 @@ constexpr double kVoteReach = 2.0;
 
 double countRadius(const CellPyramid& pyramid, const Vec3& seed, double largest)
 {
-  double radius = kSmallestFitRadiusInCells * pyramid.level(0).voxelSize;
+  double radius = kSmallestRadiusInCells * pyramid.level(0).voxelSize;
   for (int i = 0; i < kCountSteps && radius < largest; ++i)
   {
     double points = 0.0;
@@ -219,11 +220,6 @@ double medianOf(std::vector<double>& values)
 
 }
 
-double fitGate(double countRadius, double noise)
-{
-  return std::max(kGateDepth * countRadius, kGateNoise * noise);
-}
-
 FitScale chooseFitRadius(
   const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest, FitCells& memory)
 {
@@ -282,14 +278,14 @@ LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<Fit
   result.countRadius = scales[i].countRadius;
   result.noise = noise;
   result.cubic = std::clamp((votes - kCubicVotesFrom) / (kCubicVotesTo - kCubicVotesFrom), 0.0, 1.0);
-  result.gate = fitGate(scales[i].countRadius, noise);
+  result.gate = std::max(kGateDepth * scales[i].countRadius, kGateNoise * noise);
   return result;
 }
 
 }
 
-std::vector<LocalScale> fitScales(
-  const CellPyramid& pyramid, double largestCount, double largest, const Executor& executor)
+std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
+  const Executor& executor, const std::vector<NodeUse>* uses)
 {
   // A node takes some ten microseconds, and more where there is noise.
   constexpr std::int64_t kSmallestRange = 16;
@@ -302,6 +298,10 @@ std::vector<LocalScale> fitScales(
       const auto memory = std::make_unique<FitCells>();
       for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
       {
+        if (uses && (*uses)[i] == NodeUse::None)
+        {
+          continue;
+        }
         double distance = 0.0;
         const Vec3 node = nodes.cells[i].mean;
         const std::int64_t seed = pyramid.nearest(0, node, 2.0 * nodes.voxelSize, distance);
@@ -315,7 +315,10 @@ std::vector<LocalScale> fitScales(
     {
       for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
       {
-        result[i] = vote(pyramid, nodeLevel, scales, i);
+        if (!uses || (*uses)[i] == NodeUse::All)
+        {
+          result[i] = vote(pyramid, nodeLevel, scales, i);
+        }
       }
     });
   return result;

@@ -13,12 +13,6 @@
 namespace pointhaptics
 {
 
-/// No fit radius is shorter, in finest cells.
-constexpr double kSmallestFitRadiusInCells = 3.6;
-
-/// Depth of the fit's gate: a part of the counting radius, and never within the noise. Metres.
-double fitGate(double countRadius, double noise);
-
 /// What the cloud says about fits at one place; metres.
 struct FitScale
 {
@@ -37,9 +31,22 @@ struct FitScale
 FitScale chooseFitRadius(
   const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest, FitCells& memory);
 
+/// Distance between nodes that vote on each other's radii, in finest cells.
+constexpr double kVoteReachInCells = 16.0;
+
+/// What is wanted of a node.
+enum class NodeUse : unsigned char
+{
+  None,
+  Vote, ///< It has a vote on its neighbours' radii.
+  All,
+};
+
 /// chooseFitRadius at each cell of the field's node level, medians of the neighbours taken against outliers,
 /// as the radius and gate of the surface fit.
-std::vector<LocalScale> fitScales(
-  const CellPyramid& pyramid, double largestCount, double largest, const Executor& executor = {});
+/// @param uses where given, one per node: only those for All are answered, and only those for Vote and All
+/// asked.
+std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
+  const Executor& executor = {}, const std::vector<NodeUse>* uses = nullptr);
 
 } // namespace pointhaptics

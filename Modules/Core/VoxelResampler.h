@@ -63,7 +63,8 @@ struct VoxelRequest
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
   bool keys = false; ///< For keys(), assign() and parents().
-  /// assign() will follow: run() remembers, if the points are few, which is where, so that it takes less time.
+  /// assign() will follow: run() remembers, if the points are few, which is where, so that it takes less
+  /// time.
   bool assigned = false;
   /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
   int levels = 1;

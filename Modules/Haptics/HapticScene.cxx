@@ -156,9 +156,9 @@ std::vector<Cell> finiteCells(const HapticSceneInput& input)
   return cells;
 }
 
-/// What the fields tell at each of their nodes.
+/// What the fields tell at each of their nodes; of a part at those for which it knows enough.
 Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, double extent,
-  const Executor& executor, std::vector<LocalScale>& scales)
+  const Executor& executor, const std::vector<NodeUse>* uses, std::vector<LocalScale>& scales)
 {
   const double size = pyramid.level(0).voxelSize;
   const CellPyramid::Level& nodes = pyramid.level(RadiusField::nodeLevel(pyramid));
@@ -174,14 +174,14 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
   }
   else
   {
-    const Status status = nodeRadii(nodes, input, radii, executor);
+    const Status status = nodeRadii(nodes, input, radii, executor, uses);
     if (status != Status::Ok)
     {
       return status;
     }
   }
   const double largest = std::max(extent, kLargestFitRadiusInCells * size);
-  scales = fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor);
+  scales = fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor, uses);
   for (std::size_t i = 0; i < radii.size(); ++i)
   {
     scales[i].proxyRadius = radii[i];
@@ -240,18 +240,18 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   const double size = cloud->pyramid.level(0).voxelSize;
   cloud->latticeCells = size == input.cellSize;
   const std::optional<ScenePart> part = std::move(input.part);
+  const std::vector<NodeUse> uses = part ? part->uses(cloud->pyramid) : std::vector<NodeUse>();
+  // Where there are few points a fit may grow over the whole cloud.
+  const double whole = part ? part->scale() * norm(part->whole()->bounds().extent()) : extent;
   std::vector<LocalScale> scales;
+  status = newScales(input, cloud->pyramid, whole, executor, part ? &uses : nullptr, scales);
+  if (status != Status::Ok)
+  {
+    return nullptr;
+  }
   if (part)
   {
-    scales = part->scales(cloud->pyramid);
-  }
-  else
-  {
-    status = newScales(input, cloud->pyramid, extent, executor, scales);
-    if (status != Status::Ok)
-    {
-      return nullptr;
-    }
+    part->completeScales(cloud->pyramid, uses, scales);
   }
   input = HapticSceneInput();
   cloud->scale.build(cloud->pyramid, std::move(scales));

@@ -2,6 +2,7 @@
 /// Proxy radii at the nodes of a scene's fields.
 #pragma once
 
+#include "Core/FitRadius.h"
 #include "Haptics/HapticScene.h"
 
 #include <vector>
@@ -14,8 +15,9 @@ namespace pointhaptics
 /// points alone; the result is the same bit for bit. @p nodes is a level of a pyramid built on the finite
 /// points of
 /// @p input. Errors: those of input.bandwidth. Independent of @p executor.
+/// @param uses where given, one per node: others than NodeUse::All get 0.
 /// @pre proxyRadii or bandwidth is there.
 Status nodeRadii(const CellPyramid::Level& nodes, const HapticSceneInput& input, std::vector<double>& radii,
-  const Executor& executor);
+  const Executor& executor, const std::vector<NodeUse>* uses = nullptr);
 
 } // namespace pointhaptics

@@ -1,6 +1,5 @@
 #include "Haptics/ScenePart.h"
 
-#include "Core/FitRadius.h"
 #include "Haptics/HapticScene.h"
 
 #include <algorithm>
@@ -14,12 +13,27 @@ namespace
 
 /// Cells of the coarsest level of a pyramid, in index cells.
 constexpr double kBlockCells = 1 << (CellPyramid::kCellLevels - 1);
-/// How far beyond what is covered there are cells: what the nodes of the fields reach (2.2 voxels of 8 cells
-/// each), or a fit at a surface that is watched from a fit radius away; and a little more.
-constexpr double kNodeReachCells = 17.6;
-constexpr double kSlackCells = 4.0;
-/// Longest fit radius that is grown for a node the whole scene does not know.
-constexpr double kMostFitCells = 18.0;
+/// Nodes within this of what is covered matter there: their reach (2.2 voxels of 8 cells each), and a fit at
+/// a surface that is watched from outside.
+constexpr double kNodeCells = 17.6 + 3.0;
+/// Of a node that has a vote: from its mean to the cell it looks from, and beyond the last fit.
+constexpr double kSeedCells = 4.0;
+/// Longest radius a node may try, over the one it chooses, and in cells.
+constexpr double kTriedRadii = 2.0;
+constexpr double kMostTriedCells = 20.0;
+
+/// Whether @p p is in @p box or within @p margin of it on every axis.
+bool isAbout(const Bounds& box, double margin, const Vec3& p)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!(p[axis] >= box.minimum[axis] - margin && p[axis] <= box.maximum[axis] + margin))
+    {
+      return false;
+    }
+  }
+  return true;
+}
 
 } // namespace
 
@@ -46,7 +60,9 @@ std::optional<ScenePart> ScenePart::about(const Bounds& hand, std::shared_ptr<co
   part.corner_ = lattice.origin;
   const double fit = part.scale_ *
     std::max(whole->typicalScale().radius, whole->fitRadius(part.toWhole_.apply(hand.center())));
-  const double margin = std::max(kNodeReachCells * part.cellSize_, 2.0 * fit) + kSlackCells * part.cellSize_;
+  const double tried =
+    std::min(kTriedRadii * fit, kMostTriedCells * part.cellSize_) + kSeedCells * part.cellSize_;
+  const double margin = (kNodeCells + kVoteReachInCells) * part.cellSize_ + tried;
   part.whole_ = std::move(whole);
   part.voxels_ = lattice;
   const double reach = kReachCells * part.cellSize_;
@@ -85,40 +101,31 @@ double ScenePart::share() const
   return double(held) / double(nodes.size());
 }
 
-std::vector<LocalScale> ScenePart::scales(const CellPyramid& pyramid) const
+std::vector<NodeUse> ScenePart::uses(const CellPyramid& pyramid) const
 {
-  const auto& nodes = pyramid.level(RadiusField::nodeLevel(pyramid));
-  std::unique_ptr<FitCells> memory;
-  std::vector<LocalScale> scales;
-  scales.reserve(nodes.cells.size());
-  for (const Cell& node : nodes.cells)
+  std::vector<NodeUse> uses;
+  for (const Cell& node : pyramid.level(RadiusField::nodeLevel(pyramid)).cells)
   {
-    const Vec3 place = toWhole_.apply(node.mean);
-    LocalScale scale = scaled(whole_->fitScale(place), scale_);
-    scale.noise = scale_ * whole_->noise(place);
-    if (!whole_->isNear(place))
-    {
-      if (!memory)
-      {
-        memory = std::make_unique<FitCells>();
-      }
-      double distance = 0.0;
-      const std::int64_t seed = pyramid.nearest(0, node.mean, 2.0 * nodes.voxelSize, distance);
-      const Vec3 at = seed < 0 ? node.mean : pyramid.level(0).cells[std::size_t(seed)].mean;
-      const FitScale fit =
-        chooseFitRadius(pyramid, at, kMostFitCells * cellSize_, kMostFitCells * cellSize_, *memory);
-      scale.radius = fit.radius;
-      scale.countRadius = fit.countRadius;
-      scale.noise = fit.noise;
-      scale.gate = fitGate(fit.countRadius, fit.noise);
-      scale.cubic = fit.cubic ? 1.0 : 0.0;
-    }
-    const double least = kSmallestFitRadiusInCells * cellSize_;
-    scale.radius = std::max(scale.radius, least);
-    scale.countRadius = std::max(scale.countRadius, least);
-    scales.push_back(scale);
+    const bool isAll = isAbout(covered_, kNodeCells * cellSize_, node.mean);
+    const bool votes = isAbout(covered_, (kNodeCells + kVoteReachInCells) * cellSize_, node.mean);
+    uses.push_back(isAll ? NodeUse::All : votes ? NodeUse::Vote : NodeUse::None);
   }
-  return scales;
+  return uses;
+}
+
+void ScenePart::completeScales(
+  const CellPyramid& pyramid, const std::vector<NodeUse>& uses, std::vector<LocalScale>& scales) const
+{
+  const std::vector<Cell>& nodes = pyramid.level(RadiusField::nodeLevel(pyramid)).cells;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    if (uses[i] != NodeUse::All)
+    {
+      const Vec3 place = toWhole_.apply(nodes[i].mean);
+      scales[i] = scaled(whole_->fitScale(place), scale_);
+      scales[i].noise = scale_ * whole_->noise(place);
+    }
+  }
 }
 
 bool ScenePart::holds(const Vec3& mean) const noexcept

@@ -4,6 +4,7 @@
 
 #include "Core/AffineTransform.h"
 #include "Core/CellPyramid.h"
+#include "Core/FitRadius.h"
 #include "Core/Lattice.h"
 #include "Core/RadiusField.h"
 
@@ -18,18 +19,20 @@ namespace pointhaptics
 
 class HapticScene;
 
-/// A box about the hand, and what a scene of the cells in it takes from the newest one of the whole cloud.
-/// The cells are those a scene of the whole cloud would have, bit for bit; the radii of fit and proxy, which
-/// cost most of a scene's time and belong to the place on the model more than to its voxels, are taken over.
-/// Within covered() forces are those of a whole scene made anew up to what the radii matter: 0.5 % of the
-/// force (NearSceneTest). Frame: the lattice of the new scene. Immutable.
+/// A box about the hand, and what a scene of the cells about it takes from the newest one of the whole cloud.
+/// Within covered() forces are those of a scene of the whole cloud (NearSceneTest: to 1e-13 of the
+/// strongest): the cells are the same bit for bit, and there are enough of them for the same radii of fit and
+/// proxy at all nodes of the fields that matter there. They may differ by some parts in a thousand where
+/// points are sparser than voxels, as the index cells have the size of the last whole scene's then, and where
+/// a radius is cut for a much smaller one more than 30 cells away. What only the whole cloud knows, such as
+/// the radius far from all cells, is as it was. Frame: the lattice of the new scene. Immutable.
 class ScenePart
 {
 public:
-  /// Half-width of covered() about the hand, in index cells: 5 mm in the default workspace.
-  static constexpr double kReachCells = 16.0;
-  /// Lengths on the model, new over old, up to which radii are taken over; and one over that.
-  static constexpr double kMostScale = 1.25;
+  /// Half-width of covered() about the hand, in index cells: 4 mm in the default workspace.
+  static constexpr double kReachCells = 12.0;
+  /// Lengths on the model, new over old, up to which the whole scene tells of the new one; and one over that.
+  static constexpr double kMostScale = 1.6;
 
   /// @param hand what is to be within reach: the HIP and the point of contact. @param whole the scene of the
   /// whole cloud made last; its index cells are counted from a corner. @param modelToLattice, @p lattice
@@ -50,9 +53,12 @@ public:
   const Lattice& voxels() const { return voxels_; }
   /// About which part of the whole scene's cells are in it, 0 to 1.
   double share() const;
-  /// The whole scene's answer for each cell of the field's node level; where it has no nodes near by the
-  /// radii are chosen by that cell alone, and the proxy radius is the typical one.
-  std::vector<LocalScale> scales(const CellPyramid& pyramid) const;
+  /// What is to be found out of each cell of the field's node level: the others are too near to the end of
+  /// the cells, and too far from what is covered to matter.
+  std::vector<NodeUse> uses(const CellPyramid& pyramid) const;
+  /// Gives the nodes of which not all is found out the answers of the whole scene.
+  void completeScales(
+    const CellPyramid& pyramid, const std::vector<NodeUse>& uses, std::vector<LocalScale>& scales) const;
 
 private:
   std::shared_ptr<const HapticScene> whole_;

@@ -54,7 +54,8 @@ std::string describeRefusals(const ServoStatistics& statistics)
     "; allow memlock unlimited for this user in /etc/security/limits.d");
   add(statistics.awakeRefusal, "the processor may fall asleep between ticks",
     ": they may come some hundreds of microseconds late; let this user write /dev/cpu_dma_latency, as "
-    "70-pointhaptics.rules does for group plugdev");
+    "70-pointhaptics.rules does for group plugdev after `sudo udevadm trigger "
+    "--sysname-match=cpu_dma_latency`");
   return text;
 }
 

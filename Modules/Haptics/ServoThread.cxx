@@ -90,6 +90,7 @@ int WakefulCores::request() noexcept
   release();
   file_ = open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
   const std::int32_t microseconds = 0;
+  errno = file_ >= 0 ? EIO : errno; // for a write that is cut short
   if (file_ >= 0 && write(file_, &microseconds, sizeof(microseconds)) == ssize_t(sizeof(microseconds)))
   {
     return 0;

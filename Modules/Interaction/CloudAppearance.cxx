@@ -43,7 +43,7 @@ constexpr double kColorPoints[9][3] = { { 0.267, 0.005, 0.329 }, { 0.278, 0.175,
   { 0.361, 0.785, 0.388 }, { 0.627, 0.842, 0.224 }, { 0.890, 0.840, 0.130 } };
 
 /// Of the larger end of a range of colours: an error's least value is an accident.
-constexpr double kAsGoodAsZero = 1e-3;
+constexpr double kAsGoodAsZero = 3e-3;
 /// Of the width of a range that stays.
 constexpr double kSameRange = 0.1;
 constexpr int kScalarBarFont = 15;

@@ -74,6 +74,7 @@ void vtkInteractorStyleHaptic::PreviewModel()
     vtkNew<vtkMatrix4x4> back;
     vtkMatrix4x4::Invert(parts.resampled->GetMatrix(), back);
     vtkMatrix4x4::Multiply4x4(parts.model->GetMatrix(), back, parts.preview);
+    parts.preview->Modified(); // the product does not say so itself
     parts.cloudActor->SetUserMatrix(parts.preview);
     parts.rendersWanted = true;
   }

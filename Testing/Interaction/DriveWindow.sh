@@ -6,57 +6,26 @@ set -euo pipefail
 program="$1"
 folder="$2"
 drop_file="${3:-}"
-for tool in Xvfb xdotool; do
-  if ! command -v "$tool" >/dev/null; then
-    echo "skipped: $tool is not installed (package ${tool,,})"
-    exit 77
-  fi
-done
+here="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)"
+# shellcheck source=Window.sh
+source "$here/Window.sh"
+need_tools skipped 77
 rm -rf -- "$folder"
 mkdir -p "$folder"
 cd -- "$folder"
 export XDG_STATE_HOME="$folder/state"
 
-server=""
-viewer=""
 finish() {
   local code=$?
-  [[ -z "$viewer" ]] || kill "$viewer" 2>/dev/null || true
-  [[ -z "$server" ]] || kill "$server" 2>/dev/null || true
+  stop_window
   exit "$code"
 }
 trap finish EXIT
-
-fail() {
-  echo "failed: $*"
-  echo "the program said:"
-  cat said.txt
-  exit 1
-}
-
-# until_true WORDS COMMAND...: waits for the command to succeed, for 20 s at most.
-until_true() {
-  local words="$1" tries
-  shift
-  for ((tries = 0; tries < 400; ++tries)); do
-    if "$@" >/dev/null 2>&1; then
-      return
-    fi
-    sleep 0.05
-  done
-  fail "$words"
-}
 said() { until_true "it never said: $1" grep -qF -- "$1" said.txt; }
 key() { xdotool key "$1"; }
 
 # element FILE [COLUMN]: of row 0 of the written model matrix, columns from 0; without it column 2.
 element() { tr -d ' \n' <"$1" | sed -E 's/.*"matrix":\[([^]]*)\].*/\1/' | cut -d, -f$((${2:-2} + 1)); }
-# takes_keys: the pointer goes into the window, which takes the focus as soon as it looks at events.
-takes_keys() {
-  xdotool mousemove 790 590 mousemove --window "$window" 320 150
-  sleep 0.1
-  [[ "$(xdotool getwindowfocus 2>/dev/null)" == "$window" ]]
-}
 # setting NAME FILE: its value, without blanks, numbers to eight digits.
 setting() {
   tr -d ' \n' <"$2" | { grep -oE "\"$1\":(\[[^]]*\]|\"[^\"]*\"|[^,}]*)" || true; } | sed -E 's/(\.[0-9]{8})[0-9]+/\1/g'
@@ -65,20 +34,14 @@ setting() {
 pointer_x() { xdotool getmouselocation --shell | sed -n 's/^X=//p'; }
 pointer_is_left_of() { (($(pointer_x) < $1)); }
 
-: >said.txt
-Xvfb -displayfd 3 -noreset -nolisten tcp -screen 0 800x600x24 3>display >/dev/null 2>&1 &
-server=$!
-until_true "Xvfb did not start" test -s display
-DISPLAY=":$(<display)"
-export DISPLAY
+start_server 800x600
 
 "$program" generate sphere -n 3000 -o first.ply >/dev/null
 "$program" generate plane -n 3000 -o second.ply >/dev/null
 "$program" view first.ply second.ply --watch --size 640x480 --device simulated --bind "screenshot=s F2" \
   >said.txt 2>&1 &
 viewer=$!
-until_true "no window appeared" xdotool search --name "PointHaptics: first.ply"
-window="$(xdotool search --name "PointHaptics: first.ply" | head -n 1)"
+until_true "no window appeared" find_window "PointHaptics: first.ply"
 until_true "the window does not take the focus" takes_keys
 
 key n
@@ -189,9 +152,8 @@ grep -q '"size": "640x480"' recent.json || fail "--recent does not bring the set
 # A shell lets what runs in the background ignore Ctrl+C; this program must not.
 env --default-signal=INT "$program" view first.ply --config pointhaptics-006.json >said.txt 2>&1 &
 viewer=$!
-until_true "no second window appeared" xdotool search --name "PointHaptics: first.ply"
+until_true "no second window appeared" find_window "PointHaptics: first.ply"
 said "3000 points"
-window="$(xdotool search --name "PointHaptics: first.ply" | head -n 1)"
 until_true "the second window does not take the focus" takes_keys
 key w
 said "settings: pointhaptics-008.json"
@@ -244,8 +206,7 @@ for points in 500000 2000000 8000000; do
   if [[ -z "$kept" ]]; then
     "$program" view first.ply large.csv --size 640x480 --device none >said.txt 2>&1 &
     viewer=$!
-    until_true "no third window appeared" xdotool search --name "PointHaptics: first.ply"
-    window="$(xdotool search --name "PointHaptics: first.ply" | head -n 1)"
+    until_true "no third window appeared" find_window "PointHaptics: first.ply"
     until_true "the third window does not take the focus" takes_keys
     key n
     if escape_while_it_reads; then

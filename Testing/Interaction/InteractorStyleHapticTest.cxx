@@ -1,4 +1,5 @@
 #include "PointPicking.h"
+#include "SurfaceArrays.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
@@ -142,6 +143,46 @@ TEST_F(InteractorStyleHaptic, PublishesANewSceneAfterEachKeyThatMovesTheModel)
     EXPECT_EQ(sceneChanges_, scenes + 1) << key;
     EXPECT_FALSE(style_->IsModelChanged()) << key;
   }
+}
+
+TEST_F(InteractorStyleHaptic, ShowsTheOldMeansWhereTheModelIsUntilTheNewOnesCome)
+{
+  vtkNew<vtkActor> cloud;
+  style_->SetCloudActor(cloud);
+  const auto shift = [&cloud]
+  {
+    cloud->ComputeMatrix();
+    return cloud->GetMatrix()->GetElement(0, 3);
+  };
+  style_->UpdateModel();
+  EXPECT_EQ(shift(), 0.0);
+  for (int step = 1; step <= 3; ++step)
+  {
+    style_->ShiftModel({ 0.002, 0.0, 0.0 });
+    EXPECT_NEAR(shift(), 0.002 * step, 1e-12) << step;
+  }
+  style_->UpdateModel();
+  EXPECT_NEAR(shift(), 0.0, 1e-12); // the new means are there themselves
+  style_->ShiftModel({ 0.002, 0.0, 0.0 });
+  EXPECT_NEAR(shift(), 0.002, 1e-12);
+}
+
+TEST_F(InteractorStyleHaptic, ComputesArraysOfTheFeltSurfaceOnRequest)
+{
+  vtkPointData* data = bandwidth_->GetOutput()->GetPointData();
+  EXPECT_FALSE(data->HasArray(kResidualArrayName));
+  style_->SetComputeResiduals(true);
+  style_->SetComputeNormals(true);
+  EXPECT_TRUE(style_->IsModelChanged());
+  style_->UpdateModel();
+  EXPECT_TRUE(data->HasArray(kResidualArrayName));
+  EXPECT_TRUE(data->HasArray(kSurfaceNormalArrayName));
+  style_->SetComputeResiduals(true);
+  EXPECT_FALSE(style_->IsModelChanged()) << "nothing is other than it was";
+  style_->SetComputeResiduals(false);
+  style_->UpdateModel();
+  EXPECT_FALSE(data->HasArray(kResidualArrayName));
+  EXPECT_TRUE(data->HasArray(kSurfaceNormalArrayName));
 }
 
 TEST_F(InteractorStyleHaptic, UndoesEachKeyWithItsOpposite)

@@ -155,10 +155,10 @@ TEST_F(NearSceneTest, HasTheCellsOfTheWholeCloudWithinReachBitForBit)
   EXPECT_EQ(before.near, nullptr) << "there was no whole one yet";
   const Scenes scenes = this->request(placed(-3.0, 1.1, -0.003), hand);
   ASSERT_NE(scenes.near, nullptr);
-  EXPECT_LT(scenes.near->numberOfPoints(), scenes.whole->numberOfPoints() / 4);
+  EXPECT_LT(scenes.near->numberOfPoints(), scenes.whole->numberOfPoints() / 2);
   ASSERT_EQ(scenes.near->cellSize(), scenes.whole->cellSize());
   ASSERT_EQ(scenes.near->pyramid().numberOfCellLevels(), scenes.whole->pyramid().numberOfCellLevels());
-  const double reach = 30.0 * scenes.near->cellSize(); // to the corners of what is covered, and more
+  const double reach = 40.0 * scenes.near->cellSize(); // to the corners of what is covered, and more
   for (int level = 0; level < scenes.near->pyramid().numberOfCellLevels(); ++level)
   {
     std::vector<Cell> cells[2];
@@ -184,9 +184,16 @@ TEST_F(NearSceneTest, HasTheCellsOfTheWholeCloudWithinReachBitForBit)
 TEST_F(NearSceneTest, WithinReachItIsFeltAsTheWholeCloud)
 {
   const Vec3 hand{ 0.036, 0.0, 0.0 };
-  for (const double noise : { 0.0, 4e-5 })
+  struct Case
   {
-    worker_.setCloud(makeCloud(Shape::Torus, 150000, noise));
+    std::int64_t points; // the last are sparser than the voxels
+    double noise;
+    double bound; // part of the strongest force
+  };
+  for (const Case& one :
+    { Case{ 150000, 0.0, 1e-13 }, Case{ 150000, 4e-5, 1e-13 }, Case{ 25000, 0.0, 0.002 } })
+  {
+    worker_.setCloud(makeCloud(Shape::Torus, one.points, one.noise));
     for (const AffineTransform& place :
       { AffineTransform(), placed(5.0, 1.0, 0.002), placed(-3.0, 1.1, -0.003), placed(3.0, 0.95, -0.001) })
     {
@@ -201,7 +208,7 @@ TEST_F(NearSceneTest, WithinReachItIsFeltAsTheWholeCloud)
       EXPECT_GT(difference.touched, 200);
       EXPECT_EQ(difference.left, 0);
       EXPECT_GT(difference.strongest, 1.0);
-      EXPECT_LT(difference.largest, (noise > 0.0 ? 0.005 : 1e-4) * difference.strongest) << noise;
+      EXPECT_LT(difference.largest, one.bound * difference.strongest) << one.points << " " << one.noise;
     }
   }
 }
@@ -298,7 +305,7 @@ TEST_F(NearSceneTest, IsLeftOutWhereItDoesNotPayOrCannotBe)
   ASSERT_NE(this->request({}, hand).whole, nullptr);
   EXPECT_NE(this->request(placed(1.0, 1.0, 0.0), hand).near, nullptr);
   EXPECT_EQ(this->request(placed(2.0, 1.0, 0.0), { 0.0, 0.0, 0.3 }).near, nullptr) << "nothing is near";
-  EXPECT_EQ(this->request(placed(2.0, 1.5, 0.0), hand).near, nullptr) << "radii of another size";
+  EXPECT_EQ(this->request(placed(2.0, 1.8, 0.0), hand).near, nullptr) << "another size";
   AffineTransform stretched;
   stretched.m[2][2] = 1.2;
   EXPECT_EQ(this->request(stretched, hand).near, nullptr) << "another shape";

@@ -78,11 +78,13 @@ void mark(const CellMap& map, const Record* records, int count, const Record* ne
 template <class V, bool Skips>
 inline std::uint32_t numberWords(const CellRanks& ranks)
 {
+  constexpr std::size_t kGroup = 8;
+  static_assert(kMarkGroup % kGroup == 0, "there are no words past the last group");
   std::uint32_t sum = 0;
-  for (std::size_t group = 0; group < ranks.words; group += kMarkGroup)
+  for (std::size_t group = 0; group < ranks.words; group += kGroup)
   {
     std::uint64_t all = 0;
-    for (std::size_t w = group; Skips && w < group + kMarkGroup; ++w)
+    for (std::size_t w = group; Skips && w < group + kGroup; ++w)
     {
       all |= ranks.marks[w];
     }
@@ -90,7 +92,7 @@ inline std::uint32_t numberWords(const CellRanks& ranks)
     {
       continue;
     }
-    for (std::size_t w = group; w < group + kMarkGroup; ++w)
+    for (std::size_t w = group; w < group + kGroup; ++w)
     {
       ranks.before[w] = sum;
       sum += V::ones(ranks.marks[w]);

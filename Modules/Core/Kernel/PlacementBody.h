@@ -129,8 +129,8 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
   return to;
 }
 
-/// Lines after that of a cursor that are fetched, where nothing is known of the order of points and in a scan,
-/// which fills several at once.
+/// Lines after that of a cursor that are fetched, where nothing is known of the order of points and in a
+/// scan, which fills several at once.
 constexpr int kFetchAhead = 1;
 constexpr int kScanFetchAhead = 3;
 
@@ -185,16 +185,17 @@ inline int dealRun(const PlacedPoints& placed, RecordWriter& writer)
   return i;
 }
 
-/// Whether many of some records go where the one before goes, as in a scan. Samples tell: fewer than would
-/// pay as vectors.
+/// Whether many of some records go where the one before goes, as in a scan. Four samples tell.
 inline bool isScan(const PlacedPoints& placed)
 {
-  const std::uint32_t* p = placed.partitions;
-  const int step = placed.size / 4;
-  return placed.size >= 16 &&
-    int(p[0] == p[1]) + int(p[step] == p[step + 1]) + int(p[2 * step] == p[2 * step + 1]) +
-      int(p[3 * step] == p[3 * step + 1]) >=
-    2;
+  constexpr int kSamples = 4;
+  const int step = placed.size / kSamples;
+  int repeats = 0;
+  for (int i = 0; i < kSamples && step > 1; ++i)
+  {
+    repeats += placed.partitions[i * step] == placed.partitions[i * step + 1];
+  }
+  return 2 * repeats >= kSamples;
 }
 
 /// Appends the records to their partitions. How is asked once for all: a branch on each few guesses wrong.
@@ -213,7 +214,8 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   const bool isRun =
     first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
   const int from = !Indexed && isRun ? dealRun(placed, writer) : 0;
-  fromPlaces<8>(placed.size - from, [&](int j) { dealOne<Indexed, kScanFetchAhead>(placed, from + j, writer); });
+  fromPlaces<8>(
+    placed.size - from, [&](int j) { dealOne<Indexed, kScanFetchAhead>(placed, from + j, writer); });
 }
 
 /// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p

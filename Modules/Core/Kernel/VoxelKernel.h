@@ -154,8 +154,8 @@ struct CellRanks
   std::uint32_t* before; ///< Marks in the words before.
   std::size_t words;     ///< A multiple of kMarkGroup.
 };
-/// Words of marks looked at together.
-constexpr std::size_t kMarkGroup = 8;
+/// Words of marks counted together.
+constexpr std::size_t kMarkGroup = 16;
 
 /// The sums of a partition's marked cells, in ascending order.
 struct CellSums

@@ -163,18 +163,23 @@ struct Avx512
 
   static std::uint32_t number(const CellRanks& ranks)
   {
+    static_assert(kMarkGroup == 16, "two vectors of words, one of sums");
     const __m512i zero = _mm512_setzero_si512();
+    const __m512i last = _mm512_set1_epi32(15);
+    const __m512i lowHalves = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
     __m512i sum = zero;
     for (std::size_t w = 0; w < ranks.words; w += kMarkGroup)
     {
-      // Sums over one, two, four and eight words.
-      const __m512i counts = _mm512_popcnt_epi64(_mm512_loadu_si512(ranks.marks + w));
-      __m512i sums = _mm512_add_epi64(counts, _mm512_alignr_epi64(counts, zero, 7));
-      sums = _mm512_add_epi64(sums, _mm512_alignr_epi64(sums, zero, 6));
-      sums = _mm512_add_epi64(sums, _mm512_alignr_epi64(sums, zero, 4));
-      const __m512i before = _mm512_sub_epi64(_mm512_add_epi64(sum, sums), counts);
-      _mm256_storeu_si256(reinterpret_cast<__m256i*>(ranks.before + w), _mm512_cvtepi64_epi32(before));
-      sum = _mm512_add_epi64(sum, _mm512_permutexvar_epi64(_mm512_set1_epi64(7), sums));
+      const __m512i counts =
+        _mm512_permutex2var_epi32(_mm512_popcnt_epi64(_mm512_loadu_si512(ranks.marks + w)), lowHalves,
+          _mm512_popcnt_epi64(_mm512_loadu_si512(ranks.marks + w + 8)));
+      // Sums over one, two, four, eight and sixteen words.
+      __m512i sums = _mm512_add_epi32(counts, _mm512_alignr_epi32(counts, zero, 15));
+      sums = _mm512_add_epi32(sums, _mm512_alignr_epi32(sums, zero, 14));
+      sums = _mm512_add_epi32(sums, _mm512_alignr_epi32(sums, zero, 12));
+      sums = _mm512_add_epi32(sums, _mm512_alignr_epi32(sums, zero, 8));
+      _mm512_storeu_si512(ranks.before + w, _mm512_add_epi32(sum, _mm512_sub_epi32(sums, counts)));
+      sum = _mm512_add_epi32(sum, _mm512_permutexvar_epi32(last, sums));
     }
     return std::uint32_t(_mm_cvtsi128_si32(_mm512_castsi512_si128(sum)));
   }

@@ -6,9 +6,8 @@
 #include "Core/Kernel/VoxelSink.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
-#include <mutex>
-#include <utility>
 #include <vector>
 
 namespace pointhaptics
@@ -36,40 +35,50 @@ struct Level
   std::vector<std::int64_t> parents;
 };
 
-/// Tells partitions where their voxels go, as soon as all before them have told how many theirs are.
+/// Tells partitions where their voxels go, as soon as all before them have told how many theirs are. Threads
+/// tell and ask at the same time; none waits.
 class PartitionOrder
 {
 public:
   explicit PartitionOrder(std::uint32_t partitions)
-    : sizes_(partitions, kUnknown)
-    , firsts_(1, 0)
+    : sizes_(partitions)
+    , firsts_(std::size_t(partitions) + 1)
   {
-    firsts_.reserve(std::size_t(partitions) + 1);
+    for (std::atomic<std::size_t>& size : sizes_)
+    {
+      size.store(kUnknown, std::memory_order_relaxed);
+    }
+    for (std::atomic<std::size_t>& first : firsts_)
+    {
+      first.store(kUnknown, std::memory_order_relaxed);
+    }
+    firsts_[0] = 0;
   }
   static constexpr std::size_t kUnknown = ~std::size_t(0);
 
   void tell(std::uint32_t partition, std::size_t size)
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    // The later of two threads that store a partition's size and its place sees both, and goes on.
     sizes_[partition] = size;
-    while (firsts_.size() <= sizes_.size() && sizes_[firsts_.size() - 1] != kUnknown)
+    for (std::size_t p = partition; p < sizes_.size() && firsts_[p + 1] == kUnknown; ++p)
     {
-      firsts_.push_back(firsts_.back() + sizes_[firsts_.size() - 1]);
+      const std::size_t first = firsts_[p];
+      const std::size_t known = sizes_[p];
+      if (first == kUnknown || known == kUnknown)
+      {
+        return;
+      }
+      firsts_[p + 1] = first + known;
     }
   }
   /// Or kUnknown.
-  std::size_t first(std::uint32_t partition)
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return partition < firsts_.size() ? firsts_[partition] : kUnknown;
-  }
-  /// @pre all have told.
-  std::vector<std::size_t> take() { return std::move(firsts_); }
+  std::size_t first(std::uint32_t partition) const { return firsts_[partition]; }
+  /// Those of all partitions, and an end. @pre all have told.
+  std::vector<std::size_t> take() const { return { firsts_.begin(), firsts_.end() }; }
 
 private:
-  std::mutex mutex_;
-  std::vector<std::size_t> sizes_;
-  std::vector<std::size_t> firsts_; ///< Of those that are known, and what comes next.
+  std::vector<std::atomic<std::size_t>> sizes_;
+  std::vector<std::atomic<std::size_t>> firsts_; ///< Of those that are known, and what comes next.
 };
 
 /// Copies an array unless it is there already.

@@ -14,7 +14,22 @@ namespace bench
 namespace servo
 {
 
-/// Wakes early, spins and counts as the servo loop does, at its priority, from construction to stop().
+/// The last core of the machine is kept apart: threads that are started while this lives, by the thread that
+/// made it, run on the others. Linux; elsewhere, and on a machine of one core, nothing happens.
+class LastCoreApart
+{
+public:
+  LastCoreApart();
+  ~LastCoreApart();
+  LastCoreApart(const LastCoreApart&) = delete;
+  LastCoreApart& operator=(const LastCoreApart&) = delete;
+
+private:
+  bool apart_ = false;
+};
+
+/// Wakes early, spins and counts as the servo loop does, at its priority, on the last core, from construction
+/// to stop().
 class EmptyLoop
 {
 public:

@@ -99,13 +99,15 @@ bool addRow(const Setting& setting, const Outcome& outcome, ReportPart& part)
     : name(setting.load);
   part.table.rows.push_back({ name(setting.hand), load, brief(setting.rateHz), fourOf(s.update),
     fourOf(s.lateness), grouped((long long)s.ticks), grouped((long long)s.missedTicks),
-    outcome.missedByEmptyLoop ? grouped((long long)*outcome.missedByEmptyLoop) : "",
-    fmt::format("{:.1f}", s.rateHz), right ? "right" : "wrong" });
+    outcome.empty ? grouped((long long)outcome.empty->missedTicks) : "", fmt::format("{:.1f}", s.rateHz),
+    right ? "right" : "wrong" });
   part.rows.push_back({ { "hand", name(setting.hand) }, { "load", name(setting.load) },
     { "rate_hz", setting.rateHz }, { "step_seconds", toJson(s.update) },
     { "lateness_seconds", toJson(s.lateness) }, { "ticks", s.ticks }, { "missed_ticks", s.missedTicks },
-    { "missed_by_empty_loop",
-      outcome.missedByEmptyLoop ? nlohmann::ordered_json(*outcome.missedByEmptyLoop) : nullptr },
+    { "empty_loop",
+      outcome.empty ? nlohmann::ordered_json{ { "missed_ticks", outcome.empty->missedTicks },
+                        { "largest_lateness_seconds", outcome.empty->largestLateness } }
+                    : nlohmann::ordered_json() },
     { "achieved_hz", s.rateHz }, { "real_time_priority", s.realtime }, { "memory_locked", s.memoryLocked },
     { "cores_awake", s.coresAwake }, { "frames_per_second", outcome.framesPerSecond },
     { "largest_force_error_n", outcome.largestError }, { "right", right } });

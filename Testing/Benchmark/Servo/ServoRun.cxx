@@ -164,13 +164,19 @@ Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& sc
   settings.keepCoresAwake = true;
   HapticParameters parameters;
   parameters.contact.stiffness = kStiffness;
+  const bool comparesEmpty = setting.load == Load::Idle && std::thread::hardware_concurrency() > 1;
+  std::optional<LastCoreApart> apart;
+  if (comparesEmpty)
+  {
+    apart.emplace();
+  }
   if (device->open() != Status::Ok || loop.start(*device, parameters, settings) != Status::Ok)
   {
     return outcome;
   }
   const BusyThreads busy(setting.load == Load::Busy ? std::max(1u, std::thread::hardware_concurrency()) : 0);
   std::optional<EmptyLoop> empty;
-  if (setting.load == Load::Idle && std::thread::hardware_concurrency() > 1)
+  if (comparesEmpty)
   {
     empty.emplace(setting.rateHz, settings.wakeEarlySeconds);
   }
@@ -197,7 +203,7 @@ Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& sc
   if (empty)
   {
     empty->stop();
-    outcome.missedByEmptyLoop = empty->missedTicks();
+    outcome.empty = Outcome::Empty{ empty->missedTicks(), empty->largestLateness() };
   }
   loop.stop();
   device->close();

@@ -45,9 +45,14 @@ struct Outcome
   double contactShare = 0.0; ///< Of the traced ticks.
   double largestError = 0.0; ///< Of the force against that of the ideal sphere, N.
   double framesPerSecond = 0.0;
-  /// What an empty loop beside this one missed in the same time; where the machine was idle otherwise and a
-  /// core was left for it.
-  std::optional<std::uint64_t> missedByEmptyLoop;
+  /// Of an empty loop beside this one, at the same time; where the machine was idle otherwise and a core was
+  /// left for it.
+  struct Empty
+  {
+    std::uint64_t missedTicks = 0;
+    double largestLateness = 0.0; ///< Seconds.
+  };
+  std::optional<Empty> empty;
 };
 
 const char* name(Hand hand);

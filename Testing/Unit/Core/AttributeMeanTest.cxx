@@ -67,10 +67,11 @@ std::vector<std::int64_t> countsOf(const Plan& plan)
 
 template <typename T>
 AttributeMean meanOf(const std::vector<T>& values, int components, const Plan& plan,
-  const Executor& executor = {}, int piece = 100, std::int64_t mostPoints = 0)
+  const Executor& executor = {}, int piece = 100, std::int64_t mostPoints = 0,
+  InstructionSet instructions = InstructionSet::Automatic)
 {
-  AttributeMean mean(
-    { values.data(), typeOf<T>(), components, std::int64_t(values.size()) / components }, executor);
+  AttributeMean mean({ values.data(), typeOf<T>(), components, std::int64_t(values.size()) / components },
+    executor, instructions);
   mean.prepare(plan.size, mostPoints > 0 ? mostPoints : mean.view().tuples);
   std::vector<std::int64_t> voxels;
   for (const std::int64_t i : plan.order)
@@ -331,6 +332,102 @@ TEST(AttributeMean, OfZerosIsZero)
     written<double>(meanOf(std::vector<double>(200, 0.0), 2, plan), plan), std::vector<double>(20, 0.0));
   EXPECT_EQ(
     written<float>(meanOf(std::vector<float>(100, -0.0F), 1, plan), plan), std::vector<float>(10, 0.0F));
+}
+
+namespace
+{
+
+/// With room for so many points that numbers are cut into parts.
+constexpr std::int64_t kManyPoints = std::int64_t(1) << 33;
+
+/// Means and, of three components, unit vectors: on all instruction sets and from parts what they are here.
+template <typename T>
+void expectSameOnAllPaths(const std::vector<T>& values, int components, const Plan& plan)
+{
+  const Vec3 columns[3] = { { 0.1, 2, 0.3 }, { -1, 0.5, 0.2 }, { 0.4, -0.6, 3 } };
+  const std::vector<std::int64_t> counts = countsOf(plan);
+  const auto results = [&](InstructionSet set, std::int64_t mostPoints)
+  {
+    const AttributeMean mean = meanOf(values, components, plan, {}, 100, mostPoints, set);
+    std::vector<T> all = written<T>(mean, plan);
+    if constexpr (std::is_floating_point_v<T>)
+    {
+      if (components == 3)
+      {
+        std::vector<T> vectors(all.size());
+        mean.writeUnitVectors(counts.data(), columns, vectors.data(), {});
+        all.insert(all.end(), vectors.begin(), vectors.end());
+      }
+    }
+    return all;
+  };
+  const std::vector<T> expected = results(InstructionSet::Baseline, 0);
+  for (const InstructionSet set : { InstructionSet::Avx2, InstructionSet::Avx512 })
+  {
+    EXPECT_TRUE(sameBits(results(set, 0), expected)) << components << " components";
+  }
+  EXPECT_TRUE(sameBits(results(InstructionSet::Automatic, kManyPoints), expected))
+    << components << " components, in parts";
+}
+
+}
+
+TEST(AttributeMean, IsTheSameOnAllInstructionSetsAndFromPartsBitForBit)
+{
+  for (const int components : { 1, 2, 3, 4, 100, 1000 })
+  {
+    const std::size_t tuples = components > 10 ? 100 : 5000;
+    const std::size_t size = tuples * std::size_t(components);
+    const Plan plan = planFor(tuples, std::int64_t(tuples) / 3, 30);
+    expectSameOnAllPaths(extremesOf<std::int8_t>(size, 31), components, plan);
+    expectSameOnAllPaths(extremesOf<std::uint8_t>(size, 32), components, plan);
+    expectSameOnAllPaths(extremesOf<std::int16_t>(size, 33), components, plan);
+    expectSameOnAllPaths(extremesOf<std::uint16_t>(size, 34), components, plan);
+    expectSameOnAllPaths(extremesOf<std::int32_t>(size, 35), components, plan);
+    expectSameOnAllPaths(extremesOf<std::uint32_t>(size, 36), components, plan);
+    std::vector<float> floats = magnitudes<float>(size, -3, 2, 37);
+    expectSameOnAllPaths(floats, components, plan);
+    // Sums of 0 have no direction; nor has what is not finite.
+    std::fill(floats.begin(), floats.begin() + components, 0.0F);
+    expectSameOnAllPaths(floats, components, plan);
+    floats[1] = INFINITY;
+    expectSameOnAllPaths(floats, components, plan);
+    std::vector<double> doubles = magnitudes<double>(size, -3, 3, 38);
+    expectSameOnAllPaths(doubles, components, plan);
+    for (double& value : doubles)
+    {
+      value = std::floor(1024.0 * value);
+    }
+    expectSameOnAllPaths(doubles, components, plan);
+  }
+}
+
+TEST(AttributeMean, OfRealNumbersIsExactWhereSumsJustFitAWord)
+{
+  // 53 bits from 2 to the last of the smallest number and 10 for a thousand points; then one more.
+  for (const double smallest : { 0x1p-29, 0x1p-30 })
+  {
+    for (const double sign : { 1.0, -1.0 })
+    {
+      std::vector<float> values(1000, float(sign * (2.0 - 0x1p-23)));
+      values[500] = float(smallest);
+      expectExact(values, 1, planFor(1000, 1, 40));
+      expectSameOnAllPaths(values, 1, planFor(1000, 1, 40));
+    }
+  }
+}
+
+TEST(AttributeMean, MakesUnitVectorsOfTurnedMeans)
+{
+  const std::vector<float> values{ 1, 2, 2, 3, 2, 2, 0, 0, 1, 0, 0, -1 };
+  Plan plan = planFor(4, 2, 41);
+  plan.voxels = { 0, 0, 1, 1 };
+  const AttributeMean mean = meanOf(values, 3, plan);
+  const Vec3 columns[3] = { { 0, 1, 0 }, { -1, 0, 0 }, { 0, 0, 1 } };
+  std::vector<float> vectors(6, 7.0F);
+  mean.writeUnitVectors(countsOf(plan).data(), columns, vectors.data(), {});
+  const float third = float(2.0 / std::sqrt(12.0));
+  EXPECT_EQ(vectors, (std::vector<float>{ -third, third, third, 0, 0, 0 }));
 }
 
 TEST(AttributeMean, FollowsIeeeAdditionWhereValuesAreNotFinite)

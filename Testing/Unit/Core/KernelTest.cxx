@@ -9,7 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
+#include <vector>
 
 using namespace pointhaptics;
 using namespace pointhaptics::kernel;
@@ -186,6 +189,40 @@ TEST(PartitionOrder, TellsPlacesAsSoonAsAllBeforeAreKnown)
   order.tell(2, 0);
   EXPECT_EQ(order.first(3), 23u);
   EXPECT_EQ(order.take(), (std::vector<std::size_t>{ 0, 3, 23, 23, 28 }));
+}
+
+TEST(PartitionOrder, KnowsAllPlacesWhenThreadsTellAtOnce)
+{
+  constexpr std::uint32_t kPartitions = 2000;
+  constexpr std::uint32_t kThreads = 4;
+  PartitionOrder order(kPartitions);
+  std::atomic<std::uint32_t> next{ 0 };
+  std::atomic<int> wrong{ 0 };
+  std::vector<std::thread> threads;
+  for (std::uint32_t t = 0; t < kThreads; ++t)
+  {
+    threads.emplace_back(
+      [&]
+      {
+        for (std::uint32_t p = next++; p < kPartitions; p = next++)
+        {
+          order.tell(p, 3);
+          const std::size_t first = order.first(p);
+          wrong += first != PartitionOrder::kUnknown && first != 3 * std::size_t(p);
+        }
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(wrong, 0);
+  const std::vector<std::size_t> firsts = order.take();
+  ASSERT_EQ(firsts.size(), std::size_t(kPartitions) + 1);
+  for (std::uint32_t p = 0; p <= kPartitions; ++p)
+  {
+    ASSERT_EQ(firsts[p], 3 * std::size_t(p));
+  }
 }
 
 TEST(PointPlacement, TellsOutsideFromInvalid)

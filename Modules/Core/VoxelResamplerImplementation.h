@@ -1,0 +1,63 @@
+/// @file
+/// What VoxelResampler keeps, and its steps. Private to Core.
+#pragma once
+
+#include "Core/Kernel/PartitionSums.h"
+#include "Core/Kernel/PointChunks.h"
+#include "Core/Kernel/PointPlacement.h"
+#include "Core/Kernel/RecordPool.h"
+#include "Core/Kernel/VoxelLevel.h"
+#include "Core/VoxelResampler.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace pointhaptics
+{
+
+class VoxelResampler::Implementation
+{
+public:
+  Status run(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
+  Status assign(
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+
+  std::vector<kernel::Level> levels = std::vector<kernel::Level>(1);
+  std::int64_t clipped = 0;
+  std::int64_t invalid = 0;
+
+  std::size_t scratchBytes() const;
+
+private:
+  class WorkerLease;
+
+  void clear();
+  bool isPlanned(const VoxelRequest& request, std::int64_t points) const;
+  Status runPlanned(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
+  Status runGeneral(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
+  void fillPool(const VoxelRequest& request, const kernel::Chunks& chunks, std::size_t chunk, bool indexed,
+    const Executor& executor);
+  template <typename Work>
+  void forPartitions(const VoxelRequest& request, const Executor& executor, Work&& work);
+  void carryChunk(const VoxelRequest& request, const Executor& executor);
+  void keepBatches(const VoxelRequest& request, kernel::PartitionWorker& worker, std::uint32_t partition);
+  void finish(const VoxelRequest& request, const Executor& executor);
+  void addLevels(const VoxelRequest& request, kernel::VoxelSumList list);
+  kernel::VoxelSumList carriedList() const;
+  Status assignPlanned(
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+  Status assignGeneral(
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+
+  kernel::PartitionPlan plan_;
+  kernel::Placement placement_{};
+  kernel::RecordPool pool_;
+  std::vector<kernel::CarriedPartition> carried_;
+  std::vector<std::unique_ptr<kernel::PartitionWorker>> idle_;
+  std::mutex mutex_;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,286 @@
+/// The way of VoxelResampler through lattices whose voxels can be dealt out to partitions.
+#include "Core/PointIndex.h"
+#include "Core/VoxelResamplerImplementation.h"
+
+#include <atomic>
+
+namespace pointhaptics
+{
+
+using namespace kernel;
+
+/// A worker nobody else uses, for as long as this lives.
+class VoxelResampler::Implementation::WorkerLease
+{
+public:
+  WorkerLease(Implementation& owner, bool covariances)
+    : owner_(owner)
+  {
+    {
+      const std::lock_guard<std::mutex> lock(owner_.mutex_);
+      if (!owner_.idle_.empty())
+      {
+        worker_ = std::move(owner_.idle_.back());
+        owner_.idle_.pop_back();
+      }
+    }
+    if (!worker_)
+    {
+      worker_ = std::make_unique<PartitionWorker>();
+    }
+    worker_->prepare(owner_.plan_, covariances);
+  }
+  ~WorkerLease()
+  {
+    const std::lock_guard<std::mutex> lock(owner_.mutex_);
+    owner_.idle_.push_back(std::move(worker_));
+  }
+  WorkerLease(const WorkerLease&) = delete;
+  WorkerLease& operator=(const WorkerLease&) = delete;
+  PartitionWorker& operator*() const { return *worker_; }
+
+private:
+  Implementation& owner_;
+  std::unique_ptr<PartitionWorker> worker_;
+};
+
+Status VoxelResampler::Implementation::runPlanned(
+  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+{
+  const int indexBits = indexBitsOf(request.lattice);
+  const Chunks chunks(request, kChunkPoints);
+  plan_ = makePlan(request.lattice, indexBits, chunks.count() == 0 ? 0 : chunks.pointCount(0));
+  placement_ = makePlacement(request.transform, request.lattice, indexBits, kPositionBits);
+  placement_.blocksPerLayer = plan_.blocksPerLayer;
+  placement_.rowShift = plan_.rowShift;
+  placement_.layerShift = plan_.layerShift;
+  carried_.resize(plan_.partitions);
+  for (CarriedPartition& partition : carried_)
+  {
+    partition.clear();
+  }
+  std::int64_t inside = 0;
+  invalid = request.index ? request.index->invalidPoints() : 0;
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    fillPool(request, chunks, chunk, false, executor);
+    inside += pool_.inside();
+    invalid += pool_.invalid();
+    chunk + 1 < chunks.count() ? carryChunk(request, executor) : finish(request, executor);
+    if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
+    {
+      return Status::Aborted;
+    }
+  }
+  clipped = request.points.size() - inside - invalid;
+  if (request.levels > 1)
+  {
+    addLevels(request, carriedList());
+  }
+  return Status::Ok;
+}
+
+void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const Chunks& chunks,
+  std::size_t chunk, bool indexed, const Executor& executor)
+{
+  pool_.prepare(chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), indexed);
+  const Kernels& kernels = kernelsFor(request.instructions);
+  const PointRange* pieces = chunks.pieces(chunk);
+  const PointView& points = chunks.points();
+  const std::int64_t base = pieces[0].begin;
+  forRange(executor, chunks.pieceCount(chunk), grainFor(chunks.pieceCount(chunk), executor),
+    [&](std::int64_t first, std::int64_t last)
+    {
+      const RecordPool::Lease lease(pool_);
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const PointRange piece = pieces[i];
+        const std::int64_t count = piece.end - piece.begin;
+        const auto index = std::uint32_t(piece.begin - base);
+        if (points.floats())
+        {
+          kernels.partitionFloats(
+            placement_, points.floats() + 3 * piece.begin, count, index, lease.writer());
+        }
+        else
+        {
+          kernels.partitionDoubles(
+            placement_, points.doubles() + 3 * piece.begin, count, index, lease.writer());
+        }
+      }
+    });
+}
+
+/// Calls work(worker, partition) for all partitions: each thread takes the next one, so that those before any
+/// are done or at work.
+template <typename Work>
+void VoxelResampler::Implementation::forPartitions(
+  const VoxelRequest& request, const Executor& executor, Work&& work)
+{
+  std::atomic<std::uint32_t> next{ 0 };
+  forRange(executor, executor.concurrency(), 1,
+    [&](std::int64_t, std::int64_t)
+    {
+      const WorkerLease lease(*this, request.covariances);
+      for (std::uint32_t p = next++; p < plan_.partitions; p = next++)
+      {
+        work(*lease, p);
+      }
+    });
+}
+
+/// Adds the pool's records to what is carried.
+void VoxelResampler::Implementation::carryChunk(const VoxelRequest& request, const Executor& executor)
+{
+  const Kernels& kernels = kernelsFor(request.instructions);
+  forPartitions(request, executor,
+    [&](PartitionWorker& worker, std::uint32_t p)
+    {
+      if (plan_.dense)
+      {
+        worker.carryDense(kernels, pool_, p, carried_[p]);
+        return;
+      }
+      worker.load(kernels, pool_, p, carried_[p], [](std::size_t) {});
+      keepBatches(request, worker, p);
+    });
+}
+
+/// Carries the voxels of a partition over, unpacked.
+void VoxelResampler::Implementation::keepBatches(
+  const VoxelRequest& request, PartitionWorker& worker, std::uint32_t partition)
+{
+  worker.carried.clear();
+  worker.forBatches(
+    [&](const MomentBatch<std::int64_t>& batch) { carry(request.lattice, batch, worker.carried); });
+  // Copies: exactly as large as they need be.
+  carried_[partition] = CarriedPartition(worker.carried);
+}
+
+/// Means of the pool's records and what is carried. A partition writes its voxels where they belong if those
+/// before it have been counted by then, as they nearly always are; otherwise they are moved there in the end.
+void VoxelResampler::Implementation::finish(const VoxelRequest& request, const Executor& executor)
+{
+  const Kernels& kernels = kernelsFor(request.instructions);
+  const MeanArena::Layout layout = { request.singlePrecision, request.keys, request.covariances };
+  Level& level = levels[0];
+  std::size_t room = 0;
+  for (std::uint32_t p = 0; p < plan_.partitions; ++p)
+  {
+    room += mostVoxels(plan_, pool_.count(p), carried_[p].size());
+  }
+  level.arena.prepare(room, layout, request.lattice, plan_.fractionBits, request.memory);
+  struct Late
+  {
+    std::uint32_t partition;
+    std::size_t size;
+    MeanArena arena;
+  };
+  std::vector<Late> late;
+  PartitionOrder order(plan_.partitions);
+  forPartitions(request, executor,
+    [&](PartitionWorker& worker, std::uint32_t p)
+    {
+      std::size_t size = 0;
+      worker.load(kernels, pool_, p, carried_[p],
+        [&](std::size_t known)
+        {
+          size = known;
+          order.tell(p, size);
+        });
+      std::size_t place = order.first(p);
+      const bool isLate = place == PartitionOrder::kUnknown;
+      MeanArena aside;
+      if (isLate)
+      {
+        aside.prepare(size, layout, request.lattice, plan_.fractionBits);
+        place = 0;
+      }
+      MeanArena& arena = isLate ? aside : level.arena;
+      if (const PartitionVoxels* voxels = worker.packed())
+      {
+        arena.write(kernels, place, *voxels);
+      }
+      else
+      {
+        worker.forBatches(
+          [&](const MomentBatch<std::int64_t>& batch)
+          {
+            arena.write(kernels, place, batch);
+            place += std::size_t(batch.size);
+          });
+      }
+      if (request.levels > 1)
+      {
+        keepBatches(request, worker, p);
+      }
+      if (isLate)
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        late.push_back({ p, size, std::move(aside) });
+      }
+    });
+  level.firsts = order.take();
+  level.size = std::int64_t(level.firsts.back());
+  for (const Late& piece : late)
+  {
+    level.arena.write(level.firsts[piece.partition], piece.arena, piece.size);
+  }
+}
+
+VoxelSumList VoxelResampler::Implementation::carriedList() const
+{
+  VoxelSumList list;
+  list.fractionBits = plan_.fractionBits;
+  list.voxels.reserve(std::size_t(levels[0].size));
+  for (const CarriedPartition& partition : carried_)
+  {
+    for (const CarriedSums& voxel : partition.voxels)
+    {
+      list.voxels.push_back({ voxel.key, voxel.count, { voxel.sums[0], voxel.sums[1], voxel.sums[2] } });
+    }
+    list.seconds.insert(list.seconds.end(), partition.seconds.begin(), partition.seconds.end());
+  }
+  return list;
+}
+
+Status VoxelResampler::Implementation::assignPlanned(
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+{
+  const Level& level = levels[0];
+  const Kernels& kernels = kernelsFor(request.instructions);
+  const Chunks chunks(request, kChunkPoints);
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    fillPool(request, chunks, chunk, true, executor);
+    const std::int64_t base = chunks.pieces(chunk)[0].begin;
+    forRange(executor, plan_.partitions, grainFor(plan_.partitions, executor),
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        const WorkerLease lease(*this, false);
+        std::int64_t points[kBlockRecords];
+        std::int64_t voxels[kBlockRecords];
+        for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
+        {
+          const std::size_t firstVoxel = level.firsts[p];
+          (*lease).rank(kernels, pool_, p, level.arena.keys() + firstVoxel, level.firsts[p + 1] - firstVoxel,
+            [&](const std::uint32_t* indices, const std::uint32_t* ranks, int count)
+            {
+              for (int i = 0; i < count; ++i)
+              {
+                points[i] = request.index ? request.index->original(base + indices[i]) : base + indices[i];
+                voxels[i] = std::int64_t(firstVoxel + ranks[i]);
+              }
+              visit(points, voxels, count);
+            });
+        }
+      });
+    if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
+    {
+      return Status::Aborted;
+    }
+  }
+  return Status::Ok;
+}
+
+} // namespace pointhaptics
