@@ -12,9 +12,10 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
-#include <iostream>
-#include <sstream>
 #include <thread>
+
+#include <poll.h>
+#include <unistd.h>
 
 namespace pointhaptics
 {
@@ -27,11 +28,17 @@ constexpr double kRateHz = 1000.0;
 constexpr double kTinyForce = 0.5; // N
 /// The ramp takes one of them.
 constexpr double kPushSeconds = 1.5;
+constexpr double kShortestPush = 0.5;
+/// Until a hand that was pushed is back.
+constexpr double kBackSeconds = 0.3;
 constexpr double kLampSeconds = 0.3;
 constexpr double kRateSeconds = 5.0;
 /// Nobody is there to see and feel it.
 constexpr double kPartWithoutAPerson = 0.2;
 constexpr double kLongestHoming = 120.0;
+/// Part of a movement that must be in the direction asked for.
+constexpr double kDirection = 0.9;
+constexpr int kQuestionMilliseconds = 100;
 
 /// A virtual finger: no scene, a force of our own. Gives the diagnosis the servo thread for itself.
 class PushPort : public HandPort
@@ -47,7 +54,8 @@ public:
   }
   Status write(double timeSeconds, const Vec3&) noexcept override
   {
-    return device_.write(timeSeconds, force_.read());
+    static_cast<void>(force_.tryRead(newest_)); // else the one before, for this tick
+    return device_.write(timeSeconds, newest_);
   }
   HandLimits limits() const noexcept override { return device_.limits(); }
   void push(const Vec3& force) noexcept { force_.write(force); }
@@ -55,29 +63,61 @@ public:
 private:
   FalconDevice& device_;
   LatestValue<Vec3> force_;
+  Vec3 newest_; ///< The servo thread's.
+};
+
+/// A push that ends with its scope, whatever ends that.
+class Push
+{
+public:
+  Push(FalconDevice& device, PushPort& port, const Vec3& force)
+    : device_(device)
+    , port_(port)
+  {
+    port_.push(force);
+    device_.setArmed(true);
+  }
+  ~Push()
+  {
+    device_.setArmed(false);
+    port_.push(Vec3());
+  }
+  Push(const Push&) = delete;
+  Push& operator=(const Push&) = delete;
+
+private:
+  FalconDevice& device_;
+  PushPort& port_;
 };
 
 class Diagnosis
 {
 public:
-  Diagnosis(const FalconOptions& options, bool yes)
+  Diagnosis(const FalconOptions& options, bool yes, std::ostream& report)
     : settings_(options.settings())
     , yes_(yes)
+    , report_(report)
   {
     settings_.armWhenHomed = false;
     settings_.limits.maximumForce = std::min(settings_.limits.maximumForce, kTinyForce);
   }
 
   bool run(std::string& message);
-  std::string report() const { return report_.str(); }
+  int problems() const noexcept { return problems_; }
 
 private:
   void note(const std::string& line)
   {
     fmt::print("{}\n", line);
-    report_ << line << "\n";
+    report_ << line << std::endl; // what was found stays, whatever comes next
   }
-  std::string ask(const std::string& question);
+  /// @p result and whether it is as it should be, on one line.
+  void judge(const std::string& result, bool isRight)
+  {
+    note(result + (isRight ? "as expected" : "NOT as expected"));
+    problems_ += isRight ? 0 : 1;
+  }
+  void ask(const std::string& question);
   bool waitFor(const std::function<bool()>& condition, double seconds);
   void rest(double seconds)
   {
@@ -93,11 +133,33 @@ private:
   FalconSettings settings_;
   bool yes_;
   ServoLoop* loop_ = nullptr;
-  std::ostringstream report_;
+  std::ostream& report_;
+  int problems_ = 0;
 };
 
-/// The answer, also into the report. The loop goes on meanwhile.
-std::string Diagnosis::ask(const std::string& question)
+/// A line from the terminal, without its end; what there is of it where the program is asked to stop.
+std::string answerOfPerson()
+{
+  std::string answer;
+  while (!stopIsRequested())
+  {
+    pollfd input{ STDIN_FILENO, POLLIN, 0 };
+    if (poll(&input, 1, kQuestionMilliseconds) <= 0)
+    {
+      continue;
+    }
+    char byte = 0;
+    if (read(STDIN_FILENO, &byte, 1) != 1 || byte == '\n')
+    {
+      break;
+    }
+    answer += byte;
+  }
+  return answer;
+}
+
+/// The answer goes into the report. The loop goes on meanwhile.
+void Diagnosis::ask(const std::string& question)
 {
   fmt::print("{} ", question);
   std::fflush(stdout);
@@ -106,12 +168,11 @@ std::string Diagnosis::ask(const std::string& question)
   {
     fmt::print("\n");
   }
-  else if (!stopIsRequested())
+  else
   {
-    std::getline(std::cin, answer);
+    answer = answerOfPerson();
   }
-  report_ << question << " " << answer << "\n";
-  return answer;
+  report_ << question << " " << answer << std::endl;
 }
 
 bool Diagnosis::waitFor(const std::function<bool()>& condition, double seconds)
@@ -160,6 +221,7 @@ bool Diagnosis::checkHoming(FalconDevice& device)
       return device.state() == FalconState::Homed;
     },
     patience(kLongestHoming));
+  problems_ += homed ? 0 : 1;
   note(homed ? "   homed" : "   NOT homed: does the light change while you move? Is bit 1 the homing bit?");
   return homed;
 }
@@ -167,8 +229,13 @@ bool Diagnosis::checkHoming(FalconDevice& device)
 void Diagnosis::checkEncoders(FalconDevice& device)
 {
   note("\n3. Encoders: positions should grow to the right (x), up (y) and towards you (z)");
+  if (yes_)
+  {
+    note("   not checked: nobody is asked to move the grip");
+    return;
+  }
   const char* const directions[] = { "to the right", "up", "towards you" };
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3 && !stopIsRequested(); ++axis)
   {
     ask("   Hold the grip in the middle, then press Enter.");
     const Vec3 from = loop_->latest().state.hip;
@@ -176,10 +243,14 @@ void Diagnosis::checkEncoders(FalconDevice& device)
     ask(fmt::format("   Move it {} by about 2 cm, hold, press Enter.", directions[axis]));
     const Vec3 moved = loop_->latest().state.hip - from;
     const std::array<std::int16_t, 3> counts = device.raw().reply.encoders;
-    note(fmt::format("   moved by ({:.1f}, {:.1f}, {:.1f}) mm, counts ({}, {}, {}): {}", 1e3 * moved.x,
-      1e3 * moved.y, 1e3 * moved.z, counts[0] - countsFrom[0], counts[1] - countsFrom[1],
-      counts[2] - countsFrom[2],
-      moved[axis] > 0.5 * norm(moved) && norm(moved) > 5e-3 ? "as expected" : "NOT as expected"));
+    if (stopIsRequested())
+    {
+      return;
+    }
+    judge(fmt::format("   moved {} by ({:.1f}, {:.1f}, {:.1f}) mm, counts ({}, {}, {}): ", directions[axis],
+            1e3 * moved.x, 1e3 * moved.y, 1e3 * moved.z, counts[0] - countsFrom[0], counts[1] - countsFrom[1],
+            counts[2] - countsFrom[2]),
+      moved[axis] > kDirection * norm(moved) && norm(moved) > 5e-3);
   }
 }
 
@@ -197,6 +268,10 @@ void Diagnosis::checkRate(const FalconDevice& device, const ServoLoop& loop)
     after.timeouts - before.timeouts, after.badReplies - before.badReplies,
     after.droppedBytes - before.droppedBytes, after.skippedCommands - before.skippedCommands));
   note(
+    fmt::format("   at most {} answers outstanding when a position was taken (0 is what the stiffness limit "
+                "counts on)",
+      after.largestUnanswered));
+  note(
     fmt::format("   servo {:.0f} Hz, {} ticks missed; step p50 {:.0f} p99 {:.0f} max {:.0f} us; lateness p50 "
                 "{:.0f} p99 {:.0f} max {:.0f} us; real-time priority {}",
       servo.rateHz, servo.missedTicks, 1e6 * servo.update.p50, 1e6 * servo.update.p99,
@@ -211,22 +286,27 @@ void Diagnosis::checkMotors(FalconDevice& device, PushPort& port)
   const char* const directions[] = { "to the right", "up", "towards you" };
   for (int axis = 0; axis < 3 && !stopIsRequested(); ++axis)
   {
+    rest(kBackSeconds);
     const Vec3 from = loop_->latest().state.hip;
     Vec3 force;
     force[axis] = settings_.limits.maximumForce;
-    port.push(force);
-    device.setArmed(true);
-    rest(patience(kPushSeconds));
-    const Vec3 moved = loop_->latest().state.hip - from;
-    const std::array<std::int16_t, 3> motors = device.raw().command.motors;
-    device.setArmed(false);
-    port.push(Vec3());
-    note(fmt::format("   pushed {}: motors ({}, {}, {}), moved by ({:.1f}, {:.1f}, {:.1f}) mm: {}",
-      directions[axis], motors[0], motors[1], motors[2], 1e3 * moved.x, 1e3 * moved.y, 1e3 * moved.z,
-      moved[axis] > 0.5 * norm(moved) && norm(moved) > 5e-4 ? "as expected" : "NOT as expected"));
+    Vec3 moved;
+    std::array<std::int16_t, 3> motors{};
+    {
+      const Push push(device, port, force);
+      rest(std::max(patience(kPushSeconds), kShortestPush));
+      moved = loop_->latest().state.hip - from;
+      motors = device.raw().command.motors;
+    }
+    if (stopIsRequested())
+    {
+      return;
+    }
+    judge(fmt::format("   pushed {}: motors ({}, {}, {}), moved by ({:.1f}, {:.1f}, {:.1f}) mm: ",
+            directions[axis], motors[0], motors[1], motors[2], 1e3 * moved.x, 1e3 * moved.y, 1e3 * moved.z),
+      moved[axis] > kDirection * norm(moved) && norm(moved) > 5e-4);
     ask(fmt::format("   Did it push {}, gently? [yes]", directions[axis]));
   }
-  note("   Scale: hang a known weight from the grip and note the force that holds it; 0.5 N lifts 51 g.");
 }
 
 bool Diagnosis::run(std::string& message)
@@ -255,16 +335,25 @@ bool Diagnosis::run(std::string& message)
   if (homed && !stopIsRequested())
   {
     checkEncoders(device);
+  }
+  if (homed && !stopIsRequested())
+  {
     checkMotors(device, port);
   }
-  checkRate(device, loop);
-  port.push(Vec3());
+  if (!stopIsRequested())
+  {
+    checkRate(device, loop);
+  }
   loop.stop();
   if (const std::string refusals = describeRefusals(loop.statistics()); !refusals.empty())
   {
     note(refusals);
   }
   device.close();
+  if (stopIsRequested())
+  {
+    note("stopped on request: not all was checked");
+  }
   return true;
 }
 
@@ -281,9 +370,8 @@ bool diagnoseFalcon(
     return false;
   }
   rememberStopSignals();
-  Diagnosis diagnosis(options, yes);
+  Diagnosis diagnosis(options, yes, file);
   const bool done = diagnosis.run(message);
-  file << diagnosis.report();
   file.close();
   if (!file)
   {
@@ -291,6 +379,16 @@ bool diagnoseFalcon(
     return false;
   }
   fmt::print("\nreport: {}\n", reportFile);
+  if (done && stopIsRequested())
+  {
+    message = "stopped on request; what was checked is in " + reportFile;
+    return false;
+  }
+  if (done && diagnosis.problems() > 0)
+  {
+    message = fmt::format("{} checks found something wrong: see NOT in {}", diagnosis.problems(), reportFile);
+    return false;
+  }
   return done;
 }
 

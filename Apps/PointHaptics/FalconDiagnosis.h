@@ -12,8 +12,9 @@ namespace app
 {
 
 /// Walks through lights, homing, encoder directions, rate, and motors with at most 0.5 N, asking on the
-/// terminal; writes @p reportFile, also where a check failed half way. @p yes: asks nothing. False: @p
-/// message says what failed; checks that found something wrong are in the report, not an error.
+/// terminal; writes @p reportFile line by line, so that it holds what was found however this ends. @p yes:
+/// asks nothing, and leaves out what a person must do (encoder directions). False: @p message says what
+/// failed, how many checks found something wrong, or that it was stopped by a signal.
 bool diagnoseFalcon(
   const FalconOptions& options, const std::string& reportFile, bool yes, std::string& message);
 

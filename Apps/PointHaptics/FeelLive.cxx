@@ -19,24 +19,6 @@ namespace
 
 constexpr auto kPause = std::chrono::milliseconds(20);
 
-/// Tells each new state once, on stderr.
-class StateTeller
-{
-public:
-  void tell(const FalconDevice& device)
-  {
-    const std::string news = advice(device.state());
-    if (news != last_ && !news.empty())
-    {
-      fmt::print(stderr, "{}\n", news);
-      last_ = news;
-    }
-  }
-
-private:
-  std::string last_;
-};
-
 } // namespace
 
 bool feelLive(const LiveSettings& settings, std::shared_ptr<const HapticScene> scene,
@@ -49,17 +31,13 @@ bool feelLive(const LiveSettings& settings, std::shared_ptr<const HapticScene> s
     message = device.message();
     return false;
   }
-  if (!device.message().empty())
-  {
-    warn("feel", device.message());
-  }
   ServoLoop loop; // after the device: stops before it closes
   loop.publishScene(std::move(scene));
   if (loop.start(device, settings.parameters, pushingServoSettings(settings.rateHz), &message) != Status::Ok)
   {
     return false;
   }
-  StateTeller teller;
+  FalconNews news;
   std::vector<ServoSample> samples;
   const auto pass = [&]
   {
@@ -76,7 +54,10 @@ bool feelLive(const LiveSettings& settings, std::shared_ptr<const HapticScene> s
   double touchBegan = -1.0;
   while (loop.running() && !stopIsRequested())
   {
-    teller.tell(device);
+    if (const std::string line = news.next(device); !line.empty())
+    {
+      fmt::print(stderr, "{}\n", line);
+    }
     pass();
     const double time = loop.latest().timeSeconds;
     touchBegan = touchBegan < 0.0 && device.state() == FalconState::Armed ? time : touchBegan;

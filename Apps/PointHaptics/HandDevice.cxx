@@ -1,6 +1,7 @@
 #include "HandDevice.h"
 
 #include "OptionParsing.h"
+#include "StopSignals.h"
 
 #include <CLI/CLI.hpp>
 
@@ -13,6 +14,12 @@ namespace
 
 constexpr double kLargestForce = 8.0;
 constexpr double kSilenceOfTheProgram = 2.0;
+
+/// The states of a device that is gone, which follow each other for as long as it is.
+bool isAway(FalconState state)
+{
+  return state == FalconState::Opening || state == FalconState::Boot || state == FalconState::Fault;
+}
 
 } // namespace
 
@@ -39,6 +46,26 @@ std::string advice(FalconState state)
   return {};
 }
 
+std::string FalconNews::next(const FalconDevice& device)
+{
+  const std::string message = device.message();
+  if (message != message_)
+  {
+    message_ = message;
+    if (!message.empty())
+    {
+      return message;
+    }
+  }
+  const FalconState now = device.state();
+  if (now == state_ || (isAway(now) && isAway(state_)))
+  {
+    return {};
+  }
+  state_ = now;
+  return advice(now);
+}
+
 void FalconOptions::addTo(CLI::App& command)
 {
   command
@@ -55,6 +82,7 @@ FalconSettings FalconOptions::settings() const
   FalconSettings result;
   result.firmwareFile = this->firmware;
   result.limits.maximumForce = this->maximumForce;
+  result.cancelled = stopIsRequested;
   return result;
 }
 

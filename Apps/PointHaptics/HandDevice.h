@@ -21,6 +21,21 @@ namespace app
 /// What the person has to do or should know in @p state; empty where there is nothing.
 std::string advice(FalconState state);
 
+/// What is to be said about a Falcon while it is in use, each thing once. One thread, not the servo's.
+class FalconNews
+{
+public:
+  /// The device's message or the advice for its state, where it changed; empty where nothing did. Looking for
+  /// a device that is gone is one state here.
+  std::string next(const FalconDevice& device);
+  /// As last told.
+  FalconState state() const noexcept { return state_; }
+
+private:
+  std::string message_;
+  FalconState state_ = FalconState::Closed;
+};
+
 /// Adds --falcon-firmware and --max-force.
 struct FalconOptions
 {

@@ -1,6 +1,5 @@
 #include "ViewWindow.h"
 
-#include "HandDevice.h"
 #include "Messages.h"
 #include "ProgressBar.h"
 #include "StopSignals.h"
@@ -187,7 +186,16 @@ bool ViewWindow::openDevice(std::string& message)
   {
     this->openSimulated();
   }
-  const Status status = device_ ? device_->open() : Status::Ok;
+  Status status = device_ ? device_->open() : Status::Ok;
+  if (status != Status::Ok && falcon_ && options_.device == "auto" && !stopIsRequested())
+  {
+    news_ = fmt::format("the Falcon cannot be used: {}; the simulated hand takes its place",
+      falcon_->message().empty() ? sentence(status) : falcon_->message());
+    warn("view", news_);
+    falcon_.reset();
+    this->openSimulated();
+    status = device_->open();
+  }
   if (status != Status::Ok)
   {
     message = fmt::format("the {} device cannot be used: {}", device_->name(),
@@ -317,13 +325,7 @@ void ViewWindow::onTimer()
   {
     interactor_->TerminateApp();
   }
-  const FalconState state = falcon_ ? falcon_->state() : FalconState::Closed;
-  if (state != falconState_)
-  {
-    falconState_ = state;
-    style_->SetDeviceNote(fmt::format("falcon, {}", name(state)));
-    this->say(advice(state));
-  }
+  this->followDevices();
   this->followLoading();
   if (options_.watch && ++sinceLook_ >= kLooksApart && !loader_.busy())
   {
@@ -338,6 +340,36 @@ void ViewWindow::onTimer()
             this->say("read again: " + scene_.title());
           }
         });
+    }
+  }
+}
+
+void ViewWindow::followDevices()
+{
+  if (falcon_)
+  {
+    const FalconState before = falconNews_.state();
+    const std::string news = falconNews_.next(*falcon_);
+    if (falconNews_.state() != before)
+    {
+      style_->SetDeviceNote(fmt::format("falcon, {}", name(falconNews_.state())));
+    }
+    if (!news.empty())
+    {
+      this->say(news);
+    }
+  }
+  const std::string spaceMouse = spaceMouse_.message();
+  if (spaceMouse != spaceMouseMessage_)
+  {
+    spaceMouseMessage_ = spaceMouse;
+    if (spaceMouse_.motion().connected)
+    {
+      this->say(fmt::format("spacemouse: {} moves the model", spaceMouse));
+    }
+    else if (spaceMouse != SpaceMouse::kNonePluggedIn)
+    {
+      this->say(spaceMouse);
     }
   }
 }
@@ -429,6 +461,7 @@ bool ViewWindow::run(std::string& message)
   {
     return false;
   }
+  rememberStopSignals(); // before a device that takes its time to start
   const bool hasWaited = isOpen_;
   this->setUpRendering();
   if (!this->openDevice(message))
@@ -446,7 +479,6 @@ bool ViewWindow::run(std::string& message)
     return false;
   }
   style_->StartUpdates();
-  rememberStopSignals();
   if (hasWaited)
   {
     this->forgiveEscape();

@@ -5,6 +5,7 @@
 
 #include "CloudLoader.h"
 #include "FileWatch.h"
+#include "HandDevice.h"
 #include "ViewOptions.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
@@ -66,6 +67,7 @@ private:
   void openWindow();
   void setUpRendering();
   bool openDevice(std::string& message);
+  void followDevices();
   void openSimulated();
   void openFalcon();
   void onTimer();
@@ -136,7 +138,8 @@ private:
   std::unique_ptr<SimulatedDevice> hand_;
   std::unique_ptr<PathReplayDevice> replay_;
   std::unique_ptr<FalconDevice> falcon_;
-  FalconState falconState_ = FalconState::Closed; ///< As the user was told.
+  FalconNews falconNews_;
+  std::string spaceMouseMessage_; ///< As the user was told.
   SpaceMouse spaceMouse_;
   HapticDevice* device_ = nullptr;
   CloudLoader loader_;

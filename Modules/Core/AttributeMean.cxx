@@ -32,8 +32,7 @@ int bitsOf(std::int64_t count)
 }
 
 AttributeMean::AttributeMean(const AttributeView& view, const Executor& executor, InstructionSet instructions)
-  : view_(view)
-  , kernels_(&kernel::attributeKernels(instructions))
+  : AttributeMean(&kernel::attributeKernels(instructions), view)
 {
   switch (view.type)
   {
@@ -50,6 +49,16 @@ AttributeMean::AttributeMean(const AttributeView& view, const Executor& executor
     default:
       break;
   }
+}
+
+AttributeMean AttributeMean::another() const
+{
+  AttributeMean other(kernels_, view_);
+  other.lanes_ = lanes_;
+  other.exponent_ = exponent_;
+  other.lastBit_ = lastBit_;
+  other.hasNonFinite_ = hasNonFinite_;
+  return other;
 }
 
 template <typename Real>
@@ -128,21 +137,22 @@ void AttributeMean::clear(std::int64_t voxels, const Executor& executor)
   }
 }
 
-/// What add() will touch lies anywhere in the array, and its sums in those of a partition.
-template <typename T>
-void AttributeMean::prefetch(
-  const T* values, const std::int64_t* points, const std::int64_t* voxels, int count) const
-{
-  const std::int64_t width = std::int64_t(lanes_) * view_.components;
-  for (int i = 0; i < count; ++i)
-  {
-    __builtin_prefetch(values + view_.components * points[i]);
-    __builtin_prefetch(sums_.data() + width * voxels[i], 1);
-  }
-}
-
 namespace
 {
+
+/// What is added lies anywhere in the array: a tuple in one or two lines of memory. Always inline: the
+/// compiler leaves out calls of functions that only fetch.
+template <typename T>
+__attribute__((always_inline)) inline void fetchTuples(
+  const T* values, int components, const std::int64_t* points, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    const T* tuple = values + components * points[i];
+    __builtin_prefetch(tuple);
+    __builtin_prefetch(reinterpret_cast<const char*>(tuple + components) - 1);
+  }
+}
 
 template <int Components, typename Integer>
 void addTuples(const Integer* values, int components, const std::int64_t* points, const std::int64_t* voxels,
@@ -177,7 +187,7 @@ void AttributeMean::addIntegers(const std::int64_t* points, const std::int64_t* 
 {
   const auto* values = static_cast<const Integer*>(view_.values);
   const int components = view_.components;
-  prefetch(values, points, voxels, count);
+  fetchTuples(values, components, points, count);
   const auto add = components == 3 ? &addTuples<3, Integer>
     : components == 1              ? &addTuples<1, Integer>
                                    : &addTuples<0, Integer>;
@@ -251,7 +261,7 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
   const auto* values = static_cast<const Real*>(view_.values);
   const int components = view_.components;
   const double partScale = std::ldexp(1.0, partBits_);
-  prefetch(values, points, voxels, count);
+  fetchTuples(values, components, points, count);
   if (lanes_ == 1 && !hasNonFinite_ && scale_[1] == 1.0)
   {
     const auto whole = components == 3 ? &addWhole<3, Real>

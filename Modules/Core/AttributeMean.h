@@ -46,6 +46,9 @@ public:
   AttributeMean(const AttributeView& view, const Executor& executor,
     InstructionSet instructions = InstructionSet::Automatic);
 
+  /// Another that averages the same array, without sums.
+  AttributeMean another() const;
+
   /// Forgets all sums and makes room for @p voxels of at most @p mostPoints points each, at coarser levels
   /// too, in @p spare if that is large enough.
   void prepare(std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare = {},
@@ -72,6 +75,11 @@ public:
   const AttributeView& view() const { return view_; }
 
 private:
+  AttributeMean(const kernel::AttributeKernels* kernels, const AttributeView& view)
+    : view_(view)
+    , kernels_(kernels)
+  {
+  }
   __extension__ typedef __int128 Int128;
   static constexpr int kMostPartBits = 40;
   /// The most parts from the largest double to the last bit of the smallest, at 28 bits each.
@@ -85,8 +93,6 @@ private:
   void scan(const Executor& executor);
   void chooseParts(std::int64_t mostPoints);
   void clear(std::int64_t voxels, const Executor& executor);
-  template <typename T>
-  void prefetch(const T* values, const std::int64_t* points, const std::int64_t* voxels, int count) const;
   template <typename Integer>
   void addIntegers(const std::int64_t* points, const std::int64_t* voxels, int count);
   template <typename Real>

@@ -51,4 +51,11 @@ void withType(ScalarType type, Function&& function)
   }
 }
 
+inline std::int64_t bytesOf(ScalarType type)
+{
+  std::int64_t bytes = 0;
+  withType(type, [&](auto example) { bytes = std::int64_t(sizeof example); });
+  return bytes;
+}
+
 } // namespace pointhaptics

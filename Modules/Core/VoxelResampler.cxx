@@ -180,6 +180,16 @@ Status VoxelResampler::assign(
   return implementation_->assign(request, visit, executor, watcher);
 }
 
+void VoxelResampler::assignInSets(const VoxelRequest& request, const SetWork& work, const Executor& executor)
+{
+  implementation_->assignInSets(request, work, executor);
+}
+
+bool VoxelResampler::canAssignInSets() const
+{
+  return implementation_->poolHoldsAll();
+}
+
 std::int64_t VoxelResampler::clippedPoints() const
 {
   return implementation_->clipped;
@@ -198,8 +208,7 @@ std::int64_t VoxelResampler::size(int level) const
 std::int64_t VoxelResampler::mostPoints(int l) const
 {
   const Level& level = implementation_->levels[std::size_t(l)];
-  const std::int64_t* counts = level.arena.counts();
-  return level.size == 0 ? 0 : *std::max_element(counts, counts + level.size);
+  return level.size == 0 ? 0 : *std::max_element(counts(l), counts(l) + level.size);
 }
 
 const Lattice& VoxelResampler::lattice(int level) const
@@ -228,6 +237,11 @@ void VoxelResampler::copyCounts(int l, std::int64_t* counts, const Executor& exe
 {
   const Level& level = implementation_->levels[std::size_t(l)];
   copyArray(level.arena.counts(), level.size, counts, executor);
+}
+
+const std::int64_t* VoxelResampler::counts(int l) const
+{
+  return implementation_->levels[std::size_t(l)].arena.counts();
 }
 
 void VoxelResampler::copyKeys(int l, std::uint64_t* keys, const Executor& executor) const

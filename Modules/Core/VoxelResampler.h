@@ -114,6 +114,8 @@ public:
   void copyMeans(int level, float* xyz, const Executor& executor = {}) const;
   void copyMeans(int level, double* xyz, const Executor& executor = {}) const;
   void copyCounts(int level, std::int64_t* counts, const Executor& executor = {}) const;
+  /// The same until the next run().
+  const std::int64_t* counts(int level = 0) const;
   void copyKeys(int level, std::uint64_t* keys, const Executor& executor = {}) const;
   void copyCovariances(int level, SymMat3* covariances, const Executor& executor = {}) const;
   /// Of each voxel of level - 1, the voxel of @p level it lies in. @pre level >= 1, keys were asked for.
@@ -125,6 +127,15 @@ public:
   using Visitor = std::function<void(const std::int64_t* points, const std::int64_t* voxels, int count)>;
   Status assign(const VoxelRequest& request, const Visitor& visit, const Executor& executor = {},
     Watcher* watcher = nullptr);
+
+  /// The same for one set of voxels after the other: work(first, voxels, forPoints) is called for all sets,
+  /// voxels first and on, possibly by several threads at once, and forPoints(visit) visits all points of
+  /// these voxels; their numbers then count from first. @pre that of assign(), and canAssignInSets()
+  using SetWork = std::function<void(
+    std::int64_t first, std::int64_t voxels, const std::function<void(const Visitor&)>& forPoints)>;
+  void assignInSets(const VoxelRequest& request, const SetWork& work, const Executor& executor = {});
+  /// run() remembers all points: see VoxelRequest::assigned.
+  bool canAssignInSets() const;
 
   std::size_t scratchBytes() const;
   /// Frees the memory kept, results included.

@@ -24,6 +24,8 @@ public:
   Status run(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
   Status assign(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+  void assignInSets(const VoxelRequest& request, const SetWork& work, const Executor& executor);
+  bool poolHoldsAll() const { return poolHoldsAll_; }
 
   std::vector<kernel::Level> levels = std::vector<kernel::Level>(1);
   std::int64_t clipped = 0;
@@ -51,6 +53,8 @@ private:
   kernel::VoxelSumList carriedList() const;
   Status assignPlanned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+  void visitPartition(const VoxelRequest& request, kernel::PartitionWorker& worker, std::uint32_t partition,
+    std::int64_t base, std::int64_t firstVoxel, const Visitor& visit);
   Status assignGeneral(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
 

@@ -245,8 +245,6 @@ VoxelSumList VoxelResampler::Implementation::carriedList() const
 Status VoxelResampler::Implementation::assignPlanned(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
 {
-  const Level& level = levels[0];
-  const Kernels& kernels = kernelsFor(request.instructions);
   const Chunks chunks(request, kChunkPoints);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
@@ -259,21 +257,9 @@ Status VoxelResampler::Implementation::assignPlanned(
       [&](std::int64_t begin, std::int64_t end)
       {
         const WorkerLease lease(*this, false);
-        std::int64_t points[kBlockRecords];
-        std::int64_t voxels[kBlockRecords];
         for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
         {
-          const std::size_t firstVoxel = level.firsts[p];
-          (*lease).rank(kernels, pool_, p, level.arena.keys() + firstVoxel, level.firsts[p + 1] - firstVoxel,
-            [&](const std::uint32_t* indices, const std::uint32_t* ranks, int count)
-            {
-              for (int i = 0; i < count; ++i)
-              {
-                points[i] = request.index ? request.index->original(base + indices[i]) : base + indices[i];
-                voxels[i] = std::int64_t(firstVoxel + ranks[i]);
-              }
-              visit(points, voxels, count);
-            });
+          visitPartition(request, *lease, p, base, std::int64_t(levels[0].firsts[p]), visit);
         }
       });
     if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
@@ -282,6 +268,49 @@ Status VoxelResampler::Implementation::assignPlanned(
     }
   }
   return Status::Ok;
+}
+
+/// Visits the points of the pool in a partition, which are numbered from @p base on. Its voxels get numbers
+/// from @p firstVoxel on.
+void VoxelResampler::Implementation::visitPartition(const VoxelRequest& request, PartitionWorker& worker,
+  std::uint32_t partition, std::int64_t base, std::int64_t firstVoxel, const Visitor& visit)
+{
+  const Level& level = levels[0];
+  const std::size_t first = level.firsts[partition];
+  std::int64_t points[kBlockRecords];
+  std::int64_t voxels[kBlockRecords];
+  worker.rank(kernelsFor(request.instructions), pool_, partition, level.arena.keys() + first,
+    level.firsts[partition + 1] - first,
+    [&](const std::uint32_t* indices, const std::uint32_t* ranks, int count)
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        points[i] = base + indices[i];
+        voxels[i] = firstVoxel + ranks[i];
+      }
+      for (int i = 0; request.index && i < count; ++i)
+      {
+        points[i] = request.index->original(points[i]);
+      }
+      visit(points, voxels, count);
+    });
+}
+
+void VoxelResampler::Implementation::assignInSets(
+  const VoxelRequest& request, const SetWork& work, const Executor& executor)
+{
+  const std::vector<std::size_t>& firsts = levels[0].firsts;
+  const Chunks chunks(request, kChunkPoints);
+  const std::int64_t base = chunks.pieces(0)[0].begin;
+  forPartitions(request, executor,
+    [&](PartitionWorker& worker, std::uint32_t p)
+    {
+      if (firsts[p + 1] > firsts[p])
+      {
+        work(std::int64_t(firsts[p]), std::int64_t(firsts[p + 1] - firsts[p]),
+          [&](const Visitor& visit) { visitPartition(request, worker, p, base, 0, visit); });
+      }
+    });
 }
 
 } // namespace pointhaptics

@@ -24,7 +24,7 @@ std::vector<ListedDevice> listDevices(std::vector<std::string>& notes)
   {
     for (const HidFound& device : bus->find())
     {
-      if (isSpaceMouse(device.vendor, device.product))
+      if (isSpaceMouse(device.vendor, device.product) && device.mayHaveSixAxes())
       {
         std::string problem;
         static_cast<void>(bus->open(device, problem));

@@ -295,23 +295,44 @@ void VoxelAttribute::coarsen(const std::vector<std::int64_t>& parents, std::int6
   }
 }
 
-vtkSmartPointer<vtkDataArray> VoxelAttribute::output(const std::int64_t* counts,
-  const AffineTransform& transform, ArrayPool& pool, const Executor& executor) const
+bool VoxelAttribute::canWriteSets() const
 {
-  auto result = newArray(input_, plain_->GetDataType());
-  pool.allocate(result, voxels_);
-  switch (kind_)
+  const int type = plain_->GetDataType();
+  return kind_ == AttributeKind::Mean ||
+    (kind_ == AttributeKind::Normal && (type == VTK_FLOAT || type == VTK_DOUBLE));
+}
+
+void VoxelAttribute::prepareSets(std::int64_t voxels, const AffineTransform& transform, ArrayPool& pool)
+{
+  written_ = newArray(input_, plain_->GetDataType());
+  pool.allocate(written_, voxels);
+  setNormalColumns(transform);
+}
+
+void VoxelAttribute::writeSet(const AttributeMean& sums, std::int64_t first, const std::int64_t* counts) const
+{
+  const AttributeView& view = sums.view();
+  void* to = static_cast<char*>(written_->GetVoidPointer(0)) + first * view.components * bytesOf(view.type);
+  if (kind_ == AttributeKind::Normal)
   {
-    case AttributeKind::Mean:
-      mean_->write(counts, result->GetVoidPointer(0), executor);
-      break;
-    case AttributeKind::Normal:
-      writeNormals(result, counts, transform, executor);
-      break;
-    case AttributeKind::Category:
-      writeCategories(result, executor);
-      break;
+    sums.writeUnitVectors(counts, normalColumns_, to, Executor());
+    return;
   }
+  sums.write(counts, to, Executor());
+}
+
+vtkSmartPointer<vtkDataArray> VoxelAttribute::output(
+  const std::int64_t* counts, const AffineTransform& transform, ArrayPool& pool, const Executor& executor)
+{
+  vtkSmartPointer<vtkDataArray> result = written_;
+  if (!result)
+  {
+    result = newArray(input_, plain_->GetDataType());
+    pool.allocate(result, voxels_);
+    setNormalColumns(transform);
+    write(result, counts, executor);
+  }
+  written_ = nullptr;
   if (input_->GetDataType() == plain_->GetDataType())
   {
     return result;
@@ -322,18 +343,40 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::output(const std::int64_t* counts,
   return original;
 }
 
-void VoxelAttribute::writeNormals(vtkDataArray* output, const std::int64_t* counts,
-  const AffineTransform& transform, const Executor& executor) const
+void VoxelAttribute::setNormalColumns(const AffineTransform& transform)
 {
-  // The inverse transpose, column by column.
-  const Vec3 x = transform.applyToNormal({ 1, 0, 0 });
-  const Vec3 y = transform.applyToNormal({ 0, 1, 0 });
-  const Vec3 z = transform.applyToNormal({ 0, 0, 1 });
+  normalColumns_[0] = transform.applyToNormal({ 1, 0, 0 });
+  normalColumns_[1] = transform.applyToNormal({ 0, 1, 0 });
+  normalColumns_[2] = transform.applyToNormal({ 0, 0, 1 });
+}
+
+void VoxelAttribute::write(vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const
+{
+  switch (kind_)
+  {
+    case AttributeKind::Mean:
+      mean_->write(counts, output->GetVoidPointer(0), executor);
+      break;
+    case AttributeKind::Normal:
+      writeNormals(output, counts, executor);
+      break;
+    case AttributeKind::Category:
+      writeCategories(output, executor);
+      break;
+  }
+}
+
+void VoxelAttribute::writeNormals(
+  vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const
+{
   if (output->GetDataType() == VTK_FLOAT || output->GetDataType() == VTK_DOUBLE)
   {
-    mean_->writeUnitVectors(counts, { x, y, z }, output->GetVoidPointer(0), executor);
+    mean_->writeUnitVectors(counts, normalColumns_, output->GetVoidPointer(0), executor);
     return;
   }
+  const Vec3& x = normalColumns_[0];
+  const Vec3& y = normalColumns_[1];
+  const Vec3& z = normalColumns_[2];
   const double low = output->GetDataTypeMin();
   // The largest 64-bit integer is no double; the one below is.
   const double high =

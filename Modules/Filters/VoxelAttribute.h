@@ -28,7 +28,8 @@ enum class AttributeKind
 };
 
 /// Used as VoxelResampler::assign() and parents() go: prepare(), add() for all points, output(), then for
-/// each coarser level coarsen() and output().
+/// each coarser level coarsen() and output(). Or as assignInSets() goes: prepareSets(), for each set of
+/// voxels all that an AttributeMean from sumsOfSet() is to be given and writeSet(), then output().
 class VoxelAttribute
 {
 public:
@@ -42,15 +43,22 @@ public:
     std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor);
   /// The memory of the sums, for a spare: nothing if it is more than 32 bytes a voxel and component.
   Buffer<std::int64_t> takeSums();
+  /// Whether each voxel's value comes from sums alone.
+  bool canWriteSets() const;
+  void prepareSets(std::int64_t voxels, const AffineTransform& transform, ArrayPool& pool);
+  AttributeMean sumsOfSet() const { return mean_->another(); }
+  /// Values of the voxels from @p first on. @p counts: points of each of these.
+  void writeSet(const AttributeMean& sums, std::int64_t first, const std::int64_t* counts) const;
   void add(const std::int64_t* points, const std::int64_t* voxels, int count);
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
   /// One tuple per voxel, of the type, name and components of the input. @p counts: points of each voxel.
-  vtkSmartPointer<vtkDataArray> output(const std::int64_t* counts, const AffineTransform& transform,
-    ArrayPool& pool, const Executor& executor) const;
+  vtkSmartPointer<vtkDataArray> output(
+    const std::int64_t* counts, const AffineTransform& transform, ArrayPool& pool, const Executor& executor);
 
 private:
-  void writeNormals(vtkDataArray* output, const std::int64_t* counts, const AffineTransform& transform,
-    const Executor& executor) const;
+  void setNormalColumns(const AffineTransform& transform);
+  void write(vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const;
+  void writeNormals(vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const;
   void writeCategories(vtkDataArray* output, const Executor& executor) const;
 
   vtkSmartPointer<vtkDataArray> input_; ///< As given.
@@ -59,7 +67,9 @@ private:
   std::int64_t voxels_ = 0;
   std::int64_t finestVoxels_ = 0;
   std::unique_ptr<AttributeMean> mean_;
-  std::vector<std::int64_t> voxelOf_; ///< Of each point, for categories; -1: outside.
+  vtkSmartPointer<vtkDataArray> written_; ///< By writeSet().
+  Vec3 normalColumns_[3];                 ///< The inverse transpose of the transform.
+  std::vector<std::int64_t> voxelOf_;     ///< Of each point, for categories; -1: outside.
 };
 
 } // namespace pointhaptics

@@ -15,6 +15,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <mutex>
 #include <sstream>
 #include <string>
 
@@ -284,6 +285,13 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   }
   this->From = 0.5;
   this->To = 0.9;
+  const bool canWriteSets = std::all_of(this->Attributes.begin(), this->Attributes.end(),
+    [](const NamedAttribute& named) { return named.attribute.canWriteSets(); });
+  if (canWriteSets && this->Engine.canAssignInSets() && this->Request.levels == 1)
+  {
+    this->AverageInSets();
+    return this->proceed(1.0);
+  }
   const std::int64_t mostPoints = this->Engine.mostPoints(this->Request.levels - 1);
   for (NamedAttribute& named : this->Attributes)
   {
@@ -306,6 +314,59 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
     },
     this->Smp, this);
   return status == Status::Ok;
+}
+
+/// Sums of a few voxels at a time stay in the caches; their means go where they are to stay.
+void vtkVoxelMeanResampler::Internals::AverageInSets()
+{
+  for (NamedAttribute& named : this->Attributes)
+  {
+    named.attribute.prepareSets(this->Engine.size(), this->Request.transform, this->Pool);
+  }
+  const std::int64_t mostPoints = this->Engine.mostPoints();
+  std::mutex mutex;
+  std::vector<std::vector<AttributeMean>> idle;
+  const auto take = [&]
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    std::vector<AttributeMean> sums;
+    if (!idle.empty())
+    {
+      sums = std::move(idle.back());
+      idle.pop_back();
+      return sums;
+    }
+    for (const NamedAttribute& named : this->Attributes)
+    {
+      sums.push_back(named.attribute.sumsOfSet());
+    }
+    return sums;
+  };
+  this->Engine.assignInSets(
+    this->Request,
+    [&](std::int64_t first, std::int64_t voxels, const auto& forPoints)
+    {
+      std::vector<AttributeMean> sums = take();
+      for (AttributeMean& sum : sums)
+      {
+        sum.prepare(voxels, mostPoints);
+      }
+      forPoints(
+        [&](const std::int64_t* points, const std::int64_t* numbers, int count)
+        {
+          for (AttributeMean& sum : sums)
+          {
+            sum.add(points, numbers, count);
+          }
+        });
+      for (std::size_t i = 0; i < sums.size(); ++i)
+      {
+        this->Attributes[i].attribute.writeSet(sums[i], first, this->Engine.counts() + first);
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      idle.push_back(std::move(sums));
+    },
+    this->Smp);
 }
 
 bool vtkVoxelMeanResampler::Internals::Run(vtkPointSet* input)

@@ -79,6 +79,7 @@ private:
   void UseIndex(vtkPointSet* input);
   bool Resample(vtkPointSet* input);
   bool AverageArrays();
+  void AverageInSets();
 
   vtkVoxelMeanResampler* Filter;
   pointhaptics::SmpExecutor Smp;

@@ -16,6 +16,9 @@ struct HandState
 {
   Vec3 position;
   std::uint32_t buttons = 0; ///< Bit i: button i pressed.
+  /// The position was found anew (homing, a jump, another connection): the hand did not move there from the
+  /// one before, and is taken as in free space.
+  bool isNew = false;
 };
 
 /// Implemented by HapticDevice (Modules/Devices). Called from the servo thread only, between start and stop.

@@ -291,7 +291,7 @@ Vec3 ServoLoop::Implementation::answer(const HandState& hand, std::uint64_t numb
   const double elapsed = double(number - lastSteppedTick) / settings.rateHz;
   const double silence = firstFailedTick != 0 ? double(number - firstFailedTick) / settings.rateHz : 0.0;
   const bool stoodStill = number - lastSteppedTick > 1 && elapsed > kForgetAfterStall;
-  if (lastSteppedTick != 0 && (stoodStill || silence > kForgetAfterSeconds))
+  if (lastSteppedTick != 0 && (hand.isNew || stoodStill || silence > kForgetAfterSeconds))
   {
     proxy.reset();
   }

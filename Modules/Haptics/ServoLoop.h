@@ -84,7 +84,8 @@ std::string describeRefusals(const ServoStatistics& statistics);
 ///
 /// Faults: a tick whose read() fails sends zero force and steps nothing, and the force grows again from zero
 /// under the guard's slew limit. The proxy keeps its side of the surface over a short fault; after one of 0.1
-/// s or more, and after a stall of the machine of 1 s, the hand is taken as new, in free space.
+/// s or more, after a stall of the machine of 1 s, and where the device found it anew (HandState::isNew), the
+/// hand is taken as new, in free space.
 /// DeviceNotReady is answered the same way and counted apart. EndOfPath from read() ends the loop: zero
 /// force, then running() is false.
 ///

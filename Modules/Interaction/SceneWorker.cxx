@@ -188,6 +188,7 @@ struct Builder
   vtkSmartPointer<vtkPointSet> cloud; // not yet the thread's own
   bool cloudIsNew = false;
   bool inFlight = false;
+  std::uint64_t number = 0; // of the newest job that was begun
   std::thread thread;
 
   bool busy() const { return this->inFlight || this->waiting.has_value(); }
@@ -211,6 +212,7 @@ struct SceneWorker::Implementation
 
   void start(Builder& builder, void (Implementation::*build)());
   std::optional<Job> next(Builder& builder);
+  void letNearGoFirst(const Job& job);
   bool isFollowed() const;
   void buildWholes();
   void buildNear();
@@ -239,11 +241,20 @@ std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
   Job job;
   job.request = std::move(*builder.waiting);
   builder.waiting.reset();
-  job.number = this->number;
+  job.number = builder.number = this->number;
   job.cloudNumber = this->cloudNumber;
   job.cloudIsNew = std::exchange(builder.cloudIsNew, false);
   job.cloud = std::move(builder.cloud);
   return job;
+}
+
+/// The thread of the whole cloud leaves the processors to the other one until that is done with this job, or
+/// a newer one.
+void SceneWorker::Implementation::letNearGoFirst(const Job& job)
+{
+  std::unique_lock<std::mutex> lock(this->mutex);
+  this->changed.wait(
+    lock, [&] { return this->ending || !this->near.busy() || this->near.number > job.number; });
 }
 
 bool SceneWorker::Implementation::isFollowed() const
@@ -262,6 +273,7 @@ void SceneWorker::Implementation::buildWholes()
     {
       pipeline.setCloud(std::move(job->cloud));
     }
+    this->letNearGoFirst(*job);
     BuiltScene built;
     built.number = job->number;
     std::shared_ptr<const HapticScene> scene = pipeline.feel(job->request, built);

@@ -65,8 +65,8 @@ struct BuiltScene
 
 /// One build of the whole cloud is in flight at a time; of the requests that come meanwhile only the newest
 /// is built. The picture may be left out of a build that is followed by another, but not for longer than
-/// kPictureSeconds. A second thread builds what is near the hand (NearSceneBuilder) in the same way, so that
-/// new voxels are felt before the whole cloud is resampled.
+/// kPictureSeconds. A second thread builds what is near the hand (NearSceneBuilder) in the same way, and goes
+/// first: new voxels are felt before the whole cloud is resampled.
 ///
 /// request(), setCloud(), take(), wait() and cancel() from one thread (the GUI's), which waits in the last
 /// two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and what one

@@ -243,8 +243,9 @@ void vtkInteractorStyleHaptic::TakeHandSample(const ServoSample& sample)
   // A device that says nothing holds nothing: the hand may be anywhere when it speaks again.
   const bool readable = sample.device == pointhaptics::Status::Ok && isFinite(sample.state.hip);
   const std::uint32_t buttons = readable ? sample.buttons : 0;
+  // But a button that is held through a moment without answers is not pressed again.
   const std::uint32_t pressed = buttons & ~parts.handButtons;
-  parts.handButtons = buttons;
+  parts.handButtons = readable ? buttons : parts.handButtons;
   HapticAction hold = HapticAction::None;
   for (int i = kHandButtons - 1; i >= 0; --i)
   {

@@ -17,6 +17,8 @@ namespace
 {
 const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
 
+constexpr std::array<std::int16_t, kFalconLegs> kNoTorque{};
+
 /// An emulated machine with one Falcon, and the driver on the real libusb.
 class EmulatedUsb : public UnderUmockdev
 {
@@ -76,6 +78,10 @@ TEST_F(EmulatedUsb, SaysWhoHoldsADeviceThatIsBusy)
   FalconDevice device(settings());
   EXPECT_EQ(device.open(), Status::DeviceLost);
   EXPECT_NE(device.message().find("another program"), std::string::npos) << device.message();
+  std::vector<std::string> notes;
+  const std::vector<ListedDevice> list = listDevices(notes);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_NE(list[0].problem.find("another program"), std::string::npos) << list[0].problem;
 }
 
 TEST_F(EmulatedUsb, TheServoLoopFeelsASphereAndTheHandSettlesInBalance)
@@ -118,9 +124,11 @@ TEST_F(EmulatedUsb, TheServoLoopFeelsASphereAndTheHandSettlesInBalance)
 TEST_F(EmulatedUsb, SurvivesGarbageAndSilence)
 {
   falcon.plugIn();
+  desk.comeFromOutside();
   FalconDevice device(settings());
   ASSERT_EQ(device.open(), Status::Ok) << device.message();
   ServoLoop loop;
+  loop.publishScene(desk.sphere(40000, 0.0005));
   ASSERT_EQ(loop.start(device, HapticParameters()), Status::Ok);
   ASSERT_TRUE(eventually([&] { return device.state() == FalconState::Armed; }));
   for (int i = 0; i < 20; ++i)
@@ -129,9 +137,13 @@ TEST_F(EmulatedUsb, SurvivesGarbageAndSilence)
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   EXPECT_TRUE(eventually([&] { return device.statistics().droppedBytes > 20; }));
+  ASSERT_TRUE(desk.touch(loop));
+  ASSERT_NE(device.raw().command.motors, kNoTorque);
+  const std::uint64_t timeouts = device.statistics().timeouts;
   falcon.with([](FalconModel& model) { model.silent = true; });
-  EXPECT_TRUE(eventually([&] { return device.statistics().timeouts >= 2; }));
+  EXPECT_TRUE(eventually([&] { return device.statistics().timeouts >= timeouts + 2; }));
   EXPECT_EQ(norm(loop.latest().state.force), 0.0);
+  EXPECT_EQ(device.raw().command.motors, kNoTorque);
   falcon.with([](FalconModel& model) { model.silent = false; });
   const std::uint64_t replies = device.statistics().replies;
   EXPECT_TRUE(eventually([&] { return device.statistics().replies > replies + 20; }));

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
@@ -21,6 +22,21 @@ using namespace pointhaptics::trial;
 namespace
 {
 const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
+constexpr const char* kDirections[] = {
+  "   pushed to the right:", "   pushed up:", "   pushed towards you:"
+};
+
+/// The first line of @p text that begins with @p begin; empty where there is none.
+std::string lineWith(const std::string& text, const std::string& begin)
+{
+  const std::size_t at = text.find("\n" + begin);
+  return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+}
+
+bool endsWith(const std::string& text, const std::string& end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
 
 class EmulatedMachine : public UnderUmockdev
 {
@@ -53,7 +69,7 @@ protected:
       }
       arguments.push_back(nullptr);
       const int out = open(path("out.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-      const int none = open("/dev/null", O_RDONLY);
+      const int none = input >= 0 ? input : open("/dev/null", O_RDONLY);
       dup2(out, 1);
       dup2(out, 2);
       dup2(none, 0);
@@ -80,6 +96,7 @@ protected:
   }
 
   FirmwareFile file;
+  int input = -1; ///< Of the program; below 0: /dev/null.
   EmulatedFalcon falcon;
   std::filesystem::path folder;
 };
@@ -212,12 +229,109 @@ TEST_F(EmulatedMachine, DiagnosesAFalconAndWritesTheReport)
     0)
     << output();
   const std::string report = read("report.txt");
-  for (const char* part : { "1. Lights", "homing bits 111", "homed", "3. Encoders", "4. Rate", "0 timeouts",
-         "5. Motors", "pushed towards you", "as expected" })
+  for (const char* part :
+    { "1. Lights", "homing bits 111", "\n   homed\n", "3. Encoders", "4. Rate", "0 timeouts", "5. Motors" })
   {
     EXPECT_NE(report.find(part), std::string::npos) << part << "\n" << report;
   }
   // The model's motors push where they should, with no more than was promised.
-  EXPECT_NE(report.find("pushed up: motors"), std::string::npos);
+  EXPECT_EQ(report.find("NOT"), std::string::npos) << report;
+  for (const char* direction : kDirections)
+  {
+    EXPECT_TRUE(endsWith(lineWith(report, direction), ": as expected")) << direction << "\n" << report;
+  }
   EXPECT_LT(falcon.with([](FalconModel& model) { return model.largestForce; }), 0.51);
+}
+
+TEST_F(EmulatedMachine, FindsMotorsThatPushTheWrongWay)
+{
+  falcon.plugIn();
+  falcon.with(
+    [](FalconModel& model)
+    {
+      model.hand.wanted = model.hand.position = kCenter;
+      model.motorSign = -1.0;
+    });
+  EXPECT_EQ(run({ "devices", "--diagnose", "--yes", "--falcon-firmware", file.path(), "--report",
+              path("report.txt") }),
+    1);
+  const std::string report = read("report.txt");
+  for (const char* direction : kDirections)
+  {
+    EXPECT_TRUE(endsWith(lineWith(report, direction), ": NOT as expected")) << direction << "\n" << report;
+  }
+  EXPECT_NE(output().find("3 checks found something wrong"), std::string::npos) << output();
+}
+
+TEST_F(EmulatedMachine, EndsADiagnosisThatWaitsForAnAnswer)
+{
+  falcon.plugIn();
+  int answers[2];
+  ASSERT_EQ(pipe(answers), 0); // nobody answers
+  input = answers[0];
+  const pid_t child =
+    begin({ "devices", "--diagnose", "--falcon-firmware", file.path(), "--report", path("report.txt") });
+  EXPECT_TRUE(eventually([&] { return output().find("Which light is on?") != std::string::npos; }))
+    << output();
+  kill(child, SIGINT);
+  EXPECT_EQ(finish(child), 130) << output();
+  close(answers[0]);
+  close(answers[1]);
+  EXPECT_NE(read("report.txt").find("stopped on request"), std::string::npos);
+}
+
+TEST_F(EmulatedMachine, EndsAStartThatNobodyAnswers)
+{
+  falcon.plugIn();
+  falcon.with([](FalconModel& model) { model.deafGreetings = 1 << 30; });
+  ASSERT_EQ(run({ "generate", "sphere", "-n", "2000", "-o", path("sphere.ply") }), 0) << output();
+  const pid_t child = begin({ "feel", path("sphere.ply"), "--device", "falcon", "--falcon-firmware",
+    file.path(), "-o", path("out.csv") });
+  EXPECT_TRUE(eventually(
+    [&] { return falcon.with([](FalconModel& model) { return model.deafGreetings < (1 << 30) - 2; }); }));
+  kill(child, SIGINT);
+  EXPECT_EQ(finish(child), 130) << output();
+  EXPECT_LT((1 << 30) - falcon.with([](FalconModel& model) { return model.deafGreetings; }), 100);
+  EXPECT_FALSE(falcon.claimed());
+}
+
+TEST_F(EmulatedMachine, TheWindowOpensWithoutTheFirmwareOnASimulatedHand)
+{
+  const char* const display = std::getenv("DISPLAY");
+  if (!display || !*display)
+  {
+    GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
+  }
+  falcon.plugIn();
+  ASSERT_EQ(run({ "generate", "sphere", "-n", "2000", "-o", path("sphere.ply") }), 0) << output();
+  const pid_t child =
+    begin({ "view", path("sphere.ply"), "--size", "320x240", "--trace", path("trace.csv") });
+  EXPECT_TRUE(
+    eventually([&] { return output().find("the simulated hand takes its place") != std::string::npos; }))
+    << output();
+  kill(child, SIGTERM);
+  EXPECT_EQ(finish(child), 0) << output();
+  EXPECT_NE(output().find("--falcon-firmware"), std::string::npos) << output();
+  EXPECT_NE(output().find("trace: "), std::string::npos) << "the window was there\n" << output();
+}
+
+TEST_F(EmulatedMachine, SaysOnceWhatAReplugMisses)
+{
+  falcon.plugIn();
+  ASSERT_EQ(run({ "generate", "sphere", "-n", "2000", "-o", path("sphere.ply") }), 0) << output();
+  const pid_t child = begin({ "feel", path("sphere.ply"), "--device", "falcon", "--falcon-firmware",
+    file.path(), "-o", path("out.csv") });
+  EXPECT_TRUE(eventually([&] { return output().find("green light") != std::string::npos; })) << output();
+  falcon.unplug();
+  EXPECT_TRUE(eventually([&] { return output().find("0403:cb48") != std::string::npos; })) << output();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1200)); // two more looks for it
+  falcon.refuseClaims(EBUSY);
+  falcon.plugIn();
+  EXPECT_TRUE(eventually([&] { return output().find("another program") != std::string::npos; })) << output();
+  kill(child, SIGINT);
+  EXPECT_EQ(finish(child), 0) << output();
+  const std::string said = output();
+  EXPECT_EQ(said.find("0403:cb48"), said.rfind("0403:cb48")) << said;
+  EXPECT_EQ(said.find("not there"), std::string::npos) << said;
+  EXPECT_EQ(said.find("lost;"), said.rfind("lost;")) << said;
 }

@@ -230,9 +230,13 @@ TEST_F(HandClutch, DoesWhatElseAButtonIsBoundToWhenItIsPressed)
   style->Refresh();
   const std::uint64_t then = servo.latest().tick;
   ASSERT_TRUE(eventually([&] { return servo.latest().tick > then + 10; }));
+  hand.silent = true;
+  ASSERT_TRUE(eventually([&] { return servo.latest().device == Status::DeviceSilent; }));
+  hand.silent = false;
+  ASSERT_TRUE(eventually([&] { return servo.latest().device == Status::Ok; }));
   hold(0);
   settle();
-  EXPECT_NEAR(element(0, 0), 1.1, 1e-9) << "once, however long it is held";
+  EXPECT_NEAR(element(0, 0), 1.1, 1e-9) << "once, however long it is held, also past a moment of silence";
 }
 
 TEST_F(HandClutch, HoldsAButtonOfTheSimulatedHandAsLongAsItsKey)

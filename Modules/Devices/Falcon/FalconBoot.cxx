@@ -38,6 +38,8 @@ constexpr std::uint8_t kGreetingReply[] = { 0x0A, 0x44, 0x2C, 0x0D };
 constexpr std::uint8_t kReady = 0x41;
 constexpr int kBlock = 62;
 constexpr int kProbes = 3;
+/// So many times in a row without an answer to any greeting: nobody is there.
+constexpr int kSilentTries = 2;
 }
 
 FalconBoot::FalconBoot(FtdiLink& link, const FalconBootSettings& settings, const std::atomic<bool>& cancelled)
@@ -186,9 +188,11 @@ Status bootFalcon(FtdiLink& link, const FalconBootSettings& settings,
     return Status::FirmwareMissing;
   }
   onLoading();
-  for (int attempt = 0; attempt < settings.loads; ++attempt)
+  int silences = 0;
+  for (int attempt = 0; attempt < settings.loads && silences < kSilentTries; ++attempt)
   {
     status = boot.greet();
+    silences = status == Status::DeviceSilent ? silences + 1 : 0;
     status = status == Status::Ok ? boot.load(firmware, progress) : status;
     status = status == Status::Ok ? boot.probe() : status;
     // A silent device may wake at the next try; one that is gone will not.

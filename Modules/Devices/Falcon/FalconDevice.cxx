@@ -26,6 +26,7 @@ constexpr double kLargestCountStep = 60e-6;
 /// Position of the last answer; the command goes out at the end of the tick.
 constexpr double kDelayTicks = 1.0;
 constexpr double kRampDownSeconds = 0.06;
+constexpr auto kBetweenQuestions = std::chrono::milliseconds(50);
 }
 
 struct FalconDevice::Implementation
@@ -208,9 +209,21 @@ Status FalconDevice::open()
   self.report(Status::DeviceNotReady, {});
   self.supervisor = std::thread([&self] { self.supervise(); });
   std::unique_lock<std::mutex> lock(self.mutex);
-  self.changed.wait(lock, [&self] { return self.started != Status::DeviceNotReady; });
-  const Status status = self.started;
+  bool cancelled = false;
+  while (!cancelled &&
+    !self.changed.wait_for(
+      lock, kBetweenQuestions, [&self] { return self.started != Status::DeviceNotReady; }))
+  {
+    cancelled = self.settings.cancelled && self.settings.cancelled();
+  }
+  const Status status = cancelled ? Status::Aborted : self.started;
   lock.unlock();
+  if (cancelled)
+  {
+    close();
+    self.report(status, "falcon: not started: ended on request");
+    return status;
+  }
   if (status != Status::Ok && !self.settings.waitForDevice)
   {
     const std::string text = message();

@@ -25,7 +25,9 @@ struct FalconSettings
   FalconBootSettings boot;
   bool armWhenHomed = true;   ///< Off: forces pass only after setArmed(true).
   bool waitForDevice = false; ///< open() succeeds without a device; it is used as soon as it is plugged in.
-  double retrySeconds = 0.5;  ///< Between two looks for a device that is gone.
+  /// Asked by open() 20 times a second, in its thread: true ends the start with Aborted. Empty: never.
+  std::function<bool()> cancelled;
+  double retrySeconds = 0.5;      ///< Between two looks for a device that is gone.
   double replyWaitSeconds = 3e-4; ///< Longest time that read() waits for an answer that is late.
   double silenceSeconds = 0.02;   ///< Without an answer for so long: no force, and the command is sent anew.
 };
@@ -40,6 +42,9 @@ struct FalconStatistics
   std::uint64_t droppedBytes = 0;    ///< Bytes outside whole frames.
   std::uint64_t skippedCommands = 0; ///< Commands not sent since the one before was still on its way.
   std::uint64_t connections = 0;     ///< Times the device came to run.
+  /// Most commands that were still without an answer when a position was taken: 0: all positions are of the
+  /// tick before, as limits() promises; n: some were n ticks older.
+  std::uint64_t largestUnanswered = 0;
 };
 
 /// What the device said last, unprocessed, for diagnosis.
@@ -78,9 +83,10 @@ public:
   DeviceCapabilities capabilities() const noexcept override;
   HandLimits limits() const noexcept override;
 
-  /// Waits for the first start: 0.1 s where the firmware runs, some seconds where it must be loaded.
-  /// DeviceNotFound, DeviceNotPermitted, FirmwareMissing, FirmwareNotTaken, DeviceSilent, DeviceLost,
-  /// InvalidParameter; message() then has what and cure.
+  /// Waits for the first start: 0.1 s where the firmware runs, some seconds where it must be loaded, 10 s
+  /// where nothing answers. DeviceNotFound, DeviceNotPermitted, FirmwareMissing, FirmwareNotTaken,
+  /// DeviceSilent, DeviceLost, Aborted (FalconSettings::cancelled), InvalidParameter; message() then has what
+  /// and cure.
   Status open() override;
   /// Sends commands without force until three were answered, lamps off, releases. The servo loop must be
   /// stopped; 0.1 s at most where the device answers.

@@ -12,9 +12,12 @@ const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
 /// A hand at 5 m/s turns a joint of 6 cm by 83 rad/s, 131,000 counts a second: faster is a broken answer.
 constexpr double kCountsPerSecond = 150000.0;
 constexpr double kFewCounts = 150.0;
-/// So many answers in a row far from the last good one, and near each other, are believed.
+/// So many answers in a row far from the last good one, each near the one before it, are believed.
 constexpr int kBelieved = 5;
-constexpr int kSilencesToPurge = 3;
+constexpr int kSilencesToResynchronise = 3;
+/// Ticks in a row that waited in vain for the newest answer: it was lost, or comes later than a wait may
+/// last.
+constexpr int kVainWaits = 10;
 constexpr int kSilencesToGiveUp = 50;
 constexpr int kGoodbyes = 3;
 constexpr int kMostGoodbyes = 50;
@@ -60,6 +63,8 @@ void FalconServo::begin() noexcept
   jumps_ = 0;
   silences_ = 0;
   unanswered_ = 0;
+  vainWaits_ = 0;
+  forgotten_ = 0;
   timed_ = false;
   answered_ = false;
   ++count_.connections;
@@ -105,13 +110,17 @@ Status FalconServo::take(const FalconReply& reply, double elapsed) noexcept
     ++count_.badReplies;
     chain_.restart();
     // A hand that stays where it cannot have come to has been there: the answers between were lost.
-    positioned_ = positioned_ && ++jumps_ < kBelieved;
+    const bool agrees = jumps_ > 0 && largestDifference(reply.encoders, strange_) <= allowed;
+    jumps_ = agrees ? jumps_ + 1 : 1;
+    strange_ = reply.encoders;
+    positioned_ = positioned_ && jumps_ < kBelieved;
     return Status::DeviceBadReply;
   }
   jumps_ = 0;
   encoders_ = reply.encoders;
   angles_ = angles;
   position_ = position;
+  found_ = !positioned_;
   if (!positioned_)
   {
     positioned_ = true;
@@ -133,8 +142,10 @@ Status FalconServo::silence(double timeSeconds) noexcept
   ++count_.timeouts;
   ++silences_;
   unanswered_ = 0;
+  vainWaits_ = 0;
   chain_.restart();
-  if (silences_ % kSilencesToPurge == 0)
+  // Purging the chip is a control request, which waits, and would drop the answer that may just come.
+  if (silences_ % kSilencesToResynchronise == 0)
   {
     finder_.reset();
   }
@@ -144,17 +155,30 @@ Status FalconServo::silence(double timeSeconds) noexcept
 Status FalconServo::read(FtdiLink& link, double timeSeconds, bool wantArmed, HandState& hand) noexcept
 {
   answered_ = false;
+  found_ = false;
+  if (timed_ && timeSeconds < lastReply_)
+  {
+    // Another loop has begun, with a clock of its own.
+    timed_ = false;
+    silences_ = 0;
+    chain_.restart();
+  }
   if (!timed_)
   {
     lastReply_ = lastWrite_ = timeSeconds;
   }
   Status status = Status::Ok;
   bool whole = receive(link, 0.0, status);
-  if (status == Status::Ok && !whole && timed_)
+  // An old answer alone would leave every later position a tick older: the newest is waited for too.
+  if (status == Status::Ok && timed_ && (!whole || unanswered_ > 0))
   {
-    whole = receive(link, settings_.replyWaitSeconds, status);
+    whole = receive(link, settings_.replyWaitSeconds, status) || whole;
   }
   timed_ = true;
+  if (whole)
+  {
+    noteDelay();
+  }
   if (status == Status::Ok)
   {
     status = whole ? take(reply_, timeSeconds - lastReply_) : silence(timeSeconds);
@@ -170,8 +194,23 @@ Status FalconServo::read(FtdiLink& link, double timeSeconds, bool wantArmed, Han
     answered_ = true;
     hand.position = position_ - kCenter;
     hand.buttons = reply_.buttons;
+    hand.isNew = found_;
   }
   return status;
+}
+
+/// Counts how much older than the last command's answer a position is.
+void FalconServo::noteDelay() noexcept
+{
+  count_.largestUnanswered = std::max(count_.largestUnanswered, std::uint64_t(unanswered_));
+  vainWaits_ = unanswered_ > 0 ? vainWaits_ + 1 : 0;
+  if (vainWaits_ >= kVainWaits)
+  {
+    // Waiting on would cost every tick that time.
+    forgotten_ = unanswered_;
+    unanswered_ = 0;
+    vainWaits_ = 0;
+  }
 }
 
 std::uint8_t FalconServo::usualLamps() const noexcept
@@ -209,7 +248,7 @@ void FalconServo::sayGoodbye(FtdiLink& link) noexcept
 {
   const FalconFrame frame = encode(FalconCommand());
   // Answers to the commands of the last ticks come first.
-  const std::uint64_t enough = count_.replies + std::uint64_t(unanswered_ + kGoodbyes);
+  const std::uint64_t enough = count_.replies + std::uint64_t(unanswered_ + forgotten_ + kGoodbyes);
   for (int i = 0; i < kMostGoodbyes && count_.replies < enough; ++i)
   {
     Status status = link.submit(frame.data(), int(frame.size()));

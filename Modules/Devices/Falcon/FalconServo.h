@@ -27,13 +27,18 @@ public:
   FalconState state() const noexcept { return FalconState(state_.load(std::memory_order_relaxed)); }
   FalconStatistics statistics() const noexcept { return shown_.read(); }
   FalconRaw raw() const noexcept { return raw_.read(); }
-  void clearStatistics() noexcept { count_ = FalconStatistics(); }
+  void clearStatistics() noexcept
+  {
+    count_ = FalconStatistics();
+    finder_ = FalconFrameFinder();
+  }
 
 private:
   bool receive(FtdiLink& link, double waitSeconds, Status& status) noexcept;
   Status take(const FalconReply& reply, double elapsed) noexcept;
   Status silence(double timeSeconds) noexcept;
   void happen(FalconEvent event) noexcept;
+  void noteDelay() noexcept;
   std::uint8_t usualLamps() const noexcept;
 
   FalconSettings settings_;
@@ -50,8 +55,12 @@ private:
   FalconAngles angles_{};
   bool positioned_ = false; ///< position_ belongs to encoders_.
   std::array<std::int16_t, kFalconLegs> encoders_{};
-  int jumps_ = 0;          ///< Bad replies in a row.
-  int silences_ = 0;       ///< Timeouts in a row.
+  bool found_ = false; ///< In this tick the position was found without one before it.
+  std::array<std::int16_t, kFalconLegs> strange_{}; ///< Of the last bad reply.
+  int jumps_ = 0;                                   ///< Bad replies in a row that agree.
+  int vainWaits_ = 0;                               ///< Ticks in a row with an answer, but not the newest.
+  int forgotten_ = 0;                               ///< Answers no longer waited for.
+  int silences_ = 0;                                ///< Timeouts in a row.
   int unanswered_ = 0;     ///< Commands since begin() or the last timeout that have no answer yet.
   double lastReply_ = 0.0; ///< Servo time.
   double lastWrite_ = 0.0;

@@ -388,10 +388,14 @@ std::vector<UsbFalcon> findUsbFalcons()
         continue;
       }
       libusb_device_handle* handle = nullptr;
-      const int error = libusb_open(device, &handle);
+      int error = libusb_open(device, &handle);
       if (handle)
       {
-        libusb_close(handle);
+        // Only whoever claims it learns that another program has; a system's own driver gives way later.
+        error = libusb_kernel_driver_active(handle, kInterface) == 1
+          ? error
+          : libusb_claim_interface(handle, kInterface);
+        libusb_close(handle); // releases
       }
       found.push_back({ place(device), error == LIBUSB_SUCCESS ? "" : refusal(place(device), error) });
     }

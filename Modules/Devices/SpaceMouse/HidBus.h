@@ -16,6 +16,13 @@ struct HidFound
   std::uint16_t product = 0;
   std::string path; ///< For open(): "/dev/hidraw3".
   std::string name; ///< For people.
+  // What its report descriptor says of this interface; 0: not told.
+  std::uint16_t usagePage = 0;
+  std::uint16_t usage = 0;
+
+  /// Not said to be anything but a multi-axis controller (generic desktop, usage 8): a receiver has an
+  /// interface for each of its devices.
+  bool mayHaveSixAxes() const noexcept { return usagePage == 0 || (usagePage == 1 && usage == 8); }
 };
 
 /// An open device; closed by its destructor. One thread.

@@ -54,6 +54,8 @@ public:
       device.product = info->product_id;
       device.path = info->path ? info->path : "";
       device.name = narrow(info->product_string);
+      device.usagePage = info->usage_page;
+      device.usage = info->usage;
       found.push_back(std::move(device));
     }
     hid_free_enumeration(list);

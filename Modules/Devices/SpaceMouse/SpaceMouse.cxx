@@ -56,18 +56,21 @@ struct SpaceMouse::Implementation
 
 std::unique_ptr<HidLink> SpaceMouse::Implementation::find()
 {
-  const std::vector<HidFound> all = bus->find();
-  const auto found = std::find_if(all.begin(), all.end(),
-    [](const HidFound& device) { return isSpaceMouse(device.vendor, device.product); });
-  if (found == all.end())
+  std::string text = kNonePluggedIn;
+  for (const HidFound& found : bus->find())
   {
-    say("spacemouse: none is plugged in");
-    return nullptr;
+    if (!isSpaceMouse(found.vendor, found.product) || !found.mayHaveSixAxes())
+    {
+      continue;
+    }
+    if (std::unique_ptr<HidLink> link = bus->open(found, text))
+    {
+      say(found.name);
+      return link;
+    }
   }
-  std::string text;
-  std::unique_ptr<HidLink> link = bus->open(*found, text);
-  say(link ? found->name : text);
-  return link;
+  say(text);
+  return nullptr;
 }
 
 void SpaceMouse::Implementation::serve(HidLink& link)

@@ -38,6 +38,8 @@ public:
   int battery() const noexcept; ///< Per cent; -1: not told.
   /// Name of the device in use, or what the user should know: one sentence with its cure.
   std::string message() const;
+  /// What message() says while none is plugged in.
+  static constexpr const char* kNonePluggedIn = "spacemouse: none is plugged in";
 
 private:
   struct Implementation;

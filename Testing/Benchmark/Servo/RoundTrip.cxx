@@ -57,7 +57,7 @@ bool roundTripStudy(double seconds, ReportPart& part, bool& right)
     "adds "
     "what full-speed USB takes, frames of 1 ms. The thread has no real-time priority.",
     seconds);
-  part.table.header = { "exchanges", "us: p50 / p99 / p99.9 / max", "lost", "answers" };
+  part.table.header = { "exchanges", "us: p50 / p99 / p99.9 / max", "later than 100 ms", "answers" };
   const nlohmann::ordered_json found = nlohmann::ordered_json::parse(
     outputOf(quoted(program.string()) + " " + std::to_string(seconds)), nullptr, false);
   if (!found.is_object())
@@ -66,7 +66,7 @@ bool roundTripStudy(double seconds, ReportPart& part, bool& right)
     part.remarks.push_back("The program that measures it failed; run it by hand: " + program.string());
     return true;
   }
-  const bool isRight = found["exchanges"] > 0 && found["lost"] == 0 && found["wrong"] == 0;
+  const bool isRight = found["exchanges"] > 0 && found["wrong"] == 0;
   const auto microseconds = [&](const char* name) { return brief(1e6 * found[name].get<double>()); };
   part.table.rows.push_back({ grouped(found["exchanges"].get<long long>()),
     fmt::format("{} / {} / {} / {}", microseconds("p50"), microseconds("p99"), microseconds("p999"),

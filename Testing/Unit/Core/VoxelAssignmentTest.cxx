@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <numeric>
 
 using namespace pointhaptics;
 using namespace pointhaptics::trial;
@@ -123,6 +124,28 @@ void expectAssigned(VoxelRequest request, bool foretold, const Executor& executo
     }
   }
   EXPECT_EQ(counts, level.counts) << what;
+  if (resampler.canAssignInSets())
+  {
+    std::atomic<std::int64_t> seen{ 0 };
+    resampler.assignInSets(
+      request,
+      [&](std::int64_t first, std::int64_t voxels, const auto& forPoints)
+      {
+        forPoints(
+          [&](const std::int64_t* who, const std::int64_t* numbers, int count)
+          {
+            for (int i = 0; i < count; ++i)
+            {
+              faults += numbers[i] >= voxels || voxelOf[std::size_t(who[i])] != first + numbers[i];
+            }
+            seen += count;
+          });
+      },
+      executor);
+    EXPECT_EQ(faults, 0) << what << " in sets";
+    EXPECT_EQ(seen, std::accumulate(counts.begin(), counts.end(), std::int64_t(0))) << what;
+  }
+  EXPECT_TRUE(foretold || !resampler.canAssignInSets()) << what;
   expectSame(runOf(resampler, request, executor), result, what + " run again");
 }
 

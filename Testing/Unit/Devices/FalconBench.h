@@ -34,7 +34,8 @@ struct FalconOnAWire
   Status openStatus = Status::Ok; ///< What the bus answers instead of opening.
   std::atomic<int> openLinks{ 0 };
   std::function<void(std::vector<std::uint8_t>&)> distort = [](std::vector<std::uint8_t>&) {};
-  bool busy = false; ///< Commands are refused as if the one before were still under way.
+  bool receivesSlowly = false; ///< While booting, 10 ms for no answer.
+  bool busy = false;           ///< Commands are refused as if the one before were still under way.
 };
 
 class WiredLink : public FtdiLink
@@ -63,6 +64,10 @@ public:
   {
     const std::lock_guard<std::mutex> lock(wire_.mutex);
     count = int(wire_.model.read(bytes, kFtdiPacket));
+    if (count == 0 && wire_.receivesSlowly)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
     return here();
   }
   Status submit(const std::uint8_t* bytes, int count) noexcept override
@@ -153,11 +158,12 @@ public:
     device = std::make_unique<FalconDevice>(settings, std::make_unique<WiredBus>(wire));
   }
 
-  /// One tick: read, @p force of the position, write, a millisecond of the hand's life.
+  /// One tick: read, @p force of the last position, write, a millisecond of the hand's life. The force is
+  /// asked for whatever read() said: keeping it back is the driver's work.
   Status tick(const std::function<Vec3(const Vec3&)>& force = [](const Vec3&) { return Vec3(); })
   {
     const Status status = device->read(time, hand);
-    const Status written = device->write(time, status == Status::Ok ? force(hand.position) : Vec3());
+    const Status written = device->write(time, force(hand.position));
     const std::lock_guard<std::mutex> lock(wire.mutex);
     wire.model.move(1e-3);
     time += 1e-3;

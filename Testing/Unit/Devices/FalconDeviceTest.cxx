@@ -1,3 +1,4 @@
+#include "../Haptics/ServoLoopFixtures.h"
 #include "FalconBench.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,13 @@ using namespace pointhaptics::trial;
 namespace
 {
 const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
+
+constexpr std::array<std::int16_t, kFalconLegs> kNoTorque{};
+
+Vec3 push(const Vec3&)
+{
+  return { 0.0, 1.0, 0.0 };
+}
 
 Vec3 wall(const Vec3& hand)
 {
@@ -100,6 +108,32 @@ TEST(FalconDevice, SaysWhatIsMissing)
   }
 }
 
+TEST(FalconDevice, GivesUpWhereNoGreetingIsAnswered)
+{
+  FalconSettings settings;
+  settings.boot.greetings = 7;
+  FalconBench bench(settings);
+  bench.wire.model.deafGreetings = 1000;
+  EXPECT_EQ(bench.device->open(), Status::DeviceSilent);
+  EXPECT_EQ(bench.wire.model.deafGreetings, 1000 - 2 * 7);
+}
+
+TEST(FalconDevice, EndsItsStartOnRequest)
+{
+  std::atomic<int> asked{ 0 };
+  FalconSettings settings;
+  settings.cancelled = [&] { return ++asked >= 2; };
+  FalconBench bench(settings);
+  bench.wire.model.deafGreetings = 1 << 30;
+  // As hardware: an unanswered greeting takes its time.
+  bench.wire.receivesSlowly = true;
+  EXPECT_EQ(bench.device->open(), Status::Aborted);
+  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(bench.wire.openLinks, 0);
+  EXPECT_EQ(bench.device->state(), FalconState::Closed);
+  EXPECT_NE(bench.device->message().find("on request"), std::string::npos);
+}
+
 TEST(FalconDevice, GivesNoForceBeforeHomingAndAsksForItInEveryCommand)
 {
   FalconBench bench;
@@ -109,7 +143,8 @@ TEST(FalconDevice, GivesNoForceBeforeHomingAndAsksForItInEveryCommand)
   bench.wire.model.hand.wanted.z -= 0.01;
   for (int i = 0; i < 300; ++i)
   {
-    EXPECT_EQ(bench.tick(wall), Status::DeviceNotReady);
+    EXPECT_EQ(bench.tick(push), Status::DeviceNotReady);
+    EXPECT_EQ(bench.device->raw().command.motors, kNoTorque);
   }
   EXPECT_EQ(felt(bench), 0.0);
   EXPECT_EQ(bench.device->state(), FalconState::Unhomed);
@@ -153,7 +188,6 @@ TEST(FalconDevice, DisarmedGivesNoForceAndRampsWhenArmedAgain)
   FalconSettings settings;
   settings.armWhenHomed = false;
   FalconBench bench(settings);
-  const auto push = [](const Vec3&) { return Vec3(0.0, 1.0, 0.0); };
   ASSERT_EQ(bench.device->open(), Status::Ok);
   EXPECT_FALSE(bench.arm(push));
   EXPECT_EQ(bench.device->state(), FalconState::Homed);
@@ -176,32 +210,33 @@ TEST(FalconDevice, GoesOnWithTheLastPositionForAMomentOfSilenceThenWithoutForce)
 {
   FalconBench bench;
   ASSERT_EQ(bench.device->open(), Status::Ok);
-  ASSERT_TRUE(bench.arm([](const Vec3&) { return Vec3(0.0, 1.0, 0.0); }));
+  ASSERT_TRUE(bench.arm(push));
   bench.wire.model.silent = true;
-  ASSERT_EQ(bench.tick(), Status::Ok) << "one answer is under way";
+  ASSERT_EQ(bench.tick(push), Status::Ok) << "one answer is under way";
   const double y = bench.hand.position.y;
   int ok = 0;
   Status status = Status::Ok;
-  while ((status = bench.tick()) == Status::Ok)
+  while ((status = bench.tick(push)) == Status::Ok)
   {
     ++ok;
+    ASSERT_NE(bench.device->raw().command.motors, kNoTorque) << "the last position serves";
     ASSERT_EQ(bench.hand.position.y, y);
   }
   EXPECT_EQ(status, Status::DeviceSilent);
   EXPECT_NEAR(ok, 19, 1);
   for (int i = 0; i < 100; ++i)
   {
-    EXPECT_EQ(bench.tick(), Status::DeviceSilent);
-    EXPECT_EQ(bench.device->raw().command.motors, (std::array<std::int16_t, 3>{}));
+    EXPECT_EQ(bench.device->raw().command.motors, kNoTorque) << i;
+    EXPECT_EQ(bench.tick(push), Status::DeviceSilent);
   }
   EXPECT_GE(bench.device->statistics().timeouts, 3u);
   bench.wire.model.silent = false;
   // It answers again: the position is back, and the force begins with the ramp.
-  static_cast<void>(bench.tick());
+  static_cast<void>(bench.tick(push));
   felt(bench);
   for (int i = 0; i < 50; ++i)
   {
-    ASSERT_EQ(bench.tick([](const Vec3&) { return Vec3(0.0, 1.0, 0.0); }), Status::Ok);
+    ASSERT_EQ(bench.tick(push), Status::Ok);
   }
   EXPECT_LT(felt(bench), 0.1);
 }
@@ -210,7 +245,6 @@ TEST(FalconDevice, AJumpOfTheEncodersGivesNoForceUntilItIsBelieved)
 {
   FalconBench bench;
   ASSERT_EQ(bench.device->open(), Status::Ok);
-  const auto push = [](const Vec3&) { return Vec3(0.0, 1.0, 0.0); };
   ASSERT_TRUE(bench.arm(push));
   bench.wire.model.hand.position = kCenter + Vec3(0.03, 0.02, -0.03);
   bench.wire.model.hand.wanted = bench.wire.model.hand.position;
@@ -218,15 +252,141 @@ TEST(FalconDevice, AJumpOfTheEncodersGivesNoForceUntilItIsBelieved)
   const Vec3 before = bench.hand.position;
   EXPECT_EQ(bench.tick(push), Status::DeviceBadReply);
   EXPECT_EQ(bench.hand.position, before) << "held";
-  EXPECT_EQ(bench.device->raw().command.motors, (std::array<std::int16_t, 3>{}));
+  EXPECT_FALSE(bench.hand.isNew);
   int bad = 1;
-  while (bench.tick(push) == Status::DeviceBadReply)
+  do
   {
+    EXPECT_EQ(bench.device->raw().command.motors, kNoTorque) << bad;
     ++bad;
-  }
+  } while (bench.tick(push) == Status::DeviceBadReply);
+  --bad;
+  EXPECT_TRUE(bench.hand.isNew) << "it did not move there";
+  EXPECT_EQ(bench.tick(push), Status::Ok);
+  EXPECT_FALSE(bench.hand.isNew);
   EXPECT_LE(bad, 6);
   EXPECT_NEAR(bench.hand.position.x, 0.03, 1e-3);
   EXPECT_EQ(bench.device->statistics().badReplies, std::uint64_t(bad));
+}
+
+TEST(FalconDevice, BelievesNoJumpWhoseAnswersContradictEachOther)
+{
+  FalconBench bench;
+  ASSERT_EQ(bench.device->open(), Status::Ok);
+  ASSERT_TRUE(bench.arm(push));
+  ASSERT_EQ(bench.tick(push), Status::Ok);
+  Vec3 before;
+  const Vec3 places[] = { { 0.03, 0.0, 0.0 }, { -0.03, 0.0, 0.0 }, { 0.0, 0.0, -0.04 } };
+  for (int i = 0; i < 30; ++i)
+  {
+    bench.wire.model.hand.position = bench.wire.model.hand.wanted = kCenter + places[i % 3];
+    const Status status = bench.tick(push);
+    EXPECT_EQ(status, i == 0 ? Status::Ok : Status::DeviceBadReply) << i;
+    before = i == 0 ? bench.hand.position : before;
+    EXPECT_EQ(bench.hand.position, before) << "held";
+  }
+}
+
+TEST(FalconDevice, CatchesUpAfterAnAnswerThatCameATickTooLate)
+{
+  std::deque<std::uint8_t> onTheWay;
+  int none = 2;
+  FalconBench bench; // uses them until it closes
+  ASSERT_EQ(bench.device->open(), Status::Ok);
+  ASSERT_TRUE(bench.arm(push));
+  EXPECT_EQ(bench.device->statistics().largestUnanswered, 0u);
+  // From now on a packet holds one answer, and the two first packets hold none.
+  bench.wire.distort = [&](std::vector<std::uint8_t>& bytes)
+  {
+    onTheWay.insert(onTheWay.end(), bytes.begin(), bytes.end());
+    const std::size_t count = none-- > 0 ? 0 : std::min<std::size_t>(onTheWay.size(), kFalconFrameSize);
+    bytes.assign(onTheWay.begin(), onTheWay.begin() + std::ptrdiff_t(count));
+    onTheWay.erase(onTheWay.begin(), onTheWay.begin() + std::ptrdiff_t(count));
+  };
+  for (int i = 0; i < 5; ++i)
+  {
+    ASSERT_EQ(bench.tick(), Status::Ok);
+  }
+  bench.wire.model.hand.position = bench.wire.model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.003);
+  bench.wire.model.hand.velocity = {};
+  ASSERT_EQ(bench.tick(), Status::Ok);
+  ASSERT_EQ(bench.tick(), Status::Ok);
+  EXPECT_NEAR(bench.hand.position.z, 0.003, 100e-6) << "the position of the tick before";
+}
+
+TEST(FalconDevice, CountsADelayThatWaitingDoesNotCure)
+{
+  std::deque<std::vector<std::uint8_t>> onTheWay;
+  int asked = 0;
+  FalconBench bench; // uses them until it closes
+  ASSERT_EQ(bench.device->open(), Status::Ok);
+  ASSERT_TRUE(bench.arm(push));
+  // Two answers are always under way.
+  bench.wire.distort = [&](std::vector<std::uint8_t>& bytes)
+  {
+    ++asked;
+    if (!bytes.empty())
+    {
+      onTheWay.push_back(bytes);
+      bytes.clear();
+    }
+    if (onTheWay.size() > 2)
+    {
+      bytes = onTheWay.front();
+      onTheWay.pop_front();
+    }
+  };
+  for (int i = 0; i < 100; ++i)
+  {
+    ASSERT_EQ(bench.tick(push), Status::Ok);
+  }
+  EXPECT_EQ(bench.device->statistics().largestUnanswered, 2u);
+  EXPECT_LE(asked, 150) << "no tick waits for ever for what does not come";
+}
+
+TEST(FalconDevice, AHandThatHomesElsewhereComesToTheSurfaceAnew)
+{
+  FalconBench bench;
+  bench.wire.model.hand.position = bench.wire.model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.003);
+  ASSERT_EQ(bench.device->open(), Status::Ok);
+  ServoLoop loop;
+  loop.publishScene(plane());
+  ASSERT_EQ(loop.start(*bench.device, HapticParameters(), plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return loop.latest().state.hip.z > 0.0029; }));
+  {
+    const std::lock_guard<std::mutex> lock(bench.wire.mutex);
+    bench.wire.model.homesByItself = false;
+    bench.wire.model.loseHoming();
+    bench.wire.model.hand.position = kCenter - Vec3(0.0, 0.0, 0.03);
+  }
+  ASSERT_TRUE(eventually([&] { return bench.device->state() == FalconState::Unhomed; }));
+  {
+    const std::lock_guard<std::mutex> lock(bench.wire.mutex);
+    bench.wire.model.home();
+  }
+  ASSERT_TRUE(eventually([&] { return loop.latest().state.hip.z < -0.029; }));
+  EXPECT_FALSE(loop.latest().state.contact) << "it did not go through the surface";
+  loop.stop();
+}
+
+TEST(FalconDevice, RampsAnewAndNoticesSilenceWhenAnotherLoopTakesIt)
+{
+  FalconBench bench;
+  ASSERT_EQ(bench.device->open(), Status::Ok);
+  ASSERT_TRUE(bench.arm(push));
+  bench.time = 0.0;
+  ASSERT_EQ(bench.tick(push), Status::Ok);
+  felt(bench);
+  for (int i = 0; i < 50; ++i)
+  {
+    ASSERT_EQ(bench.tick(push), Status::Ok);
+  }
+  EXPECT_LT(felt(bench), 0.1) << "the ramp";
+  bench.wire.model.silent = true;
+  for (int i = 0; i < 25; ++i)
+  {
+    static_cast<void>(bench.tick(push));
+  }
+  EXPECT_EQ(bench.device->statistics().timeouts, 1u);
 }
 
 TEST(FalconDevice, SurvivesUnpluggingThreeTimesAndHomesAnew)

@@ -38,6 +38,7 @@ public:
   int wrongEchoes = 0;   ///< So many blocks of firmware are echoed wrongly.
   bool zeroBeforeReply = false;
   bool silent = false;       ///< Takes everything, says nothing.
+  double motorSign = 1.0;    ///< -1: motors wired the wrong way round.
   bool homesByItself = true; ///< Homed from the first frame with the homing bit; else see home().
   FalconHand hand;
   std::vector<std::uint8_t> expectedFirmware;
@@ -65,6 +66,7 @@ public:
   }
   /// The person pulled the grip out and pushed it in: from now on the counts are true.
   void home() { homed_ = true; }
+  void loseHoming() { homed_ = false; }
 
   void control(std::uint8_t request, std::uint16_t value)
   {
@@ -151,7 +153,7 @@ private:
       }
       for (std::size_t i = 0; i < 3; ++i)
       {
-        result[axis] += double(command.motors[i]) / -10000.0 * (high[i] - low[i]) / (2.0 * h);
+        result[axis] += motorSign * double(command.motors[i]) / -10000.0 * (high[i] - low[i]) / (2.0 * h);
       }
     }
     return result;

@@ -126,13 +126,21 @@ public:
     std::vector<HidFound> all{ { 0x046d, 0xc077, "/dev/mouse", "An ordinary mouse" } };
     if (desk_.plugged)
     {
-      all.push_back({ 0x256f, 0xc635, "/dev/cap", "SpaceMouse Compact" });
+      // As a receiver: its keys, a cap that somebody else holds, the cap.
+      all.push_back({ 0x256f, 0xc635, "/dev/keys", "SpaceMouse Compact", 1, 6 });
+      all.push_back({ 0x256f, 0xc635, "/dev/taken", "SpaceMouse Compact", 1, 8 });
+      all.push_back({ 0x256f, 0xc635, "/dev/cap", "SpaceMouse Compact", 1, 8 });
     }
     return all;
   }
   std::unique_ptr<HidLink> open(const HidFound& device, std::string& message) override
   {
     const std::lock_guard<std::mutex> lock(desk_.mutex);
+    if (device.path == "/dev/taken")
+    {
+      message = "taken";
+      return nullptr;
+    }
     EXPECT_EQ(device.path, "/dev/cap");
     message = desk_.refuses ? "may not" : "";
     ++desk_.opened;
