@@ -29,6 +29,14 @@ struct FalconHand
   Vec3 velocity;
 };
 
+/// A vendor request of the host to the serial chip.
+struct FalconControl
+{
+  std::uint8_t request = 0;
+  std::uint16_t value = 0;
+  std::size_t bytesBefore = 0; ///< So many the host had sent by then.
+};
+
 /// Bytes in, bytes out, time by the caller. One thread at a time.
 class FalconModel
 {
@@ -44,6 +52,8 @@ public:
   std::vector<std::uint8_t> expectedFirmware;
 
   // What it has seen.
+  std::vector<FalconControl> controls; ///< Of all times.
+  std::size_t bytesTaken = 0;          ///< The host has sent.
   std::vector<std::uint8_t> firmware;
   int framesWithoutHomingBit = 0;
   int frames = 0;
@@ -70,6 +80,7 @@ public:
 
   void control(std::uint8_t request, std::uint16_t value)
   {
+    controls.push_back({ request, value, bytesTaken });
     if (request == 0 && (value == 0 || value == 1))
     {
       out_.clear();
@@ -93,6 +104,7 @@ public:
 
   void write(const std::uint8_t* bytes, std::size_t count)
   {
+    bytesTaken += count;
     for (std::size_t i = 0; i < count; ++i)
     {
       take(bytes[i]);
