@@ -66,14 +66,26 @@ EmulatedFalcon::~EmulatedFalcon()
   {
     unplug();
   }
+  if (handler_)
+  {
+    umockdev_testbed_detach_ioctl(bed_, kNode, nullptr);
+    g_object_unref(handler_);
+  }
 }
 
+/// The first time, before the node is there, somebody begins to listen to whoever will open it. That never
+/// ends by an unplugging: a user who opens the node just then has connected, but waits to be accepted. Who
+/// stops to listen cuts that connection, and the next call on it, the user's first, would end the program
+/// ("Error communicating with ioctl socket").
 void EmulatedFalcon::plugIn()
 {
   GError* error = nullptr;
-  handler_ = umockdev_ioctl_base_new();
-  g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(&EmulatedFalcon::onIoctl), this);
-  ASSERT_TRUE(umockdev_testbed_attach_ioctl(bed_, kNode, handler_, &error)) << error->message;
+  if (!handler_)
+  {
+    handler_ = umockdev_ioctl_base_new();
+    g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(&EmulatedFalcon::onIoctl), this);
+    ASSERT_TRUE(umockdev_testbed_attach_ioctl(bed_, kNode, handler_, &error)) << error->message;
+  }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     plugged_ = true;
@@ -102,14 +114,10 @@ void EmulatedFalcon::unplug()
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   umockdev_testbed_uevent(bed_, kPath, "remove");
-  GError* error = nullptr;
-  umockdev_testbed_detach_ioctl(bed_, kNode, &error);
   umockdev_testbed_remove_device(bed_, kPath);
   char* const root = umockdev_testbed_get_root_dir(bed_);
   unlink((std::string(root) + kNode).c_str());
   g_free(root);
-  g_object_unref(handler_);
-  handler_ = nullptr;
   const std::lock_guard<std::mutex> lock(mutex_);
   for (Transfer& transfer : transfers_)
   {

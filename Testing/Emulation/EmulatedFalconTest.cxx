@@ -8,7 +8,15 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cerrno>
+#include <cstdint>
+#include <thread>
+
+#include <fcntl.h>
+#include <linux/usbdevice_fs.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 using namespace pointhaptics;
 using namespace pointhaptics::trial;
@@ -177,4 +185,37 @@ TEST_F(EmulatedUsb, SurvivesUnpluggingInContactThreeTimes)
   loop.stop();
   device.close();
   EXPECT_FALSE(falcon.claimed());
+}
+
+TEST_F(EmulatedUsb, MayBeUnpluggedWhileSomebodyOpensIt)
+{
+  std::atomic<bool> ends{ false };
+  std::atomic<int> answered{ 0 };
+  std::thread user(
+    [&]
+    {
+      while (!ends)
+      {
+        // A node that is not there costs umockdev a place in a small table.
+        const char* const name = "/dev/bus/usb/001/002";
+        const int node = access(name, F_OK) == 0 ? open(name, O_RDWR) : -1;
+        std::uint32_t capabilities = 0;
+        answered += node >= 0 && ioctl(node, USBDEVFS_GET_CAPABILITIES, &capabilities) == 0 ? 1 : 0;
+        if (node >= 0)
+        {
+          close(node);
+        }
+      }
+    });
+  for (int round = 0; round < 30; ++round)
+  {
+    falcon.plugIn();
+    const int before = answered;
+    EXPECT_TRUE(eventually([&] { return answered > before; })) << round;
+    // At another moment of the next opening each time.
+    std::this_thread::sleep_for(std::chrono::microseconds(50 * round));
+    falcon.unplug();
+  }
+  ends = true;
+  user.join();
 }
