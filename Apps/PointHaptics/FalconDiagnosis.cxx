@@ -1,5 +1,6 @@
 #include "FalconDiagnosis.h"
 
+#include "Messages.h"
 #include "StopSignals.h"
 
 #include "Haptics/LatestValue.h"
@@ -108,7 +109,7 @@ public:
 private:
   void note(const std::string& line)
   {
-    fmt::print("{}\n", line);
+    printNow(stdout, line + "\n");
     report_ << line << std::endl; // what was found stays, whatever comes next
   }
   /// @p result and whether it is as it should be, on one line.
@@ -161,12 +162,11 @@ std::string answerOfPerson()
 /// The answer goes into the report. The loop goes on meanwhile.
 void Diagnosis::ask(const std::string& question)
 {
-  fmt::print("{} ", question);
-  std::fflush(stdout);
+  printNow(stdout, question + " ");
   std::string answer;
   if (yes_)
   {
-    fmt::print("\n");
+    printNow(stdout, "\n");
   }
   else
   {
@@ -206,7 +206,7 @@ void Diagnosis::checkLamps(FalconDevice& device)
 bool Diagnosis::checkHoming(FalconDevice& device)
 {
   note("\n2. Homing");
-  fmt::print(
+  printNow(stdout,
     "   Pull the grip all the way out, then push it all the way in; do it again if nothing happens.\n");
   int last = -1;
   const bool homed = waitFor(
@@ -314,7 +314,7 @@ bool Diagnosis::run(std::string& message)
   note(
     "Novint Falcon, checks with its owner. Nothing pushes with more than 0.5 N; Ctrl+C ends it at any time.");
   FalconDevice device(settings_);
-  fmt::print("Starting the Falcon; loading its firmware takes some seconds.\n");
+  printNow(stdout, "Starting the Falcon; loading its firmware takes some seconds.\n");
   const Status status = device.open();
   if (status != Status::Ok)
   {
@@ -378,7 +378,7 @@ bool diagnoseFalcon(
     message = reportFile + ": not all of it could be written; check the space left";
     return false;
   }
-  fmt::print("\nreport: {}\n", reportFile);
+  printNow(stdout, fmt::format("\nreport: {}\n", reportFile));
   if (done && stopIsRequested())
   {
     message = "stopped on request; what was checked is in " + reportFile;

@@ -29,6 +29,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -249,8 +250,9 @@ bool touch(
   {
     return false;
   }
-  fmt::print(stderr, "{:.0f} Hz, {} ticks missed, {} device faults, lateness p99 {:.0f} us\n",
-    statistics.rateHz, statistics.missedTicks, statistics.deviceFaults, 1e6 * statistics.lateness.p99);
+  printNow(stderr,
+    fmt::format("{:.0f} Hz, {} ticks missed, {} device faults, lateness p99 {:.0f} us\n", statistics.rateHz,
+      statistics.missedTicks, statistics.deviceFaults, 1e6 * statistics.lateness.p99));
   return true;
 }
 

@@ -3,8 +3,6 @@
 #include "Messages.h"
 #include "StopSignals.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
 #include <cstdio>
 #include <thread>
@@ -56,7 +54,7 @@ bool feelLive(const LiveSettings& settings, std::shared_ptr<const HapticScene> s
   {
     if (const std::string line = news.next(device); !line.empty())
     {
-      fmt::print(stderr, "{}\n", line);
+      printNow(stderr, line + "\n");
     }
     pass();
     const double time = loop.latest().timeSeconds;

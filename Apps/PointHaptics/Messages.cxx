@@ -103,13 +103,19 @@ MessageCollector* collector()
 
 int fail(const std::string& command, const std::string& message)
 {
-  fmt::print(stderr, "pointhaptics {}: {}\n", command, oneLine(message));
+  printNow(stderr, fmt::format("pointhaptics {}: {}\n", command, oneLine(message)));
   return kFailed;
 }
 
 void warn(const std::string& command, const std::string& message)
 {
-  fmt::print(stderr, "pointhaptics {}: warning: {}\n", command, oneLine(message));
+  printNow(stderr, fmt::format("pointhaptics {}: warning: {}\n", command, oneLine(message)));
+}
+
+void printNow(std::FILE* stream, const std::string& text) noexcept
+{
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stream));
+  static_cast<void>(std::fflush(stream));
 }
 
 void printJson(const nlohmann::ordered_json& object)

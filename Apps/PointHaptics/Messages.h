@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ namespace app
 int fail(const std::string& command, const std::string& message);
 /// Prints `pointhaptics COMMAND: warning: message` on stderr.
 void warn(const std::string& command, const std::string& message);
+
+/// Prints @p text on @p stream at once. Never throws: where nobody reads it any more, or there is no space,
+/// it is lost, and a program that holds a force goes on; main() tells in the end of a stdout that failed.
+void printNow(std::FILE* stream, const std::string& text) noexcept;
 
 /// Prints one object on stdout, in one line; names that are no UTF-8 get replacement characters.
 void printJson(const nlohmann::ordered_json& object);

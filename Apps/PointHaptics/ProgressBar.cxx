@@ -1,5 +1,6 @@
 #include "ProgressBar.h"
 
+#include "Messages.h"
 #include "StopSignals.h"
 
 #include <fmt/format.h>
@@ -63,8 +64,7 @@ ProgressBar::~ProgressBar()
   }
   if (drawn_)
   {
-    std::fputs("\r\033[K", stderr);
-    std::fflush(stderr);
+    printNow(stderr, "\r\033[K");
   }
 }
 
@@ -78,9 +78,8 @@ void ProgressBar::show(double fraction)
   drawn_ = true;
   const double part = std::clamp(fraction, 0.0, 1.0);
   const int filled = static_cast<int>(part * kWidth);
-  fmt::print(
-    stderr, "\r{} [{:#<{}}{: >{}}] {:3.0f} %", label_, "", filled, "", kWidth - filled, 100.0 * part);
-  std::fflush(stderr);
+  printNow(stderr,
+    fmt::format("\r{} [{:#<{}}{: >{}}] {:3.0f} %", label_, "", filled, "", kWidth - filled, 100.0 * part));
 }
 
 } // namespace app

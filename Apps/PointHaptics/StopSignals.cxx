@@ -16,6 +16,8 @@ volatile std::sig_atomic_t requested = 0;
 
 void rememberStopSignals()
 {
+  // A reader that ends - view ... | head - must not end a program that pushes.
+  std::signal(SIGPIPE, SIG_IGN);
   struct sigaction action = {};
   action.sa_handler = [](int signal) { requested = signal; };
   // Once: whoever presses Ctrl+C again means it.

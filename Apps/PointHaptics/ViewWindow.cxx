@@ -162,8 +162,7 @@ void ViewWindow::openFalcon()
 {
   falcon_ = std::make_unique<FalconDevice>(options_.falcon.settings());
   device_ = falcon_.get();
-  fmt::print("falcon: starting; loading its firmware takes some seconds\n");
-  std::fflush(stdout);
+  printNow(stdout, "falcon: starting; loading its firmware takes some seconds\n");
 }
 
 bool ViewWindow::openDevice(std::string& message)
@@ -376,8 +375,7 @@ void ViewWindow::followDevices()
 
 void ViewWindow::say(const std::string& news)
 {
-  fmt::print("{}\n", news);
-  std::fflush(stdout);
+  printNow(stdout, news + "\n");
   news_ = news;
   this->showNote();
 }
@@ -440,7 +438,7 @@ bool ViewWindow::finish(std::string& message)
     {
       return false;
     }
-    fmt::print("trace: {}\n", options_.trace);
+    printNow(stdout, fmt::format("trace: {}\n", options_.trace));
   }
   if (!options_.forceChart.empty())
   {
@@ -450,7 +448,7 @@ bool ViewWindow::finish(std::string& message)
         "{}: cannot be written; check that its folder exists and can be written", options_.forceChart);
       return false;
     }
-    fmt::print("force chart: {}\n", options_.forceChart);
+    printNow(stdout, fmt::format("force chart: {}\n", options_.forceChart));
   }
   return true;
 }

@@ -154,9 +154,9 @@ int main(int argc, char* argv[])
   try
   {
     const int exitCode = run(std::vector<std::string>(argv + 1, argv + argc));
-    if (std::fflush(stdout) != 0)
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) // all of it, from the first line on
     {
-      return fail(command, "the standard output cannot be written; check the space left");
+      return fail(command, "the standard output cannot be written; check the space left, and who reads it");
     }
     return exitCode;
   }

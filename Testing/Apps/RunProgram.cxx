@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -49,7 +50,7 @@ CommandLine::~CommandLine()
   std::filesystem::remove_all(folder_ + ".err", error);
 }
 
-pid_t CommandLine::start(const std::vector<std::string>& arguments) const
+pid_t CommandLine::start(const std::vector<std::string>& arguments, int output) const
 {
   std::vector<char*> words = { const_cast<char*>(POINTHAPTICS_PROGRAM) };
   for (const std::string& argument : arguments)
@@ -61,7 +62,12 @@ pid_t CommandLine::start(const std::vector<std::string>& arguments) const
   if (child == 0)
   {
     redirect(folder_ + ".out", STDOUT_FILENO);
+    if (output >= 0)
+    {
+      dup2(output, STDOUT_FILENO);
+    }
     redirect(folder_ + ".err", STDERR_FILENO);
+    std::signal(SIGPIPE, SIG_DFL); // as a shell starts it
     if (chdir(folder_.c_str()) == 0)
     {
       execv(POINTHAPTICS_PROGRAM, words.data());

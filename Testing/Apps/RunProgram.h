@@ -32,7 +32,8 @@ protected:
   /// Runs `pointhaptics arguments...` in the folder, without a shell.
   Outcome run(const std::vector<std::string>& arguments) const;
   /// The two halves of run(), for a test that does something in between; one program at a time.
-  pid_t start(const std::vector<std::string>& arguments) const;
+  /// @p output: where stdout goes instead of into Outcome::output.
+  pid_t start(const std::vector<std::string>& arguments, int output = -1) const;
   Outcome finish(pid_t child) const;
   /// Expects success and nothing on stderr. @return stdout.
   std::string succeed(const std::vector<std::string>& arguments) const;

@@ -10,6 +10,9 @@
 #include <functional>
 #include <thread>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace
 {
 
@@ -125,6 +128,31 @@ TEST_F(Stop, InTheMiddleOfFeelingLeavesNoFileBehind)
       [this](pid_t) { return this->unfinishedFiles() > 0; });
     this->expectStopped(outcome, 130, "pointhaptics feel: out.csv: feeling was");
     EXPECT_EQ(this->files(), (std::vector<std::string>{ "in.ply", "path.csv" }));
+  }
+}
+
+TEST_F(Stop, OfItsReaderTakesNoFileFromTheUser)
+{
+  this->succeed({ "generate", "sphere", "-n", "5000", "-o", "in.ply" });
+  this->write("path.csv", "t,x,y,z\n0,0,0,0.03\n0.1,0,0,0.02\n");
+  const std::vector<std::string> commands[] = { { "generate", "sphere", "-n", "1000", "-o", "out.csv" },
+    { "resample", "in.ply", "--unit", "m", "-o", "out.csv" },
+    { "feel", "in.ply", "--unit", "m", "--path", "path.csv", "--device", "simulated", "-o", "out.csv" } };
+  for (const std::vector<std::string>& command : commands)
+  {
+    SCOPED_TRACE(command[0]);
+    int ends[2];
+    this->write("out.csv", "old");
+    ASSERT_EQ(pipe2(ends, O_CLOEXEC), 0);
+    close(ends[0]); // as `| head` does when it has enough
+    const Outcome outcome = this->finish(this->start(command, ends[1]));
+    close(ends[1]);
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("the standard output cannot be written"), std::string::npos)
+      << outcome.errors;
+    EXPECT_EQ(this->files(), (std::vector<std::string>{ "in.ply", "out.csv", "path.csv" }));
+    EXPECT_NE(this->read("out.csv"), "old");
   }
 }
 

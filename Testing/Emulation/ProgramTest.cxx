@@ -68,7 +68,8 @@ protected:
         arguments.push_back(word.data());
       }
       arguments.push_back(nullptr);
-      const int out = open(path("out.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+      const int out = talk >= 0 ? talk : open(path("out.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+      std::signal(SIGPIPE, SIG_DFL); // as a shell starts it
       const int none = input >= 0 ? input : open("/dev/null", O_RDONLY);
       dup2(out, 1);
       dup2(out, 2);
@@ -95,8 +96,51 @@ protected:
     return text.str();
   }
 
+  /// Once it pushes, nobody reads any more what the program says, and the device gives it something to say:
+  /// it goes on, until it is asked to end, and lets go in order.
+  void goOnWithoutAReader(std::vector<std::string> words)
+  {
+    falcon.plugIn();
+    ASSERT_EQ(run({ "generate", "sphere", "-n", "20000", "-o", path("sphere.ply") }), 0) << output();
+    int ends[2];
+    ASSERT_EQ(pipe2(ends, O_CLOEXEC), 0);
+    talk = ends[1];
+    words.insert(words.end(), { "--falcon-firmware", file.path() });
+    const pid_t child = begin(std::move(words));
+    close(ends[1]);
+    const auto pushes = [&](int frames)
+    {
+      return falcon.with([&](FalconModel& model)
+        { return (model.command.lamps & kFalconLampGreen) != 0 && model.frames > frames; });
+    };
+    EXPECT_TRUE(eventually([&] { return pushes(300); }));
+    close(ends[0]);
+    const auto loseHoming = [](FalconModel& model)
+    {
+      model.homesByItself = false;
+      model.loseHoming();
+    };
+    falcon.with(loseHoming); // "falcon: blue light ..."
+    EXPECT_TRUE(eventually([&] { return !pushes(0); }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    ASSERT_EQ(waitpid(child, nullptr, WNOHANG), 0) << "it has ended";
+    falcon.with([](FalconModel& model) { model.home(); });
+    const int frames = falcon.with([](FalconModel& model) { return model.frames; });
+    EXPECT_TRUE(eventually([&] { return pushes(frames + 50); }, 20.0));
+    kill(child, SIGTERM);
+    EXPECT_EQ(finish(child), 1) << "not all could be said";
+    falcon.with(
+      [](FalconModel& model)
+      {
+        EXPECT_GE(model.frozenFrames, 3);
+        EXPECT_EQ(model.command.lamps, kFalconLampNone);
+      });
+    EXPECT_FALSE(falcon.claimed());
+  }
+
   FirmwareFile file;
   int input = -1; ///< Of the program; below 0: /dev/null.
+  int talk = -1;  ///< Where it says what it says; below 0: into out.txt.
   EmulatedFalcon falcon;
   std::filesystem::path folder;
 };
@@ -208,6 +252,24 @@ TEST_F(EmulatedMachine, TheWindowFeelsWithTheFalconAndLetsGoInOrder)
       EXPECT_EQ(model.command.lamps, kFalconLampNone);
     });
   EXPECT_NE(output().find("falcon: green light"), std::string::npos) << output();
+}
+
+TEST_F(EmulatedMachine, FeelingGoesOnWhenNobodyReadsWhatItSays)
+{
+  goOnWithoutAReader({ "feel", path("sphere.ply"), "--device", "falcon", "-o", path("out.csv") });
+  const std::string table = read("out.csv");
+  EXPECT_EQ(table.rfind("t,hip_x,", 0), 0u);
+  EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 100) << "what was felt is there";
+}
+
+TEST_F(EmulatedMachine, TheWindowGoesOnWhenNobodyReadsWhatItSays)
+{
+  const char* const display = std::getenv("DISPLAY");
+  if (!display || !*display)
+  {
+    GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
+  }
+  goOnWithoutAReader({ "view", path("sphere.ply"), "--device", "auto", "--size", "320x240" });
 }
 
 TEST_F(EmulatedMachine, RefusesASpringTheFalconCannotBear)
