@@ -76,7 +76,8 @@ public:
   std::size_t bytes() const;
 
 private:
-  static constexpr std::size_t kMostRanges = 64;
+  static constexpr int kRangeBits = 6;
+  static constexpr std::size_t kMostRanges = std::size_t(1) << kRangeBits;
   static constexpr std::uint8_t kNowhere = 255;
 
   /// voxel index << fractionBits | place in the voxel
@@ -91,12 +92,14 @@ private:
     std::size_t firstPoint;
   };
 
+  /// Without branches: nobody could guess them.
   std::size_t rangeOf(std::uint64_t key) const
   {
     std::size_t range = 0;
-    for (std::size_t step = kMostRanges / 2; step > 0; step /= 2)
+    for (int bit = kRangeBits - 1; bit >= 0; --bit)
     {
-      range += key >= starts_[range + step - 1] ? step : 0;
+      const std::size_t step = std::size_t(1) << bit;
+      range |= std::size_t(key >= starts_[range + step - 1]) << bit;
     }
     return range;
   }
