@@ -88,8 +88,8 @@ struct VoxelRequest
 /// of the points. Memory beyond input and results: 16 bytes for each of at most 1.25 million points, 60 bytes
 /// an active voxel (20 of them its results, where these are not in the caller's memory), a few megabytes;
 /// lattices beyond 4096 an axis: 30 bytes (38 for assign()) for each of at most 524,288 points and 66 an
-/// active voxel; covariances: 100 an active voxel more. One object is used by one thread at a time; the
-/// executor's threads may be many.
+/// active voxel; covariances: 100 an active voxel more, 132 on these. One object is used by one thread at a
+/// time; the executor's threads may be many.
 class VoxelResampler
 {
 public:
