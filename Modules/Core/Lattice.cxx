@@ -7,6 +7,11 @@ namespace pointhaptics
 namespace
 {
 
+/// Smaller extents are none: of denormal numbers too few bits are left to part them.
+constexpr double kSmallestExtent = 1e-290;
+/// Voxels on an axis of the workspace invented for a cloud without extent, at most.
+constexpr double kInventedVoxels = 1024.0;
+
 /// Cube about the cloud with half a voxel to spare on each side, of the axis that has most of them.
 Status automaticBounds(const LatticeSettings& settings, const Bounds& cloud, Bounds& box) noexcept
 {
@@ -19,9 +24,12 @@ Status automaticBounds(const LatticeSettings& settings, const Bounds& cloud, Bou
     return Status::InvalidWorkspace;
   }
   // An extent lost in the rounding of the coordinates is no extent.
-  if (!(edge > 1e-13 * coordinate))
+  if (!(edge > std::max(1e-13 * coordinate, kSmallestExtent)))
   {
-    edge = std::max(kDefaultWorkspaceEdge, 1e-6 * coordinate);
+    const double invented = settings.voxelSize > 0.0
+      ? std::min(kDefaultWorkspaceEdge, kInventedVoxels * settings.voxelSize)
+      : kDefaultWorkspaceEdge;
+    edge = std::max({ edge, invented, 1e-6 * coordinate });
   }
   const std::int64_t most =
     std::max({ settings.dimensions[0], settings.dimensions[1], settings.dimensions[2] });

@@ -92,9 +92,10 @@ struct LatticeSettings
 
 /// The lattice for a cloud whose transformed, finite points lie in @p cloud (which may be empty).
 /// An automatic workspace is a cube about the cloud, half a voxel (on its finest axis) wider on each side,
-/// so that no point lies on a face; a cloud without extent gets kDefaultWorkspaceEdge, or 1e-6 of its
-/// coordinates if that is more. With voxelSize the number of voxels is rounded up. Errors: InvalidWorkspace,
-/// InvalidDimensions, InvalidVoxelSize, LatticeNotAddressable; @p lattice is then unchanged.
+/// so that no point lies on a face; a cloud without extent, which one below 1e-290 is too, gets
+/// kDefaultWorkspaceEdge, with voxelSize at most 1024 voxels, or 1e-6 of its coordinates if that is more.
+/// With voxelSize the number of voxels is rounded up. Errors: InvalidWorkspace, InvalidDimensions,
+/// InvalidVoxelSize, LatticeNotAddressable; @p lattice is then unchanged.
 Status makeLattice(const LatticeSettings& settings, const Bounds& cloud, Lattice& lattice) noexcept;
 
 } // namespace pointhaptics

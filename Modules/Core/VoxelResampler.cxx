@@ -1,11 +1,9 @@
 #include "Core/VoxelResampler.h"
 
-#include "Core/Kernel/GeneralVoxels.h"
 #include "Core/PointIndex.h"
 #include "Core/VoxelResamplerImplementation.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pointhaptics
 {
@@ -19,13 +17,13 @@ constexpr int kMostLevels = 22;
 
 }
 
-bool VoxelResampler::Implementation::isPlanned(const VoxelRequest& request, std::int64_t points) const
+int VoxelResampler::Implementation::halvingsOf(const Lattice& lattice)
 {
-  const int indexBits = indexBitsOf(request.lattice);
-  // The sums of places, over all points in one voxel at worst, must fit 63 bits.
-  return indexBits >= kMinimumIndexBits && indexBits <= kMaximumIndexBits &&
-    double(points) * std::ldexp(1.0, kPositionBits - indexBits) < 0x1p62 &&
-    hasOrdinarySpacing(request.lattice);
+  const int indexBits = indexBitsOf(lattice);
+  const int halvings = std::max(kMinimumIndexBits - indexBits, 0);
+  const bool isPlanned =
+    indexBits <= kMaximumIndexBits && hasOrdinarySpacing(finerLattice(lattice, halvings));
+  return isPlanned ? halvings : -1;
 }
 
 Status VoxelResampler::Implementation::run(
@@ -45,9 +43,9 @@ Status VoxelResampler::Implementation::run(
     }
   }
   levels[0].lattice = request.lattice;
-  const std::int64_t points = request.points.size();
-  const Status status = isPlanned(request, points) ? runPlanned(request, executor, watcher)
-                                                   : runGeneral(request, executor, watcher);
+  halvings_ = halvingsOf(request.lattice);
+  const Status status =
+    halvings_ >= 0 ? runPlanned(request, executor, watcher) : runGeneral(request, executor, watcher);
   if (status != Status::Ok)
   {
     clear();
@@ -62,31 +60,7 @@ void VoxelResampler::Implementation::clear()
   levels[0].size = 0;
   clipped = invalid = 0;
   poolHoldsAll_ = false;
-}
-
-Status VoxelResampler::Implementation::runGeneral(
-  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
-{
-  const int indexBits = indexBitsOf(request.lattice);
-  placement_ = makePlacement(request.transform, request.lattice, indexBits, positionBitsFor(indexBits));
-  GeneralAdder adder(placement_, request.lattice, request.covariances);
-  for (std::int64_t first = 0; first < request.points.size(); first += kGeneralChunk)
-  {
-    adder.add(request.points, first, std::min(kGeneralChunk, request.points.size() - first), executor);
-    if (watcher &&
-      !watcher->proceed(shareOfFinest(request) *
-        std::min(1.0, double(first + kGeneralChunk) / double(request.points.size()))))
-    {
-      return Status::Aborted;
-    }
-  }
-  invalid = adder.invalid();
-  clipped = request.points.size() - adder.inside() - invalid;
-  VoxelSumList list = adder.take();
-  levels[0].arena.write(
-    list, { request.singlePrecision, request.keys, request.covariances }, request.lattice, request.memory);
-  levels[0].size = std::int64_t(list.voxels.size());
-  return request.levels > 1 ? addLevels(request, std::move(list), watcher) : Status::Ok;
+  runs_.reset(0, 0);
 }
 
 Status VoxelResampler::Implementation::addLevels(
@@ -112,39 +86,14 @@ Status VoxelResampler::Implementation::addLevels(
 Status VoxelResampler::Implementation::assign(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
 {
-  return isPlanned(request, request.points.size()) ? assignPlanned(request, visit, executor, watcher)
-                                                   : assignGeneral(request, visit, executor, watcher);
-}
-
-/// Point by point, in this thread.
-Status VoxelResampler::Implementation::assignGeneral(
-  const VoxelRequest& request, const Visitor& visit, const Executor&, Watcher* watcher)
-{
-  const std::uint64_t* keys = levels[0].arena.keys();
-  const std::uint64_t* end = keys + levels[0].size;
-  for (std::int64_t i = 0; i < request.points.size(); ++i)
-  {
-    std::uint64_t position[3];
-    if (placePoint(placement_, request.points[i], position) == Place::Inside)
-    {
-      const std::uint64_t key = request.lattice.key(std::int64_t(position[0] >> placement_.fractionBits),
-        std::int64_t(position[1] >> placement_.fractionBits),
-        std::int64_t(position[2] >> placement_.fractionBits));
-      const std::int64_t voxel = std::lower_bound(keys, end, key) - keys;
-      visit(&i, &voxel, 1);
-    }
-    if (watcher && (i + 1) % kGeneralChunk == 0 &&
-      !watcher->proceed(double(i + 1) / double(request.points.size())))
-    {
-      return Status::Aborted;
-    }
-  }
-  return Status::Ok;
+  // Halved voxels are not those asked for.
+  return halvings_ == 0 ? assignPlanned(request, visit, executor, watcher)
+                        : assignGeneral(request, visit, executor, watcher);
 }
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
-  std::size_t sum = pool_.bytes();
+  std::size_t sum = pool_.bytes() + ranges_.bytes() + runs_.bytes();
   for (const std::unique_ptr<PartitionWorker>& worker : idle_)
   {
     sum += worker->bytes();

@@ -84,11 +84,12 @@ struct VoxelRequest
 /// rounding to the output's type; a mean lies in its voxel. Counts are 64-bit. (A transform that is nearly
 /// singular, of a condition number c above 1e6, costs what it costs: errors grow to about 1e-16 c voxels.)
 ///
-/// Time: a few nanoseconds a point. Memory beyond input and results: 16 bytes for each of at most 1.25
-/// million points, 60 bytes an active voxel (20 of them its results, where these are not in the caller's
-/// memory), a few megabytes; lattices beyond 4096 an axis: 64 bytes for each of at most a million points and
-/// 72 an active voxel; covariances: 100 an active voxel more. One object is used by one thread at a time; the
-/// executor's threads may be many.
+/// Time: a few nanoseconds a point; beyond 4096 voxels an axis some tens of them, growing with the logarithm
+/// of the points. Memory beyond input and results: 16 bytes for each of at most 1.25 million points, 60 bytes
+/// an active voxel (20 of them its results, where these are not in the caller's memory), a few megabytes;
+/// lattices beyond 4096 an axis: 30 bytes (38 for assign()) for each of at most 524,288 points and 66 an
+/// active voxel; covariances: 100 an active voxel more, 132 on these. One object is used by one thread at a
+/// time; the executor's threads may be many.
 class VoxelResampler
 {
 public:

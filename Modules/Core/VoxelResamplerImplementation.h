@@ -2,11 +2,13 @@
 /// What VoxelResampler keeps, and its steps. Private to Core.
 #pragma once
 
+#include "Core/Kernel/KeyRanges.h"
 #include "Core/Kernel/PartitionSums.h"
 #include "Core/Kernel/PointChunks.h"
 #include "Core/Kernel/PointPlacement.h"
 #include "Core/Kernel/RecordPool.h"
 #include "Core/Kernel/VoxelLevel.h"
+#include "Core/Kernel/VoxelRuns.h"
 #include "Core/VoxelResampler.h"
 
 #include <cstddef>
@@ -37,7 +39,9 @@ private:
   class WorkerLease;
 
   void clear();
-  bool isPlanned(const VoxelRequest& request, std::int64_t points) const;
+  /// How often the voxels of a lattice are halved so that they can be dealt out to partitions; -1: they
+  /// cannot.
+  static int halvingsOf(const Lattice& lattice);
   Status runPlanned(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
   Status runGeneral(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
   void fillPool(const VoxelRequest& request, const kernel::Chunks& chunks, std::size_t chunk, bool indexed,
@@ -45,6 +49,8 @@ private:
   template <typename Work>
   void forPartitions(const VoxelRequest& request, const Executor& executor, Work&& work);
   void carryChunk(const VoxelRequest& request, const Executor& executor);
+  void closeBatch(const VoxelRequest& request, const Executor& executor);
+  Status finishRuns(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
   void keepBatches(const VoxelRequest& request, kernel::PartitionWorker& worker, std::uint32_t partition);
   void finish(const VoxelRequest& request, const Executor& executor);
   /// The part of the work of run() that the finest level is.
@@ -58,12 +64,16 @@ private:
   Status assignGeneral(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
 
+  int halvings_ = 0;
+  Lattice halved_; ///< The lattice asked for, or what halvings_ make of it.
   kernel::PartitionPlan plan_;
   kernel::Placement placement_{};
   kernel::RecordPool pool_;
   bool poolHoldsAll_ = false; ///< All points of the last run, with their indices.
   std::vector<kernel::CarriedPartition> carried_;
   std::vector<std::unique_ptr<kernel::PartitionWorker>> idle_;
+  kernel::KeyRanges ranges_;
+  kernel::VoxelRuns runs_;
   std::mutex mutex_;
 };
 

@@ -3,6 +3,7 @@
 #include "Core/VoxelResamplerImplementation.h"
 
 #include <atomic>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -44,13 +45,37 @@ private:
   std::unique_ptr<PartitionWorker> worker_;
 };
 
+namespace
+{
+
+/// So many points may be in one voxel before the sums of their places could need more than 62 bits.
+std::int64_t mostPointsOfBatch(int indexBits)
+{
+  return (std::int64_t(1) << (62 - kPositionBits + indexBits)) - 1;
+}
+static_assert(
+  kChunkPoints < std::int64_t(1) << (62 - kPositionBits + kMinimumIndexBits), "a batch must hold a chunk");
+
+std::int64_t pointsOf(const Chunks& chunks)
+{
+  std::int64_t sum = 0;
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    sum += chunks.pointCount(chunk);
+  }
+  return sum;
+}
+
+}
+
 Status VoxelResampler::Implementation::runPlanned(
   const VoxelRequest& request, const Executor& executor, Watcher* watcher)
 {
-  const int indexBits = indexBitsOf(request.lattice);
+  halved_ = finerLattice(request.lattice, halvings_);
+  const int indexBits = indexBitsOf(halved_);
   const Chunks chunks(request, kChunkPoints);
-  plan_ = makePlan(request.lattice, indexBits, chunks.count() == 0 ? 0 : chunks.pointCount(0));
-  placement_ = makePlacement(request.transform, request.lattice, indexBits, kPositionBits);
+  plan_ = makePlan(halved_, indexBits, chunks.count() == 0 ? 0 : chunks.pointCount(0));
+  placement_ = makePlacement(request.transform, halved_, indexBits, kPositionBits);
   placement_.blocksPerLayer = plan_.blocksPerLayer;
   placement_.rowShift = plan_.rowShift;
   placement_.layerShift = plan_.layerShift;
@@ -59,7 +84,11 @@ Status VoxelResampler::Implementation::runPlanned(
   {
     partition.clear();
   }
-  const bool holdsAll = request.assigned && chunks.count() == 1;
+  const std::int64_t mostPoints = mostPointsOfBatch(indexBits);
+  const bool inBatches = halvings_ > 0 || pointsOf(chunks) > mostPoints;
+  const bool holdsAll = request.assigned && chunks.count() == 1 && !inBatches;
+  runs_.reset(inBatches ? plan_.partitions : 0, plan_.fractionBits);
+  std::int64_t batchPoints = 0;
   std::int64_t inside = 0;
   invalid = request.index ? request.index->invalidPoints() : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
@@ -67,7 +96,17 @@ Status VoxelResampler::Implementation::runPlanned(
     fillPool(request, chunks, chunk, holdsAll, executor);
     inside += pool_.inside();
     invalid += pool_.invalid();
-    chunk + 1 < chunks.count() ? carryChunk(request, executor) : finish(request, executor);
+    batchPoints += chunks.pointCount(chunk);
+    const bool isLast = chunk + 1 == chunks.count();
+    if (inBatches && (isLast || batchPoints + chunks.pointCount(chunk + 1) > mostPoints))
+    {
+      closeBatch(request, executor);
+      batchPoints = 0;
+    }
+    else
+    {
+      isLast ? finish(request, executor) : carryChunk(request, executor);
+    }
     if (watcher && !watcher->proceed(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
@@ -75,6 +114,10 @@ Status VoxelResampler::Implementation::runPlanned(
   }
   clipped = request.points.size() - inside - invalid;
   poolHoldsAll_ = holdsAll;
+  if (inBatches)
+  {
+    return finishRuns(request, executor, watcher);
+  }
   return request.levels > 1 ? addLevels(request, carriedList(), watcher) : Status::Ok;
 }
 
@@ -141,6 +184,21 @@ void VoxelResampler::Implementation::carryChunk(const VoxelRequest& request, con
       }
       worker.load(kernels, pool_, p, carried_[p], [](std::size_t) {});
       keepBatches(request, worker, p);
+    });
+}
+
+/// Adds the pool's records and what is carried to the runs.
+void VoxelResampler::Implementation::closeBatch(const VoxelRequest& request, const Executor& executor)
+{
+  const Kernels& kernels = kernelsFor(request.instructions);
+  forPartitions(request, executor,
+    [&](PartitionWorker& worker, std::uint32_t p)
+    {
+      VoxelRun run;
+      worker.load(kernels, pool_, p, carried_[p], [](std::size_t) {});
+      worker.forBatches([&](const MomentBatch<std::int64_t>& batch) { run.append(halved_, batch); });
+      runs_.add(p, std::move(run));
+      carried_[p].clear();
     });
 }
 

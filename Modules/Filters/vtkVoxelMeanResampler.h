@@ -205,7 +205,8 @@ public:
   ///@}
 
   /**
-   * Memory kept from one update to the next, the index of the points included, in KiB.
+   * Memory kept from one update to the next, the index of the points included, in KiB. What a run needs and
+   * gives back before it ends, such as the sums of voxels on lattices beyond 4096 an axis, is not kept.
    */
   unsigned long GetScratchMemorySize() const;
   /**

@@ -1,12 +1,8 @@
 #include "Core/Kernel/GeneralVoxels.h"
 
-#include "Core/RadixSort.h"
-
-#include "Core/Kernel/PointPlacement.h"
-
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <cmath>
 
 namespace pointhaptics
 {
@@ -14,8 +10,6 @@ namespace kernel
 {
 namespace
 {
-
-constexpr std::uint64_t kOutside = ~std::uint64_t(0);
 
 void addVoxel(VoxelSums& to, const VoxelSums& from)
 {
@@ -33,102 +27,6 @@ void addSecondSums(SecondSums& to, const SecondSums& from)
     to.lanes[m] += from.lanes[m];
   }
 }
-
-}
-
-GeneralAdder::GeneralAdder(const Placement& placement, const Lattice& lattice, bool seconds)
-  : placement_(placement)
-  , lattice_(lattice)
-  , withSeconds_(seconds)
-{
-  list_.fractionBits = placement.fractionBits;
-}
-
-void GeneralAdder::add(
-  const PointView& points, std::int64_t first, std::int64_t count, const Executor& executor)
-{
-  placed_.resize(std::size_t(count));
-  std::atomic<std::int64_t> invalid{ 0 };
-  forRange(executor, count,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      const std::uint64_t mask = (std::uint64_t(1) << placement_.fractionBits) - 1;
-      std::int64_t bad = 0;
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        Placed& placed = placed_[std::size_t(i)];
-        const Place place = placePoint(placement_, points[first + i], placed.place);
-        bad += place == Place::Invalid;
-        std::int64_t index[3];
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          index[axis] = std::int64_t(placed.place[axis] >> placement_.fractionBits);
-          placed.place[axis] &= mask;
-        }
-        placed.key = place == Place::Inside ? lattice_.key(index[0], index[1], index[2]) : kOutside;
-      }
-      invalid += bad;
-    });
-  invalid_ += invalid;
-  entries_.clear();
-  for (std::size_t i = 0; i < placed_.size(); ++i)
-  {
-    if (placed_[i].key != kOutside)
-    {
-      entries_.push_back({ placed_[i].key, i });
-    }
-  }
-  inside_ += std::int64_t(entries_.size());
-  otherEntries_.resize(entries_.size());
-  radixSort(entries_, otherEntries_, entries_.size(), [](const Entry& entry) { return entry.key; });
-  mergeEntries();
-}
-
-void GeneralAdder::mergeEntries()
-{
-  VoxelSumList merged;
-  merged.fractionBits = list_.fractionBits;
-  std::size_t old = 0;
-  std::size_t i = 0;
-  while (i < entries_.size() || old < list_.voxels.size())
-  {
-    const std::uint64_t ours = i < entries_.size() ? entries_[i].key : kOutside;
-    const std::uint64_t theirs = old < list_.voxels.size() ? list_.voxels[old].key : kOutside;
-    VoxelSums voxel{ std::min(ours, theirs), 0, { 0, 0, 0 } };
-    SecondSums seconds{ { 0, 0, 0, 0, 0, 0 } };
-    for (; i < entries_.size() && entries_[i].key == voxel.key; ++i)
-    {
-      const std::uint64_t* place = placed_[std::size_t(entries_[i].point)].place;
-      ++voxel.count;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        voxel.sums[axis] += Int128(place[axis]);
-      }
-      if (withSeconds_)
-      {
-        addProducts(seconds, place[0], place[1], place[2]);
-      }
-    }
-    if (theirs == voxel.key)
-    {
-      addVoxel(voxel, list_.voxels[old]);
-      if (withSeconds_)
-      {
-        addSecondSums(seconds, list_.seconds[old]);
-      }
-      ++old;
-    }
-    merged.voxels.push_back(voxel);
-    if (withSeconds_)
-    {
-      merged.seconds.push_back(seconds);
-    }
-  }
-  list_ = std::move(merged);
-}
-
-namespace
-{
 
 bool isOneVoxel(const Lattice& lattice)
 {
@@ -153,6 +51,18 @@ Lattice coarserLattice(const Lattice& lattice)
     coarse.end[axis] = 0.5 * std::min(lattice.end[axis], double(lattice.dimensions[a]));
   }
   return coarse;
+}
+
+Lattice finerLattice(const Lattice& lattice, int halvings)
+{
+  Lattice fine = lattice;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    fine.dimensions[std::size_t(axis)] = lattice.dimensions[std::size_t(axis)] << halvings;
+    fine.spacing[axis] = std::ldexp(lattice.spacing[axis], -halvings);
+    fine.end[axis] = std::ldexp(lattice.end[axis], halvings);
+  }
+  return fine;
 }
 
 namespace

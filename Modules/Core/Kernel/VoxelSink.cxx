@@ -247,38 +247,42 @@ void MeanArena::writeCovariances(const Kernels& kernels, std::size_t place, cons
   }
 }
 
+void MeanArena::write(std::size_t place, const VoxelSums& voxel, const SecondSums* seconds)
+{
+  const auto index = lattice_.indexOf(voxel.key);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::int64_t i = index[std::size_t(axis)];
+    const double inVoxel = double(voxel.sums[axis]) / double(voxel.count) * map_.quantum;
+    const double coordinate = map_.origin[axis] + (double(i) + inVoxel) * map_.spacing[axis];
+    const std::size_t to = 3 * place + std::size_t(axis);
+    if (layout_.singlePrecision)
+    {
+      floats_[to] = lattice_.keptInVoxel(float(coordinate), axis, i);
+    }
+    else
+    {
+      doubles_[to] = lattice_.keptInVoxel(coordinate, axis, i);
+    }
+  }
+  counts_[place] = voxel.count;
+  if (layout_.keys)
+  {
+    keys_[place] = voxel.key;
+  }
+  if (layout_.covariances)
+  {
+    covariances_[place] = covarianceOf(voxel.count, voxel.sums, *seconds, map_.quantum, lattice_.spacing);
+  }
+}
+
 void MeanArena::write(
   const VoxelSumList& list, const Layout& layout, const Lattice& lattice, ResultMemory* memory)
 {
   prepare(list.voxels.size(), layout, lattice, list.fractionBits, memory);
   for (std::size_t v = 0; v < list.voxels.size(); ++v)
   {
-    const VoxelSums& voxel = list.voxels[v];
-    const auto index = lattice.indexOf(voxel.key);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const std::int64_t i = index[std::size_t(axis)];
-      const double place = double(voxel.sums[axis]) / double(voxel.count) * map_.quantum;
-      const double coordinate = map_.origin[axis] + (double(i) + place) * map_.spacing[axis];
-      const std::size_t to = 3 * v + std::size_t(axis);
-      if (layout.singlePrecision)
-      {
-        floats_[to] = lattice.keptInVoxel(float(coordinate), axis, i);
-      }
-      else
-      {
-        doubles_[to] = lattice.keptInVoxel(coordinate, axis, i);
-      }
-    }
-    counts_[v] = voxel.count;
-    if (layout.keys)
-    {
-      keys_[v] = voxel.key;
-    }
-    if (layout.covariances)
-    {
-      covariances_[v] = covarianceOf(voxel.count, voxel.sums, list.seconds[v], map_.quantum, lattice.spacing);
-    }
+    write(v, list.voxels[v], layout.covariances ? &list.seconds[v] : nullptr);
   }
 }
 

@@ -89,6 +89,8 @@ public:
   /// Writes the voxels of a partition, or a batch of voxels, at @p place.
   void write(const Kernels& kernels, std::size_t place, const PartitionVoxels& voxels);
   void write(const Kernels& kernels, std::size_t place, const MomentBatch<std::int64_t>& batch);
+  /// Writes one voxel; seconds are null without covariances.
+  void write(std::size_t place, const VoxelSums& voxel, const SecondSums* seconds);
   /// Copies what another arena of the same layout has.
   void write(std::size_t place, const MeanArena& other, std::size_t size);
 

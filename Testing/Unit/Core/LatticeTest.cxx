@@ -230,6 +230,31 @@ TEST(MakeLattice, CloudsWithoutExtentGetTheDefaultWorkspace)
   }
 }
 
+TEST(MakeLattice, ExtentsOfDenormalNumbersAreHeld)
+{
+  for (const double extent : { 5e-323, 1e-320, 1e-310, 3e-308, 1e-299, 1e-289 })
+  {
+    LatticeSettings settings;
+    settings.dimensions = { 10, 10, 10 };
+    expectHolds({ 0, 0, 0 }, { extent, 0, extent }, settings);
+    expectHolds({ -extent, -extent, 0 }, { extent, 0, extent }, settings);
+  }
+}
+
+TEST(MakeLattice, OnePointHasALatticeOfAnyVoxelSize)
+{
+  for (const double size : { 1e-12, 1e-9, 1e-6, 1e-3, 1.0, 1e9 })
+  {
+    LatticeSettings settings;
+    settings.voxelSize = size;
+    expectHolds({ 0, 0, 0 }, { 0, 0, 0 }, settings);
+    expectHolds({ 1e-6, 0, 0 }, { 1e-6, 0, 0 }, settings);
+  }
+  LatticeSettings settings;
+  settings.voxelSize = 1e-9;
+  expectHolds({ 0.3, -0.2, 1 }, { 0.3, -0.2, 1 }, settings);
+}
+
 TEST(MakeLattice, EmptyCloudGivesAValidLattice)
 {
   Lattice lattice;

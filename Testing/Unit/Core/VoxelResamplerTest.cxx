@@ -111,7 +111,7 @@ TEST(VoxelResampler, IsExactForMoreThanAChunkOfScatteredPoints)
   {
     SCOPED_TRACE(nameOf(lattice));
     const bool takesSmallChunks = lattice.dimensions[0] > 4096;
-    const std::vector<Vec3> points = quantisedPoints(takesSmallChunks ? 300000 : 1260000, 4, lattice);
+    const std::vector<Vec3> points = quantisedPoints(takesSmallChunks ? 540000 : 1260000, 4, lattice);
     expectExact(points, lattice, runOf(requestFor(points, lattice)));
   }
 }
@@ -242,7 +242,7 @@ TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
   for (const Lattice& lattice : { latticeOf(60, 60, 60), latticeOf(1024, 1024, 1024), latticeOf(5000, 3, 2) })
   {
     const std::vector<Vec3> points =
-      quantisedPoints(lattice.dimensions[0] > 4096 ? 300000 : 1260000, 11, lattice);
+      quantisedPoints(lattice.dimensions[0] > 4096 ? 540000 : 1260000, 11, lattice);
     const VoxelRequest request = requestFor(points, lattice);
     VoxelResampler resampler;
     CountingWatcher once(1);

@@ -1,0 +1,115 @@
+#include "Core/Kernel/VoxelRuns.h"
+
+#include "RandomClouds.h"
+#include "ResamplerRuns.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+using namespace pointhaptics;
+using namespace pointhaptics::kernel;
+using namespace pointhaptics::trial;
+
+namespace
+{
+
+VoxelRun randomRun(std::uint64_t seed, std::size_t voxels, std::uint64_t largestGap)
+{
+  Random random(seed);
+  VoxelRun run;
+  std::uint64_t key = 0;
+  for (std::size_t v = 0; v < voxels; ++v)
+  {
+    key += 1 + random.below(largestGap);
+    const auto sum = [&] { return std::uint64_t(random.below(std::size_t(1) << 63)) * 2; };
+    run.voxels.push_back({ key, std::int64_t(1 + random.below(1000)), { sum(), sum(), sum() }, 0 });
+    run.seconds.push_back(SecondSums{ { sum(), sum(), sum(), sum(), sum(), sum() } });
+  }
+  return run;
+}
+
+}
+
+TEST(VoxelRuns, SumsPast64BitsAreExact)
+{
+  std::map<std::uint64_t, VoxelSums> expected;
+  VoxelRuns runs;
+  runs.reset(1, 39);
+  for (std::uint64_t r = 0; r < 60; ++r)
+  {
+    const VoxelRun run = randomRun(r, 50 + 20 * (r % 7), 5);
+    for (const WideSums& voxel : run.voxels)
+    {
+      VoxelSums& sums = expected.try_emplace(voxel.key, VoxelSums{ voxel.key, 0, { 0, 0, 0 } }).first->second;
+      sums.count += voxel.count;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        sums.sums[axis] += Int128(voxel.low[axis]);
+      }
+    }
+    runs.add(0, run);
+  }
+  runs.join(0);
+  ASSERT_EQ(runs.size(0), expected.size());
+  const VoxelSumList list = runs.take();
+  ASSERT_EQ(list.voxels.size(), expected.size());
+  ASSERT_EQ(list.seconds.size(), expected.size());
+  std::size_t v = 0;
+  for (const auto& [key, sums] : expected)
+  {
+    ASSERT_EQ(list.voxels[v].key, key);
+    ASSERT_EQ(list.voxels[v].count, sums.count);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ASSERT_TRUE(list.voxels[v].sums[axis] == sums.sums[axis]) << "voxel " << v << " axis " << axis;
+    }
+    ++v;
+  }
+  EXPECT_EQ(runs.size(0), 0u);
+}
+
+TEST(VoxelRuns, HoldLittleMoreThanEachVoxelOnceHoweverOftenTheyCome)
+{
+  VoxelRuns runs;
+  runs.reset(1, 39);
+  const std::size_t voxels = 10000;
+  for (std::uint64_t r = 0; r < 100; ++r)
+  {
+    // The first comes with all voxels, the others with some of them.
+    VoxelRun run = randomRun(1, voxels, 3);
+    run.seconds.clear();
+    run.voxels.resize(r == 0 ? voxels : 100 + 90 * r);
+    runs.add(0, run);
+    ASSERT_LE(runs.bytes(), voxels * 66 + 1000);
+  }
+}
+
+TEST(VoxelRuns, MeansOfSumsThatVectorsCannotTakeLieWhereTheyBelong)
+{
+  const Lattice lattice = latticeOf(5000, 5000, 5000);
+  const std::int64_t count = std::int64_t(1) << 30;
+  const std::uint64_t place = std::uint64_t(3) << 37; // Three quarters of a voxel.
+  const UInt128 sum = UInt128(place) * std::uint64_t(count);
+  const std::uint64_t low = std::uint64_t(sum);
+  const std::uint64_t high = std::uint64_t(sum >> 64);
+  ASSERT_GT(high, 0u);
+  VoxelRun run;
+  run.voxels.push_back({ lattice.key(7, 8, 9), 4, { 4 * place, 4 * place, 4 * place }, 0 });
+  run.voxels.push_back({ lattice.key(1, 2, 10), count, { low, low, low }, high | high << 21 | high << 42 });
+  VoxelRuns runs;
+  runs.reset(1, 39);
+  runs.add(0, run);
+  runs.join(0);
+  MeanArena arena;
+  arena.prepare(2, { false, true, false }, lattice, 39);
+  runs.write(0, kernelsFor(InstructionSet::Automatic), lattice, false, arena, 0);
+  const double expected[6] = { 7.75, 8.75, 9.75, 1.75, 2.75, 10.75 };
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_EQ(arena.doubles()[i], expected[i]) << i;
+  }
+  EXPECT_EQ(arena.counts()[0], 4);
+  EXPECT_EQ(arena.counts()[1], count);
+  EXPECT_EQ(arena.keys()[1], lattice.key(1, 2, 10));
+}
