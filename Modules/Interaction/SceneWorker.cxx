@@ -171,22 +171,34 @@ SceneRequest SceneRequest::of(vtkVoxelMeanResampler* resampler, vtkKernelBandwid
 namespace
 {
 
+/// An object that is to pass to another thread. vtkSmartPointer copies where it is assigned, even from what
+/// is moved: a reference would stay behind, and who lets go of one of several has vtkGarbageCollector walk
+/// through an object that is another thread's by now. An optional constructs, which moves.
+template <typename Object>
+using Handed = std::optional<Object>;
+
+template <typename Object>
+Handed<Object> handOver(Handed<Object>& from)
+{
+  Handed<Object> to(std::move(from));
+  from.reset();
+  return to;
+}
+
 /// What a thread of the worker is to do.
 struct Job
 {
   SceneRequest request;
-  std::uint64_t number = 0;
-  std::uint64_t cloudNumber = 0;
-  vtkSmartPointer<vtkPointSet> cloud; // if it is a new one
-  bool cloudIsNew = false;
+  std::uint64_t number;
+  std::uint64_t cloudNumber;
+  Handed<vtkSmartPointer<vtkPointSet>> cloud; // if it is a new one
 };
 
 /// A thread of the worker, and what it does next. All but the thread under the worker's mutex.
 struct Builder
 {
   std::optional<SceneRequest> waiting;
-  vtkSmartPointer<vtkPointSet> cloud; // not yet the thread's own
-  bool cloudIsNew = false;
+  Handed<vtkSmartPointer<vtkPointSet>> cloud; // a new one that is not yet the thread's own
   bool inFlight = false;
   std::uint64_t number = 0; // of the newest job that was begun
   std::thread thread;
@@ -206,8 +218,7 @@ struct SceneWorker::Implementation
   std::uint64_t number = 0;
   std::uint64_t cloudNumber = 0;
   std::shared_ptr<const HapticScene> newestWhole; // of this cloud
-  BuiltScene finished;
-  bool hasFinished = false;
+  Handed<BuiltScene> finished;
   bool ending = false;
 
   void start(Builder& builder, void (Implementation::*build)());
@@ -238,13 +249,9 @@ std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
     return {};
   }
   builder.inFlight = true;
-  Job job;
-  job.request = std::move(*builder.waiting);
+  builder.number = this->number;
+  Job job = { std::move(*builder.waiting), this->number, this->cloudNumber, handOver(builder.cloud) };
   builder.waiting.reset();
-  job.number = builder.number = this->number;
-  job.cloudNumber = this->cloudNumber;
-  job.cloudIsNew = std::exchange(builder.cloudIsNew, false);
-  job.cloud = std::move(builder.cloud);
   return job;
 }
 
@@ -269,9 +276,9 @@ void SceneWorker::Implementation::buildWholes()
   Clock::time_point shown = Clock::now() - std::chrono::hours(1);
   while (std::optional<Job> job = this->next(this->whole))
   {
-    if (job->cloudIsNew)
+    if (job->cloud)
     {
-      pipeline.setCloud(std::move(job->cloud));
+      pipeline.setCloud(std::move(*job->cloud));
     }
     this->letNearGoFirst(*job);
     BuiltScene built;
@@ -294,8 +301,7 @@ void SceneWorker::Implementation::buildWholes()
     pipeline.show(job->request, built);
     shown = Clock::now();
     const std::lock_guard<std::mutex> lock(this->mutex);
-    this->finished = std::move(built);
-    this->hasFinished = true;
+    this->finished.emplace(std::move(built));
   }
 }
 
@@ -304,9 +310,9 @@ void SceneWorker::Implementation::buildNear()
   NearSceneBuilder builder;
   while (std::optional<Job> job = this->next(this->near))
   {
-    if (job->cloudIsNew)
+    if (job->cloud)
     {
-      builder.setCloud(std::move(job->cloud));
+      builder.setCloud(std::move(*job->cloud));
     }
     std::shared_ptr<const HapticScene> newest;
     {
@@ -353,9 +359,8 @@ void SceneWorker::setCloud(vtkSmartPointer<vtkPointSet> cloud)
   }
   Implementation& self = *implementation_;
   const std::lock_guard<std::mutex> lock(self.mutex);
-  self.whole.cloud = std::move(cloud);
-  self.near.cloud = std::move(copy);
-  self.whole.cloudIsNew = self.near.cloudIsNew = true;
+  self.whole.cloud.emplace(std::move(cloud));
+  self.near.cloud.emplace(std::move(copy));
   self.newestWhole.reset();
   ++self.cloudNumber;
 }
@@ -383,13 +388,11 @@ std::uint64_t SceneWorker::request(SceneRequest request)
 bool SceneWorker::take(BuiltScene& built)
 {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  if (!implementation_->hasFinished)
+  if (!implementation_->finished)
   {
     return false;
   }
-  implementation_->hasFinished = false;
-  built = std::move(implementation_->finished);
-  implementation_->finished = BuiltScene();
+  built = *handOver(implementation_->finished);
   return true;
 }
 
@@ -416,8 +419,7 @@ void SceneWorker::cancel()
   }
   this->wait();
   const std::lock_guard<std::mutex> lock(self.mutex);
-  self.finished = BuiltScene();
-  self.hasFinished = false;
+  self.finished.reset();
 }
 
 } // namespace pointhaptics

@@ -106,6 +106,36 @@ TEST_F(SceneWorkerTest, MakesWhatTheFiltersWouldMake)
   EXPECT_FALSE(worker_.take(built));
 }
 
+TEST_F(SceneWorkerTest, LetsGoOfThePictureBeforeItCanBeTaken)
+{
+  for (int i = 0; i < 100; ++i)
+  {
+    worker_.request(this->shifted(1e-5 * i));
+    BuiltScene built;
+    while (!worker_.take(built))
+    {
+    }
+    // No reference stays behind in the worker's thread, not for a moment.
+    ASSERT_EQ(built.means->GetReferenceCount(), 1) << "of build " << i;
+  }
+}
+
+TEST_F(SceneWorkerTest, KeepsNoMoreReferencesToTheCloudThanAPipeline)
+{
+  const vtkSmartPointer<vtkPolyData> like = makeCloud();
+  resampler_->SetInputDataObject(like);
+  resampler_->Update();
+  const vtkSmartPointer<vtkPolyData> cloud = makeCloud();
+  worker_.setCloud(cloud);
+  worker_.request(this->shifted(0.003));
+  worker_.wait();
+  EXPECT_EQ(cloud->GetReferenceCount(), like->GetReferenceCount());
+  worker_.setCloud(nullptr);
+  worker_.request(this->shifted(0.003));
+  worker_.wait();
+  EXPECT_EQ(cloud->GetReferenceCount(), 1);
+}
+
 TEST_F(SceneWorkerTest, AddsResidualsAndNormalsToThePictureOnRequest)
 {
   for (const bool wanted : { false, true })
