@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -17,6 +18,8 @@ constexpr double kPointsPerCell = 20.0;
 constexpr int kMostCells = 128;
 /// Bricks that are looked at one by one only if the bounds around them all touch a view.
 constexpr std::size_t kGroupBricks = 32;
+/// Groups a thread looks at before it takes others.
+constexpr std::size_t kSliceGroups = 64;
 
 int cellsPerAxis(std::int64_t points)
 {
@@ -47,6 +50,17 @@ Bounds finiteBounds(const PointView& points, const Executor& executor)
       }
     });
   return box;
+}
+
+/// Appends a range; neighbours join.
+void append(PointRange range, std::vector<PointRange>& ranges)
+{
+  if (!ranges.empty() && ranges.back().end == range.begin)
+  {
+    ranges.back().end = range.end;
+    return;
+  }
+  ranges.push_back(range);
 }
 
 /// Cells of a box, as many on each axis.
@@ -275,39 +289,55 @@ PointView PointIndex::points() const
 }
 
 std::vector<PointRange> PointIndex::rangesInside(
-  const AffineTransform& transform, const Lattice& lattice) const
+  const AffineTransform& transform, const Lattice& lattice, const Executor& executor) const
 {
-  const std::size_t bricks = begins_.empty() ? 0 : begins_.size() - 1;
-  if (bricks > 0 && !staysFinite(transform))
+  if (size_ > 0 && !staysFinite(transform))
   {
     return { { 0, size_ } };
   }
   const BoxTest test(transform, lattice);
+  const std::size_t slices = (groups_.size() + kSliceGroups - 1) / kSliceGroups;
+  std::vector<std::vector<PointRange>> found(slices);
+  forRange(executor, std::int64_t(slices), 1,
+    [&](std::int64_t first, std::int64_t last)
+    {
+      for (auto slice = std::size_t(first); slice < std::size_t(last); ++slice)
+      {
+        const std::size_t end = std::min((slice + 1) * kSliceGroups, groups_.size());
+        std::vector<PointRange> ranges; // the thread's own, away from what others write
+        for (std::size_t group = slice * kSliceGroups; group < end; ++group)
+        {
+          this->appendRanges(test, group, ranges);
+        }
+        found[slice] = std::move(ranges);
+      }
+    });
   std::vector<PointRange> ranges;
-  for (std::size_t group = 0; group < groups_.size(); ++group)
+  for (const std::vector<PointRange>& ofSlice : found)
   {
-    if (!test.mayTouch(groups_[group]))
+    for (const PointRange& range : ofSlice)
     {
-      continue;
-    }
-    const std::size_t end = std::min((group + 1) * kGroupBricks, bricks);
-    for (std::size_t b = group * kGroupBricks; b < end; ++b)
-    {
-      if (!test.mayTouch(boxes_[b]))
-      {
-        continue;
-      }
-      if (!ranges.empty() && ranges.back().end == begins_[b])
-      {
-        ranges.back().end = begins_[b + 1];
-      }
-      else
-      {
-        ranges.push_back({ begins_[b], begins_[b + 1] });
-      }
+      append(range, ranges);
     }
   }
   return ranges;
+}
+
+/// Appends the ranges of the bricks of a group that may have points inside.
+void PointIndex::appendRanges(const BoxTest& test, std::size_t group, std::vector<PointRange>& ranges) const
+{
+  if (!test.mayTouch(groups_[group]))
+  {
+    return;
+  }
+  const std::size_t end = std::min((group + 1) * kGroupBricks, boxes_.size());
+  for (std::size_t b = group * kGroupBricks; b < end; ++b)
+  {
+    if (test.mayTouch(boxes_[b]))
+    {
+      append({ begins_[b], begins_[b + 1] }, ranges);
+    }
+  }
 }
 
 /// Whether no point can become infinite, which would make it invalid instead of clipped.

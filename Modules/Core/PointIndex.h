@@ -35,7 +35,8 @@ public:
   Status build(const PointView& points, const Executor& executor = {});
 
   /// Ranges of points() that hold every point which @p transform moves into @p lattice, and few others.
-  std::vector<PointRange> rangesInside(const AffineTransform& transform, const Lattice& lattice) const;
+  std::vector<PointRange> rangesInside(
+    const AffineTransform& transform, const Lattice& lattice, const Executor& executor = {}) const;
 
   /// The finite points, brick by brick.
   PointView points() const;
@@ -64,6 +65,7 @@ private:
     double half[3];
   };
   class BoxTest;
+  void appendRanges(const BoxTest& test, std::size_t group, std::vector<PointRange>& ranges) const;
 
   // Of each brick with points: where they begin (and an end) and their bounds.
   std::vector<std::int64_t> begins_;

@@ -47,7 +47,7 @@ Status VoxelResampler::Implementation::runGeneral(
   const VoxelRequest& request, const Executor& executor, Watcher* watcher)
 {
   const VoxelRequest usable = withUsableIndex(request);
-  const Chunks chunks(usable, kGeneralChunk);
+  const Chunks chunks(usable, kGeneralChunk, executor);
   placement_ = generalPlacement(request);
   ranges_.choose(placement_, request.lattice, chunks);
   runs_.reset(ranges_.count(), placement_.fractionBits);
@@ -119,7 +119,7 @@ Status VoxelResampler::Implementation::assignGeneral(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
 {
   const VoxelRequest usable = withUsableIndex(request);
-  const Chunks chunks(usable, kGeneralChunk);
+  const Chunks chunks(usable, kGeneralChunk, executor);
   const Placement placement = generalPlacement(request);
   const std::uint64_t* keys = levels[0].arena.keys();
   const std::uint64_t* end = keys + levels[0].size;

@@ -73,7 +73,7 @@ Status VoxelResampler::Implementation::runPlanned(
 {
   halved_ = finerLattice(request.lattice, halvings_);
   const int indexBits = indexBitsOf(halved_);
-  const Chunks chunks(request, kChunkPoints);
+  const Chunks chunks(request, kChunkPoints, executor);
   plan_ = makePlan(halved_, indexBits, chunks.count() == 0 ? 0 : chunks.pointCount(0));
   placement_ = makePlacement(request.transform, halved_, indexBits, kPositionBits);
   placement_.blocksPerLayer = plan_.blocksPerLayer;
@@ -303,7 +303,7 @@ VoxelSumList VoxelResampler::Implementation::carriedList() const
 Status VoxelResampler::Implementation::assignPlanned(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
 {
-  const Chunks chunks(request, kChunkPoints);
+  const Chunks chunks(request, kChunkPoints, executor);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
     if (!poolHoldsAll_)
@@ -358,7 +358,7 @@ void VoxelResampler::Implementation::assignInSets(
   const VoxelRequest& request, const SetWork& work, const Executor& executor)
 {
   const std::vector<std::size_t>& firsts = levels[0].firsts;
-  const Chunks chunks(request, kChunkPoints);
+  const Chunks chunks(request, kChunkPoints, executor);
   const std::int64_t base = chunks.pieces(0)[0].begin;
   forPartitions(request, executor,
     [&](PartitionWorker& worker, std::uint32_t p)

@@ -22,13 +22,13 @@ constexpr std::int64_t kPieceSize = 1 << 12;
 class Chunks
 {
 public:
-  Chunks(const VoxelRequest& request, std::int64_t chunkPoints)
+  Chunks(const VoxelRequest& request, std::int64_t chunkPoints, const Executor& executor)
   {
     if (request.index)
     {
       points_ = request.index->points();
       const Lattice& lattice = request.part ? *request.part : request.lattice;
-      for (const PointRange& range : request.index->rangesInside(request.transform, lattice))
+      for (const PointRange& range : request.index->rangesInside(request.transform, lattice, executor))
       {
         append(range, chunkPoints);
       }

@@ -157,16 +157,18 @@ TEST(PointIndex, IsEmptyWithoutAFinitePoint)
 
 TEST(PointIndex, DoesNotDependOnTheExecutorButForTheOrderInBricks)
 {
-  const std::vector<Vec3> points = randomBox(20000, 6, { 0, 0, 0 }, { 1, 1, 1 });
+  // Bricks for several pieces of the search too.
+  const std::vector<Vec3> points = randomBox(200000, 6, { 0, 0, 0 }, { 1, 1, 1 });
+  const ThreadedExecutor threads(3);
   const PointIndex one = indexOf(points);
-  const PointIndex other = indexOf(points, ThreadedExecutor(3));
+  const PointIndex other = indexOf(points, threads);
   Random random(7);
   for (int i = 0; i < 20; ++i)
   {
     const AffineTransform transform = randomTransform(random, 1.0);
     const Lattice lattice = latticeAbout(random, transform.apply({ 0.5, 0.5, 0.5 }), 0.5);
     const std::vector<PointRange> a = one.rangesInside(transform, lattice);
-    const std::vector<PointRange> b = other.rangesInside(transform, lattice);
+    const std::vector<PointRange> b = other.rangesInside(transform, lattice, threads);
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t r = 0; r < a.size(); ++r)
     {
