@@ -64,21 +64,17 @@ private:
   Status assignGeneral(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
 
-  /// What all threads read lies on lines of its own, apart from what they write; the processor fetches lines
-  /// in pairs.
-  static constexpr std::size_t kApart = 128;
-
   int halvings_ = 0;
   Lattice halved_; ///< The lattice asked for, or what halvings_ make of it.
-  alignas(kApart) kernel::PartitionPlan plan_;
-  alignas(kApart) kernel::Placement placement_{};
-  alignas(kApart) kernel::RecordPool pool_;
+  alignas(kernel::kApart) kernel::PartitionPlan plan_;
+  alignas(kernel::kApart) kernel::Placement placement_{};
+  alignas(kernel::kApart) kernel::RecordPool pool_;
   bool poolHoldsAll_ = false; ///< All points of the last run, with their indices.
   std::vector<kernel::CarriedPartition> carried_;
   std::vector<std::unique_ptr<kernel::PartitionWorker>> idle_;
   kernel::KeyRanges ranges_;
   kernel::VoxelRuns runs_;
-  alignas(kApart) std::mutex mutex_;
+  alignas(kernel::kApart) std::mutex mutex_;
 };
 
 } // namespace pointhaptics

@@ -59,7 +59,7 @@ PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t point
 std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t carried);
 
 /// Works on one partition at a time and is used by one thread at a time.
-class PartitionWorker
+class alignas(kApart) PartitionWorker
 {
 public:
   PartitionWorker();

@@ -87,7 +87,7 @@ private:
     return kLineRecords * (partition % std::uint32_t(kBlockRecords / kLineRecords));
   }
 
-  struct Writer : RecordWriter
+  struct alignas(kApart) Writer : RecordWriter
   {
     RecordPool* pool = nullptr;
     std::vector<Record*> cursorStorage;

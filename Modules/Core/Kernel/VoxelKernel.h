@@ -27,6 +27,10 @@ constexpr int kMinimumIndexBits = 2;
 /// Points taken at once: fewer than a packed sum holds together with kPackedCounts carried ones.
 constexpr std::int64_t kChunkPoints = 1250000;
 
+/// What one thread writes and another reads or writes lies so far apart: two lines of the caches, which the
+/// processor fetches together.
+constexpr std::size_t kApart = 128;
+
 constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kPositionBits) - 1;
 /// Low bits of z that travel in the first word of a record; as many more are in the second. The top bit of z
 /// is left out: the partition tells it, as none spans half the layers.

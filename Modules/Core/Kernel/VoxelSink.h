@@ -28,7 +28,7 @@ struct CarriedSums
 /// Those of a partition. Where its cells' sums are kept side by side: cells with their packed sums, and in
 /// voxels what these could not hold; otherwise voxels by key. Seconds go with the cells, split, or with the
 /// voxels, and are there only if covariances are wanted.
-struct CarriedPartition
+struct alignas(kApart) CarriedPartition
 {
   std::size_t cellCount = 0; ///< The vectors may have more elements: nothing is said of those.
   std::vector<std::uint32_t> cells;
