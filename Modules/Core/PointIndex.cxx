@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 namespace pointhaptics
@@ -26,31 +24,50 @@ int cellsPerAxis(std::int64_t points)
   return std::clamp(int(std::cbrt(double(points) / kPointsPerCell)), 1, kMostCells);
 }
 
-Bounds finiteBounds(const PointView& points, const Executor& executor)
+/// A cloud's slices, one for each thread.
+class Slices
 {
-  Bounds box;
-  std::mutex mutex;
-  forRange(executor, points.size(),
-    [&](std::int64_t begin, std::int64_t end)
+public:
+  Slices(std::int64_t points, const Executor& executor)
+    : points_(points)
+    , executor_(executor)
+    , count_(executor.concurrency())
+    , size_((points + count_ - 1) / count_)
+  {
+  }
+  std::size_t count() const { return std::size_t(count_); }
+  /// Calls visit(slice, begin, end) for parts of all slices, those of one in order. @return false if the
+  /// watcher ended it.
+  template <typename Visit>
+  bool pass(WatchedPoints& watched, Visit&& visit) const
+  {
+    const std::int64_t step = std::max<std::int64_t>(kWatchedPoints / count_, 1);
+    for (std::int64_t done = 0; done < size_; done += step)
     {
-      Bounds local;
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const Vec3 p = points[i];
-        if (isFinite(p))
+      const std::int64_t part = std::min(step, size_ - done);
+      forRange(executor_, count_, 1,
+        [&](std::int64_t first, std::int64_t last)
         {
-          local.include(p);
-        }
-      }
-      if (!local.empty())
+          for (std::int64_t slice = first; slice < last; ++slice)
+          {
+            const std::int64_t begin = std::min(slice * size_ + done, points_);
+            visit(std::size_t(slice), begin, std::min(begin + part, points_));
+          }
+        });
+      if (!watched.add(part * count_))
       {
-        const std::lock_guard<std::mutex> lock(mutex);
-        box.include(local.minimum);
-        box.include(local.maximum);
+        return false;
       }
-    });
-  return box;
-}
+    }
+    return true;
+  }
+
+private:
+  std::int64_t points_;
+  const Executor& executor_;
+  std::int64_t count_;
+  std::int64_t size_;
+};
 
 /// Appends a range; neighbours join.
 void append(PointRange range, std::vector<PointRange>& ranges)
@@ -95,50 +112,87 @@ struct Grid
 
 }
 
-Status PointIndex::build(const PointView& points, const Executor& executor)
+Status PointIndex::build(const PointView& points, const Executor& executor, Watcher* watcher)
 {
   *this = PointIndex();
   if (points.size() > kMostPoints)
   {
     return Status::InvalidParameter;
   }
+  WatchedPoints watched(watcher, points.size(), 4);
+  const Status status = this->sort(points, executor, watched);
+  if (status == Status::Aborted)
+  {
+    *this = PointIndex();
+  }
+  return status;
+}
+
+Status PointIndex::sort(const PointView& points, const Executor& executor, WatchedPoints& watched)
+{
   cloudSize_ = points.size();
-  const Bounds box = finiteBounds(points, executor);
+  const Slices slices(points.size(), executor);
+  std::vector<Bounds> boxes(slices.count());
+  const bool isBounded = slices.pass(watched,
+    [&](std::size_t slice, std::int64_t begin, std::int64_t end)
+    {
+      Bounds box = boxes[slice];
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const Vec3 p = points[i];
+        if (isFinite(p))
+        {
+          box.include(p);
+        }
+      }
+      boxes[slice] = box;
+    });
+  if (!isBounded)
+  {
+    return Status::Aborted;
+  }
+  Bounds box;
+  for (const Bounds& ofSlice : boxes)
+  {
+    if (!ofSlice.empty())
+    {
+      box.include(ofSlice.minimum);
+      box.include(ofSlice.maximum);
+    }
+  }
   if (box.empty())
   {
     return Status::Empty;
   }
+  // Slices count and place their points by themselves.
   const Grid grid(box, cellsPerAxis(points.size()));
   std::vector<std::uint32_t> cells(std::size_t(points.size()));
-  // Slices of the cloud count and place their points by themselves.
-  const std::int64_t slices = executor.concurrency();
-  const std::int64_t sliceSize = (points.size() + slices - 1) / slices;
   const std::size_t cellCount = std::size_t(grid.cells) * std::size_t(grid.cells) * std::size_t(grid.cells);
-  std::vector<std::uint32_t> places(cellCount * std::size_t(slices), 0);
-  forRange(executor, slices, 1,
-    [&](std::int64_t first, std::int64_t last)
+  std::vector<std::uint32_t> places(cellCount * slices.count(), 0);
+  const bool isCounted = slices.pass(watched,
+    [&](std::size_t slice, std::int64_t begin, std::int64_t end)
     {
-      for (std::int64_t slice = first; slice < last; ++slice)
+      std::uint32_t* counts = places.data() + cellCount * slice;
+      for (std::int64_t i = begin; i < end; ++i)
       {
-        std::uint32_t* counts = places.data() + cellCount * std::size_t(slice);
-        const std::int64_t end = std::min(points.size(), (slice + 1) * sliceSize);
-        for (std::int64_t i = slice * sliceSize; i < end; ++i)
+        const Vec3 p = points[i];
+        const std::uint32_t cell = isFinite(p) ? grid.cellOf(p) : kNoBrick;
+        cells[std::size_t(i)] = cell;
+        if (cell != kNoBrick)
         {
-          const Vec3 p = points[i];
-          const std::uint32_t cell = isFinite(p) ? grid.cellOf(p) : kNoBrick;
-          cells[std::size_t(i)] = cell;
-          if (cell != kNoBrick)
-          {
-            ++counts[cell];
-          }
+          ++counts[cell];
         }
       }
     });
+  if (!isCounted)
+  {
+    return Status::Aborted;
+  }
   std::uint32_t sum = 0;
   for (std::size_t cell = 0; cell < cellCount; ++cell)
   {
     const std::uint32_t begin = sum;
-    for (std::size_t slice = 0; slice < std::size_t(slices); ++slice)
+    for (std::size_t slice = 0; slice < slices.count(); ++slice)
     {
       std::uint32_t& place = places[cell + cellCount * slice];
       const std::uint32_t count = place;
@@ -154,48 +208,42 @@ Status PointIndex::build(const PointView& points, const Executor& executor)
   begins_.push_back(size_);
   single_ = points.floats() != nullptr;
   originals_.reserve(std::size_t(size_));
-  if (single_)
-  {
-    fill(points, cells, places, floats_, executor);
-  }
-  else
-  {
-    fill(points, cells, places, doubles_, executor);
-  }
-  return Status::Ok;
+  const bool isFilled = single_ ? this->fill(points, cells, places, floats_, executor, watched)
+                                : this->fill(points, cells, places, doubles_, executor, watched);
+  return isFilled && this->bound(executor, watched) ? Status::Ok : Status::Aborted;
 }
 
 template <typename Real>
-void PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>& cells,
-  std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor)
+bool PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>& cells,
+  std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor, WatchedPoints& watched)
 {
   copy.reserve(3 * std::size_t(size_), Pages::Huge);
-  const std::int64_t slices = executor.concurrency();
-  const std::int64_t sliceSize = (points.size() + slices - 1) / slices;
-  const std::size_t cellCount = places.size() / std::size_t(slices);
-  forRange(executor, slices, 1,
-    [&](std::int64_t first, std::int64_t last)
+  const Slices slices(points.size(), executor);
+  const std::size_t cellCount = places.size() / slices.count();
+  return slices.pass(watched,
+    [&](std::size_t slice, std::int64_t begin, std::int64_t end)
     {
-      for (std::int64_t slice = first; slice < last; ++slice)
+      std::uint32_t* next = places.data() + cellCount * slice;
+      for (std::int64_t i = begin; i < end; ++i)
       {
-        std::uint32_t* next = places.data() + cellCount * std::size_t(slice);
-        const std::int64_t end = std::min(points.size(), (slice + 1) * sliceSize);
-        for (std::int64_t i = slice * sliceSize; i < end; ++i)
+        if (cells[std::size_t(i)] == kNoBrick)
         {
-          if (cells[std::size_t(i)] == kNoBrick)
-          {
-            continue;
-          }
-          const std::size_t to = next[cells[std::size_t(i)]]++;
-          const Vec3 p = points[i];
-          originals_[to] = std::uint32_t(i);
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            copy[3 * to + std::size_t(axis)] = Real(p[axis]);
-          }
+          continue;
+        }
+        const std::size_t to = next[cells[std::size_t(i)]]++;
+        const Vec3 p = points[i];
+        originals_[to] = std::uint32_t(i);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          copy[3 * to + std::size_t(axis)] = Real(p[axis]);
         }
       }
     });
+}
+
+/// Looks for the bounds of the bricks and of their groups.
+bool PointIndex::bound(const Executor& executor, WatchedPoints& watched)
+{
   const PointView sorted = this->points();
   const std::size_t bricks = begins_.size() - 1;
   boxes_.resize(bricks);
@@ -210,26 +258,43 @@ void PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>&
     }
     return box;
   };
-  forRange(executor, std::int64_t(groups_.size()), 1,
-    [&](std::int64_t first, std::int64_t last)
+  const auto boundGroup = [&](std::size_t group)
+  {
+    Bounds all;
+    for (std::size_t b = group * kGroupBricks; b < std::min((group + 1) * kGroupBricks, bricks); ++b)
     {
-      for (std::size_t group = std::size_t(first); group < std::size_t(last); ++group)
+      Bounds bounds;
+      for (std::int64_t i = begins_[b]; i < begins_[b + 1]; ++i)
       {
-        Bounds all;
-        for (std::size_t b = group * kGroupBricks; b < std::min((group + 1) * kGroupBricks, bricks); ++b)
-        {
-          Bounds bounds;
-          for (std::int64_t i = begins_[b]; i < begins_[b + 1]; ++i)
-          {
-            bounds.include(sorted[i]);
-          }
-          all.include(bounds.minimum);
-          all.include(bounds.maximum);
-          boxes_[b] = boxOf(bounds);
-        }
-        groups_[group] = boxOf(all);
+        bounds.include(sorted[i]);
       }
-    });
+      all.include(bounds.minimum);
+      all.include(bounds.maximum);
+      boxes_[b] = boxOf(bounds);
+    }
+    groups_[group] = boxOf(all);
+  };
+  for (std::size_t first = 0, last = 0; first < groups_.size(); first = last)
+  {
+    const std::int64_t begin = begins_[first * kGroupBricks];
+    const auto endOf = [&](std::size_t group) { return begins_[std::min(group * kGroupBricks, bricks)]; };
+    do
+    {
+      ++last;
+    } while (last < groups_.size() && endOf(last) - begin < kWatchedPoints);
+    forRange(executor, std::int64_t(last - first), 1,
+      [&](std::int64_t from, std::int64_t to)
+      {
+        for (std::int64_t group = from; group < to; ++group)
+        {
+          boundGroup(first + std::size_t(group));
+        }
+      });
+    if (!watched.add(endOf(last) - begin))
+    {
+      return false;
+    }
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
     farthest_[axis] = 0.0;
@@ -238,6 +303,7 @@ void PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>&
       farthest_[axis] = std::max(farthest_[axis], std::abs(box.middle[axis]) + box.half[axis]);
     }
   }
+  return true;
 }
 
 /// Whether a moved box can have a point in a lattice.

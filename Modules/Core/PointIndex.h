@@ -8,6 +8,7 @@
 #include "Core/Lattice.h"
 #include "Core/PointView.h"
 #include "Core/Status.h"
+#include "Core/Watcher.h"
 
 #include <cstdint>
 #include <vector>
@@ -31,8 +32,9 @@ public:
   /// Points looked up at once; an index of more than these is not built.
   static constexpr std::int64_t kMostPoints = (std::int64_t(1) << 32) - 1;
 
-  /// @return InvalidParameter for more than kMostPoints; Empty when no point is finite.
-  Status build(const PointView& points, const Executor& executor = {});
+  /// @return InvalidParameter for more than kMostPoints; Empty when no point is finite; Aborted where
+  /// @p watcher ended the work: the index is then empty.
+  Status build(const PointView& points, const Executor& executor = {}, Watcher* watcher = nullptr);
 
   /// Ranges of points() that hold every point which @p transform moves into @p lattice, and few others.
   std::vector<PointRange> rangesInside(
@@ -48,9 +50,12 @@ public:
 
 private:
   bool staysFinite(const AffineTransform& transform) const;
+  // The steps of build(); false: aborted.
+  Status sort(const PointView& points, const Executor& executor, WatchedPoints& watched);
   template <typename Real>
-  void fill(const PointView& points, const std::vector<std::uint32_t>& bricks,
-    std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor);
+  bool fill(const PointView& points, const std::vector<std::uint32_t>& bricks,
+    std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor, WatchedPoints& watched);
+  bool bound(const Executor& executor, WatchedPoints& watched);
 
   std::int64_t cloudSize_ = 0;
   std::int64_t size_ = 0;

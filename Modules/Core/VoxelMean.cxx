@@ -3,36 +3,48 @@
 #include "Core/Kernel/VoxelKernel.h"
 #include "Core/VoxelResampler.h"
 
+#include <algorithm>
 #include <mutex>
 
 namespace pointhaptics
 {
 
-Bounds transformedBounds(const PointView& points, const AffineTransform& transform, const Executor& executor)
+Bounds transformedBounds(
+  const PointView& points, const AffineTransform& transform, const Executor& executor, Watcher* watcher)
 {
   Bounds box;
   std::mutex mutex;
   const kernel::Kernels& kernels = kernel::kernelsFor(InstructionSet::Automatic);
   constexpr std::int64_t kGrain = 1 << 14;
-  forRange(executor, points.size(), kGrain,
-    [&](std::int64_t begin, std::int64_t end)
+  const auto include = [&](std::int64_t begin, std::int64_t end)
+  {
+    double local[6] = { INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY };
+    if (points.floats())
     {
-      double local[6] = { INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY };
-      if (points.floats())
-      {
-        kernels.boundsFloats(transform.m, points.floats() + 3 * begin, end - begin, local);
-      }
-      else
-      {
-        kernels.boundsDoubles(transform.m, points.doubles() + 3 * begin, end - begin, local);
-      }
-      if (local[0] <= local[1])
-      {
-        const std::lock_guard<std::mutex> lock(mutex);
-        box.include({ local[0], local[2], local[4] });
-        box.include({ local[1], local[3], local[5] });
-      }
-    });
+      kernels.boundsFloats(transform.m, points.floats() + 3 * begin, end - begin, local);
+    }
+    else
+    {
+      kernels.boundsDoubles(transform.m, points.doubles() + 3 * begin, end - begin, local);
+    }
+    if (local[0] <= local[1])
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      box.include({ local[0], local[2], local[4] });
+      box.include({ local[1], local[3], local[5] });
+    }
+  };
+  WatchedPoints watched(watcher, points.size(), 1);
+  for (std::int64_t first = 0; first < points.size(); first += kWatchedPoints)
+  {
+    const std::int64_t count = std::min(kWatchedPoints, points.size() - first);
+    forRange(executor, count, kGrain,
+      [&](std::int64_t begin, std::int64_t end) { include(first + begin, first + end); });
+    if (!watched.add(count))
+    {
+      break;
+    }
+  }
   return box;
 }
 

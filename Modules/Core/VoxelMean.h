@@ -7,6 +7,7 @@
 #include "Core/Lattice.h"
 #include "Core/PointView.h"
 #include "Core/Status.h"
+#include "Core/Watcher.h"
 
 #include <cstdint>
 #include <vector>
@@ -26,9 +27,10 @@ struct VoxelMeans
   std::int64_t invalidPoints = 0;   ///< NaN or infinite points.
 };
 
-/// Bounds of the transformed points that are finite before and after the transform.
-Bounds transformedBounds(
-  const PointView& points, const AffineTransform& transform, const Executor& executor = {});
+/// Bounds of the transformed points that are finite before and after the transform. Of no use where
+/// @p watcher has ended the work.
+Bounds transformedBounds(const PointView& points, const AffineTransform& transform,
+  const Executor& executor = {}, Watcher* watcher = nullptr);
 
 /// Maps @p points by @p transform and averages them voxel by voxel: VoxelResampler for once, in double.
 /// Errors: the transform's, the lattice's; @p result is then empty. A cloud without a point inside is no

@@ -8,6 +8,7 @@
 #include "Core/Lattice.h"
 #include "Core/PointView.h"
 #include "Core/Status.h"
+#include "Core/Watcher.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,16 +21,6 @@ namespace pointhaptics
 {
 
 class PointIndex;
-
-/// Hears how far long work is and may end it.
-class Watcher
-{
-public:
-  virtual ~Watcher() = default;
-  /// @p fraction of the work is done, 0 to 1, never less than before. Called from the thread that called
-  /// run(). @return false to end the work.
-  virtual bool proceed(double fraction) = 0;
-};
 
 /// Memory of the caller's for the results of the finest level: run() leaves them where they are to stay, and
 /// copying them there does nothing.

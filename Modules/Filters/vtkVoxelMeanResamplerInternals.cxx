@@ -98,14 +98,14 @@ bool vtkVoxelMeanResampler::Internals::Update(
 {
   const Running running(*this);
   this->Aborted = false;
+  this->PartBegin = this->PartEnd = 0.0;
   this->Request.levels = int(outputs.size());
   if (input->GetNumberOfPoints() == 0 || !this->ReadTransform() || !this->MakeLattice(input) ||
     !this->Run(input))
   {
     return false;
   }
-  this->From = 0.9;
-  this->To = 0.99;
+  this->BeginPart(0.99);
   for (int level = 0; level < this->Request.levels; ++level)
   {
     if (!this->Fill(level, input, outputs[std::size_t(level)]))
@@ -153,9 +153,16 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
     settings.workspace.minimum[axis] = this->Filter->WorkspaceBounds[2 * axis];
     settings.workspace.maximum[axis] = this->Filter->WorkspaceBounds[2 * axis + 1];
   }
-  const Bounds cloud = settings.automaticWorkspace
-    ? transformedBounds(this->Request.points, this->Request.transform, this->Smp)
-    : Bounds();
+  Bounds cloud;
+  if (settings.automaticWorkspace)
+  {
+    this->BeginPart(0.1);
+    cloud = transformedBounds(this->Request.points, this->Request.transform, this->Smp, this);
+    if (this->Aborted)
+    {
+      return false;
+    }
+  }
   const Status status = makeLattice(settings, cloud, this->Request.lattice);
   if (status != Status::Ok)
   {
@@ -182,7 +189,7 @@ bool vtkVoxelMeanResampler::Internals::PointsSeen::operator==(const PointsSeen& 
 }
 
 /// An index pays where parts of the same points are looked at again and again.
-void vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
+bool vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
 {
   const PointsSeen seen(input);
   if (!(seen == this->Seen) || !this->Filter->UsePointIndex)
@@ -194,15 +201,24 @@ void vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
   }
   if (!this->Indexed && this->PartialViews > 0)
   {
+    this->BeginPart(0.3);
+    this->Indexed = this->Index.build(this->Request.points, this->Smp, this) == Status::Ok;
+    if (this->Aborted)
+    {
+      return false;
+    }
     this->PartialViews = 0;
-    this->Indexed = this->Index.build(this->Request.points, this->Smp) == Status::Ok;
   }
   this->Request.index = this->Indexed ? &this->Index : nullptr;
+  return true;
 }
 
 bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
 {
-  this->UseIndex(input);
+  if (!this->UseIndex(input))
+  {
+    return false;
+  }
   const int precision = this->Filter->OutputPointsPrecision;
   this->Request.singlePrecision = precision == vtkAlgorithm::DEFAULT_PRECISION
     ? input->GetPoints()->GetDataType() == VTK_FLOAT
@@ -212,8 +228,7 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
   this->Request.keys = !this->Attributes.empty() || this->Request.levels > 1;
   this->Request.assigned = !this->Attributes.empty();
   this->Request.memory = &this->Memory;
-  this->From = 0.0;
-  this->To = this->Attributes.empty() ? 0.9 : 0.5;
+  this->BeginPart(this->Attributes.empty() ? 0.9 : 0.5);
   const Status status = this->Engine.run(this->Request, this->Smp, this);
   if (status == Status::Aborted)
   {
@@ -283,8 +298,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   {
     return true;
   }
-  this->From = 0.5;
-  this->To = 0.9;
+  this->BeginPart(0.9);
   const bool canWriteSets = std::all_of(this->Attributes.begin(), this->Attributes.end(),
     [](const NamedAttribute& named) { return named.attribute.canWriteSets(); });
   if (canWriteSets && this->Engine.canAssignInSets() && this->Request.levels == 1)
@@ -452,9 +466,15 @@ void vtkVoxelMeanResampler::Internals::Forget()
   this->PartialViews = 0;
 }
 
+void vtkVoxelMeanResampler::Internals::BeginPart(double end)
+{
+  this->PartBegin = this->PartEnd;
+  this->PartEnd = end;
+}
+
 bool vtkVoxelMeanResampler::Internals::proceed(double fraction)
 {
-  this->Filter->UpdateProgress(this->From + (this->To - this->From) * fraction);
+  this->Filter->UpdateProgress(this->PartBegin + (this->PartEnd - this->PartBegin) * fraction);
   this->Aborted = this->Filter->GetAbortExecute() != 0;
   return !this->Aborted;
 }

@@ -38,7 +38,7 @@ public:
   void Forget();
   std::size_t ScratchBytes() const;
 
-  /// Watcher: passes progress on within [this->From, this->To].
+  /// Watcher: passes progress on within the present part of an update.
   bool proceed(double fraction) override;
 
   pointhaptics::VoxelResampler Engine;
@@ -67,6 +67,8 @@ private:
   };
   class Running;
 
+  /// What proceed() hears of from now on is the part of an update from the last one's end to @p end.
+  void BeginPart(double end);
   // The steps of an update; false after an error was reported, or the execution aborted.
   bool ReadTransform();
   bool MakeLattice(vtkPointSet* input);
@@ -76,7 +78,7 @@ private:
   void Release();
 
   void ChooseArrays(vtkPointSet* input);
-  void UseIndex(vtkPointSet* input);
+  bool UseIndex(vtkPointSet* input);
   bool Resample(vtkPointSet* input);
   bool AverageArrays();
   void AverageInSets();
@@ -89,8 +91,8 @@ private:
   std::vector<pointhaptics::Buffer<std::int64_t>> SpareSums; ///< Of the last update's attributes.
   pointhaptics::ArrayPool Pool;
   pointhaptics::OutputMemory Memory{ this->Pool };
-  double From = 0.0;
-  double To = 1.0;
+  double PartBegin = 0.0;
+  double PartEnd = 0.0;
   bool IsRunning = false;
   bool ForgetAtTheEnd = false;
   // Which input was seen last, and how often a part of it.

@@ -97,6 +97,47 @@ TEST(VoxelMeanPipeline, AbortStopsALongRunWhichThenStartsAfresh)
   }
 }
 
+TEST(VoxelMeanPipeline, TheSearchForTheWorkspaceAndTheIndexCanBeStopped)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(1500000, 54, VTK_FLOAT));
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  resampler->SetDimensions(60, 60, 60);
+  trial::Ear errors(resampler, vtkCommand::ErrorEvent);
+  // Ends an update at its first event, and finds nothing else changed.
+  const auto stopAtFirstEvent = [&](double before)
+  {
+    Progress progress(resampler);
+    progress.abortAt = 1e-6;
+    resampler->Modified();
+    resampler->Update();
+    ASSERT_FALSE(progress.heard.empty());
+    EXPECT_LT(progress.heard.back(), before);
+    EXPECT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 0);
+    trial::expectValid(resampler->GetOutput());
+    resampler->SetAbortExecute(0);
+  };
+  stopAtFirstEvent(0.1); // the workspace
+  resampler->Update();
+  EXPECT_EQ(trial::sum(trial::countsOf(resampler->GetOutput())), 1500000);
+
+  resampler->SetWorkspaceBounds(0.2, 0.4, 0.2, 0.4, 0.2, 0.4);
+  resampler->Update();
+  const auto part = trial::copyOf(resampler->GetOutput());
+  const unsigned long withoutIndex = resampler->GetScratchMemorySize();
+  stopAtFirstEvent(0.3); // the index, which this second look at a part would make
+  const unsigned long half = 1500000 / 1024 * 16 / 2; // of the index, in KiB
+  EXPECT_LT(resampler->GetScratchMemorySize(), withoutIndex + half);
+  for (int i = 0; i < 2; ++i)
+  {
+    resampler->Modified();
+    resampler->Update();
+    trial::expectSame(resampler->GetOutput(), part);
+  }
+  EXPECT_GT(resampler->GetScratchMemorySize(), withoutIndex + half) << "made after all";
+  EXPECT_EQ(errors.count, 0) << errors.last;
+}
+
 TEST(VoxelMeanPipeline, LevelsAndArraysCanBeStoppedBetween)
 {
   const auto cloud = trial::cloudOf(trial::randomPoints(20000, 59, VTK_FLOAT));

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cfloat>
 
 using namespace pointhaptics;
@@ -234,4 +235,58 @@ TEST(PointIndex, LeavesOutMostOfWhatASmallViewDoesNotShow)
   EXPECT_TRUE(index.rangesInside({}, away).empty());
   Lattice all = latticeOf(1, 1, 1);
   ASSERT_EQ(index.rangesInside({}, all).size(), 1u) << "neighbouring bricks join";
+}
+
+namespace
+{
+
+/// Notes what it hears, and ends the work at the event of a number.
+class Notes : public Watcher
+{
+public:
+  explicit Notes(std::size_t last)
+    : last_(last)
+  {
+  }
+  bool proceed(double fraction) override
+  {
+    heard.push_back(fraction);
+    return heard.size() < last_;
+  }
+  std::vector<double> heard;
+
+private:
+  std::size_t last_;
+};
+
+}
+
+TEST(PointIndex, TellsHowFarItIsAndCanBeStoppedThere)
+{
+  // More than are looked at between two events.
+  const std::vector<Vec3> points = randomBox(int(kWatchedPoints) + 1000, 8, { 0, 0, 0 }, { 1, 1, 1 });
+  const PointView view(points.data(), std::int64_t(points.size()));
+  const PointIndex expected = indexOf(points);
+  for (const int threads : { 1, 3 })
+  {
+    SCOPED_TRACE(threads);
+    const ThreadedExecutor executor(threads);
+    PointIndex index;
+    Notes all(1000);
+    ASSERT_EQ(index.build(view, executor, &all), Status::Ok);
+    EXPECT_GE(all.heard.size(), 8u) << "two for each pass";
+    EXPECT_TRUE(std::is_sorted(all.heard.begin(), all.heard.end()));
+    EXPECT_GT(all.heard.front(), 0.0);
+    EXPECT_EQ(all.heard.back(), 1.0);
+    EXPECT_EQ(index.rangesInside({}, {}).size(), expected.rangesInside({}, {}).size());
+    expectHoldsFinitePoints(index, view);
+    for (std::size_t last = 1; last <= all.heard.size(); ++last)
+    {
+      Notes stopping(last);
+      ASSERT_EQ(index.build(view, executor, &stopping), Status::Aborted) << last;
+      EXPECT_EQ(stopping.heard.size(), last);
+      EXPECT_EQ(index.points().size(), 0);
+      EXPECT_TRUE(index.rangesInside({}, {}).empty());
+    }
+  }
 }

@@ -1,0 +1,45 @@
+/// @file
+/// The seam between Core's long work and whoever waits for it: progress, and the wish to end it.
+#pragma once
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+
+/// Hears how far long work is and may end it.
+class Watcher
+{
+public:
+  virtual ~Watcher() = default;
+  /// @p fraction of the work is done, 0 to 1, never less than before. Called from the thread that the work
+  /// was begun from. @return false to end the work.
+  virtual bool proceed(double fraction) = 0;
+};
+
+/// A watcher is told at least each time so many points have been looked at.
+constexpr std::int64_t kWatchedPoints = 1250000;
+
+/// Counts what passes over a cloud have looked at, for a watcher, which may be null.
+class WatchedPoints
+{
+public:
+  WatchedPoints(Watcher* watcher, std::int64_t points, int passes)
+    : watcher_(watcher)
+    , all_(double(points) * passes)
+  {
+  }
+  /// @return false to end the work.
+  bool add(std::int64_t points)
+  {
+    seen_ += double(points);
+    return !watcher_ || watcher_->proceed(seen_ < all_ ? seen_ / all_ : 1.0);
+  }
+
+private:
+  Watcher* watcher_;
+  double all_;
+  double seen_ = 0.0;
+};
+
+} // namespace pointhaptics
