@@ -6,8 +6,10 @@
 #include <cstring>
 
 #include "vtkDoubleArray.h"
+#include "vtkSMPTools.h"
 
 #include <algorithm>
+#include <string>
 
 namespace
 {
@@ -20,20 +22,23 @@ double boundInKiB(vtkIdType voxels, vtkIdType points)
 
 }
 
-TEST(VoxelMeanMemory, FollowsActiveVoxelsAndPointsNotTheLattice)
+TEST(VoxelMeanMemory, FollowsActiveVoxelsAndPointsNotTheLatticeOrTheThreads)
 {
   const auto cloud = trial::cloudOf(trial::randomPoints(1500000, 91, VTK_FLOAT));
-  for (const int n : { 10, 300, 4096, 1 << 20 })
+  for (const int threads : { 1, 2, 8, 16 })
   {
-    SCOPED_TRACE(n);
-    vtkNew<vtkVoxelMeanResampler> resampler;
-    resampler->SetInputData(cloud);
-    resampler->SetUsePointIndex(false);
-    trial::useUnitCube(resampler, n);
-    resampler->Update();
-    EXPECT_EQ(trial::sum(trial::countsOf(resampler->GetOutput())), 1500000);
-    EXPECT_LE(double(resampler->GetScratchMemorySize()),
-      boundInKiB(resampler->GetOutput()->GetNumberOfPoints(), 1500000));
+    for (const int n : { 10, 300, 4096, 1 << 20 })
+    {
+      SCOPED_TRACE(std::to_string(threads) + " threads, " + std::to_string(n) + " voxels on an axis");
+      vtkNew<vtkVoxelMeanResampler> resampler;
+      resampler->SetInputData(cloud);
+      resampler->SetUsePointIndex(false);
+      trial::useUnitCube(resampler, n);
+      vtkSMPTools::LocalScope(vtkSMPTools::Config(threads), [&] { resampler->Update(); });
+      EXPECT_EQ(trial::sum(trial::countsOf(resampler->GetOutput())), 1500000);
+      EXPECT_LE(double(resampler->GetScratchMemorySize()),
+        boundInKiB(resampler->GetOutput()->GetNumberOfPoints(), 1500000));
+    }
   }
 }
 

@@ -135,11 +135,11 @@ constexpr int kFetchAhead = 1;
 constexpr int kScanFetchAhead = 3;
 
 template <bool Indexed, int fetchAhead>
-inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
+inline void dealOne(const PlacedPoints& placed, int i, std::uintptr_t blockMask, RecordWriter& writer)
 {
   const std::uint32_t partition = placed.partitions[i];
   Record* cursor = writer.cursors[partition];
-  if ((reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1)) == 0)
+  if ((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) == 0)
   {
     cursor = writer.refill(writer, partition);
   }
@@ -155,7 +155,7 @@ inline void dealOne(const PlacedPoints& placed, int i, RecordWriter& writer)
 
 /// Appends records that nearly all go to one partition. A cursor that is moved waits for the move before:
 /// where four go to one they move it together. @return how many were appended: all but the last few.
-inline int dealRun(const PlacedPoints& placed, RecordWriter& writer)
+inline int dealRun(const PlacedPoints& placed, std::uintptr_t blockMask, RecordWriter& writer)
 {
   constexpr int kTogether = 4;
   int i = 0;
@@ -163,10 +163,10 @@ inline int dealRun(const PlacedPoints& placed, RecordWriter& writer)
   {
     const std::uint32_t* partitions = placed.partitions + i;
     Record* cursor = writer.cursors[partitions[0]];
-    const auto inBlock = reinterpret_cast<std::uintptr_t>(cursor) & (kBlockBytes - 1);
+    const auto inBlock = reinterpret_cast<std::uintptr_t>(cursor) & blockMask;
     const bool areOne = ((partitions[0] ^ partitions[1]) | (partitions[2] ^ partitions[3]) |
                           (partitions[0] ^ partitions[2])) == 0;
-    if (areOne && inBlock != 0 && inBlock <= kBlockBytes - kTogether * sizeof(Record))
+    if (areOne && inBlock != 0 && inBlock <= blockMask + 1 - kTogether * sizeof(Record))
     {
       for (int j = 0; j < kTogether; ++j)
       {
@@ -179,7 +179,7 @@ inline int dealRun(const PlacedPoints& placed, RecordWriter& writer)
     }
     for (int j = 0; j < kTogether; ++j)
     {
-      dealOne<false, kScanFetchAhead>(placed, i + j, writer);
+      dealOne<false, kScanFetchAhead>(placed, i + j, blockMask, writer);
     }
   }
   return i;
@@ -202,20 +202,21 @@ inline bool isScan(const PlacedPoints& placed)
 template <bool Indexed>
 inline void deal(const PlacedPoints& placed, RecordWriter& writer)
 {
+  const std::uintptr_t blockMask = writer.blockMask;
   if (!isScan(placed))
   {
     for (int i = 0; i < placed.size; ++i)
     {
-      dealOne<Indexed, kFetchAhead>(placed, i, writer);
+      dealOne<Indexed, kFetchAhead>(placed, i, blockMask, writer);
     }
     return;
   }
   const std::uint32_t first = placed.partitions[0];
   const bool isRun =
     first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
-  const int from = !Indexed && isRun ? dealRun(placed, writer) : 0;
-  fromPlaces<8>(
-    placed.size - from, [&](int j) { dealOne<Indexed, kScanFetchAhead>(placed, from + j, writer); });
+  const int from = !Indexed && isRun ? dealRun(placed, blockMask, writer) : 0;
+  fromPlaces<8>(placed.size - from,
+    [&](int j) { dealOne<Indexed, kScanFetchAhead>(placed, from + j, blockMask, writer); });
 }
 
 /// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p

@@ -7,16 +7,35 @@ namespace pointhaptics
 namespace kernel
 {
 
+namespace
+{
+
+/// A writer leaves the first and the last block of a partition partly empty: many writers get small ones.
+std::size_t blockRecordsFor(std::size_t writers)
+{
+  constexpr std::size_t kFewWriters = 4;
+  constexpr std::size_t kLeastRecords = kBlockRecords / 8;
+  std::size_t records = kBlockRecords;
+  for (std::size_t few = kFewWriters; few < writers && records > kLeastRecords; few *= 2)
+  {
+    records /= 2;
+  }
+  return records;
+}
+
+}
+
 void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writers, bool indexed)
 {
   const std::size_t writerCount = std::size_t(std::max(writers, 1));
+  blockRecords_ = blockRecordsFor(writerCount);
   const std::size_t blocks =
-    std::size_t(points) / kBlockRecords + writerCount * (2 * partitions + kTakenBlocks);
-  records_.reserve(blocks * kBlockRecords, Pages::Huge);
+    std::size_t(points) / blockRecords_ + writerCount * (2 * partitions + kTakenBlocks);
+  records_.reserve(blocks * blockRecords_, Pages::Huge);
   previous_.reserve(blocks);
   if (indexed)
   {
-    indexStorage_.reserve(blocks * kBlockRecords, Pages::Huge);
+    indexStorage_.reserve(blocks * blockRecords_, Pages::Huge);
   }
   indices_ = indexed ? indexStorage_.data() : nullptr;
   nextBlock_ = 0;
@@ -31,6 +50,7 @@ void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writ
     writer->cursorStorage.assign(partitions, nullptr);
     writer->cursors = writer->cursorStorage.data();
     writer->lastBlocks.assign(partitions, kNone);
+    writer->blockMask = blockRecords_ * sizeof(Record) - 1;
     writer->refill = &RecordPool::refill;
     writer->indices = indices_;
     writer->records = records_.data();
@@ -54,8 +74,8 @@ Record* RecordPool::refill(RecordWriter& base, std::uint32_t partition)
   const bool isFirst = writer.lastBlocks[partition] == kNone;
   pool.previous_[block] = writer.lastBlocks[partition];
   writer.lastBlocks[partition] = block;
-  Record* records = pool.records_.data() + std::size_t(block) * kBlockRecords;
-  return records + (isFirst ? stagger(partition) : 0);
+  Record* records = pool.records_.data() + std::size_t(block) * pool.blockRecords_;
+  return records + (isFirst ? pool.stagger(partition) : 0);
 }
 
 RecordPool::Lease::Lease(RecordPool& pool)
@@ -118,10 +138,10 @@ std::size_t RecordPool::count(std::uint32_t partition) const
     {
       continue;
     }
-    sum += std::size_t(writer->cursors[partition] - records_.data()) - block * kBlockRecords;
+    sum += std::size_t(writer->cursors[partition] - records_.data()) - block * blockRecords_;
     for (; previous_[block] != kNone; block = previous_[block])
     {
-      sum += kBlockRecords;
+      sum += blockRecords_;
     }
     sum -= stagger(partition);
   }

@@ -62,11 +62,11 @@ public:
         const std::uint32_t before = previous_[block];
         const std::uint32_t next = before == kNone ? firstBlock(partition, w + 1) : before;
         const std::size_t first =
-          std::size_t(block) * kBlockRecords + (before == kNone ? stagger(partition) : 0);
+          std::size_t(block) * blockRecords_ + (before == kNone ? stagger(partition) : 0);
         visit(records_.data() + first, indices_ ? indices_ + first : nullptr, int(end - first),
-          records_.data() + std::size_t(next) * kBlockRecords);
+          records_.data() + std::size_t(next) * blockRecords_);
         block = before;
-        end = (std::size_t(block) + 1) * kBlockRecords;
+        end = (std::size_t(block) + 1) * blockRecords_;
       }
     }
   }
@@ -82,9 +82,9 @@ private:
 
   /// Where a partition's first block begins to be filled. All cursors advance at about the same pace: without
   /// this they would crowd the same few sets of the first-level cache.
-  static std::size_t stagger(std::uint32_t partition)
+  std::size_t stagger(std::uint32_t partition) const
   {
-    return kLineRecords * (partition % std::uint32_t(kBlockRecords / kLineRecords));
+    return kLineRecords * (partition % std::uint32_t(blockRecords_ / kLineRecords));
   }
 
   struct alignas(kApart) Writer : RecordWriter
@@ -101,6 +101,7 @@ private:
   /// after it; any block where there is none.
   std::uint32_t firstBlock(std::uint32_t partition, std::size_t writer) const;
 
+  std::size_t blockRecords_ = kBlockRecords;
   Buffer<Record> records_;
   Buffer<std::uint32_t> indexStorage_;
   std::uint32_t* indices_ = nullptr;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Core/InstructionSet.h"
+#include "Core/Watcher.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +26,7 @@ constexpr int kMaximumIndexBits = kPositionBits - 31;
 /// And the smallest: one bit of an index is not in the record.
 constexpr int kMinimumIndexBits = 2;
 /// Points taken at once: fewer than a packed sum holds together with kPackedCounts carried ones.
-constexpr std::int64_t kChunkPoints = 1250000;
+constexpr std::int64_t kChunkPoints = kWatchedPoints;
 
 /// What one thread writes and another reads or writes lies so far apart: two lines of the caches, which the
 /// processor fetches together.
@@ -44,9 +45,8 @@ struct alignas(16) Record
   std::uint64_t second;
 };
 
-/// Records are written into blocks of this size, aligned to it.
-constexpr std::size_t kBlockBytes = 4096;
-constexpr std::size_t kBlockRecords = kBlockBytes / sizeof(Record);
+/// Records are written into blocks of a power of two of records, at most so many, aligned to their size.
+constexpr std::size_t kBlockRecords = 4096 / sizeof(Record);
 /// Records of a line of the caches.
 constexpr int kLineRecords = 64 / sizeof(Record);
 
@@ -84,6 +84,7 @@ struct Placement
 struct RecordWriter
 {
   Record** cursors;
+  std::uintptr_t blockMask; ///< Bytes of a block, less one.
   /// Called when a cursor stands at the end of its block: gives one at the start of a new block.
   Record* (*refill)(RecordWriter& writer, std::uint32_t partition);
   /// Beside each record the index of its point, or null.
