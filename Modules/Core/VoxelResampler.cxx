@@ -64,14 +64,15 @@ void VoxelResampler::Implementation::clear()
 }
 
 Status VoxelResampler::Implementation::addLevels(
-  const VoxelRequest& request, VoxelSumList list, Watcher* watcher)
+  const VoxelRequest& request, VoxelSumList list, const Executor& executor, Watcher* watcher)
 {
   for (int l = 1; l < request.levels; ++l)
   {
     Level level;
     level.lattice = coarserLattice(levels.back().lattice);
-    list = coarserSums(list, levels.back().lattice, level.lattice, level.parents);
-    level.arena.write(list, { request.singlePrecision, request.keys, request.covariances }, level.lattice);
+    list = coarserSums(list, levels.back().lattice, level.lattice, level.parents, executor);
+    level.arena.write(
+      list, { request.singlePrecision, request.keys, request.covariances }, level.lattice, executor);
     level.size = std::int64_t(list.voxels.size());
     levels.push_back(std::move(level));
     const double share = shareOfFinest(request);

@@ -87,12 +87,12 @@ Status VoxelResampler::Implementation::finishRuns(
     for (int halvings = halvings_; halvings > 0; --halvings)
     {
       std::vector<std::int64_t> parents;
-      list = coarserSums(
-        list, finerLattice(request.lattice, halvings), finerLattice(request.lattice, halvings - 1), parents);
+      list = coarserSums(list, finerLattice(request.lattice, halvings),
+        finerLattice(request.lattice, halvings - 1), parents, executor);
     }
-    level.arena.write(list, layout, request.lattice, request.memory);
+    level.arena.write(list, layout, request.lattice, executor, request.memory);
     level.size = std::int64_t(list.voxels.size());
-    return request.levels > 1 ? addLevels(request, std::move(list), watcher) : Status::Ok;
+    return request.levels > 1 ? addLevels(request, std::move(list), executor, watcher) : Status::Ok;
   }
   level.firsts.assign(ranges + 1, 0);
   for (std::size_t range = 0; range < ranges; ++range)
@@ -112,7 +112,7 @@ Status VoxelResampler::Implementation::finishRuns(
         runs_.release(range);
       }
     });
-  return request.levels > 1 ? addLevels(request, runs_.take(), watcher) : Status::Ok;
+  return request.levels > 1 ? addLevels(request, runs_.take(), executor, watcher) : Status::Ok;
 }
 
 Status VoxelResampler::Implementation::assignGeneral(

@@ -55,8 +55,9 @@ private:
   void finish(const VoxelRequest& request, const Executor& executor);
   /// The part of the work of run() that the finest level is.
   static double shareOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
-  Status addLevels(const VoxelRequest& request, kernel::VoxelSumList list, Watcher* watcher);
-  kernel::VoxelSumList carriedList() const;
+  Status addLevels(
+    const VoxelRequest& request, kernel::VoxelSumList list, const Executor& executor, Watcher* watcher);
+  kernel::VoxelSumList carriedList(bool covariances, const Executor& executor) const;
   Status assignPlanned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
   void visitPartition(const VoxelRequest& request, kernel::PartitionWorker& worker, std::uint32_t partition,

@@ -2,6 +2,7 @@
 #include "Core/PointIndex.h"
 #include "Core/VoxelResamplerImplementation.h"
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -55,6 +56,7 @@ std::int64_t mostPointsOfBatch(int indexBits)
 }
 static_assert(
   kChunkPoints < std::int64_t(1) << (62 - kPositionBits + kMinimumIndexBits), "a batch must hold a chunk");
+static_assert(kChunkPoints <= kWatchedPoints, "a watcher is told after each chunk");
 
 std::int64_t pointsOf(const Chunks& chunks)
 {
@@ -118,7 +120,9 @@ Status VoxelResampler::Implementation::runPlanned(
   {
     return finishRuns(request, executor, watcher);
   }
-  return request.levels > 1 ? addLevels(request, carriedList(), watcher) : Status::Ok;
+  return request.levels > 1
+    ? addLevels(request, carriedList(request.covariances, executor), executor, watcher)
+    : Status::Ok;
 }
 
 void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const Chunks& chunks,
@@ -284,19 +288,31 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
   }
 }
 
-VoxelSumList VoxelResampler::Implementation::carriedList() const
+VoxelSumList VoxelResampler::Implementation::carriedList(bool covariances, const Executor& executor) const
 {
-  VoxelSumList list;
-  list.fractionBits = plan_.fractionBits;
-  list.voxels.reserve(std::size_t(levels[0].size));
+  std::vector<std::size_t> places = { 0 };
   for (const CarriedPartition& partition : carried_)
   {
-    for (const CarriedSums& voxel : partition.voxels)
-    {
-      list.voxels.push_back({ voxel.key, voxel.count, { voxel.sums[0], voxel.sums[1], voxel.sums[2] } });
-    }
-    list.seconds.insert(list.seconds.end(), partition.seconds.begin(), partition.seconds.end());
+    places.push_back(places.back() + partition.voxels.size());
   }
+  VoxelSumList list;
+  list.fractionBits = plan_.fractionBits;
+  list.voxels.resize(places.back());
+  list.seconds.resize(covariances ? places.back() : 0);
+  forRange(executor, std::int64_t(carried_.size()), grainFor(std::int64_t(carried_.size()), executor),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (auto p = std::size_t(begin); p < std::size_t(end); ++p)
+      {
+        const CarriedPartition& partition = carried_[p];
+        VoxelSums* to = list.voxels.data() + places[p];
+        for (const CarriedSums& voxel : partition.voxels)
+        {
+          *to++ = { voxel.key, voxel.count, { voxel.sums[0], voxel.sums[1], voxel.sums[2] } };
+        }
+        std::copy(partition.seconds.begin(), partition.seconds.end(), list.seconds.data() + places[p]);
+      }
+    });
   return list;
 }
 

@@ -11,23 +11,6 @@ namespace kernel
 namespace
 {
 
-void addVoxel(VoxelSums& to, const VoxelSums& from)
-{
-  to.count += from.count;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    to.sums[axis] += from.sums[axis];
-  }
-}
-
-void addSecondSums(SecondSums& to, const SecondSums& from)
-{
-  for (int m = 0; m < 6; ++m)
-  {
-    to.lanes[m] += from.lanes[m];
-  }
-}
-
 bool isOneVoxel(const Lattice& lattice)
 {
   return lattice.dimensions == std::array<std::int64_t, 3>{ 1, 1, 1 };
@@ -68,81 +51,216 @@ Lattice finerLattice(const Lattice& lattice, int halvings)
 namespace
 {
 
+/// Whether the index of a fine voxel is odd, on each axis.
+using Parity = std::array<std::int64_t, 3>;
+
 /// One fine voxel's share of its coarse one: places move by half a coarse voxel where the index is odd.
-VoxelSums shareOf(
-  const VoxelSums& voxel, const std::array<std::int64_t, 3>& index, int fractionBits, std::uint64_t coarseKey)
+void addShare(VoxelSums& to, const VoxelSums& voxel, const Parity& odd, int fractionBits)
 {
-  VoxelSums share{ coarseKey, voxel.count, { voxel.sums[0], voxel.sums[1], voxel.sums[2] } };
+  to.count += voxel.count;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    share.sums[axis] += (Int128(voxel.count) * (index[axis] & 1)) << fractionBits;
+    to.sums[axis] += voxel.sums[axis] + ((Int128(voxel.count) * odd[axis]) << fractionBits);
   }
-  return share;
 }
 
-SecondSums shareOfSeconds(const VoxelSums& voxel, const SecondSums& seconds,
-  const std::array<std::int64_t, 3>& index, int fractionBits)
+void addShareOfSeconds(
+  SecondSums& to, const VoxelSums& voxel, const SecondSums& seconds, const Parity& odd, int fractionBits)
 {
   const int rows[6] = { 0, 1, 2, 0, 1, 0 };
   const int columns[6] = { 0, 1, 2, 1, 2, 2 };
-  SecondSums share = seconds;
   for (int m = 0; m < 6; ++m)
   {
-    const UInt128 a = UInt128(index[std::size_t(rows[m])] & 1) << fractionBits;
-    const UInt128 b = UInt128(index[std::size_t(columns[m])] & 1) << fractionBits;
-    share.lanes[m] +=
-      a * UInt128(voxel.sums[columns[m]]) + b * UInt128(voxel.sums[rows[m]]) + a * b * UInt128(voxel.count);
+    const UInt128 a = UInt128(odd[std::size_t(rows[m])]) << fractionBits;
+    const UInt128 b = UInt128(odd[std::size_t(columns[m])]) << fractionBits;
+    to.lanes[m] += seconds.lanes[m] + a * UInt128(voxel.sums[columns[m]]) + b * UInt128(voxel.sums[rows[m]]) +
+      a * b * UInt128(voxel.count);
   }
-  return share;
 }
+
+/// Makes coarse voxels of the fine ones of whole coarse layers, which follow each other.
+class Coarsening
+{
+public:
+  Coarsening(const VoxelSumList& fine, const Lattice& fineLattice, const Lattice& coarseLattice,
+    std::vector<std::int64_t>& parents)
+    : fine_(fine)
+    , coarseLattice_(coarseLattice)
+    , parents_(parents)
+    , rowKeys_(std::uint64_t(fineLattice.dimensions[0]))
+    , layerKeys_(rowKeys_ * std::uint64_t(fineLattice.dimensions[1]))
+  {
+  }
+  /// The first fine voxel of the coarse layer that voxel @p v is in.
+  std::size_t layerBegin(std::size_t v) const
+  {
+    return v < fine_.voxels.size() ? this->firstFrom((fine_.voxels[v].key / layerKeys_ / 2) * 2 * layerKeys_)
+                                   : fine_.voxels.size();
+  }
+  /// Those of the fine voxels [begin, end), in ascending order. Their parents are numbered from 0 on.
+  VoxelSumList coarse(std::size_t begin, std::size_t end) const
+  {
+    VoxelSumList coarse;
+    while (begin < end)
+    {
+      const std::uint64_t layer = fine_.voxels[begin].key / layerKeys_ / 2;
+      const std::uint64_t firstKey = 2 * layer * layerKeys_;
+      const std::size_t middle = this->firstFrom(firstKey + layerKeys_);
+      const std::size_t next = this->firstFrom(firstKey + 2 * layerKeys_);
+      this->appendLayer(layer, { begin, middle }, { middle, next }, coarse);
+      begin = next;
+    }
+    return coarse;
+  }
+
+private:
+  /// Fine voxels [at, end).
+  struct Range
+  {
+    std::size_t at;
+    std::size_t end;
+  };
+  /// Those of a fine row, whose voxel at x = 0 has this key.
+  struct Row
+  {
+    Range range;
+    std::uint64_t firstKey;
+  };
+
+  std::uint64_t key(std::size_t v) const { return fine_.voxels[v].key; }
+  std::size_t firstFrom(std::uint64_t key) const
+  {
+    const auto first = std::lower_bound(fine_.voxels.begin(), fine_.voxels.end(), key,
+      [](const VoxelSums& voxel, std::uint64_t wanted) { return voxel.key < wanted; });
+    return std::size_t(first - fine_.voxels.begin());
+  }
+  /// The coarse voxels of two fine layers: row by row, each of four fine rows.
+  void appendLayer(std::uint64_t layer, Range lower, Range upper, VoxelSumList& coarse) const
+  {
+    Range layers[2] = { lower, upper };
+    const std::uint64_t firstKeys[2] = { 2 * layer * layerKeys_, (2 * layer + 1) * layerKeys_ };
+    while (layers[0].at < layers[0].end || layers[1].at < layers[1].end)
+    {
+      std::uint64_t coarseRow = ~std::uint64_t(0);
+      for (int z = 0; z < 2; ++z)
+      {
+        if (layers[z].at < layers[z].end)
+        {
+          coarseRow = std::min(coarseRow, (this->key(layers[z].at) - firstKeys[z]) / rowKeys_ / 2);
+        }
+      }
+      Row rows[4];
+      for (int z = 0; z < 2; ++z)
+      {
+        for (int y = 0; y < 2; ++y)
+        {
+          const std::uint64_t firstKey = firstKeys[z] + (2 * coarseRow + std::uint64_t(y)) * rowKeys_;
+          const std::size_t begin = layers[z].at;
+          while (layers[z].at < layers[z].end && this->key(layers[z].at) < firstKey + rowKeys_)
+          {
+            ++layers[z].at;
+          }
+          rows[2 * z + y] = { { begin, layers[z].at }, firstKey };
+        }
+      }
+      this->appendRow(rows, coarseLattice_.key(0, std::int64_t(coarseRow), std::int64_t(layer)), coarse);
+    }
+  }
+  /// Rows: even y and z, odd y, odd z, both odd.
+  void appendRow(Row rows[4], std::uint64_t coarseKey, VoxelSumList& coarse) const
+  {
+    constexpr std::uint64_t kNone = ~std::uint64_t(0);
+    const auto coarseX = [this](const Row& row)
+    { return row.range.at < row.range.end ? (this->key(row.range.at) - row.firstKey) / 2 : kNone; };
+    while (true)
+    {
+      const std::uint64_t x =
+        std::min(std::min(coarseX(rows[0]), coarseX(rows[1])), std::min(coarseX(rows[2]), coarseX(rows[3])));
+      if (x == kNone)
+      {
+        return;
+      }
+      coarse.voxels.push_back({ coarseKey + x, 0, { 0, 0, 0 } });
+      if (!fine_.seconds.empty())
+      {
+        coarse.seconds.push_back(SecondSums{ { 0, 0, 0, 0, 0, 0 } });
+      }
+      for (int r = 0; r < 4; ++r)
+      {
+        for (std::size_t& v = rows[r].range.at; coarseX(rows[r]) == x; ++v)
+        {
+          const VoxelSums& voxel = fine_.voxels[v];
+          const Parity odd = { std::int64_t((voxel.key - rows[r].firstKey) % 2), r % 2, r / 2 };
+          addShare(coarse.voxels.back(), voxel, odd, fine_.fractionBits);
+          if (!fine_.seconds.empty())
+          {
+            addShareOfSeconds(coarse.seconds.back(), voxel, fine_.seconds[v], odd, fine_.fractionBits);
+          }
+          parents_[v] = std::int64_t(coarse.voxels.size()) - 1;
+        }
+      }
+    }
+  }
+
+  const VoxelSumList& fine_;
+  const Lattice& coarseLattice_;
+  std::vector<std::int64_t>& parents_;
+  std::uint64_t rowKeys_;
+  std::uint64_t layerKeys_;
+};
 
 }
 
 VoxelSumList coarserSums(const VoxelSumList& fine, const Lattice& fineLattice, const Lattice& coarseLattice,
-  std::vector<std::int64_t>& parents)
+  std::vector<std::int64_t>& parents, const Executor& executor)
 {
   if (isOneVoxel(fineLattice))
   {
     parents.assign(fine.voxels.size(), 0);
     return fine;
   }
-  struct Child
+  parents.resize(fine.voxels.size());
+  const Coarsening coarsening(fine, fineLattice, coarseLattice, parents);
+  const auto pieces = std::size_t(16 * executor.concurrency());
+  std::vector<std::size_t> begins(pieces + 1, fine.voxels.size());
+  std::vector<VoxelSumList> lists(pieces);
+  for (std::size_t piece = 0; piece < pieces; ++piece)
   {
-    std::uint64_t parentKey;
-    std::uint64_t voxel;
-  };
-  std::vector<Child> children(fine.voxels.size());
-  for (std::size_t v = 0; v < children.size(); ++v)
-  {
-    const auto index = fineLattice.indexOf(fine.voxels[v].key);
-    children[v] = { coarseLattice.key(index[0] / 2, index[1] / 2, index[2] / 2), v };
+    begins[piece] = coarsening.layerBegin(fine.voxels.size() * piece / pieces);
   }
-  std::stable_sort(children.begin(), children.end(),
-    [](const Child& a, const Child& b) { return a.parentKey < b.parentKey; });
+  const auto forPieces = [&](auto&& work)
+  {
+    forRange(executor, std::int64_t(pieces), 1,
+      [&](std::int64_t first, std::int64_t last)
+      {
+        for (auto piece = std::size_t(first); piece < std::size_t(last); ++piece)
+        {
+          work(piece);
+        }
+      });
+  };
+  forPieces([&](std::size_t piece) { lists[piece] = coarsening.coarse(begins[piece], begins[piece + 1]); });
+  std::vector<std::size_t> places(pieces + 1, 0);
+  for (std::size_t piece = 0; piece < pieces; ++piece)
+  {
+    places[piece + 1] = places[piece] + lists[piece].voxels.size();
+  }
   VoxelSumList coarse;
   coarse.fractionBits = fine.fractionBits + 1;
-  parents.resize(children.size());
-  for (const Child& child : children)
-  {
-    const VoxelSums& voxel = fine.voxels[std::size_t(child.voxel)];
-    const auto index = fineLattice.indexOf(voxel.key);
-    const bool isNew = coarse.voxels.empty() || coarse.voxels.back().key != child.parentKey;
-    if (isNew)
+  coarse.voxels.resize(places[pieces]);
+  coarse.seconds.resize(fine.seconds.empty() ? 0 : places[pieces]);
+  forPieces(
+    [&](std::size_t piece)
     {
-      coarse.voxels.push_back({ child.parentKey, 0, { 0, 0, 0 } });
-    }
-    addVoxel(coarse.voxels.back(), shareOf(voxel, index, fine.fractionBits, child.parentKey));
-    if (!fine.seconds.empty())
-    {
-      if (isNew)
+      const auto place = std::ptrdiff_t(places[piece]);
+      std::copy(lists[piece].voxels.begin(), lists[piece].voxels.end(), coarse.voxels.begin() + place);
+      std::copy(lists[piece].seconds.begin(), lists[piece].seconds.end(), coarse.seconds.begin() + place);
+      lists[piece] = VoxelSumList();
+      for (std::size_t v = begins[piece]; v < begins[piece + 1]; ++v)
       {
-        coarse.seconds.push_back(SecondSums{ { 0, 0, 0, 0, 0, 0 } });
+        parents[v] += place;
       }
-      addSecondSums(coarse.seconds.back(),
-        shareOfSeconds(voxel, fine.seconds[std::size_t(child.voxel)], index, fine.fractionBits));
-    }
-    parents[std::size_t(child.voxel)] = std::int64_t(coarse.voxels.size()) - 1;
-  }
+    });
   return coarse;
 }
 

@@ -2,6 +2,7 @@
 /// Sums of the voxels of any lattice in 128-bit integers, and those of coarser voxels made of them.
 #pragma once
 
+#include "Core/Executor.h"
 #include "Core/Kernel/VoxelKernel.h"
 #include "Core/Lattice.h"
 
@@ -36,7 +37,7 @@ Lattice finerLattice(const Lattice& lattice, int halvings);
 /// Sums of the coarser lattice's voxels, exactly those of its points; @p parents: of each fine voxel, the
 /// coarse one it lies in.
 VoxelSumList coarserSums(const VoxelSumList& fine, const Lattice& fineLattice, const Lattice& coarseLattice,
-  std::vector<std::int64_t>& parents);
+  std::vector<std::int64_t>& parents, const Executor& executor);
 
 } // namespace kernel
 } // namespace pointhaptics

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "Core/InstructionSet.h"
-#include "Core/Watcher.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +25,7 @@ constexpr int kMaximumIndexBits = kPositionBits - 31;
 /// And the smallest: one bit of an index is not in the record.
 constexpr int kMinimumIndexBits = 2;
 /// Points taken at once: fewer than a packed sum holds together with kPackedCounts carried ones.
-constexpr std::int64_t kChunkPoints = kWatchedPoints;
+constexpr std::int64_t kChunkPoints = 1250000;
 
 /// What one thread writes and another reads or writes lies so far apart: two lines of the caches, which the
 /// processor fetches together.

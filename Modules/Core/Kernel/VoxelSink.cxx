@@ -276,14 +276,18 @@ void MeanArena::write(std::size_t place, const VoxelSums& voxel, const SecondSum
   }
 }
 
-void MeanArena::write(
-  const VoxelSumList& list, const Layout& layout, const Lattice& lattice, ResultMemory* memory)
+void MeanArena::write(const VoxelSumList& list, const Layout& layout, const Lattice& lattice,
+  const Executor& executor, ResultMemory* memory)
 {
   prepare(list.voxels.size(), layout, lattice, list.fractionBits, memory);
-  for (std::size_t v = 0; v < list.voxels.size(); ++v)
-  {
-    write(v, list.voxels[v], layout.covariances ? &list.seconds[v] : nullptr);
-  }
+  forRange(executor, std::int64_t(list.voxels.size()),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (auto v = std::size_t(begin); v < std::size_t(end); ++v)
+      {
+        write(v, list.voxels[v], layout.covariances ? &list.seconds[v] : nullptr);
+      }
+    });
 }
 
 void carry(const Lattice& lattice, const MomentBatch<std::int64_t>& batch, CarriedPartition& partition)

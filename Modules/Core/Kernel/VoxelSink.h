@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Buffer.h"
+#include "Core/Executor.h"
 #include "Core/Kernel/GeneralVoxels.h"
 #include "Core/Kernel/VoxelKernel.h"
 #include "Core/Lattice.h"
@@ -95,8 +96,8 @@ public:
   void write(std::size_t place, const MeanArena& other, std::size_t size);
 
   /// Prepares room for a list's voxels and writes them there.
-  void write(
-    const VoxelSumList& list, const Layout& layout, const Lattice& lattice, ResultMemory* memory = nullptr);
+  void write(const VoxelSumList& list, const Layout& layout, const Lattice& lattice, const Executor& executor,
+    ResultMemory* memory = nullptr);
 
   const float* floats() const { return floats_; }
   const double* doubles() const { return doubles_; }
