@@ -13,7 +13,7 @@ namespace
 
 /// Points placed before their records are dealt out: two loops over what stays in the first-level cache take
 /// less time than one that does both.
-constexpr int kPlacedAtOnce = 256;
+constexpr int kPlacedAtOnce = 128;
 
 /// Records on their way to their partitions.
 struct PlacedPoints
@@ -129,10 +129,11 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
   return to;
 }
 
-/// Lines after that of a cursor that are fetched, where nothing is known of the order of points and in a
-/// scan, which fills several at once.
-constexpr int kFetchAhead = 1;
-constexpr int kScanFetchAhead = 3;
+/// So many records after a cursor are fetched. Where nothing is known of the order of points, it takes
+/// hundreds until a line is full and the next one begun: it is fetched then and no sooner, as the lines of
+/// hundreds of cursors crowd the first-level cache. A scan fills several at once.
+constexpr int kFetchAhead = 0;
+constexpr int kScanFetchAhead = 3 * kLineRecords;
 
 template <bool Indexed, int fetchAhead>
 inline void dealOne(const PlacedPoints& placed, int i, std::uintptr_t blockMask, RecordWriter& writer)
@@ -149,7 +150,7 @@ inline void dealOne(const PlacedPoints& placed, int i, std::uintptr_t blockMask,
     writer.indices[cursor - writer.records] = placed.indices[i];
   }
   ++cursor;
-  __builtin_prefetch(cursor + fetchAhead * kLineRecords, 1);
+  __builtin_prefetch(cursor + fetchAhead, 1);
   writer.cursors[partition] = cursor;
 }
 
@@ -173,7 +174,7 @@ inline int dealRun(const PlacedPoints& placed, std::uintptr_t blockMask, RecordW
         cursor[j] = placed.records[i + j];
       }
       cursor += kTogether;
-      __builtin_prefetch(cursor + kScanFetchAhead * kLineRecords, 1);
+      __builtin_prefetch(cursor + kScanFetchAhead, 1);
       writer.cursors[partitions[0]] = cursor;
       continue;
     }
@@ -226,7 +227,7 @@ template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
 __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, const Real* xyz, int groups,
   unsigned present, std::uint32_t index, PlacedPoints& placed)
 {
-  constexpr int kAhead = 4096 / int(sizeof(Real));
+  constexpr int kAhead = 2048 / int(sizeof(Real));
   const PlacementVectors<V> constants = given;
   int size = 0;
   int invalid = 0;
