@@ -131,9 +131,9 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
 
 /// So many records after a cursor are fetched. Where nothing is known of the order of points, it takes
 /// hundreds until a line is full and the next one begun: it is fetched just before and no sooner, as the
-/// lines of hundreds of cursors crowd the first-level cache. A scan fills several at once.
+/// lines of hundreds of cursors crowd the first-level cache. A scan fills them faster.
 constexpr int kFetchAhead = 1;
-constexpr int kScanFetchAhead = 3 * kLineRecords;
+constexpr int kScanFetchAhead = kLineRecords;
 
 template <bool Indexed, int fetchAhead>
 inline void dealOne(const PlacedPoints& placed, int i, std::uintptr_t blockMask, RecordWriter& writer)
