@@ -2,6 +2,8 @@
 /// The seam between Core's loops and whatever runs them in parallel (vtkSMPTools in the VTK filters).
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -45,6 +47,32 @@ template <typename Function>
 void forRange(const Executor& executor, std::int64_t count, Function&& function)
 {
   forRange(executor, count, kSmallestPiece, std::forward<Function>(function));
+}
+
+/// Calls work(item, scratch) for all items below @p count: each thread takes the next one, with a Scratch of
+/// its own.
+template <typename Scratch, typename Work>
+void forEachItem(const Executor& executor, std::size_t count, Work&& work)
+{
+  std::atomic<std::size_t> next{ 0 };
+  forRange(executor, executor.concurrency(), 1,
+    [&](std::int64_t, std::int64_t)
+    {
+      Scratch scratch;
+      for (std::size_t item = next++; item < count; item = next++)
+      {
+        work(item, scratch);
+      }
+    });
+}
+/// The same without scratch: work(item).
+template <typename Work>
+void forEachItem(const Executor& executor, std::size_t count, Work&& work)
+{
+  struct None
+  {
+  };
+  forEachItem<None>(executor, count, [&](std::size_t item, None&) { work(item); });
 }
 
 } // namespace pointhaptics

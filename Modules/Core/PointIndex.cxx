@@ -45,14 +45,11 @@ public:
     for (std::int64_t done = 0; done < size_; done += step)
     {
       const std::int64_t part = std::min(step, size_ - done);
-      forRange(executor_, count_, 1,
-        [&](std::int64_t first, std::int64_t last)
+      forEachItem(executor_, std::size_t(count_),
+        [&](std::size_t slice)
         {
-          for (std::int64_t slice = first; slice < last; ++slice)
-          {
-            const std::int64_t begin = std::min(slice * size_ + done, points_);
-            visit(std::size_t(slice), begin, std::min(begin + part, points_));
-          }
+          const std::int64_t begin = std::min(std::int64_t(slice) * size_ + done, points_);
+          visit(slice, begin, std::min(begin + part, points_));
         });
       if (!watched.add(part * count_))
       {
@@ -282,14 +279,7 @@ bool PointIndex::bound(const Executor& executor, WatchedPoints& watched)
     {
       ++last;
     } while (last < groups_.size() && endOf(last) - begin < kWatchedPoints);
-    forRange(executor, std::int64_t(last - first), 1,
-      [&](std::int64_t from, std::int64_t to)
-      {
-        for (std::int64_t group = from; group < to; ++group)
-        {
-          boundGroup(first + std::size_t(group));
-        }
-      });
+    forEachItem(executor, last - first, [&](std::size_t group) { boundGroup(first + group); });
     if (!watched.add(endOf(last) - begin))
     {
       return false;
@@ -364,19 +354,16 @@ std::vector<PointRange> PointIndex::rangesInside(
   const BoxTest test(transform, lattice);
   const std::size_t slices = (groups_.size() + kSliceGroups - 1) / kSliceGroups;
   std::vector<std::vector<PointRange>> found(slices);
-  forRange(executor, std::int64_t(slices), 1,
-    [&](std::int64_t first, std::int64_t last)
+  forEachItem(executor, slices,
+    [&](std::size_t slice)
     {
-      for (auto slice = std::size_t(first); slice < std::size_t(last); ++slice)
+      const std::size_t end = std::min((slice + 1) * kSliceGroups, groups_.size());
+      std::vector<PointRange> ranges; // the thread's own, away from what others write
+      for (std::size_t group = slice * kSliceGroups; group < end; ++group)
       {
-        const std::size_t end = std::min((slice + 1) * kSliceGroups, groups_.size());
-        std::vector<PointRange> ranges; // the thread's own, away from what others write
-        for (std::size_t group = slice * kSliceGroups; group < end; ++group)
-        {
-          this->appendRanges(test, group, ranges);
-        }
-        found[slice] = std::move(ranges);
+        this->appendRanges(test, group, ranges);
       }
+      found[slice] = std::move(ranges);
     });
   std::vector<PointRange> ranges;
   for (const std::vector<PointRange>& ofSlice : found)

@@ -77,10 +77,7 @@ Status VoxelResampler::Implementation::finishRuns(
   const MeanArena::Layout layout = { request.singlePrecision, request.keys, request.covariances };
   Level& level = levels[0];
   const std::size_t ranges = runs_.ranges();
-  struct None
-  {
-  };
-  forEachItem<None>(executor, ranges, [&](std::size_t range, None&) { runs_.join(range); });
+  forEachItem(executor, ranges, [&](std::size_t range) { runs_.join(range); });
   if (halvings_ > 0)
   {
     VoxelSumList list = runs_.take();
@@ -102,8 +99,8 @@ Status VoxelResampler::Implementation::finishRuns(
   level.size = std::int64_t(level.firsts.back());
   level.arena.prepare(level.firsts.back(), layout, request.lattice, runs_.fractionBits(), request.memory);
   const bool plain = !hasOrdinarySpacing(request.lattice);
-  forEachItem<None>(executor, ranges,
-    [&](std::size_t range, None&)
+  forEachItem(executor, ranges,
+    [&](std::size_t range)
     {
       runs_.write(
         range, kernelsFor(request.instructions), request.lattice, plain, level.arena, level.firsts[range]);

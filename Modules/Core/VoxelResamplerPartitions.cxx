@@ -299,19 +299,16 @@ VoxelSumList VoxelResampler::Implementation::carriedList(bool covariances, const
   list.fractionBits = plan_.fractionBits;
   list.voxels.resize(places.back());
   list.seconds.resize(covariances ? places.back() : 0);
-  forRange(executor, std::int64_t(carried_.size()), grainFor(std::int64_t(carried_.size()), executor),
-    [&](std::int64_t begin, std::int64_t end)
+  forEachItem(executor, carried_.size(),
+    [&](std::size_t p)
     {
-      for (auto p = std::size_t(begin); p < std::size_t(end); ++p)
+      const CarriedPartition& partition = carried_[p];
+      VoxelSums* to = list.voxels.data() + places[p];
+      for (const CarriedSums& voxel : partition.voxels)
       {
-        const CarriedPartition& partition = carried_[p];
-        VoxelSums* to = list.voxels.data() + places[p];
-        for (const CarriedSums& voxel : partition.voxels)
-        {
-          *to++ = { voxel.key, voxel.count, { voxel.sums[0], voxel.sums[1], voxel.sums[2] } };
-        }
-        std::copy(partition.seconds.begin(), partition.seconds.end(), list.seconds.data() + places[p]);
+        *to++ = { voxel.key, voxel.count, { voxel.sums[0], voxel.sums[1], voxel.sums[2] } };
       }
+      std::copy(partition.seconds.begin(), partition.seconds.end(), list.seconds.data() + places[p]);
     });
   return list;
 }

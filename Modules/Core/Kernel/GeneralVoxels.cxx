@@ -228,18 +228,8 @@ VoxelSumList coarserSums(const VoxelSumList& fine, const Lattice& fineLattice, c
   {
     begins[piece] = coarsening.layerBegin(fine.voxels.size() * piece / pieces);
   }
-  const auto forPieces = [&](auto&& work)
-  {
-    forRange(executor, std::int64_t(pieces), 1,
-      [&](std::int64_t first, std::int64_t last)
-      {
-        for (auto piece = std::size_t(first); piece < std::size_t(last); ++piece)
-        {
-          work(piece);
-        }
-      });
-  };
-  forPieces([&](std::size_t piece) { lists[piece] = coarsening.coarse(begins[piece], begins[piece + 1]); });
+  forEachItem(executor, pieces,
+    [&](std::size_t piece) { lists[piece] = coarsening.coarse(begins[piece], begins[piece + 1]); });
   std::vector<std::size_t> places(pieces + 1, 0);
   for (std::size_t piece = 0; piece < pieces; ++piece)
   {
@@ -249,7 +239,7 @@ VoxelSumList coarserSums(const VoxelSumList& fine, const Lattice& fineLattice, c
   coarse.fractionBits = fine.fractionBits + 1;
   coarse.voxels.resize(places[pieces]);
   coarse.seconds.resize(fine.seconds.empty() ? 0 : places[pieces]);
-  forPieces(
+  forEachItem(executor, pieces,
     [&](std::size_t piece)
     {
       const auto place = std::ptrdiff_t(places[piece]);

@@ -24,23 +24,6 @@ namespace kernel
 /// Points this path takes at once.
 constexpr std::int64_t kGeneralChunk = std::int64_t(1) << 19;
 
-/// Calls work(item, scratch) for all items below @p count: each thread takes the next one, with a Scratch of
-/// its own.
-template <typename Scratch, typename Work>
-void forEachItem(const Executor& executor, std::size_t count, Work&& work)
-{
-  std::atomic<std::size_t> next{ 0 };
-  forRange(executor, executor.concurrency(), 1,
-    [&](std::int64_t, std::int64_t)
-    {
-      Scratch scratch;
-      for (std::size_t item = next++; item < count; item = next++)
-      {
-        work(item, scratch);
-      }
-    });
-}
-
 /// Ranges with about as many points each, and the points of a chunk in each of them. Keys ascend from range
 /// to range. Different ranges may be read by several threads at once.
 class KeyRanges

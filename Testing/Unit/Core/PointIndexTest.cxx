@@ -1,11 +1,11 @@
 #include "Core/PointIndex.h"
 
+#include "CountingWatcher.h"
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cfloat>
 
 using namespace pointhaptics;
@@ -237,30 +237,6 @@ TEST(PointIndex, LeavesOutMostOfWhatASmallViewDoesNotShow)
   ASSERT_EQ(index.rangesInside({}, all).size(), 1u) << "neighbouring bricks join";
 }
 
-namespace
-{
-
-/// Notes what it hears, and ends the work at the event of a number.
-class Notes : public Watcher
-{
-public:
-  explicit Notes(std::size_t last)
-    : last_(last)
-  {
-  }
-  bool proceed(double fraction) override
-  {
-    heard.push_back(fraction);
-    return heard.size() < last_;
-  }
-  std::vector<double> heard;
-
-private:
-  std::size_t last_;
-};
-
-}
-
 TEST(PointIndex, TellsHowFarItIsAndCanBeStoppedThere)
 {
   // More than are looked at between two events.
@@ -272,19 +248,17 @@ TEST(PointIndex, TellsHowFarItIsAndCanBeStoppedThere)
     SCOPED_TRACE(threads);
     const ThreadedExecutor executor(threads);
     PointIndex index;
-    Notes all(1000);
+    CountingWatcher all;
     ASSERT_EQ(index.build(view, executor, &all), Status::Ok);
-    EXPECT_GE(all.heard.size(), 8u) << "two for each pass";
-    EXPECT_TRUE(std::is_sorted(all.heard.begin(), all.heard.end()));
-    EXPECT_GT(all.heard.front(), 0.0);
-    EXPECT_EQ(all.heard.back(), 1.0);
+    expectAscendToOne(all.fractions, 8); // two for each pass
+    EXPECT_GT(all.fractions.front(), 0.0);
     EXPECT_EQ(index.rangesInside({}, {}).size(), expected.rangesInside({}, {}).size());
     expectHoldsFinitePoints(index, view);
-    for (std::size_t last = 1; last <= all.heard.size(); ++last)
+    for (std::size_t last = 1; last <= all.fractions.size(); ++last)
     {
-      Notes stopping(last);
+      CountingWatcher stopping(last);
       ASSERT_EQ(index.build(view, executor, &stopping), Status::Aborted) << last;
-      EXPECT_EQ(stopping.heard.size(), last);
+      EXPECT_EQ(stopping.fractions.size(), last);
       EXPECT_EQ(index.points().size(), 0);
       EXPECT_TRUE(index.rangesInside({}, {}).empty());
     }

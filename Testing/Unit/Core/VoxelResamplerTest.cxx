@@ -1,6 +1,7 @@
 #include "Core/VoxelResampler.h"
 
 #include "Core/PointIndex.h"
+#include "CountingWatcher.h"
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
@@ -43,33 +44,6 @@ AffineTransform generalTransform(double scale)
 {
   return AffineTransform::translation(scale * Vec3(0.5, 0.4, 0.6)) *
     AffineTransform::rotation(33, { 1, 2, -1 }) * AffineTransform::scaling(scale * Vec3(0.5, -0.7, 0.6));
-}
-
-/// Keeps the fractions it hears and ends the work at one of them.
-class CountingWatcher : public Watcher
-{
-public:
-  explicit CountingWatcher(std::size_t last = ~std::size_t(0))
-    : last_(last)
-  {
-  }
-  bool proceed(double fraction) override
-  {
-    fractions.push_back(fraction);
-    return fractions.size() < last_;
-  }
-  std::vector<double> fractions;
-
-private:
-  std::size_t last_;
-};
-
-void expectAscendToOne(const std::vector<double>& fractions, std::size_t atLeast)
-{
-  ASSERT_GE(fractions.size(), atLeast);
-  EXPECT_GE(fractions.front(), 0.0);
-  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
-  EXPECT_EQ(fractions.back(), 1.0);
 }
 
 } // namespace
