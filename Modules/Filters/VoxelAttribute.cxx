@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <type_traits>
 
 namespace pointhaptics
@@ -123,6 +124,11 @@ vtkSmartPointer<vtkDataArray> newArray(vtkDataArray* like, int type)
   array->SetName(like->GetName());
   array->SetNumberOfComponents(like->GetNumberOfComponents());
   array->CopyComponentNames(like);
+  if (like->HasInformation())
+  {
+    array->CopyInformation(like->GetInformation());
+  }
+  array->SetLookupTable(like->GetLookupTable());
   return array;
 }
 
@@ -178,53 +184,65 @@ struct Members
   std::vector<std::int64_t> points;
   std::vector<std::size_t> begin;
 
-  Members(const std::vector<std::int64_t>& voxelOf, std::int64_t voxels)
-    : begin(std::size_t(voxels) + 1, 0)
+  /// @param voxelOf of each point; negative: of none. @return false if the work was ended.
+  bool find(const std::vector<std::int64_t>& voxelOf, std::int64_t voxels, WatchedPoints& watched)
   {
-    for (const std::int64_t voxel : voxelOf)
+    begin.assign(std::size_t(voxels) + 1, 0);
+    const bool isCounted =
+      forPoints(voxelOf, watched, [&](std::size_t, std::int64_t voxel) { ++begin[std::size_t(voxel) + 1]; });
+    if (!isCounted)
     {
-      if (voxel >= 0)
-      {
-        ++begin[std::size_t(voxel) + 1];
-      }
+      return false;
     }
-    for (std::size_t v = 1; v < begin.size(); ++v)
-    {
-      begin[v] += begin[v - 1];
-    }
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
     points.resize(begin.back());
     std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    for (std::size_t i = 0; i < voxelOf.size(); ++i)
+    return forPoints(voxelOf, watched,
+      [&](std::size_t i, std::int64_t voxel) { points[next[std::size_t(voxel)]++] = std::int64_t(i); });
+  }
+
+private:
+  template <typename Visit>
+  static bool forPoints(const std::vector<std::int64_t>& voxelOf, WatchedPoints& watched, Visit&& visit)
+  {
+    for (std::size_t first = 0; first < voxelOf.size();)
     {
-      if (voxelOf[i] >= 0)
+      const std::size_t last = std::min(voxelOf.size(), first + std::size_t(kWatchedPoints));
+      for (std::size_t i = first; i < last; ++i)
       {
-        points[next[std::size_t(voxelOf[i])]++] = std::int64_t(i);
+        if (voxelOf[i] >= 0)
+        {
+          visit(i, voxelOf[i]);
+        }
       }
+      if (!watched.add(std::int64_t(last - first)))
+      {
+        return false;
+      }
+      first = last;
     }
+    return true;
   }
 };
 
+/// Voxels @p first to @p last.
 template <typename T>
 void writeMostFrequent(
-  const Members& members, const T* input, int components, T* output, const Executor& executor)
+  const Members& members, std::int64_t first, std::int64_t last, const T* input, int components, T* output)
 {
-  forRange(executor, std::int64_t(members.begin.size()) - 1,
-    [&](std::int64_t first, std::int64_t last)
+  std::vector<T> values;
+  for (std::int64_t v = first; v < last; ++v)
+  {
+    for (int c = 0; c < components; ++c)
     {
-      std::vector<T> values;
-      for (std::int64_t v = first; v < last; ++v)
+      values.clear();
+      for (std::size_t m = members.begin[std::size_t(v)]; m < members.begin[std::size_t(v) + 1]; ++m)
       {
-        for (int c = 0; c < components; ++c)
-        {
-          values.clear();
-          for (std::size_t m = members.begin[std::size_t(v)]; m < members.begin[std::size_t(v) + 1]; ++m)
-          {
-            values.push_back(canonical(input[components * members.points[m] + c]));
-          }
-          output[components * v + c] = mostFrequent(values);
-        }
+        values.push_back(canonical(input[components * members.points[m] + c]));
       }
-    });
+      output[components * v + c] = mostFrequent(values);
+    }
+  }
 }
 
 }
@@ -321,8 +339,8 @@ void VoxelAttribute::writeSet(const AttributeMean& sums, std::int64_t first, con
   sums.write(counts, to, Executor());
 }
 
-vtkSmartPointer<vtkDataArray> VoxelAttribute::output(
-  const std::int64_t* counts, const AffineTransform& transform, ArrayPool& pool, const Executor& executor)
+vtkSmartPointer<vtkDataArray> VoxelAttribute::output(const std::int64_t* counts,
+  const AffineTransform& transform, ArrayPool& pool, const Executor& executor, Watcher* watcher)
 {
   vtkSmartPointer<vtkDataArray> result = written_;
   if (!result)
@@ -330,7 +348,10 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::output(
     result = newArray(input_, plain_->GetDataType());
     pool.allocate(result, voxels_);
     setNormalColumns(transform);
-    write(result, counts, executor);
+    if (!write(result, counts, executor, watcher))
+    {
+      return nullptr;
+    }
   }
   written_ = nullptr;
   if (input_->GetDataType() == plain_->GetDataType())
@@ -350,7 +371,8 @@ void VoxelAttribute::setNormalColumns(const AffineTransform& transform)
   normalColumns_[2] = transform.applyToNormal({ 0, 0, 1 });
 }
 
-void VoxelAttribute::write(vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const
+bool VoxelAttribute::write(
+  vtkDataArray* output, const std::int64_t* counts, const Executor& executor, Watcher* watcher) const
 {
   switch (kind_)
   {
@@ -361,9 +383,9 @@ void VoxelAttribute::write(vtkDataArray* output, const std::int64_t* counts, con
       writeNormals(output, counts, executor);
       break;
     case AttributeKind::Category:
-      writeCategories(output, executor);
-      break;
+      return writeCategories(output, executor, watcher);
   }
+  return true;
 }
 
 void VoxelAttribute::writeNormals(
@@ -400,14 +422,39 @@ void VoxelAttribute::writeNormals(
     });
 }
 
-void VoxelAttribute::writeCategories(vtkDataArray* output, const Executor& executor) const
+bool VoxelAttribute::writeCategories(vtkDataArray* output, const Executor& executor, Watcher* watcher) const
 {
-  const Members members(voxelOf_, voxels_);
-  switch (output->GetDataType())
+  WatchedPoints watched(watcher, std::int64_t(voxelOf_.size()), 3);
+  Members members;
+  if (!members.find(voxelOf_, voxels_, watched))
   {
-    vtkTemplateMacro(writeMostFrequent(members, static_cast<const VTK_TT*>(plain_->GetVoidPointer(0)),
-      plain_->GetNumberOfComponents(), static_cast<VTK_TT*>(output->GetVoidPointer(0)), executor));
+    return false;
   }
+  const int components = plain_->GetNumberOfComponents();
+  for (std::int64_t first = 0; first < voxels_;)
+  {
+    // Voxels of so many points that the watcher should hear of them; one at least.
+    const std::size_t points = members.begin[std::size_t(first)];
+    const auto end = std::upper_bound(
+      members.begin.begin() + first + 2, members.begin.end(), points + std::size_t(kWatchedPoints));
+    const std::int64_t count = end - members.begin.begin() - 1 - first;
+    forRange(executor, count,
+      [&](std::int64_t begin, std::int64_t last)
+      {
+        switch (output->GetDataType())
+        {
+          vtkTemplateMacro(writeMostFrequent(members, first + begin, first + last,
+            static_cast<const VTK_TT*>(plain_->GetVoidPointer(0)), components,
+            static_cast<VTK_TT*>(output->GetVoidPointer(0))));
+        }
+      });
+    first += count;
+    if (!watched.add(std::int64_t(members.begin[std::size_t(first)] - points)))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 } // namespace pointhaptics

@@ -8,6 +8,7 @@
 #include "Core/AttributeMean.h"
 #include "Core/Buffer.h"
 #include "Core/Executor.h"
+#include "Core/Watcher.h"
 
 #include "vtkSmartPointer.h"
 
@@ -51,15 +52,17 @@ public:
   void writeSet(const AttributeMean& sums, std::int64_t first, const std::int64_t* counts) const;
   void add(const std::int64_t* points, const std::int64_t* voxels, int count);
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
-  /// One tuple per voxel, of the type, name and components of the input. @p counts: points of each voxel.
-  vtkSmartPointer<vtkDataArray> output(
-    const std::int64_t* counts, const AffineTransform& transform, ArrayPool& pool, const Executor& executor);
+  /// One tuple per voxel, of the type, name, components, information and lookup table of the input; null if
+  /// the watcher, who may be none, ended the work. @p counts: points of each voxel.
+  vtkSmartPointer<vtkDataArray> output(const std::int64_t* counts, const AffineTransform& transform,
+    ArrayPool& pool, const Executor& executor, Watcher* watcher);
 
 private:
   void setNormalColumns(const AffineTransform& transform);
-  void write(vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const;
+  bool write(
+    vtkDataArray* output, const std::int64_t* counts, const Executor& executor, Watcher* watcher) const;
   void writeNormals(vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const;
-  void writeCategories(vtkDataArray* output, const Executor& executor) const;
+  bool writeCategories(vtkDataArray* output, const Executor& executor, Watcher* watcher) const;
 
   vtkSmartPointer<vtkDataArray> input_; ///< As given.
   vtkSmartPointer<vtkDataArray> plain_; ///< The same as tuples in memory.

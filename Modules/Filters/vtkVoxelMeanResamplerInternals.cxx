@@ -24,6 +24,10 @@ using namespace pointhaptics;
 namespace
 {
 
+/// Parts of an update's progress: the means are known, the outputs are filled.
+constexpr double kRunEnd = 0.9;
+constexpr double kFillEnd = 0.99;
+
 std::string latticeText(double voxelSize, const int dimensions[3])
 {
   std::ostringstream text;
@@ -100,12 +104,10 @@ bool vtkVoxelMeanResampler::Internals::Update(
   this->Aborted = false;
   this->PartBegin = this->PartEnd = 0.0;
   this->Request.levels = int(outputs.size());
-  if (input->GetNumberOfPoints() == 0 || !this->ReadTransform() || !this->MakeLattice(input) ||
-    !this->Run(input))
+  if (!this->ReadTransform() || !this->MakeLattice(input) || !this->Run(input))
   {
     return false;
   }
-  this->BeginPart(0.99);
   for (int level = 0; level < this->Request.levels; ++level)
   {
     if (!this->Fill(level, input, outputs[std::size_t(level)]))
@@ -174,12 +176,17 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
 }
 
 vtkVoxelMeanResampler::Internals::PointsSeen::PointsSeen(vtkPointSet* input)
-  : data(input->GetPoints()->GetData())
-  , address(data->HasStandardMemoryLayout() ? data->GetVoidPointer(0) : nullptr)
-  , size(input->GetNumberOfPoints())
-  // The data set's own time, without that of its arrays: some write coordinates and mark nothing else.
-  , time(std::max({ input->GetPoints()->GetMTime(), data->GetMTime(), input->vtkObject::GetMTime() }))
+  : size(input->GetNumberOfPoints())
 {
+  vtkPoints* points = input->GetPoints();
+  if (!points)
+  {
+    return;
+  }
+  this->data = points->GetData();
+  this->address = this->data->HasStandardMemoryLayout() ? this->data->GetVoidPointer(0) : nullptr;
+  // The data set's own time, without that of its arrays: some write coordinates and mark nothing else.
+  this->time = std::max({ points->GetMTime(), this->data->GetMTime(), input->vtkObject::GetMTime() });
 }
 
 bool vtkVoxelMeanResampler::Internals::PointsSeen::operator==(const PointsSeen& other) const
@@ -220,15 +227,16 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
     return false;
   }
   const int precision = this->Filter->OutputPointsPrecision;
+  const vtkPoints* points = input->GetPoints();
   this->Request.singlePrecision = precision == vtkAlgorithm::DEFAULT_PRECISION
-    ? input->GetPoints()->GetDataType() == VTK_FLOAT
+    ? !points || points->GetDataType() == VTK_FLOAT
     : precision == vtkAlgorithm::SINGLE_PRECISION;
   this->Request.covariances = this->Filter->ComputeCovariance;
   this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
   this->Request.keys = !this->Attributes.empty() || this->Request.levels > 1;
   this->Request.assigned = !this->Attributes.empty();
   this->Request.memory = &this->Memory;
-  this->BeginPart(this->Attributes.empty() ? 0.9 : 0.5);
+  this->BeginPart(this->Attributes.empty() ? kRunEnd : 0.5);
   const Status status = this->Engine.run(this->Request, this->Smp, this);
   if (status == Status::Aborted)
   {
@@ -298,7 +306,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   {
     return true;
   }
-  this->BeginPart(0.9);
+  this->BeginPart(kRunEnd);
   const bool canWriteSets = std::all_of(this->Attributes.begin(), this->Attributes.end(),
     [](const NamedAttribute& named) { return named.attribute.canWriteSets(); });
   if (canWriteSets && this->Engine.canAssignInSets() && this->Request.levels == 1)
@@ -416,16 +424,18 @@ bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
   double done = steps * level;
   for (NamedAttribute& named : this->Attributes)
   {
-    if (!this->proceed(++done / (steps * this->Request.levels)))
-    {
-      return false;
-    }
+    this->BeginPart(kRunEnd + (kFillEnd - kRunEnd) * ++done / (steps * this->Request.levels));
     if (level > 0)
     {
       named.attribute.coarsen(this->Engine.parents(level), this->Engine.size(level));
     }
-    const int index =
-      data->AddArray(named.attribute.output(countValues, this->Request.transform, this->Pool, this->Smp));
+    const vtkSmartPointer<vtkDataArray> array =
+      named.attribute.output(countValues, this->Request.transform, this->Pool, this->Smp, this);
+    if (!array || !this->proceed(1.0))
+    {
+      return false;
+    }
+    const int index = data->AddArray(array);
     for (const int role : named.roles)
     {
       data->SetActiveAttribute(index, role);

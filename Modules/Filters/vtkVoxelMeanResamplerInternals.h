@@ -31,8 +31,8 @@ public:
   {
   }
 
-  /// RequestData: an output for each level. @return false if it stays empty: there are no points, an error
-  /// was reported, or the execution aborted.
+  /// RequestData: an output for each level. @return false if it stays empty: an error was reported, or the
+  /// execution aborted.
   bool Update(vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs);
   /// Frees what is kept from one update to the next; during one, at its end.
   void Forget();

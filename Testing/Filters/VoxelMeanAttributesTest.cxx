@@ -3,7 +3,9 @@
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
 #include "vtkIntArray.h"
+#include "vtkLookupTable.h"
 #include "vtkSignedCharArray.h"
 #include "vtkStringArray.h"
 #include "vtkTransform.h"
@@ -194,6 +196,32 @@ TEST(VoxelMeanAttributes, KeepsActiveAttributesAndPassesFieldData)
     EXPECT_NE(output->GetFieldData()->GetArray(name), nullptr) << name;
   }
   EXPECT_EQ(output->GetFieldData()->GetArray("ModelToWorkspace")->GetNumberOfValues(), 16);
+}
+
+TEST(VoxelMeanAttributes, KeepsLookupTablesUnitsAndComponentNames)
+{
+  for (const bool categorical : { false, true })
+  {
+    const auto cloud = trial::cloudOf(trial::randomPoints(100, 6));
+    trial::addArray(cloud, "Heat", std::vector<double>(100, 1.0));
+    vtkDataArray* heat = cloud->GetPointData()->GetArray("Heat");
+    vtkNew<vtkLookupTable> colours;
+    heat->SetLookupTable(colours);
+    heat->SetComponentName(0, "of the surface");
+    heat->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), "K");
+    vtkNew<vtkVoxelMeanResampler> resampler;
+    resampler->SetInputData(cloud);
+    if (categorical)
+    {
+      resampler->AddCategoricalArray("Heat");
+    }
+    resampler->Update();
+    vtkDataArray* mean = resampler->GetOutput()->GetPointData()->GetArray("Heat");
+    ASSERT_NE(mean, nullptr);
+    EXPECT_EQ(mean->GetLookupTable(), colours);
+    EXPECT_STREQ(mean->GetComponentName(0), "of the surface");
+    EXPECT_STREQ(mean->GetInformation()->Get(vtkDataArray::UNITS_LABEL()), "K");
+  }
 }
 
 TEST(VoxelMeanAttributes, LeavesAttributesOutWhenAskedTo)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <vector>
 
 namespace
@@ -182,6 +183,47 @@ TEST(VoxelMeanPipeline, LevelsAndArraysCanBeStoppedBetween)
     trial::expectSame(resampler->GetOutput(), whole);
     trial::expectSame(resampler->GetOutput(3), coarse);
   }
+}
+
+TEST(VoxelMeanPipeline, ALongCountOfLabelsCanBeStopped)
+{
+  constexpr int kPoints = 3000000;
+  const auto cloud = trial::cloudOf(trial::randomPoints(kPoints, 61, VTK_FLOAT));
+  std::vector<double> labels(kPoints);
+  for (int i = 0; i < kPoints; ++i)
+  {
+    labels[std::size_t(i)] = i % 7;
+  }
+  trial::addArray(cloud, "Classification", labels);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  trial::useUnitCube(resampler, 20);
+  std::vector<double> steps;
+  {
+    Progress progress(resampler);
+    resampler->Update();
+    std::copy_if(progress.heard.begin(), progress.heard.end(), std::back_inserter(steps),
+      [](double fraction) { return fraction > 0.9 && fraction < 0.98; });
+  }
+  EXPECT_GE(steps.size(), 6u) << "three passes over three million points";
+  EXPECT_TRUE(std::is_sorted(steps.begin(), steps.end()));
+  const auto whole = trial::copyOf(resampler->GetOutput());
+  for (const double stop : steps)
+  {
+    SCOPED_TRACE(stop);
+    resampler->Modified();
+    {
+      Progress progress(resampler);
+      progress.abortAt = stop;
+      resampler->Update();
+      EXPECT_EQ(progress.heard.back(), stop);
+    }
+    EXPECT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 0);
+    trial::expectValid(resampler->GetOutput());
+    resampler->SetAbortExecute(0);
+  }
+  resampler->Update();
+  trial::expectSame(resampler->GetOutput(), whole);
 }
 
 TEST(VoxelMeanPipeline, WhatAnObserverOfProgressAsksForIsOfTheNextUpdate)

@@ -7,6 +7,7 @@
 #include <cfloat>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace
 {
@@ -29,6 +30,23 @@ vtkSmartPointer<vtkPolyData> randomCloud(int n, double scale, const pointhaptics
     type);
 }
 
+/// What comes after finds all arrays it looks for, at all levels.
+void expectEveryArrayWithoutTuples(vtkVoxelMeanResampler* resampler, const std::vector<const char*>& names)
+{
+  for (int level = 0; level < resampler->GetNumberOfLevels(); ++level)
+  {
+    vtkPolyData* output = resampler->GetOutput(level);
+    ASSERT_NE(output->GetPoints(), nullptr);
+    EXPECT_EQ(output->GetPointData()->GetNumberOfArrays(), int(names.size()));
+    for (const char* name : names)
+    {
+      ASSERT_NE(output->GetPointData()->GetArray(name), nullptr) << name;
+      EXPECT_EQ(output->GetPointData()->GetArray(name)->GetNumberOfTuples(), 0) << name;
+    }
+    EXPECT_NE(output->GetFieldData()->GetArray("LatticeSpacing"), nullptr);
+  }
+}
+
 }
 
 TEST(VoxelMeanStress, NoPointsGiveAnEmptyOutput)
@@ -38,8 +56,12 @@ TEST(VoxelMeanStress, NoPointsGiveAnEmptyOutput)
   const auto noPlaces = trial::cloudOf(noPoints);
   for (vtkPolyData* input : { nothing.Get(), noPlaces.Get() })
   {
+    trial::addArray(input, "Heat", {});
+    trial::addArray(input, "Classification", {});
     vtkNew<vtkVoxelMeanResampler> resampler;
     resampler->SetInputData(input);
+    resampler->ComputeCovarianceOn();
+    resampler->SetNumberOfLevels(2);
     trial::Ear errors(resampler, vtkCommand::ErrorEvent);
     for (const bool automatic : { true, false })
     {
@@ -50,6 +72,8 @@ TEST(VoxelMeanStress, NoPointsGiveAnEmptyOutput)
       EXPECT_EQ(resampler->GetOutput()->GetNumberOfCells(), 0);
       EXPECT_EQ(resampler->GetNumberOfClippedPoints(), 0);
       EXPECT_EQ(resampler->GetNumberOfInvalidPoints(), 0);
+      expectEveryArrayWithoutTuples(
+        resampler, { "VoxelPointCount", "VoxelCovariance", "Heat", "Classification" });
     }
   }
 }
@@ -284,6 +308,7 @@ TEST(VoxelMeanStress, NothingButInvalidPointsGiveAnEmptyOutput)
   EXPECT_EQ(errors.count, 0) << errors.last;
   EXPECT_EQ(resampler->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(resampler->GetNumberOfInvalidPoints(), 100);
+  expectEveryArrayWithoutTuples(resampler, { "VoxelPointCount" });
 }
 
 TEST(VoxelMeanStress, BoxesNearTheLargestNumbers)
