@@ -66,7 +66,7 @@ void mark(const CellMap& map, const Record* records, int count, const Record* ne
   {
     for (int i = first; i < first + kStep; i += kLineRecords)
     {
-      __builtin_prefetch(next + i);
+      __builtin_prefetch(next + i, 0, 2);
     }
     V::cells(map, records + first, count - first < kStep ? count - first : kStep, cells + first);
   }
