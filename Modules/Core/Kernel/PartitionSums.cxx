@@ -165,7 +165,7 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
       const char* partEnd = line + std::min(part, std::size_t(end - line));
       for (; line < partEnd; line += 64)
       {
-        __builtin_prefetch(line);
+        __builtin_prefetch(line, 0, 2);
       }
       kernels.mark(voxels_.map, block, count, next, marks_.data(), cells);
       cells += count;
