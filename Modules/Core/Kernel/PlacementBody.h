@@ -129,13 +129,16 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
   return to;
 }
 
-/// So many records after a cursor are fetched. Where nothing is known of the order of points, it takes
-/// hundreds until a line is full and the next one begun: it is fetched just before and no sooner, as the
-/// lines of hundreds of cursors crowd the first-level cache. A scan fills them faster.
-constexpr int kFetchAhead = 1;
-constexpr int kScanFetchAhead = kLineRecords;
+/// Fetches the line after a cursor's. A scan fills lines fast, and few: they are taken for writing at once.
+/// Otherwise it takes hundreds of records until the line is needed, and in the first-level cache those of
+/// hundreds of cursors would crowd each other out: they wait in the second level.
+template <bool isScan>
+inline void fetchAfter(const Record* cursor)
+{
+  isScan ? __builtin_prefetch(cursor + kLineRecords, 1) : __builtin_prefetch(cursor + kLineRecords, 0, 2);
+}
 
-template <bool Indexed, int fetchAhead>
+template <bool Indexed, bool isScan>
 inline void dealOne(const PlacedPoints& placed, int i, std::uintptr_t blockMask, RecordWriter& writer)
 {
   const std::uint32_t partition = placed.partitions[i];
@@ -150,7 +153,7 @@ inline void dealOne(const PlacedPoints& placed, int i, std::uintptr_t blockMask,
     writer.indices[cursor - writer.records] = placed.indices[i];
   }
   ++cursor;
-  __builtin_prefetch(cursor + fetchAhead, 1);
+  fetchAfter<isScan>(cursor);
   writer.cursors[partition] = cursor;
 }
 
@@ -174,13 +177,13 @@ inline int dealRun(const PlacedPoints& placed, std::uintptr_t blockMask, RecordW
         cursor[j] = placed.records[i + j];
       }
       cursor += kTogether;
-      __builtin_prefetch(cursor + kScanFetchAhead, 1);
+      fetchAfter<true>(cursor);
       writer.cursors[partitions[0]] = cursor;
       continue;
     }
     for (int j = 0; j < kTogether; ++j)
     {
-      dealOne<false, kScanFetchAhead>(placed, i + j, blockMask, writer);
+      dealOne<false, true>(placed, i + j, blockMask, writer);
     }
   }
   return i;
@@ -208,7 +211,7 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   {
     for (int i = 0; i < placed.size; ++i)
     {
-      dealOne<Indexed, kFetchAhead>(placed, i, blockMask, writer);
+      dealOne<Indexed, false>(placed, i, blockMask, writer);
     }
     return;
   }
@@ -216,8 +219,8 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   const bool isRun =
     first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
   const int from = !Indexed && isRun ? dealRun(placed, blockMask, writer) : 0;
-  fromPlaces<8>(placed.size - from,
-    [&](int j) { dealOne<Indexed, kScanFetchAhead>(placed, from + j, blockMask, writer); });
+  fromPlaces<8>(
+    placed.size - from, [&](int j) { dealOne<Indexed, true>(placed, from + j, blockMask, writer); });
 }
 
 /// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p
