@@ -114,7 +114,7 @@ RecordWriter& RecordPool::Lease::writer() const
 
 std::uint32_t RecordPool::firstBlock(std::uint32_t partition, std::size_t writer) const
 {
-  for (; partition < writers_[0]->lastBlocks.size(); ++partition, writer = 0)
+  for (; partition < writers_[0]->lastBlocks.size(); partition += std::uint32_t(writers_.size()), writer = 0)
   {
     for (; writer < writers_.size(); ++writer)
     {
