@@ -149,8 +149,8 @@ __attribute__((always_inline)) inline void fetchTuples(
   for (int i = 0; i < count; ++i)
   {
     const T* tuple = values + components * points[i];
-    __builtin_prefetch(tuple);
-    __builtin_prefetch(reinterpret_cast<const char*>(tuple + components) - 1);
+    __builtin_prefetch(tuple, 0, 2);
+    __builtin_prefetch(reinterpret_cast<const char*>(tuple + components) - 1, 0, 2);
   }
 }
 
