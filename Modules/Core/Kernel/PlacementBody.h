@@ -150,7 +150,9 @@ inline void dealOne(const PlacedPoints& placed, int i, std::uintptr_t blockMask,
   *cursor = placed.records[i];
   if (Indexed)
   {
-    writer.indices[cursor - writer.records] = placed.indices[i];
+    std::uint32_t* index = writer.indices + (cursor - writer.records);
+    *index = placed.indices[i];
+    __builtin_prefetch(index + kLineIndices, 0, 2);
   }
   ++cursor;
   fetchAfter<isScan>(cursor);

@@ -46,8 +46,9 @@ struct alignas(16) Record
 
 /// Records are written into blocks of a power of two of records, at most so many, aligned to their size.
 constexpr std::size_t kBlockRecords = 4096 / sizeof(Record);
-/// Records of a line of the caches.
+/// Records of a line of the caches, and indices.
 constexpr int kLineRecords = 64 / sizeof(Record);
+constexpr int kLineIndices = 64 / sizeof(std::uint32_t);
 
 /// What of the matrix there is to multiply with.
 enum class Motion
