@@ -221,8 +221,13 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   const bool isRun =
     first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
   const int from = !Indexed && isRun ? dealRun(placed, blockMask, writer) : 0;
-  fromPlaces<8>(
-    placed.size - from, [&](int j) { dealOne<Indexed, true>(placed, from + j, blockMask, writer); });
+  const auto dealNext = [&](int j) { dealOne<Indexed, true>(placed, from + j, blockMask, writer); };
+  if (from == 0 && placed.size == kPlacedAtOnce)
+  {
+    fromPlaces<8>(kPlacedAtOnce, dealNext);
+    return;
+  }
+  fromPlaces<8>(placed.size - from, dealNext);
 }
 
 /// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p
