@@ -47,15 +47,22 @@ std::vector<Lap> race(const std::vector<Contestant>& contestants, const RaceSett
     }
     laps.push_back(std::move(lap));
   }
+  std::vector<double> spent(laps.size(), 0.0);
   std::mt19937_64 random(settings.seed);
   for (int round = -settings.warmUps; round < settings.rounds; ++round)
   {
+    const auto isSpent = [&](std::size_t who) { return spent[who] > settings.longestSeconds; };
+    if (round + settings.warmUps >= kLeastRounds)
+    {
+      order.erase(std::remove_if(order.begin(), order.end(), isSpent), order.end());
+    }
     std::shuffle(order.begin(), order.end(), random);
     for (const std::size_t who : order)
     {
       for (int call = 1; call <= settings.inARow; ++call)
       {
         const double seconds = runOnce(contestants[who], clock);
+        spent[who] += seconds;
         if (round >= 0 && call == settings.inARow)
         {
           laps[who].seconds.push_back(seconds);

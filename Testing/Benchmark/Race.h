@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct Contestant
   std::function<bool()> check;
 };
 
+/// Rounds of every contestant, however long they take.
+constexpr int kLeastRounds = 5;
+
 struct RaceSettings
 {
   int rounds = 15;
@@ -36,6 +40,9 @@ struct RaceSettings
   /// threads as its own call left them, like all calls in a program that does nothing else. Above 1, the
   /// first is kept too: it finds them as the others left them.
   int inARow = 1;
+  /// A contestant that has run so long in all, after its first call, sits out the rounds left: kLeastRounds
+  /// of them, warm-ups included, it runs in any case.
+  double longestSeconds = std::numeric_limits<double>::infinity();
   std::uint64_t seed = 1;
   /// Seconds since some fixed moment. Default: std::chrono::steady_clock.
   std::function<double()> clock;

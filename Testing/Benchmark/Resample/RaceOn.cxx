@@ -77,6 +77,7 @@ RaceSettings settingsOf(const StudyContext& context)
   settings.rounds = context.options.repetitions;
   settings.warmUps = context.options.warmUps;
   settings.inARow = 2;
+  settings.longestSeconds = context.options.longestSeconds;
   return settings;
 }
 

@@ -28,6 +28,7 @@ struct ResampleBenchmarkOptions
   std::int64_t dimension = 300; ///< Voxels on an axis where nothing else is said.
   int repetitions = 15;
   int warmUps = 2;
+  double longestSeconds = 40.0; ///< See RaceSettings.
 
   /// A second or two: to see that everything works. The figures mean little.
   void makeQuick();

@@ -121,3 +121,16 @@ TEST(Race, WhoFailsTheCheckIsNotTimed)
   EXPECT_TRUE(laps[0].seconds.empty());
   EXPECT_EQ(laps[1].seconds.size(), 4u);
 }
+
+TEST(Race, ContestantsThatTakeTooLongSitOutTheRoundsLeft)
+{
+  Course course;
+  RaceSettings settings = course.settings(10, 2);
+  settings.longestSeconds = 60.0;
+  const auto laps = race(
+    { course.contestant("fast", 1.0), course.contestant("slow", 10.0), course.contestant("slowest", 50.0) },
+    settings);
+  EXPECT_EQ(laps[0].seconds, std::vector<double>(10, 1.0));
+  EXPECT_EQ(laps[1].seconds, std::vector<double>(5, 10.0)) << "after seven rounds it has run for 70 seconds";
+  EXPECT_EQ(laps[2].seconds, std::vector<double>(kLeastRounds - 2, 50.0));
+}
