@@ -1,6 +1,7 @@
 #include "Core/AttributeMean.h"
 
 #include "Core/Kernel/AttributeKernel.h"
+#include "Core/Kernel/Fetch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -140,8 +141,8 @@ void AttributeMean::clear(std::int64_t voxels, const Executor& executor)
 namespace
 {
 
-/// What is added lies anywhere in the array: a tuple in one or two lines of memory. Always inline: the
-/// compiler leaves out calls of functions that only fetch.
+/// What is added lies anywhere in the array: a tuple in one or two lines of memory. Always inline: see
+/// fetch().
 template <typename T>
 __attribute__((always_inline)) inline void fetchTuples(
   const T* values, int components, const std::int64_t* points, int count)
@@ -149,8 +150,8 @@ __attribute__((always_inline)) inline void fetchTuples(
   for (int i = 0; i < count; ++i)
   {
     const T* tuple = values + components * points[i];
-    __builtin_prefetch(tuple, 0, 2);
-    __builtin_prefetch(reinterpret_cast<const char*>(tuple + components) - 1, 0, 2);
+    kernel::fetch(tuple);
+    kernel::fetch(reinterpret_cast<const char*>(tuple + components) - 1);
   }
 }
 

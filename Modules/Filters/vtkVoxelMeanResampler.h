@@ -22,7 +22,7 @@
  * doubles, row by row). With NumberOfLevels above 1 there is an output port per level, each twice as coarse.
  *
  * Arrays: numeric arrays of any type and number of components are averaged and rounded to their own type
- * (integers to nearest, exactly); the active normals are carried by the inverse transpose and re-normalised,
+ * (integers to nearest, exactly), and keep their lookup table and information keys; the active normals are carried by the inverse transpose and re-normalised,
  * those in integers keep the length of their mean; arrays named in CategoricalArrays take the value most
  * points of the voxel have (the smallest one on a tie; NaN counts as the largest, and both zeroes as one);
  * string arrays and other non-numeric arrays are dropped with a warning; global ids, ghost flags and the
@@ -37,6 +37,8 @@
  * bit for every order of the input points, number of threads, SMP back end and instruction set; a coarser
  * level is the same as the points resampled at its spacing over the same workspace (lattices of up to 4096
  * voxels an axis).
+ *
+ * An input without points gives all arrays without tuples.
  *
  * Points that are NaN or infinite are dropped and counted by GetNumberOfInvalidPoints(), finite points
  * outside the workspace by GetNumberOfClippedPoints().

@@ -2,6 +2,7 @@
 /// Part of VoxelKernelBody.h: marks the cells of a partition, numbers them and sums the records of each.
 #pragma once
 
+#include "Core/Kernel/Fetch.h"
 #include "Core/Kernel/VoxelKernel.h"
 
 namespace pointhaptics
@@ -66,7 +67,7 @@ void mark(const CellMap& map, const Record* records, int count, const Record* ne
   {
     for (int i = first; i < first + kStep; i += kLineRecords)
     {
-      __builtin_prefetch(next + i, 0, 2);
+      fetch(next + i);
     }
     V::cells(map, records + first, count - first < kStep ? count - first : kStep, cells + first);
   }

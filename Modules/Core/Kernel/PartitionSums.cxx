@@ -1,5 +1,6 @@
 #include "Core/Kernel/PartitionSums.h"
 
+#include "Core/Kernel/Fetch.h"
 #include "Core/RadixSort.h"
 
 #include <algorithm>
@@ -165,7 +166,7 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
       const char* partEnd = line + std::min(part, std::size_t(end - line));
       for (; line < partEnd; line += 64)
       {
-        __builtin_prefetch(line, 0, 2);
+        fetch(line);
       }
       kernels.mark(voxels_.map, block, count, next, marks_.data(), cells);
       cells += count;

@@ -2,6 +2,7 @@
 /// Part of VoxelKernelBody.h: places points in the lattice and deals their records out to the partitions.
 #pragma once
 
+#include "Core/Kernel/Fetch.h"
 #include "Core/Kernel/VoxelKernel.h"
 
 namespace pointhaptics
@@ -135,7 +136,7 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
 template <bool isScan>
 inline void fetchAfter(const Record* cursor)
 {
-  isScan ? __builtin_prefetch(cursor + kLineRecords, 1) : __builtin_prefetch(cursor + kLineRecords, 0, 2);
+  isScan ? __builtin_prefetch(cursor + kLineRecords, 1) : fetch(cursor + kLineRecords);
 }
 
 template <bool Indexed, bool isScan>
@@ -152,7 +153,7 @@ inline void dealOne(const PlacedPoints& placed, int i, std::uintptr_t blockMask,
   {
     std::uint32_t* index = writer.indices + (cursor - writer.records);
     *index = placed.indices[i];
-    __builtin_prefetch(index + kLineIndices, 0, 2);
+    fetch(index + kLineIndices);
   }
   ++cursor;
   fetchAfter<isScan>(cursor);

@@ -98,7 +98,7 @@ private:
   };
   static Record* refill(RecordWriter& writer, std::uint32_t partition);
   /// The first block in the order of visits of a partition from writer @p writer on, or of the partition
-  /// after it; any block where there is none.
+  /// that the same thread will take next if all take them in turn; any block where there is none.
   std::uint32_t firstBlock(std::uint32_t partition, std::size_t writer) const;
 
   std::size_t blockRecords_ = kBlockRecords;
