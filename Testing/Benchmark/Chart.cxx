@@ -98,18 +98,29 @@ std::vector<double> logarithmicTicks(const Range& range)
   return ticks;
 }
 
+/// Labels of ticks too near the last one's on a horizontal axis are left out.
 void placeTicks(vtkAxis* axis, const std::vector<double>& ticks, const Range& range, bool logarithmic)
 {
+  // Of an axis, at the size of labels and pictures here.
+  constexpr double kCharacter = 0.0125;
+  const double character = axis->GetPosition() == vtkAxis::BOTTOM ? kCharacter : 0.0;
   vtkNew<vtkDoubleArray> places;
   vtkNew<vtkStringArray> labels;
+  double free = -1.0;
   for (const double tick : ticks)
   {
     const double place = logarithmic ? std::log10(tick) : tick;
-    if (place >= range.low && place <= range.high)
+    if (place < range.low || place > range.high)
     {
-      places->InsertNextValue(place);
-      labels->InsertNextValue(labelOf(tick));
+      continue;
     }
+    const std::string label = labelOf(tick);
+    const double middle = (place - range.low) / (range.high - range.low);
+    const double half = 0.5 * character * double(label.size());
+    const bool fits = middle - half >= free;
+    free = fits ? middle + half + character : free;
+    places->InsertNextValue(place);
+    labels->InsertNextValue(fits ? label : "");
   }
   axis->SetCustomTickPositions(places, labels);
 }
