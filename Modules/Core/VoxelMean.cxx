@@ -35,16 +35,12 @@ Bounds transformedBounds(
     }
   };
   WatchedPoints watched(watcher, points.size(), 1);
-  for (std::int64_t first = 0; first < points.size(); first += kWatchedPoints)
-  {
-    const std::int64_t count = std::min(kWatchedPoints, points.size() - first);
-    forRange(executor, count, kGrain,
-      [&](std::int64_t begin, std::int64_t end) { include(first + begin, first + end); });
-    if (!watched.add(count))
+  forWatchedSlices(points.size(), watched,
+    [&](std::int64_t first, std::int64_t last)
     {
-      break;
-    }
-  }
+      forRange(executor, last - first, kGrain,
+        [&](std::int64_t begin, std::int64_t end) { include(first + begin, first + end); });
+    });
   return box;
 }
 

@@ -42,4 +42,21 @@ private:
   double seen_ = 0.0;
 };
 
+/// Calls work(first, last) for slices of @p points points, of which @p watched hears one after the other.
+/// @return false where it ended the work.
+template <typename Work>
+bool forWatchedSlices(std::int64_t points, WatchedPoints& watched, Work&& work)
+{
+  for (std::int64_t first = 0; first < points; first += kWatchedPoints)
+  {
+    const std::int64_t last = points - first < kWatchedPoints ? points : first + kWatchedPoints;
+    work(first, last);
+    if (!watched.add(last - first))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 } // namespace pointhaptics

@@ -205,23 +205,17 @@ private:
   template <typename Visit>
   static bool forPoints(const std::vector<std::int64_t>& voxelOf, WatchedPoints& watched, Visit&& visit)
   {
-    for (std::size_t first = 0; first < voxelOf.size();)
-    {
-      const std::size_t last = std::min(voxelOf.size(), first + std::size_t(kWatchedPoints));
-      for (std::size_t i = first; i < last; ++i)
+    return forWatchedSlices(std::int64_t(voxelOf.size()), watched,
+      [&](std::int64_t first, std::int64_t last)
       {
-        if (voxelOf[i] >= 0)
+        for (auto i = std::size_t(first); i < std::size_t(last); ++i)
         {
-          visit(i, voxelOf[i]);
+          if (voxelOf[i] >= 0)
+          {
+            visit(i, voxelOf[i]);
+          }
         }
-      }
-      if (!watched.add(std::int64_t(last - first)))
-      {
-        return false;
-      }
-      first = last;
-    }
-    return true;
+      });
   }
 };
 

@@ -4,6 +4,8 @@
 
 #include "../Unit/Devices/FalconBench.h"
 
+#include "../Unit/SkipWithoutDisplay.h"
+
 #include <gtest/gtest.h>
 
 #include <cerrno>
@@ -230,11 +232,7 @@ TEST_F(EmulatedMachine, FeelsASphereUntilTheUserEndsItAndLetsGoInOrder)
 
 TEST_F(EmulatedMachine, TheWindowFeelsWithTheFalconAndLetsGoInOrder)
 {
-  const char* const display = std::getenv("DISPLAY");
-  if (!display || !*display)
-  {
-    GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
-  }
+  SKIP_WITHOUT_DISPLAY();
   falcon.plugIn();
   ASSERT_EQ(run({ "generate", "sphere", "-n", "20000", "-o", path("sphere.ply") }), 0) << output();
   const pid_t child = begin({ "view", path("sphere.ply"), "--device", "auto", "--falcon-firmware",
@@ -267,11 +265,7 @@ TEST_F(EmulatedMachine, FeelingGoesOnWhenNobodyReadsWhatItSays)
 
 TEST_F(EmulatedMachine, TheWindowGoesOnWhenNobodyReadsWhatItSays)
 {
-  const char* const display = std::getenv("DISPLAY");
-  if (!display || !*display)
-  {
-    GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
-  }
+  SKIP_WITHOUT_DISPLAY();
   goOnWithoutAReader({ "view", path("sphere.ply"), "--device", "auto", "--size", "320x240" });
 }
 
@@ -362,11 +356,7 @@ TEST_F(EmulatedMachine, EndsAStartThatNobodyAnswers)
 
 TEST_F(EmulatedMachine, TheWindowOpensWithoutTheFirmwareOnASimulatedHand)
 {
-  const char* const display = std::getenv("DISPLAY");
-  if (!display || !*display)
-  {
-    GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
-  }
+  SKIP_WITHOUT_DISPLAY();
   falcon.plugIn();
   ASSERT_EQ(run({ "generate", "sphere", "-n", "2000", "-o", path("sphere.ply") }), 0) << output();
   const pid_t child =

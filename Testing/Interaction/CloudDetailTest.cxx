@@ -3,6 +3,8 @@
 #include "vtkDepthShadingPass.h"
 #include "vtkSplatMapper.h"
 
+#include "../Unit/SkipWithoutDisplay.h"
+
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
@@ -70,11 +72,7 @@ class CloudDetailTest : public ::testing::Test
 protected:
   void SetUp() override
   {
-    const char* display = std::getenv("DISPLAY");
-    if (!display || !*display)
-    {
-      GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
-    }
+    SKIP_WITHOUT_DISPLAY();
     cloud_ = makeSphere();
     mapper_->SetInputData(cloud_);
     actor_->SetMapper(mapper_);
@@ -540,63 +538,6 @@ TEST_F(CloudDetailTest, LeavesOutWhatTheWorkspaceClips)
   // Half of the sphere, and the bricks on the border.
   EXPECT_LT(double(detail_.visiblePoints()), 0.75 * double(detail_.drawnPoints()));
   EXPECT_GT(double(detail_.visiblePoints()), 0.5 * double(detail_.drawnPoints()));
-}
-
-TEST_F(CloudDetailTest, SplatsAreDiscsAsLargeAsTheirLengthSays)
-{
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> vertices;
-  vtkNew<vtkFloatArray> lengths;
-  lengths->SetName("Length");
-  for (vtkIdType i = 0; i < 3; ++i)
-  {
-    points->InsertNextPoint(0.03 * double(i) - 0.03, 0.0, 0.0);
-    vertices->InsertNextCell(1, &i);
-    lengths->InsertNextValue(float(0.002 * double(i + 1))); // 2, 4, 6 mm
-  }
-  vtkNew<vtkPolyData> three;
-  three->SetPoints(points);
-  three->SetVerts(vertices);
-  three->GetPointData()->AddArray(lengths);
-  vtkNew<vtkSplatMapper> splats;
-  splats->SetInputData(three);
-  splats->SetSizeArrayName("Length");
-  splats->SetSizeScale(2.0);
-  splats->ScalarVisibilityOff();
-  actor_->SetMapper(splats);
-  actor_->GetProperty()->SetColor(0, 0, 0);
-  detail_.setEnabled(false);
-  renderer_->SetPass(nullptr);
-  renderer_->GradientBackgroundOff();
-  renderer_->SetBackground(1, 1, 1);
-  for (const bool parallel : { false, true })
-  {
-    renderer_->GetActiveCamera()->SetParallelProjection(parallel);
-    renderer_->GetActiveCamera()->SetParallelScale(0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
-    renderer_->ResetCameraClippingRange();
-    this->render(0.0);
-    const std::vector<unsigned char> seen = this->pixels();
-    const double perMetre = kSize / (2.0 * 0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
-    for (int i = 0; i < 3; ++i)
-    {
-      int dark = 0;
-      const int middle = int(kSize / 2 + (0.03 * i - 0.03) * perMetre);
-      for (int y = 0; y < kSize; ++y)
-      {
-        for (int x = middle - 25; x < middle + 25; ++x)
-        {
-          dark += x >= 0 && x < kSize && seen[std::size_t(3 * (y * kSize + x))] < 128;
-        }
-      }
-      const double radius = 0.002 * (i + 1) * perMetre;
-      EXPECT_NEAR(dark, 3.14159 * radius * radius, 0.1 * 3.14159 * radius * radius + 8.0) << i << parallel;
-    }
-  }
-  // A point far from all others is no ball.
-  splats->SetLargestRatio(1.0);
-  this->render(0.0);
-  const std::vector<unsigned char> cut = this->pixels();
-  EXPECT_LT(std::count(cut.begin(), cut.end(), 0), 3 * 900);
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // What the shading by depth darkens, pixel by pixel: needs a window, skips itself without a display.
 #include "CloudAppearance.h"
 
+#include "../Unit/SkipWithoutDisplay.h"
+
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -14,7 +16,6 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 using namespace pointhaptics;
 
@@ -30,11 +31,7 @@ class DepthShading : public ::testing::Test
 protected:
   void SetUp() override
   {
-    const char* display = std::getenv("DISPLAY");
-    if (!display || !*display)
-    {
-      GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
-    }
+    SKIP_WITHOUT_DISPLAY();
     addWall(-0.02, 0.02, 0.0);
     addWall(-0.02, 0.0, kStep);
     renderer_->GetActiveCamera()->SetPosition(0, 0, 0.2);

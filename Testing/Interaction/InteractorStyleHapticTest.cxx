@@ -1,133 +1,31 @@
+#include "InteractorStyleFixture.h"
+
 #include "PointPicking.h"
 #include "SurfaceArrays.h"
-#include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
-#include "vtkHapticSliders.h"
-#include "vtkInteractorStyleHaptic.h"
-#include "vtkKernelBandwidthFilter.h"
-#include "vtkVoxelMeanResampler.h"
 
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/ServoLoop.h"
 
-#include <gtest/gtest.h>
 #include <vtkActor.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
 #include <vtkDataArray.h>
 #include <vtkInteractorObserver.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderWindowInteractor.h>
-#include <vtkRenderer.h>
 #include <vtkStringArray.h>
-#include <vtkTransform.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <thread>
-#include <vector>
 
 using namespace pointhaptics;
 
 namespace
 {
 
-/// A square of 6 cm, points 1 mm apart, at z = 0.
-vtkSmartPointer<vtkPolyData> makePlane()
+class InteractorStyleHaptic : public InteractorStyleFixture
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (int i = -30; i <= 30; ++i)
-  {
-    for (int j = -30; j <= 30; ++j)
-    {
-      points->InsertNextPoint(0.001 * i, 0.001 * j, 0.0);
-    }
-  }
-  auto plane = vtkSmartPointer<vtkPolyData>::New();
-  plane->SetPoints(points);
-  return plane;
-}
-
-/// A window with the style and its pipeline; the camera looks down the z axis, y up.
-class InteractorStyleHaptic : public ::testing::Test
-{
-protected:
-  void SetUp() override
-  {
-    const char* display = std::getenv("DISPLAY");
-    if (!display || !*display)
-    {
-      GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run";
-    }
-    resampler_->SetInputData(makePlane());
-    resampler_->SetWorkspaceBounds(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
-    resampler_->SetDimensions(100, 100, 100);
-    bandwidth_->SetInputConnection(resampler_->GetOutputPort());
-    window_->SetOffScreenRendering(1);
-    window_->SetSize(200, 200);
-    window_->AddRenderer(renderer_);
-    interactor_->SetRenderWindow(window_);
-    renderer_->GetActiveCamera()->SetPosition(0, 0, 0.4);
-    renderer_->GetActiveCamera()->SetFocalPoint(0, 0, 0);
-    renderer_->GetActiveCamera()->SetViewUp(0, 1, 0);
-    style_->SetResampler(resampler_);
-    style_->SetBandwidthFilter(bandwidth_);
-    style_->SetDefaultRenderer(renderer_);
-    interactor_->SetInteractorStyle(style_);
-    this->count(vtkInteractorStyleHaptic::ModelChangedEvent, modelChanges_);
-    this->count(vtkInteractorStyleHaptic::SceneChangedEvent, sceneChanges_);
-    this->count(vtkInteractorStyleHaptic::FilesDroppedEvent, drops_);
-    window_->Render();
-    style_->UpdateModel();
-    sceneChanges_ = 0;
-  }
-  void count(unsigned long event, int& counter)
-  {
-    vtkNew<vtkCallbackCommand> command;
-    command->SetClientData(&counter);
-    command->SetCallback(
-      [](vtkObject*, unsigned long, void* client, void*) { ++*static_cast<int*>(client); });
-    style_->AddObserver(event, command);
-  }
-  void press(const std::string& symbol, bool shift = false)
-  {
-    interactor_->SetKeyEventInformation(0, shift, symbol.size() == 1 ? symbol[0] : 0, 0, symbol.c_str());
-    interactor_->InvokeEvent(vtkCommand::KeyPressEvent);
-    interactor_->InvokeEvent(vtkCommand::CharEvent);
-  }
-  void drag(unsigned long down, unsigned long up, int dx, int dy, bool control, bool shift)
-  {
-    interactor_->SetEventInformation(100, 100, control, shift);
-    interactor_->InvokeEvent(down);
-    interactor_->SetEventInformation(100 + dx, 100 + dy, control, shift);
-    interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
-    interactor_->InvokeEvent(up);
-  }
-  double element(int row, int column)
-  {
-    return style_->GetModelTransform()->GetMatrix()->GetElement(row, column);
-  }
-  bool modelIsIdentity() { return style_->GetModelTransform()->GetMatrix()->IsIdentity(); }
-
-  vtkNew<vtkVoxelMeanResampler> resampler_;
-  vtkNew<vtkKernelBandwidthFilter> bandwidth_;
-  vtkNew<vtkRenderWindow> window_;
-  vtkNew<vtkRenderer> renderer_;
-  vtkNew<vtkRenderWindowInteractor> interactor_;
-  vtkNew<vtkInteractorStyleHaptic> style_;
-  int modelChanges_ = 0;
-  int sceneChanges_ = 0;
-  int drops_ = 0;
 };
 
 TEST_F(InteractorStyleHaptic, PublishesANewSceneAfterEachKeyThatMovesTheModel)
@@ -339,84 +237,6 @@ TEST_F(InteractorStyleHaptic, MovesThePropsFromTheTimer)
   servo.stop();
 }
 
-TEST_F(InteractorStyleHaptic, ShowsHelpAndChartOnTheirKeys)
-{
-  vtkNew<vtkHapticOverlay> overlay;
-  vtkNew<vtkHapticChart> chart;
-  overlay->AddTo(renderer_);
-  chart->GetRenderer()->SetViewport(0.0, 0.0, 1.0, 0.25);
-  window_->AddRenderer(chart->GetRenderer());
-  style_->SetOverlay(overlay);
-  style_->SetChart(chart);
-  this->press("h");
-  EXPECT_TRUE(overlay->GetHelpVisibility());
-  this->press("H");
-  EXPECT_FALSE(overlay->GetHelpVisibility());
-  this->press("c");
-  EXPECT_FALSE(chart->GetVisibility());
-  EXPECT_EQ(renderer_->GetViewport()[1], 0.0);
-  this->press("c");
-  EXPECT_TRUE(chart->GetVisibility());
-  EXPECT_EQ(renderer_->GetViewport()[1], 0.25);
-}
-
-TEST_F(InteractorStyleHaptic, KeepsThePictureOfAChartThatDidNotChange)
-{
-  vtkNew<vtkHapticOverlay> overlay;
-  vtkNew<vtkHapticChart> chart;
-  overlay->AddTo(renderer_);
-  chart->GetRenderer()->SetViewport(0.0, 0.0, 1.0, 0.5);
-  renderer_->SetViewport(0.0, 0.5, 1.0, 1.0);
-  window_->AddRenderer(chart->GetRenderer());
-  style_->SetOverlay(overlay);
-  style_->SetChart(chart);
-  chart->AddSample(0.0, 1.0, 0.001);
-  chart->AddSample(1.0, 2.0, 0.001);
-  chart->Update();
-  const auto chartPixels = [this]
-  {
-    vtkNew<vtkUnsignedCharArray> data;
-    window_->GetPixelData(0, 0, 199, 99, 0, data);
-    return std::vector<unsigned char>(data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues());
-  };
-  int drawings = 0;
-  int frames = 0;
-  const auto countStarts = [](vtkRenderer* renderer, int& counter)
-  {
-    vtkNew<vtkCallbackCommand> command;
-    command->SetClientData(&counter);
-    command->SetCallback(
-      [](vtkObject*, unsigned long, void* client, void*) { ++*static_cast<int*>(client); });
-    renderer->AddObserver(vtkCommand::StartEvent, command);
-  };
-  countStarts(renderer_, frames);
-  countStarts(chart->GetRenderer(), drawings);
-  const auto draw = [&](const char* note)
-  {
-    style_->SetStatusNote(note);
-    const int before = frames;
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (frames == before && std::chrono::steady_clock::now() < deadline)
-    {
-      style_->Refresh(); // renders once its share of the time has come
-    }
-    EXPECT_EQ(frames, before + 1) << note;
-  };
-  interactor_->Initialize();
-  draw("first");
-  const std::vector<unsigned char> first = chartPixels();
-  EXPECT_GT(drawings, 0);
-  drawings = 0;
-  draw("second");
-  EXPECT_EQ(drawings, 0);
-  EXPECT_EQ(chartPixels(), first);
-  EXPECT_TRUE(chart->GetVisibility());
-  this->press("c"); // hides it, and shows it again
-  this->press("c");
-  draw("third");
-  EXPECT_GT(drawings, 0);
-}
-
 TEST_F(InteractorStyleHaptic, TakesBackTheLastMoveAsAWhole)
 {
   this->press("x");
@@ -517,92 +337,6 @@ TEST_F(InteractorStyleHaptic, MeasuresAtThePickedPointWhatTheFilterComputesForAl
     EXPECT_NEAR(picked.bandwidth, bandwidths->GetComponent(40, 0), 1e-9 * picked.bandwidth);
     EXPECT_NEAR(picked.radius, radii->GetComponent(40, 0), 1e-9 * picked.radius);
   }
-}
-
-TEST_F(InteractorStyleHaptic, ShowsTheServoPanelWithTheDevice)
-{
-  vtkNew<vtkHapticOverlay> overlay;
-  style_->SetOverlay(overlay);
-  style_->SetDeviceNote("falcon, unhomed");
-  style_->Refresh();
-  EXPECT_EQ(overlay->GetPanel(), "");
-  this->press("i");
-  style_->Refresh();
-  EXPECT_EQ(overlay->GetPanel(), "servo loop: none\ndevice: falcon, unhomed");
-  ServoLoop servo;
-  SimulatedDevice device;
-  style_->SetServoLoop(&servo);
-  ASSERT_EQ(servo.start(device, {}), Status::Ok);
-  style_->SetDeviceNote("simulated");
-  style_->Refresh();
-  servo.stop();
-  style_->SetServoLoop(nullptr);
-  EXPECT_NE(overlay->GetPanel().find("running"), std::string::npos);
-  EXPECT_NE(overlay->GetPanel().find("missed"), std::string::npos);
-}
-
-TEST_F(InteractorStyleHaptic, KeepsAPausedChartAsItIs)
-{
-  vtkNew<vtkHapticChart> chart;
-  style_->SetChart(chart);
-  chart->AddSample(0.0, 1.0, 0.001);
-  chart->AddSample(1.0, 2.0, 0.001);
-  EXPECT_TRUE(chart->Update());
-  this->press("t");
-  EXPECT_TRUE(chart->GetPaused());
-  chart->AddSample(2.0, 3.0, 0.001);
-  EXPECT_FALSE(chart->Update());
-  this->press("t");
-  EXPECT_TRUE(chart->Update());
-}
-
-TEST_F(InteractorStyleHaptic, MovesASliderByTheMouseAndNothingElse)
-{
-  vtkNew<vtkHapticSliders> sliders;
-  sliders->SetInteractor(interactor_);
-  style_->SetSliders(sliders);
-  window_->SetSize(800, 600);
-  this->press("v");
-  EXPECT_TRUE(sliders->GetVisibility());
-  window_->Render();
-  int moved = -1;
-  vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(&moved);
-  command->SetCallback([](vtkObject*, unsigned long, void* client, void* slider)
-    { *static_cast<int*>(client) = *static_cast<int*>(slider); });
-  sliders->AddObserver(vtkHapticSliders::ValueChangedEvent, command);
-  // Friction starts at the left end of its way; see the positions in vtkHapticSliders.
-  const int row = int(600 * (0.30 + 2 * 0.1));
-  double before[3];
-  renderer_->GetActiveCamera()->GetPosition(before);
-  interactor_->SetEventInformation(int(0.836 * 800), row);
-  interactor_->InvokeEvent(vtkCommand::LeftButtonPressEvent);
-  interactor_->SetEventInformation(int(0.905 * 800), row);
-  interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
-  interactor_->InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
-  EXPECT_EQ(moved, vtkHapticSliders::Friction);
-  EXPECT_NEAR(sliders->GetValue(vtkHapticSliders::Friction), 0.5, 0.1);
-  EXPECT_EQ(renderer_->GetActiveCamera()->GetPosition()[0], before[0]);
-  this->press("i"); // the key VTK's widgets would switch themselves off with
-  window_->Render();
-  this->press("v");
-  EXPECT_FALSE(sliders->GetVisibility());
-  sliders->SetInteractor(nullptr);
-}
-
-TEST(HapticSliders, MoveLengthsInProportionAndIgnoreWhatIsNoNumber)
-{
-  vtkNew<vtkHapticSliders> sliders;
-  sliders->MoveTo(vtkHapticSliders::Stiffness, 0.5);
-  EXPECT_NEAR(sliders->GetValue(vtkHapticSliders::Stiffness), 500.0, 1e-9); // between 50 and 5000
-  sliders->MoveTo(vtkHapticSliders::Friction, 0.25);
-  EXPECT_NEAR(sliders->GetValue(vtkHapticSliders::Friction), 0.25, 1e-12);
-  sliders->SetValue(vtkHapticSliders::Stiffness, -1.0);
-  sliders->SetValue(vtkHapticSliders::Stiffness, NAN);
-  EXPECT_NEAR(sliders->GetValue(vtkHapticSliders::Stiffness), 500.0, 1e-9);
-  sliders->SetValue(vtkHapticSliders::Stiffness, 20000.0);
-  sliders->MoveTo(vtkHapticSliders::Stiffness, 2.0);
-  EXPECT_NEAR(sliders->GetValue(vtkHapticSliders::Stiffness), 20000.0, 1e-6);
 }
 
 TEST_F(InteractorStyleHaptic, PassesDroppedFilesOn)

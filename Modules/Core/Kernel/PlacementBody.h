@@ -225,6 +225,7 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   const auto dealNext = [&](int j) { dealOne<Indexed, true>(placed, from + j, blockMask, writer); };
   if (from == 0 && placed.size == kPlacedAtOnce)
   {
+    // The usual case, with places that the compiler knows.
     fromPlaces<8>(kPlacedAtOnce, dealNext);
     return;
   }

@@ -3,6 +3,8 @@
 #include "Benchmark/Resample/Studies.h"
 #include "Benchmark/StudyList.h"
 
+#include <fmt/format.h>
+
 namespace pointhaptics
 {
 namespace bench
@@ -17,12 +19,13 @@ constexpr Study<StudyContext> kStudies[] = { { "points", studyPoints }, { "voxel
   { "attributes", studyAttributes }, { "instructions", studyInstructions }, { "zoom", studyZoom },
   { "memory", studyMemory, true }, { "accumulators", studyAccumulators } };
 
-constexpr const char* kMethod =
+constexpr char kMethod[] =
   "Each time is a whole `Update()` (of other libraries: the call that does the same), from points in memory "
   "to "
   "the finished result, with the input marked as modified. The answer is compared with long double before "
   "anything is timed. Then all contestants run once a round, in an order shuffled anew, after rounds to warm "
-  "up; the first call is reported apart. A contestant that has run for 40 seconds sits out the rounds left: "
+  "up; the first call is reported apart. A contestant that has run for {:g} seconds sits out the rounds "
+  "left: "
   "at 50 million points the slow ones have three. Given are the median and the quartiles; ratios are medians "
   "of the "
   "ratios within a round. \"x ours\" is the time over ours, \"PCL / it\" how many times as fast as PCL a "
@@ -55,7 +58,7 @@ Report benchmarkResample(const ResampleBenchmarkOptions& options, const Progress
   Report report;
   report.task = "resample";
   report.title = "Mean resampling";
-  report.method = kMethod;
+  report.method = fmt::format(kMethod, options.longestSeconds);
   report.machine = thisMachine();
   StudyContext context{ options, progress };
   report.parts = runStudies(kStudies, options.studies, context);

@@ -1,0 +1,98 @@
+#include "vtkSplatMapper.h"
+
+#include "../Unit/SkipWithoutDisplay.h"
+
+#include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace
+{
+
+constexpr int kSize = 200;
+
+TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
+{
+  SKIP_WITHOUT_DISPLAY();
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> vertices;
+  vtkNew<vtkFloatArray> lengths;
+  lengths->SetName("Length");
+  for (vtkIdType i = 0; i < 3; ++i)
+  {
+    points->InsertNextPoint(0.03 * double(i) - 0.03, 0.0, 0.0);
+    vertices->InsertNextCell(1, &i);
+    lengths->InsertNextValue(float(0.002 * double(i + 1))); // 2, 4, 6 mm
+  }
+  vtkNew<vtkPolyData> three;
+  three->SetPoints(points);
+  three->SetVerts(vertices);
+  three->GetPointData()->AddArray(lengths);
+  vtkNew<vtkSplatMapper> splats;
+  splats->SetInputData(three);
+  splats->SetSizeArrayName("Length");
+  splats->SetSizeScale(2.0);
+  splats->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(splats);
+  actor->GetProperty()->SetColor(0, 0, 0);
+  vtkNew<vtkRenderer> renderer;
+  renderer->AddActor(actor);
+  renderer->SetBackground(1, 1, 1);
+  renderer->GetActiveCamera()->SetPosition(0, 0, 0.2);
+  renderer->GetActiveCamera()->SetFocalPoint(0, 0, 0);
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetSize(kSize, kSize);
+  window->AddRenderer(renderer);
+  const auto pixels = [&]
+  {
+    window->Render();
+    vtkNew<vtkUnsignedCharArray> data;
+    window->GetPixelData(0, 0, kSize - 1, kSize - 1, 0, data);
+    return std::vector<unsigned char>(data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues());
+  };
+  for (const bool parallel : { false, true })
+  {
+    renderer->GetActiveCamera()->SetParallelProjection(parallel);
+    renderer->GetActiveCamera()->SetParallelScale(0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
+    renderer->ResetCameraClippingRange();
+    const std::vector<unsigned char> seen = pixels();
+    const double perMetre = kSize / (2.0 * 0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
+    for (int i = 0; i < 3; ++i)
+    {
+      int dark = 0;
+      const int middle = int(kSize / 2 + (0.03 * i - 0.03) * perMetre);
+      for (int y = 0; y < kSize; ++y)
+      {
+        for (int x = middle - 25; x < middle + 25; ++x)
+        {
+          dark += x >= 0 && x < kSize && seen[std::size_t(3 * (y * kSize + x))] < 128;
+        }
+      }
+      const double radius = 0.002 * (i + 1) * perMetre;
+      EXPECT_NEAR(dark, 3.14159 * radius * radius, 0.1 * 3.14159 * radius * radius + 8.0) << i << parallel;
+    }
+  }
+  // A point far from all others is no ball.
+  splats->SetLargestRatio(1.0);
+  const std::vector<unsigned char> cut = pixels();
+  EXPECT_LT(std::count(cut.begin(), cut.end(), 0), 3 * 900);
+}
+
+} // namespace
