@@ -28,13 +28,14 @@ inline std::uint32_t cellOf(const CellMap& map, const Record& r)
 constexpr int kSumPlaces = 4;
 
 /// Calls visit(i) for all i below @p count. Neighbours in a scan are in one voxel, and what is done to it
-/// waits for what was done before: takes them from so many places in turn.
-template <int places, typename Visit>
-inline void fromPlaces(int count, Visit&& visit)
+/// waits for what was done before: takes them from so many places in turn, and calls begin(turn) before each.
+template <int places, typename Visit, typename Begin>
+inline void fromPlaces(int count, Visit&& visit, Begin&& begin)
 {
   const int part = count / places;
   for (int i = 0; i < part; ++i)
   {
+    begin(i);
     for (int place = 0; place < places; ++place)
     {
       visit(i + place * part);
@@ -44,6 +45,12 @@ inline void fromPlaces(int count, Visit&& visit)
   {
     visit(i);
   }
+}
+
+template <int places, typename Visit>
+inline void fromPlaces(int count, Visit&& visit)
+{
+  fromPlaces<places>(count, visit, [](int) {});
 }
 
 /// By bytes, which neighbours in a scan have in common less often than words.
@@ -120,19 +127,22 @@ void rank(const CellRanks& ranks, std::uint32_t* cells, int count)
 
 template <class V>
 void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* records,
-  const std::uint32_t* cells, int count, const CellSums& given)
+  const std::uint32_t* cells, int count, const Record* next, const CellSums& given)
 {
   // Copies, which no store can change.
   const CellRanks ranks = givenRanks;
   const CellSums to = given;
   const typename V::Adder adder(map.fractionBits);
-  fromPlaces<kSumPlaces>(count,
+  static_assert(kSumPlaces == kLineRecords, "a line is fetched in each turn");
+  fromPlaces<kSumPlaces>(
+    count,
     [=](int i)
     {
       const std::uint32_t rank = rankOf<V>(ranks, cells[i]);
       to.cells[rank] = cells[i];
       adder.add(to.sums[rank], records[i]);
-    });
+    },
+    [=](int turn) { fetch(next + turn * kLineRecords); });
   if (to.seconds)
   {
     const typename V::ProductAdder productAdder(map.fractionBits);

@@ -54,6 +54,19 @@ void addCarried(MomentBatch<std::int64_t>& batch, int i, const CarriedPartition&
   }
 }
 
+/// Moves the elements from @p first to @p last up to @p place.
+template <typename T>
+void moveUp(std::vector<T>& all, std::size_t first, std::size_t last, std::size_t place)
+{
+  std::memmove(all.data() + place, all.data() + first, (last - first) * sizeof(T));
+}
+
+/// What to fetch while at work on a block: where @p ahead goes next, or nothing else.
+const Record* nextOf(RecordPool::Walk& ahead, const RecordPool::Walk& block)
+{
+  return ahead.next() ? ahead.records() : block.records();
+}
+
 /// Blocks of layers, as many as may be: how many cells they have does not matter.
 void planForSorting(PartitionPlan& plan, std::uint32_t layers)
 {
@@ -160,17 +173,17 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
   const char* end = line + bytes;
   const std::size_t part = bytes * kBlockRecords / std::max<std::size_t>(records, 1);
   std::uint32_t* cells = recordCells_.data();
-  pool.forBlocks(partition_,
-    [&](const Record* block, const std::uint32_t*, int count, const Record* next)
+  RecordPool::Walk ahead(pool, partition_);
+  ahead.next();
+  for (RecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
+  {
+    const char* partEnd = line + std::min(part, std::size_t(end - line));
+    for (; line < partEnd; line += 64)
     {
-      const char* partEnd = line + std::min(part, std::size_t(end - line));
-      for (; line < partEnd; line += 64)
-      {
-        fetch(line);
-      }
-      kernels.mark(voxels_.map, block, count, next, marks_.data(), cells);
-      cells += count;
-    });
+      fetch(line);
+    }
+    kernels.mark(voxels_.map, block.records(), block.count(), nextOf(ahead, block), marks_.data(), cells);
+  }
   voxels_.size = kernels.number(ranks());
 }
 
@@ -192,12 +205,12 @@ void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool, C
   voxels_.sums = sums.sums;
   voxels_.seconds = sums.seconds;
   const std::uint32_t* cells = recordCells_.data();
-  pool.forBlocks(partition_,
-    [&](const Record* block, const std::uint32_t*, int count, const Record*)
-    {
-      kernels.accumulate(voxels_.map, ranks(), block, cells, count, sums);
-      cells += count;
-    });
+  RecordPool::Walk ahead(pool, pool.following(partition_));
+  for (RecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
+  {
+    kernels.accumulate(
+      voxels_.map, ranks(), block.records(), cells, block.count(), nextOf(ahead, block), sums);
+  }
   clearMarks();
 }
 
@@ -238,20 +251,26 @@ void PartitionWorker::makeRoom(const Kernels& kernels, CarriedPartition& sums) c
   sums.cellCount = size;
   while (left > 0 && left < end)
   {
-    const std::size_t first = left - std::min<std::size_t>(left, kBatch);
-    std::copy(sums.cells.data() + first, sums.cells.data() + left, places);
-    kernels.rank(ranks(), places, int(left - first));
-    for (; left > first && left < end; --left)
+    const std::size_t begin = left - std::min<std::size_t>(left, kBatch);
+    std::copy(sums.cells.data() + begin, sums.cells.data() + left, places);
+    kernels.rank(ranks(), places, int(left - begin));
+    while (left > begin && left < end)
     {
-      const std::size_t from = left - 1;
-      const std::size_t place = places[from - first];
-      clearTo(place + 1);
-      sums.packed[place] = sums.packed[from];
-      sums.cells[place] = sums.cells[from];
+      // Those that stay neighbours move together.
+      std::size_t first = left - 1;
+      while (first > begin && places[first - 1 - begin] + 1 == places[first - begin])
+      {
+        --first;
+      }
+      const std::size_t place = places[first - begin];
+      clearTo(place + left - first);
+      moveUp(sums.cells, first, left, place);
+      moveUp(sums.packed, first, left, place);
       if (batch_->seconds)
       {
-        sums.splitSeconds[place] = sums.splitSeconds[from];
+        moveUp(sums.splitSeconds, first, left, place);
       }
+      left = first;
       end = place;
     }
   }
@@ -326,17 +345,16 @@ void PartitionWorker::sortRecords(const Kernels& kernels, const RecordPool& pool
   otherEntries_.reserve(listed_);
   std::size_t filled = 0;
   const CellMap map = plan_.cellMap(partition_);
-  pool.forBlocks(partition_,
-    [&](const Record* records, const std::uint32_t*, int count, const Record*)
+  for (RecordPool::Walk block(pool, partition_); block.next();)
+  {
+    std::uint32_t cells[kBlockRecords];
+    kernels.cells(map, block.records(), block.count(), cells);
+    for (int i = 0; i < block.count(); ++i, ++filled)
     {
-      std::uint32_t cells[kBlockRecords];
-      kernels.cells(map, records, count, cells);
-      for (int i = 0; i < count; ++i, ++filled)
-      {
-        records_[filled] = records[i];
-        entries_[filled] = { cells[i], std::uint32_t(filled) };
-      }
-    });
+      records_[filled] = block.records()[i];
+      entries_[filled] = { cells[i], std::uint32_t(filled) };
+    }
+  }
   radixSort(entries_, otherEntries_, listed_, [](const Entry& entry) { return entry.cell; });
 }
 

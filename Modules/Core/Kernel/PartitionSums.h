@@ -120,21 +120,20 @@ public:
       kernels.markCells(recordCells_.data(), int(size), marks_.data());
       kernels.number(ranks());
     }
-    pool.forBlocks(partition,
-      [&](const Record* records, const std::uint32_t* indices, int count, const Record*)
+    for (RecordPool::Walk block(pool, partition); block.next();)
+    {
+      std::uint32_t cells[kBlockRecords];
+      kernels.cells(map, block.records(), block.count(), cells);
+      if (plan_.dense)
       {
-        std::uint32_t cells[kBlockRecords];
-        kernels.cells(map, records, count, cells);
-        if (plan_.dense)
-        {
-          kernels.rank(ranks(), cells, count);
-        }
-        for (int i = 0; !plan_.dense && i < count; ++i)
-        {
-          cells[i] = rankOf(firstKey + cells[i], keys, size);
-        }
-        visit(indices, cells, count);
-      });
+        kernels.rank(ranks(), cells, block.count());
+      }
+      for (int i = 0; !plan_.dense && i < block.count(); ++i)
+      {
+        cells[i] = rankOf(firstKey + cells[i], keys, size);
+      }
+      visit(block.indices(), cells, block.count());
+    }
     clearMarks();
   }
   std::size_t bytes() const;

@@ -58,6 +58,21 @@ struct PlacementVectors
   }
 };
 
+/// v / spacing, correctly rounded. @tparam Pair: Placement::pairDivides.
+template <class V, bool Pair>
+inline typename V::Doubles quotient(const PlacementVectors<V>& c, typename V::Doubles v, int axis)
+{
+  if constexpr (V::hasFusedMultiply)
+  {
+    const typename V::Doubles u = V::multiplyByPair(v, c.reciprocal[axis], c.remainder[axis]);
+    return Pair ? u : V::corrected(u, v, c.spacing[axis], c.reciprocal[axis]);
+  }
+  else
+  {
+    return V::divide(v, c.spacing[axis], c.reciprocal[axis]);
+  }
+}
+
 /// Places V::width points at @p to and after it. Bit i of the result: point i is inside; of @p finite: it has
 /// finite coordinates, told only where one is outside.
 template <class V, Motion motion, bool Pair, typename Real>
@@ -88,8 +103,7 @@ inline unsigned placeGroup(
         V::multiply(p[2], c.matrix[axis][2]));
     }
     v[axis] = V::add(v[axis], c.offset[axis]);
-    const typename V::Doubles u = Pair ? V::multiplyByPair(v[axis], c.reciprocal[axis], c.remainder[axis])
-                                       : V::divide(v[axis], c.spacing[axis], c.reciprocal[axis]);
+    const typename V::Doubles u = quotient<V, Pair>(c, v[axis], axis);
     inside = V::below(inside, u, c.limit[axis]);
     position[axis] = V::floorBits(u, c.magic);
   }

@@ -112,38 +112,21 @@ RecordWriter& RecordPool::Lease::writer() const
   return *pool_.writers_[slot_];
 }
 
-std::uint32_t RecordPool::firstBlock(std::uint32_t partition, std::size_t writer) const
+std::uint32_t RecordPool::following(std::uint32_t partition) const
 {
-  for (; partition < writers_[0]->lastBlocks.size(); partition += std::uint32_t(writers_.size()), writer = 0)
+  do
   {
-    for (; writer < writers_.size(); ++writer)
-    {
-      const std::uint32_t block = writers_[writer]->lastBlocks[partition];
-      if (block != kNone)
-      {
-        return block;
-      }
-    }
-  }
-  return 0;
+    partition += std::uint32_t(writers_.size());
+  } while (partition < partitions() && !Walk(*this, partition).next());
+  return std::min(partition, partitions());
 }
 
 std::size_t RecordPool::count(std::uint32_t partition) const
 {
   std::size_t sum = 0;
-  for (const std::unique_ptr<Writer>& writer : writers_)
+  for (Walk walk(*this, partition); walk.next();)
   {
-    std::uint32_t block = writer->lastBlocks[partition];
-    if (block == kNone)
-    {
-      continue;
-    }
-    sum += std::size_t(writer->cursors[partition] - records_.data()) - block * blockRecords_;
-    for (; previous_[block] != kNone; block = previous_[block])
-    {
-      sum += blockRecords_;
-    }
-    sum -= stagger(partition);
+    sum += std::size_t(walk.count());
   }
   return sum;
 }

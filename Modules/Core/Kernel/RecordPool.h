@@ -22,6 +22,8 @@ namespace kernel
 /// time.
 class RecordPool
 {
+  static constexpr std::uint32_t kNone = ~std::uint32_t(0);
+
 public:
   /// Room for @p points records of @p partitions partitions, written by at most @p writers writers at once;
   /// @p indexed: with the index of its point beside each. Empties the pool.
@@ -42,41 +44,39 @@ public:
     std::size_t slot_;
   };
 
-  /// Calls visit(records, indices, count, next) for each block of a partition; indices is null without. next
-  /// is where the block begins that will be visited then, if all goes by partitions: fetch it while at work
-  /// on this.
-  template <typename Visit>
-  void forBlocks(std::uint32_t partition, Visit&& visit) const
+  /// Walks over the blocks of a partition, from the last of each writer to its first.
+  class Walk
   {
-    for (std::size_t w = 0; w < writers_.size(); ++w)
+  public:
+    Walk(const RecordPool& pool, std::uint32_t partition)
+      : pool_(pool)
+      , partition_(partition)
     {
-      const Writer& writer = *writers_[w];
-      std::uint32_t block = writer.lastBlocks[partition];
-      if (block == kNone)
-      {
-        continue;
-      }
-      auto end = std::size_t(writer.cursors[partition] - records_.data());
-      while (block != kNone)
-      {
-        const std::uint32_t before = previous_[block];
-        const std::uint32_t next = before == kNone ? firstBlock(partition, w + 1) : before;
-        const std::size_t first =
-          std::size_t(block) * blockRecords_ + (before == kNone ? stagger(partition) : 0);
-        visit(records_.data() + first, indices_ ? indices_ + first : nullptr, int(end - first),
-          records_.data() + std::size_t(next) * blockRecords_);
-        block = before;
-        end = (std::size_t(block) + 1) * blockRecords_;
-      }
     }
-  }
+    /// Goes to the next block, at first to the first. @return whether there is one.
+    bool next();
+    const Record* records() const { return pool_.records_.data() + first_; }
+    /// Beside each record the index of its point, or null.
+    const std::uint32_t* indices() const { return pool_.indices_ ? pool_.indices_ + first_ : nullptr; }
+    int count() const { return int(end_ - first_); }
+
+  private:
+    const RecordPool& pool_;
+    std::uint32_t partition_;
+    std::size_t writer_ = 0; ///< The one whose blocks come next.
+    std::uint32_t before_ = kNone;
+    std::size_t first_ = 0;
+    std::size_t end_ = 0;
+  };
+  /// The partition with records that a thread takes next after @p partition, if all take them in turn; the
+  /// number of partitions if there is none.
+  std::uint32_t following(std::uint32_t partition) const;
   std::size_t count(std::uint32_t partition) const;
   std::int64_t inside() const;
   std::int64_t invalid() const;
   std::size_t bytes() const;
 
 private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t(0);
   /// Blocks a writer takes at once: an atomic operation waits for all stores before it.
   static constexpr std::uint32_t kTakenBlocks = 32;
 
@@ -97,9 +97,7 @@ private:
     bool taken = false;
   };
   static Record* refill(RecordWriter& writer, std::uint32_t partition);
-  /// The first block in the order of visits of a partition from writer @p writer on, or of the partition
-  /// that the same thread will take next if all take them in turn; any block where there is none.
-  std::uint32_t firstBlock(std::uint32_t partition, std::size_t writer) const;
+  std::uint32_t partitions() const { return std::uint32_t(writers_[0]->lastBlocks.size()); }
 
   std::size_t blockRecords_ = kBlockRecords;
   Buffer<Record> records_;
@@ -111,6 +109,31 @@ private:
   std::mutex mutex_;
   std::condition_variable returned_;
 };
+
+inline bool RecordPool::Walk::next()
+{
+  std::uint32_t block = before_;
+  if (block != kNone)
+  {
+    end_ = (std::size_t(block) + 1) * pool_.blockRecords_;
+  }
+  while (block == kNone && partition_ < pool_.partitions() && writer_ < pool_.writers_.size())
+  {
+    const Writer& writer = *pool_.writers_[writer_++];
+    block = writer.lastBlocks[partition_];
+    if (block != kNone)
+    {
+      end_ = std::size_t(writer.cursors[partition_] - pool_.records_.data());
+    }
+  }
+  if (block == kNone)
+  {
+    return false;
+  }
+  before_ = pool_.previous_[block];
+  first_ = std::size_t(block) * pool_.blockRecords_ + (before_ == kNone ? pool_.stagger(partition_) : 0);
+  return true;
+}
 
 } // namespace kernel
 } // namespace pointhaptics

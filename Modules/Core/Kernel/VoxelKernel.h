@@ -251,9 +251,9 @@ struct Kernels
   std::uint32_t (*number)(const CellRanks& ranks);
   /// How many marked cells come before each of some: replaces them.
   void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);
-  /// Adds records to the sums of their @p cells.
+  /// Adds records to the sums of their @p cells; fetches @p next like mark().
   void (*accumulate)(const CellMap&, const CellRanks& ranks, const Record* records,
-    const std::uint32_t* cells, int count, const CellSums& sums);
+    const std::uint32_t* cells, int count, const Record* next, const CellSums& sums);
   /// Coordinates, x y z interleaved, and counts of cells with their sums. Positions among them of means so
   /// near a face that they need another look go to @p nearFace. @return the number of these. Reads, but does
   /// not use, kWidest elements past the end.

@@ -53,13 +53,16 @@ struct Avx2
   {
     return _mm256_fmadd_pd(a, high, _mm256_mul_pd(a, low));
   }
-  /// a / b, correctly rounded: two corrections of a times the rounded reciprocal, each by its exact residual
-  /// (Markstein 1990).
+  /// a / b, correctly rounded, from one of the two doubles next to it, by its exact residual (Markstein
+  /// 1990). @p reciprocal: 1 / b, correctly rounded.
+  static Doubles corrected(Doubles q, Doubles a, Doubles b, Doubles reciprocal)
+  {
+    return _mm256_fmadd_pd(_mm256_fnmadd_pd(q, b, a), reciprocal, q);
+  }
+  /// a / b, correctly rounded. The product may be off by more than one double: it takes two corrections.
   static Doubles divide(Doubles a, Doubles b, Doubles reciprocal)
   {
-    __m256d q = _mm256_mul_pd(a, reciprocal);
-    q = _mm256_fmadd_pd(_mm256_fnmadd_pd(q, b, a), reciprocal, q);
-    return _mm256_fmadd_pd(_mm256_fnmadd_pd(q, b, a), reciprocal, q);
+    return corrected(corrected(_mm256_mul_pd(a, reciprocal), a, b, reciprocal), a, b, reciprocal);
   }
   /// 0 <= a < limit, a not -0. Only the signs of a mask count.
   static Mask below(Mask given, Doubles a, Doubles limit)

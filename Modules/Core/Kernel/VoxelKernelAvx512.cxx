@@ -63,13 +63,16 @@ struct Avx512
   {
     return _mm512_fmadd_pd(a, high, _mm512_mul_pd(a, low));
   }
-  /// a / b, correctly rounded: two corrections of a times the rounded reciprocal, each by its exact residual
-  /// (Markstein 1990).
+  /// a / b, correctly rounded, from one of the two doubles next to it, by its exact residual (Markstein
+  /// 1990). @p reciprocal: 1 / b, correctly rounded.
+  static Doubles corrected(Doubles q, Doubles a, Doubles b, Doubles reciprocal)
+  {
+    return _mm512_fmadd_pd(_mm512_fnmadd_pd(q, b, a), reciprocal, q);
+  }
+  /// a / b, correctly rounded. The product may be off by more than one double: it takes two corrections.
   static Doubles divide(Doubles a, Doubles b, Doubles reciprocal)
   {
-    __m512d q = _mm512_mul_pd(a, reciprocal);
-    q = _mm512_fmadd_pd(_mm512_fnmadd_pd(q, b, a), reciprocal, q);
-    return _mm512_fmadd_pd(_mm512_fnmadd_pd(q, b, a), reciprocal, q);
+    return corrected(corrected(_mm512_mul_pd(a, reciprocal), a, b, reciprocal), a, b, reciprocal);
   }
   /// 0 <= a < limit, a not -0: as numbers, what is not has larger bits.
   static Mask below(Mask given, Doubles a, Doubles limit)

@@ -41,8 +41,6 @@ struct Pairs
   static Doubles subtract(Doubles a, Doubles b) { return a - b; }
   static Doubles multiply(Doubles a, Doubles b) { return a * b; }
   static Doubles divide(Doubles a, Doubles b, Doubles) { return a / b; }
-  /// Of no use without a fused multiplication.
-  static Doubles multiplyByPair(Doubles a, Doubles high, Doubles low) { return a * high + a * low; }
   /// 0 <= a < limit. GCC takes the plain form for a bool of each number, and apart.
   static Mask below(Mask given, Doubles a, Doubles limit)
   {

@@ -86,7 +86,7 @@ Sums sumsOf(const Kernels& kernels, const Cells& cells, int fractionBits)
   Sums sums = { std::vector<PackedSums>(kCells + kWidest, PackedSums{}),
     std::vector<SplitSeconds>(kCells, SplitSeconds{}) };
   std::vector<std::uint32_t> order(kCells);
-  kernels.accumulate(map, ranks, records.data(), cellsOf.data(), int(size),
+  kernels.accumulate(map, ranks, records.data(), cellsOf.data(), int(size), records.data(),
     { order.data(), sums.packed.data(), sums.seconds.data() });
   return sums;
 }
