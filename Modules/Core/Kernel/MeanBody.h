@@ -47,7 +47,9 @@ template <class V>
 struct MeanVectors
 {
   using Doubles = typename V::Doubles;
-  Doubles origin[3], spacing[3], margin[3], quantum, one;
+  Doubles origin[3], spacing[3], quantum, one;
+  // In quanta: from the lower face, and from there on to as much below the upper one.
+  Doubles margin[3], clearance[3];
 
   explicit MeanVectors(const MeanMap& map)
     : quantum(V::all(map.quantum))
@@ -57,7 +59,9 @@ struct MeanVectors
     {
       origin[axis] = V::all(map.origin[axis]);
       spacing[axis] = V::all(map.spacing[axis]);
-      margin[axis] = V::all(map.faceMargin[axis]);
+      const double width = 1.0 - 2.0 * map.faceMargin[axis];
+      margin[axis] = V::all(map.faceMargin[axis] / map.quantum);
+      clearance[axis] = V::all(width > 0.0 ? width / map.quantum : 0.0);
     }
   }
   /// Coordinates of a vector's means. Bit i of the result: that of voxel i is clear of the faces.
@@ -67,11 +71,10 @@ struct MeanVectors
     typename V::Mask clear = V::allTrue();
     for (int axis = 0; axis < 3; ++axis)
     {
-      const Doubles place = V::multiply(V::divide(sums[axis], count, reciprocal), quantum);
-      const Doubles u = V::add(indices[axis], place);
+      const Doubles place = V::divideByCount(sums[axis], count, reciprocal);
+      const Doubles u = V::multiplyAdd(place, quantum, indices[axis]);
       xyz[axis] = V::add(origin[axis], V::multiply(u, spacing[axis]));
-      clear =
-        V::both(clear, V::both(V::less(margin[axis], place), V::less(margin[axis], V::subtract(one, place))));
+      clear = V::below(clear, V::subtract(place, margin[axis]), clearance[axis]);
     }
     return V::toUnsigned(clear);
   }
@@ -112,10 +115,10 @@ int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t*
   const Doubles rows = V::all(double(cellMap.rowsPerLayer));
   const Doubles perLayer = V::all(1.0 / double(cellMap.rowsPerLayer));
   const Doubles firstRow = V::all(double(cellMap.firstRow));
-  const Doubles half = V::all(0.5);
-  // The integer below a quotient a / b of integers, from 1 / b: halves keep it clear of the integers.
-  const auto below = [&](Doubles a, Doubles perB)
-  { return V::nearest(V::subtract(V::multiply(V::add(a, half), perB), half)); };
+  // The integer below a quotient a / b of integers, from 1 / b: the one nearest to (a + 1/2) / b - 1/2, which
+  // rounding does not carry over a midpoint.
+  const Doubles toColumn = V::all(0.5 / double(cellMap.columns) - 0.5);
+  const Doubles toLayer = V::all(0.5 / double(cellMap.rowsPerLayer) - 0.5);
   int found = 0;
   for (int i = 0; i < size; i += V::width)
   {
@@ -125,9 +128,9 @@ int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t*
     const typename V::Bits z = V::addBits(lanes[2], V::template left<kLowBits>(V::onlyPosition(lanes[3])));
     const Doubles sums[3] = { V::toDoubles(lanes[0]), V::toDoubles(lanes[1]), V::toDoubles(z) };
     const Doubles cell = V::fromInts(reinterpret_cast<const std::int32_t*>(cells + i));
-    const Doubles localRow = below(cell, perColumn);
+    const Doubles localRow = V::nearest(V::multiplyAdd(cell, perColumn, toColumn));
     const Doubles row = V::add(localRow, firstRow);
-    const Doubles layer = below(row, perLayer);
+    const Doubles layer = V::nearest(V::multiplyAdd(row, perLayer, toLayer));
     const Doubles indices[3] = { V::subtract(cell, V::multiply(localRow, columns)),
       V::subtract(row, V::multiply(layer, rows)), layer };
     Doubles means[3];

@@ -37,7 +37,9 @@ struct PartitionPlan
   }
   CellMap cellMap(std::uint32_t partition) const
   {
-    return { fractionBits, columns, rowsPerLayer, firstRow(partition), upperRows };
+    const std::uint32_t firstInLayer =
+      layerShift == 0 ? (partition % blocksPerLayer) << rowShift : CellMap::kSeveralLayers;
+    return { fractionBits, columns, rowsPerLayer, firstRow(partition), upperRows, firstInLayer };
   }
   std::uint64_t firstKey(std::uint32_t partition) const
   {

@@ -69,7 +69,7 @@ inline typename V::Doubles quotient(const PlacementVectors<V>& c, typename V::Do
   }
   else
   {
-    return V::divide(v, c.spacing[axis], c.reciprocal[axis]);
+    return V::quotient(v, c.spacing[axis]);
   }
 }
 
@@ -89,7 +89,7 @@ inline unsigned placeGroup(
   typename V::Mask inside = V::allTrue();
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (motion == Motion::Shift)
+    if (motion == Motion::Subtract || motion == Motion::Shift)
     {
       v[axis] = p[axis];
     }
@@ -102,7 +102,10 @@ inline unsigned placeGroup(
       v[axis] = V::add(V::add(V::multiply(p[0], c.matrix[axis][0]), V::multiply(p[1], c.matrix[axis][1])),
         V::multiply(p[2], c.matrix[axis][2]));
     }
-    v[axis] = V::add(v[axis], c.offset[axis]);
+    if (motion != Motion::Subtract)
+    {
+      v[axis] = V::add(v[axis], c.offset[axis]);
+    }
     const typename V::Doubles u = quotient<V, Pair>(c, v[axis], axis);
     inside = V::below(inside, u, c.limit[axis]);
     position[axis] = V::floorBits(u, c.magic);
@@ -335,6 +338,8 @@ void partition(
 {
   switch (placement.motion)
   {
+    case Motion::Subtract:
+      return partitionMoved<V, Motion::Subtract>(placement, xyz, count, index, writer);
     case Motion::Shift:
       return partitionMoved<V, Motion::Shift>(placement, xyz, count, index, writer);
     case Motion::Scale:

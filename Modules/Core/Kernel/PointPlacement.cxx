@@ -115,6 +115,12 @@ Placement makePlacement(
       dividesAsPair(lattice.spacing[axis], placement.reciprocal[axis], placement.remainder[axis]);
     placement.limit[axis] = std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]);
   }
+  const auto isSubtraction = [&](int axis)
+  { return placement.offset[axis] == 0.0 && placement.pivot[axis] != 0.0; };
+  if (placement.motion == Motion::Shift && isSubtraction(0) && isSubtraction(1) && isSubtraction(2))
+  {
+    placement.motion = Motion::Subtract;
+  }
   placement.magic = std::ldexp(1.0, indexBits + 52 - positionBits);
   placement.fractionBits = positionBits - indexBits;
   return placement;

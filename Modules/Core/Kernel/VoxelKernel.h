@@ -50,11 +50,12 @@ constexpr std::size_t kBlockRecords = 4096 / sizeof(Record);
 constexpr int kLineRecords = 64 / sizeof(Record);
 constexpr int kLineIndices = 64 / sizeof(std::uint32_t);
 
-/// What of the matrix there is to multiply with.
+/// What of the matrix and the offset there is to work with.
 enum class Motion
 {
-  Shift, ///< It is the unit matrix.
-  Scale, ///< It is diagonal.
+  Subtract, ///< The matrix is one and the offset is 0. The pivot is not, so that v is never -0.
+  Shift,    ///< The matrix is one.
+  Scale,    ///< The matrix is diagonal.
   General,
 };
 
@@ -104,6 +105,10 @@ struct CellMap
   /// Rows in the half of the lattice that the bit of z left out of the records stands for; 0: it is never
   /// set.
   std::uint32_t upperRows;
+  /// Rows of its layer before the partition, if it has no other.
+  std::uint32_t firstInLayer = kSeveralLayers;
+
+  static constexpr std::uint32_t kSeveralLayers = ~std::uint32_t(0);
 };
 
 /// Sums of one chunk in one cell: x, y, low bits of z, count | high bits of z.

@@ -59,17 +59,19 @@ struct Avx2
   {
     return _mm256_fmadd_pd(_mm256_fnmadd_pd(q, b, a), reciprocal, q);
   }
-  /// a / b, correctly rounded. The product may be off by more than one double: it takes two corrections.
-  static Doubles divide(Doubles a, Doubles b, Doubles reciprocal)
+  /// a / n, correctly rounded, for counts n below 2^48. The product is within 2^-52 of a / n, relatively, and
+  /// what is corrected within 2^-103: no quotient by such an n is that near to the midpoint of two doubles.
+  static Doubles divideByCount(Doubles a, Doubles n, Doubles reciprocal)
   {
-    return corrected(corrected(_mm256_mul_pd(a, reciprocal), a, b, reciprocal), a, b, reciprocal);
+    return corrected(_mm256_mul_pd(a, reciprocal), a, n, reciprocal);
   }
+  /// a b + c with one or two roundings: the same where a b is exact.
+  static Doubles multiplyAdd(Doubles a, Doubles b, Doubles c) { return _mm256_fmadd_pd(a, b, c); }
   /// 0 <= a < limit, a not -0. Only the signs of a mask count.
   static Mask below(Mask given, Doubles a, Doubles limit)
   {
     return _mm256_and_pd(given, _mm256_andnot_pd(a, _mm256_cmp_pd(a, limit, _CMP_LT_OQ)));
   }
-  static Mask less(Doubles a, Doubles b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
   static Mask finite(Doubles a)
   {
     return _mm256_cmp_pd(_mm256_sub_pd(a, a), _mm256_setzero_pd(), _CMP_EQ_OQ);
@@ -133,12 +135,13 @@ struct Avx2
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + 2), _mm256_permute2x128_si256(even, odd, 0x31));
   }
 
-  static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
+  template <bool inLayer>
+  static void cellsOf(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
   {
     const __m256i mask = allBits(kPositionMask);
     const __m256i columns = allBits(map.columns);
     const __m256i rows = allBits(map.rowsPerLayer);
-    const __m256i firstRow = allBits(map.firstRow);
+    const __m256i firstRow = allBits(inLayer ? map.firstInLayer : map.firstRow);
     const __m256i upperRows = allBits(map.upperRows);
     const __m128i fraction = shift(map.fractionBits);
     const __m128i high = shift(kPositionBits - kLowBits + map.fractionBits);
@@ -151,11 +154,14 @@ struct Avx2
       const __m256i second = _mm256_unpackhi_epi64(a, b);
       const __m256i x = _mm256_srl_epi64(_mm256_and_si256(first, mask), fraction);
       const __m256i y = _mm256_srl_epi64(_mm256_and_si256(second, mask), fraction);
-      const __m256i z = _mm256_srl_epi64(second, high);
-      const __m256i low = _mm256_add_epi64(y, _mm256_mul_epu32(z, rows));
-      const __m256i below = _mm256_cmpgt_epi64(firstRow, low);
-      const __m256i row =
-        _mm256_sub_epi64(_mm256_add_epi64(low, _mm256_and_si256(below, upperRows)), firstRow);
+      __m256i row = y;
+      if (!inLayer)
+      {
+        const __m256i z = _mm256_srl_epi64(second, high);
+        row = _mm256_add_epi64(y, _mm256_mul_epu32(z, rows));
+        row = _mm256_add_epi64(row, _mm256_and_si256(_mm256_cmpgt_epi64(firstRow, row), upperRows));
+      }
+      row = _mm256_sub_epi64(row, firstRow);
       const __m256i cell = _mm256_add_epi64(x, _mm256_mul_epu32(row, columns));
       // Lanes are records 0 2 1 3; their low halves go to the front.
       const __m256i packed = _mm256_permutevar8x32_epi32(cell, _mm256_setr_epi32(0, 4, 2, 6, 0, 4, 2, 6));
@@ -165,6 +171,11 @@ struct Avx2
     {
       cells[i] = cellOf(map, records[i]);
     }
+  }
+  static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
+  {
+    map.firstInLayer == CellMap::kSeveralLayers ? cellsOf<false>(map, records, count, cells)
+                                                : cellsOf<true>(map, records, count, cells);
   }
 
   static std::uint32_t number(const CellRanks& ranks) { return numberWords<Avx2, false>(ranks); }

@@ -69,17 +69,19 @@ struct Avx512
   {
     return _mm512_fmadd_pd(_mm512_fnmadd_pd(q, b, a), reciprocal, q);
   }
-  /// a / b, correctly rounded. The product may be off by more than one double: it takes two corrections.
-  static Doubles divide(Doubles a, Doubles b, Doubles reciprocal)
+  /// a / n, correctly rounded, for counts n below 2^48. The product is within 2^-52 of a / n, relatively, and
+  /// what is corrected within 2^-103: no quotient by such an n is that near to the midpoint of two doubles.
+  static Doubles divideByCount(Doubles a, Doubles n, Doubles reciprocal)
   {
-    return corrected(corrected(_mm512_mul_pd(a, reciprocal), a, b, reciprocal), a, b, reciprocal);
+    return corrected(_mm512_mul_pd(a, reciprocal), a, n, reciprocal);
   }
+  /// a b + c with one or two roundings: the same where a b is exact.
+  static Doubles multiplyAdd(Doubles a, Doubles b, Doubles c) { return _mm512_fmadd_pd(a, b, c); }
   /// 0 <= a < limit, a not -0: as numbers, what is not has larger bits.
   static Mask below(Mask given, Doubles a, Doubles limit)
   {
     return _mm512_mask_cmplt_epu64_mask(given, _mm512_castpd_si512(a), _mm512_castpd_si512(limit));
   }
-  static Mask less(Doubles a, Doubles b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
   static Mask finite(Doubles a)
   {
     return _mm512_cmp_pd_mask(_mm512_sub_pd(a, a), _mm512_setzero_pd(), _CMP_EQ_OQ);
@@ -131,12 +133,13 @@ struct Avx512
       to + 4, _mm512_permutex2var_epi64(first, _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15), second));
   }
 
-  static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
+  template <bool inLayer>
+  static void cellsOf(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
   {
     const __m512i mask = allBits(kPositionMask);
     const __m512i columns = allBits(map.columns);
     const __m512i rows = allBits(map.rowsPerLayer);
-    const __m512i firstRow = allBits(map.firstRow);
+    const __m512i firstRow = allBits(inLayer ? map.firstInLayer : map.firstRow);
     const __m512i upperRows = allBits(map.upperRows);
     const __m128i fraction = shift(map.fractionBits);
     const __m128i high = shift(kPositionBits - kLowBits + map.fractionBits);
@@ -151,10 +154,14 @@ struct Avx512
       const __m512i second = _mm512_permutex2var_epi64(a, odd, b);
       const __m512i x = _mm512_srl_epi64(_mm512_and_si512(first, mask), fraction);
       const __m512i y = _mm512_srl_epi64(_mm512_and_si512(second, mask), fraction);
-      const __m512i z = _mm512_srl_epi64(second, high);
-      const __m512i low = _mm512_add_epi64(y, _mm512_mul_epu32(z, rows));
-      const __mmask8 below = _mm512_cmplt_epi64_mask(low, firstRow);
-      const __m512i row = _mm512_sub_epi64(_mm512_mask_add_epi64(low, below, low, upperRows), firstRow);
+      __m512i row = y;
+      if (!inLayer)
+      {
+        const __m512i z = _mm512_srl_epi64(second, high);
+        row = _mm512_add_epi64(y, _mm512_mul_epu32(z, rows));
+        row = _mm512_mask_add_epi64(row, _mm512_cmplt_epi64_mask(row, firstRow), row, upperRows);
+      }
+      row = _mm512_sub_epi64(row, firstRow);
       const __m512i cell = _mm512_add_epi64(x, _mm512_mul_epu32(row, columns));
       _mm256_storeu_si256(reinterpret_cast<__m256i*>(cells + i), _mm512_cvtepi64_epi32(cell));
     }
@@ -162,6 +169,12 @@ struct Avx512
     {
       cells[i] = cellOf(map, records[i]);
     }
+  }
+
+  static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
+  {
+    map.firstInLayer == CellMap::kSeveralLayers ? cellsOf<false>(map, records, count, cells)
+                                                : cellsOf<true>(map, records, count, cells);
   }
 
   static std::uint32_t number(const CellRanks& ranks)

@@ -40,7 +40,8 @@ struct Pairs
   static Doubles add(Doubles a, Doubles b) { return a + b; }
   static Doubles subtract(Doubles a, Doubles b) { return a - b; }
   static Doubles multiply(Doubles a, Doubles b) { return a * b; }
-  static Doubles divide(Doubles a, Doubles b, Doubles) { return a / b; }
+  static Doubles divideByCount(Doubles a, Doubles n, Doubles) { return a / n; }
+  static Doubles multiplyAdd(Doubles a, Doubles b, Doubles c) { return a * b + c; }
   /// 0 <= a < limit. GCC takes the plain form for a bool of each number, and apart.
   static Mask below(Mask given, Doubles a, Doubles limit)
   {
@@ -50,10 +51,6 @@ struct Pairs
 #else
     return given & (a >= 0.0) & (a < limit);
 #endif
-  }
-  static Mask less(Doubles a, Doubles b)
-  {
-    return a < b;
   }
   static Mask finite(Doubles a)
   {
