@@ -147,20 +147,22 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
   return to;
 }
 
-/// Fetches the line after a cursor's. A scan fills lines fast, and few: they are taken for writing at once.
-/// Otherwise it takes hundreds of records until the line is needed, and in the first-level cache those of
-/// hundreds of cursors would crowd each other out: they wait in the second level.
+/// Fetches a line after a cursor's. A scan fills lines fast, and few: the one after the next is taken for
+/// writing at once. Otherwise it takes hundreds of records until the next is needed, and in the first-level
+/// cache those of hundreds of cursors would crowd each other out: they wait in the second level.
 template <bool isScan>
 inline void fetchAfter(const Record* cursor)
 {
-  isScan ? __builtin_prefetch(cursor + kLineRecords, 1) : fetch(cursor + kLineRecords);
+  isScan ? __builtin_prefetch(cursor + 2 * kLineRecords, 1) : fetch(cursor + kLineRecords);
 }
 
+/// @p cursors: the writer's. The caller's copy, which no store can change.
 template <bool Indexed, bool isScan>
-inline void dealOne(const PlacedPoints& placed, int i, std::uintptr_t blockMask, RecordWriter& writer)
+inline void dealOne(const PlacedPoints& placed, std::int64_t i, Record** cursors, std::uintptr_t blockMask,
+  RecordWriter& writer)
 {
   const std::uint32_t partition = placed.partitions[i];
-  Record* cursor = writer.cursors[partition];
+  Record* cursor = cursors[partition];
   if ((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) == 0)
   {
     cursor = writer.refill(writer, partition);
@@ -174,7 +176,7 @@ inline void dealOne(const PlacedPoints& placed, int i, std::uintptr_t blockMask,
   }
   ++cursor;
   fetchAfter<isScan>(cursor);
-  writer.cursors[partition] = cursor;
+  cursors[partition] = cursor;
 }
 
 /// Appends records that nearly all go to one partition. A cursor that is moved waits for the move before:
@@ -203,7 +205,7 @@ inline int dealRun(const PlacedPoints& placed, std::uintptr_t blockMask, RecordW
     }
     for (int j = 0; j < kTogether; ++j)
     {
-      dealOne<false, true>(placed, i + j, blockMask, writer);
+      dealOne<false, true>(placed, i + j, writer.cursors, blockMask, writer);
     }
   }
   return i;
@@ -227,11 +229,13 @@ template <bool Indexed>
 inline void deal(const PlacedPoints& placed, RecordWriter& writer)
 {
   const std::uintptr_t blockMask = writer.blockMask;
+  Record** const cursors = writer.cursors;
   if (!isScan(placed))
   {
-    for (int i = 0; i < placed.size; ++i)
+    const std::int64_t size = placed.size;
+    for (std::int64_t i = 0; i < size; ++i)
     {
-      dealOne<Indexed, false>(placed, i, blockMask, writer);
+      dealOne<Indexed, false>(placed, i, cursors, blockMask, writer);
     }
     return;
   }
@@ -239,7 +243,7 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   const bool isRun =
     first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
   const int from = !Indexed && isRun ? dealRun(placed, blockMask, writer) : 0;
-  const auto dealNext = [&](int j) { dealOne<Indexed, true>(placed, from + j, blockMask, writer); };
+  const auto dealNext = [&](int j) { dealOne<Indexed, true>(placed, from + j, cursors, blockMask, writer); };
   if (from == 0 && placed.size == kPlacedAtOnce)
   {
     // The usual case, with places that the compiler knows.
