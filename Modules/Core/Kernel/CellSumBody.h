@@ -24,6 +24,14 @@ inline std::uint32_t cellOf(const CellMap& map, const Record& r)
   return x + map.columns * ((row < map.firstRow ? row + map.upperRows : row) - map.firstRow);
 }
 
+/// The same in a partition of one layer.
+inline std::uint32_t cellInLayer(const CellMap& map, const Record& r)
+{
+  const auto x = std::uint32_t((r.first & kPositionMask) >> map.fractionBits);
+  const auto y = std::uint32_t((r.second & kPositionMask) >> map.fractionBits);
+  return x + map.columns * (y - map.firstInLayer);
+}
+
 /// So many places hide the wait.
 constexpr int kSumPlaces = 4;
 
@@ -117,8 +125,9 @@ inline std::uint32_t rankOf(const CellRanks& ranks, std::uint32_t cell)
 }
 
 template <class V>
-void rank(const CellRanks& ranks, std::uint32_t* cells, int count)
+void rank(const CellRanks& given, std::uint32_t* cells, int count)
 {
+  const CellRanks ranks = given; // A copy, which no store can change.
   for (int i = 0; i < count; ++i)
   {
     cells[i] = rankOf<V>(ranks, cells[i]);

@@ -192,11 +192,20 @@ struct Pairs
     return std::uint32_t((bits * 0x0101010101010101u) >> 56);
   }
 
-  static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
+  static void cells(const CellMap& given, const Record* records, int count, std::uint32_t* cells)
   {
+    const CellMap map = given; // A copy, which no store can change.
+    if (map.firstInLayer == CellMap::kSeveralLayers)
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        cells[i] = cellOf(map, records[i]);
+      }
+      return;
+    }
     for (int i = 0; i < count; ++i)
     {
-      cells[i] = cellOf(map, records[i]);
+      cells[i] = cellInLayer(map, records[i]);
     }
   }
 
