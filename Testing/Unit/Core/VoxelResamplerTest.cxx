@@ -117,6 +117,31 @@ TEST(VoxelResampler, GivesTheSameBitsForEveryOrderExecutorAndInstructionSet)
   }
 }
 
+TEST(VoxelResampler, TheLowestCornerIsInsideWhateverTheSignOfItsZeros)
+{
+  Lattice lattice = latticeOf(300, 300, 300);
+  for (const double corner : { 0.0, -0.0, 0.1, -7.0 })
+  {
+    lattice.origin = { corner, corner, corner };
+    const std::vector<Vec3> points(37, corner == 0.0 ? Vec3(-0.0, -0.0, -0.0) : lattice.origin);
+    // Reciprocals that are rounded up, and down.
+    for (int i = 1; i < 30; ++i)
+    {
+      lattice.spacing = { 0.01 * i, 0.01 * i, 0.01 * i };
+      VoxelRequest request = requestFor(points, lattice);
+      for (const InstructionSet set :
+        { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+      {
+        request.instructions = set;
+        const RunResult result = runOf(request);
+        ASSERT_EQ(result.levels[0].counts.size(), 1u) << corner << ", " << i << " cm, set " << int(set);
+        EXPECT_EQ(result.levels[0].counts[0], 37);
+        EXPECT_EQ(result.levels[0].keys[0], 0u);
+      }
+    }
+  }
+}
+
 TEST(VoxelResampler, GivesTheSameBitsUnderAGeneralTransformInBothPrecisions)
 {
   const std::vector<Vec3> points = randomBox(30000, 7, { -1, -1, -1 }, { 1, 1, 1 });
