@@ -42,14 +42,14 @@ struct Pairs
   static Doubles multiply(Doubles a, Doubles b) { return a * b; }
   static Doubles divideByCount(Doubles a, Doubles n, Doubles) { return a / n; }
   static Doubles multiplyAdd(Doubles a, Doubles b, Doubles c) { return a * b + c; }
-  /// 0 <= a < limit. GCC takes the plain form for a bool of each number, and apart.
+  /// 0 <= a < limit, a not -0: what that is the quotient of is below 0. Only the signs of a mask count. GCC
+  /// takes the plain form for a number of each, and apart.
   static Mask below(Mask given, Doubles a, Doubles limit)
   {
 #if defined(__SSE2__)
-    const __m128d both = _mm_and_pd(_mm_cmpge_pd(a, _mm_setzero_pd()), _mm_cmplt_pd(a, limit));
-    return given & reinterpret_cast<Mask>(both);
+    return given & reinterpret_cast<Mask>(_mm_andnot_pd(a, _mm_cmplt_pd(a, limit)));
 #else
-    return given & (a >= 0.0) & (a < limit);
+    return given & ~reinterpret_cast<Mask>(a) & (a < limit);
 #endif
   }
   static Mask finite(Doubles a)
@@ -65,7 +65,7 @@ struct Pairs
 #if defined(__SSE2__)
     return unsigned(_mm_movemask_pd(reinterpret_cast<__m128d>(a)));
 #else
-    return unsigned(a[0] & 1) | unsigned(a[1] & 2);
+    return unsigned(a[0] < 0) | unsigned(a[1] < 0) << 1;
 #endif
   }
   static Bits floorBits(Doubles u, Doubles magic)
