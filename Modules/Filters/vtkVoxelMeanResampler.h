@@ -22,13 +22,13 @@
  * doubles, row by row). With NumberOfLevels above 1 there is an output port per level, each twice as coarse.
  *
  * Arrays: numeric arrays of any type and number of components are averaged and rounded to their own type
- * (integers to nearest, exactly), and keep their lookup table and information keys; the active normals are carried by the inverse transpose and re-normalised,
- * those in integers keep the length of their mean; arrays named in CategoricalArrays take the value most
- * points of the voxel have (the smallest one on a tie; NaN counts as the largest, and both zeroes as one);
- * string arrays and other non-numeric arrays are dropped with a warning; global ids, ghost flags and the
- * VoxelPointCount and VoxelCovariance of an earlier resampling are left out. Where a voxel's points have NaN
- * or infinity in an array, its mean is what IEEE addition gives. Points flagged as ghosts, and blanked ones,
- * are averaged like all others: remove duplicates first.
+ * (integers to nearest, exactly), and keep their lookup table and information keys; the active normals are
+ * carried by the inverse transpose and re-normalised, those in integers keep the length of their mean; arrays
+ * named in CategoricalArrays take the value most points of the voxel have (the smallest one on a tie; NaN
+ * counts as the largest, and both zeroes as one); string arrays and other non-numeric arrays are dropped with
+ * a warning; global ids, ghost flags and the VoxelPointCount and VoxelCovariance of an earlier resampling are
+ * left out. Where a voxel's points have NaN or infinity in an array, its mean is what IEEE addition gives.
+ * Points flagged as ghosts, and blanked ones, are averaged like all others: remove duplicates first.
  *
  * Accuracy: voxel index = floor((x - origin) / spacing), all in double about a point near the workspace, so
  * that map coordinates cost no digits. Places in the voxel are summed exactly, in integers whose quantum is

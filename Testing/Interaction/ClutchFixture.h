@@ -7,6 +7,7 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include "../Unit/Eventually.h"
+#include "FlatCloud.h"
 
 #include "Haptics/ServoLoop.h"
 
@@ -14,14 +15,10 @@
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 #include <vtkTransform.h>
 
 #include <chrono>
-#include <cmath>
 #include <functional>
 #include <thread>
 
@@ -29,23 +26,6 @@ namespace pointhaptics
 {
 namespace trial
 {
-
-/// A strip at z = 0, points 1 mm apart: from @p x0 to @p x1, 4 cm wide; metres.
-inline vtkSmartPointer<vtkPolyData> strip(double x0, double x1)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (int i = 0; i <= int(std::lround((x1 - x0) / 0.001)); ++i)
-  {
-    for (int j = -20; j <= 20; ++j)
-    {
-      points->InsertNextPoint(x0 + 0.001 * i, 0.001 * j, 0.0);
-    }
-  }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  return cloud;
-}
 
 /// The device is the test's. Whoever derives calls letGo() before the device goes.
 class ClutchFixture : public ::testing::Test
@@ -67,10 +47,10 @@ protected:
     servo.stop();
     style->SetServoLoop(nullptr);
   }
-  /// The strip is there to be felt, by the hand at @p port.
+  /// A strip, 4 cm wide, is there to be felt, by the hand at @p port.
   void begin(HandPort& port, double x0, double x1)
   {
-    resampler->SetInputData(strip(x0, x1));
+    resampler->SetInputData(flatCloud(x0, x1, 0.02));
     style->SetResampler(resampler);
     style->SetBandwidthFilter(bandwidth);
     style->UpdateModel();

@@ -2,9 +2,10 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
+#include "FlatCloud.h"
+
 #include <gtest/gtest.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkTransform.h>
 
@@ -14,23 +15,6 @@ using namespace pointhaptics;
 
 namespace
 {
-
-/// A square of 4 cm, points 1 mm apart, at z = 0.
-vtkSmartPointer<vtkPolyData> makePlane()
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (int i = -20; i <= 20; ++i)
-  {
-    for (int j = -20; j <= 20; ++j)
-    {
-      points->InsertNextPoint(0.001 * i, 0.001 * j, 0.0);
-    }
-  }
-  auto plane = vtkSmartPointer<vtkPolyData>::New();
-  plane->SetPoints(points);
-  return plane;
-}
 
 TEST(HapticSceneBuilder, SaysThatNothingIsThere)
 {
@@ -46,7 +30,7 @@ TEST(HapticSceneBuilder, SaysThatNothingIsThere)
 TEST(HapticSceneBuilder, TakesRawPointsWithoutAnyArray)
 {
   Status status = Status::Empty;
-  const auto scene = makeHapticScene(makePlane(), status);
+  const auto scene = makeHapticScene(trial::flatCloud(-0.02, 0.02, 0.02), status);
   ASSERT_EQ(status, Status::Ok);
   EXPECT_EQ(scene->numberOfPoints(), 41u * 41u);
   EXPECT_TRUE(scene->modelToWorkspace().isIdentity());
@@ -58,7 +42,7 @@ TEST(HapticSceneBuilder, TakesTransformSpacingAndRadiusFromThePipeline)
   transform->Translate(0.01, 0.02, 0.03);
   transform->Scale(0.5, 0.5, 0.5);
   vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(makePlane());
+  resampler->SetInputData(trial::flatCloud(-0.02, 0.02, 0.02));
   resampler->SetTransform(transform);
   resampler->SetVoxelSize(0.002);
   resampler->SetComputeCovariance(true);
@@ -80,7 +64,7 @@ TEST(HapticSceneBuilder, TakesTransformSpacingAndRadiusFromThePipeline)
 TEST(HapticSceneBuilder, LeavesCovarianceOutOnRequest)
 {
   vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(makePlane());
+  resampler->SetInputData(trial::flatCloud(-0.02, 0.02, 0.02));
   resampler->SetVoxelSize(0.004);
   resampler->SetComputeCovariance(true);
   resampler->Update();

@@ -7,6 +7,7 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include "../Unit/SkipWithoutDisplay.h"
+#include "FlatCloud.h"
 
 #include <gtest/gtest.h>
 #include <vtkCallbackCommand.h>
@@ -14,35 +15,15 @@
 #include <vtkCommand.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 #include <vtkTransform.h>
 
 #include <string>
 
 namespace pointhaptics
 {
-
-/// A square of 6 cm, points 1 mm apart, at z = 0.
-inline vtkSmartPointer<vtkPolyData> makePlane()
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (int i = -30; i <= 30; ++i)
-  {
-    for (int j = -30; j <= 30; ++j)
-    {
-      points->InsertNextPoint(0.001 * i, 0.001 * j, 0.0);
-    }
-  }
-  auto plane = vtkSmartPointer<vtkPolyData>::New();
-  plane->SetPoints(points);
-  return plane;
-}
 
 /// A window with the style and its pipeline; the camera looks down the z axis, y up.
 class InteractorStyleFixture : public ::testing::Test
@@ -51,7 +32,7 @@ protected:
   void SetUp() override
   {
     SKIP_WITHOUT_DISPLAY();
-    resampler_->SetInputData(makePlane());
+    resampler_->SetInputData(trial::flatCloud(-0.03, 0.03, 0.03));
     resampler_->SetWorkspaceBounds(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
     resampler_->SetDimensions(100, 100, 100);
     bandwidth_->SetInputConnection(resampler_->GetOutputPort());

@@ -19,5 +19,5 @@ inline bool hasDisplay()
 
 /// Leaves the test, or SetUp(), it is written in.
 #define SKIP_WITHOUT_DISPLAY()                                                                               \
-  if (!::trial::hasDisplay())                                                                                  \
+  if (!::trial::hasDisplay())                                                                                \
   GTEST_SKIP() << "no display (DISPLAY is not set); run the tests under xvfb-run"

@@ -15,21 +15,26 @@ namespace
 /// Makes the number of a byte in memory from that of a byte of a word.
 constexpr std::uint32_t kByteOrder = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? 7 : 0;
 
+/// @tparam inLayer: the partition is in one layer, see CellMap::firstInLayer.
+template <bool inLayer>
 inline std::uint32_t cellOf(const CellMap& map, const Record& r)
 {
   const auto x = std::uint32_t((r.first & kPositionMask) >> map.fractionBits);
   const auto y = std::uint32_t((r.second & kPositionMask) >> map.fractionBits);
+  if (inLayer)
+  {
+    return x + map.columns * (y - map.firstInLayer);
+  }
   const auto z = std::uint32_t(r.second >> (kPositionBits - kLowBits + map.fractionBits));
   const std::uint32_t row = y + map.rowsPerLayer * z;
   return x + map.columns * ((row < map.firstRow ? row + map.upperRows : row) - map.firstRow);
 }
 
-/// The same in a partition of one layer.
-inline std::uint32_t cellInLayer(const CellMap& map, const Record& r)
+template <class V>
+void cellsOf(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
 {
-  const auto x = std::uint32_t((r.first & kPositionMask) >> map.fractionBits);
-  const auto y = std::uint32_t((r.second & kPositionMask) >> map.fractionBits);
-  return x + map.columns * (y - map.firstInLayer);
+  map.firstInLayer == CellMap::kSeveralLayers ? V::template cells<false>(map, records, count, cells)
+                                              : V::template cells<true>(map, records, count, cells);
 }
 
 /// So many places hide the wait.
@@ -84,7 +89,7 @@ void mark(const CellMap& map, const Record* records, int count, const Record* ne
     {
       fetch(next + i);
     }
-    V::cells(map, records + first, count - first < kStep ? count - first : kStep, cells + first);
+    cellsOf<V>(map, records + first, count - first < kStep ? count - first : kStep, cells + first);
   }
   markCells(cells, count, marks);
 }

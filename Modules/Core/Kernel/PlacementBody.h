@@ -64,7 +64,7 @@ inline typename V::Doubles quotient(const PlacementVectors<V>& c, typename V::Do
 {
   if constexpr (V::hasFusedMultiply)
   {
-    const typename V::Doubles u = V::multiplyByPair(v, c.reciprocal[axis], c.remainder[axis]);
+    const typename V::Doubles u = V::multiplyAdd(v, c.reciprocal[axis], V::multiply(v, c.remainder[axis]));
     return Pair ? u : V::corrected(u, v, c.spacing[axis], c.reciprocal[axis]);
   }
   else

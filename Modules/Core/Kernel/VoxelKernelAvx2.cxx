@@ -48,24 +48,13 @@ struct Avx2
   static Doubles add(Doubles a, Doubles b) { return _mm256_add_pd(a, b); }
   static Doubles subtract(Doubles a, Doubles b) { return _mm256_sub_pd(a, b); }
   static Doubles multiply(Doubles a, Doubles b) { return _mm256_mul_pd(a, b); }
-  /// a (high + low), the rest of the product rounded first.
-  static Doubles multiplyByPair(Doubles a, Doubles high, Doubles low)
-  {
-    return _mm256_fmadd_pd(a, high, _mm256_mul_pd(a, low));
-  }
   /// a / b, correctly rounded, from one of the two doubles next to it, by its exact residual (Markstein
   /// 1990). @p reciprocal: 1 / b, correctly rounded.
   static Doubles corrected(Doubles q, Doubles a, Doubles b, Doubles reciprocal)
   {
     return _mm256_fmadd_pd(_mm256_fnmadd_pd(q, b, a), reciprocal, q);
   }
-  /// a / n, correctly rounded, for counts n below 2^48. The product is within 2^-52 of a / n, relatively, and
-  /// what is corrected within 2^-103: no quotient by such an n is that near to the midpoint of two doubles.
-  static Doubles divideByCount(Doubles a, Doubles n, Doubles reciprocal)
-  {
-    return corrected(_mm256_mul_pd(a, reciprocal), a, n, reciprocal);
-  }
-  /// a b + c with one or two roundings: the same where a b is exact.
+  /// a b + c, rounded once here, twice without a fused multiplication: the same where a b is exact.
   static Doubles multiplyAdd(Doubles a, Doubles b, Doubles c) { return _mm256_fmadd_pd(a, b, c); }
   /// 0 <= a < limit, a not -0. Only the signs of a mask count.
   static Mask below(Mask given, Doubles a, Doubles limit)
@@ -136,7 +125,7 @@ struct Avx2
   }
 
   template <bool inLayer>
-  static void cellsOf(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
+  static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
   {
     const __m256i mask = allBits(kPositionMask);
     const __m256i columns = allBits(map.columns);
@@ -169,13 +158,8 @@ struct Avx2
     }
     for (; i < count; ++i)
     {
-      cells[i] = cellOf(map, records[i]);
+      cells[i] = cellOf<inLayer>(map, records[i]);
     }
-  }
-  static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
-  {
-    map.firstInLayer == CellMap::kSeveralLayers ? cellsOf<false>(map, records, count, cells)
-                                                : cellsOf<true>(map, records, count, cells);
   }
 
   static std::uint32_t number(const CellRanks& ranks) { return numberWords<Avx2, false>(ranks); }

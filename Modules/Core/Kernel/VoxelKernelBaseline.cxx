@@ -40,7 +40,6 @@ struct Pairs
   static Doubles add(Doubles a, Doubles b) { return a + b; }
   static Doubles subtract(Doubles a, Doubles b) { return a - b; }
   static Doubles multiply(Doubles a, Doubles b) { return a * b; }
-  static Doubles divideByCount(Doubles a, Doubles n, Doubles) { return a / n; }
   static Doubles multiplyAdd(Doubles a, Doubles b, Doubles c) { return a * b + c; }
   /// 0 <= a < limit, a not -0: what that is the quotient of is below 0. Only the signs of a mask count. GCC
   /// takes the plain form for a number of each, and apart.
@@ -192,20 +191,13 @@ struct Pairs
     return std::uint32_t((bits * 0x0101010101010101u) >> 56);
   }
 
+  template <bool inLayer>
   static void cells(const CellMap& given, const Record* records, int count, std::uint32_t* cells)
   {
     const CellMap map = given; // A copy, which no store can change.
-    if (map.firstInLayer == CellMap::kSeveralLayers)
-    {
-      for (int i = 0; i < count; ++i)
-      {
-        cells[i] = cellOf(map, records[i]);
-      }
-      return;
-    }
     for (int i = 0; i < count; ++i)
     {
-      cells[i] = cellInLayer(map, records[i]);
+      cells[i] = cellOf<inLayer>(map, records[i]);
     }
   }
 

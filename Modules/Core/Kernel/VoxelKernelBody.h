@@ -88,9 +88,9 @@ void bounds(const double matrix[3][4], const Real* xyz, std::int64_t count, doub
 template <class V>
 Kernels makeKernels()
 {
-  return { &partition<V, float>, &partition<V, double>, &V::cells, &mark<V>, &markCells, &V::number, &rank<V>,
-    &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>, &V::covariances, &means<V, float>,
-    &means<V, double>, &bounds<V, float>, &bounds<V, double> };
+  return { &partition<V, float>, &partition<V, double>, &cellsOf<V>, &mark<V>, &markCells, &V::number,
+    &rank<V>, &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>, &V::covariances,
+    &means<V, float>, &means<V, double>, &bounds<V, float>, &bounds<V, double> };
 }
 
 }
