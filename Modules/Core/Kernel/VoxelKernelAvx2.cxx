@@ -183,10 +183,9 @@ struct Avx2
   {
     return _mm256_round_pd(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
   }
-  static void storeCounts(std::int64_t* to, int room, Bits counts)
+  static void storeCounts(std::int64_t* to, Bits counts)
   {
-    const __m256i last = _mm256_cmpgt_epi64(_mm256_set1_epi64x(room), _mm256_setr_epi64x(0, 1, 2, 3));
-    _mm256_maskstore_epi64(reinterpret_cast<long long*>(to), last, counts);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), counts);
   }
   static void storeInterleaved(float* to, const Doubles xyz[3])
   {

@@ -207,10 +207,7 @@ struct Avx512
   {
     return _mm512_roundscale_pd(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
   }
-  static void storeCounts(std::int64_t* to, int room, Bits counts)
-  {
-    _mm512_mask_storeu_epi64(to, room >= width ? __mmask8(full) : __mmask8((1u << room) - 1), counts);
-  }
+  static void storeCounts(std::int64_t* to, Bits counts) { _mm512_storeu_si512(to, counts); }
   static void storeInterleaved(float* to, const Doubles xyz[3])
   {
     const __m512 xy =

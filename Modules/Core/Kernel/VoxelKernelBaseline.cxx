@@ -163,13 +163,10 @@ struct Pairs
     to[0] = { first[0], second[0] };
     to[1] = { first[1], second[1] };
   }
-  static void storeCounts(std::int64_t* to, int room, Bits counts)
+  static void storeCounts(std::int64_t* to, Bits counts)
   {
     to[0] = std::int64_t(counts[0]);
-    if (room > 1)
-    {
-      to[1] = std::int64_t(counts[1]);
-    }
+    to[1] = std::int64_t(counts[1]);
   }
   static void loadPacked(const PackedSums* from, Bits lanes[4])
   {
