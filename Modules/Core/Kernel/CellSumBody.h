@@ -41,14 +41,13 @@ void cellsOf(const CellMap& map, const Record* records, int count, std::uint32_t
 constexpr int kSumPlaces = 4;
 
 /// Calls visit(i) for all i below @p count. Neighbours in a scan are in one voxel, and what is done to it
-/// waits for what was done before: takes them from so many places in turn, and calls begin(turn) before each.
-template <int places, typename Visit, typename Begin>
-inline void fromPlaces(int count, Visit&& visit, Begin&& begin)
+/// waits for what was done before: takes them from so many places in turn.
+template <int places, typename Visit>
+inline void fromPlaces(int count, Visit&& visit)
 {
   const int part = count / places;
   for (int i = 0; i < part; ++i)
   {
-    begin(i);
     for (int place = 0; place < places; ++place)
     {
       visit(i + place * part);
@@ -58,12 +57,6 @@ inline void fromPlaces(int count, Visit&& visit, Begin&& begin)
   {
     visit(i);
   }
-}
-
-template <int places, typename Visit>
-inline void fromPlaces(int count, Visit&& visit)
-{
-  fromPlaces<places>(count, visit, [](int) {});
 }
 
 /// By bytes, which neighbours in a scan have in common less often than words.
@@ -147,16 +140,28 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
   const CellRanks ranks = givenRanks;
   const CellSums to = given;
   const typename V::Adder adder(map.fractionBits);
-  static_assert(kSumPlaces == kLineRecords, "a line is fetched in each turn");
-  fromPlaces<kSumPlaces>(
-    count,
-    [=](int i)
+  const auto add = [=](int i)
+  {
+    const std::uint32_t cell = cells[i];
+    const std::uint32_t rank = rankOf<V>(ranks, cell);
+    to.cells[rank] = cell;
+    adder.add(to.sums[rank], records[i]);
+  };
+  // One after the other, not from places: their pointers would not all stay in registers, which costs more
+  // than it saves in a scan.
+  int line = 0;
+  for (; line + kLineRecords <= count; line += kLineRecords)
+  {
+    fetch(next + line);
+    for (int i = 0; i < kLineRecords; ++i)
     {
-      const std::uint32_t rank = rankOf<V>(ranks, cells[i]);
-      to.cells[rank] = cells[i];
-      adder.add(to.sums[rank], records[i]);
-    },
-    [=](int turn) { fetch(next + turn * kLineRecords); });
+      add(line + i);
+    }
+  }
+  for (; line < count; ++line)
+  {
+    add(line);
+  }
   if (to.seconds)
   {
     const typename V::ProductAdder productAdder(map.fractionBits);

@@ -42,8 +42,8 @@ inline void storePoints(Real* to, int room, const typename V::Doubles xyz[3])
   }
 }
 
-/// Stores the first of a vector's counts, at most @p room. Not by a mask: that takes as long as twenty stores on
-/// Zen 3.
+/// Stores the first of a vector's counts, at most @p room. Not by a mask: that takes as long as twenty stores
+/// on Zen 3.
 template <class V>
 inline void storeCounts(std::int64_t* to, int room, typename V::Bits counts)
 {
