@@ -87,6 +87,34 @@ void mark(const CellMap& map, const Record* records, int count, const Record* ne
   markCells(cells, count, marks);
 }
 
+/// Where no instruction counts the ones of a word: those of each byte.
+inline std::uint64_t onesOfBytes(std::uint64_t bits)
+{
+  bits -= (bits >> 1) & 0x5555555555555555u;
+  bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
+  return (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
+}
+
+/// And of each byte those below each of its bits.
+struct OnesBelow
+{
+  unsigned char counts[8][256] = {};
+
+  constexpr OnesBelow()
+  {
+    for (unsigned bit = 0; bit < 8; ++bit)
+    {
+      for (unsigned byte = 0; byte < 256; ++byte)
+      {
+        for (unsigned lower = 0; lower < bit; ++lower)
+        {
+          counts[bit][byte] = static_cast<unsigned char>(counts[bit][byte] + (byte >> lower) % 2);
+        }
+      }
+    }
+  }
+};
+
 /// Counts word by word. @tparam Skips: counting takes so long that groups of words without marks are left
 /// out; else it is less than the branches that guess wrong.
 template <class V, bool Skips>
@@ -109,7 +137,17 @@ inline std::uint32_t numberWords(const CellRanks& ranks)
     for (std::size_t w = group; w < group + kGroup; ++w)
     {
       ranks.before[w] = sum;
-      sum += V::ones(ranks.marks[w]);
+      if constexpr (V::countsOnes)
+      {
+        sum += V::ones(ranks.marks[w]);
+      }
+      else
+      {
+        const std::uint64_t ones = onesOfBytes(ranks.marks[w]);
+        const std::uint64_t upToBytes = ones * 0x0101010101010101u;
+        ranks.beforeBytes[w] = upToBytes - ones;
+        sum += std::uint32_t(upToBytes >> 56);
+      }
     }
   }
   return sum;
@@ -118,8 +156,19 @@ inline std::uint32_t numberWords(const CellRanks& ranks)
 template <class V>
 inline std::uint32_t rankOf(const CellRanks& ranks, std::uint32_t cell)
 {
-  const std::uint64_t below = (std::uint64_t(1) << (cell % 64)) - 1;
-  return ranks.before[cell / 64] + V::ones(ranks.marks[cell / 64] & below);
+  if constexpr (V::countsOnes)
+  {
+    const std::uint64_t below = (std::uint64_t(1) << (cell % 64)) - 1;
+    return ranks.before[cell / 64] + V::ones(ranks.marks[cell / 64] & below);
+  }
+  else
+  {
+    static constexpr OnesBelow kOnesBelow;
+    const std::uint32_t place = (cell / 8) ^ kByteOrder;
+    const unsigned byte = reinterpret_cast<const unsigned char*>(ranks.marks)[place];
+    const unsigned beforeByte = reinterpret_cast<const unsigned char*>(ranks.beforeBytes)[place];
+    return ranks.before[cell / 64] + beforeByte + kOnesBelow.counts[cell % 8][byte];
+  }
 }
 
 template <class V>

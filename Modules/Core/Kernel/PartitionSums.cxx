@@ -141,11 +141,12 @@ void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
     std::fill(marks_.data(), marks_.data() + markWords(plan), 0);
   }
   before_.reserve(plan.dense ? markWords(plan) : 0);
+  beforeBytes_.reserve(plan.dense ? markWords(plan) : 0);
 }
 
 CellRanks PartitionWorker::ranks() const
 {
-  return { marks_.data(), before_.data(), markWords(plan_) };
+  return { marks_.data(), before_.data(), beforeBytes_.data(), markWords(plan_) };
 }
 
 void PartitionWorker::clearMarks()
@@ -430,8 +431,8 @@ std::uint32_t PartitionWorker::rankOf(std::uint64_t key, const std::uint64_t* ke
 
 std::size_t PartitionWorker::bytes() const
 {
-  return marks_.bytes() + before_.bytes() + recordCells_.bytes() + own_.bytes() + records_.bytes() +
-    entries_.bytes() + otherEntries_.bytes() + sizeof(MomentBatch<std::int64_t>) +
+  return marks_.bytes() + before_.bytes() + beforeBytes_.bytes() + recordCells_.bytes() + own_.bytes() +
+    records_.bytes() + entries_.bytes() + otherEntries_.bytes() + sizeof(MomentBatch<std::int64_t>) +
     carried.voxels.capacity() * sizeof(CarriedSums) + carried.seconds.capacity() * sizeof(SecondSums);
 }
 

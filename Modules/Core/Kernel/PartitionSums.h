@@ -170,6 +170,7 @@ private:
   // Dense: marks are zero between partitions.
   Buffer<std::uint64_t> marks_;
   Buffer<std::uint32_t> before_;
+  Buffer<std::uint64_t> beforeBytes_;
   Buffer<std::uint32_t> recordCells_;
   CarriedPartition own_; ///< Sums of voxels that are not carried.
   // Sorted.

@@ -162,7 +162,10 @@ struct CellRanks
 {
   std::uint64_t* marks;
   std::uint32_t* before; ///< Marks in the words before.
-  std::size_t words;     ///< A multiple of kMarkGroup.
+  /// Of each byte of a word, marks in the word's bytes before: for sets without an instruction that counts
+  /// ones.
+  std::uint64_t* beforeBytes;
+  std::size_t words; ///< A multiple of kMarkGroup.
 };
 /// Words of marks counted together.
 constexpr std::size_t kMarkGroup = 16;

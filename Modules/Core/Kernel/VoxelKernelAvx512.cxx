@@ -23,6 +23,7 @@ struct Avx512
   using Mask = __mmask8;
   using Shift = __m128i;
   static constexpr bool hasFusedMultiply = true;
+  static constexpr bool countsOnes = true;
 
   static Doubles all(double value) { return _mm512_set1_pd(value); }
   static Bits allBits(std::uint64_t value) { return _mm512_set1_epi64(std::int64_t(value)); }

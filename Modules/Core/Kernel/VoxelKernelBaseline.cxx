@@ -25,6 +25,7 @@ struct Pairs
   using Mask = IntPair;
   using Shift = int;
   static constexpr bool hasFusedMultiply = false;
+  static constexpr bool countsOnes = false;
 
   static Doubles all(double value) { return Doubles{ value, value }; }
   static Bits allBits(std::uint64_t value) { return Bits{ value, value }; }
@@ -178,14 +179,6 @@ struct Pairs
   static std::uint32_t number(const CellRanks& ranks)
   {
     return numberWords<Pairs, true>(ranks);
-  }
-  /// Not every machine has an instruction for it.
-  static std::uint32_t ones(std::uint64_t bits)
-  {
-    bits -= (bits >> 1) & 0x5555555555555555u;
-    bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
-    bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
-    return std::uint32_t((bits * 0x0101010101010101u) >> 56);
   }
 
   template <bool inLayer>

@@ -78,8 +78,9 @@ Sums sumsOf(const Kernels& kernels, const Cells& cells, int fractionBits)
   }
   const CellMap map = { fractionBits, kEdge, kEdge, 0, 0 };
   std::vector<std::uint64_t> marks(kMarkGroup, 0);
+  std::vector<std::uint64_t> beforeBytes(kMarkGroup);
   std::vector<std::uint32_t> before(kMarkGroup);
-  const CellRanks ranks = { marks.data(), before.data(), kMarkGroup };
+  const CellRanks ranks = { marks.data(), before.data(), beforeBytes.data(), kMarkGroup };
   std::vector<std::uint32_t> cellsOf(size + kWidest);
   kernels.mark(map, records.data(), int(size), records.data(), marks.data(), cellsOf.data());
   EXPECT_EQ(kernels.number(ranks), kCells);
