@@ -1,7 +1,6 @@
 #include "Core/AttributeMean.h"
 
 #include "Core/Kernel/AttributeKernel.h"
-#include "Core/Kernel/Fetch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -141,29 +140,25 @@ void AttributeMean::clear(std::int64_t voxels, const Executor& executor)
 namespace
 {
 
-/// What is added lies anywhere in the array: a tuple in one or two lines of memory. Always inline: see
-/// fetch().
+/// Copies of tuples.
 template <typename T>
-__attribute__((always_inline)) inline void fetchTuples(
-  const T* values, int components, const std::int64_t* points, int count)
+struct Tuples
 {
-  for (int i = 0; i < count; ++i)
-  {
-    const T* tuple = values + components * points[i];
-    kernel::fetch(tuple);
-    kernel::fetch(reinterpret_cast<const char*>(tuple + components) - 1);
-  }
-}
+  const char* first;
+  std::size_t stride;
+
+  const T* operator[](int i) const { return reinterpret_cast<const T*>(first + stride * std::size_t(i)); }
+};
 
 template <int Components, typename Integer>
-void addTuples(const Integer* values, int components, const std::int64_t* points, const std::int64_t* voxels,
-  int count, std::int64_t* sums)
+void addTuples(
+  Tuples<Integer> tuples, int components, const std::int64_t* voxels, int count, std::int64_t* sums)
 {
   constexpr int kLanes = sizeof(Integer) == 8 ? 2 : 1;
   const int width = Components > 0 ? Components : components;
   for (int i = 0; i < count; ++i)
   {
-    const Integer* value = values + width * points[i];
+    const Integer* value = tuples[i];
     std::int64_t* sum = sums + kLanes * width * voxels[i];
     for (int c = 0; c < width; ++c)
     {
@@ -184,15 +179,12 @@ void addTuples(const Integer* values, int components, const std::int64_t* points
 }
 
 template <typename Integer>
-void AttributeMean::addIntegers(const std::int64_t* points, const std::int64_t* voxels, int count)
+void AttributeMean::addIntegers(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count)
 {
-  const auto* values = static_cast<const Integer*>(view_.values);
-  const int components = view_.components;
-  fetchTuples(values, components, points, count);
-  const auto add = components == 3 ? &addTuples<3, Integer>
-    : components == 1              ? &addTuples<1, Integer>
-                                   : &addTuples<0, Integer>;
-  add(values, components, points, voxels, count, sums_.data());
+  const auto add = view_.components == 3 ? &addTuples<3, Integer>
+    : view_.components == 1              ? &addTuples<1, Integer>
+                                         : &addTuples<0, Integer>;
+  add({ tuples, stride }, view_.components, voxels, count, sums_.data());
 }
 
 namespace
@@ -222,13 +214,13 @@ inline void addParts(double scaled, double partScale, int parts, std::int64_t* s
 
 /// The usual cases: all numbers finite, one scale, and either one part
 template <int Components, typename Real>
-void addWhole(const Real* values, int components, const std::int64_t* points, const std::int64_t* voxels,
-  int count, double scale, std::int64_t* sums)
+void addWhole(Tuples<Real> tuples, int components, const std::int64_t* voxels, int count, double scale,
+  std::int64_t* sums)
 {
   const int width = Components > 0 ? Components : components;
   for (int i = 0; i < count; ++i)
   {
-    const Real* value = values + width * points[i];
+    const Real* value = tuples[i];
     std::int64_t* sum = sums + width * voxels[i];
     for (int c = 0; c < width; ++c)
     {
@@ -239,13 +231,13 @@ void addWhole(const Real* values, int components, const std::int64_t* points, co
 
 /// or two.
 template <int Components, typename Real>
-void addPairs(const Real* values, int components, const std::int64_t* points, const std::int64_t* voxels,
-  int count, double scale, double partScale, std::int64_t* sums)
+void addPairs(Tuples<Real> tuples, int components, const std::int64_t* voxels, int count, double scale,
+  double partScale, std::int64_t* sums)
 {
   const int width = Components > 0 ? Components : components;
   for (int i = 0; i < count; ++i)
   {
-    const Real* value = values + width * points[i];
+    const Real* value = tuples[i];
     std::int64_t* sum = sums + 2 * width * voxels[i];
     for (int c = 0; c < width; ++c)
     {
@@ -257,18 +249,17 @@ void addPairs(const Real* values, int components, const std::int64_t* points, co
 }
 
 template <typename Real>
-void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* voxels, int count)
+void AttributeMean::addReals(const char* first, std::size_t stride, const std::int64_t* voxels, int count)
 {
-  const auto* values = static_cast<const Real*>(view_.values);
+  const Tuples<Real> tuples = { first, stride };
   const int components = view_.components;
   const double partScale = std::ldexp(1.0, partBits_);
-  fetchTuples(values, components, points, count);
   if (lanes_ == 1 && !hasNonFinite_ && scale_[1] == 1.0)
   {
     const auto whole = components == 3 ? &addWhole<3, Real>
       : components == 1                ? &addWhole<1, Real>
                                        : &addWhole<0, Real>;
-    whole(values, components, points, voxels, count, scale_[0], sums_.data());
+    whole(tuples, components, voxels, count, scale_[0], sums_.data());
     return;
   }
   if (lanes_ == 2 && !hasNonFinite_ && scale_[1] == 1.0)
@@ -276,12 +267,12 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
     const auto pairs = components == 3 ? &addPairs<3, Real>
       : components == 1                ? &addPairs<1, Real>
                                        : &addPairs<0, Real>;
-    pairs(values, components, points, voxels, count, scale_[0], partScale, sums_.data());
+    pairs(tuples, components, voxels, count, scale_[0], partScale, sums_.data());
     return;
   }
   for (int i = 0; i < count; ++i)
   {
-    const Real* value = values + components * points[i];
+    const Real* value = tuples[i];
     std::int64_t* sum = sums_.data() + std::int64_t(lanes_) * components * voxels[i];
     for (int c = 0; c < components; ++c)
     {
@@ -312,19 +303,20 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
   }
 }
 
-void AttributeMean::add(const std::int64_t* points, const std::int64_t* voxels, int count)
+void AttributeMean::add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count)
 {
   withType(view_.type,
     [&](auto example)
     {
       using T = decltype(example);
+      const auto* first = static_cast<const char*>(tuples);
       if constexpr (std::is_floating_point_v<T>)
       {
-        addReals<T>(points, voxels, count);
+        addReals<T>(first, stride, voxels, count);
       }
       else
       {
-        addIntegers<T>(points, voxels, count);
+        addIntegers<T>(first, stride, voxels, count);
       }
     });
 }

@@ -55,9 +55,9 @@ public:
     const Executor& executor = {});
   /// The memory of the sums, which are gone then.
   Buffer<std::int64_t> takeSums() { return std::move(sums_); }
-  /// Adds the tuples of points to the sums of their voxels. Several threads may add at once if no two have a
-  /// voxel in common.
-  void add(const std::int64_t* points, const std::int64_t* voxels, int count);
+  /// Adds copies of tuples of the array, each @p stride bytes after the one before and aligned like its
+  /// numbers, to the sums of voxels. Several threads may add at once if no two have a voxel in common.
+  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
   /// The sums of voxels become those of their parents: see VoxelResampler::parents().
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
 
@@ -94,9 +94,9 @@ private:
   void chooseParts(std::int64_t mostPoints);
   void clear(std::int64_t voxels, const Executor& executor);
   template <typename Integer>
-  void addIntegers(const std::int64_t* points, const std::int64_t* voxels, int count);
+  void addIntegers(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count);
   template <typename Real>
-  void addReals(const std::int64_t* points, const std::int64_t* voxels, int count);
+  void addReals(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count);
   template <typename Integer>
   void writeIntegers(const std::int64_t* counts, Integer* means, const Executor& executor) const;
   template <typename Real>

@@ -6,6 +6,7 @@
 #include "Core/Executor.h"
 #include "Core/InstructionSet.h"
 #include "Core/Lattice.h"
+#include "Core/PointRows.h"
 #include "Core/PointView.h"
 #include "Core/Status.h"
 #include "Core/Watcher.h"
@@ -54,7 +55,9 @@ struct VoxelRequest
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
   bool keys = false; ///< For keys(), assign() and parents().
-  /// assign() will follow: run() remembers, if the points are few, which is where, so that it takes less
+  /// What assign() hands out of each point.
+  std::vector<TupleSource> tuples;
+  /// assign() will follow: run() remembers, if the points are few, what it will tell, so that it takes less
   /// time.
   bool assigned = false;
   /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
@@ -113,10 +116,13 @@ public:
   /// Of each voxel of level - 1, the voxel of @p level it lies in. @pre level >= 1, keys were asked for.
   const std::vector<std::int64_t>& parents(int level) const;
 
-  /// Tells again which voxel of level 0 each point inside lies in: visit(points, voxels, count) is called for
-  /// pieces, possibly by several threads at once, but no two at once have a voxel in common.
-  /// @pre run() was Ok with the same request, keys among it. @return Ok or Aborted.
-  using Visitor = std::function<void(const std::int64_t* points, const std::int64_t* voxels, int count)>;
+  /// Tells again which voxel of level 0 each point inside lies in: visit(rows, voxels, count) is called for
+  /// pieces, with what VoxelRequest::tuples asks for, possibly by several threads at once, but no two at once
+  /// have a voxel in common. Tuples travel with the points, so that those of a voxel come together: memory,
+  /// kept like the other, of up to 64 bytes for each of at most 1.25 million points. Wider ones are collected
+  /// from all over the memory they are in. @pre run() was Ok with the same request, keys among it.
+  /// @return Ok or Aborted.
+  using Visitor = std::function<void(const PointRows& rows, const std::int64_t* voxels, int count)>;
   Status assign(const VoxelRequest& request, const Visitor& visit, const Executor& executor = {},
     Watcher* watcher = nullptr);
 

@@ -120,6 +120,7 @@ Status VoxelResampler::Implementation::assignGeneral(
   const Placement placement = generalPlacement(request);
   const std::uint64_t* keys = levels[0].arena.keys();
   const std::uint64_t* end = keys + levels[0].size;
+  chooseRows(request);
   ranges_.choose(placement, request.lattice, chunks);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
@@ -128,6 +129,7 @@ Status VoxelResampler::Implementation::assignGeneral(
       [&](std::size_t range, KeyRanges::Sorted& sorted)
       {
         ranges_.sort(range, sorted);
+        RowCollector collector(rows_);
         std::int64_t points[kBlockRecords];
         std::int64_t voxels[kBlockRecords];
         const std::uint64_t* at = keys;
@@ -142,7 +144,7 @@ Status VoxelResampler::Implementation::assignGeneral(
             points[i] = usable.index ? usable.index->original(point) : point;
             voxels[i] = at - keys;
           }
-          visit(points, voxels, int(size));
+          visit(collector.collect(points, int(size)), voxels, int(size));
         }
       });
     if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))

@@ -2,6 +2,7 @@
 /// What VoxelResampler keeps, and its steps. Private to Core.
 #pragma once
 
+#include "Core/Buffer.h"
 #include "Core/Kernel/KeyRanges.h"
 #include "Core/Kernel/PartitionSums.h"
 #include "Core/Kernel/PointChunks.h"
@@ -15,10 +16,34 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <vector>
 
 namespace pointhaptics
 {
+
+/// Collects rows from all over the memory their tuples are in, a block at a time.
+class RowCollector
+{
+public:
+  explicit RowCollector(const RowLayout& layout)
+    : layout_(layout)
+  {
+    std::iota(places_, places_ + kernel::kBlockRecords, 0);
+  }
+  /// Those of at most kBlockRecords points, until the next call.
+  PointRows collect(const std::int64_t* points, int count)
+  {
+    rows_.reserve(kernel::kBlockRecords * layout_.bytes());
+    layout_.copy(points, places_, count, rows_.data());
+    return { rows_.data(), layout_.bytes(), layout_.offsets() };
+  }
+
+private:
+  const RowLayout& layout_;
+  std::uint32_t places_[kernel::kBlockRecords];
+  Buffer<char> rows_;
+};
 
 class VoxelResampler::Implementation
 {
@@ -44,8 +69,9 @@ private:
   static int halvingsOf(const Lattice& lattice);
   Status runPlanned(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
   Status runGeneral(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
-  void fillPool(const VoxelRequest& request, const kernel::Chunks& chunks, std::size_t chunk, bool indexed,
+  void fillPool(const VoxelRequest& request, const kernel::Chunks& chunks, std::size_t chunk, bool withRows,
     const Executor& executor);
+  void chooseRows(const VoxelRequest& request);
   template <typename Work>
   void forPartitions(const VoxelRequest& request, const Executor& executor, Work&& work);
   void carryChunk(const VoxelRequest& request, const Executor& executor);
@@ -61,7 +87,7 @@ private:
   Status assignPlanned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
   void visitPartition(const VoxelRequest& request, kernel::PartitionWorker& worker, std::uint32_t partition,
-    std::int64_t base, std::int64_t firstVoxel, const Visitor& visit);
+    std::int64_t firstVoxel, const Visitor& visit);
   Status assignGeneral(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
 
@@ -70,7 +96,9 @@ private:
   alignas(kernel::kApart) kernel::PartitionPlan plan_;
   alignas(kernel::kApart) kernel::Placement placement_{};
   alignas(kernel::kApart) kernel::RecordPool pool_;
-  bool poolHoldsAll_ = false; ///< All points of the last run, with their indices.
+  bool poolHoldsAll_ = false; ///< All points of the last run, with their rows.
+  RowLayout rows_;            ///< As assign() hands them out.
+  RowLayout dealtRows_;       ///< As they are dealt out with the records.
   std::vector<kernel::CarriedPartition> carried_;
   std::vector<std::unique_ptr<kernel::PartitionWorker>> idle_;
   kernel::KeyRanges ranges_;

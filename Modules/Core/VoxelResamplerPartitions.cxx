@@ -58,6 +58,38 @@ static_assert(
   kChunkPoints < std::int64_t(1) << (62 - kPositionBits + kMinimumIndexBits), "a batch must hold a chunk");
 static_assert(kChunkPoints <= kWatchedPoints, "a watcher is told after each chunk");
 
+/// Where the records of a few points went.
+class RowSlots
+{
+public:
+  static constexpr std::int64_t kMost = 512;
+
+  /// Room for as many as that.
+  std::uint32_t* clear()
+  {
+    std::fill(slots_, slots_ + kMost, kOutside);
+    return slots_;
+  }
+  /// Writes the rows of the points inside beside their records.
+  void copy(const RowLayout& layout, PointRange points, const PointIndex* index, char* rows) const
+  {
+    std::int64_t numbers[kMost];
+    std::uint32_t slots[kMost];
+    int inside = 0;
+    for (std::int64_t i = points.begin; i < points.end; ++i)
+    {
+      slots[inside] = slots_[i - points.begin];
+      numbers[inside] = index ? index->original(i) : i;
+      inside += slots[inside] != kOutside;
+    }
+    layout.copy(numbers, slots, inside, rows);
+  }
+
+private:
+  static constexpr std::uint32_t kOutside = ~std::uint32_t(0);
+  std::uint32_t slots_[kMost];
+};
+
 std::int64_t pointsOf(const Chunks& chunks)
 {
   std::int64_t sum = 0;
@@ -125,33 +157,52 @@ Status VoxelResampler::Implementation::runPlanned(
     : Status::Ok;
 }
 
-void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const Chunks& chunks,
-  std::size_t chunk, bool indexed, const Executor& executor)
+void VoxelResampler::Implementation::chooseRows(const VoxelRequest& request)
 {
-  pool_.prepare(chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), indexed);
+  // Wider ones would take more memory than they are worth.
+  constexpr std::size_t kMostDealtBytes = 64;
+  rows_.choose(request.tuples);
+  dealtRows_.choose(rows_.bytes() > kMostDealtBytes ? std::vector<TupleSource>(1) : request.tuples);
+}
+
+/// @param withRows assign() will want them.
+void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const Chunks& chunks,
+  std::size_t chunk, bool withRows, const Executor& executor)
+{
+  if (withRows)
+  {
+    chooseRows(request);
+  }
+  pool_.prepare(
+    chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), withRows ? dealtRows_.bytes() : 0);
   const Kernels& kernels = kernelsFor(request.instructions);
   const PointRange* pieces = chunks.pieces(chunk);
   const PointView& points = chunks.points();
-  const std::int64_t base = pieces[0].begin;
+  const auto place = [&](PointRange piece, RecordWriter& writer)
+  {
+    const std::int64_t count = piece.end - piece.begin;
+    points.floats() ? kernels.partitionFloats(placement_, points.floats() + 3 * piece.begin, count, writer)
+                    : kernels.partitionDoubles(placement_, points.doubles() + 3 * piece.begin, count, writer);
+  };
+  const auto placeWithRows = [&](PointRange piece, RecordWriter& writer)
+  {
+    RowSlots slots;
+    while (piece.begin < piece.end)
+    {
+      const PointRange part = { piece.begin, std::min(piece.begin + RowSlots::kMost, piece.end) };
+      writer.slots = slots.clear();
+      place(part, writer);
+      slots.copy(dealtRows_, part, request.index, pool_.rows());
+      piece.begin = part.end;
+    }
+  };
   forRange(executor, chunks.pieceCount(chunk), grainFor(chunks.pieceCount(chunk), executor),
     [&](std::int64_t first, std::int64_t last)
     {
       const RecordPool::Lease lease(pool_);
       for (std::int64_t i = first; i < last; ++i)
       {
-        const PointRange piece = pieces[i];
-        const std::int64_t count = piece.end - piece.begin;
-        const auto index = std::uint32_t(piece.begin - base);
-        if (points.floats())
-        {
-          kernels.partitionFloats(
-            placement_, points.floats() + 3 * piece.begin, count, index, lease.writer());
-        }
-        else
-        {
-          kernels.partitionDoubles(
-            placement_, points.doubles() + 3 * piece.begin, count, index, lease.writer());
-        }
+        withRows ? placeWithRows(pieces[i], lease.writer()) : place(pieces[i], lease.writer());
       }
     });
 }
@@ -323,14 +374,13 @@ Status VoxelResampler::Implementation::assignPlanned(
     {
       fillPool(request, chunks, chunk, true, executor);
     }
-    const std::int64_t base = chunks.pieces(chunk)[0].begin;
     forRange(executor, plan_.partitions, grainFor(plan_.partitions, executor),
       [&](std::int64_t begin, std::int64_t end)
       {
         const WorkerLease lease(*this, false);
         for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
         {
-          visitPartition(request, *lease, p, base, std::int64_t(levels[0].firsts[p]), visit);
+          visitPartition(request, *lease, p, std::int64_t(levels[0].firsts[p]), visit);
         }
       });
     if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
@@ -341,29 +391,26 @@ Status VoxelResampler::Implementation::assignPlanned(
   return Status::Ok;
 }
 
-/// Visits the points of the pool in a partition, which are numbered from @p base on. Its voxels get numbers
-/// from @p firstVoxel on.
+/// Visits the points of the pool in a partition. Its voxels get numbers from @p firstVoxel on.
 void VoxelResampler::Implementation::visitPartition(const VoxelRequest& request, PartitionWorker& worker,
-  std::uint32_t partition, std::int64_t base, std::int64_t firstVoxel, const Visitor& visit)
+  std::uint32_t partition, std::int64_t firstVoxel, const Visitor& visit)
 {
   const Level& level = levels[0];
   const std::size_t first = level.firsts[partition];
-  std::int64_t points[kBlockRecords];
   std::int64_t voxels[kBlockRecords];
+  RowCollector collector(rows_);
+  const bool areWhole = rows_.bytes() == dealtRows_.bytes();
   worker.rank(kernelsFor(request.instructions), pool_, partition, level.arena.keys() + first,
     level.firsts[partition + 1] - first,
-    [&](const std::uint32_t* indices, const std::uint32_t* ranks, int count)
+    [&](const char* rows, const std::uint32_t* ranks, int count)
     {
       for (int i = 0; i < count; ++i)
       {
-        points[i] = base + indices[i];
         voxels[i] = firstVoxel + ranks[i];
       }
-      for (int i = 0; request.index && i < count; ++i)
-      {
-        points[i] = request.index->original(points[i]);
-      }
-      visit(points, voxels, count);
+      visit(areWhole ? PointRows{ rows, rows_.bytes(), rows_.offsets() }
+                     : collector.collect(reinterpret_cast<const std::int64_t*>(rows), count),
+        voxels, count);
     });
 }
 
@@ -371,15 +418,13 @@ void VoxelResampler::Implementation::assignInSets(
   const VoxelRequest& request, const SetWork& work, const Executor& executor)
 {
   const std::vector<std::size_t>& firsts = levels[0].firsts;
-  const Chunks chunks(request, kChunkPoints, executor);
-  const std::int64_t base = chunks.pieces(0)[0].begin;
   forPartitions(request, executor,
     [&](PartitionWorker& worker, std::uint32_t p)
     {
       if (firsts[p + 1] > firsts[p])
       {
         work(std::int64_t(firsts[p]), std::int64_t(firsts[p + 1] - firsts[p]),
-          [&](const Visitor& visit) { visitPartition(request, worker, p, base, 0, visit); });
+          [&](const Visitor& visit) { visitPartition(request, worker, p, 0, visit); });
       }
     });
 }

@@ -281,16 +281,27 @@ Buffer<std::int64_t> VoxelAttribute::takeSums()
   return sums;
 }
 
-void VoxelAttribute::add(const std::int64_t* points, const std::int64_t* voxels, int count)
+TupleSource VoxelAttribute::source() const
+{
+  if (!mean_)
+  {
+    return {};
+  }
+  const AttributeView& view = mean_->view();
+  return { view.values, bytesOf(view.type) * std::size_t(view.components) };
+}
+
+void VoxelAttribute::add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count)
 {
   if (mean_)
   {
-    mean_->add(points, voxels, count);
+    mean_->add(tuples, stride, voxels, count);
     return;
   }
-  for (int i = 0; i < count; ++i)
+  const auto* number = static_cast<const char*>(tuples);
+  for (int i = 0; i < count; ++i, number += stride)
   {
-    voxelOf_[std::size_t(points[i])] = voxels[i];
+    voxelOf_[std::size_t(*reinterpret_cast<const std::int64_t*>(number))] = voxels[i];
   }
 }
 

@@ -8,6 +8,7 @@
 #include "Core/AttributeMean.h"
 #include "Core/Buffer.h"
 #include "Core/Executor.h"
+#include "Core/PointRows.h"
 #include "Core/Watcher.h"
 
 #include "vtkSmartPointer.h"
@@ -50,7 +51,10 @@ public:
   AttributeMean sumsOfSet() const { return mean_->another(); }
   /// Values of the voxels from @p first on. @p counts: points of each of these.
   void writeSet(const AttributeMean& sums, std::int64_t first, const std::int64_t* counts) const;
-  void add(const std::int64_t* points, const std::int64_t* voxels, int count);
+  /// What add() needs of each point.
+  TupleSource source() const;
+  /// Copies of tuples, each @p stride bytes after the one before.
+  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
   /// One tuple per voxel, of the type, name, components, information and lookup table of the input; null if
   /// the watcher, who may be none, ended the work. @p counts: points of each voxel.

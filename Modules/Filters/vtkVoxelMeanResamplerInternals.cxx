@@ -235,6 +235,11 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
   this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
   this->Request.keys = !this->Attributes.empty() || this->Request.levels > 1;
   this->Request.assigned = !this->Attributes.empty();
+  this->Request.tuples.clear();
+  for (const NamedAttribute& named : this->Attributes)
+  {
+    this->Request.tuples.push_back(named.attribute.source());
+  }
   this->Request.memory = &this->Memory;
   this->BeginPart(this->Attributes.empty() ? kRunEnd : 0.5);
   const Status status = this->Engine.run(this->Request, this->Smp, this);
@@ -327,11 +332,11 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   }
   const Status status = this->Engine.assign(
     this->Request,
-    [this](const std::int64_t* points, const std::int64_t* voxels, int count)
+    [this](const PointRows& rows, const std::int64_t* voxels, int count)
     {
-      for (NamedAttribute& named : this->Attributes)
+      for (std::size_t i = 0; i < this->Attributes.size(); ++i)
       {
-        named.attribute.add(points, voxels, count);
+        this->Attributes[i].attribute.add(rows.tuples(i), rows.bytes, voxels, count);
       }
     },
     this->Smp, this);
@@ -374,11 +379,11 @@ void vtkVoxelMeanResampler::Internals::AverageInSets()
         sum.prepare(voxels, mostPoints);
       }
       forPoints(
-        [&](const std::int64_t* points, const std::int64_t* numbers, int count)
+        [&](const PointRows& rows, const std::int64_t* numbers, int count)
         {
-          for (AttributeMean& sum : sums)
+          for (std::size_t i = 0; i < sums.size(); ++i)
           {
-            sum.add(points, numbers, count);
+            sums[i].add(rows.tuples(i), rows.bytes, numbers, count);
           }
         });
       for (std::size_t i = 0; i < sums.size(); ++i)

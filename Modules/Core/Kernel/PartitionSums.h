@@ -104,7 +104,7 @@ public:
   /// Adds the records of a partition to what is carried of it. @pre the plan is dense.
   void carryDense(
     const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& carriedOver);
-  /// Calls visit(positions, ranks, count) with the rank of each indexed record's voxel among the
+  /// Calls visit(rows, ranks, count) with the row of each record and the rank of its voxel among the
   /// partition's @p keys (ascending).
   template <typename Visit>
   void rank(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
@@ -134,7 +134,7 @@ public:
       {
         cells[i] = rankOf(firstKey + cells[i], keys, size);
       }
-      visit(block.indices(), cells, block.count());
+      visit(block.rows(), cells, block.count());
     }
     clearMarks();
   }

@@ -170,9 +170,7 @@ inline void dealOne(const PlacedPoints& placed, std::int64_t i, Record** cursors
   *cursor = placed.records[i];
   if (Indexed)
   {
-    std::uint32_t* index = writer.indices + (cursor - writer.records);
-    *index = placed.indices[i];
-    fetch(index + kLineIndices);
+    writer.slots[placed.indices[i]] = std::uint32_t(cursor - writer.records);
   }
   ++cursor;
   fetchAfter<isScan>(cursor);
@@ -292,15 +290,14 @@ __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, cons
 }
 
 template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
-void partitionAll(
-  const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
+void partitionAll(const Placement& placement, const Real* xyz, std::int64_t count, RecordWriter& writer)
 {
   const PlacementVectors<V> constants(placement);
   PlacedPoints placed;
   const auto place = [&](const Real* from, int groups, unsigned present, std::int64_t first)
   {
-    writer.invalid += placeGroups<V, motion, Pair, Indexed>(
-      constants, from, groups, present, index + std::uint32_t(first), placed);
+    writer.invalid +=
+      placeGroups<V, motion, Pair, Indexed>(constants, from, groups, present, std::uint32_t(first), placed);
     writer.inside += placed.size;
     deal<Indexed>(placed, writer);
   };
@@ -323,33 +320,31 @@ void partitionAll(
 }
 
 template <class V, Motion motion, typename Real>
-void partitionMoved(
-  const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
+void partitionMoved(const Placement& placement, const Real* xyz, std::int64_t count, RecordWriter& writer)
 {
   if (V::hasFusedMultiply && placement.pairDivides)
   {
-    writer.indices ? partitionAll<V, motion, true, true>(placement, xyz, count, index, writer)
-                   : partitionAll<V, motion, true, false>(placement, xyz, count, index, writer);
+    writer.slots ? partitionAll<V, motion, true, true>(placement, xyz, count, writer)
+                 : partitionAll<V, motion, true, false>(placement, xyz, count, writer);
     return;
   }
-  writer.indices ? partitionAll<V, motion, false, true>(placement, xyz, count, index, writer)
-                 : partitionAll<V, motion, false, false>(placement, xyz, count, index, writer);
+  writer.slots ? partitionAll<V, motion, false, true>(placement, xyz, count, writer)
+               : partitionAll<V, motion, false, false>(placement, xyz, count, writer);
 }
 
 template <class V, typename Real>
-void partition(
-  const Placement& placement, const Real* xyz, std::int64_t count, std::uint32_t index, RecordWriter& writer)
+void partition(const Placement& placement, const Real* xyz, std::int64_t count, RecordWriter& writer)
 {
   switch (placement.motion)
   {
     case Motion::Subtract:
-      return partitionMoved<V, Motion::Subtract>(placement, xyz, count, index, writer);
+      return partitionMoved<V, Motion::Subtract>(placement, xyz, count, writer);
     case Motion::Shift:
-      return partitionMoved<V, Motion::Shift>(placement, xyz, count, index, writer);
+      return partitionMoved<V, Motion::Shift>(placement, xyz, count, writer);
     case Motion::Scale:
-      return partitionMoved<V, Motion::Scale>(placement, xyz, count, index, writer);
+      return partitionMoved<V, Motion::Scale>(placement, xyz, count, writer);
     case Motion::General:
-      return partitionMoved<V, Motion::General>(placement, xyz, count, index, writer);
+      return partitionMoved<V, Motion::General>(placement, xyz, count, writer);
   }
 }
 

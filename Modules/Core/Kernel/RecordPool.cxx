@@ -25,7 +25,7 @@ std::size_t blockRecordsFor(std::size_t writers)
 
 }
 
-void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writers, bool indexed)
+void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes)
 {
   const std::size_t writerCount = std::size_t(std::max(writers, 1));
   blockRecords_ = blockRecordsFor(writerCount);
@@ -33,11 +33,8 @@ void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writ
     std::size_t(points) / blockRecords_ + writerCount * (2 * partitions + kTakenBlocks);
   records_.reserve(blocks * blockRecords_, Pages::Huge);
   previous_.reserve(blocks);
-  if (indexed)
-  {
-    indexStorage_.reserve(blocks * blockRecords_, Pages::Huge);
-  }
-  indices_ = indexed ? indexStorage_.data() : nullptr;
+  rowBytes_ = rowBytes;
+  rows_.reserve(blocks * blockRecords_ * rowBytes, Pages::Huge);
   nextBlock_ = 0;
   while (writers_.size() < writerCount)
   {
@@ -52,7 +49,7 @@ void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writ
     writer->lastBlocks.assign(partitions, kNone);
     writer->blockMask = blockRecords_ * sizeof(Record) - 1;
     writer->refill = &RecordPool::refill;
-    writer->indices = indices_;
+    writer->slots = nullptr;
     writer->records = records_.data();
     writer->nextBlock = writer->endBlock = 0;
     writer->inside = 0;
@@ -153,7 +150,7 @@ std::int64_t RecordPool::invalid() const
 
 std::size_t RecordPool::bytes() const
 {
-  std::size_t sum = records_.bytes() + indexStorage_.bytes() + previous_.bytes();
+  std::size_t sum = records_.bytes() + rows_.bytes() + previous_.bytes();
   for (const std::unique_ptr<Writer>& writer : writers_)
   {
     sum += writer->cursorStorage.capacity() * sizeof(Record*) + writer->lastBlocks.capacity() * sizeof(kNone);

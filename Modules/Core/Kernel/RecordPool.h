@@ -25,9 +25,11 @@ class RecordPool
   static constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
 public:
-  /// Room for @p points records of @p partitions partitions, written by at most @p writers writers at once;
-  /// @p indexed: with the index of its point beside each. Empties the pool.
-  void prepare(std::int64_t points, std::uint32_t partitions, int writers, bool indexed);
+  /// Room for @p points records of @p partitions partitions, written by at most @p writers writers at once,
+  /// and a row of so many bytes beside each. Empties the pool.
+  void prepare(std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes);
+  /// Rows, numbered as RecordWriter::slots tells.
+  char* rows() { return rows_.data(); }
 
   /// A writer nobody else uses, for as long as this lives. Waits while all are taken.
   class Lease
@@ -56,8 +58,8 @@ public:
     /// Goes to the next block, at first to the first. @return whether there is one.
     bool next();
     const Record* records() const { return pool_.records_.data() + first_; }
-    /// Beside each record the index of its point, or null.
-    const std::uint32_t* indices() const { return pool_.indices_ ? pool_.indices_ + first_ : nullptr; }
+    /// Beside each record a row.
+    const char* rows() const { return pool_.rows_.data() + pool_.rowBytes_ * first_; }
     int count() const { return int(end_ - first_); }
 
   private:
@@ -101,8 +103,8 @@ private:
 
   std::size_t blockRecords_ = kBlockRecords;
   Buffer<Record> records_;
-  Buffer<std::uint32_t> indexStorage_;
-  std::uint32_t* indices_ = nullptr;
+  Buffer<char> rows_;
+  std::size_t rowBytes_ = 0;
   Buffer<std::uint32_t> previous_;
   std::atomic<std::uint32_t> nextBlock_{ 0 };
   std::vector<std::unique_ptr<Writer>> writers_;

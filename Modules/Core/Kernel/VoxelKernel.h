@@ -46,9 +46,8 @@ struct alignas(16) Record
 
 /// Records are written into blocks of a power of two of records, at most so many, aligned to their size.
 constexpr std::size_t kBlockRecords = 4096 / sizeof(Record);
-/// Records of a line of the caches, and indices.
+/// Records of a line of the caches.
 constexpr int kLineRecords = 64 / sizeof(Record);
-constexpr int kLineIndices = 64 / sizeof(std::uint32_t);
 
 /// What of the matrix and the offset there is to work with.
 enum class Motion
@@ -88,9 +87,9 @@ struct RecordWriter
   std::uintptr_t blockMask; ///< Bytes of a block, less one.
   /// Called when a cursor stands at the end of its block: gives one at the start of a new block.
   Record* (*refill)(RecordWriter& writer, std::uint32_t partition);
-  /// Beside each record the index of its point, or null.
-  std::uint32_t* indices;
-  Record* records; ///< Start of the pool, for indices.
+  /// Told for each point inside where its record is, counted from @p records: or null.
+  std::uint32_t* slots;
+  Record* records; ///< Start of the pool, for slots.
   std::int64_t inside;
   std::int64_t invalid;
 };
@@ -242,11 +241,8 @@ constexpr int kWidest = 8;
 struct Kernels
 {
   /// Places @p count points (x y z interleaved) and appends those inside to their partitions.
-  /// indices, where wanted, are consecutive from firstIndex.
-  void (*partitionFloats)(
-    const Placement&, const float* xyz, std::int64_t count, std::uint32_t firstIndex, RecordWriter&);
-  void (*partitionDoubles)(
-    const Placement&, const double* xyz, std::int64_t count, std::uint32_t firstIndex, RecordWriter&);
+  void (*partitionFloats)(const Placement&, const float* xyz, std::int64_t count, RecordWriter&);
+  void (*partitionDoubles)(const Placement&, const double* xyz, std::int64_t count, RecordWriter&);
   /// The cell of each record.
   void (*cells)(const CellMap&, const Record* records, int count, std::uint32_t* cells);
   /// Marks the cells of records; lists them too, with room for kWidest more. Fetches a block of records that

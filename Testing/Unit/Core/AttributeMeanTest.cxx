@@ -65,6 +65,21 @@ std::vector<std::int64_t> countsOf(const Plan& plan)
   return counts;
 }
 
+/// Adds tuples of @p values in the order of @p points.
+template <typename T>
+void addTuples(AttributeMean& mean, const std::vector<T>& values, const std::int64_t* points,
+  const std::int64_t* voxels, int count)
+{
+  const auto components = std::size_t(mean.view().components);
+  std::vector<T> tuples;
+  for (int i = 0; i < count; ++i)
+  {
+    const T* tuple = values.data() + components * std::size_t(points[i]);
+    tuples.insert(tuples.end(), tuple, tuple + components);
+  }
+  mean.add(tuples.data(), components * sizeof(T), voxels, count);
+}
+
 template <typename T>
 AttributeMean meanOf(const std::vector<T>& values, int components, const Plan& plan,
   const Executor& executor = {}, int piece = 100, std::int64_t mostPoints = 0,
@@ -81,7 +96,7 @@ AttributeMean meanOf(const std::vector<T>& values, int components, const Plan& p
   for (std::size_t first = 0; first < voxels.size(); first += std::size_t(piece))
   {
     const int count = int(std::min(std::size_t(piece), voxels.size() - first));
-    mean.add(plan.order.data() + first, voxels.data() + first, count);
+    addTuples(mean, values, plan.order.data() + first, voxels.data() + first, count);
   }
   return mean;
 }
@@ -495,10 +510,10 @@ TEST(AttributeMean, StartsFromNothingInTheMemoryOfAnother)
     AttributeMean other = meanOf(values, 3, planFor(300, 90, 25));
     AttributeMean mean({ values.data(), ScalarType::Float, 3, 300 }, {});
     mean.prepare(voxels, 300, other.takeSums(), trial::BackwardExecutor(17));
-    mean.add(plan.order.data(), plan.voxels.data(), 300);
+    addTuples(mean, values, plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected));
     mean.prepare(voxels, 300);
-    mean.add(plan.order.data(), plan.voxels.data(), 300);
+    addTuples(mean, values, plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected)) << "once more";
   }
 }

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
+#include <cstring>
 #include <numeric>
 
 using namespace pointhaptics;
@@ -58,12 +60,65 @@ void expectLevelsAreDirect(const VoxelRequest& request, const Executor& executor
   }
 }
 
-/// Every point inside is told once, with the voxel that has its key; no voxel to two threads at a time.
-void expectAssigned(VoxelRequest request, bool foretold, const Executor& executor)
+/// What test points have: of each kind one tuple, told from the point's number.
+struct Carried
+{
+  std::vector<std::uint8_t> bytes; ///< Three a point.
+  std::vector<double> doubles;
+  std::vector<std::array<std::int32_t, 30>> wide;
+
+  Carried(std::size_t points, bool isWide)
+  {
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      bytes.insert(bytes.end(), { std::uint8_t(i), std::uint8_t(i >> 8), std::uint8_t(i >> 16) });
+      doubles.push_back(1.0 / double(i + 1));
+      if (isWide)
+      {
+        wide.emplace_back();
+        std::iota(wide.back().begin(), wide.back().end(), std::int32_t(i));
+      }
+    }
+  }
+  std::vector<TupleSource> sources() const
+  {
+    std::vector<TupleSource> all = { { bytes.data(), 3 }, {}, { doubles.data(), sizeof(double) } };
+    if (!wide.empty())
+    {
+      all.push_back({ wide.data(), sizeof wide[0] });
+    }
+    return all;
+  }
+  /// The number of the point that a row is of; -1 if something in it is of another.
+  std::int64_t pointOf(const PointRows& rows, int row) const
+  {
+    const auto tuple = [&](std::size_t source)
+    { return static_cast<const char*>(rows.tuples(source)) + rows.bytes * std::size_t(row); };
+    const auto aligned = [&](std::size_t source, std::size_t alignment)
+    { return reinterpret_cast<std::uintptr_t>(tuple(source)) % alignment == 0; };
+    if (!aligned(1, 8) || !aligned(2, 8) || (!wide.empty() && !aligned(3, 4)))
+    {
+      return -1;
+    }
+    std::int64_t point;
+    std::memcpy(&point, tuple(1), sizeof point);
+    const bool isThere = point >= 0 && std::size_t(point) < doubles.size() &&
+      std::memcmp(tuple(0), bytes.data() + 3 * point, 3) == 0 &&
+      std::memcmp(tuple(2), doubles.data() + point, sizeof(double)) == 0 &&
+      (wide.empty() || std::memcmp(tuple(3), wide.data() + point, sizeof wide[0]) == 0);
+    return isThere ? point : -1;
+  }
+};
+
+/// Every point inside is told once, with all it has and the voxel that has its key; no voxel to two threads
+/// at a time.
+void expectAssigned(VoxelRequest request, bool foretold, bool isWide, const Executor& executor)
 {
   request.assigned = foretold;
-  const std::string what =
-    nameOf(request.lattice) + (request.index ? " with an index" : "") + (foretold ? ", foretold" : "");
+  const Carried carried(std::size_t(request.points.size()), isWide);
+  request.tuples = carried.sources();
+  const std::string what = nameOf(request.lattice) + (request.index ? " with an index" : "") +
+    (foretold ? ", foretold" : "") + (isWide ? ", wide" : "");
   VoxelResampler resampler;
   const RunResult result = runOf(resampler, request, executor);
   const LevelResult& level = result.levels[0];
@@ -71,22 +126,18 @@ void expectAssigned(VoxelRequest request, bool foretold, const Executor& executo
   std::vector<std::atomic<std::int64_t>> voxelOf(points);
   std::vector<std::atomic<int>> busy(level.keys.size());
   std::atomic<std::int64_t> faults{ 0 };
-  const auto visit = [&](const std::int64_t* who, const std::int64_t* voxels, int count)
+  const auto visit = [&](const PointRows& rows, const std::int64_t* voxels, int count)
   {
-    const auto inRange = [&](int i)
-    {
-      return who[i] >= 0 && std::size_t(who[i]) < points && voxels[i] >= 0 &&
-        std::size_t(voxels[i]) < busy.size();
-    };
     std::vector<std::int64_t> taken;
     for (int i = 0; i < count; ++i)
     {
-      if (!inRange(i))
+      const std::int64_t point = carried.pointOf(rows, i);
+      if (point < 0 || voxels[i] < 0 || std::size_t(voxels[i]) >= busy.size())
       {
         ++faults;
         continue;
       }
-      faults += voxelOf[std::size_t(who[i])].exchange(voxels[i]) != -1;
+      faults += voxelOf[std::size_t(point)].exchange(voxels[i]) != -1;
       taken.push_back(voxels[i]);
     }
     std::sort(taken.begin(), taken.end());
@@ -132,11 +183,13 @@ void expectAssigned(VoxelRequest request, bool foretold, const Executor& executo
       [&](std::int64_t first, std::int64_t voxels, const auto& forPoints)
       {
         forPoints(
-          [&](const std::int64_t* who, const std::int64_t* numbers, int count)
+          [&](const PointRows& rows, const std::int64_t* numbers, int count)
           {
             for (int i = 0; i < count; ++i)
             {
-              faults += numbers[i] >= voxels || voxelOf[std::size_t(who[i])] != first + numbers[i];
+              const std::int64_t point = carried.pointOf(rows, i);
+              faults += point < 0 || numbers[i] >= voxels ||
+                voxelOf[std::size_t(std::max<std::int64_t>(point, 0))] != first + numbers[i];
             }
             seen += count;
           });
@@ -151,8 +204,11 @@ void expectAssigned(VoxelRequest request, bool foretold, const Executor& executo
 
 void expectAssigned(const VoxelRequest& request, const Executor& executor)
 {
-  expectAssigned(request, false, executor);
-  expectAssigned(request, true, executor);
+  for (const bool isWide : { false, true })
+  {
+    expectAssigned(request, false, isWide, executor);
+    expectAssigned(request, true, isWide, executor);
+  }
 }
 
 } // namespace
@@ -256,7 +312,7 @@ TEST(VoxelAssignment, TellsEveryPointOfMoreThanAChunk)
   request.index = &index;
   request.lattice.origin = { 20, 30, 10 };
   request.lattice.dimensions = { 970, 960, 980 };
-  expectAssigned(request, true, ThreadedExecutor(2));
+  expectAssigned(request, true, false, ThreadedExecutor(2));
 }
 
 TEST(VoxelAssignment, AnIndexChangesNoBit)

@@ -255,11 +255,11 @@ TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
     expectSame(runOf(resampler, less), runOf(less), nameOf(lattice));
     CountingWatcher again(1);
     EXPECT_EQ(resampler.assign(
-                less, [](const std::int64_t*, const std::int64_t*, int) {}, {}, nullptr),
+                less, [](const PointRows&, const std::int64_t*, int) {}, {}, nullptr),
       Status::Ok);
     EXPECT_EQ(resampler.run(request), Status::Ok);
     EXPECT_EQ(resampler.assign(
-                request, [](const std::int64_t*, const std::int64_t*, int) {}, {}, &again),
+                request, [](const PointRows&, const std::int64_t*, int) {}, {}, &again),
       Status::Aborted);
   }
 }
@@ -353,8 +353,7 @@ TEST(VoxelResampler, CloudsWithoutAPointInsideAreNoError)
     VoxelResampler resampler;
     EXPECT_EQ(resampler.run(none, {}, &watcher), Status::Ok);
     EXPECT_EQ(resampler.size(0) + resampler.size(1), 0);
-    EXPECT_EQ(
-      resampler.assign(none, [](const std::int64_t*, const std::int64_t*, int) { FAIL(); }), Status::Ok);
+    EXPECT_EQ(resampler.assign(none, [](const PointRows&, const std::int64_t*, int) { FAIL(); }), Status::Ok);
   }
 }
 
