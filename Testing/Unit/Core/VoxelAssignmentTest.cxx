@@ -60,7 +60,7 @@ void expectLevelsAreDirect(const VoxelRequest& request, const Executor& executor
   }
 }
 
-/// What test points have: of each kind one tuple, told from the point's number.
+/// What test points have, told from their numbers.
 struct Carried
 {
   std::vector<std::uint8_t> bytes; ///< Three a point.
@@ -87,6 +87,7 @@ struct Carried
     {
       all.push_back({ wide.data(), sizeof wide[0] });
     }
+    all.push_back({ bytes.data(), 3 });
     return all;
   }
   /// The number of the point that a row is of; -1 if something in it is of another.
@@ -104,6 +105,7 @@ struct Carried
     std::memcpy(&point, tuple(1), sizeof point);
     const bool isThere = point >= 0 && std::size_t(point) < doubles.size() &&
       std::memcmp(tuple(0), bytes.data() + 3 * point, 3) == 0 &&
+      std::memcmp(tuple(wide.empty() ? 3 : 4), bytes.data() + 3 * point, 3) == 0 &&
       std::memcmp(tuple(2), doubles.data() + point, sizeof(double)) == 0 &&
       (wide.empty() || std::memcmp(tuple(3), wide.data() + point, sizeof wide[0]) == 0);
     return isThere ? point : -1;
