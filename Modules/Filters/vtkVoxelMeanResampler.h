@@ -49,10 +49,10 @@
  * Cost: a few nanoseconds a point (Documentation/Performance.md). Memory beyond input and output: 16 bytes
  * for each of at most 1.25 million points, 60 bytes an active voxel and a few megabytes, kept for the next
  * update until ReleaseScratch() or the filter's end; nothing in proportion to the voxels of the lattice. With
- * covariance: 100 bytes an active voxel more. With arrays: 4 bytes for each of those points; where there are
- * more points, levels or categories, also 8 bytes for each active voxel and component, or 16 for integers of
- * 64 bits and for most arrays of doubles (more where magnitudes differ by more than 2^50; at most 32 are
- * kept). A workspace that shows less than half of the cloud for the second time makes a PointIndex (16 bytes
+ * covariance: 100 bytes an active voxel more. With arrays: for each of those points its tuples (8 bytes where
+ * they are more than 64); where there are more points, levels or categories, also 8 bytes for each active
+ * voxel and component, or 16 for integers of 64 bits and for most arrays of doubles (more where magnitudes
+ * differ by more than 2^50; at most 32 are kept). A workspace that shows less than half of the cloud for the second time makes a PointIndex (16 bytes
  * a point; 28 for double coordinates), after which an update costs in proportion to the points inside.
  *
  * Progress events come at least every 1.25 million points; AbortExecute ends the work there, the output is

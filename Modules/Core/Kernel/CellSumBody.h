@@ -37,23 +37,21 @@ void cellsOf(const CellMap& map, const Record* records, int count, std::uint32_t
                                               : V::template cells<true>(map, records, count, cells);
 }
 
-/// So many places hide the wait.
-constexpr int kSumPlaces = 4;
-
 /// Calls visit(i) for all i below @p count. Neighbours in a scan are in one voxel, and what is done to it
-/// waits for what was done before: takes them from so many places in turn.
-template <int places, typename Visit>
+/// waits for what was done before: takes them from four places in turn, which hide the wait.
+template <typename Visit>
 inline void fromPlaces(int count, Visit&& visit)
 {
-  const int part = count / places;
+  constexpr int kPlaces = 4;
+  const int part = count / kPlaces;
   for (int i = 0; i < part; ++i)
   {
-    for (int place = 0; place < places; ++place)
+    for (int place = 0; place < kPlaces; ++place)
     {
       visit(i + place * part);
     }
   }
-  for (int i = places * part; i < count; ++i)
+  for (int i = kPlaces * part; i < count; ++i)
   {
     visit(i);
   }
@@ -63,7 +61,7 @@ inline void fromPlaces(int count, Visit&& visit)
 inline void markCells(const std::uint32_t* cells, int count, std::uint64_t* marks)
 {
   auto* bytes = reinterpret_cast<unsigned char*>(marks);
-  fromPlaces<kSumPlaces>(count,
+  fromPlaces(count,
     [=](int i)
     {
       unsigned char& byte = bytes[(cells[i] / 8) ^ kByteOrder];
@@ -214,8 +212,7 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
   if (to.seconds)
   {
     const typename V::ProductAdder productAdder(map.fractionBits);
-    fromPlaces<kSumPlaces>(
-      count, [=](int i) { productAdder.add(to.seconds[rankOf<V>(ranks, cells[i])], records[i]); });
+    fromPlaces(count, [=](int i) { productAdder.add(to.seconds[rankOf<V>(ranks, cells[i])], records[i]); });
   }
 }
 

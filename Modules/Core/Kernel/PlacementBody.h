@@ -73,20 +73,16 @@ inline typename V::Doubles quotient(const PlacementVectors<V>& c, typename V::Do
   }
 }
 
-/// Places V::width points at @p to and after it. Bit i of the result: point i is inside; of @p finite: it has
-/// finite coordinates, told only where one is outside.
-template <class V, Motion motion, bool Pair, typename Real>
-inline unsigned placeGroup(
-  const PlacementVectors<V>& c, const Real* xyz, PlacedPoints& placed, int to, unsigned& finite)
+/// @p v: V::width points in the lattice's frame.
+template <class V, Motion motion, typename Real>
+inline void move(const PlacementVectors<V>& c, const Real* xyz, typename V::Doubles v[3])
 {
-  typename V::Doubles p[3], v[3];
-  typename V::Bits position[3];
+  typename V::Doubles p[3];
   V::load(xyz, p[0], p[1], p[2]);
   for (int axis = 0; axis < 3; ++axis)
   {
     p[axis] = V::subtract(p[axis], c.pivot[axis]);
   }
-  typename V::Mask inside = V::allTrue();
   for (int axis = 0; axis < 3; ++axis)
   {
     if (motion == Motion::Subtract || motion == Motion::Shift)
@@ -106,9 +102,21 @@ inline unsigned placeGroup(
     {
       v[axis] = V::add(v[axis], c.offset[axis]);
     }
-    const typename V::Doubles u = quotient<V, Pair>(c, v[axis], axis);
-    inside = V::below(inside, u, c.limit[axis]);
-    position[axis] = V::floorBits(u, c.magic);
+  }
+}
+
+/// Places V::width points, which are at @p u in voxels, at @p to and after it. Bit i of the result: point i
+/// is inside.
+template <class V>
+inline unsigned placeGroup(
+  const PlacementVectors<V>& c, const typename V::Doubles u[3], PlacedPoints& placed, int to)
+{
+  typename V::Bits position[3];
+  typename V::Mask inside = V::allTrue();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    inside = V::below(inside, u[axis], c.limit[axis]);
+    position[axis] = V::floorBits(u[axis], c.magic);
   }
   typename V::Bits partition = V::right(V::onlyPosition(position[2]), c.toLayerBlock);
   if (c.layersAreCut)
@@ -121,12 +129,7 @@ inline unsigned placeGroup(
   const typename V::Bits second =
     V::withPosition(V::template left<kPositionBits>(V::template rightBy<kLowBits>(position[2])), position[1]);
   V::storeRecords(placed.records + to, first, second);
-  const unsigned bits = V::toUnsigned(inside);
-  if (bits != V::full)
-  {
-    finite = V::toUnsigned(V::both(V::finite(v[0]), V::both(V::finite(v[1]), V::finite(v[2]))));
-  }
-  return bits;
+  return V::toUnsigned(inside);
 }
 
 /// Moves the records of a group at @p group that are inside together. @return where the next group goes.
@@ -147,108 +150,40 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
   return to;
 }
 
-/// Fetches a line after a cursor's. A scan fills lines fast, and few: the one after the next is taken for
-/// writing at once. Otherwise it takes hundreds of records until the next is needed, and in the first-level
-/// cache those of hundreds of cursors would crowd each other out: they wait in the second level.
-template <bool isScan>
-inline void fetchAfter(const Record* cursor)
-{
-  isScan ? __builtin_prefetch(cursor + 2 * kLineRecords, 1) : fetch(cursor + kLineRecords);
-}
-
-/// @p cursors: the writer's. The caller's copy, which no store can change.
-template <bool Indexed, bool isScan>
-inline void dealOne(const PlacedPoints& placed, std::int64_t i, Record** cursors, std::uintptr_t blockMask,
-  RecordWriter& writer)
-{
-  const std::uint32_t partition = placed.partitions[i];
-  Record* cursor = cursors[partition];
-  if ((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) == 0)
-  {
-    cursor = writer.refill(writer, partition);
-  }
-  *cursor = placed.records[i];
-  if (Indexed)
-  {
-    writer.slots[placed.indices[i]] = std::uint32_t(cursor - writer.records);
-  }
-  ++cursor;
-  fetchAfter<isScan>(cursor);
-  cursors[partition] = cursor;
-}
-
-/// Appends records that nearly all go to one partition. A cursor that is moved waits for the move before:
-/// where four go to one they move it together. @return how many were appended: all but the last few.
-inline int dealRun(const PlacedPoints& placed, std::uintptr_t blockMask, RecordWriter& writer)
-{
-  constexpr int kTogether = 4;
-  int i = 0;
-  for (; i + kTogether <= placed.size; i += kTogether)
-  {
-    const std::uint32_t* partitions = placed.partitions + i;
-    Record* cursor = writer.cursors[partitions[0]];
-    const auto inBlock = reinterpret_cast<std::uintptr_t>(cursor) & blockMask;
-    const bool areOne = ((partitions[0] ^ partitions[1]) | (partitions[2] ^ partitions[3]) |
-                          (partitions[0] ^ partitions[2])) == 0;
-    if (areOne && inBlock != 0 && inBlock <= blockMask + 1 - kTogether * sizeof(Record))
-    {
-      for (int j = 0; j < kTogether; ++j)
-      {
-        cursor[j] = placed.records[i + j];
-      }
-      cursor += kTogether;
-      fetchAfter<true>(cursor);
-      writer.cursors[partitions[0]] = cursor;
-      continue;
-    }
-    for (int j = 0; j < kTogether; ++j)
-    {
-      dealOne<false, true>(placed, i + j, writer.cursors, blockMask, writer);
-    }
-  }
-  return i;
-}
-
-/// Whether many of some records go where the one before goes, as in a scan. Four samples tell.
-inline bool isScan(const PlacedPoints& placed)
-{
-  constexpr int kSamples = 4;
-  const int step = placed.size / kSamples;
-  int repeats = 0;
-  for (int i = 0; i < kSamples && step > 1; ++i)
-  {
-    repeats += placed.partitions[i * step] == placed.partitions[i * step + 1];
-  }
-  return 2 * repeats >= kSamples;
-}
-
-/// Appends the records to their partitions. How is asked once for all: a branch on each few guesses wrong.
+/// Appends the records to their partitions: finds their places, then stores them. A store waits for its line,
+/// and all stores for those before; the lines are fetched while the other places are found. And a cursor is
+/// read soon after it was moved, where points are near each other: it must not wait behind the records.
 template <bool Indexed>
 inline void deal(const PlacedPoints& placed, RecordWriter& writer)
 {
+  // Copies, which no store can change.
   const std::uintptr_t blockMask = writer.blockMask;
   Record** const cursors = writer.cursors;
-  if (!isScan(placed))
+  const int size = placed.size;
+  Record* places[kPlacedAtOnce];
+  for (int i = 0; i < size; ++i)
   {
-    const std::int64_t size = placed.size;
-    for (std::int64_t i = 0; i < size; ++i)
+    const std::uint32_t partition = placed.partitions[i];
+    Record* cursor = cursors[partition];
+    if ((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) == 0)
     {
-      dealOne<Indexed, false>(placed, i, cursors, blockMask, writer);
+      cursor = writer.refill(writer, partition);
     }
-    return;
+    __builtin_prefetch(cursor, 1);
+    places[i] = cursor;
+    cursors[partition] = cursor + 1;
   }
-  const std::uint32_t first = placed.partitions[0];
-  const bool isRun =
-    first == placed.partitions[placed.size / 2] && first == placed.partitions[placed.size - 1];
-  const int from = !Indexed && isRun ? dealRun(placed, blockMask, writer) : 0;
-  const auto dealNext = [&](int j) { dealOne<Indexed, true>(placed, from + j, cursors, blockMask, writer); };
-  if (from == 0 && placed.size == kPlacedAtOnce)
+  for (int i = 0; i < size; ++i)
   {
-    // The usual case, with places that the compiler knows.
-    fromPlaces<8>(kPlacedAtOnce, dealNext);
-    return;
+    Record* const place = places[i];
+    *place = placed.records[i];
+    if (Indexed)
+    {
+      writer.slots[placed.indices[i]] = std::uint32_t(place - writer.records);
+    }
+    // The next lines wait in the second level: those of hundreds of cursors would crowd the first.
+    fetch(place + 2 * kLineRecords);
   }
-  fromPlaces<8>(placed.size - from, dealNext);
 }
 
 /// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p
@@ -262,28 +197,49 @@ __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, cons
   const PlacementVectors<V> constants = given;
   int size = 0;
   int invalid = 0;
-  for (int g = 0; g < groups; ++g, xyz += 3 * V::width, index += V::width)
+  // Two loops have chains of operations half as long, of which the processor works on more at a time.
+  typename V::Doubles u[V::groupsTogether][3];
+  for (int first = 0; first < groups; first += V::groupsTogether)
   {
-    __builtin_prefetch(xyz + kAhead);
-    if (V::width * 3 * sizeof(Real) > 64)
+    const int together = groups - first < V::groupsTogether ? groups - first : V::groupsTogether;
+    const Real* from = xyz;
+    for (int g = 0; g < together; ++g, from += 3 * V::width)
     {
-      __builtin_prefetch(xyz + kAhead + 64 / sizeof(Real));
-    }
-    unsigned finite = 0;
-    const unsigned inside = placeGroup<V, motion, Pair>(constants, xyz, placed, size, finite);
-    if ((inside & present) == V::full)
-    {
-      for (int i = 0; Indexed && i < V::width; ++i)
+      __builtin_prefetch(from + kAhead);
+      if (V::width * 3 * sizeof(Real) > 64)
       {
-        placed.indices[size + i] = index + std::uint32_t(i);
+        __builtin_prefetch(from + kAhead + 64 / sizeof(Real));
       }
-      size += V::width;
-      continue;
+      typename V::Doubles v[3];
+      move<V, motion>(constants, from, v);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        u[g][axis] = quotient<V, Pair>(constants, v[axis], axis);
+      }
     }
-    // Where not all of a group were present, finite was told if any of those was outside.
-    const unsigned kept = inside & present;
-    invalid += kept == present ? 0 : __builtin_popcount(present & ~inside & ~finite);
-    size = keepInside<Indexed>(placed, size, kept, index);
+    for (int g = 0; g < together; ++g, xyz += 3 * V::width, index += V::width)
+    {
+      const unsigned inside = placeGroup<V>(constants, u[g], placed, size);
+      if ((inside & present) == V::full)
+      {
+        for (int i = 0; Indexed && i < V::width; ++i)
+        {
+          placed.indices[size + i] = index + std::uint32_t(i);
+        }
+        size += V::width;
+        continue;
+      }
+      const unsigned kept = inside & present;
+      if (kept != present)
+      {
+        typename V::Doubles v[3];
+        move<V, motion>(constants, xyz, v);
+        const unsigned finite =
+          V::toUnsigned(V::both(V::finite(v[0]), V::both(V::finite(v[1]), V::finite(v[2]))));
+        invalid += __builtin_popcount(present & ~finite);
+      }
+      size = keepInside<Indexed>(placed, size, kept, index);
+    }
   }
   placed.size = size;
   return invalid;
