@@ -21,7 +21,7 @@ struct PlacedPoints
 {
   int size = 0;
   alignas(64) Record records[kPlacedAtOnce];
-  alignas(64) std::uint32_t partitions[kPlacedAtOnce];
+  alignas(64) std::uint64_t partitions[kPlacedAtOnce];
   alignas(64) std::uint32_t indices[kPlacedAtOnce];
 };
 
@@ -124,7 +124,7 @@ inline unsigned placeGroup(
     partition = V::addBits(
       V::multiply32(partition, c.blocksPerLayer), V::right(V::onlyPosition(position[1]), c.toRowBlock));
   }
-  V::storeLow(placed.partitions + to, partition);
+  V::store(placed.partitions + to, partition);
   const typename V::Bits first = V::withPosition(V::template left<kPositionBits>(position[2]), position[0]);
   const typename V::Bits second =
     V::withPosition(V::template left<kPositionBits>(V::template rightBy<kLowBits>(position[2])), position[1]);
@@ -163,11 +163,11 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   Record* places[kPlacedAtOnce];
   for (int i = 0; i < size; ++i)
   {
-    const std::uint32_t partition = placed.partitions[i];
+    const std::uint64_t partition = placed.partitions[i];
     Record* cursor = cursors[partition];
     if ((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) == 0)
     {
-      cursor = writer.refill(writer, partition);
+      cursor = writer.refill(writer, std::uint32_t(partition));
     }
     __builtin_prefetch(cursor, 1);
     places[i] = cursor;

@@ -113,11 +113,7 @@ struct Avx2
   static Doubles least(Doubles a, Doubles b) { return _mm256_min_pd(b, a); }
   static Doubles most(Doubles a, Doubles b) { return _mm256_max_pd(b, a); }
   static Doubles choose(Mask mask, Doubles a, Doubles b) { return _mm256_blendv_pd(b, a, mask); }
-  static void storeLow(std::uint32_t* to, Bits a)
-  {
-    const __m256i packed = _mm256_permutevar8x32_epi32(a, _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_castsi256_si128(packed));
-  }
+  static void store(std::uint64_t* to, Bits a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), a); }
   static void storeRecords(Record* to, Bits first, Bits second)
   {
     const __m256i even = _mm256_unpacklo_epi64(first, second);

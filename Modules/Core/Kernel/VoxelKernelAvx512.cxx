@@ -112,10 +112,7 @@ struct Avx512
   static Doubles least(Doubles a, Doubles b) { return _mm512_min_pd(b, a); }
   static Doubles most(Doubles a, Doubles b) { return _mm512_max_pd(b, a); }
   static Doubles choose(Mask mask, Doubles a, Doubles b) { return _mm512_mask_blend_pd(mask, b, a); }
-  static void storeLow(std::uint32_t* to, Bits a)
-  {
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_cvtepi64_epi32(a));
-  }
+  static void store(std::uint64_t* to, Bits a) { _mm512_storeu_si512(to, a); }
   static void storeRecords(Record* to, Bits first, Bits second)
   {
     _mm512_storeu_si512(

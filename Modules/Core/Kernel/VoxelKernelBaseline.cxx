@@ -155,10 +155,10 @@ struct Pairs
   {
     return mask ? a : b;
   }
-  static void storeLow(std::uint32_t* to, Bits a)
+  static void store(std::uint64_t* to, Bits a)
   {
-    to[0] = std::uint32_t(a[0]);
-    to[1] = std::uint32_t(a[1]);
+    to[0] = a[0];
+    to[1] = a[1];
   }
   static void storeRecords(Record* to, Bits first, Bits second)
   {
