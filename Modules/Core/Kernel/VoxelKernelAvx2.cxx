@@ -1,4 +1,5 @@
 /// The loops with AVX2 and FMA: four points at a time.
+#include "Core/Kernel/CovarianceAvx2.h"
 #include "Core/Kernel/FourLaneAdder.h"
 #include "Core/Kernel/VoxelKernelBody.h"
 
@@ -214,11 +215,11 @@ struct Avx2
   static int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
     int count, double* covariances, int* full)
   {
-    return covariancesOneByOne(map, sums, seconds, 0, count, covariances, full);
+    return covariancesByFour(map, sums, seconds, count, covariances, full);
   }
 
   using Adder = FourLaneAdder;
-  using ProductAdder = ScalarProductAdder;
+  using ProductAdder = TwoVectorAdder;
 };
 
 }
