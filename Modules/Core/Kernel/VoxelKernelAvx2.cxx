@@ -107,7 +107,7 @@ struct Avx2
   }
   static Doubles fromInts(const std::int32_t* from)
   {
-    return _mm256_cvtepi32_pd(_mm_load_si128(reinterpret_cast<const __m128i*>(from)));
+    return _mm256_cvtepi32_pd(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
   }
   static void store(double* to, Doubles a) { _mm256_store_pd(to, a); }
   static Doubles quotient(Doubles a, Doubles b) { return _mm256_div_pd(a, b); }

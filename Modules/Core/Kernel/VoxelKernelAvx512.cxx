@@ -105,7 +105,7 @@ struct Avx512
   static Doubles fromInts(const std::int64_t* from) { return _mm512_cvtepi64_pd(_mm512_load_si512(from)); }
   static Doubles fromInts(const std::int32_t* from)
   {
-    return _mm512_cvtepi32_pd(_mm256_load_si256(reinterpret_cast<const __m256i*>(from)));
+    return _mm512_cvtepi32_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
   }
   static void store(double* to, Doubles a) { _mm512_store_pd(to, a); }
   static Doubles quotient(Doubles a, Doubles b) { return _mm512_div_pd(a, b); }
