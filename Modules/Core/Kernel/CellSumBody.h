@@ -85,12 +85,16 @@ void mark(const CellMap& map, const Record* records, int count, const Record* ne
   markCells(cells, count, marks);
 }
 
-/// Where no instruction counts the ones of a word: those of each byte.
-inline std::uint64_t onesOfBytes(std::uint64_t bits)
+/// Where no instruction counts the ones of a word: those of each byte and of the bytes below it.
+inline std::uint64_t onesUpToBytes(std::uint64_t bits)
 {
   bits -= (bits >> 1) & 0x5555555555555555u;
   bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
-  return (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
+  bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
+  // What a multiplication by 0x0101010101010101 gives, which vectors do not have.
+  bits += bits << 8;
+  bits += bits << 16;
+  return bits + (bits << 32);
 }
 
 /// And of each byte those below each of its bits.
@@ -132,19 +136,26 @@ inline std::uint32_t numberWords(const CellRanks& ranks)
     {
       continue;
     }
-    for (std::size_t w = group; w < group + kGroup; ++w)
+    if constexpr (V::countsOnes)
     {
-      ranks.before[w] = sum;
-      if constexpr (V::countsOnes)
+      for (std::size_t w = group; w < group + kGroup; ++w)
       {
+        ranks.before[w] = sum;
         sum += V::ones(ranks.marks[w]);
       }
-      else
+    }
+    else
+    {
+      std::uint64_t upToBytes[kGroup]; // In a loop of its own, which the compiler makes one of vectors.
+      for (std::size_t w = 0; w < kGroup; ++w)
       {
-        const std::uint64_t ones = onesOfBytes(ranks.marks[w]);
-        const std::uint64_t upToBytes = ones * 0x0101010101010101u;
-        ranks.beforeBytes[w] = upToBytes - ones;
-        sum += std::uint32_t(upToBytes >> 56);
+        upToBytes[w] = onesUpToBytes(ranks.marks[group + w]);
+      }
+      for (std::size_t w = 0; w < kGroup; ++w)
+      {
+        ranks.before[group + w] = sum;
+        ranks.beforeBytes[group + w] = upToBytes[w] << 8;
+        sum += std::uint32_t(upToBytes[w] >> 56);
       }
     }
   }
