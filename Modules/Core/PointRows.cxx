@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -45,34 +46,18 @@ void copyNumbers(
 
 using Copy = void (*)(const TupleSource&, const std::int64_t*, const std::uint32_t*, int, char*, std::size_t);
 
-/// Sizes of one to four numbers of all types.
+template <std::size_t... Bytes>
+Copy copyAmong(std::index_sequence<Bytes...> /*known*/, std::size_t bytes)
+{
+  Copy copy = &copyTuples<0>;
+  static_cast<void>(((bytes == Bytes && (copy = &copyTuples<Bytes>)) || ...));
+  return copy;
+}
+
 Copy copyFor(std::size_t bytes)
 {
-  switch (bytes)
-  {
-    case 1:
-      return &copyTuples<1>;
-    case 2:
-      return &copyTuples<2>;
-    case 3:
-      return &copyTuples<3>;
-    case 4:
-      return &copyTuples<4>;
-    case 6:
-      return &copyTuples<6>;
-    case 8:
-      return &copyTuples<8>;
-    case 12:
-      return &copyTuples<12>;
-    case 16:
-      return &copyTuples<16>;
-    case 24:
-      return &copyTuples<24>;
-    case 32:
-      return &copyTuples<32>;
-    default:
-      return &copyTuples<0>;
-  }
+  // One to four numbers of all types.
+  return copyAmong(std::index_sequence<1, 2, 3, 4, 6, 8, 12, 16, 24, 32>(), bytes);
 }
 
 }

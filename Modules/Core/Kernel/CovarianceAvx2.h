@@ -1,5 +1,6 @@
 /// @file
-/// CovarianceBody.h with AVX2: the six products of a record in two vectors, the covariances of four voxels.
+/// CovarianceBody.h with AVX2: the six products of a record in two vectors, operations for the covariances of
+/// four voxels.
 #pragma once
 
 #include "Core/Kernel/CovarianceBody.h"
@@ -93,142 +94,66 @@ private:
   }
 };
 
-/// a b, modulo 2^64.
-inline __m256i product(__m256i a, __m256i b)
+/// What covariancesTogether() needs beside the operations of Avx2.
+struct CovarianceAvx2
 {
-  const __m256i crossed = _mm256_add_epi64(
-    _mm256_mul_epu32(_mm256_srli_epi64(a, 32), b), _mm256_mul_epu32(a, _mm256_srli_epi64(b, 32)));
-  return _mm256_add_epi64(_mm256_mul_epu32(a, b), _mm256_slli_epi64(crossed, 32));
-}
-
-/// The lower 32 bits of each lane, without a sign.
-inline __m256d lowerWord(__m256i a)
-{
-  const __m256i bits = _mm256_blend_epi32(a, _mm256_set1_epi64x(0x4330000000000000), 0xAA);
-  return _mm256_sub_pd(_mm256_castsi256_pd(bits), _mm256_set1_pd(0x1p52));
-}
-
-/// Signed integers, correctly rounded.
-inline __m256d toReal(__m256i a)
-{
-  const __m256i low = _mm256_blend_epi32(a, _mm256_set1_epi64x(0x4330000000000000), 0xAA);
-  const __m256i high = _mm256_xor_si256(_mm256_srli_epi64(a, 32), _mm256_set1_epi64x(0x4530000080000000));
-  const __m256d offset = _mm256_set1_pd(0x1p84 + 0x1p63 + 0x1p52);
-  return _mm256_add_pd(_mm256_sub_pd(_mm256_castsi256_pd(high), offset), _mm256_castsi256_pd(low));
-}
-
-/// Four consecutive words of each of four structures, from @p offset bytes on: a vector for each word.
-template <typename Words>
-inline void loadWords(const Words* from, std::size_t offset, __m256i turned[4])
-{
-  const auto load = [&](std::size_t i)
+  static __m256i subtractBits(__m256i a, __m256i b) { return _mm256_sub_epi64(a, b); }
+  static __m256i leftBy(__m256i a, __m128i bits) { return _mm256_sll_epi64(a, bits); }
+  /// a b, modulo 2^64.
+  static __m256i product(__m256i a, __m256i b)
   {
-    const auto* at = reinterpret_cast<const char*>(from + i) + offset;
-    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
-  };
-  const __m256i ab02 = _mm256_unpacklo_epi64(load(0), load(1));
-  const __m256i ab13 = _mm256_unpackhi_epi64(load(0), load(1));
-  const __m256i cd02 = _mm256_unpacklo_epi64(load(2), load(3));
-  const __m256i cd13 = _mm256_unpackhi_epi64(load(2), load(3));
-  turned[0] = _mm256_permute2x128_si256(ab02, cd02, 0x20);
-  turned[1] = _mm256_permute2x128_si256(ab13, cd13, 0x20);
-  turned[2] = _mm256_permute2x128_si256(ab02, cd02, 0x31);
-  turned[3] = _mm256_permute2x128_si256(ab13, cd13, 0x31);
-}
-
-/// Two numbers of each of four voxels, into every sixth place.
-inline void storePairs(double* to, __m256d first, __m256d second)
-{
-  const __m256d even = _mm256_unpacklo_pd(first, second);
-  const __m256d odd = _mm256_unpackhi_pd(first, second);
-  _mm_storeu_pd(to, _mm256_castpd256_pd128(even));
-  _mm_storeu_pd(to + 6, _mm256_castpd256_pd128(odd));
-  _mm_storeu_pd(to + 12, _mm256_extractf128_pd(even, 1));
-  _mm_storeu_pd(to + 18, _mm256_extractf128_pd(odd, 1));
-}
-
-/// Operation by operation those of covariance(), for four voxels. @return which have more than @p most
-/// points.
-inline unsigned fourCovariances(const CovarianceMap& map, __m256i most, const PackedSums* packed,
-  const SplitSeconds* seconds, double* covariances)
-{
-  constexpr int kToNearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
-  constexpr int kToZero = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC;
-  __m256i lanes[4];
-  __m256i split[12];
-  loadWords(packed, 0, lanes);
-  loadWords(seconds, 0, split);
-  loadWords(seconds, 32, split + 4);
-  loadWords(seconds, 64, split + 8);
-  const __m256i count = _mm256_srli_epi64(lanes[3], kCountShift);
-  const __m256i highOfZ =
-    _mm256_and_si256(lanes[3], _mm256_set1_epi64x((std::int64_t(1) << kCountShift) - 1));
-  const __m256i sums[3] = { lanes[0], lanes[1],
-    _mm256_add_epi64(lanes[2], _mm256_slli_epi64(highOfZ, kLowBits)) };
-  const __m256d perPoint = _mm256_div_pd(_mm256_set1_pd(1.0), toReal(count));
-  const __m256d highUnit = _mm256_set1_pd(double(std::int64_t(1) << map.fractionBits));
-  const __m128i shift = _mm_cvtsi32_si128(map.fractionBits);
-  // Adding it leaves integers below 2^52 in the lower bits.
-  const __m256d magic = _mm256_set1_pd(0x1p52);
-  __m256i m[3], rest[3];
-  __m256d mReal[3], sumReal[3], restReal[3];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    sumReal[axis] = toReal(sums[axis]);
-    mReal[axis] = _mm256_round_pd(_mm256_mul_pd(sumReal[axis], perPoint), kToZero);
-    m[axis] =
-      _mm256_xor_si256(_mm256_castpd_si256(_mm256_add_pd(mReal[axis], magic)), _mm256_castpd_si256(magic));
-    rest[axis] = _mm256_sub_epi64(sums[axis], product(m[axis], count));
-    restReal[axis] = toReal(rest[axis]);
+    const __m256i crossed = _mm256_add_epi64(
+      _mm256_mul_epu32(_mm256_srli_epi64(a, 32), b), _mm256_mul_epu32(a, _mm256_srli_epi64(b, 32)));
+    return _mm256_add_epi64(_mm256_mul_epu32(a, b), _mm256_slli_epi64(crossed, 32));
   }
-  const __m256d wordUnit = _mm256_set1_pd(0x1p32);
-  __m256d result[6];
-  for (int i = 0; i < 6; ++i)
+  /// The integer below @p a, which is neither negative nor above 2^52; @p real: the same.
+  static __m256i truncated(__m256d a, __m256d& real)
   {
-    const int a = kFirstAxis[i];
-    const int b = kSecondAxis[i];
-    const __m256i sum = _mm256_add_epi64(_mm256_sll_epi64(split[i], shift), split[6 + i]);
-    const __m256i bits =
-      _mm256_sub_epi64(_mm256_sub_epi64(sum, product(m[a], sums[b])), product(m[b], rest[a]));
-    const __m256d near =
-      _mm256_sub_pd(_mm256_mul_pd(toReal(split[i]), highUnit), _mm256_mul_pd(mReal[a], sumReal[b]));
-    const __m256d turns =
-      _mm256_round_pd(_mm256_mul_pd(_mm256_sub_pd(near, toReal(bits)), _mm256_set1_pd(0x1p-64)), kToNearest);
-    const __m256i flipped = _mm256_xor_si256(bits, _mm256_set1_epi64x(std::int64_t(0x8000000000000000)));
-    const __m256d highWord = _mm256_sub_pd(lowerWord(_mm256_srli_epi64(flipped, 32)), _mm256_set1_pd(0x1p31));
-    const __m256d high = _mm256_add_pd(_mm256_mul_pd(turns, wordUnit), highWord);
-    const __m256d central = _mm256_add_pd(_mm256_mul_pd(high, wordUnit), lowerWord(bits));
-    const __m256d restProduct = _mm256_mul_pd(_mm256_mul_pd(restReal[a], restReal[b]), perPoint);
-    __m256d value = _mm256_mul_pd(_mm256_sub_pd(central, restProduct), perPoint);
-    if (a == b)
+    const __m256d magic = _mm256_set1_pd(0x1p52);
+    real = _mm256_round_pd(a, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+    return _mm256_xor_si256(_mm256_castpd_si256(_mm256_add_pd(real, magic)), _mm256_castpd_si256(magic));
+  }
+  /// The lower 32 bits of each lane, without a sign.
+  static __m256d lowerWord(__m256i a)
+  {
+    const __m256i bits = _mm256_blend_epi32(a, _mm256_set1_epi64x(0x4330000000000000), 0xAA);
+    return _mm256_sub_pd(_mm256_castsi256_pd(bits), _mm256_set1_pd(0x1p52));
+  }
+  /// The upper 32 bits, with a sign.
+  static __m256d upperWord(__m256i a)
+  {
+    const __m256i flipped = _mm256_xor_si256(a, _mm256_set1_epi64x(std::int64_t(0x8000000000000000)));
+    return _mm256_sub_pd(lowerWord(_mm256_srli_epi64(flipped, 32)), _mm256_set1_pd(0x1p31));
+  }
+  /// Four consecutive words of each of four structures, from @p offset bytes on: a vector for each word.
+  template <typename Words>
+  static void loadWords(const Words* from, std::size_t offset, __m256i turned[4])
+  {
+    const auto load = [&](std::size_t i)
     {
-      value = _mm256_max_pd(_mm256_setzero_pd(), value);
-    }
-    result[i] = _mm256_mul_pd(_mm256_mul_pd(value, _mm256_set1_pd(map.unit[a])), _mm256_set1_pd(map.unit[b]));
+      const auto* at = reinterpret_cast<const char*>(from + i) + offset;
+      return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
+    };
+    const __m256i ab02 = _mm256_unpacklo_epi64(load(0), load(1));
+    const __m256i ab13 = _mm256_unpackhi_epi64(load(0), load(1));
+    const __m256i cd02 = _mm256_unpacklo_epi64(load(2), load(3));
+    const __m256i cd13 = _mm256_unpackhi_epi64(load(2), load(3));
+    turned[0] = _mm256_permute2x128_si256(ab02, cd02, 0x20);
+    turned[1] = _mm256_permute2x128_si256(ab13, cd13, 0x20);
+    turned[2] = _mm256_permute2x128_si256(ab02, cd02, 0x31);
+    turned[3] = _mm256_permute2x128_si256(ab13, cd13, 0x31);
   }
-  for (int i = 0; i < 6; i += 2)
+  /// Two numbers of each of four voxels, into every sixth place.
+  static void storePairs(double* to, __m256d first, __m256d second)
   {
-    storePairs(covariances + i, result[i], result[i + 1]);
+    const __m256d even = _mm256_unpacklo_pd(first, second);
+    const __m256d odd = _mm256_unpackhi_pd(first, second);
+    _mm_storeu_pd(to, _mm256_castpd256_pd128(even));
+    _mm_storeu_pd(to + 6, _mm256_castpd256_pd128(odd));
+    _mm_storeu_pd(to + 12, _mm256_extractf128_pd(even, 1));
+    _mm_storeu_pd(to + 18, _mm256_extractf128_pd(odd, 1));
   }
-  return unsigned(_mm256_movemask_pd(_mm256_castsi256_pd(_mm256_cmpgt_epi64(count, most))));
-}
-
-inline int covariancesByFour(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
-  int count, double* covariances, int* full)
-{
-  const __m256i most = _mm256_set1_epi64x(mostCovariancePoints(map.fractionBits));
-  int found = 0;
-  int i = 0;
-  for (; i + 4 <= count; i += 4)
-  {
-    unsigned isFull = fourCovariances(map, most, sums + i, seconds + i, covariances + 6 * i);
-    for (; isFull != 0; isFull &= isFull - 1)
-    {
-      full[found++] = i + __builtin_ctz(isFull);
-    }
-  }
-  return found + covariancesOneByOne(map, sums, seconds, i, count, covariances, full + found);
-}
+};
 
 }
 } // namespace kernel

@@ -87,21 +87,92 @@ inline void covariance(
   }
 }
 
-/// Those from @p first on.
-inline int covariancesOneByOne(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
-  int first, int count, double* covariances, int* full)
+/// Lists the voxels with more points than that. @return how many there are.
+inline int listFull(const CovarianceMap& map, const PackedSums* sums, int count, int* full)
 {
   const std::int64_t most = mostCovariancePoints(map.fractionBits);
   int found = 0;
-  for (int i = first; i < count; ++i)
+  for (int i = 0; i < count; ++i)
   {
-    covariance(map, sums[i], seconds[i], covariances + 6 * i);
     if (packedCount(sums[i]) > most)
     {
       full[found++] = i;
     }
   }
   return found;
+}
+
+/// Operation by operation those of covariance(), for V::width voxels.
+template <class V>
+inline void covariancesTogether(
+  const CovarianceMap& map, const PackedSums* packed, const SplitSeconds* seconds, double* covariances)
+{
+  using Bits = typename V::Bits;
+  using Doubles = typename V::Doubles;
+  Bits lanes[4], split[12];
+  V::loadPacked(packed, lanes);
+  for (std::size_t word = 0; word < 12; word += 4)
+  {
+    V::loadWords(seconds, sizeof(std::uint64_t) * word, split + word);
+  }
+  const Bits count = V::template rightBy<kCountShift>(lanes[3]);
+  const Bits z = V::addBits(lanes[2], V::template left<kLowBits>(V::onlyPosition(lanes[3])));
+  const Bits sums[3] = { lanes[0], lanes[1], z };
+  const Doubles perPoint = V::quotient(V::all(1.0), V::toDoubles(count));
+  const Doubles highUnit = V::all(double(std::int64_t(1) << map.fractionBits));
+  const typename V::Shift shift = V::shift(map.fractionBits);
+  Bits m[3], rest[3];
+  Doubles mReal[3], sumReal[3], restReal[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    sumReal[axis] = V::toDoubles(sums[axis]);
+    m[axis] = V::truncated(V::multiply(sumReal[axis], perPoint), mReal[axis]);
+    rest[axis] = V::subtractBits(sums[axis], V::product(m[axis], count));
+    restReal[axis] = V::toDoubles(rest[axis]);
+  }
+  const Doubles wordUnit = V::all(0x1p32);
+  Doubles result[6];
+  for (int i = 0; i < 6; ++i)
+  {
+    const int a = kFirstAxis[i];
+    const int b = kSecondAxis[i];
+    const Bits sum = V::addBits(V::leftBy(split[i], shift), split[6 + i]);
+    const Bits bits =
+      V::subtractBits(V::subtractBits(sum, V::product(m[a], sums[b])), V::product(m[b], rest[a]));
+    const Doubles near =
+      V::subtract(V::multiply(V::toDoubles(split[i]), highUnit), V::multiply(mReal[a], sumReal[b]));
+    const Doubles turns = V::nearest(V::multiply(V::subtract(near, V::toDoubles(bits)), V::all(0x1p-64)));
+    const Doubles high = V::add(V::multiply(turns, wordUnit), V::upperWord(bits));
+    const Doubles central = V::add(V::multiply(high, wordUnit), V::lowerWord(bits));
+    const Doubles restProduct = V::multiply(V::multiply(restReal[a], restReal[b]), perPoint);
+    Doubles value = V::multiply(V::subtract(central, restProduct), perPoint);
+    if (a == b)
+    {
+      value = V::most(value, V::all(0.0));
+    }
+    result[i] = V::multiply(V::multiply(value, V::all(map.unit[a])), V::all(map.unit[b]));
+  }
+  for (int i = 0; i < 6; i += 2)
+  {
+    V::storePairs(covariances + i, result[i], result[i + 1]);
+  }
+}
+
+/// V::width at a time.
+template <class V>
+inline int covariancesInVectors(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
+  int count, double* covariances, int* full)
+{
+  const int whole = count / V::width * V::width;
+  for (int i = 0; i < whole; i += V::width)
+  {
+    covariancesTogether<V>(map, sums + i, seconds + i, covariances + 6 * i);
+  }
+  for (int i = whole; i < count; ++i)
+  {
+    covariance(map, sums[i], seconds[i], covariances + 6 * i);
+  }
+  return listFull(map, sums, count, full);
 }
 
 }

@@ -13,7 +13,7 @@ namespace kernel
 namespace
 {
 
-struct Avx2
+struct Avx2 : CovarianceAvx2
 {
   static constexpr int width = 4;
   static constexpr unsigned full = 15;
@@ -92,13 +92,13 @@ struct Avx2
   {
     return _mm256_slli_epi64(a, bits);
   }
-  /// Not negative. The halves are put below and above 2^52 and 2^84; only their sum is rounded.
+  /// Signed. The halves are put beside 2^52, 2^63 and 2^84; only their sum is rounded.
   static Doubles toDoubles(Bits value)
   {
     const __m256i low = _mm256_blend_epi32(value, _mm256_set1_epi64x(0x4330000000000000), 0xAA);
     const __m256i high =
-      _mm256_or_si256(_mm256_srli_epi64(value, 32), _mm256_set1_epi64x(0x4530000000000000));
-    const __m256d offset = _mm256_set1_pd(0x1p84 + 0x1p52);
+      _mm256_xor_si256(_mm256_srli_epi64(value, 32), _mm256_set1_epi64x(0x4530000080000000));
+    const __m256d offset = _mm256_set1_pd(0x1p84 + 0x1p63 + 0x1p52);
     return _mm256_add_pd(_mm256_sub_pd(_mm256_castsi256_pd(high), offset), _mm256_castsi256_pd(low));
   }
   static Doubles fromInts(const std::int64_t* from)
@@ -165,19 +165,7 @@ struct Avx2
   static std::uint32_t ones(std::uint64_t bits) { return std::uint32_t(__builtin_popcountll(bits)); }
 
   /// The four lanes of four sums.
-  static void loadPacked(const PackedSums* from, Bits lanes[4])
-  {
-    const auto load = [from](int i)
-    { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from + i)); };
-    const __m256i xz01 = _mm256_unpacklo_epi64(load(0), load(1));
-    const __m256i yz01 = _mm256_unpackhi_epi64(load(0), load(1));
-    const __m256i xz23 = _mm256_unpacklo_epi64(load(2), load(3));
-    const __m256i yz23 = _mm256_unpackhi_epi64(load(2), load(3));
-    lanes[0] = _mm256_permute2x128_si256(xz01, xz23, 0x20);
-    lanes[1] = _mm256_permute2x128_si256(yz01, yz23, 0x20);
-    lanes[2] = _mm256_permute2x128_si256(xz01, xz23, 0x31);
-    lanes[3] = _mm256_permute2x128_si256(yz01, yz23, 0x31);
-  }
+  static void loadPacked(const PackedSums* from, Bits lanes[4]) { loadWords(from, 0, lanes); }
   static Doubles nearest(Doubles a)
   {
     return _mm256_round_pd(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
@@ -215,7 +203,7 @@ struct Avx2
   static int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
     int count, double* covariances, int* full)
   {
-    return covariancesByFour(map, sums, seconds, count, covariances, full);
+    return covariancesInVectors<Avx2>(map, sums, seconds, count, covariances, full);
   }
 
   using Adder = FourLaneAdder;

@@ -14,7 +14,7 @@ namespace kernel
 namespace
 {
 
-struct Avx512
+struct Avx512 : CovarianceAvx512
 {
   static constexpr int width = 8;
   static constexpr unsigned full = 255;
@@ -233,7 +233,7 @@ struct Avx512
   static int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
     int count, double* covariances, int* full)
   {
-    return covariancesByEight(map, sums, seconds, count, covariances, full);
+    return covariancesInVectors<Avx512>(map, sums, seconds, count, covariances, full);
   }
 
   using Adder = FourLaneAdder;

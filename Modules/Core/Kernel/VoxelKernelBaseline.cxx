@@ -195,7 +195,11 @@ struct Pairs
   static int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
     int count, double* covariances, int* full)
   {
-    return covariancesOneByOne(map, sums, seconds, 0, count, covariances, full);
+    for (int i = 0; i < count; ++i)
+    {
+      covariance(map, sums[i], seconds[i], covariances + 6 * i);
+    }
+    return listFull(map, sums, count, full);
   }
 
   using ProductAdder = ScalarProductAdder;
