@@ -19,13 +19,13 @@ constexpr std::uint32_t kByteOrder = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? 7 
 template <bool inLayer>
 inline std::uint32_t cellOf(const CellMap& map, const Record& r)
 {
-  const auto x = std::uint32_t((r.first & kPositionMask) >> map.fractionBits);
-  const auto y = std::uint32_t((r.second & kPositionMask) >> map.fractionBits);
+  const auto x = std::uint32_t(r.first >> (kLowBits + map.fractionBits));
+  const auto y = std::uint32_t(r.second >> (kLowBits + map.fractionBits));
   if (inLayer)
   {
     return x + map.columns * (y - map.firstInLayer);
   }
-  const auto z = std::uint32_t(r.second >> (kPositionBits - kLowBits + map.fractionBits));
+  const auto z = std::uint32_t((r.second & kLowMask) >> (map.fractionBits - kLowBits));
   const std::uint32_t row = y + map.rowsPerLayer * z;
   return x + map.columns * ((row < map.firstRow ? row + map.upperRows : row) - map.firstRow);
 }
@@ -57,16 +57,9 @@ inline void fromPlaces(int count, Visit&& visit)
   }
 }
 
-/// By bytes, which neighbours in a scan have in common less often than words.
 inline void markCells(const std::uint32_t* cells, int count, std::uint64_t* marks)
 {
-  auto* bytes = reinterpret_cast<unsigned char*>(marks);
-  fromPlaces(count,
-    [=](int i)
-    {
-      unsigned char& byte = bytes[(cells[i] / 8) ^ kByteOrder];
-      byte = static_cast<unsigned char>(byte | 1u << (cells[i] % 8));
-    });
+  fromPlaces(count, [=](int i) { marks[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64); });
 }
 
 template <class V>

@@ -31,8 +31,7 @@ struct TwoVectorAdder
     const int lower = (fractionBits + 1) / 2;
     const int upper = fractionBits - lower;
     const auto fraction = std::int64_t((std::uint64_t(1) << fractionBits) - 1);
-    const auto low = std::int64_t(kLowMask);
-    masks = _mm256_setr_epi64x(fraction, fraction, low, fraction & ~low);
+    masks = _mm256_setr_epi64x(fraction, fraction, std::int64_t(kLowMask), fraction >> kLowBits);
     lowerMask = _mm256_set1_epi64x((std::int64_t(1) << lower) - 1);
     middleMask = _mm256_set1_epi64x((std::int64_t(1) << upper) - 1);
     half = _mm_cvtsi32_si128(lower);
@@ -42,8 +41,10 @@ struct TwoVectorAdder
   void add(SplitSeconds& sums, const Record& r) const
   {
     const __m256i words = _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(&r)));
-    const __m256i parts = _mm256_and_si256(
-      _mm256_srlv_epi64(words, _mm256_setr_epi64x(0, 0, kPositionBits, kPositionBits - kLowBits)), masks);
+    const __m256i bits =
+      _mm256_and_si256(_mm256_srlv_epi64(words, _mm256_setr_epi64x(kLowBits, kLowBits, 0, 0)), masks);
+    // x, y and the two parts of z.
+    const __m256i parts = _mm256_sllv_epi64(bits, _mm256_setr_epi64x(0, 0, 0, kLowBits));
     // x, y, z and z again.
     const __m256i places = _mm256_or_si256(parts, _mm256_permute4x64_epi64(parts, 0xB4));
     const __m256i upper = _mm256_srl_epi64(places, half);

@@ -34,7 +34,7 @@ struct TwelveLaneAdder
     const __m512i words = _mm512_broadcast_i64x2(_mm_load_si128(reinterpret_cast<const __m128i*>(&r)));
     // x, y and the two parts of z.
     const __m512i parts = _mm512_and_si512(
-      _mm512_srlv_epi64(words, _mm512_setr_epi64(0, 0, kPositionBits, kPositionBits - kLowBits, 0, 0, 0, 0)),
+      _mm512_rolv_epi64(words, _mm512_setr_epi64(kPositionBits, kPositionBits, 0, kLowBits, 0, 0, 0, 0)),
       masks);
     // The products in their order, then the first two again.
     const __m512i a =

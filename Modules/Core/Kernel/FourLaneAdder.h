@@ -27,7 +27,7 @@ struct FourLaneAdder
   void add(PackedSums& sums, const Record& r) const
   {
     const __m256i words = _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(&r)));
-    const __m256i shifted = _mm256_srlv_epi64(words, _mm256_setr_epi64x(0, 0, kPositionBits, kPositionBits));
+    const __m256i shifted = _mm256_srlv_epi64(words, _mm256_setr_epi64x(kLowBits, kLowBits, 0, 0));
     const __m256i lanes = _mm256_or_si256(
       _mm256_and_si256(shifted, masks), _mm256_setr_epi64x(0, 0, 0, std::int64_t(1) << kCountShift));
     auto* to = reinterpret_cast<__m256i*>(sums.lanes);

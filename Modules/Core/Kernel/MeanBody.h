@@ -160,7 +160,9 @@ int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t*
     V::loadPacked(packed + i, lanes);
     const typename V::Bits count = V::template rightBy<kCountShift>(lanes[3]);
     const typename V::Bits z = V::addBits(lanes[2], V::template left<kLowBits>(V::onlyPosition(lanes[3])));
-    const Doubles sums[3] = { V::toDoubles(lanes[0]), V::toDoubles(lanes[1]), V::toDoubles(z) };
+    const typename V::Bits sumBits[3] = { lanes[0], lanes[1], z };
+    Doubles sums[3];
+    V::sumsToDoubles(sumBits, sums);
     const Doubles cell = V::fromInts(reinterpret_cast<const std::int32_t*>(cells + i));
     const Doubles localRow = V::nearest(V::multiplyAdd(cell, perColumn, toColumn));
     const Doubles row = V::add(localRow, firstRow);
@@ -168,7 +170,7 @@ int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t*
     const Doubles indices[3] = { V::subtract(cell, V::multiply(localRow, columns)),
       V::subtract(row, V::multiply(layer, rows)), layer };
     Doubles means[3];
-    const unsigned clear = constants.mean(V::toDoubles(count), sums, indices, means);
+    const unsigned clear = constants.mean(V::smallToDoubles(count), sums, indices, means);
     storePoints<V>(xyz + 3 * i, size - i, means);
     storeCounts<V>(counts + i, size - i, count);
     if (clear != V::full)

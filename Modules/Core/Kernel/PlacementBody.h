@@ -29,14 +29,14 @@ struct PlacedPoints
 template <class V>
 struct PlacementVectors
 {
-  typename V::Doubles pivot[3], matrix[3][3], offset[3], spacing[3], reciprocal[3], remainder[3], limit[3],
-    magic;
+  typename V::Doubles pivot[3], matrix[3][3], offset[3], quantum[3], reciprocal[3], remainder[3], limit[3],
+    toBits;
   typename V::Bits blocksPerLayer;
   typename V::Shift toRowBlock, toLayerBlock;
   bool layersAreCut;
 
   explicit PlacementVectors(const Placement& p)
-    : magic(V::all(p.magic))
+    : toBits(V::all(kToBits))
     , blocksPerLayer(V::allBits(p.blocksPerLayer))
     , toRowBlock(V::shift(p.fractionBits + p.rowShift))
     , toLayerBlock(V::shift(p.fractionBits + p.layerShift))
@@ -46,7 +46,7 @@ struct PlacementVectors
     {
       pivot[axis] = V::all(p.pivot[axis]);
       offset[axis] = V::all(p.offset[axis]);
-      spacing[axis] = V::all(p.spacing[axis]);
+      quantum[axis] = V::all(p.quantum[axis]);
       reciprocal[axis] = V::all(p.reciprocal[axis]);
       remainder[axis] = V::all(p.remainder[axis]);
       limit[axis] = V::all(p.limit[axis]);
@@ -58,18 +58,18 @@ struct PlacementVectors
   }
 };
 
-/// v / spacing, correctly rounded. @tparam Pair: Placement::pairDivides.
+/// v / quantum, correctly rounded. @tparam Pair: Placement::pairDivides.
 template <class V, bool Pair>
 inline typename V::Doubles quotient(const PlacementVectors<V>& c, typename V::Doubles v, int axis)
 {
   if constexpr (V::hasFusedMultiply)
   {
     const typename V::Doubles u = V::multiplyAdd(v, c.reciprocal[axis], V::multiply(v, c.remainder[axis]));
-    return Pair ? u : V::corrected(u, v, c.spacing[axis], c.reciprocal[axis]);
+    return Pair ? u : V::corrected(u, v, c.quantum[axis], c.reciprocal[axis]);
   }
   else
   {
-    return V::quotient(v, c.spacing[axis]);
+    return V::quotient(v, c.quantum[axis]);
   }
 }
 
@@ -105,18 +105,18 @@ inline void move(const PlacementVectors<V>& c, const Real* xyz, typename V::Doub
   }
 }
 
-/// Places V::width points, which are at @p u in voxels, at @p to and after it. Bit i of the result: point i
+/// Places V::width points, which are at @p u in quanta, at @p to and after it. Bit i of the result: point i
 /// is inside.
 template <class V>
 inline unsigned placeGroup(
-  const PlacementVectors<V>& c, const typename V::Doubles u[3], PlacedPoints& placed, int to)
+  const PlacementVectors<V>& c, const typename V::Doubles u[3], PlacedPoints& placed, std::int64_t to)
 {
   typename V::Bits position[3];
   typename V::Mask inside = V::allTrue();
   for (int axis = 0; axis < 3; ++axis)
   {
     inside = V::below(inside, u[axis], c.limit[axis]);
-    position[axis] = V::floorBits(u[axis], c.magic);
+    position[axis] = V::floorBits(u[axis], c.toBits);
   }
   typename V::Bits partition = V::right(V::onlyPosition(position[2]), c.toLayerBlock);
   if (c.layersAreCut)
@@ -125,18 +125,18 @@ inline unsigned placeGroup(
       V::multiply32(partition, c.blocksPerLayer), V::right(V::onlyPosition(position[1]), c.toRowBlock));
   }
   V::store(placed.partitions + to, partition);
-  const typename V::Bits first = V::withPosition(V::template left<kPositionBits>(position[2]), position[0]);
+  const typename V::Bits first = V::withLowBits(V::template left<kLowBits>(position[0]), position[2]);
   const typename V::Bits second =
-    V::withPosition(V::template left<kPositionBits>(V::template rightBy<kLowBits>(position[2])), position[1]);
+    V::withLowBits(V::template left<kLowBits>(position[1]), V::template rightBy<kLowBits>(position[2]));
   V::storeRecords(placed.records + to, first, second);
   return V::toUnsigned(inside);
 }
 
 /// Moves the records of a group at @p group that are inside together. @return where the next group goes.
 template <bool Indexed>
-inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uint32_t index)
+inline std::int64_t keepInside(PlacedPoints& placed, std::int64_t group, unsigned inside, std::uint32_t index)
 {
-  int to = group;
+  std::int64_t to = group;
   for (; inside != 0; inside &= inside - 1, ++to)
   {
     const int i = __builtin_ctz(inside);
@@ -150,6 +150,24 @@ inline int keepInside(PlacedPoints& placed, int group, unsigned inside, std::uin
   return to;
 }
 
+/// Calls visit(i) for all i below @p count, in an unrolled loop.
+template <typename Visit>
+__attribute__((always_inline)) inline void inFours(int count, Visit&& visit)
+{
+  int i = 0;
+  for (; i + 4 <= count; i += 4)
+  {
+    visit(i);
+    visit(i + 1);
+    visit(i + 2);
+    visit(i + 3);
+  }
+  for (; i < count; ++i)
+  {
+    visit(i);
+  }
+}
+
 /// Appends the records to their partitions: finds their places, then stores them. A store waits for its line,
 /// and all stores for those before; the lines are fetched while the other places are found. And a cursor is
 /// read soon after it was moved, where points are near each other: it must not wait behind the records.
@@ -161,29 +179,31 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   Record** const cursors = writer.cursors;
   const int size = placed.size;
   Record* places[kPlacedAtOnce];
-  for (int i = 0; i < size; ++i)
-  {
-    const std::uint64_t partition = placed.partitions[i];
-    Record* cursor = cursors[partition];
-    if ((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) == 0)
+  inFours(size,
+    [&](int i)
     {
-      cursor = writer.refill(writer, std::uint32_t(partition));
-    }
-    __builtin_prefetch(cursor, 1);
-    places[i] = cursor;
-    cursors[partition] = cursor + 1;
-  }
-  for (int i = 0; i < size; ++i)
-  {
-    Record* const place = places[i];
-    *place = placed.records[i];
-    if (Indexed)
+      const std::uint64_t partition = placed.partitions[i];
+      Record* cursor = cursors[partition];
+      if (__builtin_expect((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) == 0, false))
+      {
+        cursor = writer.refill(writer, std::uint32_t(partition));
+      }
+      __builtin_prefetch(cursor, 1);
+      places[i] = cursor;
+      cursors[partition] = cursor + 1;
+    });
+  inFours(size,
+    [&](int i)
     {
-      writer.slots[placed.indices[i]] = std::uint32_t(place - writer.records);
-    }
-    // The next lines wait in the second level: those of hundreds of cursors would crowd the first.
-    fetch(place + 2 * kLineRecords);
-  }
+      Record* const place = places[i];
+      *place = placed.records[i];
+      if (Indexed)
+      {
+        writer.slots[placed.indices[i]] = std::uint32_t(place - writer.records);
+      }
+      // The next lines wait in the second level: those of hundreds of cursors would crowd the first.
+      fetch(place + 2 * kLineRecords);
+    });
 }
 
 /// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p
@@ -195,16 +215,16 @@ __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, cons
 {
   constexpr int kAhead = 2048 / int(sizeof(Real));
   const PlacementVectors<V> constants = given;
-  int size = 0;
+  std::int64_t size = 0;
   int invalid = 0;
   // Two loops have chains of operations half as long, of which the processor works on more at a time.
   typename V::Doubles u[V::groupsTogether][3];
   for (int first = 0; first < groups; first += V::groupsTogether)
   {
     const int together = groups - first < V::groupsTogether ? groups - first : V::groupsTogether;
-    const Real* from = xyz;
-    for (int g = 0; g < together; ++g, from += 3 * V::width)
+    for (int g = 0; g < together; ++g)
     {
+      const Real* from = xyz + 3 * V::width * (first + g);
       __builtin_prefetch(from + kAhead);
       if (V::width * 3 * sizeof(Real) > 64)
       {
@@ -217,31 +237,31 @@ __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, cons
         u[g][axis] = quotient<V, Pair>(constants, v[axis], axis);
       }
     }
-    for (int g = 0; g < together; ++g, xyz += 3 * V::width, index += V::width)
+    for (int g = 0; g < together; ++g)
     {
-      const unsigned inside = placeGroup<V>(constants, u[g], placed, size);
-      if ((inside & present) == V::full)
+      const std::uint32_t firstIndex = index + std::uint32_t(V::width * (first + g));
+      const unsigned kept = present & placeGroup<V>(constants, u[g], placed, size);
+      if (__builtin_expect(kept == V::full, true))
       {
         for (int i = 0; Indexed && i < V::width; ++i)
         {
-          placed.indices[size + i] = index + std::uint32_t(i);
+          placed.indices[size + i] = firstIndex + std::uint32_t(i);
         }
         size += V::width;
         continue;
       }
-      const unsigned kept = inside & present;
       if (kept != present)
       {
         typename V::Doubles v[3];
-        move<V, motion>(constants, xyz, v);
+        move<V, motion>(constants, xyz + 3 * V::width * (first + g), v);
         const unsigned finite =
           V::toUnsigned(V::both(V::finite(v[0]), V::both(V::finite(v[1]), V::finite(v[2]))));
         invalid += __builtin_popcount(present & ~finite);
       }
-      size = keepInside<Indexed>(placed, size, kept, index);
+      size = keepInside<Indexed>(placed, size, kept, firstIndex);
     }
   }
-  placed.size = size;
+  placed.size = int(size);
   return invalid;
 }
 

@@ -81,6 +81,7 @@ Placement makePlacement(
   Placement placement{};
   placement.motion = motionOf(transform);
   placement.pairDivides = true;
+  placement.fractionBits = positionBits - indexBits;
   Wide toOrigin[3];
   Wide pivot[3];
   for (int axis = 0; axis < 3; ++axis)
@@ -107,13 +108,14 @@ Placement makePlacement(
       mapped += Wide(transform.m[axis][column]) * Wide(placement.pivot[column]);
     }
     placement.offset[axis] = double(mapped) + 0.0; // never -0
-    placement.spacing[axis] = lattice.spacing[axis];
-    placement.reciprocal[axis] = 1.0 / lattice.spacing[axis];
-    placement.remainder[axis] =
-      -std::fma(placement.reciprocal[axis], lattice.spacing[axis], -1.0) / lattice.spacing[axis];
-    placement.pairDivides = placement.pairDivides &&
-      dividesAsPair(lattice.spacing[axis], placement.reciprocal[axis], placement.remainder[axis]);
-    placement.limit[axis] = std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]);
+    const double quantum = std::ldexp(lattice.spacing[axis], -placement.fractionBits);
+    placement.quantum[axis] = quantum;
+    placement.reciprocal[axis] = 1.0 / quantum;
+    placement.remainder[axis] = -std::fma(placement.reciprocal[axis], quantum, -1.0) / quantum;
+    placement.pairDivides =
+      placement.pairDivides && dividesAsPair(quantum, placement.reciprocal[axis], placement.remainder[axis]);
+    placement.limit[axis] = std::ldexp(
+      std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]), placement.fractionBits);
   }
   const auto isSubtraction = [&](int axis)
   { return placement.offset[axis] == 0.0 && placement.pivot[axis] != 0.0; };
@@ -121,8 +123,6 @@ Placement makePlacement(
   {
     placement.motion = Motion::Subtract;
   }
-  placement.magic = std::ldexp(1.0, indexBits + 52 - positionBits);
-  placement.fractionBits = positionBits - indexBits;
   return placement;
 }
 
@@ -148,12 +148,12 @@ Place placePoint(const Placement& placement, const Vec3& point, std::uint64_t po
     double v = placement.motion == Motion::General ? (p[0] * row[0] + p[1] * row[1]) + p[2] * row[2]
                                                    : p[axis] * row[axis];
     v += placement.offset[axis];
-    const double u = v / placement.spacing[axis];
+    const double u = v / placement.quantum[axis];
     finite = finite && std::isfinite(v);
     inside = inside && v >= 0.0 && u < placement.limit[axis];
-    const double rounded = u + placement.magic;
+    const double rounded = u + kToBits;
     std::memcpy(&position[axis], &rounded, sizeof rounded);
-    position[axis] = (position[axis] - (rounded - placement.magic > u)) & kMantissa;
+    position[axis] = (position[axis] - (rounded - kToBits > u)) & kMantissa;
   }
   return inside ? Place::Inside : finite ? Place::Outside : Place::Invalid;
 }

@@ -31,13 +31,16 @@ constexpr std::int64_t kChunkPoints = 1250000;
 /// processor fetches together.
 constexpr std::size_t kApart = 128;
 
+/// Added to an integer below it this leaves the integer in the low bits of the sum.
+constexpr double kToBits = 0x1p52;
+
 constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kPositionBits) - 1;
-/// Low bits of z that travel in the first word of a record; as many more are in the second. The top bit of z
-/// is left out: the partition tells it, as none spans half the layers.
+/// Low bits of z that travel in the first word of a record, below x; as many more are in the second. The top
+/// bit of z is left out: the partition tells it, as none spans half the layers.
 constexpr int kLowBits = 64 - kPositionBits;
 constexpr std::uint64_t kLowMask = (std::uint64_t(1) << kLowBits) - 1;
 
-/// One point: x | low bits of z, y | high bits of z.
+/// One point: low bits of z | x, high bits of z | y.
 struct alignas(16) Record
 {
   std::uint64_t first;
@@ -59,19 +62,18 @@ enum class Motion
 };
 
 /// How coordinates become positions in the lattice and rows of it.
-/// v = M (p - pivot) + offset in units of the workspace, from the lattice's origin; u = v / spacing.
+/// v = M (p - pivot) + offset in units of the workspace, from the lattice's origin; u = v / quantum.
 struct Placement
 {
   double pivot[3];
   double matrix[3][3];
   double offset[3];
-  double spacing[3];
-  double reciprocal[3]; ///< 1 / spacing, rounded.
+  double quantum[3];    ///< The spacing over a power of two.
+  double reciprocal[3]; ///< 1 / quantum, rounded.
   double remainder[3];  ///< What rounding took from it, rounded.
-  /// fma(v, reciprocal, v remainder), which takes half the time, is v / spacing correctly rounded for all v.
+  /// fma(v, reciprocal, v remainder), which takes half the time, is v / quantum correctly rounded for all v.
   bool pairDivides;
   double limit[3]; ///< u below this is inside.
-  double magic;    ///< Added to u it leaves the position in the low bits of the sum.
   Motion motion;
   int fractionBits; ///< Bits of a position below the voxel.
   // Which partition: (z >> layerShift) * blocksPerLayer + (y >> rowShift).
@@ -181,15 +183,15 @@ struct CellSums
 /// them, and the linker must not choose one set's for all.
 static inline std::uint64_t xPlace(const Record& r, std::uint64_t fractionMask)
 {
-  return r.first & fractionMask;
+  return (r.first >> kLowBits) & fractionMask;
 }
 static inline std::uint64_t yPlace(const Record& r, std::uint64_t fractionMask)
 {
-  return r.second & fractionMask;
+  return (r.second >> kLowBits) & fractionMask;
 }
 static inline std::uint64_t zPlace(const Record& r, std::uint64_t fractionMask)
 {
-  return ((r.first >> kPositionBits) | ((r.second >> kPositionBits) << kLowBits)) & fractionMask;
+  return ((r.first & kLowMask) | ((r.second & kLowMask) << kLowBits)) & fractionMask;
 }
 
 static inline void addProducts(SecondSums& sums, std::uint64_t x, std::uint64_t y, std::uint64_t z)

@@ -19,7 +19,7 @@ struct Avx2 : CovarianceAvx2
   static constexpr unsigned full = 15;
   using Doubles = __m256d;
   using Bits = __m256i;
-  using Mask = __m256d;
+  using Mask = __m256i;
   using Shift = __m128i;
   static constexpr bool hasFusedMultiply = true;
   static constexpr bool countsOnes = true;
@@ -28,7 +28,7 @@ struct Avx2 : CovarianceAvx2
   static Doubles all(double value) { return _mm256_set1_pd(value); }
   static Bits allBits(std::uint64_t value) { return _mm256_set1_epi64x(std::int64_t(value)); }
   static Shift shift(int bits) { return _mm_cvtsi32_si128(bits); }
-  static Mask allTrue() { return _mm256_castsi256_pd(_mm256_set1_epi64x(-1)); }
+  static Mask allTrue() { return _mm256_set1_epi64x(-1); }
   /// a b c are x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3.
   static void deinterleave(__m256d a, __m256d b, __m256d c, Doubles& x, Doubles& y, Doubles& z)
   {
@@ -62,25 +62,26 @@ struct Avx2 : CovarianceAvx2
   /// 0 <= a < limit, a not -0. Only the signs of a mask count.
   static Mask below(Mask given, Doubles a, Doubles limit)
   {
-    return _mm256_and_pd(given, _mm256_andnot_pd(a, _mm256_cmp_pd(a, limit, _CMP_LT_OQ)));
+    const __m256d isBelow = _mm256_andnot_pd(a, _mm256_cmp_pd(a, limit, _CMP_LT_OQ));
+    return both(given, _mm256_castpd_si256(isBelow));
   }
   static Mask finite(Doubles a)
   {
-    return _mm256_cmp_pd(_mm256_sub_pd(a, a), _mm256_setzero_pd(), _CMP_EQ_OQ);
+    return _mm256_castpd_si256(_mm256_cmp_pd(_mm256_sub_pd(a, a), _mm256_setzero_pd(), _CMP_EQ_OQ));
   }
-  static Mask both(Mask a, Mask b) { return _mm256_and_pd(a, b); }
-  static unsigned toUnsigned(Mask a) { return unsigned(_mm256_movemask_pd(a)); }
-  static Bits floorBits(Doubles u, Doubles magic)
+  static Mask both(Mask a, Mask b) { return _mm256_and_si256(a, b); }
+  static unsigned toUnsigned(Mask a) { return unsigned(_mm256_movemask_pd(_mm256_castsi256_pd(a))); }
+  static Bits floorBits(Doubles u, Doubles toBits)
   {
-    const __m256d rounded = _mm256_add_pd(u, magic);
-    const __m256d above = _mm256_cmp_pd(_mm256_sub_pd(rounded, magic), u, _CMP_GT_OQ);
-    // A true comparison is -1.
-    return _mm256_add_epi64(_mm256_castpd_si256(rounded), _mm256_castpd_si256(above));
+    return _mm256_castpd_si256(_mm256_add_pd(_mm256_floor_pd(u), toBits));
   }
   static Bits addBits(Bits a, Bits b) { return _mm256_add_epi64(a, b); }
   static Bits multiply32(Bits a, Bits b) { return _mm256_mul_epu32(a, b); }
   static Bits onlyPosition(Bits a) { return _mm256_and_si256(a, allBits(kPositionMask)); }
-  static Bits withPosition(Bits high, Bits a) { return _mm256_or_si256(high, onlyPosition(a)); }
+  static Bits withLowBits(Bits high, Bits a)
+  {
+    return _mm256_or_si256(high, _mm256_and_si256(a, allBits(kLowMask)));
+  }
   static Bits right(Bits a, Shift bits) { return _mm256_srl_epi64(a, bits); }
   template <int bits>
   static Bits rightBy(Bits a)
@@ -101,6 +102,22 @@ struct Avx2 : CovarianceAvx2
     const __m256d offset = _mm256_set1_pd(0x1p84 + 0x1p63 + 0x1p52);
     return _mm256_add_pd(_mm256_sub_pd(_mm256_castsi256_pd(high), offset), _mm256_castsi256_pd(low));
   }
+  /// Of what is below 2^52.
+  static Doubles smallToDoubles(Bits value)
+  {
+    const __m256d toBits = _mm256_set1_pd(kToBits);
+    return _mm256_sub_pd(_mm256_or_pd(_mm256_castsi256_pd(value), toBits), toBits);
+  }
+  /// Most sums are small.
+  static void sumsToDoubles(const Bits sums[3], Doubles to[3])
+  {
+    const __m256i all = _mm256_or_si256(_mm256_or_si256(sums[0], sums[1]), sums[2]);
+    const bool areSmall = _mm256_testz_si256(all, allBits(~((std::uint64_t(1) << 52) - 1)));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      to[axis] = areSmall ? smallToDoubles(sums[axis]) : toDoubles(sums[axis]);
+    }
+  }
   static Doubles fromInts(const std::int64_t* from)
   {
     return toDoubles(_mm256_load_si256(reinterpret_cast<const __m256i*>(from)));
@@ -113,7 +130,10 @@ struct Avx2 : CovarianceAvx2
   static Doubles quotient(Doubles a, Doubles b) { return _mm256_div_pd(a, b); }
   static Doubles least(Doubles a, Doubles b) { return _mm256_min_pd(b, a); }
   static Doubles most(Doubles a, Doubles b) { return _mm256_max_pd(b, a); }
-  static Doubles choose(Mask mask, Doubles a, Doubles b) { return _mm256_blendv_pd(b, a, mask); }
+  static Doubles choose(Mask mask, Doubles a, Doubles b)
+  {
+    return _mm256_blendv_pd(b, a, _mm256_castsi256_pd(mask));
+  }
   static void store(std::uint64_t* to, Bits a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), a); }
   static void storeRecords(Record* to, Bits first, Bits second)
   {
@@ -126,34 +146,54 @@ struct Avx2 : CovarianceAvx2
   template <bool inLayer>
   static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
   {
-    const __m256i mask = allBits(kPositionMask);
-    const __m256i columns = allBits(map.columns);
-    const __m256i rows = allBits(map.rowsPerLayer);
-    const __m256i firstRow = allBits(inLayer ? map.firstInLayer : map.firstRow);
-    const __m256i upperRows = allBits(map.upperRows);
-    const __m128i fraction = shift(map.fractionBits);
-    const __m128i high = shift(kPositionBits - kLowBits + map.fractionBits);
+    const __m128i toIndex = shift(kLowBits + map.fractionBits);
     int i = 0;
-    for (; i + 4 <= count; i += 4)
+    if (inLayer)
     {
-      const __m256i a = _mm256_load_si256(reinterpret_cast<const __m256i*>(records + i));
-      const __m256i b = _mm256_load_si256(reinterpret_cast<const __m256i*>(records + i + 2));
-      const __m256i first = _mm256_unpacklo_epi64(a, b);
-      const __m256i second = _mm256_unpackhi_epi64(a, b);
-      const __m256i x = _mm256_srl_epi64(_mm256_and_si256(first, mask), fraction);
-      const __m256i y = _mm256_srl_epi64(_mm256_and_si256(second, mask), fraction);
-      __m256i row = y;
-      if (!inLayer)
+      static_assert(kMaximumIndexBits < 15, "indices must fit signed numbers of 16 bits");
+      const __m256i columns = _mm256_set1_epi32(int(1 + (map.columns << 16)));
+      const __m256i firstCell = _mm256_set1_epi32(int(map.columns * map.firstInLayer));
+      const auto indices = [&](int record)
       {
-        const __m256i z = _mm256_srl_epi64(second, high);
-        row = _mm256_add_epi64(y, _mm256_mul_epu32(z, rows));
-        row = _mm256_add_epi64(row, _mm256_and_si256(_mm256_cmpgt_epi64(firstRow, row), upperRows));
+        const auto* from = reinterpret_cast<const __m256i*>(records + record);
+        return _mm256_castsi256_ps(_mm256_srl_epi64(_mm256_load_si256(from), toIndex));
+      };
+      // x y of records 0 and 2, 1 and 3 after `first`.
+      const auto four = [&](int first)
+      { return _mm256_castps_si256(_mm256_shuffle_ps(indices(first), indices(first + 2), 0x88)); };
+      for (; i + 8 <= count; i += 8)
+      {
+        const __m256i xy = _mm256_packus_epi32(four(i), four(i + 4));
+        const __m256i cell = _mm256_sub_epi32(_mm256_madd_epi16(xy, columns), firstCell);
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(cells + i),
+          _mm256_permutevar8x32_epi32(cell, _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7)));
       }
-      row = _mm256_sub_epi64(row, firstRow);
-      const __m256i cell = _mm256_add_epi64(x, _mm256_mul_epu32(row, columns));
-      // Lanes are records 0 2 1 3; their low halves go to the front.
-      const __m256i packed = _mm256_permutevar8x32_epi32(cell, _mm256_setr_epi32(0, 4, 2, 6, 0, 4, 2, 6));
-      _mm_storeu_si128(reinterpret_cast<__m128i*>(cells + i), _mm256_castsi256_si128(packed));
+    }
+    else
+    {
+      const __m256i lowMask = allBits(kLowMask);
+      const __m256i columns = allBits(map.columns);
+      const __m256i rows = allBits(map.rowsPerLayer);
+      const __m256i firstRow = allBits(map.firstRow);
+      const __m256i upperRows = allBits(map.upperRows);
+      const __m128i toLayer = shift(map.fractionBits - kLowBits);
+      for (; i + 4 <= count; i += 4)
+      {
+        const __m256i a = _mm256_load_si256(reinterpret_cast<const __m256i*>(records + i));
+        const __m256i b = _mm256_load_si256(reinterpret_cast<const __m256i*>(records + i + 2));
+        const __m256i first = _mm256_unpacklo_epi64(a, b);
+        const __m256i second = _mm256_unpackhi_epi64(a, b);
+        const __m256i x = _mm256_srl_epi64(first, toIndex);
+        const __m256i y = _mm256_srl_epi64(second, toIndex);
+        const __m256i z = _mm256_srl_epi64(_mm256_and_si256(second, lowMask), toLayer);
+        __m256i row = _mm256_add_epi64(y, _mm256_mul_epu32(z, rows));
+        row = _mm256_add_epi64(row, _mm256_and_si256(_mm256_cmpgt_epi64(firstRow, row), upperRows));
+        row = _mm256_sub_epi64(row, firstRow);
+        const __m256i cell = _mm256_add_epi64(x, _mm256_mul_epu32(row, columns));
+        // Lanes are records 0 2 1 3; their low halves go to the front.
+        const __m256i packed = _mm256_permutevar8x32_epi32(cell, _mm256_setr_epi32(0, 4, 2, 6, 0, 4, 2, 6));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(cells + i), _mm256_castsi256_si128(packed));
+      }
     }
     for (; i < count; ++i)
     {

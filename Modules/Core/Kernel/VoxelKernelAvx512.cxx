@@ -79,17 +79,16 @@ struct Avx512 : CovarianceAvx512
   }
   static Mask both(Mask a, Mask b) { return Mask(a & b); }
   static unsigned toUnsigned(Mask a) { return a; }
-  static Bits floorBits(Doubles u, Doubles magic)
+  static Bits floorBits(Doubles u, Doubles toBits)
   {
-    return _mm512_castpd_si512(_mm512_add_round_pd(u, magic, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
+    return _mm512_castpd_si512(_mm512_add_round_pd(u, toBits, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
   }
   static Bits addBits(Bits a, Bits b) { return _mm512_add_epi64(a, b); }
   static Bits multiply32(Bits a, Bits b) { return _mm512_mul_epu32(a, b); }
   static Bits onlyPosition(Bits a) { return _mm512_and_si512(a, allBits(kPositionMask)); }
-  static Bits withPosition(Bits high, Bits a)
+  static Bits withLowBits(Bits high, Bits a)
   {
-
-    return _mm512_ternarylogic_epi64(allBits(kPositionMask), high, a, 0xEC);
+    return _mm512_ternarylogic_epi64(allBits(kLowMask), high, a, 0xEC);
   }
   static Bits right(Bits a, Shift bits) { return _mm512_srl_epi64(a, bits); }
   template <int bits>
@@ -124,13 +123,13 @@ struct Avx512 : CovarianceAvx512
   template <bool inLayer>
   static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
   {
-    const __m512i mask = allBits(kPositionMask);
+    const __m512i lowMask = allBits(kLowMask);
     const __m512i columns = allBits(map.columns);
     const __m512i rows = allBits(map.rowsPerLayer);
     const __m512i firstRow = allBits(inLayer ? map.firstInLayer : map.firstRow);
     const __m512i upperRows = allBits(map.upperRows);
-    const __m128i fraction = shift(map.fractionBits);
-    const __m128i high = shift(kPositionBits - kLowBits + map.fractionBits);
+    const __m128i toIndex = shift(kLowBits + map.fractionBits);
+    const __m128i toLayer = shift(map.fractionBits - kLowBits);
     const __m512i even = _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14);
     const __m512i odd = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
     int i = 0;
@@ -140,12 +139,12 @@ struct Avx512 : CovarianceAvx512
       const __m512i b = _mm512_loadu_si512(records + i + 4);
       const __m512i first = _mm512_permutex2var_epi64(a, even, b);
       const __m512i second = _mm512_permutex2var_epi64(a, odd, b);
-      const __m512i x = _mm512_srl_epi64(_mm512_and_si512(first, mask), fraction);
-      const __m512i y = _mm512_srl_epi64(_mm512_and_si512(second, mask), fraction);
+      const __m512i x = _mm512_srl_epi64(first, toIndex);
+      const __m512i y = _mm512_srl_epi64(second, toIndex);
       __m512i row = y;
       if (!inLayer)
       {
-        const __m512i z = _mm512_srl_epi64(second, high);
+        const __m512i z = _mm512_srl_epi64(_mm512_and_si512(second, lowMask), toLayer);
         row = _mm512_add_epi64(y, _mm512_mul_epu32(z, rows));
         row = _mm512_mask_add_epi64(row, _mm512_cmplt_epi64_mask(row, firstRow), row, upperRows);
       }
@@ -202,6 +201,14 @@ struct Avx512 : CovarianceAvx512
     lanes[3] = _mm512_shuffle_i64x2(zLow, zHigh, 0xEE);
   }
   static Doubles toDoubles(Bits a) { return _mm512_cvtepi64_pd(a); }
+  static Doubles smallToDoubles(Bits a) { return toDoubles(a); }
+  static void sumsToDoubles(const Bits sums[3], Doubles to[3])
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      to[axis] = toDoubles(sums[axis]);
+    }
+  }
   static Doubles nearest(Doubles a)
   {
     return _mm512_roundscale_pd(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);

@@ -69,11 +69,11 @@ struct Pairs
     return unsigned(a[0] < 0) | unsigned(a[1] < 0) << 1;
 #endif
   }
-  static Bits floorBits(Doubles u, Doubles magic)
+  static Bits floorBits(Doubles u, Doubles toBits)
   {
-    const Doubles rounded = u + magic;
+    const Doubles rounded = u + toBits;
     // A true comparison is -1.
-    const Mask above = rounded - magic > u;
+    const Mask above = rounded - toBits > u;
     return reinterpret_cast<Bits>(rounded) + reinterpret_cast<Bits>(above);
   }
   static Bits addBits(Bits a, Bits b)
@@ -88,9 +88,9 @@ struct Pairs
   {
     return a & kPositionMask;
   }
-  static Bits withPosition(Bits high, Bits a)
+  static Bits withLowBits(Bits high, Bits a)
   {
-    return high | onlyPosition(a);
+    return high | (a & kLowMask);
   }
   static Bits right(Bits a, Shift bits)
   {
@@ -112,6 +112,17 @@ struct Pairs
     const Bits low = (value & 0xFFFFFFFFu) | std::uint64_t(0x4330000000000000);
     const Bits high = (value >> 32) | std::uint64_t(0x4530000000000000);
     return (reinterpret_cast<Doubles>(high) - (0x1p84 + 0x1p52)) + reinterpret_cast<Doubles>(low);
+  }
+  static Doubles smallToDoubles(Bits value)
+  {
+    return reinterpret_cast<Doubles>(value | std::uint64_t(0x4330000000000000)) - kToBits;
+  }
+  static void sumsToDoubles(const Bits sums[3], Doubles to[3])
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      to[axis] = toDoubles(sums[axis]);
+    }
   }
   static Doubles fromInts(const std::int64_t* from)
   {
@@ -216,9 +227,8 @@ struct Pairs
     void add(PackedSums& sums, const Record& r) const
     {
       // Two lanes at once where the compiler knows how.
-      const Pair low = { r.first & fractionMask, r.second & fractionMask };
-      const Pair high = { r.first >> kPositionBits,
-        ((r.second >> kPositionBits) & highMask) + (std::uint64_t(1) << kCountShift) };
+      const Pair low = { (r.first >> kLowBits) & fractionMask, (r.second >> kLowBits) & fractionMask };
+      const Pair high = { r.first & kLowMask, (r.second & highMask) + (std::uint64_t(1) << kCountShift) };
       auto* lanes = reinterpret_cast<Pair*>(sums.lanes);
       lanes[0] += low;
       lanes[1] += high;

@@ -166,8 +166,8 @@ TEST(PointPlacement, DividesAsAPairOnlyWhereThatIsTheQuotient)
       const auto v =
         double(std::uint64_t(UInt128(integer) * middle >> 54) + (middle == inverse % kModulus ? 0 : 1));
       const double asPair = std::fma(v, placement.reciprocal[0], v * placement.remainder[0]);
-      ASSERT_TRUE(asPair == v / spacing || !placement.pairDivides) << integer << ' ' << v;
-      wrong += asPair != v / spacing;
+      ASSERT_TRUE(asPair == v / placement.quantum[0] || !placement.pairDivides) << integer << ' ' << v;
+      wrong += asPair != v / placement.quantum[0];
     }
   }
   EXPECT_GT(pairs, 10000) << "worth having";

@@ -50,7 +50,7 @@ Record recordOf(std::size_t cell, const Places& p, int fractionBits)
 {
   const std::uint64_t x = (std::uint64_t(cell % kEdge) << fractionBits) + p.x;
   const std::uint64_t y = (std::uint64_t(cell / kEdge) << fractionBits) + p.y;
-  return { x | (p.z << kPositionBits), y | ((p.z >> kLowBits) << kPositionBits) };
+  return { (x << kLowBits) | (p.z & kLowMask), (y << kLowBits) | (p.z >> kLowBits) };
 }
 
 struct Sums
