@@ -214,28 +214,26 @@ struct Pairs
   }
 
   using ProductAdder = ScalarProductAdder;
+  /// Two lanes at once where the compiler knows how.
   struct Adder
   {
-    std::uint64_t fractionMask;
-    std::uint64_t highMask;
+    typedef std::uint64_t Pair __attribute__((vector_size(16), may_alias));
+    Pair places;
+    Pair partsOfZ;
 
     explicit Adder(int fractionBits)
-      : fractionMask((std::uint64_t(1) << fractionBits) - 1)
-      , highMask(fractionMask >> kLowBits)
     {
+      const std::uint64_t fraction = (std::uint64_t(1) << fractionBits) - 1;
+      places = Pair{ fraction, fraction };
+      partsOfZ = Pair{ kLowMask, fraction >> kLowBits };
     }
     void add(PackedSums& sums, const Record& r) const
     {
-      // Two lanes at once where the compiler knows how.
-      const Pair low = { (r.first >> kLowBits) & fractionMask, (r.second >> kLowBits) & fractionMask };
-      const Pair high = { r.first & kLowMask, (r.second & highMask) + (std::uint64_t(1) << kCountShift) };
+      const Pair words = reinterpret_cast<const Pair&>(r);
       auto* lanes = reinterpret_cast<Pair*>(sums.lanes);
-      lanes[0] += low;
-      lanes[1] += high;
+      lanes[0] += (words >> kLowBits) & places;
+      lanes[1] += (words & partsOfZ) + Pair{ 0, std::uint64_t(1) << kCountShift };
     }
-
-  private:
-    typedef std::uint64_t Pair __attribute__((vector_size(16), may_alias));
   };
 };
 
