@@ -2,6 +2,7 @@
 #include "Core/Kernel/GeneralVoxels.h"
 #include "Core/Kernel/PartitionSums.h"
 #include "Core/Kernel/PointPlacement.h"
+#include "Core/Kernel/VoxelKernel.h"
 #include "Core/Kernel/VoxelLevel.h"
 
 #include "RandomClouds.h"
@@ -12,6 +13,7 @@
 #include <atomic>
 #include <cmath>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 using namespace pointhaptics;
@@ -268,5 +270,104 @@ TEST(CoarserLattice, CoversTheFineOneAndEndsWhereItDoes)
       fine = coarse;
     }
     EXPECT_EQ(fine.dimensions, (std::array<std::int64_t, 3>{ 1, 1, 1 }));
+  }
+}
+
+namespace
+{
+
+/// That of the points that are finite before and after the transform, one by one.
+template <typename Real>
+Bounds plainBoundsOf(const AffineTransform& transform, const std::vector<Real>& xyz)
+{
+  Bounds box;
+  for (std::size_t i = 0; i < xyz.size(); i += 3)
+  {
+    const Vec3 p(xyz[i], xyz[i + 1], xyz[i + 2]);
+    if (isFinite(p) && isFinite(transform.apply(p)))
+    {
+      box.include(transform.apply(p));
+    }
+  }
+  return box;
+}
+
+template <typename Real>
+Bounds boundsOf(const Kernels& kernels, const AffineTransform& transform, const std::vector<Real>& xyz)
+{
+  double box[6] = { INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY };
+  const auto count = std::int64_t(xyz.size() / 3);
+  if constexpr (std::is_same_v<Real, float>)
+  {
+    kernels.boundsFloats(transform.m, xyz.data(), count, box);
+  }
+  else
+  {
+    kernels.boundsDoubles(transform.m, xyz.data(), count, box);
+  }
+  Bounds bounds;
+  if (box[0] <= box[1])
+  {
+    bounds.include({ box[0], box[2], box[4] });
+    bounds.include({ box[1], box[3], box[5] });
+  }
+  return bounds;
+}
+
+template <typename Real>
+void expectBounds(const AffineTransform& transform, const std::vector<Real>& xyz)
+{
+  const Bounds expected = plainBoundsOf(transform, xyz);
+  for (const InstructionSet set : { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+  {
+    const Bounds box = boundsOf(kernelsFor(set), transform, xyz);
+    ASSERT_EQ(box.minimum, expected.minimum) << int(set);
+    ASSERT_EQ(box.maximum, expected.maximum) << int(set);
+  }
+}
+
+/// Clouds whose extremes, and what is not finite, are anywhere: at the ends of vectors, blocks and the cloud.
+template <typename Real>
+void tryBounds(const AffineTransform& transform)
+{
+  trial::Random random(8);
+  for (const std::size_t size : { 0, 1, 15, 1023, 1024, 1025, 2048, 5000 })
+  {
+    SCOPED_TRACE(size);
+    for (int i = 0; i < 60; ++i)
+    {
+      std::vector<Real> xyz(3 * size);
+      for (Real& x : xyz)
+      {
+        x = Real(random.uniform(-1, 1));
+      }
+      for (int extreme = 0; size > 0 && extreme < i % 7; ++extreme)
+      {
+        xyz[random.below(xyz.size())] = Real(random.uniform(-9, 9));
+      }
+      for (int broken = 0; size > 0 && broken < i % 3; ++broken)
+      {
+        const double values[] = { NAN, INFINITY, -INFINITY, sizeof(Real) == 8 ? 1e300 : 9.0 };
+        xyz[random.below(xyz.size())] = Real(values[random.below(4)]);
+      }
+      ASSERT_NO_FATAL_FAILURE(expectBounds(transform, xyz));
+    }
+  }
+}
+
+} // namespace
+
+TEST(BoundsKernel, FindsTheBoxOfTheFinitePoints)
+{
+  AffineTransform mirror = AffineTransform::scaling({ -1.7, 1e20, 0.3 });
+  mirror.m[0][3] = 0.1;
+  mirror.m[2][3] = -1e7;
+  AffineTransform shear = mirror;
+  shear.m[1][2] = 2.5;
+  for (const AffineTransform& transform : { AffineTransform(), mirror, shear })
+  {
+    SCOPED_TRACE(transform.m[1][2]);
+    ASSERT_NO_FATAL_FAILURE(tryBounds<float>(transform));
+    ASSERT_NO_FATAL_FAILURE(tryBounds<double>(transform));
   }
 }
