@@ -11,6 +11,12 @@ namespace kernel
 namespace
 {
 
+inline void widen(double box[6], int axis, double low, double high)
+{
+  box[2 * axis] = low < box[2 * axis] ? low : box[2 * axis];
+  box[2 * axis + 1] = high > box[2 * axis + 1] ? high : box[2 * axis + 1];
+}
+
 /// Widens the box by the transformed points that are finite, as AffineTransform::apply() rounds them, one by
 /// one.
 template <class V, typename Real>
@@ -64,18 +70,15 @@ void boundsOfEach(const double matrix[3][4], const Real* xyz, std::int64_t count
     }
     include(last);
   }
-  alignas(64) double lanes[kWidest];
+  alignas(64) double lows[kWidest];
+  alignas(64) double highs[kWidest];
   for (int axis = 0; axis < 3; ++axis)
   {
-    V::store(lanes, low[axis]);
+    V::store(lows, low[axis]);
+    V::store(highs, high[axis]);
     for (int j = 0; j < V::width; ++j)
     {
-      box[2 * axis] = lanes[j] < box[2 * axis] ? lanes[j] : box[2 * axis];
-    }
-    V::store(lanes, high[axis]);
-    for (int j = 0; j < V::width; ++j)
-    {
-      box[2 * axis + 1] = lanes[j] > box[2 * axis + 1] ? lanes[j] : box[2 * axis + 1];
+      widen(box, axis, lows[j], highs[j]);
     }
   }
 }
@@ -116,11 +119,7 @@ inline bool plainBounds(const Real* xyz, double box[6])
   }
   for (int i = 0; i < 3 * kLanes; ++i)
   {
-    const double least = double(low[i / kLanes][i % kLanes]);
-    const double most = double(high[i / kLanes][i % kLanes]);
-    double* ofAxis = box + 2 * (i % 3);
-    ofAxis[0] = least < ofAxis[0] ? least : ofAxis[0];
-    ofAxis[1] = most > ofAxis[1] ? most : ofAxis[1];
+    widen(box, i % 3, double(low[i / kLanes][i % kLanes]), double(high[i / kLanes][i % kLanes]));
     areFinite = areFinite && check[i / kLanes][i % kLanes] == Real(0);
   }
   return areFinite;
@@ -141,9 +140,7 @@ inline bool includeMoved(const double matrix[3][4], const double plain[6], doubl
   }
   for (int i = 0; check == 0.0 && i < 6; ++i)
   {
-    double* ofAxis = box + i / 2 * 2;
-    ofAxis[0] = moved[i] < ofAxis[0] ? moved[i] : ofAxis[0];
-    ofAxis[1] = moved[i] > ofAxis[1] ? moved[i] : ofAxis[1];
+    widen(box, i / 2, moved[i], moved[i]);
   }
   return check == 0.0;
 }
@@ -152,9 +149,8 @@ inline bool includeMoved(const double matrix[3][4], const double plain[6], doubl
 template <class V, typename Real>
 void bounds(const double matrix[3][4], const Real* xyz, std::int64_t count, double box[6])
 {
-  const bool isDiagonal = matrix[0][1] == 0.0 && matrix[0][2] == 0.0 && matrix[1][0] == 0.0 &&
-    matrix[1][2] == 0.0 && matrix[2][0] == 0.0 && matrix[2][1] == 0.0;
-  for (; isDiagonal && count >= kPlainPoints; xyz += 3 * kPlainPoints, count -= kPlainPoints)
+  const bool keepsAxes = isDiagonal(matrix);
+  for (; keepsAxes && count >= kPlainPoints; xyz += 3 * kPlainPoints, count -= kPlainPoints)
   {
     double plain[6];
     if (!plainBounds<8 * V::width>(xyz, plain) || !includeMoved(matrix, plain, box))

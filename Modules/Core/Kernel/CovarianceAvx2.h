@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Core/Kernel/CovarianceBody.h"
+#include "Core/Kernel/FourLaneAdder.h"
 
 #if defined(__AVX2__)
 #include <immintrin.h>
@@ -19,7 +20,7 @@ namespace
 /// only: places are cut in half, and the products of the halves put together.
 struct TwoVectorAdder
 {
-  __m256i masks;
+  RecordParts recordParts;
   __m256i lowerMask;  ///< Of a place's lower half.
   __m256i middleMask; ///< Of what of the middle products lies below the sums' border.
   __m128i half;       ///< Bits of the lower half: as many as the upper one has, or one more.
@@ -27,11 +28,10 @@ struct TwoVectorAdder
   __m128i odd; ///< Whether it is one more.
 
   explicit TwoVectorAdder(int fractionBits)
+    : recordParts(fractionBits)
   {
     const int lower = (fractionBits + 1) / 2;
     const int upper = fractionBits - lower;
-    const auto fraction = std::int64_t((std::uint64_t(1) << fractionBits) - 1);
-    masks = _mm256_setr_epi64x(fraction, fraction, std::int64_t(kLowMask), fraction >> kLowBits);
     lowerMask = _mm256_set1_epi64x((std::int64_t(1) << lower) - 1);
     middleMask = _mm256_set1_epi64x((std::int64_t(1) << upper) - 1);
     half = _mm_cvtsi32_si128(lower);
@@ -40,11 +40,8 @@ struct TwoVectorAdder
   }
   void add(SplitSeconds& sums, const Record& r) const
   {
-    const __m256i words = _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(&r)));
-    const __m256i bits =
-      _mm256_and_si256(_mm256_srlv_epi64(words, _mm256_setr_epi64x(kLowBits, kLowBits, 0, 0)), masks);
     // x, y and the two parts of z.
-    const __m256i parts = _mm256_sllv_epi64(bits, _mm256_setr_epi64x(0, 0, 0, kLowBits));
+    const __m256i parts = _mm256_sllv_epi64(recordParts.of(r), _mm256_setr_epi64x(0, 0, 0, kLowBits));
     // x, y, z and z again.
     const __m256i places = _mm256_or_si256(parts, _mm256_permute4x64_epi64(parts, 0xB4));
     const __m256i upper = _mm256_srl_epi64(places, half);
@@ -110,9 +107,9 @@ struct CovarianceAvx2
   /// The integer below @p a, which is neither negative nor above 2^52; @p real: the same.
   static __m256i truncated(__m256d a, __m256d& real)
   {
-    const __m256d magic = _mm256_set1_pd(0x1p52);
+    const __m256d toBits = _mm256_set1_pd(kToBits);
     real = _mm256_round_pd(a, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
-    return _mm256_xor_si256(_mm256_castpd_si256(_mm256_add_pd(real, magic)), _mm256_castpd_si256(magic));
+    return _mm256_xor_si256(_mm256_castpd_si256(_mm256_add_pd(real, toBits)), _mm256_castpd_si256(toBits));
   }
   /// The lower 32 bits of each lane, without a sign.
   static __m256d lowerWord(__m256i a)

@@ -15,21 +15,35 @@ namespace kernel
 namespace
 {
 
-struct FourLaneAdder
+/// The places of a record's point: x, y, low bits of z, high bits of z.
+struct RecordParts
 {
   __m256i masks;
 
-  explicit FourLaneAdder(int fractionBits)
+  explicit RecordParts(int fractionBits)
   {
     const auto fraction = std::int64_t((std::uint64_t(1) << fractionBits) - 1);
     masks = _mm256_setr_epi64x(fraction, fraction, std::int64_t(kLowMask), fraction >> kLowBits);
   }
-  void add(PackedSums& sums, const Record& r) const
+  __m256i of(const Record& r) const
   {
     const __m256i words = _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(&r)));
-    const __m256i shifted = _mm256_srlv_epi64(words, _mm256_setr_epi64x(kLowBits, kLowBits, 0, 0));
-    const __m256i lanes = _mm256_or_si256(
-      _mm256_and_si256(shifted, masks), _mm256_setr_epi64x(0, 0, 0, std::int64_t(1) << kCountShift));
+    return _mm256_and_si256(_mm256_srlv_epi64(words, _mm256_setr_epi64x(kLowBits, kLowBits, 0, 0)), masks);
+  }
+};
+
+struct FourLaneAdder
+{
+  RecordParts parts;
+
+  explicit FourLaneAdder(int fractionBits)
+    : parts(fractionBits)
+  {
+  }
+  void add(PackedSums& sums, const Record& r) const
+  {
+    const __m256i lanes =
+      _mm256_or_si256(parts.of(r), _mm256_setr_epi64x(0, 0, 0, std::int64_t(1) << kCountShift));
     auto* to = reinterpret_cast<__m256i*>(sums.lanes);
     _mm256_storeu_si256(to, _mm256_add_epi64(_mm256_loadu_si256(to), lanes));
   }

@@ -161,8 +161,12 @@ int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t*
     const typename V::Bits count = V::template rightBy<kCountShift>(lanes[3]);
     const typename V::Bits z = V::addBits(lanes[2], V::template left<kLowBits>(V::onlyPosition(lanes[3])));
     const typename V::Bits sumBits[3] = { lanes[0], lanes[1], z };
+    const bool areSmall = V::areSmall(sumBits); // As most are.
     Doubles sums[3];
-    V::sumsToDoubles(sumBits, sums);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sums[axis] = areSmall ? V::smallToDoubles(sumBits[axis]) : V::toDoubles(sumBits[axis]);
+    }
     const Doubles cell = V::fromInts(reinterpret_cast<const std::int32_t*>(cells + i));
     const Doubles localRow = V::nearest(V::multiplyAdd(cell, perColumn, toColumn));
     const Doubles row = V::add(localRow, firstRow);

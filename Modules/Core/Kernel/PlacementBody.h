@@ -29,15 +29,13 @@ struct PlacedPoints
 template <class V>
 struct PlacementVectors
 {
-  typename V::Doubles pivot[3], matrix[3][3], offset[3], quantum[3], reciprocal[3], remainder[3], limit[3],
-    toBits;
+  typename V::Doubles pivot[3], matrix[3][3], offset[3], quantum[3], reciprocal[3], remainder[3], limit[3];
   typename V::Bits blocksPerLayer;
   typename V::Shift toRowBlock, toLayerBlock;
   bool layersAreCut;
 
   explicit PlacementVectors(const Placement& p)
-    : toBits(V::all(kToBits))
-    , blocksPerLayer(V::allBits(p.blocksPerLayer))
+    : blocksPerLayer(V::allBits(p.blocksPerLayer))
     , toRowBlock(V::shift(p.fractionBits + p.rowShift))
     , toLayerBlock(V::shift(p.fractionBits + p.layerShift))
     , layersAreCut(p.blocksPerLayer > 1)
@@ -116,7 +114,7 @@ inline unsigned placeGroup(
   for (int axis = 0; axis < 3; ++axis)
   {
     inside = V::below(inside, u[axis], c.limit[axis]);
-    position[axis] = V::floorBits(u[axis], c.toBits);
+    position[axis] = V::floorBits(u[axis]);
   }
   typename V::Bits partition = V::right(V::onlyPosition(position[2]), c.toLayerBlock);
   if (c.layersAreCut)

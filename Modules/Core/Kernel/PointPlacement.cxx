@@ -35,8 +35,7 @@ void solve(const AffineTransform& transform, const Wide b[3], Wide p[3])
 
 Motion motionOf(const AffineTransform& t)
 {
-  if (t.m[0][1] != 0.0 || t.m[0][2] != 0.0 || t.m[1][0] != 0.0 || t.m[1][2] != 0.0 || t.m[2][0] != 0.0 ||
-    t.m[2][1] != 0.0)
+  if (!isDiagonal(t.m))
   {
     return Motion::General;
   }

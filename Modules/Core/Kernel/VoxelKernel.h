@@ -179,6 +179,13 @@ struct CellSums
   SplitSeconds* seconds; ///< Or null.
 };
 
+/// Whether the matrix of a transform scales and mirrors only.
+static inline bool isDiagonal(const double m[3][4])
+{
+  return m[0][1] == 0.0 && m[0][2] == 0.0 && m[1][0] == 0.0 && m[1][2] == 0.0 && m[2][0] == 0.0 &&
+    m[2][1] == 0.0;
+}
+
 /// Places of a record's point in its voxel. These are static: sources of several instruction sets include
 /// them, and the linker must not choose one set's for all.
 static inline std::uint64_t xPlace(const Record& r, std::uint64_t fractionMask)

@@ -71,9 +71,9 @@ struct Avx2 : CovarianceAvx2
   }
   static Mask both(Mask a, Mask b) { return _mm256_and_si256(a, b); }
   static unsigned toUnsigned(Mask a) { return unsigned(_mm256_movemask_pd(_mm256_castsi256_pd(a))); }
-  static Bits floorBits(Doubles u, Doubles toBits)
+  static Bits floorBits(Doubles u)
   {
-    return _mm256_castpd_si256(_mm256_add_pd(_mm256_floor_pd(u), toBits));
+    return _mm256_castpd_si256(_mm256_add_pd(_mm256_floor_pd(u), all(kToBits)));
   }
   static Bits addBits(Bits a, Bits b) { return _mm256_add_epi64(a, b); }
   static Bits multiply32(Bits a, Bits b) { return _mm256_mul_epu32(a, b); }
@@ -108,15 +108,10 @@ struct Avx2 : CovarianceAvx2
     const __m256d toBits = _mm256_set1_pd(kToBits);
     return _mm256_sub_pd(_mm256_or_pd(_mm256_castsi256_pd(value), toBits), toBits);
   }
-  /// Most sums are small.
-  static void sumsToDoubles(const Bits sums[3], Doubles to[3])
+  static bool areSmall(const Bits values[3])
   {
-    const __m256i all = _mm256_or_si256(_mm256_or_si256(sums[0], sums[1]), sums[2]);
-    const bool areSmall = _mm256_testz_si256(all, allBits(~((std::uint64_t(1) << 52) - 1)));
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      to[axis] = areSmall ? smallToDoubles(sums[axis]) : toDoubles(sums[axis]);
-    }
+    const __m256i any = _mm256_or_si256(_mm256_or_si256(values[0], values[1]), values[2]);
+    return _mm256_testz_si256(any, allBits(~((std::uint64_t(1) << 52) - 1)));
   }
   static Doubles fromInts(const std::int64_t* from)
   {

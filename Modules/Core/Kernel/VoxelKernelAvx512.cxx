@@ -79,9 +79,10 @@ struct Avx512 : CovarianceAvx512
   }
   static Mask both(Mask a, Mask b) { return Mask(a & b); }
   static unsigned toUnsigned(Mask a) { return a; }
-  static Bits floorBits(Doubles u, Doubles toBits)
+  static Bits floorBits(Doubles u)
   {
-    return _mm512_castpd_si512(_mm512_add_round_pd(u, toBits, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
+    constexpr int kDown = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
+    return _mm512_castpd_si512(_mm512_add_round_pd(u, all(kToBits), kDown));
   }
   static Bits addBits(Bits a, Bits b) { return _mm512_add_epi64(a, b); }
   static Bits multiply32(Bits a, Bits b) { return _mm512_mul_epu32(a, b); }
@@ -202,13 +203,7 @@ struct Avx512 : CovarianceAvx512
   }
   static Doubles toDoubles(Bits a) { return _mm512_cvtepi64_pd(a); }
   static Doubles smallToDoubles(Bits a) { return toDoubles(a); }
-  static void sumsToDoubles(const Bits sums[3], Doubles to[3])
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      to[axis] = toDoubles(sums[axis]);
-    }
-  }
+  static constexpr bool areSmall(const Bits*) { return false; } // To ask is not worth it.
   static Doubles nearest(Doubles a)
   {
     return _mm512_roundscale_pd(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);

@@ -69,11 +69,11 @@ struct Pairs
     return unsigned(a[0] < 0) | unsigned(a[1] < 0) << 1;
 #endif
   }
-  static Bits floorBits(Doubles u, Doubles toBits)
+  static Bits floorBits(Doubles u)
   {
-    const Doubles rounded = u + toBits;
+    const Doubles rounded = u + kToBits;
     // A true comparison is -1.
-    const Mask above = rounded - toBits > u;
+    const Mask above = rounded - kToBits > u;
     return reinterpret_cast<Bits>(rounded) + reinterpret_cast<Bits>(above);
   }
   static Bits addBits(Bits a, Bits b)
@@ -117,12 +117,9 @@ struct Pairs
   {
     return reinterpret_cast<Doubles>(value | std::uint64_t(0x4330000000000000)) - kToBits;
   }
-  static void sumsToDoubles(const Bits sums[3], Doubles to[3])
+  static constexpr bool areSmall(const Bits*)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      to[axis] = toDoubles(sums[axis]);
-    }
+    return false; // To ask is not worth it.
   }
   static Doubles fromInts(const std::int64_t* from)
   {
