@@ -110,46 +110,32 @@ struct OnesBelow
   }
 };
 
-/// Counts word by word. @tparam Skips: counting takes so long that groups of words without marks are left
-/// out; else it is less than the branches that guess wrong.
-template <class V, bool Skips>
-inline std::uint32_t numberWords(const CellRanks& ranks)
+/// Where there are @p sum marks before a word: @return how many there are after it.
+template <class V>
+inline std::uint32_t numberWord(const CellRanks& ranks, std::size_t word, std::uint32_t sum)
 {
-  constexpr std::size_t kGroup = 8;
-  static_assert(kMarkGroup % kGroup == 0, "there are no words past the last group");
-  std::uint32_t sum = 0;
-  for (std::size_t group = 0; group < ranks.words; group += kGroup)
+  ranks.before[word] = sum;
+  if constexpr (V::countsOnes)
   {
-    std::uint64_t all = 0;
-    for (std::size_t w = group; Skips && w < group + kGroup; ++w)
+    return sum + V::ones(ranks.marks[word]);
+  }
+  else
+  {
+    const std::uint64_t upToBytes = onesUpToBytes(ranks.marks[word]);
+    ranks.beforeBytes[word] = upToBytes << 8;
+    return sum + std::uint32_t(upToBytes >> 56);
+  }
+}
+
+template <class V>
+std::uint32_t numberTouched(const CellRanks& ranks, const std::uint64_t* touched)
+{
+  std::uint32_t sum = 0;
+  for (std::size_t first = 0; first < ranks.words; first += 64)
+  {
+    for (std::uint64_t left = touched[first / 64]; left != 0; left &= left - 1)
     {
-      all |= ranks.marks[w];
-    }
-    if (Skips && all == 0)
-    {
-      continue;
-    }
-    if constexpr (V::countsOnes)
-    {
-      for (std::size_t w = group; w < group + kGroup; ++w)
-      {
-        ranks.before[w] = sum;
-        sum += V::ones(ranks.marks[w]);
-      }
-    }
-    else
-    {
-      std::uint64_t upToBytes[kGroup]; // In a loop of its own, which the compiler makes one of vectors.
-      for (std::size_t w = 0; w < kGroup; ++w)
-      {
-        upToBytes[w] = onesUpToBytes(ranks.marks[group + w]);
-      }
-      for (std::size_t w = 0; w < kGroup; ++w)
-      {
-        ranks.before[group + w] = sum;
-        ranks.beforeBytes[group + w] = upToBytes[w] << 8;
-        sum += std::uint32_t(upToBytes[w] >> 56);
-      }
+      sum = numberWord<V>(ranks, first + std::size_t(__builtin_ctzll(left)), sum);
     }
   }
   return sum;

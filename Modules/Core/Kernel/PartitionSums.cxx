@@ -34,6 +34,10 @@ std::size_t markWords(const PartitionPlan& plan)
   return ((plan.cells() - 1) / kGroupCells + 1) * kMarkGroup;
 }
 
+/// Fewer cells than one for so many words are marked: going from mark to mark takes less than counting and
+/// clearing all words.
+constexpr std::size_t kWordsPerFew = 3;
+
 /// So many points in one voxel are taken out of the packed sums, which hold less than 2^21.
 constexpr std::uint64_t kPackedCounts = std::uint64_t(1) << 19;
 static_assert(kPackedCounts + std::uint64_t(kChunkPoints) < (std::uint64_t(1) << 21),
@@ -136,12 +140,18 @@ void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
   plan_ = plan;
   batchSeconds_.resize(covariances ? kBatch : 0);
   batch_->seconds = covariances ? batchSeconds_.data() : nullptr;
-  if (plan.dense && marks_.reserve(markWords(plan)))
+  const std::size_t words = plan.dense ? markWords(plan) : 0;
+  if (marks_.reserve(words))
   {
-    std::fill(marks_.data(), marks_.data() + markWords(plan), 0);
+    std::fill(marks_.data(), marks_.data() + words, 0);
   }
-  before_.reserve(plan.dense ? markWords(plan) : 0);
-  beforeBytes_.reserve(plan.dense ? markWords(plan) : 0);
+  const std::size_t touchedWords = (words + 63) / 64;
+  if (touched_.reserve(touchedWords))
+  {
+    std::fill(touched_.data(), touched_.data() + touchedWords, 0);
+  }
+  before_.reserve(words);
+  beforeBytes_.reserve(words);
 }
 
 CellRanks PartitionWorker::ranks() const
@@ -149,12 +159,38 @@ CellRanks PartitionWorker::ranks() const
   return { marks_.data(), before_.data(), beforeBytes_.data(), markWords(plan_) };
 }
 
-void PartitionWorker::clearMarks()
+/// Numbers the marked cells: those of one list or two.
+std::size_t PartitionWorker::numberMarks(const Kernels& kernels, CellList cells, CellList others)
 {
-  if (plan_.dense)
+  few_ = kWordsPerFew * (cells.count + others.count) < markWords(plan_);
+  if (!few_)
   {
-    std::fill(marks_.data(), marks_.data() + markWords(plan_), 0);
+    return kernels.number(ranks());
   }
+  for (const CellList& list : { cells, others })
+  {
+    for (std::size_t i = 0; i < list.count; ++i)
+    {
+      touched_[list.cells[i] / 4096] |= std::uint64_t(1) << (list.cells[i] / 64 % 64);
+    }
+  }
+  return kernels.numberTouched(ranks(), touched_.data());
+}
+
+/// Of the same cells, in any order.
+void PartitionWorker::clearMarks(CellList cells)
+{
+  const std::size_t words = markWords(plan_);
+  if (!few_)
+  {
+    std::fill(marks_.data(), marks_.data() + words, 0);
+    return;
+  }
+  for (std::size_t i = 0; i < cells.count; ++i)
+  {
+    marks_[cells.cells[i] / 64] = 0;
+  }
+  std::fill(touched_.data(), touched_.data() + (words + 63) / 64, 0);
 }
 
 /// Marks the cells of what is carried and of the records, and counts them.
@@ -185,7 +221,8 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
     }
     kernels.mark(voxels_.map, block.records(), block.count(), nextOf(ahead, block), marks_.data(), cells);
   }
-  voxels_.size = kernels.number(ranks());
+  voxels_.size =
+    numberMarks(kernels, { recordCells_.data(), records }, { old_->cells.data(), old_->cellCount });
 }
 
 /// Adds the records to the sums at @p to, which become the voxels.
@@ -212,7 +249,7 @@ void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool, C
     kernels.accumulate(
       voxels_.map, ranks(), block.records(), cells, block.count(), nextOf(ahead, block), sums);
   }
-  clearMarks();
+  clearMarks({ voxels_.cells, voxels_.size });
 }
 
 /// Moves sums, which are in ascending order, to the places of their cells among all voxels: zeros between.
@@ -431,9 +468,10 @@ std::uint32_t PartitionWorker::rankOf(std::uint64_t key, const std::uint64_t* ke
 
 std::size_t PartitionWorker::bytes() const
 {
-  return marks_.bytes() + before_.bytes() + beforeBytes_.bytes() + recordCells_.bytes() + own_.bytes() +
-    records_.bytes() + entries_.bytes() + otherEntries_.bytes() + sizeof(MomentBatch<std::int64_t>) +
-    carried.voxels.capacity() * sizeof(CarriedSums) + carried.seconds.capacity() * sizeof(SecondSums);
+  return marks_.bytes() + touched_.bytes() + before_.bytes() + beforeBytes_.bytes() + recordCells_.bytes() +
+    own_.bytes() + records_.bytes() + entries_.bytes() + otherEntries_.bytes() +
+    sizeof(MomentBatch<std::int64_t>) + carried.voxels.capacity() * sizeof(CarriedSums) +
+    carried.seconds.capacity() * sizeof(SecondSums);
 }
 
 } // namespace kernel

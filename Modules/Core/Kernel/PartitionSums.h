@@ -120,7 +120,7 @@ public:
         recordCells_[i] = std::uint32_t(keys[i] - firstKey);
       }
       kernels.markCells(recordCells_.data(), int(size), marks_.data());
-      kernels.number(ranks());
+      numberMarks(kernels, { recordCells_.data(), size }, {});
     }
     for (RecordPool::Walk block(pool, partition); block.next();)
     {
@@ -136,7 +136,10 @@ public:
       }
       visit(block.rows(), cells, block.count());
     }
-    clearMarks();
+    if (plan_.dense)
+    {
+      clearMarks({ recordCells_.data(), size });
+    }
   }
   std::size_t bytes() const;
   /// Sums of the batches it makes are collected here.
@@ -149,8 +152,15 @@ private:
     std::uint32_t record;
   };
 
+  struct CellList
+  {
+    const std::uint32_t* cells = nullptr;
+    std::size_t count = 0;
+  };
+
   CellRanks ranks() const;
-  void clearMarks();
+  std::size_t numberMarks(const Kernels& kernels, CellList cells, CellList others);
+  void clearMarks(CellList cells);
   void markDense(const Kernels& kernels, const RecordPool& pool);
   void sumDense(const Kernels& kernels, const RecordPool& pool, CarriedPartition& to);
   void makeRoom(const Kernels& kernels, CarriedPartition& sums) const;
@@ -169,6 +179,8 @@ private:
   std::vector<SecondSums> batchSeconds_;
   // Dense: marks are zero between partitions.
   Buffer<std::uint64_t> marks_;
+  Buffer<std::uint64_t> touched_; ///< Likewise; a bit for each word that has marks, if these are few.
+  bool few_ = false;
   Buffer<std::uint32_t> before_;
   Buffer<std::uint64_t> beforeBytes_;
   Buffer<std::uint32_t> recordCells_;

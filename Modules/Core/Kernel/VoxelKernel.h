@@ -262,6 +262,8 @@ struct Kernels
   void (*markCells)(const std::uint32_t* cells, int count, std::uint64_t* marks);
   /// Counts the marks before each word that has any. @return that of all.
   std::uint32_t (*number)(const CellRanks& ranks);
+  /// The same, looking only at the words whose bits are set in @p touched.
+  std::uint32_t (*numberTouched)(const CellRanks& ranks, const std::uint64_t* touched);
   /// How many marked cells come before each of some: replaces them.
   void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);
   /// Adds records to the sums of their @p cells; fetches @p next like mark().

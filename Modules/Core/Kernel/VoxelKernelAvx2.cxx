@@ -196,7 +196,18 @@ struct Avx2 : CovarianceAvx2
     }
   }
 
-  static std::uint32_t number(const CellRanks& ranks) { return numberWords<Avx2, false>(ranks); }
+  static std::uint32_t number(const CellRanks& ranks)
+  {
+    std::uint32_t sum = 0;
+    for (std::size_t group = 0; group < ranks.words; group += kMarkGroup)
+    {
+      for (std::size_t w = group; w < group + kMarkGroup; ++w) // unrolled
+      {
+        sum = numberWord<Avx2>(ranks, w, sum);
+      }
+    }
+    return sum;
+  }
   static std::uint32_t ones(std::uint64_t bits) { return std::uint32_t(__builtin_popcountll(bits)); }
 
   /// The four lanes of four sums.

@@ -22,8 +22,8 @@ template <class V>
 Kernels makeKernels()
 {
   return { &partition<V, float>, &partition<V, double>, &cellsOf<V>, &mark<V>, &markCells, &V::number,
-    &rank<V>, &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>, &V::covariances,
-    &means<V, float>, &means<V, double>, &bounds<V, float>, &bounds<V, double> };
+    &numberTouched<V>, &rank<V>, &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>,
+    &V::covariances, &means<V, float>, &means<V, double>, &bounds<V, float>, &bounds<V, double> };
 }
 
 }

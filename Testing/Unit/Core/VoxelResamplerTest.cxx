@@ -25,14 +25,15 @@ VoxelRequest requestFor(const std::vector<Vec3>& points, const Lattice& lattice,
   return request;
 }
 
-/// Thirteen of sixteen points are in one voxel.
-std::vector<Vec3> crowdedPoints(std::size_t n, const Lattice& lattice, const Vec3& voxel)
+/// All but three of @p group points are in one voxel.
+std::vector<Vec3> crowdedPoints(
+  std::size_t n, const Lattice& lattice, const Vec3& voxel, std::size_t group = 16)
 {
   std::vector<Vec3> points = quantisedPoints(n, 1, lattice);
   Random random(2);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    for (int axis = 0; axis < 3 && i % 16 < 13; ++axis)
+    for (int axis = 0; axis < 3 && i % group + 3 < group; ++axis)
     {
       points[i][axis] = voxel[axis] + double(std::int64_t(random.uniform(0.3, 1.0) / kQuantum)) * kQuantum;
     }
@@ -65,6 +66,18 @@ TEST(VoxelResampler, SumsMillionsOfPointsInOneOfFewVoxelsExactly)
   {
     const std::vector<Vec3> points = crowdedPoints(2200000, lattice, { 3, 0, 3 });
     expectExact(points, lattice, runOf(requestFor(points, lattice, false)));
+  }
+}
+
+TEST(VoxelResampler, IsExactForTheFewPointsThatSeveralChunksHaveBesideACrowd)
+{
+  const Lattice lattice = latticeOf(300, 300, 300);
+  const std::vector<Vec3> points = crowdedPoints(1300000, lattice, { 123, 45, 299 }, 1024);
+  for (const InstructionSet set : { InstructionSet::Baseline, InstructionSet::Automatic })
+  {
+    VoxelRequest request = requestFor(points, lattice);
+    request.instructions = set;
+    expectExact(points, lattice, runOf(request));
   }
 }
 
