@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <new>
 #include <utility>
+#include <vector>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -19,6 +20,28 @@ enum class Pages
   Small,
   Huge, ///< Asked for where the piece is large: the first touch of small ones costs more than the work there.
 };
+
+/// Memory for std::free, in huge pages where it is as large as one. @throw std::bad_alloc
+inline void* allocatePages(std::size_t bytes, Pages pages)
+{
+  constexpr std::size_t kHugePage = std::size_t(1) << 21;
+  constexpr std::size_t kSmallAlignment = 4096;
+  const bool large = pages == Pages::Huge && bytes >= kHugePage;
+  const std::size_t alignment = large ? kHugePage : kSmallAlignment;
+  const std::size_t whole = (bytes + alignment - 1) / alignment * alignment;
+  void* memory = std::aligned_alloc(alignment, whole);
+  if (!memory)
+  {
+    throw std::bad_alloc();
+  }
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+  if (large)
+  {
+    static_cast<void>(madvise(memory, whole, MADV_HUGEPAGE));
+  }
+#endif
+  return memory;
+}
 
 /// Aligned, uninitialised elements of a trivial type. Growing loses the content.
 template <typename T>
@@ -49,48 +72,49 @@ public:
     std::free(data_);
     data_ = nullptr;
     capacity_ = 0;
-    const bool large = pages == Pages::Huge && count * sizeof(T) >= kHugePage;
-    const std::size_t alignment = large ? kHugePage : kSmallAlignment;
-    const std::size_t bytes = (count * sizeof(T) + alignment - 1) / alignment * alignment;
-    void* memory = std::aligned_alloc(alignment, bytes);
-    if (!memory)
-    {
-      throw std::bad_alloc();
-    }
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-    if (large)
-    {
-      static_cast<void>(madvise(memory, bytes, MADV_HUGEPAGE));
-    }
-#endif
-    data_ = static_cast<T*>(memory);
+    data_ = static_cast<T*>(allocatePages(count * sizeof(T), pages));
     capacity_ = count;
     return true;
   }
-  void release()
-  {
-    *this = Buffer();
-  }
+  void release() { *this = Buffer(); }
 
-  T* data() const
-  {
-    return data_;
-  }
-  T& operator[](std::size_t i) const
-  {
-    return data_[i];
-  }
-  std::size_t bytes() const
-  {
-    return capacity_ * sizeof(T);
-  }
+  T* data() const { return data_; }
+  T& operator[](std::size_t i) const { return data_[i]; }
+  std::size_t bytes() const { return capacity_ * sizeof(T); }
 
 private:
-  static constexpr std::size_t kHugePage = std::size_t(1) << 21;
-  static constexpr std::size_t kSmallAlignment = 4096;
-
   T* data_ = nullptr;
   std::size_t capacity_ = 0;
 };
+
+/// For vectors of a trivial type that take much memory anew each time: huge pages, and resize() leaves what
+/// it adds uninitialised.
+template <typename T>
+struct HugeAllocator
+{
+  using value_type = T;
+
+  HugeAllocator() = default;
+  template <typename U>
+  HugeAllocator(const HugeAllocator<U>&)
+  {
+  }
+  T* allocate(std::size_t count) { return static_cast<T*>(allocatePages(count * sizeof(T), Pages::Huge)); }
+  void deallocate(T* memory, std::size_t) { std::free(memory); }
+  template <typename U>
+  void construct(U* place)
+  {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <typename U, typename... Values>
+  void construct(U* place, Values&&... values)
+  {
+    ::new (static_cast<void*>(place)) U(std::forward<Values>(values)...);
+  }
+  bool operator==(const HugeAllocator&) const { return true; }
+  bool operator!=(const HugeAllocator&) const { return false; }
+};
+template <typename T>
+using HugeVector = std::vector<T, HugeAllocator<T>>;
 
 } // namespace pointhaptics

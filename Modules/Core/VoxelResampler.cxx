@@ -66,17 +66,25 @@ void VoxelResampler::Implementation::clear()
 Status VoxelResampler::Implementation::addLevels(
   const VoxelRequest& request, VoxelSumList list, const Executor& executor, Watcher* watcher)
 {
+  const double share = shareOfFinest(request);
+  const auto progressAt = [&](int level)
+  { return share + (1.0 - share) * double(level - 1) / double(request.levels - 1); };
   for (int l = 1; l < request.levels; ++l)
   {
     Level level;
     level.lattice = coarserLattice(levels.back().lattice);
-    list = coarserSums(list, levels.back().lattice, level.lattice, level.parents, executor);
+    PartWatcher part(watcher, progressAt(l), progressAt(l + 1));
+    VoxelSumList coarse;
+    if (!coarserSums(list, levels.back().lattice, level.lattice, coarse, level.parents, executor, &part))
+    {
+      return Status::Aborted;
+    }
+    list = std::move(coarse);
     level.arena.write(
       list, { request.singlePrecision, request.keys, request.covariances }, level.lattice, executor);
     level.size = std::int64_t(list.voxels.size());
     levels.push_back(std::move(level));
-    const double share = shareOfFinest(request);
-    if (watcher && !watcher->proceed(share + (1.0 - share) * double(l) / double(request.levels - 1)))
+    if (!part.proceed(1.0))
     {
       return Status::Aborted;
     }

@@ -83,9 +83,12 @@ Status VoxelResampler::Implementation::finishRuns(
     VoxelSumList list = runs_.take();
     for (int halvings = halvings_; halvings > 0; --halvings)
     {
+      // Of 64 voxels at most.
+      VoxelSumList coarse;
       std::vector<std::int64_t> parents;
-      list = coarserSums(list, finerLattice(request.lattice, halvings),
-        finerLattice(request.lattice, halvings - 1), parents, executor);
+      coarserSums(list, finerLattice(request.lattice, halvings), finerLattice(request.lattice, halvings - 1),
+        coarse, parents, executor, nullptr);
+      list = std::move(coarse);
     }
     level.arena.write(list, layout, request.lattice, executor, request.memory);
     level.size = std::int64_t(list.voxels.size());

@@ -83,7 +83,7 @@ private:
   static double shareOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
   Status addLevels(
     const VoxelRequest& request, kernel::VoxelSumList list, const Executor& executor, Watcher* watcher);
-  kernel::VoxelSumList carriedList(bool covariances, const Executor& executor) const;
+  kernel::VoxelSumList takeCarried(bool covariances, const Executor& executor);
   Status assignPlanned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
   void visitPartition(const VoxelRequest& request, kernel::PartitionWorker& worker, std::uint32_t partition,

@@ -153,7 +153,7 @@ Status VoxelResampler::Implementation::runPlanned(
     return finishRuns(request, executor, watcher);
   }
   return request.levels > 1
-    ? addLevels(request, carriedList(request.covariances, executor), executor, watcher)
+    ? addLevels(request, takeCarried(request.covariances, executor), executor, watcher)
     : Status::Ok;
 }
 
@@ -339,7 +339,8 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
   }
 }
 
-VoxelSumList VoxelResampler::Implementation::carriedList(bool covariances, const Executor& executor) const
+/// What was carried, which is let go of.
+VoxelSumList VoxelResampler::Implementation::takeCarried(bool covariances, const Executor& executor)
 {
   std::vector<std::size_t> places = { 0 };
   for (const CarriedPartition& partition : carried_)
@@ -353,7 +354,7 @@ VoxelSumList VoxelResampler::Implementation::carriedList(bool covariances, const
   forEachItem(executor, carried_.size(),
     [&](std::size_t p)
     {
-      const CarriedPartition& partition = carried_[p];
+      const CarriedPartition partition = std::move(carried_[p]);
       VoxelSums* to = list.voxels.data() + places[p];
       for (const CarriedSums& voxel : partition.voxels)
       {

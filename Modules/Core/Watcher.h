@@ -17,6 +17,28 @@ public:
   virtual bool proceed(double fraction) = 0;
 };
 
+/// Tells another, or nobody, how far a part of its work is.
+class PartWatcher : public Watcher
+{
+public:
+  /// The part is that from @p begin to @p end of the work of @p whole.
+  PartWatcher(Watcher* whole, double begin, double end)
+    : whole_(whole)
+    , begin_(begin)
+    , end_(end)
+  {
+  }
+  bool proceed(double fraction) override
+  {
+    return !whole_ || whole_->proceed(fraction < 1.0 ? begin_ + (end_ - begin_) * fraction : end_);
+  }
+
+private:
+  Watcher* whole_;
+  double begin_;
+  double end_;
+};
+
 /// A watcher is told at least each time so many points have been looked at.
 constexpr std::int64_t kWatchedPoints = 1250000;
 

@@ -101,6 +101,9 @@ public:
   VoxelSumList coarse(std::size_t begin, std::size_t end) const
   {
     VoxelSumList coarse;
+    // Pages that nothing is written to take no memory.
+    coarse.voxels.reserve(end - begin);
+    coarse.seconds.reserve(fine_.seconds.empty() ? 0 : end - begin);
     while (begin < end)
     {
       const std::uint64_t layer = fine_.voxels[begin].key / layerKeys_ / 2;
@@ -211,35 +214,56 @@ private:
 
 }
 
-VoxelSumList coarserSums(const VoxelSumList& fine, const Lattice& fineLattice, const Lattice& coarseLattice,
-  std::vector<std::int64_t>& parents, const Executor& executor)
+bool coarserSums(const VoxelSumList& fine, const Lattice& fineLattice, const Lattice& coarseLattice,
+  VoxelSumList& coarse, std::vector<std::int64_t>& parents, const Executor& executor, Watcher* watcher)
 {
   if (isOneVoxel(fineLattice))
   {
     parents.assign(fine.voxels.size(), 0);
-    return fine;
+    coarse = fine;
+    return true;
   }
-  parents.resize(fine.voxels.size());
+  const std::size_t size = fine.voxels.size();
+  parents.resize(size);
   const Coarsening coarsening(fine, fineLattice, coarseLattice, parents);
-  const auto pieces = std::size_t(16 * executor.concurrency());
-  std::vector<std::size_t> begins(pieces + 1, fine.voxels.size());
-  std::vector<VoxelSumList> lists(pieces);
+  // Rounds, after each of which the watcher hears, of pieces for the threads.
+  const std::size_t rounds = size / std::size_t(kWatchedPoints) + 1;
+  const auto piecesOfRound = std::size_t(16 * executor.concurrency());
+  const std::size_t pieces = rounds * piecesOfRound;
+  std::vector<std::size_t> begins(pieces + 1, size);
   for (std::size_t piece = 0; piece < pieces; ++piece)
   {
-    begins[piece] = coarsening.layerBegin(fine.voxels.size() * piece / pieces);
+    begins[piece] = coarsening.layerBegin(size * piece / pieces);
   }
-  forEachItem(executor, pieces,
-    [&](std::size_t piece) { lists[piece] = coarsening.coarse(begins[piece], begins[piece + 1]); });
+  WatchedPoints watched(watcher, std::int64_t(size), 2);
+  const auto forPieces = [&](auto&& work)
+  {
+    for (std::size_t round = 0; round < rounds; ++round)
+    {
+      const std::size_t first = round * piecesOfRound;
+      forEachItem(executor, piecesOfRound, [&](std::size_t i) { work(first + i); });
+      if (!watched.add(std::int64_t(begins[first + piecesOfRound] - begins[first])))
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  std::vector<VoxelSumList> lists(pieces);
+  if (!forPieces(
+        [&](std::size_t piece) { lists[piece] = coarsening.coarse(begins[piece], begins[piece + 1]); }))
+  {
+    return false;
+  }
   std::vector<std::size_t> places(pieces + 1, 0);
   for (std::size_t piece = 0; piece < pieces; ++piece)
   {
     places[piece + 1] = places[piece] + lists[piece].voxels.size();
   }
-  VoxelSumList coarse;
   coarse.fractionBits = fine.fractionBits + 1;
   coarse.voxels.resize(places[pieces]);
   coarse.seconds.resize(fine.seconds.empty() ? 0 : places[pieces]);
-  forEachItem(executor, pieces,
+  return forPieces(
     [&](std::size_t piece)
     {
       const auto place = std::ptrdiff_t(places[piece]);
@@ -251,7 +275,6 @@ VoxelSumList coarserSums(const VoxelSumList& fine, const Lattice& fineLattice, c
         parents[v] += place;
       }
     });
-  return coarse;
 }
 
 } // namespace kernel

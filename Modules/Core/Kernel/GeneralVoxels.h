@@ -2,9 +2,11 @@
 /// Sums of the voxels of any lattice in 128-bit integers, and those of coarser voxels made of them.
 #pragma once
 
+#include "Core/Buffer.h"
 #include "Core/Executor.h"
 #include "Core/Kernel/VoxelKernel.h"
 #include "Core/Lattice.h"
+#include "Core/Watcher.h"
 
 #include <cstdint>
 #include <vector>
@@ -26,8 +28,8 @@ struct VoxelSums
 struct VoxelSumList
 {
   int fractionBits = 0;
-  std::vector<VoxelSums> voxels;
-  std::vector<SecondSums> seconds;
+  HugeVector<VoxelSums> voxels;
+  HugeVector<SecondSums> seconds;
 };
 
 /// The lattice twice as coarse, from the same corner; one voxel has no coarser one and stays as it is.
@@ -35,9 +37,9 @@ Lattice coarserLattice(const Lattice& lattice);
 /// The lattice 2^@p halvings times as fine, from the same corner.
 Lattice finerLattice(const Lattice& lattice, int halvings);
 /// Sums of the coarser lattice's voxels, exactly those of its points; @p parents: of each fine voxel, the
-/// coarse one it lies in.
-VoxelSumList coarserSums(const VoxelSumList& fine, const Lattice& fineLattice, const Lattice& coarseLattice,
-  std::vector<std::int64_t>& parents, const Executor& executor);
+/// coarse one it lies in. @return false where @p watcher, who may be none, ended the work.
+bool coarserSums(const VoxelSumList& fine, const Lattice& fineLattice, const Lattice& coarseLattice,
+  VoxelSumList& coarse, std::vector<std::int64_t>& parents, const Executor& executor, Watcher* watcher);
 
 } // namespace kernel
 } // namespace pointhaptics

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace pointhaptics;
@@ -275,6 +276,27 @@ TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
                 request, [](const PointRows&, const std::int64_t*, int) {}, {}, &again),
       Status::Aborted);
   }
+}
+
+TEST(VoxelResampler, AnEndAskedForWithinALevelIsHeard)
+{
+  // More voxels than a watcher may be left alone with.
+  const std::vector<Vec3> points = randomBox(1400000, 21, { 0, 0, 0 }, { 1000, 1000, 1000 });
+  VoxelRequest request = requestFor(points, latticeOf(1000, 1000, 1000), false);
+  request.levels = 2;
+  VoxelResampler resampler;
+  CountingWatcher all;
+  ASSERT_EQ(resampler.run(request, ThreadedExecutor(2), &all), Status::Ok);
+  expectAscendToOne(all.fractions, 5);
+  const auto inLevel = std::count_if(
+    all.fractions.begin(), all.fractions.end(), [](double done) { return done > 0.5 && done < 1.0; });
+  EXPECT_GE(inLevel, 3);
+  const std::size_t before = all.fractions.size() - std::size_t(inLevel);
+  CountingWatcher ends(before);
+  EXPECT_EQ(resampler.run(request, ThreadedExecutor(2), &ends), Status::Aborted);
+  EXPECT_EQ(ends.fractions.size(), before);
+  EXPECT_GT(ends.fractions.back(), 0.5);
+  EXPECT_EQ(resampler.size(), 0);
 }
 
 TEST(VoxelResampler, FractionsAscendToOne)
