@@ -31,79 +31,86 @@ int bitsOf(std::int64_t count)
 
 }
 
-AttributeMean::AttributeMean(const AttributeView& view, const Executor& executor, InstructionSet instructions)
-  : AttributeMean(&kernel::attributeKernels(instructions), view)
+namespace
 {
-  switch (view.type)
-  {
-    case ScalarType::Float:
-      scan<float>(executor);
-      break;
-    case ScalarType::Double:
-      scan<double>(executor);
-      break;
-    case ScalarType::Int64:
-    case ScalarType::UInt64:
-      lanes_ = 2;
-      break;
-    default:
-      break;
-  }
-}
-
-AttributeMean AttributeMean::another() const
-{
-  AttributeMean other(kernels_, view_);
-  other.lanes_ = lanes_;
-  other.exponent_ = exponent_;
-  other.lastBit_ = lastBit_;
-  other.hasNonFinite_ = hasNonFinite_;
-  return other;
-}
 
 template <typename Real>
-void AttributeMean::scan(const Executor& executor)
+AttributeRange rangeOfReals(
+  const kernel::AttributeKernels& kernels, const AttributeView& view, const Executor& executor)
 {
-  const auto* values = static_cast<const Real*>(view_.values);
+  const auto* values = static_cast<const Real*>(view.values);
+  AttributeRange range;
   double largest = 0.0;
   double smallest = std::numeric_limits<double>::infinity();
   std::mutex mutex;
-  forRange(executor, view_.tuples * view_.components,
+  forRange(executor, view.tuples * view.components,
     [&](std::int64_t begin, std::int64_t end)
     {
       kernel::Magnitudes found;
       if constexpr (sizeof(Real) == sizeof(float))
       {
-        found = kernels_->magnitudesFloat(values + begin, end - begin);
+        found = kernels.magnitudesFloat(values + begin, end - begin);
       }
       else
       {
-        found = kernels_->magnitudesDouble(values + begin, end - begin);
+        found = kernels.magnitudesDouble(values + begin, end - begin);
       }
       const std::lock_guard<std::mutex> lock(mutex);
       largest = std::max(largest, found.largest);
       smallest = std::min(smallest, found.smallest);
-      hasNonFinite_ = hasNonFinite_ || !found.allFinite;
+      range.hasNonFinite = range.hasNonFinite || !found.allFinite;
     });
   if (largest > 0.0)
   {
     int exponent;
-    std::frexp(largest, &exponent_);
+    std::frexp(largest, &range.exponent);
     std::frexp(smallest, &exponent);
-    lastBit_ = exponent - std::numeric_limits<Real>::digits;
+    range.lastBit = exponent - std::numeric_limits<Real>::digits;
   }
+  return range;
+}
+
+}
+
+AttributeRange rangeOf(const AttributeView& view, const Executor& executor, InstructionSet instructions)
+{
+  const kernel::AttributeKernels& kernels = kernel::attributeKernels(instructions);
+  switch (view.type)
+  {
+    case ScalarType::Float:
+      return rangeOfReals<float>(kernels, view, executor);
+    case ScalarType::Double:
+      return rangeOfReals<double>(kernels, view, executor);
+    default:
+      return {};
+  }
+}
+
+AttributeMean::AttributeMean(
+  const AttributeView& view, const AttributeRange& range, InstructionSet instructions)
+  : AttributeMean(&kernel::attributeKernels(instructions), view, range)
+{
+}
+
+AttributeMean::AttributeMean(
+  const kernel::AttributeKernels* kernels, const AttributeView& view, const AttributeRange& range)
+  : view_(view)
+  , kernels_(kernels)
+  , lanes_(view.type == ScalarType::Int64 || view.type == ScalarType::UInt64 ? 2 : 1)
+  , range_(range)
+{
 }
 
 /// How to cut floating-point numbers.
 void AttributeMean::chooseParts(std::int64_t mostPoints)
 {
-  const int bits = exponent_ - lastBit_;
+  const int bits = range_.exponent - range_.lastBit;
   const int sumBits = bitsOf(mostPoints);
   const bool inOne = bits + sumBits <= 63;
   partBits_ = inOne ? bits : std::min(kMostPartBits, 62 - sumBits);
   lanes_ = inOne ? 1 : std::min((bits + partBits_ - 1) / partBits_, kMostLanes);
   // In two factors: for tiny arrays one would overflow.
-  const int shift = partBits_ - exponent_;
+  const int shift = partBits_ - range_.exponent;
   scale_[0] = std::ldexp(1.0, std::min(shift, 1000));
   scale_[1] = std::ldexp(1.0, std::max(shift - 1000, 0));
 }
@@ -130,7 +137,7 @@ void AttributeMean::clear(std::int64_t voxels, const Executor& executor)
   sums_.reserve(size * std::size_t(lanes_), Pages::Huge);
   forRange(executor, std::int64_t(size) * lanes_,
     [this](std::int64_t begin, std::int64_t end) { std::fill(sums_.data() + begin, sums_.data() + end, 0); });
-  if (hasNonFinite_)
+  if (range_.hasNonFinite)
   {
     special_.reserve(size);
     std::fill(special_.data(), special_.data() + size, std::uint8_t(0));
@@ -254,7 +261,7 @@ void AttributeMean::addReals(const char* first, std::size_t stride, const std::i
   const Tuples<Real> tuples = { first, stride };
   const int components = view_.components;
   const double partScale = std::ldexp(1.0, partBits_);
-  if (lanes_ == 1 && !hasNonFinite_ && scale_[1] == 1.0)
+  if (lanes_ == 1 && !range_.hasNonFinite && scale_[1] == 1.0)
   {
     const auto whole = components == 3 ? &addWhole<3, Real>
       : components == 1                ? &addWhole<1, Real>
@@ -262,7 +269,7 @@ void AttributeMean::addReals(const char* first, std::size_t stride, const std::i
     whole(tuples, components, voxels, count, scale_[0], sums_.data());
     return;
   }
-  if (lanes_ == 2 && !hasNonFinite_ && scale_[1] == 1.0)
+  if (lanes_ == 2 && !range_.hasNonFinite && scale_[1] == 1.0)
   {
     const auto pairs = components == 3 ? &addPairs<3, Real>
       : components == 1                ? &addPairs<1, Real>
@@ -276,7 +283,7 @@ void AttributeMean::addReals(const char* first, std::size_t stride, const std::i
     std::int64_t* sum = sums_.data() + std::int64_t(lanes_) * components * voxels[i];
     for (int c = 0; c < components; ++c)
     {
-      if (hasNonFinite_ && !std::isfinite(value[c]))
+      if (range_.hasNonFinite && !std::isfinite(value[c]))
       {
         special_[std::size_t(components * voxels[i] + c)] |= std::isnan(value[c]) ? kSawNaN
           : value[c] > Real(0)                                                    ? kSawPlus
@@ -295,8 +302,8 @@ void AttributeMean::addReals(const char* first, std::size_t stride, const std::i
         // From the part before the one its first bit is in.
         int exponent;
         std::frexp(double(value[c]), &exponent);
-        const int part = std::max(0, (exponent_ - exponent) / partBits_ - 1);
-        const double scaled = std::ldexp(double(value[c]), partBits_ * (part + 1) - exponent_);
+        const int part = std::max(0, (range_.exponent - exponent) / partBits_ - 1);
+        const double scaled = std::ldexp(double(value[c]), partBits_ * (part + 1) - range_.exponent);
         addParts(scaled, partScale, lanes_ - part, sum + lanes_ * c + part);
       }
     }
@@ -335,7 +342,7 @@ void AttributeMean::coarsen(const std::vector<std::int64_t>& parents, std::int64
     {
       sums_[parent * width + c] += fine[v * width + c];
     }
-    for (std::size_t c = 0; hasNonFinite_ && c < components; ++c)
+    for (std::size_t c = 0; range_.hasNonFinite && c < components; ++c)
     {
       special_[parent * components + c] |= fineSpecial[v * components + c];
     }

@@ -30,6 +30,18 @@ struct AttributeView
   std::int64_t tuples = 0;
 };
 
+/// What must be known of all finite values of a floating-point array before some of them are summed.
+struct AttributeRange
+{
+  int exponent = 0; ///< All magnitudes are below 2^exponent.
+  int lastBit = 0;  ///< And multiples of 2^lastBit.
+  bool hasNonFinite = false;
+};
+
+/// Looks through the values of an array once; of integers nothing need be known.
+AttributeRange rangeOf(const AttributeView& view, const Executor& executor,
+  InstructionSet instructions = InstructionSet::Automatic);
+
 /// Sums an attribute over the points of each voxel, exactly, and divides.
 ///
 /// Integers are summed as they are. Floating-point numbers are cut to fixed point, from the array's largest
@@ -42,12 +54,17 @@ struct AttributeView
 class AttributeMean
 {
 public:
-  /// Looks through the values of a floating-point array once.
-  AttributeMean(const AttributeView& view, const Executor& executor,
+  /// @pre @p range is rangeOf() the array as it is; means are wrong otherwise.
+  AttributeMean(const AttributeView& view, const AttributeRange& range,
     InstructionSet instructions = InstructionSet::Automatic);
+  AttributeMean(const AttributeView& view, const Executor& executor,
+    InstructionSet instructions = InstructionSet::Automatic)
+    : AttributeMean(view, rangeOf(view, executor, instructions), instructions)
+  {
+  }
 
   /// Another that averages the same array, without sums.
-  AttributeMean another() const;
+  AttributeMean another() const { return { kernels_, view_, range_ }; }
 
   /// Forgets all sums and makes room for @p voxels of at most @p mostPoints points each, at coarser levels
   /// too, in @p spare if that is large enough.
@@ -73,13 +90,11 @@ public:
   void mean(std::int64_t voxel, std::int64_t count, double* means) const;
 
   const AttributeView& view() const { return view_; }
+  const AttributeRange& range() const { return range_; }
 
 private:
-  AttributeMean(const kernel::AttributeKernels* kernels, const AttributeView& view)
-    : view_(view)
-    , kernels_(kernels)
-  {
-  }
+  AttributeMean(
+    const kernel::AttributeKernels* kernels, const AttributeView& view, const AttributeRange& range);
   __extension__ typedef __int128 Int128;
   static constexpr int kMostPartBits = 40;
   /// The most parts from the largest double to the last bit of the smallest, at 28 bits each.
@@ -89,8 +104,6 @@ private:
   static constexpr std::uint8_t kSawMinus = 4;
 
   bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
-  template <typename Real>
-  void scan(const Executor& executor);
   void chooseParts(std::int64_t mostPoints);
   void clear(std::int64_t voxels, const Executor& executor);
   template <typename Integer>
@@ -119,9 +132,7 @@ private:
   int lanes_ = 1; ///< Of 64 bits for each component.
   int partBits_ = 0;
   double scale_[2] = { 1.0, 1.0 }; ///< Both times a value give its first part, and what is left of it.
-  int exponent_ = 0;               ///< All magnitudes are below 2^exponent_.
-  int lastBit_ = 0;                ///< And multiples of 2^lastBit_.
-  bool hasNonFinite_ = false;
+  AttributeRange range_;
   std::int64_t voxels_ = 0;
   std::int64_t mostPoints_ = 0;
   Buffer<std::int64_t> sums_;    ///< [voxel][component][lane]

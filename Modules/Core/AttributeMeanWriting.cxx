@@ -34,7 +34,7 @@ AttributeMean::Int128 AttributeMean::integerSum(std::int64_t voxel, int componen
 double AttributeMean::realSum(std::int64_t voxel, int component, int& exponent) const
 {
   const std::int64_t* sum = lanes(voxel, component);
-  exponent = exponent_ - std::min(lanes_, 2) * partBits_;
+  exponent = range_.exponent - std::min(lanes_, 2) * partBits_;
   if (lanes_ == 1)
   {
     return double(sum[0]);
@@ -81,7 +81,7 @@ double AttributeMean::realSum(std::int64_t voxel, int component, int& exponent) 
   }
   const bool more =
     std::any_of(parts + last + 1, parts + lanes_, [](std::int64_t part) { return part != 0; });
-  exponent = exponent_ - (last + 1) * partBits_ - 1;
+  exponent = range_.exponent - (last + 1) * partBits_ - 1;
   const auto rounded = double(2 * whole + more);
   return negative ? -rounded : rounded;
 }
@@ -89,7 +89,7 @@ double AttributeMean::realSum(std::int64_t voxel, int component, int& exponent) 
 double AttributeMean::realMean(std::int64_t voxel, int component, std::int64_t count) const
 {
   const std::uint8_t seen =
-    hasNonFinite_ ? special_[std::size_t(view_.components * voxel + component)] : std::uint8_t(0);
+    range_.hasNonFinite ? special_[std::size_t(view_.components * voxel + component)] : std::uint8_t(0);
   if (seen != 0)
   {
     const double infinity = std::numeric_limits<double>::infinity();
@@ -118,8 +118,8 @@ bool AttributeMean::sumsAreWords() const
 {
   if (isFloating())
   {
-    const int exponent = exponent_ - partBits_;
-    return lanes_ == 1 && !hasNonFinite_ && exponent > -1000 && exponent < 1000;
+    const int exponent = range_.exponent - partBits_;
+    return lanes_ == 1 && !range_.hasNonFinite && exponent > -1000 && exponent < 1000;
   }
   const int bits = view_.type == ScalarType::Int8 || view_.type == ScalarType::UInt8 ? 8
     : view_.type == ScalarType::Int16 || view_.type == ScalarType::UInt16            ? 16
@@ -131,7 +131,7 @@ kernel::WordSums AttributeMean::wordSums(
   const std::int64_t* counts, std::int64_t begin, std::int64_t end) const
 {
   return { lanes(begin, 0), counts + begin, end - begin, view_.components,
-    isFloating() ? powerOfTwo(exponent_ - partBits_) : 1.0 };
+    isFloating() ? powerOfTwo(range_.exponent - partBits_) : 1.0 };
 }
 
 template <typename Integer>

@@ -241,8 +241,8 @@ void writeMostFrequent(
 
 }
 
-VoxelAttribute::VoxelAttribute(
-  vtkDataArray* input, AttributeKind kind, InstructionSet instructions, const Executor& executor)
+VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeRange* known,
+  InstructionSet instructions, const Executor& executor)
   : input_(input)
   , plain_(plainArray(input))
   , kind_(kind)
@@ -251,7 +251,8 @@ VoxelAttribute::VoxelAttribute(
   {
     const AttributeView view{ plain_->GetVoidPointer(0), scalarType(plain_->GetDataType()),
       plain_->GetNumberOfComponents(), std::int64_t(plain_->GetNumberOfTuples()) };
-    mean_ = std::make_unique<AttributeMean>(view, executor, instructions);
+    mean_ = std::make_unique<AttributeMean>(
+      view, known ? *known : rangeOf(view, executor, instructions), instructions);
   }
 }
 

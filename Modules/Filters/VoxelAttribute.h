@@ -35,9 +35,12 @@ enum class AttributeKind
 class VoxelAttribute
 {
 public:
-  /// Holds on to @p input; one whose memory is not plain tuples of numbers is copied first.
-  VoxelAttribute(
-    vtkDataArray* input, AttributeKind kind, InstructionSet instructions, const Executor& executor);
+  /// Holds on to @p input; one whose memory is not plain tuples of numbers is copied first. @p known: its
+  /// range, or null to look through it.
+  VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeRange* known,
+    InstructionSet instructions, const Executor& executor);
+  /// Of the input's values, which none but means need: null.
+  const AttributeRange* range() const { return mean_ ? &mean_->range() : nullptr; }
 
   /// @p spare: sums another attribute has no more use for, or nothing.
   /// @p mostPoints: of a voxel, at coarser levels too.

@@ -175,30 +175,32 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
   return true;
 }
 
-vtkVoxelMeanResampler::Internals::PointsSeen::PointsSeen(vtkPointSet* input)
-  : size(input->GetNumberOfPoints())
+vtkVoxelMeanResampler::Internals::ArraySeen::ArraySeen(vtkDataArray* array, vtkMTimeType ownersTime)
+  : data(array)
+  , address(array->HasStandardMemoryLayout() ? array->GetVoidPointer(0) : nullptr)
+  , size(array->GetNumberOfTuples())
+  , time(std::max(array->GetMTime(), ownersTime))
 {
-  vtkPoints* points = input->GetPoints();
-  if (!points)
-  {
-    return;
-  }
-  this->data = points->GetData();
-  this->address = this->data->HasStandardMemoryLayout() ? this->data->GetVoidPointer(0) : nullptr;
-  // The data set's own time, without that of its arrays: some write coordinates and mark nothing else.
-  this->time = std::max({ points->GetMTime(), this->data->GetMTime(), input->vtkObject::GetMTime() });
 }
 
-bool vtkVoxelMeanResampler::Internals::PointsSeen::operator==(const PointsSeen& other) const
+bool vtkVoxelMeanResampler::Internals::ArraySeen::operator==(const ArraySeen& other) const
 {
   return this->data == other.data && this->address == other.address && this->size == other.size &&
     this->time == other.time;
 }
 
+vtkVoxelMeanResampler::Internals::ArraySeen vtkVoxelMeanResampler::Internals::SeenPoints(vtkPointSet* input)
+{
+  vtkPoints* points = input->GetPoints();
+  // The data set's own time, without that of its arrays: some write coordinates and mark nothing else.
+  return points ? ArraySeen(points->GetData(), std::max(points->GetMTime(), input->vtkObject::GetMTime()))
+                : ArraySeen();
+}
+
 /// An index pays where parts of the same points are looked at again and again.
 bool vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
 {
-  const PointsSeen seen(input);
+  const ArraySeen seen = SeenPoints(input);
   if (!(seen == this->Seen) || !this->Filter->UsePointIndex)
   {
     this->Index = PointIndex();
@@ -266,9 +268,12 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
   this->Attributes.clear();
   if (!this->Filter->PassAttributes)
   {
+    this->Ranges.clear();
     return;
   }
   vtkPointData* data = input->GetPointData();
+  std::vector<KnownRange> known;
+  known.swap(this->Ranges);
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* any = data->GetAbstractArray(i);
@@ -299,9 +304,16 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
     {
       kind = AttributeKind::Normal;
     }
-    this->Attributes.push_back(
-      { VoxelAttribute(array, kind, pointhaptics::InstructionSet(this->Filter->InstructionSet), this->Smp),
-        rolesOf(data, array) });
+    const ArraySeen seen(array, std::max(data->vtkObject::GetMTime(), input->vtkObject::GetMTime()));
+    const auto old =
+      std::find_if(known.begin(), known.end(), [&](const KnownRange& range) { return range.seen == seen; });
+    VoxelAttribute attribute(array, kind, old == known.end() ? nullptr : &old->range,
+      pointhaptics::InstructionSet(this->Filter->InstructionSet), this->Smp);
+    if (this->Filter->UsePointIndex && attribute.range())
+    {
+      this->Ranges.push_back({ seen, *attribute.range() });
+    }
+    this->Attributes.push_back({ std::move(attribute), rolesOf(data, array) });
   }
 }
 
@@ -479,6 +491,7 @@ void vtkVoxelMeanResampler::Internals::Forget()
   this->Index = PointIndex();
   this->Indexed = false;
   this->PartialViews = 0;
+  this->Ranges.clear();
 }
 
 void vtkVoxelMeanResampler::Internals::BeginPart(double end)

@@ -53,17 +53,24 @@ private:
     pointhaptics::VoxelAttribute attribute;
     std::vector<int> roles; ///< vtkDataSetAttributes::AttributeTypes it is the active one of.
   };
-  /// Which coordinates an index is of.
-  struct PointsSeen
+  /// An array as it was when something was learned of it.
+  struct ArraySeen
   {
     vtkWeakPointer<vtkDataArray> data;
     const void* address = nullptr;
     vtkIdType size = 0;
     vtkMTimeType time = 0;
 
-    PointsSeen() = default;
-    explicit PointsSeen(vtkPointSet* input);
-    bool operator==(const PointsSeen& other) const;
+    ArraySeen() = default;
+    /// @p ownersTime: of what it belongs to.
+    ArraySeen(vtkDataArray* array, vtkMTimeType ownersTime);
+    bool operator==(const ArraySeen& other) const;
+  };
+  static ArraySeen SeenPoints(vtkPointSet* input);
+  struct KnownRange
+  {
+    ArraySeen seen;
+    pointhaptics::AttributeRange range;
   };
   class Running;
 
@@ -96,7 +103,8 @@ private:
   bool IsRunning = false;
   bool ForgetAtTheEnd = false;
   // Which input was seen last, and how often a part of it.
-  PointsSeen Seen;
+  ArraySeen Seen;
   int PartialViews = 0;
   bool Indexed = false;
+  std::vector<KnownRange> Ranges; ///< Of the arrays of the last input, if it may be indexed.
 };

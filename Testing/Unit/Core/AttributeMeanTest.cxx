@@ -508,7 +508,7 @@ TEST(AttributeMean, StartsFromNothingInTheMemoryOfAnother)
     const Plan plan = planFor(300, voxels, 24);
     const std::vector<float> expected = written<float>(meanOf(values, 3, plan), plan);
     AttributeMean other = meanOf(values, 3, planFor(300, 90, 25));
-    AttributeMean mean({ values.data(), ScalarType::Float, 3, 300 }, {});
+    AttributeMean mean({ values.data(), ScalarType::Float, 3, 300 }, Executor());
     mean.prepare(voxels, 300, other.takeSums(), trial::BackwardExecutor(17));
     addTuples(mean, values, plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected));
