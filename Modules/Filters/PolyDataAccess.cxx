@@ -47,8 +47,9 @@ bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& resul
   }
   homogeneous->Update();
   const vtkMatrix4x4* matrix = homogeneous->GetMatrix();
+  const double w = matrix->GetElement(3, 3);
   if (matrix->GetElement(3, 0) != 0.0 || matrix->GetElement(3, 1) != 0.0 || matrix->GetElement(3, 2) != 0.0 ||
-    matrix->GetElement(3, 3) != 1.0)
+    w == 0.0)
   {
     return false;
   }
@@ -56,7 +57,7 @@ bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& resul
   {
     for (int c = 0; c < 4; ++c)
     {
-      result.m[r][c] = matrix->GetElement(r, c);
+      result.m[r][c] = matrix->GetElement(r, c) / w;
     }
   }
   return true;

@@ -241,10 +241,10 @@ void writeMostFrequent(
 
 }
 
-VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeRange* known,
+VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known,
   InstructionSet instructions, const Executor& executor)
   : input_(input)
-  , plain_(plainArray(input))
+  , plain_(known && known->copy ? known->copy : plainArray(input))
   , kind_(kind)
 {
   if (kind != AttributeKind::Category)
@@ -252,8 +252,13 @@ VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const At
     const AttributeView view{ plain_->GetVoidPointer(0), scalarType(plain_->GetDataType()),
       plain_->GetNumberOfComponents(), std::int64_t(plain_->GetNumberOfTuples()) };
     mean_ = std::make_unique<AttributeMean>(
-      view, known ? *known : rangeOf(view, executor, instructions), instructions);
+      view, known ? known->range : rangeOf(view, executor, instructions), instructions);
   }
+}
+
+AttributeValues VoxelAttribute::values() const
+{
+  return { mean_ ? mean_->range() : AttributeRange(), plain_ == input_ ? nullptr : plain_ };
 }
 
 void VoxelAttribute::prepare(

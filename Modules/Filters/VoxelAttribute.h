@@ -29,18 +29,25 @@ enum class AttributeKind
   Category, ///< The value most points have, component by component; the smallest on a tie.
 };
 
+/// What an input array's values say whatever is averaged of them: it stays true as long as they do not
+/// change.
+struct AttributeValues
+{
+  AttributeRange range;
+  vtkSmartPointer<vtkDataArray> copy; ///< As plain tuples in memory, where the input is not; or null.
+};
+
 /// Used as VoxelResampler::assign() and parents() go: prepare(), add() for all points, output(), then for
 /// each coarser level coarsen() and output(). Or as assignInSets() goes: prepareSets(), for each set of
 /// voxels all that an AttributeMean from sumsOfSet() is to be given and writeSet(), then output().
 class VoxelAttribute
 {
 public:
-  /// Holds on to @p input; one whose memory is not plain tuples of numbers is copied first. @p known: its
-  /// range, or null to look through it.
-  VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeRange* known,
+  /// Holds on to @p input; one whose memory is not plain tuples of numbers is copied first. @p known: from
+  /// values() of one of the same input and kind, or null.
+  VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known,
     InstructionSet instructions, const Executor& executor);
-  /// Of the input's values, which none but means need: null.
-  const AttributeRange* range() const { return mean_ ? &mean_->range() : nullptr; }
+  AttributeValues values() const;
 
   /// @p spare: sums another attribute has no more use for, or nothing.
   /// @p mostPoints: of a voxel, at coarser levels too.

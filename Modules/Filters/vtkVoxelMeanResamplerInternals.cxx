@@ -268,24 +268,24 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
   this->Attributes.clear();
   if (!this->Filter->PassAttributes)
   {
-    this->Ranges.clear();
+    this->Known.clear();
     return;
   }
   vtkPointData* data = input->GetPointData();
-  std::vector<KnownRange> known;
-  known.swap(this->Ranges);
+  std::vector<KnownValues> known;
+  known.swap(this->Known);
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* any = data->GetAbstractArray(i);
+    if (isBookkeeping(data, any))
+    {
+      continue;
+    }
     vtkDataArray* array = vtkDataArray::SafeDownCast(any);
     if (!array)
     {
       vtkWarningWithObjectMacro(
         this->Filter, "Array \"" << nameOf(any) << "\" is not numeric: it has no mean and is dropped.");
-      continue;
-    }
-    if (isBookkeeping(data, array))
-    {
       continue;
     }
     if (array->GetNumberOfTuples() != input->GetNumberOfPoints())
@@ -305,13 +305,13 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
       kind = AttributeKind::Normal;
     }
     const ArraySeen seen(array, std::max(data->vtkObject::GetMTime(), input->vtkObject::GetMTime()));
-    const auto old =
-      std::find_if(known.begin(), known.end(), [&](const KnownRange& range) { return range.seen == seen; });
-    VoxelAttribute attribute(array, kind, old == known.end() ? nullptr : &old->range,
+    const auto old = std::find_if(known.begin(), known.end(),
+      [&](const KnownValues& values) { return values.seen == seen && values.kind == kind; });
+    VoxelAttribute attribute(array, kind, old == known.end() ? nullptr : &old->values,
       pointhaptics::InstructionSet(this->Filter->InstructionSet), this->Smp);
-    if (this->Filter->UsePointIndex && attribute.range())
+    if (this->Filter->UsePointIndex)
     {
-      this->Ranges.push_back({ seen, *attribute.range() });
+      this->Known.push_back({ seen, kind, attribute.values() });
     }
     this->Attributes.push_back({ std::move(attribute), rolesOf(data, array) });
   }
@@ -422,6 +422,11 @@ void vtkVoxelMeanResampler::Internals::Release()
     this->SpareSums.push_back(named.attribute.takeSums());
   }
   this->Attributes.clear();
+  for (KnownValues& known : this->Known)
+  {
+    // As large as the input: worth its memory where it is looked at again and again.
+    known.values.copy = this->Indexed ? known.values.copy : nullptr;
+  }
   this->Memory.release();
   // What earlier outputs left and this one had no use for.
   this->Pool.trim();
@@ -475,6 +480,10 @@ std::size_t vtkVoxelMeanResampler::Internals::ScratchBytes() const
   {
     sum += sums.bytes();
   }
+  for (const KnownValues& known : this->Known)
+  {
+    sum += known.values.copy ? std::size_t(1024) * known.values.copy->GetActualMemorySize() : 0;
+  }
   return sum;
 }
 
@@ -491,7 +500,7 @@ void vtkVoxelMeanResampler::Internals::Forget()
   this->Index = PointIndex();
   this->Indexed = false;
   this->PartialViews = 0;
-  this->Ranges.clear();
+  this->Known.clear();
 }
 
 void vtkVoxelMeanResampler::Internals::BeginPart(double end)

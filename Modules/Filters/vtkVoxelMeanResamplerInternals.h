@@ -67,10 +67,11 @@ private:
     bool operator==(const ArraySeen& other) const;
   };
   static ArraySeen SeenPoints(vtkPointSet* input);
-  struct KnownRange
+  struct KnownValues
   {
     ArraySeen seen;
-    pointhaptics::AttributeRange range;
+    pointhaptics::AttributeKind kind;
+    pointhaptics::AttributeValues values;
   };
   class Running;
 
@@ -106,5 +107,5 @@ private:
   ArraySeen Seen;
   int PartialViews = 0;
   bool Indexed = false;
-  std::vector<KnownRange> Ranges; ///< Of the arrays of the last input, if it may be indexed.
+  std::vector<KnownValues> Known; ///< Of the arrays of the last input, if it may be indexed.
 };

@@ -310,6 +310,22 @@ TEST(VoxelMeanAttributes, AnArrayKeepsAllTheRolesItHad)
   EXPECT_EQ(out->GetArray("Ids"), nullptr);
 }
 
+TEST(VoxelMeanAttributes, PedigreesInWordsAreLeftOutWithoutAWarning)
+{
+  const auto cloud = trial::cloudAt({ { 0, 0, 0 }, { 1, 1, 1 } });
+  vtkNew<vtkStringArray> words;
+  words->SetName("Words");
+  words->InsertNextValue("a");
+  words->InsertNextValue("b");
+  cloud->GetPointData()->SetPedigreeIds(words);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  trial::Ear warnings(resampler, vtkCommand::WarningEvent);
+  resampler->Update();
+  EXPECT_EQ(warnings.count, 0);
+  EXPECT_EQ(resampler->GetOutput()->GetPointData()->GetAbstractArray("Words"), nullptr);
+}
+
 TEST(VoxelMeanAttributes, WarningsOfNamelessArraysAreWholeSentences)
 {
   const auto cloud = trial::cloudAt({ { 0, 0, 0 }, { 1, 1, 1 } });

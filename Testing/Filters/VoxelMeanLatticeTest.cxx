@@ -2,6 +2,7 @@
 #include "VoxelMeanFixtures.h"
 
 #include "vtkMatrix4x4.h"
+#include "vtkMatrixToLinearTransform.h"
 #include "vtkPerspectiveTransform.h"
 #include "vtkTransform.h"
 
@@ -154,6 +155,28 @@ TEST(VoxelMeanTransforms, OfEveryAffineKindAgreeWithTheDefinition)
     EXPECT_GT(resampler->GetOutput()->GetNumberOfPoints(), 10);
     EXPECT_EQ(resampler->GetNumberOfClippedPoints(), 0);
   }
+}
+
+TEST(VoxelMeanTransforms, AreDividedByTheirLastElement)
+{
+  const auto cloud = trial::cloudOf(trial::randomPoints(1000, 16));
+  vtkNew<vtkMatrix4x4> matrix;
+  for (int i = 0; i < 16; ++i)
+  {
+    matrix->SetElement(i / 4, i % 4, i % 5 == 0 ? -4.0 : 0.0);
+  }
+  vtkNew<vtkMatrixToLinearTransform> same;
+  same->SetInput(matrix);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  trial::useUnitCube(resampler, 9);
+  resampler->Update();
+  const auto expected = trial::copyOf(resampler->GetOutput());
+  resampler->SetTransform(same);
+  resampler->Update();
+  trial::expectSame(resampler->GetOutput(), expected);
+  matrix->SetElement(3, 3, 0.0);
+  trial::expectError(resampler);
 }
 
 TEST(VoxelMeanTransforms, SingularAndNonFiniteOnesAreErrors)

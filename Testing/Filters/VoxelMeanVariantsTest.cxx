@@ -1,6 +1,8 @@
 // Ways to the same answer: with and without the point index, and by every instruction set.
 #include "VoxelMeanCases.h"
 
+#include "vtkSOADataArrayTemplate.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -114,6 +116,12 @@ TEST(VoxelMeanPointIndex, ValuesAreLookedThroughAgainWhenTheyChange)
   values->SetNumberOfTuples(cloud->GetNumberOfPoints());
   values->Fill(1.0);
   cloud->GetPointData()->AddArray(values);
+  vtkNew<vtkSOADataArrayTemplate<double>> apart;
+  apart->SetName("Apart");
+  apart->SetNumberOfComponents(2);
+  apart->SetNumberOfTuples(cloud->GetNumberOfPoints());
+  apart->Fill(1.0);
+  cloud->GetPointData()->AddArray(apart);
   vtkNew<vtkVoxelMeanResampler> resampler;
   vtkNew<vtkTransform> transform;
   resampler->SetInputData(cloud);
@@ -126,10 +134,12 @@ TEST(VoxelMeanPointIndex, ValuesAreLookedThroughAgainWhenTheyChange)
     for (vtkIdType i = 0; step % 2 == 0 && i < values->GetNumberOfTuples(); ++i)
     {
       values->SetValue(i, step % 3 == 0 && i % 50 == 0 ? NAN : float(scale * trial::uniform(engine)));
+      apart->SetComponent(i, int(i % 2), scale * trial::uniform(engine));
     }
     if (step % 4 == 0)
     {
       values->Modified();
+      apart->Modified();
     }
     else if (step % 4 == 2)
     {
