@@ -75,8 +75,9 @@ struct VoxelRequest
 /// the points, every executor, instruction set and PointIndex, and a coarser level equals the resampling of
 /// the points at its spacing (on lattices of up to 4096 voxels an axis; beyond, quanta are finer still and a
 /// level that crosses this border may differ by 2^-31 voxel). Error of a mean: at most 2^-31 voxel, then one
-/// rounding to the output's type; a mean lies in its voxel. Counts are 64-bit. (A transform that is nearly
-/// singular, of a condition number c above 1e6, costs what it costs: errors grow to about 1e-16 c voxels.)
+/// rounding to the output's type; a mean lies in its voxel. Counts are 64-bit. (A transform that
+/// is not diagonal and has a condition number c puts points up to 2^-53 c N voxels off on lattices of N
+/// voxels an axis, which may be more.)
 ///
 /// Time: a few nanoseconds a point; beyond 4096 voxels an axis some tens of them, growing with the logarithm
 /// of the points. Memory beyond input and results: 16 bytes for each of at most 1.25 million points, 60 bytes
