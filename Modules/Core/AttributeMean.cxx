@@ -29,11 +29,6 @@ int bitsOf(std::int64_t count)
   return bits;
 }
 
-}
-
-namespace
-{
-
 template <typename Real>
 AttributeRange rangeOfReals(
   const kernel::AttributeKernels& kernels, const AttributeView& view, const Executor& executor)

@@ -1,5 +1,6 @@
 /// @file
-/// Raw memory that only grows and is kept for the next time: scratch of the inner loops.
+/// Raw memory that only grows and is kept for the next time, scratch of the inner loops; and vectors in huge
+/// pages.
 #pragma once
 
 #include <cstddef>

@@ -15,6 +15,20 @@
 
 #include <cmath>
 
+namespace
+{
+
+vtkSmartPointer<vtkStringArray> twoWords(const char* name)
+{
+  auto words = vtkSmartPointer<vtkStringArray>::New();
+  words->SetName(name);
+  words->InsertNextValue("a");
+  words->InsertNextValue("b");
+  return words;
+}
+
+}
+
 TEST(VoxelMeanAttributes, AveragesArraysOfEveryTypeWithMatchingTuples)
 {
   const auto cloud = trial::cloudOf(trial::randomPoints(3000, 3));
@@ -156,10 +170,7 @@ TEST(VoxelMeanAttributes, LabelsTakeTheMajorityAndTheSmallestOnATie)
 TEST(VoxelMeanAttributes, DropsStringArraysWithAWarning)
 {
   const auto cloud = trial::cloudAt({ { 0, 0, 0 }, { 1, 1, 1 } });
-  vtkNew<vtkStringArray> words;
-  words->SetName("Words");
-  words->InsertNextValue("a");
-  words->InsertNextValue("b");
+  const auto words = twoWords("Words");
   cloud->GetPointData()->AddArray(words);
   trial::addArray(cloud, "Kept", { 1, 2 });
   vtkNew<vtkVoxelMeanResampler> resampler;
@@ -313,10 +324,7 @@ TEST(VoxelMeanAttributes, AnArrayKeepsAllTheRolesItHad)
 TEST(VoxelMeanAttributes, PedigreesInWordsAreLeftOutWithoutAWarning)
 {
   const auto cloud = trial::cloudAt({ { 0, 0, 0 }, { 1, 1, 1 } });
-  vtkNew<vtkStringArray> words;
-  words->SetName("Words");
-  words->InsertNextValue("a");
-  words->InsertNextValue("b");
+  const auto words = twoWords("Words");
   cloud->GetPointData()->SetPedigreeIds(words);
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetInputData(cloud);
@@ -329,9 +337,7 @@ TEST(VoxelMeanAttributes, PedigreesInWordsAreLeftOutWithoutAWarning)
 TEST(VoxelMeanAttributes, WarningsOfNamelessArraysAreWholeSentences)
 {
   const auto cloud = trial::cloudAt({ { 0, 0, 0 }, { 1, 1, 1 } });
-  vtkNew<vtkStringArray> words;
-  words->InsertNextValue("a");
-  words->InsertNextValue("b");
+  const auto words = twoWords(nullptr);
   cloud->GetPointData()->AddArray(words);
   vtkNew<vtkFloatArray> shorter;
   shorter->InsertNextValue(1);
