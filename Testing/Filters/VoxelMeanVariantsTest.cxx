@@ -146,7 +146,9 @@ TEST(VoxelMeanPointIndex, ValuesAreLookedThroughAgainWhenTheyChange)
       cloud->Modified();
     }
     SCOPED_TRACE("step " + std::to_string(step));
+    const int holders = values->GetReferenceCount();
     expectAsFromScratch(resampler, cloud);
+    EXPECT_EQ(values->GetReferenceCount(), holders) << "what is remembered does not keep the input";
   }
 }
 
