@@ -29,7 +29,8 @@ struct PlacedPoints
 template <class V>
 struct PlacementVectors
 {
-  typename V::Doubles pivot[3], matrix[3][3], offset[3], quantum[3], reciprocal[3], remainder[3], limit[3];
+  typename V::Doubles pivot[3], matrix[3][3], offset[3], offsetRest[3];
+  typename V::Doubles quantum[3], reciprocal[3], remainder[3], limit[3];
   typename V::Bits blocksPerLayer;
   typename V::Shift toRowBlock, toLayerBlock;
   bool layersAreCut;
@@ -44,6 +45,7 @@ struct PlacementVectors
     {
       pivot[axis] = V::all(p.pivot[axis]);
       offset[axis] = V::all(p.offset[axis]);
+      offsetRest[axis] = V::all(p.offsetRest[axis]);
       quantum[axis] = V::all(p.quantum[axis]);
       reciprocal[axis] = V::all(p.reciprocal[axis]);
       remainder[axis] = V::all(p.remainder[axis]);
@@ -71,12 +73,43 @@ inline typename V::Doubles quotient(const PlacementVectors<V>& c, typename V::Do
   }
 }
 
-/// @p v: V::width points in the lattice's frame.
+/// A row of the matrix times a point, and the offset: the sum of all terms rounded, and what that took from
+/// it (T. Ogita, S. M. Rump, S. Oishi, "Accurate sum and dot product", 2005).
+template <class V>
+inline typename V::Doubles compensatedDot(
+  const PlacementVectors<V>& c, const typename V::Doubles p[3], int axis)
+{
+  using Doubles = typename V::Doubles;
+  Doubles sum = c.offset[axis];
+  Doubles rest = c.offsetRest[axis];
+  for (int column = 0; column < 3; ++column)
+  {
+    const Doubles term = V::multiply(p[column], c.matrix[axis][column]);
+    rest = V::add(rest, V::multiplyRest(p[column], c.matrix[axis][column], term));
+    const Doubles total = V::add(sum, term);
+    const Doubles added = V::subtract(total, sum);
+    rest = V::add(rest, V::add(V::subtract(sum, V::subtract(total, added)), V::subtract(term, added)));
+    sum = total;
+  }
+  return V::add(sum, rest);
+}
+
+/// @p v: V::width points in the lattice's frame. Part of the loop whatever the compiler thinks: a call would
+/// take the constants out of the registers.
 template <class V, Motion motion, typename Real>
-inline void move(const PlacementVectors<V>& c, const Real* xyz, typename V::Doubles v[3])
+__attribute__((always_inline)) inline void move(
+  const PlacementVectors<V>& c, const Real* xyz, typename V::Doubles v[3])
 {
   typename V::Doubles p[3];
   V::load(xyz, p[0], p[1], p[2]);
+  if constexpr (motion == Motion::Compensated)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      v[axis] = compensatedDot<V>(c, p, axis);
+    }
+    return;
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
     p[axis] = V::subtract(p[axis], c.pivot[axis]);
@@ -319,6 +352,8 @@ void partition(const Placement& placement, const Real* xyz, std::int64_t count, 
       return partitionMoved<V, Motion::Scale>(placement, xyz, count, writer);
     case Motion::General:
       return partitionMoved<V, Motion::General>(placement, xyz, count, writer);
+    case Motion::Compensated:
+      return partitionMoved<V, Motion::Compensated>(placement, xyz, count, writer);
   }
 }
 

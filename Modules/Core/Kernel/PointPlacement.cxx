@@ -33,6 +33,57 @@ void solve(const AffineTransform& transform, const Wide b[3], Wide p[3])
   }
 }
 
+/// See compensatedDot() of PlacementBody.h: the same operations in the same order.
+double compensatedDot(const double row[3], const double p[3], double offset, double offsetRest)
+{
+  double sum = offset;
+  double rest = offsetRest;
+  for (int column = 0; column < 3; ++column)
+  {
+    const double term = p[column] * row[column];
+    rest += std::fma(p[column], row[column], -term);
+    const double total = sum + term;
+    const double added = total - sum;
+    rest += (sum - (total - added)) + (term - added);
+    sum = total;
+  }
+  return sum + rest;
+}
+
+/// Where rounding p - pivot, the products and their sums could move a point inside by more than 2^-34 voxel:
+/// under matrices of a large condition number, and on the finest lattices.
+bool needsCompensation(const AffineTransform& transform, const Lattice& lattice, const double offset[3])
+{
+  constexpr Wide kRounding = 0x1p-50L; // of a term of the sum, all told
+  constexpr Wide kMostLost = 0x1p-34L;
+  Wide largest[3] = { 0, 0, 0 }; // |p - pivot| of the points inside
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    Wide extent[3] = { 0, 0, 0 };
+    Wide edge[3];
+    extent[axis] = Wide(lattice.dimensions[std::size_t(axis)]) * Wide(lattice.spacing[axis]) +
+      std::abs(Wide(offset[axis]));
+    solve(transform, extent, edge);
+    for (int column = 0; column < 3; ++column)
+    {
+      largest[column] += std::abs(edge[column]);
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    Wide terms = std::abs(Wide(offset[axis]));
+    for (int column = 0; column < 3; ++column)
+    {
+      terms += std::abs(Wide(transform.m[axis][column])) * largest[column];
+    }
+    if (!(kRounding * terms <= kMostLost * Wide(lattice.spacing[axis])))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 Motion motionOf(const AffineTransform& t)
 {
   if (!isDiagonal(t.m))
@@ -40,6 +91,23 @@ Motion motionOf(const AffineTransform& t)
     return Motion::General;
   }
   return t.m[0][0] == 1.0 && t.m[1][1] == 1.0 && t.m[2][2] == 1.0 ? Motion::Shift : Motion::Scale;
+}
+
+/// What the transform makes of the pivot, from the lattice's origin.
+void setOffset(const AffineTransform& transform, const Lattice& lattice, Placement& placement)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // Their difference in two words (Knuth).
+    const double t = transform.m[axis][3];
+    const double o = lattice.origin[axis];
+    const double difference = t - o;
+    const double back = difference - t;
+    const double rest = (t - (difference - back)) - (o + back);
+    placement.offset[axis] =
+      compensatedDot(placement.matrix[axis], placement.pivot, difference, rest) + 0.0; // never -0
+    placement.offsetRest[axis] = rest;
+  }
 }
 
 /// Whether fma(v, r, v t), with r = 1 / d and t = 1 / d - r rounded, is v / d correctly rounded for all v:
@@ -87,6 +155,7 @@ Placement makePlacement(
   {
     toOrigin[axis] = Wide(lattice.origin[axis]) - Wide(transform.m[axis][3]);
     pivot[axis] = toOrigin[axis] / Wide(transform.m[axis][axis]);
+    std::copy(transform.m[axis], transform.m[axis] + 3, placement.matrix[axis]);
   }
   if (placement.motion == Motion::General)
   {
@@ -98,15 +167,15 @@ Placement makePlacement(
   {
     placement.pivot[axis] = finite ? double(pivot[axis]) : 0.0;
   }
+  setOffset(transform, lattice, placement);
+  if (placement.motion == Motion::General && needsCompensation(transform, lattice, placement.offset))
+  {
+    placement.motion = Motion::Compensated;
+    std::fill(placement.pivot, placement.pivot + 3, 0.0);
+    setOffset(transform, lattice, placement);
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
-    Wide mapped = -toOrigin[axis];
-    for (int column = 0; column < 3; ++column)
-    {
-      placement.matrix[axis][column] = transform.m[axis][column];
-      mapped += Wide(transform.m[axis][column]) * Wide(placement.pivot[column]);
-    }
-    placement.offset[axis] = double(mapped) + 0.0; // never -0
     const double quantum = std::ldexp(lattice.spacing[axis], -placement.fractionBits);
     placement.quantum[axis] = quantum;
     placement.reciprocal[axis] = 1.0 / quantum;
@@ -144,9 +213,11 @@ Place placePoint(const Placement& placement, const Vec3& point, std::uint64_t po
   {
     const double* row = placement.matrix[axis];
     // The same operations in the same order as the vector loops.
-    double v = placement.motion == Motion::General ? (p[0] * row[0] + p[1] * row[1]) + p[2] * row[2]
-                                                   : p[axis] * row[axis];
-    v += placement.offset[axis];
+    const double offset = placement.offset[axis];
+    const double v = placement.motion == Motion::Compensated
+      ? compensatedDot(row, p, offset, placement.offsetRest[axis])
+      : placement.motion == Motion::General ? ((p[0] * row[0] + p[1] * row[1]) + p[2] * row[2]) + offset
+                                            : p[axis] * row[axis] + offset;
     const double u = v / placement.quantum[axis];
     finite = finite && std::isfinite(v);
     inside = inside && v >= 0.0 && u < placement.limit[axis];

@@ -59,6 +59,7 @@ enum class Motion
   Shift,    ///< The matrix is one.
   Scale,    ///< The matrix is diagonal.
   General,
+  Compensated, ///< General, and rounding would cost places: the pivot is 0, v a dot product in two words.
 };
 
 /// How coordinates become positions in the lattice and rows of it.
@@ -68,6 +69,7 @@ struct Placement
   double pivot[3];
   double matrix[3][3];
   double offset[3];
+  double offsetRest[3]; ///< What rounding took from it; only Motion::Compensated looks at it.
   double quantum[3];    ///< The spacing over a power of two.
   double reciprocal[3]; ///< 1 / quantum, rounded.
   double remainder[3];  ///< What rounding took from it, rounded.

@@ -59,6 +59,10 @@ struct Avx2 : CovarianceAvx2
   }
   /// a b + c, rounded once here, twice without a fused multiplication: the same where a b is exact.
   static Doubles multiplyAdd(Doubles a, Doubles b, Doubles c) { return _mm256_fmadd_pd(a, b, c); }
+  static Doubles multiplyRest(Doubles a, Doubles b, Doubles product)
+  {
+    return _mm256_fmsub_pd(a, b, product);
+  }
   /// 0 <= a < limit, a not -0. Only the signs of a mask count.
   static Mask below(Mask given, Doubles a, Doubles limit)
   {

@@ -68,6 +68,10 @@ struct Avx512 : CovarianceAvx512
   }
   /// a b + c, rounded once here, twice without a fused multiplication: the same where a b is exact.
   static Doubles multiplyAdd(Doubles a, Doubles b, Doubles c) { return _mm512_fmadd_pd(a, b, c); }
+  static Doubles multiplyRest(Doubles a, Doubles b, Doubles product)
+  {
+    return _mm512_fmsub_pd(a, b, product);
+  }
   /// 0 <= a < limit, a not -0: as numbers, what is not has larger bits.
   static Mask below(Mask given, Doubles a, Doubles limit)
   {

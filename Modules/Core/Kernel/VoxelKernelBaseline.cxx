@@ -1,6 +1,8 @@
 /// The loops for every machine: two points at a time, in vectors that the compiler knows everywhere.
 #include "Core/Kernel/VoxelKernelBody.h"
 
+#include <cmath>
+
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
@@ -43,6 +45,11 @@ struct Pairs
   static Doubles subtract(Doubles a, Doubles b) { return a - b; }
   static Doubles multiply(Doubles a, Doubles b) { return a * b; }
   static Doubles multiplyAdd(Doubles a, Doubles b, Doubles c) { return a * b + c; }
+  /// a b - product, rounded once.
+  static Doubles multiplyRest(Doubles a, Doubles b, Doubles product)
+  {
+    return Doubles{ std::fma(a[0], b[0], -product[0]), std::fma(a[1], b[1], -product[1]) };
+  }
   /// 0 <= a < limit, a not -0: what that is the quotient of is below 0. Only the signs of a mask count. GCC
   /// takes the plain form for a number of each, and apart.
   static Mask below(Mask given, Doubles a, Doubles limit)

@@ -94,51 +94,115 @@ TEST(PartitionPlan, KeepsPartitionsWithinHalfTheLayersAndTheirCellsWithin32Bits)
   }
 }
 
+namespace
+{
+
+/// Long double has too few digits for what cancels under the transforms of these tests.
+__extension__ typedef __float128 Exact;
+
+/// Scales, rotations, and shears of condition numbers up to 10^10.
+AffineTransform randomTransform(trial::Random& random, int kind)
+{
+  switch (kind % 3)
+  {
+    case 0:
+      return AffineTransform::scaling(random.inBox({ 0.5, -4, 0.5 }, { 2, -0.5, 4 }));
+    case 1:
+      return AffineTransform::rotation(random.uniform(0, 360), random.direction());
+    default:
+    {
+      AffineTransform shear;
+      shear.m[0][1] = std::pow(10.0, random.uniform(0, 5));
+      return AffineTransform::rotation(random.uniform(0, 360), random.direction()) * shear *
+        AffineTransform::rotation(random.uniform(0, 360), random.direction());
+    }
+  }
+}
+
+/// The point that is so far along each axis of a lattice, as near as a double is to it.
+Vec3 pointAt(const AffineTransform& transform, const Lattice& lattice, const Vec3& fractions)
+{
+  Exact target[3];
+  Exact m[3][3];
+  for (int r = 0; r < 3; ++r)
+  {
+    target[r] = Exact(lattice.origin[r]) - Exact(transform.m[r][3]) +
+      Exact(fractions[r]) * Exact(lattice.dimensions[std::size_t(r)]) * Exact(lattice.spacing[r]);
+    std::copy(transform.m[r], transform.m[r] + 3, m[r]);
+  }
+  const auto cofactor = [&](int r, int c)
+  {
+    return m[(r + 1) % 3][(c + 1) % 3] * m[(r + 2) % 3][(c + 2) % 3] -
+      m[(r + 1) % 3][(c + 2) % 3] * m[(r + 2) % 3][(c + 1) % 3];
+  };
+  const Exact determinant = m[0][0] * cofactor(0, 0) + m[0][1] * cofactor(0, 1) + m[0][2] * cofactor(0, 2);
+  Vec3 point;
+  for (int c = 0; c < 3; ++c)
+  {
+    point[c] = double(
+      (cofactor(0, c) * target[0] + cofactor(1, c) * target[1] + cofactor(2, c) * target[2]) / determinant);
+  }
+  return point;
+}
+
+} // namespace
+
 TEST(PointPlacement, CutsPlacesDownToTheQuantum)
 {
   trial::Random random(3);
-  for (int i = 0; i < 300; ++i)
+  int compensated = 0;
+  for (int i = 0; i < 900; ++i)
   {
     Lattice lattice = randomLattice(random, double(kMaximumLatticeDimension));
     lattice.origin = random.inBox({ -1e6, -1e6, -1e6 }, { 1e6, 1e6, 1e6 });
     lattice.spacing = random.inBox({ 0.1, 0.1, 0.1 }, { 3, 3, 3 });
-    AffineTransform transform = AffineTransform::rotation(random.uniform(0, 360), random.direction());
-    if (i % 3 == 0)
+    AffineTransform transform = randomTransform(random, i);
+    for (int axis = 0; axis < 3; ++axis)
     {
-      transform = AffineTransform::scaling(random.inBox({ 0.5, -4, 0.5 }, { 2, -0.5, 4 }));
+      transform.m[axis][3] = random.uniform(-1e6, 1e6);
     }
     const int bits = indexBitsOf(lattice);
     const Placement placement = makePlacement(transform, lattice, bits, positionBitsFor(bits));
     EXPECT_LE(std::ldexp(1.0, -placement.fractionBits), 0x1p-31);
-    const AffineTransform back = transform.inverse();
+    compensated += placement.motion == Motion::Compensated;
+    const double quantum = std::ldexp(1.0, -placement.fractionBits);
+    const auto longest = double(*std::max_element(lattice.dimensions.begin(), lattice.dimensions.end()));
+    // The coordinates' last bits are as good as any.
+    const double rounding = 0x1p-34 + 0x1p-51 * longest;
+    int inside = 0;
     for (int j = 0; j < 20; ++j)
     {
-      Vec3 target;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        target[axis] = lattice.origin[axis] +
-          random.uniform(0.01, 0.99) * double(lattice.dimensions[std::size_t(axis)]) * lattice.spacing[axis];
-      }
-      const Vec3 point = back.apply(target);
+      const Vec3 point = pointAt(transform, lattice, random.inBox({ 0, 0, 0 }, { 1, 1, 1 }));
       std::uint64_t position[3];
-      ASSERT_EQ(placePoint(placement, point, position), Place::Inside);
-      for (int axis = 0; axis < 3; ++axis)
+      const bool isInside = placePoint(placement, point, position) == Place::Inside;
+      inside += isInside;
+      for (int axis = 0; axis < 3 && isInside; ++axis)
       {
-        using Wide = long double;
         const double* row = transform.m[axis];
-        const Wide moved =
-          Wide(row[0]) * point.x + Wide(row[1]) * point.y + Wide(row[2]) * point.z + Wide(row[3]);
-        const Wide u = (moved - Wide(lattice.origin[axis])) / Wide(lattice.spacing[axis]);
-        const Wide got = std::ldexp(Wide(position[axis]), -placement.fractionBits);
-        // A few roundings of numbers as large as the lattice's extent in voxels, or the pivot's own.
-        const Wide rounding =
-          0x1p-50L * Wide(*std::max_element(lattice.dimensions.begin(), lattice.dimensions.end())) * 30 +
-          0x1p-51L * 1e7L / Wide(lattice.spacing[axis]);
-        ASSERT_LE(got - u, rounding);
-        ASSERT_LE(u - got, std::ldexp(Wide(1), -placement.fractionBits) + rounding);
+        const Exact moved =
+          Exact(row[0]) * point.x + Exact(row[1]) * point.y + Exact(row[2]) * point.z + Exact(row[3]);
+        const Exact u = (moved - Exact(lattice.origin[axis])) / Exact(lattice.spacing[axis]);
+        const auto error = double(Exact(position[axis]) * Exact(quantum) - u);
+        ASSERT_LE(error, rounding) << "motion " << int(placement.motion);
+        ASSERT_GE(error, -quantum - rounding) << "motion " << int(placement.motion);
       }
     }
+    EXPECT_GT(inside, 10);
   }
+  EXPECT_GT(compensated, 200);
+}
+
+TEST(PointPlacement, CompensatesOnlyWhereItIsOfUse)
+{
+  Lattice lattice;
+  lattice.dimensions = { 4096, 4096, 4096 };
+  const auto motionUnder = [&](const AffineTransform& transform)
+  { return makePlacement(transform, lattice, indexBitsOf(lattice), kPositionBits).motion; };
+  const AffineTransform rotation = AffineTransform::rotation(33, { 1, 2, 3 });
+  EXPECT_EQ(motionUnder(rotation), Motion::General);
+  EXPECT_EQ(motionUnder(AffineTransform::scaling({ 1e5, 1e5, 1e5 }) * rotation), Motion::General);
+  EXPECT_EQ(motionUnder(AffineTransform::scaling({ 1, 1e5, 1 })), Motion::Scale);
+  EXPECT_EQ(motionUnder(rotation * AffineTransform::scaling({ 1, 1e5, 1 }) * rotation), Motion::Compensated);
 }
 
 TEST(PointPlacement, DividesAsAPairOnlyWhereThatIsTheQuotient)

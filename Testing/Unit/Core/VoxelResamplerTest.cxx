@@ -158,21 +158,30 @@ TEST(VoxelResampler, TheLowestCornerIsInsideWhateverTheSignOfItsZeros)
 
 TEST(VoxelResampler, GivesTheSameBitsUnderAGeneralTransformInBothPrecisions)
 {
-  const std::vector<Vec3> points = randomBox(30000, 7, { -1, -1, -1 }, { 1, 1, 1 });
-  for (const Lattice& lattice : { latticeOf(300, 300, 300), latticeOf(4096, 4096, 4096) })
+  for (const double slant : { 0.0, 1e6 })
   {
-    for (const bool single : { false, true })
+    AffineTransform shear;
+    shear.m[0][1] = slant;
+    std::vector<Vec3> points = randomBox(30000, 7, { -1, -1, -1 }, { 1, 1, 1 });
+    for (Vec3& p : points)
     {
-      VoxelRequest request = requestFor(points, lattice);
-      request.transform = generalTransform(double(lattice.dimensions[0]));
-      request.singlePrecision = single;
-      const RunResult expected = runOf(request);
-      ASSERT_GT(expected.levels[0].counts.size(), 1000u);
-      for (const InstructionSet set :
-        { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+      p.x -= slant * p.y;
+    }
+    for (const Lattice& lattice : { latticeOf(300, 300, 300), latticeOf(4096, 4096, 4096) })
+    {
+      for (const bool single : { false, true })
       {
-        request.instructions = set;
-        expectSame(runOf(request, ThreadedExecutor(2)), expected, nameOf(lattice));
+        VoxelRequest request = requestFor(points, lattice);
+        request.transform = generalTransform(double(lattice.dimensions[0])) * shear;
+        request.singlePrecision = single;
+        const RunResult expected = runOf(request);
+        ASSERT_GT(expected.levels[0].counts.size(), 1000u);
+        for (const InstructionSet set :
+          { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+        {
+          request.instructions = set;
+          expectSame(runOf(request, ThreadedExecutor(2)), expected, nameOf(lattice));
+        }
       }
     }
   }
