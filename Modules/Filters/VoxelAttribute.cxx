@@ -132,113 +132,6 @@ vtkSmartPointer<vtkDataArray> newArray(vtkDataArray* like, int type)
   return array;
 }
 
-/// One value for all that are told apart by their bits only: the zeroes, the NaNs.
-template <typename T>
-T canonical(T value)
-{
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    return std::isnan(value) ? std::numeric_limits<T>::quiet_NaN() : value + T(0);
-  }
-  return value;
-}
-
-/// NaN is a value like others, the largest one.
-template <typename T>
-bool isLess(T a, T b)
-{
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    return std::isnan(b) ? !std::isnan(a) : a < b;
-  }
-  return a < b;
-}
-
-/// The value that is there most often, the smallest of several. Sorts them.
-template <typename T>
-T mostFrequent(std::vector<T>& values)
-{
-  std::sort(values.begin(), values.end(), isLess<T>);
-  T best = values.front();
-  std::size_t longest = 0;
-  for (std::size_t i = 0; i < values.size();)
-  {
-    std::size_t end = i + 1;
-    while (end < values.size() && !isLess(values[i], values[end]))
-    {
-      ++end;
-    }
-    if (end - i > longest)
-    {
-      longest = end - i;
-      best = values[i];
-    }
-    i = end;
-  }
-  return best;
-}
-
-/// The points of each voxel.
-struct Members
-{
-  std::vector<std::int64_t> points;
-  std::vector<std::size_t> begin;
-
-  /// @param voxelOf of each point; negative: of none. @return false if the work was ended.
-  bool find(const std::vector<std::int64_t>& voxelOf, std::int64_t voxels, WatchedPoints& watched)
-  {
-    begin.assign(std::size_t(voxels) + 1, 0);
-    const bool isCounted =
-      forPoints(voxelOf, watched, [&](std::size_t, std::int64_t voxel) { ++begin[std::size_t(voxel) + 1]; });
-    if (!isCounted)
-    {
-      return false;
-    }
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    points.resize(begin.back());
-    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    return forPoints(voxelOf, watched,
-      [&](std::size_t i, std::int64_t voxel) { points[next[std::size_t(voxel)]++] = std::int64_t(i); });
-  }
-
-private:
-  template <typename Visit>
-  static bool forPoints(const std::vector<std::int64_t>& voxelOf, WatchedPoints& watched, Visit&& visit)
-  {
-    return forWatchedSlices(std::int64_t(voxelOf.size()), watched,
-      [&](std::int64_t first, std::int64_t last)
-      {
-        for (auto i = std::size_t(first); i < std::size_t(last); ++i)
-        {
-          if (voxelOf[i] >= 0)
-          {
-            visit(i, voxelOf[i]);
-          }
-        }
-      });
-  }
-};
-
-/// Voxels @p first to @p last.
-template <typename T>
-void writeMostFrequent(
-  const Members& members, std::int64_t first, std::int64_t last, const T* input, int components, T* output)
-{
-  std::vector<T> values;
-  for (std::int64_t v = first; v < last; ++v)
-  {
-    for (int c = 0; c < components; ++c)
-    {
-      values.clear();
-      for (std::size_t m = members.begin[std::size_t(v)]; m < members.begin[std::size_t(v) + 1]; ++m)
-      {
-        values.push_back(canonical(input[components * members.points[m] + c]));
-      }
-      output[components * v + c] = mostFrequent(values);
-    }
-  }
-}
-
 }
 
 VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known,
@@ -246,41 +139,54 @@ VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const At
   : input_(input)
   , plain_(known && known->copy ? known->copy : plainArray(input))
   , kind_(kind)
+  , view_{ plain_->GetVoidPointer(0), scalarType(plain_->GetDataType()), plain_->GetNumberOfComponents(),
+    std::int64_t(plain_->GetNumberOfTuples()) }
+  , tuples_(AttributeMode(view_.type, view_.components))
 {
   if (kind != AttributeKind::Category)
   {
-    const AttributeView view{ plain_->GetVoidPointer(0), scalarType(plain_->GetDataType()),
-      plain_->GetNumberOfComponents(), std::int64_t(plain_->GetNumberOfTuples()) };
-    mean_ = std::make_unique<AttributeMean>(
-      view, known ? known->range : rangeOf(view, executor, instructions), instructions);
+    tuples_ =
+      AttributeMean(view_, known ? known->range : rangeOf(view_, executor, instructions), instructions);
   }
 }
 
 AttributeValues VoxelAttribute::values() const
 {
-  return { mean_ ? mean_->range() : AttributeRange(), plain_ == input_ ? nullptr : plain_ };
+  const auto* mean = std::get_if<AttributeMean>(&tuples_);
+  return { mean ? mean->range() : AttributeRange(), plain_ == input_ ? nullptr : plain_ };
 }
 
-void VoxelAttribute::prepare(
-  std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor)
+void VoxelAttribute::prepare(Tuples& tuples, const std::int64_t* counts, std::int64_t voxels,
+  std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor)
+{
+  if (auto* mean = std::get_if<AttributeMean>(&tuples))
+  {
+    mean->prepare(voxels, mostPoints, std::move(spare), executor);
+    return;
+  }
+  std::get<AttributeMode>(tuples).prepare(counts, voxels);
+}
+
+void VoxelAttribute::add(
+  Tuples& tuples, const void* from, std::size_t stride, const std::int64_t* voxels, int count)
+{
+  std::visit([&](auto& ofVoxels) { ofVoxels.add(from, stride, voxels, count); }, tuples);
+}
+
+void VoxelAttribute::prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
+  Buffer<std::int64_t> spare, const Executor& executor)
 {
   voxels_ = finestVoxels_ = voxels;
-  if (mean_)
-  {
-    mean_->prepare(voxels, mostPoints, std::move(spare), executor);
-  }
-  else
-  {
-    voxelOf_.assign(std::size_t(plain_->GetNumberOfTuples()), -1);
-  }
+  prepare(tuples_, counts, voxels, mostPoints, std::move(spare), executor);
 }
 
 Buffer<std::int64_t> VoxelAttribute::takeSums()
 {
-  Buffer<std::int64_t> sums = mean_ ? mean_->takeSums() : Buffer<std::int64_t>();
+  auto* mean = std::get_if<AttributeMean>(&tuples_);
+  Buffer<std::int64_t> sums = mean ? mean->takeSums() : Buffer<std::int64_t>();
   // Numbers of very different magnitudes take many parts: as memory to keep these are too large.
   constexpr std::size_t kMostKept = 4 * sizeof(std::int64_t);
-  if (sums.bytes() > kMostKept * std::size_t(finestVoxels_) * std::size_t(plain_->GetNumberOfComponents()))
+  if (sums.bytes() > kMostKept * std::size_t(finestVoxels_) * std::size_t(view_.components))
   {
     sums.release();
   }
@@ -289,46 +195,29 @@ Buffer<std::int64_t> VoxelAttribute::takeSums()
 
 TupleSource VoxelAttribute::source() const
 {
-  if (!mean_)
-  {
-    return {};
-  }
-  const AttributeView& view = mean_->view();
-  return { view.values, bytesOf(view.type) * std::size_t(view.components) };
+  return { view_.values, std::size_t(bytesOf(view_.type)) * std::size_t(view_.components) };
 }
 
 void VoxelAttribute::add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count)
 {
-  if (mean_)
-  {
-    mean_->add(tuples, stride, voxels, count);
-    return;
-  }
-  const auto* number = static_cast<const char*>(tuples);
-  for (int i = 0; i < count; ++i, number += stride)
-  {
-    voxelOf_[std::size_t(*reinterpret_cast<const std::int64_t*>(number))] = voxels[i];
-  }
+  add(tuples_, tuples, stride, voxels, count);
 }
 
 void VoxelAttribute::coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels)
 {
   voxels_ = voxels;
-  if (mean_)
-  {
-    mean_->coarsen(parents, voxels);
-  }
-  for (std::int64_t& voxel : voxelOf_)
-  {
-    voxel = voxel < 0 ? voxel : parents[std::size_t(voxel)];
-  }
+  std::visit([&](auto& ofVoxels) { ofVoxels.coarsen(parents, voxels); }, tuples_);
+}
+
+VoxelAttribute::Tuples VoxelAttribute::tuplesOfSet() const
+{
+  return std::visit([](const auto& ofVoxels) { return Tuples(ofVoxels.another()); }, tuples_);
 }
 
 bool VoxelAttribute::canWriteSets() const
 {
   const int type = plain_->GetDataType();
-  return kind_ == AttributeKind::Mean ||
-    (kind_ == AttributeKind::Normal && (type == VTK_FLOAT || type == VTK_DOUBLE));
+  return kind_ != AttributeKind::Normal || type == VTK_FLOAT || type == VTK_DOUBLE;
 }
 
 void VoxelAttribute::prepareSets(std::int64_t voxels, const AffineTransform& transform, ArrayPool& pool)
@@ -338,16 +227,9 @@ void VoxelAttribute::prepareSets(std::int64_t voxels, const AffineTransform& tra
   setNormalColumns(transform);
 }
 
-void VoxelAttribute::writeSet(const AttributeMean& sums, std::int64_t first, const std::int64_t* counts) const
+void VoxelAttribute::writeSet(const Tuples& tuples, std::int64_t first, const std::int64_t* counts) const
 {
-  const AttributeView& view = sums.view();
-  void* to = static_cast<char*>(written_->GetVoidPointer(0)) + first * view.components * bytesOf(view.type);
-  if (kind_ == AttributeKind::Normal)
-  {
-    sums.writeUnitVectors(counts, normalColumns_, to, Executor());
-    return;
-  }
-  sums.write(counts, to, Executor());
+  write(tuples, written_, first, counts, Executor(), nullptr);
 }
 
 vtkSmartPointer<vtkDataArray> VoxelAttribute::output(const std::int64_t* counts,
@@ -359,7 +241,7 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::output(const std::int64_t* counts,
     result = newArray(input_, plain_->GetDataType());
     pool.allocate(result, voxels_);
     setNormalColumns(transform);
-    if (!write(result, counts, executor, watcher))
+    if (!write(tuples_, result, 0, counts, executor, watcher))
     {
       return nullptr;
     }
@@ -382,31 +264,35 @@ void VoxelAttribute::setNormalColumns(const AffineTransform& transform)
   normalColumns_[2] = transform.applyToNormal({ 0, 0, 1 });
 }
 
-bool VoxelAttribute::write(
-  vtkDataArray* output, const std::int64_t* counts, const Executor& executor, Watcher* watcher) const
+/// To the voxels of @p output from @p first on.
+bool VoxelAttribute::write(const Tuples& tuples, vtkDataArray* output, std::int64_t first,
+  const std::int64_t* counts, const Executor& executor, Watcher* watcher) const
 {
+  const std::size_t bytes = std::size_t(bytesOf(view_.type)) * std::size_t(view_.components);
+  void* to = static_cast<char*>(output->GetVoidPointer(0)) + std::size_t(first) * bytes;
   switch (kind_)
   {
     case AttributeKind::Mean:
-      mean_->write(counts, output->GetVoidPointer(0), executor);
+      std::get<AttributeMean>(tuples).write(counts, to, executor);
       break;
     case AttributeKind::Normal:
-      writeNormals(output, counts, executor);
+      if (view_.type == ScalarType::Float || view_.type == ScalarType::Double)
+      {
+        std::get<AttributeMean>(tuples).writeUnitVectors(counts, normalColumns_, to, executor);
+        break;
+      }
+      writeIntegerNormals(output, counts, executor);
       break;
     case AttributeKind::Category:
-      return writeCategories(output, executor, watcher);
+      return std::get<AttributeMode>(tuples).write(to, executor, watcher);
   }
   return true;
 }
 
-void VoxelAttribute::writeNormals(
+void VoxelAttribute::writeIntegerNormals(
   vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const
 {
-  if (output->GetDataType() == VTK_FLOAT || output->GetDataType() == VTK_DOUBLE)
-  {
-    mean_->writeUnitVectors(counts, normalColumns_, output->GetVoidPointer(0), executor);
-    return;
-  }
+  const auto& means = std::get<AttributeMean>(tuples_);
   const Vec3& x = normalColumns_[0];
   const Vec3& y = normalColumns_[1];
   const Vec3& z = normalColumns_[2];
@@ -421,7 +307,7 @@ void VoxelAttribute::writeNormals(
       {
         // Integers have a scale of their own: they keep the length of their mean.
         Vec3 mean;
-        mean_->mean(v, counts[v], &mean.x);
+        means.mean(v, counts[v], &mean.x);
         const Vec3 turned = mean.x * x + mean.y * y + mean.z * z;
         const double length = norm(turned);
         const double scale = length > 0.0 ? norm(mean) / length : 0.0;
@@ -431,41 +317,6 @@ void VoxelAttribute::writeNormals(
         }
       }
     });
-}
-
-bool VoxelAttribute::writeCategories(vtkDataArray* output, const Executor& executor, Watcher* watcher) const
-{
-  WatchedPoints watched(watcher, std::int64_t(voxelOf_.size()), 3);
-  Members members;
-  if (!members.find(voxelOf_, voxels_, watched))
-  {
-    return false;
-  }
-  const int components = plain_->GetNumberOfComponents();
-  for (std::int64_t first = 0; first < voxels_;)
-  {
-    // Voxels of so many points that the watcher should hear of them; one at least.
-    const std::size_t points = members.begin[std::size_t(first)];
-    const auto end = std::upper_bound(
-      members.begin.begin() + first + 2, members.begin.end(), points + std::size_t(kWatchedPoints));
-    const std::int64_t count = end - members.begin.begin() - 1 - first;
-    forRange(executor, count,
-      [&](std::int64_t begin, std::int64_t last)
-      {
-        switch (output->GetDataType())
-        {
-          vtkTemplateMacro(writeMostFrequent(members, first + begin, first + last,
-            static_cast<const VTK_TT*>(plain_->GetVoidPointer(0)), components,
-            static_cast<VTK_TT*>(output->GetVoidPointer(0))));
-        }
-      });
-    first += count;
-    if (!watched.add(std::int64_t(members.begin[std::size_t(first)] - points)))
-    {
-      return false;
-    }
-  }
-  return true;
 }
 
 } // namespace pointhaptics

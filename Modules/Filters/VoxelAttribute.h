@@ -6,6 +6,7 @@
 
 #include "Core/AffineTransform.h"
 #include "Core/AttributeMean.h"
+#include "Core/AttributeMode.h"
 #include "Core/Buffer.h"
 #include "Core/Executor.h"
 #include "Core/PointRows.h"
@@ -14,7 +15,7 @@
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
-#include <memory>
+#include <variant>
 #include <vector>
 
 class vtkDataArray;
@@ -39,7 +40,7 @@ struct AttributeValues
 
 /// Used as VoxelResampler::assign() and parents() go: prepare(), add() for all points, output(), then for
 /// each coarser level coarsen() and output(). Or as assignInSets() goes: prepareSets(), for each set of
-/// voxels all that an AttributeMean from sumsOfSet() is to be given and writeSet(), then output().
+/// voxels all points to Tuples from tuplesOfSet() and writeSet(), then output().
 class VoxelAttribute
 {
 public:
@@ -49,22 +50,31 @@ public:
     InstructionSet instructions, const Executor& executor);
   AttributeValues values() const;
 
-  /// @p spare: sums another attribute has no more use for, or nothing.
-  /// @p mostPoints: of a voxel, at coarser levels too.
-  void prepare(
-    std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor);
-  /// The memory of the sums, for a spare: nothing if it is more than 32 bytes a voxel and component.
-  Buffer<std::int64_t> takeSums();
-  /// Whether each voxel's value comes from sums alone.
-  bool canWriteSets() const;
-  void prepareSets(std::int64_t voxels, const AffineTransform& transform, ArrayPool& pool);
-  AttributeMean sumsOfSet() const { return mean_->another(); }
-  /// Values of the voxels from @p first on. @p counts: points of each of these.
-  void writeSet(const AttributeMean& sums, std::int64_t first, const std::int64_t* counts) const;
+  /// Sums of the tuples of each voxel, or the tuples themselves.
+  using Tuples = std::variant<AttributeMean, AttributeMode>;
+  /// @p counts: points of each voxel. @p mostPoints: of a voxel, at coarser levels too. @p spare: sums
+  /// another attribute has no more use for, or nothing.
+  static void prepare(Tuples& tuples, const std::int64_t* counts, std::int64_t voxels,
+    std::int64_t mostPoints, Buffer<std::int64_t> spare = {}, const Executor& executor = {});
+  /// @p from: copies of tuples, each @p stride bytes after the one before.
+  static void add(
+    Tuples& tuples, const void* from, std::size_t stride, const std::int64_t* voxels, int count);
+
   /// What add() needs of each point.
   TupleSource source() const;
-  /// Copies of tuples, each @p stride bytes after the one before.
+  void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
+    Buffer<std::int64_t> spare, const Executor& executor);
   void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
+  /// The memory of the sums, for a spare: nothing if it is more than 32 bytes a voxel and component.
+  Buffer<std::int64_t> takeSums();
+
+  /// Whether the voxels of a set can be written by themselves.
+  bool canWriteSets() const;
+  void prepareSets(std::int64_t voxels, const AffineTransform& transform, ArrayPool& pool);
+  Tuples tuplesOfSet() const;
+  /// Values of the voxels from @p first on. @p counts: points of each of these.
+  void writeSet(const Tuples& tuples, std::int64_t first, const std::int64_t* counts) const;
+
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
   /// One tuple per voxel, of the type, name, components, information and lookup table of the input; null if
   /// the watcher, who may be none, ended the work. @p counts: points of each voxel.
@@ -73,20 +83,19 @@ public:
 
 private:
   void setNormalColumns(const AffineTransform& transform);
-  bool write(
-    vtkDataArray* output, const std::int64_t* counts, const Executor& executor, Watcher* watcher) const;
-  void writeNormals(vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const;
-  bool writeCategories(vtkDataArray* output, const Executor& executor, Watcher* watcher) const;
+  bool write(const Tuples& tuples, vtkDataArray* output, std::int64_t first, const std::int64_t* counts,
+    const Executor& executor, Watcher* watcher) const;
+  void writeIntegerNormals(vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const;
 
   vtkSmartPointer<vtkDataArray> input_; ///< As given.
   vtkSmartPointer<vtkDataArray> plain_; ///< The same as tuples in memory.
   AttributeKind kind_;
+  AttributeView view_; ///< Of plain_.
   std::int64_t voxels_ = 0;
   std::int64_t finestVoxels_ = 0;
-  std::unique_ptr<AttributeMean> mean_;
+  Tuples tuples_;
   vtkSmartPointer<vtkDataArray> written_; ///< By writeSet().
   Vec3 normalColumns_[3];                 ///< The inverse transpose of the transform.
-  std::vector<std::int64_t> voxelOf_;     ///< Of each point, for categories; -1: outside.
 };
 
 } // namespace pointhaptics

@@ -35,11 +35,11 @@
  * that map coordinates cost no digits. Places in the voxel are summed exactly, in integers whose quantum is
  * at most 2^-31 of a voxel; that is the largest error of a mean before it is rounded to the output type, and
  * a mean lies in its voxel (where voxels are larger than the output type's last digits: not in single
- * precision at map coordinates). Matrices that are not diagonal and have a condition number c put points, and
- * so means, up to 2^-53 c N voxels off on lattices of N voxels an axis, which may be more. Everything -
- * points, counts, covariances, averaged arrays - is the same bit for bit for every order of the input points,
- * number of threads, SMP back end and instruction set; a coarser level is the same as the points resampled at
- * its spacing over the same workspace (lattices of up to 4096 voxels an axis).
+ * precision at map coordinates). That holds for matrices of any condition number, too, but 2^-30 for lattices
+ * of more than 2^19 voxels an axis. Everything - points, counts, covariances, averaged arrays - is the same
+ * bit for bit for every order of the input points, number of threads, SMP back end and instruction set; a
+ * coarser level is the same as the points resampled at its spacing over the same workspace (lattices of up to
+ * 4096 voxels an axis).
  *
  * An input without points gives all arrays without tuples.
  *
@@ -54,12 +54,12 @@
  * update until ReleaseScratch() or the filter's end; nothing in proportion to the voxels of the lattice. With
  * covariance: 100 bytes an active voxel more; with levels: up to 100 bytes in all while the update runs, 280
  * with covariance too. With arrays: for each of those points its tuples (8 bytes where
- * they are more than 64); where there are more points, levels or categories, also 8 bytes for each active
- * voxel and component, or 16 for integers of 64 bits and for most arrays of doubles (more where magnitudes
- * differ by more than 2^50; at most 32 are kept). A workspace that shows less than half of the cloud for the
- * second time makes a PointIndex (16 bytes a point; 28 for double coordinates), after which an update costs
- * in proportion to the points inside, but for categorical arrays: a few nanoseconds for each point. Copies of
- * arrays whose memory is not plain tuples of numbers are then kept too.
+ * they are more than 64); where there are more points, or levels, also the categories of all points inside,
+ * and of other arrays 8 bytes for each active voxel and component, or 16 for integers of 64 bits and for most
+ * arrays of doubles (more where magnitudes differ by more than 2^50; at most 32 are kept). A workspace that
+ * shows less than half of the cloud for the second time makes a PointIndex (16 bytes a point; 28 for double
+ * coordinates), after which an update costs in proportion to the points inside. Copies of arrays whose memory
+ * is not plain tuples of numbers are then kept too.
  *
  * Progress events come at least every 1.25 million points; AbortExecute ends the work there, the output is
  * then empty and the next Update() starts anew. Like every VTK filter, one object is used by one thread at a

@@ -340,7 +340,8 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
       spare = std::move(this->SpareSums.back());
       this->SpareSums.pop_back();
     }
-    named.attribute.prepare(this->Engine.size(), mostPoints, std::move(spare), this->Smp);
+    named.attribute.prepare(
+      this->Engine.counts(), this->Engine.size(), mostPoints, std::move(spare), this->Smp);
   }
   const Status status = this->Engine.assign(
     this->Request,
@@ -355,7 +356,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   return status == Status::Ok;
 }
 
-/// Sums of a few voxels at a time stay in the caches; their means go where they are to stay.
+/// Sums and tuples of a few voxels at a time stay in the caches; what they give goes where it is to stay.
 void vtkVoxelMeanResampler::Internals::AverageInSets()
 {
   for (NamedAttribute& named : this->Attributes)
@@ -364,46 +365,48 @@ void vtkVoxelMeanResampler::Internals::AverageInSets()
   }
   const std::int64_t mostPoints = this->Engine.mostPoints();
   std::mutex mutex;
-  std::vector<std::vector<AttributeMean>> idle;
+  using TuplesOfAll = std::vector<VoxelAttribute::Tuples>;
+  std::vector<TuplesOfAll> idle;
   const auto take = [&]
   {
     const std::lock_guard<std::mutex> lock(mutex);
-    std::vector<AttributeMean> sums;
+    TuplesOfAll tuples;
     if (!idle.empty())
     {
-      sums = std::move(idle.back());
+      tuples = std::move(idle.back());
       idle.pop_back();
-      return sums;
+      return tuples;
     }
     for (const NamedAttribute& named : this->Attributes)
     {
-      sums.push_back(named.attribute.sumsOfSet());
+      tuples.push_back(named.attribute.tuplesOfSet());
     }
-    return sums;
+    return tuples;
   };
   this->Engine.assignInSets(
     this->Request,
     [&](std::int64_t first, std::int64_t voxels, const auto& forPoints)
     {
-      std::vector<AttributeMean> sums = take();
-      for (AttributeMean& sum : sums)
+      TuplesOfAll tuples = take();
+      const std::int64_t* counts = this->Engine.counts() + first;
+      for (VoxelAttribute::Tuples& ofArray : tuples)
       {
-        sum.prepare(voxels, mostPoints);
+        VoxelAttribute::prepare(ofArray, counts, voxels, mostPoints);
       }
       forPoints(
         [&](const PointRows& rows, const std::int64_t* numbers, int count)
         {
-          for (std::size_t i = 0; i < sums.size(); ++i)
+          for (std::size_t i = 0; i < tuples.size(); ++i)
           {
-            sums[i].add(rows.tuples(i), rows.bytes, numbers, count);
+            VoxelAttribute::add(tuples[i], rows.tuples(i), rows.bytes, numbers, count);
           }
         });
-      for (std::size_t i = 0; i < sums.size(); ++i)
+      for (std::size_t i = 0; i < tuples.size(); ++i)
       {
-        this->Attributes[i].attribute.writeSet(sums[i], first, this->Engine.counts() + first);
+        this->Attributes[i].attribute.writeSet(tuples[i], first, counts);
       }
       const std::lock_guard<std::mutex> lock(mutex);
-      idle.push_back(std::move(sums));
+      idle.push_back(std::move(tuples));
     },
     this->Smp);
 }

@@ -1,5 +1,6 @@
 #include "Core/AttributeMean.h"
 
+#include "AttributePlans.h"
 #include "ExactSum.h"
 #include "RandomClouds.h"
 
@@ -8,62 +9,20 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 using namespace pointhaptics;
+using trial::countsOf;
 using trial::ExactSum;
+using trial::Plan;
+using trial::planFor;
+using trial::sameBits;
+using trial::typeOf;
 
 namespace
 {
 
 __extension__ typedef __int128 Int128;
-
-template <typename T>
-ScalarType typeOf()
-{
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    return sizeof(T) == 4 ? ScalarType::Float : ScalarType::Double;
-  }
-  else
-  {
-    const int width = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
-    return ScalarType(2 * width + (std::is_unsigned_v<T> ? 1 : 0));
-  }
-}
-
-/// Which voxel each tuple is in, and in which order tuples are added.
-struct Plan
-{
-  std::vector<std::int64_t> voxels;
-  std::vector<std::int64_t> order;
-  std::int64_t size = 1;
-};
-
-Plan planFor(std::size_t tuples, std::int64_t size, std::uint64_t seed)
-{
-  Plan plan;
-  plan.size = size;
-  trial::Random random(seed);
-  for (std::size_t i = 0; i < tuples; ++i)
-  {
-    plan.voxels.push_back(
-      i < std::size_t(size) ? std::int64_t(i) : std::int64_t(random.below(std::size_t(size))));
-    plan.order.push_back(std::int64_t(i));
-  }
-  return plan;
-}
-
-std::vector<std::int64_t> countsOf(const Plan& plan)
-{
-  std::vector<std::int64_t> counts(std::size_t(plan.size), 0);
-  for (const std::int64_t voxel : plan.voxels)
-  {
-    ++counts[std::size_t(voxel)];
-  }
-  return counts;
-}
 
 /// Adds tuples of @p values in the order of @p points.
 template <typename T>
@@ -107,12 +66,6 @@ std::vector<T> written(const AttributeMean& mean, const Plan& plan, const Execut
   std::vector<T> means(std::size_t(plan.size) * std::size_t(mean.view().components));
   mean.write(countsOf(plan).data(), means.data(), executor);
   return means;
-}
-
-template <typename T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
-{
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 /// Integers: exact sums of 128 bits, halves away from zero.

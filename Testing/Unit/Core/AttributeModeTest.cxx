@@ -1,0 +1,182 @@
+#include "Core/AttributeMode.h"
+
+#include "AttributePlans.h"
+#include "CountingWatcher.h"
+#include "RandomClouds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+using namespace pointhaptics;
+using trial::countsOf;
+using trial::Plan;
+using trial::planFor;
+using trial::sameBits;
+using trial::typeOf;
+
+namespace
+{
+
+/// Adds the tuples in the order of the plan, each with others between it and the next.
+template <typename T>
+AttributeMode modeOf(const std::vector<T>& values, int components, const Plan& plan, int piece = 100)
+{
+  constexpr std::size_t kApart = 3;
+  const auto width = std::size_t(components);
+  AttributeMode mode(typeOf<T>(), components);
+  mode.prepare(countsOf(plan).data(), plan.size);
+  for (std::size_t first = 0; first < plan.order.size(); first += std::size_t(piece))
+  {
+    const std::size_t count = std::min(std::size_t(piece), plan.order.size() - first);
+    std::vector<T> tuples(count * width * kApart);
+    std::vector<std::int64_t> voxels;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const auto point = std::size_t(plan.order[first + i]);
+      std::copy_n(values.data() + width * point, width, tuples.data() + width * kApart * i);
+      voxels.push_back(plan.voxels[point]);
+    }
+    mode.add(tuples.data(), kApart * width * sizeof(T), voxels.data(), int(count));
+  }
+  return mode;
+}
+
+template <typename T>
+std::vector<T> written(
+  const AttributeMode& mode, int components, const Plan& plan, const Executor& executor = {})
+{
+  std::vector<T> modes(std::size_t(plan.size) * std::size_t(components));
+  EXPECT_TRUE(mode.write(modes.data(), executor, nullptr));
+  return modes;
+}
+
+/// By the definition. @pre values are neither NaN nor -0.
+template <typename T>
+std::vector<T> expectedModes(const std::vector<T>& values, int components, const Plan& plan)
+{
+  const auto width = std::size_t(components);
+  std::vector<std::map<T, int>> numbers(std::size_t(plan.size) * width);
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    ++numbers[std::size_t(plan.voxels[i / width]) * width + i % width][values[i]];
+  }
+  std::vector<T> modes;
+  for (const std::map<T, int>& ofVoxel : numbers)
+  {
+    // The first of the largest ones: the smallest value.
+    modes.push_back(std::max_element(ofVoxel.begin(), ofVoxel.end(),
+      [](const auto& a, const auto& b) {
+        return a.second < b.second;
+      })->first);
+  }
+  return modes;
+}
+
+template <typename T>
+std::vector<T> labels(std::size_t count, int kinds, std::uint64_t seed)
+{
+  trial::Random random(seed);
+  std::vector<T> values(count);
+  for (T& value : values)
+  {
+    // Neighbours in the order of numbers, and the ends of the type.
+    const auto kind = int(random.below(std::size_t(kinds)));
+    value = kind == 0 ? std::numeric_limits<T>::lowest() : T(std::numeric_limits<T>::max() - T(kind));
+  }
+  return values;
+}
+
+} // namespace
+
+TEST(AttributeMode, IsTheValueMostPointsHaveAndTheSmallestOnATie)
+{
+  const auto expectRight = [](const auto& values, int components)
+  {
+    using T = typename std::decay_t<decltype(values)>::value_type;
+    const std::size_t tuples = values.size() / std::size_t(components);
+    for (const std::int64_t voxels : { 1, 40, 700 })
+    {
+      const Plan plan = planFor(tuples, voxels, 1);
+      const std::vector<T> expected = expectedModes(values, components, plan);
+      const AttributeMode mode = modeOf(values, components, plan);
+      EXPECT_TRUE(sameBits(written<T>(mode, components, plan), expected)) << voxels;
+      EXPECT_TRUE(sameBits(written<T>(mode, components, plan, trial::BackwardExecutor(7)), expected));
+    }
+  };
+  expectRight(labels<std::uint8_t>(2000, 5, 2), 1);
+  expectRight(labels<std::int8_t>(3000, 3, 3), 3);
+  expectRight(labels<std::int16_t>(3000, 3, 4), 2);
+  expectRight(labels<std::uint32_t>(2000, 4, 5), 1);
+  expectRight(labels<std::int64_t>(2000, 4, 6), 1);
+  expectRight(labels<std::uint64_t>(4000, 6, 7), 4);
+  expectRight(labels<float>(2000, 2, 8), 1);
+  expectRight(labels<double>(3000, 3, 9), 3);
+}
+
+TEST(AttributeMode, TakesNaNsAsOneValueAndZerosAsOne)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double otherNan = -nan;
+  const std::vector<double> values = { nan, 1, otherNan, /**/ -0.0, 0.0, 5, /**/ 7, nan, 3, /**/ -0.0 };
+  Plan plan = planFor(values.size(), 4, 1);
+  plan.voxels = { 0, 0, 0, 1, 1, 1, 2, 2, 2, 3 };
+  for (int turn = 0; turn < 2; ++turn)
+  {
+    const std::vector<double> modes = written<double>(modeOf(values, 1, plan), 1, plan);
+    EXPECT_TRUE(std::isnan(modes[0])) << "two of three";
+    EXPECT_FALSE(std::signbit(modes[0]));
+    EXPECT_TRUE(modes[1] == 0.0 && !std::signbit(modes[1]));
+    EXPECT_EQ(modes[2], 3.0) << "a tie: NaN is the largest value";
+    EXPECT_TRUE(modes[3] == 0.0 && !std::signbit(modes[3])) << "alone";
+    std::reverse(plan.order.begin(), plan.order.end());
+  }
+}
+
+TEST(AttributeMode, OfParentsIsThatOfTheirPoints)
+{
+  const std::vector<std::uint16_t> values = labels<std::uint16_t>(6000, 4, 10);
+  Plan plan = planFor(3000, 400, 11);
+  AttributeMode mode = modeOf(values, 2, plan);
+  for (const std::int64_t coarse : { 90, 12, 1 })
+  {
+    const Plan up = planFor(std::size_t(plan.size), coarse, 12);
+    mode.coarsen(up.voxels, coarse);
+    for (std::int64_t& voxel : plan.voxels)
+    {
+      voxel = up.voxels[std::size_t(voxel)];
+    }
+    plan.size = coarse;
+    EXPECT_TRUE(sameBits(written<std::uint16_t>(mode, 2, plan), expectedModes(values, 2, plan))) << coarse;
+  }
+}
+
+TEST(AttributeMode, StartsFromNothingEachTime)
+{
+  const std::vector<int> values = labels<int>(900, 3, 13);
+  AttributeMode mode = modeOf(values, 1, planFor(900, 500, 14));
+  const Plan plan = planFor(900, 30, 15);
+  mode.prepare(countsOf(plan).data(), plan.size);
+  mode.add(values.data(), sizeof(int), plan.voxels.data(), 900);
+  EXPECT_TRUE(sameBits(written<int>(mode, 1, plan), expectedModes(values, 1, plan)));
+  const AttributeMode none = mode.another();
+  EXPECT_TRUE(none.write(nullptr, {}, nullptr)) << "no voxels";
+}
+
+TEST(AttributeMode, TellsAWatcherHowFarItIsAndEndsWhenItSaysSo)
+{
+  constexpr std::size_t kPoints = 3 * std::size_t(kWatchedPoints);
+  const std::vector<std::uint8_t> values = labels<std::uint8_t>(kPoints, 5, 16);
+  const Plan plan = planFor(kPoints, 1000, 17);
+  const AttributeMode mode = modeOf(values, 1, plan, 100000);
+  std::vector<std::uint8_t> modes(1000);
+  trial::CountingWatcher patient;
+  EXPECT_TRUE(mode.write(modes.data(), {}, &patient));
+  trial::expectAscendToOne(patient.fractions, 3);
+  trial::CountingWatcher impatient(2);
+  EXPECT_FALSE(mode.write(modes.data(), {}, &impatient));
+  EXPECT_EQ(impatient.fractions.size(), 2u);
+}
