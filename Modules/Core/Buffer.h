@@ -1,13 +1,11 @@
 /// @file
-/// Raw memory that only grows and is kept for the next time, scratch of the inner loops; and vectors in huge
-/// pages.
+/// Raw memory that only grows and is kept for the next time: scratch of the inner loops.
 #pragma once
 
 #include <cstddef>
 #include <cstdlib>
 #include <new>
 #include <utility>
-#include <vector>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -87,35 +85,5 @@ private:
   T* data_ = nullptr;
   std::size_t capacity_ = 0;
 };
-
-/// For vectors of a trivial type that take much memory anew each time: huge pages, and resize() leaves what
-/// it adds uninitialised.
-template <typename T>
-struct HugeAllocator
-{
-  using value_type = T;
-
-  HugeAllocator() = default;
-  template <typename U>
-  HugeAllocator(const HugeAllocator<U>&)
-  {
-  }
-  T* allocate(std::size_t count) { return static_cast<T*>(allocatePages(count * sizeof(T), Pages::Huge)); }
-  void deallocate(T* memory, std::size_t) { std::free(memory); }
-  template <typename U>
-  void construct(U* place)
-  {
-    ::new (static_cast<void*>(place)) U;
-  }
-  template <typename U, typename... Values>
-  void construct(U* place, Values&&... values)
-  {
-    ::new (static_cast<void*>(place)) U(std::forward<Values>(values)...);
-  }
-  bool operator==(const HugeAllocator&) const { return true; }
-  bool operator!=(const HugeAllocator&) const { return false; }
-};
-template <typename T>
-using HugeVector = std::vector<T, HugeAllocator<T>>;
 
 } // namespace pointhaptics

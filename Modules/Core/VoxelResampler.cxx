@@ -63,26 +63,61 @@ void VoxelResampler::Implementation::clear()
   runs_.reset(0, 0);
 }
 
+/// Writes the means of runs to a level. @pre these are joined. @param keeps: the runs are of use afterwards.
+void VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, VoxelRuns& runs, bool keeps,
+  Level& level, ResultMemory* memory, const Executor& executor)
+{
+  const std::size_t ranges = runs.ranges();
+  level.firsts.assign(ranges + 1, 0);
+  for (std::size_t range = 0; range < ranges; ++range)
+  {
+    level.firsts[range + 1] = level.firsts[range] + runs.size(range);
+  }
+  level.size = std::int64_t(level.firsts.back());
+  level.arena.prepare(level.firsts.back(), { request.singlePrecision, request.keys, request.covariances },
+    level.lattice, runs.fractionBits(), memory);
+  const bool plain = !hasOrdinarySpacing(level.lattice);
+  forEachItem(executor, ranges,
+    [&](std::size_t range)
+    {
+      runs.write(
+        range, kernelsFor(request.instructions), level.lattice, plain, level.arena, level.firsts[range]);
+      if (!keeps)
+      {
+        runs.release(range);
+      }
+    });
+}
+
+/// @param runs of level @p levelOfRuns, 0 or 1.
 Status VoxelResampler::Implementation::addLevels(
-  const VoxelRequest& request, VoxelSumList list, const Executor& executor, Watcher* watcher)
+  const VoxelRequest& request, VoxelRuns runs, int levelOfRuns, const Executor& executor, Watcher* watcher)
 {
   const double share = shareOfFinest(request);
   const auto progressAt = [&](int level)
   { return share + (1.0 - share) * double(level - 1) / double(request.levels - 1); };
   for (int l = 1; l < request.levels; ++l)
   {
+    const Level& finer = levels.back();
     Level level;
-    level.lattice = coarserLattice(levels.back().lattice);
+    level.lattice = coarserLattice(finer.lattice);
     PartWatcher part(watcher, progressAt(l), progressAt(l + 1));
-    VoxelSumList coarse;
-    if (!coarserSums(list, levels.back().lattice, level.lattice, coarse, level.parents, executor, &part))
+    if (l > levelOfRuns)
     {
-      return Status::Aborted;
+      VoxelRuns coarse;
+      const CoarseVoxels coarsening(finer.lattice, runs.fractionBits(), request.covariances);
+      if (!coarsening.ofRuns(runs, coarse, executor, &part))
+      {
+        return Status::Aborted;
+      }
+      runs = std::move(coarse);
     }
-    list = std::move(coarse);
-    level.arena.write(
-      list, { request.singlePrecision, request.keys, request.covariances }, level.lattice, executor);
-    level.size = std::int64_t(list.voxels.size());
+    writeRuns(request, runs, l + 1 < request.levels, level, nullptr, executor);
+    if (request.keys)
+    {
+      level.parents = parentsOf(finer.arena.keys(), finer.size, finer.lattice, level.arena.keys(), level.size,
+        level.lattice, executor);
+    }
     levels.push_back(std::move(level));
     if (!part.proceed(1.0))
     {
@@ -103,9 +138,9 @@ Status VoxelResampler::Implementation::assign(
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
   std::size_t sum = pool_.bytes() + ranges_.bytes() + runs_.bytes();
-  for (const std::unique_ptr<PartitionWorker>& worker : idle_)
+  for (const std::unique_ptr<Worker>& worker : idle_)
   {
-    sum += worker->bytes();
+    sum += worker->bytes() + worker->coarse.bytes();
   }
   for (const CarriedPartition& partition : carried_)
   {

@@ -74,45 +74,18 @@ Status VoxelResampler::Implementation::runGeneral(
 Status VoxelResampler::Implementation::finishRuns(
   const VoxelRequest& request, const Executor& executor, Watcher* watcher)
 {
-  const MeanArena::Layout layout = { request.singlePrecision, request.keys, request.covariances };
-  Level& level = levels[0];
-  const std::size_t ranges = runs_.ranges();
-  forEachItem(executor, ranges, [&](std::size_t range) { runs_.join(range); });
-  if (halvings_ > 0)
+  forEachItem(executor, runs_.ranges(), [&](std::size_t range) { runs_.join(range); });
+  for (int halvings = halvings_; halvings > 0; --halvings)
   {
-    VoxelSumList list = runs_.take();
-    for (int halvings = halvings_; halvings > 0; --halvings)
-    {
-      // Of 64 voxels at most.
-      VoxelSumList coarse;
-      std::vector<std::int64_t> parents;
-      coarserSums(list, finerLattice(request.lattice, halvings), finerLattice(request.lattice, halvings - 1),
-        coarse, parents, executor, nullptr);
-      list = std::move(coarse);
-    }
-    level.arena.write(list, layout, request.lattice, executor, request.memory);
-    level.size = std::int64_t(list.voxels.size());
-    return request.levels > 1 ? addLevels(request, std::move(list), executor, watcher) : Status::Ok;
+    // Of 64 voxels at most.
+    VoxelRuns coarse;
+    const Lattice fine = finerLattice(request.lattice, halvings);
+    const CoarseVoxels coarsening(fine, runs_.fractionBits(), request.covariances);
+    coarsening.ofRuns(runs_, coarse, executor, nullptr);
+    runs_ = std::move(coarse);
   }
-  level.firsts.assign(ranges + 1, 0);
-  for (std::size_t range = 0; range < ranges; ++range)
-  {
-    level.firsts[range + 1] = level.firsts[range] + runs_.size(range);
-  }
-  level.size = std::int64_t(level.firsts.back());
-  level.arena.prepare(level.firsts.back(), layout, request.lattice, runs_.fractionBits(), request.memory);
-  const bool plain = !hasOrdinarySpacing(request.lattice);
-  forEachItem(executor, ranges,
-    [&](std::size_t range)
-    {
-      runs_.write(
-        range, kernelsFor(request.instructions), request.lattice, plain, level.arena, level.firsts[range]);
-      if (request.levels == 1)
-      {
-        runs_.release(range);
-      }
-    });
-  return request.levels > 1 ? addLevels(request, runs_.take(), executor, watcher) : Status::Ok;
+  writeRuns(request, runs_, request.levels > 1, levels[0], request.memory, executor);
+  return request.levels > 1 ? addLevels(request, std::move(runs_), 0, executor, watcher) : Status::Ok;
 }
 
 Status VoxelResampler::Implementation::assignGeneral(

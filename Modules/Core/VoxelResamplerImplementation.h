@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Buffer.h"
+#include "Core/Kernel/CoarseVoxels.h"
 #include "Core/Kernel/KeyRanges.h"
 #include "Core/Kernel/PartitionSums.h"
 #include "Core/Kernel/PointChunks.h"
@@ -61,6 +62,11 @@ public:
   std::size_t scratchBytes() const;
 
 private:
+  /// With what a thread makes coarse voxels in.
+  struct Worker : kernel::PartitionWorker
+  {
+    kernel::CoarseVoxels::Scratch coarse;
+  };
   class WorkerLease;
 
   void clear();
@@ -81,9 +87,11 @@ private:
   void finish(const VoxelRequest& request, const Executor& executor);
   /// The part of the work of run() that the finest level is.
   static double shareOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
-  Status addLevels(
-    const VoxelRequest& request, kernel::VoxelSumList list, const Executor& executor, Watcher* watcher);
-  kernel::VoxelSumList takeCarried(bool covariances, const Executor& executor);
+  void writeRuns(const VoxelRequest& request, kernel::VoxelRuns& runs, bool keeps, kernel::Level& level,
+    ResultMemory* memory, const Executor& executor);
+  Status addLevels(const VoxelRequest& request, kernel::VoxelRuns runs, int levelOfRuns,
+    const Executor& executor, Watcher* watcher);
+  kernel::VoxelRuns takeCarried(const Executor& executor);
   Status assignPlanned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
   void visitPartition(const VoxelRequest& request, kernel::PartitionWorker& worker, std::uint32_t partition,
@@ -100,7 +108,7 @@ private:
   RowLayout rows_;            ///< As assign() hands them out.
   RowLayout dealtRows_;       ///< As they are dealt out with the records.
   std::vector<kernel::CarriedPartition> carried_;
-  std::vector<std::unique_ptr<kernel::PartitionWorker>> idle_;
+  std::vector<std::unique_ptr<Worker>> idle_;
   kernel::KeyRanges ranges_;
   kernel::VoxelRuns runs_;
   alignas(kernel::kApart) std::mutex mutex_;

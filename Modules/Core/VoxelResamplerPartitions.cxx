@@ -28,7 +28,7 @@ public:
     }
     if (!worker_)
     {
-      worker_ = std::make_unique<PartitionWorker>();
+      worker_ = std::make_unique<Worker>();
     }
     worker_->prepare(owner_.plan_, covariances);
   }
@@ -39,11 +39,11 @@ public:
   }
   WorkerLease(const WorkerLease&) = delete;
   WorkerLease& operator=(const WorkerLease&) = delete;
-  PartitionWorker& operator*() const { return *worker_; }
+  Worker& operator*() const { return *worker_; }
 
 private:
   Implementation& owner_;
-  std::unique_ptr<PartitionWorker> worker_;
+  std::unique_ptr<Worker> worker_;
 };
 
 namespace
@@ -57,6 +57,34 @@ std::int64_t mostPointsOfBatch(int indexBits)
 static_assert(
   kChunkPoints < std::int64_t(1) << (62 - kPositionBits + kMinimumIndexBits), "a batch must hold a chunk");
 static_assert(kChunkPoints <= kWatchedPoints, "a watcher is told after each chunk");
+
+/// Partitions that are whole layers of the next coarser lattice together.
+class PartitionGroups
+{
+public:
+  explicit PartitionGroups(const PartitionPlan& plan)
+    : partitions_(plan.partitions)
+    , size_(plan.layerShift > 0 ? 1 : 2 * plan.blocksPerLayer)
+    , done_((partitions_ - 1) / size_ + 1)
+  {
+  }
+  std::uint32_t count() const { return std::uint32_t(done_.size()); }
+  std::uint32_t groupOf(std::uint32_t partition) const { return partition / size_; }
+  std::uint32_t begin(std::uint32_t group) const { return group * size_; }
+  std::uint32_t end(std::uint32_t group) const { return std::min((group + 1) * size_, partitions_); }
+  /// A partition is done. @return true if it is the last of its group: all threads' work on the others is
+  /// then to be seen.
+  bool tell(std::uint32_t partition)
+  {
+    const std::uint32_t group = groupOf(partition);
+    return ++done_[group] == end(group) - begin(group);
+  }
+
+private:
+  std::uint32_t partitions_;
+  std::uint32_t size_;
+  std::vector<std::atomic<std::uint32_t>> done_;
+};
 
 /// Where the records of a few points went.
 class RowSlots
@@ -152,9 +180,12 @@ Status VoxelResampler::Implementation::runPlanned(
   {
     return finishRuns(request, executor, watcher);
   }
-  return request.levels > 1
-    ? addLevels(request, takeCarried(request.covariances, executor), executor, watcher)
-    : Status::Ok;
+  if (request.levels == 1)
+  {
+    return Status::Ok;
+  }
+  return plan_.dense ? addLevels(request, std::move(runs_), 1, executor, watcher)
+                     : addLevels(request, takeCarried(executor), 0, executor, watcher);
 }
 
 void VoxelResampler::Implementation::chooseRows(const VoxelRequest& request)
@@ -237,7 +268,7 @@ void VoxelResampler::Implementation::carryChunk(const VoxelRequest& request, con
         worker.carryDense(kernels, pool_, p, carried_[p]);
         return;
       }
-      worker.load(kernels, pool_, p, carried_[p], [](std::size_t) {});
+      worker.load(kernels, pool_, p, carried_[p], false, [](std::size_t) {});
       keepBatches(request, worker, p);
     });
 }
@@ -250,7 +281,7 @@ void VoxelResampler::Implementation::closeBatch(const VoxelRequest& request, con
     [&](PartitionWorker& worker, std::uint32_t p)
     {
       VoxelRun run;
-      worker.load(kernels, pool_, p, carried_[p], [](std::size_t) {});
+      worker.load(kernels, pool_, p, carried_[p], false, [](std::size_t) {});
       worker.forBatches([&](const MomentBatch<std::int64_t>& batch) { run.append(halved_, batch); });
       runs_.add(p, std::move(run));
       carried_[p].clear();
@@ -268,8 +299,9 @@ void VoxelResampler::Implementation::keepBatches(
   carried_[partition] = CarriedPartition(worker.carried);
 }
 
-/// Means of the pool's records and what is carried. A partition writes its voxels where they belong if those
-/// before it have been counted by then, as they nearly always are; otherwise they are moved there in the end.
+/// Means of the pool's records and what is carried; with levels, sums of the next one's too. A partition
+/// writes its voxels where they belong if those before it have been counted by then, as they nearly always
+/// are; otherwise they are moved there in the end.
 void VoxelResampler::Implementation::finish(const VoxelRequest& request, const Executor& executor)
 {
   const Kernels& kernels = kernelsFor(request.instructions);
@@ -289,11 +321,18 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
   };
   std::vector<Late> late;
   PartitionOrder order(plan_.partitions);
+  const bool makesCoarse = request.levels > 1 && plan_.dense;
+  const CoarseVoxels coarsening(request.lattice, plan_.fractionBits, request.covariances);
+  PartitionGroups groups(plan_);
+  if (makesCoarse)
+  {
+    runs_.reset(groups.count(), plan_.fractionBits + 1);
+  }
   forPartitions(request, executor,
-    [&](PartitionWorker& worker, std::uint32_t p)
+    [&](Worker& worker, std::uint32_t p)
     {
       std::size_t size = 0;
-      worker.load(kernels, pool_, p, carried_[p],
+      worker.load(kernels, pool_, p, carried_[p], makesCoarse,
         [&](std::size_t known)
         {
           size = known;
@@ -321,7 +360,16 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
             place += std::size_t(batch.size);
           });
       }
-      if (request.levels > 1)
+      if (makesCoarse)
+      {
+        const std::uint32_t group = groups.groupOf(p);
+        if (groups.tell(p))
+        {
+          runs_.add(group,
+            coarsening.ofPartitions(plan_, carried_, groups.begin(group), groups.end(group), worker.coarse));
+        }
+      }
+      else if (request.levels > 1)
       {
         keepBatches(request, worker, p);
       }
@@ -340,29 +388,25 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
 }
 
 /// What was carried, which is let go of.
-VoxelSumList VoxelResampler::Implementation::takeCarried(bool covariances, const Executor& executor)
+VoxelRuns VoxelResampler::Implementation::takeCarried(const Executor& executor)
 {
-  std::vector<std::size_t> places = { 0 };
-  for (const CarriedPartition& partition : carried_)
-  {
-    places.push_back(places.back() + partition.voxels.size());
-  }
-  VoxelSumList list;
-  list.fractionBits = plan_.fractionBits;
-  list.voxels.resize(places.back());
-  list.seconds.resize(covariances ? places.back() : 0);
+  VoxelRuns runs;
+  runs.reset(carried_.size(), plan_.fractionBits);
   forEachItem(executor, carried_.size(),
     [&](std::size_t p)
     {
-      const CarriedPartition partition = std::move(carried_[p]);
-      VoxelSums* to = list.voxels.data() + places[p];
+      CarriedPartition partition = std::move(carried_[p]);
+      VoxelRun run;
+      run.voxels.reserve(partition.voxels.size());
       for (const CarriedSums& voxel : partition.voxels)
       {
-        *to++ = { voxel.key, voxel.count, { voxel.sums[0], voxel.sums[1], voxel.sums[2] } };
+        run.voxels.push_back({ voxel.key, voxel.count,
+          { std::uint64_t(voxel.sums[0]), std::uint64_t(voxel.sums[1]), std::uint64_t(voxel.sums[2]) }, 0 });
       }
-      std::copy(partition.seconds.begin(), partition.seconds.end(), list.seconds.data() + places[p]);
+      run.seconds = std::move(partition.seconds);
+      runs.add(p, std::move(run));
     });
-  return list;
+  return runs;
 }
 
 Status VoxelResampler::Implementation::assignPlanned(

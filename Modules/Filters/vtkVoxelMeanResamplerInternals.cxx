@@ -235,7 +235,7 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
     : precision == vtkAlgorithm::SINGLE_PRECISION;
   this->Request.covariances = this->Filter->ComputeCovariance;
   this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
-  this->Request.keys = !this->Attributes.empty() || this->Request.levels > 1;
+  this->Request.keys = !this->Attributes.empty();
   this->Request.assigned = !this->Attributes.empty();
   this->Request.tuples.clear();
   for (const NamedAttribute& named : this->Attributes)

@@ -69,11 +69,11 @@ public:
 
   /// Readies the scratch for partitions of a plan.
   void prepare(const PartitionPlan& plan, bool covariances);
-  /// Adds the records of a partition to @p old sums, which it may change; calls tell(size) as soon as it
-  /// knows the number of its voxels. They hold until the next call.
+  /// Adds the records of a partition to @p old sums, which it may change, and with @p keeps does, if the plan
+  /// is dense; calls tell(size) as soon as it knows the number of its voxels. They hold until the next call.
   template <typename Tell>
   void load(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& old,
-    Tell&& tell)
+    bool keeps, Tell&& tell)
   {
     partition_ = partition;
     old_ = &old;
@@ -81,7 +81,7 @@ public:
     {
       markDense(kernels, pool);
       tell(voxels_.size);
-      sumDense(kernels, pool, old_->cellCount > 0 ? *old_ : own_);
+      sumDense(kernels, pool, keeps || old_->cellCount > 0 ? *old_ : own_);
       return;
     }
     sortRecords(kernels, pool);

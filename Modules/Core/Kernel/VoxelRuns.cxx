@@ -131,7 +131,7 @@ void VoxelRuns::write(std::size_t range, const Kernels& kernels, const Lattice& 
   {
     return;
   }
-  const VoxelRun& run = runs_[range][0];
+  const VoxelRun& run = this->run(range);
   const bool withSeconds = !run.seconds.empty();
   const auto batch = std::make_unique<MomentBatch<std::int64_t>>();
   std::vector<SecondSums> seconds(withSeconds ? kBatch : 0);
@@ -166,31 +166,6 @@ void VoxelRuns::write(std::size_t range, const Kernels& kernels, const Lattice& 
       }
     }
   }
-}
-
-VoxelSumList VoxelRuns::take()
-{
-  VoxelSumList list;
-  list.fractionBits = fractionBits_;
-  std::size_t voxels = 0;
-  for (std::size_t range = 0; range < runs_.size(); ++range)
-  {
-    voxels += size(range);
-  }
-  list.voxels.reserve(voxels);
-  for (std::size_t range = 0; range < runs_.size(); ++range)
-  {
-    for (const VoxelRun& run : runs_[range])
-    {
-      for (const WideSums& voxel : run.voxels)
-      {
-        list.voxels.push_back(voxel.whole());
-      }
-      list.seconds.insert(list.seconds.end(), run.seconds.begin(), run.seconds.end());
-    }
-    release(range);
-  }
-  return list;
 }
 
 std::size_t VoxelRuns::bytes() const

@@ -2,7 +2,6 @@
 /// Sums of voxels that come in several times, in runs that are in order.
 #pragma once
 
-#include "Core/Kernel/GeneralVoxels.h"
 #include "Core/Kernel/VoxelKernel.h"
 #include "Core/Kernel/VoxelSink.h"
 #include "Core/Lattice.h"
@@ -35,6 +34,16 @@ struct WideSums
       low[axis] += other.low[axis];
       high += std::uint64_t(low[axis] < other.low[axis]) << (kHighBits * axis);
     }
+  }
+  static WideSums of(const VoxelSums& voxel)
+  {
+    WideSums sums{ voxel.key, voxel.count, { 0, 0, 0 }, 0 };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sums.low[axis] = std::uint64_t(voxel.sums[axis]);
+      sums.high |= std::uint64_t(voxel.sums[axis] >> 64) << (kHighBits * axis);
+    }
+    return sums;
   }
   VoxelSums whole() const
   {
@@ -75,13 +84,13 @@ public:
   {
     return runs_[range].empty() ? 0 : runs_[range][0].voxels.size();
   }
+  /// @pre it is joined and not empty.
+  const VoxelRun& run(std::size_t range) const { return runs_[range][0]; }
   /// Writes a range's voxels at @p place. @p plain: not by the vector loops, which overflow earlier.
   /// @pre it is joined.
   void write(std::size_t range, const Kernels& kernels, const Lattice& lattice, bool plain, MeanArena& arena,
     std::size_t place) const;
   void release(std::size_t range) { std::vector<VoxelRun>().swap(runs_[range]); }
-  /// All voxels, which are then no longer here. @pre all ranges are joined.
-  VoxelSumList take();
   int fractionBits() const { return fractionBits_; }
   std::size_t bytes() const;
 

@@ -276,20 +276,6 @@ void MeanArena::write(std::size_t place, const VoxelSums& voxel, const SecondSum
   }
 }
 
-void MeanArena::write(const VoxelSumList& list, const Layout& layout, const Lattice& lattice,
-  const Executor& executor, ResultMemory* memory)
-{
-  prepare(list.voxels.size(), layout, lattice, list.fractionBits, memory);
-  forRange(executor, std::int64_t(list.voxels.size()),
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (auto v = std::size_t(begin); v < std::size_t(end); ++v)
-      {
-        write(v, list.voxels[v], layout.covariances ? &list.seconds[v] : nullptr);
-      }
-    });
-}
-
 void carry(const Lattice& lattice, const MomentBatch<std::int64_t>& batch, CarriedPartition& partition)
 {
   for (int i = 0; i < batch.size; ++i)

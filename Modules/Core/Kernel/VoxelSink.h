@@ -4,7 +4,6 @@
 
 #include "Core/Buffer.h"
 #include "Core/Executor.h"
-#include "Core/Kernel/GeneralVoxels.h"
 #include "Core/Kernel/VoxelKernel.h"
 #include "Core/Lattice.h"
 #include "Core/Vector3.h"
@@ -17,6 +16,14 @@ namespace pointhaptics
 {
 namespace kernel
 {
+
+/// Sums over the points of a voxel of their places in it, in quanta.
+struct VoxelSums
+{
+  std::uint64_t key;
+  std::int64_t count;
+  Int128 sums[3];
+};
 
 /// Sums of one voxel over the chunks so far.
 struct CarriedSums
@@ -94,10 +101,6 @@ public:
   void write(std::size_t place, const VoxelSums& voxel, const SecondSums* seconds);
   /// Copies what another arena of the same layout has.
   void write(std::size_t place, const MeanArena& other, std::size_t size);
-
-  /// Prepares room for a list's voxels and writes them there.
-  void write(const VoxelSumList& list, const Layout& layout, const Lattice& lattice, const Executor& executor,
-    ResultMemory* memory = nullptr);
 
   const float* floats() const { return floats_; }
   const double* doubles() const { return doubles_; }

@@ -1,5 +1,5 @@
 // The resampler's kernels where its results alone would not show what is wrong: plans, positions, levels.
-#include "Core/Kernel/GeneralVoxels.h"
+#include "Core/Kernel/CoarseVoxels.h"
 #include "Core/Kernel/PartitionSums.h"
 #include "Core/Kernel/PointPlacement.h"
 #include "Core/Kernel/VoxelKernel.h"

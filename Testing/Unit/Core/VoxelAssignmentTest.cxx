@@ -269,6 +269,38 @@ TEST(VoxelLevels, AreWhatDirectResamplingGivesForMoreThanAChunk)
   }
 }
 
+TEST(VoxelLevels, AreWhatDirectResamplingGivesOnLatticesOfAllShapes)
+{
+  trial::Random random(6);
+  for (int i = 0; i < 60; ++i)
+  {
+    const auto largest = [&] { return std::int64_t(std::pow(300.5, random.uniform())); };
+    const Lattice lattice = latticeOf(largest(), largest(), largest());
+    const auto& d = lattice.dimensions;
+    const std::vector<Vec3> points =
+      randomBox(1 + random.below(4000), 7 + i, { 0, 0, 0 }, Vec3(double(d[0]), double(d[1]), double(d[2])));
+    VoxelRequest request = requestFor(points, lattice);
+    request.levels = 4;
+    expectLevelsAreDirect(request, ThreadedExecutor(3));
+  }
+}
+
+TEST(VoxelLevels, AreWhatDirectResamplingGivesBesideACrowdThatPackedSumsCannotHold)
+{
+  const Lattice lattice = latticeOf(100, 101, 99);
+  std::vector<Vec3> points = quantisedPoints(2600000, 8, lattice);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (i % 20 != 0)
+    {
+      points[i] = { 7.0 + points[i].x / 128, 100.0 + points[i].y / 128, 98.0 + points[i].z / 128 };
+    }
+  }
+  VoxelRequest request = requestFor(points, lattice);
+  request.levels = 3;
+  expectLevelsAreDirect(request, ThreadedExecutor(2));
+}
+
 TEST(VoxelLevels, StopAtOneVoxelAndRepeatIt)
 {
   const std::vector<Vec3> points = randomBox(100, 4, { 0, 0, 0 }, { 5, 5, 5 });

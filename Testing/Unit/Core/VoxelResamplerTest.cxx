@@ -299,7 +299,7 @@ TEST(VoxelResampler, AnEndAskedForWithinALevelIsHeard)
   expectAscendToOne(all.fractions, 5);
   const auto inLevel = std::count_if(
     all.fractions.begin(), all.fractions.end(), [](double done) { return done > 0.5 && done < 1.0; });
-  EXPECT_GE(inLevel, 3);
+  ASSERT_GE(inLevel, 1);
   const std::size_t before = all.fractions.size() - std::size_t(inLevel);
   CountingWatcher ends(before);
   EXPECT_EQ(resampler.run(request, ThreadedExecutor(2), &ends), Status::Aborted);

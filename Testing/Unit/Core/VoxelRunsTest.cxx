@@ -52,20 +52,21 @@ TEST(VoxelRuns, SumsPast64BitsAreExact)
   }
   runs.join(0);
   ASSERT_EQ(runs.size(0), expected.size());
-  const VoxelSumList list = runs.take();
-  ASSERT_EQ(list.voxels.size(), expected.size());
-  ASSERT_EQ(list.seconds.size(), expected.size());
+  const VoxelRun& run = runs.run(0);
+  ASSERT_EQ(run.seconds.size(), expected.size());
   std::size_t v = 0;
   for (const auto& [key, sums] : expected)
   {
-    ASSERT_EQ(list.voxels[v].key, key);
-    ASSERT_EQ(list.voxels[v].count, sums.count);
+    const VoxelSums voxel = run.voxels[v].whole();
+    ASSERT_EQ(voxel.key, key);
+    ASSERT_EQ(voxel.count, sums.count);
     for (int axis = 0; axis < 3; ++axis)
     {
-      ASSERT_TRUE(list.voxels[v].sums[axis] == sums.sums[axis]) << "voxel " << v << " axis " << axis;
+      ASSERT_TRUE(voxel.sums[axis] == sums.sums[axis]) << "voxel " << v << " axis " << axis;
     }
     ++v;
   }
+  runs.release(0);
   EXPECT_EQ(runs.size(0), 0u);
 }
 
