@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Kernel/Fetch.h"
+#include "Core/Kernel/InFours.h"
 #include "Core/Kernel/VoxelKernel.h"
 
 namespace pointhaptics
@@ -37,29 +38,9 @@ void cellsOf(const CellMap& map, const Record* records, int count, std::uint32_t
                                               : V::template cells<true>(map, records, count, cells);
 }
 
-/// Calls visit(i) for all i below @p count. Neighbours in a scan are in one voxel, and what is done to it
-/// waits for what was done before: takes them from four places in turn, which hide the wait.
-template <typename Visit>
-inline void fromPlaces(int count, Visit&& visit)
-{
-  constexpr int kPlaces = 4;
-  const int part = count / kPlaces;
-  for (int i = 0; i < part; ++i)
-  {
-    for (int place = 0; place < kPlaces; ++place)
-    {
-      visit(i + place * part);
-    }
-  }
-  for (int i = kPlaces * part; i < count; ++i)
-  {
-    visit(i);
-  }
-}
-
 inline void markCells(const std::uint32_t* cells, int count, std::uint64_t* marks)
 {
-  fromPlaces(count, [=](int i) { marks[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64); });
+  fromFourPlaces(count, [=](int i) { marks[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64); });
 }
 
 template <class V>
@@ -202,7 +183,8 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
   if (to.seconds)
   {
     const typename V::ProductAdder productAdder(map.fractionBits);
-    fromPlaces(count, [=](int i) { productAdder.add(to.seconds[rankOf<V>(ranks, cells[i])], records[i]); });
+    fromFourPlaces(
+      count, [=](int i) { productAdder.add(to.seconds[rankOf<V>(ranks, cells[i])], records[i]); });
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Kernel/Fetch.h"
+#include "Core/Kernel/InFours.h"
 #include "Core/Kernel/VoxelKernel.h"
 
 namespace pointhaptics
@@ -181,27 +182,10 @@ inline std::int64_t keepInside(PlacedPoints& placed, std::int64_t group, unsigne
   return to;
 }
 
-/// Calls visit(i) for all i below @p count, in an unrolled loop.
-template <typename Visit>
-__attribute__((always_inline)) inline void inFours(int count, Visit&& visit)
-{
-  int i = 0;
-  for (; i + 4 <= count; i += 4)
-  {
-    visit(i);
-    visit(i + 1);
-    visit(i + 2);
-    visit(i + 3);
-  }
-  for (; i < count; ++i)
-  {
-    visit(i);
-  }
-}
-
 /// Appends the records to their partitions: finds their places, then stores them. A store waits for its line,
 /// and all stores for those before; the lines are fetched while the other places are found. And a cursor is
-/// read soon after it was moved, where points are near each other: it must not wait behind the records.
+/// read soon after it was moved, where points are near each other: it must not wait behind the records, and
+/// the points whose places are found one after the other come from four places.
 template <bool Indexed>
 inline void deal(const PlacedPoints& placed, RecordWriter& writer)
 {
@@ -210,7 +194,7 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
   Record** const cursors = writer.cursors;
   const int size = placed.size;
   Record* places[kPlacedAtOnce];
-  inFours(size,
+  fromFourPlaces(size,
     [&](int i)
     {
       const std::uint64_t partition = placed.partitions[i];
