@@ -50,19 +50,20 @@ double compensatedDot(const double row[3], const double p[3], double offset, dou
   return sum + rest;
 }
 
-/// Where rounding p - pivot, the products and their sums could move a point inside by more than 2^-34 voxel:
-/// under matrices of a large condition number, and on the finest lattices.
-bool needsCompensation(const AffineTransform& transform, const Lattice& lattice, const double offset[3])
+/// Where rounding p - pivot, the products and their sums could move a point inside by more than an eighth of
+/// a quantum: under matrices of a large condition number, and on the finest lattices. The same on a lattice
+/// and on one twice as coarse, whose sums would differ otherwise.
+bool needsCompensation(const AffineTransform& transform, const Placement& placement, int positionBits)
 {
   constexpr Wide kRounding = 0x1p-50L; // of a term of the sum, all told
-  constexpr Wide kMostLost = 0x1p-34L;
+  constexpr Wide kMostLost = 0.125L;
   Wide largest[3] = { 0, 0, 0 }; // |p - pivot| of the points inside
   for (int axis = 0; axis < 3; ++axis)
   {
     Wide extent[3] = { 0, 0, 0 };
     Wide edge[3];
-    extent[axis] = Wide(lattice.dimensions[std::size_t(axis)]) * Wide(lattice.spacing[axis]) +
-      std::abs(Wide(offset[axis]));
+    extent[axis] =
+      std::ldexp(Wide(placement.quantum[axis]), positionBits) + std::abs(Wide(placement.offset[axis]));
     solve(transform, extent, edge);
     for (int column = 0; column < 3; ++column)
     {
@@ -71,12 +72,12 @@ bool needsCompensation(const AffineTransform& transform, const Lattice& lattice,
   }
   for (int axis = 0; axis < 3; ++axis)
   {
-    Wide terms = std::abs(Wide(offset[axis]));
+    Wide terms = std::abs(Wide(placement.offset[axis]));
     for (int column = 0; column < 3; ++column)
     {
       terms += std::abs(Wide(transform.m[axis][column])) * largest[column];
     }
-    if (!(kRounding * terms <= kMostLost * Wide(lattice.spacing[axis])))
+    if (!(kRounding * terms <= kMostLost * Wide(placement.quantum[axis])))
     {
       return true;
     }
@@ -168,12 +169,6 @@ Placement makePlacement(
     placement.pivot[axis] = finite ? double(pivot[axis]) : 0.0;
   }
   setOffset(transform, lattice, placement);
-  if (placement.motion == Motion::General && needsCompensation(transform, lattice, placement.offset))
-  {
-    placement.motion = Motion::Compensated;
-    std::fill(placement.pivot, placement.pivot + 3, 0.0);
-    setOffset(transform, lattice, placement);
-  }
   for (int axis = 0; axis < 3; ++axis)
   {
     const double quantum = std::ldexp(lattice.spacing[axis], -placement.fractionBits);
@@ -184,6 +179,12 @@ Placement makePlacement(
       placement.pairDivides && dividesAsPair(quantum, placement.reciprocal[axis], placement.remainder[axis]);
     placement.limit[axis] = std::ldexp(
       std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]), placement.fractionBits);
+  }
+  if (placement.motion == Motion::General && needsCompensation(transform, placement, positionBits))
+  {
+    placement.motion = Motion::Compensated;
+    std::fill(placement.pivot, placement.pivot + 3, 0.0);
+    setOffset(transform, lattice, placement);
   }
   const auto isSubtraction = [&](int axis)
   { return placement.offset[axis] == 0.0 && placement.pivot[axis] != 0.0; };

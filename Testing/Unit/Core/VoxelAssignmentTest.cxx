@@ -277,10 +277,20 @@ TEST(VoxelLevels, AreWhatDirectResamplingGivesOnLatticesOfAllShapes)
     const auto largest = [&] { return std::int64_t(std::pow(300.5, random.uniform())); };
     const Lattice lattice = latticeOf(largest(), largest(), largest());
     const auto& d = lattice.dimensions;
-    const std::vector<Vec3> points =
+    std::vector<Vec3> points =
       randomBox(1 + random.below(4000), 7 + i, { 0, 0, 0 }, Vec3(double(d[0]), double(d[1]), double(d[2])));
     VoxelRequest request = requestFor(points, lattice);
     request.levels = 4;
+    if (i % 2 == 1)
+    {
+      AffineTransform shear;
+      shear.m[0][1] = std::pow(10.0, random.uniform(-1, 5));
+      request.transform = AffineTransform::rotation(random.uniform(0, 360), random.direction()) * shear;
+      for (Vec3& p : points)
+      {
+        p = request.transform.inverse().apply(p);
+      }
+    }
     expectLevelsAreDirect(request, ThreadedExecutor(3));
   }
 }
