@@ -19,7 +19,7 @@ namespace pointhaptics
 /// points have, the smallest of several. Of floating-point numbers all NaNs are one value, the largest, and
 /// both zeros are one, which is written as +0; no mode depends on the order of the points.
 ///
-/// Memory: the tuples themselves, and 8 bytes a voxel.
+/// Memory: the tuples themselves, and 8 bytes a voxel; twice that while coarsen() works.
 class AttributeMode
 {
 public:

@@ -64,8 +64,9 @@ void VoxelResampler::Implementation::clear()
 }
 
 /// Writes the means of runs to a level. @pre these are joined. @param keeps: the runs are of use afterwards.
-void VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, VoxelRuns& runs, bool keeps,
-  Level& level, ResultMemory* memory, const Executor& executor)
+/// @return false where the watcher ended the work.
+bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, VoxelRuns& runs, bool keeps,
+  Level& level, ResultMemory* memory, const Executor& executor, Watcher* watcher)
 {
   const std::size_t ranges = runs.ranges();
   level.firsts.assign(ranges + 1, 0);
@@ -77,16 +78,30 @@ void VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, Voxe
   level.arena.prepare(level.firsts.back(), { request.singlePrecision, request.keys, request.covariances },
     level.lattice, runs.fractionBits(), memory);
   const bool plain = !hasOrdinarySpacing(level.lattice);
-  forEachItem(executor, ranges,
-    [&](std::size_t range)
+  WatchedPoints watched(watcher, level.size, 1);
+  for (std::size_t first = 0, last = 0; first < ranges; first = last)
+  {
+    do
     {
-      runs.write(
-        range, kernelsFor(request.instructions), level.lattice, plain, level.arena, level.firsts[range]);
-      if (!keeps)
+      ++last;
+    } while (last < ranges && level.firsts[last] - level.firsts[first] < std::size_t(kWatchedPoints));
+    forEachItem(executor, last - first,
+      [&](std::size_t i)
       {
-        runs.release(range);
-      }
-    });
+        const std::size_t range = first + i;
+        runs.write(
+          range, kernelsFor(request.instructions), level.lattice, plain, level.arena, level.firsts[range]);
+        if (!keeps)
+        {
+          runs.release(range);
+        }
+      });
+    if (!watched.add(std::int64_t(level.firsts[last] - level.firsts[first])))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 /// @param runs of level @p levelOfRuns, 0 or 1.
@@ -106,23 +121,23 @@ Status VoxelResampler::Implementation::addLevels(
     {
       VoxelRuns coarse;
       const CoarseVoxels coarsening(finer.lattice, runs.fractionBits(), request.covariances);
-      if (!coarsening.ofRuns(runs, coarse, executor, &part))
+      PartWatcher summing(&part, 0.0, 0.6);
+      if (!coarsening.ofRuns(runs, coarse, executor, &summing))
       {
         return Status::Aborted;
       }
       runs = std::move(coarse);
     }
-    writeRuns(request, runs, l + 1 < request.levels, level, nullptr, executor);
-    if (request.keys)
-    {
-      level.parents = parentsOf(finer.arena.keys(), finer.size, finer.lattice, level.arena.keys(), level.size,
-        level.lattice, executor);
-    }
-    levels.push_back(std::move(level));
-    if (!part.proceed(1.0))
+    PartWatcher writing(&part, 0.6, request.keys ? 0.8 : 1.0);
+    PartWatcher looking(&part, 0.8, 1.0);
+    if (!writeRuns(request, runs, l + 1 < request.levels, level, nullptr, executor, &writing) ||
+      (request.keys &&
+        !findParents(finer.arena.keys(), finer.size, finer.lattice, level.arena.keys(), level.size,
+          level.lattice, level.parents, executor, &looking)))
     {
       return Status::Aborted;
     }
+    levels.push_back(std::move(level));
   }
   return Status::Ok;
 }

@@ -84,7 +84,7 @@ Status VoxelResampler::Implementation::finishRuns(
     coarsening.ofRuns(runs_, coarse, executor, nullptr);
     runs_ = std::move(coarse);
   }
-  writeRuns(request, runs_, request.levels > 1, levels[0], request.memory, executor);
+  writeRuns(request, runs_, request.levels > 1, levels[0], request.memory, executor, nullptr);
   return request.levels > 1 ? addLevels(request, std::move(runs_), 0, executor, watcher) : Status::Ok;
 }
 

@@ -87,8 +87,8 @@ private:
   void finish(const VoxelRequest& request, const Executor& executor);
   /// The part of the work of run() that the finest level is.
   static double shareOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
-  void writeRuns(const VoxelRequest& request, kernel::VoxelRuns& runs, bool keeps, kernel::Level& level,
-    ResultMemory* memory, const Executor& executor);
+  bool writeRuns(const VoxelRequest& request, kernel::VoxelRuns& runs, bool keeps, kernel::Level& level,
+    ResultMemory* memory, const Executor& executor, Watcher* watcher);
   Status addLevels(const VoxelRequest& request, kernel::VoxelRuns runs, int levelOfRuns,
     const Executor& executor, Watcher* watcher);
   kernel::VoxelRuns takeCarried(const Executor& executor);

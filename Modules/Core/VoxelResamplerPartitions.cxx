@@ -308,9 +308,11 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
   const MeanArena::Layout layout = { request.singlePrecision, request.keys, request.covariances };
   Level& level = levels[0];
   std::size_t room = 0;
+  bool hasCarried = false;
   for (std::uint32_t p = 0; p < plan_.partitions; ++p)
   {
     room += mostVoxels(plan_, pool_.count(p), carried_[p].size());
+    hasCarried = hasCarried || carried_[p].size() > 0;
   }
   level.arena.prepare(room, layout, request.lattice, plan_.fractionBits, request.memory);
   struct Late
@@ -367,11 +369,19 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
         {
           runs_.add(group,
             coarsening.ofPartitions(plan_, carried_, groups.begin(group), groups.end(group), worker.coarse));
+          for (std::uint32_t used = groups.begin(group); used < groups.end(group); ++used)
+          {
+            carried_[used] = CarriedPartition();
+          }
         }
       }
       else if (request.levels > 1)
       {
         keepBatches(request, worker, p);
+      }
+      else if (hasCarried)
+      {
+        carried_[p].trim();
       }
       if (isLate)
       {

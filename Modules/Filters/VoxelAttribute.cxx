@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <type_traits>
 
 namespace pointhaptics
@@ -281,7 +279,7 @@ bool VoxelAttribute::write(const Tuples& tuples, vtkDataArray* output, std::int6
         std::get<AttributeMean>(tuples).writeUnitVectors(counts, normalColumns_, to, executor);
         break;
       }
-      writeIntegerNormals(output, counts, executor);
+      writeIntegerNormals(output, counts, executor); // never of a set, see canWriteSets()
       break;
     case AttributeKind::Category:
       return std::get<AttributeMode>(tuples).write(to, executor, watcher);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace pointhaptics
 {
@@ -12,6 +13,8 @@ namespace
 {
 
 constexpr std::uint64_t kNoKey = ~std::uint64_t(0);
+constexpr std::size_t kMostSummedColumns = 2048;
+constexpr SecondSums kNoSeconds = { { 0, 0, 0, 0, 0, 0 } };
 
 bool isOneVoxel(const Lattice& lattice)
 {
@@ -55,9 +58,13 @@ void CoarseRow::prepare(std::int64_t fineColumns, int fractionBits, bool withSec
   const auto columns = std::size_t(fineColumns + 1) / 2;
   fractionBits_ = fractionBits;
   withSeconds_ = withSeconds;
-  marks_.resize(std::max(marks_.size(), (columns + 63) / 64));
-  sums_.resize(std::max(sums_.size(), columns));
-  seconds_.resize(withSeconds ? std::max(seconds_.size(), columns) : seconds_.size());
+  isListed_ = columns > kMostSummedColumns;
+  if (!isListed_)
+  {
+    marks_.resize(std::max(marks_.size(), (columns + 63) / 64));
+    sums_.resize(std::max(sums_.size(), columns));
+    seconds_.resize(withSeconds ? std::max(seconds_.size(), columns) : seconds_.size());
+  }
 }
 
 /// Places move by half a coarse voxel where the index is odd. Nothing here depends on a branch, which nobody
@@ -66,11 +73,20 @@ template <typename Sum>
 inline void CoarseRow::add(
   std::uint64_t x, Parity parity, std::int64_t count, const Sum (&sums)[3], const SecondSums* seconds)
 {
-  const auto column = std::size_t(x / 2);
+  auto column = std::size_t(x / 2);
+  if (isListed_)
+  {
+    sums_.push_back({ column, 0, { 0, 0, 0 } });
+    seconds_.resize(withSeconds_ ? sums_.size() : 0, kNoSeconds);
+    column = sums_.size() - 1;
+  }
+  else
+  {
+    marks_[column / 64] |= std::uint64_t(1) << (column % 64);
+  }
   // All bits, or none. What moves is of the size of the sums.
   const Sum odd[3] = { -Sum(x % 2), -Sum(parity.y), -Sum(parity.z) };
   const Sum moved = Sum(count) << fractionBits_;
-  marks_[column / 64] |= std::uint64_t(1) << (column % 64);
   VoxelSums& to = sums_[column];
   to.count += count;
   for (int axis = 0; axis < 3; ++axis)
@@ -95,25 +111,66 @@ inline void CoarseRow::add(
   }
 }
 
+void CoarseRow::append(
+  const VoxelSums& sums, const SecondSums* seconds, std::uint64_t firstKey, VoxelRun& run) const
+{
+  run.voxels.push_back(WideSums::of(sums));
+  run.voxels.back().key += firstKey;
+  if (withSeconds_)
+  {
+    run.seconds.push_back(*seconds);
+  }
+}
+
 void CoarseRow::flush(std::uint64_t firstKey, VoxelRun& run)
 {
+  if (isListed_)
+  {
+    flushListed(firstKey, run);
+    return;
+  }
   for (std::size_t word = 0; word < marks_.size(); ++word)
   {
     for (std::uint64_t left = marks_[word]; left != 0; left &= left - 1)
     {
       const std::size_t column = 64 * word + std::size_t(__builtin_ctzll(left));
-      VoxelSums& sums = sums_[column];
-      sums.key = firstKey + column;
-      run.voxels.push_back(WideSums::of(sums));
-      sums = VoxelSums{ 0, 0, { 0, 0, 0 } };
+      append(sums_[column], seconds_.data() + column, firstKey + column, run);
+      sums_[column] = VoxelSums{ 0, 0, { 0, 0, 0 } };
       if (withSeconds_)
       {
-        run.seconds.push_back(seconds_[column]);
-        seconds_[column] = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
+        seconds_[column] = kNoSeconds;
       }
     }
     marks_[word] = 0;
   }
+}
+
+void CoarseRow::flushListed(std::uint64_t firstKey, VoxelRun& run)
+{
+  order_.resize(sums_.size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  std::sort(order_.begin(), order_.end(),
+    [this](std::uint32_t a, std::uint32_t b) { return sums_[a].key < sums_[b].key; });
+  for (std::size_t i = 0; i < order_.size();)
+  {
+    VoxelSums sum = sums_[order_[i]];
+    SecondSums second = withSeconds_ ? seconds_[order_[i]] : kNoSeconds;
+    for (++i; i < order_.size() && sums_[order_[i]].key == sum.key; ++i)
+    {
+      sum.count += sums_[order_[i]].count;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        sum.sums[axis] += sums_[order_[i]].sums[axis];
+      }
+      for (int m = 0; withSeconds_ && m < 6; ++m)
+      {
+        second.lanes[m] += seconds_[order_[i]].lanes[m];
+      }
+    }
+    append(sum, &second, firstKey, run);
+  }
+  sums_.clear();
+  seconds_.clear();
 }
 
 /// A walk through fine voxels in ascending order of their keys.
@@ -390,39 +447,43 @@ void CoarseVoxels::sumLayer(const Sources& sources, std::uint64_t layer, Scratch
   }
 }
 
-std::vector<std::int64_t> parentsOf(const std::uint64_t* fineKeys, std::int64_t fineVoxels,
-  const Lattice& fine, const std::uint64_t* coarseKeys, std::int64_t coarseVoxels, const Lattice& coarse,
-  const Executor& executor)
+bool findParents(const std::uint64_t* fineKeys, std::int64_t fineVoxels, const Lattice& fine,
+  const std::uint64_t* coarseKeys, std::int64_t coarseVoxels, const Lattice& coarse,
+  std::vector<std::int64_t>& parents, const Executor& executor, Watcher* watcher)
 {
-  std::vector<std::int64_t> parents;
   parents.resize(std::size_t(fineVoxels));
   const auto columns = std::uint64_t(fine.dimensions[0]);
-  forRange(executor, fineVoxels,
-    [&](std::int64_t begin, std::int64_t end)
+  const auto find = [&](std::int64_t begin, std::int64_t end)
+  {
+    std::uint64_t rowBegin = 0;
+    std::uint64_t rowEnd = 0;
+    std::uint64_t coarseRow = 0;
+    const std::uint64_t* parent = coarseKeys;
+    for (std::int64_t v = begin; v < end; ++v)
     {
-      std::uint64_t rowBegin = 0;
-      std::uint64_t rowEnd = 0;
-      std::uint64_t coarseRow = 0;
-      const std::uint64_t* parent = coarseKeys;
-      for (std::int64_t v = begin; v < end; ++v)
+      const std::uint64_t key = fineKeys[v];
+      if (key >= rowEnd)
       {
-        const std::uint64_t key = fineKeys[v];
-        if (key >= rowEnd)
-        {
-          const auto index = fine.indexOf(key);
-          rowBegin = key - std::uint64_t(index[0]);
-          rowEnd = rowBegin + columns;
-          coarseRow = coarse.key(0, index[1] / 2, index[2] / 2);
-          parent = std::lower_bound(coarseKeys, coarseKeys + coarseVoxels, coarseRow);
-        }
-        while (*parent < coarseRow + (key - rowBegin) / 2)
-        {
-          ++parent;
-        }
-        parents[std::size_t(v)] = parent - coarseKeys;
+        const auto index = fine.indexOf(key);
+        rowBegin = key - std::uint64_t(index[0]);
+        rowEnd = rowBegin + columns;
+        coarseRow = coarse.key(0, index[1] / 2, index[2] / 2);
+        parent = std::lower_bound(coarseKeys, coarseKeys + coarseVoxels, coarseRow);
       }
+      while (*parent < coarseRow + (key - rowBegin) / 2)
+      {
+        ++parent;
+      }
+      parents[std::size_t(v)] = parent - coarseKeys;
+    }
+  };
+  WatchedPoints watched(watcher, fineVoxels, 1);
+  return forWatchedSlices(fineVoxels, watched,
+    [&](std::int64_t first, std::int64_t last)
+    {
+      forRange(executor, last - first,
+        [&](std::int64_t begin, std::int64_t end) { find(first + begin, first + end); });
     });
-  return parents;
 }
 
 } // namespace kernel

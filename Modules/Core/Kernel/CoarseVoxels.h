@@ -36,8 +36,7 @@ public:
 
   /// @p fractionBits: of places in the fine voxels.
   void prepare(std::int64_t fineColumns, int fractionBits, bool withSeconds);
-  /// Adds the sums of a fine voxel, or a part of them; seconds may be null. @tparam Sum: has a bit to spare
-  /// above the sign.
+  /// Adds the sums of a fine voxel, or a part of them; seconds may be null. @tparam Sum: holds twice as much.
   template <typename Sum>
   void add(
     std::uint64_t x, Parity parity, std::int64_t count, const Sum (&sums)[3], const SecondSums* seconds);
@@ -50,12 +49,18 @@ public:
   }
 
 private:
+  void append(const VoxelSums& sums, const SecondSums* seconds, std::uint64_t firstKey, VoxelRun& run) const;
+  void flushListed(std::uint64_t firstKey, VoxelRun& run);
+
   int fractionBits_ = 0;
   bool withSeconds_ = false;
-  // All zero between rows.
-  std::vector<std::uint64_t> marks_; ///< A bit for each coarse voxel that there is.
-  std::vector<VoxelSums> sums_;
+  /// In a row too wide for sums of all voxels there may be, those of the fine ones are listed, and sorted.
+  bool isListed_ = false;
+  // Nothing between rows: zeros, or no elements.
+  std::vector<std::uint64_t> marks_; ///< A bit for each coarse voxel that there is; not of listed ones.
+  std::vector<VoxelSums> sums_;      ///< By columns, or with these for keys.
   std::vector<SecondSums> seconds_;
+  std::vector<std::uint32_t> order_;
 };
 
 /// Sums the coarse voxels of a lattice's. Several threads may use one at once.
@@ -109,10 +114,11 @@ private:
   std::uint64_t layerKeys_;
 };
 
-/// Of each fine voxel, the position of the coarse one it lies in. Keys ascend.
-std::vector<std::int64_t> parentsOf(const std::uint64_t* fineKeys, std::int64_t fineVoxels,
-  const Lattice& fine, const std::uint64_t* coarseKeys, std::int64_t coarseVoxels, const Lattice& coarse,
-  const Executor& executor);
+/// Of each fine voxel, the position of the coarse one it lies in. Keys ascend. @return false where
+/// @p watcher, who may be none, ended the work.
+bool findParents(const std::uint64_t* fineKeys, std::int64_t fineVoxels, const Lattice& fine,
+  const std::uint64_t* coarseKeys, std::int64_t coarseVoxels, const Lattice& coarse,
+  std::vector<std::int64_t>& parents, const Executor& executor, Watcher* watcher);
 
 } // namespace kernel
 } // namespace pointhaptics

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Core/Buffer.h"
-#include "Core/Executor.h"
 #include "Core/Kernel/VoxelKernel.h"
 #include "Core/Lattice.h"
 #include "Core/Vector3.h"
@@ -53,6 +52,15 @@ struct alignas(kApart) CarriedPartition
     voxels.clear();
     seconds.clear();
     points = 0;
+  }
+  /// When it is no longer needed: gives back memory that was mostly of no use.
+  void trim()
+  {
+    constexpr std::size_t kFewCells = 1024;
+    if (packed.capacity() > 2 * cellCount + kFewCells)
+    {
+      *this = CarriedPartition();
+    }
   }
   std::size_t bytes() const
   {

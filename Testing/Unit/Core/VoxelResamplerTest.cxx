@@ -289,23 +289,29 @@ TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
 
 TEST(VoxelResampler, AnEndAskedForWithinALevelIsHeard)
 {
-  // More voxels than a watcher may be left alone with.
-  const std::vector<Vec3> points = randomBox(1400000, 21, { 0, 0, 0 }, { 1000, 1000, 1000 });
-  VoxelRequest request = requestFor(points, latticeOf(1000, 1000, 1000), false);
-  request.levels = 2;
-  VoxelResampler resampler;
-  CountingWatcher all;
-  ASSERT_EQ(resampler.run(request, ThreadedExecutor(2), &all), Status::Ok);
-  expectAscendToOne(all.fractions, 5);
-  const auto inLevel = std::count_if(
-    all.fractions.begin(), all.fractions.end(), [](double done) { return done > 0.5 && done < 1.0; });
-  ASSERT_GE(inLevel, 1);
-  const std::size_t before = all.fractions.size() - std::size_t(inLevel);
-  CountingWatcher ends(before);
-  EXPECT_EQ(resampler.run(request, ThreadedExecutor(2), &ends), Status::Aborted);
-  EXPECT_EQ(ends.fractions.size(), before);
-  EXPECT_GT(ends.fractions.back(), 0.5);
-  EXPECT_EQ(resampler.size(), 0);
+  // More voxels than a watcher may be left alone with, in partitions that are sorted, and that are not.
+  for (const Lattice& lattice : { latticeOf(1000, 1000, 1000), latticeOf(300, 300, 300) })
+  {
+    SCOPED_TRACE(nameOf(lattice));
+    const auto edge = double(lattice.dimensions[0]);
+    const std::vector<Vec3> points = randomBox(2500000, 21, { 0, 0, 0 }, { edge, edge, edge });
+    VoxelRequest request = requestFor(points, lattice, false);
+    request.levels = 2;
+    VoxelResampler resampler;
+    CountingWatcher all;
+    ASSERT_EQ(resampler.run(request, ThreadedExecutor(2), &all), Status::Ok);
+    expectAscendToOne(all.fractions, 5);
+    const auto inLevel = std::find_if(
+      all.fractions.begin(), all.fractions.end(), [](double done) { return done > 0.5 && done < 1.0; });
+    ASSERT_NE(inLevel, all.fractions.end());
+    const auto last = std::size_t(inLevel - all.fractions.begin()) + 1;
+    CountingWatcher ends(last);
+    EXPECT_EQ(resampler.run(request, ThreadedExecutor(2), &ends), Status::Aborted);
+    EXPECT_EQ(ends.fractions.size(), last);
+    EXPECT_GT(ends.fractions.back(), 0.5);
+    EXPECT_LT(ends.fractions.back(), 1.0);
+    EXPECT_EQ(resampler.size(), 0);
+  }
 }
 
 TEST(VoxelResampler, FractionsAscendToOne)
@@ -319,6 +325,28 @@ TEST(VoxelResampler, FractionsAscendToOne)
     CountingWatcher watcher;
     ASSERT_EQ(resampler.run(request, ThreadedExecutor(2), &watcher), Status::Ok);
     expectAscendToOne(watcher.fractions, 3);
+  }
+}
+
+TEST(VoxelResampler, ScratchDoesNotGrowWhileASheetMovesThroughTheLattice)
+{
+  // Layers of the lattice are partitions: each has most voxels at some time.
+  for (const int levels : { 1, 2 })
+  {
+    VoxelResampler resampler;
+    std::size_t least = ~std::size_t(0);
+    std::size_t most = 0;
+    for (double z = 0.5; z < 300.0; z += 12.5)
+    {
+      const std::size_t chunks = levels == 1 ? 2 : 1; // with levels sums are kept of one chunk too
+      const std::vector<Vec3> points = randomBox(chunks * 630000, 31, { 0, 0, z }, { 300, 300, z + 0.25 });
+      VoxelRequest request = requestFor(points, latticeOf(300, 300, 300), false);
+      request.levels = levels;
+      ASSERT_EQ(resampler.run(request), Status::Ok);
+      least = std::min(least, resampler.scratchBytes());
+      most = std::max(most, resampler.scratchBytes());
+    }
+    EXPECT_LT(most, least + least / 8) << levels << " levels";
   }
 }
 
