@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr std::uint64_t kNoKey = ~std::uint64_t(0);
+/// Sums of so many coarse voxels side by side stay in the second-level cache.
 constexpr std::size_t kMostSummedColumns = 2048;
 constexpr SecondSums kNoSeconds = { { 0, 0, 0, 0, 0, 0 } };
 
@@ -67,8 +68,8 @@ void CoarseRow::prepare(std::int64_t fineColumns, int fractionBits, bool withSec
   }
 }
 
-/// Places move by half a coarse voxel where the index is odd. Nothing here depends on a branch, which nobody
-/// could foretell.
+/// Places move by half a coarse voxel where the index is odd. No branch here depends on the voxel:
+/// nobody could foretell it.
 template <typename Sum>
 inline void CoarseRow::add(
   std::uint64_t x, Parity parity, std::int64_t count, const Sum (&sums)[3], const SecondSums* seconds)
@@ -336,6 +337,11 @@ VoxelRun CoarseVoxels::ofPartitions(const PartitionPlan& plan,
 bool CoarseVoxels::ofRuns(
   const VoxelRuns& fine, VoxelRuns& coarse, const Executor& executor, Watcher* watcher) const
 {
+  if (isOneVoxel(fine_))
+  {
+    coarse = fine;
+    return true;
+  }
   std::vector<WideSpan> spans;
   std::vector<std::size_t> places = { 0 };
   for (std::size_t range = 0; range < fine.ranges(); ++range)
@@ -347,11 +353,6 @@ bool CoarseVoxels::ofRuns(
     }
   }
   const std::size_t size = places.back();
-  if (isOneVoxel(fine_))
-  {
-    coarse = fine;
-    return true;
-  }
   // Rounds, after each of which the watcher hears, of pieces for the threads.
   const std::size_t rounds = size / std::size_t(kWatchedPoints) + 1;
   const auto piecesOfRound = std::size_t(16 * executor.concurrency());

@@ -436,11 +436,7 @@ TEST(AttributeMean, OfParentsIsThatOfTheirPoints)
     {
       const Plan up = planFor(std::size_t(plan.size), coarse, 18);
       mean.coarsen(up.voxels, coarse);
-      for (std::int64_t& voxel : plan.voxels)
-      {
-        voxel = up.voxels[std::size_t(voxel)];
-      }
-      plan.size = coarse;
+      trial::coarsen(plan, up);
       EXPECT_TRUE(sameBits(written<T>(mean, plan), written<T>(meanOf(values, components, plan), plan)));
     }
   };

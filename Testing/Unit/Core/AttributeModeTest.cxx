@@ -145,11 +145,7 @@ TEST(AttributeMode, OfParentsIsThatOfTheirPoints)
   {
     const Plan up = planFor(std::size_t(plan.size), coarse, 12);
     mode.coarsen(up.voxels, coarse);
-    for (std::int64_t& voxel : plan.voxels)
-    {
-      voxel = up.voxels[std::size_t(voxel)];
-    }
-    plan.size = coarse;
+    trial::coarsen(plan, up);
     EXPECT_TRUE(sameBits(written<std::uint16_t>(mode, 2, plan), expectedModes(values, 2, plan))) << coarse;
   }
 }
