@@ -31,32 +31,31 @@ inline std::uint32_t cellOf(const CellMap& map, const Record& r)
   return x + map.columns * ((row < map.firstRow ? row + map.upperRows : row) - map.firstRow);
 }
 
-template <class V>
-void cellsOf(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
+inline void fetchRecords(const Record* records, int count)
 {
-  map.firstInLayer == CellMap::kSeveralLayers ? V::template cells<false>(map, records, count, cells)
-                                              : V::template cells<true>(map, records, count, cells);
+  for (int i = 0; i < count; i += kLineRecords)
+  {
+    fetch(records + i);
+  }
+}
+
+template <class V>
+void cellsOf(const CellMap& map, const Record* records, int count, const Record* next, std::uint32_t* cells)
+{
+  constexpr int kStep = 64;
+  for (int first = 0; first < count; first += kStep)
+  {
+    const int size = count - first < kStep ? count - first : kStep;
+    fetchRecords(next + first, size);
+    map.firstInLayer == CellMap::kSeveralLayers
+      ? V::template cells<false>(map, records + first, size, cells + first)
+      : V::template cells<true>(map, records + first, size, cells + first);
+  }
 }
 
 inline void markCells(const std::uint32_t* cells, int count, std::uint64_t* marks)
 {
   fromFourPlaces(count, [=](int i) { marks[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64); });
-}
-
-template <class V>
-void mark(const CellMap& map, const Record* records, int count, const Record* next, std::uint64_t* marks,
-  std::uint32_t* cells)
-{
-  constexpr int kStep = 64;
-  for (int first = 0; first < count; first += kStep)
-  {
-    for (int i = first; i < first + kStep; i += kLineRecords)
-    {
-      fetch(next + i);
-    }
-    cellsOf<V>(map, records + first, count - first < kStep ? count - first : kStep, cells + first);
-  }
-  markCells(cells, count, marks);
 }
 
 /// Where no instruction counts the ones of a word: those of each byte and of the bytes below it.
@@ -158,27 +157,29 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
   const CellRanks ranks = givenRanks;
   const CellSums to = given;
   const typename V::Adder adder(map.fractionBits);
-  const auto add = [=](int i)
+  constexpr int kPlaces = 8;
+  constexpr int kPart = 16;
+  for (int first = 0; first < count; first += kPlaces * kPart)
   {
-    const std::uint32_t cell = cells[i];
-    const std::uint32_t rank = rankOf<V>(ranks, cell);
-    to.cells[rank] = cell;
-    adder.add(to.sums[rank], records[i]);
-  };
-  // One after the other, not from places: their pointers would not all stay in registers, which costs more
-  // than it saves in a scan.
-  int line = 0;
-  for (; line + kLineRecords <= count; line += kLineRecords)
-  {
-    fetch(next + line);
-    for (int i = 0; i < kLineRecords; ++i)
+    const auto add = [=](int i)
     {
-      add(line + i);
+      const std::uint32_t cell = cells[first + i];
+      const std::uint32_t rank = rankOf<V>(ranks, cell);
+      to.cells[rank] = cell;
+      adder.add(to.sums[rank], records[first + i]);
+    };
+    const int left = count - first;
+    if (left < kPlaces * kPart)
+    {
+      fetchRecords(next + first, left);
+      inFours(left, add);
+      break;
     }
-  }
-  for (; line < count; ++line)
-  {
-    add(line);
+    for (int i = 0; i < kPart; ++i)
+    {
+      fetchRecords(next + first + kPlaces * i, kPlaces);
+      visitPlaces<kPart, 0, kPlaces>(i, add);
+    }
   }
   if (to.seconds)
   {

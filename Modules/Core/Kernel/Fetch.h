@@ -2,6 +2,8 @@
 /// What loops that wait for memory ask for in advance.
 #pragma once
 
+#include <cstddef>
+
 namespace pointhaptics
 {
 namespace kernel
@@ -15,6 +17,15 @@ namespace kernel
 __attribute__((always_inline)) static inline void fetch(const void* address)
 {
   __builtin_prefetch(address, 0, 2);
+}
+
+/// Fetches the lines of a piece of memory that is to be written soon.
+__attribute__((always_inline)) static inline void fetchToWrite(const void* address, std::size_t bytes)
+{
+  for (std::size_t i = 0; i < bytes; i += 64)
+  {
+    __builtin_prefetch(static_cast<const char*>(address) + i, 1);
+  }
 }
 
 } // namespace kernel

@@ -2,6 +2,7 @@
 /// Part of VoxelKernelBody.h: from sums to means.
 #pragma once
 
+#include "Core/Kernel/Fetch.h"
 #include "Core/Kernel/VoxelKernel.h"
 
 namespace pointhaptics
@@ -153,9 +154,12 @@ int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t*
   // rounding does not carry over a midpoint.
   const Doubles toColumn = V::all(0.5 / double(cellMap.columns) - 0.5);
   const Doubles toLayer = V::all(0.5 / double(cellMap.rowsPerLayer) - 0.5);
+  constexpr int kAhead = 64; // The result is memory of another update, far away.
   int found = 0;
   for (int i = 0; i < size; i += V::width)
   {
+    fetchToWrite(xyz + 3 * (i + kAhead), 3 * V::width * sizeof(Real));
+    fetchToWrite(counts + i + kAhead, V::width * sizeof(std::int64_t));
     typename V::Bits lanes[4];
     V::loadPacked(packed + i, lanes);
     const typename V::Bits count = V::template rightBy<kCountShift>(lanes[3]);

@@ -66,12 +66,6 @@ void moveUp(std::vector<T>& all, std::size_t first, std::size_t last, std::size_
   std::memmove(all.data() + place, all.data() + first, (last - first) * sizeof(T));
 }
 
-/// What to fetch while at work on a block: where @p ahead goes next, or nothing else.
-const Record* nextOf(RecordPool::Walk& ahead, const RecordPool::Walk& block)
-{
-  return ahead.next() ? ahead.records() : block.records();
-}
-
 /// Blocks of layers, as many as may be: how many cells they have does not matter.
 void planForSorting(PartitionPlan& plan, std::uint32_t layers)
 {
@@ -203,7 +197,7 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
   {
     return;
   }
-  recordCells_.reserve(records + kWidest);
+  recordCells_.reserve(records);
   kernels.markCells(old_->cells.data(), int(old_->cellCount), marks_.data());
   // The carried sums come next and are far away: fetch a part of them with each block.
   const auto* line = reinterpret_cast<const char*>(old_->packed.data());
@@ -220,8 +214,10 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
     {
       fetch(line);
     }
-    kernels.mark(voxels_.map, block.records(), block.count(), nextOf(ahead, block), marks_.data(), cells);
+    kernels.cells(voxels_.map, block.records(), block.count(), nextOf(ahead, block), cells);
   }
+  // All of them together: those of one block of a scan are so near that they would wait for each other.
+  kernels.markCells(recordCells_.data(), int(records), marks_.data());
   voxels_.size =
     numberMarks(kernels, { recordCells_.data(), records }, { old_->cells.data(), old_->cellCount });
 }
@@ -384,10 +380,12 @@ void PartitionWorker::sortRecords(const Kernels& kernels, const RecordPool& pool
   otherEntries_.reserve(listed_);
   std::size_t filled = 0;
   const CellMap map = plan_.cellMap(partition_);
+  RecordPool::Walk ahead(pool, partition_);
+  ahead.next();
   for (RecordPool::Walk block(pool, partition_); block.next();)
   {
     std::uint32_t cells[kBlockRecords];
-    kernels.cells(map, block.records(), block.count(), cells);
+    kernels.cells(map, block.records(), block.count(), nextOf(ahead, block), cells);
     for (int i = 0; i < block.count(); ++i, ++filled)
     {
       records_[filled] = block.records()[i];

@@ -15,15 +15,17 @@ namespace
 
 /// Points placed before their records are dealt out: two loops over what stays in the first-level cache take
 /// less time than one that does both.
-constexpr int kPlacedAtOnce = 128;
+constexpr int kPlacedAtOnce = 256;
 
-/// Records on their way to their partitions.
+/// Records on their way to their partitions: fewer than are dealt out at once, and those placed next.
 struct PlacedPoints
 {
+  static constexpr int kRoom = 2 * kPlacedAtOnce + kWidest;
+
   int size = 0;
-  alignas(64) Record records[kPlacedAtOnce];
-  alignas(64) std::uint64_t partitions[kPlacedAtOnce];
-  alignas(64) std::uint32_t indices[kPlacedAtOnce];
+  alignas(64) Record records[kRoom];
+  alignas(64) std::uint64_t partitions[kRoom];
+  alignas(64) std::uint32_t indices[kRoom];
 };
 
 /// The vectors that stay the same over all points.
@@ -182,46 +184,63 @@ inline std::int64_t keepInside(PlacedPoints& placed, std::int64_t group, unsigne
   return to;
 }
 
-/// Appends the records to their partitions: finds their places, then stores them. A store waits for its line,
-/// and all stores for those before; the lines are fetched while the other places are found. And a cursor is
-/// read soon after it was moved, where points are near each other: it must not wait behind the records, and
-/// the points whose places are found one after the other come from four places.
-template <bool Indexed>
+/// Appends records to their partitions, if @p Whole kPlacedAtOnce of them. Neighbours in a scan go to one
+/// partition, whose cursor is read soon after it was moved: so they are not dealt out one after the other.
+template <bool Indexed, bool Whole>
 inline void deal(const PlacedPoints& placed, RecordWriter& writer)
 {
   // Copies, which no store can change.
   const std::uintptr_t blockMask = writer.blockMask;
   Record** const cursors = writer.cursors;
-  const int size = placed.size;
-  Record* places[kPlacedAtOnce];
-  fromFourPlaces(size,
-    [&](int i)
+  const auto append = [&](int i)
+  {
+    const std::uint64_t partition = placed.partitions[i];
+    Record* cursor = cursors[partition];
+    if (__builtin_expect((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) == 0, false))
     {
-      const std::uint64_t partition = placed.partitions[i];
-      Record* cursor = cursors[partition];
-      if (__builtin_expect((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) == 0, false))
-      {
-        cursor = writer.refill(writer, std::uint32_t(partition));
-      }
-      __builtin_prefetch(cursor, 1);
-      places[i] = cursor;
-      cursors[partition] = cursor + 1;
-    });
-  inFours(size,
-    [&](int i)
+      cursor = writer.refill(writer, std::uint32_t(partition));
+    }
+    cursors[partition] = cursor + 1;
+    // The next lines wait in the second level: those of hundreds of cursors would crowd the first.
+    fetch(cursor + 2 * kLineRecords);
+    *cursor = placed.records[i];
+    if (Indexed)
     {
-      Record* const place = places[i];
-      *place = placed.records[i];
-      if (Indexed)
-      {
-        writer.slots[placed.indices[i]] = std::uint32_t(place - writer.records);
-      }
-      // The next lines wait in the second level: those of hundreds of cursors would crowd the first.
-      fetch(place + 2 * kLineRecords);
-    });
+      writer.slots[placed.indices[i]] = std::uint32_t(cursor - writer.records);
+    }
+  };
+  if constexpr (Whole)
+  {
+    fromPlaces<kPlacedAtOnce, 16>(append);
+  }
+  else
+  {
+    fromFourPlaces(placed.size, append);
+  }
 }
 
-/// Places groups of V::width points, at most kPlacedAtOnce points, and keeps those inside. Bit i of @p
+/// Deals kPlacedAtOnce records out, if there are as many, and keeps the others.
+template <bool Indexed>
+inline void dealWhole(PlacedPoints& placed, RecordWriter& writer)
+{
+  if (placed.size < kPlacedAtOnce)
+  {
+    return;
+  }
+  deal<Indexed, true>(placed, writer);
+  placed.size -= kPlacedAtOnce;
+  for (int i = 0; i < placed.size; ++i)
+  {
+    placed.records[i] = placed.records[kPlacedAtOnce + i];
+    placed.partitions[i] = placed.partitions[kPlacedAtOnce + i];
+    if (Indexed)
+    {
+      placed.indices[i] = placed.indices[kPlacedAtOnce + i];
+    }
+  }
+}
+
+/// Places groups of V::width points, at most kPlacedAtOnce points, and appends those inside. Bit i of @p
 /// present: point i of a group is one. @return how many are not finite. A function of its own, without calls:
 /// the constants stay in registers.
 template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
@@ -230,7 +249,7 @@ __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, cons
 {
   constexpr int kAhead = 2048 / int(sizeof(Real));
   const PlacementVectors<V> constants = given;
-  std::int64_t size = 0;
+  std::int64_t size = placed.size;
   int invalid = 0;
   // Two loops have chains of operations half as long, of which the processor works on more at a time.
   typename V::Doubles u[V::groupsTogether][3];
@@ -287,10 +306,11 @@ void partitionAll(const Placement& placement, const Real* xyz, std::int64_t coun
   PlacedPoints placed;
   const auto place = [&](const Real* from, int groups, unsigned present, std::int64_t first)
   {
+    const int before = placed.size;
     writer.invalid +=
       placeGroups<V, motion, Pair, Indexed>(constants, from, groups, present, std::uint32_t(first), placed);
-    writer.inside += placed.size;
-    deal<Indexed>(placed, writer);
+    writer.inside += placed.size - before;
+    dealWhole<Indexed>(placed, writer);
   };
   const std::int64_t whole = count / V::width;
   for (std::int64_t group = 0; group < whole; group += kPlacedAtOnce / V::width)
@@ -308,6 +328,7 @@ void partitionAll(const Placement& placement, const Real* xyz, std::int64_t coun
     }
     place(last, 1, (1u << unsigned(rest)) - 1, V::width * whole);
   }
+  deal<Indexed, false>(placed, writer);
 }
 
 template <class V, Motion motion, typename Real>

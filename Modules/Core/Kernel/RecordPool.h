@@ -137,5 +137,11 @@ inline bool RecordPool::Walk::next()
   return true;
 }
 
+/// What to fetch while at work on a block: where @p ahead goes next, or nothing else.
+inline const Record* nextOf(RecordPool::Walk& ahead, const RecordPool::Walk& block)
+{
+  return ahead.next() ? ahead.records() : block.records();
+}
+
 } // namespace kernel
 } // namespace pointhaptics

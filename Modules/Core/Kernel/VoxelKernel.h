@@ -254,13 +254,10 @@ struct Kernels
   /// Places @p count points (x y z interleaved) and appends those inside to their partitions.
   void (*partitionFloats)(const Placement&, const float* xyz, std::int64_t count, RecordWriter&);
   void (*partitionDoubles)(const Placement&, const double* xyz, std::int64_t count, RecordWriter&);
-  /// The cell of each record.
-  void (*cells)(const CellMap&, const Record* records, int count, std::uint32_t* cells);
-  /// Marks the cells of records; lists them too, with room for kWidest more. Fetches a block of records that
-  /// will be asked for @p next: those follow each other in memory too seldom for the machine to guess.
-  void (*mark)(const CellMap&, const Record* records, int count, const Record* next, std::uint64_t* marks,
-    std::uint32_t* cells);
-  /// Marks given cells.
+  /// The cell of each record. Fetches a block of records that will be asked for @p next: those follow each
+  /// other in memory too seldom for the machine to guess.
+  void (*cells)(const CellMap&, const Record* records, int count, const Record* next, std::uint32_t* cells);
+  /// Marks cells.
   void (*markCells)(const std::uint32_t* cells, int count, std::uint64_t* marks);
   /// Counts the marks before each word that has any. @return that of all.
   std::uint32_t (*number)(const CellRanks& ranks);
@@ -268,7 +265,7 @@ struct Kernels
   std::uint32_t (*numberTouched)(const CellRanks& ranks, const std::uint64_t* touched);
   /// How many marked cells come before each of some: replaces them.
   void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);
-  /// Adds records to the sums of their @p cells; fetches @p next like mark().
+  /// Adds records to the sums of their @p cells; fetches @p next like cells().
   void (*accumulate)(const CellMap&, const CellRanks& ranks, const Record* records,
     const std::uint32_t* cells, int count, const Record* next, const CellSums& sums);
   /// Coordinates, x y z interleaved, and counts of cells with their sums. Positions among them of means so

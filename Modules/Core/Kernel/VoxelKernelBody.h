@@ -21,7 +21,7 @@ namespace
 template <class V>
 Kernels makeKernels()
 {
-  return { &partition<V, float>, &partition<V, double>, &cellsOf<V>, &mark<V>, &markCells, &V::number,
+  return { &partition<V, float>, &partition<V, double>, &cellsOf<V>, &markCells, &V::number,
     &numberTouched<V>, &rank<V>, &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>,
     &V::covariances, &means<V, float>, &means<V, double>, &bounds<V, float>, &bounds<V, double> };
 }

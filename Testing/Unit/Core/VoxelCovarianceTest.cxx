@@ -81,8 +81,9 @@ Sums sumsOf(const Kernels& kernels, const Cells& cells, int fractionBits)
   std::vector<std::uint64_t> beforeBytes(kMarkGroup);
   std::vector<std::uint32_t> before(kMarkGroup);
   const CellRanks ranks = { marks.data(), before.data(), beforeBytes.data(), kMarkGroup };
-  std::vector<std::uint32_t> cellsOf(size + kWidest);
-  kernels.mark(map, records.data(), int(size), records.data(), marks.data(), cellsOf.data());
+  std::vector<std::uint32_t> cellsOf(size);
+  kernels.cells(map, records.data(), int(size), records.data(), cellsOf.data());
+  kernels.markCells(cellsOf.data(), int(size), marks.data());
   EXPECT_EQ(kernels.number(ranks), kCells);
   Sums sums = { std::vector<PackedSums>(kCells + kWidest, PackedSums{}),
     std::vector<SplitSeconds>(kCells, SplitSeconds{}) };
