@@ -47,26 +47,15 @@ __attribute__((always_inline)) inline void fromFourPlaces(int count, Visit&& vis
   }
 }
 
-/// Calls visit(i + place * Part) for all places from @p Place on, below @p Places.
+/// Calls visit(i + place * Part) for all places from @p Place on, below @p Places. The compiler knows how far
+/// apart they are: none takes a register.
 template <int Part, int Place, int Places, typename Visit>
-__attribute__((always_inline)) inline void visitPlaces(int i, Visit& visit)
+__attribute__((always_inline)) inline void visitPlaces(int i, const Visit& visit)
 {
   visit(i + Place * Part);
   if constexpr (Place + 1 < Places)
   {
     visitPlaces<Part, Place + 1, Places>(i, visit);
-  }
-}
-
-/// Calls visit(i) for all i below @p Count, from more places in turn. The compiler knows how far apart they
-/// are: none takes a register.
-template <int Count, int Places, typename Visit>
-__attribute__((always_inline)) inline void fromPlaces(Visit&& visit)
-{
-  static_assert(Count % Places == 0, "all places have as many");
-  for (int i = 0; i < Count / Places; ++i)
-  {
-    visitPlaces<Count / Places, 0, Places>(i, visit);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "Core/Kernel/Fetch.h"
 #include "Core/Kernel/InFours.h"
+#include "Core/Kernel/RecordWriter.h"
 #include "Core/Kernel/VoxelKernel.h"
 
 namespace pointhaptics
@@ -13,9 +14,11 @@ namespace kernel
 namespace
 {
 
-/// Points placed before their records are dealt out: two loops over what stays in the first-level cache take
-/// less time than one that does both.
-constexpr int kPlacedAtOnce = 256;
+/// Points placed while the records of as many before them are dealt out.
+constexpr int kPlacedAtOnce = 128;
+/// So many of each in turn: placing is work for the vector units, dealing for those that read and write
+/// memory, and the processor does both at the same time if they are this near in the program.
+constexpr int kPlacedInTurn = 8;
 
 /// Records on their way to their partitions: fewer than are dealt out at once, and those placed next.
 struct PlacedPoints
@@ -184,22 +187,27 @@ inline std::int64_t keepInside(PlacedPoints& placed, std::int64_t group, unsigne
   return to;
 }
 
-/// Appends records to their partitions, if @p Whole kPlacedAtOnce of them. Neighbours in a scan go to one
-/// partition, whose cursor is read soon after it was moved: so they are not dealt out one after the other.
-template <bool Indexed, bool Whole>
-inline void deal(const PlacedPoints& placed, RecordWriter& writer)
+/// Appends a placed record to its partition.
+template <bool Indexed>
+struct Dealer
 {
+  const PlacedPoints& placed;
+  RecordWriter& writer;
   // Copies, which no store can change.
-  const std::uintptr_t blockMask = writer.blockMask;
-  Record** const cursors = writer.cursors;
-  const auto append = [&](int i)
+  Record** const cursors;
+  const std::uintptr_t blockMask;
+
+  Dealer(const PlacedPoints& from, RecordWriter& to)
+    : placed(from)
+    , writer(to)
+    , cursors(to.cursors)
+    , blockMask(to.blockMask)
+  {
+  }
+  __attribute__((always_inline)) void operator()(int i) const
   {
     const std::uint64_t partition = placed.partitions[i];
-    Record* cursor = cursors[partition];
-    if (__builtin_expect((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) == 0, false))
-    {
-      cursor = writer.refill(writer, std::uint32_t(partition));
-    }
+    Record* const cursor = cursorOf(writer, cursors, blockMask, partition);
     cursors[partition] = cursor + 1;
     // The next lines wait in the second level: those of hundreds of cursors would crowd the first.
     fetch(cursor + 2 * kLineRecords);
@@ -208,54 +216,39 @@ inline void deal(const PlacedPoints& placed, RecordWriter& writer)
     {
       writer.slots[placed.indices[i]] = std::uint32_t(cursor - writer.records);
     }
-  };
-  if constexpr (Whole)
-  {
-    fromPlaces<kPlacedAtOnce, 16>(append);
   }
-  else
-  {
-    fromFourPlaces(placed.size, append);
-  }
-}
+};
 
-/// Deals kPlacedAtOnce records out, if there are as many, and keeps the others.
 template <bool Indexed>
-inline void dealWhole(PlacedPoints& placed, RecordWriter& writer)
+void dealAll(const PlacedPoints& placed, RecordWriter& writer)
 {
-  if (placed.size < kPlacedAtOnce)
-  {
-    return;
-  }
-  deal<Indexed, true>(placed, writer);
-  placed.size -= kPlacedAtOnce;
+  const Dealer<Indexed> deal(placed, writer);
   for (int i = 0; i < placed.size; ++i)
   {
-    placed.records[i] = placed.records[kPlacedAtOnce + i];
-    placed.partitions[i] = placed.partitions[kPlacedAtOnce + i];
-    if (Indexed)
-    {
-      placed.indices[i] = placed.indices[kPlacedAtOnce + i];
-    }
+    deal(i);
   }
 }
 
-/// Places groups of V::width points, at most kPlacedAtOnce points, and appends those inside. Bit i of @p
-/// present: point i of a group is one. @return how many are not finite. A function of its own, without calls:
-/// the constants stay in registers.
-template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
+/// Places groups of V::width points, at most kPlacedAtOnce points, and appends those inside to @p placed. Bit
+/// i of @p present: point i of a group is one. @return how many are not finite. A function of its own,
+/// without calls: the constants stay in registers. @tparam Deals: there are kPlacedAtOnce points, and the
+/// first kPlacedAtOnce of @p earlier ones are dealt out.
+template <class V, Motion motion, bool Pair, bool Indexed, bool Deals, typename Real>
 __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, const Real* xyz, int groups,
-  unsigned present, std::uint32_t index, PlacedPoints& placed)
+  unsigned present, std::uint32_t index, PlacedPoints& placed, const PlacedPoints& earlier,
+  RecordWriter& writer)
 {
   constexpr int kAhead = 2048 / int(sizeof(Real));
+  constexpr int kGroups = kPlacedInTurn / V::width;
+  constexpr int kTurns = kPlacedAtOnce / kPlacedInTurn;
   const PlacementVectors<V> constants = given;
+  const Dealer<Indexed> deal(earlier, writer);
   std::int64_t size = placed.size;
   int invalid = 0;
-  // Two loops have chains of operations half as long, of which the processor works on more at a time.
-  typename V::Doubles u[V::groupsTogether][3];
-  for (int first = 0; first < groups; first += V::groupsTogether)
+  typename V::Doubles u[kGroups][3];
+  for (int first = 0; first < groups; first += kGroups)
   {
-    const int together = groups - first < V::groupsTogether ? groups - first : V::groupsTogether;
+    const int together = Deals || groups - first > kGroups ? kGroups : groups - first;
     for (int g = 0; g < together; ++g)
     {
       const Real* from = xyz + 3 * V::width * (first + g);
@@ -294,30 +287,70 @@ __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, cons
       }
       size = keepInside<Indexed>(placed, size, kept, firstIndex);
     }
+    if constexpr (Deals)
+    {
+      // Neighbours in a scan go to one partition, whose cursor is read soon after it was moved: so they are
+      // not dealt out one after the other.
+      visitPlaces<kTurns, 0, kPlacedInTurn>(first / kGroups, deal);
+    }
   }
   placed.size = int(size);
   return invalid;
 }
 
+/// Moves the records beyond kPlacedAtOnce to @p others, which are none.
+template <bool Indexed>
+inline void moveOthers(PlacedPoints& placed, PlacedPoints& others)
+{
+  others.size = placed.size - kPlacedAtOnce;
+  placed.size = kPlacedAtOnce;
+  for (int i = 0; i < others.size; ++i)
+  {
+    others.records[i] = placed.records[kPlacedAtOnce + i];
+    others.partitions[i] = placed.partitions[kPlacedAtOnce + i];
+    if (Indexed)
+    {
+      others.indices[i] = placed.indices[kPlacedAtOnce + i];
+    }
+  }
+}
+
 template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
 void partitionAll(const Placement& placement, const Real* xyz, std::int64_t count, RecordWriter& writer)
 {
+  constexpr int kWhole = kPlacedAtOnce / V::width;
   const PlacementVectors<V> constants(placement);
-  PlacedPoints placed;
+  PlacedPoints both[2];
+  int current = 0; // The other has kPlacedAtOnce points to deal out, or none.
   const auto place = [&](const Real* from, int groups, unsigned present, std::int64_t first)
   {
+    PlacedPoints& placed = both[current];
+    PlacedPoints& earlier = both[1 - current];
     const int before = placed.size;
-    writer.invalid +=
-      placeGroups<V, motion, Pair, Indexed>(constants, from, groups, present, std::uint32_t(first), placed);
+    if (earlier.size > 0 && groups == kWhole)
+    {
+      writer.invalid += placeGroups<V, motion, Pair, Indexed, true>(
+        constants, from, groups, present, std::uint32_t(first), placed, earlier, writer);
+    }
+    else
+    {
+      dealAll<Indexed>(earlier, writer);
+      writer.invalid += placeGroups<V, motion, Pair, Indexed, false>(
+        constants, from, groups, present, std::uint32_t(first), placed, earlier, writer);
+    }
+    earlier.size = 0;
     writer.inside += placed.size - before;
-    dealWhole<Indexed>(placed, writer);
+    if (placed.size >= kPlacedAtOnce)
+    {
+      moveOthers<Indexed>(placed, earlier);
+      current = 1 - current;
+    }
   };
   const std::int64_t whole = count / V::width;
-  for (std::int64_t group = 0; group < whole; group += kPlacedAtOnce / V::width)
+  for (std::int64_t group = 0; group < whole; group += kWhole)
   {
     const std::int64_t left = whole - group;
-    const int groups = left < kPlacedAtOnce / V::width ? int(left) : kPlacedAtOnce / V::width;
-    place(xyz + 3 * V::width * group, groups, V::full, V::width * group);
+    place(xyz + 3 * V::width * group, left < kWhole ? int(left) : kWhole, V::full, V::width * group);
   }
   if (const std::int64_t rest = count - V::width * whole)
   {
@@ -328,7 +361,8 @@ void partitionAll(const Placement& placement, const Real* xyz, std::int64_t coun
     }
     place(last, 1, (1u << unsigned(rest)) - 1, V::width * whole);
   }
-  deal<Indexed, false>(placed, writer);
+  dealAll<Indexed>(both[1 - current], writer);
+  dealAll<Indexed>(both[current], writer);
 }
 
 template <class V, Motion motion, typename Real>

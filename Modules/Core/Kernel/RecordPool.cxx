@@ -35,7 +35,7 @@ void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writ
   previous_.reserve(blocks);
   rowBytes_ = rowBytes;
   rows_.reserve(blocks * blockRecords_ * rowBytes, Pages::Huge);
-  nextBlock_ = 0;
+  takenBlocks_ = 0;
   while (writers_.size() < writerCount)
   {
     writers_.push_back(std::make_unique<Writer>());
@@ -43,36 +43,20 @@ void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writ
   writers_.resize(writerCount);
   for (const std::unique_ptr<Writer>& writer : writers_)
   {
-    writer->pool = this;
     writer->cursorStorage.assign(partitions, nullptr);
+    writer->lastStorage.assign(partitions, kNoBlock);
     writer->cursors = writer->cursorStorage.data();
-    writer->lastBlocks.assign(partitions, kNone);
     writer->blockMask = blockRecords_ * sizeof(Record) - 1;
-    writer->refill = &RecordPool::refill;
-    writer->slots = nullptr;
     writer->records = records_.data();
+    writer->lastBlocks = writer->lastStorage.data();
+    writer->previous = previous_.data();
+    writer->taken = &takenBlocks_;
     writer->nextBlock = writer->endBlock = 0;
+    writer->slots = nullptr;
     writer->inside = 0;
     writer->invalid = 0;
-    writer->taken = false;
+    writer->inUse = false;
   }
-}
-
-Record* RecordPool::refill(RecordWriter& base, std::uint32_t partition)
-{
-  auto& writer = static_cast<Writer&>(base);
-  RecordPool& pool = *writer.pool;
-  if (writer.nextBlock == writer.endBlock)
-  {
-    writer.nextBlock = pool.nextBlock_.fetch_add(kTakenBlocks, std::memory_order_relaxed);
-    writer.endBlock = writer.nextBlock + kTakenBlocks;
-  }
-  const std::uint32_t block = writer.nextBlock++;
-  const bool isFirst = writer.lastBlocks[partition] == kNone;
-  pool.previous_[block] = writer.lastBlocks[partition];
-  writer.lastBlocks[partition] = block;
-  Record* records = pool.records_.data() + std::size_t(block) * pool.blockRecords_;
-  return records + (isFirst ? pool.stagger(partition) : 0);
 }
 
 RecordPool::Lease::Lease(RecordPool& pool)
@@ -84,7 +68,7 @@ RecordPool::Lease::Lease(RecordPool& pool)
   {
     for (slot_ = 0; slot_ < pool_.writers_.size(); ++slot_)
     {
-      if (!pool_.writers_[slot_]->taken)
+      if (!pool_.writers_[slot_]->inUse)
       {
         return true;
       }
@@ -92,14 +76,14 @@ RecordPool::Lease::Lease(RecordPool& pool)
     return false;
   };
   pool_.returned_.wait(lock, findFree);
-  pool_.writers_[slot_]->taken = true;
+  pool_.writers_[slot_]->inUse = true;
 }
 
 RecordPool::Lease::~Lease()
 {
   {
     const std::lock_guard<std::mutex> lock(pool_.mutex_);
-    pool_.writers_[slot_]->taken = false;
+    pool_.writers_[slot_]->inUse = false;
   }
   pool_.returned_.notify_one();
 }
@@ -153,7 +137,8 @@ std::size_t RecordPool::bytes() const
   std::size_t sum = records_.bytes() + rows_.bytes() + previous_.bytes();
   for (const std::unique_ptr<Writer>& writer : writers_)
   {
-    sum += writer->cursorStorage.capacity() * sizeof(Record*) + writer->lastBlocks.capacity() * sizeof(kNone);
+    sum +=
+      writer->cursorStorage.capacity() * sizeof(Record*) + writer->lastStorage.capacity() * sizeof(kNoBlock);
   }
   return sum;
 }

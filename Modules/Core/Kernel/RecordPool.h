@@ -3,9 +3,8 @@
 #pragma once
 
 #include "Core/Buffer.h"
-#include "Core/Kernel/VoxelKernel.h"
+#include "Core/Kernel/RecordWriter.h"
 
-#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
@@ -22,8 +21,6 @@ namespace kernel
 /// time.
 class RecordPool
 {
-  static constexpr std::uint32_t kNone = ~std::uint32_t(0);
-
 public:
   /// Room for @p points records of @p partitions partitions, written by at most @p writers writers at once,
   /// and a row of so many bytes beside each. Empties the pool.
@@ -66,7 +63,7 @@ public:
     const RecordPool& pool_;
     std::uint32_t partition_;
     std::size_t writer_ = 0; ///< The one whose blocks come next.
-    std::uint32_t before_ = kNone;
+    std::uint32_t before_ = kNoBlock;
     std::size_t first_ = 0;
     std::size_t end_ = 0;
   };
@@ -79,34 +76,20 @@ public:
   std::size_t bytes() const;
 
 private:
-  /// Blocks a writer takes at once: an atomic operation waits for all stores before it.
-  static constexpr std::uint32_t kTakenBlocks = 32;
-
-  /// Where a partition's first block begins to be filled. All cursors advance at about the same pace: without
-  /// this they would crowd the same few sets of the first-level cache.
-  std::size_t stagger(std::uint32_t partition) const
-  {
-    return kLineRecords * (partition % std::uint32_t(blockRecords_ / kLineRecords));
-  }
-
   struct alignas(kApart) Writer : RecordWriter
   {
-    RecordPool* pool = nullptr;
     std::vector<Record*> cursorStorage;
-    std::vector<std::uint32_t> lastBlocks;
-    std::uint32_t nextBlock = 0; ///< Of those it took in advance.
-    std::uint32_t endBlock = 0;
-    bool taken = false;
+    std::vector<std::uint32_t> lastStorage;
+    bool inUse = false;
   };
-  static Record* refill(RecordWriter& writer, std::uint32_t partition);
-  std::uint32_t partitions() const { return std::uint32_t(writers_[0]->lastBlocks.size()); }
+  std::uint32_t partitions() const { return std::uint32_t(writers_[0]->lastStorage.size()); }
 
   std::size_t blockRecords_ = kBlockRecords;
   Buffer<Record> records_;
   Buffer<char> rows_;
   std::size_t rowBytes_ = 0;
   Buffer<std::uint32_t> previous_;
-  std::atomic<std::uint32_t> nextBlock_{ 0 };
+  alignas(kApart) std::uint32_t takenBlocks_ = 0;
   std::vector<std::unique_ptr<Writer>> writers_;
   std::mutex mutex_;
   std::condition_variable returned_;
@@ -115,25 +98,26 @@ private:
 inline bool RecordPool::Walk::next()
 {
   std::uint32_t block = before_;
-  if (block != kNone)
+  if (block != kNoBlock)
   {
     end_ = (std::size_t(block) + 1) * pool_.blockRecords_;
   }
-  while (block == kNone && partition_ < pool_.partitions() && writer_ < pool_.writers_.size())
+  while (block == kNoBlock && partition_ < pool_.partitions() && writer_ < pool_.writers_.size())
   {
     const Writer& writer = *pool_.writers_[writer_++];
     block = writer.lastBlocks[partition_];
-    if (block != kNone)
+    if (block != kNoBlock)
     {
       end_ = std::size_t(writer.cursors[partition_] - pool_.records_.data());
     }
   }
-  if (block == kNone)
+  if (block == kNoBlock)
   {
     return false;
   }
   before_ = pool_.previous_[block];
-  first_ = std::size_t(block) * pool_.blockRecords_ + (before_ == kNone ? pool_.stagger(partition_) : 0);
+  first_ = std::size_t(block) * pool_.blockRecords_ +
+    (before_ == kNoBlock ? firstRecord(partition_, pool_.blockRecords_) : 0);
   return true;
 }
 

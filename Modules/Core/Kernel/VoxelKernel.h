@@ -84,19 +84,7 @@ struct Placement
   int layerShift;
 };
 
-/// Where partition() puts its records: a cursor for each partition.
-struct RecordWriter
-{
-  Record** cursors;
-  std::uintptr_t blockMask; ///< Bytes of a block, less one.
-  /// Called when a cursor stands at the end of its block: gives one at the start of a new block.
-  Record* (*refill)(RecordWriter& writer, std::uint32_t partition);
-  /// Told for each point inside where its record is, counted from @p records: or null.
-  std::uint32_t* slots;
-  Record* records; ///< Start of the pool, for slots.
-  std::int64_t inside;
-  std::int64_t invalid;
-};
+struct RecordWriter;
 
 /// Which cell of a partition a record is in: x + columns (row - firstRow).
 struct CellMap

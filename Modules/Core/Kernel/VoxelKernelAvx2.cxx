@@ -23,7 +23,6 @@ struct Avx2 : CovarianceAvx2
   using Shift = __m128i;
   static constexpr bool hasFusedMultiply = true;
   static constexpr bool countsOnes = true;
-  static constexpr int groupsTogether = 8;
 
   static Doubles all(double value) { return _mm256_set1_pd(value); }
   static Bits allBits(std::uint64_t value) { return _mm256_set1_epi64x(std::int64_t(value)); }

@@ -24,7 +24,6 @@ struct Avx512 : CovarianceAvx512
   using Shift = __m128i;
   static constexpr bool hasFusedMultiply = true;
   static constexpr bool countsOnes = true;
-  static constexpr int groupsTogether = 8;
 
   static Doubles all(double value) { return _mm512_set1_pd(value); }
   static Bits allBits(std::uint64_t value) { return _mm512_set1_epi64(std::int64_t(value)); }

@@ -28,7 +28,6 @@ struct Pairs
   using Shift = int;
   static constexpr bool hasFusedMultiply = false;
   static constexpr bool countsOnes = false;
-  static constexpr int groupsTogether = 1;
 
   static Doubles all(double value) { return Doubles{ value, value }; }
   static Bits allBits(std::uint64_t value) { return Bits{ value, value }; }
