@@ -6,6 +6,7 @@
 #include "Core/Buffer.h"
 #include "Core/Executor.h"
 #include "Core/Lattice.h"
+#include "Core/PointRange.h"
 #include "Core/PointView.h"
 #include "Core/Status.h"
 #include "Core/Watcher.h"
@@ -15,13 +16,6 @@
 
 namespace pointhaptics
 {
-
-/// Points [begin, end) of an array.
-struct PointRange
-{
-  std::int64_t begin;
-  std::int64_t end;
-};
 
 /// A copy of the finite points of a cloud, sorted into bricks with bounds.
 /// Memory: the coordinates again and 4 bytes a point (16 for floats). Immutable after build(); any number of

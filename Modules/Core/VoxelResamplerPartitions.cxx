@@ -209,11 +209,10 @@ void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const
   const Kernels& kernels = kernelsFor(request.instructions);
   const PointRange* pieces = chunks.pieces(chunk);
   const PointView& points = chunks.points();
-  const auto place = [&](PointRange piece, RecordWriter& writer)
+  const auto place = [&](const PointRange* ranges, std::int64_t count, RecordWriter& writer)
   {
-    const std::int64_t count = piece.end - piece.begin;
-    points.floats() ? kernels.partitionFloats(placement_, points.floats() + 3 * piece.begin, count, writer)
-                    : kernels.partitionDoubles(placement_, points.doubles() + 3 * piece.begin, count, writer);
+    points.floats() ? kernels.partitionFloats(placement_, points.floats(), ranges, count, writer)
+                    : kernels.partitionDoubles(placement_, points.doubles(), ranges, count, writer);
   };
   const auto placeWithRows = [&](PointRange piece, RecordWriter& writer)
   {
@@ -222,7 +221,7 @@ void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const
     {
       const PointRange part = { piece.begin, std::min(piece.begin + RowSlots::kMost, piece.end) };
       writer.slots = slots.clear();
-      place(part, writer);
+      place(&part, 1, writer);
       slots.copy(dealtRows_, part, request.index, pool_.rows());
       piece.begin = part.end;
     }
@@ -231,9 +230,14 @@ void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const
     [&](std::int64_t first, std::int64_t last)
     {
       const RecordPool::Lease lease(pool_);
+      if (!withRows)
+      {
+        place(pieces + first, last - first, lease.writer());
+        return;
+      }
       for (std::int64_t i = first; i < last; ++i)
       {
-        withRows ? placeWithRows(pieces[i], lease.writer()) : place(pieces[i], lease.writer());
+        placeWithRows(pieces[i], lease.writer());
       }
     });
 }

@@ -14,21 +14,35 @@ namespace kernel
 namespace
 {
 
-/// Points placed while the records of as many before them are dealt out.
-constexpr int kPlacedAtOnce = 128;
-/// So many of each in turn: placing is work for the vector units, dealing for those that read and write
-/// memory, and the processor does both at the same time if they are this near in the program.
-constexpr int kPlacedInTurn = 8;
-
-/// Records on their way to their partitions: fewer than are dealt out at once, and those placed next.
+/// Records on their way to their partitions.
+template <class V>
 struct PlacedPoints
 {
-  static constexpr int kRoom = 2 * kPlacedAtOnce + kWidest;
+  /// Whole vectors are stored, the last one beyond what they were placed for.
+  static constexpr int kRoom = V::placedAtOnce + kWidest;
 
   int size = 0;
   alignas(64) Record records[kRoom];
   alignas(64) std::uint64_t partitions[kRoom];
   alignas(64) std::uint32_t indices[kRoom];
+};
+
+/// Of two batches, one is placed while the other, which is whole (V::placedAtOnce points), is dealt out, in
+/// turns of V::dealtInTurn records from all over it: neighbours in a scan go to one partition, whose cursor
+/// would be read soon after it was moved. Placing is work for the vector units, dealing for those that read
+/// and write memory, and where there are registers for both, turns of each that are near in the program are
+/// done at the same time (V::dealsMeanwhile).
+template <class V>
+struct Batches
+{
+  static constexpr int kTurns = V::placedAtOnce / V::dealtInTurn;
+
+  PlacedPoints<V> both[2];
+  int current = 0;   ///< The one that is placed.
+  int turn = kTurns; ///< That comes next for the other one.
+
+  PlacedPoints<V>& placed() { return both[current]; }
+  PlacedPoints<V>& dealt() { return both[1 - current]; }
 };
 
 /// The vectors that stay the same over all points.
@@ -146,7 +160,7 @@ __attribute__((always_inline)) inline void move(
 /// is inside.
 template <class V>
 inline unsigned placeGroup(
-  const PlacementVectors<V>& c, const typename V::Doubles u[3], PlacedPoints& placed, std::int64_t to)
+  const PlacementVectors<V>& c, const typename V::Doubles u[3], PlacedPoints<V>& placed, std::int64_t to)
 {
   typename V::Bits position[3];
   typename V::Mask inside = V::allTrue();
@@ -170,8 +184,9 @@ inline unsigned placeGroup(
 }
 
 /// Moves the records of a group at @p group that are inside together. @return where the next group goes.
-template <bool Indexed>
-inline std::int64_t keepInside(PlacedPoints& placed, std::int64_t group, unsigned inside, std::uint32_t index)
+template <class V, bool Indexed>
+inline std::int64_t keepInside(
+  PlacedPoints<V>& placed, std::int64_t group, unsigned inside, std::uint32_t index)
 {
   std::int64_t to = group;
   for (; inside != 0; inside &= inside - 1, ++to)
@@ -187,18 +202,22 @@ inline std::int64_t keepInside(PlacedPoints& placed, std::int64_t group, unsigne
   return to;
 }
 
-/// Appends a placed record to its partition.
-template <bool Indexed>
+/// Appends placed records to their partitions, from one of them on.
+template <class V, bool Indexed>
 struct Dealer
 {
-  const PlacedPoints& placed;
+  const Record* records;
+  const std::uint64_t* partitions;
+  const std::uint32_t* indices;
   RecordWriter& writer;
   // Copies, which no store can change.
   Record** const cursors;
   const std::uintptr_t blockMask;
 
-  Dealer(const PlacedPoints& from, RecordWriter& to)
-    : placed(from)
+  Dealer(const PlacedPoints<V>& placed, int first, RecordWriter& to)
+    : records(placed.records + first)
+    , partitions(placed.partitions + first)
+    , indices(placed.indices + first)
     , writer(to)
     , cursors(to.cursors)
     , blockMask(to.blockMask)
@@ -206,49 +225,50 @@ struct Dealer
   }
   __attribute__((always_inline)) void operator()(int i) const
   {
-    const std::uint64_t partition = placed.partitions[i];
+    const std::uint64_t partition = partitions[i];
     Record* const cursor = cursorOf(writer, cursors, blockMask, partition);
     cursors[partition] = cursor + 1;
     // The next lines wait in the second level: those of hundreds of cursors would crowd the first.
     fetch(cursor + 2 * kLineRecords);
-    *cursor = placed.records[i];
+    *cursor = records[i];
     if (Indexed)
     {
-      writer.slots[placed.indices[i]] = std::uint32_t(cursor - writer.records);
+      writer.slots[indices[i]] = std::uint32_t(cursor - writer.records);
     }
+  }
+  /// Deals a turn of a whole batch out.
+  __attribute__((always_inline)) void dealTurn()
+  {
+    visitPlaces<Batches<V>::kTurns, 0, V::dealtInTurn>(0, *this);
+    ++records;
+    ++partitions;
+    ++indices;
   }
 };
 
-template <bool Indexed>
-void dealAll(const PlacedPoints& placed, RecordWriter& writer)
-{
-  const Dealer<Indexed> deal(placed, writer);
-  for (int i = 0; i < placed.size; ++i)
-  {
-    deal(i);
-  }
-}
-
-/// Places groups of V::width points, at most kPlacedAtOnce points, and appends those inside to @p placed. Bit
-/// i of @p present: point i of a group is one. @return how many are not finite. A function of its own,
-/// without calls: the constants stay in registers. @tparam Deals: there are kPlacedAtOnce points, and the
-/// first kPlacedAtOnce of @p earlier ones are dealt out.
-template <class V, Motion motion, bool Pair, bool Indexed, bool Deals, typename Real>
+/// Places groups of V::width points, no more than it takes to make a batch whole, and appends those inside to
+/// @p placed; meanwhile @p dealt, which is whole, is dealt out from @p turn on. Bit i of @p present:
+/// point i of a group is one. @return how many are not finite. A function of its own, without calls: the
+/// constants stay in registers.
+template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
 __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, const Real* xyz, int groups,
-  unsigned present, std::uint32_t index, PlacedPoints& placed, const PlacedPoints& earlier,
+  unsigned present, std::uint32_t index, PlacedPoints<V>& placed, const PlacedPoints<V>& dealt, int& turn,
   RecordWriter& writer)
 {
   constexpr int kAhead = 2048 / int(sizeof(Real));
-  constexpr int kGroups = kPlacedInTurn / V::width;
-  constexpr int kTurns = kPlacedAtOnce / kPlacedInTurn;
+  constexpr int kGroups = V::groupsTogether;
+  static_assert(
+    !V::dealsMeanwhile || kGroups * V::width == V::dealtInTurn, "as many are dealt out as are placed");
   const PlacementVectors<V> constants = given;
-  const Dealer<Indexed> deal(earlier, writer);
+  Dealer<V, Indexed> dealer(dealt, turn, writer);
+  constexpr int kTurns = Batches<V>::kTurns;
+  int turns = kTurns - turn;
   std::int64_t size = placed.size;
   int invalid = 0;
   typename V::Doubles u[kGroups][3];
   for (int first = 0; first < groups; first += kGroups)
   {
-    const int together = Deals || groups - first > kGroups ? kGroups : groups - first;
+    const int together = groups - first < kGroups ? groups - first : kGroups;
     for (int g = 0; g < together; ++g)
     {
       const Real* from = xyz + 3 * V::width * (first + g);
@@ -285,114 +305,131 @@ __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, cons
           V::toUnsigned(V::both(V::finite(v[0]), V::both(V::finite(v[1]), V::finite(v[2]))));
         invalid += __builtin_popcount(present & ~finite);
       }
-      size = keepInside<Indexed>(placed, size, kept, firstIndex);
+      size = keepInside<V, Indexed>(placed, size, kept, firstIndex);
     }
-    if constexpr (Deals)
+    if (V::dealsMeanwhile && turns > 0)
     {
-      // Neighbours in a scan go to one partition, whose cursor is read soon after it was moved: so they are
-      // not dealt out one after the other.
-      visitPlaces<kTurns, 0, kPlacedInTurn>(first / kGroups, deal);
+      dealer.dealTurn();
+      --turns;
     }
   }
   placed.size = int(size);
+  turn = kTurns - turns;
   return invalid;
 }
 
-/// Moves the records beyond kPlacedAtOnce to @p others, which are none.
-template <bool Indexed>
-inline void moveOthers(PlacedPoints& placed, PlacedPoints& others)
+/// Where the current batch is whole, the other one is dealt out: they change places, and points beyond a
+/// whole batch are the first of the next one.
+template <class V, bool Indexed>
+inline void changePlaces(Batches<V>& batches)
 {
-  others.size = placed.size - kPlacedAtOnce;
-  placed.size = kPlacedAtOnce;
-  for (int i = 0; i < others.size; ++i)
+  PlacedPoints<V>& whole = batches.placed();
+  PlacedPoints<V>& next = batches.dealt();
+  next.size = whole.size - V::placedAtOnce;
+  for (int i = 0; i < next.size; ++i)
   {
-    others.records[i] = placed.records[kPlacedAtOnce + i];
-    others.partitions[i] = placed.partitions[kPlacedAtOnce + i];
+    next.records[i] = whole.records[V::placedAtOnce + i];
+    next.partitions[i] = whole.partitions[V::placedAtOnce + i];
     if (Indexed)
     {
-      others.indices[i] = placed.indices[kPlacedAtOnce + i];
+      next.indices[i] = whole.indices[V::placedAtOnce + i];
     }
+  }
+  batches.current = 1 - batches.current;
+  batches.turn = 0;
+}
+
+/// Deals the rest of the whole batch out.
+template <class V, bool Indexed>
+void dealWhole(Batches<V>& batches, RecordWriter& writer)
+{
+  Dealer<V, Indexed> dealer(batches.dealt(), batches.turn, writer);
+  for (; batches.turn < batches.kTurns; ++batches.turn)
+  {
+    dealer.dealTurn();
   }
 }
 
 template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
-void partitionAll(const Placement& placement, const Real* xyz, std::int64_t count, RecordWriter& writer)
+void partitionAll(const Placement& placement, const Real* xyz, const PointRange* ranges, std::int64_t count,
+  RecordWriter& writer)
 {
-  constexpr int kWhole = kPlacedAtOnce / V::width;
   const PlacementVectors<V> constants(placement);
-  PlacedPoints both[2];
-  int current = 0; // The other has kPlacedAtOnce points to deal out, or none.
-  const auto place = [&](const Real* from, int groups, unsigned present, std::int64_t first)
+  Batches<V> batches;
+  const auto place = [&](const Real* from, std::int64_t first, int groups, unsigned present)
   {
-    PlacedPoints& placed = both[current];
-    PlacedPoints& earlier = both[1 - current];
-    const int before = placed.size;
-    if (earlier.size > 0 && groups == kWhole)
+    const int before = batches.placed().size;
+    writer.invalid += placeGroups<V, motion, Pair, Indexed>(constants, from, groups, present,
+      std::uint32_t(first - ranges[0].begin), batches.placed(), batches.dealt(), batches.turn, writer);
+    writer.inside += batches.placed().size - before;
+    if (batches.placed().size >= V::placedAtOnce)
     {
-      writer.invalid += placeGroups<V, motion, Pair, Indexed, true>(
-        constants, from, groups, present, std::uint32_t(first), placed, earlier, writer);
-    }
-    else
-    {
-      dealAll<Indexed>(earlier, writer);
-      writer.invalid += placeGroups<V, motion, Pair, Indexed, false>(
-        constants, from, groups, present, std::uint32_t(first), placed, earlier, writer);
-    }
-    earlier.size = 0;
-    writer.inside += placed.size - before;
-    if (placed.size >= kPlacedAtOnce)
-    {
-      moveOthers<Indexed>(placed, earlier);
-      current = 1 - current;
+      changePlaces<V, Indexed>(batches);
+      if (!V::dealsMeanwhile)
+      {
+        dealWhole<V, Indexed>(batches, writer);
+      }
     }
   };
-  const std::int64_t whole = count / V::width;
-  for (std::int64_t group = 0; group < whole; group += kWhole)
+  for (std::int64_t r = 0; r < count; ++r)
   {
-    const std::int64_t left = whole - group;
-    place(xyz + 3 * V::width * group, left < kWhole ? int(left) : kWhole, V::full, V::width * group);
-  }
-  if (const std::int64_t rest = count - V::width * whole)
-  {
-    Real last[3 * kWidest] = {};
-    for (std::int64_t i = 0; i < 3 * rest; ++i)
+    std::int64_t i = ranges[r].begin;
+    for (std::int64_t left = (ranges[r].end - i) / V::width; left > 0;)
     {
-      last[i] = xyz[3 * V::width * whole + i];
+      const int most = (V::placedAtOnce - batches.placed().size + V::width - 1) / V::width;
+      const int groups = left < most ? int(left) : most;
+      place(xyz + 3 * i, i, groups, V::full);
+      i += groups * V::width;
+      left -= groups;
     }
-    place(last, 1, (1u << unsigned(rest)) - 1, V::width * whole);
+    if (const std::int64_t rest = ranges[r].end - i)
+    {
+      Real last[3 * kWidest] = {};
+      for (std::int64_t j = 0; j < 3 * rest; ++j)
+      {
+        last[j] = xyz[3 * i + j];
+      }
+      place(last, i, 1, (1u << unsigned(rest)) - 1);
+    }
   }
-  dealAll<Indexed>(both[1 - current], writer);
-  dealAll<Indexed>(both[current], writer);
+  dealWhole<V, Indexed>(batches, writer);
+  const Dealer<V, Indexed> dealer(batches.placed(), 0, writer);
+  for (int i = 0; i < batches.placed().size; ++i)
+  {
+    dealer(i);
+  }
 }
 
 template <class V, Motion motion, typename Real>
-void partitionMoved(const Placement& placement, const Real* xyz, std::int64_t count, RecordWriter& writer)
+void partitionMoved(const Placement& placement, const Real* xyz, const PointRange* ranges, std::int64_t count,
+  RecordWriter& writer)
 {
   if (V::hasFusedMultiply && placement.pairDivides)
   {
-    writer.slots ? partitionAll<V, motion, true, true>(placement, xyz, count, writer)
-                 : partitionAll<V, motion, true, false>(placement, xyz, count, writer);
+    writer.slots ? partitionAll<V, motion, true, true>(placement, xyz, ranges, count, writer)
+                 : partitionAll<V, motion, true, false>(placement, xyz, ranges, count, writer);
     return;
   }
-  writer.slots ? partitionAll<V, motion, false, true>(placement, xyz, count, writer)
-               : partitionAll<V, motion, false, false>(placement, xyz, count, writer);
+  writer.slots ? partitionAll<V, motion, false, true>(placement, xyz, ranges, count, writer)
+               : partitionAll<V, motion, false, false>(placement, xyz, ranges, count, writer);
 }
 
 template <class V, typename Real>
-void partition(const Placement& placement, const Real* xyz, std::int64_t count, RecordWriter& writer)
+void partition(const Placement& placement, const Real* xyz, const PointRange* ranges, std::int64_t count,
+  RecordWriter& writer)
 {
   switch (placement.motion)
   {
     case Motion::Subtract:
-      return partitionMoved<V, Motion::Subtract>(placement, xyz, count, writer);
+      return partitionMoved<V, Motion::Subtract>(placement, xyz, ranges, count, writer);
     case Motion::Shift:
-      return partitionMoved<V, Motion::Shift>(placement, xyz, count, writer);
+      return partitionMoved<V, Motion::Shift>(placement, xyz, ranges, count, writer);
     case Motion::Scale:
-      return partitionMoved<V, Motion::Scale>(placement, xyz, count, writer);
+      return partitionMoved<V, Motion::Scale>(placement, xyz, ranges, count, writer);
     case Motion::General:
-      return partitionMoved<V, Motion::General>(placement, xyz, count, writer);
+      return partitionMoved<V, Motion::General>(placement, xyz, ranges, count, writer);
     case Motion::Compensated:
-      return partitionMoved<V, Motion::Compensated>(placement, xyz, count, writer);
+      return partitionMoved<V, Motion::Compensated>(placement, xyz, ranges, count, writer);
   }
 }
 

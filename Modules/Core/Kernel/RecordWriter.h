@@ -26,7 +26,8 @@ struct RecordWriter
   std::uint32_t* taken;      ///< Blocks that the pool's writers have taken: they share it.
   std::uint32_t nextBlock;   ///< Of those it took in advance.
   std::uint32_t endBlock;
-  /// Told for each point inside where its record is, counted from records: or null.
+  /// Told for each point inside, counted from the first range's begin, where its record is, counted from
+  /// records: or null.
   std::uint32_t* slots;
   std::int64_t inside;
   std::int64_t invalid;

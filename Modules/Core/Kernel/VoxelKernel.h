@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Core/InstructionSet.h"
+#include "Core/PointRange.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -239,9 +240,12 @@ constexpr int kWidest = 8;
 /// The inner loops for one instruction set.
 struct Kernels
 {
-  /// Places @p count points (x y z interleaved) and appends those inside to their partitions.
-  void (*partitionFloats)(const Placement&, const float* xyz, std::int64_t count, RecordWriter&);
-  void (*partitionDoubles)(const Placement&, const double* xyz, std::int64_t count, RecordWriter&);
+  /// Places the points of @p count ranges of an array (x y z interleaved) and appends those inside to their
+  /// partitions.
+  void (*partitionFloats)(
+    const Placement&, const float* xyz, const PointRange* ranges, std::int64_t count, RecordWriter&);
+  void (*partitionDoubles)(
+    const Placement&, const double* xyz, const PointRange* ranges, std::int64_t count, RecordWriter&);
   /// The cell of each record. Fetches a block of records that will be asked for @p next: those follow each
   /// other in memory too seldom for the machine to guess.
   void (*cells)(const CellMap&, const Record* records, int count, const Record* next, std::uint32_t* cells);

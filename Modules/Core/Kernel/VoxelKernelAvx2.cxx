@@ -23,6 +23,10 @@ struct Avx2 : CovarianceAvx2
   using Shift = __m128i;
   static constexpr bool hasFusedMultiply = true;
   static constexpr bool countsOnes = true;
+  static constexpr int groupsTogether = 8;
+  static constexpr int placedAtOnce = 256;
+  static constexpr int dealtInTurn = 16;
+  static constexpr bool dealsMeanwhile = false;
 
   static Doubles all(double value) { return _mm256_set1_pd(value); }
   static Bits allBits(std::uint64_t value) { return _mm256_set1_epi64x(std::int64_t(value)); }

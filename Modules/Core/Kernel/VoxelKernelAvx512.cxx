@@ -24,6 +24,10 @@ struct Avx512 : CovarianceAvx512
   using Shift = __m128i;
   static constexpr bool hasFusedMultiply = true;
   static constexpr bool countsOnes = true;
+  static constexpr int groupsTogether = 1;
+  static constexpr int placedAtOnce = 128;
+  static constexpr int dealtInTurn = 8;
+  static constexpr bool dealsMeanwhile = true;
 
   static Doubles all(double value) { return _mm512_set1_pd(value); }
   static Bits allBits(std::uint64_t value) { return _mm512_set1_epi64(std::int64_t(value)); }

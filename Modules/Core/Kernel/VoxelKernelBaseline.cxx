@@ -28,6 +28,10 @@ struct Pairs
   using Shift = int;
   static constexpr bool hasFusedMultiply = false;
   static constexpr bool countsOnes = false;
+  static constexpr int groupsTogether = 1;
+  static constexpr int placedAtOnce = 256;
+  static constexpr int dealtInTurn = 16;
+  static constexpr bool dealsMeanwhile = false;
 
   static Doubles all(double value) { return Doubles{ value, value }; }
   static Bits allBits(std::uint64_t value) { return Bits{ value, value }; }
