@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <thread>
 
 namespace pointhaptics
 {
@@ -27,6 +28,52 @@ Contestant copyOf(vtkPolyData* cloud, std::vector<float>& target)
   copy.run = [cloud, bytes, &target]
   { std::memcpy(target.data(), cloud->GetPoints()->GetVoidPointer(0), bytes); };
   return copy;
+}
+
+/// A few milliseconds of arithmetic that leave no unit of a core for another thread. @return what keeps it
+/// from being left out.
+std::uint64_t compute(std::uint64_t seed)
+{
+  constexpr int kChains = 8;
+  constexpr int kSteps = 500000;
+  std::uint64_t chains[kChains];
+  for (int i = 0; i < kChains; ++i)
+  {
+    chains[i] = seed + std::uint64_t(i);
+  }
+  for (int step = 0; step < kSteps; ++step)
+  {
+    for (std::uint64_t& x : chains)
+    {
+      x ^= x << 13;
+      x ^= x >> 7;
+      x ^= x << 17;
+    }
+  }
+  return *std::max_element(chains, chains + kChains);
+}
+
+/// The same arithmetic on each of some threads.
+Contestant arithmeticOn(int threads, std::uint64_t& result)
+{
+  Contestant arithmetic;
+  arithmetic.name = "arithmetic";
+  arithmetic.run = [threads, &result]
+  {
+    std::vector<std::uint64_t> results(static_cast<std::size_t>(threads));
+    std::vector<std::thread> others;
+    for (int i = 1; i < threads; ++i)
+    {
+      others.emplace_back([&results, i] { results[std::size_t(i)] = compute(std::uint64_t(i) + 1); });
+    }
+    results[0] = compute(1);
+    for (std::thread& other : others)
+    {
+      other.join();
+    }
+    result = *std::max_element(results.begin(), results.end());
+  };
+  return arithmetic;
 }
 
 Contestant contestantOf(Rival& rival, const ResampleTask& task, Verdict& verdict)
@@ -95,11 +142,22 @@ RaceTable raceOn(const ResampleTask& task, Rivals rivals, int threads, StudyCont
   }
   std::vector<float> target;
   contestants.push_back(copyOf(task.cloud, target));
+  std::uint64_t computed = 0;
+  if (threads > 1)
+  {
+    contestants.push_back(arithmeticOn(1, computed));
+    contestants.push_back(arithmeticOn(threads, computed));
+  }
   std::vector<Lap> laps;
   vtkSMPTools::LocalScope(
     vtkSMPTools::Config(threads), [&] { laps = race(contestants, settingsOf(context)); });
-  const Lap& copy = laps.back();
+  const Lap& copy = laps[able.size()];
   result.copySeconds = quartiles(copy.seconds).median;
+  result.threads = threads;
+  if (threads > 1)
+  {
+    result.timesAlone = pairedRatios(laps.back().seconds, laps[able.size() + 1].seconds);
+  }
   for (std::size_t i = 0; i < able.size(); ++i)
   {
     const Lap& lap = laps[i];
@@ -181,7 +239,18 @@ void addRace(ReportPart& part, const RaceTable& race, std::int64_t points,
     part.table.rows.push_back(cells);
     nlohmann::ordered_json numbers = leadingNumbers;
     numbers.update(raceJson(row, points));
+    if (race.timesAlone.count > 0)
+    {
+      numbers["threads_together_times"] = race.timesAlone.median;
+    }
     part.rows.push_back(numbers);
+  }
+  if (race.timesAlone.count > 0)
+  {
+    part.remarks.push_back(
+      fmt::format("Arithmetic ({}): on {} threads at once took {} ({} - {}) times as long as on one",
+        fmt::join(leadingCells, ", "), race.threads, brief(race.timesAlone.median),
+        brief(race.timesAlone.lower), brief(race.timesAlone.upper)));
   }
   for (const std::string& line : race.leftOut)
   {

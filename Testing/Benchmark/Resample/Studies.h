@@ -44,6 +44,10 @@ struct RaceTable
   std::vector<RaceRow> rows;        ///< The first contestant's first.
   std::vector<std::string> leftOut; ///< "NAME: why".
   double copySeconds = 0.0;         ///< Median of copying the coordinates.
+  int threads = 1;
+  /// Time of arithmetic on all threads at once over that of as much on one: 1 where each has a core of its
+  /// own. Empty with one thread.
+  Quartiles timesAlone;
 };
 
 using Rivals = std::vector<std::unique_ptr<Rival>>;
