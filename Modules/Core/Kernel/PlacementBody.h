@@ -247,24 +247,25 @@ struct Dealer
 };
 
 /// Places groups of V::width points, no more than it takes to make a batch whole, and appends those inside to
-/// @p placed; meanwhile @p dealt, which is whole, is dealt out from @p turn on. Bit i of @p present:
-/// point i of a group is one. @return how many are not finite. A function of its own, without calls: the
-/// constants stay in registers.
+/// @p placed; meanwhile @p dealt, which is whole, is dealt out from @p turn on. Bit i of @p present: point i
+/// of a group is one. @return how many are not finite. A function of its own, without calls: the constants
+/// stay in registers.
 template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
 __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, const Real* xyz, int groups,
   unsigned present, std::uint32_t index, PlacedPoints<V>& placed, const PlacedPoints<V>& dealt, int& turn,
   RecordWriter& writer)
 {
   constexpr int kAhead = 2048 / int(sizeof(Real));
+  constexpr int kTurns = Batches<V>::kTurns;
   constexpr int kGroups = V::groupsTogether;
   static_assert(
     !V::dealsMeanwhile || kGroups * V::width == V::dealtInTurn, "as many are dealt out as are placed");
   const PlacementVectors<V> constants = given;
   Dealer<V, Indexed> dealer(dealt, turn, writer);
-  constexpr int kTurns = Batches<V>::kTurns;
   int turns = kTurns - turn;
   std::int64_t size = placed.size;
   int invalid = 0;
+  // Two loops have chains of operations half as long, of which the processor works on more at a time.
   typename V::Doubles u[kGroups][3];
   for (int first = 0; first < groups; first += kGroups)
   {
