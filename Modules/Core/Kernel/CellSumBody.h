@@ -157,6 +157,7 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
   const CellRanks ranks = givenRanks;
   const CellSums to = given;
   const typename V::Adder adder(map.fractionBits);
+  // From several places: neighbours in a scan are in one voxel, and each would wait for the one before.
   constexpr int kPlaces = 8;
   constexpr int kPart = 16;
   for (int first = 0; first < count; first += kPlaces * kPart)

@@ -205,8 +205,6 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
   const char* end = line + bytes;
   const std::size_t part = bytes * kBlockRecords / std::max<std::size_t>(records, 1);
   std::uint32_t* cells = recordCells_.data();
-  RecordPool::Walk ahead(pool, partition_);
-  ahead.next();
   for (RecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
     const char* partEnd = line + std::min(part, std::size_t(end - line));
@@ -214,7 +212,7 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
     {
       fetch(line);
     }
-    kernels.cells(voxels_.map, block.records(), block.count(), nextOf(ahead, block), cells);
+    kernels.cells(voxels_.map, block.records(), block.count(), block.recordsAhead(), cells);
   }
   // All of them together: those of one block of a scan are so near that they would wait for each other.
   kernels.markCells(recordCells_.data(), int(records), marks_.data());
@@ -240,11 +238,11 @@ void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool, C
   voxels_.sums = sums.sums;
   voxels_.seconds = sums.seconds;
   const std::uint32_t* cells = recordCells_.data();
-  RecordPool::Walk ahead(pool, pool.following(partition_));
+  RecordPool::Walk following(pool, pool.following(partition_));
   for (RecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
-    kernels.accumulate(
-      voxels_.map, ranks(), block.records(), cells, block.count(), nextOf(ahead, block), sums);
+    const Record* const next = following.next() ? following.records() : block.records();
+    kernels.accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
   }
   clearMarks({ voxels_.cells, voxels_.size });
 }
@@ -380,12 +378,10 @@ void PartitionWorker::sortRecords(const Kernels& kernels, const RecordPool& pool
   otherEntries_.reserve(listed_);
   std::size_t filled = 0;
   const CellMap map = plan_.cellMap(partition_);
-  RecordPool::Walk ahead(pool, partition_);
-  ahead.next();
   for (RecordPool::Walk block(pool, partition_); block.next();)
   {
     std::uint32_t cells[kBlockRecords];
-    kernels.cells(map, block.records(), block.count(), nextOf(ahead, block), cells);
+    kernels.cells(map, block.records(), block.count(), block.recordsAhead(), cells);
     for (int i = 0; i < block.count(); ++i, ++filled)
     {
       records_[filled] = block.records()[i];

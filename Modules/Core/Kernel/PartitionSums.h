@@ -122,12 +122,10 @@ public:
       kernels.markCells(recordCells_.data(), int(size), marks_.data());
       numberMarks(kernels, { recordCells_.data(), size }, {});
     }
-    RecordPool::Walk ahead(pool, partition);
-    ahead.next();
     for (RecordPool::Walk block(pool, partition); block.next();)
     {
       std::uint32_t cells[kBlockRecords];
-      kernels.cells(map, block.records(), block.count(), nextOf(ahead, block), cells);
+      kernels.cells(map, block.records(), block.count(), block.recordsAhead(), cells);
       if (plan_.dense)
       {
         kernels.rank(ranks(), cells, block.count());

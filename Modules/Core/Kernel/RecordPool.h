@@ -55,6 +55,12 @@ public:
     /// Goes to the next block, at first to the first. @return whether there is one.
     bool next();
     const Record* records() const { return pool_.records_.data() + first_; }
+    /// What to fetch while at work on this block: the next one, or nothing else.
+    const Record* recordsAhead() const
+    {
+      Walk ahead = *this;
+      return ahead.next() ? ahead.records() : records();
+    }
     /// Beside each record a row.
     const char* rows() const { return pool_.rows_.data() + pool_.rowBytes_ * first_; }
     int count() const { return int(end_ - first_); }
@@ -119,12 +125,6 @@ inline bool RecordPool::Walk::next()
   first_ = std::size_t(block) * pool_.blockRecords_ +
     (before_ == kNoBlock ? firstRecord(partition_, pool_.blockRecords_) : 0);
   return true;
-}
-
-/// What to fetch while at work on a block: where @p ahead goes next, or nothing else.
-inline const Record* nextOf(RecordPool::Walk& ahead, const RecordPool::Walk& block)
-{
-  return ahead.next() ? ahead.records() : block.records();
 }
 
 } // namespace kernel
