@@ -28,6 +28,14 @@ void setLamp(HidLink& link, bool on)
   // A device without a lamp refuses; nothing depends on it.
   static_cast<void>(link.write(report, int(sizeof(report))));
 }
+
+/// What others see of the device, one value: a cap that is gone is at rest in the very same read.
+struct Cap
+{
+  /// With all its times, so that whoever asks sees what is stale at that moment.
+  SpaceMouseDecoder decoder;
+  bool connected = false;
+};
 }
 
 struct SpaceMouse::Implementation
@@ -36,10 +44,7 @@ struct SpaceMouse::Implementation
   std::unique_ptr<HidBus> bus;
   std::thread thread;
   std::atomic<bool> quit{ false };
-  std::atomic<int> battery{ -1 };
-  /// The decoder with all its times, so that whoever asks sees what is stale at that moment.
-  LatestValue<SpaceMouseDecoder> newest;
-  std::atomic<bool> connected{ false };
+  LatestValue<Cap> newest;
   mutable std::mutex mutex;
   std::condition_variable changed;
   std::string message;
@@ -75,9 +80,8 @@ std::unique_ptr<HidLink> SpaceMouse::Implementation::find()
 
 void SpaceMouse::Implementation::serve(HidLink& link)
 {
-  SpaceMouseDecoder decoder(settings);
-  newest.write(decoder);
-  connected = true;
+  Cap cap{ SpaceMouseDecoder(settings), true };
+  newest.write(cap);
   setLamp(link, true);
   while (!quit)
   {
@@ -87,20 +91,16 @@ void SpaceMouse::Implementation::serve(HidLink& link)
     {
       break;
     }
-    if (count > 0 && decoder.take(bytes, count, now()))
+    if (count > 0 && cap.decoder.take(bytes, count, now()))
     {
-      battery = decoder.battery();
-      newest.write(decoder);
+      newest.write(cap);
     }
   }
   if (quit)
   {
     setLamp(link, false);
   }
-  connected = false;
-  decoder.reset();
-  newest.write(decoder);
-  battery = -1;
+  newest.write(Cap());
 }
 
 void SpaceMouse::Implementation::run()
@@ -169,14 +169,15 @@ void SpaceMouse::stop()
 
 SpaceMouseMotion SpaceMouse::motion() const noexcept
 {
-  SpaceMouseMotion result = implementation_->newest.read().motion(now());
-  result.connected = implementation_->connected.load(std::memory_order_relaxed);
+  const Cap cap = implementation_->newest.read();
+  SpaceMouseMotion result = cap.decoder.motion(now());
+  result.connected = cap.connected;
   return result;
 }
 
 int SpaceMouse::battery() const noexcept
 {
-  return implementation_->battery.load(std::memory_order_relaxed);
+  return implementation_->newest.read().decoder.battery();
 }
 
 std::string SpaceMouse::message() const

@@ -116,9 +116,4 @@ SpaceMouseMotion SpaceMouseDecoder::motion(double timeSeconds) const noexcept
   return result;
 }
 
-void SpaceMouseDecoder::reset() noexcept
-{
-  *this = SpaceMouseDecoder(settings_);
-}
-
 } // namespace pointhaptics

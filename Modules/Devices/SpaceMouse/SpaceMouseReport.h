@@ -45,7 +45,6 @@ public:
   SpaceMouseMotion motion(double timeSeconds) const noexcept;
   /// Per cent; -1: not told.
   int battery() const noexcept { return battery_; }
-  void reset() noexcept;
 
 private:
   SpaceMouseSettings settings_;

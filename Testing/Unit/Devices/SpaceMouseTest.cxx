@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -270,6 +271,41 @@ TEST(SpaceMouse, IsFoundReadUnpluggedAndFoundAgain)
   mouse.stop();
   EXPECT_EQ(desk.lampNow(), 0) << "lamp off";
   EXPECT_FALSE(mouse.motion().connected);
+}
+
+TEST(SpaceMouse, IsAtRestInEveryReadThatFindsItGone)
+{
+  Desk desk;
+  SpaceMouseSettings settings = withoutDeadZone();
+  settings.retrySeconds = 1e-5;
+  settings.staleSeconds = 100.0;
+  SpaceMouse mouse(settings, std::make_unique<DeskBus>(desk));
+  ASSERT_EQ(mouse.start(), Status::Ok);
+  std::atomic<bool> done{ false };
+  std::atomic<int> wrong{ 0 };
+  std::thread reader(
+    [&]
+    {
+      while (!done)
+      {
+        const SpaceMouseMotion motion = mouse.motion();
+        wrong += !motion.connected && (!motion.resting() || motion.buttons != 0) ? 1 : 0;
+      }
+    });
+  bool came = true;
+  for (int round = 0; round < 300 && came; ++round)
+  {
+    desk.say(report(1, { 350, 0, 0 }));
+    desk.say({ 3, 1, 0 });
+    came = eventually([&] { return mouse.motion().buttons == 1; });
+    desk.plug(false);
+    came = came && eventually([&] { return !mouse.motion().connected; });
+    desk.plug(true);
+  }
+  done = true;
+  reader.join();
+  EXPECT_TRUE(came);
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST(SpaceMouse, SaysWhyItCannotBeOpenedAndTriesAgain)
