@@ -7,16 +7,16 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cstdlib>
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
 #include <deque>
-#include <fcntl.h>
-#include <functional>
+#include <initializer_list>
 #include <linux/hidraw.h>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <sys/ioctl.h>
-#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -39,11 +39,17 @@ public:
     : bed_(bed)
   {
   }
+  /// Whatever searches for devices has ended by now.
   ~EmulatedCap()
   {
-    if (handler_)
+    if (plugged_)
     {
       unplug();
+    }
+    for (const std::unique_ptr<Node>& node : nodes_)
+    {
+      umockdev_testbed_detach_ioctl(bed_, node->path.c_str(), nullptr);
+      g_object_unref(node->handler);
     }
   }
 
@@ -51,19 +57,23 @@ public:
   {
     GError* error = nullptr;
     // A new number each time, as the kernel gives while somebody holds the old one.
-    const std::string name = "hidraw" + std::to_string(plugs_++);
-    node_ = "/dev/" + name;
+    const std::string name = "hidraw" + std::to_string(nodes_.size());
+    nodes_.push_back(std::make_unique<Node>());
+    Node& node = *nodes_.back();
+    node.cap = this;
+    node.path = "/dev/" + name;
     rawPath_ = kHidPath + ("/hidraw/" + name);
-    handler_ = umockdev_ioctl_base_new();
-    g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(&EmulatedCap::onIoctl), this);
-    g_signal_connect(handler_, "handle-read", G_CALLBACK(&EmulatedCap::onRead), this);
-    g_signal_connect(handler_, "handle-write", G_CALLBACK(&EmulatedCap::onWrite), this);
+    node.handler = umockdev_ioctl_base_new();
+    g_signal_connect(node.handler, "handle-ioctl", G_CALLBACK(&EmulatedCap::onIoctl), &node);
+    g_signal_connect(node.handler, "handle-read", G_CALLBACK(&EmulatedCap::onRead), &node);
+    g_signal_connect(node.handler, "handle-write", G_CALLBACK(&EmulatedCap::onWrite), &node);
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      plugged_ = true;
+      plugged_ = &node;
       lamp_ = -1;
     }
-    ASSERT_TRUE(umockdev_testbed_attach_ioctl(bed_, node_.c_str(), handler_, &error)) << error->message;
+    ASSERT_TRUE(umockdev_testbed_attach_ioctl(bed_, node.path.c_str(), node.handler, &error))
+      << error->message;
     for (const std::string& device :
       std::initializer_list<std::string>{
         "P: /devices/pci0000:00/0000:00:14.0/usb1/1-3\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\n"
@@ -75,40 +85,38 @@ public:
         "E: HID_ID=0003:0000256F:0000C635\nE: HID_NAME=3Dconnexion SpaceMouse Compact\nE: HID_UNIQ=\n"
         "A: uevent=HID_ID=0003:0000256F:0000C635\\nHID_NAME=3Dconnexion SpaceMouse Compact\\nHID_UNIQ=\\n\n"
         "H: report_descriptor=05010908a101c0\n",
-        "P: " + rawPath_.substr(4) + "\nN: " + name + "\nE: SUBSYSTEM=hidraw\nE: DEVNAME=" + node_ +
+        "P: " + rawPath_.substr(4) + "\nN: " + name + "\nE: SUBSYSTEM=hidraw\nE: DEVNAME=" + node.path +
           "\nL: device=../../../0003:256F:C635.0007\n" })
     {
       ASSERT_TRUE(umockdev_testbed_add_from_string(bed_, device.c_str(), &error)) << error->message;
     }
     // The node is a terminal: with a byte in it poll() always says that there is something to read.
-    const int terminal = umockdev_testbed_get_dev_fd(bed_, node_.c_str());
+    const int terminal = umockdev_testbed_get_dev_fd(bed_, node.path.c_str());
     ASSERT_EQ(write(terminal, "\n", 1), 1);
   }
 
+  /// Answers of the old node stay attached to the end, and are errors: a search that has it open, or is
+  /// about to, would be ended by umockdev, with the program, if nobody answered.
   void unplug()
   {
+    std::string path;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      plugged_ = false;
+      path = plugged_->path;
+      plugged_ = nullptr;
       reports_.clear();
     }
     umockdev_testbed_uevent(bed_, rawPath_.c_str(), "remove");
-    // A read that waits ends with the error.
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    GError* error = nullptr;
-    umockdev_testbed_detach_ioctl(bed_, node_.c_str(), &error);
-    for (std::string path = rawPath_; path != kPorts; path.resize(path.rfind('/')))
+    for (std::string device = rawPath_; device != kPorts; device.resize(device.rfind('/')))
     {
-      if (path.compare(path.rfind('/'), std::string::npos, "/hidraw") != 0)
+      if (device.compare(device.rfind('/'), std::string::npos, "/hidraw") != 0)
       {
-        umockdev_testbed_remove_device(bed_, path.c_str());
+        umockdev_testbed_remove_device(bed_, device.c_str());
       }
     }
     char* const root = umockdev_testbed_get_root_dir(bed_);
-    unlink((root + node_).c_str());
+    unlink((root + path).c_str());
     g_free(root);
-    g_object_unref(handler_);
-    handler_ = nullptr;
   }
 
   void say(const std::vector<std::uint8_t>& report)
@@ -123,7 +131,15 @@ public:
   }
 
 private:
-  static int onIoctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, EmulatedCap*)
+  /// What the device was called while it was plugged in once.
+  struct Node
+  {
+    EmulatedCap* cap = nullptr;
+    std::string path;
+    UMockdevIoctlBase* handler = nullptr;
+  };
+
+  static int onIoctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, Node*)
   {
     UMockdevIoctlData* const argument = umockdev_ioctl_client_get_arg(client);
     const unsigned long request = umockdev_ioctl_client_get_request(client);
@@ -144,40 +160,46 @@ private:
   }
 
   /// One report for each read, as the kernel does it.
-  static int onRead(UMockdevIoctlBase*, UMockdevIoctlClient* client, EmulatedCap* self)
+  static int onRead(UMockdevIoctlBase*, UMockdevIoctlClient* client, Node* node)
   {
-    const std::lock_guard<std::mutex> lock(self->mutex_);
-    if (!self->plugged_ || self->reports_.empty())
+    EmulatedCap& self = *node->cap;
+    const std::lock_guard<std::mutex> lock(self.mutex_);
+    if (self.plugged_ != node || self.reports_.empty())
     {
-      umockdev_ioctl_client_complete(client, -1, self->plugged_ ? EAGAIN : EIO);
+      umockdev_ioctl_client_complete(client, -1, self.plugged_ == node ? EAGAIN : EIO);
       return TRUE;
     }
-    std::vector<std::uint8_t> report = self->reports_.front();
-    self->reports_.pop_front();
+    std::vector<std::uint8_t> report = self.reports_.front();
+    self.reports_.pop_front();
     umockdev_ioctl_data_update(umockdev_ioctl_client_get_arg(client), 0, report.data(), int(report.size()));
     umockdev_ioctl_client_complete(client, long(report.size()), 0);
     return TRUE;
   }
 
-  static int onWrite(UMockdevIoctlBase*, UMockdevIoctlClient* client, EmulatedCap* self)
+  static int onWrite(UMockdevIoctlBase*, UMockdevIoctlClient* client, Node* node)
   {
-    const std::lock_guard<std::mutex> lock(self->mutex_);
+    EmulatedCap& self = *node->cap;
+    const std::lock_guard<std::mutex> lock(self.mutex_);
+    if (self.plugged_ != node)
+    {
+      umockdev_ioctl_client_complete(client, -1, EIO);
+      return TRUE;
+    }
     UMockdevIoctlData* const data = umockdev_ioctl_client_get_arg(client);
     if (data->data_len == 2 && data->data[0] == 4)
     {
-      self->lamp_ = data->data[1];
+      self.lamp_ = data->data[1];
     }
     umockdev_ioctl_client_complete(client, data->data_len, 0);
     return TRUE;
   }
 
   UMockdevTestbed* bed_;
-  int plugs_ = 0;
-  std::string node_;
+  std::vector<std::unique_ptr<Node>> nodes_;
   std::string rawPath_;
-  UMockdevIoctlBase* handler_ = nullptr;
   std::mutex mutex_;
-  bool plugged_ = false;
+  /// Null while it is unplugged.
+  Node* plugged_ = nullptr;
   int lamp_ = -1;
   std::deque<std::vector<std::uint8_t>> reports_;
 };
