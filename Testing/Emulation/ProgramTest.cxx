@@ -189,6 +189,7 @@ TEST_F(EmulatedMachine, FeelsASphereUntilTheUserEndsItAndLetsGoInOrder)
         { return (model.command.lamps & kFalconLampGreen) != 0 && model.frames > 20; });
     }))
     << output();
+  const int homed = falcon.with([](FalconModel& model) { return model.frames; });
   // Again where the machine stood still for a second on the way: the loop then takes the hand as new, inside.
   const auto touches = [&]
   {
@@ -216,6 +217,8 @@ TEST_F(EmulatedMachine, FeelsASphereUntilTheUserEndsItAndLetsGoInOrder)
         });
     }))
     << output();
+  EXPECT_TRUE(
+    eventually([&] { return falcon.with([&](FalconModel& model) { return model.frames > homed + 600; }); }));
   kill(child, SIGINT);
   EXPECT_EQ(finish(child), 0) << output();
   falcon.with(
