@@ -4,7 +4,7 @@
 # its process, set by whoever starts it, and taken away when it has ended.
 server=""
 viewer=""
-patience=20 # seconds that until_true waits at most
+patience=60 # seconds that until_true waits at most
 
 # need_tools WORD CODE: ends with the code and the word where Xvfb or xdotool is missing.
 need_tools() {
