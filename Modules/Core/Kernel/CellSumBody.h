@@ -35,7 +35,7 @@ inline void fetchRecords(const Record* records, int count)
 {
   for (int i = 0; i < count; i += kLineRecords)
   {
-    fetch(records + i);
+    fetchToWrite(records + i);
   }
 }
 

@@ -210,7 +210,7 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
     const char* partEnd = line + std::min(part, std::size_t(end - line));
     for (; line < partEnd; line += 64)
     {
-      fetch(line);
+      fetchToWrite(line);
     }
     kernels.cells(voxels_.map, block.records(), block.count(), block.recordsAhead(), cells);
   }

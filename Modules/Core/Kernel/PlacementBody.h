@@ -228,8 +228,8 @@ struct Dealer
     const std::uint64_t partition = partitions[i];
     Record* const cursor = cursorOf(writer, cursors, blockMask, partition);
     cursors[partition] = cursor + 1;
-    // The next lines wait in the second level: those of hundreds of cursors would crowd the first.
-    fetch(cursor + 2 * kLineRecords);
+    // In time for the points that are to come, although those of hundreds of cursors crowd the first level.
+    fetchToWrite(cursor + 2 * kLineRecords);
     *cursor = records[i];
     if (Indexed)
     {
