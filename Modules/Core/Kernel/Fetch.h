@@ -21,9 +21,9 @@ __attribute__((always_inline)) static inline void fetch(const void* address)
 
 /// Fetches the line of memory at an address that is to be written soon, or was written by another thread and
 /// is to be so again: the core comes to own it, and the store that follows does not wait until another core
-/// has given it up. Two threads whose cores are far apart (a round trip of 500 ns on Zen 5) resample 5 million
-/// points in 0.77 of the time that fetching to read takes. Instruction sets without such a fetch fetch to
-/// read.
+/// has given it up. Two threads whose cores are far apart (a round trip of 500 ns on Zen 5) resample 5
+/// million points in 0.77 of the time that fetching to read takes. Instruction sets without such a fetch
+/// fetch to read.
 __attribute__((always_inline)) static inline void fetchToWrite(const void* address)
 {
   __builtin_prefetch(address, 1, 2);

@@ -14,14 +14,16 @@ namespace kernel
 namespace
 {
 
-/// Most cells of a dense partition: what is touched of their sums should stay in the second-level cache.
-constexpr std::size_t kDenseCells = std::size_t(1) << 17;
+/// Most cells of a dense partition: their marks should stay in the second-level cache. (Of their sums, which
+/// are those of the few thousand records of a chunk, that is so anyway.)
+constexpr std::size_t kDenseCells = std::size_t(1) << 22;
 /// More partitions than this crowd the first-level cache while records are dealt out.
 constexpr std::uint32_t kMostPartitions = 512;
 /// Dense partitions may be more: not having to sort is worth it.
 constexpr std::uint32_t kMostDensePartitions = 2048;
-/// Fewer points than this in a partition on average are not worth its upkeep.
-constexpr std::int64_t kPointsPerPartition = 128;
+/// Fewer points than this in a partition on average are not worth its upkeep: each is a dozen loops that end
+/// where the processor does not expect it.
+constexpr std::int64_t kPointsPerPartition = 1024;
 
 std::uint32_t blocks(std::uint32_t count, int shift)
 {
