@@ -80,6 +80,9 @@ struct Lattice
   Status check() const noexcept;
 };
 
+/// The lattice twice as coarse, from the same corner; one voxel has no coarser one and stays as it is.
+Lattice coarserLattice(const Lattice& lattice) noexcept;
+
 /// What a user says about the lattice; makeLattice turns it into one.
 struct LatticeSettings
 {

@@ -193,6 +193,17 @@ void VoxelResampler::assignInSets(const VoxelRequest& request, const SetWork& wo
   implementation_->assignInSets(request, work, executor);
 }
 
+int VoxelResampler::exactLevels(const Lattice& lattice, int levels)
+{
+  const int indexBits = indexBitsOf(lattice);
+  if (indexBits <= kMaximumIndexBits)
+  {
+    return levels;
+  }
+  const int others = indexBits > kUncorrectedIndexBits ? kUncorrectedIndexBits : kMaximumIndexBits;
+  return std::min(levels, indexBits - others);
+}
+
 bool VoxelResampler::canAssignInSets() const
 {
   return implementation_->poolHoldsAll();

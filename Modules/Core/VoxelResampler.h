@@ -74,11 +74,10 @@ struct VoxelRequest
 /// voxel, 2^-34 on 300^3. Sums of those are exact. Hence results are the same bit for bit for every order of
 /// the points, every executor, instruction set and PointIndex, and a coarser level equals the resampling of
 /// the points at its spacing (on lattices of up to 4096 voxels an axis; beyond, quanta are finer still and a
-/// level that crosses this border may differ by 2^-31 voxel). Error of a mean: at most 2^-31 voxel (2^-30
-/// where there are more than 2^19 voxels an axis: a double has no more digits), then one rounding to the
-/// output's type; a mean lies in its voxel. Counts are 64-bit. Where a matrix, by its condition number, would
-/// cost digits, its products are summed in two words each, in about half as much time again (several times as
-/// much on processors without a fused multiplication).
+/// level that crosses this border may differ by 2^-31 voxel: see exactLevels()). Error of a mean: at
+/// most 2^-31 voxel, then one rounding to the output's type; a mean lies in its voxel. Counts are 64-bit.
+/// Where a matrix, by its condition number, would cost digits, its products are summed in two words each, in
+/// about half as much time again (several times as much on processors without a fused multiplication).
 ///
 /// Time: a few nanoseconds a point; beyond 4096 voxels an axis some tens of them, growing with the logarithm
 /// of the points. Memory beyond input and results: 16 bytes for each of at most 1.25 million points, 60 bytes
@@ -94,6 +93,11 @@ public:
   ~VoxelResampler();
   VoxelResampler(VoxelResampler&&) noexcept;
   VoxelResampler& operator=(VoxelResampler&&) noexcept;
+
+  /// How many of @p levels levels from the finest, @p lattice, on equal the resampling of the points at their
+  /// spacing bit for bit: all where it has at most 4096 voxels an axis; else those before the first that has
+  /// (or, from more than 2^20 on, the first of fewer).
+  static int exactLevels(const Lattice& lattice, int levels);
 
   /// Errors: the transform's, the lattice's, InvalidParameter (levels below 1 or above 22, an index of
   /// another number of points), Aborted (the

@@ -35,11 +35,12 @@
  * that map coordinates cost no digits. Places in the voxel are summed exactly, in integers whose quantum is
  * at most 2^-31 of a voxel; that is the largest error of a mean before it is rounded to the output type, and
  * a mean lies in its voxel (where voxels are larger than the output type's last digits: not in single
- * precision at map coordinates). That holds for matrices of any condition number, too, but 2^-30 for lattices
- * of more than 2^19 voxels an axis. Everything - points, counts, covariances, averaged arrays - is the same
- * bit for bit for every order of the input points, number of threads, SMP back end and instruction set; a
- * coarser level is the same as the points resampled at its spacing over the same workspace (lattices of up to
- * 4096 voxels an axis).
+ * precision at map coordinates). That holds for matrices of any condition number, too. Everything - points,
+ * counts, covariances, averaged arrays - is the same bit for bit for every order of the input points, number
+ * of threads, SMP back end and instruction set; a coarser level is the same as the points resampled at its
+ * spacing over the same workspace (below a finest
+ * level of more than 4096 voxels an axis the first that has no more takes another pass over the points, as
+ * does the first below one of more than 2^20).
  *
  * An input without points gives all arrays without tuples.
  *

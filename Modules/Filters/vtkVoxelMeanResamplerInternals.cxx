@@ -102,15 +102,22 @@ bool vtkVoxelMeanResampler::Internals::Update(
 {
   const Running running(*this);
   this->Aborted = false;
+  this->PassBegin = 0.0;
+  this->PassEnd = 1.0;
   this->PartBegin = this->PartEnd = 0.0;
-  this->Request.levels = int(outputs.size());
-  if (!this->ReadTransform() || !this->MakeLattice(input) || !this->Run(input))
+  if (!this->ReadTransform() || !this->MakeLattice(input))
   {
     return false;
   }
-  for (int level = 0; level < this->Request.levels; ++level)
+  // A second pass over the points makes the levels that would not be what these give at their spacing.
+  const int levels = int(outputs.size());
+  const double begin = this->PartEnd;
+  for (int first = 0; first < levels; first += this->Request.levels)
   {
-    if (!this->Fill(level, input, outputs[std::size_t(level)]))
+    this->Request.levels = VoxelResampler::exactLevels(this->Request.lattice, levels - first);
+    this->BeginPass(begin + (1.0 - begin) * first / levels,
+      begin + (1.0 - begin) * (first + this->Request.levels) / levels);
+    if (!this->Run(input, first == 0) || !this->FillAll(input, &outputs[std::size_t(first)]))
     {
       for (vtkPolyData* output : outputs)
       {
@@ -119,6 +126,7 @@ bool vtkVoxelMeanResampler::Internals::Update(
       }
       return false;
     }
+    this->Request.lattice = coarserLattice(this->Engine.lattice(this->Request.levels - 1));
   }
   return true;
 }
@@ -222,7 +230,7 @@ bool vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
   return true;
 }
 
-bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
+bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst)
 {
   if (!this->UseIndex(input))
   {
@@ -254,8 +262,11 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
     vtkErrorWithObjectMacro(this->Filter, << sentence(status) << ".");
     return false;
   }
-  this->Filter->NumberOfClippedPoints = vtkIdType(this->Engine.clippedPoints());
-  this->Filter->NumberOfInvalidPoints = vtkIdType(this->Engine.invalidPoints());
+  if (isFirst)
+  {
+    this->Filter->NumberOfClippedPoints = vtkIdType(this->Engine.clippedPoints());
+    this->Filter->NumberOfInvalidPoints = vtkIdType(this->Engine.invalidPoints());
+  }
   if (2 * this->Engine.clippedPoints() > this->Request.points.size())
   {
     ++this->PartialViews;
@@ -263,7 +274,7 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input)
   return true;
 }
 
-void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
+void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input, bool warns)
 {
   this->Attributes.clear();
   if (!this->Filter->PassAttributes)
@@ -284,15 +295,21 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input)
     vtkDataArray* array = vtkDataArray::SafeDownCast(any);
     if (!array)
     {
-      vtkWarningWithObjectMacro(
-        this->Filter, "Array \"" << nameOf(any) << "\" is not numeric: it has no mean and is dropped.");
+      if (warns)
+      {
+        vtkWarningWithObjectMacro(
+          this->Filter, "Array \"" << nameOf(any) << "\" is not numeric: it has no mean and is dropped.");
+      }
       continue;
     }
     if (array->GetNumberOfTuples() != input->GetNumberOfPoints())
     {
-      vtkWarningWithObjectMacro(this->Filter,
-        "Array \"" << nameOf(array) << "\" has " << array->GetNumberOfTuples() << " tuples for "
-                   << input->GetNumberOfPoints() << " points: it is dropped.");
+      if (warns)
+      {
+        vtkWarningWithObjectMacro(this->Filter,
+          "Array \"" << nameOf(array) << "\" has " << array->GetNumberOfTuples() << " tuples for "
+                     << input->GetNumberOfPoints() << " points: it is dropped.");
+      }
       continue;
     }
     AttributeKind kind = AttributeKind::Mean;
@@ -411,10 +428,10 @@ void vtkVoxelMeanResampler::Internals::AverageInSets()
     this->Smp);
 }
 
-bool vtkVoxelMeanResampler::Internals::Run(vtkPointSet* input)
+bool vtkVoxelMeanResampler::Internals::Run(vtkPointSet* input, bool isFirst)
 {
-  this->ChooseArrays(input);
-  return this->Resample(input) && this->AverageArrays();
+  this->ChooseArrays(input, isFirst);
+  return this->Resample(input, isFirst) && this->AverageArrays();
 }
 
 void vtkVoxelMeanResampler::Internals::Release()
@@ -476,6 +493,19 @@ bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
   return true;
 }
 
+bool vtkVoxelMeanResampler::Internals::FillAll(
+  vtkPointSet* input, const vtkSmartPointer<vtkPolyData>* outputs)
+{
+  for (int level = 0; level < this->Request.levels; ++level)
+  {
+    if (!this->Fill(level, input, outputs[level]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 std::size_t vtkVoxelMeanResampler::Internals::ScratchBytes() const
 {
   std::size_t sum = this->Engine.scratchBytes() + this->Index.bytes() + this->Pool.bytes();
@@ -506,6 +536,13 @@ void vtkVoxelMeanResampler::Internals::Forget()
   this->Known.clear();
 }
 
+void vtkVoxelMeanResampler::Internals::BeginPass(double begin, double end)
+{
+  this->PassBegin = begin;
+  this->PassEnd = end;
+  this->PartBegin = this->PartEnd = 0.0;
+}
+
 void vtkVoxelMeanResampler::Internals::BeginPart(double end)
 {
   this->PartBegin = this->PartEnd;
@@ -514,7 +551,8 @@ void vtkVoxelMeanResampler::Internals::BeginPart(double end)
 
 bool vtkVoxelMeanResampler::Internals::proceed(double fraction)
 {
-  this->Filter->UpdateProgress(this->PartBegin + (this->PartEnd - this->PartBegin) * fraction);
+  const double ofPass = this->PartBegin + (this->PartEnd - this->PartBegin) * fraction;
+  this->Filter->UpdateProgress(this->PassBegin + (this->PassEnd - this->PassBegin) * ofPass);
   this->Aborted = this->Filter->GetAbortExecute() != 0;
   return !this->Aborted;
 }

@@ -75,19 +75,22 @@ private:
   };
   class Running;
 
-  /// What proceed() hears of from now on is the part of an update from the last one's end to @p end.
+  /// From now on parts are those of a pass over the points, itself from @p begin to @p end of an update.
+  void BeginPass(double begin, double end);
+  /// What proceed() hears of from now on is the part of a pass from the last one's end to @p end.
   void BeginPart(double end);
   // The steps of an update; false after an error was reported, or the execution aborted.
   bool ReadTransform();
   bool MakeLattice(vtkPointSet* input);
-  bool Run(vtkPointSet* input);
+  bool Run(vtkPointSet* input, bool isFirst);
+  bool FillAll(vtkPointSet* input, const vtkSmartPointer<vtkPolyData>* outputs);
   bool Fill(int level, vtkPointSet* input, vtkPolyData* output);
   /// Lets go of the input and its arrays.
   void Release();
 
-  void ChooseArrays(vtkPointSet* input);
+  void ChooseArrays(vtkPointSet* input, bool warns);
   bool UseIndex(vtkPointSet* input);
-  bool Resample(vtkPointSet* input);
+  bool Resample(vtkPointSet* input, bool isFirst);
   bool AverageArrays();
   void AverageInSets();
 
@@ -99,6 +102,8 @@ private:
   std::vector<pointhaptics::Buffer<std::int64_t>> SpareSums; ///< Of the last update's attributes.
   pointhaptics::ArrayPool Pool;
   pointhaptics::OutputMemory Memory{ this->Pool };
+  double PassBegin = 0.0;
+  double PassEnd = 1.0;
   double PartBegin = 0.0;
   double PartEnd = 0.0;
   bool IsRunning = false;

@@ -190,6 +190,24 @@ TEST(VoxelMeanLevels, EqualResamplingDirectlyUnderATransform)
   }
 }
 
+TEST(VoxelMeanLevels, EqualResamplingDirectlyBelowLatticesOfMoreThan4096VoxelsAnAxis)
+{
+  const auto cloud = scan(20000, 69);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  expectLevelsAreDirect(resampler, cloud, { 12000, 5, 6 }, { 0, 0, 0 }, { 1 / 8192.0, 0.25, 0.25 });
+  vtkNew<vtkTransform> transform;
+  transform->RotateWXYZ(30, 1, 2, 3);
+  transform->Scale(1, -0.5, 0.7);
+  for (const int columns : { 1 << 14, 1 << 21 })
+  {
+    vtkNew<vtkVoxelMeanResampler> turned;
+    turned->SetTransform(transform);
+    expectLevelsAreDirect(
+      turned, cloud, { columns, 64, 64 }, { -0.5, -1, -0.25 }, { 2.0 / columns, 1 / 32.0, 1 / 64.0 });
+    EXPECT_GT(turned->GetNumberOfClippedPoints(), 100);
+  }
+}
+
 TEST(VoxelMeanLevels, FollowTheirNumber)
 {
   vtkNew<vtkVoxelMeanResampler> resampler;

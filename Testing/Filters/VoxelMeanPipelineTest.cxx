@@ -56,17 +56,21 @@ TEST(VoxelMeanPipeline, ProgressGrowsFromZeroToOne)
 {
   const auto cloud = trial::cloudOf(trial::randomPoints(300000, 51, VTK_FLOAT));
   trial::addScanAttributes(cloud, 52);
-  vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(cloud);
-  resampler->SetDimensions(50, 50, 50);
-  Progress progress(resampler);
-  resampler->Update();
-  ASSERT_GE(progress.heard.size(), 2u);
-  EXPECT_GE(progress.heard.front(), 0.0);
-  EXPECT_EQ(progress.heard.back(), 1.0);
-  for (std::size_t i = 1; i < progress.heard.size(); ++i)
+  for (const int levels : { 1, 3 })
   {
-    EXPECT_GE(progress.heard[i], progress.heard[i - 1]);
+    vtkNew<vtkVoxelMeanResampler> resampler;
+    resampler->SetInputData(cloud);
+    resampler->SetDimensions(levels == 1 ? 50 : 5000, 50, 50); // three levels: two passes over the points
+    resampler->SetNumberOfLevels(levels);
+    Progress progress(resampler);
+    resampler->Update();
+    ASSERT_GE(progress.heard.size(), 2u);
+    EXPECT_GE(progress.heard.front(), 0.0);
+    EXPECT_EQ(progress.heard.back(), 1.0);
+    for (std::size_t i = 1; i < progress.heard.size(); ++i)
+    {
+      EXPECT_GE(progress.heard[i], progress.heard[i - 1]) << levels << " levels";
+    }
   }
 }
 

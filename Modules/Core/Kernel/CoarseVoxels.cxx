@@ -17,29 +17,6 @@ constexpr std::uint64_t kNoKey = ~std::uint64_t(0);
 constexpr std::size_t kMostSummedColumns = 2048;
 constexpr SecondSums kNoSeconds = { { 0, 0, 0, 0, 0, 0 } };
 
-bool isOneVoxel(const Lattice& lattice)
-{
-  return lattice.dimensions == std::array<std::int64_t, 3>{ 1, 1, 1 };
-}
-
-}
-
-Lattice coarserLattice(const Lattice& lattice)
-{
-  Lattice coarse = lattice;
-  if (isOneVoxel(lattice))
-  {
-    return coarse;
-  }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const auto a = std::size_t(axis);
-    coarse.dimensions[a] = (lattice.dimensions[a] + 1) / 2;
-    coarse.spacing[axis] = 2.0 * lattice.spacing[axis];
-    // A last voxel that had no partner reaches out of the workspace.
-    coarse.end[axis] = 0.5 * std::min(lattice.end[axis], double(lattice.dimensions[a]));
-  }
-  return coarse;
 }
 
 Lattice finerLattice(const Lattice& lattice, int halvings)
@@ -337,7 +314,7 @@ VoxelRun CoarseVoxels::ofPartitions(const PartitionPlan& plan,
 bool CoarseVoxels::ofRuns(
   const VoxelRuns& fine, VoxelRuns& coarse, const Executor& executor, Watcher* watcher) const
 {
-  if (isOneVoxel(fine_))
+  if (coarse_.dimensions == fine_.dimensions)
   {
     coarse = fine;
     return true;

@@ -18,8 +18,6 @@ namespace pointhaptics
 namespace kernel
 {
 
-/// The lattice twice as coarse, from the same corner; one voxel has no coarser one and stays as it is.
-Lattice coarserLattice(const Lattice& lattice);
 /// The lattice 2^@p halvings times as fine, from the same corner.
 Lattice finerLattice(const Lattice& lattice, int halvings);
 

@@ -33,13 +33,18 @@ void solve(const AffineTransform& transform, const Wide b[3], Wide p[3])
   }
 }
 
-/// See compensatedDot() of PlacementBody.h: the same operations in the same order.
-double compensatedDot(const double row[3], const double p[3], double offset, double offsetRest)
+/// See compensatedDot() of PlacementBody.h: the same operations in the same order, less those that change
+/// nothing. @p left: what rounding takes from it.
+double compensatedDot(const double row[3], const double p[3], double offset, double offsetRest, double& left)
 {
   double sum = offset;
   double rest = offsetRest;
   for (int column = 0; column < 3; ++column)
   {
+    if (row[column] == 0.0)
+    {
+      continue;
+    }
     const double term = p[column] * row[column];
     rest += std::fma(p[column], row[column], -term);
     const double total = sum + term;
@@ -47,7 +52,17 @@ double compensatedDot(const double row[3], const double p[3], double offset, dou
     rest += (sum - (total - added)) + (term - added);
     sum = total;
   }
-  return sum + rest;
+  const double v = sum + rest;
+  left = (sum - v) + rest;
+  return v;
+}
+
+/// What rounding takes from a - b (Knuth).
+double leftOfDifference(double a, double b)
+{
+  const double difference = a - b;
+  const double back = difference - a;
+  return (a - (difference - back)) - (b + back);
 }
 
 /// Where rounding p - pivot, the products and their sums could move a point inside by more than an eighth of
@@ -102,11 +117,10 @@ void setOffset(const AffineTransform& transform, const Lattice& lattice, Placeme
     // Their difference in two words (Knuth).
     const double t = transform.m[axis][3];
     const double o = lattice.origin[axis];
-    const double difference = t - o;
-    const double back = difference - t;
-    const double rest = (t - (difference - back)) - (o + back);
+    const double rest = leftOfDifference(t, o);
+    double left = 0.0;
     placement.offset[axis] =
-      compensatedDot(placement.matrix[axis], placement.pivot, difference, rest) + 0.0; // never -0
+      compensatedDot(placement.matrix[axis], placement.pivot, t - o, rest, left) + 0.0; // never -0
     placement.offsetRest[axis] = rest;
   }
 }
@@ -150,6 +164,7 @@ Placement makePlacement(
   placement.motion = motionOf(transform);
   placement.pairDivides = true;
   placement.fractionBits = positionBits - indexBits;
+  placement.correctsRounding = indexBits > kUncorrectedIndexBits;
   Wide toOrigin[3];
   Wide pivot[3];
   for (int axis = 0; axis < 3; ++axis)
@@ -180,17 +195,18 @@ Placement makePlacement(
     placement.limit[axis] = std::ldexp(
       std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]), placement.fractionBits);
   }
-  if (placement.motion == Motion::General && needsCompensation(transform, placement, positionBits))
-  {
-    placement.motion = Motion::Compensated;
-    std::fill(placement.pivot, placement.pivot + 3, 0.0);
-    setOffset(transform, lattice, placement);
-  }
   const auto isSubtraction = [&](int axis)
   { return placement.offset[axis] == 0.0 && placement.pivot[axis] != 0.0; };
   if (placement.motion == Motion::Shift && isSubtraction(0) && isSubtraction(1) && isSubtraction(2))
   {
     placement.motion = Motion::Subtract;
+  }
+  else if ((placement.motion == Motion::General || positionBits > kPositionBits) &&
+    needsCompensation(transform, placement, positionBits))
+  {
+    placement.motion = Motion::Compensated;
+    std::fill(placement.pivot, placement.pivot + 3, 0.0);
+    setOffset(transform, lattice, placement);
   }
   return placement;
 }
@@ -201,6 +217,22 @@ bool hasOrdinarySpacing(const Lattice& lattice)
   constexpr double kHuge = 1e150;
   return std::all_of(&lattice.spacing.x, &lattice.spacing.x + 3,
     [](double spacing) { return spacing > kTiny && spacing < kHuge; });
+}
+
+namespace
+{
+
+/// @return the quantum that v and what rounding @p left of it lie in, near @p position; but no point changes
+/// voxels.
+std::uint64_t nearer(std::uint64_t position, double v, double left, double quantum)
+{
+  constexpr int kLeastFractionBits = 31; // The faces of all lattices are there.
+  const double beyond = std::fma(-double(position), quantum, v) + left;
+  const int more = (beyond >= quantum) + (beyond >= 2.0 * quantum) - (beyond < 0.0) - (beyond < -quantum);
+  const std::uint64_t found = position + std::uint64_t(std::int64_t(more));
+  return found >> kLeastFractionBits == position >> kLeastFractionBits ? found : position;
+}
+
 }
 
 Place placePoint(const Placement& placement, const Vec3& point, std::uint64_t position[3])
@@ -215,8 +247,9 @@ Place placePoint(const Placement& placement, const Vec3& point, std::uint64_t po
     const double* row = placement.matrix[axis];
     // The same operations in the same order as the vector loops.
     const double offset = placement.offset[axis];
+    double left = 0.0;
     const double v = placement.motion == Motion::Compensated
-      ? compensatedDot(row, p, offset, placement.offsetRest[axis])
+      ? compensatedDot(row, p, offset, placement.offsetRest[axis], left)
       : placement.motion == Motion::General ? ((p[0] * row[0] + p[1] * row[1]) + p[2] * row[2]) + offset
                                             : p[axis] * row[axis] + offset;
     const double u = v / placement.quantum[axis];
@@ -225,6 +258,12 @@ Place placePoint(const Placement& placement, const Vec3& point, std::uint64_t po
     const double rounded = u + kToBits;
     std::memcpy(&position[axis], &rounded, sizeof rounded);
     position[axis] = (position[axis] - (rounded - kToBits > u)) & kMantissa;
+    if (placement.correctsRounding && inside)
+    {
+      left =
+        placement.motion == Motion::Subtract ? leftOfDifference(point[axis], placement.pivot[axis]) : left;
+      position[axis] = nearer(position[axis], v, left, placement.quantum[axis]);
+    }
   }
   return inside ? Place::Inside : finite ? Place::Outside : Place::Invalid;
 }

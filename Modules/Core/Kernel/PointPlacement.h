@@ -15,6 +15,9 @@ namespace kernel
 
 /// Bits that index the voxels of a lattice's longest axis.
 int indexBitsOf(const Lattice& lattice);
+/// Where a lattice has more than so many, positions use all bits of a double below the point, and rounding
+/// can be worth a quarter of a quantum more than the quantum, 2^-31 voxel, that cutting is: it is corrected.
+constexpr int kUncorrectedIndexBits = 20;
 /// Bits of a position: kPositionBits, or all of a double's on lattices too fine for those.
 int positionBitsFor(int indexBits);
 

@@ -78,7 +78,8 @@ struct Placement
   bool pairDivides;
   double limit[3]; ///< u below this is inside.
   Motion motion;
-  int fractionBits; ///< Bits of a position below the voxel.
+  int fractionBits;      ///< Bits of a position below the voxel.
+  bool correctsRounding; ///< placePoint() does: see kUncorrectedIndexBits.
   // Which partition: (z >> layerShift) * blocksPerLayer + (y >> rowShift).
   std::uint32_t blocksPerLayer;
   int rowShift;
