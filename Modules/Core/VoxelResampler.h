@@ -68,16 +68,16 @@ struct VoxelRequest
 
 /// Resamples clouds, one after the other; memory for the work is kept between them (releaseScratch()).
 ///
-/// A point's place is u = (T p + t - origin) / spacing, in double about a point near the lattice's origin, so
-/// that large coordinates cost no digits; its voxel is floor(u), half-open. Places are then cut to
+/// A point's place is u = (T p + t - origin) / spacing, in double about a point near the lattice's origin,
+/// so that large coordinates cost no digits; its voxel is floor(u), half-open. Places are then cut to
 /// fixed-point numbers whose quantum is the same on a lattice and on one twice as coarse: at most 2^-31
 /// voxel, 2^-34 on 300^3. Sums of those are exact. Hence results are the same bit for bit for every order of
 /// the points, every executor, instruction set and PointIndex, and a coarser level equals the resampling of
 /// the points at its spacing (on lattices of up to 4096 voxels an axis; beyond, quanta are finer still and a
-/// level that crosses this border may differ by 2^-31 voxel: see exactLevels()). Error of a mean: at
-/// most 2^-31 voxel, then one rounding to the output's type; a mean lies in its voxel. Counts are 64-bit.
-/// Where a matrix, by its condition number, would cost digits, its products are summed in two words each, in
-/// about half as much time again (several times as much on processors without a fused multiplication).
+/// level that crosses this border may differ by 2^-31 voxel: see exactLevels()). Error of a mean: at most
+/// 2^-31 voxel, then one rounding to the output's type; a mean lies in its voxel. Counts are 64-bit. Where a
+/// matrix, by its condition number, would cost digits, its products are summed in two words each, in about
+/// half as much time again (several times as much on processors without a fused multiplication).
 ///
 /// Time: a few nanoseconds a point; beyond 4096 voxels an axis some tens of them, growing with the logarithm
 /// of the points. Memory beyond input and results: 16 bytes for each of at most 1.25 million points, 60 bytes

@@ -38,9 +38,8 @@
  * precision at map coordinates). That holds for matrices of any condition number, too. Everything - points,
  * counts, covariances, averaged arrays - is the same bit for bit for every order of the input points, number
  * of threads, SMP back end and instruction set; a coarser level is the same as the points resampled at its
- * spacing over the same workspace (below a finest
- * level of more than 4096 voxels an axis the first that has no more takes another pass over the points, as
- * does the first below one of more than 2^20).
+ * spacing over the same workspace (below a finest level of more than 4096 voxels an axis the first that has
+ * no more takes another pass over the points, as does the first below one of more than 2^20).
  *
  * An input without points gives all arrays without tuples.
  *

@@ -169,8 +169,7 @@ TEST(PointPlacement, CutsPlacesDownToTheQuantum)
     // What rounding may add; where it is worth a part of a quantum, cutting cannot take all of one.
     const bool uncorrected = bits > kMaximumIndexBits && bits <= kUncorrectedIndexBits;
     const double rounding = bits <= kMaximumIndexBits ? 0x1p-34 : uncorrected ? 0.25 * quantum : 0x1p-50;
-    EXPECT_LE(quantum + rounding, 1.126 * 0x1p-31);
-    EXPECT_LE(quantum + rounding, bits <= kMaximumIndexBits ? 1.0 : 1.0001 * 0x1p-31);
+    EXPECT_LE(quantum + rounding, (bits <= kMaximumIndexBits ? 1.125 : 1.0001) * 0x1p-31);
     int inside = 0;
     for (int j = 0; j < 20; ++j)
     {
