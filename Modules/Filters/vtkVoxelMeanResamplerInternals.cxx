@@ -56,6 +56,21 @@ bool isBookkeeping(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
     name == vtkDataSetAttributes::GhostArrayName() || name == "VoxelPointCount" || name == "VoxelCovariance";
 }
 
+std::string whyDropped(vtkAbstractArray* array, vtkIdType points)
+{
+  std::ostringstream text;
+  text << "Array \"" << nameOf(array) << "\" ";
+  if (!vtkDataArray::SafeDownCast(array))
+  {
+    text << "is not numeric: it has no mean and is dropped.";
+  }
+  else
+  {
+    text << "has " << array->GetNumberOfTuples() << " tuples for " << points << " points: it is dropped.";
+  }
+  return text.str();
+}
+
 /// An array may be the active one of several types.
 std::vector<int> rolesOf(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
 {
@@ -105,7 +120,7 @@ bool vtkVoxelMeanResampler::Internals::Update(
   this->PassBegin = 0.0;
   this->PassEnd = 1.0;
   this->PartBegin = this->PartEnd = 0.0;
-  if (!this->ReadTransform() || !this->MakeLattice(input))
+  if (!this->ReadTransform() || !this->MakeLattice(input) || !this->UseIndex(input))
   {
     return false;
   }
@@ -232,10 +247,6 @@ bool vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
 
 bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst)
 {
-  if (!this->UseIndex(input))
-  {
-    return false;
-  }
   const int precision = this->Filter->OutputPointsPrecision;
   const vtkPoints* points = input->GetPoints();
   this->Request.singlePrecision = precision == vtkAlgorithm::DEFAULT_PRECISION
@@ -266,10 +277,7 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst
   {
     this->Filter->NumberOfClippedPoints = vtkIdType(this->Engine.clippedPoints());
     this->Filter->NumberOfInvalidPoints = vtkIdType(this->Engine.invalidPoints());
-  }
-  if (2 * this->Engine.clippedPoints() > this->Request.points.size())
-  {
-    ++this->PartialViews;
+    this->PartialViews += 2 * this->Engine.clippedPoints() > this->Request.points.size();
   }
   return true;
 }
@@ -293,22 +301,11 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input, bool war
       continue;
     }
     vtkDataArray* array = vtkDataArray::SafeDownCast(any);
-    if (!array)
+    if (!array || array->GetNumberOfTuples() != input->GetNumberOfPoints())
     {
       if (warns)
       {
-        vtkWarningWithObjectMacro(
-          this->Filter, "Array \"" << nameOf(any) << "\" is not numeric: it has no mean and is dropped.");
-      }
-      continue;
-    }
-    if (array->GetNumberOfTuples() != input->GetNumberOfPoints())
-    {
-      if (warns)
-      {
-        vtkWarningWithObjectMacro(this->Filter,
-          "Array \"" << nameOf(array) << "\" has " << array->GetNumberOfTuples() << " tuples for "
-                     << input->GetNumberOfPoints() << " points: it is dropped.");
+        vtkWarningWithObjectMacro(this->Filter, << whyDropped(any, input->GetNumberOfPoints()));
       }
       continue;
     }
