@@ -35,7 +35,8 @@ Status ForceLimits::check() const noexcept
 
 Status HapticParameters::check() const noexcept
 {
-  const bool knownMethod = method == ProxyMethod::SurfaceFit || method == ProxyMethod::GradientSteps;
+  const bool knownMethod = method == ProxyMethod::SurfaceFit || method == ProxyMethod::GradientSteps ||
+    method == ProxyMethod::Sphere;
   return knownMethod && valid(contact) && valid(gradientSteps) ? Status::Ok : Status::InvalidParameter;
 }
 

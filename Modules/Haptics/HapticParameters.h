@@ -11,6 +11,7 @@ enum class ProxyMethod
 {
   SurfaceFit,    ///< Local quadric fit to the voxel means: the accurate method, default.
   GradientSteps, ///< The paper's iteration on the sum of point penetrations.
+  Sphere,        ///< The ball that decides about contact for SurfaceFit, alone: a sphere among the points.
 };
 
 /// How the proxy meets the surface and what the spring is. Plain data; hand it to Proxy by value.

@@ -23,10 +23,11 @@ struct Proxy::Implementation
   AffineTransform lastLattice; ///< modelToLattice of the last scene: the methods' state is in that frame.
   std::uint64_t lastCloud = 0;
   bool hadScene = false;
+  bool modelMoved = false; ///< The scene changed, and what that did to the contact is still settling.
   SurfaceFitProxy surfaceFit;
-  FitCells fitCells;
-  FitCells
-    rehearsalCells; ///< What the rehearsal gathers must not serve a step: it is gathered about another place.
+  SurfaceFitProxy::Memory memory;
+  SurfaceFitProxy::Memory rehearsalMemory; ///< What the rehearsal gathers must not serve a step: it is
+                                           ///< gathered about another place.
   OffsetSettler settler;
   GradientSteps gradientSteps;
   ProxyState last;
@@ -50,11 +51,12 @@ struct Proxy::Implementation
     // A new cloud may lie where an old one lay.
     if (!newScene || newScene->cloudNumber() != lastCloud)
     {
-      fitCells.forget();
+      memory.forget();
     }
     lastCloud = newScene ? newScene->cloudNumber() : 0;
     lastLattice = newScene ? newScene->modelToLattice() : AffineTransform();
     hadScene = newScene != nullptr;
+    modelMoved = modelMoved || newScene != scene;
     scene = newScene;
   }
 
@@ -134,6 +136,13 @@ struct Proxy::Implementation
   {
     const double shrink = stiffness > 0.0 ? parameters.contact.settleRate * dt / stiffness : INFINITY;
     const Vec3 offset = state.contact ? state.proxy - state.hip : Vec3();
+    // Where the hand left the surface there is nothing to feel; only what the model did settles in free
+    // space.
+    if (!state.contact && !modelMoved)
+    {
+      settler.reset();
+      return;
+    }
     const Vec3 felt = settler.settle(offset, hasLastHip ? norm(state.hip - lastHip) : 0.0, shrink);
     if (settler.settling())
     {
@@ -142,6 +151,7 @@ struct Proxy::Implementation
       state.contact = true;
       state.status |= kProxySettling;
     }
+    modelMoved = modelMoved && settler.settling();
   }
 
   Vec3 forceOf(const ProxyState& state, double stiffness, double dt) const noexcept
@@ -221,10 +231,10 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   {
     state.status |= kProxyNoScene;
   }
-  else if (self.parameters.method == ProxyMethod::SurfaceFit)
+  else if (self.parameters.method != ProxyMethod::GradientSteps)
   {
-    self.surfaceFit.step(
-      *self.scene, self.fitCells, self.parameters.contact, self.scene->toLattice(hip), state);
+    self.surfaceFit.step(*self.scene, self.memory, self.parameters.contact, self.scene->toLattice(hip),
+      self.parameters.method == ProxyMethod::SurfaceFit, state);
     self.toWorkspace(state);
     self.settle(state, stiffness, dt);
   }
@@ -259,12 +269,13 @@ void Proxy::rehearse() noexcept
   }
   ProxyState state = self.last;
   state.hip = hip;
-  if (self.parameters.method == ProxyMethod::SurfaceFit)
+  if (self.parameters.method != ProxyMethod::GradientSteps)
   {
     SurfaceFitProxy copy = self.surfaceFit;
     // Gathered anew each time: whether the step will have to gather is not known here.
-    self.rehearsalCells.forget();
-    copy.step(*self.scene, self.rehearsalCells, self.parameters.contact, hip, state);
+    self.rehearsalMemory.forget();
+    copy.step(*self.scene, self.rehearsalMemory, self.parameters.contact, hip,
+      self.parameters.method == ProxyMethod::SurfaceFit, state);
   }
   else
   {

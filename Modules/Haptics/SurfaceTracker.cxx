@@ -19,13 +19,6 @@ constexpr double kLostRadii = 2.0;
 constexpr int kAcquireRounds = 8;
 /// Part of the fit radius in which the fit stands for the surface.
 constexpr double kReach = 0.5;
-/// Weighted centroid over the fit radius beyond which the surface may end here (0.235 on a straight rim).
-constexpr double kRimCentroid = 0.15;
-/// How far, in index cells, points on the empty side may reach at a rim.
-constexpr double kRimSlack = 0.06;
-constexpr double kRimRadiusInCells = 6.0;
-constexpr double kEdgeReachInCells = 9.0;
-constexpr double kEdgeLeastCosine = -0.5;
 /// Fit radius over counted radius at which the traced slopes, which amplify noise, begin to fade and are
 /// gone.
 constexpr double kTracedUpTo = 1.05;
@@ -236,75 +229,6 @@ void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& t
   frame_.turnTo(normalized(change.applyToNormal(frame_.normal), frame_.normal));
   std::fill(curvature_, curvature_ + 3, 0.0);
   fresh_ = false;
-}
-
-bool SurfaceTracker::isAtRim(const HapticScene& scene, FitCells& memory, Vec3& outward) const noexcept
-{
-  // By the radius that counts points, never the longer one that averages noise: that one reaches over holes.
-  const double near = scale_.countRadius;
-  kernel::CentroidSums sums{};
-  if (const kernel::FitBlock* block = memory.finestNear(scene.pyramid(), frame_.origin, near))
-  {
-    memory.kernels().sumPlaces(*block, frame_.origin - block->center, near, sums);
-  }
-  else
-  {
-    scene.pyramid().visitBall(0, frame_.origin, near,
-      [&](std::uint32_t, const Cell& cell, double d2)
-      {
-        const double base = 1.0 - d2 / (near * near);
-        const double weight = cell.count * (base * base) * (base * base);
-        sums.weights += weight;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          sums.place[axis] += weight * (cell.mean[axis] - frame_.origin[axis]);
-        }
-      });
-  }
-  outward = frame_.a;
-  if (!(sums.weights > 0.0))
-  {
-    // Over a hole; the proxy sphere stays on one that it cannot pass.
-    double distance = 0.0;
-    return scene.pyramid().nearest(0, frame_.origin, scene.proxyRadius(frame_.origin), distance) < 0;
-  }
-  const Vec3 centroid = Vec3(sums.place[0], sums.place[1], sums.place[2]) / sums.weights;
-  const Vec3 tangential = centroid - dot(centroid, frame_.normal) * frame_.normal;
-  if (norm(tangential) <= kRimCentroid * near)
-  {
-    return false;
-  }
-  outward = normalized(-tangential, frame_.a);
-  const double cell = scene.cellSize();
-  const double radius = std::max(kRimRadiusInCells * cell, 2.0 * near);
-  const double slack = kRimSlack * cell;
-  bool beyond = false;
-  scene.pyramid().visitBall(0, frame_.origin, radius,
-    [&](std::uint32_t, const Cell& m, double)
-    { beyond = beyond || dot(m.mean - frame_.origin, outward) > slack; });
-  return !beyond;
-}
-
-bool SurfaceTracker::turnAroundEdge(
-  const HapticScene& scene, FitCells& memory, const Vec3& outward, const Vec3& target) noexcept
-{
-  for (const double turn : { 1.0, 2.5 })
-  {
-    SurfaceTracker attempt = *this;
-    attempt.frame_.turnTo(normalized(frame_.normal + turn * outward, frame_.normal));
-    std::fill(attempt.curvature_, attempt.curvature_ + 3, 0.0);
-    attempt.fresh_ = false;
-    Vec3 ignored;
-    if (attempt.follow(scene, memory, target, kAcquireRounds) == TrackResult::Lost ||
-      attempt.isAtRim(scene, memory, ignored) || dot(attempt.normal(), normal()) < kEdgeLeastCosine ||
-      norm(attempt.point() - point()) > kEdgeReachInCells * scene.cellSize())
-    {
-      continue;
-    }
-    *this = attempt;
-    return true;
-  }
-  return false;
 }
 
 void SurfaceTracker::alongSurface(const Vec3& t, Vec3& point, Vec3& normal) const noexcept

@@ -37,15 +37,6 @@ public:
   /// Carries point and normal along with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
 
-  /// True where the surface ends at the point: the cells lie all on one side, or there are none as near as
-  /// the proxy sphere is wide. @p outward receives the unit direction in which there is nothing.
-  bool isAtRim(const HapticScene& scene, FitCells& memory, Vec3& outward) const noexcept;
-
-  /// Around a sharp edge: the sheet that continues behind the rim, if there is one near. The tracker is
-  /// changed only on success.
-  bool turnAroundEdge(
-    const HapticScene& scene, FitCells& memory, const Vec3& outward, const Vec3& target) noexcept;
-
   /// Height of a point above the surface, along the normal; negative inside.
   double height(const Vec3& p) const noexcept { return dot(p - frame_.origin, frame_.normal); }
   const Vec3& point() const noexcept { return frame_.origin; }

@@ -139,16 +139,18 @@ TEST(ModelMotion, ZoomsByAnyFactorStepNoFurtherThanTheSettleRate)
   }
 }
 
-TEST(SurfaceFitSettling, LetsGoOfARimAtTheSettleRate)
+TEST(SurfaceFitSettling, LetsGoPastAnEdgeAtOnce)
 {
-  const trial::Scene scene = trial::resampledScene(trial::planePoints(100000, 27, 0.0, 0.008));
-  const auto states = trial::feel(scene, {}, trial::planeSlide(1e-3, 0.05, 700));
+  // A force that goes on where there is nothing is a lie, however gently it ends.
+  const trial::Scene scene = trial::resampledScene(trial::planePoints(60000, 8));
+  const auto states = trial::feel(scene, {}, trial::planeSlide(1e-3, 0.05, 1200));
   bool released = false;
-  for (std::size_t i = 1; i < states.size(); ++i)
+  for (const ProxyState& state : states)
   {
-    const double moved = norm(states[i].hip - states[i - 1].hip);
-    ASSERT_LE(norm(states[i].force - states[i - 1].force), largestStep({}, moved)) << "tick " << i;
-    released = released || (states[i].status & kProxyReleasedAtRim) != 0;
+    const double outside = state.hip.x - 0.03;
+    ASSERT_TRUE(outside < 5e-4 || norm(state.force) == 0.0) << outside;
+    ASSERT_TRUE(outside > -5e-4 || state.hip.z > -1e-3 || state.contact) << outside;
+    released = released || (outside > 0.0 && !state.contact);
   }
   EXPECT_TRUE(released);
 }

@@ -113,10 +113,10 @@ TEST(ProxyStress, KeepsEveryPromiseOnRandomCloudsUnderRandomHands)
         ASSERT_EQ(s.force, Vec3());
       }
       ASSERT_LE(norm(s.force - 800.0 * (s.proxy - asked)), 1e-9 * (1.0 + norm(s.force)));
-      // The hand's way since the last tick that had one.
+      // The hand's way since the last tick that had one; letting go is never delayed.
       const double allowed =
         2.0 * 800.0 * norm(asked - lastHip) + parameters.contact.settleRate * trial::kTick;
-      ASSERT_LE(norm(s.force - lastForce), allowed * (1.0 + 1e-9) + 1e-9);
+      ASSERT_TRUE(!s.contact || norm(s.force - lastForce) <= allowed * (1.0 + 1e-9) + 1e-9);
       lastForce = s.force;
       hip = norm(asked) < 1.0 ? asked : hip;
       lastHip = asked;

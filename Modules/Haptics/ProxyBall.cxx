@@ -1,0 +1,372 @@
+#include "Haptics/ProxyBall.h"
+
+#include "Haptics/Proxy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// r over the index cell and over the local spacing, at least.
+constexpr double kRadiusInCells = 2.0;
+constexpr double kRadiusInSpacings = 2.4;
+/// Points further than this part of the count radius from the tangent plane are of another sheet.
+constexpr double kSheetDepth = 0.15;
+/// The radius is measured again after this many index cells of way, and changes by at most this part a tick.
+constexpr double kMeasureEvery = 2.0;
+constexpr double kLargestGrowth = 1.02;
+
+/// Moves of one slide, and of one step: a hand at 1 m/s needs some ten.
+constexpr int kMostSlides = 24;
+constexpr int kMostRounds = 192;
+constexpr int kMostGlides = 3;
+constexpr int kMostPushes = 16;
+/// A point nearer than this many radii is touched.
+constexpr double kTouch = 1.002;
+constexpr int kMostTouched = 12;
+/// Least radius of a ball that begins where it has no room, over the one it should have.
+constexpr double kSmallestRadius = 1e-3;
+/// Places further away than this many times the cloud's extent are free whatever the way there.
+constexpr double kFarAway = 1e6;
+/// A shorter way is none, metres.
+constexpr double kNoWay = 2e-8;
+/// Rounding that a covered point may be off by, over the radius.
+constexpr double kRounding = 1e-9;
+/// Reach of the smoothed surface, radius of the ball that glides, shortest pull along the surface, longest
+/// way and least gain of a glide; all over the radius.
+constexpr double kSmoothing = 1.2;
+constexpr double kGlideRadius = 0.9;
+constexpr double kLeastLean = 0.02;
+constexpr double kLongestGlide = 0.5;
+constexpr double kLeastGain = 1e-3;
+/// After a glide that did not help the HIP moves by this many radii before the next.
+constexpr double kGlideAgain = 0.05;
+
+/// The vector nearest to @p pull that leads into none of the @p count planes with the unit normals @p n.
+Vec3 withinPlanes(const Vec3& pull, const Vec3* n, int count) noexcept
+{
+  const double slack = -1e-9 * norm(pull);
+  const auto allowed = [&](const Vec3& d)
+  { return std::all_of(n, n + count, [&](const Vec3& normal) { return dot(normal, d) >= slack; }); };
+  if (allowed(pull))
+  {
+    return pull;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    const double into = dot(n[i], pull);
+    const Vec3 along = pull - into * n[i];
+    if (into < 0.0 && allowed(along))
+    {
+      return along;
+    }
+  }
+  Vec3 best;
+  for (int i = 0; i < count; ++i)
+  {
+    for (int j = i + 1; j < count; ++j)
+    {
+      const Vec3 edge = cross(n[i], n[j]);
+      const double length2 = norm2(edge);
+      const Vec3 along = length2 > 1e-12 ? (dot(pull, edge) / length2) * edge : Vec3();
+      if (norm2(along) > norm2(best) && allowed(along))
+      {
+        best = along;
+      }
+    }
+  }
+  return best;
+}
+
+/// How far @p p is outside the box.
+double distanceTo(const Bounds& box, const Vec3& p) noexcept
+{
+  Vec3 outside;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    outside[axis] = std::max({ box.minimum[axis] - p[axis], p[axis] - box.maximum[axis], 0.0 });
+  }
+  return norm(outside);
+}
+
+/// True where the way to @p p need not be looked at.
+bool isFarAway(const HapticScene& scene, const Vec3& p) noexcept
+{
+  const double far = kFarAway * (norm(scene.bounds().extent()) + scene.clearance());
+  return !(std::max({ std::abs(p.x), std::abs(p.y), std::abs(p.z) }) < far + norm(scene.bounds().maximum));
+}
+
+}
+
+void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
+{
+  // Seen from the model it is the hand that moved: what it passes on that way it meets, whatever the
+  // transform.
+  center_ = change.apply(center_);
+  hip_ = change.apply(hip_);
+  radius_ *= scale;
+  wanted_ *= scale;
+  isMeasured_ = false;
+  isHeld_ = false;
+}
+
+void ProxyBall::gather(Work& work, double reach) noexcept
+{
+  const bool all = work.cells.gather(work.scene.pyramid(), center_, reach, radius_ / kRadiusInCells);
+  work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
+}
+
+/// The radius that the cloud asks for at its point @p seed, seen from the ball.
+double ProxyBall::wantedRadius(Work& work, const Vec3& seed) noexcept
+{
+  constexpr double kPi = 3.14159265358979323846;
+  Vec3 ignored;
+  const double countRadius = work.scene.fitScale(seed, work.fields, ignored).countRadius;
+  const Vec3 up = normalized(center_ - seed);
+  int count = 0;
+  work.scene.pyramid().visitBall(0, seed, countRadius,
+    [&](std::uint32_t, const Cell& cell, double)
+    { count += std::abs(dot(cell.mean - seed, up)) < kSheetDepth * countRadius ? 1 : 0; });
+  const double spacing = countRadius * std::sqrt(kPi / std::max(1, count));
+  return std::max(kRadiusInCells * work.scene.cellSize(), kRadiusInSpacings * spacing);
+}
+
+/// Moves the ball out of the points it covers; false where they hold it from all sides.
+bool ProxyBall::pushOut(const BallCells& cells) noexcept
+{
+  for (int push = 0; push < kMostPushes; ++push)
+  {
+    double d2 = 0.0;
+    const int nearest = cells.nearest(center_, d2);
+    if (nearest < 0 || std::sqrt(d2) >= (1.0 - kRounding) * radius_)
+    {
+      return true;
+    }
+    const Vec3 point = cells.point(nearest);
+    center_ = point + radius_ * normalized(center_ - point);
+  }
+  return false;
+}
+
+/// Begins near @p hip, outside of all points; where the ball has no room, with a smaller one.
+void ProxyBall::place(Work& work, const Vec3& hip) noexcept
+{
+  placed_ = true;
+  center_ = hip;
+  hip_ = hip;
+  radius_ = kRadiusInSpacings * work.scene.cellSize();
+  isMeasured_ = false;
+  updateRadius(work);
+  radius_ = wanted_;
+  gather(work, 2.0 * radius_);
+  if (!pushOut(work.cells))
+  {
+    center_ = hip;
+    double d2 = 0.0;
+    if (work.cells.nearest(hip, d2) >= 0)
+    {
+      radius_ = std::max(kSmallestRadius * radius_, (1.0 - kRounding) * std::sqrt(d2));
+    }
+  }
+  free_ = center_ == hip;
+}
+
+/// Takes the radius towards what the cloud asks for; it grows only where there is room.
+void ProxyBall::updateRadius(Work& work) noexcept
+{
+  const double every = kMeasureEvery * work.scene.cellSize();
+  if (!isMeasured_ || norm2(center_ - measuredAt_) > every * every)
+  {
+    const CellPyramid& pyramid = work.scene.pyramid();
+    double distance = 0.0;
+    const std::int64_t nearest = pyramid.nearest(0, center_, 2.0 * radius_, distance);
+    wanted_ = nearest >= 0 ? wantedRadius(work, pyramid.level(0).cells[std::size_t(nearest)].mean) : radius_;
+    measuredAt_ = center_;
+    isMeasured_ = true;
+  }
+  const ProxyBall before = *this;
+  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, radius_ * kLargestGrowth);
+  if (radius_ > before.radius_)
+  {
+    gather(work, 2.0 * radius_);
+    if (!pushOut(work.cells))
+    {
+      *this = before;
+    }
+    free_ = free_ && center_ == before.center_;
+  }
+}
+
+/// A free ball goes with the HIP. @return how far it came before it touched a point, metres.
+double ProxyBall::fly(Work& work, const Vec3& direction, double length) noexcept
+{
+  const Vec3 start = center_;
+  double flown = 0.0;
+  for (; flown < length && work.rounds > 0; --work.rounds)
+  {
+    double stride = distanceTo(work.scene.bounds(), center_) - radius_;
+    if (!(stride > radius_))
+    {
+      stride = work.scene.isNear(center_) ? 0.0 : work.scene.clearance() - radius_;
+    }
+    double reached = std::min(length - flown, stride);
+    if (!(stride > radius_))
+    {
+      const double wanted = std::min(length - flown, radius_);
+      gather(work, radius_ + wanted);
+      reached = work.cells.sweep(center_, direction, wanted, radius_);
+      free_ = reached == wanted;
+    }
+    flown += reached;
+    center_ = start + flown * direction;
+    if (!free_)
+    {
+      pushOut(work.cells);
+      break;
+    }
+  }
+  return flown;
+}
+
+void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
+{
+  for (int i = 0; i < kMostSlides && work.rounds > 0; ++i, --work.rounds)
+  {
+    const Vec3 pull = hip - center_;
+    const double longest = std::min(norm(pull), radius_);
+    gather(work, kTouch * radius_ + longest);
+    Vec3 normals[kMostTouched];
+    int touched = 0;
+    work.cells.visitBall(center_, kTouch * radius_,
+      [&](const Vec3& offset, double d2)
+      {
+        if (touched < kMostTouched && dot(offset, pull) < 0.0)
+        {
+          normals[touched++] = offset / std::sqrt(d2);
+        }
+      });
+    const Vec3 way = withinPlanes(pull, normals, touched);
+    const double length = norm(way);
+    if (length < kNoWay)
+    {
+      return;
+    }
+    const Vec3 direction = way / length;
+    const double wanted = std::min(length, longest);
+    const double reached = work.cells.sweep(center_, direction, wanted, radius_);
+    if (way == pull && reached == length)
+    {
+      center_ = hip;
+      free_ = true;
+      return;
+    }
+    center_ += reached * direction;
+    pushOut(work.cells);
+  }
+  work.status |= kProxyRoundLimit;
+}
+
+bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
+{
+  gather(work, (kSmoothing + kLongestGlide) * radius_);
+  Vec3 up;
+  work.cells.visitBall(center_, kSmoothing * radius_,
+    [&](const Vec3& offset, double d2)
+    {
+      const double d = std::sqrt(d2);
+      up += ((kSmoothing * radius_ - d) / d) * offset;
+    });
+  up = normalized(up);
+  const Vec3 pull = hip - center_;
+  const Vec3 lean = pull - dot(pull, up) * up;
+  const double leaning = norm(lean);
+  if (leaning < kLeastLean * radius_)
+  {
+    return false;
+  }
+  const ProxyBall before = *this;
+  const Vec3 direction = lean / leaning;
+  center_ += direction *
+    work.cells.sweep(center_, direction, std::min(leaning, kLongestGlide * radius_), kGlideRadius * radius_);
+  if (!pushOut(work.cells) || norm(hip - center_) > norm(pull) - kLeastGain * radius_)
+  {
+    *this = before;
+    return false;
+  }
+  slide(work, hip);
+  return true;
+}
+
+/// Follows the HIP along its way: free, or in strides of a radius where points are touched.
+void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
+{
+  const Vec3 start = hip_;
+  const double length = norm(hip - start);
+  const Vec3 direction = length > 0.0 ? (hip - start) / length : Vec3();
+  double walked = 0.0;
+  do
+  {
+    if (free_)
+    {
+      walked += fly(work, direction, length - walked);
+    }
+    if (!free_)
+    {
+      walked = std::min(length, walked + radius_);
+    }
+    hip_ = walked < length ? start + walked * direction : hip;
+    if (free_)
+    {
+      center_ = hip_;
+    }
+    else
+    {
+      slide(work, hip_);
+    }
+  } while (walked < length && work.rounds > 0);
+}
+
+void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
+  std::uint32_t& status) noexcept
+{
+  Work work{ scene, fields, cells, kMostRounds, status };
+  if (placed_ && (isFarAway(scene, hip) || isFarAway(scene, hip_)))
+  {
+    reset();
+  }
+  if (!placed_)
+  {
+    if (isFarAway(scene, hip))
+    {
+      return;
+    }
+    place(work, hip);
+  }
+  if (!free_ || scene.isNear(center_))
+  {
+    updateRadius(work);
+  }
+  walk(work, hip);
+  there_ = hip_ == hip;
+  status |= std::uint32_t(there_ ? kProxyOk : kProxyStepLimit);
+  const double again = kGlideAgain * radius_;
+  if (free_ || (isHeld_ && norm2(hip - heldAt_) < again * again))
+  {
+    return;
+  }
+  isHeld_ = false;
+  for (int i = 0; i < kMostGlides && !free_ && there_; ++i)
+  {
+    if (!glide(work, hip))
+    {
+      isHeld_ = true;
+      heldAt_ = hip;
+      break;
+    }
+  }
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,87 @@
+/// @file
+/// The paper's spherical proxy, exact: a ball among the points that decides about contact.
+#pragma once
+
+#include "Core/FitCells.h"
+#include "Haptics/BallCells.h"
+#include "Haptics/HapticScene.h"
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+
+/// A ball that never covers a point of the cloud and goes to the HIP unless something is in its way. That is
+/// all it knows: no rule about rims, edges, holes or sides. It is free exactly when its center is the HIP.
+///
+/// Each tick it slides: the way to the HIP, with what points into the points it touches taken out (up to
+/// three planes; Zilles and Salisbury 1995), cut where it would meet the next one. Where the bumps between
+/// the points hold it although the pull leans, it glides: a slightly smaller ball goes along the smoothed
+/// surface, and the ball follows where that brings it nearer to the HIP.
+///
+/// Its radius r = max(2 h, 2.4 s) follows the local spacing s of the points, h the index cell, and is never
+/// below: a smaller one would fall through the gaps of a random sample. Lattice frame, metres. Plain state;
+/// no allocation; bounded work; one thread.
+class ProxyBall
+{
+public:
+  void reset() noexcept { *this = ProxyBall(); }
+  /// The ball moves with the model: @p change takes a place of the old lattice frame into the new one.
+  void carry(const AffineTransform& change, double scale) noexcept;
+
+  /// @param fields the memory for the scene's fields. @param cells the memory of the points near the ball.
+  /// @param hip finite. @param status receives bits.
+  void step(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
+    std::uint32_t& status) noexcept;
+
+  /// The ball is at the HIP.
+  bool isFree() const noexcept { return free_; }
+  /// False: the HIP went further than one step can follow; the ball is on its way.
+  bool isThere() const noexcept { return there_; }
+  const Vec3& center() const noexcept { return center_; }
+  double radius() const noexcept { return radius_; }
+  /// The ball's point nearest to @p hip. @pre not free
+  Vec3 nearestPoint(const Vec3& hip) const noexcept
+  {
+    const Vec3 pull = hip - center_;
+    const double length = norm(pull);
+    return length > 0.0 ? center_ + (radius_ / length) * pull : center_;
+  }
+  /// How deep the HIP is below that point, metres; negative: the HIP is inside the ball.
+  double depth(const Vec3& hip) const noexcept { return norm(hip - center_) - radius_; }
+
+private:
+  /// What a step works with.
+  struct Work
+  {
+    const HapticScene& scene;
+    FitCells& fields;
+    BallCells& cells;
+    int rounds;
+    std::uint32_t& status;
+  };
+
+  void place(Work& work, const Vec3& hip) noexcept;
+  void updateRadius(Work& work) noexcept;
+  double wantedRadius(Work& work, const Vec3& seed) noexcept;
+  void walk(Work& work, const Vec3& hip) noexcept;
+  double fly(Work& work, const Vec3& direction, double length) noexcept;
+  void slide(Work& work, const Vec3& hip) noexcept;
+  bool glide(Work& work, const Vec3& hip) noexcept;
+  bool pushOut(const BallCells& cells) noexcept;
+  void gather(Work& work, double reach) noexcept;
+
+  Vec3 center_;
+  double radius_ = 0.0;
+  double wanted_ = 0.0;
+  Vec3 hip_; ///< As far as the ball has followed it.
+  Vec3 measuredAt_;
+  Vec3 heldAt_; ///< The HIP when gliding did not help.
+  bool isHeld_ = false;
+  bool isMeasured_ = false;
+  bool free_ = true;
+  bool there_ = true;
+  bool placed_ = false;
+};
+
+} // namespace pointhaptics
