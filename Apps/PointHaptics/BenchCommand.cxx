@@ -27,7 +27,7 @@ namespace
 /// Every task there is.
 std::vector<BenchTask> allTasks()
 {
-  return { bandwidthTask(), resampleTask(), proxyTask(), frictionTask(), ioTask(), servoTask(), renderTask() };
+  return { bandwidthTask(), resampleTask(), proxyTask(), touchTask(), frictionTask(), ioTask(), servoTask(), renderTask() };
 }
 
 constexpr std::int64_t kMostRepetitions = 10000;

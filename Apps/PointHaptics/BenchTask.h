@@ -72,6 +72,7 @@ BenchTask bandwidthTask();
 BenchTask ioTask();
 BenchTask resampleTask();
 BenchTask proxyTask();
+BenchTask touchTask();
 BenchTask frictionTask();
 BenchTask renderTask();
 BenchTask servoTask();

@@ -1,0 +1,88 @@
+/// @file
+/// How far the touch of a cloud was from the god object on its mesh.
+#pragma once
+
+#include "Benchmark/Touch/TouchMethod.h"
+#include "Benchmark/Touch/TouchStrokes.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace touch
+{
+
+constexpr std::size_t kStatusBits = 16;
+
+/// Errors where the truth holds; percent of the force of the tick (RMS: of the RMS force).
+struct TouchFigures
+{
+  int strokes = 0;
+  int leaps = 0;             ///< Strokes that ended where the god object leapt.
+  std::int64_t ticks = 0;    ///< All that were walked.
+  std::int64_t contacts = 0; ///< Ticks in which the god object was in contact.
+  std::int64_t judged = 0;   ///< Those of them whose truth holds.
+  double judgedPercent = 0.0;
+  double medianPercent = 0.0;
+  double p95Percent = 0.0;
+  double rmsPercent = 0.0;
+  double directionP95Degrees = 0.0; ///< Of the ticks with a force.
+  double lostPercent = 0.0;         ///< Judged ticks more than 0.05 mm deep without force.
+  double phantomNewton = 0.0;       ///< Largest force where all nine god objects are free.
+  int held = 0;                     ///< Strokes whose last 50 ticks, all free, all have a force above 0.05 N.
+  double largestStep = 0.0;         ///< |dF| over K |dH|, of ticks with a force and |dH| above 1 um.
+  double stepP99 = 0.0;
+  double energyJoule = 0.0; ///< Median over the strokes of what the force returned beyond the truth's.
+  double p50 = 0.0;         ///< Update time of a tick, microseconds.
+  double p99 = 0.0;
+  double maximum = 0.0;
+  std::array<double, kStatusBits> statusPercent{}; ///< Ticks in which each bit of ProxyState::status was set.
+  std::int64_t nonFinite = 0;                      ///< States that are not finite: beyond doubt wrong.
+};
+
+/// Of one stroke: all states, and the shortest update of each tick over @p repetitions walks.
+struct TouchTrace
+{
+  std::vector<ProxyState> states;
+  std::vector<double> microseconds;
+};
+
+TouchTrace walk(TouchMethod& method, const TouchScene& scene, const TouchStroke& stroke, std::size_t ticks,
+  int repetitions);
+
+/// Adds strokes up.
+class TouchJudge
+{
+public:
+  explicit TouchJudge(double stiffness)
+    : stiffness_(stiffness)
+  {
+  }
+  void add(const TouchTrace& trace, const TouchTruth& truth);
+  TouchFigures figures() const;
+
+private:
+  void addForces(const TouchTrace& trace, const TouchTruth& truth);
+  void addSteps(const TouchTrace& trace, const TouchTruth& truth);
+  void addEnd(const TouchTrace& trace, const TouchTruth& truth);
+
+  double stiffness_;
+  TouchFigures figures_;
+  std::vector<double> errors_;
+  std::vector<double> angles_;
+  std::vector<double> steps_;
+  std::vector<double> energies_;
+  std::vector<double> microseconds_;
+  double squares_ = 0.0;
+  double scale_ = 0.0;
+  std::int64_t lost_ = 0;
+  std::array<std::int64_t, kStatusBits> status_{};
+};
+
+} // namespace touch
+} // namespace bench
+} // namespace pointhaptics

@@ -1,0 +1,61 @@
+/// @file
+/// The scenes and the methods of the touch benchmark, each made in one place.
+#pragma once
+
+#include "Benchmark/Proxy/Scenes.h"
+
+#include "Haptics/Proxy.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace touch
+{
+
+struct TouchSceneSettings
+{
+  double voxelSize = 1e-3 / 3.0; ///< Metres.
+  bool raw = false;              ///< The points themselves, no voxels.
+};
+
+/// What a method touches. Null scene: the cloud has no finite point, or no lattice can be had.
+struct TouchScene
+{
+  proxy::Scene scene;
+  std::shared_ptr<const std::vector<Vec3>> points; ///< The cloud itself.
+};
+
+/// The one place where scenes are made: a scene that is refined near the hand is to be had from here.
+TouchScene makeTouchScene(std::vector<Vec3> points, const TouchSceneSettings& settings);
+
+/// One way of touching a cloud. step() is timed; reset() is not.
+class TouchMethod
+{
+public:
+  virtual ~TouchMethod() = default;
+  /// Out of contact, in @p scene, which outlives its use.
+  virtual void reset(const TouchScene& scene) = 0;
+  virtual ProxyState step(const Vec3& hip, double dt) = 0;
+};
+
+struct Contestant
+{
+  std::string name; ///< As on the command line.
+  std::function<std::unique_ptr<TouchMethod>()> make;
+};
+
+/// Every method there is, the program's default first.
+std::vector<Contestant> contestants();
+std::vector<std::string> contestantNames();
+/// Those of @p names, all where that is empty.
+std::vector<Contestant> contestantsNamed(const std::vector<std::string>& names);
+
+} // namespace touch
+} // namespace bench
+} // namespace pointhaptics

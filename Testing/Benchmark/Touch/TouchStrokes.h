@@ -1,0 +1,63 @@
+/// @file
+/// Hands that press, slide and lift on a mesh, and what they must feel.
+#pragma once
+
+#include "Benchmark/Touch/MeshGodObject.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace touch
+{
+
+constexpr double kTickSeconds = 1e-3;
+
+/// The HIP of each tick, metres.
+struct TouchStroke
+{
+  std::vector<Vec3> hip;
+};
+
+/// Sets of places that no other set shares: rules are chosen on the one and tried on the other.
+enum class StrokeSet
+{
+  A,
+  B
+};
+
+/// @p count strokes at places uniform over the area that a straight line reaches from 4 mm outside. Press to
+/// 1 mm at 25 mm/s, slide 10 mm in a random tangential direction at 20 mm/s (even strokes) or 50 mm/s (odd),
+/// lift 5 mm at 50 mm/s, stay. The same ones for the same set and mesh.
+std::vector<TouchStroke> strokesOn(const TriangleTree& tree, int count, StrokeSet set);
+
+/// Straight from @p from to @p to at @p speed m/s, appended; @p from itself where the stroke is empty.
+void moveTo(TouchStroke& stroke, const Vec3& from, const Vec3& to, double speed);
+void stay(TouchStroke& stroke, int ticks);
+
+/// The force of the god object along a stroke, and where it can be relied on.
+struct TouchTruth
+{
+  struct Tick
+  {
+    Vec3 force;           ///< N.
+    bool contact = false; ///< Of the god object at the hand itself.
+    /// In contact, and eight god objects whose hands are shifted (four by 10 um, four by 50 um) feel the same
+    /// within 25 %; only for forces above kForceFloor.
+    bool holds = false;
+    bool free = false; ///< All nine are free.
+  };
+  std::vector<Tick> ticks; ///< Up to the tick before the god object leaps from place to place in contact.
+  bool leaps = false;      ///< It ended early for that.
+};
+
+constexpr double kForceFloor = 0.04; ///< N.
+
+TouchTruth truthOf(const TriangleTree& tree, const TouchStroke& stroke, double stiffness, std::uint64_t seed);
+
+} // namespace touch
+} // namespace bench
+} // namespace pointhaptics
