@@ -30,6 +30,7 @@ struct TouchOptions
   std::int64_t strokes = 0; ///< 0: the default.
   int strokeSet = 0;
   bool raw = false;
+  bool whole = false;
   CLI::Option* meshesOption = nullptr;
 };
 
@@ -71,6 +72,7 @@ BenchOutcome runTouch(
   settings.strokes = options.strokes > 0 ? int(options.strokes) : settings.strokes;
   settings.strokeSet = bench::touch::StrokeSet(options.strokeSet);
   settings.raw = options.raw;
+  settings.local = !options.whole;
   settings.repetitions = shared.repetitions > 0 ? shared.repetitions : settings.repetitions;
   outcome.report = bench::touch::benchmarkTouch(settings, progress, outcome.wrong);
   return outcome;
@@ -92,6 +94,7 @@ BenchRun addTouchOptions(CLI::App& command)
     { { "a", int(bench::touch::StrokeSet::A) }, { "b", int(bench::touch::StrokeSet::B) } },
     "Which strokes: two sets that share no place; default a");
   command.add_flag("--raw", options->raw, "Touch the points themselves, no voxels");
+  command.add_flag("--whole", options->whole, "One scene of the whole cloud, no finer ones near the hand");
   addWords(command, "--methods", options->methods, bench::touch::contestantNames(), false,
     "Methods to judge; default all");
   addWords(command, "--studies", options->studies, bench::touch::studyWords(), false,

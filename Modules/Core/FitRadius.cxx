@@ -11,9 +11,6 @@ namespace pointhaptics
 namespace
 {
 
-constexpr double kSmallestRadiusInCells = 3.6;
-constexpr double kPoints = 30.0;
-constexpr double kCells = 14.0;
 constexpr double kCountGrowth = 1.1;
 constexpr int kCountSteps = 120;
 
@@ -51,9 +48,9 @@ constexpr double kGateNoise = 4.0;
 /// Neighbouring nodes that vote, in voxels of the node level.
 constexpr double kVoteReach = 2.0;
 
-double countRadius(const CellPyramid& pyramid, const Vec3& seed, double largest)
+double countRadius(const CellPyramid& pyramid, const Vec3& seed, double largest, const FitNeeds& needs)
 {
-  double radius = kSmallestRadiusInCells * pyramid.level(0).voxelSize;
+  double radius = needs.radiusInCells * pyramid.level(0).voxelSize;
   for (int i = 0; i < kCountSteps && radius < largest; ++i)
   {
     double points = 0.0;
@@ -66,7 +63,7 @@ double countRadius(const CellPyramid& pyramid, const Vec3& seed, double largest)
         points += weight * cell.count;
         cells += weight;
       });
-    if (points >= kPoints && cells >= kCells)
+    if (points >= needs.points && cells >= needs.cells)
     {
       break;
     }
@@ -220,11 +217,11 @@ double medianOf(std::vector<double>& values)
 
 }
 
-FitScale chooseFitRadius(
-  const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest, FitCells& memory)
+FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest,
+  FitCells& memory, const FitNeeds& needs)
 {
   FitScale scale;
-  scale.countRadius = countRadius(pyramid, seed, largestCount);
+  scale.countRadius = countRadius(pyramid, seed, largestCount, needs);
   scale.radius = scale.countRadius;
   SurfaceFrame frame;
   SurfaceFit fit;
@@ -285,7 +282,7 @@ LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<Fit
 }
 
 std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
-  const Executor& executor, const std::vector<NodeUse>* uses)
+  const Executor& executor, const std::vector<NodeUse>* uses, const FitNeeds& needs)
 {
   // A node takes some ten microseconds, and more where there is noise.
   constexpr std::int64_t kSmallestRange = 16;
@@ -306,7 +303,7 @@ std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCoun
         const Vec3 node = nodes.cells[i].mean;
         const std::int64_t seed = pyramid.nearest(0, node, 2.0 * nodes.voxelSize, distance);
         const Vec3 place = seed < 0 ? node : pyramid.level(0).cells[std::size_t(seed)].mean;
-        scales[i] = chooseFitRadius(pyramid, place, largestCount, largest, *memory);
+        scales[i] = chooseFitRadius(pyramid, place, largestCount, largest, *memory, needs);
       }
     });
   std::vector<LocalScale> result(scales.size());

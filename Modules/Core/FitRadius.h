@@ -13,10 +13,21 @@
 namespace pointhaptics
 {
 
+/// What a fit needs at least.
+struct FitNeeds
+{
+  double points = 30.0;       ///< Sum of weights, 1 in the middle of the fit.
+  double cells = 14.0;        ///< The same of cells, whatever they hold.
+  double radiusInCells = 3.6; ///< Least radius over the edge of a finest cell.
+
+  /// Of cells about as fine as the points' spacing: there is nothing finer to wait for.
+  static FitNeeds ofFineCells() { return { 16.0, 12.0, 2.4 }; }
+};
+
 /// What the cloud says about fits at one place; metres.
 struct FitScale
 {
-  double countRadius = 0.0; ///< Smallest radius with 30 points and 14 cells in the fit, at least 3.6 cells.
+  double countRadius = 0.0; ///< Smallest radius with what a fit needs.
   double radius = 0.0;      ///< Chosen radius: countRadius where the cloud is clean, more where it is noisy.
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
   bool cubic = false;       ///< The radius is one for a fit with cubic terms.
@@ -28,8 +39,8 @@ struct FitScale
 /// largest; it is taken where it tells more.
 /// @p largestCount bounds the radius that is grown for points, @p largest the one grown against noise;
 /// metres.
-FitScale chooseFitRadius(
-  const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest, FitCells& memory);
+FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest,
+  FitCells& memory, const FitNeeds& needs = {});
 
 /// Distance between nodes that vote on each other's radii, in finest cells.
 constexpr double kVoteReachInCells = 16.0;
@@ -47,6 +58,6 @@ enum class NodeUse : unsigned char
 /// @param uses where given, one per node: only those for All are answered, and only those for Vote and All
 /// asked.
 std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
-  const Executor& executor = {}, const std::vector<NodeUse>* uses = nullptr);
+  const Executor& executor = {}, const std::vector<NodeUse>* uses = nullptr, const FitNeeds& needs = {});
 
 } // namespace pointhaptics

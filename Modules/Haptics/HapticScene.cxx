@@ -181,7 +181,8 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
     }
   }
   const double largest = std::max(extent, kLargestFitRadiusInCells * size);
-  scales = fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor, uses);
+  scales = fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor, uses,
+    input.local ? FitNeeds::ofFineCells() : FitNeeds());
   for (std::size_t i = 0; i < radii.size(); ++i)
   {
     scales[i].proxyRadius = radii[i];
@@ -240,6 +241,7 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   const double size = cloud->pyramid.level(0).voxelSize;
   cloud->latticeCells = size == input.cellSize;
   const std::optional<ScenePart> part = std::move(input.part);
+  const std::optional<HapticSceneInput::Local> local = input.local;
   const std::vector<NodeUse> uses = part ? part->uses(cloud->pyramid) : std::vector<NodeUse>();
   // Where there are few points a fit may grow over the whole cloud.
   const double whole = part ? part->scale() * norm(part->whole()->bounds().extent()) : extent;
@@ -268,6 +270,15 @@ std::shared_ptr<const HapticScene> HapticScene::create(
     cloud->covered = part->covered();
     cloud->scale.setTypical(scaled(part->whole()->typicalScale(), part->scale()));
     scene->beyond_ = part->whole()->moved(cloud->modelToLattice, status);
+    if (!scene->beyond_)
+    {
+      return nullptr;
+    }
+  }
+  if (local)
+  {
+    cloud->covered = local->covered;
+    scene->beyond_ = local->global->moved(cloud->modelToLattice, status);
     if (!scene->beyond_)
     {
       return nullptr;

@@ -19,6 +19,8 @@
 namespace pointhaptics
 {
 
+class HapticScene;
+
 /// What a snapshot is built from; all vectors have one entry per point, or are empty where that is said.
 /// Frame: the workspace (the transformed cloud); units: metres.
 struct HapticSceneInput
@@ -37,6 +39,13 @@ struct HapticSceneInput
   /// A place no point is below on any axis, such as the lattice's corner: index cells are counted from there,
   /// and not from the points' own corner. Without effect where a point is below it.
   std::optional<Vec3> corner;
+  /// The scene is of what is in a box alone, with finer cells than a scene of the whole cloud.
+  struct Local
+  {
+    Bounds covered; ///< Where it is to be felt; the points go on for some fit radii beyond.
+    std::shared_ptr<const HapticScene> global; ///< What is felt elsewhere; not null.
+  };
+  std::optional<Local> local;
   /// The scene is of these cells of the cloud alone; points that the part does not hold are left out.
   std::optional<ScenePart> part;
   AffineTransform
@@ -80,6 +89,8 @@ public:
       (p.x >= box.minimum.x && p.y >= box.minimum.y && p.z >= box.minimum.z && p.x <= box.maximum.x &&
         p.y <= box.maximum.y && p.z <= box.maximum.z);
   }
+  /// Of a scene of a part, where that is felt; lattice frame.
+  const Bounds& covered() const { return cloud_->covered; }
   /// The same scene of a part with another scene of the whole beside it, which is moved to where this one is;
   /// null where it cannot be (see moved()).
   std::shared_ptr<const HapticScene> withBeyond(const HapticScene& whole, Status& status) const;
@@ -92,6 +103,8 @@ public:
   bool isMoved() const { return isMoved_; }
   /// The same for scenes that share their cloud, and for no others of this run.
   std::uint64_t cloudNumber() const { return cloud_->number; }
+  /// The same for the scenes of a cloud and of its parts: of the scene of the whole.
+  std::uint64_t wholeCloudNumber() const { return beyond_ ? beyond_->cloudNumber() : cloudNumber(); }
   Vec3 toLattice(const Vec3& p) const noexcept { return isMoved_ ? workspaceToLattice_.apply(p) : p; }
   Vec3 toWorkspace(const Vec3& p) const noexcept { return isMoved_ ? latticeToWorkspace_.apply(p) : p; }
   /// A unit vector of the lattice frame in the workspace.

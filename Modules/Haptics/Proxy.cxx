@@ -56,8 +56,15 @@ struct Proxy::Implementation
     lastCloud = newScene ? newScene->cloudNumber() : 0;
     lastLattice = newScene ? newScene->modelToLattice() : AffineTransform();
     hadScene = newScene != nullptr;
-    modelMoved = modelMoved || newScene != scene;
+    modelMoved = modelMoved || !isSameModel(newScene);
     scene = newScene;
+  }
+
+  /// Whether @p newScene is of what was felt till now, where it was, maybe finer.
+  bool isSameModel(const HapticScene* newScene) const noexcept
+  {
+    return newScene && scene && newScene->wholeCloudNumber() == scene->wholeCloudNumber() &&
+      newScene->modelToWorkspace() == scene->modelToWorkspace();
   }
 
   /// Whether the last step, seen from the model, lies in what a scene of a part covers: the next one begins

@@ -35,9 +35,15 @@ constexpr double kFarAway = 1e6;
 constexpr double kNoWay = 2e-8;
 /// Rounding that a covered point may be off by, over the radius.
 constexpr double kRounding = 1e-9;
-/// Reach of the smoothed surface, radius of the ball that glides, shortest pull along the surface, longest
-/// way and least gain of a glide; all over the radius.
-constexpr double kSmoothing = 1.2;
+/// Reach of the plane through the points about the ball, and their RMS distance from it up to which it is
+/// flat, over the radius; its fewest points. A flat normal serves so many radii further and up to this angle.
+constexpr double kPlaneReach = 1.4;
+constexpr double kFlat = 0.05;
+constexpr double kPlanePoints = 6.0;
+constexpr double kFlatNear = 2.0;
+constexpr double kFlatCosine = 0.5;
+/// Radius of the ball that glides, shortest pull along the surface, longest way and least gain of a glide;
+/// all over the radius.
 constexpr double kGlideRadius = 0.9;
 constexpr double kLeastLean = 0.02;
 constexpr double kLongestGlide = 0.5;
@@ -111,6 +117,7 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
   wanted_ *= scale;
   isMeasured_ = false;
   isHeld_ = false;
+  isFlat_ = false;
 }
 
 void ProxyBall::gather(Work& work, double reach) noexcept
@@ -269,17 +276,45 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
   work.status |= kProxyRoundLimit;
 }
 
+/// The normal of the surface that the ball lies on: of a plane through the points about it. Where they are
+/// not flat, as at an edge, the last flat one near by: the ball has not gone around yet.
+Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
+{
+  double weights = 0.0;
+  Vec3 sum;
+  SymMat3 squares;
+  cells.visitBall(center_, kPlaneReach * radius_,
+    [&](const Vec3& offset, double)
+    {
+      weights += 1.0;
+      sum += offset;
+      squares += outerProduct(offset);
+    });
+  const Vec3 mean = weights > 0.0 ? sum / weights : Vec3();
+  const Vec3 away = normalized(mean);
+  SymMat3 offset = outerProduct(mean);
+  offset *= -1.0;
+  squares *= weights > 0.0 ? 1.0 / weights : 0.0;
+  squares += offset;
+  const SymEigen eigen = symmetricEigen(squares);
+  const Vec3 up = dot(eigen.vectors[0], away) < 0.0 ? -eigen.vectors[0] : eigen.vectors[0];
+  const double flat = kFlat * radius_;
+  if (weights >= kPlanePoints && eigen.values[0] <= flat * flat)
+  {
+    flatNormal_ = up;
+    flatAt_ = center_;
+    isFlat_ = true;
+    return up;
+  }
+  const double near = kFlatNear * radius_;
+  isFlat_ = isFlat_ && norm2(center_ - flatAt_) <= near * near && dot(flatNormal_, away) >= kFlatCosine;
+  return isFlat_ ? flatNormal_ : away;
+}
+
 bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
 {
-  gather(work, (kSmoothing + kLongestGlide) * radius_);
-  Vec3 up;
-  work.cells.visitBall(center_, kSmoothing * radius_,
-    [&](const Vec3& offset, double d2)
-    {
-      const double d = std::sqrt(d2);
-      up += ((kSmoothing * radius_ - d) / d) * offset;
-    });
-  up = normalized(up);
+  gather(work, kPlaneReach * radius_);
+  const Vec3 up = surfaceNormal(work.cells);
   const Vec3 pull = hip - center_;
   const Vec3 lean = pull - dot(pull, up) * up;
   const double leaning = norm(lean);
@@ -289,6 +324,7 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   }
   const ProxyBall before = *this;
   const Vec3 direction = lean / leaning;
+  gather(work, (1.0 + kLongestGlide) * radius_);
   center_ += direction *
     work.cells.sweep(center_, direction, std::min(leaning, kLongestGlide * radius_), kGlideRadius * radius_);
   if (!pushOut(work.cells) || norm(hip - center_) > norm(pull) - kLeastGain * radius_)

@@ -68,6 +68,7 @@ private:
   double fly(Work& work, const Vec3& direction, double length) noexcept;
   void slide(Work& work, const Vec3& hip) noexcept;
   bool glide(Work& work, const Vec3& hip) noexcept;
+  Vec3 surfaceNormal(const BallCells& cells) noexcept;
   bool pushOut(const BallCells& cells) noexcept;
   void gather(Work& work, double reach) noexcept;
 
@@ -77,6 +78,9 @@ private:
   Vec3 hip_; ///< As far as the ball has followed it.
   Vec3 measuredAt_;
   Vec3 heldAt_; ///< The HIP when gliding did not help.
+  Vec3 flatNormal_;
+  Vec3 flatAt_;
+  bool isFlat_ = false;
   bool isHeld_ = false;
   bool isMeasured_ = false;
   bool free_ = true;

@@ -79,6 +79,7 @@ ReportPart studyScans(StudyContext& context)
       const std::size_t count = cloud.points.size();
       TouchSceneSettings settings;
       settings.raw = options.raw;
+      settings.local = options.local;
       const TouchScene scene = makeTouchScene(std::move(cloud.points), settings);
       if (!scene.scene)
       {

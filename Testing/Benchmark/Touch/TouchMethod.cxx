@@ -1,6 +1,7 @@
 #include "Benchmark/Touch/TouchMethod.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace pointhaptics
 {
@@ -21,13 +22,31 @@ public:
   }
   void reset(const TouchScene& scene) override
   {
-    proxy_.setScene(scene.scene.get());
+    proxy_.setScene(nullptr);
+    follower_.reset();
+    if (scene.local)
+    {
+      follower_.emplace(*scene.local, scene.scene);
+    }
+    proxy_.setScene(scene_ = scene.scene.get());
     proxy_.reset();
+    last_ = ProxyState();
   }
-  ProxyState step(const Vec3& hip, double dt) override { return proxy_.step(hip, dt); }
+  void prepare(const Vec3& hip) override
+  {
+    const HapticScene* next = follower_ ? follower_->at(hip, last_.contact ? last_.proxy : hip) : scene_;
+    if (next != scene_)
+    {
+      proxy_.setScene(scene_ = next);
+    }
+  }
+  ProxyState step(const Vec3& hip, double dt) override { return last_ = proxy_.step(hip, dt); }
 
 private:
   Proxy proxy_;
+  std::optional<LocalSceneFollower> follower_;
+  const HapticScene* scene_ = nullptr;
+  ProxyState last_;
 };
 
 Contestant ofProxy(const std::string& name, const HapticParameters& parameters)
@@ -53,6 +72,13 @@ TouchScene makeTouchScene(std::vector<Vec3> points, const TouchSceneSettings& se
   TouchScene scene;
   scene.scene = proxy::sceneOf(points, how);
   scene.points = std::make_shared<const std::vector<Vec3>>(std::move(points));
+  if (settings.local && !settings.raw && scene.scene)
+  {
+    scene.local = std::make_shared<LocalSceneBuilder>();
+    scene.local->setBandwidth(LocalBandwidthSettings());
+    static_cast<void>(
+      scene.local->setCloud(PointView(scene.points->data(), std::int64_t(scene.points->size()))));
+  }
   return scene;
 }
 
@@ -60,7 +86,9 @@ std::vector<Contestant> contestants()
 {
   std::vector<Contestant> all;
   all.push_back(ofProxy("surface-fit", {}));
-  // The spherical proxy alone, ProxyMethod::Sphere, belongs here as "sphere".
+  HapticParameters sphere;
+  sphere.method = ProxyMethod::Sphere;
+  all.push_back(ofProxy("sphere", sphere));
   all.push_back(ofProxy("gradient-steps-tuned", gradientSteps(GradientStepsParameters::tuned())));
   all.push_back(ofProxy("gradient-steps-paper", gradientSteps(GradientStepsParameters::paper())));
   return all;

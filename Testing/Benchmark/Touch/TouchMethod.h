@@ -4,6 +4,7 @@
 
 #include "Benchmark/Proxy/Scenes.h"
 
+#include "Haptics/LocalScene.h"
 #include "Haptics/Proxy.h"
 
 #include <functional>
@@ -22,6 +23,7 @@ struct TouchSceneSettings
 {
   double voxelSize = 1e-3 / 3.0; ///< Metres.
   bool raw = false;              ///< The points themselves, no voxels.
+  bool local = true;             ///< Scenes as fine as the points near the hand, as the program makes them.
 };
 
 /// What a method touches. Null scene: the cloud has no finite point, or no lattice can be had.
@@ -29,18 +31,21 @@ struct TouchScene
 {
   proxy::Scene scene;
   std::shared_ptr<const std::vector<Vec3>> points; ///< The cloud itself.
+  std::shared_ptr<LocalSceneBuilder> local;        ///< Null: the scene of the whole cloud everywhere.
 };
 
 /// The one place where scenes are made: a scene that is refined near the hand is to be had from here.
 TouchScene makeTouchScene(std::vector<Vec3> points, const TouchSceneSettings& settings);
 
-/// One way of touching a cloud. step() is timed; reset() is not.
+/// One way of touching a cloud. step() is timed; reset() and prepare() are not.
 class TouchMethod
 {
 public:
   virtual ~TouchMethod() = default;
   /// Out of contact, in @p scene, which outlives its use.
   virtual void reset(const TouchScene& scene) = 0;
+  /// What a thread beside the servo loop does before @p hip is felt.
+  virtual void prepare(const Vec3& hip) { static_cast<void>(hip); }
   virtual ProxyState step(const Vec3& hip, double dt) = 0;
 };
 
