@@ -1,5 +1,7 @@
 #include "Benchmark/Touch/TouchMethod.h"
 
+#include "Benchmark/Touch/OccupancyProxy.h"
+
 #include <algorithm>
 
 namespace pointhaptics
@@ -63,6 +65,8 @@ std::vector<Contestant> contestants()
   // The spherical proxy alone, ProxyMethod::Sphere, belongs here as "sphere".
   all.push_back(ofProxy("gradient-steps-tuned", gradientSteps(GradientStepsParameters::tuned())));
   all.push_back(ofProxy("gradient-steps-paper", gradientSteps(GradientStepsParameters::paper())));
+  all.push_back(
+    { "occupancy", [] { return std::make_unique<OccupancyProxy>(ContactParameters().stiffness); } });
   return all;
 }
 

@@ -131,15 +131,16 @@ TouchTruth truthOf(const TriangleTree& tree, const TouchStroke& stroke, double s
   TouchTruth truth;
   MeshGodObject hand(tree);
   GodObjectState last;
+  bool leapt = false;
   for (std::size_t i = 0; i < stroke.hip.size(); ++i)
   {
     const Vec3& hip = stroke.hip[i];
     const GodObjectState state = hand.step(hip);
     const double moved = i == 0 ? 0.0 : norm(hip - stroke.hip[i - 1]);
-    if (i > 0 && state.contact && last.contact && norm(state.point - last.point) > 4.0 * moved + 2e-4)
+    if (!leapt && state.contact && last.contact && norm(state.point - last.point) > 4.0 * moved + 2e-4)
     {
-      truth.leaps = true;
-      break;
+      leapt = true;
+      truth.certain = i;
     }
     last = state;
     TouchTruth::Tick tick;
@@ -156,6 +157,7 @@ TouchTruth truthOf(const TriangleTree& tree, const TouchStroke& stroke, double s
     }
     truth.ticks.push_back(tick);
   }
+  truth.certain = leapt ? truth.certain : truth.ticks.size();
   return truth;
 }
 

@@ -259,7 +259,7 @@ TEST(TouchStrokes, PressSlideLiftAndTheTruthHoldsOnAFlatFace)
   {
     const TouchTruth truth = truthOf(tree, stroke, 800.0, 1);
     ASSERT_EQ(truth.ticks.size(), stroke.hip.size());
-    EXPECT_FALSE(truth.leaps);
+    EXPECT_FALSE(truth.leaps());
     double most = 0.0;
     int holds = 0;
     for (const TouchTruth::Tick& tick : truth.ticks)
@@ -292,7 +292,7 @@ TEST(TouchStrokes, TheTruthDoesNotHoldWhereAShiftDecides)
       EXPECT_EQ(truth.ticks[i].free, inside < 0.0) << inside;
     }
   }
-  EXPECT_FALSE(truth.leaps);
+  EXPECT_FALSE(truth.leaps());
 }
 
 } // namespace
