@@ -33,7 +33,8 @@ constexpr const char* kMethod =
   "force within a tick over K times the way of the hand. Energy: median of what a stroke returns to the hand "
   "beyond the truth's own. The judgement of a stroke ends where the god object leaps from contact to contact "
   "(by more than 4 times the way of the hand and 0.2 mm); phantom and held of the rest of the stroke stand "
-  "after a plus sign, and tell less. Times are of each tick the fastest of the walks: median and p99 in "
+  "after a plus sign, and tell less. A stroke ends where a hand that fell through a hole of a scan comes out "
+  "through its wall. Times are of each tick the fastest of the walks: median and p99 in "
   "contact, the maximum of all ticks. Status: percent of the ticks that set each bit of ProxyState::status.";
 
 /// Names of the bits of ProxyState::status, in their order.

@@ -109,7 +109,7 @@ std::vector<TouchStroke> strokesOn(const TriangleTree& tree, int count, StrokeSe
     double x = 0.0;
     double y = 0.0;
     random.circle(x, y);
-    if (!tree.isBlocked(place + kHeight * n, place + kAbove * n))
+    if (!tree.isCrossed(place + kHeight * n, place + kAbove * n, TriangleTree::Side::Any))
     {
       strokes.push_back(
         strokeAt(place, n, x * a + y * cross(n, a), strokes.size() % 2 == 0 ? kSlowSpeed : kFastSpeed));
@@ -141,6 +141,12 @@ TouchTruth truthOf(const TriangleTree& tree, const TouchStroke& stroke, double s
     {
       leapt = true;
       truth.certain = i;
+    }
+    // The hand fell through a hole of the scan, and comes out through its wall: points have two sides.
+    if (i > 0 && !state.contact && !last.contact &&
+      tree.isCrossed(last.point, state.point, TriangleTree::Side::Back))
+    {
+      break;
     }
     last = state;
     TouchTruth::Tick tick;

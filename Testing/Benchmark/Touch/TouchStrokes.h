@@ -50,6 +50,8 @@ struct TouchTruth
     bool holds = false;
     bool free = false; ///< All nine are free.
   };
+  /// Of the whole stroke, or up to where a free hand comes out through a facet from behind: it was inside an
+  /// open scan, and a cloud, which has no inside, may hold it there.
   std::vector<Tick> ticks;
   /// Ticks before the god object leaps from contact to contact, by more than 4 times the way of the hand and
   /// 0.2 mm: from there on which of two places is right is a matter of chance.
