@@ -226,6 +226,44 @@ TEST_F(Bench, ScansAreFeltAndMeshesAreTheirJudges)
   this->refuse(1, { "bench", "proxy", "--quick", "--scans", "none.ply" }, { "none.ply" });
 }
 
+TEST_F(Bench, TouchIsJudgedAtEdgesOnScansAndOnThinParts)
+{
+  this->write("tetra.ply",
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+    "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+  const json result = json::parse(this->succeed(
+    { "bench", "touch", "--quick", "--json", "--scans", "tetra.ply", "--methods", "surface-fit,occupancy" }));
+  EXPECT_EQ(result["task"], "touch");
+  EXPECT_EQ(result["scans"]["rows"].size(), 3u * 2u)
+    << "samples and vertices of the scan, samples of the box";
+  EXPECT_EQ(result["edges"]["rows"].size(), 2u * 2u * 2u);
+  EXPECT_GE(result["thin"]["rows"].size(), 2u * 10u);
+  for (const char* study : { "scans", "edges", "thin" })
+  {
+    for (const json& row : result[study]["rows"])
+    {
+      EXPECT_GT(row["judged_percent"], 50.0) << row;
+      EXPECT_LE(row["median_percent"], row["p95_percent"]) << row;
+      EXPECT_GE(row["phantom_newton"], 0.0) << row;
+      EXPECT_LE(row["p50_us"], row["p99_us"]) << row;
+      EXPECT_LE(row["p99_us"], row["max_us"]) << row;
+      EXPECT_TRUE(row["status_percent"].is_object()) << row;
+    }
+  }
+  const json& box = result["scans"]["rows"].back();
+  EXPECT_EQ(box["mesh"], "box");
+  const json other =
+    json::parse(this->succeed({ "bench", "touch", "--quick", "--json", "--studies", "scans", "--methods",
+      "surface-fit", "--stroke-set", "b", "--points", "5000", "--meshes", "stairs,gear", "--raw" }));
+  ASSERT_EQ(other["scans"]["rows"].size(), 2u);
+  EXPECT_EQ(other["scans"]["rows"][0]["mesh"], "stairs");
+  EXPECT_EQ(other["scans"]["rows"][0]["points"], 5000);
+  EXPECT_FALSE(other.contains("edges"));
+  this->refuse(1, { "bench", "touch", "--quick", "--scans", "none.ply" }, { "none.ply" });
+  this->refuse(2, { "bench", "touch", "--methods", "ball" }, { "bench touch", "--methods", "surface-fit" });
+}
+
 TEST_F(Bench, FrictionIsJudgedAtEverySpeed)
 {
   const json result = json::parse(this->succeed({ "bench", "friction", "--quick", "--json" }));

@@ -222,18 +222,19 @@ TriangleTree::Hit TriangleTree::cast(const Vec3& from, const Vec3& way, double m
   return hit;
 }
 
-bool TriangleTree::isBlocked(const Vec3& from, const Vec3& to) const
+bool TriangleTree::isCrossed(const Vec3& from, const Vec3& to, Side side) const
 {
-  bool blocked = false;
+  bool crossed = false;
   const Vec3 way = to - from;
   visit(from, way, kSide,
     [&](const Facet& f)
     {
       const double a = dot(f.normal, from - f.corner[0]);
       const double b = a + dot(f.normal, way);
-      blocked = blocked || ((a > 0.0) != (b > 0.0) && isInside(f, from + (a / (a - b)) * way));
+      const bool isWanted = (a > 0.0) != (b > 0.0) && (side == Side::Any || a < b);
+      crossed = crossed || (isWanted && isInside(f, from + (a / (a - b)) * way));
     });
-  return blocked;
+  return crossed;
 }
 
 /// The facets met since the last straight way, and the target they leave.

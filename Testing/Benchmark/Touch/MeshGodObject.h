@@ -37,8 +37,13 @@ public:
   /// The first facet that a point meets from its front on the way from @p from by @p way. The point stops
   /// kClearance above it. A start up to @p margin metres behind a facet counts as in front of it.
   Hit cast(const Vec3& from, const Vec3& way, double margin) const;
-  /// Whether a facet of any orientation crosses the segment.
-  bool isBlocked(const Vec3& from, const Vec3& to) const;
+  enum class Side
+  {
+    Any,
+    Back
+  };
+  /// Whether the segment crosses a facet, from any side or from its back.
+  bool isCrossed(const Vec3& from, const Vec3& to, Side side) const;
 
   const std::vector<Facet>& facets() const { return facets_; }
 

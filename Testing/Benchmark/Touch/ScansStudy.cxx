@@ -64,6 +64,11 @@ ReportPart studyScans(StudyContext& context)
       options.strokes, options.strokeSet == StrokeSet::A ? "A" : "B", grouped(options.points),
       options.raw ? "the points themselves" : "voxels of 1/3 mm");
   setFigureHeader(part, { "mesh", "cloud", "points", "method" });
+  Chart chart;
+  chart.fileName = "touch-time-error";
+  chart.title = "Every method on every mesh and cloud";
+  chart.x = { "median update (us)" };
+  chart.y = { "RMS force error (%)" };
   for (const TouchMesh& mesh : meshesOf(options))
   {
     const TriangleTree tree(mesh);
@@ -89,13 +94,20 @@ ReportPart studyScans(StudyContext& context)
       for (const Contestant& contestant : contestantsNamed(options.methods))
       {
         context.progress(fmt::format("{} on {} of {}", contestant.name, cloud.name, mesh.name));
+        const TouchFigures figures = judge(context, contestant, scene, tasks);
+        addPoint(chart.series, contestant.name, figures.p50, figures.rmsPercent);
         addFigures(context, part, { mesh.name, cloud.name, grouped(std::int64_t(count)), contestant.name },
           { { "mesh", mesh.name }, { "cloud", cloud.name }, { "points", count },
             { "method", contestant.name } },
-          judge(context, contestant, scene, tasks));
+          figures);
       }
     }
   }
+  for (Series& series : chart.series)
+  {
+    series.line = false;
+  }
+  part.charts.push_back(std::move(chart));
   return part;
 }
 

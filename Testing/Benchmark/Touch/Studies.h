@@ -45,6 +45,8 @@ TouchFigures judge(StudyContext& context, const Contestant& contestant, const To
   const std::vector<TouchTask>& tasks, const TouchObserver& observer = {});
 
 ReportPart studyScans(StudyContext& context);
+ReportPart studyEdges(StudyContext& context);
+ReportPart studyThin(StudyContext& context);
 
 } // namespace touch
 } // namespace bench

@@ -64,17 +64,22 @@ TouchTrace walk(
 void TouchJudge::add(const TouchTrace& trace, const TouchTruth& truth)
 {
   ++figures_.strokes;
-  figures_.leaps += truth.leaps;
-  figures_.ticks += std::int64_t(trace.states.size());
-  for (const ProxyState& state : trace.states)
+  figures_.leaps += truth.leaps();
+  figures_.ticks += std::int64_t(truth.certain);
+  for (std::size_t i = 0; i < trace.states.size(); ++i)
   {
+    const ProxyState& state = trace.states[i];
     figures_.nonFinite += !isFinite(state.force) || !isFinite(state.proxy) || !isFinite(state.normal);
-    for (std::size_t bit = 0; bit < kStatusBits; ++bit)
+    longest_ = std::max(longest_, trace.microseconds[i]);
+    if (state.contact)
+    {
+      microseconds_.push_back(trace.microseconds[i]);
+    }
+    for (std::size_t bit = 0; i < truth.certain && bit < kStatusBits; ++bit)
     {
       status_[bit] += (state.status >> bit) & 1u;
     }
   }
-  microseconds_.insert(microseconds_.end(), trace.microseconds.begin(), trace.microseconds.end());
   addForces(trace, truth);
   addSteps(trace, truth);
   addEnd(trace, truth);
@@ -82,20 +87,24 @@ void TouchJudge::add(const TouchTrace& trace, const TouchTruth& truth)
 
 void TouchJudge::addForces(const TouchTrace& trace, const TouchTruth& truth)
 {
+  bool pops = false;
   for (std::size_t i = 0; i < trace.states.size(); ++i)
   {
     const TouchTruth::Tick& tick = truth.ticks[i];
     const Vec3& force = trace.states[i].force;
-    figures_.contacts += tick.contact;
+    const bool isCertain = i < truth.certain;
     if (tick.free)
     {
-      figures_.phantomNewton = std::max(figures_.phantomNewton, norm(force));
+      double& phantom = isCertain ? figures_.phantomNewton : figures_.laterPhantomNewton;
+      phantom = std::max(phantom, norm(force));
     }
-    if (!tick.holds)
+    figures_.contacts += isCertain && tick.contact;
+    if (!tick.holds || !isCertain)
     {
       continue;
     }
     ++figures_.judged;
+    pops = pops || dot(force, tick.force) <= 0.0;
     const double error = norm(force - tick.force);
     const double size = norm(tick.force);
     errors_.push_back(100.0 * error / size);
@@ -110,12 +119,13 @@ void TouchJudge::addForces(const TouchTrace& trace, const TouchTruth& truth)
       lost_ += size > kLostDepth * stiffness_;
     }
   }
+  figures_.pops += pops;
 }
 
 void TouchJudge::addSteps(const TouchTrace& trace, const TouchTruth& truth)
 {
   double energy = 0.0;
-  for (std::size_t i = 1; i < trace.states.size(); ++i)
+  for (std::size_t i = 1; i < truth.certain; ++i)
   {
     const ProxyState& state = trace.states[i];
     const ProxyState& last = trace.states[i - 1];
@@ -138,7 +148,7 @@ void TouchJudge::addEnd(const TouchTrace& trace, const TouchTruth& truth)
   {
     held = held && truth.ticks[i].free && norm(trace.states[i].force) > kHeldForce;
   }
-  figures_.held += held;
+  (truth.leaps() ? figures_.laterHeld : figures_.held) += held;
 }
 
 TouchFigures TouchJudge::figures() const
@@ -155,7 +165,7 @@ TouchFigures TouchJudge::figures() const
   f.energyJoule = at(energies_, 0.5);
   f.p50 = at(microseconds_, 0.5);
   f.p99 = at(microseconds_, 0.99);
-  f.maximum = at(microseconds_, 1.0);
+  f.maximum = longest_;
   for (std::size_t bit = 0; bit < kStatusBits; ++bit)
   {
     f.statusPercent[bit] = percent(status_[bit], f.ticks);

@@ -18,12 +18,13 @@ namespace touch
 
 constexpr std::size_t kStatusBits = 16;
 
-/// Errors where the truth holds; percent of the force of the tick (RMS: of the RMS force).
+/// Errors where the truth holds and before the god object leaps; percent of the force of the tick (RMS: of
+/// the RMS force). Ticks, steps, phantom and held: before the leap too.
 struct TouchFigures
 {
   int strokes = 0;
-  int leaps = 0;             ///< Strokes that ended where the god object leapt.
-  std::int64_t ticks = 0;    ///< All that were walked.
+  int leaps = 0;             ///< Strokes whose god object leaps.
+  std::int64_t ticks = 0;    ///< Before the leaps.
   std::int64_t contacts = 0; ///< Ticks in which the god object was in contact.
   std::int64_t judged = 0;   ///< Those of them whose truth holds.
   double judgedPercent = 0.0;
@@ -34,12 +35,15 @@ struct TouchFigures
   double lostPercent = 0.0;         ///< Judged ticks more than 0.05 mm deep without force.
   double phantomNewton = 0.0;       ///< Largest force where all nine god objects are free.
   int held = 0;                     ///< Strokes whose last 50 ticks, all free, all have a force above 0.05 N.
+  double laterPhantomNewton = 0.0;  ///< The same as phantomNewton after a leap.
+  int laterHeld = 0;                ///< The same as held for strokes with a leap.
+  int pops = 0;                     ///< Strokes in which a judged tick has no force or one that pulls.
   double largestStep = 0.0;         ///< |dF| over K |dH|, of ticks with a force and |dH| above 1 um.
   double stepP99 = 0.0;
   double energyJoule = 0.0; ///< Median over the strokes of what the force returned beyond the truth's.
-  double p50 = 0.0;         ///< Update time of a tick, microseconds.
+  double p50 = 0.0;         ///< Update time of a tick in contact, microseconds.
   double p99 = 0.0;
-  double maximum = 0.0;
+  double maximum = 0.0;                            ///< Of all ticks, finding the surface among them.
   std::array<double, kStatusBits> statusPercent{}; ///< Ticks in which each bit of ProxyState::status was set.
   std::int64_t nonFinite = 0;                      ///< States that are not finite: beyond doubt wrong.
 };
@@ -77,6 +81,7 @@ private:
   std::vector<double> steps_;
   std::vector<double> energies_;
   std::vector<double> microseconds_;
+  double longest_ = 0.0;
   double squares_ = 0.0;
   double scale_ = 0.0;
   std::int64_t lost_ = 0;

@@ -1,13 +1,14 @@
 #include "Benchmark/Touch/TouchMesh.h"
 
-#include "Core/AffineTransform.h"
 #include "Core/PortableRandom.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -22,15 +23,6 @@ constexpr double kTwoPi = 6.28318530717958647692;
 /// Twice the area, m^2, below which a triangle has no usable normal.
 constexpr double kLeastArea = 1e-16;
 constexpr std::uint32_t kNone = ~0u;
-
-/// Turns about a skew axis, so that no face is parallel to the lattice.
-Vec3 turned(const Vec3& p)
-{
-  const Vec3 axis = normalized(Vec3(0.3, 0.8, 0.5));
-  const double c = std::cos(0.6);
-  const double s = std::sin(0.6);
-  return c * p + s * cross(axis, p) + (1.0 - c) * dot(axis, p) * axis;
-}
 
 Vec3 areaVector(const TouchMesh& mesh, std::size_t triangle)
 {
@@ -321,6 +313,14 @@ TouchMesh cylinderMesh(double radius, double height, int sides)
   return prismMesh(polygon, height);
 }
 
+Vec3 turnedAway(const Vec3& p)
+{
+  const Vec3 axis = normalized(Vec3(0.3, 0.8, 0.5));
+  const double c = std::cos(0.6);
+  const double s = std::sin(0.6);
+  return c * p + s * cross(axis, p) + (1.0 - c) * dot(axis, p) * axis;
+}
+
 std::vector<std::string> generatedMeshNames()
 {
   return { "box", "stairs", "slot", "gear" };
@@ -347,7 +347,7 @@ TouchMesh generatedMesh(const std::string& name)
     mesh = gear();
   }
   mesh.name = name;
-  std::transform(mesh.points.begin(), mesh.points.end(), mesh.points.begin(), turned);
+  std::transform(mesh.points.begin(), mesh.points.end(), mesh.points.begin(), turnedAway);
   return mesh;
 }
 

@@ -41,6 +41,9 @@ TouchMesh prismMesh(const std::vector<Vec3>& polygon, double height);
 TouchMesh sphereMesh(double radius, int rings);
 TouchMesh cylinderMesh(double radius, double height, int sides);
 
+/// Turned about the origin, so that no face of a box is parallel to the lattice.
+Vec3 turnedAway(const Vec3& p);
+
 /// The generated meshes of the benchmark, about 60 mm, turned away from the axes.
 std::vector<std::string> generatedMeshNames();
 /// One of generatedMeshNames(); empty for another name.

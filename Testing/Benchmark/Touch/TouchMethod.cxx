@@ -1,5 +1,7 @@
 #include "Benchmark/Touch/TouchMethod.h"
 
+#include "Benchmark/Touch/OccupancyProxy.h"
+
 #include <algorithm>
 #include <optional>
 
@@ -91,6 +93,8 @@ std::vector<Contestant> contestants()
   all.push_back(ofProxy("sphere", sphere));
   all.push_back(ofProxy("gradient-steps-tuned", gradientSteps(GradientStepsParameters::tuned())));
   all.push_back(ofProxy("gradient-steps-paper", gradientSteps(GradientStepsParameters::paper())));
+  all.push_back(
+    { "occupancy", [] { return std::make_unique<OccupancyProxy>(ContactParameters().stiffness); } });
   return all;
 }
 

@@ -109,7 +109,7 @@ std::vector<TouchStroke> strokesOn(const TriangleTree& tree, int count, StrokeSe
     double x = 0.0;
     double y = 0.0;
     random.circle(x, y);
-    if (!tree.isBlocked(place + kHeight * n, place + kAbove * n))
+    if (!tree.isCrossed(place + kHeight * n, place + kAbove * n, TriangleTree::Side::Any))
     {
       strokes.push_back(
         strokeAt(place, n, x * a + y * cross(n, a), strokes.size() % 2 == 0 ? kSlowSpeed : kFastSpeed));
@@ -131,14 +131,21 @@ TouchTruth truthOf(const TriangleTree& tree, const TouchStroke& stroke, double s
   TouchTruth truth;
   MeshGodObject hand(tree);
   GodObjectState last;
+  bool leapt = false;
   for (std::size_t i = 0; i < stroke.hip.size(); ++i)
   {
     const Vec3& hip = stroke.hip[i];
     const GodObjectState state = hand.step(hip);
     const double moved = i == 0 ? 0.0 : norm(hip - stroke.hip[i - 1]);
-    if (i > 0 && state.contact && last.contact && norm(state.point - last.point) > 4.0 * moved + 2e-4)
+    if (!leapt && state.contact && last.contact && norm(state.point - last.point) > 4.0 * moved + 2e-4)
     {
-      truth.leaps = true;
+      leapt = true;
+      truth.certain = i;
+    }
+    // The hand fell through a hole of the scan, and comes out through its wall: points have two sides.
+    if (i > 0 && !state.contact && !last.contact &&
+      tree.isCrossed(last.point, state.point, TriangleTree::Side::Back))
+    {
       break;
     }
     last = state;
@@ -156,6 +163,7 @@ TouchTruth truthOf(const TriangleTree& tree, const TouchStroke& stroke, double s
     }
     truth.ticks.push_back(tick);
   }
+  truth.certain = leapt ? truth.certain : truth.ticks.size();
   return truth;
 }
 

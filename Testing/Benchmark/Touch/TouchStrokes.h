@@ -50,8 +50,13 @@ struct TouchTruth
     bool holds = false;
     bool free = false; ///< All nine are free.
   };
-  std::vector<Tick> ticks; ///< Up to the tick before the god object leaps from place to place in contact.
-  bool leaps = false;      ///< It ended early for that.
+  /// Of the whole stroke, or up to where a free hand comes out through a facet from behind: it was inside an
+  /// open scan, and a cloud, which has no inside, may hold it there.
+  std::vector<Tick> ticks;
+  /// Ticks before the god object leaps from contact to contact, by more than 4 times the way of the hand and
+  /// 0.2 mm: from there on which of two places is right is a matter of chance.
+  std::size_t certain = 0;
+  bool leaps() const { return certain < ticks.size(); }
 };
 
 constexpr double kForceFloor = 0.04; ///< N.

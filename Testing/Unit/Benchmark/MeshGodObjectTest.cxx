@@ -1,5 +1,6 @@
 /// The god object on a mesh is the truth of `bench touch`: it is held against closed forms here.
 #include "Benchmark/Touch/MeshGodObject.h"
+#include "Benchmark/Touch/TouchJudge.h"
 #include "Benchmark/Touch/TouchStrokes.h"
 #include "Core/PortableRandom.h"
 
@@ -259,7 +260,7 @@ TEST(TouchStrokes, PressSlideLiftAndTheTruthHoldsOnAFlatFace)
   {
     const TouchTruth truth = truthOf(tree, stroke, 800.0, 1);
     ASSERT_EQ(truth.ticks.size(), stroke.hip.size());
-    EXPECT_FALSE(truth.leaps);
+    EXPECT_FALSE(truth.leaps());
     double most = 0.0;
     int holds = 0;
     for (const TouchTruth::Tick& tick : truth.ticks)
@@ -274,6 +275,96 @@ TEST(TouchStrokes, PressSlideLiftAndTheTruthHoldsOnAFlatFace)
     EXPECT_TRUE(truth.ticks.back().free);
   }
   EXPECT_NE(strokesOn(tree, 1, StrokeSet::B)[0].hip[0], strokes[0].hip[0]);
+}
+
+TEST(TouchStrokes, EndWhereAHandComesOutThroughTheWallOfAnOpenScan)
+{
+  TouchMesh mesh = boxOf(0.025);
+  // Without its lid: two triangles whose corners all lie on top.
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+  {
+    const auto isTop = [&](std::uint32_t v) { return mesh.points[v].z > 0.0; };
+    if (!std::all_of(mesh.triangles.begin() + i, mesh.triangles.begin() + i + 3, isTop))
+    {
+      kept.insert(kept.end(), mesh.triangles.begin() + i, mesh.triangles.begin() + i + 3);
+    }
+  }
+  mesh.triangles = kept;
+  const TriangleTree tree(mesh);
+  TouchStroke stroke;
+  moveTo(stroke, { 0.0, 0.0, 0.03 }, { 0.0, 0.0, 0.0 }, 0.05);
+  const std::size_t inside = stroke.hip.size();
+  moveTo(stroke, stroke.hip.back(), { 0.03, 0.0, 0.0 }, 0.05);
+  const TouchTruth truth = truthOf(tree, stroke, 800.0, 1);
+  EXPECT_NEAR(double(truth.ticks.size()), double(inside) + 500.0, 2.0);
+  EXPECT_TRUE(truth.ticks.back().free);
+}
+
+/// Feels the mesh itself, times a factor.
+class MeshTouch : public TouchMethod
+{
+public:
+  MeshTouch(const TriangleTree& tree, double factor)
+    : object_(tree)
+    , factor_(factor)
+  {
+  }
+  void reset(const TouchScene&) override { object_.reset(); }
+  ProxyState step(const Vec3& hip, double) override
+  {
+    const GodObjectState state = object_.step(hip);
+    ProxyState felt;
+    felt.hip = hip;
+    felt.contact = state.contact;
+    felt.force = (800.0 * factor_) * (state.point - hip);
+    felt.status = state.contact ? 4u : 0u;
+    return felt;
+  }
+
+private:
+  MeshGodObject object_;
+  double factor_;
+};
+
+TouchFigures judged(const TriangleTree& tree, double factor)
+{
+  MeshTouch method(tree, factor);
+  TouchJudge judge(800.0);
+  for (const TouchStroke& stroke : strokesOn(tree, 20, StrokeSet::B))
+  {
+    const TouchTruth truth = truthOf(tree, stroke, 800.0, 1);
+    judge.add(walk(method, {}, stroke, truth.ticks.size(), 1), truth);
+  }
+  return judge.figures();
+}
+
+TEST(TouchJudge, FindsNoFaultInTheTruthAndMeasuresWhatIsOff)
+{
+  const TriangleTree tree(generatedMesh("gear"));
+  const TouchFigures exact = judged(tree, 1.0);
+  EXPECT_EQ(exact.strokes, 20);
+  EXPECT_GT(exact.judgedPercent, 80.0);
+  EXPECT_EQ(exact.rmsPercent, 0.0);
+  EXPECT_EQ(exact.p95Percent, 0.0);
+  EXPECT_LE(exact.directionP95Degrees, 1e-6);
+  EXPECT_EQ(exact.lostPercent, 0.0);
+  EXPECT_EQ(exact.phantomNewton, 0.0);
+  EXPECT_EQ(exact.held + exact.laterHeld + exact.pops, 0);
+  EXPECT_NEAR(exact.energyJoule, 0.0, 1e-15);
+  EXPECT_NEAR(exact.statusPercent[2], 100.0 * double(exact.contacts) / double(exact.ticks), 1e-9);
+  const TouchFigures strong = judged(tree, 1.1);
+  EXPECT_NEAR(strong.medianPercent, 10.0, 1e-6);
+  EXPECT_NEAR(strong.p95Percent, 10.0, 1e-6);
+  EXPECT_NEAR(strong.rmsPercent, 10.0, 1e-6);
+  EXPECT_EQ(strong.pops, 0);
+  const TouchFigures nothing = judged(tree, 0.0);
+  EXPECT_EQ(nothing.lostPercent, nothing.judged > 0 ? 100.0 : 0.0);
+  EXPECT_GE(nothing.pops, 18) << "one or two strokes have no tick that holds";
+  const TouchFigures pulling = judged(tree, -1.0);
+  EXPECT_NEAR(pulling.rmsPercent, 200.0, 1e-6);
+  EXPECT_NEAR(pulling.directionP95Degrees, 180.0, 1e-6);
+  EXPECT_EQ(pulling.pops, nothing.pops);
 }
 
 TEST(TouchStrokes, TheTruthDoesNotHoldWhereAShiftDecides)
@@ -292,7 +383,7 @@ TEST(TouchStrokes, TheTruthDoesNotHoldWhereAShiftDecides)
       EXPECT_EQ(truth.ticks[i].free, inside < 0.0) << inside;
     }
   }
-  EXPECT_FALSE(truth.leaps);
+  EXPECT_FALSE(truth.leaps());
 }
 
 } // namespace
