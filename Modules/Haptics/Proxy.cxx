@@ -36,6 +36,12 @@ struct Proxy::Implementation
   double lastDt = 0.0; ///< Of the last step, seconds.
   double fadedSeconds = 0.0;
 
+  explicit Implementation(InstructionSet wanted)
+    : fitCells(wanted)
+    , rehearsalCells(wanted)
+  {
+  }
+
   void take(const HapticScene* newScene) noexcept
   {
     if (newScene && hadScene && !(newScene->modelToLattice() == lastLattice))
@@ -163,8 +169,8 @@ struct Proxy::Implementation
   }
 };
 
-Proxy::Proxy(const HapticParameters& parameters)
-  : implementation_(std::make_unique<Implementation>())
+Proxy::Proxy(const HapticParameters& parameters, InstructionSet wanted)
+  : implementation_(std::make_unique<Implementation>(wanted))
 {
   setParameters(parameters);
 }
