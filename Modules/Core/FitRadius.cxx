@@ -282,7 +282,8 @@ LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<Fit
 }
 
 std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
-  const Executor& executor, const std::vector<NodeUse>* uses, const FitNeeds& needs)
+  const Executor& executor, const std::vector<NodeUse>* uses, const FitNeeds& needs,
+  InstructionSet wanted)
 {
   // A node takes some ten microseconds, and more where there is noise.
   constexpr std::int64_t kSmallestRange = 16;
@@ -292,7 +293,7 @@ std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCoun
   forRange(executor, std::int64_t(scales.size()), kSmallestRange,
     [&](std::int64_t begin, std::int64_t end)
     {
-      const auto memory = std::make_unique<FitCells>();
+      const auto memory = std::make_unique<FitCells>(wanted);
       for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
       {
         if (uses && (*uses)[i] == NodeUse::None)

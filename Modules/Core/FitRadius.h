@@ -56,8 +56,9 @@ enum class NodeUse : unsigned char
 /// chooseFitRadius at each cell of the field's node level, medians of the neighbours taken against outliers,
 /// as the radius and gate of the surface fit.
 /// @param uses where given, one per node: only those for All are answered, and only those for Vote and All
-/// asked.
+/// asked. @param wanted the instructions to use, as far as this machine has them; the result is the same.
 std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
-  const Executor& executor = {}, const std::vector<NodeUse>* uses = nullptr, const FitNeeds& needs = {});
+  const Executor& executor = {}, const std::vector<NodeUse>* uses = nullptr, const FitNeeds& needs = {},
+  InstructionSet wanted = InstructionSet::Automatic);
 
 } // namespace pointhaptics

@@ -182,7 +182,7 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
   }
   const double largest = std::max(extent, kLargestFitRadiusInCells * size);
   scales = fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor, uses,
-    input.local ? FitNeeds::ofFineCells() : FitNeeds());
+    input.local ? FitNeeds::ofFineCells() : FitNeeds(), input.instructions);
   for (std::size_t i = 0; i < radii.size(); ++i)
   {
     scales[i].proxyRadius = radii[i];

@@ -48,6 +48,8 @@ struct HapticSceneInput
   std::optional<Local> local;
   /// The scene is of these cells of the cloud alone; points that the part does not hold are left out.
   std::optional<ScenePart> part;
+  /// What builds it, as far as this machine has them; the scene is the same, bit for bit.
+  InstructionSet instructions = InstructionSet::Automatic;
   AffineTransform
     modelToWorkspace; ///< The transform the points went through; carries the proxy into a new snapshot.
 };

@@ -37,6 +37,12 @@ struct Proxy::Implementation
   double lastDt = 0.0; ///< Of the last step, seconds.
   double fadedSeconds = 0.0;
 
+  explicit Implementation(InstructionSet wanted)
+    : memory(wanted)
+    , rehearsalMemory(wanted)
+  {
+  }
+
   void take(const HapticScene* newScene) noexcept
   {
     if (newScene && hadScene && !(newScene->modelToLattice() == lastLattice))
@@ -180,8 +186,8 @@ struct Proxy::Implementation
   }
 };
 
-Proxy::Proxy(const HapticParameters& parameters)
-  : implementation_(std::make_unique<Implementation>())
+Proxy::Proxy(const HapticParameters& parameters, InstructionSet wanted)
+  : implementation_(std::make_unique<Implementation>(wanted))
 {
   setParameters(parameters);
 }

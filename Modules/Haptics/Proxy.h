@@ -2,6 +2,7 @@
 /// The proxy: stays on the surface while the HIP goes inside; the spring between them is the force.
 #pragma once
 
+#include "Core/InstructionSet.h"
 #include "Haptics/HapticParameters.h"
 #include "Haptics/HapticScene.h"
 
@@ -53,8 +54,9 @@ struct ProxyState
 class Proxy
 {
 public:
-  /// Parameters whose check() is not Ok are replaced by the defaults.
-  explicit Proxy(const HapticParameters& parameters = {});
+  /// Parameters whose check() is not Ok are replaced by the defaults. @param wanted the instructions to use,
+  /// as far as this machine has them; the states are the same bits.
+  explicit Proxy(const HapticParameters& parameters = {}, InstructionSet wanted = InstructionSet::Automatic);
   ~Proxy();
   Proxy(Proxy&&) noexcept;
   Proxy& operator=(Proxy&&) noexcept;

@@ -19,6 +19,11 @@ public:
   /// What is gathered near the proxy; serves one proxy at a time.
   struct Memory
   {
+    explicit Memory(InstructionSet wanted)
+      : fit(wanted)
+    {
+    }
+
     FitCells fit;
     BallCells ball;
 

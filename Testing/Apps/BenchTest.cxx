@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
@@ -199,6 +200,25 @@ TEST_F(Bench, TheProxyIsJudgedOnEveryPathAndMethod)
   EXPECT_EQ(result["validation"]["rows"].size(), 4u);
   EXPECT_EQ(result["size"]["rows"].size(), 2u);
   EXPECT_FALSE(result.contains("scans")) << "none was given";
+}
+
+TEST_F(Bench, TheProxysInstructionSetsAreTimedSideBySide)
+{
+  const std::vector<std::string> command = { "bench", "proxy", "--quick", "--studies", "instructions" };
+  std::vector<std::string> asJson = command;
+  asJson.emplace_back("--json");
+  const json result = json::parse(this->succeed(asJson));
+  const json& rows = result["instructions"]["rows"];
+  ASSERT_GE(rows.size(), 2u) << "clean and noisy, with the baseline at least";
+  EXPECT_EQ(rows[rows.size() - 1]["instructions"], "baseline");
+  for (const json& row : rows)
+  {
+    EXPECT_GT(row["fit_us"], 0.0) << row;
+    EXPECT_GT(row["p50_us"], 0.0) << row;
+    EXPECT_LE(row["p50_us"], row["p99_us"]) << row;
+  }
+  // For the log of whoever runs the tests.
+  std::printf("%s\n", this->succeed(command).c_str());
 }
 
 TEST_F(Bench, ScansAreFeltAndMeshesAreTheirJudges)

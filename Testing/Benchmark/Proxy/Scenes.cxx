@@ -49,6 +49,7 @@ Scene sceneOf(const std::vector<Vec3>& points, const SceneSettings& settings)
 {
   HapticSceneInput input;
   input.modelToWorkspace = settings.transform;
+  input.instructions = settings.instructions;
   if (settings.raw)
   {
     input.points.reserve(points.size());

@@ -69,9 +69,9 @@ std::vector<Stroke> strokesOn(const HapticScene& scene, int count)
   return strokes;
 }
 
-StrokeTrace feelStroke(const HapticScene& scene, const Stroke& stroke, bool following)
+StrokeTrace feelStroke(const HapticScene& scene, const Stroke& stroke, bool following, InstructionSet wanted)
 {
-  Proxy proxy;
+  Proxy proxy({}, wanted);
   proxy.setScene(&scene);
   StrokeTrace trace;
   Vec3 hip = stroke.place + kStart * stroke.normal;

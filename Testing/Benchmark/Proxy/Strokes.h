@@ -35,8 +35,10 @@ struct StrokeTrace
   std::vector<double> microseconds;
 };
 
-/// Slides at 10 mm/s: straight on, or @p following the surface it feels at 1 mm depth, as a hand does.
-StrokeTrace feelStroke(const HapticScene& scene, const Stroke& stroke, bool following);
+/// Slides at 10 mm/s: straight on, or @p following the surface it feels at 1 mm depth, as a hand does. @param
+/// wanted the proxy's instructions.
+StrokeTrace feelStroke(const HapticScene& scene, const Stroke& stroke, bool following,
+  InstructionSet wanted = InstructionSet::Automatic);
 
 } // namespace proxy
 } // namespace bench

@@ -35,6 +35,7 @@ ReportPart studyPaths(StudyContext& context);
 ReportPart studyValidation(StudyContext& context);
 ReportPart studyEdges(StudyContext& context);
 ReportPart studySize(StudyContext& context);
+ReportPart studyInstructions(StudyContext& context);
 /// Without a key where there are no scans.
 ReportPart studyScans(StudyContext& context);
 ReportPart studyMeshes(StudyContext& context);

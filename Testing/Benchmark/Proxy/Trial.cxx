@@ -22,9 +22,9 @@ constexpr double kSmallestMove = 1e-6;
 
 /// Walks the course; the update time of each tick in microseconds, the least over all walks so far.
 std::vector<ProxyState> walk(const HapticScene& scene, const HapticParameters& parameters,
-  const Course& course, std::vector<double>& microseconds)
+  const Course& course, InstructionSet wanted, std::vector<double>& microseconds)
 {
-  Proxy proxy(parameters);
+  Proxy proxy(parameters, wanted);
   proxy.setScene(&scene);
   std::vector<ProxyState> states;
   states.reserve(course.hip.size());
@@ -134,7 +134,8 @@ void judgeTurn(const std::vector<ProxyState>& states, const std::vector<ExactCon
   figures.above100Hz = highFrequencies(error);
 }
 
-void judgeTimes(
+/// @return the times in contact, sorted.
+std::vector<double> judgeTimes(
   const std::vector<ProxyState>& states, const std::vector<double>& microseconds, TrialFigures& figures)
 {
   std::vector<double> touching;
@@ -158,18 +159,19 @@ void judgeTimes(
     figures.maximum = touching.back();
   }
   figures.freeP50 = free.empty() ? 0.0 : quantile(free, 0.5);
+  return touching;
 }
 
 } // namespace
 
 Trial runTrial(const HapticScene& scene, const HapticParameters& parameters, const Course& course,
-  const ExactAnswer& exact, int repetitions)
+  const ExactAnswer& exact, int repetitions, InstructionSet wanted)
 {
   Trial trial;
   std::vector<double> microseconds(course.hip.size(), INFINITY);
   for (int i = 0; i < std::max(1, repetitions); ++i)
   {
-    trial.states = walk(scene, parameters, course, microseconds);
+    trial.states = walk(scene, parameters, course, wanted, microseconds);
   }
   std::vector<ExactContact> answers;
   answers.reserve(course.hip.size());
@@ -179,7 +181,7 @@ Trial runTrial(const HapticScene& scene, const HapticParameters& parameters, con
   }
   judgeForces(trial.states, answers, parameters.contact.stiffness, trial.figures);
   judgeTurn(trial.states, answers, course, trial.figures);
-  judgeTimes(trial.states, microseconds, trial.figures);
+  trial.microseconds = judgeTimes(trial.states, microseconds, trial.figures);
   return trial;
 }
 

@@ -45,12 +45,13 @@ struct Trial
 {
   TrialFigures figures;
   std::vector<ProxyState> states;
+  std::vector<double> microseconds; ///< Of the ticks in contact, sorted.
 };
 
 /// Runs @p course from a fresh proxy. @p repetitions: the fastest of that many runs tells the time of each
-/// tick.
+/// tick. @param wanted the proxy's instructions.
 Trial runTrial(const HapticScene& scene, const HapticParameters& parameters, const Course& course,
-  const ExactAnswer& exact, int repetitions);
+  const ExactAnswer& exact, int repetitions, InstructionSet wanted = InstructionSet::Automatic);
 
 } // namespace proxy
 } // namespace bench

@@ -38,7 +38,7 @@ constexpr const char* kMethod =
   "contact, the maximum of all ticks. Status: percent of the ticks that set each bit of ProxyState::status.";
 
 /// Names of the bits of ProxyState::status, in their order.
-constexpr const char* kStatusNames[] = { "non-finite", "rounds", "step-limit", "lost", "rim", "no-scene",
+constexpr const char* kStatusNames[] = { "non-finite", "rounds", "step-limit", "ball", "bit4", "no-scene",
   "cells", "settling", "stiffness" };
 
 /// "1 + 2": before and after the leaps, where there are some.
