@@ -266,7 +266,7 @@ bool SurfaceTracker::isAtRim(const HapticScene& scene, FitCells& memory, Vec3& o
   {
     // Over a hole; the proxy sphere stays on one that it cannot pass.
     double distance = 0.0;
-    return scene.pyramid().nearest(0, frame_.origin, scene.proxyRadius(frame_.origin), distance) < 0;
+    return scene.pyramid().nearest(0, frame_.origin, scene.coveringRadius(frame_.origin), distance) < 0;
   }
   const Vec3 centroid = Vec3(sums.place[0], sums.place[1], sums.place[2]) / sums.weights;
   const Vec3 tangential = centroid - dot(centroid, frame_.normal) * frame_.normal;
