@@ -103,7 +103,7 @@ void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
 
 /// Arrays the pipeline adds to those of the cloud.
 constexpr const char* kMadeByPipeline[] = { kHeightArrayName, "Density", "ProxyRadius", "Bandwidth",
-  "VoxelPointCount", kResidualArrayName };
+  "MeanBandwidth", "VoxelPointCount", kResidualArrayName };
 
 bool isMadeByPipeline(const std::string& name)
 {

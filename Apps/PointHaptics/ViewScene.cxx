@@ -212,7 +212,9 @@ void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
   options.bandwidth.configure(bandwidth_);
   // The picture needs the sizes of its splats and what it is coloured by; the scene computes the few radii it
   // needs.
-  bandwidth_->ComputeBandwidthOn();
+  bandwidth_->ComputeBandwidthOff();
+  bandwidth_->ComputeMeanBandwidthOn();
+  mapper_->SetSizeArrayName("MeanBandwidth");
   this->chooseArrays();
 }
 

@@ -14,21 +14,50 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTwoPi = 6.28318530717958647693;
 
-double gaussianOnSurface(const NeighborQuery& query, const Vec3& center, double b)
+/// What each kernel counts, by slot, and the sum of all.
+struct Weights
 {
-  double sum = 0.0;
-  query.visitBallSlots(
-    center, kDensityCutoff * b, [&](double d2, std::int64_t) { sum += std::exp(-0.5 * d2 / (b * b)); });
-  return sum / (double(query.size()) * kTwoPi * b * b);
+  const NeighborQuery& query;
+  const std::vector<double>& counts;
+  double total = 0.0;
+
+  double at(std::int64_t slot) const
+  {
+    return counts.empty() ? 1.0 : std::max(1.0, counts[std::size_t(query.index(slot))]);
+  }
+};
+
+Weights weightsOf(const NeighborQuery& query, const std::vector<double>& counts)
+{
+  Weights weights{ query, counts, 0.0 };
+  if (counts.empty())
+  {
+    weights.total = double(query.size());
+    return weights;
+  }
+  for (std::int64_t slot = 0; slot < query.size(); ++slot)
+  {
+    weights.total += weights.at(slot);
+  }
+  return weights;
 }
 
-double epanechnikovOnSurface(const NeighborQuery& query, const Vec3& center, double b)
+double gaussianOnSurface(const Weights& weights, const Vec3& center, double b)
+{
+  double sum = 0.0;
+  weights.query.visitBallSlots(center, kDensityCutoff * b,
+    [&](double d2, std::int64_t slot) { sum += weights.at(slot) * std::exp(-0.5 * d2 / (b * b)); });
+  return sum / (weights.total * kTwoPi * b * b);
+}
+
+double epanechnikovOnSurface(const Weights& weights, const Vec3& center, double b)
 {
   const double reach = kEpanechnikovReachOnSurface * b;
   double sum = 0.0;
-  query.visitBallSlots(
-    center, reach, [&](double d2, std::int64_t) { sum += std::max(0.0, 1.0 - d2 / (reach * reach)); });
-  return sum / (double(query.size()) * 0.5 * kPi * reach * reach);
+  weights.query.visitBallSlots(center, reach,
+    [&](double d2, std::int64_t slot)
+    { sum += weights.at(slot) * std::max(0.0, 1.0 - d2 / (reach * reach)); });
+  return sum / (weights.total * 0.5 * kPi * reach * reach);
 }
 
 template <typename Sum>
@@ -101,6 +130,14 @@ void surfaceDensities(const PointView& points, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor,
   DensityKernel kernel)
 {
+  surfaceDensities(points, {}, query, bandwidths, densities, executor, kernel);
+}
+
+void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor,
+  DensityKernel kernel)
+{
+  const Weights weights = weightsOf(query, counts);
   densities.assign(std::size_t(points.size()), 0.0);
   const auto density = kernel == DensityKernel::Epanechnikov ? &epanechnikovOnSurface : &gaussianOnSurface;
   // In spatial order, where the points of one ball after the other are close in memory.
@@ -122,7 +159,7 @@ void surfaceDensities(const PointView& points, const NeighborQuery& query,
         {
           lastPlace = query.point(slot);
           lastBandwidth = bandwidths[i];
-          last = density(query, lastPlace, lastBandwidth);
+          last = density(weights, lastPlace, lastBandwidth);
         }
         densities[i] = last;
       }

@@ -54,5 +54,11 @@ Status univariateDensities(DensityKernel kernel, const double* sample, std::int6
 void surfaceDensities(const PointView& points, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
   DensityKernel kernel = DensityKernel::Gaussian);
+/// Of the points that voxel means stand for: each kernel times its voxel's count (one per point; empty: 1
+/// each), N the sum of the counts. The bandwidths are to be those of the means: narrower kernels would leave
+/// gaps between them.
+void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
+  DensityKernel kernel = DensityKernel::Gaussian);
 
 } // namespace pointhaptics

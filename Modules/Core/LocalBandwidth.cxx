@@ -1,5 +1,6 @@
 #include "Core/LocalBandwidth.h"
 
+#include "Core/NeighborCounts.h"
 #include "Core/NeighborSweep.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 /// Radius of a cloud without any extent, in its own unit.
 constexpr double kRadiusWithoutExtent = 1e-3;
+const std::vector<double> kNone;
 
 /// What the neighbourhood of one point says; bandwidth is 0 where it has no spread.
 struct Neighborhood
@@ -23,15 +25,25 @@ struct Neighborhood
   double spacing = 0.0;
 };
 
+/// What the radii are made from.
+struct Sample
+{
+  const PointView& points;
+  const NeighborQuery& query;
+  const NeighborCounts counts;
+  const LocalBandwidthSettings& settings;
+};
+
 /// One worker's memory, reused from point to point.
 class NeighborhoodReader
 {
 public:
-  NeighborhoodReader(const NeighborQuery& query, const LocalBandwidthSettings& settings)
-    : query_(query)
-    , settings_(settings)
+  explicit NeighborhoodReader(const Sample& sample)
+    : query_(sample.query)
+    , counts_(sample.counts)
+    , settings_(sample.settings)
     , ofDistances_(
-        settings.rule == BandwidthRule::SilvermanRobust || settings.rule == BandwidthRule::SheatherJones)
+        settings_.rule == BandwidthRule::SilvermanRobust || settings_.rule == BandwidthRule::SheatherJones)
   {
   }
 
@@ -57,13 +69,17 @@ private:
     {
       return result;
     }
-    const double count = double(list.count);
+    const bool ofMeans = !counts_.empty();
+    const double count = ofMeans && settings_.fixedRadius ? counts_.sum(list) : double(list.count);
     result.spacing = std::sqrt(list.squaredDistances[list.count - 1]) * std::sqrt(kPi / (count - 1.0));
     double b = 0.0;
-    const Status status = ofDistances_ ? bandwidthOfDistances(list, b) : bandwidthOfSpread(list, b);
+    const Status status =
+      ofDistances_ ? bandwidthOfDistances(list, count, b) : bandwidthOfSpread(list, count, b);
     if (status == Status::Ok || status == Status::EquationUnsolved) // then b is that of SilvermanRobust
     {
-      result.bandwidth = b;
+      const double finer = ofMeans && !settings_.fixedRadius ? std::sqrt(counts_.mean(list)) : 1.0;
+      result.bandwidth = b / finer;
+      result.spacing /= finer;
     }
     return result;
   }
@@ -84,32 +100,37 @@ private:
     return std::sqrt(scatter / (n - 1.0) / 2.0);
   }
 
-  Status bandwidthOfSpread(const NeighborList& list, double& b)
+  Status bandwidthOfSpread(const NeighborList& list, double count, double& b)
   {
-    if (list.count != countOfFactor_)
+    if (count != countOfFactor_)
     {
-      countOfFactor_ = list.count;
-      statusOfFactor_ = bandwidth(settings_.rule, 1.0, double(list.count), 2, factor_);
+      countOfFactor_ = count;
+      statusOfFactor_ = bandwidth(settings_.rule, 1.0, count, 2, factor_);
     }
     const double s = surfaceSpread(list);
     b = factor_ * s;
     return b > 0.0 && std::isfinite(b) ? statusOfFactor_ : Status::DegenerateSample;
   }
 
-  Status bandwidthOfDistances(const NeighborList& list, double& b)
+  /// Distances are univariate: bandwidths fall as n^(-1/5).
+  Status bandwidthOfDistances(const NeighborList& list, double count, double& b)
   {
     distances_.resize(std::size_t(list.count));
     std::transform(list.squaredDistances, list.squaredDistances + list.count, distances_.begin(),
       [](double d2) { return std::sqrt(d2); });
-    return sampleBandwidth(settings_.rule, distances_.data(), std::int64_t(distances_.size()), scratch_, b);
+    const Status status =
+      sampleBandwidth(settings_.rule, distances_.data(), std::int64_t(distances_.size()), scratch_, b);
+    b *= count == double(list.count) ? 1.0 : std::pow(count / double(list.count), -0.2);
+    return status;
   }
 
   const NeighborQuery& query_;
+  const NeighborCounts& counts_;
   const LocalBandwidthSettings& settings_;
   const bool ofDistances_;
   // The rule for a spread of 1 and the count it was asked for last.
   double factor_ = 0.0;
-  int countOfFactor_ = 0;
+  double countOfFactor_ = 0.0;
   Status statusOfFactor_ = Status::DegenerateSample;
   std::vector<double> distances_;
   BandwidthScratch scratch_;
@@ -215,9 +236,10 @@ double fallbackRadius(
   return settings.maximumRadius > 0.0 ? std::min(radius, settings.maximumRadius) : radius;
 }
 
-void fillWithout(const PointView& points, const LocalBandwidthSettings& settings,
-  std::vector<double>& bandwidths, std::vector<double>& radii)
+void fillWithout(const Sample& sample, std::vector<double>& bandwidths, std::vector<double>& radii)
 {
+  const PointView& points = sample.points;
+  const LocalBandwidthSettings& settings = sample.settings;
   const double fallback = fallbackRadius(points, radii, settings);
   for (std::int64_t i = 0; i < points.size(); ++i)
   {
@@ -231,19 +253,20 @@ void fillWithout(const PointView& points, const LocalBandwidthSettings& settings
 
 /// @return whether every point has got a radius.
 template <typename MakeSweep>
-bool readAll(const NeighborQuery& query, const LocalBandwidthSettings& settings, MakeSweep&& makeSweep,
-  std::vector<double>& bandwidths, std::vector<double>& radii, const Executor& executor)
+bool readAll(const Sample& sample, MakeSweep&& makeSweep, std::vector<double>& bandwidths,
+  std::vector<double>& radii, const Executor& executor)
 {
+  const NeighborQuery& query = sample.query;
   std::atomic<bool> complete{ true };
   forRange(executor, NeighborSweep::leaves(query), NeighborSweep::kSmallestRange,
     [&](std::int64_t begin, std::int64_t end)
     {
-      NeighborhoodReader reader(query, settings);
+      NeighborhoodReader reader(sample);
       makeSweep().run(begin, end,
         [&](const NeighborList& list)
         {
           const Neighborhood near = reader.read(list);
-          const double radius = radiusOf(near, settings);
+          const double radius = radiusOf(near, sample.settings);
           if (!(near.bandwidth > 0.0) || !std::isfinite(radius))
           {
             complete.store(false, std::memory_order_relaxed);
@@ -257,11 +280,12 @@ bool readAll(const NeighborQuery& query, const LocalBandwidthSettings& settings,
   return complete;
 }
 
-/// Calls withSweep(makeSweep) for the neighbourhoods that @p settings ask for.
+/// Calls withSweep(makeSweep) for the neighbourhoods that the settings ask for.
 template <typename Function>
-bool withNeighborhoods(
-  const NeighborQuery& query, const LocalBandwidthSettings& settings, Function&& withSweep)
+bool withNeighborhoods(const Sample& sample, Function&& withSweep)
 {
+  const NeighborQuery& query = sample.query;
+  const LocalBandwidthSettings& settings = sample.settings;
   if (settings.fixedRadius)
   {
     return withSweep([&] { return BallSweep(query, settings.radius); });
@@ -272,20 +296,20 @@ bool withNeighborhoods(
 
 /// @return whether each of @p slots has got a radius.
 template <typename MakeSweep>
-bool readSome(const NeighborQuery& query, const LocalBandwidthSettings& settings, MakeSweep&& makeSweep,
-  const std::vector<std::int64_t>& slots, std::vector<double>& radii, const Executor& executor)
+bool readSome(const Sample& sample, MakeSweep&& makeSweep, const std::vector<std::int64_t>& slots,
+  std::vector<double>& radii, const Executor& executor)
 {
   constexpr std::int64_t kSmallestRange = 64;
   std::atomic<bool> complete{ true };
   forRange(executor, std::int64_t(slots.size()), kSmallestRange,
     [&](std::int64_t begin, std::int64_t end)
     {
-      NeighborhoodReader reader(query, settings);
+      NeighborhoodReader reader(sample);
       auto&& sweep = makeSweep();
       for (std::int64_t i = begin; i < end; ++i)
       {
         const Neighborhood near = reader.read(sweep.alone(slots[std::size_t(i)]));
-        radii[std::size_t(i)] = radiusOf(near, settings);
+        radii[std::size_t(i)] = radiusOf(near, sample.settings);
         if (!(near.bandwidth > 0.0) || !std::isfinite(radii[std::size_t(i)]))
         {
           complete.store(false, std::memory_order_relaxed);
@@ -295,11 +319,20 @@ bool readSome(const NeighborQuery& query, const LocalBandwidthSettings& settings
   return complete;
 }
 
-Status checked(const PointView& points, const LocalBandwidthSettings& settings)
+Status checked(
+  const PointView& points, const std::vector<double>& counts, const LocalBandwidthSettings& settings)
 {
   const Status status = settings.check();
-  return status == Status::Ok && points.size() > NeighborQuery::kMostPoints ? Status::InvalidParameter
-                                                                            : status;
+  const bool countsFit = counts.empty() || counts.size() == std::size_t(points.size());
+  return status == Status::Ok && (points.size() > NeighborQuery::kMostPoints || !countsFit)
+    ? Status::InvalidParameter
+    : status;
+}
+
+Sample sampleOf(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings)
+{
+  return { points, query, NeighborCounts(query, settings.usePointCounts ? counts : kNone), settings };
 }
 
 }
@@ -322,18 +355,26 @@ Status localBandwidths(const PointView& points, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
   const Executor& executor)
 {
+  return localBandwidths(points, {}, query, settings, bandwidths, radii, executor);
+}
+
+Status localBandwidths(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
+  const Executor& executor)
+{
   bandwidths.assign(std::size_t(points.size()), 0.0);
   radii.assign(std::size_t(points.size()), 0.0);
-  const Status status = checked(points, settings);
+  const Status status = checked(points, counts, settings);
   if (status != Status::Ok)
   {
     return status;
   }
-  const bool complete = withNeighborhoods(query, settings,
-    [&](auto&& makeSweep) { return readAll(query, settings, makeSweep, bandwidths, radii, executor); });
+  const Sample sample = sampleOf(points, counts, query, settings);
+  const bool complete = withNeighborhoods(
+    sample, [&](auto&& makeSweep) { return readAll(sample, makeSweep, bandwidths, radii, executor); });
   if (!complete)
   {
-    fillWithout(points, settings, bandwidths, radii);
+    fillWithout(sample, bandwidths, radii);
   }
   if (settings.smoothRadius)
   {
@@ -346,20 +387,28 @@ Status localRadiiAt(const PointView& points, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
   const Executor& executor)
 {
+  return localRadiiAt(points, {}, query, settings, slots, radii, executor);
+}
+
+Status localRadiiAt(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
+  const Executor& executor)
+{
   radii.assign(slots.size(), 0.0);
-  const Status status = checked(points, settings);
+  const Status status = checked(points, counts, settings);
   if (status != Status::Ok)
   {
     return status;
   }
+  const Sample sample = sampleOf(points, counts, query, settings);
   const bool complete = !settings.smoothRadius &&
-    withNeighborhoods(query, settings,
-      [&](auto&& makeSweep) { return readSome(query, settings, makeSweep, slots, radii, executor); });
+    withNeighborhoods(
+      sample, [&](auto&& makeSweep) { return readSome(sample, makeSweep, slots, radii, executor); });
   if (!complete)
   {
     std::vector<double> bandwidths;
     std::vector<double> all;
-    const Status whole = localBandwidths(points, query, settings, bandwidths, all, executor);
+    const Status whole = localBandwidths(points, counts, query, settings, bandwidths, all, executor);
     std::transform(slots.begin(), slots.end(), radii.begin(),
       [&](std::int64_t slot) { return all[std::size_t(query.index(slot))]; });
     return whole;

@@ -24,6 +24,7 @@ struct LocalBandwidthSettings
   double minimumRadius = 0.0; ///< r1; 0: kNoSinkSpacings local spacings.
   double maximumRadius = 0.0; ///< r2; 0: none.
   bool smoothRadius = false;  ///< Cut the radii by limitSlope().
+  bool usePointCounts = true; ///< Of voxel means: bandwidths and radii of the points they stand for.
   Status check() const noexcept;
 };
 
@@ -49,11 +50,39 @@ Status localBandwidths(const PointView& points, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
   const Executor& executor = {});
 
+/// The same where @p points are the means of voxels, and @p counts says of how many points each one is: the
+/// bandwidths and radii of those points. The paper takes the bandwidth from the density of the points, so
+/// that the proxy is large where they are sparse and small where they are dense. Means do not show that
+/// density: on a surface they stand about a voxel apart wherever there are points, and a cloud of 3.9:1 in
+/// spacing has means of 1.6:1.
+///
+/// k nearest: N points lie where c N would if each mean stood for c of them, so their spacing, and with it s,
+/// the sample of distances and the automatic r1, is that of the means over sqrt(c). c is the mean of the
+/// neighbours' counts with weights 1 - (d / d_k)^2, d_k the distance of the k-th: voxels that the surface
+/// only touches at a corner have few points, and many of them together the right number. n stays k + 1. So
+/// that a sparse region keeps its radius beside a dense one, no count is taken for more than
+/// 4 times the same mean with weights (1 - (d / d_k)^2)^4.
+/// Ball: the spread is that of the means, and n the number of points.
+///
+/// Where all counts are 1 nothing is changed, not a bit; the factor is a continuous function of counts and
+/// places as long as the neighbours are the same. Accuracy against the radii of the raw points: 5 % larger in
+/// the median (they are less even than means), and as near to them as the radii of a random sample are to
+/// their own mean (LocalBandwidthCountsTest). What changes within two voxels is blurred.
+/// @param counts one per point, or empty: 1 each, as without settings.usePointCounts. What is below 1 or NaN
+/// counts as 1. Another size is an InvalidParameter.
+Status localBandwidths(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
+  const Executor& executor = {});
+
 /// The radii of the points at @p slots of @p query alone, in that order: those of localBandwidths, bit for
 /// bit, without its work for all the others. For a few of many points: about 2 us each at k = 16. All points
 /// are looked at only where that is asked for (smoothRadius) or needed (one of the neighbourhoods has no
 /// spread). Errors as for localBandwidths. Independent of @p executor.
 Status localRadiiAt(const PointView& points, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
+  const Executor& executor = {});
+/// Of means of voxels, with the counts of localBandwidths.
+Status localRadiiAt(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
   const Executor& executor = {});
 

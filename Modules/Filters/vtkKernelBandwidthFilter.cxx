@@ -6,6 +6,7 @@
 #include "Core/Density.h"
 #include "Core/LocalBandwidth.h"
 
+#include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -80,6 +81,23 @@ private:
   double To;
 };
 
+/// VoxelPointCount; empty where it is missing, has another shape, or is not to be used.
+std::vector<double> countsOf(vtkPolyData* cloud, bool use)
+{
+  std::vector<double> counts;
+  vtkDataArray* array = use ? cloud->GetPointData()->GetArray("VoxelPointCount") : nullptr;
+  if (array && array->GetNumberOfComponents() == 1 &&
+    array->GetNumberOfTuples() == cloud->GetNumberOfPoints())
+  {
+    counts.resize(std::size_t(array->GetNumberOfTuples()));
+    for (std::size_t i = 0; i < counts.size(); ++i)
+    {
+      counts[i] = array->GetComponent(vtkIdType(i), 0);
+    }
+  }
+  return counts;
+}
+
 void addArray(vtkPolyData* output, const char* name, const std::vector<double>& values)
 {
   vtkNew<vtkDoubleArray> array;
@@ -102,6 +120,7 @@ LocalBandwidthSettings vtkKernelBandwidthFilter::GetSettings() const
   settings.minimumRadius = this->MinimumRadius;
   settings.maximumRadius = this->MaximumRadius;
   settings.smoothRadius = this->SmoothRadius;
+  settings.usePointCounts = this->UsePointCounts;
   return settings;
 }
 
@@ -129,7 +148,8 @@ int vtkKernelBandwidthFilter::RequestData(
     return 1;
   }
   output->ShallowCopy(input);
-  const bool wanted = this->ComputeBandwidth || this->ComputeProxyRadius || this->ComputeDensity;
+  const bool wanted =
+    this->ComputeBandwidth || this->ComputeProxyRadius || this->ComputeDensity || this->ComputeMeanBandwidth;
   if (wanted && !this->Estimate(input, output, settings))
   {
     output->Initialize();
@@ -146,18 +166,33 @@ bool vtkKernelBandwidthFilter::Estimate(
   NeighborQuery query;
   query.build(points.view(), SmpExecutor());
   this->UpdateProgress(0.1);
+  const std::vector<double> counts = countsOf(input, settings.usePointCounts);
+  const bool wantsPoints = this->ComputeBandwidth || this->ComputeProxyRadius;
+  const bool wantsMeans = this->ComputeDensity || this->ComputeMeanBandwidth;
   std::vector<double> bandwidths;
   std::vector<double> radii;
+  std::vector<double> ofMeans;
   std::vector<double> densities;
+  // One search does for both where each mean is one point.
   if (this->GetAbortExecute() ||
-    localBandwidths(points.view(), query, settings, bandwidths, radii, ReportingExecutor(this, 0.1, found)) !=
-      Status::Ok)
+    ((wantsPoints || counts.empty()) &&
+      localBandwidths(points.view(), counts, query, settings, bandwidths, radii,
+        ReportingExecutor(this, 0.1, found)) != Status::Ok))
   {
     return false;
   }
+  if (wantsMeans && !counts.empty() && !this->GetAbortExecute())
+  {
+    LocalBandwidthSettings alone = settings;
+    alone.smoothRadius = false;
+    std::vector<double> unused;
+    (void)localBandwidths(points.view(), query, alone, ofMeans, unused,
+      ReportingExecutor(this, wantsPoints ? found : 0.1, found));
+  }
+  const std::vector<double>& widths = counts.empty() ? bandwidths : ofMeans;
   if (this->ComputeDensity && !this->GetAbortExecute())
   {
-    surfaceDensities(points.view(), query, bandwidths, densities, ReportingExecutor(this, found, 0.95),
+    surfaceDensities(points.view(), counts, query, widths, densities, ReportingExecutor(this, found, 0.95),
       pointhaptics::DensityKernel(this->DensityKernel));
   }
   if (this->GetAbortExecute())
@@ -167,6 +202,10 @@ bool vtkKernelBandwidthFilter::Estimate(
   if (this->ComputeDensity)
   {
     addArray(output, "Density", densities);
+  }
+  if (this->ComputeMeanBandwidth)
+  {
+    addArray(output, "MeanBandwidth", widths);
   }
   if (this->ComputeBandwidth)
   {
@@ -191,8 +230,10 @@ void vtkKernelBandwidthFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumRadius: " << this->MinimumRadius << "\n";
   os << indent << "MaximumRadius: " << this->MaximumRadius << "\n";
   os << indent << "SmoothRadius: " << this->SmoothRadius << "\n";
+  os << indent << "UsePointCounts: " << this->UsePointCounts << "\n";
   os << indent << "DensityKernel: " << this->DensityKernel << "\n";
   os << indent << "ComputeBandwidth: " << this->ComputeBandwidth << "\n";
   os << indent << "ComputeProxyRadius: " << this->ComputeProxyRadius << "\n";
+  os << indent << "ComputeMeanBandwidth: " << this->ComputeMeanBandwidth << "\n";
   os << indent << "ComputeDensity: " << this->ComputeDensity << "\n";
 }

@@ -19,10 +19,16 @@
  * deviation along one direction of the surface. s' and IQR are those of the distances of the neighbours,
  * which are also the sample of SheatherJones.
  *
- * Input: any vtkPolyData; only its points are read, float or double. Output: the input with the point arrays
- * added that are asked for: "Bandwidth" and "ProxyRadius" (double, metres, or whatever unit the points have)
- * and "Density" (double, per squared unit: the kernel density estimate on a surface with each point's own
- * bandwidth, see DensityKernel). Arrays of these names in the input are replaced; the active scalars stay.
+ * The paper computes the bandwidth from the density of the points, because the proxy is to be large where
+ * they are sparse and small where they are dense. The means of a resampled cloud stand about a voxel apart
+ * whatever that density was. Where the input has the point array "VoxelPointCount" of vtkVoxelMeanResampler,
+ * bandwidths and radii are therefore those of the points that the means stand for (see UsePointCounts).
+ *
+ * Input: any vtkPolyData; its points are read, float or double, and VoxelPointCount. Output: the input with
+ * the point arrays added that are asked for: "Bandwidth" and "ProxyRadius" (double, metres, or whatever unit
+ * the points have) and "Density" (double, per squared unit: the kernel density estimate on a surface with
+ * each point's own bandwidth, see DensityKernel). Arrays of these names in the input are replaced; the active
+ * scalars stay.
  *
  * Neighbourhoods are exact (k nearest, ties broken by the point's index). Points that are NaN or infinite
  * take no part and get the value 0. A neighbourhood without spread (duplicates, a single point) gets as its
@@ -164,6 +170,32 @@ public:
 
   ///@{
   /**
+   * Where there is a point array VoxelPointCount: bandwidths and radii of the points in the voxels instead of
+   * their means, and every point counts in Density, whose kernels keep the bandwidths of the means. c points
+   * in each voxel of the neighbourhood have sqrt(1/c) of the spacing of the means, and so of the radius. A
+   * cloud of 3.9:1 in spacing on 300^3 voxels has radii of 3.9:1, and 1.6:1 without; they are 5 % larger than
+   * those of the raw points in the median. Where all counts are 1 nothing is changed, not a bit. Means
+   * themselves may be farther apart than such a radius: a sphere that is to stand on them needs about 2.8
+   * voxels (pointhaptics::HapticScene::coveringRadius). Default: on.
+   */
+  vtkSetMacro(UsePointCounts, bool);
+  vtkGetMacro(UsePointCounts, bool);
+  vtkBooleanMacro(UsePointCounts, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Add "MeanBandwidth" (double, in the unit of the points): the bandwidths of the means themselves, whatever
+   * points they stand for. That is how far apart they are, and so the length for splats that are to close a
+   * surface (vtkSplatMapper). Without VoxelPointCount it is Bandwidth. Default: off.
+   */
+  vtkSetMacro(ComputeMeanBandwidth, bool);
+  vtkGetMacro(ComputeMeanBandwidth, bool);
+  vtkBooleanMacro(ComputeMeanBandwidth, bool);
+  ///@}
+
+  ///@{
+  /**
    * Which arrays to add; what is off costs nothing, and Density costs a second search. Default: all on.
    */
   vtkSetMacro(ComputeBandwidth, bool);
@@ -197,10 +229,12 @@ protected:
   double MinimumRadius = 0.0;
   double MaximumRadius = 0.0;
   bool SmoothRadius = false;
+  bool UsePointCounts = true;
   int DensityKernel = Gaussian;
   bool ComputeBandwidth = true;
   bool ComputeProxyRadius = true;
   bool ComputeDensity = true;
+  bool ComputeMeanBandwidth = false;
 
 private:
   bool Estimate(

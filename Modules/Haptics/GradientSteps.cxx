@@ -119,7 +119,7 @@ void GradientSteps::step(const HapticScene& scene, const HapticParameters& param
   {
     state.status |= kProxyStepLimit;
   }
-  const double radius = scene.proxyRadius(center_);
+  const double radius = scene.coveringRadius(center_);
   for (int i = 0; i < steps; ++i)
   {
     oneStep(scene, parameters, hip, radius);

@@ -10,7 +10,8 @@ namespace pointhaptics
 
 /// v_n = sum over the points in the sphere of (r_p - d) times the unit vector from the point to the centre.
 /// With no point inside the sphere follows the HIP; with |v_n| above zeta it backs off along v_n; in contact
-/// it slides along v_t. One thread; no allocation; at most maximumStepsPerTick steps a call.
+/// it slides along v_t. The sphere has HapticScene::coveringRadius(), or it would fall through the gaps
+/// between voxel means. One thread; no allocation; at most maximumStepsPerTick steps a call.
 class GradientSteps
 {
 public:

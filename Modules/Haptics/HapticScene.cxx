@@ -220,7 +220,8 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   }
   const double extent = norm(cloud->bounds.extent());
   const auto merged = [](const Cell& cell) { return cell.count > 1.0; };
-  cloud->exactMoments = !input.covariances.empty() || std::none_of(cells.begin(), cells.end(), merged);
+  const bool ofVoxels = std::any_of(cells.begin(), cells.end(), merged);
+  cloud->exactMoments = !input.covariances.empty() || !ofVoxels;
   const Vec3 above = input.corner ? cloud->bounds.minimum - *input.corner : Vec3{ -1.0, -1.0, -1.0 };
   cloud->aligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
   const Vec3* const corner = cloud->aligned ? &*input.corner : nullptr;
@@ -240,6 +241,7 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   }
   const double size = cloud->pyramid.level(0).voxelSize;
   cloud->latticeCells = size == input.cellSize;
+  cloud->leastCovering = ofVoxels ? kRadiusInSpacings * size : 0.0;
   const std::optional<ScenePart> part = std::move(input.part);
   const std::optional<HapticSceneInput::Local> local = input.local;
   const std::vector<NodeUse> uses = part ? part->uses(cloud->pyramid) : std::vector<NodeUse>();
@@ -327,6 +329,11 @@ std::shared_ptr<const HapticScene> HapticScene::withBeyond(const HapticScene& wh
 double HapticScene::proxyRadius(const Vec3& position) const noexcept
 {
   return cloud_->scale.at(pyramid(), position).proxyRadius;
+}
+
+double HapticScene::coveringRadius(const Vec3& position) const noexcept
+{
+  return std::max(proxyRadius(position), cloud_->leastCovering);
 }
 
 double HapticScene::noise(const Vec3& position) const noexcept

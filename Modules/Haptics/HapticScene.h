@@ -30,8 +30,8 @@ struct HapticSceneInput
   std::vector<SymMat3> covariances; ///< Central second moments of each voxel; empty: zero.
   std::vector<double> proxyRadii;   ///< From the bandwidth; empty: found as the next line says.
   /// The rule for the radii, of which only those that the scene needs are computed, a few in a hundred: the
-  /// scene is the same, bit for bit, as with the proxyRadii of localBandwidths. Neither: 2.8 local spacings
-  /// everywhere.
+  /// scene is the same, bit for bit, as with the proxyRadii of localBandwidths, which takes the counts for
+  /// the density of the points unless usePointCounts is off. Neither: 2.8 local spacings everywhere.
   std::optional<LocalBandwidthSettings> bandwidth;
   /// Edge of the finest index cell: the voxel size; 0: from the points' spacing. Raised to 0.8 typical
   /// spacings where the points are sparser: finer cells would be empty.
@@ -122,6 +122,11 @@ public:
   /// Radius of the proxy sphere at @p position: smooth, from the radii of the points near it, and the cloud's
   /// typical one far from all of them; metres, above 0.
   double proxyRadius(const Vec3& position) const noexcept;
+  /// The radius of a sphere that is to stand on the cells themselves. Where those are voxels of several
+  /// points proxyRadius() may be smaller than the gaps between their means, and such a sphere would fall
+  /// through: this is at least 2.8 cells then, what the default rule gives for points a cell apart. On raw
+  /// points it is proxyRadius().
+  double coveringRadius(const Vec3& position) const noexcept;
   /// Radius and gate of the local surface fit at @p position: large enough for 30 points and 14 cells, more
   /// where the cloud is noisy. Functions of position only, so that the force does not depend on how the hand
   /// came there.
@@ -160,6 +165,7 @@ private:
     Bounds bounds;
     Bounds covered; ///< Of a part.
     double clearance = 0.0;
+    double leastCovering = 0.0; ///< coveringRadius() is not below this.
     bool exactMoments = true;
     bool aligned = false;
     bool latticeCells = false;

@@ -35,7 +35,7 @@ Status nodeRadii(const CellPyramid::Level& nodes, const HapticSceneInput& input,
   std::vector<double> found;
   if (input.proxyRadii.empty())
   {
-    const Status status = localRadiiAt(points, query, *input.bandwidth, slots, found, executor);
+    const Status status = localRadiiAt(points, input.counts, query, *input.bandwidth, slots, found, executor);
     if (status != Status::Ok)
     {
       return status;

@@ -134,6 +134,16 @@ Status measurePicked(vtkPolyData* cloud, const LocalBandwidthSettings& settings,
   query.build(access.view(), SmpExecutor());
   // The point with its neighbourhood alone has the same bandwidth as among all.
   std::vector<double> positions{ picked.inWorkspace.x, picked.inWorkspace.y, picked.inWorkspace.z };
+  vtkDataArray* pointCounts = cloud->GetPointData()->GetArray("VoxelPointCount");
+  std::vector<double> counts;
+  const auto addCount = [&](vtkIdType index)
+  {
+    if (pointCounts && pointCounts->GetNumberOfComponents() == 1)
+    {
+      counts.push_back(pointCounts->GetComponent(index, 0));
+    }
+  };
+  addCount(picked.index);
   const auto add = [&](std::int64_t index)
   {
     if (index != picked.index)
@@ -141,6 +151,7 @@ Status measurePicked(vtkPolyData* cloud, const LocalBandwidthSettings& settings,
       Vec3 p;
       cloud->GetPoint(static_cast<vtkIdType>(index), &p.x);
       positions.insert(positions.end(), { p.x, p.y, p.z });
+      addCount(static_cast<vtkIdType>(index));
     }
   };
   if (settings.fixedRadius)
@@ -164,7 +175,7 @@ Status measurePicked(vtkPolyData* cloud, const LocalBandwidthSettings& settings,
   alone.smoothRadius = false;
   std::vector<double> bandwidths;
   std::vector<double> radii;
-  const Status status = localBandwidths(view, neighborhood, alone, bandwidths, radii);
+  const Status status = localBandwidths(view, counts, neighborhood, alone, bandwidths, radii);
   if (status == Status::Ok)
   {
     picked.bandwidth = bandwidths.front();

@@ -147,9 +147,10 @@ SceneRequest SceneRequest::of(vtkVoxelMeanResampler* resampler, vtkKernelBandwid
       [neighborhood = bandwidth->GetNeighborhood(), neighbors = bandwidth->GetNumberOfNeighbors(),
         radius = bandwidth->GetRadius(), rule = bandwidth->GetRule(), scale = bandwidth->GetRadiusScale(),
         least = bandwidth->GetMinimumRadius(), most = bandwidth->GetMaximumRadius(),
-        smooth = bandwidth->GetSmoothRadius(), kernel = bandwidth->GetDensityKernel(),
-        bandwidths = bandwidth->GetComputeBandwidth(), radii = bandwidth->GetComputeProxyRadius(),
-        densities = bandwidth->GetComputeDensity()](vtkVoxelMeanResampler*, vtkKernelBandwidthFilter* own)
+        smooth = bandwidth->GetSmoothRadius(), counts = bandwidth->GetUsePointCounts(),
+        kernel = bandwidth->GetDensityKernel(), bandwidths = bandwidth->GetComputeBandwidth(),
+        radii = bandwidth->GetComputeProxyRadius(), densities = bandwidth->GetComputeDensity(),
+        ofMeans = bandwidth->GetComputeMeanBandwidth()](vtkVoxelMeanResampler*, vtkKernelBandwidthFilter* own)
       {
         own->SetNeighborhood(neighborhood);
         own->SetNumberOfNeighbors(neighbors);
@@ -159,10 +160,12 @@ SceneRequest SceneRequest::of(vtkVoxelMeanResampler* resampler, vtkKernelBandwid
         own->SetMinimumRadius(least);
         own->SetMaximumRadius(most);
         own->SetSmoothRadius(smooth);
+        own->SetUsePointCounts(counts);
         own->SetDensityKernel(kernel);
         own->SetComputeBandwidth(bandwidths);
         own->SetComputeProxyRadius(radii);
         own->SetComputeDensity(densities);
+        own->SetComputeMeanBandwidth(ofMeans);
       });
   }
   return request;

@@ -4,12 +4,14 @@
  *
  * Draws the vertices of its input as discs that face the camera. The diameter of one is SizeScale times its
  * value of SizeArrayName, a length in the units of the points: with the bandwidths of
- * vtkKernelBandwidthFilter sparse regions close and dense ones stay crisp. Nearer splats are larger. Without
+ * vtkKernelBandwidthFilter sparse regions close and dense ones stay crisp. Voxel means take MeanBandwidth:
+ * they are farther apart than the points that Bandwidth tells of. Nearer splats are larger. Without
  * the array, or with FixedPixels above 0, all have the same size on the screen.
  *
  * @code
+ * bandwidth->ComputeMeanBandwidthOn();
  * mapper->SetInputConnection(bandwidth->GetOutputPort());
- * mapper->SetSizeArrayName("Bandwidth");
+ * mapper->SetSizeArrayName("MeanBandwidth");
  * @endcode
  *
  * With AmbientLight and an array of normals each splat is as light as the sky makes it, more above than

@@ -1,5 +1,6 @@
 #include "FilterFixtures.h"
 
+#include "Core/LocalBandwidth.h"
 #include "Core/Reference/ReferenceBandwidth.h"
 
 #include "vtkCommand.h"
@@ -395,9 +396,10 @@ TEST(KernelBandwidthFilter, EveryOptionCountsAsAChange)
     [&] { filter->SetNumberOfNeighbors(5); }, [&] { filter->SetRadius(0.5); },
     [&] { filter->SetRuleToSheatherJones(); }, [&] { filter->SetRadiusScale(2); },
     [&] { filter->SetMinimumRadius(0.1); }, [&] { filter->SetMaximumRadius(0.2); },
-    [&] { filter->SmoothRadiusOn(); }, [&] { filter->SetDensityKernelToEpanechnikov(); },
-    [&] { filter->ComputeBandwidthOff(); }, [&] { filter->ComputeProxyRadiusOff(); },
-    [&] { filter->ComputeDensityOff(); } };
+    [&] { filter->SmoothRadiusOn(); }, [&] { filter->UsePointCountsOff(); },
+    [&] { filter->SetDensityKernelToEpanechnikov(); }, [&] { filter->ComputeBandwidthOff(); },
+    [&] { filter->ComputeProxyRadiusOff(); }, [&] { filter->ComputeDensityOff(); },
+    [&] { filter->ComputeMeanBandwidthOn(); } };
   for (std::size_t i = 0; i < changes.size(); ++i)
   {
     const vtkMTimeType before = filter->GetMTime();
@@ -455,6 +457,91 @@ TEST(KernelBandwidthFilter, ReportsProgressAndHonoursAnAbort)
   filter->Modified();
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 40000) << "it recovers";
+}
+
+namespace
+{
+
+/// A square with sixteen times the density where x < 0.
+vtkSmartPointer<vtkPolyData> densityStep(int dense)
+{
+  std::mt19937_64 engine(10);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int i = 0; i < dense + dense / 16; ++i)
+  {
+    const double x = i < dense ? trial::uniform(engine, -1, 0) : trial::uniform(engine, 0, 1);
+    points->InsertNextPoint(0.02 * x, 0.02 * trial::uniform(engine), 0.0);
+  }
+  return trial::cloudOf(points);
+}
+
+double sideRatio(vtkKernelBandwidthFilter* filter, const char* name)
+{
+  double sum[2] = { 0, 0 };
+  double count[2] = { 0, 0 };
+  for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    const int side = filter->GetOutput()->GetPoint(i)[0] > 0;
+    sum[side] += arrayOf(filter, name)->GetTuple1(i);
+    count[side] += 1;
+  }
+  return sum[1] / count[1] / (sum[0] / count[0]);
+}
+
+}
+
+TEST(Pipeline, RadiiOfAResampledCloudAreThoseOfThePoints)
+{
+  const auto cloud = densityStep(64000);
+  vtkNew<vtkKernelBandwidthFilter> raw;
+  raw->SetInputData(cloud);
+  raw->Update();
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetInputData(cloud);
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  EXPECT_TRUE(filter->GetUsePointCounts());
+  filter->SetInputConnection(resampler->GetOutputPort());
+  filter->Update();
+  for (const char* name : { "ProxyRadius", "Bandwidth" })
+  {
+    EXPECT_NEAR(sideRatio(filter, name) / sideRatio(raw, name), 1.0, 0.1) << name;
+    EXPECT_GT(sideRatio(filter, name), 3.5) << name;
+  }
+  // Voxels at the step see both sides, and so do their averages.
+  EXPECT_NEAR(sideRatio(raw, "Density"), 1.0 / 16.0, 0.02);
+  EXPECT_NEAR(sideRatio(filter, "Density"), 1.0 / 16.0, 0.02);
+  EXPECT_TRUE(filter->GetSettings().usePointCounts);
+  EXPECT_EQ(arrayOf(filter, "MeanBandwidth"), nullptr);
+  vtkNew<vtkKernelBandwidthFilter> forSplats;
+  forSplats->SetInputConnection(resampler->GetOutputPort());
+  forSplats->ComputeMeanBandwidthOn();
+  forSplats->ComputeBandwidthOff();
+  forSplats->ComputeProxyRadiusOff();
+  forSplats->ComputeDensityOff();
+  forSplats->Update();
+  filter->UsePointCountsOff();
+  filter->Update();
+  EXPECT_FALSE(filter->GetSettings().usePointCounts);
+  EXPECT_LT(sideRatio(filter, "ProxyRadius"), 2.5);
+  EXPECT_GT(sideRatio(filter, "Density"), 0.2);
+  vtkNew<vtkPolyData> means;
+  means->DeepCopy(resampler->GetOutput());
+  means->GetPointData()->RemoveArray("VoxelPointCount");
+  vtkNew<vtkKernelBandwidthFilter> ofMeans;
+  ofMeans->SetInputData(means);
+  ofMeans->Update();
+  for (vtkIdType i = 0; i < means->GetNumberOfPoints(); ++i)
+  {
+    ASSERT_EQ(arrayOf(forSplats, "MeanBandwidth")->GetTuple1(i), arrayOf(ofMeans, "Bandwidth")->GetTuple1(i));
+  }
+  for (const char* name : { "ProxyRadius", "Bandwidth", "Density" })
+  {
+    for (vtkIdType i = 0; i < means->GetNumberOfPoints(); ++i)
+    {
+      ASSERT_EQ(arrayOf(filter, name)->GetTuple1(i), arrayOf(ofMeans, name)->GetTuple1(i)) << name;
+    }
+  }
 }
 
 TEST(Pipeline, ResampledCloudsGetTheirRadii)

@@ -55,8 +55,10 @@ vtkSmartPointer<vtkActor> showStatue(vtkRenderer* renderer, std::int64_t count, 
   resampler->SetInputData(cloud);
   vtkNew<vtkKernelBandwidthFilter> bandwidth;
   bandwidth->SetInputConnection(resampler->GetOutputPort());
+  bandwidth->ComputeMeanBandwidthOn();
   bandwidth->Update();
   vtkNew<vtkSplatMapper> mapper;
+  mapper->SetSizeArrayName("MeanBandwidth");
   mapper->SetInputData(bandwidth->GetOutput());
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);

@@ -25,24 +25,28 @@ namespace
 {
 
 constexpr int kDimensions[] = { 1200, 600, 300, 150, 75 };
+constexpr int kShownWithoutCounts = 300;
 constexpr int kAround = 16;
 
 /// Bandwidths of the raw points, or of the means on a lattice.
 struct Pipeline
 {
-  int dimension = 0; ///< 0: the raw points.
+  int dimension = 0;  ///< 0: the raw points.
+  bool counts = true; ///< Radii of the points in the voxels.
   vtkSmartPointer<vtkVoxelMeanResampler> resampler;
   vtkSmartPointer<vtkKernelBandwidthFilter> filter;
 
   vtkPolyData* output() const { return filter->GetOutput(); }
 };
 
-Pipeline pipelineOn(const NamedCloud& cloud, int dimension)
+Pipeline pipelineOn(const NamedCloud& cloud, int dimension, bool counts = true)
 {
   Pipeline pipeline;
   pipeline.dimension = dimension;
+  pipeline.counts = counts;
   pipeline.filter = vtkSmartPointer<vtkKernelBandwidthFilter>::New();
   pipeline.filter->ComputeDensityOff();
+  pipeline.filter->SetUsePointCounts(counts);
   if (dimension == 0)
   {
     pipeline.filter->SetInputData(cloud.polyData);
@@ -110,9 +114,8 @@ ReportPart studyLattice(StudyContext& context)
     "resampling, bandwidths and radii. Radii in millimetres, the range within which 90 % of them lie. "
     "Scatter: RMS "
     "deviation of a radius from the mean of those of the {} points around it, which is what a proxy meets as "
-    "roughness. A mean stands in the middle of its points, so that means lie more evenly than the points of "
-    "a "
-    "random sample.",
+    "roughness. Means tell how many points each stands for, and radii are those of these points; with the "
+    "counts unused they are those of the means, which stand about a voxel apart wherever there are points.",
     grouped(cloud.size()), context.mostThreads(), kAround);
   part.table.header = { "felt", "points", "ms", "radius 5 %", "median", "95 %", "95 % / 5 %", "scatter %" };
   std::vector<Pipeline> pipelines{ pipelineOn(cloud, 0) };
@@ -120,6 +123,7 @@ ReportPart studyLattice(StudyContext& context)
   {
     pipelines.push_back(pipelineOn(cloud, dimension));
   }
+  pipelines.push_back(pipelineOn(cloud, kShownWithoutCounts, false));
   std::vector<Contestant> contestants;
   for (const Pipeline& pipeline : pipelines)
   {
@@ -134,17 +138,22 @@ ReportPart studyLattice(StudyContext& context)
   {
     const Radii radii = radiiOf(pipelines[i].output());
     const double seconds = quartiles(laps[i].seconds).median;
-    const std::string name =
-      pipelines[i].dimension == 0 ? "raw points" : fmt::format("means, {0}^3 voxels", pipelines[i].dimension);
+    const std::string name = pipelines[i].dimension == 0
+      ? "raw points"
+      : fmt::format(
+          "means, {0}^3 voxels{1}", pipelines[i].dimension, pipelines[i].counts ? "" : ", counts unused");
     part.table.rows.push_back({ name, grouped(pipelines[i].output()->GetNumberOfPoints()),
       milliseconds(seconds), brief(1e3 * radii.low), brief(1e3 * radii.median), brief(1e3 * radii.high),
       brief(radii.high / radii.low), brief(100.0 * radii.scatter) });
     part.rows.push_back({ { "felt", name }, { "dimension", pipelines[i].dimension },
-      { "points", pipelines[i].output()->GetNumberOfPoints() }, { "median_seconds", seconds },
-      { "radius_5_percent", radii.low }, { "radius_median", radii.median },
+      { "counts", pipelines[i].counts }, { "points", pipelines[i].output()->GetNumberOfPoints() },
+      { "median_seconds", seconds }, { "radius_5_percent", radii.low }, { "radius_median", radii.median },
       { "radius_95_percent", radii.high }, { "radius_scatter", radii.scatter } });
-    addPoint(lines, pipelines[i].dimension == 0 ? "raw points" : "lattice means", 1e3 * seconds,
-      100.0 * radii.scatter);
+    if (pipelines[i].counts)
+    {
+      addPoint(lines, pipelines[i].dimension == 0 ? "raw points" : "lattice means", 1e3 * seconds,
+        100.0 * radii.scatter);
+    }
   }
   part.charts.push_back({ "bandwidth-lattice", "Scatter of the radii: lattice means against raw points",
     { "time (ms)", true }, { "scatter of the radii (%)", true }, lines });

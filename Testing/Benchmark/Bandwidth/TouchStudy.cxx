@@ -82,6 +82,11 @@ private:
     {
       means->GetPoint(vtkIdType(i), &input.points[i].x);
     }
+    vtkDataArray* counts = means->GetPointData()->GetArray("VoxelPointCount");
+    for (vtkIdType i = 0; i < counts->GetNumberOfTuples(); ++i)
+    {
+      input.counts.push_back(counts->GetComponent(i, 0));
+    }
     if (radii_ == Radii::All)
     {
       auto* array = vtkDoubleArray::SafeDownCast(means->GetPointData()->GetArray("ProxyRadius"));

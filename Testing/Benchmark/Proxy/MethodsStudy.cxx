@@ -21,14 +21,6 @@ struct Contestant
   SceneSettings scene;
 };
 
-HapticParameters gradientSteps(const GradientStepsParameters& gains)
-{
-  HapticParameters parameters;
-  parameters.method = ProxyMethod::GradientSteps;
-  parameters.gradientSteps = gains;
-  return parameters;
-}
-
 std::vector<Contestant> contestants()
 {
   std::vector<Contestant> all;
@@ -47,6 +39,16 @@ std::vector<Contestant> contestants()
   return all;
 }
 
+} // namespace
+
+HapticParameters gradientSteps(const GradientStepsParameters& gains)
+{
+  HapticParameters parameters;
+  parameters.method = ProxyMethod::GradientSteps;
+  parameters.gradientSteps = gains;
+  return parameters;
+}
+
 ExactAnswer scaledSphere(double scale)
 {
   return [scale](const Vec3& hip)
@@ -57,8 +59,6 @@ ExactAnswer scaledSphere(double scale)
     return contact;
   };
 }
-
-} // namespace
 
 ReportPart studyMethods(StudyContext& context)
 {

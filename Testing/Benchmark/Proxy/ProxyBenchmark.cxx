@@ -18,8 +18,9 @@ namespace
 
 /// In the order of the report.
 constexpr Study<StudyContext> kStudies[] = { { "shapes", studyShapes }, { "methods", studyMethods },
-  { "validation", studyValidation }, { "paths", studyPaths }, { "edges", studyEdges }, { "size", studySize },
-  { "instructions", studyInstructions }, { "scans", studyScans }, { "meshes", studyMeshes } };
+  { "validation", studyValidation }, { "paper", studyPaper }, { "paths", studyPaths },
+  { "edges", studyEdges }, { "size", studySize }, { "instructions", studyInstructions },
+  { "scans", studyScans }, { "meshes", studyMeshes } };
 
 constexpr const char* kMethod =
   "A hand moves over shapes whose nearest points are known exactly, one tick a millisecond, K = 800 N/m, "

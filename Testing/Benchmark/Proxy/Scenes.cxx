@@ -63,11 +63,15 @@ Scene sceneOf(const std::vector<Vec3>& points, const SceneSettings& settings)
     return nullptr;
   }
   // The proxy's radius from the bandwidth, as the program does.
+  LocalBandwidthSettings rule;
+  rule.minimumRadius = settings.proxyRadius;
+  rule.maximumRadius = settings.proxyRadius;
+  rule.usePointCounts = settings.pointCounts;
   const PointView felt(input.points.data(), std::int64_t(input.points.size()));
   NeighborQuery query;
   query.build(felt);
   std::vector<double> bandwidths;
-  Status status = localBandwidths(felt, query, {}, bandwidths, input.proxyRadii);
+  Status status = localBandwidths(felt, input.counts, query, rule, bandwidths, input.proxyRadii);
   return status == Status::Ok ? HapticScene::create(std::move(input), status) : nullptr;
 }
 

@@ -21,7 +21,9 @@ struct SceneSettings
 {
   double voxelSize = 1e-3 / 3.0; ///< Metres.
   bool covariances = true;
-  bool raw = false; ///< The points themselves, no voxels.
+  bool raw = false;         ///< The points themselves, no voxels.
+  double proxyRadius = 0.0; ///< r1 = r2, metres; 0: by the bandwidth.
+  bool pointCounts = true;  ///< The bandwidth is that of the points in the voxels, not of the means.
   AffineTransform transform;
   InstructionSet instructions = InstructionSet::Automatic; ///< Of the scene itself.
 };

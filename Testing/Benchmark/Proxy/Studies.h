@@ -26,6 +26,10 @@ void setFigureHeader(ReportPart& part, const std::vector<std::string>& leading);
 void addFigures(ReportPart& part, const std::vector<std::string>& leadingCells,
   const nlohmann::ordered_json& leadingNumbers, const TrialFigures& figures);
 
+HapticParameters gradientSteps(const GradientStepsParameters& gains);
+/// The exact answer of the sphere scaled by @p scale.
+ExactAnswer scaledSphere(double scale);
+
 /// The largest number of points asked for.
 std::int64_t mostPoints(const StudyContext& context);
 
@@ -33,6 +37,7 @@ ReportPart studyShapes(StudyContext& context);
 ReportPart studyMethods(StudyContext& context);
 ReportPart studyPaths(StudyContext& context);
 ReportPart studyValidation(StudyContext& context);
+ReportPart studyPaper(StudyContext& context);
 ReportPart studyEdges(StudyContext& context);
 ReportPart studySize(StudyContext& context);
 ReportPart studyInstructions(StudyContext& context);

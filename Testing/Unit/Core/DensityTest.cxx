@@ -3,6 +3,7 @@
 #include "Core/Reference/ReferenceBandwidth.h"
 #include "Core/Reference/ReferenceKernelSum.h"
 
+#include "RandomClouds.h"
 #include "RandomSamples.h"
 #include "ReferenceSamples.h"
 
@@ -274,4 +275,34 @@ TEST(SurfaceDensities, DoNotDependOnTheExecutor)
   const std::vector<Vec3> points = trial::randomBox(5000, 45, { 0, 0, 0 }, { 1, 1, 0 });
   const std::vector<double> bandwidths(points.size(), 0.03);
   EXPECT_EQ(densitiesOf(points, bandwidths), densitiesOf(points, bandwidths, trial::ThreadedExecutor(3)));
+}
+
+TEST(SurfaceDensities, OfMeansCountEveryPoint)
+{
+  trial::Random random(31);
+  std::vector<Vec3> means;
+  std::vector<double> counts;
+  std::vector<Vec3> points;
+  for (int i = 0; i < 400; ++i)
+  {
+    means.push_back({ random.uniform(0, 1), random.uniform(0, 1), 0.0 });
+    counts.push_back(1.0 + i % 5);
+    points.insert(points.end(), std::size_t(counts.back()), means.back());
+  }
+  for (const DensityKernel kernel : { DensityKernel::Gaussian, DensityKernel::Epanechnikov })
+  {
+    NeighborQuery query;
+    query.build(view(means));
+    std::vector<double> densities;
+    surfaceDensities(
+      view(means), counts, query, std::vector<double>(means.size(), 0.05), densities, {}, kernel);
+    const std::vector<double> expected =
+      densitiesOf(points, std::vector<double>(points.size(), 0.05), {}, kernel);
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < means.size(); ++i)
+    {
+      ASSERT_NEAR(densities[i] / expected[at], 1.0, 1e-12);
+      at += std::size_t(counts[i]);
+    }
+  }
 }

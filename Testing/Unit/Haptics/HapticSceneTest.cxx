@@ -163,7 +163,8 @@ TEST(HapticScene, WithARuleIsThatOfTheWholeArrayOfRadii)
     NeighborQuery query;
     query.build(points);
     std::vector<double> bandwidths;
-    ASSERT_EQ(localBandwidths(points, query, *lazy.bandwidth, bandwidths, whole.proxyRadii), Status::Ok);
+    ASSERT_EQ(
+      localBandwidths(points, lazy.counts, query, *lazy.bandwidth, bandwidths, whole.proxyRadii), Status::Ok);
     const trial::Scene one = trial::sceneOf(lazy);
     const trial::Scene other = trial::sceneOf(whole);
     for (const Vec3& p : trial::randomBox(500, 15, { -0.03, -0.03, -0.03 }, { 0.03, 0.03, 0.03 }))
@@ -186,6 +187,34 @@ TEST(HapticScene, RadiusByARuleFollowsTheDensityWithoutJumps)
     const double radius = scene->proxyRadius({ x, 0.001, 0 });
     EXPECT_LE(std::fabs(radius - last), 0.75 * 1e-5) << "at " << x;
     last = radius;
+  }
+}
+
+// The means of a lattice are about as dense everywhere; their counts tell what the points were.
+TEST(HapticScene, RadiusOfAResampledCloudFollowsTheDensityOfThePoints)
+{
+  std::vector<Vec3> points;
+  ASSERT_EQ(generateShape(Shape::DensityStep, 543652, 16, 0.0, points), Status::Ok);
+  HapticSceneInput raw;
+  raw.points = points;
+  raw.bandwidth = LocalBandwidthSettings();
+  HapticSceneInput input = trial::resampledInput(points);
+  input.bandwidth = LocalBandwidthSettings();
+  HapticSceneInput ofMeans = input;
+  ofMeans.bandwidth->usePointCounts = false;
+  const trial::Scene expected = trial::sceneOf(raw);
+  const trial::Scene scene = trial::sceneOf(input);
+  const auto ratio = [](const trial::Scene& of) {
+    return of->proxyRadius({ -0.025, 0, 0 }) / of->proxyRadius({ 0.025, 0, 0 });
+  };
+  EXPECT_GE(ratio(scene), 3.5);
+  EXPECT_LT(ratio(trial::sceneOf(ofMeans)), 2.0);
+  for (const Vec3& p : { Vec3(-0.025, 0, 0), Vec3(-0.02, 0.01, 0), Vec3(0.025, 0, 0), Vec3(0.03, 0.02, 0) })
+  {
+    // Those of a few points each: they scatter.
+    EXPECT_NEAR(scene->proxyRadius(p) / expected->proxyRadius(p), 1.0, 0.2);
+    EXPECT_EQ(expected->coveringRadius(p), expected->proxyRadius(p));
+    EXPECT_EQ(scene->coveringRadius(p), std::max(scene->proxyRadius(p), 2.8 * scene->cellSize()));
   }
 }
 
