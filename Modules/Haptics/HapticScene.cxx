@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 namespace pointhaptics
 {
@@ -26,6 +27,8 @@ constexpr double kCellTolerance = 1.1;
 constexpr double kCellWithoutExtent = 1e-3;
 /// Finest index cell asked for that is tried as it is, over the extent.
 constexpr double kMostCellsAcross = 1 << 20;
+/// Points per cell up to which cells are as fine as the points.
+constexpr double kPointsPerFineCell = 2.0;
 constexpr std::size_t kSpacingSamples = 500;
 constexpr std::size_t kSpacingNeighbors = 6;
 constexpr double kSpacingGrowth = 1.3;
@@ -156,6 +159,15 @@ std::vector<Cell> finiteCells(const HapticSceneInput& input)
   return cells;
 }
 
+/// Whether the cells hold hardly more than a point each: there are no finer ones to be had.
+bool isFine(const CellPyramid& pyramid)
+{
+  const std::vector<Cell>& cells = pyramid.level(0).cells;
+  const double points = std::accumulate(
+    cells.begin(), cells.end(), 0.0, [](double sum, const Cell& cell) { return sum + cell.count; });
+  return points <= kPointsPerFineCell * double(cells.size());
+}
+
 /// What the fields tell at each of their nodes; of a part at those for which it knows enough.
 Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, double extent,
   const Executor& executor, const std::vector<NodeUse>* uses, std::vector<LocalScale>& scales)
@@ -182,7 +194,7 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
   }
   const double largest = std::max(extent, kLargestFitRadiusInCells * size);
   scales = fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor, uses,
-    input.local ? FitNeeds::ofFineCells() : FitNeeds(), input.instructions);
+    isFine(pyramid) ? FitNeeds::ofFineCells() : FitNeeds(), input.instructions);
   for (std::size_t i = 0; i < radii.size(); ++i)
   {
     scales[i].proxyRadius = radii[i];

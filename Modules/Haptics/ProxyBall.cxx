@@ -13,8 +13,18 @@ namespace
 /// r over the index cell and over the local spacing, at least.
 constexpr double kRadiusInCells = 2.0;
 constexpr double kRadiusInSpacings = 2.4;
-/// Points further than this part of the count radius from the tangent plane are of another sheet.
+/// The spacing is that of so many points: the ball about one of them that has them is sought from this many
+/// index cells on, in steps.
+constexpr double kPoints = 12.0;
+constexpr double kFirstReach = 2.0;
+constexpr double kReachGrowth = 1.3;
+constexpr int kReaches = 12;
+/// Points further than this part of that reach from the tangent plane are of another sheet.
 constexpr double kSheetDepth = 0.15;
+/// The middle of half a disk is 0.42 radii aside.
+constexpr double kPartPerOffset = 1.18;
+constexpr double kLeastPart = 0.25;
+constexpr double kMostSheets = 2.0;
 /// The radius is measured again after this many index cells of way, and changes by at most this part a tick.
 constexpr double kMeasureEvery = 2.0;
 constexpr double kLargestGrowth = 1.02;
@@ -26,13 +36,13 @@ constexpr int kMostGlides = 3;
 constexpr int kMostPushes = 16;
 /// A point nearer than this many radii is touched.
 constexpr double kTouch = 1.002;
-constexpr int kMostTouched = 12;
+constexpr int kMostTouched = 16;
 /// Least radius of a ball that begins where it has no room, over the one it should have.
 constexpr double kSmallestRadius = 1e-3;
 /// Places further away than this many times the cloud's extent are free whatever the way there.
 constexpr double kFarAway = 1e6;
-/// A shorter way is none, metres.
-constexpr double kNoWay = 2e-8;
+/// A shorter way is none, over the radius.
+constexpr double kNoWay = 1e-4;
 /// Rounding that a covered point may be off by, over the radius.
 constexpr double kRounding = 1e-9;
 /// Reach of the plane through the points about the ball, and their RMS distance from it up to which it is
@@ -48,6 +58,9 @@ constexpr double kGlideRadius = 0.9;
 constexpr double kLeastLean = 0.02;
 constexpr double kLongestGlide = 0.5;
 constexpr double kLeastGain = 1e-3;
+/// Points higher than r less this above the surface are of a wall; how far a glide may lift the ball.
+constexpr double kWallHeight = 0.8;
+constexpr double kLargestRise = 0.1;
 /// After a glide that did not help the HIP moves by this many radii before the next.
 constexpr double kGlideAgain = 0.05;
 
@@ -130,14 +143,32 @@ void ProxyBall::gather(Work& work, double reach) noexcept
 double ProxyBall::wantedRadius(Work& work, const Vec3& seed) noexcept
 {
   constexpr double kPi = 3.14159265358979323846;
-  Vec3 ignored;
-  const double countRadius = work.scene.fitScale(seed, work.fields, ignored).countRadius;
   const Vec3 up = normalized(center_ - seed);
-  int count = 0;
-  work.scene.pyramid().visitBall(0, seed, countRadius,
-    [&](std::uint32_t, const Cell& cell, double)
-    { count += std::abs(dot(cell.mean - seed, up)) < kSheetDepth * countRadius ? 1 : 0; });
-  const double spacing = countRadius * std::sqrt(kPi / std::max(1, count));
+  double points = 0.0;
+  double reach = kFirstReach * work.scene.cellSize();
+  for (int i = 0; i < kReaches && points < kPoints; ++i, reach *= kReachGrowth)
+  {
+    double all = 0.0;
+    double count = 0.0;
+    Vec3 sum;
+    work.scene.pyramid().visitBall(0, seed, reach,
+      [&](std::uint32_t, const Cell& cell, double)
+      {
+        const Vec3 offset = cell.mean - seed;
+        all += 1.0;
+        if (std::abs(dot(offset, up)) < kSheetDepth * reach)
+        {
+          count += 1.0;
+          sum += offset;
+        }
+      });
+    // Where the sheet ends the points fill a part of the disk alone, and their middle lies aside.
+    const double aside = norm(sum) / (std::max(1.0, count) * reach);
+    const double part = std::clamp(1.0 - kPartPerOffset * aside, kLeastPart, 1.0);
+    // Two sheets have twice the points of one; where the gate leaves fewer the surface is bent.
+    points = std::max({ 1.0, count / part, all / kMostSheets });
+  }
+  const double spacing = reach / kReachGrowth * std::sqrt(kPi / points);
   return std::max(kRadiusInCells * work.scene.cellSize(), kRadiusInSpacings * spacing);
 }
 
@@ -250,14 +281,14 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     work.cells.visitBall(center_, kTouch * radius_,
       [&](const Vec3& offset, double d2)
       {
-        if (touched < kMostTouched && dot(offset, pull) < 0.0)
+        if (touched < kMostTouched)
         {
           normals[touched++] = offset / std::sqrt(d2);
         }
       });
     const Vec3 way = withinPlanes(pull, normals, touched);
     const double length = norm(way);
-    if (length < kNoWay)
+    if (length < kNoWay * radius_)
     {
       return;
     }
@@ -273,7 +304,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     center_ += reached * direction;
     pushOut(work.cells);
   }
-  work.status |= kProxyRoundLimit;
+  work.status |= kProxyRoundLimit | 0x400u;
 }
 
 /// The normal of the surface that the ball lies on: of a plane through the points about it. Where they are
@@ -322,12 +353,20 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   {
     return false;
   }
+  // What rises from the surface is a wall: there only what brings the ball nearer to the HIP is progress.
+  bool isWalled = false;
+  work.cells.visitBall(center_, kPlaneReach * radius_,
+    [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < kWallHeight * radius_; });
   const ProxyBall before = *this;
   const Vec3 direction = lean / leaning;
   gather(work, (1.0 + kLongestGlide) * radius_);
   center_ += direction *
     work.cells.sweep(center_, direction, std::min(leaning, kLongestGlide * radius_), kGlideRadius * radius_);
-  if (!pushOut(work.cells) || norm(hip - center_) > norm(pull) - kLeastGain * radius_)
+  const bool isOut = pushOut(work.cells);
+  const Vec3 left = hip - center_;
+  const double stillLeaning = isWalled ? norm(left) : norm(left - dot(left, up) * up);
+  if (!isOut || stillLeaning > (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ ||
+    norm(left) > norm(pull) + kLargestRise * radius_)
   {
     *this = before;
     return false;
