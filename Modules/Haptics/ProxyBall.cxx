@@ -58,8 +58,8 @@ constexpr double kGlideRadius = 0.9;
 constexpr double kLeastLean = 0.02;
 constexpr double kLongestGlide = 0.5;
 constexpr double kLeastGain = 1e-3;
-/// Points higher than r less this above the surface are of a wall; how far a glide may lift the ball.
-constexpr double kWallHeight = 0.8;
+/// Points higher than this above the surface are of a wall; how far a glide may lift the ball.
+constexpr double kWallHeight = 0.2;
 constexpr double kLargestRise = 0.1;
 /// After a glide that did not help the HIP moves by this many radii before the next.
 constexpr double kGlideAgain = 0.05;
@@ -334,6 +334,7 @@ Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
   {
     flatNormal_ = up;
     flatAt_ = center_;
+    flatPoint_ = center_ - mean;
     isFlat_ = true;
     return up;
   }
@@ -354,9 +355,10 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     return false;
   }
   // What rises from the surface is a wall: there only what brings the ball nearer to the HIP is progress.
-  bool isWalled = false;
+  bool isWalled = !isFlat_;
+  const double highest = isFlat_ ? dot(center_ - flatPoint_, up) - kWallHeight * radius_ : 0.0;
   work.cells.visitBall(center_, kPlaneReach * radius_,
-    [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < kWallHeight * radius_; });
+    [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < highest; });
   const ProxyBall before = *this;
   const Vec3 direction = lean / leaning;
   gather(work, (1.0 + kLongestGlide) * radius_);
@@ -424,6 +426,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
   {
     updateRadius(work);
   }
+
   walk(work, hip);
   there_ = hip_ == hip;
   status |= std::uint32_t(there_ ? kProxyOk : kProxyStepLimit);

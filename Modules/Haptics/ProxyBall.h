@@ -79,7 +79,8 @@ private:
   Vec3 measuredAt_;
   Vec3 heldAt_; ///< The HIP when gliding did not help.
   Vec3 flatNormal_;
-  Vec3 flatAt_;
+  Vec3 flatAt_;    ///< The ball when the surface was flat last.
+  Vec3 flatPoint_; ///< Of the plane there.
   bool isFlat_ = false;
   bool isHeld_ = false;
   bool isMeasured_ = false;
