@@ -21,7 +21,7 @@ struct FitNeeds
   double radiusInCells = 3.6; ///< Least radius over the edge of a finest cell.
 
   /// Of cells about as fine as the points' spacing: there is nothing finer to wait for.
-  static FitNeeds ofFineCells() { return { 12.0, 9.0, 2.0 }; }
+  static FitNeeds ofFineCells() { return { 16.0, 12.0, 2.4 }; }
 };
 
 /// What the cloud says about fits at one place; metres.

@@ -55,6 +55,8 @@ constexpr double kFlatCosine = 0.5;
 /// Radius of the ball that glides, shortest pull along the surface, longest way and least gain of a glide;
 /// all over the radius.
 constexpr double kGlideRadius = 0.9;
+constexpr int kMostLifts = 3;
+constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
 constexpr double kLeastLean = 0.02;
 constexpr double kLongestGlide = 0.5;
 constexpr double kLeastGain = 1e-3;
@@ -361,20 +363,33 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < highest; });
   const ProxyBall before = *this;
   const Vec3 direction = lean / leaning;
-  gather(work, (1.0 + kLongestGlide) * radius_);
-  center_ += direction *
-    work.cells.sweep(center_, direction, std::min(leaning, kLongestGlide * radius_), kGlideRadius * radius_);
-  const bool isOut = pushOut(work.cells);
-  const Vec3 left = hip - center_;
-  const double stillLeaning = isWalled ? norm(left) : norm(left - dot(left, up) * up);
-  if (!isOut || stillLeaning > (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ ||
-    norm(left) > norm(pull) + kLargestRise * radius_)
+  gather(work, (1.0 + kLongestGlide + kLifts[kMostLifts - 1]) * radius_);
+  for (const double lift : kLifts)
   {
+    // Bumps are passed by a smaller ball, deeper gaps are left by lifting it.
+    const double ball = lift > 0.0 ? radius_ : kGlideRadius * radius_;
+    center_ += work.cells.sweep(center_, up, lift * radius_, ball) * up;
+    center_ +=
+      work.cells.sweep(center_, direction, std::min(leaning, kLongestGlide * radius_), ball) * direction;
+    const bool isOut = pushOut(work.cells);
+    if (lift > 0.0)
+    {
+      slide(work, hip);
+    }
+    const Vec3 left = hip - center_;
+    const double stillLeaning = isWalled ? norm(left) : norm(left - dot(left, up) * up);
+    if (isOut && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
+      norm(left) <= norm(pull) + kLargestRise * radius_)
+    {
+      if (lift == 0.0)
+      {
+        slide(work, hip);
+      }
+      return true;
+    }
     *this = before;
-    return false;
   }
-  slide(work, hip);
-  return true;
+  return false;
 }
 
 /// Follows the HIP along its way: free, or in strides of a radius where points are touched.

@@ -11,6 +11,7 @@ namespace
 constexpr int kRoundsPerTick = 8;
 /// While the fit is lost it is sought every so many ticks: what failed a moment ago mostly fails again.
 constexpr int kSeekEvery = 4;
+constexpr double kSeekBelow = 0.5;
 /// How far the fit's point may be from the ball's: over the ball's radius, and over the depth, as bumps
 /// between points hold the ball back by up to so much of it.
 constexpr double kTrustRadii = 0.2;
@@ -75,7 +76,7 @@ double SurfaceFitProxy::fitShare(
     result = followed == TrackResult::Lost ? 0.0 : share();
     hasFit_ = result > 0.0;
   }
-  if (result < 1.0 && ticksWithoutFit_++ % kSeekEvery == 0)
+  if (result < kSeekBelow && ticksWithoutFit_++ % kSeekEvery == 0)
   {
     const SurfaceTracker before = tracker_;
     const double sought = seek(scene, fit, hip) ? share() : 0.0;

@@ -17,6 +17,8 @@ constexpr double kAwaySlack = 1e-3;
 /// A point that moves further than this many fit radii from where it started has lost its sheet.
 constexpr double kLostRadii = 2.0;
 constexpr int kAcquireRounds = 8;
+constexpr int kWidenings = 2;
+constexpr double kWidening = 1.4;
 /// Part of the fit radius in which the fit stands for the surface.
 constexpr double kReach = 0.5;
 /// Fit radius over counted radius at which the traced slopes, which amplify noise, begin to fade and are
@@ -139,7 +141,14 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
   settings.radius = scale.radius;
   settings.gate = scale.gate;
   std::copy(curvature_, curvature_ + 3, settings.curvature);
-  const SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings, memory, &slopes);
+  SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings, memory, &slopes);
+  // Few points that lie badly tell a plane alone: those a little further tell more.
+  for (int i = 0; i < kWidenings && fit.quality != FitQuality::Quadric; ++i)
+  {
+    settings.radius *= kWidening;
+    slopes.radiusGradient *= kWidening;
+    fit = fitSurface(scene.pyramid(), frame_, settings, memory, &slopes);
+  }
   if (fit.quality == FitQuality::None)
   {
     return false;
