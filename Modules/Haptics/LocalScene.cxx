@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -11,8 +12,54 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 /// Points beyond what is covered, in cells: the reach of a field's nodes and of their fits.
 constexpr double kMarginCells = 24.0;
+/// RMS distance of the points from the fits up to which a cloud is smooth, and their thickness within a voxel
+/// from which on it is noisy, over the voxel; least ratio of the two that is shape.
+constexpr double kSmooth = 1e-3;
+constexpr double kThick = 0.1;
+constexpr double kShapeOverNoise = 2.0;
+/// Points that tell a voxel's thickness, of which a plane takes three, and voxels that must.
+constexpr double kPointsForThickness = 6.0;
+constexpr double kPointsOfPlane = 3.0;
+constexpr std::size_t kCellsForThickness = 5;
+/// Levels whose cells tell of edges and of second sheets.
+constexpr int kMixedLevels = 2;
 /// The finer cell is at most this part of the global one, or it is not worth it.
 constexpr double kCoarsest = 0.75;
+
+/// Whether smaller fits would tell more within @p reach of @p seed. The points stand off the fits of the
+/// global scene by nothing where it is smooth, and by their noise where it is noisy, which is as large within
+/// a voxel as in a whole fit. What is larger in a fit than in its voxels is shape.
+bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)
+{
+  const CellPyramid& pyramid = global.pyramid();
+  double off = 0.0;
+  pyramid.visitBall(RadiusField::nodeLevel(pyramid), seed, reach,
+    [&](std::uint32_t, const Cell& node, double) { off = std::max(off, global.noise(node.mean)); });
+  bool isMixed = false;
+  for (int level = 1; level <= std::min(kMixedLevels, pyramid.numberOfCellLevels() - 1); ++level)
+  {
+    pyramid.visitBall(
+      level, seed, reach, [&](std::uint32_t, const Cell& cell, double) { isMixed |= cell.mixed; });
+  }
+  std::vector<double> thicknesses;
+  pyramid.visitBall(0, seed, reach,
+    [&](std::uint32_t, const Cell& cell, double)
+    {
+      if (cell.count >= kPointsForThickness)
+      {
+        const double variance = std::max(0.0, symmetricEigen(cell.covariance).values[0]);
+        thicknesses.push_back(std::sqrt(variance * cell.count / (cell.count - kPointsOfPlane)));
+      }
+    });
+  if (thicknesses.size() < kCellsForThickness)
+  {
+    return true;
+  }
+  const auto middle = thicknesses.begin() + std::ptrdiff_t(thicknesses.size() / 2);
+  std::nth_element(thicknesses.begin(), middle, thicknesses.end());
+  const double cell = global.cellSize();
+  return *middle < kThick * cell && (isMixed || (off > kSmooth * cell && off > kShapeOverNoise * *middle));
+}
 
 Bounds grown(const Bounds& box, double margin)
 {
@@ -56,6 +103,10 @@ double LocalSceneBuilder::cellSize(const Vec3& place, const HapticScene& global)
   pyramid.visitBall(
     0, seed, scale.countRadius, [&](std::uint32_t, const Cell& cell, double) { points += cell.count; });
   const double spacing = scale.countRadius * std::sqrt(kPi / std::max(1.0, points));
+  if (!hasFineShape(global, seed, kReach / global.latticeScale()))
+  {
+    return 0.0;
+  }
   // A whole fraction of the global cell, so that scenes of neighbouring places share their cells.
   const double parts = std::min(std::floor(coarse / spacing + 0.5), 1.0 / kFinest);
   return parts * kCoarsest >= 1.0 ? coarse / parts : 0.0;
