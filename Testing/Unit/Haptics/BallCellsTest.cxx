@@ -1,0 +1,366 @@
+#include "Haptics/BallCells.h"
+
+#include "BallFixtures.h"
+
+using namespace pointhaptics;
+using trial::LongVec;
+using trial::Real;
+
+namespace
+{
+
+constexpr double kCoarse = 1.0;
+
+CellPyramid pyramidOf(const std::vector<Vec3>& points, double voxelSize)
+{
+  std::vector<Cell> cells;
+  for (const Vec3& p : points)
+  {
+    Cell cell;
+    cell.mean = p;
+    cells.push_back(cell);
+  }
+  CellPyramid pyramid;
+  std::vector<std::uint32_t> sourceIndex;
+  EXPECT_EQ(pyramid.build(std::move(cells), voxelSize, sourceIndex), Status::Ok);
+  return pyramid;
+}
+
+std::vector<Vec3> randomPoints(trial::Random& random, std::size_t n, double size)
+{
+  const std::size_t kind = random.below(4);
+  const Vec3 normal = random.direction();
+  const Vec3 at = random.inBox({ -0.05, -0.05, -0.05 }, { 0.05, 0.05, 0.05 });
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const Vec3 p = random.inBox({ -size, -size, -size }, { size, size, size });
+    points.push_back(kind == 0 ? at + p
+        : kind == 1            ? at + p - dot(p, normal) * normal
+        : kind == 2            ? at + size * random.direction()
+                               : at + dot(p, normal) * normal);
+  }
+  return points;
+}
+
+/// How near @p cells have a point to @p p.
+double gapTo(const BallCells& cells, const Vec3& p)
+{
+  double distance2 = HUGE_VAL;
+  return cells.nearest(p, distance2) < 0 ? HUGE_VAL : std::sqrt(distance2);
+}
+
+/// Largest distance from a point of @p points within @p radius of @p center to the nearest one gathered.
+double worstGap(const std::vector<Vec3>& points, const BallCells& cells, const Vec3& center, double radius)
+{
+  double worst = 0.0;
+  for (const Vec3& p : points)
+  {
+    if (norm(p - center) <= radius)
+    {
+      worst = std::max(worst, gapTo(cells, p));
+    }
+  }
+  return worst;
+}
+
+/// Where a ball on its way meets points, of all those given.
+struct Meeting
+{
+  Real way = 0.0L;   ///< The exact answer.
+  Real depth = 0.0L; ///< How much deeper than at the start it covers a point somewhere on the way given.
+  Real touch = 0.0L; ///< How far it is at the end of that way from touching a point ahead.
+};
+
+Meeting exactMeeting(const std::vector<Vec3>& points, const Vec3& from, const Vec3& direction, double length,
+  double radius, double answer)
+{
+  const LongVec d(direction);
+  const Real r = radius;
+  const Real asked = answer;
+  Meeting meeting;
+  meeting.way = length;
+  meeting.touch = HUGE_VALL;
+  for (const Vec3& point : points)
+  {
+    const LongVec to = LongVec(point) - LongVec(from);
+    const Real ahead = dot(to, d);
+    const Real start = norm(to);
+    const Real passed = norm(to - std::clamp(ahead, 0.0L, asked) * d);
+    meeting.depth = std::max(meeting.depth, std::min(start, r) - passed);
+    if (ahead > asked - 1e-12L * r)
+    {
+      meeting.touch = std::min(meeting.touch, norm(to - asked * d) - r);
+    }
+    const Real c = dot(to, to) - r * r;
+    const Real discriminant = ahead * ahead - c * dot(d, d);
+    if (ahead > 0.0L && (c <= 0.0L || discriminant > 0.0L))
+    {
+      meeting.way = std::min(meeting.way, c <= 0.0L ? 0.0L : c / (ahead + std::sqrt(discriminant)));
+    }
+  }
+  return meeting;
+}
+
+} // namespace
+
+TEST(BallCells, GathersEveryPointInReachWhereverTheBallGoes)
+{
+  trial::Random random(11);
+  BallCells cells;
+  for (int cloud = 0; cloud < 60; ++cloud)
+  {
+    const std::vector<Vec3> points = randomPoints(random, 1 + random.below(BallCells::kCapacity), 0.01);
+    const CellPyramid pyramid = pyramidOf(points, random.uniform(1e-4, 2e-3));
+    cells.forget();
+    Vec3 center = points[0];
+    for (int move = 0; move < 200; ++move)
+    {
+      center = random.below(20) == 0 ? points[random.below(points.size())]
+                                     : center + random.uniform(0.0, 1e-3) * random.direction();
+      const double radius = random.uniform(1e-5, 8e-3);
+      ASSERT_TRUE(cells.gather(pyramid, center, radius, kCoarse));
+      ASSERT_LE(worstGap(points, cells, center, radius), 1e-16) << cloud << ' ' << move;
+    }
+  }
+}
+
+TEST(BallCells, GathersEveryPointInReachOfALargeCloudWhereNotTooManyAre)
+{
+  trial::Random random(12);
+  BallCells cells;
+  int exact = 0;
+  for (int cloud = 0; cloud < 20; ++cloud)
+  {
+    const std::vector<Vec3> points = randomPoints(random, 20000, 0.01);
+    const CellPyramid pyramid = pyramidOf(points, random.uniform(1e-4, 1e-3));
+    for (int query = 0; query < 50; ++query)
+    {
+      const Vec3 center =
+        points[random.below(points.size())] + random.uniform(0.0, 1e-3) * random.direction();
+      const double radius = random.uniform(1e-4, 2e-3);
+      cells.forget();
+      const bool whole = cells.gather(pyramid, center, radius, kCoarse);
+      // More than is asked for is gathered; that counts, too.
+      std::size_t inReach = 0;
+      for (const Vec3& p : points)
+      {
+        inReach += norm(p - center) <= 1.4 * radius;
+      }
+      ASSERT_LE(cells.size(), int(BallCells::kCapacity));
+      if (inReach <= std::size_t(BallCells::kCapacity))
+      {
+        ++exact;
+        ASSERT_TRUE(whole);
+        ASSERT_LE(worstGap(points, cells, center, radius), 1e-16) << cloud << ' ' << query;
+      }
+    }
+  }
+  EXPECT_GT(exact, 300);
+}
+
+TEST(BallCells, TakesOnePointOfEachVoxelWhereThereAreTooMany)
+{
+  trial::Random random(13);
+  for (int cloud = 0; cloud < 20; ++cloud)
+  {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 20000; ++i)
+    {
+      points.push_back(random.inBox({ -2e-3, -2e-3, -1e-5 }, { 2e-3, 2e-3, 1e-5 }));
+    }
+    const double voxel = random.uniform(3e-4, 5e-4);
+    const CellPyramid pyramid = pyramidOf(points, voxel);
+    BallCells cells;
+    ASSERT_TRUE(cells.gather(pyramid, Vec3(), 1e-3, kCoarse));
+    EXPECT_LE(cells.size(), int(BallCells::kCapacity));
+    EXPECT_LE(worstGap(points, cells, Vec3(), 1e-3), std::sqrt(3.0) * voxel * (1 + 1e-9));
+    for (int i = 0; i < cells.size(); ++i)
+    {
+      ASSERT_LE(std::abs(cells.point(i).z), 1e-5) << "it is one of the points, or a mean of some";
+    }
+  }
+}
+
+TEST(BallCells, TakesMeansOfCoarserVoxelsWhereVoxelsAreTooManyAndSaysWhenEvenTheyAre)
+{
+  trial::Random random(14);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 100000; ++i)
+  {
+    points.push_back(random.inBox({ -2e-3, -2e-3, -1e-5 }, { 2e-3, 2e-3, 1e-5 }));
+  }
+  constexpr double kFine = 2e-5; // about 8,000 voxels within the reach, 500 of 4 times the size
+  const CellPyramid pyramid = pyramidOf(points, kFine);
+  BallCells cells;
+  ASSERT_TRUE(cells.gather(pyramid, Vec3(), 1e-3, 3.3e-4));
+  const double gap = worstGap(points, cells, Vec3(), 0.999e-3);
+  EXPECT_LE(gap, std::sqrt(3.0) * 16 * kFine) << "means of voxels no coarser than asked";
+  EXPECT_GT(gap, 0.5 * kFine) << "not all of the points";
+  EXPECT_GT(cells.size(), 100) << "not coarser than need be";
+
+  cells.forget();
+  EXPECT_FALSE(cells.gather(pyramid, Vec3(), 1e-3, 2 * kFine)) << "too many";
+  EXPECT_LE(cells.size(), int(BallCells::kCapacity));
+  EXPECT_GT(cells.size(), 0);
+  EXPECT_FALSE(cells.gather(pyramid, Vec3(), 1e-3, 2 * kFine)) << "and it says so each time";
+}
+
+TEST(BallCells, HoldsAPointRepeatedWithoutEnd)
+{
+  std::vector<Vec3> points(100000, Vec3(0.01, -0.02, 0.03));
+  points.emplace_back(0.01, -0.02, 0.0305);
+  const CellPyramid pyramid = pyramidOf(points, 1e-4);
+  BallCells cells;
+  EXPECT_TRUE(cells.gather(pyramid, { 0.01, -0.02, 0.0301 }, 1e-3, kCoarse));
+  EXPECT_LE(worstGap(points, cells, { 0.01, -0.02, 0.0301 }, 1e-3), 1e-16);
+}
+
+TEST(BallCells, ForgetsAPyramid)
+{
+  trial::Random random(15);
+  std::vector<Vec3> points = randomPoints(random, 300, 1e-3);
+  CellPyramid pyramid = pyramidOf(points, 2e-4);
+  BallCells cells;
+  ASSERT_TRUE(cells.gather(pyramid, points[0], 1e-3, kCoarse));
+  for (Vec3& p : points)
+  {
+    p += Vec3(1e-4, 0, 0);
+  }
+  pyramid = pyramidOf(points, 2e-4);
+  cells.forget();
+  ASSERT_TRUE(cells.gather(pyramid, points[0], 1e-3, kCoarse));
+  EXPECT_LE(worstGap(points, cells, points[0], 1e-3), 1e-16);
+}
+
+TEST(BallCells, HasNothingNearWhereNothingIs)
+{
+  const CellPyramid pyramid = pyramidOf({ Vec3(1e-3, 0, 0) }, 1e-4);
+  BallCells cells;
+  for (const Vec3& far : { Vec3(1, 0, 0), Vec3(1e3, 1e3, -1e3), Vec3(0, 1e300, 0) })
+  {
+    EXPECT_TRUE(cells.gather(pyramid, far, 1e-3, kCoarse));
+    double distance2 = 0.0;
+    EXPECT_EQ(cells.nearest(far, distance2), -1);
+    EXPECT_EQ(cells.sweep(far, { 0, 0, 1 }, 1e-4, 5e-4), 1e-4);
+  }
+}
+
+TEST(BallCells, FindsTheNearestPointAndTheBall)
+{
+  trial::Random random(16);
+  BallCells cells;
+  for (int cloud = 0; cloud < 40; ++cloud)
+  {
+    const std::vector<Vec3> points = randomPoints(random, 1 + random.below(256), 1e-3);
+    const CellPyramid pyramid = pyramidOf(points, 3e-4);
+    const Vec3 center = points[0] + random.uniform(0.0, 1e-3) * random.direction();
+    cells.forget();
+    ASSERT_TRUE(cells.gather(pyramid, center, 0.02, kCoarse));
+    for (int query = 0; query < 500; ++query)
+    {
+      const Vec3 p = center + random.uniform(0.0, 2e-3) * random.direction();
+      const double radius = random.uniform(0.0, 2e-3);
+      Real least = HUGE_VALL;
+      int surely = 0;
+      int perhaps = 0;
+      for (const Vec3& q : points)
+      {
+        const Real distance = norm(LongVec(q) - LongVec(p));
+        least = std::min(least, distance);
+        surely += distance < radius * (1 - 1e-12L);
+        perhaps += distance < radius * (1 + 1e-12L);
+      }
+      double distance2 = -1.0;
+      const int i = cells.nearest(p, distance2);
+      ASSERT_GE(i, 0);
+      ASSERT_NEAR(double(std::sqrt(Real(distance2)) - least), 0.0, 1e-15);
+      ASSERT_NEAR(double(norm(LongVec(cells.point(i)) - LongVec(p)) - least), 0.0, 1e-15);
+      int visited = 0;
+      cells.visitBall(p, radius,
+        [&](const Vec3& offset, double d2)
+        {
+          ++visited;
+          ASSERT_NEAR(norm2(offset), d2, 1e-15 * d2);
+          ASSERT_LT(d2, radius * radius);
+        });
+      ASSERT_LE(surely, visited);
+      ASSERT_GE(perhaps, visited);
+    }
+  }
+}
+
+TEST(BallCells, SweepsABallExactlyToTheFirstPointInItsWay)
+{
+  constexpr int kClouds = 300;
+  constexpr int kRays = 500;
+  trial::Random random(17);
+  BallCells cells;
+  int stopped = 0;
+  int atOnce = 0;
+  int exact = 0;
+  for (int cloud = 0; cloud < kClouds; ++cloud)
+  {
+    const std::vector<Vec3> points = randomPoints(random, 1 + random.below(200), 1e-3);
+    const CellPyramid pyramid = pyramidOf(points, 3e-4);
+    const double radius = random.uniform(1e-4, 1e-3);
+    cells.forget();
+    ASSERT_TRUE(cells.gather(pyramid, points[0], 0.02, kCoarse));
+    for (int ray = 0; ray < kRays; ++ray)
+    {
+      // Anywhere; touching a point up to rounding; covering one by a little, or by much.
+      const Vec3 away = random.direction();
+      const Vec3& touched = points[random.below(points.size())];
+      const std::size_t start = random.below(4);
+      const Vec3 from = start == 0 ? points[0] + random.uniform(0.0, 3e-3) * away
+        : start == 1               ? touched + radius * away
+        : start == 2               ? touched + radius * (1.0 - std::pow(10.0, random.uniform(-16, -8))) * away
+                                   : touched + random.uniform(0.0, radius) * away;
+      const std::size_t course = random.below(4);
+      const Vec3 direction = course == 0 ? normalized(cross(away, random.direction()))
+        : course == 1                    ? -1.0 * away
+        : course == 2 ? normalized(cross(away, random.direction()) + 1e-8 * random.direction())
+                      : random.direction();
+      const double length = random.below(50) == 0 ? 0.0 : random.uniform(0.0, 4e-3);
+      const double way = cells.sweep(from, direction, length, radius);
+      SCOPED_TRACE(cloud * kRays + ray);
+      ASSERT_GE(way, 0.0);
+      ASSERT_LE(way, length);
+      const Meeting meeting = exactMeeting(points, from, direction, length, radius, way);
+      // It covers nothing that it did not, and nothing deeper.
+      ASSERT_LE(double(meeting.depth), 1e-12 * radius);
+      if (way < length)
+      {
+        // It stops where it touches something ahead, or covers it already.
+        ASSERT_LE(double(meeting.touch), 1e-12 * radius);
+        ++stopped;
+        atOnce += way == 0.0;
+      }
+      // Where it grazes, the exact way is ill-conditioned: it may go past a point by that depth, never
+      // sooner.
+      ASSERT_GE(double(way - meeting.way), -1e-12 * radius);
+      exact += double(way - meeting.way) <= 1e-10 * radius;
+    }
+  }
+  EXPECT_GT(stopped, kClouds * kRays / 4);
+  EXPECT_GT(atOnce, kClouds * kRays / 20);
+  EXPECT_LT(atOnce, stopped);
+  EXPECT_GT(exact, kClouds * kRays * 9 / 10);
+}
+
+TEST(BallCells, SweepsAwayFromWhatItCovers)
+{
+  const CellPyramid pyramid = pyramidOf({ Vec3(0, 0, 0) }, 1e-4);
+  BallCells cells;
+  ASSERT_TRUE(cells.gather(pyramid, Vec3(), 0.01, kCoarse));
+  const double r = 1e-3;
+  for (const double z : { r, 0.999 * r, 0.5 * r, 0.01 * r })
+  {
+    EXPECT_EQ(cells.sweep({ 0, 0, z }, { 0, 0, 1 }, 5e-3, r), 5e-3) << z << ": it leaves";
+    EXPECT_EQ(cells.sweep({ 0, 0, z }, { 1, 0, 0 }, 5e-3, r), 5e-3) << z << ": it goes no deeper";
+    EXPECT_EQ(cells.sweep({ 0, 0, z }, { 0, 0, -1 }, 5e-3, r), 0.0) << z << ": it goes deeper";
+  }
+  EXPECT_NEAR(cells.sweep({ 0, 0, 3e-3 }, { 0, 0, -1 }, 5e-3, r), 2e-3, 1e-17);
+  EXPECT_EQ(cells.sweep({ 0, 0, 3e-3 }, { 0, 0, -1 }, 1e-3, r), 1e-3) << "not that far";
+  EXPECT_EQ(cells.sweep({ 0, 0, 3e-3 }, { 0, 0, -1 }, 0.0, r), 0.0);
+}

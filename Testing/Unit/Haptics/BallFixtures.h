@@ -1,0 +1,198 @@
+/// @file
+/// A ball with its memory, and what it may do among the points, told in long double by looking at all of
+/// them.
+#pragma once
+
+#include "Haptics/ProxyBall.h"
+
+#include "HapticFixtures.h"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace trial
+{
+
+using Real = long double;
+
+struct LongVec
+{
+  LongVec() = default;
+  LongVec(Real a, Real b, Real c)
+    : x(a)
+    , y(b)
+    , z(c)
+  {
+  }
+  LongVec(const Vec3& v) // NOLINT: a Vec3 is one, exactly
+    : x(v.x)
+    , y(v.y)
+    , z(v.z)
+  {
+  }
+  Real x = 0.0L;
+  Real y = 0.0L;
+  Real z = 0.0L;
+};
+
+inline LongVec operator+(const LongVec& a, const LongVec& b)
+{
+  return { a.x + b.x, a.y + b.y, a.z + b.z };
+}
+inline LongVec operator-(const LongVec& a, const LongVec& b)
+{
+  return { a.x - b.x, a.y - b.y, a.z - b.z };
+}
+inline LongVec operator*(Real s, const LongVec& a)
+{
+  return { s * a.x, s * a.y, s * a.z };
+}
+inline Real dot(const LongVec& a, const LongVec& b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline Real norm(const LongVec& a)
+{
+  return std::sqrt(dot(a, a));
+}
+
+/// Distance from @p p to the nearest of all points of the scene.
+inline Real leastDistance(const HapticScene& scene, const LongVec& p)
+{
+  Real least2 = HUGE_VALL;
+  for (const Cell& cell : scene.pyramid().level(0).cells)
+  {
+    const LongVec offset = LongVec(cell.mean) - p;
+    least2 = std::min(least2, dot(offset, offset));
+  }
+  return std::sqrt(least2);
+}
+
+/// The same where it is below @p radius, else @p radius: looks at the points near by alone.
+inline Real leastDistanceWithin(const HapticScene& scene, const Vec3& p, double radius)
+{
+  Real least = radius;
+  scene.pyramid().visitBall(0, p, radius,
+    [&](std::uint32_t, const Cell& cell, double)
+    { least = std::min(least, norm(LongVec(cell.mean) - LongVec(p))); });
+  return least;
+}
+
+/// A ball, its scene and the memory it works in.
+class BallInScene
+{
+public:
+  explicit BallInScene(Scene scene)
+    : scene_(std::move(scene))
+    , fields_(new FitCells)
+    , cells_(new BallCells)
+  {
+  }
+  /// Another ball in the same scene, with memory of its own.
+  BallInScene copy() const
+  {
+    BallInScene other(scene_);
+    other.ball_ = ball_;
+    other.hip_ = hip_;
+    return other;
+  }
+  void step(const Vec3& hip)
+  {
+    hip_ = hip;
+    ball_.step(*scene_, *fields_, *cells_, hip, status_);
+  }
+  /// Along a straight line at @p speed, metres per second; ends exactly at @p to.
+  void go(const Vec3& to, double speed)
+  {
+    const Vec3 from = hip_;
+    const int ticks = int(std::ceil(norm(to - from) / (speed * kTick)));
+    for (int i = 1; i <= ticks; ++i)
+    {
+      step(i == ticks ? to : from + (double(i) / ticks) * (to - from));
+    }
+  }
+  void rest(int ticks)
+  {
+    for (int i = 0; i < ticks; ++i)
+    {
+      step(hip_);
+    }
+  }
+  void forget()
+  {
+    fields_->forget();
+    cells_->forget();
+  }
+  /// A new scene, with the ball carried into it. What was gathered from the old one is dropped.
+  void enter(Scene scene, const AffineTransform& change, double scale)
+  {
+    forget();
+    scene_ = std::move(scene);
+    ball_.carry(change, scale);
+    hip_ = change.apply(hip_);
+  }
+  const Vec3& hip() const { return hip_; }
+  const HapticScene& scene() const { return *scene_; }
+  ProxyBall& ball() { return ball_; }
+  const ProxyBall& ball() const { return ball_; }
+  /// Bits since the last call.
+  std::uint32_t takeStatus()
+  {
+    const std::uint32_t bits = status_;
+    status_ = 0;
+    return bits;
+  }
+
+private:
+  Scene scene_;
+  std::unique_ptr<FitCells> fields_;
+  std::unique_ptr<BallCells> cells_;
+  ProxyBall ball_;
+  Vec3 hip_;
+  std::uint32_t status_ = 0;
+};
+
+inline bool isFinite(const ProxyBall& ball)
+{
+  using pointhaptics::isFinite;
+  return isFinite(ball.center()) && std::isfinite(ball.radius());
+}
+
+inline bool isSame(const ProxyBall& a, const ProxyBall& b)
+{
+  return a.center() == b.center() && a.radius() == b.radius() && a.isFree() == b.isFree() &&
+    a.isThere() == b.isThere();
+}
+
+/// @p n x @p n points of a square about the origin at height @p z, each somewhere in its own cell.
+inline std::vector<Vec3> jitteredPlane(int n, double side, double z, Random& random, double jitter = 0.7)
+{
+  std::vector<Vec3> points;
+  const double cell = side / n;
+  for (int i = 0; i < n; ++i)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      const double x = (i + 0.5 + 0.5 * jitter * random.uniform(-1, 1)) * cell;
+      const double y = (j + 0.5 + 0.5 * jitter * random.uniform(-1, 1)) * cell;
+      points.emplace_back(x - 0.5 * side, y - 0.5 * side, z);
+    }
+  }
+  return points;
+}
+
+inline std::vector<Vec3> spherePoints(int n, double radius, Random& random)
+{
+  std::vector<Vec3> points;
+  for (int i = 0; i < n; ++i)
+  {
+    points.push_back(radius * random.direction());
+  }
+  return points;
+}
+
+} // namespace trial
+} // namespace pointhaptics

@@ -1,0 +1,324 @@
+#include "BallFixtures.h"
+
+#include <cstdlib>
+
+using namespace pointhaptics;
+using trial::BallInScene;
+using trial::LongVec;
+using trial::Real;
+
+namespace
+{
+
+/// Ticks under random hands; POINTHAPTICS_STRESS_TICKS=1000000 for a long run.
+int stressTicks()
+{
+  const char* text = std::getenv("POINTHAPTICS_STRESS_TICKS");
+  const int asked = text ? std::atoi(text) : 0;
+  return asked > 0 ? asked : 100000;
+}
+
+/// Sheets, shells, lines, blobs and waves, some of them across each other, each at its own density.
+std::vector<Vec3> randomCloud(trial::Random& random)
+{
+  std::vector<Vec3> points;
+  const int parts = 1 + int(random.below(3));
+  for (int part = 0; part < parts; ++part)
+  {
+    const int n = 1 << (4 + random.below(9));
+    const Vec3 at = random.inBox({ -0.006, -0.006, -0.006 }, { 0.006, 0.006, 0.006 });
+    const Vec3 normal = random.direction();
+    const Vec3 a = anyPerpendicular(normal);
+    const Vec3 b = cross(normal, a);
+    const double size = random.uniform(0.003, 0.015);
+    const double wave = random.below(2) == 0 ? 0.0 : random.uniform(0.0, 0.3 * size);
+    const std::size_t kind = random.below(5);
+    for (int i = 0; i < n; ++i)
+    {
+      const double u = random.uniform(-1, 1);
+      const double v = random.uniform(-1, 1);
+      const Vec3 sheet = at + size * (u * a + v * b) + wave * std::sin(4 * u) * std::cos(3 * v) * normal;
+      points.push_back(kind < 2 ? sheet
+          : kind == 2           ? at + size * random.direction()
+          : kind == 3           ? at + size * u * a
+                                : at + random.inBox({ -size, -size, -size }, { size, size, size }));
+    }
+  }
+  return points;
+}
+
+/// One move of a hand of at most 1 m/s, mostly: still, slow, fast, a leap, far away.
+Vec3 randomMove(trial::Random& random, const Vec3& hip, Vec3& velocity)
+{
+  switch (random.below(300))
+  {
+    case 0:
+      return random.inBox({ -0.03, -0.03, -0.03 }, { 0.03, 0.03, 0.03 });
+    case 1:
+      velocity = Vec3();
+      return hip;
+    case 2:
+      velocity = std::pow(10.0, random.uniform(-8, -3)) * random.direction();
+      return hip;
+    case 3:
+      return random.below(20) == 0 ? 10.0 * random.direction() : hip;
+    default:
+      break;
+  }
+  velocity += 2e-6 * random.direction() - 5e-5 * hip;
+  return hip + velocity;
+}
+
+/// How many points the scene has within @p radius.
+int pointsNear(const HapticScene& scene, const Vec3& center, double radius)
+{
+  int count = 0;
+  scene.pyramid().visitBall(0, center, radius, [&](std::uint32_t, const Cell&, double) { ++count; });
+  return count;
+}
+
+} // namespace
+
+TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
+{
+  constexpr int kTicksPerCloud = 1000;
+  trial::Random random(21);
+  int contacts = 0;
+  int crowded = 0;
+  double mostCovered = 0.0;
+  for (int done = 0; done < stressTicks(); done += kTicksPerCloud)
+  {
+    const std::vector<Vec3> points = randomCloud(random);
+    BallInScene hand(random.below(2) == 0 ? trial::rawScene(points) : trial::resampledScene(points));
+    BallInScene again = hand.copy();
+    const ProxyBall& ball = hand.ball();
+    Vec3 hip = 0.025 * random.direction();
+    Vec3 velocity = -1e-4 * normalized(hip);
+    hand.step(hip);
+    again.step(hip);
+    double bound = norm(ball.center() - hip);
+    for (int tick = 0; tick < kTicksPerCloud; ++tick)
+    {
+      SCOPED_TRACE(done + tick);
+      const ProxyBall before = ball;
+      const Vec3 last = hand.hip();
+      const Vec3 asked = randomMove(random, hip, velocity);
+      hand.step(asked);
+      again.step(asked);
+      hip = norm(asked) < 1.0 ? asked : hip;
+      ASSERT_TRUE(trial::isFinite(ball));
+      ASSERT_TRUE(trial::isSame(ball, again.ball())) << "the same hand, the same ball";
+      ASSERT_GT(ball.radius(), 0.0);
+      if (ball.isThere())
+      {
+        ASSERT_EQ(ball.isFree(), ball.center() == asked);
+      }
+      if (!before.isFree() && !ball.isFree())
+      {
+        ++contacts;
+        ASSERT_LE(ball.radius(), before.radius() * 1.02 * (1 + 1e-12));
+        ASSERT_GE(ball.radius(), before.radius() / 1.02 * (1 - 1e-12));
+      }
+      const Real gap = tick % 64 == 0
+        ? trial::leastDistance(hand.scene(), ball.center())
+        : trial::leastDistanceWithin(hand.scene(), ball.center(), ball.radius());
+      const double covered = double(1.0L - gap / ball.radius());
+      // It follows the HIP's way in strides of a radius. In one stride it ends no farther from the HIP than
+      // it stood; over several, farther than before by no more than the HIP went. And by what growing pushes
+      // it.
+      const double moved = norm(asked - last);
+      const double grown = std::max(0.0, ball.radius() - before.radius());
+      const double away = norm(ball.center() - asked);
+      const bool oneStride = before.isThere() && moved < 0.9 * before.radius();
+      const double most = (oneStride ? norm(before.center() - asked) : bound + moved) + 3.0 * grown;
+      bound = ball.isThere() ? away : bound + moved;
+      // Where more points are near than the memory holds the ball knows only some of them.
+      const double reach = 4.0 * std::max(before.radius(), ball.radius()) + std::min(moved, 1.0);
+      if (pointsNear(hand.scene(), before.center(), reach) > BallCells::kCapacity ||
+        pointsNear(hand.scene(), ball.center(), reach) > BallCells::kCapacity)
+      {
+        ++crowded;
+        mostCovered = std::max(mostCovered, covered);
+        hand.forget();
+        again.forget();
+        continue;
+      }
+      ASSERT_LE(covered, 1e-8);
+      ASSERT_LE(away, most + 1e-9 * ball.radius());
+    }
+  }
+  trial::recorded("coveredWhereCrowdedOverRadius", mostCovered);
+  trial::recorded("crowdedShare", double(crowded) / stressTicks());
+  EXPECT_GT(contacts, stressTicks() / 20) << "the hand meets something";
+  EXPECT_LT(crowded, stressTicks() / 2);
+}
+
+TEST(ProxyBall, NeverMovesAwayFromAHandThatRests)
+{
+  trial::Random random(22);
+  for (int cloud = 0; cloud < 60; ++cloud)
+  {
+    BallInScene hand(trial::rawScene(trial::jitteredPlane(20, 0.02, 0.0, random)));
+    hand.step(random.inBox({ -0.005, -0.005, 0.003 }, { 0.005, 0.005, 0.004 }));
+    hand.go(random.inBox({ -0.007, -0.007, -0.004 }, { 0.007, 0.007, -0.0005 }), random.uniform(0.01, 1.0));
+    // Its radius settles first.
+    hand.rest(100);
+    double away = norm(hand.ball().center() - hand.hip());
+    for (int i = 0; i < 50; ++i)
+    {
+      hand.rest(1);
+      const double now = norm(hand.ball().center() - hand.hip());
+      ASSERT_LE(now, away + 1e-9 * hand.ball().radius()) << cloud;
+      away = now;
+    }
+  }
+}
+
+TEST(ProxyBall, IsFiniteAndFreeInTheEndWhateverTheCloud)
+{
+  trial::Random random(28);
+  std::vector<Vec3> line;
+  for (int i = 0; i < 200; ++i)
+  {
+    line.emplace_back(1e-4 * (i - 100), 0, 0);
+  }
+  std::vector<Vec3> pair(1000, Vec3(1e-3, 0, 0));
+  pair.resize(2000, Vec3(-1e-3, 0, 0));
+  for (const std::vector<Vec3>& points : { std::vector<Vec3>(1), std::vector<Vec3>(100000, Vec3(0, 0, 0)),
+         line, pair, std::vector<Vec3>{ Vec3(0, 0, 0), Vec3(1e-5, 0, 0), Vec3(0, 1e-8, 0) } })
+  {
+    for (const bool raw : { true, false })
+    {
+      if (raw && points.size() > 5000)
+      {
+        continue; // slow to make a scene of
+      }
+      BallInScene hand(raw ? trial::rawScene(points) : trial::resampledScene(points));
+      for (const Vec3& start : { Vec3(0, 0, 0.005), Vec3(0, 0, 0), points.back() })
+      {
+        hand.ball().reset();
+        hand.step(start);
+        for (int move = 0; move < 60; ++move)
+        {
+          const double size = std::pow(10.0, random.uniform(-6, -2));
+          hand.go(move % 3 == 0 ? points[random.below(points.size())] : size * random.direction(), 0.2);
+          hand.rest(2);
+          ASSERT_TRUE(trial::isFinite(hand.ball())) << points.size();
+          ASSERT_GT(hand.ball().radius(), 0.0);
+          ASSERT_TRUE(!hand.ball().isFree() || hand.ball().center() == hand.hip());
+        }
+        hand.go({ 0.2, 0.3, 0.4 }, 1.0);
+        hand.rest(50);
+        EXPECT_TRUE(hand.ball().isFree()) << points.size() << ' ' << raw;
+        EXPECT_EQ(hand.ball().center(), hand.hip());
+      }
+    }
+  }
+}
+
+TEST(ProxyBall, IsFiniteInACloudSmallerThanAnyHand)
+{
+  trial::Random random(35);
+  BallInScene hand(trial::rawScene({ Vec3(0, 0, 0), Vec3(1e-12, 0, 0), Vec3(0, 1e-15, 0) }));
+  for (int i = 0; i < 300; ++i)
+  {
+    hand.step(std::pow(10.0, random.uniform(-16, -2)) * random.direction());
+    ASSERT_TRUE(trial::isFinite(hand.ball()));
+  }
+}
+
+TEST(ProxyBall, SurvivesHandsThatAreFarAwayAndComeBack)
+{
+  trial::Random random(29);
+  BallInScene hand(trial::rawScene(trial::spherePoints(8000, 0.01, random)));
+  for (const double far : { 1.0, 1e3, 1e6, 1e12, 1e154, 1e200, 1e300, 1.7e308 })
+  {
+    for (int run = 0; run < 10; ++run)
+    {
+      hand.step({ 0, 0, 0.02 });
+      const Vec3 direction = random.direction();
+      hand.step(far * Vec3(direction.x, direction.y, std::abs(direction.z)));
+      ASSERT_TRUE(trial::isFinite(hand.ball())) << far;
+      hand.rest(3);
+      ASSERT_TRUE(trial::isFinite(hand.ball())) << far;
+      hand.step({ 0, 0, 0.02 });
+      hand.rest(20);
+      ASSERT_TRUE(hand.ball().isFree()) << far;
+      ASSERT_EQ(hand.ball().center(), hand.hip()) << far;
+      ASSERT_GT(hand.ball().radius(), 0.0);
+      hand.go({ 0, 0, 0.005 }, 0.5);
+      ASSERT_FALSE(hand.ball().isFree()) << far;
+      ASSERT_GT(hand.ball().center().z, 0.01);
+      hand.go({ 0, 0, 0.02 }, 0.5);
+      ASSERT_TRUE(hand.ball().isFree()) << far;
+    }
+  }
+}
+
+TEST(ProxyBall, MovesWithTheModel)
+{
+  trial::Random random(30);
+  const std::vector<Vec3> points = trial::spherePoints(8000, 0.01, random);
+  // By so much that no digit of a place of the model is lost to speak of; the cells stay as they are.
+  const AffineTransform shift = AffineTransform::translation({ 0.03125, -0.0625, 0.015625 });
+  const AffineTransform turn = AffineTransform::rotation(37.0, { 1, 2, 3 });
+  for (const AffineTransform& change : { shift, turn, shift * turn })
+  {
+    std::vector<Vec3> moved;
+    for (const Vec3& p : points)
+    {
+      moved.push_back(change.apply(p));
+    }
+    const bool sameCells = change == shift;
+    BallInScene hand(trial::rawScene(points));
+    hand.step({ 0, 0, 0.013 });
+    hand.go({ 0.001, 0.002, 0.008 }, 0.1);
+    hand.rest(100);
+    BallInScene carried = hand.copy();
+    const ProxyBall before = hand.ball();
+    carried.enter(trial::rawScene(moved), change, 1.0);
+    const double r = hand.ball().radius();
+    ASSERT_FALSE(carried.ball().isFree());
+    EXPECT_EQ(carried.ball().radius(), r);
+    EXPECT_LE(norm(carried.ball().center() - change.apply(hand.ball().center())), 1e-15);
+    // Both measure their radius where they are.
+    hand.ball().carry(AffineTransform(), 1.0);
+    EXPECT_TRUE(trial::isSame(hand.ball(), before));
+    hand.forget();
+    for (int tick = 0; tick < 200; ++tick)
+    {
+      const Vec3 to = hand.hip() + (tick < 100 ? Vec3() : Vec3(2e-5, -1e-5, 0));
+      hand.step(to);
+      carried.step(change.apply(to));
+      const double off = norm(carried.ball().center() - change.apply(hand.ball().center()));
+      ASSERT_LE(off, (sameCells ? 1e-6 : tick < 100 ? 0.2 : 1.2) * r) << tick;
+      ASSERT_FALSE(carried.ball().isFree());
+    }
+  }
+}
+
+TEST(ProxyBall, IsScaledWithTheModel)
+{
+  trial::Random random(31);
+  const std::vector<Vec3> points = trial::spherePoints(8000, 0.01, random);
+  const AffineTransform change = AffineTransform::scaling({ 2, 2, 2 });
+  std::vector<Vec3> larger;
+  for (const Vec3& p : points)
+  {
+    larger.push_back(2.0 * p);
+  }
+  BallInScene hand(trial::rawScene(points));
+  hand.step({ 0, 0, 0.013 });
+  hand.go({ 0.001, 0.002, 0.008 }, 0.1);
+  hand.rest(100);
+  BallInScene carried = hand.copy();
+  carried.enter(trial::rawScene(larger), change, 2.0);
+  EXPECT_EQ(carried.ball().center(), 2.0 * hand.ball().center());
+  EXPECT_EQ(carried.ball().radius(), 2.0 * hand.ball().radius());
+  hand.ball().carry(AffineTransform(), 1.0);
+  hand.forget();
+  hand.rest(20);
+  carried.rest(20);
+  EXPECT_LE(norm(carried.ball().center() - 2.0 * hand.ball().center()), 0.2 * carried.ball().radius());
+  EXPECT_NEAR(carried.ball().radius(), 2.0 * hand.ball().radius(), 0.2 * carried.ball().radius());
+}
