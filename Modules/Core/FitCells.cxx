@@ -108,15 +108,6 @@ const kernel::FitBlock& FitCells::near(
   }
 }
 
-const kernel::FitBlock* FitCells::finestNear(
-  const CellPyramid& pyramid, const Vec3& center, double radius) const noexcept
-{
-  const kernel::FitBlock& block = blocks_[0];
-  const bool holds =
-    pyramid_ == &pyramid && block.level == 0 && serves(block.center, block.reach, center, radius);
-  return holds ? &block : nullptr;
-}
-
 LocalScale FitCells::scaleAt(
   const CellPyramid& pyramid, const RadiusField& field, const Vec3& position, Vec3& radiusGradient) noexcept
 {

@@ -30,10 +30,6 @@ public:
   const kernel::FitBlock& near(
     const CellPyramid& pyramid, int& level, const Vec3& center, double radius) noexcept;
 
-  /// The block of the finest cells that near() gathered last, if it holds all within @p radius of @p center.
-  const kernel::FitBlock* finestNear(
-    const CellPyramid& pyramid, const Vec3& center, double radius) const noexcept;
-
   /// RadiusField::at() from gathered nodes; equal to it up to rounding.
   LocalScale scaleAt(const CellPyramid& pyramid, const RadiusField& field, const Vec3& position,
     Vec3& radiusGradient) noexcept;

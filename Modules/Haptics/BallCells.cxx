@@ -10,6 +10,11 @@ namespace
 
 /// How much further than asked for is gathered: a sliding hand then stays inside for some ticks.
 constexpr double kMargin = 1.35;
+/// Where that overflows.
+constexpr double kNoMargin = 1.0 + 1e-9;
+constexpr double kSmallerBall = 0.8;
+/// Behind the last point: further than any ball reaches, squared still finite.
+constexpr double kFarAway = 1e100;
 /// Part of the radius by which a way may lead towards a touched point that it goes past: rounding.
 constexpr double kTangential = 1e-6;
 
@@ -68,19 +73,31 @@ bool BallCells::gather(
   const CellPyramid& pyramid, const Vec3& center, double radius, double coarsest) noexcept
 {
   const double left = reach_ - radius;
-  if (pyramid_ == &pyramid && left >= 0.0 && norm2(center - center_) <= left * left)
+  const bool isInside = pyramid_ == &pyramid && left >= 0.0 && norm2(center - center_) <= left * left;
+  // Where points were left out a smaller ball may have room for them.
+  if (isInside && (complete_ || radius >= kSmallerBall * askedRadius_))
   {
     return complete_;
   }
   pyramid_ = &pyramid;
   center_ = center;
+  askedRadius_ = radius;
   reach_ = kMargin * radius;
-  complete_ = gatherFrom(pyramid, 0, false) || gatherFrom(pyramid, 0, true);
-  for (int level = 1;
-       !complete_ && level < pyramid.numberOfCellLevels() && pyramid.level(level).voxelSize <= coarsest;
-       ++level)
+  complete_ = gatherFrom(pyramid, 0, false);
+  if (!complete_)
   {
-    complete_ = gatherFrom(pyramid, level, false);
+    reach_ = kNoMargin * radius;
+    complete_ = gatherFrom(pyramid, 0, false);
+  }
+  bool fits = complete_ || gatherFrom(pyramid, 0, true);
+  for (int level = 1;
+       !fits && level < pyramid.numberOfCellLevels() && pyramid.level(level).voxelSize <= coarsest; ++level)
+  {
+    fits = gatherFrom(pyramid, level, false);
+  }
+  for (int i = size_; i % kernel::kFitLanes != 0; ++i)
+  {
+    x_[i] = y_[i] = z_[i] = kFarAway;
   }
   return complete_;
 }
@@ -107,26 +124,7 @@ int BallCells::nearest(const Vec3& p, double& distance2) const noexcept
 
 double BallCells::sweep(const Vec3& from, const Vec3& direction, double length, double radius) const noexcept
 {
-  const Vec3 local = from - center_;
-  const double r2 = radius * radius;
-  const double tangential = kTangential * radius;
-  double reached = length;
-  for (int i = 0; i < size_; ++i)
-  {
-    const double dx = x_[i] - local.x;
-    const double dy = y_[i] - local.y;
-    const double dz = z_[i] - local.z;
-    // The ball is at this distance from the point at t: sqrt(outside + (t - along)^2 - along^2 + r^2).
-    const double along = dx * direction.x + dy * direction.y + dz * direction.z;
-    const double outside = dx * dx + dy * dy + dz * dz - r2;
-    const double inside = along * along - outside;
-    if (along > tangential && inside > 0.0)
-    {
-      const double t = outside / (along + std::sqrt(inside));
-      reached = t < reached ? t : reached;
-    }
-  }
-  return reached > 0.0 ? reached : 0.0;
+  return kernels_->sweepBall(points(), from - center_, direction, length, radius, kTangential * radius);
 }
 
 } // namespace pointhaptics

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/CellPyramid.h"
+#include "Core/Kernel/FitKernel.h"
 
 #include <cstdint>
 
@@ -17,12 +18,18 @@ class BallCells
 public:
   static constexpr int kCapacity = 512;
 
+  /// @param wanted the instructions to use, as far as this machine has them; the results are the same.
+  explicit BallCells(InstructionSet wanted = InstructionSet::Automatic)
+    : kernels_(&kernel::fitKernels(wanted))
+  {
+  }
+
   /// Everything gathered is dropped. Must be called before a pyramid at an address used before.
   void forget() noexcept { pyramid_ = nullptr; }
 
   /// Makes sure that all points within @p radius of @p center are here. Where there are more than kCapacity,
-  /// one point of each finest voxel, or means of coarser voxels, of at most @p coarsest metres. False: even
-  /// those are too many, some are left out.
+  /// one point of each finest voxel, or means of coarser voxels, of at most @p coarsest metres. False: points
+  /// are left out.
   bool gather(const CellPyramid& pyramid, const Vec3& center, double radius, double coarsest) noexcept;
 
   int size() const noexcept { return size_; }
@@ -42,19 +49,27 @@ public:
   void visitBall(const Vec3& p, double radius, Visitor&& visit) const noexcept
   {
     const Vec3 local = p - center_;
-    const double r2 = radius * radius;
-    for (int i = 0; i < size_; ++i)
+    int indices[kCapacity];
+    const int count = kernels_->pointsWithin(points(), local, radius * radius, indices, kCapacity);
+    for (int k = 0; k < count; ++k)
     {
+      const int i = indices[k];
       const Vec3 offset(local.x - x_[i], local.y - y_[i], local.z - z_[i]);
-      const double d2 = norm2(offset);
-      if (d2 < r2)
-      {
-        visit(offset, d2);
-      }
+      visit(offset, norm2(offset));
     }
+  }
+  /// Whether a point is nearer to @p p than @p radius.
+  bool isCovered(const Vec3& p, double radius) const noexcept
+  {
+    int index = 0;
+    return kernels_->pointsWithin(points(), p - center_, radius * radius, &index, 1) > 0;
   }
 
 private:
+  kernel::BallPoints points() const noexcept
+  {
+    return { x_, y_, z_, (size_ + kernel::kFitLanes - 1) / kernel::kFitLanes * kernel::kFitLanes };
+  }
   bool add(const Vec3& p) noexcept;
   bool gatherFrom(const CellPyramid& pyramid, int level, bool onePerVoxel) noexcept;
 
@@ -64,7 +79,9 @@ private:
   int size_ = 0;
   Vec3 center_;
   double reach_ = 0.0;
-  bool complete_ = true;
+  bool complete_ = true; ///< All points of the cloud, not some or means of them.
+  double askedRadius_ = 0.0;
+  const kernel::FitKernels* kernels_;
   const CellPyramid* pyramid_ = nullptr;
 };
 

@@ -28,6 +28,8 @@ constexpr double kMostSheets = 2.0;
 /// The radius is measured again after this many index cells of way, and changes by at most this part a tick.
 constexpr double kMeasureEvery = 2.0;
 constexpr double kLargestGrowth = 1.02;
+/// Points within this many radii tell the radius.
+constexpr double kSearch = 4.0;
 
 /// Moves of one slide, and of one step: a hand at 1 m/s needs some ten.
 constexpr int kMostSlides = 24;
@@ -55,6 +57,9 @@ constexpr double kFlatCosine = 0.5;
 /// Radius of the ball that glides, shortest pull along the surface, longest way and least gain of a glide;
 /// all over the radius.
 constexpr double kGlideRadius = 0.9;
+/// On a flat place, so many radii around where that was seen, a ball that leans less waits.
+constexpr double kWaitNear = 0.3;
+constexpr double kWaitLean = 0.2;
 constexpr int kMostLifts = 3;
 constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
 constexpr double kLeastLean = 0.02;
@@ -179,12 +184,12 @@ bool ProxyBall::pushOut(const BallCells& cells) noexcept
 {
   for (int push = 0; push < kMostPushes; ++push)
   {
-    double d2 = 0.0;
-    const int nearest = cells.nearest(center_, d2);
-    if (nearest < 0 || std::sqrt(d2) >= (1.0 - kRounding) * radius_)
+    if (!cells.isCovered(center_, (1.0 - kRounding) * radius_))
     {
       return true;
     }
+    double d2 = 0.0;
+    const int nearest = cells.nearest(center_, d2);
     const Vec3 point = cells.point(nearest);
     center_ = point + radius_ * normalized(center_ - point);
   }
@@ -214,18 +219,25 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   free_ = center_ == hip;
 }
 
-/// Takes the radius towards what the cloud asks for; it grows only where there is room.
+/// Takes the radius towards what the cloud asks for: at once where the ball is free, else little by little.
+/// It grows only where there is room, and shrinks where it is pinched between points on two sides.
 void ProxyBall::updateRadius(Work& work) noexcept
 {
   const double every = kMeasureEvery * work.scene.cellSize();
   if (!isMeasured_ || norm2(center_ - measuredAt_) > every * every)
   {
     const CellPyramid& pyramid = work.scene.pyramid();
+    const double search = kSearch * std::max(radius_, work.scene.coveringRadius(center_));
     double distance = 0.0;
-    const std::int64_t nearest = pyramid.nearest(0, center_, 2.0 * radius_, distance);
+    const std::int64_t nearest = pyramid.nearest(0, center_, search, distance);
     wanted_ = nearest >= 0 ? wantedRadius(work, pyramid.level(0).cells[std::size_t(nearest)].mean) : radius_;
     measuredAt_ = center_;
     isMeasured_ = true;
+    if (free_ && wanted_ != radius_)
+    {
+      radius_ = nearest >= 0 ? std::max(radius_, std::min(wanted_, (1.0 - kRounding) * distance)) : wanted_;
+      radius_ = std::min(radius_, std::max(wanted_, kSmallestRadius * wanted_));
+    }
   }
   const ProxyBall before = *this;
   radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, radius_ * kLargestGrowth);
@@ -235,6 +247,7 @@ void ProxyBall::updateRadius(Work& work) noexcept
     if (!pushOut(work.cells))
     {
       *this = before;
+      radius_ = before.radius_ / kLargestGrowth;
     }
     free_ = free_ && center_ == before.center_;
   }
@@ -290,14 +303,15 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
       });
     const Vec3 way = withinPlanes(pull, normals, touched);
     const double length = norm(way);
-    if (length < kNoWay * radius_)
+    const bool isOpen = way == pull;
+    if (length < kNoWay * radius_ && !(isOpen && length < kNoWay * work.scene.cellSize()))
     {
       return;
     }
-    const Vec3 direction = way / length;
+    const Vec3 direction = normalized(way);
     const double wanted = std::min(length, longest);
     const double reached = work.cells.sweep(center_, direction, wanted, radius_);
-    if (way == pull && reached == length)
+    if (isOpen && reached == length)
     {
       center_ = hip;
       free_ = true;
@@ -306,7 +320,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     center_ += reached * direction;
     pushOut(work.cells);
   }
-  work.status |= kProxyRoundLimit | 0x400u;
+  work.status |= kProxyRoundLimit;
 }
 
 /// The normal of the surface that the ball lies on: of a plane through the points about it. Where they are
@@ -343,6 +357,16 @@ Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
   const double near = kFlatNear * radius_;
   isFlat_ = isFlat_ && norm2(center_ - flatAt_) <= near * near && dot(flatNormal_, away) >= kFlatCosine;
   return isFlat_ ? flatNormal_ : away;
+}
+
+/// Whether the ball lies on a flat place and leans so little that it may wait.
+bool ProxyBall::mayWait(const Vec3& hip) const noexcept
+{
+  const double near = kWaitNear * radius_;
+  const double most = kWaitLean * radius_;
+  const Vec3 pull = hip - center_;
+  return isFlat_ && norm2(center_ - flatAt_) < near * near &&
+    norm2(pull - dot(pull, flatNormal_) * flatNormal_) < most * most;
 }
 
 bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
@@ -425,16 +449,18 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
   std::uint32_t& status) noexcept
 {
   Work work{ scene, fields, cells, kMostRounds, status };
-  if (placed_ && (isFarAway(scene, hip) || isFarAway(scene, hip_)))
+  if (isFarAway(scene, hip) || (placed_ && isFarAway(scene, hip_)))
   {
     reset();
+    center_ = hip_ = hip;
+    radius_ = kRadiusInSpacings * scene.cellSize();
+  }
+  if (isFarAway(scene, hip))
+  {
+    return;
   }
   if (!placed_)
   {
-    if (isFarAway(scene, hip))
-    {
-      return;
-    }
     place(work, hip);
   }
   if (!free_ || scene.isNear(center_))
@@ -446,7 +472,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
   there_ = hip_ == hip;
   status |= std::uint32_t(there_ ? kProxyOk : kProxyStepLimit);
   const double again = kGlideAgain * radius_;
-  if (free_ || (isHeld_ && norm2(hip - heldAt_) < again * again))
+  if (free_ || (isHeld_ && norm2(hip - heldAt_) < again * again) || mayWait(hip))
   {
     return;
   }

@@ -67,6 +67,7 @@ private:
   void walk(Work& work, const Vec3& hip) noexcept;
   double fly(Work& work, const Vec3& direction, double length) noexcept;
   void slide(Work& work, const Vec3& hip) noexcept;
+  bool mayWait(const Vec3& hip) const noexcept;
   bool glide(Work& work, const Vec3& hip) noexcept;
   Vec3 surfaceNormal(const BallCells& cells) noexcept;
   bool pushOut(const BallCells& cells) noexcept;

@@ -21,6 +21,7 @@ public:
   {
     explicit Memory(InstructionSet wanted)
       : fit(wanted)
+      , ball(wanted)
     {
     }
 

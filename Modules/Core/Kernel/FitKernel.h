@@ -158,11 +158,13 @@ struct TraceSums
   double turnB;
 };
 
-/// Sums of weights count (1 - d^2/radius^2)^4 and of weight times place.
-struct CentroidSums
+/// Points about a ball, each coordinate in an array of its own with room for whole groups of lanes.
+struct BallPoints
 {
-  double weights;
-  double place[3];
+  const double* x;
+  const double* y;
+  const double* z;
+  int size; ///< A multiple of kFitLanes; the last ones lie far away.
 };
 
 struct FitKernels
@@ -173,9 +175,13 @@ struct FitKernels
   void (*sumCubicRows)(const FitRows& rows, CubicSums& sums);
   /// @param ra, rb gradient of the radius along a and b.
   void (*traceRows)(const FitRows& rows, const TracedFit& fit, double ra, double rb, TraceSums& sums);
-  /// Of the cells within @p radius of @p origin, both places relative to the block's center, the second to
-  /// the origin.
-  void (*sumPlaces)(const FitBlock& block, const Vec3& origin, double radius, CentroidSums& sums);
+  /// Indices of the points nearer to @p p than sqrt(@p radius2), ascending; at most @p most of them. @return
+  /// how many.
+  int (*pointsWithin)(const BallPoints& points, const Vec3& p, double radius2, int* indices, int most);
+  /// How far a ball of @p radius can go from @p from along the unit vector @p direction, at most @p length,
+  /// before it covers a point. Ways that lead into a point by less than @p tangential metres do not count.
+  double (*sweepBall)(const BallPoints& points, const Vec3& from, const Vec3& direction, double length,
+    double radius, double tangential);
   /// Weights (1 - d^2/reach^2)^3 of the nodes about @p position, relative to the block's center.
   void (*sumField)(const FieldBlock& block, const Vec3& position, double reach, FieldSums& sums);
 };

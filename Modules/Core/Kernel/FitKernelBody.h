@@ -7,6 +7,8 @@
 #include "Core/Kernel/FitKernel.h"
 #include "Core/Simd/Packs.h"
 
+#include <cmath>
+
 namespace pointhaptics
 {
 namespace kernel
@@ -334,24 +336,59 @@ void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, 
   sums.turnB = to[3];
 }
 
-void sumPlaces(const FitBlock& block, const Vec3& origin, double radius, CentroidSums& sums)
+int pointsWithin(const BallPoints& points, const Vec3& p, double radius2, int* indices, int most)
 {
-  const double perRadius2 = 1.0 / (radius * radius);
-  const simd::LaneSums<4> to = simd::sumLanes<4>(block.size,
-    [&](int i, Pack(&s)[4])
+  int found = 0;
+  for (int i = 0; i < points.size && found < most; i += simd::kWidth)
+  {
+    const Pack dx = load(points.x + i) - p.x;
+    const Pack dy = load(points.y + i) - p.y;
+    const Pack dz = load(points.z + i) - p.z;
+    const Pack d2 = dx * dx + dy * dy + dz * dz;
+    if (!simd::anyBelow(d2, radius2))
     {
-      const Pack d[3] = { load(block.x + i) - origin.x, load(block.y + i) - origin.y,
-        load(block.z + i) - origin.z };
-      const Pack e = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * perRadius2;
-      const Pack base = inside(e);
-      const Pack base2 = base * base;
-      const Pack weight = load(block.count + i) * (base2 * base2);
-      s[0] += weight;
-      s[1] += weight * d[0];
-      s[2] += weight * d[1];
-      s[3] += weight * d[2];
-    });
-  sums = { to[0], { to[1], to[2], to[3] } };
+      continue;
+    }
+    for (int lane = 0; lane < simd::kWidth && found < most; ++lane)
+    {
+      if (d2[lane] < radius2)
+      {
+        indices[found++] = i + lane;
+      }
+    }
+  }
+  return found;
+}
+
+double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& direction, double length,
+  double radius, double tangential)
+{
+  const double radius2 = radius * radius;
+  double reached = length;
+  for (int i = 0; i < points.size; i += simd::kWidth)
+  {
+    const Pack dx = load(points.x + i) - from.x;
+    const Pack dy = load(points.y + i) - from.y;
+    const Pack dz = load(points.z + i) - from.z;
+    const Pack along = dx * direction.x + dy * direction.y + dz * direction.z;
+    // At t the ball is sqrt(outside + r^2 - along^2 + (t - along)^2) from the point.
+    const Pack outside = dx * dx + dy * dy + dz * dz - radius2;
+    const Pack across = outside - along * along;
+    const Pack missed = along > tangential ? across : simd::all(1.0);
+    if (!simd::anyBelow(missed, 0.0))
+    {
+      continue;
+    }
+    for (int lane = 0; lane < simd::kWidth; ++lane)
+    {
+      if (missed[lane] < 0.0)
+      {
+        const double t = outside[lane] / (along[lane] + std::sqrt(-across[lane]));
+        reached = t < reached ? t : reached;
+      }
+    }
+  }
+  return reached > 0.0 ? reached : 0.0;
 }
 
 void sumField(const FieldBlock& block, const Vec3& position, double reach, FieldSums& sums)
@@ -394,7 +431,8 @@ void sumField(const FieldBlock& block, const Vec3& position, double reach, Field
   }
 }
 
-constexpr FitKernels kKernels = { appendRows, sumRows, sumCubicRows, traceRows, sumPlaces, sumField };
+constexpr FitKernels kKernels = { appendRows, sumRows, sumCubicRows, traceRows, pointsWithin, sweepBall,
+  sumField };
 
 }
 } // namespace kernel

@@ -88,7 +88,9 @@ struct Answers
   FitSums sums;
   CubicSums cubic;
   TraceSums trace;
-  CentroidSums places;
+  int within = 0;
+  int indices[64];
+  double swept = 0.0;
   FieldSums field;
 };
 
@@ -110,7 +112,14 @@ void answer(const FitKernels& kernels, const Question& question, Answers& answer
   kernels.sumRows(answers.rows, answers.sums);
   kernels.sumCubicRows(answers.rows, answers.cubic);
   kernels.traceRows(answers.rows, question.fit, 0.1, -0.3, answers.trace);
-  kernels.sumPlaces(question.block, question.view.origin, question.view.radius, answers.places);
+  const int groups = (question.block.size + kFitLanes - 1) / kFitLanes * kFitLanes;
+  const BallPoints points{ question.block.x, question.block.y, question.block.z, groups };
+  const double radius = 0.3 * question.view.radius;
+  std::fill(answers.indices, answers.indices + 64, -1);
+  answers.within =
+    kernels.pointsWithin(points, question.view.origin, radius * radius, answers.indices, 64);
+  answers.swept =
+    kernels.sweepBall(points, question.view.origin, question.view.normal, 2.0, radius, 1e-6 * radius);
   kernels.sumField(question.nodes, question.view.origin, question.view.radius, answers.field);
 }
 
@@ -136,7 +145,9 @@ void expectSameBits(const Answers& found, const Answers& expected)
   ASSERT_TRUE(areSameBits(found.sums, expected.sums));
   ASSERT_TRUE(areSameBits(found.cubic, expected.cubic));
   ASSERT_TRUE(areSameBits(found.trace, expected.trace));
-  ASSERT_TRUE(areSameBits(found.places, expected.places));
+  ASSERT_EQ(found.within, expected.within);
+  ASSERT_TRUE(std::equal(found.indices, found.indices + 64, expected.indices));
+  ASSERT_EQ(found.swept, expected.swept);
   ASSERT_TRUE(areSameBits(found.field, expected.field));
 }
 
