@@ -13,16 +13,19 @@ namespace
 /// r over the index cell and over the local spacing, at least.
 constexpr double kRadiusInCells = 2.0;
 constexpr double kRadiusInSpacings = 2.4;
+/// Over the radius from the bandwidth, which is some 2.9 spacings.
+constexpr double kRadiusOfField = 0.8;
 /// The spacing is that of so many points: the ball about one of them that has them is sought from this many
 /// index cells on, in steps.
-constexpr double kPoints = 12.0;
+constexpr double kPoints = 16.0;
 constexpr double kFirstReach = 2.0;
 constexpr double kReachGrowth = 1.3;
 constexpr int kReaches = 12;
 /// Points further than this part of that reach from the tangent plane are of another sheet.
 constexpr double kSheetDepth = 0.15;
-/// The middle of half a disk is 0.42 radii aside.
-constexpr double kPartPerOffset = 1.18;
+/// The middle of half a disk is 0.42 radii aside; that of a few points on a whole one lies aside by chance.
+constexpr double kChanceOffset = 0.2;
+constexpr double kPartPerOffset = 2.3;
 constexpr double kLeastPart = 0.25;
 constexpr double kMostSheets = 2.0;
 /// The radius is measured again after this many index cells of way, and changes by at most this part a tick.
@@ -39,6 +42,9 @@ constexpr int kMostPushes = 16;
 /// A point nearer than this many radii is touched.
 constexpr double kTouch = 1.002;
 constexpr int kMostTouched = 16;
+/// Points nearer than so many radii pinch the ball where their normals are so far apart (a cosine).
+constexpr double kPinch = 1.02;
+constexpr double kOpposite = -0.9;
 /// Least radius of a ball that begins where it has no room, over the one it should have.
 constexpr double kSmallestRadius = 1e-3;
 /// Places further away than this many times the cloud's extent are free whatever the way there.
@@ -171,12 +177,15 @@ double ProxyBall::wantedRadius(Work& work, const Vec3& seed) noexcept
       });
     // Where the sheet ends the points fill a part of the disk alone, and their middle lies aside.
     const double aside = norm(sum) / (std::max(1.0, count) * reach);
-    const double part = std::clamp(1.0 - kPartPerOffset * aside, kLeastPart, 1.0);
+    const double part = std::clamp(1.0 - kPartPerOffset * (aside - kChanceOffset), kLeastPart, 1.0);
     // Two sheets have twice the points of one; where the gate leaves fewer the surface is bent.
     points = std::max({ 1.0, count / part, all / kMostSheets });
   }
   const double spacing = reach / kReachGrowth * std::sqrt(kPi / points);
-  return std::max(kRadiusInCells * work.scene.cellSize(), kRadiusInSpacings * spacing);
+  // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
+  Vec3 ignored;
+  const double field = kRadiusOfField * work.scene.fitScale(seed, work.fields, ignored).proxyRadius;
+  return std::max({ kRadiusInCells * work.scene.cellSize(), kRadiusInSpacings * spacing, field });
 }
 
 /// Moves the ball out of the points it covers; false where they hold it from all sides.
@@ -194,6 +203,26 @@ bool ProxyBall::pushOut(const BallCells& cells) noexcept
     center_ = point + radius_ * normalized(center_ - point);
   }
   return false;
+}
+
+/// Whether points on two sides hold the ball.
+bool ProxyBall::isPinched(const BallCells& cells) const noexcept
+{
+  Vec3 normals[kMostTouched];
+  int touched = 0;
+  bool result = false;
+  cells.visitBall(center_, kPinch * radius_,
+    [&](const Vec3& offset, double d2)
+    {
+      const Vec3 normal = offset / std::sqrt(std::max(d2, 1e-300));
+      result = result ||
+        std::any_of(normals, normals + touched, [&](const Vec3& n) { return dot(n, normal) < kOpposite; });
+      if (touched < kMostTouched)
+      {
+        normals[touched++] = normal;
+      }
+    });
+  return result;
 }
 
 /// Begins near @p hip, outside of all points; where the ball has no room, with a smaller one.
@@ -247,7 +276,7 @@ void ProxyBall::updateRadius(Work& work) noexcept
     if (!pushOut(work.cells))
     {
       *this = before;
-      radius_ = before.radius_ / kLargestGrowth;
+      radius_ = isPinched(work.cells) ? radius_ / kLargestGrowth : radius_;
     }
     free_ = free_ && center_ == before.center_;
   }

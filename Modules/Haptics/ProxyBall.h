@@ -19,9 +19,9 @@ namespace pointhaptics
 /// the points hold it although the pull leans, it glides: a slightly smaller ball goes along the smoothed
 /// surface, and the ball follows where that brings it nearer to the HIP.
 ///
-/// Its radius r = max(2 h, 2.4 s) follows the local spacing s of the points, h the index cell, and is never
-/// below: a smaller one would fall through the gaps of a random sample. Lattice frame, metres. Plain state;
-/// no allocation; bounded work; one thread.
+/// Its radius is the paper's r_p, less a fifth, but at least max(2 h, 2.4 s), h the index cell and s the
+/// spacing of the points about it: a smaller one would fall through the gaps of a random sample. Lattice
+/// frame, metres. Plain state; no allocation; bounded work; one thread.
 class ProxyBall
 {
 public:
@@ -71,6 +71,7 @@ private:
   bool glide(Work& work, const Vec3& hip) noexcept;
   Vec3 surfaceNormal(const BallCells& cells) noexcept;
   bool pushOut(const BallCells& cells) noexcept;
+  bool isPinched(const BallCells& cells) const noexcept;
   void gather(Work& work, double reach) noexcept;
 
   Vec3 center_;
