@@ -14,7 +14,6 @@ namespace
 constexpr double kCountGrowth = 1.1;
 constexpr int kCountSteps = 120;
 
-constexpr double kLadderGrowth = 1.15;
 constexpr int kLadderRungs = 16;
 /// Rungs whose residuals may tell the noise: longer ones see curvature too.
 constexpr int kNoiseRungs = 3;
@@ -106,10 +105,11 @@ class Ladder
 {
 public:
   Ladder(const CellPyramid& pyramid, const SurfaceFrame& frame, const double curvature[3], double countRadius,
-    FitCells& memory)
+    double growth, FitCells& memory)
     : pyramid_(pyramid)
     , frame_(frame)
     , countRadius_(countRadius)
+    , growth_(growth)
     , memory_(memory)
   {
     std::copy(curvature, curvature + 3, curvature_);
@@ -167,7 +167,7 @@ public:
       {
         break;
       }
-      settings.radius = std::min(largest, kLadderGrowth * settings.radius);
+      settings.radius = std::min(largest, growth_ * settings.radius);
     }
     return result;
   }
@@ -186,6 +186,7 @@ private:
   const SurfaceFrame& frame_;
   double curvature_[3];
   double countRadius_;
+  double growth_;
   FitCells& memory_;
   double noise_ = INFINITY;
 };
@@ -237,11 +238,11 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
   {
     return scale;
   }
-  Ladder ladder(pyramid, frame, curvature, scale.countRadius, memory);
+  Ladder ladder(pyramid, frame, curvature, scale.countRadius, needs.growth, memory);
   const Climb quadratic = ladder.climb(largest, false);
   scale.radius = quadratic.radius;
   scale.noise = std::isfinite(ladder.noise()) ? ladder.noise() : 0.0;
-  if (quadratic.radius > kNoisyGrowth * scale.countRadius)
+  if (needs.weighsCubic && quadratic.radius > kNoisyGrowth * scale.countRadius)
   {
     const Climb cubic = ladder.climb(kCubicReach * largest, true);
     scale.cubic = prefersCubic(cubic, quadratic, scale.noise);
