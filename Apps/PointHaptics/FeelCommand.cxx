@@ -3,6 +3,7 @@
 #include "CsvWriter.h"
 #include "FeelLive.h"
 #include "FeelOptions.h"
+#include "FeelScenes.h"
 #include "Messages.h"
 #include "PathTicks.h"
 #include "Pipeline.h"
@@ -11,18 +12,11 @@
 
 #include "Devices/HipPath.h"
 #include "Devices/SimulatedDevice.h"
-#include "HapticSceneBuilder.h"
 #include "Haptics/Proxy.h"
-#include "vtkKernelBandwidthFilter.h"
-#include "vtkVoxelMeanResampler.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <vtkAlgorithm.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
@@ -57,63 +51,6 @@ struct Summary
   double p99Microseconds = 0.0;
   double maximumMicroseconds = 0.0;
 };
-
-/// The points of @p cloud in the workspace frame that are inside --workspace where one is given.
-vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* cloud)
-{
-  std::int64_t invalid = 0;
-  vtkSmartPointer<vtkPolyData> moved = transformedPoints(cloud, options.lattice.transform(), invalid);
-  const std::vector<double>& box = options.lattice.workspace;
-  if (box.empty())
-  {
-    return moved;
-  }
-  vtkNew<vtkPoints> inside;
-  inside->SetDataTypeToDouble();
-  for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    moved->GetPoint(i, p);
-    if (p[0] >= box[0] && p[0] < box[1] && p[1] >= box[2] && p[1] < box[3] && p[2] >= box[4] && p[2] < box[5])
-    {
-      inside->InsertNextPoint(p);
-    }
-  }
-  moved->SetPoints(inside);
-  return moved;
-}
-
-/// The cloud as the proxy will feel it: resampled or raw.
-vtkSmartPointer<vtkPolyData> preparedCloud(
-  const FeelOptions& options, vtkPolyData* cloud, std::string& message)
-{
-  vtkSmartPointer<vtkPolyData> prepared;
-  if (options.raw)
-  {
-    prepared = rawPoints(options, cloud);
-  }
-  else
-  {
-    vtkNew<vtkVoxelMeanResampler> resampler;
-    resampler->SetInputData(cloud);
-    resampler->SetPassAttributes(false);
-    resampler->SetComputeCovariance(!options.noCovariance);
-    resampler->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-    options.lattice.configure(resampler);
-    if (!updateFilter(resampler, "resampling", message))
-    {
-      return nullptr;
-    }
-    prepared = resampler->GetOutput();
-  }
-  if (prepared->GetNumberOfPoints() == 0)
-  {
-    message =
-      options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform";
-    return nullptr;
-  }
-  return prepared;
-}
 
 double quantile(const std::vector<float>& sorted, double part)
 {
@@ -160,9 +97,42 @@ private:
   std::vector<float> durations_;
 };
 
+/// A proxy in virtual time, in the scenes of where it comes.
+class VirtualTouch
+{
+public:
+  VirtualTouch(const FeelOptions& options, FeelScenes& scenes)
+    : proxy_(options.parameters)
+    , scenes_(scenes)
+    , period_(1.0 / options.rateHz)
+  {
+  }
+  /// @param microseconds of the tick alone: a scene that it needs is there in time.
+  const ProxyState& step(const Vec3& hip, double& microseconds)
+  {
+    const HapticScene* scene = scenes_.at(hip, state_.contact ? state_.proxy : hip);
+    if (scene != scene_)
+    {
+      proxy_.setScene(scene_ = scene);
+    }
+    const auto before = std::chrono::steady_clock::now();
+    state_ = proxy_.step(hip, period_);
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;
+    microseconds = took.count();
+    return state_;
+  }
+
+private:
+  Proxy proxy_;
+  FeelScenes& scenes_;
+  double period_;
+  const HapticScene* scene_ = nullptr;
+  ProxyState state_;
+};
+
 /// A person pulled along @p path, who yields to the force; in virtual time.
-bool walkYielding(const FeelOptions& options, const HapticScene& scene, const HipPath& path,
-  std::int64_t ticks, Rows& rows, std::string& message)
+bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks,
+  Rows& rows, std::string& message)
 {
   SimulatedHandSettings settings;
   for (const HipPathPoint& point : path.points)
@@ -191,8 +161,7 @@ bool walkYielding(const FeelOptions& options, const HapticScene& scene, const Hi
     message = options.path + ": " + sentence(status);
     return false;
   }
-  Proxy proxy(options.parameters);
-  proxy.setScene(&scene);
+  VirtualTouch touch(options, scenes);
   ProgressBar bar("feeling");
   for (std::int64_t tick = 0; tick < ticks && !stopIsRequested(); ++tick)
   {
@@ -202,22 +171,19 @@ bool walkYielding(const FeelOptions& options, const HapticScene& scene, const Hi
     {
       break;
     }
-    const auto before = std::chrono::steady_clock::now();
-    const ProxyState felt = proxy.step(state.position, 1.0 / options.rateHz);
-    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;
+    double microseconds = 0.0;
+    const ProxyState& felt = touch.step(state.position, microseconds);
     static_cast<void>(hand.write(time, felt.force));
-    rows.add(path.points.front().timeSeconds + time, felt, took.count());
+    rows.add(path.points.front().timeSeconds + time, felt, microseconds);
     bar.show(double(tick) / double(ticks));
   }
   return true;
 }
 
 /// Moves the hand along @p path in virtual time.
-void walk(
-  const FeelOptions& options, const HapticScene& scene, const HipPath& path, std::int64_t ticks, Rows& rows)
+void walk(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks, Rows& rows)
 {
-  Proxy proxy(options.parameters);
-  proxy.setScene(&scene);
+  VirtualTouch touch(options, scenes);
   const double start = path.points.front().timeSeconds;
   const double end = path.points.back().timeSeconds;
   std::size_t hint = 0;
@@ -225,18 +191,15 @@ void walk(
   for (std::int64_t tick = 0; tick < ticks && !stopIsRequested(); ++tick)
   {
     const double time = std::min(start + double(tick) / options.rateHz, end);
-    const Vec3 hip = path.position(time, hint);
-    const auto before = std::chrono::steady_clock::now();
-    const ProxyState state = proxy.step(hip, 1.0 / options.rateHz);
-    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;
-    rows.add(time, state, took.count());
+    double microseconds = 0.0;
+    const ProxyState& state = touch.step(path.position(time, hint), microseconds);
+    rows.add(time, state, microseconds);
     bar.show(double(tick) / double(ticks));
   }
 }
 
 /// The hand in the device, until the time is over or the user ends it.
-bool touch(
-  const FeelOptions& options, std::shared_ptr<const HapticScene> scene, Rows& rows, std::string& message)
+bool touch(const FeelOptions& options, FeelScenes& scenes, Rows& rows, std::string& message)
 {
   LiveSettings live;
   live.falcon = options.falcon;
@@ -246,7 +209,7 @@ bool touch(
   ServoStatistics statistics;
   const auto row = [&rows](const ServoSample& sample)
   { rows.add(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds); };
-  if (!feelLive(live, std::move(scene), row, statistics, message))
+  if (!feelLive(live, scenes, row, statistics, message))
   {
     return false;
   }
@@ -256,20 +219,20 @@ bool touch(
   return true;
 }
 
-bool feelAs(const FeelOptions& options, const std::shared_ptr<const HapticScene>& scene, const HipPath& path,
-  std::int64_t ticks, Rows& rows, std::string& message)
+bool feelAs(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks,
+  Rows& rows, std::string& message)
 {
   if (options.device == "falcon")
   {
-    return touch(options, scene, rows, message);
+    return touch(options, scenes, rows, message);
   }
-  if (options.device == "simulated" && !walkYielding(options, *scene, path, ticks, rows, message))
+  if (options.device == "simulated" && !walkYielding(options, scenes, path, ticks, rows, message))
   {
     return false;
   }
   if (options.device != "simulated")
   {
-    walk(options, *scene, path, ticks, rows);
+    walk(options, scenes, path, ticks, rows);
   }
   if (stopIsRequested())
   {
@@ -278,12 +241,13 @@ bool feelAs(const FeelOptions& options, const std::shared_ptr<const HapticScene>
   return !stopIsRequested();
 }
 
-void print(const FeelOptions& options, const HapticScene& scene, const Summary& s)
+void print(const FeelOptions& options, const FeelScenes& scenes, const Summary& s)
 {
   if (options.json)
   {
     const nlohmann::ordered_json result = { { "output", options.output },
-      { "points_felt", scene.numberOfPoints() }, { "ticks", s.ticks }, { "contact_ticks", s.contactTicks },
+      { "points_felt", scenes.whole()->numberOfPoints() }, { "local_scenes", scenes.numberOfLocalScenes() },
+      { "finest_cell_m", scenes.finestCell() }, { "ticks", s.ticks }, { "contact_ticks", s.contactTicks },
       { "max_force_n", s.maximumForce },
       { "update_us",
         { { "p50", s.p50Microseconds }, { "p99", s.p99Microseconds }, { "max", s.maximumMicroseconds } } } };
@@ -314,23 +278,14 @@ int runFeel(const FeelOptions& options)
   {
     return fail(kCommand, message);
   }
-  const vtkSmartPointer<vtkPolyData> prepared = preparedCloud(options, cloud.points, message);
+  FeelScenes scenes;
+  const bool isMade = scenes.make(options, cloud.points, message);
   showWarnings(kCommand);
-  if (!prepared)
+  if (!isMade)
   {
     return fail(kCommand, message);
   }
   cloud = {};
-  Status status = Status::Ok;
-  // No picture is drawn: the scene computes the few radii it needs.
-  vtkNew<vtkKernelBandwidthFilter> bandwidth;
-  options.bandwidth.configure(bandwidth);
-  const std::shared_ptr<const HapticScene> scene =
-    makeHapticScene(prepared, status, !options.noCovariance, bandwidth->GetSettings());
-  if (!scene)
-  {
-    return fail(kCommand, options.file + ": " + sentence(status));
-  }
   rememberStopSignals(); // before there is an unfinished file
   CsvWriter table;
   if (!table.open(options.output, kHeader, message))
@@ -338,11 +293,11 @@ int runFeel(const FeelOptions& options)
     return fail(kCommand, message);
   }
   Rows rows(table);
-  if (!feelAs(options, scene, path, ticks, rows, message) || !table.commit(message))
+  if (!feelAs(options, scenes, path, ticks, rows, message) || !table.commit(message))
   {
     return fail(kCommand, message);
   }
-  print(options, *scene, rows.summary());
+  print(options, scenes, rows.summary());
   return kSuccess;
 }
 

@@ -3,8 +3,10 @@
 #include "Messages.h"
 #include "StopSignals.h"
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -16,10 +18,49 @@ namespace
 {
 
 constexpr auto kPause = std::chrono::milliseconds(20);
+/// Between two looks at where the hand is: 0.25 mm at 50 mm/s.
+constexpr auto kLook = std::chrono::milliseconds(5);
+
+/// While it lives, a thread follows the hand and publishes the scenes of where it is.
+class SceneThread
+{
+public:
+  SceneThread(ServoLoop& loop, LocalSceneFollower& follower)
+    : thread_([this, &loop, &follower] { this->run(loop, follower); })
+  {
+  }
+  ~SceneThread()
+  {
+    ending_ = true;
+    thread_.join();
+  }
+  SceneThread(const SceneThread&) = delete;
+  SceneThread& operator=(const SceneThread&) = delete;
+
+private:
+  void run(ServoLoop& loop, LocalSceneFollower& follower)
+  {
+    while (!ending_)
+    {
+      const ServoSample latest = loop.latest();
+      Bounds hand;
+      hand.include(latest.state.hip);
+      hand.include(latest.state.proxy);
+      if (latest.tick > 0 && follower.update(hand, SmpExecutor()))
+      {
+        loop.publishScene(follower.scene());
+      }
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+
+  std::atomic<bool> ending_{ false };
+  std::thread thread_; // last: it uses the other
+};
 
 } // namespace
 
-bool feelLive(const LiveSettings& settings, std::shared_ptr<const HapticScene> scene,
+bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   const std::function<void(const ServoSample&)>& onSample, ServoStatistics& statistics, std::string& message)
 {
   rememberStopSignals();
@@ -30,10 +71,15 @@ bool feelLive(const LiveSettings& settings, std::shared_ptr<const HapticScene> s
     return false;
   }
   ServoLoop loop; // after the device: stops before it closes
-  loop.publishScene(std::move(scene));
+  loop.publishScene(scenes.whole());
   if (loop.start(device, settings.parameters, pushingServoSettings(settings.rateHz), &message) != Status::Ok)
   {
     return false;
+  }
+  std::optional<SceneThread> sceneThread;
+  if (LocalSceneFollower* follower = scenes.follower())
+  {
+    sceneThread.emplace(loop, *follower);
   }
   FalconNews news;
   std::vector<ServoSample> samples;
@@ -65,6 +111,7 @@ bool feelLive(const LiveSettings& settings, std::shared_ptr<const HapticScene> s
     }
     std::this_thread::sleep_for(kPause);
   }
+  sceneThread.reset();
   loop.stop();
   pass();
   statistics = loop.statistics();

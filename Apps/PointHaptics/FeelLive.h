@@ -3,12 +3,10 @@
 #pragma once
 
 #include "CsvWriter.h"
+#include "FeelScenes.h"
 #include "HandDevice.h"
 
-#include "Haptics/HapticScene.h"
-
 #include <functional>
-#include <memory>
 #include <string>
 
 namespace pointhaptics
@@ -24,9 +22,10 @@ struct LiveSettings
   double seconds = 0.0; ///< Of touch, from the first tick with forces on; 0: until a stop signal.
 };
 
-/// Runs the servo loop on the Falcon; @p onSample gets every tick that had a position. False: @p message says
-/// what failed and the cure.
-bool feelLive(const LiveSettings& settings, std::shared_ptr<const HapticScene> scene,
+/// Runs the servo loop on the Falcon; @p onSample gets every tick that had a position. Local scenes are made
+/// in a thread of their own; until one is there, the whole cloud's is felt. False: @p message says what
+/// failed and the cure.
+bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   const std::function<void(const ServoSample&)>& onSample, ServoStatistics& statistics, std::string& message);
 
 } // namespace app

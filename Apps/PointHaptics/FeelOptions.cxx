@@ -60,6 +60,9 @@ void FeelOptions::addTo(CLI::App& command)
     "Feel the points themselves, without voxel means; --dims and --voxel then have no effect");
   command.add_flag("--json", this->json, "Print the summary as JSON");
   this->lattice.addTo(command);
+  command.get_option("--dims")->description(
+    "Voxels on each axis of the lattice, everywhere; default 300, and near the hand, where that tells more, "
+    "voxels about as fine as the points");
   this->bandwidth.addTo(command);
 }
 

@@ -42,6 +42,8 @@ struct FeelOptions
   /// What can only be said once all options are known: the preset's gains, mu_s where only mu_d is given.
   /// Ends in a usage error where they contradict each other; warns of one that has no effect.
   void complete();
+  /// Whether scenes near the hand are as fine as the points there: nobody asked for other voxels, or none.
+  bool refinesNearHand() const { return !this->lattice.hasVoxels() && !this->raw && !this->noCovariance; }
 
 private:
   int method = 0;

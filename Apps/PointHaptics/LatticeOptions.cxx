@@ -175,6 +175,17 @@ bool LatticeOptions::hasTransform() const
     this->unit != "m";
 }
 
+Bounds LatticeOptions::workspaceBounds() const
+{
+  Bounds bounds;
+  if (const std::vector<double>& w = this->workspace; !w.empty())
+  {
+    bounds.include({ w[0], w[2], w[4] });
+    bounds.include({ w[1], w[3], w[5] });
+  }
+  return bounds;
+}
+
 void LatticeOptions::configure(vtkVoxelMeanResampler* resampler) const
 {
   if (this->hasTransform())

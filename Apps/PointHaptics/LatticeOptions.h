@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Core/AffineTransform.h"
+#include "Core/PointView.h"
 
 #include <string>
 #include <vector>
@@ -39,6 +40,10 @@ struct LatticeOptions
   /// What a unit of the file's coordinates is.
   double metresPerUnit() const;
   bool hasTransform() const;
+  /// Whether the lattice's voxels were chosen: --dims or --voxel.
+  bool hasVoxels() const { return !this->dimensions.empty() || this->voxelSize > 0.0; }
+  /// --workspace; empty where it was not given.
+  Bounds workspaceBounds() const;
   /// Sets transform, workspace and dimensions or voxel size on @p resampler (those that were given).
   void configure(vtkVoxelMeanResampler* resampler) const;
 };

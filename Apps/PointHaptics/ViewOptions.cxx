@@ -323,7 +323,8 @@ void ViewOptions::addTo(CLI::App& command)
   this->bandwidth.addTo(command);
   this->lattice.addTo(command);
   command.get_option("--dims")->description(
-    "Voxels on each axis of the lattice; default 300, up to 1200 where these leave little of a cloud");
+    "Voxels on each axis of the lattice, everywhere; default 300, up to 1200 where these leave little of a "
+    "cloud, and near the hand, where that tells more, voxels about as fine as the points");
 }
 
 bool ViewOptions::complete(CLI::App& command, std::string& message)

@@ -244,6 +244,7 @@ void ViewWindow::connectStyle()
   scene_.getWorkspaceBounds(bounds);
   style_->SetWorkspaceBounds(bounds);
   style_->SetUseCovariance(!options_.noCovariance);
+  style_->SetRefinesNearHand(!options_.lattice.hasVoxels());
   scene_.showAmbient(options_.ambient);
   style_->SetComputeNormals(options_.ambient);
   style_->SetComputeResiduals(scene_.wantsResiduals());

@@ -311,6 +311,7 @@ void ViewWindow::onSlider(int slider)
     default:
       voxelSize_ = 1e-3 * value;
       scene_.resampler()->SetVoxelSize(voxelSize_);
+      style_->SetRefinesNearHand(false); // whoever chooses voxels feels these
       style_->InvalidateModel();
   }
 }

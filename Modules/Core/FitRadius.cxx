@@ -11,10 +11,13 @@ namespace pointhaptics
 namespace
 {
 
+/// RMS distance from a fit, in cells, up to which a surface is smooth; part of it that a smaller fit leaves
+/// over where it is shape.
+constexpr double kSmooth = 1e-3;
+constexpr double kLeftOfShape = 0.7;
 constexpr double kCountGrowth = 1.1;
 constexpr int kCountSteps = 120;
 
-constexpr double kLadderGrowth = 1.15;
 constexpr int kLadderRungs = 16;
 /// Rungs whose residuals may tell the noise: longer ones see curvature too.
 constexpr int kNoiseRungs = 3;
@@ -106,10 +109,11 @@ class Ladder
 {
 public:
   Ladder(const CellPyramid& pyramid, const SurfaceFrame& frame, const double curvature[3], double countRadius,
-    FitCells& memory)
+    double growth, FitCells& memory)
     : pyramid_(pyramid)
     , frame_(frame)
     , countRadius_(countRadius)
+    , growth_(growth)
     , memory_(memory)
   {
     std::copy(curvature, curvature + 3, curvature_);
@@ -167,7 +171,7 @@ public:
       {
         break;
       }
-      settings.radius = std::min(largest, kLadderGrowth * settings.radius);
+      settings.radius = std::min(largest, growth_ * settings.radius);
     }
     return result;
   }
@@ -186,6 +190,7 @@ private:
   const SurfaceFrame& frame_;
   double curvature_[3];
   double countRadius_;
+  double growth_;
   FitCells& memory_;
   double noise_ = INFINITY;
 };
@@ -220,6 +225,18 @@ double medianOf(std::vector<double>& values)
 FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest,
   FitCells& memory, const FitNeeds& needs)
 {
+  if (needs.finerWhereShaped)
+  {
+    // A smaller fit leaves as much noise over, and less shape.
+    const FitScale wide = chooseFitRadius(pyramid, seed, largestCount, largest, memory);
+    if (wide.noise <= kSmooth * pyramid.level(0).voxelSize)
+    {
+      return wide;
+    }
+    const FitScale fine =
+      chooseFitRadius(pyramid, seed, largestCount, largest, memory, FitNeeds::ofFineCells());
+    return fine.noise < kLeftOfShape * wide.noise ? fine : wide;
+  }
   FitScale scale;
   scale.countRadius = countRadius(pyramid, seed, largestCount, needs);
   scale.radius = scale.countRadius;
@@ -237,12 +254,11 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
   {
     return scale;
   }
-  if (getenv("NOLADDER") && needs.points < 20) return scale;
-  Ladder ladder(pyramid, frame, curvature, scale.countRadius, memory);
+  Ladder ladder(pyramid, frame, curvature, scale.countRadius, needs.growth, memory);
   const Climb quadratic = ladder.climb(largest, false);
   scale.radius = quadratic.radius;
   scale.noise = std::isfinite(ladder.noise()) ? ladder.noise() : 0.0;
-  if (quadratic.radius > kNoisyGrowth * scale.countRadius)
+  if (needs.weighsCubic && quadratic.radius > kNoisyGrowth * scale.countRadius)
   {
     const Climb cubic = ladder.climb(kCubicReach * largest, true);
     scale.cubic = prefersCubic(cubic, quadratic, scale.noise);
@@ -283,8 +299,7 @@ LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<Fit
 }
 
 std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
-  const Executor& executor, const std::vector<NodeUse>* uses, const FitNeeds& needs,
-  InstructionSet wanted)
+  const Executor& executor, const std::vector<NodeUse>* uses, const FitNeeds& needs, InstructionSet wanted)
 {
   // A node takes some ten microseconds, and more where there is noise.
   constexpr std::int64_t kSmallestRange = 16;

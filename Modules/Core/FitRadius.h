@@ -16,12 +16,16 @@ namespace pointhaptics
 /// What a fit needs at least.
 struct FitNeeds
 {
-  double points = 30.0;       ///< Sum of weights, 1 in the middle of the fit.
-  double cells = 14.0;        ///< The same of cells, whatever they hold.
-  double radiusInCells = 3.6; ///< Least radius over the edge of a finest cell.
+  double points = 30.0;          ///< Sum of weights, 1 in the middle of the fit.
+  double cells = 14.0;           ///< The same of cells, whatever they hold.
+  double radiusInCells = 3.6;    ///< Least radius over the edge of a finest cell.
+  double growth = 1.15;          ///< Of the radii tried against noise, from one to the next.
+  bool weighsCubic = true;       ///< Whether fits with cubic terms are tried where the cloud is noisy.
+  bool finerWhereShaped = false; ///< ofFineCells() where what is off the fits is shape and not noise.
 
-  /// Of cells about as fine as the points' spacing: there is nothing finer to wait for.
-  static FitNeeds ofFineCells() { return { 16.0, 12.0, 2.4 }; }
+  /// Of cells about as fine as the points' spacing: there is nothing finer to wait for. Where noise asks for
+  /// cubic terms, coarser cells serve better.
+  static FitNeeds ofFineCells() { return { 16.0, 12.0, 2.4, 1.3, false, false }; }
 };
 
 /// What the cloud says about fits at one place; metres.

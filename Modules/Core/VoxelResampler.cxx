@@ -31,7 +31,8 @@ Status VoxelResampler::Implementation::run(
 {
   clear();
   if (request.levels < 1 || request.levels > kMostLevels ||
-    (request.index && request.index->cloudSize() != request.points.size()))
+    (request.index && request.index->cloudSize() != request.points.size() &&
+      finitePoints(*request.index) != request.points.size()))
   {
     return Status::InvalidParameter;
   }

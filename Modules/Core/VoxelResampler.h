@@ -44,7 +44,8 @@ public:
 struct VoxelRequest
 {
   PointView points;
-  /// An index of the same points: those outside are then not looked at one by one. May be null.
+  /// An index of the same points, or the one whose points() they are: those outside are then not looked at
+  /// one by one. May be null.
   const PointIndex* index = nullptr;
   AffineTransform transform; ///< From the cloud's frame into that of the lattice.
   Lattice lattice;

@@ -52,7 +52,7 @@ Status VoxelResampler::Implementation::runGeneral(
   ranges_.choose(placement_, request.lattice, chunks);
   runs_.reset(ranges_.count(), placement_.fractionBits);
   std::int64_t inside = 0;
-  invalid = usable.index ? usable.index->invalidPoints() : 0;
+  invalid = usable.index ? request.points.size() - finitePoints(*usable.index) : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
     ranges_.place(placement_, request.lattice, chunks, chunk, false, executor);

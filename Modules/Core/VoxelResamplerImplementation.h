@@ -23,6 +23,12 @@
 namespace pointhaptics
 {
 
+/// Of the cloud that @p index is of.
+inline std::int64_t finitePoints(const PointIndex& index)
+{
+  return index.cloudSize() - index.invalidPoints();
+}
+
 /// Collects rows from all over the memory their tuples are in, a block at a time.
 class RowCollector
 {

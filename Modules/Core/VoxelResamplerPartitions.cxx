@@ -152,7 +152,7 @@ Status VoxelResampler::Implementation::runPlanned(
   runs_.reset(inBatches ? plan_.partitions : 0, plan_.fractionBits);
   std::int64_t batchPoints = 0;
   std::int64_t inside = 0;
-  invalid = request.index ? request.index->invalidPoints() : 0;
+  invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
     fillPool(request, chunks, chunk, holdsAll, executor);

@@ -192,9 +192,11 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
       return status;
     }
   }
+  FitNeeds needs = input.local ? FitNeeds::ofFineCells() : FitNeeds();
+  needs.finerWhereShaped = !input.local && isFine(pyramid);
   const double largest = std::max(extent, kLargestFitRadiusInCells * size);
-  scales = fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor, uses,
-    isFine(pyramid) ? FitNeeds::ofFineCells() : FitNeeds(), input.instructions);
+  scales =
+    fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor, uses, needs, input.instructions);
   for (std::size_t i = 0; i < radii.size(); ++i)
   {
     scales[i].proxyRadius = radii[i];

@@ -11,7 +11,7 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 /// Points beyond what is covered, in cells: the reach of a field's nodes and of their fits.
-constexpr double kMarginCells = 24.0;
+constexpr double kMarginCells = 18.0;
 /// RMS distance of the points from the fits up to which a cloud is smooth, and their thickness within a voxel
 /// from which on it is noisy, over the voxel; least ratio of the two that is shape.
 constexpr double kSmooth = 1e-3;
@@ -25,6 +25,8 @@ constexpr std::size_t kCellsForThickness = 5;
 constexpr int kMixedLevels = 2;
 /// The finer cell is at most this part of the global one, or it is not worth it.
 constexpr double kCoarsest = 0.75;
+/// Cells in the global scene's fit radius from which on finer ones only cost time.
+constexpr double kCellsInFit = 16.0;
 
 /// Whether smaller fits would tell more within @p reach of @p seed. The points stand off the fits of the
 /// global scene by nothing where it is smooth, and by their noise where it is noisy, which is as large within
@@ -76,12 +78,33 @@ bool contains(const Bounds& box, const Vec3& p)
     p.x <= box.maximum.x && p.y <= box.maximum.y && p.z <= box.maximum.z;
 }
 
+/// The voxels of @p lattice about @p box, in whole cells of the levels that a fit may see there; none where
+/// it is outside.
+Lattice partOf(const Lattice& lattice, const Bounds& box)
+{
+  constexpr double kBlock = 4.0;
+  Lattice part = lattice;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double block = kBlock * lattice.spacing[axis];
+    const double dimension = double(lattice.dimensions[std::size_t(axis)]);
+    const auto blocks = [&](double place) { return (place - lattice.origin[axis]) / block; };
+    const double first = std::max(0.0, kBlock * std::floor(blocks(box.minimum[axis])));
+    const double end = std::min(dimension, kBlock * std::ceil(blocks(box.maximum[axis])));
+    part.origin[axis] = lattice.origin[axis] + first * lattice.spacing[axis];
+    part.dimensions[std::size_t(axis)] = std::int64_t(end - first);
+    part.end[axis] = lattice.end[axis] - first;
+  }
+  return part;
+}
+
 } // namespace
 
 Status LocalSceneBuilder::setCloud(const PointView& points, const Executor& executor)
 {
-  const Status status = index_.build(points, executor);
-  isIndexed_ = status == Status::Ok;
+  const auto index = std::make_shared<PointIndex>();
+  const Status status = index->build(points, executor);
+  index_ = status == Status::Ok ? index : nullptr;
   return status;
 }
 
@@ -108,20 +131,48 @@ double LocalSceneBuilder::cellSize(const Vec3& place, const HapticScene& global)
     return 0.0;
   }
   // A whole fraction of the global cell, so that scenes of neighbouring places share their cells.
-  const double parts = std::min(std::floor(coarse / spacing + 0.5), 1.0 / kFinest);
+  const double finest = std::max(kFinest * coarse, scale.radius / kCellsInFit);
+  const double most = std::max(2.0, std::floor(coarse / finest));
+  const double parts = std::min(std::floor(coarse / spacing + 0.5), most);
   return parts * kCoarsest >= 1.0 ? coarse / parts : 0.0;
 }
 
 bool LocalSceneBuilder::isUseful(const Bounds& hand, const HapticScene& global) const noexcept
 {
-  return isIndexed_ && !hand.empty() && isFinite(hand.extent()) &&
+  return index_ && !hand.empty() && isFinite(hand.extent()) &&
     cellSize(global.toLattice(hand.center()), global) > 0.0;
+}
+
+/// The lattice that all scenes with cells of @p cell beside @p global are cut from, metres of the workspace.
+Lattice LocalSceneBuilder::latticeOf(const HapticScene& global, double cell) const
+{
+  Bounds box = workspace_;
+  if (box.empty())
+  {
+    const Bounds& means = global.bounds();
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      box.include(global.toWorkspace({ corner & 1 ? means.maximum.x : means.minimum.x,
+        corner & 2 ? means.maximum.y : means.minimum.y, corner & 4 ? means.maximum.z : means.minimum.z }));
+    }
+    // Points lie within a voxel of their mean.
+    box = grown(box, std::sqrt(3.0) * global.latticeScale() * global.cellSize());
+  }
+  Lattice lattice;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    lattice.origin[axis] = box.minimum[axis];
+    lattice.spacing[axis] = cell;
+    lattice.end[axis] = (box.maximum[axis] - box.minimum[axis]) / cell;
+    lattice.dimensions[std::size_t(axis)] = std::int64_t(std::max(1.0, std::ceil(lattice.end[axis])));
+  }
+  return lattice;
 }
 
 std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   const Bounds& hand, const std::shared_ptr<const HapticScene>& global, const Executor& executor)
 {
-  if (!isIndexed_ || !global || hand.empty() || !isFinite(hand.extent()))
+  if (!index_ || !global || hand.empty() || !isFinite(hand.extent()))
   {
     return nullptr;
   }
@@ -134,35 +185,28 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   input.local.emplace();
   input.local->covered = grown(hand, kReach);
   input.local->global = global;
-  const Bounds box = grown(input.local->covered, kMarginCells * cell);
-  const double block = cell * double(1 << (CellPyramid::kCellLevels - 1));
+  const Lattice lattice = latticeOf(*global, cell);
+  const Lattice part = partOf(lattice, grown(input.local->covered, kMarginCells * cell));
   VoxelRequest request;
-  Lattice& lattice = request.lattice;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    // Counted from the same place whatever the box, in blocks as large as the coarsest cells.
-    const double corner = workspace_.empty() ? 0.0 : workspace_.minimum[axis];
-    const double end =
-      workspace_.empty() ? box.maximum[axis] : std::min(box.maximum[axis], workspace_.maximum[axis]);
-    const double first = std::floor((box.minimum[axis] - corner) / block);
-    lattice.origin[axis] = corner + block * (workspace_.empty() ? first : std::max(0.0, first));
-    lattice.spacing[axis] = cell;
-    lattice.end[axis] = (end - lattice.origin[axis]) / cell;
-    lattice.dimensions[std::size_t(axis)] = std::int64_t(std::max(1.0, std::ceil(lattice.end[axis])));
-  }
-  request.points = index_.points();
-  request.index = &index_;
-  request.part = lattice;
+  request.lattice = lattice;
+  request.part = part;
+  request.points = index_->points();
+  request.index = index_.get();
   request.transform = global->modelToWorkspace();
   request.covariances = true;
-  if (lattice.check() != Status::Ok || resampler_.run(request, executor) != Status::Ok ||
-    resampler_.size() == 0)
+  if (lattice.check() != Status::Ok || part.check() != Status::Ok ||
+    resampler_.run(request, executor) != Status::Ok || resampler_.size() == 0)
   {
     return nullptr;
   }
   const std::size_t size = std::size_t(resampler_.size());
   input.points.resize(size);
   resampler_.copyMeans(0, &input.points[0].x);
+  // Voxels beside the part may lack points.
+  const Bounds whole = part.bounds();
+  std::replace_if(
+    input.points.begin(), input.points.end(), [&](const Vec3& mean) { return !contains(whole, mean); },
+    Vec3{ NAN, NAN, NAN });
   std::vector<std::int64_t> counts(size);
   resampler_.copyCounts(0, counts.data());
   input.counts.assign(counts.begin(), counts.end());
@@ -176,31 +220,38 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   return HapticScene::create(std::move(input), status, executor);
 }
 
-const HapticScene* LocalSceneFollower::at(const Vec3& hip, const Vec3& touched, const Executor& executor)
+bool LocalSceneFollower::update(const Bounds& hand, const Executor& executor)
 {
-  Bounds hand;
-  hand.include(hip);
-  hand.include(touched);
-  const auto inside = [&](const Bounds& box)
+  const auto inside = [&hand](const Bounds& box)
   { return contains(box, hand.minimum) && contains(box, hand.maximum); };
-  const Bounds* covered = local_ ? &local_->covered() : nullptr;
-  if (covered && inside(grown(*covered, -LocalSceneBuilder::kNearEnd)))
+  if ((local_ && inside(grown(local_->covered(), -LocalSceneBuilder::kNearEnd))) || inside(failed_))
   {
-    return local_.get();
-  }
-  if (inside(failed_))
-  {
-    return local_ && inside(*covered) ? local_.get() : global_.get();
+    return false;
   }
   failed_ = Bounds();
   std::shared_ptr<const HapticScene> next = builder_.build(hand, global_, executor);
-  if (!next)
+  const bool changes = next || local_;
+  if (next)
+  {
+    ++numberOfScenes_;
+    finestCell_ = std::min(finestCell_, next->cellSize());
+  }
+  else
   {
     failed_ = grown(hand, LocalSceneBuilder::kNearEnd);
   }
   last_ = std::move(local_);
   local_ = std::move(next);
-  return local_ ? local_.get() : global_.get();
+  return changes;
+}
+
+const HapticScene* LocalSceneFollower::at(const Vec3& hip, const Vec3& touched, const Executor& executor)
+{
+  Bounds hand;
+  hand.include(hip);
+  hand.include(touched);
+  update(hand, executor);
+  return scene().get();
 }
 
 } // namespace pointhaptics

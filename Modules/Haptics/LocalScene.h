@@ -14,27 +14,30 @@ namespace pointhaptics
 
 /// Resamples the points of a cloud about a hand into cells about as fine as their spacing there, and makes a
 /// scene of that, with the scene of the whole cloud beside it (HapticScene::beyond()) for the hand that
-/// leaves. The cells are those of a lattice fixed to the global one: overlapping scenes of one cell size have
+/// leaves. The cells are those of one lattice over the whole cloud: overlapping scenes of one cell size have
 /// the same cells, bit for bit. A scene costs some milliseconds. One thread at a time.
 class LocalSceneBuilder
 {
 public:
   /// Half-width about the hand of what a scene covers, metres of the workspace.
-  static constexpr double kReach = 3.5e-3;
+  static constexpr double kReach = 3.0e-3;
   /// A new one is due when the hand is nearer than this to the end of what is covered, metres.
-  static constexpr double kNearEnd = 1.5e-3;
+  static constexpr double kNearEnd = 1.2e-3;
   /// Finest cell over the global scene's.
   static constexpr double kFinest = 1.0 / 4.0;
 
   /// @param points of the cloud, in the model's frame; copied. Errors: those of PointIndex::build().
   Status setCloud(const PointView& points, const Executor& executor = {});
+  /// The same of a cloud that has an index; null: there is none.
+  void setCloud(std::shared_ptr<const PointIndex> index) { index_ = std::move(index); }
   /// The rule for proxy radii, as in HapticSceneInput; without one 2.8 local spacings.
   void setBandwidth(const std::optional<LocalBandwidthSettings>& bandwidth) { bandwidth_ = bandwidth; }
   /// Points outside are not felt; workspace frame. Empty: all are.
   void setWorkspace(const Bounds& workspace) { workspace_ = workspace; }
 
   /// Whether the hand feels the cloud finer than in the scene of the whole: false where a scene would be of
-  /// no use, as far from all points, or where points are as sparse as the global cells, or noisy.
+  /// no use, as far from all points, where points are as sparse as the global cells, where the surface is so
+  /// smooth that these tell all of it, or so noisy that finer ones tell nothing more.
   /// @param hand the HIP and what it touches, workspace frame. @param global the scene of the whole cloud.
   bool isUseful(const Bounds& hand, const HapticScene& global) const noexcept;
 
@@ -43,30 +46,43 @@ public:
     const Bounds& hand, const std::shared_ptr<const HapticScene>& global, const Executor& executor = {});
 
 private:
+  Lattice latticeOf(const HapticScene& global, double cell) const;
   double cellSize(const Vec3& place, const HapticScene& global) const noexcept;
 
-  PointIndex index_;
-  bool isIndexed_ = false;
+  std::shared_ptr<const PointIndex> index_;
   std::optional<LocalBandwidthSettings> bandwidth_;
   Bounds workspace_;
   VoxelResampler resampler_;
 };
 
-/// The scene that a hand in virtual time feels: local where that is finer, made when the hand comes there.
-/// The same for the same path, whatever the executor's threads.
+/// The scene that a hand feels on its way: local where that is finer, made when the hand comes there. The
+/// same for the same path, whatever the executor's threads. One thread at a time.
 class LocalSceneFollower
 {
 public:
-  /// @param builder with the cloud of @p global; both outlive this.
+  /// @param builder with the cloud of @p global; outlives this.
   LocalSceneFollower(LocalSceneBuilder& builder, std::shared_ptr<const HapticScene> global)
     : builder_(builder)
     , global_(std::move(global))
   {
   }
 
-  /// The scene for the next step. @param hip workspace frame. @param touched what the hand touched in the
-  /// last step: the HIP itself out of contact. Valid until the next but one call.
+  /// Makes another scene if one is due. @param hand the HIP and what it touches, workspace frame; the scene
+  /// of the whole cloud must be there too. @return true: scene() is another one. Costs a comparison or two
+  /// while the hand stays within what the scene covers.
+  bool update(const Bounds& hand, const Executor& executor = {});
+  /// What is to be felt: a local scene, or that of the whole cloud.
+  const std::shared_ptr<const HapticScene>& scene() const { return local_ ? local_ : global_; }
+  const std::shared_ptr<const HapticScene>& global() const { return global_; }
+
+  /// In virtual time: the scene for the next step. @param touched what the hand touched in the last step:
+  /// the HIP itself out of contact. Valid until the next but one call.
   const HapticScene* at(const Vec3& hip, const Vec3& touched, const Executor& executor = {});
+
+  /// Local scenes made so far.
+  std::int64_t numberOfScenes() const { return numberOfScenes_; }
+  /// Edge of the finest cells felt so far, metres of the workspace.
+  double finestCell() const { return finestCell_; }
 
 private:
   LocalSceneBuilder& builder_;
@@ -74,6 +90,8 @@ private:
   std::shared_ptr<const HapticScene> local_;
   std::shared_ptr<const HapticScene> last_; ///< The proxy may still be in it.
   Bounds failed_;                           ///< There was no local scene here.
+  std::int64_t numberOfScenes_ = 0;
+  double finestCell_ = global_ ? global_->latticeScale() * global_->cellSize() : 0.0;
 };
 
 } // namespace pointhaptics

@@ -375,7 +375,6 @@ bool ServoLoop::running() const noexcept
 
 void ServoLoop::publishScene(std::shared_ptr<const HapticScene> scene)
 {
-  implementation_->signOfLife();
   const std::lock_guard<std::mutex> lock(implementation_->publishing);
   implementation_->scenes.publish(std::move(scene));
 }

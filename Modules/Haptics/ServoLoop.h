@@ -130,7 +130,8 @@ public:
   void setClutched(bool clutched) noexcept;
   static constexpr double kClutchDownSeconds = 0.05;
   static constexpr double kClutchUpSeconds = 0.3;
-  /// The program lives: for the watchdog. publishScene(), setParameters() and takeTrace() say so too.
+  /// The program lives: for the watchdog. setParameters() and takeTrace() say so too; publishScene() does
+  /// not: threads that follow the hand go on where the program hangs.
   void keepAlive() noexcept;
 
   /// The newest finished tick; tick 0 means none yet.

@@ -55,8 +55,9 @@ NearSceneBuilder::~NearSceneBuilder() = default;
 void NearSceneBuilder::setCloud(vtkSmartPointer<vtkPointSet> cloud)
 {
   cloud_ = std::move(cloud);
-  index_ = PointIndex();
-  isIndexed_ = false;
+  index_.reset();
+  follower_.reset();
+  finer_.setCloud(nullptr);
 }
 
 std::shared_ptr<const HapticScene> NearSceneBuilder::build(
@@ -84,6 +85,59 @@ std::shared_ptr<const HapticScene> NearSceneBuilder::build(
   return HapticScene::create(std::move(input), status, smp_);
 }
 
+std::shared_ptr<const HapticScene> NearSceneBuilder::refine(
+  const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole)
+{
+  const Bounds hand = request.hand ? request.hand() : Bounds();
+  if (hand.empty() || !this->follow(request, whole) || !follower_->update(hand, smp_))
+  {
+    return nullptr;
+  }
+  return follower_->scene() == whole ? nullptr : follower_->scene();
+}
+
+/// False: there is nothing to make finer scenes of.
+bool NearSceneBuilder::follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole)
+{
+  if (follower_ && follower_->global() == whole)
+  {
+    return true;
+  }
+  follower_.reset();
+  if (!whole || !this->index())
+  {
+    return false;
+  }
+  for (const SceneRequest::Setting& setting : request.settings)
+  {
+    setting(resampler_, bandwidth_);
+  }
+  Bounds workspace;
+  if (!resampler_->GetAutomaticWorkspace())
+  {
+    const double* bounds = resampler_->GetWorkspaceBounds();
+    workspace.include({ bounds[0], bounds[2], bounds[4] });
+    workspace.include({ bounds[1], bounds[3], bounds[5] });
+  }
+  finer_.setCloud(index_);
+  finer_.setWorkspace(workspace);
+  finer_.setBandwidth(
+    request.hasBandwidth ? std::optional<LocalBandwidthSettings>(bandwidth_->GetSettings()) : std::nullopt);
+  follower_.emplace(finer_, whole);
+  return true;
+}
+
+bool NearSceneBuilder::index()
+{
+  if (!index_ && cloud_ && cloud_->GetNumberOfPoints() > 0)
+  {
+    const PointAccess access(cloud_->GetPoints());
+    const auto made = std::make_shared<PointIndex>();
+    index_ = made->build(access.view(), smp_) == Status::Ok ? made : nullptr;
+  }
+  return index_ != nullptr;
+}
+
 /// What to resample, the part aside. False: there is nothing, or the lattice hangs on the whole cloud.
 bool NearSceneBuilder::prepare(const SceneRequest& request)
 {
@@ -95,10 +149,9 @@ bool NearSceneBuilder::prepare(const SceneRequest& request)
   {
     return false;
   }
-  const PointAccess access(cloud_->GetPoints());
-  if (!isIndexed_)
+  if (!this->index())
   {
-    isIndexed_ = index_.build(access.view(), smp_) == Status::Ok;
+    return false;
   }
   LatticeSettings settings;
   settings.voxelSize = resampler_->GetVoxelSize();
@@ -111,15 +164,15 @@ bool NearSceneBuilder::prepare(const SceneRequest& request)
   }
   const int precision = resampler_->GetOutputPointsPrecision();
   voxels_ = VoxelRequest();
-  voxels_.points = index_.points();
-  voxels_.index = &index_;
+  voxels_.points = index_->points();
+  voxels_.index = index_.get();
   voxels_.transform = affineFromRows(request.modelToWorkspace);
   voxels_.singlePrecision = precision == vtkAlgorithm::DEFAULT_PRECISION
     ? cloud_->GetPoints()->GetDataType() == VTK_FLOAT
     : precision == vtkAlgorithm::SINGLE_PRECISION;
   voxels_.covariances = resampler_->GetComputeCovariance();
   voxels_.instructions = InstructionSet(resampler_->GetInstructionSet());
-  return isIndexed_ && voxels_.transform.check() == Status::Ok &&
+  return voxels_.transform.check() == Status::Ok &&
     makeLattice(settings, Bounds(), voxels_.lattice) == Status::Ok;
 }
 

@@ -5,6 +5,7 @@
 #include "Core/PointIndex.h"
 #include "Core/VoxelResampler.h"
 #include "Haptics/HapticScene.h"
+#include "Haptics/LocalScene.h"
 #include "SceneWorker.h"
 
 #include "SmpExecutor.h"
@@ -13,6 +14,7 @@
 #include "vtkSmartPointer.h"
 
 #include <memory>
+#include <optional>
 
 class vtkPointSet;
 
@@ -37,14 +39,23 @@ public:
   std::shared_ptr<const HapticScene> build(
     const SceneRequest& request, std::shared_ptr<const HapticScene> whole);
 
+  /// A scene of what is near the hand, as fine as the points there, beside @p whole, which was made for @p
+  /// request; null where the last one serves, or none is of use (LocalSceneBuilder). Costs a look at the hand
+  /// then.
+  std::shared_ptr<const HapticScene> refine(
+    const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole);
+
 private:
+  bool index();
+  bool follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole);
   bool prepare(const SceneRequest& request);
   HapticSceneInput input(const SceneRequest& request) const;
 
   SmpExecutor smp_;
   vtkSmartPointer<vtkPointSet> cloud_;
-  PointIndex index_;
-  bool isIndexed_ = false;
+  std::shared_ptr<const PointIndex> index_; ///< Null: not made yet.
+  LocalSceneBuilder finer_;
+  std::optional<LocalSceneFollower> follower_; ///< Of the whole scene that was refined last.
   VoxelResampler engine_;
   VoxelRequest voxels_;
   // Never updated: they hold the request's settings.

@@ -37,7 +37,9 @@ void ScenePublisher::publish(
     return;
   }
   const bool isPart = scene && scene->beyond();
-  if (number < number_ || (isPart && number == number_))
+  const bool isFiner =
+    isPart && number == number_ && newest_ && scene->wholeCloudNumber() == newest_->wholeCloudNumber();
+  if (number < number_ || (isPart && number == number_ && !isFiner))
   {
     Status status = Status::Ok;
     const bool joins = !isPart && scene && newest_ && newest_->beyond();

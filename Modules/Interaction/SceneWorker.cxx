@@ -28,6 +28,9 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
+/// Between two looks at where the hand is: 0.5 mm at 50 mm/s.
+constexpr std::chrono::milliseconds kLookPeriod(10);
+
 /// The filters, which live and die in the worker's thread.
 class Pipeline
 {
@@ -188,13 +191,22 @@ Handed<Object> handOver(Handed<Object>& from)
   return to;
 }
 
+/// The scene of the newest request, which may be refined near the hand.
+struct Resting
+{
+  SceneRequest request;
+  std::uint64_t number;
+  std::shared_ptr<const HapticScene> whole;
+};
+
 /// What a thread of the worker is to do.
 struct Job
 {
   SceneRequest request;
   std::uint64_t number;
   std::uint64_t cloudNumber;
-  Handed<vtkSmartPointer<vtkPointSet>> cloud; // if it is a new one
+  Handed<vtkSmartPointer<vtkPointSet>> cloud;       // if it is a new one
+  std::shared_ptr<const Resting> resting = nullptr; // refine this; there is no request then
 };
 
 /// A thread of the worker, and what it does next. All but the thread under the worker's mutex.
@@ -203,6 +215,7 @@ struct Builder
   std::optional<SceneRequest> waiting;
   Handed<vtkSmartPointer<vtkPointSet>> cloud; // a new one that is not yet the thread's own
   bool inFlight = false;
+  bool refines = false;     // as long as it does, who cancels waits
   std::uint64_t number = 0; // of the newest job that was begun
   std::thread thread;
 
@@ -221,6 +234,7 @@ struct SceneWorker::Implementation
   std::uint64_t number = 0;
   std::uint64_t cloudNumber = 0;
   std::shared_ptr<const HapticScene> newestWhole; // of this cloud
+  std::shared_ptr<const Resting> resting;         // while no request follows, if it refines
   Handed<BuiltScene> finished;
   bool ending = false;
 
@@ -228,6 +242,7 @@ struct SceneWorker::Implementation
   std::optional<Job> next(Builder& builder);
   void letNearGoFirst(const Job& job);
   bool isFollowed() const;
+  void rest(const Job& job, const std::shared_ptr<const HapticScene>& scene);
   void buildWholes();
   void buildNear();
 };
@@ -245,8 +260,19 @@ std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
 {
   std::unique_lock<std::mutex> lock(this->mutex);
   builder.inFlight = false;
+  builder.refines = false;
   this->changed.notify_all();
-  this->changed.wait(lock, [&] { return this->ending || builder.waiting.has_value(); });
+  const auto isDue = [&] { return this->ending || builder.waiting.has_value(); };
+  const auto mayRefine = [&] { return &builder == &this->near && this->resting; };
+  while (!isDue())
+  {
+    this->changed.wait(lock, [&] { return isDue() || mayRefine(); });
+    if (!this->changed.wait_for(lock, kLookPeriod, isDue) && mayRefine())
+    {
+      builder.refines = true;
+      return Job{ {}, this->resting->number, this->cloudNumber, handOver(builder.cloud), this->resting };
+    }
+  }
   if (this->ending)
   {
     return {};
@@ -273,6 +299,20 @@ bool SceneWorker::Implementation::isFollowed() const
   return this->whole.waiting.has_value();
 }
 
+/// After the scene of a request was published: if no other follows, it may be refined.
+void SceneWorker::Implementation::rest(const Job& job, const std::shared_ptr<const HapticScene>& scene)
+{
+  const SceneRequest& request = job.request;
+  const std::lock_guard<std::mutex> lock(this->mutex);
+  const bool isNewest = job.number == this->number && job.cloudNumber == this->cloudNumber;
+  if (isNewest && scene && request.refinesNearHand && request.hand && request.publish &&
+    request.useCovariance)
+  {
+    this->resting = std::make_shared<const Resting>(Resting{ request, job.number, scene });
+    this->changed.notify_all();
+  }
+}
+
 void SceneWorker::Implementation::buildWholes()
 {
   Pipeline pipeline;
@@ -293,8 +333,10 @@ void SceneWorker::Implementation::buildWholes()
     }
     if (job->request.publish)
     {
-      job->request.publish(std::move(scene), job->number);
+      job->request.publish(scene, job->number);
     }
+    this->rest(*job, scene);
+    scene.reset();
     const std::chrono::duration<double> since = Clock::now() - shown;
     const bool isSlow = job->request.hasResiduals || job->request.hasNormals;
     if (this->isFollowed() && (isSlow || since.count() <= kPictureSeconds))
@@ -316,6 +358,15 @@ void SceneWorker::Implementation::buildNear()
     if (job->cloud)
     {
       builder.setCloud(std::move(*job->cloud));
+    }
+    if (job->resting)
+    {
+      const SceneRequest& request = job->resting->request;
+      if (std::shared_ptr<const HapticScene> finer = builder.refine(request, job->resting->whole))
+      {
+        request.publish(std::move(finer), job->number);
+      }
+      continue;
     }
     std::shared_ptr<const HapticScene> newest;
     {
@@ -365,6 +416,7 @@ void SceneWorker::setCloud(vtkSmartPointer<vtkPointSet> cloud)
   self.whole.cloud.emplace(std::move(cloud));
   self.near.cloud.emplace(std::move(copy));
   self.newestWhole.reset();
+  self.resting.reset();
   ++self.cloudNumber;
 }
 
@@ -382,6 +434,7 @@ std::uint64_t SceneWorker::request(SceneRequest request)
     const std::lock_guard<std::mutex> lock(self.mutex);
     self.near.waiting = hasHand ? std::optional<SceneRequest>(request) : std::nullopt;
     self.whole.waiting = std::move(request);
+    self.resting.reset();
     number = ++self.number;
   }
   self.changed.notify_all();
@@ -419,9 +472,11 @@ void SceneWorker::cancel()
     const std::lock_guard<std::mutex> lock(self.mutex);
     self.whole.waiting.reset();
     self.near.waiting.reset();
+    self.resting.reset();
   }
-  this->wait();
-  const std::lock_guard<std::mutex> lock(self.mutex);
+  std::unique_lock<std::mutex> lock(self.mutex);
+  self.changed.wait(lock, [&self] { return !self.whole.busy() && !self.near.busy() && !self.near.refines; });
+  self.resting.reset(); // of a build that was in flight
   self.finished.reset();
 }
 

@@ -43,6 +43,9 @@ struct SceneRequest
   /// that is followed by another.
   bool hasResiduals = false;
   bool hasNormals = false;
+  /// While the model rests, scenes of what is near the hand are made that are as fine as the points there
+  /// (LocalSceneBuilder), and published with this request's number. Needs a hand and covariances.
+  bool refinesNearHand = false;
   /// A box about the hand and what it touches, in the workspace; empty: there is no hand. May be missing.
   /// Called in the worker's threads.
   std::function<Bounds()> hand;
@@ -66,7 +69,8 @@ struct BuiltScene
 /// One build of the whole cloud is in flight at a time; of the requests that come meanwhile only the newest
 /// is built. The picture may be left out of a build that is followed by another, but not for longer than
 /// kPictureSeconds. A second thread builds what is near the hand (NearSceneBuilder) in the same way, and goes
-/// first: new voxels are felt before the whole cloud is resampled.
+/// first: new voxels are felt before the whole cloud is resampled. While the model rests it looks at the hand
+/// 100 times a second, if the newest request says so, and makes finer scenes of where that comes.
 ///
 /// request(), setCloud(), take(), wait() and cancel() from one thread (the GUI's), which waits in the last
 /// two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and what one
@@ -90,9 +94,10 @@ public:
   bool take(BuiltScene& built);
   /// Whether a build is in flight or waits.
   bool busy() const;
-  /// Returns when nothing is in flight and nothing waits.
+  /// Returns when nothing is in flight and nothing waits; finer scenes near the hand may still come.
   void wait();
   /// Forgets the requests that wait and the result that was not taken, and waits for the builds in flight.
+  /// Nothing is called or published afterwards, finer scenes neither, until the next request.
   void cancel();
 
 private:

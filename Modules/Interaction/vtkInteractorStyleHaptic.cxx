@@ -411,6 +411,7 @@ void vtkInteractorStyleHaptic::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "UseCovariance: " << this->UseCovariance << "\n";
+  os << indent << "RefinesNearHand: " << this->RefinesNearHand << "\n";
   os << indent << "ComputeResiduals: " << this->ComputeResiduals << "\n";
   os << indent << "ComputeNormals: " << this->ComputeNormals << "\n";
   os << indent << "HandMode: " << this->Parts->handMode << "\n";

@@ -162,6 +162,17 @@ public:
 
   ///@{
   /**
+   * While the model rests, feel scenes near the hand that are as fine as the points there, where that tells
+   * more than the resampler's voxels. They are made in the background from the cloud itself, in some
+   * milliseconds; until they are there the whole cloud's is felt. Of no effect without UseCovariance. Belongs
+   * to the next scene that is made. Default: off.
+   */
+  vtkSetMacro(RefinesNearHand, bool);
+  vtkGetMacro(RefinesNearHand, bool);
+  ///@}
+
+  ///@{
+  /**
    * Add the arrays of pointhaptics::addSurfaceArrays() to the means that are shown: the distance of each from
    * the surface that is felt, and its normals. They come some time after the scene is felt, and while the
    * model moves the picture keeps those it has. A change marks the model as changed. Default: off.
@@ -315,6 +326,7 @@ protected:
   ~vtkInteractorStyleHaptic() override;
 
   bool UseCovariance = true;
+  bool RefinesNearHand = false;
   bool ComputeResiduals = false;
   bool ComputeNormals = false;
 

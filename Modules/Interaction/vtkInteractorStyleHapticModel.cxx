@@ -151,6 +151,7 @@ void vtkInteractorStyleHaptic::RequestScene()
   std::copy_n(parts.model->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
   request.useCovariance = this->UseCovariance;
   request.hand = [servo = parts.servo] { return handBounds(servo); };
+  request.refinesNearHand = this->RefinesNearHand;
   request.hasResiduals = this->ComputeResiduals;
   request.hasNormals = this->ComputeNormals;
   request.publish = [publisher = &parts.publisher, cloud = parts.publisher.cloud()](

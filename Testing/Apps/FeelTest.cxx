@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace
@@ -128,6 +129,43 @@ TEST_F(Feel, TheIdolIsTouchedAndFollowed)
   this->RecordProperty("rms_percent", digits(100.0 * std::sqrt(depthError2 / depth2)));
 }
 
+TEST_F(Feel, NearTheHandScenesAreAsFineAsThePointsUnlessALatticeIsAskedFor)
+{
+  this->succeed({ "generate", "idol", "-n", "300000", "-o", "idol.ply" });
+  const auto medianOffSurface = [this](const std::vector<std::string>& options, nlohmann::json& summary)
+  {
+    std::vector<std::string> words = { "feel", "idol.ply", "--path", kIdolPath, "-o", "out.csv", "--json" };
+    words.insert(words.end(), options.begin(), options.end());
+    summary = nlohmann::json::parse(this->succeed(words));
+    const Table out = parseTable(this->read("out.csv"));
+    std::vector<double> off;
+    for (std::size_t row = 0; row < out.at("t").size(); row += 5)
+    {
+      if (out.at("contact")[row] == 1.0)
+      {
+        off.push_back(std::abs(closestPoint(Shape::Idol, vectorOf(out, "proxy", row)).distance));
+      }
+    }
+    EXPECT_GT(off.size(), 800u);
+    std::sort(off.begin(), off.end());
+    return off.empty() ? 0.0 : off[off.size() / 2];
+  };
+  nlohmann::json fine, coarse, raw, means;
+  const double off = medianOffSurface({}, fine);
+  const double offWhole = medianOffSurface({ "--dims", "300" }, coarse);
+  EXPECT_GT(fine["local_scenes"].get<int>(), 5);
+  EXPECT_EQ(coarse["local_scenes"], 0);
+  EXPECT_EQ(fine["points_felt"], coarse["points_felt"]);
+  EXPECT_LT(fine["finest_cell_m"].get<double>(), 0.6 * coarse["finest_cell_m"].get<double>());
+  EXPECT_LT(off, 0.2 * offWhole);
+  medianOffSurface({ "--raw" }, raw);
+  EXPECT_EQ(raw["local_scenes"], 0);
+  medianOffSurface({ "--no-covariance" }, means);
+  EXPECT_EQ(means["local_scenes"], 0);
+  this->RecordProperty("median_off_surface_metres", digits(off));
+  this->RecordProperty("median_off_surface_metres_whole", digits(offWhole));
+}
+
 TEST_F(Feel, TheTableIsWhatItsHeaderSays)
 {
   this->succeed({ "generate", "plane", "-n", "20000", "-o", "plane.ply" });
@@ -188,6 +226,20 @@ TEST_F(Feel, SameInputSameOutput)
     this->feel("idol.ply", kIdolPath, options);
     EXPECT_EQ(withoutTimes(this->read("out.csv")), first);
   }
+}
+
+TEST_F(Feel, SameOutputWhateverTheThreads)
+{
+  this->succeed({ "generate", "idol", "-n", "200000", "-o", "idol.ply" });
+  std::string texts[2];
+  for (const int threads : { 1, 2 })
+  {
+    ASSERT_EQ(setenv("VTK_SMP_MAX_THREADS", std::to_string(threads).c_str(), 1), 0);
+    this->feel("idol.ply", kIdolPath);
+    texts[threads - 1] = withoutTimes(this->read("out.csv"));
+  }
+  unsetenv("VTK_SMP_MAX_THREADS");
+  EXPECT_EQ(texts[0], texts[1]);
 }
 
 TEST_F(Feel, StiffnessScalesTheForce)

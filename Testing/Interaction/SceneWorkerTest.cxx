@@ -18,8 +18,13 @@
 #include <vtkPolyData.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
 #include <vector>
 
 using namespace pointhaptics;
@@ -234,6 +239,115 @@ TEST_F(SceneWorkerTest, ForgetsWhatIsCancelled)
   EXPECT_FALSE(worker_.take(built));
 }
 
+/// What was published, by any thread.
+struct Published
+{
+  void operator()(std::shared_ptr<const HapticScene> scene)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    newest = std::move(scene);
+    changed.notify_all();
+  }
+  /// The newest scene, as soon as that is a finer one that covers @p place; null: none came for a minute.
+  std::shared_ptr<const HapticScene> finerAt(const Vec3& place)
+  {
+    std::unique_lock<std::mutex> lock(mutex);
+    const auto isThere = [&]
+    {
+      return newest && newest->beyond() && newest->cellSize() < newest->beyond()->cellSize() &&
+        newest->covers(newest->toLattice(place));
+    };
+    return changed.wait_for(lock, std::chrono::minutes(1), isThere) ? newest : nullptr;
+  }
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::shared_ptr<const HapticScene> newest;
+};
+
+class RefiningWorkerTest : public SceneWorkerTest
+{
+protected:
+  RefiningWorkerTest()
+  {
+    worker_.setCloud(makeCloud(0.0002));
+    publisher_.setSink([this](std::shared_ptr<const HapticScene> scene) { published_(std::move(scene)); });
+  }
+  ~RefiningWorkerTest() override { worker_.cancel(); }
+
+  std::uint64_t request(double z, bool refines)
+  {
+    SceneRequest request = this->shifted(z);
+    request.refinesNearHand = refines;
+    request.hand = [this]
+    {
+      ++looks_;
+      Bounds bounds;
+      bounds.include({ handX_, 0.0, 0.0 });
+      return bounds;
+    };
+    request.publish = [this](std::shared_ptr<const HapticScene> scene, std::uint64_t number)
+    { publisher_.publish(std::move(scene), publisher_.cloud(), number); };
+    AffineTransform place;
+    place.m[2][3] = z;
+    publisher_.move(place);
+    return worker_.request(std::move(request));
+  }
+
+  std::atomic<double> handX_{ 0.0 };
+  std::atomic<int> looks_{ 0 };
+  Published published_;
+  ScenePublisher publisher_;
+};
+
+// Also to be run under the thread sanitizer.
+TEST_F(RefiningWorkerTest, PublishesFinerScenesOfWhereTheHandComes)
+{
+  this->request(0.0, true);
+  const std::shared_ptr<const HapticScene> first = published_.finerAt({});
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(first->wholeCloudNumber(), first->beyond()->cloudNumber());
+  for (const double x : { 0.004, 0.008, 0.012, 0.002 })
+  {
+    handX_ = x;
+    EXPECT_NE(published_.finerAt({ x, 0.0, 0.0 }), nullptr) << x;
+  }
+  // A model that moves and rests is refined again, where it is now.
+  for (int i = 1; i <= 5; ++i)
+  {
+    this->request(1e-4 * i, true);
+  }
+  worker_.wait();
+  const std::shared_ptr<const HapticScene> moved = published_.finerAt({ 0.002, 0.0, 0.0 });
+  ASSERT_NE(moved, nullptr);
+  EXPECT_NE(moved->wholeCloudNumber(), first->wholeCloudNumber());
+  EXPECT_EQ(moved->modelToWorkspace().m[2][3], 5e-4);
+}
+
+TEST_F(RefiningWorkerTest, MakesNoFinerSceneWhereNobodyAsksForOne)
+{
+  this->request(0.0, false);
+  worker_.wait();
+  const int looks = looks_;
+  std::this_thread::sleep_for(std::chrono::milliseconds(50)); // it would come sooner
+  EXPECT_EQ(looks_, looks);
+  const std::lock_guard<std::mutex> lock(published_.mutex);
+  ASSERT_NE(published_.newest, nullptr);
+  EXPECT_EQ(published_.newest->beyond(), nullptr);
+}
+
+TEST_F(RefiningWorkerTest, LooksAtNoHandAfterItIsCancelled)
+{
+  this->request(0.0, true);
+  ASSERT_NE(published_.finerAt({}), nullptr);
+  worker_.cancel();
+  const int looks = looks_;
+  handX_ = 0.01;
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(looks_, looks);
+  this->request(0.0, true);
+  EXPECT_NE(published_.finerAt({ 0.01, 0.0, 0.0 }), nullptr);
+}
+
 /// A hand that stays where it is.
 class StillPort : public HandPort
 {
@@ -266,6 +380,7 @@ TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
   for (int i = 0; i < 24; ++i)
   {
     SceneRequest request = this->shifted(1e-4 * (i % 7));
+    request.refinesNearHand = true;
     request.hand = [&loop]
     {
       Bounds bounds;
@@ -292,6 +407,7 @@ TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
     }
   }
   worker_.wait();
+  worker_.cancel(); // the loop and the publisher go first
   while (loop.latest().scenes == 0)
   {
     loop.takeTrace(samples);
