@@ -36,6 +36,10 @@ struct Proxy::Implementation
   bool hasLastHip = false;
   double lastDt = 0.0; ///< Of the last step, seconds.
   double fadedSeconds = 0.0;
+  ProxyState vanished; ///< The last state in a scene that is gone: its force fades.
+  Vec3 carried;        ///< What a change of parameters did to the force, and has still to settle; newtons.
+  bool parametersChanged = false;
+  bool touched = false; ///< The method found contact in the last step.
 
   explicit Implementation(InstructionSet wanted)
     : memory(wanted)
@@ -52,12 +56,14 @@ struct Proxy::Implementation
     }
     if (!newScene)
     {
+      vanished = scene ? last : vanished;
       forget();
     }
     // A new cloud may lie where an old one lay.
     if (!newScene || newScene->cloudNumber() != lastCloud)
     {
       memory.forget();
+      surfaceFit.changeCells();
     }
     lastCloud = newScene ? newScene->cloudNumber() : 0;
     lastLattice = newScene ? newScene->modelToLattice() : AffineTransform();
@@ -105,6 +111,44 @@ struct Proxy::Implementation
     hasLastHip = false;
     lastMove = Vec3();
     fadedSeconds = 0.0;
+    carried = Vec3();
+    touched = false;
+  }
+
+  /// Without a scene: the force of the last one fades to zero.
+  void fadeVanished(ProxyState& state, double dt) noexcept
+  {
+    fadedSeconds += dt;
+    const double left = std::max(0.0, 1.0 - fadedSeconds / kFadeSeconds);
+    state.status |= kProxyNoScene;
+    state.contact = vanished.contact && left > 0.0;
+    state.force = state.contact ? left * vanished.force : Vec3();
+    state.proxy = state.contact ? state.hip + left * (vanished.proxy - vanished.hip) : state.hip;
+    state.normal = vanished.normal;
+    last = state;
+    parametersChanged = true;
+  }
+
+  /// What changed parameters do to the force comes at the settle rate; where the hand lets go nothing is
+  /// left.
+  void settleParameters(ProxyState& state, double dt) noexcept
+  {
+    if (parametersChanged)
+    {
+      carried = last.force - state.force;
+    }
+    else if (touched && !state.contact)
+    {
+      carried = Vec3();
+    }
+    parametersChanged = false;
+    touched = state.contact;
+    const double length = norm(carried);
+    const double shrink = parameters.contact.settleRate * dt;
+    carried = length > shrink ? (1.0 - shrink / length) * carried : Vec3();
+    state.force += carried;
+    state.contact = state.contact || carried != Vec3();
+    state.status |= std::uint32_t(carried != Vec3() ? kProxySettling : kProxyOk);
   }
 
   /// The last state, its force fading to zero.
@@ -204,9 +248,17 @@ void Proxy::setParameters(const HapticParameters& parameters) noexcept
   }
   if (parameters.method != self.parameters.method)
   {
+    // Without contact; but the force does not know yet.
+    const ProxyState last = self.last;
+    const Vec3 hip = self.lastHip;
+    const bool hadHip = self.hasLastHip;
     self.forget();
+    self.last = last;
+    self.lastHip = hip;
+    self.hasLastHip = hadHip;
   }
   self.parameters = parameters;
+  self.parametersChanged = self.hasLastHip;
 }
 
 const HapticParameters& Proxy::parameters() const noexcept
@@ -223,6 +275,7 @@ void Proxy::setScene(const HapticScene* scene) noexcept
 
 void Proxy::reset() noexcept
 {
+  implementation_->vanished = ProxyState();
   implementation_->forget();
 }
 
@@ -231,7 +284,8 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   Implementation& self = *implementation_;
   if (!isFinite(hip) || !(dt > 0.0))
   {
-    return self.hold(dt > 0.0 ? dt : kFadeSeconds);
+    // A clock that stands still tells no time: a tick as long as the last one.
+    return self.hold(dt > 0.0 ? dt : self.lastDt > 0.0 ? self.lastDt : kFadeSeconds);
   }
   ProxyState state;
   state.hip = hip;
@@ -242,9 +296,10 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   self.leavePart(hip);
   if (!self.scene)
   {
-    state.status |= kProxyNoScene;
+    self.fadeVanished(state, dt);
+    return state;
   }
-  else if (self.parameters.method != ProxyMethod::GradientSteps)
+  if (self.parameters.method != ProxyMethod::GradientSteps)
   {
     self.surfaceFit.step(*self.scene, self.memory, self.parameters.contact, self.scene->toLattice(hip),
       self.parameters.method == ProxyMethod::SurfaceFit, state);
@@ -259,6 +314,7 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   self.leavePart(state.proxy);
   self.leavePart(state.sphereCenter);
   state.force = self.forceOf(state, stiffness, dt);
+  self.settleParameters(state, dt);
   self.last = state;
   self.lastMove = self.hasLastHip ? hip - self.lastHip : Vec3();
   self.lastHip = hip;

@@ -269,13 +269,21 @@ void ProxyBall::updateRadius(Work& work) noexcept
     }
   }
   const ProxyBall before = *this;
-  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, radius_ * kLargestGrowth);
+  const double most = adopts_ ? std::max(wanted_, radius_) : radius_ * kLargestGrowth;
+  adopts_ = false;
+  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, most);
+  if (radius_ > before.radius_ * kLargestGrowth && !free_)
+  {
+    // Its point nearest to the HIP stays.
+    center_ += (radius_ - before.radius_) * normalized(center_ - hip_, Vec3());
+  }
   if (radius_ > before.radius_)
   {
     gather(work, 2.0 * radius_);
     if (!pushOut(work.cells))
     {
       *this = before;
+      adopts_ = false;
       radius_ = isPinched(work.cells) ? radius_ / kLargestGrowth : radius_;
     }
     free_ = free_ && center_ == before.center_;

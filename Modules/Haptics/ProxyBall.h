@@ -29,6 +29,14 @@ public:
   /// The ball moves with the model: @p change takes a place of the old lattice frame into the new one.
   void carry(const AffineTransform& change, double scale) noexcept;
 
+  /// The next step is in other cells of the same place: its radius is right for them at once, lest it fall
+  /// between coarser ones.
+  void changeCells() noexcept
+  {
+    isMeasured_ = false;
+    adopts_ = true;
+  }
+
   /// @param fields the memory for the scene's fields. @param cells the memory of the points near the ball.
   /// @param hip finite. @param status receives bits.
   void step(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
@@ -88,6 +96,7 @@ private:
   bool isMeasured_ = false;
   bool free_ = true;
   bool there_ = true;
+  bool adopts_ = false;
   bool placed_ = false;
 };
 

@@ -98,6 +98,13 @@ bool SurfaceTracker::settle(const HapticScene& scene, FitCells& memory, const Ve
   return true;
 }
 
+void SurfaceTracker::flip() noexcept
+{
+  frame_.turnTo(-frame_.normal);
+  std::transform(curvature_, curvature_ + 3, curvature_, [](double c) { return -c; });
+  fresh_ = false;
+}
+
 bool SurfaceTracker::acquire(
   const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& freeSide) noexcept
 {
@@ -106,29 +113,24 @@ bool SurfaceTracker::acquire(
   {
     return false;
   }
-  if (best.height(freeSide) < 0.0)
+  // Following may find that the free side is the other one.
+  for (int side = 0; side < 2; ++side)
   {
-    best.frame_.turnTo(-best.frame_.normal);
-    std::transform(best.curvature_, best.curvature_ + 3, best.curvature_, [](double c) { return -c; });
-    best.fresh_ = false;
-  }
-  if (best.follow(scene, memory, freeSide, kAcquireRounds) == TrackResult::Lost)
-  {
-    return false;
-  }
-  if (best.height(freeSide) < 0.0)
-  {
-    best.frame_.turnTo(-best.frame_.normal);
-    std::transform(best.curvature_, best.curvature_ + 3, best.curvature_, [](double c) { return -c; });
-    best.fresh_ = false;
-    if (best.follow(scene, memory, freeSide, kAcquireRounds) == TrackResult::Lost ||
-      best.height(freeSide) < 0.0)
+    if (best.height(freeSide) < 0.0)
+    {
+      best.flip();
+    }
+    if (best.follow(scene, memory, freeSide, kAcquireRounds) == TrackResult::Lost)
     {
       return false;
     }
+    if (best.height(freeSide) >= 0.0)
+    {
+      *this = best;
+      return true;
+    }
   }
-  *this = best;
-  return true;
+  return false;
 }
 
 bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
@@ -160,14 +162,13 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
 }
 
 TrackResult SurfaceTracker::follow(
-  const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds, double longestTravel) noexcept
+  const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept
 {
   const Vec3 start = frame_.origin;
   Vec3 lastPoint = start;
   Vec3 lastStep;
   double lastLength = 0.0;
   double lastDistance = 0.0;
-  bool wasLimited = false;
   for (int round = 0; round < rounds; ++round)
   {
     // The first round takes the fit of the last call: it was made a step too small to matter away.
@@ -199,29 +200,12 @@ TrackResult SurfaceTracker::follow(
     lastPoint = frame_.origin;
     lastStep = step;
     lastLength = length;
-    const double travel = norm(foot - start);
-    if (!(travel <= kLostRadii * fit_.radius) && longestTravel > kLostRadii * fit_.radius)
-    {
-      return TrackResult::Lost;
-    }
-    const bool limited = travel > longestTravel;
-    if (limited)
-    {
-      const Vec3 local =
-        (1.0 / fit_.radius) * fitFrame_.toLocal(start + (longestTravel / travel) * (foot - start));
-      pointAt(fit_, fitFrame_, local.x, local.y, foot, normal);
-    }
-    if (!isFinite(foot))
+    // Negated, so that a foot that is not finite is lost too.
+    if (!(norm(foot - start) <= kLostRadii * fit_.radius))
     {
       return TrackResult::Lost;
     }
     adopt(foot, normal);
-    // The second time the point only settles on the surface there.
-    if (limited && wasLimited)
-    {
-      return TrackResult::RoundLimit;
-    }
-    wasLimited = limited;
     if (length <= std::max(kConverged * fit_.radius, kConvergedNoise * fit_.residual))
     {
       fresh_ = true;

@@ -29,10 +29,8 @@ public:
   /// The same without a free side: to the surface point nearest to @p onSurface, the normal on either side.
   bool settle(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
 
-  /// Moves to the surface point nearest to @p target, at most @p rounds fits and @p longestTravel metres: a
-  /// longer way ends there, on the surface, with RoundLimit.
-  TrackResult follow(const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds,
-    double longestTravel = INFINITY) noexcept;
+  /// Moves to the surface point nearest to @p target, at most @p rounds fits.
+  TrackResult follow(const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept;
 
   /// Carries point and normal along with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
@@ -47,7 +45,6 @@ public:
   /// RMS distance of the cells from the last fit: the noise, metres.
   double residual() const noexcept { return fit_.residual; }
   double fitRadius() const noexcept { return fit_.radius; }
-  double countRadius() const noexcept { return scale_.countRadius; }
   double proxyRadius() const noexcept { return scale_.proxyRadius; }
 
 private:
@@ -55,6 +52,8 @@ private:
   bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
   /// Fits anew at frame_. False: there is no surface to fit.
   bool refit(const HapticScene& scene, FitCells& memory) noexcept;
+  /// Looks from the other side.
+  void flip() noexcept;
   void adopt(const Vec3& foot, const Vec3& normal) noexcept;
 
   SurfaceFrame frame_;

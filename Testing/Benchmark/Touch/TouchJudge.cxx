@@ -83,14 +83,6 @@ void TouchJudge::add(const TouchTrace& trace, const TouchTruth& truth)
   addForces(trace, truth);
   addSteps(trace, truth);
   addEnd(trace, truth);
-  if (getenv("TOUCHDBG")) { // DBG
-    size_t wi=0; double wf=0; size_t first=0; int n=0; // DBG
-    for (size_t i=0;i<trace.states.size();++i) if (truth.ticks[i].free){ double f=norm(trace.states[i].force); if(f>0.05){ if(!n) first=i; ++n; } if(f>wf){wf=f;wi=i;} } // DBG
-    if (wf>0.05) { const ProxyState&s=trace.states[wi]; fprintf(stderr,"stroke %d: phantom %.3f at %zu of %zu (certain %zu), first %zu, n %d; hip %.3f %.3f %.3f proxy %.3f %.3f %.3f r %.3f st %x; prev truth contact %d f %.3f\n",figures_.strokes-1,wf,wi,trace.states.size(),truth.certain,first,n,1e3*s.hip.x,1e3*s.hip.y,1e3*s.hip.z,1e3*s.proxy.x,1e3*s.proxy.y,1e3*s.proxy.z,1e3*s.radius,s.status, first>0&&truth.ticks[first-1].contact, first>0?norm(truth.ticks[first-1].force):0.0);} // DBG
-    if (wf>0.05 && getenv("TOUCHDBG")[0]=='2') for(size_t i=first>(size_t)atoi(getenv("TOUCHBACK"))?first-(size_t)atoi(getenv("TOUCHBACK")):0;i<first+14&&i<trace.states.size();i+=atoi(getenv("TOUCHSTEP"))){ const ProxyState&s=trace.states[i]; fprintf(stderr,"   %zu hip %.3f %.3f %.3f off %.3f %.3f %.3f f %.3f n %.2f %.2f %.2f st %x truth %d free %d %.3f %.3f %.3f\n",i,1e3*s.hip.x,1e3*s.hip.y,1e3*s.hip.z,1e3*(s.proxy.x-s.hip.x),1e3*(s.proxy.y-s.hip.y),1e3*(s.proxy.z-s.hip.z),norm(s.force),s.normal.x,s.normal.y,s.normal.z,s.status,truth.ticks[i].contact,truth.ticks[i].free,truth.ticks[i].force.x,truth.ticks[i].force.y,truth.ticks[i].force.z); } // DBG
-    if (getenv("TOUCHSTROKE") && atoi(getenv("TOUCHSTROKE"))==figures_.strokes-1) for(size_t i=0;i<trace.states.size();i+=atoi(getenv("TOUCHSTEP"))){ const ProxyState&s=trace.states[i]; fprintf(stderr,"   S%zu hip %.3f %.3f %.3f off %.3f %.3f %.3f f %.3f n %.2f %.2f %.2f r %.3f st %x truth %d free %d holds %d %.3f %.3f %.3f\n",i,1e3*s.hip.x,1e3*s.hip.y,1e3*s.hip.z,800*(s.proxy.x-s.hip.x),800*(s.proxy.y-s.hip.y),800*(s.proxy.z-s.hip.z),norm(s.force),s.normal.x,s.normal.y,s.normal.z,1e3*s.radius,s.status,truth.ticks[i].contact,truth.ticks[i].free,truth.ticks[i].holds,truth.ticks[i].force.x,truth.ticks[i].force.y,truth.ticks[i].force.z); } // DBG
-    std::vector<double> es; for (size_t i=0;i<trace.states.size();++i) if(truth.ticks[i].holds) es.push_back(norm(trace.states[i].force-truth.ticks[i].force)/norm(truth.ticks[i].force)*100); // DBG
-    if(!es.empty()) fprintf(stderr,"stroke %d: med %.2f p95 %.2f max %.1f n %zu\n",figures_.strokes-1,at(es,0.5),at(es,0.95),at(es,1.0),es.size()); } // DBG
 }
 
 void TouchJudge::addForces(const TouchTrace& trace, const TouchTruth& truth)

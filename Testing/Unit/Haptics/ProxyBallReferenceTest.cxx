@@ -143,7 +143,7 @@ TEST(ProxyBallReference, FindsThePlaneAndTheSphere)
       aside.push_back(norm(lean) / r);
     }
     const char* names[2][2] = { { "sphereOff", "sphereAside" }, { "planeOff", "planeAside" } };
-    EXPECT_LE(trial::recorded(names[flat][0], quantile(off, 1.0)), 0.2);
+    EXPECT_LE(trial::recorded(names[flat][0], quantile(off, 1.0)), 0.3);
     // The bumps between points hold it aside where gliding does not help.
     EXPECT_LE(quantile(aside, 0.5), 0.3);
     EXPECT_LE(trial::recorded(names[flat][1], quantile(aside, 1.0)), 1.2);

@@ -402,7 +402,8 @@ void expectForceIndependentOfRadius(double one, double other)
   }
   for (std::size_t i = 0; i < runs[0].size(); ++i)
   {
-    ASSERT_EQ(runs[0][i].force, runs[1][i].force) << "tick " << i;
+    // A larger ball meets the surface earlier: the same fit is found from elsewhere.
+    ASSERT_LE(norm(runs[0][i].force - runs[1][i].force), 2e-6) << "tick " << i;
   }
 }
 
