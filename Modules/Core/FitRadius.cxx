@@ -14,7 +14,7 @@ namespace
 /// RMS distance from a fit, in cells, up to which a surface is smooth; part of it that a smaller fit leaves
 /// over where it is shape.
 constexpr double kSmooth = 1e-3;
-constexpr double kLeftOfShape = 0.7;
+constexpr double kLeftOfShape = 0.5;
 constexpr double kCountGrowth = 1.1;
 constexpr int kCountSteps = 120;
 

@@ -67,6 +67,7 @@ constexpr double kGlideRadius = 0.9;
 constexpr double kWaitNear = 0.3;
 constexpr double kWaitLean = 0.2;
 constexpr int kMostLifts = 3;
+constexpr double kLongestProposal = 2.0;
 constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
 constexpr double kLeastLean = 0.02;
 constexpr double kLongestGlide = 0.5;
@@ -446,6 +447,35 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
       {
         slide(work, hip);
       }
+      return true;
+    }
+    *this = before;
+  }
+  return false;
+}
+
+bool ProxyBall::goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
+  const Vec3& up, std::uint32_t& status) noexcept
+{
+  Work work{ scene, fields, cells, kMostRounds, status };
+  const ProxyBall before = *this;
+  const Vec3 place = foot + radius_ * up;
+  const double distance = norm(place - center_);
+  if (distance > kLongestProposal * radius_)
+  {
+    return false;
+  }
+  gather(work, (1.0 + kLifts[kMostLifts - 1]) * radius_ + distance);
+  for (int i = 1; i < kMostLifts; ++i)
+  {
+    center_ += work.cells.sweep(center_, up, kLifts[i] * radius_, radius_) * up;
+    const Vec3 way = place + kLifts[i] * radius_ * up - center_;
+    const double length = norm(way);
+    const Vec3 direction = normalized(way);
+    center_ += work.cells.sweep(center_, direction, length, radius_) * direction;
+    slide(work, hip_);
+    if (norm(hip_ - center_) < norm(hip_ - before.center_) - kLeastGain * radius_)
+    {
       return true;
     }
     *this = before;

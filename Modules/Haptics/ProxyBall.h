@@ -44,6 +44,10 @@ public:
 
   /// The ball is at the HIP.
   bool isFree() const noexcept { return free_; }
+  /// Goes, lifted over the bumps between points, to where it would lie on a surface through @p foot with the
+  /// unit normal @p up, if nothing is in its way and that brings it nearer to the HIP. False: it stays.
+  bool goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot, const Vec3& up,
+    std::uint32_t& status) noexcept;
   /// False: the HIP went further than one step can follow; the ball is on its way.
   bool isThere() const noexcept { return there_; }
   const Vec3& center() const noexcept { return center_; }

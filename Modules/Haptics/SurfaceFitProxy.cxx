@@ -12,6 +12,8 @@ constexpr int kRoundsPerTick = 8;
 /// While the fit is lost it is sought every so many ticks: what failed a moment ago mostly fails again.
 constexpr int kSeekEvery = 4;
 constexpr double kSeekBelow = 0.5;
+/// RMS distance of the points from the fit, over the ball's radius, up to which the surface is smooth.
+constexpr double kSmoothResidual = 0.03;
 /// How far the fit's point may be from the ball's: over the ball's radius, and over the depth, as bumps
 /// between points hold the ball back by up to so much of it.
 constexpr double kTrustRadii = 0.2;
@@ -58,13 +60,13 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, FitCells& fit, const Vec3& 
 
 /// Follows the fit to the HIP. @return how much of the answer is the fit's, 0 to 1.
 double SurfaceFitProxy::fitShare(
-  const HapticScene& scene, FitCells& fit, const Vec3& hip, std::uint32_t& status) noexcept
+  const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
-  const Vec3 point = ball_.nearestPoint(hip);
-  const double trust = kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip));
+  FitCells& fit = memory.fit;
   const auto share = [&]
   {
-    const double apart = norm(tracker_.point() - point);
+    const double trust = kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip));
+    const double apart = norm(tracker_.point() - ball_.nearestPoint(hip));
     const bool agrees = tracker_.height(ball_.center()) > 0.0;
     return agrees ? 1.0 - smoothStep((apart - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
   };
@@ -74,6 +76,13 @@ double SurfaceFitProxy::fitShare(
     const TrackResult followed = tracker_.follow(scene, fit, hip, kRoundsPerTick);
     status |= std::uint32_t(followed == TrackResult::RoundLimit ? kProxyRoundLimit : kProxyOk);
     result = followed == TrackResult::Lost ? 0.0 : share();
+    // Where the surface is smooth a ball that lags behind is held by bumps.
+    if (followed != TrackResult::Lost && result < 1.0 && tracker_.height(ball_.center()) > 0.0 &&
+      tracker_.residual() < kSmoothResidual * ball_.radius() &&
+      ball_.goTo(scene, memory.fit, memory.ball, tracker_.point(), tracker_.normal(), status))
+    {
+      result = share();
+    }
     hasFit_ = result > 0.0;
   }
   if (result < kSeekBelow && ticksWithoutFit_++ % kSeekEvery == 0)
@@ -112,7 +121,7 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   else
   {
     const double depth = ball_.depth(hip);
-    share = refines ? fitShare(scene, memory.fit, hip, state.status) : 0.0;
+    share = refines ? fitShare(scene, memory, hip, state.status) : 0.0;
     const Vec3 ballPoint = ball_.nearestPoint(hip);
     Vec3 offset = (1.0 - share) * (depth > 0.0 ? ballPoint - hip : Vec3());
     contact.normal = (1.0 - share) * normalized(ball_.center() - hip, normal_);
