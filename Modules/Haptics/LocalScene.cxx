@@ -1,5 +1,7 @@
 #include "Haptics/LocalScene.h"
 
+#include "Core/SurfaceFit.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -15,6 +17,9 @@ constexpr double kMarginCells = 18.0;
 /// RMS distance of the points from the fits up to which a cloud is smooth, and their thickness within a voxel
 /// from which on it is noisy, over the voxel; least ratio of the two that is shape.
 constexpr double kSmooth = 1e-3;
+/// The same of fits so many times as wide, which take all cells.
+constexpr double kSmoothWide = 8e-3;
+constexpr double kWide = 2.0;
 constexpr double kThick = 0.1;
 constexpr double kShapeOverNoise = 2.0;
 /// Points that tell a voxel's thickness, of which a plane takes three, and voxels that must.
@@ -28,15 +33,47 @@ constexpr double kCoarsest = 0.75;
 /// Cells in the global scene's fit radius from which on finer ones only cost time.
 constexpr double kCellsInFit = 16.0;
 
+/// What one surface through all cells within @p radius of the one nearest to @p place leaves of them: nothing
+/// where they are smooth, much about edges and between sheets, of which other fits see one at a time. Metres.
+double residualOfAll(const CellPyramid& pyramid, const Vec3& place, double radius, FitCells& memory)
+{
+  double distance = 0.0;
+  const std::int64_t seed = pyramid.nearest(0, place, 2.0 * radius, distance);
+  Vec3 normal;
+  if (seed < 0)
+  {
+    return INFINITY;
+  }
+  SurfaceFrame frame;
+  frame.origin = pyramid.level(0).cells[std::size_t(seed)].mean;
+  if (!principalNormal(pyramid, frame.origin, radius, normal))
+  {
+    return INFINITY;
+  }
+  frame.turnTo(normal);
+  FitSettings settings;
+  settings.radius = radius;
+  const SurfaceFit fit = fitSurface(pyramid, frame, settings, memory);
+  return fit.quality == FitQuality::Quadric ? fit.residual : INFINITY;
+}
+
 /// Whether smaller fits would tell more within @p reach of @p seed. The points stand off the fits of the
 /// global scene by nothing where it is smooth, and by their noise where it is noisy, which is as large within
 /// a voxel as in a whole fit. What is larger in a fit than in its voxels is shape.
 bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)
 {
   const CellPyramid& pyramid = global.pyramid();
+  const auto memory = std::make_unique<FitCells>();
   double off = 0.0;
-  pyramid.visitBall(RadiusField::nodeLevel(pyramid), seed, reach,
-    [&](std::uint32_t, const Cell& node, double) { off = std::max(off, global.noise(node.mean)); });
+  double offWide = 0.0;
+  const int nodes = RadiusField::nodeLevel(pyramid);
+  pyramid.visitBall(nodes, seed, reach + pyramid.level(nodes).voxelSize,
+    [&](std::uint32_t, const Cell& node, double)
+    {
+      const double wide = kWide * global.fitScale(node.mean).countRadius;
+      off = std::max(off, global.noise(node.mean));
+      offWide = std::max(offWide, residualOfAll(pyramid, node.mean, wide, *memory));
+    });
   bool isMixed = false;
   for (int level = 1; level <= std::min(kMixedLevels, pyramid.numberOfCellLevels() - 1); ++level)
   {
@@ -60,7 +97,9 @@ bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)
   const auto middle = thicknesses.begin() + std::ptrdiff_t(thicknesses.size() / 2);
   std::nth_element(thicknesses.begin(), middle, thicknesses.end());
   const double cell = global.cellSize();
-  return *middle < kThick * cell && (isMixed || (off > kSmooth * cell && off > kShapeOverNoise * *middle));
+  const double noise = kShapeOverNoise * *middle;
+  return *middle < kThick * cell &&
+    (isMixed || off > std::max(kSmooth * cell, noise) || offWide > std::max(kSmoothWide * cell, noise));
 }
 
 Bounds grown(const Bounds& box, double margin)

@@ -39,6 +39,8 @@ constexpr int kMostSlides = 24;
 constexpr int kMostRounds = 192;
 constexpr int kMostGlides = 3;
 constexpr int kMostPushes = 16;
+/// Part of the radius that is free of points from which on a ball that begins is out of them.
+constexpr double kNearlyOut = 0.8;
 /// A point nearer than this many radii is touched.
 constexpr double kTouch = 1.002;
 constexpr int kMostTouched = 16;
@@ -237,13 +239,17 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   updateRadius(work);
   radius_ = wanted_;
   gather(work, 2.0 * radius_);
+  double d2 = 0.0;
   if (!pushOut(work.cells))
   {
-    center_ = hip;
-    double d2 = 0.0;
-    if (work.cells.nearest(hip, d2) >= 0)
+    // Nearly out is out, by a ball a little smaller; else there is no room here for one of this size.
+    gather(work, radius_);
+    const bool isNearlyOut = work.cells.nearest(center_, d2) >= 0 && std::sqrt(d2) >= kNearlyOut * radius_;
+    center_ = isNearlyOut ? center_ : hip;
+    work.cells.gather(work.scene.pyramid(), center_, 2.0 * radius_, radius_);
+    if (work.cells.nearest(center_, d2) >= 0)
     {
-      radius_ = std::max(kSmallestRadius * radius_, (1.0 - kRounding) * std::sqrt(d2));
+      radius_ = std::max(kSmallestRadius * radius_, std::min(radius_, (1.0 - kRounding) * std::sqrt(d2)));
     }
   }
   free_ = center_ == hip;

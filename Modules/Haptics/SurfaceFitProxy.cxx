@@ -18,6 +18,8 @@ constexpr double kSmoothResidual = 0.03;
 /// between points hold the ball back by up to so much of it.
 constexpr double kTrustRadii = 0.2;
 constexpr double kTrustDepths = 0.3;
+/// The same where the ball lies on a smooth surface, over its radius.
+constexpr double kTrustPlain = 0.6;
 /// The ball speaks alone from this many times that distance on.
 constexpr double kDistrust = 1.5;
 /// The ball sinks into the gaps between points: it may be this much above the surface, over its radius, and
@@ -58,6 +60,14 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, FitCells& fit, const Vec3& 
   return true;
 }
 
+/// Whether the ball lies above a smooth surface that goes on all around: what it sinks into are gaps between
+/// points, and nothing that a hand could fall off.
+bool SurfaceFitProxy::isPlain() const noexcept
+{
+  return tracker_.height(ball_.center()) > 0.0 && tracker_.goesOn() &&
+    tracker_.residual() < kSmoothResidual * ball_.radius();
+}
+
 /// Follows the fit to the HIP. @return how much of the answer is the fit's, 0 to 1.
 double SurfaceFitProxy::fitShare(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
@@ -65,7 +75,9 @@ double SurfaceFitProxy::fitShare(
   FitCells& fit = memory.fit;
   const auto share = [&]
   {
-    const double trust = kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip));
+    const double trust =
+      std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
+        isPlain() ? kTrustPlain * ball_.radius() : 0.0);
     const double apart = norm(tracker_.point() - ball_.nearestPoint(hip));
     const bool agrees = tracker_.height(ball_.center()) > 0.0;
     return agrees ? 1.0 - smoothStep((apart - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
@@ -129,7 +141,8 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
     {
       const double allowed = std::max(0.0, kTrustRadii * ball_.radius() + kReleaseSlope * depth);
       const Vec3 up = tracker_.point() - hip;
-      const bool pressed = tracker_.height(hip) <= 0.0 && (depth > 0.0 || norm2(up) <= allowed * allowed);
+      const bool pressed =
+        tracker_.height(hip) <= 0.0 && (depth > 0.0 || norm2(up) <= allowed * allowed || isPlain());
       offset += share * (pressed ? up : Vec3());
       contact.normal += share * tracker_.normal();
     }

@@ -55,7 +55,7 @@ private:
 
   double fitShare(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool seek(const HapticScene& scene, FitCells& fit, const Vec3& hip) noexcept;
-  double apart(const Vec3& ballPoint) const noexcept;
+  bool isPlain() const noexcept;
 
   ProxyBall ball_;
   SurfaceTracker tracker_;

@@ -21,6 +21,9 @@ constexpr int kWidenings = 2;
 constexpr double kWidening = 1.4;
 /// Part of the fit radius in which the fit stands for the surface.
 constexpr double kReach = 0.5;
+/// Weighted centroid of the cells over the fit radius up to which the surface goes on (0.235 on a straight
+/// rim).
+constexpr double kInner = 0.1;
 /// Fit radius over counted radius at which the traced slopes, which amplify noise, begin to fade and are
 /// gone.
 constexpr double kTracedUpTo = 1.05;
@@ -222,6 +225,11 @@ void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& t
   frame_.turnTo(normalized(change.applyToNormal(frame_.normal), frame_.normal));
   std::fill(curvature_, curvature_ + 3, 0.0);
   fresh_ = false;
+}
+
+bool SurfaceTracker::goesOn() const noexcept
+{
+  return fit_.quality == FitQuality::Quadric && std::hypot(fit_.centroidU, fit_.centroidV) < kInner;
 }
 
 void SurfaceTracker::alongSurface(const Vec3& t, Vec3& point, Vec3& normal) const noexcept
