@@ -36,8 +36,9 @@ void FeelOptions::addTo(CLI::App& command)
     ->type_name("OUT.csv");
   addChoice(command, "--method", this->method,
     { { "surface-fit", static_cast<int>(ProxyMethod::SurfaceFit) },
+      { "sphere", static_cast<int>(ProxyMethod::Sphere) },
       { "gradient-steps", static_cast<int>(ProxyMethod::GradientSteps) } },
-    "How the proxy meets the surface; default surface-fit");
+    "How the proxy meets the surface: a fit (the default), a sphere among the points, or the paper's steps");
   addChoice(command, "--preset", this->preset, { { "tuned", kTuned }, { "paper", kPaper } },
     "Gains of --method gradient-steps; default tuned");
   addNumber(command, "--stiffness", contact.stiffness, { 0.0, 1e5 }, "N_PER_M", "Spring; default 800");

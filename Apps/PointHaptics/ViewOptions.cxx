@@ -243,8 +243,9 @@ void addTouchOptions(CLI::App& command, ViewOptions& options)
 {
   const char* const group = "Touch";
   CLI::Option* added[] = {
-    addWord(command, "--method", options.method, { "surface-fit", "gradient-steps" },
-      "How the proxy follows the surface; default surface-fit"),
+    addWord(command, "--method", options.method, { "surface-fit", "sphere", "gradient-steps" },
+      "How the proxy meets the surface: a fit (the default), a sphere among the points, or the paper's "
+      "steps"),
     addWord(command, "--preset", options.preset, { "tuned", "paper" },
       "Gains of --method gradient-steps; default tuned, paper for the printed ones"),
     addNumber(command, "--stiffness", options.contact.stiffness, { 0.0, 1e5 }, "N_PER_M",
@@ -422,7 +423,9 @@ void applyCamera(const ViewOptions& options, vtkRenderer* renderer)
 HapticParameters ViewOptions::hapticParameters() const
 {
   HapticParameters parameters;
-  parameters.method = this->method == "gradient-steps" ? ProxyMethod::GradientSteps : ProxyMethod::SurfaceFit;
+  parameters.method = this->method == "gradient-steps" ? ProxyMethod::GradientSteps
+    : this->method == "sphere"                         ? ProxyMethod::Sphere
+                                                       : ProxyMethod::SurfaceFit;
   parameters.gradientSteps =
     this->preset == "paper" ? GradientStepsParameters::paper() : GradientStepsParameters::tuned();
   parameters.contact = this->contact;

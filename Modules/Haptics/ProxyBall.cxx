@@ -271,8 +271,8 @@ void ProxyBall::updateRadius(Work& work) noexcept
     isMeasured_ = true;
     if (free_ && wanted_ != radius_)
     {
-      radius_ = nearest >= 0 ? std::max(radius_, std::min(wanted_, (1.0 - kRounding) * distance)) : wanted_;
-      radius_ = std::min(radius_, std::max(wanted_, kSmallestRadius * wanted_));
+      const double room = nearest >= 0 ? (1.0 - kRounding) * distance : wanted_;
+      radius_ = std::min(wanted_, std::max(radius_, room));
     }
   }
   const ProxyBall before = *this;

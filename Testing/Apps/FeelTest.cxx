@@ -220,7 +220,8 @@ TEST_F(Feel, SameInputSameOutput)
 {
   this->succeed({ "generate", "idol", "-n", "50000", "-o", "idol.ply" });
   for (const std::vector<std::string>& options :
-    { std::vector<std::string>{ "--mu-d", "0.2" }, std::vector<std::string>{ "--method", "gradient-steps" } })
+    { std::vector<std::string>{ "--mu-d", "0.2" }, std::vector<std::string>{ "--method", "gradient-steps" },
+      std::vector<std::string>{ "--method", "sphere" } })
   {
     this->feel("idol.ply", kIdolPath, options);
     const std::string first = withoutTimes(this->read("out.csv"));
