@@ -55,15 +55,13 @@ bool BallCells::gatherFrom(const CellPyramid& pyramid, int level, bool onePerVox
       });
     return fits;
   }
-  std::uint32_t lastVoxel = ~std::uint32_t(0);
   pyramid.visitRuns(level, center_, reach_,
     [&](std::uint32_t first, std::uint32_t last)
     {
       auto slot = std::upper_bound(l.slotBegin.begin(), l.slotBegin.end(), first) - l.slotBegin.begin() - 1;
       for (; l.slotBegin[std::size_t(slot)] < last && fits; ++slot)
       {
-        lastVoxel = l.slotBegin[std::size_t(slot)];
-        fits = add(l.cells[lastVoxel].mean);
+        fits = add(l.cells[l.slotBegin[std::size_t(slot)]].mean);
       }
     });
   return fits;

@@ -26,8 +26,8 @@ struct Proxy::Implementation
   bool modelMoved = false; ///< The scene changed, and what that did to the contact is still settling.
   SurfaceFitProxy surfaceFit;
   SurfaceFitProxy::Memory memory;
-  SurfaceFitProxy::Memory rehearsalMemory; ///< What the rehearsal gathers must not serve a step: it is
-                                           ///< gathered about another place.
+  SurfaceFitProxy::Memory prefetchMemory; ///< What a prefetch gathers must not serve a step: it is
+                                          ///< gathered about another place.
   OffsetSettler settler;
   GradientSteps gradientSteps;
   ProxyState last;
@@ -43,7 +43,7 @@ struct Proxy::Implementation
 
   explicit Implementation(InstructionSet wanted)
     : memory(wanted)
-    , rehearsalMemory(wanted)
+    , prefetchMemory(wanted)
   {
   }
 
@@ -342,8 +342,8 @@ void Proxy::rehearse() noexcept
   {
     SurfaceFitProxy copy = self.surfaceFit;
     // Gathered anew each time: whether the step will have to gather is not known here.
-    self.rehearsalMemory.forget();
-    copy.step(*self.scene, self.rehearsalMemory, self.parameters.contact, hip,
+    self.prefetchMemory.forget();
+    copy.step(*self.scene, self.prefetchMemory, self.parameters.contact, hip,
       self.parameters.method == ProxyMethod::SurfaceFit, state);
   }
   else
