@@ -55,19 +55,23 @@ constexpr double kFarAway = 1e6;
 constexpr double kNoWay = 1e-4;
 /// Rounding that a covered point may be off by, over the radius.
 constexpr double kRounding = 1e-9;
-/// Reach of the plane through the points about the ball, and their RMS distance from it up to which it is
-/// flat, over the radius; its fewest points. A flat normal serves so many radii further and up to this angle.
+/// Reach of the points that tell whether the place is flat, and a smaller one for the first touch beside an
+/// edge, over the radius. A flat place serves so many radii further and up to this angle.
 constexpr double kPlaneReach = 1.4;
-constexpr double kFlat = 0.05;
-constexpr double kPlanePoints = 6.0;
+constexpr double kTouchReach = 1.2;
 constexpr double kFlatNear = 2.0;
 constexpr double kFlatCosine = 0.5;
+/// How far aside of the HIP, seen along the normal of a flat place, bumps may push the ball, over its radius.
+constexpr double kMostAside = 0.25;
 /// Radius of the ball that glides, shortest pull along the surface, longest way and least gain of a glide;
 /// all over the radius.
 constexpr double kGlideRadius = 0.9;
 /// On a flat place, so many radii around where that was seen, a ball that leans less waits.
 constexpr double kWaitNear = 0.3;
 constexpr double kWaitLean = 0.2;
+/// The same for a ball that need not keep up.
+constexpr double kPatientNear = 1.0;
+constexpr double kPatientLean = 0.5;
 constexpr int kMostLifts = 3;
 constexpr double kLongestProposal = 2.0;
 constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
@@ -146,7 +150,7 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
   wanted_ *= scale;
   isMeasured_ = false;
   isHeld_ = false;
-  isFlat_ = false;
+  flat_.forget();
 }
 
 void ProxyBall::gather(Work& work, double reach) noexcept
@@ -322,14 +326,31 @@ double ProxyBall::fly(Work& work, const Vec3& direction, double length) noexcept
     if (!free_)
     {
       pushOut(work.cells);
+      touchDown(work);
       break;
     }
   }
   return flown;
 }
 
+/// What the ball meets first is what it lies on, also beside an edge.
+void ProxyBall::touchDown(Work& work) noexcept
+{
+  gather(work, kPlaneReach * radius_);
+  Vec3 ignored;
+  flat_.forget();
+  if (!flat_.find(work.cells, center_, radius_, kTouchReach * radius_, ignored))
+  {
+    flat_.find(work.cells, center_, radius_, kPlaneReach * radius_, ignored);
+  }
+}
+
 void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
 {
+  const bool isOnFlat =
+    flat_.isNear(center_, kFlatNear * radius_) && dot(hip - center_, flat_.normal()) < 0.0;
+  const auto aside = [&] { return norm(flat_.along(hip - center_)); };
+  const double mostAside = isOnFlat ? std::max(kMostAside * radius_, aside()) : 0.0;
   for (int i = 0; i < kMostSlides && work.rounds > 0; ++i, --work.rounds)
   {
     const Vec3 pull = hip - center_;
@@ -361,8 +382,15 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
       free_ = true;
       return;
     }
+    const Vec3 before = center_;
     center_ += reached * direction;
     pushOut(work.cells);
+    // Bumps would lead the ball around an edge that the hand has not passed.
+    if (isOnFlat && aside() > mostAside && flat_.goesOn(work.scene, hip, center_, radius_))
+    {
+      center_ = before + std::min(reached, flat_.wayAside(before, hip, direction, mostAside)) * direction;
+      return;
+    }
   }
   work.status |= kProxyRoundLimit;
 }
@@ -371,46 +399,20 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
 /// not flat, as at an edge, the last flat one near by: the ball has not gone around yet.
 Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
 {
-  double weights = 0.0;
-  Vec3 sum;
-  SymMat3 squares;
-  cells.visitBall(center_, kPlaneReach * radius_,
-    [&](const Vec3& offset, double)
-    {
-      weights += 1.0;
-      sum += offset;
-      squares += outerProduct(offset);
-    });
-  const Vec3 mean = weights > 0.0 ? sum / weights : Vec3();
-  const Vec3 away = normalized(mean);
-  SymMat3 offset = outerProduct(mean);
-  offset *= -1.0;
-  squares *= weights > 0.0 ? 1.0 / weights : 0.0;
-  squares += offset;
-  const SymEigen eigen = symmetricEigen(squares);
-  const Vec3 up = dot(eigen.vectors[0], away) < 0.0 ? -eigen.vectors[0] : eigen.vectors[0];
-  const double flat = kFlat * radius_;
-  if (weights >= kPlanePoints && eigen.values[0] <= flat * flat)
+  Vec3 away;
+  if (!flat_.find(cells, center_, radius_, kPlaneReach * radius_, away) &&
+    !(flat_.isNear(center_, kFlatNear * radius_) && dot(flat_.normal(), away) >= kFlatCosine))
   {
-    flatNormal_ = up;
-    flatAt_ = center_;
-    flatPoint_ = center_ - mean;
-    isFlat_ = true;
-    return up;
+    flat_.forget();
   }
-  const double near = kFlatNear * radius_;
-  isFlat_ = isFlat_ && norm2(center_ - flatAt_) <= near * near && dot(flatNormal_, away) >= kFlatCosine;
-  return isFlat_ ? flatNormal_ : away;
+  return flat_.isKnown() ? flat_.normal() : away;
 }
 
 /// Whether the ball lies on a flat place and leans so little that it may wait.
 bool ProxyBall::mayWait(const Vec3& hip) const noexcept
 {
-  const double near = kWaitNear * radius_;
-  const double most = kWaitLean * radius_;
-  const Vec3 pull = hip - center_;
-  return isFlat_ && norm2(center_ - flatAt_) < near * near &&
-    norm2(pull - dot(pull, flatNormal_) * flatNormal_) < most * most;
+  return flat_.isNear(center_, (isPatient_ ? kPatientNear : kWaitNear) * radius_) &&
+    norm(flat_.along(hip - center_)) < (isPatient_ ? kPatientLean : kWaitLean) * radius_;
 }
 
 bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
@@ -425,8 +427,8 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
     return false;
   }
   // What rises from the surface is a wall: there only what brings the ball nearer to the HIP is progress.
-  bool isWalled = !isFlat_;
-  const double highest = isFlat_ ? dot(center_ - flatPoint_, up) - kWallHeight * radius_ : 0.0;
+  bool isWalled = !flat_.isKnown();
+  const double highest = isWalled ? 0.0 : flat_.height(center_) - kWallHeight * radius_;
   work.cells.visitBall(center_, kPlaneReach * radius_,
     [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < highest; });
   const ProxyBall before = *this;
@@ -550,7 +552,8 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
     return;
   }
   isHeld_ = false;
-  for (int i = 0; i < kMostGlides && !free_ && there_; ++i)
+  const int glides = isPatient_ ? 1 : kMostGlides;
+  for (int i = 0; i < glides && !free_ && there_; ++i)
   {
     if (!glide(work, hip))
     {

@@ -4,6 +4,7 @@
 
 #include "Core/FitCells.h"
 #include "Haptics/BallCells.h"
+#include "Haptics/FlatPlace.h"
 #include "Haptics/HapticScene.h"
 
 #include <cstdint>
@@ -17,7 +18,8 @@ namespace pointhaptics
 /// Each tick it slides: the way to the HIP, with what points into the points it touches taken out (up to
 /// three planes; Zilles and Salisbury 1995), cut where it would meet the next one. Where the bumps between
 /// the points hold it although the pull leans, it glides: a slightly smaller ball goes along the smoothed
-/// surface, and the ball follows where that brings it nearer to the HIP.
+/// surface, and the ball follows where that brings it nearer to the HIP. Beside an edge the bumps would lead
+/// it around: it does not leave the flat place that it lies on while that goes on under the HIP.
 ///
 /// Its radius is the paper's r_p, less a fifth, but at least max(2 h, 2.4 s), h the index cell and s the
 /// spacing of the points about it: a smaller one would fall through the gaps of a random sample. Lattice
@@ -36,6 +38,9 @@ public:
     isMeasured_ = false;
     adopts_ = true;
   }
+
+  /// A patient ball lets bumps hold it back by up to half its radius: something else follows the surface.
+  void setPatient(bool patient) noexcept { isPatient_ = patient; }
 
   /// @param fields the memory for the scene's fields. @param cells the memory of the points near the ball.
   /// @param hip finite. @param status receives bits.
@@ -81,6 +86,7 @@ private:
   void slide(Work& work, const Vec3& hip) noexcept;
   bool mayWait(const Vec3& hip) const noexcept;
   bool glide(Work& work, const Vec3& hip) noexcept;
+  void touchDown(Work& work) noexcept;
   Vec3 surfaceNormal(const BallCells& cells) noexcept;
   bool pushOut(const BallCells& cells) noexcept;
   bool isPinched(const BallCells& cells) const noexcept;
@@ -92,11 +98,9 @@ private:
   Vec3 hip_; ///< As far as the ball has followed it.
   Vec3 measuredAt_;
   Vec3 heldAt_; ///< The HIP when gliding did not help.
-  Vec3 flatNormal_;
-  Vec3 flatAt_;    ///< The ball when the surface was flat last.
-  Vec3 flatPoint_; ///< Of the plane there.
-  bool isFlat_ = false;
+  FlatPlace flat_;
   bool isHeld_ = false;
+  bool isPatient_ = false;
   bool isMeasured_ = false;
   bool free_ = true;
   bool there_ = true;

@@ -122,18 +122,21 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   const Vec3& hip, bool refines, ProxyState& state) noexcept
 {
   memory.fit.forgetOverflow();
+  ball_.setPatient(isPatient_);
   ball_.step(scene, memory.fit, memory.ball, hip, state.status);
   Contact contact;
   double share = 0.0;
   if (ball_.isFree() || !ball_.isThere())
   {
     hasFit_ = false;
+    isPatient_ = false;
     ticksWithoutFit_ = 0;
   }
   else
   {
     const double depth = ball_.depth(hip);
     share = refines ? fitShare(scene, memory, hip, state.status) : 0.0;
+    isPatient_ = share == 1.0 && isPlain();
     const Vec3 ballPoint = ball_.nearestPoint(hip);
     Vec3 offset = (1.0 - share) * (depth > 0.0 ? ballPoint - hip : Vec3());
     contact.normal = (1.0 - share) * normalized(ball_.center() - hip, normal_);

@@ -62,6 +62,7 @@ private:
   FrictionCone friction_;
   Vec3 normal_{ 0.0, 0.0, 1.0 };
   bool hasFit_ = false;
+  bool isPatient_ = false; ///< The fit followed a smooth surface that goes on all around.
   int ticksWithoutFit_ = 0;
 };
 

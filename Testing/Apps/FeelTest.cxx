@@ -123,9 +123,10 @@ TEST_F(Feel, TheIdolIsTouchedAndFollowed)
     }
   }
   EXPECT_GT(contacts, 800.0);
-  // A few ticks, in which the ball speaks, make nearly all of it.
+  // Eight rows make nearly all of both, where the ball speaks and two places are nearly as near: the hand
+  // keeps to the one that it touched.
   EXPECT_LT(std::sqrt(offSurface2 / contacts), 8e-6);
-  EXPECT_LT(std::sqrt(depthError2 / depth2), 0.004);
+  EXPECT_LT(std::sqrt(depthError2 / depth2), 0.006);
   this->RecordProperty("rms_off_surface_metres", digits(std::sqrt(offSurface2 / contacts)));
   this->RecordProperty("rms_percent", digits(100.0 * std::sqrt(depthError2 / depth2)));
 }

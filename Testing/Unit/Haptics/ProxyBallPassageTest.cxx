@@ -179,6 +179,31 @@ TEST(ProxyBallPassage, IsLetOutOfACrowdOfPointsThatItBeginsIn)
   EXPECT_LE(trial::recorded("heldOf40", held), 8);
 }
 
+TEST(ProxyBallPassage, StaysOnTheFaceThatIsPressedBesideAnEdge)
+{
+  constexpr double kHalf = 0.025;
+  constexpr double kSpacing = 3.2e-4;
+  constexpr int kPresses = 200;
+  std::vector<Vec3> points;
+  ASSERT_EQ(generateShape(Shape::Box, 150000, 7, 0.0, points), Status::Ok);
+  const trial::Scene scene = trial::rawScene(points);
+  trial::Random random(35);
+  int slipped = 0;
+  for (int press = 0; press < kPresses; ++press)
+  {
+    const double x = kHalf - random.uniform(1.0, 2.0) * kSpacing;
+    const double y = random.uniform(-0.02, 0.02);
+    BallInScene hand(scene);
+    hand.step({ x, y, kHalf + 0.002 });
+    hand.go({ x, y, kHalf - 0.002 }, 0.05);
+    hand.rest(50);
+    ASSERT_FALSE(hand.ball().isFree()) << press;
+    slipped += hand.ball().center().z < kHalf;
+  }
+  // Without the memory of the flat place there are 8.
+  EXPECT_LE(trial::recorded("slippedOf200", slipped), 4);
+}
+
 TEST(ProxyBallPassage, LetsGoAtTheEdgesOfABox)
 {
   constexpr double kHalf = 0.025;
