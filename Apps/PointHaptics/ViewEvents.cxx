@@ -65,5 +65,17 @@ void runEvents(vtkRenderWindowInteractor* interactor)
   interactor->Start();
 }
 
+void leaveEvents(vtkRenderWindowInteractor* interactor)
+{
+#if defined(__unix__) && !defined(__APPLE__)
+  if (eventSocket(interactor->GetRenderWindow()) >= 0)
+  {
+    interactor->SetDone(true);
+    return;
+  }
+#endif
+  interactor->TerminateApp();
+}
+
 } // namespace app
 } // namespace pointhaptics

@@ -15,5 +15,10 @@ namespace app
 /// after Initialize().
 void runEvents(vtkRenderWindowInteractor* interactor);
 
+/// Ends runEvents() of @p interactor, from one of its events, for a window that is used further. On X11
+/// TerminateApp() is for good: VTK 9.1 destroys the window, and the one that the next render makes instead
+/// hears neither keys nor its close button.
+void leaveEvents(vtkRenderWindowInteractor* interactor);
+
 } // namespace app
 } // namespace pointhaptics

@@ -67,38 +67,47 @@ void ViewWindow::openWindow()
 }
 
 /// A renderer of its own: the scene's would ask filters that have no cloud.
-bool ViewWindow::awaitCloud(const CloudLoader& loader)
+void ViewWindow::showBar(const std::string& words, double part)
 {
-  const std::string title = titleOf(options_.firstFiles());
   this->openWindow();
   applyBackground(waiting_);
-  progress_->SetProgress("reading " + title, loader.progress());
+  progress_->SetProgress(words, part);
   progress_->AddTo(waiting_);
   window_->AddRenderer(waiting_);
   window_->Render();
   interactor_->Initialize();
   // Not before it hears keys: who waits for the title may press one.
-  window_->SetWindowName(("PointHaptics: reading " + title).c_str());
+  window_->SetWindowName(("PointHaptics: " + words).c_str());
+}
 
+bool ViewWindow::awaitCloud(const CloudLoader& loader)
+{
   struct Wait
   {
     ViewWindow& self;
     const CloudLoader& loader;
     std::string words;
     ProgressBar terminal{ "reading" };
-  } wait{ *this, loader, "reading " + title };
+    bool isRead = false;
+  } wait{ *this, loader, "reading " + titleOf(options_.firstFiles()) };
+  this->showBar(wait.words, loader.progress());
   vtkNew<vtkCallbackCommand> events;
   events->SetClientData(&wait);
   events->SetCallback(
     [](vtkObject*, unsigned long event, void* client, void*)
     {
-      auto& [self, reader, words, terminal] = *static_cast<Wait*>(client);
+      auto& [self, reader, words, terminal, isRead] = *static_cast<Wait*>(client);
+      if (self.interactor_->GetDone())
+      {
+        return; // it is decided; this was in the queue
+      }
       const std::string key = self.interactor_->GetKeySym() ? self.interactor_->GetKeySym() : "";
       const bool cancels =
         event == vtkCommand::KeyPressEvent && (key == "Escape" || key == "q" || key == "Q");
-      if (cancels || reader.waitFor(0.0))
+      isRead = !cancels && reader.waitFor(0.0);
+      if (cancels || isRead)
       {
-        self.interactor_->TerminateApp();
+        leaveEvents(self.interactor_);
       }
       terminal.show(reader.progress());
       if (self.progress_->SetProgress(words, reader.progress()))
@@ -113,7 +122,7 @@ bool ViewWindow::awaitCloud(const CloudLoader& loader)
   interactor_->DestroyTimer(timer);
   interactor_->RemoveObserver(ticks);
   interactor_->RemoveObserver(keys);
-  return loader.waitFor(0.0);
+  return wait.isRead; // not where the close button ended it
 }
 
 void ViewWindow::setUpRendering()
