@@ -3,7 +3,11 @@
 #include "OptionParsing.h"
 #include "StopSignals.h"
 
+#include "Devices/DeviceList.h"
+
 #include <CLI/CLI.hpp>
+
+#include <vector>
 
 namespace pointhaptics
 {
@@ -64,6 +68,25 @@ std::string FalconNews::next(const FalconDevice& device)
   }
   state_ = now;
   return advice(now);
+}
+
+bool falconIsUsable(std::string& message)
+{
+  std::vector<std::string> notes;
+  message = "falcon: none is plugged in; check the cable and its power supply";
+  for (const ListedDevice& device : listDevices(notes))
+  {
+    if (device.kind == "falcon")
+    {
+      message = device.problem;
+      return message.empty();
+    }
+  }
+  for (const std::string& note : notes)
+  {
+    message = note.find("Falcon") == std::string::npos ? message : "falcon: " + note;
+  }
+  return false;
 }
 
 void FalconOptions::addTo(CLI::App& command)

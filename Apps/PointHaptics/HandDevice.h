@@ -36,6 +36,10 @@ private:
   FalconState state_ = FalconState::Closed;
 };
 
+/// Whether a Falcon is plugged in and can be opened; it is not started. False: @p message says why not, with
+/// the cure. Not beside a driver that uses one.
+bool falconIsUsable(std::string& message);
+
 /// Adds --falcon-firmware and --max-force.
 struct FalconOptions
 {

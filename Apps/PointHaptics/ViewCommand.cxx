@@ -21,6 +21,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -67,6 +68,86 @@ void awaitOnTerminal(const CloudLoader& loader)
   }
 }
 
+/// The first of the clouds on the command line that can be read.
+struct FirstCloud
+{
+  std::size_t index = 0; ///< For ViewOptions::filesOfCloud().
+  LoadedCloud cloud;
+  std::string news; ///< What was skipped before it; empty: nothing.
+};
+
+/// @p message with the name of the file where it does not have it.
+std::string withTitle(const std::string& title, const std::string& message)
+{
+  return message.find(title) == std::string::npos ? title + ": " + message : message;
+}
+
+/// Reads cloud after cloud until one can be shown, and warns of those that cannot. Where it takes long and
+/// @p options need a window, @p session opens it. @return an exit code: kSuccess, or what to end with.
+int readFirst(
+  const ViewOptions& options, ViewScene& scene, std::unique_ptr<ViewSession>& session, FirstCloud& first)
+{
+  const std::size_t count = options.numberOfClouds();
+  CloudLoader loader;
+  std::string message;
+  for (first.index = 0; first.index < count; ++first.index)
+  {
+    const std::vector<std::string> files = options.filesOfCloud(first.index);
+    const std::string title = titleOf(files);
+    loader.start(options.cloudRequest(files));
+    if (!session && !loader.waitFor(kSilence) && needsWindow(options) && displayIsAvailable(message))
+    {
+      session = std::make_unique<ViewSession>(scene, options);
+    }
+    if (session && !session->awaitCloud(loader, title))
+    {
+      fail("view", title + ": reading was stopped on request; nothing is shown");
+      return kCancelled;
+    }
+    awaitOnTerminal(loader);
+    loader.take(first.cloud, message);
+    if (message.empty())
+    {
+      return kSuccess;
+    }
+    if (count == 1)
+    {
+      return fail("view", message);
+    }
+    message = withTitle(title, message);
+    warn("view", "skipped: " + message);
+    first.news = first.index == 0
+      ? "skipped: " + message
+      : fmt::format("{} files are skipped; the last: {}", first.index + 1, message);
+  }
+  return fail("view", fmt::format("none of the {} files can be shown; mend one of them, see above", count));
+}
+
+/// False: what the options ask for cannot be had, whatever the clouds are; @p message says why.
+bool checkDevice(const ViewOptions& options, std::string& message)
+{
+  // Where the hand follows a path or is in no window, nothing else would notice.
+  const bool opensFalcon = needsWindow(options) && options.path.empty();
+  if (options.device == "falcon" && !opensFalcon && !falconIsUsable(message))
+  {
+    message = fmt::format("--device falcon: {}; {} does without a device: leave the option out, or give "
+                          "--device none",
+      message, options.path.empty() ? "a picture" : "a hand path");
+    return false;
+  }
+  return true;
+}
+
+void reportTimes(const ViewOptions& options, ViewScene& scene, double reading, double building)
+{
+  if (!options.config.empty())
+  {
+    fmt::print(stderr, "view: settings from {}\n", options.config);
+  }
+  fmt::print(stderr, "view: read in {:.2f} s, resampled in {:.2f} s: {} active voxels\n", reading, building,
+    scene.bandwidth()->GetOutput()->GetNumberOfPoints());
+}
+
 int runView(CLI::App& command, ViewOptions& options)
 {
   collectVtkMessages();
@@ -84,28 +165,20 @@ int runView(CLI::App& command, ViewOptions& options)
     fmt::print("settings: {}\n", options.writeConfig);
     return kSuccess;
   }
-  ViewScene scene;
-  std::unique_ptr<ViewSession> session;
-  const Stopwatch opening;
-  CloudLoader loader;
-  loader.start(options.cloudRequest(options.firstFiles()));
-  if (!loader.waitFor(kSilence) && needsWindow(options) && displayIsAvailable(message))
-  {
-    session = std::make_unique<ViewSession>(scene, options);
-    if (!session->awaitCloud(loader))
-    {
-      fail("view", titleOf(options.firstFiles()) + ": reading was stopped on request; nothing is shown");
-      return kCancelled;
-    }
-  }
-  LoadedCloud cloud;
-  awaitOnTerminal(loader);
-  loader.take(cloud, message);
-  if (!message.empty())
+  if (!checkDevice(options, message))
   {
     return fail("view", message);
   }
-  scene.open(std::move(cloud), options);
+  ViewScene scene;
+  std::unique_ptr<ViewSession> session;
+  FirstCloud first;
+  const Stopwatch reading;
+  if (const int code = readFirst(options, scene, session, first); code != kSuccess)
+  {
+    return code;
+  }
+  const double readSeconds = reading.seconds();
+  scene.open(std::move(first.cloud), options);
   const Stopwatch building;
   if (!scene.build(options, message))
   {
@@ -113,13 +186,7 @@ int runView(CLI::App& command, ViewOptions& options)
   }
   if (options.verbose)
   {
-    if (!options.config.empty())
-    {
-      fmt::print(stderr, "view: settings from {}\n", options.config);
-    }
-    fmt::print(stderr, "view: read in {:.2f} s, resampled in {:.2f} s: {} active voxels\n",
-      opening.seconds() - building.seconds(), building.seconds(),
-      scene.bandwidth()->GetOutput()->GetNumberOfPoints());
+    reportTimes(options, scene, readSeconds, building.seconds());
   }
   fmt::print("{} points, {}\n", scene.numberOfPoints(), scene.scaleNote());
   std::fflush(stdout);
@@ -131,7 +198,8 @@ int runView(CLI::App& command, ViewOptions& options)
   {
     session = std::make_unique<ViewSession>(scene, options);
   }
-  const bool done = session ? session->run(message) : makePicture(scene, options, message);
+  const bool done =
+    session ? session->run(first.index, first.news, message) : makePicture(scene, options, message);
   return done ? kSuccess : fail("view", message);
 }
 

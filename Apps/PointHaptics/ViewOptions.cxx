@@ -269,7 +269,10 @@ void addTouchOptions(CLI::App& command, ViewOptions& options)
 
 void ViewOptions::addTo(CLI::App& command)
 {
-  command.add_option("FILE", this->files, "Point clouds: PLY, PCD, LAS, VTP, OBJ or columns of text")
+  command
+    .add_option("FILE", this->files,
+      "Point clouds: PLY, PCD, LAS, VTP, OBJ or columns of text; one that cannot be read is skipped "
+      "where there are others, but with --together")
     ->required();
   command.add_flag(
     "--together", this->together, "All files as one cloud; default: one at a time, keys N and B");
@@ -294,8 +297,7 @@ void ViewOptions::addTo(CLI::App& command)
     ->type_name("HIP.csv");
   addWord(command, "--device", this->device, { "auto", "falcon", "simulated", "none" },
     "What moves the hand; default auto: a Falcon where one can be used, else the simulated hand, driven by "
-    "mouse "
-    "and keys");
+    "mouse and keys; falcon is an error where none can be used, also with --screenshot and --path");
   this->falcon.addTo(command);
   command
     .add_option("--config", this->config, "Defaults for these options, a JSON object; the command line wins")
@@ -402,9 +404,14 @@ CloudRequest ViewOptions::cloudRequest(const std::vector<std::string>& wanted) c
   return request;
 }
 
-std::vector<std::string> ViewOptions::firstFiles() const
+std::size_t ViewOptions::numberOfClouds() const
 {
-  return this->together ? this->files : std::vector<std::string>{ this->files.front() };
+  return this->together ? 1 : this->files.size();
+}
+
+std::vector<std::string> ViewOptions::filesOfCloud(std::size_t index) const
+{
+  return this->together ? this->files : std::vector<std::string>{ this->files[index] };
 }
 
 void applyCamera(const ViewOptions& options, vtkRenderer* renderer)

@@ -67,8 +67,11 @@ struct ViewOptions
   /// fitsWorkspace. False: @p message says what is wrong with the file.
   bool complete(CLI::App& command, std::string& message);
   HapticParameters hapticParameters() const;
-  /// What is shown first: all files, or the first of them.
-  std::vector<std::string> firstFiles() const;
+  /// How many clouds the files are: one where they are shown together.
+  std::size_t numberOfClouds() const;
+  /// What is shown at once: all files where they are shown together, else that at @p index.
+  /// @pre index < numberOfClouds().
+  std::vector<std::string> filesOfCloud(std::size_t index) const;
   /// To read @p wanted as these options say.
   CloudRequest cloudRequest(const std::vector<std::string>& wanted) const;
 };

@@ -15,7 +15,6 @@
 #include "vtkHapticSliders.h"
 #include "vtkInteractorStyleHaptic.h"
 
-#include "Devices/DeviceList.h"
 #include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 #include "Devices/SpaceMouse/SpaceMouse.h"
@@ -46,13 +45,6 @@ constexpr double kChartHeight = 0.24; // part of the window
 /// Calls of the timer, of 33 ms each, between two looks at the files.
 constexpr int kLooksApart = 8;
 
-bool falconIsUsable()
-{
-  std::vector<std::string> notes;
-  const std::vector<ListedDevice> devices = listDevices(notes);
-  return !devices.empty() && devices.front().kind == "falcon" && devices.front().problem.empty();
-}
-
 } // namespace
 
 /// Once, with or without a cloud.
@@ -69,7 +61,10 @@ void ViewWindow::openWindow()
 /// A renderer of its own: the scene's would ask filters that have no cloud.
 void ViewWindow::showBar(const std::string& words, double part)
 {
-  this->openWindow();
+  if (!isOpen_)
+  {
+    this->openWindow();
+  }
   applyBackground(waiting_);
   progress_->SetProgress(words, part);
   progress_->AddTo(waiting_);
@@ -80,7 +75,7 @@ void ViewWindow::showBar(const std::string& words, double part)
   window_->SetWindowName(("PointHaptics: " + words).c_str());
 }
 
-bool ViewWindow::awaitCloud(const CloudLoader& loader)
+bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
 {
   struct Wait
   {
@@ -89,7 +84,7 @@ bool ViewWindow::awaitCloud(const CloudLoader& loader)
     std::string words;
     ProgressBar terminal{ "reading" };
     bool isRead = false;
-  } wait{ *this, loader, "reading " + titleOf(options_.firstFiles()) };
+  } wait{ *this, loader, "reading " + title };
   this->showBar(wait.words, loader.progress());
   vtkNew<vtkCallbackCommand> events;
   events->SetClientData(&wait);
@@ -176,6 +171,7 @@ void ViewWindow::openFalcon()
 
 bool ViewWindow::openDevice(std::string& message)
 {
+  std::string unusable;
   if (!options_.path.empty())
   {
     HipPath path;
@@ -186,7 +182,7 @@ bool ViewWindow::openDevice(std::string& message)
     replay_ = std::make_unique<PathReplayDevice>(std::move(path), true);
     device_ = replay_.get();
   }
-  else if (options_.device == "falcon" || (options_.device == "auto" && falconIsUsable()))
+  else if (options_.device == "falcon" || (options_.device == "auto" && falconIsUsable(unusable)))
   {
     this->openFalcon();
   }
@@ -463,7 +459,7 @@ bool ViewWindow::finish(std::string& message)
   return true;
 }
 
-bool ViewWindow::run(std::string& message)
+bool ViewWindow::run(std::size_t cloud, const std::string& news, std::string& message)
 {
   if (!options_.trace.empty() && !trace_.open(options_.trace, message))
   {
@@ -471,12 +467,14 @@ bool ViewWindow::run(std::string& message)
   }
   rememberStopSignals(); // before a device that takes its time to start
   const bool hasWaited = isOpen_;
+  news_ = news;
   this->setUpRendering();
   if (!this->openDevice(message))
   {
     return false;
   }
-  shown_ = options_.firstFiles();
+  shown_ = options_.filesOfCloud(cloud);
+  fileIndex_ = cloud;
   watch_.watch(shown_);
   this->connectStyle();
   style_->UpdateModel();
@@ -502,14 +500,14 @@ ViewSession::ViewSession(ViewScene& scene, const ViewOptions& options)
 
 ViewSession::~ViewSession() = default;
 
-bool ViewSession::awaitCloud(const CloudLoader& loader)
+bool ViewSession::awaitCloud(const CloudLoader& loader, const std::string& title)
 {
-  return window_->awaitCloud(loader);
+  return window_->awaitCloud(loader, title);
 }
 
-bool ViewSession::run(std::string& message)
+bool ViewSession::run(std::size_t cloud, const std::string& news, std::string& message)
 {
-  return window_->run(message);
+  return window_->run(cloud, news, message);
 }
 
 } // namespace app

@@ -4,6 +4,7 @@
 
 #include "ViewOptions.h"
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -26,11 +27,13 @@ public:
   ViewSession(const ViewSession&) = delete;
   ViewSession& operator=(const ViewSession&) = delete;
 
-  /// Opens the window, empty but for a bar, until @p loader has something to take. False: the user closed the
-  /// window or pressed Escape.
-  bool awaitCloud(const CloudLoader& loader);
-  /// Shows the window until the user closes it. The scene must be built. False: @p message says what failed.
-  bool run(std::string& message);
+  /// Opens the window, empty but for a bar, until @p loader has something to take; @p title names what it
+  /// reads. Again for the next cloud where one could not be read. False: the user closed the window or pressed
+  /// Escape.
+  bool awaitCloud(const CloudLoader& loader, const std::string& title);
+  /// Shows the window until the user closes it, and @p news in its status until there are others. The scene
+  /// must be built, of ViewOptions::filesOfCloud(@p cloud). False: @p message says what failed.
+  bool run(std::size_t cloud, const std::string& news, std::string& message);
 
 private:
   std::unique_ptr<ViewWindow> window_;

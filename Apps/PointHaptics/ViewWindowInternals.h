@@ -52,8 +52,8 @@ public:
   {
   }
 
-  bool awaitCloud(const CloudLoader& loader);
-  bool run(std::string& message);
+  bool awaitCloud(const CloudLoader& loader, const std::string& title);
+  bool run(std::size_t cloud, const std::string& news, std::string& message);
 
 private:
   /// Files that are being read to be shown.

@@ -83,4 +83,18 @@ xdotool key q
 : >go
 ends_with 130 "key Q while it reads"
 said "slow.ply: reading was stopped on request"
+# A first file that cannot be read: the same window goes on to the next, and says what it left out.
+"$program" generate sphere -n 3000 -o good.ply >/dev/null
+echo "no cloud" >slow.ply
+open_slowly good.ply
+waiting="$window"
+: >go
+until_true "the next file is not shown" find_window "PointHaptics: good.ply"
+[[ "$window" == "$waiting" ]] || fail "the window was replaced by another one"
+until_true "the window does not take the focus" takes_keys
+said "warning: skipped: slow.ply: "
+xdotool key n
+said "pointhaptics view: slow.ply: "
+xdotool key q
+ends_with 0 "key Q after a skipped file"
 echo "the window heard all that it was told"

@@ -1,0 +1,97 @@
+// Files that cannot be read and devices that are not there, in `view` without a window.
+#include "RunProgram.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using pointhaptics::apptest::Outcome;
+
+class ViewFiles : public pointhaptics::apptest::CommandLine
+{
+protected:
+  void SetUp() override
+  {
+    this->succeed({ "generate", "sphere", "-n", "2000", "-o", "good.ply" });
+    this->write("bad.laz", "LASF, and nothing more");
+    this->write("worse.obj", "");
+    this->write("path.csv", "t,x,y,z\n0,0,0,0.03\n0.1,0,0,0.02\n");
+  }
+  /// `view files... options...` with files that need no display.
+  Outcome view(std::vector<std::string> files, const std::vector<std::string>& options = {}) const
+  {
+    files.insert(files.begin(), "view");
+    files.insert(files.end(), { "--unit", "m", "--path", "path.csv", "--trace", "trace.csv" });
+    files.insert(files.end(), options.begin(), options.end());
+    return this->run(files);
+  }
+  static std::ptrdiff_t numberOfLines(const std::string& text)
+  {
+    return std::count(text.begin(), text.end(), '\n');
+  }
+  static bool contains(const std::string& text, const std::string& part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+};
+
+TEST_F(ViewFiles, ThatCannotBeReadAreSkipped)
+{
+  const Outcome outcome = this->view({ "bad.laz", "worse.obj", "good.ply" });
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_TRUE(contains(outcome.output, "2000 points")) << outcome.output;
+  EXPECT_TRUE(this->exists("trace.csv"));
+  EXPECT_EQ(numberOfLines(outcome.errors), 2) << outcome.errors;
+  EXPECT_EQ(outcome.errors.rfind("pointhaptics view: warning: skipped: bad.laz: ", 0), 0u) << outcome.errors;
+  EXPECT_TRUE(contains(outcome.errors, "warning: skipped: worse.obj: ")) << outcome.errors;
+}
+
+TEST_F(ViewFiles, AfterOneThatCanBeReadAreNotLookedAt)
+{
+  const Outcome outcome = this->view({ "good.ply", "bad.laz" });
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_EQ(outcome.errors, "");
+}
+
+TEST_F(ViewFiles, WithoutTheArrayThatWasAskedForAreSkippedByName)
+{
+  this->write("warm.csv", "x,y,z,Warmth\n0,0,0,1\n0.01,0,0,2\n0,0.01,0,3\n0.01,0.01,0,4\n");
+  const Outcome outcome = this->view({ "good.ply", "warm.csv" }, { "--color-by", "Warmth" });
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_TRUE(contains(outcome.errors, "skipped: good.ply: --color-by Warmth: ")) << outcome.errors;
+}
+
+TEST_F(ViewFiles, ThatCannotBeReadAtAllEndTheProgramWithAnError)
+{
+  const Outcome outcome = this->view({ "bad.laz", "worse.obj" });
+  EXPECT_EQ(outcome.exitCode, 1);
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_EQ(numberOfLines(outcome.errors), 3) << outcome.errors;
+  EXPECT_TRUE(contains(outcome.errors, "pointhaptics view: none of the 2 files can be shown"))
+    << outcome.errors;
+  EXPECT_FALSE(this->exists("trace.csv"));
+  this->refuse(1, { "view", "bad.laz" }, { "bad.laz" });
+}
+
+TEST_F(ViewFiles, ThatAreOneCloudMustAllBeRead)
+{
+  this->refuse(1, { "view", "bad.laz", "good.ply", "--together" }, { "bad.laz" });
+}
+
+TEST_F(ViewFiles, AreNotDrawnForADeviceThatIsNotThere)
+{
+  const std::vector<std::string> parts = { "--device falcon: falcon: ", "--device none" };
+  this->refuse(1, { "view", "good.ply", "--device", "falcon", "--screenshot", "out.png" }, parts);
+  this->refuse(1,
+    { "view", "good.ply", "--unit", "m", "--path", "path.csv", "--trace", "out.csv", "--device", "falcon" },
+    parts);
+  const Outcome outcome = this->view({ "good.ply" }, { "--device", "none" });
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+}
+
+} // namespace
