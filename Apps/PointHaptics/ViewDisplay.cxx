@@ -24,22 +24,21 @@ bool displayIsAvailable(std::string& message)
   // VTK brings the library in; asking for it by name here saves a dependency of our own.
   void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
   using OpenDisplay = void* (*)(const char*);
-  using CloseDisplay = int (*)(void*);
   const auto openDisplay = library ? reinterpret_cast<OpenDisplay>(dlsym(library, "XOpenDisplay")) : nullptr;
-  const auto closeDisplay =
-    library ? reinterpret_cast<CloseDisplay>(dlsym(library, "XCloseDisplay")) : nullptr;
-  if (!openDisplay || !closeDisplay)
+  if (!openDisplay)
   {
     message = "no display: libX11.so.6 cannot be loaded; install libx11-6";
     return false;
   }
-  void* display = openDisplay(nullptr);
+  // Kept until the program ends: a server whose last client goes may begin anew, as that of xvfb-run does,
+  // and cuts the connection that VTK opens meanwhile.
+  static void* display = nullptr;
+  display = display ? display : openDisplay(nullptr);
   if (!display)
   {
     message = std::string("no display: the X server \"") + name + "\" (DISPLAY) cannot be reached; " + cure;
     return false;
   }
-  closeDisplay(display);
   return true;
 }
 #else

@@ -9,7 +9,8 @@ namespace pointhaptics
 namespace app
 {
 
-/// True where a render window can be made. Otherwise @p message says what is missing and the cure.
+/// True where a render window can be made. Otherwise @p message says what is missing and the cure. Keeps a
+/// connection to the X server until the program ends. GUI thread only.
 bool displayIsAvailable(std::string& message);
 
 } // namespace app

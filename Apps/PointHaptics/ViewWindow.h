@@ -28,8 +28,8 @@ public:
   ViewSession& operator=(const ViewSession&) = delete;
 
   /// Opens the window, empty but for a bar, until @p loader has something to take; @p title names what it
-  /// reads. Again for the next cloud where one could not be read. False: the user closed the window or pressed
-  /// Escape.
+  /// reads. Again for the next cloud where one could not be read. False: the user closed the window or
+  /// pressed Escape.
   bool awaitCloud(const CloudLoader& loader, const std::string& title);
   /// Shows the window until the user closes it, and @p news in its status until there are others. The scene
   /// must be built, of ViewOptions::filesOfCloud(@p cloud). False: @p message says what failed.

@@ -39,10 +39,10 @@ until_true() {
   done
   fail "$words"
 }
-# start_server WIDTHxHEIGHT: sets DISPLAY.
+# start_server WIDTHxHEIGHT [OPTION]: sets DISPLAY. The option is -noreset where none is given.
 start_server() {
   : >said.txt
-  Xvfb -displayfd 3 -noreset -nolisten tcp -screen 0 "$1x24" 3>display >/dev/null 2>&1 &
+  Xvfb -displayfd 3 "${2:--noreset}" -nolisten tcp -screen 0 "$1x24" 3>display >/dev/null 2>&1 &
   server=$!
   until_true "Xvfb did not start" test -s display
   DISPLAY=":$(<display)"
