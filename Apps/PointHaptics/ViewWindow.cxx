@@ -55,6 +55,11 @@ void ViewWindow::openWindow()
   window_->SetWindowName("PointHaptics");
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(nullptr); // until there is something to move
+  for (const std::string& binding : options_.bindings)
+  {
+    const std::size_t equals = binding.find('=');
+    style_->SetBinding(hapticActionFromName(binding.substr(0, equals)), binding.substr(equals + 1));
+  }
   isOpen_ = true;
 }
 
@@ -73,6 +78,17 @@ void ViewWindow::showBar(const std::string& words, double part)
   interactor_->Initialize();
   // Not before it hears keys: who waits for the title may press one.
   window_->SetWindowName(("PointHaptics: " + words).c_str());
+}
+
+/// Escape, and the keys that quit.
+bool ViewWindow::isCancelKey()
+{
+  const std::string key = interactor_->GetKeySym() ? interactor_->GetKeySym() : "";
+  const std::string gesture = HapticBindings::gestureOf(
+    key, interactor_->GetControlKey() != 0, interactor_->GetShiftKey() != 0, interactor_->GetAltKey() != 0);
+  HapticBindings bindings;
+  bindings.set(HapticAction::Quit, style_->GetBinding(HapticAction::Quit));
+  return key == "Escape" || bindings.find(gesture) == HapticAction::Quit;
 }
 
 bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
@@ -96,9 +112,7 @@ bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
       {
         return; // it is decided; this was in the queue
       }
-      const std::string key = self.interactor_->GetKeySym() ? self.interactor_->GetKeySym() : "";
-      const bool cancels =
-        event == vtkCommand::KeyPressEvent && (key == "Escape" || key == "q" || key == "Q");
+      const bool cancels = event == vtkCommand::KeyPressEvent && self.isCancelKey();
       isRead = !cancels && reader.waitFor(0.0);
       if (cancels || isRead)
       {
@@ -260,11 +274,6 @@ void ViewWindow::connectStyle()
   style_->SetProps(scene_.props());
   style_->SetOverlay(overlay_);
   style_->SetPushPointer(options_.pushPointer);
-  for (const std::string& binding : options_.bindings)
-  {
-    const std::size_t equals = binding.find('=');
-    style_->SetBinding(hapticActionFromName(binding.substr(0, equals)), binding.substr(equals + 1));
-  }
   this->findIdeal();
   style_->SetDefaultRenderer(scene_.renderer());
   this->showNote();

@@ -368,20 +368,17 @@ void ViewWindow::onAmbient(void*)
   style_->SetComputeNormals(options_.ambient);
 }
 
-/// Texts, chart and sliders go; those that the user opens in the figure are shown.
+/// Texts, chart and sliders go; help, chart and sliders that the user opens in the figure are shown.
 void ViewWindow::showFigure(bool figure)
 {
   scene_.showFigure(figure);
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
-  overlay_->RemoveFrom(scene_.renderer());
+  overlay_->SetTextVisibility(!figure);
   if (figure)
   {
+    overlay_->SetHelpVisibility(false);
     sliders_->SetVisibility(false);
     chartBesideFigure_ = chart_->GetVisibility();
-  }
-  else
-  {
-    overlay_->AddTo(scene_.renderer());
   }
   style_->SetChartVisibility(!figure && chartBesideFigure_);
 }

@@ -65,6 +65,7 @@ private:
     FileWatch watch;                        ///< From before the first byte was read.
   };
   void openWindow();
+  bool isCancelKey();
   void showBar(const std::string& words, double part);
   void setUpRendering();
   bool openDevice(std::string& message);

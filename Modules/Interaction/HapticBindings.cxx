@@ -127,6 +127,11 @@ std::string nameOf(const std::string& gesture)
   return plus == std::string::npos ? gesture : gesture.substr(plus + 1);
 }
 
+bool isLetter(const std::string& name)
+{
+  return name.size() == 1 && std::isalpha(static_cast<unsigned char>(name[0]));
+}
+
 bool isButton(const std::string& name)
 {
   return name == "left" || name == "middle" || name == "right";
@@ -163,9 +168,9 @@ std::string label(const HapticBindings& bindings, const std::string& gesture)
 {
   std::string text = spoken(gesture);
   const std::size_t last = text.size() - 1;
-  const bool isLetter =
+  const bool isSmallLetter =
     std::islower(static_cast<unsigned char>(text[last])) && (last == 0 || text[last - 1] == '+');
-  if (isLetter)
+  if (isSmallLetter)
   {
     std::string capital = gesture;
     capital.back() = static_cast<char>(std::toupper(static_cast<unsigned char>(capital.back())));
@@ -289,6 +294,11 @@ HapticAction HapticBindings::find(const std::string& gesture) const
   {
     return found;
   }
+  const bool isCommand = gesture.compare(0, 5, "Ctrl+") == 0 || gesture.compare(0, 4, "Alt+") == 0;
+  if (isCommand && isLetter(name))
+  {
+    return HapticAction::None;
+  }
   if (exact(name) != HapticAction::None)
   {
     return exact(name);
@@ -309,13 +319,13 @@ bool HapticBindings::isGesture(const std::string& gesture)
   return !rest.empty() && std::all_of(rest.begin(), rest.end(), partOfWord);
 }
 
-std::string HapticBindings::gestureOf(const std::string& name, bool control, bool shift)
+std::string HapticBindings::gestureOf(const std::string& name, bool control, bool shift, bool alt)
 {
-  const bool isLetter = name.size() == 1 && std::isalpha(static_cast<unsigned char>(name[0]));
-  std::string text = control ? "Ctrl+" : "";
-  if (isLetter && shift)
+  const std::string text = std::string(alt ? "Alt+" : "") + (control ? "Ctrl+" : "");
+  if (isLetter(name) && (shift || control))
   {
-    return text + static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+    const auto letter = static_cast<unsigned char>(name[0]);
+    return text + static_cast<char>(shift ? std::toupper(letter) : std::tolower(letter));
   }
   return text + (shift ? "Shift+" : "") + name;
 }

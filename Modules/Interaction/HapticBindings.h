@@ -96,13 +96,16 @@ public:
   std::string get(HapticAction action) const;
 
   /// What @p gesture does, or None. Keys that have no action of their own do what they do without modifiers
-  /// and in lower case.
+  /// and in lower case; but a letter with Ctrl+ or Alt+ is another command in most programs, and does only
+  /// what it is bound to.
   HapticAction find(const std::string& gesture) const;
   /// Whether @p gesture can be made at all: modifiers in their order, then a button, the wheel or one word. A
   /// key is known by its keyboard only, so that every other word counts as one.
   static bool isGesture(const std::string& gesture);
-  /// "Ctrl+Shift+left" and the like of an event; @p name is a button, wheel or a key.
-  static std::string gestureOf(const std::string& name, bool control, bool shift);
+  /// "Ctrl+Shift+left" and the like of an event; @p name is a button, wheel or a key. With @p alt it begins
+  /// with Alt+, which no binding has. A capital letter with Ctrl and without Shift is one of Caps Lock, and
+  /// becomes small.
+  static std::string gestureOf(const std::string& name, bool control, bool shift, bool alt = false);
 
   /// What can be done, one thing a line, in columns: group, gestures, words. Actions without a gesture are
   /// left out.

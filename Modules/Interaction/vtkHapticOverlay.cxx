@@ -63,8 +63,8 @@ void placeCorner(vtkTextActor* actor, bool right, bool top)
   actor->VisibilityOff();
 }
 
-/// Empty hides it. True: it is another text than before.
-bool show(vtkTextActor* actor, std::string& shown, const std::string& text)
+/// Empty hides it, and so does @p visible false. True: it is another text than before.
+bool show(vtkTextActor* actor, std::string& shown, const std::string& text, bool visible)
 {
   if (text == shown)
   {
@@ -72,7 +72,7 @@ bool show(vtkTextActor* actor, std::string& shown, const std::string& text)
   }
   shown = text;
   actor->SetInput(text.c_str());
-  actor->SetVisibility(!text.empty());
+  actor->SetVisibility(visible && !text.empty());
   return true;
 }
 
@@ -128,17 +128,17 @@ void vtkHapticOverlay::FitHelp()
 
 bool vtkHapticOverlay::SetStatus(const std::string& text)
 {
-  return show(this->Status, this->StatusText, text);
+  return show(this->Status, this->StatusText, text, this->TextVisibility);
 }
 
 bool vtkHapticOverlay::SetPanel(const std::string& text)
 {
-  return show(this->Panel, this->PanelText, text);
+  return show(this->Panel, this->PanelText, text, this->TextVisibility);
 }
 
 bool vtkHapticOverlay::SetDetail(const std::string& text)
 {
-  return show(this->Detail, this->DetailText, text);
+  return show(this->Detail, this->DetailText, text, this->TextVisibility);
 }
 
 void vtkHapticOverlay::SetHelp(const std::string& text)
@@ -161,6 +161,14 @@ void vtkHapticOverlay::SetHelpVisibility(bool visible)
 bool vtkHapticOverlay::GetHelpVisibility() const
 {
   return const_cast<vtkTextActor*>(this->Help.Get())->GetVisibility() != 0;
+}
+
+void vtkHapticOverlay::SetTextVisibility(bool visible)
+{
+  this->TextVisibility = visible;
+  this->Status->SetVisibility(visible && !this->StatusText.empty());
+  this->Panel->SetVisibility(visible && !this->PanelText.empty());
+  this->Detail->SetVisibility(visible && !this->DetailText.empty());
 }
 
 void vtkHapticOverlay::AddTo(vtkRenderer* renderer)

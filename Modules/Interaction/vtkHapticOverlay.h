@@ -63,6 +63,14 @@ public:
 
   ///@{
   /**
+   * Show status, panel and detail where they have a text; the help does not depend on it. Default: on.
+   */
+  void SetTextVisibility(bool visible);
+  bool GetTextVisibility() const { return this->TextVisibility; }
+  ///@}
+
+  ///@{
+  /**
    * Add all to @p renderer, one at a time, or take them out.
    */
   void AddTo(vtkRenderer* renderer);
@@ -81,6 +89,7 @@ protected:
   std::string PanelText;
   std::string DetailText;
   std::string HelpText;
+  bool TextVisibility = true;
 
   void FitHelp();
 

@@ -192,8 +192,9 @@ void vtkInteractorStyleHaptic::Wheel(int direction)
 void vtkInteractorStyleHaptic::OnKeyPress()
 {
   const char* symbol = this->Interactor->GetKeySym();
-  const HapticAction action = this->Parts->bindings.find(HapticBindings::gestureOf(
-    symbol ? symbol : "", this->Interactor->GetControlKey() != 0, this->Interactor->GetShiftKey() != 0));
+  const HapticAction action = this->Parts->bindings.find(
+    HapticBindings::gestureOf(symbol ? symbol : "", this->Interactor->GetControlKey() != 0,
+      this->Interactor->GetShiftKey() != 0, this->Interactor->GetAltKey() != 0));
   if (!this->PressHandButton(action) && !this->Do(action))
   {
     this->Superclass::OnKeyPress();

@@ -61,9 +61,13 @@ key w
 said "settings: pointhaptics-002.json"
 [[ "$(element pointhaptics-001.json)" != "$(element pointhaptics-002.json)" ]] || fail "Shift+drag did not turn the model"
 key u
+# With Ctrl or Alt a letter is another command: nothing of these may happen.
+for letter in ctrl+o alt+o ctrl+a alt+a ctrl+s alt+s ctrl+shift+x ctrl+q alt+q; do key "$letter"; done
 key w
 said "settings: pointhaptics-003.json"
+grep -q "screenshot" said.txt && fail "a key with Ctrl or Alt saved a picture"
 [[ "$(element pointhaptics-001.json)" == "$(element pointhaptics-003.json)" ]] || fail "U did not take the drag back"
+[[ "$(setting figure pointhaptics-003.json) $(setting axes pointhaptics-003.json)" == '"figure":false "axes":false' ]] || fail "a key with Ctrl or Alt acted as the letter"
 
 # The sliders of friction and of the voxel size, from where they stand to the middle of their ways.
 key v
@@ -101,6 +105,19 @@ key w
 said "settings: pointhaptics-006.json"
 [[ "$(setting axes pointhaptics-005.json) $(setting axes pointhaptics-006.json)" == '"axes":false "axes":true' ]] || fail "key A did not show the axes"
 [[ "$(setting figure pointhaptics-005.json) $(setting figure pointhaptics-006.json)" == '"figure":false "figure":true' ]] || fail "key O did not make the figure"
+# The figure has no words, but the help comes for whoever asks for it.
+key s
+said "screenshot: pointhaptics-002.png"
+key h
+key s
+said "screenshot: pointhaptics-003.png"
+bytes() { stat -c %s "$1"; }
+words=10000 # bytes that a page of them adds to a picture, at least
+(($(bytes pointhaptics-003.png) > $(bytes pointhaptics-002.png) + words)) || fail "key H shows no help in the figure"
+key h
+key s
+said "screenshot: pointhaptics-004.png"
+(($(bytes pointhaptics-004.png) < $(bytes pointhaptics-002.png) + words)) || fail "the help stays in the figure"
 key o
 key m
 said "coloured by Density, as soon as it is computed"

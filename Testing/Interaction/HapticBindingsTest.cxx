@@ -27,6 +27,31 @@ TEST(HapticBindings, TellsCasesAndModifiersApartWhereBothAreBound)
   EXPECT_EQ(bindings.find(HapticBindings::gestureOf("z", true, false)), HapticAction::UndoModel);
 }
 
+TEST(HapticBindings, DoesNotTakeALetterWithCtrlOrAltForThePlainOne)
+{
+  HapticBindings bindings;
+  for (char letter = 'a'; letter <= 'z'; ++letter)
+  {
+    const std::string name(1, letter);
+    const HapticAction ctrl = letter == 'z' ? HapticAction::UndoModel : HapticAction::None;
+    EXPECT_EQ(bindings.find(HapticBindings::gestureOf(name, true, false)), ctrl) << name;
+    EXPECT_EQ(bindings.find(HapticBindings::gestureOf(name, true, true)), HapticAction::None) << name;
+    EXPECT_EQ(bindings.find(HapticBindings::gestureOf(name, false, false, true)), HapticAction::None) << name;
+    EXPECT_EQ(bindings.find(HapticBindings::gestureOf(name, false, true, true)), HapticAction::None) << name;
+    EXPECT_EQ(bindings.find(HapticBindings::gestureOf(name, true, false, true)), HapticAction::None) << name;
+  }
+  bindings.set(HapticAction::Screenshot, "Ctrl+s");
+  EXPECT_EQ(bindings.find(HapticBindings::gestureOf("s", true, false)), HapticAction::Screenshot);
+  EXPECT_EQ(bindings.find("s"), HapticAction::None);
+}
+
+TEST(HapticBindings, HearsCtrlWithALetterWhileCapsLockIsOn)
+{
+  const HapticBindings bindings;
+  EXPECT_EQ(bindings.find(HapticBindings::gestureOf("Z", true, false)), HapticAction::UndoModel);
+  EXPECT_EQ(bindings.find(HapticBindings::gestureOf("Z", true, true)), HapticAction::None);
+}
+
 TEST(HapticBindings, DoesNotTakeAnUnboundDragForThePlainOne)
 {
   const HapticBindings bindings;

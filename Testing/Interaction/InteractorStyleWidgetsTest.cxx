@@ -8,6 +8,8 @@
 #include "Devices/SimulatedDevice.h"
 #include "Haptics/ServoLoop.h"
 
+#include <vtkActor2D.h>
+#include <vtkActor2DCollection.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <chrono>
@@ -170,6 +172,36 @@ TEST_F(InteractorStyleWidgets, MovesASliderByTheMouseAndNothingElse)
   this->press("v");
   EXPECT_FALSE(sliders->GetVisibility());
   sliders->SetInteractor(nullptr);
+}
+
+int numberOfVisibleTexts(vtkRenderer* renderer)
+{
+  vtkActor2DCollection* actors = renderer->GetActors2D();
+  int count = 0;
+  for (int i = 0; i < actors->GetNumberOfItems(); ++i)
+  {
+    count += vtkActor2D::SafeDownCast(actors->GetItemAsObject(i))->GetVisibility() != 0 ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(HapticOverlay, ShowsTheHelpAlsoWhereItsOtherTextsAreHidden)
+{
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkHapticOverlay> overlay;
+  overlay->AddTo(renderer);
+  overlay->SetStatus("status");
+  overlay->SetDetail("detail");
+  EXPECT_EQ(numberOfVisibleTexts(renderer), 2);
+  overlay->SetTextVisibility(false);
+  overlay->SetStatus("another status");
+  overlay->SetPanel("panel");
+  EXPECT_EQ(numberOfVisibleTexts(renderer), 0);
+  overlay->SetHelpVisibility(true);
+  EXPECT_EQ(numberOfVisibleTexts(renderer), 1);
+  overlay->SetHelpVisibility(false);
+  overlay->SetTextVisibility(true);
+  EXPECT_EQ(numberOfVisibleTexts(renderer), 3);
 }
 
 TEST(HapticSliders, MoveLengthsInProportionAndIgnoreWhatIsNoNumber)

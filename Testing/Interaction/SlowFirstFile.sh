@@ -55,6 +55,8 @@ start_server 800x600
 "$program" generate sphere -n 3000 -o slow.ply >/dev/null
 
 open_slowly
+until_true "the window with the bar does not take the focus" takes_keys
+xdotool key ctrl+q key alt+q # other commands than Q
 let_it_read
 xdotool key w
 said "settings: pointhaptics-001.json"
