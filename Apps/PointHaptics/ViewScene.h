@@ -67,6 +67,8 @@ public:
   /// with the next scene that has; @return whether one is needed, with the filters as they are set now.
   bool setColorBy(const std::string& name);
   const std::string& colorBy() const { return colorBy_; }
+  /// Whether the picture still waits for what setColorBy() asked for.
+  bool awaitsColors() const { return coloredBy_ != colorBy_; }
   /// rgb where there are colours, Height, the array the user named, and what the pipeline makes.
   std::vector<std::string> colorChoices() const;
   /// Light from the normals, of means that have them.

@@ -422,6 +422,7 @@ void ViewWindow::onModelChanged(void*)
 void ViewWindow::onSceneChanged(void*)
 {
   scene_.meansChanged();
+  this->endAwaitingColors();
   for (const std::string& error : takeVtkErrors())
   {
     this->tell(error);

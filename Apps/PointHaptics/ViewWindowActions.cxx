@@ -30,6 +30,7 @@ namespace
 
 /// Seconds; what is read sooner shows no bar.
 constexpr double kSilence = 0.2;
+constexpr const char* kAsSoonAsComputed = ", as soon as it is computed";
 constexpr auto kLateEscape = std::chrono::milliseconds(700);
 
 /// The first of STEM-001.EXTENSION, STEM-002.EXTENSION, ... after @p last that is not there yet.
@@ -358,7 +359,22 @@ void ViewWindow::onColors(void*)
   {
     style_->InvalidateModel();
   }
-  this->say("coloured by " + next + (waits ? ", as soon as it is computed" : ""));
+  this->say("coloured by " + next + (waits ? kAsSoonAsComputed : ""));
+  awaitedColors_ = waits ? news_ : std::string();
+}
+
+/// Colours that were waited for are there: what the status says of them must not stay.
+void ViewWindow::endAwaitingColors()
+{
+  if (awaitedColors_.empty() || scene_.awaitsColors())
+  {
+    return;
+  }
+  if (news_ == awaitedColors_)
+  {
+    this->say(news_.substr(0, news_.size() - std::string(kAsSoonAsComputed).size()));
+  }
+  awaitedColors_.clear();
 }
 
 void ViewWindow::onAmbient(void*)

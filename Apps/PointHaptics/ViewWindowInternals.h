@@ -86,6 +86,7 @@ private:
   void onFigure(void*);
   void onColors(void*);
   void onAmbient(void*);
+  void endAwaitingColors();
   void showFigure(bool figure);
   void onSlider(int slider);
   void connectSliders();
@@ -137,6 +138,7 @@ private:
   int screenshots_ = 0;
   bool chartBesideFigure_ = true; ///< Comes back when the figure goes.
   std::string news_;              // last line of the status
+  std::string awaitedColors_;     ///< The news while colours are computed; empty: none are.
   std::unique_ptr<SimulatedDevice> hand_;
   std::unique_ptr<PathReplayDevice> replay_;
   std::unique_ptr<FalconDevice> falcon_;

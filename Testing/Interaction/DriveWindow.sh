@@ -121,6 +121,7 @@ said "screenshot: pointhaptics-004.png"
 key o
 key m
 said "coloured by Density, as soon as it is computed"
+until_true "the status still waits for Density" grep -qxF "coloured by Density" said.txt
 key l
 [[ "$(setting camera pointhaptics-005.json)" != "$(setting camera pointhaptics-006.json)" ]] || fail "the camera is not written"
 [[ "$(element pointhaptics-005.json 3)" != "$(element pointhaptics-006.json 3)" ]] || fail "the hand did not shift the model"
@@ -135,6 +136,7 @@ said "settings: pointhaptics-007.json"
 key m
 key m
 said "coloured by Residual, as soon as it is computed"
+until_true "the status still waits for Residual" grep -qxF "coloured by Residual" said.txt
 key m
 said "coloured by Height"
 
