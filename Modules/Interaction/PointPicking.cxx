@@ -1,5 +1,6 @@
 #include "PointPicking.h"
 
+#include "CloudAppearance.h"
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 
@@ -16,14 +17,26 @@
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <vector>
 
 namespace pointhaptics
 {
 namespace
 {
+
+/// Coordinates of the file are told to this part of a voxel.
+constexpr double kStepInVoxels = 1e-3;
+constexpr int kLeastDecimals = 3;
+/// Of a double.
+constexpr int kMostDigits = 15;
+/// From here to there numbers with a fraction have decimals instead of six digits, and none has an exponent.
+constexpr double kLeastFixed = 1e5;
+constexpr double kLargestFixed = 1e9;
+constexpr int kMostComponents = 9;
 
 bool fieldValues(vtkPolyData* cloud, const char* name, vtkIdType count, double* values)
 {
@@ -58,6 +71,96 @@ std::optional<Vec3> placeInCloud(vtkPolyData* cloud, const Vec3& inWorkspace)
   double q[4];
   matrix->MultiplyPoint(p, q);
   return Vec3{ q[0], q[1], q[2] };
+}
+
+/// How finely coordinates of the file are told: a thousandth of the smallest edge of a voxel there; 0 where
+/// the cloud does not say.
+double coordinateStep(vtkPolyData* cloud)
+{
+  double spacing[3];
+  double elements[16];
+  if (!fieldValues(cloud, "LatticeSpacing", 3, spacing) ||
+    !fieldValues(cloud, "ModelToWorkspace", 16, elements))
+  {
+    return 0.0;
+  }
+  vtkNew<vtkMatrix4x4> matrix;
+  matrix->DeepCopy(elements);
+  if (matrix->Determinant() == 0.0)
+  {
+    return 0.0;
+  }
+  matrix->Invert();
+  double smallest = INFINITY;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Vec3 edge{ matrix->GetElement(0, axis), matrix->GetElement(1, axis), matrix->GetElement(2, axis) };
+    smallest = std::min(smallest, spacing[axis] * norm(edge));
+  }
+  return kStepInVoxels * smallest;
+}
+
+/// Without the sign of a number that is rounded to zero.
+std::string fixedText(double value, int decimals)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
+  const bool isZero = std::strspn(text, "-0.") == std::strlen(text);
+  return isZero && text[0] == '-' ? text + 1 : text;
+}
+
+std::string shortText(double value)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
+/// With decimals down to @p step, and no more digits than a double has.
+std::string coordinateText(double value, double step)
+{
+  if (!(std::abs(value) < kLargestFixed))
+  {
+    return shortText(value);
+  }
+  const int wanted =
+    step > 0.0 ? int(std::ceil(std::min(-std::log10(step) - 1e-9, double(kMostDigits)))) : kLeastDecimals;
+  const int whole = std::abs(value) < 1.0 ? 1 : 1 + int(std::log10(std::abs(value)));
+  return fixedText(value, std::clamp(wanted, kLeastDecimals, std::max(kLeastDecimals, kMostDigits - whole)));
+}
+
+/// A value of an array: whole numbers whole, large ones without an exponent.
+std::string valueText(double value)
+{
+  const double size = std::abs(value);
+  if (!(size < kLargestFixed) || size < kLeastFixed)
+  {
+    return shortText(value);
+  }
+  return fixedText(value, value == std::round(value) ? 0 : kLeastDecimals);
+}
+
+/// A line for each array but the covariances.
+std::string describeArrays(vtkPolyData* cloud, vtkIdType index, double step)
+{
+  std::string text;
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    const std::string name = array && array->GetName() ? array->GetName() : "";
+    if (name.empty() || name == "VoxelCovariance")
+    {
+      continue;
+    }
+    text += "\n" + name + " ";
+    for (int c = 0; c < std::min(array->GetNumberOfComponents(), kMostComponents); ++c)
+    {
+      const double value = array->GetComponent(index, c);
+      text += " " + (name == kHeightArrayName ? coordinateText(value, step) : valueText(value));
+    }
+  }
+  return text;
 }
 
 void findVoxel(vtkPolyData* cloud, PickedPoint& picked)
@@ -188,11 +291,15 @@ std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked)
 {
   char line[200];
   std::string text;
+  const double step = coordinateStep(cloud);
   if (picked.inCloud)
   {
-    std::snprintf(line, sizeof(line), "in the file  %.6g  %.6g  %.6g\n", picked.inCloud->x, picked.inCloud->y,
-      picked.inCloud->z);
-    text += line;
+    text = "in the file";
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      text += "  " + coordinateText((*picked.inCloud)[axis], step);
+    }
+    text += "\n";
   }
   std::snprintf(line, sizeof(line), "in the workspace  %.2f  %.2f  %.2f mm", 1e3 * picked.inWorkspace.x,
     1e3 * picked.inWorkspace.y, 1e3 * picked.inWorkspace.z);
@@ -209,22 +316,7 @@ std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked)
       1e3 * picked.radius);
     text += line;
   }
-  vtkPointData* data = cloud->GetPointData();
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    vtkDataArray* array = data->GetArray(i);
-    if (!array || !array->GetName() || std::string(array->GetName()) == "VoxelCovariance")
-    {
-      continue;
-    }
-    text += "\n" + std::string(array->GetName()) + " ";
-    for (int c = 0; c < std::min(array->GetNumberOfComponents(), 9); ++c)
-    {
-      std::snprintf(line, sizeof(line), " %.6g", array->GetComponent(picked.index, c));
-      text += line;
-    }
-  }
-  return text;
+  return text + describeArrays(cloud, picked.index, step);
 }
 
 } // namespace pointhaptics

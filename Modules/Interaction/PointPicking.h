@@ -42,7 +42,9 @@ POINTHAPTICSINTERACTION_EXPORT Status measurePicked(
   vtkPolyData* cloud, const LocalBandwidthSettings& settings, PickedPoint& picked);
 
 /// Position, voxel, bandwidth and the values of all point arrays of @p cloud, one a line; lengths of the
-/// workspace in millimetres.
+/// workspace in millimetres. Coordinates of the file, the height among them, have decimals down to a
+/// thousandth of a voxel and at least three, so that a northing in metres shows its millimetres; no number
+/// below 1e9 has an exponent, but for those below 1e-4.
 POINTHAPTICSINTERACTION_EXPORT std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked);
 
 } // namespace pointhaptics

@@ -1,0 +1,122 @@
+#include "PointPicking.h"
+
+#include <gtest/gtest.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <string>
+#include <vector>
+
+using pointhaptics::describePicked;
+using pointhaptics::PickedPoint;
+using pointhaptics::Vec3;
+
+namespace
+{
+
+void addField(vtkPolyData* cloud, const char* name, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  for (double value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  cloud->GetFieldData()->AddArray(array);
+}
+
+void addArray(vtkPolyData* cloud, const char* name, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  cloud->GetPointData()->AddArray(array);
+}
+
+/// The means of a cloud of which @p edge units of the file are the edge of a voxel of 1 mm.
+void setVoxel(vtkPolyData* cloud, double edge)
+{
+  const double scale = 1e-3 / edge;
+  addField(cloud, "ModelToWorkspace", { scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, 1 });
+  addField(cloud, "LatticeSpacing", { 1e-3, 1e-3, 1e-3 });
+}
+
+/// What is said of the place in a file with voxels of @p edge; 0: nothing is known of them.
+std::string placeText(const Vec3& place, double edge)
+{
+  vtkNew<vtkPolyData> cloud;
+  if (edge > 0.0)
+  {
+    setVoxel(cloud, edge);
+  }
+  PickedPoint picked;
+  picked.index = 0;
+  picked.inCloud = place;
+  const std::string text = describePicked(cloud, picked);
+  return text.substr(0, text.find('\n'));
+}
+
+/// What is said of the value of an array.
+std::string arrayText(const char* name, double value, double edge)
+{
+  vtkNew<vtkPolyData> cloud;
+  setVoxel(cloud, edge);
+  addArray(cloud, name, value);
+  PickedPoint picked;
+  picked.index = 0;
+  const std::string text = describePicked(cloud, picked);
+  return text.substr(text.rfind(' ') + 1);
+}
+
+TEST(PointPicking, ShowsTheMillimetresOfANorthing)
+{
+  const Vec3 place{ 439112.25, 5017900.1234, -12.0 };
+  EXPECT_EQ(placeText(place, 1.85), "in the file  439112.250  5017900.123  -12.000");
+  EXPECT_EQ(placeText(place, 40.0), "in the file  439112.250  5017900.123  -12.000");
+  EXPECT_EQ(placeText(place, 0.0), "in the file  439112.250  5017900.123  -12.000");
+}
+
+TEST(PointPicking, ShowsMoreDecimalsWhereVoxelsAreSmaller)
+{
+  EXPECT_EQ(placeText({ 0.123456789, -0.1, 0.0 }, 7e-4), "in the file  0.1234568  -0.1000000  0.0000000");
+  EXPECT_EQ(
+    placeText({ 1e-7, 0.0, 0.0 }, 1e-10), "in the file  0.0000001000000  0.0000000000000  0.0000000000000");
+}
+
+TEST(PointPicking, ShowsNoMoreDigitsThanADoubleHas)
+{
+  EXPECT_EQ(placeText({ 123456789.125, 0.0, 0.0 }, 1e-7),
+    "in the file  123456789.125000  0.0000000000  0.0000000000");
+}
+
+TEST(PointPicking, ShowsNoCoordinateBelowABillionWithAnExponent)
+{
+  for (double size = 1.0; size < 1e9; size *= 7.3)
+  {
+    for (double edge : { 1e-6, 1.0, 1e6 })
+    {
+      const std::string text = placeText({ size, -size, 0.3 * size }, edge).substr(11);
+      EXPECT_EQ(text.find('e'), std::string::npos) << text;
+    }
+  }
+  EXPECT_EQ(placeText({ 2.5e12, 0.0, 0.0 }, 1.0), "in the file  2.5e+12  0.000  0.000");
+}
+
+TEST(PointPicking, ShowsNoSignOfANumberThatIsRoundedToZero)
+{
+  EXPECT_EQ(placeText({ -1e-9, 0.0, 0.0 }, 1.0), "in the file  0.000  0.000  0.000");
+}
+
+TEST(PointPicking, ShowsValuesOfArraysAsTheyAreRead)
+{
+  EXPECT_EQ(arrayText("Height", 2917.25, 1.85), "2917.250");
+  EXPECT_EQ(arrayText("Intensity", 1234567.0, 1.0), "1234567");
+  EXPECT_EQ(arrayText("GpsTime", 415633123.25, 1.0), "415633123.250");
+  EXPECT_EQ(arrayText("Density", 0.0123456789, 1.0), "0.0123457");
+  EXPECT_EQ(arrayText("VoxelPointCount", 3.0, 1.0), "3");
+}
+
+} // namespace
