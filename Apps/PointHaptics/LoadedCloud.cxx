@@ -19,6 +19,7 @@
 #include <cctype>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace pointhaptics
@@ -117,17 +118,80 @@ std::string lowered(std::string text)
   return text;
 }
 
-/// An array of the cloud by its own name, else one of the pipeline in whatever case it was written.
-std::string fullName(vtkPolyData* cloud, const std::string& colorBy)
+/// Exactly as somebody wrote it: colours or an array of the cloud, or an array of the pipeline.
+bool isExactName(vtkPolyData* cloud, const std::string& name)
 {
+  return name == "rgb" ? hasColors(cloud)
+                       : isMadeByPipeline(name) || findColorSource(cloud, name).has_value();
+}
+
+/// All names there are that differ from @p wanted in upper and lower case only; each once.
+std::set<std::string> namesInAnyCase(vtkPolyData* cloud, const std::string& wanted)
+{
+  const std::string key = lowered(wanted);
+  std::set<std::string> found;
+  const auto keepIfSame = [&](const std::string& written, const std::string& name)
+  {
+    if (lowered(written) == key)
+    {
+      found.insert(name);
+    }
+  };
   for (const char* made : kMadeByPipeline)
   {
-    if (!findColorSource(cloud, colorBy) && lowered(made) == lowered(colorBy))
+    keepIfSame(made, made);
+  }
+  if (hasColors(cloud))
+  {
+    keepIfSame("rgb", "rgb");
+  }
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    const std::string name = array && array->GetName() ? array->GetName() : "";
+    keepIfSame(name, name);
+    const int components = name.empty() ? 0 : array->GetNumberOfComponents();
+    for (int component = kMagnitude; components > 1 && component < components; ++component)
     {
-      return made;
+      const std::string whole = describeColorSource(cloud, { name, component });
+      keepIfSame(whole, whole);
+      keepIfSame(fmt::format("{}:{}", name, component), whole);
     }
   }
-  return colorBy;
+  return found;
+}
+
+/// Makes of what the user wrote the name that is meant: the one written so, else the only one that differs in
+/// upper and lower case. Unchanged where there is none. False: there are several, which @p message lists.
+bool completeName(vtkPolyData* cloud, std::string& name, std::string& message)
+{
+  const std::set<std::string> found =
+    name.empty() || isExactName(cloud, name) ? std::set<std::string>{ name } : namesInAnyCase(cloud, name);
+  if (found.size() > 1)
+  {
+    message = fmt::format("--color-by {}: means any of {}; give one of them, in upper and lower case as here",
+      name, fmt::join(found, ", "));
+    return false;
+  }
+  name = found.empty() ? name : *found.begin();
+  return true;
+}
+
+/// The array that @p name is a component of, in any case. Null: none, or one without components.
+vtkDataArray* arrayWithComponents(vtkPolyData* cloud, const std::string& name)
+{
+  const std::string key = lowered(name.substr(0, name.rfind(':')));
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    if (array && array->GetName() && array->GetNumberOfComponents() > 1 && lowered(array->GetName()) == key)
+    {
+      return array;
+    }
+  }
+  return nullptr;
 }
 
 /// "Velocity (:x, :y, :z, :magnitude)": what can be said of @p array.
@@ -146,15 +210,12 @@ std::string withComponents(vtkPolyData* cloud, vtkDataArray* array)
 /// False: @p message names the arrays and components there are.
 bool canColorBy(vtkPolyData* cloud, const std::string& name, std::string& message)
 {
-  vtkPointData* data = cloud->GetPointData();
-  const bool known = name.empty() || (name == "rgb" ? hasColors(cloud) : isMadeByPipeline(name)) ||
-    (name != "rgb" && findColorSource(cloud, name));
-  if (known)
+  if (name.empty() || isExactName(cloud, name))
   {
     return true;
   }
-  vtkDataArray* array = data->GetArray(name.substr(0, name.rfind(':')).c_str());
-  if (array && array->GetNumberOfComponents() > 1)
+  vtkPointData* data = cloud->GetPointData();
+  if (vtkDataArray* array = arrayWithComponents(cloud, name))
   {
     message = fmt::format(
       "--color-by {}: the array has no such component; give one of {}", name, withComponents(cloud, array));
@@ -235,8 +296,9 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
     message = fmt::format("{}: no point is finite (all are NaN or infinite); nothing to show", result.title);
     return false;
   }
-  result.colorBy = fullName(result.cloud, request.colorBy);
-  if (!canColorBy(result.cloud, result.colorBy, message))
+  result.colorBy = request.colorBy;
+  if (!completeName(result.cloud, result.colorBy, message) ||
+    !canColorBy(result.cloud, result.colorBy, message))
   {
     return false;
   }

@@ -23,8 +23,8 @@ namespace app
 struct CloudRequest
 {
   std::vector<std::string> files;
-  std::string colorBy;         ///< What findColorSource() takes, rgb, or nothing.
-  std::string up = "auto";     ///< auto or an axis.
+  std::string colorBy;     ///< What findColorSource() takes, rgb, or nothing; upper or lower case as it may.
+  std::string up = "auto"; ///< auto or an axis.
   AffineTransform transform;   ///< Of the cloud, for its bounds.
   bool choosesLattice = false; ///< Nobody else does.
 };
@@ -34,7 +34,7 @@ struct LoadedCloud
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
   Bounds bounds;                      ///< Of the finite points, after CloudRequest::transform.
   CloudOrientation orientation;
-  std::string colorBy;      ///< What was asked for, by the name it has: arrays of the pipeline in any case.
+  std::string colorBy;      ///< What was asked for, exactly as the cloud or the pipeline writes it.
   int latticeDimension = 0; ///< chooseLatticeDimension(), where that was wanted; else 0.
   std::string title;        ///< The names of the files, without their folders.
 };

@@ -195,6 +195,48 @@ TEST_F(CloudLoaderTest, SaysWhyAFileCannotBeShown)
   EXPECT_EQ(loaded.title, "the former");
 }
 
+TEST_F(CloudLoaderTest, FindsAnArrayInUpperOrLowerCaseWhereOnlyOneCanBeMeant)
+{
+  const std::string file = (folder_ / "arrays.csv").string();
+  std::ofstream(file) << "x,y,z,Intensity,GpsTime,gpstime,HEIGHT,nx,ny,nz\n"
+                         "0,0,0,5,1,2,3,0,0,1\n1,0,1,6,2,3,4,0,1,0\n0,1,1,7,3,4,5,1,0,0\n";
+  std::string message;
+  const auto nameFor = [&](const std::string& colorBy)
+  {
+    CloudRequest request = requestOf({ file });
+    request.colorBy = colorBy;
+    LoadedCloud loaded;
+    message.clear();
+    return loadCloud(
+             request, [](double) { return true; }, loaded, message)
+      ? loaded.colorBy
+      : "refused";
+  };
+  EXPECT_EQ(nameFor("intensity"), "Intensity") << message;
+  EXPECT_EQ(nameFor("INTENSITY"), "Intensity") << message;
+  EXPECT_EQ(nameFor("density"), "Density") << message;
+  EXPECT_EQ(nameFor("normals"), "Normals") << message;
+  EXPECT_EQ(nameFor("normals:Z"), "Normals:z") << message;
+  EXPECT_EQ(nameFor("NORMALS:1"), "Normals:y") << message;
+  EXPECT_EQ(nameFor("normals:Magnitude"), "Normals:magnitude") << message;
+  // Written exactly, a name has no rival.
+  for (const char* exact : { "GpsTime", "gpstime", "HEIGHT", "Height" })
+  {
+    EXPECT_EQ(nameFor(exact), exact) << message;
+  }
+  EXPECT_EQ(nameFor("GPStime"), "refused");
+  EXPECT_NE(message.find("--color-by GPStime: means any of GpsTime, gpstime; give one"), std::string::npos)
+    << message;
+  EXPECT_EQ(nameFor("height"), "refused"); // the file's, or that above the lowest point
+  EXPECT_NE(message.find("HEIGHT, Height"), std::string::npos) << message;
+  EXPECT_EQ(nameFor("warmth"), "refused");
+  EXPECT_NE(message.find("no such array; it has Normals (:x, :y, :z, :magnitude), Intensity, GpsTime"),
+    std::string::npos)
+    << message;
+  EXPECT_EQ(nameFor("normals:up"), "refused");
+  EXPECT_NE(message.find("no such component; give one of Normals (:x"), std::string::npos) << message;
+}
+
 TEST_F(CloudLoaderTest, MayGoWhileItReads)
 {
   const std::string file = this->writeCloud("a.csv", 300000);
