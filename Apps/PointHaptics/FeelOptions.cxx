@@ -29,7 +29,8 @@ void FeelOptions::addTo(CLI::App& command)
   command.add_option("FILE", this->file, "Point cloud to feel")->required()->type_name("");
   command
     .add_option("--path", this->path,
-      "Path of the hand: t,x,y,z in seconds and metres; needed unless --device is falcon")
+      "Path of the hand: t,x,y,z in seconds and metres, or what feel or view --trace wrote; needed unless "
+      "--device is falcon")
     ->type_name("HIP.csv");
   command.add_option("-o,--output", this->output, "Where the felt forces go, one row a tick")
     ->required()

@@ -293,7 +293,9 @@ void ViewOptions::addTo(CLI::App& command)
       },
       "Size of the window or picture; default 1280x800")
     ->type_name("WxH");
-  command.add_option("--path", this->path, "Follow the hand path in this file (header t,x,y,z)")
+  command
+    .add_option(
+      "--path", this->path, "Follow the hand path in this file: t,x,y,z, or what feel or --trace wrote")
     ->type_name("HIP.csv");
   addWord(command, "--device", this->device, { "auto", "falcon", "simulated", "none" },
     "What moves the hand; default auto: a Falcon where one can be used, else the simulated hand, driven by "

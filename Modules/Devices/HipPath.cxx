@@ -14,8 +14,12 @@ namespace pointhaptics
 namespace
 {
 constexpr const char* kHeader = "t,x,y,z";
-constexpr std::size_t kColumns = 4;
-/// No row of four numbers is longer; keeps a binary file from being read as one line.
+/// Time and position.
+constexpr std::size_t kNumbers = 4;
+/// What a table that starts with the hand may call them: a path's words, and those of the felt forces.
+constexpr const char* kColumnNames[][kNumbers] = { { "t", "x", "y", "z" },
+  { "t", "hip_x", "hip_y", "hip_z" } };
+/// No row of a path or of felt forces is longer; keeps a binary file from being read as one line.
 constexpr std::size_t kLongestLine = 1000;
 /// Longest part of a file's text repeated in a message.
 constexpr std::size_t kLongestQuote = 40;
@@ -85,48 +89,86 @@ bool parseNumber(const std::string& text, double& value, std::string& problem)
   return problem.empty();
 }
 
-/// A row, or in @p problem what is wrong with it and the cure.
-bool parseRow(const std::string& line, HipPathPoint& point, std::string& problem)
+std::vector<std::string> cellsOf(const std::string& line)
+{
+  std::vector<std::string> cells;
+  for (std::size_t begin = 0; begin <= line.size();)
+  {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    cells.push_back(trimmed(line.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return cells;
+}
+
+/// Where time and position stand in each row.
+struct Columns
+{
+  std::size_t count = 0; ///< Of a row.
+  std::size_t positions[kNumbers] = {};
+};
+
+/// From the first line, without the byte order mark that spreadsheets write. False: it names no path.
+bool findColumns(std::string header, Columns& columns)
+{
+  if (header.rfind("\xef\xbb\xbf", 0) == 0)
+  {
+    header.erase(0, 3);
+  }
+  const std::vector<std::string> cells = cellsOf(header);
+  columns.count = cells.size();
+  for (const auto& names : kColumnNames)
+  {
+    std::size_t found = 0;
+    for (; found < kNumbers; ++found)
+    {
+      const auto cell = std::find(cells.begin(), cells.end(), names[found]);
+      if (cell == cells.end())
+      {
+        break;
+      }
+      columns.positions[found] = std::size_t(cell - cells.begin());
+    }
+    if (found == kNumbers)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A row, or in @p problem what is wrong with it and the cure. Other columns may hold anything.
+bool parseRow(const std::string& line, const Columns& columns, HipPathPoint& point, std::string& problem)
 {
   if (line.size() > kLongestLine)
   {
     problem = "the line has more than " + std::to_string(kLongestLine) + " characters: is this a text file?";
     return false;
   }
-  double numbers[kColumns];
-  std::size_t column = 0;
-  for (std::size_t begin = 0; begin <= line.size(); ++column)
+  const std::vector<std::string> cells = cellsOf(line);
+  if (cells.size() != columns.count)
   {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    if (column < kColumns && !parseNumber(trimmed(line.substr(begin, end - begin)), numbers[column], problem))
+    problem = std::to_string(cells.size()) + " columns instead of " + std::to_string(columns.count) +
+      ": write in each row what the header names";
+    return false;
+  }
+  double numbers[kNumbers];
+  for (std::size_t i = 0; i < kNumbers; ++i)
+  {
+    const std::size_t position = columns.positions[i];
+    if (!parseNumber(cells[position], numbers[i], problem))
     {
-      problem.insert(0, "column " + std::to_string(column + 1) + ": ");
+      problem.insert(0, "column " + std::to_string(position + 1) + ": ");
       return false;
     }
-    begin = end + 1;
-  }
-  if (column != kColumns)
-  {
-    problem = std::to_string(column) + " columns instead of 4: write t,x,y,z in each row";
-    return false;
   }
   point = { numbers[0], { numbers[1], numbers[2], numbers[3] } };
   return true;
 }
 
-/// The first line, without the byte order mark that spreadsheets write.
-bool isHeader(std::string line)
-{
-  if (line.rfind("\xef\xbb\xbf", 0) == 0)
-  {
-    line.erase(0, 3);
-  }
-  line.erase(std::remove(line.begin(), line.end(), ' '), line.end());
-  return line == kHeader;
-}
-
 /// Reads the rows below the header. False: @p problem and the number of its line are set.
-bool readRows(std::istream& stream, HipPath& path, std::size_t& lineNumber, std::string& problem)
+bool readRows(
+  std::istream& stream, const Columns& columns, HipPath& path, std::size_t& lineNumber, std::string& problem)
 {
   std::string line;
   std::size_t blankLine = 0;
@@ -145,7 +187,7 @@ bool readRows(std::istream& stream, HipPath& path, std::size_t& lineNumber, std:
       return false;
     }
     HipPathPoint point;
-    if (!parseRow(line, point, problem))
+    if (!parseRow(line, columns, point, problem))
     {
       return false;
     }
@@ -244,11 +286,14 @@ Status readHipPath(const std::string& fileName, HipPath& path, std::string& mess
   std::string line;
   std::size_t lineNumber = 1;
   std::string problem;
-  if (!readLine(stream, line) || !isHeader(line))
+  Columns columns;
+  if (!readLine(stream, line) || !findColumns(line, columns))
   {
-    problem = "the header is " + quote(line) + ": make the first line t,x,y,z (seconds and metres)";
+    problem = "the header is " + quote(line) +
+      ": make the first line t,x,y,z (seconds and metres), or give a table of felt forces, which has t,hip_x,"
+      "hip_y,hip_z";
   }
-  else if (readRows(stream, path, lineNumber, problem) && !stream.bad())
+  else if (readRows(stream, columns, path, lineNumber, problem) && !stream.bad())
   {
     return Status::Ok;
   }

@@ -1,5 +1,6 @@
 /// @file
-/// A recorded path of the hand: rows of time and position, read from and written to HIP.csv.
+/// A recorded path of the hand: rows of time and position, read from and written to HIP.csv; read from a
+/// table of felt forces, too.
 #pragma once
 
 #include "Core/Status.h"
@@ -35,10 +36,11 @@ struct HipPath
   Vec3 position(double timeSeconds, std::size_t& hint) const noexcept;
 };
 
-/// Reads `t,x,y,z` with that header line: seconds and metres, one row a line, decimal point, spaces about
-/// numbers and CRLF line ends allowed, blank lines at the end only. On an error @p message says file, line,
-/// value and cure, and
-/// @p path is empty: FileNotReadable, FileMalformed (no row among others).
+/// Reads the columns t, x, y and z that the header line names, or t, hip_x, hip_y and hip_z as the tables of
+/// felt forces have them: seconds and metres, one row a line, decimal point, spaces about numbers and CRLF
+/// line ends allowed, blank lines at the end only. What other columns hold is not looked at. On an error @p
+/// message says file, line, value and cure, and @p path is empty: FileNotReadable, FileMalformed (no row
+/// among others).
 Status readHipPath(const std::string& fileName, HipPath& path, std::string& message);
 /// Writes the same, shortest digits that read back to the same doubles. The file appears only when it is
 /// complete (it is written beside its place and renamed); what is no regular file, such as /dev/stdout, is

@@ -327,6 +327,50 @@ TEST_F(Feel, TransformAndPathShareTheWorkspaceFrame)
   EXPECT_NEAR(raw.at("proxy_z").back(), 0.04, 1e-6);
 }
 
+TEST_F(Feel, ATableOfForcesIsAPathAgain)
+{
+  this->succeed({ "generate", "sphere", "-n", "20000", "-o", "sphere.ply" });
+  this->write("hip.csv", "t,x,y,z\n0.3,0,0.001,0.03\n0.5,0.0007,0,0.021\n");
+  this->feel("sphere.ply", "hip.csv");
+  const std::string felt = this->read("out.csv");
+  this->write("felt.csv", felt);
+  const Table again = this->feel("sphere.ply", "felt.csv");
+  EXPECT_EQ(again.at("t").size(), 201u);
+  EXPECT_EQ(again.at("contact").back(), 1.0);
+  EXPECT_EQ(withoutTimes(this->read("out.csv")), withoutTimes(felt));
+}
+
+TEST_F(Feel, ATraceOfTheViewerIsAPathOfBoth)
+{
+  this->succeed({ "generate", "sphere", "-n", "20000", "-o", "sphere.ply" });
+  this->write("hip.csv", "t,x,y,z\n0,0,0.001,0.03\n0.1,0.0007,0,0.021\n");
+  const auto view = [this](const std::string& path, const std::string& trace)
+  {
+    return this->run({ "view", "sphere.ply", "--unit", "m", "--size", "64x48", "--path", path, "--screenshot",
+      "picture.png", "--trace", trace });
+  };
+  const apptest::Outcome outcome = view("hip.csv", "trace.csv");
+  if (outcome.errors.find("DISPLAY") != std::string::npos)
+  {
+    GTEST_SKIP() << outcome.errors;
+  }
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+  const std::string trace = this->read("trace.csv");
+  ASSERT_EQ(parseTable(trace).at("t").size(), 101u);
+  EXPECT_EQ(parseTable(trace).at("contact").back(), 1.0);
+  ASSERT_EQ(view("trace.csv", "again.csv").exitCode, 0);
+  EXPECT_EQ(withoutTimes(this->read("again.csv")), withoutTimes(trace));
+  const Table felt = this->feel("sphere.ply", "trace.csv");
+  for (const char* column : { "t", "hip_x", "hip_y", "hip_z" })
+  {
+    EXPECT_EQ(felt.at(column), parseTable(trace).at(column)) << column;
+  }
+  this->feel("sphere.ply", "hip.csv");
+  this->write("felt.csv", this->read("out.csv"));
+  ASSERT_EQ(view("felt.csv", "again.csv").exitCode, 0);
+  EXPECT_EQ(withoutTimes(this->read("again.csv")), withoutTimes(trace));
+}
+
 TEST_F(Feel, ASimulatedHandYieldsToTheForceOnItsPath)
 {
   this->succeed({ "generate", "plane", "-n", "100000", "-o", "plane.ply" });

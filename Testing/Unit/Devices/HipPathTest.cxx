@@ -133,6 +133,27 @@ TEST_F(HipPathFile, ReadsRowsWithSpacesCrLfAndBlankLastLines)
   expectRead("t,x,y,z\n-5,.5,1.,0E0\n", 1);
 }
 
+TEST_F(HipPathFile, ReadsTheHandOfATableOfFeltForces)
+{
+  HipPath path;
+  std::string message;
+  ASSERT_EQ(readHipPath(put("t,hip_x,hip_y,hip_z,proxy_x,radius,contact\n"
+                            "0.5,1,2,3,7,nan,0\n0.501,4,5,6,8,,what\n"),
+              path, message),
+    Status::Ok)
+    << message;
+  ASSERT_EQ(path.points.size(), 2u);
+  EXPECT_EQ(path.points[0].timeSeconds, 0.5);
+  EXPECT_EQ(path.points[0].position, Vec3(1.0, 2.0, 3.0));
+  EXPECT_EQ(path.points[1].position, Vec3(4.0, 5.0, 6.0));
+  ASSERT_EQ(readHipPath(put("z,y,note,x,t\n3,2,slow,1,0\n"), path, message), Status::Ok) << message;
+  EXPECT_EQ(path.points[0].position, Vec3(1.0, 2.0, 3.0)); // by name, not by place
+  expectRefused("t,hip_x,hip_y,force_z\n0,0,0,0\n", { ":1:", "header", "hip_z" });
+  expectRefused("t,x,hip_y,z\n0,0,0,0\n", { ":1:", "header" });
+  expectRefused("t,hip_x,hip_y,hip_z,radius\n0,0,0,0\n", { ":2:", "4 columns instead of 5" });
+  expectRefused("radius,t,hip_x,hip_y,hip_z\n1,0,0,nan,0\n", { ":2:", "column 4", "not finite" });
+}
+
 TEST_F(HipPathFile, SaysWhatIsWrongAndInWhichLine)
 {
   expectRefused("", { ":1:", "header", "t,x,y,z" });
