@@ -1,6 +1,7 @@
 #include "ViewScene.h"
 
 #include "Pipeline.h"
+#include "ScaleNote.h"
 
 #include "CloudAppearance.h"
 #include "HapticSceneBuilder.h"
@@ -193,7 +194,7 @@ void ViewScene::fit(const Bounds& cloud, const ViewOptions& options)
       AffineTransform::translation(-cloud.center()) * transform;
   }
   setElements(modelMatrix_, transform);
-  scaleNote_ = describeScale(modelMatrix_);
+  scaleNote_ = describeScale(modelMatrix_, options.lattice);
   orientation_.up = normalized(transform.applyToVector(orientation_.up));
   orientation_.front = normalized(transform.applyToVector(orientation_.front));
 
@@ -453,12 +454,6 @@ void ViewScene::placeCamera(const ProxyState* contact)
   }
   pointhaptics::placeCamera(camera, orientation_, center, edge, azimuth, above);
   renderer_->ResetCameraClippingRange();
-}
-
-std::string describeScale(vtkMatrix4x4* modelMatrix)
-{
-  const double scale = std::cbrt(std::abs(modelMatrix->Determinant()));
-  return fmt::format("scale {:.3g} (1 m of the cloud is {:.3g} m in the hand)", scale, scale);
 }
 
 std::shared_ptr<const HapticScene> ViewScene::makeScene(bool useCovariance, Status& status)

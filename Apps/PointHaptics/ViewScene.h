@@ -86,7 +86,7 @@ public:
   /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
   Vec3 towardsViewer() const { return orientation_.front; }
   std::shared_ptr<const HapticScene> makeScene(bool useCovariance, Status& status);
-  /// describeScale() of the model as it was opened, in metres of the file's unit.
+  /// describeScale() of the model as it was opened.
   const std::string& scaleNote() const { return scaleNote_; }
   vtkMatrix4x4* modelMatrix() { return modelMatrix_; }
   vtkVoxelMeanResampler* resampler() { return resampler_; }
@@ -138,9 +138,6 @@ private:
   std::string scaleNote_;
   std::string title_;
 };
-
-/// "scale 0.52 (1 m of the cloud is 0.52 m in the hand)"; the mean one where the axes differ.
-std::string describeScale(vtkMatrix4x4* modelMatrix);
 
 /// Writes what @p window shows as PNG. False: @p message says why not.
 bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message);

@@ -2,6 +2,7 @@
 
 #include "Messages.h"
 #include "ProgressBar.h"
+#include "ScaleNote.h"
 #include "StopSignals.h"
 #include "ViewEvents.h"
 #include "ViewScene.h"
@@ -398,7 +399,7 @@ void ViewWindow::say(const std::string& news)
 /// The scale as it is after all zooming, and the last news.
 void ViewWindow::showNote()
 {
-  const std::string scale = describeScale(style_->GetModelTransform()->GetMatrix());
+  const std::string scale = describeScale(style_->GetModelTransform()->GetMatrix(), options_.lattice);
   style_->SetStatusNote(news_.empty() ? scale : scale + "\n" + news_);
 }
 
