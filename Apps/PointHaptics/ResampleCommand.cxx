@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
@@ -48,6 +49,15 @@ void print(const ResampleOptions& options, vtkIdType in, vtkVoxelMeanResampler* 
     "{} points in, {} out, {} clipped, {} invalid: {}\n", in, out, clipped, invalid, options.files.output);
 }
 
+/// The steps of the file's coordinates are not those of transformed ones.
+void forgetGrid(vtkPolyData* cloud)
+{
+  for (const char* name : { "LasScale", "LasOffset" })
+  {
+    cloud->GetFieldData()->RemoveArray(name);
+  }
+}
+
 int runResample(const ResampleOptions& options)
 {
   std::string message;
@@ -72,6 +82,10 @@ int runResample(const ResampleOptions& options)
         "{}: no point lies in the workspace: {} clipped, {} invalid; leave out --workspace, or mend the "
         "transform",
         options.files.input, resampler->GetNumberOfClippedPoints(), resampler->GetNumberOfInvalidPoints()));
+  }
+  if (options.lattice.hasTransform())
+  {
+    forgetGrid(resampler->GetOutput());
   }
   if (!writeCloud(resampler->GetOutput(), options.files.output, kCommand, message))
   {

@@ -10,20 +10,37 @@
 namespace pointhaptics::io
 {
 
+/// The grid of the file that a cloud came from.
+struct WantedGrid
+{
+  double scale = 0.0; ///< 0: there is none.
+  double offset = 0.0;
+  double extent = 0.0; ///< Of the cloud that is written, along its longest axis.
+};
+
 /// One axis: coordinate = scale * integer + offset.
 struct LasGrid
 {
   double scale = 1.0;
   double offset = 0.0;
   std::vector<std::int32_t> integers;
-  double largestError = 0.0; ///< of what a reader gives back
+  double largestError =
+    0.0; ///< of what a reader gives back: at most half a step, but for the digits of doubles
 
-  /// Puts the @p count coordinates of @p column on a grid that gives each of them back bit for bit where
-  /// there is one: that of
-  /// @p wantedScale and @p wantedOffset (the file the cloud came from; scale 0: none), or one of whole
-  /// decimals. Otherwise on the finest one that spans them, with steps of a power of two. @pre all are
-  /// finite.
-  static LasGrid fit(ConstColumnView column, vtkIdType count, double wantedScale, double wantedOffset);
+  /// Puts the @p count coordinates of @p column on the first of these grids that can be had:
+  /// - one that gives each of them back bit for bit: the wanted one, one of whole decimals, or, where none is
+  ///   wanted, the finest one with steps of a power of two (coordinates that are floats);
+  /// - where none is wanted, one of whole decimals that gives them back but for the last digits of doubles;
+  /// - steps of the wanted scale, about another offset where that must be. Not of a cloud that is shorter
+  /// than
+  ///   kFewestSteps of them: it was made smaller, and its points would fall together;
+  /// - the finest power of ten whose steps span them;
+  /// - the finest power of two, where numbers are too small or too large for that.
+  ///
+  /// @pre all are finite.
+  static LasGrid fit(ConstColumnView column, vtkIdType count, const WantedGrid& wanted);
+
+  static constexpr double kFewestSteps = 1000.0;
 };
 
 } // namespace pointhaptics::io

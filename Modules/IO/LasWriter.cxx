@@ -61,6 +61,7 @@ private:
   bool needsExtended() const;
   void takeStandardArrays();
   void refuseInvalidPoints() const;
+  double largestExtent() const;
   void planPositions();
   void planBits();
   void planStandardFields();
@@ -208,16 +209,30 @@ void LasWriter::refuseInvalidPoints() const
     });
 }
 
+double LasWriter::largestExtent() const
+{
+  double extent = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double range[2];
+    arrays_[0].array->GetRange(range, axis);
+    extent = std::max(extent, range[1] - range[0]);
+  }
+  return extent;
+}
+
 void LasWriter::planPositions()
 {
   refuseInvalidPoints();
+  const double extent = largestExtent();
   double worst = 0.0;
   double step = 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
     const ConstColumnView column = arrays_[0].column(axis);
     LasGrid& grid = grids_[axis];
-    grid = LasGrid::fit(column, rows_, fieldValue("LasScale", axis, 0.0), fieldValue("LasOffset", axis, 0.0));
+    grid = LasGrid::fit(
+      column, rows_, { fieldValue("LasScale", axis, 0.0), fieldValue("LasOffset", axis, 0.0), extent });
     fields_.push_back({ { reinterpret_cast<const char*>(grid.integers.data()), 4, VTK_TYPE_INT32 },
       static_cast<std::size_t>(4 * axis), VTK_TYPE_INT32 });
     step = grid.largestError > worst ? grid.scale : step;

@@ -13,9 +13,12 @@
  * - .pcd: binary. Colours as packed rgb or rgba, normals as normal_x normal_y normal_z; the field data
  *   "Viewpoint" and "OrganizedDimensions" as the header's VIEWPOINT, WIDTH and HEIGHT.
  * - .las: LAS 1.2, or 1.4 where needed. Coordinates become integers: on the grid of the file they come from
- *   (field data "LasScale", "LasOffset"), or on one of whole decimals, where that gives every bit back, else
- *   on the finest one that spans the cloud. Arrays under the names vtkPointCloudReader gives to LAS fields
- *   become these, "RGB" becomes the colour, and all others become extra bytes. NaN points are refused.
+ *   (field data "LasScale", "LasOffset"), on one of whole decimals or, for floats, of binary steps, where
+ *   that gives every bit back. Others, such as means of points, are rounded, by at most half a step, to the
+ *   scale of that file, or to the finest power of ten that spans the cloud where there is none or the cloud
+ *   is shorter than 1000 steps of it. Whoever transforms a cloud takes "LasScale" and "LasOffset" away.
+ *   Arrays under the names vtkPointCloudReader gives to LAS fields become these, "RGB" becomes the colour,
+ *   and all others become extra bytes. NaN points are refused.
  * - .csv: header x,y,z,<arrays>, arrays of several components as name_0,name_1,...; each number with the
  *   fewest digits that give back the same value. Types are not stored: float arrays may be read as double.
  *

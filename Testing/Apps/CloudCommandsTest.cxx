@@ -2,10 +2,12 @@
 
 #include "Core/Shapes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 namespace
@@ -85,6 +87,37 @@ TEST_F(CloudCommands, ResampleDropsWhatIsOutsideOrNotANumber)
   EXPECT_EQ(counts["points_out"], 2);
   EXPECT_EQ(counts["points_clipped"], 1);
   EXPECT_EQ(counts["points_invalid"], 2);
+}
+
+TEST_F(CloudCommands, ResampledLasKeepsItsScaleUnlessTheCloudIsTransformed)
+{
+  std::string rows = "x,y,z\n";
+  for (int i = 0; i < 1000; ++i)
+  {
+    rows +=
+      fmt::format("{:.2f},{:.2f},{:.2f}\n", 500000.0 + 0.37 * (i * i % 101), 17.31 * (i / 100), 0.01 * i);
+  }
+  this->write("in.csv", rows);
+  EXPECT_EQ(this->run({ "bandwidth", "in.csv", "-o", "in.las" }).exitCode, 0);
+  const auto scaleOf = [this](const std::string& name)
+  {
+    double scale = 0.0;
+    std::memcpy(&scale, this->read(name).data() + 131, sizeof scale);
+    return scale;
+  };
+  ASSERT_EQ(scaleOf("in.las"), 0.01);
+  const auto resample = [this](std::vector<std::string> options)
+  {
+    options.insert(options.begin(), { "resample", "in.las", "-o", "out.las", "--dims", "20" });
+    const apptest::Outcome outcome = this->run(options);
+    EXPECT_EQ(outcome.exitCode, 0);
+    return outcome.errors;
+  };
+  EXPECT_NE(resample({}).find("rounded to steps of 0.01, by at most 0.00"), std::string::npos);
+  EXPECT_EQ(scaleOf("out.las"), 0.01);
+  // Long enough for centimetres, but they are no longer those of the file.
+  EXPECT_NE(resample({ "--scale", "0.1" }).find("rounded to steps of 1e-0"), std::string::npos);
+  EXPECT_EQ(scaleOf("out.las"), 1e-9);
 }
 
 TEST_F(CloudCommands, BandwidthRefusesACloudWithoutAValidPoint)

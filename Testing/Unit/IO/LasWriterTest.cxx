@@ -124,9 +124,131 @@ TEST_F(LasWriting, SaysHowFarCoordinatesAreRounded)
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("rounded"), std::string::npos);
   const ReadResult result = readCloud(path("a.las"));
-  EXPECT_NEAR(result.cloud->GetPoint(0)[0], 1.0 / 3.0, 2e-4);
-  EXPECT_NEAR(result.cloud->GetPoint(1)[0], 684766.123456789, 2e-4);
+  EXPECT_NEAR(result.cloud->GetPoint(0)[0], 1.0 / 3.0, 5.1e-4);
+  EXPECT_NEAR(result.cloud->GetPoint(1)[0], 684766.123456789, 5.1e-4);
   EXPECT_EQ(result.cloud->GetPoint(1)[2], 2.0);
+}
+
+/// Points of doubles that are on no grid, within @p half of @p centre on each axis, as from a file with that
+/// scale and offset (0: none).
+vtkSmartPointer<vtkPolyData> makeMeans(double centre, double half, double scale, double offset)
+{
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> within(centre - half, centre + half);
+  for (int i = 0; i < 500; ++i)
+  {
+    points->InsertNextPoint(within(random), within(random), within(random));
+  }
+  cloud->SetPoints(points);
+  for (const auto& [name, value] : { std::pair{ "LasScale", scale }, std::pair{ "LasOffset", offset } })
+  {
+    vtkNew<vtkDoubleArray> triple;
+    triple->SetName(name);
+    triple->SetNumberOfComponents(3);
+    triple->InsertNextTuple3(value, value, value);
+    if (scale != 0.0)
+    {
+      cloud->GetFieldData()->AddArray(triple);
+    }
+  }
+  return cloud;
+}
+
+struct WrittenGrid
+{
+  double scale, offset, largestError;
+  std::vector<std::string> notes;
+};
+
+class LasGridOfMeans : public LasWriting
+{
+protected:
+  /// The grid in the file, the same on all axes, and what rounding did.
+  WrittenGrid written(vtkPolyData* cloud) const
+  {
+    WrittenGrid grid{};
+    EXPECT_EQ(writeCloud(cloud, path("means.las"), &grid.notes), "");
+    const std::string bytes = bytesOf("means.las");
+    std::memcpy(&grid.scale, bytes.data() + 131, sizeof(double));
+    std::memcpy(&grid.offset, bytes.data() + 155, sizeof(double));
+    EXPECT_EQ(bytes.substr(131, 8), bytes.substr(131 + 16, 8));
+    const ReadResult result = readCloud(path("means.las"));
+    for (vtkIdType i = 0; i < result.points(); ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        grid.largestError =
+          std::max(grid.largestError, std::abs(result.cloud->GetPoint(i)[axis] - cloud->GetPoint(i)[axis]));
+      }
+    }
+    return grid;
+  }
+};
+
+TEST_F(LasGridOfMeans, KeepsTheScaleAndOffsetOfTheFileTheyComeFrom)
+{
+  const WrittenGrid grid = written(makeMeans(515400.0, 17.0, 0.00025, 515383.25));
+  EXPECT_EQ(grid.scale, 0.00025);
+  EXPECT_EQ(grid.offset, 515383.25);
+  EXPECT_GT(grid.largestError, 0.0001);
+  EXPECT_LE(grid.largestError, 0.000125 + 1e-9);
+  ASSERT_EQ(grid.notes.size(), 1u);
+  EXPECT_NE(grid.notes[0].find("rounded to steps of 0.00025, by at most 0.00012"), std::string::npos)
+    << grid.notes[0];
+}
+
+TEST_F(LasGridOfMeans, KeepsTheScaleWhereOnlyTheOffsetIsOutOfReach)
+{
+  // 2^31 steps of 0.25 mm are 537 km.
+  const WrittenGrid grid = written(makeMeans(7.0e6, 50.0, 0.00025, 0.0));
+  EXPECT_EQ(grid.scale, 0.00025);
+  EXPECT_EQ(grid.offset, 7.0e6);
+  EXPECT_LE(grid.largestError, 0.000125 + 1e-8);
+}
+
+TEST_F(LasGridOfMeans, TakesAPowerOfTenWhereTheScaleDoesNotSuitTheCloud)
+{
+  // A cloud of 200 m, made 100 mm: a centimetre is too much for it.
+  const WrittenGrid small = written(makeMeans(0.0, 0.05, 0.01, 0.0));
+  EXPECT_EQ(small.scale, 1e-10);
+  EXPECT_EQ(small.offset, 0.0);
+  EXPECT_LE(small.largestError, 0.51e-10);
+  // One of 2e9 m: 32 bits hold no centimetres of it.
+  const WrittenGrid large = written(makeMeans(0.0, 1e9, 0.01, 0.0));
+  EXPECT_EQ(large.scale, 1.0);
+  EXPECT_LE(large.largestError, 0.5);
+}
+
+TEST_F(LasGridOfMeans, HasStepsOfAPowerOfTenWhereThereIsNoFileWithAScale)
+{
+  struct Case
+  {
+    double centre, half, scale, offset;
+  };
+  for (const Case& each : { Case{ 0.3, 1.0, 1e-9, 0.0 }, { 684879.84, 113.0, 1e-7, 684900.0 },
+         { -3.0e6, 2.0, 1e-9, -3.0e6 }, { 0.0, 20.0, 1e-8, 0.0 }, { 0.7123, 0.02, 1e-11, 0.712 } })
+  {
+    const WrittenGrid grid = written(makeMeans(each.centre, each.half, 0.0, 0.0));
+    EXPECT_EQ(grid.scale, each.scale) << each.centre;
+    EXPECT_EQ(grid.offset, each.offset) << each.centre;
+    EXPECT_LE(grid.largestError, 0.51 * each.scale + 1e-15 * std::abs(each.centre)) << each.centre;
+  }
+}
+
+TEST_F(LasGridOfMeans, HasTheDecimalsOfNumbersThatWereWrittenWithThem)
+{
+  const auto cloud = makeMeans(0.0, 0.0, 0.0, 0.0);
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    const double number = std::stod(std::to_string(500000 + i % 7) + "." + std::to_string(100 + i));
+    cloud->GetPoints()->SetPoint(i, number, number, number);
+  }
+  const WrittenGrid grid = written(cloud);
+  EXPECT_EQ(grid.scale, 0.001);
+  EXPECT_LE(grid.largestError, 1e-9);
 }
 
 TEST_F(LasWriting, FindsAGridForAnyFiniteCoordinates)
@@ -148,7 +270,8 @@ TEST_F(LasWriting, FindsAGridForAnyFiniteCoordinates)
       {
         for (int axis = 0; axis < 3; ++axis)
         {
-          const double tolerance = 1e-9 * size + 1e-15 * std::abs(centre);
+          // Half a step: at most ten 2^31th parts of half the longest axis, or ten of a double's last digits.
+          const double tolerance = 1.6e-9 * size + 1.2e-15 * std::abs(centre);
           EXPECT_NEAR(result.cloud->GetPoint(i)[axis], points->GetPoint(i)[axis], tolerance)
             << size << " " << centre;
         }
