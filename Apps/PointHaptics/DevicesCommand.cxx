@@ -53,7 +53,7 @@ int printDevices(bool json)
   }
   for (const std::string& note : notes)
   {
-    fmt::print("note: {}\n", note);
+    fmt::print("{}\n", note);
   }
   return kSuccess;
 }

@@ -17,7 +17,8 @@ struct ListedDevice
 };
 
 /// Falcons, SpaceMice, then the simulated hand, which is always there. Opens and closes each device it finds;
-/// not beside a driver that uses one. @p notes gets what is missing from this build.
+/// not beside a driver that uses one. @p notes gets a sentence, with the cure, for each kind that was not
+/// found and for each that this build cannot use.
 std::vector<ListedDevice> listDevices(std::vector<std::string>& notes);
 
 } // namespace pointhaptics

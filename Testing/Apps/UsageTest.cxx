@@ -1,12 +1,15 @@
 #include "RunProgram.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 namespace
 {
@@ -232,6 +235,35 @@ TEST_F(Usage, AWorkspaceWithoutPointsIsAFailure)
   this->refuse(1, { "feel", "in.ply", "--path", "hip.csv", "-o", "out.csv", "--raw", "--workspace", away },
     { "--workspace" });
   this->refuse(1, { "resample", "in.ply", "-o", "out.ply", "--voxel", "1e-12" }, { "larger voxel" });
+}
+
+TEST_F(Usage, DevicesSaysWhatItFoundAndWhatNotWithTheCure)
+{
+  const nlohmann::json result = nlohmann::json::parse(this->succeed({ "devices", "--json" }));
+  std::string notes;
+  for (const auto& note : result["notes"])
+  {
+    notes += note.get<std::string>() + "\n";
+  }
+  const auto isListed = [&](const std::string& kind)
+  {
+    return std::any_of(result["devices"].begin(), result["devices"].end(),
+      [&](const nlohmann::json& device) { return device["kind"] == kind; });
+  };
+  EXPECT_TRUE(isListed("simulated"));
+  // Found, or said not to be, or to be out of this build's reach.
+  for (const auto& [kind, name] :
+    { std::pair{ "falcon", "Falcon" }, std::pair{ "spacemouse", "SpaceMouse" } })
+  {
+    EXPECT_NE(isListed(kind), notes.find(std::string("no ") + name) != std::string::npos) << kind << notes;
+  }
+  for (const char* cure : { "no Falcon was found: plug in", "no SpaceMouse was found: plug in" })
+  {
+    const std::string finding = std::string(cure).substr(0, std::string(cure).find(':'));
+    EXPECT_EQ(notes.find(finding) == std::string::npos, notes.find(cure) == std::string::npos) << notes;
+  }
+  const std::string text = this->succeed({ "devices" });
+  EXPECT_NE(text.find(notes), std::string::npos) << text;
 }
 
 TEST_F(Usage, NegativeNumbersAreNumbersNotOptions)

@@ -68,6 +68,8 @@ TEST_F(EmulatedUsb, BootsAFalconWhoseFirstTriesFail)
   EXPECT_EQ(list[0].kind, "falcon");
   EXPECT_EQ(list[0].place, "bus 1 device 2");
   EXPECT_TRUE(list[0].problem.empty()) << list[0].problem;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("no SpaceMouse was found"), std::string::npos) << notes[0];
   FalconSettings patient = settings();
   patient.boot.replyMilliseconds = 100; // three greetings are not answered
   FalconDevice device(patient);

@@ -152,10 +152,13 @@ TEST_F(EmulatedMachine, ListsItsFalcon)
 {
   ASSERT_EQ(run({ "devices" }), 0) << output();
   EXPECT_EQ(output().find("falcon"), std::string::npos) << output();
+  EXPECT_NE(output().find("no Falcon was found: plug in its power supply"), std::string::npos) << output();
   EXPECT_NE(output().find("simulated"), std::string::npos);
   falcon.plugIn();
   ASSERT_EQ(run({ "devices" }), 0) << output();
   EXPECT_NE(output().find("bus 1 device 2: can be used"), std::string::npos) << output();
+  EXPECT_EQ(output().find("no Falcon"), std::string::npos) << output();
+  EXPECT_NE(output().find("no SpaceMouse was found"), std::string::npos) << output();
 }
 
 TEST_F(EmulatedMachine, SaysWhatTheFirmwareIsWhereItIsMissing)

@@ -18,7 +18,8 @@ struct UsbFalcon
   std::string problem; ///< Empty, or why it cannot be opened, with the cure.
 };
 
-/// Any thread; opens and closes each device. Empty where the package was built without libusb.
-std::vector<UsbFalcon> findUsbFalcons();
+/// Any thread; opens and closes each device. Empty where the package was built without libusb, and where the
+/// USB system cannot be used: @p problem then says why, with the cure.
+std::vector<UsbFalcon> findUsbFalcons(std::string& problem);
 
 } // namespace pointhaptics

@@ -284,6 +284,12 @@ std::string place(libusb_device* device)
     std::to_string(libusb_get_device_address(device));
 }
 
+std::string systemProblem(int error)
+{
+  return std::string("the USB system cannot be used (") + libusb_strerror(error) +
+    "); is /dev/bus/usb there?";
+}
+
 std::string refusal(const std::string& where, int error)
 {
   const std::string what = "falcon: found on " + where + ", but ";
@@ -309,8 +315,7 @@ public:
     if (const int error = libusb_init(&context); error != LIBUSB_SUCCESS)
     {
       status = Status::DeviceNotFound;
-      message = std::string("falcon: the USB system cannot be used (") + libusb_strerror(error) +
-        "); is /dev/bus/usb there?";
+      message = "falcon: " + systemProblem(error);
       return nullptr;
     }
     status = Status::DeviceNotFound;
@@ -371,12 +376,13 @@ std::unique_ptr<FtdiBus> makeUsbFtdiBus()
   return std::make_unique<UsbFtdiBus>();
 }
 
-std::vector<UsbFalcon> findUsbFalcons()
+std::vector<UsbFalcon> findUsbFalcons(std::string& problem)
 {
   std::vector<UsbFalcon> found;
   libusb_context* context = nullptr;
-  if (libusb_init(&context) != LIBUSB_SUCCESS)
+  if (const int error = libusb_init(&context); error != LIBUSB_SUCCESS)
   {
+    problem = systemProblem(error);
     return found;
   }
   {
