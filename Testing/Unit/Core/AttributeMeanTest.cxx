@@ -4,6 +4,8 @@
 #include "ExactSum.h"
 #include "RandomClouds.h"
 
+#include "../HeldInstructionSets.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -330,7 +332,7 @@ void expectSameOnAllPaths(const std::vector<T>& values, int components, const Pl
     return all;
   };
   const std::vector<T> expected = results(InstructionSet::Baseline, 0);
-  for (const InstructionSet set : { InstructionSet::Avx2, InstructionSet::Avx512 })
+  for (const InstructionSet set : heldInstructionSets())
   {
     EXPECT_TRUE(sameBits(results(set, 0), expected)) << components << " components";
   }

@@ -4,6 +4,8 @@
 
 #include "RandomClouds.h"
 
+#include "../HeldInstructionSets.h"
+
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -56,9 +58,10 @@ Look lookAt(double x, double y, double radius)
 
 TEST(FitCells, FitsAreTheSameBitsWithEveryInstructionSet)
 {
+  SKIP_WITHOUT_OTHER_INSTRUCTION_SETS();
   const CellPyramid pyramid = saddle(40000, 5e-4);
   const auto plain = std::make_unique<FitCells>(InstructionSet::Baseline);
-  for (const InstructionSet set : { InstructionSet::Avx2, InstructionSet::Avx512 })
+  for (const InstructionSet set : heldInstructionSets())
   {
     const auto fast = std::make_unique<FitCells>(set);
     for (const double radius : { 1.2e-3, 2.7e-3, 6e-3 })

@@ -3,6 +3,8 @@
 
 #include "RandomClouds.h"
 
+#include "../HeldInstructionSets.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +17,7 @@ using namespace pointhaptics::kernel;
 namespace
 {
 
-constexpr InstructionSet kSets[] = { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 };
+const std::vector<InstructionSet> kSets = heldInstructionSets();
 
 /// Cells about a disc that sticks out of the radius 1, in an order that leaves whole groups outside.
 void fill(trial::Random& random, int size, FitBlock& block)
@@ -116,8 +118,7 @@ void answer(const FitKernels& kernels, const Question& question, Answers& answer
   const BallPoints points{ question.block.x, question.block.y, question.block.z, groups };
   const double radius = 0.3 * question.view.radius;
   std::fill(answers.indices, answers.indices + 64, -1);
-  answers.within =
-    kernels.pointsWithin(points, question.view.origin, radius * radius, answers.indices, 64);
+  answers.within = kernels.pointsWithin(points, question.view.origin, radius * radius, answers.indices, 64);
   answers.swept =
     kernels.sweepBall(points, question.view.origin, question.view.normal, 2.0, radius, 1e-6 * radius);
   kernels.sumField(question.nodes, question.view.origin, question.view.radius, answers.field);

@@ -7,6 +7,8 @@
 
 #include "RandomClouds.h"
 
+#include "../HeldInstructionSets.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -387,7 +389,7 @@ template <typename Real>
 void expectBounds(const AffineTransform& transform, const std::vector<Real>& xyz)
 {
   const Bounds expected = plainBoundsOf(transform, xyz);
-  for (const InstructionSet set : { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+  for (const InstructionSet set : heldInstructionSets())
   {
     const Bounds box = boundsOf(kernelsFor(set), transform, xyz);
     ASSERT_EQ(box.minimum, expected.minimum) << int(set);

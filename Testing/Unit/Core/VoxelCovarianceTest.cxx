@@ -3,6 +3,8 @@
 
 #include "RandomClouds.h"
 
+#include "../HeldInstructionSets.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +18,7 @@ using trial::Random;
 namespace
 {
 
-constexpr InstructionSet kSets[] = { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 };
+const std::vector<InstructionSet> kSets = heldInstructionSets();
 constexpr std::size_t kEdge = 4;
 constexpr std::size_t kCells = kEdge * kEdge;
 

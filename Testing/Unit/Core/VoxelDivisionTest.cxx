@@ -4,6 +4,8 @@
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
+#include "../HeldInstructionSets.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +19,7 @@ using namespace pointhaptics::trial;
 namespace
 {
 
-constexpr InstructionSet kSets[] = { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 };
+const std::vector<InstructionSet> kSets = heldInstructionSets();
 
 struct Fraction
 {

@@ -5,6 +5,8 @@
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
+#include "../HeldInstructionSets.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -113,8 +115,7 @@ TEST(VoxelResampler, GivesTheSameBitsForEveryOrderExecutorAndInstructionSet)
       randomBox(12000, 5, { 0, 0, 0 }, Vec3(double(d[0]), double(d[1]), 1.01 * double(d[2])));
     VoxelRequest request = requestFor(points, lattice);
     const RunResult expected = runOf(request);
-    for (const InstructionSet set :
-      { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+    for (const InstructionSet set : heldInstructionSets())
     {
       request.instructions = set;
       expectSame(runOf(request), expected, nameOf(lattice) + " set " + std::to_string(int(set)));
@@ -143,8 +144,7 @@ TEST(VoxelResampler, TheLowestCornerIsInsideWhateverTheSignOfItsZeros)
     {
       lattice.spacing = { 0.01 * i, 0.01 * i, 0.01 * i };
       VoxelRequest request = requestFor(points, lattice);
-      for (const InstructionSet set :
-        { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+      for (const InstructionSet set : heldInstructionSets())
       {
         request.instructions = set;
         const RunResult result = runOf(request);
@@ -176,8 +176,7 @@ TEST(VoxelResampler, GivesTheSameBitsUnderAGeneralTransformInBothPrecisions)
         request.singlePrecision = single;
         const RunResult expected = runOf(request);
         ASSERT_GT(expected.levels[0].counts.size(), 1000u);
-        for (const InstructionSet set :
-          { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+        for (const InstructionSet set : heldInstructionSets())
         {
           request.instructions = set;
           expectSame(runOf(request, ThreadedExecutor(2)), expected, nameOf(lattice));

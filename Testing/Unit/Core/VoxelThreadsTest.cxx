@@ -5,6 +5,8 @@
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
+#include "../HeldInstructionSets.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -109,7 +111,7 @@ TEST_P(VoxelThreads, GiveTheBitsOfOneThreadOnEveryInstructionSet)
   const std::vector<float> expectedMeans = meansOf(values, resampler, request, {});
   EXPECT_GT(expected.clipped, n / 1000);
   EXPECT_GT(resampler.mostPoints(), 4);
-  for (const InstructionSet set : { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512 })
+  for (const InstructionSet set : heldInstructionSets())
   {
     request.instructions = set;
     const std::string what = "set " + std::to_string(int(set));
