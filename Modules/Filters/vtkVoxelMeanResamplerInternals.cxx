@@ -8,13 +8,16 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkHomogeneousTransform.h"
 #include "vtkIdTypeArray.h"
+#include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <sstream>
 #include <string>
@@ -40,6 +43,14 @@ std::string latticeText(double voxelSize, const int dimensions[3])
     text << "Lattice of " << dimensions[0] << " x " << dimensions[1] << " x " << dimensions[2] << " voxels";
   }
   return text.str();
+}
+
+/// Such a matrix is often not affine either: NaN times 0 is NaN.
+bool holdsNonFinite(vtkAbstractTransform* transform)
+{
+  auto* homogeneous = vtkHomogeneousTransform::SafeDownCast(transform);
+  const double* elements = homogeneous ? homogeneous->GetMatrix()->GetData() : nullptr;
+  return elements && !std::all_of(elements, elements + 16, [](double e) { return std::isfinite(e); });
 }
 
 std::string nameOf(vtkAbstractArray* array)
@@ -151,9 +162,15 @@ bool vtkVoxelMeanResampler::Internals::ReadTransform()
   vtkAbstractTransform* transform = this->Filter->Transform;
   if (!affineFromTransform(transform, this->Request.transform))
   {
+    if (holdsNonFinite(transform))
+    {
+      vtkErrorWithObjectMacro(this->Filter, "SetTransform: " << sentence(Status::NonFiniteTransform) << ".");
+      return false;
+    }
     vtkErrorWithObjectMacro(this->Filter,
-      "Transform " << transform->GetClassName()
-                   << " is not affine; use a vtkTransform or vtkMatrixToLinearTransform.");
+      "SetTransform: " << transform->GetClassName()
+                       << " is not affine; use a vtkTransform or vtkMatrixToLinearTransform whose matrix has "
+                          "the last row 0, 0, 0, 1.");
     return false;
   }
   const Status status = this->Request.transform.check();

@@ -235,7 +235,7 @@ TEST(VoxelMeanLevels, AreEmptyTogether)
   resampler->SetNumberOfLevels(3);
   resampler->Update();
   resampler->SetDimensions(0, 1, 1);
-  trial::expectError(resampler);
+  trial::expectError(resampler, "must be between 1 and 2097152");
   for (int level = 0; level < 3; ++level)
   {
     vtkPolyData* output = vtkPolyData::SafeDownCast(resampler->GetOutputDataObject(level));

@@ -287,7 +287,7 @@ TEST(VoxelMeanPipeline, HoldsOnToNothingOfItsInput)
   resampler->Update();
   EXPECT_EQ(cloud->GetPoints()->GetData()->GetReferenceCount(), before);
   resampler->SetVoxelSize(-1);
-  trial::expectError(resampler);
+  trial::expectError(resampler, "voxel size must be finite and above 0");
   EXPECT_EQ(cloud->GetPoints()->GetData()->GetReferenceCount(), before) << "after an error";
 }
 
