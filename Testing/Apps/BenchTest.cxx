@@ -266,7 +266,6 @@ TEST_F(Bench, TouchIsJudgedAtEdgesOnScansAndOnThinParts)
     {
       EXPECT_GT(row["judged_percent"], 50.0) << row;
       EXPECT_LE(row["median_percent"], row["p95_percent"]) << row;
-      EXPECT_GE(row["phantom_newton"], 0.0) << row;
       EXPECT_LE(row["p50_us"], row["p99_us"]) << row;
       EXPECT_LE(row["p99_us"], row["max_us"]) << row;
       EXPECT_TRUE(row["status_percent"].is_object()) << row;
@@ -274,6 +273,15 @@ TEST_F(Bench, TouchIsJudgedAtEdgesOnScansAndOnThinParts)
   }
   const json& box = result["scans"]["rows"].back();
   EXPECT_EQ(box["mesh"], "box");
+  // A box of many points has its force where it is; four corners that fill space push where nothing is.
+  for (const json& row : result["scans"]["rows"])
+  {
+    if (row["method"] == "occupancy")
+    {
+      const double phantom = row["phantom_newton"];
+      EXPECT_TRUE(row["cloud"] == "vertices" ? phantom > 1.0 : phantom < 0.1) << row;
+    }
+  }
   const json other =
     json::parse(this->succeed({ "bench", "touch", "--quick", "--json", "--studies", "scans", "--methods",
       "surface-fit", "--stroke-set", "b", "--points", "5000", "--meshes", "stairs,gear", "--raw" }));

@@ -186,7 +186,7 @@ TEST_F(Feel, TheTableIsWhatItsHeaderSays)
     EXPECT_NEAR(out.at("t")[row], 1.0 + 0.01 * double(row), 1e-12);
     EXPECT_NEAR(hip.z, 0.002 - 0.00008 * double(row), 1e-12);
     EXPECT_GT(out.at("radius")[row], 0.0);
-    EXPECT_GE(out.at("update_us")[row], 0.0);
+    EXPECT_GT(out.at("update_us")[row], 0.0); // a tick takes some nanoseconds at least
     EXPECT_NEAR(norm(vectorOf(out, "normal", row)), 1.0, 1e-12);
     const bool contact = out.at("contact")[row] == 1.0;
     if (std::abs(hip.z) > 1e-9)
