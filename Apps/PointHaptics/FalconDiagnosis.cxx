@@ -318,7 +318,7 @@ bool Diagnosis::run(std::string& message)
   const Status status = device.open();
   if (status != Status::Ok)
   {
-    message = device.message();
+    message = openProblem(device, status);
     note("NOT started: " + message);
     return false;
   }

@@ -65,9 +65,9 @@ bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
 {
   rememberStopSignals();
   FalconDevice device(settings.falcon.settings());
-  if (device.open() != Status::Ok)
+  if (const Status status = device.open(); status != Status::Ok)
   {
-    message = device.message();
+    message = openProblem(device, status);
     return false;
   }
   ServoLoop loop; // after the device: stops before it closes

@@ -109,6 +109,13 @@ FalconSettings FalconOptions::settings() const
   return result;
 }
 
+std::string openProblem(const HapticDevice& device, Status status)
+{
+  const std::string said = device.message();
+  return (said.empty() ? sentence(status) : said) +
+    (status == Status::FirmwareMissing ? "; here it is named with --falcon-firmware FILE" : "");
+}
+
 ServoSettings pushingServoSettings(double rateHz)
 {
   ServoSettings settings;

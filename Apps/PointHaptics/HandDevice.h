@@ -50,6 +50,10 @@ struct FalconOptions
   FalconSettings settings() const;
 };
 
+/// Why @p device could not be opened, with the cure: its own words, else those of @p status, and the option
+/// that helps.
+std::string openProblem(const HapticDevice& device, Status status);
+
 /// How the servo loop runs where somebody's hand is in the device: SCHED_FIFO, memory locked, and no force
 /// when the program has given no sign of life for two seconds.
 ServoSettings pushingServoSettings(double rateHz);

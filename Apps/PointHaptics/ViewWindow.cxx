@@ -208,8 +208,8 @@ bool ViewWindow::openDevice(std::string& message)
   Status status = device_ ? device_->open() : Status::Ok;
   if (status != Status::Ok && falcon_ && options_.device == "auto" && !stopIsRequested())
   {
-    news_ = fmt::format("the Falcon cannot be used: {}; the simulated hand takes its place",
-      falcon_->message().empty() ? sentence(status) : falcon_->message());
+    news_ = fmt::format(
+      "the Falcon cannot be used: {}; the simulated hand takes its place", openProblem(*falcon_, status));
     warn("view", news_);
     falcon_.reset();
     this->openSimulated();
@@ -217,8 +217,7 @@ bool ViewWindow::openDevice(std::string& message)
   }
   if (status != Status::Ok)
   {
-    message = fmt::format("the {} device cannot be used: {}", device_->name(),
-      device_->message().empty() ? sentence(status) : device_->message());
+    message = fmt::format("the {} device cannot be used: {}", device_->name(), openProblem(*device_, status));
     return false;
   }
   style_->SetDevice(hand_.get());

@@ -65,8 +65,7 @@ const char* sentence(Status status) noexcept
              "check its "
              "cable where that lasts";
     case Status::FirmwareMissing:
-      return "the device needs its firmware: name the file with --falcon-firmware (see "
-             "Documentation/Devices.md)";
+      return "the device needs its firmware: name the file that holds it (see Documentation/Devices.md)";
     case Status::FirmwareNotTaken:
       return "the device did not take its firmware: check the file, unplug the device for ten seconds and "
              "try "

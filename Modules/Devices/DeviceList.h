@@ -10,7 +10,7 @@ namespace pointhaptics
 
 struct ListedDevice
 {
-  std::string kind;    ///< What --device or the program calls it: "falcon", "spacemouse", "simulated".
+  std::string kind;    ///< "falcon", "spacemouse" or "simulated".
   std::string name;    ///< For people.
   std::string place;   ///< "bus 1 device 7", "/dev/hidraw3"; empty for one without hardware.
   std::string problem; ///< Empty: it can be used; else why not, with the cure.

@@ -17,10 +17,8 @@ Status refuse(std::string& message, const std::string& reason)
 {
   message = reason +
     ". The Falcon runs a program that it forgets without power. Its licence does not allow us to ship it: "
-    "take "
-    "the file (8492 bytes) from Novint's own driver and name it with --falcon-firmware FILE or the "
-    "variable " +
-    kFirmwareVariable + "; Documentation/Devices.md says how";
+    "take the file (8492 bytes) from Novint's own driver and name it, or set the variable " +
+    kFirmwareVariable + " to its path; Documentation/Devices.md says how";
   return Status::FirmwareMissing;
 }
 }

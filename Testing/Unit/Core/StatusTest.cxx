@@ -50,6 +50,15 @@ TEST(Status, SentencesNameTheCure)
   }
 }
 
+TEST(Status, SentencesKnowNoProgram)
+{
+  for (int value = 0; value <= int(Status::RateNotSupported); ++value)
+  {
+    EXPECT_EQ(std::string(sentence(Status(value))).find("--"), std::string::npos)
+      << "an option of a program in: " << sentence(Status(value));
+  }
+}
+
 TEST(Status, SentenceOfAnUnknownValueSaysSo)
 {
   EXPECT_STREQ(sentence(Status(12345)), "unknown status");

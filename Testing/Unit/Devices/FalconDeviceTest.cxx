@@ -84,7 +84,7 @@ TEST(FalconDevice, SaysWhatIsMissing)
     settings.firmwareFile = "/no/such/file";
     FalconBench bench(settings);
     EXPECT_EQ(bench.device->open(), Status::FirmwareMissing);
-    for (const char* part : { "/no/such/file", "No such file", "licence", "--falcon-firmware" })
+    for (const char* part : { "/no/such/file", "No such file", "licence", "POINTHAPTICS_FALCON_FIRMWARE" })
     {
       EXPECT_NE(bench.device->message().find(part), std::string::npos) << bench.device->message();
     }
