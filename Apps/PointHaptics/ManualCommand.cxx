@@ -4,6 +4,7 @@
 
 #include "OptionParsing.h"
 
+#include "HapticBindings.h"
 #include "vtkInteractorStyleHaptic.h"
 
 #include <CLI/CLI.hpp>
@@ -140,9 +141,9 @@ complete -o filenames -F _pointhaptics pointhaptics
 
 std::string cheatSheet()
 {
-  return "# Keys and mouse of `pointhaptics view`\n\nThis is what the help in the window (key H) shows. Made "
-         "by "
-         "`pointhaptics manual keys`.\n\n```\n" +
+  return "# Keys and mouse of `pointhaptics view`\n\nThis is what the help in the window (key " +
+    HapticBindings().firstLabel(HapticAction::Help) +
+    ") shows. Made by `pointhaptics manual keys`.\n\n```\n" +
     std::string(vtkInteractorStyleHaptic::GetHelpText()) + "\n```\n";
 }
 

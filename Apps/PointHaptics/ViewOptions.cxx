@@ -1,5 +1,6 @@
 #include "ViewOptions.h"
 
+#include "KeyedHelp.h"
 #include "Messages.h"
 #include "OptionParsing.h"
 #include "ViewSettings.h"
@@ -196,10 +197,11 @@ std::string checkCamera(const std::vector<double>& numbers)
 void addWindowOptions(CLI::App& command, ViewOptions& options)
 {
   const char* const group = "Window";
-  const auto keepBindings = [&options](const std::vector<std::string>& bindings)
+  const auto keepBindings = [&options, &command](const std::vector<std::string>& bindings)
   {
     std::for_each(bindings.begin(), bindings.end(), checkBinding);
     options.bindings = bindings;
+    describeKeyedOptions(command, bindings); // for a --help beside it
   };
   command
     .add_option_function<std::vector<std::string>>("--bind", keepBindings,
@@ -211,23 +213,10 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
   addNumbers(command, "--camera", options.camera, { 9 }, checkCamera, "X,Y,Z,FX,FY,FZ,UX,UY,UZ",
     "Where the person looks from, at, and what is up; metres of the workspace; default: from in front")
     ->group(group);
-  command
-    .add_flag("--push-pointer", options.pushPointer,
-      "The touch pushes the mouse pointer while the hand follows it; key G")
-    ->group(group);
-  command
-    .add_flag("--axes", options.axes,
-      "A box about the cloud with its bounds in metres of the file, and where its axes point; key A")
-    ->group(group);
-  command
-    .add_flag("--figure", options.figure,
-      "Nothing but the cloud in one colour on white, the workspace, proxy and normal; key O")
-    ->group(group);
-  command
-    .add_flag("--ambient", options.ambient,
-      "Ambient light from the normals of the surface that is felt: shows the shape of a cloud without "
-      "colours; key L")
-    ->group(group);
+  command.add_flag("--push-pointer", options.pushPointer)->group(group);
+  command.add_flag("--axes", options.axes)->group(group);
+  command.add_flag("--figure", options.figure)->group(group);
+  command.add_flag("--ambient", options.ambient)->group(group);
   std::vector<std::string> shapes = { "auto", "none" };
   for (int shape = 0; shape < kNumberOfShapes; ++shape)
   {
@@ -274,8 +263,7 @@ void ViewOptions::addTo(CLI::App& command)
       "Point clouds: PLY, PCD, LAS, VTP, OBJ or columns of text; one that cannot be read is skipped "
       "where there are others, but with --together")
     ->required();
-  command.add_flag(
-    "--together", this->together, "All files as one cloud; default: one at a time, keys N and B");
+  command.add_flag("--together", this->together);
   command.add_flag("--watch", this->watch, "Read a file again when it changes");
   command.add_option("--screenshot", this->screenshot, "Write this PNG instead of opening a window");
   command
@@ -304,22 +292,14 @@ void ViewOptions::addTo(CLI::App& command)
   command
     .add_option("--config", this->config, "Defaults for these options, a JSON object; the command line wins")
     ->type_name("FILE.json");
-  command
-    .add_option("--write-config", this->writeConfig,
-      "Write the options in force as a file for --config, and end; key W writes those of the window")
-    ->type_name("OUT.json");
+  command.add_option("--write-config", this->writeConfig)->type_name("OUT.json");
   command.add_flag("--recent", this->recent, "Begin with the settings the last window ended with");
   command.add_option("--force-chart", this->forceChart, "Write force and proxy radius over time as a PNG")
     ->type_name("OUT.png");
   command.add_option("--trace", this->trace, "Write one row per tick, as feel does")->type_name("OUT.csv");
   addWord(command, "--up", this->up, { "auto", "x", "y", "z" },
     "Axis of the cloud that points up; default: a guess");
-  command
-    .add_option("--color-by", this->colorBy,
-      "Array to colour by: rgb, height, density, proxyradius, residual (the distance of each voxel mean from "
-      "the surface that is felt) or one of the file, with :x, :0 or :magnitude for a component of a vector; "
-      "key M; default: rgb, or height")
-    ->type_name("ARRAY[:COMPONENT]");
+  command.add_option("--color-by", this->colorBy)->type_name("ARRAY[:COMPONENT]");
   addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS",
     "Diameter of a point; default: as the kernel bandwidth says, so that surfaces close");
   command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");
@@ -327,6 +307,7 @@ void ViewOptions::addTo(CLI::App& command)
   addTouchOptions(command, *this);
   this->bandwidth.addTo(command);
   this->lattice.addTo(command);
+  describeKeyedOptions(command, {});
   command.get_option("--dims")->description(
     "Voxels on each axis of the lattice, everywhere; default 300, up to 1200 where these leave little of a "
     "cloud, and near the hand, where that tells more, voxels about as fine as the points");

@@ -275,6 +275,12 @@ std::string HapticBindings::get(HapticAction action) const
   return text;
 }
 
+std::string HapticBindings::firstLabel(HapticAction action) const
+{
+  const std::string gestures = this->get(action);
+  return gestures.empty() ? gestures : label(*this, gestures.substr(0, gestures.find(' ')));
+}
+
 HapticAction HapticBindings::find(const std::string& gesture) const
 {
   const auto exact = [this](const std::string& wanted)

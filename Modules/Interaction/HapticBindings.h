@@ -94,6 +94,9 @@ public:
   bool set(HapticAction action, const std::string& gestures);
   /// The gestures of @p action, separated by spaces, in the order they were given.
   std::string get(HapticAction action) const;
+  /// The first gesture of @p action as it stands on the keyboard: "A", "Page Up", "Shift+left drag". Empty
+  /// where it has none.
+  std::string firstLabel(HapticAction action) const;
 
   /// What @p gesture does, or None. Keys that have no action of their own do what they do without modifiers
   /// and in lower case; but a letter with Ctrl+ or Alt+ is another command in most programs, and does only

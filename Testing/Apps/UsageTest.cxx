@@ -38,6 +38,40 @@ TEST_F(Usage, HelpAndVersionWorkEverywhere)
   }
 }
 
+TEST_F(Usage, HelpNamesTheKeysThatAreBound)
+{
+  // Lines are broken where they may be.
+  const auto help = [this](Words options)
+  {
+    options.insert(options.begin(), "view");
+    options.emplace_back("--help");
+    std::string text = this->succeed(options);
+    std::string words;
+    for (const char letter : text)
+    {
+      const bool isBlank = letter == ' ' || letter == '\n';
+      words += isBlank ? (words.empty() || words.back() == ' ' ? "" : " ") : std::string(1, letter);
+    }
+    return words;
+  };
+  const auto says = [](const std::string& text, const std::string& part)
+  { return text.find(part) != std::string::npos; };
+  const std::string usual = help({});
+  for (const char* part :
+    { "where its axes point; key A ", "proxy and normal; key O ", "one at a time; keys N and B ",
+      "and end; key W writes those of the window ", "default: rgb, or height; key M " })
+  {
+    EXPECT_TRUE(says(usual, part)) << part << "\n" << usual;
+  }
+  const std::string bound = help({ "--bind", "axes=F5,next-file=F7,write-settings=Ctrl+s,figure=,colors=a" });
+  for (const char* part :
+    { "where its axes point; key F5 ", "proxy and normal --", "one at a time; keys F7 and B ",
+      "and end; key Ctrl+s writes those of the window ", "default: rgb, or height; key A " })
+  {
+    EXPECT_TRUE(says(bound, part)) << part << "\n" << bound;
+  }
+}
+
 TEST_F(Usage, NothingOrNoCommandIsAUsageError)
 {
   this->refuse(2, {}, { "--help" });

@@ -71,6 +71,20 @@ TEST(HapticBindings, TakesAGestureFromTheActionThatHadIt)
   EXPECT_EQ(bindings.find("h"), HapticAction::Help);
 }
 
+TEST(HapticBindings, LabelsTheFirstGestureAsOnTheKeyboard)
+{
+  HapticBindings bindings;
+  EXPECT_EQ(bindings.firstLabel(HapticAction::Axes), "A");
+  EXPECT_EQ(bindings.firstLabel(HapticAction::TurnX), "x") << "X turns back";
+  EXPECT_EQ(bindings.firstLabel(HapticAction::HandAway), "Page Up");
+  EXPECT_EQ(bindings.firstLabel(HapticAction::TurnModelDrag), "Shift+left drag");
+  bindings.set(HapticAction::Axes, "F5 a");
+  EXPECT_EQ(bindings.firstLabel(HapticAction::Axes), "F5");
+  bindings.set(HapticAction::Axes, "");
+  EXPECT_EQ(bindings.firstLabel(HapticAction::Axes), "");
+  EXPECT_EQ(bindings.firstLabel(HapticAction::None), "");
+}
+
 TEST(HapticBindings, FindsTheButtonsOfTheDeviceWithWhateverModifiersAreHeld)
 {
   const HapticBindings bindings;
