@@ -1,7 +1,7 @@
 /// The program pointhaptics: one subcommand per task, `view` where none is named.
-#include "Commands.h"
-#include "Messages.h"
-#include "StopSignals.h"
+#include "Commands/Commands.h"
+#include "Terminal/Messages.h"
+#include "Terminal/StopSignals.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,9 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -65,45 +63,6 @@ bool insertDefaultCommand(const CLI::App& program, std::vector<std::string>& arg
   return true;
 }
 
-/// CLI11's wording for the user, in one line.
-std::string usageMessage(const CLI::ParseError& error)
-{
-  std::string message = error.what();
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  if (const std::string extras = "arguments were not expected: "; message.find(extras) != std::string::npos)
-  {
-    return "unexpected arguments " + message.substr(message.find(extras) + extras.size());
-  }
-  if (const std::string extra = "argument was not expected: "; message.find(extra) != std::string::npos)
-  {
-    return "unexpected argument " + message.substr(message.find(extra) + extra.size());
-  }
-  return message;
-}
-
-int reportUsage(const CLI::App& program, const CLI::ParseError& error)
-{
-  std::string command;
-  for (const CLI::App* app = &program; !app->get_subcommands().empty();)
-  {
-    app = app->get_subcommands().front();
-    command += " " + app->get_name();
-  }
-  fmt::print(
-    stderr, "pointhaptics{}: {}; see pointhaptics{} --help\n", command, usageMessage(error), command);
-  return kUsage;
-}
-
-/// To @p command and all below it.
-void addVersionFlags(CLI::App& command)
-{
-  command.set_version_flag("--version", "pointhaptics " POINTHAPTICS_VERSION, "Print the version and exit");
-  for (CLI::App* below : command.get_subcommands([](CLI::App*) { return true; }))
-  {
-    addVersionFlags(*below);
-  }
-}
-
 int run(std::vector<std::string> arguments)
 {
   CLI::App program("See and feel raw point clouds.\nWithout a command: view.", "pointhaptics");
@@ -115,57 +74,19 @@ int run(std::vector<std::string> arguments)
   addInfoCommand(program, exitCode);
   addGenerateCommand(program, exitCode);
   addDevicesCommand(program, exitCode);
-#ifdef POINTHAPTICS_HAVE_BENCHMARKS
   addBenchCommand(program, exitCode);
-#endif
   addManualCommand(program);
-  program.require_subcommand(1);
-  addVersionFlags(program);
   if (!insertDefaultCommand(program, arguments))
   {
     return kUsage;
   }
-  std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
-  try
-  {
-    program.parse(std::move(arguments));
-  }
-  catch (const CLI::CallForHelp& help)
-  {
-    return program.exit(help);
-  }
-  catch (const CLI::CallForVersion& asked)
-  {
-    return program.exit(asked);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return reportUsage(program, error);
-  }
-  return exitCode == kFailed && stopIsRequested() ? stopExitCode() : exitCode;
+  return runCommands(program, std::move(arguments), exitCode);
 }
 
 } // namespace
 
 int main(int argc, char* argv[])
 {
-  collectVtkMessages();
-  const std::string command = argc > 1 ? argv[1] : "";
-  try
-  {
-    const int exitCode = run(std::vector<std::string>(argv + 1, argv + argc));
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) // all of it, from the first line on
-    {
-      return fail(command, "the standard output cannot be written; check the space left, and who reads it");
-    }
-    return exitCode;
-  }
-  catch (const std::bad_alloc&)
-  {
-    return fail(command, "not enough memory; give fewer points or larger voxels");
-  }
-  catch (const std::exception& error)
-  {
-    return fail(command, error.what());
-  }
+  return runProgram(
+    argc > 1 ? argv[1] : "", [&] { return run(std::vector<std::string>(argv + 1, argv + argc)); });
 }

@@ -4,7 +4,7 @@
 
 #include "Haptics/HandPort.h"
 
-#include "Core/PointView.h"
+#include "Core/Base/PointView.h"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "Devices/HipPath.h"
 
-#include "Core/OutputFile.h"
+#include "Core/Base/OutputFile.h"
 
 #include <algorithm>
 #include <cerrno>

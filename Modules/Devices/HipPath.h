@@ -3,8 +3,8 @@
 /// table of felt forces, too.
 #pragma once
 
-#include "Core/Status.h"
-#include "Core/Vector3.h"
+#include "Core/Base/Status.h"
+#include "Core/Base/Vector3.h"
 
 #include <string>
 #include <vector>

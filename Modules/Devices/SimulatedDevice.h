@@ -5,7 +5,7 @@
 #include "Devices/HapticDevice.h"
 #include "Devices/HipPath.h"
 
-#include "Haptics/LatestValue.h"
+#include "Haptics/Servo/LatestValue.h"
 
 #include <atomic>
 

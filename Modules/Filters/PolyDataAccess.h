@@ -2,8 +2,8 @@
 /// Between VTK's data objects and Core's views.
 #pragma once
 
-#include "Core/AffineTransform.h"
-#include "Core/PointView.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/PointView.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

@@ -2,7 +2,7 @@
 /// Core's loops on VTK's threads.
 #pragma once
 
-#include "Core/Executor.h"
+#include "Core/Base/Executor.h"
 
 #include "vtkSMPTools.h"
 

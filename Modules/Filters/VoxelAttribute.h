@@ -4,13 +4,13 @@
 
 #include "ArrayPool.h"
 
-#include "Core/AffineTransform.h"
-#include "Core/AttributeMean.h"
-#include "Core/AttributeMode.h"
-#include "Core/Buffer.h"
-#include "Core/Executor.h"
-#include "Core/PointRows.h"
-#include "Core/Watcher.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/Buffer.h"
+#include "Core/Base/Executor.h"
+#include "Core/Base/Watcher.h"
+#include "Core/Resample/AttributeMean.h"
+#include "Core/Resample/AttributeMode.h"
+#include "Core/Resample/PointRows.h"
 
 #include "vtkSmartPointer.h"
 

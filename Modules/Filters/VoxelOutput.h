@@ -4,10 +4,10 @@
 
 #include "ArrayPool.h"
 
-#include "Core/AffineTransform.h"
-#include "Core/Executor.h"
-#include "Core/Lattice.h"
-#include "Core/VoxelResampler.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/Executor.h"
+#include "Core/Base/Lattice.h"
+#include "Core/Resample/VoxelResampler.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

@@ -3,8 +3,8 @@
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 
-#include "Core/Density.h"
-#include "Core/LocalBandwidth.h"
+#include "Core/Bandwidth/Density.h"
+#include "Core/Bandwidth/LocalBandwidth.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"

@@ -1,6 +1,6 @@
 #include "vtkVoxelMeanResamplerInternals.h"
 
-#include "Core/VoxelMean.h"
+#include "Core/Resample/VoxelMean.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkAbstractTransform.h"

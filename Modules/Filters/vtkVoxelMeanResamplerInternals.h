@@ -8,8 +8,8 @@
 #include "VoxelOutput.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Core/PointIndex.h"
-#include "Core/VoxelResampler.h"
+#include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/VoxelResampler.h"
 
 #include "vtkDataArray.h" // For Seen
 #include "vtkSmartPointer.h"

@@ -2,9 +2,9 @@
 /// What the servo loop needs of a device: a hand position in, a force out.
 #pragma once
 
-#include "Core/Status.h"
-#include "Core/Vector3.h"
-#include "Haptics/PassivityLimit.h"
+#include "Core/Base/Status.h"
+#include "Core/Base/Vector3.h"
+#include "Haptics/Servo/PassivityLimit.h"
 
 #include <cstdint>
 

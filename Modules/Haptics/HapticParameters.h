@@ -2,7 +2,7 @@
 /// Every constant of the haptic rendering that a user may set, with its unit, default and range.
 #pragma once
 
-#include "Core/Status.h"
+#include "Core/Base/Status.h"
 
 namespace pointhaptics
 {

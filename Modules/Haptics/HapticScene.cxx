@@ -2,7 +2,7 @@
 
 #include "Haptics/NodeRadii.h"
 
-#include "Core/FitRadius.h"
+#include "Core/Surface/FitRadius.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,13 +2,13 @@
 /// The immutable snapshot of a cloud that the servo thread feels.
 #pragma once
 
-#include "Core/AffineTransform.h"
-#include "Core/CellPyramid.h"
-#include "Core/Executor.h"
-#include "Core/FitCells.h"
-#include "Core/LocalBandwidth.h"
-#include "Core/RadiusField.h"
-#include "Core/Status.h"
+#include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/Executor.h"
+#include "Core/Base/Status.h"
+#include "Core/Surface/CellPyramid.h"
+#include "Core/Surface/FitCells.h"
+#include "Core/Surface/RadiusField.h"
 #include "Haptics/ScenePart.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "Haptics/LocalScene.h"
 
-#include "Core/SurfaceFit.h"
+#include "Core/Surface/SurfaceFit.h"
 
 #include <algorithm>
 #include <cmath>

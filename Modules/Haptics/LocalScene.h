@@ -2,8 +2,8 @@
 /// Scenes of what is near the hand, as fine as the points are.
 #pragma once
 
-#include "Core/PointIndex.h"
-#include "Core/VoxelResampler.h"
+#include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/VoxelResampler.h"
 #include "Haptics/HapticScene.h"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #include "Haptics/NodeRadii.h"
 
-#include "Core/NeighborQuery.h"
+#include "Core/Neighbors/NeighborQuery.h"
 
 namespace pointhaptics
 {

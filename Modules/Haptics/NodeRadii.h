@@ -2,7 +2,7 @@
 /// Proxy radii at the nodes of a scene's fields.
 #pragma once
 
-#include "Core/FitRadius.h"
+#include "Core/Surface/FitRadius.h"
 #include "Haptics/HapticScene.h"
 
 #include <vector>

@@ -1,9 +1,9 @@
 #include "Haptics/Proxy.h"
 
-#include "Haptics/GradientSteps.h"
-#include "Haptics/OffsetSettler.h"
-#include "Haptics/PassivityLimit.h"
-#include "Haptics/SurfaceFitProxy.h"
+#include "Haptics/Contact/GradientSteps.h"
+#include "Haptics/Contact/OffsetSettler.h"
+#include "Haptics/Contact/SurfaceFitProxy.h"
+#include "Haptics/Servo/PassivityLimit.h"
 
 #include <algorithm>
 #include <cmath>

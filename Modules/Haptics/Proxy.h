@@ -2,7 +2,7 @@
 /// The proxy: stays on the surface while the HIP goes inside; the spring between them is the force.
 #pragma once
 
-#include "Core/InstructionSet.h"
+#include "Core/Simd/InstructionSet.h"
 #include "Haptics/HapticParameters.h"
 #include "Haptics/HapticScene.h"
 

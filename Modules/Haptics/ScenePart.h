@@ -2,11 +2,11 @@
 /// Which part of a cloud a hand can feel before the next scene comes.
 #pragma once
 
-#include "Core/AffineTransform.h"
-#include "Core/CellPyramid.h"
-#include "Core/FitRadius.h"
-#include "Core/Lattice.h"
-#include "Core/RadiusField.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/Lattice.h"
+#include "Core/Surface/CellPyramid.h"
+#include "Core/Surface/FitRadius.h"
+#include "Core/Surface/RadiusField.h"
 
 #include <array>
 #include <cstdint>

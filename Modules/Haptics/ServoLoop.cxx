@@ -1,11 +1,11 @@
 #include "Haptics/ServoLoop.h"
 
-#include "Haptics/ForceGate.h"
-#include "Haptics/LatestValue.h"
-#include "Haptics/SceneExchange.h"
-#include "Haptics/ServoMessages.h"
-#include "Haptics/ServoThread.h"
-#include "Haptics/TraceRing.h"
+#include "Haptics/Servo/ForceGate.h"
+#include "Haptics/Servo/LatestValue.h"
+#include "Haptics/Servo/SceneExchange.h"
+#include "Haptics/Servo/ServoMessages.h"
+#include "Haptics/Servo/ServoThread.h"
+#include "Haptics/Servo/TraceRing.h"
 
 #include <algorithm>
 #include <atomic>

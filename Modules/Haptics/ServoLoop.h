@@ -3,10 +3,10 @@
 /// program.
 #pragma once
 
-#include "Haptics/ForceGuard.h"
 #include "Haptics/HandPort.h"
-#include "Haptics/LatencyHistogram.h"
 #include "Haptics/Proxy.h"
+#include "Haptics/Servo/ForceGuard.h"
+#include "Haptics/Servo/LatencyHistogram.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,8 +1,8 @@
 #include "CloudColumns.h"
 
 #include "FileProblem.h"
+#include "IO/Text/TextScan.h"
 #include "NumericType.h"
-#include "TextScan.h"
 
 #include "vtkCellArray.h"
 #include "vtkNew.h"

@@ -1,7 +1,7 @@
 #include "CloudFormat.h"
 
 #include "FileProblem.h"
-#include "TextScan.h"
+#include "IO/Text/TextScan.h"
 
 #include <algorithm>
 

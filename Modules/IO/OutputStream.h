@@ -4,7 +4,7 @@
 
 #include "FileProblem.h"
 
-#include "Core/OutputFile.h"
+#include "Core/Base/OutputFile.h"
 
 #include <string>
 #include <string_view>

@@ -1,10 +1,10 @@
 #include "vtkPointCloudWriter.h"
 
 #include "CloudColumns.h"
-#include "ErrorCollector.h"
 #include "FileBytes.h"
 #include "FileProblem.h"
 #include "FormatWriters.h"
+#include "IO/Vtk/ErrorCollector.h"
 #include "WriteTask.h"
 
 #include "vtkExecutive.h"

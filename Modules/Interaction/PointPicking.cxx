@@ -4,8 +4,8 @@
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 
-#include "Core/AffineTransform.h"
-#include "Core/NeighborQuery.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Neighbors/NeighborQuery.h"
 
 #include "vtkCamera.h"
 #include "vtkDataArray.h"

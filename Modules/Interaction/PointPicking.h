@@ -2,9 +2,9 @@
 /// The point under the mouse, and what is known of it.
 #pragma once
 
-#include "Core/LocalBandwidth.h"
-#include "Core/PointView.h"
-#include "Core/Vector3.h"
+#include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Base/PointView.h"
+#include "Core/Base/Vector3.h"
 
 #include "PointHapticsInteractionModule.h" // For export macro
 

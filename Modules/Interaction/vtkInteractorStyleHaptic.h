@@ -62,8 +62,8 @@
 #ifndef vtkInteractorStyleHaptic_h
 #define vtkInteractorStyleHaptic_h
 
-#include "Core/Vector3.h"   // For Vec3
-#include "HapticBindings.h" // For HapticAction
+#include "Core/Base/Vector3.h" // For Vec3
+#include "HapticBindings.h"    // For HapticAction
 
 #include "PointHapticsInteractionModule.h" // For export macro
 #include "vtkCommand.h"                    // For UserEvent

@@ -160,7 +160,7 @@ TEST_F(Bench, TheReportIsAPageThatKeepsItsOtherSections)
   const std::string page = this->read("doc/Performance.md");
   EXPECT_NE(page.find("Kept."), std::string::npos);
   EXPECT_NE(
-    page.find("pointhaptics bench resample --repetitions 1 --studies zoom --quick --output Documentation"),
+    page.find("pointhaptics-bench resample --repetitions 1 --studies zoom --quick --output Documentation"),
     std::string::npos)
     << page;
   EXPECT_NE(page.find("| 0.100 |"), std::string::npos);
@@ -359,8 +359,8 @@ TEST_F(Bench, HelpAndVersionWorkOnBothLevels)
   EXPECT_NE(this->succeed({ "--help" }).find("bench"), std::string::npos);
   EXPECT_NE(this->succeed({ "bench", "--help" }).find("resample"), std::string::npos);
   EXPECT_NE(this->succeed({ "bench", "resample", "--help" }).find("--rivals"), std::string::npos);
-  EXPECT_EQ(this->succeed({ "bench", "--version" }).rfind("pointhaptics ", 0), 0u);
-  EXPECT_EQ(this->succeed({ "bench", "resample", "--version" }).rfind("pointhaptics ", 0), 0u);
+  EXPECT_EQ(this->succeed({ "bench", "--version" }).rfind("pointhaptics-bench ", 0), 0u);
+  EXPECT_EQ(this->succeed({ "bench", "resample", "--version" }).rfind("pointhaptics-bench ", 0), 0u);
 }
 
 TEST_F(Bench, BadOptionsAreUsageErrors)
@@ -380,7 +380,7 @@ TEST_F(Bench, BadOptionsAreUsageErrors)
   refuseOption("--studies", "speed", "accumulators");
   this->refuse(2, { "bench", "proxy", "--shapes", "idol" }, { "bench proxy", "idol", "torus" });
   this->refuse(2, { "bench", "proxy", "--strokes", "0" }, { "bench proxy", "--strokes" });
-  this->refuse(2, { "bench" }, { "pointhaptics bench: ", "resample", "proxy", "--help" });
+  this->refuse(2, { "bench" }, { "pointhaptics-bench: ", "resample", "proxy", "--help" });
   this->refuse(2, { "bench", "sorting" }, { "bench", "sorting" });
 }
 

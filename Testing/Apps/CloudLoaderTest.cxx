@@ -1,4 +1,4 @@
-#include "CloudLoader.h"
+#include "Clouds/CloudLoader.h"
 
 #include <gtest/gtest.h>
 #include <vtkPolyData.h>

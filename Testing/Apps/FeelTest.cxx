@@ -1,6 +1,6 @@
 #include "RunProgram.h"
 
-#include "Core/Shapes.h"
+#include "Shapes/Shapes.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
-#include "ScaleNote.h"
+#include "Terminal/ScaleNote.h"
 
-#include "LatticeOptions.h"
+#include "Options/LatticeOptions.h"
 
 #include <gtest/gtest.h>
 #include <vtkMatrix4x4.h>

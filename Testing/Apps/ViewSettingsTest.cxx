@@ -1,6 +1,6 @@
-#include "ViewSettings.h"
+#include "Viewer/ViewSettings.h"
 
-#include "LatticeOptions.h"
+#include "Options/LatticeOptions.h"
 
 #include <gtest/gtest.h>
 #include <vtkMatrix4x4.h>

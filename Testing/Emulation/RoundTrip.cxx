@@ -6,7 +6,7 @@
 
 #include "Devices/Falcon/FalconDevice.h"
 #include "Devices/Falcon/FtdiLink.h"
-#include "Haptics/LatencyHistogram.h"
+#include "Haptics/Servo/LatencyHistogram.h"
 
 #include <chrono>
 #include <cstdio>

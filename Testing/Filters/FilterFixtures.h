@@ -2,7 +2,7 @@
 /// Clouds as VTK data, and ears for what filters say, for the pipeline tests.
 #pragma once
 
-#include "Core/Vector3.h"
+#include "Core/Base/Vector3.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"

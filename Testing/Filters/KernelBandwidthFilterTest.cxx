@@ -1,6 +1,6 @@
 #include "FilterFixtures.h"
 
-#include "Core/LocalBandwidth.h"
+#include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Reference/ReferenceBandwidth.h"
 
 #include "vtkCommand.h"

@@ -4,8 +4,8 @@
 
 #include "FilterFixtures.h"
 
-#include "Core/AffineTransform.h"
-#include "Core/Lattice.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/Lattice.h"
 #include "Core/Reference/ReferenceVoxelMean.h"
 
 #include "vtkCommand.h"

@@ -14,9 +14,9 @@
 #include "vtkPickMarker.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Core/Shapes.h"
-#include "Core/Vector3.h"
+#include "Core/Base/Vector3.h"
 #include "Haptics/Proxy.h"
+#include "Shapes/Shapes.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>

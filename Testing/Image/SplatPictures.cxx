@@ -9,8 +9,8 @@
 #include "vtkSplatMapper.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Core/Shapes.h"
-#include "Core/Vector3.h"
+#include "Core/Base/Vector3.h"
+#include "Shapes/Shapes.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>

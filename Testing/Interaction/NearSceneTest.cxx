@@ -4,8 +4,8 @@
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Core/Shapes.h"
 #include "Haptics/Proxy.h"
+#include "Shapes/Shapes.h"
 
 #include <gtest/gtest.h>
 #include <vtkFloatArray.h>
@@ -190,8 +190,7 @@ TEST_F(NearSceneTest, WithinReachItIsFeltAsTheWholeCloud)
     double noise;
     double bound; // part of the strongest force; where index cells differ the ball may lie in another gap
   };
-  for (const Case& one :
-    { Case{ 150000, 0.0, 1e-13 }, Case{ 150000, 4e-5, 1e-13 }, Case{ 25000, 0.0, 0.4 } })
+  for (const Case& one : { Case{ 150000, 0.0, 1e-13 }, Case{ 150000, 4e-5, 1e-13 }, Case{ 25000, 0.0, 0.4 } })
   {
     worker_.setCloud(makeCloud(Shape::Torus, one.points, one.noise));
     for (const AffineTransform& place :

@@ -1,7 +1,7 @@
 #include "CountedCalls.h"
 
-#include "Core/NeighborSweep.h"
-#include "Core/Shapes.h"
+#include "Core/Neighbors/NeighborSweep.h"
+#include "Shapes/Shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 /// for.
 #pragma once
 
-#include "Core/InstructionSet.h"
+#include "Core/Simd/InstructionSet.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 /// benchmarks; not installed.
 #pragma once
 
-#include "Core/Bandwidth.h"
-#include "Core/PointView.h"
+#include "Core/Bandwidth/Bandwidth.h"
+#include "Core/Base/PointView.h"
 #include "Core/Reference/ReferenceNeighbors.h"
 
 #include <algorithm>

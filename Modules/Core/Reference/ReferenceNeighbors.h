@@ -2,8 +2,8 @@
 /// Neighbours by looking at every point. The oracle of tests and benchmarks; not installed.
 #pragma once
 
-#include "Core/NeighborQuery.h"
-#include "Core/PointView.h"
+#include "Core/Base/PointView.h"
+#include "Core/Neighbors/NeighborQuery.h"
 
 #include <algorithm>
 #include <vector>

@@ -3,9 +3,9 @@
 /// installed.
 #pragma once
 
-#include "Core/AffineTransform.h"
-#include "Core/Lattice.h"
-#include "Core/PointView.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/Lattice.h"
+#include "Core/Base/PointView.h"
 
 #include <cmath>
 #include <cstdint>

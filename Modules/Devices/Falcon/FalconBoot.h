@@ -4,7 +4,7 @@
 
 #include "Devices/Falcon/FtdiLink.h"
 
-#include "Core/Status.h"
+#include "Core/Base/Status.h"
 
 #include <atomic>
 #include <cstdint>

@@ -2,7 +2,7 @@
 /// The Falcon's firmware: read from a file that the user names.
 #pragma once
 
-#include "Core/Status.h"
+#include "Core/Base/Status.h"
 
 #include <cstdint>
 #include <string>

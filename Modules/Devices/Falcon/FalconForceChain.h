@@ -5,8 +5,8 @@
 #include "Devices/Falcon/FalconFrame.h"
 #include "Devices/Falcon/FalconKinematics.h"
 
-#include "Core/Status.h"
-#include "Haptics/ForceGuard.h"
+#include "Core/Base/Status.h"
+#include "Haptics/Servo/ForceGuard.h"
 
 #include <cstdint>
 

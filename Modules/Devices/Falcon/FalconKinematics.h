@@ -2,7 +2,7 @@
 /// Geometry of the Falcon's three legs: from joint angles to the grip and back, from forces to torques.
 #pragma once
 
-#include "Core/Vector3.h"
+#include "Core/Base/Vector3.h"
 
 #include <array>
 

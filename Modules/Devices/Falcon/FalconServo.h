@@ -4,7 +4,7 @@
 
 #include "Devices/Falcon/FalconDevice.h"
 
-#include "Haptics/LatestValue.h"
+#include "Haptics/Servo/LatestValue.h"
 
 namespace pointhaptics
 {

@@ -2,7 +2,7 @@
 /// A connection to the Falcon's FTDI serial chip: what the driver asks of USB, so that a test can stand in.
 #pragma once
 
-#include "Core/Status.h"
+#include "Core/Base/Status.h"
 
 #include <cstdint>
 #include <memory>

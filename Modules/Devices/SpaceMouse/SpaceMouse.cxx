@@ -1,6 +1,6 @@
 #include "Devices/SpaceMouse/SpaceMouse.h"
 
-#include "Haptics/LatestValue.h"
+#include "Haptics/Servo/LatestValue.h"
 
 #include <algorithm>
 #include <atomic>

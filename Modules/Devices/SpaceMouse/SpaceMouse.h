@@ -5,7 +5,7 @@
 #include "Devices/SpaceMouse/HidBus.h"
 #include "Devices/SpaceMouse/SpaceMouseReport.h"
 
-#include "Core/Status.h"
+#include "Core/Base/Status.h"
 
 #include <memory>
 #include <string>

@@ -2,7 +2,7 @@
 /// What a 3Dconnexion SpaceMouse says: its reports, and the motion they stand for.
 #pragma once
 
-#include "Core/Vector3.h"
+#include "Core/Base/Vector3.h"
 
 #include <cstdint>
 

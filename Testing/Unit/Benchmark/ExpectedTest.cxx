@@ -1,6 +1,6 @@
 #include "Benchmark/Resample/Expected.h"
 
-#include "Core/PortableRandom.h"
+#include "Core/Base/PortableRandom.h"
 #include "Core/Reference/ReferenceVoxelMean.h"
 
 #include <gtest/gtest.h>

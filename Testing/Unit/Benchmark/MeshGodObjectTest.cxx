@@ -2,7 +2,7 @@
 #include "Benchmark/Touch/MeshGodObject.h"
 #include "Benchmark/Touch/TouchJudge.h"
 #include "Benchmark/Touch/TouchStrokes.h"
-#include "Core/PortableRandom.h"
+#include "Core/Base/PortableRandom.h"
 
 #include <gtest/gtest.h>
 

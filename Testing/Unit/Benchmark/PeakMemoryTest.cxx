@@ -1,4 +1,4 @@
-#include "Benchmark/PeakMemory.h"
+#include "Benchmark/Harness/PeakMemory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Benchmark/Race.h"
+#include "Benchmark/Harness/Race.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Benchmark/Report.h"
+#include "Benchmark/Report/Report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Benchmark/Statistics.h"
+#include "Benchmark/Harness/Statistics.h"
 
 #include <gtest/gtest.h>
 

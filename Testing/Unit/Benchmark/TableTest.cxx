@@ -1,4 +1,4 @@
-#include "Benchmark/Table.h"
+#include "Benchmark/Report/Table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Core/AffineTransform.h"
+#include "Core/Base/AffineTransform.h"
 
 #include "RandomClouds.h"
 

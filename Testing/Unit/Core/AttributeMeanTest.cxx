@@ -1,4 +1,4 @@
-#include "Core/AttributeMean.h"
+#include "Core/Resample/AttributeMean.h"
 
 #include "AttributePlans.h"
 #include "ExactSum.h"

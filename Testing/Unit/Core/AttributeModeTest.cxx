@@ -1,4 +1,4 @@
-#include "Core/AttributeMode.h"
+#include "Core/Resample/AttributeMode.h"
 
 #include "AttributePlans.h"
 #include "CountingWatcher.h"

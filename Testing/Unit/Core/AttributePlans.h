@@ -2,7 +2,7 @@
 /// What tests of attributes share: which tuples are in which voxels.
 #pragma once
 
-#include "Core/ScalarType.h"
+#include "Core/Base/ScalarType.h"
 
 #include "RandomClouds.h"
 

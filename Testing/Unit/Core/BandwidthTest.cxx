@@ -1,4 +1,4 @@
-#include "Core/Bandwidth.h"
+#include "Core/Bandwidth/Bandwidth.h"
 #include "Core/Reference/ReferenceBandwidth.h"
 #include "Core/Reference/ReferenceKernelSum.h"
 

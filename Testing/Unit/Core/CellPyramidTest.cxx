@@ -1,4 +1,4 @@
-#include "Core/CellPyramid.h"
+#include "Core/Surface/CellPyramid.h"
 #include "Core/Reference/ReferenceVoxelMean.h"
 
 #include "RandomClouds.h"

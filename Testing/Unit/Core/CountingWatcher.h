@@ -2,7 +2,7 @@
 /// A watcher that remembers what it was told, and what all watchers must be told.
 #pragma once
 
-#include "Core/Watcher.h"
+#include "Core/Base/Watcher.h"
 
 #include <gtest/gtest.h>
 

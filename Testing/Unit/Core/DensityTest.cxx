@@ -1,5 +1,5 @@
-#include "Core/Density.h"
-#include "Core/Bandwidth.h"
+#include "Core/Bandwidth/Density.h"
+#include "Core/Bandwidth/Bandwidth.h"
 #include "Core/Reference/ReferenceBandwidth.h"
 #include "Core/Reference/ReferenceKernelSum.h"
 

@@ -1,4 +1,4 @@
-#include "Core/EpanechnikovSum.h"
+#include "Core/Bandwidth/EpanechnikovSum.h"
 #include "Core/Reference/ReferenceKernelSum.h"
 
 #include "RandomSamples.h"

@@ -1,6 +1,6 @@
-#include "Core/FitCells.h"
-#include "Core/RadiusField.h"
-#include "Core/SurfaceFit.h"
+#include "Core/Surface/FitCells.h"
+#include "Core/Surface/RadiusField.h"
+#include "Core/Surface/SurfaceFit.h"
 
 #include "RandomClouds.h"
 

@@ -2,8 +2,8 @@
 /// Clouds, cells and frames for the tests of the surface fit.
 #pragma once
 
-#include "Core/SurfaceFit.h"
-#include "Core/VoxelMean.h"
+#include "Core/Resample/VoxelMean.h"
+#include "Core/Surface/SurfaceFit.h"
 
 #include "RandomClouds.h"
 

@@ -1,5 +1,5 @@
 // The loops of the fit against plain ones that add in the order that is promised, and against each other.
-#include "Core/Kernel/FitKernel.h"
+#include "Core/Surface/FitKernel.h"
 
 #include "RandomClouds.h"
 

@@ -1,5 +1,5 @@
-#include "Core/FitRadius.h"
-#include "Core/Shapes.h"
+#include "Core/Surface/FitRadius.h"
+#include "Shapes/Shapes.h"
 
 #include "FitFixtures.h"
 

@@ -1,4 +1,4 @@
-#include "Core/GaussianPairSum.h"
+#include "Core/Bandwidth/GaussianPairSum.h"
 #include "Core/Reference/ReferenceKernelSum.h"
 
 #include "RandomSamples.h"

@@ -1,4 +1,4 @@
-#include "Core/GaussianSum.h"
+#include "Core/Bandwidth/GaussianSum.h"
 #include "Core/Reference/ReferenceKernelSum.h"
 
 #include "RandomSamples.h"

@@ -1,6 +1,6 @@
-#include "Core/InstructionSet.h"
+#include "Core/Simd/InstructionSet.h"
 
-#include "Core/Kernel/VoxelKernel.h"
+#include "Core/Resample/Kernel/VoxelKernel.h"
 
 #include "../HeldInstructionSets.h"
 

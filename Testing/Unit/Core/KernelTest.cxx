@@ -1,9 +1,9 @@
 // The resampler's kernels where its results alone would not show what is wrong: plans, positions, levels.
-#include "Core/Kernel/CoarseVoxels.h"
-#include "Core/Kernel/PartitionSums.h"
-#include "Core/Kernel/PointPlacement.h"
-#include "Core/Kernel/VoxelKernel.h"
-#include "Core/Kernel/VoxelLevel.h"
+#include "Core/Resample/Kernel/VoxelKernel.h"
+#include "Core/Resample/Stages/CoarseVoxels.h"
+#include "Core/Resample/Stages/PartitionSums.h"
+#include "Core/Resample/Stages/PointPlacement.h"
+#include "Core/Resample/Stages/VoxelLevel.h"
 
 #include "RandomClouds.h"
 

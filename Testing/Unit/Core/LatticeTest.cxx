@@ -1,4 +1,4 @@
-#include "Core/Lattice.h"
+#include "Core/Base/Lattice.h"
 
 #include "RandomClouds.h"
 

@@ -1,6 +1,6 @@
-#include "Core/LocalBandwidth.h"
-#include "Core/Shapes.h"
-#include "Core/VoxelMean.h"
+#include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Resample/VoxelMean.h"
+#include "Shapes/Shapes.h"
 
 #include "LocalBandwidthFixtures.h"
 #include "RandomClouds.h"

@@ -2,7 +2,7 @@
 /// What the tests of local bandwidths have in common: the rules, clouds, and what every result holds.
 #pragma once
 
-#include "Core/LocalBandwidth.h"
+#include "Core/Bandwidth/LocalBandwidth.h"
 
 #include "RandomClouds.h"
 

@@ -1,6 +1,6 @@
-#include "Core/Density.h"
-#include "Core/LocalBandwidth.h"
-#include "Core/Shapes.h"
+#include "Core/Bandwidth/Density.h"
+#include "Core/Bandwidth/LocalBandwidth.h"
+#include "Shapes/Shapes.h"
 
 #include "LocalBandwidthFixtures.h"
 #include "RandomClouds.h"

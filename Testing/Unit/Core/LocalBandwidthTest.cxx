@@ -1,7 +1,7 @@
-#include "Core/LocalBandwidth.h"
+#include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Reference/ReferenceBandwidth.h"
 #include "Core/Reference/ReferenceKernelSum.h"
-#include "Core/Shapes.h"
+#include "Shapes/Shapes.h"
 
 #include "LocalBandwidthFixtures.h"
 #include "RandomClouds.h"

@@ -1,5 +1,5 @@
-#include "Core/LocalBandwidth.h"
-#include "Core/Shapes.h"
+#include "Core/Bandwidth/LocalBandwidth.h"
+#include "Shapes/Shapes.h"
 
 #include "LocalBandwidthFixtures.h"
 #include "RandomClouds.h"

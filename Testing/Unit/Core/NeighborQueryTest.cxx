@@ -1,5 +1,5 @@
-#include "Core/NeighborQuery.h"
-#include "Core/Kernel/NeighborKernel.h"
+#include "Core/Neighbors/NeighborQuery.h"
+#include "Core/Neighbors/NeighborKernel.h"
 #include "Core/Reference/ReferenceNeighbors.h"
 
 #include "RandomClouds.h"

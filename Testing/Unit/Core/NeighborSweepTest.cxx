@@ -1,4 +1,4 @@
-#include "Core/NeighborSweep.h"
+#include "Core/Neighbors/NeighborSweep.h"
 #include "Core/Reference/ReferenceNeighbors.h"
 
 #include "RandomClouds.h"

@@ -1,4 +1,4 @@
-#include "Core/OutputFile.h"
+#include "Core/Base/OutputFile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Core/PointIndex.h"
+#include "Core/Neighbors/PointIndex.h"
 
 #include "CountingWatcher.h"
 #include "RandomClouds.h"

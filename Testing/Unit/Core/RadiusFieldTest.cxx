@@ -1,4 +1,4 @@
-#include "Core/RadiusField.h"
+#include "Core/Surface/RadiusField.h"
 
 #include "RandomClouds.h"
 

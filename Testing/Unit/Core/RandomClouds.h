@@ -2,8 +2,8 @@
 /// Clouds with fixed seeds and executors that cut ranges in awkward ways, for the tests.
 #pragma once
 
-#include "Core/Executor.h"
-#include "Core/Vector3.h"
+#include "Core/Base/Executor.h"
+#include "Core/Base/Vector3.h"
 
 #include <cmath>
 #include <cstdint>

@@ -2,7 +2,7 @@
 /// What a VoxelResampler made, gathered for comparisons, and the exact answer for points on a grid of quanta.
 #pragma once
 
-#include "Core/VoxelResampler.h"
+#include "Core/Resample/VoxelResampler.h"
 
 #include "RandomClouds.h"
 

@@ -1,4 +1,4 @@
-#include "Core/Shapes.h"
+#include "Shapes/Shapes.h"
 
 #include <gtest/gtest.h>
 

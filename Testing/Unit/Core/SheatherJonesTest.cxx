@@ -1,5 +1,5 @@
-#include "Core/SheatherJones.h"
-#include "Core/Bandwidth.h"
+#include "Core/Bandwidth/SheatherJones.h"
+#include "Core/Bandwidth/Bandwidth.h"
 #include "Core/Reference/ReferenceKernelSum.h"
 
 #include "RandomSamples.h"

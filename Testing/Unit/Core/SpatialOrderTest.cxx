@@ -1,4 +1,4 @@
-#include "Core/SpatialOrder.h"
+#include "Core/Neighbors/SpatialOrder.h"
 
 #include "RandomClouds.h"
 

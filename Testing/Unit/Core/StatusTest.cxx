@@ -1,4 +1,4 @@
-#include "Core/Status.h"
+#include "Core/Base/Status.h"
 
 #include <gtest/gtest.h>
 

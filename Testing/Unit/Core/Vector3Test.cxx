@@ -1,4 +1,4 @@
-#include "Core/Vector3.h"
+#include "Core/Base/Vector3.h"
 
 #include "RandomClouds.h"
 

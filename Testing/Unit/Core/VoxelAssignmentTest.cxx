@@ -1,6 +1,6 @@
 // What VoxelResampler tells beside means: coarser levels, parents, and which voxel each point is in.
-#include "Core/PointIndex.h"
-#include "Core/VoxelResampler.h"
+#include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/VoxelResampler.h"
 
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"

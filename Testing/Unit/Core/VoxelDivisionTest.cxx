@@ -1,5 +1,5 @@
 // The divisions of the vector loops, by counts and by spacings, are correctly rounded: those of the baseline.
-#include "Core/Kernel/VoxelKernel.h"
+#include "Core/Resample/Kernel/VoxelKernel.h"
 
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"

@@ -1,4 +1,4 @@
-#include "Core/VoxelMean.h"
+#include "Core/Resample/VoxelMean.h"
 #include "Core/Reference/ReferenceVoxelMean.h"
 
 #include "RandomClouds.h"

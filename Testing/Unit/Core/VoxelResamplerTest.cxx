@@ -1,6 +1,6 @@
-#include "Core/VoxelResampler.h"
+#include "Core/Resample/VoxelResampler.h"
 
-#include "Core/PointIndex.h"
+#include "Core/Neighbors/PointIndex.h"
 #include "CountingWatcher.h"
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"

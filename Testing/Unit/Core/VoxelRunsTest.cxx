@@ -1,4 +1,4 @@
-#include "Core/Kernel/VoxelRuns.h"
+#include "Core/Resample/Stages/VoxelRuns.h"
 
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"

@@ -1,7 +1,7 @@
 // Resampling and averaging on more threads than most machines have processors, over more points than a chunk.
-#include "Core/VoxelResampler.h"
+#include "Core/Resample/VoxelResampler.h"
 
-#include "Core/AttributeMean.h"
+#include "Core/Resample/AttributeMean.h"
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 

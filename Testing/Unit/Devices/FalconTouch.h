@@ -5,8 +5,8 @@
 
 #include "FalconBench.h"
 
-#include "Core/Shapes.h"
 #include "Haptics/ServoLoop.h"
+#include "Shapes/Shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Haptics/BallCells.h"
+#include "Haptics/Contact/BallCells.h"
 
 #include "BallFixtures.h"
 

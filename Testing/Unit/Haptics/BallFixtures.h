@@ -3,7 +3,7 @@
 /// them.
 #pragma once
 
-#include "Haptics/ProxyBall.h"
+#include "Haptics/Contact/ProxyBall.h"
 
 #include "HapticFixtures.h"
 

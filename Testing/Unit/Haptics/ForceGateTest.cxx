@@ -1,4 +1,4 @@
-#include "Haptics/ForceGate.h"
+#include "Haptics/Servo/ForceGate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Haptics/ForceGuard.h"
+#include "Haptics/Servo/ForceGuard.h"
 
 #include <gtest/gtest.h>
 

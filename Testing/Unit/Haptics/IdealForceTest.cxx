@@ -1,4 +1,4 @@
-#include "Haptics/IdealForce.h"
+#include "Shapes/IdealForce.h"
 
 #include <gtest/gtest.h>
 

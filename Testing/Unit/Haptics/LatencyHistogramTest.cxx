@@ -1,4 +1,4 @@
-#include "Haptics/LatencyHistogram.h"
+#include "Haptics/Servo/LatencyHistogram.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Haptics/LatestValue.h"
+#include "Haptics/Servo/LatestValue.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "HapticFixtures.h"
 
-#include "Core/VoxelMean.h"
+#include "Core/Resample/VoxelMean.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Haptics/OffsetSettler.h"
+#include "Haptics/Contact/OffsetSettler.h"
 
 #include "../Core/RandomClouds.h"
 

@@ -1,4 +1,4 @@
-#include "Haptics/PassivityLimit.h"
+#include "Haptics/Servo/PassivityLimit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "BallFixtures.h"
 
-#include "Core/Shapes.h"
+#include "Shapes/Shapes.h"
 
 using namespace pointhaptics;
 using trial::BallInScene;

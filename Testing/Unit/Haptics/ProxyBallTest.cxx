@@ -130,7 +130,8 @@ TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
       const double grown = std::max(0.0, ball.radius() - before.radius());
       const double away = norm(ball.center() - asked);
       const bool oneStride = before.isThere() && moved < 0.9 * before.radius();
-      const double most = (oneStride ? norm(before.center() - asked) : bound + moved) + 3.0 * grown + 0.3 * ball.radius();
+      const double most =
+        (oneStride ? norm(before.center() - asked) : bound + moved) + 3.0 * grown + 0.3 * ball.radius();
       bound = ball.isThere() ? away : bound + moved;
       // Where more points are near than the memory holds the ball knows only some of them.
       const double reach = 4.0 * std::max(before.radius(), ball.radius()) + std::min(moved, 1.0);

@@ -1,4 +1,4 @@
-#include "Haptics/SceneExchange.h"
+#include "Haptics/Servo/SceneExchange.h"
 
 #include "Haptics/HapticScene.h"
 

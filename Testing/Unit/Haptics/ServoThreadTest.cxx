@@ -1,6 +1,6 @@
 #include "../Eventually.h"
 
-#include "Haptics/ServoThread.h"
+#include "Haptics/Servo/ServoThread.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Haptics/SurfaceSamples.h"
+#include "Haptics/Contact/SurfaceSamples.h"
 
 #include "HapticFixtures.h"
 

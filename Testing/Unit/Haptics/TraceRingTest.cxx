@@ -1,4 +1,4 @@
-#include "Haptics/TraceRing.h"
+#include "Haptics/Servo/TraceRing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,78 @@
+#include "Benchmark/Commands/BenchModelMover.h"
+#include "Benchmark/Commands/BenchTask.h"
+
+#include "Benchmark/Scenery/SceneTurntable.h"
+#include "Options/OptionParsing.h"
+#include "Terminal/ViewDisplay.h"
+
+#include "Benchmark/Render/RenderBenchmark.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr double kMostPoints = 1e8;
+
+struct RenderOptions
+{
+  std::vector<double> points;
+  bool noF3d = false;
+};
+
+BenchOutcome runRender(
+  const RenderOptions& options, const BenchSettings& shared, const bench::Progress& progress)
+{
+  BenchOutcome outcome;
+  if (!displayIsAvailable(outcome.wrong))
+  {
+    return outcome;
+  }
+  bench::render::RenderBenchmarkOptions settings;
+  if (shared.quick)
+  {
+    settings.makeQuick();
+  }
+  if (!options.points.empty())
+  {
+    settings.points.assign(options.points.begin(), options.points.end());
+  }
+  settings.repetitions = shared.repetitions > 0 ? shared.repetitions : settings.repetitions;
+  settings.withF3d = !options.noF3d;
+  settings.makeTurntable = makeSceneTurntable;
+  settings.makeModelMover = makeModelMover;
+  outcome.report = bench::render::benchmarkRender(settings, progress, outcome.wrong);
+  return outcome;
+}
+
+BenchRun addRenderOptions(CLI::App& command)
+{
+  auto options = std::make_shared<RenderOptions>();
+  addWholeNumbers(command, "--points", options->points, kMostPoints,
+    "Points of the clouds that are drawn; default 543652,5000000");
+  command.add_flag("--no-f3d", options->noF3d, "Leave out f3d, which runs beside ours where it is installed");
+  return [options](const BenchSettings& shared, const bench::Progress& progress)
+  { return runRender(*options, shared, progress); };
+}
+
+} // namespace
+
+BenchTask renderTask()
+{
+  BenchTask task;
+  task.name = "render";
+  task.description = "Time the viewer's picture: turning with and without level of detail, the first picture";
+  task.repetitions = 5;
+  task.hasThreads = false;
+  task.addOptions = addRenderOptions;
+  return task;
+}
+
+} // namespace app
+} // namespace pointhaptics

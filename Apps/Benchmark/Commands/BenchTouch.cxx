@@ -1,0 +1,120 @@
+#include "Benchmark/Commands/BenchTask.h"
+
+#include "Benchmark/Commands/BenchScan.h"
+#include "Options/OptionParsing.h"
+
+#include "Benchmark/Touch/TouchBenchmark.h"
+#include "Benchmark/Touch/TouchMethod.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr std::int64_t kMostPoints = 100000000;
+constexpr std::int64_t kMostStrokes = 100000;
+
+struct TouchOptions
+{
+  std::vector<std::string> scans;
+  std::vector<std::string> meshes;
+  std::vector<std::string> methods;
+  std::vector<std::string> studies;
+  std::int64_t points = 0;  ///< 0: the default.
+  std::int64_t strokes = 0; ///< 0: the default.
+  int strokeSet = 0;
+  bool raw = false;
+  bool whole = false;
+  CLI::Option* meshesOption = nullptr;
+};
+
+bench::touch::TouchMesh meshOf(bench::proxy::Scan scan)
+{
+  bench::touch::TouchMesh mesh;
+  mesh.name = std::move(scan.name);
+  mesh.points = std::move(scan.points);
+  mesh.triangles = std::move(scan.triangles);
+  mesh.isScan = true;
+  return mesh;
+}
+
+BenchOutcome runTouch(
+  const TouchOptions& options, const BenchSettings& shared, const bench::Progress& progress)
+{
+  bench::touch::TouchBenchmarkOptions settings;
+  if (shared.quick)
+  {
+    settings.makeQuick();
+  }
+  BenchOutcome outcome;
+  for (const std::string& file : options.scans)
+  {
+    bench::proxy::Scan scan;
+    if (!readScan(file, scan, outcome.wrong))
+    {
+      return outcome;
+    }
+    settings.scans.push_back(meshOf(std::move(scan)));
+  }
+  if (options.meshesOption->count() > 0)
+  {
+    settings.meshes = options.meshes;
+  }
+  settings.methods = options.methods;
+  settings.studies = options.studies;
+  settings.points = options.points > 0 ? options.points : settings.points;
+  settings.strokes = options.strokes > 0 ? int(options.strokes) : settings.strokes;
+  settings.strokeSet = bench::touch::StrokeSet(options.strokeSet);
+  settings.raw = options.raw;
+  settings.local = !options.whole;
+  settings.repetitions = shared.repetitions > 0 ? shared.repetitions : settings.repetitions;
+  outcome.report = bench::touch::benchmarkTouch(settings, progress, outcome.wrong);
+  return outcome;
+}
+
+BenchRun addTouchOptions(CLI::App& command)
+{
+  auto options = std::make_shared<TouchOptions>();
+  command
+    .add_option_function<std::string>(
+      "--scans", [options](const std::string& text) { options->scans = CLI::detail::split(text, ','); },
+      "Scans with a mesh (PLY) to touch")
+    ->type_name("FILE,...");
+  options->meshesOption = addWords(command, "--meshes", options->meshes, bench::touch::generatedMeshNames(),
+    true, "Generated meshes to touch, or none; default all");
+  addInteger(command, "--points", options->points, 1, kMostPoints, "Samples of each mesh; default 543652");
+  addInteger(command, "--strokes", options->strokes, 1, kMostStrokes, "Strokes on each mesh; default 60");
+  addChoice(command, "--stroke-set", options->strokeSet,
+    { { "a", int(bench::touch::StrokeSet::A) }, { "b", int(bench::touch::StrokeSet::B) } },
+    "Which strokes: two sets that share no place; default a");
+  command.add_flag("--raw", options->raw, "Touch the points themselves, no voxels");
+  command.add_flag("--whole", options->whole, "One scene of the whole cloud, no finer ones near the hand");
+  addWords(command, "--methods", options->methods, bench::touch::contestantNames(), false,
+    "Methods to judge; default all");
+  addWords(command, "--studies", options->studies, bench::touch::studyWords(), false,
+    "What to measure; default all");
+  return [options](const BenchSettings& shared, const bench::Progress& progress)
+  { return runTouch(*options, shared, progress); };
+}
+
+} // namespace
+
+BenchTask touchTask()
+{
+  BenchTask task;
+  task.name = "touch";
+  task.description = "Judge the touch of edges, thin parts and scans by a god object on their meshes";
+  task.repetitions = bench::touch::TouchBenchmarkOptions().repetitions;
+  task.hasThreads = false;
+  task.addOptions = addTouchOptions;
+  return task;
+}
+
+} // namespace app
+} // namespace pointhaptics

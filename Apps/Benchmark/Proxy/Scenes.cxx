@@ -1,0 +1,112 @@
+#include "Benchmark/Proxy/Scenes.h"
+
+#include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Neighbors/NeighborQuery.h"
+#include "Core/Resample/VoxelMean.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace proxy
+{
+namespace
+{
+
+constexpr std::uint64_t kSeed = 7;
+constexpr double kFittedSide = 0.095;
+
+/// False: the lattice cannot be had.
+bool resample(const std::vector<Vec3>& points, const SceneSettings& settings, HapticSceneInput& input)
+{
+  const PointView view(points.data(), std::int64_t(points.size()));
+  LatticeSettings latticeSettings;
+  latticeSettings.voxelSize = settings.voxelSize;
+  Lattice lattice;
+  VoxelMeans means;
+  if (makeLattice(latticeSettings, transformedBounds(view, settings.transform), lattice) != Status::Ok ||
+    voxelMeans(view, settings.transform, lattice, settings.covariances, means) != Status::Ok)
+  {
+    return false;
+  }
+  input.counts.assign(means.counts.begin(), means.counts.end());
+  input.points = std::move(means.means);
+  if (settings.covariances)
+  {
+    input.covariances = std::move(means.covariances);
+  }
+  input.cellSize = settings.voxelSize;
+  return true;
+}
+
+} // namespace
+
+Scene sceneOf(const std::vector<Vec3>& points, const SceneSettings& settings)
+{
+  HapticSceneInput input;
+  input.modelToWorkspace = settings.transform;
+  input.instructions = settings.instructions;
+  if (settings.raw)
+  {
+    input.points.reserve(points.size());
+    for (const Vec3& p : points)
+    {
+      input.points.push_back(settings.transform.apply(p));
+    }
+  }
+  else if (!resample(points, settings, input))
+  {
+    return nullptr;
+  }
+  // The proxy's radius from the bandwidth, as the program does.
+  LocalBandwidthSettings rule;
+  rule.minimumRadius = settings.proxyRadius;
+  rule.maximumRadius = settings.proxyRadius;
+  rule.usePointCounts = settings.pointCounts;
+  const PointView felt(input.points.data(), std::int64_t(input.points.size()));
+  NeighborQuery query;
+  query.build(felt);
+  std::vector<double> bandwidths;
+  Status status = localBandwidths(felt, input.counts, query, rule, bandwidths, input.proxyRadii);
+  return status == Status::Ok ? HapticScene::create(std::move(input), status) : nullptr;
+}
+
+std::vector<Vec3> pointsOf(Shape shape, std::int64_t count, double noise)
+{
+  std::vector<Vec3> points;
+  static_cast<void>(generateShape(shape, count, kSeed, noise, points));
+  return points;
+}
+
+std::vector<Vec3> fitted(std::vector<Vec3> points, double& scale, Vec3& middle)
+{
+  Bounds box;
+  for (const Vec3& p : points)
+  {
+    if (isFinite(p))
+    {
+      box.include(p);
+    }
+  }
+  const Vec3 extent = box.extent();
+  scale = kFittedSide / std::max({ extent.x, extent.y, extent.z });
+  middle = 0.5 * (box.minimum + box.maximum);
+  for (Vec3& p : points)
+  {
+    p = scale * (p - middle);
+  }
+  return points;
+}
+
+std::string noiseName(double noise)
+{
+  return noise > 0.0 ? fmt::format("{:.0f} um", 1e6 * noise) : "clean";
+}
+
+} // namespace proxy
+} // namespace bench
+} // namespace pointhaptics

@@ -1,0 +1,91 @@
+/// @file
+/// One way to turn a cloud into voxel means: ours or another library's, behind one face.
+#pragma once
+
+#include "Core/Base/Lattice.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace resample
+{
+
+/// What every contestant of a race is asked to do.
+struct ResampleTask
+{
+  vtkPolyData* cloud = nullptr; ///< Float points, no cells. Stays the caller's.
+  Bounds workspace;             ///< A cube about the origin.
+  std::int64_t dimension = 300; ///< Voxels on an axis of the workspace.
+  double leaf = 0.0;            ///< Edge of a voxel.
+};
+
+/// What came out, and the lattice it is meant to be on.
+struct ResampleAnswer
+{
+  Lattice lattice;
+  std::vector<double> xyz;
+  std::vector<std::int64_t> counts; ///< Empty where the rival has none.
+  std::string fault;                ///< What is wrong before any number is compared; empty: nothing.
+};
+
+/// Use: load once, then any number of before and run, then answer.
+class Rival
+{
+public:
+  virtual ~Rival() = default;
+  virtual std::string name() const = 0;
+  /// Ours must agree to the last digit; others may place points on faces by float rounding.
+  virtual bool mustBeExact() const { return false; }
+  /// Why this task is beyond the rival; empty: it is not.
+  virtual std::string refusal(const ResampleTask&) const { return {}; }
+  /// Copies the cloud into the rival's own form. Not timed.
+  virtual void load(const ResampleTask& task) = 0;
+  /// Undoes whatever would spare the next run its work. Not timed.
+  virtual void before() {}
+  virtual void run() = 0;
+  virtual ResampleAnswer answer() const = 0;
+  /// Bytes of the result that run() left.
+  virtual std::int64_t resultBytes() const = 0;
+};
+
+/// As vtkVoxelMeanResampler numbers them.
+enum class InstructionSet : int
+{
+  Automatic = 0,
+  Baseline,
+  Avx2,
+  Avx512,
+};
+const char* instructionSetName(InstructionSet set);
+
+/// Which of ours: each of these is a contestant.
+struct OursSettings
+{
+  std::string name = "ours";
+  bool automaticWorkspace = false;
+  bool covariance = false;
+  bool attributes = false; ///< Average the arrays of the cloud; otherwise they are not even passed in.
+  InstructionSet instructionSet = InstructionSet::Automatic;
+  int levels = 1; ///< The answer is that of the finest.
+};
+
+std::unique_ptr<Rival> makeOurs(const OursSettings& settings = {});
+std::unique_ptr<Rival> makeVtkVoxelGrid();
+
+/// The words of --rivals, those that were built.
+std::vector<std::string> rivalWords();
+/// @p word must be one of them. Loads the rival's module the first time; throws std::runtime_error where it
+/// cannot be loaded.
+std::unique_ptr<Rival> makeRival(const std::string& word);
+
+} // namespace resample
+} // namespace bench
+} // namespace pointhaptics

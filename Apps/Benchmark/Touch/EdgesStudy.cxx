@@ -1,0 +1,253 @@
+/// What does a hand meet that slides over the edge or the corner of a box into free space?
+#include "Benchmark/Touch/Studies.h"
+
+#include "Core/Base/PortableRandom.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace touch
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalf = 0.025; ///< Of Shape::Box.
+constexpr double kBeyond = 0.015;
+constexpr double kPressSpeed = 0.025;
+constexpr int kEndTicks = 100;
+constexpr double kLeastOutside = 5e-4;
+constexpr double kForce = 0.05;
+constexpr std::uint64_t kSeed = 540;
+
+struct EdgeCloud
+{
+  std::int64_t points;
+  double noise;
+};
+
+struct EdgeFigures
+{
+  double outsideNewton = 0.0;
+  int above = 0; ///< Strokes.
+  int held = 0;
+};
+
+/// Metres outside the prism over the top face; negative above or below that face.
+double distanceOutside(const Vec3& p)
+{
+  return std::max(std::abs(p.x), std::abs(p.y)) - kHalf;
+}
+
+/// All depths, speeds and starts on the box whose faces are parallel to the axes.
+std::vector<TouchStroke> strokesOver(bool corner, int starts)
+{
+  detail::PortableRandom random(kSeed);
+  std::vector<TouchStroke> strokes;
+  const Vec3 along = corner ? normalized(Vec3(1.0, 1.0, 0.0)) : Vec3(1.0, 0.0, 0.0);
+  const Vec3 across = corner ? normalized(Vec3(-1.0, 1.0, 0.0)) : Vec3(0.0, 1.0, 0.0);
+  const Vec3 rim = (corner ? std::sqrt(2.0) : 1.0) * kHalf * along + Vec3(0.0, 0.0, kHalf);
+  for (const double depth : { 1e-3, 2e-3, 3e-3 })
+  {
+    for (const double speed : { 0.05, 0.2, 0.5 })
+    {
+      for (int i = 0; i < starts; ++i)
+      {
+        const double back = random.uniform(8e-3, 12e-3);
+        const double aside = corner ? random.uniform(-5e-4, 5e-4) : random.uniform(-5e-3, 5e-3);
+        const Vec3 top = rim - back * along + aside * across;
+        const Vec3 low = top - Vec3(0.0, 0.0, depth);
+        TouchStroke stroke;
+        moveTo(stroke, top + Vec3(0.0, 0.0, 3e-3), low, kPressSpeed);
+        moveTo(stroke, low, low + (back + kBeyond) * along, speed);
+        stay(stroke, kEndTicks);
+        strokes.push_back(std::move(stroke));
+      }
+    }
+  }
+  return strokes;
+}
+
+void add(const TouchStroke& stroke, const TouchTrace& trace, double limit, EdgeFigures& figures)
+{
+  double most = 0.0;
+  for (std::size_t i = 0; i < trace.states.size(); ++i)
+  {
+    if (distanceOutside(stroke.hip[i]) > limit)
+    {
+      most = std::max(most, norm(trace.states[i].force));
+    }
+  }
+  figures.outsideNewton = std::max(figures.outsideNewton, most);
+  figures.above += most > kForce;
+  figures.held += norm(trace.states.back().force) > kForce;
+}
+
+std::vector<EdgeCloud> cloudsOf(const TouchBenchmarkOptions& options)
+{
+  if (options.quick)
+  {
+    return { { options.points, 0.0 } };
+  }
+  return { { 47516, 0.0 }, { options.points, 0.0 }, { options.points, 20e-6 } };
+}
+
+/// The same, turned away from the axes where asked.
+std::vector<TouchTask> tasksOver(bool turned, const std::vector<TouchStroke>& strokes)
+{
+  TouchMesh mesh =
+    blockMesh({ -kHalf, kHalf }, { -kHalf, kHalf }, { -kHalf, kHalf }, [](int, int, int) { return true; });
+  std::vector<TouchStroke> moved = strokes;
+  if (turned)
+  {
+    std::transform(mesh.points.begin(), mesh.points.end(), mesh.points.begin(), turnedAway);
+    for (TouchStroke& stroke : moved)
+    {
+      std::transform(stroke.hip.begin(), stroke.hip.end(), stroke.hip.begin(), turnedAway);
+    }
+  }
+  return tasksOn(TriangleTree(mesh), std::move(moved));
+}
+
+/// A circle about @p center in the plane of x and z, millimetres from the edge.
+Series circle(const std::string& name, const Vec3& center, double radius)
+{
+  constexpr int kParts = 90;
+  Series series{ name, {}, {} };
+  for (int i = 0; i <= kParts; ++i)
+  {
+    const double angle = 2.0 * kPi * i / kParts;
+    series.x.push_back(1e3 * (center.x - kHalf + radius * std::cos(angle)));
+    series.y.push_back(1e3 * (center.z - kHalf + radius * std::sin(angle)));
+  }
+  return series;
+}
+
+/// What the hand meets on its way over an edge, in section: ball, HIP and contact point before and past it.
+Chart drawEdge()
+{
+  constexpr std::int64_t kPoints = 47516;
+  constexpr double kDepth = 2e-3;
+  constexpr double kSlab = 3e-4;
+  constexpr double kShown = 6e-3;
+  Chart chart{ "touch-edge", "A hand slides over the edge of a box, 2 mm deep",
+    { "x from the edge (mm)", false }, { "z from the top (mm)", false }, {}, true };
+  const std::vector<Vec3> points = proxy::pointsOf(Shape::Box, kPoints, 0.0);
+  Series cloud{ "points of the cloud", {}, {}, false };
+  for (const Vec3& p : points)
+  {
+    if (std::abs(p.y) < kSlab && p.x > kHalf - kShown && p.z > kHalf - kShown)
+    {
+      cloud.x.push_back(1e3 * (p.x - kHalf));
+      cloud.y.push_back(1e3 * (p.z - kHalf));
+    }
+  }
+  chart.series = { cloud, { "HIP", {}, {}, false }, { "contact point", {}, {}, false } };
+  TouchSceneSettings settings;
+  const TouchScene scene = makeTouchScene(points, settings);
+  if (!scene.scene)
+  {
+    return chart;
+  }
+  TouchStroke stroke;
+  const Vec3 low(kHalf - 4e-3, 0.0, kHalf - kDepth);
+  moveTo(stroke, low + Vec3(0.0, 0.0, 5e-3), low, kPressSpeed);
+  moveTo(stroke, low, low + Vec3(6e-3, 0.0, 0.0), 0.05);
+  HapticParameters parameters;
+  Proxy fit(parameters);
+  parameters.method = ProxyMethod::Sphere;
+  Proxy ball(parameters);
+  fit.setScene(scene.scene.get());
+  ball.setScene(scene.scene.get());
+  const char* names[] = { "ball on the top", "ball at the edge", "ball past it: free" };
+  const double shown[] = { -3e-3, -1e-4, 1.5e-3 };
+  std::size_t next = 0;
+  for (const Vec3& hip : stroke.hip)
+  {
+    const ProxyState felt = fit.step(hip, kTickSeconds);
+    const ProxyState rolled = ball.step(hip, kTickSeconds);
+    if (next < 3 && hip.z <= low.z + 1e-9 && hip.x - kHalf >= shown[next])
+    {
+      chart.series.push_back(circle(names[next++], rolled.sphereCenter, rolled.radius));
+      chart.series[1].x.push_back(1e3 * (hip.x - kHalf));
+      chart.series[1].y.push_back(1e3 * (hip.z - kHalf));
+      chart.series[2].x.push_back(1e3 * (felt.proxy.x - kHalf));
+      chart.series[2].y.push_back(1e3 * (felt.proxy.z - kHalf));
+    }
+  }
+  return chart;
+}
+
+} // namespace
+
+ReportPart studyEdges(StudyContext& context)
+{
+  const TouchBenchmarkOptions& options = context.options;
+  const int starts = options.quick ? 1 : 10;
+  ReportPart part;
+  part.page = Page::Accuracy;
+  part.title = "Over the edge and the corner of a box";
+  part.text = fmt::format(
+    "A cube of 50 mm, pressed 1, 2 and 3 mm deep, slid over an edge or a corner at 50, 200 and 500 mm/s "
+    "until "
+    "the hand is 15 mm outside, {} starts each; {}. Outside: the largest force more than 0.5 mm outside (one "
+    "spacing where the cloud is sparser). Above: strokes with more than {} N there. Stuck: strokes with more "
+    "than that at their end. Turned: no face is parallel to the lattice.",
+    starts, options.raw ? "the points themselves" : "voxels of 1/3 mm", kForce);
+  part.charts.push_back(drawEdge());
+  setFigureHeader(part, { "points", "noise", "box", "over", "method" }, { "outside N", "above", "stuck" });
+  for (const bool turned : { false, true })
+  {
+    for (const bool corner : { false, true })
+    {
+      const std::vector<TouchStroke> strokes = strokesOver(corner, starts);
+      const std::vector<TouchTask> tasks = tasksOver(turned, strokes);
+      for (const EdgeCloud& cloud : cloudsOf(options))
+      {
+        std::vector<Vec3> points = proxy::pointsOf(Shape::Box, cloud.points, cloud.noise);
+        if (turned)
+        {
+          std::transform(points.begin(), points.end(), points.begin(), turnedAway);
+        }
+        TouchSceneSettings settings;
+        settings.raw = options.raw;
+        const TouchScene scene = makeTouchScene(std::move(points), settings);
+        if (!scene.scene)
+        {
+          continue;
+        }
+        const double spacing = std::sqrt(24.0 * kHalf * kHalf / double(cloud.points));
+        for (const Contestant& contestant : contestantsNamed(options.methods))
+        {
+          context.progress(
+            fmt::format("{} over the {} of a box", contestant.name, corner ? "corner" : "edge"));
+          EdgeFigures figures;
+          const TouchFigures all = judge(context, contestant, scene, tasks,
+            [&](std::size_t i, const TouchTrace& trace)
+            { add(strokes[i], trace, std::max(kLeastOutside, spacing), figures); });
+          const std::string box = turned ? "turned" : "straight";
+          const std::string over = corner ? "corner" : "edge";
+          addFigures(context, part,
+            { grouped(cloud.points), proxy::noiseName(cloud.noise), box, over, contestant.name,
+              brief(figures.outsideNewton), fmt::format("{}", figures.above),
+              fmt::format("{}", figures.held) },
+            { { "points", cloud.points }, { "noise_metres", cloud.noise }, { "box", box }, { "over", over },
+              { "method", contestant.name }, { "outside_newton", figures.outsideNewton },
+              { "strokes_above", figures.above }, { "stuck", figures.held } },
+            all);
+        }
+      }
+    }
+  }
+  return part;
+}
+
+} // namespace touch
+} // namespace bench
+} // namespace pointhaptics

@@ -1,0 +1,46 @@
+/// @file
+/// `pointhaptics bench touch`: does the touch of a cloud keep to the surface it was sampled from, where that
+/// is not smooth?
+#pragma once
+
+#include "Benchmark/Report/Report.h"
+#include "Benchmark/Touch/TouchMesh.h"
+#include "Benchmark/Touch/TouchStrokes.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace bench
+{
+namespace touch
+{
+
+struct TouchBenchmarkOptions
+{
+  std::vector<TouchMesh> scans; ///< As read from their files.
+  std::vector<std::string> meshes = generatedMeshNames();
+  std::vector<std::string> methods; ///< Of contestantNames(); empty: all.
+  std::vector<std::string> studies; ///< Of studyWords(); empty: all.
+  std::int64_t points = 543652;     ///< Samples of each mesh; the paper's number.
+  int strokes = 60;                 ///< On each mesh.
+  StrokeSet strokeSet = StrokeSet::A;
+  bool raw = false;    ///< The points themselves, no voxels.
+  bool local = true;   ///< Finer scenes near the hand, as the program makes them.
+  int repetitions = 2; ///< Walks over each stroke; the fastest tells the time of a tick.
+  bool quick = false;
+
+  /// A few seconds.
+  void makeQuick();
+};
+
+std::vector<std::string> studyWords();
+
+/// @param wrong receives which answer is wrong beyond doubt; left empty where none is.
+Report benchmarkTouch(const TouchBenchmarkOptions& options, const Progress& progress, std::string& wrong);
+
+} // namespace touch
+} // namespace bench
+} // namespace pointhaptics

@@ -1,0 +1,218 @@
+#include "Clouds/CloudSummary.h"
+
+#include "Core/Base/Lattice.h"
+#include "Core/Neighbors/NeighborQuery.h"
+
+#include <fmt/format.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr std::size_t kSamples = 10000;
+/// Map coordinates have at least six digits before the point.
+constexpr double kMapCoordinate = 1e5;
+/// Longest side of what is taken for metres, and for millimetres.
+constexpr double kLargestInMetres = 100.0;
+constexpr double kLargestInMillimetres = 1e5;
+/// A surface with a point every spacing has four in a voxel of twice that.
+constexpr double kSpacingsPerVoxel = 2.0;
+/// Points in one search tree; larger clouds are searched piece by piece.
+constexpr std::int64_t kPiece = 4'000'000;
+/// A duplicate is no neighbour: how many of them are looked past.
+constexpr int kNeighbors = 16;
+/// Part of the workspace's edge the suggested scale fills.
+constexpr double kFilledPart = 0.9;
+/// Longest side of a cloud that needs no hint, in edges of the workspace.
+constexpr double kSmallest = 0.2;
+constexpr double kLargest = 5.0;
+
+struct Unit
+{
+  const char* name;
+  double metres;
+  double fromSize; ///< The longest side from which a cloud may well be in this unit.
+  double toSize;
+};
+constexpr Unit kUnits[] = { { "cm", 1e-2, 2.0, 20.0 }, { "mm", 1e-3, 20.0, 500.0 },
+  { "um", 1e-6, 2e4, 5e5 } };
+
+std::vector<Vec3> finitePoints(vtkPolyData* cloud)
+{
+  std::vector<Vec3> points;
+  points.reserve(static_cast<std::size_t>(cloud->GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    Vec3 p;
+    cloud->GetPoint(i, &p.x);
+    if (isFinite(p))
+    {
+      points.push_back(p);
+    }
+  }
+  return points;
+}
+
+/// The point behind sample @p i: all of them where they are few. Every k-th would meet the rings of a scanner
+/// in step; a multiplicative hash does not.
+std::size_t sampled(std::size_t i, std::size_t samples, std::size_t points)
+{
+  return samples == points ? i : std::size_t((i * 0x9e3779b97f4a7c15u >> 11) % points);
+}
+
+/// At the places of kSpacingPercents.
+std::array<double, 5> spacingOf(const std::vector<Vec3>& points)
+{
+  const std::size_t samples = std::min(kSamples, points.size());
+  std::vector<double> nearest(samples, std::numeric_limits<double>::infinity());
+  Neighbor neighbors[kNeighbors];
+  for (std::int64_t begin = 0; begin < std::int64_t(points.size()); begin += kPiece)
+  {
+    NeighborQuery query;
+    query.build(PointView(points.data() + begin, std::min(kPiece, std::int64_t(points.size()) - begin)));
+    for (std::size_t i = 0; i < samples; ++i)
+    {
+      const Vec3& center = points[sampled(i, samples, points.size())];
+      const int found = query.nearest(center, kNeighbors, neighbors);
+      const Neighbor* other = std::find_if(neighbors, neighbors + found,
+        [](const Neighbor& neighbor) { return neighbor.squaredDistance > 0.0; });
+      if (other != neighbors + found)
+      {
+        nearest[i] = std::min(nearest[i], std::sqrt(other->squaredDistance));
+      }
+    }
+  }
+  nearest.erase(
+    std::remove_if(nearest.begin(), nearest.end(), [](double d) { return std::isinf(d); }), nearest.end());
+  std::sort(nearest.begin(), nearest.end());
+  std::array<double, 5> result{};
+  for (std::size_t i = 0; i < result.size() && !nearest.empty(); ++i)
+  {
+    result[i] = nearest[(nearest.size() - 1) * std::size_t(kSpacingPercents[i]) / 100];
+  }
+  return result;
+}
+
+std::int64_t countDuplicates(std::vector<Vec3> points)
+{
+  std::sort(points.begin(), points.end(),
+    [](const Vec3& a, const Vec3& b) { return a.x != b.x ? a.x < b.x
+                                         : a.y != b.y    ? a.y < b.y
+                                                         : a.z < b.z; });
+  return points.end() - std::unique(points.begin(), points.end());
+}
+
+std::string textIn(vtkPolyData* cloud, const char* name)
+{
+  vtkStringArray* array = vtkStringArray::SafeDownCast(cloud->GetFieldData()->GetAbstractArray(name));
+  return array && array->GetNumberOfValues() > 0 ? array->GetValue(0) : std::string();
+}
+
+/// Scanners measure in metres, map coordinates are far from the origin, and models of things are in
+/// millimetres.
+std::string guessUnit(const Bounds& bounds, double longest)
+{
+  const double farthest = std::max({ std::abs(bounds.minimum.x), std::abs(bounds.maximum.x),
+    std::abs(bounds.minimum.y), std::abs(bounds.maximum.y) });
+  const bool isMap = farthest > kMapCoordinate && longest < farthest;
+  return isMap || longest < kLargestInMetres ? "m" : longest < kLargestInMillimetres ? "mm" : "um";
+}
+
+std::vector<ArraySummary> arraysOf(vtkPolyData* cloud)
+{
+  std::vector<ArraySummary> result;
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* abstract = data->GetAbstractArray(i);
+    ArraySummary summary;
+    summary.name = abstract->GetName() ? abstract->GetName() : "(no name)";
+    summary.type = abstract->GetDataTypeAsString();
+    summary.components = abstract->GetNumberOfComponents();
+    if (vtkDataArray* array = vtkDataArray::SafeDownCast(abstract))
+    {
+      for (int component = 0; component < summary.components; ++component)
+      {
+        double range[2];
+        array->GetFiniteRange(range, component);
+        if (range[0] <= range[1])
+        {
+          summary.minima.push_back(range[0]);
+          summary.maxima.push_back(range[1]);
+        }
+      }
+    }
+    result.push_back(summary);
+  }
+  return result;
+}
+
+void suggest(CloudSummary& summary)
+{
+  const Vec3 size = summary.bounds.extent();
+  const double longest = std::max({ size.x, size.y, size.z });
+  if (!(longest > 0.0) || !std::isfinite(longest))
+  {
+    return;
+  }
+  summary.suggestedScale = std::stod(fmt::format("{:.3g}", kFilledPart * kDefaultWorkspaceEdge / longest));
+  if (longest >= kSmallest * kDefaultWorkspaceEdge && longest <= kLargest * kDefaultWorkspaceEdge)
+  {
+    return;
+  }
+  summary.hint = fmt::format(
+    "read as metres the longest side is {:.4g} m, the workspace {} m;", longest, kDefaultWorkspaceEdge);
+  for (const Unit& unit : kUnits)
+  {
+    if (longest >= unit.fromSize && longest < unit.toSize)
+    {
+      summary.hint += fmt::format(" --unit {} if it is in {},", unit.name, unit.name);
+    }
+  }
+  summary.hint += fmt::format(" --scale {} to fill the workspace", summary.suggestedScale);
+}
+
+} // namespace
+
+CloudSummary summarize(const Cloud& cloud)
+{
+  CloudSummary summary;
+  summary.format = cloud.format;
+  summary.points = cloud.points->GetNumberOfPoints();
+  const std::vector<Vec3> points = finitePoints(cloud.points);
+  summary.invalid = summary.points - std::int64_t(points.size());
+  for (const Vec3& p : points)
+  {
+    summary.bounds.include(p);
+  }
+  summary.spacing = spacingOf(points);
+  summary.densityVariation = summary.spacing[0] > 0.0 ? summary.spacing[4] / summary.spacing[0] : 0.0;
+  summary.suggestedVoxel = kSpacingsPerVoxel * summary.spacing[2];
+  summary.duplicates = countDuplicates(points);
+  summary.coordinateSystem = textIn(cloud.points, "CoordinateSystem");
+  summary.unit = textIn(cloud.points, "LengthUnit");
+  summary.unitIsGuess = summary.unit.empty();
+  if (summary.unitIsGuess && !summary.bounds.empty())
+  {
+    const Vec3 size = summary.bounds.extent();
+    summary.unit = guessUnit(summary.bounds, std::max({ size.x, size.y, size.z }));
+  }
+  summary.arrays = arraysOf(cloud.points);
+  suggest(summary);
+  return summary;
+}
+
+} // namespace app
+} // namespace pointhaptics

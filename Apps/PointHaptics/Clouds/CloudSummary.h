@@ -1,0 +1,56 @@
+/// @file
+/// What `pointhaptics info` says of a cloud.
+#pragma once
+
+#include "Clouds/Pipeline.h"
+
+#include "Core/Base/PointView.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+struct ArraySummary
+{
+  std::string name;
+  std::string type;
+  int components = 1;
+  std::vector<double> minima; ///< One a component, of the finite values; empty where there are none.
+  std::vector<double> maxima;
+};
+
+struct CloudSummary
+{
+  std::string format;
+  std::int64_t points = 0;
+  std::int64_t invalid = 0;    ///< NaN or infinite.
+  Bounds bounds;               ///< Of the finite points.
+  std::int64_t duplicates = 0; ///< Finite points at the very place of an earlier one.
+  /// Distance to the nearest distinct point, of a sample of the points: what 5, 25, 50, 75 and 95 percent of
+  /// them do not exceed. Zero where there are no two places.
+  std::array<double, 5> spacing{};
+  double densityVariation = 0.0; ///< Last of these over the first; 1 on a grid.
+  double suggestedVoxel =
+    0.0; ///< Edge of a voxel that holds a few points of a surface at the median spacing.
+  std::string coordinateSystem; ///< As the file says it.
+  std::string unit;             ///< "m"; what the file says, or a guess.
+  bool unitIsGuess = true;
+  std::vector<ArraySummary> arrays;
+  std::string hint;            ///< Unit or scale to try where the size is not about that of the workspace.
+  double suggestedScale = 1.0; ///< Makes the cloud fill most of the workspace.
+};
+
+/// What spacing holds.
+constexpr std::array<int, 5> kSpacingPercents{ 5, 25, 50, 75, 95 };
+
+/// Cost: O(n log n) for spacing and duplicates, 72 bytes a point up to 4 million points.
+CloudSummary summarize(const Cloud& cloud);
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,35 @@
+#include "Commands/CloudToCloud.h"
+
+#include "Options/OptionParsing.h"
+#include "Terminal/StopSignals.h"
+
+#include <CLI/CLI.hpp>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+void CloudToCloudOptions::addTo(CLI::App& command)
+{
+  command.add_option("IN", this->input, "Point cloud to read")->required()->type_name("");
+  command.add_option("-o,--output", this->output, "File to write: .vtp, .ply, .pcd, .las or .csv")
+    ->required()
+    ->type_name("OUT");
+  addInteger(command, "--threads", this->threads, 1, 1024, "Threads to use; default all");
+  command.add_flag("--json", this->json, "Print the figures as JSON");
+}
+
+bool CloudToCloudOptions::open(Cloud& cloud, std::string& message) const
+{
+  if (!canWriteCloud(this->output, message))
+  {
+    return false;
+  }
+  useThreads(this->threads);
+  rememberStopSignals();
+  return readCloud(this->input, cloud, message);
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,35 @@
+/// @file
+/// What the commands share that read one cloud and write another: IN -o OUT --threads --json.
+#pragma once
+
+#include "Clouds/Pipeline.h"
+
+#include <cstdint>
+#include <string>
+
+namespace CLI
+{
+class App;
+}
+
+namespace pointhaptics
+{
+namespace app
+{
+
+struct CloudToCloudOptions
+{
+  std::string input;
+  std::string output;
+  std::int64_t threads = 0; ///< 0: all.
+  bool json = false;
+
+  void addTo(CLI::App& command);
+  /// Asks whether the output can be written before any work is done, sets the threads and reads the input.
+  /// False:
+  /// @p message says what failed.
+  bool open(Cloud& cloud, std::string& message) const;
+};
+
+} // namespace app
+} // namespace pointhaptics

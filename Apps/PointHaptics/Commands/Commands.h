@@ -1,0 +1,32 @@
+/// @file
+/// The commands of the program: each file adds one to the command line and runs it.
+#pragma once
+
+#include "Terminal/CommandLine.h"
+
+namespace CLI
+{
+class App;
+}
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// Each adds its subcommand to @p program; its callback runs the command and stores an ExitCode in @p
+/// exitCode, which must outlive the parsing.
+void addViewCommand(CLI::App& program, int& exitCode);
+void addFeelCommand(CLI::App& program, int& exitCode);
+void addResampleCommand(CLI::App& program, int& exitCode);
+void addBandwidthCommand(CLI::App& program, int& exitCode);
+void addInfoCommand(CLI::App& program, int& exitCode);
+void addGenerateCommand(CLI::App& program, int& exitCode);
+void addDevicesCommand(CLI::App& program, int& exitCode);
+/// Hidden: for the build.
+void addManualCommand(CLI::App& program);
+/// Runs the program pointhaptics-bench, where it is.
+void addBenchCommand(CLI::App& program, int& exitCode);
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,22 @@
+/// @file
+/// `devices --diagnose`: what only a Falcon and its owner can confirm.
+#pragma once
+
+#include "Feel/HandDevice.h"
+
+#include <string>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// Walks through lights, homing, encoder directions, rate, and motors with at most 0.5 N, asking on the
+/// terminal; writes @p reportFile line by line, so that it holds what was found however this ends. @p yes:
+/// asks nothing, and leaves out what a person must do (encoder directions). False: @p message says what
+/// failed, how many checks found something wrong, or that it was stopped by a signal.
+bool diagnoseFalcon(
+  const FalconOptions& options, const std::string& reportFile, bool yes, std::string& message);
+
+} // namespace app
+} // namespace pointhaptics

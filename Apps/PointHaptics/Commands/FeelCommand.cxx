@@ -1,0 +1,321 @@
+#include "Commands/Commands.h"
+
+#include "Clouds/Pipeline.h"
+#include "Feel/FeelLive.h"
+#include "Feel/FeelScenes.h"
+#include "Feel/PathTicks.h"
+#include "Options/FeelOptions.h"
+#include "Terminal/CsvWriter.h"
+#include "Terminal/Messages.h"
+#include "Terminal/ProgressBar.h"
+#include "Terminal/StopSignals.h"
+
+#include "Devices/HipPath.h"
+#include "Devices/SimulatedDevice.h"
+#include "Haptics/Proxy.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr const char* kCommand = "feel";
+constexpr const char* kHeader = "t,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,"
+                                "force_x,force_y,force_z,radius,contact,update_us";
+/// A day at 1 kHz; more is a mistake in the path's times.
+constexpr double kMostTicks = 1e8;
+/// Room about the path for a hand that yields, metres.
+constexpr double kHandMargin = 0.1;
+
+struct Summary
+{
+  std::int64_t ticks = 0;
+  std::int64_t contactTicks = 0;
+  double maximumForce = 0.0;
+  double p50Microseconds = 0.0;
+  double p99Microseconds = 0.0;
+  double maximumMicroseconds = 0.0;
+};
+
+double quantile(const std::vector<float>& sorted, double part)
+{
+  return sorted.empty() ? 0.0 : double(sorted[static_cast<std::size_t>(part * double(sorted.size() - 1))]);
+}
+
+/// One tick: the row of OUT.csv, in its order.
+std::array<double, 16> rowOf(double time, const ProxyState& state, double microseconds)
+{
+  return { time, state.hip.x, state.hip.y, state.hip.z, state.proxy.x, state.proxy.y, state.proxy.z,
+    state.normal.x, state.normal.y, state.normal.z, state.force.x, state.force.y, state.force.z, state.radius,
+    state.contact ? 1.0 : 0.0, microseconds };
+}
+
+/// Rows and their summary.
+class Rows
+{
+public:
+  explicit Rows(CsvWriter& table)
+    : table_(table)
+  {
+  }
+  void add(double time, const ProxyState& state, double microseconds)
+  {
+    ++summary_.ticks;
+    summary_.contactTicks += state.contact;
+    summary_.maximumForce = std::max(summary_.maximumForce, norm(state.force));
+    durations_.push_back(static_cast<float>(microseconds));
+    const std::array<double, 16> row = rowOf(time, state, microseconds);
+    table_.row(row.data(), row.size());
+  }
+  Summary summary()
+  {
+    std::sort(durations_.begin(), durations_.end());
+    summary_.p50Microseconds = quantile(durations_, 0.50);
+    summary_.p99Microseconds = quantile(durations_, 0.99);
+    summary_.maximumMicroseconds = quantile(durations_, 1.0);
+    return summary_;
+  }
+
+private:
+  CsvWriter& table_;
+  Summary summary_;
+  std::vector<float> durations_;
+};
+
+/// A proxy in virtual time, in the scenes of where it comes.
+class VirtualTouch
+{
+public:
+  VirtualTouch(const FeelOptions& options, FeelScenes& scenes)
+    : proxy_(options.parameters)
+    , scenes_(scenes)
+    , period_(1.0 / options.rateHz)
+  {
+  }
+  /// @param microseconds of the tick alone: a scene that it needs is there in time.
+  const ProxyState& step(const Vec3& hip, double& microseconds)
+  {
+    const HapticScene* scene = scenes_.at(hip, state_.contact ? state_.proxy : hip);
+    if (scene != scene_)
+    {
+      proxy_.setScene(scene_ = scene);
+    }
+    const auto before = std::chrono::steady_clock::now();
+    state_ = proxy_.step(hip, period_);
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;
+    microseconds = took.count();
+    return state_;
+  }
+
+private:
+  Proxy proxy_;
+  FeelScenes& scenes_;
+  double period_;
+  const HapticScene* scene_ = nullptr;
+  ProxyState state_;
+};
+
+/// A person pulled along @p path, who yields to the force; in virtual time.
+bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks,
+  Rows& rows, std::string& message)
+{
+  SimulatedHandSettings settings;
+  for (const HipPathPoint& point : path.points)
+  {
+    settings.workspace.include(point.position);
+  }
+  // Forces may push the hand off its path.
+  const Vec3 margin(kHandMargin, kHandMargin, kHandMargin);
+  settings.workspace.minimum -= margin;
+  settings.workspace.maximum += margin;
+  SimulatedDevice hand(settings);
+  hand.setPath(path);
+  const ContactParameters& contact = options.parameters.contact;
+  const HandLimits limits = hand.limits();
+  if (checkPassive(limits, contact.stiffness, contact.damping, options.rateHz) != Status::Ok)
+  {
+    message =
+      fmt::format("stiffness {} N/m with damping {} N s/m would make the hand shake at {} Hz; use at most "
+                  "{:.0f} N/m beside this damping",
+        contact.stiffness, contact.damping, options.rateHz,
+        largestPassiveStiffness(limits, contact.damping, options.rateHz));
+    return false;
+  }
+  if (const Status status = hand.open(); status != Status::Ok)
+  {
+    message = options.path + ": " + sentence(status);
+    return false;
+  }
+  VirtualTouch touch(options, scenes);
+  ProgressBar bar("feeling");
+  for (std::int64_t tick = 0; tick < ticks && !stopIsRequested(); ++tick)
+  {
+    const double time = double(tick) / options.rateHz;
+    HandState state;
+    if (hand.read(std::min(time, path.duration()), state) != Status::Ok)
+    {
+      break;
+    }
+    double microseconds = 0.0;
+    const ProxyState& felt = touch.step(state.position, microseconds);
+    static_cast<void>(hand.write(time, felt.force));
+    rows.add(path.points.front().timeSeconds + time, felt, microseconds);
+    bar.show(double(tick) / double(ticks));
+  }
+  return true;
+}
+
+/// Moves the hand along @p path in virtual time.
+void walk(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks, Rows& rows)
+{
+  VirtualTouch touch(options, scenes);
+  const double start = path.points.front().timeSeconds;
+  const double end = path.points.back().timeSeconds;
+  std::size_t hint = 0;
+  ProgressBar bar("feeling");
+  for (std::int64_t tick = 0; tick < ticks && !stopIsRequested(); ++tick)
+  {
+    const double time = std::min(start + double(tick) / options.rateHz, end);
+    double microseconds = 0.0;
+    const ProxyState& state = touch.step(path.position(time, hint), microseconds);
+    rows.add(time, state, microseconds);
+    bar.show(double(tick) / double(ticks));
+  }
+}
+
+/// The hand in the device, until the time is over or the user ends it.
+bool touch(const FeelOptions& options, FeelScenes& scenes, Rows& rows, std::string& message)
+{
+  LiveSettings live;
+  live.falcon = options.falcon;
+  live.parameters = options.parameters;
+  live.rateHz = options.rateHz;
+  live.seconds = options.seconds;
+  ServoStatistics statistics;
+  const auto row = [&rows](const ServoSample& sample)
+  { rows.add(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds); };
+  if (!feelLive(live, scenes, row, statistics, message))
+  {
+    return false;
+  }
+  printNow(stderr,
+    fmt::format("{:.0f} Hz, {} ticks missed, {} device faults, lateness p99 {:.0f} us\n", statistics.rateHz,
+      statistics.missedTicks, statistics.deviceFaults, 1e6 * statistics.lateness.p99));
+  return true;
+}
+
+bool feelAs(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks,
+  Rows& rows, std::string& message)
+{
+  if (options.device == "falcon")
+  {
+    return touch(options, scenes, rows, message);
+  }
+  if (options.device == "simulated" && !walkYielding(options, scenes, path, ticks, rows, message))
+  {
+    return false;
+  }
+  if (options.device != "simulated")
+  {
+    walk(options, scenes, path, ticks, rows);
+  }
+  if (stopIsRequested())
+  {
+    message = options.output + ": feeling was stopped on request; start it again";
+  }
+  return !stopIsRequested();
+}
+
+void print(const FeelOptions& options, const FeelScenes& scenes, const Summary& s)
+{
+  if (options.json)
+  {
+    const nlohmann::ordered_json result = { { "output", options.output },
+      { "points_felt", scenes.whole()->numberOfPoints() }, { "local_scenes", scenes.numberOfLocalScenes() },
+      { "finest_cell_m", scenes.finestCell() }, { "ticks", s.ticks }, { "contact_ticks", s.contactTicks },
+      { "max_force_n", s.maximumForce },
+      { "update_us",
+        { { "p50", s.p50Microseconds }, { "p99", s.p99Microseconds }, { "max", s.maximumMicroseconds } } } };
+    printJson(result);
+    return;
+  }
+  fmt::print("{} ticks, {} in contact, max force {:.4g} N, update p50 {:.2f} p99 {:.2f} max {:.2f} us: {}\n",
+    s.ticks, s.contactTicks, s.maximumForce, s.p50Microseconds, s.p99Microseconds, s.maximumMicroseconds,
+    options.output);
+}
+
+int runFeel(const FeelOptions& options)
+{
+  std::string message;
+  HipPath path;
+  std::int64_t ticks = 0;
+  const bool follows = options.device != "falcon";
+  if (follows && readHipPath(options.path, path, message) != Status::Ok)
+  {
+    return fail(kCommand, message);
+  }
+  if (follows && !countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message))
+  {
+    return fail(kCommand, message);
+  }
+  Cloud cloud;
+  if (!readCloud(options.file, cloud, message))
+  {
+    return fail(kCommand, message);
+  }
+  FeelScenes scenes;
+  const bool isMade = scenes.make(options, cloud.points, message);
+  showWarnings(kCommand);
+  if (!isMade)
+  {
+    return fail(kCommand, message);
+  }
+  cloud = {};
+  rememberStopSignals(); // before there is an unfinished file
+  CsvWriter table;
+  if (!table.open(options.output, kHeader, message))
+  {
+    return fail(kCommand, message);
+  }
+  Rows rows(table);
+  if (!feelAs(options, scenes, path, ticks, rows, message) || !table.commit(message))
+  {
+    return fail(kCommand, message);
+  }
+  print(options, scenes, rows.summary());
+  return kSuccess;
+}
+
+} // namespace
+
+void addFeelCommand(CLI::App& program, int& exitCode)
+{
+  CLI::App* command =
+    program.add_subcommand("feel", "Feel a point cloud along a path, in virtual time, or with a Falcon");
+  auto options = std::make_shared<FeelOptions>();
+  options->addTo(*command);
+  command->callback(
+    [options, &exitCode]
+    {
+      options->complete();
+      exitCode = runFeel(*options);
+    });
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,155 @@
+#include "Commands/Commands.h"
+
+#include "Clouds/CloudSummary.h"
+#include "Clouds/Pipeline.h"
+#include "Terminal/Messages.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <vtkPolyData.h>
+
+#include <memory>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr const char* kCommand = "info";
+
+struct InfoOptions
+{
+  std::vector<std::string> files;
+  bool json = false;
+};
+
+std::vector<double> numbers(const Vec3& v)
+{
+  return { v.x, v.y, v.z };
+}
+
+nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
+{
+  nlohmann::ordered_json arrays = nlohmann::ordered_json::array();
+  for (const ArraySummary& array : s.arrays)
+  {
+    arrays.push_back({ { "name", array.name }, { "type", array.type }, { "components", array.components },
+      { "min", array.minima }, { "max", array.maxima } });
+  }
+  nlohmann::ordered_json result = { { "file", file }, { "format", s.format }, { "points", s.points },
+    { "points_invalid", s.invalid }, { "points_duplicate", s.duplicates } };
+  if (!s.bounds.empty())
+  {
+    result["bounds"] = { { "min", numbers(s.bounds.minimum) }, { "max", numbers(s.bounds.maximum) } };
+    nlohmann::ordered_json percentiles;
+    for (std::size_t i = 0; i < s.spacing.size(); ++i)
+    {
+      percentiles[std::to_string(kSpacingPercents[i])] = s.spacing[i];
+    }
+    result["spacing"] = s.spacing[2];
+    result["spacing_percentiles"] = percentiles;
+    result["density_variation"] = s.densityVariation;
+    result["suggested_voxel"] = s.suggestedVoxel;
+    result["unit"] = s.unit;
+    result["unit_is_guess"] = s.unitIsGuess;
+  }
+  if (!s.coordinateSystem.empty())
+  {
+    result["coordinate_system"] = s.coordinateSystem;
+  }
+  result["arrays"] = arrays;
+  if (!s.hint.empty())
+  {
+    result["hint"] = s.hint;
+    result["suggested_scale"] = s.suggestedScale;
+  }
+  return result;
+}
+
+void print(const std::string& file, const CloudSummary& s)
+{
+  fmt::print("{}\n  format   {}\n  points   {}{}{}\n", file, s.format, s.points,
+    s.invalid > 0 ? fmt::format(", {} of them NaN or infinite", s.invalid) : "",
+    s.duplicates > 0 ? fmt::format(", {} at the place of another", s.duplicates) : "");
+  if (!s.bounds.empty())
+  {
+    const Vec3 low = s.bounds.minimum, high = s.bounds.maximum, size = s.bounds.extent();
+    fmt::print(
+      "  bounds   x {} .. {}  y {} .. {}  z {} .. {}\n", low.x, high.x, low.y, high.y, low.z, high.z);
+    fmt::print("  size     {:.6g} x {:.6g} x {:.6g}\n", size.x, size.y, size.z);
+    fmt::print("  unit     {} ({})\n", s.unit, s.unitIsGuess ? "a guess by the size" : "the file says so");
+    fmt::print(
+      "  spacing  {:.4g} (median distance to the nearest other point; 5 % {:.4g}, 25 % {:.4g}, 75 % {:.4g}, "
+      "95 % {:.4g})\n",
+      s.spacing[2], s.spacing[0], s.spacing[1], s.spacing[3], s.spacing[4]);
+    fmt::print("  density  spacing varies {:.3g} : 1 (95 % over 5 %)\n", s.densityVariation);
+    fmt::print("  voxel    {:.3g} holds a few points of a surface (--voxel)\n", s.suggestedVoxel);
+  }
+  if (!s.coordinateSystem.empty())
+  {
+    fmt::print("  system   {}\n", s.coordinateSystem);
+  }
+  for (const ArraySummary& array : s.arrays)
+  {
+    std::string ranges;
+    for (std::size_t i = 0; i < array.minima.size(); ++i)
+    {
+      ranges += fmt::format(" [{:.6g}, {:.6g}]", array.minima[i], array.maxima[i]);
+    }
+    fmt::print("  array    {}: {} x {}{}\n", array.name, array.type, array.components, ranges);
+  }
+  if (!s.hint.empty())
+  {
+    fmt::print("  hint     {}\n", s.hint);
+  }
+}
+
+int runInfo(const InfoOptions& options)
+{
+  int exitCode = kSuccess;
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  for (const std::string& file : options.files)
+  {
+    Cloud cloud;
+    std::string message;
+    if (!readCloud(file, cloud, message))
+    {
+      exitCode = fail(kCommand, message);
+      files.push_back({ { "file", file }, { "error", message } });
+      continue;
+    }
+    showWarnings(kCommand);
+    const CloudSummary summary = summarize(cloud);
+    if (options.json)
+    {
+      files.push_back(toJson(file, summary));
+    }
+    else
+    {
+      print(file, summary);
+    }
+  }
+  if (options.json)
+  {
+    const nlohmann::ordered_json result = { { "files", files } };
+    printJson(result);
+  }
+  return exitCode;
+}
+
+} // namespace
+
+void addInfoCommand(CLI::App& program, int& exitCode)
+{
+  CLI::App* command = program.add_subcommand("info", "Say what is in point cloud files");
+  auto options = std::make_shared<InfoOptions>();
+  command->add_option("FILE", options->files, "Point clouds to look at")->required()->type_name("");
+  command->add_flag("--json", options->json, "Print all of it as JSON");
+  command->callback([options, &exitCode] { exitCode = runInfo(*options); });
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,127 @@
+#include "Feel/FeelLive.h"
+
+#include "Terminal/Messages.h"
+#include "Terminal/StopSignals.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr auto kPause = std::chrono::milliseconds(20);
+/// Between two looks at where the hand is: 0.25 mm at 50 mm/s.
+constexpr auto kLook = std::chrono::milliseconds(5);
+
+/// While it lives, a thread follows the hand and publishes the scenes of where it is.
+class SceneThread
+{
+public:
+  SceneThread(ServoLoop& loop, LocalSceneFollower& follower)
+    : thread_([this, &loop, &follower] { this->run(loop, follower); })
+  {
+  }
+  ~SceneThread()
+  {
+    ending_ = true;
+    thread_.join();
+  }
+  SceneThread(const SceneThread&) = delete;
+  SceneThread& operator=(const SceneThread&) = delete;
+
+private:
+  void run(ServoLoop& loop, LocalSceneFollower& follower)
+  {
+    while (!ending_)
+    {
+      const ServoSample latest = loop.latest();
+      Bounds hand;
+      hand.include(latest.state.hip);
+      hand.include(latest.state.proxy);
+      if (latest.tick > 0 && follower.update(hand, SmpExecutor()))
+      {
+        loop.publishScene(follower.scene());
+      }
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+
+  std::atomic<bool> ending_{ false };
+  std::thread thread_; // last: it uses the other
+};
+
+} // namespace
+
+bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
+  const std::function<void(const ServoSample&)>& onSample, ServoStatistics& statistics, std::string& message)
+{
+  rememberStopSignals();
+  FalconDevice device(settings.falcon.settings());
+  if (const Status status = device.open(); status != Status::Ok)
+  {
+    message = openProblem(device, status);
+    return false;
+  }
+  ServoLoop loop; // after the device: stops before it closes
+  loop.publishScene(scenes.whole());
+  if (loop.start(device, settings.parameters, pushingServoSettings(settings.rateHz), &message) != Status::Ok)
+  {
+    return false;
+  }
+  std::optional<SceneThread> sceneThread;
+  if (LocalSceneFollower* follower = scenes.follower())
+  {
+    sceneThread.emplace(loop, *follower);
+  }
+  FalconNews news;
+  std::vector<ServoSample> samples;
+  const auto pass = [&]
+  {
+    samples.clear();
+    loop.takeTrace(samples);
+    for (const ServoSample& sample : samples)
+    {
+      if (sample.device == Status::Ok)
+      {
+        onSample(sample);
+      }
+    }
+  };
+  double touchBegan = -1.0;
+  while (loop.running() && !stopIsRequested())
+  {
+    if (const std::string line = news.next(device); !line.empty())
+    {
+      printNow(stderr, line + "\n");
+    }
+    pass();
+    const double time = loop.latest().timeSeconds;
+    touchBegan = touchBegan < 0.0 && device.state() == FalconState::Armed ? time : touchBegan;
+    if (settings.seconds > 0.0 && touchBegan >= 0.0 && time - touchBegan >= settings.seconds)
+    {
+      break;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+  sceneThread.reset();
+  loop.stop();
+  pass();
+  statistics = loop.statistics();
+  device.close();
+  if (const std::string refusals = describeRefusals(statistics); !refusals.empty())
+  {
+    warn("feel", refusals);
+  }
+  return true;
+}
+
+} // namespace app
+} // namespace pointhaptics

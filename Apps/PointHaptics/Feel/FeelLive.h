@@ -1,0 +1,32 @@
+/// @file
+/// `feel --device falcon`: the hand in the device, in real time, without a window.
+#pragma once
+
+#include "Feel/FeelScenes.h"
+#include "Feel/HandDevice.h"
+#include "Terminal/CsvWriter.h"
+
+#include <functional>
+#include <string>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+struct LiveSettings
+{
+  FalconOptions falcon;
+  HapticParameters parameters;
+  double rateHz = 1000.0;
+  double seconds = 0.0; ///< Of touch, from the first tick with forces on; 0: until a stop signal.
+};
+
+/// Runs the servo loop on the Falcon; @p onSample gets every tick that had a position. Local scenes are made
+/// in a thread of their own; until one is there, the whole cloud's is felt. False: @p message says what
+/// failed and the cure.
+bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
+  const std::function<void(const ServoSample&)>& onSample, ServoStatistics& statistics, std::string& message);
+
+} // namespace app
+} // namespace pointhaptics

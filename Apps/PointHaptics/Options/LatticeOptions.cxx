@@ -1,0 +1,223 @@
+#include "Options/LatticeOptions.h"
+
+#include "Options/OptionParsing.h"
+
+#include "Core/Base/Lattice.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMatrixToLinearTransform.h>
+#include <vtkNew.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+using Numbers = std::vector<double>;
+
+const std::vector<std::pair<std::string, double>>& units()
+{
+  static const std::vector<std::pair<std::string, double>> table = { { "m", 1.0 }, { "cm", 1e-2 },
+    { "mm", 1e-3 }, { "um", 1e-6 }, { "km", 1e3 }, { "in", 0.0254 }, { "ft", 0.3048 } };
+  return table;
+}
+
+double metresPer(const std::string& unit)
+{
+  for (const auto& entry : units())
+  {
+    if (entry.first == unit)
+    {
+      return entry.second;
+    }
+  }
+  return 1.0;
+}
+
+std::string checkDimensions(const Numbers& numbers)
+{
+  for (const double n : numbers)
+  {
+    if (!(n >= 1.0 && n <= double(kMaximumLatticeDimension)) || n != std::floor(n))
+    {
+      return fmt::format(
+        "voxels on an axis out of range; give whole numbers from 1 to {}", kMaximumLatticeDimension);
+    }
+  }
+  return {};
+}
+
+std::string checkWorkspace(const Numbers& b)
+{
+  return b[0] < b[1] && b[2] < b[3] && b[4] < b[5]
+    ? ""
+    : "a maximum is not above its minimum; give x0,x1,y0,y1,z0,z1 with x0 < x1, y0 < y1, z0 < z1";
+}
+
+std::string checkScale(const Numbers& factors)
+{
+  const Vec3 s{ factors[0], factors[factors.size() == 3 ? 1 : 0], factors[factors.size() == 3 ? 2 : 0] };
+  return AffineTransform::scaling(s).check() == Status::Ok
+    ? ""
+    : "the transform is singular; give factors that are not zero";
+}
+
+std::string checkRotation(const Numbers& r)
+{
+  return norm(Vec3{ r[1], r[2], r[3] }) > 0.0 ? ""
+                                              : "the axis has no length; give DEGREES,x,y,z with an axis";
+}
+
+AffineTransform affineFrom(const Numbers& rows)
+{
+  AffineTransform transform;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      transform.m[row][column] = rows[static_cast<std::size_t>(4 * row + column)];
+    }
+  }
+  return transform;
+}
+
+std::string checkMatrix(const Numbers& m)
+{
+  if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] != 1.0)
+  {
+    return "not an affine matrix; the last row must be 0,0,0,1";
+  }
+  return affineFrom(m).check() == Status::Ok ? "" : "the matrix is singular; give one that can be inverted";
+}
+
+} // namespace
+
+void LatticeOptions::addTo(CLI::App& command)
+{
+  const char* const group = "Lattice and transform";
+  const auto keepDimensions = [this](const Numbers& n) { this->dimensions.assign(n.begin(), n.end()); };
+  CLI::Option* dims = addNumbers(command, "--dims", keepDimensions, { 1, 3 }, checkDimensions, "N|Nx,Ny,Nz",
+    "Voxels on each axis of the lattice; default 300");
+  CLI::Option* voxel = addNumber(command, "--voxel", this->voxelSize, { 0.0, kUnbounded, true }, "METRES",
+    "Edge of a cubic voxel, instead of --dims");
+  CLI::Option* box = addNumbers(command, "--workspace", this->workspace, { 6 }, checkWorkspace,
+    "x0,x1,y0,y1,z0,z1", "Box of the lattice; default: a cube about the transformed cloud");
+  CLI::Option* scaling = addNumbers(
+    command, "--scale", this->scale, { 1, 3 }, checkScale, "S|sx,sy,sz", "Scale the cloud, first of all");
+  CLI::Option* rotation = addNumbers(command, "--rotate", this->rotate, { 4 }, checkRotation, "DEGREES,x,y,z",
+    "Turn the cloud about an axis through the origin, after --scale");
+  CLI::Option* shift = addNumbers(
+    command, "--translate", this->translate, { 3 }, {}, "x,y,z", "Shift the cloud in metres, after --rotate");
+  CLI::Option* affine = addNumbers(command, "--matrix", this->matrix, { 16 }, checkMatrix, "m00,m01,...,m33",
+    "Affine 4x4 matrix, row by row, instead of --scale, --rotate and --translate");
+  std::vector<std::string> names;
+  for (const auto& entry : units())
+  {
+    names.push_back(entry.first);
+  }
+  CLI::Option* unitOption =
+    addWord(command, "--unit", this->unit, names, "Unit of the file's coordinates; default m");
+  voxel->excludes(dims);
+  affine->excludes(scaling)->excludes(rotation)->excludes(shift);
+  for (CLI::Option* option : { dims, voxel, box, scaling, rotation, shift, affine, unitOption })
+  {
+    option->group(group);
+  }
+}
+
+double LatticeOptions::metresPerUnit() const
+{
+  return metresPer(this->unit);
+}
+
+AffineTransform LatticeOptions::transform() const
+{
+  const double metres = metresPer(this->unit);
+  AffineTransform result = AffineTransform::scaling({ metres, metres, metres });
+  if (!this->matrix.empty())
+  {
+    return affineFrom(this->matrix) * result;
+  }
+  if (this->scale.size() == 1)
+  {
+    result = AffineTransform::scaling({ this->scale[0], this->scale[0], this->scale[0] }) * result;
+  }
+  else if (this->scale.size() == 3)
+  {
+    result = AffineTransform::scaling({ this->scale[0], this->scale[1], this->scale[2] }) * result;
+  }
+  if (this->rotate.size() == 4)
+  {
+    result =
+      AffineTransform::rotation(this->rotate[0], { this->rotate[1], this->rotate[2], this->rotate[3] }) *
+      result;
+  }
+  if (this->translate.size() == 3)
+  {
+    result =
+      AffineTransform::translation({ this->translate[0], this->translate[1], this->translate[2] }) * result;
+  }
+  return result;
+}
+
+bool LatticeOptions::hasTransform() const
+{
+  return !(this->scale.empty() && this->rotate.empty() && this->translate.empty() && this->matrix.empty()) ||
+    this->unit != "m";
+}
+
+Bounds LatticeOptions::workspaceBounds() const
+{
+  Bounds bounds;
+  if (const std::vector<double>& w = this->workspace; !w.empty())
+  {
+    bounds.include({ w[0], w[2], w[4] });
+    bounds.include({ w[1], w[3], w[5] });
+  }
+  return bounds;
+}
+
+void LatticeOptions::configure(vtkVoxelMeanResampler* resampler) const
+{
+  if (this->hasTransform())
+  {
+    vtkNew<vtkMatrix4x4> matrix4x4;
+    const AffineTransform affine = this->transform();
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int column = 0; column < 4; ++column)
+      {
+        matrix4x4->SetElement(row, column, affine.m[row][column]);
+      }
+    }
+    vtkNew<vtkMatrixToLinearTransform> linear;
+    linear->SetInput(matrix4x4);
+    resampler->SetTransform(linear);
+  }
+  if (!this->workspace.empty())
+  {
+    resampler->SetWorkspaceBounds(this->workspace.data());
+  }
+  if (!this->dimensions.empty())
+  {
+    const int n = this->dimensions[0];
+    const bool three = this->dimensions.size() == 3;
+    resampler->SetDimensions(n, three ? this->dimensions[1] : n, three ? this->dimensions[2] : n);
+  }
+  if (this->voxelSize > 0.0)
+  {
+    resampler->SetVoxelSize(this->voxelSize);
+  }
+}
+
+} // namespace app
+} // namespace pointhaptics

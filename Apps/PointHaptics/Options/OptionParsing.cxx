@@ -1,0 +1,236 @@
+#include "Options/OptionParsing.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+// "--voxel,-v" is called "--voxel" in messages.
+std::string shownName(const std::string& name)
+{
+  const std::size_t longName = name.find("--");
+  return longName == std::string::npos ? name : name.substr(longName, name.find(',', longName) - longName);
+}
+
+std::string describe(const NumberRange& range, const std::string& unit)
+{
+  const std::string shownUnit = unit.empty() ? "" : " (" + unit + ")";
+  if (range.maximum >= kUnbounded)
+  {
+    return fmt::format(
+      "give a number {} {}{}", range.openMinimum ? "above" : "from", range.minimum, shownUnit);
+  }
+  return fmt::format("give a number {} {} and at most {}{}", range.openMinimum ? "above" : "from",
+    range.minimum, range.maximum, shownUnit);
+}
+
+std::string describe(std::initializer_list<std::size_t> counts)
+{
+  return fmt::format("{}", fmt::join(counts, " or "));
+}
+
+} // namespace
+
+bool parseNumber(const std::string& text, double& value)
+{
+  const char* begin = text.data();
+  const char* const end = begin + text.size();
+  if (begin != end && *begin == '+')
+  {
+    ++begin;
+  }
+  const std::from_chars_result result = std::from_chars(begin, end, value);
+  return result.ec == std::errc() && result.ptr == end;
+}
+
+bool parseNumbers(const std::string& text, std::vector<double>& values)
+{
+  values.clear();
+  for (std::size_t begin = 0; begin <= text.size();)
+  {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    double value = 0.0;
+    if (!parseNumber(text.substr(begin, comma - begin), value))
+    {
+      return false;
+    }
+    values.push_back(value);
+    begin = comma + 1;
+  }
+  return true;
+}
+
+void throwUsage(const std::string& option, const std::string& value, const std::string& problem)
+{
+  throw CLI::ValidationError(option + (value.empty() ? "" : " " + value), problem);
+}
+
+CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
+  const std::string& unit, const std::string& description)
+{
+  const auto store = [&value, range, unit, shown = shownName(name)](const std::string& text)
+  {
+    double number = 0.0;
+    if (!parseNumber(text, number))
+    {
+      throwUsage(shown, text, "not a number; " + describe(range, unit));
+    }
+    const bool aboveMinimum = range.openMinimum ? number > range.minimum : number >= range.minimum;
+    if (!(aboveMinimum && number <= range.maximum))
+    {
+      throwUsage(shown, text, "out of range; " + describe(range, unit));
+    }
+    value = number;
+  };
+  return command.add_option_function<std::string>(name, store, description)
+    ->type_name(unit.empty() ? "NUMBER" : unit);
+}
+
+CLI::Option* addInteger(CLI::App& command, const std::string& name, std::int64_t& value, std::int64_t minimum,
+  std::int64_t maximum, const std::string& description)
+{
+  const auto store = [&value, minimum, maximum, shown = shownName(name)](const std::string& text)
+  {
+    double number = 0.0;
+    if (!parseNumber(text, number) || number != std::floor(number) ||
+      !(number >= double(minimum) && number <= double(maximum)))
+    {
+      throwUsage(
+        shown, text, fmt::format("not a whole number in range; give one from {} to {}", minimum, maximum));
+    }
+    value = static_cast<std::int64_t>(number);
+  };
+  return command.add_option_function<std::string>(name, store, description)->type_name("N");
+}
+
+CLI::Option* addNumbers(CLI::App& command, const std::string& name,
+  std::function<void(const std::vector<double>&)> keep, std::initializer_list<std::size_t> counts,
+  NumbersCheck check, const std::string& form, const std::string& description)
+{
+  const auto store = [keep = std::move(keep), allowed = std::vector<std::size_t>(counts),
+                       howMany = describe(counts), check = std::move(check),
+                       shown = shownName(name)](const std::string& text)
+  {
+    std::vector<double> numbers;
+    if (!parseNumbers(text, numbers))
+    {
+      throwUsage(
+        shown, text, "not a list of numbers; give " + howMany + " separated by commas, without blanks");
+    }
+    if (std::find(allowed.begin(), allowed.end(), numbers.size()) == allowed.end())
+    {
+      throwUsage(
+        shown, text, fmt::format("{} numbers; give {} separated by commas", numbers.size(), howMany));
+    }
+    if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
+    {
+      throwUsage(shown, text, "NaN or infinity; give finite numbers");
+    }
+    const std::string problem = check ? check(numbers) : std::string();
+    if (!problem.empty())
+    {
+      throwUsage(shown, text, problem);
+    }
+    keep(numbers);
+  };
+  return command.add_option_function<std::string>(name, store, description)->type_name(form);
+}
+
+CLI::Option* addNumbers(CLI::App& command, const std::string& name, std::vector<double>& values,
+  std::initializer_list<std::size_t> counts, NumbersCheck check, const std::string& form,
+  const std::string& description)
+{
+  return addNumbers(
+    command, name, [&values](const std::vector<double>& numbers) { values = numbers; }, counts,
+    std::move(check), form, description);
+}
+
+CLI::Option* addWholeNumbers(CLI::App& command, const std::string& name, std::vector<double>& values,
+  double maximum, const std::string& description)
+{
+  const auto store = [&values, maximum, shown = shownName(name)](const std::string& text)
+  {
+    const auto isFit = [maximum](double x) { return x == std::floor(x) && x >= 1.0 && x <= maximum; };
+    if (!parseNumbers(text, values) || !std::all_of(values.begin(), values.end(), isFit))
+    {
+      throwUsage(
+        shown, text, fmt::format("give whole numbers from 1 to {:.0f}, separated by commas", maximum));
+    }
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  };
+  return command.add_option_function<std::string>(name, store, description)->type_name("N,...");
+}
+
+CLI::Option* addWord(CLI::App& command, const std::string& name, std::string& value,
+  std::vector<std::string> words, const std::string& description)
+{
+  const std::string form = fmt::format("{}", fmt::join(words, "|"));
+  const auto store = [&value, words = std::move(words), shown = shownName(name)](const std::string& text)
+  {
+    if (std::find(words.begin(), words.end(), text) == words.end())
+    {
+      throwUsage(shown, text, fmt::format("no such choice; give one of {}", fmt::join(words, ", ")));
+    }
+    value = text;
+  };
+  return command.add_option_function<std::string>(name, store, description)->type_name(form);
+}
+
+CLI::Option* addWords(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+  const std::vector<std::string>& words, bool mayBeNone, const std::string& description)
+{
+  const auto store = [&values, words, mayBeNone, shown = shownName(name)](const std::string& text)
+  {
+    values.clear();
+    for (const std::string& word : CLI::detail::split(mayBeNone && text == "none" ? "" : text, ','))
+    {
+      if (word.empty() && mayBeNone)
+      {
+        continue;
+      }
+      if (std::find(words.begin(), words.end(), word) == words.end())
+      {
+        throwUsage(shown, text, fmt::format("no such choice; give some of {}", fmt::join(words, ",")));
+      }
+      values.push_back(word);
+    }
+  };
+  return command.add_option_function<std::string>(name, store, description)
+    ->type_name(fmt::format("{}", fmt::join(words, ",")));
+}
+
+CLI::Option* addChoice(CLI::App& command, const std::string& name, int& value,
+  std::vector<std::pair<std::string, int>> choices, const std::string& description)
+{
+  std::vector<std::string> words;
+  for (const auto& choice : choices)
+  {
+    words.push_back(choice.first);
+  }
+  const auto store = [&value, choices = std::move(choices), words, shown = shownName(name)](
+                       const std::string& text)
+  {
+    const auto found = std::find(words.begin(), words.end(), text);
+    if (found == words.end())
+    {
+      throwUsage(shown, text, fmt::format("no such choice; give one of {}", fmt::join(words, ", ")));
+    }
+    value = choices[static_cast<std::size_t>(found - words.begin())].second;
+  };
+  return command.add_option_function<std::string>(name, store, description)
+    ->type_name(fmt::format("{}", fmt::join(words, "|")));
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,426 @@
+#include "Options/ViewOptions.h"
+
+#include "Options/KeyedHelp.h"
+#include "Options/OptionParsing.h"
+#include "Terminal/Messages.h"
+#include "Viewer/ViewSettings.h"
+
+#include "HapticBindings.h"
+
+#include "Shapes/Shapes.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <vtkCamera.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr int kLargestPicture = 16384;
+
+/// One JSON value as it would stand on the command line. False: objects and null have no such form.
+bool textOf(const nlohmann::json& value, std::string& text)
+{
+  if (value.is_string())
+  {
+    text = value.get<std::string>();
+    return true;
+  }
+  if (value.is_array())
+  {
+    text.clear();
+    for (const nlohmann::json& element : value)
+    {
+      std::string part;
+      if (element.is_array() || !textOf(element, part))
+      {
+        return false;
+      }
+      text += (text.empty() ? "" : ",") + part;
+    }
+    return true;
+  }
+  if (value.is_boolean() || value.is_number())
+  {
+    text = value.dump();
+    return true;
+  }
+  return false;
+}
+
+/// Long names of the options a configuration file may set, without the dashes.
+std::vector<std::string> configurableNames(CLI::App& command)
+{
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+  {
+    for (const std::string& name : option->get_lnames())
+    {
+      const std::set<std::string> others = { "help", "version", "config", "write-config", "recent" };
+      if (others.count(name) == 0)
+      {
+        names.push_back(name);
+      }
+    }
+  }
+  return names;
+}
+
+bool isGivenOnCommandLine(const CLI::Option* option, const std::vector<const CLI::Option*>& given)
+{
+  return std::find(given.begin(), given.end(), option) != given.end();
+}
+
+/// The command line wins: also over a key that cannot stand beside one of its options.
+bool isOverruled(CLI::Option* option, const std::vector<const CLI::Option*>& given)
+{
+  if (isGivenOnCommandLine(option, given))
+  {
+    return true;
+  }
+  for (CLI::Option* other : given.empty() ? std::set<CLI::Option*>() : option->get_excludes())
+  {
+    if (isGivenOnCommandLine(other, given))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string applyValue(CLI::Option* option, const std::string& key, const nlohmann::json& value)
+{
+  std::string text;
+  if (!textOf(value, text))
+  {
+    return fmt::format("key \"{}\": give a number, a text, true or false, or a list of numbers", key);
+  }
+  for (const CLI::Option* other : option->get_excludes())
+  {
+    if (other->count() > 0)
+    {
+      return fmt::format(
+        "key \"{}\" cannot stand beside \"{}\"; keep one of them", key, other->get_single_name());
+    }
+  }
+  try
+  {
+    option->add_result(text);
+    option->run_callback();
+  }
+  catch (const CLI::Error& error)
+  {
+    return fmt::format("key \"{}\": {}", key, error.what());
+  }
+  return {};
+}
+
+std::string applyKeys(CLI::App& command, const nlohmann::json& keys)
+{
+  std::vector<const CLI::Option*> given;
+  for (const CLI::Option* option : command.get_options())
+  {
+    if (option->count() > 0)
+    {
+      given.push_back(option);
+    }
+  }
+  const std::vector<std::string> names = configurableNames(command);
+  for (const auto& item : keys.items())
+  {
+    if (std::find(names.begin(), names.end(), item.key()) == names.end())
+    {
+      return fmt::format("unknown key \"{}\"; valid keys: {}", item.key(), fmt::join(names, ", "));
+    }
+    CLI::Option* option = command.get_option("--" + item.key());
+    const std::string problem =
+      isOverruled(option, given) ? std::string() : applyValue(option, item.key(), item.value());
+    if (!problem.empty())
+    {
+      return problem;
+    }
+  }
+  return {};
+}
+
+/// Ends the parse where @p text is not ACTION=GESTURES.
+void checkBinding(const std::string& text)
+{
+  const std::size_t equals = text.find('=');
+  const std::string action = text.substr(0, equals);
+  if (equals == std::string::npos || hapticActionFromName(action) == HapticAction::None)
+  {
+    std::vector<std::string> names;
+    for (HapticAction each : hapticActions())
+    {
+      names.emplace_back(hapticActionName(each));
+    }
+    throwUsage("--bind", text,
+      fmt::format("{}; give ACTION=KEY, such as help=F1, with one of: {}",
+        equals == std::string::npos ? "no key" : "no such action", fmt::join(names, ", ")));
+  }
+  std::istringstream gestures(text.substr(equals + 1));
+  for (std::string gesture; gestures >> gesture;)
+  {
+    if (!HapticBindings::isGesture(gesture))
+    {
+      throwUsage("--bind", text,
+        fmt::format("\"{}\" is no key or gesture; give names such as F1, plus, Ctrl+z, Shift+left or hand1, "
+                    "with blanks between them",
+          gesture));
+    }
+  }
+}
+
+std::string checkCamera(const std::vector<double>& numbers)
+{
+  const Vec3 direction{ numbers[3] - numbers[0], numbers[4] - numbers[1], numbers[5] - numbers[2] };
+  const Vec3 up{ numbers[6], numbers[7], numbers[8] };
+  return norm(cross(direction, up)) > 0.0
+    ? ""
+    : "no view; give different points, and an upward direction that is not along the view";
+}
+
+void addWindowOptions(CLI::App& command, ViewOptions& options)
+{
+  const char* const group = "Window";
+  const auto keepBindings = [&options, &command](const std::vector<std::string>& bindings)
+  {
+    std::for_each(bindings.begin(), bindings.end(), checkBinding);
+    options.bindings = bindings;
+    describeKeyedOptions(command, bindings); // for a --help beside it
+  };
+  command
+    .add_option_function<std::vector<std::string>>("--bind", keepBindings,
+      "Gives an action other keys or gestures, such as help=F1 or shift-model-by-hand=hand2; several "
+      "separated by commas")
+    ->delimiter(',')
+    ->type_name("ACTION=KEY,...")
+    ->group(group);
+  addNumbers(command, "--camera", options.camera, { 9 }, checkCamera, "X,Y,Z,FX,FY,FZ,UX,UY,UZ",
+    "Where the person looks from, at, and what is up; metres of the workspace; default: from in front")
+    ->group(group);
+  command.add_flag("--push-pointer", options.pushPointer)->group(group);
+  command.add_flag("--axes", options.axes)->group(group);
+  command.add_flag("--figure", options.figure)->group(group);
+  command.add_flag("--ambient", options.ambient)->group(group);
+  std::vector<std::string> shapes = { "auto", "none" };
+  for (int shape = 0; shape < kNumberOfShapes; ++shape)
+  {
+    shapes.emplace_back(shapeName(static_cast<Shape>(shape)));
+  }
+  addWord(command, "--ideal", options.ideal, shapes,
+    "The chart shows the exact force of this shape of generate too; default auto: where the cloud is one, "
+    "without noise")
+    ->group(group);
+}
+
+void addTouchOptions(CLI::App& command, ViewOptions& options)
+{
+  const char* const group = "Touch";
+  CLI::Option* added[] = {
+    addWord(command, "--method", options.method, { "surface-fit", "sphere", "gradient-steps" },
+      "How the proxy meets the surface: a fit (the default), a sphere among the points, or the paper's "
+      "steps"),
+    addWord(command, "--preset", options.preset, { "tuned", "paper" },
+      "Gains of --method gradient-steps; default tuned, paper for the printed ones"),
+    addNumber(command, "--stiffness", options.contact.stiffness, { 0.0, 1e5 }, "N_PER_M",
+      "Stiffness of the surface; default 800"),
+    addNumber(command, "--damping", options.contact.damping, { 0.0, 1e3 }, "N_S_PER_M",
+      "Damping along the normal; default 0"),
+    addNumber(command, "--mu-s", options.staticFriction, { 0.0, 10.0 }, "X",
+      "Static friction; default that of --mu-d"),
+    addNumber(
+      command, "--mu-d", options.contact.dynamicFriction, { 0.0, 10.0 }, "X", "Dynamic friction; default 0"),
+  };
+  for (CLI::Option* option : added)
+  {
+    option->group(group);
+  }
+  command.add_flag("--no-covariance", options.noCovariance, "Feel plain voxel means, without second moments")
+    ->group(group);
+}
+
+} // namespace
+
+void ViewOptions::addTo(CLI::App& command)
+{
+  command
+    .add_option("FILE", this->files,
+      "Point clouds: PLY, PCD, LAS, VTP, OBJ or columns of text; one that cannot be read is skipped "
+      "where there are others, but with --together")
+    ->required();
+  command.add_flag("--together", this->together);
+  command.add_flag("--watch", this->watch, "Read a file again when it changes");
+  command.add_option("--screenshot", this->screenshot, "Write this PNG instead of opening a window");
+  command
+    .add_option_function<std::string>(
+      "--size",
+      [this](const std::string& text)
+      {
+        char rest = 0;
+        if (std::sscanf(text.c_str(), "%dx%d%c", &this->width, &this->height, &rest) != 2 ||
+          this->width < 16 || this->height < 16 || this->width > kLargestPicture ||
+          this->height > kLargestPicture)
+        {
+          throwUsage("--size", text, fmt::format("give WIDTHxHEIGHT in pixels, 16 to {}", kLargestPicture));
+        }
+      },
+      "Size of the window or picture; default 1280x800")
+    ->type_name("WxH");
+  command
+    .add_option(
+      "--path", this->path, "Follow the hand path in this file: t,x,y,z, or what feel or --trace wrote")
+    ->type_name("HIP.csv");
+  addWord(command, "--device", this->device, { "auto", "falcon", "simulated", "none" },
+    "What moves the hand; default auto: a Falcon where one can be used, else the simulated hand, driven by "
+    "mouse and keys; falcon is an error where none can be used, also with --screenshot and --path");
+  this->falcon.addTo(command);
+  command
+    .add_option("--config", this->config, "Defaults for these options, a JSON object; the command line wins")
+    ->type_name("FILE.json");
+  command.add_option("--write-config", this->writeConfig)->type_name("OUT.json");
+  command.add_flag("--recent", this->recent, "Begin with the settings the last window ended with");
+  command.add_option("--force-chart", this->forceChart, "Write force and proxy radius over time as a PNG")
+    ->type_name("OUT.png");
+  command.add_option("--trace", this->trace, "Write one row per tick, as feel does")->type_name("OUT.csv");
+  addWord(command, "--up", this->up, { "auto", "x", "y", "z" },
+    "Axis of the cloud that points up; default: a guess");
+  command.add_option("--color-by", this->colorBy)->type_name("ARRAY[:COMPONENT]");
+  addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS",
+    "Diameter of a point; default: as the kernel bandwidth says, so that surfaces close");
+  command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");
+  addWindowOptions(command, *this);
+  addTouchOptions(command, *this);
+  this->bandwidth.addTo(command);
+  this->lattice.addTo(command);
+  describeKeyedOptions(command, {});
+  command.get_option("--dims")->description(
+    "Voxels on each axis of the lattice, everywhere; default 300, up to 1200 where these leave little of a "
+    "cloud, and near the hand, where that tells more, voxels about as fine as the points");
+}
+
+bool ViewOptions::complete(CLI::App& command, std::string& message)
+{
+  std::error_code missing;
+  if (this->recent && this->config.empty() && std::filesystem::exists(recentSettingsFile(), missing))
+  {
+    this->config = recentSettingsFile();
+  }
+  if (!this->config.empty())
+  {
+    std::error_code error;
+    std::ifstream file(this->config);
+    if (!file || std::filesystem::is_directory(this->config, error))
+    {
+      message = fmt::format("{}: cannot be opened; check the name given to --config", this->config);
+      return false;
+    }
+    const nlohmann::json keys = nlohmann::json::parse(file, nullptr, false, true);
+    if (!keys.is_object())
+    {
+      message = fmt::format(
+        "{}: not a JSON object; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", this->config);
+      return false;
+    }
+    const std::string problem = applyKeys(command, keys);
+    if (!problem.empty())
+    {
+      message = fmt::format("{}: {}", this->config, problem);
+      return false;
+    }
+  }
+  for (const auto& [option, name] :
+    { std::pair{ "--screenshot", &this->screenshot }, std::pair{ "--force-chart", &this->forceChart } })
+  {
+    if (!name->empty() && std::filesystem::path(*name).extension() != ".png")
+    {
+      throwUsage(option, *name, "pictures are written as PNG; end the name in .png");
+    }
+  }
+  if (this->path.empty() && !this->screenshot.empty() && (!this->trace.empty() || !this->forceChart.empty()))
+  {
+    throwUsage(this->trace.empty() ? "--force-chart" : "--trace",
+      this->trace.empty() ? this->forceChart : this->trace,
+      "nothing is felt in a still picture; give the hand's path with --path");
+  }
+  for (const char* name : { "--unit", "--scale", "--matrix", "--translate", "--workspace" })
+  {
+    this->fitsWorkspace = this->fitsWorkspace && command.get_option(name)->count() == 0;
+  }
+  if (command.get_option("--preset")->count() > 0 && this->method != "gradient-steps")
+  {
+    warn("view", kPresetIsIdle);
+  }
+  this->contact.staticFriction =
+    this->staticFriction >= 0.0 ? this->staticFriction : this->contact.dynamicFriction;
+  if (this->contact.dynamicFriction > this->contact.staticFriction)
+  {
+    throwUsage("--mu-d", fmt::format("{}", this->contact.dynamicFriction),
+      fmt::format("above --mu-s {}; give mu_d <= mu_s", this->contact.staticFriction));
+  }
+  this->given = givenSettings(command);
+  return true;
+}
+
+CloudRequest ViewOptions::cloudRequest(const std::vector<std::string>& wanted) const
+{
+  CloudRequest request;
+  request.files = wanted;
+  request.colorBy = colorBy;
+  request.up = up;
+  request.transform = lattice.transform();
+  request.choosesLattice = fitsWorkspace && lattice.dimensions.empty() && lattice.voxelSize == 0.0;
+  return request;
+}
+
+std::size_t ViewOptions::numberOfClouds() const
+{
+  return this->together ? 1 : this->files.size();
+}
+
+std::vector<std::string> ViewOptions::filesOfCloud(std::size_t index) const
+{
+  return this->together ? this->files : std::vector<std::string>{ this->files[index] };
+}
+
+void applyCamera(const ViewOptions& options, vtkRenderer* renderer)
+{
+  if (!options.camera.empty())
+  {
+    vtkCamera* camera = renderer->GetActiveCamera();
+    camera->SetPosition(&options.camera[0]);
+    camera->SetFocalPoint(&options.camera[3]);
+    camera->SetViewUp(&options.camera[6]);
+    camera->OrthogonalizeViewUp();
+    renderer->ResetCameraClippingRange();
+  }
+}
+
+HapticParameters ViewOptions::hapticParameters() const
+{
+  HapticParameters parameters;
+  parameters.method = this->method == "gradient-steps" ? ProxyMethod::GradientSteps
+    : this->method == "sphere"                         ? ProxyMethod::Sphere
+                                                       : ProxyMethod::SurfaceFit;
+  parameters.gradientSteps =
+    this->preset == "paper" ? GradientStepsParameters::paper() : GradientStepsParameters::tuned();
+  parameters.contact = this->contact;
+  return parameters;
+}
+
+} // namespace app
+} // namespace pointhaptics

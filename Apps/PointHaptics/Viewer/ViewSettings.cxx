@@ -1,0 +1,142 @@
+#include "Viewer/ViewSettings.h"
+
+#include "Core/Base/OutputFile.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <vtkCamera.h>
+#include <vtkMatrix4x4.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+const std::set<std::string>& deeds()
+{
+  static const std::set<std::string> names = { "help", "version", "config", "write-config", "recent",
+    "verbose", "screenshot", "force-chart", "trace" };
+  return names;
+}
+
+/// Of the cloud at hand, and of no other.
+constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
+  "translate", "unit", "path", "up", "color-by", "together", "watch", "camera", "ideal" };
+
+/// A number where it reads back as it was written, else text: an array may be called 1e3.
+nlohmann::ordered_json valueOf(const CLI::Option& option)
+{
+  const std::string text = fmt::format("{}", fmt::join(option.results(), ","));
+  if (option.get_expected_max() == 0) // a flag
+  {
+    return text != "false";
+  }
+  const nlohmann::ordered_json value = nlohmann::ordered_json::parse(text, nullptr, false);
+  return value.is_number() && value.dump() == text ? value : nlohmann::ordered_json(text);
+}
+
+} // namespace
+
+nlohmann::ordered_json givenSettings(CLI::App& command)
+{
+  nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+  for (const CLI::Option* option : command.get_options())
+  {
+    for (const std::string& name : option->get_lnames())
+    {
+      if (option->count() > 0 && deeds().count(name) == 0)
+      {
+        settings[name] = valueOf(*option);
+      }
+    }
+  }
+  return settings;
+}
+
+void setModel(
+  nlohmann::ordered_json& settings, vtkMatrix4x4* matrix, double metresPerUnit, const double workspace[6])
+{
+  for (const char* name : { "scale", "rotate", "translate" })
+  {
+    settings.erase(name);
+  }
+  // --matrix works on metres.
+  std::vector<double> elements(matrix->GetData(), matrix->GetData() + 16);
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    for (std::size_t column = 0; column < 3; ++column)
+    {
+      elements[4 * row + column] /= metresPerUnit;
+    }
+  }
+  settings["matrix"] = elements;
+  settings["workspace"] = std::vector<double>(workspace, workspace + 6);
+}
+
+void setVoxel(nlohmann::ordered_json& settings, double metres)
+{
+  settings.erase("dims");
+  settings["voxel"] = metres;
+}
+
+void setCamera(nlohmann::ordered_json& settings, vtkCamera* camera)
+{
+  std::vector<double> numbers(9);
+  camera->GetPosition(&numbers[0]);
+  camera->GetFocalPoint(&numbers[3]);
+  camera->GetViewUp(&numbers[6]);
+  settings["camera"] = numbers;
+}
+
+bool writeSettings(const nlohmann::ordered_json& settings, const std::string& fileName, std::string& message)
+{
+  OutputFile file;
+  Status status = file.open(fileName);
+  if (status == Status::Ok)
+  {
+    static_cast<void>(file.write(settings.dump(2) + "\n"));
+    status = file.commit();
+  }
+  if (status != Status::Ok)
+  {
+    message = fmt::format("{}: cannot be written: {}; {}", fileName, file.reason(), file.cure());
+  }
+  return status == Status::Ok;
+}
+
+std::string recentSettingsFile()
+{
+  const char* state = std::getenv("XDG_STATE_HOME");
+  const char* home = std::getenv("HOME");
+  if (state && *state == '/')
+  {
+    return std::string(state) + "/pointhaptics/view.json";
+  }
+  return home && *home ? std::string(home) + "/.local/state/pointhaptics/view.json" : std::string();
+}
+
+void rememberSettings(nlohmann::ordered_json settings)
+{
+  for (const char* name : kOfTheCloud)
+  {
+    settings.erase(name);
+  }
+  const std::string file = recentSettingsFile();
+  std::error_code error;
+  std::string message;
+  if (!file.empty())
+  {
+    std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
+    static_cast<void>(writeSettings(settings, file, message));
+  }
+}
+
+} // namespace app
+} // namespace pointhaptics

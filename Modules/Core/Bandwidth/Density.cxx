@@ -1,0 +1,169 @@
+#include "Core/Bandwidth/Density.h"
+
+#include "Core/Bandwidth/EpanechnikovSum.h"
+#include "Core/Bandwidth/GaussianSum.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kTwoPi = 6.28318530717958647693;
+
+/// What each kernel counts, by slot, and the sum of all.
+struct Weights
+{
+  const NeighborQuery& query;
+  const std::vector<double>& counts;
+  double total = 0.0;
+
+  double at(std::int64_t slot) const
+  {
+    return counts.empty() ? 1.0 : std::max(1.0, counts[std::size_t(query.index(slot))]);
+  }
+};
+
+Weights weightsOf(const NeighborQuery& query, const std::vector<double>& counts)
+{
+  Weights weights{ query, counts, 0.0 };
+  if (counts.empty())
+  {
+    weights.total = double(query.size());
+    return weights;
+  }
+  for (std::int64_t slot = 0; slot < query.size(); ++slot)
+  {
+    weights.total += weights.at(slot);
+  }
+  return weights;
+}
+
+double gaussianOnSurface(const Weights& weights, const Vec3& center, double b)
+{
+  double sum = 0.0;
+  weights.query.visitBallSlots(center, kDensityCutoff * b,
+    [&](double d2, std::int64_t slot) { sum += weights.at(slot) * std::exp(-0.5 * d2 / (b * b)); });
+  return sum / (weights.total * kTwoPi * b * b);
+}
+
+double epanechnikovOnSurface(const Weights& weights, const Vec3& center, double b)
+{
+  const double reach = kEpanechnikovReachOnSurface * b;
+  double sum = 0.0;
+  weights.query.visitBallSlots(center, reach,
+    [&](double d2, std::int64_t slot)
+    { sum += weights.at(slot) * std::max(0.0, 1.0 - d2 / (reach * reach)); });
+  return sum / (weights.total * 0.5 * kPi * reach * reach);
+}
+
+template <typename Sum>
+Status densitiesBy(const double* sample, std::int64_t count, double width, const double* targets,
+  std::vector<double>& densities, const Executor& executor)
+{
+  Sum sum;
+  const Status status = sum.build(sample, count, width);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  forRange(executor, std::int64_t(densities.size()),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        densities[std::size_t(i)] = sum.density(targets[i]);
+      }
+    });
+  return Status::Ok;
+}
+
+}
+
+double gaussianDensity(double x, const double* sample, std::int64_t count, double bandwidth) noexcept
+{
+  if (count < 1 || !(bandwidth > 0.0))
+  {
+    return 0.0;
+  }
+  double sum = 0.0;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const double u = (x - sample[i]) / bandwidth;
+    sum += std::exp(-0.5 * u * u);
+  }
+  return sum / (double(count) * bandwidth * std::sqrt(kTwoPi));
+}
+
+double epanechnikovDensity(double x, const double* sample, std::int64_t count, double bandwidth) noexcept
+{
+  if (count < 1 || !(bandwidth > 0.0))
+  {
+    return 0.0;
+  }
+  const double reach = kEpanechnikovReachOnLine * bandwidth;
+  double sum = 0.0;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const double u = (x - sample[i]) / reach;
+    sum += std::fabs(u) < 1.0 ? (1.0 - u) * (1.0 + u) : 0.0;
+  }
+  return 0.75 * sum / (double(count) * reach);
+}
+
+Status univariateDensities(DensityKernel kernel, const double* sample, std::int64_t count, double bandwidth,
+  const double* targets, std::int64_t targetCount, std::vector<double>& densities, const Executor& executor)
+{
+  densities.assign(std::size_t(std::max<std::int64_t>(targetCount, 0)), 0.0);
+  if (kernel == DensityKernel::Epanechnikov)
+  {
+    return densitiesBy<EpanechnikovSum>(
+      sample, count, kEpanechnikovReachOnLine * bandwidth, targets, densities, executor);
+  }
+  return densitiesBy<GaussianSum>(sample, count, bandwidth, targets, densities, executor);
+}
+
+void surfaceDensities(const PointView& points, const NeighborQuery& query,
+  const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor,
+  DensityKernel kernel)
+{
+  surfaceDensities(points, {}, query, bandwidths, densities, executor, kernel);
+}
+
+void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor,
+  DensityKernel kernel)
+{
+  const Weights weights = weightsOf(query, counts);
+  densities.assign(std::size_t(points.size()), 0.0);
+  const auto density = kernel == DensityKernel::Epanechnikov ? &epanechnikovOnSurface : &gaussianOnSurface;
+  // In spatial order, where the points of one ball after the other are close in memory.
+  forRange(executor, query.size(),
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      // Points at one place stand side by side: with one bandwidth they have one density.
+      Vec3 lastPlace;
+      double lastBandwidth = 0.0;
+      double last = 0.0;
+      for (std::int64_t slot = begin; slot < end; ++slot)
+      {
+        const std::size_t i = std::size_t(query.index(slot));
+        if (!(bandwidths[i] > 0.0))
+        {
+          continue;
+        }
+        if (bandwidths[i] != lastBandwidth || !(query.point(slot) == lastPlace))
+        {
+          lastPlace = query.point(slot);
+          lastBandwidth = bandwidths[i];
+          last = density(weights, lastPlace, lastBandwidth);
+        }
+        densities[i] = last;
+      }
+    });
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,419 @@
+#include "Core/Bandwidth/LocalBandwidth.h"
+
+#include "Core/Neighbors/NeighborCounts.h"
+#include "Core/Neighbors/NeighborSweep.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+/// Radius of a cloud without any extent, in its own unit.
+constexpr double kRadiusWithoutExtent = 1e-3;
+const std::vector<double> kNone;
+
+/// What the neighbourhood of one point says; bandwidth is 0 where it has no spread.
+struct Neighborhood
+{
+  double bandwidth = 0.0;
+  double spacing = 0.0;
+};
+
+/// What the radii are made from.
+struct Sample
+{
+  const PointView& points;
+  const NeighborQuery& query;
+  const NeighborCounts counts;
+  const LocalBandwidthSettings& settings;
+};
+
+/// One worker's memory, reused from point to point.
+class NeighborhoodReader
+{
+public:
+  explicit NeighborhoodReader(const Sample& sample)
+    : query_(sample.query)
+    , counts_(sample.counts)
+    , settings_(sample.settings)
+    , ofDistances_(
+        settings_.rule == BandwidthRule::SilvermanRobust || settings_.rule == BandwidthRule::SheatherJones)
+  {
+  }
+
+  Neighborhood read(const NeighborList& list)
+  {
+    // Points at one place stand side by side and have one neighbourhood.
+    const Vec3 place = query_.point(list.slot);
+    if (!hasLast_ || !(place == lastPlace_))
+    {
+      last_ = readAnew(list);
+      lastPlace_ = place;
+      hasLast_ = true;
+    }
+    return last_;
+  }
+
+private:
+  /// Sums go from the nearest to the farthest: they do not depend on how the neighbours were found.
+  Neighborhood readAnew(const NeighborList& list)
+  {
+    Neighborhood result;
+    if (list.count < 2)
+    {
+      return result;
+    }
+    const bool ofMeans = !counts_.empty();
+    const double count = ofMeans && settings_.fixedRadius ? counts_.sum(list) : double(list.count);
+    result.spacing = std::sqrt(list.squaredDistances[list.count - 1]) * std::sqrt(kPi / (count - 1.0));
+    double b = 0.0;
+    const Status status =
+      ofDistances_ ? bandwidthOfDistances(list, count, b) : bandwidthOfSpread(list, count, b);
+    if (status == Status::Ok || status == Status::EquationUnsolved) // then b is that of SilvermanRobust
+    {
+      const double finer = ofMeans && !settings_.fixedRadius ? std::sqrt(counts_.mean(list)) : 1.0;
+      result.bandwidth = b / finer;
+      result.spacing /= finer;
+    }
+    return result;
+  }
+
+  /// sqrt(trace(C) / 2) about the neighbourhood's own mean.
+  double surfaceSpread(const NeighborList& list) const
+  {
+    const Vec3 center = query_.point(list.slot);
+    Vec3 sum;
+    double squares = 0.0;
+    for (int i = 0; i < list.count; ++i)
+    {
+      sum += query_.point(list.slots[i]) - center;
+      squares += list.squaredDistances[i];
+    }
+    const double n = double(list.count);
+    const double scatter = std::max(0.0, squares - norm2(sum) / n);
+    return std::sqrt(scatter / (n - 1.0) / 2.0);
+  }
+
+  Status bandwidthOfSpread(const NeighborList& list, double count, double& b)
+  {
+    if (count != countOfFactor_)
+    {
+      countOfFactor_ = count;
+      statusOfFactor_ = bandwidth(settings_.rule, 1.0, count, 2, factor_);
+    }
+    const double s = surfaceSpread(list);
+    b = factor_ * s;
+    return b > 0.0 && std::isfinite(b) ? statusOfFactor_ : Status::DegenerateSample;
+  }
+
+  /// Distances are univariate: bandwidths fall as n^(-1/5).
+  Status bandwidthOfDistances(const NeighborList& list, double count, double& b)
+  {
+    distances_.resize(std::size_t(list.count));
+    std::transform(list.squaredDistances, list.squaredDistances + list.count, distances_.begin(),
+      [](double d2) { return std::sqrt(d2); });
+    const Status status =
+      sampleBandwidth(settings_.rule, distances_.data(), std::int64_t(distances_.size()), scratch_, b);
+    b *= count == double(list.count) ? 1.0 : std::pow(count / double(list.count), -0.2);
+    return status;
+  }
+
+  const NeighborQuery& query_;
+  const NeighborCounts& counts_;
+  const LocalBandwidthSettings& settings_;
+  const bool ofDistances_;
+  // The rule for a spread of 1 and the count it was asked for last.
+  double factor_ = 0.0;
+  double countOfFactor_ = 0.0;
+  Status statusOfFactor_ = Status::DegenerateSample;
+  std::vector<double> distances_;
+  BandwidthScratch scratch_;
+  bool hasLast_ = false;
+  Vec3 lastPlace_;
+  Neighborhood last_;
+};
+
+/// The neighbours in a ball about each point, as NeighborSweep gives the nearest.
+class BallSweep
+{
+public:
+  BallSweep(const NeighborQuery& query, double radius)
+    : query_(query)
+    , radius_(radius)
+  {
+  }
+
+  template <typename Visitor>
+  void run(std::int64_t begin, std::int64_t end, Visitor&& visit)
+  {
+    const std::int64_t last = std::min(end * kernel::kLeafPoints, query_.size());
+    for (std::int64_t slot = begin * kernel::kLeafPoints; slot < last; ++slot)
+    {
+      visit(alone(slot));
+    }
+  }
+  /// Valid until the next call.
+  NeighborList alone(std::int64_t slot)
+  {
+    if (!found_.empty() && query_.point(slot) == lastPlace_)
+    {
+      return { slot, int(found_.size()), squaredDistances_.data(), slots_.data() };
+    }
+    lastPlace_ = query_.point(slot);
+    found_.clear();
+    query_.visitBallSlots(lastPlace_, radius_,
+      [this](double d2, std::int64_t other) {
+        found_.push_back({ d2, query_.packed(other) });
+      });
+    std::sort(found_.begin(), found_.end());
+    squaredDistances_.clear();
+    slots_.clear();
+    for (const Neighbor& neighbor : found_)
+    {
+      squaredDistances_.push_back(neighbor.squaredDistance);
+      slots_.push_back(std::uint32_t(NeighborQuery::slotOf(neighbor)));
+    }
+    return { slot, int(found_.size()), squaredDistances_.data(), slots_.data() };
+  }
+
+private:
+  const NeighborQuery& query_;
+  const double radius_;
+  Vec3 lastPlace_; ///< Whose neighbours are those found.
+  std::vector<Neighbor> found_;
+  std::vector<double> squaredDistances_;
+  std::vector<std::uint32_t> slots_;
+};
+
+double radiusOf(const Neighborhood& near, const LocalBandwidthSettings& settings)
+{
+  const double low = settings.minimumRadius > 0.0 ? settings.minimumRadius : kNoSinkSpacings * near.spacing;
+  const double raised = std::max(settings.radiusScale * near.bandwidth, low);
+  return settings.maximumRadius > 0.0 ? std::min(raised, settings.maximumRadius) : raised;
+}
+
+/// @p part of the length of a box's diagonal, whose square, or which itself, may be out of range.
+double partOfDiagonal(const Bounds& box, double part)
+{
+  const Vec3 half = 0.5 * box.maximum - 0.5 * box.minimum;
+  const double largest = std::max({ half.x, half.y, half.z });
+  if (!(largest > 0.0))
+  {
+    return 0.0;
+  }
+  const Vec3 shape(half.x / largest, half.y / largest, half.z / largest);
+  return std::max(2.0 * part * norm(shape) * largest, std::numeric_limits<double>::denorm_min());
+}
+
+/// The radius of a point whose neighbours all coincide with it, or are so near or so far that their squared
+/// distances are out of range.
+double fallbackRadius(
+  const PointView& points, const std::vector<double>& radii, const LocalBandwidthSettings& settings)
+{
+  double radius = settings.minimumRadius;
+  if (!(radius > 0.0))
+  {
+    double smallest = INFINITY;
+    Bounds box;
+    for (std::int64_t i = 0; i < points.size(); ++i)
+    {
+      const double r = radii[std::size_t(i)];
+      smallest = r > 0.0 ? std::min(smallest, r) : smallest;
+      if (isFinite(points[i]))
+      {
+        box.include(points[i]);
+      }
+    }
+    const double part = box.empty() ? 0.0 : partOfDiagonal(box, 1e-3);
+    radius = std::isfinite(smallest) ? smallest : part > 0.0 ? part : kRadiusWithoutExtent;
+  }
+  return settings.maximumRadius > 0.0 ? std::min(radius, settings.maximumRadius) : radius;
+}
+
+void fillWithout(const Sample& sample, std::vector<double>& bandwidths, std::vector<double>& radii)
+{
+  const PointView& points = sample.points;
+  const LocalBandwidthSettings& settings = sample.settings;
+  const double fallback = fallbackRadius(points, radii, settings);
+  for (std::int64_t i = 0; i < points.size(); ++i)
+  {
+    if (!(radii[std::size_t(i)] > 0.0) && isFinite(points[i]))
+    {
+      radii[std::size_t(i)] = fallback;
+      bandwidths[std::size_t(i)] = fallback / settings.radiusScale;
+    }
+  }
+}
+
+/// @return whether every point has got a radius.
+template <typename MakeSweep>
+bool readAll(const Sample& sample, MakeSweep&& makeSweep, std::vector<double>& bandwidths,
+  std::vector<double>& radii, const Executor& executor)
+{
+  const NeighborQuery& query = sample.query;
+  std::atomic<bool> complete{ true };
+  forRange(executor, NeighborSweep::leaves(query), NeighborSweep::kSmallestRange,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      NeighborhoodReader reader(sample);
+      makeSweep().run(begin, end,
+        [&](const NeighborList& list)
+        {
+          const Neighborhood near = reader.read(list);
+          const double radius = radiusOf(near, sample.settings);
+          if (!(near.bandwidth > 0.0) || !std::isfinite(radius))
+          {
+            complete.store(false, std::memory_order_relaxed);
+            return;
+          }
+          const std::size_t index = std::size_t(query.index(list.slot));
+          bandwidths[index] = near.bandwidth;
+          radii[index] = radius;
+        });
+    });
+  return complete;
+}
+
+/// Calls withSweep(makeSweep) for the neighbourhoods that the settings ask for.
+template <typename Function>
+bool withNeighborhoods(const Sample& sample, Function&& withSweep)
+{
+  const NeighborQuery& query = sample.query;
+  const LocalBandwidthSettings& settings = sample.settings;
+  if (settings.fixedRadius)
+  {
+    return withSweep([&] { return BallSweep(query, settings.radius); });
+  }
+  const int wanted = int(std::min<std::int64_t>(settings.numberOfNeighbors, query.size())) + 1;
+  return withSweep([&] { return NeighborSweep(query, wanted); });
+}
+
+/// @return whether each of @p slots has got a radius.
+template <typename MakeSweep>
+bool readSome(const Sample& sample, MakeSweep&& makeSweep, const std::vector<std::int64_t>& slots,
+  std::vector<double>& radii, const Executor& executor)
+{
+  constexpr std::int64_t kSmallestRange = 64;
+  std::atomic<bool> complete{ true };
+  forRange(executor, std::int64_t(slots.size()), kSmallestRange,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      NeighborhoodReader reader(sample);
+      auto&& sweep = makeSweep();
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const Neighborhood near = reader.read(sweep.alone(slots[std::size_t(i)]));
+        radii[std::size_t(i)] = radiusOf(near, sample.settings);
+        if (!(near.bandwidth > 0.0) || !std::isfinite(radii[std::size_t(i)]))
+        {
+          complete.store(false, std::memory_order_relaxed);
+        }
+      }
+    });
+  return complete;
+}
+
+Status checked(
+  const PointView& points, const std::vector<double>& counts, const LocalBandwidthSettings& settings)
+{
+  const Status status = settings.check();
+  const bool countsFit = counts.empty() || counts.size() == std::size_t(points.size());
+  return status == Status::Ok && (points.size() > NeighborQuery::kMostPoints || !countsFit)
+    ? Status::InvalidParameter
+    : status;
+}
+
+Sample sampleOf(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings)
+{
+  return { points, query, NeighborCounts(query, settings.usePointCounts ? counts : kNone), settings };
+}
+
+}
+
+Status LocalBandwidthSettings::check() const noexcept
+{
+  if (fixedRadius ? !(radius > 0.0) || !std::isfinite(radius) : numberOfNeighbors < 1)
+  {
+    return Status::InvalidNeighborhood;
+  }
+  if (!(minimumRadius >= 0.0) || !(maximumRadius >= 0.0) || !std::isfinite(minimumRadius + maximumRadius) ||
+    (maximumRadius > 0.0 && minimumRadius > maximumRadius))
+  {
+    return Status::InvalidRadiusBounds;
+  }
+  return radiusScale > 0.0 && std::isfinite(radiusScale) ? Status::Ok : Status::InvalidParameter;
+}
+
+Status localBandwidths(const PointView& points, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
+  const Executor& executor)
+{
+  return localBandwidths(points, {}, query, settings, bandwidths, radii, executor);
+}
+
+Status localBandwidths(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
+  const Executor& executor)
+{
+  bandwidths.assign(std::size_t(points.size()), 0.0);
+  radii.assign(std::size_t(points.size()), 0.0);
+  const Status status = checked(points, counts, settings);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  const Sample sample = sampleOf(points, counts, query, settings);
+  const bool complete = withNeighborhoods(
+    sample, [&](auto&& makeSweep) { return readAll(sample, makeSweep, bandwidths, radii, executor); });
+  if (!complete)
+  {
+    fillWithout(sample, bandwidths, radii);
+  }
+  if (settings.smoothRadius)
+  {
+    limitSlope(query, kRadiusSlope, radii, executor);
+  }
+  return Status::Ok;
+}
+
+Status localRadiiAt(const PointView& points, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
+  const Executor& executor)
+{
+  return localRadiiAt(points, {}, query, settings, slots, radii, executor);
+}
+
+Status localRadiiAt(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
+  const Executor& executor)
+{
+  radii.assign(slots.size(), 0.0);
+  const Status status = checked(points, counts, settings);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  const Sample sample = sampleOf(points, counts, query, settings);
+  const bool complete = !settings.smoothRadius &&
+    withNeighborhoods(
+      sample, [&](auto&& makeSweep) { return readSome(sample, makeSweep, slots, radii, executor); });
+  if (!complete)
+  {
+    std::vector<double> bandwidths;
+    std::vector<double> all;
+    const Status whole = localBandwidths(points, counts, query, settings, bandwidths, all, executor);
+    std::transform(slots.begin(), slots.end(), radii.begin(),
+      [&](std::int64_t slot) { return all[std::size_t(query.index(slot))]; });
+    return whole;
+  }
+  return Status::Ok;
+}
+
+} // namespace pointhaptics

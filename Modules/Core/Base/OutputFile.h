@@ -1,0 +1,61 @@
+/// @file
+/// A file that appears under its name only when it is complete: the one way in which anything here is
+/// written.
+#pragma once
+
+#include "Core/Base/Status.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace pointhaptics
+{
+
+/// Writes beside the target under a name of its own; commit() renames. Without commit() the target is as it
+/// was and nothing is left behind.
+/// - A symbolic link stays one: the file it points to is replaced, or created where there is none yet.
+/// - A file that is replaced hands its permissions on.
+/// - A pipe or a device (/dev/stdout) cannot be replaced: it is written as it stands.
+/// Functions return Ok or FileNotWritable; then reason() and cure() say why. One object serves one thread.
+class OutputFile
+{
+public:
+  OutputFile() = default;
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// FileNotWritable: a folder, a loop of links, a folder that does not exist or must not be written in.
+  Status open(const std::string& target);
+  /// Buffered. A fault is kept: later calls do nothing, commit() returns it.
+  Status write(std::string_view bytes);
+  /// Writes the buffer, closes, renames.
+  Status commit();
+
+  /// False for a pipe or a device, true after any other open().
+  bool isReplacing() const noexcept { return !temporary_.empty(); }
+  /// The unfinished file, empty once open(): somebody else may write it, before commit(), in place of
+  /// write().
+  const std::string& path() const noexcept { return isReplacing() ? temporary_ : target_; }
+  /// The system's words, such as "No space left on device"; and what to do about it. Empty while all is well.
+  const std::string& reason() const noexcept { return reason_; }
+  const std::string& cure() const noexcept { return cure_; }
+  bool isDiskFull() const noexcept { return diskFull_; }
+
+private:
+  Status fail(int error);
+  Status fail(const std::string& reason, const std::string& cure);
+  void flush();
+  void discard() noexcept;
+
+  std::string target_;
+  std::string temporary_;
+  std::string buffer_;
+  std::string reason_;
+  std::string cure_;
+  int descriptor_ = -1;
+  bool diskFull_ = false;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,73 @@
+/// @file
+/// A view of somebody else's coordinates: pointer and count, float or double, x y z interleaved.
+#pragma once
+
+#include "Core/Base/Vector3.h"
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+
+/// Does not own. Safe to read from any number of threads while the memory it points at is not written.
+class PointView
+{
+public:
+  PointView() = default;
+  PointView(const double* xyz, std::int64_t count)
+    : doubles_(xyz)
+    , size_(count)
+  {
+  }
+  PointView(const float* xyz, std::int64_t count)
+    : floats_(xyz)
+    , size_(count)
+  {
+  }
+  PointView(const Vec3* points, std::int64_t count)
+    : PointView(count ? &points->x : nullptr, count)
+  {
+  }
+  std::int64_t size() const { return size_; }
+  /// The coordinates themselves; null where they are of the other type.
+  const float* floats() const { return floats_; }
+  const double* doubles() const { return doubles_; }
+  /// @pre 0 <= i < size()
+  Vec3 operator[](std::int64_t i) const
+  {
+    if (floats_)
+    {
+      const float* p = floats_ + 3 * i;
+      return { static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]) };
+    }
+    const double* p = doubles_ + 3 * i;
+    return { p[0], p[1], p[2] };
+  }
+
+private:
+  const double* doubles_ = nullptr;
+  const float* floats_ = nullptr;
+  std::int64_t size_ = 0;
+};
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "PointView reads Vec3 arrays as doubles");
+
+/// Axis-aligned box; empty (minimum above maximum) by default.
+struct Bounds
+{
+  Vec3 minimum{ INFINITY, INFINITY, INFINITY };
+  Vec3 maximum{ -INFINITY, -INFINITY, -INFINITY };
+
+  bool empty() const { return !(minimum.x <= maximum.x && minimum.y <= maximum.y && minimum.z <= maximum.z); }
+  void include(const Vec3& p)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      minimum[axis] = p[axis] < minimum[axis] ? p[axis] : minimum[axis];
+      maximum[axis] = p[axis] > maximum[axis] ? p[axis] : maximum[axis];
+    }
+  }
+  Vec3 center() const { return 0.5 * minimum + 0.5 * maximum; }
+  Vec3 extent() const { return maximum - minimum; }
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,75 @@
+/// @file
+/// How many points the voxel means of a neighbourhood stand for.
+#pragma once
+
+#include "Core/Neighbors/NeighborSweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// A neighbour whose voxel holds this many times the points of those nearest by counts as one of so many.
+constexpr double kLargestCountJump = 4.0;
+
+/// Counts of the means that a NeighborQuery was built on. What is below 1 or NaN counts as 1. Allocates
+/// nothing. Any number of threads.
+class NeighborCounts
+{
+public:
+  /// @param counts in the order of the points, or empty: 1 each. Both are kept alive by the caller.
+  NeighborCounts(const NeighborQuery& query, const std::vector<double>& counts)
+    : query_(query)
+    , counts_(counts)
+  {
+  }
+  bool empty() const { return counts_.empty(); }
+
+  /// Of all points of a neighbourhood; exact where all counts are 1.
+  double sum(const NeighborList& list) const
+  {
+    double result = 0.0;
+    for (int i = 0; i < list.count; ++i)
+    {
+      result += at(list.slots[i]);
+    }
+    return result;
+  }
+
+  /// Points of a voxel near the first of @p list: the mean with weights 1 - (d / d_k)^2, d_k the distance of
+  /// the last, no count taken for more than kLargestCountJump times the mean with the fourth power of these
+  /// weights. 1, without rounding, where all counts are 1. NaN where all are at one place.
+  double mean(const NeighborList& list) const
+  {
+    return weightedMean(list, kLargestCountJump * weightedMean(list, INFINITY, true), false);
+  }
+
+private:
+  double at(std::int64_t slot) const
+  {
+    const double count = counts_[std::size_t(query_.index(slot))];
+    return count > 1.0 ? count : 1.0;
+  }
+  double weightedMean(const NeighborList& list, double largest, bool narrow) const
+  {
+    const double reach = list.squaredDistances[list.count - 1];
+    double sum = 0.0;
+    double weights = 0.0;
+    for (int i = 0; i < list.count; ++i)
+    {
+      const double w = 1.0 - list.squaredDistances[i] / reach;
+      const double weight = narrow ? (w * w) * (w * w) : w;
+      sum += weight * std::min(at(list.slots[i]), largest);
+      weights += weight;
+    }
+    return sum / weights;
+  }
+
+  const NeighborQuery& query_;
+  const std::vector<double>& counts_;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,99 @@
+#include "Core/Neighbors/NeighborSweep.h"
+
+#include "Core/Neighbors/NeighborKernel.h"
+
+#include <algorithm>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// How much farther than the k-th neighbour of its first point a leaf is searched, squared.
+constexpr double kFirstMargin = 2.0;
+
+}
+
+NeighborSweep::NeighborSweep(const NeighborQuery& query, int k, InstructionSet wanted)
+  : query_(query)
+  , k_(int(std::min<std::int64_t>(std::max(k, 1), std::max<std::int64_t>(query.size(), 1))))
+  , kernels_(k_ <= kernel::kMostSwept ? &kernel::neighborKernels(wanted) : nullptr)
+  , search_(kernels_ ? std::make_unique<kernel::LeafSearch>() : nullptr)
+  , alone_(std::size_t(k_))
+  , squaredDistances_(std::size_t(k_))
+  , slots_(std::size_t(k_))
+{
+}
+
+NeighborSweep::~NeighborSweep() = default;
+
+std::int64_t NeighborSweep::leaves(const NeighborQuery& query)
+{
+  return (query.size() + kernel::kLeafPoints - 1) / kernel::kLeafPoints;
+}
+
+int NeighborSweep::searchLeaf(std::int64_t leaf)
+{
+  const std::int64_t first = leaf * kernel::kLeafPoints;
+  if (kernels_)
+  {
+    if (!(search_->reach > 0.0))
+    {
+      const NeighborList list = alone(first);
+      search_->reach = kFirstMargin * list.squaredDistances[list.count - 1];
+    }
+    kernels_->searchLeaf(query_.tree(), leaf, k_, *search_);
+  }
+  return int(std::min<std::int64_t>(query_.size() - first, kernel::kLeafPoints));
+}
+
+NeighborList NeighborSweep::listOf(std::int64_t leaf, int i)
+{
+  const std::int64_t slot = leaf * kernel::kLeafPoints + i;
+  if (kernels_ && (search_->found >> i & 1u) != 0)
+  {
+    return { slot, k_, search_->squaredDistances[i], search_->neighbors[i] };
+  }
+  return alone(slot);
+}
+
+NeighborList NeighborSweep::alone(std::int64_t slot)
+{
+  // Points at one place stand side by side and have one answer: a crowd of them is asked for once.
+  if (lastCount_ > 0 && query_.point(slot) == lastPlace_)
+  {
+    return { slot, lastCount_, squaredDistances_.data(), slots_.data() };
+  }
+  const int count = query_.nearestSlots(query_.point(slot), k_, alone_.data());
+  lastCount_ = count;
+  lastPlace_ = query_.point(slot);
+  for (int i = 0; i < count; ++i)
+  {
+    squaredDistances_[std::size_t(i)] = alone_[std::size_t(i)].squaredDistance;
+    slots_[std::size_t(i)] = std::uint32_t(NeighborQuery::slotOf(alone_[std::size_t(i)]));
+  }
+  return { slot, count, squaredDistances_.data(), slots_.data() };
+}
+
+void nearestOfAll(
+  const NeighborQuery& query, int k, Neighbor* neighbors, int* counts, const Executor& executor)
+{
+  forRange(executor, NeighborSweep::leaves(query), NeighborSweep::kSmallestRange,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      NeighborSweep sweep(query, k);
+      sweep.run(begin, end,
+        [&](const NeighborList& list)
+        {
+          const std::int64_t index = query.index(list.slot);
+          counts[index] = list.count;
+          Neighbor* to = neighbors + index * k;
+          for (int i = 0; i < list.count; ++i)
+          {
+            to[i] = { list.squaredDistances[i], query.index(list.slots[i]) };
+          }
+        });
+    });
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,76 @@
+/// @file
+/// Where the points of a cloud are: looked at once, so that a view of a part costs in proportion to the part.
+#pragma once
+
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/Buffer.h"
+#include "Core/Base/Executor.h"
+#include "Core/Base/Lattice.h"
+#include "Core/Base/PointRange.h"
+#include "Core/Base/PointView.h"
+#include "Core/Base/Status.h"
+#include "Core/Base/Watcher.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// A copy of the finite points of a cloud, sorted into bricks with bounds.
+/// Memory: the coordinates again and 4 bytes a point (16 for floats). Immutable after build(); any number of
+/// threads may ask.
+class PointIndex
+{
+public:
+  /// Points looked up at once; an index of more than these is not built.
+  static constexpr std::int64_t kMostPoints = (std::int64_t(1) << 32) - 1;
+
+  /// @return InvalidParameter for more than kMostPoints; Empty when no point is finite; Aborted where
+  /// @p watcher ended the work: the index is then empty.
+  Status build(const PointView& points, const Executor& executor = {}, Watcher* watcher = nullptr);
+
+  /// Ranges of points() that hold every point which @p transform moves into @p lattice, and few others.
+  std::vector<PointRange> rangesInside(
+    const AffineTransform& transform, const Lattice& lattice, const Executor& executor = {}) const;
+
+  /// The finite points, brick by brick.
+  PointView points() const;
+  /// The index in the cloud of a point of points().
+  std::int64_t original(std::int64_t i) const { return std::int64_t(originals_[std::size_t(i)]); }
+  std::int64_t cloudSize() const { return cloudSize_; }
+  std::int64_t invalidPoints() const { return cloudSize_ - size_; }
+  std::size_t bytes() const;
+
+private:
+  bool staysFinite(const AffineTransform& transform) const;
+  // The steps of build(); false: aborted.
+  Status sort(const PointView& points, const Executor& executor, WatchedPoints& watched);
+  template <typename Real>
+  bool fill(const PointView& points, const std::vector<std::uint32_t>& bricks,
+    std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor, WatchedPoints& watched);
+  bool bound(const Executor& executor, WatchedPoints& watched);
+
+  std::int64_t cloudSize_ = 0;
+  std::int64_t size_ = 0;
+  bool single_ = false;
+  Buffer<float> floats_;
+  Buffer<double> doubles_;
+  Buffer<std::uint32_t> originals_;
+  /// Bounds: their middle and half their extent.
+  struct Box
+  {
+    double middle[3];
+    double half[3];
+  };
+  class BoxTest;
+  void appendRanges(const BoxTest& test, std::size_t group, std::vector<PointRange>& ranges) const;
+
+  // Of each brick with points: where they begin (and an end) and their bounds.
+  std::vector<std::int64_t> begins_;
+  std::vector<Box> boxes_;
+  std::vector<Box> groups_; ///< The bounds of so many bricks each that follow each other.
+  double farthest_[3] = {}; ///< Largest absolute coordinates.
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,347 @@
+#include "Core/Resample/AttributeMean.h"
+
+#include "Core/Resample/Kernel/AttributeKernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <mutex>
+#include <type_traits>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// With more parts than this the scale alone would push a small value below the smallest double.
+constexpr int kMostScaledLanes = 8;
+/// Adding and subtracting it rounds to an integer.
+constexpr double kRounder = 0x1.8p52;
+
+int bitsOf(std::int64_t count)
+{
+  int bits = 0;
+  while (count >> bits != 0)
+  {
+    ++bits;
+  }
+  return bits;
+}
+
+template <typename Real>
+AttributeRange rangeOfReals(
+  const kernel::AttributeKernels& kernels, const AttributeView& view, const Executor& executor)
+{
+  const auto* values = static_cast<const Real*>(view.values);
+  AttributeRange range;
+  double largest = 0.0;
+  double smallest = std::numeric_limits<double>::infinity();
+  std::mutex mutex;
+  forRange(executor, view.tuples * view.components,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      kernel::Magnitudes found;
+      if constexpr (sizeof(Real) == sizeof(float))
+      {
+        found = kernels.magnitudesFloat(values + begin, end - begin);
+      }
+      else
+      {
+        found = kernels.magnitudesDouble(values + begin, end - begin);
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      largest = std::max(largest, found.largest);
+      smallest = std::min(smallest, found.smallest);
+      range.hasNonFinite = range.hasNonFinite || !found.allFinite;
+    });
+  if (largest > 0.0)
+  {
+    int exponent;
+    std::frexp(largest, &range.exponent);
+    std::frexp(smallest, &exponent);
+    range.lastBit = exponent - std::numeric_limits<Real>::digits;
+  }
+  return range;
+}
+
+}
+
+AttributeRange rangeOf(const AttributeView& view, const Executor& executor, InstructionSet instructions)
+{
+  const kernel::AttributeKernels& kernels = kernel::attributeKernels(instructions);
+  switch (view.type)
+  {
+    case ScalarType::Float:
+      return rangeOfReals<float>(kernels, view, executor);
+    case ScalarType::Double:
+      return rangeOfReals<double>(kernels, view, executor);
+    default:
+      return {};
+  }
+}
+
+AttributeMean::AttributeMean(
+  const AttributeView& view, const AttributeRange& range, InstructionSet instructions)
+  : AttributeMean(&kernel::attributeKernels(instructions), view, range)
+{
+}
+
+AttributeMean::AttributeMean(
+  const kernel::AttributeKernels* kernels, const AttributeView& view, const AttributeRange& range)
+  : view_(view)
+  , kernels_(kernels)
+  , lanes_(view.type == ScalarType::Int64 || view.type == ScalarType::UInt64 ? 2 : 1)
+  , range_(range)
+{
+}
+
+/// How to cut floating-point numbers.
+void AttributeMean::chooseParts(std::int64_t mostPoints)
+{
+  const int bits = range_.exponent - range_.lastBit;
+  const int sumBits = bitsOf(mostPoints);
+  const bool inOne = bits + sumBits <= 63;
+  partBits_ = inOne ? bits : std::min(kMostPartBits, 62 - sumBits);
+  lanes_ = inOne ? 1 : std::min((bits + partBits_ - 1) / partBits_, kMostLanes);
+  // In two factors: for tiny arrays one would overflow.
+  const int shift = partBits_ - range_.exponent;
+  scale_[0] = std::ldexp(1.0, std::min(shift, 1000));
+  scale_[1] = std::ldexp(1.0, std::max(shift - 1000, 0));
+}
+
+void AttributeMean::prepare(
+  std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor)
+{
+  mostPoints_ = mostPoints;
+  if (isFloating())
+  {
+    chooseParts(mostPoints);
+  }
+  if (spare.bytes() > sums_.bytes())
+  {
+    sums_ = std::move(spare);
+  }
+  clear(voxels, executor);
+}
+
+void AttributeMean::clear(std::int64_t voxels, const Executor& executor)
+{
+  voxels_ = voxels;
+  const std::size_t size = std::size_t(voxels) * std::size_t(view_.components);
+  sums_.reserve(size * std::size_t(lanes_), Pages::Huge);
+  forRange(executor, std::int64_t(size) * lanes_,
+    [this](std::int64_t begin, std::int64_t end) { std::fill(sums_.data() + begin, sums_.data() + end, 0); });
+  if (range_.hasNonFinite)
+  {
+    special_.reserve(size);
+    std::fill(special_.data(), special_.data() + size, std::uint8_t(0));
+  }
+}
+
+namespace
+{
+
+/// Copies of tuples.
+template <typename T>
+struct Tuples
+{
+  const char* first;
+  std::size_t stride;
+
+  const T* operator[](int i) const { return reinterpret_cast<const T*>(first + stride * std::size_t(i)); }
+};
+
+template <int Components, typename Integer>
+void addTuples(
+  Tuples<Integer> tuples, int components, const std::int64_t* voxels, int count, std::int64_t* sums)
+{
+  constexpr int kLanes = sizeof(Integer) == 8 ? 2 : 1;
+  const int width = Components > 0 ? Components : components;
+  for (int i = 0; i < count; ++i)
+  {
+    const Integer* value = tuples[i];
+    std::int64_t* sum = sums + kLanes * width * voxels[i];
+    for (int c = 0; c < width; ++c)
+    {
+      if constexpr (kLanes == 2)
+      {
+        // High and low halves: the low one is not negative.
+        sum[2 * c] += std::int64_t(value[c] >> 32);
+        sum[2 * c + 1] += std::int64_t(value[c] & Integer(0xffffffff));
+      }
+      else
+      {
+        sum[c] += value[c];
+      }
+    }
+  }
+}
+
+}
+
+template <typename Integer>
+void AttributeMean::addIntegers(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count)
+{
+  const auto add = view_.components == 3 ? &addTuples<3, Integer>
+    : view_.components == 1              ? &addTuples<1, Integer>
+                                         : &addTuples<0, Integer>;
+  add({ tuples, stride }, view_.components, voxels, count, sums_.data());
+}
+
+namespace
+{
+
+/// The integer a number was rounded to by adding kRounder, read from the bits of the sum.
+inline std::int64_t roundedInteger(double sum)
+{
+  std::int64_t bits;
+  std::int64_t rounder;
+  const double zero = kRounder;
+  std::memcpy(&bits, &sum, sizeof bits);
+  std::memcpy(&rounder, &zero, sizeof rounder);
+  return bits - rounder;
+}
+
+/// Adds the parts of a number that is in units of the first.
+inline void addParts(double scaled, double partScale, int parts, std::int64_t* sums)
+{
+  for (int part = 0; part < parts; ++part)
+  {
+    const double shifted = scaled + kRounder;
+    sums[part] += roundedInteger(shifted);
+    scaled = (scaled - (shifted - kRounder)) * partScale;
+  }
+}
+
+/// The usual cases: all numbers finite, one scale, and either one part
+template <int Components, typename Real>
+void addWhole(Tuples<Real> tuples, int components, const std::int64_t* voxels, int count, double scale,
+  std::int64_t* sums)
+{
+  const int width = Components > 0 ? Components : components;
+  for (int i = 0; i < count; ++i)
+  {
+    const Real* value = tuples[i];
+    std::int64_t* sum = sums + width * voxels[i];
+    for (int c = 0; c < width; ++c)
+    {
+      sum[c] += std::int64_t(double(value[c]) * scale);
+    }
+  }
+}
+
+/// or two.
+template <int Components, typename Real>
+void addPairs(Tuples<Real> tuples, int components, const std::int64_t* voxels, int count, double scale,
+  double partScale, std::int64_t* sums)
+{
+  const int width = Components > 0 ? Components : components;
+  for (int i = 0; i < count; ++i)
+  {
+    const Real* value = tuples[i];
+    std::int64_t* sum = sums + 2 * width * voxels[i];
+    for (int c = 0; c < width; ++c)
+    {
+      addParts(double(value[c]) * scale, partScale, 2, sum + 2 * c);
+    }
+  }
+}
+
+}
+
+template <typename Real>
+void AttributeMean::addReals(const char* first, std::size_t stride, const std::int64_t* voxels, int count)
+{
+  const Tuples<Real> tuples = { first, stride };
+  const int components = view_.components;
+  const double partScale = std::ldexp(1.0, partBits_);
+  if (lanes_ == 1 && !range_.hasNonFinite && scale_[1] == 1.0)
+  {
+    const auto whole = components == 3 ? &addWhole<3, Real>
+      : components == 1                ? &addWhole<1, Real>
+                                       : &addWhole<0, Real>;
+    whole(tuples, components, voxels, count, scale_[0], sums_.data());
+    return;
+  }
+  if (lanes_ == 2 && !range_.hasNonFinite && scale_[1] == 1.0)
+  {
+    const auto pairs = components == 3 ? &addPairs<3, Real>
+      : components == 1                ? &addPairs<1, Real>
+                                       : &addPairs<0, Real>;
+    pairs(tuples, components, voxels, count, scale_[0], partScale, sums_.data());
+    return;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    const Real* value = tuples[i];
+    std::int64_t* sum = sums_.data() + std::int64_t(lanes_) * components * voxels[i];
+    for (int c = 0; c < components; ++c)
+    {
+      if (range_.hasNonFinite && !std::isfinite(value[c]))
+      {
+        special_[std::size_t(components * voxels[i] + c)] |= std::isnan(value[c]) ? kSawNaN
+          : value[c] > Real(0)                                                    ? kSawPlus
+                                                                                  : kSawMinus;
+      }
+      else if (lanes_ == 1)
+      {
+        sum[c] += std::int64_t(double(value[c]) * scale_[0] * scale_[1]);
+      }
+      else if (lanes_ <= kMostScaledLanes)
+      {
+        addParts(double(value[c]) * scale_[0] * scale_[1], partScale, lanes_, sum + lanes_ * c);
+      }
+      else if (value[c] != Real(0))
+      {
+        // From the part before the one its first bit is in.
+        int exponent;
+        std::frexp(double(value[c]), &exponent);
+        const int part = std::max(0, (range_.exponent - exponent) / partBits_ - 1);
+        const double scaled = std::ldexp(double(value[c]), partBits_ * (part + 1) - range_.exponent);
+        addParts(scaled, partScale, lanes_ - part, sum + lanes_ * c + part);
+      }
+    }
+  }
+}
+
+void AttributeMean::add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count)
+{
+  withType(view_.type,
+    [&](auto example)
+    {
+      using T = decltype(example);
+      const auto* first = static_cast<const char*>(tuples);
+      if constexpr (std::is_floating_point_v<T>)
+      {
+        addReals<T>(first, stride, voxels, count);
+      }
+      else
+      {
+        addIntegers<T>(first, stride, voxels, count);
+      }
+    });
+}
+
+void AttributeMean::coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels)
+{
+  const Buffer<std::int64_t> fine = std::move(sums_);
+  const Buffer<std::uint8_t> fineSpecial = std::move(special_);
+  clear(voxels, Executor());
+  const std::size_t components = std::size_t(view_.components);
+  const std::size_t width = components * std::size_t(lanes_);
+  for (std::size_t v = 0; v < parents.size(); ++v)
+  {
+    const auto parent = std::size_t(parents[v]);
+    for (std::size_t c = 0; c < width; ++c)
+    {
+      sums_[parent * width + c] += fine[v * width + c];
+    }
+    for (std::size_t c = 0; range_.hasNonFinite && c < components; ++c)
+    {
+      special_[parent * components + c] |= fineSpecial[v * components + c];
+    }
+  }
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,142 @@
+/// @file
+/// Means of what points carry beside their places, voxel by voxel, whatever the order of the points.
+#pragma once
+
+#include "Core/Base/Buffer.h"
+#include "Core/Base/Executor.h"
+#include "Core/Base/ScalarType.h"
+#include "Core/Base/Vector3.h"
+#include "Core/Simd/InstructionSet.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+struct AttributeKernels;
+struct WordSums;
+}
+
+/// Somebody else's array: tuples of components, one after the other.
+struct AttributeView
+{
+  const void* values = nullptr;
+  ScalarType type = ScalarType::Float;
+  int components = 1;
+  std::int64_t tuples = 0;
+};
+
+/// What must be known of all finite values of a floating-point array before some of them are summed.
+struct AttributeRange
+{
+  int exponent = 0; ///< All magnitudes are below 2^exponent.
+  int lastBit = 0;  ///< And multiples of 2^lastBit.
+  bool hasNonFinite = false;
+};
+
+/// Looks through the values of an array once; of integers nothing need be known.
+AttributeRange rangeOf(const AttributeView& view, const Executor& executor,
+  InstructionSet instructions = InstructionSet::Automatic);
+
+/// Sums an attribute over the points of each voxel, exactly, and divides.
+///
+/// Integers are summed as they are. Floating-point numbers are cut to fixed point, from the array's largest
+/// magnitude down to the last bit of its smallest: in one part where sums of the most points of a voxel fit
+/// 63 bits, as those of most arrays of floats do, else in parts of up to 40 bits: two for most arrays, more
+/// where magnitudes differ by more than 2^50. Sums are exact, so a mean is within one rounding
+/// of the exact one (half a unit in the last place for the quotient, as much for the sum), a lone point's is
+/// its value, and none depends on the order. A voxel with NaN or infinities has the mean that IEEE addition
+/// would give. Memory: 8 bytes a voxel, component and part (integers of up to 32 bits: one part, of 64: two).
+class AttributeMean
+{
+public:
+  /// @pre @p range is rangeOf() the array as it is; means are wrong otherwise.
+  AttributeMean(const AttributeView& view, const AttributeRange& range,
+    InstructionSet instructions = InstructionSet::Automatic);
+  AttributeMean(const AttributeView& view, const Executor& executor,
+    InstructionSet instructions = InstructionSet::Automatic)
+    : AttributeMean(view, rangeOf(view, executor, instructions), instructions)
+  {
+  }
+
+  /// Another that averages the same array, without sums.
+  AttributeMean another() const { return { kernels_, view_, range_ }; }
+
+  /// Forgets all sums and makes room for @p voxels of at most @p mostPoints points each, at coarser levels
+  /// too, in @p spare if that is large enough.
+  void prepare(std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare = {},
+    const Executor& executor = {});
+  /// The memory of the sums, which are gone then.
+  Buffer<std::int64_t> takeSums() { return std::move(sums_); }
+  /// Adds copies of tuples of the array, each @p stride bytes after the one before and aligned like its
+  /// numbers, to the sums of voxels. Several threads may add at once if no two have a voxel in common.
+  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
+  /// The sums of voxels become those of their parents: see VoxelResampler::parents().
+  void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
+
+  /// Means of all voxels in the array's own type; integers are rounded to the nearest, halves away from zero.
+  /// @p counts: points of each voxel.
+  void write(const std::int64_t* counts, void* means, const Executor& executor) const;
+  /// Means of vectors of three floating-point numbers, turned - mean.x times the first of @p columns and so
+  /// on - and made unit vectors; 0 where they have no direction, NaN where they are not finite. Of the
+  /// array's own type.
+  void writeUnitVectors(
+    const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const;
+  /// The mean of one voxel in double: components numbers.
+  void mean(std::int64_t voxel, std::int64_t count, double* means) const;
+
+  const AttributeView& view() const { return view_; }
+  const AttributeRange& range() const { return range_; }
+
+private:
+  AttributeMean(
+    const kernel::AttributeKernels* kernels, const AttributeView& view, const AttributeRange& range);
+  __extension__ typedef __int128 Int128;
+  static constexpr int kMostPartBits = 40;
+  /// The most parts from the largest double to the last bit of the smallest, at 28 bits each.
+  static constexpr int kMostLanes = 80;
+  static constexpr std::uint8_t kSawNaN = 1;
+  static constexpr std::uint8_t kSawPlus = 2;
+  static constexpr std::uint8_t kSawMinus = 4;
+
+  bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
+  void chooseParts(std::int64_t mostPoints);
+  void clear(std::int64_t voxels, const Executor& executor);
+  template <typename Integer>
+  void addIntegers(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count);
+  template <typename Real>
+  void addReals(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count);
+  template <typename Integer>
+  void writeIntegers(const std::int64_t* counts, Integer* means, const Executor& executor) const;
+  template <typename Real>
+  void writeReals(const std::int64_t* counts, Real* means, const Executor& executor) const;
+  template <typename Real>
+  void writeVectors(
+    const std::int64_t* counts, const Vec3 (&columns)[3], Real* vectors, const Executor& executor) const;
+  bool sumsAreWords() const;
+  kernel::WordSums wordSums(const std::int64_t* counts, std::int64_t begin, std::int64_t end) const;
+  const std::int64_t* lanes(std::int64_t voxel, int component) const
+  {
+    return sums_.data() + std::int64_t(lanes_) * (std::int64_t(view_.components) * voxel + component);
+  }
+  Int128 integerSum(std::int64_t voxel, int component) const;
+  double realSum(std::int64_t voxel, int component, int& exponent) const;
+  double realMean(std::int64_t voxel, int component, std::int64_t count) const;
+
+  AttributeView view_;
+  const kernel::AttributeKernels* kernels_;
+  int lanes_ = 1; ///< Of 64 bits for each component.
+  int partBits_ = 0;
+  double scale_[2] = { 1.0, 1.0 }; ///< Both times a value give its first part, and what is left of it.
+  AttributeRange range_;
+  std::int64_t voxels_ = 0;
+  std::int64_t mostPoints_ = 0;
+  Buffer<std::int64_t> sums_;    ///< [voxel][component][lane]
+  Buffer<std::uint8_t> special_; ///< [voxel][component]: which values that are not finite were seen.
+};
+
+} // namespace pointhaptics

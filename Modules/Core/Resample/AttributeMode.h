@@ -1,0 +1,68 @@
+/// @file
+/// The most frequent values of what points carry beside their places, voxel by voxel: for labels, whose mean
+/// says nothing.
+#pragma once
+
+#include "Core/Base/Buffer.h"
+#include "Core/Base/Executor.h"
+#include "Core/Base/ScalarType.h"
+#include "Core/Base/Watcher.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// Keeps the tuples of the points of each voxel, and finds the mode of each component: the value that most
+/// points have, the smallest of several. Of floating-point numbers all NaNs are one value, the largest, and
+/// both zeros are one, which is written as +0; no mode depends on the order of the points.
+///
+/// Memory: the tuples themselves, and 8 bytes a voxel; twice that while coarsen() works.
+class AttributeMode
+{
+public:
+  /// For tuples of @p components numbers.
+  AttributeMode(ScalarType type, int components)
+    : type_(type)
+    , components_(components)
+  {
+  }
+
+  /// Another for tuples of the same kind, without any.
+  AttributeMode another() const { return { type_, components_ }; }
+
+  /// Forgets all tuples and makes room for those of @p voxels, @p counts each.
+  void prepare(const std::int64_t* counts, std::int64_t voxels);
+  /// Keeps copies of tuples, each @p stride bytes after the one before and aligned like their numbers.
+  /// Several threads may add at once if no two have a voxel in common.
+  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
+  /// The tuples of voxels become those of their parents: see VoxelResampler::parents().
+  void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
+
+  /// Modes of all voxels, in the tuples' own type. @pre each voxel has as many tuples as it was said to get.
+  /// @return false where @p watcher, who may be none, ended the work.
+  bool write(void* modes, const Executor& executor, Watcher* watcher) const;
+
+private:
+  std::int64_t voxels() const { return std::int64_t(ends_.size()); }
+  /// Of its tuples. @pre all have been added.
+  std::int64_t begin(std::int64_t voxel) const { return voxel == 0 ? 0 : ends_[std::size_t(voxel - 1)]; }
+  std::int64_t end(std::int64_t voxel) const { return ends_[std::size_t(voxel)]; }
+  void makeRoom(std::int64_t tuples);
+  template <typename T>
+  T* tuple(std::int64_t i) const
+  {
+    return reinterpret_cast<T*>(tuples_.data()) + components_ * i;
+  }
+  template <typename T>
+  void writeModes(std::int64_t first, std::int64_t last, T* modes) const;
+
+  ScalarType type_;
+  int components_;
+  Buffer<std::uint64_t> tuples_;   ///< Those of a voxel after each other.
+  std::vector<std::int64_t> ends_; ///< Where the next tuple of each voxel goes.
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,11 @@
+/// The loops of averaging arrays with AVX-512.
+#include "Core/Resample/Kernel/AttributeKernelBody.h"
+
+const pointhaptics::kernel::AttributeKernels* pointhaptics::kernel::avx512AttributeKernels()
+{
+#if defined(__AVX512F__)
+  return &kKernels;
+#else
+  return nullptr;
+#endif
+}

@@ -1,0 +1,170 @@
+/// @file
+/// The loops of AttributeKernel.h, for the compiler to make vectors of. Included by one source per
+/// instruction set; all is in an anonymous namespace and calls nothing of the standard library, so that the
+/// linker cannot choose one set's version for the others.
+#pragma once
+
+#include "Core/Resample/Kernel/AttributeKernel.h"
+
+namespace pointhaptics
+{
+namespace kernel
+{
+namespace
+{
+
+/// Numbers worked on together.
+constexpr int kNumbers = 768;
+
+/// By the bits without the sign: they ascend with the magnitude, infinities and NaN above all.
+template <typename Bits, typename Real>
+inline Magnitudes magnitudes(const Real* values, std::int64_t count)
+{
+  static_assert(sizeof(Bits) == sizeof(Real), "the bits of a number");
+  constexpr Bits kMagnitude = ~(Bits(1) << (8 * sizeof(Bits) - 1));
+  const auto bitsOf = [](Real value)
+  {
+    Bits bits;
+    __builtin_memcpy(&bits, &value, sizeof bits);
+    return bits;
+  };
+  const auto numberOf = [](Bits bits)
+  {
+    Real value;
+    __builtin_memcpy(&value, &bits, sizeof value);
+    return double(value);
+  };
+  const Bits infinite = bitsOf(Real(__builtin_inf()));
+  Bits most = 0;
+  Bits leastLessOne = infinite - 1; // Zero becomes the largest of all.
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const Bits bits = bitsOf(values[i]) & kMagnitude;
+    most = bits > most ? bits : most;
+    leastLessOne = bits - 1 < leastLessOne ? bits - 1 : leastLessOne;
+  }
+  const bool allFinite = most < infinite;
+  if (!allFinite)
+  {
+    most = 0;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      const Bits bits = bitsOf(values[i]) & kMagnitude;
+      most = bits < infinite && bits > most ? bits : most;
+    }
+  }
+  return { numberOf(most), numberOf(leastLessOne + 1), allFinite };
+}
+
+template <int Components>
+inline void repeatCounts(const std::int64_t* counts, int voxels, int components, double* repeated)
+{
+  const int width = Components > 0 ? Components : components;
+  for (int v = 0; v < voxels; ++v)
+  {
+    for (int c = 0; c < width; ++c)
+    {
+      repeated[width * v + c] = double(counts[v]);
+    }
+  }
+}
+
+/// Calls work(first, count, counts) for pieces of the sums, with the count of its voxel for each.
+template <typename Work>
+inline void forPieces(const WordSums& s, Work&& work)
+{
+  alignas(64) double repeated[kNumbers];
+  if (s.components > kNumbers)
+  {
+    for (std::int64_t i = 0; i < s.voxels * s.components; ++i)
+    {
+      repeated[0] = double(s.counts[i / s.components]);
+      work(i, 1, repeated);
+    }
+    return;
+  }
+  const int atOnce = kNumbers / s.components;
+  const auto repeat = s.components == 1 ? &repeatCounts<1>
+    : s.components == 3                 ? &repeatCounts<3>
+                                        : &repeatCounts<0>;
+  for (std::int64_t first = 0; first < s.voxels; first += atOnce)
+  {
+    const int voxels = s.voxels - first < atOnce ? int(s.voxels - first) : atOnce;
+    repeat(s.counts + first, voxels, s.components, repeated);
+    work(first * s.components, voxels * s.components, repeated);
+  }
+}
+
+template <typename Real>
+inline void means(const WordSums& s, Real* means)
+{
+  const double unit = s.unit;
+  forPieces(s,
+    [&](std::int64_t first, int count, const double* counts)
+    {
+      const std::int64_t* sums = s.sums + first;
+      Real* to = means + first;
+      for (int i = 0; i < count; ++i)
+      {
+        to[i] = Real(double(sums[i]) / counts[i] * unit);
+      }
+    });
+}
+
+template <typename Integer>
+inline void integerMeans(const WordSums& s, void* means)
+{
+  // Numbers of so few bits that a rounded quotient does not reach the integer above the exact one.
+  forPieces(s,
+    [&](std::int64_t first, int count, const double* counts)
+    {
+      const std::int64_t* sums = s.sums + first;
+      auto* to = static_cast<Integer*>(means) + first;
+      for (int i = 0; i < count; ++i)
+      {
+        const auto sum = double(sums[i]);
+        const double half = 0.5 * counts[i];
+        const double mean = (sum + (sum < 0.0 ? -half : half)) / counts[i];
+        to[i] = sizeof(Integer) < 4 ? Integer(std::int32_t(mean)) : Integer(std::int64_t(mean));
+      }
+    });
+}
+
+template <typename Real>
+inline void unitVectors(const WordSums& s, const Turn& turn, Real* vectors)
+{
+  constexpr int kVectors = kNumbers / 3;
+  alignas(64) double mean[kNumbers];
+  for (std::int64_t first = 0; first < s.voxels; first += kVectors)
+  {
+    const int count = s.voxels - first < kVectors ? int(s.voxels - first) : kVectors;
+    means(WordSums{ s.sums + 3 * first, s.counts + first, count, 3, s.unit }, mean);
+    Real* to = vectors + 3 * first;
+    for (int i = 0; i < count; ++i)
+    {
+      double turned[3];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        turned[axis] = mean[3 * i] * turn.columns[0][axis] + mean[3 * i + 1] * turn.columns[1][axis] +
+          mean[3 * i + 2] * turn.columns[2][axis];
+      }
+      const double length =
+        __builtin_sqrt(turned[0] * turned[0] + turned[1] * turned[1] + turned[2] * turned[2]);
+      const bool hasDirection = length > 0.0 && length <= __DBL_MAX__;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        to[3 * i + axis] = Real(hasDirection ? turned[axis] / length : 0.0);
+      }
+    }
+  }
+}
+
+constexpr AttributeKernels kKernels = { &magnitudes<std::uint32_t, float>, &magnitudes<std::uint64_t, double>,
+  &means<float>, &means<double>,
+  { &integerMeans<std::int8_t>, &integerMeans<std::uint8_t>, &integerMeans<std::int16_t>,
+    &integerMeans<std::uint16_t>, &integerMeans<std::int32_t>, &integerMeans<std::uint32_t> },
+  &unitVectors<float>, &unitVectors<double> };
+
+}
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,294 @@
+/// @file
+/// The inner loops of mean resampling, one set per instruction set. Private to Core: VoxelResampler drives
+/// them. All sets give the same bits.
+#pragma once
+
+#include "Core/Base/PointRange.h"
+#include "Core/Simd/InstructionSet.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+__extension__ typedef __int128 Int128;
+__extension__ typedef unsigned __int128 UInt128;
+
+/// A coordinate is a fixed-point number of this many bits over the power of two of voxels that covers the
+/// longest axis of the lattice. The quantum is thus the same on a lattice and on one twice as coarse, and the
+/// sums of the fine one are those of the coarse one.
+constexpr int kPositionBits = 43;
+/// Largest power of two of voxels on an axis these records hold with 31 bits left for the place in the voxel.
+constexpr int kMaximumIndexBits = kPositionBits - 31;
+/// And the smallest: one bit of an index is not in the record.
+constexpr int kMinimumIndexBits = 2;
+/// Points taken at once: fewer than a packed sum holds together with kPackedCounts carried ones.
+constexpr std::int64_t kChunkPoints = 1250000;
+
+/// What one thread writes and another reads or writes lies so far apart: two lines of the caches, which the
+/// processor fetches together.
+constexpr std::size_t kApart = 128;
+
+/// Added to an integer below it this leaves the integer in the low bits of the sum.
+constexpr double kToBits = 0x1p52;
+
+constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kPositionBits) - 1;
+/// Low bits of z that travel in the first word of a record, below x; as many more are in the second. The top
+/// bit of z is left out: the partition tells it, as none spans half the layers.
+constexpr int kLowBits = 64 - kPositionBits;
+constexpr std::uint64_t kLowMask = (std::uint64_t(1) << kLowBits) - 1;
+
+/// One point: low bits of z | x, high bits of z | y.
+struct alignas(16) Record
+{
+  std::uint64_t first;
+  std::uint64_t second;
+};
+
+/// Records are written into blocks of a power of two of records, at most so many, aligned to their size.
+constexpr std::size_t kBlockRecords = 4096 / sizeof(Record);
+/// Records of a line of the caches.
+constexpr int kLineRecords = 64 / sizeof(Record);
+
+/// What of the matrix and the offset there is to work with.
+enum class Motion
+{
+  Subtract, ///< The matrix is one and the offset is 0. The pivot is not, so that v is never -0.
+  Shift,    ///< The matrix is one.
+  Scale,    ///< The matrix is diagonal.
+  General,
+  Compensated, ///< General, and rounding would cost places: the pivot is 0, v a dot product in two words.
+};
+
+/// How coordinates become positions in the lattice and rows of it.
+/// v = M (p - pivot) + offset in units of the workspace, from the lattice's origin; u = v / quantum.
+struct Placement
+{
+  double pivot[3];
+  double matrix[3][3];
+  double offset[3];
+  double offsetRest[3]; ///< What rounding took from it; only Motion::Compensated looks at it.
+  double quantum[3];    ///< The spacing over a power of two.
+  double reciprocal[3]; ///< 1 / quantum, rounded.
+  double remainder[3];  ///< What rounding took from it, rounded.
+  /// fma(v, reciprocal, v remainder), which takes half the time, is v / quantum correctly rounded for all v.
+  bool pairDivides;
+  double limit[3]; ///< u below this is inside.
+  Motion motion;
+  int fractionBits;      ///< Bits of a position below the voxel.
+  bool correctsRounding; ///< placePoint() does: see kUncorrectedIndexBits.
+  // Which partition: (z >> layerShift) * blocksPerLayer + (y >> rowShift).
+  std::uint32_t blocksPerLayer;
+  int rowShift;
+  int layerShift;
+};
+
+struct RecordWriter;
+
+/// Which cell of a partition a record is in: x + columns (row - firstRow).
+struct CellMap
+{
+  int fractionBits;
+  std::uint32_t columns;
+  std::uint32_t rowsPerLayer;
+  std::uint32_t firstRow;
+  /// Rows in the half of the lattice that the bit of z left out of the records stands for; 0: it is never
+  /// set.
+  std::uint32_t upperRows;
+  /// Rows of its layer before the partition, if it has no other.
+  std::uint32_t firstInLayer = kSeveralLayers;
+
+  static constexpr std::uint32_t kSeveralLayers = ~std::uint32_t(0);
+};
+
+/// Sums of one chunk in one cell: x, y, low bits of z, count | high bits of z.
+struct alignas(32) PackedSums
+{
+  std::uint64_t lanes[4];
+};
+/// The count stands above the sum of the high bits: fewer than 2^21 points of kPositionBits - kLowBits bits.
+constexpr int kCountShift = 43;
+static_assert(kChunkPoints < (std::int64_t(1) << 21) && 21 + kPositionBits - kLowBits <= kCountShift,
+  "the high bits of z must not reach the count");
+
+static inline std::int64_t packedCount(const PackedSums& sums)
+{
+  return std::int64_t(sums.lanes[3] >> kCountShift);
+}
+static inline std::int64_t packedZ(const PackedSums& sums)
+{
+  constexpr std::uint64_t kHighMask = (std::uint64_t(1) << kCountShift) - 1;
+  return std::int64_t(sums.lanes[2] + ((sums.lanes[3] & kHighMask) << kLowBits));
+}
+
+/// Sums of products of the places in the voxel, in the order of SymMat3: xx yy zz xy yz xz.
+/// Modulo 2^128: what covarianceOf() takes from them is small.
+struct SecondSums
+{
+  UInt128 lanes[6];
+};
+
+/// The same from two sums each, which do not overflow where the sums of the places do not: of the products
+/// shifted right by the bits of a place, and of the bits that this leaves out.
+struct SplitSeconds
+{
+  std::uint64_t high[6];
+  std::uint64_t low[6];
+};
+
+static inline SecondSums whole(const SplitSeconds& split, int fractionBits)
+{
+  SecondSums sums;
+  for (int m = 0; m < 6; ++m)
+  {
+    sums.lanes[m] = (UInt128(split.high[m]) << fractionBits) + split.low[m];
+  }
+  return sums;
+}
+
+/// Which cells of a partition have points, and how many of these come before a cell. A bit for each cell and
+/// a number for 64 of them stay in the first-level cache.
+struct CellRanks
+{
+  std::uint64_t* marks;
+  std::uint32_t* before; ///< Marks in the words before.
+  /// Of each byte of a word, marks in the word's bytes before: for sets without an instruction that counts
+  /// ones.
+  std::uint64_t* beforeBytes;
+  std::size_t words; ///< A multiple of kMarkGroup.
+};
+/// Words of marks counted together.
+constexpr std::size_t kMarkGroup = 16;
+
+/// The sums of a partition's marked cells, in ascending order.
+struct CellSums
+{
+  std::uint32_t* cells;
+  PackedSums* sums;
+  SplitSeconds* seconds; ///< Or null.
+};
+
+/// Whether the matrix of a transform scales and mirrors only.
+static inline bool isDiagonal(const double m[3][4])
+{
+  return m[0][1] == 0.0 && m[0][2] == 0.0 && m[1][0] == 0.0 && m[1][2] == 0.0 && m[2][0] == 0.0 &&
+    m[2][1] == 0.0;
+}
+
+/// Places of a record's point in its voxel. These are static: sources of several instruction sets include
+/// them, and the linker must not choose one set's for all.
+static inline std::uint64_t xPlace(const Record& r, std::uint64_t fractionMask)
+{
+  return (r.first >> kLowBits) & fractionMask;
+}
+static inline std::uint64_t yPlace(const Record& r, std::uint64_t fractionMask)
+{
+  return (r.second >> kLowBits) & fractionMask;
+}
+static inline std::uint64_t zPlace(const Record& r, std::uint64_t fractionMask)
+{
+  return ((r.first & kLowMask) | ((r.second & kLowMask) << kLowBits)) & fractionMask;
+}
+
+static inline void addProducts(SecondSums& sums, std::uint64_t x, std::uint64_t y, std::uint64_t z)
+{
+  sums.lanes[0] += UInt128(x) * x;
+  sums.lanes[1] += UInt128(y) * y;
+  sums.lanes[2] += UInt128(z) * z;
+  sums.lanes[3] += UInt128(x) * y;
+  sums.lanes[4] += UInt128(y) * z;
+  sums.lanes[5] += UInt128(x) * z;
+}
+
+/// Voxels on their way from the sums to the result, at most this many at once.
+constexpr int kBatch = 256;
+
+/// Sums over the points of each voxel of their places in it, in quanta.
+template <typename Sum>
+struct MomentBatch
+{
+  int size = 0;
+  alignas(64) std::int32_t indices[3][kBatch] = {};
+  alignas(64) std::int64_t counts[kBatch] = {};
+  alignas(64) Sum sums[3][kBatch] = {};
+  SecondSums* seconds = nullptr; ///< kBatch of them, or null.
+};
+
+/// How sums become coordinates. The mean of a voxel is origin + (index + sum / (count 2^fractionBits))
+/// spacing.
+struct MeanMap
+{
+  double origin[3];
+  double spacing[3];
+  double quantum; ///< 2^-fractionBits
+  /// Closer than this to a face, in voxels, rounding may carry a mean into the next voxel.
+  double faceMargin[3];
+};
+
+/// How sums of products of places become covariances.
+struct CovarianceMap
+{
+  int fractionBits;
+  double unit[3]; ///< A quantum in the frame of the lattice.
+};
+
+/// Elements of the widest vectors.
+constexpr int kWidest = 8;
+
+/// The inner loops for one instruction set.
+struct Kernels
+{
+  /// Places the points of @p count ranges of an array (x y z interleaved) and appends those inside to their
+  /// partitions.
+  void (*partitionFloats)(
+    const Placement&, const float* xyz, const PointRange* ranges, std::int64_t count, RecordWriter&);
+  void (*partitionDoubles)(
+    const Placement&, const double* xyz, const PointRange* ranges, std::int64_t count, RecordWriter&);
+  /// The cell of each record. Fetches a block of records that will be asked for @p next: those follow each
+  /// other in memory too seldom for the machine to guess.
+  void (*cells)(const CellMap&, const Record* records, int count, const Record* next, std::uint32_t* cells);
+  /// Marks cells.
+  void (*markCells)(const std::uint32_t* cells, int count, std::uint64_t* marks);
+  /// Counts the marks before each word that has any. @return that of all.
+  std::uint32_t (*number)(const CellRanks& ranks);
+  /// The same, looking only at the words whose bits are set in @p touched.
+  std::uint32_t (*numberTouched)(const CellRanks& ranks, const std::uint64_t* touched);
+  /// How many marked cells come before each of some: replaces them.
+  void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);
+  /// Adds records to the sums of their @p cells; fetches @p next like cells().
+  void (*accumulate)(const CellMap&, const CellRanks& ranks, const Record* records,
+    const std::uint32_t* cells, int count, const Record* next, const CellSums& sums);
+  /// Coordinates, x y z interleaved, and counts of cells with their sums. Positions among them of means so
+  /// near a face that they need another look go to @p nearFace. @return the number of these. Reads, but does
+  /// not use, kWidest elements past the end.
+  int (*packedMeansFloat)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
+    int count, float* xyz, std::int64_t* counts, int* nearFace);
+  int (*packedMeansDouble)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
+    int count, double* xyz, std::int64_t* counts, int* nearFace);
+  /// Covariances of cells, six numbers each in the order of SecondSums. Positions among them of those with
+  /// too many points for this go to @p full, at most @p count: theirs are not valid. @return the number of
+  /// these.
+  int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSeconds* seconds, int count,
+    double* covariances, int* full);
+  /// The same as packedMeans of a batch.
+  int (*meansFloat)(const MeanMap&, const MomentBatch<std::int64_t>&, float* xyz, int* nearFace);
+  int (*meansDouble)(const MeanMap&, const MomentBatch<std::int64_t>&, double* xyz, int* nearFace);
+  /// Widens a box (x0 x1 y0 y1 z0 z1) by the transformed points that are finite before and after.
+  void (*boundsFloats)(const double matrix[3][4], const float* xyz, std::int64_t count, double box[6]);
+  void (*boundsDoubles)(const double matrix[3][4], const double* xyz, std::int64_t count, double box[6]);
+};
+
+/// The set that InstructionSet stands for on this machine.
+const Kernels& kernelsFor(InstructionSet wanted);
+
+const Kernels& baselineKernels();
+/// Null where the compiler or the processor family lacks them; whether this machine can run them is asked
+/// elsewhere.
+const Kernels* avx2Kernels();
+const Kernels* avx512Kernels();
+
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,196 @@
+/// @file
+/// From the records of a partition to the sums of its voxels, in ascending order.
+#pragma once
+
+#include "Core/Base/Buffer.h"
+#include "Core/Resample/Stages/RecordPool.h"
+#include "Core/Resample/Stages/VoxelSink.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+/// How the voxels of a lattice are dealt out to partitions: blocks of rows (voxels along x) of a layer, or
+/// blocks of layers. Keys ascend from partition to partition.
+struct PartitionPlan
+{
+  std::uint32_t columns = 1;
+  std::uint32_t rowsPerLayer = 1;
+  std::uint32_t upperRows = 0; ///< See CellMap.
+  int fractionBits = 0;
+  std::uint32_t blocksPerLayer = 1;
+  int rowShift = 0;   ///< Rows of a block, as a power of two.
+  int layerShift = 0; ///< Layers of a block, likewise; above 0 only with one block per layer.
+  std::uint32_t partitions = 1;
+  /// Sums of all cells of a partition are kept side by side; otherwise its records are sorted.
+  bool dense = true;
+
+  std::uint32_t firstRow(std::uint32_t partition) const
+  {
+    return ((partition / blocksPerLayer) << layerShift) * rowsPerLayer +
+      ((partition % blocksPerLayer) << rowShift);
+  }
+  CellMap cellMap(std::uint32_t partition) const
+  {
+    const std::uint32_t firstInLayer =
+      layerShift == 0 ? (partition % blocksPerLayer) << rowShift : CellMap::kSeveralLayers;
+    return { fractionBits, columns, rowsPerLayer, firstRow(partition), upperRows, firstInLayer };
+  }
+  std::uint64_t firstKey(std::uint32_t partition) const
+  {
+    return std::uint64_t(firstRow(partition)) * columns;
+  }
+  /// Cells of the largest partition.
+  std::size_t cells() const
+  {
+    const std::size_t rows =
+      blocksPerLayer > 1 ? std::size_t(1) << rowShift : std::size_t(rowsPerLayer) << layerShift;
+    return columns * rows;
+  }
+};
+
+/// A plan for @p points points at a time. @pre dimensions up to 2^kMaximumIndexBits.
+PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t points);
+
+/// The largest of a partition's voxels' number that records and carried voxels allow.
+std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t carried);
+
+/// Works on one partition at a time and is used by one thread at a time.
+class alignas(kApart) PartitionWorker
+{
+public:
+  PartitionWorker();
+  ~PartitionWorker();
+
+  /// Readies the scratch for partitions of a plan.
+  void prepare(const PartitionPlan& plan, bool covariances);
+  /// Adds the records of a partition to @p old sums, which it may change, and with @p keeps does, if the plan
+  /// is dense; calls tell(size) as soon as it knows the number of its voxels. They hold until the next call.
+  template <typename Tell>
+  void load(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& old,
+    bool keeps, Tell&& tell)
+  {
+    partition_ = partition;
+    old_ = &old;
+    if (plan_.dense)
+    {
+      markDense(kernels, pool);
+      tell(voxels_.size);
+      sumDense(kernels, pool, keeps || old_->cellCount > 0 ? *old_ : own_);
+      return;
+    }
+    sortRecords(kernels, pool);
+    tell(countSorted());
+  }
+  /// The voxels, if the plan is dense and nothing was carried unpacked; else null.
+  const PartitionVoxels* packed() const { return plan_.dense && old_->voxels.empty() ? &voxels_ : nullptr; }
+  /// Calls emit(batch) with all the voxels.
+  template <typename Emit>
+  void forBatches(Emit&& emit)
+  {
+    std::size_t position = 0; // among the voxels or records
+    std::size_t next = 0;     // among the carried voxels
+    while (position < (plan_.dense ? voxels_.size : listed_) || (!plan_.dense && next < old_->voxels.size()))
+    {
+      plan_.dense ? collectDense(position, next) : collectSorted(position, next);
+      emit(*batch_);
+    }
+  }
+  /// Adds the records of a partition to what is carried of it. @pre the plan is dense.
+  void carryDense(
+    const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& carriedOver);
+  /// Calls visit(rows, ranks, count) with the row of each record and the rank of its voxel among the
+  /// partition's @p keys (ascending).
+  template <typename Visit>
+  void rank(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
+    const std::uint64_t* keys, std::size_t size, Visit&& visit)
+  {
+    const CellMap map = plan_.cellMap(partition);
+    const std::uint64_t firstKey = plan_.firstKey(partition);
+    if (plan_.dense)
+    {
+      recordCells_.reserve(size);
+      for (std::size_t i = 0; i < size; ++i)
+      {
+        recordCells_[i] = std::uint32_t(keys[i] - firstKey);
+      }
+      kernels.markCells(recordCells_.data(), int(size), marks_.data());
+      numberMarks(kernels, { recordCells_.data(), size }, {});
+    }
+    for (RecordPool::Walk block(pool, partition); block.next();)
+    {
+      std::uint32_t cells[kBlockRecords];
+      kernels.cells(map, block.records(), block.count(), block.recordsAhead(), cells);
+      if (plan_.dense)
+      {
+        kernels.rank(ranks(), cells, block.count());
+      }
+      for (int i = 0; !plan_.dense && i < block.count(); ++i)
+      {
+        cells[i] = rankOf(firstKey + cells[i], keys, size);
+      }
+      visit(block.rows(), cells, block.count());
+    }
+    if (plan_.dense)
+    {
+      clearMarks({ recordCells_.data(), size });
+    }
+  }
+  std::size_t bytes() const;
+  /// Sums of the batches it makes are collected here.
+  CarriedPartition carried;
+
+private:
+  struct Entry
+  {
+    std::uint32_t cell;
+    std::uint32_t record;
+  };
+
+  struct CellList
+  {
+    const std::uint32_t* cells = nullptr;
+    std::size_t count = 0;
+  };
+
+  CellRanks ranks() const;
+  std::size_t numberMarks(const Kernels& kernels, CellList cells, CellList others);
+  void clearMarks(CellList cells);
+  void markDense(const Kernels& kernels, const RecordPool& pool);
+  void sumDense(const Kernels& kernels, const RecordPool& pool, CarriedPartition& to);
+  void makeRoom(const Kernels& kernels, CarriedPartition& sums) const;
+  void collectDense(std::size_t& position, std::size_t& next);
+  static void unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver);
+  void sortRecords(const Kernels& kernels, const RecordPool& pool);
+  std::size_t countSorted() const;
+  void collectSorted(std::size_t& position, std::size_t& next);
+  static std::uint32_t rankOf(std::uint64_t key, const std::uint64_t* keys, std::size_t size);
+
+  PartitionPlan plan_;
+  std::uint32_t partition_ = 0;
+  CarriedPartition* old_ = nullptr;
+  PartitionVoxels voxels_;
+  std::unique_ptr<MomentBatch<std::int64_t>> batch_;
+  std::vector<SecondSums> batchSeconds_;
+  // Dense: marks are zero between partitions.
+  Buffer<std::uint64_t> marks_;
+  Buffer<std::uint64_t> touched_; ///< Likewise; a bit for each word that has marks, if these are few.
+  bool few_ = false;
+  Buffer<std::uint32_t> before_;
+  Buffer<std::uint64_t> beforeBytes_;
+  Buffer<std::uint32_t> recordCells_;
+  CarriedPartition own_; ///< Sums of voxels that are not carried.
+  // Sorted.
+  std::size_t listed_ = 0; ///< Records.
+  Buffer<Record> records_;
+  Buffer<Entry> entries_;
+  Buffer<Entry> otherEntries_;
+};
+
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,272 @@
+#include "Core/Resample/Stages/PointPlacement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+namespace
+{
+
+using Wide = long double;
+
+/// Solves T p = b by cofactors.
+void solve(const AffineTransform& transform, const Wide b[3], Wide p[3])
+{
+  const auto& m = transform.m;
+  const auto cofactor = [&](int row, int column)
+  {
+    const int r0 = (row + 1) % 3;
+    const int r1 = (row + 2) % 3;
+    const int c0 = (column + 1) % 3;
+    const int c1 = (column + 2) % 3;
+    return Wide(m[r0][c0]) * Wide(m[r1][c1]) - Wide(m[r0][c1]) * Wide(m[r1][c0]);
+  };
+  const Wide determinant =
+    Wide(m[0][0]) * cofactor(0, 0) + Wide(m[0][1]) * cofactor(0, 1) + Wide(m[0][2]) * cofactor(0, 2);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    p[axis] = (cofactor(0, axis) * b[0] + cofactor(1, axis) * b[1] + cofactor(2, axis) * b[2]) / determinant;
+  }
+}
+
+/// See compensatedDot() of PlacementBody.h: the same operations in the same order, less those that change
+/// nothing. @p left: what rounding takes from it.
+double compensatedDot(const double row[3], const double p[3], double offset, double offsetRest, double& left)
+{
+  double sum = offset;
+  double rest = offsetRest;
+  for (int column = 0; column < 3; ++column)
+  {
+    if (row[column] == 0.0)
+    {
+      continue;
+    }
+    const double term = p[column] * row[column];
+    rest += std::fma(p[column], row[column], -term);
+    const double total = sum + term;
+    const double added = total - sum;
+    rest += (sum - (total - added)) + (term - added);
+    sum = total;
+  }
+  const double v = sum + rest;
+  left = (sum - v) + rest;
+  return v;
+}
+
+/// What rounding takes from a - b (Knuth).
+double leftOfDifference(double a, double b)
+{
+  const double difference = a - b;
+  const double back = difference - a;
+  return (a - (difference - back)) - (b + back);
+}
+
+/// Where rounding p - pivot, the products and their sums could move a point inside by more than an eighth of
+/// a quantum: under matrices of a large condition number, and on the finest lattices. The same on a lattice
+/// and on one twice as coarse, whose sums would differ otherwise.
+bool needsCompensation(const AffineTransform& transform, const Placement& placement, int positionBits)
+{
+  constexpr Wide kRounding = 0x1p-50L; // of a term of the sum, all told
+  constexpr Wide kMostLost = 0.125L;
+  Wide largest[3] = { 0, 0, 0 }; // |p - pivot| of the points inside
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    Wide extent[3] = { 0, 0, 0 };
+    Wide edge[3];
+    extent[axis] =
+      std::ldexp(Wide(placement.quantum[axis]), positionBits) + std::abs(Wide(placement.offset[axis]));
+    solve(transform, extent, edge);
+    for (int column = 0; column < 3; ++column)
+    {
+      largest[column] += std::abs(edge[column]);
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    Wide terms = std::abs(Wide(placement.offset[axis]));
+    for (int column = 0; column < 3; ++column)
+    {
+      terms += std::abs(Wide(transform.m[axis][column])) * largest[column];
+    }
+    if (!(kRounding * terms <= kMostLost * Wide(placement.quantum[axis])))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+Motion motionOf(const AffineTransform& t)
+{
+  if (!isDiagonal(t.m))
+  {
+    return Motion::General;
+  }
+  return t.m[0][0] == 1.0 && t.m[1][1] == 1.0 && t.m[2][2] == 1.0 ? Motion::Shift : Motion::Scale;
+}
+
+/// What the transform makes of the pivot, from the lattice's origin.
+void setOffset(const AffineTransform& transform, const Lattice& lattice, Placement& placement)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // Their difference in two words (Knuth).
+    const double t = transform.m[axis][3];
+    const double o = lattice.origin[axis];
+    const double rest = leftOfDifference(t, o);
+    double left = 0.0;
+    placement.offset[axis] =
+      compensatedDot(placement.matrix[axis], placement.pivot, t - o, rest, left) + 0.0; // never -0
+    placement.offsetRest[axis] = rest;
+  }
+}
+
+/// Whether fma(v, r, v t), with r = 1 / d and t = 1 / d - r rounded, is v / d correctly rounded for all v:
+/// the idea of Brisebarre, Muller and Raina (IEEE Transactions on Computers 53, 2004). With d = D 2^e, D <
+/// 2^53 an integer, no quotient is nearer to the midpoint of two doubles than 2^-54 / D, relatively; what r
+/// and t leave of 1 / d and the rounding of v t are off by less, or not.
+bool dividesAsPair(double d, double r, double t)
+{
+  const double residual = std::fma(r, d, -1.0);
+  const double left = std::abs(std::fma(t, d, residual)) + std::ldexp(std::abs(t) * d, -53);
+  int exponent = 0;
+  const double integer = std::ldexp(std::frexp(d, &exponent), 53);
+  return left < 0.999 * std::ldexp(1.0, -54) / integer;
+}
+
+}
+
+int indexBitsOf(const Lattice& lattice)
+{
+  const std::int64_t largest =
+    std::max({ lattice.dimensions[0], lattice.dimensions[1], lattice.dimensions[2] });
+  int bits = 0;
+  while ((std::int64_t(1) << bits) < largest)
+  {
+    ++bits;
+  }
+  return bits;
+}
+
+int positionBitsFor(int indexBits)
+{
+  return indexBits <= kMaximumIndexBits ? kPositionBits : 52;
+}
+
+Placement makePlacement(
+  const AffineTransform& transform, const Lattice& lattice, int indexBits, int positionBits)
+{
+  Placement placement{};
+  placement.motion = motionOf(transform);
+  placement.pairDivides = true;
+  placement.fractionBits = positionBits - indexBits;
+  placement.correctsRounding = indexBits > kUncorrectedIndexBits;
+  Wide toOrigin[3];
+  Wide pivot[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    toOrigin[axis] = Wide(lattice.origin[axis]) - Wide(transform.m[axis][3]);
+    pivot[axis] = toOrigin[axis] / Wide(transform.m[axis][axis]);
+    std::copy(transform.m[axis], transform.m[axis] + 3, placement.matrix[axis]);
+  }
+  if (placement.motion == Motion::General)
+  {
+    solve(transform, toOrigin, pivot);
+  }
+  const bool finite =
+    std::isfinite(double(pivot[0])) && std::isfinite(double(pivot[1])) && std::isfinite(double(pivot[2]));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    placement.pivot[axis] = finite ? double(pivot[axis]) : 0.0;
+  }
+  setOffset(transform, lattice, placement);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double quantum = std::ldexp(lattice.spacing[axis], -placement.fractionBits);
+    placement.quantum[axis] = quantum;
+    placement.reciprocal[axis] = 1.0 / quantum;
+    placement.remainder[axis] = -std::fma(placement.reciprocal[axis], quantum, -1.0) / quantum;
+    placement.pairDivides =
+      placement.pairDivides && dividesAsPair(quantum, placement.reciprocal[axis], placement.remainder[axis]);
+    placement.limit[axis] = std::ldexp(
+      std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]), placement.fractionBits);
+  }
+  const auto isSubtraction = [&](int axis)
+  { return placement.offset[axis] == 0.0 && placement.pivot[axis] != 0.0; };
+  if (placement.motion == Motion::Shift && isSubtraction(0) && isSubtraction(1) && isSubtraction(2))
+  {
+    placement.motion = Motion::Subtract;
+  }
+  else if ((placement.motion == Motion::General || positionBits > kPositionBits) &&
+    needsCompensation(transform, placement, positionBits))
+  {
+    placement.motion = Motion::Compensated;
+    std::fill(placement.pivot, placement.pivot + 3, 0.0);
+    setOffset(transform, lattice, placement);
+  }
+  return placement;
+}
+
+bool hasOrdinarySpacing(const Lattice& lattice)
+{
+  constexpr double kTiny = 1e-150;
+  constexpr double kHuge = 1e150;
+  return std::all_of(&lattice.spacing.x, &lattice.spacing.x + 3,
+    [](double spacing) { return spacing > kTiny && spacing < kHuge; });
+}
+
+namespace
+{
+
+/// @return the quantum that v and what rounding @p left of it lie in, near @p position; but no point changes
+/// voxels.
+std::uint64_t nearer(std::uint64_t position, double v, double left, double quantum)
+{
+  constexpr int kLeastFractionBits = 31; // The faces of all lattices are there.
+  const double beyond = std::fma(-double(position), quantum, v) + left;
+  const int more = (beyond >= quantum) + (beyond >= 2.0 * quantum) - (beyond < 0.0) - (beyond < -quantum);
+  const std::uint64_t found = position + std::uint64_t(std::int64_t(more));
+  return found >> kLeastFractionBits == position >> kLeastFractionBits ? found : position;
+}
+
+}
+
+Place placePoint(const Placement& placement, const Vec3& point, std::uint64_t position[3])
+{
+  constexpr std::uint64_t kMantissa = (std::uint64_t(1) << 52) - 1;
+  const double p[3] = { point.x - placement.pivot[0], point.y - placement.pivot[1],
+    point.z - placement.pivot[2] };
+  bool inside = true;
+  bool finite = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* row = placement.matrix[axis];
+    // The same operations in the same order as the vector loops.
+    const double offset = placement.offset[axis];
+    double left = 0.0;
+    const double v = placement.motion == Motion::Compensated
+      ? compensatedDot(row, p, offset, placement.offsetRest[axis], left)
+      : placement.motion == Motion::General ? ((p[0] * row[0] + p[1] * row[1]) + p[2] * row[2]) + offset
+                                            : p[axis] * row[axis] + offset;
+    const double u = v / placement.quantum[axis];
+    finite = finite && std::isfinite(v);
+    inside = inside && v >= 0.0 && u < placement.limit[axis];
+    const double rounded = u + kToBits;
+    std::memcpy(&position[axis], &rounded, sizeof rounded);
+    position[axis] = (position[axis] - (rounded - kToBits > u)) & kMantissa;
+    if (placement.correctsRounding && inside)
+    {
+      left =
+        placement.motion == Motion::Subtract ? leftOfDifference(point[axis], placement.pivot[axis]) : left;
+      position[axis] = nearer(position[axis], v, left, placement.quantum[axis]);
+    }
+  }
+  return inside ? Place::Inside : finite ? Place::Outside : Place::Invalid;
+}
+
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,147 @@
+#include "Core/Resample/Stages/RecordPool.h"
+
+#include <algorithm>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+namespace
+{
+
+/// A writer leaves the first and the last block of a partition partly empty: many writers get small ones.
+std::size_t blockRecordsFor(std::size_t writers)
+{
+  constexpr std::size_t kFewWriters = 4;
+  constexpr std::size_t kLeastRecords = kBlockRecords / 8;
+  std::size_t records = kBlockRecords;
+  for (std::size_t few = kFewWriters; few < writers && records > kLeastRecords; few *= 2)
+  {
+    records /= 2;
+  }
+  return records;
+}
+
+}
+
+void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes)
+{
+  const std::size_t writerCount = std::size_t(std::max(writers, 1));
+  blockRecords_ = blockRecordsFor(writerCount);
+  const std::size_t blocks =
+    std::size_t(points) / blockRecords_ + writerCount * (2 * partitions + kTakenBlocks);
+  records_.reserve(blocks * blockRecords_, Pages::Huge);
+  previous_.reserve(blocks);
+  rowBytes_ = rowBytes;
+  rows_.reserve(blocks * blockRecords_ * rowBytes, Pages::Huge);
+  takenBlocks_ = 0;
+  while (writers_.size() < writerCount)
+  {
+    writers_.push_back(std::make_unique<Writer>());
+  }
+  writers_.resize(writerCount);
+  for (const std::unique_ptr<Writer>& writer : writers_)
+  {
+    writer->cursorStorage.assign(partitions, nullptr);
+    writer->lastStorage.assign(partitions, kNoBlock);
+    writer->cursors = writer->cursorStorage.data();
+    writer->blockMask = blockRecords_ * sizeof(Record) - 1;
+    writer->records = records_.data();
+    writer->lastBlocks = writer->lastStorage.data();
+    writer->previous = previous_.data();
+    writer->taken = &takenBlocks_;
+    writer->nextBlock = writer->endBlock = 0;
+    writer->slots = nullptr;
+    writer->inside = 0;
+    writer->invalid = 0;
+    writer->inUse = false;
+  }
+}
+
+RecordPool::Lease::Lease(RecordPool& pool)
+  : pool_(pool)
+  , slot_(0)
+{
+  std::unique_lock<std::mutex> lock(pool_.mutex_);
+  const auto findFree = [this]
+  {
+    for (slot_ = 0; slot_ < pool_.writers_.size(); ++slot_)
+    {
+      if (!pool_.writers_[slot_]->inUse)
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  pool_.returned_.wait(lock, findFree);
+  pool_.writers_[slot_]->inUse = true;
+}
+
+RecordPool::Lease::~Lease()
+{
+  {
+    const std::lock_guard<std::mutex> lock(pool_.mutex_);
+    pool_.writers_[slot_]->inUse = false;
+  }
+  pool_.returned_.notify_one();
+}
+
+RecordWriter& RecordPool::Lease::writer() const
+{
+  return *pool_.writers_[slot_];
+}
+
+std::uint32_t RecordPool::following(std::uint32_t partition) const
+{
+  do
+  {
+    partition += std::uint32_t(writers_.size());
+  } while (partition < partitions() && !Walk(*this, partition).next());
+  return std::min(partition, partitions());
+}
+
+std::size_t RecordPool::count(std::uint32_t partition) const
+{
+  std::size_t sum = 0;
+  for (Walk walk(*this, partition); walk.next();)
+  {
+    sum += std::size_t(walk.count());
+  }
+  return sum;
+}
+
+std::int64_t RecordPool::inside() const
+{
+  std::int64_t sum = 0;
+  for (const std::unique_ptr<Writer>& writer : writers_)
+  {
+    sum += writer->inside;
+  }
+  return sum;
+}
+
+std::int64_t RecordPool::invalid() const
+{
+  std::int64_t sum = 0;
+  for (const std::unique_ptr<Writer>& writer : writers_)
+  {
+    sum += writer->invalid;
+  }
+  return sum;
+}
+
+std::size_t RecordPool::bytes() const
+{
+  std::size_t sum = records_.bytes() + rows_.bytes() + previous_.bytes();
+  for (const std::unique_ptr<Writer>& writer : writers_)
+  {
+    sum +=
+      writer->cursorStorage.capacity() * sizeof(Record*) + writer->lastStorage.capacity() * sizeof(kNoBlock);
+  }
+  return sum;
+}
+
+} // namespace kernel
+} // namespace pointhaptics

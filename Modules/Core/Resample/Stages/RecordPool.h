@@ -1,0 +1,131 @@
+/// @file
+/// Records of a chunk of points, sorted into partitions while they are written.
+#pragma once
+
+#include "Core/Base/Buffer.h"
+#include "Core/Resample/Stages/RecordWriter.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+/// Blocks of records in one piece of memory. A writer takes a block for each partition it has a point for and
+/// a new one when that is full; the blocks of a writer and partition are a list. Writers run at the same
+/// time.
+class RecordPool
+{
+public:
+  /// Room for @p points records of @p partitions partitions, written by at most @p writers writers at once,
+  /// and a row of so many bytes beside each. Empties the pool.
+  void prepare(std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes);
+  /// Rows, numbered as RecordWriter::slots tells.
+  char* rows() { return rows_.data(); }
+
+  /// A writer nobody else uses, for as long as this lives. Waits while all are taken.
+  class Lease
+  {
+  public:
+    explicit Lease(RecordPool& pool);
+    ~Lease();
+    Lease(const Lease&) = delete;
+    Lease& operator=(const Lease&) = delete;
+    RecordWriter& writer() const;
+
+  private:
+    RecordPool& pool_;
+    std::size_t slot_;
+  };
+
+  /// Walks over the blocks of a partition, from the last of each writer to its first.
+  class Walk
+  {
+  public:
+    Walk(const RecordPool& pool, std::uint32_t partition)
+      : pool_(pool)
+      , partition_(partition)
+    {
+    }
+    /// Goes to the next block, at first to the first. @return whether there is one.
+    bool next();
+    const Record* records() const { return pool_.records_.data() + first_; }
+    /// What to fetch while at work on this block: the next one, or nothing else.
+    const Record* recordsAhead() const
+    {
+      Walk ahead = *this;
+      return ahead.next() ? ahead.records() : records();
+    }
+    /// Beside each record a row.
+    const char* rows() const { return pool_.rows_.data() + pool_.rowBytes_ * first_; }
+    int count() const { return int(end_ - first_); }
+
+  private:
+    const RecordPool& pool_;
+    std::uint32_t partition_;
+    std::size_t writer_ = 0; ///< The one whose blocks come next.
+    std::uint32_t before_ = kNoBlock;
+    std::size_t first_ = 0;
+    std::size_t end_ = 0;
+  };
+  /// The partition with records that a thread takes next after @p partition, if all take them in turn; the
+  /// number of partitions if there is none.
+  std::uint32_t following(std::uint32_t partition) const;
+  std::size_t count(std::uint32_t partition) const;
+  std::int64_t inside() const;
+  std::int64_t invalid() const;
+  std::size_t bytes() const;
+
+private:
+  struct alignas(kApart) Writer : RecordWriter
+  {
+    std::vector<Record*> cursorStorage;
+    std::vector<std::uint32_t> lastStorage;
+    bool inUse = false;
+  };
+  std::uint32_t partitions() const { return std::uint32_t(writers_[0]->lastStorage.size()); }
+
+  std::size_t blockRecords_ = kBlockRecords;
+  Buffer<Record> records_;
+  Buffer<char> rows_;
+  std::size_t rowBytes_ = 0;
+  Buffer<std::uint32_t> previous_;
+  alignas(kApart) std::uint32_t takenBlocks_ = 0;
+  std::vector<std::unique_ptr<Writer>> writers_;
+  std::mutex mutex_;
+  std::condition_variable returned_;
+};
+
+inline bool RecordPool::Walk::next()
+{
+  std::uint32_t block = before_;
+  if (block != kNoBlock)
+  {
+    end_ = (std::size_t(block) + 1) * pool_.blockRecords_;
+  }
+  while (block == kNoBlock && partition_ < pool_.partitions() && writer_ < pool_.writers_.size())
+  {
+    const Writer& writer = *pool_.writers_[writer_++];
+    block = writer.lastBlocks[partition_];
+    if (block != kNoBlock)
+    {
+      end_ = std::size_t(writer.cursors[partition_] - pool_.records_.data());
+    }
+  }
+  if (block == kNoBlock)
+  {
+    return false;
+  }
+  before_ = pool_.previous_[block];
+  first_ = std::size_t(block) * pool_.blockRecords_ +
+    (before_ == kNoBlock ? firstRecord(partition_, pool_.blockRecords_) : 0);
+  return true;
+}
+
+} // namespace kernel
+} // namespace pointhaptics

@@ -1,0 +1,71 @@
+/// @file
+/// Appends records to partitions: the part of RecordPool that is inside the loops. Internal linkage: sources
+/// of several instruction sets include it.
+#pragma once
+
+#include "Core/Resample/Kernel/VoxelKernel.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+constexpr std::uint32_t kNoBlock = ~std::uint32_t(0);
+
+/// Where one thread's records go: a cursor for each partition.
+struct RecordWriter
+{
+  Record** cursors;
+  std::uintptr_t blockMask;  ///< Bytes of a block, less one.
+  Record* records;           ///< Start of the pool.
+  std::uint32_t* lastBlocks; ///< Of each partition, or kNoBlock.
+  std::uint32_t* previous;   ///< Of each block of the pool that in its partition before it, or kNoBlock.
+  std::uint32_t* taken;      ///< Blocks that the pool's writers have taken: they share it.
+  std::uint32_t nextBlock;   ///< Of those it took in advance.
+  std::uint32_t endBlock;
+  /// Told for each point inside, counted from the first range's begin, where its record is, counted from
+  /// records: or null.
+  std::uint32_t* slots;
+  std::int64_t inside;
+  std::int64_t invalid;
+};
+
+/// Blocks a writer takes at once: an atomic operation waits for all stores before it.
+constexpr std::uint32_t kTakenBlocks = 32;
+
+/// Where a partition's first block begins to be filled. All cursors advance at about the same pace: without
+/// this they would crowd the same few sets of the first-level cache. @pre blockRecords: a power of two.
+static inline std::size_t firstRecord(std::uint32_t partition, std::size_t blockRecords)
+{
+  return kLineRecords * (partition & (blockRecords / kLineRecords - 1));
+}
+
+/// The cursor of a partition: at first, and where it stands at the end of its block, in a new block. Always
+/// inline: a call would take what loops keep in vector registers out of them.
+__attribute__((always_inline)) static inline Record* cursorOf(
+  RecordWriter& writer, Record* const* cursors, std::uintptr_t blockMask, std::uint64_t partition)
+{
+  Record* const cursor = cursors[partition];
+  if (__builtin_expect((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) != 0, true))
+  {
+    return cursor;
+  }
+  if (writer.nextBlock == writer.endBlock)
+  {
+    writer.nextBlock = __atomic_fetch_add(writer.taken, kTakenBlocks, __ATOMIC_RELAXED);
+    writer.endBlock = writer.nextBlock + kTakenBlocks;
+  }
+  const std::uint32_t block = writer.nextBlock++;
+  const std::uint32_t last = writer.lastBlocks[partition];
+  writer.previous[block] = last;
+  writer.lastBlocks[partition] = block;
+  const std::size_t blockRecords = (blockMask + 1) / sizeof(Record);
+  return writer.records + block * blockRecords +
+    (last == kNoBlock ? firstRecord(std::uint32_t(partition), blockRecords) : 0);
+}
+
+} // namespace kernel
+} // namespace pointhaptics

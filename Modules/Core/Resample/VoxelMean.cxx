@@ -1,0 +1,81 @@
+#include "Core/Resample/VoxelMean.h"
+
+#include "Core/Resample/Kernel/VoxelKernel.h"
+#include "Core/Resample/VoxelResampler.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace pointhaptics
+{
+
+Bounds transformedBounds(
+  const PointView& points, const AffineTransform& transform, const Executor& executor, Watcher* watcher)
+{
+  Bounds box;
+  std::mutex mutex;
+  const kernel::Kernels& kernels = kernel::kernelsFor(InstructionSet::Automatic);
+  constexpr std::int64_t kGrain = 1 << 14;
+  const auto include = [&](std::int64_t begin, std::int64_t end)
+  {
+    double local[6] = { INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY };
+    if (points.floats())
+    {
+      kernels.boundsFloats(transform.m, points.floats() + 3 * begin, end - begin, local);
+    }
+    else
+    {
+      kernels.boundsDoubles(transform.m, points.doubles() + 3 * begin, end - begin, local);
+    }
+    if (local[0] <= local[1])
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      box.include({ local[0], local[2], local[4] });
+      box.include({ local[1], local[3], local[5] });
+    }
+  };
+  WatchedPoints watched(watcher, points.size(), 1);
+  forWatchedSlices(points.size(), watched,
+    [&](std::int64_t first, std::int64_t last)
+    {
+      forRange(executor, last - first, kGrain,
+        [&](std::int64_t begin, std::int64_t end) { include(first + begin, first + end); });
+    });
+  return box;
+}
+
+Status voxelMeans(const PointView& points, const AffineTransform& transform, const Lattice& lattice,
+  bool withCovariances, VoxelMeans& result, const Executor& executor)
+{
+  result = VoxelMeans();
+  VoxelRequest request;
+  request.points = points;
+  request.transform = transform;
+  request.lattice = lattice;
+  request.covariances = withCovariances;
+  request.keys = true;
+  VoxelResampler resampler;
+  const Status status = resampler.run(request, executor);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  const auto size = std::size_t(resampler.size());
+  result.lattice = lattice;
+  result.keys.resize(size);
+  result.means.resize(size);
+  result.counts.resize(size);
+  resampler.copyKeys(0, result.keys.data(), executor);
+  resampler.copyMeans(0, size ? &result.means.front().x : nullptr, executor);
+  resampler.copyCounts(0, result.counts.data(), executor);
+  if (withCovariances)
+  {
+    result.covariances.resize(size);
+    resampler.copyCovariances(0, result.covariances.data(), executor);
+  }
+  result.clippedPoints = resampler.clippedPoints();
+  result.invalidPoints = resampler.invalidPoints();
+  return Status::Ok;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,41 @@
+/// @file
+/// Mean resampling in one call, and the bounds of a transformed cloud.
+#pragma once
+
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/Executor.h"
+#include "Core/Base/Lattice.h"
+#include "Core/Base/PointView.h"
+#include "Core/Base/Status.h"
+#include "Core/Base/Watcher.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// The active voxels, in order of their keys (x fastest).
+struct VoxelMeans
+{
+  Lattice lattice;
+  std::vector<std::uint64_t> keys; ///< Lattice::key of each active voxel, ascending.
+  std::vector<Vec3> means;         ///< Frame of the transformed cloud.
+  std::vector<std::int64_t> counts;
+  std::vector<SymMat3> covariances; ///< Central, divided by the count; empty unless asked for.
+  std::int64_t clippedPoints = 0;   ///< Finite points outside the lattice.
+  std::int64_t invalidPoints = 0;   ///< NaN or infinite points.
+};
+
+/// Bounds of the transformed points that are finite before and after the transform. Of no use where
+/// @p watcher has ended the work.
+Bounds transformedBounds(const PointView& points, const AffineTransform& transform,
+  const Executor& executor = {}, Watcher* watcher = nullptr);
+
+/// Maps @p points by @p transform and averages them voxel by voxel: VoxelResampler for once, in double.
+/// Errors: the transform's, the lattice's; @p result is then empty. A cloud without a point inside is no
+/// error: the result has no voxels.
+Status voxelMeans(const PointView& points, const AffineTransform& transform, const Lattice& lattice,
+  bool withCovariances, VoxelMeans& result, const Executor& executor = {});
+
+} // namespace pointhaptics

@@ -1,0 +1,289 @@
+#include "Core/Resample/VoxelResampler.h"
+
+#include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/VoxelResamplerImplementation.h"
+
+#include <algorithm>
+
+namespace pointhaptics
+{
+
+using namespace kernel;
+
+namespace
+{
+
+constexpr int kMostLevels = 22;
+
+}
+
+int VoxelResampler::Implementation::halvingsOf(const Lattice& lattice)
+{
+  const int indexBits = indexBitsOf(lattice);
+  const int halvings = std::max(kMinimumIndexBits - indexBits, 0);
+  const bool isPlanned =
+    indexBits <= kMaximumIndexBits && hasOrdinarySpacing(finerLattice(lattice, halvings));
+  return isPlanned ? halvings : -1;
+}
+
+Status VoxelResampler::Implementation::run(
+  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+{
+  clear();
+  if (request.levels < 1 || request.levels > kMostLevels ||
+    (request.index && request.index->cloudSize() != request.points.size() &&
+      finitePoints(*request.index) != request.points.size()))
+  {
+    return Status::InvalidParameter;
+  }
+  for (const Status status : { request.transform.check(), request.lattice.check() })
+  {
+    if (status != Status::Ok)
+    {
+      return status;
+    }
+  }
+  levels[0].lattice = request.lattice;
+  halvings_ = halvingsOf(request.lattice);
+  const Status status =
+    halvings_ >= 0 ? runPlanned(request, executor, watcher) : runGeneral(request, executor, watcher);
+  if (status != Status::Ok)
+  {
+    clear();
+  }
+  return status;
+}
+
+void VoxelResampler::Implementation::clear()
+{
+  levels.resize(1);
+  levels[0].firsts.clear();
+  levels[0].size = 0;
+  clipped = invalid = 0;
+  poolHoldsAll_ = false;
+  runs_.reset(0, 0);
+}
+
+/// Writes the means of runs to a level. @pre these are joined. @param keeps: the runs are of use afterwards.
+/// @return false where the watcher ended the work.
+bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, VoxelRuns& runs, bool keeps,
+  Level& level, ResultMemory* memory, const Executor& executor, Watcher* watcher)
+{
+  const std::size_t ranges = runs.ranges();
+  level.firsts.assign(ranges + 1, 0);
+  for (std::size_t range = 0; range < ranges; ++range)
+  {
+    level.firsts[range + 1] = level.firsts[range] + runs.size(range);
+  }
+  level.size = std::int64_t(level.firsts.back());
+  level.arena.prepare(level.firsts.back(), { request.singlePrecision, request.keys, request.covariances },
+    level.lattice, runs.fractionBits(), memory);
+  const bool plain = !hasOrdinarySpacing(level.lattice);
+  WatchedPoints watched(watcher, level.size, 1);
+  for (std::size_t first = 0, last = 0; first < ranges; first = last)
+  {
+    do
+    {
+      ++last;
+    } while (last < ranges && level.firsts[last] - level.firsts[first] < std::size_t(kWatchedPoints));
+    forEachItem(executor, last - first,
+      [&](std::size_t i)
+      {
+        const std::size_t range = first + i;
+        runs.write(
+          range, kernelsFor(request.instructions), level.lattice, plain, level.arena, level.firsts[range]);
+        if (!keeps)
+        {
+          runs.release(range);
+        }
+      });
+    if (!watched.add(std::int64_t(level.firsts[last] - level.firsts[first])))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// @param runs of level @p levelOfRuns, 0 or 1.
+Status VoxelResampler::Implementation::addLevels(
+  const VoxelRequest& request, VoxelRuns runs, int levelOfRuns, const Executor& executor, Watcher* watcher)
+{
+  const double share = shareOfFinest(request);
+  const auto progressAt = [&](int level)
+  { return share + (1.0 - share) * double(level - 1) / double(request.levels - 1); };
+  for (int l = 1; l < request.levels; ++l)
+  {
+    const Level& finer = levels.back();
+    Level level;
+    level.lattice = coarserLattice(finer.lattice);
+    PartWatcher part(watcher, progressAt(l), progressAt(l + 1));
+    if (l > levelOfRuns)
+    {
+      VoxelRuns coarse;
+      const CoarseVoxels coarsening(finer.lattice, runs.fractionBits(), request.covariances);
+      PartWatcher summing(&part, 0.0, 0.6);
+      if (!coarsening.ofRuns(runs, coarse, executor, &summing))
+      {
+        return Status::Aborted;
+      }
+      runs = std::move(coarse);
+    }
+    PartWatcher writing(&part, 0.6, request.keys ? 0.8 : 1.0);
+    PartWatcher looking(&part, 0.8, 1.0);
+    if (!writeRuns(request, runs, l + 1 < request.levels, level, nullptr, executor, &writing) ||
+      (request.keys &&
+        !findParents(finer.arena.keys(), finer.size, finer.lattice, level.arena.keys(), level.size,
+          level.lattice, level.parents, executor, &looking)))
+    {
+      return Status::Aborted;
+    }
+    levels.push_back(std::move(level));
+  }
+  return Status::Ok;
+}
+
+Status VoxelResampler::Implementation::assign(
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+{
+  // Halved voxels are not those asked for.
+  return halvings_ == 0 ? assignPlanned(request, visit, executor, watcher)
+                        : assignGeneral(request, visit, executor, watcher);
+}
+
+std::size_t VoxelResampler::Implementation::scratchBytes() const
+{
+  std::size_t sum = pool_.bytes() + ranges_.bytes() + runs_.bytes();
+  for (const std::unique_ptr<Worker>& worker : idle_)
+  {
+    sum += worker->bytes() + worker->coarse.bytes();
+  }
+  for (const CarriedPartition& partition : carried_)
+  {
+    sum += partition.bytes();
+  }
+  for (const Level& level : levels)
+  {
+    sum += level.arena.bytes() + level.firsts.capacity() * sizeof(std::size_t);
+  }
+  return sum;
+}
+
+VoxelResampler::VoxelResampler()
+  : implementation_(std::make_unique<Implementation>())
+{
+}
+
+VoxelResampler::~VoxelResampler() = default;
+VoxelResampler::VoxelResampler(VoxelResampler&&) noexcept = default;
+VoxelResampler& VoxelResampler::operator=(VoxelResampler&&) noexcept = default;
+
+Status VoxelResampler::run(const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+{
+  return implementation_->run(request, executor, watcher);
+}
+
+Status VoxelResampler::assign(
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+{
+  return implementation_->assign(request, visit, executor, watcher);
+}
+
+void VoxelResampler::assignInSets(const VoxelRequest& request, const SetWork& work, const Executor& executor)
+{
+  implementation_->assignInSets(request, work, executor);
+}
+
+int VoxelResampler::exactLevels(const Lattice& lattice, int levels)
+{
+  const int indexBits = indexBitsOf(lattice);
+  if (indexBits <= kMaximumIndexBits)
+  {
+    return levels;
+  }
+  const int others = indexBits > kUncorrectedIndexBits ? kUncorrectedIndexBits : kMaximumIndexBits;
+  return std::min(levels, indexBits - others);
+}
+
+bool VoxelResampler::canAssignInSets() const
+{
+  return implementation_->poolHoldsAll();
+}
+
+std::int64_t VoxelResampler::clippedPoints() const
+{
+  return implementation_->clipped;
+}
+
+std::int64_t VoxelResampler::invalidPoints() const
+{
+  return implementation_->invalid;
+}
+
+std::int64_t VoxelResampler::size(int level) const
+{
+  return implementation_->levels[std::size_t(level)].size;
+}
+
+std::int64_t VoxelResampler::mostPoints(int l) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  return level.size == 0 ? 0 : *std::max_element(counts(l), counts(l) + level.size);
+}
+
+const Lattice& VoxelResampler::lattice(int level) const
+{
+  return implementation_->levels[std::size_t(level)].lattice;
+}
+
+const std::vector<std::int64_t>& VoxelResampler::parents(int level) const
+{
+  return implementation_->levels[std::size_t(level)].parents;
+}
+
+void VoxelResampler::copyMeans(int l, float* xyz, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copyArray(level.arena.floats(), 3 * level.size, xyz, executor);
+}
+
+void VoxelResampler::copyMeans(int l, double* xyz, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copyArray(level.arena.doubles(), 3 * level.size, xyz, executor);
+}
+
+void VoxelResampler::copyCounts(int l, std::int64_t* counts, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copyArray(level.arena.counts(), level.size, counts, executor);
+}
+
+const std::int64_t* VoxelResampler::counts(int l) const
+{
+  return implementation_->levels[std::size_t(l)].arena.counts();
+}
+
+void VoxelResampler::copyKeys(int l, std::uint64_t* keys, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copyArray(level.arena.keys(), level.size, keys, executor);
+}
+
+void VoxelResampler::copyCovariances(int l, SymMat3* covariances, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copyArray(level.arena.covariances(), level.size, covariances, executor);
+}
+
+void VoxelResampler::releaseScratch()
+{
+  implementation_ = std::make_unique<Implementation>();
+}
+
+std::size_t VoxelResampler::scratchBytes() const
+{
+  return implementation_->scratchBytes();
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,134 @@
+/// The way of VoxelResampler through all other lattices: points sorted by key, range by range.
+#include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/VoxelResamplerImplementation.h"
+
+#include <algorithm>
+
+namespace pointhaptics
+{
+
+using namespace kernel;
+
+namespace
+{
+
+/// The index's bounds are not to be trusted with the smallest and the largest numbers.
+VoxelRequest withUsableIndex(const VoxelRequest& request)
+{
+  VoxelRequest usable = request;
+  if (!hasOrdinarySpacing(request.lattice))
+  {
+    usable.index = nullptr;
+  }
+  return usable;
+}
+
+Placement generalPlacement(const VoxelRequest& request)
+{
+  const int indexBits = indexBitsOf(request.lattice);
+  return makePlacement(request.transform, request.lattice, indexBits, positionBitsFor(indexBits));
+}
+
+/// The first of ascending keys that is not below @p key, which mostly is near the first of them.
+const std::uint64_t* firstNotBelow(const std::uint64_t* keys, const std::uint64_t* end, std::uint64_t key)
+{
+  std::ptrdiff_t step = 1;
+  while (step < end - keys && keys[step] < key)
+  {
+    keys += step;
+    step *= 2;
+  }
+  return std::lower_bound(keys, keys + std::min(step + 1, end - keys), key);
+}
+
+}
+
+Status VoxelResampler::Implementation::runGeneral(
+  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+{
+  const VoxelRequest usable = withUsableIndex(request);
+  const Chunks chunks(usable, kGeneralChunk, executor);
+  placement_ = generalPlacement(request);
+  ranges_.choose(placement_, request.lattice, chunks);
+  runs_.reset(ranges_.count(), placement_.fractionBits);
+  std::int64_t inside = 0;
+  invalid = usable.index ? request.points.size() - finitePoints(*usable.index) : 0;
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    ranges_.place(placement_, request.lattice, chunks, chunk, false, executor);
+    inside += ranges_.inside();
+    invalid += ranges_.invalid();
+    forEachItem<KeyRanges::Sorted>(executor, ranges_.count(),
+      [&](std::size_t range, KeyRanges::Sorted& scratch)
+      { runs_.add(range, ranges_.sumsOf(range, scratch, request.covariances)); });
+    if (watcher && !watcher->proceed(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
+    {
+      return Status::Aborted;
+    }
+  }
+  clipped = request.points.size() - inside - invalid;
+  return finishRuns(request, executor, watcher);
+}
+
+/// Means of the runs.
+Status VoxelResampler::Implementation::finishRuns(
+  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+{
+  forEachItem(executor, runs_.ranges(), [&](std::size_t range) { runs_.join(range); });
+  for (int halvings = halvings_; halvings > 0; --halvings)
+  {
+    // Of 64 voxels at most.
+    VoxelRuns coarse;
+    const Lattice fine = finerLattice(request.lattice, halvings);
+    const CoarseVoxels coarsening(fine, runs_.fractionBits(), request.covariances);
+    coarsening.ofRuns(runs_, coarse, executor, nullptr);
+    runs_ = std::move(coarse);
+  }
+  writeRuns(request, runs_, request.levels > 1, levels[0], request.memory, executor, nullptr);
+  return request.levels > 1 ? addLevels(request, std::move(runs_), 0, executor, watcher) : Status::Ok;
+}
+
+Status VoxelResampler::Implementation::assignGeneral(
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+{
+  const VoxelRequest usable = withUsableIndex(request);
+  const Chunks chunks(usable, kGeneralChunk, executor);
+  const Placement placement = generalPlacement(request);
+  const std::uint64_t* keys = levels[0].arena.keys();
+  const std::uint64_t* end = keys + levels[0].size;
+  chooseRows(request);
+  ranges_.choose(placement, request.lattice, chunks);
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    ranges_.place(placement, request.lattice, chunks, chunk, true, executor);
+    forEachItem<KeyRanges::Sorted>(executor, ranges_.count(),
+      [&](std::size_t range, KeyRanges::Sorted& sorted)
+      {
+        ranges_.sort(range, sorted);
+        RowCollector collector(rows_);
+        std::int64_t points[kBlockRecords];
+        std::int64_t voxels[kBlockRecords];
+        const std::uint64_t* at = keys;
+        for (std::size_t first = 0; first < sorted.size; first += kBlockRecords)
+        {
+          const std::size_t size = std::min(sorted.size - first, kBlockRecords);
+          for (std::size_t i = 0; i < size; ++i)
+          {
+            const KeyRanges::Entry& entry = sorted.entries[first + i];
+            const std::int64_t point = ranges_.pointOf(entry.point);
+            at = firstNotBelow(at, end, entry.key);
+            points[i] = usable.index ? usable.index->original(point) : point;
+            voxels[i] = at - keys;
+          }
+          visit(collector.collect(points, int(size)), voxels, int(size));
+        }
+      });
+    if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
+    {
+      return Status::Aborted;
+    }
+  }
+  return Status::Ok;
+}
+
+} // namespace pointhaptics

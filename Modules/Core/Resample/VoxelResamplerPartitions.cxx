@@ -1,0 +1,491 @@
+/// The way of VoxelResampler through lattices whose voxels can be dealt out to partitions.
+#include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/VoxelResamplerImplementation.h"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+namespace pointhaptics
+{
+
+using namespace kernel;
+
+/// A worker nobody else uses, for as long as this lives.
+class VoxelResampler::Implementation::WorkerLease
+{
+public:
+  WorkerLease(Implementation& owner, bool covariances)
+    : owner_(owner)
+  {
+    {
+      const std::lock_guard<std::mutex> lock(owner_.mutex_);
+      if (!owner_.idle_.empty())
+      {
+        worker_ = std::move(owner_.idle_.back());
+        owner_.idle_.pop_back();
+      }
+    }
+    if (!worker_)
+    {
+      worker_ = std::make_unique<Worker>();
+    }
+    worker_->prepare(owner_.plan_, covariances);
+  }
+  ~WorkerLease()
+  {
+    const std::lock_guard<std::mutex> lock(owner_.mutex_);
+    owner_.idle_.push_back(std::move(worker_));
+  }
+  WorkerLease(const WorkerLease&) = delete;
+  WorkerLease& operator=(const WorkerLease&) = delete;
+  Worker& operator*() const { return *worker_; }
+
+private:
+  Implementation& owner_;
+  std::unique_ptr<Worker> worker_;
+};
+
+namespace
+{
+
+/// So many points may be in one voxel before the sums of their places could need more than 62 bits.
+std::int64_t mostPointsOfBatch(int indexBits)
+{
+  return (std::int64_t(1) << (62 - kPositionBits + indexBits)) - 1;
+}
+static_assert(
+  kChunkPoints < std::int64_t(1) << (62 - kPositionBits + kMinimumIndexBits), "a batch must hold a chunk");
+static_assert(kChunkPoints <= kWatchedPoints, "a watcher is told after each chunk");
+
+/// Partitions that are whole layers of the next coarser lattice together.
+class PartitionGroups
+{
+public:
+  explicit PartitionGroups(const PartitionPlan& plan)
+    : partitions_(plan.partitions)
+    , size_(plan.layerShift > 0 ? 1 : 2 * plan.blocksPerLayer)
+    , done_((partitions_ - 1) / size_ + 1)
+  {
+  }
+  std::uint32_t count() const { return std::uint32_t(done_.size()); }
+  std::uint32_t groupOf(std::uint32_t partition) const { return partition / size_; }
+  std::uint32_t begin(std::uint32_t group) const { return group * size_; }
+  std::uint32_t end(std::uint32_t group) const { return std::min((group + 1) * size_, partitions_); }
+  /// A partition is done. @return true if it is the last of its group: all threads' work on the others is
+  /// then to be seen.
+  bool tell(std::uint32_t partition)
+  {
+    const std::uint32_t group = groupOf(partition);
+    return ++done_[group] == end(group) - begin(group);
+  }
+
+private:
+  std::uint32_t partitions_;
+  std::uint32_t size_;
+  std::vector<std::atomic<std::uint32_t>> done_;
+};
+
+/// Where the records of a few points went.
+class RowSlots
+{
+public:
+  static constexpr std::int64_t kMost = 512;
+
+  /// Room for as many as that.
+  std::uint32_t* clear()
+  {
+    std::fill(slots_, slots_ + kMost, kOutside);
+    return slots_;
+  }
+  /// Writes the rows of the points inside beside their records.
+  void copy(const RowLayout& layout, PointRange points, const PointIndex* index, char* rows) const
+  {
+    std::int64_t numbers[kMost];
+    std::uint32_t slots[kMost];
+    int inside = 0;
+    for (std::int64_t i = points.begin; i < points.end; ++i)
+    {
+      slots[inside] = slots_[i - points.begin];
+      numbers[inside] = index ? index->original(i) : i;
+      inside += slots[inside] != kOutside;
+    }
+    layout.copy(numbers, slots, inside, rows);
+  }
+
+private:
+  static constexpr std::uint32_t kOutside = ~std::uint32_t(0);
+  std::uint32_t slots_[kMost];
+};
+
+std::int64_t pointsOf(const Chunks& chunks)
+{
+  std::int64_t sum = 0;
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    sum += chunks.pointCount(chunk);
+  }
+  return sum;
+}
+
+}
+
+Status VoxelResampler::Implementation::runPlanned(
+  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+{
+  halved_ = finerLattice(request.lattice, halvings_);
+  const int indexBits = indexBitsOf(halved_);
+  const Chunks chunks(request, kChunkPoints, executor);
+  plan_ = makePlan(halved_, indexBits, chunks.count() == 0 ? 0 : chunks.pointCount(0));
+  placement_ = makePlacement(request.transform, halved_, indexBits, kPositionBits);
+  placement_.blocksPerLayer = plan_.blocksPerLayer;
+  placement_.rowShift = plan_.rowShift;
+  placement_.layerShift = plan_.layerShift;
+  carried_.resize(plan_.partitions);
+  for (CarriedPartition& partition : carried_)
+  {
+    partition.clear();
+  }
+  const std::int64_t mostPoints = mostPointsOfBatch(indexBits);
+  const bool inBatches = halvings_ > 0 || pointsOf(chunks) > mostPoints;
+  const bool holdsAll = request.assigned && chunks.count() == 1 && !inBatches;
+  runs_.reset(inBatches ? plan_.partitions : 0, plan_.fractionBits);
+  std::int64_t batchPoints = 0;
+  std::int64_t inside = 0;
+  invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    fillPool(request, chunks, chunk, holdsAll, executor);
+    inside += pool_.inside();
+    invalid += pool_.invalid();
+    batchPoints += chunks.pointCount(chunk);
+    const bool isLast = chunk + 1 == chunks.count();
+    if (inBatches && (isLast || batchPoints + chunks.pointCount(chunk + 1) > mostPoints))
+    {
+      closeBatch(request, executor);
+      batchPoints = 0;
+    }
+    else
+    {
+      isLast ? finish(request, executor) : carryChunk(request, executor);
+    }
+    if (watcher && !watcher->proceed(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
+    {
+      return Status::Aborted;
+    }
+  }
+  clipped = request.points.size() - inside - invalid;
+  poolHoldsAll_ = holdsAll;
+  if (inBatches)
+  {
+    return finishRuns(request, executor, watcher);
+  }
+  if (request.levels == 1)
+  {
+    return Status::Ok;
+  }
+  return plan_.dense ? addLevels(request, std::move(runs_), 1, executor, watcher)
+                     : addLevels(request, takeCarried(executor), 0, executor, watcher);
+}
+
+void VoxelResampler::Implementation::chooseRows(const VoxelRequest& request)
+{
+  // Wider ones would take more memory than they are worth.
+  constexpr std::size_t kMostDealtBytes = 64;
+  rows_.choose(request.tuples);
+  dealtRows_.choose(rows_.bytes() > kMostDealtBytes ? std::vector<TupleSource>(1) : request.tuples);
+}
+
+/// @param withRows assign() will want them.
+void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const Chunks& chunks,
+  std::size_t chunk, bool withRows, const Executor& executor)
+{
+  if (withRows)
+  {
+    chooseRows(request);
+  }
+  pool_.prepare(
+    chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), withRows ? dealtRows_.bytes() : 0);
+  const Kernels& kernels = kernelsFor(request.instructions);
+  const PointRange* pieces = chunks.pieces(chunk);
+  const PointView& points = chunks.points();
+  const auto place = [&](const PointRange* ranges, std::int64_t count, RecordWriter& writer)
+  {
+    points.floats() ? kernels.partitionFloats(placement_, points.floats(), ranges, count, writer)
+                    : kernels.partitionDoubles(placement_, points.doubles(), ranges, count, writer);
+  };
+  const auto placeWithRows = [&](PointRange piece, RecordWriter& writer)
+  {
+    RowSlots slots;
+    while (piece.begin < piece.end)
+    {
+      const PointRange part = { piece.begin, std::min(piece.begin + RowSlots::kMost, piece.end) };
+      writer.slots = slots.clear();
+      place(&part, 1, writer);
+      slots.copy(dealtRows_, part, request.index, pool_.rows());
+      piece.begin = part.end;
+    }
+  };
+  forRange(executor, chunks.pieceCount(chunk), grainFor(chunks.pieceCount(chunk), executor),
+    [&](std::int64_t first, std::int64_t last)
+    {
+      const RecordPool::Lease lease(pool_);
+      if (!withRows)
+      {
+        place(pieces + first, last - first, lease.writer());
+        return;
+      }
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        placeWithRows(pieces[i], lease.writer());
+      }
+    });
+}
+
+/// Calls work(worker, partition) for all partitions: each thread takes the next one, so that those before any
+/// are done or at work.
+template <typename Work>
+void VoxelResampler::Implementation::forPartitions(
+  const VoxelRequest& request, const Executor& executor, Work&& work)
+{
+  std::atomic<std::uint32_t> next{ 0 };
+  forRange(executor, executor.concurrency(), 1,
+    [&](std::int64_t, std::int64_t)
+    {
+      const WorkerLease lease(*this, request.covariances);
+      for (std::uint32_t p = next++; p < plan_.partitions; p = next++)
+      {
+        work(*lease, p);
+      }
+    });
+}
+
+/// Adds the pool's records to what is carried.
+void VoxelResampler::Implementation::carryChunk(const VoxelRequest& request, const Executor& executor)
+{
+  const Kernels& kernels = kernelsFor(request.instructions);
+  forPartitions(request, executor,
+    [&](PartitionWorker& worker, std::uint32_t p)
+    {
+      if (plan_.dense)
+      {
+        worker.carryDense(kernels, pool_, p, carried_[p]);
+        return;
+      }
+      worker.load(kernels, pool_, p, carried_[p], false, [](std::size_t) {});
+      keepBatches(request, worker, p);
+    });
+}
+
+/// Adds the pool's records and what is carried to the runs.
+void VoxelResampler::Implementation::closeBatch(const VoxelRequest& request, const Executor& executor)
+{
+  const Kernels& kernels = kernelsFor(request.instructions);
+  forPartitions(request, executor,
+    [&](PartitionWorker& worker, std::uint32_t p)
+    {
+      VoxelRun run;
+      worker.load(kernels, pool_, p, carried_[p], false, [](std::size_t) {});
+      worker.forBatches([&](const MomentBatch<std::int64_t>& batch) { run.append(halved_, batch); });
+      runs_.add(p, std::move(run));
+      carried_[p].clear();
+    });
+}
+
+/// Carries the voxels of a partition over, unpacked.
+void VoxelResampler::Implementation::keepBatches(
+  const VoxelRequest& request, PartitionWorker& worker, std::uint32_t partition)
+{
+  worker.carried.clear();
+  worker.forBatches(
+    [&](const MomentBatch<std::int64_t>& batch) { carry(request.lattice, batch, worker.carried); });
+  // Copies: exactly as large as they need be.
+  carried_[partition] = CarriedPartition(worker.carried);
+}
+
+/// Means of the pool's records and what is carried; with levels, sums of the next one's too. A partition
+/// writes its voxels where they belong if those before it have been counted by then, as they nearly always
+/// are; otherwise they are moved there in the end.
+void VoxelResampler::Implementation::finish(const VoxelRequest& request, const Executor& executor)
+{
+  const Kernels& kernels = kernelsFor(request.instructions);
+  const MeanArena::Layout layout = { request.singlePrecision, request.keys, request.covariances };
+  Level& level = levels[0];
+  std::size_t room = 0;
+  bool hasCarried = false;
+  for (std::uint32_t p = 0; p < plan_.partitions; ++p)
+  {
+    room += mostVoxels(plan_, pool_.count(p), carried_[p].size());
+    hasCarried = hasCarried || carried_[p].size() > 0;
+  }
+  level.arena.prepare(room, layout, request.lattice, plan_.fractionBits, request.memory);
+  struct Late
+  {
+    std::uint32_t partition;
+    std::size_t size;
+    MeanArena arena;
+  };
+  std::vector<Late> late;
+  PartitionOrder order(plan_.partitions);
+  const bool makesCoarse = request.levels > 1 && plan_.dense;
+  const CoarseVoxels coarsening(request.lattice, plan_.fractionBits, request.covariances);
+  PartitionGroups groups(plan_);
+  if (makesCoarse)
+  {
+    runs_.reset(groups.count(), plan_.fractionBits + 1);
+  }
+  forPartitions(request, executor,
+    [&](Worker& worker, std::uint32_t p)
+    {
+      std::size_t size = 0;
+      worker.load(kernels, pool_, p, carried_[p], makesCoarse,
+        [&](std::size_t known)
+        {
+          size = known;
+          order.tell(p, size);
+        });
+      std::size_t place = order.first(p);
+      const bool isLate = place == PartitionOrder::kUnknown;
+      MeanArena aside;
+      if (isLate)
+      {
+        aside.prepare(size, layout, request.lattice, plan_.fractionBits);
+        place = 0;
+      }
+      MeanArena& arena = isLate ? aside : level.arena;
+      if (const PartitionVoxels* voxels = worker.packed())
+      {
+        arena.write(kernels, place, *voxels);
+      }
+      else
+      {
+        worker.forBatches(
+          [&](const MomentBatch<std::int64_t>& batch)
+          {
+            arena.write(kernels, place, batch);
+            place += std::size_t(batch.size);
+          });
+      }
+      if (makesCoarse)
+      {
+        const std::uint32_t group = groups.groupOf(p);
+        if (groups.tell(p))
+        {
+          runs_.add(group,
+            coarsening.ofPartitions(plan_, carried_, groups.begin(group), groups.end(group), worker.coarse));
+          for (std::uint32_t used = groups.begin(group); used < groups.end(group); ++used)
+          {
+            carried_[used] = CarriedPartition();
+          }
+        }
+      }
+      else if (request.levels > 1)
+      {
+        keepBatches(request, worker, p);
+      }
+      else if (hasCarried)
+      {
+        carried_[p].trim();
+      }
+      if (isLate)
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        late.push_back({ p, size, std::move(aside) });
+      }
+    });
+  level.firsts = order.take();
+  level.size = std::int64_t(level.firsts.back());
+  for (const Late& piece : late)
+  {
+    level.arena.write(level.firsts[piece.partition], piece.arena, piece.size);
+  }
+}
+
+/// What was carried, which is let go of.
+VoxelRuns VoxelResampler::Implementation::takeCarried(const Executor& executor)
+{
+  VoxelRuns runs;
+  runs.reset(carried_.size(), plan_.fractionBits);
+  forEachItem(executor, carried_.size(),
+    [&](std::size_t p)
+    {
+      CarriedPartition partition = std::move(carried_[p]);
+      VoxelRun run;
+      run.voxels.reserve(partition.voxels.size());
+      for (const CarriedSums& voxel : partition.voxels)
+      {
+        run.voxels.push_back({ voxel.key, voxel.count,
+          { std::uint64_t(voxel.sums[0]), std::uint64_t(voxel.sums[1]), std::uint64_t(voxel.sums[2]) }, 0 });
+      }
+      run.seconds = std::move(partition.seconds);
+      runs.add(p, std::move(run));
+    });
+  return runs;
+}
+
+Status VoxelResampler::Implementation::assignPlanned(
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+{
+  const Chunks chunks(request, kChunkPoints, executor);
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    if (!poolHoldsAll_)
+    {
+      fillPool(request, chunks, chunk, true, executor);
+    }
+    forRange(executor, plan_.partitions, grainFor(plan_.partitions, executor),
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        const WorkerLease lease(*this, false);
+        for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
+        {
+          visitPartition(request, *lease, p, std::int64_t(levels[0].firsts[p]), visit);
+        }
+      });
+    if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
+    {
+      return Status::Aborted;
+    }
+  }
+  return Status::Ok;
+}
+
+/// Visits the points of the pool in a partition. Its voxels get numbers from @p firstVoxel on.
+void VoxelResampler::Implementation::visitPartition(const VoxelRequest& request, PartitionWorker& worker,
+  std::uint32_t partition, std::int64_t firstVoxel, const Visitor& visit)
+{
+  const Level& level = levels[0];
+  const std::size_t first = level.firsts[partition];
+  std::int64_t voxels[kBlockRecords];
+  RowCollector collector(rows_);
+  const bool areWhole = rows_.bytes() == dealtRows_.bytes();
+  worker.rank(kernelsFor(request.instructions), pool_, partition, level.arena.keys() + first,
+    level.firsts[partition + 1] - first,
+    [&](const char* rows, const std::uint32_t* ranks, int count)
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        voxels[i] = firstVoxel + ranks[i];
+      }
+      visit(areWhole ? PointRows{ rows, rows_.bytes(), rows_.offsets() }
+                     : collector.collect(reinterpret_cast<const std::int64_t*>(rows), count),
+        voxels, count);
+    });
+}
+
+void VoxelResampler::Implementation::assignInSets(
+  const VoxelRequest& request, const SetWork& work, const Executor& executor)
+{
+  const std::vector<std::size_t>& firsts = levels[0].firsts;
+  forPartitions(request, executor,
+    [&](PartitionWorker& worker, std::uint32_t p)
+    {
+      if (firsts[p + 1] > firsts[p])
+      {
+        work(std::int64_t(firsts[p]), std::int64_t(firsts[p + 1] - firsts[p]),
+          [&](const Visitor& visit) { visitPartition(request, worker, p, 0, visit); });
+      }
+    });
+}
+
+} // namespace pointhaptics

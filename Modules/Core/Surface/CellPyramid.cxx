@@ -1,0 +1,283 @@
+#include "Core/Surface/CellPyramid.h"
+
+#include "Core/Base/Lattice.h"
+#include "Core/Base/RadixSort.h"
+
+#include <algorithm>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// A cell is mixed when it is thicker than this part of its voxel in its thinnest direction.
+constexpr double kMixedThickness = 0.10;
+/// Standard deviations of the noise up to which a mixed cell may still be one sheet.
+constexpr double kNoiseThickness = 2.0;
+
+/// First reach of the search for the nearest cell, in voxels.
+constexpr double kFirstReach = 2.0;
+
+/// Spreads the low 21 bits of v to every third bit.
+std::uint64_t spread(std::uint64_t v)
+{
+  v &= 0x1fffff;
+  v = (v | v << 32) & 0x1f00000000ffffULL;
+  v = (v | v << 16) & 0x1f0000ff0000ffULL;
+  v = (v | v << 8) & 0x100f00f00f00f00fULL;
+  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
+  v = (v | v << 2) & 0x1249249249249249ULL;
+  return v;
+}
+
+std::int32_t gather(std::uint64_t v)
+{
+  v &= 0x1249249249249249ULL;
+  v = (v | v >> 2) & 0x10c30c30c30c30c3ULL;
+  v = (v | v >> 4) & 0x100f00f00f00f00fULL;
+  v = (v | v >> 8) & 0x1f0000ff0000ffULL;
+  v = (v | v >> 16) & 0x1f00000000ffffULL;
+  v = (v | v >> 32) & 0x1fffff;
+  return std::int32_t(v);
+}
+
+/// Of the voxel that a place, in voxels and not negative, is in.
+std::uint64_t mortonCode(const Vec3& place)
+{
+  return spread(std::uint64_t(place.x)) | spread(std::uint64_t(place.y)) << 1 |
+    spread(std::uint64_t(place.z)) << 2;
+}
+
+/// Bricks of a level from its sorted, distinct voxel codes.
+std::vector<CellPyramid::Brick> makeBricks(const std::vector<std::uint64_t>& codes)
+{
+  std::vector<CellPyramid::Brick> bricks;
+  std::uint64_t current = ~std::uint64_t(0);
+  for (std::size_t i = 0; i < codes.size(); ++i)
+  {
+    const std::uint64_t key = codes[i] >> 6;
+    if (bricks.empty() || key != current)
+    {
+      CellPyramid::Brick brick;
+      brick.slot = std::uint32_t(i);
+      brick.x = gather(key);
+      brick.y = gather(key >> 1);
+      brick.z = gather(key >> 2);
+      bricks.push_back(brick);
+      current = key;
+    }
+    bricks.back().mask |= std::uint64_t(1) << (codes[i] & 63);
+  }
+  return bricks;
+}
+
+/// Links each brick to the bricks of the level below that lie in it. Both in Morton order.
+void linkChildren(std::vector<CellPyramid::Brick>& bricks, const std::vector<CellPyramid::Brick>& below)
+{
+  std::uint32_t child = 0;
+  for (auto& brick : bricks)
+  {
+    brick.child = child;
+    while (child < below.size() && below[child].x >> 1 == brick.x && below[child].y >> 1 == brick.y &&
+      below[child].z >> 1 == brick.z)
+    {
+      ++child;
+      ++brick.childCount;
+    }
+  }
+}
+
+/// Whether a covariance's standard deviation is above @p limit in every direction: what is left without that
+/// much of each is positive definite, so that all pivots are above zero.
+bool isThick(const SymMat3& covariance, double limit)
+{
+  const double variance = limit * limit;
+  const double x = covariance.xx - variance;
+  if (!(x > 0.0))
+  {
+    return false;
+  }
+  const double y = covariance.yy - variance - covariance.xy / x * covariance.xy;
+  if (!(y > 0.0))
+  {
+    return false;
+  }
+  const double yz = covariance.yz - covariance.xy / x * covariance.xz;
+  return covariance.zz - variance - covariance.xz / x * covariance.xz - yz / y * yz > 0.0;
+}
+
+}
+
+Cell merged(const Cell& a, const Cell& b) noexcept
+{
+  Cell cell;
+  cell.count = a.count + b.count;
+  const double share = b.count / cell.count;
+  const Vec3 apart = b.mean - a.mean;
+  cell.mean = a.mean + share * apart;
+  SymMat3 fromA = a.covariance;
+  fromA *= 1.0 - share;
+  SymMat3 fromB = b.covariance;
+  fromB *= share;
+  SymMat3 between = outerProduct(apart);
+  between *= share * (1.0 - share);
+  cell.covariance = fromA;
+  cell.covariance += fromB;
+  cell.covariance += between;
+  return cell;
+}
+
+Status CellPyramid::build(
+  std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex, const Vec3* corner)
+{
+  levels_.clear();
+  sourceIndex.clear();
+  if (cells.empty())
+  {
+    return Status::Empty;
+  }
+  if (!(voxelSize > 0.0) || !std::isfinite(voxelSize))
+  {
+    return Status::InvalidVoxelSize;
+  }
+  Bounds box;
+  for (const Cell& cell : cells)
+  {
+    box.include(cell.mean);
+  }
+  origin_ = corner ? *corner : box.minimum;
+  const Vec3 extent = box.maximum - origin_;
+  const double longest = std::max({ extent.x, extent.y, extent.z });
+  if (!(longest / voxelSize < double(kMaximumLatticeDimension)) || cells.size() > 0xfffffff0u)
+  {
+    return Status::LatticeNotAddressable;
+  }
+  const Vec3 above = box.minimum - origin_;
+  if (!(above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0))
+  {
+    return Status::InvalidParameter;
+  }
+
+  struct Entry
+  {
+    std::uint64_t code;
+    std::uint32_t source;
+  };
+  std::vector<Entry> entries(cells.size());
+  std::vector<Entry> otherEntries(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    entries[i] = { mortonCode((cells[i].mean - origin_) / voxelSize), std::uint32_t(i) };
+  }
+  radixSort(entries, otherEntries, entries.size(), [](const Entry& entry) { return entry.code; });
+
+  Level finest;
+  finest.voxelSize = voxelSize;
+  finest.cells.reserve(cells.size());
+  std::vector<std::uint64_t> codes;
+  sourceIndex.reserve(cells.size());
+  for (const Entry& entry : entries)
+  {
+    if (codes.empty() || codes.back() != entry.code)
+    {
+      codes.push_back(entry.code);
+      finest.slotBegin.push_back(std::uint32_t(finest.cells.size()));
+    }
+    sourceIndex.push_back(entry.source);
+    finest.cells.push_back(cells[entry.source]);
+    finest.cells.back().mixed = false;
+  }
+  finest.slotBegin.push_back(std::uint32_t(finest.cells.size()));
+  finest.bricks = makeBricks(codes);
+  levels_.push_back(std::move(finest));
+  buildUpperLevels(codes, corner ? kCellLevels : 1);
+  return Status::Ok;
+}
+
+void CellPyramid::buildUpperLevels(const std::vector<std::uint64_t>& codes, int leastLevels)
+{
+  std::vector<std::uint64_t> below = codes;
+  while (levels_.back().bricks.size() > 1 || numberOfLevels() < leastLevels)
+  {
+    const Level& finer = levels_.back();
+    Level level;
+    level.voxelSize = 2.0 * finer.voxelSize;
+    const bool withCells = int(levels_.size()) < kCellLevels;
+    std::vector<std::uint64_t> here;
+    for (std::size_t slot = 0; slot < below.size(); ++slot)
+    {
+      const bool fresh = here.empty() || here.back() != below[slot] >> 3;
+      if (fresh)
+      {
+        here.push_back(below[slot] >> 3);
+      }
+      if (!withCells)
+      {
+        continue;
+      }
+      const std::size_t first = finer.slotBegin.empty() ? slot : finer.slotBegin[slot];
+      const std::size_t last = finer.slotBegin.empty() ? slot + 1 : finer.slotBegin[slot + 1];
+      for (std::size_t i = first; i < last; ++i)
+      {
+        if (fresh && i == first)
+        {
+          level.cells.push_back(finer.cells[i]);
+        }
+        else
+        {
+          level.cells.back() = merged(level.cells.back(), finer.cells[i]);
+        }
+      }
+    }
+    for (Cell& cell : level.cells)
+    {
+      cell.mixed = isThick(cell.covariance, kMixedThickness * level.voxelSize);
+    }
+    level.bricks = makeBricks(here);
+    linkChildren(level.bricks, finer.bricks);
+    below = std::move(here);
+    levels_.push_back(std::move(level));
+  }
+}
+
+void CellPyramid::forgiveNoise(const std::function<double(const Vec3&)>& noiseAt)
+{
+  for (Level& level : levels_)
+  {
+    for (Cell& cell : level.cells)
+    {
+      if (cell.mixed)
+      {
+        cell.mixed = isThick(cell.covariance, kNoiseThickness * noiseAt(cell.mean));
+      }
+    }
+  }
+}
+
+std::int64_t CellPyramid::nearest(
+  int level, const Vec3& center, double radius, double& distance) const noexcept
+{
+  // The smallest of the balls, each twice as large as the one before, that has a cell has the nearest.
+  for (double reach = std::min(radius, kFirstReach * this->level(level).voxelSize);; reach *= 2.0)
+  {
+    reach = std::min(reach, radius);
+    std::int64_t found = -1;
+    double best = reach * reach;
+    visitBall(level, center, reach,
+      [&](std::uint32_t i, const Cell&, double d2)
+      {
+        if (d2 < best || (d2 == best && found >= 0 && std::int64_t(i) < found))
+        {
+          best = d2;
+          found = i;
+        }
+      });
+    if (found >= 0 || !(reach < radius))
+    {
+      distance = std::sqrt(best);
+      return found;
+    }
+  }
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,260 @@
+/// @file
+/// The cloud as cells on several levels of detail: counts, means and covariances, merged exactly from level
+/// to level.
+#pragma once
+
+#include "Core/Base/PointView.h"
+#include "Core/Base/Status.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// Points merged into one: how many, their mean, and their central second moments divided by the count.
+struct Cell
+{
+  Vec3 mean;
+  double count = 1.0;
+  SymMat3 covariance;
+  bool mixed =
+    false; ///< Thick in every direction: two sheets, an edge, or noise. Look at its children instead.
+};
+
+/// An octree of 4^3-voxel bricks, sorted along the Morton curve: the bricks below a brick stand side by side,
+/// so a search goes from the root to the voxels without hashing. Level 0 is the finest; a voxel of level l
+/// has the edge 2^l voxelSize(0). Immutable after build(); any number of threads may read it. Memory: about
+/// 130 bytes a point.
+class CellPyramid
+{
+public:
+  /// Levels above the finest that hold merged cells; a fit never needs coarser ones.
+  static constexpr int kCellLevels = 5;
+
+  struct Brick
+  {
+    std::uint64_t mask = 0;      ///< Bit m: the voxel with Morton index m in the brick holds points.
+    std::uint32_t slot = 0;      ///< Slot (occupied voxel) of the lowest set bit; the others follow.
+    std::uint32_t child = 0;     ///< First brick of the level below that lies in this one.
+    std::uint8_t childCount = 0; ///< Bricks of the level below that lie in this one, 0 on level 0.
+    std::int32_t x = 0;          ///< Brick index on each axis, in bricks of this level.
+    std::int32_t y = 0;
+    std::int32_t z = 0;
+  };
+  struct Level
+  {
+    double voxelSize = 0.0;
+    std::vector<Brick> bricks;
+    std::vector<Cell> cells; ///< In slot order; on levels above kCellLevels empty.
+    std::vector<std::uint32_t>
+      slotBegin; ///< Level 0 only: cells of slot s are [slotBegin[s], slotBegin[s + 1]).
+  };
+
+  /// @param cells finite means; taken over and re-ordered. @param voxelSize edge of a level-0 voxel, above 0.
+  /// @param sourceIndex receives, for each cell of level 0, its index in @p cells as given.
+  /// @param corner where given, a place no mean is below on any axis: the voxels of all levels are counted
+  /// from there, not from the means' own corner, and all levels with cells are made. Pyramids with the same
+  /// corner and voxels are then the same wherever their cells are, block of 2^(kCellLevels - 1) voxels by
+  /// block. Errors: Empty, InvalidVoxelSize, LatticeNotAddressable (extent, from the corner, over voxelSize
+  /// above 2^21, or over 2^32 cells), InvalidParameter (a mean below the corner).
+  Status build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex,
+    const Vec3* corner = nullptr);
+
+  /// Mixed cells that are no thicker than noise makes a single sheet count as one sheet again. Call it before
+  /// anybody else reads. @param noiseAt the standard deviation of the points about the surface at a place,
+  /// metres; called with the means of mixed cells.
+  void forgiveNoise(const std::function<double(const Vec3&)>& noiseAt);
+
+  int numberOfLevels() const { return int(levels_.size()); }
+  int numberOfCellLevels() const { return numberOfLevels() < kCellLevels ? numberOfLevels() : kCellLevels; }
+  const Level& level(int l) const { return levels_[std::size_t(l)]; }
+
+  /// Calls visit(first, last) for runs of cells of @p level that hold all whose mean is nearer to @p center
+  /// than @p radius, and others near by, in Morton order.
+  template <typename Visitor>
+  void visitRuns(int level, const Vec3& center, double radius, Visitor&& visit) const
+  {
+    visitBricks(level, center, radius,
+      [&](const Level& l, const Brick& brick)
+      {
+        const std::uint32_t end = brick.slot + std::uint32_t(__builtin_popcountll(brick.mask));
+        const bool ranged = !l.slotBegin.empty();
+        visit(ranged ? l.slotBegin[brick.slot] : brick.slot, ranged ? l.slotBegin[end] : end);
+      });
+  }
+
+  /// Calls visit(cellIndex, cell, squaredDistance) for each cell of @p level whose mean is nearer to @p
+  /// center than
+  /// @p radius, in Morton order. No allocation. @pre level < numberOfCellLevels()
+  template <typename Visitor>
+  void visitBall(int level, const Vec3& center, double radius, Visitor&& visit) const
+  {
+    const std::vector<Cell>& cells = levels_[std::size_t(level)].cells;
+    visitRuns(level, center, radius,
+      [&](std::uint32_t first, std::uint32_t last)
+      {
+        for (std::uint32_t i = first; i < last; ++i)
+        {
+          const double d2 = norm2(cells[i].mean - center);
+          if (d2 < radius * radius)
+          {
+            visit(i, cells[i], d2);
+          }
+        }
+      });
+  }
+
+  /// Like visitBall, but a mixed cell is replaced by the cells it was merged from, down to level 0.
+  /// visit(cell, squaredDistance).
+  template <typename Visitor>
+  void visitBallUnmixed(int level, const Vec3& center, double radius, Visitor&& visit) const
+  {
+    const double r2 = radius * radius;
+    visitBricks(level, center, radius,
+      [&](const Level& l, const Brick& brick)
+      {
+        std::uint32_t slot = brick.slot;
+        for (std::uint64_t bits = brick.mask; bits != 0; bits &= bits - 1, ++slot)
+        {
+          if (!l.slotBegin.empty())
+          {
+            for (std::uint32_t i = l.slotBegin[slot]; i < l.slotBegin[slot + 1]; ++i)
+            {
+              const double d2 = norm2(l.cells[i].mean - center);
+              if (d2 < r2)
+              {
+                visit(l.cells[i], d2);
+              }
+            }
+            continue;
+          }
+          const Cell& cell = l.cells[slot];
+          if (cell.mixed && level > 0)
+          {
+            visitChildren(level, brick, __builtin_ctzll(bits), center, r2, visit);
+            continue;
+          }
+          const double d2 = norm2(cell.mean - center);
+          if (d2 < r2)
+          {
+            visit(cell, d2);
+          }
+        }
+      });
+  }
+
+  /// The cell of @p level nearest to @p center within @p radius; -1: none. Ties: the smaller index.
+  std::int64_t nearest(int level, const Vec3& center, double radius, double& distance) const noexcept;
+
+private:
+  /// Squared distance from a point to a brick's box.
+  double squaredDistance(const Level& level, const Brick& brick, const Vec3& p) const noexcept
+  {
+    const double edge = 4.0 * level.voxelSize;
+    const auto gap = [edge](double coordinate, std::int32_t index)
+    {
+      const double low = edge * double(index);
+      const double below = low - coordinate;
+      const double above = coordinate - (low + edge);
+      const double outside = below > above ? below : above;
+      return outside > 0.0 ? outside : 0.0;
+    };
+    const double x = gap(p.x - origin_.x, brick.x);
+    const double y = gap(p.y - origin_.y, brick.y);
+    const double z = gap(p.z - origin_.z, brick.z);
+    return x * x + y * y + z * z;
+  }
+
+  template <typename BrickVisitor>
+  void visitBricks(int target, const Vec3& center, double radius, BrickVisitor&& visit) const
+  {
+    struct Entry
+    {
+      std::uint32_t brick;
+      int level;
+    };
+    // Rounding of the box's corners must not lose a mean that lies on one.
+    const double reach = radius + 1e-9 * levels_[0].voxelSize;
+    const double r2 = reach * reach;
+    Entry stack[8 * kMaximumLevels];
+    int size = 0;
+    const int top = numberOfLevels() - 1;
+    for (std::size_t i = levels_[std::size_t(top)].bricks.size(); i-- > 0;)
+    {
+      stack[size++] = { std::uint32_t(i), top };
+    }
+    while (size > 0)
+    {
+      const Entry entry = stack[--size];
+      const Level& l = levels_[std::size_t(entry.level)];
+      const Brick& brick = l.bricks[entry.brick];
+      if (squaredDistance(l, brick, center) > r2)
+      {
+        continue;
+      }
+      if (entry.level == target)
+      {
+        visit(l, brick);
+        continue;
+      }
+      for (std::uint32_t i = brick.childCount; i-- > 0;)
+      {
+        stack[size++] = { brick.child + i, entry.level - 1 };
+      }
+    }
+  }
+
+  /// The voxel @p bit of @p brick on @p level covers one byte of a brick's mask on the level below.
+  template <typename Visitor>
+  void visitChildren(
+    int level, const Brick& brick, int bit, const Vec3& center, double r2, Visitor& visit) const
+  {
+    const Level& below = levels_[std::size_t(level) - 1];
+    const int octant = bit >> 3;
+    for (std::uint32_t i = 0; i < brick.childCount; ++i)
+    {
+      const Brick& child = below.bricks[brick.child + i];
+      if (((child.x & 1) | (child.y & 1) << 1 | (child.z & 1) << 2) != octant)
+      {
+        continue;
+      }
+      const int shift = 8 * (bit & 7);
+      std::uint64_t bits = child.mask & (std::uint64_t(0xff) << shift);
+      std::uint32_t slot =
+        child.slot + std::uint32_t(__builtin_popcountll(child.mask & ((std::uint64_t(1) << shift) - 1)));
+      for (; bits != 0; bits &= bits - 1, ++slot)
+      {
+        const bool ranged = !below.slotBegin.empty();
+        const std::uint32_t first = ranged ? below.slotBegin[slot] : slot;
+        const std::uint32_t last = ranged ? below.slotBegin[slot + 1] : slot + 1;
+        for (std::uint32_t c = first; c < last; ++c)
+        {
+          const Cell& cell = below.cells[c];
+          if (cell.mixed && level > 1)
+          {
+            visitChildren(level - 1, child, __builtin_ctzll(bits), center, r2, visit);
+            continue;
+          }
+          const double d2 = norm2(cell.mean - center);
+          if (d2 < r2)
+          {
+            visit(cell, d2);
+          }
+        }
+      }
+    }
+  }
+
+  void buildUpperLevels(const std::vector<std::uint64_t>& codes, int leastLevels);
+
+  static constexpr int kMaximumLevels = 22;
+  std::vector<Level> levels_;
+  Vec3 origin_;
+};
+
+/// Exact merge of two cells: counts, mean and central second moments of the union.
+Cell merged(const Cell& a, const Cell& b) noexcept;
+
+} // namespace pointhaptics

@@ -1,0 +1,56 @@
+/// @file
+/// The cells near a place, laid out for the fit's inner loops, and kept while fits stay near it.
+#pragma once
+
+#include "Core/Surface/CellPyramid.h"
+#include "Core/Surface/FitKernel.h"
+#include "Core/Surface/RadiusField.h"
+
+namespace pointhaptics
+{
+
+/// The memory of local fits: neighbourhoods of cells and of field nodes, gathered once and used for all fits
+/// whose balls lie inside, and the rows of the normal equations. About 350 kB; allocate it once, on the heap.
+/// Plain state, one thread. No member function allocates, locks or throws.
+class FitCells
+{
+public:
+  /// @param wanted the instructions to use, as far as this machine has them; the results are the same.
+  explicit FitCells(InstructionSet wanted = InstructionSet::Automatic)
+    : kernels_(&kernel::fitKernels(wanted))
+  {
+  }
+
+  /// Everything gathered is dropped. Must be called before a pyramid or field at an address used before.
+  void forget() noexcept;
+
+  /// The cells of @p level (mixed ones as their children) that can lie within @p radius of @p center, and
+  /// maybe others. Where there are more than a block holds, those of the next coarser level that fits; @p
+  /// level receives which.
+  const kernel::FitBlock& near(
+    const CellPyramid& pyramid, int& level, const Vec3& center, double radius) noexcept;
+
+  /// RadiusField::at() from gathered nodes; equal to it up to rounding.
+  LocalScale scaleAt(const CellPyramid& pyramid, const RadiusField& field, const Vec3& position,
+    Vec3& radiusGradient) noexcept;
+
+  const kernel::FitKernels& kernels() const noexcept { return *kernels_; }
+  kernel::FitRows& rows() noexcept { return rows_; }
+  /// True where some block was too small since the last call of forgetOverflow().
+  bool overflowed() const noexcept { return overflowed_; }
+  void forgetOverflow() noexcept { overflowed_ = false; }
+
+private:
+  bool gather(const CellPyramid& pyramid, int level, const Vec3& center, double reach,
+    kernel::FitBlock& block) noexcept;
+
+  const kernel::FitKernels* kernels_;
+  const CellPyramid* pyramid_ = nullptr;
+  const RadiusField* field_ = nullptr;
+  kernel::FitBlock blocks_[2]; ///< Of even and of odd levels: a fit blends two neighbouring ones.
+  kernel::FieldBlock nodes_;
+  kernel::FitRows rows_;
+  bool overflowed_ = false;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,198 @@
+/// @file
+/// The inner loops of the local surface fit, one version per instruction set. Private to Core: SurfaceFit
+/// drives them. All versions give the same bits: eight lanes, joined in one order, no fused multiply-adds.
+#pragma once
+
+#include "Core/Base/Vector3.h"
+#include "Core/Simd/InstructionSet.h"
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+constexpr int kFitLanes = 8;
+/// Numbers left free behind each array: without them equal places of all arrays would compete for the same
+/// few lines of the cache.
+constexpr int kFitGap = kFitLanes;
+
+/// Cells near a center, each quantity in an array of its own; positions relative to the center.
+struct alignas(64) FitBlock
+{
+  static constexpr int kCapacity = 1024;
+
+  double x[kCapacity + kFitGap];
+  double y[kCapacity + kFitGap];
+  double z[kCapacity + kFitGap];
+  double count[kCapacity + kFitGap];
+  double xx[kCapacity + kFitGap];
+  double xy[kCapacity + kFitGap];
+  double xz[kCapacity + kFitGap];
+  double yy[kCapacity + kFitGap];
+  double yz[kCapacity + kFitGap];
+  double zz[kCapacity + kFitGap];
+  int size = 0;
+  int level = -1; ///< -1: holds nothing.
+  Vec3 center;
+  double reach = 0.0; ///< All cells nearer to the center than this are here.
+
+  void set(int i, const Vec3& p, double n, const SymMat3& c)
+  {
+    x[i] = p.x;
+    y[i] = p.y;
+    z[i] = p.z;
+    count[i] = n;
+    xx[i] = c.xx;
+    xy[i] = c.xy;
+    xz[i] = c.xz;
+    yy[i] = c.yy;
+    yz[i] = c.yz;
+    zz[i] = c.zz;
+  }
+  /// A cell without weight.
+  void clear(int i) { set(i, Vec3(), 0.0, SymMat3()); }
+};
+
+/// Nodes of the field of fit radii near a center.
+struct alignas(64) FieldBlock
+{
+  static constexpr int kCapacity = 128;
+
+  double x[kCapacity];
+  double y[kCapacity];
+  double z[kCapacity];
+  double present[kCapacity]; ///< 1, or 0 in the padding.
+  double radius[kCapacity];
+  double gate[kCapacity];
+  double countRadius[kCapacity];
+  double proxyRadius[kCapacity];
+  double cubic[kCapacity];
+  int size = 0;
+  Vec3 center;
+  double reach = -1.0;
+
+  void clear(int i)
+  {
+    x[i] = y[i] = z[i] = present[i] = radius[i] = gate[i] = countRadius[i] = proxyRadius[i] = cubic[i] = 0.0;
+  }
+};
+
+struct FieldSums
+{
+  double weights = 0.0;
+  double radius = 0.0;
+  double gate = 0.0;
+  double countRadius = 0.0;
+  double proxyRadius = 0.0;
+  double cubic = 0.0;
+  double weightGradient[3] = { 0.0, 0.0, 0.0 };
+  double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Of the sum of weight times radius.
+};
+
+/// Where the fit looks from; lengths of the block's unit.
+struct FitView
+{
+  Vec3 origin; ///< Relative to the block's center.
+  Vec3 a;
+  Vec3 b;
+  Vec3 normal;
+  double radius = 0.0;
+  double share = 1.0; ///< Of this level in the fit.
+  double gate = 0.0;  ///< Over the radius; 0: none.
+  bool twoSidedGate = false;
+  double bend[3] = { 0.0, 0.0, 0.0 };
+};
+
+/// One row per cell with its terms P, height, weights; lengths over the radius.
+struct alignas(64) FitRows
+{
+  static constexpr int kCapacity = 2 * FitBlock::kCapacity;
+
+  double u[kCapacity + kFitGap];
+  double v[kCapacity + kFitGap];
+  double uu[kCapacity + kFitGap];
+  double uv[kCapacity + kFitGap];
+  double vv[kCapacity + kFitGap];
+  double height[kCapacity + kFitGap];
+  double weight[kCapacity + kFitGap];      ///< n g (1 - e)^4
+  double slopeWeight[kCapacity + kFitGap]; ///< 4 n g (1 - e)^3
+  double e[kCapacity + kFitGap];
+  double can[kCapacity + kFitGap]; ///< a'C n
+  double cbn[kCapacity + kFitGap]; ///< b'C n
+  double count[kCapacity + kFitGap];
+  int size = 0; ///< A multiple of kFitLanes; rows without a cell have weight 0.
+};
+
+/// Sums of W P P' (lower triangle, row by row), W P z, W z z, and how many weights are above 0.
+struct FitSums
+{
+  double a[21];
+  double rhs[6];
+  double zz;
+  double cells;
+};
+
+/// The same for the cubic terms Q = (uuu, uuv, uvv, vvv): W Q P' (Q by Q), W Q Q' (lower triangle, row by
+/// row), W Q z.
+struct CubicSums
+{
+  double qp[24];
+  double qq[10];
+  double rhs[4];
+};
+
+/// A height over the frame with ten terms, P and Q, and the row of the inverse normal matrix that gives k0.
+struct TracedFit
+{
+  double k[10] = {};
+  double row[10] = {};
+};
+
+/// What a moving origin does to the height, as the part of the moving weights and that of the turning frame;
+/// see traceSlopes().
+struct TraceSums
+{
+  double moveA;
+  double moveB;
+  double turnA;
+  double turnB;
+};
+
+/// Points about a ball, each coordinate in an array of its own with room for whole groups of lanes.
+struct BallPoints
+{
+  const double* x;
+  const double* y;
+  const double* z;
+  int size; ///< A multiple of kFitLanes; the last ones lie far away.
+};
+
+struct FitKernels
+{
+  /// Appends a row for each cell of @p block. Groups of cells beyond the radius may be left out.
+  void (*appendRows)(const FitBlock& block, const FitView& view, FitRows& rows);
+  void (*sumRows)(const FitRows& rows, FitSums& sums);
+  void (*sumCubicRows)(const FitRows& rows, CubicSums& sums);
+  /// @param ra, rb gradient of the radius along a and b.
+  void (*traceRows)(const FitRows& rows, const TracedFit& fit, double ra, double rb, TraceSums& sums);
+  /// Indices of the points nearer to @p p than sqrt(@p radius2), ascending; at most @p most of them. @return
+  /// how many.
+  int (*pointsWithin)(const BallPoints& points, const Vec3& p, double radius2, int* indices, int most);
+  /// How far a ball of @p radius can go from @p from along the unit vector @p direction, at most @p length,
+  /// before it covers a point. Ways that lead into a point by less than @p tangential metres do not count.
+  double (*sweepBall)(const BallPoints& points, const Vec3& from, const Vec3& direction, double length,
+    double radius, double tangential);
+  /// Weights (1 - d^2/reach^2)^3 of the nodes about @p position, relative to the block's center.
+  void (*sumField)(const FieldBlock& block, const Vec3& position, double reach, FieldSums& sums);
+};
+
+/// Those of usableInstructionSet(@p wanted).
+const FitKernels& fitKernels(InstructionSet wanted = InstructionSet::Automatic) noexcept;
+
+const FitKernels& baselineFitKernels();
+/// Null where the compiler or the processor family lacks them.
+const FitKernels* avx2FitKernels();
+const FitKernels* avx512FitKernels();
+
+} // namespace kernel
+} // namespace pointhaptics

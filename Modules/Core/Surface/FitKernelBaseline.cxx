@@ -1,0 +1,28 @@
+/// The loops of the fit for every machine.
+#include "Core/Surface/FitKernelBody.h"
+
+namespace pointhaptics
+{
+namespace kernel
+{
+
+const FitKernels& baselineFitKernels()
+{
+  return kKernels;
+}
+
+const FitKernels& fitKernels(InstructionSet wanted) noexcept
+{
+  switch (usableInstructionSet(wanted))
+  {
+    case InstructionSet::Avx512:
+      return avx512FitKernels() ? *avx512FitKernels() : baselineFitKernels();
+    case InstructionSet::Avx2:
+      return avx2FitKernels() ? *avx2FitKernels() : baselineFitKernels();
+    default:
+      return baselineFitKernels();
+  }
+}
+
+} // namespace kernel
+} // namespace pointhaptics

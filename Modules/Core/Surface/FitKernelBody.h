@@ -1,0 +1,439 @@
+/// @file
+/// The loops of FitKernel.h over Simd/Packs.h, whatever the width of a pack. Included by one source per
+/// instruction set; all is in an anonymous namespace, so that the linker cannot choose one set's version for
+/// the others.
+#pragma once
+
+#include "Core/Simd/Packs.h"
+#include "Core/Surface/FitKernel.h"
+
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace kernel
+{
+namespace
+{
+
+using simd::load;
+using simd::Pack;
+
+static_assert(kFitLanes == simd::kLanes, "the blocks are laid out for the loops");
+
+/// The gate opens over the last part of its depth.
+constexpr double kGateOpen = 0.7;
+
+/// 2 x: multiplications are what most of these loops wait for.
+inline Pack twice(const Pack& x)
+{
+  return x + x;
+}
+
+/// 1 - e, and 0 beyond the radius.
+inline Pack inside(const Pack& e)
+{
+  return e < 1.0 ? 1.0 - e : simd::all(0.0);
+}
+
+/// Of cells, relative to the origin over the radius.
+struct Offsets
+{
+  Pack x;
+  Pack y;
+  Pack z;
+  Pack e; ///< Their squares' sum.
+};
+
+inline Offsets offsetsOf(const FitBlock& block, int i, const Vec3& origin, double perRho)
+{
+  Offsets d;
+  d.x = (load(block.x + i) - origin.x) * perRho;
+  d.y = (load(block.y + i) - origin.y) * perRho;
+  d.z = (load(block.z + i) - origin.z) * perRho;
+  d.e = d.x * d.x + d.y * d.y + d.z * d.z;
+  return d;
+}
+
+/// The part of a cell's weight that the gate leaves it; @p h its height.
+inline Pack throughGate(
+  const FitView& view, double gateFrom, double perGate, const Pack& u, const Pack& v, const Pack& h)
+{
+  const Pack above = h - (view.bend[0] * u * u + view.bend[1] * u * v + view.bend[2] * v * v);
+  const Pack depth = view.twoSidedGate ? (above < 0.0 ? -above : above) : -above;
+  const Pack raw = (depth - gateFrom) * perGate;
+  const Pack t = simd::smaller(simd::larger(raw, simd::all(0.0)), simd::all(1.0));
+  return 1.0 - t * t * (3.0 - twice(t));
+}
+
+/// The pack of rows from @p row on, of the cells from @p i on.
+inline void makeRows(
+  const FitBlock& block, const FitView& view, const Offsets& d, int i, FitRows& rows, int row)
+{
+  const double perRho = 1.0 / view.radius;
+  const double perRho2 = perRho * perRho;
+  const double gateFrom = kGateOpen * view.gate;
+  const double perGate = view.gate > 0.0 ? 1.0 / (view.gate - gateFrom) : 0.0;
+  const Pack base = inside(d.e);
+  const Pack base2 = base * base;
+  const Pack count = load(block.count + i);
+  const Pack u = d.x * view.a.x + d.y * view.a.y + d.z * view.a.z;
+  const Pack v = d.x * view.b.x + d.y * view.b.y + d.z * view.b.z;
+  const Pack h = d.x * view.normal.x + d.y * view.normal.y + d.z * view.normal.z;
+  Pack weight = count * view.share;
+  if (view.gate > 0.0)
+  {
+    weight *= throughGate(view, gateFrom, perGate, u, v, h);
+  }
+  const Pack xx = load(block.xx + i);
+  const Pack xy = load(block.xy + i);
+  const Pack xz = load(block.xz + i);
+  const Pack yy = load(block.yy + i);
+  const Pack yz = load(block.yz + i);
+  const Pack zz = load(block.zz + i);
+  const Pack cax = (xx * view.a.x + xy * view.a.y + xz * view.a.z) * perRho2;
+  const Pack cay = (xy * view.a.x + yy * view.a.y + yz * view.a.z) * perRho2;
+  const Pack caz = (xz * view.a.x + yz * view.a.y + zz * view.a.z) * perRho2;
+  const Pack cbx = (xx * view.b.x + xy * view.b.y + xz * view.b.z) * perRho2;
+  const Pack cby = (xy * view.b.x + yy * view.b.y + yz * view.b.z) * perRho2;
+  const Pack cbz = (xz * view.b.x + yz * view.b.y + zz * view.b.z) * perRho2;
+  simd::store(rows.u + row, u);
+  simd::store(rows.v + row, v);
+  simd::store(rows.uu + row, u * u + (cax * view.a.x + cay * view.a.y + caz * view.a.z));
+  simd::store(rows.uv + row, u * v + (cax * view.b.x + cay * view.b.y + caz * view.b.z));
+  simd::store(rows.vv + row, v * v + (cbx * view.b.x + cby * view.b.y + cbz * view.b.z));
+  simd::store(rows.height + row, h);
+  simd::store(rows.weight + row, weight * (base2 * base2));
+  simd::store(rows.slopeWeight + row, twice(twice(weight)) * (base2 * base));
+  simd::store(rows.e + row, d.e);
+  simd::store(rows.can + row, cax * view.normal.x + cay * view.normal.y + caz * view.normal.z);
+  simd::store(rows.cbn + row, cbx * view.normal.x + cby * view.normal.y + cbz * view.normal.z);
+  simd::store(rows.count + row, count);
+}
+
+void appendRows(const FitBlock& block, const FitView& whole, FitRows& rows)
+{
+  // A copy that the rows cannot overlay.
+  const FitView view = whole;
+  const double perRho = 1.0 / view.radius;
+  int row = rows.size;
+  for (int i = 0; i < block.size; i += kFitLanes)
+  {
+    Offsets d[simd::kPacks];
+    bool isAnyInside = false;
+#pragma GCC unroll 4
+    for (int pack = 0; pack < simd::kPacks; ++pack)
+    {
+      d[pack] = offsetsOf(block, i + pack * simd::kWidth, view.origin, perRho);
+      isAnyInside |= simd::anyBelow(d[pack].e, 1.0);
+    }
+    // Most groups of a neighbourhood gathered with a margin lie inside; those that do not are cheap to leave
+    // out.
+    if (!isAnyInside)
+    {
+      continue;
+    }
+#pragma GCC unroll 1
+    for (int pack = 0; pack < simd::kPacks; ++pack)
+    {
+      const int lane = pack * simd::kWidth;
+      makeRows(block, view, d[pack], i + lane, rows, row + lane);
+    }
+    row += kFitLanes;
+  }
+  rows.size = row;
+}
+
+/// The sums of the terms P from @p First to before @p Last as far as the register hold them, and the last
+/// ones with what else is summed.
+template <int First, int Last>
+inline void sumTermRows(const FitRows& rows, FitSums& sums)
+{
+  constexpr bool kIsLast = Last == 6;
+  constexpr int kSquares = (Last * (Last + 1) - First * (First + 1)) / 2;
+  // What is copied together begins with a pack: loads across two packs would wait until these are in memory.
+  constexpr int kRhs = simd::wholePacks(kSquares);
+  constexpr int kOthers = kRhs + Last - First;
+  constexpr int kSums = kOthers + (kIsLast ? 2 : 0);
+  const simd::LaneSums<kSums> to = simd::sumLanes<kSums>(rows.size,
+    [&](int i, Pack(&s)[kSums])
+    {
+      const Pack weight = load(rows.weight + i);
+      const Pack height = load(rows.height + i);
+      const double* const p[6] = { nullptr, rows.u + i, rows.v + i, rows.uu + i, rows.uv + i, rows.vv + i };
+      int at = 0;
+#pragma GCC unroll 6
+      for (int r = First; r < Last; ++r)
+      {
+        const Pack wp = r == 0 ? weight : weight * load(p[r]);
+        s[kRhs + r - First] += wp * height;
+        s[at++] += wp;
+#pragma GCC unroll 6
+        for (int c = 1; c <= r; ++c)
+        {
+          s[at++] += wp * load(p[c]);
+        }
+      }
+      if constexpr (kIsLast)
+      {
+        s[kOthers] += weight * height * height;
+        s[kOthers + 1] += weight > 0.0 ? simd::all(1.0) : simd::all(0.0);
+      }
+    });
+  for (int i = 0; i < kSquares; ++i)
+  {
+    sums.a[First * (First + 1) / 2 + i] = to[i];
+  }
+  for (int i = First; i < Last; ++i)
+  {
+    sums.rhs[i] = to[kRhs + i - First];
+  }
+  if constexpr (kIsLast)
+  {
+    sums.zz = to[kOthers];
+    sums.cells = to[kOthers + 1];
+  }
+}
+
+void sumRows(const FitRows& rows, FitSums& sums)
+{
+  if constexpr (simd::kManyRegisters)
+  {
+    sumTermRows<0, 6>(rows, sums);
+  }
+  else
+  {
+    sumTermRows<0, 4>(rows, sums);
+    sumTermRows<4, 6>(rows, sums);
+  }
+}
+
+/// The means over a cell of uuu, uuv, uvv and vvv, as far as its second moments tell them.
+inline void cubicTerms(
+  const Pack& u, const Pack& v, const Pack& uu, const Pack& uv, const Pack& vv, Pack q[4])
+{
+  // uuu = u^3 + 3 u Caa where Caa = uu - u^2, and so on.
+  const Pack twoUv = twice(uv);
+  q[0] = u * (3.0 * uu - twice(u * u));
+  q[1] = u * (twoUv - twice(u * v)) + v * uu;
+  q[2] = v * (twoUv - twice(u * v)) + u * vv;
+  q[3] = v * (3.0 * vv - twice(v * v));
+}
+
+/// The sums of the cubic terms from @p First to before @p Last.
+template <int First, int Last>
+inline void sumSomeCubicRows(const FitRows& rows, CubicSums& sums)
+{
+  constexpr int kTerms = Last - First;
+  constexpr int kSquares = (Last * (Last + 1) - First * (First + 1)) / 2;
+  constexpr int kQq = simd::wholePacks(6 * kTerms);
+  constexpr int kRhs = kQq + simd::wholePacks(kSquares);
+  constexpr int kSums = kRhs + kTerms;
+  const simd::LaneSums<kSums> to = simd::sumLanes<kSums>(rows.size,
+    [&](int i, Pack(&s)[kSums])
+    {
+      const Pack weight = load(rows.weight + i);
+      const double* const p[5] = { rows.u + i, rows.v + i, rows.uu + i, rows.uv + i, rows.vv + i };
+      Pack q[4];
+      cubicTerms(load(p[0]), load(p[1]), load(p[2]), load(p[3]), load(p[4]), q);
+      int at = kQq;
+#pragma GCC unroll 4
+      for (int r = 0; r < kTerms; ++r)
+      {
+        const Pack wq = weight * q[First + r];
+        s[kRhs + r] += wq * load(rows.height + i);
+        s[6 * r] += wq;
+#pragma GCC unroll 5
+        for (int c = 0; c < 5; ++c)
+        {
+          s[6 * r + 1 + c] += wq * load(p[c]);
+        }
+#pragma GCC unroll 4
+        for (int c = 0; c <= First + r; ++c)
+        {
+          s[at++] += wq * q[c];
+        }
+      }
+    });
+  for (int i = 0; i < 6 * kTerms; ++i)
+  {
+    sums.qp[6 * First + i] = to[i];
+  }
+  for (int i = 0; i < kSquares; ++i)
+  {
+    sums.qq[First * (First + 1) / 2 + i] = to[kQq + i];
+  }
+  for (int i = 0; i < kTerms; ++i)
+  {
+    sums.rhs[First + i] = to[kRhs + i];
+  }
+}
+
+void sumCubicRows(const FitRows& rows, CubicSums& sums)
+{
+  if constexpr (simd::kManyRegisters)
+  {
+    sumSomeCubicRows<0, 2>(rows, sums);
+    sumSomeCubicRows<2, 4>(rows, sums);
+  }
+  else
+  {
+    sumSomeCubicRows<0, 1>(rows, sums);
+    sumSomeCubicRows<1, 2>(rows, sums);
+    sumSomeCubicRows<2, 3>(rows, sums);
+    sumSomeCubicRows<3, 4>(rows, sums);
+  }
+}
+
+void traceRows(const FitRows& rows, const TracedFit& fit, double ra, double rb, TraceSums& sums)
+{
+  const double* k = fit.k;
+  const double* x = fit.row;
+  const simd::LaneSums<4> to = simd::sumLanes<4>(rows.size,
+    [&](int i, Pack(&s)[4])
+    {
+      const Pack u = load(rows.u + i);
+      const Pack v = load(rows.v + i);
+      const Pack h = load(rows.height + i);
+      const Pack uu = load(rows.uu + i);
+      const Pack uv = load(rows.uv + i);
+      const Pack vv = load(rows.vv + i);
+      const Pack can = load(rows.can + i);
+      const Pack cbn = load(rows.cbn + i);
+      Pack q[4];
+      cubicTerms(u, v, uu, uv, vv, q);
+      const Pack r = h -
+        (k[0] + k[1] * u + k[2] * v + k[3] * uu + k[4] * uv + k[5] * vv + k[6] * q[0] + k[7] * q[1] +
+          k[8] * q[2] + k[9] * q[3]);
+      const Pack reach = x[0] + x[1] * u + x[2] * v + x[3] * uu + x[4] * uv + x[5] * vv + x[6] * q[0] +
+        x[7] * q[1] + x[8] * q[2] + x[9] * q[3];
+      // What the turning frame does to the cell's terms: u gains h as it turns along a, v as it turns along
+      // b.
+      const Pack uh = u * h + can;
+      const Pack vh = v * h + cbn;
+      const Pack uuh = uu * h + twice(u * can);
+      const Pack uvh = uv * h + (u * cbn + v * can);
+      const Pack vvh = vv * h + twice(v * cbn);
+      const Pack ka =
+        k[1] * h + k[3] * twice(uh) + k[4] * vh + k[6] * (3.0 * uuh) + k[7] * twice(uvh) + k[8] * vvh;
+      const Pack kb =
+        k[2] * h + k[4] * uh + k[5] * twice(vh) + k[7] * uuh + k[8] * twice(uvh) + k[9] * (3.0 * vvh);
+      const Pack xa =
+        x[1] * h + x[3] * twice(uh) + x[4] * vh + x[6] * (3.0 * uuh) + x[7] * twice(uvh) + x[8] * vvh;
+      const Pack xb =
+        x[2] * h + x[4] * uh + x[5] * twice(vh) + x[7] * uuh + x[8] * twice(uvh) + x[9] * (3.0 * vvh);
+      const Pack e = load(rows.e + i);
+      const Pack moved = twice(load(rows.slopeWeight + i)) * r * reach;
+      const Pack weight = load(rows.weight + i);
+      s[0] += moved * (u + e * ra);
+      s[1] += moved * (v + e * rb);
+      s[2] += weight * (r * xa - reach * ka);
+      s[3] += weight * (r * xb - reach * kb);
+    });
+  sums.moveA = to[0];
+  sums.moveB = to[1];
+  sums.turnA = to[2];
+  sums.turnB = to[3];
+}
+
+int pointsWithin(const BallPoints& points, const Vec3& p, double radius2, int* indices, int most)
+{
+  int found = 0;
+  for (int i = 0; i < points.size && found < most; i += simd::kWidth)
+  {
+    const Pack dx = load(points.x + i) - p.x;
+    const Pack dy = load(points.y + i) - p.y;
+    const Pack dz = load(points.z + i) - p.z;
+    const Pack d2 = dx * dx + dy * dy + dz * dz;
+    if (!simd::anyBelow(d2, radius2))
+    {
+      continue;
+    }
+    for (int lane = 0; lane < simd::kWidth && found < most; ++lane)
+    {
+      if (d2[lane] < radius2)
+      {
+        indices[found++] = i + lane;
+      }
+    }
+  }
+  return found;
+}
+
+double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& direction, double length,
+  double radius, double tangential)
+{
+  const double radius2 = radius * radius;
+  double reached = length;
+  for (int i = 0; i < points.size; i += simd::kWidth)
+  {
+    const Pack dx = load(points.x + i) - from.x;
+    const Pack dy = load(points.y + i) - from.y;
+    const Pack dz = load(points.z + i) - from.z;
+    const Pack along = dx * direction.x + dy * direction.y + dz * direction.z;
+    // At t the ball is sqrt(outside + r^2 - along^2 + (t - along)^2) from the point.
+    const Pack outside = dx * dx + dy * dy + dz * dz - radius2;
+    const Pack across = outside - along * along;
+    const Pack missed = along > tangential ? across : simd::all(1.0);
+    if (!simd::anyBelow(missed, 0.0))
+    {
+      continue;
+    }
+    for (int lane = 0; lane < simd::kWidth; ++lane)
+    {
+      if (missed[lane] < 0.0)
+      {
+        const double t = outside[lane] / (along[lane] + std::sqrt(-across[lane]));
+        reached = t < reached ? t : reached;
+      }
+    }
+  }
+  return reached > 0.0 ? reached : 0.0;
+}
+
+void sumField(const FieldBlock& block, const Vec3& position, double reach, FieldSums& sums)
+{
+  const double perReach2 = 1.0 / (reach * reach);
+  const simd::LaneSums<12> to = simd::sumLanes<12>(block.size,
+    [&](int i, Pack(&s)[12])
+    {
+      const Pack d[3] = { position.x - load(block.x + i), position.y - load(block.y + i),
+        position.z - load(block.z + i) };
+      const Pack e = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * perReach2;
+      const Pack base = inside(e) * load(block.present + i);
+      const Pack base2 = base * base;
+      const Pack weight = base2 * base;
+      const Pack slope = base2 * (-6.0 * perReach2);
+      const Pack value = load(block.radius + i);
+      s[0] += weight;
+      s[1] += weight * value;
+      s[2] += weight * load(block.gate + i);
+      s[3] += weight * load(block.countRadius + i);
+      s[4] += weight * load(block.proxyRadius + i);
+      s[5] += weight * load(block.cubic + i);
+#pragma GCC unroll 3
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        s[6 + axis] += slope * d[axis];
+        s[9 + axis] += slope * d[axis] * value;
+      }
+    });
+  sums.weights = to[0];
+  sums.radius = to[1];
+  sums.gate = to[2];
+  sums.countRadius = to[3];
+  sums.proxyRadius = to[4];
+  sums.cubic = to[5];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    sums.weightGradient[axis] = to[6 + axis];
+    sums.radiusGradient[axis] = to[9 + axis];
+  }
+}
+
+constexpr FitKernels kKernels = { appendRows, sumRows, sumCubicRows, traceRows, pointsWithin, sweepBall,
+  sumField };
+
+}
+} // namespace kernel
+} // namespace pointhaptics

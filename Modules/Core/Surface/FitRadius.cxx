@@ -1,0 +1,341 @@
+#include "Core/Surface/FitRadius.h"
+
+#include "Core/Surface/SurfaceFit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// RMS distance from a fit, in cells, up to which a surface is smooth; part of it that a smaller fit leaves
+/// over where it is shape.
+constexpr double kSmooth = 1e-3;
+constexpr double kLeftOfShape = 0.5;
+constexpr double kCountGrowth = 1.1;
+constexpr int kCountSteps = 120;
+
+constexpr int kLadderRungs = 16;
+/// Rungs whose residuals may tell the noise: longer ones see curvature too.
+constexpr int kNoiseRungs = 3;
+/// Standard errors by which a longer radius may differ from a shorter one.
+constexpr double kAgreement = 2.0;
+/// The same with cubic terms, whose errors are large where the radius is short.
+constexpr double kCubicAgreement = 2.5;
+/// Standard errors of the height (over the finest cell) and of the slopes that leave nothing to gain.
+constexpr double kEnoughHeight = 1e-3;
+constexpr double kEnoughSlope = 1e-3;
+/// Growth of the radius from which on a cloud counts as noisy, and cubic terms at a longer radius are
+/// weighed.
+constexpr double kNoisyGrowth = 1.3;
+/// How much longer than a quadratic fit one with cubic terms may look at most.
+constexpr double kCubicReach = 1.1;
+/// Standard error of its slopes over that of the quadratic fit up to which a fit with cubic terms is as good
+/// anyway, and up to which it is preferred where the slopes of the two disagree: then the quadratic one is
+/// bent.
+constexpr double kCubicErrorAsGood = 1.2;
+constexpr double kCubicErrorAtMost = 3.0;
+/// Standard errors by which they disagree.
+constexpr double kDisagreement = 1.0;
+/// Part of the points within reach that other sheets may have where cubic terms are weighed: they would bend
+/// to what of those comes through the gate.
+constexpr double kOtherSheets = 0.01;
+/// Parts of the neighbours that prefer cubic terms at which these begin to count and count in full.
+constexpr double kCubicVotesFrom = 0.3;
+constexpr double kCubicVotesTo = 0.75;
+/// The gate never cuts into this many standard deviations of noise.
+constexpr double kGateNoise = 4.0;
+/// Neighbouring nodes that vote, in voxels of the node level.
+constexpr double kVoteReach = 2.0;
+
+double countRadius(const CellPyramid& pyramid, const Vec3& seed, double largest, const FitNeeds& needs)
+{
+  double radius = needs.radiusInCells * pyramid.level(0).voxelSize;
+  for (int i = 0; i < kCountSteps && radius < largest; ++i)
+  {
+    double points = 0.0;
+    double cells = 0.0;
+    pyramid.visitBall(0, seed, radius,
+      [&](std::uint32_t, const Cell& cell, double d2)
+      {
+        const double base = 1.0 - d2 / (radius * radius);
+        const double weight = 5.0 * (base * base) * (base * base);
+        points += weight * cell.count;
+        cells += weight;
+      });
+    if (points >= needs.points && cells >= needs.cells)
+    {
+      break;
+    }
+    radius *= kCountGrowth;
+  }
+  return radius;
+}
+
+/// Position and slopes of one rung, with the standard errors for noise 1.
+struct Rung
+{
+  double value[3];
+  double error[3];
+};
+
+/// @param tolerance length of a standard error.
+bool agrees(const Rung& longer, const Rung& shorter, double tolerance)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    if (std::abs(longer.value[i] - shorter.value[i]) > tolerance * shorter.error[i])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Where a climb ended.
+struct Climb
+{
+  double radius = 0.0;
+  Rung rung{ { 0.0, 0.0, 0.0 }, { INFINITY, INFINITY, INFINITY } };
+
+  double slopeError() const { return std::max(rung.error[1], rung.error[2]); }
+};
+
+/// Longer and longer radii in one frame.
+class Ladder
+{
+public:
+  Ladder(const CellPyramid& pyramid, const SurfaceFrame& frame, const double curvature[3], double countRadius,
+    double growth, FitCells& memory)
+    : pyramid_(pyramid)
+    , frame_(frame)
+    , countRadius_(countRadius)
+    , growth_(growth)
+    , memory_(memory)
+  {
+    std::copy(curvature, curvature + 3, curvature_);
+  }
+
+  /// Without cubic terms first: that tells the noise. Radius 0: another sheet is in reach.
+  Climb climb(double largest, bool cubic)
+  {
+    Climb result;
+    result.radius = countRadius_;
+    Rung rungs[kLadderRungs];
+    int size = 0;
+    FitSettings settings;
+    settings.radius = countRadius_;
+    settings.gate = 2.0 * kGateDepth * countRadius_;
+    settings.twoSidedGate = true;
+    std::copy(curvature_, curvature_ + 3, settings.curvature);
+    for (int s = 0; s < kLadderRungs; ++s)
+    {
+      SurfaceFitError error;
+      const SurfaceFit here = fitSurface(pyramid_, frame_, settings, memory_, error, cubic);
+      const bool usable = here.quality == FitQuality::Quadric;
+      // So many terms may ask for a longer radius than the first.
+      if (!usable && !(cubic && size == 0))
+      {
+        break;
+      }
+      if (usable)
+      {
+        noise_ = !cubic && s < kNoiseRungs ? std::min(noise_, error.noise) : noise_;
+        rungs[size] = { { settings.radius * here.k[0], here.k[1], here.k[2] },
+          { error.standardError[0], error.standardError[1], error.standardError[2] } };
+        const double tolerance = (cubic ? kCubicAgreement : kAgreement) * noise_;
+        const bool accepted = std::all_of(
+          rungs, rungs + size, [&](const Rung& shorter) { return agrees(rungs[size], shorter, tolerance); });
+        if (!accepted)
+        {
+          break;
+        }
+        if (cubic && error.leftOut > kOtherSheets)
+        {
+          return {};
+        }
+        result = { settings.radius, rungs[size] };
+        // Further on the gate follows what is known of the curvature by now.
+        std::transform(
+          here.k + 3, here.k + 6, settings.curvature, [&](double k) { return k / settings.radius; });
+        ++size;
+        if (isEnough(result))
+        {
+          break;
+        }
+      }
+      if (!(settings.radius < largest))
+      {
+        break;
+      }
+      settings.radius = std::min(largest, growth_ * settings.radius);
+    }
+    return result;
+  }
+
+  double noise() const { return noise_; }
+
+private:
+  /// Looking further would only blur what is there, and see holes and rims late.
+  bool isEnough(const Climb& climb) const
+  {
+    return noise_ * climb.rung.error[0] < kEnoughHeight * pyramid_.level(0).voxelSize &&
+      noise_ * climb.slopeError() < kEnoughSlope;
+  }
+
+  const CellPyramid& pyramid_;
+  const SurfaceFrame& frame_;
+  double curvature_[3];
+  double countRadius_;
+  double growth_;
+  FitCells& memory_;
+  double noise_ = INFINITY;
+};
+
+/// True where a fit with cubic terms tells more than one without: its slopes are about as exact, or differ
+/// from the other's by more than they may be off.
+bool prefersCubic(const Climb& cubic, const Climb& quadratic, double noise)
+{
+  const double ratio = cubic.slopeError() / quadratic.slopeError();
+  if (!(cubic.radius >= quadratic.radius) || !(ratio < kCubicErrorAtMost))
+  {
+    return false;
+  }
+  bool differs = false;
+  for (int i = 1; i < 3; ++i)
+  {
+    differs = differs ||
+      std::abs(cubic.rung.value[i] - quadratic.rung.value[i]) > kDisagreement * noise * cubic.rung.error[i];
+  }
+  return differs || ratio < kCubicErrorAsGood;
+}
+
+double medianOf(std::vector<double>& values)
+{
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}
+
+FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest,
+  FitCells& memory, const FitNeeds& needs)
+{
+  if (needs.finerWhereShaped)
+  {
+    // A smaller fit leaves as much noise over, and less shape.
+    const FitScale wide = chooseFitRadius(pyramid, seed, largestCount, largest, memory);
+    if (wide.noise <= kSmooth * pyramid.level(0).voxelSize)
+    {
+      return wide;
+    }
+    const FitScale fine =
+      chooseFitRadius(pyramid, seed, largestCount, largest, memory, FitNeeds::ofFineCells());
+    return fine.noise < kLeftOfShape * wide.noise ? fine : wide;
+  }
+  FitScale scale;
+  scale.countRadius = countRadius(pyramid, seed, largestCount, needs);
+  scale.radius = scale.countRadius;
+  SurfaceFrame frame;
+  SurfaceFit fit;
+  double curvature[3];
+  Vec3 normal;
+  if (!principalNormal(pyramid, seed, scale.countRadius, normal))
+  {
+    return scale;
+  }
+  frame.turnTo(normal);
+  if (!settleOnSurface(pyramid, seed, scale.countRadius, 2.0 * kGateDepth * scale.countRadius, memory, frame,
+        fit, curvature))
+  {
+    return scale;
+  }
+  Ladder ladder(pyramid, frame, curvature, scale.countRadius, needs.growth, memory);
+  const Climb quadratic = ladder.climb(largest, false);
+  scale.radius = quadratic.radius;
+  scale.noise = std::isfinite(ladder.noise()) ? ladder.noise() : 0.0;
+  if (needs.weighsCubic && quadratic.radius > kNoisyGrowth * scale.countRadius)
+  {
+    const Climb cubic = ladder.climb(kCubicReach * largest, true);
+    scale.cubic = prefersCubic(cubic, quadratic, scale.noise);
+    scale.radius = scale.cubic ? cubic.radius : quadratic.radius;
+  }
+  return scale;
+}
+
+namespace
+{
+
+/// What the nodes about a node agree on.
+LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<FitScale>& scales, std::size_t i)
+{
+  const auto& nodes = pyramid.level(nodeLevel);
+  std::vector<double> radii;
+  std::vector<double> noises;
+  double cubic = 0.0;
+  pyramid.visitBall(nodeLevel, nodes.cells[i].mean, kVoteReach * nodes.voxelSize,
+    [&](std::uint32_t j, const Cell&, double)
+    {
+      radii.push_back(scales[j].radius);
+      noises.push_back(scales[j].noise);
+      cubic += scales[j].cubic ? 1.0 : 0.0;
+    });
+  const double radius = radii.empty() ? scales[i].radius : medianOf(radii);
+  const double noise = noises.empty() ? scales[i].noise : medianOf(noises);
+  const double votes = radii.empty() ? 0.0 : cubic / double(radii.size());
+  LocalScale result;
+  result.radius = std::max(scales[i].countRadius, radius);
+  result.countRadius = scales[i].countRadius;
+  result.noise = noise;
+  result.cubic = std::clamp((votes - kCubicVotesFrom) / (kCubicVotesTo - kCubicVotesFrom), 0.0, 1.0);
+  result.gate = std::max(kGateDepth * scales[i].countRadius, kGateNoise * noise);
+  return result;
+}
+
+}
+
+std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
+  const Executor& executor, const std::vector<NodeUse>* uses, const FitNeeds& needs, InstructionSet wanted)
+{
+  // A node takes some ten microseconds, and more where there is noise.
+  constexpr std::int64_t kSmallestRange = 16;
+  const int nodeLevel = RadiusField::nodeLevel(pyramid);
+  const auto& nodes = pyramid.level(nodeLevel);
+  std::vector<FitScale> scales(nodes.cells.size());
+  forRange(executor, std::int64_t(scales.size()), kSmallestRange,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      const auto memory = std::make_unique<FitCells>(wanted);
+      for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
+      {
+        if (uses && (*uses)[i] == NodeUse::None)
+        {
+          continue;
+        }
+        double distance = 0.0;
+        const Vec3 node = nodes.cells[i].mean;
+        const std::int64_t seed = pyramid.nearest(0, node, 2.0 * nodes.voxelSize, distance);
+        const Vec3 place = seed < 0 ? node : pyramid.level(0).cells[std::size_t(seed)].mean;
+        scales[i] = chooseFitRadius(pyramid, place, largestCount, largest, *memory, needs);
+      }
+    });
+  std::vector<LocalScale> result(scales.size());
+  forRange(executor, std::int64_t(scales.size()), kSmallestRange,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
+      {
+        if (!uses || (*uses)[i] == NodeUse::All)
+        {
+          result[i] = vote(pyramid, nodeLevel, scales, i);
+        }
+      }
+    });
+  return result;
+}
+
+} // namespace pointhaptics

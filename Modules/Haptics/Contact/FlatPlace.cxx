@@ -1,0 +1,113 @@
+#include "Haptics/Contact/FlatPlace.h"
+
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// RMS distance of the points from the plane up to which they are flat, over the ball's radius; fewest
+/// points.
+constexpr double kFlat = 0.05;
+constexpr double kPlanePoints = 6.0;
+/// How often the points further from the plane than the RMS are left out: those of another face.
+constexpr int kTrims = 3;
+/// Points so near to the foot of the HIP, and so far ahead of it, tell that the place goes on, over the
+/// radius.
+constexpr double kUnder = 0.5;
+constexpr double kAhead = 0.04;
+
+/// Points of which each offset is from the point to the ball's center.
+struct Moments
+{
+  double count = 0.0;
+  Vec3 sum;
+  SymMat3 squares;
+
+  void add(const Vec3& offset) noexcept
+  {
+    count += 1.0;
+    sum += offset;
+    squares += outerProduct(offset);
+  }
+  Vec3 mean() const noexcept { return count > 0.0 ? sum / count : Vec3(); }
+  SymMat3 covariance() const noexcept
+  {
+    SymMat3 result = squares;
+    result *= count > 0.0 ? 1.0 / count : 0.0;
+    SymMat3 middle = outerProduct(mean());
+    middle *= -1.0;
+    result += middle;
+    return result;
+  }
+};
+
+}
+
+bool FlatPlace::find(
+  const BallCells& cells, const Vec3& center, double radius, double reach, Vec3& away) noexcept
+{
+  Moments all;
+  cells.visitBall(center, reach, [&](const Vec3& offset, double) { all.add(offset); });
+  Vec3 mean = all.mean();
+  away = normalized(mean);
+  SymEigen eigen = symmetricEigen(all.covariance());
+  if (all.count < kPlanePoints || eigen.values[0] > kFlat * kFlat * radius * radius)
+  {
+    return false;
+  }
+  for (int trim = 0; trim < kTrims; ++trim)
+  {
+    const double gate = std::sqrt(std::max(0.0, eigen.values[0]));
+    Moments rest;
+    cells.visitBall(center, reach,
+      [&](const Vec3& offset, double)
+      {
+        if (std::abs(dot(offset - mean, eigen.vectors[0])) <= gate)
+        {
+          rest.add(offset);
+        }
+      });
+    if (rest.count < kPlanePoints)
+    {
+      break;
+    }
+    mean = rest.mean();
+    eigen = symmetricEigen(rest.covariance());
+  }
+  normal_ = dot(eigen.vectors[0], away) < 0.0 ? -eigen.vectors[0] : eigen.vectors[0];
+  point_ = center - mean;
+  foundAt_ = center;
+  isKnown_ = true;
+  return true;
+}
+
+bool FlatPlace::goesOn(
+  const HapticScene& scene, const Vec3& hip, const Vec3& slipped, double radius) const noexcept
+{
+  const Vec3 foot = hip - height(hip) * normal_;
+  const Vec3 ahead = normalized(this->along(slipped - hip));
+  bool result = false;
+  scene.pyramid().visitBall(0, foot, kUnder * radius,
+    [&](std::uint32_t, const Cell& cell, double)
+    {
+      const Vec3 beyond = cell.mean - foot;
+      result =
+        result || (dot(beyond, ahead) > kAhead * radius && std::abs(dot(beyond, normal_)) < kFlat * radius);
+    });
+  return result;
+}
+
+double FlatPlace::wayAside(
+  const Vec3& center, const Vec3& hip, const Vec3& direction, double most) const noexcept
+{
+  const Vec3 lean = this->along(hip - center);
+  const Vec3 sideways = this->along(direction);
+  const double speed2 = norm2(sideways);
+  const double half = dot(lean, sideways);
+  const double room = std::max(0.0, half * half + speed2 * (most * most - norm2(lean)));
+  return speed2 > 0.0 ? std::max(0.0, (half + std::sqrt(room)) / speed2) : INFINITY;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,50 @@
+/// @file
+/// The flat place that the proxy's ball lies on.
+#pragma once
+
+#include "Core/Base/AffineTransform.h"
+#include "Haptics/Contact/BallCells.h"
+#include "Haptics/HapticScene.h"
+
+namespace pointhaptics
+{
+
+/// A plane through the points about a ball, remembered while the ball is near: beside an edge the points tell
+/// of two faces, and the ball has gone around neither. Lattice frame, metres. Plain state; one thread;
+/// nothing allocates or throws.
+class FlatPlace
+{
+public:
+  /// @param center of a ball. @param radius of the ball. @param reach of the points that count, from the
+  /// center. @param away receives the direction from their middle to the ball. False: they are not flat, and
+  /// nothing changes.
+  bool find(const BallCells& cells, const Vec3& center, double radius, double reach, Vec3& away) noexcept;
+  void forget() noexcept { isKnown_ = false; }
+
+  bool isKnown() const noexcept { return isKnown_; }
+  /// Whether the place is known and was found with the center within @p distance of @p center.
+  bool isNear(const Vec3& center, double distance) const noexcept
+  {
+    return isKnown_ && norm2(center - foundAt_) <= distance * distance;
+  }
+  /// Unit normal, to the ball's side. @pre known
+  const Vec3& normal() const noexcept { return normal_; }
+  /// How high @p p is above the plane. @pre known
+  double height(const Vec3& p) const noexcept { return dot(p - point_, normal_); }
+  /// @p v without its part along the normal. @pre known
+  Vec3 along(const Vec3& v) const noexcept { return v - dot(v, normal_) * normal_; }
+  /// Whether points of the plane lie about the foot of @p hip on the side of @p slipped, where a ball of @p
+  /// radius went. @pre known
+  bool goesOn(const HapticScene& scene, const Vec3& hip, const Vec3& slipped, double radius) const noexcept;
+  /// How far along the unit vector @p direction a ball at @p center may go until it is @p most aside of @p
+  /// hip. @pre known, and the ball is not so far aside yet
+  double wayAside(const Vec3& center, const Vec3& hip, const Vec3& direction, double most) const noexcept;
+
+private:
+  Vec3 normal_;
+  Vec3 point_;
+  Vec3 foundAt_;
+  bool isKnown_ = false;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,37 @@
+/// @file
+/// Spreads what the surface does at once over time: the spring's force changes with the hand, and otherwise
+/// no faster than a limit.
+#pragma once
+
+#include "Core/Base/Vector3.h"
+
+namespace pointhaptics
+{
+
+/// The offset of the contact point from the HIP follows the hand: a tick in which the HIP moves by d may
+/// change it by kFreeSteps d, and such changes pass untouched, bit for bit. What the offset changes beyond
+/// that (the surface was let go at a rim, found again somewhere else, zoomed or swapped, or the nearest point
+/// jumped at a ridge) is kept back as a remainder, which then shrinks by at most a given length a tick to
+/// exactly zero. So the offset handed out changes by at most kFreeSteps d plus that length. One thread; no
+/// allocation.
+class OffsetSettler
+{
+public:
+  /// The spring's own step on a smooth surface is up to 1 where it is flat or convex, more in a hollow.
+  static constexpr double kFreeSteps = 2.0;
+
+  void reset() noexcept { *this = OffsetSettler(); }
+  /// @param offset contact point - HIP, metres; zero out of contact. @param moved metres the HIP went since
+  /// the last call. @param shrink metres by which the remainder may shrink in this call, at least 0.
+  /// @return the offset to feel, metres.
+  Vec3 settle(const Vec3& offset, double moved, double shrink) noexcept;
+  /// The offset was taken back to @p felt without a call, as after a fade.
+  void resumeFrom(const Vec3& felt) noexcept;
+  bool settling() const noexcept { return remainder_ != Vec3(); }
+
+private:
+  Vec3 last_;
+  Vec3 remainder_;
+};
+
+} // namespace pointhaptics

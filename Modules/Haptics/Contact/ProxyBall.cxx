@@ -1,0 +1,567 @@
+#include "Haptics/Contact/ProxyBall.h"
+
+#include "Haptics/Proxy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// r over the index cell and over the local spacing, at least.
+constexpr double kRadiusInCells = 2.0;
+constexpr double kRadiusInSpacings = 2.4;
+/// Over the radius from the bandwidth, which is some 2.9 spacings.
+constexpr double kRadiusOfField = 0.8;
+/// The spacing is that of so many points: the ball about one of them that has them is sought from this many
+/// index cells on, in steps.
+constexpr double kPoints = 16.0;
+constexpr double kFirstReach = 2.0;
+constexpr double kReachGrowth = 1.3;
+constexpr int kReaches = 12;
+/// Points further than this part of that reach from the tangent plane are of another sheet.
+constexpr double kSheetDepth = 0.15;
+/// The middle of half a disk is 0.42 radii aside; that of a few points on a whole one lies aside by chance.
+constexpr double kChanceOffset = 0.2;
+constexpr double kPartPerOffset = 2.3;
+constexpr double kLeastPart = 0.25;
+constexpr double kMostSheets = 2.0;
+/// The radius is measured again after this many index cells of way, and changes by at most this part a tick.
+constexpr double kMeasureEvery = 2.0;
+constexpr double kLargestGrowth = 1.02;
+/// Points within this many radii tell the radius.
+constexpr double kSearch = 4.0;
+
+/// Moves of one slide, and of one step: a hand at 1 m/s needs some ten.
+constexpr int kMostSlides = 24;
+constexpr int kMostRounds = 192;
+constexpr int kMostGlides = 3;
+constexpr int kMostPushes = 16;
+/// Part of the radius that is free of points from which on a ball that begins is out of them.
+constexpr double kNearlyOut = 0.8;
+/// A point nearer than this many radii is touched.
+constexpr double kTouch = 1.002;
+constexpr int kMostTouched = 16;
+/// Points nearer than so many radii pinch the ball where their normals are so far apart (a cosine).
+constexpr double kPinch = 1.02;
+constexpr double kOpposite = -0.9;
+/// Least radius of a ball that begins where it has no room, over the one it should have.
+constexpr double kSmallestRadius = 1e-3;
+/// Places further away than this many times the cloud's extent are free whatever the way there.
+constexpr double kFarAway = 1e6;
+/// A shorter way is none, over the radius.
+constexpr double kNoWay = 1e-4;
+/// Rounding that a covered point may be off by, over the radius.
+constexpr double kRounding = 1e-9;
+/// Reach of the points that tell whether the place is flat, and a smaller one for the first touch beside an
+/// edge, over the radius. A flat place serves so many radii further and up to this angle.
+constexpr double kPlaneReach = 1.4;
+constexpr double kTouchReach = 1.2;
+constexpr double kFlatNear = 2.0;
+constexpr double kFlatCosine = 0.5;
+/// How far aside of the HIP, seen along the normal of a flat place, bumps may push the ball, over its radius.
+constexpr double kMostAside = 0.25;
+/// Radius of the ball that glides, shortest pull along the surface, longest way and least gain of a glide;
+/// all over the radius.
+constexpr double kGlideRadius = 0.9;
+/// On a flat place, so many radii around where that was seen, a ball that leans less waits.
+constexpr double kWaitNear = 0.3;
+constexpr double kWaitLean = 0.2;
+/// The same for a ball that need not keep up.
+constexpr double kPatientNear = 1.0;
+constexpr double kPatientLean = 0.5;
+constexpr int kMostLifts = 3;
+constexpr double kLongestProposal = 2.0;
+constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
+constexpr double kLeastLean = 0.02;
+constexpr double kLongestGlide = 0.5;
+constexpr double kLeastGain = 1e-3;
+/// Points higher than this above the surface are of a wall; how far a glide may lift the ball.
+constexpr double kWallHeight = 0.2;
+constexpr double kLargestRise = 0.1;
+/// After a glide that did not help the HIP moves by this many radii before the next.
+constexpr double kGlideAgain = 0.05;
+
+/// The vector nearest to @p pull that leads into none of the @p count planes with the unit normals @p n.
+Vec3 withinPlanes(const Vec3& pull, const Vec3* n, int count) noexcept
+{
+  const double slack = -1e-9 * norm(pull);
+  const auto allowed = [&](const Vec3& d)
+  { return std::all_of(n, n + count, [&](const Vec3& normal) { return dot(normal, d) >= slack; }); };
+  if (allowed(pull))
+  {
+    return pull;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    const double into = dot(n[i], pull);
+    const Vec3 along = pull - into * n[i];
+    if (into < 0.0 && allowed(along))
+    {
+      return along;
+    }
+  }
+  Vec3 best;
+  for (int i = 0; i < count; ++i)
+  {
+    for (int j = i + 1; j < count; ++j)
+    {
+      const Vec3 edge = cross(n[i], n[j]);
+      const double length2 = norm2(edge);
+      const Vec3 along = length2 > 1e-12 ? (dot(pull, edge) / length2) * edge : Vec3();
+      if (norm2(along) > norm2(best) && allowed(along))
+      {
+        best = along;
+      }
+    }
+  }
+  return best;
+}
+
+/// How far @p p is outside the box.
+double distanceTo(const Bounds& box, const Vec3& p) noexcept
+{
+  Vec3 outside;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    outside[axis] = std::max({ box.minimum[axis] - p[axis], p[axis] - box.maximum[axis], 0.0 });
+  }
+  return norm(outside);
+}
+
+/// True where the way to @p p need not be looked at.
+bool isFarAway(const HapticScene& scene, const Vec3& p) noexcept
+{
+  const double far = kFarAway * (norm(scene.bounds().extent()) + scene.clearance());
+  return !(std::max({ std::abs(p.x), std::abs(p.y), std::abs(p.z) }) < far + norm(scene.bounds().maximum));
+}
+
+}
+
+void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
+{
+  // Seen from the model it is the hand that moved: what it passes on that way it meets, whatever the
+  // transform.
+  center_ = change.apply(center_);
+  hip_ = change.apply(hip_);
+  radius_ *= scale;
+  wanted_ *= scale;
+  isMeasured_ = false;
+  isHeld_ = false;
+  flat_.forget();
+}
+
+void ProxyBall::gather(Work& work, double reach) noexcept
+{
+  const bool all = work.cells.gather(work.scene.pyramid(), center_, reach, radius_ / kRadiusInCells);
+  work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
+}
+
+/// The radius that the cloud asks for at its point @p seed, seen from the ball.
+double ProxyBall::wantedRadius(Work& work, const Vec3& seed) noexcept
+{
+  constexpr double kPi = 3.14159265358979323846;
+  const Vec3 up = normalized(center_ - seed);
+  double points = 0.0;
+  double reach = kFirstReach * work.scene.cellSize();
+  for (int i = 0; i < kReaches && points < kPoints; ++i, reach *= kReachGrowth)
+  {
+    double all = 0.0;
+    double count = 0.0;
+    Vec3 sum;
+    work.scene.pyramid().visitBall(0, seed, reach,
+      [&](std::uint32_t, const Cell& cell, double)
+      {
+        const Vec3 offset = cell.mean - seed;
+        all += 1.0;
+        if (std::abs(dot(offset, up)) < kSheetDepth * reach)
+        {
+          count += 1.0;
+          sum += offset;
+        }
+      });
+    // Where the sheet ends the points fill a part of the disk alone, and their middle lies aside.
+    const double aside = norm(sum) / (std::max(1.0, count) * reach);
+    const double part = std::clamp(1.0 - kPartPerOffset * (aside - kChanceOffset), kLeastPart, 1.0);
+    // Two sheets have twice the points of one; where the gate leaves fewer the surface is bent.
+    points = std::max({ 1.0, count / part, all / kMostSheets });
+  }
+  const double spacing = reach / kReachGrowth * std::sqrt(kPi / points);
+  // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
+  Vec3 ignored;
+  const double field = kRadiusOfField * work.scene.fitScale(seed, work.fields, ignored).proxyRadius;
+  return std::max({ kRadiusInCells * work.scene.cellSize(), kRadiusInSpacings * spacing, field });
+}
+
+/// Moves the ball out of the points it covers; false where they hold it from all sides.
+bool ProxyBall::pushOut(const BallCells& cells) noexcept
+{
+  for (int push = 0; push < kMostPushes; ++push)
+  {
+    if (!cells.isCovered(center_, (1.0 - kRounding) * radius_))
+    {
+      return true;
+    }
+    double d2 = 0.0;
+    const int nearest = cells.nearest(center_, d2);
+    const Vec3 point = cells.point(nearest);
+    center_ = point + radius_ * normalized(center_ - point);
+  }
+  return false;
+}
+
+/// Whether points on two sides hold the ball.
+bool ProxyBall::isPinched(const BallCells& cells) const noexcept
+{
+  Vec3 normals[kMostTouched];
+  int touched = 0;
+  bool result = false;
+  cells.visitBall(center_, kPinch * radius_,
+    [&](const Vec3& offset, double d2)
+    {
+      const Vec3 normal = offset / std::sqrt(std::max(d2, 1e-300));
+      result = result ||
+        std::any_of(normals, normals + touched, [&](const Vec3& n) { return dot(n, normal) < kOpposite; });
+      if (touched < kMostTouched)
+      {
+        normals[touched++] = normal;
+      }
+    });
+  return result;
+}
+
+/// Begins near @p hip, outside of all points; where the ball has no room, with a smaller one.
+void ProxyBall::place(Work& work, const Vec3& hip) noexcept
+{
+  placed_ = true;
+  center_ = hip;
+  hip_ = hip;
+  radius_ = kRadiusInSpacings * work.scene.cellSize();
+  isMeasured_ = false;
+  updateRadius(work);
+  radius_ = wanted_;
+  gather(work, 2.0 * radius_);
+  double d2 = 0.0;
+  if (!pushOut(work.cells))
+  {
+    // Nearly out is out, by a ball a little smaller; else there is no room here for one of this size.
+    gather(work, radius_);
+    const bool isNearlyOut = work.cells.nearest(center_, d2) >= 0 && std::sqrt(d2) >= kNearlyOut * radius_;
+    center_ = isNearlyOut ? center_ : hip;
+    work.cells.gather(work.scene.pyramid(), center_, 2.0 * radius_, radius_);
+    if (work.cells.nearest(center_, d2) >= 0)
+    {
+      radius_ = std::max(kSmallestRadius * radius_, std::min(radius_, (1.0 - kRounding) * std::sqrt(d2)));
+    }
+  }
+  free_ = center_ == hip;
+}
+
+/// Takes the radius towards what the cloud asks for: at once where the ball is free, else little by little.
+/// It grows only where there is room, and shrinks where it is pinched between points on two sides.
+void ProxyBall::updateRadius(Work& work) noexcept
+{
+  const double every = kMeasureEvery * work.scene.cellSize();
+  if (!isMeasured_ || norm2(center_ - measuredAt_) > every * every)
+  {
+    const CellPyramid& pyramid = work.scene.pyramid();
+    const double search = kSearch * std::max(radius_, work.scene.coveringRadius(center_));
+    double distance = 0.0;
+    const std::int64_t nearest = pyramid.nearest(0, center_, search, distance);
+    wanted_ = nearest >= 0 ? wantedRadius(work, pyramid.level(0).cells[std::size_t(nearest)].mean) : radius_;
+    measuredAt_ = center_;
+    isMeasured_ = true;
+    if (free_ && wanted_ != radius_)
+    {
+      const double room = nearest >= 0 ? (1.0 - kRounding) * distance : wanted_;
+      radius_ = std::min(wanted_, std::max(radius_, room));
+    }
+  }
+  const ProxyBall before = *this;
+  const double most = adopts_ ? std::max(wanted_, radius_) : radius_ * kLargestGrowth;
+  adopts_ = false;
+  radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, most);
+  if (radius_ > before.radius_ * kLargestGrowth && !free_)
+  {
+    // Its point nearest to the HIP stays.
+    center_ += (radius_ - before.radius_) * normalized(center_ - hip_, Vec3());
+  }
+  if (radius_ > before.radius_)
+  {
+    gather(work, 2.0 * radius_);
+    if (!pushOut(work.cells))
+    {
+      *this = before;
+      adopts_ = false;
+      radius_ = isPinched(work.cells) ? radius_ / kLargestGrowth : radius_;
+    }
+    free_ = free_ && center_ == before.center_;
+  }
+}
+
+/// A free ball goes with the HIP. @return how far it came before it touched a point, metres.
+double ProxyBall::fly(Work& work, const Vec3& direction, double length) noexcept
+{
+  const Vec3 start = center_;
+  double flown = 0.0;
+  for (; flown < length && work.rounds > 0; --work.rounds)
+  {
+    double stride = distanceTo(work.scene.bounds(), center_) - radius_;
+    if (!(stride > radius_))
+    {
+      stride = work.scene.isNear(center_) ? 0.0 : work.scene.clearance() - radius_;
+    }
+    double reached = std::min(length - flown, stride);
+    if (!(stride > radius_))
+    {
+      const double wanted = std::min(length - flown, radius_);
+      gather(work, radius_ + wanted);
+      reached = work.cells.sweep(center_, direction, wanted, radius_);
+      free_ = reached == wanted;
+    }
+    flown += reached;
+    center_ = start + flown * direction;
+    if (!free_)
+    {
+      pushOut(work.cells);
+      touchDown(work);
+      break;
+    }
+  }
+  return flown;
+}
+
+/// What the ball meets first is what it lies on, also beside an edge.
+void ProxyBall::touchDown(Work& work) noexcept
+{
+  gather(work, kPlaneReach * radius_);
+  Vec3 ignored;
+  flat_.forget();
+  if (!flat_.find(work.cells, center_, radius_, kTouchReach * radius_, ignored))
+  {
+    flat_.find(work.cells, center_, radius_, kPlaneReach * radius_, ignored);
+  }
+}
+
+void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
+{
+  const bool isOnFlat =
+    flat_.isNear(center_, kFlatNear * radius_) && dot(hip - center_, flat_.normal()) < 0.0;
+  const auto aside = [&] { return norm(flat_.along(hip - center_)); };
+  const double mostAside = isOnFlat ? std::max(kMostAside * radius_, aside()) : 0.0;
+  for (int i = 0; i < kMostSlides && work.rounds > 0; ++i, --work.rounds)
+  {
+    const Vec3 pull = hip - center_;
+    const double longest = std::min(norm(pull), radius_);
+    gather(work, kTouch * radius_ + longest);
+    Vec3 normals[kMostTouched];
+    int touched = 0;
+    work.cells.visitBall(center_, kTouch * radius_,
+      [&](const Vec3& offset, double d2)
+      {
+        if (touched < kMostTouched)
+        {
+          normals[touched++] = offset / std::sqrt(d2);
+        }
+      });
+    const Vec3 way = withinPlanes(pull, normals, touched);
+    const double length = norm(way);
+    const bool isOpen = way == pull;
+    if (length < kNoWay * radius_ && !(isOpen && length < kNoWay * work.scene.cellSize()))
+    {
+      return;
+    }
+    const Vec3 direction = normalized(way);
+    const double wanted = std::min(length, longest);
+    const double reached = work.cells.sweep(center_, direction, wanted, radius_);
+    if (isOpen && reached == length)
+    {
+      center_ = hip;
+      free_ = true;
+      return;
+    }
+    const Vec3 before = center_;
+    center_ += reached * direction;
+    pushOut(work.cells);
+    // Bumps would lead the ball around an edge that the hand has not passed.
+    if (isOnFlat && aside() > mostAside && flat_.goesOn(work.scene, hip, center_, radius_))
+    {
+      center_ = before + std::min(reached, flat_.wayAside(before, hip, direction, mostAside)) * direction;
+      return;
+    }
+  }
+  work.status |= kProxyRoundLimit;
+}
+
+/// The normal of the surface that the ball lies on: of a plane through the points about it. Where they are
+/// not flat, as at an edge, the last flat one near by: the ball has not gone around yet.
+Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
+{
+  Vec3 away;
+  if (!flat_.find(cells, center_, radius_, kPlaneReach * radius_, away) &&
+    !(flat_.isNear(center_, kFlatNear * radius_) && dot(flat_.normal(), away) >= kFlatCosine))
+  {
+    flat_.forget();
+  }
+  return flat_.isKnown() ? flat_.normal() : away;
+}
+
+/// Whether the ball lies on a flat place and leans so little that it may wait.
+bool ProxyBall::mayWait(const Vec3& hip) const noexcept
+{
+  return flat_.isNear(center_, (isPatient_ ? kPatientNear : kWaitNear) * radius_) &&
+    norm(flat_.along(hip - center_)) < (isPatient_ ? kPatientLean : kWaitLean) * radius_;
+}
+
+bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
+{
+  gather(work, kPlaneReach * radius_);
+  const Vec3 up = surfaceNormal(work.cells);
+  const Vec3 pull = hip - center_;
+  const Vec3 lean = pull - dot(pull, up) * up;
+  const double leaning = norm(lean);
+  if (leaning < kLeastLean * radius_)
+  {
+    return false;
+  }
+  // What rises from the surface is a wall: there only what brings the ball nearer to the HIP is progress.
+  bool isWalled = !flat_.isKnown();
+  const double highest = isWalled ? 0.0 : flat_.height(center_) - kWallHeight * radius_;
+  work.cells.visitBall(center_, kPlaneReach * radius_,
+    [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < highest; });
+  const ProxyBall before = *this;
+  const Vec3 direction = lean / leaning;
+  gather(work, (1.0 + kLongestGlide + kLifts[kMostLifts - 1]) * radius_);
+  for (const double lift : kLifts)
+  {
+    // Bumps are passed by a smaller ball, deeper gaps are left by lifting it.
+    const double ball = lift > 0.0 ? radius_ : kGlideRadius * radius_;
+    center_ += work.cells.sweep(center_, up, lift * radius_, ball) * up;
+    center_ +=
+      work.cells.sweep(center_, direction, std::min(leaning, kLongestGlide * radius_), ball) * direction;
+    const bool isOut = pushOut(work.cells);
+    if (lift > 0.0)
+    {
+      slide(work, hip);
+    }
+    const Vec3 left = hip - center_;
+    const double stillLeaning = isWalled ? norm(left) : norm(left - dot(left, up) * up);
+    if (isOut && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
+      norm(left) <= norm(pull) + kLargestRise * radius_)
+    {
+      if (lift == 0.0)
+      {
+        slide(work, hip);
+      }
+      return true;
+    }
+    *this = before;
+  }
+  return false;
+}
+
+bool ProxyBall::goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
+  const Vec3& up, std::uint32_t& status) noexcept
+{
+  Work work{ scene, fields, cells, kMostRounds, status };
+  const ProxyBall before = *this;
+  const Vec3 place = foot + radius_ * up;
+  const double distance = norm(place - center_);
+  if (distance > kLongestProposal * radius_)
+  {
+    return false;
+  }
+  gather(work, (1.0 + kLifts[kMostLifts - 1]) * radius_ + distance);
+  for (int i = 1; i < kMostLifts; ++i)
+  {
+    center_ += work.cells.sweep(center_, up, kLifts[i] * radius_, radius_) * up;
+    const Vec3 way = place + kLifts[i] * radius_ * up - center_;
+    const double length = norm(way);
+    const Vec3 direction = normalized(way);
+    center_ += work.cells.sweep(center_, direction, length, radius_) * direction;
+    slide(work, hip_);
+    if (norm(hip_ - center_) < norm(hip_ - before.center_) - kLeastGain * radius_)
+    {
+      return true;
+    }
+    *this = before;
+  }
+  return false;
+}
+
+/// Follows the HIP along its way: free, or in strides of a radius where points are touched.
+void ProxyBall::walk(Work& work, const Vec3& hip) noexcept
+{
+  const Vec3 start = hip_;
+  const double length = norm(hip - start);
+  const Vec3 direction = length > 0.0 ? (hip - start) / length : Vec3();
+  double walked = 0.0;
+  do
+  {
+    if (free_)
+    {
+      walked += fly(work, direction, length - walked);
+    }
+    if (!free_)
+    {
+      walked = std::min(length, walked + radius_);
+    }
+    hip_ = walked < length ? start + walked * direction : hip;
+    if (free_)
+    {
+      center_ = hip_;
+    }
+    else
+    {
+      slide(work, hip_);
+    }
+  } while (walked < length && work.rounds > 0);
+}
+
+void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
+  std::uint32_t& status) noexcept
+{
+  Work work{ scene, fields, cells, kMostRounds, status };
+  if (isFarAway(scene, hip) || (placed_ && isFarAway(scene, hip_)))
+  {
+    reset();
+    center_ = hip_ = hip;
+    radius_ = kRadiusInSpacings * scene.cellSize();
+  }
+  if (isFarAway(scene, hip))
+  {
+    return;
+  }
+  if (!placed_)
+  {
+    place(work, hip);
+  }
+  if (!free_ || scene.isNear(center_))
+  {
+    updateRadius(work);
+  }
+
+  walk(work, hip);
+  there_ = hip_ == hip;
+  status |= std::uint32_t(there_ ? kProxyOk : kProxyStepLimit);
+  const double again = kGlideAgain * radius_;
+  if (free_ || (isHeld_ && norm2(hip - heldAt_) < again * again) || mayWait(hip))
+  {
+    return;
+  }
+  isHeld_ = false;
+  const int glides = isPatient_ ? 1 : kMostGlides;
+  for (int i = 0; i < glides && !free_ && there_; ++i)
+  {
+    if (!glide(work, hip))
+    {
+      isHeld_ = true;
+      heldAt_ = hip;
+      break;
+    }
+  }
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,111 @@
+/// @file
+/// The paper's spherical proxy, exact: a ball among the points that decides about contact.
+#pragma once
+
+#include "Core/Surface/FitCells.h"
+#include "Haptics/Contact/BallCells.h"
+#include "Haptics/Contact/FlatPlace.h"
+#include "Haptics/HapticScene.h"
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+
+/// A ball that never covers a point of the cloud and goes to the HIP unless something is in its way. That is
+/// all it knows: no rule about rims, edges, holes or sides. It is free exactly when its center is the HIP.
+///
+/// Each tick it slides: the way to the HIP, with what points into the points it touches taken out (up to
+/// three planes; Zilles and Salisbury 1995), cut where it would meet the next one. Where the bumps between
+/// the points hold it although the pull leans, it glides: a slightly smaller ball goes along the smoothed
+/// surface, and the ball follows where that brings it nearer to the HIP. Beside an edge the bumps would lead
+/// it around: it does not leave the flat place that it lies on while that goes on under the HIP.
+///
+/// Its radius is the paper's r_p, less a fifth, but at least max(2 h, 2.4 s), h the index cell and s the
+/// spacing of the points about it: a smaller one would fall through the gaps of a random sample. Lattice
+/// frame, metres. Plain state; no allocation; bounded work; one thread.
+class ProxyBall
+{
+public:
+  void reset() noexcept { *this = ProxyBall(); }
+  /// The ball moves with the model: @p change takes a place of the old lattice frame into the new one.
+  void carry(const AffineTransform& change, double scale) noexcept;
+
+  /// The next step is in other cells of the same place: its radius is right for them at once, lest it fall
+  /// between coarser ones.
+  void changeCells() noexcept
+  {
+    isMeasured_ = false;
+    adopts_ = true;
+  }
+
+  /// A patient ball lets bumps hold it back by up to half its radius: something else follows the surface.
+  void setPatient(bool patient) noexcept { isPatient_ = patient; }
+
+  /// @param fields the memory for the scene's fields. @param cells the memory of the points near the ball.
+  /// @param hip finite. @param status receives bits.
+  void step(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& hip,
+    std::uint32_t& status) noexcept;
+
+  /// The ball is at the HIP.
+  bool isFree() const noexcept { return free_; }
+  /// Goes, lifted over the bumps between points, to where it would lie on a surface through @p foot with the
+  /// unit normal @p up, if nothing is in its way and that brings it nearer to the HIP. False: it stays.
+  bool goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot, const Vec3& up,
+    std::uint32_t& status) noexcept;
+  /// False: the HIP went further than one step can follow; the ball is on its way.
+  bool isThere() const noexcept { return there_; }
+  const Vec3& center() const noexcept { return center_; }
+  double radius() const noexcept { return radius_; }
+  /// The ball's point nearest to @p hip. @pre not free
+  Vec3 nearestPoint(const Vec3& hip) const noexcept
+  {
+    const Vec3 pull = hip - center_;
+    const double length = norm(pull);
+    return length > 0.0 ? center_ + (radius_ / length) * pull : center_;
+  }
+  /// How deep the HIP is below that point, metres; negative: the HIP is inside the ball.
+  double depth(const Vec3& hip) const noexcept { return norm(hip - center_) - radius_; }
+
+private:
+  /// What a step works with.
+  struct Work
+  {
+    const HapticScene& scene;
+    FitCells& fields;
+    BallCells& cells;
+    int rounds;
+    std::uint32_t& status;
+  };
+
+  void place(Work& work, const Vec3& hip) noexcept;
+  void updateRadius(Work& work) noexcept;
+  double wantedRadius(Work& work, const Vec3& seed) noexcept;
+  void walk(Work& work, const Vec3& hip) noexcept;
+  double fly(Work& work, const Vec3& direction, double length) noexcept;
+  void slide(Work& work, const Vec3& hip) noexcept;
+  bool mayWait(const Vec3& hip) const noexcept;
+  bool glide(Work& work, const Vec3& hip) noexcept;
+  void touchDown(Work& work) noexcept;
+  Vec3 surfaceNormal(const BallCells& cells) noexcept;
+  bool pushOut(const BallCells& cells) noexcept;
+  bool isPinched(const BallCells& cells) const noexcept;
+  void gather(Work& work, double reach) noexcept;
+
+  Vec3 center_;
+  double radius_ = 0.0;
+  double wanted_ = 0.0;
+  Vec3 hip_; ///< As far as the ball has followed it.
+  Vec3 measuredAt_;
+  Vec3 heldAt_; ///< The HIP when gliding did not help.
+  FlatPlace flat_;
+  bool isHeld_ = false;
+  bool isPatient_ = false;
+  bool isMeasured_ = false;
+  bool free_ = true;
+  bool there_ = true;
+  bool adopts_ = false;
+  bool placed_ = false;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,188 @@
+#include "Haptics/Contact/SurfaceFitProxy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr int kRoundsPerTick = 8;
+/// While the fit is lost it is sought every so many ticks: what failed a moment ago mostly fails again.
+constexpr int kSeekEvery = 4;
+constexpr double kSeekBelow = 0.5;
+/// RMS distance of the points from the fit, over the ball's radius, up to which the surface is smooth.
+constexpr double kSmoothResidual = 0.03;
+/// How far the fit's point may be from the ball's: over the ball's radius, and over the depth, as bumps
+/// between points hold the ball back by up to so much of it.
+constexpr double kTrustRadii = 0.2;
+constexpr double kTrustDepths = 0.3;
+/// The same where the ball lies on a smooth surface, over its radius.
+constexpr double kTrustPlain = 0.6;
+/// The ball speaks alone from this many times that distance on.
+constexpr double kDistrust = 1.5;
+/// The ball sinks into the gaps between points: it may be this much above the surface, over its radius, and
+/// how fast contact ends when it is higher.
+constexpr double kReleaseSlope = 1.25;
+
+double smoothStep(double t) noexcept
+{
+  const double s = std::clamp(t, 0.0, 1.0);
+  return s * s * (3.0 - 2.0 * s);
+}
+
+}
+
+void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& to) noexcept
+{
+  const AffineTransform change = to * from.inverse();
+  ball_.carry(change, std::cbrt(std::abs(change.determinant())));
+  tracker_.carry(from, to);
+  friction_.carry(change);
+  normal_ = normalized(change.applyToNormal(normal_), normal_);
+}
+
+/// Finds the fitted surface at the ball's point nearest to the HIP, from the ball's side.
+bool SurfaceFitProxy::seek(const HapticScene& scene, FitCells& fit, const Vec3& hip) noexcept
+{
+  double distance = 0.0;
+  const std::int64_t cell =
+    scene.pyramid().nearest(0, ball_.nearestPoint(hip), 2.0 * ball_.radius(), distance);
+  SurfaceTracker found;
+  if (cell < 0 ||
+    !found.acquire(scene, fit, scene.pyramid().level(0).cells[std::size_t(cell)].mean, ball_.center()) ||
+    found.follow(scene, fit, hip, kRoundsPerTick) == TrackResult::Lost)
+  {
+    return false;
+  }
+  tracker_ = found;
+  return true;
+}
+
+/// Whether the ball lies above a smooth surface that goes on all around: what it sinks into are gaps between
+/// points, and nothing that a hand could fall off.
+bool SurfaceFitProxy::isPlain() const noexcept
+{
+  return tracker_.height(ball_.center()) > 0.0 && tracker_.goesOn() &&
+    tracker_.residual() < kSmoothResidual * ball_.radius();
+}
+
+/// Follows the fit to the HIP. @return how much of the answer is the fit's, 0 to 1.
+double SurfaceFitProxy::fitShare(
+  const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
+{
+  FitCells& fit = memory.fit;
+  const auto share = [&]
+  {
+    const double trust =
+      std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
+        isPlain() ? kTrustPlain * ball_.radius() : 0.0);
+    const double apart = norm(tracker_.point() - ball_.nearestPoint(hip));
+    const bool agrees = tracker_.height(ball_.center()) > 0.0;
+    return agrees ? 1.0 - smoothStep((apart - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
+  };
+  double result = 0.0;
+  if (hasFit_)
+  {
+    const TrackResult followed = tracker_.follow(scene, fit, hip, kRoundsPerTick);
+    status |= std::uint32_t(followed == TrackResult::RoundLimit ? kProxyRoundLimit : kProxyOk);
+    result = followed == TrackResult::Lost ? 0.0 : share();
+    // Where the surface is smooth a ball that lags behind is held by bumps.
+    if (followed != TrackResult::Lost && result < 1.0 && tracker_.height(ball_.center()) > 0.0 &&
+      tracker_.residual() < kSmoothResidual * ball_.radius() &&
+      ball_.goTo(scene, memory.fit, memory.ball, tracker_.point(), tracker_.normal(), status))
+    {
+      result = share();
+    }
+    hasFit_ = result > 0.0;
+  }
+  if (result < kSeekBelow && ticksWithoutFit_++ % kSeekEvery == 0)
+  {
+    const SurfaceTracker before = tracker_;
+    const double sought = seek(scene, fit, hip) ? share() : 0.0;
+    if (sought > result)
+    {
+      result = sought;
+      hasFit_ = true;
+    }
+    else
+    {
+      tracker_ = before;
+    }
+  }
+  if (result == 1.0)
+  {
+    ticksWithoutFit_ = 0;
+  }
+  return result;
+}
+
+void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const ContactParameters& parameters,
+  const Vec3& hip, bool refines, ProxyState& state) noexcept
+{
+  memory.fit.forgetOverflow();
+  ball_.setPatient(isPatient_);
+  ball_.step(scene, memory.fit, memory.ball, hip, state.status);
+  Contact contact;
+  double share = 0.0;
+  if (ball_.isFree() || !ball_.isThere())
+  {
+    hasFit_ = false;
+    isPatient_ = false;
+    ticksWithoutFit_ = 0;
+  }
+  else
+  {
+    const double depth = ball_.depth(hip);
+    share = refines ? fitShare(scene, memory, hip, state.status) : 0.0;
+    isPatient_ = share == 1.0 && isPlain();
+    const Vec3 ballPoint = ball_.nearestPoint(hip);
+    Vec3 offset = (1.0 - share) * (depth > 0.0 ? ballPoint - hip : Vec3());
+    contact.normal = (1.0 - share) * normalized(ball_.center() - hip, normal_);
+    if (share > 0.0)
+    {
+      const double allowed = std::max(0.0, kTrustRadii * ball_.radius() + kReleaseSlope * depth);
+      const Vec3 up = tracker_.point() - hip;
+      const bool pressed =
+        tracker_.height(hip) <= 0.0 && (depth > 0.0 || norm2(up) <= allowed * allowed || isPlain());
+      offset += share * (pressed ? up : Vec3());
+      contact.normal += share * tracker_.normal();
+    }
+    contact.pressed = offset != Vec3();
+    contact.point = hip + offset;
+    contact.normal = normalized(contact.normal, normal_);
+    state.status |= std::uint32_t(refines && share < 1.0 && contact.pressed ? kProxyBallSpeaks : kProxyOk);
+  }
+  state.status |= std::uint32_t(memory.fit.overflowed() ? kProxyCellLimit : kProxyOk);
+  state.contact = contact.pressed;
+  if (contact.pressed)
+  {
+    normal_ = contact.normal;
+    const auto along = [&](const Vec3& t, Vec3& point, Vec3& normal)
+    {
+      if (share == 1.0)
+      {
+        tracker_.alongSurface(t, point, normal);
+        return;
+      }
+      point = contact.point + t;
+      normal = contact.normal;
+    };
+    state.proxy = friction_.contactPoint(
+      parameters, contact.point, contact.normal, norm(contact.point - hip), hip, along);
+  }
+  else
+  {
+    friction_.reset();
+    state.proxy = hip;
+  }
+  Vec3 ignored;
+  state.normal = normal_;
+  state.radius = !refines ? ball_.radius()
+    : share == 1.0        ? tracker_.proxyRadius()
+                          : scene.fitScale(hip, memory.fit, ignored).proxyRadius;
+  state.sphereCenter = state.contact ? state.proxy + state.radius * normal_ : hip;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,69 @@
+/// @file
+/// The accurate proxy: a ball decides about contact, a local surface fit refines where it is.
+#pragma once
+
+#include "Haptics/Contact/FrictionCone.h"
+#include "Haptics/Contact/ProxyBall.h"
+#include "Haptics/Contact/SurfaceTracker.h"
+#include "Haptics/Proxy.h"
+
+namespace pointhaptics
+{
+
+/// The ball among the points says whether there is contact. While the surface that is fitted to the points
+/// agrees with the ball, contact point and normal are the fit's; else they are the ball's, and the fit is
+/// sought again. One thread; no allocation; bounded work.
+class SurfaceFitProxy
+{
+public:
+  /// What is gathered near the proxy; serves one proxy at a time.
+  struct Memory
+  {
+    explicit Memory(InstructionSet wanted)
+      : fit(wanted)
+      , ball(wanted)
+    {
+    }
+
+    FitCells fit;
+    BallCells ball;
+
+    void forget() noexcept
+    {
+      fit.forget();
+      ball.forget();
+    }
+  };
+
+  /// A contact moves with the model from one transform to another.
+  void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
+  /// The scene is another of the same model, finer or coarser.
+  void changeCells() noexcept { ball_.changeCells(); }
+  void reset() noexcept { *this = SurfaceFitProxy(); }
+  /// @pre hip finite. Fills all of the state but force. @param refines false: the ball alone is felt.
+  void step(const HapticScene& scene, Memory& memory, const ContactParameters& parameters, const Vec3& hip,
+    bool refines, ProxyState& state) noexcept;
+
+private:
+  /// A point of the surface nearest to the HIP, the unit normal there, and whether the HIP is below it.
+  struct Contact
+  {
+    Vec3 point;
+    Vec3 normal;
+    bool pressed = false;
+  };
+
+  double fitShare(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
+  bool seek(const HapticScene& scene, FitCells& fit, const Vec3& hip) noexcept;
+  bool isPlain() const noexcept;
+
+  ProxyBall ball_;
+  SurfaceTracker tracker_;
+  FrictionCone friction_;
+  Vec3 normal_{ 0.0, 0.0, 1.0 };
+  bool hasFit_ = false;
+  bool isPatient_ = false; ///< The fit followed a smooth surface that goes on all around.
+  int ticksWithoutFit_ = 0;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,246 @@
+#include "Haptics/Contact/SurfaceTracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Converged when a round moves the point by less than this part of the fit radius.
+constexpr double kConverged = 3e-5;
+/// Part of the noise below which moving on is pointless.
+constexpr double kConvergedNoise = 1e-3;
+constexpr double kSmallestDamping = 0.15;
+constexpr double kAwaySlack = 1e-3;
+/// A point that moves further than this many fit radii from where it started has lost its sheet.
+constexpr double kLostRadii = 2.0;
+constexpr int kAcquireRounds = 8;
+constexpr int kWidenings = 2;
+constexpr double kWidening = 1.4;
+/// Part of the fit radius in which the fit stands for the surface.
+constexpr double kReach = 0.5;
+/// Weighted centroid of the cells over the fit radius up to which the surface goes on (0.235 on a straight
+/// rim).
+constexpr double kInner = 0.1;
+/// Fit radius over counted radius at which the traced slopes, which amplify noise, begin to fade and are
+/// gone.
+constexpr double kTracedUpTo = 1.05;
+constexpr double kTracedNoMore = 1.3;
+
+double tracedStrength(const LocalScale& scale)
+{
+  const double growth = scale.radius / scale.countRadius;
+  const double t = std::clamp((growth - kTracedUpTo) / (kTracedNoMore - kTracedUpTo), 0.0, 1.0);
+  return 1.0 - t * t * (3.0 - 2.0 * t);
+}
+
+}
+
+void SurfaceTracker::adopt(const Vec3& foot, const Vec3& normal) noexcept
+{
+  frame_.origin = foot;
+  frame_.turnTo(normal);
+  for (int i = 0; i < 3; ++i)
+  {
+    curvature_[i] = fit_.k[3 + i] / fit_.radius;
+  }
+}
+
+bool SurfaceTracker::findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept
+{
+  Vec3 ignored;
+  const LocalScale scale = scene.fitScale(onSurface, memory, ignored);
+  const double radius = scale.radius;
+  const double gate = std::max(2.0 * kGateDepth * scale.countRadius, scale.gate);
+  SurfaceTracker best;
+  bool found = false;
+  for (const double part : { 1.0, 0.7, 1.4 })
+  {
+    Vec3 normal;
+    SurfaceTracker attempt;
+    if (!principalNormal(scene.pyramid(), onSurface, part * radius, normal))
+    {
+      continue;
+    }
+    attempt.frame_.turnTo(normal);
+    if (!settleOnSurface(scene.pyramid(), onSurface, radius, gate, memory, attempt.frame_, attempt.fit_,
+          attempt.curvature_) ||
+      norm2(attempt.point() - onSurface) > radius * radius)
+    {
+      continue;
+    }
+    if (!found || attempt.residual() < 0.8 * best.residual())
+    {
+      best = attempt;
+      found = true;
+    }
+    // A clean sheet needs no second try.
+    if (best.residual() < 0.05 * radius)
+    {
+      break;
+    }
+  }
+  if (found)
+  {
+    *this = best;
+  }
+  return found;
+}
+
+bool SurfaceTracker::settle(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept
+{
+  SurfaceTracker best;
+  if (!best.findSheet(scene, memory, onSurface) ||
+    best.follow(scene, memory, onSurface, kAcquireRounds) == TrackResult::Lost)
+  {
+    return false;
+  }
+  *this = best;
+  return true;
+}
+
+void SurfaceTracker::flip() noexcept
+{
+  frame_.turnTo(-frame_.normal);
+  std::transform(curvature_, curvature_ + 3, curvature_, [](double c) { return -c; });
+  fresh_ = false;
+}
+
+bool SurfaceTracker::acquire(
+  const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& freeSide) noexcept
+{
+  SurfaceTracker best;
+  if (!best.findSheet(scene, memory, onSurface))
+  {
+    return false;
+  }
+  // Following may find that the free side is the other one.
+  for (int side = 0; side < 2; ++side)
+  {
+    if (best.height(freeSide) < 0.0)
+    {
+      best.flip();
+    }
+    if (best.follow(scene, memory, freeSide, kAcquireRounds) == TrackResult::Lost)
+    {
+      return false;
+    }
+    if (best.height(freeSide) >= 0.0)
+    {
+      *this = best;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
+{
+  FitSettings settings;
+  TracedSlopes slopes;
+  const LocalScale scale = scene.fitScale(frame_.origin, memory, slopes.radiusGradient);
+  slopes.strength = scene.hasExactMoments() ? tracedStrength(scale) : 0.0;
+  slopes.cubic = scale.cubic;
+  settings.radius = scale.radius;
+  settings.gate = scale.gate;
+  std::copy(curvature_, curvature_ + 3, settings.curvature);
+  SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings, memory, &slopes);
+  // Few points that lie badly tell a plane alone: those a little further tell more.
+  for (int i = 0; i < kWidenings && fit.quality != FitQuality::Quadric; ++i)
+  {
+    settings.radius *= kWidening;
+    slopes.radiusGradient *= kWidening;
+    fit = fitSurface(scene.pyramid(), frame_, settings, memory, &slopes);
+  }
+  if (fit.quality == FitQuality::None)
+  {
+    return false;
+  }
+  fit_ = fit;
+  fitFrame_ = frame_;
+  scale_ = scale;
+  return true;
+}
+
+TrackResult SurfaceTracker::follow(
+  const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept
+{
+  const Vec3 start = frame_.origin;
+  Vec3 lastPoint = start;
+  Vec3 lastStep;
+  double lastLength = 0.0;
+  double lastDistance = 0.0;
+  for (int round = 0; round < rounds; ++round)
+  {
+    // The first round takes the fit of the last call: it was made a step too small to matter away.
+    if (!fresh_ && !refit(scene, memory))
+    {
+      return TrackResult::Lost;
+    }
+    fresh_ = false;
+    Vec3 foot;
+    Vec3 normal;
+    footPoint(fit_, fitFrame_, target, foot, normal);
+    Vec3 step = foot - frame_.origin;
+    const double length = norm(step);
+    // Rounds that shrink too slowly, or lead away from the target, swing about the answer: shorten the
+    // tangential step, by Barzilai and Borwein's estimate of the slope, at least by half when the last round
+    // went away.
+    const double distance = norm(target - frame_.origin);
+    const bool away = round > 0 && distance > lastDistance + kAwaySlack * fit_.radius;
+    if (round > 0 && (away || length > 0.5 * lastLength))
+    {
+      const Vec3 s = frame_.origin - lastPoint;
+      const Vec3 y = step - lastStep;
+      const double yy = norm2(y);
+      const double part = std::clamp(yy > 0.0 ? -dot(s, y) / yy : 1.0, kSmallestDamping, away ? 0.5 : 1.0);
+      pointAt(fit_, fitFrame_, part / fit_.radius * dot(step, fitFrame_.a),
+        part / fit_.radius * dot(step, fitFrame_.b), foot, normal);
+    }
+    lastDistance = distance;
+    lastPoint = frame_.origin;
+    lastStep = step;
+    lastLength = length;
+    // Negated, so that a foot that is not finite is lost too.
+    if (!(norm(foot - start) <= kLostRadii * fit_.radius))
+    {
+      return TrackResult::Lost;
+    }
+    adopt(foot, normal);
+    if (length <= std::max(kConverged * fit_.radius, kConvergedNoise * fit_.residual))
+    {
+      fresh_ = true;
+      return TrackResult::Converged;
+    }
+  }
+  return TrackResult::RoundLimit;
+}
+
+void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& to) noexcept
+{
+  const AffineTransform change = to * from.inverse();
+  frame_.origin = change.apply(frame_.origin);
+  frame_.turnTo(normalized(change.applyToNormal(frame_.normal), frame_.normal));
+  std::fill(curvature_, curvature_ + 3, 0.0);
+  fresh_ = false;
+}
+
+bool SurfaceTracker::goesOn() const noexcept
+{
+  return fit_.quality == FitQuality::Quadric && std::hypot(fit_.centroidU, fit_.centroidV) < kInner;
+}
+
+void SurfaceTracker::alongSurface(const Vec3& t, Vec3& point, Vec3& normal) const noexcept
+{
+  const Vec3 local = (1.0 / fit_.radius) * fitFrame_.toLocal(frame_.origin + t);
+  const double length = std::hypot(local.x, local.y);
+  const double scale = length > kReach ? kReach / length : 1.0;
+  pointAt(fit_, fitFrame_, scale * local.x, scale * local.y, point, normal);
+  // Past the fit's reach its curvature says nothing.
+  const Vec3 rest = (1.0 - scale) * fit_.radius * (local.x * fitFrame_.a + local.y * fitFrame_.b);
+  point += rest - dot(rest, normal) * normal;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,69 @@
+/// @file
+/// A point that stays on the local surface fit, nearest to where it is told to look.
+#pragma once
+
+#include "Core/Surface/SurfaceFit.h"
+#include "Haptics/HapticScene.h"
+
+namespace pointhaptics
+{
+
+/// The result of following the surface to the point nearest to a target.
+enum class TrackResult
+{
+  Converged,
+  RoundLimit, ///< Still moving after the last round; the point is on the surface, its foot is not exact.
+  Lost,       ///< No surface to fit here, or the point ran away.
+};
+
+/// Follows one sheet of a scene. Remembers the side it is on by its normal: no global orientation of the
+/// cloud is needed. Plain state; no allocation; one thread.
+class SurfaceTracker
+{
+public:
+  /// Finds the sheet at the cell mean @p onSurface, its normal towards @p freeSide. False where there is
+  /// none.
+  bool acquire(
+    const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& freeSide) noexcept;
+
+  /// The same without a free side: to the surface point nearest to @p onSurface, the normal on either side.
+  bool settle(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
+
+  /// Moves to the surface point nearest to @p target, at most @p rounds fits.
+  TrackResult follow(const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept;
+
+  /// Carries point and normal along with the model from one transform to another.
+  void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
+
+  /// Height of a point above the surface, along the normal; negative inside.
+  double height(const Vec3& p) const noexcept { return dot(p - frame_.origin, frame_.normal); }
+  const Vec3& point() const noexcept { return frame_.origin; }
+  const Vec3& normal() const noexcept { return frame_.normal; }
+  /// The surface point above the tangent offset @p t from point(), and the normal there, by the last fit;
+  /// past half a fit radius along the tangent there.
+  void alongSurface(const Vec3& t, Vec3& point, Vec3& normal) const noexcept;
+  /// RMS distance of the cells from the last fit: the noise, metres.
+  double residual() const noexcept { return fit_.residual; }
+  /// Whether the surface goes on all around: the cells lie about the point, and not on one side of it.
+  bool goesOn() const noexcept;
+  double fitRadius() const noexcept { return fit_.radius; }
+  double proxyRadius() const noexcept { return scale_.proxyRadius; }
+
+private:
+  /// The sheet through the cells about @p onSurface, near enough to follow it.
+  bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
+  /// Fits anew at frame_. False: there is no surface to fit.
+  bool refit(const HapticScene& scene, FitCells& memory) noexcept;
+  /// Looks from the other side.
+  void flip() noexcept;
+  void adopt(const Vec3& foot, const Vec3& normal) noexcept;
+
+  SurfaceFrame frame_;
+  SurfaceFit fit_;
+  SurfaceFrame fitFrame_; ///< The frame of fit_: a little behind frame_.
+  LocalScale scale_;      ///< At the origin of fitFrame_.
+  bool fresh_ = false;    ///< fit_ tells of the surface about frame_: the next step may begin with it.
+  double curvature_[3] = { 0.0, 0.0, 0.0 };
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,18 @@
+/// @file
+/// What the servo loop says where it refuses something.
+#pragma once
+
+#include "Core/Base/Status.h"
+#include "Haptics/HapticParameters.h"
+#include "Haptics/Servo/PassivityLimit.h"
+
+#include <string>
+
+namespace pointhaptics
+{
+
+/// @p status itself, with the limit in @p message (where given) where a spring or a rate is refused.
+Status explained(Status status, const HandLimits& limits, const ContactParameters& contact, double rateHz,
+  std::string* message);
+
+} // namespace pointhaptics

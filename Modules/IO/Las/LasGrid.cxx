@@ -1,0 +1,199 @@
+#include "IO/Las/LasGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+constexpr double kTiny = std::numeric_limits<double>::min();
+
+/// Coordinates along one axis, and their ends.
+struct Axis
+{
+  std::vector<double> coordinates;
+  double smallest = 0.0;
+  double largest = 0.0;
+
+  double half() const { return std::max(0.5 * largest - 0.5 * smallest, kTiny); }
+  double center() const { return 0.5 * smallest + 0.5 * largest; }
+  double farthest() const { return std::max({ std::abs(smallest), std::abs(largest), kTiny }); }
+};
+
+Axis makeAxis(ConstColumnView column, vtkIdType count)
+{
+  Axis axis;
+  axis.coordinates.resize(static_cast<std::size_t>(count));
+  copyStrided(
+    column, { reinterpret_cast<char*>(axis.coordinates.data()), sizeof(double), VTK_DOUBLE }, count);
+  const auto ends = std::minmax_element(axis.coordinates.begin(), axis.coordinates.end());
+  axis.smallest = *ends.first;
+  axis.largest = *ends.second;
+  return axis;
+}
+
+/// The integers of the grid. @return false at the first coordinate that it gives back more than @p tolerance
+/// away.
+bool place(const Axis& axis, double tolerance, LasGrid& grid)
+{
+  grid.integers.resize(axis.coordinates.size());
+  grid.largestError = 0.0;
+  for (std::size_t i = 0; i < axis.coordinates.size(); ++i)
+  {
+    const double wanted = axis.coordinates[i];
+    const double steps = std::clamp(std::nearbyint((wanted - grid.offset) / grid.scale), -kMost, kMost);
+    const double given = steps * grid.scale + grid.offset;
+    const double error = std::abs(given - wanted);
+    if (!(error <= tolerance))
+    {
+      return false;
+    }
+    grid.integers[i] = static_cast<std::int32_t>(steps);
+    grid.largestError = std::max(grid.largestError, error);
+  }
+  return true;
+}
+
+/// 10 to the power of @p exponent, the double next to it.
+double powerOfTen(int exponent)
+{
+  return std::strtod(("1e" + std::to_string(exponent)).c_str(), nullptr);
+}
+
+/// Whether @p offset is within reach of all coordinates.
+bool spans(const Axis& axis, double scale, double offset)
+{
+  return axis.largest - offset <= scale * kMost && offset - axis.smallest <= scale * kMost;
+}
+
+/// The offset with the fewest digits from which the steps of @p grid span the axis: 0 where it can be.
+void findRoundOffset(const Axis& axis, LasGrid& grid)
+{
+  constexpr int kMostDigits = 10;
+  const int exponent = static_cast<int>(std::floor(std::log10(grid.scale)));
+  for (int digits = kMostDigits; digits >= 0; --digits)
+  {
+    // A whole power of ten is a double, a fraction is not: what divides is exact.
+    const int power = exponent + digits;
+    const double unit = powerOfTen(std::abs(power));
+    grid.offset =
+      power < 0 ? std::nearbyint(axis.center() * unit) / unit : std::nearbyint(axis.center() / unit) * unit;
+    if (spans(axis, grid.scale, grid.offset))
+    {
+      return;
+    }
+  }
+}
+
+/// On the coarsest of some grids of whole decimals that gives each coordinate back. False: there is none.
+bool placeOnDecimals(const Axis& axis, double tolerance, LasGrid& grid)
+{
+  for (const double scale : { 1.0, 0.1, 0.01, 0.001, 0.0001 })
+  {
+    for (const double offset : { 0.0, std::floor(axis.smallest), axis.smallest })
+    {
+      grid.scale = scale;
+      grid.offset = offset;
+      if (place(axis, tolerance, grid))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool placeExactly(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
+{
+  grid.scale = wanted.scale;
+  grid.offset = wanted.offset;
+  return (wanted.scale > 0.0 && place(axis, 0.0, grid)) || placeOnDecimals(axis, 0.0, grid);
+}
+
+/// The finest steps of a power of two: at most 2^31 of them to either side of a centre that is itself a
+/// multiple of the step, and one of fewer than 2^53 steps: else it would be no double.
+void takeBinarySteps(const Axis& axis, LasGrid& grid)
+{
+  grid.scale =
+    std::ldexp(1.0, std::max({ std::ilogb(axis.half()) + 1 - 31, std::ilogb(axis.farthest()) - 51, -1021 }));
+  grid.offset = grid.scale * std::nearbyint(axis.center() / grid.scale);
+}
+
+/// False: the cloud is too small or too large for steps of the wanted scale.
+bool takeWantedSteps(const Axis& axis, const WantedGrid& wanted, LasGrid& grid)
+{
+  if (!(wanted.scale > 0.0 && wanted.extent >= LasGrid::kFewestSteps * wanted.scale))
+  {
+    return false;
+  }
+  grid.scale = wanted.scale;
+  grid.offset = wanted.offset;
+  if (!spans(axis, grid.scale, grid.offset))
+  {
+    findRoundOffset(axis, grid);
+  }
+  return spans(axis, grid.scale, grid.offset);
+}
+
+/// The finest steps of a power of ten. False: there are none that doubles can hold well.
+bool takeDecimalSteps(const Axis& axis, LasGrid& grid)
+{
+  constexpr int kLargestPower = 290;
+  // The last digit of the farthest coordinate, and all steps in 32 bits.
+  const double needed =
+    std::max(axis.half() / (kMost - 1.0), std::ldexp(1.0, std::ilogb(axis.farthest()) - 52));
+  int exponent = static_cast<int>(std::floor(std::log10(needed)));
+  if (std::abs(exponent) > kLargestPower)
+  {
+    return false;
+  }
+  while (powerOfTen(exponent) < needed)
+  {
+    ++exponent;
+  }
+  grid.scale = powerOfTen(exponent);
+  findRoundOffset(axis, grid);
+  return spans(axis, grid.scale, grid.offset);
+}
+
+} // namespace
+
+LasGrid LasGrid::fit(ConstColumnView column, vtkIdType count, const WantedGrid& wanted)
+{
+  const Axis axis = makeAxis(column, count);
+  WantedGrid usable = wanted;
+  if (!(wanted.scale > 0.0 && std::isfinite(wanted.scale) && std::isfinite(wanted.offset)))
+  {
+    usable.scale = 0.0;
+  }
+  LasGrid grid;
+  if (placeExactly(axis, usable, grid))
+  {
+    return grid;
+  }
+  if (usable.scale == 0.0)
+  {
+    takeBinarySteps(axis, grid);
+    // 17.31 of a text is not 1731 times 0.01, but next to it.
+    const double lastDigits = 2.0 * std::numeric_limits<double>::epsilon() * axis.farthest();
+    if (place(axis, 0.0, grid) || placeOnDecimals(axis, lastDigits, grid))
+    {
+      return grid;
+    }
+  }
+  if (!takeWantedSteps(axis, usable, grid) && !takeDecimalSteps(axis, grid))
+  {
+    takeBinarySteps(axis, grid);
+  }
+  place(axis, std::numeric_limits<double>::infinity(), grid);
+  return grid;
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,263 @@
+#include "IO/Las/LasHeader.h"
+
+#include "FileProblem.h"
+#include "IO/Las/LasCoordinateSystem.h"
+#include "NumericType.h"
+
+#include <cmath>
+#include <limits>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr std::size_t kEvlrHeader = 60;
+
+/// Number at @p offset. @pre it lies inside @p bytes.
+template <typename T>
+T numberAt(std::string_view bytes, std::size_t offset)
+{
+  return loadLittle<T>(bytes.data() + offset);
+}
+
+std::string_view untilZero(std::string_view text)
+{
+  return text.substr(0, text.find('\0'));
+}
+
+/// Calls @p visit(user, id, content) for each variable length record that lies inside the file; a damaged
+/// list ends where it leaves it.
+template <typename Visit>
+void forEachRecord(std::string_view bytes, const LasHeader& header, Visit visit)
+{
+  const std::size_t end = std::min(bytes.size(), header.pointsOffset);
+  const std::uint32_t records = numberAt<std::uint32_t>(bytes, 100);
+  std::size_t at = header.headerSize;
+  for (std::uint32_t i = 0; i < records && at + kLasVlrHeader <= end; ++i)
+  {
+    const std::size_t size = numberAt<std::uint16_t>(bytes, at + 20);
+    const std::size_t content = at + kLasVlrHeader;
+    visit(untilZero(bytes.substr(at + 2, 16)), numberAt<std::uint16_t>(bytes, at + 18),
+      bytes.substr(content, std::min(size, end - content)));
+    at = content + size;
+  }
+  if (header.minorVersion < 4 || header.headerSize < kLasHeaderOf14 || bytes.size() < kLasHeaderOf14)
+  {
+    return;
+  }
+  std::uint64_t far = numberAt<std::uint64_t>(bytes, 235);
+  const std::uint32_t farRecords = numberAt<std::uint32_t>(bytes, 243);
+  for (std::uint32_t i = 0; i < farRecords && far < bytes.size() && bytes.size() - far >= kEvlrHeader; ++i)
+  {
+    const std::size_t start = static_cast<std::size_t>(far);
+    const std::uint64_t left = bytes.size() - far - kEvlrHeader;
+    const std::uint64_t size = std::min(left, numberAt<std::uint64_t>(bytes, start + 20));
+    visit(untilZero(bytes.substr(start + 2, 16)), numberAt<std::uint16_t>(bytes, start + 18),
+      bytes.substr(start + kEvlrHeader, static_cast<std::size_t>(size)));
+    far += kEvlrHeader + size;
+  }
+}
+
+/// "LAZ" by the mark in the point format or by LASzip's record, "COPC" by its own; else empty.
+std::string packingOf(std::string_view bytes, const LasHeader& header, int formatByte)
+{
+  std::string found = (formatByte & kLasPackedMark) != 0 ? "LAZ" : "";
+  forEachRecord(bytes, header,
+    [&](std::string_view user, int id, std::string_view)
+    {
+      if (user == "copc" && id == 1)
+      {
+        found = "COPC";
+      }
+      else if (found.empty() && user == kLaszipUser && id == kLaszipRecord)
+      {
+        found = "LAZ";
+      }
+    });
+  return found;
+}
+
+/// VTK's type for an extra field of data type @p code, 1..10.
+int typeOfExtra(int code)
+{
+  constexpr int kTypes[] = { VTK_TYPE_UINT8, VTK_TYPE_INT8, VTK_TYPE_UINT16, VTK_TYPE_INT16, VTK_TYPE_UINT32,
+    VTK_TYPE_INT32, VTK_TYPE_UINT64, VTK_TYPE_INT64, VTK_FLOAT, VTK_DOUBLE };
+  return kTypes[code - 1];
+}
+
+LasExtraField parseExtraField(std::string_view descriptor, std::size_t offset)
+{
+  const int code = numberAt<std::uint8_t>(descriptor, 2);
+  const int options = numberAt<std::uint8_t>(descriptor, 3);
+  LasExtraField field;
+  field.name = std::string(untilZero(descriptor.substr(4, 32)));
+  field.offset = offset;
+  if (code == 0) // bytes without meaning, their number in the place of the options
+  {
+    field.type = VTK_TYPE_UINT8;
+    field.components = options;
+    return field;
+  }
+  if (code > 30)
+  {
+    field.components = 0;
+    return field;
+  }
+  // 11..20 are pairs and 21..30 triples of the types 1..10.
+  field.type = typeOfExtra((code - 1) % 10 + 1);
+  field.components = (code - 1) / 10 + 1;
+  field.isScaled = (options & 0x18) != 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    field.scale[i] = (options & 0x08) ? numberAt<double>(descriptor, 112 + 8 * i) : 1.0;
+    field.shift[i] = (options & 0x10) ? numberAt<double>(descriptor, 136 + 8 * i) : 0.0;
+  }
+  return field;
+}
+
+/// What the description does not cover, or all when it cannot be right, is kept as bytes.
+void describeExtraBytes(LasHeader& header, std::string_view descriptors)
+{
+  const std::size_t first = header.fields().size;
+  std::size_t at = first;
+  for (std::size_t i = 0; i + kLasExtraDescriptor <= descriptors.size(); i += kLasExtraDescriptor)
+  {
+    const LasExtraField field = parseExtraField(descriptors.substr(i, kLasExtraDescriptor), at);
+    const std::size_t size = static_cast<std::size_t>(field.components * sizeOfType(field.type));
+    if (size == 0 || size > header.recordLength - at)
+    {
+      header.extraFields.clear();
+      at = first;
+      break;
+    }
+    header.extraFields.push_back(field);
+    at += size;
+  }
+  if (at < header.recordLength)
+  {
+    LasExtraField rest;
+    rest.name = "ExtraBytes";
+    rest.type = VTK_TYPE_UINT8;
+    rest.components = static_cast<int>(header.recordLength - at);
+    rest.offset = at;
+    header.extraFields.push_back(rest);
+  }
+}
+
+void parseRecords(std::string_view bytes, LasHeader& header)
+{
+  std::string_view descriptors;
+  LasCoordinateSystem system;
+  forEachRecord(bytes, header,
+    [&](std::string_view user, int id, std::string_view content)
+    {
+      if (user == "LASF_Spec" && id == kLasExtraBytesRecord)
+      {
+        descriptors = content;
+      }
+      else if (user == "LASF_Projection")
+      {
+        system.addRecord(id, content);
+      }
+    });
+  describeExtraBytes(header, descriptors);
+  header.coordinateSystem = system.name();
+  header.lengthUnit = system.lengthUnit();
+}
+
+void checkScales(const LasHeader& header)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (!std::isfinite(header.scale[axis]) || header.scale[axis] == 0.0 ||
+      !std::isfinite(header.offset[axis]))
+    {
+      failFormat("byte " + std::to_string(131 + 8 * axis) + ": scale " + std::to_string(header.scale[axis]) +
+          " and offset " + std::to_string(header.offset[axis]) + " of axis " + "xyz"[axis] + " are unusable",
+        "write the file again with finite scales other than 0");
+    }
+  }
+}
+
+void checkLayout(std::string_view bytes, const LasHeader& header)
+{
+  const std::size_t needed = header.fields().size;
+  if (header.recordLength < needed)
+  {
+    failFormat("byte 105: records of " + std::to_string(header.recordLength) +
+        " bytes are too short for point format " + std::to_string(header.pointFormat) + ", which takes " +
+        std::to_string(needed),
+      "write the file again with another program");
+  }
+  if (header.pointsOffset < header.headerSize || header.pointsOffset > bytes.size())
+  {
+    failTruncated("byte 96: the points start at byte " + std::to_string(header.pointsOffset) +
+      " of a file of " + std::to_string(bytes.size()) + " bytes");
+  }
+  if (header.count == 0)
+  {
+    failNoPoints();
+  }
+  const std::size_t available = bytes.size() - header.pointsOffset;
+  if (header.packing.empty() && header.count > available / header.recordLength)
+  {
+    failTruncated("the header counts " + std::to_string(header.count) + " points of " +
+      std::to_string(header.recordLength) + " bytes, but only " + std::to_string(available) +
+      " bytes follow (" + std::to_string(available / header.recordLength) + " points)");
+  }
+}
+
+} // namespace
+
+LasHeader parseLasHeader(std::string_view bytes)
+{
+  if (bytes.size() < kLasHeaderOf12)
+  {
+    failTruncated("the file ends at byte " + std::to_string(bytes.size()) + " inside its header");
+  }
+  LasHeader header;
+  header.minorVersion = numberAt<std::uint8_t>(bytes, 25);
+  const int major = numberAt<std::uint8_t>(bytes, 24);
+  if (major != 1 || header.minorVersion > 4)
+  {
+    failFormat("byte 24: version " + std::to_string(major) + "." + std::to_string(header.minorVersion),
+      "convert it to LAS 1.0 to 1.4");
+  }
+  header.globalEncoding = numberAt<std::uint16_t>(bytes, 6);
+  header.headerSize = numberAt<std::uint16_t>(bytes, 94);
+  if (header.headerSize < kLasHeaderOf12)
+  {
+    failFormat("byte 94: a header of " + std::to_string(header.headerSize) + " bytes",
+      "LAS headers take at least 227");
+  }
+  header.pointsOffset = numberAt<std::uint32_t>(bytes, 96);
+  const int formatByte = numberAt<std::uint8_t>(bytes, 104);
+  header.packing = packingOf(bytes, header, formatByte);
+  const int format = header.packing.empty() ? formatByte : formatByte & ~kLasPackedMark;
+  if (format > kMostLasFormat)
+  {
+    failFormat(
+      "byte 104: unknown point format " + std::to_string(format), "convert it to point format 0 to 10");
+  }
+  header.pointFormat = format;
+  header.recordLength = numberAt<std::uint16_t>(bytes, 105);
+  header.count = numberAt<std::uint32_t>(bytes, 107);
+  if (header.minorVersion == 4 && header.headerSize >= kLasHeaderOf14 && bytes.size() >= kLasHeaderOf14)
+  {
+    const std::uint64_t count = numberAt<std::uint64_t>(bytes, 247);
+    header.count = count ? count : header.count;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    header.scale[axis] = numberAt<double>(bytes, 131 + 8 * axis);
+    header.offset[axis] = numberAt<double>(bytes, 155 + 8 * axis);
+  }
+  checkLayout(bytes, header);
+  checkScales(header);
+  parseRecords(bytes, header);
+  return header;
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,459 @@
+#include "FormatWriters.h"
+
+#include "IO/Las/LasGrid.h"
+#include "IO/Las/LasHeader.h"
+#include "IO/Las/LasRecordWriter.h"
+#include "NumericType.h"
+
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+using Byte = std::uint8_t;
+
+constexpr std::size_t kLongestName = 32;
+constexpr std::size_t kMostRecord = 65535; ///< 16 bits hold the length of a record
+constexpr double kScanAngleStep = 0.006;   ///< degrees, point formats 6 to 10
+constexpr double kGridPart = 0.6;          ///< of the work: finding the grid
+constexpr double kPlanningPart = 0.7;      ///< of the work: all that comes before the first record
+
+/// LAS's number for the type of an extra field.
+int codeOf(int type)
+{
+  const int codes[][2] = { { VTK_TYPE_UINT8, 1 }, { VTK_TYPE_INT8, 2 }, { VTK_TYPE_UINT16, 3 },
+    { VTK_TYPE_INT16, 4 }, { VTK_TYPE_UINT32, 5 }, { VTK_TYPE_INT32, 6 }, { VTK_TYPE_UINT64, 7 },
+    { VTK_TYPE_INT64, 8 }, { VTK_FLOAT, 9 }, { VTK_DOUBLE, 10 } };
+  const int plain = fixedSizeType(type);
+  return (*std::find_if(
+    std::begin(codes), std::end(codes), [&](const int(&entry)[2]) { return entry[0] == plain; }))[1];
+}
+
+/// Builds one file; one object per file.
+class LasWriter
+{
+public:
+  LasWriter(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task)
+    : arrays_(arrays)
+    , taken_(arrays.size(), false)
+    , fieldData_(fieldData)
+    , task_(task)
+    , notes_(task.notes)
+    , rows_(arrays[0].array->GetNumberOfTuples())
+  {
+  }
+  void write();
+
+private:
+  const OutputArray* take(const char* name, int type, int components = 1);
+  template <typename T>
+  T largestOf(const OutputArray* array) const;
+  bool needsExtended() const;
+  void takeStandardArrays();
+  void refuseInvalidPoints() const;
+  double largestExtent() const;
+  void planPositions();
+  void planBits();
+  void planStandardFields();
+  void planColours();
+  void planExtraFields();
+  void addField(const OutputArray* array, int component, std::size_t offset, int type);
+  std::vector<Byte>& newBytes(std::size_t offset);
+  std::string header(std::size_t pointsOffset, std::uint32_t records, std::uint16_t encoding) const;
+  double fieldValue(const char* name, int component, double otherwise) const;
+
+  const std::vector<OutputArray>& arrays_;
+  std::vector<bool> taken_;
+  vtkFieldData* fieldData_;
+  WriteTask& task_;
+  WriterNotes& notes_;
+  const vtkIdType rows_;
+
+  const OutputArray* intensity_ = nullptr;
+  const OutputArray* returnNumber_ = nullptr;
+  const OutputArray* numberOfReturns_ = nullptr;
+  const OutputArray* classification_ = nullptr;
+  const OutputArray* flags_ = nullptr;
+  const OutputArray* scannerChannel_ = nullptr;
+  const OutputArray* scanDirection_ = nullptr;
+  const OutputArray* edge_ = nullptr;
+  const OutputArray* scanAngle_ = nullptr;
+  const OutputArray* userData_ = nullptr;
+  const OutputArray* pointSourceId_ = nullptr;
+  const OutputArray* gpsTime_ = nullptr;
+  const OutputArray* wideColour_ = nullptr;
+  const OutputArray* colour_ = nullptr;
+  const OutputArray* nearInfrared_ = nullptr;
+
+  bool extended_ = false;
+  int format_ = 0;
+  LasGrid grids_[3];
+  std::deque<std::vector<Byte>> bytes_; ///< packed bit fields; the references to them stay
+  std::vector<std::int16_t> scanSteps_;
+  std::vector<std::uint16_t> widened_;
+  std::vector<RecordField> fields_;
+  std::size_t recordSize_ = 0;
+  std::string descriptors_;
+};
+
+const OutputArray* LasWriter::take(const char* name, int type, int components)
+{
+  for (std::size_t i = 1; i < arrays_.size(); ++i)
+  {
+    if (!taken_[i] && arrays_[i].name == name && fixedSizeType(arrays_[i].type()) == type &&
+      arrays_[i].components() == components)
+    {
+      taken_[i] = true;
+      return &arrays_[i];
+    }
+  }
+  return nullptr;
+}
+
+void LasWriter::takeStandardArrays()
+{
+  intensity_ = take("Intensity", VTK_TYPE_UINT16);
+  returnNumber_ = take("ReturnNumber", VTK_TYPE_UINT8);
+  numberOfReturns_ = take("NumberOfReturns", VTK_TYPE_UINT8);
+  classification_ = take("Classification", VTK_TYPE_UINT8);
+  flags_ = take("ClassificationFlags", VTK_TYPE_UINT8);
+  scannerChannel_ = take("ScannerChannel", VTK_TYPE_UINT8);
+  scanDirection_ = take("ScanDirection", VTK_TYPE_UINT8);
+  edge_ = take("EdgeOfFlightLine", VTK_TYPE_UINT8);
+  scanAngle_ = take("ScanAngle", VTK_FLOAT);
+  userData_ = take("UserData", VTK_TYPE_UINT8);
+  pointSourceId_ = take("PointSourceId", VTK_TYPE_UINT16);
+  gpsTime_ = take("GpsTime", VTK_DOUBLE);
+  wideColour_ = take("Color16", VTK_TYPE_UINT16, 3);
+  colour_ = take("RGB", VTK_TYPE_UINT8, 3);
+  nearInfrared_ = take("NearInfrared", VTK_TYPE_UINT16);
+}
+
+template <typename T>
+T LasWriter::largestOf(const OutputArray* array) const
+{
+  if (!array)
+  {
+    return T{ 0 };
+  }
+  const T* values = static_cast<const T*>(array->array->GetVoidPointer(0));
+  return *std::max_element(values, values + rows_);
+}
+
+/// Whether the point formats 0 to 3 are too narrow.
+bool LasWriter::needsExtended() const
+{
+  bool wholeDegrees = true;
+  const float* angles =
+    scanAngle_ ? static_cast<const float*>(scanAngle_->array->GetVoidPointer(0)) : nullptr;
+  for (vtkIdType i = 0; i < rows_ && angles && wholeDegrees; ++i)
+  {
+    wholeDegrees = angles[i] >= -128.0f && angles[i] <= 127.0f && angles[i] == std::floor(angles[i]);
+  }
+  return !wholeDegrees || nearInfrared_ || largestOf<Byte>(returnNumber_) > 7 ||
+    largestOf<Byte>(numberOfReturns_) > 7 || largestOf<Byte>(classification_) > 31 ||
+    largestOf<Byte>(flags_) > 7 || largestOf<Byte>(scannerChannel_) > 0 ||
+    static_cast<std::uint64_t>(rows_) > 0xffffffffu;
+}
+
+double LasWriter::fieldValue(const char* name, int component, double otherwise) const
+{
+  vtkDataArray* array = fieldData_->GetArray(name);
+  return array && array->GetNumberOfComponents() > component && array->GetNumberOfTuples() == 1
+    ? array->GetComponent(0, component)
+    : otherwise;
+}
+
+void LasWriter::addField(const OutputArray* array, int component, std::size_t offset, int type)
+{
+  if (array)
+  {
+    fields_.push_back({ array->column(component), offset, type });
+  }
+}
+
+std::vector<Byte>& LasWriter::newBytes(std::size_t offset)
+{
+  bytes_.emplace_back(static_cast<std::size_t>(rows_), Byte{ 0 });
+  fields_.push_back(
+    { { reinterpret_cast<const char*>(bytes_.back().data()), 1, VTK_TYPE_UINT8 }, offset, VTK_TYPE_UINT8 });
+  return bytes_.back();
+}
+
+void LasWriter::refuseInvalidPoints() const
+{
+  withType(arrays_[0].type(),
+    [&](auto zero)
+    {
+      using T = decltype(zero);
+      const T* values = static_cast<const T*>(arrays_[0].array->GetVoidPointer(0));
+      const T* end = values + 3 * rows_;
+      const T* found =
+        std::find_if(values, end, [](T value) { return !std::isfinite(static_cast<double>(value)); });
+      if (found != end)
+      {
+        failFormat("point " + std::to_string((found - values) / 3) +
+            " is NaN or infinite, and LAS stores coordinates as integers",
+          "take such points out, or write .vtp, .ply or .pcd");
+      }
+    });
+}
+
+double LasWriter::largestExtent() const
+{
+  double extent = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double range[2];
+    arrays_[0].array->GetRange(range, axis);
+    extent = std::max(extent, range[1] - range[0]);
+  }
+  return extent;
+}
+
+void LasWriter::planPositions()
+{
+  refuseInvalidPoints();
+  const double extent = largestExtent();
+  double worst = 0.0;
+  double step = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const ConstColumnView column = arrays_[0].column(axis);
+    LasGrid& grid = grids_[axis];
+    grid = LasGrid::fit(
+      column, rows_, { fieldValue("LasScale", axis, 0.0), fieldValue("LasOffset", axis, 0.0), extent });
+    fields_.push_back({ { reinterpret_cast<const char*>(grid.integers.data()), 4, VTK_TYPE_INT32 },
+      static_cast<std::size_t>(4 * axis), VTK_TYPE_INT32 });
+    step = grid.largestError > worst ? grid.scale : step;
+    worst = std::max(worst, grid.largestError);
+    task_.progress(kGridPart * (axis + 1) / 3);
+  }
+  if (worst > 0.0)
+  {
+    notes_.add("coordinates are rounded to steps of " + shortestDecimal(step) + ", by at most " +
+      shortestDecimal(worst) + "; write .vtp or .ply to keep every bit");
+  }
+}
+
+/// Bit fields: what several arrays share one byte for.
+void LasWriter::planBits()
+{
+  const auto add = [&](std::vector<Byte>& bytes, const OutputArray* array, int shift, int mask)
+  {
+    const Byte* from = array ? static_cast<const Byte*>(array->array->GetVoidPointer(0)) : nullptr;
+    for (std::size_t i = 0; i < bytes.size() && from; ++i)
+    {
+      bytes[i] = static_cast<Byte>(bytes[i] | (from[i] & mask) << shift);
+    }
+  };
+  std::vector<Byte>& returns = newBytes(14);
+  add(returns, returnNumber_, 0, extended_ ? 15 : 7);
+  add(returns, numberOfReturns_, extended_ ? 4 : 3, extended_ ? 15 : 7);
+  std::vector<Byte>& second = newBytes(15);
+  if (extended_)
+  {
+    add(second, flags_, 0, 15);
+    add(second, scannerChannel_, 4, 3);
+    addField(classification_, 0, 16, VTK_TYPE_UINT8);
+  }
+  else
+  {
+    add(second, classification_, 0, 31);
+    add(second, flags_, 5, 7);
+  }
+  std::vector<Byte>& lines = extended_ ? second : returns;
+  add(lines, scanDirection_, 6, 1);
+  add(lines, edge_, 7, 1);
+}
+
+void LasWriter::planStandardFields()
+{
+  addField(intensity_, 0, 12, VTK_TYPE_UINT16);
+  addField(userData_, 0, 17, VTK_TYPE_UINT8);
+  addField(pointSourceId_, 0, extended_ ? 20 : 18, VTK_TYPE_UINT16);
+  const LasPointFormat& places = kLasPointFormats[format_];
+  addField(gpsTime_, 0, places.gpsTime, VTK_DOUBLE);
+  addField(nearInfrared_, 0, places.nearInfrared, VTK_TYPE_UINT16);
+  if (!scanAngle_ || !extended_)
+  {
+    addField(scanAngle_, 0, 16, VTK_TYPE_INT8);
+    return;
+  }
+  const float* angles = static_cast<const float*>(scanAngle_->array->GetVoidPointer(0));
+  bool rounded = false;
+  for (vtkIdType i = 0; i < rows_; ++i)
+  {
+    const double steps = std::isfinite(angles[i])
+      ? std::clamp(std::nearbyint(static_cast<double>(angles[i]) / kScanAngleStep), -32768.0, 32767.0)
+      : 0.0;
+    scanSteps_.push_back(static_cast<std::int16_t>(steps));
+    rounded = rounded || static_cast<float>(kScanAngleStep * steps) != angles[i];
+  }
+  fields_.push_back(
+    { { reinterpret_cast<const char*>(scanSteps_.data()), 2, VTK_TYPE_INT16 }, 18, VTK_TYPE_INT16 });
+  if (rounded)
+  {
+    notes_.add("scan angles are rounded to steps of 0.006 degrees");
+  }
+}
+
+void LasWriter::planColours()
+{
+  const std::size_t place = kLasPointFormats[format_].rgb;
+  if (!wideColour_ && colour_)
+  {
+    // 0xabab for 0xab: readers take the high byte.
+    const Byte* from = static_cast<const Byte*>(colour_->array->GetVoidPointer(0));
+    widened_.assign(from, from + 3 * rows_);
+    std::transform(widened_.begin(), widened_.end(), widened_.begin(),
+      [](std::uint16_t v) { return static_cast<std::uint16_t>(257 * v); });
+  }
+  for (int channel = 0; channel < 3 && place != 0; ++channel)
+  {
+    const std::size_t offset = place + 2 * static_cast<std::size_t>(channel);
+    if (wideColour_)
+    {
+      addField(wideColour_, channel, offset, VTK_TYPE_UINT16);
+    }
+    else
+    {
+      fields_.push_back({ { reinterpret_cast<const char*>(widened_.data() + channel), 6, VTK_TYPE_UINT16 },
+        offset, VTK_TYPE_UINT16 });
+    }
+  }
+}
+
+void LasWriter::planExtraFields()
+{
+  for (std::size_t i = 1; i < arrays_.size(); ++i)
+  {
+    const OutputArray& array = arrays_[i];
+    for (int component = 0; component < array.components() && !taken_[i]; ++component)
+    {
+      const std::string name = array.componentName(component);
+      if (name.size() > kLongestName)
+      {
+        notes_.add("array " + name + " is called " + name.substr(0, kLongestName));
+      }
+      std::string descriptor(kLasExtraDescriptor, '\0');
+      descriptor[2] = static_cast<char>(codeOf(array.type()));
+      const std::string kept = name.substr(0, kLongestName);
+      descriptor.replace(4, kept.size(), kept);
+      descriptors_ += descriptor;
+      addField(&array, component, recordSize_, array.type());
+      recordSize_ += static_cast<std::size_t>(sizeOfType(array.type()));
+    }
+  }
+  if (recordSize_ > kMostRecord || descriptors_.size() > kMostRecord)
+  {
+    failFormat(
+      std::to_string(descriptors_.size() / kLasExtraDescriptor) + " columns beside the standard ones",
+      "LAS holds 341 of them: leave some out, or write .vtp, .ply or .pcd");
+  }
+}
+
+std::string LasWriter::header(std::size_t pointsOffset, std::uint32_t records, std::uint16_t encoding) const
+{
+  const bool isOf14 = extended_ || (encoding & kLasWellKnownTextBit) != 0;
+  std::string bytes(isOf14 ? kLasHeaderOf14 : kLasHeaderOf12, '\0');
+  bytes.replace(0, 4, "LASF");
+  putLittle(bytes, 6, encoding);
+  bytes[24] = 1;
+  bytes[25] = isOf14 ? 4 : 2;
+  const std::string program = "PointHaptics";
+  bytes.replace(26, 5, "OTHER");
+  bytes.replace(58, program.size(), program);
+  putLittle(bytes, 94, static_cast<std::uint16_t>(bytes.size()));
+  putLittle(bytes, 96, static_cast<std::uint32_t>(pointsOffset));
+  putLittle(bytes, 100, records);
+  bytes[104] = static_cast<char>(format_);
+  putLittle(bytes, 105, static_cast<std::uint16_t>(recordSize_));
+  std::uint64_t byReturn[15] = {};
+  const Byte* returns =
+    returnNumber_ ? static_cast<const Byte*>(returnNumber_->array->GetVoidPointer(0)) : nullptr;
+  for (vtkIdType i = 0; i < rows_; ++i)
+  {
+    const int number = returns ? returns[i] : 0;
+    if (number >= 1 && number <= 15)
+    {
+      ++byReturn[number - 1];
+    }
+  }
+  for (std::size_t i = 0; i < 15; ++i)
+  {
+    if (i < 5 && !extended_)
+    {
+      putLittle(bytes, 111 + 4 * i, static_cast<std::uint32_t>(byReturn[i]));
+    }
+    if (isOf14)
+    {
+      putLittle(bytes, 255 + 8 * i, byReturn[i]);
+    }
+  }
+  if (!extended_)
+  {
+    putLittle(bytes, 107, static_cast<std::uint32_t>(rows_));
+  }
+  if (isOf14)
+  {
+    putLittle(bytes, 247, static_cast<std::uint64_t>(rows_));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const LasGrid& grid = grids_[axis];
+    const auto ends = std::minmax_element(grid.integers.begin(), grid.integers.end());
+    putLittle(bytes, 131 + 8 * axis, grid.scale);
+    putLittle(bytes, 155 + 8 * axis, grid.offset);
+    putLittle(bytes, 179 + 16 * axis, *ends.second * grid.scale + grid.offset);
+    putLittle(bytes, 187 + 16 * axis, *ends.first * grid.scale + grid.offset);
+  }
+  return bytes;
+}
+
+void LasWriter::write()
+{
+  takeStandardArrays();
+  extended_ = needsExtended();
+  const bool isColoured = wideColour_ || colour_;
+  format_ = extended_ ? (nearInfrared_ ? 8 : isColoured ? 7 : 6) : (gpsTime_ ? 1 : 0) + (isColoured ? 2 : 0);
+  recordSize_ = kLasPointFormats[format_].size;
+  planPositions();
+  planBits();
+  planStandardFields();
+  planColours();
+  planExtraFields();
+
+  constexpr std::uint16_t kKeptEncoding = 15; // how gps time counts, and the like
+  std::uint16_t encoding = static_cast<std::uint16_t>(
+    static_cast<int>(std::clamp(fieldValue("LasGlobalEncoding", 0, 0.0), 0.0, 65535.0)) & kKeptEncoding);
+  std::string records = lasCoordinateSystemRecord(fieldData_, encoding);
+  std::uint32_t count = records.empty() ? 0 : 1;
+  if (!descriptors_.empty())
+  {
+    records += lasRecordHeader("LASF_Spec", kLasExtraBytesRecord, descriptors_.size()) + descriptors_;
+    ++count;
+  }
+  const std::size_t headerSize = header(0, count, encoding).size();
+  task_.out.write(header(headerSize + records.size(), count, encoding) + records);
+  writeRecords(fields_, recordSize_, rows_, task_, kPlanningPart);
+}
+
+} // namespace
+
+void writeLas(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task)
+{
+  LasWriter(arrays, fieldData, task).write();
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,114 @@
+#include "FormatReaders.h"
+
+#include "CloudColumns.h"
+#include "CloudFormat.h"
+#include "FileProblem.h"
+#include "IO/Text/TextScan.h"
+#include "IO/Text/TextTable.h"
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+bool nextSignificant(LineReader& lines, std::string_view& line)
+{
+  while (lines.next(line))
+  {
+    line = trimmed(line.substr(0, line.find('#')));
+    if (!line.empty() && line.substr(0, 2) != "//")
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The letters before OFF say what follows x y z.
+std::vector<std::string> namesOf(std::string_view prefix, std::size_t columns)
+{
+  std::vector<std::string> names = { "x", "y", "z" };
+  const auto append = [&](std::initializer_list<const char*> more)
+  { names.insert(names.end(), more.begin(), more.end()); };
+  if (prefix.find('N') != std::string_view::npos)
+  {
+    append({ "nx", "ny", "nz" });
+  }
+  if (prefix.find('C') != std::string_view::npos)
+  {
+    columns == names.size() + 3 ? append({ "red", "green", "blue" })
+                                : append({ "red", "green", "blue", "alpha" });
+  }
+  if (prefix.find("ST") != std::string_view::npos)
+  {
+    append({ "s", "t" });
+  }
+  return names;
+}
+
+} // namespace
+
+void readOff(ReadTask& task, vtkPolyData* cloud)
+{
+  const std::string_view text = withoutByteOrderMark(task.bytes);
+  LineReader lines(text);
+  std::string_view line;
+  nextSignificant(lines, line);
+  const std::string_view keyword = takeWord(line);
+  if (keyword.size() < 3 || keyword.substr(keyword.size() - 3) != "OFF")
+  {
+    failFormat(
+      "line " + std::to_string(lines.lineNumber()) + ": " + inQuotes(keyword) + " where OFF was expected",
+      "make the first line OFF, NOFF, COFF or CNOFF");
+  }
+  const std::string_view prefix = keyword.substr(0, keyword.size() - 3);
+  task.format = inQuotes(keyword).substr(1, keyword.size());
+  if (prefix.find_first_of("4n") != std::string_view::npos || equalNoCase(trimmed(line), "BINARY"))
+  {
+    throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
+      "binary and four-dimensional OFF is not read here", "convert it to PLY, for example with MeshLab");
+  }
+  if (trimmed(line).empty() && !nextSignificant(lines, line))
+  {
+    failTruncated("the file ends before its counts");
+  }
+  const std::string_view word = takeWord(line);
+  unsigned long long count = 0;
+  if (!parseCount(word, count))
+  {
+    failFormat("line " + std::to_string(lines.lineNumber()) + ": " + inQuotes(word) +
+        " stands where the number of vertices was expected",
+      "write three counts after OFF: vertices, faces, edges");
+  }
+  if (count == 0)
+  {
+    failNoPoints();
+  }
+
+  TextLayout layout;
+  layout.bodyOffset = lines.position();
+  layout.bodyLine = lines.lineNumber() + 1;
+  for (unsigned long long i = 0; i < count; ++i)
+  {
+    if (!nextSignificant(lines, line))
+    {
+      failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " after " +
+        std::to_string(i) + " of " + std::to_string(count) + " vertices");
+    }
+    while (i == 0 && !takeWord(line).empty() && layout.columns <= kMostColumns)
+    {
+      ++layout.columns;
+    }
+  }
+  layout.names = namesOf(prefix, layout.columns);
+  if (layout.names.size() != layout.columns)
+  {
+    failFormat("the first vertex has " + std::to_string(layout.columns) + " numbers where " +
+        std::string(keyword) + " has " + std::to_string(layout.names.size()),
+      "write x y z, then normals (N) and colours (C) as the letters before OFF say");
+  }
+  readTable(task, text.substr(0, lines.position()), layout, cloud);
+}
+
+} // namespace pointhaptics::io

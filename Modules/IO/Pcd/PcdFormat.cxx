@@ -1,0 +1,286 @@
+#include "FormatReaders.h"
+
+#include "CloudColumns.h"
+#include "IO/Pcd/LzfStream.h"
+#include "IO/Pcd/PcdHeader.h"
+#include "IO/Text/TextScan.h"
+#include "NumericType.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+/// Bytes of one field that are unpacked at a time: they stay in the cache.
+constexpr std::size_t kBlockBytes = 1 << 18;
+
+/// PCD packs colours as 0xAARRGGBB. Copies @p count of them into bytes R G B [A].
+void unpackColours(ConstColumnView packed, ColumnView target, vtkIdType count)
+{
+  const char* from = packed.first;
+  char* to = target.first;
+  for (vtkIdType i = 0; i < count; ++i, from += packed.stride, to += target.stride)
+  {
+    std::uint32_t colour = 0;
+    std::memcpy(&colour, from, sizeof(colour));
+    const std::uint32_t bytes[4] = { colour >> 16, colour >> 8, colour, colour >> 24 };
+    for (std::ptrdiff_t channel = 0; channel < target.stride; ++channel)
+    {
+      to[channel] = static_cast<char>(static_cast<std::uint8_t>(bytes[channel] & 0xff));
+    }
+  }
+}
+
+/// The fields that are read, each with its place in the output.
+struct PcdTable
+{
+  struct Entry
+  {
+    PcdField field;
+    std::size_t column = 0; ///< unless the field is padding
+  };
+  std::vector<Entry> entries;
+  std::vector<Column> columns;
+
+  explicit PcdTable(const PcdHeader& header)
+  {
+    for (const PcdField& field : header.fields)
+    {
+      entries.push_back({ field, columns.size() });
+      if (field.isPackedColour())
+      {
+        const bool hasAlpha = field.name == "rgba";
+        columns.push_back({ hasAlpha ? "RGBA" : "RGB", VTK_TYPE_UINT8, hasAlpha ? 4 : 3 });
+      }
+      else if (!field.isPadding())
+      {
+        columns.push_back({ field.name, field.type, field.count });
+      }
+    }
+  }
+};
+
+/// Copies one field of @p count records, the first of which has it at @p first.
+void copyField(const PcdTable::Entry& entry, const char* first, std::ptrdiff_t stride,
+  const CloudColumns& columns, vtkIdType row, vtkIdType count)
+{
+  const PcdField& field = entry.field;
+  if (field.isPackedColour())
+  {
+    unpackColours({ first, stride, field.type }, columns.target(entry.column).fromRow(row), count);
+    return;
+  }
+  for (int component = 0; component < field.count; ++component)
+  {
+    copyStrided({ first + component * sizeOfType(field.type), stride, field.type },
+      columns.target(entry.column, component).fromRow(row), count);
+  }
+}
+
+void fillFromRecords(
+  const ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
+{
+  const char* records = task.bytes.data() + header.bodyOffset;
+  const vtkIdType rows = static_cast<vtkIdType>(header.points);
+  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(header.recordSize);
+  for (vtkIdType row = 0; row < rows; row += kProgressRows)
+  {
+    const vtkIdType count = std::min(kProgressRows, rows - row);
+    for (const PcdTable::Entry& entry : table.entries)
+    {
+      if (!entry.field.isPadding())
+      {
+        copyField(entry, records + row * stride + entry.field.offset, stride, columns, row, count);
+      }
+    }
+    task.progress(static_cast<double>(row + count) / static_cast<double>(rows));
+  }
+}
+
+/// Compressed files hold field after field, without padding.
+void fillFromCompressed(
+  const ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
+{
+  const std::size_t packedAt = header.bodyOffset + 8;
+  LzfStream stream(task.bytes.substr(packedAt, header.compressedSize));
+  const vtkIdType rows = static_cast<vtkIdType>(header.points);
+  std::vector<char> block;
+  std::size_t done = 0;
+  for (const PcdTable::Entry& entry : table.entries)
+  {
+    const PcdField& field = entry.field;
+    const std::size_t size = static_cast<std::size_t>(sizeOfType(field.type) * field.count);
+    const vtkIdType most = std::max<vtkIdType>(1, static_cast<vtkIdType>(kBlockBytes / size));
+    for (vtkIdType row = 0; row < rows && !field.isPadding(); row += most)
+    {
+      const vtkIdType count = std::min(most, rows - row);
+      block.resize(size * static_cast<std::size_t>(count));
+      if (!stream.read(block.data(), block.size()))
+      {
+        failFormat("byte " + std::to_string(packedAt + stream.position()) + ": damaged LZF data in field " +
+            inQuotes(field.name),
+          "the file is damaged: copy or write it again");
+      }
+      copyField(entry, block.data(), static_cast<std::ptrdiff_t>(size), columns, row, count);
+      done += block.size();
+      task.progress(
+        static_cast<double>(done) / static_cast<double>(header.points * header.compressedRecordSize));
+    }
+  }
+  if (!stream.isAtEnd())
+  {
+    failFormat("byte " + std::to_string(packedAt + stream.position()) + ": more compressed data than points",
+      "the file is damaged or its header is wrong: copy it again");
+  }
+}
+
+/// Where one number of an ASCII line goes.
+struct AsciiNumber
+{
+  const PcdField* field;
+  ColumnView target; ///< of a packed colour: its bytes
+};
+
+std::vector<AsciiNumber> asciiNumbers(const PcdTable& table, const CloudColumns& columns)
+{
+  std::vector<AsciiNumber> numbers;
+  for (const PcdTable::Entry& entry : table.entries)
+  {
+    for (int component = 0; component < entry.field.count; ++component)
+    {
+      numbers.push_back(
+        { &entry.field, entry.field.isPadding() ? ColumnView{} : columns.target(entry.column, component) });
+    }
+  }
+  return numbers;
+}
+
+bool storeAsciiNumber(const AsciiNumber& number, vtkIdType row, double value)
+{
+  if (number.field->isPadding())
+  {
+    return true;
+  }
+  if (!number.field->isPackedColour())
+  {
+    return storeNumber(number.target, row, value);
+  }
+  std::uint32_t packed = 0;
+  const bool stored = storeNumber({ reinterpret_cast<char*>(&packed), 0, number.field->type }, 0, value);
+  unpackColours(
+    { reinterpret_cast<const char*>(&packed), 0, VTK_TYPE_UINT32 }, number.target.fromRow(row), 1);
+  return stored;
+}
+
+void parseAsciiRow(
+  std::string_view line, std::size_t lineNumber, const std::vector<AsciiNumber>& numbers, vtkIdType row)
+{
+  for (const AsciiNumber& number : numbers)
+  {
+    double value = 0.0;
+    if (!takeNumber(line, value))
+    {
+      const std::string_view word = takeWord(line);
+      failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(number.field->name) + " is " +
+          (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
+        "write one number per field and one point per line");
+    }
+    if (!storeAsciiNumber(number, row, value))
+    {
+      failFormat("line " + std::to_string(lineNumber) + ": field " + inQuotes(number.field->name) + " is " +
+          std::to_string(value) + ", which its integer type cannot hold",
+        "give the field TYPE F in the header");
+    }
+  }
+  const std::string_view extra = takeWord(line);
+  if (!extra.empty())
+  {
+    failFormat("line " + std::to_string(lineNumber) + ": " + inQuotes(extra) + " follows the last field",
+      "write as many numbers per line as the header has fields");
+  }
+}
+
+/// Not left to PCL, which names no line when a number is malformed.
+void fillFromAscii(
+  const ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
+{
+  const std::vector<AsciiNumber> numbers = asciiNumbers(table, columns);
+  LineReader lines(task.bytes.substr(header.bodyOffset), header.bodyLine);
+  std::string_view line;
+  vtkIdType point = 0;
+  const vtkIdType rows = static_cast<vtkIdType>(header.points);
+  while (point < rows && lines.next(line))
+  {
+    if (trimmed(line).empty())
+    {
+      continue;
+    }
+    parseAsciiRow(line, lines.lineNumber(), numbers, point);
+    if (++point % kProgressRows == 0)
+    {
+      task.progress(static_cast<double>(point) / static_cast<double>(rows));
+    }
+  }
+  if (point < rows)
+  {
+    failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " after " +
+      std::to_string(point) + " of " + std::to_string(rows) + " points");
+  }
+}
+
+void addFieldData(const PcdHeader& header, vtkPolyData* cloud)
+{
+  vtkNew<vtkDoubleArray> viewpoint;
+  viewpoint->SetName("Viewpoint");
+  viewpoint->SetNumberOfComponents(7);
+  viewpoint->InsertNextTuple(header.viewpoint.data());
+  cloud->GetFieldData()->AddArray(viewpoint);
+  const unsigned long long most = std::numeric_limits<int>::max();
+  if (header.height > 1 && header.width <= most && header.height <= most)
+  {
+    vtkNew<vtkIntArray> dimensions;
+    dimensions->SetName("OrganizedDimensions");
+    dimensions->SetNumberOfComponents(2);
+    const int values[2] = { static_cast<int>(header.width), static_cast<int>(header.height) };
+    dimensions->InsertNextTypedTuple(values);
+    cloud->GetFieldData()->AddArray(dimensions);
+  }
+}
+
+} // namespace
+
+void readPcd(ReadTask& task, vtkPolyData* cloud)
+{
+  const PcdHeader header = parsePcdHeader(task.bytes);
+  task.format = std::string("PCD (") + nameOf(header.encoding) + ")";
+  const PcdTable table(header);
+  CloudColumns columns(table.columns, static_cast<vtkIdType>(header.points));
+  switch (header.encoding)
+  {
+    case PcdEncoding::Ascii:
+      fillFromAscii(task, header, table, columns);
+      break;
+    case PcdEncoding::Binary:
+      fillFromRecords(task, header, table, columns);
+      break;
+    case PcdEncoding::Compressed:
+      fillFromCompressed(task, header, table, columns);
+      break;
+  }
+  columns.moveTo(cloud);
+  addFieldData(header, cloud);
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,358 @@
+#include "IO/Pcd/PcdHeader.h"
+
+#include "CloudColumns.h"
+#include "FileProblem.h"
+#include "IO/Text/TextScan.h"
+#include "NumericType.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <set>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr unsigned long long kMostLzfRatio = 90; ///< LZF packs at most 264 bytes into 3
+
+[[noreturn]] void failLine(std::size_t line, const std::string& what, const std::string& cure)
+{
+  failFormat("line " + std::to_string(line) + ": " + what, cure);
+}
+
+int typeOf(char letter, unsigned long long size)
+{
+  switch (letter)
+  {
+    case 'F':
+      return size == 4 ? VTK_FLOAT : size == 8 ? VTK_DOUBLE : VTK_VOID;
+    case 'I':
+      return size == 1 ? VTK_TYPE_INT8
+        : size == 2    ? VTK_TYPE_INT16
+        : size == 4    ? VTK_TYPE_INT32
+        : size == 8    ? VTK_TYPE_INT64
+                       : VTK_VOID;
+    case 'U':
+      return size == 1 ? VTK_TYPE_UINT8
+        : size == 2    ? VTK_TYPE_UINT16
+        : size == 4    ? VTK_TYPE_UINT32
+        : size == 8    ? VTK_TYPE_UINT64
+                       : VTK_VOID;
+    default:
+      return VTK_VOID;
+  }
+}
+
+/// Reads the header's lines one by one.
+class HeaderParser
+{
+public:
+  explicit HeaderParser(std::string_view bytes)
+    : lines_(bytes)
+  {
+  }
+  PcdHeader parse();
+
+private:
+  void parseEntry(std::string_view keyword, std::string_view rest);
+  void parseData(std::string_view word);
+  unsigned long long parseOneCount(std::string_view rest) const;
+  std::vector<std::string> wordsPerField(std::string_view rest) const;
+  void buildFields();
+
+  LineReader lines_;
+  PcdHeader header_;
+  std::set<std::string> seen_;
+  std::vector<std::string> names_;
+  std::vector<std::string> sizes_;
+  std::vector<std::string> types_;
+  std::vector<std::string> counts_;
+};
+
+std::vector<std::string> HeaderParser::wordsPerField(std::string_view rest) const
+{
+  std::vector<std::string> words;
+  for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
+  {
+    if (words.size() == kMostColumns)
+    {
+      failLine(lines_.lineNumber(), "more than " + std::to_string(kMostColumns) + " entries",
+        "use COUNT for fields of many numbers");
+    }
+    words.emplace_back(word);
+  }
+  if (!names_.empty() && words.size() != names_.size())
+  {
+    failLine(lines_.lineNumber(),
+      std::to_string(words.size()) + " entries for " + std::to_string(names_.size()) + " fields",
+      "write one entry per field");
+  }
+  return words;
+}
+
+unsigned long long HeaderParser::parseOneCount(std::string_view rest) const
+{
+  unsigned long long value = 0;
+  if (!parseCount(trimmed(rest), value))
+  {
+    failLine(
+      lines_.lineNumber(), inQuotes(trimmed(rest)) + " is not a count", "write a whole number, 0 or more");
+  }
+  return value;
+}
+
+void HeaderParser::parseData(std::string_view word)
+{
+  if (word == "ascii")
+  {
+    header_.encoding = PcdEncoding::Ascii;
+  }
+  else if (word == "binary")
+  {
+    header_.encoding = PcdEncoding::Binary;
+  }
+  else if (word == "binary_compressed")
+  {
+    header_.encoding = PcdEncoding::Compressed;
+  }
+  else
+  {
+    failLine(
+      lines_.lineNumber(), "unknown DATA " + inQuotes(word), "PCD has ascii, binary and binary_compressed");
+  }
+}
+
+void HeaderParser::parseEntry(std::string_view keyword, std::string_view rest)
+{
+  if (keyword == "FIELDS")
+  {
+    names_ = wordsPerField(rest);
+  }
+  else if (keyword == "SIZE")
+  {
+    sizes_ = wordsPerField(rest);
+  }
+  else if (keyword == "TYPE")
+  {
+    types_ = wordsPerField(rest);
+  }
+  else if (keyword == "COUNT")
+  {
+    counts_ = wordsPerField(rest);
+  }
+  else if (keyword == "WIDTH")
+  {
+    header_.width = parseOneCount(rest);
+  }
+  else if (keyword == "HEIGHT")
+  {
+    header_.height = parseOneCount(rest);
+  }
+  else if (keyword == "POINTS")
+  {
+    header_.points = parseOneCount(rest);
+  }
+  else if (keyword == "VIEWPOINT")
+  {
+    for (double& value : header_.viewpoint)
+    {
+      const std::string_view word = takeWord(rest);
+      if (!parseNumber(word, value))
+      {
+        failLine(lines_.lineNumber(), "VIEWPOINT has " + inQuotes(word) + " where a number was expected",
+          "write 7 numbers: tx ty tz qw qx qy qz");
+      }
+    }
+  }
+  else if (keyword == "DATA")
+  {
+    parseData(takeWord(rest));
+  }
+  else if (keyword != "VERSION")
+  {
+    failLine(
+      lines_.lineNumber(), "unknown entry " + inQuotes(keyword), "write the file again with another program");
+  }
+}
+
+void HeaderParser::buildFields()
+{
+  for (const std::vector<std::string>* entries : { &sizes_, &types_, &counts_ })
+  {
+    if (names_.empty() || (!entries->empty() && entries->size() != names_.size()))
+    {
+      failFormat("FIELDS has " + std::to_string(names_.size()) + " names, another entry has " +
+          std::to_string(entries->size()),
+        "write one entry per field in FIELDS, SIZE, TYPE and COUNT");
+    }
+  }
+  // Old files leave SIZE, TYPE and COUNT out: floats of 4 bytes then.
+  for (std::size_t i = 0; i < names_.size(); ++i)
+  {
+    PcdField field;
+    field.name = names_[i];
+    unsigned long long size = 4;
+    unsigned long long count = 1;
+    const bool sized = sizes_.empty() || parseCount(sizes_[i], size);
+    const bool counted = counts_.empty() || parseCount(counts_[i], count);
+    field.type = typeOf(types_.empty() ? 'F' : types_[i].size() == 1 ? types_[i][0] : '?', size);
+    if (!sized || field.type == VTK_VOID || !counted || count < 1 || count > 65536)
+    {
+      failFormat("field " + inQuotes(field.name) + " has SIZE " + inQuotes(sizes_.empty() ? "4" : sizes_[i]) +
+          ", TYPE " + inQuotes(types_.empty() ? "F" : types_[i]) + " and COUNT " +
+          inQuotes(counts_.empty() ? "1" : counts_[i]),
+        "use TYPE F with SIZE 4 or 8, or I or U with SIZE 1, 2, 4 or 8, and a COUNT from 1 to 65536");
+    }
+    field.count = static_cast<int>(count);
+    field.offset = header_.recordSize;
+    header_.recordSize += size * count;
+    header_.compressedRecordSize += field.isPadding() ? 0 : size * count;
+    header_.numbersPerLine += count;
+    header_.fields.push_back(field);
+  }
+}
+
+PcdHeader HeaderParser::parse()
+{
+  std::string_view line;
+  bool complete = false;
+  while (!complete && lines_.next(line))
+  {
+    std::string keyword(takeWord(line));
+    if (keyword.empty() || keyword.front() == '#')
+    {
+      continue;
+    }
+    keyword = keyword == "COLUMNS" ? "FIELDS" : keyword;
+    if (!seen_.insert(keyword).second)
+    {
+      failLine(lines_.lineNumber(), "a second entry " + inQuotes(keyword), "keep one of the two");
+    }
+    parseEntry(keyword, line);
+    complete = keyword == "DATA";
+  }
+  if (!complete)
+  {
+    failTruncated("the header has no entry DATA");
+  }
+  for (const char* needed : { "FIELDS", "WIDTH" })
+  {
+    if (seen_.count(needed) == 0)
+    {
+      failFormat(
+        std::string("the header has no entry ") + needed, "write FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT");
+    }
+  }
+  if (seen_.count("POINTS") == 0)
+  {
+    header_.points = header_.width * header_.height;
+  }
+  header_.bodyOffset = lines_.position();
+  header_.bodyLine = lines_.lineNumber() + 1;
+  buildFields();
+  return header_;
+}
+
+std::uint32_t numberAt(std::string_view bytes, std::size_t offset)
+{
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + offset, sizeof(value));
+  return value;
+}
+
+void checkCompressedSize(std::string_view bytes, PcdHeader& header, unsigned long long unpacked)
+{
+  const std::size_t available = bytes.size() - header.bodyOffset;
+  if (available < 8)
+  {
+    failTruncated("the file ends at byte " + std::to_string(bytes.size()) + " before its compressed points");
+  }
+  const unsigned long long packed = numberAt(bytes, header.bodyOffset);
+  const unsigned long long claimed = numberAt(bytes, header.bodyOffset + 4);
+  if (packed > available - 8)
+  {
+    failTruncated("byte " + std::to_string(header.bodyOffset) + ": " + std::to_string(packed) +
+      " compressed bytes announced, but only " + std::to_string(available - 8) + " follow");
+  }
+  if (claimed != unpacked || unpacked > kMostLzfRatio * packed)
+  {
+    failFormat("byte " + std::to_string(header.bodyOffset + 4) + ": " + std::to_string(packed) +
+        " compressed bytes are said to hold " + std::to_string(claimed) + " where the header needs " +
+        std::to_string(unpacked),
+      "the file is damaged or its header is wrong: copy it again");
+  }
+  header.compressedSize = static_cast<std::size_t>(packed);
+}
+
+void checkSizes(std::string_view bytes, PcdHeader& header)
+{
+  // Division, because the product of two claims may overflow.
+  const bool matches = header.width == 0 || header.height == 0
+    ? header.points == 0
+    : header.points / header.width == header.height && header.points % header.width == 0;
+  if (!matches)
+  {
+    failFormat("POINTS is " + std::to_string(header.points) + ", but WIDTH is " +
+        std::to_string(header.width) + " and HEIGHT is " + std::to_string(header.height),
+      "make POINTS the product of WIDTH and HEIGHT");
+  }
+  if (header.points == 0)
+  {
+    failNoPoints();
+  }
+  const std::size_t available = bytes.size() - header.bodyOffset;
+  const bool isCompressed = header.encoding == PcdEncoding::Compressed;
+  const unsigned long long least = std::max<std::size_t>(1,
+    header.encoding == PcdEncoding::Ascii ? 2 * header.numbersPerLine
+      : isCompressed                      ? header.compressedRecordSize
+                                          : header.recordSize);
+  const unsigned long long ratio = isCompressed ? kMostLzfRatio : 1;
+  if (header.points > ratio * (available + 1) / least)
+  {
+    failTruncated("the header counts " + std::to_string(header.points) + " points of at least " +
+      std::to_string(least) + " bytes, but only " + std::to_string(available) + " bytes follow");
+  }
+  const unsigned long long total = header.points * header.recordSize;
+  if (header.encoding == PcdEncoding::Binary && total > available)
+  {
+    failTruncated("the header needs " + std::to_string(total) + " bytes of points, but only " +
+      std::to_string(available) + " follow");
+  }
+  if (isCompressed)
+  {
+    checkCompressedSize(bytes, header, header.points * header.compressedRecordSize);
+  }
+}
+
+} // namespace
+
+bool PcdField::isPackedColour() const
+{
+  return count == 1 && sizeOfType(type) == 4 && (name == "rgb" || name == "rgba");
+}
+
+PcdHeader parsePcdHeader(std::string_view bytes)
+{
+  PcdHeader header = HeaderParser(bytes).parse();
+  checkSizes(bytes, header);
+  return header;
+}
+
+const char* nameOf(PcdEncoding encoding)
+{
+  switch (encoding)
+  {
+    case PcdEncoding::Ascii:
+      return "ascii";
+    case PcdEncoding::Binary:
+      return "binary";
+    case PcdEncoding::Compressed:
+      return "binary compressed";
+  }
+  return "";
+}
+
+} // namespace pointhaptics::io

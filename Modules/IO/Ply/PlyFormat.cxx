@@ -1,0 +1,335 @@
+#include "FormatReaders.h"
+
+#include "CloudColumns.h"
+#include "IO/Ply/PlyHeader.h"
+#include "IO/Text/TextScan.h"
+#include "NumericType.h"
+
+#include <algorithm>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+std::string recordNumber(const char* what, unsigned long long index, unsigned long long count)
+{
+  return std::string(what) + " " + std::to_string(index) + " of " + std::to_string(count);
+}
+
+/// Binary records, one after the other.
+class BinaryBody
+{
+public:
+  BinaryBody(std::string_view bytes, std::size_t offset, bool swap)
+    : bytes_(bytes)
+    , offset_(offset)
+    , swap_(swap)
+  {
+  }
+  std::size_t offset() const { return offset_; }
+  std::size_t remaining() const { return bytes_.size() - offset_; }
+  bool swap() const { return swap_; }
+  const char* take(std::size_t size, const PlyElement& element, unsigned long long index)
+  {
+    if (size > remaining())
+    {
+      failTruncated("the file ends at byte " + std::to_string(bytes_.size()) + " inside " +
+        recordNumber(element.name.c_str(), index, element.count));
+    }
+    const char* data = bytes_.data() + offset_;
+    offset_ += size;
+    return data;
+  }
+  /// Steps over a list property.
+  void skipList(const PlyProperty& list, const PlyElement& element, unsigned long long index)
+  {
+    const std::size_t at = offset_;
+    double count = 0.0;
+    const char* data = take(static_cast<std::size_t>(sizeOfType(list.countType)), element, index);
+    copyStrided({ data, 0, list.countType }, { reinterpret_cast<char*>(&count), 0, VTK_DOUBLE }, 1, swap_);
+    if (count < 0.0)
+    {
+      failFormat("byte " + std::to_string(at) + ": a list of " +
+          std::to_string(static_cast<long long>(count)) + " items in " +
+          recordNumber(element.name.c_str(), index, element.count),
+        "write the file again with another program");
+    }
+    take(static_cast<std::size_t>(count) * static_cast<std::size_t>(sizeOfType(list.type)), element, index);
+  }
+
+private:
+  std::string_view bytes_;
+  std::size_t offset_;
+  bool swap_;
+};
+
+void skipBinaryElement(BinaryBody& body, const PlyElement& element)
+{
+  if (element.properties.empty())
+  {
+    return;
+  }
+  for (unsigned long long i = 0; i < element.count; ++i)
+  {
+    for (const PlyProperty& property : element.properties)
+    {
+      if (property.isList)
+      {
+        body.skipList(property, element, i);
+      }
+      else
+      {
+        body.take(static_cast<std::size_t>(sizeOfType(property.type)), element, i);
+      }
+    }
+  }
+}
+
+/// The columns of the vertex element, and where each property goes (npos for a list).
+struct VertexPlan
+{
+  std::vector<Column> columns;
+  std::vector<std::size_t> columnOfProperty;
+
+  explicit VertexPlan(const PlyElement& vertex)
+  {
+    for (const PlyProperty& property : vertex.properties)
+    {
+      columnOfProperty.push_back(property.isList ? std::string::npos : columns.size());
+      if (!property.isList)
+      {
+        columns.push_back({ property.name, property.type });
+      }
+    }
+  }
+};
+
+void checkVertexCount(const PlyElement& vertex, std::size_t available, std::size_t atLeastPerVertex)
+{
+  if (vertex.count == 0)
+  {
+    failNoPoints();
+  }
+  if (vertex.count > available / std::max<std::size_t>(atLeastPerVertex, 1))
+  {
+    failTruncated("the header counts " + std::to_string(vertex.count) + " vertices of at least " +
+      std::to_string(atLeastPerVertex) + " bytes, but only " + std::to_string(available) + " bytes follow");
+  }
+}
+
+/// Records of fixed size: one pass per column over blocks that stay in the cache.
+void fillFixedRecords(
+  BinaryBody& body, const PlyElement& vertex, const CloudColumns& columns, const ReadTask& task)
+{
+  const std::size_t recordSize = vertex.minimumRecordSize();
+  const vtkIdType rows = static_cast<vtkIdType>(vertex.count);
+  for (vtkIdType row = 0; row < rows; row += kProgressRows)
+  {
+    const vtkIdType count = std::min(kProgressRows, rows - row);
+    const char* field = body.take(recordSize * static_cast<std::size_t>(count), vertex, vertex.count);
+    for (std::size_t i = 0; i < vertex.properties.size(); ++i)
+    {
+      const int type = vertex.properties[i].type;
+      copyStrided({ field, static_cast<std::ptrdiff_t>(recordSize), type }, columns.target(i).fromRow(row),
+        count, body.swap());
+      field += sizeOfType(type);
+    }
+    task.progress(static_cast<double>(row + count) / static_cast<double>(rows));
+  }
+}
+
+/// Records that contain lists: their length is known only after reading them.
+void fillRecordsWithLists(BinaryBody& body, const PlyElement& vertex, const VertexPlan& plan,
+  const CloudColumns& columns, const ReadTask& task)
+{
+  for (unsigned long long row = 0; row < vertex.count; ++row)
+  {
+    for (std::size_t i = 0; i < vertex.properties.size(); ++i)
+    {
+      const PlyProperty& property = vertex.properties[i];
+      if (property.isList)
+      {
+        body.skipList(property, vertex, row);
+        continue;
+      }
+      const char* data = body.take(static_cast<std::size_t>(sizeOfType(property.type)), vertex, row);
+      copyStrided({ data, 0, property.type },
+        columns.target(plan.columnOfProperty[i]).fromRow(static_cast<vtkIdType>(row)), 1, body.swap());
+    }
+    if (row % kProgressRows == 0)
+    {
+      task.progress(static_cast<double>(row) / static_cast<double>(vertex.count));
+    }
+  }
+}
+
+void readBinaryBody(const ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
+{
+  const bool littleEndianFile = header.encoding == PlyEncoding::LittleEndian;
+  BinaryBody body(task.bytes, header.bodyOffset, littleEndianFile != kIsLittleEndianHost);
+  const std::size_t vertexIndex = header.vertexElement();
+  for (std::size_t i = 0; i < vertexIndex; ++i)
+  {
+    skipBinaryElement(body, header.elements[i]);
+  }
+  const PlyElement& vertex = header.elements[vertexIndex];
+  checkVertexCount(vertex, body.remaining(), vertex.minimumRecordSize());
+  const VertexPlan plan(vertex);
+  CloudColumns columns(plan.columns, static_cast<vtkIdType>(vertex.count));
+  if (vertex.hasList())
+  {
+    fillRecordsWithLists(body, vertex, plan, columns, task);
+  }
+  else
+  {
+    fillFixedRecords(body, vertex, columns, task);
+  }
+  columns.moveTo(cloud);
+}
+
+/// One ASCII record: a line of numbers.
+class AsciiRecord
+{
+public:
+  AsciiRecord(std::string_view line, std::size_t number)
+    : rest_(line)
+    , number_(number)
+  {
+  }
+  double takeNumber(const PlyProperty& property)
+  {
+    double value = 0.0;
+    if (!io::takeNumber(rest_, value))
+    {
+      const std::string_view word = takeWord(rest_);
+      failFormat(where() + "property " + inQuotes(property.name) + " is " +
+          (word.empty() ? std::string("missing") : inQuotes(word) + ", not a number"),
+        "write one number per property and one vertex per line");
+    }
+    return value;
+  }
+  void skipList(const PlyProperty& list)
+  {
+    const double count = takeNumber(list);
+    for (double i = 0.0; i < count; i += 1.0)
+    {
+      takeNumber(list);
+    }
+  }
+  void expectEnd()
+  {
+    const std::string_view extra = takeWord(rest_);
+    if (!extra.empty())
+    {
+      failFormat(where() + inQuotes(extra) + " follows the last property",
+        "write as many numbers per line as the header has properties");
+    }
+  }
+  std::string where() const { return "line " + std::to_string(number_) + ": "; }
+
+private:
+  std::string_view rest_;
+  std::size_t number_;
+};
+
+bool nextFilledLine(LineReader& lines, std::string_view& line)
+{
+  while (lines.next(line))
+  {
+    if (!trimmed(line).empty())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void fillAsciiRow(
+  AsciiRecord record, vtkIdType row, const PlyElement& vertex, const std::vector<ColumnView>& targets)
+{
+  for (std::size_t i = 0; i < vertex.properties.size(); ++i)
+  {
+    const PlyProperty& property = vertex.properties[i];
+    if (property.isList)
+    {
+      record.skipList(property);
+      continue;
+    }
+    const double value = record.takeNumber(property);
+    if (!storeNumber(targets[i], row, value))
+    {
+      failFormat(record.where() + "property " + inQuotes(property.name) + " is " + std::to_string(value) +
+          ", which its integer type cannot hold",
+        "declare the property as float or double in the header");
+    }
+  }
+  record.expectEnd();
+}
+
+void skipAsciiElement(LineReader& lines, const PlyElement& element)
+{
+  std::string_view line;
+  for (unsigned long long i = 0; i < element.count && !element.properties.empty(); ++i)
+  {
+    if (!nextFilledLine(lines, line))
+    {
+      failTruncated("the file ends before " + recordNumber(element.name.c_str(), i, element.count));
+    }
+  }
+}
+
+void readAsciiBody(const ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
+{
+  const std::string_view text = task.bytes.substr(header.bodyOffset);
+  LineReader lines(text, header.bodyLine);
+  const std::size_t vertexIndex = header.vertexElement();
+  for (std::size_t i = 0; i < vertexIndex; ++i)
+  {
+    skipAsciiElement(lines, header.elements[i]);
+  }
+  const PlyElement& vertex = header.elements[vertexIndex];
+  // Each number takes a digit and a separator; the last one may lack the separator.
+  checkVertexCount(vertex, text.size() - lines.position() + 1, 2 * vertex.properties.size());
+  const VertexPlan plan(vertex);
+  CloudColumns columns(plan.columns, static_cast<vtkIdType>(vertex.count));
+  std::vector<ColumnView> targets;
+  for (const std::size_t column : plan.columnOfProperty)
+  {
+    targets.push_back(column == std::string::npos ? ColumnView{} : columns.target(column));
+  }
+  std::string_view line;
+  for (unsigned long long row = 0; row < vertex.count; ++row)
+  {
+    if (!nextFilledLine(lines, line))
+    {
+      failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " before " +
+        recordNumber("vertex", row, vertex.count));
+    }
+    fillAsciiRow(AsciiRecord(line, lines.lineNumber()), static_cast<vtkIdType>(row), vertex, targets);
+    if (row % kProgressRows == 0)
+    {
+      task.progress(static_cast<double>(row) / static_cast<double>(vertex.count));
+    }
+  }
+  columns.moveTo(cloud);
+}
+
+} // namespace
+
+void readPly(ReadTask& task, vtkPolyData* cloud)
+{
+  const PlyHeader header = parsePlyHeader(task.bytes);
+  task.format = std::string("PLY (") + nameOf(header.encoding) + ")";
+  if (header.encoding == PlyEncoding::Ascii)
+  {
+    readAsciiBody(task, header, cloud);
+  }
+  else
+  {
+    readBinaryBody(task, header, cloud);
+  }
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,222 @@
+#include "IO/Ply/PlyHeader.h"
+
+#include "CloudColumns.h"
+#include "FileProblem.h"
+#include "IO/Text/TextScan.h"
+#include "NumericType.h"
+
+#include <algorithm>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+struct TypeName
+{
+  std::string_view name;
+  int type;
+};
+
+const TypeName kTypeNames[] = {
+  { "char", VTK_TYPE_INT8 },
+  { "int8", VTK_TYPE_INT8 },
+  { "uchar", VTK_TYPE_UINT8 },
+  { "uint8", VTK_TYPE_UINT8 },
+  { "short", VTK_TYPE_INT16 },
+  { "int16", VTK_TYPE_INT16 },
+  { "ushort", VTK_TYPE_UINT16 },
+  { "uint16", VTK_TYPE_UINT16 },
+  { "int", VTK_TYPE_INT32 },
+  { "int32", VTK_TYPE_INT32 },
+  { "uint", VTK_TYPE_UINT32 },
+  { "uint32", VTK_TYPE_UINT32 },
+  { "float", VTK_FLOAT },
+  { "float32", VTK_FLOAT },
+  { "double", VTK_DOUBLE },
+  { "float64", VTK_DOUBLE },
+};
+
+[[noreturn]] void failLine(std::size_t line, const std::string& what, const std::string& cure)
+{
+  failFormat("line " + std::to_string(line) + ": " + what, cure);
+}
+
+int parseType(std::string_view word, std::size_t line)
+{
+  for (const TypeName& known : kTypeNames)
+  {
+    if (known.name == word)
+    {
+      return known.type;
+    }
+  }
+  failLine(
+    line, "unknown property type " + inQuotes(word), "PLY has char uchar short ushort int uint float double");
+}
+
+PlyEncoding parseEncoding(std::string_view word, std::size_t line)
+{
+  if (word == "ascii")
+  {
+    return PlyEncoding::Ascii;
+  }
+  if (word == "binary_little_endian")
+  {
+    return PlyEncoding::LittleEndian;
+  }
+  if (word == "binary_big_endian")
+  {
+    return PlyEncoding::BigEndian;
+  }
+  failLine(
+    line, "unknown encoding " + inQuotes(word), "PLY has ascii, binary_little_endian and binary_big_endian");
+}
+
+PlyElement parseElement(std::string_view rest, std::size_t line)
+{
+  PlyElement element;
+  element.name = std::string(takeWord(rest));
+  const std::string_view count = takeWord(rest);
+  if (element.name.empty() || !parseCount(count, element.count))
+  {
+    failLine(line, "element " + inQuotes(element.name) + " has the count " + inQuotes(count),
+      "write: element NAME COUNT, with a count of 0 or more");
+  }
+  return element;
+}
+
+PlyProperty parseProperty(std::string_view rest, std::size_t line)
+{
+  PlyProperty property;
+  std::string_view word = takeWord(rest);
+  if (word == "list")
+  {
+    property.isList = true;
+    property.countType = parseType(takeWord(rest), line);
+    if (isFloatingType(property.countType))
+    {
+      failLine(line, "a list counted by float numbers", "count lists by uchar, ushort or uint");
+    }
+    word = takeWord(rest);
+  }
+  property.type = parseType(word, line);
+  property.name = std::string(takeWord(rest));
+  if (property.name.empty())
+  {
+    failLine(line, "a property without name", "write: property TYPE NAME");
+  }
+  return property;
+}
+
+} // namespace
+
+bool PlyElement::hasList() const
+{
+  for (const PlyProperty& property : properties)
+  {
+    if (property.isList)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::size_t PlyElement::minimumRecordSize() const
+{
+  std::size_t size = 0;
+  for (const PlyProperty& property : properties)
+  {
+    size += static_cast<std::size_t>(sizeOfType(property.isList ? property.countType : property.type));
+  }
+  return size;
+}
+
+std::size_t PlyHeader::vertexElement() const
+{
+  for (std::size_t i = 0; i < elements.size(); ++i)
+  {
+    if (elements[i].name == "vertex")
+    {
+      return i;
+    }
+  }
+  failFormat("the header has no element vertex", "a point cloud needs: element vertex COUNT");
+}
+
+PlyHeader parsePlyHeader(std::string_view bytes)
+{
+  // A header of CR-only lines may stand before a body with LF bytes: cut it off before splitting lines.
+  std::size_t end = std::min(bytes.find("\nend_header"), bytes.find("\rend_header"));
+  if (end == std::string_view::npos)
+  {
+    failTruncated("the header has no line end_header within " + std::to_string(bytes.size()) + " bytes");
+  }
+  ++end;
+  PlyHeader header;
+  bool formatSeen = false;
+  LineReader lines(bytes.substr(0, end));
+  std::string_view line;
+  while (lines.next(line))
+  {
+    const std::size_t number = lines.lineNumber();
+    const std::string_view keyword = takeWord(line);
+    if (keyword == "format")
+    {
+      header.encoding = parseEncoding(takeWord(line), number);
+      formatSeen = true;
+    }
+    else if (keyword == "element")
+    {
+      header.elements.push_back(parseElement(line, number));
+    }
+    else if (keyword == "property")
+    {
+      if (header.elements.empty())
+      {
+        failLine(number, "a property before any element", "write the element's line first");
+      }
+      if (header.elements.back().properties.size() == kMostColumns)
+      {
+        failLine(number, "more than " + std::to_string(kMostColumns) + " properties", "use lists");
+      }
+      header.elements.back().properties.push_back(parseProperty(line, number));
+    }
+    else if (!keyword.empty() && keyword != "ply" && keyword != "comment" && keyword != "obj_info")
+    {
+      failLine(number, "unknown keyword " + inQuotes(keyword), "write the file again with another program");
+    }
+  }
+  if (!formatSeen)
+  {
+    failFormat("the header has no line format", "write: format ascii 1.0 (or binary_little_endian)");
+  }
+  header.bodyLine = lines.lineNumber() + 2;
+  header.bodyOffset = end + std::string_view("end_header").size();
+  while (
+    header.bodyOffset < bytes.size() && (bytes[header.bodyOffset] == ' ' || bytes[header.bodyOffset] == '\t'))
+  {
+    ++header.bodyOffset;
+  }
+  const bool crLf = bytes.substr(header.bodyOffset, 2) == "\r\n";
+  header.bodyOffset = std::min(header.bodyOffset + (crLf ? 2 : 1), bytes.size());
+  return header;
+}
+
+const char* nameOf(PlyEncoding encoding)
+{
+  switch (encoding)
+  {
+    case PlyEncoding::Ascii:
+      return "ascii";
+    case PlyEncoding::LittleEndian:
+      return "binary little endian";
+    case PlyEncoding::BigEndian:
+      return "binary big endian";
+  }
+  return "";
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,48 @@
+/// @file
+/// What the numbers in one column of a text have in common, which tells the array they need.
+#pragma once
+
+#include "IO/Text/TextScan.h"
+
+#include "vtkType.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pointhaptics::io
+{
+
+/// Knows the numbers it was shown, and keeps none. Integers beyond 2^53 lose their last digits.
+class NumberColumn
+{
+public:
+  void add(double value, NumberShape shape)
+  {
+    fitsFloat_ = fitsFloat_ && shape.fitsFloat;
+    isInteger_ = isInteger_ && shape.isInteger;
+    smallest_ = std::min(smallest_, value);
+    largest_ = std::max(largest_, value);
+  }
+  /// An empty cell reads as NaN.
+  void addEmpty() { isInteger_ = false; }
+  /// Whether all are integers in 0..255.
+  bool isByte() const { return isInteger_ && smallest_ >= 0.0 && largest_ <= 255.0; }
+  double largest() const { return largest_; }
+  /// VTK_FLOAT when a float keeps every digit, else VTK_DOUBLE.
+  int floatingType() const { return fitsFloat_ ? VTK_FLOAT : VTK_DOUBLE; }
+  /// VTK_INT for integers that fit it, else floatingType().
+  int type() const
+  {
+    const bool fitsInt =
+      smallest_ >= std::numeric_limits<int>::min() && largest_ <= std::numeric_limits<int>::max();
+    return isInteger_ && fitsInt ? VTK_INT : floatingType();
+  }
+
+private:
+  bool fitsFloat_ = true;
+  bool isInteger_ = true;
+  double smallest_ = std::numeric_limits<double>::infinity();
+  double largest_ = -std::numeric_limits<double>::infinity();
+};
+
+} // namespace pointhaptics::io

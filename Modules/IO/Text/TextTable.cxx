@@ -1,0 +1,407 @@
+#include "IO/Text/TextTable.h"
+
+#include "CloudColumns.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+/// Bytes of a comment that may be a header: enough for kMostColumns one-letter names, and never more.
+constexpr std::size_t kLongestHeader = 2 * kMostColumns;
+
+std::string_view withoutCommentMark(std::string_view line)
+{
+  while (!line.empty() && (line.front() == '#' || line.front() == '/'))
+  {
+    line.remove_prefix(1);
+  }
+  return trimmed(line);
+}
+
+bool isComment(std::string_view line)
+{
+  return line.substr(0, 1) == "#" || line.substr(0, 2) == "//";
+}
+
+char separatorOf(std::string_view line)
+{
+  const bool semicolon = line.find(';') != std::string_view::npos;
+  return semicolon ? ';' : line.find(',') != std::string_view::npos ? ',' : ' ';
+}
+
+/// Takes the next cell, trimmed, off the front of @p line. @return false when there is none left.
+bool takeCell(std::string_view& line, char separator, std::string_view& cell)
+{
+  if (separator == ' ')
+  {
+    cell = takeWord(line);
+    return !cell.empty();
+  }
+  if (line.data() == nullptr)
+  {
+    return false;
+  }
+  const std::size_t end = line.find(separator);
+  cell = trimmed(line.substr(0, end));
+  line = end == std::string_view::npos ? std::string_view{} : line.substr(end + 1);
+  return true;
+}
+
+std::vector<std::string_view> cellsOf(std::string_view line, char separator, std::size_t lineNumber)
+{
+  std::vector<std::string_view> cells;
+  std::string_view cell;
+  while (takeCell(line, separator, cell))
+  {
+    if (cells.size() == kMostColumns)
+    {
+      failFormat(
+        "line " + std::to_string(lineNumber) + ": more than " + std::to_string(kMostColumns) + " columns",
+        "write one point per line");
+    }
+    cells.push_back(cell);
+  }
+  while (!cells.empty() && cells.back().empty())
+  {
+    cells.pop_back();
+  }
+  return cells;
+}
+
+/// No cell is a number: names, not a line of data with a fault in it.
+bool isHeader(const std::vector<std::string_view>& cells)
+{
+  double value = 0.0;
+  return !cells.empty() &&
+    std::none_of(cells.begin(), cells.end(), [&](std::string_view cell) { return parseNumber(cell, value); });
+}
+
+/// ParaView writes "Points:0" for x.
+std::string columnName(std::string_view cell)
+{
+  while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+  {
+    cell = trimmed(cell.substr(1, cell.size() - 2));
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (equalNoCase(cell, "Points:" + std::to_string(axis)) ||
+      equalNoCase(cell, "Points_" + std::to_string(axis)))
+    {
+      return std::string(1, "xyz"[axis]);
+    }
+  }
+  return std::string(cell);
+}
+
+std::vector<std::string> columnNames(const std::vector<std::string_view>& cells)
+{
+  std::vector<std::string> names;
+  for (const std::string_view cell : cells)
+  {
+    names.push_back(columnName(cell));
+  }
+  return names;
+}
+
+bool namesCoordinates(const std::vector<std::string>& names)
+{
+  for (const char* axis : { "x", "y", "z" })
+  {
+    if (std::none_of(
+          names.begin(), names.end(), [&](const std::string& name) { return equalNoCase(name, axis); }))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Walks over the lines of data and shows each number to a Sink: number(column, value, shape),
+/// empty(column), endRow().
+template <typename Sink>
+class TableWalk
+{
+public:
+  TableWalk(const TextLayout& layout, std::size_t bytes, Sink& sink)
+    : layout_(layout)
+    , sink_(sink)
+    , remainingLines_(layout.hasPointCount ? 0 : std::numeric_limits<unsigned long long>::max())
+    , bytes_(bytes)
+  {
+  }
+  void run(const ReadTask& task, std::string_view text, double from, double to);
+
+private:
+  void addLine(std::string_view line);
+  void addWords(std::string_view line);
+  void addSeparated(std::string_view line);
+  void startBlock(std::string_view line);
+  std::string where() const { return "line " + std::to_string(lineNumber_); }
+  [[noreturn]] void failCell(std::size_t column, std::string_view cell) const;
+  [[noreturn]] void failColumns(std::string_view line) const;
+
+  const TextLayout& layout_;
+  Sink& sink_;
+  unsigned long long remainingLines_;
+  std::size_t bytes_;
+  std::size_t lineNumber_ = 0;
+};
+
+template <typename Sink>
+void TableWalk<Sink>::failCell(std::size_t column, std::string_view cell) const
+{
+  failFormat(where() + ", column " + std::to_string(column + 1) + ": " + inQuotes(cell) + " is not a number",
+    "write numbers with a decimal point, the same separator on every line, and comments after #");
+}
+
+template <typename Sink>
+void TableWalk<Sink>::failColumns(std::string_view line) const
+{
+  failFormat(where() + ": " + std::to_string(cellsOf(line, layout_.separator, lineNumber_).size()) +
+      " columns where " + std::to_string(layout_.columns) + " were expected",
+    "write the same number of columns on every line");
+}
+
+template <typename Sink>
+void TableWalk<Sink>::startBlock(std::string_view line)
+{
+  if (!parseCount(trimmed(line), remainingLines_))
+  {
+    failFormat(where() + ": " + inQuotes(line) + " stands where a count of points was expected",
+      "write the right number of points in the first line");
+  }
+  if (remainingLines_ > bytes_)
+  {
+    failTruncated(where() + ": the count of points is " + std::to_string(remainingLines_) + " in a file of " +
+      std::to_string(bytes_) + " bytes");
+  }
+}
+
+template <typename Sink>
+void TableWalk<Sink>::addWords(std::string_view line)
+{
+  std::string_view rest = line;
+  for (std::size_t column = 0; column < layout_.columns; ++column)
+  {
+    double value = 0.0;
+    NumberShape shape;
+    if (!takeNumber(rest, value, &shape))
+    {
+      const std::string_view word = takeWord(rest);
+      word.empty() ? failColumns(line) : failCell(column, word);
+    }
+    sink_.number(column, value, shape);
+  }
+  const std::string_view extra = takeWord(rest);
+  if (!extra.empty() && !isComment(extra))
+  {
+    failColumns(line);
+  }
+}
+
+template <typename Sink>
+void TableWalk<Sink>::addSeparated(std::string_view line)
+{
+  std::string_view rest = line;
+  std::string_view cell;
+  std::size_t column = 0;
+  while (takeCell(rest, layout_.separator, cell))
+  {
+    if (column >= layout_.columns)
+    {
+      if (!cell.empty()) // a separator at the end of a line is common
+      {
+        failColumns(line);
+      }
+      continue;
+    }
+    double value = 0.0;
+    NumberShape shape;
+    if (cell.empty())
+    {
+      sink_.empty(column); // a spreadsheet's way to say: not measured
+    }
+    else if (parseNumber(cell, value, &shape))
+    {
+      sink_.number(column, value, shape);
+    }
+    else
+    {
+      failCell(column, cell);
+    }
+    ++column;
+  }
+  if (column < layout_.columns)
+  {
+    failColumns(line);
+  }
+}
+
+template <typename Sink>
+void TableWalk<Sink>::addLine(std::string_view line)
+{
+  if (remainingLines_ == 0)
+  {
+    startBlock(line);
+    return;
+  }
+  layout_.separator == ' ' ? addWords(line) : addSeparated(line);
+  sink_.endRow();
+  --remainingLines_;
+}
+
+template <typename Sink>
+void TableWalk<Sink>::run(const ReadTask& task, std::string_view text, double from, double to)
+{
+  LineReader lines(text.substr(layout_.bodyOffset), layout_.bodyLine);
+  std::string_view line;
+  while (lines.next(line))
+  {
+    line = trimmed(line);
+    lineNumber_ = lines.lineNumber();
+    if (!line.empty() && !isComment(line))
+    {
+      addLine(line);
+    }
+    if (lineNumber_ % static_cast<std::size_t>(kProgressRows) == 0)
+    {
+      const double part =
+        static_cast<double>(layout_.bodyOffset + lines.position()) / static_cast<double>(text.size());
+      task.progress(from + (to - from) * part);
+    }
+  }
+  if (layout_.hasPointCount && remainingLines_ > 0)
+  {
+    failTruncated("the file ends " + std::to_string(remainingLines_) +
+      " points before the count in its first line is reached");
+  }
+}
+
+struct SurveySink
+{
+  TextTable table;
+
+  void number(std::size_t column, double value, NumberShape shape)
+  {
+    table.columns[column].add(value, shape);
+  }
+  void empty(std::size_t column) { table.columns[column].addEmpty(); }
+  void endRow() { ++table.rows; }
+};
+
+struct StoreSink
+{
+  const std::vector<ColumnView>& targets;
+  vtkIdType row = 0;
+
+  void number(std::size_t column, double value, NumberShape)
+  {
+    const ColumnView& target = targets[column];
+    char* to = target.first + row * target.stride;
+    switch (target.type)
+    {
+      case VTK_FLOAT:
+        return put(to, static_cast<float>(value));
+      case VTK_DOUBLE:
+        return put(to, value);
+      case VTK_TYPE_UINT8:
+        return put(to, static_cast<unsigned char>(value));
+      default:
+        return put(to, static_cast<int>(value));
+    }
+  }
+  void empty(std::size_t column) { number(column, std::numeric_limits<double>::quiet_NaN(), {}); }
+  void endRow() { ++row; }
+
+  template <typename T>
+  static void put(char* to, T value)
+  {
+    std::memcpy(to, &value, sizeof(T));
+  }
+};
+
+} // namespace
+
+TextLayout inspectText(std::string_view text)
+{
+  TextLayout layout;
+  std::string_view lastComment;
+  std::string_view line;
+  LineReader lines(text);
+  std::size_t lineStart = 0;
+  for (; lines.next(line); lineStart = lines.position())
+  {
+    line = trimmed(line);
+    if (line.empty())
+    {
+      continue;
+    }
+    if (isComment(line))
+    {
+      const std::string_view comment = withoutCommentMark(line);
+      lastComment = comment.empty() ? lastComment : comment;
+      continue;
+    }
+    const char separator = separatorOf(line);
+    const std::vector<std::string_view> cells = cellsOf(line, separator, lines.lineNumber());
+    unsigned long long count = 0;
+    if (layout.names.empty() && isHeader(cells))
+    {
+      layout.names = columnNames(cells);
+      layout.bodyOffset = lines.position();
+      layout.bodyLine = lines.lineNumber() + 1;
+      continue;
+    }
+    if (layout.names.empty() && !layout.hasPointCount && cells.size() == 1 && parseCount(cells[0], count))
+    {
+      layout.hasPointCount = true;
+      layout.bodyOffset = lineStart;
+      layout.bodyLine = lines.lineNumber();
+      continue;
+    }
+    layout.separator = separator;
+    layout.columns = cells.size();
+    break;
+  }
+  if (layout.names.empty() && !lastComment.empty())
+  {
+    // Prose in a comment is no header, however long it is.
+    const std::string_view start = lastComment.substr(0, kLongestHeader);
+    const std::vector<std::string> names =
+      columnNames(cellsOf(start, separatorOf(start), lines.lineNumber()));
+    if (names.size() == layout.columns && namesCoordinates(names))
+    {
+      layout.names = names;
+    }
+  }
+  // A cell may be empty at the end of the first line: the header knows better.
+  if (layout.separator != ' ' && layout.columns < layout.names.size())
+  {
+    layout.columns = layout.names.size();
+  }
+  return layout;
+}
+
+TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout)
+{
+  SurveySink sink;
+  sink.table.columns.resize(layout.columns);
+  TableWalk<SurveySink>(layout, text.size(), sink).run(task, text, 0.0, 0.5);
+  return std::move(sink.table);
+}
+
+void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
+  const std::vector<ColumnView>& targets)
+{
+  StoreSink sink{ targets };
+  TableWalk<StoreSink>(layout, text.size(), sink).run(task, text, 0.5, 1.0);
+}
+
+} // namespace pointhaptics::io

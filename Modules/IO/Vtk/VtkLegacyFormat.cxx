@@ -1,0 +1,312 @@
+#include "FormatReaders.h"
+
+#include "CloudColumns.h"
+#include "IO/Text/TextScan.h"
+#include "IO/Vtk/VtkLegacyCursor.h"
+#include "NumericType.h"
+
+#include "vtkDataArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+/// Not left to VTK's reader, which allocates whatever a file claims.
+class LegacyParser : private VtkLegacyCursor
+{
+public:
+  LegacyParser(const ReadTask& task, vtkPolyData* cloud)
+    : VtkLegacyCursor(task)
+    , cloud_(cloud)
+  {
+  }
+  void parse();
+
+private:
+  void parseHeader();
+  void parseSection(std::string_view keyword);
+  void parsePoints();
+  void skipCells();
+  void parseAttribute(std::string_view keyword);
+  void parseScalars();
+  void parseColours();
+  void parseField();
+  void skipMetadata();
+  void add(const std::string& name, vtkDataArray* array, Count tuples);
+
+  vtkPolyData* cloud_;
+  bool inPointData_ = false;
+  Count tuples_ = 0; ///< of the section
+};
+
+void LegacyParser::parseHeader()
+{
+  line();
+  line(); // a title
+  const std::string_view kind = line();
+  setBinary(equalNoCase(kind, "BINARY"));
+  if (!isBinary() && !equalNoCase(kind, "ASCII"))
+  {
+    failFormat("line 3: " + inQuotes(kind) + " where ASCII or BINARY was expected", "write the file again");
+  }
+}
+
+/// VTK writes blanks and the like in names as %20.
+std::string decodedName(std::string_view text)
+{
+  const auto digit = [](char c) { return c >= 'a' ? c - 'a' + 10 : c >= 'A' ? c - 'A' + 10 : c - '0'; };
+  std::string name;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const bool isCode = text[i] == '%' && i + 2 < text.size() &&
+      text.substr(i + 1, 2).find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
+    name += isCode ? static_cast<char>(16 * digit(text[i + 1]) + digit(text[i + 2])) : text[i];
+    i += isCode ? 2 : 0;
+  }
+  return name;
+}
+
+void LegacyParser::parsePoints()
+{
+  const Count points = count("the number of points");
+  const int vtkType = type(word());
+  if (points == 0)
+  {
+    failNoPoints();
+  }
+  if (cloud_->GetPoints())
+  {
+    failFormat(where() + "a second section POINTS", "keep one of the two");
+  }
+  const vtkSmartPointer<vtkDataArray> array = values("Points", vtkType, points, 3);
+  vtkNew<vtkPoints> made;
+  if (isFloatingType(vtkType))
+  {
+    made->SetData(array);
+  }
+  else
+  {
+    const auto wide = vtkSmartPointer<vtkDataArray>::Take(
+      vtkDataArray::CreateDataArray(needsDouble(vtkType) ? VTK_DOUBLE : VTK_FLOAT));
+    wide->DeepCopy(array);
+    made->SetData(wide);
+  }
+  cloud_->SetPoints(made);
+}
+
+void LegacyParser::skipCells()
+{
+  const Count first = count("a number of cells");
+  const Count second = count("the size of the cells");
+  if (!equalNoCase(peek(), "OFFSETS"))
+  {
+    skipValues(VTK_TYPE_INT32, second);
+    return;
+  }
+  // Since version 5.1: offsets and connectivity, each with its type.
+  for (const Count size : { first, second })
+  {
+    word();
+    skipValues(type(word()), size);
+  }
+}
+
+void LegacyParser::add(const std::string& name, vtkDataArray* array, Count tuples)
+{
+  if (inPointData_ && cloud_->GetPoints() && tuples == static_cast<Count>(cloud_->GetNumberOfPoints()))
+  {
+    array->SetName(name.c_str());
+    cloud_->GetPointData()->AddArray(array);
+  }
+}
+
+void LegacyParser::parseScalars()
+{
+  const std::string name = decodedName(word());
+  const int vtkType = type(word());
+  Count components = 1;
+  if (parseCount(peek(), components))
+  {
+    word();
+  }
+  if (equalNoCase(peek(), "LOOKUP_TABLE"))
+  {
+    word();
+    word();
+  }
+  add(name, values(name, vtkType, tuples_, components), tuples_);
+}
+
+/// Bytes in binary files, 0..1 in texts.
+void LegacyParser::parseColours()
+{
+  const std::string name = decodedName(word());
+  const Count components = count("the number of components");
+  vtkSmartPointer<vtkDataArray> colours =
+    values(name, isBinary() ? VTK_TYPE_UINT8 : VTK_FLOAT, tuples_, components);
+  if (!isBinary())
+  {
+    vtkNew<vtkUnsignedCharArray> bytes;
+    bytes->SetNumberOfComponents(colours->GetNumberOfComponents());
+    bytes->SetNumberOfTuples(colours->GetNumberOfTuples());
+    const float* from = static_cast<const float*>(colours->GetVoidPointer(0));
+    for (vtkIdType i = 0; i < bytes->GetNumberOfValues(); ++i)
+    {
+      const float scaled =
+        std::isfinite(from[i]) ? std::clamp(std::round(255.0f * from[i]), 0.0f, 255.0f) : 0.0f;
+      bytes->SetValue(i, static_cast<unsigned char>(scaled));
+    }
+    colours = bytes;
+  }
+  add(name, colours, tuples_);
+}
+
+void LegacyParser::parseField()
+{
+  word(); // the field's name
+  const Count arrays = count("the number of arrays");
+  for (Count i = 0; i < arrays; ++i)
+  {
+    if (equalNoCase(peek(), "METADATA"))
+    {
+      word();
+      skipMetadata();
+    }
+    const std::string name = decodedName(word());
+    const Count components = count("the number of components");
+    const Count tuples = count("the number of tuples");
+    const int vtkType = type(word());
+    if (tuples == 0)
+    {
+      continue;
+    }
+    add(name, values(name, vtkType, tuples, components), tuples);
+  }
+}
+
+/// Ends with an empty line.
+void LegacyParser::skipMetadata()
+{
+  line();
+  while (!isAtEnd() && !line().empty())
+  {
+  }
+}
+
+void LegacyParser::parseAttribute(std::string_view keyword)
+{
+  const std::string name = decodedName(word());
+  const Count components = equalNoCase(keyword, "TEXTURE_COORDINATES") ? count("the number of components")
+    : equalNoCase(keyword, "TENSORS")                                  ? 9
+    : equalNoCase(keyword, "TENSORS6")                                 ? 6
+    : equalNoCase(keyword, "GLOBAL_IDS") || equalNoCase(keyword, "PEDIGREE_IDS") ? 1
+                                                                                 : 3;
+  const int vtkType = type(word());
+  const bool areNormals = equalNoCase(keyword, "NORMALS");
+  const vtkSmartPointer<vtkDataArray> array = values(name, vtkType, tuples_, components);
+  add(areNormals ? "Normals" : name, array, tuples_);
+}
+
+void LegacyParser::parseSection(std::string_view keyword)
+{
+  const auto is = [&](const char* known) { return equalNoCase(keyword, known); };
+  if (is("POINTS"))
+  {
+    parsePoints();
+  }
+  else if (is("DIMENSIONS"))
+  {
+    line();
+  }
+  else if (is("VERTICES") || is("LINES") || is("POLYGONS") || is("TRIANGLE_STRIPS") || is("CELLS"))
+  {
+    skipCells();
+  }
+  else if (is("CELL_TYPES"))
+  {
+    skipValues(VTK_TYPE_INT32, count("the number of cells"));
+  }
+  else if (is("POINT_DATA") || is("CELL_DATA"))
+  {
+    inPointData_ = is("POINT_DATA");
+    tuples_ = count("a number of tuples");
+  }
+  else if (is("SCALARS"))
+  {
+    parseScalars();
+  }
+  else if (is("COLOR_SCALARS"))
+  {
+    parseColours();
+  }
+  else if (is("LOOKUP_TABLE"))
+  {
+    word();
+    values("table", isBinary() ? VTK_TYPE_UINT8 : VTK_FLOAT, count("the size of the table"), 4);
+  }
+  else if (is("FIELD"))
+  {
+    parseField();
+  }
+  else if (is("METADATA"))
+  {
+    skipMetadata();
+  }
+  else if (is("VECTORS") || is("NORMALS") || is("TEXTURE_COORDINATES") || is("TENSORS") || is("TENSORS6") ||
+    is("GLOBAL_IDS") || is("PEDIGREE_IDS"))
+  {
+    parseAttribute(keyword);
+  }
+  else
+  {
+    failFormat(
+      where() + "unknown keyword " + inQuotes(keyword), "save the file as .vtp, for example with ParaView");
+  }
+}
+
+void LegacyParser::parse()
+{
+  parseHeader();
+  for (std::string_view keyword = word(); !keyword.empty(); keyword = word())
+  {
+    if (!equalNoCase(keyword, "DATASET"))
+    {
+      parseSection(keyword);
+      continue;
+    }
+    const std::string_view kind = word();
+    if (!equalNoCase(kind, "POLYDATA") && !equalNoCase(kind, "UNSTRUCTURED_GRID") &&
+      !equalNoCase(kind, "STRUCTURED_GRID"))
+    {
+      failFormat(where() + inQuotes(kind) + " holds no list of points",
+        "save it as PolyData (.vtp), for example with ParaView");
+    }
+  }
+  if (!cloud_->GetPoints())
+  {
+    failTruncated("the file has no section POINTS");
+  }
+}
+
+} // namespace
+
+void readVtkLegacy(ReadTask& task, vtkPolyData* cloud)
+{
+  task.format = "VTK (legacy)";
+  LegacyParser(task, cloud).parse();
+  setActiveAttributes(cloud);
+  setOneVertexPerPoint(cloud);
+}
+
+} // namespace pointhaptics::io

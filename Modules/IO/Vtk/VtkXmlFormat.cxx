@@ -1,0 +1,108 @@
+#include "FormatReaders.h"
+
+#include "CloudColumns.h"
+#include "IO/Vtk/ErrorCollector.h"
+#include "IO/Vtk/VtkXmlChecks.h"
+
+#include "vtkDataArray.h"
+#include "vtkExecutive.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkXMLPolyDataReader.h"
+#include "vtkXMLUnstructuredDataReader.h"
+#include "vtkXMLUnstructuredGridReader.h"
+
+#include <algorithm>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+/// The reader for @p type. @throws FileProblem when it holds no list of points.
+vtkSmartPointer<vtkXMLUnstructuredDataReader> makeReader(std::string_view type)
+{
+  if (type == "PolyData")
+  {
+    return vtkSmartPointer<vtkXMLPolyDataReader>::New();
+  }
+  if (type == "UnstructuredGrid")
+  {
+    return vtkSmartPointer<vtkXMLUnstructuredGridReader>::New();
+  }
+  throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "a VTK file of the type " + inQuotes(type),
+    "save it as PolyData (.vtp), for example with ParaView's filter Extract Surface");
+}
+
+/// Arrays of a wrong length crash later filters: they are a fault of the file.
+void checkArrays(vtkPointSet* read)
+{
+  vtkPointData* data = read->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() != read->GetNumberOfPoints())
+    {
+      failFormat("array " + inQuotes(array->GetName() ? array->GetName() : "") + " has " +
+          std::to_string(array->GetNumberOfTuples()) + " values for " +
+          std::to_string(read->GetNumberOfPoints()) + " points",
+        "write the file again");
+    }
+  }
+}
+
+} // namespace
+
+void readVtkXml(ReadTask& task, vtkPolyData* cloud)
+{
+  const std::string_view type = xmlAttribute(vtkFileTag(task.bytes), "type");
+  task.format = type == "UnstructuredGrid" ? "VTU (VTK XML UnstructuredGrid)" : "VTP (VTK XML PolyData)";
+  const vtkSmartPointer<vtkXMLUnstructuredDataReader> reader = makeReader(type);
+  if (task.wasPacked)
+  {
+    throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "VTK's XML reader does not read gzip files",
+      "unpack it first: gunzip -k FILE");
+  }
+  checkVtkXml(task.bytes);
+  constexpr double kCheckPart = 0.1;
+  task.progress(kCheckPart);
+  vtkNew<ErrorCollector> errors;
+  // The executive adds a message of its own to each failure of its algorithm.
+  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->AddObserver(vtkCommand::WarningEvent, errors);
+  reader->SetReaderErrorObserver(errors);
+  reader->SetParserErrorObserver(errors);
+  reader->SetFileName(task.path.c_str());
+  RelayedProgress progress(reader, task.algorithm, task.overall(kCheckPart), 1.0);
+  reader->Update();
+  progress.finish();
+  vtkPointSet* read = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
+  if (!errors->first().empty() || reader->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    const std::string what = errors->first().empty() ? "VTK's XML reader failed" : errors->first();
+    failFormat(what, "the file is damaged or cut short: copy or write it again");
+  }
+  if (read->GetNumberOfPoints() == 0)
+  {
+    failNoPoints();
+  }
+  checkArrays(read);
+  cloud->SetPoints(read->GetPoints());
+  cloud->GetPointData()->ShallowCopy(read->GetPointData());
+  cloud->GetFieldData()->ShallowCopy(read->GetFieldData());
+  if (!cloud->GetPointData()->GetScalars() || !cloud->GetPointData()->GetNormals())
+  {
+    setActiveAttributes(cloud);
+  }
+  read->ReleaseData(); // its cells would lie beside those that take their place
+  setOneVertexPerPoint(cloud);
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,402 @@
+#include "CloudAppearance.h"
+
+#include "SmpExecutor.h"
+
+#include "Core/Bandwidth/LocalBandwidth.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkCameraPass.h"
+#include "vtkDataArray.h"
+#include "vtkDepthShadingPass.h"
+#include "vtkFloatArray.h"
+#include "vtkLightsPass.h"
+#include "vtkLookupTable.h"
+#include "vtkNew.h"
+#include "vtkOpaquePass.h"
+#include "vtkOverlayPass.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderPassCollection.h"
+#include "vtkRenderer.h"
+#include "vtkScalarBarActor.h"
+#include "vtkSequencePass.h"
+#include "vtkTextProperty.h"
+#include "vtkTranslucentPass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace
+{
+
+// Viridis at 1/8 steps (BSD, from matplotlib, CC0), its last step replaced by a darker yellow for light
+// backgrounds.
+constexpr double kColorPoints[9][3] = { { 0.267, 0.005, 0.329 }, { 0.278, 0.175, 0.483 },
+  { 0.231, 0.322, 0.546 }, { 0.173, 0.449, 0.558 }, { 0.128, 0.567, 0.551 }, { 0.153, 0.678, 0.506 },
+  { 0.361, 0.785, 0.388 }, { 0.627, 0.842, 0.224 }, { 0.890, 0.840, 0.130 } };
+
+/// Of the larger end of a range of colours: an error's least value is an accident.
+constexpr double kAsGoodAsZero = 3e-3;
+/// Of the width of a range that stays.
+constexpr double kSameRange = 0.1;
+constexpr int kScalarBarFont = 15;
+
+double valueOf(vtkDataArray* array, vtkIdType tuple, int component)
+{
+  if (component != kMagnitude)
+  {
+    return array->GetComponent(tuple, component);
+  }
+  double sum = 0.0;
+  for (int i = 0; i < array->GetNumberOfComponents(); ++i)
+  {
+    sum += array->GetComponent(tuple, i) * array->GetComponent(tuple, i);
+  }
+  return std::sqrt(sum);
+}
+
+/// The finite ones of at most about 10,000 values, in ascending order.
+std::vector<double> finiteSample(vtkDataArray* array, int component)
+{
+  std::vector<double> values;
+  const vtkIdType count = array->GetNumberOfTuples();
+  const vtkIdType step = std::max<vtkIdType>(1, count / 10000);
+  for (vtkIdType i = 0; i < count; i += step)
+  {
+    const double value = valueOf(array, i, component);
+    if (std::isfinite(value))
+    {
+      values.push_back(value);
+    }
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+/// The word for a component: its own name, x to z of three, or its number.
+std::string componentName(vtkDataArray* array, int component)
+{
+  if (component == kMagnitude)
+  {
+    return "magnitude";
+  }
+  const char* own = array->GetComponentName(component);
+  if (own && *own)
+  {
+    return own;
+  }
+  return array->GetNumberOfComponents() == 3 ? std::string(1, "xyz"[component]) : std::to_string(component);
+}
+
+/// Range of the finite values between the 1st and the 99th percentile.
+void robustRange(vtkDataArray* array, int component, double range[2])
+{
+  const std::vector<double> values = finiteSample(array, component);
+  range[0] = 0.0;
+  range[1] = 1.0;
+  if (!values.empty())
+  {
+    range[0] = values[values.size() / 100];
+    range[1] = values[values.size() - 1 - values.size() / 100];
+    range[0] = range[0] > 0.0 && range[0] < kAsGoodAsZero * range[1] ? 0.0 : range[0];
+  }
+  if (!(range[1] > range[0]))
+  {
+    range[1] = range[0] + std::max(1e-12, 1e-6 * std::abs(range[0]));
+  }
+}
+
+void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
+{
+  double range[2];
+  robustRange(array, component, range);
+  vtkLookupTable* colors = newCloudColorMap();
+  if (component == kMagnitude)
+  {
+    colors->SetVectorModeToMagnitude();
+  }
+  else
+  {
+    colors->SetVectorModeToComponent();
+    colors->SetVectorComponent(component);
+  }
+  colors->SetTableRange(range);
+  mapper->SetLookupTable(colors);
+  colors->Delete();
+  mapper->UseLookupTableScalarRangeOn();
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectColorArray(array->GetName());
+  mapper->SetColorModeToMapScalars();
+  mapper->ScalarVisibilityOn();
+}
+
+} // namespace
+
+vtkLookupTable* newCloudColorMap()
+{
+  vtkLookupTable* colors = vtkLookupTable::New();
+  colors->SetNumberOfTableValues(256);
+  for (int i = 0; i < 256; ++i)
+  {
+    const double position = i / 255.0 * 8.0;
+    const int lower = std::min(7, static_cast<int>(position));
+    const double t = position - lower;
+    double color[3];
+    for (int c = 0; c < 3; ++c)
+    {
+      color[c] = (1.0 - t) * kColorPoints[lower][c] + t * kColorPoints[lower + 1][c];
+    }
+    colors->SetTableValue(i, color[0], color[1], color[2], 1.0);
+  }
+  colors->SetNanColor(0.5, 0.5, 0.5, 1.0);
+  return colors;
+}
+
+void addHeightArray(vtkPolyData* cloud, const Vec3& up)
+{
+  const vtkIdType count = cloud->GetNumberOfPoints();
+  std::vector<double> heights(static_cast<std::size_t>(count));
+  double lowest = INFINITY;
+  Vec3 p;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    cloud->GetPoint(i, &p.x);
+    const double height = isFinite(p) ? dot(p, up) : NAN;
+    heights[static_cast<std::size_t>(i)] = height;
+    lowest = std::min(lowest, std::isnan(height) ? INFINITY : height);
+  }
+  vtkNew<vtkFloatArray> array;
+  array->SetName(kHeightArrayName);
+  array->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double height = heights[static_cast<std::size_t>(i)];
+    array->SetValue(i, std::isnan(height) ? 0.0f : static_cast<float>(height - lowest));
+  }
+  cloud->GetPointData()->AddArray(array);
+}
+
+std::optional<ColorSource> findColorSource(vtkPolyData* cloud, const std::string& colorBy)
+{
+  vtkPointData* data = cloud->GetPointData();
+  if (vtkDataArray* array = data->GetArray(colorBy.c_str()))
+  {
+    return ColorSource{ colorBy, array->GetNumberOfComponents() > 1 ? kMagnitude : 0 };
+  }
+  const std::size_t colon = colorBy.rfind(':');
+  const std::string name = colorBy.substr(0, colon);
+  vtkDataArray* array = colon == std::string::npos ? nullptr : data->GetArray(name.c_str());
+  const std::string word = array ? colorBy.substr(colon + 1) : "";
+  for (int i = kMagnitude; array && i < array->GetNumberOfComponents(); ++i)
+  {
+    if (word == componentName(array, i) || (i != kMagnitude && word == std::to_string(i)))
+    {
+      return ColorSource{ name, i };
+    }
+  }
+  return std::nullopt;
+}
+
+std::string describeColorSource(vtkPolyData* cloud, const ColorSource& source)
+{
+  vtkDataArray* array = cloud->GetPointData()->GetArray(source.array.c_str());
+  return array && array->GetNumberOfComponents() > 1
+    ? source.array + ":" + componentName(array, source.component)
+    : source.array;
+}
+
+void colorRange(vtkPolyData* cloud, const ColorSource& source, double range[2])
+{
+  robustRange(cloud->GetPointData()->GetArray(source.array.c_str()), source.component, range);
+}
+
+bool followColorRange(vtkPolyData* cloud, const ColorSource& source, vtkLookupTable* colors)
+{
+  double range[2];
+  colorRange(cloud, source, range);
+  const double* shown = colors->GetTableRange();
+  const double slack = kSameRange * (shown[1] - shown[0]);
+  const bool isOther = std::abs(range[0] - shown[0]) > slack || std::abs(range[1] - shown[1]) > slack;
+  if (isOther)
+  {
+    colors->SetTableRange(range);
+  }
+  return isOther;
+}
+
+bool hasColors(vtkPolyData* cloud)
+{
+  vtkDataArray* scalars = cloud ? cloud->GetPointData()->GetScalars() : nullptr;
+  return scalars && scalars->GetDataType() == VTK_UNSIGNED_CHAR &&
+    (scalars->GetNumberOfComponents() == 3 || scalars->GetNumberOfComponents() == 4);
+}
+
+double medianSpacing(vtkPolyData* cloud)
+{
+  // The default radius of the proxy is 2.8 local spacings.
+  constexpr double kRadiusPerSpacing = 2.8;
+  constexpr std::int64_t kSample = 1000;
+  std::vector<Vec3> places(std::size_t(cloud->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    cloud->GetPoint(vtkIdType(i), &places[i].x);
+  }
+  const PointView points(places.data(), std::int64_t(places.size()));
+  NeighborQuery query;
+  query.build(points, SmpExecutor());
+  std::vector<std::int64_t> slots;
+  for (std::int64_t slot = 0; slot < query.size(); slot += 1 + query.size() / kSample)
+  {
+    slots.push_back(slot);
+  }
+  std::vector<double> radii;
+  if (localRadiiAt(points, query, LocalBandwidthSettings(), slots, radii, SmpExecutor()) != Status::Ok ||
+    radii.empty())
+  {
+    return 0.0;
+  }
+  const auto middle = radii.begin() + std::ptrdiff_t(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle / kRadiusPerSpacing;
+}
+
+double pointSizeFor(double spacing, vtkRenderer* renderer, double largest)
+{
+  constexpr double kPixelsPerSpacing = 2.2;
+  constexpr double kSmallest = 3.0;
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const int* size = renderer->GetSize();
+  const double height = camera->GetParallelProjection()
+    ? 2.0 * camera->GetParallelScale()
+    : 2.0 * camera->GetDistance() * std::tan(0.5 * camera->GetViewAngle() * 3.14159265358979323846 / 180.0);
+  const double pixels = kPixelsPerSpacing * spacing / height * size[1];
+  return std::isfinite(pixels) ? std::round(std::min(std::max(pixels, kSmallest), largest)) : kSmallest;
+}
+
+bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper, vtkActor* actor,
+  const std::string& colorBy, double pointSize)
+{
+  actor->GetProperty()->SetPointSize(static_cast<float>(pointSize));
+  actor->GetProperty()->SetColor(0.20, 0.33, 0.55);
+  actor->GetProperty()->LightingOff();
+  const bool wantsColors = colorBy.empty() || colorBy == "rgb";
+  const std::optional<ColorSource> source = wantsColors ? std::nullopt : findColorSource(cloud, colorBy);
+  if (source)
+  {
+    colorByArray(mapper, cloud->GetPointData()->GetArray(source->array.c_str()), source->component);
+    return true;
+  }
+  if (wantsColors && hasColors(cloud))
+  {
+    mapper->SetScalarModeToUsePointData();
+    mapper->SetColorModeToDirectScalars();
+    mapper->ScalarVisibilityOn();
+    return true;
+  }
+  vtkDataArray* height = cloud->GetPointData()->GetArray(kHeightArrayName);
+  if (height)
+  {
+    colorByArray(mapper, height, 0);
+  }
+  else
+  {
+    mapper->ScalarVisibilityOff();
+  }
+  return colorBy.empty();
+}
+
+void setUpScalarBar(vtkScalarBarActor* bar)
+{
+  bar->SetNumberOfLabels(4);
+  bar->UnconstrainedFontSizeOn();
+  for (vtkTextProperty* text : { bar->GetTitleTextProperty(), bar->GetLabelTextProperty() })
+  {
+    text->SetFontSize(kScalarBarFont);
+    text->SetColor(0.1, 0.1, 0.1);
+    text->ItalicOff();
+    text->BoldOff();
+    text->ShadowOff();
+  }
+  bar->SetLabelFormat("%#.3g ");
+  bar->SetTextPositionToPrecedeScalarBar(); // a long title grows away from the edge
+}
+
+void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer)
+{
+  constexpr double kMargin = 12.0;
+  constexpr double kBarWidth = 24.0;
+  constexpr double kNumberLetters = 9.0; // -1.23e-05
+  constexpr double kLetterWidth = 0.57;  // of the font's size
+  const double size = renderer->GetSize()[0];
+  const double letter = kLetterWidth * kScalarBarFont;
+  const double title = letter * double(bar->GetTitle() ? std::strlen(bar->GetTitle()) : 0);
+  const double width = std::min(size, std::max(title, kBarWidth + letter * kNumberLetters));
+  if (width > 0.0)
+  {
+    bar->SetPosition(std::max(0.0, (size - kMargin - width) / size), 0.28);
+    bar->SetWidth(width / size);
+    bar->SetHeight(0.5);
+    bar->SetBarRatio(std::min(1.0, kBarWidth / width));
+  }
+}
+
+void applyBackground(vtkRenderer* renderer)
+{
+  renderer->GradientBackgroundOn();
+  renderer->SetBackground(0.97, 0.97, 0.96);
+  renderer->SetBackground2(0.80, 0.84, 0.89);
+}
+
+void applyFigureAppearance(vtkPolyDataMapper* mapper, vtkActor* actor, vtkRenderer* renderer)
+{
+  mapper->ScalarVisibilityOff();
+  actor->GetProperty()->SetColor(0.60, 0.68, 0.80);
+  renderer->GradientBackgroundOff();
+  renderer->SetBackground(1.0, 1.0, 1.0);
+}
+
+void applyDepthShading(vtkRenderer* renderer, double depthScale, double depthTolerance)
+{
+  auto* sequence = vtkSequencePass::SafeDownCast(renderer->GetPass());
+  vtkRenderPass* first = sequence && sequence->GetPasses()->GetNumberOfItems() > 0
+    ? vtkRenderPass::SafeDownCast(sequence->GetPasses()->GetItemAsObject(0))
+    : nullptr;
+  if (auto* present = vtkDepthShadingPass::SafeDownCast(first))
+  {
+    present->SetDepthScale(depthScale);
+    present->SetDepthTolerance(depthTolerance);
+    return;
+  }
+  vtkNew<vtkLightsPass> lights;
+  vtkNew<vtkOpaquePass> opaque;
+  vtkNew<vtkTranslucentPass> translucent;
+  vtkNew<vtkRenderPassCollection> worldPasses;
+  worldPasses->AddItem(lights);
+  worldPasses->AddItem(opaque);
+  worldPasses->AddItem(translucent);
+  vtkNew<vtkSequencePass> world;
+  world->SetPasses(worldPasses);
+  vtkNew<vtkCameraPass> camera;
+  camera->SetDelegatePass(world);
+  vtkNew<vtkDepthShadingPass> shading;
+  shading->SetDelegatePass(camera);
+  shading->SetDepthScale(depthScale);
+  shading->SetDepthTolerance(depthTolerance);
+  // Text comes after the shading: it has no depth.
+  vtkNew<vtkOverlayPass> overlay;
+  vtkNew<vtkRenderPassCollection> passes;
+  passes->AddItem(shading);
+  passes->AddItem(overlay);
+  vtkNew<vtkSequencePass> all;
+  all->SetPasses(passes);
+  renderer->SetPass(all);
+}
+
+} // namespace pointhaptics

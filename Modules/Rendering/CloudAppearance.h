@@ -1,0 +1,103 @@
+/// @file
+/// How a cloud is drawn: its own colours where it has them, else height by a perceptually uniform map.
+#pragma once
+
+#include "Core/Base/Vector3.h"
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include <optional>
+#include <string>
+
+class vtkActor;
+class vtkLookupTable;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkRenderer;
+class vtkScalarBarActor;
+
+namespace pointhaptics
+{
+
+/// Name of the array addHeightArray() makes.
+constexpr const char* kHeightArrayName = "Height";
+
+/// 256 colours from dark violet-blue through green to a yellow that still reads on a light background: even
+/// steps of lightness, and also right for people who do not see red or green. The caller owns the result
+/// (Delete()).
+POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newCloudColorMap();
+
+/// Adds the float array "Height": the position along @p up, metres above the lowest finite point (0 for
+/// points that are not finite). Taken before the cloud is transformed, so the colours turn with the model.
+POINTHAPTICSRENDERING_EXPORT void addHeightArray(vtkPolyData* cloud, const Vec3& up);
+
+/// True where the active scalars are colours: unsigned char with 3 or 4 components.
+POINTHAPTICSRENDERING_EXPORT bool hasColors(vtkPolyData* cloud);
+
+/// What the points are coloured by.
+struct ColorSource
+{
+  std::string array;
+  int component = 0; ///< From 0; kMagnitude: the length of the vector.
+};
+constexpr int kMagnitude = -1;
+
+/// The array and the component that @p colorBy names: "ARRAY", "ARRAY:0" and so on, "ARRAY:magnitude", and by
+/// the names of the components, where the array has them; "ARRAY:x" to "ARRAY:z" of one with three. A name
+/// alone means the magnitude of an array with several components. None: @p cloud has no such point array or
+/// component.
+POINTHAPTICSRENDERING_EXPORT std::optional<ColorSource> findColorSource(
+  vtkPolyData* cloud, const std::string& colorBy);
+
+/// "ARRAY", or with its component as the user would write it where there are several: for a scalar bar.
+POINTHAPTICSRENDERING_EXPORT std::string describeColorSource(vtkPolyData* cloud, const ColorSource& source);
+
+/// The values of @p source between which the colours run: those of the finite points, without the 1 % at each
+/// end, from 0 where the lower one is hardly more, and never of no width; 0 to 1 where no value is finite. Of
+/// at most about 10,000 points.
+POINTHAPTICSRENDERING_EXPORT void colorRange(vtkPolyData* cloud, const ColorSource& source, double range[2]);
+
+/// Sets the range of @p colors to the colorRange() of @p source, unless both ends are within a tenth of its
+/// width of that already: colours that creep while the model moves would tell nothing. @return whether it was
+/// set.
+POINTHAPTICSRENDERING_EXPORT bool followColorRange(
+  vtkPolyData* cloud, const ColorSource& source, vtkLookupTable* colors);
+
+/// Makes @p mapper and @p actor draw the points of the mapper's input as squares of @p pointSize pixels.
+/// @param colorBy what findColorSource() takes; "rgb" for the active colours; empty: colours if there, else
+/// "Height", else one colour. An array is coloured over its colorRange(), grey where it is NaN. False: there
+/// is no such array, and the appearance is that of the empty name.
+POINTHAPTICSRENDERING_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper,
+  vtkActor* actor, const std::string& colorBy = {}, double pointSize = 3.0);
+
+/// Dark text on the light background, at the right edge: see placeScalarBar().
+POINTHAPTICSRENDERING_EXPORT void setUpScalarBar(vtkScalarBarActor* bar);
+
+/// Makes room for the title and the numbers of @p bar at the right edge of @p renderer, in pixels: to be
+/// called before a render whose size or title may be another one.
+POINTHAPTICSRENDERING_EXPORT void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer);
+
+/// A light background, white below to a pale blue-grey above, on which black lines and all colours of the map
+/// read.
+POINTHAPTICSRENDERING_EXPORT void applyBackground(vtkRenderer* renderer);
+
+/// One plain colour on white, as in a printed figure. applyCloudAppearance() and applyBackground() take it
+/// back.
+POINTHAPTICSRENDERING_EXPORT void applyFigureAppearance(
+  vtkPolyDataMapper* mapper, vtkActor* actor, vtkRenderer* renderer);
+
+/// Darkens what lies behind its surroundings (eye-dome lighting, vtkDepthShadingPass): points without normals
+/// show their shape.
+/// @param depthScale a point this far behind its neighbours, in the units of the scene, keeps 1/e of its
+/// lightness: larger is weaker. May be called again with other ones.
+/// @param depthTolerance what lies less than this behind its neighbours is not darkened.
+POINTHAPTICSRENDERING_EXPORT void applyDepthShading(
+  vtkRenderer* renderer, double depthScale, double depthTolerance = 0.0);
+
+/// Median distance between neighbours, of a sample of the points; 0 where there are none.
+POINTHAPTICSRENDERING_EXPORT double medianSpacing(vtkPolyData* cloud);
+
+/// Pixels at which points @p spacing apart, at the camera's focal point, close to a surface: 3 to @p largest.
+POINTHAPTICSRENDERING_EXPORT double pointSizeFor(double spacing, vtkRenderer* renderer, double largest = 9.0);
+
+} // namespace pointhaptics

@@ -1,0 +1,137 @@
+/// @file
+/// Draws fewer points while the picture moves, so that it keeps moving, and all of them when it rests.
+#pragma once
+
+#include "FrameBudget.h"
+#include "SplatBricks.h"
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkActor;
+class vtkCallbackCommand;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkProperty;
+class vtkRenderWindow;
+class vtkRenderer;
+
+namespace pointhaptics
+{
+
+/// Stands beside the actor of a cloud in a renderer. A frame that differs from the last one by its camera,
+/// its cloud or another actor is drawn with as many points, in fairOrder(), as fit the frame budget, which is
+/// learnt from the times such frames take; the splats of a vtkSplatMapper grow so that surfaces stay closed.
+/// After kRestSeconds without such a frame refinementDue() asks for frames with four times as many points
+/// each, until the cloud's own actor is drawn: the picture at rest is the one without this class. Of the
+/// splats of a vtkSplatMapper only the bricks in view, and in the workspace if there is one, are drawn in
+/// such a frame, and only they count: a part of the cloud seen from near by is shown with more points. In the
+/// picture at rest what is out of view is left out too, which changes no pixel. From so far that neighbours
+/// are much less than a pixel apart the picture is as fine as it gets with a part of the points: the others
+/// are neither drawn nor uploaded. Text may change without the detail changing. Points are uploaded when they
+/// are first drawn.
+///
+/// The picture only gets finer when somebody renders: call refinementDue() from a timer. GUI thread only. To
+/// be destroyed before the actor's renderer.
+class POINTHAPTICSRENDERING_EXPORT CloudDetail
+{
+public:
+  static constexpr double kRestSeconds = 0.15;
+
+  /// @param actor draws the whole cloud with a vtkPolyDataMapper, in @p renderer.
+  CloudDetail(vtkRenderer* renderer, vtkActor* actor);
+  ~CloudDetail();
+  CloudDetail(const CloudDetail&) = delete;
+  CloudDetail& operator=(const CloudDetail&) = delete;
+
+  /// A box in the frame of the scene: what lies outside is not drawn while the picture moves. Default: none.
+  void setWorkspace(const Bounds& box) { workspace_ = box; }
+  /// Off (the default): every frame shows all points.
+  void setEnabled(bool enabled);
+  bool isEnabled() const { return enabled_; }
+
+  /// Chooses what the coming frame shows. To be called when the renderer starts (vtkCommand::StartEvent),
+  /// after the cloud was brought up to date. @param now seconds of a steady clock.
+  void beginFrame(double now);
+
+  /// The picture rests and does not show all points: render it.
+  bool refinementDue(double now) const;
+  /// The next frame shows all points, whatever moves: for pictures that are kept.
+  void showAllOnce() { allOnce_ = true; }
+
+  /// The actor's mapper colours otherwise now: the parts of the picture that moves are made anew.
+  void recolor() { this->removeLevels(); }
+
+  /// Whether the last frame was as fine as it gets: all points, but for those below a pixel.
+  bool showsAll() const { return drawn_ >= finest_; }
+  bool isMoving() const { return moving_; }
+  /// Points in the last frame, those out of view included; and without them.
+  std::int64_t drawnPoints() const { return drawn_; }
+  std::int64_t visiblePoints() const { return visible_; }
+  std::int64_t allPoints() const { return total_; }
+  /// All points over those drawn, square root: how much farther apart the drawn ones lie on a surface.
+  double spacingFactor() const;
+  /// Pixels, for the points of the coming frame where it does not show all and the actor's mapper is no
+  /// vtkSplatMapper.
+  void setCoarsePointSize(double pixels);
+  const FrameBudget& budget() const { return budget_; }
+
+private:
+  struct Level
+  {
+    std::int64_t end = 0; // points in this level and those before
+    vtkSmartPointer<vtkActor> actor;
+    std::vector<SplatBrick> bricks; // where the mapper draws splats
+    double largestLength = 0.0;     // of a splat, in the array
+  };
+
+  void watchWindow();
+  void endFrame();
+  bool sceneChanged(vtkPolyData* cloud);
+  std::int64_t wanted(double now);
+  std::int64_t levelFor(std::int64_t points) const;
+  void show(vtkPolyData* cloud, std::int64_t points);
+  void addLevel(vtkPolyData* cloud);
+  void leaveOutUnseen();
+  void leaveOutOfView(vtkPolyData* cloud);
+  std::vector<HalfSpace> sides(double pixels) const;
+  std::vector<HalfSpace> view() const;
+  std::int64_t finestFor(vtkPolyData* cloud);
+  void removeLevels();
+  void dropLevels();
+
+  vtkWeakPointer<vtkRenderer> renderer_;
+  vtkSmartPointer<vtkActor> actor_;
+  vtkNew<vtkProperty> coarse_;
+  vtkNew<vtkCallbackCommand> onEnd_;
+  vtkWeakPointer<vtkRenderWindow> window_;
+  std::vector<std::int64_t> order_;
+  std::vector<Level> levels_;
+  FrameBudget budget_;
+  bool enabled_ = false;
+  bool allOnce_ = false;
+  bool moving_ = false;
+  bool cloudChanged_ = false;
+  bool frameIsTypical_ = false;  // nothing is uploaded in it
+  std::vector<SplatBrick> rows_; // of the whole cloud, in its order
+  bool hasRows_ = false;         // and they were made
+  double spacing_ = -1.0;        // of most neighbours; 0: not known; below 0: not looked at
+  std::int64_t total_ = 0;
+  std::int64_t finest_ = 0; // so many points tell apart what pixels can
+  std::int64_t drawn_ = 0;
+  std::int64_t visible_ = 0;
+  Bounds workspace_;
+  double lastMotion_ = -1e9;
+  double frameBegin_ = 0.0;
+  unsigned long long cloudTime_ = 0;
+  unsigned long long propsTime_ = 0;
+  std::vector<double> placement_; // of camera, cloud and window, in the last frame
+};
+
+} // namespace pointhaptics

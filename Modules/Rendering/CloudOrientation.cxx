@@ -1,0 +1,207 @@
+#include "CloudOrientation.h"
+
+#include "Core/Base/PointView.h"
+
+#include "vtkCamera.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// An object's longest extent over its shortest, and how many of its lengths it may lie from the origin.
+constexpr double kLongestObject = 4.0;
+constexpr double kFarthestObject = 10.0;
+
+Bounds finiteBounds(vtkPolyData* cloud)
+{
+  Bounds bounds;
+  Vec3 p;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    cloud->GetPoint(i, &p.x);
+    if (isFinite(p))
+    {
+      bounds.include(p);
+    }
+  }
+  return bounds;
+}
+
+double fieldValue(vtkDataArray* array, int i)
+{
+  const int components = array->GetNumberOfComponents();
+  return array->GetComponent(i / components, i % components);
+}
+
+/// A viewpoint (tx ty tz qw qx qy qz) other than the identity, or an organised frame of more than one row.
+bool comesFromCamera(vtkFieldData* field)
+{
+  vtkDataArray* dimensions = field->GetArray("OrganizedDimensions");
+  if (dimensions && dimensions->GetNumberOfValues() == 2 && fieldValue(dimensions, 1) > 1.0)
+  {
+    return true;
+  }
+  vtkDataArray* viewpoint = field->GetArray("Viewpoint");
+  bool moved = false;
+  for (int i = 0; viewpoint && viewpoint->GetNumberOfValues() == 7 && i < 7; ++i)
+  {
+    moved = moved || (i != 3 && fieldValue(viewpoint, i) != 0.0);
+  }
+  return moved;
+}
+
+/// A depth camera's points are in its own frame, z forward and y down, all in front of it; the viewpoint
+/// places that frame in a world we do not show. Points behind the camera mean that they are in the world's
+/// frame already.
+bool sensorOrientation(vtkPolyData* cloud, CloudOrientation& orientation)
+{
+  if (!comesFromCamera(cloud->GetFieldData()) || !(finiteBounds(cloud).minimum.z > 0.0))
+  {
+    return false;
+  }
+  orientation.up = { 0.0, -1.0, 0.0 };
+  orientation.front = { 0.0, 0.0, -1.0 };
+  orientation.fromSensor = true;
+  return true;
+}
+
+bool isMeshFormat(std::string format)
+{
+  std::transform(
+    format.begin(), format.end(), format.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const char* name : { "ply", "obj", "stl", "off" })
+  {
+    if (format.find(name) != std::string::npos)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A scanned object that stands on y = 0 or is tallest along y, as model makers leave them; not a scene:
+/// those are wide, and low along z.
+bool standsAlongY(const Bounds& bounds)
+{
+  const Vec3 extent = bounds.extent();
+  const double longest = std::max({ extent.x, extent.y, extent.z });
+  const double shortest = std::min({ extent.x, extent.y, extent.z });
+  if (!(longest > 0.0) || shortest < longest / kLongestObject ||
+    norm(bounds.center()) > kFarthestObject * longest)
+  {
+    return false;
+  }
+  const bool straddles =
+    bounds.minimum.x < 0.0 && bounds.maximum.x > 0.0 && bounds.minimum.z < 0.0 && bounds.maximum.z > 0.0;
+  const bool startsAtFloor =
+    bounds.minimum.y > -0.3 * extent.y && straddles && bounds.minimum.z < -0.3 * extent.z;
+  return extent.y >= longest || startsAtFloor;
+}
+
+} // namespace
+
+CloudOrientation orientationForUpAxis(char axis)
+{
+  CloudOrientation orientation;
+  if (axis == 'y')
+  {
+    orientation.up = { 0.0, 1.0, 0.0 };
+    orientation.front = { 0.0, 0.0, 1.0 };
+  }
+  else if (axis == 'x')
+  {
+    orientation.up = { 1.0, 0.0, 0.0 };
+    orientation.front = { 0.0, 0.0, 1.0 };
+  }
+  return orientation;
+}
+
+CloudOrientation guessCloudOrientation(vtkPolyData* cloud, const std::string& format)
+{
+  CloudOrientation orientation;
+  if (!cloud || sensorOrientation(cloud, orientation))
+  {
+    return orientation;
+  }
+  if (isMeshFormat(format) && standsAlongY(finiteBounds(cloud)))
+  {
+    orientation = orientationForUpAxis('y');
+  }
+  return orientation;
+}
+
+void framingCube(vtkPolyData* cloud, const Bounds& workspace, Vec3& center, double& edge)
+{
+  // Strays are at most this part of the points at each end of an axis; room left about the others.
+  constexpr double kStrays = 0.03;
+  constexpr double kRoom = 1.35;
+  const Vec3 extent = workspace.extent();
+  center = workspace.center();
+  edge = std::max({ extent.x, extent.y, extent.z });
+  Bounds middle;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::vector<double> values;
+    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      cloud->GetPoint(i, p);
+      if (std::isfinite(p[axis]))
+      {
+        values.push_back(p[axis]);
+      }
+    }
+    if (values.empty())
+    {
+      return;
+    }
+    const std::size_t cut = std::size_t(kStrays * double(values.size()));
+    const auto low = values.begin() + std::ptrdiff_t(cut);
+    const auto high = values.end() - 1 - std::ptrdiff_t(cut);
+    std::nth_element(values.begin(), low, values.end());
+    middle.minimum[axis] = *low;
+    std::nth_element(values.begin(), high, values.end());
+    middle.maximum[axis] = *high;
+  }
+  const Vec3 core = middle.extent();
+  const double wanted = kRoom * std::max({ core.x, core.y, core.z });
+  if (wanted > 0.0 && wanted < edge)
+  {
+    center = middle.center();
+    edge = wanted;
+  }
+}
+
+void placeCamera(vtkCamera* camera, const CloudOrientation& orientation, const Vec3& center, double edge,
+  double azimuthDegrees, double elevationDegrees)
+{
+  constexpr double kDegree = 3.14159265358979323846 / 180.0;
+  constexpr double kViewAngle = 30.0;
+  const Vec3 up = normalized(orientation.up);
+  const Vec3 right = normalized(cross(up, orientation.front), { 1.0, 0.0, 0.0 });
+  const Vec3 front = cross(right, up);
+  const double azimuth = azimuthDegrees * kDegree;
+  const double elevation = elevationDegrees * kDegree;
+  const Vec3 direction =
+    std::cos(elevation) * (std::cos(azimuth) * front + std::sin(azimuth) * right) + std::sin(elevation) * up;
+  // The cube's corners lie on a sphere of half its diagonal; seen obliquely it fills less, so come a little
+  // nearer.
+  const double distance = 0.5 * std::sqrt(3.0) * edge / std::sin(0.5 * kViewAngle * kDegree) * 0.92;
+  const Vec3 position = center + distance * direction;
+  camera->SetFocalPoint(center.x, center.y, center.z);
+  camera->SetPosition(position.x, position.y, position.z);
+  camera->SetViewUp(up.x, up.y, up.z);
+  camera->SetViewAngle(kViewAngle);
+  camera->SetClippingRange(0.05 * distance, 3.0 * distance);
+}
+
+} // namespace pointhaptics

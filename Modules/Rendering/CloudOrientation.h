@@ -1,0 +1,49 @@
+/// @file
+/// Which way a cloud stands: its up axis, and the direction from which a person expects to see it.
+#pragma once
+
+#include "Core/Base/PointView.h"
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include <string>
+
+class vtkCamera;
+class vtkPolyData;
+
+namespace pointhaptics
+{
+
+/// Unit vectors in the frame of the cloud.
+struct CloudOrientation
+{
+  Vec3 up{ 0.0, 0.0, 1.0 };
+  Vec3 front{ 0.0, -1.0, 0.0 }; ///< From the cloud towards the person who looks at it.
+  bool fromSensor = false;      ///< The cloud is one view of a sensor: look along its axis, not from aside.
+};
+
+/// A guess without guarantee, in this order: field data "OrganizedDimensions" of more than one row or a
+/// "Viewpoint" other than the identity, and all points at z > 0: a depth camera's frame, seen as the camera
+/// saw it (z forward, y down). An object (no axis is more than 4 times another, centre within ten of its own
+/// lengths of the origin) in a mesh format (PLY, OBJ, STL) whose y extent is the largest, or whose y starts
+/// near 0 while x and z straddle it: y up, seen from +z. Everything else (LAS, PCD, terrain): z up, from -y.
+/// @param format Name or extension of the file format, any case: "ply", "LAS", ...
+POINTHAPTICSRENDERING_EXPORT CloudOrientation guessCloudOrientation(
+  vtkPolyData* cloud, const std::string& format);
+
+/// The orientation for an up axis the user named: 'x', 'y' or 'z' (anything else: z).
+POINTHAPTICSRENDERING_EXPORT CloudOrientation orientationForUpAxis(char axis);
+
+/// What a first picture should frame: @p workspace, or, where nearly all points lie in a small part of it
+/// (strays of a scan have set its size), a cube about those points. @p edge is at most the workspace's
+/// longest.
+POINTHAPTICSRENDERING_EXPORT void framingCube(
+  vtkPolyData* cloud, const Bounds& workspace, Vec3& center, double& edge);
+
+/// Places @p camera so that a cube of edge @p edge about @p center is wholly in view, seen from the front,
+/// turned by
+/// @p azimuthDegrees to the right and @p elevationDegrees up.
+POINTHAPTICSRENDERING_EXPORT void placeCamera(vtkCamera* camera, const CloudOrientation& orientation,
+  const Vec3& center, double edge, double azimuthDegrees, double elevationDegrees);
+
+} // namespace pointhaptics

@@ -1,0 +1,36 @@
+/// @file
+/// Parts of a cloud as CloudDetail draws them.
+#pragma once
+
+#include "Core/Base/PointView.h"
+
+#include "vtkSmartPointer.h"
+
+#include <vector>
+
+class vtkDataArray;
+class vtkIdList;
+class vtkMapper;
+class vtkPolyData;
+
+namespace pointhaptics
+{
+
+/// The points of @p cloud where they lie; @p copy is filled where the coordinates are neither float nor
+/// double.
+PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy);
+
+/// Of the values above 0 among at most about 10,000, the one that a tenth is above; 0 where there is none.
+double upperDecile(vtkDataArray* array);
+
+/// Whether the cells of @p cloud are vertices at all of its points, first to last.
+bool drawsInOrder(vtkPolyData* cloud);
+
+/// Lets @p to colour as @p from does: what vtkPolyDataMapper::ShallowCopy() would do, without its warnings of
+/// deprecated shaders.
+void colorAlike(vtkMapper* from, vtkMapper* to);
+
+/// The points @p ids of @p cloud with the arrays that @p mapper draws them with: colours, sizes and normals.
+vtkSmartPointer<vtkPolyData> pickPoints(vtkPolyData* cloud, vtkMapper* mapper, vtkIdList* ids);
+
+} // namespace pointhaptics

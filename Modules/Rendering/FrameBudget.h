@@ -1,0 +1,45 @@
+/// @file
+/// How many points a frame may draw, learnt from the frames that were drawn.
+#pragma once
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+
+/// Fits time = fixed + points * perPoint to the frames it is told of, the newest counting most, and says how
+/// many points fit into a frame. Where all frames had about the same number of points, time is taken to grow
+/// in proportion. Plain logic without a clock; not thread safe.
+class POINTHAPTICSRENDERING_EXPORT FrameBudget
+{
+public:
+  /// Until something was measured, and the least points() ever says.
+  static constexpr std::int64_t kFirstPoints = 30000;
+  static constexpr std::int64_t kFewestPoints = 4000;
+
+  /// @param secondsPerFrame what a frame may take, above 0.
+  explicit FrameBudget(double secondsPerFrame = 1.0 / 30.0);
+
+  /// A frame of @p points took @p seconds. Frames in which anything was uploaded do not belong here. What is
+  /// not above 0, or not finite, is left out. One answer moves points() by a factor between 1/4 and 2.
+  void add(std::int64_t points, double seconds);
+
+  /// As many points as fit.
+  std::int64_t points() const { return this->Points; }
+  /// What a frame may take.
+  double secondsPerFrame() const { return this->SecondsPerFrame; }
+
+private:
+  double SecondsPerFrame;
+  std::int64_t Points = kFirstPoints;
+  // Sums over the frames, each weighed less the older it is.
+  double Weight = 0.0;
+  double SumPoints = 0.0;
+  double SumSeconds = 0.0;
+  double SumPointsSquared = 0.0;
+  double SumProducts = 0.0;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,106 @@
+/// @file
+/// Lines and texts in pixels of the viewport, placed anew for each picture.
+#pragma once
+
+#include "Core/Base/Vector3.h"
+
+#include "vtkActor2D.h"
+#include "vtkCellArray.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper2D.h"
+#include "vtkTextActor.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+class vtkRenderer;
+
+namespace pointhaptics
+{
+
+struct Pixel
+{
+  double x = 0.0;
+  double y = 0.0;
+  bool seen = false; ///< In front of the camera.
+};
+
+/// From coordinates of the picture to pixels of the viewport, for the camera as it is.
+class ScreenProjection
+{
+public:
+  explicit ScreenProjection(vtkRenderer* renderer);
+  Pixel operator()(const Vec3& p) const;
+
+private:
+  vtkNew<vtkMatrix4x4> matrix_;
+  double width_ = 0.0;
+  double height_ = 0.0;
+};
+
+/// Each of its own colour.
+class ScreenLines
+{
+public:
+  explicit ScreenLines(float width);
+  void clear();
+  void add(double x0, double y0, double x1, double y1, const unsigned char color[3]);
+  /// After the last add().
+  void finish();
+  vtkActor2D* actor() { return actor_; }
+
+private:
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> cells_;
+  vtkNew<vtkUnsignedCharArray> colors_;
+  vtkNew<vtkPolyData> shape_;
+  vtkNew<vtkPolyDataMapper2D> mapper_;
+  vtkNew<vtkActor2D> actor_;
+};
+
+/// Texts none of which lies over another or over the edge of the viewport.
+class ScreenTexts
+{
+public:
+  static constexpr int kMost = 48;
+
+  ScreenTexts();
+  void addTo(vtkRenderer* renderer);
+  void removeFrom(vtkRenderer* renderer);
+  /// Until the next put().
+  void hide();
+
+  /// A new picture: there is room everywhere.
+  void clear(vtkRenderer* renderer, int fontSize);
+  /// Text with its nearest corner or side at (@p x, @p y), on the side of the direction out. False: there is
+  /// no room.
+  bool put(
+    const std::string& words, double x, double y, double outX, double outY, const unsigned char color[3]);
+  /// After the last put().
+  void finish();
+  /// An estimate, pixels.
+  double widthOf(const std::string& words) const;
+
+private:
+  struct Rectangle
+  {
+    double left;
+    double right;
+    double bottom;
+    double top;
+  };
+
+  std::array<vtkNew<vtkTextActor>, kMost> texts_;
+  int used_ = 0;
+  int fontSize_ = 13;
+  double width_ = 0.0;
+  double height_ = 0.0;
+  std::vector<Rectangle> taken_;
+};
+
+} // namespace pointhaptics

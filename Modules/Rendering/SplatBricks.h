@@ -1,0 +1,48 @@
+/// @file
+/// Splats in bricks, of which only those in view are drawn.
+#pragma once
+
+#include "Core/Base/PointView.h"
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include "vtkType.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+class vtkMatrix4x4;
+
+namespace pointhaptics
+{
+
+/// The half space where x a + y b + z c + d is not below 0.
+using HalfSpace = std::array<double, 4>;
+
+/// Neighbours in a row, and the box about them with their splats.
+struct SplatBrick
+{
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+  Bounds box;
+};
+
+/// Orders @p ids, indices of @p points, along a curve through space and cuts them into bricks of at most
+/// @p size. Points that are not finite come last, in bricks that are always drawn.
+POINTHAPTICSRENDERING_EXPORT std::vector<SplatBrick> makeBricks(
+  const PointView& points, std::vector<std::int64_t>& ids, std::int64_t size = 128);
+
+/// Cuts all @p points, in the order they have, into bricks of @p size: longer boxes than those of
+/// makeBricks(), for pictures whose order of drawing must stay.
+POINTHAPTICSRENDERING_EXPORT std::vector<SplatBrick> makeRows(
+  const PointView& points, std::int64_t size = 64);
+
+/// The parts of the row of which something, or what lies within @p margin of it, is in all @p halfSpaces;
+/// bricks side by side are one part. @p toWorld, which may be null, maps the points' frame to that of the
+/// half spaces; @p margin is in the points' frame.
+POINTHAPTICSRENDERING_EXPORT std::vector<std::array<vtkIdType, 2>> visibleRanges(
+  const std::vector<SplatBrick>& bricks, const std::vector<HalfSpace>& halfSpaces, vtkMatrix4x4* toWorld,
+  double margin);
+
+} // namespace pointhaptics

@@ -1,0 +1,162 @@
+/**
+ * @class   vtkSplatMapper
+ * @brief   points as round splats, each as large as an array says
+ *
+ * Draws the vertices of its input as discs that face the camera. The diameter of one is SizeScale times its
+ * value of SizeArrayName, a length in the units of the points: with the bandwidths of
+ * vtkKernelBandwidthFilter sparse regions close and dense ones stay crisp. Voxel means take MeanBandwidth:
+ * they are farther apart than the points that Bandwidth tells of. Nearer splats are larger. Without
+ * the array, or with FixedPixels above 0, all have the same size on the screen.
+ *
+ * @code
+ * bandwidth->ComputeMeanBandwidthOn();
+ * mapper->SetInputConnection(bandwidth->GetOutputPort());
+ * mapper->SetSizeArrayName("MeanBandwidth");
+ * @endcode
+ *
+ * With AmbientLight and an array of normals each splat is as light as the sky makes it, more above than
+ * below, and as a soft light from beside the viewer does: a cloud without colours shows its shape. The
+ * normals need no side: the one towards the viewer counts.
+ *
+ * Changing a number is free; changing the array uploads the points again. Colours, lookup tables and lighting
+ * are those of vtkPolyDataMapper; other cells than vertices have no place in the input.
+ *
+ * @warning Needs the OpenGL back end. GUI thread only.
+ * @sa vtkPointGaussianMapper vtkKernelBandwidthFilter
+ */
+#ifndef vtkSplatMapper_h
+#define vtkSplatMapper_h
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include "vtkOpenGLPolyDataMapper.h"
+
+#include <array>  // For ranges
+#include <string> // For the array's name
+#include <vector> // For ranges
+
+class vtkDataArray;
+
+class POINTHAPTICSRENDERING_EXPORT vtkSplatMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static vtkSplatMapper* New();
+  vtkTypeMacro(vtkSplatMapper, vtkOpenGLPolyDataMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Point array of one component with a length for each point. Default: "Bandwidth".
+   */
+  void SetSizeArrayName(const std::string& name);
+  const std::string& GetSizeArrayName() const { return this->SizeArrayName; }
+  ///@}
+
+  ///@{
+  /**
+   * Diameter of a splat over its length in the array, above 0. Default: 3.6, at which voxel means close to a
+   * surface: 2.5 times their spacing for the bandwidths of 16 neighbours.
+   */
+  void SetSizeScale(double scale);
+  double GetSizeScale() const { return this->SizeScale; }
+  ///@}
+
+  ///@{
+  /**
+   * A length counts for no more than so many times the median of all, above 0: single points far from all
+   * others would be drawn as balls. Default: 2.5.
+   */
+  void SetLargestRatio(double ratio);
+  double GetLargestRatio() const { return this->LargestRatio; }
+  ///@}
+
+  ///@{
+  /**
+   * No splat is smaller or larger than this, pixels. Default: 2 and 64.
+   */
+  void SetPixelRange(double smallest, double largest);
+  double GetSmallestPixels() const { return this->SmallestPixels; }
+  double GetLargestPixels() const { return this->LargestPixels; }
+  ///@}
+
+  ///@{
+  /**
+   * Diameter of all splats in pixels, whatever the array says; 0 (default): the array rules, and 3 pixels
+   * where there is none.
+   */
+  void SetFixedPixels(double pixels);
+  double GetFixedPixels() const { return this->FixedPixels; }
+  ///@}
+
+  /**
+   * Parts of the input's vertices that are drawn, in the order of its cells: the first and the one after the
+   * last of each. Empty (default): all. Free to change; for input whose cells are vertices of one point each.
+   */
+  void SetRanges(std::vector<std::array<vtkIdType, 2>> ranges);
+  const std::vector<std::array<vtkIdType, 2>>& GetRanges() const { return this->Ranges; }
+
+  ///@{
+  /**
+   * Shade the splats by their normals, where the input has them. Default: off. A change uploads the points
+   * again.
+   */
+  void SetAmbientLight(bool on);
+  bool GetAmbientLight() const { return this->AmbientLight; }
+  ///@}
+
+  ///@{
+  /**
+   * Point array of three components with a unit normal of each point, on either side; zero: the splat has the
+   * middle light. Default: "SurfaceNormal".
+   */
+  void SetNormalArrayName(const std::string& name);
+  const std::string& GetNormalArrayName() const { return this->NormalArrayName; }
+  ///@}
+
+  ///@{
+  /**
+   * Where the sky is, in the frame of the scene; any length above 0. Default: 0, 0, 1.
+   */
+  void SetSkyDirection(const double direction[3]);
+  void GetSkyDirection(double direction[3]) const;
+  ///@}
+
+  /**
+   * Takes over all numbers, the names of the arrays and the light, SizeScale times @p factor.
+   */
+  void CopySizes(const vtkSplatMapper* other, double factor);
+
+protected:
+  vtkSplatMapper();
+  ~vtkSplatMapper() override;
+
+  void RenderPieceStart(vtkRenderer* renderer, vtkActor* actor) override;
+  void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderValues(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor) override;
+
+private:
+  void MapArray(vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped);
+  void SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor);
+
+  vtkSplatMapper(const vtkSplatMapper&) = delete;
+  void operator=(const vtkSplatMapper&) = delete;
+
+  std::string SizeArrayName = "Bandwidth";
+  double SizeScale = 3.6;
+  double LargestRatio = 2.5;
+  double SmallestPixels = 2.0;
+  double LargestPixels = 64.0;
+  double FixedPixels = 0.0;
+  bool AmbientLight = false;
+  std::string NormalArrayName = "SurfaceNormal";
+  std::array<double, 3> SkyDirection = { 0.0, 0.0, 1.0 };
+  std::vector<std::array<vtkIdType, 2>> Ranges;
+  bool HasNormals = false; // the shader in use reads the normals
+  bool HasSizes = false;   // the shader in use reads the array
+  double MedianLength = 0.0;
+  vtkMTimeType MedianTime = 0; // of the array it is from
+};
+
+#endif

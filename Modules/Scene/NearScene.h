@@ -1,0 +1,66 @@
+/// @file
+/// The scene of what is near the hand: new voxels sooner than those of the whole cloud.
+#pragma once
+
+#include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/VoxelResampler.h"
+#include "Haptics/HapticScene.h"
+#include "Haptics/LocalScene.h"
+#include "SceneWorker.h"
+
+#include "SmpExecutor.h"
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+#include <memory>
+#include <optional>
+
+class vtkPointSet;
+
+namespace pointhaptics
+{
+
+/// Resamples the cloud about the hand and makes a scene of that (ScenePart); it looks at the points there
+/// only, which it finds by a PointIndex of its own. Objects are used by one thread at a time.
+class NearSceneBuilder
+{
+public:
+  NearSceneBuilder();
+  ~NearSceneBuilder();
+
+  /// The cloud of the builds from now on; may be null. Its points must not be changed.
+  void setCloud(vtkSmartPointer<vtkPointSet> cloud);
+
+  /// A scene of what is near the hand of @p request, with @p whole, the newest scene of the whole cloud,
+  /// beside it: within what it covers it is felt as the whole cloud resampled by @p request would be. Null
+  /// where that is of no use or cannot be: no hand, no such whole (ScenePart::about()), nothing near the hand
+  /// or most of the cloud; or on an error, which the scene of the whole cloud will tell of.
+  std::shared_ptr<const HapticScene> build(
+    const SceneRequest& request, std::shared_ptr<const HapticScene> whole);
+
+  /// A scene of what is near the hand, as fine as the points there, beside @p whole, which was made for @p
+  /// request; null where the last one serves, or none is of use (LocalSceneBuilder). Costs a look at the hand
+  /// then.
+  std::shared_ptr<const HapticScene> refine(
+    const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole);
+
+private:
+  bool index();
+  bool follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole);
+  bool prepare(const SceneRequest& request);
+  HapticSceneInput input(const SceneRequest& request) const;
+
+  SmpExecutor smp_;
+  vtkSmartPointer<vtkPointSet> cloud_;
+  std::shared_ptr<const PointIndex> index_; ///< Null: not made yet.
+  LocalSceneBuilder finer_;
+  std::optional<LocalSceneFollower> follower_; ///< Of the whole scene that was refined last.
+  VoxelResampler engine_;
+  VoxelRequest voxels_;
+  // Never updated: they hold the request's settings.
+  vtkNew<vtkVoxelMeanResampler> resampler_;
+  vtkNew<vtkKernelBandwidthFilter> bandwidth_;
+};
+
+} // namespace pointhaptics
