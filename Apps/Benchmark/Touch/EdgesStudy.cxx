@@ -2,11 +2,14 @@
 #include "Benchmark/Touch/Studies.h"
 
 #include "Core/Base/PortableRandom.h"
+#include "Haptics/Contact/ProxyBall.h"
+#include "Haptics/Proxy.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace pointhaptics
 {
@@ -159,22 +162,22 @@ Chart drawEdge()
   const Vec3 low(kHalf - 4e-3, 0.0, kHalf - kDepth);
   moveTo(stroke, low + Vec3(0.0, 0.0, 5e-3), low, kPressSpeed);
   moveTo(stroke, low, low + Vec3(6e-3, 0.0, 0.0), 0.05);
-  HapticParameters parameters;
-  Proxy fit(parameters);
-  parameters.method = ProxyMethod::Sphere;
-  Proxy ball(parameters);
+  Proxy fit{ HapticParameters() };
   fit.setScene(scene.scene.get());
-  ball.setScene(scene.scene.get());
-  const char* names[] = { "ball on the top", "ball at the edge", "ball past it: free" };
+  ProxyBall ball;
+  const auto fields = std::make_unique<FitCells>();
+  const auto cells = std::make_unique<BallCells>();
+  const char* names[] = { "ball on the top", "ball at the edge", "ball past it" };
   const double shown[] = { -3e-3, -1e-4, 1.5e-3 };
   std::size_t next = 0;
   for (const Vec3& hip : stroke.hip)
   {
     const ProxyState felt = fit.step(hip, kTickSeconds);
-    const ProxyState rolled = ball.step(hip, kTickSeconds);
+    std::uint32_t ignored = 0;
+    ball.step(*scene.scene, *fields, *cells, hip, ignored);
     if (next < 3 && hip.z <= low.z + 1e-9 && hip.x - kHalf >= shown[next])
     {
-      chart.series.push_back(circle(names[next++], rolled.sphereCenter, rolled.radius));
+      chart.series.push_back(circle(names[next++], ball.center(), ball.radius()));
       chart.series[1].x.push_back(1e3 * (hip.x - kHalf));
       chart.series[1].y.push_back(1e3 * (hip.z - kHalf));
       chart.series[2].x.push_back(1e3 * (felt.proxy.x - kHalf));
