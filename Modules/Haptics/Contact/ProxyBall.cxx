@@ -31,6 +31,13 @@ constexpr double kMostSheets = 2.0;
 /// The radius is measured again after this many index cells of way, and changes by at most this part a tick.
 constexpr double kMeasureEvery = 2.0;
 constexpr double kLargestGrowth = 1.02;
+/// The radius is measured so many radii ahead too.
+constexpr double kAhead = 1.0;
+/// A ball that is smaller than this part of what it should be is about to fall between the points.
+constexpr double kTooSmall = 0.8;
+constexpr double kHurriedGrowth = 1.3;
+/// Over what it grows by, how high a ball rises for it.
+constexpr double kRises[] = { 0.0, 1.0, 2.0, 4.0 };
 /// Points within this many radii tell the radius.
 constexpr double kSearch = 4.0;
 
@@ -240,7 +247,7 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   hip_ = hip;
   radius_ = kRadiusInSpacings * work.scene.cellSize();
   isMeasured_ = false;
-  updateRadius(work);
+  updateRadius(work, hip);
   radius_ = wanted_;
   gather(work, 2.0 * radius_);
   double d2 = 0.0;
@@ -259,9 +266,33 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   free_ = center_ == hip;
 }
 
+/// Makes room for a ball that has grown: beside the points that held @p before, or above them, as in a gap of
+/// the surface. A ball that grows by more than a little goes only where the smaller one could. False: there
+/// is no room.
+bool ProxyBall::makeRoom(const BallCells& cells, const ProxyBall& before) noexcept
+{
+  const Vec3 up = flat_.isNear(before.center_, kFlatNear * radius_)
+    ? flat_.normal()
+    : normalized(before.center_ - hip_, Vec3());
+  const Vec3 start = center_;
+  const bool isLittle = radius_ <= before.radius_ * kLargestGrowth;
+  for (const double part : kRises)
+  {
+    center_ = start + part * (radius_ - before.radius_) * up;
+    const bool isOut = pushOut(cells);
+    const Vec3 way = center_ - before.center_;
+    const double length = norm(way);
+    if (isOut && (isLittle || cells.sweep(before.center_, normalized(way), length, before.radius_) == length))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Takes the radius towards what the cloud asks for: at once where the ball is free, else little by little.
 /// It grows only where there is room, and shrinks where it is pinched between points on two sides.
-void ProxyBall::updateRadius(Work& work) noexcept
+void ProxyBall::updateRadius(Work& work, const Vec3& hip) noexcept
 {
   const double every = kMeasureEvery * work.scene.cellSize();
   if (!isMeasured_ || norm2(center_ - measuredAt_) > every * every)
@@ -270,7 +301,17 @@ void ProxyBall::updateRadius(Work& work) noexcept
     const double search = kSearch * std::max(radius_, work.scene.coveringRadius(center_));
     double distance = 0.0;
     const std::int64_t nearest = pyramid.nearest(0, center_, search, distance);
-    wanted_ = nearest >= 0 ? wantedRadius(work, pyramid.level(0).cells[std::size_t(nearest)].mean) : radius_;
+    const auto wantedAt = [&](std::int64_t cell)
+    { return wantedRadius(work, pyramid.level(0).cells[std::size_t(cell)].mean); };
+    wanted_ = nearest >= 0 ? wantedAt(nearest) : radius_;
+    // What is ahead may be sparser, and the ball is wide.
+    double ignored = 0.0;
+    const Vec3 up = normalized(center_ - hip_);
+    const Vec3 course = hip - hip_;
+    const Vec3 ahead = normalized(course - dot(course, up) * up);
+    const std::int64_t next =
+      free_ ? -1 : pyramid.nearest(0, center_ + kAhead * radius_ * ahead, search, ignored);
+    wanted_ = next >= 0 && next != nearest ? std::max(wanted_, wantedAt(next)) : wanted_;
     measuredAt_ = center_;
     isMeasured_ = true;
     if (free_ && wanted_ != radius_)
@@ -280,10 +321,11 @@ void ProxyBall::updateRadius(Work& work) noexcept
     }
   }
   const ProxyBall before = *this;
-  const double most = adopts_ ? std::max(wanted_, radius_) : radius_ * kLargestGrowth;
+  const double growth = radius_ < kTooSmall * wanted_ ? kHurriedGrowth : kLargestGrowth;
+  const double most = adopts_ ? std::max(wanted_, radius_) : radius_ * growth;
   adopts_ = false;
   radius_ = std::clamp(wanted_, radius_ / kLargestGrowth, most);
-  if (radius_ > before.radius_ * kLargestGrowth && !free_)
+  if (radius_ > before.radius_ * growth && !free_)
   {
     // Its point nearest to the HIP stays.
     center_ += (radius_ - before.radius_) * normalized(center_ - hip_, Vec3());
@@ -291,7 +333,7 @@ void ProxyBall::updateRadius(Work& work) noexcept
   if (radius_ > before.radius_)
   {
     gather(work, 2.0 * radius_);
-    if (!pushOut(work.cells))
+    if (!makeRoom(work.cells, before))
     {
       *this = before;
       adopts_ = false;
@@ -540,7 +582,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
   }
   if (!free_ || scene.isNear(center_))
   {
-    updateRadius(work);
+    updateRadius(work, hip);
   }
 
   walk(work, hip);

@@ -22,8 +22,8 @@ namespace pointhaptics
 /// it around: it does not leave the flat place that it lies on while that goes on under the HIP.
 ///
 /// Its radius is the paper's r_p, less a fifth, but at least max(2 h, 2.4 s), h the index cell and s the
-/// spacing of the points about it: a smaller one would fall through the gaps of a random sample. Lattice
-/// frame, metres. Plain state; no allocation; bounded work; one thread.
+/// spacing of the points about it and ahead: a smaller one would fall through the gaps of a random sample.
+/// Lattice frame, metres. Plain state; no allocation; bounded work; one thread.
 class ProxyBall
 {
 public:
@@ -79,7 +79,7 @@ private:
   };
 
   void place(Work& work, const Vec3& hip) noexcept;
-  void updateRadius(Work& work) noexcept;
+  void updateRadius(Work& work, const Vec3& hip) noexcept;
   double wantedRadius(Work& work, const Vec3& seed) noexcept;
   void walk(Work& work, const Vec3& hip) noexcept;
   double fly(Work& work, const Vec3& direction, double length) noexcept;
@@ -89,6 +89,7 @@ private:
   void touchDown(Work& work) noexcept;
   Vec3 surfaceNormal(const BallCells& cells) noexcept;
   bool pushOut(const BallCells& cells) noexcept;
+  bool makeRoom(const BallCells& cells, const ProxyBall& before) noexcept;
   bool isPinched(const BallCells& cells) const noexcept;
   void gather(Work& work, double reach) noexcept;
 

@@ -1,5 +1,7 @@
 #include "HapticFixtures.h"
 
+#include "Shapes/Shapes.h"
+
 #include <algorithm>
 
 using namespace pointhaptics;
@@ -451,5 +453,30 @@ TEST(SurfaceFitProxy, TurnsAroundTheEdgeOfABoxWithoutAFalseForce)
       ASSERT_NEAR(norm(s.force - Vec3(0, 0, 800 * (0.02 - s.hip.z))), 0.0, 2e-3) << "x = " << s.hip.x;
     }
     ASSERT_LE(norm(s.force), 800 * 1e-3) << "never more than the depth says, x = " << s.hip.x;
+  }
+}
+
+TEST(SurfaceFitProxy, DoesNotFallThroughWhereNoisyPointsBecomeSparse)
+{
+  // The spacing grows by four at x = 0: a ball that did not grow in time fell between the points.
+  constexpr double kDepth = 1e-3;
+  for (const std::uint64_t seed : { 1, 2, 3, 4 })
+  {
+    std::vector<Vec3> points;
+    ASSERT_EQ(generateShape(Shape::DensityStep, 47516, seed, 1e-4, points), Status::Ok);
+    const trial::Scene scene = trial::resampledScene(points);
+    for (const double speed : { 0.02, 0.05 })
+    {
+      trial::Path path = trial::planeSlide(kDepth, speed, int(0.035 / (speed * trial::kTick)));
+      std::transform(
+        path.begin(), path.end(), path.begin(), [](const Vec3& p) { return Vec3(-p.x, p.y, p.z); });
+      const std::vector<ProxyState> states = trial::feel(scene, HapticParameters(), path);
+      double largest = 0.0;
+      for (std::size_t i = 200; i < states.size(); ++i)
+      {
+        largest = std::max(largest, norm(states[i].force - Vec3(0.0, 0.0, 800.0 * kDepth)));
+      }
+      EXPECT_LT(largest, 0.3 * 800.0 * kDepth) << seed << " " << speed;
+    }
   }
 }
