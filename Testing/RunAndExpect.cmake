@@ -1,8 +1,10 @@
-# cmake -DCODE=<exit code> -DEXPRESSION=<expression> [-DFILES=<files>] -P RunAndExpect.cmake -- <command...>
+# cmake -DCODE=<exit code> -DEXPRESSION=<expression> [-DFILES=<files>] [-DNEEDS_DISPLAY=ON]
+#   -P RunAndExpect.cmake -- <command...>
 # Runs the command and fails unless it ends with that exit code AND its output (stdout and stderr together) matches AND it
 # writes each of the files. ctest's own PASS_REGULAR_EXPRESSION ignores the exit code.
 # FILES, separated by commas: name.png=WIDTHxHEIGHT (a complete PNG of that size) or name.csv=ROWS (a header and as many
 # rows, each with a cell for every name). They are removed before the command runs.
+# NEEDS_DISPLAY: without one the command does not run; "skipped: no display" is for ctest's SKIP_REGULAR_EXPRESSION.
 cmake_minimum_required(VERSION 3.18)
 
 function (check_png file size)
@@ -58,6 +60,10 @@ foreach (needed IN ITEMS CODE EXPRESSION)
     message(FATAL_ERROR "-D${needed}= is missing: give the exit code and the expression that are expected")
   endif ()
 endforeach ()
+if (NEEDS_DISPLAY AND "$ENV{DISPLAY}" STREQUAL "")
+  message("skipped: no display (DISPLAY is not set)")
+  return ()
+endif ()
 set(command)
 set(begun FALSE)
 math(EXPR last "${CMAKE_ARGC} - 1")

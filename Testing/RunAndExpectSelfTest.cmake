@@ -4,10 +4,10 @@ cmake_minimum_required(VERSION 3.18)
 
 # check(<accepted|refused> <what a refusal must say> <arguments of RunAndExpect.cmake...>)
 function (check expected words)
-  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "CODE;EXPRESSION;FILES" "COMMAND")
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "NEEDS_DISPLAY" "CODE;EXPRESSION;FILES" "COMMAND")
   execute_process(
     COMMAND "${CMAKE_COMMAND}" "-DCODE=${ARG_CODE}" "-DEXPRESSION=${ARG_EXPRESSION}" "-DFILES=${ARG_FILES}"
-      -P "${CMAKE_CURRENT_LIST_DIR}/RunAndExpect.cmake" -- ${ARG_COMMAND}
+      "-DNEEDS_DISPLAY=${ARG_NEEDS_DISPLAY}" -P "${CMAKE_CURRENT_LIST_DIR}/RunAndExpect.cmake" -- ${ARG_COMMAND}
     WORKING_DIRECTORY "${FOLDER}" RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if (expected STREQUAL "accepted" AND NOT code EQUAL 0)
     message(SEND_ERROR "refused, though all was as expected:\n${output}")
@@ -28,6 +28,12 @@ check(refused "exit code 1, not 0" CODE 0 EXPRESSION "nothing\\.txt" ${missing})
 check(refused "exit code 3, not 0" CODE 0 EXPRESSION "hello" ${talking})
 check(refused "does not match" CODE 0 EXPRESSION "hello .*x" ${hello})
 check(refused "is missing" CODE 0 ${hello})
+set(display "$ENV{DISPLAY}")
+unset(ENV{DISPLAY})
+check(accepted "" NEEDS_DISPLAY CODE 1 EXPRESSION "nothing is run" ${hello})
+set(ENV{DISPLAY} ":1")
+check(refused "exit code 0, not 1" NEEDS_DISPLAY CODE 1 EXPRESSION "hello" ${hello})
+set(ENV{DISPLAY} "${display}")
 
 # Files: what lies there from an earlier run must not count.
 file(WRITE "${FOLDER}/good.csv" "a,b\n1,2\n3,4\n")
