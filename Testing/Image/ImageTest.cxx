@@ -1,5 +1,6 @@
-// PointHapticsImageTest PICTURE --baselines DIR [--output DIR] [--pixels N] [--mutate FAULT] [--record]
-// PointHapticsImageTest PICTURE --baselines DIR --record-events FILE: records what is done in a window
+// PointHapticsImageTest PICTURE -D DATA -V BASELINE.png [-T FOLDER] [--pixels N] [--mutate FAULT] [--record]
+// PointHapticsImageTest PICTURE -D DATA --record-events FILE: records what is done in a window
+// As VTK's own tests: -D is the folder of the data, -V the baseline, -T where a failure leaves its pictures.
 // Exit code 0: as it should be; 1: not; 2: usage; 77: skipped, there is no display.
 #include "ImageComparison.h"
 #include "InteractionPictures.h"
@@ -15,10 +16,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <vector>
 
 using namespace pointhaptics::testing;
 
@@ -32,8 +35,9 @@ constexpr double kSameNumber = 1e-6;
 struct Arguments
 {
   std::string picture;
-  std::string baselines;
-  std::string output = ".";
+  std::string data;
+  std::string baseline;
+  std::string folder = ".";
   std::string mutation;
   std::string events;
   long long pixels = 0;
@@ -50,13 +54,17 @@ bool parse(int argc, char** argv, Arguments& arguments)
     {
       arguments.record = true;
     }
-    else if (word == "--baselines" && hasValue)
+    else if (word == "-D" && hasValue)
     {
-      arguments.baselines = argv[++i];
+      arguments.data = argv[++i];
     }
-    else if (word == "--output" && hasValue)
+    else if (word == "-V" && hasValue)
     {
-      arguments.output = argv[++i];
+      arguments.baseline = argv[++i];
+    }
+    else if (word == "-T" && hasValue)
+    {
+      arguments.folder = argv[++i];
     }
     else if (word == "--record-events" && hasValue)
     {
@@ -79,7 +87,9 @@ bool parse(int argc, char** argv, Arguments& arguments)
       return false;
     }
   }
-  return !arguments.picture.empty() && !arguments.baselines.empty();
+  return !arguments.picture.empty() && !arguments.data.empty() &&
+    arguments.baseline.empty() != arguments.events.empty() &&
+    !(arguments.record && !arguments.mutation.empty());
 }
 
 /// The lines of the window's report that say who drew: vendor, renderer and version.
@@ -128,76 +138,115 @@ bool sameState(const std::string& test, const std::string& baseline)
   return !(baselines >> other);
 }
 
-/// Three files to look at, with their paths.
-void keepEvidence(
-  const Arguments& arguments, vtkImageData* test, vtkImageData* baseline, vtkImageData* difference)
+/// What a comparison says; of what cannot be compared all is false.
+struct Verdict
 {
-  vtksys::SystemTools::MakeDirectory(arguments.output);
-  const std::string stem = arguments.output + "/" + arguments.picture;
-  const std::pair<const char*, vtkImageData*> files[] = { { "test", test }, { "baseline", baseline },
-    { "difference", difference } };
-  for (const auto& file : files)
+  bool comparable = false;
+  bool tolerable = false;    ///< Few enough pixels differ visibly, and the state is the same.
+  bool exactlyRight = false; ///< No pixel differs, or the baseline is another renderer's.
+};
+
+/// Beside the baseline and named after it: .renderer.txt, .state.txt.
+std::string besideBaseline(const Arguments& arguments, const std::string& extension)
+{
+  return std::filesystem::path(arguments.baseline).replace_extension(extension).string();
+}
+
+/// What a failure leaves to look at.
+struct Evidence
+{
+  const char* name;
+  const char* extension;
+  vtkImageData* image; ///< Empty: there is none.
+};
+
+std::string fileOf(const Arguments& arguments, const Evidence& evidence)
+{
+  const std::string fault = arguments.mutation.empty() ? "" : "." + arguments.mutation;
+  return arguments.folder + "/" + arguments.picture + fault + evidence.extension;
+}
+
+void keepEvidence(const Arguments& arguments, const std::vector<Evidence>& evidence)
+{
+  vtksys::SystemTools::MakeDirectory(arguments.folder);
+  for (const Evidence& each : evidence)
   {
-    const std::string name = stem + "." + file.first + ".png";
-    if (file.second->GetNumberOfPoints() > 0 && writePng(name, file.second))
+    const std::string file = fileOf(arguments, each);
+    if (each.image->GetNumberOfPoints() > 0)
     {
-      std::printf("  %s: %s\n", file.first, name.c_str());
+      std::printf("  %s: %s\n", writePng(file, each.image) ? each.name : "cannot write", file.c_str());
     }
+  }
+  if (arguments.mutation.empty())
+  {
+    std::printf("  if this change is meant, the same command with --record makes it the baseline\n");
   }
 }
 
 int record(const Arguments& arguments, vtkImageData* test, const std::string& renderer)
 {
-  const std::string stem = arguments.baselines + "/" + arguments.picture;
-  std::ofstream note(stem + ".renderer.txt");
+  std::ofstream note(besideBaseline(arguments, ".renderer.txt"));
   note << renderer;
   if (const std::string state = interactionState(); !state.empty())
   {
-    std::ofstream(stem + ".state.txt") << state;
+    std::ofstream(besideBaseline(arguments, ".state.txt")) << state;
   }
-  const bool written = writePng(stem + ".png", test) && note.good();
-  std::printf("%s %s.png\n", written ? "recorded" : "cannot write", stem.c_str());
+  const bool written = writePng(arguments.baseline, test) && note.good();
+  std::printf("%s %s\n", written ? "recorded" : "cannot write", arguments.baseline.c_str());
   return written ? 0 : 1;
+}
+
+/// Says how the picture and the state after an interaction differ from the baseline's.
+Verdict judge(const Arguments& arguments, const ImageDifference& difference, const std::string& renderer)
+{
+  if (!difference.sameSize)
+  {
+    std::printf("%s: no such baseline, or of another size\n", arguments.baseline.c_str());
+    return {};
+  }
+  const bool isExact = contentOf(besideBaseline(arguments, ".renderer.txt")) == renderer;
+  const std::string state = interactionState();
+  const std::string expected = contentOf(besideBaseline(arguments, ".state.txt"));
+  const bool sameAfterwards = state.empty() || sameState(state, expected);
+  if (!sameAfterwards)
+  {
+    std::printf("the state after the interaction is\n%sinstead of\n%s", state.c_str(), expected.c_str());
+  }
+  std::printf("%s: %lld pixels differ visibly (at most %lld may), %lld at all%s, largest step %d of 255\n",
+    arguments.picture.c_str(), difference.visible, arguments.pixels, difference.any,
+    isExact ? " (none may: this is the renderer of the baseline)" : "", difference.largest);
+  Verdict verdict;
+  verdict.comparable = true;
+  verdict.tolerable = difference.visible <= arguments.pixels && sameAfterwards;
+  verdict.exactlyRight = !isExact || difference.any == 0;
+  return verdict;
 }
 
 int compare(const Arguments& arguments, vtkImageData* test, const std::string& renderer)
 {
-  const std::string stem = arguments.baselines + "/" + arguments.picture;
   vtkNew<vtkImageData> baseline;
   vtkNew<vtkImageData> picture;
-  const bool exists = readPng(stem + ".png", baseline);
-  const ImageDifference difference = exists ? compareImages(test, baseline, picture) : ImageDifference();
-  if (!difference.sameSize)
-  {
-    std::printf("%s.png: no such baseline, or of another size\n", stem.c_str());
-    keepEvidence(arguments, test, baseline, picture);
-    return 1;
-  }
-  const bool isExact = contentOf(stem + ".renderer.txt") == renderer;
-  const std::string state = interactionState();
-  const bool sameAfterwards = state.empty() || sameState(state, contentOf(stem + ".state.txt"));
-  if (!sameAfterwards)
-  {
-    std::printf("the state after the interaction is\n%sinstead of\n%s", state.c_str(),
-      contentOf(stem + ".state.txt").c_str());
-  }
-  const bool tolerable = difference.visible <= arguments.pixels && sameAfterwards;
-  const bool exactlyRight = !isExact || difference.any == 0;
-  std::printf("%s: %lld pixels differ visibly (at most %lld may), %lld at all%s, largest step %d of 255\n",
-    arguments.picture.c_str(), difference.visible, arguments.pixels, difference.any,
-    isExact ? " (none may: this is the renderer of the baseline)" : "", difference.largest);
+  const bool exists = readPng(arguments.baseline, baseline);
+  const Verdict verdict =
+    judge(arguments, exists ? compareImages(test, baseline, picture) : ImageDifference(), renderer);
+  bool passed = verdict.comparable && verdict.tolerable && verdict.exactlyRight;
   if (!arguments.mutation.empty())
   {
     // The tolerance tier alone must see the fault, as it would on any other machine.
-    std::printf("the fault %s is %s\n", arguments.mutation.c_str(), tolerable ? "NOT seen" : "seen");
-    return tolerable ? 1 : 0;
+    passed = verdict.comparable && !verdict.tolerable;
+    std::printf("the fault %s is %s\n", arguments.mutation.c_str(), passed ? "seen" : "NOT seen");
   }
-  if (!tolerable || !exactlyRight)
+  const std::vector<Evidence> evidence = { { "picture", ".png", test },
+    { "baseline", ".baseline.png", baseline }, { "difference", ".difference.png", picture } };
+  for (const Evidence& each : evidence)
   {
-    keepEvidence(arguments, test, baseline, picture);
-    return 1;
+    vtksys::SystemTools::RemoveFile(fileOf(arguments, each)); // of an earlier failure
   }
-  return 0;
+  if (!passed)
+  {
+    keepEvidence(arguments, evidence);
+  }
+  return passed ? 0 : 1;
 }
 
 } // namespace
@@ -208,8 +257,9 @@ int main(int argc, char** argv)
   if (!parse(argc, argv, arguments))
   {
     std::fprintf(stderr,
-      "usage: PointHapticsImageTest PICTURE --baselines DIR [--output DIR] [--pixels N] "
-      "[--mutate FAULT] [--record]\n");
+      "usage: PointHapticsImageTest PICTURE -D DATA -V BASELINE.png [-T FOLDER] [--pixels N] "
+      "[--mutate FAULT] [--record]\n"
+      "       PointHapticsImageTest PICTURE -D DATA --record-events FILE\n");
     return 2;
   }
   const char* display = std::getenv("DISPLAY");
@@ -229,7 +279,7 @@ int main(int argc, char** argv)
     recordInteraction(arguments.events, renderer);
     return 0;
   }
-  if (!buildPicture(arguments.picture, arguments.mutation, renderer))
+  if (!buildPicture(arguments.picture, arguments.mutation, arguments.data, renderer))
   {
     std::fprintf(
       stderr, "no picture %s with the fault '%s'\n", arguments.picture.c_str(), arguments.mutation.c_str());

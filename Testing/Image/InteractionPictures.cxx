@@ -161,7 +161,7 @@ void addNumbers(std::string& text, const char* name, const double* numbers, int 
 
 } // namespace
 
-void buildInteraction(const std::string& name, const std::string& fault, vtkRenderer* renderer)
+void buildInteraction(const std::string& events, const std::string& fault, vtkRenderer* renderer)
 {
   build(renderer);
   Stage& s = stage();
@@ -169,11 +169,10 @@ void buildInteraction(const std::string& name, const std::string& fault, vtkRend
   {
     mixBindings();
   }
-  const std::string events =
-    eventsOf(std::string(POINTHAPTICS_INTERACTIONS "/") + name + ".log", fault == "lost-press");
+  const std::string replayed = eventsOf(events, fault == "lost-press");
   s.recorder->SetInteractor(s.interactor);
   s.recorder->ReadFromInputStringOn();
-  s.recorder->SetInputString(events.c_str());
+  s.recorder->SetInputString(replayed.c_str());
   s.recorder->Play();
   s.style->UpdateModel();
 }

@@ -11,10 +11,10 @@ namespace pointhaptics
 namespace testing
 {
 
-/// A plane with a hill under vtkInteractorStyleHaptic with all its parts, after Data/Interactions/@p name.log
-/// was replayed. @p fault: "other-bindings": drags and keys do something else; "lost-event": the last event
-/// never came.
-void buildInteraction(const std::string& name, const std::string& fault, vtkRenderer* renderer);
+/// A plane with a hill under vtkInteractorStyleHaptic with all its parts, after the events in the file
+/// @p events were replayed. @p fault: "other-bindings": drags and keys do something else; "lost-press": the
+/// last press of a key or button never came.
+void buildInteraction(const std::string& events, const std::string& fault, vtkRenderer* renderer);
 
 /// Model, camera, hand and what is shown after the replay, a name and numbers a line; empty before one.
 std::string interactionState();

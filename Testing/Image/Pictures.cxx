@@ -424,7 +424,8 @@ void buildIdolRadius(const std::string& fault, vtkRenderer* renderer)
 
 } // namespace
 
-bool buildPicture(const std::string& name, const std::string& mutation, vtkRenderer* renderer)
+bool buildPicture(
+  const std::string& name, const std::string& mutation, const std::string& data, vtkRenderer* renderer)
 {
   struct Picture
   {
@@ -432,8 +433,12 @@ bool buildPicture(const std::string& name, const std::string& mutation, vtkRende
     std::vector<std::string> faults;
     std::function<void(const std::string& fault, vtkRenderer* renderer)> build;
   };
-  const auto interaction = [](const char* log)
-  { return [log](const std::string& fault, vtkRenderer* window) { buildInteraction(log, fault, window); }; };
+  const auto interaction = [&data](const char* log)
+  {
+    const std::string events = data + "/Interactions/" + log + ".log";
+    return [events](const std::string& fault, vtkRenderer* window)
+    { buildInteraction(events, fault, window); };
+  };
   const std::vector<std::string> wrong = { "other-bindings", "lost-press" };
   const Picture pictures[] = { { "VoxelMeans", { "dropped-point" }, buildVoxelMeans },
     { "SphereContact", { "shifted-proxy" }, buildSphereContact },

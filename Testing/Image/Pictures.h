@@ -14,8 +14,9 @@ namespace testing
 
 /// Fills @p renderer with the picture @p name, with the fault @p mutation in it ("": none): dropped-point,
 /// shifted-proxy, wrong-color, equal-radii or one of OverlayPictures.h. False: there is no such picture, or
-/// it does not know that fault.
-bool buildPicture(const std::string& name, const std::string& mutation, vtkRenderer* renderer);
+/// it does not know that fault. @p data: the folder Data.
+bool buildPicture(
+  const std::string& name, const std::string& mutation, const std::string& data, vtkRenderer* renderer);
 
 } // namespace testing
 } // namespace pointhaptics
