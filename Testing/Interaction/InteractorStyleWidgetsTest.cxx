@@ -140,6 +140,20 @@ TEST_F(InteractorStyleWidgets, KeepsAPausedChartAsItIs)
   EXPECT_TRUE(chart->Update());
 }
 
+TEST_F(InteractorStyleWidgets, SurvivesAPressOnASliderThatIsNotDrawnYet)
+{
+  vtkNew<vtkHapticSliders> sliders;
+  sliders->SetInteractor(interactor_);
+  style_->SetSliders(sliders);
+  window_->SetSize(800, 600);
+  window_->Render();
+  this->press("v");
+  interactor_->SetEventInformation(int(0.836 * 800), int(600 * (0.30 + 2 * 0.1)));
+  interactor_->InvokeEvent(vtkCommand::LeftButtonPressEvent);
+  interactor_->InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
+  EXPECT_EQ(sliders->GetValue(vtkHapticSliders::Friction), 0.0);
+}
+
 TEST_F(InteractorStyleWidgets, MovesASliderByTheMouseAndNothingElse)
 {
   vtkNew<vtkHapticSliders> sliders;

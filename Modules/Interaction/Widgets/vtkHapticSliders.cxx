@@ -116,6 +116,7 @@ struct vtkHapticSliders::Internals
   std::array<One, NumberOfSliders> sliders;
   /// Over the whole window: VTK's sliders are drawn and caught at different places in a part of one.
   vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkCallbackCommand> drawn;
   vtkRenderWindowInteractor* interactor = nullptr;
   bool visible = false;
 };
@@ -126,6 +127,17 @@ vtkHapticSliders::vtkHapticSliders()
   this->Parts->renderer->SetLayer(1);
   this->Parts->renderer->InteractiveOff();
   this->Parts->renderer->DrawOff();
+  // VTK's sliders look for the part that is pressed in what they have drawn, and crash where that is nothing.
+  this->Parts->drawn->SetClientData(this->Parts.get());
+  this->Parts->drawn->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void*)
+    {
+      for (One& one : static_cast<Internals*>(client)->sliders)
+      {
+        one.widget->ProcessEventsOn();
+      }
+    });
+  this->Parts->renderer->AddObserver(vtkCommand::EndEvent, this->Parts->drawn);
   for (int i = 0; i < NumberOfSliders; ++i)
   {
     One& one = this->Parts->sliders[i];
@@ -217,6 +229,7 @@ void vtkHapticSliders::SetVisibility(bool visible)
   for (One& one : this->Parts->sliders)
   {
     one.widget->SetEnabled(visible);
+    one.widget->ProcessEventsOff(); // until it is drawn
   }
 }
 
