@@ -5,6 +5,7 @@
 server=""
 viewer=""
 patience=60 # seconds that until_true waits at most
+exec {report}>&1 # what fail says is seen within until_true, too
 
 # need_tools WORD CODE: ends with the code and the word where Xvfb or xdotool is missing.
 need_tools() {
@@ -22,12 +23,14 @@ stop_window() {
   [[ -z "$server" ]] || kill "$server" 2>/dev/null || true
 }
 fail() {
-  echo "failed: $*"
-  echo "the program said:"
-  cat said.txt
+  {
+    echo "failed: $*"
+    echo "the program said:"
+    cat said.txt
+  } >&"$report"
   exit 1
 }
-# until_true WORDS COMMAND...: waits for the command to succeed.
+# until_true WORDS COMMAND...: waits for the command to succeed; it may be a function that sets variables.
 until_true() {
   local words="$1" tries
   shift

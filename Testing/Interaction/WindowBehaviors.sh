@@ -1,0 +1,346 @@
+# shellcheck shell=bash disable=SC2154
+# What a person does in a window of the viewer, and what must come of it: a function and a line in WindowBehaviors.cmake each.
+# DriveWindow.sh, which sets the variables, calls one of them, and ends the program by key Q where it still runs then.
+
+KeysNAndBStepThroughTheFiles() {
+  make sphere first.ply
+  make plane second.ply
+  open_viewer first.ply second.ply
+  key n
+  said "file 2 of 2: second.ply"
+  key n
+  said "file 1 of 2: first.ply"
+  key b
+  shows second.ply
+}
+
+AChangedFileIsReadAgain() {
+  make plane cloud.ply
+  open_viewer cloud.ply --watch
+  make sphere cloud.ply
+  said "read again: cloud.ply"
+}
+
+ShiftAndDragTurnsTheModel() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  write_settings
+  turn_model
+  write_settings
+  changed matrix || fail "the model did not turn"
+}
+
+KeyUTakesTheDragBack() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  write_settings
+  turn_model
+  key u
+  write_settings
+  same matrix || fail "the model stays turned"
+}
+
+DragTurnsTheView() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  write_settings
+  drag 320 150 360 166
+  write_settings
+  changed camera || fail "the camera did not turn"
+  same matrix || fail "the model turned"
+}
+
+# With Ctrl or Alt a letter is another command.
+LettersWithCtrlOrAltDoNothing() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  key ctrl+o alt+o ctrl+a alt+a ctrl+s alt+s ctrl+shift+x ctrl+q alt+q
+  write_settings
+  is figure false || fail "it drew the figure"
+  is axes false || fail "it drew the axes"
+  never_said screenshot
+}
+
+SliderSetsTheFriction() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated
+  key v
+  until_true "the slider did not set the friction" friction_follows_the_slider
+  ! grep -q '"voxel"' "$settings" || fail "a voxel size that nobody chose"
+}
+# To the middle of its way; before the slider is drawn the drag turns the view.
+friction_follows_the_slider() {
+  drag 535 240 579 240
+  write_settings
+  grep -qE '"mu-d": 0\.[45]' "$settings"
+}
+
+SliderSetsTheVoxelSize() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated
+  key v
+  until_true "the slider did not set the voxel size" voxel_size_follows_the_slider
+}
+voxel_size_follows_the_slider() {
+  drag 558 336 579 336
+  write_settings
+  grep -q '"voxel"' "$settings"
+}
+
+ABoundKeySavesAPicture() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --bind "screenshot=s F2"
+  key F2
+  said "screenshot: pointhaptics-001.png"
+  [[ -s pointhaptics-001.png ]] || fail "the screenshot is empty"
+}
+
+KeyAShowsTheAxes() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  write_settings
+  is axes false || fail "there are axes already"
+  key a
+  write_settings
+  is axes true || fail "there are none"
+}
+
+KeyOMakesTheFigure() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  write_settings
+  is figure false || fail "it is a figure already"
+  key o
+  write_settings
+  is figure true || fail "it is none"
+}
+
+# The figure has no words, but the help comes for whoever asks for it.
+KeyHShowsTheHelpInAFigure() {
+  local words=10000 # bytes that a page of them adds to a picture, at least
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  key o s
+  said "screenshot: pointhaptics-001.png"
+  key h s
+  said "screenshot: pointhaptics-002.png"
+  (($(bytes pointhaptics-002.png) > $(bytes pointhaptics-001.png) + words)) || fail "there is no help"
+  key h s
+  said "screenshot: pointhaptics-003.png"
+  (($(bytes pointhaptics-003.png) < $(bytes pointhaptics-001.png) + words)) || fail "the help stays"
+}
+bytes() { stat -c %s "$1"; }
+
+KeyMGoesThroughTheColors() {
+  make plane cloud.ply
+  open_viewer cloud.ply
+  write_settings
+  [[ "$(setting color-by "$settings")" == "" ]] || fail "a colour that nobody chose"
+  key m
+  said "coloured by Density, as soon as it is computed"
+  until_true "the status still waits for Density" grep -qxF "coloured by Density" said.txt
+  write_settings
+  is color-by '"Density"' || fail "the settings do not have the colours"
+  key m m
+  said "coloured by Residual, as soon as it is computed"
+  until_true "the status still waits for Residual" grep -qxF "coloured by Residual" said.txt
+  key m
+  said "coloured by Height"
+}
+
+KeyLLightsTheCloud() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  write_settings
+  is ambient false || fail "it is lit already"
+  key l
+  write_settings
+  is ambient true || fail "it is not"
+}
+
+# The hand holds the model as long as key 1 is down, and goes aside with the mouse.
+TheHandHoldsTheModelWhileKey1IsDown() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated
+  move_to 300 150
+  write_settings
+  key f
+  xdotool keydown 1
+  sleep 0.8 # no condition: until the server repeats the key, as it does after 0.66 s
+  move_to 360 150
+  until_true "the hand did not shift the model" model_is_shifted
+  xdotool keyup 1
+  until_true "the hand still holds the model" model_rests
+  move_to 300 150
+  sleep 0.3 # no condition: nothing may happen
+  write_settings
+  same matrix || fail "the hand goes on with the model"
+}
+model_is_shifted() {
+  write_settings
+  changed matrix
+}
+model_rests() {
+  write_settings
+  same matrix
+}
+
+# From the left into a sphere: the touch pushes the pointer back.
+TheTouchPushesThePointer() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated
+  move_to 225 180
+  key f g
+  until_true "the touch did not push the pointer" touch_pushes
+}
+# Each time from the side; the hand comes there and back in some tenths of a second.
+touch_pushes() {
+  move_to 225 180
+  sleep 0.3
+  move_to 290 180
+  sleep 0.5
+  (($(xdotool getmouselocation --shell | sed -n 's/^X=//p') < 275))
+}
+
+ADroppedFileIsShown() {
+  make sphere cloud.ply
+  make torus dropped.ply
+  open_viewer cloud.ply
+  "$DROP_FILE" "$window" 320 100 "$folder/dropped.ply" || fail "the drop did not end well"
+  shows dropped.ply
+}
+
+ABadDropKeepsTheCloud() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  "$DROP_FILE" "$window" 320 100 "$folder/nothing.ply" || fail "the drop did not end well"
+  said "nothing.ply"
+  shows cloud.ply
+}
+
+TheSettingsAreRemembered() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  key q
+  ends_with 0 "key Q"
+  grep -q '"stiffness"' state/pointhaptics/view.json || fail "the settings are not kept"
+  "$program" view cloud.ply --recent --write-config recent.json >said.txt
+  grep -q '"size": "640x480"' recent.json || fail "--recent does not bring them back"
+}
+
+WrittenSettingsBringTheViewBack() {
+  local name
+  make sphere cloud.ply
+  open_viewer cloud.ply --bind "screenshot=s F2"
+  drag 320 150 360 166
+  turn_model
+  key a o
+  write_settings
+  key q
+  ends_with 0 "key Q"
+  open_viewer cloud.ply --config "$settings"
+  write_settings
+  for name in camera matrix bind size axes figure; do
+    same "$name" || fail "--config lost $name"
+    [[ -n "$(setting "$name" "$settings")" ]] || fail "no $name in the written settings"
+  done
+}
+
+CtrlCEndsTheProgram() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  kill -INT "$viewer"
+  ends_with 0 "Ctrl+C"
+}
+
+# A file that is read for long.
+EscapeKeepsTheFormerCloud() {
+  make sphere first.ply
+  make plane slow.ply
+  hold_slow_file
+  open_viewer first.ply slow.ply
+  key n
+  is_reading
+  key Escape
+  let_it_read
+  said "slow.ply: not read, it was cancelled"
+  shows first.ply
+  never_said "file 2 of 2"
+}
+
+EscapeCancelsTheFirstFile() {
+  make sphere slow.ply
+  open_held slow.ply
+  key Escape
+  let_it_read
+  ends_with 130 "Escape"
+  said "slow.ply: reading was stopped on request"
+}
+
+CtrlCCancelsTheFirstFile() {
+  make sphere slow.ply
+  open_held slow.ply
+  kill -INT "$viewer"
+  let_it_read
+  ends_with 130 "Ctrl+C"
+}
+
+KeyQCancelsTheFirstFile() {
+  make sphere slow.ply
+  open_held slow.ply
+  key ctrl+q alt+q # other commands
+  key q
+  let_it_read
+  ends_with 130 "key Q"
+  said "slow.ply: reading was stopped on request"
+}
+
+TheCloseButtonCancelsTheFirstFile() {
+  make sphere slow.ply
+  open_held slow.ply
+  "$CLOSE_WINDOW" "$window" || fail "the window with the bar does not listen for its close button"
+  let_it_read
+  ends_with 130 "the close button"
+  said "slow.ply: reading was stopped on request"
+}
+
+# The window that opened with the bar, before its first cloud was read, hears what any other does.
+TheWindowHearsKeysAfterASlowFirstFile() {
+  make sphere slow.ply
+  open_held slow.ply
+  key ctrl+q alt+q # other commands than Q
+  let_it_read
+  shows_in_the_same_window slow.ply
+  write_settings
+  turn_model
+  write_settings
+  changed matrix || fail "the model did not turn"
+}
+shows_in_the_same_window() {
+  local waiting="$window"
+  shows "$1"
+  [[ "$window" == "$waiting" ]] || fail "the window was replaced by another one"
+  has_keys
+}
+
+TheWindowHearsItsCloseButtonAfterASlowFirstFile() {
+  make sphere slow.ply
+  open_held slow.ply
+  let_it_read
+  shows_in_the_same_window slow.ply
+  "$CLOSE_WINDOW" "$window" || fail "the window does not listen for its close button"
+  ends_with 0 "the close button"
+  never_said "X connection"
+}
+
+# The same window goes on to the next file, and says what it left out.
+AFirstFileThatCannotBeReadIsSkipped() {
+  make sphere good.ply
+  echo "no cloud" >slow.ply
+  open_held slow.ply good.ply
+  let_it_read
+  shows_in_the_same_window good.ply
+  said "warning: skipped: slow.ply: "
+  key n
+  said "pointhaptics view: slow.ply: "
+}
