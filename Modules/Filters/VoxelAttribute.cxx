@@ -231,7 +231,7 @@ void VoxelAttribute::writeSet(const Tuples& tuples, std::int64_t first, const st
 }
 
 vtkSmartPointer<vtkDataArray> VoxelAttribute::output(const std::int64_t* counts,
-  const AffineTransform& transform, ArrayPool& pool, const Executor& executor, Watcher* watcher)
+  const AffineTransform& transform, ArrayPool& pool, const Executor& executor, ProgressObserver* observer)
 {
   vtkSmartPointer<vtkDataArray> result = written_;
   if (!result)
@@ -239,7 +239,7 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::output(const std::int64_t* counts,
     result = newArray(input_, plain_->GetDataType());
     pool.allocate(result, voxels_);
     setNormalColumns(transform);
-    if (!write(tuples_, result, 0, counts, executor, watcher))
+    if (!write(tuples_, result, 0, counts, executor, observer))
     {
       return nullptr;
     }
@@ -264,7 +264,7 @@ void VoxelAttribute::setNormalColumns(const AffineTransform& transform)
 
 /// To the voxels of @p output from @p first on.
 bool VoxelAttribute::write(const Tuples& tuples, vtkDataArray* output, std::int64_t first,
-  const std::int64_t* counts, const Executor& executor, Watcher* watcher) const
+  const std::int64_t* counts, const Executor& executor, ProgressObserver* observer) const
 {
   const std::size_t bytes = std::size_t(bytesOf(view_.type)) * std::size_t(view_.components);
   void* to = static_cast<char*>(output->GetVoidPointer(0)) + std::size_t(first) * bytes;
@@ -282,7 +282,7 @@ bool VoxelAttribute::write(const Tuples& tuples, vtkDataArray* output, std::int6
       writeIntegerNormals(output, counts, executor); // never of a set, see canWriteSets()
       break;
     case AttributeKind::Category:
-      return std::get<AttributeMode>(tuples).write(to, executor, watcher);
+      return std::get<AttributeMode>(tuples).write(to, executor, observer);
   }
   return true;
 }

@@ -7,7 +7,7 @@
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/Buffer.h"
 #include "Core/Base/Executor.h"
-#include "Core/Base/Watcher.h"
+#include "Core/Base/ProgressObserver.h"
 #include "Core/Resample/AttributeMean.h"
 #include "Core/Resample/AttributeMode.h"
 #include "Core/Resample/PointRows.h"
@@ -77,14 +77,14 @@ public:
 
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
   /// One tuple per voxel, of the type, name, components, information and lookup table of the input; null if
-  /// the watcher, who may be none, ended the work. @p counts: points of each voxel.
+  /// the observer, which may be null, ended the work. @p counts: points of each voxel.
   vtkSmartPointer<vtkDataArray> output(const std::int64_t* counts, const AffineTransform& transform,
-    ArrayPool& pool, const Executor& executor, Watcher* watcher);
+    ArrayPool& pool, const Executor& executor, ProgressObserver* observer);
 
 private:
   void setNormalColumns(const AffineTransform& transform);
   bool write(const Tuples& tuples, vtkDataArray* output, std::int64_t first, const std::int64_t* counts,
-    const Executor& executor, Watcher* watcher) const;
+    const Executor& executor, ProgressObserver* observer) const;
   void writeIntegerNormals(vtkDataArray* output, const std::int64_t* counts, const Executor& executor) const;
 
   vtkSmartPointer<vtkDataArray> input_; ///< As given.

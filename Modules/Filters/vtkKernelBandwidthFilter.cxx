@@ -29,8 +29,8 @@ static_assert(int(vtkKernelBandwidthFilter::Epanechnikov) == int(pointhaptics::D
 namespace
 {
 
-/// Runs a loop in slices on VTK's threads; between them tells the filter's progress and, once an abort is
-/// asked for, leaves out the rest. What the loop has computed is of no use then.
+/// Runs a loop in slices on VTK's threads and reports the filter's progress after each slice. After an abort
+/// request it skips the remaining slices; the results of the loop are invalid then.
 class ReportingExecutor : public SmpExecutor
 {
 public:
@@ -66,7 +66,7 @@ private:
     std::int64_t Offset;
   };
 
-  /// Several loops share the range: progress never goes back.
+  /// Several loops share the range: progress never decreases.
   void Report(double fraction) const
   {
     const double progress = this->From + (this->To - this->From) * std::min(fraction, 1.0);

@@ -29,7 +29,7 @@ vtkVoxelMeanResampler::vtkVoxelMeanResampler()
   , InstructionSet(InstructionSetAutomatic)
   , NumberOfClippedPoints(0)
   , NumberOfInvalidPoints(0)
-  , Inside(std::make_unique<Internals>(this))
+  , Impl(std::make_unique<Internals>(this))
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -138,12 +138,12 @@ void vtkVoxelMeanResampler::SetNumberOfLevels(int levels)
 
 unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const
 {
-  return static_cast<unsigned long>(this->Inside->ScratchBytes() / 1024);
+  return static_cast<unsigned long>(this->Impl->ScratchBytes() / 1024);
 }
 
 void vtkVoxelMeanResampler::ReleaseScratch()
 {
-  this->Inside->Forget();
+  this->Impl->ReleaseCaches();
 }
 
 vtkMTimeType vtkVoxelMeanResampler::GetMTime()
@@ -153,12 +153,12 @@ vtkMTimeType vtkVoxelMeanResampler::GetMTime()
   {
     time = std::max(time, this->Transform->GetMTime());
   }
-  if (this->Inside->Aborted)
+  if (this->Impl->Aborted)
   {
     // The pipeline takes what an aborted execution leaves for an output; ask it for another.
-    this->Inside->RetryTime.Modified();
+    this->Impl->RetryTime.Modified();
   }
-  return std::max(time, this->Inside->RetryTime.GetMTime());
+  return std::max(time, this->Impl->RetryTime.GetMTime());
 }
 
 int vtkVoxelMeanResampler::FillInputPortInformation(int, vtkInformation* info)
@@ -180,7 +180,7 @@ int vtkVoxelMeanResampler::RequestData(
     outputs.emplace_back(vtkPolyData::GetData(outputVector, level));
     outputs.back()->GetFieldData()->PassData(input->GetFieldData());
   }
-  if (this->Inside->Update(input, outputs))
+  if (this->Impl->Update(input, outputs))
   {
     this->UpdateProgress(1.0);
   }

@@ -260,7 +260,7 @@ protected:
 
 private:
   class Internals;
-  std::unique_ptr<Internals> Inside;
+  std::unique_ptr<Internals> Impl;
 
   vtkVoxelMeanResampler(const vtkVoxelMeanResampler&) = delete;
   void operator=(const vtkVoxelMeanResampler&) = delete;

@@ -99,25 +99,25 @@ std::vector<int> rolesOf(vtkDataSetAttributes* attributes, vtkAbstractArray* arr
 }
 
 /// While this lives, what the update needs is not freed; then the input is let go.
-class vtkVoxelMeanResampler::Internals::Running
+class vtkVoxelMeanResampler::Internals::UpdateScope
 {
 public:
-  explicit Running(Internals& owner)
+  explicit UpdateScope(Internals& owner)
     : Owner(owner)
   {
     this->Owner.IsRunning = true;
   }
-  ~Running()
+  ~UpdateScope()
   {
     this->Owner.Release();
     this->Owner.IsRunning = false;
-    if (this->Owner.ForgetAtTheEnd)
+    if (this->Owner.ReleaseCachesAtEnd)
     {
-      this->Owner.Forget();
+      this->Owner.ReleaseCaches();
     }
   }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
+  UpdateScope(const UpdateScope&) = delete;
+  UpdateScope& operator=(const UpdateScope&) = delete;
 
 private:
   Internals& Owner;
@@ -126,7 +126,7 @@ private:
 bool vtkVoxelMeanResampler::Internals::Update(
   vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs)
 {
-  const Running running(*this);
+  const UpdateScope scope(*this);
   this->Aborted = false;
   this->PassBegin = 0.0;
   this->PassEnd = 1.0;
@@ -360,7 +360,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   if (canWriteSets && this->Engine.canAssignInSets() && this->Request.levels == 1)
   {
     this->AverageInSets();
-    return this->proceed(1.0);
+    return this->report(1.0);
   }
   const std::int64_t mostPoints = this->Engine.mostPoints(this->Request.levels - 1);
   for (NamedAttribute& named : this->Attributes)
@@ -487,7 +487,7 @@ bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
     }
     const vtkSmartPointer<vtkDataArray> array =
       named.attribute.output(countValues, this->Request.transform, this->Pool, this->Smp, this);
-    if (!array || !this->proceed(1.0))
+    if (!array || !this->report(1.0))
     {
       return false;
     }
@@ -534,9 +534,9 @@ std::size_t vtkVoxelMeanResampler::Internals::ScratchBytes() const
   return sum;
 }
 
-void vtkVoxelMeanResampler::Internals::Forget()
+void vtkVoxelMeanResampler::Internals::ReleaseCaches()
 {
-  this->ForgetAtTheEnd = this->IsRunning;
+  this->ReleaseCachesAtEnd = this->IsRunning;
   if (this->IsRunning)
   {
     return;
@@ -563,7 +563,7 @@ void vtkVoxelMeanResampler::Internals::BeginPart(double end)
   this->PartEnd = end;
 }
 
-bool vtkVoxelMeanResampler::Internals::proceed(double fraction)
+bool vtkVoxelMeanResampler::Internals::report(double fraction)
 {
   const double ofPass = this->PartBegin + (this->PartEnd - this->PartBegin) * fraction;
   this->Filter->UpdateProgress(this->PassBegin + (this->PassEnd - this->PassBegin) * ofPass);

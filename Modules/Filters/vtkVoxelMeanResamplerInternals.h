@@ -23,7 +23,7 @@ class vtkPointSet;
 class vtkPolyData;
 
 /// One update's steps, and what is kept from one to the next.
-class vtkVoxelMeanResampler::Internals : public pointhaptics::Watcher
+class vtkVoxelMeanResampler::Internals : public pointhaptics::ProgressObserver
 {
 public:
   explicit Internals(vtkVoxelMeanResampler* filter)
@@ -34,12 +34,12 @@ public:
   /// RequestData: an output for each level. @return false if it stays empty: an error was reported, or the
   /// execution aborted.
   bool Update(vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs);
-  /// Frees what is kept from one update to the next; during one, at its end.
-  void Forget();
+  /// Frees what is kept between updates; called during an update, at its end.
+  void ReleaseCaches();
   std::size_t ScratchBytes() const;
 
-  /// Watcher: passes progress on within the present part of an update.
-  bool proceed(double fraction) override;
+  /// Maps the fraction to the current part of the update and passes it to the filter.
+  bool report(double fraction) override;
 
   pointhaptics::VoxelResampler Engine;
   pointhaptics::PointIndex Index;
@@ -73,11 +73,11 @@ private:
     pointhaptics::AttributeKind kind;
     pointhaptics::AttributeValues values;
   };
-  class Running;
+  class UpdateScope;
 
-  /// From now on parts are those of a pass over the points, itself from @p begin to @p end of an update.
+  /// Starts a pass over the points, which covers the fractions from @p begin to @p end of an update.
   void BeginPass(double begin, double end);
-  /// What proceed() hears of from now on is the part of a pass from the last one's end to @p end.
+  /// Starts a part of the pass, from the end of the previous part to @p end: report() maps to it.
   void BeginPart(double end);
   // The steps of an update; false after an error was reported, or the execution aborted.
   bool ReadTransform();
@@ -107,7 +107,7 @@ private:
   double PartBegin = 0.0;
   double PartEnd = 0.0;
   bool IsRunning = false;
-  bool ForgetAtTheEnd = false;
+  bool ReleaseCachesAtEnd = false;
   // Which input was seen last, and how often a part of it.
   ArraySeen Seen;
   int PartialViews = 0;

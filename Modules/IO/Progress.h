@@ -12,8 +12,8 @@ namespace pointhaptics::io
 /// Rows between two progress reports: a few reports per 100,000 points.
 constexpr vtkIdType kProgressRows = 32768;
 
-/// Tells the observers of @p algorithm that @p fraction of its work, 0..1, is done. @throws StoppedOnRequest
-/// when AbortExecute is set. Call it from the thread that runs the algorithm.
+/// Reports to the observers of @p algorithm that @p fraction of its work, 0..1, is done.
+/// @throws StoppedOnRequest when AbortExecute is set. Call it from the thread that runs the algorithm.
 void reportProgress(vtkAlgorithm* algorithm, double fraction);
 
 /// While this lives, the progress of one of VTK's own algorithms is that of @p outer from @p begin to @p end,

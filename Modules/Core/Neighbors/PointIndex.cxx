@@ -36,12 +36,12 @@ public:
   {
   }
   std::size_t count() const { return std::size_t(count_); }
-  /// Calls visit(slice, begin, end) for parts of all slices, those of one in order. @return false if the
-  /// watcher ended it.
+  /// Calls visit(slice, begin, end) for parts of all slices, those of one slice in order. @return false if
+  /// the observer aborted the work.
   template <typename Visit>
-  bool pass(WatchedPoints& watched, Visit&& visit) const
+  bool pass(PointProgress& progress, Visit&& visit) const
   {
-    const std::int64_t step = std::max<std::int64_t>(kWatchedPoints / count_, 1);
+    const std::int64_t step = std::max<std::int64_t>(kPointsPerReport / count_, 1);
     for (std::int64_t done = 0; done < size_; done += step)
     {
       const std::int64_t part = std::min(step, size_ - done);
@@ -51,7 +51,7 @@ public:
           const std::int64_t begin = std::min(std::int64_t(slice) * size_ + done, points_);
           visit(slice, begin, std::min(begin + part, points_));
         });
-      if (!watched.add(part * count_))
+      if (!progress.add(part * count_))
       {
         return false;
       }
@@ -109,15 +109,15 @@ struct Grid
 
 }
 
-Status PointIndex::build(const PointView& points, const Executor& executor, Watcher* watcher)
+Status PointIndex::build(const PointView& points, const Executor& executor, ProgressObserver* observer)
 {
   *this = PointIndex();
   if (points.size() > kMostPoints)
   {
     return Status::InvalidParameter;
   }
-  WatchedPoints watched(watcher, points.size(), 4);
-  const Status status = this->sort(points, executor, watched);
+  PointProgress progress(observer, points.size(), 4);
+  const Status status = this->sort(points, executor, progress);
   if (status == Status::Aborted)
   {
     *this = PointIndex();
@@ -125,12 +125,12 @@ Status PointIndex::build(const PointView& points, const Executor& executor, Watc
   return status;
 }
 
-Status PointIndex::sort(const PointView& points, const Executor& executor, WatchedPoints& watched)
+Status PointIndex::sort(const PointView& points, const Executor& executor, PointProgress& progress)
 {
   cloudSize_ = points.size();
   const Slices slices(points.size(), executor);
   std::vector<Bounds> boxes(slices.count());
-  const bool isBounded = slices.pass(watched,
+  const bool isBounded = slices.pass(progress,
     [&](std::size_t slice, std::int64_t begin, std::int64_t end)
     {
       Bounds box = boxes[slice];
@@ -166,7 +166,7 @@ Status PointIndex::sort(const PointView& points, const Executor& executor, Watch
   std::vector<std::uint32_t> cells(std::size_t(points.size()));
   const std::size_t cellCount = std::size_t(grid.cells) * std::size_t(grid.cells) * std::size_t(grid.cells);
   std::vector<std::uint32_t> places(cellCount * slices.count(), 0);
-  const bool isCounted = slices.pass(watched,
+  const bool isCounted = slices.pass(progress,
     [&](std::size_t slice, std::int64_t begin, std::int64_t end)
     {
       std::uint32_t* counts = places.data() + cellCount * slice;
@@ -205,19 +205,19 @@ Status PointIndex::sort(const PointView& points, const Executor& executor, Watch
   begins_.push_back(size_);
   single_ = points.floats() != nullptr;
   originals_.reserve(std::size_t(size_));
-  const bool isFilled = single_ ? this->fill(points, cells, places, floats_, executor, watched)
-                                : this->fill(points, cells, places, doubles_, executor, watched);
-  return isFilled && this->bound(executor, watched) ? Status::Ok : Status::Aborted;
+  const bool isFilled = single_ ? this->fill(points, cells, places, floats_, executor, progress)
+                                : this->fill(points, cells, places, doubles_, executor, progress);
+  return isFilled && this->bound(executor, progress) ? Status::Ok : Status::Aborted;
 }
 
 template <typename Real>
 bool PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>& cells,
-  std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor, WatchedPoints& watched)
+  std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor, PointProgress& progress)
 {
   copy.reserve(3 * std::size_t(size_), Pages::Huge);
   const Slices slices(points.size(), executor);
   const std::size_t cellCount = places.size() / slices.count();
-  return slices.pass(watched,
+  return slices.pass(progress,
     [&](std::size_t slice, std::int64_t begin, std::int64_t end)
     {
       std::uint32_t* next = places.data() + cellCount * slice;
@@ -239,7 +239,7 @@ bool PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>&
 }
 
 /// Looks for the bounds of the bricks and of their groups.
-bool PointIndex::bound(const Executor& executor, WatchedPoints& watched)
+bool PointIndex::bound(const Executor& executor, PointProgress& progress)
 {
   const PointView sorted = this->points();
   const std::size_t bricks = begins_.size() - 1;
@@ -278,9 +278,9 @@ bool PointIndex::bound(const Executor& executor, WatchedPoints& watched)
     do
     {
       ++last;
-    } while (last < groups_.size() && endOf(last) - begin < kWatchedPoints);
+    } while (last < groups_.size() && endOf(last) - begin < kPointsPerReport);
     forEachItem(executor, last - first, [&](std::size_t group) { boundGroup(first + group); });
-    if (!watched.add(endOf(last) - begin))
+    if (!progress.add(endOf(last) - begin))
     {
       return false;
     }

@@ -8,8 +8,8 @@
 #include "Core/Base/Lattice.h"
 #include "Core/Base/PointRange.h"
 #include "Core/Base/PointView.h"
+#include "Core/Base/ProgressObserver.h"
 #include "Core/Base/Status.h"
-#include "Core/Base/Watcher.h"
 
 #include <cstdint>
 #include <vector>
@@ -27,8 +27,8 @@ public:
   static constexpr std::int64_t kMostPoints = (std::int64_t(1) << 32) - 1;
 
   /// @return InvalidParameter for more than kMostPoints; Empty when no point is finite; Aborted where
-  /// @p watcher ended the work: the index is then empty.
-  Status build(const PointView& points, const Executor& executor = {}, Watcher* watcher = nullptr);
+  /// @p observer ended the work: the index is then empty.
+  Status build(const PointView& points, const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
   /// Ranges of points() that hold every point which @p transform moves into @p lattice, and few others.
   std::vector<PointRange> rangesInside(
@@ -45,11 +45,12 @@ public:
 private:
   bool staysFinite(const AffineTransform& transform) const;
   // The steps of build(); false: aborted.
-  Status sort(const PointView& points, const Executor& executor, WatchedPoints& watched);
+  Status sort(const PointView& points, const Executor& executor, PointProgress& progress);
   template <typename Real>
   bool fill(const PointView& points, const std::vector<std::uint32_t>& bricks,
-    std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor, WatchedPoints& watched);
-  bool bound(const Executor& executor, WatchedPoints& watched);
+    std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor,
+    PointProgress& progress);
+  bool bound(const Executor& executor, PointProgress& progress);
 
   std::int64_t cloudSize_ = 0;
   std::int64_t size_ = 0;

@@ -66,7 +66,7 @@ public:
   /// Another that averages the same array, without sums.
   AttributeMean another() const { return { kernels_, view_, range_ }; }
 
-  /// Forgets all sums and makes room for @p voxels of at most @p mostPoints points each, at coarser levels
+  /// Drops all sums and makes room for @p voxels of at most @p mostPoints points each, at coarser levels
   /// too, in @p spare if that is large enough.
   void prepare(std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare = {},
     const Executor& executor = {});

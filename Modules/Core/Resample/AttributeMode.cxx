@@ -155,14 +155,14 @@ void AttributeMode::writeModes(std::int64_t first, std::int64_t last, T* modes) 
   }
 }
 
-bool AttributeMode::write(void* modes, const Executor& executor, Watcher* watcher) const
+bool AttributeMode::write(void* modes, const Executor& executor, ProgressObserver* observer) const
 {
-  WatchedPoints watched(watcher, ends_.empty() ? 0 : ends_.back(), 1);
+  PointProgress progress(observer, ends_.empty() ? 0 : ends_.back(), 1);
   for (std::int64_t first = 0; first < voxels();)
   {
-    // Voxels of so many points that the watcher should hear of them; one at least.
+    // Voxels with the points of one report; at least one voxel.
     const std::int64_t points = begin(first);
-    const auto last = std::upper_bound(ends_.begin() + first + 1, ends_.end(), points + kWatchedPoints);
+    const auto last = std::upper_bound(ends_.begin() + first + 1, ends_.end(), points + kPointsPerReport);
     const std::int64_t count = last - ends_.begin() - first;
     forRange(executor, count,
       [&](std::int64_t from, std::int64_t to)
@@ -175,7 +175,7 @@ bool AttributeMode::write(void* modes, const Executor& executor, Watcher* watche
           });
       });
     first += count;
-    if (!watched.add(begin(first) - points))
+    if (!progress.add(begin(first) - points))
     {
       return false;
     }

@@ -5,8 +5,8 @@
 
 #include "Core/Base/Buffer.h"
 #include "Core/Base/Executor.h"
+#include "Core/Base/ProgressObserver.h"
 #include "Core/Base/ScalarType.h"
-#include "Core/Base/Watcher.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +33,7 @@ public:
   /// Another for tuples of the same kind, without any.
   AttributeMode another() const { return { type_, components_ }; }
 
-  /// Forgets all tuples and makes room for those of @p voxels, @p counts each.
+  /// Drops all tuples and makes room for those of @p voxels, @p counts each.
   void prepare(const std::int64_t* counts, std::int64_t voxels);
   /// Keeps copies of tuples, each @p stride bytes after the one before and aligned like their numbers.
   /// Several threads may add at once if no two have a voxel in common.
@@ -42,8 +42,8 @@ public:
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
 
   /// Modes of all voxels, in the tuples' own type. @pre each voxel has as many tuples as it was said to get.
-  /// @return false where @p watcher, who may be none, ended the work.
-  bool write(void* modes, const Executor& executor, Watcher* watcher) const;
+  /// @return false where @p observer, which may be null, aborted the work.
+  bool write(void* modes, const Executor& executor, ProgressObserver* observer) const;
 
 private:
   std::int64_t voxels() const { return std::int64_t(ends_.size()); }

@@ -9,8 +9,8 @@
 namespace pointhaptics
 {
 
-Bounds transformedBounds(
-  const PointView& points, const AffineTransform& transform, const Executor& executor, Watcher* watcher)
+Bounds transformedBounds(const PointView& points, const AffineTransform& transform, const Executor& executor,
+  ProgressObserver* observer)
 {
   Bounds box;
   std::mutex mutex;
@@ -34,8 +34,8 @@ Bounds transformedBounds(
       box.include({ local[1], local[3], local[5] });
     }
   };
-  WatchedPoints watched(watcher, points.size(), 1);
-  forWatchedSlices(points.size(), watched,
+  PointProgress progress(observer, points.size(), 1);
+  forReportedSlices(points.size(), progress,
     [&](std::int64_t first, std::int64_t last)
     {
       forRange(executor, last - first, kGrain,

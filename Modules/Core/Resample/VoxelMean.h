@@ -6,8 +6,8 @@
 #include "Core/Base/Executor.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Base/PointView.h"
+#include "Core/Base/ProgressObserver.h"
 #include "Core/Base/Status.h"
-#include "Core/Base/Watcher.h"
 
 #include <cstdint>
 #include <vector>
@@ -28,9 +28,9 @@ struct VoxelMeans
 };
 
 /// Bounds of the transformed points that are finite before and after the transform. Of no use where
-/// @p watcher has ended the work.
+/// @p observer has ended the work.
 Bounds transformedBounds(const PointView& points, const AffineTransform& transform,
-  const Executor& executor = {}, Watcher* watcher = nullptr);
+  const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
 /// Maps @p points by @p transform and averages them voxel by voxel: VoxelResampler for once, in double.
 /// Errors: the transform's, the lattice's; @p result is then empty. A cloud without a point inside is no

@@ -27,7 +27,7 @@ int VoxelResampler::Implementation::halvingsOf(const Lattice& lattice)
 }
 
 Status VoxelResampler::Implementation::run(
-  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   clear();
   if (request.levels < 1 || request.levels > kMostLevels ||
@@ -46,7 +46,7 @@ Status VoxelResampler::Implementation::run(
   levels[0].lattice = request.lattice;
   halvings_ = halvingsOf(request.lattice);
   const Status status =
-    halvings_ >= 0 ? runPlanned(request, executor, watcher) : runGeneral(request, executor, watcher);
+    halvings_ >= 0 ? runPlanned(request, executor, observer) : runGeneral(request, executor, observer);
   if (status != Status::Ok)
   {
     clear();
@@ -65,9 +65,9 @@ void VoxelResampler::Implementation::clear()
 }
 
 /// Writes the means of runs to a level. @pre these are joined. @param keeps: the runs are of use afterwards.
-/// @return false where the watcher ended the work.
+/// @return false where the observer ended the work.
 bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, VoxelRuns& runs, bool keeps,
-  Level& level, ResultMemory* memory, const Executor& executor, Watcher* watcher)
+  Level& level, ResultMemory* memory, const Executor& executor, ProgressObserver* observer)
 {
   const std::size_t ranges = runs.ranges();
   level.firsts.assign(ranges + 1, 0);
@@ -79,13 +79,13 @@ bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, Voxe
   level.arena.prepare(level.firsts.back(), { request.singlePrecision, request.keys, request.covariances },
     level.lattice, runs.fractionBits(), memory);
   const bool plain = !hasOrdinarySpacing(level.lattice);
-  WatchedPoints watched(watcher, level.size, 1);
+  PointProgress progress(observer, level.size, 1);
   for (std::size_t first = 0, last = 0; first < ranges; first = last)
   {
     do
     {
       ++last;
-    } while (last < ranges && level.firsts[last] - level.firsts[first] < std::size_t(kWatchedPoints));
+    } while (last < ranges && level.firsts[last] - level.firsts[first] < std::size_t(kPointsPerReport));
     forEachItem(executor, last - first,
       [&](std::size_t i)
       {
@@ -97,7 +97,7 @@ bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, Voxe
           runs.release(range);
         }
       });
-    if (!watched.add(std::int64_t(level.firsts[last] - level.firsts[first])))
+    if (!progress.add(std::int64_t(level.firsts[last] - level.firsts[first])))
     {
       return false;
     }
@@ -106,8 +106,8 @@ bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, Voxe
 }
 
 /// @param runs of level @p levelOfRuns, 0 or 1.
-Status VoxelResampler::Implementation::addLevels(
-  const VoxelRequest& request, VoxelRuns runs, int levelOfRuns, const Executor& executor, Watcher* watcher)
+Status VoxelResampler::Implementation::addLevels(const VoxelRequest& request, VoxelRuns runs, int levelOfRuns,
+  const Executor& executor, ProgressObserver* observer)
 {
   const double share = shareOfFinest(request);
   const auto progressAt = [&](int level)
@@ -117,20 +117,20 @@ Status VoxelResampler::Implementation::addLevels(
     const Level& finer = levels.back();
     Level level;
     level.lattice = coarserLattice(finer.lattice);
-    PartWatcher part(watcher, progressAt(l), progressAt(l + 1));
+    SubProgress part(observer, progressAt(l), progressAt(l + 1));
     if (l > levelOfRuns)
     {
       VoxelRuns coarse;
       const CoarseVoxels coarsening(finer.lattice, runs.fractionBits(), request.covariances);
-      PartWatcher summing(&part, 0.0, 0.6);
+      SubProgress summing(&part, 0.0, 0.6);
       if (!coarsening.ofRuns(runs, coarse, executor, &summing))
       {
         return Status::Aborted;
       }
       runs = std::move(coarse);
     }
-    PartWatcher writing(&part, 0.6, request.keys ? 0.8 : 1.0);
-    PartWatcher looking(&part, 0.8, 1.0);
+    SubProgress writing(&part, 0.6, request.keys ? 0.8 : 1.0);
+    SubProgress looking(&part, 0.8, 1.0);
     if (!writeRuns(request, runs, l + 1 < request.levels, level, nullptr, executor, &writing) ||
       (request.keys &&
         !findParents(finer.arena.keys(), finer.size, finer.lattice, level.arena.keys(), level.size,
@@ -144,11 +144,11 @@ Status VoxelResampler::Implementation::addLevels(
 }
 
 Status VoxelResampler::Implementation::assign(
-  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   // Halved voxels are not those asked for.
-  return halvings_ == 0 ? assignPlanned(request, visit, executor, watcher)
-                        : assignGeneral(request, visit, executor, watcher);
+  return halvings_ == 0 ? assignPlanned(request, visit, executor, observer)
+                        : assignGeneral(request, visit, executor, observer);
 }
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
@@ -178,15 +178,15 @@ VoxelResampler::~VoxelResampler() = default;
 VoxelResampler::VoxelResampler(VoxelResampler&&) noexcept = default;
 VoxelResampler& VoxelResampler::operator=(VoxelResampler&&) noexcept = default;
 
-Status VoxelResampler::run(const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+Status VoxelResampler::run(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
-  return implementation_->run(request, executor, watcher);
+  return implementation_->run(request, executor, observer);
 }
 
 Status VoxelResampler::assign(
-  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
-  return implementation_->assign(request, visit, executor, watcher);
+  return implementation_->assign(request, visit, executor, observer);
 }
 
 void VoxelResampler::assignInSets(const VoxelRequest& request, const SetWork& work, const Executor& executor)

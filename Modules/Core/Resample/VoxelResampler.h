@@ -6,8 +6,8 @@
 #include "Core/Base/Executor.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Base/PointView.h"
+#include "Core/Base/ProgressObserver.h"
 #include "Core/Base/Status.h"
-#include "Core/Base/Watcher.h"
 #include "Core/Resample/PointRows.h"
 #include "Core/Simd/InstructionSet.h"
 
@@ -102,8 +102,9 @@ public:
 
   /// Errors: the transform's, the lattice's, InvalidParameter (levels below 1 or above 22, an index of
   /// another number of points), Aborted (the
-  /// watcher said so); there are no voxels then. A cloud without a point inside is no error.
-  Status run(const VoxelRequest& request, const Executor& executor = {}, Watcher* watcher = nullptr);
+  /// observer said so); there are no voxels then. A cloud without a point inside is no error.
+  Status run(
+    const VoxelRequest& request, const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
   // What run() made. Levels count from 0, the lattice asked for.
   std::int64_t clippedPoints() const;     ///< Finite points outside the lattice.
@@ -132,7 +133,7 @@ public:
   /// @return Ok or Aborted.
   using Visitor = std::function<void(const PointRows& rows, const std::int64_t* voxels, int count)>;
   Status assign(const VoxelRequest& request, const Visitor& visit, const Executor& executor = {},
-    Watcher* watcher = nullptr);
+    ProgressObserver* observer = nullptr);
 
   /// The same for one set of voxels after the other: work(first, voxels, forPoints) is called for all sets,
   /// voxels first and on, possibly by several threads at once, and forPoints(visit) visits all points of

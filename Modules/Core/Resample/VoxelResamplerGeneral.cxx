@@ -44,7 +44,7 @@ const std::uint64_t* firstNotBelow(const std::uint64_t* keys, const std::uint64_
 }
 
 Status VoxelResampler::Implementation::runGeneral(
-  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   const VoxelRequest usable = withUsableIndex(request);
   const Chunks chunks(usable, kGeneralChunk, executor);
@@ -61,18 +61,18 @@ Status VoxelResampler::Implementation::runGeneral(
     forEachItem<KeyRanges::Sorted>(executor, ranges_.count(),
       [&](std::size_t range, KeyRanges::Sorted& scratch)
       { runs_.add(range, ranges_.sumsOf(range, scratch, request.covariances)); });
-    if (watcher && !watcher->proceed(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
+    if (observer && !observer->report(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }
   }
   clipped = request.points.size() - inside - invalid;
-  return finishRuns(request, executor, watcher);
+  return finishRuns(request, executor, observer);
 }
 
 /// Means of the runs.
 Status VoxelResampler::Implementation::finishRuns(
-  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   forEachItem(executor, runs_.ranges(), [&](std::size_t range) { runs_.join(range); });
   for (int halvings = halvings_; halvings > 0; --halvings)
@@ -85,11 +85,11 @@ Status VoxelResampler::Implementation::finishRuns(
     runs_ = std::move(coarse);
   }
   writeRuns(request, runs_, request.levels > 1, levels[0], request.memory, executor, nullptr);
-  return request.levels > 1 ? addLevels(request, std::move(runs_), 0, executor, watcher) : Status::Ok;
+  return request.levels > 1 ? addLevels(request, std::move(runs_), 0, executor, observer) : Status::Ok;
 }
 
 Status VoxelResampler::Implementation::assignGeneral(
-  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   const VoxelRequest usable = withUsableIndex(request);
   const Chunks chunks(usable, kGeneralChunk, executor);
@@ -123,7 +123,7 @@ Status VoxelResampler::Implementation::assignGeneral(
           visit(collector.collect(points, int(size)), voxels, int(size));
         }
       });
-    if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
+    if (observer && !observer->report(double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }

@@ -55,9 +55,9 @@ private:
 class VoxelResampler::Implementation
 {
 public:
-  Status run(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
+  Status run(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status assign(
-    const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
   void assignInSets(const VoxelRequest& request, const SetWork& work, const Executor& executor);
   bool poolHoldsAll() const { return poolHoldsAll_; }
 
@@ -79,8 +79,8 @@ private:
   /// How often the voxels of a lattice are halved so that they can be dealt out to partitions; -1: they
   /// cannot.
   static int halvingsOf(const Lattice& lattice);
-  Status runPlanned(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
-  Status runGeneral(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
+  Status runPlanned(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
+  Status runGeneral(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   void fillPool(const VoxelRequest& request, const kernel::Chunks& chunks, std::size_t chunk, bool withRows,
     const Executor& executor);
   void chooseRows(const VoxelRequest& request);
@@ -88,22 +88,22 @@ private:
   void forPartitions(const VoxelRequest& request, const Executor& executor, Work&& work);
   void carryChunk(const VoxelRequest& request, const Executor& executor);
   void closeBatch(const VoxelRequest& request, const Executor& executor);
-  Status finishRuns(const VoxelRequest& request, const Executor& executor, Watcher* watcher);
+  Status finishRuns(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   void keepBatches(const VoxelRequest& request, kernel::PartitionWorker& worker, std::uint32_t partition);
   void finish(const VoxelRequest& request, const Executor& executor);
   /// The part of the work of run() that the finest level is.
   static double shareOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
   bool writeRuns(const VoxelRequest& request, kernel::VoxelRuns& runs, bool keeps, kernel::Level& level,
-    ResultMemory* memory, const Executor& executor, Watcher* watcher);
+    ResultMemory* memory, const Executor& executor, ProgressObserver* observer);
   Status addLevels(const VoxelRequest& request, kernel::VoxelRuns runs, int levelOfRuns,
-    const Executor& executor, Watcher* watcher);
+    const Executor& executor, ProgressObserver* observer);
   kernel::VoxelRuns takeCarried(const Executor& executor);
   Status assignPlanned(
-    const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
   void visitPartition(const VoxelRequest& request, kernel::PartitionWorker& worker, std::uint32_t partition,
     std::int64_t firstVoxel, const Visitor& visit);
   Status assignGeneral(
-    const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher);
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
 
   int halvings_ = 0;
   Lattice halved_; ///< The lattice asked for, or what halvings_ make of it.

@@ -56,7 +56,7 @@ std::int64_t mostPointsOfBatch(int indexBits)
 }
 static_assert(
   kChunkPoints < std::int64_t(1) << (62 - kPositionBits + kMinimumIndexBits), "a batch must hold a chunk");
-static_assert(kChunkPoints <= kWatchedPoints, "a watcher is told after each chunk");
+static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
 
 /// Partitions that are whole layers of the next coarser lattice together.
 class PartitionGroups
@@ -72,9 +72,9 @@ public:
   std::uint32_t groupOf(std::uint32_t partition) const { return partition / size_; }
   std::uint32_t begin(std::uint32_t group) const { return group * size_; }
   std::uint32_t end(std::uint32_t group) const { return std::min((group + 1) * size_, partitions_); }
-  /// A partition is done. @return true if it is the last of its group: all threads' work on the others is
-  /// then to be seen.
-  bool tell(std::uint32_t partition)
+  /// Marks a partition as done. @return true if it is the last of its group: what other threads wrote to the
+  /// group's other partitions is visible then.
+  bool finish(std::uint32_t partition)
   {
     const std::uint32_t group = groupOf(partition);
     return ++done_[group] == end(group) - begin(group);
@@ -131,7 +131,7 @@ std::int64_t pointsOf(const Chunks& chunks)
 }
 
 Status VoxelResampler::Implementation::runPlanned(
-  const VoxelRequest& request, const Executor& executor, Watcher* watcher)
+  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   halved_ = finerLattice(request.lattice, halvings_);
   const int indexBits = indexBitsOf(halved_);
@@ -169,7 +169,7 @@ Status VoxelResampler::Implementation::runPlanned(
     {
       isLast ? finish(request, executor) : carryChunk(request, executor);
     }
-    if (watcher && !watcher->proceed(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
+    if (observer && !observer->report(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }
@@ -178,14 +178,14 @@ Status VoxelResampler::Implementation::runPlanned(
   poolHoldsAll_ = holdsAll;
   if (inBatches)
   {
-    return finishRuns(request, executor, watcher);
+    return finishRuns(request, executor, observer);
   }
   if (request.levels == 1)
   {
     return Status::Ok;
   }
-  return plan_.dense ? addLevels(request, std::move(runs_), 1, executor, watcher)
-                     : addLevels(request, takeCarried(executor), 0, executor, watcher);
+  return plan_.dense ? addLevels(request, std::move(runs_), 1, executor, observer)
+                     : addLevels(request, takeCarried(executor), 0, executor, observer);
 }
 
 void VoxelResampler::Implementation::chooseRows(const VoxelRequest& request)
@@ -342,7 +342,7 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
         [&](std::size_t known)
         {
           size = known;
-          order.tell(p, size);
+          order.publish(p, size);
         });
       std::size_t place = order.first(p);
       const bool isLate = place == PartitionOrder::kUnknown;
@@ -369,7 +369,7 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
       if (makesCoarse)
       {
         const std::uint32_t group = groups.groupOf(p);
-        if (groups.tell(p))
+        if (groups.finish(p))
         {
           runs_.add(group,
             coarsening.ofPartitions(plan_, carried_, groups.begin(group), groups.end(group), worker.coarse));
@@ -424,7 +424,7 @@ VoxelRuns VoxelResampler::Implementation::takeCarried(const Executor& executor)
 }
 
 Status VoxelResampler::Implementation::assignPlanned(
-  const VoxelRequest& request, const Visitor& visit, const Executor& executor, Watcher* watcher)
+  const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   const Chunks chunks(request, kChunkPoints, executor);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
@@ -442,7 +442,7 @@ Status VoxelResampler::Implementation::assignPlanned(
           visitPartition(request, *lease, p, std::int64_t(levels[0].firsts[p]), visit);
         }
       });
-    if (watcher && !watcher->proceed(double(chunk + 1) / double(chunks.count())))
+    if (observer && !observer->report(double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }

@@ -30,7 +30,7 @@ bool serves(const Vec3& gathered, double reach, const Vec3& center, double radiu
 
 }
 
-void FitCells::forget() noexcept
+void FitCells::invalidate() noexcept
 {
   pyramid_ = nullptr;
   field_ = nullptr;
@@ -84,7 +84,7 @@ const kernel::FitBlock& FitCells::near(
 {
   if (pyramid_ != &pyramid)
   {
-    forget();
+    invalidate();
     pyramid_ = &pyramid;
   }
   for (const int top = pyramid.numberOfCellLevels() - 1;; ++level)
@@ -116,7 +116,7 @@ LocalScale FitCells::scaleAt(
   {
     if (pyramid_ != &pyramid)
     {
-      forget();
+      invalidate();
       pyramid_ = &pyramid;
     }
     field_ = &field;

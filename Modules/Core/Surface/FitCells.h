@@ -21,8 +21,8 @@ public:
   {
   }
 
-  /// Everything gathered is dropped. Must be called before a pyramid or field at an address used before.
-  void forget() noexcept;
+  /// Drops everything gathered. Call it before a pyramid or field is used whose address another one had.
+  void invalidate() noexcept;
 
   /// The cells of @p level (mixed ones as their children) that can lie within @p radius of @p center, and
   /// maybe others. Where there are more than a block holds, those of the next coarser level that fits; @p
@@ -36,9 +36,9 @@ public:
 
   const kernel::FitKernels& kernels() const noexcept { return *kernels_; }
   kernel::FitRows& rows() noexcept { return rows_; }
-  /// True where some block was too small since the last call of forgetOverflow().
+  /// True where some block was too small since the last call of clearOverflow().
   bool overflowed() const noexcept { return overflowed_; }
-  void forgetOverflow() noexcept { overflowed_ = false; }
+  void clearOverflow() noexcept { overflowed_ = false; }
 
 private:
   bool gather(const CellPyramid& pyramid, int level, const Vec3& center, double reach,

@@ -121,7 +121,7 @@ double SurfaceFitProxy::fitShare(
 void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const ContactParameters& parameters,
   const Vec3& hip, bool refines, ProxyState& state) noexcept
 {
-  memory.fit.forgetOverflow();
+  memory.fit.clearOverflow();
   ball_.setPatient(isPatient_);
   ball_.step(scene, memory.fit, memory.ball, hip, state.status);
   Contact contact;

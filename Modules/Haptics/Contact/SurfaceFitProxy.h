@@ -30,7 +30,7 @@ public:
 
     void forget() noexcept
     {
-      fit.forget();
+      fit.invalidate();
       ball.forget();
     }
   };

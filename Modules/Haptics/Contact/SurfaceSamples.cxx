@@ -36,7 +36,7 @@ struct Outputs
 void sampleRow(const HapticScene& scene, const PointView& points, std::int64_t begin, FitCells& memory,
   const Outputs& outputs)
 {
-  memory.forget();
+  memory.invalidate();
   const std::int64_t end = std::min(points.size(), begin + kRow);
   for (std::int64_t i = begin; i < end; ++i)
   {

@@ -1,7 +1,7 @@
 #include "Core/Resample/AttributeMode.h"
 
 #include "AttributePlans.h"
-#include "CountingWatcher.h"
+#include "CountingObserver.h"
 #include "RandomClouds.h"
 
 #include <gtest/gtest.h>
@@ -162,17 +162,17 @@ TEST(AttributeMode, StartsFromNothingEachTime)
   EXPECT_TRUE(none.write(nullptr, {}, nullptr)) << "no voxels";
 }
 
-TEST(AttributeMode, TellsAWatcherHowFarItIsAndEndsWhenItSaysSo)
+TEST(AttributeMode, ReportsProgressAndEndsWhenTheObserverAborts)
 {
-  constexpr std::size_t kPoints = 3 * std::size_t(kWatchedPoints);
+  constexpr std::size_t kPoints = 3 * std::size_t(kPointsPerReport);
   const std::vector<std::uint8_t> values = labels<std::uint8_t>(kPoints, 5, 16);
   const Plan plan = planFor(kPoints, 1000, 17);
   const AttributeMode mode = modeOf(values, 1, plan, 100000);
   std::vector<std::uint8_t> modes(1000);
-  trial::CountingWatcher patient;
+  trial::CountingObserver patient;
   EXPECT_TRUE(mode.write(modes.data(), {}, &patient));
   trial::expectAscendToOne(patient.fractions, 3);
-  trial::CountingWatcher impatient(2);
+  trial::CountingObserver impatient(2);
   EXPECT_FALSE(mode.write(modes.data(), {}, &impatient));
   EXPECT_EQ(impatient.fractions.size(), 2u);
 }

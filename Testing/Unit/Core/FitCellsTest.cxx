@@ -89,7 +89,7 @@ TEST(FitCells, AKeptNeighbourhoodGivesTheFitOfAFreshOne)
   {
     // The radius passes through two levels and both blends between them.
     const Look look = lookAt(-0.01 + 5e-5 * i, 0.002 + 2e-5 * i, 1.5e-3 + 1e-5 * i);
-    fresh->forget();
+    fresh->invalidate();
     const SurfaceFit expected = fitSurface(pyramid, look.frame, look.settings, *fresh, &look.slopes);
     const SurfaceFit found = fitSurface(pyramid, look.frame, look.settings, *kept, &look.slopes);
     ASSERT_EQ(found.cells, expected.cells) << i;
@@ -119,7 +119,7 @@ TEST(FitCells, TakesCoarserCellsWhereABlockIsTooSmallAndSaysSo)
   }
   pyramid.visitBallUnmixed(level, Vec3(), 3e-3, [&](const Cell& cell, double) { expected += cell.count; });
   EXPECT_EQ(count, expected) << "all of them, none twice";
-  memory->forgetOverflow();
+  memory->clearOverflow();
   level = 0;
   memory->near(pyramid, level, Vec3(), 1e-3);
   EXPECT_FALSE(memory->overflowed());

@@ -247,24 +247,24 @@ TEST(PointPlacement, DividesAsAPairOnlyWhereThatIsTheQuotient)
   EXPECT_GT(wrong, 0) << "not so for all spacings";
 }
 
-TEST(PartitionOrder, TellsPlacesAsSoonAsAllBeforeAreKnown)
+TEST(PartitionOrder, PublishesOffsetsAsSoonAsAllBeforeAreKnown)
 {
   PartitionOrder order(4);
   EXPECT_EQ(order.first(0), 0u);
   EXPECT_EQ(order.first(1), PartitionOrder::kUnknown);
-  order.tell(1, 20);
+  order.publish(1, 20);
   EXPECT_EQ(order.first(2), PartitionOrder::kUnknown);
-  order.tell(0, 3);
+  order.publish(0, 3);
   EXPECT_EQ(order.first(1), 3u);
   EXPECT_EQ(order.first(2), 23u);
-  order.tell(3, 5);
+  order.publish(3, 5);
   EXPECT_EQ(order.first(3), PartitionOrder::kUnknown);
-  order.tell(2, 0);
+  order.publish(2, 0);
   EXPECT_EQ(order.first(3), 23u);
   EXPECT_EQ(order.take(), (std::vector<std::size_t>{ 0, 3, 23, 23, 28 }));
 }
 
-TEST(PartitionOrder, KnowsAllPlacesWhenThreadsTellAtOnce)
+TEST(PartitionOrder, KnowsAllOffsetsWhenThreadsPublishAtOnce)
 {
   constexpr std::uint32_t kPartitions = 2000;
   constexpr std::uint32_t kThreads = 4;
@@ -279,7 +279,7 @@ TEST(PartitionOrder, KnowsAllPlacesWhenThreadsTellAtOnce)
       {
         for (std::uint32_t p = next++; p < kPartitions; p = next++)
         {
-          order.tell(p, 3);
+          order.publish(p, 3);
           const std::size_t first = order.first(p);
           wrong += first != PartitionOrder::kUnknown && first != 3 * std::size_t(p);
         }

@@ -1,6 +1,6 @@
 #include "Core/Neighbors/PointIndex.h"
 
-#include "CountingWatcher.h"
+#include "CountingObserver.h"
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
@@ -240,7 +240,7 @@ TEST(PointIndex, LeavesOutMostOfWhatASmallViewDoesNotShow)
 TEST(PointIndex, TellsHowFarItIsAndCanBeStoppedThere)
 {
   // More than are looked at between two events.
-  const std::vector<Vec3> points = randomBox(int(kWatchedPoints) + 1000, 8, { 0, 0, 0 }, { 1, 1, 1 });
+  const std::vector<Vec3> points = randomBox(int(kPointsPerReport) + 1000, 8, { 0, 0, 0 }, { 1, 1, 1 });
   const PointView view(points.data(), std::int64_t(points.size()));
   const PointIndex expected = indexOf(points);
   for (const int threads : { 1, 3 })
@@ -248,7 +248,7 @@ TEST(PointIndex, TellsHowFarItIsAndCanBeStoppedThere)
     SCOPED_TRACE(threads);
     const ThreadedExecutor executor(threads);
     PointIndex index;
-    CountingWatcher all;
+    CountingObserver all;
     ASSERT_EQ(index.build(view, executor, &all), Status::Ok);
     expectAscendToOne(all.fractions, 8); // two for each pass
     EXPECT_GT(all.fractions.front(), 0.0);
@@ -256,7 +256,7 @@ TEST(PointIndex, TellsHowFarItIsAndCanBeStoppedThere)
     expectHoldsFinitePoints(index, view);
     for (std::size_t last = 1; last <= all.fractions.size(); ++last)
     {
-      CountingWatcher stopping(last);
+      CountingObserver stopping(last);
       ASSERT_EQ(index.build(view, executor, &stopping), Status::Aborted) << last;
       EXPECT_EQ(stopping.fractions.size(), last);
       EXPECT_EQ(index.points().size(), 0);

@@ -1,7 +1,7 @@
 #include "Core/Resample/VoxelResampler.h"
 
 #include "Core/Neighbors/PointIndex.h"
-#include "CountingWatcher.h"
+#include "CountingObserver.h"
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
@@ -266,7 +266,7 @@ TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
       quantisedPoints(lattice.dimensions[0] > 4096 ? 540000 : 1260000, 11, lattice);
     const VoxelRequest request = requestFor(points, lattice);
     VoxelResampler resampler;
-    CountingWatcher once(1);
+    CountingObserver once(1);
     EXPECT_EQ(resampler.run(request, {}, &once), Status::Aborted);
     EXPECT_EQ(once.fractions.size(), 1u);
     EXPECT_EQ(resampler.size(), 0);
@@ -275,7 +275,7 @@ TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
     VoxelRequest less = request;
     less.points = { points.data(), 50000 };
     expectSame(runOf(resampler, less), runOf(less), nameOf(lattice));
-    CountingWatcher again(1);
+    CountingObserver again(1);
     EXPECT_EQ(resampler.assign(
                 less, [](const PointRows&, const std::int64_t*, int) {}, {}, nullptr),
       Status::Ok);
@@ -288,7 +288,7 @@ TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
 
 TEST(VoxelResampler, AnEndAskedForWithinALevelIsHeard)
 {
-  // More voxels than a watcher may be left alone with, in partitions that are sorted, and that are not.
+  // More voxels than may pass between two reports, in partitions that are sorted, and that are not.
   for (const Lattice& lattice : { latticeOf(1000, 1000, 1000), latticeOf(300, 300, 300) })
   {
     SCOPED_TRACE(nameOf(lattice));
@@ -297,14 +297,14 @@ TEST(VoxelResampler, AnEndAskedForWithinALevelIsHeard)
     VoxelRequest request = requestFor(points, lattice, false);
     request.levels = 2;
     VoxelResampler resampler;
-    CountingWatcher all;
+    CountingObserver all;
     ASSERT_EQ(resampler.run(request, ThreadedExecutor(2), &all), Status::Ok);
     expectAscendToOne(all.fractions, 5);
     const auto inLevel = std::find_if(
       all.fractions.begin(), all.fractions.end(), [](double done) { return done > 0.5 && done < 1.0; });
     ASSERT_NE(inLevel, all.fractions.end());
     const auto last = std::size_t(inLevel - all.fractions.begin()) + 1;
-    CountingWatcher ends(last);
+    CountingObserver ends(last);
     EXPECT_EQ(resampler.run(request, ThreadedExecutor(2), &ends), Status::Aborted);
     EXPECT_EQ(ends.fractions.size(), last);
     EXPECT_GT(ends.fractions.back(), 0.5);
@@ -321,9 +321,9 @@ TEST(VoxelResampler, FractionsAscendToOne)
     VoxelRequest request = requestFor(points, lattice, false);
     request.levels = 3;
     VoxelResampler resampler;
-    CountingWatcher watcher;
-    ASSERT_EQ(resampler.run(request, ThreadedExecutor(2), &watcher), Status::Ok);
-    expectAscendToOne(watcher.fractions, 3);
+    CountingObserver observer;
+    ASSERT_EQ(resampler.run(request, ThreadedExecutor(2), &observer), Status::Ok);
+    expectAscendToOne(observer.fractions, 3);
   }
 }
 
@@ -420,9 +420,9 @@ TEST(VoxelResampler, CloudsWithoutAPointInsideAreNoError)
     }
     VoxelRequest none = requestFor({}, lattice);
     none.levels = 2;
-    CountingWatcher watcher;
+    CountingObserver observer;
     VoxelResampler resampler;
-    EXPECT_EQ(resampler.run(none, {}, &watcher), Status::Ok);
+    EXPECT_EQ(resampler.run(none, {}, &observer), Status::Ok);
     EXPECT_EQ(resampler.size(0) + resampler.size(1), 0);
     EXPECT_EQ(resampler.assign(none, [](const PointRows&, const std::int64_t*, int) { FAIL(); }), Status::Ok);
   }

@@ -123,7 +123,7 @@ public:
   }
   void forget()
   {
-    fields_->forget();
+    fields_->invalidate();
     cells_->forget();
   }
   /// A new scene, with the ball carried into it. What was gathered from the old one is dropped.

@@ -312,7 +312,7 @@ VoxelRun CoarseVoxels::ofPartitions(const PartitionPlan& plan,
 }
 
 bool CoarseVoxels::ofRuns(
-  const VoxelRuns& fine, VoxelRuns& coarse, const Executor& executor, Watcher* watcher) const
+  const VoxelRuns& fine, VoxelRuns& coarse, const Executor& executor, ProgressObserver* observer) const
 {
   if (coarse_.dimensions == fine_.dimensions)
   {
@@ -330,8 +330,8 @@ bool CoarseVoxels::ofRuns(
     }
   }
   const std::size_t size = places.back();
-  // Rounds, after each of which the watcher hears, of pieces for the threads.
-  const std::size_t rounds = size / std::size_t(kWatchedPoints) + 1;
+  // Rounds of pieces for the threads, with a report after each round.
+  const std::size_t rounds = size / std::size_t(kPointsPerReport) + 1;
   const auto piecesOfRound = std::size_t(16 * executor.concurrency());
   const std::size_t pieces = rounds * piecesOfRound;
   std::vector<std::uint64_t> firstLayers(pieces + 1, kNoKey);
@@ -341,7 +341,7 @@ bool CoarseVoxels::ofRuns(
     const auto span = std::size_t(std::upper_bound(places.begin(), places.end(), voxel) - places.begin()) - 1;
     firstLayers[piece] = coarseLayerOf(spans[span].key(voxel - places[span]));
   }
-  WatchedPoints watched(watcher, std::int64_t(size), 1);
+  PointProgress progress(observer, std::int64_t(size), 1);
   coarse.reset(pieces, fractionBits_ + 1);
   for (std::size_t round = 0; round < rounds; ++round)
   {
@@ -354,7 +354,7 @@ bool CoarseVoxels::ofRuns(
         const Sources sources = { { &voxels[0] }, { &voxels[1] } };
         coarse.add(piece, sumLayers(sources, firstLayers[piece], firstLayers[piece + 1], scratch));
       });
-    if (!watched.add(std::int64_t(size * (first + piecesOfRound) / pieces - size * first / pieces)))
+    if (!progress.add(std::int64_t(size * (first + piecesOfRound) / pieces - size * first / pieces)))
     {
       return false;
     }
@@ -427,7 +427,7 @@ void CoarseVoxels::sumLayer(const Sources& sources, std::uint64_t layer, Scratch
 
 bool findParents(const std::uint64_t* fineKeys, std::int64_t fineVoxels, const Lattice& fine,
   const std::uint64_t* coarseKeys, std::int64_t coarseVoxels, const Lattice& coarse,
-  std::vector<std::int64_t>& parents, const Executor& executor, Watcher* watcher)
+  std::vector<std::int64_t>& parents, const Executor& executor, ProgressObserver* observer)
 {
   parents.resize(std::size_t(fineVoxels));
   const auto columns = std::uint64_t(fine.dimensions[0]);
@@ -455,8 +455,8 @@ bool findParents(const std::uint64_t* fineKeys, std::int64_t fineVoxels, const L
       parents[std::size_t(v)] = parent - coarseKeys;
     }
   };
-  WatchedPoints watched(watcher, fineVoxels, 1);
-  return forWatchedSlices(fineVoxels, watched,
+  PointProgress progress(observer, fineVoxels, 1);
+  return forReportedSlices(fineVoxels, progress,
     [&](std::int64_t first, std::int64_t last)
     {
       forRange(executor, last - first,

@@ -4,7 +4,7 @@
 
 #include "Core/Base/Executor.h"
 #include "Core/Base/Lattice.h"
-#include "Core/Base/Watcher.h"
+#include "Core/Base/ProgressObserver.h"
 #include "Core/Resample/Stages/PartitionSums.h"
 #include "Core/Resample/Stages/VoxelRuns.h"
 #include "Core/Resample/Stages/VoxelSink.h"
@@ -84,9 +84,10 @@ public:
   /// Those of the partitions [first, last), which are whole coarse layers. @pre the plan is dense
   VoxelRun ofPartitions(const PartitionPlan& plan, const std::vector<CarriedPartition>& partitions,
     std::uint32_t first, std::uint32_t last, Scratch& scratch) const;
-  /// Those of all voxels, in ranges of whole coarse layers. @return false where @p watcher, who may be none,
-  /// ended the work. @pre all ranges are joined
-  bool ofRuns(const VoxelRuns& fine, VoxelRuns& coarse, const Executor& executor, Watcher* watcher) const;
+  /// Those of all voxels, in ranges of whole coarse layers. @return false where @p observer, which may be
+  /// null, ended the work. @pre all ranges are joined
+  bool ofRuns(
+    const VoxelRuns& fine, VoxelRuns& coarse, const Executor& executor, ProgressObserver* observer) const;
 
 private:
   class FineVoxels;
@@ -113,10 +114,10 @@ private:
 };
 
 /// Of each fine voxel, the position of the coarse one it lies in. Keys ascend. @return false where
-/// @p watcher, who may be none, ended the work.
+/// @p observer, which may be null, ended the work.
 bool findParents(const std::uint64_t* fineKeys, std::int64_t fineVoxels, const Lattice& fine,
   const std::uint64_t* coarseKeys, std::int64_t coarseVoxels, const Lattice& coarse,
-  std::vector<std::int64_t>& parents, const Executor& executor, Watcher* watcher);
+  std::vector<std::int64_t>& parents, const Executor& executor, ProgressObserver* observer);
 
 } // namespace kernel
 } // namespace pointhaptics

@@ -35,8 +35,8 @@ struct Level
   std::vector<std::int64_t> parents;
 };
 
-/// Tells partitions where their voxels go, as soon as all before them have told how many theirs are. Threads
-/// tell and ask at the same time; none waits.
+/// The offset of each partition's first voxel in the output. It is known as soon as all partitions before it
+/// have published how many voxels they have. Threads may publish and read at the same time; none waits.
 class PartitionOrder
 {
 public:
@@ -56,9 +56,9 @@ public:
   }
   static constexpr std::size_t kUnknown = ~std::size_t(0);
 
-  void tell(std::uint32_t partition, std::size_t size)
+  void publish(std::uint32_t partition, std::size_t size)
   {
-    // The later of two threads that store a partition's size and its place sees both, and goes on.
+    // Of two threads that store a partition's size and its offset, the later one sees both and continues.
     sizes_[partition] = size;
     for (std::size_t p = partition; p < sizes_.size() && firsts_[p + 1] == kUnknown; ++p)
     {
@@ -73,7 +73,7 @@ public:
   }
   /// Or kUnknown.
   std::size_t first(std::uint32_t partition) const { return firsts_[partition]; }
-  /// Those of all partitions, and an end. @pre all have told.
+  /// The offsets of all partitions, and the total. @pre all sizes are published.
   std::vector<std::size_t> take() const { return { firsts_.begin(), firsts_.end() }; }
 
 private:

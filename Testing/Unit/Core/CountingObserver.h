@@ -1,8 +1,8 @@
 /// @file
-/// A watcher that remembers what it was told, and what all watchers must be told.
+/// An observer that records the reported progress, and what every sequence of reports must satisfy.
 #pragma once
 
-#include "Core/Base/Watcher.h"
+#include "Core/Base/ProgressObserver.h"
 
 #include <gtest/gtest.h>
 
@@ -15,15 +15,15 @@ namespace pointhaptics
 namespace trial
 {
 
-/// Keeps the fractions it hears and ends the work at one of them.
-class CountingWatcher : public Watcher
+/// Records the reported fractions and aborts the work at the report of the given number.
+class CountingObserver : public ProgressObserver
 {
 public:
-  explicit CountingWatcher(std::size_t last = ~std::size_t(0))
+  explicit CountingObserver(std::size_t last = ~std::size_t(0))
     : last_(last)
   {
   }
-  bool proceed(double fraction) override
+  bool report(double fraction) override
   {
     fractions.push_back(fraction);
     return fractions.size() < last_;
