@@ -1,5 +1,5 @@
 /// @file
-/// Memory of output arrays, used again once nobody holds the arrays any more.
+/// Memory of output arrays, reused once the arrays are deleted.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace pointhaptics
 {
 
 /// A filter makes arrays of much the same size at each update, and the first touch of fresh memory takes
-/// longer than filling it. The pool gives arrays memory that earlier ones have let go of. An array, and
-/// whatever shares its buffer, may outlive the pool and be let go of in any thread.
+/// longer than filling it. The pool gives arrays the memory of deleted ones. An array, and whatever shares
+/// its buffer, may outlive the pool and be deleted in any thread.
 class ArrayPool
 {
 public:
@@ -29,7 +29,7 @@ public:
   void* reserve(std::size_t bytes);
   /// Gives @p array such memory, with so many tuples in it.
   void take(void* memory, vtkDataArray* array, std::int64_t tuples);
-  /// Lets go of reserved memory that no array took.
+  /// Returns reserved memory that no array took.
   static void giveBack(void* memory);
   /// Frees what no array uses.
   void trim();

@@ -1,5 +1,5 @@
 /// @file
-/// A point array of the input on its way to one tuple per voxel.
+/// Reduces a point array of the input to one tuple per voxel.
 #pragma once
 
 #include "ArrayPool.h"
@@ -30,22 +30,21 @@ enum class AttributeKind
   Category, ///< The value most points have, component by component; the smallest on a tie.
 };
 
-/// What an input array's values say whatever is averaged of them: it stays true as long as they do not
-/// change.
+/// Properties of an input array, independent of which points are averaged: valid until its values change.
 struct AttributeValues
 {
   AttributeRange range;
-  vtkSmartPointer<vtkDataArray> copy; ///< As plain tuples in memory, where the input is not; or null.
+  vtkSmartPointer<vtkDataArray> copy; ///< Plain tuples in memory, where the input is something else; or null.
 };
 
-/// Used as VoxelResampler::assign() and parents() go: prepare(), add() for all points, output(), then for
-/// each coarser level coarsen() and output(). Or as assignInSets() goes: prepareSets(), for each set of
-/// voxels all points to Tuples from tuplesOfSet() and writeSet(), then output().
+/// With VoxelResampler::visitPointsByVoxel() and parents(): prepare(), add() for all points, output(), then
+/// for each coarser level coarsen() and output(). With visitPointsByVoxelSet(): prepareSets(), for each set
+/// of voxels add all points to Tuples from tuplesOfSet() and writeSet(), then output().
 class VoxelAttribute
 {
 public:
-  /// Holds on to @p input; one whose memory is not plain tuples of numbers is copied first. @p known: from
-  /// values() of one of the same input and kind, or null.
+  /// Keeps a reference to @p input; if its memory is not plain tuples of numbers, it is copied first. @p
+  /// known: values() of an earlier object of the same input and kind, or null.
   VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known,
     InstructionSet instructions, const Executor& executor);
   AttributeValues values() const;
@@ -53,22 +52,22 @@ public:
   /// Sums of the tuples of each voxel, or the tuples themselves.
   using Tuples = std::variant<AttributeMean, AttributeMode>;
   /// @p counts: points of each voxel. @p mostPoints: of a voxel, at coarser levels too. @p spare: sums
-  /// another attribute has no more use for, or nothing.
+  /// to reuse the memory of, or nothing.
   static void prepare(Tuples& tuples, const std::int64_t* counts, std::int64_t voxels,
     std::int64_t mostPoints, Buffer<std::int64_t> spare = {}, const Executor& executor = {});
   /// @p from: copies of tuples, each @p stride bytes after the one before.
   static void add(
     Tuples& tuples, const void* from, std::size_t stride, const std::int64_t* voxels, int count);
 
-  /// What add() needs of each point.
+  /// The tuples that add() needs.
   TupleSource source() const;
   void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
     Buffer<std::int64_t> spare, const Executor& executor);
   void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
-  /// The memory of the sums, for a spare: nothing if it is more than 32 bytes a voxel and component.
+  /// The memory of the sums, for reuse; nothing if it is more than 32 bytes a voxel and component.
   Buffer<std::int64_t> takeSums();
 
-  /// Whether the voxels of a set can be written by themselves.
+  /// Whether the voxels of a set can be written independently.
   bool canWriteSets() const;
   void prepareSets(std::int64_t voxels, const AffineTransform& transform, ArrayPool& pool);
   Tuples tuplesOfSet() const;
@@ -77,7 +76,7 @@ public:
 
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
   /// One tuple per voxel, of the type, name, components, information and lookup table of the input; null if
-  /// the observer, which may be null, ended the work. @p counts: points of each voxel.
+  /// the observer, which may be null, aborted the work. @p counts: points of each voxel.
   vtkSmartPointer<vtkDataArray> output(const std::int64_t* counts, const AffineTransform& transform,
     ArrayPool& pool, const Executor& executor, ProgressObserver* observer);
 

@@ -16,7 +16,7 @@
 namespace pointhaptics
 {
 
-void* OutputMemory::reserve(Part part, std::size_t bytes)
+void* ArrayAllocator::allocate(Part part, std::size_t bytes)
 {
   void*& memory = memory_[int(part)];
   if (memory)
@@ -27,7 +27,7 @@ void* OutputMemory::reserve(Part part, std::size_t bytes)
   return memory;
 }
 
-void OutputMemory::take(Part part, vtkDataArray* array, std::int64_t tuples)
+void ArrayAllocator::take(Part part, vtkDataArray* array, std::int64_t tuples)
 {
   void*& memory = memory_[int(part)];
   if (memory)
@@ -39,7 +39,7 @@ void OutputMemory::take(Part part, vtkDataArray* array, std::int64_t tuples)
   pool_.allocate(array, tuples);
 }
 
-void OutputMemory::release()
+void ArrayAllocator::release()
 {
   for (void*& memory : memory_)
   {
@@ -52,11 +52,11 @@ void OutputMemory::release()
 }
 
 vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, int level, bool singlePrecision,
-  OutputMemory& memory, const Executor& executor)
+  ArrayAllocator& allocator, const Executor& executor)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  memory.take(ResultMemory::Part::Means, points->GetData(), engine.size(level));
+  allocator.take(OutputAllocator::Part::Means, points->GetData(), engine.size(level));
   if (singlePrecision)
   {
     engine.copyMeans(level, vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
@@ -90,18 +90,18 @@ vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, con
 }
 
 vtkSmartPointer<vtkIdTypeArray> makeCounts(
-  const VoxelResampler& engine, int level, OutputMemory& memory, const Executor& executor)
+  const VoxelResampler& engine, int level, ArrayAllocator& allocator, const Executor& executor)
 {
   static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
   auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
   counts->SetName("VoxelPointCount");
-  memory.take(ResultMemory::Part::Counts, counts, engine.size(level));
+  allocator.take(OutputAllocator::Part::Counts, counts, engine.size(level));
   engine.copyCounts(level, reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
   return counts;
 }
 
 vtkSmartPointer<vtkDoubleArray> makeCovariances(
-  const VoxelResampler& engine, int level, OutputMemory& memory, const Executor& executor)
+  const VoxelResampler& engine, int level, ArrayAllocator& allocator, const Executor& executor)
 {
   static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -112,7 +112,7 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(
   {
     array->SetComponentName(c, names[c]);
   }
-  memory.take(ResultMemory::Part::Covariances, array, engine.size(level));
+  allocator.take(OutputAllocator::Part::Covariances, array, engine.size(level));
   engine.copyCovariances(level, reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
   return array;
 }

@@ -22,22 +22,22 @@ class vtkPoints;
 namespace pointhaptics
 {
 
-/// Puts the engine's results where an array can take them.
-class OutputMemory : public ResultMemory
+/// Lets the engine write its results in memory that VTK arrays then take over.
+class ArrayAllocator : public OutputAllocator
 {
 public:
-  explicit OutputMemory(ArrayPool& pool)
+  explicit ArrayAllocator(ArrayPool& pool)
     : pool_(pool)
   {
   }
-  ~OutputMemory() override { release(); }
-  OutputMemory(const OutputMemory&) = delete;
-  OutputMemory& operator=(const OutputMemory&) = delete;
+  ~ArrayAllocator() override { release(); }
+  ArrayAllocator(const ArrayAllocator&) = delete;
+  ArrayAllocator& operator=(const ArrayAllocator&) = delete;
 
-  void* reserve(Part part, std::size_t bytes) override;
-  /// Gives @p array the memory of a part, or where there is none new memory, for so many tuples.
+  void* allocate(Part part, std::size_t bytes) override;
+  /// Moves the memory of a part into @p array, of so many tuples; where there is none, allocates it.
   void take(Part part, vtkDataArray* array, std::int64_t tuples);
-  /// Lets go of what was not taken.
+  /// Frees what was not taken.
   void release();
 
 private:
@@ -46,20 +46,20 @@ private:
   void* memory_[kParts] = {};
 };
 
-// Level 0 takes what the engine was given, @p memory.
+// Level 0 takes its memory from the @p allocator that the engine wrote to.
 
-/// @p singlePrecision as the engine was asked for.
+/// @p singlePrecision: that of the request.
 vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, int level, bool singlePrecision,
-  OutputMemory& memory, const Executor& executor);
+  ArrayAllocator& allocator, const Executor& executor);
 /// @p count vertex cells, one per point, in order.
 vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor);
 /// The array VoxelPointCount.
 vtkSmartPointer<vtkIdTypeArray> makeCounts(
-  const VoxelResampler& engine, int level, OutputMemory& memory, const Executor& executor);
+  const VoxelResampler& engine, int level, ArrayAllocator& allocator, const Executor& executor);
 /// The array VoxelCovariance.
 vtkSmartPointer<vtkDoubleArray> makeCovariances(
-  const VoxelResampler& engine, int level, OutputMemory& memory, const Executor& executor);
-/// What the lattice and the transform were: a scene is built from it.
+  const VoxelResampler& engine, int level, ArrayAllocator& allocator, const Executor& executor);
+/// Records the lattice and the transform: a scene is built from them.
 void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFieldData* field);
 
 } // namespace pointhaptics

@@ -2,8 +2,8 @@
  * @class   vtkVoxelMeanResampler
  * @brief   replace the points in each voxel of a regular lattice by their mean
  *
- * The points of the input (any vtkPointSet) are mapped by an optional affine transform, dealt out to the
- * half-open voxels of a lattice over the workspace, and each voxel that holds points gives one output point:
+ * The points of the input (any vtkPointSet) are mapped by an optional affine transform and binned into the
+ * half-open voxels of a lattice over the workspace. Each voxel that holds points gives one output point:
  * their mean, with the means of all point arrays. This is the paper's "mean filter": zooming in gives more
  * active voxels, zooming out fewer.
  *
@@ -23,16 +23,17 @@
  *
  * Arrays: numeric arrays of any type and number of components are averaged and rounded to their own type
  * (integers to nearest, exactly), and keep their lookup table and information keys; the active normals are
- * carried by the inverse transpose and re-normalised, those in integers keep the length of their mean; arrays
- * named in CategoricalArrays take the value most points of the voxel have (the smallest one on a tie; NaN
- * counts as the largest, and both zeroes as one); string arrays and other non-numeric arrays are dropped with
- * a warning; global ids, ghost flags and the VoxelPointCount and VoxelCovariance of an earlier resampling are
- * left out. Where a voxel's points have NaN or infinity in an array, its mean is what IEEE addition gives.
- * Of vectors only the normals are turned. To keep some of the arrays, put a vtkPassArrays before the filter.
- * Points flagged as ghosts, and blanked ones, are averaged like all others: remove duplicates first.
+ * transformed by the inverse transpose and re-normalised, those in integers keep the length of their mean;
+ * arrays named in CategoricalArrays take the value most points of the voxel have (the smallest one on a tie;
+ * NaN counts as the largest, and both zeroes as one); string arrays and other non-numeric arrays are dropped
+ * with a warning; global ids, ghost flags and the VoxelPointCount and VoxelCovariance of an earlier
+ * resampling are left out. Where a voxel's points have NaN or infinity in an array, its mean is what IEEE
+ * addition gives. Of vectors only the normals are turned. To keep some of the arrays, put a vtkPassArrays
+ * before the filter. Points flagged as ghosts, and blanked ones, are averaged like all others: remove
+ * duplicates first.
  *
  * Accuracy: voxel index = floor((x - origin) / spacing), all in double about a point near the workspace, so
- * that map coordinates cost no digits. Places in the voxel are summed exactly, in integers whose quantum is
+ * that map coordinates cost no digits. Offsets in the voxel are summed exactly, in integers whose quantum is
  * at most 2^-31 of a voxel; that is the largest error of a mean before it is rounded to the output type, and
  * a mean lies in its voxel (where voxels are larger than the output type's last digits: not in single
  * precision at map coordinates). That holds for matrices of any condition number, too. Everything - points,
@@ -179,7 +180,7 @@ public:
   ///@{
   /**
    * Level l, on output port l, is a lattice 2^l times as coarse from the same corner, made from the sums of
-   * level 0 without another look at the points' places; once a level is one voxel, further ones repeat it. 1
+   * level 0 without another pass over the points; once a level is one voxel, further ones repeat it. 1
    * to 22. Default: 1.
    */
   virtual void SetNumberOfLevels(int levels);
@@ -188,9 +189,9 @@ public:
 
   ///@{
   /**
-   * Make an index of the input's points once views of parts of them are asked for again and again, and
-   * remember the magnitudes in arrays. Changes the cost of updates only, as long as those who write to the
-   * points or to an array say so by Modified() of it, or of the input. Default: on.
+   * Build an index of the input's points once parts of them are resampled repeatedly, and cache the
+   * magnitudes in arrays. This changes only the cost of updates, provided that whoever writes to the points
+   * or to an array calls Modified() on it, or on the input. Default: on.
    */
   vtkSetMacro(UsePointIndex, bool);
   vtkGetMacro(UsePointIndex, bool);

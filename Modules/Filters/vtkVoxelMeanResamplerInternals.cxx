@@ -272,13 +272,13 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst
   this->Request.covariances = this->Filter->ComputeCovariance;
   this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
   this->Request.keys = !this->Attributes.empty();
-  this->Request.assigned = !this->Attributes.empty();
+  this->Request.keepPointRecords = !this->Attributes.empty();
   this->Request.tuples.clear();
   for (const NamedAttribute& named : this->Attributes)
   {
     this->Request.tuples.push_back(named.attribute.source());
   }
-  this->Request.memory = &this->Memory;
+  this->Request.allocator = &this->Allocator;
   this->BeginPart(this->Attributes.empty() ? kRunEnd : 0.5);
   const Status status = this->Engine.run(this->Request, this->Smp, this);
   if (status == Status::Aborted)
@@ -357,7 +357,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   this->BeginPart(kRunEnd);
   const bool canWriteSets = std::all_of(this->Attributes.begin(), this->Attributes.end(),
     [](const NamedAttribute& named) { return named.attribute.canWriteSets(); });
-  if (canWriteSets && this->Engine.canAssignInSets() && this->Request.levels == 1)
+  if (canWriteSets && this->Engine.canVisitByVoxelSet() && this->Request.levels == 1)
   {
     this->AverageInSets();
     return this->report(1.0);
@@ -374,7 +374,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
     named.attribute.prepare(
       this->Engine.counts(), this->Engine.size(), mostPoints, std::move(spare), this->Smp);
   }
-  const Status status = this->Engine.assign(
+  const Status status = this->Engine.visitPointsByVoxel(
     this->Request,
     [this](const PointRows& rows, const std::int64_t* voxels, int count)
     {
@@ -414,7 +414,7 @@ void vtkVoxelMeanResampler::Internals::AverageInSets()
     }
     return tuples;
   };
-  this->Engine.assignInSets(
+  this->Engine.visitPointsByVoxelSet(
     this->Request,
     [&](std::int64_t first, std::int64_t voxels, const auto& forPoints)
     {
@@ -461,7 +461,7 @@ void vtkVoxelMeanResampler::Internals::Release()
     // As large as the input: worth its memory where it is looked at again and again.
     known.values.copy = this->Indexed ? known.values.copy : nullptr;
   }
-  this->Memory.release();
+  this->Allocator.release();
   // What earlier outputs left and this one had no use for.
   this->Pool.trim();
   this->Request = VoxelRequest();
@@ -471,9 +471,10 @@ void vtkVoxelMeanResampler::Internals::Release()
 bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPolyData* output)
 {
   vtkPointData* data = output->GetPointData();
-  output->SetPoints(makePoints(this->Engine, level, this->Request.singlePrecision, this->Memory, this->Smp));
+  output->SetPoints(
+    makePoints(this->Engine, level, this->Request.singlePrecision, this->Allocator, this->Smp));
   output->SetVerts(makeVertices(vtkIdType(this->Engine.size(level)), this->Pool, this->Smp));
-  const auto counts = makeCounts(this->Engine, level, this->Memory, this->Smp);
+  const auto counts = makeCounts(this->Engine, level, this->Allocator, this->Smp);
   const auto* countValues = reinterpret_cast<const std::int64_t*>(counts->GetPointer(0));
   // Steps of the filling of all levels.
   const auto steps = double(this->Attributes.size() + 1);
@@ -500,7 +501,7 @@ bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
   data->AddArray(counts);
   if (this->Request.covariances)
   {
-    data->AddArray(makeCovariances(this->Engine, level, this->Memory, this->Smp));
+    data->AddArray(makeCovariances(this->Engine, level, this->Allocator, this->Smp));
   }
   output->GetFieldData()->PassData(input->GetFieldData());
   addLattice(this->Engine.lattice(level), this->Request.transform, output->GetFieldData());

@@ -101,7 +101,7 @@ private:
   std::vector<NamedAttribute> Attributes;
   std::vector<pointhaptics::Buffer<std::int64_t>> SpareSums; ///< Of the last update's attributes.
   pointhaptics::ArrayPool Pool;
-  pointhaptics::OutputMemory Memory{ this->Pool };
+  pointhaptics::ArrayAllocator Allocator{ this->Pool };
   double PassBegin = 0.0;
   double PassEnd = 1.0;
   double PartBegin = 0.0;

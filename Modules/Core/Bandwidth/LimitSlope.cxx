@@ -8,8 +8,8 @@ namespace pointhaptics
 namespace
 {
 
-using kernel::kBranches;
-using kernel::kLeafPoints;
+using simd::kBranches;
+using simd::kLeafPoints;
 
 /// Radii in spatial order, and the smallest in each box of the tree.
 class SlopeLimiter
@@ -55,12 +55,12 @@ private:
 
   void visitGroup(int level, std::int64_t group, const Vec3& center, double& best) const
   {
-    const kernel::BoxGroup& boxes = tree_.groups[level][group];
-    for (int box = 0; box < kernel::boxesOf(tree_, level, group); ++box)
+    const simd::BoxGroup& boxes = tree_.groups[level][group];
+    for (int box = 0; box < simd::boxesOf(tree_, level, group); ++box)
     {
       const std::int64_t child = group * kBranches + box;
       const double smallest = smallest_[level][std::size_t(child)];
-      if (smallest + slope_ * std::sqrt(kernel::squaredGap(boxes, box, &center.x)) >= best)
+      if (smallest + slope_ * std::sqrt(simd::squaredGap(boxes, box, &center.x)) >= best)
       {
         continue;
       }
@@ -80,10 +80,10 @@ private:
   }
 
   const NeighborQuery& query_;
-  const kernel::NeighborTree& tree_;
+  const simd::NeighborTree& tree_;
   const double slope_;
   std::vector<double> radii_;
-  std::vector<double> smallest_[kernel::kMostLevels];
+  std::vector<double> smallest_[simd::kMostLevels];
 };
 
 }

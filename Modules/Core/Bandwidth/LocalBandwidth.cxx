@@ -152,8 +152,8 @@ public:
   template <typename Visitor>
   void run(std::int64_t begin, std::int64_t end, Visitor&& visit)
   {
-    const std::int64_t last = std::min(end * kernel::kLeafPoints, query_.size());
-    for (std::int64_t slot = begin * kernel::kLeafPoints; slot < last; ++slot)
+    const std::int64_t last = std::min(end * simd::kLeafPoints, query_.size());
+    for (std::int64_t slot = begin * simd::kLeafPoints; slot < last; ++slot)
     {
       visit(alone(slot));
     }

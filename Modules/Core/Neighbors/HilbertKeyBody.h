@@ -6,7 +6,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -57,5 +57,5 @@ void hilbertKeys(
 }
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -10,7 +10,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 /// Most neighbours these loops look for, the point itself among them.
@@ -71,5 +71,5 @@ const NeighborKernels& baselineNeighborKernels();
 const NeighborKernels* avx2NeighborKernels();
 const NeighborKernels* avx512NeighborKernels();
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -6,7 +6,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -82,12 +82,12 @@ const NeighborKernels* avx2NeighborKernels()
   return &kernels;
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics
 
 #else
 
-const pointhaptics::kernel::NeighborKernels* pointhaptics::kernel::avx2NeighborKernels()
+const pointhaptics::simd::NeighborKernels* pointhaptics::simd::avx2NeighborKernels()
 {
   return nullptr;
 }

@@ -6,7 +6,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -54,12 +54,12 @@ const NeighborKernels* avx512NeighborKernels()
   return &kernels;
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics
 
 #else
 
-const pointhaptics::kernel::NeighborKernels* pointhaptics::kernel::avx512NeighborKernels()
+const pointhaptics::simd::NeighborKernels* pointhaptics::simd::avx512NeighborKernels()
 {
   return nullptr;
 }

@@ -3,7 +3,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -52,5 +52,5 @@ const NeighborKernels& neighborKernels(InstructionSet wanted) noexcept
   }
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

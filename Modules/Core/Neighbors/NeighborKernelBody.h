@@ -15,7 +15,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -502,5 +502,5 @@ NeighborKernels makeNeighborKernels()
 }
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

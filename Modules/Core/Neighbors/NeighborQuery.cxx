@@ -10,9 +10,9 @@ namespace pointhaptics
 namespace
 {
 
-using kernel::BoxGroup;
-using kernel::kBranches;
-using kernel::kLeafPoints;
+using simd::BoxGroup;
+using simd::kBranches;
+using simd::kLeafPoints;
 
 static_assert(NeighborQuery::kMostPoints == kMostOrderedPoints, "the order takes as many");
 
@@ -36,7 +36,7 @@ void setBox(BoxGroup& group, int box, const Bounds& bounds, std::uint32_t firstI
 void NeighborQuery::build(const PointView& points, const Executor& executor)
 {
   tree_ = {};
-  kernels_ = &kernel::neighborKernels();
+  kernels_ = &simd::neighborKernels();
   indices_ = spatialOrder(points, kLeafPoints, executor);
   tree_.size = std::int64_t(indices_.size());
   tree_.indices = indices_.data();
@@ -107,7 +107,7 @@ void NeighborQuery::boundGroups(int level, const Executor& executor)
       for (std::int64_t child = begin; child < end; ++child)
       {
         const BoxGroup& below = groups_[level - 1][std::size_t(child)];
-        const int boxes = kernel::boxesOf(tree_, level - 1, child);
+        const int boxes = simd::boxesOf(tree_, level - 1, child);
         Bounds bounds;
         for (int box = 0; box < boxes; ++box)
         {
@@ -180,9 +180,9 @@ struct NeighborQuery::Search
 int NeighborQuery::nearestSlots(const Vec3& center, int k, Neighbor* neighbors) const noexcept
 {
   Search search{ { center.x, center.y, center.z }, k, neighbors, 0 };
-  if (k > 0 && k <= kernel::kMostSwept && k <= size())
+  if (k > 0 && k <= simd::kMostSwept && k <= size())
   {
-    kernel::LeafSearch around;
+    simd::LeafSearch around;
     if (kernels_->searchPlace(tree_, search.center, k, around))
     {
       for (int i = 0; i < k; ++i)
@@ -209,7 +209,7 @@ void NeighborQuery::searchGroup(int level, std::int64_t group, Search& search) c
   const BoxGroup& boxes = tree_.groups[level][group];
   double gaps[kBranches];
   kernels_->groupGaps(boxes, search.center, gaps);
-  for (unsigned left = (1u << kernel::boxesOf(tree_, level, group)) - 1u; left != 0;)
+  for (unsigned left = (1u << simd::boxesOf(tree_, level, group)) - 1u; left != 0;)
   {
     int next = __builtin_ctz(left);
     for (unsigned others = left & (left - 1u); others != 0; others &= others - 1u)

@@ -12,7 +12,7 @@
 namespace pointhaptics
 {
 
-namespace kernel
+namespace simd
 {
 struct NeighborKernels;
 }
@@ -81,7 +81,7 @@ public:
   std::int64_t packed(std::int64_t slot) const { return index(slot) << kSlotBits | slot; }
   static std::int64_t slotOf(const Neighbor& packed) { return packed.index & kSlotMask; }
 
-  const kernel::NeighborTree& tree() const { return tree_; }
+  const simd::NeighborTree& tree() const { return tree_; }
 
   NeighborQuery() = default;
   NeighborQuery(const NeighborQuery&) = delete;
@@ -101,14 +101,14 @@ private:
   template <typename Visitor>
   void visitGroup(int level, std::int64_t group, const Vec3& center, double r2, Visitor& visit) const
   {
-    const kernel::BoxGroup& boxes = tree_.groups[level][group];
-    for (int box = 0; box < kernel::boxesOf(tree_, level, group); ++box)
+    const simd::BoxGroup& boxes = tree_.groups[level][group];
+    for (int box = 0; box < simd::boxesOf(tree_, level, group); ++box)
     {
-      if (kernel::squaredGap(boxes, box, &center.x) > r2)
+      if (simd::squaredGap(boxes, box, &center.x) > r2)
       {
         continue;
       }
-      const std::int64_t child = group * kernel::kBranches + box;
+      const std::int64_t child = group * simd::kBranches + box;
       if (level > 0)
       {
         visitGroup(level - 1, child, center, r2, visit);
@@ -122,8 +122,8 @@ private:
   template <typename Visitor>
   void visitLeaf(std::int64_t leaf, const Vec3& center, double r2, Visitor& visit) const
   {
-    const std::int64_t begin = leaf * kernel::kLeafPoints;
-    const std::int64_t end = begin + kernel::kLeafPoints < size() ? begin + kernel::kLeafPoints : size();
+    const std::int64_t begin = leaf * simd::kLeafPoints;
+    const std::int64_t end = begin + simd::kLeafPoints < size() ? begin + simd::kLeafPoints : size();
     for (std::int64_t slot = begin; slot < end; ++slot)
     {
       const double d2 = norm2(point(slot) - center);
@@ -136,9 +136,9 @@ private:
 
   std::vector<std::uint32_t> indices_;
   std::vector<double> places_[3];
-  std::vector<kernel::BoxGroup> groups_[kernel::kMostLevels];
-  kernel::NeighborTree tree_;
-  const kernel::NeighborKernels* kernels_ = nullptr;
+  std::vector<simd::BoxGroup> groups_[simd::kMostLevels];
+  simd::NeighborTree tree_;
+  const simd::NeighborKernels* kernels_ = nullptr;
 };
 
 } // namespace pointhaptics

@@ -17,8 +17,8 @@ constexpr double kFirstMargin = 2.0;
 NeighborSweep::NeighborSweep(const NeighborQuery& query, int k, InstructionSet wanted)
   : query_(query)
   , k_(int(std::min<std::int64_t>(std::max(k, 1), std::max<std::int64_t>(query.size(), 1))))
-  , kernels_(k_ <= kernel::kMostSwept ? &kernel::neighborKernels(wanted) : nullptr)
-  , search_(kernels_ ? std::make_unique<kernel::LeafSearch>() : nullptr)
+  , kernels_(k_ <= simd::kMostSwept ? &simd::neighborKernels(wanted) : nullptr)
+  , search_(kernels_ ? std::make_unique<simd::LeafSearch>() : nullptr)
   , alone_(std::size_t(k_))
   , squaredDistances_(std::size_t(k_))
   , slots_(std::size_t(k_))
@@ -29,12 +29,12 @@ NeighborSweep::~NeighborSweep() = default;
 
 std::int64_t NeighborSweep::leaves(const NeighborQuery& query)
 {
-  return (query.size() + kernel::kLeafPoints - 1) / kernel::kLeafPoints;
+  return (query.size() + simd::kLeafPoints - 1) / simd::kLeafPoints;
 }
 
 int NeighborSweep::searchLeaf(std::int64_t leaf)
 {
-  const std::int64_t first = leaf * kernel::kLeafPoints;
+  const std::int64_t first = leaf * simd::kLeafPoints;
   if (kernels_)
   {
     if (!(search_->reach > 0.0))
@@ -44,12 +44,12 @@ int NeighborSweep::searchLeaf(std::int64_t leaf)
     }
     kernels_->searchLeaf(query_.tree(), leaf, k_, *search_);
   }
-  return int(std::min<std::int64_t>(query_.size() - first, kernel::kLeafPoints));
+  return int(std::min<std::int64_t>(query_.size() - first, simd::kLeafPoints));
 }
 
 NeighborList NeighborSweep::listOf(std::int64_t leaf, int i)
 {
-  const std::int64_t slot = leaf * kernel::kLeafPoints + i;
+  const std::int64_t slot = leaf * simd::kLeafPoints + i;
   if (kernels_ && (search_->found >> i & 1u) != 0)
   {
     return { slot, k_, search_->squaredDistances[i], search_->neighbors[i] };

@@ -13,7 +13,7 @@
 namespace pointhaptics
 {
 
-namespace kernel
+namespace simd
 {
 struct LeafSearch;
 struct NeighborKernels;
@@ -72,8 +72,8 @@ private:
 
   const NeighborQuery& query_;
   const int k_;
-  const kernel::NeighborKernels* kernels_; ///< Null: every point alone.
-  std::unique_ptr<kernel::LeafSearch> search_;
+  const simd::NeighborKernels* kernels_; ///< Null: every point alone.
+  std::unique_ptr<simd::LeafSearch> search_;
   // The last point that was asked for alone, and its neighbours.
   Vec3 lastPlace_;
   int lastCount_ = 0;

@@ -8,7 +8,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 /// Points of a leaf; the last one may have fewer.
@@ -63,5 +63,5 @@ static inline int boxesOf(const NeighborTree& tree, int level, std::int64_t grou
   return left < kBranches ? int(left) : kBranches;
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -58,7 +58,7 @@ struct Grid
 class Keyer
 {
 public:
-  Keyer(const kernel::NeighborKernels& kernels, const Grid& grid, Entry* to)
+  Keyer(const simd::NeighborKernels& kernels, const Grid& grid, Entry* to)
     : kernels_(kernels)
     , grid_(grid)
     , to_(to)
@@ -88,7 +88,7 @@ public:
 private:
   static constexpr int kTogether = 256;
 
-  const kernel::NeighborKernels& kernels_;
+  const simd::NeighborKernels& kernels_;
   const Grid& grid_;
   Entry* to_;
   int count_ = 0;
@@ -302,7 +302,7 @@ private:
   const PointView& points_;
   const std::int64_t crowd_;
   const Executor& executor_;
-  const kernel::NeighborKernels& kernels_ = kernel::neighborKernels();
+  const simd::NeighborKernels& kernels_ = simd::neighborKernels();
   std::vector<Block> blocks_;
   std::vector<Entry> entries_;
   std::vector<Entry> spare_;

@@ -31,7 +31,7 @@ int bitsOf(std::int64_t count)
 
 template <typename Real>
 AttributeRange rangeOfReals(
-  const kernel::AttributeKernels& kernels, const AttributeView& view, const Executor& executor)
+  const simd::AttributeKernels& kernels, const AttributeView& view, const Executor& executor)
 {
   const auto* values = static_cast<const Real*>(view.values);
   AttributeRange range;
@@ -41,7 +41,7 @@ AttributeRange rangeOfReals(
   forRange(executor, view.tuples * view.components,
     [&](std::int64_t begin, std::int64_t end)
     {
-      kernel::Magnitudes found;
+      simd::Magnitudes found;
       if constexpr (sizeof(Real) == sizeof(float))
       {
         found = kernels.magnitudesFloat(values + begin, end - begin);
@@ -69,7 +69,7 @@ AttributeRange rangeOfReals(
 
 AttributeRange rangeOf(const AttributeView& view, const Executor& executor, InstructionSet instructions)
 {
-  const kernel::AttributeKernels& kernels = kernel::attributeKernels(instructions);
+  const simd::AttributeKernels& kernels = simd::attributeKernels(instructions);
   switch (view.type)
   {
     case ScalarType::Float:
@@ -83,12 +83,12 @@ AttributeRange rangeOf(const AttributeView& view, const Executor& executor, Inst
 
 AttributeMean::AttributeMean(
   const AttributeView& view, const AttributeRange& range, InstructionSet instructions)
-  : AttributeMean(&kernel::attributeKernels(instructions), view, range)
+  : AttributeMean(&simd::attributeKernels(instructions), view, range)
 {
 }
 
 AttributeMean::AttributeMean(
-  const kernel::AttributeKernels* kernels, const AttributeView& view, const AttributeRange& range)
+  const simd::AttributeKernels* kernels, const AttributeView& view, const AttributeRange& range)
   : view_(view)
   , kernels_(kernels)
   , lanes_(view.type == ScalarType::Int64 || view.type == ScalarType::UInt64 ? 2 : 1)

@@ -1,5 +1,5 @@
 /// @file
-/// Means of what points carry beside their places, voxel by voxel, whatever the order of the points.
+/// Means of the attributes of points, voxel by voxel, independent of the order of the points.
 #pragma once
 
 #include "Core/Base/Buffer.h"
@@ -15,13 +15,13 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 struct AttributeKernels;
 struct WordSums;
 }
 
-/// Somebody else's array: tuples of components, one after the other.
+/// An array owned by the caller: tuples of components, contiguous.
 struct AttributeView
 {
   const void* values = nullptr;
@@ -38,7 +38,7 @@ struct AttributeRange
   bool hasNonFinite = false;
 };
 
-/// Looks through the values of an array once; of integers nothing need be known.
+/// Scans the values of a floating-point array once; integers need no range.
 AttributeRange rangeOf(const AttributeView& view, const Executor& executor,
   InstructionSet instructions = InstructionSet::Automatic);
 
@@ -94,7 +94,7 @@ public:
 
 private:
   AttributeMean(
-    const kernel::AttributeKernels* kernels, const AttributeView& view, const AttributeRange& range);
+    const simd::AttributeKernels* kernels, const AttributeView& view, const AttributeRange& range);
   __extension__ typedef __int128 Int128;
   static constexpr int kMostPartBits = 40;
   /// The most parts from the largest double to the last bit of the smallest, at 28 bits each.
@@ -118,7 +118,7 @@ private:
   void writeVectors(
     const std::int64_t* counts, const Vec3 (&columns)[3], Real* vectors, const Executor& executor) const;
   bool sumsAreWords() const;
-  kernel::WordSums wordSums(const std::int64_t* counts, std::int64_t begin, std::int64_t end) const;
+  simd::WordSums wordSums(const std::int64_t* counts, std::int64_t begin, std::int64_t end) const;
   const std::int64_t* lanes(std::int64_t voxel, int component) const
   {
     return sums_.data() + std::int64_t(lanes_) * (std::int64_t(view_.components) * voxel + component);
@@ -128,7 +128,7 @@ private:
   double realMean(std::int64_t voxel, int component, std::int64_t count) const;
 
   AttributeView view_;
-  const kernel::AttributeKernels* kernels_;
+  const simd::AttributeKernels* kernels_;
   int lanes_ = 1; ///< Of 64 bits for each component.
   int partBits_ = 0;
   double scale_[2] = { 1.0, 1.0 }; ///< Both times a value give its first part, and what is left of it.

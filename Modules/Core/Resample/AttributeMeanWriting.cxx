@@ -124,11 +124,10 @@ bool AttributeMean::sumsAreWords() const
   const int bits = view_.type == ScalarType::Int8 || view_.type == ScalarType::UInt8 ? 8
     : view_.type == ScalarType::Int16 || view_.type == ScalarType::UInt16            ? 16
                                                                                      : 32;
-  return lanes_ == 1 && double(mostPoints_) * std::ldexp(1.0, bits) < std::ldexp(1.0, kernel::kRealSumBits);
+  return lanes_ == 1 && double(mostPoints_) * std::ldexp(1.0, bits) < std::ldexp(1.0, simd::kRealSumBits);
 }
 
-kernel::WordSums AttributeMean::wordSums(
-  const std::int64_t* counts, std::int64_t begin, std::int64_t end) const
+simd::WordSums AttributeMean::wordSums(const std::int64_t* counts, std::int64_t begin, std::int64_t end) const
 {
   return { lanes(begin, 0), counts + begin, end - begin, view_.components,
     isFloating() ? powerOfTwo(range_.exponent - partBits_) : 1.0 };
@@ -170,7 +169,7 @@ void AttributeMean::writeReals(const std::int64_t* counts, Real* means, const Ex
     {
       if (sumsAreWords())
       {
-        const kernel::WordSums sums = wordSums(counts, begin, end);
+        const simd::WordSums sums = wordSums(counts, begin, end);
         if constexpr (sizeof(Real) == sizeof(float))
         {
           kernels_->meansFloat(sums, means + components * begin);
@@ -198,13 +197,13 @@ void AttributeMean::writeVectors(
   const Vec3& x = columns[0];
   const Vec3& y = columns[1];
   const Vec3& z = columns[2];
-  const kernel::Turn turn = { { { x.x, x.y, x.z }, { y.x, y.y, y.z }, { z.x, z.y, z.z } } };
+  const simd::Turn turn = { { { x.x, x.y, x.z }, { y.x, y.y, y.z }, { z.x, z.y, z.z } } };
   forRange(executor, voxels_,
     [&](std::int64_t begin, std::int64_t end)
     {
       if (sumsAreWords())
       {
-        const kernel::WordSums sums = wordSums(counts, begin, end);
+        const simd::WordSums sums = wordSums(counts, begin, end);
         if constexpr (sizeof(Real) == sizeof(float))
         {
           kernels_->unitVectorsFloat(sums, turn, vectors + 3 * begin);

@@ -11,7 +11,7 @@ namespace pointhaptics
 namespace
 {
 
-/// One value for all that are told apart by their bits only: the zeros, the NaNs.
+/// One value for those that differ in their bits only: the zeros, the NaNs.
 template <typename T>
 T canonical(T value)
 {

@@ -1,6 +1,5 @@
 /// @file
-/// The most frequent values of what points carry beside their places, voxel by voxel: for labels, whose mean
-/// says nothing.
+/// Modes of the attributes of points, voxel by voxel: for labels, whose mean is meaningless.
 #pragma once
 
 #include "Core/Base/Buffer.h"

@@ -24,23 +24,23 @@ std::size_t roundedUp(std::size_t bytes, std::size_t alignment)
 
 /// @tparam Bytes of a tuple, if the compiler is to know.
 template <std::size_t Bytes>
-void copyTuples(const TupleSource& source, const std::int64_t* points, const std::uint32_t* places, int count,
+void copyTuples(const TupleSource& source, const std::int64_t* points, const std::uint32_t* slots, int count,
   char* to, std::size_t rowBytes)
 {
   const auto* from = static_cast<const char*>(source.values);
   const std::size_t bytes = Bytes > 0 ? Bytes : source.bytes;
   for (int i = 0; i < count; ++i)
   {
-    std::memcpy(to + rowBytes * places[i], from + bytes * std::size_t(points[i]), bytes);
+    std::memcpy(to + rowBytes * slots[i], from + bytes * std::size_t(points[i]), bytes);
   }
 }
 
 void copyNumbers(
-  const std::int64_t* points, const std::uint32_t* places, int count, char* to, std::size_t rowBytes)
+  const std::int64_t* points, const std::uint32_t* slots, int count, char* to, std::size_t rowBytes)
 {
   for (int i = 0; i < count; ++i)
   {
-    std::memcpy(to + rowBytes * places[i], points + i, sizeof *points);
+    std::memcpy(to + rowBytes * slots[i], points + i, sizeof *points);
   }
 }
 
@@ -78,7 +78,7 @@ void RowLayout::choose(const std::vector<TupleSource>& sources)
   bytes_ = roundedUp(bytes_, alignment);
 }
 
-void RowLayout::copy(const std::int64_t* points, const std::uint32_t* places, int count, char* rows) const
+void RowLayout::copy(const std::int64_t* points, const std::uint32_t* slots, int count, char* rows) const
 {
   // Points in the order of their memory need no fetching.
   const bool areScattered = count > 0 && points[count - 1] - points[0] != count - 1;
@@ -88,8 +88,8 @@ void RowLayout::copy(const std::int64_t* points, const std::uint32_t* places, in
     for (int i = 0; areScattered && from && i < count; ++i)
     {
       const char* tuple = from + source.bytes * std::size_t(points[i]);
-      kernel::fetch(tuple);
-      kernel::fetch(tuple + source.bytes - 1);
+      simd::fetch(tuple);
+      simd::fetch(tuple + source.bytes - 1);
     }
   }
   for (std::size_t s = 0; s < sources_.size(); ++s)
@@ -97,11 +97,11 @@ void RowLayout::copy(const std::int64_t* points, const std::uint32_t* places, in
     char* to = rows + offsets_[s];
     if (sources_[s].values)
     {
-      copyFor(sources_[s].bytes)(sources_[s], points, places, count, to, bytes_);
+      copyFor(sources_[s].bytes)(sources_[s], points, slots, count, to, bytes_);
     }
     else
     {
-      copyNumbers(points, places, count, to, bytes_);
+      copyNumbers(points, slots, count, to, bytes_);
     }
   }
 }

@@ -1,5 +1,5 @@
 /// @file
-/// What goes with points on their way to their voxels.
+/// The attribute tuples of points, copied into rows that follow the points to their voxels.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 namespace pointhaptics
 {
 
-/// Something each point has: of point i the @p bytes from @p values + i bytes on. Null: the point's number,
-/// as a std::int64_t, which is 8 bytes.
+/// An attribute of each point: @p bytes bytes at @p values + i bytes for point i. Null: the point's index, as
+/// a std::int64_t, which is 8 bytes.
 struct TupleSource
 {
   const void* values = nullptr;
@@ -27,8 +27,8 @@ public:
   /// Of a row.
   std::size_t bytes() const { return bytes_; }
   const std::size_t* offsets() const { return offsets_.data(); }
-  /// Writes rows of points: that of @p points[i] to rows + bytes() places[i]. Several threads may at once.
-  void copy(const std::int64_t* points, const std::uint32_t* places, int count, char* rows) const;
+  /// Writes rows of points: that of @p points[i] to rows + bytes() slots[i]. Several threads may at once.
+  void copy(const std::int64_t* points, const std::uint32_t* slots, int count, char* rows) const;
 
 private:
   std::vector<TupleSource> sources_;
@@ -36,7 +36,7 @@ private:
   std::size_t bytes_ = 0;
 };
 
-/// Rows one after the other, as VoxelResampler::assign() hands them out.
+/// Rows one after the other, as VoxelResampler::visitPointsByVoxel() passes them on.
 struct PointRows
 {
   const char* first = nullptr;

@@ -14,7 +14,7 @@ Bounds transformedBounds(const PointView& points, const AffineTransform& transfo
 {
   Bounds box;
   std::mutex mutex;
-  const kernel::Kernels& kernels = kernel::kernelsFor(InstructionSet::Automatic);
+  const simd::Kernels& kernels = simd::kernelsFor(InstructionSet::Automatic);
   constexpr std::int64_t kGrain = 1 << 14;
   const auto include = [&](std::int64_t begin, std::int64_t end)
   {

@@ -8,7 +8,7 @@
 namespace pointhaptics
 {
 
-using namespace kernel;
+using namespace simd;
 
 namespace
 {
@@ -67,7 +67,7 @@ void VoxelResampler::Implementation::clear()
 /// Writes the means of runs to a level. @pre these are joined. @param keeps: the runs are of use afterwards.
 /// @return false where the observer ended the work.
 bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, VoxelRuns& runs, bool keeps,
-  Level& level, ResultMemory* memory, const Executor& executor, ProgressObserver* observer)
+  Level& level, OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer)
 {
   const std::size_t ranges = runs.ranges();
   level.firsts.assign(ranges + 1, 0);
@@ -77,7 +77,7 @@ bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, Voxe
   }
   level.size = std::int64_t(level.firsts.back());
   level.arena.prepare(level.firsts.back(), { request.singlePrecision, request.keys, request.covariances },
-    level.lattice, runs.fractionBits(), memory);
+    level.lattice, runs.fractionBits(), allocator);
   const bool plain = !hasOrdinarySpacing(level.lattice);
   PointProgress progress(observer, level.size, 1);
   for (std::size_t first = 0, last = 0; first < ranges; first = last)
@@ -143,12 +143,12 @@ Status VoxelResampler::Implementation::addLevels(const VoxelRequest& request, Vo
   return Status::Ok;
 }
 
-Status VoxelResampler::Implementation::assign(
+Status VoxelResampler::Implementation::visitPointsByVoxel(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   // Halved voxels are not those asked for.
-  return halvings_ == 0 ? assignPlanned(request, visit, executor, observer)
-                        : assignGeneral(request, visit, executor, observer);
+  return halvings_ == 0 ? visitPlanned(request, visit, executor, observer)
+                        : visitGeneral(request, visit, executor, observer);
 }
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
@@ -158,7 +158,7 @@ std::size_t VoxelResampler::Implementation::scratchBytes() const
   {
     sum += worker->bytes() + worker->coarse.bytes();
   }
-  for (const CarriedPartition& partition : carried_)
+  for (const AccumulatedPartition& partition : accumulated_)
   {
     sum += partition.bytes();
   }
@@ -183,15 +183,16 @@ Status VoxelResampler::run(const VoxelRequest& request, const Executor& executor
   return implementation_->run(request, executor, observer);
 }
 
-Status VoxelResampler::assign(
+Status VoxelResampler::visitPointsByVoxel(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
-  return implementation_->assign(request, visit, executor, observer);
+  return implementation_->visitPointsByVoxel(request, visit, executor, observer);
 }
 
-void VoxelResampler::assignInSets(const VoxelRequest& request, const SetWork& work, const Executor& executor)
+void VoxelResampler::visitPointsByVoxelSet(
+  const VoxelRequest& request, const SetWork& work, const Executor& executor)
 {
-  implementation_->assignInSets(request, work, executor);
+  implementation_->visitPointsByVoxelSet(request, work, executor);
 }
 
 int VoxelResampler::exactLevels(const Lattice& lattice, int levels)
@@ -205,7 +206,7 @@ int VoxelResampler::exactLevels(const Lattice& lattice, int levels)
   return std::min(levels, indexBits - others);
 }
 
-bool VoxelResampler::canAssignInSets() const
+bool VoxelResampler::canVisitByVoxelSet() const
 {
   return implementation_->poolHoldsAll();
 }

@@ -23,9 +23,9 @@ namespace pointhaptics
 
 class PointIndex;
 
-/// Memory of the caller's for the results of the finest level: run() leaves them where they are to stay, and
-/// copying them there does nothing.
-class ResultMemory
+/// Allocates the results of the finest level in the caller's memory: run() writes level 0 in place, and
+/// copying it there does nothing.
+class OutputAllocator
 {
 public:
   enum class Part
@@ -34,59 +34,62 @@ public:
     Counts,
     Covariances,
   };
-  virtual ~ResultMemory() = default;
-  /// At least so many bytes, aligned for their type, which are the result's until the next run(): more than
-  /// it needs in the end. Called from the thread that called run(), at most once for each part.
-  virtual void* reserve(Part part, std::size_t bytes) = 0;
+  virtual ~OutputAllocator() = default;
+  /// At least so many bytes, aligned for their type, valid until the next run(). The result may need fewer in
+  /// the end. Called from the thread that called run(), at most once for each part.
+  virtual void* allocate(Part part, std::size_t bytes) = 0;
 };
 
 /// What to resample, and what to make of it.
 struct VoxelRequest
 {
   PointView points;
-  /// An index of the same points, or the one whose points() they are: those outside are then not looked at
-  /// one by one. May be null.
+  /// An index of the same points, or the one whose points() they are: it skips points outside the lattice
+  /// without reading each. May be null.
   const PointIndex* index = nullptr;
   AffineTransform transform; ///< From the cloud's frame into that of the lattice.
   Lattice lattice;
-  /// With an index: points outside the box of this lattice, whose voxels are ones of the other, may be left
-  /// out; they count as clipped. Voxels inside are the same as without, bit for bit; others may lack points,
-  /// or be missing.
+  /// With an index: a part of the lattice. Points outside its box may be skipped; they count as clipped.
+  /// Voxels inside are the same as without, bit for bit; others may lack points, or be missing.
   std::optional<Lattice> part;
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
-  bool keys = false; ///< For keys(), assign() and parents().
-  /// What assign() hands out of each point.
+  bool keys = false; ///< For keys(), visitPointsByVoxel() and parents().
+  /// The attributes of each point that visitPointsByVoxel() passes on.
   std::vector<TupleSource> tuples;
-  /// assign() will follow: run() remembers, if the points are few, what it will tell, so that it takes less
-  /// time.
-  bool assigned = false;
+  /// Keeps the point records of run(), if one chunk holds all points: visitPointsByVoxel() then needs no
+  /// second pass over the points.
+  bool keepPointRecords = false;
   /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
   int levels = 1;
   InstructionSet instructions = InstructionSet::Automatic;
-  ResultMemory* memory = nullptr; ///< Null: the resampler's own.
+  OutputAllocator* allocator = nullptr; ///< Null: the resampler's own memory.
 };
 
-/// Resamples clouds, one after the other; memory for the work is kept between them (releaseScratch()).
+/// Resamples clouds. Scratch memory is kept from one run to the next (releaseScratch()).
 ///
-/// A point's place is u = (T p + t - origin) / spacing, in double about a point near the lattice's origin,
-/// so that large coordinates cost no digits; its voxel is floor(u), half-open. Places are then cut to
-/// fixed-point numbers whose quantum is the same on a lattice and on one twice as coarse: at most 2^-31
-/// voxel, 2^-34 on 300^3. Sums of those are exact. Hence results are the same bit for bit for every order of
-/// the points, every executor, instruction set and PointIndex, and a coarser level equals the resampling of
-/// the points at its spacing (on lattices of up to 4096 voxels an axis; beyond, quanta are finer still and a
-/// level that crosses this border may differ by 2^-31 voxel: see exactLevels()). Error of a mean: at most
-/// 2^-31 voxel, then one rounding to the output's type; a mean lies in its voxel. Counts are 64-bit. Where a
-/// matrix, by its condition number, would cost digits, its products are summed in two words each, in about
-/// half as much time again (several times as much on processors without a fused multiplication).
+/// The position of a point in the lattice is u = (T p + t - origin) / spacing, in double. It is computed
+/// about a point near the lattice's origin, so that large coordinates cost no digits. The voxel is floor(u),
+/// half-open. Positions are then quantized: truncated to fixed-point numbers whose quantum is the same on a
+/// lattice and on one twice as coarse, at most 2^-31 voxel, 2^-34 on 300^3. Sums of these are exact.
+///
+/// Hence results are the same bit for bit for every order of the points, every executor, instruction set and
+/// PointIndex, and a coarser level equals the resampling of the points at its spacing. That holds on lattices
+/// of up to 4096 voxels an axis; beyond, quanta are finer still, and a level that crosses this border may
+/// differ by 2^-31 voxel: see exactLevels().
+///
+/// Accuracy: a mean is off by at most 2^-31 voxel, then rounded once to the output's type; it lies in its
+/// voxel. Counts are 64-bit. Under a matrix whose condition number would cost digits, the products are summed
+/// in two words each. That takes about half as much time again (several times as much on processors without a
+/// fused multiplication).
 ///
 /// Time: a few nanoseconds a point; beyond 4096 voxels an axis some tens of them, growing with the logarithm
 /// of the points. Memory beyond input and results: 16 bytes for each of at most 1.25 million points, 60 bytes
 /// an active voxel (20 of them its results, where these are not in the caller's memory), a few megabytes (of
 /// which up to 1.3 for each thread where a layer of the lattice has up to 4 million voxels); lattices beyond
-/// 4096 an axis: 30 bytes (38 for assign()) for each of at most 524,288 points and 66 an active voxel;
-/// covariances: 100 an active voxel more, 132 on these. One object is used by one thread at a time; the
-/// executor's threads may be many.
+/// 4096 an axis: 30 bytes (38 for visitPointsByVoxel()) for each of at most 524,288 points and 66 an active
+/// voxel; covariances: 100 an active voxel more, 132 on these. One object is used by one thread at a time;
+/// the executor's threads may be many.
 class VoxelResampler
 {
 public:
@@ -125,24 +128,25 @@ public:
   /// Of each voxel of level - 1, the voxel of @p level it lies in. @pre level >= 1, keys were asked for.
   const std::vector<std::int64_t>& parents(int level) const;
 
-  /// Tells again which voxel of level 0 each point inside lies in: visit(rows, voxels, count) is called for
-  /// pieces, with what VoxelRequest::tuples asks for, possibly by several threads at once, but no two at once
-  /// have a voxel in common. Tuples travel with the points, so that those of a voxel come together: memory,
-  /// kept like the other, of up to 64 bytes for each of at most 1.25 million points. Wider ones are collected
-  /// from all over the memory they are in. @pre run() was Ok with the same request, keys among it.
-  /// @return Ok or Aborted.
+  /// Visits the points inside, grouped by voxels of level 0: calls visit(rows, voxels, count) for pieces,
+  /// with the attributes of VoxelRequest::tuples and the voxel of each point. Several threads may call it at
+  /// once, but no two of them have a voxel in common.
+  ///
+  /// Tuples are copied beside the point records, so that those of a voxel come together: scratch memory of up
+  /// to 64 bytes for each of at most 1.25 million points. Wider tuples are gathered from the caller's arrays.
+  /// @pre run() was Ok with the same request, keys among it. @return Ok or Aborted.
   using Visitor = std::function<void(const PointRows& rows, const std::int64_t* voxels, int count)>;
-  Status assign(const VoxelRequest& request, const Visitor& visit, const Executor& executor = {},
+  Status visitPointsByVoxel(const VoxelRequest& request, const Visitor& visit, const Executor& executor = {},
     ProgressObserver* observer = nullptr);
 
-  /// The same for one set of voxels after the other: work(first, voxels, forPoints) is called for all sets,
-  /// voxels first and on, possibly by several threads at once, and forPoints(visit) visits all points of
-  /// these voxels; their numbers then count from first. @pre that of assign(), and canAssignInSets()
+  /// The same for consecutive sets of voxels: calls work(first, voxels, forPoints) for each set, possibly
+  /// from several threads at once. forPoints(visit) visits all points of the set's voxels, whose numbers then
+  /// count from first. @pre that of visitPointsByVoxel(), and canVisitByVoxelSet()
   using SetWork = std::function<void(
     std::int64_t first, std::int64_t voxels, const std::function<void(const Visitor&)>& forPoints)>;
-  void assignInSets(const VoxelRequest& request, const SetWork& work, const Executor& executor = {});
-  /// run() remembers all points: see VoxelRequest::assigned.
-  bool canAssignInSets() const;
+  void visitPointsByVoxelSet(const VoxelRequest& request, const SetWork& work, const Executor& executor = {});
+  /// run() kept all point records: see VoxelRequest::keepPointRecords.
+  bool canVisitByVoxelSet() const;
 
   std::size_t scratchBytes() const;
   /// Frees the memory kept, results included.

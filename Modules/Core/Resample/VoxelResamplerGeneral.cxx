@@ -1,4 +1,4 @@
-/// The way of VoxelResampler through all other lattices: points sorted by key, range by range.
+/// VoxelResampler on all other lattices: points are sorted by key, range by range.
 #include "Core/Neighbors/PointIndex.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
@@ -7,12 +7,12 @@
 namespace pointhaptics
 {
 
-using namespace kernel;
+using namespace simd;
 
 namespace
 {
 
-/// The index's bounds are not to be trusted with the smallest and the largest numbers.
+/// The index's bounds are not reliable for the smallest and the largest numbers.
 VoxelRequest withUsableIndex(const VoxelRequest& request)
 {
   VoxelRequest usable = request;
@@ -23,13 +23,13 @@ VoxelRequest withUsableIndex(const VoxelRequest& request)
   return usable;
 }
 
-Placement generalPlacement(const VoxelRequest& request)
+PointQuantizer generalQuantizer(const VoxelRequest& request)
 {
   const int indexBits = indexBitsOf(request.lattice);
-  return makePlacement(request.transform, request.lattice, indexBits, positionBitsFor(indexBits));
+  return makeQuantizer(request.transform, request.lattice, indexBits, positionBitsFor(indexBits));
 }
 
-/// The first of ascending keys that is not below @p key, which mostly is near the first of them.
+/// The first of ascending keys that is not below @p key, by galloping: it is mostly near the first.
 const std::uint64_t* firstNotBelow(const std::uint64_t* keys, const std::uint64_t* end, std::uint64_t key)
 {
   std::ptrdiff_t step = 1;
@@ -48,14 +48,14 @@ Status VoxelResampler::Implementation::runGeneral(
 {
   const VoxelRequest usable = withUsableIndex(request);
   const Chunks chunks(usable, kGeneralChunk, executor);
-  placement_ = generalPlacement(request);
-  ranges_.choose(placement_, request.lattice, chunks);
-  runs_.reset(ranges_.count(), placement_.fractionBits);
+  quantizer_ = generalQuantizer(request);
+  ranges_.choose(quantizer_, request.lattice, chunks);
+  runs_.reset(ranges_.count(), quantizer_.fractionBits);
   std::int64_t inside = 0;
   invalid = usable.index ? request.points.size() - finitePoints(*usable.index) : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    ranges_.place(placement_, request.lattice, chunks, chunk, false, executor);
+    ranges_.bin(quantizer_, request.lattice, chunks, chunk, false, executor);
     inside += ranges_.inside();
     invalid += ranges_.invalid();
     forEachItem<KeyRanges::Sorted>(executor, ranges_.count(),
@@ -84,23 +84,23 @@ Status VoxelResampler::Implementation::finishRuns(
     coarsening.ofRuns(runs_, coarse, executor, nullptr);
     runs_ = std::move(coarse);
   }
-  writeRuns(request, runs_, request.levels > 1, levels[0], request.memory, executor, nullptr);
+  writeRuns(request, runs_, request.levels > 1, levels[0], request.allocator, executor, nullptr);
   return request.levels > 1 ? addLevels(request, std::move(runs_), 0, executor, observer) : Status::Ok;
 }
 
-Status VoxelResampler::Implementation::assignGeneral(
+Status VoxelResampler::Implementation::visitGeneral(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   const VoxelRequest usable = withUsableIndex(request);
   const Chunks chunks(usable, kGeneralChunk, executor);
-  const Placement placement = generalPlacement(request);
+  const PointQuantizer quantizer = generalQuantizer(request);
   const std::uint64_t* keys = levels[0].arena.keys();
   const std::uint64_t* end = keys + levels[0].size;
   chooseRows(request);
-  ranges_.choose(placement, request.lattice, chunks);
+  ranges_.choose(quantizer, request.lattice, chunks);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    ranges_.place(placement, request.lattice, chunks, chunk, true, executor);
+    ranges_.bin(quantizer, request.lattice, chunks, chunk, true, executor);
     forEachItem<KeyRanges::Sorted>(executor, ranges_.count(),
       [&](std::size_t range, KeyRanges::Sorted& sorted)
       {

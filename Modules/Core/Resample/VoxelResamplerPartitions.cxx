@@ -1,4 +1,4 @@
-/// The way of VoxelResampler through lattices whose voxels can be dealt out to partitions.
+/// VoxelResampler on lattices whose voxels can be divided into partitions.
 #include "Core/Neighbors/PointIndex.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
@@ -9,7 +9,7 @@
 namespace pointhaptics
 {
 
-using namespace kernel;
+using namespace simd;
 
 /// A worker nobody else uses, for as long as this lives.
 class VoxelResampler::Implementation::WorkerLease
@@ -49,7 +49,7 @@ private:
 namespace
 {
 
-/// So many points may be in one voxel before the sums of their places could need more than 62 bits.
+/// So many points may be in one voxel before the sums of their offsets could need more than 62 bits.
 std::int64_t mostPointsOfBatch(int indexBits)
 {
   return (std::int64_t(1) << (62 - kPositionBits + indexBits)) - 1;
@@ -86,7 +86,7 @@ private:
   std::vector<std::atomic<std::uint32_t>> done_;
 };
 
-/// Where the records of a few points went.
+/// The slots of the records of up to kMost points.
 class RowSlots
 {
 public:
@@ -137,18 +137,18 @@ Status VoxelResampler::Implementation::runPlanned(
   const int indexBits = indexBitsOf(halved_);
   const Chunks chunks(request, kChunkPoints, executor);
   plan_ = makePlan(halved_, indexBits, chunks.count() == 0 ? 0 : chunks.pointCount(0));
-  placement_ = makePlacement(request.transform, halved_, indexBits, kPositionBits);
-  placement_.blocksPerLayer = plan_.blocksPerLayer;
-  placement_.rowShift = plan_.rowShift;
-  placement_.layerShift = plan_.layerShift;
-  carried_.resize(plan_.partitions);
-  for (CarriedPartition& partition : carried_)
+  quantizer_ = makeQuantizer(request.transform, halved_, indexBits, kPositionBits);
+  quantizer_.blocksPerLayer = plan_.blocksPerLayer;
+  quantizer_.rowShift = plan_.rowShift;
+  quantizer_.layerShift = plan_.layerShift;
+  accumulated_.resize(plan_.partitions);
+  for (AccumulatedPartition& partition : accumulated_)
   {
     partition.clear();
   }
   const std::int64_t mostPoints = mostPointsOfBatch(indexBits);
   const bool inBatches = halvings_ > 0 || pointsOf(chunks) > mostPoints;
-  const bool holdsAll = request.assigned && chunks.count() == 1 && !inBatches;
+  const bool holdsAll = request.keepPointRecords && chunks.count() == 1 && !inBatches;
   runs_.reset(inBatches ? plan_.partitions : 0, plan_.fractionBits);
   std::int64_t batchPoints = 0;
   std::int64_t inside = 0;
@@ -167,7 +167,7 @@ Status VoxelResampler::Implementation::runPlanned(
     }
     else
     {
-      isLast ? finish(request, executor) : carryChunk(request, executor);
+      isLast ? finish(request, executor) : accumulateChunk(request, executor);
     }
     if (observer && !observer->report(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
@@ -185,18 +185,18 @@ Status VoxelResampler::Implementation::runPlanned(
     return Status::Ok;
   }
   return plan_.dense ? addLevels(request, std::move(runs_), 1, executor, observer)
-                     : addLevels(request, takeCarried(executor), 0, executor, observer);
+                     : addLevels(request, takeAccumulated(executor), 0, executor, observer);
 }
 
 void VoxelResampler::Implementation::chooseRows(const VoxelRequest& request)
 {
-  // Wider ones would take more memory than they are worth.
-  constexpr std::size_t kMostDealtBytes = 64;
+  // Wider rows cost more memory than their locality is worth.
+  constexpr std::size_t kMostBinnedBytes = 64;
   rows_.choose(request.tuples);
-  dealtRows_.choose(rows_.bytes() > kMostDealtBytes ? std::vector<TupleSource>(1) : request.tuples);
+  binnedRows_.choose(rows_.bytes() > kMostBinnedBytes ? std::vector<TupleSource>(1) : request.tuples);
 }
 
-/// @param withRows assign() will want them.
+/// @param withRows for visitPointsByVoxel().
 void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const Chunks& chunks,
   std::size_t chunk, bool withRows, const Executor& executor)
 {
@@ -205,39 +205,39 @@ void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const
     chooseRows(request);
   }
   pool_.prepare(
-    chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), withRows ? dealtRows_.bytes() : 0);
+    chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), withRows ? binnedRows_.bytes() : 0);
   const Kernels& kernels = kernelsFor(request.instructions);
   const PointRange* pieces = chunks.pieces(chunk);
   const PointView& points = chunks.points();
-  const auto place = [&](const PointRange* ranges, std::int64_t count, RecordWriter& writer)
+  const auto quantize = [&](const PointRange* ranges, std::int64_t count, PointRecordWriter& writer)
   {
-    points.floats() ? kernels.partitionFloats(placement_, points.floats(), ranges, count, writer)
-                    : kernels.partitionDoubles(placement_, points.doubles(), ranges, count, writer);
+    points.floats() ? kernels.partitionFloats(quantizer_, points.floats(), ranges, count, writer)
+                    : kernels.partitionDoubles(quantizer_, points.doubles(), ranges, count, writer);
   };
-  const auto placeWithRows = [&](PointRange piece, RecordWriter& writer)
+  const auto quantizeWithRows = [&](PointRange piece, PointRecordWriter& writer)
   {
     RowSlots slots;
     while (piece.begin < piece.end)
     {
       const PointRange part = { piece.begin, std::min(piece.begin + RowSlots::kMost, piece.end) };
       writer.slots = slots.clear();
-      place(&part, 1, writer);
-      slots.copy(dealtRows_, part, request.index, pool_.rows());
+      quantize(&part, 1, writer);
+      slots.copy(binnedRows_, part, request.index, pool_.rows());
       piece.begin = part.end;
     }
   };
   forRange(executor, chunks.pieceCount(chunk), grainFor(chunks.pieceCount(chunk), executor),
     [&](std::int64_t first, std::int64_t last)
     {
-      const RecordPool::Lease lease(pool_);
+      const PointRecordPool::Lease lease(pool_);
       if (!withRows)
       {
-        place(pieces + first, last - first, lease.writer());
+        quantize(pieces + first, last - first, lease.writer());
         return;
       }
       for (std::int64_t i = first; i < last; ++i)
       {
-        placeWithRows(pieces[i], lease.writer());
+        quantizeWithRows(pieces[i], lease.writer());
       }
     });
 }
@@ -260,8 +260,8 @@ void VoxelResampler::Implementation::forPartitions(
     });
 }
 
-/// Adds the pool's records to what is carried.
-void VoxelResampler::Implementation::carryChunk(const VoxelRequest& request, const Executor& executor)
+/// Adds the pool's records to the accumulated sums.
+void VoxelResampler::Implementation::accumulateChunk(const VoxelRequest& request, const Executor& executor)
 {
   const Kernels& kernels = kernelsFor(request.instructions);
   forPartitions(request, executor,
@@ -269,15 +269,15 @@ void VoxelResampler::Implementation::carryChunk(const VoxelRequest& request, con
     {
       if (plan_.dense)
       {
-        worker.carryDense(kernels, pool_, p, carried_[p]);
+        worker.accumulateDense(kernels, pool_, p, accumulated_[p]);
         return;
       }
-      worker.load(kernels, pool_, p, carried_[p], false, [](std::size_t) {});
+      worker.load(kernels, pool_, p, accumulated_[p], false, [](std::size_t) {});
       keepBatches(request, worker, p);
     });
 }
 
-/// Adds the pool's records and what is carried to the runs.
+/// Adds the pool's records and the accumulated sums to the runs.
 void VoxelResampler::Implementation::closeBatch(const VoxelRequest& request, const Executor& executor)
 {
   const Kernels& kernels = kernelsFor(request.instructions);
@@ -285,40 +285,40 @@ void VoxelResampler::Implementation::closeBatch(const VoxelRequest& request, con
     [&](PartitionWorker& worker, std::uint32_t p)
     {
       VoxelRun run;
-      worker.load(kernels, pool_, p, carried_[p], false, [](std::size_t) {});
+      worker.load(kernels, pool_, p, accumulated_[p], false, [](std::size_t) {});
       worker.forBatches([&](const MomentBatch<std::int64_t>& batch) { run.append(halved_, batch); });
       runs_.add(p, std::move(run));
-      carried_[p].clear();
+      accumulated_[p].clear();
     });
 }
 
-/// Carries the voxels of a partition over, unpacked.
+/// Accumulates the voxels of a partition, unpacked.
 void VoxelResampler::Implementation::keepBatches(
   const VoxelRequest& request, PartitionWorker& worker, std::uint32_t partition)
 {
-  worker.carried.clear();
+  worker.accumulated.clear();
   worker.forBatches(
-    [&](const MomentBatch<std::int64_t>& batch) { carry(request.lattice, batch, worker.carried); });
+    [&](const MomentBatch<std::int64_t>& batch) { appendBatch(request.lattice, batch, worker.accumulated); });
   // Copies: exactly as large as they need be.
-  carried_[partition] = CarriedPartition(worker.carried);
+  accumulated_[partition] = AccumulatedPartition(worker.accumulated);
 }
 
-/// Means of the pool's records and what is carried; with levels, sums of the next one's too. A partition
-/// writes its voxels where they belong if those before it have been counted by then, as they nearly always
-/// are; otherwise they are moved there in the end.
+/// Means of the pool's records and the accumulated sums; with levels, sums of the next level too. A partition
+/// writes its voxels in place if those before it have been counted by then, as they nearly always are;
+/// otherwise they are moved there in the end.
 void VoxelResampler::Implementation::finish(const VoxelRequest& request, const Executor& executor)
 {
   const Kernels& kernels = kernelsFor(request.instructions);
   const MeanArena::Layout layout = { request.singlePrecision, request.keys, request.covariances };
   Level& level = levels[0];
   std::size_t room = 0;
-  bool hasCarried = false;
+  bool hasAccumulated = false;
   for (std::uint32_t p = 0; p < plan_.partitions; ++p)
   {
-    room += mostVoxels(plan_, pool_.count(p), carried_[p].size());
-    hasCarried = hasCarried || carried_[p].size() > 0;
+    room += mostVoxels(plan_, pool_.count(p), accumulated_[p].size());
+    hasAccumulated = hasAccumulated || accumulated_[p].size() > 0;
   }
-  level.arena.prepare(room, layout, request.lattice, plan_.fractionBits, request.memory);
+  level.arena.prepare(room, layout, request.lattice, plan_.fractionBits, request.allocator);
   struct Late
   {
     std::uint32_t partition;
@@ -338,32 +338,32 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
     [&](Worker& worker, std::uint32_t p)
     {
       std::size_t size = 0;
-      worker.load(kernels, pool_, p, carried_[p], makesCoarse,
+      worker.load(kernels, pool_, p, accumulated_[p], makesCoarse,
         [&](std::size_t known)
         {
           size = known;
           order.publish(p, size);
         });
-      std::size_t place = order.first(p);
-      const bool isLate = place == PartitionOrder::kUnknown;
+      std::size_t offset = order.first(p);
+      const bool isLate = offset == PartitionOrder::kUnknown;
       MeanArena aside;
       if (isLate)
       {
         aside.prepare(size, layout, request.lattice, plan_.fractionBits);
-        place = 0;
+        offset = 0;
       }
       MeanArena& arena = isLate ? aside : level.arena;
       if (const PartitionVoxels* voxels = worker.packed())
       {
-        arena.write(kernels, place, *voxels);
+        arena.write(kernels, offset, *voxels);
       }
       else
       {
         worker.forBatches(
           [&](const MomentBatch<std::int64_t>& batch)
           {
-            arena.write(kernels, place, batch);
-            place += std::size_t(batch.size);
+            arena.write(kernels, offset, batch);
+            offset += std::size_t(batch.size);
           });
       }
       if (makesCoarse)
@@ -372,10 +372,11 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
         if (groups.finish(p))
         {
           runs_.add(group,
-            coarsening.ofPartitions(plan_, carried_, groups.begin(group), groups.end(group), worker.coarse));
+            coarsening.ofPartitions(
+              plan_, accumulated_, groups.begin(group), groups.end(group), worker.coarse));
           for (std::uint32_t used = groups.begin(group); used < groups.end(group); ++used)
           {
-            carried_[used] = CarriedPartition();
+            accumulated_[used] = AccumulatedPartition();
           }
         }
       }
@@ -383,9 +384,9 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
       {
         keepBatches(request, worker, p);
       }
-      else if (hasCarried)
+      else if (hasAccumulated)
       {
-        carried_[p].trim();
+        accumulated_[p].trim();
       }
       if (isLate)
       {
@@ -401,29 +402,29 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
   }
 }
 
-/// What was carried, which is let go of.
-VoxelRuns VoxelResampler::Implementation::takeCarried(const Executor& executor)
+/// Moves the accumulated sums out.
+VoxelRuns VoxelResampler::Implementation::takeAccumulated(const Executor& executor)
 {
   VoxelRuns runs;
-  runs.reset(carried_.size(), plan_.fractionBits);
-  forEachItem(executor, carried_.size(),
+  runs.reset(accumulated_.size(), plan_.fractionBits);
+  forEachItem(executor, accumulated_.size(),
     [&](std::size_t p)
     {
-      CarriedPartition partition = std::move(carried_[p]);
+      AccumulatedPartition partition = std::move(accumulated_[p]);
       VoxelRun run;
       run.voxels.reserve(partition.voxels.size());
-      for (const CarriedSums& voxel : partition.voxels)
+      for (const AccumulatedSums& voxel : partition.voxels)
       {
         run.voxels.push_back({ voxel.key, voxel.count,
           { std::uint64_t(voxel.sums[0]), std::uint64_t(voxel.sums[1]), std::uint64_t(voxel.sums[2]) }, 0 });
       }
-      run.seconds = std::move(partition.seconds);
+      run.secondMoments = std::move(partition.secondMoments);
       runs.add(p, std::move(run));
     });
   return runs;
 }
 
-Status VoxelResampler::Implementation::assignPlanned(
+Status VoxelResampler::Implementation::visitPlanned(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   const Chunks chunks(request, kChunkPoints, executor);
@@ -458,7 +459,7 @@ void VoxelResampler::Implementation::visitPartition(const VoxelRequest& request,
   const std::size_t first = level.firsts[partition];
   std::int64_t voxels[kBlockRecords];
   RowCollector collector(rows_);
-  const bool areWhole = rows_.bytes() == dealtRows_.bytes();
+  const bool areWhole = rows_.bytes() == binnedRows_.bytes();
   worker.rank(kernelsFor(request.instructions), pool_, partition, level.arena.keys() + first,
     level.firsts[partition + 1] - first,
     [&](const char* rows, const std::uint32_t* ranks, int count)
@@ -473,7 +474,7 @@ void VoxelResampler::Implementation::visitPartition(const VoxelRequest& request,
     });
 }
 
-void VoxelResampler::Implementation::assignInSets(
+void VoxelResampler::Implementation::visitPointsByVoxelSet(
   const VoxelRequest& request, const SetWork& work, const Executor& executor)
 {
   const std::vector<std::size_t>& firsts = levels[0].firsts;

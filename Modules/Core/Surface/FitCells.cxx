@@ -16,7 +16,7 @@ constexpr double kNoMargin = 1.0 + 1e-9;
 template <typename Block>
 void pad(Block& block) noexcept
 {
-  for (int i = block.size; i % kernel::kFitLanes != 0; ++i)
+  for (int i = block.size; i % simd::kFitLanes != 0; ++i)
   {
     block.clear(i);
   }
@@ -39,7 +39,7 @@ void FitCells::invalidate() noexcept
 }
 
 bool FitCells::gather(
-  const CellPyramid& pyramid, int level, const Vec3& center, double reach, kernel::FitBlock& block) noexcept
+  const CellPyramid& pyramid, int level, const Vec3& center, double reach, simd::FitBlock& block) noexcept
 {
   block.level = level;
   block.center = center;
@@ -58,17 +58,17 @@ bool FitCells::gather(
           const Vec3 place = cells[i].mean - center;
           block.set(block.size, place, cells[i].count, cells[i].covariance);
           block.size += norm2(place) < reach * reach ? 1 : 0;
-          fits = block.size <= kernel::FitBlock::kCapacity;
+          fits = block.size <= simd::FitBlock::kCapacity;
         }
       });
-    block.size = fits ? block.size : kernel::FitBlock::kCapacity;
+    block.size = fits ? block.size : simd::FitBlock::kCapacity;
     pad(block);
     return fits;
   }
   pyramid.visitBallUnmixed(level, center, reach,
     [&](const Cell& cell, double)
     {
-      if (block.size == kernel::FitBlock::kCapacity)
+      if (block.size == simd::FitBlock::kCapacity)
       {
         fits = false;
         return;
@@ -79,7 +79,7 @@ bool FitCells::gather(
   return fits;
 }
 
-const kernel::FitBlock& FitCells::near(
+const simd::FitBlock& FitCells::near(
   const CellPyramid& pyramid, int& level, const Vec3& center, double radius) noexcept
 {
   if (pyramid_ != &pyramid)
@@ -89,7 +89,7 @@ const kernel::FitBlock& FitCells::near(
   }
   for (const int top = pyramid.numberOfCellLevels() - 1;; ++level)
   {
-    kernel::FitBlock& block = blocks_[level & 1];
+    simd::FitBlock& block = blocks_[level & 1];
     if (block.level == level && serves(block.center, block.reach, center, radius))
     {
       return block;
@@ -127,7 +127,7 @@ LocalScale FitCells::scaleAt(
     }
     pad(nodes_);
   }
-  kernel::FieldSums sums;
+  simd::FieldSums sums;
   kernels_->sumField(nodes_, position - nodes_.center, field.reach(), sums);
   return field.scaleFrom(sums, radiusGradient);
 }

@@ -17,7 +17,7 @@ class FitCells
 public:
   /// @param wanted the instructions to use, as far as this machine has them; the results are the same.
   explicit FitCells(InstructionSet wanted = InstructionSet::Automatic)
-    : kernels_(&kernel::fitKernels(wanted))
+    : kernels_(&simd::fitKernels(wanted))
   {
   }
 
@@ -27,29 +27,29 @@ public:
   /// The cells of @p level (mixed ones as their children) that can lie within @p radius of @p center, and
   /// maybe others. Where there are more than a block holds, those of the next coarser level that fits; @p
   /// level receives which.
-  const kernel::FitBlock& near(
+  const simd::FitBlock& near(
     const CellPyramid& pyramid, int& level, const Vec3& center, double radius) noexcept;
 
   /// RadiusField::at() from gathered nodes; equal to it up to rounding.
   LocalScale scaleAt(const CellPyramid& pyramid, const RadiusField& field, const Vec3& position,
     Vec3& radiusGradient) noexcept;
 
-  const kernel::FitKernels& kernels() const noexcept { return *kernels_; }
-  kernel::FitRows& rows() noexcept { return rows_; }
+  const simd::FitKernels& kernels() const noexcept { return *kernels_; }
+  simd::FitRows& rows() noexcept { return rows_; }
   /// True where some block was too small since the last call of clearOverflow().
   bool overflowed() const noexcept { return overflowed_; }
   void clearOverflow() noexcept { overflowed_ = false; }
 
 private:
-  bool gather(const CellPyramid& pyramid, int level, const Vec3& center, double reach,
-    kernel::FitBlock& block) noexcept;
+  bool gather(
+    const CellPyramid& pyramid, int level, const Vec3& center, double reach, simd::FitBlock& block) noexcept;
 
-  const kernel::FitKernels* kernels_;
+  const simd::FitKernels* kernels_;
   const CellPyramid* pyramid_ = nullptr;
   const RadiusField* field_ = nullptr;
-  kernel::FitBlock blocks_[2]; ///< Of even and of odd levels: a fit blends two neighbouring ones.
-  kernel::FieldBlock nodes_;
-  kernel::FitRows rows_;
+  simd::FitBlock blocks_[2]; ///< Of even and of odd levels: a fit blends two neighbouring ones.
+  simd::FieldBlock nodes_;
+  simd::FitRows rows_;
   bool overflowed_ = false;
 };
 

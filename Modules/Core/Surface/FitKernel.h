@@ -8,7 +8,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 constexpr int kFitLanes = 8;
@@ -194,5 +194,5 @@ const FitKernels& baselineFitKernels();
 const FitKernels* avx2FitKernels();
 const FitKernels* avx512FitKernels();
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

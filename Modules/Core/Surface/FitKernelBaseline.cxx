@@ -3,7 +3,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 const FitKernels& baselineFitKernels()
@@ -24,5 +24,5 @@ const FitKernels& fitKernels(InstructionSet wanted) noexcept
   }
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

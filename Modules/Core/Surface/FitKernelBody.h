@@ -11,13 +11,10 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
-
-using simd::load;
-using simd::Pack;
 
 static_assert(kFitLanes == simd::kLanes, "the blocks are laid out for the loops");
 
@@ -435,5 +432,5 @@ constexpr FitKernels kKernels = { appendRows, sumRows, sumCubicRows, traceRows, 
   sumField };
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -54,7 +54,7 @@ inline void otherHalf(const double l[6][6], const double y[6], double k[6])
 }
 
 template <int N>
-inline bool factorLeading(const kernel::FitSums& sums, double l[6][6])
+inline bool factorLeading(const simd::FitSums& sums, double l[6][6])
 {
 #pragma GCC unroll 6
   for (int i = 0; i < N; ++i)
@@ -87,7 +87,7 @@ inline bool factorLeading(const kernel::FitSums& sums, double l[6][6])
 
 }
 
-bool factor(const kernel::FitSums& sums, int n, double l[6][6]) noexcept
+bool factor(const simd::FitSums& sums, int n, double l[6][6]) noexcept
 {
   return n == 6 ? factorLeading<6>(sums, l) : factorLeading<3>(sums, l);
 }
@@ -107,8 +107,8 @@ void backSolve(const double l[6][6], int n, const double rhs[6], double k[6]) no
   }
 }
 
-void errorsOf(const kernel::FitRows& rows, const kernel::FitSums& sums, const double inverse[3][10],
-  int terms, double residual, double rho, SurfaceFitError& error) noexcept
+void errorsOf(const simd::FitRows& rows, const simd::FitSums& sums, const double inverse[3][10], int terms,
+  double residual, double rho, SurfaceFitError& error) noexcept
 {
   double variances[3] = { 0.0, 0.0, 0.0 };
   double perPoint = 0.0;
@@ -152,7 +152,7 @@ void errorsOf(const kernel::FitRows& rows, const kernel::FitSums& sums, const do
   }
 }
 
-CubicFactor factorCubic(const kernel::CubicSums& cubic, const double l[6][6], double share) noexcept
+CubicFactor factorCubic(const simd::CubicSums& cubic, const double l[6][6], double share) noexcept
 {
   CubicFactor factor;
   factor.share = share;
@@ -242,19 +242,19 @@ void solveCubic(const CubicFactor& factor, const double l[6][6], const double p[
   otherHalf<6>(l, y, x);
 }
 
-kernel::TracedFit withCubicTerms(
-  const kernel::FitSums& sums, const kernel::CubicSums& cubic, const double l[6][6], double share) noexcept
+simd::TracedFit withCubicTerms(
+  const simd::FitSums& sums, const simd::CubicSums& cubic, const double l[6][6], double share) noexcept
 {
   const CubicFactor factor = factorCubic(cubic, l, share);
   const double unit[6] = { 1.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
   const double none[4] = { 0.0, 0.0, 0.0, 0.0 };
-  kernel::TracedFit fit;
+  simd::TracedFit fit;
   solveCubic(factor, l, sums.rhs, cubic.rhs, fit.k);
   solveCubic(factor, l, unit, none, fit.row);
   return fit;
 }
 
-void traceSlopes(const kernel::TraceSums& sums, double strength, SurfaceFit& fit) noexcept
+void traceSlopes(const simd::TraceSums& sums, double strength, SurfaceFit& fit) noexcept
 {
   const double* k = fit.k;
   const double da = sums.moveA + 2.0 * k[3] * sums.turnA + k[4] * sums.turnB;

@@ -10,7 +10,7 @@ namespace pointhaptics
 
 /// Cholesky factor of the leading n x n block, its diagonal inverted; false at a relative pivot that is too
 /// small.
-bool factor(const kernel::FitSums& sums, int n, double l[6][6]) noexcept;
+bool factor(const simd::FitSums& sums, int n, double l[6][6]) noexcept;
 
 /// Solves L L' k = rhs for the leading n unknowns, the diagonal of @p l inverted.
 void backSolve(const double l[6][6], int n, const double rhs[6], double k[6]) noexcept;
@@ -24,7 +24,7 @@ struct CubicFactor
 };
 
 /// @param l factor of the six. @param share 0 to 1.
-CubicFactor factorCubic(const kernel::CubicSums& cubic, const double l[6][6], double share) noexcept;
+CubicFactor factorCubic(const simd::CubicSums& cubic, const double l[6][6], double share) noexcept;
 
 /// Solves the ten equations for right hand sides @p p of the six and @p q of the four. The cubic terms are
 /// multiplied by the factor's share; the others are then the best beside what is left of those.
@@ -32,17 +32,17 @@ void solveCubic(const CubicFactor& factor, const double l[6][6], const double p[
   double x[10]) noexcept;
 
 /// The height's ten terms and the row that gives k0.
-kernel::TracedFit withCubicTerms(
-  const kernel::FitSums& sums, const kernel::CubicSums& cubic, const double l[6][6], double share) noexcept;
+simd::TracedFit withCubicTerms(
+  const simd::FitSums& sums, const simd::CubicSums& cubic, const double l[6][6], double share) noexcept;
 
 /// Noise from the weighted residuals, and the diagonal of A^-1 (sum W^2/n P P') A^-1 for k0, k1, k2. @param
 /// inverse their rows of A^-1, over @p terms terms, the rest zero.
-void errorsOf(const kernel::FitRows& rows, const kernel::FitSums& sums, const double inverse[3][10],
-  int terms, double residual, double rho, SurfaceFitError& error) noexcept;
+void errorsOf(const simd::FitRows& rows, const simd::FitSums& sums, const double inverse[3][10], int terms,
+  double residual, double rho, SurfaceFitError& error) noexcept;
 
 /// Adds the derivative of the fit with respect to its own origin to k1 and k2. Moving along a changes every
 /// weight, by the distance and by rho, and turns the frame with the surface; the normal equations
 /// differentiated give A dk = S, of which the height's part counts.
-void traceSlopes(const kernel::TraceSums& sums, double strength, SurfaceFit& fit) noexcept;
+void traceSlopes(const simd::TraceSums& sums, double strength, SurfaceFit& fit) noexcept;
 
 } // namespace pointhaptics

@@ -98,7 +98,7 @@ LocalScale RadiusField::at(const CellPyramid& pyramid, const Vec3& position) con
 LocalScale RadiusField::at(
   const CellPyramid& pyramid, const Vec3& position, Vec3& radiusGradient) const noexcept
 {
-  kernel::FieldSums sums;
+  simd::FieldSums sums;
   const double perReach2 = 1.0 / (reach_ * reach_);
   pyramid.visitBall(level_, position, reach_,
     [&](std::uint32_t i, const Cell& node, double d2)
@@ -129,7 +129,7 @@ double RadiusField::noiseAt(const CellPyramid& pyramid, const Vec3& position) co
 }
 
 bool RadiusField::gather(
-  const CellPyramid& pyramid, const Vec3& center, double reach, kernel::FieldBlock& block) const noexcept
+  const CellPyramid& pyramid, const Vec3& center, double reach, simd::FieldBlock& block) const noexcept
 {
   block.center = center;
   block.reach = reach;
@@ -138,7 +138,7 @@ bool RadiusField::gather(
   pyramid.visitBall(level_, center, reach,
     [&](std::uint32_t i, const Cell& node, double)
     {
-      if (block.size == kernel::FieldBlock::kCapacity)
+      if (block.size == simd::FieldBlock::kCapacity)
       {
         fits = false;
         return;
@@ -158,7 +158,7 @@ bool RadiusField::gather(
   return fits;
 }
 
-LocalScale RadiusField::scaleFrom(const kernel::FieldSums& sums, Vec3& radiusGradient) const noexcept
+LocalScale RadiusField::scaleFrom(const simd::FieldSums& sums, Vec3& radiusGradient) const noexcept
 {
   radiusGradient = Vec3();
   if (!(sums.weights > 0.0))

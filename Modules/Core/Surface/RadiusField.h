@@ -51,9 +51,9 @@ public:
 
   /// The nodes within @p reach of @p center. False: more than a block holds.
   bool gather(
-    const CellPyramid& pyramid, const Vec3& center, double reach, kernel::FieldBlock& block) const noexcept;
+    const CellPyramid& pyramid, const Vec3& center, double reach, simd::FieldBlock& block) const noexcept;
   /// The answer of at() from the sums over the nodes near a place.
-  LocalScale scaleFrom(const kernel::FieldSums& sums, Vec3& radiusGradient) const noexcept;
+  LocalScale scaleFrom(const simd::FieldSums& sums, Vec3& radiusGradient) const noexcept;
 
   /// Distance from a node beyond which it has no weight.
   double reach() const { return reach_; }

@@ -49,9 +49,9 @@ int fitLevel(const CellPyramid& pyramid, double radius, double& fraction)
   return level;
 }
 
-kernel::FitView viewOf(const SurfaceFrame& frame, const FitSettings& settings)
+simd::FitView viewOf(const SurfaceFrame& frame, const FitSettings& settings)
 {
-  kernel::FitView view;
+  simd::FitView view;
   view.a = frame.a;
   view.b = frame.b;
   view.normal = frame.normal;
@@ -73,11 +73,11 @@ void collectRows(
   double fraction = 0.0;
   int level = fitLevel(pyramid, settings.radius, fraction);
   const double coarse = smoothStep((fraction - kBlendFrom) / (1.0 - kBlendFrom));
-  kernel::FitView view = viewOf(frame, settings);
+  simd::FitView view = viewOf(frame, settings);
   memory.rows().size = 0;
   const auto append = [&](double share)
   {
-    const kernel::FitBlock& block = memory.near(pyramid, level, frame.origin, settings.radius);
+    const simd::FitBlock& block = memory.near(pyramid, level, frame.origin, settings.radius);
     view.origin = frame.origin - block.center;
     view.share = share;
     memory.kernels().appendRows(block, view, memory.rows());
@@ -91,7 +91,7 @@ void collectRows(
 }
 
 /// The fit of the rows; @p terms receives how many coefficients it has, @p l the factor.
-SurfaceFit solve(const kernel::FitSums& sums, double radius, double l[6][6], int& terms)
+SurfaceFit solve(const simd::FitSums& sums, double radius, double l[6][6], int& terms)
 {
   SurfaceFit fit;
   fit.radius = radius;
@@ -133,7 +133,7 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
   FitCells& memory, const TracedSlopes* slopes) noexcept
 {
   collectRows(pyramid, frame, settings, memory);
-  kernel::FitSums sums;
+  simd::FitSums sums;
   memory.kernels().sumRows(memory.rows(), sums);
   double l[6][6];
   int terms = 0;
@@ -141,14 +141,14 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
   const double share = slopes ? std::max(slopes->strength, slopes->cubic) : 0.0;
   if (share > 0.0 && terms == 6)
   {
-    kernel::CubicSums cubic;
+    simd::CubicSums cubic;
     memory.kernels().sumCubicRows(memory.rows(), cubic);
-    const kernel::TracedFit traced = withCubicTerms(sums, cubic, l, share);
+    const simd::TracedFit traced = withCubicTerms(sums, cubic, l, share);
     std::copy(traced.k, traced.k + 6, fit.k);
     std::copy(traced.k + 6, traced.k + 10, fit.cubic);
     if (slopes->strength > 0.0)
     {
-      kernel::TraceSums trace;
+      simd::TraceSums trace;
       memory.kernels().traceRows(memory.rows(), traced, dot(slopes->radiusGradient, frame.a),
         dot(slopes->radiusGradient, frame.b), trace);
       traceSlopes(trace, slopes->strength, fit);
@@ -162,7 +162,7 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
 {
   error = SurfaceFitError();
   collectRows(pyramid, frame, settings, memory);
-  kernel::FitSums sums;
+  simd::FitSums sums;
   memory.kernels().sumRows(memory.rows(), sums);
   double l[6][6];
   int terms = 0;
@@ -176,7 +176,7 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
   }
   if (cubic && terms == 6)
   {
-    kernel::CubicSums cubicSums;
+    simd::CubicSums cubicSums;
     memory.kernels().sumCubicRows(memory.rows(), cubicSums);
     const CubicFactor factor = factorCubic(cubicSums, l, 1.0);
     if (factor.share < 1.0)

@@ -93,7 +93,7 @@ bool BallCells::gather(
   {
     fits = gatherFrom(pyramid, level, false);
   }
-  for (int i = size_; i % kernel::kFitLanes != 0; ++i)
+  for (int i = size_; i % simd::kFitLanes != 0; ++i)
   {
     x_[i] = y_[i] = z_[i] = kFarAway;
   }

@@ -20,7 +20,7 @@ public:
 
   /// @param wanted the instructions to use, as far as this machine has them; the results are the same.
   explicit BallCells(InstructionSet wanted = InstructionSet::Automatic)
-    : kernels_(&kernel::fitKernels(wanted))
+    : kernels_(&simd::fitKernels(wanted))
   {
   }
 
@@ -66,9 +66,9 @@ public:
   }
 
 private:
-  kernel::BallPoints points() const noexcept
+  simd::BallPoints points() const noexcept
   {
-    return { x_, y_, z_, (size_ + kernel::kFitLanes - 1) / kernel::kFitLanes * kernel::kFitLanes };
+    return { x_, y_, z_, (size_ + simd::kFitLanes - 1) / simd::kFitLanes * simd::kFitLanes };
   }
   bool add(const Vec3& p) noexcept;
   bool gatherFrom(const CellPyramid& pyramid, int level, bool onePerVoxel) noexcept;
@@ -81,7 +81,7 @@ private:
   double reach_ = 0.0;
   bool complete_ = true; ///< All points of the cloud, not some or means of them.
   double askedRadius_ = 0.0;
-  const kernel::FitKernels* kernels_;
+  const simd::FitKernels* kernels_;
   const CellPyramid* pyramid_ = nullptr;
 };
 

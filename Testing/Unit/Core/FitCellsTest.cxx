@@ -105,11 +105,11 @@ TEST(FitCells, TakesCoarserCellsWhereABlockIsTooSmallAndSaysSo)
   const CellPyramid pyramid = saddle(200000, 1e-3);
   const auto memory = std::make_unique<FitCells>();
   int level = 0;
-  const kernel::FitBlock& block = memory->near(pyramid, level, Vec3(), 4e-3);
+  const simd::FitBlock& block = memory->near(pyramid, level, Vec3(), 4e-3);
   EXPECT_TRUE(memory->overflowed());
   EXPECT_GT(level, 0);
   EXPECT_GT(block.size, 0);
-  EXPECT_LE(block.size, kernel::FitBlock::kCapacity);
+  EXPECT_LE(block.size, simd::FitBlock::kCapacity);
   double count = 0.0;
   double expected = 0.0;
   for (int i = 0; i < block.size; ++i)

@@ -12,7 +12,7 @@
 #include <memory>
 
 using namespace pointhaptics;
-using namespace pointhaptics::kernel;
+using namespace pointhaptics::simd;
 
 namespace
 {

@@ -60,8 +60,8 @@ TEST_P(InstructionSetHeld, HasLoopsOfItsOwn)
     GTEST_SKIP() << "this machine, or this build, has no " << nameOf(set) << ": it has "
                  << nameOf(usableInstructionSet(set)) << " instead, and the tests leave it out";
   }
-  EXPECT_EQ(&kernel::kernelsFor(set) == &kernel::kernelsFor(InstructionSet::Baseline),
-    set == InstructionSet::Baseline);
+  EXPECT_EQ(
+    &simd::kernelsFor(set) == &simd::kernelsFor(InstructionSet::Baseline), set == InstructionSet::Baseline);
   const std::vector<InstructionSet> held = heldInstructionSets();
   EXPECT_EQ(std::count(held.begin(), held.end(), set), 1);
 }

@@ -2,7 +2,7 @@
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/Stages/CoarseVoxels.h"
 #include "Core/Resample/Stages/PartitionSums.h"
-#include "Core/Resample/Stages/PointPlacement.h"
+#include "Core/Resample/Stages/PointQuantizer.h"
 #include "Core/Resample/Stages/VoxelLevel.h"
 
 #include "RandomClouds.h"
@@ -19,7 +19,7 @@
 #include <vector>
 
 using namespace pointhaptics;
-using namespace pointhaptics::kernel;
+using namespace pointhaptics::simd;
 
 namespace
 {
@@ -41,7 +41,7 @@ std::uint32_t partitionOf(const PartitionPlan& plan, std::int64_t y, std::int64_
 
 } // namespace
 
-TEST(PartitionPlan, DealsOutEveryRowInAscendingOrder)
+TEST(PartitionPlan, CoversEveryRowInAscendingOrder)
 {
   trial::Random random(1);
   for (int i = 0; i < 2000; ++i)
@@ -149,7 +149,7 @@ Vec3 pointAt(const AffineTransform& transform, const Lattice& lattice, const Vec
 
 } // namespace
 
-TEST(PointPlacement, CutsPlacesDownToTheQuantum)
+TEST(PointQuantizer, TruncatesPositionsToTheQuantum)
 {
   trial::Random random(3);
   int compensated = 0;
@@ -164,10 +164,10 @@ TEST(PointPlacement, CutsPlacesDownToTheQuantum)
       transform.m[axis][3] = random.uniform(-1e6, 1e6);
     }
     const int bits = indexBitsOf(lattice);
-    const Placement placement = makePlacement(transform, lattice, bits, positionBitsFor(bits));
-    EXPECT_LE(std::ldexp(1.0, -placement.fractionBits), 0x1p-31);
-    compensated += placement.motion == Motion::Compensated;
-    const double quantum = std::ldexp(1.0, -placement.fractionBits);
+    const PointQuantizer quantizer = makeQuantizer(transform, lattice, bits, positionBitsFor(bits));
+    EXPECT_LE(std::ldexp(1.0, -quantizer.fractionBits), 0x1p-31);
+    compensated += quantizer.motion == Motion::Compensated;
+    const double quantum = std::ldexp(1.0, -quantizer.fractionBits);
     // What rounding may add; where it is worth a part of a quantum, cutting cannot take all of one.
     const bool uncorrected = bits > kMaximumIndexBits && bits <= kUncorrectedIndexBits;
     const double rounding = bits <= kMaximumIndexBits ? 0x1p-34 : uncorrected ? 0.25 * quantum : 0x1p-50;
@@ -177,7 +177,7 @@ TEST(PointPlacement, CutsPlacesDownToTheQuantum)
     {
       const Vec3 point = pointAt(transform, lattice, random.inBox({ 0, 0, 0 }, { 1, 1, 1 }));
       std::uint64_t position[3];
-      const bool isInside = placePoint(placement, point, position) == Place::Inside;
+      const bool isInside = quantizePoint(quantizer, point, position) == PointLocation::Inside;
       inside += isInside;
       for (int axis = 0; axis < 3 && isInside; ++axis)
       {
@@ -186,8 +186,8 @@ TEST(PointPlacement, CutsPlacesDownToTheQuantum)
           Exact(row[0]) * point.x + Exact(row[1]) * point.y + Exact(row[2]) * point.z + Exact(row[3]);
         const Exact u = (moved - Exact(lattice.origin[axis])) / Exact(lattice.spacing[axis]);
         const auto error = double(Exact(position[axis]) * Exact(quantum) - u);
-        ASSERT_LE(error, uncorrected ? 0.75 * quantum : rounding) << "motion " << int(placement.motion);
-        ASSERT_GE(error, -quantum - rounding) << "motion " << int(placement.motion);
+        ASSERT_LE(error, uncorrected ? 0.75 * quantum : rounding) << "motion " << int(quantizer.motion);
+        ASSERT_GE(error, -quantum - rounding) << "motion " << int(quantizer.motion);
       }
     }
     EXPECT_GT(inside, 10);
@@ -195,24 +195,24 @@ TEST(PointPlacement, CutsPlacesDownToTheQuantum)
   EXPECT_GT(compensated, 200);
 }
 
-TEST(PointPlacement, CompensatesOnlyWhereItIsOfUse)
+TEST(PointQuantizer, CompensatesOnlyWhereItIsOfUse)
 {
   Lattice lattice;
   lattice.dimensions = { 4096, 4096, 4096 };
   const auto motionUnder = [&](const AffineTransform& transform)
-  { return makePlacement(transform, lattice, indexBitsOf(lattice), kPositionBits).motion; };
+  { return makeQuantizer(transform, lattice, indexBitsOf(lattice), kPositionBits).motion; };
   const AffineTransform rotation = AffineTransform::rotation(33, { 1, 2, 3 });
   EXPECT_EQ(motionUnder(rotation), Motion::General);
   EXPECT_EQ(motionUnder(AffineTransform::scaling({ 1e5, 1e5, 1e5 }) * rotation), Motion::General);
   EXPECT_EQ(motionUnder(AffineTransform::scaling({ 1, 1e5, 1 })), Motion::Scale);
   EXPECT_EQ(motionUnder(rotation * AffineTransform::scaling({ 1, 1e5, 1 }) * rotation), Motion::Compensated);
   lattice.dimensions[1] = 5000;
-  EXPECT_EQ(makePlacement(AffineTransform::scaling({ 1, 2, 1 }), lattice, 13, positionBitsFor(13)).motion,
+  EXPECT_EQ(makeQuantizer(AffineTransform::scaling({ 1, 2, 1 }), lattice, 13, positionBitsFor(13)).motion,
     Motion::Compensated)
     << "no bit of a double is left over";
 }
 
-TEST(PointPlacement, DividesAsAPairOnlyWhereThatIsTheQuotient)
+TEST(PointQuantizer, DividesAsAPairOnlyWhereThatIsTheQuotient)
 {
   trial::Random random(5);
   int pairs = 0;
@@ -232,15 +232,15 @@ TEST(PointPlacement, DividesAsAPairOnlyWhereThatIsTheQuotient)
     lattice.dimensions = { 300, 300, 300 };
     const double spacing = std::ldexp(double(integer), -52);
     lattice.spacing = { spacing, spacing, spacing };
-    const Placement placement = makePlacement({}, lattice, 9, kPositionBits);
-    pairs += placement.pairDivides;
+    const PointQuantizer quantizer = makeQuantizer({}, lattice, 9, kPositionBits);
+    pairs += quantizer.pairDivides;
     for (const std::uint64_t middle : { inverse % kModulus, kModulus - inverse % kModulus })
     {
       const auto v =
         double(std::uint64_t(UInt128(integer) * middle >> 54) + (middle == inverse % kModulus ? 0 : 1));
-      const double asPair = std::fma(v, placement.reciprocal[0], v * placement.remainder[0]);
-      ASSERT_TRUE(asPair == v / placement.quantum[0] || !placement.pairDivides) << integer << ' ' << v;
-      wrong += asPair != v / placement.quantum[0];
+      const double asPair = std::fma(v, quantizer.reciprocal[0], v * quantizer.remainder[0]);
+      ASSERT_TRUE(asPair == v / quantizer.quantum[0] || !quantizer.pairDivides) << integer << ' ' << v;
+      wrong += asPair != v / quantizer.quantum[0];
     }
   }
   EXPECT_GT(pairs, 10000) << "worth having";
@@ -298,25 +298,25 @@ TEST(PartitionOrder, KnowsAllOffsetsWhenThreadsPublishAtOnce)
   }
 }
 
-TEST(PointPlacement, TellsOutsideFromInvalid)
+TEST(PointQuantizer, DistinguishesOutsideFromInvalid)
 {
   Lattice lattice;
   lattice.dimensions = { 4, 4, 4 };
   AffineTransform transform = AffineTransform::scaling({ 1, 1e10, 1 });
-  const Placement placement = makePlacement(transform, lattice, 2, kPositionBits);
-  const auto placeOf = [&](const Vec3& point)
+  const PointQuantizer quantizer = makeQuantizer(transform, lattice, 2, kPositionBits);
+  const auto locationOf = [&](const Vec3& point)
   {
     std::uint64_t position[3];
-    return placePoint(placement, point, position);
+    return quantizePoint(quantizer, point, position);
   };
-  EXPECT_EQ(placeOf({ 1, 1e-10, 1 }), Place::Inside);
-  EXPECT_EQ(placeOf({ 0, 0, 0 }), Place::Inside);
-  EXPECT_EQ(placeOf({ 4, 0, 0 }), Place::Outside);
-  EXPECT_EQ(placeOf({ -1e-300, 0, 0 }), Place::Outside);
-  EXPECT_EQ(placeOf({ 1, 1e307, 1 }), Place::Invalid) << "overflows in the transform";
-  EXPECT_EQ(placeOf({ -1, 1e307, 1 }), Place::Invalid);
-  EXPECT_EQ(placeOf({ NAN, 0, 0 }), Place::Invalid);
-  EXPECT_EQ(placeOf({ 0, 0, -INFINITY }), Place::Invalid);
+  EXPECT_EQ(locationOf({ 1, 1e-10, 1 }), PointLocation::Inside);
+  EXPECT_EQ(locationOf({ 0, 0, 0 }), PointLocation::Inside);
+  EXPECT_EQ(locationOf({ 4, 0, 0 }), PointLocation::Outside);
+  EXPECT_EQ(locationOf({ -1e-300, 0, 0 }), PointLocation::Outside);
+  EXPECT_EQ(locationOf({ 1, 1e307, 1 }), PointLocation::Invalid) << "overflows in the transform";
+  EXPECT_EQ(locationOf({ -1, 1e307, 1 }), PointLocation::Invalid);
+  EXPECT_EQ(locationOf({ NAN, 0, 0 }), PointLocation::Invalid);
+  EXPECT_EQ(locationOf({ 0, 0, -INFINITY }), PointLocation::Invalid);
 }
 
 TEST(CoarserLattice, CoversTheFineOneAndEndsWhereItDoes)

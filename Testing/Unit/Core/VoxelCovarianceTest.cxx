@@ -12,7 +12,7 @@
 #include <vector>
 
 using namespace pointhaptics;
-using namespace pointhaptics::kernel;
+using namespace pointhaptics::simd;
 using trial::Random;
 
 namespace
@@ -48,7 +48,7 @@ Cells randomCells(std::size_t points, double spread, int fractionBits, std::uint
   return cells;
 }
 
-Record recordOf(std::size_t cell, const Places& p, int fractionBits)
+PointRecord recordOf(std::size_t cell, const Places& p, int fractionBits)
 {
   const std::uint64_t x = (std::uint64_t(cell % kEdge) << fractionBits) + p.x;
   const std::uint64_t y = (std::uint64_t(cell / kEdge) << fractionBits) + p.y;
@@ -58,7 +58,7 @@ Record recordOf(std::size_t cell, const Places& p, int fractionBits)
 struct Sums
 {
   std::vector<PackedSums> packed;
-  std::vector<SplitSeconds> seconds;
+  std::vector<SplitSecondMoments> secondMoments;
 };
 
 Sums sumsOf(const Kernels& kernels, const Cells& cells, int fractionBits)
@@ -68,7 +68,7 @@ Sums sumsOf(const Kernels& kernels, const Cells& cells, int fractionBits)
   {
     size += points.size();
   }
-  Buffer<Record> records; // aligned, as kernels want them
+  Buffer<PointRecord> records; // aligned, as kernels want them
   records.reserve(size);
   size = 0;
   for (std::size_t c = 0; c < cells.size(); ++c)
@@ -79,19 +79,19 @@ Sums sumsOf(const Kernels& kernels, const Cells& cells, int fractionBits)
     }
   }
   const CellMap map = { fractionBits, kEdge, kEdge, 0, 0 };
-  std::vector<std::uint64_t> marks(kMarkGroup, 0);
-  std::vector<std::uint64_t> beforeBytes(kMarkGroup);
-  std::vector<std::uint32_t> before(kMarkGroup);
-  const CellRanks ranks = { marks.data(), before.data(), beforeBytes.data(), kMarkGroup };
+  std::vector<std::uint64_t> occupancy(kOccupancyGroup, 0);
+  std::vector<std::uint64_t> byteRankTable(kOccupancyGroup);
+  std::vector<std::uint32_t> rankTable(kOccupancyGroup);
+  const CellRanks ranks = { occupancy.data(), rankTable.data(), byteRankTable.data(), kOccupancyGroup };
   std::vector<std::uint32_t> cellsOf(size);
   kernels.cells(map, records.data(), int(size), records.data(), cellsOf.data());
-  kernels.markCells(cellsOf.data(), int(size), marks.data());
-  EXPECT_EQ(kernels.number(ranks), kCells);
+  kernels.setOccupied(cellsOf.data(), int(size), occupancy.data());
+  EXPECT_EQ(kernels.rankWords(ranks), kCells);
   Sums sums = { std::vector<PackedSums>(kCells + kWidest, PackedSums{}),
-    std::vector<SplitSeconds>(kCells, SplitSeconds{}) };
+    std::vector<SplitSecondMoments>(kCells, SplitSecondMoments{}) };
   std::vector<std::uint32_t> order(kCells);
   kernels.accumulate(map, ranks, records.data(), cellsOf.data(), int(size), records.data(),
-    { order.data(), sums.packed.data(), sums.seconds.data() });
+    { order.data(), sums.packed.data(), sums.secondMoments.data() });
   return sums;
 }
 
@@ -99,7 +99,7 @@ struct WideSums
 {
   std::int64_t count = 0;
   Int128 sums[3] = { 0, 0, 0 };
-  SecondSums seconds = { { 0, 0, 0, 0, 0, 0 } };
+  SecondMoments secondMoments = { { 0, 0, 0, 0, 0, 0 } };
 };
 
 WideSums wideSumsOf(const std::vector<Places>& points)
@@ -111,7 +111,7 @@ WideSums wideSumsOf(const std::vector<Places>& points)
     wide.sums[0] += Int128(p.x);
     wide.sums[1] += Int128(p.y);
     wide.sums[2] += Int128(p.z);
-    addProducts(wide.seconds, p.x, p.y, p.z);
+    addProducts(wide.secondMoments, p.x, p.y, p.z);
   }
   return wide;
 }
@@ -129,17 +129,17 @@ void expectSameAsWide(const Cells& cells, int fractionBits, bool allFit)
     SymMat3 got[kCells];
     int full[kCells];
     const int found =
-      kernels.covariances(map, sums.packed.data(), sums.seconds.data(), int(kCells), &got[0].xx, full);
+      kernels.covariances(map, sums.packed.data(), sums.secondMoments.data(), int(kCells), &got[0].xx, full);
     EXPECT_EQ(found, allFit ? 0 : int(kCells));
     for (std::size_t c = 0; c < kCells; ++c)
     {
       const WideSums wide = wideSumsOf(cells[c]);
-      const SecondSums seconds = whole(sums.seconds[c], fractionBits);
+      const SecondMoments secondMoments = whole(sums.secondMoments[c], fractionBits);
       for (int m = 0; m < 6; ++m)
       {
-        ASSERT_TRUE(seconds.lanes[m] == wide.seconds.lanes[m]) << "cell " << c << " sum " << m;
+        ASSERT_TRUE(secondMoments.lanes[m] == wide.secondMoments.lanes[m]) << "cell " << c << " sum " << m;
       }
-      const SymMat3 expected = covarianceOf(wide.count, wide.sums, wide.seconds, quantum, spacing);
+      const SymMat3 expected = covarianceOf(wide.count, wide.sums, wide.secondMoments, quantum, spacing);
       ASSERT_TRUE(!allFit || std::memcmp(&got[c], &expected, sizeof expected) == 0) << "cell " << c;
     }
   }
@@ -178,7 +178,7 @@ TEST(VoxelCovariance, IsRightWhereThePointsAreInOppositeCorners)
   }
 }
 
-TEST(VoxelCovariance, TellsVoxelsWithTooManyPoints)
+TEST(VoxelCovariance, ListsVoxelsWithTooManyPoints)
 {
   // 8 points of 41 bits, 2^7 of 39, are the most whose central sums surely fit.
   expectSameAsWide(randomCells(9, 1.0, 41, 5), 41, false);

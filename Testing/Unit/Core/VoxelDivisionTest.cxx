@@ -13,7 +13,7 @@
 #include <vector>
 
 using namespace pointhaptics;
-using namespace pointhaptics::kernel;
+using namespace pointhaptics::simd;
 using namespace pointhaptics::trial;
 
 namespace

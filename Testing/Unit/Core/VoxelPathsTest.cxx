@@ -85,7 +85,7 @@ TEST(VoxelPaths, MorePointsInFewVoxelsThanOneBatchHoldsAreWhatAFinerLatticeSumsU
     const RunResult result = runOf(resampler, request, ThreadedExecutor(2));
     expectSameVoxels(result.levels[0], expected, covariances ? "with covariances" : "without");
     std::vector<std::atomic<std::int64_t>> counts(result.levels[0].counts.size());
-    ASSERT_EQ(resampler.assign(
+    ASSERT_EQ(resampler.visitPointsByVoxel(
                 request,
                 [&](const PointRows&, const std::int64_t* voxels, int count)
                 {
@@ -191,7 +191,7 @@ TEST(VoxelPaths, AnIndexChangesNoBitOfFineLattices)
   expectSame(runOf(request, ThreadedExecutor(2)), expected, "with an index");
 }
 
-TEST(VoxelPaths, FineLatticesKeepAndTellTheirScratch)
+TEST(VoxelPaths, FineLatticesKeepAndReportTheirScratch)
 {
   const std::vector<Vec3> points = sphereAndDust(600000, 7);
   const VoxelRequest request = requestFor(points, unitCube(5000), false);

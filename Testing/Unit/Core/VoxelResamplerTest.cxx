@@ -72,7 +72,7 @@ TEST(VoxelResampler, SumsMillionsOfPointsInOneOfFewVoxelsExactly)
   }
 }
 
-TEST(VoxelResampler, IsExactForTheFewPointsThatSeveralChunksHaveBesideACrowd)
+TEST(VoxelResampler, IsExactForTheFewPointsThatSeveralChunksHaveBesideAnOverfullCell)
 {
   const Lattice lattice = latticeOf(300, 300, 300);
   const std::vector<Vec3> points = crowdedPoints(1300000, lattice, { 123, 45, 299 }, 1024);
@@ -258,7 +258,7 @@ TEST(VoxelResampler, OneObjectDoesWhatAFreshOneDoesWhateverItDidBefore)
   }
 }
 
-TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
+TEST(VoxelResampler, AnAbortLeavesNoVoxelsAndAUsableObject)
 {
   for (const Lattice& lattice : { latticeOf(60, 60, 60), latticeOf(1024, 1024, 1024), latticeOf(5000, 3, 2) })
   {
@@ -276,17 +276,17 @@ TEST(VoxelResampler, AnEndAskedForLeavesNoVoxelsAndAUsableObject)
     less.points = { points.data(), 50000 };
     expectSame(runOf(resampler, less), runOf(less), nameOf(lattice));
     CountingObserver again(1);
-    EXPECT_EQ(resampler.assign(
+    EXPECT_EQ(resampler.visitPointsByVoxel(
                 less, [](const PointRows&, const std::int64_t*, int) {}, {}, nullptr),
       Status::Ok);
     EXPECT_EQ(resampler.run(request), Status::Ok);
-    EXPECT_EQ(resampler.assign(
+    EXPECT_EQ(resampler.visitPointsByVoxel(
                 request, [](const PointRows&, const std::int64_t*, int) {}, {}, &again),
       Status::Aborted);
   }
 }
 
-TEST(VoxelResampler, AnEndAskedForWithinALevelIsHeard)
+TEST(VoxelResampler, AnAbortWithinALevelIsObeyed)
 {
   // More voxels than may pass between two reports, in partitions that are sorted, and that are not.
   for (const Lattice& lattice : { latticeOf(1000, 1000, 1000), latticeOf(300, 300, 300) })
@@ -349,7 +349,7 @@ TEST(VoxelResampler, ScratchDoesNotGrowWhileASheetMovesThroughTheLattice)
   }
 }
 
-TEST(VoxelResampler, TellsAndFreesItsScratch)
+TEST(VoxelResampler, ReportsAndFreesItsScratch)
 {
   const std::vector<Vec3> points = randomBox(50000, 13, { 0, 0, 0 }, { 300, 300, 300 });
   const VoxelRequest request = requestFor(points, latticeOf(300, 300, 300));
@@ -424,7 +424,8 @@ TEST(VoxelResampler, CloudsWithoutAPointInsideAreNoError)
     VoxelResampler resampler;
     EXPECT_EQ(resampler.run(none, {}, &observer), Status::Ok);
     EXPECT_EQ(resampler.size(0) + resampler.size(1), 0);
-    EXPECT_EQ(resampler.assign(none, [](const PointRows&, const std::int64_t*, int) { FAIL(); }), Status::Ok);
+    EXPECT_EQ(resampler.visitPointsByVoxel(none, [](const PointRows&, const std::int64_t*, int) { FAIL(); }),
+      Status::Ok);
   }
 }
 

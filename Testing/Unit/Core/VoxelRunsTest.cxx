@@ -8,7 +8,7 @@
 #include <map>
 
 using namespace pointhaptics;
-using namespace pointhaptics::kernel;
+using namespace pointhaptics::simd;
 using namespace pointhaptics::trial;
 
 namespace
@@ -24,7 +24,7 @@ VoxelRun randomRun(std::uint64_t seed, std::size_t voxels, std::uint64_t largest
     key += 1 + random.below(largestGap);
     const auto sum = [&] { return std::uint64_t(random.below(std::size_t(1) << 63)) * 2; };
     run.voxels.push_back({ key, std::int64_t(1 + random.below(1000)), { sum(), sum(), sum() }, 0 });
-    run.seconds.push_back(SecondSums{ { sum(), sum(), sum(), sum(), sum(), sum() } });
+    run.secondMoments.push_back(SecondMoments{ { sum(), sum(), sum(), sum(), sum(), sum() } });
   }
   return run;
 }
@@ -53,7 +53,7 @@ TEST(VoxelRuns, SumsPast64BitsAreExact)
   runs.join(0);
   ASSERT_EQ(runs.size(0), expected.size());
   const VoxelRun& run = runs.run(0);
-  ASSERT_EQ(run.seconds.size(), expected.size());
+  ASSERT_EQ(run.secondMoments.size(), expected.size());
   std::size_t v = 0;
   for (const auto& [key, sums] : expected)
   {
@@ -79,7 +79,7 @@ TEST(VoxelRuns, HoldLittleMoreThanEachVoxelOnceHoweverOftenTheyCome)
   {
     // The first comes with all voxels, the others with some of them.
     VoxelRun run = randomRun(1, voxels, 3);
-    run.seconds.clear();
+    run.secondMoments.clear();
     run.voxels.resize(r == 0 ? voxels : 100 + 90 * r);
     runs.add(0, run);
     ASSERT_LE(runs.bytes(), voxels * 66 + 1000);

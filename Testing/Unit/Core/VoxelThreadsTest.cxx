@@ -79,7 +79,7 @@ std::vector<float> meansOf(const std::vector<float>& values, VoxelResampler& res
   { mean.add(rows.tuples(0), rows.bytes, voxels, count); };
   VoxelRequest withValues = request;
   withValues.tuples = { { values.data(), 3 * sizeof(float) } };
-  EXPECT_EQ(resampler.assign(withValues, add, executor), Status::Ok);
+  EXPECT_EQ(resampler.visitPointsByVoxel(withValues, add, executor), Status::Ok);
   std::vector<float> means(3 * std::size_t(resampler.size()));
   mean.write(resampler.counts(), means.data(), executor);
   return means;

@@ -9,7 +9,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 /// What there is among numbers.
@@ -64,5 +64,5 @@ const AttributeKernels& baselineAttributeKernels();
 const AttributeKernels* avx2AttributeKernels();
 const AttributeKernels* avx512AttributeKernels();
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -3,7 +3,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 const AttributeKernels& baselineAttributeKernels()
@@ -24,5 +24,5 @@ const AttributeKernels& attributeKernels(InstructionSet wanted) noexcept
   }
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -8,7 +8,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -166,5 +166,5 @@ constexpr AttributeKernels kKernels = { &magnitudes<std::uint32_t, float>, &magn
   &unitVectors<float>, &unitVectors<double> };
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -6,7 +6,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -162,5 +162,5 @@ void bounds(const double matrix[3][4], const Real* xyz, std::int64_t count, doub
 }
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -1,5 +1,6 @@
 /// @file
-/// Part of VoxelKernelBody.h: marks the cells of a partition, numbers them and sums the records of each.
+/// Part of VoxelKernelBody.h: finds the occupied cells of a partition, ranks them and sums the records of
+/// each.
 #pragma once
 
 #include "Core/Resample/Kernel/Fetch.h"
@@ -8,7 +9,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -18,7 +19,7 @@ constexpr std::uint32_t kByteOrder = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? 7 
 
 /// @tparam inLayer: the partition is in one layer, see CellMap::firstInLayer.
 template <bool inLayer>
-inline std::uint32_t cellOf(const CellMap& map, const Record& r)
+inline std::uint32_t cellOf(const CellMap& map, const PointRecord& r)
 {
   const auto x = std::uint32_t(r.first >> (kLowBits + map.fractionBits));
   const auto y = std::uint32_t(r.second >> (kLowBits + map.fractionBits));
@@ -31,7 +32,7 @@ inline std::uint32_t cellOf(const CellMap& map, const Record& r)
   return x + map.columns * ((row < map.firstRow ? row + map.upperRows : row) - map.firstRow);
 }
 
-inline void fetchRecords(const Record* records, int count)
+inline void fetchRecords(const PointRecord* records, int count)
 {
   for (int i = 0; i < count; i += kLineRecords)
   {
@@ -40,7 +41,8 @@ inline void fetchRecords(const Record* records, int count)
 }
 
 template <class V>
-void cellsOf(const CellMap& map, const Record* records, int count, const Record* next, std::uint32_t* cells)
+void cellsOf(
+  const CellMap& map, const PointRecord* records, int count, const PointRecord* next, std::uint32_t* cells)
 {
   constexpr int kStep = 64;
   for (int first = 0; first < count; first += kStep)
@@ -53,9 +55,9 @@ void cellsOf(const CellMap& map, const Record* records, int count, const Record*
   }
 }
 
-inline void markCells(const std::uint32_t* cells, int count, std::uint64_t* marks)
+inline void setOccupied(const std::uint32_t* cells, int count, std::uint64_t* occupancy)
 {
-  fromFourPlaces(count, [=](int i) { marks[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64); });
+  fromFourParts(count, [=](int i) { occupancy[cells[i] / 64] |= std::uint64_t(1) << (cells[i] % 64); });
 }
 
 /// Where no instruction counts the ones of a word: those of each byte and of the bytes below it.
@@ -90,32 +92,32 @@ struct OnesBelow
   }
 };
 
-/// Where there are @p sum marks before a word: @return how many there are after it.
+/// Writes the rank table of a word with @p sum occupied cells before it. @return how many there are after it.
 template <class V>
-inline std::uint32_t numberWord(const CellRanks& ranks, std::size_t word, std::uint32_t sum)
+inline std::uint32_t rankWord(const CellRanks& ranks, std::size_t word, std::uint32_t sum)
 {
-  ranks.before[word] = sum;
+  ranks.rankTable[word] = sum;
   if constexpr (V::countsOnes)
   {
-    return sum + V::ones(ranks.marks[word]);
+    return sum + V::ones(ranks.occupancy[word]);
   }
   else
   {
-    const std::uint64_t upToBytes = onesUpToBytes(ranks.marks[word]);
-    ranks.beforeBytes[word] = upToBytes << 8;
+    const std::uint64_t upToBytes = onesUpToBytes(ranks.occupancy[word]);
+    ranks.byteRankTable[word] = upToBytes << 8;
     return sum + std::uint32_t(upToBytes >> 56);
   }
 }
 
 template <class V>
-std::uint32_t numberTouched(const CellRanks& ranks, const std::uint64_t* touched)
+std::uint32_t rankTouchedWords(const CellRanks& ranks, const std::uint64_t* touched)
 {
   std::uint32_t sum = 0;
   for (std::size_t first = 0; first < ranks.words; first += 64)
   {
     for (std::uint64_t left = touched[first / 64]; left != 0; left &= left - 1)
     {
-      sum = numberWord<V>(ranks, first + std::size_t(__builtin_ctzll(left)), sum);
+      sum = rankWord<V>(ranks, first + std::size_t(__builtin_ctzll(left)), sum);
     }
   }
   return sum;
@@ -127,15 +129,15 @@ inline std::uint32_t rankOf(const CellRanks& ranks, std::uint32_t cell)
   if constexpr (V::countsOnes)
   {
     const std::uint64_t below = (std::uint64_t(1) << (cell % 64)) - 1;
-    return ranks.before[cell / 64] + V::ones(ranks.marks[cell / 64] & below);
+    return ranks.rankTable[cell / 64] + V::ones(ranks.occupancy[cell / 64] & below);
   }
   else
   {
     static constexpr OnesBelow kOnesBelow;
-    const std::uint32_t place = (cell / 8) ^ kByteOrder;
-    const unsigned byte = reinterpret_cast<const unsigned char*>(ranks.marks)[place];
-    const unsigned beforeByte = reinterpret_cast<const unsigned char*>(ranks.beforeBytes)[place];
-    return ranks.before[cell / 64] + beforeByte + kOnesBelow.counts[cell % 8][byte];
+    const std::uint32_t byteIndex = (cell / 8) ^ kByteOrder;
+    const unsigned byte = reinterpret_cast<const unsigned char*>(ranks.occupancy)[byteIndex];
+    const unsigned beforeByte = reinterpret_cast<const unsigned char*>(ranks.byteRankTable)[byteIndex];
+    return ranks.rankTable[cell / 64] + beforeByte + kOnesBelow.counts[cell % 8][byte];
   }
 }
 
@@ -150,17 +152,17 @@ void rank(const CellRanks& given, std::uint32_t* cells, int count)
 }
 
 template <class V>
-void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* records,
-  const std::uint32_t* cells, int count, const Record* next, const CellSums& given)
+void accumulate(const CellMap& map, const CellRanks& givenRanks, const PointRecord* records,
+  const std::uint32_t* cells, int count, const PointRecord* next, const CellSums& given)
 {
   // Copies, which no store can change.
   const CellRanks ranks = givenRanks;
   const CellSums to = given;
   const typename V::Adder adder(map.fractionBits);
-  // From several places: neighbours in a scan are in one voxel, and each would wait for the one before.
-  constexpr int kPlaces = 8;
+  // From several parts: neighbours in a scan are in one voxel, and each would wait for the one before.
+  constexpr int kParts = 8;
   constexpr int kPart = 16;
-  for (int first = 0; first < count; first += kPlaces * kPart)
+  for (int first = 0; first < count; first += kParts * kPart)
   {
     const auto add = [=](int i)
     {
@@ -170,7 +172,7 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
       adder.add(to.sums[rank], records[first + i]);
     };
     const int left = count - first;
-    if (left < kPlaces * kPart)
+    if (left < kParts * kPart)
     {
       fetchRecords(next + first, left);
       inFours(left, add);
@@ -178,18 +180,18 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const Record* r
     }
     for (int i = 0; i < kPart; ++i)
     {
-      fetchRecords(next + first + kPlaces * i, kPlaces);
-      visitPlaces<kPart, 0, kPlaces>(i, add);
+      fetchRecords(next + first + kParts * i, kParts);
+      visitStrided<kPart, 0, kParts>(i, add);
     }
   }
-  if (to.seconds)
+  if (to.secondMoments)
   {
     const typename V::ProductAdder productAdder(map.fractionBits);
-    fromFourPlaces(
-      count, [=](int i) { productAdder.add(to.seconds[rankOf<V>(ranks, cells[i])], records[i]); });
+    fromFourParts(
+      count, [=](int i) { productAdder.add(to.secondMoments[rankOf<V>(ranks, cells[i])], records[i]); });
   }
 }
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

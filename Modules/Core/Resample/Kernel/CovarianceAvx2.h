@@ -11,17 +11,17 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
 
-/// Adds the products of one record's places to the twelve words of the sums. There is a product of 32 bits
-/// only: places are cut in half, and the products of the halves put together.
+/// Adds the products of one record's offsets to the twelve words of the sums. There is a product of 32 bits
+/// only: offsets are cut in half, and the products of the halves put together.
 struct TwoVectorAdder
 {
   RecordParts recordParts;
-  __m256i lowerMask;  ///< Of a place's lower half.
+  __m256i lowerMask;  ///< Of an offset's lower half.
   __m256i middleMask; ///< Of what of the middle products lies below the sums' border.
   __m128i half;       ///< Bits of the lower half: as many as the upper one has, or one more.
   __m128i upperHalf;
@@ -38,14 +38,14 @@ struct TwoVectorAdder
     upperHalf = _mm_cvtsi32_si128(upper);
     odd = _mm_cvtsi32_si128(lower - upper);
   }
-  void add(SplitSeconds& sums, const Record& r) const
+  void add(SplitSecondMoments& sums, const PointRecord& r) const
   {
     // x, y and the two parts of z.
     const __m256i parts = _mm256_sllv_epi64(recordParts.of(r), _mm256_setr_epi64x(0, 0, 0, kLowBits));
     // x, y, z and z again.
-    const __m256i places = _mm256_or_si256(parts, _mm256_permute4x64_epi64(parts, 0xB4));
-    const __m256i upper = _mm256_srl_epi64(places, half);
-    const __m256i lower = _mm256_and_si256(places, lowerMask);
+    const __m256i fractions = _mm256_or_si256(parts, _mm256_permute4x64_epi64(parts, 0xB4));
+    const __m256i upper = _mm256_srl_epi64(fractions, half);
+    const __m256i lower = _mm256_and_si256(fractions, lowerMask);
     // x, y, z and x with x, y, z and y.
     __m256i high, low;
     const __m256i upperXy = _mm256_permute2x128_si256(upper, upper, 0x00);
@@ -64,7 +64,7 @@ struct TwoVectorAdder
   }
 
 private:
-  /// The products of two places each, split at the bits of a place.
+  /// The products of two offsets each, split at the bits of an offset.
   void multiply(
     __m256i upperA, __m256i lowerA, __m256i upperB, __m256i lowerB, __m256i& high, __m256i& low) const
   {
@@ -154,7 +154,7 @@ struct CovarianceAvx2
 };
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics
 
 #endif

@@ -10,16 +10,16 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
 
-/// Adds the products of one record's places to the twelve words of the sums, eight of them and four.
+/// Adds the products of one record's offsets to the twelve words of the sums, eight of them and four.
 struct TwelveLaneAdder
 {
   __m512i masks;
-  __m128i toTop; ///< Shifts a place so far that its product with another is split between bits 51 and 52.
+  __m128i toTop; ///< Shifts an offset so far that its product with another is split between bits 51 and 52.
 
   explicit TwelveLaneAdder(int fractionBits)
     : toTop(_mm_cvtsi32_si128(52 - fractionBits))
@@ -28,9 +28,9 @@ struct TwelveLaneAdder
     const auto low = std::int64_t(kLowMask);
     masks = _mm512_setr_epi64(fraction, fraction, low, fraction & ~low, 0, 0, 0, 0);
   }
-  void add(SplitSeconds& sums, const Record& r) const
+  void add(SplitSecondMoments& sums, const PointRecord& r) const
   {
-    static_assert(sizeof(SplitSeconds) == 96, "high and low follow each other");
+    static_assert(sizeof(SplitSecondMoments) == 96, "high and low follow each other");
     const __m512i words = _mm512_broadcast_i64x2(_mm_load_si128(reinterpret_cast<const __m128i*>(&r)));
     // x, y and the two parts of z.
     const __m512i parts = _mm512_and_si512(
@@ -122,7 +122,7 @@ struct CovarianceAvx512
 };
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics
 
 #endif

@@ -7,7 +7,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -16,11 +16,11 @@ namespace
 constexpr int kFirstAxis[6] = { 0, 1, 2, 0, 1, 0 };
 constexpr int kSecondAxis[6] = { 0, 1, 2, 1, 2, 2 };
 
-/// Adds the products of one record's places.
+/// Adds the products of one record's offsets.
 struct ScalarProductAdder
 {
   std::uint64_t fractionMask;
-  int toTop; ///< Brings a place to the top of a word, and its product with another, split, to the middle of
+  int toTop; ///< Brings an offset to the top of a word, and its product with another, split, to the middle of
              ///< two.
 
   explicit ScalarProductAdder(int fractionBits)
@@ -28,13 +28,13 @@ struct ScalarProductAdder
     , toTop(64 - fractionBits)
   {
   }
-  void add(SplitSeconds& sums, const Record& r) const
+  void add(SplitSecondMoments& sums, const PointRecord& r) const
   {
-    const std::uint64_t places[3] = { xPlace(r, fractionMask), yPlace(r, fractionMask),
-      zPlace(r, fractionMask) };
+    const std::uint64_t fractions[3] = { xFraction(r, fractionMask), yFraction(r, fractionMask),
+      zFraction(r, fractionMask) };
     for (int m = 0; m < 6; ++m)
     {
-      const UInt128 product = UInt128(places[kFirstAxis[m]] << toTop) * places[kSecondAxis[m]];
+      const UInt128 product = UInt128(fractions[kFirstAxis[m]] << toTop) * fractions[kSecondAxis[m]];
       sums.high[m] += std::uint64_t(product >> 64);
       sums.low[m] += std::uint64_t(product) >> toTop;
     }
@@ -52,10 +52,10 @@ inline std::int64_t mostCovariancePoints(int fractionBits)
 /// What covarianceOf() returns, in 64-bit arithmetic. About an integer m near the mean, with
 /// sum = n m + rest, the central sum of a product is
 ///   S_ab - m_a sum_b - m_b rest_a.
-/// Modulo 2^64 integers give it exactly; doubles are nearer to it than 2^63 and tell which multiple of 2^64
+/// Modulo 2^64 integers give it exactly; doubles are nearer to it than 2^63 and show which multiple of 2^64
 /// that leaves out. Both together make 53 bits and the last 32, whose sum is rounded once.
-inline void covariance(
-  const CovarianceMap& map, const PackedSums& packed, const SplitSeconds& seconds, double* covariance)
+inline void covariance(const CovarianceMap& map, const PackedSums& packed,
+  const SplitSecondMoments& secondMoments, double* covariance)
 {
   // Adding and subtracting it rounds to an integer.
   constexpr double kRounder = 0x1.8p52;
@@ -75,10 +75,10 @@ inline void covariance(
   {
     const int a = kFirstAxis[i];
     const int b = kSecondAxis[i];
-    const std::uint64_t sum = (seconds.high[i] << map.fractionBits) + seconds.low[i];
+    const std::uint64_t sum = (secondMoments.high[i] << map.fractionBits) + secondMoments.low[i];
     const std::uint64_t bits = sum - m[a] * std::uint64_t(sums[b]) - m[b] * std::uint64_t(rest[a]);
     const double near =
-      double(std::int64_t(seconds.high[i])) * highUnit - double(std::int64_t(m[a])) * double(sums[b]);
+      double(std::int64_t(secondMoments.high[i])) * highUnit - double(std::int64_t(m[a])) * double(sums[b]);
     const double turns = (near - double(std::int64_t(bits))) * 0x1p-64 + kRounder - kRounder;
     const double high = turns * 0x1p32 + double(std::int32_t(bits >> 32));
     const double central = high * 0x1p32 + double(std::uint32_t(bits));
@@ -104,8 +104,8 @@ inline int listFull(const CovarianceMap& map, const PackedSums* sums, int count,
 
 /// Operation by operation those of covariance(), for V::width voxels.
 template <class V>
-inline void covariancesTogether(
-  const CovarianceMap& map, const PackedSums* packed, const SplitSeconds* seconds, double* covariances)
+inline void covariancesTogether(const CovarianceMap& map, const PackedSums* packed,
+  const SplitSecondMoments* secondMoments, double* covariances)
 {
   using Bits = typename V::Bits;
   using Doubles = typename V::Doubles;
@@ -113,7 +113,7 @@ inline void covariancesTogether(
   V::loadPacked(packed, lanes);
   for (std::size_t word = 0; word < 12; word += 4)
   {
-    V::loadWords(seconds, sizeof(std::uint64_t) * word, split + word);
+    V::loadWords(secondMoments, sizeof(std::uint64_t) * word, split + word);
   }
   const Bits count = V::template rightBy<kCountShift>(lanes[3]);
   const Bits z = V::addBits(lanes[2], V::template left<kLowBits>(V::onlyPosition(lanes[3])));
@@ -160,21 +160,21 @@ inline void covariancesTogether(
 
 /// V::width at a time.
 template <class V>
-inline int covariancesInVectors(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
-  int count, double* covariances, int* full)
+inline int covariancesInVectors(const CovarianceMap& map, const PackedSums* sums,
+  const SplitSecondMoments* secondMoments, int count, double* covariances, int* full)
 {
   const int whole = count / V::width * V::width;
   for (int i = 0; i < whole; i += V::width)
   {
-    covariancesTogether<V>(map, sums + i, seconds + i, covariances + 6 * i);
+    covariancesTogether<V>(map, sums + i, secondMoments + i, covariances + 6 * i);
   }
   for (int i = whole; i < count; ++i)
   {
-    covariance(map, sums[i], seconds[i], covariances + 6 * i);
+    covariance(map, sums[i], secondMoments[i], covariances + 6 * i);
   }
   return listFull(map, sums, count, full);
 }
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

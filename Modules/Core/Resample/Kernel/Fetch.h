@@ -6,7 +6,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 /// Fetches the line of memory at an address that is to be read soon, into the second-level cache. Fetched
@@ -38,5 +38,5 @@ __attribute__((always_inline)) static inline void fetchToWrite(const void* addre
   }
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -10,12 +10,12 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
 
-/// The places of a record's point: x, y, low bits of z, high bits of z.
+/// The offsets of a record's point in its voxel: x, y, low bits of z, high bits of z.
 struct RecordParts
 {
   __m256i masks;
@@ -25,7 +25,7 @@ struct RecordParts
     const auto fraction = std::int64_t((std::uint64_t(1) << fractionBits) - 1);
     masks = _mm256_setr_epi64x(fraction, fraction, std::int64_t(kLowMask), fraction >> kLowBits);
   }
-  __m256i of(const Record& r) const
+  __m256i of(const PointRecord& r) const
   {
     const __m256i words = _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(&r)));
     return _mm256_and_si256(_mm256_srlv_epi64(words, _mm256_setr_epi64x(kLowBits, kLowBits, 0, 0)), masks);
@@ -40,7 +40,7 @@ struct FourLaneAdder
     : parts(fractionBits)
   {
   }
-  void add(PackedSums& sums, const Record& r) const
+  void add(PackedSums& sums, const PointRecord& r) const
   {
     const __m256i lanes =
       _mm256_or_si256(parts.of(r), _mm256_setr_epi64x(0, 0, 0, std::int64_t(1) << kCountShift));
@@ -50,7 +50,7 @@ struct FourLaneAdder
 };
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics
 
 #endif

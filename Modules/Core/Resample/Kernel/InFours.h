@@ -5,7 +5,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -28,10 +28,10 @@ __attribute__((always_inline)) inline void inFours(int count, Visit&& visit)
   }
 }
 
-/// The same from four places in turn. Neighbours in a scan are in one voxel and one partition, and what is
-/// done to that waits for what was done before: others hide the wait.
+/// The same, taking turns in four parts of the range. Neighbours in a scan are in one voxel and one
+/// partition, so that an update would wait for the one before: updates elsewhere hide this latency.
 template <typename Visit>
-__attribute__((always_inline)) inline void fromFourPlaces(int count, Visit&& visit)
+__attribute__((always_inline)) inline void fromFourParts(int count, Visit&& visit)
 {
   const int part = count / 4;
   for (int i = 0; i < part; ++i)
@@ -47,18 +47,18 @@ __attribute__((always_inline)) inline void fromFourPlaces(int count, Visit&& vis
   }
 }
 
-/// Calls visit(i + place * Part) for all places from @p Place on, below @p Places. The compiler knows how far
-/// apart they are: none takes a register.
-template <int Part, int Place, int Places, typename Visit>
-__attribute__((always_inline)) inline void visitPlaces(int i, const Visit& visit)
+/// Calls visit(i + index * Part) for all indices from @p Index on, below @p Count. The stride is known to the
+/// compiler: the indices take no registers.
+template <int Part, int Index, int Count, typename Visit>
+__attribute__((always_inline)) inline void visitStrided(int i, const Visit& visit)
 {
-  visit(i + Place * Part);
-  if constexpr (Place + 1 < Places)
+  visit(i + Index * Part);
+  if constexpr (Index + 1 < Count)
   {
-    visitPlaces<Part, Place + 1, Places>(i, visit);
+    visitStrided<Part, Index + 1, Count>(i, visit);
   }
 }
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -7,7 +7,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -106,10 +106,10 @@ struct MeanVectors
     typename V::Mask clear = V::allTrue();
     for (int axis = 0; axis < 3; ++axis)
     {
-      const Doubles place = divideByCount<V>(sums[axis], count, reciprocal);
-      const Doubles u = V::multiplyAdd(place, quantum, indices[axis]);
+      const Doubles fraction = divideByCount<V>(sums[axis], count, reciprocal);
+      const Doubles u = V::multiplyAdd(fraction, quantum, indices[axis]);
       xyz[axis] = V::add(origin[axis], V::multiply(u, spacing[axis]));
-      clear = V::below(clear, V::subtract(place, margin[axis]), clearance[axis]);
+      clear = V::below(clear, V::subtract(fraction, margin[axis]), clearance[axis]);
     }
     return V::toUnsigned(clear);
   }
@@ -190,5 +190,5 @@ int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t*
 }
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

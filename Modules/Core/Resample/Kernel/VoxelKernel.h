@@ -11,7 +11,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 __extension__ typedef __int128 Int128;
@@ -21,11 +21,12 @@ __extension__ typedef unsigned __int128 UInt128;
 /// longest axis of the lattice. The quantum is thus the same on a lattice and on one twice as coarse, and the
 /// sums of the fine one are those of the coarse one.
 constexpr int kPositionBits = 43;
-/// Largest power of two of voxels on an axis these records hold with 31 bits left for the place in the voxel.
+/// Largest power of two of voxels on an axis these records hold with 31 bits left for the offset in the
+/// voxel.
 constexpr int kMaximumIndexBits = kPositionBits - 31;
 /// And the smallest: one bit of an index is not in the record.
 constexpr int kMinimumIndexBits = 2;
-/// Points taken at once: fewer than a packed sum holds together with kPackedCounts carried ones.
+/// Points of a chunk: a packed sum holds them together with kPackedCounts accumulated ones.
 constexpr std::int64_t kChunkPoints = 1250000;
 
 /// What one thread writes and another reads or writes lies so far apart: two lines of the caches, which the
@@ -36,22 +37,23 @@ constexpr std::size_t kApart = 128;
 constexpr double kToBits = 0x1p52;
 
 constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kPositionBits) - 1;
-/// Low bits of z that travel in the first word of a record, below x; as many more are in the second. The top
-/// bit of z is left out: the partition tells it, as none spans half the layers.
+/// Low bits of z in the first word of a record, below x; as many more are in the second. The top bit of z is
+/// left out: it follows from the partition, as no partition spans half the layers.
 constexpr int kLowBits = 64 - kPositionBits;
 constexpr std::uint64_t kLowMask = (std::uint64_t(1) << kLowBits) - 1;
 
-/// One point: low bits of z | x, high bits of z | y.
-struct alignas(16) Record
+/// A point record: the quantized position of one point, as low bits of z | x, high bits of z | y. Where
+/// attributes are wanted, the point's tuples or its index lie in a row beside it (PointRecordPool::rows()).
+struct alignas(16) PointRecord
 {
   std::uint64_t first;
   std::uint64_t second;
 };
 
 /// Records are written into blocks of a power of two of records, at most so many, aligned to their size.
-constexpr std::size_t kBlockRecords = 4096 / sizeof(Record);
+constexpr std::size_t kBlockRecords = 4096 / sizeof(PointRecord);
 /// Records of a line of the caches.
-constexpr int kLineRecords = 64 / sizeof(Record);
+constexpr int kLineRecords = 64 / sizeof(PointRecord);
 
 /// What of the matrix and the offset there is to work with.
 enum class Motion
@@ -60,12 +62,12 @@ enum class Motion
   Shift,    ///< The matrix is one.
   Scale,    ///< The matrix is diagonal.
   General,
-  Compensated, ///< General, and rounding would cost places: the pivot is 0, v a dot product in two words.
+  Compensated, ///< General, and rounding would cost digits: the pivot is 0, v a dot product in two words.
 };
 
-/// How coordinates become positions in the lattice and rows of it.
+/// The constants that quantize points: from coordinates to positions in the lattice, and to partitions.
 /// v = M (p - pivot) + offset in units of the workspace, from the lattice's origin; u = v / quantum.
-struct Placement
+struct PointQuantizer
 {
   double pivot[3];
   double matrix[3][3];
@@ -79,14 +81,14 @@ struct Placement
   double limit[3]; ///< u below this is inside.
   Motion motion;
   int fractionBits;      ///< Bits of a position below the voxel.
-  bool correctsRounding; ///< placePoint() does: see kUncorrectedIndexBits.
+  bool correctsRounding; ///< quantizePoint() does: see kUncorrectedIndexBits.
   // Which partition: (z >> layerShift) * blocksPerLayer + (y >> rowShift).
   std::uint32_t blocksPerLayer;
   int rowShift;
   int layerShift;
 };
 
-struct RecordWriter;
+struct PointRecordWriter;
 
 /// Which cell of a partition a record is in: x + columns (row - firstRow).
 struct CellMap
@@ -124,24 +126,25 @@ static inline std::int64_t packedZ(const PackedSums& sums)
   return std::int64_t(sums.lanes[2] + ((sums.lanes[3] & kHighMask) << kLowBits));
 }
 
-/// Sums of products of the places in the voxel, in the order of SymMat3: xx yy zz xy yz xz.
-/// Modulo 2^128: what covarianceOf() takes from them is small.
-struct SecondSums
+/// Second moments of a voxel's points: sums of products of their offsets in the voxel, in the order of
+/// SymMat3: xx yy zz xy yz xz. They are kept modulo 2^128, as the central moments that covarianceOf()
+/// computes from them are small.
+struct SecondMoments
 {
   UInt128 lanes[6];
 };
 
-/// The same from two sums each, which do not overflow where the sums of the places do not: of the products
-/// shifted right by the bits of a place, and of the bits that this leaves out.
-struct SplitSeconds
+/// The same, each as two sums that do not overflow where the sums of the offsets do not: one of the products
+/// shifted right by the bits of an offset, one of the bits shifted out.
+struct SplitSecondMoments
 {
   std::uint64_t high[6];
   std::uint64_t low[6];
 };
 
-static inline SecondSums whole(const SplitSeconds& split, int fractionBits)
+static inline SecondMoments whole(const SplitSecondMoments& split, int fractionBits)
 {
-  SecondSums sums;
+  SecondMoments sums;
   for (int m = 0; m < 6; ++m)
   {
     sums.lanes[m] = (UInt128(split.high[m]) << fractionBits) + split.low[m];
@@ -149,26 +152,26 @@ static inline SecondSums whole(const SplitSeconds& split, int fractionBits)
   return sums;
 }
 
-/// Which cells of a partition have points, and how many of these come before a cell. A bit for each cell and
-/// a number for 64 of them stay in the first-level cache.
+/// Which cells of a partition have points, and the rank of a cell among them: an occupancy bit for each cell
+/// and an entry of the rank table for each word of 64 bits. Both stay in the first-level cache.
 struct CellRanks
 {
-  std::uint64_t* marks;
-  std::uint32_t* before; ///< Marks in the words before.
-  /// Of each byte of a word, marks in the word's bytes before: for sets without an instruction that counts
-  /// ones.
-  std::uint64_t* beforeBytes;
-  std::size_t words; ///< A multiple of kMarkGroup.
+  std::uint64_t* occupancy;
+  std::uint32_t* rankTable; ///< Occupied cells in the words before.
+  /// For each byte of a word, the occupied cells in the word's bytes before it: for instruction sets that
+  /// cannot count bits.
+  std::uint64_t* byteRankTable;
+  std::size_t words; ///< A multiple of kOccupancyGroup.
 };
-/// Words of marks counted together.
-constexpr std::size_t kMarkGroup = 16;
+/// Occupancy words that are counted together.
+constexpr std::size_t kOccupancyGroup = 16;
 
-/// The sums of a partition's marked cells, in ascending order.
+/// The sums of a partition's occupied cells, in ascending order.
 struct CellSums
 {
   std::uint32_t* cells;
   PackedSums* sums;
-  SplitSeconds* seconds; ///< Or null.
+  SplitSecondMoments* secondMoments; ///< Or null.
 };
 
 /// Whether the matrix of a transform scales and mirrors only.
@@ -178,22 +181,22 @@ static inline bool isDiagonal(const double m[3][4])
     m[2][1] == 0.0;
 }
 
-/// Places of a record's point in its voxel. These are static: sources of several instruction sets include
-/// them, and the linker must not choose one set's for all.
-static inline std::uint64_t xPlace(const Record& r, std::uint64_t fractionMask)
+/// Offsets of a record's point in its voxel, as fractions of it. These are static: sources of several
+/// instruction sets include them, and the linker must not choose one set's for all.
+static inline std::uint64_t xFraction(const PointRecord& r, std::uint64_t fractionMask)
 {
   return (r.first >> kLowBits) & fractionMask;
 }
-static inline std::uint64_t yPlace(const Record& r, std::uint64_t fractionMask)
+static inline std::uint64_t yFraction(const PointRecord& r, std::uint64_t fractionMask)
 {
   return (r.second >> kLowBits) & fractionMask;
 }
-static inline std::uint64_t zPlace(const Record& r, std::uint64_t fractionMask)
+static inline std::uint64_t zFraction(const PointRecord& r, std::uint64_t fractionMask)
 {
   return ((r.first & kLowMask) | ((r.second & kLowMask) << kLowBits)) & fractionMask;
 }
 
-static inline void addProducts(SecondSums& sums, std::uint64_t x, std::uint64_t y, std::uint64_t z)
+static inline void addProducts(SecondMoments& sums, std::uint64_t x, std::uint64_t y, std::uint64_t z)
 {
   sums.lanes[0] += UInt128(x) * x;
   sums.lanes[1] += UInt128(y) * y;
@@ -206,7 +209,7 @@ static inline void addProducts(SecondSums& sums, std::uint64_t x, std::uint64_t 
 /// Voxels on their way from the sums to the result, at most this many at once.
 constexpr int kBatch = 256;
 
-/// Sums over the points of each voxel of their places in it, in quanta.
+/// Sums over the points of each voxel of their offsets in it, in quanta.
 template <typename Sum>
 struct MomentBatch
 {
@@ -214,7 +217,7 @@ struct MomentBatch
   alignas(64) std::int32_t indices[3][kBatch] = {};
   alignas(64) std::int64_t counts[kBatch] = {};
   alignas(64) Sum sums[3][kBatch] = {};
-  SecondSums* seconds = nullptr; ///< kBatch of them, or null.
+  SecondMoments* secondMoments = nullptr; ///< kBatch of them, or null.
 };
 
 /// How sums become coordinates. The mean of a voxel is origin + (index + sum / (count 2^fractionBits))
@@ -228,7 +231,7 @@ struct MeanMap
   double faceMargin[3];
 };
 
-/// How sums of products of places become covariances.
+/// How second moments become covariances.
 struct CovarianceMap
 {
   int fractionBits;
@@ -241,26 +244,27 @@ constexpr int kWidest = 8;
 /// The inner loops for one instruction set.
 struct Kernels
 {
-  /// Places the points of @p count ranges of an array (x y z interleaved) and appends those inside to their
-  /// partitions.
-  void (*partitionFloats)(
-    const Placement&, const float* xyz, const PointRange* ranges, std::int64_t count, RecordWriter&);
-  void (*partitionDoubles)(
-    const Placement&, const double* xyz, const PointRange* ranges, std::int64_t count, RecordWriter&);
-  /// The cell of each record. Fetches a block of records that will be asked for @p next: those follow each
-  /// other in memory too seldom for the machine to guess.
-  void (*cells)(const CellMap&, const Record* records, int count, const Record* next, std::uint32_t* cells);
-  /// Marks cells.
-  void (*markCells)(const std::uint32_t* cells, int count, std::uint64_t* marks);
-  /// Counts the marks before each word that has any. @return that of all.
-  std::uint32_t (*number)(const CellRanks& ranks);
+  /// Quantizes the points of @p count ranges of an array (x y z interleaved) and appends those inside to
+  /// their partitions.
+  void (*partitionFloats)(const PointQuantizer&, const float* xyz, const PointRange* ranges,
+    std::int64_t count, PointRecordWriter&);
+  void (*partitionDoubles)(const PointQuantizer&, const double* xyz, const PointRange* ranges,
+    std::int64_t count, PointRecordWriter&);
+  /// The cell of each record. Prefetches the block of records that comes @p next: blocks are not contiguous
+  /// often enough for the hardware's prefetcher.
+  void (*cells)(
+    const CellMap&, const PointRecord* records, int count, const PointRecord* next, std::uint32_t* cells);
+  /// Sets the occupancy bits of cells.
+  void (*setOccupied)(const std::uint32_t* cells, int count, std::uint64_t* occupancy);
+  /// Builds the rank table. @return the number of occupied cells.
+  std::uint32_t (*rankWords)(const CellRanks& ranks);
   /// The same, looking only at the words whose bits are set in @p touched.
-  std::uint32_t (*numberTouched)(const CellRanks& ranks, const std::uint64_t* touched);
-  /// How many marked cells come before each of some: replaces them.
+  std::uint32_t (*rankTouchedWords)(const CellRanks& ranks, const std::uint64_t* touched);
+  /// Replaces each cell by its rank among the occupied cells.
   void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);
   /// Adds records to the sums of their @p cells; fetches @p next like cells().
-  void (*accumulate)(const CellMap&, const CellRanks& ranks, const Record* records,
-    const std::uint32_t* cells, int count, const Record* next, const CellSums& sums);
+  void (*accumulate)(const CellMap&, const CellRanks& ranks, const PointRecord* records,
+    const std::uint32_t* cells, int count, const PointRecord* next, const CellSums& sums);
   /// Coordinates, x y z interleaved, and counts of cells with their sums. Positions among them of means so
   /// near a face that they need another look go to @p nearFace. @return the number of these. Reads, but does
   /// not use, kWidest elements past the end.
@@ -268,11 +272,11 @@ struct Kernels
     int count, float* xyz, std::int64_t* counts, int* nearFace);
   int (*packedMeansDouble)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
     int count, double* xyz, std::int64_t* counts, int* nearFace);
-  /// Covariances of cells, six numbers each in the order of SecondSums. Positions among them of those with
+  /// Covariances of cells, six numbers each in the order of SecondMoments. Positions among them of those with
   /// too many points for this go to @p full, at most @p count: theirs are not valid. @return the number of
   /// these.
-  int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSeconds* seconds, int count,
-    double* covariances, int* full);
+  int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSecondMoments* secondMoments,
+    int count, double* covariances, int* full);
   /// The same as packedMeans of a batch.
   int (*meansFloat)(const MeanMap&, const MomentBatch<std::int64_t>&, float* xyz, int* nearFace);
   int (*meansDouble)(const MeanMap&, const MomentBatch<std::int64_t>&, double* xyz, int* nearFace);
@@ -290,5 +294,5 @@ const Kernels& baselineKernels();
 const Kernels* avx2Kernels();
 const Kernels* avx512Kernels();
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

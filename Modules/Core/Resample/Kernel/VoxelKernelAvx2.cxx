@@ -8,7 +8,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -24,9 +24,9 @@ struct Avx2 : CovarianceAvx2
   static constexpr bool hasFusedMultiply = true;
   static constexpr bool countsOnes = true;
   static constexpr int groupsTogether = 8;
-  static constexpr int placedAtOnce = 256;
-  static constexpr int dealtInTurn = 16;
-  static constexpr bool dealsMeanwhile = false;
+  static constexpr int quantizedAtOnce = 256;
+  static constexpr int binnedPerTurn = 16;
+  static constexpr bool binsMeanwhile = false;
 
   static Doubles all(double value) { return _mm256_set1_pd(value); }
   static Bits allBits(std::uint64_t value) { return _mm256_set1_epi64x(std::int64_t(value)); }
@@ -137,7 +137,7 @@ struct Avx2 : CovarianceAvx2
     return _mm256_blendv_pd(b, a, _mm256_castsi256_pd(mask));
   }
   static void store(std::uint64_t* to, Bits a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), a); }
-  static void storeRecords(Record* to, Bits first, Bits second)
+  static void storeRecords(PointRecord* to, Bits first, Bits second)
   {
     const __m256i even = _mm256_unpacklo_epi64(first, second);
     const __m256i odd = _mm256_unpackhi_epi64(first, second);
@@ -146,7 +146,7 @@ struct Avx2 : CovarianceAvx2
   }
 
   template <bool inLayer>
-  static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
+  static void cells(const CellMap& map, const PointRecord* records, int count, std::uint32_t* cells)
   {
     const __m128i toIndex = shift(kLowBits + map.fractionBits);
     int i = 0;
@@ -203,14 +203,14 @@ struct Avx2 : CovarianceAvx2
     }
   }
 
-  static std::uint32_t number(const CellRanks& ranks)
+  static std::uint32_t rankWords(const CellRanks& ranks)
   {
     std::uint32_t sum = 0;
-    for (std::size_t group = 0; group < ranks.words; group += kMarkGroup)
+    for (std::size_t group = 0; group < ranks.words; group += kOccupancyGroup)
     {
-      for (std::size_t w = group; w < group + kMarkGroup; ++w) // unrolled
+      for (std::size_t w = group; w < group + kOccupancyGroup; ++w) // unrolled
       {
-        sum = numberWord<Avx2>(ranks, w, sum);
+        sum = rankWord<Avx2>(ranks, w, sum);
       }
     }
     return sum;
@@ -253,10 +253,10 @@ struct Avx2 : CovarianceAvx2
     }
   }
 
-  static int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
-    int count, double* covariances, int* full)
+  static int covariances(const CovarianceMap& map, const PackedSums* sums,
+    const SplitSecondMoments* secondMoments, int count, double* covariances, int* full)
   {
-    return covariancesInVectors<Avx2>(map, sums, seconds, count, covariances, full);
+    return covariancesInVectors<Avx2>(map, sums, secondMoments, count, covariances, full);
   }
 
   using Adder = FourLaneAdder;
@@ -271,12 +271,12 @@ const Kernels* avx2Kernels()
   return &kernels;
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics
 
 #else
 
-const pointhaptics::kernel::Kernels* pointhaptics::kernel::avx2Kernels()
+const pointhaptics::simd::Kernels* pointhaptics::simd::avx2Kernels()
 {
   return nullptr;
 }

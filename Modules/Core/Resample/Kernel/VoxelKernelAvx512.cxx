@@ -9,7 +9,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -25,9 +25,9 @@ struct Avx512 : CovarianceAvx512
   static constexpr bool hasFusedMultiply = true;
   static constexpr bool countsOnes = true;
   static constexpr int groupsTogether = 1;
-  static constexpr int placedAtOnce = 128;
-  static constexpr int dealtInTurn = 8;
-  static constexpr bool dealsMeanwhile = true;
+  static constexpr int quantizedAtOnce = 128;
+  static constexpr int binnedPerTurn = 8;
+  static constexpr bool binsMeanwhile = true;
 
   static Doubles all(double value) { return _mm512_set1_pd(value); }
   static Bits allBits(std::uint64_t value) { return _mm512_set1_epi64(std::int64_t(value)); }
@@ -120,7 +120,7 @@ struct Avx512 : CovarianceAvx512
   static Doubles most(Doubles a, Doubles b) { return _mm512_max_pd(b, a); }
   static Doubles choose(Mask mask, Doubles a, Doubles b) { return _mm512_mask_blend_pd(mask, b, a); }
   static void store(std::uint64_t* to, Bits a) { _mm512_storeu_si512(to, a); }
-  static void storeRecords(Record* to, Bits first, Bits second)
+  static void storeRecords(PointRecord* to, Bits first, Bits second)
   {
     _mm512_storeu_si512(
       to, _mm512_permutex2var_epi64(first, _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11), second));
@@ -129,7 +129,7 @@ struct Avx512 : CovarianceAvx512
   }
 
   template <bool inLayer>
-  static void cells(const CellMap& map, const Record* records, int count, std::uint32_t* cells)
+  static void cells(const CellMap& map, const PointRecord* records, int count, std::uint32_t* cells)
   {
     const __m512i lowMask = allBits(kLowMask);
     const __m512i columns = allBits(map.columns);
@@ -166,24 +166,24 @@ struct Avx512 : CovarianceAvx512
     }
   }
 
-  static std::uint32_t number(const CellRanks& ranks)
+  static std::uint32_t rankWords(const CellRanks& ranks)
   {
-    static_assert(kMarkGroup == 16, "two vectors of words, one of sums");
+    static_assert(kOccupancyGroup == 16, "two vectors of words, one of sums");
     const __m512i zero = _mm512_setzero_si512();
     const __m512i last = _mm512_set1_epi32(15);
     const __m512i lowHalves = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
     __m512i sum = zero;
-    for (std::size_t w = 0; w < ranks.words; w += kMarkGroup)
+    for (std::size_t w = 0; w < ranks.words; w += kOccupancyGroup)
     {
       const __m512i counts =
-        _mm512_permutex2var_epi32(_mm512_popcnt_epi64(_mm512_loadu_si512(ranks.marks + w)), lowHalves,
-          _mm512_popcnt_epi64(_mm512_loadu_si512(ranks.marks + w + 8)));
+        _mm512_permutex2var_epi32(_mm512_popcnt_epi64(_mm512_loadu_si512(ranks.occupancy + w)), lowHalves,
+          _mm512_popcnt_epi64(_mm512_loadu_si512(ranks.occupancy + w + 8)));
       // Sums over one, two, four, eight and sixteen words.
       __m512i sums = _mm512_add_epi32(counts, _mm512_alignr_epi32(counts, zero, 15));
       sums = _mm512_add_epi32(sums, _mm512_alignr_epi32(sums, zero, 14));
       sums = _mm512_add_epi32(sums, _mm512_alignr_epi32(sums, zero, 12));
       sums = _mm512_add_epi32(sums, _mm512_alignr_epi32(sums, zero, 8));
-      _mm512_storeu_si512(ranks.before + w, _mm512_add_epi32(sum, _mm512_sub_epi32(sums, counts)));
+      _mm512_storeu_si512(ranks.rankTable + w, _mm512_add_epi32(sum, _mm512_sub_epi32(sums, counts)));
       sum = _mm512_add_epi32(sum, _mm512_permutexvar_epi32(last, sums));
     }
     return std::uint32_t(_mm_cvtsi128_si32(_mm512_castsi512_si128(sum)));
@@ -239,10 +239,10 @@ struct Avx512 : CovarianceAvx512
       take(_mm512_setr_epi64(13, 0, 6, 14, 0, 7, 15, 0), _mm512_setr_epi64(0, 13, 2, 3, 14, 5, 6, 15)));
   }
 
-  static int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
-    int count, double* covariances, int* full)
+  static int covariances(const CovarianceMap& map, const PackedSums* sums,
+    const SplitSecondMoments* secondMoments, int count, double* covariances, int* full)
   {
-    return covariancesInVectors<Avx512>(map, sums, seconds, count, covariances, full);
+    return covariancesInVectors<Avx512>(map, sums, secondMoments, count, covariances, full);
   }
 
   using Adder = FourLaneAdder;
@@ -257,12 +257,12 @@ const Kernels* avx512Kernels()
   return &kernels;
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics
 
 #else
 
-const pointhaptics::kernel::Kernels* pointhaptics::kernel::avx512Kernels()
+const pointhaptics::simd::Kernels* pointhaptics::simd::avx512Kernels()
 {
   return nullptr;
 }

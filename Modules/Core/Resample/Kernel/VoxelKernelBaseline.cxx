@@ -9,7 +9,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -29,9 +29,9 @@ struct Pairs
   static constexpr bool hasFusedMultiply = false;
   static constexpr bool countsOnes = false;
   static constexpr int groupsTogether = 1;
-  static constexpr int placedAtOnce = 256;
-  static constexpr int dealtInTurn = 16;
-  static constexpr bool dealsMeanwhile = false;
+  static constexpr int quantizedAtOnce = 256;
+  static constexpr int binnedPerTurn = 16;
+  static constexpr bool binsMeanwhile = false;
 
   static Doubles all(double value) { return Doubles{ value, value }; }
   static Bits allBits(std::uint64_t value) { return Bits{ value, value }; }
@@ -178,7 +178,7 @@ struct Pairs
     to[0] = a[0];
     to[1] = a[1];
   }
-  static void storeRecords(Record* to, Bits first, Bits second)
+  static void storeRecords(PointRecord* to, Bits first, Bits second)
   {
     to[0] = { first[0], second[0] };
     to[1] = { first[1], second[1] };
@@ -195,22 +195,22 @@ struct Pairs
       lanes[lane] = Bits{ from[0].lanes[lane], from[1].lanes[lane] };
     }
   }
-  static std::uint32_t number(const CellRanks& ranks)
+  static std::uint32_t rankWords(const CellRanks& ranks)
   {
     constexpr std::size_t kGroup = 8;
-    static_assert(kMarkGroup % kGroup == 0, "there are no words past the last group");
+    static_assert(kOccupancyGroup % kGroup == 0, "there are no words past the last group");
     std::uint32_t sum = 0;
     for (std::size_t group = 0; group < ranks.words; group += kGroup)
     {
       std::uint64_t upToBytes[kGroup]; // In a loop of its own, which the compiler makes one of vectors.
       for (std::size_t w = 0; w < kGroup; ++w)
       {
-        upToBytes[w] = onesUpToBytes(ranks.marks[group + w]);
+        upToBytes[w] = onesUpToBytes(ranks.occupancy[group + w]);
       }
       for (std::size_t w = 0; w < kGroup; ++w)
       {
-        ranks.before[group + w] = sum;
-        ranks.beforeBytes[group + w] = upToBytes[w] << 8;
+        ranks.rankTable[group + w] = sum;
+        ranks.byteRankTable[group + w] = upToBytes[w] << 8;
         sum += std::uint32_t(upToBytes[w] >> 56);
       }
     }
@@ -218,7 +218,7 @@ struct Pairs
   }
 
   template <bool inLayer>
-  static void cells(const CellMap& given, const Record* records, int count, std::uint32_t* cells)
+  static void cells(const CellMap& given, const PointRecord* records, int count, std::uint32_t* cells)
   {
     const CellMap map = given; // A copy, which no store can change.
     for (int i = 0; i < count; ++i)
@@ -227,12 +227,12 @@ struct Pairs
     }
   }
 
-  static int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSeconds* seconds,
-    int count, double* covariances, int* full)
+  static int covariances(const CovarianceMap& map, const PackedSums* sums,
+    const SplitSecondMoments* secondMoments, int count, double* covariances, int* full)
   {
     for (int i = 0; i < count; ++i)
     {
-      covariance(map, sums[i], seconds[i], covariances + 6 * i);
+      covariance(map, sums[i], secondMoments[i], covariances + 6 * i);
     }
     return listFull(map, sums, count, full);
   }
@@ -242,20 +242,20 @@ struct Pairs
   struct Adder
   {
     typedef std::uint64_t Pair __attribute__((vector_size(16), may_alias));
-    Pair places;
+    Pair fractions;
     Pair partsOfZ;
 
     explicit Adder(int fractionBits)
     {
       const std::uint64_t fraction = (std::uint64_t(1) << fractionBits) - 1;
-      places = Pair{ fraction, fraction };
+      fractions = Pair{ fraction, fraction };
       partsOfZ = Pair{ kLowMask, fraction >> kLowBits };
     }
-    void add(PackedSums& sums, const Record& r) const
+    void add(PackedSums& sums, const PointRecord& r) const
     {
       const Pair words = reinterpret_cast<const Pair&>(r);
       auto* lanes = reinterpret_cast<Pair*>(sums.lanes);
-      lanes[0] += (words >> kLowBits) & places;
+      lanes[0] += (words >> kLowBits) & fractions;
       lanes[1] += (words & partsOfZ) + Pair{ 0, std::uint64_t(1) << kCountShift };
     }
   };
@@ -282,5 +282,5 @@ const Kernels& kernelsFor(InstructionSet wanted)
   }
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -8,12 +8,12 @@
 #include "Core/Resample/Kernel/CellSumBody.h"
 #include "Core/Resample/Kernel/CovarianceBody.h"
 #include "Core/Resample/Kernel/MeanBody.h"
-#include "Core/Resample/Kernel/PlacementBody.h"
+#include "Core/Resample/Kernel/QuantizeBody.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -21,11 +21,11 @@ namespace
 template <class V>
 Kernels makeKernels()
 {
-  return { &partition<V, float>, &partition<V, double>, &cellsOf<V>, &markCells, &V::number,
-    &numberTouched<V>, &rank<V>, &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>,
+  return { &partition<V, float>, &partition<V, double>, &cellsOf<V>, &setOccupied, &V::rankWords,
+    &rankTouchedWords<V>, &rank<V>, &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>,
     &V::covariances, &means<V, float>, &means<V, double>, &bounds<V, float>, &bounds<V, double> };
 }
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -7,7 +7,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -15,7 +15,7 @@ namespace
 constexpr std::uint64_t kNoKey = ~std::uint64_t(0);
 /// Sums of so many coarse voxels side by side stay in the second-level cache.
 constexpr std::size_t kMostSummedColumns = 2048;
-constexpr SecondSums kNoSeconds = { { 0, 0, 0, 0, 0, 0 } };
+constexpr SecondMoments kNoSecondMoments = { { 0, 0, 0, 0, 0, 0 } };
 
 }
 
@@ -31,36 +31,37 @@ Lattice finerLattice(const Lattice& lattice, int halvings)
   return fine;
 }
 
-void CoarseRow::prepare(std::int64_t fineColumns, int fractionBits, bool withSeconds)
+void CoarseRow::prepare(std::int64_t fineColumns, int fractionBits, bool withSecondMoments)
 {
   const auto columns = std::size_t(fineColumns + 1) / 2;
   fractionBits_ = fractionBits;
-  withSeconds_ = withSeconds;
+  withSecondMoments_ = withSecondMoments;
   isListed_ = columns > kMostSummedColumns;
   if (!isListed_)
   {
-    marks_.resize(std::max(marks_.size(), (columns + 63) / 64));
+    occupancy_.resize(std::max(occupancy_.size(), (columns + 63) / 64));
     sums_.resize(std::max(sums_.size(), columns));
-    seconds_.resize(withSeconds ? std::max(seconds_.size(), columns) : seconds_.size());
+    secondMoments_.resize(
+      withSecondMoments ? std::max(secondMoments_.size(), columns) : secondMoments_.size());
   }
 }
 
-/// Places move by half a coarse voxel where the index is odd. No branch here depends on the voxel:
-/// nobody could foretell it.
+/// Offsets grow by half a coarse voxel where the index is odd. No branch here depends on the voxel: it would
+/// be unpredictable.
 template <typename Sum>
-inline void CoarseRow::add(
-  std::uint64_t x, Parity parity, std::int64_t count, const Sum (&sums)[3], const SecondSums* seconds)
+inline void CoarseRow::add(std::uint64_t x, Parity parity, std::int64_t count, const Sum (&sums)[3],
+  const SecondMoments* secondMoments)
 {
   auto column = std::size_t(x / 2);
   if (isListed_)
   {
     sums_.push_back({ column, 0, { 0, 0, 0 } });
-    seconds_.resize(withSeconds_ ? sums_.size() : 0, kNoSeconds);
+    secondMoments_.resize(withSecondMoments_ ? sums_.size() : 0, kNoSecondMoments);
     column = sums_.size() - 1;
   }
   else
   {
-    marks_[column / 64] |= std::uint64_t(1) << (column % 64);
+    occupancy_[column / 64] |= std::uint64_t(1) << (column % 64);
   }
   // All bits, or none. What moves is of the size of the sums.
   const Sum odd[3] = { -Sum(x % 2), -Sum(parity.y), -Sum(parity.z) };
@@ -71,7 +72,7 @@ inline void CoarseRow::add(
   {
     to.sums[axis] += sums[axis] + (odd[axis] & moved);
   }
-  if (!withSeconds_)
+  if (!withSecondMoments_)
   {
     return;
   }
@@ -84,19 +85,20 @@ inline void CoarseRow::add(
   {
     const int a = kRows[m];
     const int b = kColumns[m];
-    seconds_[column].lanes[m] += (seconds ? seconds->lanes[m] : 0) + (UInt128(odd[a]) & movedSums[b]) +
-      (UInt128(odd[b]) & movedSums[a]) + (UInt128(odd[a] & odd[b]) & twice);
+    secondMoments_[column].lanes[m] += (secondMoments ? secondMoments->lanes[m] : 0) +
+      (UInt128(odd[a]) & movedSums[b]) + (UInt128(odd[b]) & movedSums[a]) +
+      (UInt128(odd[a] & odd[b]) & twice);
   }
 }
 
 void CoarseRow::append(
-  const VoxelSums& sums, const SecondSums* seconds, std::uint64_t firstKey, VoxelRun& run) const
+  const VoxelSums& sums, const SecondMoments* secondMoments, std::uint64_t firstKey, VoxelRun& run) const
 {
   run.voxels.push_back(WideSums::of(sums));
   run.voxels.back().key += firstKey;
-  if (withSeconds_)
+  if (withSecondMoments_)
   {
-    run.seconds.push_back(*seconds);
+    run.secondMoments.push_back(*secondMoments);
   }
 }
 
@@ -107,19 +109,19 @@ void CoarseRow::flush(std::uint64_t firstKey, VoxelRun& run)
     flushListed(firstKey, run);
     return;
   }
-  for (std::size_t word = 0; word < marks_.size(); ++word)
+  for (std::size_t word = 0; word < occupancy_.size(); ++word)
   {
-    for (std::uint64_t left = marks_[word]; left != 0; left &= left - 1)
+    for (std::uint64_t left = occupancy_[word]; left != 0; left &= left - 1)
     {
       const std::size_t column = 64 * word + std::size_t(__builtin_ctzll(left));
-      append(sums_[column], seconds_.data() + column, firstKey + column, run);
+      append(sums_[column], secondMoments_.data() + column, firstKey + column, run);
       sums_[column] = VoxelSums{ 0, 0, { 0, 0, 0 } };
-      if (withSeconds_)
+      if (withSecondMoments_)
       {
-        seconds_[column] = kNoSeconds;
+        secondMoments_[column] = kNoSecondMoments;
       }
     }
-    marks_[word] = 0;
+    occupancy_[word] = 0;
   }
 }
 
@@ -132,7 +134,7 @@ void CoarseRow::flushListed(std::uint64_t firstKey, VoxelRun& run)
   for (std::size_t i = 0; i < order_.size();)
   {
     VoxelSums sum = sums_[order_[i]];
-    SecondSums second = withSeconds_ ? seconds_[order_[i]] : kNoSeconds;
+    SecondMoments second = withSecondMoments_ ? secondMoments_[order_[i]] : kNoSecondMoments;
     for (++i; i < order_.size() && sums_[order_[i]].key == sum.key; ++i)
     {
       sum.count += sums_[order_[i]].count;
@@ -140,15 +142,15 @@ void CoarseRow::flushListed(std::uint64_t firstKey, VoxelRun& run)
       {
         sum.sums[axis] += sums_[order_[i]].sums[axis];
       }
-      for (int m = 0; withSeconds_ && m < 6; ++m)
+      for (int m = 0; withSecondMoments_ && m < 6; ++m)
       {
-        second.lanes[m] += seconds_[order_[i]].lanes[m];
+        second.lanes[m] += secondMoments_[order_[i]].lanes[m];
       }
     }
     append(sum, &second, firstKey, run);
   }
   sums_.clear();
-  seconds_.clear();
+  secondMoments_.clear();
 }
 
 /// A walk through fine voxels in ascending order of their keys.
@@ -169,9 +171,9 @@ public:
 struct CoarseVoxels::PackedSpan
 {
   std::uint64_t firstKey;
-  const CarriedPartition* partition;
+  const AccumulatedPartition* partition;
   int fractionBits;
-  bool withSeconds;
+  bool withSecondMoments;
 
   std::size_t size() const { return partition->cellCount; }
   std::uint64_t key(std::size_t i) const { return firstKey + partition->cells[i]; }
@@ -180,20 +182,20 @@ struct CoarseVoxels::PackedSpan
     const PackedSums& packed = partition->packed[i];
     const std::int64_t sums[3] = { std::int64_t(packed.lanes[0]), std::int64_t(packed.lanes[1]),
       packedZ(packed) };
-    if (!withSeconds)
+    if (!withSecondMoments)
     {
       row.add(x, parity, packedCount(packed), sums, nullptr);
       return;
     }
-    const SecondSums seconds = whole(partition->splitSeconds[i], fractionBits);
-    row.add(x, parity, packedCount(packed), sums, &seconds);
+    const SecondMoments secondMoments = whole(partition->splitSecondMoments[i], fractionBits);
+    row.add(x, parity, packedCount(packed), sums, &secondMoments);
   }
 };
 
 /// What a partition's cells could not hold.
-struct CoarseVoxels::CarriedSpan
+struct CoarseVoxels::AccumulatedSpan
 {
-  const CarriedPartition* partition;
+  const AccumulatedPartition* partition;
 
   std::size_t size() const { return partition->voxels.size(); }
   std::uint64_t key(std::size_t i) const { return partition->voxels[i].key; }
@@ -212,7 +214,8 @@ struct CoarseVoxels::WideSpan
   void add(std::size_t i, std::uint64_t x, CoarseRow::Parity parity, CoarseRow& row) const
   {
     const VoxelSums voxel = run->voxels[i].whole();
-    row.add(x, parity, voxel.count, voxel.sums, run->seconds.empty() ? nullptr : &run->seconds[i]);
+    row.add(
+      x, parity, voxel.count, voxel.sums, run->secondMoments.empty() ? nullptr : &run->secondMoments[i]);
   }
 };
 
@@ -283,31 +286,32 @@ private:
   std::uint64_t end_ = kNoKey;
 };
 
-CoarseVoxels::CoarseVoxels(const Lattice& fine, int fractionBits, bool withSeconds)
+CoarseVoxels::CoarseVoxels(const Lattice& fine, int fractionBits, bool withSecondMoments)
   : fine_(fine)
   , coarse_(coarserLattice(fine))
   , fractionBits_(fractionBits)
-  , withSeconds_(withSeconds)
+  , withSecondMoments_(withSecondMoments)
   , rowKeys_(std::uint64_t(fine.dimensions[0]))
   , layerKeys_(rowKeys_ * std::uint64_t(fine.dimensions[1]))
 {
 }
 
 VoxelRun CoarseVoxels::ofPartitions(const PartitionPlan& plan,
-  const std::vector<CarriedPartition>& partitions, std::uint32_t first, std::uint32_t last,
+  const std::vector<AccumulatedPartition>& partitions, std::uint32_t first, std::uint32_t last,
   Scratch& scratch) const
 {
   std::vector<PackedSpan> packed;
-  std::vector<CarriedSpan> carried;
+  std::vector<AccumulatedSpan> accumulated;
   for (std::uint32_t p = first; p < last; ++p)
   {
-    packed.push_back({ plan.firstKey(p), &partitions[p], fractionBits_, withSeconds_ });
-    carried.push_back({ &partitions[p] });
+    packed.push_back({ plan.firstKey(p), &partitions[p], fractionBits_, withSecondMoments_ });
+    accumulated.push_back({ &partitions[p] });
   }
   Chain<PackedSpan> packedVoxels[2] = { Chain<PackedSpan>(packed), Chain<PackedSpan>(packed) };
-  Chain<CarriedSpan> carriedVoxels[2] = { Chain<CarriedSpan>(carried), Chain<CarriedSpan>(carried) };
-  const Sources sources = { { &packedVoxels[0], &carriedVoxels[0] },
-    { &packedVoxels[1], &carriedVoxels[1] } };
+  Chain<AccumulatedSpan> accumulatedVoxels[2] = { Chain<AccumulatedSpan>(accumulated),
+    Chain<AccumulatedSpan>(accumulated) };
+  const Sources sources = { { &packedVoxels[0], &accumulatedVoxels[0] },
+    { &packedVoxels[1], &accumulatedVoxels[1] } };
   return sumLayers(sources, coarseLayerOf(plan.firstKey(first)), kNoKey, scratch);
 }
 
@@ -320,16 +324,16 @@ bool CoarseVoxels::ofRuns(
     return true;
   }
   std::vector<WideSpan> spans;
-  std::vector<std::size_t> places = { 0 };
+  std::vector<std::size_t> offsets = { 0 };
   for (std::size_t range = 0; range < fine.ranges(); ++range)
   {
     if (fine.size(range) > 0)
     {
       spans.push_back({ &fine.run(range) });
-      places.push_back(places.back() + fine.size(range));
+      offsets.push_back(offsets.back() + fine.size(range));
     }
   }
-  const std::size_t size = places.back();
+  const std::size_t size = offsets.back();
   // Rounds of pieces for the threads, with a report after each round.
   const std::size_t rounds = size / std::size_t(kPointsPerReport) + 1;
   const auto piecesOfRound = std::size_t(16 * executor.concurrency());
@@ -338,8 +342,9 @@ bool CoarseVoxels::ofRuns(
   for (std::size_t piece = 0; piece < pieces && size > 0; ++piece)
   {
     const std::size_t voxel = size * piece / pieces;
-    const auto span = std::size_t(std::upper_bound(places.begin(), places.end(), voxel) - places.begin()) - 1;
-    firstLayers[piece] = coarseLayerOf(spans[span].key(voxel - places[span]));
+    const auto span =
+      std::size_t(std::upper_bound(offsets.begin(), offsets.end(), voxel) - offsets.begin()) - 1;
+    firstLayers[piece] = coarseLayerOf(spans[span].key(voxel - offsets[span]));
   }
   PointProgress progress(observer, std::int64_t(size), 1);
   coarse.reset(pieces, fractionBits_ + 1);
@@ -365,9 +370,9 @@ bool CoarseVoxels::ofRuns(
 VoxelRun CoarseVoxels::sumLayers(
   const Sources& sources, std::uint64_t firstLayer, std::uint64_t lastLayer, Scratch& scratch) const
 {
-  scratch.row.prepare(fine_.dimensions[0], fractionBits_, withSeconds_);
+  scratch.row.prepare(fine_.dimensions[0], fractionBits_, withSecondMoments_);
   scratch.run.voxels.clear();
-  scratch.run.seconds.clear();
+  scratch.run.secondMoments.clear();
   for (std::uint64_t layer = firstLayer; layer < lastLayer; ++layer)
   {
     std::uint64_t next = kNoKey;
@@ -464,5 +469,5 @@ bool findParents(const std::uint64_t* fineKeys, std::int64_t fineVoxels, const L
     });
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

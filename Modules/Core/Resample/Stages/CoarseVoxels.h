@@ -1,5 +1,5 @@
 /// @file
-/// Voxels of coarser lattices: exact sums of those of the finer one, no point is looked at again.
+/// Voxels of coarser lattices: exact sums of the finer voxels, without another pass over the points.
 #pragma once
 
 #include "Core/Base/Executor.h"
@@ -15,7 +15,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 /// The lattice 2^@p halvings times as fine, from the same corner.
@@ -32,32 +32,34 @@ public:
     bool z;
   };
 
-  /// @p fractionBits: of places in the fine voxels.
-  void prepare(std::int64_t fineColumns, int fractionBits, bool withSeconds);
-  /// Adds the sums of a fine voxel, or a part of them; seconds may be null. @tparam Sum: holds twice as much.
+  /// @p fractionBits: of offsets in the fine voxels.
+  void prepare(std::int64_t fineColumns, int fractionBits, bool withSecondMoments);
+  /// Adds the sums of a fine voxel, or a part of them; secondMoments may be null. @tparam Sum: holds twice as
+  /// much.
   template <typename Sum>
-  void add(
-    std::uint64_t x, Parity parity, std::int64_t count, const Sum (&sums)[3], const SecondSums* seconds);
-  /// Appends the voxels, whose first possible one has @p firstKey, to @p run, and forgets them.
+  void add(std::uint64_t x, Parity parity, std::int64_t count, const Sum (&sums)[3],
+    const SecondMoments* secondMoments);
+  /// Appends the voxels, whose first possible one has @p firstKey, to @p run, and clears them.
   void flush(std::uint64_t firstKey, VoxelRun& run);
   std::size_t bytes() const
   {
-    return marks_.capacity() * sizeof(std::uint64_t) + sums_.capacity() * sizeof(VoxelSums) +
-      seconds_.capacity() * sizeof(SecondSums);
+    return occupancy_.capacity() * sizeof(std::uint64_t) + sums_.capacity() * sizeof(VoxelSums) +
+      secondMoments_.capacity() * sizeof(SecondMoments);
   }
 
 private:
-  void append(const VoxelSums& sums, const SecondSums* seconds, std::uint64_t firstKey, VoxelRun& run) const;
+  void append(
+    const VoxelSums& sums, const SecondMoments* secondMoments, std::uint64_t firstKey, VoxelRun& run) const;
   void flushListed(std::uint64_t firstKey, VoxelRun& run);
 
   int fractionBits_ = 0;
-  bool withSeconds_ = false;
-  /// In a row too wide for sums of all voxels there may be, those of the fine ones are listed, and sorted.
+  bool withSecondMoments_ = false;
+  /// A row too wide for sums of all its columns: the sums of the fine voxels are listed and sorted.
   bool isListed_ = false;
-  // Nothing between rows: zeros, or no elements.
-  std::vector<std::uint64_t> marks_; ///< A bit for each coarse voxel that there is; not of listed ones.
-  std::vector<VoxelSums> sums_;      ///< By columns, or with these for keys.
-  std::vector<SecondSums> seconds_;
+  // Between rows all are zeros, or have no elements.
+  std::vector<std::uint64_t> occupancy_; ///< A bit for each occupied column; unused where listed.
+  std::vector<VoxelSums> sums_;          ///< By column, or listed with the column as the key.
+  std::vector<SecondMoments> secondMoments_;
   std::vector<std::uint32_t> order_;
 };
 
@@ -74,15 +76,15 @@ public:
     std::size_t bytes() const
     {
       return row.bytes() + run.voxels.capacity() * sizeof(WideSums) +
-        run.seconds.capacity() * sizeof(SecondSums);
+        run.secondMoments.capacity() * sizeof(SecondMoments);
     }
   };
 
-  /// @p fractionBits: of places in the fine voxels.
-  CoarseVoxels(const Lattice& fine, int fractionBits, bool withSeconds);
+  /// @p fractionBits: of offsets in the fine voxels.
+  CoarseVoxels(const Lattice& fine, int fractionBits, bool withSecondMoments);
 
   /// Those of the partitions [first, last), which are whole coarse layers. @pre the plan is dense
-  VoxelRun ofPartitions(const PartitionPlan& plan, const std::vector<CarriedPartition>& partitions,
+  VoxelRun ofPartitions(const PartitionPlan& plan, const std::vector<AccumulatedPartition>& partitions,
     std::uint32_t first, std::uint32_t last, Scratch& scratch) const;
   /// Those of all voxels, in ranges of whole coarse layers. @return false where @p observer, which may be
   /// null, ended the work. @pre all ranges are joined
@@ -94,7 +96,7 @@ private:
   template <class Span>
   class Chain;
   struct PackedSpan;
-  struct CarriedSpan;
+  struct AccumulatedSpan;
   struct WideSpan;
 
   /// Fine voxels in one of two forms, twice: to walk through even layers and through odd ones.
@@ -108,7 +110,7 @@ private:
   Lattice fine_;
   Lattice coarse_;
   int fractionBits_;
-  bool withSeconds_;
+  bool withSecondMoments_;
   std::uint64_t rowKeys_;
   std::uint64_t layerKeys_;
 };
@@ -119,5 +121,5 @@ bool findParents(const std::uint64_t* fineKeys, std::int64_t fineVoxels, const L
   const std::uint64_t* coarseKeys, std::int64_t coarseVoxels, const Lattice& coarse,
   std::vector<std::int64_t>& parents, const Executor& executor, ProgressObserver* observer);
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -1,14 +1,14 @@
 #include "Core/Resample/Stages/KeyRanges.h"
 
 #include "Core/Base/RadixSort.h"
-#include "Core/Resample/Stages/PointPlacement.h"
+#include "Core/Resample/Stages/PointQuantizer.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -21,10 +21,10 @@ constexpr std::size_t kAhead = 16;
 
 }
 
-void KeyRanges::choose(const Placement& placement, const Lattice& lattice, const Chunks& chunks)
+void KeyRanges::choose(const PointQuantizer& quantizer, const Lattice& lattice, const Chunks& chunks)
 {
   lattice_ = lattice;
-  fractionBits_ = placement.fractionBits;
+  fractionBits_ = quantizer.fractionBits;
   std::int64_t points = 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
@@ -41,8 +41,8 @@ void KeyRanges::choose(const Placement& placement, const Lattice& lattice, const
       std::int64_t i = piece.begin + skipped;
       for (; i < piece.end; i += step)
       {
-        Placed placed;
-        if (placePoint(placement, chunks.points()[i], placed.position) == Place::Inside)
+        QuantizedPoint placed;
+        if (quantizePoint(quantizer, chunks.points()[i], placed.position) == PointLocation::Inside)
         {
           keys.push_back(keyOf(placed));
         }
@@ -76,19 +76,19 @@ void KeyRanges::cut(const Chunks& chunks, std::size_t chunk)
   slices_.push_back({ pieces, points });
 }
 
-void KeyRanges::place(const Placement& placement, const Lattice& lattice, const Chunks& chunks,
+void KeyRanges::bin(const PointQuantizer& quantizer, const Lattice& lattice, const Chunks& chunks,
   std::size_t chunk, bool numbered, const Executor& executor)
 {
   lattice_ = lattice;
-  fractionBits_ = placement.fractionBits;
+  fractionBits_ = quantizer.fractionBits;
   cut(chunks, chunk);
   const std::size_t slices = slices_.size() - 1;
   const std::size_t points = slices_.back().firstPoint;
-  placed_.reserve(points, Pages::Huge);
+  quantized_.reserve(points, Pages::Huge);
   rangeOf_.reserve(points);
   order_.reserve(points);
   numbers_.reserve(numbered ? points : 0);
-  places_.assign(slices * count_, 0);
+  offsets_.assign(slices * count_, 0);
   std::atomic<std::int64_t> invalid{ 0 };
   forRange(executor, std::int64_t(slices), 1,
     [&](std::int64_t begin, std::int64_t end)
@@ -96,7 +96,7 @@ void KeyRanges::place(const Placement& placement, const Lattice& lattice, const 
       std::int64_t bad = 0;
       for (std::int64_t slice = begin; slice < end; ++slice)
       {
-        bad += placeSlice(placement, chunks, chunk, std::size_t(slice), numbered);
+        bad += quantizeSlice(quantizer, chunks, chunk, std::size_t(slice), numbered);
       }
       invalid += bad;
     });
@@ -107,8 +107,8 @@ void KeyRanges::place(const Placement& placement, const Lattice& lattice, const 
     begins_[range] = sum;
     for (std::size_t slice = 0; slice < slices; ++slice)
     {
-      std::uint32_t& place = places_[slice * count_ + range];
-      sum += std::exchange(place, sum);
+      std::uint32_t& offset = offsets_[slice * count_ + range];
+      sum += std::exchange(offset, sum);
     }
   }
   begins_[count_] = sum;
@@ -117,29 +117,29 @@ void KeyRanges::place(const Placement& placement, const Lattice& lattice, const 
     {
       for (std::int64_t slice = begin; slice < end; ++slice)
       {
-        dealSlice(std::size_t(slice));
+        binSlice(std::size_t(slice));
       }
     });
 }
 
 /// @return the number of points that are not finite.
-std::int64_t KeyRanges::placeSlice(
-  const Placement& placement, const Chunks& chunks, std::size_t chunk, std::size_t slice, bool numbered)
+std::int64_t KeyRanges::quantizeSlice(
+  const PointQuantizer& quantizer, const Chunks& chunks, std::size_t chunk, std::size_t slice, bool numbered)
 {
   std::int64_t invalid = 0;
-  std::uint32_t* counts = places_.data() + slice * count_;
+  std::uint32_t* counts = offsets_.data() + slice * count_;
   std::size_t to = slices_[slice].firstPoint;
   for (std::int64_t p = slices_[slice].firstPiece; p < slices_[slice + 1].firstPiece; ++p)
   {
     const PointRange piece = chunks.pieces(chunk)[p];
     for (std::int64_t i = piece.begin; i < piece.end; ++i, ++to)
     {
-      const Place place = placePoint(placement, chunks.points()[i], placed_[to].position);
-      invalid += place == Place::Invalid;
+      const PointLocation location = quantizePoint(quantizer, chunks.points()[i], quantized_[to].position);
+      invalid += location == PointLocation::Invalid;
       rangeOf_[to] = kNowhere;
-      if (place == Place::Inside)
+      if (location == PointLocation::Inside)
       {
-        const std::size_t range = rangeOf(keyOf(placed_[to]));
+        const std::size_t range = rangeOf(keyOf(quantized_[to]));
         rangeOf_[to] = std::uint8_t(range);
         ++counts[range];
       }
@@ -152,14 +152,14 @@ std::int64_t KeyRanges::placeSlice(
   return invalid;
 }
 
-void KeyRanges::dealSlice(std::size_t slice)
+void KeyRanges::binSlice(std::size_t slice)
 {
-  std::uint32_t* places = places_.data() + slice * count_;
+  std::uint32_t* offsets = offsets_.data() + slice * count_;
   for (std::size_t i = slices_[slice].firstPoint; i < slices_[slice + 1].firstPoint; ++i)
   {
     if (rangeOf_[i] != kNowhere)
     {
-      order_[places[rangeOf_[i]]++] = std::uint32_t(i);
+      order_[offsets[rangeOf_[i]]++] = std::uint32_t(i);
     }
   }
 }
@@ -172,13 +172,13 @@ void KeyRanges::sort(std::size_t range, Sorted& sorted) const
   sorted.other.reserve(sorted.size);
   for (std::size_t i = 0; i < sorted.size; ++i)
   {
-    __builtin_prefetch(&placed_[points[std::min(i + kAhead, sorted.size - 1)]]);
-    sorted.entries[i] = { keyOf(placed_[points[i]]), points[i] };
+    __builtin_prefetch(&quantized_[points[std::min(i + kAhead, sorted.size - 1)]]);
+    sorted.entries[i] = { keyOf(quantized_[points[i]]), points[i] };
   }
   radixSort(sorted.entries, sorted.other, sorted.size, [](const Entry& entry) { return entry.key; });
 }
 
-VoxelRun KeyRanges::sumsOf(std::size_t range, Sorted& scratch, bool seconds) const
+VoxelRun KeyRanges::sumsOf(std::size_t range, Sorted& scratch, bool secondMoments) const
 {
   sort(range, scratch);
   const Buffer<Entry>& entries = scratch.entries;
@@ -189,31 +189,31 @@ VoxelRun KeyRanges::sumsOf(std::size_t range, Sorted& scratch, bool seconds) con
   }
   VoxelRun run;
   run.voxels.reserve(voxels);
-  run.seconds.reserve(seconds ? voxels : 0);
+  run.secondMoments.reserve(secondMoments ? voxels : 0);
   const std::uint64_t mask = (std::uint64_t(1) << fractionBits_) - 1;
   for (std::size_t i = 0; i < scratch.size; ++i)
   {
-    __builtin_prefetch(&placed_[entries[std::min(i + kAhead, scratch.size - 1)].point]);
+    __builtin_prefetch(&quantized_[entries[std::min(i + kAhead, scratch.size - 1)].point]);
     if (i == 0 || entries[i].key != entries[i - 1].key)
     {
       run.voxels.push_back({ entries[i].key, 0, { 0, 0, 0 }, 0 });
-      if (seconds)
+      if (secondMoments)
       {
-        run.seconds.push_back(SecondSums{ { 0, 0, 0, 0, 0, 0 } });
+        run.secondMoments.push_back(SecondMoments{ { 0, 0, 0, 0, 0, 0 } });
       }
     }
     static_assert(kGeneralChunk <= std::int64_t(1) << (64 - kPositionBits), "sums of a chunk fit 64 bits");
-    const std::uint64_t* position = placed_[entries[i].point].position;
-    const std::uint64_t place[3] = { position[0] & mask, position[1] & mask, position[2] & mask };
+    const std::uint64_t* position = quantized_[entries[i].point].position;
+    const std::uint64_t fraction[3] = { position[0] & mask, position[1] & mask, position[2] & mask };
     WideSums& voxel = run.voxels.back();
     ++voxel.count;
     for (int axis = 0; axis < 3; ++axis)
     {
-      voxel.low[axis] += place[axis];
+      voxel.low[axis] += fraction[axis];
     }
-    if (seconds)
+    if (secondMoments)
     {
-      addProducts(run.seconds.back(), place[0], place[1], place[2]);
+      addProducts(run.secondMoments.back(), fraction[0], fraction[1], fraction[2]);
     }
   }
   return run;
@@ -221,9 +221,9 @@ VoxelRun KeyRanges::sumsOf(std::size_t range, Sorted& scratch, bool seconds) con
 
 std::size_t KeyRanges::bytes() const
 {
-  return placed_.bytes() + rangeOf_.bytes() + numbers_.bytes() + order_.bytes() +
-    slices_.capacity() * sizeof(Slice) + places_.capacity() * sizeof(std::uint32_t);
+  return quantized_.bytes() + rangeOf_.bytes() + numbers_.bytes() + order_.bytes() +
+    slices_.capacity() * sizeof(Slice) + offsets_.capacity() * sizeof(std::uint32_t);
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -1,6 +1,6 @@
 /// @file
-/// Points of a chunk dealt out to ranges of their voxels' keys: the way of lattices whose positions do not
-/// fit the records of RecordPool.
+/// Points of a chunk, binned into ranges of their voxels' keys: for lattices whose positions do not fit the
+/// records of PointRecordPool.
 #pragma once
 
 #include "Core/Base/Buffer.h"
@@ -18,10 +18,10 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
-/// Points this path takes at once.
+/// Points of a chunk on this path.
 constexpr std::int64_t kGeneralChunk = std::int64_t(1) << 19;
 
 /// Ranges with about as many points each, and the points of a chunk in each of them. Keys ascend from range
@@ -43,17 +43,17 @@ public:
   };
 
   /// Chooses ranges by the keys of some of the points.
-  void choose(const Placement& placement, const Lattice& lattice, const Chunks& chunks);
+  void choose(const PointQuantizer& quantizer, const Lattice& lattice, const Chunks& chunks);
   std::size_t count() const { return count_; }
-  /// Deals out the points of a chunk. @p numbered: for pointOf().
-  void place(const Placement& placement, const Lattice& lattice, const Chunks& chunks, std::size_t chunk,
+  /// Quantizes and bins the points of a chunk. @p numbered: for pointOf().
+  void bin(const PointQuantizer& quantizer, const Lattice& lattice, const Chunks& chunks, std::size_t chunk,
     bool numbered, const Executor& executor);
   std::int64_t inside() const { return std::int64_t(begins_[count_]); }
   std::int64_t invalid() const { return invalid_; }
   /// Sorts the points of a range.
   void sort(std::size_t range, Sorted& sorted) const;
   /// The sums of a range's voxels.
-  VoxelRun sumsOf(std::size_t range, Sorted& scratch, bool seconds) const;
+  VoxelRun sumsOf(std::size_t range, Sorted& scratch, bool secondMoments) const;
   /// The number among the chunks' points.
   std::int64_t pointOf(std::uint32_t point) const { return numbers_[point]; }
   std::size_t bytes() const;
@@ -63,8 +63,8 @@ private:
   static constexpr std::size_t kMostRanges = std::size_t(1) << kRangeBits;
   static constexpr std::uint8_t kNowhere = 255;
 
-  /// voxel index << fractionBits | place in the voxel
-  struct Placed
+  /// voxel index << fractionBits | offset in the voxel
+  struct QuantizedPoint
   {
     std::uint64_t position[3];
   };
@@ -75,7 +75,7 @@ private:
     std::size_t firstPoint;
   };
 
-  /// Without branches: nobody could guess them.
+  /// Branch-free: the branches would be unpredictable.
   std::size_t rangeOf(std::uint64_t key) const
   {
     std::size_t range = 0;
@@ -86,15 +86,15 @@ private:
     }
     return range;
   }
-  std::uint64_t keyOf(const Placed& placed) const
+  std::uint64_t keyOf(const QuantizedPoint& placed) const
   {
     return lattice_.key(std::int64_t(placed.position[0] >> fractionBits_),
       std::int64_t(placed.position[1] >> fractionBits_), std::int64_t(placed.position[2] >> fractionBits_));
   }
   void cut(const Chunks& chunks, std::size_t chunk);
-  std::int64_t placeSlice(
-    const Placement& placement, const Chunks& chunks, std::size_t chunk, std::size_t slice, bool numbered);
-  void dealSlice(std::size_t slice);
+  std::int64_t quantizeSlice(const PointQuantizer& quantizer, const Chunks& chunks, std::size_t chunk,
+    std::size_t slice, bool numbered);
+  void binSlice(std::size_t slice);
 
   std::size_t count_ = 1;
   std::array<std::uint64_t, kMostRanges - 1> starts_{}; ///< Of all ranges but the first.
@@ -102,14 +102,14 @@ private:
   int fractionBits_ = 0;
   std::int64_t invalid_ = 0;
   std::vector<Slice> slices_; ///< And an end.
-  Buffer<Placed> placed_;
+  Buffer<QuantizedPoint> quantized_;
   Buffer<std::uint8_t> rangeOf_;
   Buffer<std::int64_t> numbers_;
   /// How many points of a slice go to each range; then where the next one of them goes.
-  std::vector<std::uint32_t> places_;
+  std::vector<std::uint32_t> offsets_;
   std::array<std::uint32_t, kMostRanges + 1> begins_{}; ///< Of the ranges in order_.
   Buffer<std::uint32_t> order_;                         ///< Points, range by range.
 };
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

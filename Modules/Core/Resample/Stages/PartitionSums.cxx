@@ -9,20 +9,20 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
 
-/// Most cells of a dense partition: their marks should stay in the second-level cache. (Of their sums, which
-/// are those of the few thousand records of a chunk, that is so anyway.)
+/// Most cells of a dense partition: their occupancy bits should stay in the second-level cache. (The sums do
+/// anyway: a chunk has a few thousand records in a partition.)
 constexpr std::size_t kDenseCells = std::size_t(1) << 22;
-/// More partitions than this crowd the first-level cache while records are dealt out.
+/// While records are binned, the cursors of more partitions than this do not fit the first-level cache.
 constexpr std::uint32_t kMostPartitions = 512;
-/// Dense partitions may be more: not having to sort is worth it.
+/// Dense partitions may be more: that saves the sorting.
 constexpr std::uint32_t kMostDensePartitions = 2048;
-/// Fewer points than this in a partition on average are not worth its upkeep: each is a dozen loops that end
-/// where the processor does not expect it.
+/// Fewer points than this in a partition on average do not pay its overhead: a dozen loops, each with a
+/// mispredicted end.
 constexpr std::int64_t kPointsPerPartition = 1024;
 
 std::uint32_t blocks(std::uint32_t count, int shift)
@@ -30,42 +30,44 @@ std::uint32_t blocks(std::uint32_t count, int shift)
   return ((count - 1) >> shift) + 1;
 }
 
-/// Words of a bit for each cell.
-std::size_t markWords(const PartitionPlan& plan)
+/// Words with an occupancy bit for each cell.
+std::size_t occupancyWords(const PartitionPlan& plan)
 {
-  constexpr std::size_t kGroupCells = 64 * kMarkGroup;
-  return ((plan.cells() - 1) / kGroupCells + 1) * kMarkGroup;
+  constexpr std::size_t kGroupCells = 64 * kOccupancyGroup;
+  return ((plan.cells() - 1) / kGroupCells + 1) * kOccupancyGroup;
 }
 
-/// Fewer cells than one for so many words are marked: going from mark to mark takes less than counting and
-/// clearing all words.
-constexpr std::size_t kWordsPerFew = 3;
+/// A partition is sparse where it has fewer cells in use than one for so many occupancy words: visiting the
+/// words in use then takes less time than counting and clearing all.
+constexpr std::size_t kWordsPerSparseCell = 3;
 
-/// So many points in one voxel are taken out of the packed sums, which hold less than 2^21.
+/// A cell with so many points is overfull: its sums are moved out of the packed ones, which hold less than
+/// 2^21 points.
 constexpr std::uint64_t kPackedCounts = std::uint64_t(1) << 19;
 static_assert(kPackedCounts + std::uint64_t(kChunkPoints) < (std::uint64_t(1) << 21),
-  "a packed sum must hold a chunk in one voxel and what was carried of it");
+  "a packed sum must hold a chunk in one voxel and the accumulated points");
 
-void addCarried(MomentBatch<std::int64_t>& batch, int i, const CarriedPartition& carried, std::size_t voxel)
+void addAccumulated(
+  MomentBatch<std::int64_t>& batch, int i, const AccumulatedPartition& accumulated, std::size_t voxel)
 {
-  const CarriedSums& old = carried.voxels[voxel];
+  const AccumulatedSums& old = accumulated.voxels[voxel];
   batch.counts[i] += old.count;
   for (int axis = 0; axis < 3; ++axis)
   {
     batch.sums[axis][i] += old.sums[axis];
   }
-  // Where seconds go with the cells they are in the batch already.
-  for (int m = 0; carried.cellCount == 0 && batch.seconds && m < 6; ++m)
+  // Second moments kept by cell are in the batch already.
+  for (int m = 0; accumulated.cellCount == 0 && batch.secondMoments && m < 6; ++m)
   {
-    batch.seconds[i].lanes[m] += carried.seconds[voxel].lanes[m];
+    batch.secondMoments[i].lanes[m] += accumulated.secondMoments[voxel].lanes[m];
   }
 }
 
-/// Moves the elements from @p first to @p last up to @p place.
+/// Moves the elements from @p first to @p last up to @p offset.
 template <typename T>
-void moveUp(std::vector<T>& all, std::size_t first, std::size_t last, std::size_t place)
+void moveUp(std::vector<T>& all, std::size_t first, std::size_t last, std::size_t offset)
 {
-  std::memmove(all.data() + place, all.data() + first, (last - first) * sizeof(T));
+  std::memmove(all.data() + offset, all.data() + first, (last - first) * sizeof(T));
 }
 
 /// Blocks of layers, as many as may be: how many cells they have does not matter.
@@ -120,9 +122,9 @@ PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t point
   return plan;
 }
 
-std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t carried)
+std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t accumulated)
 {
-  return std::min(records + carried, plan.cells());
+  return std::min(records + accumulated, plan.cells());
 }
 
 PartitionWorker::PartitionWorker()
@@ -135,63 +137,63 @@ PartitionWorker::~PartitionWorker() = default;
 void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
 {
   plan_ = plan;
-  batchSeconds_.resize(covariances ? kBatch : 0);
-  batch_->seconds = covariances ? batchSeconds_.data() : nullptr;
-  const std::size_t words = plan.dense ? markWords(plan) : 0;
-  if (marks_.reserve(words))
+  batchSecondMoments_.resize(covariances ? kBatch : 0);
+  batch_->secondMoments = covariances ? batchSecondMoments_.data() : nullptr;
+  const std::size_t words = plan.dense ? occupancyWords(plan) : 0;
+  if (occupancy_.reserve(words))
   {
-    std::fill(marks_.data(), marks_.data() + words, 0);
+    std::fill(occupancy_.data(), occupancy_.data() + words, 0);
   }
   const std::size_t touchedWords = (words + 63) / 64;
   if (touched_.reserve(touchedWords))
   {
     std::fill(touched_.data(), touched_.data() + touchedWords, 0);
   }
-  before_.reserve(words);
-  beforeBytes_.reserve(words);
+  rankTable_.reserve(words);
+  byteRankTable_.reserve(words);
 }
 
 CellRanks PartitionWorker::ranks() const
 {
-  return { marks_.data(), before_.data(), beforeBytes_.data(), markWords(plan_) };
+  return { occupancy_.data(), rankTable_.data(), byteRankTable_.data(), occupancyWords(plan_) };
 }
 
-/// Numbers the marked cells: those of one list or two.
-std::size_t PartitionWorker::numberMarks(const Kernels& kernels, CellList cells, CellList others)
+/// Builds the rank table for the occupied cells, which are those of one list or two.
+std::size_t PartitionWorker::rankOccupied(const Kernels& kernels, CellList cells, CellList others)
 {
-  few_ = kWordsPerFew * (cells.count + others.count) < markWords(plan_);
-  if (!few_)
+  isSparse_ = kWordsPerSparseCell * (cells.count + others.count) < occupancyWords(plan_);
+  if (!isSparse_)
   {
-    return kernels.number(ranks());
+    return kernels.rankWords(ranks());
   }
   for (const CellList& list : { cells, others })
   {
     std::uint64_t* const touched = touched_.data(); // which no store can change
     const std::uint32_t* const marked = list.cells;
-    fromFourPlaces(int(list.count),
+    fromFourParts(int(list.count),
       [=](int i) { touched[marked[i] / 4096] |= std::uint64_t(1) << (marked[i] / 64 % 64); });
   }
-  return kernels.numberTouched(ranks(), touched_.data());
+  return kernels.rankTouchedWords(ranks(), touched_.data());
 }
 
-/// Of the same cells, in any order.
-void PartitionWorker::clearMarks(CellList cells)
+/// For the same cells, in any order.
+void PartitionWorker::clearOccupancy(CellList cells)
 {
-  const std::size_t words = markWords(plan_);
-  if (!few_)
+  const std::size_t words = occupancyWords(plan_);
+  if (!isSparse_)
   {
-    std::fill(marks_.data(), marks_.data() + words, 0);
+    std::fill(occupancy_.data(), occupancy_.data() + words, 0);
     return;
   }
   for (std::size_t i = 0; i < cells.count; ++i)
   {
-    marks_[cells.cells[i] / 64] = 0;
+    occupancy_[cells.cells[i] / 64] = 0;
   }
   std::fill(touched_.data(), touched_.data() + (words + 63) / 64, 0);
 }
 
-/// Marks the cells of what is carried and of the records, and counts them.
-void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
+/// Sets the occupancy bits of the accumulated cells and of the records, and counts them.
+void PartitionWorker::countOccupied(const Kernels& kernels, const PointRecordPool& pool)
 {
   voxels_ = { plan_.cellMap(partition_), plan_.firstKey(partition_), nullptr, nullptr, nullptr, 0 };
   const std::size_t records = pool.count(partition_);
@@ -200,14 +202,14 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
     return;
   }
   recordCells_.reserve(records);
-  kernels.markCells(old_->cells.data(), int(old_->cellCount), marks_.data());
-  // The carried sums come next and are far away: fetch a part of them with each block.
+  kernels.setOccupied(old_->cells.data(), int(old_->cellCount), occupancy_.data());
+  // The accumulated sums come next and are in no near cache: prefetch a part of them with each block.
   const auto* line = reinterpret_cast<const char*>(old_->packed.data());
   const std::size_t bytes = old_->cellCount * sizeof(PackedSums);
   const char* end = line + bytes;
   const std::size_t part = bytes * kBlockRecords / std::max<std::size_t>(records, 1);
   std::uint32_t* cells = recordCells_.data();
-  for (RecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
+  for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
     const char* partEnd = line + std::min(part, std::size_t(end - line));
     for (; line < partEnd; line += 64)
@@ -216,14 +218,14 @@ void PartitionWorker::markDense(const Kernels& kernels, const RecordPool& pool)
     }
     kernels.cells(voxels_.map, block.records(), block.count(), block.recordsAhead(), cells);
   }
-  // All of them together: those of one block of a scan are so near that they would wait for each other.
-  kernels.markCells(recordCells_.data(), int(records), marks_.data());
+  // All blocks together: records of one block of a scan share words and would wait for each other.
+  kernels.setOccupied(recordCells_.data(), int(records), occupancy_.data());
   voxels_.size =
-    numberMarks(kernels, { recordCells_.data(), records }, { old_->cells.data(), old_->cellCount });
+    rankOccupied(kernels, { recordCells_.data(), records }, { old_->cells.data(), old_->cellCount });
 }
 
 /// Adds the records to the sums at @p to, which become the voxels.
-void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool, CarriedPartition& to)
+void PartitionWorker::sumDense(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to)
 {
   if (voxels_.size == 0)
   {
@@ -235,22 +237,23 @@ void PartitionWorker::sumDense(const Kernels& kernels, const RecordPool& pool, C
   }
   makeRoom(kernels, to);
   const CellSums sums = { to.cells.data(), to.packed.data(),
-    batch_->seconds ? to.splitSeconds.data() : nullptr };
+    batch_->secondMoments ? to.splitSecondMoments.data() : nullptr };
   voxels_.cells = sums.cells;
   voxels_.sums = sums.sums;
-  voxels_.seconds = sums.seconds;
+  voxels_.secondMoments = sums.secondMoments;
   const std::uint32_t* cells = recordCells_.data();
-  RecordPool::Walk following(pool, pool.following(partition_));
-  for (RecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
+  PointRecordPool::Walk following(pool, pool.following(partition_));
+  for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
-    const Record* const next = following.next() ? following.records() : block.records();
+    const PointRecord* const next = following.next() ? following.records() : block.records();
     kernels.accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
   }
-  clearMarks({ voxels_.cells, voxels_.size });
+  clearOccupancy({ voxels_.cells, voxels_.size });
 }
 
-/// Moves sums, which are in ascending order, to the places of their cells among all voxels: zeros between.
-void PartitionWorker::makeRoom(const Kernels& kernels, CarriedPartition& sums) const
+/// Moves sums, which are in ascending order, to the ranks of their cells among all voxels, with zeros
+/// between.
+void PartitionWorker::makeRoom(const Kernels& kernels, AccumulatedPartition& sums) const
 {
   const std::size_t size = voxels_.size;
   if (sums.packed.size() < size + kWidest)
@@ -262,82 +265,82 @@ void PartitionWorker::makeRoom(const Kernels& kernels, CarriedPartition& sums) c
     sums.cells.resize(size + kWidest);
     sums.packed.resize(size + kWidest);
   }
-  if (batch_->seconds && sums.splitSeconds.size() < size)
+  if (batch_->secondMoments && sums.splitSecondMoments.size() < size)
   {
-    sums.splitSeconds.reserve(size + size / 16);
-    sums.splitSeconds.resize(size);
+    sums.splitSecondMoments.reserve(size + size / 16);
+    sums.splitSecondMoments.resize(size);
   }
-  std::size_t end = size; // From here on all are at their places.
-  const auto clearTo = [&](std::size_t place)
+  std::size_t end = size; // From here on all are where they belong.
+  const auto clearTo = [&](std::size_t offset)
   {
-    if (end <= place)
+    if (end <= offset)
     {
       return;
     }
-    std::memset(sums.packed.data() + place, 0, (end - place) * sizeof(PackedSums));
-    if (batch_->seconds)
+    std::memset(sums.packed.data() + offset, 0, (end - offset) * sizeof(PackedSums));
+    if (batch_->secondMoments)
     {
-      std::memset(sums.splitSeconds.data() + place, 0, (end - place) * sizeof(SplitSeconds));
+      std::memset(sums.splitSecondMoments.data() + offset, 0, (end - offset) * sizeof(SplitSecondMoments));
     }
-    end = place;
+    end = offset;
   };
-  std::uint32_t places[kBatch];
+  std::uint32_t offsets[kBatch];
   std::size_t left = sums.cellCount;
   sums.cellCount = size;
   while (left > 0 && left < end)
   {
     const std::size_t begin = left - std::min<std::size_t>(left, kBatch);
-    std::copy(sums.cells.data() + begin, sums.cells.data() + left, places);
-    kernels.rank(ranks(), places, int(left - begin));
+    std::copy(sums.cells.data() + begin, sums.cells.data() + left, offsets);
+    kernels.rank(ranks(), offsets, int(left - begin));
     while (left > begin && left < end)
     {
       // Those that stay neighbours move together.
       std::size_t first = left - 1;
-      while (first > begin && places[first - 1 - begin] + 1 == places[first - begin])
+      while (first > begin && offsets[first - 1 - begin] + 1 == offsets[first - begin])
       {
         --first;
       }
-      const std::size_t place = places[first - begin];
-      clearTo(place + left - first);
-      moveUp(sums.cells, first, left, place);
-      moveUp(sums.packed, first, left, place);
-      if (batch_->seconds)
+      const std::size_t offset = offsets[first - begin];
+      clearTo(offset + left - first);
+      moveUp(sums.cells, first, left, offset);
+      moveUp(sums.packed, first, left, offset);
+      if (batch_->secondMoments)
       {
-        moveUp(sums.splitSeconds, first, left, place);
+        moveUp(sums.splitSecondMoments, first, left, offset);
       }
       left = first;
-      end = place;
+      end = offset;
     }
   }
   clearTo(left);
 }
 
-void PartitionWorker::carryDense(
-  const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& carriedOver)
+void PartitionWorker::accumulateDense(
+  const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition, AccumulatedPartition& sums)
 {
   partition_ = partition;
-  old_ = &carriedOver;
-  markDense(kernels, pool);
-  sumDense(kernels, pool, carriedOver);
+  old_ = &sums;
+  countOccupied(kernels, pool);
+  sumDense(kernels, pool, sums);
   // No voxel has more points than all have together.
-  carriedOver.points += std::int64_t(pool.count(partition));
+  sums.points += std::int64_t(pool.count(partition));
   const std::uint64_t firstKey = plan_.firstKey(partition);
-  for (std::size_t i = 0; carriedOver.points >= std::int64_t(kPackedCounts) && i < carriedOver.cellCount; ++i)
+  for (std::size_t i = 0; sums.points >= std::int64_t(kPackedCounts) && i < sums.cellCount; ++i)
   {
-    if (carriedOver.packed[i].lanes[3] >> kCountShift >= kPackedCounts)
+    if (sums.packed[i].lanes[3] >> kCountShift >= kPackedCounts)
     {
-      unpack(firstKey + carriedOver.cells[i], carriedOver.packed[i], carriedOver);
+      unpack(firstKey + sums.cells[i], sums.packed[i], sums);
     }
   }
 }
 
-/// Moves packed sums that are nearly full to sums of 64 bits each.
-void PartitionWorker::unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver)
+/// Moves the packed sums of an overfull cell to sums of 64 bits each.
+void PartitionWorker::unpack(std::uint64_t key, PackedSums& packed, AccumulatedPartition& sums)
 {
-  const auto place = std::lower_bound(carriedOver.voxels.begin(), carriedOver.voxels.end(), key,
-    [](const CarriedSums& voxel, std::uint64_t wanted) { return voxel.key < wanted; });
-  const bool isNew = place == carriedOver.voxels.end() || place->key != key;
-  CarriedSums& voxel = isNew ? *carriedOver.voxels.insert(place, { key, 0, { 0, 0, 0 } }) : *place;
+  const auto found = std::lower_bound(sums.voxels.begin(), sums.voxels.end(), key,
+    [](const AccumulatedSums& voxel, std::uint64_t wanted) { return voxel.key < wanted; });
+  const bool isNew = found == sums.voxels.end() || found->key != key;
+  AccumulatedSums& voxel = isNew ? *sums.voxels.insert(found, { key, 0, { 0, 0, 0 } }) : *found;
   voxel.count += packedCount(packed);
   voxel.sums[0] += std::int64_t(packed.lanes[0]);
   voxel.sums[1] += std::int64_t(packed.lanes[1]);
@@ -361,18 +364,18 @@ void PartitionWorker::collectDense(std::size_t& position, std::size_t& next)
     batch.sums[0][i] = std::int64_t(sums.lanes[0]);
     batch.sums[1][i] = std::int64_t(sums.lanes[1]);
     batch.sums[2][i] = packedZ(sums);
-    if (batch.seconds)
+    if (batch.secondMoments)
     {
-      batch.seconds[i] = whole(voxels_.seconds[position], plan_.fractionBits);
+      batch.secondMoments[i] = whole(voxels_.secondMoments[position], plan_.fractionBits);
     }
     if (next < old_->voxels.size() && old_->voxels[next].key == voxels_.firstKey + cell)
     {
-      addCarried(batch, i, *old_, next++);
+      addAccumulated(batch, i, *old_, next++);
     }
   }
 }
 
-void PartitionWorker::sortRecords(const Kernels& kernels, const RecordPool& pool)
+void PartitionWorker::sortRecords(const Kernels& kernels, const PointRecordPool& pool)
 {
   listed_ = pool.count(partition_);
   records_.reserve(listed_);
@@ -380,7 +383,7 @@ void PartitionWorker::sortRecords(const Kernels& kernels, const RecordPool& pool
   otherEntries_.reserve(listed_);
   std::size_t filled = 0;
   const CellMap map = plan_.cellMap(partition_);
-  for (RecordPool::Walk block(pool, partition_); block.next();)
+  for (PointRecordPool::Walk block(pool, partition_); block.next();)
   {
     std::uint32_t cells[kBlockRecords];
     kernels.cells(map, block.records(), block.count(), block.recordsAhead(), cells);
@@ -393,7 +396,7 @@ void PartitionWorker::sortRecords(const Kernels& kernels, const RecordPool& pool
   radixSort(entries_, otherEntries_, listed_, [](const Entry& entry) { return entry.cell; });
 }
 
-/// Voxels of the sorted records and of what is carried.
+/// Voxels of the sorted records and of the accumulated sums.
 std::size_t PartitionWorker::countSorted() const
 {
   const std::uint64_t firstKey = plan_.firstKey(partition_);
@@ -417,7 +420,7 @@ std::size_t PartitionWorker::countSorted() const
 
 void PartitionWorker::collectSorted(std::size_t& position, std::size_t& next)
 {
-  const CarriedPartition& old = *old_;
+  const AccumulatedPartition& old = *old_;
   const std::uint64_t firstKey = plan_.firstKey(partition_);
   const std::uint64_t fractionMask = (std::uint64_t(1) << plan_.fractionBits) - 1;
   MomentBatch<std::int64_t>& batch = *batch_;
@@ -433,26 +436,26 @@ void PartitionWorker::collectSorted(std::size_t& position, std::size_t& next)
     batch.indices[2][size] = std::int32_t(row / plan_.rowsPerLayer);
     batch.counts[size] = 0;
     batch.sums[0][size] = batch.sums[1][size] = batch.sums[2][size] = 0;
-    if (batch.seconds)
+    if (batch.secondMoments)
     {
-      batch.seconds[size] = SecondSums{ { 0, 0, 0, 0, 0, 0 } };
+      batch.secondMoments[size] = SecondMoments{ { 0, 0, 0, 0, 0, 0 } };
     }
     for (; position < listed_ && firstKey + entries_[position].cell == key; ++position)
     {
-      const Record& r = records_[entries_[position].record];
+      const PointRecord& r = records_[entries_[position].record];
       batch.counts[size] += 1;
-      batch.sums[0][size] += std::int64_t(xPlace(r, fractionMask));
-      batch.sums[1][size] += std::int64_t(yPlace(r, fractionMask));
-      batch.sums[2][size] += std::int64_t(zPlace(r, fractionMask));
-      if (batch.seconds)
+      batch.sums[0][size] += std::int64_t(xFraction(r, fractionMask));
+      batch.sums[1][size] += std::int64_t(yFraction(r, fractionMask));
+      batch.sums[2][size] += std::int64_t(zFraction(r, fractionMask));
+      if (batch.secondMoments)
       {
-        addProducts(
-          batch.seconds[size], xPlace(r, fractionMask), yPlace(r, fractionMask), zPlace(r, fractionMask));
+        addProducts(batch.secondMoments[size], xFraction(r, fractionMask), yFraction(r, fractionMask),
+          zFraction(r, fractionMask));
       }
     }
     if (theirs == key)
     {
-      addCarried(batch, size, old, next++);
+      addAccumulated(batch, size, old, next++);
     }
   }
   batch.size = size;
@@ -465,11 +468,11 @@ std::uint32_t PartitionWorker::rankOf(std::uint64_t key, const std::uint64_t* ke
 
 std::size_t PartitionWorker::bytes() const
 {
-  return marks_.bytes() + touched_.bytes() + before_.bytes() + beforeBytes_.bytes() + recordCells_.bytes() +
-    own_.bytes() + records_.bytes() + entries_.bytes() + otherEntries_.bytes() +
-    sizeof(MomentBatch<std::int64_t>) + carried.voxels.capacity() * sizeof(CarriedSums) +
-    carried.seconds.capacity() * sizeof(SecondSums);
+  return occupancy_.bytes() + touched_.bytes() + rankTable_.bytes() + byteRankTable_.bytes() +
+    recordCells_.bytes() + own_.bytes() + records_.bytes() + entries_.bytes() + otherEntries_.bytes() +
+    sizeof(MomentBatch<std::int64_t>) + accumulated.voxels.capacity() * sizeof(AccumulatedSums) +
+    accumulated.secondMoments.capacity() * sizeof(SecondMoments);
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

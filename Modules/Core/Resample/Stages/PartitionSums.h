@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Resample/Stages/RecordPool.h"
+#include "Core/Resample/Stages/PointRecordPool.h"
 #include "Core/Resample/Stages/VoxelSink.h"
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
-/// How the voxels of a lattice are dealt out to partitions: blocks of rows (voxels along x) of a layer, or
+/// How the voxels of a lattice are divided into partitions: blocks of rows (voxels along x) of a layer, or
 /// blocks of layers. Keys ascend from partition to partition.
 struct PartitionPlan
 {
@@ -27,7 +27,7 @@ struct PartitionPlan
   int rowShift = 0;   ///< Rows of a block, as a power of two.
   int layerShift = 0; ///< Layers of a block, likewise; above 0 only with one block per layer.
   std::uint32_t partitions = 1;
-  /// Sums of all cells of a partition are kept side by side; otherwise its records are sorted.
+  /// A partition has a rank table over all its cells; otherwise its records are sorted.
   bool dense = true;
 
   std::uint32_t firstRow(std::uint32_t partition) const
@@ -57,8 +57,8 @@ struct PartitionPlan
 /// A plan for @p points points at a time. @pre dimensions up to 2^kMaximumIndexBits.
 PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t points);
 
-/// The largest of a partition's voxels' number that records and carried voxels allow.
-std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t carried);
+/// An upper bound of a partition's voxels, from its records and accumulated voxels.
+std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t accumulated);
 
 /// Works on one partition at a time and is used by one thread at a time.
 class alignas(kApart) PartitionWorker
@@ -69,45 +69,46 @@ public:
 
   /// Readies the scratch for partitions of a plan.
   void prepare(const PartitionPlan& plan, bool covariances);
-  /// Adds the records of a partition to @p old sums, which it may change, and with @p keeps does, if the plan
-  /// is dense; calls tell(size) as soon as it knows the number of its voxels. They hold until the next call.
-  template <typename Tell>
-  void load(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& old,
-    bool keeps, Tell&& tell)
+  /// Adds the records of a partition to its @p old sums. These may change, and do with @p keeps if the plan
+  /// is dense. Calls publish(size) as soon as the number of voxels is known. The voxels are valid until the
+  /// next call.
+  template <typename Publish>
+  void load(const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition,
+    AccumulatedPartition& old, bool keeps, Publish&& publish)
   {
     partition_ = partition;
     old_ = &old;
     if (plan_.dense)
     {
-      markDense(kernels, pool);
-      tell(voxels_.size);
+      countOccupied(kernels, pool);
+      publish(voxels_.size);
       sumDense(kernels, pool, keeps || old_->cellCount > 0 ? *old_ : own_);
       return;
     }
     sortRecords(kernels, pool);
-    tell(countSorted());
+    publish(countSorted());
   }
-  /// The voxels, if the plan is dense and nothing was carried unpacked; else null.
+  /// The voxels, if the plan is dense and no accumulated sum is unpacked; else null.
   const PartitionVoxels* packed() const { return plan_.dense && old_->voxels.empty() ? &voxels_ : nullptr; }
   /// Calls emit(batch) with all the voxels.
   template <typename Emit>
   void forBatches(Emit&& emit)
   {
     std::size_t position = 0; // among the voxels or records
-    std::size_t next = 0;     // among the carried voxels
+    std::size_t next = 0;     // among the accumulated voxels
     while (position < (plan_.dense ? voxels_.size : listed_) || (!plan_.dense && next < old_->voxels.size()))
     {
       plan_.dense ? collectDense(position, next) : collectSorted(position, next);
       emit(*batch_);
     }
   }
-  /// Adds the records of a partition to what is carried of it. @pre the plan is dense.
-  void carryDense(
-    const Kernels& kernels, const RecordPool& pool, std::uint32_t partition, CarriedPartition& carriedOver);
+  /// Adds the records of a partition to its accumulated sums. @pre the plan is dense.
+  void accumulateDense(
+    const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition, AccumulatedPartition& sums);
   /// Calls visit(rows, ranks, count) with the row of each record and the rank of its voxel among the
   /// partition's @p keys (ascending).
   template <typename Visit>
-  void rank(const Kernels& kernels, const RecordPool& pool, std::uint32_t partition,
+  void rank(const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition,
     const std::uint64_t* keys, std::size_t size, Visit&& visit)
   {
     const CellMap map = plan_.cellMap(partition);
@@ -119,10 +120,10 @@ public:
       {
         recordCells_[i] = std::uint32_t(keys[i] - firstKey);
       }
-      kernels.markCells(recordCells_.data(), int(size), marks_.data());
-      numberMarks(kernels, { recordCells_.data(), size }, {});
+      kernels.setOccupied(recordCells_.data(), int(size), occupancy_.data());
+      rankOccupied(kernels, { recordCells_.data(), size }, {});
     }
-    for (RecordPool::Walk block(pool, partition); block.next();)
+    for (PointRecordPool::Walk block(pool, partition); block.next();)
     {
       std::uint32_t cells[kBlockRecords];
       kernels.cells(map, block.records(), block.count(), block.recordsAhead(), cells);
@@ -138,12 +139,12 @@ public:
     }
     if (plan_.dense)
     {
-      clearMarks({ recordCells_.data(), size });
+      clearOccupancy({ recordCells_.data(), size });
     }
   }
   std::size_t bytes() const;
-  /// Sums of the batches it makes are collected here.
-  CarriedPartition carried;
+  /// Scratch in which callers collect the batches.
+  AccumulatedPartition accumulated;
 
 private:
   struct Entry
@@ -159,38 +160,38 @@ private:
   };
 
   CellRanks ranks() const;
-  std::size_t numberMarks(const Kernels& kernels, CellList cells, CellList others);
-  void clearMarks(CellList cells);
-  void markDense(const Kernels& kernels, const RecordPool& pool);
-  void sumDense(const Kernels& kernels, const RecordPool& pool, CarriedPartition& to);
-  void makeRoom(const Kernels& kernels, CarriedPartition& sums) const;
+  std::size_t rankOccupied(const Kernels& kernels, CellList cells, CellList others);
+  void clearOccupancy(CellList cells);
+  void countOccupied(const Kernels& kernels, const PointRecordPool& pool);
+  void sumDense(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to);
+  void makeRoom(const Kernels& kernels, AccumulatedPartition& sums) const;
   void collectDense(std::size_t& position, std::size_t& next);
-  static void unpack(std::uint64_t key, PackedSums& packed, CarriedPartition& carriedOver);
-  void sortRecords(const Kernels& kernels, const RecordPool& pool);
+  static void unpack(std::uint64_t key, PackedSums& packed, AccumulatedPartition& sums);
+  void sortRecords(const Kernels& kernels, const PointRecordPool& pool);
   std::size_t countSorted() const;
   void collectSorted(std::size_t& position, std::size_t& next);
   static std::uint32_t rankOf(std::uint64_t key, const std::uint64_t* keys, std::size_t size);
 
   PartitionPlan plan_;
   std::uint32_t partition_ = 0;
-  CarriedPartition* old_ = nullptr;
+  AccumulatedPartition* old_ = nullptr;
   PartitionVoxels voxels_;
   std::unique_ptr<MomentBatch<std::int64_t>> batch_;
-  std::vector<SecondSums> batchSeconds_;
-  // Dense: marks are zero between partitions.
-  Buffer<std::uint64_t> marks_;
-  Buffer<std::uint64_t> touched_; ///< Likewise; a bit for each word that has marks, if these are few.
-  bool few_ = false;
-  Buffer<std::uint32_t> before_;
-  Buffer<std::uint64_t> beforeBytes_;
+  std::vector<SecondMoments> batchSecondMoments_;
+  // Dense: the occupancy bits are zero between partitions.
+  Buffer<std::uint64_t> occupancy_;
+  Buffer<std::uint64_t> touched_; ///< Likewise; a bit for each occupancy word in use, of a sparse partition.
+  bool isSparse_ = false;
+  Buffer<std::uint32_t> rankTable_;
+  Buffer<std::uint64_t> byteRankTable_;
   Buffer<std::uint32_t> recordCells_;
-  CarriedPartition own_; ///< Sums of voxels that are not carried.
+  AccumulatedPartition own_; ///< Sums that are not accumulated further.
   // Sorted.
   std::size_t listed_ = 0; ///< Records.
-  Buffer<Record> records_;
+  Buffer<PointRecord> records_;
   Buffer<Entry> entries_;
   Buffer<Entry> otherEntries_;
 };
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -1,5 +1,5 @@
 /// @file
-/// The points to look at, in chunks of pieces.
+/// The points to process, in chunks of pieces.
 #pragma once
 
 #include "Core/Base/PointView.h"
@@ -12,10 +12,10 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
-/// Points a thread takes at once: enough to forget the cost of taking them.
+/// Points of a piece: enough to make the cost of scheduling it negligible.
 constexpr std::int64_t kPieceSize = 1 << 12;
 
 /// A chunk goes through all steps before the next one; threads take its pieces one by one.
@@ -80,5 +80,5 @@ private:
   std::int64_t inChunk_ = 0;
 };
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -12,7 +12,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 /// Elements worth a thread of their own to copy.
@@ -92,5 +92,5 @@ void copyArray(const T* from, std::int64_t count, T* to, const Executor& executo
   }
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -6,7 +6,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -17,16 +17,17 @@ constexpr std::size_t kRunRatio = 4;
 
 VoxelRun merged(const VoxelRun& a, const VoxelRun& b)
 {
-  const bool withSeconds = !a.seconds.empty() || !b.seconds.empty();
+  const bool withSecondMoments = !a.secondMoments.empty() || !b.secondMoments.empty();
   VoxelRun both;
   both.voxels.reserve(a.voxels.size() + b.voxels.size());
-  both.seconds.reserve(withSeconds ? a.voxels.size() + b.voxels.size() : 0);
+  both.secondMoments.reserve(withSecondMoments ? a.voxels.size() + b.voxels.size() : 0);
   const auto append = [&](const VoxelRun& from, std::size_t begin, std::size_t end)
   {
     both.voxels.insert(both.voxels.end(), from.voxels.data() + begin, from.voxels.data() + end);
-    if (withSeconds)
+    if (withSecondMoments)
     {
-      both.seconds.insert(both.seconds.end(), from.seconds.data() + begin, from.seconds.data() + end);
+      both.secondMoments.insert(
+        both.secondMoments.end(), from.secondMoments.data() + begin, from.secondMoments.data() + end);
     }
   };
   std::size_t i = 0;
@@ -46,9 +47,9 @@ VoxelRun merged(const VoxelRun& a, const VoxelRun& b)
     if (ours == theirs)
     {
       both.voxels.back().add(b.voxels[j]);
-      for (int m = 0; withSeconds && m < 6; ++m)
+      for (int m = 0; withSecondMoments && m < 6; ++m)
       {
-        both.seconds.back().lanes[m] += b.seconds[j].lanes[m];
+        both.secondMoments.back().lanes[m] += b.secondMoments[j].lanes[m];
       }
       ++j;
     }
@@ -70,9 +71,9 @@ void VoxelRun::append(const Lattice& lattice, const MomentBatch<std::int64_t>& b
         { std::uint64_t(batch.sums[0][i]), std::uint64_t(batch.sums[1][i]), std::uint64_t(batch.sums[2][i]) },
         0 });
   }
-  if (batch.seconds)
+  if (batch.secondMoments)
   {
-    seconds.insert(seconds.end(), batch.seconds, batch.seconds + batch.size);
+    secondMoments.insert(secondMoments.end(), batch.secondMoments, batch.secondMoments + batch.size);
   }
 }
 
@@ -81,7 +82,7 @@ void VoxelRun::trim()
   if (voxels.capacity() > voxels.size() + voxels.size() / 32)
   {
     voxels.shrink_to_fit();
-    seconds.shrink_to_fit();
+    secondMoments.shrink_to_fit();
   }
 }
 
@@ -125,17 +126,17 @@ void VoxelRuns::joinLast(std::size_t range)
 }
 
 void VoxelRuns::write(std::size_t range, const Kernels& kernels, const Lattice& lattice, bool plain,
-  MeanArena& arena, std::size_t place) const
+  MeanArena& arena, std::size_t offset) const
 {
   if (size(range) == 0)
   {
     return;
   }
   const VoxelRun& run = this->run(range);
-  const bool withSeconds = !run.seconds.empty();
+  const bool withSecondMoments = !run.secondMoments.empty();
   const auto batch = std::make_unique<MomentBatch<std::int64_t>>();
-  std::vector<SecondSums> seconds(withSeconds ? kBatch : 0);
-  batch->seconds = withSeconds ? seconds.data() : nullptr;
+  std::vector<SecondMoments> secondMoments(withSecondMoments ? kBatch : 0);
+  batch->secondMoments = withSecondMoments ? secondMoments.data() : nullptr;
   const auto fits = [&](const WideSums& voxel)
   { return !plain && voxel.high == 0 && (voxel.low[0] | voxel.low[1] | voxel.low[2]) >> 62 == 0; };
   for (std::size_t first = 0; first < run.voxels.size(); first += kBatch)
@@ -152,17 +153,18 @@ void VoxelRuns::write(std::size_t range, const Kernels& kernels, const Lattice& 
         batch->sums[axis][i] = fits(voxels[i]) ? std::int64_t(voxels[i].low[axis]) : 0;
       }
     }
-    if (withSeconds)
+    if (withSecondMoments)
     {
-      std::copy(run.seconds.data() + first, run.seconds.data() + first + batch->size, seconds.data());
+      std::copy(run.secondMoments.data() + first, run.secondMoments.data() + first + batch->size,
+        secondMoments.data());
     }
-    arena.write(kernels, place + first, *batch);
+    arena.write(kernels, offset + first, *batch);
     for (int i = 0; i < batch->size; ++i)
     {
       if (!fits(voxels[i]))
       {
-        arena.write(place + first + std::size_t(i), voxels[i].whole(),
-          withSeconds ? &seconds[std::size_t(i)] : nullptr);
+        arena.write(offset + first + std::size_t(i), voxels[i].whole(),
+          withSecondMoments ? &secondMoments[std::size_t(i)] : nullptr);
       }
     }
   }
@@ -175,11 +177,11 @@ std::size_t VoxelRuns::bytes() const
   {
     for (const VoxelRun& run : runs)
     {
-      sum += run.voxels.capacity() * sizeof(WideSums) + run.seconds.capacity() * sizeof(SecondSums);
+      sum += run.voxels.capacity() * sizeof(WideSums) + run.secondMoments.capacity() * sizeof(SecondMoments);
     }
   }
   return sum;
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

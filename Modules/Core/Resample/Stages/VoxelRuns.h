@@ -12,10 +12,10 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
-/// Sums over the points of a voxel of their places in it, in quanta, below 2^85.
+/// Sums over the points of a voxel of their offsets in it, in quanta, below 2^85.
 struct WideSums
 {
   std::uint64_t key;
@@ -57,14 +57,14 @@ struct WideSums
   }
 };
 
-/// Voxels in ascending order of their keys. Seconds are empty unless asked for.
+/// Voxels in ascending order of their keys. Second moments are empty unless asked for.
 struct VoxelRun
 {
   std::vector<WideSums> voxels;
-  std::vector<SecondSums> seconds;
+  std::vector<SecondMoments> secondMoments;
 
   void append(const Lattice& lattice, const MomentBatch<std::int64_t>& batch);
-  /// Gives back memory there is much of to spare.
+  /// Frees memory where much of it is unused.
   void trim();
 };
 
@@ -86,10 +86,10 @@ public:
   }
   /// @pre it is joined and not empty.
   const VoxelRun& run(std::size_t range) const { return runs_[range][0]; }
-  /// Writes a range's voxels at @p place. @p plain: not by the vector loops, which overflow earlier.
+  /// Writes a range's voxels at @p offset. @p plain: not by the vector loops, which overflow earlier.
   /// @pre it is joined.
   void write(std::size_t range, const Kernels& kernels, const Lattice& lattice, bool plain, MeanArena& arena,
-    std::size_t place) const;
+    std::size_t offset) const;
   void release(std::size_t range) { std::vector<VoxelRun>().swap(runs_[range]); }
   int fractionBits() const { return fractionBits_; }
   std::size_t bytes() const;
@@ -101,5 +101,5 @@ private:
   std::vector<std::vector<VoxelRun>> runs_; ///< Of each range, each far smaller than the one before.
 };
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

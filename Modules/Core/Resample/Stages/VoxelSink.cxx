@@ -6,7 +6,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -28,13 +28,13 @@ double toDouble(Int128 value)
   return double(value);
 }
 
-/// The caller's memory for a part of the result, or the arena's own.
+/// Memory for a part of the result, from the caller's allocator or the arena's own.
 template <typename T>
-T* memoryFor(ResultMemory::Part part, std::size_t count, ResultMemory* memory, Buffer<T>& own)
+T* memoryFor(OutputAllocator::Part part, std::size_t count, OutputAllocator* allocator, Buffer<T>& own)
 {
-  if (memory)
+  if (allocator)
   {
-    return static_cast<T*>(memory->reserve(part, count * sizeof(T)));
+    return static_cast<T*>(allocator->allocate(part, count * sizeof(T)));
   }
   own.reserve(count);
   return own.data();
@@ -71,8 +71,8 @@ void keepInVoxels(const Lattice& lattice, const PartitionVoxels& voxels, std::si
 
 }
 
-SymMat3 covarianceOf(
-  std::int64_t count, const Int128 sums[3], const SecondSums& seconds, double quantum, const Vec3& spacing)
+SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMoments& secondMoments,
+  double quantum, const Vec3& spacing)
 {
   if (count == 1)
   {
@@ -92,7 +92,7 @@ SymMat3 covarianceOf(
   const auto moment = [&](int i, int a, int b)
   {
     const auto central =
-      Int128(seconds.lanes[i] - UInt128(m[a]) * UInt128(sums[b]) - UInt128(Int128(m[b]) * rest[a]));
+      Int128(secondMoments.lanes[i] - UInt128(m[a]) * UInt128(sums[b]) - UInt128(Int128(m[b]) * rest[a]));
     const double value = (toDouble(central) - double(rest[a]) * double(rest[b]) * perPoint) * perPoint;
     return (a == b ? std::max(value, 0.0) : value) * unit[a] * unit[b];
   };
@@ -118,8 +118,8 @@ MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecisi
   return map;
 }
 
-void MeanArena::prepare(
-  std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits, ResultMemory* memory)
+void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
+  OutputAllocator* allocator)
 {
   layout_ = layout;
   lattice_ = lattice;
@@ -129,16 +129,16 @@ void MeanArena::prepare(
   covariances_ = nullptr;
   if (layout.singlePrecision)
   {
-    floats_ = memoryFor(ResultMemory::Part::Means, 3 * room, memory, ownFloats_);
+    floats_ = memoryFor(OutputAllocator::Part::Means, 3 * room, allocator, ownFloats_);
   }
   else
   {
-    doubles_ = memoryFor(ResultMemory::Part::Means, 3 * room, memory, ownDoubles_);
+    doubles_ = memoryFor(OutputAllocator::Part::Means, 3 * room, allocator, ownDoubles_);
   }
-  counts_ = memoryFor(ResultMemory::Part::Counts, room, memory, ownCounts_);
+  counts_ = memoryFor(OutputAllocator::Part::Counts, room, allocator, ownCounts_);
   if (layout.covariances)
   {
-    covariances_ = memoryFor(ResultMemory::Part::Covariances, room, memory, ownCovariances_);
+    covariances_ = memoryFor(OutputAllocator::Part::Covariances, room, allocator, ownCovariances_);
   }
   if (layout.keys)
   {
@@ -146,13 +146,13 @@ void MeanArena::prepare(
   }
 }
 
-void MeanArena::write(std::size_t place, const MeanArena& other, std::size_t size)
+void MeanArena::write(std::size_t offset, const MeanArena& other, std::size_t size)
 {
   const auto copy = [&](const auto* from, auto* to, std::size_t components)
   {
     if (from)
     {
-      std::copy(from, from + components * size, to + components * place);
+      std::copy(from, from + components * size, to + components * offset);
     }
   };
   copy(other.floats_, floats_, 3);
@@ -165,33 +165,33 @@ void MeanArena::write(std::size_t place, const MeanArena& other, std::size_t siz
   }
 }
 
-void MeanArena::write(const Kernels& kernels, std::size_t place, const MomentBatch<std::int64_t>& batch)
+void MeanArena::write(const Kernels& kernels, std::size_t offset, const MomentBatch<std::int64_t>& batch)
 {
   int nearFace[kBatch];
   if (layout_.singlePrecision)
   {
-    float* xyz = floats_ + 3 * place;
+    float* xyz = floats_ + 3 * offset;
     keepInVoxels(lattice_, batch, nearFace, kernels.meansFloat(map_, batch, xyz, nearFace), xyz);
   }
   else
   {
-    double* xyz = doubles_ + 3 * place;
+    double* xyz = doubles_ + 3 * offset;
     keepInVoxels(lattice_, batch, nearFace, kernels.meansDouble(map_, batch, xyz, nearFace), xyz);
   }
-  std::copy(batch.counts, batch.counts + batch.size, counts_ + place);
+  std::copy(batch.counts, batch.counts + batch.size, counts_ + offset);
   for (int i = 0; layout_.keys && i < batch.size; ++i)
   {
-    keys_[place + std::size_t(i)] = keyOf(lattice_, batch, i);
+    keys_[offset + std::size_t(i)] = keyOf(lattice_, batch, i);
   }
   for (int i = 0; layout_.covariances && i < batch.size; ++i)
   {
     const Int128 sums[3] = { batch.sums[0][i], batch.sums[1][i], batch.sums[2][i] };
-    covariances_[place + std::size_t(i)] =
-      covarianceOf(batch.counts[i], sums, batch.seconds[i], map_.quantum, lattice_.spacing);
+    covariances_[offset + std::size_t(i)] =
+      covarianceOf(batch.counts[i], sums, batch.secondMoments[i], map_.quantum, lattice_.spacing);
   }
 }
 
-void MeanArena::write(const Kernels& kernels, std::size_t place, const PartitionVoxels& voxels)
+void MeanArena::write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
 {
   int nearFace[kBatch];
   for (std::size_t first = 0; first < voxels.size; first += kBatch)
@@ -199,31 +199,31 @@ void MeanArena::write(const Kernels& kernels, std::size_t place, const Partition
     const int size = int(std::min<std::size_t>(voxels.size - first, kBatch));
     const std::uint32_t* cells = voxels.cells + first;
     const PackedSums* sums = voxels.sums + first;
-    std::int64_t* counts = counts_ + place + first;
+    std::int64_t* counts = counts_ + offset + first;
     if (layout_.singlePrecision)
     {
-      float* xyz = floats_ + 3 * (place + first);
+      float* xyz = floats_ + 3 * (offset + first);
       const int found = kernels.packedMeansFloat(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
       keepInVoxels(lattice_, voxels, first, nearFace, found, xyz);
     }
     else
     {
-      double* xyz = doubles_ + 3 * (place + first);
+      double* xyz = doubles_ + 3 * (offset + first);
       const int found = kernels.packedMeansDouble(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
       keepInVoxels(lattice_, voxels, first, nearFace, found, xyz);
     }
   }
   for (std::size_t i = 0; layout_.keys && i < voxels.size; ++i)
   {
-    keys_[place + i] = voxels.firstKey + voxels.cells[i];
+    keys_[offset + i] = voxels.firstKey + voxels.cells[i];
   }
   if (layout_.covariances)
   {
-    writeCovariances(kernels, place, voxels);
+    writeCovariances(kernels, offset, voxels);
   }
 }
 
-void MeanArena::writeCovariances(const Kernels& kernels, std::size_t place, const PartitionVoxels& voxels)
+void MeanArena::writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
 {
   static_assert(sizeof(SymMat3) == 6 * sizeof(double), "six numbers, xx yy zz xy yz xz");
   const int fractionBits = voxels.map.fractionBits;
@@ -234,20 +234,20 @@ void MeanArena::writeCovariances(const Kernels& kernels, std::size_t place, cons
   {
     const int size = int(std::min<std::size_t>(voxels.size - first, kBatch));
     const PackedSums* packed = voxels.sums + first;
-    const SplitSeconds* seconds = voxels.seconds + first;
-    SymMat3* to = covariances_ + place + first;
-    const int found = kernels.covariances(map, packed, seconds, size, &to->xx, full);
+    const SplitSecondMoments* secondMoments = voxels.secondMoments + first;
+    SymMat3* to = covariances_ + offset + first;
+    const int found = kernels.covariances(map, packed, secondMoments, size, &to->xx, full);
     for (int j = 0; j < found; ++j)
     {
       const int i = full[j];
       const Int128 sums[3] = { Int128(packed[i].lanes[0]), Int128(packed[i].lanes[1]), packedZ(packed[i]) };
       to[i] = covarianceOf(
-        packedCount(packed[i]), sums, whole(seconds[i], fractionBits), map_.quantum, lattice_.spacing);
+        packedCount(packed[i]), sums, whole(secondMoments[i], fractionBits), map_.quantum, lattice_.spacing);
     }
   }
 }
 
-void MeanArena::write(std::size_t place, const VoxelSums& voxel, const SecondSums* seconds)
+void MeanArena::write(std::size_t offset, const VoxelSums& voxel, const SecondMoments* secondMoments)
 {
   const auto index = lattice_.indexOf(voxel.key);
   for (int axis = 0; axis < 3; ++axis)
@@ -255,7 +255,7 @@ void MeanArena::write(std::size_t place, const VoxelSums& voxel, const SecondSum
     const std::int64_t i = index[std::size_t(axis)];
     const double inVoxel = double(voxel.sums[axis]) / double(voxel.count) * map_.quantum;
     const double coordinate = map_.origin[axis] + (double(i) + inVoxel) * map_.spacing[axis];
-    const std::size_t to = 3 * place + std::size_t(axis);
+    const std::size_t to = 3 * offset + std::size_t(axis);
     if (layout_.singlePrecision)
     {
       floats_[to] = lattice_.keptInVoxel(float(coordinate), axis, i);
@@ -265,29 +265,31 @@ void MeanArena::write(std::size_t place, const VoxelSums& voxel, const SecondSum
       doubles_[to] = lattice_.keptInVoxel(coordinate, axis, i);
     }
   }
-  counts_[place] = voxel.count;
+  counts_[offset] = voxel.count;
   if (layout_.keys)
   {
-    keys_[place] = voxel.key;
+    keys_[offset] = voxel.key;
   }
   if (layout_.covariances)
   {
-    covariances_[place] = covarianceOf(voxel.count, voxel.sums, *seconds, map_.quantum, lattice_.spacing);
+    covariances_[offset] =
+      covarianceOf(voxel.count, voxel.sums, *secondMoments, map_.quantum, lattice_.spacing);
   }
 }
 
-void carry(const Lattice& lattice, const MomentBatch<std::int64_t>& batch, CarriedPartition& partition)
+void appendBatch(
+  const Lattice& lattice, const MomentBatch<std::int64_t>& batch, AccumulatedPartition& partition)
 {
   for (int i = 0; i < batch.size; ++i)
   {
     partition.voxels.push_back({ keyOf(lattice, batch, i), batch.counts[i],
       { batch.sums[0][i], batch.sums[1][i], batch.sums[2][i] } });
-    if (batch.seconds)
+    if (batch.secondMoments)
     {
-      partition.seconds.push_back(batch.seconds[i]);
+      partition.secondMoments.push_back(batch.secondMoments[i]);
     }
   }
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

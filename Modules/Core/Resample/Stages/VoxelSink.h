@@ -1,5 +1,5 @@
 /// @file
-/// What becomes of a partition's sums: the result's numbers, or sums to go on with.
+/// Outputs of a partition's sums: means in the result, or accumulated sums for the next chunk.
 #pragma once
 
 #include "Core/Base/Buffer.h"
@@ -13,10 +13,10 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
-/// Sums over the points of a voxel of their places in it, in quanta.
+/// Sums over the points of a voxel of their offsets in it, in quanta.
 struct VoxelSums
 {
   std::uint64_t key;
@@ -24,25 +24,25 @@ struct VoxelSums
   Int128 sums[3];
 };
 
-/// Sums of one voxel over the chunks so far.
-struct CarriedSums
+/// Accumulated sums: those of one voxel over the chunks so far.
+struct AccumulatedSums
 {
   std::uint64_t key;
   std::int64_t count;
   std::int64_t sums[3];
 };
 
-/// Those of a partition. Where its cells' sums are kept side by side: cells with their packed sums, and in
-/// voxels what these could not hold; otherwise voxels by key. Seconds go with the cells, split, or with the
-/// voxels, and are there only if covariances are wanted.
-struct alignas(kApart) CarriedPartition
+/// The accumulated sums of a partition. A dense partition has cells with packed sums, and in voxels the sums
+/// of overfull cells; another one has voxels by key. Second moments are kept with the cells, split, or with
+/// the voxels; they exist only if covariances are wanted.
+struct alignas(kApart) AccumulatedPartition
 {
-  std::size_t cellCount = 0; ///< The vectors may have more elements: nothing is said of those.
+  std::size_t cellCount = 0; ///< The vectors may have more elements, which are unused.
   std::vector<std::uint32_t> cells;
   std::vector<PackedSums> packed;
-  std::vector<SplitSeconds> splitSeconds;
-  std::vector<CarriedSums> voxels;
-  std::vector<SecondSums> seconds;
+  std::vector<SplitSecondMoments> splitSecondMoments;
+  std::vector<AccumulatedSums> voxels;
+  std::vector<SecondMoments> secondMoments;
   std::int64_t points = 0; ///< In cells; as many or fewer are in their packed sums.
 
   std::size_t size() const { return cellCount == 0 ? voxels.size() : cellCount; }
@@ -50,23 +50,23 @@ struct alignas(kApart) CarriedPartition
   {
     cellCount = 0;
     voxels.clear();
-    seconds.clear();
+    secondMoments.clear();
     points = 0;
   }
-  /// When it is no longer needed: gives back memory that was mostly of no use.
+  /// Frees memory that is mostly unused. The sums are dropped then: call it when they are no longer needed.
   void trim()
   {
     constexpr std::size_t kFewCells = 1024;
     if (packed.capacity() > 2 * cellCount + kFewCells)
     {
-      *this = CarriedPartition();
+      *this = AccumulatedPartition();
     }
   }
   std::size_t bytes() const
   {
     return cells.capacity() * sizeof(std::uint32_t) + packed.capacity() * sizeof(PackedSums) +
-      splitSeconds.capacity() * sizeof(SplitSeconds) + voxels.capacity() * sizeof(CarriedSums) +
-      seconds.capacity() * sizeof(SecondSums);
+      splitSecondMoments.capacity() * sizeof(SplitSecondMoments) +
+      voxels.capacity() * sizeof(AccumulatedSums) + secondMoments.capacity() * sizeof(SecondMoments);
   }
 };
 
@@ -77,15 +77,15 @@ struct PartitionVoxels
   std::uint64_t firstKey = 0;
   const std::uint32_t* cells = nullptr;
   const PackedSums* sums = nullptr;
-  const SplitSeconds* seconds = nullptr; ///< Or null.
+  const SplitSecondMoments* secondMoments = nullptr; ///< Or null.
   std::size_t size = 0;
 };
 
 /// Covariance of the points of a voxel, divided by their count, from exact integer sums in quanta.
-SymMat3 covarianceOf(
-  std::int64_t count, const Int128 sums[3], const SecondSums& seconds, double quantum, const Vec3& spacing);
+SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMoments& secondMoments,
+  double quantum, const Vec3& spacing);
 
-/// How sums become coordinates in a lattice with places of @p fractionBits bits, rounded to float or double.
+/// How sums become coordinates in a lattice with offsets of @p fractionBits bits, rounded to float or double.
 MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecision);
 
 /// Means, counts and on request keys and covariances of active voxels, in the arena's own memory or, where
@@ -101,14 +101,14 @@ public:
   };
 
   void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
-    ResultMemory* memory = nullptr);
-  /// Writes the voxels of a partition, or a batch of voxels, at @p place.
-  void write(const Kernels& kernels, std::size_t place, const PartitionVoxels& voxels);
-  void write(const Kernels& kernels, std::size_t place, const MomentBatch<std::int64_t>& batch);
-  /// Writes one voxel; seconds are null without covariances.
-  void write(std::size_t place, const VoxelSums& voxel, const SecondSums* seconds);
+    OutputAllocator* allocator = nullptr);
+  /// Writes the voxels of a partition, or a batch of voxels, at @p offset.
+  void write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
+  void write(const Kernels& kernels, std::size_t offset, const MomentBatch<std::int64_t>& batch);
+  /// Writes one voxel; second moments are null without covariances.
+  void write(std::size_t offset, const VoxelSums& voxel, const SecondMoments* secondMoments);
   /// Copies what another arena of the same layout has.
-  void write(std::size_t place, const MeanArena& other, std::size_t size);
+  void write(std::size_t offset, const MeanArena& other, std::size_t size);
 
   const float* floats() const { return floats_; }
   const double* doubles() const { return doubles_; }
@@ -122,7 +122,7 @@ public:
   }
 
 private:
-  void writeCovariances(const Kernels& kernels, std::size_t place, const PartitionVoxels& voxels);
+  void writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
 
   Layout layout_;
   Lattice lattice_;
@@ -138,8 +138,9 @@ private:
   Buffer<std::uint64_t> keys_;
 };
 
-/// Appends a batch to a partition that is carried over.
-void carry(const Lattice& lattice, const MomentBatch<std::int64_t>& batch, CarriedPartition& partition);
+/// Appends the voxels of a batch to accumulated sums.
+void appendBatch(
+  const Lattice& lattice, const MomentBatch<std::int64_t>& batch, AccumulatedPartition& partition);
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

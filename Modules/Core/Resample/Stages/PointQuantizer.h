@@ -1,5 +1,5 @@
 /// @file
-/// From a transform and a lattice to the numbers that place points, and one point placed the plain way.
+/// Quantizing points: the constants for a transform and a lattice, and one point by plain code.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
@@ -10,33 +10,33 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 /// Bits that index the voxels of a lattice's longest axis.
 int indexBitsOf(const Lattice& lattice);
-/// Where a lattice has more than so many, positions use all bits of a double below the point, and rounding
-/// can be worth a quarter of a quantum more than the quantum, 2^-31 voxel, that cutting is: it is corrected.
+/// Lattices with more index bits use all fraction bits of a double for positions. Rounding could then cost a
+/// quarter of a quantum beside the quantum (2^-31 voxel) that truncation costs: it is corrected.
 constexpr int kUncorrectedIndexBits = 20;
 /// Bits of a position: kPositionBits, or all of a double's on lattices too fine for those.
 int positionBitsFor(int indexBits);
 
-/// Leaves rowsPerLayer and rowShift to whoever plans the partitions.
-Placement makePlacement(
+/// Leaves blocksPerLayer, rowShift and layerShift, which come from a PartitionPlan, to the caller.
+PointQuantizer makeQuantizer(
   const AffineTransform& transform, const Lattice& lattice, int indexBits, int positionBits);
 
 /// False where the vector loops' division by way of the reciprocal could under- or overflow.
 bool hasOrdinarySpacing(const Lattice& lattice);
 
-enum class Place
+enum class PointLocation
 {
   Inside,
   Outside,
   Invalid, ///< Not finite, before or after the transform.
 };
-/// The position of a point: voxel index << fractionBits | place in the voxel. The vector loops give the same
+/// Quantizes a point: voxel index << fractionBits | offset in the voxel. The vector loops give the same
 /// bits.
-Place placePoint(const Placement& placement, const Vec3& point, std::uint64_t position[3]);
+PointLocation quantizePoint(const PointQuantizer& quantizer, const Vec3& point, std::uint64_t position[3]);
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

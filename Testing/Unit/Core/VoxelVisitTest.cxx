@@ -1,4 +1,4 @@
-// What VoxelResampler tells beside means: coarser levels, parents, and which voxel each point is in.
+// VoxelResampler beside means: coarser levels, parents, and the voxel of each point.
 #include "Core/Neighbors/PointIndex.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -60,14 +60,14 @@ void expectLevelsAreDirect(const VoxelRequest& request, const Executor& executor
   }
 }
 
-/// What test points have, told from their numbers.
-struct Carried
+/// Attributes of test points, functions of their indices.
+struct Attributes
 {
   std::vector<std::uint8_t> bytes; ///< Three a point.
   std::vector<double> doubles;
   std::vector<std::array<std::int32_t, 30>> wide;
 
-  Carried(std::size_t points, bool isWide)
+  Attributes(std::size_t points, bool isWide)
   {
     for (std::size_t i = 0; i < points; ++i)
     {
@@ -112,15 +112,15 @@ struct Carried
   }
 };
 
-/// Every point inside is told once, with all it has and the voxel that has its key; no voxel to two threads
+/// Every point inside is visited once, with its attributes and its voxel; no voxel by two threads
 /// at a time.
-void expectAssigned(VoxelRequest request, bool foretold, bool isWide, const Executor& executor)
+void expectVisited(VoxelRequest request, bool keepsRecords, bool isWide, const Executor& executor)
 {
-  request.assigned = foretold;
-  const Carried carried(std::size_t(request.points.size()), isWide);
-  request.tuples = carried.sources();
+  request.keepPointRecords = keepsRecords;
+  const Attributes attributes(std::size_t(request.points.size()), isWide);
+  request.tuples = attributes.sources();
   const std::string what = nameOf(request.lattice) + (request.index ? " with an index" : "") +
-    (foretold ? ", foretold" : "") + (isWide ? ", wide" : "");
+    (keepsRecords ? ", keeps records" : "") + (isWide ? ", wide" : "");
   VoxelResampler resampler;
   const RunResult result = runOf(resampler, request, executor);
   const LevelResult& level = result.levels[0];
@@ -133,7 +133,7 @@ void expectAssigned(VoxelRequest request, bool foretold, bool isWide, const Exec
     std::vector<std::int64_t> taken;
     for (int i = 0; i < count; ++i)
     {
-      const std::int64_t point = carried.pointOf(rows, i);
+      const std::int64_t point = attributes.pointOf(rows, i);
       if (point < 0 || voxels[i] < 0 || std::size_t(voxels[i]) >= busy.size())
       {
         ++faults;
@@ -153,13 +153,13 @@ void expectAssigned(VoxelRequest request, bool foretold, bool isWide, const Exec
       busy[std::size_t(voxel)] = 0;
     }
   };
-  for (int round = 0; round < (foretold ? 2 : 1); ++round)
+  for (int round = 0; round < (keepsRecords ? 2 : 1); ++round)
   {
     for (auto& voxel : voxelOf)
     {
       voxel = -1;
     }
-    ASSERT_EQ(resampler.assign(request, visit, executor), Status::Ok);
+    ASSERT_EQ(resampler.visitPointsByVoxel(request, visit, executor), Status::Ok);
   }
   EXPECT_EQ(faults, 0) << what;
   std::vector<std::int64_t> counts(level.counts.size(), 0);
@@ -177,10 +177,10 @@ void expectAssigned(VoxelRequest request, bool foretold, bool isWide, const Exec
     }
   }
   EXPECT_EQ(counts, level.counts) << what;
-  if (resampler.canAssignInSets())
+  if (resampler.canVisitByVoxelSet())
   {
     std::atomic<std::int64_t> seen{ 0 };
-    resampler.assignInSets(
+    resampler.visitPointsByVoxelSet(
       request,
       [&](std::int64_t first, std::int64_t voxels, const auto& forPoints)
       {
@@ -189,7 +189,7 @@ void expectAssigned(VoxelRequest request, bool foretold, bool isWide, const Exec
           {
             for (int i = 0; i < count; ++i)
             {
-              const std::int64_t point = carried.pointOf(rows, i);
+              const std::int64_t point = attributes.pointOf(rows, i);
               faults += point < 0 || numbers[i] >= voxels ||
                 voxelOf[std::size_t(std::max<std::int64_t>(point, 0))] != first + numbers[i];
             }
@@ -200,16 +200,16 @@ void expectAssigned(VoxelRequest request, bool foretold, bool isWide, const Exec
     EXPECT_EQ(faults, 0) << what << " in sets";
     EXPECT_EQ(seen, std::accumulate(counts.begin(), counts.end(), std::int64_t(0))) << what;
   }
-  EXPECT_TRUE(foretold || !resampler.canAssignInSets()) << what;
+  EXPECT_TRUE(keepsRecords || !resampler.canVisitByVoxelSet()) << what;
   expectSame(runOf(resampler, request, executor), result, what + " run again");
 }
 
-void expectAssigned(const VoxelRequest& request, const Executor& executor)
+void expectVisited(const VoxelRequest& request, const Executor& executor)
 {
   for (const bool isWide : { false, true })
   {
-    expectAssigned(request, false, isWide, executor);
-    expectAssigned(request, true, isWide, executor);
+    expectVisited(request, false, isWide, executor);
+    expectVisited(request, true, isWide, executor);
   }
 }
 
@@ -295,7 +295,7 @@ TEST(VoxelLevels, AreWhatDirectResamplingGivesOnLatticesOfAllShapes)
   }
 }
 
-TEST(VoxelLevels, AreWhatDirectResamplingGivesBesideACrowdThatPackedSumsCannotHold)
+TEST(VoxelLevels, AreWhatDirectResamplingGivesBesideAnOverfullCell)
 {
   const Lattice lattice = latticeOf(100, 101, 99);
   std::vector<Vec3> points = quantisedPoints(2600000, 8, lattice);
@@ -325,7 +325,7 @@ TEST(VoxelLevels, StopAtOneVoxelAndRepeatIt)
   }
 }
 
-TEST(VoxelAssignment, TellsEveryPointInsideOnceOnEveryPath)
+TEST(VoxelVisit, ReachesEveryPointInsideOnceOnEveryPath)
 {
   for (const Lattice& lattice : latticesOfAllPaths())
   {
@@ -333,19 +333,19 @@ TEST(VoxelAssignment, TellsEveryPointInsideOnceOnEveryPath)
     points[5].x = NAN;
     points[9000].z = INFINITY;
     VoxelRequest request = requestFor(points, lattice);
-    expectAssigned(request, {});
-    expectAssigned(request, ThreadedExecutor(3));
+    expectVisited(request, {});
+    expectVisited(request, ThreadedExecutor(3));
     PointIndex index;
     ASSERT_EQ(index.build(request.points), Status::Ok);
     request.index = &index;
-    expectAssigned(request, ThreadedExecutor(2));
+    expectVisited(request, ThreadedExecutor(2));
     request.lattice.end = 0.3 * Vec3(double(lattice.dimensions[0]), double(lattice.dimensions[1]), 1e9);
     request.lattice.end.z = INFINITY;
-    expectAssigned(request, BackwardExecutor(5));
+    expectVisited(request, BackwardExecutor(5));
   }
 }
 
-TEST(VoxelAssignment, TellsEveryPointOfMoreThanAChunk)
+TEST(VoxelVisit, ReachesEveryPointOfMoreThanAChunk)
 {
   const Lattice lattice = latticeOf(1000, 1000, 1000);
   const std::vector<Vec3> points = quantisedPoints(1300000, 6, lattice);
@@ -356,10 +356,10 @@ TEST(VoxelAssignment, TellsEveryPointOfMoreThanAChunk)
   request.index = &index;
   request.lattice.origin = { 20, 30, 10 };
   request.lattice.dimensions = { 970, 960, 980 };
-  expectAssigned(request, true, false, ThreadedExecutor(2));
+  expectVisited(request, true, false, ThreadedExecutor(2));
 }
 
-TEST(VoxelAssignment, AnIndexChangesNoBit)
+TEST(VoxelVisit, AnIndexChangesNoBit)
 {
   std::vector<Vec3> points = randomBox(40000, 7, { -1, -1, -1 }, { 1, 1, 1 });
   points[77].y = -INFINITY;
@@ -379,7 +379,7 @@ TEST(VoxelAssignment, AnIndexChangesNoBit)
   }
 }
 
-TEST(VoxelAssignment, AnIndexLosesNoPointThatRoundingPutsOnAFace)
+TEST(VoxelVisit, AnIndexLosesNoPointThatRoundingPutsOnAFace)
 {
   Random random(9);
   for (int i = 0; i < 200; ++i)
@@ -406,7 +406,7 @@ TEST(VoxelAssignment, AnIndexLosesNoPointThatRoundingPutsOnAFace)
   }
 }
 
-TEST(VoxelAssignment, AnIndexCountsPointsThatOverflowInTheTransformAsInvalid)
+TEST(VoxelVisit, AnIndexCountsPointsThatOverflowInTheTransformAsInvalid)
 {
   // Outside on x, and beyond all numbers on y.
   std::vector<Vec3> points = trial::randomBox(500, 1, { 0, 0, 0 }, { 1, 1, 1 });

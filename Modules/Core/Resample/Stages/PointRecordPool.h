@@ -1,9 +1,9 @@
 /// @file
-/// Records of a chunk of points, sorted into partitions while they are written.
+/// Point records of a chunk, binned into partitions while they are written.
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Resample/Stages/RecordWriter.h"
+#include "Core/Resample/Stages/PointRecordWriter.h"
 
 #include <condition_variable>
 #include <cstdint>
@@ -13,33 +13,33 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
-/// Blocks of records in one piece of memory. A writer takes a block for each partition it has a point for and
-/// a new one when that is full; the blocks of a writer and partition are a list. Writers run at the same
-/// time.
-class RecordPool
+/// Blocks of point records in one piece of memory. A writer takes a block for each partition it has a point
+/// for, and a new one when that is full; the blocks of a writer and partition form a list. Writers run
+/// concurrently.
+class PointRecordPool
 {
 public:
   /// Room for @p points records of @p partitions partitions, written by at most @p writers writers at once,
   /// and a row of so many bytes beside each. Empties the pool.
   void prepare(std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes);
-  /// Rows, numbered as RecordWriter::slots tells.
+  /// Rows, indexed by PointRecordWriter::slots.
   char* rows() { return rows_.data(); }
 
-  /// A writer nobody else uses, for as long as this lives. Waits while all are taken.
+  /// Exclusive use of a writer while this lives. Blocks while all writers are in use.
   class Lease
   {
   public:
-    explicit Lease(RecordPool& pool);
+    explicit Lease(PointRecordPool& pool);
     ~Lease();
     Lease(const Lease&) = delete;
     Lease& operator=(const Lease&) = delete;
-    RecordWriter& writer() const;
+    PointRecordWriter& writer() const;
 
   private:
-    RecordPool& pool_;
+    PointRecordPool& pool_;
     std::size_t slot_;
   };
 
@@ -47,16 +47,16 @@ public:
   class Walk
   {
   public:
-    Walk(const RecordPool& pool, std::uint32_t partition)
+    Walk(const PointRecordPool& pool, std::uint32_t partition)
       : pool_(pool)
       , partition_(partition)
     {
     }
     /// Goes to the next block, at first to the first. @return whether there is one.
     bool next();
-    const Record* records() const { return pool_.records_.data() + first_; }
-    /// What to fetch while at work on this block: the next one, or nothing else.
-    const Record* recordsAhead() const
+    const PointRecord* records() const { return pool_.records_.data() + first_; }
+    /// What to prefetch while this block is processed: the next one, or this one again.
+    const PointRecord* recordsAhead() const
     {
       Walk ahead = *this;
       return ahead.next() ? ahead.records() : records();
@@ -66,10 +66,10 @@ public:
     int count() const { return int(end_ - first_); }
 
   private:
-    const RecordPool& pool_;
+    const PointRecordPool& pool_;
     std::uint32_t partition_;
     std::size_t writer_ = 0; ///< The one whose blocks come next.
-    std::uint32_t before_ = kNoBlock;
+    std::uint32_t previousBlock_ = kNoBlock;
     std::size_t first_ = 0;
     std::size_t end_ = 0;
   };
@@ -82,16 +82,16 @@ public:
   std::size_t bytes() const;
 
 private:
-  struct alignas(kApart) Writer : RecordWriter
+  struct alignas(kApart) Writer : PointRecordWriter
   {
-    std::vector<Record*> cursorStorage;
+    std::vector<PointRecord*> cursorStorage;
     std::vector<std::uint32_t> lastStorage;
     bool inUse = false;
   };
   std::uint32_t partitions() const { return std::uint32_t(writers_[0]->lastStorage.size()); }
 
   std::size_t blockRecords_ = kBlockRecords;
-  Buffer<Record> records_;
+  Buffer<PointRecord> records_;
   Buffer<char> rows_;
   std::size_t rowBytes_ = 0;
   Buffer<std::uint32_t> previous_;
@@ -101,9 +101,9 @@ private:
   std::condition_variable returned_;
 };
 
-inline bool RecordPool::Walk::next()
+inline bool PointRecordPool::Walk::next()
 {
-  std::uint32_t block = before_;
+  std::uint32_t block = previousBlock_;
   if (block != kNoBlock)
   {
     end_ = (std::size_t(block) + 1) * pool_.blockRecords_;
@@ -121,11 +121,11 @@ inline bool RecordPool::Walk::next()
   {
     return false;
   }
-  before_ = pool_.previous_[block];
+  previousBlock_ = pool_.previous_[block];
   first_ = std::size_t(block) * pool_.blockRecords_ +
-    (before_ == kNoBlock ? firstRecord(partition_, pool_.blockRecords_) : 0);
+    (previousBlock_ == kNoBlock ? firstRecord(partition_, pool_.blockRecords_) : 0);
   return true;
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

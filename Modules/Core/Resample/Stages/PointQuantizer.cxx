@@ -1,4 +1,4 @@
-#include "Core/Resample/Stages/PointPlacement.h"
+#include "Core/Resample/Stages/PointQuantizer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
@@ -33,7 +33,7 @@ void solve(const AffineTransform& transform, const Wide b[3], Wide p[3])
   }
 }
 
-/// See compensatedDot() of PlacementBody.h: the same operations in the same order, less those that change
+/// See compensatedDot() of QuantizeBody.h: the same operations in the same order, less those that change
 /// nothing. @p left: what rounding takes from it.
 double compensatedDot(const double row[3], const double p[3], double offset, double offsetRest, double& left)
 {
@@ -68,9 +68,9 @@ double leftOfDifference(double a, double b)
 /// Where rounding p - pivot, the products and their sums could move a point inside by more than an eighth of
 /// a quantum: under matrices of a large condition number, and on the finest lattices. The same on a lattice
 /// and on one twice as coarse, whose sums would differ otherwise.
-bool needsCompensation(const AffineTransform& transform, const Placement& placement, int positionBits)
+bool needsCompensation(const AffineTransform& transform, const PointQuantizer& quantizer, int positionBits)
 {
-  constexpr Wide kRounding = 0x1p-50L; // of a term of the sum, all told
+  constexpr Wide kRounding = 0x1p-50L; // of a term of the sum, in total
   constexpr Wide kMostLost = 0.125L;
   Wide largest[3] = { 0, 0, 0 }; // |p - pivot| of the points inside
   for (int axis = 0; axis < 3; ++axis)
@@ -78,7 +78,7 @@ bool needsCompensation(const AffineTransform& transform, const Placement& placem
     Wide extent[3] = { 0, 0, 0 };
     Wide edge[3];
     extent[axis] =
-      std::ldexp(Wide(placement.quantum[axis]), positionBits) + std::abs(Wide(placement.offset[axis]));
+      std::ldexp(Wide(quantizer.quantum[axis]), positionBits) + std::abs(Wide(quantizer.offset[axis]));
     solve(transform, extent, edge);
     for (int column = 0; column < 3; ++column)
     {
@@ -87,12 +87,12 @@ bool needsCompensation(const AffineTransform& transform, const Placement& placem
   }
   for (int axis = 0; axis < 3; ++axis)
   {
-    Wide terms = std::abs(Wide(placement.offset[axis]));
+    Wide terms = std::abs(Wide(quantizer.offset[axis]));
     for (int column = 0; column < 3; ++column)
     {
       terms += std::abs(Wide(transform.m[axis][column])) * largest[column];
     }
-    if (!(kRounding * terms <= kMostLost * Wide(placement.quantum[axis])))
+    if (!(kRounding * terms <= kMostLost * Wide(quantizer.quantum[axis])))
     {
       return true;
     }
@@ -110,7 +110,7 @@ Motion motionOf(const AffineTransform& t)
 }
 
 /// What the transform makes of the pivot, from the lattice's origin.
-void setOffset(const AffineTransform& transform, const Lattice& lattice, Placement& placement)
+void setOffset(const AffineTransform& transform, const Lattice& lattice, PointQuantizer& quantizer)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -119,9 +119,9 @@ void setOffset(const AffineTransform& transform, const Lattice& lattice, Placeme
     const double o = lattice.origin[axis];
     const double rest = leftOfDifference(t, o);
     double left = 0.0;
-    placement.offset[axis] =
-      compensatedDot(placement.matrix[axis], placement.pivot, t - o, rest, left) + 0.0; // never -0
-    placement.offsetRest[axis] = rest;
+    quantizer.offset[axis] =
+      compensatedDot(quantizer.matrix[axis], quantizer.pivot, t - o, rest, left) + 0.0; // never -0
+    quantizer.offsetRest[axis] = rest;
   }
 }
 
@@ -157,23 +157,23 @@ int positionBitsFor(int indexBits)
   return indexBits <= kMaximumIndexBits ? kPositionBits : 52;
 }
 
-Placement makePlacement(
+PointQuantizer makeQuantizer(
   const AffineTransform& transform, const Lattice& lattice, int indexBits, int positionBits)
 {
-  Placement placement{};
-  placement.motion = motionOf(transform);
-  placement.pairDivides = true;
-  placement.fractionBits = positionBits - indexBits;
-  placement.correctsRounding = indexBits > kUncorrectedIndexBits;
+  PointQuantizer quantizer{};
+  quantizer.motion = motionOf(transform);
+  quantizer.pairDivides = true;
+  quantizer.fractionBits = positionBits - indexBits;
+  quantizer.correctsRounding = indexBits > kUncorrectedIndexBits;
   Wide toOrigin[3];
   Wide pivot[3];
   for (int axis = 0; axis < 3; ++axis)
   {
     toOrigin[axis] = Wide(lattice.origin[axis]) - Wide(transform.m[axis][3]);
     pivot[axis] = toOrigin[axis] / Wide(transform.m[axis][axis]);
-    std::copy(transform.m[axis], transform.m[axis] + 3, placement.matrix[axis]);
+    std::copy(transform.m[axis], transform.m[axis] + 3, quantizer.matrix[axis]);
   }
-  if (placement.motion == Motion::General)
+  if (quantizer.motion == Motion::General)
   {
     solve(transform, toOrigin, pivot);
   }
@@ -181,34 +181,34 @@ Placement makePlacement(
     std::isfinite(double(pivot[0])) && std::isfinite(double(pivot[1])) && std::isfinite(double(pivot[2]));
   for (int axis = 0; axis < 3; ++axis)
   {
-    placement.pivot[axis] = finite ? double(pivot[axis]) : 0.0;
+    quantizer.pivot[axis] = finite ? double(pivot[axis]) : 0.0;
   }
-  setOffset(transform, lattice, placement);
+  setOffset(transform, lattice, quantizer);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double quantum = std::ldexp(lattice.spacing[axis], -placement.fractionBits);
-    placement.quantum[axis] = quantum;
-    placement.reciprocal[axis] = 1.0 / quantum;
-    placement.remainder[axis] = -std::fma(placement.reciprocal[axis], quantum, -1.0) / quantum;
-    placement.pairDivides =
-      placement.pairDivides && dividesAsPair(quantum, placement.reciprocal[axis], placement.remainder[axis]);
-    placement.limit[axis] = std::ldexp(
-      std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]), placement.fractionBits);
+    const double quantum = std::ldexp(lattice.spacing[axis], -quantizer.fractionBits);
+    quantizer.quantum[axis] = quantum;
+    quantizer.reciprocal[axis] = 1.0 / quantum;
+    quantizer.remainder[axis] = -std::fma(quantizer.reciprocal[axis], quantum, -1.0) / quantum;
+    quantizer.pairDivides =
+      quantizer.pairDivides && dividesAsPair(quantum, quantizer.reciprocal[axis], quantizer.remainder[axis]);
+    quantizer.limit[axis] = std::ldexp(
+      std::min(double(lattice.dimensions[std::size_t(axis)]), lattice.end[axis]), quantizer.fractionBits);
   }
   const auto isSubtraction = [&](int axis)
-  { return placement.offset[axis] == 0.0 && placement.pivot[axis] != 0.0; };
-  if (placement.motion == Motion::Shift && isSubtraction(0) && isSubtraction(1) && isSubtraction(2))
+  { return quantizer.offset[axis] == 0.0 && quantizer.pivot[axis] != 0.0; };
+  if (quantizer.motion == Motion::Shift && isSubtraction(0) && isSubtraction(1) && isSubtraction(2))
   {
-    placement.motion = Motion::Subtract;
+    quantizer.motion = Motion::Subtract;
   }
-  else if ((placement.motion == Motion::General || positionBits > kPositionBits) &&
-    needsCompensation(transform, placement, positionBits))
+  else if ((quantizer.motion == Motion::General || positionBits > kPositionBits) &&
+    needsCompensation(transform, quantizer, positionBits))
   {
-    placement.motion = Motion::Compensated;
-    std::fill(placement.pivot, placement.pivot + 3, 0.0);
-    setOffset(transform, lattice, placement);
+    quantizer.motion = Motion::Compensated;
+    std::fill(quantizer.pivot, quantizer.pivot + 3, 0.0);
+    setOffset(transform, lattice, quantizer);
   }
-  return placement;
+  return quantizer;
 }
 
 bool hasOrdinarySpacing(const Lattice& lattice)
@@ -235,38 +235,38 @@ std::uint64_t nearer(std::uint64_t position, double v, double left, double quant
 
 }
 
-Place placePoint(const Placement& placement, const Vec3& point, std::uint64_t position[3])
+PointLocation quantizePoint(const PointQuantizer& quantizer, const Vec3& point, std::uint64_t position[3])
 {
   constexpr std::uint64_t kMantissa = (std::uint64_t(1) << 52) - 1;
-  const double p[3] = { point.x - placement.pivot[0], point.y - placement.pivot[1],
-    point.z - placement.pivot[2] };
+  const double p[3] = { point.x - quantizer.pivot[0], point.y - quantizer.pivot[1],
+    point.z - quantizer.pivot[2] };
   bool inside = true;
   bool finite = true;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double* row = placement.matrix[axis];
+    const double* row = quantizer.matrix[axis];
     // The same operations in the same order as the vector loops.
-    const double offset = placement.offset[axis];
+    const double offset = quantizer.offset[axis];
     double left = 0.0;
-    const double v = placement.motion == Motion::Compensated
-      ? compensatedDot(row, p, offset, placement.offsetRest[axis], left)
-      : placement.motion == Motion::General ? ((p[0] * row[0] + p[1] * row[1]) + p[2] * row[2]) + offset
+    const double v = quantizer.motion == Motion::Compensated
+      ? compensatedDot(row, p, offset, quantizer.offsetRest[axis], left)
+      : quantizer.motion == Motion::General ? ((p[0] * row[0] + p[1] * row[1]) + p[2] * row[2]) + offset
                                             : p[axis] * row[axis] + offset;
-    const double u = v / placement.quantum[axis];
+    const double u = v / quantizer.quantum[axis];
     finite = finite && std::isfinite(v);
-    inside = inside && v >= 0.0 && u < placement.limit[axis];
+    inside = inside && v >= 0.0 && u < quantizer.limit[axis];
     const double rounded = u + kToBits;
     std::memcpy(&position[axis], &rounded, sizeof rounded);
     position[axis] = (position[axis] - (rounded - kToBits > u)) & kMantissa;
-    if (placement.correctsRounding && inside)
+    if (quantizer.correctsRounding && inside)
     {
       left =
-        placement.motion == Motion::Subtract ? leftOfDifference(point[axis], placement.pivot[axis]) : left;
-      position[axis] = nearer(position[axis], v, left, placement.quantum[axis]);
+        quantizer.motion == Motion::Subtract ? leftOfDifference(point[axis], quantizer.pivot[axis]) : left;
+      position[axis] = nearer(position[axis], v, left, quantizer.quantum[axis]);
     }
   }
-  return inside ? Place::Inside : finite ? Place::Outside : Place::Invalid;
+  return inside ? PointLocation::Inside : finite ? PointLocation::Outside : PointLocation::Invalid;
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -1,10 +1,10 @@
-#include "Core/Resample/Stages/RecordPool.h"
+#include "Core/Resample/Stages/PointRecordPool.h"
 
 #include <algorithm>
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 namespace
@@ -25,7 +25,8 @@ std::size_t blockRecordsFor(std::size_t writers)
 
 }
 
-void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes)
+void PointRecordPool::prepare(
+  std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes)
 {
   const std::size_t writerCount = std::size_t(std::max(writers, 1));
   blockRecords_ = blockRecordsFor(writerCount);
@@ -46,7 +47,7 @@ void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writ
     writer->cursorStorage.assign(partitions, nullptr);
     writer->lastStorage.assign(partitions, kNoBlock);
     writer->cursors = writer->cursorStorage.data();
-    writer->blockMask = blockRecords_ * sizeof(Record) - 1;
+    writer->blockMask = blockRecords_ * sizeof(PointRecord) - 1;
     writer->records = records_.data();
     writer->lastBlocks = writer->lastStorage.data();
     writer->previous = previous_.data();
@@ -59,7 +60,7 @@ void RecordPool::prepare(std::int64_t points, std::uint32_t partitions, int writ
   }
 }
 
-RecordPool::Lease::Lease(RecordPool& pool)
+PointRecordPool::Lease::Lease(PointRecordPool& pool)
   : pool_(pool)
   , slot_(0)
 {
@@ -79,7 +80,7 @@ RecordPool::Lease::Lease(RecordPool& pool)
   pool_.writers_[slot_]->inUse = true;
 }
 
-RecordPool::Lease::~Lease()
+PointRecordPool::Lease::~Lease()
 {
   {
     const std::lock_guard<std::mutex> lock(pool_.mutex_);
@@ -88,12 +89,12 @@ RecordPool::Lease::~Lease()
   pool_.returned_.notify_one();
 }
 
-RecordWriter& RecordPool::Lease::writer() const
+PointRecordWriter& PointRecordPool::Lease::writer() const
 {
   return *pool_.writers_[slot_];
 }
 
-std::uint32_t RecordPool::following(std::uint32_t partition) const
+std::uint32_t PointRecordPool::following(std::uint32_t partition) const
 {
   do
   {
@@ -102,7 +103,7 @@ std::uint32_t RecordPool::following(std::uint32_t partition) const
   return std::min(partition, partitions());
 }
 
-std::size_t RecordPool::count(std::uint32_t partition) const
+std::size_t PointRecordPool::count(std::uint32_t partition) const
 {
   std::size_t sum = 0;
   for (Walk walk(*this, partition); walk.next();)
@@ -112,7 +113,7 @@ std::size_t RecordPool::count(std::uint32_t partition) const
   return sum;
 }
 
-std::int64_t RecordPool::inside() const
+std::int64_t PointRecordPool::inside() const
 {
   std::int64_t sum = 0;
   for (const std::unique_ptr<Writer>& writer : writers_)
@@ -122,7 +123,7 @@ std::int64_t RecordPool::inside() const
   return sum;
 }
 
-std::int64_t RecordPool::invalid() const
+std::int64_t PointRecordPool::invalid() const
 {
   std::int64_t sum = 0;
   for (const std::unique_ptr<Writer>& writer : writers_)
@@ -132,16 +133,16 @@ std::int64_t RecordPool::invalid() const
   return sum;
 }
 
-std::size_t RecordPool::bytes() const
+std::size_t PointRecordPool::bytes() const
 {
   std::size_t sum = records_.bytes() + rows_.bytes() + previous_.bytes();
   for (const std::unique_ptr<Writer>& writer : writers_)
   {
-    sum +=
-      writer->cursorStorage.capacity() * sizeof(Record*) + writer->lastStorage.capacity() * sizeof(kNoBlock);
+    sum += writer->cursorStorage.capacity() * sizeof(PointRecord*) +
+      writer->lastStorage.capacity() * sizeof(kNoBlock);
   }
   return sum;
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

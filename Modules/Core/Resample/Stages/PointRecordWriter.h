@@ -1,6 +1,6 @@
 /// @file
-/// Appends records to partitions: the part of RecordPool that is inside the loops. Internal linkage: sources
-/// of several instruction sets include it.
+/// Appends point records to partitions: the part of PointRecordPool that is inside the loops. Internal
+/// linkage: sources of several instruction sets include it.
 #pragma once
 
 #include "Core/Resample/Kernel/VoxelKernel.h"
@@ -10,24 +10,24 @@
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 
 constexpr std::uint32_t kNoBlock = ~std::uint32_t(0);
 
-/// Where one thread's records go: a cursor for each partition.
-struct RecordWriter
+/// The write position of one thread in each partition.
+struct PointRecordWriter
 {
-  Record** cursors;
+  PointRecord** cursors;
   std::uintptr_t blockMask;  ///< Bytes of a block, less one.
-  Record* records;           ///< Start of the pool.
+  PointRecord* records;      ///< Start of the pool.
   std::uint32_t* lastBlocks; ///< Of each partition, or kNoBlock.
   std::uint32_t* previous;   ///< Of each block of the pool that in its partition before it, or kNoBlock.
   std::uint32_t* taken;      ///< Blocks that the pool's writers have taken: they share it.
   std::uint32_t nextBlock;   ///< Of those it took in advance.
   std::uint32_t endBlock;
-  /// Told for each point inside, counted from the first range's begin, where its record is, counted from
-  /// records: or null.
+  /// Receives the index of each inside point's record, by the point's index from the first range's begin; or
+  /// null.
   std::uint32_t* slots;
   std::int64_t inside;
   std::int64_t invalid;
@@ -37,7 +37,8 @@ struct RecordWriter
 constexpr std::uint32_t kTakenBlocks = 32;
 
 /// Where a partition's first block begins to be filled. All cursors advance at about the same pace: without
-/// this they would crowd the same few sets of the first-level cache. @pre blockRecords: a power of two.
+/// this stagger they would compete for the same few sets of the first-level cache. @pre blockRecords: a power
+/// of two.
 static inline std::size_t firstRecord(std::uint32_t partition, std::size_t blockRecords)
 {
   return kLineRecords * (partition & (blockRecords / kLineRecords - 1));
@@ -45,10 +46,10 @@ static inline std::size_t firstRecord(std::uint32_t partition, std::size_t block
 
 /// The cursor of a partition: at first, and where it stands at the end of its block, in a new block. Always
 /// inline: a call would take what loops keep in vector registers out of them.
-__attribute__((always_inline)) static inline Record* cursorOf(
-  RecordWriter& writer, Record* const* cursors, std::uintptr_t blockMask, std::uint64_t partition)
+__attribute__((always_inline)) static inline PointRecord* cursorOf(
+  PointRecordWriter& writer, PointRecord* const* cursors, std::uintptr_t blockMask, std::uint64_t partition)
 {
-  Record* const cursor = cursors[partition];
+  PointRecord* const cursor = cursors[partition];
   if (__builtin_expect((reinterpret_cast<std::uintptr_t>(cursor) & blockMask) != 0, true))
   {
     return cursor;
@@ -62,10 +63,10 @@ __attribute__((always_inline)) static inline Record* cursorOf(
   const std::uint32_t last = writer.lastBlocks[partition];
   writer.previous[block] = last;
   writer.lastBlocks[partition] = block;
-  const std::size_t blockRecords = (blockMask + 1) / sizeof(Record);
+  const std::size_t blockRecords = (blockMask + 1) / sizeof(PointRecord);
   return writer.records + block * blockRecords +
     (last == kNoBlock ? firstRecord(std::uint32_t(partition), blockRecords) : 0);
 }
 
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics

@@ -1,53 +1,54 @@
 /// @file
-/// Part of VoxelKernelBody.h: places points in the lattice and deals their records out to the partitions.
+/// Part of VoxelKernelBody.h: quantizes points and bins their records into the partitions.
 #pragma once
 
 #include "Core/Resample/Kernel/Fetch.h"
 #include "Core/Resample/Kernel/InFours.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
-#include "Core/Resample/Stages/RecordWriter.h"
+#include "Core/Resample/Stages/PointRecordWriter.h"
 
 namespace pointhaptics
 {
-namespace kernel
+namespace simd
 {
 namespace
 {
 
-/// Records on their way to their partitions.
+/// Quantized points: their records and partitions, not yet binned.
 template <class V>
-struct PlacedPoints
+struct QuantizedPoints
 {
-  /// Whole vectors are stored, the last one beyond what they were placed for.
-  static constexpr int kRoom = V::placedAtOnce + kWidest;
+  /// Whole vectors are stored: the last one may reach beyond the batch.
+  static constexpr int kRoom = V::quantizedAtOnce + kWidest;
 
   int size = 0;
-  alignas(64) Record records[kRoom];
+  alignas(64) PointRecord records[kRoom];
   alignas(64) std::uint64_t partitions[kRoom];
   alignas(64) std::uint32_t indices[kRoom];
 };
 
-/// Of two batches, one is placed while the other, which is whole (V::placedAtOnce points), is dealt out, in
-/// turns of V::dealtInTurn records from all over it: neighbours in a scan go to one partition, whose cursor
-/// would be read soon after it was moved. Placing is work for the vector units, dealing for those that read
-/// and write memory, and where there are registers for both, turns of each that are near in the program are
-/// done at the same time (V::dealsMeanwhile).
+/// Two batches: one is quantized while the other, which is full (V::quantizedAtOnce points), is binned.
+///
+/// Binning takes turns of V::binnedPerTurn records, spread over the batch. Neighbours in a scan go to one
+/// partition, and a record would wait for the cursor that the record before has just moved. Quantizing uses
+/// the vector units and binning the load and store units: where there are registers for both, turns of each
+/// alternate, so that the processor overlaps them (V::binsMeanwhile).
 template <class V>
 struct Batches
 {
-  static constexpr int kTurns = V::placedAtOnce / V::dealtInTurn;
+  static constexpr int kTurns = V::quantizedAtOnce / V::binnedPerTurn;
 
-  PlacedPoints<V> both[2];
-  int current = 0;   ///< The one that is placed.
-  int turn = kTurns; ///< That comes next for the other one.
+  QuantizedPoints<V> both[2];
+  int current = 0;   ///< The one that is quantized.
+  int turn = kTurns; ///< The next turn of the other one.
 
-  PlacedPoints<V>& placed() { return both[current]; }
-  PlacedPoints<V>& dealt() { return both[1 - current]; }
+  QuantizedPoints<V>& quantized() { return both[current]; }
+  QuantizedPoints<V>& binned() { return both[1 - current]; }
 };
 
 /// The vectors that stay the same over all points.
 template <class V>
-struct PlacementVectors
+struct QuantizerVectors
 {
   typename V::Doubles pivot[3], matrix[3][3], offset[3], offsetRest[3];
   typename V::Doubles quantum[3], reciprocal[3], remainder[3], limit[3];
@@ -55,7 +56,7 @@ struct PlacementVectors
   typename V::Shift toRowBlock, toLayerBlock;
   bool layersAreCut;
 
-  explicit PlacementVectors(const Placement& p)
+  explicit QuantizerVectors(const PointQuantizer& p)
     : blocksPerLayer(V::allBits(p.blocksPerLayer))
     , toRowBlock(V::shift(p.fractionBits + p.rowShift))
     , toLayerBlock(V::shift(p.fractionBits + p.layerShift))
@@ -78,9 +79,9 @@ struct PlacementVectors
   }
 };
 
-/// v / quantum, correctly rounded. @tparam Pair: Placement::pairDivides.
+/// v / quantum, correctly rounded. @tparam Pair: PointQuantizer::pairDivides.
 template <class V, bool Pair>
-inline typename V::Doubles quotient(const PlacementVectors<V>& c, typename V::Doubles v, int axis)
+inline typename V::Doubles quotient(const QuantizerVectors<V>& c, typename V::Doubles v, int axis)
 {
   if constexpr (V::hasFusedMultiply)
   {
@@ -97,7 +98,7 @@ inline typename V::Doubles quotient(const PlacementVectors<V>& c, typename V::Do
 /// it (T. Ogita, S. M. Rump, S. Oishi, "Accurate sum and dot product", 2005).
 template <class V>
 inline typename V::Doubles compensatedDot(
-  const PlacementVectors<V>& c, const typename V::Doubles p[3], int axis)
+  const QuantizerVectors<V>& c, const typename V::Doubles p[3], int axis)
 {
   using Doubles = typename V::Doubles;
   Doubles sum = c.offset[axis];
@@ -118,7 +119,7 @@ inline typename V::Doubles compensatedDot(
 /// take the constants out of the registers.
 template <class V, Motion motion, typename Real>
 __attribute__((always_inline)) inline void move(
-  const PlacementVectors<V>& c, const Real* xyz, typename V::Doubles v[3])
+  const QuantizerVectors<V>& c, const Real* xyz, typename V::Doubles v[3])
 {
   typename V::Doubles p[3];
   V::load(xyz, p[0], p[1], p[2]);
@@ -156,11 +157,11 @@ __attribute__((always_inline)) inline void move(
   }
 }
 
-/// Places V::width points, which are at @p u in quanta, at @p to and after it. Bit i of the result: point i
-/// is inside.
+/// Quantizes V::width points, which are at @p u in quanta, into @p to and after it. Bit i of the result:
+/// point i is inside.
 template <class V>
-inline unsigned placeGroup(
-  const PlacementVectors<V>& c, const typename V::Doubles u[3], PlacedPoints<V>& placed, std::int64_t to)
+inline unsigned quantizeGroup(const QuantizerVectors<V>& c, const typename V::Doubles u[3],
+  QuantizedPoints<V>& quantized, std::int64_t to)
 {
   typename V::Bits position[3];
   typename V::Mask inside = V::allTrue();
@@ -175,49 +176,49 @@ inline unsigned placeGroup(
     partition = V::addBits(
       V::multiply32(partition, c.blocksPerLayer), V::right(V::onlyPosition(position[1]), c.toRowBlock));
   }
-  V::store(placed.partitions + to, partition);
+  V::store(quantized.partitions + to, partition);
   const typename V::Bits first = V::withLowBits(V::template left<kLowBits>(position[0]), position[2]);
   const typename V::Bits second =
     V::withLowBits(V::template left<kLowBits>(position[1]), V::template rightBy<kLowBits>(position[2]));
-  V::storeRecords(placed.records + to, first, second);
+  V::storeRecords(quantized.records + to, first, second);
   return V::toUnsigned(inside);
 }
 
 /// Moves the records of a group at @p group that are inside together. @return where the next group goes.
 template <class V, bool Indexed>
 inline std::int64_t keepInside(
-  PlacedPoints<V>& placed, std::int64_t group, unsigned inside, std::uint32_t index)
+  QuantizedPoints<V>& quantized, std::int64_t group, unsigned inside, std::uint32_t index)
 {
   std::int64_t to = group;
   for (; inside != 0; inside &= inside - 1, ++to)
   {
     const int i = __builtin_ctz(inside);
-    placed.records[to] = placed.records[group + i];
-    placed.partitions[to] = placed.partitions[group + i];
+    quantized.records[to] = quantized.records[group + i];
+    quantized.partitions[to] = quantized.partitions[group + i];
     if (Indexed)
     {
-      placed.indices[to] = index + std::uint32_t(i);
+      quantized.indices[to] = index + std::uint32_t(i);
     }
   }
   return to;
 }
 
-/// Appends placed records to their partitions, from one of them on.
+/// Bins quantized points: appends their records to the partitions, from record @p first on.
 template <class V, bool Indexed>
-struct Dealer
+struct PointBinner
 {
-  const Record* records;
+  const PointRecord* records;
   const std::uint64_t* partitions;
   const std::uint32_t* indices;
-  RecordWriter& writer;
+  PointRecordWriter& writer;
   // Copies, which no store can change.
-  Record** const cursors;
+  PointRecord** const cursors;
   const std::uintptr_t blockMask;
 
-  Dealer(const PlacedPoints<V>& placed, int first, RecordWriter& to)
-    : records(placed.records + first)
-    , partitions(placed.partitions + first)
-    , indices(placed.indices + first)
+  PointBinner(const QuantizedPoints<V>& quantized, int first, PointRecordWriter& to)
+    : records(quantized.records + first)
+    , partitions(quantized.partitions + first)
+    , indices(quantized.indices + first)
     , writer(to)
     , cursors(to.cursors)
     , blockMask(to.blockMask)
@@ -226,9 +227,10 @@ struct Dealer
   __attribute__((always_inline)) void operator()(int i) const
   {
     const std::uint64_t partition = partitions[i];
-    Record* const cursor = cursorOf(writer, cursors, blockMask, partition);
+    PointRecord* const cursor = cursorOf(writer, cursors, blockMask, partition);
     cursors[partition] = cursor + 1;
-    // In time for the points that are to come, although those of hundreds of cursors crowd the first level.
+    // In time for the next points, although the lines of hundreds of cursors do not fit the first-level
+    // cache.
     fetchToWrite(cursor + 2 * kLineRecords);
     *cursor = records[i];
     if (Indexed)
@@ -236,34 +238,33 @@ struct Dealer
       writer.slots[indices[i]] = std::uint32_t(cursor - writer.records);
     }
   }
-  /// Deals a turn of a whole batch out.
-  __attribute__((always_inline)) void dealTurn()
+  /// Bins one turn of a full batch.
+  __attribute__((always_inline)) void binTurn()
   {
-    visitPlaces<Batches<V>::kTurns, 0, V::dealtInTurn>(0, *this);
+    visitStrided<Batches<V>::kTurns, 0, V::binnedPerTurn>(0, *this);
     ++records;
     ++partitions;
     ++indices;
   }
 };
 
-/// Places groups of V::width points, no more than it takes to make a batch whole, and appends those inside to
-/// @p placed; meanwhile @p dealt, which is whole, is dealt out from @p turn on. Bit i of @p present: point i
-/// of a group is one. @return how many are not finite. A function of its own, without calls: the constants
-/// stay in registers.
+/// Quantizes groups of V::width points, no more than fill a batch, and appends those inside to @p quantized;
+/// meanwhile @p binned, which is full, is binned from @p turn on. Bit i of @p present: a group has a point i.
+/// @return how many are not finite. A function of its own, without calls: the constants stay in registers.
 template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
-__attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, const Real* xyz, int groups,
-  unsigned present, std::uint32_t index, PlacedPoints<V>& placed, const PlacedPoints<V>& dealt, int& turn,
-  RecordWriter& writer)
+__attribute__((noinline)) int quantizeGroups(const QuantizerVectors<V>& given, const Real* xyz, int groups,
+  unsigned present, std::uint32_t index, QuantizedPoints<V>& quantized, const QuantizedPoints<V>& binned,
+  int& turn, PointRecordWriter& writer)
 {
   constexpr int kAhead = 2048 / int(sizeof(Real));
   constexpr int kTurns = Batches<V>::kTurns;
   constexpr int kGroups = V::groupsTogether;
   static_assert(
-    !V::dealsMeanwhile || kGroups * V::width == V::dealtInTurn, "as many are dealt out as are placed");
-  const PlacementVectors<V> constants = given;
-  Dealer<V, Indexed> dealer(dealt, turn, writer);
+    !V::binsMeanwhile || kGroups * V::width == V::binnedPerTurn, "as many are binned as are quantized");
+  const QuantizerVectors<V> constants = given;
+  PointBinner<V, Indexed> binner(binned, turn, writer);
   int turns = kTurns - turn;
-  std::int64_t size = placed.size;
+  std::int64_t size = quantized.size;
   int invalid = 0;
   // Two loops have chains of operations half as long, of which the processor works on more at a time.
   typename V::Doubles u[kGroups][3];
@@ -288,12 +289,12 @@ __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, cons
     for (int g = 0; g < together; ++g)
     {
       const std::uint32_t firstIndex = index + std::uint32_t(V::width * (first + g));
-      const unsigned kept = present & placeGroup<V>(constants, u[g], placed, size);
+      const unsigned kept = present & quantizeGroup<V>(constants, u[g], quantized, size);
       if (__builtin_expect(kept == V::full, true))
       {
         for (int i = 0; Indexed && i < V::width; ++i)
         {
-          placed.indices[size + i] = firstIndex + std::uint32_t(i);
+          quantized.indices[size + i] = firstIndex + std::uint32_t(i);
         }
         size += V::width;
         continue;
@@ -306,69 +307,69 @@ __attribute__((noinline)) int placeGroups(const PlacementVectors<V>& given, cons
           V::toUnsigned(V::both(V::finite(v[0]), V::both(V::finite(v[1]), V::finite(v[2]))));
         invalid += __builtin_popcount(present & ~finite);
       }
-      size = keepInside<V, Indexed>(placed, size, kept, firstIndex);
+      size = keepInside<V, Indexed>(quantized, size, kept, firstIndex);
     }
-    if (V::dealsMeanwhile && turns > 0)
+    if (V::binsMeanwhile && turns > 0)
     {
-      dealer.dealTurn();
+      binner.binTurn();
       --turns;
     }
   }
-  placed.size = int(size);
+  quantized.size = int(size);
   turn = kTurns - turns;
   return invalid;
 }
 
-/// Where the current batch is whole, the other one is dealt out: they change places, and points beyond a
-/// whole batch are the first of the next one.
+/// Swaps the batches once the current one is full and the other one is binned. Points beyond a full batch
+/// become the first of the next one.
 template <class V, bool Indexed>
-inline void changePlaces(Batches<V>& batches)
+inline void swapBatches(Batches<V>& batches)
 {
-  PlacedPoints<V>& whole = batches.placed();
-  PlacedPoints<V>& next = batches.dealt();
-  next.size = whole.size - V::placedAtOnce;
+  QuantizedPoints<V>& whole = batches.quantized();
+  QuantizedPoints<V>& next = batches.binned();
+  next.size = whole.size - V::quantizedAtOnce;
   for (int i = 0; i < next.size; ++i)
   {
-    next.records[i] = whole.records[V::placedAtOnce + i];
-    next.partitions[i] = whole.partitions[V::placedAtOnce + i];
+    next.records[i] = whole.records[V::quantizedAtOnce + i];
+    next.partitions[i] = whole.partitions[V::quantizedAtOnce + i];
     if (Indexed)
     {
-      next.indices[i] = whole.indices[V::placedAtOnce + i];
+      next.indices[i] = whole.indices[V::quantizedAtOnce + i];
     }
   }
   batches.current = 1 - batches.current;
   batches.turn = 0;
 }
 
-/// Deals the rest of the whole batch out.
+/// Bins the remaining turns of the full batch.
 template <class V, bool Indexed>
-void dealWhole(Batches<V>& batches, RecordWriter& writer)
+void binWhole(Batches<V>& batches, PointRecordWriter& writer)
 {
-  Dealer<V, Indexed> dealer(batches.dealt(), batches.turn, writer);
+  PointBinner<V, Indexed> binner(batches.binned(), batches.turn, writer);
   for (; batches.turn < batches.kTurns; ++batches.turn)
   {
-    dealer.dealTurn();
+    binner.binTurn();
   }
 }
 
 template <class V, Motion motion, bool Pair, bool Indexed, typename Real>
-void partitionAll(const Placement& placement, const Real* xyz, const PointRange* ranges, std::int64_t count,
-  RecordWriter& writer)
+void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointRange* ranges,
+  std::int64_t count, PointRecordWriter& writer)
 {
-  const PlacementVectors<V> constants(placement);
+  const QuantizerVectors<V> constants(quantizer);
   Batches<V> batches;
-  const auto place = [&](const Real* from, std::int64_t first, int groups, unsigned present)
+  const auto quantize = [&](const Real* from, std::int64_t first, int groups, unsigned present)
   {
-    const int before = batches.placed().size;
-    writer.invalid += placeGroups<V, motion, Pair, Indexed>(constants, from, groups, present,
-      std::uint32_t(first - ranges[0].begin), batches.placed(), batches.dealt(), batches.turn, writer);
-    writer.inside += batches.placed().size - before;
-    if (batches.placed().size >= V::placedAtOnce)
+    const int before = batches.quantized().size;
+    writer.invalid += quantizeGroups<V, motion, Pair, Indexed>(constants, from, groups, present,
+      std::uint32_t(first - ranges[0].begin), batches.quantized(), batches.binned(), batches.turn, writer);
+    writer.inside += batches.quantized().size - before;
+    if (batches.quantized().size >= V::quantizedAtOnce)
     {
-      changePlaces<V, Indexed>(batches);
-      if (!V::dealsMeanwhile)
+      swapBatches<V, Indexed>(batches);
+      if (!V::binsMeanwhile)
       {
-        dealWhole<V, Indexed>(batches, writer);
+        binWhole<V, Indexed>(batches, writer);
       }
     }
   };
@@ -377,9 +378,9 @@ void partitionAll(const Placement& placement, const Real* xyz, const PointRange*
     std::int64_t i = ranges[r].begin;
     for (std::int64_t left = (ranges[r].end - i) / V::width; left > 0;)
     {
-      const int most = (V::placedAtOnce - batches.placed().size + V::width - 1) / V::width;
+      const int most = (V::quantizedAtOnce - batches.quantized().size + V::width - 1) / V::width;
       const int groups = left < most ? int(left) : most;
-      place(xyz + 3 * i, i, groups, V::full);
+      quantize(xyz + 3 * i, i, groups, V::full);
       i += groups * V::width;
       left -= groups;
     }
@@ -390,50 +391,50 @@ void partitionAll(const Placement& placement, const Real* xyz, const PointRange*
       {
         last[j] = xyz[3 * i + j];
       }
-      place(last, i, 1, (1u << unsigned(rest)) - 1);
+      quantize(last, i, 1, (1u << unsigned(rest)) - 1);
     }
   }
-  dealWhole<V, Indexed>(batches, writer);
-  const Dealer<V, Indexed> dealer(batches.placed(), 0, writer);
-  for (int i = 0; i < batches.placed().size; ++i)
+  binWhole<V, Indexed>(batches, writer);
+  const PointBinner<V, Indexed> binner(batches.quantized(), 0, writer);
+  for (int i = 0; i < batches.quantized().size; ++i)
   {
-    dealer(i);
+    binner(i);
   }
 }
 
 template <class V, Motion motion, typename Real>
-void partitionMoved(const Placement& placement, const Real* xyz, const PointRange* ranges, std::int64_t count,
-  RecordWriter& writer)
+void partitionMoved(const PointQuantizer& quantizer, const Real* xyz, const PointRange* ranges,
+  std::int64_t count, PointRecordWriter& writer)
 {
-  if (V::hasFusedMultiply && placement.pairDivides)
+  if (V::hasFusedMultiply && quantizer.pairDivides)
   {
-    writer.slots ? partitionAll<V, motion, true, true>(placement, xyz, ranges, count, writer)
-                 : partitionAll<V, motion, true, false>(placement, xyz, ranges, count, writer);
+    writer.slots ? partitionAll<V, motion, true, true>(quantizer, xyz, ranges, count, writer)
+                 : partitionAll<V, motion, true, false>(quantizer, xyz, ranges, count, writer);
     return;
   }
-  writer.slots ? partitionAll<V, motion, false, true>(placement, xyz, ranges, count, writer)
-               : partitionAll<V, motion, false, false>(placement, xyz, ranges, count, writer);
+  writer.slots ? partitionAll<V, motion, false, true>(quantizer, xyz, ranges, count, writer)
+               : partitionAll<V, motion, false, false>(quantizer, xyz, ranges, count, writer);
 }
 
 template <class V, typename Real>
-void partition(const Placement& placement, const Real* xyz, const PointRange* ranges, std::int64_t count,
-  RecordWriter& writer)
+void partition(const PointQuantizer& quantizer, const Real* xyz, const PointRange* ranges, std::int64_t count,
+  PointRecordWriter& writer)
 {
-  switch (placement.motion)
+  switch (quantizer.motion)
   {
     case Motion::Subtract:
-      return partitionMoved<V, Motion::Subtract>(placement, xyz, ranges, count, writer);
+      return partitionMoved<V, Motion::Subtract>(quantizer, xyz, ranges, count, writer);
     case Motion::Shift:
-      return partitionMoved<V, Motion::Shift>(placement, xyz, ranges, count, writer);
+      return partitionMoved<V, Motion::Shift>(quantizer, xyz, ranges, count, writer);
     case Motion::Scale:
-      return partitionMoved<V, Motion::Scale>(placement, xyz, ranges, count, writer);
+      return partitionMoved<V, Motion::Scale>(quantizer, xyz, ranges, count, writer);
     case Motion::General:
-      return partitionMoved<V, Motion::General>(placement, xyz, ranges, count, writer);
+      return partitionMoved<V, Motion::General>(quantizer, xyz, ranges, count, writer);
     case Motion::Compensated:
-      return partitionMoved<V, Motion::Compensated>(placement, xyz, ranges, count, writer);
+      return partitionMoved<V, Motion::Compensated>(quantizer, xyz, ranges, count, writer);
   }
 }
 
 }
-} // namespace kernel
+} // namespace simd
 } // namespace pointhaptics
