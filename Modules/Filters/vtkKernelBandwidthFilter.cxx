@@ -138,7 +138,7 @@ int vtkKernelBandwidthFilter::RequestData(
     vtkErrorMacro("NumberOfNeighbors "
       << this->NumberOfNeighbors << ", Radius " << this->Radius << ", RadiusScale " << this->RadiusScale
       << ", MinimumRadius " << this->MinimumRadius << ", MaximumRadius " << this->MaximumRadius << ": "
-      << sentence(status) << ".");
+      << message(status) << ".");
     return 1;
   }
   if (input->GetNumberOfPoints() > NeighborQuery::kMostPoints)

@@ -164,7 +164,7 @@ bool vtkVoxelMeanResampler::Internals::ReadTransform()
   {
     if (holdsNonFinite(transform))
     {
-      vtkErrorWithObjectMacro(this->Filter, "SetTransform: " << sentence(Status::NonFiniteTransform) << ".");
+      vtkErrorWithObjectMacro(this->Filter, "SetTransform: " << message(Status::NonFiniteTransform) << ".");
       return false;
     }
     vtkErrorWithObjectMacro(this->Filter,
@@ -176,7 +176,7 @@ bool vtkVoxelMeanResampler::Internals::ReadTransform()
   const Status status = this->Request.transform.check();
   if (status != Status::Ok)
   {
-    vtkErrorWithObjectMacro(this->Filter, "SetTransform: " << sentence(status) << ".");
+    vtkErrorWithObjectMacro(this->Filter, "SetTransform: " << message(status) << ".");
     return false;
   }
   return true;
@@ -209,7 +209,7 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
   if (status != Status::Ok)
   {
     vtkErrorWithObjectMacro(this->Filter,
-      << latticeText(this->Filter->VoxelSize, this->Filter->Dimensions) << ": " << sentence(status) << ".");
+      << latticeText(this->Filter->VoxelSize, this->Filter->Dimensions) << ": " << message(status) << ".");
     return false;
   }
   return true;
@@ -287,7 +287,7 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst
   }
   if (status != Status::Ok)
   {
-    vtkErrorWithObjectMacro(this->Filter, << sentence(status) << ".");
+    vtkErrorWithObjectMacro(this->Filter, << message(status) << ".");
     return false;
   }
   if (isFirst)

@@ -273,7 +273,7 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   }
   input = HapticSceneInput();
   cloud->scale.build(cloud->pyramid, std::move(scales));
-  cloud->pyramid.forgiveNoise(
+  cloud->pyramid.reclassifyMixedCells(
     [&cloud](const Vec3& place) { return cloud->scale.noiseAt(cloud->pyramid, place); });
   // Beyond a node's reach no cell of its voxel can be nearer than the reach less the voxel's diagonal.
   const int nodeLevel = RadiusField::nodeLevel(cloud->pyramid);

@@ -40,14 +40,14 @@ const char* plyTypeName(int type)
 
 std::string plyPropertyName(const OutputArray& array, int component)
 {
-  static const char* const kColours[] = { "red", "green", "blue", "alpha" };
+  static const char* const kColors[] = { "red", "green", "blue", "alpha" };
   static const char* const kNormals[] = { "nx", "ny", "nz" };
   switch (array.role)
   {
     case ArrayRole::Points:
       return std::string(1, "xyz"[component]);
-    case ArrayRole::Colours:
-      return kColours[component];
+    case ArrayRole::Colors:
+      return kColors[component];
     case ArrayRole::Normals:
       return kNormals[component];
     case ArrayRole::Other:
@@ -120,15 +120,15 @@ std::string pcdShape(vtkFieldData* fieldData, vtkIdType rows)
 }
 
 /// Colours packed as 0xAARRGGBB; alpha is 0 for three channels, as PCL writes rgb.
-std::vector<std::uint32_t> packColours(const OutputArray& colours)
+std::vector<std::uint32_t> packColors(const OutputArray& colors)
 {
-  const int channels = colours.components();
-  const std::uint8_t* from = static_cast<const std::uint8_t*>(colours.array->GetVoidPointer(0));
-  std::vector<std::uint32_t> packed(static_cast<std::size_t>(colours.array->GetNumberOfTuples()));
-  for (std::uint32_t& colour : packed)
+  const int channels = colors.components();
+  const std::uint8_t* from = static_cast<const std::uint8_t*>(colors.array->GetVoidPointer(0));
+  std::vector<std::uint32_t> packed(static_cast<std::size_t>(colors.array->GetNumberOfTuples()));
+  for (std::uint32_t& color : packed)
   {
     const std::uint32_t alpha = channels == 4 ? from[3] : 0;
-    colour =
+    color =
       alpha << 24 | std::uint32_t{ from[0] } << 16 | std::uint32_t{ from[1] } << 8 | std::uint32_t{ from[2] };
     from += channels;
   }
@@ -211,9 +211,9 @@ void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, W
   for (const OutputArray& array : arrays)
   {
     const int type = writtenType(array);
-    if (array.role == ArrayRole::Colours)
+    if (array.role == ArrayRole::Colors)
     {
-      packed = packColours(array);
+      packed = packColors(array);
       const bool hasAlpha = array.components() == 4;
       lines.add(hasAlpha ? "rgba" : "rgb", 4, hasAlpha ? "U" : "F", 1);
       fields.push_back({ { reinterpret_cast<const char*>(packed.data()), 4, VTK_TYPE_UINT32 }, recordSize,

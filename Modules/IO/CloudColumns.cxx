@@ -27,9 +27,9 @@ namespace
 using Names = std::vector<std::vector<std::string>>;
 
 const Names kCoordinates = { { "x", "y", "z" } };
-const Names kColoursWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
+const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
-const Names kColours = { { "red", "green", "blue" }, { "r", "g", "b" },
+const Names kColors = { { "red", "green", "blue" }, { "r", "g", "b" },
   { "diffuse_red", "diffuse_green", "diffuse_blue" } };
 const Names kNormals = { { "nx", "ny", "nz" }, { "normal_x", "normal_y", "normal_z" } };
 
@@ -69,8 +69,8 @@ CloudColumns::CloudColumns(const std::vector<Column>& columns, vtkIdType rows)
   , places_(columns.size())
 {
   planPoints();
-  planNamed(kColoursWithAlpha, "RGBA", &isByte);
-  planNamed(kColours, "RGB", &isByte);
+  planNamed(kColorsWithAlpha, "RGBA", &isByte);
+  planNamed(kColors, "RGB", &isByte);
   planNamed(kNormals, "Normals", &isFloatingType);
   planNumbered();
 }
@@ -236,8 +236,8 @@ void setActiveAttributes(vtkPolyData* cloud)
   vtkPointData* data = cloud->GetPointData();
   for (const char* name : { "RGB", "RGBA" })
   {
-    vtkDataArray* colours = data->GetArray(name);
-    if (colours && isByte(colours->GetDataType()))
+    vtkDataArray* colors = data->GetArray(name);
+    if (colors && isByte(colors->GetDataType()))
     {
       data->SetActiveScalars(name);
     }

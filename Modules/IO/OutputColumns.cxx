@@ -51,7 +51,7 @@ ArrayRole roleOf(vtkDataArray* array, vtkPointData* data)
   if (array->GetDataType() == VTK_UNSIGNED_CHAR && (components == 3 || components == 4) &&
     (array == data->GetScalars() || name == "RGB" || name == "RGBA"))
   {
-    return ArrayRole::Colours;
+    return ArrayRole::Colors;
   }
   if (isFloatingType(array->GetDataType()) && components == 3 &&
     (array == data->GetNormals() || name == "Normals"))
@@ -125,7 +125,7 @@ std::vector<OutputArray> outputArrays(vtkPointSet* cloud, WriterNotes& notes)
     }
     arrays.push_back(output);
   }
-  keepFirstOfRole(arrays, ArrayRole::Colours, data->GetScalars());
+  keepFirstOfRole(arrays, ArrayRole::Colors, data->GetScalars());
   keepFirstOfRole(arrays, ArrayRole::Normals, data->GetNormals());
   return arrays;
 }

@@ -18,7 +18,7 @@ namespace pointhaptics::io
 enum class ArrayRole
 {
   Points,
-  Colours, ///< unsigned char, 3 or 4 components
+  Colors,  ///< unsigned char, 3 or 4 components
   Normals, ///< float or double, 3 components
   Other,
 };

@@ -175,7 +175,7 @@ bool vtkInteractorStyleHaptic::ShowScene()
   parts.numberOfVoxels = built.means->GetNumberOfPoints();
   if (built.empty && built.status != pointhaptics::Status::Empty)
   {
-    vtkErrorMacro("The model cannot be felt as it stands: " << pointhaptics::sentence(built.status)
+    vtkErrorMacro("The model cannot be felt as it stands: " << pointhaptics::message(built.status)
                                                             << " Key 0 resets the model.");
   }
   parts.resampled->SetMatrix(built.modelToWorkspace.data());

@@ -158,7 +158,7 @@ bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath&
   }
   if (const Status status = hand.open(); status != Status::Ok)
   {
-    message = options.path + ": " + sentence(status);
+    message = options.path + ": " + pointhaptics::message(status);
     return false;
   }
   VirtualTouch touch(options, scenes);

@@ -64,7 +64,7 @@ int runGenerate(const GenerateOptions& options)
       shape, options.count, static_cast<std::uint64_t>(options.seed), options.noise, points, &normals);
     if (status != Status::Ok)
     {
-      return fail(kCommand, sentence(status));
+      return fail(kCommand, pointhaptics::message(status));
     }
     vtkNew<vtkPoints> coordinates;
     coordinates->SetData(arrayOf(points));

@@ -94,7 +94,7 @@ bool FeelScenes::make(const FeelOptions& options, vtkPolyData* cloud, std::strin
   whole_ = makeHapticScene(prepared, status, !options.noCovariance, bandwidth->GetSettings());
   if (!whole_)
   {
-    message = options.file + ": " + sentence(status);
+    message = options.file + ": " + pointhaptics::message(status);
     return false;
   }
   if (options.refinesNearHand() &&

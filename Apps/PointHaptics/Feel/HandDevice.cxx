@@ -112,7 +112,7 @@ FalconSettings FalconOptions::settings() const
 std::string openProblem(const HapticDevice& device, Status status)
 {
   const std::string said = device.message();
-  return (said.empty() ? sentence(status) : said) +
+  return (said.empty() ? pointhaptics::message(status) : said) +
     (status == Status::FirmwareMissing ? "; here it is named with --falcon-firmware FILE" : "");
 }
 

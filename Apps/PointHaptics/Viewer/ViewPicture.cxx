@@ -45,7 +45,7 @@ bool feelAlongPath(ViewScene& scene, const ViewOptions& options, ServoSample& sh
   const auto snapshot = scene.makeScene(!options.noCovariance, status);
   if (!snapshot)
   {
-    message = fmt::format("the cloud cannot be felt: {}", sentence(status));
+    message = fmt::format("the cloud cannot be felt: {}", pointhaptics::message(status));
     return false;
   }
   const std::vector<ServoSample> samples =

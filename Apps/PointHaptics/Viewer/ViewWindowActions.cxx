@@ -330,7 +330,7 @@ void ViewWindow::setContact(const ContactParameters& contact)
     return;
   }
   this->showSliderValues();
-  this->tell(message.empty() ? sentence(status) : message);
+  this->tell(message.empty() ? pointhaptics::message(status) : message);
 }
 
 void ViewWindow::onAxes(void*)

@@ -3,7 +3,7 @@
 namespace pointhaptics
 {
 
-const char* sentence(Status status) noexcept
+const char* message(Status status) noexcept
 {
   switch (status)
   {

@@ -1,5 +1,5 @@
 /// @file
-/// What can go wrong in Core, Haptics and Devices: one value each, with a sentence that names the cure.
+/// The errors of Core, Haptics and Devices, each with a message that names the cure.
 #pragma once
 
 namespace pointhaptics
@@ -19,7 +19,7 @@ enum class [[nodiscard]] Status{
   DegenerateSample,      ///< Fewer than two distinct values: no spread to take a bandwidth from.
   EquationUnsolved,      ///< The rule's equation has no solution in double numbers.
   InvalidParameter,      ///< A parameter outside its documented range.
-  Aborted,               ///< The caller asked for an end of the work.
+  Aborted,               ///< The caller aborted the work.
   DeviceNotOpen,         ///< Read or write on a device that is not open.
   EndOfPath,             ///< A replayed path has come to its end.
   FileNotReadable,       ///< The file cannot be opened.
@@ -38,6 +38,6 @@ enum class [[nodiscard]] Status{
 };
 
 /// One sentence in plain words: what happened and what to do about it. Never null; static storage.
-const char* sentence(Status status) noexcept;
+const char* message(Status status) noexcept;
 
 } // namespace pointhaptics

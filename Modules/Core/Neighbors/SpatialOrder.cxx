@@ -107,9 +107,9 @@ bool lexicographic(const Vec3& a, const Vec3& b)
 class Orderer
 {
 public:
-  Orderer(const PointView& points, std::int64_t crowd, const Executor& executor)
+  Orderer(const PointView& points, std::int64_t mostPerCell, const Executor& executor)
     : points_(points)
-    , crowd_(crowd)
+    , mostPerCell_(mostPerCell)
     , executor_(executor)
   {
   }
@@ -121,12 +121,12 @@ public:
     fill(Grid(box));
     const std::int64_t count = std::int64_t(entries_.size());
     sortRun({ 0, count });
-    // Those that crowd in one cell, again and again.
-    collectCrowds({ 0, count });
-    while (!crowds_.empty())
+    // The points of overfull cells, recursively.
+    collectOverfullCells({ 0, count });
+    while (!overfull_.empty())
     {
-      const Run run = crowds_.back();
-      crowds_.pop_back();
+      const Run run = overfull_.back();
+      overfull_.pop_back();
       refine(run);
     }
     std::vector<std::uint32_t> result(entries_.size());
@@ -251,10 +251,10 @@ private:
     std::copy(from, from + count, entries_.data() + run.begin);
   }
 
-  /// Notes the runs of equal keys that are longer than a crowd.
-  void collectCrowds(const Run& run)
+  /// Lists the runs of equal keys that are longer than mostPerCell.
+  void collectOverfullCells(const Run& run)
   {
-    for (std::int64_t begin = run.begin; begin + crowd_ < run.end;)
+    for (std::int64_t begin = run.begin; begin + mostPerCell_ < run.end;)
     {
       const std::uint32_t key = keyOf(entries_[std::size_t(begin)]);
       std::int64_t end = begin + 1;
@@ -262,9 +262,9 @@ private:
       {
         ++end;
       }
-      if (end - begin > crowd_)
+      if (end - begin > mostPerCell_)
       {
-        crowds_.push_back({ begin, end });
+        overfull_.push_back({ begin, end });
       }
       begin = end;
     }
@@ -296,28 +296,29 @@ private:
     }
     keyer.flush();
     sortRun(run);
-    collectCrowds(run);
+    collectOverfullCells(run);
   }
 
   const PointView& points_;
-  const std::int64_t crowd_;
+  const std::int64_t mostPerCell_;
   const Executor& executor_;
   const simd::NeighborKernels& kernels_ = simd::neighborKernels();
   std::vector<Block> blocks_;
   std::vector<Entry> entries_;
   std::vector<Entry> spare_;
-  std::vector<Run> crowds_;
+  std::vector<Run> overfull_;
 };
 
 }
 
-std::vector<std::uint32_t> spatialOrder(const PointView& points, std::int64_t crowd, const Executor& executor)
+std::vector<std::uint32_t> spatialOrder(
+  const PointView& points, std::int64_t mostPerCell, const Executor& executor)
 {
   if (points.size() > kMostOrderedPoints)
   {
     return {};
   }
-  return Orderer(points, crowd, executor).order();
+  return Orderer(points, mostPerCell, executor).order();
 }
 
 } // namespace pointhaptics

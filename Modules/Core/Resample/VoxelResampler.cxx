@@ -109,9 +109,9 @@ bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, Voxe
 Status VoxelResampler::Implementation::addLevels(const VoxelRequest& request, VoxelRuns runs, int levelOfRuns,
   const Executor& executor, ProgressObserver* observer)
 {
-  const double share = shareOfFinest(request);
+  const double finest = fractionOfFinest(request);
   const auto progressAt = [&](int level)
-  { return share + (1.0 - share) * double(level - 1) / double(request.levels - 1); };
+  { return finest + (1.0 - finest) * double(level - 1) / double(request.levels - 1); };
   for (int l = 1; l < request.levels; ++l)
   {
     const Level& finer = levels.back();

@@ -61,7 +61,7 @@ Status VoxelResampler::Implementation::runGeneral(
     forEachItem<KeyRanges::Sorted>(executor, ranges_.count(),
       [&](std::size_t range, KeyRanges::Sorted& scratch)
       { runs_.add(range, ranges_.sumsOf(range, scratch, request.covariances)); });
-    if (observer && !observer->report(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
+    if (observer && !observer->report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }

@@ -92,7 +92,7 @@ private:
   void keepBatches(const VoxelRequest& request, simd::PartitionWorker& worker, std::uint32_t partition);
   void finish(const VoxelRequest& request, const Executor& executor);
   /// The part of the work of run() that the finest level is.
-  static double shareOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
+  static double fractionOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
   bool writeRuns(const VoxelRequest& request, simd::VoxelRuns& runs, bool keeps, simd::Level& level,
     OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer);
   Status addLevels(const VoxelRequest& request, simd::VoxelRuns runs, int levelOfRuns,

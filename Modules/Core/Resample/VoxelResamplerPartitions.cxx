@@ -169,7 +169,7 @@ Status VoxelResampler::Implementation::runPlanned(
     {
       isLast ? finish(request, executor) : accumulateChunk(request, executor);
     }
-    if (observer && !observer->report(shareOfFinest(request) * double(chunk + 1) / double(chunks.count())))
+    if (observer && !observer->report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }

@@ -41,7 +41,7 @@ std::int32_t gather(std::uint64_t v)
   return std::int32_t(v);
 }
 
-/// Of the voxel that a place, in voxels and not negative, is in.
+/// The Morton code of the voxel at a position in voxels, which is not negative.
 std::uint64_t mortonCode(const Vec3& place)
 {
   return spread(std::uint64_t(place.x)) | spread(std::uint64_t(place.y)) << 1 |
@@ -112,15 +112,15 @@ Cell merged(const Cell& a, const Cell& b) noexcept
 {
   Cell cell;
   cell.count = a.count + b.count;
-  const double share = b.count / cell.count;
+  const double fraction = b.count / cell.count;
   const Vec3 apart = b.mean - a.mean;
-  cell.mean = a.mean + share * apart;
+  cell.mean = a.mean + fraction * apart;
   SymMat3 fromA = a.covariance;
-  fromA *= 1.0 - share;
+  fromA *= 1.0 - fraction;
   SymMat3 fromB = b.covariance;
-  fromB *= share;
+  fromB *= fraction;
   SymMat3 between = outerProduct(apart);
-  between *= share * (1.0 - share);
+  between *= fraction * (1.0 - fraction);
   cell.covariance = fromA;
   cell.covariance += fromB;
   cell.covariance += between;
@@ -240,7 +240,7 @@ void CellPyramid::buildUpperLevels(const std::vector<std::uint64_t>& codes, int 
   }
 }
 
-void CellPyramid::forgiveNoise(const std::function<double(const Vec3&)>& noiseAt)
+void CellPyramid::reclassifyMixedCells(const std::function<double(const Vec3&)>& noiseAt)
 {
   for (Level& level : levels_)
   {

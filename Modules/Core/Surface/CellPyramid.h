@@ -19,8 +19,7 @@ struct Cell
   Vec3 mean;
   double count = 1.0;
   SymMat3 covariance;
-  bool mixed =
-    false; ///< Thick in every direction: two sheets, an edge, or noise. Look at its children instead.
+  bool mixed = false; ///< Thick in every direction: two sheets, an edge, or noise. Use its children instead.
 };
 
 /// An octree of 4^3-voxel bricks, sorted along the Morton curve: the bricks below a brick stand side by side,
@@ -62,10 +61,10 @@ public:
   Status build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex,
     const Vec3* corner = nullptr);
 
-  /// Mixed cells that are no thicker than noise makes a single sheet count as one sheet again. Call it before
-  /// anybody else reads. @param noiseAt the standard deviation of the points about the surface at a place,
+  /// Clears the mixed flag of cells that are no thicker than a single sheet with noise. Call it before other
+  /// threads read. @param noiseAt the standard deviation of the points about the surface at a position,
   /// metres; called with the means of mixed cells.
-  void forgiveNoise(const std::function<double(const Vec3&)>& noiseAt);
+  void reclassifyMixedCells(const std::function<double(const Vec3&)>& noiseAt);
 
   int numberOfLevels() const { return int(levels_.size()); }
   int numberOfCellLevels() const { return numberOfLevels() < kCellLevels ? numberOfLevels() : kCellLevels; }

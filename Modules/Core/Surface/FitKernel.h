@@ -97,8 +97,8 @@ struct FitView
   Vec3 b;
   Vec3 normal;
   double radius = 0.0;
-  double share = 1.0; ///< Of this level in the fit.
-  double gate = 0.0;  ///< Over the radius; 0: none.
+  double blendWeight = 1.0; ///< Of this level, where a fit blends two.
+  double gate = 0.0;        ///< Over the radius; 0: none.
   bool twoSidedGate = false;
   double bend[3] = { 0.0, 0.0, 0.0 };
 };

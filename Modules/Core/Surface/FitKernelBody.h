@@ -77,7 +77,7 @@ inline void makeRows(
   const Pack u = d.x * view.a.x + d.y * view.a.y + d.z * view.a.z;
   const Pack v = d.x * view.b.x + d.y * view.b.y + d.z * view.b.z;
   const Pack h = d.x * view.normal.x + d.y * view.normal.y + d.z * view.normal.z;
-  Pack weight = count * view.share;
+  Pack weight = count * view.blendWeight;
   if (view.gate > 0.0)
   {
     weight *= throughGate(view, gateFrom, perGate, u, v, h);

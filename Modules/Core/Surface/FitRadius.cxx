@@ -11,16 +11,16 @@ namespace pointhaptics
 namespace
 {
 
-/// RMS distance from a fit, in cells, up to which a surface is smooth; part of it that a smaller fit leaves
-/// over where it is shape.
+/// RMS residual of a fit, in cells, up to which a surface is smooth; and the fraction of a residual that a
+/// smaller fit leaves where it is shape.
 constexpr double kSmooth = 1e-3;
 constexpr double kLeftOfShape = 0.5;
 constexpr double kCountGrowth = 1.1;
 constexpr int kCountSteps = 120;
 
-constexpr int kLadderRungs = 16;
-/// Rungs whose residuals may tell the noise: longer ones see curvature too.
-constexpr int kNoiseRungs = 3;
+constexpr int kMostScales = 16;
+/// The first scales, whose residuals estimate the noise: at longer ones curvature contributes.
+constexpr int kNoiseScales = 3;
 /// Standard errors by which a longer radius may differ from a shorter one.
 constexpr double kAgreement = 2.0;
 /// The same with cubic terms, whose errors are large where the radius is short.
@@ -29,7 +29,7 @@ constexpr double kCubicAgreement = 2.5;
 constexpr double kEnoughHeight = 1e-3;
 constexpr double kEnoughSlope = 1e-3;
 /// Growth of the radius from which on a cloud counts as noisy, and cubic terms at a longer radius are
-/// weighed.
+/// tried.
 constexpr double kNoisyGrowth = 1.3;
 /// How much longer than a quadratic fit one with cubic terms may look at most.
 constexpr double kCubicReach = 1.1;
@@ -75,15 +75,15 @@ double countRadius(const CellPyramid& pyramid, const Vec3& seed, double largest,
   return radius;
 }
 
-/// Position and slopes of one rung, with the standard errors for noise 1.
-struct Rung
+/// Position and slopes at one scale, with the standard errors for noise 1.
+struct ScaleEstimate
 {
   double value[3];
   double error[3];
 };
 
-/// @param tolerance length of a standard error.
-bool agrees(const Rung& longer, const Rung& shorter, double tolerance)
+/// @param tolerance in standard errors of the shorter scale.
+bool agrees(const ScaleEstimate& longer, const ScaleEstimate& shorter, double tolerance)
 {
   for (int i = 0; i < 3; ++i)
   {
@@ -95,21 +95,21 @@ bool agrees(const Rung& longer, const Rung& shorter, double tolerance)
   return true;
 }
 
-/// Where a climb ended.
-struct Climb
+/// The scale that the search chose.
+struct ScaleChoice
 {
   double radius = 0.0;
-  Rung rung{ { 0.0, 0.0, 0.0 }, { INFINITY, INFINITY, INFINITY } };
+  ScaleEstimate estimate{ { 0.0, 0.0, 0.0 }, { INFINITY, INFINITY, INFINITY } };
 
-  double slopeError() const { return std::max(rung.error[1], rung.error[2]); }
+  double slopeError() const { return std::max(estimate.error[1], estimate.error[2]); }
 };
 
-/// Longer and longer radii in one frame.
-class Ladder
+/// Lepski's scale search: longer and longer radii in one frame.
+class ScaleSearch
 {
 public:
-  Ladder(const CellPyramid& pyramid, const SurfaceFrame& frame, const double curvature[3], double countRadius,
-    double growth, FitCells& memory)
+  ScaleSearch(const CellPyramid& pyramid, const SurfaceFrame& frame, const double curvature[3],
+    double countRadius, double growth, FitCells& memory)
     : pyramid_(pyramid)
     , frame_(frame)
     , countRadius_(countRadius)
@@ -119,36 +119,36 @@ public:
     std::copy(curvature, curvature + 3, curvature_);
   }
 
-  /// Without cubic terms first: that tells the noise. Radius 0: another sheet is in reach.
-  Climb climb(double largest, bool cubic)
+  /// Call it without cubic terms first: that estimates the noise. Radius 0: another sheet is in reach.
+  ScaleChoice run(double largest, bool cubic)
   {
-    Climb result;
+    ScaleChoice result;
     result.radius = countRadius_;
-    Rung rungs[kLadderRungs];
+    ScaleEstimate estimates[kMostScales];
     int size = 0;
     FitSettings settings;
     settings.radius = countRadius_;
     settings.gate = 2.0 * kGateDepth * countRadius_;
     settings.twoSidedGate = true;
     std::copy(curvature_, curvature_ + 3, settings.curvature);
-    for (int s = 0; s < kLadderRungs; ++s)
+    for (int s = 0; s < kMostScales; ++s)
     {
       SurfaceFitError error;
       const SurfaceFit here = fitSurface(pyramid_, frame_, settings, memory_, error, cubic);
       const bool usable = here.quality == FitQuality::Quadric;
-      // So many terms may ask for a longer radius than the first.
+      // With so many terms the first radius may be too short.
       if (!usable && !(cubic && size == 0))
       {
         break;
       }
       if (usable)
       {
-        noise_ = !cubic && s < kNoiseRungs ? std::min(noise_, error.noise) : noise_;
-        rungs[size] = { { settings.radius * here.k[0], here.k[1], here.k[2] },
+        noise_ = !cubic && s < kNoiseScales ? std::min(noise_, error.noise) : noise_;
+        estimates[size] = { { settings.radius * here.k[0], here.k[1], here.k[2] },
           { error.standardError[0], error.standardError[1], error.standardError[2] } };
         const double tolerance = (cubic ? kCubicAgreement : kAgreement) * noise_;
-        const bool accepted = std::all_of(
-          rungs, rungs + size, [&](const Rung& shorter) { return agrees(rungs[size], shorter, tolerance); });
+        const bool accepted = std::all_of(estimates, estimates + size,
+          [&](const ScaleEstimate& shorter) { return agrees(estimates[size], shorter, tolerance); });
         if (!accepted)
         {
           break;
@@ -157,7 +157,7 @@ public:
         {
           return {};
         }
-        result = { settings.radius, rungs[size] };
+        result = { settings.radius, estimates[size] };
         // Further on the gate follows what is known of the curvature by now.
         std::transform(
           here.k + 3, here.k + 6, settings.curvature, [&](double k) { return k / settings.radius; });
@@ -179,11 +179,11 @@ public:
   double noise() const { return noise_; }
 
 private:
-  /// Looking further would only blur what is there, and see holes and rims late.
-  bool isEnough(const Climb& climb) const
+  /// The errors are so small that a longer radius would only smooth detail, holes and rims away.
+  bool isEnough(const ScaleChoice& choice) const
   {
-    return noise_ * climb.rung.error[0] < kEnoughHeight * pyramid_.level(0).voxelSize &&
-      noise_ * climb.slopeError() < kEnoughSlope;
+    return noise_ * choice.estimate.error[0] < kEnoughHeight * pyramid_.level(0).voxelSize &&
+      noise_ * choice.slopeError() < kEnoughSlope;
   }
 
   const CellPyramid& pyramid_;
@@ -195,9 +195,9 @@ private:
   double noise_ = INFINITY;
 };
 
-/// True where a fit with cubic terms tells more than one without: its slopes are about as exact, or differ
-/// from the other's by more than they may be off.
-bool prefersCubic(const Climb& cubic, const Climb& quadratic, double noise)
+/// True where the fit with cubic terms is better: its slopes are about as exact, or differ from those of the
+/// quadratic fit by more than their errors.
+bool prefersCubic(const ScaleChoice& cubic, const ScaleChoice& quadratic, double noise)
 {
   const double ratio = cubic.slopeError() / quadratic.slopeError();
   if (!(cubic.radius >= quadratic.radius) || !(ratio < kCubicErrorAtMost))
@@ -208,7 +208,8 @@ bool prefersCubic(const Climb& cubic, const Climb& quadratic, double noise)
   for (int i = 1; i < 3; ++i)
   {
     differs = differs ||
-      std::abs(cubic.rung.value[i] - quadratic.rung.value[i]) > kDisagreement * noise * cubic.rung.error[i];
+      std::abs(cubic.estimate.value[i] - quadratic.estimate.value[i]) >
+        kDisagreement * noise * cubic.estimate.error[i];
   }
   return differs || ratio < kCubicErrorAsGood;
 }
@@ -227,7 +228,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
 {
   if (needs.finerWhereShaped)
   {
-    // A smaller fit leaves as much noise over, and less shape.
+    // A smaller fit has as much residual from noise, and less from shape.
     const FitScale wide = chooseFitRadius(pyramid, seed, largestCount, largest, memory);
     if (wide.noise <= kSmooth * pyramid.level(0).voxelSize)
     {
@@ -254,13 +255,13 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
   {
     return scale;
   }
-  Ladder ladder(pyramid, frame, curvature, scale.countRadius, needs.growth, memory);
-  const Climb quadratic = ladder.climb(largest, false);
+  ScaleSearch search(pyramid, frame, curvature, scale.countRadius, needs.growth, memory);
+  const ScaleChoice quadratic = search.run(largest, false);
   scale.radius = quadratic.radius;
-  scale.noise = std::isfinite(ladder.noise()) ? ladder.noise() : 0.0;
+  scale.noise = std::isfinite(search.noise()) ? search.noise() : 0.0;
   if (needs.weighsCubic && quadratic.radius > kNoisyGrowth * scale.countRadius)
   {
-    const Climb cubic = ladder.climb(kCubicReach * largest, true);
+    const ScaleChoice cubic = search.run(kCubicReach * largest, true);
     scale.cubic = prefersCubic(cubic, quadratic, scale.noise);
     scale.radius = scale.cubic ? cubic.radius : quadratic.radius;
   }
@@ -270,7 +271,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
 namespace
 {
 
-/// What the nodes about a node agree on.
+/// The medians of the nodes about a node.
 LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<FitScale>& scales, std::size_t i)
 {
   const auto& nodes = pyramid.level(nodeLevel);

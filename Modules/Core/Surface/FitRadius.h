@@ -1,6 +1,5 @@
 /// @file
-/// How far a surface fit should look: far enough to average the noise, not so far that curvature bends the
-/// answer.
+/// The radius of a surface fit: long enough to average the noise, short enough that curvature adds no bias.
 #pragma once
 
 #include "Core/Base/Executor.h"
@@ -13,7 +12,7 @@
 namespace pointhaptics
 {
 
-/// What a fit needs at least.
+/// The minimum that a fit needs.
 struct FitNeeds
 {
   double points = 30.0;          ///< Sum of weights, 1 in the middle of the fit.
@@ -21,14 +20,14 @@ struct FitNeeds
   double radiusInCells = 3.6;    ///< Least radius over the edge of a finest cell.
   double growth = 1.15;          ///< Of the radii tried against noise, from one to the next.
   bool weighsCubic = true;       ///< Whether fits with cubic terms are tried where the cloud is noisy.
-  bool finerWhereShaped = false; ///< ofFineCells() where what is off the fits is shape and not noise.
+  bool finerWhereShaped = false; ///< ofFineCells() where the residuals are shape and not noise.
 
-  /// Of cells about as fine as the points' spacing: there is nothing finer to wait for. Where noise asks for
-  /// cubic terms, coarser cells serve better.
+  /// For cells about as fine as the points' spacing, the finest that are of use. Where noise calls for cubic
+  /// terms, coarser cells serve better.
   static FitNeeds ofFineCells() { return { 16.0, 12.0, 2.4, 1.3, false, false }; }
 };
 
-/// What the cloud says about fits at one place; metres.
+/// The scale of fits at one position; metres.
 struct FitScale
 {
   double countRadius = 0.0; ///< Smallest radius with what a fit needs.
@@ -37,10 +36,10 @@ struct FitScale
   bool cubic = false;       ///< The radius is one for a fit with cubic terms.
 };
 
-/// Lepski's rule on a ladder of radii at the cell mean @p seed: a longer radius is taken while it agrees with
-/// every shorter one within two of that one's standard errors, in position and in both slopes. Where that is
-/// longer than the count radius by a third, the same for a fit with cubic terms, up to a tenth longer than @p
-/// largest; it is taken where it tells more.
+/// Lepski's scale search at the cell mean @p seed: a longer radius is accepted while it agrees with every
+/// shorter one within two of the shorter one's standard errors, in position and in both slopes. Where the
+/// result is longer than the count radius by a third, the search is repeated with cubic terms, up to a tenth
+/// longer than @p largest; they are used where that fit is better.
 /// @p largestCount bounds the radius that is grown for points, @p largest the one grown against noise;
 /// metres.
 FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest,
@@ -49,7 +48,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
 /// Distance between nodes that vote on each other's radii, in finest cells.
 constexpr double kVoteReachInCells = 16.0;
 
-/// What is wanted of a node.
+/// What a node is used for.
 enum class NodeUse : unsigned char
 {
   None,
@@ -59,8 +58,9 @@ enum class NodeUse : unsigned char
 
 /// chooseFitRadius at each cell of the field's node level, medians of the neighbours taken against outliers,
 /// as the radius and gate of the surface fit.
-/// @param uses where given, one per node: only those for All are answered, and only those for Vote and All
-/// asked. @param wanted the instructions to use, as far as this machine has them; the result is the same.
+/// @param uses where given, one per node: the result is valid for All only, and scales are computed for Vote
+/// and All only. @param wanted the instructions to use, as far as this machine has them; the result is the
+/// same.
 std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
   const Executor& executor = {}, const std::vector<NodeUse>* uses = nullptr, const FitNeeds& needs = {},
   InstructionSet wanted = InstructionSet::Automatic);

@@ -152,10 +152,10 @@ void errorsOf(const simd::FitRows& rows, const simd::FitSums& sums, const double
   }
 }
 
-CubicFactor factorCubic(const simd::CubicSums& cubic, const double l[6][6], double share) noexcept
+CubicFactor factorCubic(const simd::CubicSums& cubic, const double l[6][6], double cubicWeight) noexcept
 {
   CubicFactor factor;
-  factor.share = share;
+  factor.weight = cubicWeight;
 #pragma GCC unroll 4
   for (int i = 0; i < 4; ++i)
   {
@@ -183,7 +183,7 @@ CubicFactor factorCubic(const simd::CubicSums& cubic, const double l[6][6], doub
       // Zero where sum is not a number, too.
       const double pivot = sum > kCubicPivotFrom * row[i] ? sum / row[i] : 0.0;
       const double t = std::clamp((pivot - kCubicPivotFrom) / (kCubicPivotTo - kCubicPivotFrom), 0.0, 1.0);
-      factor.share *= t * t * (3.0 - 2.0 * t);
+      factor.weight *= t * t * (3.0 - 2.0 * t);
       factor.m[i][i] = 1.0 / std::sqrt(sum);
     }
   }
@@ -195,7 +195,7 @@ void solveCubic(const CubicFactor& factor, const double l[6][6], const double p[
 {
   double y[6];
   halfSolve<6>(l, p, y);
-  if (factor.share > 0.0)
+  if (factor.weight > 0.0)
   {
     double z[4];
 #pragma GCC unroll 6
@@ -227,7 +227,7 @@ void solveCubic(const CubicFactor& factor, const double l[6][6], const double p[
 #pragma GCC unroll 6
     for (int i = 0; i < 4; ++i)
     {
-      x[6 + i] = factor.share * z[i];
+      x[6 + i] = factor.weight * z[i];
 #pragma GCC unroll 6
       for (int n = 0; n < 6; ++n)
       {
@@ -243,9 +243,9 @@ void solveCubic(const CubicFactor& factor, const double l[6][6], const double p[
 }
 
 simd::TracedFit withCubicTerms(
-  const simd::FitSums& sums, const simd::CubicSums& cubic, const double l[6][6], double share) noexcept
+  const simd::FitSums& sums, const simd::CubicSums& cubic, const double l[6][6], double cubicWeight) noexcept
 {
-  const CubicFactor factor = factorCubic(cubic, l, share);
+  const CubicFactor factor = factorCubic(cubic, l, cubicWeight);
   const double unit[6] = { 1.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
   const double none[4] = { 0.0, 0.0, 0.0, 0.0 };
   simd::TracedFit fit;

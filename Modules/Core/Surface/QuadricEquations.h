@@ -20,20 +20,20 @@ struct CubicFactor
 {
   double half[4][6];
   double m[4][4];
-  double share; ///< Of the cubic terms: as asked for, less where the cells hardly determine them.
+  double weight; ///< Of the cubic terms: as asked for, less where the cells hardly determine them.
 };
 
-/// @param l factor of the six. @param share 0 to 1.
-CubicFactor factorCubic(const simd::CubicSums& cubic, const double l[6][6], double share) noexcept;
+/// @param l factor of the six. @param cubicWeight 0 to 1.
+CubicFactor factorCubic(const simd::CubicSums& cubic, const double l[6][6], double cubicWeight) noexcept;
 
 /// Solves the ten equations for right hand sides @p p of the six and @p q of the four. The cubic terms are
-/// multiplied by the factor's share; the others are then the best beside what is left of those.
+/// multiplied by the factor's weight; the others are then the best beside what is left of those.
 void solveCubic(const CubicFactor& factor, const double l[6][6], const double p[6], const double q[4],
   double x[10]) noexcept;
 
 /// The height's ten terms and the row that gives k0.
 simd::TracedFit withCubicTerms(
-  const simd::FitSums& sums, const simd::CubicSums& cubic, const double l[6][6], double share) noexcept;
+  const simd::FitSums& sums, const simd::CubicSums& cubic, const double l[6][6], double cubicWeight) noexcept;
 
 /// Noise from the weighted residuals, and the diagonal of A^-1 (sum W^2/n P P') A^-1 for k0, k1, k2. @param
 /// inverse their rows of A^-1, over @p terms terms, the rest zero.

@@ -19,7 +19,7 @@ struct LocalScale
   double countRadius = 0.0; ///< Smallest radius with enough points for a fit.
   double proxyRadius = 0.0; ///< Of the proxy sphere.
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
-  double cubic = 0.0;       ///< Share of the fit's cubic terms, 0 to 1.
+  double cubic = 0.0;       ///< Weight of the fit's cubic terms, 0 to 1.
 };
 
 /// The same where the cloud is @p factor times as large.

@@ -75,11 +75,11 @@ void collectRows(
   const double coarse = smoothStep((fraction - kBlendFrom) / (1.0 - kBlendFrom));
   simd::FitView view = viewOf(frame, settings);
   memory.rows().size = 0;
-  const auto append = [&](double share)
+  const auto append = [&](double blendWeight)
   {
     const simd::FitBlock& block = memory.near(pyramid, level, frame.origin, settings.radius);
     view.origin = frame.origin - block.center;
-    view.share = share;
+    view.blendWeight = blendWeight;
     memory.kernels().appendRows(block, view, memory.rows());
   };
   append(1.0 - coarse);
@@ -138,12 +138,12 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
   double l[6][6];
   int terms = 0;
   SurfaceFit fit = solve(sums, settings.radius, l, terms);
-  const double share = slopes ? std::max(slopes->strength, slopes->cubic) : 0.0;
-  if (share > 0.0 && terms == 6)
+  const double cubicWeight = slopes ? std::max(slopes->strength, slopes->cubic) : 0.0;
+  if (cubicWeight > 0.0 && terms == 6)
   {
     simd::CubicSums cubic;
     memory.kernels().sumCubicRows(memory.rows(), cubic);
-    const simd::TracedFit traced = withCubicTerms(sums, cubic, l, share);
+    const simd::TracedFit traced = withCubicTerms(sums, cubic, l, cubicWeight);
     std::copy(traced.k, traced.k + 6, fit.k);
     std::copy(traced.k + 6, traced.k + 10, fit.cubic);
     if (slopes->strength > 0.0)
@@ -179,7 +179,7 @@ SurfaceFit fitSurface(const CellPyramid& pyramid, const SurfaceFrame& frame, con
     simd::CubicSums cubicSums;
     memory.kernels().sumCubicRows(memory.rows(), cubicSums);
     const CubicFactor factor = factorCubic(cubicSums, l, 1.0);
-    if (factor.share < 1.0)
+    if (factor.weight < 1.0)
     {
       fit.quality = FitQuality::Plane;
       return fit;

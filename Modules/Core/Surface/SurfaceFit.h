@@ -49,7 +49,7 @@ struct TracedSlopes
   double strength =
     0.0; ///< 0: the quadric's slopes, 1: the traced surface's. Noise is amplified up to twofold at 1.
   Vec3 radiusGradient; ///< grad rho at the origin.
-  double cubic = 0.0;  ///< Share of the cubic terms where it is above the strength, 0 to 1.
+  double cubic = 0.0;  ///< Weight of the cubic terms where it is above the strength, 0 to 1.
 };
 
 enum class FitQuality

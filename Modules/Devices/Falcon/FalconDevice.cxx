@@ -87,7 +87,7 @@ Status FalconDevice::Implementation::start(std::string& text)
     [this](double part) { progress = part; });
   if (status != Status::FirmwareMissing)
   {
-    text = status == Status::Ok ? firmware.note : std::string("falcon: ") + sentence(status);
+    text = status == Status::Ok ? firmware.note : std::string("falcon: ") + pointhaptics::message(status);
   }
   return status;
 }

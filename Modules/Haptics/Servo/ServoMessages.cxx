@@ -33,7 +33,7 @@ Status explained(Status status, const HandLimits& limits, const ContactParameter
   }
   else if (message)
   {
-    *message = status == Status::Ok ? "" : sentence(status);
+    *message = status == Status::Ok ? "" : pointhaptics::message(status);
   }
   return status;
 }

@@ -55,8 +55,8 @@ struct LasColumns
     { "NumberOfReturns", VTK_TYPE_UINT8 }, { "Classification", VTK_TYPE_UINT8 }, { "ScanAngle", VTK_FLOAT },
     { "UserData", VTK_TYPE_UINT8 }, { "PointSourceId", VTK_TYPE_UINT16 } };
   std::size_t gpsTime;
-  std::size_t wideColour;
-  std::size_t colour;
+  std::size_t wideColor;
+  std::size_t color;
   std::size_t nearInfrared;
   std::size_t firstExtra;
 
@@ -64,8 +64,8 @@ struct LasColumns
   {
     const LasPointFormat& fields = header.fields();
     gpsTime = addIf(fields.gpsTime, { "GpsTime", VTK_DOUBLE });
-    wideColour = addIf(fields.rgb, { "Color16", VTK_TYPE_UINT16, 3 });
-    colour = addIf(fields.rgb, { "RGB", VTK_TYPE_UINT8, 3 });
+    wideColor = addIf(fields.rgb, { "Color16", VTK_TYPE_UINT16, 3 });
+    color = addIf(fields.rgb, { "RGB", VTK_TYPE_UINT8, 3 });
     nearInfrared = addIf(fields.nearInfrared, { "NearInfrared", VTK_TYPE_UINT16 });
     firstExtra = all.size();
     for (const LasExtraField& field : header.extraFields)
@@ -151,7 +151,7 @@ public:
   }
   /// @p records: @p count of them, the first of which is the point @p row.
   void fill(const char* records, vtkIdType row, vtkIdType count);
-  void fillColours();
+  void fillColors();
   void moveTo(vtkPolyData* cloud);
 
 private:
@@ -286,7 +286,7 @@ void LasRecords::fill(const char* records, vtkIdType row, vtkIdType count)
   }
   for (int channel = 0; channel < 3 && fields.rgb != 0; ++channel)
   {
-    copyColumn<std::uint16_t>(names_.wideColour, fields.rgb + 2 * static_cast<std::size_t>(channel), channel);
+    copyColumn<std::uint16_t>(names_.wideColor, fields.rgb + 2 * static_cast<std::size_t>(channel), channel);
   }
   if (fields.nearInfrared != 0)
   {
@@ -296,15 +296,14 @@ void LasRecords::fill(const char* records, vtkIdType row, vtkIdType count)
 }
 
 /// 8-bit colours: the high byte, or the value itself in files that (against the standard) store 0..255.
-void LasRecords::fillColours()
+void LasRecords::fillColors()
 {
   if (header_.fields().rgb == 0)
   {
     return;
   }
-  const std::uint16_t* from =
-    reinterpret_cast<const std::uint16_t*>(columns_.target(names_.wideColour).first);
-  Byte* to = reinterpret_cast<Byte*>(columns_.target(names_.colour).first);
+  const std::uint16_t* from = reinterpret_cast<const std::uint16_t*>(columns_.target(names_.wideColor).first);
+  Byte* to = reinterpret_cast<Byte*>(columns_.target(names_.color).first);
   const vtkIdType values = 3 * rows_;
   const bool sixteenBit = std::any_of(from, from + values, [](std::uint16_t v) { return v > 255; });
   const int shift = sixteenBit ? 8 : 0;
@@ -368,7 +367,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
       task.progress(static_cast<double>(row + count) / static_cast<double>(rows));
     }
   }
-  records.fillColours();
+  records.fillColors();
   records.moveTo(cloud);
   addTriple(cloud, "LasScale", header.scale);
   addTriple(cloud, "LasOffset", header.offset);

@@ -65,7 +65,7 @@ private:
   void planPositions();
   void planBits();
   void planStandardFields();
-  void planColours();
+  void planColors();
   void planExtraFields();
   void addField(const OutputArray* array, int component, std::size_t offset, int type);
   std::vector<Byte>& newBytes(std::size_t offset);
@@ -91,8 +91,8 @@ private:
   const OutputArray* userData_ = nullptr;
   const OutputArray* pointSourceId_ = nullptr;
   const OutputArray* gpsTime_ = nullptr;
-  const OutputArray* wideColour_ = nullptr;
-  const OutputArray* colour_ = nullptr;
+  const OutputArray* wideColor_ = nullptr;
+  const OutputArray* color_ = nullptr;
   const OutputArray* nearInfrared_ = nullptr;
 
   bool extended_ = false;
@@ -134,8 +134,8 @@ void LasWriter::takeStandardArrays()
   userData_ = take("UserData", VTK_TYPE_UINT8);
   pointSourceId_ = take("PointSourceId", VTK_TYPE_UINT16);
   gpsTime_ = take("GpsTime", VTK_DOUBLE);
-  wideColour_ = take("Color16", VTK_TYPE_UINT16, 3);
-  colour_ = take("RGB", VTK_TYPE_UINT8, 3);
+  wideColor_ = take("Color16", VTK_TYPE_UINT16, 3);
+  color_ = take("RGB", VTK_TYPE_UINT8, 3);
   nearInfrared_ = take("NearInfrared", VTK_TYPE_UINT16);
 }
 
@@ -308,13 +308,13 @@ void LasWriter::planStandardFields()
   }
 }
 
-void LasWriter::planColours()
+void LasWriter::planColors()
 {
   const std::size_t place = kLasPointFormats[format_].rgb;
-  if (!wideColour_ && colour_)
+  if (!wideColor_ && color_)
   {
     // 0xabab for 0xab: readers take the high byte.
-    const Byte* from = static_cast<const Byte*>(colour_->array->GetVoidPointer(0));
+    const Byte* from = static_cast<const Byte*>(color_->array->GetVoidPointer(0));
     widened_.assign(from, from + 3 * rows_);
     std::transform(widened_.begin(), widened_.end(), widened_.begin(),
       [](std::uint16_t v) { return static_cast<std::uint16_t>(257 * v); });
@@ -322,9 +322,9 @@ void LasWriter::planColours()
   for (int channel = 0; channel < 3 && place != 0; ++channel)
   {
     const std::size_t offset = place + 2 * static_cast<std::size_t>(channel);
-    if (wideColour_)
+    if (wideColor_)
     {
-      addField(wideColour_, channel, offset, VTK_TYPE_UINT16);
+      addField(wideColor_, channel, offset, VTK_TYPE_UINT16);
     }
     else
     {
@@ -425,13 +425,13 @@ void LasWriter::write()
 {
   takeStandardArrays();
   extended_ = needsExtended();
-  const bool isColoured = wideColour_ || colour_;
-  format_ = extended_ ? (nearInfrared_ ? 8 : isColoured ? 7 : 6) : (gpsTime_ ? 1 : 0) + (isColoured ? 2 : 0);
+  const bool isColored = wideColor_ || color_;
+  format_ = extended_ ? (nearInfrared_ ? 8 : isColored ? 7 : 6) : (gpsTime_ ? 1 : 0) + (isColored ? 2 : 0);
   recordSize_ = kLasPointFormats[format_].size;
   planPositions();
   planBits();
   planStandardFields();
-  planColours();
+  planColors();
   planExtraFields();
 
   constexpr std::uint16_t kKeptEncoding = 15; // how gps time counts, and the like

@@ -95,16 +95,16 @@ struct ObjSurvey
 {
   std::array<NumberColumn, 3> position;
   vtkIdType vertices = 0;
-  vtkIdType coloured = 0;
+  vtkIdType colored = 0;
   vtkIdType normals = 0;
   double brightest = 0.0;
 
-  bool isColoured() const { return coloured == vertices; }
+  bool isColored() const { return colored == vertices; }
   bool hasNormalPerVertex() const { return normals == vertices; }
   void vertex(const Numbers& numbers)
   {
     ++vertices;
-    coloured += numbers.count >= 6 ? 1 : 0;
+    colored += numbers.count >= 6 ? 1 : 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       position[axis].add(numbers.values[axis], numbers.shapes[axis]);
@@ -127,9 +127,9 @@ struct ObjSurvey
 struct ObjStore
 {
   std::array<ColumnView, 3> position;
-  std::array<ColumnView, 3> colour;
+  std::array<ColumnView, 3> color;
   std::array<ColumnView, 3> direction;
-  double colourScale = 255.0; ///< Files hold 0..1; some programs write 0..255.
+  double colorScale = 255.0; ///< Files hold 0..1; some programs write 0..255.
   vtkIdType vertices = 0;
   vtkIdType normals = 0;
 
@@ -138,11 +138,11 @@ struct ObjStore
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       storeNumber(position[axis], vertices, numbers.values[axis]);
-      if (colour[axis].first)
+      if (color[axis].first)
       {
-        const double value = colourScale * numbers.values[numbers.count - 3 + axis];
+        const double value = colorScale * numbers.values[numbers.count - 3 + axis];
         storeNumber(
-          colour[axis], vertices, std::isfinite(value) ? std::clamp(std::round(value), 0.0, 255.0) : 0.0);
+          color[axis], vertices, std::isfinite(value) ? std::clamp(std::round(value), 0.0, 255.0) : 0.0);
       }
     }
     ++vertices;
@@ -178,19 +178,19 @@ void readObj(ReadTask& task, vtkPolyData* cloud)
   {
     names.push_back({ std::string("n") + "xyz"[axis], survey.direction[axis].floatingType() });
   }
-  const std::size_t colours = names.size();
-  if (survey.isColoured())
+  const std::size_t colors = names.size();
+  if (survey.isColored())
   {
     names.push_back({ "RGB", VTK_TYPE_UINT8, 3 });
   }
   CloudColumns columns(names, survey.vertices);
   ObjStore store;
-  store.colourScale = survey.brightest > 1.0 ? 1.0 : 255.0;
+  store.colorScale = survey.brightest > 1.0 ? 1.0 : 255.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     store.position[axis] = columns.target(axis);
     store.direction[axis] = survey.hasNormalPerVertex() ? columns.target(3 + axis) : ColumnView{};
-    store.colour[axis] = survey.isColoured() ? columns.target(colours, static_cast<int>(axis)) : ColumnView{};
+    store.color[axis] = survey.isColored() ? columns.target(colors, static_cast<int>(axis)) : ColumnView{};
   }
   walkObj(task, text, store, 0.5, 1.0);
   columns.moveTo(cloud);

@@ -27,15 +27,15 @@ namespace
 constexpr std::size_t kBlockBytes = 1 << 18;
 
 /// PCD packs colours as 0xAARRGGBB. Copies @p count of them into bytes R G B [A].
-void unpackColours(ConstColumnView packed, ColumnView target, vtkIdType count)
+void unpackColors(ConstColumnView packed, ColumnView target, vtkIdType count)
 {
   const char* from = packed.first;
   char* to = target.first;
   for (vtkIdType i = 0; i < count; ++i, from += packed.stride, to += target.stride)
   {
-    std::uint32_t colour = 0;
-    std::memcpy(&colour, from, sizeof(colour));
-    const std::uint32_t bytes[4] = { colour >> 16, colour >> 8, colour, colour >> 24 };
+    std::uint32_t color = 0;
+    std::memcpy(&color, from, sizeof(color));
+    const std::uint32_t bytes[4] = { color >> 16, color >> 8, color, color >> 24 };
     for (std::ptrdiff_t channel = 0; channel < target.stride; ++channel)
     {
       to[channel] = static_cast<char>(static_cast<std::uint8_t>(bytes[channel] & 0xff));
@@ -59,7 +59,7 @@ struct PcdTable
     for (const PcdField& field : header.fields)
     {
       entries.push_back({ field, columns.size() });
-      if (field.isPackedColour())
+      if (field.isPackedColor())
       {
         const bool hasAlpha = field.name == "rgba";
         columns.push_back({ hasAlpha ? "RGBA" : "RGB", VTK_TYPE_UINT8, hasAlpha ? 4 : 3 });
@@ -77,9 +77,9 @@ void copyField(const PcdTable::Entry& entry, const char* first, std::ptrdiff_t s
   const CloudColumns& columns, vtkIdType row, vtkIdType count)
 {
   const PcdField& field = entry.field;
-  if (field.isPackedColour())
+  if (field.isPackedColor())
   {
-    unpackColours({ first, stride, field.type }, columns.target(entry.column).fromRow(row), count);
+    unpackColors({ first, stride, field.type }, columns.target(entry.column).fromRow(row), count);
     return;
   }
   for (int component = 0; component < field.count; ++component)
@@ -173,14 +173,13 @@ bool storeAsciiNumber(const AsciiNumber& number, vtkIdType row, double value)
   {
     return true;
   }
-  if (!number.field->isPackedColour())
+  if (!number.field->isPackedColor())
   {
     return storeNumber(number.target, row, value);
   }
   std::uint32_t packed = 0;
   const bool stored = storeNumber({ reinterpret_cast<char*>(&packed), 0, number.field->type }, 0, value);
-  unpackColours(
-    { reinterpret_cast<const char*>(&packed), 0, VTK_TYPE_UINT32 }, number.target.fromRow(row), 1);
+  unpackColors({ reinterpret_cast<const char*>(&packed), 0, VTK_TYPE_UINT32 }, number.target.fromRow(row), 1);
   return stored;
 }
 

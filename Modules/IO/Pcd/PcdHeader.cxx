@@ -329,7 +329,7 @@ void checkSizes(std::string_view bytes, PcdHeader& header)
 
 } // namespace
 
-bool PcdField::isPackedColour() const
+bool PcdField::isPackedColor() const
 {
   return count == 1 && sizeOfType(type) == 4 && (name == "rgb" || name == "rgba");
 }

@@ -27,7 +27,7 @@ struct PcdField
 
   bool isPadding() const { return name == "_"; }
   /// "rgb" or "rgba" of 4 bytes: three or four bytes packed into one number.
-  bool isPackedColour() const;
+  bool isPackedColor() const;
 };
 
 struct PcdHeader

@@ -50,7 +50,7 @@ bool isOneOf(const std::string& name, std::initializer_list<const char*> known)
   return std::any_of(known.begin(), known.end(), [&](const char* each) { return equalNoCase(name, each); });
 }
 
-bool isColourName(const std::string& name)
+bool isColorName(const std::string& name)
 {
   return isOneOf(name,
     { "red", "green", "blue", "alpha", "r", "g", "b", "a", "RGB_0", "RGB_1", "RGB_2", "RGB:0", "RGB:1",
@@ -63,7 +63,7 @@ int typeOf(const std::string& name, const NumberColumn& column)
   {
     return column.floatingType();
   }
-  return isColourName(name) && column.isByte() ? VTK_TYPE_UINT8 : column.type();
+  return isColorName(name) && column.isByte() ? VTK_TYPE_UINT8 : column.type();
 }
 
 const char* separatorName(const TextLayout& layout)

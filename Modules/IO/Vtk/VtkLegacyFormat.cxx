@@ -40,7 +40,7 @@ private:
   void skipCells();
   void parseAttribute(std::string_view keyword);
   void parseScalars();
-  void parseColours();
+  void parseColors();
   void parseField();
   void skipMetadata();
   void add(const std::string& name, vtkDataArray* array, Count tuples);
@@ -149,27 +149,27 @@ void LegacyParser::parseScalars()
 }
 
 /// Bytes in binary files, 0..1 in texts.
-void LegacyParser::parseColours()
+void LegacyParser::parseColors()
 {
   const std::string name = decodedName(word());
   const Count components = count("the number of components");
-  vtkSmartPointer<vtkDataArray> colours =
+  vtkSmartPointer<vtkDataArray> colors =
     values(name, isBinary() ? VTK_TYPE_UINT8 : VTK_FLOAT, tuples_, components);
   if (!isBinary())
   {
     vtkNew<vtkUnsignedCharArray> bytes;
-    bytes->SetNumberOfComponents(colours->GetNumberOfComponents());
-    bytes->SetNumberOfTuples(colours->GetNumberOfTuples());
-    const float* from = static_cast<const float*>(colours->GetVoidPointer(0));
+    bytes->SetNumberOfComponents(colors->GetNumberOfComponents());
+    bytes->SetNumberOfTuples(colors->GetNumberOfTuples());
+    const float* from = static_cast<const float*>(colors->GetVoidPointer(0));
     for (vtkIdType i = 0; i < bytes->GetNumberOfValues(); ++i)
     {
       const float scaled =
         std::isfinite(from[i]) ? std::clamp(std::round(255.0f * from[i]), 0.0f, 255.0f) : 0.0f;
       bytes->SetValue(i, static_cast<unsigned char>(scaled));
     }
-    colours = bytes;
+    colors = bytes;
   }
-  add(name, colours, tuples_);
+  add(name, colors, tuples_);
 }
 
 void LegacyParser::parseField()
@@ -248,7 +248,7 @@ void LegacyParser::parseSection(std::string_view keyword)
   }
   else if (is("COLOR_SCALARS"))
   {
-    parseColours();
+    parseColors();
   }
   else if (is("LOOKUP_TABLE"))
   {

@@ -69,7 +69,7 @@ int main()
   const std::shared_ptr<const HapticScene> scene = makeHapticScene(result, status);
   if (!scene)
   {
-    std::fprintf(stderr, "no scene: %s\n", sentence(status));
+    std::fprintf(stderr, "no scene: %s\n", message(status));
     return 1;
   }
   Proxy proxy;

@@ -24,7 +24,7 @@ int main()
   const std::shared_ptr<const HapticScene> scene = HapticScene::create(std::move(input), status);
   if (!scene)
   {
-    std::fprintf(stderr, "no scene: %s\n", sentence(status));
+    std::fprintf(stderr, "no scene: %s\n", message(status));
     return 1;
   }
   HipPath path;

@@ -292,7 +292,7 @@ TEST(CellPyramid, TwoSheetsInOneVoxelAreMixedAndOneSheetIsNot)
   EXPECT_GT(mixedShare(pyramidOf(two, 5e-4), 3), 0.5);
 }
 
-TEST(CellPyramid, ForgivesThicknessThatIsNoiseAndNoOther)
+TEST(CellPyramid, ReclassifiesMixedCellsWhoseThicknessIsNoise)
 {
   constexpr double kNoise = 1e-4;
   trial::Random random(18);
@@ -316,8 +316,8 @@ TEST(CellPyramid, ForgivesThicknessThatIsNoiseAndNoOther)
   ASSERT_GT(noisyBefore, 0);
   ASSERT_GT(apartBefore, 0);
   const auto noise = [](const Vec3&) { return kNoise; };
-  sheet.forgiveNoise(noise);
-  sheets.forgiveNoise(noise);
+  sheet.reclassifyMixedCells(noise);
+  sheets.reclassifyMixedCells(noise);
   EXPECT_LE(mixedCells(sheet, 1), noisyBefore / 100);
   EXPECT_EQ(mixedCells(sheets, 3), apartBefore);
 }

@@ -52,7 +52,7 @@ FitView randomView(trial::Random& random)
   view.a = anyPerpendicular(view.normal);
   view.b = cross(view.normal, view.a);
   view.radius = random.uniform(0.6, 1.0);
-  view.share = random.uniform();
+  view.blendWeight = random.uniform();
   view.gate = random.below(4) == 0 ? 0.0 : random.uniform(0.05, 0.4);
   view.twoSidedGate = random.below(3) == 0;
   for (double& bend : view.bend)
@@ -109,7 +109,7 @@ void answer(const FitKernels& kernels, const Question& question, Answers& answer
   answers.rows.size = 0;
   kernels.appendRows(question.block, question.view, answers.rows);
   FitView coarse = question.view;
-  coarse.share = 1.0 - coarse.share;
+  coarse.blendWeight = 1.0 - coarse.blendWeight;
   kernels.appendRows(question.block, coarse, answers.rows);
   kernels.sumRows(answers.rows, answers.sums);
   kernels.sumCubicRows(answers.rows, answers.cubic);

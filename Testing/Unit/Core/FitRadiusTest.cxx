@@ -27,7 +27,7 @@ CellPyramid sphere(int n, double noise, std::uint64_t seed)
   return resampled(trial::sphere(n, 0.025, seed, noise));
 }
 
-/// Mean share of the cubic terms over the nodes of a shape.
+/// Mean weight of the cubic terms over the nodes of a shape.
 double cubicShare(Shape shape, double noise)
 {
   std::vector<Vec3> points;
@@ -40,9 +40,9 @@ double cubicShare(Shape shape, double noise)
     EXPECT_LE(scale.cubic, 1.0);
     sum += scale.cubic;
   }
-  const double share = sum / double(scales.size());
-  std::printf("[ figure   ] share of cubic terms on the %s = %.2f\n", shapeName(shape), share);
-  return share;
+  const double weight = sum / double(scales.size());
+  std::printf("[ figure   ] weight of cubic terms on the %s = %.2f\n", shapeName(shape), weight);
+  return weight;
 }
 
 std::vector<FitScale> scalesOf(const CellPyramid& pyramid)

@@ -15,7 +15,7 @@
 using namespace pointhaptics;
 using namespace pointhaptics::trial;
 
-TEST(LocalBandwidths, OfACrowdAtOnePlaceTakeNoLongerThanOfOthers)
+TEST(LocalBandwidths, OfDuplicatesTakeNoLongerThanOfOthers)
 {
   // Searched for one by one, or their balls read one by one, these would take minutes.
   std::vector<Vec3> points = trial::randomBox(2000, 48, { 0, 0, 0 }, { 1, 1, 0 });
@@ -126,11 +126,12 @@ TEST(LocalBandwidths, SurviveEveryCloudWithUsableRadii)
     wide[i] *= 1e170;
     widest[i] = 3.4e307 * (10.0 * widest[i] - Vec3(5, 5, 5)); // to the end of double numbers
   }
-  std::vector<Vec3> crowd = trial::randomBox(300, 46, { 0, 0, 0 }, { 1, 1, 0 });
-  crowd.insert(crowd.end(), 1500, crowd[3]);
-  const std::vector<std::vector<Vec3>> clouds{ line, apart, twice, denormal, far, tiny, wide, widest, crowd,
-    trial::randomBox(300, 47, { -9, -8, -7 }, { -3, -2, -1 }), { { 1, 2, 3 } }, { { 0, 0, 0 }, { 1, 0, 0 } },
-    std::vector<Vec3>(40, Vec3(0.1, 0.2, 0.3)), trial::randomBox(11, 45, { 0, 0, 0 }, { 1, 1, 1 }) };
+  std::vector<Vec3> duplicates = trial::randomBox(300, 46, { 0, 0, 0 }, { 1, 1, 0 });
+  duplicates.insert(duplicates.end(), 1500, duplicates[3]);
+  const std::vector<std::vector<Vec3>> clouds{ line, apart, twice, denormal, far, tiny, wide, widest,
+    duplicates, trial::randomBox(300, 47, { -9, -8, -7 }, { -3, -2, -1 }), { { 1, 2, 3 } },
+    { { 0, 0, 0 }, { 1, 0, 0 } }, std::vector<Vec3>(40, Vec3(0.1, 0.2, 0.3)),
+    trial::randomBox(11, 45, { 0, 0, 0 }, { 1, 1, 1 }) };
   for (std::size_t c = 0; c < clouds.size(); ++c)
   {
     for (const BandwidthRule rule : kRules)

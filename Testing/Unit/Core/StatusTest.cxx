@@ -13,7 +13,7 @@ TEST(Status, HasAnOwnSentenceForEveryValue)
   std::set<std::string> sentences;
   for (int value = 0; value <= int(Status::RateNotSupported); ++value)
   {
-    const char* text = sentence(Status(value));
+    const char* text = message(Status(value));
     ASSERT_NE(text, nullptr) << value;
     EXPECT_FALSE(std::string(text).empty()) << value;
     EXPECT_TRUE(sentences.insert(text).second) << value << " repeats: " << text;
@@ -44,9 +44,9 @@ TEST(Status, SentencesNameTheCure)
   for (int value = 1; value <= int(Status::RateNotSupported); ++value)
   {
     const auto cure = cures.find(Status(value));
-    ASSERT_NE(cure, cures.end()) << value << " has no cure: " << sentence(Status(value));
-    EXPECT_NE(std::string(sentence(Status(value))).find(cure->second), std::string::npos)
-      << "no '" << cure->second << "' in: " << sentence(Status(value));
+    ASSERT_NE(cure, cures.end()) << value << " has no cure: " << message(Status(value));
+    EXPECT_NE(std::string(message(Status(value))).find(cure->second), std::string::npos)
+      << "no '" << cure->second << "' in: " << message(Status(value));
   }
 }
 
@@ -54,12 +54,12 @@ TEST(Status, SentencesKnowNoProgram)
 {
   for (int value = 0; value <= int(Status::RateNotSupported); ++value)
   {
-    EXPECT_EQ(std::string(sentence(Status(value))).find("--"), std::string::npos)
-      << "an option of a program in: " << sentence(Status(value));
+    EXPECT_EQ(std::string(message(Status(value))).find("--"), std::string::npos)
+      << "an option of a program in: " << message(Status(value));
   }
 }
 
 TEST(Status, SentenceOfAnUnknownValueSaysSo)
 {
-  EXPECT_STREQ(sentence(Status(12345)), "unknown status");
+  EXPECT_STREQ(message(Status(12345)), "unknown status");
 }

@@ -29,7 +29,7 @@ VoxelRequest requestFor(const std::vector<Vec3>& points, const Lattice& lattice,
 }
 
 /// All but three of @p group points are in one voxel.
-std::vector<Vec3> crowdedPoints(
+std::vector<Vec3> pointsWithAnOverfullCell(
   std::size_t n, const Lattice& lattice, const Vec3& voxel, std::size_t group = 16)
 {
   std::vector<Vec3> points = quantisedPoints(n, 1, lattice);
@@ -55,7 +55,7 @@ AffineTransform generalTransform(double scale)
 TEST(VoxelResampler, SumsMillionsOfPointsInOneVoxelExactlyWithTheirProductsOrWithout)
 {
   const Lattice lattice = latticeOf(300, 300, 300);
-  const std::vector<Vec3> points = crowdedPoints(3200000, lattice, { 123, 45, 299 });
+  const std::vector<Vec3> points = pointsWithAnOverfullCell(3200000, lattice, { 123, 45, 299 });
   const RunResult with = runOf(requestFor(points, lattice, true));
   expectExact(points, lattice, with);
   RunResult without = runOf(requestFor(points, lattice, false));
@@ -67,7 +67,7 @@ TEST(VoxelResampler, SumsMillionsOfPointsInOneOfFewVoxelsExactly)
 {
   for (const Lattice& lattice : { latticeOf(5, 5, 5), latticeOf(4, 4, 4) })
   {
-    const std::vector<Vec3> points = crowdedPoints(2200000, lattice, { 3, 0, 3 });
+    const std::vector<Vec3> points = pointsWithAnOverfullCell(2200000, lattice, { 3, 0, 3 });
     expectExact(points, lattice, runOf(requestFor(points, lattice, false)));
   }
 }
@@ -75,7 +75,7 @@ TEST(VoxelResampler, SumsMillionsOfPointsInOneOfFewVoxelsExactly)
 TEST(VoxelResampler, IsExactForTheFewPointsThatSeveralChunksHaveBesideAnOverfullCell)
 {
   const Lattice lattice = latticeOf(300, 300, 300);
-  const std::vector<Vec3> points = crowdedPoints(1300000, lattice, { 123, 45, 299 }, 1024);
+  const std::vector<Vec3> points = pointsWithAnOverfullCell(1300000, lattice, { 123, 45, 299 }, 1024);
   for (const InstructionSet set : { InstructionSet::Baseline, InstructionSet::Automatic })
   {
     VoxelRequest request = requestFor(points, lattice);

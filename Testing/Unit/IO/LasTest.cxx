@@ -23,7 +23,7 @@ TEST_F(Las, PositionsAreScaledInDouble)
   EXPECT_EQ(result.array("RGB"), nullptr);
 }
 
-TEST_F(Las, LegacyBitFieldsAndColoursAreUnpacked)
+TEST_F(Las, LegacyBitFieldsAndColorsAreUnpacked)
 {
   std::string las = makeLas(2, 3, 36); // two extra bytes
   put(las, 227 + 36 + 12, std::uint16_t{ 777 });

@@ -293,14 +293,14 @@ TEST_F(LasWriting, PutsOtherArraysIntoExtraBytes)
   covariance->SetNumberOfTuples(2);
   const auto count = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTK_TYPE_INT64));
   count->SetName("VoxelPointCount");
-  vtkNew<vtkUnsignedCharArray> colour;
-  colour->SetName("RGB");
-  colour->SetNumberOfComponents(3);
-  colour->SetNumberOfTuples(2);
+  vtkNew<vtkUnsignedCharArray> color;
+  color->SetName("RGB");
+  color->SetNumberOfComponents(3);
+  color->SetNumberOfTuples(2);
   for (vtkIdType i = 0; i < 12; ++i)
   {
     covariance->SetValue(i, std::sqrt(static_cast<double>(i)));
-    colour->SetValue(i % 6, static_cast<unsigned char>(40 * i % 256));
+    color->SetValue(i % 6, static_cast<unsigned char>(40 * i % 256));
   }
   count->SetNumberOfTuples(2);
   const std::int64_t values[] = { std::numeric_limits<std::int64_t>::max(), -7 };
@@ -309,7 +309,7 @@ TEST_F(LasWriting, PutsOtherArraysIntoExtraBytes)
   named->SetName("a name that is far longer than thirty-two bytes");
   named->InsertNextValue(0.1f);
   named->InsertNextValue(std::nanf(""));
-  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{ covariance, count.Get(), colour, named })
+  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{ covariance, count.Get(), color, named })
   {
     cloud->GetPointData()->AddArray(array);
   }
@@ -321,7 +321,7 @@ TEST_F(LasWriting, PutsOtherArraysIntoExtraBytes)
   ASSERT_EQ(result.array("VoxelCovariance")->GetNumberOfComponents(), 6);
   EXPECT_EQ(result.value("VoxelCovariance", 1, 5), std::sqrt(11.0));
   expectSameBits(count, result.array("VoxelPointCount"));
-  EXPECT_EQ(result.value("RGB", 1, 2), colour->GetComponent(1, 2));
+  EXPECT_EQ(result.value("RGB", 1, 2), color->GetComponent(1, 2));
   EXPECT_EQ(static_cast<float>(result.value("a_name_that_is_far_longer_than_t", 0)), 0.1f);
 }
 

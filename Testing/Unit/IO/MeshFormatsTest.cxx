@@ -41,20 +41,20 @@ vtkSmartPointer<vtkPolyData> makeMesh()
   vtkNew<vtkIntArray> label;
   label->SetName("label");
   label->SetNumberOfTuples(count);
-  vtkNew<vtkUnsignedCharArray> colour;
-  colour->SetName("RGB");
-  colour->SetNumberOfComponents(3);
-  colour->SetNumberOfTuples(count);
+  vtkNew<vtkUnsignedCharArray> color;
+  color->SetName("RGB");
+  color->SetNumberOfComponents(3);
+  color->SetNumberOfTuples(count);
   std::mt19937 random(3);
   for (vtkIdType i = 0; i < count; ++i)
   {
     wide->SetTuple2(i, static_cast<double>(random()) / 3.0, -0.25);
     label->SetValue(i, static_cast<int>(random()) / 2);
-    colour->SetTuple3(i, random() & 255, random() & 255, random() & 255);
+    color->SetTuple3(i, random() & 255, random() & 255, random() & 255);
   }
   mesh->GetPointData()->AddArray(wide);
   mesh->GetPointData()->AddArray(label);
-  mesh->GetPointData()->SetScalars(colour);
+  mesh->GetPointData()->SetScalars(color);
   return mesh;
 }
 
@@ -203,7 +203,7 @@ TEST_F(MeshFormats, StlOfBothKindsGivesEachVertexOnce)
   expectRefused(readCloud(write("a.stl", "solid s\nendsolid s\n")), "holds no points");
 }
 
-TEST_F(MeshFormats, OffGivesVerticesNormalsAndColours)
+TEST_F(MeshFormats, OffGivesVerticesNormalsAndColors)
 {
   const ReadResult plain =
     readCloud(write("a.off", "# made by hand\nOFF\n2 1 0\n0 0 0.5 # first\n\n1 2 3\n3 0 1 0\n"));
@@ -211,9 +211,9 @@ TEST_F(MeshFormats, OffGivesVerticesNormalsAndColours)
   EXPECT_EQ(plain.format, "OFF");
   ASSERT_EQ(plain.points(), 2);
   EXPECT_EQ(plain.cloud->GetPoint(1)[2], 3.0);
-  const ReadResult coloured = readCloud(write("b.dat", "COFF 1 0 0\n1 2 3 10 20 30 255\n"));
-  ASSERT_EQ(coloured.error, "");
-  EXPECT_EQ(coloured.value("RGBA", 0, 1), 20);
+  const ReadResult colored = readCloud(write("b.dat", "COFF 1 0 0\n1 2 3 10 20 30 255\n"));
+  ASSERT_EQ(colored.error, "");
+  EXPECT_EQ(colored.value("RGBA", 0, 1), 20);
   const ReadResult both = readCloud(write("c.off", "CNOFF\n1 0 0\n1 2 3 0 0 1.0 10 20 30\n"));
   ASSERT_EQ(both.error, "");
   EXPECT_EQ(both.value("Normals", 0, 2), 1.0);

@@ -36,7 +36,7 @@ class Pcd : public CloudFiles
 {
 };
 
-TEST_F(Pcd, BinaryKeepsFieldsPackedColoursAndViewpoint)
+TEST_F(Pcd, BinaryKeepsFieldsPackedColorsAndViewpoint)
 {
   const ReadResult result = readCloud(write("a.pcd", makeBinary()));
   ASSERT_EQ(result.error, "");
@@ -55,7 +55,7 @@ TEST_F(Pcd, BinaryKeepsFieldsPackedColoursAndViewpoint)
   EXPECT_EQ(viewpoint->GetComponent(0, 4), 1.0);
 }
 
-TEST_F(Pcd, AsciiReadsPackedColoursAndNan)
+TEST_F(Pcd, AsciiReadsPackedColorsAndNan)
 {
   const std::string body = "1 2 3 1.47e-39 7 0.5 0.25\nnan nan nan 0 8 1 2\n";
   const ReadResult result = readCloud(write("a.pcd", header("2", "ascii") + body));

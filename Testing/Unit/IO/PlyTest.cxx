@@ -77,7 +77,7 @@ protected:
   }
 };
 
-TEST_F(Ply, AsciiKeepsFieldsColoursAndInvalidPoints)
+TEST_F(Ply, AsciiKeepsFieldsColorsAndInvalidPoints)
 {
   const ReadResult result = readCloud(write("a.ply", kAscii));
   ASSERT_EQ(result.error, "");

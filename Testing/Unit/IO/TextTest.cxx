@@ -77,8 +77,8 @@ TEST_F(Text, ColumnsWithoutHeaderAreGuessed)
 {
   const ReadResult four = readCloud(write("4.xyz", "1 2 3 0.5\n"));
   EXPECT_EQ(four.value("intensity", 0), 0.5);
-  const ReadResult colours = readCloud(write("6.xyz", "1 2 3 0 128 255\n"));
-  EXPECT_EQ(colours.value("RGB", 0, 1), 128);
+  const ReadResult colors = readCloud(write("6.xyz", "1 2 3 0 128 255\n"));
+  EXPECT_EQ(colors.value("RGB", 0, 1), 128);
   const ReadResult normals = readCloud(write("6n.xyz", "1 2 3 0 128 255\n1 2 3 0 0 1.5\n"));
   EXPECT_EQ(normals.array("RGB"), nullptr);
   EXPECT_EQ(normals.value("Normals", 1, 2), 1.5);
@@ -118,7 +118,7 @@ TEST_F(Text, NamesTheLineOfWhatIsWrong)
   expectRefused(readCloud(write("a.xyz", "1 2\n3 4\n")), "2 columns");
 }
 
-TEST_F(Text, ObjKeepsColoursAndNormalsAndIgnoresFaces)
+TEST_F(Text, ObjKeepsColorsAndNormalsAndIgnoresFaces)
 {
   const ReadResult result = readCloud(write("a.obj",
     "# comment\no thing\nv 0 1 2 1.0 0.5 0\nv 3 4 5 0 0 1\nvn 0 0 1\nvn 0 1 0\nvt 0 0\nf 1//1 2//2 1//1\n"));
