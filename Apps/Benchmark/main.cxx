@@ -3,7 +3,7 @@
 #include "Options/OptionParsing.h"
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
-#include "Terminal/ViewDisplay.h"
+#include "ViewDisplay.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

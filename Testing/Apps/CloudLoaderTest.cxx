@@ -1,4 +1,4 @@
-#include "Clouds/CloudLoader.h"
+#include "CloudLoader.h"
 
 #include <gtest/gtest.h>
 #include <vtkPolyData.h>
@@ -16,7 +16,6 @@ namespace
 {
 
 using namespace pointhaptics;
-using namespace pointhaptics::app;
 
 class CloudLoaderTest : public ::testing::Test
 {
@@ -225,7 +224,7 @@ TEST_F(CloudLoaderTest, FindsAnArrayInUpperOrLowerCaseWhereOnlyOneCanBeMeant)
     EXPECT_EQ(nameFor(exact), exact) << message;
   }
   EXPECT_EQ(nameFor("GPStime"), "refused");
-  EXPECT_NE(message.find("--color-by GPStime: means any of GpsTime, gpstime; give one"), std::string::npos)
+  EXPECT_NE(message.find("colorBy GPStime: means any of GpsTime, gpstime; give one"), std::string::npos)
     << message;
   EXPECT_EQ(nameFor("height"), "refused"); // the file's, or that above the lowest point
   EXPECT_NE(message.find("HEIGHT, Height"), std::string::npos) << message;

@@ -1,4 +1,4 @@
-#include "Terminal/ScaleNote.h"
+#include "ScaleNote.h"
 
 #include "Options/LatticeOptions.h"
 
@@ -27,7 +27,7 @@ std::string noteFor(const LatticeOptions& options, double zoom = 1.0)
       model->SetElement(row, column, transform.m[row][column]);
     }
   }
-  return describeScale(model, options);
+  return describeScale(model, options.unit, options.metresPerUnit());
 }
 
 LatticeOptions withUnit(const std::string& unit)

@@ -1,11 +1,12 @@
-#include "Viewer/ViewSettings.h"
+#include "Options/ViewSettings.h"
 
 #include "Options/LatticeOptions.h"
 
-#include <gtest/gtest.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
+#include "HapticViewerOptions.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <string>
 
 using namespace pointhaptics;
@@ -28,14 +29,16 @@ TEST(ViewSettings, KeepTheUnitOfTheFileBesideTheModelMatrix)
 {
   const double elements[16] = { 0, -0.004, 0, 0.01, 0.004, 0, 0, 0.02, 0, 0, 0.004, -0.03, 0, 0, 0, 1 };
   const double workspace[6] = { -0.05, 0.05, -0.04, 0.04, -0.03, 0.03 };
-  vtkNew<vtkMatrix4x4> model;
-  model->DeepCopy(elements);
+  HapticViewerState state;
+  std::copy(std::begin(elements), std::end(elements), state.modelToWorkspace.begin());
+  std::copy(std::begin(workspace), std::end(workspace), state.workspace.begin());
+  state.axes = true;
   for (const std::string unit : { "m", "mm", "in" })
   {
     nlohmann::ordered_json settings = { { "unit", unit }, { "scale", "4" }, { "axes", true } };
     LatticeOptions given;
     given.unit = unit;
-    setModel(settings, model, given.metresPerUnit(), workspace);
+    setState(settings, state, given.metresPerUnit());
     EXPECT_EQ(settings.count("scale"), 0u);
     EXPECT_EQ(settings["axes"], true);
     const LatticeOptions again = readBack(settings);

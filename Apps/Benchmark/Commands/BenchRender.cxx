@@ -3,7 +3,7 @@
 
 #include "Benchmark/Scenery/SceneTurntable.h"
 #include "Options/OptionParsing.h"
-#include "Terminal/ViewDisplay.h"
+#include "ViewDisplay.h"
 
 #include "Benchmark/Render/RenderBenchmark.h"
 

@@ -2,7 +2,7 @@
 
 #include "Benchmark/Scenery/SceneTurntable.h"
 #include "Options/OptionParsing.h"
-#include "Terminal/ViewDisplay.h"
+#include "ViewDisplay.h"
 
 #include "Benchmark/Render/WholeProcess.h"
 #include "Benchmark/Servo/ServoBenchmark.h"

@@ -14,9 +14,8 @@ SceneWindow::~SceneWindow()
 
 bool SceneWindow::open(const std::string& file, int width, int height, std::string& message)
 {
-  ViewOptions options;
-  options.files = { file };
-  if (!scene_.open(options.files, options, message) || !scene_.build(options, message))
+  const HapticViewerOptions options;
+  if (!scene_.open({ file }, options, message) || !scene_.build(options, {}, message))
   {
     return false;
   }

@@ -2,7 +2,7 @@
 /// The viewer's scene in a window off the screen: what the benchmarks of the picture share.
 #pragma once
 
-#include "Viewer/ViewScene.h"
+#include "ViewScene.h"
 
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>

@@ -1,7 +1,7 @@
 #include "Commands/Commands.h"
 
 #include "Commands/FalconDiagnosis.h"
-#include "Feel/HandDevice.h"
+#include "Options/FalconOptions.h"
 #include "Terminal/Messages.h"
 
 #include "Devices/DeviceList.h"

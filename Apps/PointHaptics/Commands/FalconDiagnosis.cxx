@@ -318,7 +318,7 @@ bool Diagnosis::run(std::string& message)
   const Status status = device.open();
   if (status != Status::Ok)
   {
-    message = openProblem(device, status);
+    message = openProblem(device, status, kFirmwareOption);
     note("NOT started: " + message);
     return false;
   }

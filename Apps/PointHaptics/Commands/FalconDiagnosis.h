@@ -2,7 +2,7 @@
 /// `devices --diagnose`: what only a Falcon and its owner can confirm.
 #pragma once
 
-#include "Feel/HandDevice.h"
+#include "Options/FalconOptions.h"
 
 #include <string>
 

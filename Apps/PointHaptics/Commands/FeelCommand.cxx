@@ -3,12 +3,13 @@
 #include "Clouds/Pipeline.h"
 #include "Feel/FeelLive.h"
 #include "Feel/FeelScenes.h"
-#include "Feel/PathTicks.h"
 #include "Options/FeelOptions.h"
-#include "Terminal/CsvWriter.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
+
+#include "CsvWriter.h"
+#include "PathTicks.h"
 
 #include "Devices/HipPath.h"
 #include "Devices/SimulatedDevice.h"

@@ -1,27 +1,22 @@
 #include "Commands/Commands.h"
 
-#include "Clouds/CloudLoader.h"
 #include "Options/ViewOptions.h"
+#include "Options/ViewSettings.h"
+#include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
-#include "Terminal/ViewDisplay.h"
-#include "Viewer/ViewPicture.h"
-#include "Viewer/ViewScene.h"
-#include "Viewer/ViewSettings.h"
-#include "Viewer/ViewWindow.h"
+#include "Terminal/StopSignals.h"
 
-#include "vtkKernelBandwidthFilter.h"
+#include "HapticViewer.h"
+#include "ViewDisplay.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <vtkPolyData.h>
 
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace pointhaptics
 {
@@ -30,122 +25,95 @@ namespace app
 namespace
 {
 
-/// Seconds in which most files are read: a window with a bar would only flicker.
-constexpr double kSilence = 0.2;
-constexpr double kLookPeriod = 0.05;
+constexpr const char* kCommand = "view";
 /// As after Ctrl+C.
 constexpr int kCancelled = 130;
-
-/// Files that a path fills are written at once; without one a session is what fills them.
-bool needsWindow(const ViewOptions& options)
-{
-  const bool writesTouch = !options.forceChart.empty() || !options.trace.empty();
-  return options.screenshot.empty() && (options.path.empty() || !writesTouch);
-}
-
-bool draws(const ViewOptions& options)
-{
-  return needsWindow(options) || !options.screenshot.empty() || !options.forceChart.empty();
-}
-
-class Stopwatch
-{
-public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point begin_ = Clock::now();
-};
-
-/// Without a window the bar is on the terminal.
-void awaitOnTerminal(const CloudLoader& loader)
-{
-  ProgressBar bar("reading");
-  while (!loader.waitFor(kLookPeriod))
-  {
-    bar.show(loader.progress());
-  }
-}
-
-/// The first of the clouds on the command line that can be read.
-struct FirstCloud
-{
-  std::size_t index = 0; ///< For ViewOptions::filesOfCloud().
-  LoadedCloud cloud;
-  std::string news; ///< What was skipped before it; empty: nothing.
-};
-
-/// @p message with the name of the file where it does not have it.
-std::string withTitle(const std::string& title, const std::string& message)
-{
-  return message.find(title) == std::string::npos ? title + ": " + message : message;
-}
-
-/// Reads cloud after cloud until one can be shown, and warns of those that cannot. Where it takes long and
-/// @p options need a window, @p session opens it. @return an exit code: kSuccess, or what to end with.
-int readFirst(
-  const ViewOptions& options, ViewScene& scene, std::unique_ptr<ViewSession>& session, FirstCloud& first)
-{
-  const std::size_t count = options.numberOfClouds();
-  CloudLoader loader;
-  std::string message;
-  for (first.index = 0; first.index < count; ++first.index)
-  {
-    const std::vector<std::string> files = options.filesOfCloud(first.index);
-    const std::string title = titleOf(files);
-    loader.start(options.cloudRequest(files));
-    if (!session && !loader.waitFor(kSilence) && needsWindow(options) && displayIsAvailable(message))
-    {
-      session = std::make_unique<ViewSession>(scene, options);
-    }
-    if (session && !session->awaitCloud(loader, title))
-    {
-      fail("view", title + ": reading was stopped on request; nothing is shown");
-      return kCancelled;
-    }
-    awaitOnTerminal(loader);
-    loader.take(first.cloud, message);
-    if (message.empty())
-    {
-      return kSuccess;
-    }
-    if (count == 1)
-    {
-      return fail("view", message);
-    }
-    message = withTitle(title, message);
-    warn("view", "skipped: " + message);
-    first.news = first.index == 0
-      ? "skipped: " + message
-      : fmt::format("{} files are skipped; the last: {}", first.index + 1, message);
-  }
-  return fail("view", fmt::format("none of the {} files can be shown; mend one of them, see above", count));
-}
 
 /// False: what the options ask for cannot be had, whatever the clouds are; @p message says why.
 bool checkDevice(const ViewOptions& options, std::string& message)
 {
   // Where the hand follows a path or is in no window, nothing else would notice.
-  const bool opensFalcon = needsWindow(options) && options.path.empty();
+  const bool opensFalcon = options.needsWindow() && options.viewer.path.empty();
   if (options.device == "falcon" && !opensFalcon && !falconIsUsable(message))
   {
     message = fmt::format("--device falcon: {}; {} does without a device: leave the option out, or give "
                           "--device none",
-      message, options.path.empty() ? "a picture" : "a hand path");
+      message, options.viewer.path.empty() ? "a picture" : "a hand path");
     return false;
   }
   return true;
 }
 
-void reportTimes(const ViewOptions& options, ViewScene& scene, double reading, double building)
+void showMessage(HapticViewerObserver::Kind kind, const std::string& text)
+{
+  switch (kind)
+  {
+    case HapticViewerObserver::Kind::Note:
+      printNow(stdout, text + "\n");
+      break;
+    case HapticViewerObserver::Kind::Warning:
+      warn(kCommand, text);
+      break;
+    case HapticViewerObserver::Kind::Error:
+      fail(kCommand, text);
+  }
+}
+
+/// What the viewer says goes to the terminal, what it keeps to JSON files. @p options must outlive the
+/// result.
+HapticViewerObserver observerFor(const ViewOptions& options)
+{
+  HapticViewerObserver observer;
+  observer.message = showMessage;
+  observer.progress = [bar = std::shared_ptr<ProgressBar>()](const std::string& what, double part) mutable
+  {
+    if (part >= 1.0)
+    {
+      bar.reset();
+      return;
+    }
+    if (!bar)
+    {
+      bar = std::make_shared<ProgressBar>(what);
+    }
+    bar->show(part);
+  };
+  observer.shouldStop = stopIsRequested;
+  observer.takeVtkErrors = takeVtkErrors;
+  const auto settingsOf = [&options](const HapticViewerState& state)
+  {
+    nlohmann::ordered_json settings = options.given;
+    setState(settings, state, options.viewer.metresPerUnit);
+    return settings;
+  };
+  observer.writeState = [settingsOf](
+                          const HapticViewerState& state, const std::string& fileName, std::string& message)
+  { return writeSettings(settingsOf(state), fileName, message); };
+  observer.rememberState = [settingsOf](const HapticViewerState& state)
+  { rememberSettings(settingsOf(state)); };
+  return observer;
+}
+
+void reportTimes(const ViewOptions& options, HapticViewer& viewer)
 {
   if (!options.config.empty())
   {
     fmt::print(stderr, "view: settings from {}\n", options.config);
   }
-  fmt::print(stderr, "view: read in {:.2f} s, resampled in {:.2f} s: {} active voxels\n", reading, building,
-    scene.bandwidth()->GetOutput()->GetNumberOfPoints());
+  fmt::print(stderr, "view: read in {:.2f} s, resampled in {:.2f} s: {} active voxels\n",
+    viewer.readSeconds(), viewer.resampleSeconds(), viewer.means()->GetNumberOfPoints());
+}
+
+/// The window, or the files that are asked for instead.
+bool show(const ViewOptions& options, HapticViewer& viewer)
+{
+  if (options.needsWindow())
+  {
+    rememberStopSignals(); // before a device that takes its time to start
+    return viewer.run();
+  }
+  return (options.viewer.path.empty() || viewer.feelPath()) &&
+    (options.screenshot.empty() || viewer.renderToFile(options.screenshot));
 }
 
 int runView(CLI::App& command, ViewOptions& options)
@@ -154,53 +122,37 @@ int runView(CLI::App& command, ViewOptions& options)
   std::string message;
   if (!options.complete(command, message))
   {
-    return fail("view", message);
+    return fail(kCommand, message);
   }
   if (!options.writeConfig.empty())
   {
     if (!writeSettings(options.given, options.writeConfig, message))
     {
-      return fail("view", message);
+      return fail(kCommand, message);
     }
     fmt::print("settings: {}\n", options.writeConfig);
     return kSuccess;
   }
   if (!checkDevice(options, message))
   {
-    return fail("view", message);
+    return fail(kCommand, message);
   }
-  ViewScene scene;
-  std::unique_ptr<ViewSession> session;
-  FirstCloud first;
-  const Stopwatch reading;
-  if (const int code = readFirst(options, scene, session, first); code != kSuccess)
+  HapticViewer viewer(options.viewer, observerFor(options));
+  if (!viewer.open(options.files))
   {
-    return code;
-  }
-  const double readSeconds = reading.seconds();
-  scene.open(std::move(first.cloud), options);
-  const Stopwatch building;
-  if (!scene.build(options, message))
-  {
-    return fail("view", message);
+    fail(kCommand, viewer.message());
+    return viewer.isCancelled() ? kCancelled : kFailed;
   }
   if (options.verbose)
   {
-    reportTimes(options, scene, readSeconds, building.seconds());
+    reportTimes(options, viewer);
   }
-  fmt::print("{} points, {}\n", scene.numberOfPoints(), scene.scaleNote());
-  std::fflush(stdout);
-  if (draws(options) && !displayIsAvailable(message))
+  printNow(stdout, fmt::format("{} points, {}\n", viewer.numberOfPoints(), viewer.scaleNote()));
+  if (options.draws() && !displayIsAvailable(message)) // before a path is felt
   {
-    return fail("view", message);
+    return fail(kCommand, message);
   }
-  if (needsWindow(options) && !session)
-  {
-    session = std::make_unique<ViewSession>(scene, options);
-  }
-  const bool done =
-    session ? session->run(first.index, first.news, message) : makePicture(scene, options, message);
-  return done ? kSuccess : fail("view", message);
+  return show(options, viewer) ? kSuccess : fail(kCommand, viewer.message());
 }
 
 } // namespace

@@ -67,7 +67,7 @@ bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   FalconDevice device(settings.falcon.settings());
   if (const Status status = device.open(); status != Status::Ok)
   {
-    message = openProblem(device, status);
+    message = openProblem(device, status, kFirmwareOption);
     return false;
   }
   ServoLoop loop; // after the device: stops before it closes

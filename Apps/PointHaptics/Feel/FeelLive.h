@@ -3,8 +3,7 @@
 #pragma once
 
 #include "Feel/FeelScenes.h"
-#include "Feel/HandDevice.h"
-#include "Terminal/CsvWriter.h"
+#include "Options/FalconOptions.h"
 
 #include <functional>
 #include <string>

@@ -2,8 +2,8 @@
 /// The options of `pointhaptics feel`.
 #pragma once
 
-#include "Feel/HandDevice.h"
 #include "Options/BandwidthOptions.h"
+#include "Options/FalconOptions.h"
 #include "Options/LatticeOptions.h"
 
 #include "Haptics/HapticParameters.h"

@@ -2,18 +2,18 @@
 
 #include "Options/KeyedHelp.h"
 #include "Options/OptionParsing.h"
+#include "Options/ViewSettings.h"
 #include "Terminal/Messages.h"
-#include "Viewer/ViewSettings.h"
 
 #include "HapticBindings.h"
+#include "vtkKernelBandwidthFilter.h"
 
 #include "Shapes/Shapes.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <vtkCamera.h>
-#include <vtkRenderer.h>
+#include <vtkNew.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -200,7 +200,7 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
   const auto keepBindings = [&options, &command](const std::vector<std::string>& bindings)
   {
     std::for_each(bindings.begin(), bindings.end(), checkBinding);
-    options.bindings = bindings;
+    options.viewer.bindings = bindings;
     describeKeyedOptions(command, bindings); // for a --help beside it
   };
   command
@@ -210,19 +210,19 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
     ->delimiter(',')
     ->type_name("ACTION=KEY,...")
     ->group(group);
-  addNumbers(command, "--camera", options.camera, { 9 }, checkCamera, "X,Y,Z,FX,FY,FZ,UX,UY,UZ",
+  addNumbers(command, "--camera", options.viewer.camera, { 9 }, checkCamera, "X,Y,Z,FX,FY,FZ,UX,UY,UZ",
     "Where the person looks from, at, and what is up; metres of the workspace; default: from in front")
     ->group(group);
-  command.add_flag("--push-pointer", options.pushPointer)->group(group);
-  command.add_flag("--axes", options.axes)->group(group);
-  command.add_flag("--figure", options.figure)->group(group);
-  command.add_flag("--ambient", options.ambient)->group(group);
+  command.add_flag("--push-pointer", options.viewer.pushPointer)->group(group);
+  command.add_flag("--axes", options.viewer.axes)->group(group);
+  command.add_flag("--figure", options.viewer.figure)->group(group);
+  command.add_flag("--ambient", options.viewer.ambient)->group(group);
   std::vector<std::string> shapes = { "auto", "none" };
   for (int shape = 0; shape < kNumberOfShapes; ++shape)
   {
     shapes.emplace_back(shapeName(static_cast<Shape>(shape)));
   }
-  addWord(command, "--ideal", options.ideal, shapes,
+  addWord(command, "--ideal", options.viewer.ideal, shapes,
     "The chart shows the exact force of this shape of generate too; default auto: where the cloud is one, "
     "without noise")
     ->group(group);
@@ -237,14 +237,14 @@ void addTouchOptions(CLI::App& command, ViewOptions& options)
       "steps"),
     addWord(command, "--preset", options.preset, { "tuned", "paper" },
       "Gains of --method gradient-steps; default tuned, paper for the printed ones"),
-    addNumber(command, "--stiffness", options.contact.stiffness, { 0.0, 1e5 }, "N_PER_M",
+    addNumber(command, "--stiffness", options.viewer.haptics.contact.stiffness, { 0.0, 1e5 }, "N_PER_M",
       "Stiffness of the surface; default 800"),
-    addNumber(command, "--damping", options.contact.damping, { 0.0, 1e3 }, "N_S_PER_M",
+    addNumber(command, "--damping", options.viewer.haptics.contact.damping, { 0.0, 1e3 }, "N_S_PER_M",
       "Damping along the normal; default 0"),
     addNumber(command, "--mu-s", options.staticFriction, { 0.0, 10.0 }, "X",
       "Static friction; default that of --mu-d"),
-    addNumber(
-      command, "--mu-d", options.contact.dynamicFriction, { 0.0, 10.0 }, "X", "Dynamic friction; default 0"),
+    addNumber(command, "--mu-d", options.viewer.haptics.contact.dynamicFriction, { 0.0, 10.0 }, "X",
+      "Dynamic friction; default 0"),
   };
   for (CLI::Option* option : added)
   {
@@ -263,8 +263,8 @@ void ViewOptions::addTo(CLI::App& command)
       "Point clouds: PLY, PCD, LAS, VTP, OBJ or columns of text; one that cannot be read is skipped "
       "where there are others, but with --together")
     ->required();
-  command.add_flag("--together", this->together);
-  command.add_flag("--watch", this->watch, "Read a file again when it changes");
+  command.add_flag("--together", this->viewer.together);
+  command.add_flag("--watch", this->viewer.watch, "Read a file again when it changes");
   command.add_option("--screenshot", this->screenshot, "Write this PNG instead of opening a window");
   command
     .add_option_function<std::string>(
@@ -272,9 +272,9 @@ void ViewOptions::addTo(CLI::App& command)
       [this](const std::string& text)
       {
         char rest = 0;
-        if (std::sscanf(text.c_str(), "%dx%d%c", &this->width, &this->height, &rest) != 2 ||
-          this->width < 16 || this->height < 16 || this->width > kLargestPicture ||
-          this->height > kLargestPicture)
+        if (std::sscanf(text.c_str(), "%dx%d%c", &this->viewer.width, &this->viewer.height, &rest) != 2 ||
+          this->viewer.width < 16 || this->viewer.height < 16 || this->viewer.width > kLargestPicture ||
+          this->viewer.height > kLargestPicture)
         {
           throwUsage("--size", text, fmt::format("give WIDTHxHEIGHT in pixels, 16 to {}", kLargestPicture));
         }
@@ -282,8 +282,8 @@ void ViewOptions::addTo(CLI::App& command)
       "Size of the window or picture; default 1280x800")
     ->type_name("WxH");
   command
-    .add_option(
-      "--path", this->path, "Follow the hand path in this file: t,x,y,z, or what feel or --trace wrote")
+    .add_option("--path", this->viewer.path,
+      "Follow the hand path in this file: t,x,y,z, or what feel or --trace wrote")
     ->type_name("HIP.csv");
   addWord(command, "--device", this->device, { "auto", "falcon", "simulated", "none" },
     "What moves the hand; default auto: a Falcon where one can be used, else the simulated hand, driven by "
@@ -294,13 +294,15 @@ void ViewOptions::addTo(CLI::App& command)
     ->type_name("FILE.json");
   command.add_option("--write-config", this->writeConfig)->type_name("OUT.json");
   command.add_flag("--recent", this->recent, "Begin with the settings the last window ended with");
-  command.add_option("--force-chart", this->forceChart, "Write force and proxy radius over time as a PNG")
+  command
+    .add_option("--force-chart", this->viewer.forceChart, "Write force and proxy radius over time as a PNG")
     ->type_name("OUT.png");
-  command.add_option("--trace", this->trace, "Write one row per tick, as feel does")->type_name("OUT.csv");
-  addWord(command, "--up", this->up, { "auto", "x", "y", "z" },
+  command.add_option("--trace", this->viewer.trace, "Write one row per tick, as feel does")
+    ->type_name("OUT.csv");
+  addWord(command, "--up", this->viewer.up, { "auto", "x", "y", "z" },
     "Axis of the cloud that points up; default: a guess");
-  command.add_option("--color-by", this->colorBy)->type_name("ARRAY[:COMPONENT]");
-  addNumber(command, "--point-size", this->pointSize, { 1.0, 50.0 }, "PIXELS",
+  command.add_option("--color-by", this->viewer.colorBy)->type_name("ARRAY[:COMPONENT]");
+  addNumber(command, "--point-size", this->viewer.pointSize, { 1.0, 50.0 }, "PIXELS",
     "Diameter of a point; default: as the kernel bandwidth says, so that surfaces close");
   command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");
   addWindowOptions(command, *this);
@@ -313,113 +315,121 @@ void ViewOptions::addTo(CLI::App& command)
     "cloud, and near the hand, where that tells more, voxels about as fine as the points");
 }
 
-bool ViewOptions::complete(CLI::App& command, std::string& message)
+bool ViewOptions::readConfig(CLI::App& command, std::string& message)
 {
   std::error_code missing;
   if (this->recent && this->config.empty() && std::filesystem::exists(recentSettingsFile(), missing))
   {
     this->config = recentSettingsFile();
   }
-  if (!this->config.empty())
+  if (this->config.empty())
   {
-    std::error_code error;
-    std::ifstream file(this->config);
-    if (!file || std::filesystem::is_directory(this->config, error))
-    {
-      message = fmt::format("{}: cannot be opened; check the name given to --config", this->config);
-      return false;
-    }
-    const nlohmann::json keys = nlohmann::json::parse(file, nullptr, false, true);
-    if (!keys.is_object())
-    {
-      message = fmt::format(
-        "{}: not a JSON object; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", this->config);
-      return false;
-    }
-    const std::string problem = applyKeys(command, keys);
-    if (!problem.empty())
-    {
-      message = fmt::format("{}: {}", this->config, problem);
-      return false;
-    }
+    return true;
   }
+  std::error_code error;
+  std::ifstream file(this->config);
+  if (!file || std::filesystem::is_directory(this->config, error))
+  {
+    message = fmt::format("{}: cannot be opened; check the name given to --config", this->config);
+    return false;
+  }
+  const nlohmann::json keys = nlohmann::json::parse(file, nullptr, false, true);
+  if (!keys.is_object())
+  {
+    message = fmt::format(
+      "{}: not a JSON object; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", this->config);
+    return false;
+  }
+  const std::string problem = applyKeys(command, keys);
+  message = problem.empty() ? std::string() : fmt::format("{}: {}", this->config, problem);
+  return problem.empty();
+}
+
+/// Ends in a usage error where files that are to be written cannot be.
+void ViewOptions::checkFiles() const
+{
+  const std::string& chart = this->viewer.forceChart;
+  const std::string& trace = this->viewer.trace;
   for (const auto& [option, name] :
-    { std::pair{ "--screenshot", &this->screenshot }, std::pair{ "--force-chart", &this->forceChart } })
+    { std::pair{ "--screenshot", &this->screenshot }, std::pair{ "--force-chart", &chart } })
   {
     if (!name->empty() && std::filesystem::path(*name).extension() != ".png")
     {
       throwUsage(option, *name, "pictures are written as PNG; end the name in .png");
     }
   }
-  if (this->path.empty() && !this->screenshot.empty() && (!this->trace.empty() || !this->forceChart.empty()))
+  if (this->viewer.path.empty() && !this->screenshot.empty() && (!trace.empty() || !chart.empty()))
   {
-    throwUsage(this->trace.empty() ? "--force-chart" : "--trace",
-      this->trace.empty() ? this->forceChart : this->trace,
+    throwUsage(trace.empty() ? "--force-chart" : "--trace", trace.empty() ? chart : trace,
       "nothing is felt in a still picture; give the hand's path with --path");
   }
-  for (const char* name : { "--unit", "--scale", "--matrix", "--translate", "--workspace" })
+}
+
+bool ViewOptions::complete(CLI::App& command, std::string& message)
+{
+  if (!this->readConfig(command, message))
   {
-    this->fitsWorkspace = this->fitsWorkspace && command.get_option(name)->count() == 0;
+    return false;
   }
+  this->checkFiles();
   if (command.get_option("--preset")->count() > 0 && this->method != "gradient-steps")
   {
     warn("view", kPresetIsIdle);
   }
-  this->contact.staticFriction =
-    this->staticFriction >= 0.0 ? this->staticFriction : this->contact.dynamicFriction;
-  if (this->contact.dynamicFriction > this->contact.staticFriction)
+  this->completeViewer(command);
+  const ContactParameters& contact = this->viewer.haptics.contact;
+  if (contact.dynamicFriction > contact.staticFriction)
   {
-    throwUsage("--mu-d", fmt::format("{}", this->contact.dynamicFriction),
-      fmt::format("above --mu-s {}; give mu_d <= mu_s", this->contact.staticFriction));
+    throwUsage("--mu-d", fmt::format("{}", contact.dynamicFriction),
+      fmt::format("above --mu-s {}; give mu_d <= mu_s", contact.staticFriction));
   }
   this->given = givenSettings(command);
   return true;
 }
 
-CloudRequest ViewOptions::cloudRequest(const std::vector<std::string>& wanted) const
+/// What follows from several options, or has another form in the viewer.
+void ViewOptions::completeViewer(CLI::App& command)
 {
-  CloudRequest request;
-  request.files = wanted;
-  request.colorBy = colorBy;
-  request.up = up;
-  request.transform = lattice.transform();
-  request.choosesLattice = fitsWorkspace && lattice.dimensions.empty() && lattice.voxelSize == 0.0;
-  return request;
-}
-
-std::size_t ViewOptions::numberOfClouds() const
-{
-  return this->together ? 1 : this->files.size();
-}
-
-std::vector<std::string> ViewOptions::filesOfCloud(std::size_t index) const
-{
-  return this->together ? this->files : std::vector<std::string>{ this->files[index] };
-}
-
-void applyCamera(const ViewOptions& options, vtkRenderer* renderer)
-{
-  if (!options.camera.empty())
+  HapticViewerOptions& options = this->viewer;
+  for (const char* name : { "--unit", "--scale", "--matrix", "--translate", "--workspace" })
   {
-    vtkCamera* camera = renderer->GetActiveCamera();
-    camera->SetPosition(&options.camera[0]);
-    camera->SetFocalPoint(&options.camera[3]);
-    camera->SetViewUp(&options.camera[6]);
-    camera->OrthogonalizeViewUp();
-    renderer->ResetCameraClippingRange();
+    options.fitsWorkspace = options.fitsWorkspace && command.get_option(name)->count() == 0;
   }
+  options.transform = this->lattice.transform();
+  options.unit = this->lattice.unit;
+  options.metresPerUnit = this->lattice.metresPerUnit();
+  options.workspace = this->lattice.workspaceBounds();
+  options.dimensions = this->lattice.dimensions;
+  options.voxelSize = this->lattice.voxelSize;
+  options.useCovariance = !this->noCovariance;
+  vtkNew<vtkKernelBandwidthFilter> filter;
+  this->bandwidth.configure(filter);
+  options.bandwidth = filter->GetSettings();
+  options.haptics.method = this->method == "gradient-steps" ? ProxyMethod::GradientSteps
+    : this->method == "sphere"                              ? ProxyMethod::Sphere
+                                                            : ProxyMethod::SurfaceFit;
+  options.haptics.gradientSteps =
+    this->preset == "paper" ? GradientStepsParameters::paper() : GradientStepsParameters::tuned();
+  ContactParameters& contact = options.haptics.contact;
+  contact.staticFriction = this->staticFriction >= 0.0 ? this->staticFriction : contact.dynamicFriction;
+  options.device = this->device == "falcon" ? HapticViewerDevice::Falcon
+    : this->device == "simulated"           ? HapticViewerDevice::Simulated
+    : this->device == "none"                ? HapticViewerDevice::None
+                                            : HapticViewerDevice::Auto;
+  options.falcon = this->falcon.settings();
+  options.showsReading = this->needsWindow();
+  options.names = { "--color-by", kFirmwareOption, "--workspace, --scale and --translate" };
 }
 
-HapticParameters ViewOptions::hapticParameters() const
+bool ViewOptions::needsWindow() const
 {
-  HapticParameters parameters;
-  parameters.method = this->method == "gradient-steps" ? ProxyMethod::GradientSteps
-    : this->method == "sphere"                         ? ProxyMethod::Sphere
-                                                       : ProxyMethod::SurfaceFit;
-  parameters.gradientSteps =
-    this->preset == "paper" ? GradientStepsParameters::paper() : GradientStepsParameters::tuned();
-  parameters.contact = this->contact;
-  return parameters;
+  const bool writesTouch = !this->viewer.forceChart.empty() || !this->viewer.trace.empty();
+  return this->screenshot.empty() && (this->viewer.path.empty() || !writesTouch);
+}
+
+bool ViewOptions::draws() const
+{
+  return this->needsWindow() || !this->screenshot.empty() || !this->viewer.forceChart.empty();
 }
 
 } // namespace app

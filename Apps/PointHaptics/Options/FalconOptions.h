@@ -1,0 +1,33 @@
+/// @file
+/// --falcon-firmware --max-force: the same wherever a Falcon is used.
+#pragma once
+
+#include "Devices/Falcon/FalconNews.h"
+
+#include <string>
+
+namespace CLI
+{
+class App;
+}
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// For openProblem().
+constexpr const char* kFirmwareOption = "--falcon-firmware FILE";
+
+struct FalconOptions
+{
+  std::string firmware;
+  double maximumForce = 4.0;
+
+  void addTo(CLI::App& command);
+  /// Its start ends at a remembered signal (StopSignals.h).
+  FalconSettings settings() const;
+};
+
+} // namespace app
+} // namespace pointhaptics

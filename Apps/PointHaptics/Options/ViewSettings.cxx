@@ -1,0 +1,153 @@
+#include "Options/ViewSettings.h"
+
+#include "HapticViewerOptions.h"
+
+#include "Core/Base/OutputFile.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+const std::set<std::string>& deeds()
+{
+  static const std::set<std::string> names = { "help", "version", "config", "write-config", "recent",
+    "verbose", "screenshot", "force-chart", "trace" };
+  return names;
+}
+
+/// Of the cloud at hand, and of no other.
+constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
+  "translate", "unit", "path", "up", "color-by", "together", "watch", "camera", "ideal" };
+
+/// A number where it reads back as it was written, else text: an array may be called 1e3.
+nlohmann::ordered_json valueOf(const CLI::Option& option)
+{
+  const std::string text = fmt::format("{}", fmt::join(option.results(), ","));
+  if (option.get_expected_max() == 0) // a flag
+  {
+    return text != "false";
+  }
+  const nlohmann::ordered_json value = nlohmann::ordered_json::parse(text, nullptr, false);
+  return value.is_number() && value.dump() == text ? value : nlohmann::ordered_json(text);
+}
+
+/// Model matrix and workspace in place of the options that led to them.
+void setModel(nlohmann::ordered_json& settings, const HapticViewerState& state, double metresPerUnit)
+{
+  for (const char* name : { "scale", "rotate", "translate" })
+  {
+    settings.erase(name);
+  }
+  // --matrix works on metres.
+  std::array<double, 16> elements = state.modelToWorkspace;
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    for (std::size_t column = 0; column < 3; ++column)
+    {
+      elements[4 * row + column] /= metresPerUnit;
+    }
+  }
+  settings["matrix"] = elements;
+  settings["workspace"] = state.workspace;
+}
+
+} // namespace
+
+nlohmann::ordered_json givenSettings(CLI::App& command)
+{
+  nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+  for (const CLI::Option* option : command.get_options())
+  {
+    for (const std::string& name : option->get_lnames())
+    {
+      if (option->count() > 0 && deeds().count(name) == 0)
+      {
+        settings[name] = valueOf(*option);
+      }
+    }
+  }
+  return settings;
+}
+
+void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, double metresPerUnit)
+{
+  setModel(settings, state, metresPerUnit);
+  if (state.voxelSize > 0.0)
+  {
+    settings.erase("dims");
+    settings["voxel"] = state.voxelSize;
+  }
+  settings["stiffness"] = state.contact.stiffness;
+  settings["mu-s"] = state.contact.staticFriction;
+  settings["mu-d"] = state.contact.dynamicFriction;
+  settings["beta"] = state.radiusScale;
+  settings["camera"] = state.camera;
+  settings["push-pointer"] = state.pushPointer;
+  settings["axes"] = state.axes;
+  settings["figure"] = state.figure;
+  settings["ambient"] = state.ambient;
+  settings.erase("color-by");
+  if (!state.colorBy.empty())
+  {
+    settings["color-by"] = state.colorBy;
+  }
+  settings["size"] = fmt::format("{}x{}", state.width, state.height);
+}
+
+bool writeSettings(const nlohmann::ordered_json& settings, const std::string& fileName, std::string& message)
+{
+  OutputFile file;
+  Status status = file.open(fileName);
+  if (status == Status::Ok)
+  {
+    static_cast<void>(file.write(settings.dump(2) + "\n"));
+    status = file.commit();
+  }
+  if (status != Status::Ok)
+  {
+    message = fmt::format("{}: cannot be written: {}; {}", fileName, file.reason(), file.cure());
+  }
+  return status == Status::Ok;
+}
+
+std::string recentSettingsFile()
+{
+  const char* state = std::getenv("XDG_STATE_HOME");
+  const char* home = std::getenv("HOME");
+  if (state && *state == '/')
+  {
+    return std::string(state) + "/pointhaptics/view.json";
+  }
+  return home && *home ? std::string(home) + "/.local/state/pointhaptics/view.json" : std::string();
+}
+
+void rememberSettings(nlohmann::ordered_json settings)
+{
+  for (const char* name : kOfTheCloud)
+  {
+    settings.erase(name);
+  }
+  const std::string file = recentSettingsFile();
+  std::error_code error;
+  std::string message;
+  if (!file.empty())
+  {
+    std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
+    static_cast<void>(writeSettings(settings, file, message));
+  }
+}
+
+} // namespace app
+} // namespace pointhaptics

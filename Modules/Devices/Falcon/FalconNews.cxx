@@ -1,0 +1,101 @@
+#include "Devices/Falcon/FalconNews.h"
+
+#include "Devices/DeviceList.h"
+
+#include <vector>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kSilenceOfTheProgram = 2.0;
+
+/// The states of a device that is gone, which follow each other for as long as it is.
+bool isAway(FalconState state)
+{
+  return state == FalconState::Opening || state == FalconState::Boot || state == FalconState::Fault;
+}
+
+} // namespace
+
+std::string advice(FalconState state)
+{
+  switch (state)
+  {
+    case FalconState::Opening:
+      return "falcon: not there; plug it in, it starts by itself";
+    case FalconState::Boot:
+    case FalconState::Loading:
+      return "falcon: starting";
+    case FalconState::Unhomed:
+      return "falcon: blue light: pull the grip all the way out, then push it all the way in";
+    case FalconState::Homed:
+      return "falcon: ready, without force";
+    case FalconState::Armed:
+      return "falcon: green light: forces come up within a second";
+    case FalconState::Fault:
+      return "falcon: lost; check its cable and its power supply, it starts again by itself";
+    case FalconState::Closed:
+      break;
+  }
+  return {};
+}
+
+std::string FalconNews::next(const FalconDevice& device)
+{
+  const std::string message = device.message();
+  if (message != message_)
+  {
+    message_ = message;
+    if (!message.empty())
+    {
+      return message;
+    }
+  }
+  const FalconState now = device.state();
+  if (now == state_ || (isAway(now) && isAway(state_)))
+  {
+    return {};
+  }
+  state_ = now;
+  return advice(now);
+}
+
+bool falconIsUsable(std::string& message)
+{
+  std::vector<std::string> notes;
+  message = "falcon: none is plugged in; check the cable and its power supply";
+  for (const ListedDevice& device : listDevices(notes))
+  {
+    if (device.kind == "falcon")
+    {
+      message = device.problem;
+      return message.empty();
+    }
+  }
+  for (const std::string& note : notes)
+  {
+    message = note.find("Falcon") == std::string::npos ? message : "falcon: " + note;
+  }
+  return false;
+}
+
+std::string openProblem(const HapticDevice& device, Status status, const std::string& firmwareName)
+{
+  const std::string said = device.message();
+  return (said.empty() ? pointhaptics::message(status) : said) +
+    (status == Status::FirmwareMissing ? "; here it is named with " + firmwareName : std::string());
+}
+
+ServoSettings pushingServoSettings(double rateHz)
+{
+  ServoSettings settings;
+  settings.rateHz = rateHz;
+  settings.lockMemory = true;
+  settings.keepCoresAwake = true;
+  settings.watchdogSeconds = kSilenceOfTheProgram;
+  return settings;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,44 @@
+/// @file
+/// What the user of a Falcon is told while it starts and works, and how a servo loop runs with it.
+#pragma once
+
+#include "Devices/Falcon/FalconDevice.h"
+
+#include "Haptics/ServoLoop.h"
+
+#include <string>
+
+namespace pointhaptics
+{
+
+/// What the person has to do or should know in @p state; empty where there is nothing.
+std::string advice(FalconState state);
+
+/// What is to be said about a Falcon while it is in use, each thing once. One thread, not the servo's.
+class FalconNews
+{
+public:
+  /// The device's message or the advice for its state, where it changed; empty where nothing did. Looking for
+  /// a device that is gone is one state here.
+  std::string next(const FalconDevice& device);
+  /// As last told.
+  FalconState state() const noexcept { return state_; }
+
+private:
+  std::string message_;
+  FalconState state_ = FalconState::Closed;
+};
+
+/// Whether a Falcon is plugged in and can be opened; it is not started. False: @p message says why not, with
+/// the cure. Not beside a driver that uses one.
+bool falconIsUsable(std::string& message);
+
+/// Why @p device could not be opened, with the cure: its own words, else those of @p status.
+/// @param firmwareName what the user calls the setting that names the firmware's file.
+std::string openProblem(const HapticDevice& device, Status status, const std::string& firmwareName);
+
+/// How the servo loop runs where somebody's hand is in the device: SCHED_FIFO, memory locked, and no force
+/// when the program has given no sign of life for two seconds.
+ServoSettings pushingServoSettings(double rateHz);
+
+} // namespace pointhaptics

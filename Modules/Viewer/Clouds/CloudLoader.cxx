@@ -1,0 +1,194 @@
+#include "CloudLoader.h"
+
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <thread>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+/// One load. What is not atomic belongs to the loader's thread until it is finished, then to the other one.
+struct Load
+{
+  CloudRequest request;
+  Clock::time_point begin = Clock::now();
+  std::atomic<double> progress{ 0.0 };
+  std::atomic<bool> cancelled{ false };
+  bool finished = false; // under the mutex
+  LoadedCloud loaded;
+  std::string message;
+
+  void run();
+};
+
+void Load::run()
+{
+  const auto goesOn = [this](double part)
+  {
+    progress = std::max(progress.load(), std::clamp(part, 0.0, 1.0));
+    return !cancelled;
+  };
+  try
+  {
+    if (loadCloud(request, goesOn, loaded, message))
+    {
+      message.clear();
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    message = titleOf(request.files) + ": not enough memory; close other programs or thin the cloud";
+  }
+  catch (const std::exception& fault)
+  {
+    message = titleOf(request.files) + ": " + fault.what();
+  }
+}
+
+} // namespace
+
+struct CloudLoader::Implementation
+{
+  mutable std::mutex mutex;
+  mutable std::condition_variable changed;
+  // Under the mutex.
+  std::shared_ptr<Load> waiting;
+  bool ending = false;
+
+  std::shared_ptr<Load> present; // the GUI thread's
+  std::thread thread;
+
+  void run();
+};
+
+void CloudLoader::Implementation::run()
+{
+  std::unique_lock<std::mutex> lock(this->mutex);
+  while (true)
+  {
+    this->changed.wait(lock, [this] { return this->ending || this->waiting; });
+    if (this->ending)
+    {
+      return;
+    }
+    std::shared_ptr<Load> load = std::move(this->waiting);
+    lock.unlock();
+    load->run();
+    lock.lock();
+    load->finished = true;
+    lock.unlock();
+    this->changed.notify_all();
+    load.reset(); // the points of one that was given up, without keeping the others waiting
+    lock.lock();
+  }
+}
+
+CloudLoader::CloudLoader()
+  : implementation_(std::make_unique<Implementation>())
+{
+}
+
+CloudLoader::~CloudLoader()
+{
+  Implementation& self = *implementation_;
+  this->cancel();
+  {
+    const std::lock_guard<std::mutex> lock(self.mutex);
+    self.ending = true;
+  }
+  self.changed.notify_all();
+  if (self.thread.joinable())
+  {
+    self.thread.join();
+  }
+}
+
+void CloudLoader::start(CloudRequest request)
+{
+  Implementation& self = *implementation_;
+  this->cancel();
+  self.present = std::make_shared<Load>();
+  self.present->request = std::move(request);
+  {
+    const std::lock_guard<std::mutex> lock(self.mutex);
+    self.waiting = self.present;
+  }
+  if (!self.thread.joinable())
+  {
+    self.thread = std::thread([&self] { self.run(); });
+  }
+  self.changed.notify_all();
+}
+
+void CloudLoader::cancel()
+{
+  Implementation& self = *implementation_;
+  if (!self.present)
+  {
+    return;
+  }
+  self.present->cancelled = true;
+  self.present.reset();
+  const std::lock_guard<std::mutex> lock(self.mutex);
+  self.waiting.reset();
+}
+
+bool CloudLoader::busy() const
+{
+  return implementation_->present != nullptr;
+}
+
+double CloudLoader::progress() const
+{
+  return this->busy() ? implementation_->present->progress.load() : 0.0;
+}
+
+double CloudLoader::seconds() const
+{
+  return this->busy() ? std::chrono::duration<double>(Clock::now() - implementation_->present->begin).count()
+                      : 0.0;
+}
+
+bool CloudLoader::waitFor(double seconds) const
+{
+  const Implementation& self = *implementation_;
+  if (!self.present)
+  {
+    return false;
+  }
+  std::unique_lock<std::mutex> lock(self.mutex);
+  return self.changed.wait_for(
+    lock, std::chrono::duration<double>(seconds), [&self] { return self.present->finished; });
+}
+
+bool CloudLoader::take(LoadedCloud& loaded, std::string& message)
+{
+  if (!this->waitFor(0.0))
+  {
+    return false;
+  }
+  const std::shared_ptr<Load> load = std::move(implementation_->present);
+  implementation_->present.reset();
+  message = load->message;
+  if (message.empty())
+  {
+    loaded = std::move(load->loaded);
+    load->loaded.cloud =
+      nullptr; // vtkSmartPointer copies where it is assigned: the thread must not hold it too
+  }
+  return true;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,47 @@
+/// @file
+/// Clouds read in a thread of their own, so that a window goes on while they are.
+#pragma once
+
+#include "LoadedCloud.h"
+
+#include "PointHapticsViewerModule.h" // For export macro
+
+#include <memory>
+#include <string>
+
+namespace pointhaptics
+{
+
+/// One load counts at a time: start() and cancel() give up the one before, whose reader ends at its next
+/// report of progress, and whose result nobody gets. The cloud is made in the loader's thread and passes
+/// whole to the one that takes it. All functions belong to one thread, the GUI's.
+class POINTHAPTICSVIEWER_EXPORT CloudLoader
+{
+public:
+  CloudLoader();
+  /// Gives up what is being read and waits for the reader.
+  ~CloudLoader();
+  CloudLoader(const CloudLoader&) = delete;
+  CloudLoader& operator=(const CloudLoader&) = delete;
+
+  void start(CloudRequest request);
+  /// Does not wait. What has been read, if it was not taken, is gone too.
+  void cancel();
+  /// Something was started that was neither taken nor cancelled.
+  bool busy() const;
+  /// Part of the files of the present load that is read, 0 to 1; it ascends. 0 where there is none.
+  double progress() const;
+  /// Since start().
+  double seconds() const;
+  /// Waits for the present load, that long at most. True: there is something to take.
+  bool waitFor(double seconds) const;
+  /// True: the present load has ended, and is over with this call. An empty @p message: @p loaded is what it
+  /// made; otherwise @p message says which file cannot be read and why, and @p loaded is as it was.
+  bool take(LoadedCloud& loaded, std::string& message);
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace pointhaptics

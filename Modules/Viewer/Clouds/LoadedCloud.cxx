@@ -1,0 +1,337 @@
+#include "LoadedCloud.h"
+
+#include "CloudAppearance.h"
+#include "HapticViewerOptions.h"
+#include "LatticeChoice.h"
+#include "SurfaceArrays.h"
+#include "vtkPointCloudReader.h"
+
+#include <fmt/format.h>
+#include <vtkAppendPolyData.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace
+{
+
+std::string baseName(const std::string& fileName)
+{
+  const std::size_t slash = fileName.find_last_of('/');
+  return slash == std::string::npos ? fileName : fileName.substr(slash + 1);
+}
+
+/// What the reader says while it reads, and what it is told.
+struct Listener
+{
+  vtkPointCloudReader* reader;
+  std::function<bool(double)> goesOn;
+};
+
+/// The points of a file with all arrays, without its cells. Null: @p message says why.
+vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName,
+  const std::function<bool(double)>& goesOn, std::string& format, std::string& message)
+{
+  vtkNew<vtkPointCloudReader> reader;
+  Listener listener{ reader, goesOn };
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetClientData(&listener);
+  progress->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void* fraction)
+    {
+      const auto& self = *static_cast<Listener*>(client);
+      if (fraction && !self.goesOn(*static_cast<double*>(fraction)))
+      {
+        self.reader->SetAbortExecute(1);
+      }
+    });
+  reader->AddObserver(vtkCommand::ProgressEvent, progress);
+  // Its error is in its message; without an observer it would go where the errors of the scene are collected.
+  vtkNew<vtkCallbackCommand> silence;
+  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  reader->AddObserver(vtkCommand::ErrorEvent, silence);
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  message = reader->GetErrorMessage();
+  vtkPolyData* read = reader->GetOutput();
+  if (message.empty() && read->GetNumberOfPoints() == 0)
+  {
+    message = fileName + ": holds no points; give a file with at least one";
+  }
+  if (!message.empty())
+  {
+    return nullptr;
+  }
+  format = reader->GetFormat();
+  auto points = vtkSmartPointer<vtkPolyData>::New();
+  points->SetPoints(read->GetPoints());
+  points->GetPointData()->ShallowCopy(read->GetPointData());
+  points->GetFieldData()->ShallowCopy(read->GetFieldData());
+  return points;
+}
+
+/// Every array costs time at every zoom: only those that are looked at stay.
+void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
+{
+  vtkPointData* data = cloud->GetPointData();
+  const std::optional<ColorSource> source = findColorSource(cloud, colorBy);
+  const std::string kept = source ? source->array : colorBy;
+  vtkDataArray* scalars = hasColors(cloud) ? data->GetScalars() : nullptr; // a key goes back to them
+  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    if (array != scalars && name != kept && name != kHeightArrayName)
+    {
+      data->RemoveArray(i);
+    }
+  }
+}
+
+/// Arrays the pipeline adds to those of the cloud.
+constexpr const char* kMadeByPipeline[] = { kHeightArrayName, "Density", "ProxyRadius", "Bandwidth",
+  "MeanBandwidth", "VoxelPointCount", kResidualArrayName };
+
+bool isMadeByPipeline(const std::string& name)
+{
+  return std::find(std::begin(kMadeByPipeline), std::end(kMadeByPipeline), name) != std::end(kMadeByPipeline);
+}
+
+std::string lowered(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+/// Exactly as somebody wrote it: colours or an array of the cloud, or an array of the pipeline.
+bool isExactName(vtkPolyData* cloud, const std::string& name)
+{
+  return name == "rgb" ? hasColors(cloud)
+                       : isMadeByPipeline(name) || findColorSource(cloud, name).has_value();
+}
+
+/// All names there are that differ from @p wanted in upper and lower case only; each once.
+std::set<std::string> namesInAnyCase(vtkPolyData* cloud, const std::string& wanted)
+{
+  const std::string key = lowered(wanted);
+  std::set<std::string> found;
+  const auto keepIfSame = [&](const std::string& written, const std::string& name)
+  {
+    if (lowered(written) == key)
+    {
+      found.insert(name);
+    }
+  };
+  for (const char* made : kMadeByPipeline)
+  {
+    keepIfSame(made, made);
+  }
+  if (hasColors(cloud))
+  {
+    keepIfSame("rgb", "rgb");
+  }
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    const std::string name = array && array->GetName() ? array->GetName() : "";
+    keepIfSame(name, name);
+    const int components = name.empty() ? 0 : array->GetNumberOfComponents();
+    for (int component = kMagnitude; components > 1 && component < components; ++component)
+    {
+      const std::string whole = describeColorSource(cloud, { name, component });
+      keepIfSame(whole, whole);
+      keepIfSame(fmt::format("{}:{}", name, component), whole);
+    }
+  }
+  return found;
+}
+
+/// Makes of what the user wrote the name that is meant: the one written so, else the only one that differs in
+/// upper and lower case. Unchanged where there is none. False: there are several, which @p message lists.
+bool completeName(vtkPolyData* cloud, const std::string& option, std::string& name, std::string& message)
+{
+  const std::set<std::string> found =
+    name.empty() || isExactName(cloud, name) ? std::set<std::string>{ name } : namesInAnyCase(cloud, name);
+  if (found.size() > 1)
+  {
+    message = fmt::format("{} {}: means any of {}; give one of them, in upper and lower case as here", option,
+      name, fmt::join(found, ", "));
+    return false;
+  }
+  name = found.empty() ? name : *found.begin();
+  return true;
+}
+
+/// The array that @p name is a component of, in any case. Null: none, or one without components.
+vtkDataArray* arrayWithComponents(vtkPolyData* cloud, const std::string& name)
+{
+  const std::string key = lowered(name.substr(0, name.rfind(':')));
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    if (array && array->GetName() && array->GetNumberOfComponents() > 1 && lowered(array->GetName()) == key)
+    {
+      return array;
+    }
+  }
+  return nullptr;
+}
+
+/// "Velocity (:x, :y, :z, :magnitude)": what can be said of @p array.
+std::string withComponents(vtkPolyData* cloud, vtkDataArray* array)
+{
+  std::string text;
+  for (int i = 0; array->GetNumberOfComponents() > 1 && i <= array->GetNumberOfComponents(); ++i)
+  {
+    const int component = i < array->GetNumberOfComponents() ? i : kMagnitude;
+    const std::string whole = describeColorSource(cloud, { array->GetName(), component });
+    text += (i > 0 ? ", " : "") + whole.substr(std::string(array->GetName()).size());
+  }
+  return array->GetName() + (text.empty() ? text : " (" + text + ")");
+}
+
+/// False: @p message names the arrays and components there are.
+bool canColorBy(vtkPolyData* cloud, const std::string& option, const std::string& name, std::string& message)
+{
+  if (name.empty() || isExactName(cloud, name))
+  {
+    return true;
+  }
+  vtkPointData* data = cloud->GetPointData();
+  if (vtkDataArray* array = arrayWithComponents(cloud, name))
+  {
+    message = fmt::format(
+      "{} {}: the array has no such component; give one of {}", option, name, withComponents(cloud, array));
+    return false;
+  }
+  message = fmt::format("{} {}: the cloud has no such array; it has", option, name);
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* each = data->GetArray(i); each && each->GetName())
+    {
+      message += fmt::format(" {},", withComponents(cloud, each));
+    }
+  }
+  message += fmt::format("{} {}", hasColors(cloud) ? " rgb," : "", fmt::join(kMadeByPipeline, ", "));
+  return false;
+}
+
+} // namespace
+
+CloudRequest CloudRequest::of(const std::vector<std::string>& files, const HapticViewerOptions& options)
+{
+  CloudRequest request;
+  request.files = files;
+  request.colorBy = options.colorBy;
+  request.colorByName = options.names.colorBy;
+  request.up = options.up;
+  request.transform = options.transform;
+  request.choosesLattice = options.fitsWorkspace && !options.hasVoxels();
+  return request;
+}
+
+Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
+{
+  Bounds bounds;
+  Vec3 p;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    cloud->GetPoint(i, &p.x);
+    if (isFinite(p))
+    {
+      bounds.include(transform.apply(p));
+    }
+  }
+  return bounds;
+}
+
+std::string titleOf(const std::vector<std::string>& files)
+{
+  std::string names;
+  for (const std::string& file : files)
+  {
+    names += (names.empty() ? "" : ", ") + baseName(file);
+  }
+  return names;
+}
+
+bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
+  std::string& message)
+{
+  vtkNew<vtkAppendPolyData> append;
+  std::string format;
+  double begin = 0.0;
+  const double share = 1.0 / double(request.files.size());
+  for (const std::string& file : request.files)
+  {
+    const auto askOn = [&](double part) { return goesOn(begin + share * part); };
+    const vtkSmartPointer<vtkPolyData> points = readPoints(file, askOn, format, message);
+    if (!points)
+    {
+      return false;
+    }
+    append->AddInputData(points);
+    begin += share;
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  if (request.files.size() > 1)
+  {
+    append->Update();
+    cloud->ShallowCopy(append->GetOutput());
+  }
+  else
+  {
+    cloud->ShallowCopy(append->GetInput(0));
+  }
+  return prepareCloud(request, std::move(cloud), titleOf(request.files), format, goesOn, loaded, message);
+}
+
+bool prepareCloud(const CloudRequest& request, vtkSmartPointer<vtkPolyData> points, const std::string& title,
+  const std::string& format, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
+  std::string& message)
+{
+  LoadedCloud result;
+  result.title = title;
+  result.cloud = std::move(points);
+  result.bounds = transformedBounds(result.cloud, request.transform);
+  if (result.bounds.empty())
+  {
+    message = fmt::format("{}: no point is finite (all are NaN or infinite); nothing to show", result.title);
+    return false;
+  }
+  result.colorBy = request.colorBy;
+  if (!completeName(result.cloud, request.colorByName, result.colorBy, message) ||
+    !canColorBy(result.cloud, request.colorByName, result.colorBy, message))
+  {
+    return false;
+  }
+  result.orientation =
+    request.up == "auto" ? guessCloudOrientation(result.cloud, format) : orientationForUpAxis(request.up[0]);
+  if (!hasColors(result.cloud) || !request.colorBy.empty())
+  {
+    addHeightArray(result.cloud, result.orientation.up);
+  }
+  keepArrays(result.cloud, result.colorBy);
+  result.latticeDimension =
+    request.choosesLattice ? chooseLatticeDimension(result.cloud, [&] { return goesOn(1.0); }) : 0;
+  loaded = std::move(result);
+  return true;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,350 @@
+#include "HapticViewer.h"
+
+#include "CloudLoader.h"
+#include "ViewDisplay.h"
+#include "ViewPicture.h"
+#include "ViewScene.h"
+#include "ViewWindow.h"
+
+#include "vtkKernelBandwidthFilter.h"
+
+#include <fmt/format.h>
+#include <vtkAutoInit.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+
+// A host need not know which of VTK's modules bring what a window is made of.
+VTK_MODULE_INIT(vtkInteractionStyle)
+VTK_MODULE_INIT(vtkRenderingContextOpenGL2)
+VTK_MODULE_INIT(vtkRenderingFreeType)
+VTK_MODULE_INIT(vtkRenderingOpenGL2)
+VTK_MODULE_INIT(vtkRenderingUI)
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Seconds in which most files are read: a window with a bar would only flicker.
+constexpr double kSilence = 0.2;
+constexpr double kLookPeriod = 0.05;
+/// HapticViewerObserver::progress() is told 1 once, at the end.
+constexpr double kAlmostDone = 0.999;
+
+class Stopwatch
+{
+public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_ = Clock::now();
+};
+
+/// @p message with the name of the file where it does not have it.
+std::string withTitle(const std::string& title, const std::string& message)
+{
+  return message.find(title) == std::string::npos ? title + ": " + message : message;
+}
+
+} // namespace
+
+struct HapticViewer::Implementation
+{
+  Implementation(HapticViewerOptions givenOptions, HapticViewerObserver givenObserver)
+    : options(std::move(givenOptions))
+    , observer(std::move(givenObserver))
+  {
+  }
+
+  const HapticViewerOptions options;
+  const HapticViewerObserver observer;
+  ViewScene scene;
+  std::vector<std::string> files;
+  std::size_t cloud = 0; ///< Which of them is shown.
+  std::string news;      ///< What was skipped before it; empty: nothing.
+  bool isOpen = false;
+  bool isCancelled = false;
+  std::optional<ServoSample> felt; ///< What a picture shows of the path.
+  double readSeconds = 0.0;
+  double resampleSeconds = 0.0;
+  std::string message;
+  std::unique_ptr<ViewWindow> window;
+
+  ViewWindow& theWindow();
+  bool fail(const std::string& text);
+  bool hasCloud();
+  bool isDrawable();
+  bool await(const CloudLoader& loader, const std::string& title);
+  bool awaitWithoutWindow(const CloudLoader& loader);
+  bool readFirst(LoadedCloud& loaded);
+  bool show(LoadedCloud loaded);
+  void skip(const std::string& title);
+};
+
+/// It is opened later.
+ViewWindow& HapticViewer::Implementation::theWindow()
+{
+  if (!this->window)
+  {
+    this->window = std::make_unique<ViewWindow>(this->scene, this->options, this->observer, this->files);
+  }
+  return *this->window;
+}
+
+bool HapticViewer::Implementation::fail(const std::string& text)
+{
+  this->message = text;
+  return false;
+}
+
+bool HapticViewer::Implementation::hasCloud()
+{
+  return this->isOpen || this->fail("no cloud is open; open one first");
+}
+
+bool HapticViewer::Implementation::isDrawable()
+{
+  return this->hasCloud() && displayIsAvailable(this->message);
+}
+
+bool HapticViewer::Implementation::awaitWithoutWindow(const CloudLoader& loader)
+{
+  bool stops = false;
+  while (!stops && !loader.waitFor(kLookPeriod))
+  {
+    stops = this->observer.shouldStop && this->observer.shouldStop();
+    if (this->observer.progress)
+    {
+      this->observer.progress("reading", std::min(loader.progress(), kAlmostDone));
+    }
+  }
+  if (this->observer.progress)
+  {
+    this->observer.progress("reading", 1.0);
+  }
+  return !stops;
+}
+
+/// Until there is something to take. False: the user gave it up.
+bool HapticViewer::Implementation::await(const CloudLoader& loader, const std::string& title)
+{
+  std::string ignored;
+  const bool shows =
+    this->window || (this->options.showsReading && !loader.waitFor(kSilence) && displayIsAvailable(ignored));
+  const bool isRead = shows ? this->theWindow().awaitCloud(loader, title) : this->awaitWithoutWindow(loader);
+  this->isCancelled = !isRead;
+  return isRead || this->fail(title + ": reading was stopped on request; nothing is shown");
+}
+
+/// A file that cannot be shown, as message says, where there are others.
+void HapticViewer::Implementation::skip(const std::string& title)
+{
+  const std::string why = withTitle(title, this->message);
+  this->news = this->cloud == 0 ? "skipped: " + why
+                                : fmt::format("{} files are skipped; the last: {}", this->cloud + 1, why);
+  if (this->observer.message)
+  {
+    this->observer.message(HapticViewerObserver::Kind::Warning, "skipped: " + why);
+  }
+}
+
+/// Reads cloud after cloud until one can be shown.
+bool HapticViewer::Implementation::readFirst(LoadedCloud& loaded)
+{
+  const std::size_t count = this->options.together ? 1 : this->files.size();
+  CloudLoader loader;
+  this->news.clear();
+  for (this->cloud = 0; this->cloud < count; ++this->cloud)
+  {
+    const std::vector<std::string> shown =
+      this->options.together ? this->files : std::vector<std::string>{ this->files[this->cloud] };
+    const std::string title = titleOf(shown);
+    loader.start(CloudRequest::of(shown, this->options));
+    if (!this->await(loader, title))
+    {
+      return false;
+    }
+    loader.take(loaded, this->message);
+    if (this->message.empty())
+    {
+      return true;
+    }
+    if (count == 1)
+    {
+      return false;
+    }
+    this->skip(title);
+  }
+  return this->fail(fmt::format("none of the {} files can be shown; mend one of them, see above", count));
+}
+
+bool HapticViewer::Implementation::show(LoadedCloud loaded)
+{
+  this->scene.open(std::move(loaded), this->options);
+  this->felt.reset();
+  const Stopwatch building;
+  this->isOpen = this->scene.build(this->options, this->observer, this->message);
+  this->resampleSeconds = building.seconds();
+  return this->isOpen;
+}
+
+HapticViewer::HapticViewer(HapticViewerOptions options, HapticViewerObserver observer)
+  : implementation_(std::make_unique<Implementation>(std::move(options), std::move(observer)))
+{
+}
+
+HapticViewer::~HapticViewer() = default;
+
+bool HapticViewer::open(const std::vector<std::string>& files)
+{
+  Implementation& self = *implementation_;
+  self.files = files;
+  self.isCancelled = false;
+  if (files.empty())
+  {
+    return self.fail("no file is named; give one");
+  }
+  const Stopwatch reading;
+  LoadedCloud loaded;
+  const bool isRead = self.readFirst(loaded);
+  self.readSeconds = reading.seconds();
+  return isRead && self.show(std::move(loaded));
+}
+
+bool HapticViewer::open(vtkPolyData* cloud, const std::string& title)
+{
+  Implementation& self = *implementation_;
+  self.files.clear();
+  self.news.clear();
+  self.isCancelled = false;
+  if (!cloud || cloud->GetNumberOfPoints() == 0)
+  {
+    return self.fail(title + ": holds no points; give a cloud with at least one");
+  }
+  const Stopwatch reading;
+  auto points = vtkSmartPointer<vtkPolyData>::New();
+  points->SetPoints(cloud->GetPoints());
+  points->GetPointData()->ShallowCopy(cloud->GetPointData());
+  points->GetFieldData()->ShallowCopy(cloud->GetFieldData());
+  LoadedCloud loaded;
+  const bool isReady = prepareCloud(
+    CloudRequest::of({}, self.options), std::move(points), title, std::string(), [](double) { return true; },
+    loaded, self.message);
+  self.readSeconds = reading.seconds();
+  return isReady && self.show(std::move(loaded));
+}
+
+bool HapticViewer::feelPath()
+{
+  Implementation& self = *implementation_;
+  if (!(self.options.forceChart.empty() ? self.hasCloud() : self.isDrawable()))
+  {
+    return false;
+  }
+  ServoSample shown;
+  if (!feelAlongPath(self.scene, self.options, self.observer, shown, self.message))
+  {
+    return false;
+  }
+  self.felt = shown;
+  return true;
+}
+
+bool HapticViewer::renderToFile(const std::string& fileName)
+{
+  Implementation& self = *implementation_;
+  if (!self.isDrawable())
+  {
+    return false;
+  }
+  return self.window && self.window->isStarted()
+    ? self.window->writeImage(fileName, self.message)
+    : makePicture(self.scene, self.options, self.observer, self.felt, fileName, self.message);
+}
+
+bool HapticViewer::start()
+{
+  Implementation& self = *implementation_;
+  return self.isDrawable() && self.theWindow().start(self.cloud, self.news, self.message);
+}
+
+bool HapticViewer::stop()
+{
+  Implementation& self = *implementation_;
+  return !self.window || !self.window->isStarted() || self.window->finish(self.message);
+}
+
+bool HapticViewer::run()
+{
+  if (!this->start())
+  {
+    return false;
+  }
+  implementation_->window->handleEvents();
+  return this->stop();
+}
+
+const std::string& HapticViewer::message() const
+{
+  return implementation_->message;
+}
+
+bool HapticViewer::isCancelled() const
+{
+  return implementation_->isCancelled;
+}
+
+vtkRenderWindow* HapticViewer::renderWindow()
+{
+  return implementation_->theWindow().window();
+}
+
+vtkRenderWindowInteractor* HapticViewer::interactor()
+{
+  return implementation_->theWindow().interactor();
+}
+
+vtkInteractorStyleHaptic* HapticViewer::style()
+{
+  return implementation_->theWindow().style();
+}
+
+vtkRenderer* HapticViewer::renderer()
+{
+  return implementation_->scene.renderer();
+}
+
+vtkPolyData* HapticViewer::means()
+{
+  return implementation_->isOpen ? implementation_->scene.bandwidth()->GetOutput() : nullptr;
+}
+
+vtkIdType HapticViewer::numberOfPoints() const
+{
+  return implementation_->scene.numberOfPoints();
+}
+
+const std::string& HapticViewer::scaleNote() const
+{
+  return implementation_->scene.scaleNote();
+}
+
+double HapticViewer::readSeconds() const
+{
+  return implementation_->readSeconds;
+}
+
+double HapticViewer::resampleSeconds() const
+{
+  return implementation_->resampleSeconds;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,132 @@
+/// @file
+/// What a HapticViewer shows and how it feels: plain values, each with the default of the program.
+#pragma once
+
+#include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/PointView.h"
+#include "Devices/Falcon/FalconDevice.h"
+#include "Haptics/HapticParameters.h"
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// What moves the hand.
+enum class HapticViewerDevice
+{
+  Auto,      ///< A Falcon where one can be used, else the simulated hand.
+  Falcon,    ///< An error where none can be used.
+  Simulated, ///< Driven by mouse and keys.
+  None,      ///< The cloud is only looked at.
+};
+
+/// What the person at the screen calls the settings that messages speak of.
+struct HapticViewerNames
+{
+  std::string colorBy = "colorBy";
+  std::string firmware = "falcon.firmwareFile";
+  std::string placement = "workspace and transform"; ///< Whatever may leave the cloud out of the workspace.
+};
+
+/// Lengths are metres of the workspace unless said otherwise.
+struct HapticViewerOptions
+{
+  // The picture.
+  int width = 1280; ///< Pixels of window or picture, at least 16.
+  int height = 800;
+  std::string colorBy;     ///< An array of the cloud or the pipeline, ARRAY:COMPONENT, rgb; empty: a choice.
+  std::string up = "auto"; ///< Axis of the cloud that points up: x, y, z; auto: a guess.
+  double pointSize = 0.0;  ///< Pixels; 0: from the spacing of the points, so that surfaces close.
+  bool axes = false;       ///< Box and axes of the cloud's own frame.
+  bool figure = false;     ///< Nothing but the cloud in one color on white, workspace, proxy and normal.
+  bool ambient = false;    ///< Light by the normals of the felt surface.
+  std::vector<double> camera; ///< Position, focal point, view up: 9 numbers; empty: from in front.
+
+  // Where the cloud lies, and the lattice it is resampled on.
+  AffineTransform transform;        ///< From the file's coordinates to metres.
+  std::string unit = "m";           ///< Name of the unit of the file's coordinates, for texts.
+  double metresPerUnit = 1.0;       ///< What that unit is; @c transform holds it already.
+  bool fitsWorkspace = true;        ///< Fit the transformed cloud to the 10 cm cube about the origin.
+  Bounds workspace;                 ///< Box of the lattice; empty: that cube, or a cube about the cloud.
+  std::vector<int> dimensions;      ///< Voxels on each axis, 1 or 3 numbers; empty: a choice, 300 to 1200.
+  double voxelSize = 0.0;           ///< Edge of a cubic voxel instead of dimensions; 0: not given.
+  bool useCovariance = true;        ///< Second moments of the points in a voxel shape the felt surface.
+  LocalBandwidthSettings bandwidth; ///< From the spacing of the points to the radius of the proxy.
+
+  // The touch.
+  HapticParameters haptics; ///< Method, contact, gains.
+  std::string ideal =
+    "auto"; ///< Shape whose exact force the chart shows; auto: where the cloud is one; none.
+  HapticViewerDevice device = HapticViewerDevice::Auto;
+  FalconSettings falcon;  ///< @c cancelled is taken from HapticViewerObserver where it is empty.
+  std::string path;       ///< File of a hand path, t,x,y,z, that moves the hand instead of a device.
+  std::string trace;      ///< CSV to write, one row a tick; empty: none.
+  std::string forceChart; ///< PNG to write, force and proxy radius over time; empty: none.
+
+  // The window.
+  std::vector<std::string>
+    bindings;               ///< ACTION=GESTURES, as vtkInteractorStyleHaptic::SetBinding() takes them.
+  bool pushPointer = false; ///< The mouse pointer is pushed out of what the hand touches.
+  bool together = false;    ///< All files as one cloud; else one at a time.
+  bool watch = false;       ///< Read files again when they change.
+  /// The window is shown while the first file is read, where that takes longer than 0.2 s and there is a
+  /// display: for programs that call HapticViewer::run() next.
+  bool showsReading = false;
+
+  HapticViewerNames names;
+
+  /// Whether the lattice's voxels were chosen.
+  bool hasVoxels() const { return !this->dimensions.empty() || this->voxelSize > 0.0; }
+};
+
+/// What a window has come to: the options that its user changed, as they are now.
+struct HapticViewerState
+{
+  std::array<double, 16> modelToWorkspace{}; ///< From the file's coordinates to metres, row by row.
+  std::array<double, 6> workspace{};         ///< xmin, xmax, ymin, ymax, zmin, zmax.
+  double voxelSize = 0.0;                    ///< As the slider was set; 0: it was not.
+  ContactParameters contact;
+  double radiusScale = 0.0; ///< beta.
+  std::array<double, 9> camera{};
+  bool pushPointer = false;
+  bool axes = false;
+  bool figure = false;
+  bool ambient = false;
+  std::string colorBy;
+  int width = 0;
+  int height = 0;
+};
+
+/// What a viewer has to say, and what it asks its host. Every member may be empty. All are called in the GUI
+/// thread.
+struct HapticViewerObserver
+{
+  enum class Kind
+  {
+    Note,    ///< What was done, such as "screenshot: FILE".
+    Warning, ///< The viewer goes on, with less.
+    Error,   ///< What the user asked for was not done; the window goes on.
+  };
+
+  /// A message for people, in one or more lines, without a line break at its end.
+  std::function<void(Kind, const std::string&)> message;
+  /// Long work: @p part 0 to 1, which is over with 1.
+  std::function<void(const std::string& what, double part)> progress;
+  /// True ends long work and closes the window. Asked about 30 times a second.
+  std::function<bool()> shouldStop;
+  /// What VTK classes complained of since the last call, where the host collects it.
+  std::function<std::vector<std::string>()> takeVtkErrors;
+  /// The user asks to keep @p state in @p fileName (JSON). False: @p message says why not. Empty: the key has
+  /// no effect.
+  std::function<bool(const HapticViewerState& state, const std::string& fileName, std::string& message)>
+    writeState;
+  /// The window closes.
+  std::function<void(const HapticViewerState& state)> rememberState;
+};
+
+} // namespace pointhaptics

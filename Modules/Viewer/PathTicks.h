@@ -1,0 +1,21 @@
+/// @file
+/// How many servo ticks a hand path takes.
+#pragma once
+
+#include "PointHapticsViewerModule.h" // For export macro
+
+#include <cstdint>
+#include <string>
+
+namespace pointhaptics
+{
+
+struct HipPath;
+
+/// Ticks of @p rateHz from the path's first point to its last, both included. False where they are more than
+/// @p most:
+/// @p message then says so, with @p fileName and the cure. @pre the path is not empty.
+POINTHAPTICSVIEWER_EXPORT bool countTicks(const HipPath& path, const std::string& fileName, double rateHz,
+  double most, std::int64_t& ticks, std::string& message);
+
+} // namespace pointhaptics

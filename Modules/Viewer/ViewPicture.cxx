@@ -1,0 +1,132 @@
+#include "ViewPicture.h"
+
+#include "PathTicks.h"
+#include "ViewScene.h"
+#include "ViewTouch.h"
+
+#include "vtkHapticChart.h"
+#include "vtkHapticProps.h"
+
+#include "Devices/HipPath.h"
+
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kRateHz = 1000.0;
+/// Samples of a path are kept for the picture: about 200 bytes each.
+constexpr double kMostTicks = 2e6;
+
+void note(const HapticViewerObserver& observer, const std::string& text)
+{
+  if (observer.message)
+  {
+    observer.message(HapticViewerObserver::Kind::Note, text);
+  }
+}
+
+} // namespace
+
+bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
+  ServoSample& shown, std::string& message)
+{
+  HipPath path;
+  if (readHipPath(options.path, path, message) != Status::Ok)
+  {
+    return false;
+  }
+  std::int64_t ticks = 0;
+  if (!countTicks(path, options.path, kRateHz, kMostTicks, ticks, message))
+  {
+    return false;
+  }
+  Status status = Status::Ok;
+  const auto snapshot = scene.makeScene(options.useCovariance, status);
+  if (!snapshot)
+  {
+    message = fmt::format("the cloud cannot be felt: {}", pointhaptics::message(status));
+    return false;
+  }
+  const std::vector<ServoSample> samples = feelPath(*snapshot, path, ticks, options.haptics, kRateHz);
+  shown = mostTelling(samples);
+  if (!options.trace.empty())
+  {
+    TraceFile trace;
+    if (!trace.open(options.trace, message))
+    {
+      return false;
+    }
+    trace.add(samples);
+    if (!trace.close(message))
+    {
+      return false;
+    }
+    note(observer, fmt::format("trace: {} ({} ticks)", options.trace, samples.size()));
+  }
+  if (!options.forceChart.empty())
+  {
+    vtkNew<vtkHapticChart> chart;
+    const std::shared_ptr<IdealForce> ideal = idealFor(scene, options);
+    for (const ServoSample& sample : samples)
+    {
+      chart->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius,
+        ideal ? idealForce(*ideal, scene, sample.state.hip, options.haptics.contact.stiffness) : NAN);
+    }
+    if (!chart->WriteImage(options.forceChart.c_str()))
+    {
+      message = fmt::format(
+        "{}: cannot be written; check that its folder exists and can be written", options.forceChart);
+      return false;
+    }
+    note(observer, "force chart: " + options.forceChart);
+  }
+  return true;
+}
+
+bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
+  const std::optional<ServoSample>& shown, const std::string& fileName, std::string& message)
+{
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetSize(options.width, options.height);
+  window->AddRenderer(scene.renderer());
+  if (shown)
+  {
+    scene.props()->Update(shown->state);
+  }
+  scene.showAmbient(options.ambient);
+  scene.completeMeans(options.useCovariance);
+  scene.showAxes(options.axes);
+  scene.showFigure(options.figure);
+  scene.placeAxes(scene.modelMatrix());
+  scene.placeCamera(shown ? &shown->state : nullptr);
+  scene.setCamera(options.camera);
+  window->Render();
+  const bool isWritten = writePicture(window, fileName, message);
+  window->RemoveRenderer(scene.renderer());
+  if (!isWritten)
+  {
+    return false;
+  }
+  note(observer, fmt::format("screenshot: {} ({}x{})", fileName, options.width, options.height));
+  if (shown)
+  {
+    note(observer,
+      fmt::format("  shows t = {:.3f} s: {}, force {:.3f} N, proxy radius {:.3f} mm", shown->timeSeconds,
+        shown->state.contact ? "in contact" : "no contact along the whole path", norm(shown->state.force),
+        1e3 * shown->state.radius));
+  }
+  return true;
+}
+
+} // namespace pointhaptics

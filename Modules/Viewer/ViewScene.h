@@ -1,0 +1,147 @@
+/// @file
+/// A cloud as a scene: read, fitted, resampled, coloured, with camera and props.
+#pragma once
+
+#include "HapticViewerOptions.h"
+#include "LoadedCloud.h"
+
+#include "CloudDetail.h"
+#include "CloudOrientation.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/PointView.h"
+#include "Haptics/HapticScene.h"
+#include "Haptics/Proxy.h"
+#include "PointHapticsViewerModule.h" // For export macro
+#include "vtkSplatMapper.h"
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkActor;
+class vtkCloudAxes;
+class vtkHapticProps;
+class vtkKernelBandwidthFilter;
+class vtkMatrix4x4;
+class vtkPolyData;
+class vtkRenderWindow;
+class vtkRenderer;
+class vtkScalarBarActor;
+class vtkVoxelMeanResampler;
+
+namespace pointhaptics
+{
+
+/// GUI thread only. Frames: the cloud's (as in the file) and the workspace's; metres in the latter.
+class POINTHAPTICSVIEWER_EXPORT ViewScene
+{
+public:
+  ViewScene();
+  ~ViewScene();
+
+  /// Reads @p files into one cloud and sets the pipeline up for it. False: @p message says which file and
+  /// why, and the scene is as it was before.
+  bool open(const std::vector<std::string>& files, const HapticViewerOptions& options, std::string& message);
+  /// The same with what loadCloud() made.
+  void open(LoadedCloud loaded, const HapticViewerOptions& options);
+  /// Runs the pipeline once and colours the result; @p observer follows, and may stop it. False: no point
+  /// lies in the workspace.
+  bool build(const HapticViewerOptions& options, const HapticViewerObserver& observer, std::string& message);
+  /// Puts the camera in front of the workspace. @p contact, if given, is turned into view.
+  void placeCamera(const ProxyState* contact = nullptr);
+  /// Where @p camera says: HapticViewerOptions::camera; nothing where that is empty.
+  void setCamera(const std::vector<double>& camera);
+
+  /// Box, bounds and directions of the cloud's own frame. They stay where the model was until placeAxes().
+  void showAxes(bool visible);
+  bool showsAxes() const { return wantsAxes_; }
+  /// Where @p model, from the file to the workspace, puts the cloud.
+  void placeAxes(vtkMatrix4x4* model);
+
+  /// Nothing but the cloud in one colour on white, the workspace, proxy and normal.
+  void showFigure(bool figure);
+  bool isFigure() const { return figure_; }
+
+  /// Another thing to colour by: one of colorChoices(). It is shown at once where the means have it, else
+  /// with the next scene that has; @return whether one is needed, with the filters as they are set now.
+  bool setColorBy(const std::string& name);
+  const std::string& colorBy() const { return colorBy_; }
+  /// Whether the picture still waits for what setColorBy() asked for.
+  bool awaitsColors() const { return coloredBy_ != colorBy_; }
+  /// rgb where there are colours, Height, the array the user named, and what the pipeline makes.
+  std::vector<std::string> colorChoices() const;
+  /// Light from the normals, of means that have them.
+  void showAmbient(bool ambient);
+  bool isAmbient() const { return mapper_->GetAmbientLight(); }
+  /// Whether the picture needs the residuals of addSurfaceArrays().
+  bool wantsResiduals() const;
+  /// Makes the arrays of addSurfaceArrays() that the picture needs, and waits for them: for pictures without
+  /// a window.
+  void completeMeans(bool useCovariance);
+  /// To be called when the means are others: colours what has come, and follows the range of the arrays that
+  /// the pipeline makes; those of the file keep the colours they had.
+  void meansChanged();
+
+  /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
+  Vec3 towardsViewer() const { return orientation_.front; }
+  std::shared_ptr<const HapticScene> makeScene(bool useCovariance, Status& status);
+  /// describeScale() of the model as it was opened.
+  const std::string& scaleNote() const { return scaleNote_; }
+  vtkMatrix4x4* modelMatrix() { return modelMatrix_; }
+  vtkVoxelMeanResampler* resampler() { return resampler_; }
+  vtkKernelBandwidthFilter* bandwidth() { return bandwidth_; }
+  vtkActor* actor() { return actor_; }
+  vtkRenderer* renderer() { return renderer_; }
+  vtkHapticProps* props() { return props_; }
+  /// Off until it is enabled: then the picture must be refined when it rests.
+  CloudDetail& detail() { return detail_; }
+  const CloudDetail& detail() const { return detail_; }
+  const Bounds& workspace() const { return workspace_; }
+  void getWorkspaceBounds(double bounds[6]) const;
+  /// Edges of a voxel, metres; 0 before build().
+  void getVoxel(double edges[3]) const;
+  /// Text for the window's title: the names of the files.
+  const std::string& title() const { return title_; }
+  vtkIdType numberOfPoints() const;
+
+private:
+  void beginFrame();
+  void applyLook();
+  void applyColors();
+  void chooseArrays();
+  void fit(const Bounds& cloud, const HapticViewerOptions& options);
+
+  vtkSmartPointer<vtkPolyData> cloud_;
+  vtkNew<vtkMatrix4x4> modelMatrix_;
+  vtkNew<vtkVoxelMeanResampler> resampler_;
+  vtkNew<vtkKernelBandwidthFilter> bandwidth_;
+  vtkNew<vtkSplatMapper> mapper_;
+  vtkNew<vtkActor> actor_;
+  vtkNew<vtkScalarBarActor> scalarBar_;
+  vtkNew<vtkHapticProps> props_;
+  vtkNew<vtkCloudAxes> axes_;
+  bool wantsAxes_ = false;
+  bool figure_ = false;
+  bool isColored_ = false; ///< By an array or its own colours, when it is no figure.
+  double plainColor_[3] = { 0.0, 0.0, 0.0 };
+  std::string colorBy_;
+  std::string ownColor_;  ///< An array of the file that the user named.
+  std::string coloredBy_; ///< What the picture shows by now.
+  std::string unit_;      ///< Of the file.
+  Vec3 cloudUp_;          ///< In the frame of the file.
+  Bounds cloudBounds_;    ///< Of the finite points, as in the file; empty until the axes are shown.
+  vtkNew<vtkRenderer> renderer_;
+  CloudDetail detail_{ renderer_, actor_ };
+  Bounds workspace_;
+  CloudOrientation orientation_;
+  std::string scaleNote_;
+  std::string title_;
+};
+
+/// Writes what @p window shows as PNG. False: @p message says why not.
+bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message);
+
+} // namespace pointhaptics

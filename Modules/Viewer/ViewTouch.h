@@ -1,0 +1,52 @@
+/// @file
+/// What `view` feels along a hand path, in virtual time: the same touch on every machine.
+#pragma once
+
+#include "CsvWriter.h"
+
+#include "Devices/HipPath.h"
+#include "Haptics/Proxy.h"
+#include "Haptics/ServoLoop.h"
+#include "Shapes/IdealForce.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+
+class ViewScene;
+struct HapticViewerOptions;
+
+/// One sample for each of the @p ticks of @p rateHz along @p path (see countTicks), as `feel` does it. @pre
+/// path not empty.
+std::vector<ServoSample> feelPath(const HapticScene& scene, const HipPath& path, std::int64_t ticks,
+  const HapticParameters& parameters, double rateHz);
+
+/// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
+const ServoSample& mostTelling(const std::vector<ServoSample>& samples);
+
+/// The exact surface that --ideal names, or that the cloud of @p scene turns out to be. Null: none.
+std::shared_ptr<IdealForce> idealFor(ViewScene& scene, const HapticViewerOptions& options);
+
+/// Newtons where the model stands in @p scene at this moment; NaN: not known.
+double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, double stiffness);
+
+/// Writes OUT.csv of `feel`, row by row; the file appears with close().
+class TraceFile
+{
+public:
+  /// False: @p message says why the file cannot be created.
+  bool open(const std::string& fileName, std::string& message);
+  void add(const std::vector<ServoSample>& samples);
+  /// False: not all rows could be written, @p message says so.
+  bool close(std::string& message);
+  bool isOpen() const { return isOpen_; }
+
+private:
+  CsvWriter writer_;
+  bool isOpen_ = false;
+};
+
+} // namespace pointhaptics

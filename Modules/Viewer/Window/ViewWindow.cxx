@@ -1,0 +1,560 @@
+#include "ViewWindow.h"
+
+#include "ScaleNote.h"
+#include "ViewEvents.h"
+#include "ViewScene.h"
+
+#include "CloudAppearance.h"
+#include "vtkHapticChart.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticProps.h"
+#include "vtkHapticSliders.h"
+#include "vtkInteractorStyleHaptic.h"
+
+#include "Devices/PathReplay.h"
+#include "Devices/SimulatedDevice.h"
+#include "Devices/SpaceMouse/SpaceMouse.h"
+#include "Haptics/ServoLoop.h"
+
+#include <fmt/format.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkTransform.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kChartHeight = 0.24; // part of the window
+/// Calls of the timer, of 33 ms each, between two looks at the files.
+constexpr int kLooksApart = 8;
+/// HapticViewerObserver::progress() is told 1 once, at the end.
+constexpr double kAlmostDone = 0.999;
+
+} // namespace
+
+ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
+  const HapticViewerObserver& observer, std::vector<std::string> files)
+  : scene_(scene)
+  , options_(options)
+  , observer_(observer)
+  , parameters_(options.haptics)
+  , files_(std::move(files))
+{
+}
+
+ViewWindow::~ViewWindow()
+{
+  std::string message;
+  if (isStarted_ && !this->finish(message))
+  {
+    this->report(HapticViewerObserver::Kind::Error, message);
+  }
+  this->letGo();
+  if (isOpen_)
+  {
+    window_->RemoveRenderer(scene_.renderer());
+  }
+}
+
+/// The style outlives this where a host keeps it, and its threads look at the servo loop.
+void ViewWindow::letGo()
+{
+  style_->SetServoLoop(nullptr);
+  style_->SetDevice(nullptr);
+  style_->SetSpaceMouse(nullptr);
+}
+
+void ViewWindow::report(HapticViewerObserver::Kind kind, const std::string& message) const
+{
+  if (observer_.message)
+  {
+    observer_.message(kind, message);
+  }
+}
+
+/// Once, with or without a cloud.
+void ViewWindow::openWindow()
+{
+  window_->SetMultiSamples(0);
+  window_->SetSize(options_.width, options_.height);
+  window_->SetWindowName("PointHaptics");
+  interactor_->SetRenderWindow(window_);
+  interactor_->SetInteractorStyle(nullptr); // until there is something to move
+  for (const std::string& binding : options_.bindings)
+  {
+    const std::size_t equals = binding.find('=');
+    style_->SetBinding(hapticActionFromName(binding.substr(0, equals)), binding.substr(equals + 1));
+  }
+  isOpen_ = true;
+}
+
+/// A renderer of its own: the scene's would ask filters that have no cloud.
+void ViewWindow::showBar(const std::string& words, double part)
+{
+  if (!isOpen_)
+  {
+    this->openWindow();
+  }
+  applyBackground(waiting_);
+  progress_->SetProgress(words, part);
+  progress_->AddTo(waiting_);
+  window_->AddRenderer(waiting_);
+  window_->Render();
+  interactor_->Initialize();
+  // Not before it hears keys: who waits for the title may press one.
+  window_->SetWindowName(("PointHaptics: " + words).c_str());
+}
+
+/// Escape, and the keys that quit.
+bool ViewWindow::isCancelKey()
+{
+  const std::string key = interactor_->GetKeySym() ? interactor_->GetKeySym() : "";
+  const std::string gesture = HapticBindings::gestureOf(
+    key, interactor_->GetControlKey() != 0, interactor_->GetShiftKey() != 0, interactor_->GetAltKey() != 0);
+  HapticBindings bindings;
+  bindings.set(HapticAction::Quit, style_->GetBinding(HapticAction::Quit));
+  return key == "Escape" || bindings.find(gesture) == HapticAction::Quit;
+}
+
+bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
+{
+  struct Wait
+  {
+    ViewWindow& self;
+    const CloudLoader& loader;
+    std::string words;
+    bool isRead = false;
+  } wait{ *this, loader, "reading " + title };
+  this->showBar(wait.words, loader.progress());
+  vtkNew<vtkCallbackCommand> events;
+  events->SetClientData(&wait);
+  events->SetCallback(
+    [](vtkObject*, unsigned long event, void* client, void*)
+    {
+      auto& [self, reader, words, isRead] = *static_cast<Wait*>(client);
+      if (self.interactor_->GetDone())
+      {
+        return; // it is decided; this was in the queue
+      }
+      const bool cancels = (event == vtkCommand::KeyPressEvent && self.isCancelKey()) || self.shouldStop();
+      isRead = !cancels && reader.waitFor(0.0);
+      if (cancels || isRead)
+      {
+        leaveEvents(self.interactor_);
+      }
+      if (self.observer_.progress)
+      {
+        self.observer_.progress(
+          "reading", isRead || cancels ? 1.0 : std::min(reader.progress(), kAlmostDone));
+      }
+      if (self.progress_->SetProgress(words, reader.progress()))
+      {
+        self.window_->Render();
+      }
+    });
+  const unsigned long ticks = interactor_->AddObserver(vtkCommand::TimerEvent, events);
+  const unsigned long keys = interactor_->AddObserver(vtkCommand::KeyPressEvent, events);
+  const int timer = interactor_->CreateRepeatingTimer(33);
+  runEvents(interactor_);
+  interactor_->DestroyTimer(timer);
+  interactor_->RemoveObserver(ticks);
+  interactor_->RemoveObserver(keys);
+  return wait.isRead; // not where the close button ended it
+}
+
+void ViewWindow::setUpRendering()
+{
+  if (!isOpen_)
+  {
+    this->openWindow();
+  }
+  progress_->Hide();
+  progress_->RemoveFrom(waiting_);
+  window_->RemoveRenderer(waiting_);
+  window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
+  window_->AddRenderer(scene_.renderer());
+  overlay_->AddTo(scene_.renderer());
+  progress_->AddTo(scene_.renderer());
+  if (options_.device != HapticViewerDevice::None || !options_.path.empty())
+  {
+    window_->AddRenderer(chart_->GetRenderer());
+    chart_->GetRenderer()->SetViewport(0.0, 0.0, 1.0, kChartHeight);
+    scene_.renderer()->SetViewport(0.0, kChartHeight, 1.0, 1.0);
+    style_->SetChart(chart_);
+  }
+  scene_.detail().setEnabled(true);
+  scene_.placeCamera();
+  scene_.setCamera(options_.camera);
+  scene_.showAxes(options_.axes);
+  scene_.placeAxes(scene_.modelMatrix());
+}
+
+void ViewWindow::openSimulated()
+{
+  SimulatedHandSettings settings;
+  settings.workspace = scene_.workspace();
+  // In front of the cloud, where the person sees it.
+  const Bounds& box = scene_.workspace();
+  const Vec3 front = scene_.towardsViewer();
+  settings.start = box.center() +
+    0.47 * Vec3{ front.x * box.extent().x, front.y * box.extent().y, front.z * box.extent().z };
+  hand_ = std::make_unique<SimulatedDevice>(settings);
+  hand_->setTarget(settings.start);
+  device_ = hand_.get();
+}
+
+/// Its workspace is the 10 cm cube about the origin, which the cloud is fitted to.
+void ViewWindow::openFalcon()
+{
+  FalconSettings settings = options_.falcon;
+  if (!settings.cancelled)
+  {
+    settings.cancelled = observer_.shouldStop;
+  }
+  falcon_ = std::make_unique<FalconDevice>(settings);
+  device_ = falcon_.get();
+  this->report(HapticViewerObserver::Kind::Note, "falcon: starting; loading its firmware takes some seconds");
+}
+
+bool ViewWindow::openDevice(std::string& message)
+{
+  std::string unusable;
+  if (!options_.path.empty())
+  {
+    HipPath path;
+    if (readHipPath(options_.path, path, message) != Status::Ok)
+    {
+      return false;
+    }
+    replay_ = std::make_unique<PathReplayDevice>(std::move(path), true);
+    device_ = replay_.get();
+  }
+  else if (options_.device == HapticViewerDevice::Falcon ||
+    (options_.device == HapticViewerDevice::Auto && falconIsUsable(unusable)))
+  {
+    this->openFalcon();
+  }
+  else if (options_.device != HapticViewerDevice::None)
+  {
+    this->openSimulated();
+  }
+  Status status = device_ ? device_->open() : Status::Ok;
+  if (status != Status::Ok && falcon_ && options_.device == HapticViewerDevice::Auto && !this->shouldStop())
+  {
+    news_ = fmt::format("the Falcon cannot be used: {}; the simulated hand takes its place",
+      openProblem(*falcon_, status, options_.names.firmware));
+    this->report(HapticViewerObserver::Kind::Warning, news_);
+    falcon_.reset();
+    this->openSimulated();
+    status = device_->open();
+  }
+  if (status != Status::Ok)
+  {
+    message = fmt::format("the {} device cannot be used: {}", device_->name(),
+      openProblem(*device_, status, options_.names.firmware));
+    return false;
+  }
+  style_->SetDevice(hand_.get());
+  style_->SetServoLoop(device_ ? &servo_ : nullptr);
+  style_->SetDeviceNote(device_ ? device_->name() : "none");
+  // Where there is none, it may be plugged in later; where there is no driver, the window does without.
+  static_cast<void>(spaceMouse_.start());
+  style_->SetSpaceMouse(&spaceMouse_);
+  return true;
+}
+
+/// After the first scene was published: a path must not begin in an empty world.
+bool ViewWindow::startServo(std::string& message)
+{
+  ServoSettings settings = falcon_ ? pushingServoSettings(1000.0) : ServoSettings();
+  settings.restsWhenIdle = options_.trace.empty(); // a trace has all ticks
+  const Status status = device_ ? servo_.start(*device_, parameters_, settings, &message) : Status::Ok;
+  return status == Status::Ok;
+}
+
+void ViewWindow::observe(unsigned long event, void (ViewWindow::*handler)(void*))
+{
+  struct Link
+  {
+    ViewWindow* window;
+    void (ViewWindow::*handler)(void*);
+  };
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(new Link{ this, handler });
+  command->SetClientDataDeleteCallback([](void* link) { delete static_cast<Link*>(link); });
+  command->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void* callData)
+    {
+      const Link* link = static_cast<Link*>(client);
+      (link->window->*link->handler)(callData);
+    });
+  style_->AddObserver(event, command);
+}
+
+void ViewWindow::connectStyle()
+{
+  double bounds[6];
+  scene_.getWorkspaceBounds(bounds);
+  style_->SetWorkspaceBounds(bounds);
+  style_->SetUseCovariance(options_.useCovariance);
+  style_->SetRefinesNearHand(!options_.hasVoxels());
+  scene_.showAmbient(options_.ambient);
+  style_->SetComputeNormals(options_.ambient);
+  style_->SetComputeResiduals(scene_.wantsResiduals());
+  style_->SetModelMatrix(scene_.modelMatrix());
+  style_->SetResampler(scene_.resampler());
+  style_->SetBandwidthFilter(scene_.bandwidth());
+  style_->SetCloudActor(scene_.actor());
+  style_->SetProps(scene_.props());
+  style_->SetOverlay(overlay_);
+  style_->SetPushPointer(options_.pushPointer);
+  this->findIdeal();
+  style_->SetDefaultRenderer(scene_.renderer());
+  this->showNote();
+  this->observe(vtkInteractorStyleHaptic::ModelChangedEvent, &ViewWindow::onModelChanged);
+  this->observe(vtkInteractorStyleHaptic::SceneChangedEvent, &ViewWindow::onSceneChanged);
+  this->observe(vtkInteractorStyleHaptic::SamplesEvent, &ViewWindow::onSamples);
+  this->observe(vtkInteractorStyleHaptic::FilesDroppedEvent, &ViewWindow::onFilesDropped);
+  this->observe(vtkInteractorStyleHaptic::ScreenshotEvent, &ViewWindow::onScreenshot);
+  this->observe(vtkInteractorStyleHaptic::NextFileEvent, &ViewWindow::onNextFile);
+  this->observe(vtkInteractorStyleHaptic::PreviousFileEvent, &ViewWindow::onPreviousFile);
+  this->observe(vtkInteractorStyleHaptic::WriteSettingsEvent, &ViewWindow::onWriteSettings);
+  this->observe(vtkInteractorStyleHaptic::AxesEvent, &ViewWindow::onAxes);
+  this->observe(vtkInteractorStyleHaptic::FigureEvent, &ViewWindow::onFigure);
+  this->observe(vtkInteractorStyleHaptic::ColorsEvent, &ViewWindow::onColors);
+  this->observe(vtkInteractorStyleHaptic::AmbientEvent, &ViewWindow::onAmbient);
+  interactor_->SetInteractorStyle(style_);
+  this->connectSliders();
+  if (options_.figure)
+  {
+    this->showFigure(true);
+  }
+  vtkNew<vtkCallbackCommand> timer;
+  timer->SetClientData(this);
+  timer->SetCallback(
+    [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onTimer(); });
+  interactor_->AddObserver(vtkCommand::TimerEvent, timer);
+  // Before the style, for which Escape may have another meaning.
+  cancelKey_->SetClientData(this);
+  cancelKey_->SetCallback(
+    [](vtkObject*, unsigned long, void* window, void*) { static_cast<ViewWindow*>(window)->onKey(); });
+  interactor_->AddObserver(vtkCommand::KeyPressEvent, cancelKey_, 1.0F);
+}
+
+void ViewWindow::onSamples(void* callData)
+{
+  const auto& samples = *static_cast<std::vector<ServoSample>*>(callData);
+  if (trace_.isOpen())
+  {
+    trace_.add(samples);
+  }
+  if (!options_.forceChart.empty())
+  {
+    for (const ServoSample& sample : samples)
+    {
+      const double newtons = norm(sample.state.force);
+      wholeChart_->AddSample(sample.timeSeconds, newtons, sample.state.radius,
+        wholeIdeal_ ? idealForce(*wholeIdeal_, scene_, sample.state.hip, parameters_.contact.stiffness)
+                    : NAN);
+    }
+  }
+}
+
+/// 30 times a second: whether a file has been read, what the device has to say, whether the program is asked
+/// to end, and whether a picture that rests is to become finer.
+void ViewWindow::onTimer()
+{
+  if (scene_.detail().refinementDue(
+        std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count()))
+  {
+    interactor_->Render();
+  }
+  if (this->shouldStop())
+  {
+    interactor_->TerminateApp();
+  }
+  this->followDevices();
+  this->followLoading();
+  if (options_.watch && ++sinceLook_ >= kLooksApart && !loader_.busy())
+  {
+    sinceLook_ = 0;
+    if (watch_.look())
+    {
+      this->load(shown_, true,
+        [this](bool isShown)
+        {
+          if (isShown)
+          {
+            this->say("read again: " + scene_.title());
+          }
+        });
+    }
+  }
+}
+
+void ViewWindow::followDevices()
+{
+  if (falcon_)
+  {
+    const FalconState before = falconNews_.state();
+    const std::string news = falconNews_.next(*falcon_);
+    if (falconNews_.state() != before)
+    {
+      style_->SetDeviceNote(fmt::format("falcon, {}", name(falconNews_.state())));
+    }
+    if (!news.empty())
+    {
+      this->say(news);
+    }
+  }
+  const std::string spaceMouse = spaceMouse_.message();
+  if (spaceMouse != spaceMouseMessage_)
+  {
+    spaceMouseMessage_ = spaceMouse;
+    if (spaceMouse_.motion().connected)
+    {
+      this->say(fmt::format("spacemouse: {} moves the model", spaceMouse));
+    }
+    else if (spaceMouse != SpaceMouse::kNonePluggedIn)
+    {
+      this->say(spaceMouse);
+    }
+  }
+}
+
+void ViewWindow::say(const std::string& news)
+{
+  this->report(HapticViewerObserver::Kind::Note, news);
+  news_ = news;
+  this->showNote();
+}
+
+/// The scale as it is after all zooming, and the last news.
+void ViewWindow::showNote()
+{
+  const std::string scale =
+    describeScale(style_->GetModelTransform()->GetMatrix(), options_.unit, options_.metresPerUnit);
+  style_->SetStatusNote(news_.empty() ? scale : scale + "\n" + news_);
+}
+
+/// To the host and in the window.
+void ViewWindow::tell(const std::string& message)
+{
+  this->report(HapticViewerObserver::Kind::Error, message);
+  news_ = message;
+  this->showNote();
+}
+
+void ViewWindow::onModelChanged(void*)
+{
+  news_.clear();
+  scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
+  this->showNote();
+}
+
+/// New means may have what the picture waits for. What VTK classes complained of while the scene was made
+/// goes where the user looks.
+void ViewWindow::onSceneChanged(void*)
+{
+  scene_.meansChanged();
+  this->endAwaitingColors();
+  for (const std::string& error :
+    observer_.takeVtkErrors ? observer_.takeVtkErrors() : std::vector<std::string>())
+  {
+    this->tell(error);
+  }
+}
+
+bool ViewWindow::finish(std::string& message)
+{
+  isStarted_ = false;
+  loader_.cancel();
+  style_->StopUpdates();
+  if (observer_.rememberState)
+  {
+    observer_.rememberState(this->state());
+  }
+  servo_.stop();
+  style_->Refresh(); // the last ticks
+  this->letGo();
+  spaceMouse_.stop();
+  if (device_)
+  {
+    device_->close();
+  }
+  if (const std::string refusals = describeRefusals(servo_.statistics()); falcon_ && !refusals.empty())
+  {
+    this->report(HapticViewerObserver::Kind::Warning, refusals);
+  }
+  if (trace_.isOpen())
+  {
+    if (!trace_.close(message))
+    {
+      return false;
+    }
+    this->report(HapticViewerObserver::Kind::Note, "trace: " + options_.trace);
+  }
+  if (!options_.forceChart.empty())
+  {
+    if (!wholeChart_->WriteImage(options_.forceChart.c_str()))
+    {
+      message = fmt::format(
+        "{}: cannot be written; check that its folder exists and can be written", options_.forceChart);
+      return false;
+    }
+    this->report(HapticViewerObserver::Kind::Note, "force chart: " + options_.forceChart);
+  }
+  return true;
+}
+
+bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& message)
+{
+  if (!options_.trace.empty() && !trace_.open(options_.trace, message))
+  {
+    return false;
+  }
+  const bool hasWaited = isOpen_;
+  news_ = news;
+  this->setUpRendering();
+  if (!this->openDevice(message))
+  {
+    return false;
+  }
+  shown_ = options_.together || files_.empty() ? files_ : std::vector<std::string>{ files_[cloud] };
+  fileIndex_ = cloud;
+  watch_.watch(shown_);
+  this->connectStyle();
+  style_->UpdateModel();
+  window_->Render();
+  interactor_->Initialize();
+  if (!this->startServo(message))
+  {
+    return false;
+  }
+  isStarted_ = true;
+  style_->StartUpdates();
+  if (hasWaited)
+  {
+    this->forgiveEscape();
+  }
+  return true;
+}
+
+void ViewWindow::handleEvents()
+{
+  runEvents(interactor_);
+}
+
+} // namespace pointhaptics

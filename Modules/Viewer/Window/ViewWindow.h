@@ -1,0 +1,172 @@
+/// @file
+/// The viewer's window with the live touch: ViewWindow.cxx sets it up, runs it and closes it,
+/// ViewWindowActions.cxx does what the user asks of it.
+#pragma once
+
+#include "CloudLoader.h"
+#include "FileWatch.h"
+#include "HapticViewerOptions.h"
+#include "ViewScene.h"
+#include "ViewTouch.h"
+
+#include "vtkHapticChart.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticProgress.h"
+#include "vtkHapticSliders.h"
+#include "vtkInteractorStyleHaptic.h"
+
+#include "Devices/Falcon/FalconDevice.h"
+#include "Devices/Falcon/FalconNews.h"
+#include "Devices/PathReplay.h"
+#include "Devices/SimulatedDevice.h"
+#include "Devices/SpaceMouse/SpaceMouse.h"
+#include "Haptics/ServoLoop.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// Everything the window needs while it is open, which may be before there is a cloud. The servo loop stops
+/// before what it works on goes away.
+class ViewWindow
+{
+public:
+  /// Opens nothing yet. @p scene must outlive this. The user steps through @p files, if they are not shown
+  /// together.
+  ViewWindow(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
+    std::vector<std::string> files);
+  ~ViewWindow();
+  ViewWindow(const ViewWindow&) = delete;
+  ViewWindow& operator=(const ViewWindow&) = delete;
+
+  /// Opens the window, empty but for a bar, until @p loader has something to take; @p title names what it
+  /// reads. Again for the next cloud where one could not be read. False: the user closed the window or
+  /// pressed Escape, or the observer says stop.
+  bool awaitCloud(const CloudLoader& loader, const std::string& title);
+  /// Shows the scene, which must be built of file @p cloud, or of all of them, and @p news in its status
+  /// until there are others; opens the device and starts the servo loop. False: @p message says what failed.
+  bool start(std::size_t cloud, const std::string& news, std::string& message);
+  /// Handles events until the user closes the window.
+  void handleEvents();
+  /// After start(): stops the loop, closes the device, writes what was asked for. False: @p message says what
+  /// could not be written.
+  bool finish(std::string& message);
+  bool isStarted() const { return isStarted_; }
+  /// Writes what the window shows. False: @p message says why not.
+  bool writeImage(const std::string& fileName, std::string& message);
+
+  vtkRenderWindow* window() { return window_; }
+  vtkRenderWindowInteractor* interactor() { return interactor_; }
+  vtkInteractorStyleHaptic* style() { return style_; }
+
+private:
+  /// Files that are being read to be shown.
+  struct Loading
+  {
+    std::vector<std::string> files;
+    bool keepsModel = false;
+    std::function<void(bool isShown)> then; ///< Also after a cancel.
+    FileWatch watch;                        ///< From before the first byte was read.
+  };
+  void letGo();
+  void openWindow();
+  bool isCancelKey();
+  void showBar(const std::string& words, double part);
+  void setUpRendering();
+  bool openDevice(std::string& message);
+  void followDevices();
+  void openSimulated();
+  void openFalcon();
+  void onTimer();
+  bool startServo(std::string& message);
+  void connectStyle();
+  void observe(unsigned long event, void (ViewWindow::*handler)(void*));
+  void onSamples(void* callData);
+  void onFilesDropped(void* callData);
+  void onScreenshot(void*);
+  void onNextFile(void*);
+  void onPreviousFile(void*);
+  void onWriteSettings(void*);
+  void onAxes(void*);
+  void onFigure(void*);
+  void onColors(void*);
+  void onAmbient(void*);
+  void endAwaitingColors();
+  void showFigure(bool figure);
+  void onSlider(int slider);
+  void connectSliders();
+  void setContact(const ContactParameters& contact);
+  void showSliderValues();
+  void load(const std::vector<std::string>& files, bool keepsModel, std::function<void(bool)> then);
+  void followLoading();
+  void endLoading(bool isShown);
+  void cancelLoading();
+  void forgiveEscape();
+  void onKey();
+  void show(LoadedCloud cloud);
+  void showFile(std::size_t index);
+  void findIdeal();
+  HapticViewerState state();
+  void onModelChanged(void*);
+  void onSceneChanged(void*);
+  void showNote();
+  void tell(const std::string& message);
+  void say(const std::string& news);
+  void report(HapticViewerObserver::Kind kind, const std::string& message) const;
+  bool shouldStop() const { return observer_.shouldStop && observer_.shouldStop(); }
+
+  ViewScene& scene_;
+  HapticViewerOptions options_;
+  const HapticViewerObserver& observer_;
+  HapticParameters parameters_; ///< As the servo loop has them.
+  double voxelSize_ = 0.0;      ///< As the slider set it, metres; 0: as the options say.
+  std::vector<std::string> files_;
+  std::size_t fileIndex_ = 0;      ///< Of the last one that was asked for.
+  std::vector<std::string> shown_; ///< What the window shows: one of files_, or all together.
+  FileWatch watch_;
+  int sinceLook_ = 0;
+  Loading loading_; ///< While loader_ is busy.
+  /// Until then Escape is taken as meant for the bar that has just gone.
+  std::chrono::steady_clock::time_point escapeIsLate_;
+  bool isOpen_ = false;
+  bool isStarted_ = false;
+  int writtenSettings_ = 0;
+  vtkNew<vtkRenderWindow> window_;
+  vtkNew<vtkRenderWindowInteractor> interactor_;
+  vtkNew<vtkInteractorStyleHaptic> style_;
+  vtkNew<vtkHapticChart> chart_;
+  vtkNew<vtkHapticChart> wholeChart_; // for --force-chart
+  vtkNew<vtkHapticOverlay> overlay_;
+  vtkNew<vtkHapticSliders> sliders_;
+  vtkNew<vtkHapticProgress> progress_;
+  vtkNew<vtkRenderer> waiting_; // before the first cloud
+  vtkNew<vtkCallbackCommand> cancelKey_;
+  std::shared_ptr<IdealForce> wholeIdeal_; // for the same
+  TraceFile trace_;
+  int screenshots_ = 0;
+  bool chartBesideFigure_ = true; ///< Comes back when the figure goes.
+  std::string news_;              // last line of the status
+  std::string awaitedColors_;     ///< The news while colours are computed; empty: none are.
+  std::unique_ptr<SimulatedDevice> hand_;
+  std::unique_ptr<PathReplayDevice> replay_;
+  std::unique_ptr<FalconDevice> falcon_;
+  FalconNews falconNews_;
+  std::string spaceMouseMessage_; ///< As the user was told.
+  SpaceMouse spaceMouse_;
+  HapticDevice* device_ = nullptr;
+  CloudLoader loader_;
+  ServoLoop servo_; // last: destroyed, and so stopped, first
+};
+
+} // namespace pointhaptics

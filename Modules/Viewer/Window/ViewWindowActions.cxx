@@ -1,0 +1,412 @@
+#include "ViewWindow.h"
+
+#include "vtkKernelBandwidthFilter.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include <fmt/format.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkMatrix4x4.h>
+#include <vtkRenderer.h>
+#include <vtkStringArray.h>
+#include <vtkTransform.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Seconds; what is read sooner shows no bar.
+constexpr double kSilence = 0.2;
+constexpr const char* kAsSoonAsComputed = ", as soon as it is computed";
+constexpr auto kLateEscape = std::chrono::milliseconds(700);
+
+/// The first of STEM-001.EXTENSION, STEM-002.EXTENSION, ... after @p last that is not there yet.
+std::string freeFileName(const char* extension, int& last)
+{
+  std::string name;
+  std::error_code error;
+  do
+  {
+    name = fmt::format("pointhaptics-{:03}.{}", ++last, extension);
+  } while (std::filesystem::exists(name, error));
+  return name;
+}
+
+} // namespace
+
+void ViewWindow::onFilesDropped(void* callData)
+{
+  auto* names = static_cast<vtkStringArray*>(callData);
+  std::vector<std::string> files;
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    files.push_back(names->GetValue(i));
+  }
+  if (!files.empty())
+  {
+    this->load(options_.together ? files : std::vector<std::string>{ files.front() }, false,
+      [this, files](bool isShown)
+      {
+        if (isShown)
+        {
+          files_ = files;
+          fileIndex_ = 0;
+        }
+      });
+  }
+}
+
+/// Begins to read; what is being read already is given up.
+void ViewWindow::load(const std::vector<std::string>& files, bool keepsModel, std::function<void(bool)> then)
+{
+  loading_ = { files, keepsModel, std::move(then), FileWatch() };
+  loading_.watch.watch(files);
+  loader_.start(CloudRequest::of(files, options_));
+}
+
+/// At every call of the timer.
+void ViewWindow::followLoading()
+{
+  if (!loader_.busy())
+  {
+    return;
+  }
+  LoadedCloud cloud;
+  std::string message;
+  if (!loader_.take(cloud, message))
+  {
+    const std::string words = "reading " + titleOf(loading_.files);
+    if (loader_.seconds() > kSilence && progress_->SetProgress(words, loader_.progress()))
+    {
+      window_->SetWindowName(("PointHaptics: " + words).c_str());
+      interactor_->Render();
+    }
+    return;
+  }
+  if (message.empty())
+  {
+    this->show(std::move(cloud));
+  }
+  else
+  {
+    this->tell(message); // the window shows what it showed before
+  }
+  this->endLoading(message.empty());
+}
+
+void ViewWindow::endLoading(bool isShown)
+{
+  if (progress_->Hide())
+  {
+    window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
+    this->forgiveEscape();
+    interactor_->Render();
+  }
+  const Loading ended = std::move(loading_);
+  loading_ = Loading();
+  ended.then(isShown);
+}
+
+void ViewWindow::cancelLoading()
+{
+  loader_.cancel();
+  this->say(titleOf(loading_.files) + ": not read, it was cancelled; the former cloud stays");
+  this->endLoading(false);
+}
+
+void ViewWindow::forgiveEscape()
+{
+  escapeIsLate_ = std::chrono::steady_clock::now() + kLateEscape;
+}
+
+/// Escape while a file is read is for the reader, and does not reach the style.
+void ViewWindow::onKey()
+{
+  const char* key = interactor_->GetKeySym();
+  const bool isLate = std::chrono::steady_clock::now() < escapeIsLate_;
+  if (key && std::string(key) == "Escape" && (loader_.busy() || isLate))
+  {
+    if (loader_.busy())
+    {
+      this->cancelLoading();
+    }
+    cancelKey_->AbortFlagOn();
+  }
+}
+
+void ViewWindow::show(LoadedCloud cloud)
+{
+  const bool keepsModel = loading_.keepsModel;
+  std::string message;
+  scene_.open(std::move(cloud), options_);
+  shown_ = loading_.files;
+  watch_ = loading_.watch;
+  if (voxelSize_ > 0.0)
+  {
+    scene_.resampler()->SetVoxelSize(voxelSize_);
+  }
+  scene_.bandwidth()->SetRadiusScale(sliders_->GetValue(vtkHapticSliders::RadiusScale));
+  vtkNew<vtkMatrix4x4> model;
+  model->DeepCopy(keepsModel ? style_->GetModelTransform()->GetMatrix() : scene_.modelMatrix());
+  // From here on the window shows the new cloud, also where nothing of it lies in the workspace.
+  if (!scene_.build(options_, observer_, message))
+  {
+    this->tell(message);
+  }
+  double bounds[6];
+  scene_.getWorkspaceBounds(bounds);
+  style_->SetWorkspaceBounds(bounds);
+  style_->SetModelMatrix(model);
+  style_->SetResampler(scene_.resampler());
+  style_->SetComputeResiduals(scene_.wantsResiduals());
+  style_->UpdateModel();
+  scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
+  if (!keepsModel)
+  {
+    scene_.placeCamera();
+  }
+  window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
+  this->showSliderValues();
+  this->findIdeal();
+}
+
+/// The exact force for the chart, where the shown cloud is a shape that has one.
+void ViewWindow::findIdeal()
+{
+  const std::shared_ptr<IdealForce> ideal = idealFor(scene_, options_);
+  wholeIdeal_ = ideal ? std::make_shared<IdealForce>(*ideal) : nullptr;
+  style_->SetIdealForce(ideal ? [this, ideal](const Vec3& hip)
+      { return idealForce(*ideal, scene_, hip, parameters_.contact.stiffness); }
+                              : std::function<double(const Vec3&)>());
+}
+
+void ViewWindow::showFile(std::size_t index)
+{
+  if (options_.together || files_.size() < 2)
+  {
+    this->say("there is no other file");
+  }
+  else
+  {
+    // The next key goes on from here, not to a broken or cancelled file again.
+    fileIndex_ = index;
+    this->load({ files_[index] }, false,
+      [this, index](bool isShown)
+      {
+        if (isShown)
+        {
+          this->say(fmt::format("file {} of {}: {}", index + 1, files_.size(), scene_.title()));
+        }
+      });
+  }
+}
+
+void ViewWindow::onNextFile(void*)
+{
+  this->showFile((fileIndex_ + 1) % std::max<std::size_t>(1, files_.size()));
+}
+
+void ViewWindow::onPreviousFile(void*)
+{
+  const std::size_t count = std::max<std::size_t>(1, files_.size());
+  this->showFile((fileIndex_ + count - 1) % count);
+}
+
+HapticViewerState ViewWindow::state()
+{
+  HapticViewerState state;
+  const double* model = style_->GetModelTransform()->GetMatrix()->GetData();
+  std::copy_n(model, state.modelToWorkspace.size(), state.modelToWorkspace.begin());
+  scene_.getWorkspaceBounds(state.workspace.data());
+  state.voxelSize = voxelSize_;
+  state.contact = parameters_.contact;
+  state.radiusScale = sliders_->GetValue(vtkHapticSliders::RadiusScale);
+  vtkCamera* camera = scene_.renderer()->GetActiveCamera();
+  camera->GetPosition(&state.camera[0]);
+  camera->GetFocalPoint(&state.camera[3]);
+  camera->GetViewUp(&state.camera[6]);
+  state.pushPointer = style_->GetPushPointer();
+  state.axes = scene_.showsAxes();
+  state.figure = scene_.isFigure();
+  state.ambient = options_.ambient;
+  state.colorBy = options_.colorBy;
+  const int* size = window_->GetSize();
+  state.width = size[0];
+  state.height = size[1];
+  return state;
+}
+
+void ViewWindow::onWriteSettings(void*)
+{
+  if (!observer_.writeState)
+  {
+    return;
+  }
+  const std::string name = freeFileName("json", writtenSettings_);
+  std::string message;
+  if (observer_.writeState(this->state(), name, message))
+  {
+    this->say("settings: " + name);
+  }
+  else
+  {
+    this->tell(message);
+  }
+}
+
+void ViewWindow::connectSliders()
+{
+  sliders_->SetInteractor(interactor_);
+  this->showSliderValues();
+  vtkNew<vtkCallbackCommand> moved;
+  moved->SetClientData(this);
+  moved->SetCallback([](vtkObject*, unsigned long, void* window, void* slider)
+    { static_cast<ViewWindow*>(window)->onSlider(*static_cast<int*>(slider)); });
+  sliders_->AddObserver(vtkHapticSliders::ValueChangedEvent, moved);
+  style_->SetSliders(sliders_);
+}
+
+void ViewWindow::showSliderValues()
+{
+  double voxel[3];
+  scene_.getVoxel(voxel);
+  sliders_->SetValue(vtkHapticSliders::Stiffness, parameters_.contact.stiffness);
+  sliders_->SetValue(vtkHapticSliders::Friction, parameters_.contact.dynamicFriction);
+  sliders_->SetValue(vtkHapticSliders::RadiusScale, scene_.bandwidth()->GetRadiusScale());
+  sliders_->SetValue(vtkHapticSliders::VoxelSize, 1e3 * std::cbrt(voxel[0] * voxel[1] * voxel[2]));
+}
+
+void ViewWindow::onSlider(int slider)
+{
+  const double value = sliders_->GetValue(slider);
+  ContactParameters contact = parameters_.contact;
+  switch (slider)
+  {
+    case vtkHapticSliders::Stiffness:
+      contact.stiffness = value;
+      this->setContact(contact);
+      break;
+    case vtkHapticSliders::Friction:
+      contact.dynamicFriction = value;
+      contact.staticFriction = std::max(value, options_.haptics.contact.staticFriction);
+      this->setContact(contact);
+      break;
+    case vtkHapticSliders::RadiusScale:
+      scene_.bandwidth()->SetRadiusScale(value);
+      style_->InvalidateModel();
+      break;
+    default:
+      voxelSize_ = 1e-3 * value;
+      scene_.resampler()->SetVoxelSize(voxelSize_);
+      style_->SetRefinesNearHand(false); // whoever chooses voxels feels these
+      style_->InvalidateModel();
+  }
+}
+
+/// A device may refuse what it cannot render: then everything stays as it was, and the window says why.
+void ViewWindow::setContact(const ContactParameters& contact)
+{
+  HapticParameters parameters = parameters_;
+  parameters.contact = contact;
+  std::string message;
+  const Status status = device_ ? servo_.setParameters(parameters, &message) : parameters.check();
+  if (status == Status::Ok)
+  {
+    parameters_ = parameters;
+    return;
+  }
+  this->showSliderValues();
+  this->tell(message.empty() ? pointhaptics::message(status) : message);
+}
+
+void ViewWindow::onAxes(void*)
+{
+  scene_.showAxes(!scene_.showsAxes());
+  scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
+}
+
+void ViewWindow::onFigure(void*)
+{
+  this->showFigure(!scene_.isFigure());
+}
+
+/// The next of what the cloud can be coloured by.
+void ViewWindow::onColors(void*)
+{
+  const std::vector<std::string> choices = scene_.colorChoices();
+  const auto shown = std::find(choices.begin(), choices.end(), scene_.colorBy());
+  const std::size_t place = shown == choices.end() ? 0 : std::size_t(shown - choices.begin());
+  const std::string& next = choices[(place + 1) % choices.size()];
+  // Another file may have no colours: they are what comes of itself.
+  options_.colorBy = next == "rgb" ? std::string() : next;
+  const bool waits = scene_.setColorBy(options_.colorBy);
+  style_->SetComputeResiduals(scene_.wantsResiduals());
+  if (waits)
+  {
+    style_->InvalidateModel();
+  }
+  this->say("coloured by " + next + (waits ? kAsSoonAsComputed : ""));
+  awaitedColors_ = waits ? news_ : std::string();
+}
+
+/// Colours that were waited for are there: what the status says of them must not stay.
+void ViewWindow::endAwaitingColors()
+{
+  if (awaitedColors_.empty() || scene_.awaitsColors())
+  {
+    return;
+  }
+  if (news_ == awaitedColors_)
+  {
+    this->say(news_.substr(0, news_.size() - std::string(kAsSoonAsComputed).size()));
+  }
+  awaitedColors_.clear();
+}
+
+void ViewWindow::onAmbient(void*)
+{
+  options_.ambient = !options_.ambient;
+  scene_.showAmbient(options_.ambient);
+  style_->SetComputeNormals(options_.ambient);
+}
+
+/// Texts, chart and sliders go; help, chart and sliders that the user opens in the figure are shown.
+void ViewWindow::showFigure(bool figure)
+{
+  scene_.showFigure(figure);
+  scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
+  overlay_->SetTextVisibility(!figure);
+  if (figure)
+  {
+    overlay_->SetHelpVisibility(false);
+    sliders_->SetVisibility(false);
+    chartBesideFigure_ = chart_->GetVisibility();
+  }
+  style_->SetChartVisibility(!figure && chartBesideFigure_);
+}
+
+bool ViewWindow::writeImage(const std::string& fileName, std::string& message)
+{
+  scene_.detail().showAllOnce();
+  window_->Render();
+  return writePicture(window_, fileName, message);
+}
+
+void ViewWindow::onScreenshot(void*)
+{
+  const std::string name = freeFileName("png", screenshots_);
+  std::string message;
+  say(this->writeImage(name, message) ? "screenshot: " + name : message);
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,212 @@
+#include "HapticViewer.h"
+
+#include "ViewDisplay.h"
+#include "vtkInteractorStyleHaptic.h"
+
+#include <gtest/gtest.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+constexpr int kPoints = 20000;
+
+/// Evenly on a sphere of radius 1 about the origin.
+vtkSmartPointer<vtkPolyData> makeSphere()
+{
+  const double golden = 2.399963229728653;
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < kPoints; ++i)
+  {
+    const double z = 1.0 - (2.0 * i + 1.0) / kPoints;
+    const double ring = std::sqrt(1.0 - z * z);
+    points->InsertNextPoint(ring * std::cos(golden * i), ring * std::sin(golden * i), z);
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  return cloud;
+}
+
+class HapticViewerTest : public ::testing::Test
+{
+protected:
+  HapticViewerTest()
+    : folder_(std::filesystem::temp_directory_path() / ("HapticViewerTest-" + std::to_string(getpid())))
+  {
+    std::filesystem::create_directories(folder_);
+    options_.width = 160;
+    options_.height = 120;
+    observer_.message = [this](HapticViewerObserver::Kind kind, const std::string& text)
+    { (kind == HapticViewerObserver::Kind::Warning ? warnings_ : notes_).push_back(text); };
+  }
+  ~HapticViewerTest() override
+  {
+    std::error_code error;
+    std::filesystem::remove_all(folder_, error);
+  }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string writeCloud(const std::string& name, int rows) const
+  {
+    std::ofstream file(this->path(name));
+    file << "x,y,z\n";
+    for (int i = 0; i < rows; ++i)
+    {
+      file << 0.01 * (i % 100) << ',' << 0.01 * (i / 100) << ",0\n";
+    }
+    return this->path(name);
+  }
+
+  std::filesystem::path folder_;
+  HapticViewerOptions options_;
+  HapticViewerObserver observer_;
+  std::vector<std::string> warnings_;
+  std::vector<std::string> notes_;
+};
+
+TEST_F(HapticViewerTest, ShowsPointsOfItsHostAndLeavesThemAsTheyAre)
+{
+  const vtkSmartPointer<vtkPolyData> sphere = makeSphere();
+  HapticViewer viewer(options_, observer_);
+  EXPECT_EQ(viewer.means(), nullptr);
+  ASSERT_TRUE(viewer.open(sphere, "sphere")) << viewer.message();
+  EXPECT_EQ(viewer.numberOfPoints(), kPoints);
+  EXPECT_EQ(viewer.scaleNote(), "scale 0.045 (1 m of the cloud is 45 mm in the hand)");
+  ASSERT_NE(viewer.means(), nullptr);
+  EXPECT_GT(viewer.means()->GetNumberOfPoints(), kPoints / 2);
+  EXPECT_EQ(sphere->GetPointData()->GetNumberOfArrays(), 0);
+  // Nothing is printed or said of what goes well.
+  EXPECT_TRUE(warnings_.empty());
+  EXPECT_TRUE(notes_.empty());
+}
+
+TEST_F(HapticViewerTest, TakesTheLatticeFromItsOptions)
+{
+  options_.fitsWorkspace = false;
+  options_.transform = AffineTransform::scaling({ 0.01, 0.01, 0.01 });
+  options_.workspace.include({ -0.02, -0.02, 0.0 });
+  options_.workspace.include({ 0.02, 0.02, 0.02 });
+  options_.voxelSize = 0.002;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  double bounds[6];
+  viewer.means()->GetBounds(bounds);
+  EXPECT_GE(bounds[4], 0.0); // the upper half
+  EXPECT_NEAR(bounds[5], 0.01, 2e-4);
+  EXPECT_LT(viewer.means()->GetNumberOfPoints(), 400);
+}
+
+TEST_F(HapticViewerTest, SaysWhyNothingCanBeShown)
+{
+  HapticViewer viewer(options_, observer_);
+  EXPECT_FALSE(viewer.renderToFile(this->path("early.png")));
+  EXPECT_EQ(viewer.message(), "no cloud is open; open one first");
+  EXPECT_FALSE(viewer.run());
+  EXPECT_FALSE(viewer.feelPath());
+  EXPECT_TRUE(viewer.stop()); // nothing runs
+  EXPECT_FALSE(viewer.open(std::vector<std::string>()));
+  EXPECT_EQ(viewer.message(), "no file is named; give one");
+  EXPECT_FALSE(viewer.open(nullptr, "mine"));
+  EXPECT_EQ(viewer.message(), "mine: holds no points; give a cloud with at least one");
+  EXPECT_FALSE(viewer.open({ this->path("missing.ply") }));
+  EXPECT_NE(viewer.message().find("missing.ply"), std::string::npos) << viewer.message();
+  EXPECT_FALSE(viewer.isCancelled());
+}
+
+TEST_F(HapticViewerTest, NamesWhatLeavesTheCloudOutOfTheWorkspaceInTheHostsWords)
+{
+  options_.fitsWorkspace = false;
+  options_.workspace.include({ 5.0, 5.0, 5.0 });
+  options_.workspace.include({ 6.0, 6.0, 6.0 });
+  options_.names.placement = "the box in the dialog";
+  HapticViewer viewer(options_, observer_);
+  EXPECT_FALSE(viewer.open(makeSphere()));
+  EXPECT_NE(viewer.message().find("leave out the box in the dialog to fit"), std::string::npos)
+    << viewer.message();
+}
+
+TEST_F(HapticViewerTest, SkipsFilesThatCannotBeReadWithAWarning)
+{
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open({ this->path("missing.ply"), this->writeCloud("plane.csv", 500) }))
+    << viewer.message();
+  EXPECT_EQ(viewer.numberOfPoints(), 500);
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_EQ(warnings_[0].rfind("skipped: ", 0), 0u) << warnings_[0];
+}
+
+TEST_F(HapticViewerTest, EndsReadingWhenItsHostSaysStop)
+{
+  observer_.shouldStop = [] { return true; };
+  HapticViewer viewer(options_, observer_);
+  EXPECT_FALSE(viewer.open({ this->writeCloud("large.csv", 400000) }));
+  EXPECT_TRUE(viewer.isCancelled()) << viewer.message();
+}
+
+TEST_F(HapticViewerTest, WritesPicturesOffTheScreen)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("first.png"))) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("second.png"))) << viewer.message();
+  EXPECT_GT(std::filesystem::file_size(this->path("first.png")), 2000u);
+  EXPECT_EQ(std::filesystem::file_size(this->path("first.png")),
+    std::filesystem::file_size(this->path("second.png")));
+  EXPECT_EQ(notes_.size(), 2u);
+  EXPECT_FALSE(viewer.renderToFile(this->path("no/folder.png")));
+  EXPECT_NE(viewer.message().find("no/folder.png: cannot be written"), std::string::npos);
+}
+
+TEST_F(HapticViewerTest, RunsInTheEventLoopOfItsHost)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.device = HapticViewerDevice::Simulated;
+  options_.trace = this->path("trace.csv");
+  HapticViewerState last;
+  observer_.rememberState = [&last](const HapticViewerState& state) { last = state; };
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  viewer.style()->ZoomModel(2.0);
+  for (int i = 0; i < 3; ++i)
+  {
+    int timer = 1;
+    viewer.interactor()->InvokeEvent(vtkCommand::TimerEvent, &timer);
+  }
+  ASSERT_TRUE(viewer.renderToFile(this->path("window.png"))) << viewer.message();
+  ASSERT_TRUE(viewer.stop()) << viewer.message();
+  EXPECT_TRUE(viewer.stop()); // again
+  EXPECT_NEAR(last.modelToWorkspace[0], 0.09, 1e-5);
+  EXPECT_EQ(last.width, 160);
+  EXPECT_TRUE(std::filesystem::exists(this->path("window.png")));
+  EXPECT_TRUE(std::filesystem::exists(this->path("trace.csv")));
+}
+
+} // namespace
