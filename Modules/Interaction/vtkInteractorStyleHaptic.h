@@ -69,6 +69,7 @@
 #include "vtkCommand.h"                    // For UserEvent
 #include "vtkInteractorStyleTrackballCamera.h"
 
+#include <cstdint>    // For the number of builds
 #include <functional> // For the ideal force
 #include <memory>     // For Internals
 #include <string>     // For the status note
@@ -86,7 +87,10 @@ class vtkVoxelMeanResampler;
 
 namespace pointhaptics
 {
+class HapticScene;
 class ServoLoop;
+struct BuiltScene;
+struct SceneRequest;
 struct ServoSample;
 class SimulatedDevice;
 class SpaceMouse;
@@ -192,6 +196,13 @@ public:
   vtkTransform* GetModelTransform();
   ///@}
 
+  /**
+   * The same for a model whose scene was made elsewhere, with the settings of the given filters, and whose
+   * means are the output of the last of these: it is felt and shown without being resampled. Null: there is
+   * no point in the workspace.
+   */
+  void AdoptModel(vtkMatrix4x4* matrix, std::shared_ptr<const pointhaptics::HapticScene> scene);
+
   ///@{
   /**
    * Change the model: turn about an axis of the workspace through its centre (degrees, right-handed), shift
@@ -223,6 +234,11 @@ public:
    */
   bool UpdateModel();
   bool IsModelChanged() const;
+
+  /**
+   * How often the cloud was resampled by this style's worker.
+   */
+  std::uint64_t GetNumberOfBuilds() const;
 
   ///@{
   /**
@@ -340,8 +356,10 @@ private:
   void PreviewModel();
   void StopBuilding();
   void SendCloud();
+  pointhaptics::SceneRequest MakeRequest();
   void RequestScene();
   bool ShowScene();
+  void ShowBuilt(const pointhaptics::BuiltScene& built);
   void DragModel();
   void DragHand();
   void Wheel(int direction);

@@ -141,12 +141,9 @@ void vtkInteractorStyleHaptic::SendCloud()
   parts.worker.setCloud(std::move(copy));
 }
 
-void vtkInteractorStyleHaptic::RequestScene()
+SceneRequest vtkInteractorStyleHaptic::MakeRequest()
 {
   Internals& parts = *this->Parts;
-  parts.modelChanged = false;
-  this->SendCloud();
-  this->MoveScene();
   SceneRequest request = SceneRequest::of(parts.resampler, parts.bandwidth);
   std::copy_n(parts.model->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
   request.useCovariance = this->UseCovariance;
@@ -157,7 +154,49 @@ void vtkInteractorStyleHaptic::RequestScene()
   request.publish = [publisher = &parts.publisher, cloud = parts.publisher.cloud()](
                       std::shared_ptr<const pointhaptics::HapticScene> scene, std::uint64_t number)
   { publisher->publish(std::move(scene), cloud, number); };
-  parts.requested = parts.worker.request(std::move(request));
+  return request;
+}
+
+void vtkInteractorStyleHaptic::RequestScene()
+{
+  Internals& parts = *this->Parts;
+  parts.modelChanged = false;
+  this->SendCloud();
+  this->MoveScene();
+  parts.requested = parts.worker.request(this->MakeRequest());
+}
+
+void vtkInteractorStyleHaptic::AdoptModel(
+  vtkMatrix4x4* matrix, std::shared_ptr<const pointhaptics::HapticScene> scene)
+{
+  Internals& parts = *this->Parts;
+  if (!parts.resampler)
+  {
+    this->SetModelMatrix(matrix);
+    return;
+  }
+  parts.initial->DeepCopy(matrix);
+  parts.model->SetMatrix(matrix);
+  parts.history.clear();
+  parts.modelChanged = false;
+  this->ForgetPicked();
+  this->SendCloud();
+  this->MoveScene();
+  BuiltScene built;
+  std::copy_n(matrix->GetData(), 16, built.modelToWorkspace.begin());
+  built.means = shownCloud(parts.resampler, parts.bandwidth);
+  auto* cloud = vtkPointSet::SafeDownCast(parts.resampler->GetInputDataObject(0, 0));
+  built.numberOfPoints = cloud ? cloud->GetNumberOfPoints() : 0;
+  built.empty = scene == nullptr;
+  parts.requested = parts.worker.adopt(this->MakeRequest(), std::move(scene));
+  built.number = parts.requested;
+  this->ShowBuilt(built);
+  this->InvokeEvent(ModelChangedEvent);
+}
+
+std::uint64_t vtkInteractorStyleHaptic::GetNumberOfBuilds() const
+{
+  return this->Parts->worker.numberOfBuilds();
 }
 
 /// What the worker has made becomes the output of the filters that the program knows, as if they had run.
@@ -165,10 +204,17 @@ bool vtkInteractorStyleHaptic::ShowScene()
 {
   Internals& parts = *this->Parts;
   BuiltScene built;
-  if (!parts.worker.take(built))
+  const bool isNew = parts.worker.take(built);
+  if (isNew)
   {
-    return false;
+    this->ShowBuilt(built);
   }
+  return isNew;
+}
+
+void vtkInteractorStyleHaptic::ShowBuilt(const BuiltScene& built)
+{
+  Internals& parts = *this->Parts;
   parts.shown = built.number;
   parts.sceneEmpty = built.empty;
   parts.numberOfPoints = built.numberOfPoints;
@@ -180,7 +226,10 @@ bool vtkInteractorStyleHaptic::ShowScene()
   }
   parts.resampled->SetMatrix(built.modelToWorkspace.data());
   vtkPolyData* shown = shownCloud(parts.resampler, parts.bandwidth);
-  shown->ShallowCopy(built.means);
+  if (shown != built.means)
+  {
+    shown->ShallowCopy(built.means);
+  }
   vtkMapper* mapper = parts.cloudActor ? parts.cloudActor->GetMapper() : nullptr;
   if (mapper && mapper->GetInputDataObject(0, 0) == shown)
   {
@@ -189,5 +238,4 @@ bool vtkInteractorStyleHaptic::ShowScene()
   this->PreviewModel();
   parts.rendersWanted = true;
   this->InvokeEvent(SceneChangedEvent);
-  return true;
 }

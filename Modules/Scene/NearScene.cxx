@@ -64,16 +64,18 @@ std::shared_ptr<const HapticScene> NearSceneBuilder::build(
   const SceneRequest& request, std::shared_ptr<const HapticScene> whole)
 {
   const Bounds hand = request.hand ? request.hand() : Bounds();
-  if (hand.empty() || !this->prepare(request) || !whole)
+  if (hand.empty() || !whole || !this->prepare(request))
   {
     return nullptr;
   }
   std::optional<ScenePart> part =
     ScenePart::about(hand, std::move(whole), voxels_.transform, voxels_.lattice);
-  if (!part || part->share() > kMostNear)
+  if (!part || part->share() > kMostNear || !this->index())
   {
     return nullptr;
   }
+  voxels_.points = index_->points();
+  voxels_.index = index_.get();
   voxels_.part = part->voxels();
   if (engine_.run(voxels_, smp_) != Status::Ok || engine_.size() == 0)
   {
@@ -138,7 +140,7 @@ bool NearSceneBuilder::index()
   return index_ != nullptr;
 }
 
-/// What to resample, the part aside. False: there is nothing, or the lattice hangs on the whole cloud.
+/// What to resample, points and part aside. False: there is nothing, or the lattice hangs on the whole cloud.
 bool NearSceneBuilder::prepare(const SceneRequest& request)
 {
   for (const SceneRequest::Setting& setting : request.settings)
@@ -146,10 +148,6 @@ bool NearSceneBuilder::prepare(const SceneRequest& request)
     setting(resampler_, bandwidth_);
   }
   if (!cloud_ || cloud_->GetNumberOfPoints() == 0 || resampler_->GetAutomaticWorkspace())
-  {
-    return false;
-  }
-  if (!this->index())
   {
     return false;
   }
@@ -164,8 +162,6 @@ bool NearSceneBuilder::prepare(const SceneRequest& request)
   }
   const int precision = resampler_->GetOutputPointsPrecision();
   voxels_ = VoxelRequest();
-  voxels_.points = index_->points();
-  voxels_.index = index_.get();
   voxels_.transform = affineFromRows(request.modelToWorkspace);
   voxels_.singlePrecision = precision == vtkAlgorithm::DEFAULT_PRECISION
     ? cloud_->GetPoints()->GetDataType() == VTK_FLOAT

@@ -23,7 +23,7 @@ namespace pointhaptics
 
 /// Resamples the cloud about the hand and makes a scene of that (ScenePart); it looks at the points there
 /// only, which it finds by a PointIndex of its own. Objects are used by one thread at a time.
-class NearSceneBuilder
+class POINTHAPTICSSCENE_EXPORT NearSceneBuilder
 {
 public:
   NearSceneBuilder();
@@ -44,6 +44,9 @@ public:
   /// then.
   std::shared_ptr<const HapticScene> refine(
     const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole);
+
+  /// Whether the points are indexed by now: not before a scene is made of them.
+  bool isIndexed() const { return index_ != nullptr; }
 
 private:
   bool index();

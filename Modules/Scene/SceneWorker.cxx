@@ -233,6 +233,8 @@ struct SceneWorker::Implementation
   Builder near;
   std::uint64_t number = 0;
   std::uint64_t cloudNumber = 0;
+  std::uint64_t adopted = 0; // the newest request that is not built here; what was begun before is dropped
+  std::uint64_t builds = 0;
   std::shared_ptr<const HapticScene> newestWhole; // of this cloud
   std::shared_ptr<const Resting> resting;         // while no request follows, if it refines
   Handed<BuiltScene> finished;
@@ -329,7 +331,9 @@ void SceneWorker::Implementation::buildWholes()
     std::shared_ptr<const HapticScene> scene = pipeline.feel(job->request, built);
     {
       const std::lock_guard<std::mutex> lock(this->mutex);
-      this->newestWhole = job->cloudNumber == this->cloudNumber ? scene : this->newestWhole;
+      ++this->builds;
+      const bool isOurs = job->cloudNumber == this->cloudNumber && job->number > this->adopted;
+      this->newestWhole = isOurs ? scene : this->newestWhole;
     }
     if (job->request.publish)
     {
@@ -346,7 +350,10 @@ void SceneWorker::Implementation::buildWholes()
     pipeline.show(job->request, built);
     shown = Clock::now();
     const std::lock_guard<std::mutex> lock(this->mutex);
-    this->finished.emplace(std::move(built));
+    if (job->number > this->adopted)
+    {
+      this->finished.emplace(std::move(built));
+    }
   }
 }
 
@@ -439,6 +446,40 @@ std::uint64_t SceneWorker::request(SceneRequest request)
   }
   self.changed.notify_all();
   return number;
+}
+
+std::uint64_t SceneWorker::adopt(SceneRequest request, std::shared_ptr<const HapticScene> scene)
+{
+  Implementation& self = *implementation_;
+  Job job{};
+  {
+    const std::lock_guard<std::mutex> lock(self.mutex);
+    self.near.waiting.reset();
+    self.whole.waiting.reset();
+    self.resting.reset();
+    self.finished.reset();
+    self.newestWhole = scene;
+    self.adopted = ++self.number;
+    job.number = self.number;
+    job.cloudNumber = self.cloudNumber;
+  }
+  if (request.hand)
+  {
+    self.start(self.near, &Implementation::buildNear);
+  }
+  if (request.publish)
+  {
+    request.publish(scene, job.number);
+  }
+  job.request = std::move(request);
+  self.rest(job, scene);
+  return job.number;
+}
+
+std::uint64_t SceneWorker::numberOfBuilds() const
+{
+  const std::lock_guard<std::mutex> lock(implementation_->mutex);
+  return implementation_->builds;
 }
 
 bool SceneWorker::take(BuiltScene& built)

@@ -72,9 +72,9 @@ struct BuiltScene
 /// first: new voxels are felt before the whole cloud is resampled. While the model rests it looks at the hand
 /// 100 times a second, if the newest request says so, and makes finer scenes of where that comes.
 ///
-/// request(), setCloud(), take(), wait() and cancel() from one thread (the GUI's), which waits in the last
-/// two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and what one
-/// side hands over it lets go of.
+/// request(), adopt(), setCloud(), take(), wait() and cancel() from one thread (the GUI's), which waits in
+/// the last two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and
+/// what one side hands over it lets go of.
 class POINTHAPTICSSCENE_EXPORT SceneWorker
 {
 public:
@@ -90,6 +90,13 @@ public:
   void setCloud(vtkSmartPointer<vtkPointSet> cloud);
   /// @return the request's number.
   std::uint64_t request(SceneRequest request);
+  /// A scene of the cloud that was made elsewhere as @p request would make it, or null where there was
+  /// nothing in the workspace, takes the place of what would be built: it is published at once and may be
+  /// refined. What is in flight still is dropped, and nothing of it can be taken. @return the request's
+  /// number.
+  std::uint64_t adopt(SceneRequest request, std::shared_ptr<const HapticScene> scene);
+  /// How often the whole cloud was resampled.
+  std::uint64_t numberOfBuilds() const;
   /// The newest finished build that was not taken yet. False: there is none.
   bool take(BuiltScene& built);
   /// Whether a build is in flight or waits.

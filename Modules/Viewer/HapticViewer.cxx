@@ -6,6 +6,7 @@
 #include "ViewScene.h"
 #include "ViewWindow.h"
 
+#include "vtkInteractorStyleHaptic.h"
 #include "vtkKernelBandwidthFilter.h"
 
 #include <fmt/format.h>
@@ -84,6 +85,7 @@ struct HapticViewer::Implementation
   bool isDrawable();
   bool await(const CloudLoader& loader, const std::string& title);
   bool awaitWithoutWindow(const CloudLoader& loader);
+  bool read(CloudRequest request, LoadedCloud& loaded);
   bool readFirst(LoadedCloud& loaded);
   bool show(LoadedCloud loaded);
   void skip(const std::string& title);
@@ -156,43 +158,53 @@ void HapticViewer::Implementation::skip(const std::string& title)
   }
 }
 
+/// In the loader's thread, without a word of what fails.
+bool HapticViewer::Implementation::read(CloudRequest request, LoadedCloud& loaded)
+{
+  request.makesScene = this->options.showsReading || !this->options.path.empty();
+  const std::string title = request.name();
+  CloudLoader loader;
+  loader.start(std::move(request));
+  if (!this->await(loader, title))
+  {
+    return false;
+  }
+  loader.take(loaded, this->message);
+  return this->message.empty();
+}
+
 /// Reads cloud after cloud until one can be shown.
 bool HapticViewer::Implementation::readFirst(LoadedCloud& loaded)
 {
   const std::size_t count = this->options.together ? 1 : this->files.size();
-  CloudLoader loader;
   this->news.clear();
   for (this->cloud = 0; this->cloud < count; ++this->cloud)
   {
     const std::vector<std::string> shown =
       this->options.together ? this->files : std::vector<std::string>{ this->files[this->cloud] };
-    const std::string title = titleOf(shown);
-    loader.start(CloudRequest::of(shown, this->options));
-    if (!this->await(loader, title))
-    {
-      return false;
-    }
-    loader.take(loaded, this->message);
-    if (this->message.empty())
+    if (this->read(CloudRequest::of(shown, this->options), loaded))
     {
       return true;
     }
-    if (count == 1)
+    if (this->isCancelled || count == 1)
     {
       return false;
     }
-    this->skip(title);
+    this->skip(titleOf(shown));
   }
   return this->fail(fmt::format("none of the {} files can be shown; mend one of them, see above", count));
 }
 
 bool HapticViewer::Implementation::show(LoadedCloud loaded)
 {
-  this->scene.open(std::move(loaded), this->options);
   this->felt.reset();
-  const Stopwatch building;
-  this->isOpen = this->scene.build(this->options, this->observer, this->message);
-  this->resampleSeconds = building.seconds();
+  this->resampleSeconds = loaded.resampleSeconds;
+  this->readSeconds -= loaded.resampleSeconds;
+  this->isOpen = this->scene.open(std::move(loaded), this->options, this->message);
+  // What VTK classes complained of comes first: it may be why.
+  const std::vector<std::string> errors =
+    this->observer.takeVtkErrors ? this->observer.takeVtkErrors() : std::vector<std::string>();
+  this->isOpen = errors.empty() ? this->isOpen : this->fail(errors.front());
   return this->isOpen;
 }
 
@@ -234,10 +246,11 @@ bool HapticViewer::open(vtkPolyData* cloud, const std::string& title)
   points->SetPoints(cloud->GetPoints());
   points->GetPointData()->ShallowCopy(cloud->GetPointData());
   points->GetFieldData()->ShallowCopy(cloud->GetFieldData());
+  CloudRequest request = CloudRequest::of({}, self.options);
+  request.points = std::move(points);
+  request.title = title;
   LoadedCloud loaded;
-  const bool isReady = prepareCloud(
-    CloudRequest::of({}, self.options), std::move(points), title, std::string(), [](double) { return true; },
-    loaded, self.message);
+  const bool isReady = self.read(std::move(request), loaded);
   self.readSeconds = reading.seconds();
   return isReady && self.show(std::move(loaded));
 }
@@ -345,6 +358,13 @@ double HapticViewer::readSeconds() const
 double HapticViewer::resampleSeconds() const
 {
   return implementation_->resampleSeconds;
+}
+
+std::uint64_t HapticViewer::numberOfResamplings() const
+{
+  const std::unique_ptr<ViewWindow>& window = implementation_->window;
+  return std::uint64_t(implementation_->scene.resamplings()) +
+    (window ? window->style()->GetNumberOfBuilds() : 0);
 }
 
 } // namespace pointhaptics

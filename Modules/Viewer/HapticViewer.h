@@ -8,6 +8,7 @@
 
 #include "vtkType.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -94,6 +95,10 @@ public:
   double readSeconds() const;
   double resampleSeconds() const;
   ///@}
+  /// How often clouds were resampled since this viewer was made, in whatever thread: once for each that was
+  /// shown, and once for each place the model was moved to (not for each motion). Scenes of what is near the
+  /// hand do not count; further tries do, where 300 voxels on an axis tell too little of a cloud.
+  std::uint64_t numberOfResamplings() const;
 
 private:
   struct Implementation;

@@ -1,5 +1,6 @@
 #include "ViewScene.h"
 
+#include "ResampledCloud.h"
 #include "ScaleNote.h"
 
 #include "CloudAppearance.h"
@@ -42,8 +43,6 @@ namespace pointhaptics
 namespace
 {
 
-/// Part of the workspace's edge a fitted cloud takes: the hand needs room to reach it from every side.
-constexpr double kFittedPart = 0.9;
 /// Scales for applyDepthShading() in edges of the workspace; photographed colours show the shape themselves.
 constexpr double kDepthShadingScale = 0.03;
 constexpr double kDepthShadingScaleOfColors = 0.08;
@@ -53,125 +52,13 @@ constexpr double kDepthToleranceOfColors = 0.015;
 constexpr double kSmallestSphere = 0.022;
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
 constexpr double kFacingEnough = 0.25;
-/// HapticViewerObserver::progress() is told 1 once, at the end.
-constexpr double kAlmostDone = 0.999;
-
-void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
-{
-  matrix->Identity();
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      matrix->SetElement(row, column, transform.m[row][column]);
-    }
-  }
-}
-
-/// The lattice the resampler chose, from its output's field data.
-Bounds latticeBounds(vtkPolyData* output, const Bounds& otherwise)
-{
-  vtkFieldData* field = output->GetFieldData();
-  vtkDataArray* origin = field->GetArray("LatticeOrigin");
-  vtkDataArray* spacing = field->GetArray("LatticeSpacing");
-  vtkDataArray* dimensions = field->GetArray("LatticeDimensions");
-  Bounds bounds;
-  if (!origin || !spacing || !dimensions)
-  {
-    return otherwise;
-  }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    bounds.minimum[axis] = origin->GetVariantValue(axis).ToDouble();
-    bounds.maximum[axis] = bounds.minimum[axis] +
-      spacing->GetVariantValue(axis).ToDouble() * dimensions->GetVariantValue(axis).ToDouble();
-  }
-  return bounds;
-}
-
-/// What @p options say of workspace and voxels; the rest is as it was.
-void configure(vtkVoxelMeanResampler* resampler, const HapticViewerOptions& options)
-{
-  if (const Bounds& box = options.workspace; !box.empty())
-  {
-    const double bounds[6] = { box.minimum.x, box.maximum.x, box.minimum.y, box.maximum.y, box.minimum.z,
-      box.maximum.z };
-    resampler->SetWorkspaceBounds(bounds);
-  }
-  if (const std::vector<int>& n = options.dimensions; !n.empty())
-  {
-    const bool three = n.size() == 3;
-    resampler->SetDimensions(n[0], n[three ? 1 : 0], n[three ? 2 : 0]);
-  }
-  if (options.voxelSize > 0.0)
-  {
-    resampler->SetVoxelSize(options.voxelSize);
-  }
-}
-
-void configure(vtkKernelBandwidthFilter* filter, const LocalBandwidthSettings& settings)
-{
-  filter->SetNeighborhood(
-    settings.fixedRadius ? vtkKernelBandwidthFilter::FixedRadius : vtkKernelBandwidthFilter::KNearest);
-  filter->SetNumberOfNeighbors(settings.numberOfNeighbors);
-  filter->SetRadius(settings.radius);
-  filter->SetRule(int(settings.rule));
-  filter->SetRadiusScale(settings.radiusScale);
-  filter->SetMinimumRadius(settings.minimumRadius);
-  filter->SetMaximumRadius(settings.maximumRadius);
-  filter->SetSmoothRadius(settings.smoothRadius);
-  filter->SetUsePointCounts(settings.usePointCounts);
-}
-
-/// False: @p message is the first error of any VTK class during the update, or says that it was stopped.
-bool updateFilter(vtkAlgorithm* filter, const HapticViewerObserver& observer, std::string& message)
-{
-  constexpr const char* kWork = "resampling";
-  struct Follower
-  {
-    vtkAlgorithm* filter;
-    const HapticViewerObserver& observer;
-    bool stops = false;
-  } follower{ filter, observer };
-  vtkNew<vtkCallbackCommand> progress;
-  progress->SetClientData(&follower);
-  progress->SetCallback(
-    [](vtkObject*, unsigned long, void* client, void* part)
-    {
-      auto& self = *static_cast<Follower*>(client);
-      if (self.observer.shouldStop && self.observer.shouldStop())
-      {
-        self.stops = true;
-        self.filter->SetAbortExecute(1);
-      }
-      if (part && self.observer.progress)
-      {
-        self.observer.progress(kWork, std::min(*static_cast<double*>(part), kAlmostDone));
-      }
-    });
-  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, progress);
-  filter->Update();
-  filter->RemoveObserver(tag);
-  if (observer.progress)
-  {
-    observer.progress(kWork, 1.0);
-  }
-  const std::vector<std::string> errors =
-    observer.takeVtkErrors ? observer.takeVtkErrors() : std::vector<std::string>();
-  message = errors.empty() ? std::string() : errors.front();
-  if (follower.stops)
-  {
-    message = std::string(kWork) + " was stopped on request; start it again";
-  }
-  return message.empty();
-}
 
 } // namespace
 
 ViewScene::ViewScene()
 {
   bandwidth_->SetInputConnection(resampler_->GetOutputPort());
-  mapper_->SetInputConnection(bandwidth_->GetOutputPort());
+  mapper_->SetInputDataObject(bandwidth_->GetOutput()); // a connection would make the filters run
   actor_->SetMapper(mapper_);
   actor_->PickableOff();
   renderer_->AddActor(actor_);
@@ -183,6 +70,11 @@ ViewScene::ViewScene()
   sizing->SetCallback(
     [](vtkObject*, unsigned long, void* self, void*) { static_cast<ViewScene*>(self)->beginFrame(); });
   renderer_->AddObserver(vtkCommand::StartEvent, sizing);
+  vtkNew<vtkCallbackCommand> counting;
+  counting->SetClientData(this);
+  counting->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void*) { ++static_cast<ViewScene*>(self)->resamplings_; });
+  resampler_->AddObserver(vtkCommand::StartEvent, counting);
   setUpScalarBar(scalarBar_);
   scalarBar_->SetLookupTable(mapper_->GetLookupTable());
   scalarBar_->VisibilityOff();
@@ -192,6 +84,7 @@ ViewScene::ViewScene()
 ViewScene::~ViewScene()
 {
   renderer_->RemoveObservers(vtkCommand::StartEvent);
+  resampler_->RemoveObservers(vtkCommand::StartEvent);
 }
 
 /// Before every render: how many points it shows, and room for the scalar bar.
@@ -232,18 +125,14 @@ bool ViewScene::open(
   const std::vector<std::string>& files, const HapticViewerOptions& options, std::string& message)
 {
   LoadedCloud loaded;
-  const bool isRead = loadCloud(
-    CloudRequest::of(files, options), [](double) { return true; }, loaded, message);
-  if (isRead)
-  {
-    this->open(std::move(loaded), options);
-  }
-  return isRead;
+  return loadCloud(
+           CloudRequest::of(files, options), [](double) { return true; }, loaded, message) &&
+    this->open(std::move(loaded), options, message);
 }
 
-void ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options)
+bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std::string& message)
 {
-  cloud_ = std::move(loaded.cloud);
+  cloud_ = loaded.cloud;
   cloudBounds_ = {};
   colorBy_ = loaded.colorBy;
   ownColor_ = colorBy_ != "rgb" && findColorSource(cloud_, colorBy_) ? colorBy_ : std::string();
@@ -251,79 +140,45 @@ void ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options)
   cloudUp_ = loaded.orientation.up;
   axes_->SetMetresPerUnit(options.metresPerUnit);
   orientation_ = loaded.orientation;
+  orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));
+  orientation_.front = normalized(loaded.placement.applyToVector(orientation_.front));
   title_ = loaded.title;
-  fit(loaded.bounds, options);
-  if (const int n = loaded.latticeDimension; n > 0)
-  {
-    resampler_->SetDimensions(n, n, n);
-  }
-}
-
-void ViewScene::fit(const Bounds& cloud, const HapticViewerOptions& options)
-{
-  AffineTransform transform = options.transform;
-  if (options.fitsWorkspace)
-  {
-    const Vec3 extent = cloud.extent();
-    const double longest = std::max({ extent.x, extent.y, extent.z });
-    const double factor = longest > 0.0 ? kFittedPart * kDefaultWorkspaceEdge / longest : 1.0;
-    transform = AffineTransform::scaling({ factor, factor, factor }) *
-      AffineTransform::translation(-cloud.center()) * transform;
-  }
-  setElements(modelMatrix_, transform);
+  scene_ = loaded.scene;
+  resamplings_ += loaded.resamplings;
+  setElements(modelMatrix_, loaded.placement);
   scaleNote_ = describeScale(modelMatrix_, options.unit, options.metresPerUnit);
-  orientation_.up = normalized(transform.applyToVector(orientation_.up));
-  orientation_.front = normalized(transform.applyToVector(orientation_.front));
-
-  resampler_->SetInputData(cloud_);
-  resampler_->SetAutomaticWorkspace(true); // unless the options or the fit say otherwise
-  configure(resampler_, options);
-  resampler_->SetComputeCovariance(options.useCovariance);
-  if (options.fitsWorkspace)
-  {
-    const double half = 0.5 * kDefaultWorkspaceEdge;
-    resampler_->SetWorkspaceBounds(-half, half, -half, half, -half, half);
-  }
-  vtkNew<vtkMatrixToLinearTransform> linear;
-  linear->SetInput(modelMatrix_);
-  resampler_->SetTransform(linear);
-  configure(bandwidth_, options.bandwidth);
-  // The picture needs the sizes of its splats and what it is coloured by; the scene computes the few radii it
-  // needs.
-  bandwidth_->ComputeBandwidthOff();
-  bandwidth_->ComputeMeanBandwidthOn();
-  mapper_->SetSizeArrayName("MeanBandwidth");
-  this->chooseArrays();
-}
-
-void ViewScene::chooseArrays()
-{
-  bandwidth_->SetComputeDensity(colorBy_ == "Density");
-  bandwidth_->SetComputeProxyRadius(colorBy_ == "ProxyRadius");
-}
-
-bool ViewScene::build(
-  const HapticViewerOptions& options, const HapticViewerObserver& observer, std::string& message)
-{
-  if (!updateFilter(bandwidth_, observer, message))
-  {
-    return false;
-  }
-  vtkPolyData* output = bandwidth_->GetOutput();
-  if (output->GetNumberOfPoints() == 0)
+  this->configure(loaded, options);
+  this->showMeans(loaded, options);
+  if (loaded.means->GetNumberOfPoints() == 0)
   {
     message = "no point of the cloud lies in the workspace; leave out " + options.names.placement +
       " to fit the cloud to it";
     return false;
   }
-  const double half = 0.5 * kDefaultWorkspaceEdge;
-  Bounds cube;
-  cube.include({ -half, -half, -half });
-  cube.include({ half, half, half });
-  workspace_ = latticeBounds(output, cube);
+  return true;
+}
+
+/// The filters, as those were that made the means: for what is made after a change.
+void ViewScene::configure(const LoadedCloud& loaded, const HapticViewerOptions& options)
+{
+  resampler_->SetInputData(cloud_);
+  configureFilters(options, loaded, resampler_, bandwidth_);
+  vtkNew<vtkMatrix4x4> model;
+  setElements(model, loaded.model);
+  vtkNew<vtkMatrixToLinearTransform> linear;
+  linear->SetInput(model);
+  resampler_->SetTransform(linear);
+}
+
+void ViewScene::showMeans(const LoadedCloud& loaded, const HapticViewerOptions& options)
+{
+  // As if the filters had run, which they shall not.
+  bandwidth_->GetOutput()->ShallowCopy(loaded.means);
+  mapper_->SetSizeArrayName("MeanBandwidth");
+  workspace_ = loaded.workspace;
   double bounds[6];
   getWorkspaceBounds(bounds);
-  resampler_->SetWorkspaceBounds(bounds); // from now on it stays, whatever the user does to the model
+  resampler_->SetWorkspaceBounds(bounds); // it stays, whatever the user does to the model
   props_->SetWorkspaceBounds(bounds);
   detail_.setWorkspace(workspace_);
   const Vec3 extent = workspace_.extent();
@@ -333,7 +188,12 @@ bool ViewScene::build(
   mapper_->SetFixedPixels(options.pointSize);
   mapper_->SetSkyDirection(&orientation_.up.x);
   this->applyColors();
-  return true;
+}
+
+void ViewScene::chooseArrays()
+{
+  bandwidth_->SetComputeDensity(colorBy_ == "Density");
+  bandwidth_->SetComputeProxyRadius(colorBy_ == "ProxyRadius");
 }
 
 /// Colours the means by what is asked for, or as if nothing were where they do not have it.
@@ -406,18 +266,21 @@ bool ViewScene::wantsResiduals() const
 
 void ViewScene::completeMeans(bool useCovariance)
 {
+  vtkPolyData* output = bandwidth_->GetOutput();
+  vtkPointData* data = output->GetPointData();
+  const bool residuals = this->wantsResiduals() && !data->HasArray(kResidualArrayName);
+  const bool normals = this->isAmbient() && !data->HasArray(kSurfaceNormalArrayName);
   Status status = Status::Ok;
-  const bool isNeeded = this->wantsResiduals() || this->isAmbient();
-  bandwidth_->Update(); // the workspace was set since: the render must not run the filters again
-  if (const auto scene = isNeeded ? this->makeScene(useCovariance, status) : nullptr)
+  if (const auto scene = residuals || normals ? this->makeScene(useCovariance, status) : nullptr)
   {
-    addSurfaceArrays(bandwidth_->GetOutput(), *scene, this->wantsResiduals(), this->isAmbient());
+    addSurfaceArrays(output, *scene, residuals, normals);
     this->meansChanged();
   }
 }
 
 void ViewScene::meansChanged()
 {
+  scene_.reset();
   vtkPolyData* output = bandwidth_->GetOutput();
   const std::optional<ColorSource> source = findColorSource(output, colorBy_);
   if (!source || coloredBy_ != colorBy_)
@@ -549,7 +412,9 @@ void ViewScene::setCamera(const std::vector<double>& camera)
 
 std::shared_ptr<const HapticScene> ViewScene::makeScene(bool useCovariance, Status& status)
 {
-  return makeHapticScene(bandwidth_->GetOutput(), status, useCovariance, bandwidth_->GetSettings());
+  status = Status::Ok;
+  return scene_ ? scene_
+                : makeHapticScene(bandwidth_->GetOutput(), status, useCovariance, bandwidth_->GetSettings());
 }
 
 bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message)

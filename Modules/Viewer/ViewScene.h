@@ -42,14 +42,12 @@ public:
   ViewScene();
   ~ViewScene();
 
-  /// Reads @p files into one cloud and sets the pipeline up for it. False: @p message says which file and
-  /// why, and the scene is as it was before.
+  /// Reads @p files into one cloud, resamples and shows it. False: @p message says which file and why, and
+  /// the scene is as it was before, or that no point lies in the workspace.
   bool open(const std::vector<std::string>& files, const HapticViewerOptions& options, std::string& message);
-  /// The same with what loadCloud() made.
-  void open(LoadedCloud loaded, const HapticViewerOptions& options);
-  /// Runs the pipeline once and colours the result; @p observer follows, and may stop it. False: no point
-  /// lies in the workspace.
-  bool build(const HapticViewerOptions& options, const HapticViewerObserver& observer, std::string& message);
+  /// Shows what loadCloud() made of a request with these @p options; resamples nothing. False: no point lies
+  /// in the workspace, @p message says so; the scene shows that.
+  bool open(LoadedCloud loaded, const HapticViewerOptions& options, std::string& message);
   /// Puts the camera in front of the workspace. @p contact, if given, is turned into view.
   void placeCamera(const ProxyState* contact = nullptr);
   /// Where @p camera says: HapticViewerOptions::camera; nothing where that is empty.
@@ -87,7 +85,10 @@ public:
 
   /// Unit vector along an axis of the workspace, from its centre to the side the person looks from.
   Vec3 towardsViewer() const { return orientation_.front; }
+  /// Of the means that are shown; takes the one that came with the cloud where there is one.
   std::shared_ptr<const HapticScene> makeScene(bool useCovariance, Status& status);
+  /// How often clouds were resampled for this scene: by loadCloud(), or by the filters below.
+  int resamplings() const { return resamplings_; }
   /// describeScale() of the model as it was opened.
   const std::string& scaleNote() const { return scaleNote_; }
   vtkMatrix4x4* modelMatrix() { return modelMatrix_; }
@@ -101,7 +102,7 @@ public:
   const CloudDetail& detail() const { return detail_; }
   const Bounds& workspace() const { return workspace_; }
   void getWorkspaceBounds(double bounds[6]) const;
-  /// Edges of a voxel, metres; 0 before build().
+  /// Edges of a voxel, metres; 0 before open().
   void getVoxel(double edges[3]) const;
   /// Text for the window's title: the names of the files.
   const std::string& title() const { return title_; }
@@ -112,7 +113,8 @@ private:
   void applyLook();
   void applyColors();
   void chooseArrays();
-  void fit(const Bounds& cloud, const HapticViewerOptions& options);
+  void configure(const LoadedCloud& loaded, const HapticViewerOptions& options);
+  void showMeans(const LoadedCloud& loaded, const HapticViewerOptions& options);
 
   vtkSmartPointer<vtkPolyData> cloud_;
   vtkNew<vtkMatrix4x4> modelMatrix_;
@@ -139,6 +141,8 @@ private:
   CloudOrientation orientation_;
   std::string scaleNote_;
   std::string title_;
+  std::shared_ptr<const HapticScene> scene_; ///< Came with the cloud, until it is asked for.
+  int resamplings_ = 0;
 };
 
 /// Writes what @p window shows as PNG. False: @p message says why not.

@@ -1,5 +1,7 @@
 #include "CloudLoader.h"
 
+#include "HapticViewerOptions.h"
+
 #include <gtest/gtest.h>
 #include <vtkPolyData.h>
 
@@ -265,8 +267,7 @@ TEST_F(CloudLoaderTest, ChoosesAFinerLatticeWhereTheUsualOneLosesMostOfTheCloud)
   }
   const auto dimensionOf = [&](const std::string& path, bool chooses)
   {
-    CloudRequest request = requestOf({ path });
-    request.choosesLattice = chooses;
+    CloudRequest request = chooses ? CloudRequest::of({ path }, HapticViewerOptions()) : requestOf({ path });
     LoadedCloud loaded;
     std::string message;
     EXPECT_TRUE(loadCloud(

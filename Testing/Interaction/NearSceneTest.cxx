@@ -1,4 +1,5 @@
 // What is felt near the hand while the model moves, against scenes of the whole cloud.
+#include "NearScene.h"
 #include "SceneWorker.h"
 
 #include "vtkKernelBandwidthFilter.h"
@@ -295,6 +296,29 @@ TEST_F(NearSceneTest, AHandThatIsTakenFarAwayFeelsWhatIsThere)
     EXPECT_TRUE(state.contact);
     EXPECT_LT(state.force.x, -0.4);
   }
+}
+
+TEST_F(NearSceneTest, IndexesNoPointsBeforeThereIsASceneToMake)
+{
+  const vtkSmartPointer<vtkPolyData> cloud = makeCloud(Shape::Torus, 50000, 0.0);
+  const Vec3 hand{ 0.036, 0.0, 0.0 };
+  worker_.setCloud(cloud);
+  const std::shared_ptr<const HapticScene> whole = this->request({}, hand).whole;
+  ASSERT_NE(whole, nullptr);
+  SceneRequest request = SceneRequest::of(resampler_, bandwidth_);
+  Vec3 at = hand;
+  request.hand = [&at]
+  {
+    Bounds bounds;
+    bounds.include(at);
+    return bounds;
+  };
+  NearSceneBuilder builder;
+  builder.setCloud(cloud);
+  EXPECT_EQ(builder.build(request, nullptr), nullptr);
+  EXPECT_FALSE(builder.isIndexed()) << "no scene of the whole cloud is there yet";
+  EXPECT_NE(builder.build(request, whole), nullptr);
+  EXPECT_TRUE(builder.isIndexed());
 }
 
 TEST_F(NearSceneTest, IsLeftOutWhereItDoesNotPayOrCannotBe)

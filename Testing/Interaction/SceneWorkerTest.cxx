@@ -239,6 +239,41 @@ TEST_F(SceneWorkerTest, ForgetsWhatIsCancelled)
   EXPECT_FALSE(worker_.take(built));
 }
 
+TEST_F(SceneWorkerTest, AdoptsWhatWasMadeElsewhere)
+{
+  worker_.request(this->shifted(0.001));
+  worker_.wait();
+  const std::shared_ptr<const HapticScene> made = std::move(newest_);
+  ASSERT_NE(made, nullptr);
+  SceneWorker other;
+  other.setCloud(makeCloud());
+  EXPECT_EQ(other.adopt(this->shifted(0.001), made), 1u);
+  EXPECT_EQ(newest_, made); // at once
+  EXPECT_FALSE(other.busy());
+  BuiltScene built;
+  EXPECT_FALSE(other.take(built));
+  EXPECT_EQ(other.numberOfBuilds(), 0u);
+  EXPECT_EQ(other.request(this->shifted(0.002)), 2u);
+  other.wait();
+  ASSERT_TRUE(other.take(built));
+  EXPECT_EQ(built.number, 2u);
+  EXPECT_EQ(other.numberOfBuilds(), 1u);
+}
+
+TEST_F(SceneWorkerTest, DropsWhatIsInFlightForWhatItAdopts)
+{
+  for (int i = 0; i < 20; ++i)
+  {
+    const std::uint64_t built = worker_.request(this->shifted(0.0001 * i));
+    std::this_thread::sleep_for(std::chrono::microseconds(200 * i));
+    worker_.setCloud(makeCloud(0.001));
+    EXPECT_EQ(worker_.adopt(this->shifted(0.0), nullptr), built + 1);
+    worker_.wait();
+    BuiltScene taken;
+    EXPECT_FALSE(worker_.take(taken));
+  }
+}
+
 /// What was published, by any thread.
 struct Published
 {

@@ -12,10 +12,12 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <unistd.h>
@@ -69,7 +71,7 @@ protected:
     file << "x,y,z\n";
     for (int i = 0; i < rows; ++i)
     {
-      file << 0.01 * (i % 100) << ',' << 0.01 * (i / 100) << ",0\n";
+      file << 0.01 * (i % 250) << ',' << 0.01 * (i / 250) << ",0\n";
     }
     return this->path(name);
   }
@@ -177,6 +179,57 @@ TEST_F(HapticViewerTest, WritesPicturesOffTheScreen)
   EXPECT_EQ(notes_.size(), 2u);
   EXPECT_FALSE(viewer.renderToFile(this->path("no/folder.png")));
   EXPECT_NE(viewer.message().find("no/folder.png: cannot be written"), std::string::npos);
+}
+
+TEST_F(HapticViewerTest, ResamplesACloudOnceBeforeItsFirstPicture)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.device = HapticViewerDevice::Simulated;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open({ this->writeCloud("first.csv", 60000), this->writeCloud("second.csv", 50000) }))
+    << viewer.message();
+  EXPECT_EQ(viewer.numberOfResamplings(), 1u);
+  ASSERT_TRUE(viewer.renderToFile(this->path("picture.png"))) << viewer.message();
+  EXPECT_EQ(viewer.numberOfResamplings(), 1u);
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  EXPECT_EQ(viewer.numberOfResamplings(), 1u);
+
+  const auto ticks = [&viewer](int count)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      int timer = 1;
+      viewer.interactor()->InvokeEvent(vtkCommand::TimerEvent, &timer);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  };
+  ticks(20); // also the hand's scenes make no more of them
+  EXPECT_EQ(viewer.numberOfResamplings(), 1u);
+  viewer.style()->InvokeEvent(vtkInteractorStyleHaptic::NextFileEvent);
+  for (int i = 0; i < 2000 && viewer.numberOfPoints() != 50000; ++i)
+  {
+    ticks(1);
+  }
+  ASSERT_EQ(viewer.numberOfPoints(), 50000);
+  ticks(20);
+  EXPECT_EQ(viewer.numberOfResamplings(), 2u);
+  EXPECT_FALSE(viewer.style()->IsModelChanged());
+  viewer.style()->ZoomModel(0.9);
+  EXPECT_TRUE(viewer.style()->UpdateModel());
+  EXPECT_EQ(viewer.numberOfResamplings(), 3u);
+  EXPECT_TRUE(viewer.stop());
+}
+
+TEST_F(HapticViewerTest, LooksAtFinerVoxelsOnlyWhereTheUsualOnesTellLittle)
+{
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open({ this->writeCloud("few.csv", 900) })) << viewer.message();
+  EXPECT_EQ(viewer.numberOfResamplings(), 2u);
 }
 
 TEST_F(HapticViewerTest, RunsInTheEventLoopOfItsHost)

@@ -15,7 +15,7 @@ SceneWindow::~SceneWindow()
 bool SceneWindow::open(const std::string& file, int width, int height, std::string& message)
 {
   const HapticViewerOptions options;
-  if (!scene_.open({ file }, options, message) || !scene_.build(options, {}, message))
+  if (!scene_.open({ file }, options, message))
   {
     return false;
   }

@@ -49,11 +49,11 @@ void Load::run()
   }
   catch (const std::bad_alloc&)
   {
-    message = titleOf(request.files) + ": not enough memory; close other programs or thin the cloud";
+    message = request.name() + ": not enough memory; close other programs or thin the cloud";
   }
   catch (const std::exception& fault)
   {
-    message = titleOf(request.files) + ": " + fault.what();
+    message = request.name() + ": " + fault.what();
   }
 }
 
@@ -185,8 +185,7 @@ bool CloudLoader::take(LoadedCloud& loaded, std::string& message)
   if (message.empty())
   {
     loaded = std::move(load->loaded);
-    load->loaded.cloud =
-      nullptr; // vtkSmartPointer copies where it is assigned: the thread must not hold it too
+    load->loaded = LoadedCloud(); // vtkSmartPointer copies where it is assigned: the thread must not hold it
   }
   return true;
 }

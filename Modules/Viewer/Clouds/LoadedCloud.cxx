@@ -2,7 +2,7 @@
 
 #include "CloudAppearance.h"
 #include "HapticViewerOptions.h"
-#include "LatticeChoice.h"
+#include "ResampledCloud.h"
 #include "SurfaceArrays.h"
 #include "vtkPointCloudReader.h"
 
@@ -232,6 +232,41 @@ bool canColorBy(vtkPolyData* cloud, const std::string& option, const std::string
   return false;
 }
 
+/// One cloud of all files, or the points that are there already. Null: @p message says why.
+vtkSmartPointer<vtkPolyData> readAll(const CloudRequest& request, const std::function<bool(double)>& goesOn,
+  std::string& format, std::string& message)
+{
+  if (request.points)
+  {
+    return request.points;
+  }
+  vtkNew<vtkAppendPolyData> append;
+  double begin = 0.0;
+  const double share = 1.0 / double(request.files.size());
+  for (const std::string& file : request.files)
+  {
+    const auto askOn = [&](double part) { return goesOn(begin + share * part); };
+    const vtkSmartPointer<vtkPolyData> points = readPoints(file, askOn, format, message);
+    if (!points)
+    {
+      return nullptr;
+    }
+    append->AddInputData(points);
+    begin += share;
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  if (request.files.size() > 1)
+  {
+    append->Update();
+    cloud->ShallowCopy(append->GetOutput());
+  }
+  else
+  {
+    cloud->ShallowCopy(append->GetInput(0));
+  }
+  return cloud;
+}
+
 } // namespace
 
 CloudRequest CloudRequest::of(const std::vector<std::string>& files, const HapticViewerOptions& options)
@@ -242,8 +277,13 @@ CloudRequest CloudRequest::of(const std::vector<std::string>& files, const Hapti
   request.colorByName = options.names.colorBy;
   request.up = options.up;
   request.transform = options.transform;
-  request.choosesLattice = options.fitsWorkspace && !options.hasVoxels();
+  request.options = std::make_shared<const HapticViewerOptions>(options);
   return request;
+}
+
+std::string CloudRequest::name() const
+{
+  return points ? title : titleOf(files);
 }
 
 Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
@@ -274,41 +314,14 @@ std::string titleOf(const std::vector<std::string>& files)
 bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
   std::string& message)
 {
-  vtkNew<vtkAppendPolyData> append;
-  std::string format;
-  double begin = 0.0;
-  const double share = 1.0 / double(request.files.size());
-  for (const std::string& file : request.files)
-  {
-    const auto askOn = [&](double part) { return goesOn(begin + share * part); };
-    const vtkSmartPointer<vtkPolyData> points = readPoints(file, askOn, format, message);
-    if (!points)
-    {
-      return false;
-    }
-    append->AddInputData(points);
-    begin += share;
-  }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  if (request.files.size() > 1)
-  {
-    append->Update();
-    cloud->ShallowCopy(append->GetOutput());
-  }
-  else
-  {
-    cloud->ShallowCopy(append->GetInput(0));
-  }
-  return prepareCloud(request, std::move(cloud), titleOf(request.files), format, goesOn, loaded, message);
-}
-
-bool prepareCloud(const CloudRequest& request, vtkSmartPointer<vtkPolyData> points, const std::string& title,
-  const std::string& format, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
-  std::string& message)
-{
   LoadedCloud result;
-  result.title = title;
-  result.cloud = std::move(points);
+  std::string format;
+  result.title = request.name();
+  result.cloud = readAll(request, goesOn, format, message);
+  if (!result.cloud)
+  {
+    return false;
+  }
   result.bounds = transformedBounds(result.cloud, request.transform);
   if (result.bounds.empty())
   {
@@ -328,8 +341,15 @@ bool prepareCloud(const CloudRequest& request, vtkSmartPointer<vtkPolyData> poin
     addHeightArray(result.cloud, result.orientation.up);
   }
   keepArrays(result.cloud, result.colorBy);
-  result.latticeDimension =
-    request.choosesLattice ? chooseLatticeDimension(result.cloud, [&] { return goesOn(1.0); }) : 0;
+  if (request.options)
+  {
+    placeCloud(request, result);
+    const auto askOn = [&goesOn] { return goesOn(1.0); };
+    if (!resampleCloud(request, askOn, result, message))
+    {
+      return false;
+    }
+  }
   loaded = std::move(result);
   return true;
 }

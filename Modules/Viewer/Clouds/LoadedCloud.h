@@ -6,12 +6,15 @@
 #include "CloudOrientation.h"
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
+#include "Core/Base/Status.h"
 
 #include "PointHapticsViewerModule.h" // For export macro
 
 #include <vtkSmartPointer.h>
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,19 +23,27 @@ class vtkPolyData;
 namespace pointhaptics
 {
 
+class HapticScene;
 struct HapticViewerOptions;
 
 struct CloudRequest
 {
-  /// To read @p files as @p options say.
+  /// To read @p files, or take @p points, and resample them as @p options say.
   static CloudRequest of(const std::vector<std::string>& files, const HapticViewerOptions& options);
 
   std::vector<std::string> files;
+  vtkSmartPointer<vtkPolyData> points; ///< Instead of files; nobody else's.
+  std::string title;                   ///< Of the points; that of files is their names.
   std::string colorBy; ///< What findColorSource() takes, rgb, or nothing; upper or lower case as it may.
   std::string colorByName = "colorBy"; ///< What messages call it.
   std::string up = "auto";             ///< auto or an axis.
   AffineTransform transform;           ///< Of the cloud, for its bounds.
-  bool choosesLattice = false;         ///< Nobody else does.
+  /// How the cloud is resampled, with colorBy, up and transform as above. Null: it is only read.
+  std::shared_ptr<const HapticViewerOptions> options;
+  std::optional<AffineTransform> model; ///< Where the cloud is resampled; empty: where the options place it.
+  bool makesScene = false;              ///< It will be felt.
+
+  std::string name() const; ///< For messages.
 };
 
 struct LoadedCloud
@@ -40,9 +51,19 @@ struct LoadedCloud
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
   Bounds bounds;                      ///< Of the finite points, after CloudRequest::transform.
   CloudOrientation orientation;
-  std::string colorBy;      ///< What was asked for, exactly as the cloud or the pipeline writes it.
-  int latticeDimension = 0; ///< chooseLatticeDimension(), where that was wanted; else 0.
-  std::string title;        ///< The names of the files, without their folders.
+  std::string colorBy; ///< What was asked for, exactly as the cloud or the pipeline writes it.
+  std::string title;   ///< The names of the files, without their folders.
+
+  // Where it was resampled:
+  AffineTransform placement; ///< Where the options place the cloud: from its coordinates to the workspace.
+  AffineTransform model;     ///< Where it was resampled: there, or CloudRequest::model.
+  int latticeDimension = 0;  ///< Voxels on each axis, where nobody had chosen them; else 0.
+  Bounds workspace;          ///< The lattice's box.
+  vtkSmartPointer<vtkPolyData> means;       ///< With the arrays of both filters; nobody else's.
+  std::shared_ptr<const HapticScene> scene; ///< Null: not wanted, or there is none: sceneStatus.
+  Status sceneStatus = Status::Ok;
+  int resamplings = 0; ///< How often the resampler ran.
+  double resampleSeconds = 0.0;
 };
 
 /// Bounds of the finite points after @p transform; the corners of a box would be too wide for a turned cloud.
@@ -51,16 +72,11 @@ Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform);
 /// The names of @p files without their folders.
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);
 
-/// Reads the files into one cloud. @p goesOn is asked with the part of the work that is done, 0 to 1, which
-/// ascends; as soon as it answers false, reading ends. False: @p message says which file and why, and
+/// Reads the files into one cloud and resamples it. @p goesOn is asked with the part of the work that is
+/// done, 0 to 1, which ascends; as soon as it answers false, it ends. False: @p message says which file and
+/// why, and
 /// @p loaded is as it was.
 POINTHAPTICSVIEWER_EXPORT bool loadCloud(const CloudRequest& request,
   const std::function<bool(double)>& goesOn, LoadedCloud& loaded, std::string& message);
-
-/// The same with points that are there: makes ready what is the caller's alone. @p format as the reader calls
-/// it; empty: none.
-bool prepareCloud(const CloudRequest& request, vtkSmartPointer<vtkPolyData> points, const std::string& title,
-  const std::string& format, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
-  std::string& message);
 
 } // namespace pointhaptics

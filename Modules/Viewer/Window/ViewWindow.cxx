@@ -313,7 +313,6 @@ void ViewWindow::connectStyle()
   scene_.showAmbient(options_.ambient);
   style_->SetComputeNormals(options_.ambient);
   style_->SetComputeResiduals(scene_.wantsResiduals());
-  style_->SetModelMatrix(scene_.modelMatrix());
   style_->SetResampler(scene_.resampler());
   style_->SetBandwidthFilter(scene_.bandwidth());
   style_->SetCloudActor(scene_.actor());
@@ -536,7 +535,8 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
   fileIndex_ = cloud;
   watch_.watch(shown_);
   this->connectStyle();
-  style_->UpdateModel();
+  Status status = Status::Ok;
+  style_->AdoptModel(scene_.modelMatrix(), scene_.makeScene(options_.useCovariance, status));
   window_->Render();
   interactor_->Initialize();
   if (!this->startServo(message))

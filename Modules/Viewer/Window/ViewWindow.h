@@ -76,6 +76,7 @@ private:
   {
     std::vector<std::string> files;
     bool keepsModel = false;
+    HapticViewerOptions options;            ///< As they were when it began.
     std::function<void(bool isShown)> then; ///< Also after a cancel.
     FileWatch watch;                        ///< From before the first byte was read.
   };
@@ -115,6 +116,7 @@ private:
   void forgiveEscape();
   void onKey();
   void show(LoadedCloud cloud);
+  void adoptModel(const AffineTransform& model);
   void showFile(std::size_t index);
   void findIdeal();
   HapticViewerState state();

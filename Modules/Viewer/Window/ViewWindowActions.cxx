@@ -1,5 +1,7 @@
+#include "ResampledCloud.h"
 #include "ViewWindow.h"
 
+#include "PolyDataAccess.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
@@ -69,9 +71,22 @@ void ViewWindow::onFilesDropped(void* callData)
 /// Begins to read; what is being read already is given up.
 void ViewWindow::load(const std::vector<std::string>& files, bool keepsModel, std::function<void(bool)> then)
 {
-  loading_ = { files, keepsModel, std::move(then), FileWatch() };
+  HapticViewerOptions options = options_;
+  if (voxelSize_ > 0.0)
+  {
+    options.voxelSize = voxelSize_;
+  }
+  options.bandwidth.radiusScale = sliders_->GetValue(vtkHapticSliders::RadiusScale);
+  loading_ = { files, keepsModel, options, std::move(then), FileWatch() };
   loading_.watch.watch(files);
-  loader_.start(CloudRequest::of(files, options_));
+  CloudRequest request = CloudRequest::of(files, options);
+  request.makesScene = true;
+  AffineTransform model;
+  if (keepsModel && affineFromTransform(style_->GetModelTransform(), model))
+  {
+    request.model = model;
+  }
+  loader_.start(std::move(request));
 }
 
 /// At every call of the timer.
@@ -147,29 +162,21 @@ void ViewWindow::onKey()
 void ViewWindow::show(LoadedCloud cloud)
 {
   const bool keepsModel = loading_.keepsModel;
+  const AffineTransform model = cloud.model;
   std::string message;
-  scene_.open(std::move(cloud), options_);
   shown_ = loading_.files;
   watch_ = loading_.watch;
-  if (voxelSize_ > 0.0)
-  {
-    scene_.resampler()->SetVoxelSize(voxelSize_);
-  }
-  scene_.bandwidth()->SetRadiusScale(sliders_->GetValue(vtkHapticSliders::RadiusScale));
-  vtkNew<vtkMatrix4x4> model;
-  model->DeepCopy(keepsModel ? style_->GetModelTransform()->GetMatrix() : scene_.modelMatrix());
   // From here on the window shows the new cloud, also where nothing of it lies in the workspace.
-  if (!scene_.build(options_, observer_, message))
+  if (!scene_.open(std::move(cloud), loading_.options, message))
   {
     this->tell(message);
   }
   double bounds[6];
   scene_.getWorkspaceBounds(bounds);
   style_->SetWorkspaceBounds(bounds);
-  style_->SetModelMatrix(model);
   style_->SetResampler(scene_.resampler());
   style_->SetComputeResiduals(scene_.wantsResiduals());
-  style_->UpdateModel();
+  this->adoptModel(model);
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
   if (!keepsModel)
   {
@@ -178,6 +185,35 @@ void ViewWindow::show(LoadedCloud cloud)
   window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
   this->showSliderValues();
   this->findIdeal();
+}
+
+/// What was read is shown where it was resampled; what the user has done meanwhile is done to it too.
+void ViewWindow::adoptModel(const AffineTransform& model)
+{
+  vtkNew<vtkMatrix4x4> kept;
+  kept->DeepCopy(style_->GetModelTransform()->GetMatrix());
+  AffineTransform keptModel;
+  const bool isMoved = loading_.keepsModel && affineFromTransform(style_->GetModelTransform(), keptModel) &&
+    !(keptModel == model);
+  vtkNew<vtkMatrix4x4> matrix;
+  setElements(matrix, model);
+  Status status = Status::Ok;
+  style_->AdoptModel(matrix, scene_.makeScene(options_.useCovariance, status));
+  if (isMoved)
+  {
+    style_->SetModelMatrix(kept);
+  }
+  const double radiusScale = sliders_->GetValue(vtkHapticSliders::RadiusScale);
+  const bool isFiner = voxelSize_ > 0.0 && voxelSize_ != loading_.options.voxelSize;
+  if (isFiner)
+  {
+    scene_.resampler()->SetVoxelSize(voxelSize_);
+  }
+  if (isFiner || radiusScale != loading_.options.bandwidth.radiusScale)
+  {
+    scene_.bandwidth()->SetRadiusScale(radiusScale);
+    style_->InvalidateModel();
+  }
 }
 
 /// The exact force for the chart, where the shown cloud is a shape that has one.

@@ -1,0 +1,243 @@
+#include "ResampledCloud.h"
+
+#include "HapticSceneBuilder.h"
+#include "HapticViewerOptions.h"
+#include "SurfaceArrays.h"
+#include "vtkKernelBandwidthFilter.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include "Core/Base/Lattice.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMatrixToLinearTransform.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Part of the workspace's edge a fitted cloud takes: the hand needs room to reach it from every side.
+constexpr double kFittedPart = 0.9;
+constexpr int kUsual = kDefaultLatticeDimension;
+constexpr int kFinest = 4 * kUsual;
+/// So many means show and feel a shape well.
+constexpr vtkIdType kEnough = 30000;
+/// Finer voxels that give less than so many times the means only repeat the points.
+constexpr double kGain = 1.25;
+
+Bounds defaultWorkspace()
+{
+  const double half = 0.5 * kDefaultWorkspaceEdge;
+  Bounds cube;
+  cube.include({ -half, -half, -half });
+  cube.include({ half, half, half });
+  return cube;
+}
+
+/// The box of the lattice before there is one, as the resampler would choose it: the hand's box stays, and so
+/// it need not be asked. Empty where the options are no lattice, which the resampler will say.
+Bounds workspaceOf(const HapticViewerOptions& options, const LoadedCloud& loaded)
+{
+  LatticeSettings settings;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::vector<int>& n = options.dimensions;
+    settings.dimensions[axis] = n.size() == 3 ? n[axis]
+      : n.size() == 1                         ? n[0]
+      : loaded.latticeDimension > 0           ? loaded.latticeDimension
+                                              : kUsual;
+  }
+  settings.voxelSize = options.voxelSize;
+  settings.workspace = options.fitsWorkspace ? defaultWorkspace() : options.workspace;
+  settings.automaticWorkspace = settings.workspace.empty();
+  Lattice lattice;
+  return makeLattice(settings, loaded.bounds, lattice) == Status::Ok ? lattice.bounds() : Bounds();
+}
+
+/// The filters, for one cloud.
+class FirstRun
+{
+public:
+  FirstRun(const CloudRequest& request, const std::function<bool()>& goesOn, LoadedCloud& loaded)
+    : request_(request)
+    , goesOn_(goesOn)
+    , loaded_(loaded)
+  {
+    vtkNew<vtkMatrix4x4> model;
+    setElements(model, loaded.model);
+    vtkNew<vtkMatrixToLinearTransform> transform;
+    transform->SetInput(model);
+    vtkNew<vtkPolyData> cloud; // the object itself belongs to the one that takes it
+    cloud->ShallowCopy(loaded.cloud);
+    resampler_->SetInputData(cloud);
+    resampler_->SetTransform(transform);
+    vtkNew<vtkCallbackCommand> ask;
+    ask->SetClientData(this);
+    ask->SetCallback(
+      [](vtkObject*, unsigned long, void* client, void*)
+      {
+        const auto& self = *static_cast<FirstRun*>(client);
+        self.resampler_->SetAbortExecute(self.goesOn_() ? 0 : 1);
+      });
+    resampler_->AddObserver(vtkCommand::ProgressEvent, ask);
+  }
+
+  vtkSmartPointer<vtkPolyData> resample()
+  {
+    configureFilters(*request_.options, loaded_, resampler_, bandwidth_);
+    resampler_->Update();
+    ++loaded_.resamplings;
+    auto means = vtkSmartPointer<vtkPolyData>::New();
+    means->ShallowCopy(resampler_->GetOutput());
+    return means;
+  }
+
+  /// With the lattice that suits the cloud.
+  vtkSmartPointer<vtkPolyData> resampleAsFits()
+  {
+    loaded_.latticeDimension = kUsual;
+    vtkSmartPointer<vtkPolyData> means = this->resample();
+    while (loaded_.latticeDimension < kFinest && means->GetNumberOfPoints() > 0 &&
+      means->GetNumberOfPoints() < kEnough && goesOn_())
+    {
+      loaded_.latticeDimension *= 2;
+      vtkSmartPointer<vtkPolyData> finer = this->resample();
+      if (double(finer->GetNumberOfPoints()) < kGain * double(means->GetNumberOfPoints()))
+      {
+        loaded_.latticeDimension /= 2;
+        break;
+      }
+      means = std::move(finer);
+    }
+    return means;
+  }
+
+  /// All that is made of the means.
+  void finish(vtkPolyData* means)
+  {
+    const bool residuals =
+      loaded_.colorBy == kResidualArrayName && !loaded_.cloud->GetPointData()->HasArray(kResidualArrayName);
+    const bool normals = request_.options->ambient;
+    if (request_.makesScene || residuals || normals)
+    {
+      loaded_.scene = makeHapticScene(
+        means, loaded_.sceneStatus, request_.options->useCovariance, bandwidth_->GetSettings());
+    }
+    bandwidth_->SetInputData(means);
+    bandwidth_->Update();
+    loaded_.means = vtkSmartPointer<vtkPolyData>::New();
+    loaded_.means->ShallowCopy(bandwidth_->GetOutput());
+    if (loaded_.scene && (residuals || normals))
+    {
+      addSurfaceArrays(loaded_.means, *loaded_.scene, residuals, normals);
+    }
+  }
+
+private:
+  const CloudRequest& request_;
+  const std::function<bool()>& goesOn_;
+  LoadedCloud& loaded_;
+  vtkNew<vtkVoxelMeanResampler> resampler_;
+  vtkNew<vtkKernelBandwidthFilter> bandwidth_;
+};
+
+} // namespace
+
+void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
+{
+  matrix->Identity();
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      matrix->SetElement(row, column, transform.m[row][column]);
+    }
+  }
+}
+
+void placeCloud(const CloudRequest& request, LoadedCloud& loaded)
+{
+  loaded.placement = request.options->transform;
+  if (request.options->fitsWorkspace)
+  {
+    const Vec3 extent = loaded.bounds.extent();
+    const double longest = std::max({ extent.x, extent.y, extent.z });
+    const double factor = longest > 0.0 ? kFittedPart * kDefaultWorkspaceEdge / longest : 1.0;
+    loaded.placement = AffineTransform::scaling({ factor, factor, factor }) *
+      AffineTransform::translation(-loaded.bounds.center()) * loaded.placement;
+  }
+  loaded.model = request.model ? *request.model : loaded.placement;
+}
+
+void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loaded,
+  vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* bandwidth)
+{
+  const std::vector<int>& n = options.dimensions;
+  const int one = !n.empty() ? n[0] : loaded.latticeDimension > 0 ? loaded.latticeDimension : kUsual;
+  resampler->SetDimensions(one, n.size() == 3 ? n[1] : one, n.size() == 3 ? n[2] : one);
+  if (options.voxelSize > 0.0)
+  {
+    resampler->SetVoxelSize(options.voxelSize);
+  }
+  resampler->SetAutomaticWorkspace(true);
+  const Bounds computed = workspaceOf(options, loaded);
+  if (const Bounds& box = computed.empty() ? options.workspace : computed; !box.empty())
+  {
+    resampler->SetWorkspaceBounds(
+      box.minimum.x, box.maximum.x, box.minimum.y, box.maximum.y, box.minimum.z, box.maximum.z);
+  }
+  resampler->SetComputeCovariance(options.useCovariance);
+
+  const LocalBandwidthSettings& settings = options.bandwidth;
+  bandwidth->SetNeighborhood(
+    settings.fixedRadius ? vtkKernelBandwidthFilter::FixedRadius : vtkKernelBandwidthFilter::KNearest);
+  bandwidth->SetNumberOfNeighbors(settings.numberOfNeighbors);
+  bandwidth->SetRadius(settings.radius);
+  bandwidth->SetRule(int(settings.rule));
+  bandwidth->SetRadiusScale(settings.radiusScale);
+  bandwidth->SetMinimumRadius(settings.minimumRadius);
+  bandwidth->SetMaximumRadius(settings.maximumRadius);
+  bandwidth->SetSmoothRadius(settings.smoothRadius);
+  bandwidth->SetUsePointCounts(settings.usePointCounts);
+  // The picture needs the sizes of its splats and what it is coloured by; the scene computes the few radii it
+  // needs.
+  bandwidth->ComputeBandwidthOff();
+  bandwidth->ComputeMeanBandwidthOn();
+  bandwidth->SetComputeDensity(loaded.colorBy == "Density");
+  bandwidth->SetComputeProxyRadius(loaded.colorBy == "ProxyRadius");
+}
+
+bool resampleCloud(
+  const CloudRequest& request, const std::function<bool()>& goesOn, LoadedCloud& loaded, std::string& message)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  FirstRun run(request, goesOn, loaded);
+  const bool chooses = request.options->fitsWorkspace && !request.options->hasVoxels();
+  const vtkSmartPointer<vtkPolyData> means = chooses ? run.resampleAsFits() : run.resample();
+  if (!goesOn())
+  {
+    message = loaded.title + ": resampling was stopped on request; start it again";
+    return false;
+  }
+  run.finish(means);
+  loaded.workspace = workspaceOf(*request.options, loaded);
+  if (loaded.workspace.empty())
+  {
+    loaded.workspace = defaultWorkspace();
+  }
+  loaded.resampleSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return true;
+}
+
+} // namespace pointhaptics

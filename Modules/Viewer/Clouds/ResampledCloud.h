@@ -1,0 +1,34 @@
+/// @file
+/// The voxel means of a cloud that was just read, and the scene of them, for its first picture. Any thread.
+#pragma once
+
+#include "LoadedCloud.h"
+
+#include <functional>
+#include <string>
+
+class vtkKernelBandwidthFilter;
+class vtkMatrix4x4;
+class vtkVoxelMeanResampler;
+
+namespace pointhaptics
+{
+
+/// Fills in LoadedCloud::placement and model, from the bounds and @p request.
+void placeCloud(const CloudRequest& request, LoadedCloud& loaded);
+
+/// Sets on the filters all that @p options and @p loaded say, input and transform aside.
+void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loaded,
+  vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* bandwidth);
+
+/// Resamples the placed cloud and fills in means and workspace, and the scene where @p request wants it.
+/// Once; but where nobody has chosen a lattice and 300 voxels on an axis leave fewer than 30,000 means of a
+/// cloud that finer voxels would tell apart (a sweep of LiDAR over a street, dense near the scanner and thin
+/// at 80 m), it looks at 600 and 1200 too. @p goesOn is asked now and then; once it answers false, it ends.
+/// False: it was ended, @p message says so.
+bool resampleCloud(const CloudRequest& request, const std::function<bool()>& goesOn, LoadedCloud& loaded,
+  std::string& message);
+
+void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform);
+
+} // namespace pointhaptics
