@@ -14,7 +14,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Small arrays are malloc's own business.
+/// Smaller arrays are left to malloc.
 constexpr std::size_t kSmallest = std::size_t(1) << 16;
 
 }
@@ -109,7 +109,7 @@ void ArrayPool::take(void* memory, vtkDataArray* array, std::int64_t tuples)
   array->SetArrayFreeFunction(&ArrayPool::giveBack);
 }
 
-/// VTK calls it when the last array lets go of the memory.
+/// VTK calls it when the last array releases the memory.
 void ArrayPool::giveBack(void* data)
 {
   Header* block = static_cast<Header*>(data) - 1;

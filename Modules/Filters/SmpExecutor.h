@@ -11,7 +11,7 @@
 namespace pointhaptics
 {
 
-/// Runs each range on vtkSMPTools, in pieces of the grain asked for or a 64th of the range.
+/// Runs each range on vtkSMPTools, in pieces of the given grain or a 64th of the range.
 class SmpExecutor : public Executor
 {
 public:

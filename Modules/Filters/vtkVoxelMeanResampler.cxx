@@ -155,7 +155,7 @@ vtkMTimeType vtkVoxelMeanResampler::GetMTime()
   }
   if (this->Impl->Aborted)
   {
-    // The pipeline takes what an aborted execution leaves for an output; ask it for another.
+    // The pipeline would take the result of an aborted execution for valid: request another one.
     this->Impl->RetryTime.Modified();
   }
   return std::max(time, this->Impl->RetryTime.GetMTime());

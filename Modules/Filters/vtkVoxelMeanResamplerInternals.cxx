@@ -58,8 +58,8 @@ std::string nameOf(vtkAbstractArray* array)
   return array->GetName() ? array->GetName() : "";
 }
 
-/// Identifiers and ghost flags mean nothing once points are merged, and what an earlier resampling said of
-/// its voxels says nothing of these.
+/// Identifiers and ghost flags are meaningless once points are merged, and so are counts and covariances of
+/// an earlier resampling.
 bool isBookkeeping(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
 {
   const std::string name = nameOf(array);
@@ -98,7 +98,7 @@ std::vector<int> rolesOf(vtkDataSetAttributes* attributes, vtkAbstractArray* arr
 
 }
 
-/// While this lives, what the update needs is not freed; then the input is let go.
+/// The scope of an update: caches are not freed within it, and the input is released at its end.
 class vtkVoxelMeanResampler::Internals::UpdateScope
 {
 public:
@@ -135,7 +135,8 @@ bool vtkVoxelMeanResampler::Internals::Update(
   {
     return false;
   }
-  // A second pass over the points makes the levels that would not be what these give at their spacing.
+  // Levels that would not equal the resampling of the points at their spacing take a second pass over the
+  // points.
   const int levels = int(outputs.size());
   const double begin = this->PartEnd;
   for (int first = 0; first < levels; first += this->Request.levels)
@@ -237,7 +238,7 @@ vtkVoxelMeanResampler::Internals::ArraySeen vtkVoxelMeanResampler::Internals::Se
                 : ArraySeen();
 }
 
-/// An index pays where parts of the same points are looked at again and again.
+/// An index pays off where parts of the same points are resampled repeatedly.
 bool vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
 {
   const ArraySeen seen = SeenPoints(input);
@@ -387,7 +388,7 @@ bool vtkVoxelMeanResampler::Internals::AverageArrays()
   return status == Status::Ok;
 }
 
-/// Sums and tuples of a few voxels at a time stay in the caches; what they give goes where it is to stay.
+/// One set of voxels at a time: its sums and tuples stay in the caches, and its means are written in place.
 void vtkVoxelMeanResampler::Internals::AverageInSets()
 {
   for (NamedAttribute& named : this->Attributes)
@@ -458,11 +459,11 @@ void vtkVoxelMeanResampler::Internals::Release()
   this->Attributes.clear();
   for (KnownValues& known : this->Known)
   {
-    // As large as the input: worth its memory where it is looked at again and again.
+    // As large as the input: worth its memory only where parts are resampled repeatedly.
     known.values.copy = this->Indexed ? known.values.copy : nullptr;
   }
   this->Allocator.release();
-  // What earlier outputs left and this one had no use for.
+  // Memory of earlier outputs that this one did not reuse.
   this->Pool.trim();
   this->Request = VoxelRequest();
   this->Points.reset();

@@ -16,7 +16,7 @@ class vtkPolyData;
 namespace pointhaptics::io
 {
 
-/// More columns than any cloud has: headers with more are refused before anybody compares their names.
+/// More columns than any cloud has: headers with more are refused before names are compared.
 constexpr std::size_t kMostColumns = 4096;
 
 /// One column as its file names it.

@@ -22,7 +22,7 @@ namespace
 
 constexpr std::size_t kReadAtOnce = std::size_t{ 1 } << 22;
 constexpr std::size_t kPackedAtOnce = std::size_t{ 1 } << 16;
-/// Unpacked bytes that are looked at before the rest is unpacked.
+/// Unpacked bytes that are inspected before the rest is unpacked.
 constexpr std::size_t kInspected = std::size_t{ 1 } << 16;
 constexpr int kGzipOnly = 16; ///< zlib: add to the window's bits to ask for gzip's header
 constexpr std::string_view kGzipMagic = "\x1f\x8b";

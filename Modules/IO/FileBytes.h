@@ -16,15 +16,13 @@ namespace pointhaptics::io
 class FileBytes
 {
 public:
-  /// Is told how much is done, 0..1; may throw to end the reading.
+  /// Receives the fraction that is done, 0..1; may throw to abort the reading.
   using Progress = std::function<void(double)>;
-  /// Is shown the first unpacked bytes and how many there will be (0: not known); throws when it is not worth
-  /// going on.
+  /// Receives the first unpacked bytes and the size of the whole content (0: not known); throws to reject it.
   using Inspect = std::function<void(std::string_view, std::size_t)>;
 
   /// Reads @p path. A gzip file is unpacked on the way, up to kMostGzipRatio times its size (or kGzipFloor,
-  /// where that is more): honest clouds stay far below, and a file made to fill the memory does not come
-  /// through.
+  /// where that is more): real clouds stay far below, and a file crafted to fill the memory is refused.
   /// @throws FileProblem when the file is missing, a folder, not a regular file, empty, unreadable, or its
   /// gzip data are damaged, cut short or beyond the limit; what @p progress and @p inspect throw.
   FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect);

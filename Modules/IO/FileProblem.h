@@ -43,7 +43,7 @@ class StoppedOnRequest : public std::exception
     "the file is cut short or its header is wrong: copy it again");
 }
 
-/// The header is sound and promises nothing.
+/// The header is valid and announces no points.
 [[noreturn]] inline void failNoPoints()
 {
   failFormat("the file holds no points", "export the cloud again and check that it is not empty");

@@ -53,7 +53,7 @@ void readAs(io::CloudFormat format, io::ReadTask& task, vtkPolyData* cloud)
   }
 }
 
-/// The first coordinate of @p count that is finite and beyond what anything measures; @p count where none is.
+/// The first coordinate of @p count that is finite and too large for any unit; @p count where none is.
 template <typename T>
 vtkIdType firstImpossible(const T* values, vtkIdType count)
 {
@@ -79,7 +79,7 @@ vtkIdType firstImpossible(const T* values, vtkIdType count)
   return count;
 }
 
-/// Numbers that can be no position, whatever the unit, betray a damaged file.
+/// A coordinate too large for any unit means a damaged file.
 void checkCoordinates(vtkPolyData* cloud)
 {
   vtkDataArray* array = cloud->GetPoints()->GetData();
@@ -103,7 +103,7 @@ void checkCoordinates(vtkPolyData* cloud)
   }
 }
 
-/// Hands the format's name on, also when reading ends in a fault.
+/// Stores the format's name, also when reading fails.
 struct FormatName
 {
   io::ReadTask& task;

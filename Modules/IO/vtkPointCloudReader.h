@@ -2,9 +2,9 @@
  * @class   vtkPointCloudReader
  * @brief   read raw point clouds: PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS, LAZ and text
  *
- * The format is told by the file's content; the extension decides only between OBJ and columns of text, and
- * for a binary STL inside a gzip file. Files packed by gzip are read as if they were unpacked (VTP and VTU
- * are not).
+ * The format is detected by the file's content; the extension decides only between OBJ and columns of text,
+ * and for a binary STL inside a gzip file. Files packed by gzip are read as if they were unpacked (VTP and
+ * VTU are not).
  *
  * Output: points, one vertex cell per point, and every scalar field of the file as a point data array with
  * its name and type. Fields that belong together become one array: red green blue [alpha] become "RGB" or

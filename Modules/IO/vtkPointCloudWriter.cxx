@@ -111,11 +111,11 @@ const FileFormat* formatOf(const std::string& fileName)
   return found == std::end(kFormats) ? nullptr : found;
 }
 
-/// What vtkPointCloudReader tells of a whole cloud; a filter's own notes in the field data are no loss.
+/// Field data that vtkPointCloudReader adds to a cloud; that of filters is no loss.
 constexpr const char* kOfTheCloud[] = { "Viewpoint", "OrganizedDimensions", "CoordinateSystem",
   "LengthUnit" };
 
-/// Whether the viewpoint is that of files that say nothing of it.
+/// Whether the viewpoint is the default of files that name none.
 bool isAtOrigin(vtkPointSet* cloud)
 {
   const double usual[] = { 0, 0, 0, 1, 0, 0, 0 };

@@ -23,7 +23,7 @@
  *   fewest digits that give back the same value. Types are not stored: float arrays may be read as double.
  *
  * Arrays of strings are left out, and white space, commas and quotes in names become '_' (not in .vtp).
- * Whatever the format could not hold of this very cloud, GetNotes() tells.
+ * GetNotes() lists whatever the format could not hold of this cloud.
  *
  * The file is written beside its target under a temporary name and renamed when complete: after a fault the
  * target is as it was before. Write() returns 1, or 0 with an error code (vtkErrorCode), a vtkErrorMacro and

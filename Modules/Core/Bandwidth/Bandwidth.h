@@ -13,14 +13,14 @@ namespace pointhaptics
 
 enum class BandwidthRule
 {
-  NormalReference,       ///< 1.06 s n^(-1/5): Silverman 1986, eq. 3.28; the paper's, its misprint mended.
+  NormalReference,       ///< 1.06 s n^(-1/5): Silverman 1986, eq. 3.28; the paper's, its misprint corrected.
   SilvermanRobust,       ///< 0.9 min(s, IQR / 1.34) n^(-1/5): Silverman 1986, eq. 3.31; R's bw.nrd0.
   ScottMultivariate,     ///< s n^(-1/(d + 4)): Scott 1992.
   SilvermanMultivariate, ///< s (n (d + 2) / 4)^(-1/(d + 4)): Silverman 1986, section 4.3.
   SheatherJones, ///< Solve-the-equation, for univariate data: Sheather and Jones 1991, SheatherJones.h.
 };
 
-/// What stands for a bandwidth that no rule can give and no caller has named, in the unit of the data.
+/// The fallback bandwidth where a rule has no answer and the caller gave no other, in the unit of the data.
 constexpr double kBandwidthWithoutSpread = 1e-3;
 
 /// Mean, sample standard deviation (n - 1) and quartiles (R's default, type 7) of a univariate sample.
@@ -34,7 +34,7 @@ struct SampleSpread
   double robustDeviation(double quartilesOfNormal) const noexcept;
 };
 
-/// Sorts @p values; those that are not finite take no part and are moved to the end. None: count 0 and zeros.
+/// Sorts @p values; those that are not finite are ignored and moved to the end. None: count 0 and zeros.
 /// Relative error of s below 1e-12 as long as the differences of the values are finite, whatever their
 /// offset and scale. Thread-safe; allocates nothing.
 SampleSpread sampleSpread(std::vector<double>& values);

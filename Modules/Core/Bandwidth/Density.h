@@ -13,8 +13,8 @@
 namespace pointhaptics
 {
 
-/// A bandwidth b is the kernel's standard deviation along each axis, whichever kernel it is, so that rules
-/// made for one do for the other.
+/// A bandwidth b is the kernel's standard deviation along each axis, whichever kernel it is: the rules then
+/// apply to both.
 enum class DensityKernel
 {
   Gaussian,     ///< exp(-t^2 / 2), t the distance over b.
@@ -39,7 +39,7 @@ double epanechnikovDensity(double x, const double* sample, std::int64_t count, d
 /// Univariate estimate with @p kernel at each of @p targetCount targets (densities is resized), by fast sums:
 /// O(n log n + targets). Gaussian: within 1e-12 relative of the direct sum, in the tails too. Epanechnikov:
 /// within 1e-14 of a kernel's height for each value under the kernel. Details in GaussianSum.h and
-/// EpanechnikovSum.h. Densities are 0 and the status tells why: InvalidParameter where the bandwidth is not
+/// EpanechnikovSum.h. On an error densities are 0. Errors: InvalidParameter where the bandwidth is not
 /// above 0 or not finite or a value is not finite, Empty without values. Targets that are not finite get 0.
 /// Independent of @p executor and of the order of the values.
 Status univariateDensities(DensityKernel kernel, const double* sample, std::int64_t count, double bandwidth,
@@ -54,9 +54,9 @@ Status univariateDensities(DensityKernel kernel, const double* sample, std::int6
 void surfaceDensities(const PointView& points, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
   DensityKernel kernel = DensityKernel::Gaussian);
-/// Of the points that voxel means stand for: each kernel times its voxel's count (one per point; empty: 1
-/// each), N the sum of the counts. The bandwidths are to be those of the means: narrower kernels would leave
-/// gaps between them.
+/// The density of the points that voxel means represent: each kernel times its voxel's count (one per point;
+/// empty: 1 each), N the sum of the counts. The bandwidths are to be those of the means: narrower kernels
+/// would leave gaps between them.
 void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
   DensityKernel kernel = DensityKernel::Gaussian);

@@ -1,6 +1,6 @@
 /// @file
-/// Sums of a Gaussian or one of its derivatives over all pairs of a univariate sample, in linear time: what
-/// the Sheather-Jones bandwidth asks for.
+/// Sums of a Gaussian or one of its derivatives over all pairs of a univariate sample, in linear time, for
+/// the Sheather-Jones bandwidth.
 #pragma once
 
 #include "Core/Bandwidth/SampleCells.h"

@@ -20,7 +20,7 @@ namespace pointhaptics
 /// depend on y. A target walks outwards over the cells from the nearest one. For cells of many values that is
 /// done beforehand: there G itself is a power series in t.
 ///
-/// Error: truncation is below epsilon G(y), epsilon = 2e-13 unless told otherwise, for n <= 5e8.
+/// Error: truncation is below epsilon G(y), epsilon = 2e-13 by default, for n <= 5e8.
 /// - The nearest cell, of m values no further than r, gives G >= m exp(-r^2 / 2). What lies further than
 ///   sqrt(r^2 + 2 ln(4 n / (epsilon m))) is left out: at most epsilon G / 4.
 /// - Walk: series are used where z = max |u t| <= 2. Stopped after p terms they leave out at most

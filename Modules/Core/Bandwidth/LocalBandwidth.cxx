@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadiusWithoutExtent = 1e-3;
 const std::vector<double> kNone;
 
-/// What the neighbourhood of one point says; bandwidth is 0 where it has no spread.
+/// The results of the neighbourhood of one point; bandwidth is 0 where it has no spread.
 struct Neighborhood
 {
   double bandwidth = 0.0;
@@ -128,7 +128,7 @@ private:
   const NeighborCounts& counts_;
   const LocalBandwidthSettings& settings_;
   const bool ofDistances_;
-  // The rule for a spread of 1 and the count it was asked for last.
+  // Cache: the rule for a spread of 1, and the count it was computed for.
   double factor_ = 0.0;
   double countOfFactor_ = 0.0;
   Status statusOfFactor_ = Status::DegenerateSample;
@@ -280,7 +280,7 @@ bool readAll(const Sample& sample, MakeSweep&& makeSweep, std::vector<double>& b
   return complete;
 }
 
-/// Calls withSweep(makeSweep) for the neighbourhoods that the settings ask for.
+/// Calls withSweep(makeSweep) for the neighbourhoods of the settings.
 template <typename Function>
 bool withNeighborhoods(const Sample& sample, Function&& withSweep)
 {

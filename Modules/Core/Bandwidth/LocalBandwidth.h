@@ -13,7 +13,7 @@
 namespace pointhaptics
 {
 
-/// How local bandwidths and proxy radii are found. Lengths are in the unit of the points.
+/// Settings of local bandwidths and proxy radii. Lengths are in the unit of the points.
 struct LocalBandwidthSettings
 {
   bool fixedRadius = false;   ///< Else the k nearest.
@@ -50,13 +50,13 @@ Status localBandwidths(const PointView& points, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
   const Executor& executor = {});
 
-/// The same where @p points are the means of voxels, and @p counts says of how many points each one is: the
+/// The same where @p points are the means of voxels, and @p counts the number of points in each: the
 /// bandwidths and radii of those points. The paper takes the bandwidth from the density of the points, so
 /// that the proxy is large where they are sparse and small where they are dense. Means do not show that
 /// density: on a surface they stand about a voxel apart wherever there are points, and a cloud of 3.9:1 in
 /// spacing has means of 1.6:1.
 ///
-/// k nearest: N points lie where c N would if each mean stood for c of them, so their spacing, and with it s,
+/// k nearest: N means represent c N points if each stands for c. So the spacing of the points, and with it s,
 /// the sample of distances and the automatic r1, is that of the means over sqrt(c). c is the mean of the
 /// neighbours' counts with weights 1 - (d / d_k)^2, d_k the distance of the k-th: voxels that the surface
 /// only touches at a corner have few points, and many of them together the right number. n stays k + 1. So
@@ -76,8 +76,8 @@ Status localBandwidths(const PointView& points, const std::vector<double>& count
 
 /// The radii of the points at @p slots of @p query alone, in that order: those of localBandwidths, bit for
 /// bit, without its work for all the others. For a few of many points: about 2 us each at k = 16. All points
-/// are looked at only where that is asked for (smoothRadius) or needed (one of the neighbourhoods has no
-/// spread). Errors as for localBandwidths. Independent of @p executor.
+/// are processed only with smoothRadius, or where one of the neighbourhoods has no spread. Errors as for
+/// localBandwidths. Independent of @p executor.
 Status localRadiiAt(const PointView& points, const NeighborQuery& query,
   const LocalBandwidthSettings& settings, const std::vector<std::int64_t>& slots, std::vector<double>& radii,
   const Executor& executor = {});

@@ -1,6 +1,6 @@
 /// @file
 /// A sorted univariate sample cut into cells no wider than a part of the bandwidth, and the power sums of a
-/// cell: what the fast kernel sums stand on. Internal to Core.
+/// cell: the basis of the fast kernel sums. Internal to Core.
 #pragma once
 
 #include "Core/Base/Status.h"
@@ -180,7 +180,7 @@ inline void hermiteTable(double t, int order, int terms, double* table)
   }
 }
 
-/// A sum that carries its rounding error along (Neumaier 1974).
+/// A compensated sum: it keeps its rounding error (Neumaier 1974).
 class CompensatedSum
 {
 public:

@@ -1,5 +1,5 @@
 /// @file
-/// Raw memory that only grows and is kept for the next time: scratch of the inner loops.
+/// Raw memory that only grows and is reused: scratch of the inner loops.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace pointhaptics
 enum class Pages
 {
   Small,
-  Huge, ///< Asked for where the piece is large: the first touch of small ones costs more than the work there.
+  Huge, ///< For large pieces, where the first touch of small pages costs more than the work on them.
 };
 
 /// Memory for std::free, in huge pages where it is as large as one. @throw std::bad_alloc

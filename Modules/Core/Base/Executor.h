@@ -1,5 +1,5 @@
 /// @file
-/// The seam between Core's loops and whatever runs them in parallel (vtkSMPTools in the VTK filters).
+/// The interface between Core's loops and what runs them in parallel (vtkSMPTools in the VTK filters).
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ public:
   using Body = void (*)(void* context, std::int64_t begin, std::int64_t end);
 
   virtual ~Executor() = default;
-  /// Most bodies that run at once.
+  /// Most bodies that run concurrently.
   virtual int concurrency() const { return 1; }
   /// Pieces have at least @p grain elements where there are as many; the body is not called for none.
   virtual void run(std::int64_t count, std::int64_t grain, void* context, Body body) const
@@ -32,7 +32,7 @@ public:
   }
 };
 
-/// Elements of a loop worth a piece of their own where each is a few arithmetic operations.
+/// Least elements of a piece where each is a few arithmetic operations.
 constexpr std::int64_t kSmallestPiece = 1024;
 
 /// Calls function(begin, end) over pieces of [0, count) on @p executor.

@@ -1,5 +1,5 @@
 /// @file
-/// The regular lattice of voxels over the workspace, and the one home of the floor index.
+/// The regular lattice of voxels over the workspace, and the only definition of the floor index.
 #pragma once
 
 #include "Core/Base/PointView.h"
@@ -53,7 +53,7 @@ struct Lattice
     return { std::int64_t(key % nx), std::int64_t((key / nx) % ny), std::int64_t(key / nx / ny) };
   }
   /// @p coordinate, which lies in voxel @p i of @p axis up to rounding, moved by single units in the last
-  /// place until it does: a mean that is rounded to its voxel's upper face would be somebody else's.
+  /// place until it does: a mean that is rounded to its voxel's upper face would belong to the next voxel.
   template <typename Real>
   Real keptInVoxel(Real coordinate, int axis, std::int64_t i) const noexcept
   {
@@ -83,12 +83,12 @@ struct Lattice
 /// The lattice twice as coarse, from the same corner; one voxel has no coarser one and stays as it is.
 Lattice coarserLattice(const Lattice& lattice) noexcept;
 
-/// What a user says about the lattice; makeLattice turns it into one.
+/// The user's settings of the lattice; makeLattice turns them into one.
 struct LatticeSettings
 {
   std::array<std::int64_t, 3> dimensions{ kDefaultLatticeDimension, kDefaultLatticeDimension,
     kDefaultLatticeDimension };
-  double voxelSize = 0.0;         ///< Edge of a cubic voxel in metres; above 0 it rules over dimensions.
+  double voxelSize = 0.0;         ///< Edge of a cubic voxel in metres; above 0 it overrides dimensions.
   bool automaticWorkspace = true; ///< A cube about the transformed cloud instead of workspace.
   Bounds workspace;               ///< Used when automaticWorkspace is false.
 };

@@ -1,6 +1,5 @@
 /// @file
-/// A file that appears under its name only when it is complete: the one way in which anything here is
-/// written.
+/// A file that appears under its name only when it is complete. All files are written through it.
 #pragma once
 
 #include "Core/Base/Status.h"
@@ -12,12 +11,12 @@
 namespace pointhaptics
 {
 
-/// Writes beside the target under a name of its own; commit() renames. Without commit() the target is as it
-/// was and nothing is left behind.
+/// Writes a temporary file beside the target; commit() renames it. Without commit() the target is unchanged
+/// and the temporary file is removed.
 /// - A symbolic link stays one: the file it points to is replaced, or created where there is none yet.
-/// - A file that is replaced hands its permissions on.
-/// - A pipe or a device (/dev/stdout) cannot be replaced: it is written as it stands.
-/// Functions return Ok or FileNotWritable; then reason() and cure() say why. One object serves one thread.
+/// - The new file takes the permissions of the file that it replaces.
+/// - A pipe or a device (/dev/stdout) cannot be replaced: it is written directly.
+/// Functions return Ok or FileNotWritable; then reason() and cure() explain it. One object serves one thread.
 class OutputFile
 {
 public:
@@ -35,10 +34,10 @@ public:
 
   /// False for a pipe or a device, true after any other open().
   bool isReplacing() const noexcept { return !temporary_.empty(); }
-  /// The unfinished file, empty once open(): somebody else may write it, before commit(), in place of
-  /// write().
+  /// The temporary file, empty after open(): other code may write it before commit(), instead of write().
   const std::string& path() const noexcept { return isReplacing() ? temporary_ : target_; }
-  /// The system's words, such as "No space left on device"; and what to do about it. Empty while all is well.
+  /// The system's message, such as "No space left on device", and what to do about it. Empty without an
+  /// error.
   const std::string& reason() const noexcept { return reason_; }
   const std::string& cure() const noexcept { return cure_; }
   bool isDiskFull() const noexcept { return diskFull_; }

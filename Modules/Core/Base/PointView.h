@@ -1,5 +1,5 @@
 /// @file
-/// A view of somebody else's coordinates: pointer and count, float or double, x y z interleaved.
+/// A non-owning view of coordinates: pointer and count, float or double, x y z interleaved.
 #pragma once
 
 #include "Core/Base/Vector3.h"

@@ -1,5 +1,5 @@
 /// @file
-/// How many points the voxel means of a neighbourhood stand for.
+/// How many points the voxel means of a neighbourhood represent.
 #pragma once
 
 #include "Core/Neighbors/NeighborSweep.h"
@@ -12,7 +12,7 @@
 namespace pointhaptics
 {
 
-/// A neighbour whose voxel holds this many times the points of those nearest by counts as one of so many.
+/// Cap on a count, as a multiple of the mean count of the nearest neighbours.
 constexpr double kLargestCountJump = 4.0;
 
 /// Counts of the means that a NeighborQuery was built on. What is below 1 or NaN counts as 1. Allocates
@@ -28,7 +28,7 @@ public:
   }
   bool empty() const { return counts_.empty(); }
 
-  /// Of all points of a neighbourhood; exact where all counts are 1.
+  /// The points of a whole neighbourhood; exact where all counts are 1.
   double sum(const NeighborList& list) const
   {
     double result = 0.0;
@@ -41,7 +41,7 @@ public:
 
   /// Points of a voxel near the first of @p list: the mean with weights 1 - (d / d_k)^2, d_k the distance of
   /// the last, no count taken for more than kLargestCountJump times the mean with the fourth power of these
-  /// weights. 1, without rounding, where all counts are 1. NaN where all are at one place.
+  /// weights. 1, without rounding, where all counts are 1. NaN where all are at one position.
   double mean(const NeighborList& list) const
   {
     return weightedMean(list, kLargestCountJump * weightedMean(list, INFINITY, true), false);

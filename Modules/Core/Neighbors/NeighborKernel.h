@@ -1,6 +1,6 @@
 /// @file
 /// The nearest neighbours of all points of a leaf at once, one version per instruction set. Private to Core:
-/// NeighborSweep drives them. All versions give the same bits.
+/// NeighborSweep calls them. All versions give the same bits.
 #pragma once
 
 #include "Core/Neighbors/NeighborTree.h"
@@ -13,7 +13,7 @@ namespace pointhaptics
 namespace simd
 {
 
-/// Most neighbours these loops look for, the point itself among them.
+/// Most neighbours that these loops search for, including the point itself.
 constexpr int kMostSwept = 72;
 /// Most points that may be within reach of a leaf.
 constexpr int kMostCandidates = 1024;
@@ -22,7 +22,7 @@ constexpr int kMostRanked = 192;
 /// Loads and stores may pass the end by a vector.
 constexpr int kSlack = 8;
 
-/// One worker's memory.
+/// Scratch memory of one thread.
 struct alignas(64) LeafSearch
 {
   // Points within reach of the leaf.
@@ -35,8 +35,8 @@ struct alignas(64) LeafSearch
   std::int64_t ranks[kMostRanked + kSlack];
   std::int32_t order[kMostRanked + kSlack];
 
-  /// Squared distance that the search begins with: a guess, of which speed depends and no result. Kept from
-  /// leaf to leaf.
+  /// Squared distance that the search begins with: a guess that affects only the speed. Kept from leaf to
+  /// leaf.
   double reach = 0.0;
   /// The answers, nearest first: of the points in the bits of found, k each.
   double squaredDistances[kLeafPoints][kMostSwept];
@@ -46,11 +46,11 @@ struct alignas(64) LeafSearch
 
 struct NeighborKernels
 {
-  /// The @p k nearest points (1 to kMostSwept) of each point of @p leaf. Points that the guess does not do
-  /// for are left out of search.found.
+  /// The @p k nearest points (1 to kMostSwept) of each point of @p leaf. Points for which the
+  /// guess is too short are left out of search.found.
   void (*searchLeaf)(const NeighborTree& tree, std::int64_t leaf, int k, LeafSearch& search);
-  /// The @p k nearest points (1 to kMostSwept) of a place, nearest first: the first row of the answers. False
-  /// where there are fewer in its surroundings, or too many at the same distance: no answer then.
+  /// The @p k nearest points (1 to kMostSwept) of a position, nearest first: the first row of the answers.
+  /// @return false, without an answer, where there are fewer nearby, or too many at the same distance.
   bool (*searchPlace)(const NeighborTree& tree, const double (&center)[3], int k, LeafSearch& search);
   /// Squared distances of a point from all boxes of a group (those not in use too), each never above that of
   /// a point in the box.
@@ -58,7 +58,7 @@ struct NeighborKernels
   /// Squared distances of the points of a leaf. @return the bits of those not above @p reach.
   unsigned (*leafDistances)(const NeighborTree& tree, std::int64_t leaf, const double (&center)[3],
     double reach, double (&distances)[kLeafPoints]);
-  /// Places on Hilbert's curve through 2^30 cells, from their coordinates, 10 bits each.
+  /// Positions along Hilbert's curve through 2^30 cells, from their coordinates, 10 bits each.
   void (*hilbertKeys)(
     const std::uint32_t* x, const std::uint32_t* y, const std::uint32_t* z, int count, std::uint32_t* keys);
 };

@@ -59,7 +59,7 @@ NeighborList NeighborSweep::listOf(std::int64_t leaf, int i)
 
 NeighborList NeighborSweep::alone(std::int64_t slot)
 {
-  // Points at one place stand side by side and have one answer: a crowd of them is asked for once.
+  // Duplicates are adjacent in the order and have one answer: they are searched once.
   if (lastCount_ > 0 && query_.point(slot) == lastPlace_)
   {
     return { slot, lastCount_, squaredDistances_.data(), slots_.data() };

@@ -29,11 +29,11 @@ struct NeighborList
   const std::uint32_t* slots = nullptr;
 };
 
-/// One worker's memory for the neighbours of many points: 60 KiB and 28 bytes per neighbour asked for. The
-/// results are those of NeighborQuery::nearest, bit for bit; leaf by leaf they cost a fraction, as the points
-/// of a leaf share their candidates and each search begins with what the one before has found. Where the
-/// neighbours are more than 72, or the guesses fail (a point apart, a crowd of duplicates), the points are
-/// asked for one by one. Allocates in the constructor only. One thread at a time.
+/// Finds the neighbours of many points, leaf by leaf. The results are those of NeighborQuery::nearest, bit
+/// for bit, at a fraction of the cost: the points of a leaf share their candidates, and each search begins
+/// with the reach of the one before. Where more than 72 neighbours are wanted, or the guessed reach fails (an
+/// isolated point, many duplicates), points are searched one by one. Memory: 60 KiB and 28 bytes per
+/// neighbour, allocated in the constructor only. One thread at a time.
 class NeighborSweep
 {
 public:
@@ -44,9 +44,9 @@ public:
   NeighborSweep(const NeighborSweep&) = delete;
   NeighborSweep& operator=(const NeighborSweep&) = delete;
 
-  /// Groups of points in spatial order: what run() takes.
+  /// Leaves of points in spatial order: the range for run().
   static std::int64_t leaves(const NeighborQuery& query);
-  /// Leaves worth a piece of a parallel loop.
+  /// Least leaves for a piece of a parallel loop.
   static constexpr std::int64_t kSmallestRange = 64;
 
   /// Calls visit(const NeighborList&) for each point of the leaves [begin, end), in the order of slots.
@@ -72,9 +72,9 @@ private:
 
   const NeighborQuery& query_;
   const int k_;
-  const simd::NeighborKernels* kernels_; ///< Null: every point alone.
+  const simd::NeighborKernels* kernels_; ///< Null: every point is searched alone.
   std::unique_ptr<simd::LeafSearch> search_;
-  // The last point that was asked for alone, and its neighbours.
+  // The last point that was searched alone, and its neighbours.
   Vec3 lastPlace_;
   int lastCount_ = 0;
   std::vector<Neighbor> alone_;
@@ -82,9 +82,9 @@ private:
   std::vector<std::uint32_t> slots_;
 };
 
-/// All neighbours of all points: for point i of the cloud @p k of @p neighbors from i k, as of
-/// NeighborQuery::nearest for its place, and as many of them as @p counts says (those of points
-/// that are not finite are left alone). Room for n k and n (the points given to build()) is the caller's.
+/// The neighbours of all points. Those of point i start at neighbors[i k], as from NeighborQuery::nearest at
+/// its position, and counts[i] says how many of the k are valid; entries of points that are not finite are
+/// left unchanged. The caller provides n k @p neighbors and n @p counts, n the points given to build().
 /// Independent of @p executor.
 void nearestOfAll(
   const NeighborQuery& query, int k, Neighbor* neighbors, int* counts, const Executor& executor = {});

@@ -1,6 +1,6 @@
 /// @file
-/// What the inner loops of neighbour search work on: points in spatial order in leaves, and boxes about them.
-/// Private to Core: NeighborQuery holds the memory, NeighborKernel.h walks it.
+/// The data of neighbour search: points in spatial order in leaves, and boxes about them. Private to Core:
+/// NeighborQuery holds the memory, the loops of NeighborKernel.h traverse it.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ struct BoxGroup
   std::uint32_t firstIndex[kBranches];
 };
 
-/// A slot is a place in spatial order: leaf l has the slots from l kLeafPoints. On level 0 group g has the
+/// A slot is an index in spatial order: leaf l has the slots from l kLeafPoints. On level 0 group g has the
 /// boxes of the leaves from 8 g, on level l those of the groups from 8 g of level l - 1. The last level is
 /// one group.
 struct NeighborTree

@@ -14,9 +14,9 @@ constexpr std::uint32_t kNoBrick = ~std::uint32_t(0);
 /// Bricks per axis: a surface then has a few hundred points in each that is not empty.
 constexpr double kPointsPerCell = 20.0;
 constexpr int kMostCells = 128;
-/// Bricks that are looked at one by one only if the bounds around them all touch a view.
+/// Bricks of a group: tested one by one only if the bounds around them all touch a view.
 constexpr std::size_t kGroupBricks = 32;
-/// Groups a thread looks at before it takes others.
+/// Groups in a piece of a parallel loop.
 constexpr std::size_t kSliceGroups = 64;
 
 int cellsPerAxis(std::int64_t points)
@@ -238,7 +238,7 @@ bool PointIndex::fill(const PointView& points, const std::vector<std::uint32_t>&
     });
 }
 
-/// Looks for the bounds of the bricks and of their groups.
+/// Computes the bounds of the bricks and of their groups.
 bool PointIndex::bound(const Executor& executor, PointProgress& progress)
 {
   const PointView sorted = this->points();

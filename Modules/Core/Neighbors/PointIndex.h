@@ -1,5 +1,5 @@
 /// @file
-/// Where the points of a cloud are: looked at once, so that a view of a part costs in proportion to the part.
+/// A spatial index of a cloud, built once: a view of a part then costs in proportion to the part.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
@@ -19,15 +19,15 @@ namespace pointhaptics
 
 /// A copy of the finite points of a cloud, sorted into bricks with bounds.
 /// Memory: the coordinates again and 4 bytes a point (16 for floats). Immutable after build(); any number of
-/// threads may ask.
+/// threads may read it.
 class PointIndex
 {
 public:
-  /// Points looked up at once; an index of more than these is not built.
+  /// Most points of an index; for more it is not built.
   static constexpr std::int64_t kMostPoints = (std::int64_t(1) << 32) - 1;
 
   /// @return InvalidParameter for more than kMostPoints; Empty when no point is finite; Aborted where
-  /// @p observer ended the work: the index is then empty.
+  /// @p observer aborted the work: the index is then empty.
   Status build(const PointView& points, const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
   /// Ranges of points() that hold every point which @p transform moves into @p lattice, and few others.

@@ -16,7 +16,7 @@ using Entry = std::uint64_t;
 
 constexpr int kBitsPerAxis = 10;
 constexpr double kCellsPerAxis = 1 << kBitsPerAxis;
-/// Points looked at together.
+/// Points processed together.
 constexpr std::int64_t kBlock = 4096;
 constexpr int kDigitBits = 10;
 constexpr int kDigits = 3 * kBitsPerAxis / kDigitBits;
@@ -45,7 +45,7 @@ struct Grid
     const double perUnit = kCellsPerAxis / std::max(extent.x, std::max(extent.y, extent.z));
     scale = std::isfinite(perUnit) ? perUnit : 0.0;
   }
-  /// Else the box is a point, or so small that its cells cannot be told apart: all have the same key.
+  /// Else the box is a point, or so small that its cells cannot be distinguished: all have the same key.
   bool usable() const { return scale > 0.0; }
 
   std::uint32_t cell(double place, int axis) const

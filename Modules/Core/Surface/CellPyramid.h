@@ -22,7 +22,7 @@ struct Cell
   bool mixed = false; ///< Thick in every direction: two sheets, an edge, or noise. Use its children instead.
 };
 
-/// An octree of 4^3-voxel bricks, sorted along the Morton curve: the bricks below a brick stand side by side,
+/// An octree of 4^3-voxel bricks, sorted along the Morton curve: the bricks below a brick are adjacent,
 /// so a search goes from the root to the voxels without hashing. Level 0 is the finest; a voxel of level l
 /// has the edge 2^l voxelSize(0). Immutable after build(); any number of threads may read it. Memory: about
 /// 130 bytes a point.

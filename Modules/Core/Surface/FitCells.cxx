@@ -7,9 +7,9 @@ namespace pointhaptics
 namespace
 {
 
-/// How much further than asked for is gathered: a hand at 50 mm/s then stays inside for about ten ticks.
+/// Margin of the gathered radius: a HIP at 50 mm/s then stays inside for about ten ticks.
 constexpr double kMargin = 1.25;
-/// Where that overflows.
+/// The margin where that overflows.
 constexpr double kNoMargin = 1.0 + 1e-9;
 
 /// Cells of no weight behind the last: the loops take eight at a time.

@@ -1,5 +1,5 @@
 /// @file
-/// The cells near a place, laid out for the fit's inner loops, and kept while fits stay near it.
+/// The cells near a position, laid out for the fit's inner loops and reused while fits stay near it.
 #pragma once
 
 #include "Core/Surface/CellPyramid.h"

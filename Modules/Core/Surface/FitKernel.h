@@ -89,7 +89,7 @@ struct FieldSums
   double radiusGradient[3] = { 0.0, 0.0, 0.0 }; ///< Of the sum of weight times radius.
 };
 
-/// Where the fit looks from; lengths of the block's unit.
+/// The frame and parameters of a fit; lengths in the unit of the block.
 struct FitView
 {
   Vec3 origin; ///< Relative to the block's center.

@@ -205,7 +205,7 @@ void sumRows(const FitRows& rows, FitSums& sums)
   }
 }
 
-/// The means over a cell of uuu, uuv, uvv and vvv, as far as its second moments tell them.
+/// The means over a cell of uuu, uuv, uvv and vvv, as far as its second moments determine them.
 inline void cubicTerms(
   const Pack& u, const Pack& v, const Pack& uu, const Pack& uv, const Pack& vv, Pack q[4])
 {

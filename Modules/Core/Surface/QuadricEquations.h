@@ -1,5 +1,5 @@
 /// @file
-/// The solution of the fit's normal equations, and what else it tells. Private to SurfaceFit.
+/// The solution of the fit's normal equations, with its standard errors. Private to SurfaceFit.
 #pragma once
 
 #include "Core/Surface/FitKernel.h"
@@ -20,7 +20,7 @@ struct CubicFactor
 {
   double half[4][6];
   double m[4][4];
-  double weight; ///< Of the cubic terms: as asked for, less where the cells hardly determine them.
+  double weight; ///< Of the cubic terms: as given, less where the cells hardly determine them.
 };
 
 /// @param l factor of the six. @param cubicWeight 0 to 1.

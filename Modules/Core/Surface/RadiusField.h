@@ -11,7 +11,7 @@
 namespace pointhaptics
 {
 
-/// What a field tells of a place; metres.
+/// The values of a field at a position; metres.
 struct LocalScale
 {
   double radius = 0.0;      ///< Of the surface fit.

@@ -30,7 +30,7 @@ struct SurfaceFrame
   }
 };
 
-/// What a fit looks at besides the cells.
+/// Parameters of a fit besides the cells.
 struct FitSettings
 {
   double radius = 0.0; ///< rho, metres, above 0.
@@ -88,7 +88,7 @@ struct SurfaceFit
   }
 };
 
-/// A fit with what its scatter says of its own error.
+/// A fit with its errors, estimated from the residuals.
 struct SurfaceFitError
 {
   double noise = 0.0;   ///< Standard deviation of single points about the surface, metres.

@@ -1,5 +1,5 @@
 /// @file
-/// What a LAS file says of its coordinate system.
+/// The coordinate system of a LAS file.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ class LasCoordinateSystem
 public:
   /// @p id 2112: well-known text; 34735: GeoTIFF keys. Others are ignored, and so is what is damaged.
   void addRecord(int id, std::string_view content);
-  /// Well-known text as the file has it, or "EPSG:26917"; empty when nothing was said.
+  /// Well-known text as the file has it, or "EPSG:26917"; empty when the file names none.
   const std::string& name() const { return text_.empty() ? code_ : text_; }
-  /// The unit of a projected system ("metre", "US survey foot"), empty when nothing was said.
+  /// The unit of a projected system ("metre", "US survey foot"), empty when the file names none.
   std::string lengthUnit() const;
 
 private:

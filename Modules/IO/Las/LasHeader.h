@@ -1,6 +1,6 @@
 /// @file
-/// The header of a LAS file and the records that describe its points, checked before anybody allocates what
-/// they claim. Layouts: ASPRS, LAS Specification 1.4 R15.
+/// The header of a LAS file and the records that describe its points, checked before anything of the claimed
+/// sizes is allocated. Layouts: ASPRS, LAS Specification 1.4 R15.
 #pragma once
 
 #include "StridedCopy.h"

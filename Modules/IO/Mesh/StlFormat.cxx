@@ -76,7 +76,7 @@ private:
     }
   }
 
-  /// Another one each time: no file can be made to meet the same slot again and again.
+  /// Random for each read: a file cannot be crafted to collide in one slot.
   const std::uint64_t seed_ = std::uint64_t{ std::random_device()() } << 32 | std::random_device()();
   std::vector<Vertex> vertices_;
   std::vector<std::uint32_t> slots_;

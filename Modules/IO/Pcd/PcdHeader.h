@@ -1,5 +1,5 @@
 /// @file
-/// The header of a PCD file, checked before anybody allocates what it claims.
+/// The header of a PCD file, checked before anything of the claimed sizes is allocated.
 #pragma once
 
 #include <array>

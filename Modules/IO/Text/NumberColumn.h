@@ -1,5 +1,5 @@
 /// @file
-/// What the numbers in one column of a text have in common, which tells the array they need.
+/// The value range of one column of a text, which determines the type of its array.
 #pragma once
 
 #include "IO/Text/TextScan.h"
@@ -12,7 +12,7 @@
 namespace pointhaptics::io
 {
 
-/// Knows the numbers it was shown, and keeps none. Integers beyond 2^53 lose their last digits.
+/// Summarises the numbers that were added; stores none. Integers beyond 2^53 lose their last digits.
 class NumberColumn
 {
 public:

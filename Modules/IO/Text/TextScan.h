@@ -44,7 +44,7 @@ std::string_view takeWord(std::string_view& line);
 /// Without regard to case, for ASCII.
 bool equalNoCase(std::string_view a, std::string_view b);
 
-/// How a number was written, which tells what type keeps it.
+/// How a number was written, which determines the type that holds it.
 struct NumberShape
 {
   bool isInteger = false; ///< digits only: no point, exponent, nan or inf

@@ -381,7 +381,7 @@ TextLayout inspectText(std::string_view text)
       layout.names = names;
     }
   }
-  // A cell may be empty at the end of the first line: the header knows better.
+  // A cell may be empty at the end of the first line: the header has the number of columns.
   if (layout.separator != ' ' && layout.columns < layout.names.size())
   {
     layout.columns = layout.names.size();

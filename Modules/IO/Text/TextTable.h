@@ -16,7 +16,7 @@ class vtkPolyData;
 namespace pointhaptics::io
 {
 
-/// What the first lines tell.
+/// The layout found in the first lines.
 struct TextLayout
 {
   char separator = ' ';           ///< ',' or ';', or ' ' for any white space
@@ -27,23 +27,23 @@ struct TextLayout
   std::size_t columns = 0;        ///< in the first line of data; 0 when there is none
 };
 
-/// Looks at the lines up to the first one that holds numbers. @throws FileProblem when one of them has more
+/// Reads the lines up to the first one that holds numbers. @throws FileProblem when one of them has more
 /// than kMostColumns columns.
 TextLayout inspectText(std::string_view text);
 
-/// What a first pass over the text finds.
+/// The results of a first pass over the text.
 struct TextTable
 {
   std::vector<NumberColumn> columns;
   vtkIdType rows = 0;
 };
 
-/// Looks at every number of @p text, and keeps none: the arrays can be made as large as they must be.
+/// Parses every number of @p text and stores none: it finds the size and type of each array.
 /// @throws FileProblem with the line number of what is not a number, or of a line with more or fewer columns
 /// than the first; StoppedOnRequest.
 TextTable surveyTable(const ReadTask& task, std::string_view text, const TextLayout& layout);
 
-/// Stores every number in its place, one target per column. @pre surveyTable() went well.
+/// Stores every number in its place, one target per column. @pre surveyTable() succeeded.
 void storeTable(const ReadTask& task, std::string_view text, const TextLayout& layout,
   const std::vector<ColumnView>& targets);
 

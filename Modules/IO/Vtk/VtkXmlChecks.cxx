@@ -15,7 +15,7 @@ namespace pointhaptics::io
 namespace
 {
 
-/// zlib packs at most 1032 bytes into one; a file that claims more of any compressor is no honest cloud.
+/// zlib packs at most 1032 bytes into one; a file that claims more, of any compressor, is refused.
 constexpr double kMostUnpackedBytes = 1032.0;
 
 bool isSpace(char c)

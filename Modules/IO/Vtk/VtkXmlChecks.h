@@ -1,6 +1,6 @@
 /// @file
-/// What a VTK XML file claims of its sizes, held against its length before VTK's reader, which believes them,
-/// sees the file.
+/// The sizes that a VTK XML file claims, checked against its length before VTK's reader, which trusts them,
+/// opens the file.
 #pragma once
 
 #include <string_view>
