@@ -1,8 +1,8 @@
 #include "Options/ViewOptions.h"
 
-#include "Options/KeyedHelp.h"
 #include "Options/OptionParsing.h"
 #include "Options/ViewSettings.h"
+#include "Terminal/KeyedHelp.h"
 #include "Terminal/Messages.h"
 
 #include "HapticBindings.h"

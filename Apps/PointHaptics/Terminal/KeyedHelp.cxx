@@ -1,4 +1,4 @@
-#include "Options/KeyedHelp.h"
+#include "Terminal/KeyedHelp.h"
 
 #include "HapticBindings.h"
 
