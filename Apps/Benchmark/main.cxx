@@ -67,6 +67,17 @@ BenchSettings settingsOf(const BenchOptions& options)
   return settings;
 }
 
+/// Of files, one or several with commas between, their names.
+std::string withoutFolders(const std::string& files)
+{
+  std::vector<std::string> names;
+  for (const std::string& file : CLI::detail::split(files, ','))
+  {
+    names.push_back(std::filesystem::path(file).filename().string());
+  }
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
 /// The command line that repeats the run.
 std::string commandText(const CLI::App& command)
 {
@@ -83,9 +94,9 @@ std::string commandText(const CLI::App& command)
     {
       const std::string value = option->as<std::string>();
       text += " " +
-        (name == "--output"    ? kShownFolder
-            : name == "--file" ? std::filesystem::path(value).filename().string()
-                               : value);
+        (name == "--output"                         ? kShownFolder
+            : name == "--file" || name == "--scans" ? withoutFolders(value)
+                                                    : value);
     }
   }
   return text;

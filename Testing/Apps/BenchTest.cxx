@@ -242,7 +242,7 @@ TEST_F(Bench, ScansAreFeltAndMeshesAreTheirJudges)
   ASSERT_EQ(result["meshes"]["rows"].size(), 1u);
   EXPECT_EQ(result["meshes"]["rows"][0]["triangles"], 4);
   const std::string text = this->succeed({ "bench", "proxy", "--quick", "--studies", "scans", "--scans",
-    "tetra.ply,ball.ply", "--strokes", "1", "-o", "doc" });
+    "./tetra.ply,./ball.ply", "--strokes", "1", "-o", "doc" });
   EXPECT_NE(this->read("doc/Accuracy.md").find("--scans tetra.ply,ball.ply"), std::string::npos) << text;
   this->refuse(1, { "bench", "proxy", "--quick", "--scans", "none.ply" }, { "none.ply" });
 }

@@ -1,5 +1,6 @@
 #include "Haptics/Contact/ProxyBall.h"
 
+#include "Haptics/Contact/BallRadius.h"
 #include "Haptics/Proxy.h"
 
 #include <algorithm>
@@ -10,24 +11,6 @@ namespace pointhaptics
 namespace
 {
 
-/// r over the index cell and over the local spacing, at least.
-constexpr double kRadiusInCells = 2.0;
-constexpr double kRadiusInSpacings = 2.4;
-/// Over the radius from the bandwidth, which is some 2.9 spacings.
-constexpr double kRadiusOfField = 0.8;
-/// The spacing is that of so many points: the ball about one of them that has them is sought from this many
-/// index cells on, in steps.
-constexpr double kPoints = 16.0;
-constexpr double kFirstReach = 2.0;
-constexpr double kReachGrowth = 1.3;
-constexpr int kReaches = 12;
-/// Points further than this part of that reach from the tangent plane are of another sheet.
-constexpr double kSheetDepth = 0.15;
-/// The middle of half a disk is 0.42 radii aside; that of a few points on a whole one lies aside by chance.
-constexpr double kChanceOffset = 0.2;
-constexpr double kPartPerOffset = 2.3;
-constexpr double kLeastPart = 0.25;
-constexpr double kMostSheets = 2.0;
 /// The radius is measured again after this many index cells of way, and changes by at most this part a tick.
 constexpr double kMeasureEvery = 2.0;
 constexpr double kLargestGrowth = 1.02;
@@ -162,44 +145,8 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
 
 void ProxyBall::gather(Work& work, double reach) noexcept
 {
-  const bool all = work.cells.gather(work.scene.pyramid(), center_, reach, radius_ / kRadiusInCells);
+  const bool all = work.cells.gather(work.scene.pyramid(), center_, reach, radius_ / kBallRadiusInCells);
   work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
-}
-
-/// The radius that the cloud asks for at its point @p seed, seen from the ball.
-double ProxyBall::wantedRadius(Work& work, const Vec3& seed) noexcept
-{
-  constexpr double kPi = 3.14159265358979323846;
-  const Vec3 up = normalized(center_ - seed);
-  double points = 0.0;
-  double reach = kFirstReach * work.scene.cellSize();
-  for (int i = 0; i < kReaches && points < kPoints; ++i, reach *= kReachGrowth)
-  {
-    double all = 0.0;
-    double count = 0.0;
-    Vec3 sum;
-    work.scene.pyramid().visitBall(0, seed, reach,
-      [&](std::uint32_t, const Cell& cell, double)
-      {
-        const Vec3 offset = cell.mean - seed;
-        all += 1.0;
-        if (std::abs(dot(offset, up)) < kSheetDepth * reach)
-        {
-          count += 1.0;
-          sum += offset;
-        }
-      });
-    // Where the sheet ends the points fill a part of the disk alone, and their middle lies aside.
-    const double aside = norm(sum) / (std::max(1.0, count) * reach);
-    const double part = std::clamp(1.0 - kPartPerOffset * (aside - kChanceOffset), kLeastPart, 1.0);
-    // Two sheets have twice the points of one; where the gate leaves fewer the surface is bent.
-    points = std::max({ 1.0, count / part, all / kMostSheets });
-  }
-  const double spacing = reach / kReachGrowth * std::sqrt(kPi / points);
-  // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
-  Vec3 ignored;
-  const double field = kRadiusOfField * work.scene.fitScale(seed, work.fields, ignored).proxyRadius;
-  return std::max({ kRadiusInCells * work.scene.cellSize(), kRadiusInSpacings * spacing, field });
 }
 
 /// Moves the ball out of the points it covers; false where they hold it from all sides.
@@ -245,7 +192,7 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   placed_ = true;
   center_ = hip;
   hip_ = hip;
-  radius_ = kRadiusInSpacings * work.scene.cellSize();
+  radius_ = kBallRadiusInSpacings * work.scene.cellSize();
   isMeasured_ = false;
   updateRadius(work, hip);
   radius_ = wanted_;
@@ -302,7 +249,7 @@ void ProxyBall::updateRadius(Work& work, const Vec3& hip) noexcept
     double distance = 0.0;
     const std::int64_t nearest = pyramid.nearest(0, center_, search, distance);
     const auto wantedAt = [&](std::int64_t cell)
-    { return wantedRadius(work, pyramid.level(0).cells[std::size_t(cell)].mean); };
+    { return ballRadius(work.scene, work.fields, pyramid.level(0).cells[std::size_t(cell)].mean, center_); };
     wanted_ = nearest >= 0 ? wantedAt(nearest) : radius_;
     // What is ahead may be sparser, and the ball is wide.
     double ignored = 0.0;
@@ -570,7 +517,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
   {
     reset();
     center_ = hip_ = hip;
-    radius_ = kRadiusInSpacings * scene.cellSize();
+    radius_ = kBallRadiusInSpacings * scene.cellSize();
   }
   if (isFarAway(scene, hip))
   {

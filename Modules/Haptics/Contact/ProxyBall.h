@@ -80,7 +80,6 @@ private:
 
   void place(Work& work, const Vec3& hip) noexcept;
   void updateRadius(Work& work, const Vec3& hip) noexcept;
-  double wantedRadius(Work& work, const Vec3& seed) noexcept;
   void walk(Work& work, const Vec3& hip) noexcept;
   double fly(Work& work, const Vec3& direction, double length) noexcept;
   void slide(Work& work, const Vec3& hip) noexcept;

@@ -1,0 +1,21 @@
+/// @file
+/// How large the proxy's ball must be among the points about it.
+#pragma once
+
+#include "Core/Surface/FitCells.h"
+#include "Haptics/HapticScene.h"
+
+namespace pointhaptics
+{
+
+/// The radius over the index cell and over the local spacing of the points, at least: a smaller ball falls
+/// through the gaps of a random sample.
+constexpr double kBallRadiusInCells = 2.0;
+constexpr double kBallRadiusInSpacings = 2.4;
+
+/// The radius that the cloud asks for at its point @p seed (a finest cell's mean), seen from a ball at @p
+/// center: points of other sheets do not count. Lattice frame, metres. @param fields the memory for the
+/// scene's fields. No allocation; one thread for each @p fields.
+double ballRadius(const HapticScene& scene, FitCells& fields, const Vec3& seed, const Vec3& center) noexcept;
+
+} // namespace pointhaptics
