@@ -26,7 +26,7 @@ struct ContactParameters
   /// once.
   double settleRate = 100.0;
   /// Of the device itself, N s/m, 0 to 1e3; 0: unknown. For programs that step a Proxy without ServoLoop,
-  /// which refuses such springs by HandPort::limits(): where it is known the stiffness is kept at
+  /// which refuses such springs by HapticPort::limits(): where it is known the stiffness is kept at
   /// largestPassiveStiffness(), here 2 (deviceDamping - damping) / T, T the tick.
   double deviceDamping = 0.0;
 };

@@ -87,7 +87,7 @@ struct ServoLoop::Implementation
   // The servo thread's from start() to the join in stop().
   std::thread thread;
   ServoSettings settings;
-  HandPort* port = nullptr;
+  HapticPort* port = nullptr;
   Proxy proxy;
   ForceGuard guard;
   HandLimits limits;
@@ -102,7 +102,7 @@ struct ServoLoop::Implementation
   bool newsCame = false;        ///< In this tick.
   ServoSample sample;
 
-  void prepare(HandPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings);
+  void prepare(HapticPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings);
   void run() noexcept;
   void waitFor(std::int64_t deadline, double early) noexcept;
   Status tick(std::uint64_t number, std::int64_t wake) noexcept;
@@ -115,7 +115,7 @@ struct ServoLoop::Implementation
 };
 
 void ServoLoop::Implementation::prepare(
-  HandPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings)
+  HapticPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings)
 {
   port = &newPort;
   settings = newSettings;
@@ -330,7 +330,7 @@ ServoLoop::~ServoLoop()
 }
 
 Status ServoLoop::start(
-  HandPort& port, const HapticParameters& parameters, const ServoSettings& settings, std::string* message)
+  HapticPort& port, const HapticParameters& parameters, const ServoSettings& settings, std::string* message)
 {
   const HandLimits limits = port.limits();
   const Status status = running() || !valid(settings) ? Status::InvalidParameter

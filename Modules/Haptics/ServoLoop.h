@@ -3,7 +3,7 @@
 /// program.
 #pragma once
 
-#include "Haptics/HandPort.h"
+#include "Haptics/HapticPort.h"
 #include "Haptics/Proxy.h"
 #include "Haptics/Servo/ForceGuard.h"
 #include "Haptics/Servo/LatencyHistogram.h"
@@ -32,7 +32,7 @@ struct ServoSettings
                                 ///< taken away; 0: never. 0 to 3600.
   int traceCapacity = 1 << 15; ///< Ticks kept until takeTrace(), 1 to 2^22 (200 bytes each); what comes while
                                ///< the trace is full is lost and counted.
-  bool restsWhenIdle = false;  ///< Where the port allows it (HandPort::mayRest()): after half a second in
+  bool restsWhenIdle = false;  ///< Where the port allows it (HapticPort::mayRest()): after half a second in
                               ///< which the hand stood still and touched nothing and no news came, only every
                               ///< fiftieth of a second is a tick, until that changes.
   ForceLimits limits;
@@ -89,8 +89,8 @@ std::string describeRefusals(const ServoStatistics& statistics);
 /// DeviceNotReady is answered the same way and counted apart. EndOfPath from read() ends the loop: zero
 /// force, then running() is false.
 ///
-/// Springs that the port cannot render without giving energy to the hand (HandPort::limits()) are refused by
-/// start() and setParameters(). When the loop stops, and when the watchdog finds that the program gives no
+/// Springs that the port cannot render without giving energy to the hand (HapticPort::limits()) are refused
+/// by start() and setParameters(). When the loop stops, and when the watchdog finds that the program gives no
 /// sign of life, the force goes to zero over the port's rampDownSeconds; when life returns, it comes back
 /// over its rampUpSeconds.
 ///
@@ -109,7 +109,7 @@ public:
   /// published scene stays. InvalidParameter: a setting, limit or parameter out of range, or already running.
   /// NotPassive, RateNotSupported: the port cannot render this; @p message, where given, names the limit.
   /// Throws std::system_error or std::bad_alloc where the system has no thread or memory to give.
-  Status start(HandPort& port, const HapticParameters& parameters, const ServoSettings& settings = {},
+  Status start(HapticPort& port, const HapticParameters& parameters, const ServoSettings& settings = {},
     std::string* message = nullptr);
   /// Takes the force away over the port's rampDownSeconds, writes zero force, joins; waits that long and two
   /// periods at most. Safe to call twice.

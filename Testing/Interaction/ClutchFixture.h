@@ -48,7 +48,7 @@ protected:
     style->SetServoLoop(nullptr);
   }
   /// A strip, 4 cm wide, is there to be felt, by the hand at @p port.
-  void begin(HandPort& port, double x0, double x1)
+  void begin(HapticPort& port, double x0, double x1)
   {
     resampler->SetInputData(flatCloud(x0, x1, 0.02));
     style->SetResampler(resampler);

@@ -21,7 +21,7 @@ namespace
 {
 
 /// A hand that is exactly where it is told to be, and what was sent to its motors.
-class TestHand : public HandPort
+class TestHand : public HapticPort
 {
 public:
   TestHand()

@@ -384,7 +384,7 @@ TEST_F(RefiningWorkerTest, LooksAtNoHandAfterItIsCancelled)
 }
 
 /// A hand that stays where it is.
-class StillPort : public HandPort
+class StillPort : public HapticPort
 {
 public:
   Status read(double, HandState& state) noexcept override

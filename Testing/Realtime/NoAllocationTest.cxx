@@ -106,10 +106,10 @@ Outcome stepProxy(ProxyMethod method, int steps)
 }
 
 /// Watches the servo thread from its first tick to its last.
-class WatchingPort : public HandPort
+class WatchingPort : public HapticPort
 {
 public:
-  WatchingPort(HandPort& port, int ticks)
+  WatchingPort(HapticPort& port, int ticks)
     : port_(port)
     , left_(ticks)
   {
@@ -139,7 +139,7 @@ public:
   std::atomic<bool> pushed{ false };
 
 private:
-  HandPort& port_;
+  HapticPort& port_;
   int left_;
   countedcalls::Watch* watch_ = nullptr;
   alignas(countedcalls::Watch) unsigned char memory_[sizeof(countedcalls::Watch)];

@@ -42,7 +42,7 @@ constexpr double kDirection = 0.9;
 constexpr int kQuestionMilliseconds = 100;
 
 /// A virtual finger: no scene, a force of our own. Gives the diagnosis the servo thread for itself.
-class PushPort : public HandPort
+class PushPort : public HapticPort
 {
 public:
   explicit PushPort(FalconDevice& device)

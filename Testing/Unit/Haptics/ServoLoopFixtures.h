@@ -18,7 +18,7 @@ namespace pointhaptics
 namespace trial
 {
 /// What the test's device does; every member is set before start() or is atomic.
-class ScriptedPort : public HandPort
+class ScriptedPort : public HapticPort
 {
 public:
   std::function<Vec3(double)> path = [](double) { return Vec3(); };

@@ -1,5 +1,5 @@
 /// @file
-/// What the servo loop needs of a device: a hand position in, a force out.
+/// What a servo loop drives: a hand position in, a force out.
 #pragma once
 
 #include "Core/Base/Status.h"
@@ -22,10 +22,10 @@ struct HandState
 };
 
 /// Implemented by HapticDevice (Modules/Devices). Called from the servo thread only, between start and stop.
-class HandPort
+class HapticPort
 {
 public:
-  virtual ~HandPort() = default;
+  virtual ~HapticPort() = default;
   /// The hand at @p timeSeconds of the servo clock. Must not wait longer than a tick.
   /// Ok, EndOfPath (the loop stops), DeviceNotReady (no position yet: the loop sends zero force and goes on),
   /// or a fault (the same, and the loop counts it).
