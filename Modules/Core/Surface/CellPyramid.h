@@ -71,7 +71,7 @@ public:
   const Level& level(int l) const { return levels_[std::size_t(l)]; }
 
   /// Calls visit(first, last) for runs of cells of @p level that hold all whose mean is nearer to @p center
-  /// than @p radius, and others near by, in Morton order.
+  /// than @p radius, and others near by, in Morton order, until it returns false.
   template <typename Visitor>
   void visitRuns(int level, const Vec3& center, double radius, Visitor&& visit) const
   {
@@ -80,7 +80,7 @@ public:
       {
         const std::uint32_t end = brick.slot + std::uint32_t(__builtin_popcountll(brick.mask));
         const bool ranged = !l.slotBegin.empty();
-        visit(ranged ? l.slotBegin[brick.slot] : brick.slot, ranged ? l.slotBegin[end] : end);
+        return visit(ranged ? l.slotBegin[brick.slot] : brick.slot, ranged ? l.slotBegin[end] : end);
       });
   }
 
@@ -102,6 +102,7 @@ public:
             visit(i, cells[i], d2);
           }
         }
+        return true;
       });
   }
 
@@ -141,6 +142,7 @@ public:
             visit(cell, d2);
           }
         }
+        return true;
       });
   }
 
@@ -166,6 +168,7 @@ private:
     return x * x + y * y + z * z;
   }
 
+  /// Until visit(level, brick) returns false.
   template <typename BrickVisitor>
   void visitBricks(int target, const Vec3& center, double radius, BrickVisitor&& visit) const
   {
@@ -195,7 +198,10 @@ private:
       }
       if (entry.level == target)
       {
-        visit(l, brick);
+        if (!visit(l, brick))
+        {
+          return;
+        }
         continue;
       }
       for (std::uint32_t i = brick.childCount; i-- > 0;)

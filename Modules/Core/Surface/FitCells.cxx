@@ -60,6 +60,7 @@ bool FitCells::gather(
           block.size += norm2(place) < reach * reach ? 1 : 0;
           fits = block.size <= simd::FitBlock::kCapacity;
         }
+        return fits;
       });
     block.size = fits ? block.size : simd::FitBlock::kCapacity;
     pad(block);

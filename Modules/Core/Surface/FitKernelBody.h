@@ -360,6 +360,8 @@ int pointsWithin(const BallPoints& points, const Vec3& p, double radius2, int* i
 double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& direction, double length,
   double radius, double tangential)
 {
+  // Far above the rounding of what it is compared with: no point that could be met first is left out.
+  constexpr double kRounding = 1e-9;
   const double radius2 = radius * radius;
   double reached = length;
   for (int i = 0; i < points.size; i += simd::kWidth)
@@ -371,7 +373,12 @@ double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& directi
     // At t the ball is sqrt(outside + r^2 - along^2 + (t - along)^2) from the point.
     const Pack outside = dx * dx + dy * dy + dz * dz - radius2;
     const Pack across = outside - along * along;
-    const Pack missed = along > tangential ? across : simd::all(1.0);
+    // A point ahead that is free of the ball at the place reached so far is met later than that.
+    const Pack there =
+      outside + reached * (reached - 2.0 * along) - kRounding * (radius2 + reached * reached);
+    const Pack isLater = along > reached ? there : simd::all(-1.0);
+    const Pack isAhead = along > tangential ? across : simd::all(1.0);
+    const Pack missed = isLater < 0.0 ? isAhead : simd::all(1.0);
     if (!simd::anyBelow(missed, 0.0))
     {
       continue;

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace pointhaptics
 {
 namespace
 {
 
-/// How much further than asked for is gathered: a sliding hand then stays inside for some ticks.
-constexpr double kMargin = 1.35;
-/// Where that overflows.
-constexpr double kNoMargin = 1.0 + 1e-9;
+/// How much further than asked for is gathered, so that a sliding hand stays inside for some ticks: the first
+/// that does not overflow.
+constexpr double kMargins[] = { 1.35, 1.1, 1.0 + 1e-9 };
 constexpr double kSmallerBall = 0.8;
 /// Behind the last point: further than any ball reaches, squared still finite.
 constexpr double kFarAway = 1e100;
@@ -43,6 +43,7 @@ bool BallCells::gatherFrom(const CellPyramid& pyramid, int level, bool onePerVox
   const CellPyramid::Level& l = pyramid.level(level);
   bool fits = true;
   size_ = 0;
+  ++passes_;
   if (!onePerVoxel)
   {
     pyramid.visitRuns(level, center_, reach_,
@@ -52,6 +53,7 @@ bool BallCells::gatherFrom(const CellPyramid& pyramid, int level, bool onePerVox
         {
           fits = add(l.cells[i].mean);
         }
+        return fits;
       });
     return fits;
   }
@@ -63,6 +65,7 @@ bool BallCells::gatherFrom(const CellPyramid& pyramid, int level, bool onePerVox
       {
         fits = add(l.cells[l.slotBegin[std::size_t(slot)]].mean);
       }
+      return fits;
     });
   return fits;
 }
@@ -80,18 +83,21 @@ bool BallCells::gather(
   pyramid_ = &pyramid;
   center_ = center;
   askedRadius_ = radius;
-  reach_ = kMargin * radius;
-  complete_ = gatherFrom(pyramid, 0, false);
-  if (!complete_)
+  const auto within = [&](int level, bool onePerVoxel)
   {
-    reach_ = kNoMargin * radius;
-    complete_ = gatherFrom(pyramid, 0, false);
-  }
-  bool fits = complete_ || gatherFrom(pyramid, 0, true);
+    return std::any_of(std::begin(kMargins), std::end(kMargins),
+      [&](double margin)
+      {
+        reach_ = margin * radius;
+        return gatherFrom(pyramid, level, onePerVoxel);
+      });
+  };
+  complete_ = within(0, false);
+  bool fits = complete_ || within(0, true);
   for (int level = 1;
        !fits && level < pyramid.numberOfCellLevels() && pyramid.level(level).voxelSize <= coarsest; ++level)
   {
-    fits = gatherFrom(pyramid, level, false);
+    fits = within(level, false);
   }
   for (int i = size_; i % simd::kFitLanes != 0; ++i)
   {
@@ -118,6 +124,17 @@ int BallCells::nearest(const Vec3& p, double& distance2) const noexcept
     }
   }
   return best;
+}
+
+int BallCells::nearestWithin(const Vec3& p, double radius) const noexcept
+{
+  const Vec3 local = p - center_;
+  int indices[kCapacity];
+  const int count = kernels_->pointsWithin(points(), local, radius * radius, indices, kCapacity);
+  const auto distance2 = [&](int i) { return norm2(local - Vec3(x_[i], y_[i], z_[i])); };
+  const int* const nearest =
+    std::min_element(indices, indices + count, [&](int i, int j) { return distance2(i) < distance2(j); });
+  return count > 0 ? *nearest : -1;
 }
 
 double BallCells::sweep(const Vec3& from, const Vec3& direction, double length, double radius) const noexcept

@@ -32,11 +32,23 @@ public:
   /// are left out.
   bool gather(const CellPyramid& pyramid, const Vec3& center, double radius, double coarsest) noexcept;
 
+  /// Whether all points of @p pyramid within @p radius of @p p are here.
+  bool holds(const CellPyramid& pyramid, const Vec3& p, double radius) const noexcept
+  {
+    return pyramid_ == &pyramid && complete_ && norm(p - center_) + radius <= reach_;
+  }
+
+  /// How often the pyramid was visited so far: what costs time.
+  int passes() const noexcept { return passes_; }
+
   int size() const noexcept { return size_; }
   Vec3 point(int i) const noexcept { return center_ + Vec3(x_[i], y_[i], z_[i]); }
 
   /// The point nearest to @p p; -1: there is none. @p distance2 receives the squared distance.
   int nearest(const Vec3& p, double& distance2) const noexcept;
+
+  /// The same among those nearer than @p radius.
+  int nearestWithin(const Vec3& p, double radius) const noexcept;
 
   /// How far a ball of @p radius at @p from can go along the unit vector @p direction before it would cover a
   /// point: exact, 0 to @p length. Points that it covers already, or that it leaves, do not count unless it
@@ -58,12 +70,6 @@ public:
       visit(offset, norm2(offset));
     }
   }
-  /// Whether a point is nearer to @p p than @p radius.
-  bool isCovered(const Vec3& p, double radius) const noexcept
-  {
-    int index = 0;
-    return kernels_->pointsWithin(points(), p - center_, radius * radius, &index, 1) > 0;
-  }
 
 private:
   simd::BallPoints points() const noexcept
@@ -81,6 +87,7 @@ private:
   double reach_ = 0.0;
   bool complete_ = true; ///< All points of the cloud, not some or means of them.
   double askedRadius_ = 0.0;
+  int passes_ = 0;
   const simd::FitKernels* kernels_;
   const CellPyramid* pyramid_ = nullptr;
 };

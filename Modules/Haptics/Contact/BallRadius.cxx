@@ -26,7 +26,8 @@ constexpr double kMostSheets = 2.0;
 
 }
 
-double ballRadius(const HapticScene& scene, FitCells& fields, const Vec3& seed, const Vec3& center) noexcept
+double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& near, const Vec3& seed,
+  const Vec3& center) noexcept
 {
   constexpr double kPi = 3.14159265358979323846;
   const Vec3 up = normalized(center - seed);
@@ -37,17 +38,24 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const Vec3& seed, 
     double all = 0.0;
     double count = 0.0;
     Vec3 sum;
-    scene.pyramid().visitBall(0, seed, reach,
-      [&](std::uint32_t, const Cell& cell, double)
+    const auto add = [&](const Vec3& offset)
+    {
+      all += 1.0;
+      if (std::abs(dot(offset, up)) < kSheetDepth * reach)
       {
-        const Vec3 offset = cell.mean - seed;
-        all += 1.0;
-        if (std::abs(dot(offset, up)) < kSheetDepth * reach)
-        {
-          count += 1.0;
-          sum += offset;
-        }
-      });
+        count += 1.0;
+        sum += offset;
+      }
+    };
+    if (near.holds(scene.pyramid(), seed, reach))
+    {
+      near.visitBall(seed, reach, [&](const Vec3& offset, double) { add(-offset); });
+    }
+    else
+    {
+      scene.pyramid().visitBall(
+        0, seed, reach, [&](std::uint32_t, const Cell& cell, double) { add(cell.mean - seed); });
+    }
     // Where the sheet ends the points fill a part of the disk alone, and their middle lies aside.
     const double aside = norm(sum) / (std::max(1.0, count) * reach);
     const double part = std::clamp(1.0 - kPartPerOffset * (aside - kChanceOffset), kLeastPart, 1.0);

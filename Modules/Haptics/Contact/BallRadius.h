@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Surface/FitCells.h"
+#include "Haptics/Contact/BallCells.h"
 #include "Haptics/HapticScene.h"
 
 namespace pointhaptics
@@ -15,7 +16,9 @@ constexpr double kBallRadiusInSpacings = 2.4;
 
 /// The radius that the cloud asks for at its point @p seed (a finest cell's mean), seen from a ball at @p
 /// center: points of other sheets do not count. Lattice frame, metres. @param fields the memory for the
-/// scene's fields. No allocation; one thread for each @p fields.
-double ballRadius(const HapticScene& scene, FitCells& fields, const Vec3& seed, const Vec3& center) noexcept;
+/// scene's fields. @param near gathered points; others are sought. No allocation; one thread for each @p
+/// fields.
+double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& near, const Vec3& seed,
+  const Vec3& center) noexcept;
 
 } // namespace pointhaptics

@@ -20,13 +20,16 @@ constexpr double kAhead = 1.0;
 constexpr double kTooSmall = 0.8;
 constexpr double kHurriedGrowth = 1.3;
 /// Over what it grows by, how high a ball rises for it.
-constexpr double kRises[] = { 0.0, 1.0, 2.0, 4.0 };
+constexpr double kHighestRise = 4.0;
+constexpr double kRises[] = { 0.0, 1.0, 2.0, kHighestRise };
 /// Points within this many radii tell the radius.
 constexpr double kSearch = 4.0;
 
 /// Moves of one slide, and of one step: a hand at 1 m/s needs some ten.
 constexpr int kMostSlides = 24;
 constexpr int kMostRounds = 192;
+/// What a visit of the pyramid costs, in rounds.
+constexpr int kRoundsOfPass = 3;
 constexpr int kMostGlides = 3;
 constexpr int kMostPushes = 16;
 /// Part of the radius that is free of points from which on a ball that begins is out of them.
@@ -145,7 +148,9 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
 
 void ProxyBall::gather(Work& work, double reach) noexcept
 {
+  const int before = work.cells.passes();
   const bool all = work.cells.gather(work.scene.pyramid(), center_, reach, radius_ / kBallRadiusInCells);
+  work.rounds -= kRoundsOfPass * (work.cells.passes() - before);
   work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
 }
 
@@ -154,12 +159,11 @@ bool ProxyBall::pushOut(const BallCells& cells) noexcept
 {
   for (int push = 0; push < kMostPushes; ++push)
   {
-    if (!cells.isCovered(center_, (1.0 - kRounding) * radius_))
+    const int nearest = cells.nearestWithin(center_, (1.0 - kRounding) * radius_);
+    if (nearest < 0)
     {
       return true;
     }
-    double d2 = 0.0;
-    const int nearest = cells.nearest(center_, d2);
     const Vec3 point = cells.point(nearest);
     center_ = point + radius_ * normalized(center_ - point);
   }
@@ -216,25 +220,84 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
 /// Makes room for a ball that has grown: beside the points that held @p before, or above them, as in a gap of
 /// the surface. A ball that grows by more than a little goes only where the smaller one could. False: there
 /// is no room.
-bool ProxyBall::makeRoom(const BallCells& cells, const ProxyBall& before) noexcept
+bool ProxyBall::makeRoom(Work& work, const ProxyBall& before) noexcept
 {
   const Vec3 up = flat_.isNear(before.center_, kFlatNear * radius_)
     ? flat_.normal()
     : normalized(before.center_ - hip_, Vec3());
   const Vec3 start = center_;
+  const double growth = radius_ - before.radius_;
   const bool isLittle = radius_ <= before.radius_ * kLargestGrowth;
+  const double furthest = radius_ + kHighestRise * growth;
   for (const double part : kRises)
   {
-    center_ = start + part * (radius_ - before.radius_) * up;
-    const bool isOut = pushOut(cells);
+    center_ = start;
+    gather(work, radius_ + furthest + growth);
+    center_ += part * growth * up;
+    bool isOut = pushOut(work.cells);
+    if (isOut && norm2(center_ - start) > furthest * furthest)
+    {
+      // Pushes led it to where the points that were gathered end.
+      gather(work, 2.0 * radius_);
+      isOut = isLittle && work.cells.nearestWithin(center_, (1.0 - kRounding) * radius_) < 0;
+    }
     const Vec3 way = center_ - before.center_;
     const double length = norm(way);
-    if (isOut && (isLittle || cells.sweep(before.center_, normalized(way), length, before.radius_) == length))
+    if (isOut &&
+      (isLittle || work.cells.sweep(before.center_, normalized(way), length, before.radius_) == length))
     {
       return true;
     }
   }
   return false;
+}
+
+/// The point nearest to @p place; false: there is none within @p search.
+bool ProxyBall::nearestPoint(const Work& work, const Vec3& place, double search, Vec3& point) noexcept
+{
+  double d2 = 0.0;
+  const int gathered = work.cells.nearest(place, d2);
+  if (gathered >= 0 && work.cells.holds(work.scene.pyramid(), place, std::sqrt(d2)))
+  {
+    point = work.cells.point(gathered);
+    return d2 < search * search;
+  }
+  double ignored = 0.0;
+  const CellPyramid& pyramid = work.scene.pyramid();
+  const std::int64_t found = pyramid.nearest(0, place, search, ignored);
+  point = found >= 0 ? pyramid.level(0).cells[std::size_t(found)].mean : place;
+  return found >= 0;
+}
+
+/// Finds the radius that the cloud asks for about the ball and ahead: what comes may be sparser, and the ball
+/// is wide.
+void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
+{
+  if (!free_)
+  {
+    gather(work, 2.0 * radius_);
+  }
+  const double search = kSearch * std::max(radius_, work.scene.coveringRadius(center_));
+  Vec3 nearest;
+  const bool isFound = nearestPoint(work, center_, search, nearest);
+  const auto wantedAt = [&](const Vec3& seed)
+  { return ballRadius(work.scene, work.fields, work.cells, seed, center_); };
+  wanted_ = isFound ? wantedAt(nearest) : radius_;
+  const Vec3 up = normalized(center_ - hip_);
+  const Vec3 course = hip - hip_;
+  const Vec3 ahead = normalized(course - dot(course, up) * up);
+  Vec3 next;
+  if (!free_ && nearestPoint(work, center_ + kAhead * radius_ * ahead, search, next) && next != nearest)
+  {
+    wanted_ = std::max(wanted_, wantedAt(next));
+  }
+  measuredAt_ = center_;
+  isMeasured_ = true;
+  if (free_ && wanted_ != radius_)
+  {
+    const double room = isFound ? (1.0 - kRounding) * norm(center_ - nearest) : wanted_;
+    radius_ = std::min(wanted_, std::max(radius_, room));
+  }
 }
 
 /// Takes the radius towards what the cloud asks for: at once where the ball is free, else little by little.
@@ -244,28 +307,7 @@ void ProxyBall::updateRadius(Work& work, const Vec3& hip) noexcept
   const double every = kMeasureEvery * work.scene.cellSize();
   if (!isMeasured_ || norm2(center_ - measuredAt_) > every * every)
   {
-    const CellPyramid& pyramid = work.scene.pyramid();
-    const double search = kSearch * std::max(radius_, work.scene.coveringRadius(center_));
-    double distance = 0.0;
-    const std::int64_t nearest = pyramid.nearest(0, center_, search, distance);
-    const auto wantedAt = [&](std::int64_t cell)
-    { return ballRadius(work.scene, work.fields, pyramid.level(0).cells[std::size_t(cell)].mean, center_); };
-    wanted_ = nearest >= 0 ? wantedAt(nearest) : radius_;
-    // What is ahead may be sparser, and the ball is wide.
-    double ignored = 0.0;
-    const Vec3 up = normalized(center_ - hip_);
-    const Vec3 course = hip - hip_;
-    const Vec3 ahead = normalized(course - dot(course, up) * up);
-    const std::int64_t next =
-      free_ ? -1 : pyramid.nearest(0, center_ + kAhead * radius_ * ahead, search, ignored);
-    wanted_ = next >= 0 && next != nearest ? std::max(wanted_, wantedAt(next)) : wanted_;
-    measuredAt_ = center_;
-    isMeasured_ = true;
-    if (free_ && wanted_ != radius_)
-    {
-      const double room = nearest >= 0 ? (1.0 - kRounding) * distance : wanted_;
-      radius_ = std::min(wanted_, std::max(radius_, room));
-    }
+    measure(work, hip);
   }
   const ProxyBall before = *this;
   const double growth = radius_ < kTooSmall * wanted_ ? kHurriedGrowth : kLargestGrowth;
@@ -279,8 +321,7 @@ void ProxyBall::updateRadius(Work& work, const Vec3& hip) noexcept
   }
   if (radius_ > before.radius_)
   {
-    gather(work, 2.0 * radius_);
-    if (!makeRoom(work.cells, before))
+    if (!makeRoom(work, before))
     {
       *this = before;
       adopts_ = false;

@@ -79,6 +79,8 @@ private:
   };
 
   void place(Work& work, const Vec3& hip) noexcept;
+  static bool nearestPoint(const Work& work, const Vec3& place, double search, Vec3& point) noexcept;
+  void measure(Work& work, const Vec3& hip) noexcept;
   void updateRadius(Work& work, const Vec3& hip) noexcept;
   void walk(Work& work, const Vec3& hip) noexcept;
   double fly(Work& work, const Vec3& direction, double length) noexcept;
@@ -88,7 +90,7 @@ private:
   void touchDown(Work& work) noexcept;
   Vec3 surfaceNormal(const BallCells& cells) noexcept;
   bool pushOut(const BallCells& cells) noexcept;
-  bool makeRoom(const BallCells& cells, const ProxyBall& before) noexcept;
+  bool makeRoom(Work& work, const ProxyBall& before) noexcept;
   bool isPinched(const BallCells& cells) const noexcept;
   void gather(Work& work, double reach) noexcept;
 
