@@ -1,5 +1,7 @@
 #include "Benchmark/Report/Report.h"
 
+#include "Benchmark/Report/PageSummary.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -22,11 +24,20 @@ struct PageText
 };
 
 constexpr PageText kPerformance{ "Performance.md",
-  "# Performance\n\nWritten by `pointhaptics bench`; run the command of a section to repeat it. Compare the "
-  "ratios, which\ntravel between machines better than the times do.\n" };
-constexpr PageText kAccuracy{ "Accuracy.md",
-  "# Accuracy\n\nWritten by `pointhaptics bench`; run the command of a section to repeat it. Errors are the "
-  "same on every\nmachine, but for the last digits; the times beside them are not.\n" };
+  "# Performance\n\n"
+  "How long PointHaptics takes to resample, to read and write files, to feel and to draw, and how long\n"
+  "other libraries and programs take for the same. The summary answers the first questions; each section\n"
+  "says how it was measured. `pointhaptics-bench TASK -o Documentation` measures a section again, and\n"
+  "writes it and its rows of the summary. Compare ratios rather than times: they change less from machine\n"
+  "to machine.\n" };
+constexpr PageText kAccuracy{
+  "Accuracy.md",
+  "# Accuracy\n\n"
+  "How far force, friction, bandwidth and density are from exact answers, on shapes, meshes and scans, for\n"
+  "every method. The summary answers the first questions; each section says how it was measured.\n"
+  "`pointhaptics-bench TASK -o Documentation` measures a section again, and writes it and its rows of the\n"
+  "summary. Errors are the same on every machine but for their last digits; the times beside them are not.\n"
+};
 
 const PageText& textOf(Page page)
 {
@@ -41,6 +52,13 @@ std::string beginMark(const std::string& task)
 std::string endMark(const std::string& task)
 {
   return "<!-- bench " + task + ": end -->";
+}
+
+/// The summary and the sections.
+std::string belowHead(const std::string& content)
+{
+  const std::size_t first = content.find("<!-- bench ");
+  return first == std::string::npos ? std::string() : content.substr(first);
 }
 
 std::string contentOf(const std::filesystem::path& file)
@@ -134,13 +152,18 @@ std::string withSection(
   const std::string& content, Page page, const std::string& task, const std::string& section)
 {
   const std::string block = beginMark(task) + "\n\n" + section + "\n" + endMark(task);
-  const std::size_t begin = content.find(beginMark(task));
-  const std::size_t end = content.find(endMark(task), begin == std::string::npos ? 0 : begin);
+  std::string rest = belowHead(content);
+  const std::size_t begin = rest.find(beginMark(task));
+  const std::size_t end = rest.find(endMark(task), begin == std::string::npos ? 0 : begin);
   if (begin != std::string::npos && end != std::string::npos)
   {
-    return content.substr(0, begin) + block + content.substr(end + endMark(task).size());
+    rest = rest.substr(0, begin) + block + rest.substr(end + endMark(task).size());
   }
-  return (content.empty() ? std::string(textOf(page).head) : content) + "\n" + block + "\n";
+  else
+  {
+    rest += (rest.empty() ? "" : "\n") + block + "\n";
+  }
+  return textOf(page).head + ("\n" + rest);
 }
 
 bool writeReport(const Report& report, const std::string& folder, bool withPictures, std::string& message)
@@ -157,7 +180,12 @@ bool writeReport(const Report& report, const std::string& folder, bool withPictu
   {
     const std::filesystem::path file = root / textOf(page).file;
     const std::string section = toMarkdown(report, page, withPictures ? kImages : "");
-    if (!section.empty() && !writeContent(file, withSection(contentOf(file), page, report.task, section)))
+    if (section.empty())
+    {
+      continue;
+    }
+    const std::string content = withSection(contentOf(file), page, report.task, section);
+    if (!writeContent(file, withSummary(content, report.title, summaryOf(report, page))))
     {
       message = file.string() + ": cannot be written; check the folder and the space left";
       return false;

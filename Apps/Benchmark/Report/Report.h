@@ -58,14 +58,13 @@ nlohmann::ordered_json toJson(const Report& report);
 std::string toMarkdown(const Report& report, Page page, const std::string& imageFolder);
 
 /// @p content of @p page with the section of @p task replaced by @p section, or with it at the end. The
-/// section stands between two comments that name the task; an empty page gets its heading first.
+/// section stands between two comments that name the task. The page's head is written anew.
 std::string withSection(
   const std::string& content, Page page, const std::string& task, const std::string& section);
 
-/// Writes the section of each page that has parts into FOLDER/Performance.md and FOLDER/Accuracy.md, and
-/// where
-/// @p withPictures the charts into FOLDER/Images/*.png; makes the folders. False: @p message says what
-/// failed.
+/// Writes the section and the summary's rows of each page that has parts into FOLDER/Performance.md and
+/// FOLDER/Accuracy.md, and where @p withPictures the charts into FOLDER/Images/*.png; makes the folders.
+/// False: @p message says what failed.
 bool writeReport(const Report& report, const std::string& folder, bool withPictures, std::string& message);
 
 } // namespace bench

@@ -162,11 +162,11 @@ Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& prog
     "another core: what it misses, the machine (its firmware, kernel or host) took from its programs.";
   ReportPart part;
   part.key = "loop";
-  part.title = "Step, lateness and missed ticks";
+  part.title = "Step time, jitter and deadline misses";
   part.text = fmt::format("{} points; {:g} s for each row.", grouped(options.points), options.seconds);
   part.table.header = { "hand", "machine", "Hz", "step us: p50 / p99 / p99.9 / max",
-    "lateness us: p50 / p99 / p99.9 / max", "ticks", "missed", "missed by an empty loop", "achieved Hz",
-    "force" };
+    "jitter us: p50 / p99 / p99.9 / max", "ticks", "deadline misses", "misses of an empty loop",
+    "achieved Hz", "force" };
   const std::vector<Setting> settings = settingsOf(options);
   if (settings.empty())
   {
