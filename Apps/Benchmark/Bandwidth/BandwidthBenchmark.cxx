@@ -22,13 +22,12 @@ constexpr Study<StudyContext> kStudies[] = { { "search", studySearch }, { "rules
   { "truncation", studyTruncation }, { "sums", studySums } };
 
 constexpr const char* kMethod =
-  "Each time is that of the whole work, from points in memory to the finished arrays, the search tree among "
-  "it. "
-  "Answers are compared with long double before anything is timed. Then all contestants run once a round, in "
-  "an "
-  "order shuffled anew, after rounds to warm up. Given are the median and the quartiles; ratios are medians "
-  "of "
-  "the ratios within a round. Copying the points into another library's own form is not timed.";
+
+  "A time is that of the whole work, from points in memory to the finished arrays, the search tree\n"
+  "included. Answers are compared with long double before anything is timed. Then all contestants\n"
+  "run once a round, in an order shuffled anew, after rounds to warm up. Given are the median and\n"
+  "the quartiles; ratios are medians of the ratios within a round. Copying the points into another\n"
+  "library's own form is not timed.";
 
 constexpr const char* kAccuracyMethod = "Errors are those against long double, or against the known density "
                                         "of the generated cloud; the times beside "

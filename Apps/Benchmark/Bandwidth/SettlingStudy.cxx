@@ -172,16 +172,16 @@ ReportPart studySettling(StudyContext& context)
   part.page = Page::Accuracy;
   part.title = "Size of the neighbourhood: k nearest against a ball";
   part.text = fmt::format(
-    "{} points at random on a sphere, whose density is known, {} threads. A ball has the radius that holds k "
-    "points on average. Error of the bandwidth: against that of an even disc of k points; it is the scatter "
-    "of "
-    "the sample itself, which falls with k. Error of the density: the Gaussian estimate with these "
-    "bandwidths "
-    "against the known one. Step: on a plane that is 16 times as dense on one side, the ratio of the radii "
-    "far "
-    "from the step, which should be 4, and the width of the step in spacings of the sparse side. Time: "
-    "bandwidths "
-    "and radii alone.",
+
+    "{} points at random on a sphere, whose density is known, {} threads. A ball has the radius that\n"
+    "holds k points on average.\n"
+    "\n"
+    "- bandwidth: against that of an even disc of k points. It is the scatter of the sample itself,\n"
+    "  which falls with k.\n"
+    "- density: the Gaussian estimate with these bandwidths against the known one.\n"
+    "- step: on a plane that is 16 times as dense on one side, the ratio of the radii far from the\n"
+    "  step, which should be 4, and the width of the step in spacings of the sparse side.\n"
+    "- time: bandwidths and radii alone.",
     grouped(sphere.size()), context.mostThreads());
   part.table.header = { "neighbourhood", "k", "ms", "bandwidth RMS %", "bandwidth bias %", "density RMS %",
     "step ratio", "step width" };

@@ -307,12 +307,14 @@ ReportPart studySums(StudyContext& context)
   // So narrow that a kernel covers few values, and every target walks over cells.
   const double narrow = 20.0 * spread.standardDeviation / double(count);
   part.text = fmt::format(
-    "{} values of two normal bumps, one thread; a sum at every value. Direct: the plain sum in double, "
-    "extrapolated from {} targets, or from the pairs of {} values; a Sheather-Jones bandwidth is counted as "
-    "15 sums "
-    "over all pairs. Wide: Silverman's bandwidth, {:.3g}; narrow: {:.2g}. Errors at {} values against long "
-    "double; "
-    "that of Sheather-Jones for {} values, where every pair can be summed.",
+
+    "{} values of two normal bumps, one thread, a sum at every value.\n"
+    "\n"
+    "- direct: the plain sum in double, extrapolated from {} targets, or from the pairs of {} values.\n"
+    "  A Sheather-Jones bandwidth counts as 15 sums over all pairs.\n"
+    "- wide: Silverman's bandwidth, {:.3g}; narrow: {:.2g}.\n"
+    "- errors: at {} values against long double; of Sheather-Jones for {} values, whose pairs can all\n"
+    "  be summed.",
     grouped(count), kDirectTargets, grouped(kDirectPairs), wide, narrow, kDirectTargets, kOracleValues);
   part.table.header = { "sum", "ms", "direct s", "times faster", "largest relative error", "answer" };
   const double directWide = directGaussianSeconds(sample, wide);

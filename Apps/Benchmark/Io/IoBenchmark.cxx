@@ -29,23 +29,19 @@ constexpr const char* kOldMemory = "bytes into old memory";
 constexpr double kLasTolerance = 1e-8;
 constexpr double kPromisedMegabytes = 64.0;
 
-constexpr const char* kMethod = "The files lie in the page cache. A time is that of the whole call, from a "
-                                "name to the finished result in memory, "
-                                "which is freed outside the timing; for writing, from a cloud in memory to a "
-                                "closed file. Before anything is "
-                                "timed every coordinate is compared with the cloud that was written. Two "
-                                "contestants only move the file's bytes "
-                                "with read(2): into memory fresh from the system, as a program has it that "
-                                "reads one file, and into memory that "
-                                "is used again and again; results of readers lie in between, as malloc hands "
-                                "out some memory a second time. \"x "
-                                "ours\" is the time over ours, \"of bytes\" the time of the bytes into new "
-                                "memory over that of the contestant. "
-                                "Ratios are medians of the ratios within a round. The cloud has float x y z, "
-                                "a float intensity and colours; ours "
-                                "gives all of them, and so does VTK where its reader can; PCL is asked for x "
-                                "y z and intensity. Everything runs on "
-                                "one thread.";
+constexpr const char* kMethod =
+  "The files lie in the page cache; everything runs on one thread. A time is that of the whole\n"
+  "call: from a name to the finished result in memory, which is freed outside the timing, and for\n"
+  "writing from a cloud in memory to a closed file. Before anything is timed every coordinate is\n"
+  "compared with the cloud that was written.\n"
+  "\n"
+  "- The cloud has float x y z, a float intensity and colours. Ours reads all of them, and so does\n"
+  "  VTK where its reader can; PCL is asked for x y z and intensity.\n"
+  "- Two contestants only move the file's bytes with read(2): into memory fresh from the system, as\n"
+  "  in a program that reads one file, and into memory that is used again and again. Readers lie in\n"
+  "  between, as malloc hands out some memory a second time.\n"
+  "- \"x ours\" is the time over ours; \"of bytes\" the time of the bytes into new memory over that of\n"
+  "  the contestant. Ratios are medians of the ratios within a round.";
 
 struct Context
 {

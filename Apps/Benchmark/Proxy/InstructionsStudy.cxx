@@ -186,13 +186,15 @@ ReportPart studyInstructions(StudyContext& context)
   ReportPart part;
   part.title = "The update's time with each instruction set";
   part.text =
-    "`surface-fit` held to the sets this machine has, one after the other in one run; every force is the "
-    "same, "
-    "to the last bit. Fit: one local fit with all its terms, its cells gathered already, the fastest of many "
-    "rounds. Sphere: the slide as above. Scans: strokes, straight on, all ticks in contact. Ratios are to "
-    "the first set's time. Finding: the longest update out of contact or into it. Built: from points in "
-    "memory to "
-    "a scene that can be felt, on one thread; only the choice of its radii is held to the set.";
+
+    "`surface-fit` with each of the sets this machine has, one after the other in one run. Every\n"
+    "force is the same, to the last bit. Ratios are to the first set's time.\n"
+    "\n"
+    "- fit: one local fit with all its terms, its cells gathered already, the fastest of many rounds.\n"
+    "- sphere: the slide as above; scans: straight strokes, all ticks in contact.\n"
+    "- finding: the longest update out of contact or into it.\n"
+    "- built: from points in memory to a scene that can be felt, on one thread. Only the choice of\n"
+    "  its radii is held to the set.";
   part.table.header = { "cloud", "points", "instructions", "fit us", "ratio", "p50 us", "ratio", "p99",
     "p99.9", "finding us", "built s" };
   for (const double noise : { 0.0, context.options.noises.back() })

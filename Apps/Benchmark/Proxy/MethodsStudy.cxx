@@ -165,13 +165,11 @@ ReportPart studyEdges(StudyContext& context)
   ReportPart part;
   part.page = Page::Accuracy;
   part.title = "At the edge and the corner of a box";
-  part.text = fmt::format("Sliding 1 mm below the top of the clean box of 50 mm, {} points, straight towards "
-                          "the middle of an edge, and "
-                          "along the diagonal towards a corner, until the hand is outside. Exact is the god "
-                          "object that came from above: "
-                          "0.8 N straight up until the hand passes the edge, then nothing. The largest error "
-                          "in newtons by the distance of "
-                          "the HIP from the nearest edge.",
+  part.text = fmt::format(
+    "A hand slides 1 mm below the top of the clean box of 50 mm, {} points, towards the middle of an\n"
+    "edge, and along the diagonal towards a corner, until it is outside. Exact is the god object that\n"
+    "came from above: 0.8 N straight up until the hand passes the edge, then nothing. The table has\n"
+    "the largest error in newtons by the distance of the HIP from the nearest edge.",
     grouped(mostPoints(context)));
   part.table.header = { "towards", "distance mm", "error N", "contact" };
   const Scene scene = sceneOf(pointsOf(Shape::Box, mostPoints(context), 0.0));

@@ -287,15 +287,20 @@ ReportPart studyPaper(StudyContext& context)
   part.page = Page::Accuracy;
   part.title = "The paper's 0.4 %, and its two figures";
   part.text = fmt::format(
-    "The paper reports a force within {} % of the ideal on a sphere of radius 0.025 m and the same scaled to "
-    "0.04 m, and neither the depth nor the hand's speed. Here {} points; a hand goes down along the normal "
-    "at {} places to 1, 2 and 4 mm, and either rests there or slides along a great circle at 47 mm/s. Gains: "
-    "`printed` is the preset `paper`; `delta 0.05` the same with 0.05 instead of 8e-6, whose time constant "
-    "of 4 s no hand waits for; `tuned` the other preset. r_p: by the bandwidth, but no smaller than keeps a "
-    "sphere on voxel means, or r1 = r2 = 5 and 10 mm. Points: voxel means of 1/3 mm, or all of them. Errors "
-    "at 1 / 2 / 4 mm are medians of the last {} ms at each depth, in percent of the ideal force: of its "
-    "length, and of the vector. Lost: ticks without force. Reproduced: still hand / moving hand, at every "
-    "depth.",
+
+    "The paper reports a force within {} % of the ideal on a sphere of radius 0.025 m and the same\n"
+    "scaled to 0.04 m, and neither the depth nor the hand's speed. Here {} points are felt. A hand\n"
+    "goes down along the normal at {} places to 1, 2 and 4 mm, and either rests there or slides along\n"
+    "a great circle at 47 mm/s.\n"
+    "\n"
+    "- gains: `printed` is the preset `paper`; `delta 0.05` is the same with 0.05 instead of 8e-6,\n"
+    "  which is a time constant of 4 s; `tuned` is the other preset.\n"
+    "- r_p: from the bandwidth, but not smaller than keeps a sphere on voxel means; or r1 = r2 = 5\n"
+    "  and 10 mm.\n"
+    "- points: voxel means of 1/3 mm, or all points.\n"
+    "- errors at 1 / 2 / 4 mm: medians of the last {} ms at each depth, in percent of the ideal\n"
+    "  force, of the force's length and of its vector; lost: ticks without force.\n"
+    "- reproduced: hand at rest / moving hand, at every depth.",
     kReportedPercent, grouped(mostPoints(context)), kPlaces, kJudgedTicks);
   part.table.header = { "sphere", "gains", "points", "r_p mm", "still: length %", "vector %", "lost %",
     "moving: length %", "vector %", "lost %", "reproduced" };

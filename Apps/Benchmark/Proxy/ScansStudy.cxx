@@ -140,17 +140,18 @@ ReportPart studyScans(StudyContext& context)
   }
   part.page = Page::Accuracy;
   part.title = "Real scans";
-  part.text =
-    fmt::format("Scans fitted into 95 mm; {} strokes each at random places that can be reached from outside: "
-                "pressed to 1 mm, then "
-                "slid 10 mm at 10 mm/s, straight on, or following the felt surface at 1 mm depth. Drops: "
-                "strokes in which the force "
-                "falls by more than {} N within a tick. Rims: strokes that came to where the scan has no "
-                "points. Lost: strokes in "
-                "which the surface had to be found again. Change: the most that a tick changes the force "
-                "beyond 2 K|dH|, to be at "
-                "most the settle rate, 0.1 N. Every tick is timed once, whatever the machine did meanwhile.",
-      context.options.strokes, kDrop);
+  part.text = fmt::format(
+    "Scans fitted into 95 mm, {} strokes each at random places that can be reached from outside. A\n"
+    "stroke is pressed to 1 mm, then slid 10 mm at 10 mm/s, straight on or following the felt surface\n"
+    "at 1 mm depth.\n"
+    "\n"
+    "- drops: strokes in which the force falls by more than {} N within a tick.\n"
+    "- rims: strokes that came to where the scan has no points; lost: strokes in which the surface\n"
+    "  had to be found again.\n"
+    "- change: the most that a tick changes the force beyond 2 K|dH|, to be at most the settle rate,\n"
+    "  0.1 N.\n"
+    "- times: every tick is timed once, whatever the machine did meanwhile.",
+    context.options.strokes, kDrop);
   part.table.header = { "scan", "points", "hand", "strokes", "drops", "rims", "lost", "not finite",
     "change N", "step p50", "p99", "p50 us", "p99", "p99.9" };
   for (const Scan& scan : context.options.scans)
@@ -193,13 +194,11 @@ ReportPart studyMeshes(StudyContext& context)
   ReportPart part;
   part.page = Page::Accuracy;
   part.title = "Scans beside their own meshes";
-  part.text = "The cloud is the mesh's vertices, fitted into 95 mm; the straight strokes as above; ideal is "
-              "the spring to the "
-              "nearest point of the triangles. Counted are ticks in contact, 0.05 to 1.5 mm inside, whose "
-              "nearest point is on "
-              "the side that was pressed. A smooth surface through the vertices is not the flat triangles "
-              "between them: the "
-              "difference is part of the error.";
+  part.text =
+    "The cloud is the mesh's vertices, fitted into 95 mm, felt by the straight strokes of the scans\n"
+    "above. Ideal is the spring to the nearest point of the triangles. Ticks in contact count, 0.05\n"
+    "to 1.5 mm inside, whose nearest point is on the side that was pressed. A smooth surface through\n"
+    "the vertices is not the flat triangles between them: the difference is part of the error.";
   part.table.header = { "scan", "triangles", "ticks", "median error %", "RMS error %", "95 % below",
     "median angle" };
   for (const Scan& scan : context.options.scans)

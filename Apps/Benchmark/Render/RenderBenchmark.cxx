@@ -218,8 +218,8 @@ void addResponse(Context& context, std::int64_t points, ReportPart& part)
     const char* name;
     const char* keys[2]; // there and back
   };
-  for (const Action& action : { Action{ "turn", { "y", "Y" } }, Action{ "shift", { "Left", "Right" } },
-         Action{ "zoom", { "plus", "minus" } } })
+  for (const Action& action : { Action{ "rotate", { "y", "Y" } }, Action{ "translate", { "Left", "Right" } },
+         Action{ "scale", { "plus", "minus" } } })
   {
     context.progress(fmt::format("response of {} points: {}", grouped(points), action.name));
     std::vector<double> moved;
@@ -260,15 +260,18 @@ ReportPart studyResponse(Context& context)
   part.key = "response";
   part.title = "From a key to the hand";
   part.text = fmt::format(
-    "Keys that turn the model by 5 degrees, shift it by 2 % of the workspace and zoom it by 10 %, and "
-    "back, in a window of {} x {} pixels, off the screen, with level of detail and a servo loop of 1 "
-    "kHz; the hand stays where it is, at first 1 mm deep in the front of the statue. The viewer's "
-    "timer goes on meanwhile and renders. Each key is pressed after all that the last one asked for "
-    "has come. From the key's event until the servo thread had the scene. Moved: the old voxels are "
-    "felt where the model is now. At the hand: new voxel means under the new transform, with "
-    "covariance, and the fields of radii, of what the hand can reach (4 mm around it and the contact, "
-    "where forces are those of the whole; a hand that goes further feels the moved voxels until the "
-    "rest is there). Whole: the same of the whole cloud; its time stands in both where it came first.",
+
+    "Keys that rotate the model by 5 degrees, translate it by 2 % of the workspace and scale it by 10\n"
+    "%, and back, in a window of {} x {} pixels, off the screen, with level of detail and a servo\n"
+    "loop of 1 kHz. The hand stays where it is, at first 1 mm deep in the front of the statue. The\n"
+    "viewer's timer goes on meanwhile and renders. Each key is pressed after all that the last one\n"
+    "asked for has come. Times are from the key's event until the servo thread had the scene.\n"
+    "\n"
+    "- moved: the old voxels are felt where the model is now.\n"
+    "- at the hand: new voxel means under the new transform, with covariance and the fields of radii,\n"
+    "  of what the hand can reach: 4 mm around it and the contact, where forces are those of the\n"
+    "  whole cloud. A hand that goes further feels the moved voxels until the rest is there.\n"
+    "- whole: the same of the whole cloud; its time stands in both where it came first.",
     context.options.width, context.options.height);
   part.table.header = { "points in the file", "key", "presses", "moved p50 ms", "moved p95 ms",
     "at the hand p50 ms", "at the hand p95 ms", "largest ms", "whole p50 ms", "whole p95 ms" };

@@ -103,12 +103,15 @@ ReportPart studyMemory(StudyContext& context)
   ReportPart part;
   part.title = "Memory, and the very first call";
   part.text = fmt::format(
-    "Each contestant in a process of its own, one update, {} threads: the kernel's high-water mark of "
-    "resident "
-    "memory during the update, less what was resident before, less the result. Whole pages are counted, and "
-    "what malloc keeps; memory reserved but never touched is not, nor is the contestant's own copy of the "
-    "input. Kept: what is still held after the update beyond input and result. Promise: 64 bytes an active "
-    "voxel and 16 bytes a point of the first million. The time is that of the first call in a fresh process.",
+
+    "Each contestant runs one update in a process of its own, with {} threads.\n"
+    "\n"
+    "- beyond: the kernel's high-water mark of resident memory during the update, less what was\n"
+    "  resident before, less the result. Whole pages count, and what malloc keeps; memory reserved\n"
+    "  but never touched does not, nor does the contestant's own copy of the input.\n"
+    "- kept: what is still held after the update beyond input and result.\n"
+    "- promise: 64 bytes an active voxel, and 16 bytes a point of the first million.\n"
+    "- cold call: the time of the first call in a fresh process.",
     mostThreads(context));
   part.table.header = { "points", "voxels on an axis", "contestant", "result MB", "beyond MB", "kept MB",
     "bytes/active voxel", "bytes/point", "x promise", "cold call ms" };

@@ -20,23 +20,21 @@ constexpr Study<StudyContext> kStudies[] = { { "points", studyPoints }, { "voxel
   { "memory", studyMemory, true }, { "accumulators", studyAccumulators } };
 
 constexpr char kMethod[] =
-  "Each time is a whole `Update()` (of other libraries: the call that does the same), from points in memory "
-  "to "
-  "the finished result, with the input marked as modified. The answer is compared with long double before "
-  "anything is timed. Then all contestants run once a round, in an order shuffled anew, after rounds to warm "
-  "up; the first call is reported apart. A contestant that has run for {:g} seconds sits out the rounds "
-  "left: "
-  "at 50 million points the slow ones have three. Given are the median and the quartiles; ratios are medians "
-  "of the "
-  "ratios within a round. \"x ours\" is the time over ours, \"PCL / it\" how many times as fast as PCL a "
-  "contestant is, \"x copy\" the time over that of copying the coordinates on one thread, the "
-  "floor "
-  "of any method. Loading the points into another library's own form is not timed. PCL's VoxelGrid and "
-  "Open3D's VoxelDownSample run on one thread whatever they are given. Two threads of a virtual machine may "
-  "have "
-  "to share a core for a while: below a table is how long arithmetic on all threads took, in the same "
-  "rounds, "
-  "over that on one.";
+
+  "A time is that of a whole `Update()` (of other libraries: the call that does the same), from\n"
+  "points in memory to the finished result, with the input marked as modified. The answer is\n"
+  "compared with long double before anything is timed. Then all contestants run once a round, in an\n"
+  "order shuffled anew, after rounds to warm up; the first call is reported apart. A contestant\n"
+  "that has run for {:g} seconds sits out the rounds left: at 50 million points the slow ones have\n"
+  "three.\n"
+  "\n"
+  "- Given are the median and the quartiles; ratios are medians of the ratios within a round.\n"
+  "- \"x ours\" is the time over ours; \"PCL / it\" how many times as fast as PCL a contestant is; \"x\n"
+  "  copy\" the time over that of copying the coordinates on one thread, the floor of any method.\n"
+  "- Loading the points into another library's own form is not timed. PCL's VoxelGrid and Open3D's\n"
+  "  VoxelDownSample run on one thread whatever they are given.\n"
+  "- Two threads of a virtual machine may have to share a core for a while. Below a table is how\n"
+  "  long arithmetic on all threads took, in the same rounds, over that on one.";
 
 } // namespace
 

@@ -191,10 +191,14 @@ ReportPart studyZoom(StudyContext& context)
   ReportPart part;
   part.title = "Zooming: only the workspace changed";
   part.text = fmt::format(
-    "{} points in random order, {} voxels on an axis of each view, {} threads. Moved: the workspace went a "
-    "tenth of its edge further along the surface, the input did not change; the last of {} such updates in a "
-    "row. After others: the first of these, when the caches hold what others left. Scan: the input was "
-    "modified too, as if each view were the first. Full update: the scan with all points inside.",
+
+    "{} points in random order, {} voxels on an axis of each view, {} threads.\n"
+    "\n"
+    "- moved: the workspace went a tenth of its edge further along the surface, the input did not\n"
+    "  change; the last of {} such updates in a row. After others: the first of these, when the\n"
+    "  caches hold what others left.\n"
+    "- scan: the input was modified too, as if each view were the first.\n"
+    "- full update: the scan with all points inside.",
     grouped(count), context.options.dimension, mostThreads(context), kInARow);
   part.table.header = { "% inside", "moved ms", "quartiles ms", "after others ms", "scan ms",
     "% of full update", "% of scan", "voxels", "answer" };

@@ -145,21 +145,21 @@ Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& prog
   report.title = "Servo loop";
   report.machine = thisMachine();
   report.method =
-    "A hand presses up to 2 mm into a sphere and slides over it at 50 mm/s, in real time. A step is the "
-    "whole "
-    "tick: read the device, take scene and parameters, step the proxy, guard the force, write the device, "
-    "and the sample made. Lateness is the time from the deadline to the first instruction of the "
-    "tick. "
-    "Percentiles are upper edges of bins that grow by 19 %; maxima are exact. The Falcon's driver runs on a "
-    "wire "
-    "in memory: codec, kinematics and force chain are in its step, USB is not. The thread wakes 0.1 ms, at "
-    "most "
-    "half a period, before each deadline, rehearses the step and spins. While \"drawing\" the viewer's own "
-    "scene of "
-    "the cloud turns, with its level of detail, 1280 x 720 pixels, at most 30 frames a second. "
-    "Where nothing else runs, an empty loop keeps the same deadlines beside this one, at the same priority, "
-    "on "
-    "another core: what it misses, the machine (its firmware, kernel or host) took from its programs.";
+
+    "A hand presses up to 2 mm into a sphere and slides over it at 50 mm/s, in real time.\n"
+    "\n"
+    "- step: the whole tick, from reading the device, through scene and parameters, proxy and force\n"
+    "  guard, to writing the device and the sample.\n"
+    "- jitter: from the deadline to the first instruction of the tick. The thread wakes 0.1 ms, at\n"
+    "  most half a period, before each deadline, prefetches the step and spins.\n"
+    "- Percentiles are upper edges of bins that grow by 19 %; maxima are exact.\n"
+    "- The Falcon's driver runs on a wire in memory: codec, kinematics and force chain are in its\n"
+    "  step, USB is not.\n"
+    "- drawing: the viewer's own scene of the cloud rotates, with its level of detail, 1280 x 720\n"
+    "  pixels, at most 30 frames a second.\n"
+    "- empty loop: on an idle machine a second loop keeps the same deadlines at the same priority on\n"
+    "  another core. What it misses, the machine (its firmware, kernel or host) took from its\n"
+    "  programs.";
   ReportPart part;
   part.key = "loop";
   part.title = "Step time, jitter and deadline misses";
@@ -187,8 +187,8 @@ Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& prog
   if (report.machine.load > kQuietLoad)
   {
     part.remarks.push_back(
-      fmt::format("Other programs ran beside these (load {:.1f} before the run): lateness and "
-                  "missed ticks are theirs too, and \"idle\" means idle as far as we were.",
+      fmt::format("Other programs ran beside these (load {:.1f} before the run): jitter and "
+                  "deadline misses are theirs too, and \"idle\" means idle as far as we were.",
         report.machine.load));
   }
   if (!options.draw)
