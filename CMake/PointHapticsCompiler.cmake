@@ -38,6 +38,8 @@ function (pointhaptics_plain_library name)
     RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  list(TRANSFORM ARG_HEADERS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/" OUTPUT_VARIABLE headers)
+  set_target_properties(${target} PROPERTIES POINTHAPTICS_HEADERS "${headers}") # for the documentation
   foreach (header IN LISTS ARG_HEADERS)
     get_filename_component(folder "${header}" DIRECTORY)
     install(FILES "${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/PointHaptics/${name}/${folder}")

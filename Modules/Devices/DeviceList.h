@@ -8,6 +8,7 @@
 namespace pointhaptics
 {
 
+/// A device as a list of devices shows it.
 struct ListedDevice
 {
   std::string kind;    ///< "falcon", "spacemouse" or "simulated".

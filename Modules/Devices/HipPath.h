@@ -12,6 +12,7 @@
 namespace pointhaptics
 {
 
+/// Where the HIP is at a time.
 struct HipPathPoint
 {
   double timeSeconds = 0.0;

@@ -61,6 +61,7 @@ struct ForceLimits
   Status check() const noexcept;
 };
 
+/// All that a Proxy can be told: method, contact and gains.
 struct HapticParameters
 {
   ProxyMethod method = ProxyMethod::SurfaceFit;

@@ -35,9 +35,9 @@ public:
   static constexpr double kMostScale = 1.6;
 
   /// @param hand what is to be within reach: the HIP and the point of contact. @param whole the scene of the
-  /// whole cloud made last; its index cells are counted from a corner. @param modelToLattice, @p lattice
-  /// those of the new scene. Nothing: the whole has no corner, its cloud would not keep its shape or nearly
-  /// its size, or the hand is far from the workspace.
+  /// whole cloud made last; its index cells are counted from a corner. @param modelToLattice
+  /// of the new scene. @param lattice of the new scene. @return nothing: the whole has no corner, its cloud
+  /// would not keep its shape or nearly its size, or the hand is far from the workspace.
   static std::optional<ScenePart> about(const Bounds& hand, std::shared_ptr<const HapticScene> whole,
     const AffineTransform& modelToLattice, const Lattice& lattice);
 

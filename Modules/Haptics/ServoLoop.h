@@ -16,6 +16,7 @@
 namespace pointhaptics
 {
 
+/// How a servo loop runs: rate, priority, watchdog, trace and force limits.
 struct ServoSettings
 {
   double rateHz = 1000.0;       ///< 1 to 10000.
@@ -52,6 +53,7 @@ struct ServoSample
   std::uint64_t scenes = 0;   ///< Scenes taken since start(), this tick's included.
 };
 
+/// What a servo loop did since start(): ticks, deadline misses, faults and times.
 struct ServoStatistics
 {
   std::uint64_t ticks = 0;

@@ -19,8 +19,9 @@
  *   is shorter than 1000 steps of it. Whoever transforms a cloud takes "LasScale" and "LasOffset" away.
  *   Arrays under the names vtkPointCloudReader gives to LAS fields become these, "RGB" becomes the colour,
  *   and all others become extra bytes. NaN points are refused.
- * - .csv: header x,y,z,<arrays>, arrays of several components as name_0,name_1,...; each number with the
- *   fewest digits that give back the same value. Types are not stored: float arrays may be read as double.
+ * - .csv: header x,y,z and the names of the arrays, arrays of several components as name_0,name_1,...; each
+ * number with the fewest digits that give back the same value. Types are not stored: float arrays may be read
+ * as double.
  *
  * Arrays of strings are left out, and white space, commas and quotes in names become '_' (not in .vtp).
  * GetNotes() lists whatever the format could not hold of this cloud.

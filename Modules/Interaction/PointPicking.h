@@ -19,6 +19,7 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
+/// What is known of a picked point.
 struct PickedPoint
 {
   vtkIdType index = -1;              ///< In the picked cloud.

@@ -17,6 +17,7 @@ namespace simd
 struct NeighborKernels;
 }
 
+/// A point that a query found.
 struct Neighbor
 {
   double squaredDistance = 0.0;

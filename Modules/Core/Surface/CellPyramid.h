@@ -32,6 +32,7 @@ public:
   /// Levels above the finest that hold merged cells; a fit never needs coarser ones.
   static constexpr int kCellLevels = 5;
 
+  /// 4 x 4 x 4 voxels of a level, and which of them hold points.
   struct Brick
   {
     std::uint64_t mask = 0;      ///< Bit m: the voxel with Morton index m in the brick holds points.
@@ -42,6 +43,7 @@ public:
     std::int32_t y = 0;
     std::int32_t z = 0;
   };
+  /// The bricks and cells of voxels of one size.
   struct Level
   {
     double voxelSize = 0.0;

@@ -18,6 +18,7 @@
 namespace pointhaptics
 {
 
+/// How a FalconDevice is started, and its limits.
 struct FalconSettings
 {
   std::string firmwareFile; ///< Empty: what the environment names (kFirmwareVariable), if anything.

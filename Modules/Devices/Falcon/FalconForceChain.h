@@ -13,6 +13,7 @@
 namespace pointhaptics
 {
 
+/// The limits that a FalconForceChain keeps to.
 struct FalconForceLimits
 {
   double maximumForce = 4.0;       ///< N at the grip, 0 to 8.

@@ -10,6 +10,7 @@
 namespace pointhaptics
 {
 
+/// A HID device that is plugged in.
 struct HidFound
 {
   std::uint16_t vendor = 0;
@@ -36,6 +37,7 @@ public:
   virtual bool write(const std::uint8_t* bytes, int count) = 0;
 };
 
+/// Finds and opens HID devices; implemented with hidapi, and by tests.
 class HidBus
 {
 public:
