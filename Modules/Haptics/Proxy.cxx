@@ -57,12 +57,12 @@ struct Proxy::Implementation
     if (!newScene)
     {
       vanished = scene ? last : vanished;
-      forget();
+      reset();
     }
     // A new cloud may lie where an old one lay.
     if (!newScene || newScene->cloudNumber() != lastCloud)
     {
-      memory.forget();
+      memory.invalidate();
       surfaceFit.changeCells();
     }
     lastCloud = newScene ? newScene->cloudNumber() : 0;
@@ -102,7 +102,7 @@ struct Proxy::Implementation
     }
   }
 
-  void forget() noexcept
+  void reset() noexcept
   {
     surfaceFit.reset();
     gradientSteps.reset();
@@ -252,7 +252,7 @@ void Proxy::setParameters(const HapticParameters& parameters) noexcept
     const ProxyState last = self.last;
     const Vec3 hip = self.lastHip;
     const bool hadHip = self.hasLastHip;
-    self.forget();
+    self.reset();
     self.last = last;
     self.lastHip = hip;
     self.hasLastHip = hadHip;
@@ -276,7 +276,7 @@ void Proxy::setScene(const HapticScene* scene) noexcept
 void Proxy::reset() noexcept
 {
   implementation_->vanished = ProxyState();
-  implementation_->forget();
+  implementation_->reset();
 }
 
 ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
@@ -342,7 +342,7 @@ void Proxy::rehearse() noexcept
   {
     SurfaceFitProxy copy = self.surfaceFit;
     // Gathered anew each time: whether the step will have to gather is not known here.
-    self.prefetchMemory.forget();
+    self.prefetchMemory.invalidate();
     copy.step(*self.scene, self.prefetchMemory, self.parameters.contact, hip,
       self.parameters.method == ProxyMethod::SurfaceFit, state);
   }

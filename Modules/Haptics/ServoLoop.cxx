@@ -17,9 +17,9 @@ namespace pointhaptics
 namespace
 {
 /// A device silent for longer than this may have moved anywhere: its hand is taken as new.
-constexpr double kForgetAfterSeconds = 0.1;
+constexpr double kNewHandAfterSeconds = 0.1;
 /// A machine that stood still for less leaves the hand where it was: on its side of the surface.
-constexpr double kForgetAfterStall = 1.0;
+constexpr double kNewHandAfterStallSeconds = 1.0;
 /// A hand that moved less in a tick stood still, metres.
 constexpr double kStill = 1e-8;
 constexpr double kRestAfterSeconds = 0.5;
@@ -290,8 +290,8 @@ Vec3 ServoLoop::Implementation::answer(const HandState& hand, std::uint64_t numb
 {
   const double elapsed = double(number - lastSteppedTick) / settings.rateHz;
   const double silence = firstFailedTick != 0 ? double(number - firstFailedTick) / settings.rateHz : 0.0;
-  const bool stoodStill = number - lastSteppedTick > 1 && elapsed > kForgetAfterStall;
-  if (lastSteppedTick != 0 && (hand.isNew || stoodStill || silence > kForgetAfterSeconds))
+  const bool stoodStill = number - lastSteppedTick > 1 && elapsed > kNewHandAfterStallSeconds;
+  if (lastSteppedTick != 0 && (hand.isNew || stoodStill || silence > kNewHandAfterSeconds))
   {
     proxy.reset();
   }

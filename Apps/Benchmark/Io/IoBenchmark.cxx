@@ -164,7 +164,7 @@ void readKind(
     std::string& verdict = verdicts[contestants.size()];
     Contestant contestant;
     contestant.name = rival.readerOf(kind);
-    contestant.before = [&rival] { rival.forget(); };
+    contestant.before = [&rival] { rival.discard(); };
     contestant.run = [&rival, kind, &path] { rival.read(kind, path); };
     contestant.check = [&rival, &verdict, kind, cloud, name = contestant.name, &context]
     {

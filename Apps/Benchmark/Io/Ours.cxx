@@ -52,7 +52,7 @@ public:
     }
     cloud_ = reader->GetOutput();
   }
-  void forget() override { cloud_ = nullptr; }
+  void discard() override { cloud_ = nullptr; }
   std::vector<double> points() const override
   {
     std::vector<double> xyz(3 * std::size_t(cloud_->GetNumberOfPoints()));
@@ -117,7 +117,7 @@ public:
       throw std::runtime_error(path + ": cannot be read");
     }
   }
-  void forget() override
+  void discard() override
   {
     if (fresh_)
     {

@@ -59,7 +59,7 @@ public:
     const bool isPly = kind == FileKind::BinaryPly || kind == FileKind::AsciiPly;
     check(isPly ? pcl::io::loadPLYFile(path, cloud_) : pcl::io::loadPCDFile(path, cloud_), path);
   }
-  void forget() override { cloud_ = {}; }
+  void discard() override { cloud_ = {}; }
   std::vector<double> points() const override
   {
     std::vector<double> xyz;

@@ -33,7 +33,7 @@ constexpr FileKind kAllKinds[] = { FileKind::BinaryPly, FileKind::AsciiPly, File
 /// "PLY binary".
 const char* nameOf(FileKind kind);
 
-/// Use: any number of forget and read, or load once and then any number of write.
+/// Use: any number of discard and read, or load once and then any number of write.
 class Rival
 {
 public:
@@ -45,7 +45,7 @@ public:
   /// Reads the whole file. Throws std::runtime_error where it cannot.
   virtual void read(FileKind kind, const std::string& path) = 0;
   /// Frees what read() left. Not timed.
-  virtual void forget() = 0;
+  virtual void discard() = 0;
   /// The points that were read, x y z of each; empty for a rival that only moves bytes.
   virtual std::vector<double> points() const = 0;
   /// Bytes of memory that the result of read() takes.

@@ -72,7 +72,7 @@ public:
       cloud_ = reader->GetOutput();
     }
   }
-  void forget() override
+  void discard() override
   {
     cloud_ = nullptr;
     table_ = nullptr;

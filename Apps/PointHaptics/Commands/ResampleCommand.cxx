@@ -50,7 +50,7 @@ void print(const ResampleOptions& options, vtkIdType in, vtkVoxelMeanResampler* 
 }
 
 /// The steps of the file's coordinates are not those of transformed ones.
-void forgetGrid(vtkPolyData* cloud)
+void removeLasGrid(vtkPolyData* cloud)
 {
   for (const char* name : { "LasScale", "LasOffset" })
   {
@@ -85,7 +85,7 @@ int runResample(const ResampleOptions& options)
   }
   if (options.lattice.hasTransform())
   {
-    forgetGrid(resampler->GetOutput());
+    removeLasGrid(resampler->GetOutput());
   }
   if (!writeCloud(resampler->GetOutput(), options.files.output, kCommand, message))
   {

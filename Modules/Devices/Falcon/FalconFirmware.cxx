@@ -16,7 +16,7 @@ constexpr std::size_t kLargestFirmware = 65536;
 Status refuse(std::string& message, const std::string& reason)
 {
   message = reason +
-    ". The Falcon runs a program that it forgets without power. Its licence does not allow us to ship it: "
+    ". The Falcon runs a program that it loses without power. Its licence does not allow us to ship it: "
     "take the file (8492 bytes) from Novint's own driver and name it, or set the variable " +
     kFirmwareVariable + " to its path; Documentation/Devices.md says how";
   return Status::FirmwareMissing;

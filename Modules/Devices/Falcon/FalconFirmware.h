@@ -11,7 +11,7 @@
 namespace pointhaptics
 {
 
-/// The Falcon forgets its firmware when it loses power, and Novint's licence does not allow anyone else to
+/// The Falcon loses its firmware when it loses power, and Novint's licence does not allow anyone else to
 /// hand the image on: the user takes it from Novint's own driver and names it here.
 struct FalconFirmware
 {

@@ -25,7 +25,7 @@ public:
   }
 
   /// Everything gathered is dropped. Must be called before a pyramid at an address used before.
-  void forget() noexcept { pyramid_ = nullptr; }
+  void invalidate() noexcept { pyramid_ = nullptr; }
 
   /// Makes sure that all points within @p radius of @p center are here. Where there are more than kCapacity,
   /// one point of each finest voxel, or means of coarser voxels, of at most @p coarsest metres. False: points

@@ -19,7 +19,7 @@ public:
   /// center. @param away receives the direction from their middle to the ball. False: they are not flat, and
   /// nothing changes.
   bool find(const BallCells& cells, const Vec3& center, double radius, double reach, Vec3& away) noexcept;
-  void forget() noexcept { isKnown_ = false; }
+  void invalidate() noexcept { isKnown_ = false; }
 
   bool isKnown() const noexcept { return isKnown_; }
   /// Whether the place is known and was found with the center within @p distance of @p center.

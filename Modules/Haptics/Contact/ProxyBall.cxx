@@ -143,7 +143,7 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
   wanted_ *= scale;
   isMeasured_ = false;
   isHeld_ = false;
-  flat_.forget();
+  flat_.invalidate();
 }
 
 void ProxyBall::gather(Work& work, double reach) noexcept
@@ -368,7 +368,7 @@ void ProxyBall::touchDown(Work& work) noexcept
 {
   gather(work, kPlaneReach * radius_);
   Vec3 ignored;
-  flat_.forget();
+  flat_.invalidate();
   if (!flat_.find(work.cells, center_, radius_, kTouchReach * radius_, ignored))
   {
     flat_.find(work.cells, center_, radius_, kPlaneReach * radius_, ignored);
@@ -433,7 +433,7 @@ Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
   if (!flat_.find(cells, center_, radius_, kPlaneReach * radius_, away) &&
     !(flat_.isNear(center_, kFlatNear * radius_) && dot(flat_.normal(), away) >= kFlatCosine))
   {
-    flat_.forget();
+    flat_.invalidate();
   }
   return flat_.isKnown() ? flat_.normal() : away;
 }

@@ -28,10 +28,10 @@ public:
     FitCells fit;
     BallCells ball;
 
-    void forget() noexcept
+    void invalidate() noexcept
     {
       fit.invalidate();
-      ball.forget();
+      ball.invalidate();
     }
   };
 

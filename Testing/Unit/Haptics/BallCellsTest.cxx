@@ -112,7 +112,7 @@ TEST(BallCells, GathersEveryPointInReachWhereverTheBallGoes)
   {
     const std::vector<Vec3> points = randomPoints(random, 1 + random.below(BallCells::kCapacity), 0.01);
     const CellPyramid pyramid = pyramidOf(points, random.uniform(1e-4, 2e-3));
-    cells.forget();
+    cells.invalidate();
     Vec3 center = points[0];
     for (int move = 0; move < 200; ++move)
     {
@@ -139,7 +139,7 @@ TEST(BallCells, GathersEveryPointInReachOfALargeCloudWhereNotTooManyAre)
       const Vec3 center =
         points[random.below(points.size())] + random.uniform(0.0, 1e-3) * random.direction();
       const double radius = random.uniform(1e-4, 2e-3);
-      cells.forget();
+      cells.invalidate();
       const bool whole = cells.gather(pyramid, center, radius, kCoarse);
       // More than is asked for is gathered; that counts, too.
       std::size_t inReach = 0;
@@ -199,7 +199,7 @@ TEST(BallCells, TakesMeansOfCoarserVoxelsWhereVoxelsAreTooManyAndSaysWhenEvenThe
   EXPECT_GT(gap, 0.5 * kFine) << "not all of the points";
   EXPECT_GT(cells.size(), 100) << "not coarser than need be";
 
-  cells.forget();
+  cells.invalidate();
   EXPECT_FALSE(cells.gather(pyramid, Vec3(), 1e-3, 2 * kFine)) << "too many";
   EXPECT_LE(cells.size(), int(BallCells::kCapacity));
   EXPECT_GT(cells.size(), 0);
@@ -228,7 +228,7 @@ TEST(BallCells, ForgetsAPyramid)
     p += Vec3(1e-4, 0, 0);
   }
   pyramid = pyramidOf(points, 2e-4);
-  cells.forget();
+  cells.invalidate();
   ASSERT_TRUE(cells.gather(pyramid, points[0], 1e-3, kCoarse));
   EXPECT_LE(worstGap(points, cells, points[0], 1e-3), 1e-16);
 }
@@ -255,7 +255,7 @@ TEST(BallCells, FindsTheNearestPointAndTheBall)
     const std::vector<Vec3> points = randomPoints(random, 1 + random.below(256), 1e-3);
     const CellPyramid pyramid = pyramidOf(points, 3e-4);
     const Vec3 center = points[0] + random.uniform(0.0, 1e-3) * random.direction();
-    cells.forget();
+    cells.invalidate();
     ASSERT_TRUE(cells.gather(pyramid, center, 0.02, kCoarse));
     for (int query = 0; query < 500; ++query)
     {
@@ -304,7 +304,7 @@ TEST(BallCells, SweepsABallExactlyToTheFirstPointInItsWay)
     const std::vector<Vec3> points = randomPoints(random, 1 + random.below(200), 1e-3);
     const CellPyramid pyramid = pyramidOf(points, 3e-4);
     const double radius = random.uniform(1e-4, 1e-3);
-    cells.forget();
+    cells.invalidate();
     ASSERT_TRUE(cells.gather(pyramid, points[0], 0.02, kCoarse));
     for (int ray = 0; ray < kRays; ++ray)
     {

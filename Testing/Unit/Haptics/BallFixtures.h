@@ -121,15 +121,15 @@ public:
       step(hip_);
     }
   }
-  void forget()
+  void invalidate()
   {
     fields_->invalidate();
-    cells_->forget();
+    cells_->invalidate();
   }
   /// A new scene, with the ball carried into it. What was gathered from the old one is dropped.
   void enter(Scene scene, const AffineTransform& change, double scale)
   {
-    forget();
+    invalidate();
     scene_ = std::move(scene);
     ball_.carry(change, scale);
     hip_ = change.apply(hip_);

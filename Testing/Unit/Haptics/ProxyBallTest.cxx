@@ -140,8 +140,8 @@ TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
       {
         ++crowded;
         mostCovered = std::max(mostCovered, covered);
-        hand.forget();
-        again.forget();
+        hand.invalidate();
+        again.invalidate();
         continue;
       }
       ASSERT_LE(covered, 1e-8);
@@ -285,7 +285,7 @@ TEST(ProxyBall, MovesWithTheModel)
     // Both measure their radius where they are.
     hand.ball().carry(AffineTransform(), 1.0);
     EXPECT_TRUE(trial::isSame(hand.ball(), before));
-    hand.forget();
+    hand.invalidate();
     for (int tick = 0; tick < 200; ++tick)
     {
       const Vec3 to = hand.hip() + (tick < 100 ? Vec3() : Vec3(2e-5, -1e-5, 0));
@@ -317,7 +317,7 @@ TEST(ProxyBall, IsScaledWithTheModel)
   EXPECT_EQ(carried.ball().center(), 2.0 * hand.ball().center());
   EXPECT_EQ(carried.ball().radius(), 2.0 * hand.ball().radius());
   hand.ball().carry(AffineTransform(), 1.0);
-  hand.forget();
+  hand.invalidate();
   hand.rest(20);
   carried.rest(20);
   EXPECT_LE(norm(carried.ball().center() - 2.0 * hand.ball().center()), 0.2 * carried.ball().radius());
