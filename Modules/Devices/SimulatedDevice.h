@@ -43,7 +43,7 @@ public:
   /// The grip's damping bounds the springs it can bear; none where the hand does not yield.
   HandLimits limits() const noexcept override;
   /// True unless a path moves the hand: a target that comes from the mouse is late by more.
-  bool mayRest() const noexcept override { return path_.points.empty(); }
+  bool mayIdle() const noexcept override { return path_.points.empty(); }
   /// From the next open() on the target follows @p path in servo time, its first point at time 0, instead of
   /// setTarget(); read() gives EndOfPath after its end. An empty path: setTarget() again. Not while open.
   void setPath(HipPath path) { path_ = std::move(path); }

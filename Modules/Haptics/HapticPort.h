@@ -35,9 +35,9 @@ public:
   /// What the loop must keep to. Asked by the thread that starts the loop or sets its parameters; the same at
   /// all times. Default: a hand that nothing moves, without any limit.
   virtual HandLimits limits() const noexcept { return {}; }
-  /// Servo thread. Whether the loop may leave out ticks while the hand rests in free space: true only where
+  /// Servo thread. Whether the loop may idle while the hand stands still in free space: true only where
   /// nobody can tell that an answer came a fiftieth of a second late. Default: no.
-  virtual bool mayRest() const noexcept { return false; }
+  virtual bool mayIdle() const noexcept { return false; }
 };
 
 } // namespace pointhaptics

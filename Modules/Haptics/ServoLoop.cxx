@@ -22,8 +22,8 @@ constexpr double kNewHandAfterSeconds = 0.1;
 constexpr double kNewHandAfterStallSeconds = 1.0;
 /// A hand that moved less in a tick stood still, metres.
 constexpr double kStill = 1e-8;
-constexpr double kRestAfterSeconds = 0.5;
-constexpr double kRestSeconds = 0.02;
+constexpr double kIdleAfterSeconds = 0.5;
+constexpr double kIdlePeriodSeconds = 0.02;
 constexpr int kLargestTrace = 1 << 22;
 constexpr double kLongestWatch = 3600.0;
 constexpr double kEarliestWake = 1e-3;
@@ -67,7 +67,7 @@ struct ServoLoop::Implementation
   std::atomic<std::uint64_t> missedTicks{ 0 };
   std::atomic<std::uint64_t> deviceFaults{ 0 };
   std::atomic<std::uint64_t> waitingTicks{ 0 };
-  std::atomic<std::uint64_t> restedTicks{ 0 };
+  std::atomic<std::uint64_t> idleTicks{ 0 };
   std::atomic<std::uint64_t> staleTicks{ 0 };
   std::atomic<std::int64_t> newestSign{ 0 }; ///< Of life, steadyNanoseconds().
   std::atomic<std::int64_t> firstWake{ 0 };
@@ -109,7 +109,7 @@ struct ServoLoop::Implementation
   Vec3 answer(const HandState& hand, std::uint64_t number) noexcept;
   void takeNews() noexcept;
   bool gateIsOpen(std::int64_t wake) noexcept;
-  std::uint64_t ticksToRest() noexcept;
+  std::uint64_t ticksToIdle() noexcept;
   bool pushes() const noexcept { return sample.state.force != Vec3(); }
   void signOfLife() noexcept { newestSign.store(steadyNanoseconds(), std::memory_order_relaxed); }
 };
@@ -137,7 +137,7 @@ void ServoLoop::Implementation::prepare(
   trace.resize(std::size_t(settings.traceCapacity));
   lateness.clear();
   update.clear();
-  for (auto* counter : { &ticks, &missedTicks, &deviceFaults, &waitingTicks, &restedTicks, &staleTicks })
+  for (auto* counter : { &ticks, &missedTicks, &deviceFaults, &waitingTicks, &idleTicks, &staleTicks })
   {
     counter->store(0, std::memory_order_relaxed);
   }
@@ -173,13 +173,13 @@ void ServoLoop::Implementation::run() noexcept
   const auto deadline = [&](std::uint64_t number)
   { return start + std::int64_t(double(number - 1) * period); };
   std::uint64_t number = 1;
-  std::uint64_t rest = 0; // deadlines passed over since the last tick
+  std::uint64_t idle = 0; // deadlines passed over since the last tick
   // A stop is obeyed once the gate has closed, and at once where nothing pushes.
   while (!stopRequested.load(std::memory_order_acquire) || (gate.part() > 0.0 && pushes()))
   {
-    // A loop that rests saves its work too.
+    // An idle loop saves the work of waking early too.
     waitFor(deadline(number),
-      rest > 0 ? 0.0 : std::min(settings.wakeEarlySeconds, kLargestEarlyPart * 1e-9 * period));
+      idle > 0 ? 0.0 : std::min(settings.wakeEarlySeconds, kLargestEarlyPart * 1e-9 * period));
     const std::int64_t wake = steadyNanoseconds();
     lateness.record(1e-9 * double(wake - deadline(number)));
     std::uint64_t missed = 0;
@@ -190,14 +190,14 @@ void ServoLoop::Implementation::run() noexcept
       missed = std::uint64_t(double(wake - deadline(number)) / period);
     }
     increase(missedTicks, missed);
-    increase(restedTicks, rest);
+    increase(idleTicks, idle);
     number += missed;
     if (tick(number, wake) == Status::EndOfPath)
     {
       break;
     }
-    rest = ticksToRest();
-    number += 1 + rest;
+    idle = ticksToIdle();
+    number += 1 + idle;
   }
   static_cast<void>(port->write(double(number - 1) / settings.rateHz, Vec3()));
   running.store(false, std::memory_order_release);
@@ -272,17 +272,17 @@ bool ServoLoop::Implementation::gateIsOpen(std::int64_t wake) noexcept
 }
 
 /// After a tick: how many of the next ones nobody would miss.
-std::uint64_t ServoLoop::Implementation::ticksToRest() noexcept
+std::uint64_t ServoLoop::Implementation::ticksToIdle() noexcept
 {
-  const bool still = settings.restsWhenIdle && !newsCame && sample.device == Status::Ok &&
-    !sample.state.contact && !pushes() && norm(sample.state.hip - lastHip) < kStill && port->mayRest();
+  const bool still = settings.idlesWhenStill && !newsCame && sample.device == Status::Ok &&
+    !sample.state.contact && !pushes() && norm(sample.state.hip - lastHip) < kStill && port->mayIdle();
   lastHip = sample.state.hip;
   stillTicks = still ? stillTicks + 1 : 0;
-  if (double(stillTicks) < kRestAfterSeconds * settings.rateHz || kRestSeconds * settings.rateHz < 2.0)
+  if (double(stillTicks) < kIdleAfterSeconds * settings.rateHz || kIdlePeriodSeconds * settings.rateHz < 2.0)
   {
     return 0;
   }
-  return std::uint64_t(kRestSeconds * settings.rateHz) - 1;
+  return std::uint64_t(kIdlePeriodSeconds * settings.rateHz) - 1;
 }
 
 /// Steps the proxy; fills the sample's state. @return the proxy's force.
@@ -416,8 +416,8 @@ ServoStatistics ServoLoop::statistics() const noexcept
   result.lostTraceSamples = self.trace.lost();
   const std::int64_t elapsed =
     self.newestWake.load(std::memory_order_relaxed) - self.firstWake.load(std::memory_order_relaxed);
-  result.restedTicks = self.restedTicks.load(std::memory_order_relaxed);
-  const double answered = double(result.ticks + result.restedTicks);
+  result.idleTicks = self.idleTicks.load(std::memory_order_relaxed);
+  const double answered = double(result.ticks + result.idleTicks);
   result.rateHz = elapsed > 0 && result.ticks > 1 ? (answered - 1.0) * 1e9 / double(elapsed) : 0.0;
   result.lateness = self.lateness.summary();
   result.update = self.update.summary();

@@ -33,9 +33,9 @@ struct ServoSettings
                                 ///< taken away; 0: never. 0 to 3600.
   int traceCapacity = 1 << 15; ///< Ticks kept until takeTrace(), 1 to 2^22 (200 bytes each); what comes while
                                ///< the trace is full is lost and counted.
-  bool restsWhenIdle = false;  ///< Where the port allows it (HapticPort::mayRest()): after half a second in
-                              ///< which the hand stood still and touched nothing and no news came, only every
-                              ///< fiftieth of a second is a tick, until that changes.
+  bool idlesWhenStill = false; ///< Where the port allows it (HapticPort::mayIdle()): after half a second in
+                               ///< which the hand stood still and touched nothing and no news came, only
+                               ///< every fiftieth of a second is a tick, until that changes.
   ForceLimits limits;
 };
 
@@ -61,11 +61,11 @@ struct ServoStatistics
     0; ///< Deadlines already followed by the next one when the thread woke; skipped.
   std::uint64_t deviceFaults = 0; ///< Ticks in which read() or write() failed.
   std::uint64_t waitingTicks = 0; ///< Ticks in which the device was not ready (starting, not homed).
-  std::uint64_t restedTicks = 0;  ///< Deadlines passed over because nothing was to be done.
+  std::uint64_t idleTicks = 0;    ///< Deadlines passed over while the loop was idle.
   std::uint64_t staleTicks = 0;   ///< Ticks without a sign of life for longer than the watchdog allows.
   std::uint64_t lostTraceSamples = 0;
-  double rateHz = 0.0; ///< Achieved between the first and the newest tick since start(); where the loop
-                       ///< rested it counts as having ticked.
+  double rateHz = 0.0; ///< Achieved between the first and the newest tick since start(); idle ticks count
+                       ///< as ticks.
   LatencyHistogram::Summary lateness; ///< Wake-up after the deadline, seconds.
   LatencyHistogram::Summary update;   ///< Duration of a tick's work, seconds.
   bool realtime = false;              ///< SCHED_FIFO was granted.

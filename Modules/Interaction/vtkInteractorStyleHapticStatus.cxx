@@ -83,7 +83,7 @@ std::string vtkInteractorStyleHaptic::ServoPanelText()
     statistics.rateHz, 1e6 * statistics.lateness.p50, 1e6 * statistics.lateness.p99,
     1e6 * statistics.lateness.maximum, 1e6 * statistics.update.p50, 1e6 * statistics.update.p99,
     1e6 * statistics.update.maximum, count(statistics.ticks), count(statistics.missedTicks),
-    count(statistics.restedTicks), count(statistics.deviceFaults), count(statistics.waitingTicks),
+    count(statistics.idleTicks), count(statistics.deviceFaults), count(statistics.waitingTicks),
     device.substr(0, 200).c_str());
   return text;
 }

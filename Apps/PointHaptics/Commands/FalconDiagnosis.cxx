@@ -120,7 +120,7 @@ private:
   }
   void ask(const std::string& question);
   bool waitFor(const std::function<bool()>& condition, double seconds);
-  void rest(double seconds)
+  void wait(double seconds)
   {
     waitFor([] { return false; }, seconds);
   }
@@ -197,7 +197,7 @@ void Diagnosis::checkLamps(FalconDevice& device)
   for (const auto& [bit, name] : lamps)
   {
     device.showLamps(bit);
-    rest(patience(kLampSeconds));
+    wait(patience(kLampSeconds));
     ask(fmt::format("   Bit {} should be {}. Which light is on? [{}]", bit, name, name));
   }
   device.showLamps(-1);
@@ -259,7 +259,7 @@ void Diagnosis::checkRate(const FalconDevice& device, const ServoLoop& loop)
   note("\n4. Rate");
   const FalconStatistics before = device.statistics();
   const ServoStatistics servoBefore = loop.statistics();
-  rest(patience(kRateSeconds));
+  wait(patience(kRateSeconds));
   const FalconStatistics after = device.statistics();
   const ServoStatistics servo = loop.statistics();
   note(fmt::format(
@@ -286,7 +286,7 @@ void Diagnosis::checkMotors(FalconDevice& device, PushPort& port)
   const char* const directions[] = { "to the right", "up", "towards you" };
   for (int axis = 0; axis < 3 && !stopIsRequested(); ++axis)
   {
-    rest(kBackSeconds);
+    wait(kBackSeconds);
     const Vec3 from = loop_->latest().state.hip;
     Vec3 force;
     force[axis] = settings_.limits.maximumForce;
@@ -294,7 +294,7 @@ void Diagnosis::checkMotors(FalconDevice& device, PushPort& port)
     std::array<std::int16_t, 3> motors{};
     {
       const Push push(device, port, force);
-      rest(std::max(patience(kPushSeconds), kShortestPush));
+      wait(std::max(patience(kPushSeconds), kShortestPush));
       moved = loop_->latest().state.hip - from;
       motors = device.raw().command.motors;
     }

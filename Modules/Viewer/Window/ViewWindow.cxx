@@ -279,7 +279,7 @@ bool ViewWindow::openDevice(std::string& message)
 bool ViewWindow::startServo(std::string& message)
 {
   ServoSettings settings = falcon_ ? pushingServoSettings(1000.0) : ServoSettings();
-  settings.restsWhenIdle = options_.trace.empty(); // a trace has all ticks
+  settings.idlesWhenStill = options_.trace.empty(); // a trace has all ticks
   const Status status = device_ ? servo_.start(*device_, parameters_, settings, &message) : Status::Ok;
   return status == Status::Ok;
 }

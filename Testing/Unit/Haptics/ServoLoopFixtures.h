@@ -50,7 +50,7 @@ public:
   }
 
   HandLimits limits() const noexcept override { return bounds; }
-  bool mayRest() const noexcept override { return true; }
+  bool mayIdle() const noexcept override { return true; }
 
 private:
   bool failed_ = false;

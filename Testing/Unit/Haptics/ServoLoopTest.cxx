@@ -231,30 +231,30 @@ TEST(ServoLoop, RestsOnlyWhileAStillHandTouchesNothing)
   port.path = [&](double t) { return Vec3(0.0, 0.0, height + (trembles ? 1e-6 * std::sin(1e3 * t) : 0.0)); };
   ServoSettings settings;
   settings.realtimePriority = false;
-  settings.restsWhenIdle = true;
+  settings.idlesWhenStill = true;
   ServoLoop loop;
   loop.publishScene(plane());
   ASSERT_EQ(loop.start(port, {}, settings), Status::Ok);
-  const auto rested = [&] { return loop.statistics().restedTicks; };
+  const auto idle = [&] { return loop.statistics().idleTicks; };
   const auto ticksLater = [&](std::uint64_t more)
   {
     const std::uint64_t wanted = loop.statistics().ticks + more;
     return eventually([&, wanted] { return loop.statistics().ticks >= wanted; });
   };
-  ASSERT_TRUE(eventually([&] { return rested() > 0; }));
+  ASSERT_TRUE(eventually([&] { return idle() > 0; }));
   // Ticks that were left out have their numbers, and are not missed.
-  EXPECT_GE(loop.latest().tick, loop.statistics().ticks + rested());
+  EXPECT_GE(loop.latest().tick, loop.statistics().ticks + idle());
   trembles = true;
   ASSERT_TRUE(ticksLater(2));
-  std::uint64_t before = rested();
+  std::uint64_t before = idle();
   ASSERT_TRUE(ticksLater(600));
-  EXPECT_EQ(rested(), before);
+  EXPECT_EQ(idle(), before);
   trembles = false;
   height = -0.001;
   ASSERT_TRUE(eventually([&] { return loop.latest().state.contact; }));
-  before = rested();
+  before = idle();
   ASSERT_TRUE(ticksLater(700));
-  EXPECT_EQ(rested(), before);
+  EXPECT_EQ(idle(), before);
   loop.stop();
 }
 
