@@ -61,10 +61,10 @@ struct ServoLoop::Implementation
   LatestValue<HapticParameters> parameters;
   LatestValue<ServoSample> newest;
   TraceRing<ServoSample> trace;
-  LatencyHistogram lateness;
+  LatencyHistogram jitter;
   LatencyHistogram update;
   std::atomic<std::uint64_t> ticks{ 0 };
-  std::atomic<std::uint64_t> missedTicks{ 0 };
+  std::atomic<std::uint64_t> deadlineMisses{ 0 };
   std::atomic<std::uint64_t> deviceFaults{ 0 };
   std::atomic<std::uint64_t> waitingTicks{ 0 };
   std::atomic<std::uint64_t> idleTicks{ 0 };
@@ -135,9 +135,9 @@ void ServoLoop::Implementation::prepare(
   parametersVersion = parameters.version();
   newest.write(sample);
   trace.resize(std::size_t(settings.traceCapacity));
-  lateness.clear();
+  jitter.clear();
   update.clear();
-  for (auto* counter : { &ticks, &missedTicks, &deviceFaults, &waitingTicks, &idleTicks, &staleTicks })
+  for (auto* counter : { &ticks, &deadlineMisses, &deviceFaults, &waitingTicks, &idleTicks, &staleTicks })
   {
     counter->store(0, std::memory_order_relaxed);
   }
@@ -181,7 +181,7 @@ void ServoLoop::Implementation::run() noexcept
     waitFor(deadline(number),
       idle > 0 ? 0.0 : std::min(settings.wakeEarlySeconds, kLargestEarlyPart * 1e-9 * period));
     const std::int64_t wake = steadyNanoseconds();
-    lateness.record(1e-9 * double(wake - deadline(number)));
+    jitter.record(1e-9 * double(wake - deadline(number)));
     std::uint64_t missed = 0;
     if (wake >= deadline(number + 1))
     {
@@ -189,7 +189,7 @@ void ServoLoop::Implementation::run() noexcept
       // only.
       missed = std::uint64_t(double(wake - deadline(number)) / period);
     }
-    increase(missedTicks, missed);
+    increase(deadlineMisses, missed);
     increase(idleTicks, idle);
     number += missed;
     if (tick(number, wake) == Status::EndOfPath)
@@ -236,7 +236,7 @@ Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) 
   if (healthy)
   {
     sample.buttons = hand.buttons;
-    // One period even after missed ticks: a force that the hand did not feel grow must not arrive all at
+    // One period even after deadline misses: a force that the hand did not feel grow must not arrive all at
     // once.
     sample.state.force = guard.limit(opening * answer(hand, number), 1.0 / settings.rateHz);
   }
@@ -411,7 +411,7 @@ ServoStatistics ServoLoop::statistics() const noexcept
   const Implementation& self = *implementation_;
   ServoStatistics result;
   result.ticks = self.ticks.load(std::memory_order_relaxed);
-  result.missedTicks = self.missedTicks.load(std::memory_order_relaxed);
+  result.deadlineMisses = self.deadlineMisses.load(std::memory_order_relaxed);
   result.deviceFaults = self.deviceFaults.load(std::memory_order_relaxed);
   result.lostTraceSamples = self.trace.lost();
   const std::int64_t elapsed =
@@ -419,7 +419,7 @@ ServoStatistics ServoLoop::statistics() const noexcept
   result.idleTicks = self.idleTicks.load(std::memory_order_relaxed);
   const double answered = double(result.ticks + result.idleTicks);
   result.rateHz = elapsed > 0 && result.ticks > 1 ? (answered - 1.0) * 1e9 / double(elapsed) : 0.0;
-  result.lateness = self.lateness.summary();
+  result.jitter = self.jitter.summary();
   result.update = self.update.summary();
   result.waitingTicks = self.waitingTicks.load(std::memory_order_relaxed);
   result.staleTicks = self.staleTicks.load(std::memory_order_relaxed);

@@ -43,7 +43,7 @@ struct ServoSettings
 struct ServoSample
 {
   std::uint64_t tick =
-    0; ///< 1, 2, ...; missed ticks have their numbers too, so that a gap shows where they were.
+    0; ///< 1, 2, ...; ticks of missed deadlines have their numbers too, so that a gap shows where they were.
   double timeSeconds = 0.0; ///< Deadline of the tick since the first one: (tick - 1) / rate.
   ProxyState state; ///< force is the one that was sent: after the guard, zero where the device failed.
   std::uint32_t buttons = 0;
@@ -57,7 +57,7 @@ struct ServoSample
 struct ServoStatistics
 {
   std::uint64_t ticks = 0;
-  std::uint64_t missedTicks =
+  std::uint64_t deadlineMisses =
     0; ///< Deadlines already followed by the next one when the thread woke; skipped.
   std::uint64_t deviceFaults = 0; ///< Ticks in which read() or write() failed.
   std::uint64_t waitingTicks = 0; ///< Ticks in which the device was not ready (starting, not homed).
@@ -66,14 +66,14 @@ struct ServoStatistics
   std::uint64_t lostTraceSamples = 0;
   double rateHz = 0.0; ///< Achieved between the first and the newest tick since start(); idle ticks count
                        ///< as ticks.
-  LatencyHistogram::Summary lateness; ///< Wake-up after the deadline, seconds.
-  LatencyHistogram::Summary update;   ///< Duration of a tick's work, seconds.
-  bool realtime = false;              ///< SCHED_FIFO was granted.
-  bool memoryLocked = false;          ///< mlockall was granted.
-  bool coresAwake = false;            ///< The cores are kept from falling asleep.
-  int realtimeRefusal = 0;            ///< errno of a refused SCHED_FIFO; 0: granted or not asked for.
-  int memoryRefusal = 0;              ///< errno of a refused mlockall; 0: granted or not asked for.
-  int awakeRefusal = 0;               ///< errno of refused keepCoresAwake; 0: granted or not asked for.
+  LatencyHistogram::Summary jitter; ///< Wake-up after the deadline, seconds.
+  LatencyHistogram::Summary update; ///< Duration of a tick's work, seconds.
+  bool realtime = false;            ///< SCHED_FIFO was granted.
+  bool memoryLocked = false;        ///< mlockall was granted.
+  bool coresAwake = false;          ///< The cores are kept from falling asleep.
+  int realtimeRefusal = 0;          ///< errno of a refused SCHED_FIFO; 0: granted or not asked for.
+  int memoryRefusal = 0;            ///< errno of a refused mlockall; 0: granted or not asked for.
+  int awakeRefusal = 0;             ///< errno of refused keepCoresAwake; 0: granted or not asked for.
 };
 
 /// What the system refused, one sentence each with the cure; empty where nothing was.

@@ -45,7 +45,7 @@ bool vtkInteractorStyleHaptic::UpdateStatus()
     std::snprintf(text, sizeof(text),
       "\nproxy radius %.2f mm    force %.2f N%s\nservo %.0f Hz, %llu ticks missed%s",
       1e3 * latest.state.radius, norm(latest.state.force), latest.state.contact ? "    in contact" : "",
-      statistics.rateHz, static_cast<unsigned long long>(statistics.missedTicks),
+      statistics.rateHz, static_cast<unsigned long long>(statistics.deadlineMisses),
       parts.hold != pointhaptics::HapticAction::None ? "    the hand holds the model"
         : !parts.handMode                            ? ""
         : parts.pushesPointer                        ? "    hand follows the mouse, touch pushes it"
@@ -80,9 +80,9 @@ std::string vtkInteractorStyleHaptic::ServoPanelText()
     "device faults: %llu, waiting: %llu\n"
     "device: %s",
     parts.servo->running() ? "running" : "stopped", statistics.realtime ? ", SCHED_FIFO" : "",
-    statistics.rateHz, 1e6 * statistics.lateness.p50, 1e6 * statistics.lateness.p99,
-    1e6 * statistics.lateness.maximum, 1e6 * statistics.update.p50, 1e6 * statistics.update.p99,
-    1e6 * statistics.update.maximum, count(statistics.ticks), count(statistics.missedTicks),
+    statistics.rateHz, 1e6 * statistics.jitter.p50, 1e6 * statistics.jitter.p99,
+    1e6 * statistics.jitter.maximum, 1e6 * statistics.update.p50, 1e6 * statistics.update.p99,
+    1e6 * statistics.update.maximum, count(statistics.ticks), count(statistics.deadlineMisses),
     count(statistics.idleTicks), count(statistics.deviceFaults), count(statistics.waitingTicks),
     device.substr(0, 200).c_str());
   return text;

@@ -119,7 +119,7 @@ BenchTask servoTask()
 {
   BenchTask task;
   task.name = "servo";
-  task.description = "Time the servo loop: step, lateness, missed ticks; idle, loaded, drawing";
+  task.description = "Time the servo loop: step time, jitter, deadline misses; idle, loaded, drawing";
   task.hasThreads = false;
   task.addOptions = addServoOptions;
   return task;

@@ -40,9 +40,9 @@ public:
 
   void stop();
   /// Deadlines already followed by the next one when the thread woke. After stop().
-  std::uint64_t missedTicks() const { return missed_; }
+  std::uint64_t deadlineMisses() const { return missed_; }
   /// Seconds from a deadline to its answer. After stop().
-  double largestLateness() const { return largest_; }
+  double largestJitter() const { return largest_; }
 
 private:
   void run();

@@ -98,15 +98,15 @@ bool addRow(const Setting& setting, const Outcome& outcome, ReportPart& part)
     ? fmt::format("{}, {:.0f} fps", name(setting.load), outcome.framesPerSecond)
     : name(setting.load);
   part.table.rows.push_back({ name(setting.hand), load, brief(setting.rateHz), fourOf(s.update),
-    fourOf(s.lateness), grouped((long long)s.ticks), grouped((long long)s.missedTicks),
-    outcome.empty ? grouped((long long)outcome.empty->missedTicks) : "", fmt::format("{:.1f}", s.rateHz),
+    fourOf(s.jitter), grouped((long long)s.ticks), grouped((long long)s.deadlineMisses),
+    outcome.empty ? grouped((long long)outcome.empty->deadlineMisses) : "", fmt::format("{:.1f}", s.rateHz),
     right ? "right" : "wrong" });
   part.rows.push_back({ { "hand", name(setting.hand) }, { "load", name(setting.load) },
     { "rate_hz", setting.rateHz }, { "step_seconds", toJson(s.update) },
-    { "lateness_seconds", toJson(s.lateness) }, { "ticks", s.ticks }, { "missed_ticks", s.missedTicks },
+    { "jitter_seconds", toJson(s.jitter) }, { "ticks", s.ticks }, { "deadline_misses", s.deadlineMisses },
     { "empty_loop",
-      outcome.empty ? nlohmann::ordered_json{ { "missed_ticks", outcome.empty->missedTicks },
-                        { "largest_lateness_seconds", outcome.empty->largestLateness } }
+      outcome.empty ? nlohmann::ordered_json{ { "deadline_misses", outcome.empty->deadlineMisses },
+                        { "largest_jitter_seconds", outcome.empty->largestJitter } }
                     : nlohmann::ordered_json() },
     { "achieved_hz", s.rateHz }, { "real_time_priority", s.realtime }, { "memory_locked", s.memoryLocked },
     { "cores_awake", s.coresAwake }, { "frames_per_second", outcome.framesPerSecond },

@@ -1,5 +1,5 @@
 /// @file
-/// How long a tick takes, how late it comes, and how many are missed.
+/// Step time, jitter and deadline misses of the servo loop.
 #pragma once
 
 #include "Benchmark/Report/Report.h"

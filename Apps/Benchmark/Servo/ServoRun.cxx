@@ -203,7 +203,7 @@ Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& sc
   if (empty)
   {
     empty->stop();
-    outcome.empty = Outcome::Empty{ empty->missedTicks(), empty->largestLateness() };
+    outcome.empty = Outcome::Empty{ empty->deadlineMisses(), empty->largestJitter() };
   }
   loop.stop();
   device->close();

@@ -49,8 +49,8 @@ struct Outcome
   /// left for it.
   struct Empty
   {
-    std::uint64_t missedTicks = 0;
-    double largestLateness = 0.0; ///< Seconds.
+    std::uint64_t deadlineMisses = 0;
+    double largestJitter = 0.0; ///< Seconds.
   };
   std::optional<Empty> empty;
 };

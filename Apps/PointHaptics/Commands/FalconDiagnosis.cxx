@@ -271,12 +271,12 @@ void Diagnosis::checkRate(const FalconDevice& device, const ServoLoop& loop)
     fmt::format("   at most {} answers outstanding when a position was taken (0 is what the stiffness limit "
                 "counts on)",
       after.largestUnanswered));
-  note(
-    fmt::format("   servo {:.0f} Hz, {} ticks missed; step p50 {:.0f} p99 {:.0f} max {:.0f} us; lateness p50 "
-                "{:.0f} p99 {:.0f} max {:.0f} us; real-time priority {}",
-      servo.rateHz, servo.missedTicks, 1e6 * servo.update.p50, 1e6 * servo.update.p99,
-      1e6 * servo.update.maximum, 1e6 * servo.lateness.p50, 1e6 * servo.lateness.p99,
-      1e6 * servo.lateness.maximum, servo.realtime ? "yes" : "no"));
+  note(fmt::format(
+    "   servo {:.0f} Hz, {} deadline misses; step time p50 {:.0f} p99 {:.0f} max {:.0f} us; jitter p50 "
+    "{:.0f} p99 {:.0f} max {:.0f} us; real-time priority {}",
+    servo.rateHz, servo.deadlineMisses, 1e6 * servo.update.p50, 1e6 * servo.update.p99,
+    1e6 * servo.update.maximum, 1e6 * servo.jitter.p50, 1e6 * servo.jitter.p99, 1e6 * servo.jitter.maximum,
+    servo.realtime ? "yes" : "no"));
 }
 
 void Diagnosis::checkMotors(FalconDevice& device, PushPort& port)

@@ -215,8 +215,8 @@ bool touch(const FeelOptions& options, FeelScenes& scenes, Rows& rows, std::stri
     return false;
   }
   printNow(stderr,
-    fmt::format("{:.0f} Hz, {} ticks missed, {} device faults, lateness p99 {:.0f} us\n", statistics.rateHz,
-      statistics.missedTicks, statistics.deviceFaults, 1e6 * statistics.lateness.p99));
+    fmt::format("{:.0f} Hz, {} deadline misses, {} device faults, jitter p99 {:.0f} us\n", statistics.rateHz,
+      statistics.deadlineMisses, statistics.deviceFaults, 1e6 * statistics.jitter.p99));
   return true;
 }
 
