@@ -16,7 +16,7 @@ namespace pointhaptics
 {
 namespace
 {
-/// A device silent for longer than this may have moved anywhere: its hand is taken as new.
+/// A device whose reads failed for longer than this may have moved anywhere: its hand is taken as new.
 constexpr double kNewHandAfterSeconds = 0.1;
 /// A machine that stood still for less leaves the hand where it was: on its side of the surface.
 constexpr double kNewHandAfterStallSeconds = 1.0;
@@ -69,7 +69,7 @@ struct ServoLoop::Implementation
   std::atomic<std::uint64_t> waitingTicks{ 0 };
   std::atomic<std::uint64_t> idleTicks{ 0 };
   std::atomic<std::uint64_t> staleTicks{ 0 };
-  std::atomic<std::int64_t> newestSign{ 0 }; ///< Of life, steadyNanoseconds().
+  std::atomic<std::int64_t> newestHeartbeat{ 0 }; ///< steadyNanoseconds().
   std::atomic<std::int64_t> firstWake{ 0 };
   std::atomic<std::int64_t> newestWake{ 0 };
   std::atomic<bool> realtime{ false };
@@ -111,7 +111,7 @@ struct ServoLoop::Implementation
   bool gateIsOpen(std::int64_t wake) noexcept;
   std::uint64_t ticksToIdle() noexcept;
   bool pushes() const noexcept { return sample.state.force != Vec3(); }
-  void signOfLife() noexcept { newestSign.store(steadyNanoseconds(), std::memory_order_relaxed); }
+  void heartbeat() noexcept { newestHeartbeat.store(steadyNanoseconds(), std::memory_order_relaxed); }
 };
 
 void ServoLoop::Implementation::prepare(
@@ -151,7 +151,7 @@ void ServoLoop::Implementation::prepare(
   const int awakeError = settings.keepCoresAwake ? wakefulCores.request() : 0;
   awakeRefusal.store(awakeError, std::memory_order_relaxed);
   coresAwake.store(settings.keepCoresAwake && awakeError == 0, std::memory_order_relaxed);
-  newestSign.store(steadyNanoseconds(), std::memory_order_relaxed);
+  newestHeartbeat.store(steadyNanoseconds(), std::memory_order_relaxed);
   stopRequested.store(false, std::memory_order_relaxed);
   running.store(true, std::memory_order_release);
 }
@@ -265,8 +265,8 @@ Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) 
 
 bool ServoLoop::Implementation::gateIsOpen(std::int64_t wake) noexcept
 {
-  const double silence = 1e-9 * double(wake - newestSign.load(std::memory_order_relaxed));
-  const bool stale = settings.watchdogSeconds > 0.0 && silence > settings.watchdogSeconds;
+  const double age = 1e-9 * double(wake - newestHeartbeat.load(std::memory_order_relaxed));
+  const bool stale = settings.watchdogSeconds > 0.0 && age > settings.watchdogSeconds;
   increase(staleTicks, stale ? 1 : 0);
   return !stale && !stopRequested.load(std::memory_order_acquire);
 }
@@ -289,9 +289,9 @@ std::uint64_t ServoLoop::Implementation::ticksToIdle() noexcept
 Vec3 ServoLoop::Implementation::answer(const HandState& hand, std::uint64_t number) noexcept
 {
   const double elapsed = double(number - lastSteppedTick) / settings.rateHz;
-  const double silence = firstFailedTick != 0 ? double(number - firstFailedTick) / settings.rateHz : 0.0;
+  const double failed = firstFailedTick != 0 ? double(number - firstFailedTick) / settings.rateHz : 0.0;
   const bool stoodStill = number - lastSteppedTick > 1 && elapsed > kNewHandAfterStallSeconds;
-  if (lastSteppedTick != 0 && (hand.isNew || stoodStill || silence > kNewHandAfterSeconds))
+  if (lastSteppedTick != 0 && (hand.isNew || stoodStill || failed > kNewHandAfterSeconds))
   {
     proxy.reset();
   }
@@ -382,7 +382,7 @@ void ServoLoop::publishScene(std::shared_ptr<const HapticScene> scene)
 Status ServoLoop::setParameters(const HapticParameters& parameters, std::string* message)
 {
   Implementation& self = *implementation_;
-  self.signOfLife();
+  self.heartbeat();
   const Status status = checkSpring(self.limits, parameters, self.settings.rateHz);
   if (status == Status::Ok)
   {
@@ -398,7 +398,7 @@ void ServoLoop::setClutched(bool clutched) noexcept
 
 void ServoLoop::keepAlive() noexcept
 {
-  implementation_->signOfLife();
+  implementation_->heartbeat();
 }
 
 ServoSample ServoLoop::latest() const noexcept
@@ -434,7 +434,7 @@ ServoStatistics ServoLoop::statistics() const noexcept
 
 void ServoLoop::takeTrace(std::vector<ServoSample>& samples)
 {
-  implementation_->signOfLife();
+  implementation_->heartbeat();
   implementation_->trace.take(samples);
   const std::lock_guard<std::mutex> lock(implementation_->publishing);
   implementation_->scenes.collect();

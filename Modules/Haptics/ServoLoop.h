@@ -29,7 +29,7 @@ struct ServoSettings
   /// the deadline: neither the time to wake up nor cold caches are the tick's then. 0 to 1e-3, at most a
   /// half of the period is used; 0: sleep until the deadline. Costs that part of one core, 10 % at 1 kHz.
   double wakeEarlySeconds = 1e-4;
-  double watchdogSeconds = 0.0; ///< Without a sign of life (ServoLoop::keepAlive()) for so long the force is
+  double watchdogSeconds = 0.0; ///< Without a heartbeat (ServoLoop::keepAlive()) for so long the force is
                                 ///< taken away; 0: never. 0 to 3600.
   int traceCapacity = 1 << 15; ///< Ticks kept until takeTrace(), 1 to 2^22 (200 bytes each); what comes while
                                ///< the trace is full is lost and counted.
@@ -62,7 +62,7 @@ struct ServoStatistics
   std::uint64_t deviceFaults = 0; ///< Ticks in which read() or write() failed.
   std::uint64_t waitingTicks = 0; ///< Ticks in which the device was not ready (starting, not homed).
   std::uint64_t idleTicks = 0;    ///< Deadlines passed over while the loop was idle.
-  std::uint64_t staleTicks = 0;   ///< Ticks without a sign of life for longer than the watchdog allows.
+  std::uint64_t staleTicks = 0;   ///< Ticks without a heartbeat for longer than the watchdog allows.
   std::uint64_t lostTraceSamples = 0;
   double rateHz = 0.0; ///< Achieved between the first and the newest tick since start(); idle ticks count
                        ///< as ticks.
@@ -92,8 +92,8 @@ std::string describeRefusals(const ServoStatistics& statistics);
 /// force, then running() is false.
 ///
 /// Springs that the port cannot render without giving energy to the hand (HapticPort::limits()) are refused
-/// by start() and setParameters(). When the loop stops, and when the watchdog finds that the program gives no
-/// sign of life, the force goes to zero over the port's rampDownSeconds; when life returns, it comes back
+/// by start() and setParameters(). When the loop stops, and when the watchdog hears no heartbeat of the
+/// program, the force goes to zero over the port's rampDownSeconds; with the next heartbeat it comes back
 /// over its rampUpSeconds.
 ///
 /// Thread safety: start, stop, setParameters, setClutched, takeTrace, keepAlive from one thread (the GUI's);
@@ -132,8 +132,8 @@ public:
   void setClutched(bool clutched) noexcept;
   static constexpr double kClutchDownSeconds = 0.05;
   static constexpr double kClutchUpSeconds = 0.3;
-  /// The program lives: for the watchdog. setParameters() and takeTrace() say so too; publishScene() does
-  /// not: threads that follow the hand go on where the program hangs.
+  /// The heartbeat of the program, for the watchdog. setParameters() and takeTrace() are one too;
+  /// publishScene() is not: threads that follow the hand go on where the program hangs.
   void keepAlive() noexcept;
 
   /// The newest finished tick; tick 0 means none yet.

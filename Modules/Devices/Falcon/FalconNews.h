@@ -38,7 +38,7 @@ bool falconIsUsable(std::string& message);
 std::string openProblem(const HapticDevice& device, Status status, const std::string& firmwareName);
 
 /// How the servo loop runs where somebody's hand is in the device: SCHED_FIFO, memory locked, and no force
-/// when the program has given no sign of life for two seconds.
+/// when the program has given no heartbeat for two seconds.
 ServoSettings pushingServoSettings(double rateHz);
 
 } // namespace pointhaptics
