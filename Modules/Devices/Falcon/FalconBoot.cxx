@@ -188,11 +188,11 @@ Status bootFalcon(FtdiLink& link, const FalconBootSettings& settings,
     return Status::FirmwareMissing;
   }
   onLoading();
-  int silences = 0;
-  for (int attempt = 0; attempt < settings.loads && silences < kSilentTries; ++attempt)
+  int timeouts = 0;
+  for (int attempt = 0; attempt < settings.loads && timeouts < kSilentTries; ++attempt)
   {
     status = boot.greet();
-    silences = status == Status::DeviceSilent ? silences + 1 : 0;
+    timeouts = status == Status::DeviceSilent ? timeouts + 1 : 0;
     status = status == Status::Ok ? boot.load(firmware, progress) : status;
     status = status == Status::Ok ? boot.probe() : status;
     // A silent device may wake at the next try; one that is gone will not.

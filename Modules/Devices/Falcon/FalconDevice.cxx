@@ -1,7 +1,7 @@
 #include "Devices/Falcon/FalconDevice.h"
 
 #include "Devices/Falcon/FalconFirmware.h"
-#include "Devices/Falcon/FalconServo.h"
+#include "Devices/Falcon/FalconProtocol.h"
 
 #include <algorithm>
 #include <chrono>
@@ -39,14 +39,14 @@ struct FalconDevice::Implementation
 
   explicit Implementation(const FalconSettings& s)
     : settings(s)
-    , servo(s)
+    , protocol(s)
   {
   }
 
   const FalconSettings settings;
   std::unique_ptr<FtdiBus> bus;
   std::unique_ptr<FtdiLink> link; ///< The owner's.
-  FalconServo servo;              ///< The owner's.
+  FalconProtocol protocol;        ///< The owner's.
   std::atomic<int> owner{ kSupervisor };
   std::atomic<int> state{ int(FalconState::Closed) }; ///< While the supervisor owns the link.
   std::atomic<bool> quit{ false };
@@ -59,7 +59,7 @@ struct FalconDevice::Implementation
   std::string message;
   Status started = Status::DeviceNotReady;
 
-  void happen(FalconEvent event) { state = int(next(FalconState(state.load()), event)); }
+  void transition(FalconEvent event) { state = int(next(FalconState(state.load()), event)); }
   void supervise();
   Status start(std::string& text);
   void report(Status status, const std::string& text);
@@ -75,7 +75,7 @@ Status FalconDevice::Implementation::start(std::string& text)
   {
     return status;
   }
-  happen(FalconEvent::Connected);
+  transition(FalconEvent::Connected);
   FalconFirmware firmware;
   const Status read = readFalconFirmware(falconFirmwareFile(settings.firmwareFile), firmware, text);
   if (read != Status::Ok && !settings.firmwareFile.empty())
@@ -83,7 +83,7 @@ Status FalconDevice::Implementation::start(std::string& text)
     return read;
   }
   status = bootFalcon(
-    *link, settings.boot, firmware.bytes, quit, [this] { happen(FalconEvent::BootDone); },
+    *link, settings.boot, firmware.bytes, quit, [this] { transition(FalconEvent::BootDone); },
     [this](double part) { progress = part; });
   if (status != Status::FirmwareMissing)
   {
@@ -110,19 +110,19 @@ void FalconDevice::Implementation::supervise()
     if (owner.load(std::memory_order_acquire) == kSupervisor)
     {
       link.reset();
-      happen(FalconState(state.load()) == FalconState::Closed ? FalconEvent::Open : FalconEvent::Retry);
+      transition(FalconState(state.load()) == FalconState::Closed ? FalconEvent::Open : FalconEvent::Retry);
       std::string text;
       const Status status = start(text);
       if (status == Status::Ok)
       {
-        happen(FalconEvent::Running);
-        servo.begin();
+        transition(FalconEvent::Running);
+        protocol.begin();
         owner.store(kServo, std::memory_order_release);
       }
       else
       {
         link.reset();
-        happen(FalconEvent::Failed);
+        transition(FalconEvent::Failed);
       }
       report(status, text);
       everRan = everRan || status == Status::Ok;
@@ -205,7 +205,7 @@ Status FalconDevice::open()
   }
   self.quit = false;
   self.progress = 0.0;
-  self.servo.clearStatistics();
+  self.protocol.clearStatistics();
   self.report(Status::DeviceNotReady, {});
   self.supervisor = std::thread([&self] { self.supervise(); });
   std::unique_lock<std::mutex> lock(self.mutex);
@@ -248,11 +248,11 @@ void FalconDevice::close()
   }
   if (self.link && self.owner.load(std::memory_order_acquire) == Implementation::kServo)
   {
-    self.servo.sayGoodbye(*self.link);
+    self.protocol.shutdown(*self.link);
   }
   self.link.reset();
   self.owner = Implementation::kSupervisor;
-  self.happen(FalconEvent::Close);
+  self.transition(FalconEvent::Close);
 }
 
 Status FalconDevice::read(double timeSeconds, HandState& state) noexcept
@@ -265,7 +265,7 @@ Status FalconDevice::read(double timeSeconds, HandState& state) noexcept
       : Status::DeviceNotReady;
   }
   const Status status =
-    self.servo.read(*self.link, timeSeconds, self.armed.load(std::memory_order_relaxed), state);
+    self.protocol.read(*self.link, timeSeconds, self.armed.load(std::memory_order_relaxed), state);
   if (status == Status::DeviceLost)
   {
     self.fail();
@@ -283,7 +283,7 @@ Status FalconDevice::write(double timeSeconds, const Vec3& force) noexcept
       : Status::DeviceNotReady;
   }
   const Status status =
-    self.servo.write(*self.link, timeSeconds, force, self.lamps.load(std::memory_order_relaxed));
+    self.protocol.write(*self.link, timeSeconds, force, self.lamps.load(std::memory_order_relaxed));
   if (status == Status::DeviceLost)
   {
     self.fail();
@@ -306,18 +306,18 @@ FalconState FalconDevice::state() const noexcept
 {
   const Implementation& self = *implementation_;
   return self.owner.load(std::memory_order_acquire) == Implementation::kServo
-    ? self.servo.state()
+    ? self.protocol.state()
     : FalconState(self.state.load(std::memory_order_relaxed));
 }
 
 FalconStatistics FalconDevice::statistics() const noexcept
 {
-  return implementation_->servo.statistics();
+  return implementation_->protocol.statistics();
 }
 
 FalconRaw FalconDevice::raw() const noexcept
 {
-  return implementation_->servo.raw();
+  return implementation_->protocol.raw();
 }
 
 double FalconDevice::loadProgress() const noexcept

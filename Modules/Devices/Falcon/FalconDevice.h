@@ -30,7 +30,8 @@ struct FalconSettings
   std::function<bool()> cancelled;
   double retrySeconds = 0.5;      ///< Between two looks for a device that is gone.
   double replyWaitSeconds = 3e-4; ///< Longest time that read() waits for an answer that is late.
-  double silenceSeconds = 0.02;   ///< Without an answer for so long: no force, and the command is sent anew.
+  /// Without an answer for so long: no force, and the command is sent anew.
+  double answerTimeoutSeconds = 0.02;
 };
 
 /// Counted since open(). Each may be read by any thread.
@@ -38,7 +39,7 @@ struct FalconStatistics
 {
   std::uint64_t replies = 0;
   std::uint64_t lateReplies = 0;     ///< Reads without a new answer; the position before was used again.
-  std::uint64_t timeouts = 0;        ///< Silences of silenceSeconds.
+  std::uint64_t timeouts = 0;        ///< Waits of answerTimeoutSeconds in vain.
   std::uint64_t badReplies = 0;      ///< Answers whose position cannot be: out of reach, or too far away.
   std::uint64_t droppedBytes = 0;    ///< Bytes outside whole frames.
   std::uint64_t skippedCommands = 0; ///< Commands not sent since the one before was still on its way.

@@ -9,7 +9,7 @@ namespace pointhaptics
 namespace
 {
 
-constexpr double kSilenceOfTheProgram = 2.0;
+constexpr double kWatchdogTimeoutSeconds = 2.0;
 
 /// The states of a device that is gone, which follow each other for as long as it is.
 bool isAway(FalconState state)
@@ -94,7 +94,7 @@ ServoSettings pushingServoSettings(double rateHz)
   settings.rateHz = rateHz;
   settings.lockMemory = true;
   settings.keepCoresAwake = true;
-  settings.watchdogSeconds = kSilenceOfTheProgram;
+  settings.watchdogSeconds = kWatchdogTimeoutSeconds;
   return settings;
 }
 

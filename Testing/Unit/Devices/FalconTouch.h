@@ -38,7 +38,7 @@ public:
     result.firmwareFile = file_.path();
     result.retrySeconds = 0.02;
     result.boot.greetings = 20;
-    result.silenceSeconds = 0.2;
+    result.answerTimeoutSeconds = 0.2;
     result.replyWaitSeconds = 2e-3;
     return result;
   }

@@ -1,4 +1,4 @@
-#include "Devices/Falcon/FalconServo.h"
+#include "Devices/Falcon/FalconProtocol.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +14,12 @@ constexpr double kCountsPerSecond = 150000.0;
 constexpr double kFewCounts = 150.0;
 /// So many answers in a row far from the last good one, each near the one before it, are believed.
 constexpr int kBelieved = 5;
-constexpr int kSilencesToResynchronise = 3;
+constexpr int kTimeoutsToResynchronise = 3;
 /// Ticks in a row that waited in vain for the newest answer: it was lost, or comes later than a wait may
 /// last.
 constexpr int kVainWaits = 10;
-constexpr int kSilencesToGiveUp = 50;
-constexpr int kGoodbyes = 3;
+constexpr int kTimeoutsToGiveUp = 50;
+constexpr int kShutdownAnswers = 3;
 constexpr int kMostGoodbyes = 50;
 constexpr double kGoodbyeWait = 2e-3;
 constexpr int kBytes = 4 * kFtdiPacket;
@@ -36,13 +36,13 @@ double largestDifference(
 }
 }
 
-FalconServo::FalconServo(const FalconSettings& settings)
+FalconProtocol::FalconProtocol(const FalconSettings& settings)
   : settings_(settings)
   , chain_(settings.limits)
 {
 }
 
-void FalconServo::happen(FalconEvent event) noexcept
+void FalconProtocol::transition(FalconEvent event) noexcept
 {
   const FalconState before = state();
   const FalconState after = next(before, event);
@@ -53,7 +53,7 @@ void FalconServo::happen(FalconEvent event) noexcept
   }
 }
 
-void FalconServo::begin() noexcept
+void FalconProtocol::begin() noexcept
 {
   chain_.restart();
   finder_.reset();
@@ -61,10 +61,10 @@ void FalconServo::begin() noexcept
   command_ = FalconCommand();
   positioned_ = false;
   jumps_ = 0;
-  silences_ = 0;
+  timeouts_ = 0;
   unanswered_ = 0;
   vainWaits_ = 0;
-  forgotten_ = 0;
+  abandoned_ = 0;
   timed_ = false;
   answered_ = false;
   ++count_.connections;
@@ -73,7 +73,7 @@ void FalconServo::begin() noexcept
 }
 
 /// True: at least one whole answer has come; reply_ is the newest.
-bool FalconServo::receive(FtdiLink& link, double waitSeconds, Status& status) noexcept
+bool FalconProtocol::receive(FtdiLink& link, double waitSeconds, Status& status) noexcept
 {
   std::uint8_t bytes[kBytes];
   int count = 0;
@@ -92,11 +92,11 @@ bool FalconServo::receive(FtdiLink& link, double waitSeconds, Status& status) no
   return whole;
 }
 
-Status FalconServo::take(const FalconReply& reply, double elapsed) noexcept
+Status FalconProtocol::take(const FalconReply& reply, double elapsed) noexcept
 {
   if (!reply.allHomed())
   {
-    happen(FalconEvent::HomingLost);
+    transition(FalconEvent::HomingLost);
     positioned_ = false;
     return Status::DeviceNotReady;
   }
@@ -126,33 +126,33 @@ Status FalconServo::take(const FalconReply& reply, double elapsed) noexcept
     positioned_ = true;
     chain_.restart();
   }
-  happen(FalconEvent::HomedAll);
+  transition(FalconEvent::HomedAll);
   return Status::Ok;
 }
 
 /// No answer at @p timeSeconds. Ok: it is only late, the last position serves.
-Status FalconServo::silence(double timeSeconds) noexcept
+Status FalconProtocol::noAnswer(double timeSeconds) noexcept
 {
   ++count_.lateReplies;
-  if (timeSeconds - lastReply_ < settings_.silenceSeconds * (silences_ + 1))
+  if (timeSeconds - lastReply_ < settings_.answerTimeoutSeconds * (timeouts_ + 1))
   {
-    const bool serves = silences_ == 0 && positioned_;
-    return serves ? Status::Ok : silences_ > 0 ? Status::DeviceSilent : Status::DeviceNotReady;
+    const bool serves = timeouts_ == 0 && positioned_;
+    return serves ? Status::Ok : timeouts_ > 0 ? Status::DeviceSilent : Status::DeviceNotReady;
   }
   ++count_.timeouts;
-  ++silences_;
+  ++timeouts_;
   unanswered_ = 0;
   vainWaits_ = 0;
   chain_.restart();
   // Purging the chip is a control request, which waits, and would drop the answer that may just come.
-  if (silences_ % kSilencesToResynchronise == 0)
+  if (timeouts_ % kTimeoutsToResynchronise == 0)
   {
     finder_.reset();
   }
-  return silences_ >= kSilencesToGiveUp ? Status::DeviceLost : Status::DeviceSilent;
+  return timeouts_ >= kTimeoutsToGiveUp ? Status::DeviceLost : Status::DeviceSilent;
 }
 
-Status FalconServo::read(FtdiLink& link, double timeSeconds, bool wantArmed, HandState& hand) noexcept
+Status FalconProtocol::read(FtdiLink& link, double timeSeconds, bool wantArmed, HandState& hand) noexcept
 {
   answered_ = false;
   found_ = false;
@@ -160,7 +160,7 @@ Status FalconServo::read(FtdiLink& link, double timeSeconds, bool wantArmed, Han
   {
     // Another loop has begun, with a clock of its own.
     timed_ = false;
-    silences_ = 0;
+    timeouts_ = 0;
     chain_.restart();
   }
   if (!timed_)
@@ -181,14 +181,14 @@ Status FalconServo::read(FtdiLink& link, double timeSeconds, bool wantArmed, Han
   }
   if (status == Status::Ok)
   {
-    status = whole ? take(reply_, timeSeconds - lastReply_) : silence(timeSeconds);
+    status = whole ? take(reply_, timeSeconds - lastReply_) : noAnswer(timeSeconds);
   }
   if (whole)
   {
     lastReply_ = timeSeconds;
-    silences_ = 0;
+    timeouts_ = 0;
   }
-  happen(wantArmed ? FalconEvent::Arm : FalconEvent::Disarm);
+  transition(wantArmed ? FalconEvent::Arm : FalconEvent::Disarm);
   if (status == Status::Ok)
   {
     answered_ = true;
@@ -200,20 +200,20 @@ Status FalconServo::read(FtdiLink& link, double timeSeconds, bool wantArmed, Han
 }
 
 /// Counts how much older than the last command's answer a position is.
-void FalconServo::noteDelay() noexcept
+void FalconProtocol::noteDelay() noexcept
 {
   count_.largestUnanswered = std::max(count_.largestUnanswered, std::uint64_t(unanswered_));
   vainWaits_ = unanswered_ > 0 ? vainWaits_ + 1 : 0;
   if (vainWaits_ >= kVainWaits)
   {
     // Waiting on would cost every tick that time.
-    forgotten_ = unanswered_;
+    abandoned_ = unanswered_;
     unanswered_ = 0;
     vainWaits_ = 0;
   }
 }
 
-std::uint8_t FalconServo::usualLamps() const noexcept
+std::uint8_t FalconProtocol::usualLamps() const noexcept
 {
   switch (state())
   {
@@ -228,7 +228,7 @@ std::uint8_t FalconServo::usualLamps() const noexcept
   }
 }
 
-Status FalconServo::write(FtdiLink& link, double timeSeconds, const Vec3& force, int lamps) noexcept
+Status FalconProtocol::write(FtdiLink& link, double timeSeconds, const Vec3& force, int lamps) noexcept
 {
   const bool mayPush = answered_ && state() == FalconState::Armed;
   const double dt = timeSeconds - lastWrite_;
@@ -244,11 +244,11 @@ Status FalconServo::write(FtdiLink& link, double timeSeconds, const Vec3& force,
   return status == Status::DeviceNotReady ? Status::Ok : status;
 }
 
-void FalconServo::sayGoodbye(FtdiLink& link) noexcept
+void FalconProtocol::shutdown(FtdiLink& link) noexcept
 {
   const FalconFrame frame = encode(FalconCommand());
   // Answers to the commands of the last ticks come first.
-  const std::uint64_t enough = count_.replies + std::uint64_t(unanswered_ + forgotten_ + kGoodbyes);
+  const std::uint64_t enough = count_.replies + std::uint64_t(unanswered_ + abandoned_ + kShutdownAnswers);
   for (int i = 0; i < kMostGoodbyes && count_.replies < enough; ++i)
   {
     Status status = link.submit(frame.data(), int(frame.size()));

@@ -10,10 +10,10 @@ namespace pointhaptics
 {
 
 /// Owned and used by one thread at a time; statistics and raw values may be read by any.
-class FalconServo
+class FalconProtocol
 {
 public:
-  explicit FalconServo(const FalconSettings& settings);
+  explicit FalconProtocol(const FalconSettings& settings);
 
   /// Begins with a device that has just come to run, and is not homed as far as anybody knows.
   void begin() noexcept;
@@ -22,7 +22,7 @@ public:
   /// Sends @p force (workspace frame) through the chain. DeviceLost ends the connection.
   Status write(FtdiLink& link, double timeSeconds, const Vec3& force, int lamps) noexcept;
   /// Sends commands without force until three were answered, then lamps off.
-  void sayGoodbye(FtdiLink& link) noexcept;
+  void shutdown(FtdiLink& link) noexcept;
 
   FalconState state() const noexcept { return FalconState(state_.load(std::memory_order_relaxed)); }
   FalconStatistics statistics() const noexcept { return shown_.read(); }
@@ -36,8 +36,8 @@ public:
 private:
   bool receive(FtdiLink& link, double waitSeconds, Status& status) noexcept;
   Status take(const FalconReply& reply, double elapsed) noexcept;
-  Status silence(double timeSeconds) noexcept;
-  void happen(FalconEvent event) noexcept;
+  Status noAnswer(double timeSeconds) noexcept;
+  void transition(FalconEvent event) noexcept;
   void noteDelay() noexcept;
   std::uint8_t usualLamps() const noexcept;
 
@@ -59,8 +59,8 @@ private:
   std::array<std::int16_t, kFalconLegs> strange_{}; ///< Of the last bad reply.
   int jumps_ = 0;                                   ///< Bad replies in a row that agree.
   int vainWaits_ = 0;                               ///< Ticks in a row with an answer, but not the newest.
-  int forgotten_ = 0;                               ///< Answers no longer waited for.
-  int silences_ = 0;                                ///< Timeouts in a row.
+  int abandoned_ = 0;                               ///< Answers no longer waited for.
+  int timeouts_ = 0;                                ///< Timeouts in a row.
   int unanswered_ = 0;     ///< Commands since begin() or the last timeout that have no answer yet.
   double lastReply_ = 0.0; ///< Servo time.
   double lastWrite_ = 0.0;
