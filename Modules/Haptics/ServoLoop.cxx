@@ -99,7 +99,7 @@ struct ServoLoop::Implementation
   std::uint64_t firstFailedTick = 0; ///< Of the reads that failed in a row; 0: the last one did not.
   Vec3 lastHip;
   std::uint64_t stillTicks = 0; ///< In a row, without anything to do.
-  bool newsCame = false;        ///< In this tick.
+  bool hasUpdates = false;      ///< In this tick.
   ServoSample sample;
 
   void prepare(HapticPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings);
@@ -107,7 +107,7 @@ struct ServoLoop::Implementation
   void waitFor(std::int64_t deadline, double early) noexcept;
   Status tick(std::uint64_t number, std::int64_t wake) noexcept;
   Vec3 answer(const HandState& hand, std::uint64_t number) noexcept;
-  void takeNews() noexcept;
+  void applyUpdates() noexcept;
   bool gateIsOpen(std::int64_t wake) noexcept;
   std::uint64_t ticksToIdle() noexcept;
   bool pushes() const noexcept { return sample.state.force != Vec3(); }
@@ -224,9 +224,9 @@ Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) 
   {
     return reading;
   }
-  // Before the news: whoever let go had published the scene that is to be felt.
+  // Before the updates: whoever let go had published the scene that is to be felt.
   const bool holdsModel = clutched.load(std::memory_order_acquire);
-  takeNews();
+  applyUpdates();
   sample.tick = number;
   sample.timeSeconds = time;
   const double opening =
@@ -274,7 +274,7 @@ bool ServoLoop::Implementation::gateIsOpen(std::int64_t wake) noexcept
 /// After a tick: how many of the next ones nobody would miss.
 std::uint64_t ServoLoop::Implementation::ticksToIdle() noexcept
 {
-  const bool still = settings.idlesWhenStill && !newsCame && sample.device == Status::Ok &&
+  const bool still = settings.idlesWhenStill && !hasUpdates && sample.device == Status::Ok &&
     !sample.state.contact && !pushes() && norm(sample.state.hip - lastHip) < kStill && port->mayIdle();
   lastHip = sample.state.hip;
   stillTicks = still ? stillTicks + 1 : 0;
@@ -301,10 +301,10 @@ Vec3 ServoLoop::Implementation::answer(const HandState& hand, std::uint64_t numb
   return sample.state.force;
 }
 
-void ServoLoop::Implementation::takeNews() noexcept
+void ServoLoop::Implementation::applyUpdates() noexcept
 {
   const HapticScene* const newScene = scenes.acquire();
-  newsCame = newScene != scene;
+  hasUpdates = newScene != scene;
   if (newScene != scene)
   {
     scene = newScene;
@@ -315,7 +315,7 @@ void ServoLoop::Implementation::takeNews() noexcept
   if (parameters.version() != parametersVersion && parameters.tryRead(newParameters, &parametersVersion))
   {
     proxy.setParameters(newParameters);
-    newsCame = true;
+    hasUpdates = true;
   }
 }
 

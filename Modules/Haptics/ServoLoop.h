@@ -34,7 +34,7 @@ struct ServoSettings
   int traceCapacity = 1 << 15; ///< Ticks kept until takeTrace(), 1 to 2^22 (200 bytes each); what comes while
                                ///< the trace is full is lost and counted.
   bool idlesWhenStill = false; ///< Where the port allows it (HapticPort::mayIdle()): after half a second in
-                               ///< which the hand stood still and touched nothing and no news came, only
+                               ///< which the hand stood still and touched nothing and no update came, only
                                ///< every fiftieth of a second is a tick, until that changes.
   ForceLimits limits;
 };

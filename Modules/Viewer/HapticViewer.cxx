@@ -34,7 +34,7 @@ namespace
 {
 
 /// Seconds in which most files are read: a window with a bar would only flicker.
-constexpr double kSilence = 0.2;
+constexpr double kProgressDelay = 0.2;
 constexpr double kLookPeriod = 0.05;
 /// HapticViewerObserver::progress() is told 1 once, at the end.
 constexpr double kAlmostDone = 0.999;
@@ -139,8 +139,8 @@ bool HapticViewer::Implementation::awaitWithoutWindow(const CloudLoader& loader)
 bool HapticViewer::Implementation::await(const CloudLoader& loader, const std::string& title)
 {
   std::string ignored;
-  const bool shows =
-    this->window || (this->options.showsReading && !loader.waitFor(kSilence) && displayIsAvailable(ignored));
+  const bool shows = this->window ||
+    (this->options.showsReading && !loader.waitFor(kProgressDelay) && displayIsAvailable(ignored));
   const bool isRead = shows ? this->theWindow().awaitCloud(loader, title) : this->awaitWithoutWindow(loader);
   this->isCancelled = !isRead;
   return isRead || this->fail(title + ": reading was stopped on request; nothing is shown");

@@ -81,7 +81,7 @@ bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   {
     sceneThread.emplace(loop, *follower);
   }
-  FalconNews news;
+  FalconUpdates updates;
   std::vector<ServoSample> samples;
   const auto pass = [&]
   {
@@ -98,7 +98,7 @@ bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   double touchBegan = -1.0;
   while (loop.running() && !stopIsRequested())
   {
-    if (const std::string line = news.next(device); !line.empty())
+    if (const std::string line = updates.next(device); !line.empty())
     {
       printNow(stderr, line + "\n");
     }

@@ -2,7 +2,7 @@
 /// --falcon-firmware --max-force: the same wherever a Falcon is used.
 #pragma once
 
-#include "Devices/Falcon/FalconNews.h"
+#include "Devices/Falcon/FalconUpdates.h"
 
 #include <string>
 

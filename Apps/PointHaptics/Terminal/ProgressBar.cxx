@@ -22,7 +22,7 @@ namespace app
 namespace
 {
 
-constexpr auto kSilence = std::chrono::milliseconds(500);
+constexpr auto kProgressDelay = std::chrono::milliseconds(500);
 constexpr auto kPeriod = std::chrono::milliseconds(100);
 constexpr int kWidth = 40;
 
@@ -31,7 +31,7 @@ constexpr int kWidth = 40;
 ProgressBar::ProgressBar(std::string label)
   : label_(std::move(label))
   , onTerminal_(isatty(STDERR_FILENO) == 1)
-  , next_(Clock::now() + kSilence)
+  , next_(Clock::now() + kProgressDelay)
 {
 }
 

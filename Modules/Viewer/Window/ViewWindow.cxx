@@ -407,11 +407,11 @@ void ViewWindow::followDevices()
 {
   if (falcon_)
   {
-    const FalconState before = falconNews_.state();
-    const std::string news = falconNews_.next(*falcon_);
-    if (falconNews_.state() != before)
+    const FalconState before = falconUpdates_.state();
+    const std::string news = falconUpdates_.next(*falcon_);
+    if (falconUpdates_.state() != before)
     {
-      style_->SetDeviceNote(fmt::format("falcon, {}", name(falconNews_.state())));
+      style_->SetDeviceNote(fmt::format("falcon, {}", name(falconUpdates_.state())));
     }
     if (!news.empty())
     {

@@ -16,7 +16,7 @@
 #include "vtkInteractorStyleHaptic.h"
 
 #include "Devices/Falcon/FalconDevice.h"
-#include "Devices/Falcon/FalconNews.h"
+#include "Devices/Falcon/FalconUpdates.h"
 #include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
 #include "Devices/SpaceMouse/SpaceMouse.h"
@@ -163,7 +163,7 @@ private:
   std::unique_ptr<SimulatedDevice> hand_;
   std::unique_ptr<PathReplayDevice> replay_;
   std::unique_ptr<FalconDevice> falcon_;
-  FalconNews falconNews_;
+  FalconUpdates falconUpdates_;
   std::string spaceMouseMessage_; ///< As the user was told.
   SpaceMouse spaceMouse_;
   HapticDevice* device_ = nullptr;

@@ -28,7 +28,7 @@ namespace
 {
 
 /// Seconds; what is read sooner shows no bar.
-constexpr double kSilence = 0.2;
+constexpr double kProgressDelay = 0.2;
 constexpr const char* kAsSoonAsComputed = ", as soon as it is computed";
 constexpr auto kLateEscape = std::chrono::milliseconds(700);
 
@@ -101,7 +101,7 @@ void ViewWindow::followLoading()
   if (!loader_.take(cloud, message))
   {
     const std::string words = "reading " + titleOf(loading_.files);
-    if (loader_.seconds() > kSilence && progress_->SetProgress(words, loader_.progress()))
+    if (loader_.seconds() > kProgressDelay && progress_->SetProgress(words, loader_.progress()))
     {
       window_->SetWindowName(("PointHaptics: " + words).c_str());
       interactor_->Render();

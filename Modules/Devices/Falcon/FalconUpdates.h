@@ -1,5 +1,5 @@
 /// @file
-/// What the user of a Falcon is told while it starts and works, and how a servo loop runs with it.
+/// What the user of a Falcon should know while it starts and works, and how a servo loop runs with it.
 #pragma once
 
 #include "Devices/Falcon/FalconDevice.h"
@@ -15,13 +15,13 @@ namespace pointhaptics
 std::string advice(FalconState state);
 
 /// What is to be said about a Falcon while it is in use, each thing once. One thread, not the servo's.
-class FalconNews
+class FalconUpdates
 {
 public:
   /// The device's message or the advice for its state, where it changed; empty where nothing did. Looking for
   /// a device that is gone is one state here.
   std::string next(const FalconDevice& device);
-  /// As last told.
+  /// As last published.
   FalconState state() const noexcept { return state_; }
 
 private:

@@ -1,4 +1,4 @@
-#include "Devices/Falcon/FalconNews.h"
+#include "Devices/Falcon/FalconUpdates.h"
 
 #include "Devices/DeviceList.h"
 
@@ -42,7 +42,7 @@ std::string advice(FalconState state)
   return {};
 }
 
-std::string FalconNews::next(const FalconDevice& device)
+std::string FalconUpdates::next(const FalconDevice& device)
 {
   const std::string message = device.message();
   if (message != message_)
