@@ -122,7 +122,7 @@ TEST_F(EmulatedUsb, TheServoLoopFeelsASphereAndTheHandSettlesInBalance)
     [](FalconModel& model)
     {
       EXPECT_GE(model.frozenFrames, 3);
-      EXPECT_EQ(model.command.lamps, kFalconLampNone);
+      EXPECT_EQ(model.command.leds, kFalconLedNone);
     });
   const FalconStatistics statistics = device.statistics();
   std::printf("[ figure   ] round trips %llu, late %llu, timeouts %llu\n",

@@ -31,7 +31,7 @@ constexpr const char* kHidPath = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-3/
 /// A multi-axis controller on the generic desktop page; nothing else of it matters here.
 const std::vector<std::uint8_t> kDescriptor = { 0x05, 0x01, 0x09, 0x08, 0xa1, 0x01, 0xc0 };
 
-/// A SpaceMouse behind /dev/hidraw0: the real hidapi reads its reports and sets its lamp.
+/// A SpaceMouse behind /dev/hidraw0: the real hidapi reads its reports and sets its LED.
 class EmulatedCap
 {
 public:
@@ -70,7 +70,7 @@ public:
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       plugged_ = &node;
-      lamp_ = -1;
+      led_ = -1;
     }
     ASSERT_TRUE(umockdev_testbed_attach_ioctl(bed_, node.path.c_str(), node.handler, &error))
       << error->message;
@@ -124,10 +124,10 @@ public:
     const std::lock_guard<std::mutex> lock(mutex_);
     reports_.push_back(report);
   }
-  int lamp()
+  int led()
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return lamp_;
+    return led_;
   }
 
 private:
@@ -188,7 +188,7 @@ private:
     UMockdevIoctlData* const data = umockdev_ioctl_client_get_arg(client);
     if (data->data_len == 2 && data->data[0] == 4)
     {
-      self.lamp_ = data->data[1];
+      self.led_ = data->data[1];
     }
     umockdev_ioctl_client_complete(client, data->data_len, 0);
     return TRUE;
@@ -200,7 +200,7 @@ private:
   std::mutex mutex_;
   /// Null while it is unplugged.
   Node* plugged_ = nullptr;
-  int lamp_ = -1;
+  int led_ = -1;
   std::deque<std::vector<std::uint8_t>> reports_;
 };
 
@@ -234,7 +234,7 @@ TEST_F(EmulatedHid, MovesIsUnpluggedAndComesBack)
   ASSERT_EQ(mouse.start(), Status::Ok) << mouse.message();
   for (int round = 0; round < 3; ++round)
   {
-    ASSERT_TRUE(eventually([&] { return mouse.motion().connected && cap.lamp() == 1; }))
+    ASSERT_TRUE(eventually([&] { return mouse.motion().connected && cap.led() == 1; }))
       << round << " " << mouse.message();
     cap.say({ 1, 35, 0, 70, 0, 0x5e, 0x01 }); // 35, 70, 350
     cap.say({ 2, 0x5e, 0x01, 0, 0, 0, 0 });   // 350
@@ -252,7 +252,7 @@ TEST_F(EmulatedHid, MovesIsUnpluggedAndComesBack)
     EXPECT_TRUE(mouse.motion().resting());
     cap.plugIn();
   }
-  ASSERT_TRUE(eventually([&] { return mouse.motion().connected && cap.lamp() == 1; }));
+  ASSERT_TRUE(eventually([&] { return mouse.motion().connected && cap.led() == 1; }));
   mouse.stop();
-  EXPECT_EQ(cap.lamp(), 0);
+  EXPECT_EQ(cap.led(), 0);
 }

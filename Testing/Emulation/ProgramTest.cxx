@@ -113,7 +113,7 @@ protected:
     const auto pushes = [&](int frames)
     {
       return falcon.with([&](FalconModel& model)
-        { return (model.command.lamps & kFalconLampGreen) != 0 && model.frames > frames; });
+        { return (model.command.leds & kFalconLedGreen) != 0 && model.frames > frames; });
     };
     EXPECT_TRUE(eventually([&] { return pushes(300); }));
     close(ends[0]);
@@ -122,7 +122,7 @@ protected:
       model.homesByItself = false;
       model.loseHoming();
     };
-    falcon.with(loseHoming); // "falcon: blue light ..."
+    falcon.with(loseHoming); // "falcon: blue LED ..."
     EXPECT_TRUE(eventually([&] { return !pushes(0); }));
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     ASSERT_EQ(waitpid(child, nullptr, WNOHANG), 0) << "it has ended";
@@ -135,7 +135,7 @@ protected:
       [](FalconModel& model)
       {
         EXPECT_GE(model.frozenFrames, 3);
-        EXPECT_EQ(model.command.lamps, kFalconLampNone);
+        EXPECT_EQ(model.command.leds, kFalconLedNone);
       });
     EXPECT_FALSE(falcon.claimed());
   }
@@ -183,13 +183,13 @@ TEST_F(EmulatedMachine, FeelsASphereUntilTheUserEndsItAndLetsGoInOrder)
   const pid_t child = begin({ "feel", path("sphere.ply"), "--device", "falcon", "--falcon-firmware",
     file.path(), "-o", path("out.csv") });
   // The person homes it when asked to.
-  ASSERT_TRUE(eventually([&] { return output().find("blue light") != std::string::npos; })) << output();
+  ASSERT_TRUE(eventually([&] { return output().find("blue LED") != std::string::npos; })) << output();
   falcon.with([](FalconModel& model) { model.home(); });
   ASSERT_TRUE(eventually(
     [&]
     {
-      return falcon.with([](FalconModel& model)
-        { return (model.command.lamps & kFalconLampGreen) != 0 && model.frames > 20; });
+      return falcon.with(
+        [](FalconModel& model) { return (model.command.leds & kFalconLedGreen) != 0 && model.frames > 20; });
     }))
     << output();
   const int homed = falcon.with([](FalconModel& model) { return model.frames; });
@@ -228,7 +228,7 @@ TEST_F(EmulatedMachine, FeelsASphereUntilTheUserEndsItAndLetsGoInOrder)
     [](FalconModel& model)
     {
       EXPECT_GE(model.frozenFrames, 3) << "commands without force, answered";
-      EXPECT_EQ(model.command.lamps, kFalconLampNone);
+      EXPECT_EQ(model.command.leds, kFalconLedNone);
     });
   EXPECT_FALSE(falcon.claimed());
   const std::string table = read("out.csv");
@@ -246,8 +246,8 @@ TEST_F(EmulatedMachine, TheWindowFeelsWithTheFalconAndLetsGoInOrder)
   EXPECT_TRUE(eventually(
     [&]
     {
-      return falcon.with([](FalconModel& model)
-        { return (model.command.lamps & kFalconLampGreen) != 0 && model.frames > 300; });
+      return falcon.with(
+        [](FalconModel& model) { return (model.command.leds & kFalconLedGreen) != 0 && model.frames > 300; });
     }))
     << output();
   kill(child, SIGTERM);
@@ -256,9 +256,9 @@ TEST_F(EmulatedMachine, TheWindowFeelsWithTheFalconAndLetsGoInOrder)
     [](FalconModel& model)
     {
       EXPECT_GE(model.frozenFrames, 3);
-      EXPECT_EQ(model.command.lamps, kFalconLampNone);
+      EXPECT_EQ(model.command.leds, kFalconLedNone);
     });
-  EXPECT_NE(output().find("falcon: green light"), std::string::npos) << output();
+  EXPECT_NE(output().find("falcon: green LED"), std::string::npos) << output();
 }
 
 TEST_F(EmulatedMachine, FeelingGoesOnWhenNobodyReadsWhatItSays)
@@ -295,7 +295,7 @@ TEST_F(EmulatedMachine, DiagnosesAFalconAndWritesTheReport)
     << output();
   const std::string report = read("report.txt");
   for (const char* part :
-    { "1. Lights", "homing bits 111", "\n   homed\n", "3. Encoders", "4. Rate", "0 timeouts", "5. Motors" })
+    { "1. LEDs", "homing bits 111", "\n   homed\n", "3. Encoders", "4. Rate", "0 timeouts", "5. Motors" })
   {
     EXPECT_NE(report.find(part), std::string::npos) << part << "\n" << report;
   }
@@ -336,8 +336,7 @@ TEST_F(EmulatedMachine, EndsADiagnosisThatWaitsForAnAnswer)
   input = answers[0];
   const pid_t child =
     begin({ "devices", "--diagnose", "--falcon-firmware", file.path(), "--report", path("report.txt") });
-  EXPECT_TRUE(eventually([&] { return output().find("Which light is on?") != std::string::npos; }))
-    << output();
+  EXPECT_TRUE(eventually([&] { return output().find("Which LED is on?") != std::string::npos; })) << output();
   kill(child, SIGINT);
   EXPECT_EQ(finish(child), 130) << output();
   close(answers[0]);
@@ -382,7 +381,7 @@ TEST_F(EmulatedMachine, SaysOnceWhatAReplugMisses)
   ASSERT_EQ(run({ "generate", "sphere", "-n", "2000", "-o", path("sphere.ply") }), 0) << output();
   const pid_t child = begin({ "feel", path("sphere.ply"), "--device", "falcon", "--falcon-firmware",
     file.path(), "-o", path("out.csv") });
-  EXPECT_TRUE(eventually([&] { return output().find("green light") != std::string::npos; })) << output();
+  EXPECT_TRUE(eventually([&] { return output().find("green LED") != std::string::npos; })) << output();
   falcon.unplug();
   EXPECT_TRUE(eventually([&] { return output().find("0403:cb48") != std::string::npos; })) << output();
   std::this_thread::sleep_for(std::chrono::milliseconds(1200)); // two more looks for it

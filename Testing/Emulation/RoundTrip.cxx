@@ -84,7 +84,7 @@ int measure(double seconds, trial::EmulatedFalcon& falcon)
     return 1;
   }
   FalconCommand command;
-  command.lamps = kFalconHomingBit;
+  command.leds = kFalconHomingBit;
   const FalconFrame frame = encode(command);
   FalconFrameFinder finder;
   Exchanges warmUp;

@@ -117,7 +117,7 @@ TEST_F(RealKernel, BootsLoadsHomesAndTheHandSettlesInBalance)
   EXPECT_TRUE(soon([&] { return device.statistics().replies > 5; }));
   EXPECT_EQ(device.state(), FalconState::Unhomed);
   EXPECT_EQ(
-    falcon.with([](FalconModel& model) { return model.command.lamps; }), kFalconLampBlue | kFalconHomingBit);
+    falcon.with([](FalconModel& model) { return model.command.leds; }), kFalconLedBlue | kFalconHomingBit);
   falcon.with([](FalconModel& model) { model.home(); });
   ASSERT_TRUE(soon([&] { return device.state() == FalconState::Armed; }));
   // 200 N/m towards 6 mm depth against the surface's: at rest where both push alike.
@@ -137,7 +137,7 @@ TEST_F(RealKernel, BootsLoadsHomesAndTheHandSettlesInBalance)
     [](FalconModel& model)
     {
       EXPECT_GE(model.frozenFrames, 3);
-      EXPECT_EQ(model.command.lamps, kFalconLampNone);
+      EXPECT_EQ(model.command.leds, kFalconLedNone);
     });
   const FalconStatistics statistics = device.statistics();
   std::printf("[ figure   ] round trips %llu, late %llu, timeouts %llu\n",
@@ -186,7 +186,7 @@ TEST_F(RealKernel, GivesTheFalconUpToUsAndTakesItBack)
   EXPECT_TRUE(soon([&] { return std::filesystem::exists(port); })) << "it may be a serial port again";
 }
 
-TEST(RealKernelHid, ReadsTheSpaceMouseSetsItsLampAndFindsItAgain)
+TEST(RealKernelHid, ReadsTheSpaceMouseSetsItsLedAndFindsItAgain)
 {
   UhidCap cap;
   SpaceMouseSettings settings;
@@ -199,7 +199,7 @@ TEST(RealKernelHid, ReadsTheSpaceMouseSetsItsLampAndFindsItAgain)
   for (int round = 0; round < 2; ++round)
   {
     ASSERT_TRUE(cap.plugIn());
-    ASSERT_TRUE(soon([&] { return mouse.motion().connected && cap.lamp() == 1; }))
+    ASSERT_TRUE(soon([&] { return mouse.motion().connected && cap.led() == 1; }))
       << round << " " << mouse.message();
     std::vector<std::string> notes;
     const std::vector<ListedDevice> list = listDevices(notes);
@@ -220,7 +220,7 @@ TEST(RealKernelHid, ReadsTheSpaceMouseSetsItsLampAndFindsItAgain)
     EXPECT_TRUE(mouse.motion().resting());
   }
   ASSERT_TRUE(cap.plugIn());
-  ASSERT_TRUE(soon([&] { return mouse.motion().connected && cap.lamp() == 1; }));
+  ASSERT_TRUE(soon([&] { return mouse.motion().connected && cap.led() == 1; }));
   mouse.stop();
-  EXPECT_EQ(cap.lamp(), 0);
+  EXPECT_EQ(cap.led(), 0);
 }

@@ -16,10 +16,10 @@ namespace
 {
 constexpr std::uint32_t kVendor = 0x256f;
 constexpr std::uint32_t kProduct = 0xc635;
-constexpr std::uint8_t kLampReport = 4;
+constexpr std::uint8_t kLedReport = 4;
 
 /// A multi-axis controller: reports 1 and 2 with three axes of 16 bits each, 3 with two buttons, and 4, to
-/// the device, with its lamp.
+/// the device, with its LED.
 const std::vector<std::uint8_t> kDescriptor = { 0x05, 0x01, 0x09, 0x08, 0xa1,
   0x01,                                                             // generic desktop, multi-axis controller
   0xa1, 0x00, 0x85, 0x01, 0x16, 0xa2, 0xfe, 0x26, 0x5e, 0x01,       // report 1, -350 to 350
@@ -31,7 +31,7 @@ const std::vector<std::uint8_t> kDescriptor = { 0x05, 0x01, 0x09, 0x08, 0xa1,
   0xa1, 0x02, 0x85, 0x03, 0x05, 0x09, 0x19, 0x01, 0x29, 0x02, 0x15, // report 3, buttons 1 and 2
   0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x02, 0x81, 0x02, 0x95, 0x0e, //
   0x81, 0x03, 0xc0,                                                 // filled up to 16 bits
-  0xa1, 0x02, 0x85, 0x04, 0x05, 0x08, 0x09, 0x4b, 0x15, 0x00, 0x25, // report 4, a lamp
+  0xa1, 0x02, 0x85, 0x04, 0x05, 0x08, 0x09, 0x4b, 0x15, 0x00, 0x25, // report 4, an LED
   0x01, 0x75, 0x01, 0x95, 0x01, 0x91, 0x02, 0x95, 0x07, 0x91, 0x03, //
   0xc0, 0xc0 };
 
@@ -44,7 +44,7 @@ bool tell(int uhid, const uhid_event& event)
 bool UhidCap::plugIn()
 {
   uhid_ = open("/dev/uhid", O_RDWR | O_CLOEXEC | O_NONBLOCK);
-  lamp_ = -1;
+  led_ = -1;
   uhid_event event{};
   event.type = UHID_CREATE2;
   uhid_create2_req& request = event.u.create2;
@@ -75,17 +75,17 @@ void UhidCap::say(const std::vector<std::uint8_t>& report)
   static_cast<void>(tell(uhid_, event));
 }
 
-int UhidCap::lamp()
+int UhidCap::led()
 {
   uhid_event event{};
   while (uhid_ >= 0 && read(uhid_, &event, sizeof(event)) > 0)
   {
-    if (event.type == UHID_OUTPUT && event.u.output.size == 2 && event.u.output.data[0] == kLampReport)
+    if (event.type == UHID_OUTPUT && event.u.output.size == 2 && event.u.output.data[0] == kLedReport)
     {
-      lamp_ = event.u.output.data[1];
+      led_ = event.u.output.data[1];
     }
   }
-  return lamp_;
+  return led_;
 }
 
 } // namespace trial

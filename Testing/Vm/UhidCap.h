@@ -25,12 +25,12 @@ public:
   void unplug();
   /// One report, its number first.
   void say(const std::vector<std::uint8_t>& report);
-  /// What the host last said of the lamp; -1: nothing since it was plugged in.
-  int lamp();
+  /// What the host last said of the LED; -1: nothing since it was plugged in.
+  int led();
 
 private:
   int uhid_ = -1;
-  int lamp_ = -1;
+  int led_ = -1;
 };
 
 } // namespace trial

@@ -76,7 +76,7 @@ void addDevicesCommand(CLI::App& program, int& exitCode)
   CLI::App* command = program.add_subcommand("devices", "List haptic devices and SpaceMice; check a Falcon");
   auto options = std::make_shared<DevicesOptions>();
   CLI::Option* diagnose = command->add_flag("--diagnose", options->diagnose,
-    "Walk through the checks of a Falcon that need its owner: lights, homing, encoders, motors, rate");
+    "Walk through the checks of a Falcon that need its owner: LEDs, homing, encoders, motors, rate");
   command->add_option("--report", options->report, "What the checks found; default falcon-report.txt")
     ->type_name("FILE")
     ->needs(diagnose);

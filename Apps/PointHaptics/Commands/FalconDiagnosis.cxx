@@ -32,7 +32,7 @@ constexpr double kPushSeconds = 1.5;
 constexpr double kShortestPush = 0.5;
 /// Until a hand that was pushed is back.
 constexpr double kBackSeconds = 0.3;
-constexpr double kLampSeconds = 0.3;
+constexpr double kLedSeconds = 0.3;
 constexpr double kRateSeconds = 5.0;
 /// Nobody is there to see and feel it.
 constexpr double kPartWithoutAPerson = 0.2;
@@ -125,7 +125,7 @@ private:
     waitFor([] { return false; }, seconds);
   }
   double patience(double seconds) const { return yes_ ? kPartWithoutAPerson * seconds : seconds; }
-  void checkLamps(FalconDevice& device);
+  void checkLeds(FalconDevice& device);
   bool checkHoming(FalconDevice& device);
   void checkEncoders(FalconDevice& device);
   void checkRate(const FalconDevice& device, const ServoLoop& loop);
@@ -189,18 +189,18 @@ bool Diagnosis::waitFor(const std::function<bool()>& condition, double seconds)
   return true;
 }
 
-void Diagnosis::checkLamps(FalconDevice& device)
+void Diagnosis::checkLeds(FalconDevice& device)
 {
-  note("\n1. Lights");
-  const std::pair<int, const char*> lamps[] = { { kFalconLampGreen, "green" }, { kFalconLampBlue, "blue" },
-    { kFalconLampRed, "red" } };
-  for (const auto& [bit, name] : lamps)
+  note("\n1. LEDs");
+  const std::pair<int, const char*> leds[] = { { kFalconLedGreen, "green" }, { kFalconLedBlue, "blue" },
+    { kFalconLedRed, "red" } };
+  for (const auto& [bit, name] : leds)
   {
-    device.showLamps(bit);
-    wait(patience(kLampSeconds));
-    ask(fmt::format("   Bit {} should be {}. Which light is on? [{}]", bit, name, name));
+    device.showLeds(bit);
+    wait(patience(kLedSeconds));
+    ask(fmt::format("   Bit {} should be {}. Which LED is on? [{}]", bit, name, name));
   }
-  device.showLamps(-1);
+  device.showLeds(-1);
 }
 
 bool Diagnosis::checkHoming(FalconDevice& device)
@@ -222,7 +222,7 @@ bool Diagnosis::checkHoming(FalconDevice& device)
     },
     patience(kLongestHoming));
   problems_ += homed ? 0 : 1;
-  note(homed ? "   homed" : "   NOT homed: does the light change while you move? Is bit 1 the homing bit?");
+  note(homed ? "   homed" : "   NOT homed: does the LED change while you move? Is bit 1 the homing bit?");
   return homed;
 }
 
@@ -330,7 +330,7 @@ bool Diagnosis::run(std::string& message)
   {
     return false;
   }
-  checkLamps(device);
+  checkLeds(device);
   const bool homed = checkHoming(device);
   if (homed && !stopIsRequested())
   {

@@ -11,7 +11,7 @@ namespace pointhaptics
 namespace app
 {
 
-/// Walks through lights, homing, encoder directions, rate, and motors with at most 0.5 N, asking on the
+/// Walks through LEDs, homing, encoder directions, rate, and motors with at most 0.5 N, asking on the
 /// terminal; writes @p reportFile line by line, so that it holds what was found however this ends. @p yes:
 /// asks nothing, and leaves out what a person must do (encoder directions). False: @p message says what
 /// failed, how many checks found something wrong, or that it was stopped by a signal.

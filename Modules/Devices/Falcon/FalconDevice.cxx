@@ -51,7 +51,7 @@ struct FalconDevice::Implementation
   std::atomic<int> state{ int(FalconState::Closed) }; ///< While the supervisor owns the link.
   std::atomic<bool> quit{ false };
   std::atomic<bool> armed{ true };
-  std::atomic<int> lamps{ -1 };
+  std::atomic<int> leds{ -1 };
   std::atomic<double> progress{ 0.0 };
   std::thread supervisor;
   mutable std::mutex mutex; ///< Of what follows; never the servo thread's.
@@ -283,7 +283,7 @@ Status FalconDevice::write(double timeSeconds, const Vec3& force) noexcept
       : Status::DeviceNotReady;
   }
   const Status status =
-    self.protocol.write(*self.link, timeSeconds, force, self.lamps.load(std::memory_order_relaxed));
+    self.protocol.write(*self.link, timeSeconds, force, self.leds.load(std::memory_order_relaxed));
   if (status == Status::DeviceLost)
   {
     self.fail();
@@ -325,9 +325,9 @@ double FalconDevice::loadProgress() const noexcept
   return implementation_->progress.load(std::memory_order_relaxed);
 }
 
-void FalconDevice::showLamps(int lamps) noexcept
+void FalconDevice::showLeds(int leds) noexcept
 {
-  implementation_->lamps.store(lamps, std::memory_order_relaxed);
+  implementation_->leds.store(leds, std::memory_order_relaxed);
 }
 
 } // namespace pointhaptics

@@ -64,7 +64,7 @@ struct FalconRaw
 /// of bytes for each transfer and takes locks that nobody else holds.
 ///
 /// A tick: read() takes the answer to the command of the tick before (one tick of delay, no waiting for the
-/// wire) and gives the position; write() sends the force through FalconForceChain. Lamps: red: start or
+/// wire) and gives the position; write() sends the force through FalconForceChain. LEDs: red: start or
 /// fault, blue: pull the grip out and push it in (homing), green: forces pass, blue and green: homed, no
 /// force.
 ///
@@ -90,7 +90,7 @@ public:
   /// DeviceSilent, DeviceLost, Aborted (FalconSettings::cancelled), InvalidParameter; message() then has what
   /// and cure.
   Status open() override;
-  /// Sends commands without force until three were answered, lamps off, releases. The servo loop must be
+  /// Sends commands without force until three were answered, LEDs off, releases. The servo loop must be
   /// stopped; 0.1 s at most where the device answers.
   void close() override;
   Status read(double timeSeconds, HandState& state) noexcept override;
@@ -105,8 +105,8 @@ public:
   FalconRaw raw() const noexcept;
   /// Part of the firmware that was sent, 0 to 1.
   double loadProgress() const noexcept;
-  /// For diagnosis: lamps to show instead of the usual ones (FalconLamp bits; -1: the usual ones).
-  void showLamps(int lamps) noexcept;
+  /// For diagnosis: LEDs to show instead of the usual ones (FalconLed bits; -1: the usual ones).
+  void showLeds(int leds) noexcept;
 
 private:
   struct Implementation;

@@ -75,7 +75,7 @@ bool fits(const FalconFrame& frame) noexcept
 
 FalconFrame encode(const FalconCommand& command) noexcept
 {
-  return frameOf(command.motors, command.lamps & kLargestNibble);
+  return frameOf(command.motors, command.leds & kLargestNibble);
 }
 
 FalconFrame encode(const FalconReply& reply) noexcept

@@ -12,22 +12,22 @@ constexpr int kFalconFrameSize = 16;
 constexpr int kFalconLegs = 3;
 using FalconFrame = std::array<std::uint8_t, kFalconFrameSize>;
 
-/// Bits of the lamp byte. One home for them: which bit is which lamp can only be confirmed on hardware
+/// Bits of the LED byte. One home for them: which bit is which LED can only be confirmed on hardware
 /// (`pointhaptics devices --diagnose`).
-enum FalconLamp : std::uint8_t
+enum FalconLed : std::uint8_t
 {
-  kFalconLampNone = 0,
-  kFalconHomingBit = 1, ///< Not a lamp: asks the firmware to watch for the homing stops. In every command.
-  kFalconLampGreen = 2,
-  kFalconLampBlue = 4,
-  kFalconLampRed = 8,
+  kFalconLedNone = 0,
+  kFalconHomingBit = 1, ///< Not an LED: asks the firmware to watch for the homing stops. In every command.
+  kFalconLedGreen = 2,
+  kFalconLedBlue = 4,
+  kFalconLedRed = 8,
 };
 
 /// What the computer sends.
 struct FalconCommand
 {
   std::array<std::int16_t, kFalconLegs> motors{}; ///< Motor values, -4096 to 4096 in use; 0: no torque.
-  std::uint8_t lamps = kFalconLampNone;           ///< FalconLamp bits, 0 to 15.
+  std::uint8_t leds = kFalconLedNone;             ///< FalconLed bits, 0 to 15.
 };
 
 /// What the Falcon answers.

@@ -213,28 +213,28 @@ void FalconProtocol::noteDelay() noexcept
   }
 }
 
-std::uint8_t FalconProtocol::usualLamps() const noexcept
+std::uint8_t FalconProtocol::usualLeds() const noexcept
 {
   switch (state())
   {
     case FalconState::Unhomed:
-      return kFalconLampBlue;
+      return kFalconLedBlue;
     case FalconState::Homed:
-      return kFalconLampBlue | kFalconLampGreen;
+      return kFalconLedBlue | kFalconLedGreen;
     case FalconState::Armed:
-      return chain_.ramp() > 0.0 || answered_ ? kFalconLampGreen : kFalconLampRed;
+      return chain_.ramp() > 0.0 || answered_ ? kFalconLedGreen : kFalconLedRed;
     default:
-      return kFalconLampRed;
+      return kFalconLedRed;
   }
 }
 
-Status FalconProtocol::write(FtdiLink& link, double timeSeconds, const Vec3& force, int lamps) noexcept
+Status FalconProtocol::write(FtdiLink& link, double timeSeconds, const Vec3& force, int leds) noexcept
 {
   const bool mayPush = answered_ && state() == FalconState::Armed;
   const double dt = timeSeconds - lastWrite_;
   lastWrite_ = timeSeconds;
   command_.motors = chain_.step(force, position_, angles_, mayPush, dt);
-  command_.lamps = std::uint8_t((lamps >= 0 ? lamps : usualLamps()) | kFalconHomingBit);
+  command_.leds = std::uint8_t((leds >= 0 ? leds : usualLeds()) | kFalconHomingBit);
   const FalconFrame frame = encode(command_);
   const Status status = link.submit(frame.data(), int(frame.size()));
   count_.skippedCommands += status == Status::DeviceNotReady ? 1 : 0;

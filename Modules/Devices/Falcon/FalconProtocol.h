@@ -20,8 +20,8 @@ public:
   /// Takes what has come. Ok: @p hand is the newest position. DeviceLost ends the connection.
   Status read(FtdiLink& link, double timeSeconds, bool wantArmed, HandState& hand) noexcept;
   /// Sends @p force (workspace frame) through the chain. DeviceLost ends the connection.
-  Status write(FtdiLink& link, double timeSeconds, const Vec3& force, int lamps) noexcept;
-  /// Sends commands without force until three were answered, then lamps off.
+  Status write(FtdiLink& link, double timeSeconds, const Vec3& force, int leds) noexcept;
+  /// Sends commands without force until three were answered, then LEDs off.
   void shutdown(FtdiLink& link) noexcept;
 
   FalconState state() const noexcept { return FalconState(state_.load(std::memory_order_relaxed)); }
@@ -39,7 +39,7 @@ private:
   Status noAnswer(double timeSeconds) noexcept;
   void transition(FalconEvent event) noexcept;
   void noteDelay() noexcept;
-  std::uint8_t usualLamps() const noexcept;
+  std::uint8_t usualLeds() const noexcept;
 
   FalconSettings settings_;
   FalconForceChain chain_;

@@ -29,11 +29,11 @@ std::string advice(FalconState state)
     case FalconState::Loading:
       return "falcon: starting";
     case FalconState::Unhomed:
-      return "falcon: blue light: pull the grip all the way out, then push it all the way in";
+      return "falcon: blue LED: pull the grip all the way out, then push it all the way in";
     case FalconState::Homed:
       return "falcon: ready, without force";
     case FalconState::Armed:
-      return "falcon: green light: forces come up within a second";
+      return "falcon: green LED: forces come up within a second";
     case FalconState::Fault:
       return "falcon: lost; check its cable and its power supply, it starts again by itself";
     case FalconState::Closed:

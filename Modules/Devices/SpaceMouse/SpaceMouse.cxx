@@ -15,17 +15,17 @@ namespace
 {
 constexpr int kReadMilliseconds = 20;
 constexpr int kLongestReport = 64;
-constexpr std::uint8_t kLampReport = 0x04;
+constexpr std::uint8_t kLedReport = 0x04;
 
 double now() noexcept
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void setLamp(HidLink& link, bool on)
+void setLed(HidLink& link, bool on)
 {
-  const std::uint8_t report[] = { kLampReport, std::uint8_t(on ? 1 : 0) };
-  // A device without a lamp refuses; nothing depends on it.
+  const std::uint8_t report[] = { kLedReport, std::uint8_t(on ? 1 : 0) };
+  // A device without an LED refuses; nothing depends on it.
   static_cast<void>(link.write(report, int(sizeof(report))));
 }
 
@@ -82,7 +82,7 @@ void SpaceMouse::Implementation::serve(HidLink& link)
 {
   Cap cap{ SpaceMouseDecoder(settings), true };
   newest.write(cap);
-  setLamp(link, true);
+  setLed(link, true);
   while (!quit)
   {
     std::uint8_t bytes[kLongestReport];
@@ -98,7 +98,7 @@ void SpaceMouse::Implementation::serve(HidLink& link)
   }
   if (quit)
   {
-    setLamp(link, false);
+    setLed(link, false);
   }
   newest.write(Cap());
 }

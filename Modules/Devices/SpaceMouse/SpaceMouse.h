@@ -14,7 +14,7 @@ namespace pointhaptics
 {
 
 /// A thread of its own waits for reports, 20 ms at a time, and looks for the device while there is none, so
-/// that it may be plugged in at any time. Its lamp is on while it is in use.
+/// that it may be plugged in at any time. Its LED is on while it is in use.
 /// Thread safety: start() and stop() from one thread; motion(), battery() and message() from any, without
 /// waiting for the device.
 class SpaceMouse
@@ -30,7 +30,7 @@ public:
 
   /// DeviceNotFound where the package was built without hidapi. Ok does not mean that one is plugged in.
   Status start();
-  /// Lamp off, closes; 0.1 s at most.
+  /// LED off, closes; 0.1 s at most.
   void stop();
 
   /// The cap now; at rest where no report came for staleSeconds or none is plugged in.

@@ -148,13 +148,13 @@ TEST(FalconDevice, GivesNoForceBeforeHomingAndAsksForItInEveryCommand)
   }
   EXPECT_EQ(felt(bench), 0.0);
   EXPECT_EQ(bench.device->state(), FalconState::Unhomed);
-  EXPECT_EQ(bench.device->raw().command.lamps, kFalconHomingBit | kFalconLampBlue);
+  EXPECT_EQ(bench.device->raw().command.leds, kFalconHomingBit | kFalconLedBlue);
   bench.wire.model.home();
   EXPECT_TRUE(bench.arm(wall)) << "the jump of the counts at that moment is none of the hand";
   EXPECT_EQ(bench.device->statistics().badReplies, 0u);
   EXPECT_GT(felt(bench), 0.5);
   EXPECT_EQ(bench.wire.model.framesWithoutHomingBit, 0);
-  EXPECT_EQ(bench.device->raw().command.lamps, kFalconHomingBit | kFalconLampGreen);
+  EXPECT_EQ(bench.device->raw().command.leds, kFalconHomingBit | kFalconLedGreen);
 }
 
 TEST(FalconDevice, TheHandSettlesWhereBothSpringsBalance)
@@ -436,7 +436,7 @@ TEST(FalconDevice, WaitsForADeviceThatIsPluggedInLater)
   EXPECT_TRUE(bench.arm());
 }
 
-TEST(FalconDevice, ClosesWithAnsweredCommandsWithoutForceAndLampsOff)
+TEST(FalconDevice, ClosesWithAnsweredCommandsWithoutForceAndLedsOff)
 {
   FalconBench bench;
   ASSERT_EQ(bench.device->open(), Status::Ok);
@@ -444,7 +444,7 @@ TEST(FalconDevice, ClosesWithAnsweredCommandsWithoutForceAndLampsOff)
   EXPECT_EQ(bench.wire.model.frozenFrames, 0);
   bench.device->close();
   EXPECT_GE(bench.wire.model.frozenFrames, 3);
-  EXPECT_EQ(bench.wire.model.command.lamps, kFalconLampNone);
+  EXPECT_EQ(bench.wire.model.command.leds, kFalconLedNone);
   EXPECT_EQ(bench.wire.openLinks, 0);
   EXPECT_EQ(bench.device->state(), FalconState::Closed);
   bench.device->close();

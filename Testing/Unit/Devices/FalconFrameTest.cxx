@@ -138,7 +138,7 @@ std::vector<std::uint8_t> damagedStream(std::mt19937_64& random)
 TEST(FalconFrame, IsTheMessageOfTheProtocol)
 {
   // 0x1234 and -2 as nibbles, least significant first, each above 'A'.
-  const FalconCommand command{ { 0x1234, -2, 0 }, kFalconHomingBit | kFalconLampRed };
+  const FalconCommand command{ { 0x1234, -2, 0 }, kFalconHomingBit | kFalconLedRed };
   const FalconFrame expected = { '<', 'A' + 4, 'A' + 3, 'A' + 2, 'A' + 1, 'A' + 14, 'A' + 15, 'A' + 15,
     'A' + 15, 'A', 'A', 'A', 'A', 'A' + 9, 'A', '>' };
   EXPECT_EQ(encode(command), expected);

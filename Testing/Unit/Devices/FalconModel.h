@@ -243,8 +243,8 @@ private:
     ++frames;
     const bool still = command.motors == std::array<std::int16_t, kFalconLegs>{};
     frozenFrames = still ? frozenFrames + 1 : 0;
-    framesWithoutHomingBit += (command.lamps & kFalconHomingBit) ? 0 : 1;
-    homed_ = homed_ || (homesByItself && (command.lamps & kFalconHomingBit));
+    framesWithoutHomingBit += (command.leds & kFalconHomingBit) ? 0 : 1;
+    homed_ = homed_ || (homesByItself && (command.leds & kFalconHomingBit));
     FalconReply reply;
     FalconAngles angles{};
     falcon::inverse(hand.position, angles);

@@ -50,7 +50,7 @@ struct Desk
   std::condition_variable changed;
   bool plugged = true;
   bool refuses = false;
-  int lamp = -1;
+  int led = -1;
   int opened = 0;
   std::deque<Bytes> reports;
 
@@ -64,13 +64,13 @@ struct Desk
   {
     const std::lock_guard<std::mutex> lock(mutex);
     plugged = in;
-    lamp = -1;
+    led = -1;
     changed.notify_all();
   }
-  int lampNow()
+  int ledNow()
   {
     const std::lock_guard<std::mutex> lock(mutex);
-    return lamp;
+    return led;
   }
 };
 
@@ -105,7 +105,7 @@ public:
     const std::lock_guard<std::mutex> lock(desk_.mutex);
     if (count == 2 && bytes[0] == 4)
     {
-      desk_.lamp = bytes[1];
+      desk_.led = bytes[1];
     }
     return desk_.plugged;
   }
@@ -256,7 +256,7 @@ TEST(SpaceMouse, IsFoundReadUnpluggedAndFoundAgain)
   ASSERT_EQ(mouse.start(), Status::Ok);
   for (int round = 0; round < 3; ++round)
   {
-    ASSERT_TRUE(eventually([&] { return mouse.motion().connected && desk.lampNow() == 1; })) << round;
+    ASSERT_TRUE(eventually([&] { return mouse.motion().connected && desk.ledNow() == 1; })) << round;
     EXPECT_EQ(mouse.message(), "SpaceMouse Compact");
     desk.say(report(1, { 350, 0, 0 }));
     desk.say({ 3, 1, 0 });
@@ -267,9 +267,9 @@ TEST(SpaceMouse, IsFoundReadUnpluggedAndFoundAgain)
     EXPECT_EQ(mouse.motion().buttons, 0u);
     desk.plug(true);
   }
-  ASSERT_TRUE(eventually([&] { return mouse.motion().connected && desk.lampNow() == 1; }));
+  ASSERT_TRUE(eventually([&] { return mouse.motion().connected && desk.ledNow() == 1; }));
   mouse.stop();
-  EXPECT_EQ(desk.lampNow(), 0) << "lamp off";
+  EXPECT_EQ(desk.ledNow(), 0) << "LED off";
   EXPECT_FALSE(mouse.motion().connected);
 }
 
