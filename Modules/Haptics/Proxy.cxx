@@ -324,7 +324,7 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   return state;
 }
 
-void Proxy::rehearse() noexcept
+void Proxy::prefetch() noexcept
 {
   Implementation& self = *implementation_;
   if (!self.scene || !self.hasLastHip)

@@ -84,7 +84,7 @@ public:
   /// and run is then in the processor's caches. Changes no result of any later call, bit for bit. Costs more
   /// than a step, about 10 us after a sleep; the step after it then takes a third of its time. Safe in the
   /// servo thread, as step() is.
-  void rehearse() noexcept;
+  void prefetch() noexcept;
 
 private:
   struct Implementation;

@@ -210,7 +210,7 @@ void ServoLoop::Implementation::waitFor(std::int64_t deadline, double early) noe
   sleepUntil(deadline - std::int64_t(1e9 * early));
   if (early > 0.0 && steadyNanoseconds() < deadline)
   {
-    proxy.rehearse();
+    proxy.prefetch();
     spinUntil(deadline);
   }
 }

@@ -25,7 +25,7 @@ struct ServoSettings
   /// Ask that no core falls asleep while the loop runs (/dev/cpu_dma_latency), so that ticks find the core
   /// awake and its caches full; costs power. A refusal is reported.
   bool keepCoresAwake = false;
-  /// The thread wakes so long before each deadline, rehearses its step (Proxy::rehearse()) and spins until
+  /// The thread wakes so long before each deadline, prefetches its step (Proxy::prefetch()) and spins until
   /// the deadline: neither the time to wake up nor cold caches are the tick's then. 0 to 1e-3, at most a
   /// half of the period is used; 0: sleep until the deadline. Costs that part of one core, 10 % at 1 kHz.
   double wakeEarlySeconds = 1e-4;

@@ -95,7 +95,7 @@ Outcome stepProxy(ProxyMethod method, int steps)
         outcome.contacts += proxy.step(wildHand(tick), kTick).contact ? 1 : 0;
         if (tick % 4 == 0)
         {
-          proxy.rehearse();
+          proxy.prefetch();
         }
       }
       outcome.calls = countedcalls::count();

@@ -146,7 +146,7 @@ TEST_P(EveryMethod, IsTheSameBitForBitWhenRepeated)
   }
 }
 
-TEST_P(EveryMethod, FeelsTheSameBitForBitWhetherStepsAreRehearsedOrNot)
+TEST_P(EveryMethod, FeelsTheSameBitForBitWhetherStepsArePrefetchedOrNot)
 {
   const trial::Scene scene = trial::resampledScene(trial::spherePoints(50000, 4, 20e-6));
   trial::Path path = probing(0.03);
@@ -155,19 +155,19 @@ TEST_P(EveryMethod, FeelsTheSameBitForBitWhetherStepsAreRehearsedOrNot)
   path.insert(
     path.end(), { Vec3(NAN, 0, 0), Vec3(1e308, 0, 0), Vec3(-1e308, 0, 0), slide.back(), Vec3(0, 0, 1) });
   Proxy plain(parameters());
-  Proxy rehearsed(parameters());
-  rehearsed.rehearse(); // without a scene
+  Proxy prefetched(parameters());
+  prefetched.prefetch(); // without a scene
   plain.setScene(scene.get());
-  rehearsed.setScene(scene.get());
+  prefetched.setScene(scene.get());
   int contacts = 0;
   for (std::size_t i = 0; i < path.size(); ++i)
   {
     for (std::size_t k = 0; k < i % 3; ++k)
     {
-      rehearsed.rehearse();
+      prefetched.prefetch();
     }
     const ProxyState expected = plain.step(path[i], trial::kTick);
-    ASSERT_TRUE(trial::operator==(rehearsed.step(path[i], trial::kTick), expected)) << "tick " << i;
+    ASSERT_TRUE(trial::operator==(prefetched.step(path[i], trial::kTick), expected)) << "tick " << i;
     contacts += expected.contact ? 1 : 0;
   }
   EXPECT_GT(contacts, 300);
