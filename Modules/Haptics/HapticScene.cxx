@@ -143,7 +143,7 @@ std::vector<Cell> finiteCells(const HapticSceneInput& input)
   cells.reserve(input.points.size());
   for (std::size_t i = 0; i < input.points.size(); ++i)
   {
-    if (!isFinite(input.points[i]) || (input.part && !input.part->holds(input.points[i])))
+    if (!isFinite(input.points[i]) || (input.region && !input.region->holds(input.points[i])))
     {
       continue;
     }
@@ -239,10 +239,10 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   const Vec3 above = input.corner ? cloud->bounds.minimum - *input.corner : Vec3{ -1.0, -1.0, -1.0 };
   cloud->aligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
   const Vec3* const corner = cloud->aligned ? &*input.corner : nullptr;
-  if (input.part)
+  if (input.region)
   {
     std::vector<std::uint32_t> source;
-    status = cloud->aligned ? cloud->pyramid.build(std::move(cells), input.part->cellSize(), source, corner)
+    status = cloud->aligned ? cloud->pyramid.build(std::move(cells), input.region->cellSize(), source, corner)
                             : Status::InvalidParameter;
   }
   else
@@ -256,20 +256,20 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   const double size = cloud->pyramid.level(0).voxelSize;
   cloud->latticeCells = size == input.cellSize;
   cloud->leastCovering = ofVoxels ? kRadiusInSpacings * size : 0.0;
-  const std::optional<ScenePart> part = std::move(input.part);
+  const std::optional<LocalRegion> region = std::move(input.region);
   const std::optional<HapticSceneInput::Local> local = input.local;
-  const std::vector<NodeUse> uses = part ? part->uses(cloud->pyramid) : std::vector<NodeUse>();
+  const std::vector<NodeUse> uses = region ? region->uses(cloud->pyramid) : std::vector<NodeUse>();
   // Where there are few points a fit may grow over the whole cloud.
-  const double whole = part ? part->scale() * norm(part->whole()->bounds().extent()) : extent;
+  const double whole = region ? region->scale() * norm(region->globalScene()->bounds().extent()) : extent;
   std::vector<LocalScale> scales;
-  status = newScales(input, cloud->pyramid, whole, executor, part ? &uses : nullptr, scales);
+  status = newScales(input, cloud->pyramid, whole, executor, region ? &uses : nullptr, scales);
   if (status != Status::Ok)
   {
     return nullptr;
   }
-  if (part)
+  if (region)
   {
-    part->completeScales(cloud->pyramid, uses, scales);
+    region->completeScales(cloud->pyramid, uses, scales);
   }
   input = HapticSceneInput();
   cloud->scale.build(cloud->pyramid, std::move(scales));
@@ -281,12 +281,12 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   cloud->clearance = cloud->scale.reach() - diagonal;
   std::shared_ptr<HapticScene> scene(new HapticScene());
   scene->modelToWorkspace_ = cloud->modelToLattice;
-  if (part)
+  if (region)
   {
-    cloud->covered = part->covered();
-    cloud->scale.setTypical(scaled(part->whole()->typicalScale(), part->scale()));
-    scene->beyond_ = part->whole()->moved(cloud->modelToLattice, status);
-    if (!scene->beyond_)
+    cloud->covered = region->covered();
+    cloud->scale.setTypical(scaled(region->globalScene()->typicalScale(), region->scale()));
+    scene->fallback_ = region->globalScene()->moved(cloud->modelToLattice, status);
+    if (!scene->fallback_)
     {
       return nullptr;
     }
@@ -294,8 +294,8 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   if (local)
   {
     cloud->covered = local->covered;
-    scene->beyond_ = local->global->moved(cloud->modelToLattice, status);
-    if (!scene->beyond_)
+    scene->fallback_ = local->global->moved(cloud->modelToLattice, status);
+    if (!scene->fallback_)
     {
       return nullptr;
     }
@@ -326,18 +326,18 @@ std::shared_ptr<const HapticScene> HapticScene::moved(
       return nullptr;
     }
   }
-  if (beyond_)
+  if (fallback_)
   {
-    scene->beyond_ = beyond_->moved(modelToWorkspace, status);
+    scene->fallback_ = fallback_->moved(modelToWorkspace, status);
   }
   return status == Status::Ok ? scene : nullptr;
 }
 
-std::shared_ptr<const HapticScene> HapticScene::withBeyond(const HapticScene& whole, Status& status) const
+std::shared_ptr<const HapticScene> HapticScene::withFallback(const HapticScene& global, Status& status) const
 {
   std::shared_ptr<HapticScene> scene(new HapticScene(*this));
-  scene->beyond_ = whole.moved(modelToWorkspace_, status);
-  return scene->beyond_ ? scene : nullptr;
+  scene->fallback_ = global.moved(modelToWorkspace_, status);
+  return scene->fallback_ ? scene : nullptr;
 }
 
 double HapticScene::proxyRadius(const Vec3& position) const noexcept

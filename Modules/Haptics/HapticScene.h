@@ -9,7 +9,7 @@
 #include "Core/Surface/CellPyramid.h"
 #include "Core/Surface/FitCells.h"
 #include "Core/Surface/RadiusField.h"
-#include "Haptics/ScenePart.h"
+#include "Haptics/LocalRegion.h"
 
 #include <cstdint>
 #include <memory>
@@ -46,8 +46,8 @@ struct HapticSceneInput
     std::shared_ptr<const HapticScene> global; ///< What is felt elsewhere; not null.
   };
   std::optional<Local> local;
-  /// The scene is of these cells of the cloud alone; points that the part does not hold are left out.
-  std::optional<ScenePart> part;
+  /// The scene is of these cells of the cloud alone; points that the region does not hold are left out.
+  std::optional<LocalRegion> region;
   /// What builds it, as far as this machine has them; the scene is the same, bit for bit.
   InstructionSet instructions = InstructionSet::Automatic;
   AffineTransform
@@ -80,22 +80,22 @@ public:
   /// similarity against the one of create() (shear, or a scale that differs by axis): resample. Any thread.
   std::shared_ptr<const HapticScene> moved(const AffineTransform& modelToWorkspace, Status& status) const;
 
-  /// A scene of a part of the cloud has beside it the newest scene of the whole, moved to the same place:
-  /// that is to be felt, instead of this one, from where this one does not cover(). Null: this one is whole.
-  const HapticScene* beyond() const { return beyond_.get(); }
-  /// Whether a hand at @p p (lattice frame) feels what it would feel in a scene of the whole cloud.
+  /// A local scene has the newest global one, of the whole cloud, as its fallback, moved to the same place:
+  /// that is to be felt where this one does not cover(). Null: this one is global.
+  const HapticScene* fallback() const { return fallback_.get(); }
+  /// Whether a hand at @p p (lattice frame) feels what it would feel in a global scene.
   bool covers(const Vec3& p) const noexcept
   {
     const Bounds& box = cloud_->covered;
-    return !beyond_ ||
+    return !fallback_ ||
       (p.x >= box.minimum.x && p.y >= box.minimum.y && p.z >= box.minimum.z && p.x <= box.maximum.x &&
         p.y <= box.maximum.y && p.z <= box.maximum.z);
   }
-  /// Of a scene of a part, where that is felt; lattice frame.
+  /// Of a local scene, where it is felt; lattice frame.
   const Bounds& covered() const { return cloud_->covered; }
-  /// The same scene of a part with another scene of the whole beside it, which is moved to where this one is;
-  /// null where it cannot be (see moved()).
-  std::shared_ptr<const HapticScene> withBeyond(const HapticScene& whole, Status& status) const;
+  /// The same local scene with another fallback, which is moved to where this one is; null where it cannot be
+  /// (see moved()).
+  std::shared_ptr<const HapticScene> withFallback(const HapticScene& global, Status& status) const;
 
   std::size_t numberOfPoints() const { return pyramid().level(0).cells.size(); }
   const CellPyramid& pyramid() const { return cloud_->pyramid; }
@@ -105,8 +105,8 @@ public:
   bool isMoved() const { return isMoved_; }
   /// The same for scenes that share their cloud, and for no others of this run.
   std::uint64_t cloudNumber() const { return cloud_->number; }
-  /// The same for the scenes of a cloud and of its parts: of the scene of the whole.
-  std::uint64_t wholeCloudNumber() const { return beyond_ ? beyond_->cloudNumber() : cloudNumber(); }
+  /// The same for the global scene of a cloud and the local ones beside it: of the global one.
+  std::uint64_t globalCloudNumber() const { return fallback_ ? fallback_->cloudNumber() : cloudNumber(); }
   Vec3 toLattice(const Vec3& p) const noexcept { return isMoved_ ? workspaceToLattice_.apply(p) : p; }
   Vec3 toWorkspace(const Vec3& p) const noexcept { return isMoved_ ? latticeToWorkspace_.apply(p) : p; }
   /// A unit vector of the lattice frame in the workspace.
@@ -163,7 +163,7 @@ private:
     RadiusField scale;
     AffineTransform modelToLattice;
     Bounds bounds;
-    Bounds covered; ///< Of a part.
+    Bounds covered; ///< Of a local scene.
     double clearance = 0.0;
     double leastCovering = 0.0; ///< coveringRadius() is not below this.
     bool exactMoments = true;
@@ -173,7 +173,7 @@ private:
   };
 
   std::shared_ptr<const Cloud> cloud_;
-  std::shared_ptr<const HapticScene> beyond_;
+  std::shared_ptr<const HapticScene> fallback_;
   AffineTransform modelToWorkspace_;
   AffineTransform latticeToWorkspace_;
   AffineTransform workspaceToLattice_;

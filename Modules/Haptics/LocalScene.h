@@ -13,7 +13,7 @@ namespace pointhaptics
 {
 
 /// Resamples the points of a cloud about a hand into cells about as fine as their spacing there, and makes a
-/// scene of that, with the scene of the whole cloud beside it (HapticScene::beyond()) for the hand that
+/// scene of that, with the global scene as its fallback (HapticScene::fallback()) for the hand that
 /// leaves. The cells are those of one lattice over the whole cloud: overlapping scenes of one cell size have
 /// the same cells, bit for bit. A scene costs some milliseconds. One thread at a time.
 class LocalSceneBuilder

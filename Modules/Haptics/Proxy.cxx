@@ -75,30 +75,30 @@ struct Proxy::Implementation
   /// Whether @p newScene is of what was felt till now, where it was, maybe finer.
   bool isSameModel(const HapticScene* newScene) const noexcept
   {
-    return newScene && scene && newScene->wholeCloudNumber() == scene->wholeCloudNumber() &&
+    return newScene && scene && newScene->globalCloudNumber() == scene->globalCloudNumber() &&
       newScene->modelToWorkspace() == scene->modelToWorkspace();
   }
 
-  /// Whether the last step, seen from the model, lies in what a scene of a part covers: the next one begins
+  /// Whether the last step, seen from the model, lies in what a local scene covers: the next one begins
   /// there.
-  bool isCoveredBy(const HapticScene& part) const noexcept
+  bool isCoveredBy(const HapticScene& local) const noexcept
   {
     if (!scene || !hasLastHip)
     {
       return true;
     }
-    const AffineTransform change = part.modelToLattice() * lastLattice.inverse();
-    return part.covers(change.apply(scene->toLattice(lastHip))) &&
-      part.covers(change.apply(scene->toLattice(last.proxy))) &&
-      part.covers(change.apply(scene->toLattice(last.sphereCenter)));
+    const AffineTransform change = local.modelToLattice() * lastLattice.inverse();
+    return local.covers(change.apply(scene->toLattice(lastHip))) &&
+      local.covers(change.apply(scene->toLattice(last.proxy))) &&
+      local.covers(change.apply(scene->toLattice(last.sphereCenter)));
   }
 
-  /// Goes over to the whole cloud where a part of it is left.
-  void leavePart(const Vec3& place) noexcept
+  /// Takes the fallback where a local scene is left.
+  void enterFallback(const Vec3& place) noexcept
   {
-    if (scene && scene->beyond() && !scene->covers(scene->toLattice(place)))
+    if (scene && scene->fallback() && !scene->covers(scene->toLattice(place)))
     {
-      take(scene->beyond());
+      take(scene->fallback());
     }
   }
 
@@ -269,8 +269,8 @@ const HapticParameters& Proxy::parameters() const noexcept
 void Proxy::setScene(const HapticScene* scene) noexcept
 {
   Implementation& self = *implementation_;
-  const bool reaches = !scene || !scene->beyond() || self.isCoveredBy(*scene);
-  self.take(reaches ? scene : scene->beyond());
+  const bool reaches = !scene || !scene->fallback() || self.isCoveredBy(*scene);
+  self.take(reaches ? scene : scene->fallback());
 }
 
 void Proxy::reset() noexcept
@@ -293,7 +293,7 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   state.sphereCenter = hip;
   state.normal = self.last.normal;
   const double stiffness = self.passiveStiffness(dt, state.status);
-  self.leavePart(hip);
+  self.enterFallback(hip);
   if (!self.scene)
   {
     self.fadeVanished(state, dt);
@@ -311,8 +311,8 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
     self.gradientSteps.step(*self.scene, self.parameters, self.scene->toLattice(hip), dt, state);
     self.toWorkspace(state);
   }
-  self.leavePart(state.proxy);
-  self.leavePart(state.sphereCenter);
+  self.enterFallback(state.proxy);
+  self.enterFallback(state.sphereCenter);
   state.force = self.forceOf(state, stiffness, dt);
   self.settleParameters(state, dt);
   self.last = state;

@@ -69,8 +69,8 @@ public:
   /// The scene must outlive its use here (SceneExchange sees to it). From the old scene's transform to the
   /// new one's the contact point and normal move with the model, and so does the HIP of the last step: what
   /// the model passes the hand with counts as met by the hand, so that a surface never ends up on its wrong
-  /// side. Null: no contact. Of a scene of a part (HapticScene::beyond()) the whole cloud beside it is felt
-  /// from the first step on that leaves what the part covers.
+  /// side. Null: no contact. Of a local scene the fallback (HapticScene::fallback()) is felt
+  /// from the first step on that leaves what it covers.
   void setScene(const HapticScene* scene) noexcept;
 
   /// Out of contact, no memory of a side; the next HIP is taken as free space.

@@ -68,21 +68,21 @@ std::shared_ptr<const HapticScene> NearSceneBuilder::build(
   {
     return nullptr;
   }
-  std::optional<ScenePart> part =
-    ScenePart::about(hand, std::move(whole), voxels_.transform, voxels_.lattice);
-  if (!part || part->share() > kMostNear || !this->index())
+  std::optional<LocalRegion> region =
+    LocalRegion::about(hand, std::move(whole), voxels_.transform, voxels_.lattice);
+  if (!region || region->fraction() > kMostNear || !this->index())
   {
     return nullptr;
   }
   voxels_.points = index_->points();
   voxels_.index = index_.get();
-  voxels_.part = part->voxels();
+  voxels_.part = region->voxels();
   if (engine_.run(voxels_, smp_) != Status::Ok || engine_.size() == 0)
   {
     return nullptr;
   }
   HapticSceneInput input = this->input(request);
-  input.part = std::move(part);
+  input.region = std::move(region);
   Status status = Status::Ok;
   return HapticScene::create(std::move(input), status, smp_);
 }

@@ -21,7 +21,7 @@ class vtkPointSet;
 namespace pointhaptics
 {
 
-/// Resamples the cloud about the hand and makes a scene of that (ScenePart); it looks at the points there
+/// Resamples the cloud about the hand and makes a scene of that (LocalRegion); it looks at the points there
 /// only, which it finds by a PointIndex of its own. Objects are used by one thread at a time.
 class POINTHAPTICSSCENE_EXPORT NearSceneBuilder
 {
@@ -34,8 +34,8 @@ public:
 
   /// A scene of what is near the hand of @p request, with @p whole, the newest scene of the whole cloud,
   /// beside it: within what it covers it is felt as the whole cloud resampled by @p request would be. Null
-  /// where that is of no use or cannot be: no hand, no such whole (ScenePart::about()), nothing near the hand
-  /// or most of the cloud; or on an error, which the scene of the whole cloud will tell of.
+  /// where that is of no use or cannot be: no hand, no such whole (LocalRegion::about()), nothing near the
+  /// hand or most of the cloud; or on an error, which the scene of the whole cloud will tell of.
   std::shared_ptr<const HapticScene> build(
     const SceneRequest& request, std::shared_ptr<const HapticScene> whole);
 

@@ -36,14 +36,14 @@ void ScenePublisher::publish(
   {
     return;
   }
-  const bool isPart = scene && scene->beyond();
+  const bool isPart = scene && scene->fallback();
   const bool isFiner =
-    isPart && number == number_ && newest_ && scene->wholeCloudNumber() == newest_->wholeCloudNumber();
+    isPart && number == number_ && newest_ && scene->globalCloudNumber() == newest_->globalCloudNumber();
   if (number < number_ || (isPart && number == number_ && !isFiner))
   {
     Status status = Status::Ok;
-    const bool joins = !isPart && scene && newest_ && newest_->beyond();
-    scene = joins ? newest_->withBeyond(*scene, status) : nullptr;
+    const bool joins = !isPart && scene && newest_ && newest_->fallback();
+    scene = joins ? newest_->withFallback(*scene, status) : nullptr;
     if (!scene)
     {
       return;

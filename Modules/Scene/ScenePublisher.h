@@ -31,7 +31,7 @@ public:
   /// A scene of cloud @p cloud is made for request @p number, or null where there is nothing to feel.
   /// Publishes it where the model is by now; nothing, if that cloud is gone or a later request's is there.
   /// But an earlier scene of the whole cloud takes its place beside a later one of a part
-  /// (HapticScene::beyond()), and a part is published after the whole cloud of the same request if it was
+  /// (HapticScene::fallback()), and a part is published after the whole cloud of the same request if it was
   /// made beside that.
   void publish(std::shared_ptr<const HapticScene> scene, std::uint64_t cloud, std::uint64_t number);
   /// Another cloud comes: what is felt of the old one is not moved any more.

@@ -91,7 +91,7 @@ protected:
     request.publish = [&](std::shared_ptr<const HapticScene> scene, std::uint64_t)
     {
       const std::lock_guard<std::mutex> lock(mutex);
-      (scene && scene->beyond() ? scenes.near : scenes.whole) = std::move(scene);
+      (scene && scene->fallback() ? scenes.near : scenes.whole) = std::move(scene);
     };
     worker_.request(std::move(request));
     worker_.wait();

@@ -135,8 +135,8 @@ std::shared_ptr<const HapticScene> partAt(
   Bounds hand;
   hand.include({ 0.0, 0.0, 0.0 });
   HapticSceneInput input = squareAt(modelToWorkspace);
-  input.part = ScenePart::about(hand, whole, modelToWorkspace, lattice);
-  EXPECT_TRUE(input.part);
+  input.region = LocalRegion::about(hand, whole, modelToWorkspace, lattice);
+  EXPECT_TRUE(input.region);
   Status status = Status::Ok;
   auto scene = HapticScene::create(std::move(input), status);
   EXPECT_EQ(status, Status::Ok);
@@ -169,13 +169,13 @@ TEST_F(ScenePublisherTest, AnEarlierWholeIsFeltBeyondALaterPart)
   const auto second = sceneAt(shiftBy(0.002));
   publisher_.publish(second, cloud, 2);
   EXPECT_EQ(felt_.back()->cloudNumber(), part->cloudNumber());
-  ASSERT_NE(felt_.back()->beyond(), nullptr);
-  EXPECT_EQ(felt_.back()->beyond()->cloudNumber(), second->cloudNumber());
-  EXPECT_EQ(felt_.back()->beyond()->modelToWorkspace(), shiftBy(0.003));
+  ASSERT_NE(felt_.back()->fallback(), nullptr);
+  EXPECT_EQ(felt_.back()->fallback()->cloudNumber(), second->cloudNumber());
+  EXPECT_EQ(felt_.back()->fallback()->modelToWorkspace(), shiftBy(0.003));
   // Both go where the model goes.
   publisher_.move(shiftBy(0.004));
   EXPECT_EQ(felt_.back()->modelToWorkspace(), shiftBy(0.004));
-  EXPECT_EQ(felt_.back()->beyond()->modelToWorkspace(), shiftBy(0.004));
+  EXPECT_EQ(felt_.back()->fallback()->modelToWorkspace(), shiftBy(0.004));
   const std::size_t published = felt_.size();
   publisher_.publish(partAt(shiftBy(0.002), first), cloud, 2);
   EXPECT_EQ(felt_.size(), published) << "overtaken";

@@ -289,7 +289,7 @@ struct Published
     std::unique_lock<std::mutex> lock(mutex);
     const auto isThere = [&]
     {
-      return newest && newest->beyond() && newest->cellSize() < newest->beyond()->cellSize() &&
+      return newest && newest->fallback() && newest->cellSize() < newest->fallback()->cellSize() &&
         newest->covers(newest->toLattice(place));
     };
     return changed.wait_for(lock, std::chrono::minutes(1), isThere) ? newest : nullptr;
@@ -340,7 +340,7 @@ TEST_F(RefiningWorkerTest, PublishesFinerScenesOfWhereTheHandComes)
   this->request(0.0, true);
   const std::shared_ptr<const HapticScene> first = published_.finerAt({});
   ASSERT_NE(first, nullptr);
-  EXPECT_EQ(first->wholeCloudNumber(), first->beyond()->cloudNumber());
+  EXPECT_EQ(first->globalCloudNumber(), first->fallback()->cloudNumber());
   for (const double x : { 0.004, 0.008, 0.012, 0.002 })
   {
     handX_ = x;
@@ -354,7 +354,7 @@ TEST_F(RefiningWorkerTest, PublishesFinerScenesOfWhereTheHandComes)
   worker_.wait();
   const std::shared_ptr<const HapticScene> moved = published_.finerAt({ 0.002, 0.0, 0.0 });
   ASSERT_NE(moved, nullptr);
-  EXPECT_NE(moved->wholeCloudNumber(), first->wholeCloudNumber());
+  EXPECT_NE(moved->globalCloudNumber(), first->globalCloudNumber());
   EXPECT_EQ(moved->modelToWorkspace().m[2][3], 5e-4);
 }
 
@@ -367,7 +367,7 @@ TEST_F(RefiningWorkerTest, MakesNoFinerSceneWhereNobodyAsksForOne)
   EXPECT_EQ(looks_, looks);
   const std::lock_guard<std::mutex> lock(published_.mutex);
   ASSERT_NE(published_.newest, nullptr);
-  EXPECT_EQ(published_.newest->beyond(), nullptr);
+  EXPECT_EQ(published_.newest->fallback(), nullptr);
 }
 
 TEST_F(RefiningWorkerTest, LooksAtNoHandAfterItIsCancelled)
@@ -424,7 +424,7 @@ TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
     };
     request.publish = [&](std::shared_ptr<const HapticScene> scene, std::uint64_t number)
     {
-      parts += scene && scene->beyond();
+      parts += scene && scene->fallback();
       publisher.publish(std::move(scene), publisher.cloud(), number);
     };
     worker_.request(std::move(request));

@@ -87,7 +87,7 @@ TEST(LocalScene, HasCellsAboutAsFineAsThePoints)
   EXPECT_LT(scene->cellSize(), 0.6 * cloud.whole->cellSize());
   EXPECT_GE(scene->cellSize(), LocalSceneBuilder::kFinest * cloud.whole->cellSize());
   EXPECT_LT(scene->fitRadius(hand), 0.6 * cloud.whole->fitRadius(hand));
-  EXPECT_EQ(scene->wholeCloudNumber(), cloud.whole->cloudNumber());
+  EXPECT_EQ(scene->globalCloudNumber(), cloud.whole->cloudNumber());
 }
 
 TEST(LocalScene, OverlappingOnesHaveTheSameCellsBitForBit)
@@ -123,8 +123,8 @@ TEST(LocalScene, CoversWhatIsWithinReachOfTheHandAndItsContact)
   EXPECT_FALSE(scene->covers({ 0.0005 + 1.01 * reach, 0.0, 0.0 }));
   EXPECT_TRUE(scene->covers({ 0.0, 0.0, -0.001 - 0.99 * reach }));
   EXPECT_FALSE(scene->covers({ 0.0, 0.0, -0.001 - 1.01 * reach }));
-  ASSERT_NE(scene->beyond(), nullptr);
-  EXPECT_EQ(scene->beyond()->cloudNumber(), cloud.whole->cloudNumber());
+  ASSERT_NE(scene->fallback(), nullptr);
+  EXPECT_EQ(scene->fallback()->cloudNumber(), cloud.whole->cloudNumber());
 }
 
 TEST(LocalScene, IsTheSameForEveryExecutor)

@@ -1,5 +1,5 @@
 /// @file
-/// Which part of a cloud a hand can feel before the next scene comes.
+/// The region of a cloud that a hand can feel before the next scene comes.
 #pragma once
 
 #include "Core/Base/AffineTransform.h"
@@ -23,53 +23,54 @@ class HapticScene;
 /// Within covered() forces are those of a scene of the whole cloud (NearSceneTest: to 1e-13 of the
 /// strongest): the cells are the same bit for bit, and there are enough of them for the same radii of fit and
 /// proxy at all nodes of the fields that matter there. They may differ by some parts in a thousand where
-/// points are sparser than voxels, as the index cells have the size of the last whole scene's then, and where
-/// a radius is cut for a much smaller one more than 30 cells away. What only the whole cloud knows, such as
-/// the radius far from all cells, is as it was. Frame: the lattice of the new scene. Immutable.
-class ScenePart
+/// points are sparser than voxels, as the index cells have the size of the last global scene's then, and
+/// where a radius is cut for a much smaller one more than 30 cells away. What only the whole cloud knows,
+/// such as the radius far from all cells, is as it was. Frame: the lattice of the new scene. Immutable.
+class LocalRegion
 {
 public:
   /// Half-width of covered() about the hand, in index cells: 4 mm in the default workspace.
   static constexpr double kReachCells = 12.0;
-  /// Lengths on the model, new over old, up to which the whole scene tells of the new one; and one over that.
+  /// Lengths on the model, new over old, up to which the global scene tells of the new one; and one over
+  /// that.
   static constexpr double kMostScale = 1.6;
 
-  /// @param hand what is to be within reach: the HIP and the point of contact. @param whole the scene of the
+  /// @param hand what is to be within reach: the HIP and the point of contact. @param global the scene of the
   /// whole cloud made last; its index cells are counted from a corner. @param modelToLattice
-  /// of the new scene. @param lattice of the new scene. @return nothing: the whole has no corner, its cloud
-  /// would not keep its shape or nearly its size, or the hand is far from the workspace.
-  static std::optional<ScenePart> about(const Bounds& hand, std::shared_ptr<const HapticScene> whole,
+  /// of the new scene. @param lattice of the new scene. @return nothing: the global scene has no corner, its
+  /// cloud would not keep its shape or nearly its size, or the hand is far from the workspace.
+  static std::optional<LocalRegion> about(const Bounds& hand, std::shared_ptr<const HapticScene> global,
     const AffineTransform& modelToLattice, const Lattice& lattice);
 
-  const std::shared_ptr<const HapticScene>& whole() const { return whole_; }
+  const std::shared_ptr<const HapticScene>& globalScene() const { return global_; }
   const Bounds& covered() const { return covered_; }
   double cellSize() const { return cellSize_; }
-  /// Lengths of the new scene over those of the whole one's lattice frame.
+  /// Lengths of the new scene over those of the global one's lattice frame.
   double scale() const { return scale_; }
-  /// Whether a cell with this mean belongs to the part: it lies in one of its blocks, which are as large as
+  /// Whether a cell with this mean belongs to the region: it lies in one of its blocks, which are as large as
   /// the coarsest cells.
   bool holds(const Vec3& mean) const noexcept;
-  /// Voxels of @p lattice that have all means that the part holds.
+  /// Voxels of @p lattice that have all means that the region holds.
   const Lattice& voxels() const { return voxels_; }
-  /// About which part of the whole scene's cells are in it, 0 to 1.
-  double share() const;
+  /// About which fraction of the global scene's cells is in it, 0 to 1.
+  double fraction() const;
   /// What is to be found out of each cell of the field's node level: the others are too near to the end of
   /// the cells, and too far from what is covered to matter.
   std::vector<NodeUse> uses(const CellPyramid& pyramid) const;
-  /// Gives the nodes of which not all is found out the answers of the whole scene.
+  /// Gives the nodes of which not all is found out the answers of the global scene.
   void completeScales(
     const CellPyramid& pyramid, const std::vector<NodeUse>& uses, std::vector<LocalScale>& scales) const;
 
 private:
-  std::shared_ptr<const HapticScene> whole_;
-  AffineTransform toWhole_; ///< Into the whole one's lattice frame.
-  AffineTransform fromWhole_;
+  std::shared_ptr<const HapticScene> global_;
+  AffineTransform toGlobal_; ///< Into the global one's lattice frame.
+  AffineTransform fromGlobal_;
   Bounds covered_;
   Lattice voxels_;
   Vec3 corner_;
   double cellSize_ = 0.0;
   double scale_ = 1.0;
-  std::array<std::int64_t, 3> first_{}; ///< Index cells of the part's blocks, and an end.
+  std::array<std::int64_t, 3> first_{}; ///< Index cells of the region's blocks, and an end.
   std::array<std::int64_t, 3> end_{};
 };
 

@@ -1,4 +1,4 @@
-#include "Haptics/ScenePart.h"
+#include "Haptics/LocalRegion.h"
 
 #include "Haptics/HapticScene.h"
 
@@ -37,71 +37,72 @@ bool isAbout(const Bounds& box, double margin, const Vec3& p)
 
 } // namespace
 
-std::optional<ScenePart> ScenePart::about(const Bounds& hand, std::shared_ptr<const HapticScene> whole,
+std::optional<LocalRegion> LocalRegion::about(const Bounds& hand, std::shared_ptr<const HapticScene> global,
   const AffineTransform& modelToLattice, const Lattice& lattice)
 {
   Status status = Status::Ok;
   const std::shared_ptr<const HapticScene> moved =
-    whole && whole->isAligned() ? whole->moved(modelToLattice, status) : nullptr;
+    global && global->isAligned() ? global->moved(modelToLattice, status) : nullptr;
   if (!moved || hand.empty() || !isFinite(hand.extent()))
   {
     return {};
   }
-  ScenePart part;
-  part.scale_ = moved->latticeScale();
-  if (!(part.scale_ <= kMostScale && part.scale_ >= 1.0 / kMostScale))
+  LocalRegion region;
+  region.scale_ = moved->latticeScale();
+  if (!(region.scale_ <= kMostScale && region.scale_ >= 1.0 / kMostScale))
   {
     return {};
   }
-  part.fromWhole_ = modelToLattice * whole->modelToLattice().inverse();
-  part.toWhole_ = part.fromWhole_.inverse();
+  region.fromGlobal_ = modelToLattice * global->modelToLattice().inverse();
+  region.toGlobal_ = region.fromGlobal_.inverse();
   const double spacing = std::max({ lattice.spacing.x, lattice.spacing.y, lattice.spacing.z });
-  part.cellSize_ = whole->hasLatticeCells() ? spacing : part.scale_ * whole->cellSize();
-  part.corner_ = lattice.origin;
-  const double fit = part.scale_ *
-    std::max(whole->typicalScale().radius, whole->fitRadius(part.toWhole_.apply(hand.center())));
+  region.cellSize_ = global->hasLatticeCells() ? spacing : region.scale_ * global->cellSize();
+  region.corner_ = lattice.origin;
+  const double fit = region.scale_ *
+    std::max(global->typicalScale().radius, global->fitRadius(region.toGlobal_.apply(hand.center())));
   const double tried =
-    std::min(kTriedRadii * fit, kMostTriedCells * part.cellSize_) + kSeedCells * part.cellSize_;
-  const double margin = (kNodeCells + kVoteReachInCells) * part.cellSize_ + tried;
-  part.whole_ = std::move(whole);
-  part.voxels_ = lattice;
-  const double reach = kReachCells * part.cellSize_;
-  const double block = kBlockCells * part.cellSize_;
+    std::min(kTriedRadii * fit, kMostTriedCells * region.cellSize_) + kSeedCells * region.cellSize_;
+  const double margin = (kNodeCells + kVoteReachInCells) * region.cellSize_ + tried;
+  region.global_ = std::move(global);
+  region.voxels_ = lattice;
+  const double reach = kReachCells * region.cellSize_;
+  const double block = kBlockCells * region.cellSize_;
   for (int axis = 0; axis < 3; ++axis)
   {
-    part.covered_.minimum[axis] = hand.minimum[axis] - reach;
-    part.covered_.maximum[axis] = hand.maximum[axis] + reach;
+    region.covered_.minimum[axis] = hand.minimum[axis] - reach;
+    region.covered_.maximum[axis] = hand.maximum[axis] + reach;
     const double dimension = double(lattice.dimensions[std::size_t(axis)]);
     const double blocks = std::ceil(dimension * lattice.spacing[axis] / block);
-    const double low = std::floor((part.covered_.minimum[axis] - margin - part.corner_[axis]) / block);
-    const double high = std::ceil((part.covered_.maximum[axis] + margin - part.corner_[axis]) / block);
+    const double low = std::floor((region.covered_.minimum[axis] - margin - region.corner_[axis]) / block);
+    const double high = std::ceil((region.covered_.maximum[axis] + margin - region.corner_[axis]) / block);
     if (!(low < blocks) || !(high > 0.0))
     {
       return {};
     }
-    part.first_[std::size_t(axis)] = std::int64_t(kBlockCells * std::max(0.0, low));
-    part.end_[std::size_t(axis)] = std::int64_t(kBlockCells * std::min(blocks, high));
+    region.first_[std::size_t(axis)] = std::int64_t(kBlockCells * std::max(0.0, low));
+    region.end_[std::size_t(axis)] = std::int64_t(kBlockCells * std::min(blocks, high));
     // A voxel more on either side: blocks need not end where voxels do.
-    const double perVoxel = part.cellSize_ / lattice.spacing[axis];
-    const double first = std::max(0.0, std::floor(double(part.first_[std::size_t(axis)]) * perVoxel) - 1.0);
-    const double end = std::min(dimension, std::ceil(double(part.end_[std::size_t(axis)]) * perVoxel) + 1.0);
-    part.voxels_.origin[axis] = lattice.origin[axis] + first * lattice.spacing[axis];
-    part.voxels_.dimensions[std::size_t(axis)] = std::int64_t(end - first);
-    part.voxels_.end[axis] = lattice.end[axis] - first;
+    const double perVoxel = region.cellSize_ / lattice.spacing[axis];
+    const double first = std::max(0.0, std::floor(double(region.first_[std::size_t(axis)]) * perVoxel) - 1.0);
+    const double end =
+      std::min(dimension, std::ceil(double(region.end_[std::size_t(axis)]) * perVoxel) + 1.0);
+    region.voxels_.origin[axis] = lattice.origin[axis] + first * lattice.spacing[axis];
+    region.voxels_.dimensions[std::size_t(axis)] = std::int64_t(end - first);
+    region.voxels_.end[axis] = lattice.end[axis] - first;
   }
-  return part;
+  return region;
 }
 
-double ScenePart::share() const
+double LocalRegion::fraction() const
 {
-  const CellPyramid& pyramid = whole_->pyramid();
+  const CellPyramid& pyramid = global_->pyramid();
   const auto& nodes = pyramid.level(RadiusField::nodeLevel(pyramid)).cells;
   const auto held = std::count_if(nodes.begin(), nodes.end(),
-    [this](const Cell& node) { return this->holds(fromWhole_.apply(node.mean)); });
+    [this](const Cell& node) { return this->holds(fromGlobal_.apply(node.mean)); });
   return double(held) / double(nodes.size());
 }
 
-std::vector<NodeUse> ScenePart::uses(const CellPyramid& pyramid) const
+std::vector<NodeUse> LocalRegion::uses(const CellPyramid& pyramid) const
 {
   std::vector<NodeUse> uses;
   for (const Cell& node : pyramid.level(RadiusField::nodeLevel(pyramid)).cells)
@@ -113,7 +114,7 @@ std::vector<NodeUse> ScenePart::uses(const CellPyramid& pyramid) const
   return uses;
 }
 
-void ScenePart::completeScales(
+void LocalRegion::completeScales(
   const CellPyramid& pyramid, const std::vector<NodeUse>& uses, std::vector<LocalScale>& scales) const
 {
   const std::vector<Cell>& nodes = pyramid.level(RadiusField::nodeLevel(pyramid)).cells;
@@ -121,14 +122,14 @@ void ScenePart::completeScales(
   {
     if (uses[i] != NodeUse::All)
     {
-      const Vec3 place = toWhole_.apply(nodes[i].mean);
-      scales[i] = scaled(whole_->fitScale(place), scale_);
-      scales[i].noise = scale_ * whole_->noise(place);
+      const Vec3 place = toGlobal_.apply(nodes[i].mean);
+      scales[i] = scaled(global_->fitScale(place), scale_);
+      scales[i].noise = scale_ * global_->noise(place);
     }
   }
 }
 
-bool ScenePart::holds(const Vec3& mean) const noexcept
+bool LocalRegion::holds(const Vec3& mean) const noexcept
 {
   const Vec3 place = (mean - corner_) / cellSize_; // as CellPyramid counts
   for (int axis = 0; axis < 3; ++axis)
