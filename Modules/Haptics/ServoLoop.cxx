@@ -175,7 +175,7 @@ void ServoLoop::Implementation::run() noexcept
   std::uint64_t number = 1;
   std::uint64_t idle = 0; // deadlines passed over since the last tick
   // A stop is obeyed once the gate has closed, and at once where nothing pushes.
-  while (!stopRequested.load(std::memory_order_acquire) || (gate.part() > 0.0 && pushes()))
+  while (!stopRequested.load(std::memory_order_acquire) || (gate.fraction() > 0.0 && pushes()))
   {
     // An idle loop saves the work of waking early too.
     waitFor(deadline(number),

@@ -129,9 +129,9 @@ Step stepOf(const NamedCloud& cloud, const Setting& setting)
   const double high = median(sparse);
   const double low = median(dense);
   step.ratio = high / low;
-  const auto outside = [&](double share)
+  const auto outside = [&](double fraction)
   {
-    const double level = low + share * (high - low);
+    const double level = low + fraction * (high - low);
     double last = -kFar;
     for (std::size_t i = 0; i < strips.size(); ++i)
     {

@@ -21,7 +21,8 @@ struct Quartiles
   double maximum = 0.0;
 };
 
-/// The value below which the share @p p (0 to 1) of @p sorted lies, linear between neighbours (R's type 7).
+/// The value below which the fraction @p p (0 to 1) of @p sorted lies, linear between neighbours (R's type
+/// 7).
 /// @pre @p sorted is ascending and not empty.
 double quantile(const std::vector<double>& sorted, double p);
 

@@ -120,7 +120,7 @@ void addSets(StudyContext& context, ReportPart& part, const std::string& name,
     f.fit = timeOfFit(*scene, one.set);
     feel(*scene, one.set, f);
     std::sort(f.ticks.begin(), f.ticks.end());
-    const auto at = [&f](double share) { return f.ticks.empty() ? 0.0 : quantile(f.ticks, share); };
+    const auto at = [&f](double fraction) { return f.ticks.empty() ? 0.0 : quantile(f.ticks, fraction); };
     if (expected.empty())
     {
       expected = f.states;

@@ -205,11 +205,11 @@ ReportPart studyEdges(StudyContext& context)
     for (std::size_t b = 0; b < worst.size(); ++b)
     {
       const std::string where = corner ? "corner" : "edge";
-      const double share = ticks[b] > 0 ? double(touching[b]) / ticks[b] : 0.0;
+      const double fraction = ticks[b] > 0 ? double(touching[b]) / ticks[b] : 0.0;
       part.table.rows.push_back({ where, fmt::format("{} to {}", bounds[b], bounds[b + 1]),
-        fmt::format("{:.5f}", worst[b]), fmt::format("{:.0f} %", 100.0 * share) });
+        fmt::format("{:.5f}", worst[b]), fmt::format("{:.0f} %", 100.0 * fraction) });
       part.rows.push_back({ { "towards", where }, { "from_mm", bounds[b] }, { "to_mm", bounds[b + 1] },
-        { "max_error_newton", worst[b] }, { "contact_share", share } });
+        { "max_error_newton", worst[b] }, { "contact_fraction", fraction } });
     }
   }
   return part;

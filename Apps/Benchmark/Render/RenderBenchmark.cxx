@@ -237,10 +237,10 @@ void addResponse(Context& context, std::int64_t points, ReportPart& part)
       near.push_back(response.nearSeconds);
       whole.push_back(response.wholeSeconds);
     }
-    const auto sorted = [](std::vector<double>& times, double share)
+    const auto sorted = [](std::vector<double>& times, double fraction)
     {
       std::sort(times.begin(), times.end());
-      return times[std::size_t(share * double(times.size() - 1) + 0.5)];
+      return times[std::size_t(fraction * double(times.size() - 1) + 0.5)];
     };
     part.table.rows.push_back(
       { grouped(points), action.name, fmt::format("{}", moved.size()), brief(1e3 * sorted(moved, 0.5)),

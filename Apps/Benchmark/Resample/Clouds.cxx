@@ -51,7 +51,7 @@ void sortIntoRows(float* xyz, std::int64_t count)
 {
   const double area = 4.0 * kPi * kSphereRadius * kSphereRadius;
   const double pitch = std::sqrt(area / double(count));
-  std::vector<std::pair<double, FloatPoint>> places; // row and share of the turn; the point
+  std::vector<std::pair<double, FloatPoint>> places; // row and fraction of the turn; the point
   places.reserve(std::size_t(count));
   for (std::int64_t i = 0; i < count; ++i)
   {

@@ -19,10 +19,10 @@ namespace resample
 namespace
 {
 
-constexpr double kShares[4] = { 0.001, 0.01, 0.1, 1.0 };
+constexpr double kFractions[4] = { 0.001, 0.01, 0.1, 1.0 };
 /// Views of a row, through which an update goes after the other and begins again.
 constexpr int kViews = 16;
-/// How far the workspace moves between two updates, as a share of its edge.
+/// How far the workspace moves between two updates, as a fraction of its edge.
 constexpr double kStep = 0.1;
 /// The same where all points stay inside: enough to be another workspace.
 constexpr double kSmallStep = 1e-6;
@@ -39,8 +39,8 @@ Bounds wholeView(double step)
   return box;
 }
 
-/// A cube about a point of the sphere that holds @p share of the points. @p turn: of the point, about z.
-Bounds viewOfShare(const PointView& points, double share, double turn)
+/// A cube about a point of the sphere that holds @p fraction of the points. @p turn: of the point, about z.
+Bounds viewOfFraction(const PointView& points, double fraction, double turn)
 {
   const double x = kSphereRadius * 0.6;
   const double y = kSphereRadius * 0.48;
@@ -53,7 +53,7 @@ Bounds viewOfShare(const PointView& points, double share, double turn)
     const Vec3 d = points[i] - center;
     distances.push_back(float(std::max({ std::abs(d.x), std::abs(d.y), std::abs(d.z) })));
   }
-  const auto middle = distances.begin() + std::ptrdiff_t(share * double(points.size()));
+  const auto middle = distances.begin() + std::ptrdiff_t(fraction * double(points.size()));
   std::nth_element(distances.begin(), middle, distances.end());
   const double half = double(*middle);
   Bounds box;
@@ -62,18 +62,18 @@ Bounds viewOfShare(const PointView& points, double share, double turn)
   return box;
 }
 
-/// Views that hold @p share of the points, each kStep on from the one before along the surface.
-std::vector<Bounds> viewsOfShare(const PointView& points, double share)
+/// Views that hold @p fraction of the points, each kStep on from the one before along the surface.
+std::vector<Bounds> viewsOfFraction(const PointView& points, double fraction)
 {
   std::vector<Bounds> views;
-  if (share >= 1.0)
+  if (fraction >= 1.0)
   {
     return { wholeView(0.0), wholeView(kSmallStep * kWorkspaceEdge) };
   }
   double turn = 0.0;
   for (int i = 0; i < kViews; ++i)
   {
-    views.push_back(viewOfShare(points, share, turn));
+    views.push_back(viewOfFraction(points, fraction, turn));
     turn += kStep * views.back().extent().x / (kSphereRadius * std::hypot(0.6, 0.48));
   }
   return views;
@@ -117,23 +117,23 @@ private:
   vtkNew<vtkVoxelMeanResampler> filter_;
 };
 
-/// Two contestants a share: moved (input as it was) and scanned (input modified too).
+/// Two contestants a view: moved (input as it was) and scanned (input modified too).
 struct ZoomRace
 {
   std::vector<std::unique_ptr<View>> views;
   std::vector<Verdict> verdicts;
   std::vector<Lap> laps;
 
-  const Lap& moved(std::size_t share) const { return laps[2 * share]; }
-  const Lap& scanned(std::size_t share) const { return laps[2 * share + 1]; }
+  const Lap& moved(std::size_t view) const { return laps[2 * view]; }
+  const Lap& scanned(std::size_t view) const { return laps[2 * view + 1]; }
 };
 
 ZoomRace runRace(const ResampleTask& whole, StudyContext& context)
 {
   ZoomRace zoom;
-  for (const double share : kShares)
+  for (const double fraction : kFractions)
   {
-    const std::vector<Bounds> workspaces = viewsOfShare(viewOf(whole.cloud), share);
+    const std::vector<Bounds> workspaces = viewsOfFraction(viewOf(whole.cloud), fraction);
     zoom.views.push_back(std::make_unique<View>(whole, workspaces, false));
     zoom.views.push_back(std::make_unique<View>(whole, workspaces, true));
   }
@@ -159,25 +159,25 @@ ZoomRace runRace(const ResampleTask& whole, StudyContext& context)
   return zoom;
 }
 
-void addRow(const ZoomRace& zoom, std::size_t share, StudyContext& context, ReportPart& part)
+void addRow(const ZoomRace& zoom, std::size_t view, StudyContext& context, ReportPart& part)
 {
-  const std::size_t all = std::size(kShares) - 1;
-  const Quartiles moved = quartiles(zoom.moved(share).seconds);
-  const Quartiles afterOthers = quartiles(zoom.moved(share).afterOthers);
-  const Quartiles scanned = quartiles(zoom.scanned(share).seconds);
-  const Quartiles ofFull = pairedRatios(zoom.moved(share).seconds, zoom.scanned(all).seconds);
-  const Quartiles ofScan = pairedRatios(zoom.moved(share).seconds, zoom.scanned(share).seconds);
-  const Verdict& verdict = zoom.verdicts[2 * share];
-  const bool right = verdict.right && zoom.verdicts[2 * share + 1].right;
+  const std::size_t all = std::size(kFractions) - 1;
+  const Quartiles moved = quartiles(zoom.moved(view).seconds);
+  const Quartiles afterOthers = quartiles(zoom.moved(view).afterOthers);
+  const Quartiles scanned = quartiles(zoom.scanned(view).seconds);
+  const Quartiles ofFull = pairedRatios(zoom.moved(view).seconds, zoom.scanned(all).seconds);
+  const Quartiles ofScan = pairedRatios(zoom.moved(view).seconds, zoom.scanned(view).seconds);
+  const Verdict& verdict = zoom.verdicts[2 * view];
+  const bool right = verdict.right && zoom.verdicts[2 * view + 1].right;
   context.allRight = context.allRight && right;
-  part.table.rows.push_back({ brief(100.0 * kShares[share]), brief(1e3 * moved.median),
+  part.table.rows.push_back({ brief(100.0 * kFractions[view]), brief(1e3 * moved.median),
     brief(1e3 * moved.lower) + " - " + brief(1e3 * moved.upper), brief(1e3 * afterOthers.median),
     brief(1e3 * scanned.median), brief(100.0 * ofFull.median), brief(100.0 * ofScan.median),
     grouped(verdict.voxels), right ? "right" : "wrong" });
-  part.rows.push_back({ { "points", context.options.zoomPoints }, { "share_inside", kShares[share] },
+  part.rows.push_back({ { "points", context.options.zoomPoints }, { "fraction_inside", kFractions[view] },
     { "threads", mostThreads(context) }, { "repetitions", moved.count },
     { "moved_median_seconds", moved.median }, { "after_others_seconds", afterOthers.median },
-    { "scan_median_seconds", scanned.median }, { "first_seconds", zoom.moved(share).firstSeconds },
+    { "scan_median_seconds", scanned.median }, { "first_seconds", zoom.moved(view).firstSeconds },
     { "of_full_update", ofFull.median }, { "of_scan", ofScan.median }, { "voxels", verdict.voxels },
     { "right", right } });
 }
@@ -205,12 +205,12 @@ ReportPart studyZoom(StudyContext& context)
   const auto cloud = sphereCloud(count, PointOrder::Random);
   const ZoomRace zoom = runRace(taskOn(cloud, context.options.dimension), context);
   std::vector<Series> lines;
-  for (std::size_t share = 0; share < std::size(kShares); ++share)
+  for (std::size_t view = 0; view < std::size(kFractions); ++view)
   {
-    addRow(zoom, share, context, part);
-    const double percent = 100.0 * kShares[share];
-    addPoint(lines, "workspace moved", percent, 1e3 * quartiles(zoom.moved(share).seconds).median);
-    addPoint(lines, "scan of all points", percent, 1e3 * quartiles(zoom.scanned(share).seconds).median);
+    addRow(zoom, view, context, part);
+    const double percent = 100.0 * kFractions[view];
+    addPoint(lines, "workspace moved", percent, 1e3 * quartiles(zoom.moved(view).seconds).median);
+    addPoint(lines, "scan of all points", percent, 1e3 * quartiles(zoom.scanned(view).seconds).median);
   }
   part.charts.push_back({ "resample-zoom", fmt::format("Views of {} points", grouped(count)),
     { "points inside the workspace (%)", true }, { "time (ms)", true }, lines });

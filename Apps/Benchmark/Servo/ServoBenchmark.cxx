@@ -93,7 +93,7 @@ std::vector<Setting> settingsOf(const ServoBenchmarkOptions& options)
 bool addRow(const Setting& setting, const Outcome& outcome, ReportPart& part)
 {
   const ServoStatistics& s = outcome.statistics;
-  const bool right = outcome.contactShare > 0.3 && outcome.largestError < kLargestError;
+  const bool right = outcome.contactFraction > 0.3 && outcome.largestError < kLargestError;
   const std::string load = setting.load == Load::Rendering
     ? fmt::format("{}, {:.0f} fps", name(setting.load), outcome.framesPerSecond)
     : name(setting.load);

@@ -207,7 +207,7 @@ Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& sc
   }
   loop.stop();
   device->close();
-  outcome.contactShare = traced > 0 ? double(touched) / double(traced) : 0.0;
+  outcome.contactFraction = traced > 0 ? double(touched) / double(traced) : 0.0;
   return outcome;
 }
 

@@ -42,8 +42,8 @@ struct Setting
 struct Outcome
 {
   ServoStatistics statistics;
-  double contactShare = 0.0; ///< Of the traced ticks.
-  double largestError = 0.0; ///< Of the force against that of the ideal sphere, N.
+  double contactFraction = 0.0; ///< Of the traced ticks.
+  double largestError = 0.0;    ///< Of the force against that of the ideal sphere, N.
   double framesPerSecond = 0.0;
   /// Of an empty loop beside this one, at the same time; where the machine was idle otherwise and a core was
   /// left for it.

@@ -69,11 +69,11 @@ bool SurfaceFitProxy::isPlain() const noexcept
 }
 
 /// Follows the fit to the HIP. @return how much of the answer is the fit's, 0 to 1.
-double SurfaceFitProxy::fitShare(
+double SurfaceFitProxy::fitWeight(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
   FitCells& fit = memory.fit;
-  const auto share = [&]
+  const auto weight = [&]
   {
     const double trust =
       std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
@@ -87,20 +87,20 @@ double SurfaceFitProxy::fitShare(
   {
     const TrackResult followed = tracker_.follow(scene, fit, hip, kRoundsPerTick);
     status |= std::uint32_t(followed == TrackResult::RoundLimit ? kProxyRoundLimit : kProxyOk);
-    result = followed == TrackResult::Lost ? 0.0 : share();
+    result = followed == TrackResult::Lost ? 0.0 : weight();
     // Where the surface is smooth a ball that lags behind is held by bumps.
     if (followed != TrackResult::Lost && result < 1.0 && tracker_.height(ball_.center()) > 0.0 &&
       tracker_.residual() < kSmoothResidual * ball_.radius() &&
       ball_.goTo(scene, memory.fit, memory.ball, tracker_.point(), tracker_.normal(), status))
     {
-      result = share();
+      result = weight();
     }
     hasFit_ = result > 0.0;
   }
   if (result < kSeekBelow && ticksWithoutFit_++ % kSeekEvery == 0)
   {
     const SurfaceTracker before = tracker_;
-    const double sought = seek(scene, fit, hip) ? share() : 0.0;
+    const double sought = seek(scene, fit, hip) ? weight() : 0.0;
     if (sought > result)
     {
       result = sought;
@@ -125,7 +125,7 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   ball_.setPatient(isPatient_);
   ball_.step(scene, memory.fit, memory.ball, hip, state.status);
   Contact contact;
-  double share = 0.0;
+  double weight = 0.0;
   if (ball_.isFree() || !ball_.isThere())
   {
     hasFit_ = false;
@@ -135,24 +135,24 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   else
   {
     const double depth = ball_.depth(hip);
-    share = refines ? fitShare(scene, memory, hip, state.status) : 0.0;
-    isPatient_ = share == 1.0 && isPlain();
+    weight = refines ? fitWeight(scene, memory, hip, state.status) : 0.0;
+    isPatient_ = weight == 1.0 && isPlain();
     const Vec3 ballPoint = ball_.nearestPoint(hip);
-    Vec3 offset = (1.0 - share) * (depth > 0.0 ? ballPoint - hip : Vec3());
-    contact.normal = (1.0 - share) * normalized(ball_.center() - hip, normal_);
-    if (share > 0.0)
+    Vec3 offset = (1.0 - weight) * (depth > 0.0 ? ballPoint - hip : Vec3());
+    contact.normal = (1.0 - weight) * normalized(ball_.center() - hip, normal_);
+    if (weight > 0.0)
     {
       const double allowed = std::max(0.0, kTrustRadii * ball_.radius() + kReleaseSlope * depth);
       const Vec3 up = tracker_.point() - hip;
       const bool pressed =
         tracker_.height(hip) <= 0.0 && (depth > 0.0 || norm2(up) <= allowed * allowed || isPlain());
-      offset += share * (pressed ? up : Vec3());
-      contact.normal += share * tracker_.normal();
+      offset += weight * (pressed ? up : Vec3());
+      contact.normal += weight * tracker_.normal();
     }
     contact.pressed = offset != Vec3();
     contact.point = hip + offset;
     contact.normal = normalized(contact.normal, normal_);
-    state.status |= std::uint32_t(refines && share < 1.0 && contact.pressed ? kProxyBallSpeaks : kProxyOk);
+    state.status |= std::uint32_t(refines && weight < 1.0 && contact.pressed ? kProxyBallSpeaks : kProxyOk);
   }
   state.status |= std::uint32_t(memory.fit.overflowed() ? kProxyCellLimit : kProxyOk);
   state.contact = contact.pressed;
@@ -161,7 +161,7 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
     normal_ = contact.normal;
     const auto along = [&](const Vec3& t, Vec3& point, Vec3& normal)
     {
-      if (share == 1.0)
+      if (weight == 1.0)
       {
         tracker_.alongSurface(t, point, normal);
         return;
@@ -180,7 +180,7 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   Vec3 ignored;
   state.normal = normal_;
   state.radius = !refines ? ball_.radius()
-    : share == 1.0        ? tracker_.proxyRadius()
+    : weight == 1.0       ? tracker_.proxyRadius()
                           : scene.fitScale(hip, memory.fit, ignored).proxyRadius;
   state.sphereCenter = state.contact ? state.proxy + state.radius * normal_ : hip;
 }

@@ -53,7 +53,7 @@ private:
     bool pressed = false;
   };
 
-  double fitShare(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
+  double fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool seek(const HapticScene& scene, FitCells& fit, const Vec3& hip) noexcept;
   bool isPlain() const noexcept;
 

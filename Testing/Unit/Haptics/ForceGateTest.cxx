@@ -9,7 +9,7 @@ using namespace pointhaptics;
 TEST(ForceGate, IsOpenFromTheBeginningAndExactlyOne)
 {
   ForceGate gate(0.1, 1.0);
-  EXPECT_EQ(gate.part(), 1.0);
+  EXPECT_EQ(gate.fraction(), 1.0);
   EXPECT_EQ(gate.step(true, 1e-3), 1.0);
 }
 
@@ -20,13 +20,13 @@ TEST(ForceGate, ClosesAndOpensInItsTimesAndEndsExactly)
   {
     EXPECT_NEAR(gate.step(false, 1e-3), 1.0 - tick / 100.0, 1e-9);
   }
-  EXPECT_EQ(gate.part(), 0.0);
+  EXPECT_EQ(gate.fraction(), 0.0);
   EXPECT_EQ(gate.step(false, 1e-3), 0.0);
   for (int tick = 1; tick <= 1000; ++tick)
   {
     EXPECT_NEAR(gate.step(true, 1e-3), tick / 1000.0, 1e-9);
   }
-  EXPECT_EQ(gate.part(), 1.0);
+  EXPECT_EQ(gate.fraction(), 1.0);
 }
 
 TEST(ForceGate, MovesAtOnceWithoutATime)
