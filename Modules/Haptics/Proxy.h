@@ -18,17 +18,17 @@ enum ProxyStatus : std::uint32_t
   kProxyOk = 0,
   kProxyNonFiniteInput = 1u << 0, ///< The HIP was NaN or infinite: last state held, force faded out. Cure:
                                   ///< the device.
-  kProxyRoundLimit = 1u << 1, ///< The foot point did not converge within a step's rounds; it goes on in the
-                              ///< next. Cure: larger voxels (a noisy cloud), or a higher rate.
-  kProxyStepLimit = 1u << 2,  ///< The HIP moved further than one step can follow; it is caught up over the
-                              ///< next. Cure: a higher rate; with GradientSteps maximumStepsPerTick.
-  kProxyBallSpeaks = 1u << 3, ///< The fitted surface and the ball disagree, as at edges and folds: the ball's
-                              ///< contact is felt, in part or alone. No cure needed.
-  kProxyNoScene = 1u << 5,    ///< No scene is set. Cure: setScene().
-  kProxyCellLimit = 1u << 6,  ///< More cells in a fit than there is room for: coarser ones served. Cure:
-                              ///< larger voxels.
-  kProxySettling = 1u << 7,   ///< The force follows a surface that moved by itself at the limited rate.
-                              ///< Cure: settleRate.
+  kProxyRoundLimit = 1u << 1,  ///< The foot point did not converge within a step's rounds; it goes on in the
+                               ///< next. Cure: larger voxels (a noisy cloud), or a higher rate.
+  kProxyStepLimit = 1u << 2,   ///< The HIP moved further than one step can follow; it is caught up over the
+                               ///< next. Cure: a higher rate; with GradientSteps maximumStepsPerTick.
+  kProxyBallContact = 1u << 3, ///< The fitted surface and the ball disagree, as at edges and folds: the
+                               ///< ball's contact is felt, in part or alone. No cure needed.
+  kProxyNoScene = 1u << 5,     ///< No scene is set. Cure: setScene().
+  kProxyCellLimit = 1u << 6,   ///< More cells in a fit than there is room for: coarser ones served. Cure:
+                               ///< larger voxels.
+  kProxySettling = 1u << 7,    ///< The force follows a surface that moved by itself at the limited rate.
+                               ///< Cure: settleRate.
   kProxyStiffnessLimit = 1u << 8, ///< The stiffness was kept at the passivity limit. Cure: a higher rate,
                                   ///< less damping, or a lower stiffness.
 };

@@ -65,8 +65,8 @@ void add(const StrokeTrace& trace, ScanFigures& figures)
   }
   ++figures.strokes;
   figures.drops += dropped;
-  figures.rims += (status & kProxyBallSpeaks) != 0;
-  figures.losses += (status & kProxyBallSpeaks) != 0;
+  figures.rims += (status & kProxyBallContact) != 0;
+  figures.losses += (status & kProxyBallContact) != 0;
   figures.microseconds.insert(
     figures.microseconds.end(), trace.microseconds.begin(), trace.microseconds.end());
 }

@@ -64,13 +64,13 @@ std::unique_ptr<HapticDevice> makeDevice(const Setting& setting)
   return hand;
 }
 
-/// Draws until @p goesOn says no. @return frames a second.
-double render(const std::function<void()>& draw, const std::function<bool()>& goesOn)
+/// Draws until @p shouldContinue says no. @return frames a second.
+double render(const std::function<void()>& draw, const std::function<bool()>& shouldContinue)
 {
   draw(); // the first one uploads
   const auto begin = std::chrono::steady_clock::now();
   int frames = 0;
-  while (goesOn())
+  while (shouldContinue())
   {
     draw();
     ++frames;
@@ -184,7 +184,7 @@ Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& sc
   std::size_t touched = 0;
   std::vector<ServoSample> samples;
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(setting.seconds);
-  const auto goesOn = [&]
+  const auto shouldContinue = [&]
   {
     samples.clear();
     loop.takeTrace(samples);
@@ -193,9 +193,9 @@ Outcome run(const Setting& setting, const std::shared_ptr<const HapticScene>& sc
   };
   if (setting.load == Load::Rendering)
   {
-    outcome.framesPerSecond = render(setting.draw, goesOn);
+    outcome.framesPerSecond = render(setting.draw, shouldContinue);
   }
-  while (goesOn())
+  while (shouldContinue())
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

@@ -83,7 +83,7 @@ bool FlatPlace::find(
   return true;
 }
 
-bool FlatPlace::goesOn(
+bool FlatPlace::continuesUnder(
   const HapticScene& scene, const Vec3& hip, const Vec3& slipped, double radius) const noexcept
 {
   const Vec3 foot = hip - height(hip) * normal_;

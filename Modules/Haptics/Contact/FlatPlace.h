@@ -35,7 +35,8 @@ public:
   Vec3 along(const Vec3& v) const noexcept { return v - dot(v, normal_) * normal_; }
   /// Whether points of the plane lie about the foot of @p hip on the side of @p slipped, where a ball of @p
   /// radius went. @pre known
-  bool goesOn(const HapticScene& scene, const Vec3& hip, const Vec3& slipped, double radius) const noexcept;
+  bool continuesUnder(
+    const HapticScene& scene, const Vec3& hip, const Vec3& slipped, double radius) const noexcept;
   /// How far along the unit vector @p direction a ball at @p center may go until it is @p most aside of @p
   /// hip. @pre known, and the ball is not so far aside yet
   double wayAside(const Vec3& center, const Vec3& hip, const Vec3& direction, double most) const noexcept;

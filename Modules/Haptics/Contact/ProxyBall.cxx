@@ -416,7 +416,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     center_ += reached * direction;
     pushOut(work.cells);
     // Bumps would lead the ball around an edge that the hand has not passed.
-    if (isOnFlat && aside() > mostAside && flat_.goesOn(work.scene, hip, center_, radius_))
+    if (isOnFlat && aside() > mostAside && flat_.continuesUnder(work.scene, hip, center_, radius_))
     {
       center_ = before + std::min(reached, flat_.wayAside(before, hip, direction, mostAside)) * direction;
       return;

@@ -20,7 +20,7 @@ constexpr double kTrustRadii = 0.2;
 constexpr double kTrustDepths = 0.3;
 /// The same where the ball lies on a smooth surface, over its radius.
 constexpr double kTrustPlain = 0.6;
-/// The ball speaks alone from this many times that distance on.
+/// The ball alone is felt from this many times that distance on.
 constexpr double kDistrust = 1.5;
 /// The ball sinks into the gaps between points: it may be this much above the surface, over its radius, and
 /// how fast contact ends when it is higher.
@@ -64,7 +64,7 @@ bool SurfaceFitProxy::seek(const HapticScene& scene, FitCells& fit, const Vec3& 
 /// points, and nothing that a hand could fall off.
 bool SurfaceFitProxy::isPlain() const noexcept
 {
-  return tracker_.height(ball_.center()) > 0.0 && tracker_.goesOn() &&
+  return tracker_.height(ball_.center()) > 0.0 && tracker_.continuesAround() &&
     tracker_.residual() < kSmoothResidual * ball_.radius();
 }
 
@@ -152,7 +152,7 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
     contact.pressed = offset != Vec3();
     contact.point = hip + offset;
     contact.normal = normalized(contact.normal, normal_);
-    state.status |= std::uint32_t(refines && weight < 1.0 && contact.pressed ? kProxyBallSpeaks : kProxyOk);
+    state.status |= std::uint32_t(refines && weight < 1.0 && contact.pressed ? kProxyBallContact : kProxyOk);
   }
   state.status |= std::uint32_t(memory.fit.overflowed() ? kProxyCellLimit : kProxyOk);
   state.contact = contact.pressed;

@@ -227,7 +227,7 @@ void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& t
   fresh_ = false;
 }
 
-bool SurfaceTracker::goesOn() const noexcept
+bool SurfaceTracker::continuesAround() const noexcept
 {
   return fit_.quality == FitQuality::Quadric && std::hypot(fit_.centroidU, fit_.centroidV) < kInner;
 }

@@ -45,7 +45,7 @@ public:
   /// RMS distance of the cells from the last fit: the noise, metres.
   double residual() const noexcept { return fit_.residual; }
   /// Whether the surface goes on all around: the cells lie about the point, and not on one side of it.
-  bool goesOn() const noexcept;
+  bool continuesAround() const noexcept;
   double fitRadius() const noexcept { return fit_.radius; }
   double proxyRadius() const noexcept { return scale_.proxyRadius; }
 

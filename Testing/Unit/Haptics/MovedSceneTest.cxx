@@ -135,7 +135,7 @@ TEST(MovedScene, CarriesAContactAlongAtEveryTick)
     proxy.setScene(next.get());
     const ProxyState state = proxy.step(hip, trial::kTick);
     ASSERT_TRUE(state.contact) << i;
-    ASSERT_EQ(state.status & kProxyBallSpeaks, 0u) << i;
+    ASSERT_EQ(state.status & kProxyBallContact, 0u) << i;
     ASSERT_LE(norm(state.force - movedTorusForce(transform, hip)), 2e-3) << i;
     ASSERT_LE(norm(state.force - last.force), proxy.parameters().contact.settleRate * trial::kTick + 1e-9);
     last = state;
@@ -182,12 +182,12 @@ TEST(MovedScene, GivesPlaceToAResampledCloudWithoutAStep)
   proxy.setScene(fresh.get());
   const ProxyState there = proxy.step(hip, trial::kTick);
   EXPECT_TRUE(there.contact);
-  EXPECT_EQ(there.status & (kProxyBallSpeaks | kProxySettling), 0u);
+  EXPECT_EQ(there.status & (kProxyBallContact | kProxySettling), 0u);
   EXPECT_LE(norm(there.force - states.back().force), 5e-4);
   proxy.setScene(later.get());
   const ProxyState further = proxy.step(hip, trial::kTick);
   EXPECT_TRUE(further.contact);
-  EXPECT_EQ(further.status & kProxyBallSpeaks, 0u);
+  EXPECT_EQ(further.status & kProxyBallContact, 0u);
   EXPECT_LE(norm(further.force - movedTorusForce(onwards, hip)), 2e-3);
 }
 
