@@ -26,7 +26,7 @@ struct DeviceCapabilities
 
 /// Life: open(), then read() and write() in turn, once a tick, then close(). open() and close() belong to the
 /// thread that owns the device; read() and write() to the servo thread, between the two, and never wait
-/// longer than a tick. limits() (see HapticPort) tells the servo loop which springs the device can render.
+/// longer than a tick. limits() (see HapticPort) says which springs the device can render.
 ///
 /// Positions and forces are in the workspace frame: metres and newtons, x right, y up, z towards the person,
 /// the origin in the middle of the workspace.

@@ -61,7 +61,7 @@ struct ForceLimits
   Status check() const noexcept;
 };
 
-/// All that a Proxy can be told: method, contact and gains.
+/// The parameters of a Proxy: method, contact and gains.
 struct HapticParameters
 {
   ProxyMethod method = ProxyMethod::SurfaceFit;

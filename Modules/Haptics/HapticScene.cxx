@@ -168,7 +168,7 @@ bool isFine(const CellPyramid& pyramid)
   return points <= kPointsPerFineCell * double(cells.size());
 }
 
-/// What the fields tell at each of their nodes; of a part at those for which it knows enough.
+/// The values of the fields at each of their nodes; of a local scene at those for which it has enough cells.
 Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, double extent,
   const Executor& executor, const std::vector<NodeUse>* uses, std::vector<LocalScale>& scales)
 {

@@ -57,7 +57,7 @@ struct HapticSceneInput
 /// Built once by create(), read by any number of threads, never edited: a transform makes a new one. That is
 /// either a cloud resampled anew, by create(), or the same cloud put elsewhere, by moved().
 ///
-/// Frames: what a scene tells of its cloud, all places and lengths of it, is in the frame the cloud was
+/// Frames: all places and lengths that a scene has of its cloud are in the frame the cloud was
 /// resampled in, which stays with it when it is moved: the lattice frame. toLattice() and toWorkspace() go
 /// between that and the workspace; unless the scene was moved they are the same frame. Metres in both.
 class HapticScene
@@ -147,7 +147,7 @@ public:
   bool hasLatticeCells() const { return cloud_->latticeCells; }
   /// Standard deviation of the points about the surface near @p position, metres; 0 where no cell is near.
   double noise(const Vec3& position) const noexcept;
-  /// What the fields tell of places far from the cloud.
+  /// The values of the fields far from the cloud.
   const LocalScale& typicalScale() const { return cloud_->scale.typical(); }
   /// True where the covariances of the voxels are known, or each cell is a single point; false for plain
   /// means, whose fits ripple with the voxels.

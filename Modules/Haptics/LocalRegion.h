@@ -31,7 +31,7 @@ class LocalRegion
 public:
   /// Half-width of covered() about the hand, in index cells: 4 mm in the default workspace.
   static constexpr double kReachCells = 12.0;
-  /// Lengths on the model, new over old, up to which the global scene tells of the new one; and one over
+  /// Lengths on the model, new over old, up to which the global scene is valid for the new one; and one over
   /// that.
   static constexpr double kMostScale = 1.6;
 

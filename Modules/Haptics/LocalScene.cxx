@@ -22,11 +22,11 @@ constexpr double kSmoothWide = 8e-3;
 constexpr double kWide = 2.0;
 constexpr double kThick = 0.1;
 constexpr double kShapeOverNoise = 2.0;
-/// Points that tell a voxel's thickness, of which a plane takes three, and voxels that must.
+/// Points that determine a voxel's thickness, of which a plane takes three, and voxels that must.
 constexpr double kPointsForThickness = 6.0;
 constexpr double kPointsOfPlane = 3.0;
 constexpr std::size_t kCellsForThickness = 5;
-/// Levels whose cells tell of edges and of second sheets.
+/// Levels whose cells show edges and second sheets.
 constexpr int kMixedLevels = 2;
 /// The finer cell is at most this part of the global one, or it is not worth it.
 constexpr double kCoarsest = 0.75;
@@ -57,7 +57,7 @@ double residualOfAll(const CellPyramid& pyramid, const Vec3& place, double radiu
   return fit.quality == FitQuality::Quadric ? fit.residual : INFINITY;
 }
 
-/// Whether smaller fits would tell more within @p reach of @p seed. The points stand off the fits of the
+/// Whether smaller fits would resolve more within @p reach of @p seed. The points stand off the fits of the
 /// global scene by nothing where it is smooth, and by their noise where it is noisy, which is as large within
 /// a voxel as in a whole fit. What is larger in a fit than in its voxels is shape.
 bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)

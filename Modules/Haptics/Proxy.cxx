@@ -284,7 +284,7 @@ ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
   Implementation& self = *implementation_;
   if (!isFinite(hip) || !(dt > 0.0))
   {
-    // A clock that stands still tells no time: a tick as long as the last one.
+    // The clock stands still: a tick counts as long as the last one.
     return self.hold(dt > 0.0 ? dt : self.lastDt > 0.0 ? self.lastDt : kFadeSeconds);
   }
   ProxyState state;

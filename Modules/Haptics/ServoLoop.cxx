@@ -55,7 +55,7 @@ void increase(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcep
 
 struct ServoLoop::Implementation
 {
-  // Shared between the threads, each by a hand-over that makes nobody wait.
+  // Shared between the threads, each by an exchange without waiting.
   SceneExchange scenes;
   std::mutex publishing; ///< Of its publishing side; the servo thread never takes it.
   LatestValue<HapticParameters> parameters;
@@ -271,7 +271,7 @@ bool ServoLoop::Implementation::gateIsOpen(std::int64_t wake) noexcept
   return !stale && !stopRequested.load(std::memory_order_acquire);
 }
 
-/// After a tick: how many of the next ones nobody would miss.
+/// After a tick: how many of the next ones may be left out.
 std::uint64_t ServoLoop::Implementation::ticksToIdle() noexcept
 {
   const bool still = settings.idlesWhenStill && !hasUpdates && sample.device == Status::Ok &&

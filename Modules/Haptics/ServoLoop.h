@@ -1,6 +1,6 @@
 /// @file
-/// The 1 kHz thread: reads the hand, steps the proxy, guards the force, writes it, tells the rest of the
-/// program.
+/// The 1 kHz thread: reads the hand, steps the proxy, guards the force, writes it, publishes the
+/// sample.
 #pragma once
 
 #include "Haptics/HapticPort.h"

@@ -96,7 +96,7 @@ nlohmann::ordered_json toJson(const Machine& machine)
     { "compiler", machine.compiler }, { "vtk", machine.vtk }, { "load", machine.load } };
 }
 
-std::string sentence(const Machine& machine)
+std::string describe(const Machine& machine)
 {
   return fmt::format("{}, {} cores, {}, {:.0f} GiB; {}; {}; {}; load before the run {:.1f}.",
     machine.processor, machine.cores, machine.caches, machine.memoryGigabytes, machine.system,

@@ -27,7 +27,7 @@ struct Machine
 Machine thisMachine();
 nlohmann::ordered_json toJson(const Machine& machine);
 /// One sentence for a reader.
-std::string sentence(const Machine& machine);
+std::string describe(const Machine& machine);
 
 /// Bytes that can be had without pushing anything out; 0 where that is unknown.
 std::int64_t availableMemory();

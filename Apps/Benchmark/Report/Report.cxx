@@ -98,7 +98,7 @@ bool writeCharts(const Report& report, const std::filesystem::path& folder, std:
 
 std::string toText(const Report& report)
 {
-  std::string text = fmt::format("{}\n{}\n", report.title, sentence(report.machine));
+  std::string text = fmt::format("{}\n{}\n", report.title, describe(report.machine));
   for (const ReportPart& part : report.parts)
   {
     text += fmt::format("\n== {}\n{}", part.title, toText(part.table));
@@ -145,7 +145,7 @@ std::string toMarkdown(const Report& report, Page page, const std::string& image
   const std::string& method = page == Page::Accuracy ? report.accuracyMethod : report.method;
   return parts.empty() ? parts
                        : fmt::format("## {}\n\n    {}\n\n{}\n\nMeasured on: {}\n{}", report.title,
-                           report.command, method, sentence(report.machine), parts);
+                           report.command, method, describe(report.machine), parts);
 }
 
 std::string withSection(

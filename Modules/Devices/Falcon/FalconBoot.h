@@ -52,8 +52,8 @@ private:
 };
 
 /// Probe, and where no firmware answers: greet and load, as often as settings say. @p firmware may be empty:
-/// FirmwareMissing where it is needed. @p onLoading is told when the loading begins, @p progress how far it
-/// is. DeviceSilent: twice in a row no greeting was answered (10 s with the default settings).
+/// FirmwareMissing where it is needed. @p onLoading is called when the loading begins, @p progress with how
+/// far it is. DeviceSilent: twice in a row no greeting was answered (10 s with the default settings).
 Status bootFalcon(FtdiLink& link, const FalconBootSettings& settings,
   const std::vector<std::uint8_t>& firmware, const std::atomic<bool>& cancelled,
   const std::function<void()>& onLoading, const std::function<void(double)>& progress);

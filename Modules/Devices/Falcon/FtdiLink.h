@@ -30,7 +30,7 @@ public:
   /// payload are skipped until the timeout: @p count is then 0 with Ok.
   virtual Status receive(std::uint8_t* bytes, int& count, int timeoutMilliseconds) = 0;
 
-  // While running: these do not wait longer than they are told, and do not allocate or throw themselves.
+  // While running: these do not wait longer than asked, and do not allocate or throw themselves.
 
   /// Queues @p bytes (at most 16). DeviceNotReady: the ones before are still on their way, nothing is sent.
   virtual Status submit(const std::uint8_t* bytes, int count) noexcept = 0;

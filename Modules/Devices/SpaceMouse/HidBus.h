@@ -17,7 +17,7 @@ struct HidFound
   std::uint16_t product = 0;
   std::string path; ///< For open(): "/dev/hidraw3".
   std::string name; ///< For people.
-  // What its report descriptor says of this interface; 0: not told.
+  // What its report descriptor says of this interface; 0: unknown.
   std::uint16_t usagePage = 0;
   std::uint16_t usage = 0;
 

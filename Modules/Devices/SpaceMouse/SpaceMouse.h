@@ -35,7 +35,7 @@ public:
 
   /// The cap now; at rest where no report came for staleSeconds or none is plugged in.
   SpaceMouseMotion motion() const noexcept;
-  int battery() const noexcept; ///< Per cent; -1: not told.
+  int battery() const noexcept; ///< Per cent; -1: unknown.
   /// Name of the device in use, or what the user should know: one sentence with its cure.
   std::string message() const;
   /// What message() says while none is plugged in.

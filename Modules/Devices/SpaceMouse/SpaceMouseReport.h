@@ -44,7 +44,7 @@ public:
   bool take(const std::uint8_t* bytes, int count, double timeSeconds) noexcept;
   /// The motion at @p timeSeconds; buttons do not become stale.
   SpaceMouseMotion motion(double timeSeconds) const noexcept;
-  /// Per cent; -1: not told.
+  /// Per cent; -1: unknown.
   int battery() const noexcept { return battery_; }
 
 private:

@@ -12,7 +12,7 @@ namespace pointhaptics
 /// change it by kFreeSteps d, and such changes pass untouched, bit for bit. What the offset changes beyond
 /// that (the surface was let go at a rim, found again somewhere else, zoomed or swapped, or the nearest point
 /// jumped at a ridge) is kept back as a remainder, which then shrinks by at most a given length a tick to
-/// exactly zero. So the offset handed out changes by at most kFreeSteps d plus that length. One thread; no
+/// exactly zero. So the returned offset changes by at most kFreeSteps d plus that length. One thread; no
 /// allocation.
 class OffsetSettler
 {

@@ -22,7 +22,7 @@ constexpr double kHurriedGrowth = 1.3;
 /// Over what it grows by, how high a ball rises for it.
 constexpr double kHighestRise = 4.0;
 constexpr double kRises[] = { 0.0, 1.0, 2.0, kHighestRise };
-/// Points within this many radii tell the radius.
+/// Points within this many radii determine the radius.
 constexpr double kSearch = 4.0;
 
 /// Moves of one slide, and of one step: a hand at 1 m/s needs some ten.
@@ -48,7 +48,7 @@ constexpr double kFarAway = 1e6;
 constexpr double kNoWay = 1e-4;
 /// Rounding that a covered point may be off by, over the radius.
 constexpr double kRounding = 1e-9;
-/// Reach of the points that tell whether the place is flat, and a smaller one for the first touch beside an
+/// Reach of the points that decide whether the place is flat, and a smaller one for the first touch beside an
 /// edge, over the radius. A flat place serves so many radii further and up to this angle.
 constexpr double kPlaneReach = 1.4;
 constexpr double kTouchReach = 1.2;

@@ -147,7 +147,7 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
   settings.gate = scale.gate;
   std::copy(curvature_, curvature_ + 3, settings.curvature);
   SurfaceFit fit = fitSurface(scene.pyramid(), frame_, settings, memory, &slopes);
-  // Few points that lie badly tell a plane alone: those a little further tell more.
+  // Few points that lie badly determine no more than a plane: those a little further are used too.
   for (int i = 0; i < kWidenings && fit.quality != FitQuality::Quadric; ++i)
   {
     settings.radius *= kWidening;

@@ -1,5 +1,5 @@
 /// @file
-/// A point that stays on the local surface fit, nearest to where it is told to look.
+/// A point that stays on the local surface fit, nearest to a target.
 #pragma once
 
 #include "Core/Surface/SurfaceFit.h"
@@ -62,7 +62,7 @@ private:
   SurfaceFit fit_;
   SurfaceFrame fitFrame_; ///< The frame of fit_: a little behind frame_.
   LocalScale scale_;      ///< At the origin of fitFrame_.
-  bool fresh_ = false;    ///< fit_ tells of the surface about frame_: the next step may begin with it.
+  bool fresh_ = false;    ///< fit_ is valid about frame_: the next step may begin with it.
   double curvature_[3] = { 0.0, 0.0, 0.0 };
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Hands scenes from the thread that builds them to the servo thread, which never waits and never frees.
+/// Passes scenes from the thread that builds them to the servo thread, which never waits and never frees.
 #pragma once
 
 #include <atomic>
