@@ -54,13 +54,6 @@ std::string endMark(const std::string& task)
   return "<!-- bench " + task + ": end -->";
 }
 
-/// The summary and the sections.
-std::string belowHead(const std::string& content)
-{
-  const std::size_t first = content.find("<!-- bench ");
-  return first == std::string::npos ? std::string() : content.substr(first);
-}
-
 std::string contentOf(const std::filesystem::path& file)
 {
   std::ifstream stream(file, std::ios::binary);
@@ -152,18 +145,13 @@ std::string withSection(
   const std::string& content, Page page, const std::string& task, const std::string& section)
 {
   const std::string block = beginMark(task) + "\n\n" + section + "\n" + endMark(task);
-  std::string rest = belowHead(content);
-  const std::size_t begin = rest.find(beginMark(task));
-  const std::size_t end = rest.find(endMark(task), begin == std::string::npos ? 0 : begin);
+  const std::size_t begin = content.find(beginMark(task));
+  const std::size_t end = content.find(endMark(task), begin == std::string::npos ? 0 : begin);
   if (begin != std::string::npos && end != std::string::npos)
   {
-    rest = rest.substr(0, begin) + block + rest.substr(end + endMark(task).size());
+    return content.substr(0, begin) + block + content.substr(end + endMark(task).size());
   }
-  else
-  {
-    rest += (rest.empty() ? "" : "\n") + block + "\n";
-  }
-  return textOf(page).head + ("\n" + rest);
+  return (content.empty() ? std::string(textOf(page).head) : content) + "\n" + block + "\n";
 }
 
 bool writeReport(const Report& report, const std::string& folder, bool withPictures, std::string& message)

@@ -58,7 +58,7 @@ nlohmann::ordered_json toJson(const Report& report);
 std::string toMarkdown(const Report& report, Page page, const std::string& imageFolder);
 
 /// @p content of @p page with the section of @p task replaced by @p section, or with it at the end. The
-/// section stands between two comments that name the task. The page's head is written anew.
+/// section stands between two comments that name the task; an empty page gets its head first.
 std::string withSection(
   const std::string& content, Page page, const std::string& task, const std::string& section);
 

@@ -162,6 +162,17 @@ TEST(Summary, HasAtMostTenRowsOnAPage)
   EXPECT_LE(numberOfSummaryRows(Page::Accuracy), kMostSummaryRows);
 }
 
+TEST(Report, HeadsOfNewPagesAreThoseOfTheDocuments)
+{
+  for (const auto& [kind, name] :
+    { std::pair(Page::Performance, "Performance.md"), { Page::Accuracy, "Accuracy.md" } })
+  {
+    const std::string fresh = withSection("", kind, "a", "one");
+    const std::string head = fresh.substr(0, fresh.find("<!-- bench "));
+    EXPECT_EQ(contentOf(name).substr(0, head.size()), head);
+  }
+}
+
 TEST(Summary, OfTheDocumentsQuotesTheirTables)
 {
   const std::string performance = contentOf("Performance.md");
