@@ -1,6 +1,7 @@
 #include "vtkKernelBandwidthFilter.h"
 
 #include "PolyDataAccess.h"
+#include "PrintSettings.h"
 #include "SmpExecutor.h"
 
 #include "Core/Bandwidth/Density.h"
@@ -109,19 +110,25 @@ void addArray(vtkPolyData* output, const char* name, const std::vector<double>& 
 
 }
 
-LocalBandwidthSettings vtkKernelBandwidthFilter::GetSettings() const
+void vtkKernelBandwidthFilter::SetSettings(const BandwidthSettings& settings)
 {
-  LocalBandwidthSettings settings;
-  settings.fixedRadius = this->Neighborhood == FixedRadius;
-  settings.numberOfNeighbors = this->NumberOfNeighbors;
-  settings.radius = this->Radius;
-  settings.rule = BandwidthRule(this->Rule);
-  settings.radiusScale = this->RadiusScale;
-  settings.minimumRadius = this->MinimumRadius;
-  settings.maximumRadius = this->MaximumRadius;
-  settings.smoothRadius = this->SmoothRadius;
-  settings.usePointCounts = this->UsePointCounts;
-  return settings;
+  if (!equalSettings(this->Settings, settings))
+  {
+    this->Settings = settings;
+    this->Modified();
+  }
+}
+
+void vtkKernelBandwidthFilter::SetRule(int value)
+{
+  this->SetMember(
+    &BandwidthSettings::rule, BandwidthRule(std::clamp<int>(value, NormalReference, SheatherJones)));
+}
+
+void vtkKernelBandwidthFilter::SetDensityKernel(int value)
+{
+  this->SetMember(&BandwidthSettings::densityKernel,
+    pointhaptics::DensityKernel(std::clamp<int>(value, Gaussian, Epanechnikov)));
 }
 
 int vtkKernelBandwidthFilter::RequestData(
@@ -130,15 +137,15 @@ int vtkKernelBandwidthFilter::RequestData(
   auto* input = vtkPolyData::GetData(inputVector[0]);
   auto* output = vtkPolyData::GetData(outputVector);
 
-  LocalBandwidthSettings settings = this->GetSettings();
-  settings.smoothRadius = this->SmoothRadius && this->ComputeProxyRadius;
+  LocalBandwidthSettings settings = this->Settings;
+  settings.smoothRadius = settings.smoothRadius && this->Settings.computeProxyRadius;
   const Status status = settings.check();
   if (status != Status::Ok)
   {
-    vtkErrorMacro("NumberOfNeighbors "
-      << this->NumberOfNeighbors << ", Radius " << this->Radius << ", RadiusScale " << this->RadiusScale
-      << ", MinimumRadius " << this->MinimumRadius << ", MaximumRadius " << this->MaximumRadius << ": "
-      << message(status) << ".");
+    vtkErrorMacro("NumberOfNeighbors " << settings.numberOfNeighbors << ", Radius " << settings.radius
+                                       << ", RadiusScale " << settings.radiusScale << ", MinimumRadius "
+                                       << settings.minimumRadius << ", MaximumRadius "
+                                       << settings.maximumRadius << ": " << message(status) << ".");
     return 1;
   }
   if (input->GetNumberOfPoints() > NeighborQuery::kMostPoints)
@@ -148,8 +155,8 @@ int vtkKernelBandwidthFilter::RequestData(
     return 1;
   }
   output->ShallowCopy(input);
-  const bool wanted =
-    this->ComputeBandwidth || this->ComputeProxyRadius || this->ComputeDensity || this->ComputeMeanBandwidth;
+  const bool wanted = this->Settings.computeBandwidth || this->Settings.computeProxyRadius ||
+    this->Settings.computeDensity || this->Settings.computeMeanBandwidth;
   if (wanted && !this->Estimate(input, output, settings))
   {
     output->Initialize();
@@ -162,13 +169,13 @@ bool vtkKernelBandwidthFilter::Estimate(
   vtkPolyData* input, vtkPolyData* output, const LocalBandwidthSettings& settings)
 {
   const PointAccess points(input->GetPoints());
-  const double found = this->ComputeDensity ? 0.4 : 0.95;
+  const double found = this->Settings.computeDensity ? 0.4 : 0.95;
   NeighborQuery query;
   query.build(points.view(), SmpExecutor());
   this->UpdateProgress(0.1);
   const std::vector<double> counts = countsOf(input, settings.usePointCounts);
-  const bool wantsPoints = this->ComputeBandwidth || this->ComputeProxyRadius;
-  const bool wantsMeans = this->ComputeDensity || this->ComputeMeanBandwidth;
+  const bool wantsPoints = this->Settings.computeBandwidth || this->Settings.computeProxyRadius;
+  const bool wantsMeans = this->Settings.computeDensity || this->Settings.computeMeanBandwidth;
   std::vector<double> bandwidths;
   std::vector<double> radii;
   std::vector<double> ofMeans;
@@ -190,28 +197,28 @@ bool vtkKernelBandwidthFilter::Estimate(
       ReportingExecutor(this, wantsPoints ? found : 0.1, found));
   }
   const std::vector<double>& widths = counts.empty() ? bandwidths : ofMeans;
-  if (this->ComputeDensity && !this->GetAbortExecute())
+  if (this->Settings.computeDensity && !this->GetAbortExecute())
   {
     surfaceDensities(points.view(), counts, query, widths, densities, ReportingExecutor(this, found, 0.95),
-      pointhaptics::DensityKernel(this->DensityKernel));
+      this->Settings.densityKernel);
   }
   if (this->GetAbortExecute())
   {
     return false;
   }
-  if (this->ComputeDensity)
+  if (this->Settings.computeDensity)
   {
     addArray(output, "Density", densities);
   }
-  if (this->ComputeMeanBandwidth)
+  if (this->Settings.computeMeanBandwidth)
   {
     addArray(output, "MeanBandwidth", widths);
   }
-  if (this->ComputeBandwidth)
+  if (this->Settings.computeBandwidth)
   {
     addArray(output, "Bandwidth", bandwidths);
   }
-  if (this->ComputeProxyRadius)
+  if (this->Settings.computeProxyRadius)
   {
     addArray(output, "ProxyRadius", radii);
   }
@@ -222,18 +229,5 @@ bool vtkKernelBandwidthFilter::Estimate(
 void vtkKernelBandwidthFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Neighborhood: " << this->Neighborhood << "\n";
-  os << indent << "NumberOfNeighbors: " << this->NumberOfNeighbors << "\n";
-  os << indent << "Radius: " << this->Radius << "\n";
-  os << indent << "Rule: " << this->Rule << "\n";
-  os << indent << "RadiusScale: " << this->RadiusScale << "\n";
-  os << indent << "MinimumRadius: " << this->MinimumRadius << "\n";
-  os << indent << "MaximumRadius: " << this->MaximumRadius << "\n";
-  os << indent << "SmoothRadius: " << this->SmoothRadius << "\n";
-  os << indent << "UsePointCounts: " << this->UsePointCounts << "\n";
-  os << indent << "DensityKernel: " << this->DensityKernel << "\n";
-  os << indent << "ComputeBandwidth: " << this->ComputeBandwidth << "\n";
-  os << indent << "ComputeProxyRadius: " << this->ComputeProxyRadius << "\n";
-  os << indent << "ComputeMeanBandwidth: " << this->ComputeMeanBandwidth << "\n";
-  os << indent << "ComputeDensity: " << this->ComputeDensity << "\n";
+  printSettings(os, indent, this->Settings);
 }

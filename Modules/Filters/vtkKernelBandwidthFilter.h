@@ -48,13 +48,9 @@
 #ifndef vtkKernelBandwidthFilter_h
 #define vtkKernelBandwidthFilter_h
 
-#include "PointHapticsFiltersModule.h" // For export macro
+#include "Core/Bandwidth/BandwidthSettings.h" // For Settings
+#include "PointHapticsFiltersModule.h"        // For export macro
 #include "vtkPolyDataAlgorithm.h"
-
-namespace pointhaptics
-{
-struct LocalBandwidthSettings;
-}
 
 class POINTHAPTICSFILTERS_EXPORT vtkKernelBandwidthFilter : public vtkPolyDataAlgorithm
 {
@@ -87,8 +83,11 @@ public:
    * What counts as the neighbourhood of a point. In a fixed ball the spread hardly changes with density, so
    * only KNearest (default) makes the radius follow it.
    */
-  vtkSetClampMacro(Neighborhood, int, KNearest, FixedRadius);
-  vtkGetMacro(Neighborhood, int);
+  virtual void SetNeighborhood(int value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::fixedRadius, value >= FixedRadius);
+  }
+  virtual int GetNeighborhood() const { return this->Settings.fixedRadius ? FixedRadius : KNearest; }
   void SetNeighborhoodToKNearest() { this->SetNeighborhood(KNearest); }
   void SetNeighborhoodToFixedRadius() { this->SetNeighborhood(FixedRadius); }
   ///@}
@@ -98,24 +97,27 @@ public:
    * Neighbours of KNearest, the point itself not counted; at least 1. More than the cloud has: all of it.
    * Default: 16.
    */
-  vtkSetMacro(NumberOfNeighbors, int);
-  vtkGetMacro(NumberOfNeighbors, int);
+  virtual void SetNumberOfNeighbors(int value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::numberOfNeighbors, value);
+  }
+  virtual int GetNumberOfNeighbors() const { return this->Settings.numberOfNeighbors; }
   ///@}
 
   ///@{
   /**
    * Radius of FixedRadius in the units of the points, above 0. Default: 0.001.
    */
-  vtkSetMacro(Radius, double);
-  vtkGetMacro(Radius, double);
+  virtual void SetRadius(double value) { this->SetMember(&pointhaptics::BandwidthSettings::radius, value); }
+  virtual double GetRadius() const { return this->Settings.radius; }
   ///@}
 
   ///@{
   /**
    * Rule from spread to bandwidth. Default: NormalReference.
    */
-  vtkSetClampMacro(Rule, int, NormalReference, SheatherJones);
-  vtkGetMacro(Rule, int);
+  virtual void SetRule(int value);
+  virtual int GetRule() const { return static_cast<int>(this->Settings.rule); }
   void SetRuleToNormalReference() { this->SetRule(NormalReference); }
   void SetRuleToSilvermanRobust() { this->SetRule(SilvermanRobust); }
   void SetRuleToScottMultivariate() { this->SetRule(ScottMultivariate); }
@@ -128,8 +130,11 @@ public:
    * beta of the paper: proxy radius over bandwidth, above 0. Default: 4, which for 16 neighbours on a
    * uniformly sampled surface is about 2.8 point spacings.
    */
-  vtkSetMacro(RadiusScale, double);
-  vtkGetMacro(RadiusScale, double);
+  virtual void SetRadiusScale(double value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::radiusScale, value);
+  }
+  virtual double GetRadiusScale() const { return this->Settings.radiusScale; }
   ///@}
 
   ///@{
@@ -138,10 +143,16 @@ public:
    * automatic, 2.2 local spacings at each point, the radius at which a sphere no longer falls through the
    * widest gap of a random sample. 0 (default) for r2: no upper bound.
    */
-  vtkSetMacro(MinimumRadius, double);
-  vtkGetMacro(MinimumRadius, double);
-  vtkSetMacro(MaximumRadius, double);
-  vtkGetMacro(MaximumRadius, double);
+  virtual void SetMinimumRadius(double value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::minimumRadius, value);
+  }
+  virtual double GetMinimumRadius() const { return this->Settings.minimumRadius; }
+  virtual void SetMaximumRadius(double value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::maximumRadius, value);
+  }
+  virtual double GetMaximumRadius() const { return this->Settings.maximumRadius; }
   ///@}
 
   ///@{
@@ -151,8 +162,11 @@ public:
    * radius falls below the smallest of the cloud, but beside a denser region one may fall below the automatic
    * r1. Default: off.
    */
-  vtkSetMacro(SmoothRadius, bool);
-  vtkGetMacro(SmoothRadius, bool);
+  virtual void SetSmoothRadius(bool value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::smoothRadius, value);
+  }
+  virtual bool GetSmoothRadius() const { return this->Settings.smoothRadius; }
   vtkBooleanMacro(SmoothRadius, bool);
   ///@}
 
@@ -162,8 +176,8 @@ public:
    * exp(-t_i^2 / 2), cut off at t = 6, which leaves out less than 2e-8 of a kernel's height for each point
    * beyond. Epanechnikov: 1/(N 3 pi b^2) sum_i (1 - t_i^2 / 6) over t_i^2 < 6, where nothing is cut off.
    */
-  vtkSetClampMacro(DensityKernel, int, Gaussian, Epanechnikov);
-  vtkGetMacro(DensityKernel, int);
+  virtual void SetDensityKernel(int value);
+  virtual int GetDensityKernel() const { return static_cast<int>(this->Settings.densityKernel); }
   void SetDensityKernelToGaussian() { this->SetDensityKernel(Gaussian); }
   void SetDensityKernelToEpanechnikov() { this->SetDensityKernel(Epanechnikov); }
   ///@}
@@ -178,8 +192,11 @@ public:
    * themselves may be farther apart than such a radius: a sphere that is to stand on them needs about 2.8
    * voxels (pointhaptics::HapticScene::coveringRadius). Default: on.
    */
-  vtkSetMacro(UsePointCounts, bool);
-  vtkGetMacro(UsePointCounts, bool);
+  virtual void SetUsePointCounts(bool value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::usePointCounts, value);
+  }
+  virtual bool GetUsePointCounts() const { return this->Settings.usePointCounts; }
   vtkBooleanMacro(UsePointCounts, bool);
   ///@}
 
@@ -189,8 +206,11 @@ public:
    * points they stand for. That is how far apart they are, and so the length for splats that are to close a
    * surface (vtkSplatMapper). Without VoxelPointCount it is Bandwidth. Default: off.
    */
-  vtkSetMacro(ComputeMeanBandwidth, bool);
-  vtkGetMacro(ComputeMeanBandwidth, bool);
+  virtual void SetComputeMeanBandwidth(bool value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::computeMeanBandwidth, value);
+  }
+  virtual bool GetComputeMeanBandwidth() const { return this->Settings.computeMeanBandwidth; }
   vtkBooleanMacro(ComputeMeanBandwidth, bool);
   ///@}
 
@@ -198,22 +218,34 @@ public:
   /**
    * Which arrays to add; what is off costs nothing, and Density costs a second search. Default: all on.
    */
-  vtkSetMacro(ComputeBandwidth, bool);
-  vtkGetMacro(ComputeBandwidth, bool);
+  virtual void SetComputeBandwidth(bool value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::computeBandwidth, value);
+  }
+  virtual bool GetComputeBandwidth() const { return this->Settings.computeBandwidth; }
   vtkBooleanMacro(ComputeBandwidth, bool);
-  vtkSetMacro(ComputeProxyRadius, bool);
-  vtkGetMacro(ComputeProxyRadius, bool);
+  virtual void SetComputeProxyRadius(bool value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::computeProxyRadius, value);
+  }
+  virtual bool GetComputeProxyRadius() const { return this->Settings.computeProxyRadius; }
   vtkBooleanMacro(ComputeProxyRadius, bool);
-  vtkSetMacro(ComputeDensity, bool);
-  vtkGetMacro(ComputeDensity, bool);
+  virtual void SetComputeDensity(bool value)
+  {
+    this->SetMember(&pointhaptics::BandwidthSettings::computeDensity, value);
+  }
+  virtual bool GetComputeDensity() const { return this->Settings.computeDensity; }
   vtkBooleanMacro(ComputeDensity, bool);
   ///@}
 
+  ///@{
   /**
-   * The settings as Core's functions take them, for those who want the radii of a few points only, as
-   * pointhaptics::HapticScene does. Include Core/LocalBandwidth.h for it.
+   * All of the above as one plain value, which other filters, Core's functions and pointhaptics::HapticScene
+   * take.
    */
-  pointhaptics::LocalBandwidthSettings GetSettings() const;
+  virtual void SetSettings(const pointhaptics::BandwidthSettings& settings);
+  const pointhaptics::BandwidthSettings& GetSettings() const { return this->Settings; }
+  ///@}
 
 protected:
   vtkKernelBandwidthFilter() = default;
@@ -221,24 +253,18 @@ protected:
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  int Neighborhood = KNearest;
-  int NumberOfNeighbors = 16;
-  double Radius = 0.001;
-  int Rule = NormalReference;
-  double RadiusScale = 4.0;
-  double MinimumRadius = 0.0;
-  double MaximumRadius = 0.0;
-  bool SmoothRadius = false;
-  bool UsePointCounts = true;
-  int DensityKernel = Gaussian;
-  bool ComputeBandwidth = true;
-  bool ComputeProxyRadius = true;
-  bool ComputeDensity = true;
-  bool ComputeMeanBandwidth = false;
-
 private:
+  template <typename Owner, typename Value>
+  void SetMember(Value Owner::*member, Value value)
+  {
+    pointhaptics::BandwidthSettings settings = this->Settings;
+    settings.*member = value;
+    this->SetSettings(settings);
+  }
   bool Estimate(
     vtkPolyData* input, vtkPolyData* output, const pointhaptics::LocalBandwidthSettings& settings);
+
+  pointhaptics::BandwidthSettings Settings;
 
   vtkKernelBandwidthFilter(const vtkKernelBandwidthFilter&) = delete;
   void operator=(const vtkKernelBandwidthFilter&) = delete;

@@ -1,5 +1,6 @@
 #include "vtkVoxelMeanResampler.h"
 
+#include "PrintSettings.h"
 #include "vtkVoxelMeanResamplerInternals.h"
 
 #include "vtkAbstractTransform.h"
@@ -11,32 +12,26 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 using namespace pointhaptics;
 
 vtkStandardNewMacro(vtkVoxelMeanResampler);
 
+static_assert(int(vtkAlgorithm::SINGLE_PRECISION) == int(PointsPrecision::Single) &&
+    int(vtkAlgorithm::DOUBLE_PRECISION) == int(PointsPrecision::Double) &&
+    int(vtkAlgorithm::DEFAULT_PRECISION) == int(PointsPrecision::OfInput),
+  "Core's precisions are VTK's, in the same order");
+static_assert(int(vtkVoxelMeanResampler::InstructionSetAVX512) == int(InstructionSet::Avx512),
+  "the filter's instruction sets are Core's, in the same order");
+
 vtkVoxelMeanResampler::vtkVoxelMeanResampler()
-  : AutomaticWorkspace(true)
-  , VoxelSize(0.0)
-  , OutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION)
-  , ComputeCovariance(false)
-  , PassAttributes(true)
-  , CategoricalArrays{ "Classification" }
-  , NumberOfLevels(1)
-  , UsePointIndex(true)
-  , InstructionSet(InstructionSetAutomatic)
-  , NumberOfClippedPoints(0)
+  : NumberOfClippedPoints(0)
   , NumberOfInvalidPoints(0)
   , Impl(std::make_unique<Internals>(this))
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    this->WorkspaceBounds[2 * axis] = -0.5 * kDefaultWorkspaceEdge;
-    this->WorkspaceBounds[2 * axis + 1] = 0.5 * kDefaultWorkspaceEdge;
-    this->Dimensions[axis] = int(kDefaultLatticeDimension);
-  }
+  this->UpdateVectors();
 }
 
 vtkVoxelMeanResampler::~vtkVoxelMeanResampler() = default;
@@ -55,14 +50,40 @@ vtkAbstractTransform* vtkVoxelMeanResampler::GetTransform()
   return this->Transform;
 }
 
+void vtkVoxelMeanResampler::SetSettings(const VoxelMeanSettings& settings)
+{
+  VoxelMeanSettings valid = settings;
+  valid.numberOfLevels = std::clamp(settings.numberOfLevels, 1, VoxelMeanSettings::kMostLevels);
+  if (equalSettings(this->Settings, valid))
+  {
+    return;
+  }
+  if (valid.numberOfLevels != this->Settings.numberOfLevels)
+  {
+    this->SetNumberOfOutputPorts(valid.numberOfLevels);
+  }
+  this->Settings = std::move(valid);
+  this->UpdateVectors();
+  this->Modified();
+}
+
+void vtkVoxelMeanResampler::UpdateVectors()
+{
+  const LatticeSettings& lattice = this->Settings.lattice;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->WorkspaceBounds[2 * axis] = lattice.workspace.minimum[axis];
+    this->WorkspaceBounds[2 * axis + 1] = lattice.workspace.maximum[axis];
+    this->Dimensions[axis] = int(lattice.dimensions[std::size_t(axis)]);
+  }
+}
+
 void vtkVoxelMeanResampler::SetWorkspaceBounds(const double bounds[6])
 {
-  if (this->AutomaticWorkspace || !std::equal(bounds, bounds + 6, this->WorkspaceBounds))
-  {
-    std::copy(bounds, bounds + 6, this->WorkspaceBounds);
-    this->AutomaticWorkspace = false;
-    this->Modified();
-  }
+  LatticeSettings lattice = this->Settings.lattice;
+  lattice.workspace = { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
+  lattice.automaticWorkspace = false;
+  this->SetMember(&VoxelMeanSettings::lattice, lattice);
 }
 
 void vtkVoxelMeanResampler::SetWorkspaceBounds(
@@ -72,14 +93,19 @@ void vtkVoxelMeanResampler::SetWorkspaceBounds(
   this->SetWorkspaceBounds(bounds);
 }
 
+void vtkVoxelMeanResampler::SetAutomaticWorkspace(bool value)
+{
+  LatticeSettings lattice = this->Settings.lattice;
+  lattice.automaticWorkspace = value;
+  this->SetMember(&VoxelMeanSettings::lattice, lattice);
+}
+
 void vtkVoxelMeanResampler::SetDimensions(const int dimensions[3])
 {
-  if (this->VoxelSize != 0.0 || !std::equal(dimensions, dimensions + 3, this->Dimensions))
-  {
-    std::copy(dimensions, dimensions + 3, this->Dimensions);
-    this->VoxelSize = 0.0;
-    this->Modified();
-  }
+  LatticeSettings lattice = this->Settings.lattice;
+  lattice.dimensions = { dimensions[0], dimensions[1], dimensions[2] };
+  lattice.voxelSize = 0.0;
+  this->SetMember(&VoxelMeanSettings::lattice, lattice);
 }
 
 void vtkVoxelMeanResampler::SetDimensions(int nx, int ny, int nz)
@@ -90,16 +116,26 @@ void vtkVoxelMeanResampler::SetDimensions(int nx, int ny, int nz)
 
 void vtkVoxelMeanResampler::SetVoxelSize(double size)
 {
-  if (this->VoxelSize != size)
-  {
-    this->VoxelSize = size;
-    this->Modified();
-  }
+  LatticeSettings lattice = this->Settings.lattice;
+  lattice.voxelSize = size;
+  this->SetMember(&VoxelMeanSettings::lattice, lattice);
+}
+
+void vtkVoxelMeanResampler::SetOutputPointsPrecision(int value)
+{
+  this->SetMember(&VoxelMeanSettings::outputPointsPrecision,
+    PointsPrecision(std::clamp<int>(value, SINGLE_PRECISION, DEFAULT_PRECISION)));
+}
+
+void vtkVoxelMeanResampler::SetInstructionSet(int value)
+{
+  this->SetMember(&VoxelMeanSettings::instructionSet,
+    pointhaptics::InstructionSet(std::clamp<int>(value, InstructionSetAutomatic, InstructionSetAVX512)));
 }
 
 void vtkVoxelMeanResampler::AddCategoricalArray(const char* name)
 {
-  if (name && this->CategoricalArrays.insert(name).second)
+  if (name && this->Settings.categoricalArrays.insert(name).second)
   {
     this->Modified();
   }
@@ -107,7 +143,7 @@ void vtkVoxelMeanResampler::AddCategoricalArray(const char* name)
 
 void vtkVoxelMeanResampler::RemoveCategoricalArray(const char* name)
 {
-  if (name && this->CategoricalArrays.erase(name) > 0)
+  if (name && this->Settings.categoricalArrays.erase(name) > 0)
   {
     this->Modified();
   }
@@ -115,25 +151,18 @@ void vtkVoxelMeanResampler::RemoveCategoricalArray(const char* name)
 
 void vtkVoxelMeanResampler::ClearCategoricalArrays()
 {
-  this->CategoricalArrays.clear();
+  this->Settings.categoricalArrays.clear();
   this->Modified();
 }
 
 bool vtkVoxelMeanResampler::IsCategoricalArray(const char* name) const
 {
-  return name && this->CategoricalArrays.count(name) > 0;
+  return name && this->Settings.categoricalArrays.count(name) > 0;
 }
 
 void vtkVoxelMeanResampler::SetNumberOfLevels(int levels)
 {
-  constexpr int kMostLevels = 22;
-  const int clamped = std::min(std::max(levels, 1), kMostLevels);
-  if (this->NumberOfLevels != clamped)
-  {
-    this->NumberOfLevels = clamped;
-    this->SetNumberOfOutputPorts(clamped);
-    this->Modified();
-  }
+  this->SetMember(&VoxelMeanSettings::numberOfLevels, levels);
 }
 
 unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const
@@ -175,7 +204,7 @@ int vtkVoxelMeanResampler::RequestData(
   this->NumberOfInvalidPoints = 0;
   // Observers of progress may ask for another number of levels, which is then that of the next update.
   std::vector<vtkSmartPointer<vtkPolyData>> outputs;
-  for (int level = 0; level < this->NumberOfLevels; ++level)
+  for (int level = 0; level < this->Settings.numberOfLevels; ++level)
   {
     outputs.emplace_back(vtkPolyData::GetData(outputVector, level));
     outputs.back()->GetFieldData()->PassData(input->GetFieldData());
@@ -196,28 +225,7 @@ void vtkVoxelMeanResampler::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Transform: " << (this->Transform ? this->Transform->GetClassName() : "(none)") << "\n";
-  os << indent << "AutomaticWorkspace: " << this->AutomaticWorkspace << "\n";
-  os << indent << "WorkspaceBounds:";
-  for (const double bound : this->WorkspaceBounds)
-  {
-    os << " " << bound;
-  }
-  os << "\n";
-  os << indent << "Dimensions: " << this->Dimensions[0] << " " << this->Dimensions[1] << " "
-     << this->Dimensions[2] << "\n";
-  os << indent << "VoxelSize: " << this->VoxelSize << "\n";
-  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
-  os << indent << "ComputeCovariance: " << this->ComputeCovariance << "\n";
-  os << indent << "PassAttributes: " << this->PassAttributes << "\n";
-  os << indent << "CategoricalArrays:";
-  for (const std::string& name : this->CategoricalArrays)
-  {
-    os << " " << name;
-  }
-  os << "\n";
-  os << indent << "NumberOfLevels: " << this->NumberOfLevels << "\n";
-  os << indent << "UsePointIndex: " << this->UsePointIndex << "\n";
-  os << indent << "InstructionSet: " << this->InstructionSet << "\n";
+  printSettings(os, indent, this->Settings);
   os << indent << "NumberOfClippedPoints: " << this->NumberOfClippedPoints << "\n";
   os << indent << "NumberOfInvalidPoints: " << this->NumberOfInvalidPoints << "\n";
 }

@@ -72,13 +72,14 @@
 #ifndef vtkVoxelMeanResampler_h
 #define vtkVoxelMeanResampler_h
 
-#include "PointHapticsFiltersModule.h" // For export macro
+#include "Core/Resample/VoxelMeanSettings.h" // For Settings
+#include "PointHapticsFiltersModule.h"       // For export macro
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // For Transform
 
 #include <memory> // For Internals
-#include <set>    // For CategoricalArrays
-#include <string> // For CategoricalArrays
+#include <set>    // For GetCategoricalArrays
+#include <string> // For GetCategoricalArrays
 
 class vtkAbstractTransform;
 
@@ -113,8 +114,8 @@ public:
    * On: the workspace is a cube about the transformed cloud, half a voxel (on its finest axis) wider on
    * each side, so that nothing is clipped. Default: on.
    */
-  vtkSetMacro(AutomaticWorkspace, bool);
-  vtkGetMacro(AutomaticWorkspace, bool);
+  virtual void SetAutomaticWorkspace(bool value);
+  virtual bool GetAutomaticWorkspace() const { return this->Settings.lattice.automaticWorkspace; }
   vtkBooleanMacro(AutomaticWorkspace, bool);
   ///@}
 
@@ -134,7 +135,7 @@ public:
    * starts at the lower corner of the workspace and covers it with whole voxels.
    */
   virtual void SetVoxelSize(double size);
-  vtkGetMacro(VoxelSize, double);
+  virtual double GetVoxelSize() const { return this->Settings.lattice.voxelSize; }
   ///@}
 
   ///@{
@@ -142,16 +143,22 @@ public:
    * Type of the output points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION or DEFAULT_PRECISION (that of
    * the input). Default: DEFAULT_PRECISION.
    */
-  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
-  vtkGetMacro(OutputPointsPrecision, int);
+  virtual void SetOutputPointsPrecision(int value);
+  virtual int GetOutputPointsPrecision() const
+  {
+    return static_cast<int>(this->Settings.outputPointsPrecision);
+  }
   ///@}
 
   ///@{
   /**
    * Add the array VoxelCovariance: six second moments per voxel. Default: off.
    */
-  vtkSetMacro(ComputeCovariance, bool);
-  vtkGetMacro(ComputeCovariance, bool);
+  virtual void SetComputeCovariance(bool value)
+  {
+    this->SetMember(&pointhaptics::VoxelMeanSettings::computeCovariance, value);
+  }
+  virtual bool GetComputeCovariance() const { return this->Settings.computeCovariance; }
   vtkBooleanMacro(ComputeCovariance, bool);
   ///@}
 
@@ -160,8 +167,11 @@ public:
    * Average the point arrays of the input. Off: only the points and VoxelPointCount (and VoxelCovariance) are
    * made. Default: on.
    */
-  vtkSetMacro(PassAttributes, bool);
-  vtkGetMacro(PassAttributes, bool);
+  virtual void SetPassAttributes(bool value)
+  {
+    this->SetMember(&pointhaptics::VoxelMeanSettings::passAttributes, value);
+  }
+  virtual bool GetPassAttributes() const { return this->Settings.passAttributes; }
   vtkBooleanMacro(PassAttributes, bool);
   ///@}
 
@@ -174,7 +184,7 @@ public:
   void RemoveCategoricalArray(const char* name);
   void ClearCategoricalArrays();
   bool IsCategoricalArray(const char* name) const;
-  const std::set<std::string>& GetCategoricalArrays() const { return this->CategoricalArrays; }
+  const std::set<std::string>& GetCategoricalArrays() const { return this->Settings.categoricalArrays; }
   ///@}
 
   ///@{
@@ -184,7 +194,7 @@ public:
    * to 22. Default: 1.
    */
   virtual void SetNumberOfLevels(int levels);
-  vtkGetMacro(NumberOfLevels, int);
+  virtual int GetNumberOfLevels() const { return this->Settings.numberOfLevels; }
   ///@}
 
   ///@{
@@ -193,8 +203,11 @@ public:
    * magnitudes in arrays. This changes only the cost of updates, provided that whoever writes to the points
    * or to an array calls Modified() on it, or on the input. Default: on.
    */
-  vtkSetMacro(UsePointIndex, bool);
-  vtkGetMacro(UsePointIndex, bool);
+  virtual void SetUsePointIndex(bool value)
+  {
+    this->SetMember(&pointhaptics::VoxelMeanSettings::usePointIndex, value);
+  }
+  virtual bool GetUsePointIndex() const { return this->Settings.usePointIndex; }
   vtkBooleanMacro(UsePointIndex, bool);
   ///@}
 
@@ -210,8 +223,16 @@ public:
    * The vector instructions of the inner loops; one the machine lacks falls back to the best below. Changes
    * the speed only: for measurements. Default: InstructionSetAutomatic.
    */
-  vtkSetClampMacro(InstructionSet, int, InstructionSetAutomatic, InstructionSetAVX512);
-  vtkGetMacro(InstructionSet, int);
+  virtual void SetInstructionSet(int value);
+  virtual int GetInstructionSet() const { return static_cast<int>(this->Settings.instructionSet); }
+  ///@}
+
+  ///@{
+  /**
+   * All of the above but the transform as one plain value. NumberOfLevels is clamped to its range.
+   */
+  virtual void SetSettings(const pointhaptics::VoxelMeanSettings& settings);
+  const pointhaptics::VoxelMeanSettings& GetSettings() const { return this->Settings; }
   ///@}
 
   /**
@@ -245,23 +266,26 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   vtkSmartPointer<vtkAbstractTransform> Transform;
-  double WorkspaceBounds[6];
-  bool AutomaticWorkspace;
-  int Dimensions[3];
-  double VoxelSize;
-  int OutputPointsPrecision;
-  bool ComputeCovariance;
-  bool PassAttributes;
-  std::set<std::string> CategoricalArrays;
-  int NumberOfLevels;
-  bool UsePointIndex;
-  int InstructionSet;
   vtkIdType NumberOfClippedPoints;
   vtkIdType NumberOfInvalidPoints;
 
 private:
   class Internals;
   std::unique_ptr<Internals> Impl;
+
+  template <typename Value>
+  void SetMember(Value pointhaptics::VoxelMeanSettings::*member, Value value)
+  {
+    pointhaptics::VoxelMeanSettings settings = this->Settings;
+    settings.*member = value;
+    this->SetSettings(settings);
+  }
+  void UpdateVectors();
+
+  pointhaptics::VoxelMeanSettings Settings;
+  // What of it is returned by pointers, in VTK's order.
+  double WorkspaceBounds[6];
+  int Dimensions[3];
 
   vtkVoxelMeanResampler(const vtkVoxelMeanResampler&) = delete;
   void operator=(const vtkVoxelMeanResampler&) = delete;

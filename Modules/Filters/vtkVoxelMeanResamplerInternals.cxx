@@ -17,7 +17,9 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <mutex>
 #include <sstream>
 #include <string>
@@ -31,16 +33,17 @@ namespace
 constexpr double kRunEnd = 0.9;
 constexpr double kFillEnd = 0.99;
 
-std::string latticeText(double voxelSize, const int dimensions[3])
+std::string latticeText(const LatticeSettings& lattice)
 {
   std::ostringstream text;
-  if (voxelSize != 0.0)
+  if (lattice.voxelSize != 0.0)
   {
-    text << "Lattice of voxel size " << voxelSize;
+    text << "Lattice of voxel size " << lattice.voxelSize;
   }
   else
   {
-    text << "Lattice of " << dimensions[0] << " x " << dimensions[1] << " x " << dimensions[2] << " voxels";
+    const std::array<std::int64_t, 3>& n = lattice.dimensions;
+    text << "Lattice of " << n[0] << " x " << n[1] << " x " << n[2] << " voxels";
   }
   return text.str();
 }
@@ -187,15 +190,7 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
 {
   this->Points = std::make_unique<PointAccess>(input->GetPoints());
   this->Request.points = this->Points->view();
-  LatticeSettings settings;
-  settings.voxelSize = this->Filter->VoxelSize;
-  settings.automaticWorkspace = this->Filter->AutomaticWorkspace;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    settings.dimensions[std::size_t(axis)] = this->Filter->Dimensions[axis];
-    settings.workspace.minimum[axis] = this->Filter->WorkspaceBounds[2 * axis];
-    settings.workspace.maximum[axis] = this->Filter->WorkspaceBounds[2 * axis + 1];
-  }
+  const LatticeSettings settings = this->Filter->Settings.lattice;
   Bounds cloud;
   if (settings.automaticWorkspace)
   {
@@ -209,8 +204,7 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
   const Status status = makeLattice(settings, cloud, this->Request.lattice);
   if (status != Status::Ok)
   {
-    vtkErrorWithObjectMacro(this->Filter,
-      << latticeText(this->Filter->VoxelSize, this->Filter->Dimensions) << ": " << message(status) << ".");
+    vtkErrorWithObjectMacro(this->Filter, << latticeText(settings) << ": " << message(status) << ".");
     return false;
   }
   return true;
@@ -242,7 +236,7 @@ vtkVoxelMeanResampler::Internals::ArraySeen vtkVoxelMeanResampler::Internals::Se
 bool vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
 {
   const ArraySeen seen = SeenPoints(input);
-  if (!(seen == this->Seen) || !this->Filter->UsePointIndex)
+  if (!(seen == this->Seen) || !this->Filter->Settings.usePointIndex)
   {
     this->Index = PointIndex();
     this->Indexed = false;
@@ -265,13 +259,13 @@ bool vtkVoxelMeanResampler::Internals::UseIndex(vtkPointSet* input)
 
 bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst)
 {
-  const int precision = this->Filter->OutputPointsPrecision;
+  const VoxelMeanSettings& settings = this->Filter->Settings;
   const vtkPoints* points = input->GetPoints();
-  this->Request.singlePrecision = precision == vtkAlgorithm::DEFAULT_PRECISION
+  this->Request.singlePrecision = settings.outputPointsPrecision == PointsPrecision::OfInput
     ? !points || points->GetDataType() == VTK_FLOAT
-    : precision == vtkAlgorithm::SINGLE_PRECISION;
-  this->Request.covariances = this->Filter->ComputeCovariance;
-  this->Request.instructions = pointhaptics::InstructionSet(this->Filter->InstructionSet);
+    : settings.outputPointsPrecision == PointsPrecision::Single;
+  this->Request.covariances = settings.computeCovariance;
+  this->Request.instructions = settings.instructionSet;
   this->Request.keys = !this->Attributes.empty();
   this->Request.keepPointRecords = !this->Attributes.empty();
   this->Request.tuples.clear();
@@ -303,7 +297,7 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst
 void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input, bool warns)
 {
   this->Attributes.clear();
-  if (!this->Filter->PassAttributes)
+  if (!this->Filter->Settings.passAttributes)
   {
     this->Known.clear();
     return;
@@ -340,8 +334,8 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input, bool war
     const auto old = std::find_if(known.begin(), known.end(),
       [&](const KnownValues& values) { return values.seen == seen && values.kind == kind; });
     VoxelAttribute attribute(array, kind, old == known.end() ? nullptr : &old->values,
-      pointhaptics::InstructionSet(this->Filter->InstructionSet), this->Smp);
-    if (this->Filter->UsePointIndex)
+      this->Filter->Settings.instructionSet, this->Smp);
+    if (this->Filter->Settings.usePointIndex)
     {
       this->Known.push_back({ seen, kind, attribute.values() });
     }

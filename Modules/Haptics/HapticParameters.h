@@ -2,7 +2,10 @@
 /// Every constant of the haptic rendering that a user may set, with its unit, default and range.
 #pragma once
 
+#include "Core/Base/SettingsMembers.h"
 #include "Core/Base/Status.h"
+
+#include <tuple>
 
 namespace pointhaptics
 {
@@ -29,7 +32,17 @@ struct ContactParameters
   /// which refuses such springs by HapticPort::limits(): where it is known the stiffness is kept at
   /// largestPassiveStiffness(), here 2 (deviceDamping - damping) / T, T the tick.
   double deviceDamping = 0.0;
+
+  static constexpr auto members()
+  {
+    using S = ContactParameters;
+    return std::make_tuple(settingsMember("stiffness", &S::stiffness), settingsMember("damping", &S::damping),
+      settingsMember("staticFriction", &S::staticFriction),
+      settingsMember("dynamicFriction", &S::dynamicFriction), settingsMember("settleRate", &S::settleRate),
+      settingsMember("deviceDamping", &S::deviceDamping));
+  }
 };
+static_assert(listsEveryMember<ContactParameters>());
 
 /// Gains of GradientSteps. Symbols are the paper's.
 struct GradientStepsParameters
@@ -49,7 +62,20 @@ struct GradientStepsParameters
   static GradientStepsParameters paper() { return {}; }
   /// Gains that track a hand at 50 mm/s.
   static GradientStepsParameters tuned();
+
+  static constexpr auto members()
+  {
+    using S = GradientStepsParameters;
+    return std::make_tuple(settingsMember("freeGain", &S::freeGain),
+      settingsMember("normalGain", &S::normalGain), settingsMember("tangentGain", &S::tangentGain),
+      settingsMember("sinkTolerance", &S::sinkTolerance),
+      settingsMember("stepPeriodSeconds", &S::stepPeriodSeconds),
+      settingsMember("maximumStepsPerTick", &S::maximumStepsPerTick),
+      settingsMember("largestStep", &S::largestStep),
+      settingsMember("normalizedByDensity", &S::normalizedByDensity));
+  }
 };
+static_assert(listsEveryMember<GradientStepsParameters>());
 
 /// Limits the force must keep whatever the proxy says; in newtons and newtons per second.
 struct ForceLimits
@@ -69,6 +95,14 @@ struct HapticParameters
   GradientStepsParameters gradientSteps = GradientStepsParameters::tuned();
   /// Ok, or InvalidParameter where a value is outside its range or not finite.
   Status check() const noexcept;
+
+  static constexpr auto members()
+  {
+    using S = HapticParameters;
+    return std::make_tuple(settingsMember("method", &S::method), settingsMember("contact", &S::contact),
+      settingsMember("gradientSteps", &S::gradientSteps));
+  }
 };
+static_assert(listsEveryMember<HapticParameters>());
 
 } // namespace pointhaptics

@@ -1,8 +1,5 @@
 #include "NearScene.h"
 
-#include "vtkKernelBandwidthFilter.h"
-#include "vtkVoxelMeanResampler.h"
-
 #include "PolyDataAccess.h"
 
 #include "vtkPointSet.h"
@@ -110,21 +107,10 @@ bool NearSceneBuilder::follow(const SceneRequest& request, const std::shared_ptr
   {
     return false;
   }
-  for (const SceneRequest::Setting& setting : request.settings)
-  {
-    setting(resampler_, bandwidth_);
-  }
-  Bounds workspace;
-  if (!resampler_->GetAutomaticWorkspace())
-  {
-    const double* bounds = resampler_->GetWorkspaceBounds();
-    workspace.include({ bounds[0], bounds[2], bounds[4] });
-    workspace.include({ bounds[1], bounds[3], bounds[5] });
-  }
+  const LatticeSettings& lattice = request.voxels.lattice;
   finer_.setCloud(index_);
-  finer_.setWorkspace(workspace);
-  finer_.setBandwidth(
-    request.hasBandwidth ? std::optional<LocalBandwidthSettings>(bandwidth_->GetSettings()) : std::nullopt);
+  finer_.setWorkspace(lattice.automaticWorkspace ? Bounds() : lattice.workspace);
+  finer_.setBandwidth(request.bandwidth);
   follower_.emplace(finer_, whole);
   return true;
 }
@@ -143,33 +129,20 @@ bool NearSceneBuilder::index()
 /// What to resample, points and part aside. False: there is nothing, or the lattice hangs on the whole cloud.
 bool NearSceneBuilder::prepare(const SceneRequest& request)
 {
-  for (const SceneRequest::Setting& setting : request.settings)
-  {
-    setting(resampler_, bandwidth_);
-  }
-  if (!cloud_ || cloud_->GetNumberOfPoints() == 0 || resampler_->GetAutomaticWorkspace())
+  const VoxelMeanSettings& settings = request.voxels;
+  if (!cloud_ || cloud_->GetNumberOfPoints() == 0 || settings.lattice.automaticWorkspace)
   {
     return false;
   }
-  LatticeSettings settings;
-  settings.voxelSize = resampler_->GetVoxelSize();
-  settings.automaticWorkspace = false;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    settings.dimensions[std::size_t(axis)] = resampler_->GetDimensions()[axis];
-    settings.workspace.minimum[axis] = resampler_->GetWorkspaceBounds()[2 * axis];
-    settings.workspace.maximum[axis] = resampler_->GetWorkspaceBounds()[2 * axis + 1];
-  }
-  const int precision = resampler_->GetOutputPointsPrecision();
   voxels_ = VoxelRequest();
   voxels_.transform = affineFromRows(request.modelToWorkspace);
-  voxels_.singlePrecision = precision == vtkAlgorithm::DEFAULT_PRECISION
+  voxels_.singlePrecision = settings.outputPointsPrecision == PointsPrecision::OfInput
     ? cloud_->GetPoints()->GetDataType() == VTK_FLOAT
-    : precision == vtkAlgorithm::SINGLE_PRECISION;
-  voxels_.covariances = resampler_->GetComputeCovariance();
-  voxels_.instructions = InstructionSet(resampler_->GetInstructionSet());
+    : settings.outputPointsPrecision == PointsPrecision::Single;
+  voxels_.covariances = settings.computeCovariance;
+  voxels_.instructions = settings.instructionSet;
   return voxels_.transform.check() == Status::Ok &&
-    makeLattice(settings, Bounds(), voxels_.lattice) == Status::Ok;
+    makeLattice(settings.lattice, Bounds(), voxels_.lattice) == Status::Ok;
 }
 
 /// The voxels, as makeHapticScene() reads them from the filter's output.
@@ -186,10 +159,7 @@ HapticSceneInput NearSceneBuilder::input(const SceneRequest& request) const
     input.covariances.resize(size);
     engine_.copyCovariances(0, input.covariances.data());
   }
-  if (request.hasBandwidth)
-  {
-    input.bandwidth = bandwidth_->GetSettings();
-  }
+  input.bandwidth = request.bandwidth;
   const Vec3& spacing = voxels_.lattice.spacing;
   input.cellSize = std::max({ spacing.x, spacing.y, spacing.z });
   input.corner = voxels_.lattice.origin;

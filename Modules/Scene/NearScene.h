@@ -10,7 +10,6 @@
 
 #include "SmpExecutor.h"
 
-#include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
 #include <memory>
@@ -61,9 +60,6 @@ private:
   std::optional<LocalSceneFollower> follower_; ///< Of the whole scene that was refined last.
   VoxelResampler engine_;
   VoxelRequest voxels_;
-  // Never updated: they hold the request's settings.
-  vtkNew<vtkVoxelMeanResampler> resampler_;
-  vtkNew<vtkKernelBandwidthFilter> bandwidth_;
 };
 
 } // namespace pointhaptics

@@ -16,8 +16,6 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
-#include <set>
-#include <string>
 #include <thread>
 #include <utility>
 
@@ -54,14 +52,14 @@ public:
     built.modelToWorkspace = request.modelToWorkspace;
     built.numberOfPoints = numberOfPoints_;
     matrix_->DeepCopy(request.modelToWorkspace.data());
-    for (const SceneRequest::Setting& setting : request.settings)
-    {
-      setting(resampler_, bandwidth_);
-    }
+    VoxelMeanSettings voxels = request.voxels;
+    voxels.numberOfLevels = 1;
+    resampler_->SetSettings(voxels);
     std::optional<LocalBandwidthSettings> rule;
-    if (request.hasBandwidth)
+    if (request.bandwidth)
     {
-      rule = bandwidth_->GetSettings();
+      bandwidth_->SetSettings(*request.bandwidth);
+      rule = *request.bandwidth;
     }
     std::shared_ptr<const HapticScene> scene;
     if (numberOfPoints_ > 0)
@@ -81,7 +79,7 @@ public:
     if (numberOfPoints_ > 0)
     {
       vtkPolyData* result = resampler_->GetOutput();
-      if (request.hasBandwidth)
+      if (request.bandwidth)
       {
         bandwidth_->Update();
         result = bandwidth_->GetOutput();
@@ -114,62 +112,13 @@ private:
 
 } // namespace
 
-SceneRequest SceneRequest::of(vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* bandwidth)
+SceneRequest SceneRequest::of(vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* filter)
 {
   SceneRequest request;
-  std::array<double, 6> bounds;
-  resampler->GetWorkspaceBounds(bounds.data());
-  std::array<int, 3> dimensions;
-  resampler->GetDimensions(dimensions.data());
-  request.settings.push_back(
-    [bounds, dimensions, automatic = resampler->GetAutomaticWorkspace(),
-      voxelSize = resampler->GetVoxelSize(), precision = resampler->GetOutputPointsPrecision(),
-      covariance = resampler->GetComputeCovariance(), arrays = resampler->GetPassAttributes(),
-      categories = resampler->GetCategoricalArrays(), index = resampler->GetUsePointIndex(),
-      instructions = resampler->GetInstructionSet()](vtkVoxelMeanResampler* own, vtkKernelBandwidthFilter*)
-    {
-      own->SetWorkspaceBounds(bounds.data());
-      own->SetAutomaticWorkspace(automatic);
-      own->SetDimensions(dimensions.data());
-      own->SetVoxelSize(voxelSize);
-      own->SetOutputPointsPrecision(precision);
-      own->SetComputeCovariance(covariance);
-      own->SetPassAttributes(arrays);
-      own->ClearCategoricalArrays();
-      for (const std::string& name : categories)
-      {
-        own->AddCategoricalArray(name.c_str());
-      }
-      own->SetUsePointIndex(index);
-      own->SetInstructionSet(instructions);
-    });
-  request.hasBandwidth = bandwidth != nullptr;
-  if (bandwidth)
+  request.voxels = resampler->GetSettings();
+  if (filter)
   {
-    request.settings.push_back(
-      [neighborhood = bandwidth->GetNeighborhood(), neighbors = bandwidth->GetNumberOfNeighbors(),
-        radius = bandwidth->GetRadius(), rule = bandwidth->GetRule(), scale = bandwidth->GetRadiusScale(),
-        least = bandwidth->GetMinimumRadius(), most = bandwidth->GetMaximumRadius(),
-        smooth = bandwidth->GetSmoothRadius(), counts = bandwidth->GetUsePointCounts(),
-        kernel = bandwidth->GetDensityKernel(), bandwidths = bandwidth->GetComputeBandwidth(),
-        radii = bandwidth->GetComputeProxyRadius(), densities = bandwidth->GetComputeDensity(),
-        ofMeans = bandwidth->GetComputeMeanBandwidth()](vtkVoxelMeanResampler*, vtkKernelBandwidthFilter* own)
-      {
-        own->SetNeighborhood(neighborhood);
-        own->SetNumberOfNeighbors(neighbors);
-        own->SetRadius(radius);
-        own->SetRule(rule);
-        own->SetRadiusScale(scale);
-        own->SetMinimumRadius(least);
-        own->SetMaximumRadius(most);
-        own->SetSmoothRadius(smooth);
-        own->SetUsePointCounts(counts);
-        own->SetDensityKernel(kernel);
-        own->SetComputeBandwidth(bandwidths);
-        own->SetComputeProxyRadius(radii);
-        own->SetComputeDensity(densities);
-        own->SetComputeMeanBandwidth(ofMeans);
-      });
+    request.bandwidth = filter->GetSettings();
   }
   return request;
 }

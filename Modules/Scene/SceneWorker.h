@@ -2,7 +2,9 @@
 /// Makes scenes in a thread of its own: resampling, the servo loop's snapshot, the arrays of the picture.
 #pragma once
 
+#include "Core/Bandwidth/BandwidthSettings.h"
 #include "Core/Base/Status.h"
+#include "Core/Resample/VoxelMeanSettings.h"
 #include "Haptics/HapticScene.h"
 
 #include "PointHapticsSceneModule.h" // For export macro
@@ -14,7 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <vector>
+#include <optional>
 
 class vtkKernelBandwidthFilter;
 class vtkPointSet;
@@ -28,17 +30,15 @@ namespace pointhaptics
 /// later belongs to the next request.
 struct SceneRequest
 {
-  using Setting = std::function<void(vtkVoxelMeanResampler*, vtkKernelBandwidthFilter*)>;
-
-  /// Copies the settings of @p resampler, its input and transform aside, and those of @p bandwidth, which may
-  /// be null.
+  /// Copies the settings of @p resampler, its input and transform aside, and those of @p filter, which may be
+  /// null.
   POINTHAPTICSSCENE_EXPORT static SceneRequest of(
-    vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* bandwidth);
+    vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* filter);
 
   std::array<double, 16> modelToWorkspace{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 }; ///< Row by row.
   bool useCovariance = true;
-  std::vector<Setting> settings; ///< Applied, in this order, to the worker's own filters.
-  bool hasBandwidth = false;     ///< The radii follow the bandwidth filter's rule.
+  VoxelMeanSettings voxels;                   ///< Scene and picture are those of the finest level.
+  std::optional<BandwidthSettings> bandwidth; ///< The rule of the radii, and the arrays of the picture.
   /// Arrays of the picture that take long: see SurfaceArrays.h. A picture with them is left out of a build
   /// that is followed by another.
   bool hasResiduals = false;

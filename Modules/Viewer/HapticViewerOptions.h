@@ -2,9 +2,9 @@
 /// What a HapticViewer shows and how it feels: plain values, each with the default of the program.
 #pragma once
 
-#include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Bandwidth/BandwidthSettings.h"
 #include "Core/Base/AffineTransform.h"
-#include "Core/Base/PointView.h"
+#include "Core/Resample/VoxelMeanSettings.h"
 #include "Devices/Falcon/FalconDevice.h"
 #include "Haptics/HapticParameters.h"
 
@@ -48,15 +48,17 @@ struct HapticViewerOptions
   std::vector<double> camera; ///< Position, focal point, view up: 9 numbers; empty: from in front.
 
   // Where the cloud lies, and the lattice it is resampled on.
-  AffineTransform transform;        ///< From the file's coordinates to metres.
-  std::string unit = "m";           ///< Name of the unit of the file's coordinates, for texts.
-  double metresPerUnit = 1.0;       ///< What that unit is; @c transform holds it already.
-  bool fitsWorkspace = true;        ///< Fit the transformed cloud to the 10 cm cube about the origin.
-  Bounds workspace;                 ///< Box of the lattice; empty: that cube, or a cube about the cloud.
-  std::vector<int> dimensions;      ///< Voxels on each axis, 1 or 3 numbers; empty: a choice, 300 to 1200.
-  double voxelSize = 0.0;           ///< Edge of a cubic voxel instead of dimensions; 0: not given.
-  bool useCovariance = true;        ///< Second moments of the points in a voxel shape the felt surface.
-  LocalBandwidthSettings bandwidth; ///< From the spacing of the points to the radius of the proxy.
+  AffineTransform transform;  ///< From the file's coordinates to metres.
+  std::string unit = "m";     ///< Name of the unit of the file's coordinates, for texts.
+  double metresPerUnit = 1.0; ///< What that unit is; @c transform holds it already.
+  bool fitsWorkspace = true;  ///< Fit the transformed cloud to the 10 cm cube about the origin.
+  /// How the cloud is resampled. Its lattice: dimensions of 0 are a choice, 300 to 1200; where fitsWorkspace
+  /// is on the workspace is that cube, else an automatic one is a cube about the cloud. With
+  /// computeCovariance, the default here, the second moments of the points in a voxel shape the felt surface.
+  VoxelMeanSettings voxels = defaultVoxels();
+  /// From the spacing of the points to the radius of the proxy. Which arrays are made of it follows from the
+  /// picture.
+  BandwidthSettings bandwidth;
 
   // The touch.
   HapticParameters haptics; ///< Method, contact, gains.
@@ -81,7 +83,18 @@ struct HapticViewerOptions
   HapticViewerNames names;
 
   /// Whether the lattice's voxels were chosen.
-  bool hasVoxels() const { return !this->dimensions.empty() || this->voxelSize > 0.0; }
+  bool hasVoxels() const
+  {
+    return this->voxels.lattice.dimensions[0] > 0 || this->voxels.lattice.voxelSize > 0.0;
+  }
+  /// The default of voxels: their size is left to the viewer.
+  static VoxelMeanSettings defaultVoxels()
+  {
+    VoxelMeanSettings settings;
+    settings.lattice.dimensions = { 0, 0, 0 };
+    settings.computeCovariance = true;
+    return settings;
+  }
 };
 
 /// What a window has come to: the options that its user changed, as they are now.

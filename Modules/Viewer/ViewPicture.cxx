@@ -50,7 +50,7 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
     return false;
   }
   Status status = Status::Ok;
-  const auto snapshot = scene.makeScene(options.useCovariance, status);
+  const auto snapshot = scene.makeScene(options.voxels.computeCovariance, status);
   if (!snapshot)
   {
     message = fmt::format("the cloud cannot be felt: {}", pointhaptics::message(status));
@@ -105,7 +105,7 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
     scene.props()->Update(shown->state);
   }
   scene.showAmbient(options.ambient);
-  scene.completeMeans(options.useCovariance);
+  scene.completeMeans(options.voxels.computeCovariance);
   scene.showAxes(options.axes);
   scene.showFigure(options.figure);
   scene.placeAxes(scene.modelMatrix());

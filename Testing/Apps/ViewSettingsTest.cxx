@@ -21,7 +21,9 @@ LatticeOptions readBack(const nlohmann::ordered_json& settings)
   LatticeOptions options;
   options.unit = settings.value("unit", "m");
   options.matrix = settings.at("matrix").get<std::vector<double>>();
-  options.workspace = settings.at("workspace").get<std::vector<double>>();
+  const auto w = settings.at("workspace").get<std::vector<double>>();
+  options.voxels.lattice.workspace = { { w[0], w[2], w[4] }, { w[1], w[3], w[5] } };
+  options.voxels.lattice.automaticWorkspace = false;
   return options;
 }
 
@@ -50,7 +52,7 @@ TEST(ViewSettings, KeepTheUnitOfTheFileBesideTheModelMatrix)
       {
         EXPECT_NEAR(transform.m[row][column], elements[4 * row + column], 1e-17) << unit;
       }
-      EXPECT_EQ(again.workspace[std::size_t(2 * row)], workspace[2 * row]);
+      EXPECT_EQ(again.workspace().minimum[row], workspace[2 * row]);
     }
   }
 }

@@ -103,9 +103,9 @@ TEST_F(HapticViewerTest, TakesTheLatticeFromItsOptions)
 {
   options_.fitsWorkspace = false;
   options_.transform = AffineTransform::scaling({ 0.01, 0.01, 0.01 });
-  options_.workspace.include({ -0.02, -0.02, 0.0 });
-  options_.workspace.include({ 0.02, 0.02, 0.02 });
-  options_.voxelSize = 0.002;
+  options_.voxels.lattice.workspace = { { -0.02, -0.02, 0.0 }, { 0.02, 0.02, 0.02 } };
+  options_.voxels.lattice.automaticWorkspace = false;
+  options_.voxels.lattice.voxelSize = 0.002;
   HapticViewer viewer(options_, observer_);
   ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
   double bounds[6];
@@ -135,8 +135,8 @@ TEST_F(HapticViewerTest, SaysWhyNothingCanBeShown)
 TEST_F(HapticViewerTest, NamesWhatLeavesTheCloudOutOfTheWorkspaceInTheHostsWords)
 {
   options_.fitsWorkspace = false;
-  options_.workspace.include({ 5.0, 5.0, 5.0 });
-  options_.workspace.include({ 6.0, 6.0, 6.0 });
+  options_.voxels.lattice.workspace = { { 5.0, 5.0, 5.0 }, { 6.0, 6.0, 6.0 } };
+  options_.voxels.lattice.automaticWorkspace = false;
   options_.names.placement = "the box in the dialog";
   HapticViewer viewer(options_, observer_);
   EXPECT_FALSE(viewer.open(makeSphere()));

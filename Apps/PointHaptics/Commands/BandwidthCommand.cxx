@@ -33,29 +33,24 @@ struct BandwidthCommandOptions
 {
   CloudToCloudOptions files;
   BandwidthOptions bandwidth;
-  int density = vtkKernelBandwidthFilter::Gaussian; ///< Kernel, or kNoDensity.
-
-  static constexpr int kNoDensity = -1;
 
   void addTo(CLI::App& command);
-  void configure(vtkKernelBandwidthFilter* filter) const;
 };
 
 void BandwidthCommandOptions::addTo(CLI::App& command)
 {
   this->files.addTo(command);
   this->bandwidth.addTo(command);
-  addChoice(command, "--density", this->density,
-    { { "gaussian", vtkKernelBandwidthFilter::Gaussian },
-      { "epanechnikov", vtkKernelBandwidthFilter::Epanechnikov }, { "none", kNoDensity } },
+  constexpr int kNone = -1;
+  const auto keep = [&settings = this->bandwidth.settings](int kernel)
+  {
+    settings.computeDensity = kernel != kNone;
+    settings.densityKernel = kernel == kNone ? settings.densityKernel : DensityKernel(kernel);
+  };
+  addChoice(command, "--density", keep,
+    { { "gaussian", int(DensityKernel::Gaussian) }, { "epanechnikov", int(DensityKernel::Epanechnikov) },
+      { "none", kNone } },
     "Kernel of the density, which costs most of the time; default gaussian");
-}
-
-void BandwidthCommandOptions::configure(vtkKernelBandwidthFilter* filter) const
-{
-  this->bandwidth.configure(filter);
-  filter->SetComputeDensity(this->density != kNoDensity);
-  filter->SetDensityKernel(this->density);
 }
 
 /// Points that are not finite have radius 0: they take no part.
@@ -110,7 +105,7 @@ int runBandwidth(const BandwidthCommandOptions& options)
   }
   vtkNew<vtkKernelBandwidthFilter> filter;
   filter->SetInputData(cloud.points);
-  options.configure(filter);
+  filter->SetSettings(options.bandwidth.settings);
   if (!updateFilter(filter, "bandwidth", message))
   {
     return fail(kCommand, options.files.input + ": " + message);

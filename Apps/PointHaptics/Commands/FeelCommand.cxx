@@ -2,8 +2,8 @@
 
 #include "Clouds/Pipeline.h"
 #include "Feel/FeelLive.h"
+#include "Feel/FeelOptions.h"
 #include "Feel/FeelScenes.h"
-#include "Options/FeelOptions.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
@@ -103,7 +103,7 @@ class VirtualTouch
 {
 public:
   VirtualTouch(const FeelOptions& options, FeelScenes& scenes)
-    : proxy_(options.parameters)
+    : proxy_(options.touch.parameters)
     , scenes_(scenes)
     , period_(1.0 / options.rateHz)
   {
@@ -146,7 +146,7 @@ bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath&
   settings.workspace.maximum += margin;
   SimulatedDevice hand(settings);
   hand.setPath(path);
-  const ContactParameters& contact = options.parameters.contact;
+  const ContactParameters& contact = options.touch.parameters.contact;
   const HandLimits limits = hand.limits();
   if (checkPassive(limits, contact.stiffness, contact.damping, options.rateHz) != Status::Ok)
   {
@@ -204,7 +204,7 @@ bool touch(const FeelOptions& options, FeelScenes& scenes, Rows& rows, std::stri
 {
   LiveSettings live;
   live.falcon = options.falcon;
-  live.parameters = options.parameters;
+  live.parameters = options.touch.parameters;
   live.rateHz = options.rateHz;
   live.seconds = options.seconds;
   ServoStatistics statistics;
@@ -311,9 +311,9 @@ void addFeelCommand(CLI::App& program, int& exitCode)
   auto options = std::make_shared<FeelOptions>();
   options->addTo(*command);
   command->callback(
-    [options, &exitCode]
+    [command, options, &exitCode]
     {
-      options->complete();
+      options->complete(*command);
       exitCode = runFeel(*options);
     });
 }

@@ -29,7 +29,6 @@ struct ResampleOptions
 {
   CloudToCloudOptions files;
   LatticeOptions lattice;
-  bool covariance = false;
 };
 
 void print(const ResampleOptions& options, vtkIdType in, vtkVoxelMeanResampler* resampler)
@@ -68,7 +67,6 @@ int runResample(const ResampleOptions& options)
   }
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetInputData(cloud.points);
-  resampler->SetComputeCovariance(options.covariance);
   options.lattice.configure(resampler);
   if (!updateFilter(resampler, "resampling", message))
   {
@@ -103,8 +101,8 @@ void addResampleCommand(CLI::App& program, int& exitCode)
     program.add_subcommand("resample", "Replace the points in each voxel of a lattice by their mean");
   auto options = std::make_shared<ResampleOptions>();
   options->files.addTo(*command);
-  command->add_flag(
-    "--covariance", options->covariance, "Add the second moments of each voxel: VoxelCovariance");
+  command->add_flag("--covariance", options->lattice.voxels.computeCovariance,
+    "Add the second moments of each voxel: VoxelCovariance");
   options->lattice.addTo(*command);
   command->callback([options, &exitCode] { exitCode = runResample(*options); });
 }

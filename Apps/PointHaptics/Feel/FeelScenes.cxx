@@ -4,15 +4,12 @@
 
 #include "HapticSceneBuilder.h"
 #include "PolyDataAccess.h"
-#include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-
-#include <vector>
 
 namespace pointhaptics
 {
@@ -26,7 +23,7 @@ vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* 
 {
   std::int64_t invalid = 0;
   vtkSmartPointer<vtkPolyData> moved = transformedPoints(cloud, options.lattice.transform(), invalid);
-  const std::vector<double>& box = options.lattice.workspace;
+  const Bounds box = options.lattice.workspace();
   if (box.empty())
   {
     return moved;
@@ -35,11 +32,12 @@ vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* 
   inside->SetDataTypeToDouble();
   for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)
   {
-    double p[3];
-    moved->GetPoint(i, p);
-    if (p[0] >= box[0] && p[0] < box[1] && p[1] >= box[2] && p[1] < box[3] && p[2] >= box[4] && p[2] < box[5])
+    Vec3 p;
+    moved->GetPoint(i, &p.x);
+    if (p.x >= box.minimum.x && p.x < box.maximum.x && p.y >= box.minimum.y && p.y < box.maximum.y &&
+      p.z >= box.minimum.z && p.z < box.maximum.z)
     {
-      inside->InsertNextPoint(p);
+      inside->InsertNextPoint(&p.x);
     }
   }
   moved->SetPoints(inside);
@@ -59,10 +57,10 @@ vtkSmartPointer<vtkPolyData> preparedCloud(
   {
     vtkNew<vtkVoxelMeanResampler> resampler;
     resampler->SetInputData(cloud);
+    options.lattice.configure(resampler);
     resampler->SetPassAttributes(false);
     resampler->SetComputeCovariance(!options.noCovariance);
     resampler->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-    options.lattice.configure(resampler);
     if (!updateFilter(resampler, "resampling", message))
     {
       return nullptr;
@@ -89,9 +87,7 @@ bool FeelScenes::make(const FeelOptions& options, vtkPolyData* cloud, std::strin
   }
   Status status = Status::Ok;
   // No picture is drawn: the scene computes the few radii it needs.
-  vtkNew<vtkKernelBandwidthFilter> bandwidth;
-  options.bandwidth.configure(bandwidth);
-  whole_ = makeHapticScene(prepared, status, !options.noCovariance, bandwidth->GetSettings());
+  whole_ = makeHapticScene(prepared, status, !options.noCovariance, options.bandwidth.settings);
   if (!whole_)
   {
     message = options.file + ": " + pointhaptics::message(status);
@@ -100,8 +96,8 @@ bool FeelScenes::make(const FeelOptions& options, vtkPolyData* cloud, std::strin
   if (options.refinesNearHand() &&
     builder_.setCloud(PointAccess(cloud->GetPoints()).view(), SmpExecutor()) == Status::Ok)
   {
-    builder_.setBandwidth(bandwidth->GetSettings());
-    builder_.setWorkspace(options.lattice.workspaceBounds());
+    builder_.setBandwidth(options.bandwidth.settings);
+    builder_.setWorkspace(options.lattice.workspace());
     follower_.emplace(builder_, whole_);
   }
   return true;

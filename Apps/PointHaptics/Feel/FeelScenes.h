@@ -2,7 +2,7 @@
 /// What `feel` feels: the whole cloud, and finer scenes where the hand is.
 #pragma once
 
-#include "Options/FeelOptions.h"
+#include "Feel/FeelOptions.h"
 
 #include "Haptics/LocalScene.h"
 #include "SmpExecutor.h"

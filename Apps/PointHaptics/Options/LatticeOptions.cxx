@@ -1,6 +1,6 @@
 #include "Options/LatticeOptions.h"
 
-#include "Options/OptionParsing.h"
+#include "Options/SettingOptions.h"
 
 #include "Core/Base/Lattice.h"
 #include "vtkVoxelMeanResampler.h"
@@ -11,7 +11,9 @@
 #include <vtkMatrixToLinearTransform.h>
 #include <vtkNew.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -99,18 +101,39 @@ std::string checkMatrix(const Numbers& m)
   return affineFrom(m).check() == Status::Ok ? "" : "the matrix is singular; give one that can be inverted";
 }
 
+constexpr const char* kGroup = "Lattice and transform";
+
 } // namespace
+
+CLI::Option* addSetting(CLI::App& command, const SettingOption& row, std::array<std::int64_t, 3>& dimensions)
+{
+  const auto keep = [&dimensions](const Numbers& n)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      dimensions[axis] = static_cast<std::int64_t>(n[n.size() == 3 ? axis : 0]);
+    }
+  };
+  return addNumbers(command, row.option, keep, { 1, 3 }, checkDimensions, row.form, row.text);
+}
+
+CLI::Option* addSetting(CLI::App& command, const SettingOption& row, Bounds& box)
+{
+  const auto keep = [&box](const Numbers& n) { box = { { n[0], n[2], n[4] }, { n[1], n[3], n[5] } }; };
+  return addNumbers(command, row.option, keep, { 6 }, checkWorkspace, row.form, row.text);
+}
 
 void LatticeOptions::addTo(CLI::App& command)
 {
-  const char* const group = "Lattice and transform";
-  const auto keepDimensions = [this](const Numbers& n) { this->dimensions.assign(n.begin(), n.end()); };
-  CLI::Option* dims = addNumbers(command, "--dims", keepDimensions, { 1, 3 }, checkDimensions, "N|Nx,Ny,Nz",
-    "Voxels on each axis of the lattice; default 300");
-  CLI::Option* voxel = addNumber(command, "--voxel", this->voxelSize, { 0.0, kUnbounded, true }, "METRES",
-    "Edge of a cubic voxel, instead of --dims");
-  CLI::Option* box = addNumbers(command, "--workspace", this->workspace, { 6 }, checkWorkspace,
-    "x0,x1,y0,y1,z0,z1", "Box of the lattice; default: a cube about the transformed cloud");
+  addSettings(command, this->voxels.lattice, kLatticeOptions, kGroup);
+  CLI::Option* dims = command.get_option("--dims");
+  CLI::Option* voxel = command.get_option("--voxel");
+  for (CLI::Option* option : { dims, voxel })
+  {
+    option->each([this](const std::string&) { this->voxelsAreGiven = true; });
+  }
+  command.get_option("--workspace")
+    ->each([this](const std::string&) { this->voxels.lattice.automaticWorkspace = false; });
   CLI::Option* scaling = addNumbers(
     command, "--scale", this->scale, { 1, 3 }, checkScale, "S|sx,sy,sz", "Scale the cloud, first of all");
   CLI::Option* rotation = addNumbers(command, "--rotate", this->rotate, { 4 }, checkRotation, "DEGREES,x,y,z",
@@ -128,9 +151,9 @@ void LatticeOptions::addTo(CLI::App& command)
     addWord(command, "--unit", this->unit, names, "Unit of the file's coordinates; default m");
   voxel->excludes(dims);
   affine->excludes(scaling)->excludes(rotation)->excludes(shift);
-  for (CLI::Option* option : { dims, voxel, box, scaling, rotation, shift, affine, unitOption })
+  for (CLI::Option* option : { scaling, rotation, shift, affine, unitOption })
   {
-    option->group(group);
+    option->group(kGroup);
   }
 }
 
@@ -175,15 +198,9 @@ bool LatticeOptions::hasTransform() const
     this->unit != "m";
 }
 
-Bounds LatticeOptions::workspaceBounds() const
+Bounds LatticeOptions::workspace() const
 {
-  Bounds bounds;
-  if (const std::vector<double>& w = this->workspace; !w.empty())
-  {
-    bounds.include({ w[0], w[2], w[4] });
-    bounds.include({ w[1], w[3], w[5] });
-  }
-  return bounds;
+  return this->voxels.lattice.automaticWorkspace ? Bounds() : this->voxels.lattice.workspace;
 }
 
 void LatticeOptions::configure(vtkVoxelMeanResampler* resampler) const
@@ -203,20 +220,7 @@ void LatticeOptions::configure(vtkVoxelMeanResampler* resampler) const
     linear->SetInput(matrix4x4);
     resampler->SetTransform(linear);
   }
-  if (!this->workspace.empty())
-  {
-    resampler->SetWorkspaceBounds(this->workspace.data());
-  }
-  if (!this->dimensions.empty())
-  {
-    const int n = this->dimensions[0];
-    const bool three = this->dimensions.size() == 3;
-    resampler->SetDimensions(n, three ? this->dimensions[1] : n, three ? this->dimensions[2] : n);
-  }
-  if (this->voxelSize > 0.0)
-  {
-    resampler->SetVoxelSize(this->voxelSize);
-  }
+  resampler->SetSettings(this->voxels);
 }
 
 } // namespace app

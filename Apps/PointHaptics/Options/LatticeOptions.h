@@ -5,6 +5,7 @@
 
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
+#include "Core/Resample/VoxelMeanSettings.h"
 
 #include <string>
 #include <vector>
@@ -20,13 +21,11 @@ namespace pointhaptics
 namespace app
 {
 
-/// Options as given; empty vectors mean "not given". validate() has been called by the parser before a
-/// command runs.
+/// The transform's options as given; empty vectors mean "not given".
 struct LatticeOptions
 {
-  std::vector<int> dimensions;   ///< 1 or 3 numbers.
-  double voxelSize = 0.0;        ///< Metres; 0 = not given.
-  std::vector<double> workspace; ///< 6: x0,x1,y0,y1,z0,z1.
+  VoxelMeanSettings voxels;      ///< With what was given.
+  bool voxelsAreGiven = false;   ///< --dims or --voxel.
   std::vector<double> scale;     ///< 1 or 3.
   std::vector<double> rotate;    ///< 4: degrees, x, y, z.
   std::vector<double> translate; ///< 3.
@@ -40,11 +39,9 @@ struct LatticeOptions
   /// What a unit of the file's coordinates is.
   double metresPerUnit() const;
   bool hasTransform() const;
-  /// Whether the lattice's voxels were chosen: --dims or --voxel.
-  bool hasVoxels() const { return !this->dimensions.empty() || this->voxelSize > 0.0; }
   /// --workspace; empty where it was not given.
-  Bounds workspaceBounds() const;
-  /// Sets transform, workspace and dimensions or voxel size on @p resampler (those that were given).
+  Bounds workspace() const;
+  /// Sets the transform, where one was given, and the settings on @p resampler.
   void configure(vtkVoxelMeanResampler* resampler) const;
 };
 

@@ -1,5 +1,7 @@
 #include "Options/OptionParsing.h"
 
+#include "Options/SettingOptions.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -99,7 +101,15 @@ CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::int64_t& value, std::int64_t minimum,
   std::int64_t maximum, const std::string& description)
 {
-  const auto store = [&value, minimum, maximum, shown = shownName(name)](const std::string& text)
+  return addInteger(
+    command, name, [&value](std::int64_t given) { value = given; }, minimum, maximum, description);
+}
+
+CLI::Option* addInteger(CLI::App& command, const std::string& name, std::function<void(std::int64_t)> keep,
+  std::int64_t minimum, std::int64_t maximum, const std::string& description)
+{
+  const auto store = [keep = std::move(keep), minimum, maximum, shown = shownName(name)](
+                       const std::string& text)
   {
     double number = 0.0;
     if (!parseNumber(text, number) || number != std::floor(number) ||
@@ -108,7 +118,7 @@ CLI::Option* addInteger(CLI::App& command, const std::string& name, std::int64_t
       throwUsage(
         shown, text, fmt::format("not a whole number in range; give one from {} to {}", minimum, maximum));
     }
-    value = static_cast<std::int64_t>(number);
+    keep(static_cast<std::int64_t>(number));
   };
   return command.add_option_function<std::string>(name, store, description)->type_name("N");
 }
@@ -213,12 +223,19 @@ CLI::Option* addWords(CLI::App& command, const std::string& name, std::vector<st
 CLI::Option* addChoice(CLI::App& command, const std::string& name, int& value,
   std::vector<std::pair<std::string, int>> choices, const std::string& description)
 {
+  return addChoice(
+    command, name, [&value](int chosen) { value = chosen; }, std::move(choices), description);
+}
+
+CLI::Option* addChoice(CLI::App& command, const std::string& name, std::function<void(int)> keep,
+  std::vector<std::pair<std::string, int>> choices, const std::string& description)
+{
   std::vector<std::string> words;
   for (const auto& choice : choices)
   {
     words.push_back(choice.first);
   }
-  const auto store = [&value, choices = std::move(choices), words, shown = shownName(name)](
+  const auto store = [keep = std::move(keep), choices = std::move(choices), words, shown = shownName(name)](
                        const std::string& text)
   {
     const auto found = std::find(words.begin(), words.end(), text);
@@ -226,10 +243,23 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, int& value,
     {
       throwUsage(shown, text, fmt::format("no such choice; give one of {}", fmt::join(words, ", ")));
     }
-    value = choices[static_cast<std::size_t>(found - words.begin())].second;
+    keep(choices[static_cast<std::size_t>(found - words.begin())].second);
   };
   return command.add_option_function<std::string>(name, store, description)
     ->type_name(fmt::format("{}", fmt::join(words, "|")));
+}
+
+CLI::Option* addSetting(CLI::App& command, const SettingOption& row, int& member)
+{
+  return addInteger(
+    command, row.option, [&member](std::int64_t value) { member = static_cast<int>(value); },
+    static_cast<std::int64_t>(row.range.minimum), static_cast<std::int64_t>(row.range.maximum), row.text);
+}
+
+CLI::Option* addSetting(CLI::App& command, const SettingOption& row, bool& member)
+{
+  const auto store = [&member, given = !member](std::int64_t count) { member = (count > 0) == given; };
+  return command.add_flag_function(row.option, store, row.text);
 }
 
 } // namespace app

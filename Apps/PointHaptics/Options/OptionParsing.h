@@ -47,9 +47,14 @@ bool parseNumbers(const std::string& text, std::vector<double>& values);
 /// Adds `--name` taking one number within @p range; @p unit is shown in the help and in the error.
 CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value, const NumberRange& range,
   const std::string& unit, const std::string& description);
-/// Adds an option taking one whole number from @p minimum to @p maximum. Forms such as 1e6 are taken.
+///@{
+/// Adds an option taking one whole number from @p minimum to @p maximum, which is stored or handed to @p
+/// keep. Forms such as 1e6 are taken.
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::int64_t& value, std::int64_t minimum,
   std::int64_t maximum, const std::string& description);
+CLI::Option* addInteger(CLI::App& command, const std::string& name, std::function<void(std::int64_t)> keep,
+  std::int64_t minimum, std::int64_t maximum, const std::string& description);
+///@}
 /// Returns what is wrong with a list, and the cure, or an empty string.
 using NumbersCheck = std::function<std::string(const std::vector<double>&)>;
 /// Adds an option taking a comma-separated list with one of the @p counts of finite numbers. @p check may be
@@ -71,9 +76,14 @@ CLI::Option* addWord(CLI::App& command, const std::string& name, std::string& va
 /// list.
 CLI::Option* addWords(CLI::App& command, const std::string& name, std::vector<std::string>& values,
   const std::vector<std::string>& words, bool mayBeNone, const std::string& description);
-/// Adds an option taking one of the words in @p choices; @p value becomes the integer beside it.
+///@{
+/// Adds an option taking one of the words in @p choices; @p value becomes the integer beside it, or @p keep
+/// is called with it.
 CLI::Option* addChoice(CLI::App& command, const std::string& name, int& value,
   std::vector<std::pair<std::string, int>> choices, const std::string& description);
+CLI::Option* addChoice(CLI::App& command, const std::string& name, std::function<void(int)> keep,
+  std::vector<std::pair<std::string, int>> choices, const std::string& description);
+///@}
 
 } // namespace app
 } // namespace pointhaptics

@@ -6,14 +6,12 @@
 #include "Terminal/Messages.h"
 
 #include "HapticBindings.h"
-#include "vtkKernelBandwidthFilter.h"
 
 #include "Shapes/Shapes.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <vtkNew.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -228,32 +226,6 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
     ->group(group);
 }
 
-void addTouchOptions(CLI::App& command, ViewOptions& options)
-{
-  const char* const group = "Touch";
-  CLI::Option* added[] = {
-    addWord(command, "--method", options.method, { "surface-fit", "sphere", "gradient-steps" },
-      "How the proxy meets the surface: a fit (the default), a sphere among the points, or the paper's "
-      "steps"),
-    addWord(command, "--preset", options.preset, { "tuned", "paper" },
-      "Gains of --method gradient-steps; default tuned, paper for the printed ones"),
-    addNumber(command, "--stiffness", options.viewer.haptics.contact.stiffness, { 0.0, 1e5 }, "N_PER_M",
-      "Stiffness of the surface; default 800"),
-    addNumber(command, "--damping", options.viewer.haptics.contact.damping, { 0.0, 1e3 }, "N_S_PER_M",
-      "Damping along the normal; default 0"),
-    addNumber(command, "--mu-s", options.staticFriction, { 0.0, 10.0 }, "X",
-      "Static friction; default that of --mu-d"),
-    addNumber(command, "--mu-d", options.viewer.haptics.contact.dynamicFriction, { 0.0, 10.0 }, "X",
-      "Dynamic friction; default 0"),
-  };
-  for (CLI::Option* option : added)
-  {
-    option->group(group);
-  }
-  command.add_flag("--no-covariance", options.noCovariance, "Feel plain voxel means, without second moments")
-    ->group(group);
-}
-
 } // namespace
 
 void ViewOptions::addTo(CLI::App& command)
@@ -306,7 +278,9 @@ void ViewOptions::addTo(CLI::App& command)
     "Diameter of a point; default: as the kernel bandwidth says, so that surfaces close");
   command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");
   addWindowOptions(command, *this);
-  addTouchOptions(command, *this);
+  this->touch.addTo(command);
+  command.add_flag("--no-covariance", this->noCovariance, "Feel plain voxel means, without second moments")
+    ->group("Touch");
   this->bandwidth.addTo(command);
   this->lattice.addTo(command);
   describeKeyedOptions(command, {});
@@ -372,17 +346,8 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
     return false;
   }
   this->checkFiles();
-  if (command.get_option("--preset")->count() > 0 && this->method != "gradient-steps")
-  {
-    warn("view", kPresetIsIdle);
-  }
+  this->touch.complete(command);
   this->completeViewer(command);
-  const ContactParameters& contact = this->viewer.haptics.contact;
-  if (contact.dynamicFriction > contact.staticFriction)
-  {
-    throwUsage("--mu-d", fmt::format("{}", contact.dynamicFriction),
-      fmt::format("above --mu-s {}; give mu_d <= mu_s", contact.staticFriction));
-  }
   this->given = givenSettings(command);
   return true;
 }
@@ -398,20 +363,14 @@ void ViewOptions::completeViewer(CLI::App& command)
   options.transform = this->lattice.transform();
   options.unit = this->lattice.unit;
   options.metresPerUnit = this->lattice.metresPerUnit();
-  options.workspace = this->lattice.workspaceBounds();
-  options.dimensions = this->lattice.dimensions;
-  options.voxelSize = this->lattice.voxelSize;
-  options.useCovariance = !this->noCovariance;
-  vtkNew<vtkKernelBandwidthFilter> filter;
-  this->bandwidth.configure(filter);
-  options.bandwidth = filter->GetSettings();
-  options.haptics.method = this->method == "gradient-steps" ? ProxyMethod::GradientSteps
-    : this->method == "sphere"                              ? ProxyMethod::Sphere
-                                                            : ProxyMethod::SurfaceFit;
-  options.haptics.gradientSteps =
-    this->preset == "paper" ? GradientStepsParameters::paper() : GradientStepsParameters::tuned();
-  ContactParameters& contact = options.haptics.contact;
-  contact.staticFriction = this->staticFriction >= 0.0 ? this->staticFriction : contact.dynamicFriction;
+  options.voxels = this->lattice.voxels;
+  if (!this->lattice.voxelsAreGiven)
+  {
+    options.voxels.lattice.dimensions = { 0, 0, 0 }; // the viewer chooses
+  }
+  options.voxels.computeCovariance = !this->noCovariance;
+  options.bandwidth = this->bandwidth.settings;
+  options.haptics = this->touch.parameters;
   options.device = this->device == "falcon" ? HapticViewerDevice::Falcon
     : this->device == "simulated"           ? HapticViewerDevice::Simulated
     : this->device == "none"                ? HapticViewerDevice::None

@@ -5,6 +5,7 @@
 #include "Options/BandwidthOptions.h"
 #include "Options/FalconOptions.h"
 #include "Options/LatticeOptions.h"
+#include "Options/TouchOptions.h"
 
 #include "HapticViewerOptions.h"
 
@@ -29,6 +30,7 @@ struct ViewOptions
   std::vector<std::string> files;
   LatticeOptions lattice;
   BandwidthOptions bandwidth;
+  TouchOptions touch;
   std::string screenshot;      ///< PNG to write instead of opening a window.
   std::string device = "auto"; ///< auto: a Falcon where one is plugged in.
   FalconOptions falcon;
@@ -38,9 +40,6 @@ struct ViewOptions
   bool verbose = false;
   nlohmann::ordered_json given; ///< Options with a value, filled in by complete(): see givenSettings().
   bool noCovariance = false;
-  std::string method = "surface-fit";
-  std::string preset = "tuned";
-  double staticFriction = -1.0; ///< Below 0: not given.
 
   void addTo(CLI::App& command);
   /// Takes the values of the JSON file config for the options the command line does not give, and fills in

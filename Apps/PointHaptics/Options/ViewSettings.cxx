@@ -1,5 +1,7 @@
 #include "Options/ViewSettings.h"
 
+#include "Options/TouchOptions.h"
+
 #include "HapticViewerOptions.h"
 
 #include "Core/Base/OutputFile.h"
@@ -89,9 +91,7 @@ void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, 
     settings.erase("dims");
     settings["voxel"] = state.voxelSize;
   }
-  settings["stiffness"] = state.contact.stiffness;
-  settings["mu-s"] = state.contact.staticFriction;
-  settings["mu-d"] = state.contact.dynamicFriction;
+  setContact(settings, state.contact);
   settings["beta"] = state.radiusScale;
   settings["camera"] = state.camera;
   settings["push-pointer"] = state.pushPointer;

@@ -2,6 +2,7 @@
 /// Kernel density estimates.
 #pragma once
 
+#include "Core/Bandwidth/BandwidthSettings.h"
 #include "Core/Base/Executor.h"
 #include "Core/Base/PointView.h"
 #include "Core/Base/Status.h"
@@ -12,14 +13,6 @@
 
 namespace pointhaptics
 {
-
-/// A bandwidth b is the kernel's standard deviation along each axis, whichever kernel it is: the rules then
-/// apply to both.
-enum class DensityKernel
-{
-  Gaussian,     ///< exp(-t^2 / 2), t the distance over b.
-  Epanechnikov, ///< 1 - t^2 / w^2 for t < w and 0 beyond, w^2 = 5 on a line and 6 on a surface.
-};
 
 constexpr double kEpanechnikovReachOnLine = 2.23606797749978969641;    ///< w = sqrt(5) bandwidths.
 constexpr double kEpanechnikovReachOnSurface = 2.44948974278317809820; ///< w = sqrt(6) bandwidths.

@@ -2,7 +2,7 @@
 /// Bandwidth and proxy radius at every point of a cloud, from its neighbourhood.
 #pragma once
 
-#include "Core/Bandwidth/Bandwidth.h"
+#include "Core/Bandwidth/BandwidthSettings.h"
 #include "Core/Base/Executor.h"
 #include "Core/Base/PointView.h"
 #include "Core/Base/Status.h"
@@ -12,21 +12,6 @@
 
 namespace pointhaptics
 {
-
-/// Settings of local bandwidths and proxy radii. Lengths are in the unit of the points.
-struct LocalBandwidthSettings
-{
-  bool fixedRadius = false;   ///< Else the k nearest.
-  int numberOfNeighbors = 16; ///< Besides the point itself; at least 1. More than there are: all.
-  double radius = 0.001;      ///< Of the fixed neighbourhood, above 0.
-  BandwidthRule rule = BandwidthRule::NormalReference;
-  double radiusScale = 4.0;   ///< beta, above 0.
-  double minimumRadius = 0.0; ///< r1; 0: kNoSinkSpacings local spacings.
-  double maximumRadius = 0.0; ///< r2; 0: none.
-  bool smoothRadius = false;  ///< Cut the radii by limitSlope().
-  bool usePointCounts = true; ///< Of voxel means: bandwidths and radii of the points they stand for.
-  Status check() const noexcept;
-};
 
 /// The widest gap of a random sample of up to 1e5 points is 2.2 spacings: a smaller sphere falls through.
 constexpr double kNoSinkSpacings = 2.2;

@@ -82,6 +82,12 @@ Lattice coarserLattice(const Lattice& lattice) noexcept
   return coarse;
 }
 
+Bounds defaultWorkspace() noexcept
+{
+  const double half = 0.5 * kDefaultWorkspaceEdge;
+  return { { -half, -half, -half }, { half, half, half } };
+}
+
 Status makeLattice(const LatticeSettings& settings, const Bounds& cloud, Lattice& lattice) noexcept
 {
   if (!std::isfinite(settings.voxelSize) || settings.voxelSize < 0.0)

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "Core/Base/PointView.h"
+#include "Core/Base/SettingsMembers.h"
 #include "Core/Base/Status.h"
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 
 namespace pointhaptics
 {
@@ -91,7 +93,20 @@ struct LatticeSettings
   double voxelSize = 0.0;         ///< Edge of a cubic voxel in metres; above 0 it overrides dimensions.
   bool automaticWorkspace = true; ///< A cube about the transformed cloud instead of workspace.
   Bounds workspace;               ///< Used when automaticWorkspace is false.
+
+  static constexpr auto members()
+  {
+    using S = LatticeSettings;
+    return std::make_tuple(settingsMember("dimensions", &S::dimensions),
+      settingsMember("voxelSize", &S::voxelSize),
+      settingsMember("automaticWorkspace", &S::automaticWorkspace),
+      settingsMember("workspace", &S::workspace));
+  }
 };
+static_assert(listsEveryMember<LatticeSettings>());
+
+/// The paper's workspace: a cube of kDefaultWorkspaceEdge about the origin.
+Bounds defaultWorkspace() noexcept;
 
 /// The lattice for a cloud whose transformed, finite points lie in @p cloud (which may be empty).
 /// An automatic workspace is a cube about the cloud, half a voxel (on its finest axis) wider on each side,

@@ -69,5 +69,9 @@ struct Bounds
   Vec3 center() const { return 0.5 * minimum + 0.5 * maximum; }
   Vec3 extent() const { return maximum - minimum; }
 };
+inline bool operator==(const Bounds& a, const Bounds& b)
+{
+  return a.minimum == b.minimum && a.maximum == b.maximum;
+}
 
 } // namespace pointhaptics

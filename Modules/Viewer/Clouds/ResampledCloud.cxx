@@ -36,33 +36,30 @@ constexpr vtkIdType kEnough = 30000;
 /// Finer voxels that give less than so many times the means only repeat the points.
 constexpr double kGain = 1.25;
 
-Bounds defaultWorkspace()
+/// The lattice that the options ask for.
+LatticeSettings latticeOf(const HapticViewerOptions& options, const LoadedCloud& loaded)
 {
-  const double half = 0.5 * kDefaultWorkspaceEdge;
-  Bounds cube;
-  cube.include({ -half, -half, -half });
-  cube.include({ half, half, half });
-  return cube;
+  LatticeSettings lattice = options.voxels.lattice;
+  if (lattice.dimensions[0] == 0)
+  {
+    const int n = loaded.latticeDimension > 0 ? loaded.latticeDimension : kUsual;
+    lattice.dimensions = { n, n, n };
+  }
+  if (options.fitsWorkspace)
+  {
+    lattice.workspace = defaultWorkspace();
+    lattice.automaticWorkspace = false;
+  }
+  return lattice;
 }
 
 /// The box of the lattice before there is one, as the resampler would choose it: the hand's box stays, and so
 /// it need not be asked. Empty where the options are no lattice, which the resampler will say.
 Bounds workspaceOf(const HapticViewerOptions& options, const LoadedCloud& loaded)
 {
-  LatticeSettings settings;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const std::vector<int>& n = options.dimensions;
-    settings.dimensions[axis] = n.size() == 3 ? n[axis]
-      : n.size() == 1                         ? n[0]
-      : loaded.latticeDimension > 0           ? loaded.latticeDimension
-                                              : kUsual;
-  }
-  settings.voxelSize = options.voxelSize;
-  settings.workspace = options.fitsWorkspace ? defaultWorkspace() : options.workspace;
-  settings.automaticWorkspace = settings.workspace.empty();
   Lattice lattice;
-  return makeLattice(settings, loaded.bounds, lattice) == Status::Ok ? lattice.bounds() : Bounds();
+  return makeLattice(latticeOf(options, loaded), loaded.bounds, lattice) == Status::Ok ? lattice.bounds()
+                                                                                       : Bounds();
 }
 
 /// The filters, for one cloud.
@@ -132,7 +129,7 @@ public:
     if (request_.makesScene || residuals || normals)
     {
       loaded_.scene = makeHapticScene(
-        means, loaded_.sceneStatus, request_.options->useCovariance, bandwidth_->GetSettings());
+        means, loaded_.sceneStatus, request_.options->voxels.computeCovariance, bandwidth_->GetSettings());
     }
     bandwidth_->SetInputData(means);
     bandwidth_->Update();
@@ -183,39 +180,22 @@ void placeCloud(const CloudRequest& request, LoadedCloud& loaded)
 void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loaded,
   vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* bandwidth)
 {
-  const std::vector<int>& n = options.dimensions;
-  const int one = !n.empty() ? n[0] : loaded.latticeDimension > 0 ? loaded.latticeDimension : kUsual;
-  resampler->SetDimensions(one, n.size() == 3 ? n[1] : one, n.size() == 3 ? n[2] : one);
-  if (options.voxelSize > 0.0)
+  VoxelMeanSettings voxels = options.voxels;
+  voxels.lattice = latticeOf(options, loaded);
+  if (const Bounds box = workspaceOf(options, loaded); !box.empty())
   {
-    resampler->SetVoxelSize(options.voxelSize);
+    voxels.lattice.workspace = box;
+    voxels.lattice.automaticWorkspace = false;
   }
-  resampler->SetAutomaticWorkspace(true);
-  const Bounds computed = workspaceOf(options, loaded);
-  if (const Bounds& box = computed.empty() ? options.workspace : computed; !box.empty())
-  {
-    resampler->SetWorkspaceBounds(
-      box.minimum.x, box.maximum.x, box.minimum.y, box.maximum.y, box.minimum.z, box.maximum.z);
-  }
-  resampler->SetComputeCovariance(options.useCovariance);
-
-  const LocalBandwidthSettings& settings = options.bandwidth;
-  bandwidth->SetNeighborhood(
-    settings.fixedRadius ? vtkKernelBandwidthFilter::FixedRadius : vtkKernelBandwidthFilter::KNearest);
-  bandwidth->SetNumberOfNeighbors(settings.numberOfNeighbors);
-  bandwidth->SetRadius(settings.radius);
-  bandwidth->SetRule(int(settings.rule));
-  bandwidth->SetRadiusScale(settings.radiusScale);
-  bandwidth->SetMinimumRadius(settings.minimumRadius);
-  bandwidth->SetMaximumRadius(settings.maximumRadius);
-  bandwidth->SetSmoothRadius(settings.smoothRadius);
-  bandwidth->SetUsePointCounts(settings.usePointCounts);
+  resampler->SetSettings(voxels);
   // The picture needs the sizes of its splats and what it is coloured by; the scene computes the few radii it
   // needs.
-  bandwidth->ComputeBandwidthOff();
-  bandwidth->ComputeMeanBandwidthOn();
-  bandwidth->SetComputeDensity(loaded.colorBy == "Density");
-  bandwidth->SetComputeProxyRadius(loaded.colorBy == "ProxyRadius");
+  BandwidthSettings settings = options.bandwidth;
+  settings.computeBandwidth = false;
+  settings.computeMeanBandwidth = true;
+  settings.computeDensity = loaded.colorBy == "Density";
+  settings.computeProxyRadius = loaded.colorBy == "ProxyRadius";
+  bandwidth->SetSettings(settings);
 }
 
 bool resampleCloud(

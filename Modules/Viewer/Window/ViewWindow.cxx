@@ -308,7 +308,7 @@ void ViewWindow::connectStyle()
   double bounds[6];
   scene_.getWorkspaceBounds(bounds);
   style_->SetWorkspaceBounds(bounds);
-  style_->SetUseCovariance(options_.useCovariance);
+  style_->SetUseCovariance(options_.voxels.computeCovariance);
   style_->SetRefinesNearHand(!options_.hasVoxels());
   scene_.showAmbient(options_.ambient);
   style_->SetComputeNormals(options_.ambient);
@@ -536,7 +536,7 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
   watch_.watch(shown_);
   this->connectStyle();
   Status status = Status::Ok;
-  style_->AdoptModel(scene_.modelMatrix(), scene_.makeScene(options_.useCovariance, status));
+  style_->AdoptModel(scene_.modelMatrix(), scene_.makeScene(options_.voxels.computeCovariance, status));
   window_->Render();
   interactor_->Initialize();
   if (!this->startServo(message))

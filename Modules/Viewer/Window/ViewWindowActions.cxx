@@ -74,7 +74,7 @@ void ViewWindow::load(const std::vector<std::string>& files, bool keepsModel, st
   HapticViewerOptions options = options_;
   if (voxelSize_ > 0.0)
   {
-    options.voxelSize = voxelSize_;
+    options.voxels.lattice.voxelSize = voxelSize_;
   }
   options.bandwidth.radiusScale = sliders_->GetValue(vtkHapticSliders::RadiusScale);
   loading_ = { files, keepsModel, options, std::move(then), FileWatch() };
@@ -198,13 +198,13 @@ void ViewWindow::adoptModel(const AffineTransform& model)
   vtkNew<vtkMatrix4x4> matrix;
   setElements(matrix, model);
   Status status = Status::Ok;
-  style_->AdoptModel(matrix, scene_.makeScene(options_.useCovariance, status));
+  style_->AdoptModel(matrix, scene_.makeScene(options_.voxels.computeCovariance, status));
   if (isMoved)
   {
     style_->SetModelMatrix(kept);
   }
   const double radiusScale = sliders_->GetValue(vtkHapticSliders::RadiusScale);
-  const bool isFiner = voxelSize_ > 0.0 && voxelSize_ != loading_.options.voxelSize;
+  const bool isFiner = voxelSize_ > 0.0 && voxelSize_ != loading_.options.voxels.lattice.voxelSize;
   if (isFiner)
   {
     scene_.resampler()->SetVoxelSize(voxelSize_);

@@ -5,8 +5,7 @@
 #include "Options/BandwidthOptions.h"
 #include "Options/FalconOptions.h"
 #include "Options/LatticeOptions.h"
-
-#include "Haptics/HapticParameters.h"
+#include "Options/TouchOptions.h"
 
 #include <string>
 
@@ -27,7 +26,7 @@ struct FeelOptions
   std::string output;
   LatticeOptions lattice;
   BandwidthOptions bandwidth;
-  HapticParameters parameters;
+  TouchOptions touch;
   std::string device =
     "none"; ///< none: the hand is where the path says; simulated: it is pulled there; falcon.
   FalconOptions falcon;
@@ -39,17 +38,11 @@ struct FeelOptions
 
   /// Adds the options to @p command; bad values end the parse with a usage error.
   void addTo(CLI::App& command);
-  /// What can only be said once all options are known: the preset's gains, mu_s where only mu_d is given.
-  /// Ends in a usage error where they contradict each other; warns of one that has no effect.
-  void complete();
+  /// What can only be said once all options of @p command are known. Ends in a usage error where they
+  /// contradict each other; warns of one that has no effect.
+  void complete(const CLI::App& command);
   /// Whether scenes near the hand are as fine as the points there: nobody asked for other voxels, or none.
-  bool refinesNearHand() const { return !this->lattice.hasVoxels() && !this->raw && !this->noCovariance; }
-
-private:
-  int method = 0;
-  int preset = 0; ///< 0: not given.
-  double staticFriction = -1.0;
-  double dynamicFriction = -1.0;
+  bool refinesNearHand() const { return !this->lattice.voxelsAreGiven && !this->raw && !this->noCovariance; }
 };
 
 } // namespace app

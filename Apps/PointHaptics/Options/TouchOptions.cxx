@@ -1,0 +1,73 @@
+#include "Options/TouchOptions.h"
+
+#include "Options/SettingOptions.h"
+#include "Terminal/Messages.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr const char* kGroup = "Touch";
+
+} // namespace
+
+CLI::Option* addSetting(CLI::App& command, const SettingOption& row, ProxyMethod& method)
+{
+  return addEnum<ProxyMethod>(command, row, method,
+    { { "surface-fit", ProxyMethod::SurfaceFit }, { "sphere", ProxyMethod::Sphere },
+      { "gradient-steps", ProxyMethod::GradientSteps } });
+}
+
+CLI::Option* addSetting(CLI::App& command, const SettingOption& row, GradientStepsParameters& steps)
+{
+  const auto keep = [&steps](int isPaper)
+  { steps = isPaper ? GradientStepsParameters::paper() : GradientStepsParameters::tuned(); };
+  return addChoice(command, row.option, keep, { { "tuned", 0 }, { "paper", 1 } }, row.text);
+}
+
+void TouchOptions::addTo(CLI::App& command)
+{
+  addSettings(command, this->parameters, kTouchOptions, kGroup);
+  addSettings(command, this->parameters.contact, kContactOptions, kGroup);
+}
+
+void TouchOptions::complete(const CLI::App& command)
+{
+  if (command.count("--preset") > 0 && this->parameters.method != ProxyMethod::GradientSteps)
+  {
+    warn(command.get_name(), kPresetIsIdle);
+  }
+  ContactParameters& contact = this->parameters.contact;
+  if (command.count("--mu-s") == 0)
+  {
+    contact.staticFriction = contact.dynamicFriction;
+  }
+  if (contact.dynamicFriction > contact.staticFriction)
+  {
+    throwUsage("--mu-d", fmt::format("{}", contact.dynamicFriction),
+      fmt::format("above --mu-s {}; give mu_d <= mu_s", contact.staticFriction));
+  }
+}
+
+void setContact(nlohmann::ordered_json& settings, const ContactParameters& contact)
+{
+  std::size_t i = 0;
+  visitMembers(contact,
+    [&](const char*, double member)
+    {
+      const SettingOption& row = kContactOptions[i++];
+      if (row.option)
+      {
+        settings[std::string(row.option).substr(2)] = member;
+      }
+    });
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,34 @@
+/// @file
+/// --method --preset --stiffness --damping --mu-s --mu-d: the same wherever a cloud is felt.
+#pragma once
+
+#include "Haptics/HapticParameters.h"
+
+#include <nlohmann/json.hpp>
+
+namespace CLI
+{
+class App;
+}
+
+namespace pointhaptics
+{
+namespace app
+{
+
+struct TouchOptions
+{
+  HapticParameters parameters; ///< With what was given.
+
+  /// Adds the options to @p command; bad values end the parse with a usage error.
+  void addTo(CLI::App& command);
+  /// What can only be said once all options of @p command are known: mu_s where only mu_d is given. Ends in a
+  /// usage error where they contradict each other; warns of one that has no effect.
+  void complete(const CLI::App& command);
+};
+
+/// Puts the members of @p contact in @p settings, by the names of their options.
+void setContact(nlohmann::ordered_json& settings, const ContactParameters& contact);
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,70 @@
+/// @file
+/// What is computed at each point, as a plain struct: the properties of vtkKernelBandwidthFilter.
+#pragma once
+
+#include "Core/Bandwidth/Bandwidth.h"
+#include "Core/Base/SettingsMembers.h"
+#include "Core/Base/Status.h"
+
+#include <tuple>
+
+namespace pointhaptics
+{
+
+/// Settings of local bandwidths and proxy radii. Lengths are in the unit of the points.
+struct LocalBandwidthSettings
+{
+  bool fixedRadius = false;   ///< Else the k nearest.
+  int numberOfNeighbors = 16; ///< Besides the point itself; at least 1. More than there are: all.
+  double radius = 0.001;      ///< Of the fixed neighbourhood, above 0.
+  BandwidthRule rule = BandwidthRule::NormalReference;
+  double radiusScale = 4.0;   ///< beta, above 0.
+  double minimumRadius = 0.0; ///< r1; 0: kNoSinkSpacings local spacings.
+  double maximumRadius = 0.0; ///< r2; 0: none.
+  bool smoothRadius = false;  ///< Cut the radii by limitSlope().
+  bool usePointCounts = true; ///< Of voxel means: bandwidths and radii of the points they stand for.
+  Status check() const noexcept;
+
+  static constexpr auto members()
+  {
+    using S = LocalBandwidthSettings;
+    return std::make_tuple(settingsMember("fixedRadius", &S::fixedRadius),
+      settingsMember("numberOfNeighbors", &S::numberOfNeighbors), settingsMember("radius", &S::radius),
+      settingsMember("rule", &S::rule), settingsMember("radiusScale", &S::radiusScale),
+      settingsMember("minimumRadius", &S::minimumRadius), settingsMember("maximumRadius", &S::maximumRadius),
+      settingsMember("smoothRadius", &S::smoothRadius), settingsMember("usePointCounts", &S::usePointCounts));
+  }
+};
+static_assert(listsEveryMember<LocalBandwidthSettings>());
+
+/// A bandwidth b is the kernel's standard deviation along each axis, whichever kernel it is: the rules then
+/// apply to both.
+enum class DensityKernel
+{
+  Gaussian,     ///< exp(-t^2 / 2), t the distance over b.
+  Epanechnikov, ///< 1 - t^2 / w^2 for t < w and 0 beyond, w^2 = 5 on a line and 6 on a surface.
+};
+
+/// Local bandwidths and proxy radii, and which arrays are made of them.
+struct BandwidthSettings : LocalBandwidthSettings
+{
+  DensityKernel densityKernel = DensityKernel::Gaussian;
+  bool computeBandwidth = true;
+  bool computeProxyRadius = true;
+  bool computeDensity = true; ///< Costs most of the time.
+  bool computeMeanBandwidth = false;
+
+  static constexpr auto members()
+  {
+    using S = BandwidthSettings;
+    return std::tuple_cat(LocalBandwidthSettings::members(),
+      std::make_tuple(settingsMember("densityKernel", &S::densityKernel),
+        settingsMember("computeBandwidth", &S::computeBandwidth),
+        settingsMember("computeProxyRadius", &S::computeProxyRadius),
+        settingsMember("computeDensity", &S::computeDensity),
+        settingsMember("computeMeanBandwidth", &S::computeMeanBandwidth)));
+  }
+};
+static_assert(listsEveryMember<BandwidthSettings, LocalBandwidthSettings>());
+
+} // namespace pointhaptics
