@@ -47,7 +47,7 @@ public:
   }
 
   /// Resamples; null where there is nothing to feel.
-  std::shared_ptr<const HapticScene> feel(const SceneRequest& request, BuiltScene& built)
+  std::shared_ptr<const HapticScene> buildScene(const SceneRequest& request, BuiltScene& built)
   {
     built.modelToWorkspace = request.modelToWorkspace;
     built.numberOfPoints = numberOfPoints_;
@@ -73,7 +73,7 @@ public:
   }
 
   /// Makes the arrays of the picture and hands all of it over.
-  void show(const SceneRequest& request, BuiltScene& built)
+  void buildDisplay(const SceneRequest& request, BuiltScene& built)
   {
     built.means = vtkSmartPointer<vtkPolyData>::New();
     if (numberOfPoints_ > 0)
@@ -90,11 +90,11 @@ public:
     {
       addSurfaceArrays(built.means, *scene_, request.hasResiduals, request.hasNormals);
     }
-    this->letGo();
+    this->release();
   }
 
   /// What was handed over is nobody else's; the next update makes new arrays.
-  void letGo()
+  void release()
   {
     bandwidth_->GetOutput()->ReleaseData();
     resampler_->GetOutput()->ReleaseData();
@@ -267,7 +267,7 @@ void SceneWorker::Implementation::rest(const Job& job, const std::shared_ptr<con
 void SceneWorker::Implementation::buildWholes()
 {
   Pipeline pipeline;
-  Clock::time_point shown = Clock::now() - std::chrono::hours(1);
+  Clock::time_point displayed = Clock::now() - std::chrono::hours(1);
   while (std::optional<Job> job = this->next(this->whole))
   {
     if (job->cloud)
@@ -277,7 +277,7 @@ void SceneWorker::Implementation::buildWholes()
     this->letNearGoFirst(*job);
     BuiltScene built;
     built.number = job->number;
-    std::shared_ptr<const HapticScene> scene = pipeline.feel(job->request, built);
+    std::shared_ptr<const HapticScene> scene = pipeline.buildScene(job->request, built);
     {
       const std::lock_guard<std::mutex> lock(this->mutex);
       ++this->builds;
@@ -290,14 +290,14 @@ void SceneWorker::Implementation::buildWholes()
     }
     this->rest(*job, scene);
     scene.reset();
-    const std::chrono::duration<double> since = Clock::now() - shown;
+    const std::chrono::duration<double> since = Clock::now() - displayed;
     const bool isSlow = job->request.hasResiduals || job->request.hasNormals;
     if (this->isFollowed() && (isSlow || since.count() <= kPictureSeconds))
     {
       continue;
     }
-    pipeline.show(job->request, built);
-    shown = Clock::now();
+    pipeline.buildDisplay(job->request, built);
+    displayed = Clock::now();
     const std::lock_guard<std::mutex> lock(this->mutex);
     if (job->number > this->adopted)
     {
