@@ -72,7 +72,7 @@ public:
     return scene;
   }
 
-  /// Makes the arrays of the picture and hands all of it over.
+  /// Makes the arrays of the picture and moves all of them into @p built.
   void buildDisplay(const SceneRequest& request, BuiltScene& built)
   {
     built.means = vtkSmartPointer<vtkPolyData>::New();
@@ -93,7 +93,7 @@ public:
     this->release();
   }
 
-  /// What was handed over is nobody else's; the next update makes new arrays.
+  /// Others own what was taken; the next update makes new arrays.
   void release()
   {
     bandwidth_->GetOutput()->ReleaseData();
@@ -126,16 +126,17 @@ SceneRequest SceneRequest::of(vtkVoxelMeanResampler* resampler, vtkKernelBandwid
 namespace
 {
 
-/// An object that is to pass to another thread. vtkSmartPointer copies where it is assigned, even from what
-/// is moved: a reference would stay behind, and who lets go of one of several has vtkGarbageCollector walk
-/// through an object that is another thread's by now. An optional constructs, which moves.
+/// An object whose ownership is to pass to another thread. vtkSmartPointer copies where it is assigned, even
+/// from what is moved: a reference would stay behind, and who lets go of one of several has
+/// vtkGarbageCollector walk through an object that is another thread's by now. An optional constructs, which
+/// moves.
 template <typename Object>
-using Handed = std::optional<Object>;
+using Owned = std::optional<Object>;
 
 template <typename Object>
-Handed<Object> handOver(Handed<Object>& from)
+Owned<Object> takeOwned(Owned<Object>& from)
 {
-  Handed<Object> to(std::move(from));
+  Owned<Object> to(std::move(from));
   from.reset();
   return to;
 }
@@ -154,7 +155,7 @@ struct Job
   SceneRequest request;
   std::uint64_t number;
   std::uint64_t cloudNumber;
-  Handed<vtkSmartPointer<vtkPointSet>> cloud;       // if it is a new one
+  Owned<vtkSmartPointer<vtkPointSet>> cloud;        // if it is a new one
   std::shared_ptr<const Resting> resting = nullptr; // refine this; there is no request then
 };
 
@@ -162,7 +163,7 @@ struct Job
 struct Builder
 {
   std::optional<SceneRequest> waiting;
-  Handed<vtkSmartPointer<vtkPointSet>> cloud; // a new one that is not yet the thread's own
+  Owned<vtkSmartPointer<vtkPointSet>> cloud; // a new one that is not yet the thread's own
   bool inFlight = false;
   bool refines = false;     // as long as it does, who cancels waits
   std::uint64_t number = 0; // of the newest job that was begun
@@ -186,7 +187,7 @@ struct SceneWorker::Implementation
   std::uint64_t builds = 0;
   std::shared_ptr<const HapticScene> newestWhole; // of this cloud
   std::shared_ptr<const Resting> resting;         // while no request follows, if it refines
-  Handed<BuiltScene> finished;
+  Owned<BuiltScene> finished;
   bool ending = false;
 
   void start(Builder& builder, void (Implementation::*build)());
@@ -221,7 +222,7 @@ std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
     if (!this->changed.wait_for(lock, kLookPeriod, isDue) && mayRefine())
     {
       builder.refines = true;
-      return Job{ {}, this->resting->number, this->cloudNumber, handOver(builder.cloud), this->resting };
+      return Job{ {}, this->resting->number, this->cloudNumber, takeOwned(builder.cloud), this->resting };
     }
   }
   if (this->ending)
@@ -230,7 +231,7 @@ std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
   }
   builder.inFlight = true;
   builder.number = this->number;
-  Job job = { std::move(*builder.waiting), this->number, this->cloudNumber, handOver(builder.cloud) };
+  Job job = { std::move(*builder.waiting), this->number, this->cloudNumber, takeOwned(builder.cloud) };
   builder.waiting.reset();
   return job;
 }
@@ -438,7 +439,7 @@ bool SceneWorker::take(BuiltScene& built)
   {
     return false;
   }
-  built = *handOver(implementation_->finished);
+  built = *takeOwned(implementation_->finished);
   return true;
 }
 
