@@ -142,11 +142,11 @@ Owned<Object> takeOwned(Owned<Object>& from)
 }
 
 /// The scene of the newest request, which may be refined near the hand.
-struct Resting
+struct Refinable
 {
   SceneRequest request;
   std::uint64_t number;
-  std::shared_ptr<const HapticScene> whole;
+  std::shared_ptr<const HapticScene> global;
 };
 
 /// What a thread of the worker is to do.
@@ -155,8 +155,8 @@ struct Job
   SceneRequest request;
   std::uint64_t number;
   std::uint64_t cloudNumber;
-  Owned<vtkSmartPointer<vtkPointSet>> cloud;        // if it is a new one
-  std::shared_ptr<const Resting> resting = nullptr; // refine this; there is no request then
+  Owned<vtkSmartPointer<vtkPointSet>> cloud;            // if it is a new one
+  std::shared_ptr<const Refinable> refinable = nullptr; // refine this; there is no request then
 };
 
 /// A thread of the worker, and what it does next. All but the thread under the worker's mutex.
@@ -179,24 +179,24 @@ struct SceneWorker::Implementation
   mutable std::mutex mutex;
   std::condition_variable changed;
   // Under the mutex.
-  Builder whole;
-  Builder near;
+  Builder global;
+  Builder local;
   std::uint64_t number = 0;
   std::uint64_t cloudNumber = 0;
   std::uint64_t adopted = 0; // the newest request that is not built here; what was begun before is dropped
   std::uint64_t builds = 0;
-  std::shared_ptr<const HapticScene> newestWhole; // of this cloud
-  std::shared_ptr<const Resting> resting;         // while no request follows, if it refines
+  std::shared_ptr<const HapticScene> newestGlobal; // of this cloud
+  std::shared_ptr<const Refinable> refinable;      // while no request follows, if that is wanted
   Owned<BuiltScene> finished;
   bool ending = false;
 
   void start(Builder& builder, void (Implementation::*build)());
   std::optional<Job> next(Builder& builder);
-  void letNearGoFirst(const Job& job);
+  void waitForLocal(const Job& job);
   bool isFollowed() const;
-  void rest(const Job& job, const std::shared_ptr<const HapticScene>& scene);
-  void buildWholes();
-  void buildNear();
+  void offerRefinement(const Job& job, const std::shared_ptr<const HapticScene>& scene);
+  void buildGlobalScenes();
+  void buildLocalScenes();
 };
 
 void SceneWorker::Implementation::start(Builder& builder, void (Implementation::*build)())
@@ -215,14 +215,14 @@ std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
   builder.refines = false;
   this->changed.notify_all();
   const auto isDue = [&] { return this->ending || builder.waiting.has_value(); };
-  const auto mayRefine = [&] { return &builder == &this->near && this->resting; };
+  const auto mayRefine = [&] { return &builder == &this->local && this->refinable; };
   while (!isDue())
   {
     this->changed.wait(lock, [&] { return isDue() || mayRefine(); });
     if (!this->changed.wait_for(lock, kLookPeriod, isDue) && mayRefine())
     {
       builder.refines = true;
-      return Job{ {}, this->resting->number, this->cloudNumber, takeOwned(builder.cloud), this->resting };
+      return Job{ {}, this->refinable->number, this->cloudNumber, takeOwned(builder.cloud), this->refinable };
     }
   }
   if (this->ending)
@@ -238,21 +238,22 @@ std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
 
 /// The thread of the whole cloud leaves the processors to the other one until that is done with this job, or
 /// a newer one.
-void SceneWorker::Implementation::letNearGoFirst(const Job& job)
+void SceneWorker::Implementation::waitForLocal(const Job& job)
 {
   std::unique_lock<std::mutex> lock(this->mutex);
   this->changed.wait(
-    lock, [&] { return this->ending || !this->near.busy() || this->near.number > job.number; });
+    lock, [&] { return this->ending || !this->local.busy() || this->local.number > job.number; });
 }
 
 bool SceneWorker::Implementation::isFollowed() const
 {
   const std::lock_guard<std::mutex> lock(this->mutex);
-  return this->whole.waiting.has_value();
+  return this->global.waiting.has_value();
 }
 
 /// After the scene of a request was published: if no other follows, it may be refined.
-void SceneWorker::Implementation::rest(const Job& job, const std::shared_ptr<const HapticScene>& scene)
+void SceneWorker::Implementation::offerRefinement(
+  const Job& job, const std::shared_ptr<const HapticScene>& scene)
 {
   const SceneRequest& request = job.request;
   const std::lock_guard<std::mutex> lock(this->mutex);
@@ -260,22 +261,22 @@ void SceneWorker::Implementation::rest(const Job& job, const std::shared_ptr<con
   if (isNewest && scene && request.refinesNearHand && request.hand && request.publish &&
     request.useCovariance)
   {
-    this->resting = std::make_shared<const Resting>(Resting{ request, job.number, scene });
+    this->refinable = std::make_shared<const Refinable>(Refinable{ request, job.number, scene });
     this->changed.notify_all();
   }
 }
 
-void SceneWorker::Implementation::buildWholes()
+void SceneWorker::Implementation::buildGlobalScenes()
 {
   Pipeline pipeline;
   Clock::time_point displayed = Clock::now() - std::chrono::hours(1);
-  while (std::optional<Job> job = this->next(this->whole))
+  while (std::optional<Job> job = this->next(this->global))
   {
     if (job->cloud)
     {
       pipeline.setCloud(std::move(*job->cloud));
     }
-    this->letNearGoFirst(*job);
+    this->waitForLocal(*job);
     BuiltScene built;
     built.number = job->number;
     std::shared_ptr<const HapticScene> scene = pipeline.buildScene(job->request, built);
@@ -283,13 +284,13 @@ void SceneWorker::Implementation::buildWholes()
       const std::lock_guard<std::mutex> lock(this->mutex);
       ++this->builds;
       const bool isOurs = job->cloudNumber == this->cloudNumber && job->number > this->adopted;
-      this->newestWhole = isOurs ? scene : this->newestWhole;
+      this->newestGlobal = isOurs ? scene : this->newestGlobal;
     }
     if (job->request.publish)
     {
       job->request.publish(scene, job->number);
     }
-    this->rest(*job, scene);
+    this->offerRefinement(*job, scene);
     scene.reset();
     const std::chrono::duration<double> since = Clock::now() - displayed;
     const bool isSlow = job->request.hasResiduals || job->request.hasNormals;
@@ -307,19 +308,19 @@ void SceneWorker::Implementation::buildWholes()
   }
 }
 
-void SceneWorker::Implementation::buildNear()
+void SceneWorker::Implementation::buildLocalScenes()
 {
   NearSceneBuilder builder;
-  while (std::optional<Job> job = this->next(this->near))
+  while (std::optional<Job> job = this->next(this->local))
   {
     if (job->cloud)
     {
       builder.setCloud(std::move(*job->cloud));
     }
-    if (job->resting)
+    if (job->refinable)
     {
-      const SceneRequest& request = job->resting->request;
-      if (std::shared_ptr<const HapticScene> finer = builder.refine(request, job->resting->whole))
+      const SceneRequest& request = job->refinable->request;
+      if (std::shared_ptr<const HapticScene> finer = builder.refine(request, job->refinable->global))
       {
         request.publish(std::move(finer), job->number);
       }
@@ -328,7 +329,7 @@ void SceneWorker::Implementation::buildNear()
     std::shared_ptr<const HapticScene> newest;
     {
       const std::lock_guard<std::mutex> lock(this->mutex);
-      newest = job->cloudNumber == this->cloudNumber ? this->newestWhole : nullptr;
+      newest = job->cloudNumber == this->cloudNumber ? this->newestGlobal : nullptr;
     }
     std::shared_ptr<const HapticScene> scene = builder.build(job->request, std::move(newest));
     if (scene && job->request.publish)
@@ -351,7 +352,7 @@ SceneWorker::~SceneWorker()
     self.ending = true;
   }
   self.changed.notify_all();
-  for (Builder* builder : { &self.whole, &self.near })
+  for (Builder* builder : { &self.global, &self.local })
   {
     if (builder->thread.joinable())
     {
@@ -370,10 +371,10 @@ void SceneWorker::setCloud(vtkSmartPointer<vtkPointSet> cloud)
   }
   Implementation& self = *implementation_;
   const std::lock_guard<std::mutex> lock(self.mutex);
-  self.whole.cloud.emplace(std::move(cloud));
-  self.near.cloud.emplace(std::move(copy));
-  self.newestWhole.reset();
-  self.resting.reset();
+  self.global.cloud.emplace(std::move(cloud));
+  self.local.cloud.emplace(std::move(copy));
+  self.newestGlobal.reset();
+  self.refinable.reset();
   ++self.cloudNumber;
 }
 
@@ -381,17 +382,17 @@ std::uint64_t SceneWorker::request(SceneRequest request)
 {
   Implementation& self = *implementation_;
   const bool hasHand = bool(request.hand);
-  self.start(self.whole, &Implementation::buildWholes);
+  self.start(self.global, &Implementation::buildGlobalScenes);
   if (hasHand)
   {
-    self.start(self.near, &Implementation::buildNear);
+    self.start(self.local, &Implementation::buildLocalScenes);
   }
   std::uint64_t number = 0;
   {
     const std::lock_guard<std::mutex> lock(self.mutex);
-    self.near.waiting = hasHand ? std::optional<SceneRequest>(request) : std::nullopt;
-    self.whole.waiting = std::move(request);
-    self.resting.reset();
+    self.local.waiting = hasHand ? std::optional<SceneRequest>(request) : std::nullopt;
+    self.global.waiting = std::move(request);
+    self.refinable.reset();
     number = ++self.number;
   }
   self.changed.notify_all();
@@ -404,25 +405,25 @@ std::uint64_t SceneWorker::adopt(SceneRequest request, std::shared_ptr<const Hap
   Job job{};
   {
     const std::lock_guard<std::mutex> lock(self.mutex);
-    self.near.waiting.reset();
-    self.whole.waiting.reset();
-    self.resting.reset();
+    self.local.waiting.reset();
+    self.global.waiting.reset();
+    self.refinable.reset();
     self.finished.reset();
-    self.newestWhole = scene;
+    self.newestGlobal = scene;
     self.adopted = ++self.number;
     job.number = self.number;
     job.cloudNumber = self.cloudNumber;
   }
   if (request.hand)
   {
-    self.start(self.near, &Implementation::buildNear);
+    self.start(self.local, &Implementation::buildLocalScenes);
   }
   if (request.publish)
   {
     request.publish(scene, job.number);
   }
   job.request = std::move(request);
-  self.rest(job, scene);
+  self.offerRefinement(job, scene);
   return job.number;
 }
 
@@ -446,14 +447,14 @@ bool SceneWorker::take(BuiltScene& built)
 bool SceneWorker::busy() const
 {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  return implementation_->whole.busy() || implementation_->near.busy();
+  return implementation_->global.busy() || implementation_->local.busy();
 }
 
 void SceneWorker::wait()
 {
   Implementation& self = *implementation_;
   std::unique_lock<std::mutex> lock(self.mutex);
-  self.changed.wait(lock, [&self] { return !self.whole.busy() && !self.near.busy(); });
+  self.changed.wait(lock, [&self] { return !self.global.busy() && !self.local.busy(); });
 }
 
 void SceneWorker::cancel()
@@ -461,13 +462,14 @@ void SceneWorker::cancel()
   Implementation& self = *implementation_;
   {
     const std::lock_guard<std::mutex> lock(self.mutex);
-    self.whole.waiting.reset();
-    self.near.waiting.reset();
-    self.resting.reset();
+    self.global.waiting.reset();
+    self.local.waiting.reset();
+    self.refinable.reset();
   }
   std::unique_lock<std::mutex> lock(self.mutex);
-  self.changed.wait(lock, [&self] { return !self.whole.busy() && !self.near.busy() && !self.near.refines; });
-  self.resting.reset(); // of a build that was in flight
+  self.changed.wait(
+    lock, [&self] { return !self.global.busy() && !self.local.busy() && !self.local.refines; });
+  self.refinable.reset(); // of a build that was in flight
   self.finished.reset();
 }
 
