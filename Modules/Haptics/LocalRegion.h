@@ -20,7 +20,7 @@ namespace pointhaptics
 class HapticScene;
 
 /// A box about the hand, and what a scene of the cells about it takes from the newest one of the whole cloud.
-/// Within covered() forces are those of a scene of the whole cloud (NearSceneTest: to 1e-13 of the
+/// Within covered() forces are those of a scene of the whole cloud (LocalSceneProviderTest: to 1e-13 of the
 /// strongest): the cells are the same bit for bit, and there are enough of them for the same radii of fit and
 /// proxy at all nodes of the fields that matter there. They may differ by some parts in a thousand where
 /// points are sparser than voxels, as the index cells have the size of the last global scene's then, and

@@ -1,7 +1,7 @@
 #include "SceneWorker.h"
 
 #include "HapticSceneBuilder.h"
-#include "NearScene.h"
+#include "LocalSceneProvider.h"
 #include "SurfaceArrays.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -310,7 +310,7 @@ void SceneWorker::Implementation::buildGlobalScenes()
 
 void SceneWorker::Implementation::buildLocalScenes()
 {
-  NearSceneBuilder builder;
+  LocalSceneProvider builder;
   while (std::optional<Job> job = this->next(this->local))
   {
     if (job->cloud)

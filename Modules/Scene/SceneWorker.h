@@ -68,9 +68,9 @@ struct BuiltScene
 
 /// One build of the whole cloud is in flight at a time; of the requests that come meanwhile only the newest
 /// is built. The picture may be left out of a build that is followed by another, but not for longer than
-/// kPictureSeconds. A second thread builds what is near the hand (NearSceneBuilder) in the same way, and goes
-/// first: new voxels are felt before the whole cloud is resampled. While the model rests it looks at the hand
-/// 100 times a second, if the newest request says so, and makes finer scenes of where that comes.
+/// kPictureSeconds. A second thread builds what is near the hand (LocalSceneProvider) in the same way, and
+/// goes first: new voxels are felt before the whole cloud is resampled. While the model rests it looks at the
+/// hand 100 times a second, if the newest request says so, and makes finer scenes of where that comes.
 ///
 /// request(), adopt(), setCloud(), take(), wait() and cancel() from one thread (the GUI's), which waits in
 /// the last two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and

@@ -18,6 +18,7 @@ set(words
   "lateness" "jitter"
   "leavePart|withBeyond|wholeCloudNumber|ScenePart" "enterFallback, withFallback, globalCloudNumber, LocalRegion"
   "fitShare" "fitWeight"
+  "NearScene[A-Za-z]*" "LocalSceneProvider"
   "kProxyBallSpeaks" "kProxyBallContact"
   "Watcher|PartWatcher|WatchedPoints" "ProgressObserver, SubProgress, PointProgress"
   "PlacedPoints" "PointQuantizer"

@@ -1,5 +1,5 @@
 // What is felt near the hand while the model moves, against scenes of the whole cloud.
-#include "NearScene.h"
+#include "LocalSceneProvider.h"
 #include "SceneWorker.h"
 
 #include "vtkKernelBandwidthFilter.h"
@@ -61,10 +61,10 @@ struct Scenes
   std::shared_ptr<const HapticScene> whole;
 };
 
-class NearSceneTest : public ::testing::Test
+class LocalSceneProviderTest : public ::testing::Test
 {
 protected:
-  NearSceneTest()
+  LocalSceneProviderTest()
   {
     resampler_->SetWorkspaceBounds(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
     resampler_->SetDimensions(300, 300, 300);
@@ -147,7 +147,7 @@ Difference compare(const Scenes& scenes, const Vec3& at, const Vec3& outward)
   return result;
 }
 
-TEST_F(NearSceneTest, HasTheCellsOfTheWholeCloudWithinReachBitForBit)
+TEST_F(LocalSceneProviderTest, HasTheCellsOfTheWholeCloudWithinReachBitForBit)
 {
   worker_.setCloud(makeCloud(Shape::Torus, 200000, 0.0));
   const Vec3 hand{ 0.036, 0.0, 0.0 };
@@ -182,7 +182,7 @@ TEST_F(NearSceneTest, HasTheCellsOfTheWholeCloudWithinReachBitForBit)
   }
 }
 
-TEST_F(NearSceneTest, WithinReachItIsFeltAsTheWholeCloud)
+TEST_F(LocalSceneProviderTest, WithinReachItIsFeltAsTheWholeCloud)
 {
   const Vec3 hand{ 0.036, 0.0, 0.0 };
   struct Case
@@ -213,7 +213,7 @@ TEST_F(NearSceneTest, WithinReachItIsFeltAsTheWholeCloud)
   }
 }
 
-TEST_F(NearSceneTest, AHandThatIsFasterThanTheScenesLosesNoContact)
+TEST_F(LocalSceneProviderTest, AHandThatIsFasterThanTheScenesLosesNoContact)
 {
   worker_.setCloud(makeCloud(Shape::Torus, 100000, 0.0));
   const auto handAt = [](double time)
@@ -268,7 +268,7 @@ TEST_F(NearSceneTest, AHandThatIsFasterThanTheScenesLosesNoContact)
   EXPECT_LT(largest, 0.002); // of 0.8 N
 }
 
-TEST_F(NearSceneTest, AHandThatIsTakenFarAwayFeelsWhatIsThere)
+TEST_F(LocalSceneProviderTest, AHandThatIsTakenFarAwayFeelsWhatIsThere)
 {
   worker_.setCloud(makeCloud(Shape::Torus, 100000, 0.0));
   const Vec3 hand{ 0.036, 0.0, 0.0 };
@@ -298,7 +298,7 @@ TEST_F(NearSceneTest, AHandThatIsTakenFarAwayFeelsWhatIsThere)
   }
 }
 
-TEST_F(NearSceneTest, IndexesNoPointsBeforeThereIsASceneToMake)
+TEST_F(LocalSceneProviderTest, IndexesNoPointsBeforeThereIsASceneToMake)
 {
   const vtkSmartPointer<vtkPolyData> cloud = makeCloud(Shape::Torus, 50000, 0.0);
   const Vec3 hand{ 0.036, 0.0, 0.0 };
@@ -313,7 +313,7 @@ TEST_F(NearSceneTest, IndexesNoPointsBeforeThereIsASceneToMake)
     bounds.include(at);
     return bounds;
   };
-  NearSceneBuilder builder;
+  LocalSceneProvider builder;
   builder.setCloud(cloud);
   EXPECT_EQ(builder.build(request, nullptr), nullptr);
   EXPECT_FALSE(builder.isIndexed()) << "no scene of the whole cloud is there yet";
@@ -321,7 +321,7 @@ TEST_F(NearSceneTest, IndexesNoPointsBeforeThereIsASceneToMake)
   EXPECT_TRUE(builder.isIndexed());
 }
 
-TEST_F(NearSceneTest, IsLeftOutWhereItDoesNotPayOrCannotBe)
+TEST_F(LocalSceneProviderTest, IsLeftOutWhereItDoesNotPayOrCannotBe)
 {
   worker_.setCloud(makeCloud(Shape::Torus, 50000, 0.0));
   const Vec3 hand{ 0.036, 0.0, 0.0 };

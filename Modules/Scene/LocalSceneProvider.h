@@ -22,34 +22,34 @@ namespace pointhaptics
 
 /// Resamples the cloud about the hand and makes a scene of that (LocalRegion); it looks at the points there
 /// only, which it finds by a PointIndex of its own. Objects are used by one thread at a time.
-class POINTHAPTICSSCENE_EXPORT NearSceneBuilder
+class POINTHAPTICSSCENE_EXPORT LocalSceneProvider
 {
 public:
-  NearSceneBuilder();
-  ~NearSceneBuilder();
+  LocalSceneProvider();
+  ~LocalSceneProvider();
 
   /// The cloud of the builds from now on; may be null. Its points must not be changed.
   void setCloud(vtkSmartPointer<vtkPointSet> cloud);
 
-  /// A scene of what is near the hand of @p request, with @p whole, the newest scene of the whole cloud,
+  /// A scene of what is near the hand of @p request, with @p global, the newest scene of the whole cloud,
   /// beside it: within what it covers it is felt as the whole cloud resampled by @p request would be. Null
-  /// where that is of no use or cannot be: no hand, no such whole (LocalRegion::about()), nothing near the
-  /// hand or most of the cloud; or on an error, which the scene of the whole cloud will tell of.
+  /// where that is of no use or cannot be: no hand, no such global scene (LocalRegion::about()), nothing near
+  /// the hand or most of the cloud; or on an error, which the scene of the whole cloud will tell of.
   std::shared_ptr<const HapticScene> build(
-    const SceneRequest& request, std::shared_ptr<const HapticScene> whole);
+    const SceneRequest& request, std::shared_ptr<const HapticScene> global);
 
-  /// A scene of what is near the hand, as fine as the points there, beside @p whole, which was made for @p
+  /// A scene of what is near the hand, as fine as the points there, beside @p global, which was made for @p
   /// request; null where the last one serves, or none is of use (LocalSceneBuilder). Costs a look at the hand
   /// then.
   std::shared_ptr<const HapticScene> refine(
-    const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole);
+    const SceneRequest& request, const std::shared_ptr<const HapticScene>& global);
 
   /// Whether the points are indexed by now: not before a scene is made of them.
   bool isIndexed() const { return index_ != nullptr; }
 
 private:
   bool index();
-  bool follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole);
+  bool follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& global);
   bool prepare(const SceneRequest& request);
   HapticSceneInput input(const SceneRequest& request) const;
 
@@ -57,7 +57,7 @@ private:
   vtkSmartPointer<vtkPointSet> cloud_;
   std::shared_ptr<const PointIndex> index_; ///< Null: not made yet.
   LocalSceneBuilder finer_;
-  std::optional<LocalSceneFollower> follower_; ///< Of the whole scene that was refined last.
+  std::optional<LocalSceneFollower> follower_; ///< Of the global scene that was refined last.
   VoxelResampler engine_;
   VoxelRequest voxels_;
 };

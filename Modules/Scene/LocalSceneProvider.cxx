@@ -1,4 +1,4 @@
-#include "NearScene.h"
+#include "LocalSceneProvider.h"
 
 #include "PolyDataAccess.h"
 
@@ -14,8 +14,8 @@ namespace pointhaptics
 namespace
 {
 
-/// Part of the cells near the hand from which on it does not pay.
-constexpr double kMostNear = 0.7;
+/// Fraction of the cells in the local scene from which on it does not pay.
+constexpr double kLargestFraction = 0.7;
 
 AffineTransform affineFromRows(const std::array<double, 16>& rows)
 {
@@ -46,10 +46,10 @@ std::vector<Vec3> meansOf(const VoxelResampler& engine)
 
 } // namespace
 
-NearSceneBuilder::NearSceneBuilder() = default;
-NearSceneBuilder::~NearSceneBuilder() = default;
+LocalSceneProvider::LocalSceneProvider() = default;
+LocalSceneProvider::~LocalSceneProvider() = default;
 
-void NearSceneBuilder::setCloud(vtkSmartPointer<vtkPointSet> cloud)
+void LocalSceneProvider::setCloud(vtkSmartPointer<vtkPointSet> cloud)
 {
   cloud_ = std::move(cloud);
   index_.reset();
@@ -57,17 +57,17 @@ void NearSceneBuilder::setCloud(vtkSmartPointer<vtkPointSet> cloud)
   finer_.setCloud(nullptr);
 }
 
-std::shared_ptr<const HapticScene> NearSceneBuilder::build(
-  const SceneRequest& request, std::shared_ptr<const HapticScene> whole)
+std::shared_ptr<const HapticScene> LocalSceneProvider::build(
+  const SceneRequest& request, std::shared_ptr<const HapticScene> global)
 {
   const Bounds hand = request.hand ? request.hand() : Bounds();
-  if (hand.empty() || !whole || !this->prepare(request))
+  if (hand.empty() || !global || !this->prepare(request))
   {
     return nullptr;
   }
   std::optional<LocalRegion> region =
-    LocalRegion::about(hand, std::move(whole), voxels_.transform, voxels_.lattice);
-  if (!region || region->fraction() > kMostNear || !this->index())
+    LocalRegion::about(hand, std::move(global), voxels_.transform, voxels_.lattice);
+  if (!region || region->fraction() > kLargestFraction || !this->index())
   {
     return nullptr;
   }
@@ -84,26 +84,26 @@ std::shared_ptr<const HapticScene> NearSceneBuilder::build(
   return HapticScene::create(std::move(input), status, smp_);
 }
 
-std::shared_ptr<const HapticScene> NearSceneBuilder::refine(
-  const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole)
+std::shared_ptr<const HapticScene> LocalSceneProvider::refine(
+  const SceneRequest& request, const std::shared_ptr<const HapticScene>& global)
 {
   const Bounds hand = request.hand ? request.hand() : Bounds();
-  if (hand.empty() || !this->follow(request, whole) || !follower_->update(hand, smp_))
+  if (hand.empty() || !this->follow(request, global) || !follower_->update(hand, smp_))
   {
     return nullptr;
   }
-  return follower_->scene() == whole ? nullptr : follower_->scene();
+  return follower_->scene() == global ? nullptr : follower_->scene();
 }
 
 /// False: there is nothing to make finer scenes of.
-bool NearSceneBuilder::follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& whole)
+bool LocalSceneProvider::follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& global)
 {
-  if (follower_ && follower_->global() == whole)
+  if (follower_ && follower_->global() == global)
   {
     return true;
   }
   follower_.reset();
-  if (!whole || !this->index())
+  if (!global || !this->index())
   {
     return false;
   }
@@ -111,11 +111,11 @@ bool NearSceneBuilder::follow(const SceneRequest& request, const std::shared_ptr
   finer_.setCloud(index_);
   finer_.setWorkspace(lattice.automaticWorkspace ? Bounds() : lattice.workspace);
   finer_.setBandwidth(request.bandwidth);
-  follower_.emplace(finer_, whole);
+  follower_.emplace(finer_, global);
   return true;
 }
 
-bool NearSceneBuilder::index()
+bool LocalSceneProvider::index()
 {
   if (!index_ && cloud_ && cloud_->GetNumberOfPoints() > 0)
   {
@@ -127,7 +127,7 @@ bool NearSceneBuilder::index()
 }
 
 /// What to resample, points and part aside. False: there is nothing, or the lattice hangs on the whole cloud.
-bool NearSceneBuilder::prepare(const SceneRequest& request)
+bool LocalSceneProvider::prepare(const SceneRequest& request)
 {
   const VoxelMeanSettings& settings = request.voxels;
   if (!cloud_ || cloud_->GetNumberOfPoints() == 0 || settings.lattice.automaticWorkspace)
@@ -146,7 +146,7 @@ bool NearSceneBuilder::prepare(const SceneRequest& request)
 }
 
 /// The voxels, as makeHapticScene() reads them from the filter's output.
-HapticSceneInput NearSceneBuilder::input(const SceneRequest& request) const
+HapticSceneInput LocalSceneProvider::input(const SceneRequest& request) const
 {
   const std::size_t size = std::size_t(engine_.size());
   HapticSceneInput input;
