@@ -62,6 +62,9 @@ struct VoxelRequest
   bool keepPointRecords = false;
   /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
   int levels = 1;
+  /// Points that go through all steps at once, at least 1; 0 or more than the default: the default (1.25
+  /// million; 524,288 beyond 4096 voxels an axis). It changes memory and time, not the results.
+  std::int64_t chunkPoints = 0;
   InstructionSet instructions = InstructionSet::Automatic;
   OutputAllocator* allocator = nullptr; ///< Null: the resampler's own memory.
 };

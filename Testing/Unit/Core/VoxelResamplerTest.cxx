@@ -197,6 +197,23 @@ TEST(VoxelResampler, GivesTheSameBitsForChunksInAnyOrder)
   }
 }
 
+TEST(VoxelResampler, GivesTheSameBitsForChunksOfAnySize)
+{
+  for (const Lattice& lattice : { latticeOf(60, 50, 40), latticeOf(1024, 1024, 1024), latticeOf(5000, 3, 2) })
+  {
+    const std::vector<Vec3> points = quantisedPoints(10000, 47, lattice);
+    VoxelRequest request = requestFor(points, lattice);
+    request.covariances = true;
+    request.levels = 3;
+    const RunResult expected = runOf(request);
+    for (const std::int64_t size : { 97, 1000, 4096, 4099, 9999, 10000 })
+    {
+      request.chunkPoints = size;
+      expectSame(runOf(request, ThreadedExecutor(2)), expected, "chunks of " + std::to_string(size));
+    }
+  }
+}
+
 TEST(VoxelResampler, FloatMeansLieInTheirVoxelsAndRoundTheDoubleOnes)
 {
   Random random(9);

@@ -21,17 +21,15 @@ using namespace pointhaptics::trial;
 namespace
 {
 
-/// More than a chunk: of 1.25 million, beyond 4096 voxels an axis of 262144.
-std::size_t pointsFor(const Lattice& lattice)
-{
-  return lattice.dimensions[0] > 4096 ? 300000 : 1300000;
-}
+/// More than three chunks.
+constexpr std::size_t kPoints = 100000;
+constexpr std::int64_t kChunkPoints = 30000;
 
 /// Four at a time near each other, far from each other in the order; some are above the lattice.
 std::vector<Vec3> groupedPoints(const Lattice& lattice)
 {
   const auto& d = lattice.dimensions;
-  const std::size_t n = pointsFor(lattice);
+  constexpr std::size_t n = kPoints;
   const std::vector<Vec3> places =
     randomBox(n / 4, 21, { 0, 0, 0 }, Vec3(double(d[0]), double(d[1]), 1.01 * double(d[2])));
   Random random(22);
@@ -97,6 +95,7 @@ TEST_P(VoxelThreads, GiveTheBitsOfOneThreadOnEveryInstructionSet)
   const auto& [dimensions, single] = GetParam();
   VoxelRequest request;
   request.lattice.dimensions = dimensions;
+  request.chunkPoints = kChunkPoints;
   request.keys = true;
   request.covariances = !single;
   request.singlePrecision = single;

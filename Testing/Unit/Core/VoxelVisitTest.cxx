@@ -348,8 +348,9 @@ TEST(VoxelVisit, ReachesEveryPointInsideOnceOnEveryPath)
 TEST(VoxelVisit, ReachesEveryPointOfMoreThanAChunk)
 {
   const Lattice lattice = latticeOf(1000, 1000, 1000);
-  const std::vector<Vec3> points = quantisedPoints(1300000, 6, lattice);
+  const std::vector<Vec3> points = quantisedPoints(13000, 6, lattice);
   VoxelRequest request = requestFor(points, lattice);
+  request.chunkPoints = 5000;
   request.covariances = false;
   PointIndex index;
   ASSERT_EQ(index.build(request.points), Status::Ok);

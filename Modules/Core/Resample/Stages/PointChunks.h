@@ -22,8 +22,11 @@ constexpr std::int64_t kPieceSize = 1 << 12;
 class Chunks
 {
 public:
-  Chunks(const VoxelRequest& request, std::int64_t chunkPoints, const Executor& executor)
+  /// @p mostPoints: of a chunk; request.chunkPoints may ask for fewer.
+  Chunks(const VoxelRequest& request, std::int64_t mostPoints, const Executor& executor)
   {
+    const std::int64_t chunkPoints =
+      request.chunkPoints > 0 ? std::min(request.chunkPoints, mostPoints) : mostPoints;
     if (request.index)
     {
       points_ = request.index->points();
