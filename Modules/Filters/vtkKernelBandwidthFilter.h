@@ -1,6 +1,6 @@
 /**
  * @class   vtkKernelBandwidthFilter
- * @brief   kernel bandwidth, proxy radius and density at every point, from its neighbourhood
+ * @brief   kernel bandwidth, proxy radius and on request density at every point, from its neighbourhood
  *
  * For each point the spread s of its neighbourhood gives a kernel bandwidth b by a rule of kernel density
  * estimation, and the bandwidth a radius for the haptic proxy, clamp(RadiusScale b, r1, r2): large where the
@@ -216,7 +216,8 @@ public:
 
   ///@{
   /**
-   * Which arrays to add; what is off costs nothing, and Density costs a second search. Default: all on.
+   * Which arrays to add; what is off costs nothing. Default: Bandwidth and ProxyRadius. Density costs a
+   * second search, five times the time of both: it is made when it is asked for.
    */
   virtual void SetComputeBandwidth(bool value)
   {

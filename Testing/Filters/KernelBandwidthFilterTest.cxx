@@ -68,7 +68,7 @@ TEST(KernelBandwidthFilter, HasTheDocumentedDefaults)
   EXPECT_EQ(filter->GetMaximumRadius(), 0.0);
   EXPECT_TRUE(filter->GetComputeBandwidth());
   EXPECT_TRUE(filter->GetComputeProxyRadius());
-  EXPECT_TRUE(filter->GetComputeDensity());
+  EXPECT_FALSE(filter->GetComputeDensity());
   EXPECT_FALSE(filter->GetSmoothRadius());
   EXPECT_EQ(filter->GetDensityKernel(), vtkKernelBandwidthFilter::Gaussian);
 }
@@ -371,6 +371,7 @@ TEST(KernelBandwidthFilter, EpanechnikovDensityAgreesWithTheDirectSum)
   vtkNew<vtkKernelBandwidthFilter> filter;
   filter->SetInputData(cloud);
   filter->SetDensityKernelToEpanechnikov();
+  filter->ComputeDensityOn();
   filter->Update();
   for (vtkIdType i = 0; i < 800; i += 19)
   {
@@ -399,7 +400,7 @@ TEST(KernelBandwidthFilter, EveryOptionCountsAsAChange)
     [&] { filter->SetMinimumRadius(0.1); }, [&] { filter->SetMaximumRadius(0.2); },
     [&] { filter->SmoothRadiusOn(); }, [&] { filter->UsePointCountsOff(); },
     [&] { filter->SetDensityKernelToEpanechnikov(); }, [&] { filter->ComputeBandwidthOff(); },
-    [&] { filter->ComputeProxyRadiusOff(); }, [&] { filter->ComputeDensityOff(); },
+    [&] { filter->ComputeProxyRadiusOff(); }, [&] { filter->ComputeDensityOn(); },
     [&] { filter->ComputeMeanBandwidthOn(); } };
   for (std::size_t i = 0; i < changes.size(); ++i)
   {

@@ -60,6 +60,7 @@ protected:
     resampler_->SetDimensions(80, 80, 80);
     resampler_->ComputeCovarianceOn();
     bandwidth_->SetRadiusScale(5.0);
+    bandwidth_->ComputeDensityOn();
     worker_.setCloud(makeCloud());
   }
 

@@ -88,18 +88,19 @@ void appendLeaf(const NeighborTree& tree, std::int64_t leaf, const Box& box, dou
 {
   const std::int64_t first = leaf * kLeafPoints;
   const double* const places[3] = { tree.places[0] + first, tree.places[1] + first, tree.places[2] + first };
+  int to = search.candidates;
   for (int at = 0; at < kLeafPoints; at += Set::width)
   {
     const auto mask = Set::atMost(squaredGap<Set>(box, places, places, at), Set::all(reach));
     const unsigned bits = Set::bits(mask);
-    const int to = search.candidates;
     for (int axis = 0; axis < 3; ++axis)
     {
       Set::compress(search.places[axis] + to, bits, Set::load(places[axis] + at));
     }
     Set::lanes(search.slots + to, bits, std::uint32_t(first + at));
-    search.candidates += __builtin_popcount(bits);
+    to += __builtin_popcount(bits);
   }
+  search.candidates = to;
 }
 
 /// All points within @p reach of @p box. @return false where they are too many.
@@ -127,7 +128,7 @@ bool gather(const NeighborTree& tree, const Box& box, double reach, LeafSearch& 
       {
         stack[depth++] = { here.level - 1, child };
       }
-      else if (search.candidates + kLeafPoints > kMostCandidates)
+      else if (search.candidates + kLeafPoints > search.mostCandidates)
       {
         return false;
       }
@@ -155,16 +156,21 @@ int listNear(const double (&center)[3], double reach, LeafSearch& search)
   const auto y = Set::all(center[1]);
   const auto z = Set::all(center[2]);
   const auto limit = Set::all(reach);
+  // Stores of vectors may alias the pointers: copies of these stay in registers.
+  const double* const places[3] = { search.places[0], search.places[1], search.places[2] };
+  double* const near = search.near;
+  std::uint32_t* const numbers = search.nearCandidates;
+  const int candidates = search.candidates;
   int count = 0;
-  for (int at = 0; at < search.candidates; at += Set::width)
+  for (int at = 0; at < candidates; at += Set::width)
   {
-    const auto dx = Set::subtract(Set::load(search.places[0] + at), x);
-    const auto dy = Set::subtract(Set::load(search.places[1] + at), y);
-    const auto dz = Set::subtract(Set::load(search.places[2] + at), z);
+    const auto dx = Set::subtract(Set::load(places[0] + at), x);
+    const auto dy = Set::subtract(Set::load(places[1] + at), y);
+    const auto dz = Set::subtract(Set::load(places[2] + at), z);
     const auto d2 = Set::add(Set::add(Set::multiply(dx, dx), Set::multiply(dy, dy)), Set::multiply(dz, dz));
     const unsigned bits = Set::bits(Set::atMost(d2, limit));
-    Set::compress(search.near + count, bits, d2);
-    Set::lanes(search.nearCandidates + count, bits, std::uint32_t(at));
+    Set::compress(near + count, bits, d2);
+    Set::lanes(numbers + count, bits, std::uint32_t(at));
     count += __builtin_popcount(bits);
   }
   return count;
@@ -175,9 +181,11 @@ template <typename Set>
 void rankNear(int count, LeafSearch& search)
 {
   constexpr int kTogether = 4;
+  double* const near = search.near;
+  std::int64_t* const ranks = search.ranks;
   for (int i = 0; i < kSlack; ++i)
   {
-    search.near[count + i] = std::numeric_limits<double>::infinity();
+    near[count + i] = std::numeric_limits<double>::infinity();
   }
   for (int at = 0; at < count; at += kTogether * Set::width)
   {
@@ -187,11 +195,11 @@ void rankNear(int count, LeafSearch& search)
     {
       counts[v] = Set::none();
       const int from = at + v * Set::width;
-      values[v] = Set::load(search.near + (from < count ? from : at));
+      values[v] = Set::load(near + (from < count ? from : at));
     }
     for (int i = 0; i < count; ++i)
     {
-      const auto other = Set::all(search.near[i]);
+      const auto other = Set::all(near[i]);
       for (int v = 0; v < kTogether; ++v)
       {
         counts[v] = Set::countLess(counts[v], other, values[v]);
@@ -199,9 +207,17 @@ void rankNear(int count, LeafSearch& search)
     }
     for (int v = 0; v < kTogether && at + v * Set::width < count; ++v)
     {
-      Set::store(search.ranks + at + v * Set::width, counts[v]);
+      Set::store(ranks + at + v * Set::width, counts[v]);
     }
   }
+}
+
+/// Of two of the listed: at equal distance the smaller index goes first.
+inline bool isNearer(const NeighborTree& tree, const LeafSearch& search, std::int32_t a, std::int32_t b)
+{
+  return search.near[a] != search.near[b] ? search.near[a] < search.near[b]
+                                          : tree.indices[search.slots[search.nearCandidates[a]]] <
+      tree.indices[search.slots[search.nearCandidates[b]]];
 }
 
 /// Equal distances have equal ranks: the smaller index goes first.
@@ -232,68 +248,187 @@ void orderTies(const NeighborTree& tree, int count, int k, LeafSearch& search)
   }
 }
 
-/// Sorts the listed and writes the first @p k to the answer of point @p at of the leaf.
-template <typename Set>
-void answer(const NeighborTree& tree, int at, int count, int k, LeafSearch& search)
+/// Writes the first of search.order to the answer of point @p at of the leaf.
+inline void writeAnswer(int at, LeafSearch& search)
 {
+  double* const distances = distancesOf(search, at);
+  std::uint32_t* const slots = neighborsOf(search, at);
+  const std::int32_t* const order = search.order;
+  const int k = search.k;
+  for (int i = 0; i < k; ++i)
+  {
+    distances[i] = search.near[order[i]];
+    slots[i] = search.slots[search.nearCandidates[order[i]]];
+  }
+  search.found |= 1u << at;
+}
+
+/// Orders the listed by comparing each with each.
+template <typename Set>
+void orderByRank(const NeighborTree& tree, int count, LeafSearch& search)
+{
+  const int k = search.k;
+  std::int32_t* const order = search.order;
+  const std::int64_t* const ranks = search.ranks;
   rankNear<Set>(count, search);
   // Without ties each rank up to the one behind the last is taken.
   const int looked = k < count ? k + 1 : k;
   for (int i = 0; i < looked; ++i)
   {
-    search.order[i] = -1;
+    order[i] = -1;
   }
   for (std::int32_t i = 0; i < count; ++i)
   {
-    search.order[search.ranks[i]] = i;
+    order[ranks[i]] = i;
   }
   std::int32_t all = 0;
   for (int i = 0; i < looked; ++i)
   {
-    all |= search.order[i];
+    all |= order[i];
   }
   if (all < 0)
   {
     orderTies(tree, count, k, search);
   }
-  for (int i = 0; i < k; ++i)
+}
+
+/// Orders the listed, none beyond @p reach, in buckets of like distances. On a surface squared distances are
+/// even, so that a bucket has about one; @return false where one has many.
+inline bool orderByBuckets(const NeighborTree& tree, int count, double reach, LeafSearch& search)
+{
+  constexpr std::int64_t kMostInBucket = 32;
+  const double perBucket = double(count) / reach;
+  if (!(perBucket <= std::numeric_limits<double>::max()) || !(reach <= std::numeric_limits<double>::max()))
   {
-    search.squaredDistances[at][i] = search.near[search.order[i]];
-    search.neighbors[at][i] = search.slots[search.nearCandidates[search.order[i]]];
+    return false;
   }
-  search.found |= 1u << at;
+  const auto bucketOf = [&](std::int32_t i)
+  {
+    const int bucket = int(search.near[i] * perBucket);
+    return bucket < count ? bucket : count - 1;
+  };
+  std::int64_t* const begins = search.ranks;
+  for (int i = 0; i < count; ++i)
+  {
+    begins[i] = 0;
+  }
+  std::int64_t largest = 0;
+  for (std::int32_t i = 0; i < count; ++i)
+  {
+    const std::int64_t size = ++begins[bucketOf(i)];
+    largest = size > largest ? size : largest;
+  }
+  if (largest > kMostInBucket)
+  {
+    return false;
+  }
+  std::int64_t sum = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    const std::int64_t size = begins[i];
+    begins[i] = sum;
+    sum += size;
+  }
+  for (std::int32_t i = 0; i < count; ++i)
+  {
+    search.order[begins[bucketOf(i)]++] = i;
+  }
+  for (int i = 1; i < count; ++i)
+  {
+    const std::int32_t moving = search.order[i];
+    int to = i;
+    for (; to > 0 && isNearer(tree, search, moving, search.order[to - 1]); --to)
+    {
+      search.order[to] = search.order[to - 1];
+    }
+    search.order[to] = moving;
+  }
+  return true;
+}
+
+/// Moves @p moving down from the root at @p at: a heap whose parents are the farther ones.
+inline void siftDown(const NeighborTree& tree, int at, int count, std::int32_t moving, LeafSearch& search)
+{
+  for (int child = 2 * at + 1; child < count; child = 2 * at + 1)
+  {
+    child +=
+      child + 1 < count && isNearer(tree, search, search.order[child], search.order[child + 1]) ? 1 : 0;
+    if (!isNearer(tree, search, moving, search.order[child]))
+    {
+      break;
+    }
+    search.order[at] = search.order[child];
+    at = child;
+  }
+  search.order[at] = moving;
+}
+
+/// Orders the listed whatever their distances are: heap sort, for the reason given in copyFromTwin().
+inline void orderByHeap(const NeighborTree& tree, int count, LeafSearch& search)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    search.order[i] = i;
+  }
+  for (int i = count / 2 - 1; i >= 0; --i)
+  {
+    siftDown(tree, i, count, search.order[i], search);
+  }
+  for (int last = count - 1; last > 0; --last)
+  {
+    const std::int32_t moving = search.order[last];
+    search.order[last] = search.order[0];
+    siftDown(tree, 0, last, moving, search);
+  }
+}
+
+/// Sorts the listed, none beyond @p reach, and writes the first search.k to the answer of point @p at of the
+/// leaf.
+template <typename Set>
+void answer(const NeighborTree& tree, int at, int count, double reach, LeafSearch& search)
+{
+  if (search.k <= kMostAlone)
+  {
+    orderByRank<Set>(tree, count, search);
+  }
+  else if (!orderByBuckets(tree, count, reach, search))
+  {
+    orderByHeap(tree, count, search);
+  }
+  writeAnswer(at, search);
 }
 
 /// @param reach what the candidates are complete to. @param first where to look first, at most reach.
 /// @return the squared distance of the k-th neighbour; below 0 where it was not found.
 template <typename Set>
 double searchPoint(
-  const NeighborTree& tree, std::int64_t slot, int at, int k, double first, double reach, LeafSearch& search)
+  const NeighborTree& tree, std::int64_t slot, int at, double first, double reach, LeafSearch& search)
 {
   const double center[3] = { tree.places[0][slot], tree.places[1][slot], tree.places[2][slot] };
   double limit = first;
   int count = listNear<Set>(center, limit, search);
-  if (count < k && limit < reach)
+  if (count < search.k && limit < reach)
   {
     limit = reach;
     count = listNear<Set>(center, limit, search);
   }
-  if (count > kMostRanked)
+  if (count > search.mostNear)
   {
     // On a surface the number grows like the squared distance.
-    count = listNear<Set>(center, limit * (0.5 * (k + kMostRanked) / count), search);
+    limit *= 0.5 * (search.k + search.mostNear) / count;
+    count = listNear<Set>(center, limit, search);
   }
-  if (count < k || count > kMostRanked)
+  if (count < search.k || count > search.mostNear)
   {
     return -1.0;
   }
-  answer<Set>(tree, at, count, k, search);
-  return search.squaredDistances[at][k - 1];
+  answer<Set>(tree, at, count, limit, search);
+  return distancesOf(search, at)[search.k - 1];
 }
 
 /// Points at one place stand side by side and have one answer. @return whether it was there to be copied from
 /// the point before.
-bool copyFromTwin(const NeighborTree& tree, std::int64_t slot, int at, int k, LeafSearch& search)
+bool copyFromTwin(const NeighborTree& tree, std::int64_t slot, int at, LeafSearch& search)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -306,10 +441,11 @@ bool copyFromTwin(const NeighborTree& tree, std::int64_t slot, int at, int k, Le
   {
     return false;
   }
-  for (int i = 0; i < k; ++i)
+  // No algorithm of the standard library: the linker could choose its version for another instruction set.
+  for (int i = 0; i < search.k; ++i)
   {
-    search.squaredDistances[at][i] = search.squaredDistances[at - 1][i];
-    search.neighbors[at][i] = search.neighbors[at - 1][i];
+    distancesOf(search, at)[i] = distancesOf(search, at - 1)[i];
+    neighborsOf(search, at)[i] = neighborsOf(search, at - 1)[i];
   }
   search.found |= 1u << at;
   return true;
@@ -317,7 +453,7 @@ bool copyFromTwin(const NeighborTree& tree, std::int64_t slot, int at, int k, Le
 
 /// @return the largest squared distance found, 0 for none.
 template <typename Set>
-double searchPoints(const NeighborTree& tree, std::int64_t leaf, int k, double reach, LeafSearch& search)
+double searchPoints(const NeighborTree& tree, std::int64_t leaf, double reach, LeafSearch& search)
 {
   const std::int64_t first = leaf * kLeafPoints;
   const int points = tree.size - first < kLeafPoints ? int(tree.size - first) : kLeafPoints;
@@ -325,9 +461,9 @@ double searchPoints(const NeighborTree& tree, std::int64_t leaf, int k, double r
   double near = reach;
   for (int at = 0; at < points; ++at)
   {
-    if ((search.found >> at & 1u) == 0 && !copyFromTwin(tree, first + at, at, k, search))
+    if ((search.found >> at & 1u) == 0 && !copyFromTwin(tree, first + at, at, search))
     {
-      const double d2 = searchPoint<Set>(tree, first + at, at, k, near, reach, search);
+      const double d2 = searchPoint<Set>(tree, first + at, at, near, reach, search);
       largest = d2 > largest ? d2 : largest;
       near = d2 >= 0.0 && d2 * kPointMargin < reach ? d2 * kPointMargin : reach;
     }
@@ -336,7 +472,7 @@ double searchPoints(const NeighborTree& tree, std::int64_t leaf, int k, double r
 }
 
 template <typename Set>
-void searchLeaf(const NeighborTree& tree, std::int64_t leaf, int k, LeafSearch& search)
+void searchLeaf(const NeighborTree& tree, std::int64_t leaf, LeafSearch& search)
 {
   const Box box = boxOfLeaf(tree, leaf);
   const std::int64_t left = tree.size - leaf * kLeafPoints;
@@ -350,7 +486,7 @@ void searchLeaf(const NeighborTree& tree, std::int64_t leaf, int k, LeafSearch& 
     {
       break;
     }
-    const double d2 = searchPoints<Set>(tree, leaf, k, reach, search);
+    const double d2 = searchPoints<Set>(tree, leaf, reach, search);
     largest = d2 > largest ? d2 : largest;
     reach *= kFarther;
   }
@@ -480,10 +616,10 @@ bool searchGroupAbout(int level, std::int64_t group, PlaceSearch& search)
 }
 
 template <typename Set>
-bool searchPlace(const NeighborTree& tree, const double (&center)[3], int k, LeafSearch& memory)
+bool searchPlace(const NeighborTree& tree, const double (&center)[3], LeafSearch& memory)
 {
-  PlaceSearch search{ tree, center, k, memory };
-  if (!searchGroupAbout<Set>(tree.levels - 1, 0, search) || search.count < k)
+  PlaceSearch search{ tree, center, memory.k, memory };
+  if (!searchGroupAbout<Set>(tree.levels - 1, 0, search) || search.count < search.k)
   {
     return false;
   }
@@ -491,7 +627,7 @@ bool searchPlace(const NeighborTree& tree, const double (&center)[3], int k, Lea
   {
     memory.nearCandidates[i] = std::uint32_t(i);
   }
-  answer<Set>(tree, 0, search.count, k, memory);
+  answer<Set>(tree, 0, search.count, search.reach, memory);
   return true;
 }
 

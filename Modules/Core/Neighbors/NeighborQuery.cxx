@@ -180,14 +180,15 @@ struct NeighborQuery::Search
 int NeighborQuery::nearestSlots(const Vec3& center, int k, Neighbor* neighbors) const noexcept
 {
   Search search{ { center.x, center.y, center.z }, k, neighbors, 0 };
-  if (k > 0 && k <= simd::kMostSwept && k <= size())
+  if (k > 0 && k <= simd::kMostAlone && k <= size())
   {
-    simd::LeafSearch around;
-    if (kernels_->searchPlace(tree_, search.center, k, around))
+    alignas(64) double memory[simd::LeafSearch::wordsFor(simd::kMostAlone, 1)];
+    simd::LeafSearch around(memory, k, 1);
+    if (kernels_->searchPlace(tree_, search.center, around))
     {
       for (int i = 0; i < k; ++i)
       {
-        neighbors[i] = { around.squaredDistances[0][i], packed(around.neighbors[0][i]) };
+        neighbors[i] = { around.squaredDistances[i], packed(around.neighbors[i]) };
       }
       return k;
     }

@@ -18,7 +18,8 @@ NeighborSweep::NeighborSweep(const NeighborQuery& query, int k, InstructionSet w
   : query_(query)
   , k_(int(std::min<std::int64_t>(std::max(k, 1), std::max<std::int64_t>(query.size(), 1))))
   , kernels_(k_ <= simd::kMostSwept ? &simd::neighborKernels(wanted) : nullptr)
-  , search_(kernels_ ? std::make_unique<simd::LeafSearch>() : nullptr)
+  , memory_(kernels_ ? simd::LeafSearch::wordsFor(k_, simd::kLeafPoints) : 0)
+  , search_(kernels_ ? std::make_unique<simd::LeafSearch>(memory_.data(), k_, simd::kLeafPoints) : nullptr)
   , alone_(std::size_t(k_))
   , squaredDistances_(std::size_t(k_))
   , slots_(std::size_t(k_))
@@ -42,7 +43,7 @@ int NeighborSweep::searchLeaf(std::int64_t leaf)
       const NeighborList list = alone(first);
       search_->reach = kFirstMargin * list.squaredDistances[list.count - 1];
     }
-    kernels_->searchLeaf(query_.tree(), leaf, k_, *search_);
+    kernels_->searchLeaf(query_.tree(), leaf, *search_);
   }
   return int(std::min<std::int64_t>(query_.size() - first, simd::kLeafPoints));
 }
@@ -52,7 +53,7 @@ NeighborList NeighborSweep::listOf(std::int64_t leaf, int i)
   const std::int64_t slot = leaf * simd::kLeafPoints + i;
   if (kernels_ && (search_->found >> i & 1u) != 0)
   {
-    return { slot, k_, search_->squaredDistances[i], search_->neighbors[i] };
+    return { slot, k_, simd::distancesOf(*search_, i), simd::neighborsOf(*search_, i) };
   }
   return alone(slot);
 }

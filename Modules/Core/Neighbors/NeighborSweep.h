@@ -31,8 +31,8 @@ struct NeighborList
 
 /// Finds the neighbours of many points, leaf by leaf. The results are those of NeighborQuery::nearest, bit
 /// for bit, at a fraction of the cost: the points of a leaf share their candidates, and each search begins
-/// with the reach of the one before. Where more than 72 neighbours are wanted, or the guessed reach fails (an
-/// isolated point, many duplicates), points are searched one by one. Memory: 60 KiB and 28 bytes per
+/// with the reach of the one before. Where more than 4096 neighbours are wanted, or the guessed reach fails
+/// (an isolated point, many duplicates), points are searched one by one. Memory: 60 KiB and 600 bytes per
 /// neighbour, allocated in the constructor only. One thread at a time.
 class NeighborSweep
 {
@@ -73,6 +73,7 @@ private:
   const NeighborQuery& query_;
   const int k_;
   const simd::NeighborKernels* kernels_; ///< Null: every point is searched alone.
+  std::vector<double> memory_;
   std::unique_ptr<simd::LeafSearch> search_;
   // The last point that was searched alone, and its neighbours.
   Vec3 lastPlace_;

@@ -176,16 +176,17 @@ TEST(NeighborQuery, FindsTheSameBitsWithEveryInstructionSet)
   points.insert(points.end(), 40, points[5]);
   NeighborQuery query;
   query.build(view(points));
-  auto memory = std::make_unique<simd::LeafSearch>();
+  std::vector<double> words(simd::LeafSearch::wordsFor(17, 1));
+  simd::LeafSearch memory(words.data(), 17, 1);
   for (const Vec3& center : trial::randomBox(200, 22, { 0, 0, 0 }, { 1, 1, 0.1 }))
   {
     std::vector<double> expected;
     for (const InstructionSet set : heldInstructionSets())
     {
       const double place[3] = { center.x, center.y, center.z };
-      ASSERT_TRUE(simd::neighborKernels(set).searchPlace(query.tree(), place, 17, *memory));
-      std::vector<double> found(memory->squaredDistances[0], memory->squaredDistances[0] + 17);
-      found.insert(found.end(), memory->neighbors[0], memory->neighbors[0] + 17);
+      ASSERT_TRUE(simd::neighborKernels(set).searchPlace(query.tree(), place, memory));
+      std::vector<double> found(memory.squaredDistances, memory.squaredDistances + 17);
+      found.insert(found.end(), memory.neighbors, memory.neighbors + 17);
       expected = set == InstructionSet::Baseline ? found : expected;
       ASSERT_EQ(found, expected) << int(set);
     }

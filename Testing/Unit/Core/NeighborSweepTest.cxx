@@ -131,13 +131,27 @@ void expectBruteForce(const std::vector<Vec3>& points, int k, std::size_t step)
   }
 }
 
+std::vector<double> listsOf(const NeighborQuery& query, int k, InstructionSet set)
+{
+  std::vector<double> found;
+  NeighborSweep sweep(query, k, set);
+  sweep.run(0, NeighborSweep::leaves(query),
+    [&](const NeighborList& list)
+    {
+      found.push_back(double(list.slot));
+      found.insert(found.end(), list.squaredDistances, list.squaredDistances + list.count);
+      found.insert(found.end(), list.slots, list.slots + list.count);
+    });
+  return found;
+}
+
 } // namespace
 
 TEST(NeighborSweep, EqualsBruteForceOnEveryKindOfCloud)
 {
   for (const NamedCloud& cloud : clouds())
   {
-    for (const int k : { 1, 2, 9, 17, 65, 72, 73 })
+    for (const int k : { 1, 2, 9, 17, 65, 72, 73, 128, 300 })
     {
       SCOPED_TRACE(std::string(cloud.name) + ", k = " + std::to_string(k));
       expectBruteForce(cloud.points, k, 13);
@@ -175,20 +189,15 @@ TEST(NeighborSweep, GivesTheSameBitsWithEveryInstructionSet)
     SCOPED_TRACE(cloud.name);
     NeighborQuery query;
     query.build(view(cloud.points));
-    std::vector<double> expected;
+    std::vector<double> expected[2];
     for (const InstructionSet set : heldInstructionSets())
     {
-      std::vector<double> found;
-      NeighborSweep sweep(query, 17, set);
-      sweep.run(0, NeighborSweep::leaves(query),
-        [&](const NeighborList& list)
-        {
-          found.push_back(double(list.slot));
-          found.insert(found.end(), list.squaredDistances, list.squaredDistances + list.count);
-          found.insert(found.end(), list.slots, list.slots + list.count);
-        });
-      expected = set == InstructionSet::Baseline ? found : expected;
-      ASSERT_EQ(found, expected) << int(set);
+      for (const bool isMany : { false, true })
+      {
+        const std::vector<double> found = listsOf(query, isMany ? 150 : 17, set);
+        expected[isMany] = set == InstructionSet::Baseline ? found : expected[isMany];
+        ASSERT_EQ(found, expected[isMany]) << int(set);
+      }
     }
   }
 }
