@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 
 namespace pointhaptics
@@ -139,9 +140,10 @@ VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const At
   , kind_(kind)
   , view_{ plain_->GetVoidPointer(0), scalarType(plain_->GetDataType()), plain_->GetNumberOfComponents(),
     std::int64_t(plain_->GetNumberOfTuples()) }
-  , tuples_(AttributeMode(view_.type, view_.components))
+  , tuples_(AttributeTuples(view_.type, view_.components,
+      kind == AttributeKind::Median ? TupleStatistic::Median : TupleStatistic::Mode))
 {
-  if (kind != AttributeKind::Category)
+  if (kind == AttributeKind::Mean || kind == AttributeKind::Normal)
   {
     tuples_ =
       AttributeMean(view_, known ? known->range : rangeOf(view_, executor, instructions), instructions);
@@ -162,7 +164,7 @@ void VoxelAttribute::prepare(Tuples& tuples, const std::int64_t* counts, std::in
     mean->prepare(voxels, mostPoints, std::move(spare), executor);
     return;
   }
-  std::get<AttributeMode>(tuples).prepare(counts, voxels);
+  std::get<AttributeTuples>(tuples).prepare(counts, voxels);
 }
 
 void VoxelAttribute::add(
@@ -245,14 +247,39 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::output(const std::int64_t* counts,
     }
   }
   written_ = nullptr;
-  if (input_->GetDataType() == plain_->GetDataType())
+  return inOwnType(result);
+}
+
+vtkSmartPointer<vtkDataArray> VoxelAttribute::inOwnType(vtkSmartPointer<vtkDataArray> plain) const
+{
+  if (input_->GetDataType() == plain->GetDataType())
   {
-    return result;
+    return plain;
   }
   auto original = newArray(input_, input_->GetDataType());
-  original->DeepCopy(result);
+  original->DeepCopy(plain);
   original->SetName(input_->GetName());
   return original;
+}
+
+vtkSmartPointer<vtkDataArray> VoxelAttribute::chosen(
+  const std::vector<std::int64_t>& points, ArrayPool& pool, const Executor& executor) const
+{
+  const vtkSmartPointer<vtkDataArray> result = newArray(input_, plain_->GetDataType());
+  pool.allocate(result, std::int64_t(points.size()));
+  const TupleSource from = source();
+  auto* to = static_cast<char*>(result->GetVoidPointer(0));
+  forRange(executor, std::int64_t(points.size()),
+    [&](std::int64_t first, std::int64_t last)
+    {
+      for (std::int64_t v = first; v < last; ++v)
+      {
+        std::memcpy(to + from.bytes * std::size_t(v),
+          static_cast<const char*>(from.values) + from.bytes * std::size_t(points[std::size_t(v)]),
+          from.bytes);
+      }
+    });
+  return inOwnType(result);
 }
 
 void VoxelAttribute::setNormalColumns(const AffineTransform& transform)
@@ -282,7 +309,9 @@ bool VoxelAttribute::write(const Tuples& tuples, vtkDataArray* output, std::int6
       writeIntegerNormals(output, counts, executor); // never of a set, see canWriteSets()
       break;
     case AttributeKind::Category:
-      return std::get<AttributeMode>(tuples).write(to, executor, observer);
+    case AttributeKind::Median:
+    case AttributeKind::Chosen: // never: see chosen()
+      return std::get<AttributeTuples>(tuples).write(to, executor, observer);
   }
   return true;
 }
@@ -315,6 +344,27 @@ void VoxelAttribute::writeIntegerNormals(
         }
       }
     });
+}
+
+void turnNormals(vtkDataArray* normals, const AffineTransform& transform)
+{
+  const bool isFloating = normals->GetDataType() == VTK_FLOAT || normals->GetDataType() == VTK_DOUBLE;
+  const double low = normals->GetDataTypeMin();
+  const double high = normals->GetDataTypeSize() < 8 ? normals->GetDataTypeMax()
+                                                     : std::nextafter(normals->GetDataTypeMax(), 0.0);
+  for (vtkIdType v = 0; v < normals->GetNumberOfTuples(); ++v)
+  {
+    Vec3 normal;
+    normals->GetTuple(v, &normal.x);
+    const Vec3 turned = transform.applyToNormal(normal);
+    const double length = norm(turned);
+    const double scale = length > 0.0 ? (isFloating ? 1.0 : norm(normal)) / length : 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double value = scale * turned[axis];
+      normals->SetComponent(v, axis, isFloating ? value : std::clamp(std::round(value), low, high));
+    }
+  }
 }
 
 } // namespace pointhaptics

@@ -9,7 +9,7 @@
 #include "Core/Base/Executor.h"
 #include "Core/Base/ProgressObserver.h"
 #include "Core/Resample/AttributeMean.h"
-#include "Core/Resample/AttributeMode.h"
+#include "Core/Resample/AttributeTuples.h"
 #include "Core/Resample/PointRows.h"
 
 #include "vtkSmartPointer.h"
@@ -28,6 +28,8 @@ enum class AttributeKind
   Mean,     ///< Averaged, integers rounded to nearest.
   Normal,   ///< Averaged, turned with the transform, re-normalised.
   Category, ///< The value most points have, component by component; the smallest on a tie.
+  Median,   ///< Component by component, of an even number the lower middle one.
+  Chosen,   ///< That of the point that stands for the voxel.
 };
 
 /// Properties of an input array, independent of which points are averaged: valid until its values change.
@@ -50,7 +52,7 @@ public:
   AttributeValues values() const;
 
   /// Sums of the tuples of each voxel, or the tuples themselves.
-  using Tuples = std::variant<AttributeMean, AttributeMode>;
+  using Tuples = std::variant<AttributeMean, AttributeTuples>;
   /// @p counts: points of each voxel. @p mostPoints: of a voxel, at coarser levels too. @p spare: sums
   /// to reuse the memory of, or nothing.
   static void prepare(Tuples& tuples, const std::int64_t* counts, std::int64_t voxels,
@@ -80,7 +82,14 @@ public:
   vtkSmartPointer<vtkDataArray> output(const std::int64_t* counts, const AffineTransform& transform,
     ArrayPool& pool, const Executor& executor, ProgressObserver* observer);
 
+  const AttributeView& view() const { return view_; }
+  /// The tuples of the @p points, as output() gives them: for AttributeKind::Chosen, which needs nothing
+  /// else.
+  vtkSmartPointer<vtkDataArray> chosen(
+    const std::vector<std::int64_t>& points, ArrayPool& pool, const Executor& executor) const;
+
 private:
+  vtkSmartPointer<vtkDataArray> inOwnType(vtkSmartPointer<vtkDataArray> plain) const;
   void setNormalColumns(const AffineTransform& transform);
   bool write(const Tuples& tuples, vtkDataArray* output, std::int64_t first, const std::int64_t* counts,
     const Executor& executor, ProgressObserver* observer) const;
@@ -96,5 +105,9 @@ private:
   vtkSmartPointer<vtkDataArray> written_; ///< By writeSet().
   Vec3 normalColumns_[3];                 ///< The inverse transpose of the transform.
 };
+
+/// Turns normals by the inverse transpose of @p transform and makes them unit vectors; those in integers keep
+/// their length.
+void turnNormals(vtkDataArray* normals, const AffineTransform& transform);
 
 } // namespace pointhaptics

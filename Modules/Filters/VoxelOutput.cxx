@@ -7,7 +7,9 @@
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
@@ -120,6 +122,16 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(
 namespace
 {
 
+/// Moves the tuples that stay to the front; they are in ascending order.
+void keepTuples(vtkAbstractArray* array, const std::vector<std::int64_t>& kept)
+{
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    array->SetTuple(vtkIdType(i), vtkIdType(kept[i]), array);
+  }
+  array->Resize(vtkIdType(kept.size()));
+}
+
 void addField(vtkFieldData* field, const char* name, const double* values, int count)
 {
   vtkNew<vtkDoubleArray> array;
@@ -130,6 +142,40 @@ void addField(vtkFieldData* field, const char* name, const double* values, int c
   field->AddArray(array);
 }
 
+}
+
+vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, const char* name)
+{
+  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(vtkIdType(ids.size()));
+  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+  return array;
+}
+
+std::optional<std::vector<std::int64_t>> keepVoxels(
+  vtkPolyData* cloud, vtkIdTypeArray* counts, vtkIdType minimum, ArrayPool& pool, const Executor& executor)
+{
+  if (minimum <= 1)
+  {
+    return std::nullopt;
+  }
+  std::vector<std::int64_t> kept;
+  for (vtkIdType v = 0; v < counts->GetNumberOfValues(); ++v)
+  {
+    if (counts->GetValue(v) >= minimum)
+    {
+      kept.push_back(v);
+    }
+  }
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    keepTuples(data->GetAbstractArray(i), kept);
+  }
+  keepTuples(cloud->GetPoints()->GetData(), kept);
+  cloud->SetVerts(makeVertices(vtkIdType(kept.size()), pool, executor));
+  return kept;
 }
 
 void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFieldData* field)

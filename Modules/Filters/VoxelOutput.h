@@ -12,12 +12,17 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 class vtkCellArray;
 class vtkDataArray;
 class vtkDoubleArray;
 class vtkFieldData;
 class vtkIdTypeArray;
 class vtkPoints;
+class vtkPolyData;
 
 namespace pointhaptics
 {
@@ -59,6 +64,12 @@ vtkSmartPointer<vtkIdTypeArray> makeCounts(
 /// The array VoxelCovariance.
 vtkSmartPointer<vtkDoubleArray> makeCovariances(
   const VoxelResampler& engine, int level, ArrayAllocator& allocator, const Executor& executor);
+/// A vtkIdTypeArray.
+vtkSmartPointer<vtkIdTypeArray> makeIds(const std::vector<std::int64_t>& ids, const char* name);
+/// Leaves out the points of @p cloud whose @p counts, one of its arrays, are below @p minimum. @return those
+/// that stay; nothing for a minimum of 1, with which all do.
+std::optional<std::vector<std::int64_t>> keepVoxels(
+  vtkPolyData* cloud, vtkIdTypeArray* counts, vtkIdType minimum, ArrayPool& pool, const Executor& executor);
 /// Records the lattice and the transform: a scene is built from them.
 void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFieldData* field);
 

@@ -54,14 +54,12 @@ void vtkVoxelMeanResampler::SetSettings(const VoxelMeanSettings& settings)
 {
   VoxelMeanSettings valid = settings;
   valid.numberOfLevels = std::clamp(settings.numberOfLevels, 1, VoxelMeanSettings::kMostLevels);
+  valid.minimumPointsPerVoxel = std::max(settings.minimumPointsPerVoxel, 1);
   if (equalSettings(this->Settings, valid))
   {
     return;
   }
-  if (valid.numberOfLevels != this->Settings.numberOfLevels)
-  {
-    this->SetNumberOfOutputPorts(valid.numberOfLevels);
-  }
+  this->SetNumberOfOutputPorts(valid.numberOfLevels + int(valid.computeVoxelIndex));
   this->Settings = std::move(valid);
   this->UpdateVectors();
   this->Modified();
@@ -165,6 +163,12 @@ void vtkVoxelMeanResampler::SetNumberOfLevels(int levels)
   this->SetMember(&VoxelMeanSettings::numberOfLevels, levels);
 }
 
+void vtkVoxelMeanResampler::SetRepresentative(int representative)
+{
+  this->SetMember(&VoxelMeanSettings::representative,
+    static_cast<pointhaptics::Representative>(std::clamp(representative, int(Mean), int(Median))));
+}
+
 unsigned long vtkVoxelMeanResampler::GetScratchMemorySize() const
 {
   return static_cast<unsigned long>(this->Impl->ScratchBytes() / 1024);
@@ -209,7 +213,10 @@ int vtkVoxelMeanResampler::RequestData(
     outputs.emplace_back(vtkPolyData::GetData(outputVector, level));
     outputs.back()->GetFieldData()->PassData(input->GetFieldData());
   }
-  if (this->Impl->Update(input, outputs))
+  vtkPolyData* index = this->Settings.computeVoxelIndex
+    ? vtkPolyData::GetData(outputVector, this->Settings.numberOfLevels)
+    : nullptr;
+  if (this->Impl->Update(input, outputs, index))
   {
     this->UpdateProgress(1.0);
   }

@@ -32,6 +32,11 @@
  * before the filter. Points flagged as ghosts, and blanked ones, are averaged like all others: remove
  * duplicates first.
  *
+ * In the place of the mean another point may stand for a voxel (Representative): the point of the input
+ * nearest to the mean or to the centre of the voxel, with its own values in all arrays, or the median of each
+ * coordinate and component. Voxels with few points can be left out (MinimumPointsPerVoxel), and each point of
+ * the input can be told its voxel (ComputeVoxelIndex).
+ *
  * Accuracy: voxel index = floor((x - origin) / spacing), all in double about a point near the workspace, so
  * that map coordinates cost no digits. Offsets in the voxel are summed exactly, in integers whose quantum is
  * at most 2^-31 of a voxel; that is the largest error of a mean before it is rounded to the output type, and
@@ -187,6 +192,71 @@ public:
   const std::set<std::string>& GetCategoricalArrays() const { return this->Settings.categoricalArrays; }
   ///@}
 
+  enum RepresentativeType
+  {
+    Mean = 0,
+    NearestToMean,
+    NearestToCenter,
+    Median
+  };
+  ///@{
+  /**
+   * What stands for the points of a voxel. NearestToMean, NearestToCenter: one of them, whose values all
+   * arrays have (the active normals turned with the transform). Of points at the same distance, which is
+   * exact, the one with the smallest x, then y, then z, then values in the order of the arrays. Median: by
+   * coordinate and by component, of an even number of points the lower middle one, NaN above all numbers;
+   * categorical arrays have the value most points have. VoxelPointCount and VoxelCovariance are those of all
+   * points of the voxel. With another than the mean each level takes a pass over the points. Results are the
+   * same for every order of the points and number of threads. Default: Mean.
+   */
+  virtual void SetRepresentative(int representative);
+  virtual int GetRepresentative() const { return static_cast<int>(this->Settings.representative); }
+  void SetRepresentativeToMean() { this->SetRepresentative(Mean); }
+  void SetRepresentativeToNearestToMean() { this->SetRepresentative(NearestToMean); }
+  void SetRepresentativeToNearestToCenter() { this->SetRepresentative(NearestToCenter); }
+  void SetRepresentativeToMedian() { this->SetRepresentative(Median); }
+  ///@}
+
+  ///@{
+  /**
+   * Voxels with fewer points are left out, on each level. At least 1. Default: 1.
+   */
+  virtual void SetMinimumPointsPerVoxel(int points)
+  {
+    this->SetMember(&pointhaptics::VoxelMeanSettings::minimumPointsPerVoxel, points);
+  }
+  virtual int GetMinimumPointsPerVoxel() const { return this->Settings.minimumPointsPerVoxel; }
+  ///@}
+
+  ///@{
+  /**
+   * One more output port, after those of the levels (port 1 by default): the points of the input with their
+   * arrays and the vtkIdTypeArray "VoxelIndex", the point of output 0 that each belongs to; -1 where it is
+   * clipped, invalid or in a voxel that is left out. Each level then takes a pass over the points. Default:
+   * off.
+   */
+  virtual void SetComputeVoxelIndex(bool value)
+  {
+    this->SetMember(&pointhaptics::VoxelMeanSettings::computeVoxelIndex, value);
+  }
+  virtual bool GetComputeVoxelIndex() const { return this->Settings.computeVoxelIndex; }
+  vtkBooleanMacro(ComputeVoxelIndex, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Add the vtkIdTypeArray "vtkOriginalPointIds": the point of the input that stands for the voxel, of the
+   * same points with the same values the first. Only NearestToMean and NearestToCenter have one. Default:
+   * off.
+   */
+  virtual void SetKeepOriginalPointIds(bool value)
+  {
+    this->SetMember(&pointhaptics::VoxelMeanSettings::keepOriginalPointIds, value);
+  }
+  virtual bool GetKeepOriginalPointIds() const { return this->Settings.keepOriginalPointIds; }
+  vtkBooleanMacro(KeepOriginalPointIds, bool);
+  ///@}
+
   ///@{
   /**
    * Level l, on output port l, is a lattice 2^l times as coarse from the same corner, made from the sums of
@@ -229,7 +299,8 @@ public:
 
   ///@{
   /**
-   * All of the above but the transform as one plain value. NumberOfLevels is clamped to its range.
+   * All of the above but the transform as one plain value. NumberOfLevels and
+   * MinimumPointsPerVoxel are clamped to their ranges.
    */
   virtual void SetSettings(const pointhaptics::VoxelMeanSettings& settings);
   const pointhaptics::VoxelMeanSettings& GetSettings() const { return this->Settings; }

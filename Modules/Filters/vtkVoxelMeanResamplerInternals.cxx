@@ -2,10 +2,8 @@
 
 #include "Core/Resample/VoxelMean.h"
 
-#include "vtkAbstractArray.h"
 #include "vtkAbstractTransform.h"
 #include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkHomogeneousTransform.h"
@@ -20,7 +18,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <mutex>
 #include <sstream>
 #include <string>
 
@@ -29,8 +26,7 @@ using namespace pointhaptics;
 namespace
 {
 
-/// Parts of an update's progress: the means are known, the outputs are filled.
-constexpr double kRunEnd = 0.9;
+/// The part of an update's progress after which the outputs are filled: see kRunEnd.
 constexpr double kFillEnd = 0.99;
 
 std::string latticeText(const LatticeSettings& lattice)
@@ -54,49 +50,6 @@ bool holdsNonFinite(vtkAbstractTransform* transform)
   auto* homogeneous = vtkHomogeneousTransform::SafeDownCast(transform);
   const double* elements = homogeneous ? homogeneous->GetMatrix()->GetData() : nullptr;
   return elements && !std::all_of(elements, elements + 16, [](double e) { return std::isfinite(e); });
-}
-
-std::string nameOf(vtkAbstractArray* array)
-{
-  return array->GetName() ? array->GetName() : "";
-}
-
-/// Identifiers and ghost flags are meaningless once points are merged, and so are counts and covariances of
-/// an earlier resampling.
-bool isBookkeeping(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
-{
-  const std::string name = nameOf(array);
-  return array == attributes->GetGlobalIds() || array == attributes->GetPedigreeIds() ||
-    name == vtkDataSetAttributes::GhostArrayName() || name == "VoxelPointCount" || name == "VoxelCovariance";
-}
-
-std::string whyDropped(vtkAbstractArray* array, vtkIdType points)
-{
-  std::ostringstream text;
-  text << "Array \"" << nameOf(array) << "\" ";
-  if (!vtkDataArray::SafeDownCast(array))
-  {
-    text << "is not numeric: it has no mean and is dropped.";
-  }
-  else
-  {
-    text << "has " << array->GetNumberOfTuples() << " tuples for " << points << " points: it is dropped.";
-  }
-  return text.str();
-}
-
-/// An array may be the active one of several types.
-std::vector<int> rolesOf(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
-{
-  std::vector<int> roles;
-  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-  {
-    if (attributes->GetAbstractAttribute(type) == array)
-    {
-      roles.push_back(type);
-    }
-  }
-  return roles;
 }
 
 }
@@ -127,7 +80,7 @@ private:
 };
 
 bool vtkVoxelMeanResampler::Internals::Update(
-  vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs)
+  vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs, vtkPolyData* index)
 {
   const UpdateScope scope(*this);
   this->Aborted = false;
@@ -140,11 +93,12 @@ bool vtkVoxelMeanResampler::Internals::Update(
   }
   // Levels that would not equal the resampling of the points at their spacing take a second pass over the
   // points.
+  const bool isMean = this->Filter->Settings.representative == Representative::Mean && !index;
   const int levels = int(outputs.size());
   const double begin = this->PartEnd;
   for (int first = 0; first < levels; first += this->Request.levels)
   {
-    this->Request.levels = VoxelResampler::exactLevels(this->Request.lattice, levels - first);
+    this->Request.levels = isMean ? VoxelResampler::exactLevels(this->Request.lattice, levels - first) : 1;
     this->BeginPass(begin + (1.0 - begin) * first / levels,
       begin + (1.0 - begin) * (first + this->Request.levels) / levels);
     if (!this->Run(input, first == 0) || !this->FillAll(input, &outputs[std::size_t(first)]))
@@ -154,7 +108,15 @@ bool vtkVoxelMeanResampler::Internals::Update(
         output->Initialize();
         output->GetFieldData()->PassData(input->GetFieldData());
       }
+      if (index)
+      {
+        index->Initialize();
+      }
       return false;
+    }
+    if (first == 0 && index)
+    {
+      this->FillIndex(input, index);
     }
     this->Request.lattice = coarserLattice(this->Engine.lattice(this->Request.levels - 1));
   }
@@ -266,15 +228,20 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst
     : settings.outputPointsPrecision == PointsPrecision::Single;
   this->Request.covariances = settings.computeCovariance;
   this->Request.instructions = settings.instructionSet;
-  this->Request.keys = !this->Attributes.empty();
-  this->Request.keepPointRecords = !this->Attributes.empty();
+  this->Request.representative = settings.representative;
+  this->Request.voxelIndex = isFirst && settings.computeVoxelIndex;
+  const bool visits = !this->Attributes.empty() && !this->KeepsPoints();
+  this->Request.keys = visits;
+  this->Request.keepPointRecords = visits;
   this->Request.tuples.clear();
+  this->Request.tieBreakers.clear();
   for (const NamedAttribute& named : this->Attributes)
   {
-    this->Request.tuples.push_back(named.attribute.source());
+    visits ? this->Request.tuples.push_back(named.attribute.source())
+           : this->Request.tieBreakers.push_back(named.attribute.view());
   }
   this->Request.allocator = &this->Allocator;
-  this->BeginPart(this->Attributes.empty() ? kRunEnd : 0.5);
+  this->BeginPart(visits ? 0.5 : kRunEnd);
   const Status status = this->Engine.run(this->Request, this->Smp, this);
   if (status == Status::Aborted)
   {
@@ -294,151 +261,15 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst
   return true;
 }
 
-void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input, bool warns)
-{
-  this->Attributes.clear();
-  if (!this->Filter->Settings.passAttributes)
-  {
-    this->Known.clear();
-    return;
-  }
-  vtkPointData* data = input->GetPointData();
-  std::vector<KnownValues> known;
-  known.swap(this->Known);
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    vtkAbstractArray* any = data->GetAbstractArray(i);
-    if (isBookkeeping(data, any))
-    {
-      continue;
-    }
-    vtkDataArray* array = vtkDataArray::SafeDownCast(any);
-    if (!array || array->GetNumberOfTuples() != input->GetNumberOfPoints())
-    {
-      if (warns)
-      {
-        vtkWarningWithObjectMacro(this->Filter, << whyDropped(any, input->GetNumberOfPoints()));
-      }
-      continue;
-    }
-    AttributeKind kind = AttributeKind::Mean;
-    if (this->Filter->IsCategoricalArray(array->GetName()))
-    {
-      kind = AttributeKind::Category;
-    }
-    else if (array == data->GetNormals() && array->GetNumberOfComponents() == 3)
-    {
-      kind = AttributeKind::Normal;
-    }
-    const ArraySeen seen(array, std::max(data->vtkObject::GetMTime(), input->vtkObject::GetMTime()));
-    const auto old = std::find_if(known.begin(), known.end(),
-      [&](const KnownValues& values) { return values.seen == seen && values.kind == kind; });
-    VoxelAttribute attribute(array, kind, old == known.end() ? nullptr : &old->values,
-      this->Filter->Settings.instructionSet, this->Smp);
-    if (this->Filter->Settings.usePointIndex)
-    {
-      this->Known.push_back({ seen, kind, attribute.values() });
-    }
-    this->Attributes.push_back({ std::move(attribute), rolesOf(data, array) });
-  }
-}
-
-bool vtkVoxelMeanResampler::Internals::AverageArrays()
-{
-  if (this->Attributes.empty())
-  {
-    return true;
-  }
-  this->BeginPart(kRunEnd);
-  const bool canWriteSets = std::all_of(this->Attributes.begin(), this->Attributes.end(),
-    [](const NamedAttribute& named) { return named.attribute.canWriteSets(); });
-  if (canWriteSets && this->Engine.canVisitByVoxelSet() && this->Request.levels == 1)
-  {
-    this->AverageInSets();
-    return this->report(1.0);
-  }
-  const std::int64_t mostPoints = this->Engine.mostPoints(this->Request.levels - 1);
-  for (NamedAttribute& named : this->Attributes)
-  {
-    Buffer<std::int64_t> spare;
-    if (!this->SpareSums.empty())
-    {
-      spare = std::move(this->SpareSums.back());
-      this->SpareSums.pop_back();
-    }
-    named.attribute.prepare(
-      this->Engine.counts(), this->Engine.size(), mostPoints, std::move(spare), this->Smp);
-  }
-  const Status status = this->Engine.visitPointsByVoxel(
-    this->Request,
-    [this](const PointRows& rows, const std::int64_t* voxels, int count)
-    {
-      for (std::size_t i = 0; i < this->Attributes.size(); ++i)
-      {
-        this->Attributes[i].attribute.add(rows.tuples(i), rows.bytes, voxels, count);
-      }
-    },
-    this->Smp, this);
-  return status == Status::Ok;
-}
-
-/// One set of voxels at a time: its sums and tuples stay in the caches, and its means are written in place.
-void vtkVoxelMeanResampler::Internals::AverageInSets()
-{
-  for (NamedAttribute& named : this->Attributes)
-  {
-    named.attribute.prepareSets(this->Engine.size(), this->Request.transform, this->Pool);
-  }
-  const std::int64_t mostPoints = this->Engine.mostPoints();
-  std::mutex mutex;
-  using TuplesOfAll = std::vector<VoxelAttribute::Tuples>;
-  std::vector<TuplesOfAll> idle;
-  const auto take = [&]
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    TuplesOfAll tuples;
-    if (!idle.empty())
-    {
-      tuples = std::move(idle.back());
-      idle.pop_back();
-      return tuples;
-    }
-    for (const NamedAttribute& named : this->Attributes)
-    {
-      tuples.push_back(named.attribute.tuplesOfSet());
-    }
-    return tuples;
-  };
-  this->Engine.visitPointsByVoxelSet(
-    this->Request,
-    [&](std::int64_t first, std::int64_t voxels, const auto& forPoints)
-    {
-      TuplesOfAll tuples = take();
-      const std::int64_t* counts = this->Engine.counts() + first;
-      for (VoxelAttribute::Tuples& ofArray : tuples)
-      {
-        VoxelAttribute::prepare(ofArray, counts, voxels, mostPoints);
-      }
-      forPoints(
-        [&](const PointRows& rows, const std::int64_t* numbers, int count)
-        {
-          for (std::size_t i = 0; i < tuples.size(); ++i)
-          {
-            VoxelAttribute::add(tuples[i], rows.tuples(i), rows.bytes, numbers, count);
-          }
-        });
-      for (std::size_t i = 0; i < tuples.size(); ++i)
-      {
-        this->Attributes[i].attribute.writeSet(tuples[i], first, counts);
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      idle.push_back(std::move(tuples));
-    },
-    this->Smp);
-}
-
 bool vtkVoxelMeanResampler::Internals::Run(vtkPointSet* input, bool isFirst)
 {
+  if (isFirst && this->Filter->Settings.keepOriginalPointIds && !this->KeepsPoints())
+  {
+    vtkWarningWithObjectMacro(this->Filter,
+      "KeepOriginalPointIds: a mean or median is no point of the input; choose Representative NearestToMean "
+      "or "
+      "NearestToCenter.");
+  }
   this->ChooseArrays(input, isFirst);
   return this->Resample(input, isFirst) && this->AverageArrays();
 }
@@ -481,8 +312,7 @@ bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
     {
       named.attribute.coarsen(this->Engine.parents(level), this->Engine.size(level));
     }
-    const vtkSmartPointer<vtkDataArray> array =
-      named.attribute.output(countValues, this->Request.transform, this->Pool, this->Smp, this);
+    const vtkSmartPointer<vtkDataArray> array = this->Reduce(named, countValues);
     if (!array || !this->report(1.0))
     {
       return false;
@@ -498,9 +328,34 @@ bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
   {
     data->AddArray(makeCovariances(this->Engine, level, this->Allocator, this->Smp));
   }
+  if (this->Filter->Settings.keepOriginalPointIds && this->KeepsPoints())
+  {
+    data->AddArray(makeIds(this->Engine.chosenPoints(), kOriginalPointIds));
+  }
+  this->Kept =
+    keepVoxels(output, counts, this->Filter->Settings.minimumPointsPerVoxel, this->Pool, this->Smp);
   output->GetFieldData()->PassData(input->GetFieldData());
   addLattice(this->Engine.lattice(level), this->Request.transform, output->GetFieldData());
   return true;
+}
+
+void vtkVoxelMeanResampler::Internals::FillIndex(vtkPointSet* input, vtkPolyData* output) const
+{
+  std::vector<std::int64_t> index = this->Engine.voxelIndex();
+  if (this->Kept)
+  {
+    std::vector<std::int64_t> places(std::size_t(this->Engine.size()), -1);
+    for (std::size_t i = 0; i < this->Kept->size(); ++i)
+    {
+      places[std::size_t((*this->Kept)[i])] = std::int64_t(i);
+    }
+    std::transform(index.begin(), index.end(), index.begin(),
+      [&](std::int64_t voxel) { return voxel < 0 ? voxel : places[std::size_t(voxel)]; });
+  }
+  output->SetPoints(input->GetPoints());
+  output->GetPointData()->PassData(input->GetPointData());
+  output->GetPointData()->AddArray(makeIds(index, "VoxelIndex"));
+  output->GetFieldData()->PassData(input->GetFieldData());
 }
 
 bool vtkVoxelMeanResampler::Internals::FillAll(

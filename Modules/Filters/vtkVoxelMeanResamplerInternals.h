@@ -17,10 +17,21 @@
 #include "vtkWeakPointer.h" // For Seen
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 class vtkPointSet;
 class vtkPolyData;
+
+namespace pointhaptics
+{
+
+/// The part of an update's progress after which the means are known.
+constexpr double kRunEnd = 0.9;
+/// The array of KeepOriginalPointIds.
+constexpr const char* kOriginalPointIds = "vtkOriginalPointIds";
+
+}
 
 /// One update's steps, and what is kept from one to the next.
 class vtkVoxelMeanResampler::Internals : public pointhaptics::ProgressObserver
@@ -31,9 +42,10 @@ public:
   {
   }
 
-  /// RequestData: an output for each level. @return false if it stays empty: an error was reported, or the
-  /// execution aborted.
-  bool Update(vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs);
+  /// RequestData: an output for each level, and one for the index of the points' voxels or null. @return
+  /// false if it stays empty: an error was reported, or the execution aborted.
+  bool Update(
+    vtkPointSet* input, const std::vector<vtkSmartPointer<vtkPolyData>>& outputs, vtkPolyData* index);
   /// Frees what is kept between updates; called during an update, at its end.
   void ReleaseCaches();
   std::size_t ScratchBytes() const;
@@ -52,6 +64,7 @@ private:
   {
     pointhaptics::VoxelAttribute attribute;
     std::vector<int> roles; ///< vtkDataSetAttributes::AttributeTypes it is the active one of.
+    bool isNormal;
   };
   /// An array as it was when something was learned of it.
   struct ArraySeen
@@ -85,9 +98,14 @@ private:
   bool Run(vtkPointSet* input, bool isFirst);
   bool FillAll(vtkPointSet* input, const vtkSmartPointer<vtkPolyData>* outputs);
   bool Fill(int level, vtkPointSet* input, vtkPolyData* output);
+  void FillIndex(vtkPointSet* input, vtkPolyData* output) const;
   /// Lets go of the input and its arrays.
   void Release();
 
+  /// A point of the input stands for each voxel.
+  bool KeepsPoints() const;
+  vtkSmartPointer<vtkDataArray> Reduce(NamedAttribute& named, const std::int64_t* counts);
+  pointhaptics::AttributeKind KindOf(vtkDataArray* array, bool isNormal) const;
   void ChooseArrays(vtkPointSet* input, bool warns);
   bool UseIndex(vtkPointSet* input);
   bool Resample(vtkPointSet* input, bool isFirst);
@@ -102,6 +120,7 @@ private:
   std::vector<pointhaptics::Buffer<std::int64_t>> SpareSums; ///< Of the last update's attributes.
   pointhaptics::ArrayPool Pool;
   pointhaptics::ArrayAllocator Allocator{ this->Pool };
+  std::optional<std::vector<std::int64_t>> Kept; ///< Voxels of output 0, where some may be left out.
   double PassBegin = 0.0;
   double PassEnd = 1.0;
   double PartBegin = 0.0;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -188,6 +189,40 @@ TEST_F(CloudCommands, BandwidthFollowsTheDensityAndKeepsItsBounds)
   const Table smooth = parseTable(this->read("smooth.csv"));
   EXPECT_EQ(smooth.count("Density"), 0u);
   EXPECT_EQ(smooth.at("ProxyRadius").size(), 17000u);
+}
+
+TEST_F(CloudCommands, ResampleKeepsPointsAndTellsTheVoxelOfEach)
+{
+  this->succeed({ "generate", "sphere", "-n", "3000", "--noise", "1e-3", "-o", "in.csv" });
+  const Table in = parseTable(this->read("in.csv"));
+  for (const char* representative : { "nearest-to-mean", "nearest-to-center", "median", "mean" })
+  {
+    this->succeed({ "resample", "in.csv", "-o", "out.csv", "--voxel", "0.005", "--representative",
+      representative, "--minimum-points", "3", "--voxel-index", "index.csv" });
+    const Table out = parseTable(this->read("out.csv"));
+    const std::vector<double> index = parseTable(this->read("index.csv")).at("voxel");
+    ASSERT_EQ(index.size(), 3000u);
+    std::vector<double> counts(out.at("x").size(), 0.0);
+    std::size_t own = 0;
+    for (std::size_t i = 0; i < index.size(); ++i)
+    {
+      if (index[i] >= 0.0)
+      {
+        const auto v = std::size_t(index[i]);
+        ++counts[v];
+        own += in.at("x")[i] == out.at("x")[v] && in.at("y")[i] == out.at("y")[v] &&
+          in.at("Normals_2")[i] == out.at("Normals_2")[v];
+      }
+    }
+    EXPECT_EQ(counts, out.at("VoxelPointCount")) << representative;
+    EXPECT_GE(*std::min_element(counts.begin(), counts.end()), 3.0);
+    EXPECT_EQ(own == counts.size(), std::strncmp(representative, "nearest", 7) == 0) << representative;
+  }
+  this->refuse(
+    1, { "resample", "in.csv", "-o", "none.csv", "--minimum-points", "100000" }, { "--minimum-points" });
+  this->refuse(1, { "resample", "in.csv", "-o", "a.csv", "--voxel-index", "a.csv" }, { "--voxel-index" });
+  this->refuse(
+    2, { "resample", "in.csv", "-o", "a.csv", "--representative", "first" }, { "nearest-to-mean" });
 }
 
 TEST_F(CloudCommands, OutputMayReplaceItsInput)

@@ -81,6 +81,22 @@ const std::map<std::string, VoxelProperty>& voxelProperties()
           }
         },
         [](Resampler* f, const S& s) { return f->GetCategoricalArrays() == s.categoricalArrays; } } },
+    { "representative",
+      { [](Resampler* f, const S& s) { f->SetRepresentative(int(s.representative)); },
+        [](Resampler* f, const S& s) { return f->GetRepresentative() == int(s.representative); } } },
+    { "minimumPointsPerVoxel",
+      { [](Resampler* f, const S& s) { f->SetMinimumPointsPerVoxel(s.minimumPointsPerVoxel); },
+        [](Resampler* f, const S& s) { return f->GetMinimumPointsPerVoxel() == s.minimumPointsPerVoxel; } } },
+    { "computeVoxelIndex",
+      { [](Resampler* f, const S& s) { f->SetComputeVoxelIndex(s.computeVoxelIndex); },
+        [](Resampler* f, const S& s)
+        {
+          return f->GetComputeVoxelIndex() == s.computeVoxelIndex &&
+            f->GetNumberOfOutputPorts() == s.numberOfLevels + int(s.computeVoxelIndex);
+        } } },
+    { "keepOriginalPointIds",
+      { [](Resampler* f, const S& s) { f->SetKeepOriginalPointIds(s.keepOriginalPointIds); },
+        [](Resampler* f, const S& s) { return f->GetKeepOriginalPointIds() == s.keepOriginalPointIds; } } },
     { "numberOfLevels",
       { [](Resampler* f, const S& s) { f->SetNumberOfLevels(s.numberOfLevels); },
         [](Resampler* f, const S& s) {

@@ -7,9 +7,11 @@
 #include "Core/Base/Lattice.h"
 #include "Core/Base/PointView.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <tuple>
 #include <vector>
 
 namespace pointhaptics
@@ -90,6 +92,51 @@ inline VoxelMap voxelMeans(const PointView& points, const AffineTransform& trans
     }
   }
   return result;
+}
+
+/// The member of a voxel nearest to its mean, or to @p center if that is not null. Squared distances are
+/// exact where long double holds them: coordinates with few digits. Of several the first in the order of
+/// places, then of @p values, one a point, then of numbers.
+inline std::int64_t nearestMember(const PointView& points, const AffineTransform& transform,
+  const Voxel& voxel, const Vec3* center, const std::vector<int>& values)
+{
+  using Wide = long double;
+  const Wide n = center ? 1 : Wide(voxel.members.size());
+  Wide target[3] = { 0, 0, 0 };
+  for (const std::int64_t i : voxel.members)
+  {
+    const Vec3 p = transform.apply(points[i]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      target[axis] = center ? Wide((*center)[axis]) : target[axis] + Wide(p[axis]);
+    }
+  }
+  const auto rank = [&](std::int64_t i)
+  {
+    const Vec3 p = transform.apply(points[i]);
+    Wide distance = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Wide difference = n * Wide(p[axis]) - target[axis];
+      distance += difference * difference;
+    }
+    return std::make_tuple(distance, p.x, p.y, p.z, values[std::size_t(i)], i);
+  };
+  return *std::min_element(voxel.members.begin(), voxel.members.end(),
+    [&](std::int64_t a, std::int64_t b) { return rank(a) < rank(b); });
+}
+
+/// The median of the members' transformed coordinates on @p axis, of an even number the lower middle one.
+inline double medianOf(
+  const PointView& points, const AffineTransform& transform, const Voxel& voxel, int axis)
+{
+  std::vector<double> coordinates;
+  for (const std::int64_t i : voxel.members)
+  {
+    coordinates.push_back(transform.apply(points[i])[axis]);
+  }
+  std::sort(coordinates.begin(), coordinates.end());
+  return coordinates[(coordinates.size() - 1) / 2];
 }
 
 } // namespace reference

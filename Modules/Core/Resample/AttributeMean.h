@@ -4,8 +4,8 @@
 
 #include "Core/Base/Buffer.h"
 #include "Core/Base/Executor.h"
-#include "Core/Base/ScalarType.h"
 #include "Core/Base/Vector3.h"
+#include "Core/Resample/AttributeView.h"
 #include "Core/Simd/InstructionSet.h"
 
 #include <cstddef>
@@ -20,15 +20,6 @@ namespace simd
 struct AttributeKernels;
 struct WordSums;
 }
-
-/// An array owned by the caller: tuples of components, contiguous.
-struct AttributeView
-{
-  const void* values = nullptr;
-  ScalarType type = ScalarType::Float;
-  int components = 1;
-  std::int64_t tuples = 0;
-};
 
 /// What must be known of all finite values of a floating-point array before some of them are summed.
 struct AttributeRange

@@ -5,6 +5,7 @@
 
 #include "Core/Base/Lattice.h"
 #include "Core/Base/SettingsMembers.h"
+#include "Core/Resample/Representative.h"
 #include "Core/Simd/InstructionSet.h"
 
 #include <set>
@@ -30,9 +31,13 @@ struct VoxelMeanSettings
   bool computeCovariance = false;                                 ///< Six second moments a voxel.
   bool passAttributes = true;                                     ///< Average the arrays of the points.
   std::set<std::string> categoricalArrays = { "Classification" }; ///< Most frequent value instead of a mean.
-  int numberOfLevels = 1;                                         ///< 1 to kMostLevels, each twice as coarse.
-  bool usePointIndex = true;                                      ///< Changes the cost only.
-  InstructionSet instructionSet = InstructionSet::Automatic;      ///< Changes the cost only.
+  Representative representative = Representative::Mean;           ///< What stands for the points of a voxel.
+  int minimumPointsPerVoxel = 1;                             ///< Voxels with fewer are left out; at least 1.
+  bool computeVoxelIndex = false;                            ///< One more output: the voxel of each point.
+  bool keepOriginalPointIds = false;                         ///< Which point stands for each voxel.
+  int numberOfLevels = 1;                                    ///< 1 to kMostLevels, each twice as coarse.
+  bool usePointIndex = true;                                 ///< Changes the cost only.
+  InstructionSet instructionSet = InstructionSet::Automatic; ///< Changes the cost only.
 
   static constexpr int kMostLevels = 22;
 
@@ -44,6 +49,10 @@ struct VoxelMeanSettings
       settingsMember("computeCovariance", &S::computeCovariance),
       settingsMember("passAttributes", &S::passAttributes),
       settingsMember("categoricalArrays", &S::categoricalArrays),
+      settingsMember("representative", &S::representative),
+      settingsMember("minimumPointsPerVoxel", &S::minimumPointsPerVoxel),
+      settingsMember("computeVoxelIndex", &S::computeVoxelIndex),
+      settingsMember("keepOriginalPointIds", &S::keepOriginalPointIds),
       settingsMember("numberOfLevels", &S::numberOfLevels),
       settingsMember("usePointIndex", &S::usePointIndex),
       settingsMember("instructionSet", &S::instructionSet));

@@ -15,6 +15,21 @@ namespace
 
 constexpr int kMostLevels = 22;
 
+/// What choosePoints() reads of each point: its coordinates, where one is to be chosen, and last its number.
+void addPointSources(VoxelRequest& request)
+{
+  const PointView& points = request.points;
+  if (request.representative != Representative::Mean && points.floats())
+  {
+    request.tuples.push_back({ points.floats(), 3 * sizeof(float) });
+  }
+  else if (request.representative != Representative::Mean)
+  {
+    request.tuples.push_back({ points.doubles(), 3 * sizeof(double) });
+  }
+  request.tuples.emplace_back();
+}
+
 }
 
 int VoxelResampler::Implementation::halvingsOf(const Lattice& lattice)
@@ -26,32 +41,59 @@ int VoxelResampler::Implementation::halvingsOf(const Lattice& lattice)
   return isPlanned ? halvings : -1;
 }
 
+Status VoxelResampler::Implementation::check(const VoxelRequest& request)
+{
+  const PointIndex* index = request.index;
+  const std::int64_t points = request.points.size();
+  const bool keepsPoints = request.representative != Representative::Mean || request.voxelIndex;
+  const bool isOwnPoints = index && points > 0 && request.points.floats() == index->points().floats() &&
+    request.points.doubles() == index->points().doubles();
+  if (request.levels < 1 || request.levels > kMostLevels ||
+    (keepsPoints && (request.levels > 1 || isOwnPoints)) ||
+    (index && index->cloudSize() != points && finitePoints(*index) != points))
+  {
+    return Status::InvalidParameter;
+  }
+  const Status status = request.transform.check();
+  return status == Status::Ok ? request.lattice.check() : status;
+}
+
 Status VoxelResampler::Implementation::run(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   clear();
-  if (request.levels < 1 || request.levels > kMostLevels ||
-    (request.index && request.index->cloudSize() != request.points.size() &&
-      finitePoints(*request.index) != request.points.size()))
+  Status status = check(request);
+  if (status != Status::Ok)
   {
-    return Status::InvalidParameter;
+    return status;
   }
-  for (const Status status : { request.transform.check(), request.lattice.check() })
+  if (request.representative == Representative::Mean && !request.voxelIndex)
   {
-    if (status != Status::Ok)
-    {
-      return status;
-    }
+    status = runMeans(request, executor, observer);
   }
-  levels[0].lattice = request.lattice;
-  halvings_ = halvingsOf(request.lattice);
-  const Status status =
-    halvings_ >= 0 ? runPlanned(request, executor, observer) : runGeneral(request, executor, observer);
+  else
+  {
+    VoxelRequest kept = request;
+    kept.keys = kept.keepPointRecords = true;
+    addPointSources(kept);
+    SubProgress summing(observer, 0.0, 0.5);
+    SubProgress choosing(observer, 0.5, 1.0);
+    status = runMeans(kept, executor, &summing);
+    status = status == Status::Ok ? choosePoints(kept, executor, &choosing) : status;
+  }
   if (status != Status::Ok)
   {
     clear();
   }
   return status;
+}
+
+Status VoxelResampler::Implementation::runMeans(
+  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
+{
+  levels[0].lattice = request.lattice;
+  halvings_ = halvingsOf(request.lattice);
+  return halvings_ >= 0 ? runPlanned(request, executor, observer) : runGeneral(request, executor, observer);
 }
 
 void VoxelResampler::Implementation::clear()
@@ -60,6 +102,8 @@ void VoxelResampler::Implementation::clear()
   levels[0].firsts.clear();
   levels[0].size = 0;
   clipped = invalid = 0;
+  chosenPoints.clear();
+  voxelIndex.clear();
   poolHoldsAll_ = false;
   runs_.reset(0, 0);
 }
@@ -153,7 +197,8 @@ Status VoxelResampler::Implementation::visitPointsByVoxel(
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
-  std::size_t sum = pool_.bytes() + ranges_.bytes() + runs_.bytes();
+  std::size_t sum = pool_.bytes() + ranges_.bytes() + runs_.bytes() +
+    (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t);
   for (const std::unique_ptr<Worker>& worker : idle_)
   {
     sum += worker->bytes() + worker->coarse.bytes();
@@ -235,6 +280,16 @@ std::int64_t VoxelResampler::mostPoints(int l) const
 const Lattice& VoxelResampler::lattice(int level) const
 {
   return implementation_->levels[std::size_t(level)].lattice;
+}
+
+const std::vector<std::int64_t>& VoxelResampler::chosenPoints() const
+{
+  return implementation_->chosenPoints;
+}
+
+const std::vector<std::int64_t>& VoxelResampler::voxelIndex() const
+{
+  return implementation_->voxelIndex;
 }
 
 const std::vector<std::int64_t>& VoxelResampler::parents(int level) const

@@ -8,7 +8,9 @@
 #include "Core/Base/PointView.h"
 #include "Core/Base/ProgressObserver.h"
 #include "Core/Base/Status.h"
+#include "Core/Resample/AttributeView.h"
 #include "Core/Resample/PointRows.h"
+#include "Core/Resample/Representative.h"
 #include "Core/Simd/InstructionSet.h"
 
 #include <cstddef>
@@ -60,6 +62,13 @@ struct VoxelRequest
   /// Keeps the point records of run(), if one chunk holds all points: visitPointsByVoxel() then needs no
   /// second pass over the points.
   bool keepPointRecords = false;
+  /// What stands for the points of a voxel, in the place of their mean; counts and covariances stay. All but
+  /// the mean need levels of 1, keys are then made, and points must not be those of index->points().
+  Representative representative = Representative::Mean;
+  /// Arrays that choose between points at the same distance and place: see Representative.
+  std::vector<AttributeView> tieBreakers;
+  /// For voxelIndex(). Conditions as for a representative.
+  bool voxelIndex = false;
   /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
   int levels = 1;
   /// Points that go through all steps at once, at least 1; 0 or more than the default: the default (1.25
@@ -107,8 +116,8 @@ public:
   static int exactLevels(const Lattice& lattice, int levels);
 
   /// Errors: the transform's, the lattice's, InvalidParameter (levels below 1 or above 22, an index of
-  /// another number of points), Aborted (the
-  /// observer said so); there are no voxels then. A cloud without a point inside is no error.
+  /// another number of points, more than a level with a representative or VoxelRequest::voxelIndex), Aborted
+  /// (the observer said so); there are no voxels then. A cloud without a point inside is no error.
   Status run(
     const VoxelRequest& request, const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
@@ -130,6 +139,11 @@ public:
   void copyCovariances(int level, SymMat3* covariances, const Executor& executor = {}) const;
   /// Of each voxel of level - 1, the voxel of @p level it lies in. @pre level >= 1, keys were asked for.
   const std::vector<std::int64_t>& parents(int level) const;
+
+  /// Of each voxel the number of the point that stands for it; empty unless a nearest one was asked for.
+  const std::vector<std::int64_t>& chosenPoints() const;
+  /// Of each point its voxel, or -1 where it is clipped or invalid; empty unless it was asked for.
+  const std::vector<std::int64_t>& voxelIndex() const;
 
   /// Visits the points inside, grouped by voxels of level 0: calls visit(rows, voxels, count) for pieces,
   /// with the attributes of VoxelRequest::tuples and the voxel of each point. Several threads may call it at

@@ -64,6 +64,8 @@ public:
   std::vector<simd::Level> levels = std::vector<simd::Level>(1);
   std::int64_t clipped = 0;
   std::int64_t invalid = 0;
+  std::vector<std::int64_t> chosenPoints;
+  std::vector<std::int64_t> voxelIndex;
 
   std::size_t scratchBytes() const;
 
@@ -79,6 +81,8 @@ private:
   /// How often the voxels of a lattice are halved so that they can be divided into partitions; -1: they
   /// cannot.
   static int halvingsOf(const Lattice& lattice);
+  static Status check(const VoxelRequest& request);
+  Status runMeans(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status runPlanned(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status runGeneral(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   void fillPool(const VoxelRequest& request, const simd::Chunks& chunks, std::size_t chunk, bool withRows,
@@ -98,6 +102,10 @@ private:
   Status addLevels(const VoxelRequest& request, simd::VoxelRuns runs, int levelOfRuns,
     const Executor& executor, ProgressObserver* observer);
   simd::VoxelRuns takeAccumulated(const Executor& executor);
+  Status choosePoints(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
+  void choosePointsBySet(const VoxelRequest& request, const Executor& executor);
+  void notePoints(const PointRows& rows, std::size_t numbers, std::int64_t firstVoxel,
+    const std::int64_t* voxels, int count);
   Status visitPlanned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
   void visitPartition(const VoxelRequest& request, simd::PartitionWorker& worker, std::uint32_t partition,

@@ -110,6 +110,25 @@ public:
   /// Copies what another arena of the same layout has.
   void write(std::size_t offset, const MeanArena& other, std::size_t size);
 
+  Vec3 point(std::size_t voxel) const
+  {
+    return layout_.singlePrecision ? PointView(floats_, std::int64_t(voxel) + 1)[std::int64_t(voxel)]
+                                   : PointView(doubles_, std::int64_t(voxel) + 1)[std::int64_t(voxel)];
+  }
+  /// Replaces the coordinates of a voxel's mean.
+  void setPoint(std::size_t voxel, const Vec3& point)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const std::size_t to = 3 * voxel + std::size_t(axis);
+      layout_.singlePrecision ? void(floats_[to] = float(point[axis])) : void(doubles_[to] = point[axis]);
+    }
+  }
+  /// The coordinates from a voxel on, of the type that was asked for.
+  void* pointsFrom(std::size_t voxel)
+  {
+    return layout_.singlePrecision ? static_cast<void*>(floats_ + 3 * voxel) : doubles_ + 3 * voxel;
+  }
   const float* floats() const { return floats_; }
   const double* doubles() const { return doubles_; }
   const std::int64_t* counts() const { return counts_; }

@@ -1,4 +1,4 @@
-#include "Core/Resample/AttributeMode.h"
+#include "Core/Resample/AttributeTuples.h"
 
 #include "AttributePlans.h"
 #include "CountingObserver.h"
@@ -23,11 +23,11 @@ namespace
 
 /// Adds the tuples in the order of the plan, each with others between it and the next.
 template <typename T>
-AttributeMode modeOf(const std::vector<T>& values, int components, const Plan& plan, int piece = 100)
+AttributeTuples modeOf(const std::vector<T>& values, int components, const Plan& plan, int piece = 100)
 {
   constexpr std::size_t kApart = 3;
   const auto width = std::size_t(components);
-  AttributeMode mode(typeOf<T>(), components);
+  AttributeTuples mode(typeOf<T>(), components);
   mode.prepare(countsOf(plan).data(), plan.size);
   for (std::size_t first = 0; first < plan.order.size(); first += std::size_t(piece))
   {
@@ -47,7 +47,7 @@ AttributeMode modeOf(const std::vector<T>& values, int components, const Plan& p
 
 template <typename T>
 std::vector<T> written(
-  const AttributeMode& mode, int components, const Plan& plan, const Executor& executor = {})
+  const AttributeTuples& mode, int components, const Plan& plan, const Executor& executor = {})
 {
   std::vector<T> modes(std::size_t(plan.size) * std::size_t(components));
   EXPECT_TRUE(mode.write(modes.data(), executor, nullptr));
@@ -92,7 +92,7 @@ std::vector<T> labels(std::size_t count, int kinds, std::uint64_t seed)
 
 } // namespace
 
-TEST(AttributeMode, IsTheValueMostPointsHaveAndTheSmallestOnATie)
+TEST(AttributeTuples, IsTheValueMostPointsHaveAndTheSmallestOnATie)
 {
   const auto expectRight = [](const auto& values, int components)
   {
@@ -102,7 +102,7 @@ TEST(AttributeMode, IsTheValueMostPointsHaveAndTheSmallestOnATie)
     {
       const Plan plan = planFor(tuples, voxels, 1);
       const std::vector<T> expected = expectedModes(values, components, plan);
-      const AttributeMode mode = modeOf(values, components, plan);
+      const AttributeTuples mode = modeOf(values, components, plan);
       EXPECT_TRUE(sameBits(written<T>(mode, components, plan), expected)) << voxels;
       EXPECT_TRUE(sameBits(written<T>(mode, components, plan, trial::BackwardExecutor(7)), expected));
     }
@@ -117,7 +117,7 @@ TEST(AttributeMode, IsTheValueMostPointsHaveAndTheSmallestOnATie)
   expectRight(labels<double>(3000, 3, 9), 3);
 }
 
-TEST(AttributeMode, TakesNaNsAsOneValueAndZerosAsOne)
+TEST(AttributeTuples, TakesNaNsAsOneValueAndZerosAsOne)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double otherNan = -nan;
@@ -136,11 +136,11 @@ TEST(AttributeMode, TakesNaNsAsOneValueAndZerosAsOne)
   }
 }
 
-TEST(AttributeMode, OfParentsIsThatOfTheirPoints)
+TEST(AttributeTuples, OfParentsIsThatOfTheirPoints)
 {
   const std::vector<std::uint16_t> values = labels<std::uint16_t>(6000, 4, 10);
   Plan plan = planFor(3000, 400, 11);
-  AttributeMode mode = modeOf(values, 2, plan);
+  AttributeTuples mode = modeOf(values, 2, plan);
   for (const std::int64_t coarse : { 90, 12, 1 })
   {
     const Plan up = planFor(std::size_t(plan.size), coarse, 12);
@@ -150,24 +150,24 @@ TEST(AttributeMode, OfParentsIsThatOfTheirPoints)
   }
 }
 
-TEST(AttributeMode, StartsFromNothingEachTime)
+TEST(AttributeTuples, StartsFromNothingEachTime)
 {
   const std::vector<int> values = labels<int>(900, 3, 13);
-  AttributeMode mode = modeOf(values, 1, planFor(900, 500, 14));
+  AttributeTuples mode = modeOf(values, 1, planFor(900, 500, 14));
   const Plan plan = planFor(900, 30, 15);
   mode.prepare(countsOf(plan).data(), plan.size);
   mode.add(values.data(), sizeof(int), plan.voxels.data(), 900);
   EXPECT_TRUE(sameBits(written<int>(mode, 1, plan), expectedModes(values, 1, plan)));
-  const AttributeMode none = mode.another();
+  const AttributeTuples none = mode.another();
   EXPECT_TRUE(none.write(nullptr, {}, nullptr)) << "no voxels";
 }
 
-TEST(AttributeMode, ReportsProgressAndEndsWhenTheObserverAborts)
+TEST(AttributeTuples, ReportsProgressAndEndsWhenTheObserverAborts)
 {
   constexpr std::size_t kPoints = 3 * std::size_t(kPointsPerReport);
   const std::vector<std::uint8_t> values = labels<std::uint8_t>(kPoints, 5, 16);
   const Plan plan = planFor(kPoints, 1000, 17);
-  const AttributeMode mode = modeOf(values, 1, plan, 100000);
+  const AttributeTuples mode = modeOf(values, 1, plan, 100000);
   std::vector<std::uint8_t> modes(1000);
   trial::CountingObserver patient;
   EXPECT_TRUE(mode.write(modes.data(), {}, &patient));

@@ -1,5 +1,5 @@
 /// @file
-/// Modes of the attributes of points, voxel by voxel: for labels, whose mean is meaningless.
+/// Modes and medians of the attributes of points, voxel by voxel.
 #pragma once
 
 #include "Core/Base/Buffer.h"
@@ -7,30 +7,51 @@
 #include "Core/Base/ProgressObserver.h"
 #include "Core/Base/ScalarType.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace pointhaptics
 {
 
-/// Keeps the tuples of the points of each voxel, and finds the mode of each component: the value that most
-/// points have, the smallest of several. Of floating-point numbers all NaNs are one value, the largest, and
-/// both zeros are one, which is written as +0; no mode depends on the order of the points.
+/// What is made of the tuples of a voxel, component by component. Both are exact.
+enum class TupleStatistic
+{
+  Mode,   ///< The value that most points have, the smallest of several: for labels.
+  Median, ///< Of an even number the lower middle one.
+};
+
+/// NaN is a value like others, the largest one; both zeros are one.
+template <typename T>
+bool isLessValue(T a, T b)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    return std::isnan(b) ? !std::isnan(a) : a < b;
+  }
+  return a < b;
+}
+
+/// Keeps the tuples of the points of each voxel, and finds the mode or the median of each component. Of
+/// floating-point numbers all NaNs are one value, the largest, and both zeros are one, which is written as
+/// +0; nothing depends on the order of the points.
 ///
 /// Memory: the tuples themselves, and 8 bytes a voxel; twice that while coarsen() works.
-class AttributeMode
+class AttributeTuples
 {
 public:
   /// For tuples of @p components numbers.
-  AttributeMode(ScalarType type, int components)
+  AttributeTuples(ScalarType type, int components, TupleStatistic statistic = TupleStatistic::Mode)
     : type_(type)
     , components_(components)
+    , statistic_(statistic)
   {
   }
 
   /// Another for tuples of the same kind, without any.
-  AttributeMode another() const { return { type_, components_ }; }
+  AttributeTuples another() const { return { type_, components_, statistic_ }; }
 
   /// Drops all tuples and makes room for those of @p voxels, @p counts each.
   void prepare(const std::int64_t* counts, std::int64_t voxels);
@@ -40,9 +61,9 @@ public:
   /// The tuples of voxels become those of their parents: see VoxelResampler::parents().
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
 
-  /// Modes of all voxels, in the tuples' own type. @pre each voxel has as many tuples as it was said to get.
-  /// @return false where @p observer, which may be null, aborted the work.
-  bool write(void* modes, const Executor& executor, ProgressObserver* observer) const;
+  /// Modes or medians of all voxels, in the tuples' own type. @pre each voxel has as many tuples as it was
+  /// said to get. @return false where @p observer, which may be null, aborted the work.
+  bool write(void* values, const Executor& executor, ProgressObserver* observer) const;
 
 private:
   std::int64_t voxels() const { return std::int64_t(ends_.size()); }
@@ -56,10 +77,11 @@ private:
     return reinterpret_cast<T*>(tuples_.data()) + components_ * i;
   }
   template <typename T>
-  void writeModes(std::int64_t first, std::int64_t last, T* modes) const;
+  void writeValues(std::int64_t first, std::int64_t last, T* to) const;
 
   ScalarType type_;
   int components_;
+  TupleStatistic statistic_;
   Buffer<std::uint64_t> tuples_;   ///< Those of a voxel after each other.
   std::vector<std::int64_t> ends_; ///< Where the next tuple of each voxel goes.
 };

@@ -1,4 +1,6 @@
-#include "Core/Resample/AttributeMode.h"
+#include "Core/Resample/AttributeTuples.h"
+
+#include "Core/Resample/Stages/VoxelSlices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,21 +24,11 @@ T canonical(T value)
   return value;
 }
 
-/// NaN is a value like others, the largest one.
-template <typename T>
-bool isLess(T a, T b)
-{
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    return std::isnan(b) ? !std::isnan(a) : a < b;
-  }
-  return a < b;
-}
-
 template <typename T>
 bool areAllSame(const std::vector<T>& values)
 {
-  const auto differs = [&](T value) { return isLess(value, values[0]) || isLess(values[0], value); };
+  const auto differs = [&](T value)
+  { return isLessValue(value, values[0]) || isLessValue(values[0], value); };
   return std::none_of(values.begin(), values.end(), differs);
 }
 
@@ -48,13 +40,13 @@ T mostFrequent(std::vector<T>& values)
   {
     return values.front();
   }
-  std::sort(values.begin(), values.end(), isLess<T>);
+  std::sort(values.begin(), values.end(), isLessValue<T>);
   T best = values.front();
   std::size_t longest = 0;
   for (std::size_t i = 0; i < values.size();)
   {
     std::size_t end = i + 1;
-    while (end < values.size() && !isLess(values[i], values[end]))
+    while (end < values.size() && !isLessValue(values[i], values[end]))
     {
       ++end;
     }
@@ -68,33 +60,31 @@ T mostFrequent(std::vector<T>& values)
   return best;
 }
 
-/// Numbers of voxels become where their first tuples go. @return the sum of all.
-std::int64_t countsToPlaces(std::vector<std::int64_t>& counts)
+/// The middle value, of an even number the lower one. Reorders them.
+template <typename T>
+T middle(std::vector<T>& values)
 {
-  std::int64_t sum = 0;
-  for (std::int64_t& count : counts)
-  {
-    sum += std::exchange(count, sum);
-  }
-  return sum;
+  const auto at = values.begin() + std::ptrdiff_t((values.size() - 1) / 2);
+  std::nth_element(values.begin(), at, values.end(), isLessValue<T>);
+  return *at;
 }
 
 }
 
-void AttributeMode::makeRoom(std::int64_t tuples)
+void AttributeTuples::makeRoom(std::int64_t tuples)
 {
   constexpr std::size_t kWord = sizeof(std::uint64_t);
   const std::size_t bytes = std::size_t(tuples * components_ * bytesOf(type_));
   tuples_.reserve((bytes + kWord - 1) / kWord, Pages::Huge);
 }
 
-void AttributeMode::prepare(const std::int64_t* counts, std::int64_t voxels)
+void AttributeTuples::prepare(const std::int64_t* counts, std::int64_t voxels)
 {
   ends_.assign(counts, counts + voxels);
-  makeRoom(countsToPlaces(ends_));
+  makeRoom(simd::countsToPlaces(ends_));
 }
 
-void AttributeMode::add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count)
+void AttributeTuples::add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count)
 {
   withType(type_,
     [&](auto example)
@@ -108,7 +98,7 @@ void AttributeMode::add(const void* tuples, std::size_t stride, const std::int64
     });
 }
 
-void AttributeMode::coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels)
+void AttributeTuples::coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels)
 {
   const Buffer<std::uint64_t> fine = std::move(tuples_);
   const std::vector<std::int64_t> fineEnds = std::move(ends_);
@@ -118,7 +108,7 @@ void AttributeMode::coarsen(const std::vector<std::int64_t>& parents, std::int64
   {
     ends_[std::size_t(parents[v])] += fineEnds[v] - std::exchange(begin, fineEnds[v]);
   }
-  makeRoom(countsToPlaces(ends_));
+  makeRoom(simd::countsToPlaces(ends_));
   withType(type_,
     [&](auto example)
     {
@@ -138,7 +128,7 @@ void AttributeMode::coarsen(const std::vector<std::int64_t>& parents, std::int64
 
 /// Of voxels @p first to @p last.
 template <typename T>
-void AttributeMode::writeModes(std::int64_t first, std::int64_t last, T* modes) const
+void AttributeTuples::writeValues(std::int64_t first, std::int64_t last, T* to) const
 {
   std::vector<T> values;
   for (std::int64_t v = first; v < last; ++v)
@@ -150,37 +140,23 @@ void AttributeMode::writeModes(std::int64_t first, std::int64_t last, T* modes) 
       {
         values.push_back(canonical(tuple<T>(i)[c]));
       }
-      modes[components_ * v + c] = mostFrequent(values);
+      to[components_ * v + c] = statistic_ == TupleStatistic::Mode ? mostFrequent(values) : middle(values);
     }
   }
 }
 
-bool AttributeMode::write(void* modes, const Executor& executor, ProgressObserver* observer) const
+bool AttributeTuples::write(void* values, const Executor& executor, ProgressObserver* observer) const
 {
-  PointProgress progress(observer, ends_.empty() ? 0 : ends_.back(), 1);
-  for (std::int64_t first = 0; first < voxels();)
-  {
-    // Voxels with the points of one report; at least one voxel.
-    const std::int64_t points = begin(first);
-    const auto last = std::upper_bound(ends_.begin() + first + 1, ends_.end(), points + kPointsPerReport);
-    const std::int64_t count = last - ends_.begin() - first;
-    forRange(executor, count,
-      [&](std::int64_t from, std::int64_t to)
-      {
-        withType(type_,
-          [&](auto example)
-          {
-            using T = decltype(example);
-            writeModes(first + from, first + to, static_cast<T*>(modes));
-          });
-      });
-    first += count;
-    if (!progress.add(begin(first) - points))
+  return simd::forVoxelSlices(ends_, executor, observer,
+    [&](std::int64_t first, std::int64_t last)
     {
-      return false;
-    }
-  }
-  return true;
+      withType(type_,
+        [&](auto example)
+        {
+          using T = decltype(example);
+          writeValues(first, last, static_cast<T*>(values));
+        });
+    });
 }
 
 } // namespace pointhaptics

@@ -1,0 +1,21 @@
+/// @file
+/// A non-owning view of an array of attributes.
+#pragma once
+
+#include "Core/Base/ScalarType.h"
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+
+/// An array owned by the caller: tuples of components, contiguous.
+struct AttributeView
+{
+  const void* values = nullptr;
+  ScalarType type = ScalarType::Float;
+  int components = 1;
+  std::int64_t tuples = 0;
+};
+
+} // namespace pointhaptics

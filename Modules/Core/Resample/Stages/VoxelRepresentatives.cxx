@@ -1,0 +1,282 @@
+#include "Core/Resample/Stages/VoxelRepresentatives.h"
+
+#include "Core/Resample/Stages/VoxelSlices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace pointhaptics
+{
+namespace simd
+{
+namespace
+{
+
+/// Bits of an offset from the pivot below the edge of a voxel, where differences of count times an offset
+/// from the sum of all then fit 62 bits: up to so many points.
+constexpr int kQuantumBits = 40;
+constexpr std::int64_t kFewPoints = std::int64_t(1) << (56 - kQuantumBits);
+
+ScalarType coordinateType(bool single)
+{
+  return single ? ScalarType::Float : ScalarType::Double;
+}
+
+/// The power of two that a length above 0 has in it.
+int exponentOf(double length)
+{
+  int exponent;
+  std::frexp(length, &exponent);
+  return exponent - 1;
+}
+
+/// The nearest integer of a number below 2^51.
+double rounded(double x)
+{
+  constexpr double kRound = 0x1.8p52;
+  return (x + kRound) - kRound;
+}
+
+/// -1, 0 or 1 where point @p a has the smaller value, the same values, or the larger one.
+int compareValues(const AttributeView& view, std::int64_t a, std::int64_t b)
+{
+  int order = 0;
+  withType(view.type,
+    [&](auto example)
+    {
+      using T = decltype(example);
+      const T* const values = static_cast<const T*>(view.values);
+      for (int c = 0; c < view.components && order == 0; ++c)
+      {
+        const T ofA = values[view.components * a + c];
+        const T ofB = values[view.components * b + c];
+        order = int(isLessValue(ofB, ofA)) - int(isLessValue(ofA, ofB));
+      }
+    });
+  return order;
+}
+
+}
+
+VoxelRepresentatives::VoxelRepresentatives(const VoxelRequest& request)
+  : request_(request)
+  , isIdentity_(request.transform.isIdentity())
+  , exponent_(exponentOf(
+      std::max({ request.lattice.spacing.x, request.lattice.spacing.y, request.lattice.spacing.z })))
+  , unit_(std::ldexp(1.0, exponent_))
+  , scale_(scaleOf(kQuantumBits))
+  , medians_(coordinateType(request.singlePrecision), 3, TupleStatistic::Median)
+{
+}
+
+void VoxelRepresentatives::prepare(const std::int64_t* counts, std::int64_t voxels)
+{
+  if (request_.representative == Representative::Median)
+  {
+    medians_.prepare(counts, voxels);
+    return;
+  }
+  ends_.assign(counts, counts + voxels);
+  members_.reserve(std::size_t(countsToPlaces(ends_)), Pages::Huge);
+}
+
+template <typename Real>
+void VoxelRepresentatives::keep(
+  const char* xyz, const char* numbers, std::size_t stride, const std::int64_t* voxels, int count)
+{
+  for (int i = 0; i < count; ++i, xyz += stride, numbers += stride)
+  {
+    const auto* point = reinterpret_cast<const Real*>(xyz);
+    const Vec3 place = PointView(point, 1)[0];
+    Member& member = members_[std::size_t(ends_[std::size_t(voxels[i])]++)];
+    member.place = isIdentity_ ? place : request_.transform.apply(place);
+    std::memcpy(&member.number, numbers, sizeof member.number);
+  }
+}
+
+void VoxelRepresentatives::add(
+  const void* coordinates, const void* numbers, std::size_t stride, const std::int64_t* voxels, int count)
+{
+  const char* xyz = static_cast<const char*>(coordinates);
+  const bool isFloat = request_.points.floats() != nullptr;
+  if (request_.representative != Representative::Median)
+  {
+    const char* number = static_cast<const char*>(numbers);
+    isFloat ? keep<float>(xyz, number, stride, voxels, count)
+            : keep<double>(xyz, number, stride, voxels, count);
+    return;
+  }
+  Vec3 places[kBlockRecords];
+  float rounded[3 * kBlockRecords];
+  for (int i = 0; i < count; ++i, xyz += stride)
+  {
+    const PointView one = isFloat ? PointView(reinterpret_cast<const float*>(xyz), 1)
+                                  : PointView(reinterpret_cast<const double*>(xyz), 1);
+    places[i] = isIdentity_ ? one[0] : request_.transform.apply(one[0]);
+  }
+  if (!request_.singlePrecision)
+  {
+    medians_.add(places, sizeof(Vec3), voxels, count);
+    return;
+  }
+  std::transform(&places[0].x, &places[0].x + 3 * count, rounded, [](double x) { return float(x); });
+  medians_.add(rounded, 3 * sizeof(float), voxels, count);
+}
+
+VoxelRepresentatives::Scale VoxelRepresentatives::scaleOf(int bits) const
+{
+  return { { std::ldexp(1.0, -exponent_ / 2), std::ldexp(1.0, bits - exponent_ + exponent_ / 2) },
+    std::ldexp(1.0, bits + 3) };
+}
+
+inline VoxelRepresentatives::Offset VoxelRepresentatives::quantized(
+  const Vec3& place, const Vec3& pivot, const Scale& scale)
+{
+  Offset offset;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double quanta = (place[axis] - pivot[axis]) * scale.factors[0] * scale.factors[1];
+    offset.quanta[axis] = std::int64_t(rounded(std::min(std::max(quanta, -scale.most), scale.most)));
+  }
+  return offset;
+}
+
+VoxelRepresentatives::Middle VoxelRepresentatives::middleOf(const MeanArena& arena, std::size_t voxel) const
+{
+  Middle middle{ arena.point(voxel), {} };
+  if (request_.representative == Representative::NearestToCenter)
+  {
+    const Lattice& lattice = request_.lattice;
+    const auto index = lattice.indexOf(arena.keys()[voxel]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      middle.center[axis] =
+        lattice.origin[axis] + (double(index[std::size_t(axis)]) + 0.5) * lattice.spacing[axis];
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    middle.pivot[axis] = rounded(middle.center[axis] / unit_) * unit_;
+  }
+  return middle;
+}
+
+bool VoxelRepresentatives::goesBefore(const Member& a, const Member& b) const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (a.place[axis] != b.place[axis])
+    {
+      return a.place[axis] < b.place[axis];
+    }
+  }
+  for (const AttributeView& values : request_.tieBreakers)
+  {
+    const int order = compareValues(values, a.number, b.number);
+    if (order != 0)
+    {
+      return order < 0;
+    }
+  }
+  return a.number < b.number;
+}
+
+/// The nearest in double; where another is about as near, exactly.
+const VoxelRepresentatives::Member& VoxelRepresentatives::chosenOf(
+  const Member* first, const Member* last, const Middle& middle) const
+{
+  const std::int64_t count = last - first;
+  const bool toMean = request_.representative == Representative::NearestToMean;
+  if (count == 1 || (count == 2 && toMean))
+  {
+    return count == 2 && goesBefore(first[1], first[0]) ? first[1] : first[0];
+  }
+  Vec3 target;
+  for (const Member* member = first; toMean && member != last; ++member)
+  {
+    target += member->place - middle.pivot;
+  }
+  target = toMean ? target / double(count) : middle.center - middle.pivot;
+  const Member* best = first;
+  double least = INFINITY;
+  double second = INFINITY;
+  double farthest = unit_ * unit_;
+  for (const Member* member = first; member != last; ++member)
+  {
+    const double distance = norm2((member->place - middle.pivot) - target);
+    second = std::min(second, std::max(distance, least));
+    best = distance < least ? member : best;
+    least = std::min(distance, least);
+    farthest = std::max(distance, farthest);
+  }
+  // Above what quanta, and rounding in any order of the points, can change.
+  const double margin = (0x1p-36 + 0x1p-48 * double(count)) * farthest;
+  return second - least > margin ? *best : exactlyChosenOf(first, last, middle);
+}
+
+/// Compares distances times the number of points: |n q - sum of all q| for the mean, |q - center| for the
+/// centre.
+const VoxelRepresentatives::Member& VoxelRepresentatives::exactlyChosenOf(
+  const Member* first, const Member* last, const Middle& middle) const
+{
+  const std::int64_t count = last - first;
+  const bool toMean = request_.representative == Representative::NearestToMean;
+  const Vec3& pivot = middle.pivot;
+  const Scale scale = count < kFewPoints ? scale_ : scaleOf(56 - exponentOf(double(count)));
+  Int128 target[3] = {};
+  for (const Member* member = first; toMean && member != last; ++member)
+  {
+    const Offset offset = quantized(member->place, pivot, scale);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      target[axis] += offset.quanta[axis];
+    }
+  }
+  const Offset ofCenter = quantized(middle.center, pivot, scale);
+  const std::int64_t factor = toMean ? count : 1;
+  const Member* best = nullptr;
+  UInt128 least = 0;
+  for (const Member* member = first; member != last; ++member)
+  {
+    const Offset offset = quantized(member->place, pivot, scale);
+    UInt128 distance = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Int128 to = toMean ? target[axis] : Int128(ofCenter.quanta[axis]);
+      const auto difference = std::int64_t(Int128(factor) * offset.quanta[axis] - to);
+      distance += UInt128(Int128(difference) * difference);
+    }
+    if (!best || distance < least || (distance == least && goesBefore(*member, *best)))
+    {
+      best = member;
+      least = distance;
+    }
+  }
+  return *best;
+}
+
+bool VoxelRepresentatives::write(std::int64_t firstVoxel, MeanArena& arena, std::int64_t* chosen,
+  const Executor& executor, ProgressObserver* observer) const
+{
+  if (request_.representative == Representative::Median)
+  {
+    return medians_.write(arena.pointsFrom(std::size_t(firstVoxel)), executor, observer);
+  }
+  return forVoxelSlices(ends_, executor, observer,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t v = begin; v < end; ++v)
+      {
+        const Member* const first = members_.data() + (v == 0 ? 0 : ends_[std::size_t(v - 1)]);
+        const Member* const last = members_.data() + ends_[std::size_t(v)];
+        const auto voxel = std::size_t(firstVoxel + v);
+        const Member& member = chosenOf(first, last, middleOf(arena, voxel));
+        arena.setPoint(voxel, member.place);
+        chosen[voxel] = member.number;
+      }
+    });
+}
+
+} // namespace simd
+} // namespace pointhaptics
