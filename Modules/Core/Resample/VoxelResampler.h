@@ -170,6 +170,7 @@ public:
   void releaseScratch();
 
 private:
+  friend class VoxelAccumulator;
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

@@ -75,6 +75,10 @@ Status VoxelResampler::Implementation::finishRuns(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   forEachItem(executor, runs_.ranges(), [&](std::size_t range) { runs_.join(range); });
+  if (keepsRuns_)
+  {
+    return Status::Ok;
+  }
   for (int halvings = halvings_; halvings > 0; --halvings)
   {
     // Of 64 voxels at most.
@@ -86,6 +90,70 @@ Status VoxelResampler::Implementation::finishRuns(
   }
   writeRuns(request, runs_, request.levels > 1, levels[0], request.allocator, executor, nullptr);
   return request.levels > 1 ? addLevels(request, std::move(runs_), 0, executor, observer) : Status::Ok;
+}
+
+Status VoxelResampler::Implementation::sum(const VoxelRequest& request, VoxelRun& sums, int& fractionBits,
+  const Executor& executor, ProgressObserver* observer)
+{
+  keepsRuns_ = true;
+  const Status status = this->run(request, executor, observer);
+  keepsRuns_ = false;
+  fractionBits = status == Status::Ok ? runs_.fractionBits() : fractionBits;
+  for (std::size_t range = 0; status == Status::Ok && range < runs_.ranges(); ++range)
+  {
+    if (runs_.size(range) > 0)
+    {
+      const VoxelRun& run = runs_.run(range);
+      sums.voxels.insert(sums.voxels.end(), run.voxels.begin(), run.voxels.end());
+      sums.secondMoments.insert(sums.secondMoments.end(), run.secondMoments.begin(), run.secondMoments.end());
+      runs_.release(range);
+    }
+  }
+  runs_.reset(0, 0);
+  return status;
+}
+
+void VoxelResampler::Implementation::describeSums(
+  const Lattice& lattice, int& fractionBits, std::uint64_t& keys)
+{
+  const int halvings = halvingsOf(lattice);
+  const Lattice fine = halvings > 0 ? finerLattice(lattice, halvings) : lattice;
+  const int indexBits = indexBitsOf(fine);
+  fractionBits = (halvings >= 0 ? kPositionBits : positionBitsFor(indexBits)) - indexBits;
+  keys = fine.key(0, 0, fine.dimensions[2]);
+}
+
+/// @param sums the voxels in ascending order.
+Status VoxelResampler::Implementation::finishSums(const VoxelRequest& request, const VoxelRun& sums,
+  int fractionBits, const Executor& executor, ProgressObserver* observer)
+{
+  clear();
+  Status status = check(request);
+  if (status == Status::Ok)
+  {
+    constexpr std::size_t kRanges = 64;
+    levels[0].lattice = request.lattice;
+    halvings_ = std::max(halvingsOf(request.lattice), 0);
+    runs_.reset(kRanges, fractionBits);
+    for (std::size_t range = 0; range < kRanges; ++range)
+    {
+      const auto first = std::ptrdiff_t(sums.voxels.size() * range / kRanges);
+      const auto last = std::ptrdiff_t(sums.voxels.size() * (range + 1) / kRanges);
+      VoxelRun run;
+      run.voxels.assign(sums.voxels.begin() + first, sums.voxels.begin() + last);
+      if (!sums.secondMoments.empty())
+      {
+        run.secondMoments.assign(sums.secondMoments.begin() + first, sums.secondMoments.begin() + last);
+      }
+      runs_.add(range, std::move(run));
+    }
+    status = finishRuns(request, executor, observer);
+  }
+  if (status != Status::Ok)
+  {
+    clear();
+  }
+  return status;
 }
 
 Status VoxelResampler::Implementation::visitGeneral(

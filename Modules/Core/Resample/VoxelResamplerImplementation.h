@@ -60,6 +60,14 @@ public:
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
   void visitPointsByVoxelSet(const VoxelRequest& request, const SetWork& work, const Executor& executor);
   bool poolHoldsAll() const { return poolHoldsAll_; }
+  /// For VoxelAccumulator: the sums of the points in the lattice's voxels, or in halves of these where it has
+  /// few; and the levels of such sums.
+  Status sum(const VoxelRequest& request, simd::VoxelRun& sums, int& fractionBits, const Executor& executor,
+    ProgressObserver* observer);
+  /// Bits of offsets in such sums, and above all their keys.
+  static void describeSums(const Lattice& lattice, int& fractionBits, std::uint64_t& keys);
+  Status finishSums(const VoxelRequest& request, const simd::VoxelRun& sums, int fractionBits,
+    const Executor& executor, ProgressObserver* observer);
 
   std::vector<simd::Level> levels = std::vector<simd::Level>(1);
   std::int64_t clipped = 0;
@@ -113,6 +121,7 @@ private:
   Status visitGeneral(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
 
+  bool keepsRuns_ = false; ///< For sum().
   int halvings_ = 0;
   Lattice halved_; ///< The lattice asked for, or what halvings_ make of it.
   alignas(simd::kApart) simd::PartitionPlan plan_;

@@ -147,7 +147,7 @@ Status VoxelResampler::Implementation::runPlanned(
     partition.clear();
   }
   const std::int64_t mostPoints = mostPointsOfBatch(indexBits);
-  const bool inBatches = halvings_ > 0 || pointsOf(chunks) > mostPoints;
+  const bool inBatches = keepsRuns_ || halvings_ > 0 || pointsOf(chunks) > mostPoints;
   const bool holdsAll = request.keepPointRecords && chunks.count() == 1 && !inBatches;
   runs_.reset(inBatches ? plan_.partitions : 0, plan_.fractionBits);
   std::int64_t batchPoints = 0;

@@ -1,0 +1,213 @@
+// Sums that points are added to and taken from, against one run over all the points.
+#include "Core/Resample/VoxelAccumulator.h"
+
+#include "RandomClouds.h"
+#include "ResamplerRuns.h"
+
+#include "../HeldInstructionSets.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+using namespace pointhaptics;
+using namespace pointhaptics::trial;
+
+namespace
+{
+
+constexpr std::size_t kPoints = 8000;
+constexpr int kLevels = 3;
+
+AffineTransform turned()
+{
+  return AffineTransform::translation({ 0.2, 0.1, 0.3 }) * AffineTransform::rotation(25, { 1, 2, 3 });
+}
+
+struct Case
+{
+  explicit Case(const Lattice& of)
+    : lattice(of)
+    , points(quantisedPoints(kPoints, 3, of))
+  {
+    points[5].z = NAN;
+    expected = runOf(request(0, kPoints));
+  }
+  PointView view(std::size_t first, std::size_t last) const
+  {
+    return { points.data() + first, std::int64_t(last - first) };
+  }
+  VoxelRequest request(std::size_t first, std::size_t last) const
+  {
+    VoxelRequest request;
+    request.points = view(first, last);
+    request.transform = turned();
+    request.lattice = lattice;
+    request.keys = true;
+    request.covariances = true;
+    request.levels = kLevels;
+    return request;
+  }
+  VoxelAccumulator of(std::size_t first, std::size_t last, const Executor& executor = {}) const
+  {
+    VoxelAccumulator sums(lattice, true);
+    EXPECT_EQ(sums.add(view(first, last), turned(), executor), Status::Ok);
+    return sums;
+  }
+
+  Lattice lattice;
+  std::vector<Vec3> points;
+  RunResult expected;
+};
+
+void expectFinishes(VoxelAccumulator& sums, const Case& all, const std::string& what,
+  InstructionSet instructions = InstructionSet::Automatic, const Executor& executor = {})
+{
+  VoxelAccumulator::Request wanted;
+  wanted.keys = true;
+  wanted.levels = kLevels;
+  wanted.instructions = instructions;
+  VoxelResampler result;
+  ASSERT_EQ(sums.finish(wanted, result, executor), Status::Ok) << what;
+  RunResult found;
+  found.clipped = result.clippedPoints();
+  found.invalid = result.invalidPoints();
+  for (int level = 0; level < kLevels; ++level)
+  {
+    found.levels.push_back(levelOf(result, all.request(0, 1), level));
+  }
+  expectSame(found, all.expected, nameOf(all.lattice) + ", " + what);
+}
+
+std::vector<Lattice> lattices()
+{
+  return { latticeOf(60, 50, 40), latticeOf(1024, 1024, 1024), latticeOf(5000, 3, 2), latticeOf(2, 2, 1),
+    latticeOf(1, 1, 1) };
+}
+
+}
+
+TEST(VoxelAccumulator, GivesWhatOneRunGivesHoweverThePointsAreSplit)
+{
+  for (const Lattice& lattice : lattices())
+  {
+    const Case all(lattice);
+    VoxelAccumulator whole = all.of(0, kPoints);
+    expectFinishes(whole, all, "at once");
+    VoxelAccumulator parts(lattice, true);
+    for (const std::size_t part : randomOrder(100, 4))
+    {
+      ASSERT_EQ(parts.add(all.view(kPoints * part / 100, kPoints * (part + 1) / 100), turned(),
+                  ThreadedExecutor(int(part % 3) + 1)),
+        Status::Ok);
+    }
+    EXPECT_EQ(parts.points(), std::int64_t(kPoints));
+    for (const InstructionSet set : heldInstructionSets())
+    {
+      expectFinishes(parts, all, "in parts, instruction set", set, ThreadedExecutor(2));
+    }
+  }
+}
+
+TEST(VoxelAccumulator, MergesInAnyOrder)
+{
+  for (const Lattice& lattice : lattices())
+  {
+    const Case all(lattice);
+    VoxelAccumulator a = all.of(0, 1000);
+    VoxelAccumulator b = all.of(1000, 7000);
+    VoxelAccumulator c = all.of(7000, kPoints);
+    ASSERT_EQ(b.merge(a), Status::Ok);
+    ASSERT_EQ(c.merge(b), Status::Ok);
+    expectFinishes(c, all, "merged");
+    VoxelAccumulator d(lattice, true);
+    ASSERT_EQ(d.merge(c), Status::Ok);
+    expectFinishes(d, all, "merged into none");
+  }
+}
+
+TEST(VoxelAccumulator, AWindowOfFramesIsThatOfItsFrames)
+{
+  for (const Lattice& lattice : lattices())
+  {
+    const Case all(lattice);
+    const std::vector<Vec3> before = quantisedPoints(3000, 8, lattice);
+    const PointView old(before.data(), 3000);
+    VoxelAccumulator sums = all.of(0, 4000);
+    ASSERT_EQ(sums.subtract(old, turned()), Status::Ok) << "before it is added";
+    ASSERT_EQ(sums.add(old, turned()), Status::Ok);
+    ASSERT_EQ(sums.add(all.view(4000, kPoints), turned()), Status::Ok);
+    expectFinishes(sums, all, "a frame that came and went");
+    ASSERT_EQ(sums.subtract(all.view(0, kPoints), turned()), Status::Ok);
+    VoxelResampler result;
+    ASSERT_EQ(sums.finish({}, result), Status::Ok);
+    EXPECT_EQ(result.size(), 0);
+    EXPECT_EQ(sums.points(), 0);
+  }
+}
+
+TEST(VoxelAccumulator, SubtractingWhatIsNotThereIsAnError)
+{
+  const Case all(latticeOf(60, 50, 40));
+  VoxelAccumulator sums = all.of(0, 1000);
+  ASSERT_EQ(sums.subtract(all.view(900, 1100), turned()), Status::Ok);
+  VoxelResampler result;
+  EXPECT_EQ(sums.finish({}, result), Status::InvalidParameter);
+  EXPECT_TRUE(sums.serialize().empty());
+}
+
+TEST(VoxelAccumulator, RefusesOtherLatticesAndMoments)
+{
+  const Case all(latticeOf(60, 50, 40));
+  VoxelAccumulator sums = all.of(0, kPoints);
+  EXPECT_EQ(sums.merge(VoxelAccumulator(latticeOf(60, 50, 41), true)), Status::InvalidParameter);
+  EXPECT_EQ(sums.merge(VoxelAccumulator(all.lattice, false)), Status::InvalidParameter);
+  AffineTransform singular;
+  singular.m[0][0] = 0.0;
+  EXPECT_EQ(sums.add(all.view(0, 10), singular), Status::SingularTransform);
+  expectFinishes(sums, all, "after what was refused");
+}
+
+TEST(VoxelAccumulator, ComesBackFromBytes)
+{
+  for (const Lattice& lattice : lattices())
+  {
+    const Case all(lattice);
+    VoxelAccumulator a = all.of(0, 3000);
+    VoxelAccumulator b = all.of(3000, kPoints);
+    VoxelAccumulator read(latticeOf(1, 1, 1));
+    ASSERT_EQ(VoxelAccumulator::deserialize(a.serialize(), read), Status::Ok);
+    ASSERT_EQ(read.merge(b), Status::Ok);
+    expectFinishes(read, all, "from bytes");
+    VoxelAccumulator none(lattice);
+    ASSERT_EQ(VoxelAccumulator::deserialize(none.serialize(), read), Status::Ok);
+    EXPECT_EQ(read.points(), 0);
+  }
+}
+
+TEST(VoxelAccumulator, RefusesBytesThatNoneWrites)
+{
+  const Case all(latticeOf(60, 50, 40));
+  VoxelAccumulator sums = all.of(0, 500);
+  const std::string bytes = sums.serialize();
+  VoxelAccumulator read(latticeOf(1, 1, 1));
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 50)
+  {
+    ASSERT_EQ(VoxelAccumulator::deserialize(bytes.substr(0, size), read), Status::InvalidParameter) << size;
+  }
+  EXPECT_EQ(VoxelAccumulator::deserialize(bytes + "x", read), Status::InvalidParameter);
+  Random random(9);
+  for (int i = 0; i < 3000; ++i)
+  {
+    std::string changed = bytes;
+    for (int n = 0; n < 1 + i % 4; ++n)
+    {
+      changed[random.below(i % 2 ? 200 : changed.size())] = char(random.below(256));
+    }
+    VoxelResampler result;
+    if (VoxelAccumulator::deserialize(changed, read) == Status::Ok)
+    {
+      EXPECT_EQ(read.finish({}, result), Status::Ok);
+    }
+  }
+}
