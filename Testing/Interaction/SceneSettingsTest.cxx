@@ -159,7 +159,8 @@ TEST_F(SceneSettingsTest, AreThoseOfTheFiltersWhenTheRequestIsMade)
 
 TEST_F(SceneSettingsTest, OfTheResamplerReachTheWorkersPicture)
 {
-  this->walk(resampler_.Get(), { "numberOfLevels", "usePointIndex", "instructionSet" });
+  this->walk(resampler_.Get(),
+    { "computeVoxelIndex", "keepOriginalPointIds", "numberOfLevels", "usePointIndex", "instructionSet" });
 }
 
 TEST_F(SceneSettingsTest, OfTheBandwidthFilterReachTheWorkersPicture)
