@@ -3,17 +3,17 @@
 #include "Clouds/Pipeline.h"
 #include "Feel/FeelLive.h"
 #include "Feel/FeelOptions.h"
-#include "Feel/FeelScenes.h"
+#include "Feel/FeltCloud.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
 
 #include "CsvWriter.h"
 #include "PathTicks.h"
+#include "VirtualTouch.h"
 
 #include "Devices/HipPath.h"
 #include "Devices/SimulatedDevice.h"
-#include "Haptics/Proxy.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -36,10 +35,6 @@ namespace
 {
 
 constexpr const char* kCommand = "feel";
-constexpr const char* kHeader = "t,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,"
-                                "force_x,force_y,force_z,radius,contact,update_us";
-/// A day at 1 kHz; more is a mistake in the path's times.
-constexpr double kMostTicks = 1e8;
 /// Room about the path for a hand that yields, metres.
 constexpr double kHandMargin = 0.1;
 
@@ -58,12 +53,14 @@ double quantile(const std::vector<float>& sorted, double part)
   return sorted.empty() ? 0.0 : double(sorted[static_cast<std::size_t>(part * double(sorted.size() - 1))]);
 }
 
-/// One tick: the row of OUT.csv, in its order.
-std::array<double, 16> rowOf(double time, const ProxyState& state, double microseconds)
+std::string header()
 {
-  return { time, state.hip.x, state.hip.y, state.hip.z, state.proxy.x, state.proxy.y, state.proxy.z,
-    state.normal.x, state.normal.y, state.normal.z, state.force.x, state.force.y, state.force.z, state.radius,
-    state.contact ? 1.0 : 0.0, microseconds };
+  std::string line;
+  for (const char* column : kFeltColumns)
+  {
+    line += (line.empty() ? "" : ",") + std::string(column);
+  }
+  return line;
 }
 
 /// Rows and their summary.
@@ -80,7 +77,7 @@ public:
     summary_.contactTicks += state.contact;
     summary_.maximumForce = std::max(summary_.maximumForce, norm(state.force));
     durations_.push_back(static_cast<float>(microseconds));
-    const std::array<double, 16> row = rowOf(time, state, microseconds);
+    const auto row = feltRow(time, state, microseconds);
     table_.row(row.data(), row.size());
   }
   Summary summary()
@@ -96,39 +93,6 @@ private:
   CsvWriter& table_;
   Summary summary_;
   std::vector<float> durations_;
-};
-
-/// A proxy in virtual time, in the scenes of where it comes.
-class VirtualTouch
-{
-public:
-  VirtualTouch(const FeelOptions& options, FeelScenes& scenes)
-    : proxy_(options.touch.parameters)
-    , scenes_(scenes)
-    , period_(1.0 / options.rateHz)
-  {
-  }
-  /// @param microseconds of the tick alone: a scene that it needs is there in time.
-  const ProxyState& step(const Vec3& hip, double& microseconds)
-  {
-    const HapticScene* scene = scenes_.at(hip, state_.contact ? state_.proxy : hip);
-    if (scene != scene_)
-    {
-      proxy_.setScene(scene_ = scene);
-    }
-    const auto before = std::chrono::steady_clock::now();
-    state_ = proxy_.step(hip, period_);
-    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;
-    microseconds = took.count();
-    return state_;
-  }
-
-private:
-  Proxy proxy_;
-  FeelScenes& scenes_;
-  double period_;
-  const HapticScene* scene_ = nullptr;
-  ProxyState state_;
 };
 
 /// A person pulled along @p path, who yields to the force; in virtual time.
@@ -162,7 +126,7 @@ bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath&
     message = options.path + ": " + pointhaptics::message(status);
     return false;
   }
-  VirtualTouch touch(options, scenes);
+  VirtualTouch touch(options.touch.parameters, scenes, options.rateHz);
   ProgressBar bar("feeling");
   for (std::int64_t tick = 0; tick < ticks && !stopIsRequested(); ++tick)
   {
@@ -184,19 +148,15 @@ bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath&
 /// Moves the hand along @p path in virtual time.
 void walk(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, std::int64_t ticks, Rows& rows)
 {
-  VirtualTouch touch(options, scenes);
-  const double start = path.points.front().timeSeconds;
-  const double end = path.points.back().timeSeconds;
-  std::size_t hint = 0;
   ProgressBar bar("feeling");
-  for (std::int64_t tick = 0; tick < ticks && !stopIsRequested(); ++tick)
-  {
-    const double time = std::min(start + double(tick) / options.rateHz, end);
-    double microseconds = 0.0;
-    const ProxyState& state = touch.step(path.position(time, hint), microseconds);
-    rows.add(time, state, microseconds);
-    bar.show(double(tick) / double(ticks));
-  }
+  std::int64_t tick = 0;
+  feelPath(options.touch.parameters, scenes, path, options.rateHz, ticks,
+    [&](double time, const ProxyState& state, double microseconds)
+    {
+      rows.add(time, state, microseconds);
+      bar.show(double(tick++) / double(ticks));
+      return !stopIsRequested();
+    });
 }
 
 /// The hand in the device, until the time is over or the user ends it.
@@ -280,7 +240,7 @@ int runFeel(const FeelOptions& options)
     return fail(kCommand, message);
   }
   FeelScenes scenes;
-  const bool isMade = scenes.make(options, cloud.points, message);
+  const bool isMade = makeFeelScenes(options, cloud.points, scenes, message);
   showWarnings(kCommand);
   if (!isMade)
   {
@@ -289,7 +249,7 @@ int runFeel(const FeelOptions& options)
   cloud = {};
   rememberStopSignals(); // before there is an unfinished file
   CsvWriter table;
-  if (!table.open(options.output, kHeader, message))
+  if (!table.open(options.output, header(), message))
   {
     return fail(kCommand, message);
   }
@@ -311,9 +271,9 @@ void addFeelCommand(CLI::App& program, int& exitCode)
   auto options = std::make_shared<FeelOptions>();
   options->addTo(*command);
   command->callback(
-    [command, options, &exitCode]
+    [options, &exitCode]
     {
-      options->complete(*command);
+      options->complete();
       exitCode = runFeel(*options);
     });
 }

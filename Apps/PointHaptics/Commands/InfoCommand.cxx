@@ -1,8 +1,9 @@
 #include "Commands/Commands.h"
 
-#include "Clouds/CloudSummary.h"
 #include "Clouds/Pipeline.h"
 #include "Terminal/Messages.h"
+
+#include "IO/Info/CloudSummary.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -122,7 +123,7 @@ int runInfo(const InfoOptions& options)
       continue;
     }
     showWarnings(kCommand);
-    const CloudSummary summary = summarize(cloud);
+    const CloudSummary summary = summarize(cloud.points, cloud.format);
     if (options.json)
     {
       files.push_back(toJson(file, summary));

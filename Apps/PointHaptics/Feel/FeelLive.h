@@ -2,8 +2,9 @@
 /// `feel --device falcon`: the hand in the device, in real time, without a window.
 #pragma once
 
-#include "Feel/FeelScenes.h"
 #include "Options/FalconOptions.h"
+
+#include "FeelScenes.h"
 
 #include <functional>
 #include <string>

@@ -2,18 +2,18 @@
 /// What `pointhaptics info` says of a cloud.
 #pragma once
 
-#include "Clouds/Pipeline.h"
-
 #include "Core/Base/PointView.h"
+
+#include "PointHapticsIOModule.h" // For export macro
 
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+class vtkPolyData;
+
 namespace pointhaptics
-{
-namespace app
 {
 
 struct ArraySummary
@@ -50,7 +50,7 @@ struct CloudSummary
 constexpr std::array<int, 5> kSpacingPercents{ 5, 25, 50, 75, 95 };
 
 /// Cost: O(n log n) for spacing and duplicates, 72 bytes a point up to 4 million points.
-CloudSummary summarize(const Cloud& cloud);
+/// @param format as the reader calls it.
+POINTHAPTICSIO_EXPORT CloudSummary summarize(vtkPolyData* cloud, const std::string& format);
 
-} // namespace app
 } // namespace pointhaptics

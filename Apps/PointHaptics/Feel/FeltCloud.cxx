@@ -1,12 +1,10 @@
-#include "Feel/FeelScenes.h"
+#include "Feel/FeltCloud.h"
 
 #include "Clouds/Pipeline.h"
 
-#include "HapticSceneBuilder.h"
-#include "PolyDataAccess.h"
+#include "FeelScenes.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include <vtkAlgorithm.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -58,9 +56,7 @@ vtkSmartPointer<vtkPolyData> preparedCloud(
     vtkNew<vtkVoxelMeanResampler> resampler;
     resampler->SetInputData(cloud);
     options.lattice.configure(resampler);
-    resampler->SetPassAttributes(false);
-    resampler->SetComputeCovariance(!options.noCovariance);
-    resampler->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+    prepareForTouch(resampler, !options.noCovariance);
     if (!updateFilter(resampler, "resampling", message))
     {
       return nullptr;
@@ -78,27 +74,22 @@ vtkSmartPointer<vtkPolyData> preparedCloud(
 
 } // namespace
 
-bool FeelScenes::make(const FeelOptions& options, vtkPolyData* cloud, std::string& message)
+bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& scenes, std::string& message)
 {
   const vtkSmartPointer<vtkPolyData> prepared = preparedCloud(options, cloud, message);
   if (!prepared)
   {
     return false;
   }
-  Status status = Status::Ok;
-  // No picture is drawn: the scene computes the few radii it needs.
-  whole_ = makeHapticScene(prepared, status, !options.noCovariance, options.bandwidth.settings);
-  if (!whole_)
+  FeelSceneSettings settings;
+  settings.bandwidth = options.bandwidth.settings;
+  settings.workspace = options.lattice.workspace();
+  settings.useCovariance = !options.noCovariance;
+  settings.refineNearHand = options.refinesNearHand();
+  if (const Status status = scenes.make(prepared, cloud->GetPoints(), settings); status != Status::Ok)
   {
     message = options.file + ": " + pointhaptics::message(status);
     return false;
-  }
-  if (options.refinesNearHand() &&
-    builder_.setCloud(PointAccess(cloud->GetPoints()).view(), SmpExecutor()) == Status::Ok)
-  {
-    builder_.setBandwidth(options.bandwidth.settings);
-    builder_.setWorkspace(options.lattice.workspace());
-    follower_.emplace(builder_, whole_);
   }
   return true;
 }

@@ -2,7 +2,7 @@
 /// How many servo ticks a hand path takes.
 #pragma once
 
-#include "PointHapticsViewerModule.h" // For export macro
+#include "PointHapticsSceneModule.h" // For export macro
 
 #include <cstdint>
 #include <string>
@@ -15,7 +15,7 @@ struct HipPath;
 /// Ticks of @p rateHz from the path's first point to its last, both included. False where they are more than
 /// @p most:
 /// @p message then says so, with @p fileName and the cure. @pre the path is not empty.
-POINTHAPTICSVIEWER_EXPORT bool countTicks(const HipPath& path, const std::string& fileName, double rateHz,
+POINTHAPTICSSCENE_EXPORT bool countTicks(const HipPath& path, const std::string& fileName, double rateHz,
   double most, std::int64_t& ticks, std::string& message);
 
 } // namespace pointhaptics

@@ -1,22 +1,20 @@
-#include "Clouds/CloudSummary.h"
+#include "IO/Info/CloudSummary.h"
 
 #include "Core/Base/Lattice.h"
 #include "Core/Neighbors/NeighborQuery.h"
 
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
 #include <fmt/format.h>
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkStringArray.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace pointhaptics
-{
-namespace app
 {
 namespace
 {
@@ -186,12 +184,12 @@ void suggest(CloudSummary& summary)
 
 } // namespace
 
-CloudSummary summarize(const Cloud& cloud)
+CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
 {
   CloudSummary summary;
-  summary.format = cloud.format;
-  summary.points = cloud.points->GetNumberOfPoints();
-  const std::vector<Vec3> points = finitePoints(cloud.points);
+  summary.format = format;
+  summary.points = cloud->GetNumberOfPoints();
+  const std::vector<Vec3> points = finitePoints(cloud);
   summary.invalid = summary.points - std::int64_t(points.size());
   for (const Vec3& p : points)
   {
@@ -201,18 +199,17 @@ CloudSummary summarize(const Cloud& cloud)
   summary.densityVariation = summary.spacing[0] > 0.0 ? summary.spacing[4] / summary.spacing[0] : 0.0;
   summary.suggestedVoxel = kSpacingsPerVoxel * summary.spacing[2];
   summary.duplicates = countDuplicates(points);
-  summary.coordinateSystem = textIn(cloud.points, "CoordinateSystem");
-  summary.unit = textIn(cloud.points, "LengthUnit");
+  summary.coordinateSystem = textIn(cloud, "CoordinateSystem");
+  summary.unit = textIn(cloud, "LengthUnit");
   summary.unitIsGuess = summary.unit.empty();
   if (summary.unitIsGuess && !summary.bounds.empty())
   {
     const Vec3 size = summary.bounds.extent();
     summary.unit = guessUnit(summary.bounds, std::max({ size.x, size.y, size.z }));
   }
-  summary.arrays = arraysOf(cloud.points);
+  summary.arrays = arraysOf(cloud);
   suggest(summary);
   return summary;
 }
 
-} // namespace app
 } // namespace pointhaptics

@@ -1,0 +1,63 @@
+/// @file
+/// What a hand on a path feels: the whole cloud, and finer scenes where the hand is.
+#pragma once
+
+#include "Haptics/LocalScene.h"
+#include "SmpExecutor.h"
+
+#include "PointHapticsSceneModule.h" // For export macro
+
+#include <memory>
+#include <optional>
+
+class vtkPoints;
+class vtkPolyData;
+class vtkVoxelMeanResampler;
+
+namespace pointhaptics
+{
+
+struct FeelSceneSettings
+{
+  LocalBandwidthSettings bandwidth; ///< The rule for proxy radii.
+  Bounds workspace;                 ///< Points outside are not felt; empty: all are.
+  bool useCovariance = true;        ///< Feel the second moments of the voxels, too.
+  bool refineNearHand = true;       ///< Scenes near the hand are as fine as the points there.
+};
+
+/// Sets on @p resampler what a scene needs of it: double means, without arrays, with second moments where
+/// they are felt.
+POINTHAPTICSSCENE_EXPORT void prepareForTouch(vtkVoxelMeanResampler* resampler, bool useCovariance);
+
+/// The scene of the whole cloud, and with FeelSceneSettings::refineNearHand beside it local ones, which are
+/// made as the hand comes along. One thread at a time.
+class POINTHAPTICSSCENE_EXPORT FeelScenes
+{
+public:
+  /// @param felt the points that are felt, in the workspace frame: what vtkVoxelMeanResampler made of the
+  /// cloud after prepareForTouch(), or raw points. @param cloud the points of the cloud in its own frame, for
+  /// the scenes near the hand; no reference is kept. Errors: those of HapticScene::create().
+  Status make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings);
+  /// Forgets where the hand was: the next path is felt as the first one.
+  void restart();
+
+  const std::shared_ptr<const HapticScene>& whole() const { return whole_; }
+  /// Null: the scene of the whole cloud is felt everywhere.
+  LocalSceneFollower* follower() { return follower_ ? &*follower_ : nullptr; }
+  /// In virtual time: the scene for the next step (see LocalSceneFollower::at()).
+  const HapticScene* at(const Vec3& hip, const Vec3& touched)
+  {
+    return follower_ ? follower_->at(hip, touched, SmpExecutor()) : whole_.get();
+  }
+
+  std::int64_t numberOfLocalScenes() const { return follower_ ? follower_->numberOfScenes() : 0; }
+  /// Edge of the finest cells felt, metres.
+  double finestCell() const { return follower_ ? follower_->finestCell() : whole_->cellSize(); }
+
+private:
+  std::shared_ptr<const HapticScene> whole_;
+  LocalSceneBuilder builder_;
+  std::optional<LocalSceneFollower> follower_;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,57 @@
+/// @file
+/// A proxy in virtual time: the same input gives the same ticks on every machine, their durations aside.
+#pragma once
+
+#include "FeelScenes.h"
+
+#include "Devices/HipPath.h"
+#include "Haptics/Proxy.h"
+
+#include "PointHapticsSceneModule.h" // For export macro
+
+#include <array>
+#include <cstdint>
+#include <functional>
+
+namespace pointhaptics
+{
+
+/// A day at 1 kHz; more ticks are a mistake in the path's times.
+constexpr double kMostTicks = 1e8;
+
+/// The columns of OUT.csv, in their order: seconds, metres, newtons, and microseconds at the end.
+constexpr std::array<const char*, 16> kFeltColumns = { "t", "hip_x", "hip_y", "hip_z", "proxy_x", "proxy_y",
+  "proxy_z", "normal_x", "normal_y", "normal_z", "force_x", "force_y", "force_z", "radius", "contact",
+  "update_us" };
+
+/// One tick as a row of these columns.
+POINTHAPTICSSCENE_EXPORT std::array<double, kFeltColumns.size()> feltRow(
+  double timeSeconds, const ProxyState& state, double microseconds);
+
+/// A proxy in the scenes of where it comes. One thread at a time.
+class POINTHAPTICSSCENE_EXPORT VirtualTouch
+{
+public:
+  /// @param scenes outlives this.
+  VirtualTouch(const HapticParameters& parameters, FeelScenes& scenes, double rateHz);
+  /// The hand is at @p hip for one tick. @param microseconds gets the duration of the tick alone: a scene
+  /// that it needs is there in time.
+  const ProxyState& step(const Vec3& hip, double& microseconds);
+
+private:
+  Proxy proxy_;
+  FeelScenes& scenes_;
+  double period_;
+  const HapticScene* scene_ = nullptr;
+  ProxyState state_;
+};
+
+/// What feelPath() tells of each tick; false stops it.
+using OnTick = std::function<bool(double timeSeconds, const ProxyState& state, double microseconds)>;
+
+/// Moves the hand along @p path, whatever the force, linearly between its points, for so many ticks (see
+/// countTicks()). @pre the path is checked and not empty.
+POINTHAPTICSSCENE_EXPORT void feelPath(const HapticParameters& parameters, FeelScenes& scenes,
+  const HipPath& path, double rateHz, std::int64_t ticks, const OnTick& onTick);
+
+} // namespace pointhaptics

@@ -1,0 +1,348 @@
+#include "vtkHapticFeel.h"
+
+#include "PathTicks.h"
+#include "VirtualTouch.h"
+#include "vtkKernelBandwidthFilter.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkTable.h"
+#include "vtkTimeStamp.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace pointhaptics;
+
+vtkStandardNewMacro(vtkHapticFeel);
+
+static_assert(int(vtkHapticFeel::GradientSteps) == int(ProxyMethod::GradientSteps) &&
+    int(vtkHapticFeel::Sphere) == int(ProxyMethod::Sphere),
+  "the filter's methods are those of Haptics, in the same order");
+
+namespace
+{
+
+/// Part of the progress that resampling takes.
+constexpr double kResampled = 0.3;
+/// Ticks between two looks at AbortExecute.
+constexpr std::int64_t kTicksBetweenReports = 256;
+
+/// Hears the resampler: keeps its first error, passes on its progress and a wish to stop.
+class ResamplerObserver : public vtkCommand
+{
+public:
+  static ResamplerObserver* New() { return new ResamplerObserver; }
+  vtkAlgorithm* Owner = nullptr;
+  std::string Error;
+
+  void Execute(vtkObject* caller, unsigned long event, void* data) override
+  {
+    auto* resampler = static_cast<vtkAlgorithm*>(caller);
+    if (event == vtkCommand::ProgressEvent)
+    {
+      this->Owner->UpdateProgress(kResampled * resampler->GetProgress());
+      resampler->SetAbortExecute(this->Owner->GetAbortExecute());
+    }
+    else if (this->Error.empty() && data)
+    {
+      // "ERROR: In file, line n\nvtkClass (0x...): the message\n\n"
+      const std::string text = static_cast<const char*>(data);
+      const std::size_t address = text.find("): ");
+      this->Error = text.substr(address == std::string::npos ? 0 : address + 3);
+      this->Error.erase(this->Error.find_last_not_of("\n .") + 1);
+    }
+  }
+};
+
+/// The column of numbers @p name of @p table, or null.
+vtkDataArray* columnOf(vtkTable* table, const char* name)
+{
+  auto* column = vtkDataArray::SafeDownCast(table->GetColumnByName(name));
+  return column && column->GetNumberOfComponents() == 1 ? column : nullptr;
+}
+
+/// False: @p message says what is wrong with the table and the cure.
+bool pathOf(vtkTable* table, HipPath& path, std::string& message)
+{
+  vtkDataArray* columns[4] = { columnOf(table, "t"), nullptr, nullptr, nullptr };
+  const bool isFelt = columnOf(table, "hip_x") != nullptr;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    columns[axis + 1] = columnOf(table, (std::string(isFelt ? "hip_" : "") + "xyz"[axis]).c_str());
+  }
+  if (std::count(columns, columns + 4, nullptr) > 0)
+  {
+    message = "path: a column of numbers is missing; give t, x, y and z";
+    return false;
+  }
+  const vtkIdType rows = table->GetNumberOfRows();
+  if (rows == 0)
+  {
+    message = "path: it has no rows; give at least one";
+    return false;
+  }
+  path.points.reserve(std::size_t(rows));
+  for (vtkIdType row = 0; row < rows; ++row)
+  {
+    double v[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      v[i] = columns[i]->GetComponent(row, 0);
+    }
+    if (!std::all_of(v, v + 4, [](double number) { return std::isfinite(number); }))
+    {
+      message = fmt::format(
+        "path: row {} is {}, {}, {}, {}; leave rows out that are not finite", row, v[0], v[1], v[2], v[3]);
+      return false;
+    }
+    if (row > 0 && !(v[0] > path.points.back().timeSeconds))
+    {
+      message =
+        fmt::format("path: row {}: time {} is not after the time before it, {}; sort the rows by time "
+                    "and remove duplicates",
+          row, v[0], path.points.back().timeSeconds);
+      return false;
+    }
+    path.points.push_back({ v[0], { v[1], v[2], v[3] } });
+  }
+  return true;
+}
+
+/// The columns of the output, still without rows.
+std::vector<vtkSmartPointer<vtkDoubleArray>> addColumns(vtkTable* output)
+{
+  std::vector<vtkSmartPointer<vtkDoubleArray>> columns;
+  for (const char* name : kFeltColumns)
+  {
+    columns.push_back(vtkSmartPointer<vtkDoubleArray>::New());
+    columns.back()->SetName(name);
+    output->AddColumn(columns.back());
+  }
+  return columns;
+}
+
+} // namespace
+
+class vtkHapticFeel::Internals
+{
+public:
+  /// False: @p message says why, or is empty where the work was aborted.
+  bool MakeScenes(vtkHapticFeel* filter, vtkPointSet* cloud, std::string& message);
+  bool Check(const vtkHapticFeel* filter, std::string& message) const;
+  HapticParameters ParametersOf(const vtkHapticFeel* filter) const;
+  bool Feel(vtkHapticFeel* filter, const HipPath& path, std::int64_t ticks, vtkTable* output);
+
+  vtkNew<vtkVoxelMeanResampler> Resampler;
+  vtkNew<vtkKernelBandwidthFilter> Bandwidth;
+  vtkNew<ResamplerObserver> Observer;
+  bool Aborted = false;
+  vtkTimeStamp RetryTime;
+
+private:
+  FeelScenes Scenes;
+  /// What the scenes were made of; MTimes are never given twice.
+  vtkMTimeType CloudTime = 0;
+  vtkMTimeType FilterTime = 0;
+  bool UsedCovariance = false;
+  bool RefinedNearHand = false;
+
+  vtkMTimeType TimeOfFilters() const { return std::max(Resampler->GetMTime(), Bandwidth->GetMTime()); }
+};
+
+bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cloud, std::string& message)
+{
+  const bool isKept = this->Scenes.whole() && this->CloudTime == cloud->GetMTime() &&
+    this->FilterTime == this->TimeOfFilters() && this->UsedCovariance == filter->UseCovariance &&
+    this->RefinedNearHand == filter->RefineNearHand;
+  if (isKept)
+  {
+    this->Scenes.restart();
+    return true;
+  }
+  this->CloudTime = 0;
+  // Not the object of the pipeline: it would update what is upstream again.
+  auto input = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
+  input->ShallowCopy(cloud);
+  prepareForTouch(this->Resampler, filter->UseCovariance);
+  this->Resampler->SetInputData(input);
+  this->Observer->Error.clear();
+  this->Resampler->Update();
+  vtkPolyData* felt = this->Resampler->GetOutput();
+  message = this->Observer->Error;
+  if (!message.empty() || filter->AbortExecute)
+  {
+    return false;
+  }
+  if (felt->GetNumberOfPoints() == 0)
+  {
+    message = "no finite point lies in the workspace; leave out the workspace, or mend the transform";
+    return false;
+  }
+  FeelSceneSettings settings;
+  settings.bandwidth = this->Bandwidth->GetSettings();
+  settings.useCovariance = filter->UseCovariance;
+  settings.refineNearHand = filter->RefineNearHand && filter->UseCovariance;
+  if (!this->Resampler->GetAutomaticWorkspace())
+  {
+    const double* b = this->Resampler->GetWorkspaceBounds();
+    settings.workspace.include({ b[0], b[2], b[4] });
+    settings.workspace.include({ b[1], b[3], b[5] });
+  }
+  const Status status = this->Scenes.make(felt, cloud->GetPoints(), settings);
+  message = status == Status::Ok ? "" : pointhaptics::message(status);
+  filter->NumberOfFeltPoints = felt->GetNumberOfPoints();
+  this->Resampler->SetInputData(nullptr);
+  this->Resampler->ReleaseScratch();
+  this->CloudTime = status == Status::Ok ? cloud->GetMTime() : 0;
+  this->FilterTime = this->TimeOfFilters();
+  this->UsedCovariance = filter->UseCovariance;
+  this->RefinedNearHand = filter->RefineNearHand;
+  return status == Status::Ok;
+}
+
+HapticParameters vtkHapticFeel::Internals::ParametersOf(const vtkHapticFeel* filter) const
+{
+  HapticParameters parameters;
+  parameters.method = static_cast<ProxyMethod>(filter->Method);
+  parameters.contact.stiffness = filter->Stiffness;
+  parameters.contact.damping = filter->Damping;
+  parameters.contact.staticFriction = filter->StaticFriction;
+  parameters.contact.dynamicFriction = filter->DynamicFriction;
+  return parameters;
+}
+
+bool vtkHapticFeel::Internals::Check(const vtkHapticFeel* filter, std::string& message) const
+{
+  if (this->ParametersOf(filter).check() != Status::Ok)
+  {
+    message =
+      fmt::format("stiffness {} N/m, damping {} N s/m, mu_s {}, mu_d {}; give 0 to 1e5, 0 to 1e3, 0 to "
+                  "10 and 0 to mu_s",
+        filter->Stiffness, filter->Damping, filter->StaticFriction, filter->DynamicFriction);
+  }
+  else if (!(filter->Rate >= 1.0 && filter->Rate <= 1e5))
+  {
+    message = fmt::format("rate {} Hz; give 1 to 100000", filter->Rate);
+  }
+  return message.empty();
+}
+
+bool vtkHapticFeel::Internals::Feel(
+  vtkHapticFeel* filter, const HipPath& path, std::int64_t ticks, vtkTable* output)
+{
+  const auto columns = addColumns(output);
+  for (const auto& column : columns)
+  {
+    column->Allocate(ticks);
+  }
+  std::int64_t tick = 0;
+  feelPath(this->ParametersOf(filter), this->Scenes, path, filter->Rate, ticks,
+    [&](double time, const ProxyState& state, double microseconds)
+    {
+      const auto row = feltRow(time, state, microseconds);
+      for (std::size_t i = 0; i < row.size(); ++i)
+      {
+        columns[i]->InsertNextValue(row[i]);
+      }
+      if (++tick % kTicksBetweenReports == 0)
+      {
+        filter->UpdateProgress(kResampled + (1.0 - kResampled) * double(tick) / double(ticks));
+      }
+      return !filter->AbortExecute;
+    });
+  return !filter->AbortExecute;
+}
+
+vtkHapticFeel::vtkHapticFeel()
+  : Impl(std::make_unique<Internals>())
+{
+  this->SetNumberOfInputPorts(2);
+  this->Impl->Observer->Owner = this;
+  this->Impl->Resampler->AddObserver(vtkCommand::ErrorEvent, this->Impl->Observer);
+  this->Impl->Resampler->AddObserver(vtkCommand::ProgressEvent, this->Impl->Observer);
+}
+
+vtkHapticFeel::~vtkHapticFeel()
+{
+  // Others may hold the resampler longer.
+  this->Impl->Resampler->RemoveObserver(this->Impl->Observer);
+}
+
+vtkVoxelMeanResampler* vtkHapticFeel::GetResampler()
+{
+  return this->Impl->Resampler;
+}
+
+vtkKernelBandwidthFilter* vtkHapticFeel::GetBandwidthFilter()
+{
+  return this->Impl->Bandwidth;
+}
+
+vtkMTimeType vtkHapticFeel::GetMTime()
+{
+  if (this->Impl->Aborted)
+  {
+    // The pipeline would take the result of an aborted execution for valid: request another one.
+    this->Impl->RetryTime.Modified();
+  }
+  return std::max({ this->Superclass::GetMTime(), this->Impl->Resampler->GetMTime(),
+    this->Impl->Bandwidth->GetMTime(), this->Impl->RetryTime.GetMTime() });
+}
+
+int vtkHapticFeel::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkTable");
+  return 1;
+}
+
+int vtkHapticFeel::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  auto* cloud = vtkPointSet::GetData(inputVector[0]);
+  auto* output = vtkTable::GetData(outputVector);
+  HipPath path;
+  std::int64_t ticks = 0;
+  std::string message;
+  const bool isFelt = pathOf(vtkTable::GetData(inputVector[1]), path, message) &&
+    this->Impl->Check(this, message) && countTicks(path, "path", this->Rate, kMostTicks, ticks, message) &&
+    this->Impl->MakeScenes(this, cloud, message) && this->Impl->Feel(this, path, ticks, output);
+  this->Impl->Aborted = !isFelt && message.empty();
+  if (!isFelt)
+  {
+    output->Initialize();
+    addColumns(output);
+    if (!message.empty())
+    {
+      vtkErrorMacro(<< message);
+    }
+  }
+  return 1;
+}
+
+void vtkHapticFeel::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->Method << "\n";
+  os << indent << "Stiffness: " << this->Stiffness << "\n";
+  os << indent << "Damping: " << this->Damping << "\n";
+  os << indent << "StaticFriction: " << this->StaticFriction << "\n";
+  os << indent << "DynamicFriction: " << this->DynamicFriction << "\n";
+  os << indent << "Rate: " << this->Rate << "\n";
+  os << indent << "UseCovariance: " << this->UseCovariance << "\n";
+  os << indent << "RefineNearHand: " << this->RefineNearHand << "\n";
+  os << indent << "NumberOfFeltPoints: " << this->NumberOfFeltPoints << "\n";
+}
