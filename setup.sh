@@ -19,6 +19,7 @@ if [[ "${1:-}" == test && -n "${CI:-}" ]]; then
   PACKAGES+=(doxygen)
 fi
 readonly PACKAGES
+readonly TEST_PACKAGES=(python3-vtk9 python3-numpy)
 
 usage() {
   cat <<'TEXT'
@@ -69,9 +70,10 @@ finish() {
   exit "$code"
 }
 
+# The packages among the arguments that are not installed.
 missing_packages() {
   local package
-  for package in "${PACKAGES[@]}"; do
+  for package in "$@"; do
     # A package that was never seen makes dpkg-query fail; one that was removed has another state.
     if ! dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null | grep -q '^ii'; then
       printf '%s\n' "$package"
@@ -80,13 +82,14 @@ missing_packages() {
 }
 
 install_packages() {
+  local packages=("${PACKAGES[@]}" "$@")
   step="finding out which packages are missing"
   if ! command -v dpkg-query >/dev/null; then
-    say "This is no Debian or Ubuntu: going on with what is installed. Needed: ${PACKAGES[*]} or their like."
+    say "This is no Debian or Ubuntu: going on with what is installed. Needed: ${packages[*]} or their like."
     return
   fi
   local missing=()
-  mapfile -t missing < <(missing_packages)
+  mapfile -t missing < <(missing_packages "${packages[@]}")
   if ((${#missing[@]} == 0)); then
     say "All packages are installed"
     return
@@ -122,7 +125,7 @@ number_of_jobs() {
 build() {
   local tests="$1" jobs options
   jobs="${BUILD_JOBS:-$(number_of_jobs)}"
-  options=(-DCMAKE_BUILD_TYPE=Release "-DPOINTHAPTICS_BUILD_TESTING=$tests"
+  options=(-DCMAKE_BUILD_TYPE=Release "-DPOINTHAPTICS_BUILD_TESTING=$tests" "-DPOINTHAPTICS_BUILD_PYTHON=$tests"
     "-DPOINTHAPTICS_WARNINGS_AS_ERRORS=$([[ -n "${CI:-}" ]] && echo ON || echo OFF)")
   if command -v ccache >/dev/null; then
     options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
@@ -202,7 +205,7 @@ run_demo() {
 
 run_test() {
   local log="$BUILD/ctest.log" tests seconds skipped
-  install_packages
+  install_packages "${TEST_PACKAGES[@]}"
   build ON
   start_display
   step="running ctest"

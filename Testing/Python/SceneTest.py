@@ -1,0 +1,123 @@
+"""Scene.feel: the rows of the program, bit for bit."""
+
+import _thread
+import threading
+import unittest
+
+from support import TestCase, run_program, sphere
+
+import numpy as np
+import pointhaptics as ph
+
+
+def path_over_the_sphere():
+    """Into the sphere, along its surface, and out."""
+    t = np.linspace(0, 1.5, 40)
+    angle = np.linspace(0, 1, 40)
+    depth = 0.045 - 0.01 * np.sin(np.pi * angle)
+    return np.column_stack([t, depth * np.cos(angle), depth * np.sin(angle), 0.001 * angle])
+
+
+class Feel(TestCase):
+    def program(self, *options):
+        run_program("feel", self.path("in.vtp"), "--path", self.path("hip.csv"), "-o", self.path("out.csv"), *options)
+        return np.genfromtxt(self.path("out.csv"), delimiter=",", names=True)
+
+    def compare(self, felt, told):
+        self.assertEqual(felt.dtype.names, told.dtype.names)
+        self.assertEqual(felt.dtype.names, ph.FELT_COLUMNS)
+        self.assertGreater(felt["contact"].sum(), 100)
+        for name in felt.dtype.names[:-1]:
+            self.assert_same_bits(felt[name], told[name])
+        self.assertTrue((felt["update_us"] > 0).all())
+
+    def setUp(self):
+        super().setUp()
+        self.points = sphere(60000).astype(np.float32)
+        self.hand = path_over_the_sphere()
+        ph.write(self.path("in.vtp"), self.points)
+        np.savetxt(self.path("hip.csv"), self.hand, "%.17g", ",", header="t,x,y,z", comments="")
+
+    def test_default(self):
+        self.compare(ph.Scene(self.points).feel(self.hand), self.program())
+
+    def test_gains_methods_and_lattices(self):
+        scene = ph.Scene(self.points, dims=100)
+        for options, arguments in (
+            (("--stiffness", 500, "--damping", 2, "--rate", 500), {"stiffness": 500, "damping": 2, "rate": 500}),
+            (("--mu-s", 0.5, "--mu-d", 0.2), {"mu_s": 0.5, "mu_d": 0.2}),
+            (("--mu-d", 0.2), {"mu_d": 0.2}),
+            (("--method", "sphere"), {"method": "sphere"}),
+            (("--method", "gradient-steps"), {"method": "gradient-steps"}),
+        ):
+            with self.subTest(options):
+                self.compare(scene.feel(self.hand, **arguments), self.program("--dims", 100, *options))
+
+    def test_voxel_and_workspace(self):
+        scene = ph.Scene(self.points, voxel=0.001, workspace=(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05))
+        told = self.program("--voxel", 0.001, "--workspace=-0.05,0.05,-0.05,0.05,-0.05,0.05")
+        self.compare(scene.feel(self.hand), told)
+
+    def test_a_scene_forgets_the_path_before(self):
+        scene = ph.Scene(self.points)
+        first = scene.feel(self.hand)
+        scene.feel(self.hand[::2] * (1, 1, -1, 1))
+        again = scene.feel(self.hand)
+        for name in ph.FELT_COLUMNS[:-1]:
+            self.assert_same_bits(first[name], again[name])
+
+    def test_a_felt_path_can_be_felt_again(self):
+        scene = ph.Scene(self.points)
+        first = scene.feel(self.hand)
+        again = scene.feel(first)
+        np.testing.assert_array_equal(again["force_x"], first["force_x"])
+
+    def test_bad_gains(self):
+        scene = ph.Scene(self.points)
+        for kind, words, options in (
+            (ValueError, ["stiffness", "-1"], {"stiffness": -1}),
+            (ValueError, ["stiffness", "nan"], {"stiffness": np.nan}),
+            (TypeError, ["damping", "'a'"], {"damping": "a"}),
+            (ValueError, ["mu_d", "mu_s"], {"mu_s": 0.1, "mu_d": 0.2}),
+            (ValueError, ["rate", "0"], {"rate": 0}),
+            (ValueError, ["method", "'soft'", "'sphere'"], {"method": "soft"}),
+        ):
+            with self.subTest(options):
+                self.assert_raises(kind, words, scene.feel, self.hand, **options)
+
+    def test_bad_paths(self):
+        scene = ph.Scene(self.points)
+        nan = self.hand.copy()
+        nan[3, 2] = np.nan
+        for kind, words, path in (
+            (ValueError, "(0, 4)", np.zeros((0, 4))),
+            (ValueError, "(5, 3)", np.zeros((5, 3))),
+            (ValueError, "(4,)", np.zeros(4)),
+            (TypeError, "<U1", [["a", "b", "c", "d"]]),
+            (ValueError, "row 3", nan),
+            (ValueError, "row 1", self.hand[::-1]),
+            (ValueError, "ticks", self.hand * (1e9, 1, 1, 1)),
+            (ValueError, "fields", np.zeros(3, [("t", float), ("x", float)])),
+        ):
+            with self.subTest(words):
+                self.assert_raises(kind, ["path", words], scene.feel, path)
+
+    def test_nothing_to_feel(self):
+        self.assert_raises(ValueError, "workspace", ph.Scene(np.full((4, 3), np.nan)).feel, self.hand)
+        far = ph.Scene(self.points, workspace=(1, 2, 1, 2, 1, 2))
+        self.assert_raises(ValueError, "workspace", far.feel, self.hand)
+
+    def test_ctrl_c_ends_a_long_path(self):
+        scene = ph.Scene(self.points)
+        scene.feel(self.hand[:2])
+        slow = self.hand * (2000, 1, 1, 1)  # 3 million ticks
+        timer = threading.Timer(0.2, _thread.interrupt_main)
+        timer.start()
+        self.addCleanup(timer.join)
+        with self.assertRaises(KeyboardInterrupt):
+            scene.feel(slow)
+        self.assertEqual(len(scene.feel(self.hand[:2])), len(scene.feel(self.hand[:2])))
+
+
+if __name__ == "__main__":
+    unittest.main()
