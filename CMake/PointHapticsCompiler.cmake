@@ -17,11 +17,14 @@ if (POINTHAPTICS_BUILD_FUZZERS)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif ()
 
-# pointhaptics_plain_library(<Name> SOURCES ... HEADERS ... [PUBLIC libs...] [PRIVATE libs...])
-# A C++17 library without VTK: target PointHaptics<Name>, alias PointHaptics::<Name>, installed and
-# exported with the package.
+# pointhaptics_plain_library(<Name> SOURCES ... HEADERS ... [PUBLIC libs...] [PRIVATE libs...] [EXPORT set])
+# A C++17 library that is no VTK module: target PointHaptics<Name>, alias PointHaptics::<Name>, installed and
+# exported with the package. Export set: PointHapticsPlain, of those that do without VTK.
 function (pointhaptics_plain_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "EXPORT" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  if (NOT ARG_EXPORT)
+    set(ARG_EXPORT PointHapticsPlain)
+  endif ()
   set(target "PointHaptics${name}")
   add_library(${target} ${ARG_SOURCES} ${ARG_HEADERS})
   add_library(PointHaptics::${name} ALIAS ${target})
@@ -34,7 +37,7 @@ function (pointhaptics_plain_library name)
     EXPORT_NAME ${name}
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  install(TARGETS ${target} EXPORT PointHapticsPlain
+  install(TARGETS ${target} EXPORT ${ARG_EXPORT}
     RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")

@@ -13,6 +13,7 @@ set(may_include_Scene Core Haptics Devices Filters Scene)
 set(may_include_Rendering Core Filters Rendering)
 set(may_include_Interaction Core Shapes Haptics Devices Filters IO Scene Rendering Interaction)
 set(may_include_Viewer Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer)
+set(may_include_PCL Core Filters PCL)
 set(may_include_Apps Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer Apps)
 # Within Core: from the room to those that it may include besides itself.
 set(rooms_of_Base "")
@@ -25,9 +26,11 @@ set(rooms_of_Reference Base Simd Neighbors Resample Bandwidth Surface)
 # Plain C++17: no VTK, no PCL, nothing that prints.
 set(plain_folders Core Shapes Haptics Devices)
 set(not_in_plain_folders "^(vtk[A-Za-z0-9_]*\\.h|pcl/.*|Eigen/.*|CLI/.*|nlohmann/.*|fmt/.*|iostream|cstdio|stdio\\.h)$")
+# A skin over Core and Filters: it finds no voxel and adds up nothing itself.
+set(not_in_skins "std::floor|std::accumulate|std::reduce|[^a-zA-Z_]floor\\(|\\+= *\\(?double|floorf\\(")
 # The viewer is a library: it prints nothing and knows no command line.
 set(not_in_viewer "^(CLI/.*|nlohmann/.*|iostream|cstdio|stdio\\.h)$")
-set(modules Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer)
+set(modules Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer PCL)
 list(JOIN modules "|" modules_pattern)
 
 # Sets home_<header> to the folder a header that is included by its bare name belongs to.
@@ -98,6 +101,15 @@ function (check_file file folder)
   set(problems "${problems}" PARENT_SCOPE)
 endfunction ()
 
+# Appends to problems the lines of a skin that compute.
+macro (check_skin file)
+  file(STRINGS "${file}" lines REGEX "${not_in_skins}")
+  file(RELATIVE_PATH shown "${ROOT}" "${file}")
+  foreach (line IN LISTS lines)
+    list(APPEND problems "${shown}: \"${line}\": a skin computes nothing; put it into Core")
+  endforeach ()
+endmacro ()
+
 find_homes()
 set(problems "")
 set(number_of_files 0)
@@ -111,6 +123,9 @@ foreach (folder IN LISTS modules ITEMS Apps)
   foreach (file IN LISTS files)
     math(EXPR number_of_files "${number_of_files} + 1")
     check_file("${file}" "${folder}")
+    if (folder STREQUAL "PCL")
+      check_skin("${file}")
+    endif ()
   endforeach ()
 endforeach ()
 

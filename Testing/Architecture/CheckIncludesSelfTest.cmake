@@ -6,7 +6,7 @@ function (check_planted expected file include)
   file(REMOVE_RECURSE "${FOLDER}")
   foreach (header IN ITEMS Modules/Core/Base/Lattice.h Modules/Core/Resample/VoxelMean.h Modules/Shapes/Shapes.h Modules/Haptics/Proxy.h Modules/Devices/HipPath.h
       Modules/Filters/vtkFilter.h Modules/IO/vtkReader.h Modules/Interaction/Widgets/vtkChart.h
-      Modules/Interaction/vtkStyle.h Modules/Scene/vtkScene.h Modules/Rendering/vtkLook.h Modules/Viewer/Window/ViewWindow.h
+      Modules/Interaction/vtkStyle.h Modules/Scene/vtkScene.h Modules/Rendering/vtkLook.h Modules/Viewer/Window/ViewWindow.h Modules/PCL/VoxelMean.h
       Apps/PointHaptics/Options.h)
     file(WRITE "${FOLDER}/${header}" "#pragma once\n")
   endforeach ()
@@ -37,6 +37,10 @@ check_planted(accepted Modules/Viewer/A.cxx "\"Shapes/Shapes.h\"")
 check_planted(accepted Modules/Viewer/A.cxx "<fmt/format.h>")
 check_planted(accepted Apps/PointHaptics/A.cxx "\"ViewWindow.h\"")
 
+check_planted(accepted Modules/PCL/A.cxx "\"vtkFilter.h\"")
+check_planted(refused Modules/PCL/A.cxx "\"Haptics/Proxy.h\"")
+check_planted(refused Modules/PCL/A.cxx "<cmath>\nint i = int(std::floor(1.5));")
+check_planted(refused Modules/Filters/A.cxx "\"PCL/VoxelMean.h\"")
 check_planted(refused Modules/Core/A.cxx "\"Haptics/Proxy.h\"")
 check_planted(refused Modules/Core/Reference/A.h "<Haptics/Proxy.h>")
 check_planted(refused Modules/Core/A.cxx "\"vtkPoints.h\"")

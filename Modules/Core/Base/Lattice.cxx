@@ -145,4 +145,40 @@ Status makeLattice(const LatticeSettings& settings, const Bounds& cloud, Lattice
   return status;
 }
 
+Status alignedLattice(
+  const Vec3& spacing, const Bounds& cloud, Lattice& lattice, std::array<std::int64_t, 3>& first) noexcept
+{
+  // Beyond, the corner would no longer be a multiple of a float's spacing in double.
+  constexpr double kMostVoxelsFromOrigin = double(std::int64_t(1) << 28);
+  Lattice made;
+  std::array<std::int64_t, 3> start{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto a = std::size_t(axis);
+    const double edge = spacing[axis];
+    if (!(edge > 0.0) || !std::isfinite(edge))
+    {
+      return Status::InvalidVoxelSize;
+    }
+    const double low = std::floor(cloud.minimum[axis] / edge);
+    const double high = std::floor(cloud.maximum[axis] / edge);
+    if (!(low <= high) || !std::isfinite(cloud.minimum[axis]) || !std::isfinite(cloud.maximum[axis]))
+    {
+      return Status::InvalidWorkspace;
+    }
+    if (!(high - low < double(kMaximumLatticeDimension)) || std::abs(low) > kMostVoxelsFromOrigin ||
+      std::abs(high) > kMostVoxelsFromOrigin)
+    {
+      return Status::LatticeNotAddressable;
+    }
+    start[a] = std::int64_t(low);
+    made.origin[axis] = low * edge;
+    made.spacing[axis] = edge;
+    made.dimensions[a] = std::int64_t(high - low) + 1;
+  }
+  lattice = made;
+  first = start;
+  return Status::Ok;
+}
+
 } // namespace pointhaptics

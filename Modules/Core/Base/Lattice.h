@@ -42,6 +42,12 @@ struct Lattice
       continuous.y < double(dimensions[1]) && continuous.z >= 0.0 && continuous.z < double(dimensions[2]) &&
       continuous.x < end.x && continuous.y < end.y && continuous.z < end.z;
   }
+  /// The voxel of a continuous index. @pre contains() holds for it.
+  static std::array<std::int64_t, 3> voxelAt(const Vec3& continuous) noexcept
+  {
+    return { std::int64_t(std::floor(continuous.x)), std::int64_t(std::floor(continuous.y)),
+      std::int64_t(std::floor(continuous.z)) };
+  }
   /// Linear index, x fastest. @pre contains() held for the continuous index these were floored from.
   std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) const noexcept
   {
@@ -115,5 +121,13 @@ Bounds defaultWorkspace() noexcept;
 /// With voxelSize the number of voxels is rounded up. Errors: InvalidWorkspace, InvalidDimensions,
 /// InvalidVoxelSize, LatticeNotAddressable; @p lattice is then unchanged.
 Status makeLattice(const LatticeSettings& settings, const Bounds& cloud, Lattice& lattice) noexcept;
+
+/// The lattice whose voxels have their faces at whole multiples of @p spacing, as those of pcl::VoxelGrid and
+/// of many map servers have, and which holds the points in @p cloud. @p first gets the multiple at which it
+/// starts on each axis. Errors: InvalidWorkspace (an empty cloud, one that is not finite), InvalidVoxelSize,
+/// LatticeNotAddressable (more than kMaximumLatticeDimension voxels on an axis, or coordinates of more than
+/// 2^28 voxels); @p lattice is then unchanged.
+Status alignedLattice(
+  const Vec3& spacing, const Bounds& cloud, Lattice& lattice, std::array<std::int64_t, 3>& first) noexcept;
 
 } // namespace pointhaptics

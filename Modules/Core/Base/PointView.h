@@ -1,5 +1,5 @@
 /// @file
-/// A non-owning view of coordinates: pointer and count, float or double, x y z interleaved.
+/// A non-owning view of coordinates: pointer, count and stride, float or double, x y z together.
 #pragma once
 
 #include "Core/Base/Vector3.h"
@@ -14,14 +14,17 @@ class PointView
 {
 public:
   PointView() = default;
-  PointView(const double* xyz, std::int64_t count)
+  /// @param stride numbers from one point's x to the next one's, at least 3: other fields may lie between.
+  PointView(const double* xyz, std::int64_t count, std::int64_t stride = 3)
     : doubles_(xyz)
     , size_(count)
+    , stride_(stride)
   {
   }
-  PointView(const float* xyz, std::int64_t count)
+  PointView(const float* xyz, std::int64_t count, std::int64_t stride = 3)
     : floats_(xyz)
     , size_(count)
+    , stride_(stride)
   {
   }
   PointView(const Vec3* points, std::int64_t count)
@@ -29,7 +32,9 @@ public:
   {
   }
   std::int64_t size() const { return size_; }
-  /// The coordinates themselves; null where they are of the other type.
+  std::int64_t stride() const { return stride_; }
+  /// The first point's coordinates; null where they are of the other type. The next ones are stride()
+  /// further.
   const float* floats() const { return floats_; }
   const double* doubles() const { return doubles_; }
   /// @pre 0 <= i < size()
@@ -37,10 +42,10 @@ public:
   {
     if (floats_)
     {
-      const float* p = floats_ + 3 * i;
+      const float* p = floats_ + stride_ * i;
       return { static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]) };
     }
-    const double* p = doubles_ + 3 * i;
+    const double* p = doubles_ + stride_ * i;
     return { p[0], p[1], p[2] };
   }
 
@@ -48,6 +53,7 @@ private:
   const double* doubles_ = nullptr;
   const float* floats_ = nullptr;
   std::int64_t size_ = 0;
+  std::int64_t stride_ = 3;
 };
 static_assert(sizeof(Vec3) == 3 * sizeof(double), "PointView reads Vec3 arrays as doubles");
 

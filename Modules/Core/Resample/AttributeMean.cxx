@@ -29,6 +29,33 @@ int bitsOf(std::int64_t count)
   return bits;
 }
 
+/// Calls body(values, count) for the tuples from @p begin to before @p end of a strided array, copied
+/// together in pieces that stay in the first cache.
+template <typename Real, typename Body>
+void forPackedTuples(const AttributeView& view, std::int64_t begin, std::int64_t end, Body&& body)
+{
+  constexpr std::int64_t kBlock = 2048;
+  Real block[kBlock];
+  std::int64_t filled = 0;
+  const char* from = static_cast<const char*>(view.values) + view.stride * begin;
+  for (std::int64_t i = begin; i < end; ++i, from += view.stride)
+  {
+    for (int component = 0; component < view.components; ++component)
+    {
+      std::memcpy(block + filled, from + std::size_t(component) * sizeof(Real), sizeof(Real));
+      if (++filled == kBlock)
+      {
+        body(static_cast<const Real*>(block), filled);
+        filled = 0;
+      }
+    }
+  }
+  if (filled > 0)
+  {
+    body(static_cast<const Real*>(block), filled);
+  }
+}
+
 template <typename Real>
 AttributeRange rangeOfReals(
   const simd::AttributeKernels& kernels, const AttributeView& view, const Executor& executor)
@@ -38,23 +65,32 @@ AttributeRange rangeOfReals(
   double largest = 0.0;
   double smallest = std::numeric_limits<double>::infinity();
   std::mutex mutex;
-  forRange(executor, view.tuples * view.components,
-    [&](std::int64_t begin, std::int64_t end)
+  const auto look = [&](const Real* first, std::int64_t count)
+  {
+    simd::Magnitudes found;
+    if constexpr (sizeof(Real) == sizeof(float))
     {
-      simd::Magnitudes found;
-      if constexpr (sizeof(Real) == sizeof(float))
-      {
-        found = kernels.magnitudesFloat(values + begin, end - begin);
-      }
-      else
-      {
-        found = kernels.magnitudesDouble(values + begin, end - begin);
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      largest = std::max(largest, found.largest);
-      smallest = std::min(smallest, found.smallest);
-      range.hasNonFinite = range.hasNonFinite || !found.allFinite;
-    });
+      found = kernels.magnitudesFloat(first, count);
+    }
+    else
+    {
+      found = kernels.magnitudesDouble(first, count);
+    }
+    const std::lock_guard<std::mutex> lock(mutex);
+    largest = std::max(largest, found.largest);
+    smallest = std::min(smallest, found.smallest);
+    range.hasNonFinite = range.hasNonFinite || !found.allFinite;
+  };
+  if (view.stride == 0)
+  {
+    forRange(executor, view.tuples * view.components,
+      [&](std::int64_t begin, std::int64_t end) { look(values + begin, end - begin); });
+  }
+  else
+  {
+    forRange(executor, view.tuples,
+      [&](std::int64_t begin, std::int64_t end) { forPackedTuples<Real>(view, begin, end, look); });
+  }
   if (largest > 0.0)
   {
     int exponent;

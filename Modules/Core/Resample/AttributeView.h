@@ -9,13 +9,14 @@
 namespace pointhaptics
 {
 
-/// An array owned by the caller: tuples of components, contiguous.
+/// An array owned by the caller: tuples of components.
 struct AttributeView
 {
   const void* values = nullptr;
   ScalarType type = ScalarType::Float;
   int components = 1;
   std::int64_t tuples = 0;
+  std::int64_t stride = 0; ///< Bytes from one tuple to the next; 0: none lie between.
 };
 
 } // namespace pointhaptics

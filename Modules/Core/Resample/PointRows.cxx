@@ -29,9 +29,10 @@ void copyTuples(const TupleSource& source, const std::int64_t* points, const std
 {
   const auto* from = static_cast<const char*>(source.values);
   const std::size_t bytes = Bytes > 0 ? Bytes : source.bytes;
+  const std::size_t step = source.step();
   for (int i = 0; i < count; ++i)
   {
-    std::memcpy(to + rowBytes * slots[i], from + bytes * std::size_t(points[i]), bytes);
+    std::memcpy(to + rowBytes * slots[i], from + step * std::size_t(points[i]), bytes);
   }
 }
 
@@ -87,7 +88,7 @@ void RowLayout::copy(const std::int64_t* points, const std::uint32_t* slots, int
     const auto* from = static_cast<const char*>(source.values);
     for (int i = 0; areScattered && from && i < count; ++i)
     {
-      const char* tuple = from + source.bytes * std::size_t(points[i]);
+      const char* tuple = from + source.step() * std::size_t(points[i]);
       simd::fetch(tuple);
       simd::fetch(tuple + source.bytes - 1);
     }

@@ -9,12 +9,15 @@
 namespace pointhaptics
 {
 
-/// An attribute of each point: @p bytes bytes at @p values + i bytes for point i. Null: the point's index, as
-/// a std::int64_t, which is 8 bytes.
+/// An attribute of each point: @p bytes bytes at @p values + i step() for point i. Null: the point's index,
+/// as a std::int64_t, which is 8 bytes.
 struct TupleSource
 {
   const void* values = nullptr;
   std::size_t bytes = sizeof(std::int64_t);
+  std::size_t stride = 0; ///< Bytes from one tuple to the next; 0: none lie between.
+
+  std::size_t step() const { return stride > 0 ? stride : bytes; }
 };
 
 /// How the tuples of one point lie in a row. Numbers whose tuple is a power of two times an odd number of

@@ -1,5 +1,6 @@
 #include "Core/Resample/VoxelMean.h"
 
+#include "Core/Base/PointBlocks.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -21,11 +22,14 @@ Bounds transformedBounds(const PointView& points, const AffineTransform& transfo
     double local[6] = { INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY };
     if (points.floats())
     {
-      kernels.boundsFloats(transform.m, points.floats() + 3 * begin, end - begin, local);
+      forPointBlocks(points.floats(), points, begin, end,
+        [&](const float* xyz, std::int64_t count) { kernels.boundsFloats(transform.m, xyz, count, local); });
     }
     else
     {
-      kernels.boundsDoubles(transform.m, points.doubles() + 3 * begin, end - begin, local);
+      forPointBlocks(points.doubles(), points, begin, end,
+        [&](const double* xyz, std::int64_t count)
+        { kernels.boundsDoubles(transform.m, xyz, count, local); });
     }
     if (local[0] <= local[1])
     {

@@ -21,11 +21,13 @@ void addPointSources(VoxelRequest& request)
   const PointView& points = request.points;
   if (request.representative != Representative::Mean && points.floats())
   {
-    request.tuples.push_back({ points.floats(), 3 * sizeof(float) });
+    request.tuples.push_back(
+      { points.floats(), 3 * sizeof(float), std::size_t(points.stride()) * sizeof(float) });
   }
   else if (request.representative != Representative::Mean)
   {
-    request.tuples.push_back({ points.doubles(), 3 * sizeof(double) });
+    request.tuples.push_back(
+      { points.doubles(), 3 * sizeof(double), std::size_t(points.stride()) * sizeof(double) });
   }
   request.tuples.emplace_back();
 }

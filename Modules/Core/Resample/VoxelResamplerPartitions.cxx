@@ -1,4 +1,5 @@
 /// VoxelResampler on lattices whose voxels can be divided into partitions.
+#include "Core/Base/PointBlocks.h"
 #include "Core/Neighbors/PointIndex.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
@@ -86,11 +87,38 @@ private:
   std::vector<std::atomic<std::uint32_t>> done_;
 };
 
+/// The kernels' partition loops for points with other fields between them, block by block. With
+/// PointRecordWriter::slots there is one range of one block at most, as slots count from its first point.
+void partitionStrided(const Kernels& kernels, const PointQuantizer& quantizer, const PointView& points,
+  const PointRange* ranges, std::int64_t count, PointRecordWriter& writer)
+{
+  for (std::int64_t r = 0; r < count; ++r)
+  {
+    if (points.floats())
+    {
+      forPointBlocks(points.floats(), points, ranges[r].begin, ranges[r].end,
+        [&](const float* xyz, std::int64_t size)
+        {
+          const PointRange block = { 0, size };
+          kernels.partitionFloats(quantizer, xyz, &block, 1, writer);
+        });
+      continue;
+    }
+    forPointBlocks(points.doubles(), points, ranges[r].begin, ranges[r].end,
+      [&](const double* xyz, std::int64_t size)
+      {
+        const PointRange block = { 0, size };
+        kernels.partitionDoubles(quantizer, xyz, &block, 1, writer);
+      });
+  }
+}
+
 /// The slots of the records of up to kMost points.
 class RowSlots
 {
 public:
   static constexpr std::int64_t kMost = 512;
+  static_assert(kMost <= kPointBlock, "slots count from the first point of a block");
 
   /// Room for as many as that.
   std::uint32_t* clear()
@@ -211,6 +239,11 @@ void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const
   const PointView& points = chunks.points();
   const auto quantize = [&](const PointRange* ranges, std::int64_t count, PointRecordWriter& writer)
   {
+    if (points.stride() != 3)
+    {
+      partitionStrided(kernels, quantizer_, points, ranges, count, writer);
+      return;
+    }
     points.floats() ? kernels.partitionFloats(quantizer_, points.floats(), ranges, count, writer)
                     : kernels.partitionDoubles(quantizer_, points.doubles(), ranges, count, writer);
   };

@@ -46,11 +46,14 @@ int compareValues(const AttributeView& view, std::int64_t a, std::int64_t b)
     [&](auto example)
     {
       using T = decltype(example);
-      const T* const values = static_cast<const T*>(view.values);
+      const char* const values = static_cast<const char*>(view.values);
+      const std::int64_t step = view.stride > 0 ? view.stride : view.components * std::int64_t(sizeof(T));
       for (int c = 0; c < view.components && order == 0; ++c)
       {
-        const T ofA = values[view.components * a + c];
-        const T ofB = values[view.components * b + c];
+        T ofA;
+        T ofB;
+        std::memcpy(&ofA, values + step * a + c * std::int64_t(sizeof(T)), sizeof(T));
+        std::memcpy(&ofB, values + step * b + c * std::int64_t(sizeof(T)), sizeof(T));
         order = int(isLessValue(ofB, ofA)) - int(isLessValue(ofA, ofB));
       }
     });
