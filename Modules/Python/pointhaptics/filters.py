@@ -23,7 +23,7 @@ _RULES = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Voxels:
     """One row for each active voxel, in the order of the voxels' index (x fastest)."""
 
@@ -38,7 +38,7 @@ class Voxels:
         return len(self.points)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Bandwidths:
     """One row for each point, in the unit of the points; 0 for points that are NaN or infinite."""
 
