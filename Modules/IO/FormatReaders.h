@@ -32,7 +32,7 @@ void readStl(ReadTask& task, vtkPolyData* cloud);
 /// Wavefront OBJ: vertices, their colours, and normals when there is one per vertex.
 void readObj(ReadTask& task, vtkPolyData* cloud);
 
-/// LAS 1.0 to 1.4, point formats 0 to 10, uncompressed; LAZ and COPC where this build has LASzip.
+/// LAS 1.0 to 1.4, point formats 0 to 10, uncompressed, LAZ and COPC.
 void readLas(ReadTask& task, vtkPolyData* cloud);
 
 /// Columns of numbers (XYZ, TXT, CSV, PTS): separator and header are found by looking.

@@ -16,12 +16,19 @@ namespace pointhaptics::io
 /// Part of the progress that reading the bytes takes; parsing them takes the rest.
 constexpr double kReadingPart = 0.3;
 
+/// What of a cloud is wanted.
+struct WantedPart
+{
+  bool onlyPositions = false; ///< no arrays beside the points, where leaving them out saves work
+};
+
 /// Lives during one read, in one thread.
 struct ReadTask
 {
   std::string path;
   std::string_view bytes;
   bool wasPacked = false; ///< the bytes are the unpacked content of a gzip file
+  WantedPart wanted;
   vtkAlgorithm* algorithm = nullptr;
   std::string format; ///< out: "PLY (binary little endian)", as soon as it is known
 

@@ -26,8 +26,9 @@
  *   sets them. Extra bytes become arrays of their names, scaled ones as double; those without a description
  *   become "ExtraBytes". Field data: LasScale, LasOffset, LasGlobalEncoding, CoordinateSystem (well-known
  *   text or "EPSG:26917") and LengthUnit. Waveforms are skipped.
- * - LAZ and COPC give the same arrays where CMake found LASzip, in the file's order of points; elsewhere they
- *   are refused with a converter. More than 100 times the file's size (64 MB at least) is not unpacked.
+ * - LAZ and COPC give the same arrays, in the file's order of points: pointwise compression (versions 1 and
+ *   2, point formats 0 to 5) and layered compression (version 3, 6 to 10). Chunks are decoded in parallel, by
+ *   as many threads as vtkSMPTools has. More than 100 times the file's size (64 MB at least) is not unpacked.
  * - VTP, VTU and legacy VTK (PolyData, UnstructuredGrid, StructuredGrid): points and point data; cells are
  *   dropped. Legacy files with strings or bits are refused.
  * - OFF, NOFF, COFF, CNOFF as text; STL, both kinds: each distinct vertex once, as float, without normals.

@@ -3,7 +3,7 @@
 /// sizes is allocated. Layouts: ASPRS, LAS Specification 1.4 R15.
 #pragma once
 
-#include "StridedCopy.h"
+#include "LittleEndian.h"
 
 #include <algorithm>
 #include <array>
@@ -81,26 +81,8 @@ struct LasHeader
   const LasPointFormat& fields() const { return kLasPointFormats[pointFormat]; }
 };
 
-/// Little-endian number at @p at, which need not be aligned.
-template <typename T>
-T loadLittle(const char* at) noexcept
-{
-  T value;
-  if constexpr (kIsLittleEndianHost)
-  {
-    std::memcpy(&value, at, sizeof(T));
-  }
-  else
-  {
-    char raw[sizeof(T)];
-    std::reverse_copy(at, at + sizeof(T), raw);
-    std::memcpy(&value, raw, sizeof(T));
-  }
-  return value;
-}
-
 /// @throws FileProblem with byte offset and value; also when the file is too short for the points the header
-/// counts. Compressed points are only recognised: see LazLayout.h.
+/// counts. Compressed points are only recognised: see Laz/LazSchema.h and Laz/LazChunks.h.
 LasHeader parseLasHeader(std::string_view bytes);
 
 } // namespace pointhaptics::io

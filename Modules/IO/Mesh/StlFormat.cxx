@@ -2,8 +2,8 @@
 
 #include "CloudColumns.h"
 #include "CloudFormat.h"
-#include "IO/Las/LasHeader.h"
 #include "IO/Text/TextScan.h"
+#include "LittleEndian.h"
 
 #include <array>
 #include <cstdint>

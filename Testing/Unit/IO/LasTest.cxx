@@ -81,9 +81,9 @@ TEST_F(Las, EveryPointFormatIsRead)
   }
 }
 
-TEST_F(Las, CompressedPointsAreRefusedWithAConverter)
+TEST_F(Las, CompressedPointsWithoutADescriptionAreRefused)
 {
-  expectRefused(readCloud(write("a.las", makeLas(2, 0x80, 20))), "las2las");
+  expectRefused(readCloud(write("a.las", makeLas(2, 0x80, 20))), "no record says how");
   std::string las = makeLas(2, 0, 20);
   std::string record(54, '\0');
   record.replace(2, 14, "laszip encoded");

@@ -1,10 +1,12 @@
-// LAZ through a stand-in for LASzip (LaszipStandIn): files that are LAZ in all but the compression. They show
-// that every field gets from LASzip's point to where the same point of a LAS file goes, and what happens to
-// files that lie. They do not show that LASzip unpacks what it packed.
+// LAZ: real files against their records, and files of random records in every layout, read by the reader and
+// compared with what the uncompressed file of the same records gives.
 #include "CloudFiles.h"
-#include "LaszipStandIn.h"
+#include "LazFiles.h"
+
+#include "FileProblem.h"
 
 #include "vtkErrorCode.h"
+#include "vtkSMPTools.h"
 
 #include "../../Fuzz/CloudFileFuzz.h"
 
@@ -14,119 +16,139 @@
 namespace
 {
 
-constexpr std::size_t kRecordLengths[] = { 20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67 };
-
-struct LazFile
-{
-  std::string bytes;
-  std::size_t description; ///< where the content of LASzip's record begins
-  std::size_t points;      ///< where the offset of the table of chunks is
-};
-
-/// The LAS file of the same point records.
-std::string lasOf(int format, std::size_t extra, const std::string& records)
-{
-  const std::size_t length = kRecordLengths[format] + extra;
-  std::string las = makeLas(4, format, length);
-  las.resize(375);
-  put(las, 247, std::uint64_t{ records.size() / length });
-  return las + records;
-}
-
-LazFile lazOf(int format, std::size_t extra, const std::string& records)
-{
-  std::vector<std::uint16_t> items;
-  const auto add = [&](int type, std::size_t size)
-  {
-    for (const std::size_t value : { static_cast<std::size_t>(type), size, std::size_t{ 3 } })
-    {
-      items.push_back(static_cast<std::uint16_t>(value));
-    }
-  };
-  format < 6 ? add(6, 20) : add(10, 30);
-  format == 1 || (format >= 3 && format <= 5) ? add(7, 8) : void();
-  format == 2 || format == 3 || format == 5 ? add(8, 6) : void();
-  format == 7 ? add(11, 6) : void();
-  format == 8 || format == 10 ? add(12, 8) : void();
-  format == 4 || format == 5 ? add(9, 29) : void();
-  format == 9 || format == 10 ? add(13, 29) : void();
-  extra > 0 ? add(format < 6 ? 0 : 14, extra) : void();
-
-  std::string record(54 + 34, '\0');
-  record.replace(2, 14, "laszip encoded");
-  put(record, 18, std::uint16_t{ 22204 });
-  put(record, 20, static_cast<std::uint16_t>(34 + 2 * items.size()));
-  put(record, 54, static_cast<std::uint16_t>(format < 6 ? 2 : 3));
-  put(record, 54 + 12, std::uint32_t{ 50000 });
-  put(record, 54 + 32, static_cast<std::uint16_t>(items.size() / 3));
-  for (const std::uint16_t value : items)
-  {
-    append(record, value);
-  }
-  std::string header = lasOf(format, extra, records).substr(0, 375);
-  header[104] = static_cast<char>(format | 0x80);
-  put(header, 96, static_cast<std::uint32_t>(375 + record.size()));
-  put(header, 100, std::uint32_t{ 1 });
-  LazFile laz{ header + record, 375 + 54, 375 + record.size() };
-  append(laz.bytes, static_cast<std::uint64_t>(laz.points + 8 + records.size()));
-  laz.bytes += records;
-  append(laz.bytes, std::uint32_t{ 0 });
-  append(laz.bytes, std::uint32_t{ 1 });
-  return laz;
-}
-
-/// Every bit of every field, but for gps times that are NaN, whose bits need not survive.
-std::string randomRecords(int format, std::size_t extra, std::size_t count, std::uint64_t seed)
-{
-  const std::size_t length = kRecordLengths[format] + extra;
-  std::mt19937_64 random(seed);
-  std::string records(count * length, '\0');
-  for (char& c : records)
-  {
-    c = static_cast<char>(random());
-  }
-  const std::size_t gpsTime = format < 6 ? 20 : 22;
-  for (std::size_t i = 0; i < count && format != 0 && format != 2; ++i)
-  {
-    put(records, i * length + gpsTime, static_cast<double>(random()) * 1e-6);
-  }
-  return records;
-}
-
 class Laz : public CloudFiles
 {
 protected:
-  void TearDown() override
-  {
-    EXPECT_EQ(openLaszipReaders(), 0);
-    CloudFiles::TearDown();
-  }
   ReadResult readLaz(const LazFile& laz) const { return readCloud(write("a.laz", laz.bytes)); }
+  /// Reads both files and compares all that the clouds hold.
+  void expectSameClouds(const std::string& las, const LazFile& laz) const
+  {
+    const ReadResult expected = readCloud(write("a.las", las));
+    const ReadResult actual = readLaz(laz);
+    ASSERT_EQ(expected.error, "");
+    ASSERT_EQ(actual.error, "");
+    expectSameBits(expected.cloud->GetPoints()->GetData(), actual.cloud->GetPoints()->GetData());
+    vtkPointData* arrays = expected.cloud->GetPointData();
+    ASSERT_EQ(actual.cloud->GetPointData()->GetNumberOfArrays(), arrays->GetNumberOfArrays());
+    for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+    {
+      expectSameBits(arrays->GetArray(i), actual.array(arrays->GetArray(i)->GetName()));
+    }
+  }
 };
+
+TEST(Sha256, IsThatOfTheStandard)
+{
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+    "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+/// Records of the real files: see their MANIFEST.md.
+TEST(LazManifest, EachFileGivesExactlyItsRecords)
+{
+  const std::string folder = sharedData() + "/formats/";
+  std::ifstream manifest(folder + "MANIFEST.md");
+  if (sharedData().empty() || !manifest)
+  {
+    GTEST_SKIP() << "no real clouds beside this checkout (set POINTHAPTICS_SHARED_DATA to their folder)";
+  }
+  int checked = 0;
+  for (std::string line; std::getline(manifest, line);)
+  {
+    // | names, separated by commas; twins | what | point format | sha256 |
+    const std::size_t end = line.rfind(" |");
+    const std::string names = line.substr(0, line.find(';'));
+    for (std::size_t at = 2; line.find(".laz") < line.find(" |", 2) && at < names.size();)
+    {
+      const std::size_t stop = names.find(".laz", at);
+      if (stop == std::string::npos || stop > line.find(" |", 2))
+      {
+        break;
+      }
+      const std::string name = names.substr(at, stop + 4 - at);
+      SCOPED_TRACE(name);
+      std::ifstream file(folder + name, std::ios::binary);
+      const std::string bytes{ std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+      EXPECT_EQ(sha256(recordsOf(bytes)), line.substr(end - 64, 64));
+      ++checked;
+      at = stop + 6;
+    }
+  }
+  EXPECT_GE(checked, 7);
+}
 
 TEST_F(Laz, GivesWhatTheUncompressedFileGivesInEveryPointFormat)
 {
   for (int format = 0; format <= 10; ++format)
   {
-    SCOPED_TRACE(format);
     for (const std::size_t extra : { std::size_t{ 0 }, std::size_t{ 5 } })
     {
-      // More points than are unpacked at once.
-      const std::string records = randomRecords(format, extra, 5000, 7);
-      const ReadResult las = readCloud(write("a.las", lasOf(format, extra, records)));
-      const ReadResult laz = readLaz(lazOf(format, extra, records));
-      ASSERT_EQ(las.error, "");
-      ASSERT_EQ(laz.error, "");
-      EXPECT_EQ(laz.format, "LAZ 1.4 (point format " + std::to_string(format) + ")");
-      expectSameBits(las.cloud->GetPoints()->GetData(), laz.cloud->GetPoints()->GetData());
-      vtkPointData* arrays = las.cloud->GetPointData();
-      ASSERT_EQ(laz.cloud->GetPointData()->GetNumberOfArrays(), arrays->GetNumberOfArrays());
-      for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+      for (const bool calm : { false, true })
       {
-        expectSameBits(arrays->GetArray(i), laz.array(arrays->GetArray(i)->GetName()));
+        SCOPED_TRACE(std::to_string(format) + (calm ? " calm" : " wild"));
+        // More points than are decoded at once, and several chunks.
+        const std::string records = randomRecords(format, extra, 10000, 7, calm);
+        LazLayout layout;
+        layout.chunkSize = 6000;
+        const LazFile laz = lazOf(format, extra, records, layout);
+        EXPECT_EQ(recordsOf(laz.bytes) == records, true);
+        expectSameClouds(lasOf(format, extra, records), laz);
+        EXPECT_EQ(readLaz(laz).format, "LAZ 1.4 (point format " + std::to_string(format) + ")");
       }
     }
   }
+}
+
+TEST_F(Laz, IsReadInEveryLayoutOfItsChunks)
+{
+  for (const int format : { 3, 7 })
+  {
+    const std::string records = randomRecords(format, 2, 1001, 8, true);
+    for (const LazTable table :
+      { LazTable::Behind, LazTable::AtTheEnd, LazTable::Missing, LazTable::NoChunks })
+    {
+      for (const bool isVariable : { false, true })
+      {
+        // Pointwise chunks must be counted somewhere, and layered files have chunks.
+        if ((isVariable && format == 3 && table == LazTable::Missing) ||
+          (table == LazTable::NoChunks && (isVariable || format == 7)))
+        {
+          continue;
+        }
+        SCOPED_TRACE(std::to_string(format) + " " + std::to_string(static_cast<int>(table)) +
+          (isVariable ? " variable" : ""));
+        LazLayout layout;
+        layout.chunkSize = 100;
+        layout.isVariable = isVariable;
+        layout.table = table;
+        expectSameClouds(lasOf(format, 2, records), lazOf(format, 2, records, layout));
+      }
+    }
+  }
+}
+
+TEST_F(Laz, OfOnePointIsRead)
+{
+  for (const int format : { 0, 3, 6, 10 })
+  {
+    const std::string records = randomRecords(format, 0, 1, 9);
+    expectSameClouds(lasOf(format, 0, records), lazOf(format, 0, records));
+  }
+}
+
+TEST_F(Laz, IsTheSameWithAnyNumberOfThreads)
+{
+  LazLayout layout;
+  layout.chunkSize = 1000;
+  const std::string records = randomRecords(8, 1, 20000, 10, true);
+  const LazFile laz = lazOf(8, 1, records, layout);
+  for (const int threads : { 1, 4 })
+  {
+    vtkSMPTools::Initialize(threads);
+    expectSameClouds(lasOf(8, 1, records), laz);
+  }
+  vtkSMPTools::Initialize(0);
 }
 
 TEST_F(Laz, OfTheCloudOptimisedKindIsReadAndNamed)
@@ -139,7 +161,7 @@ TEST_F(Laz, OfTheCloudOptimisedKindIsReadAndNamed)
   copc.bytes.insert(375, info);
   put(copc.bytes, 96, static_cast<std::uint32_t>(copc.points + info.size()));
   put(copc.bytes, 100, std::uint32_t{ 2 });
-  put(copc.bytes, copc.points + info.size(), std::uint64_t{ copc.points + info.size() + 8 + records.size() });
+  put(copc.bytes, copc.points + info.size(), std::uint64_t{ copc.table + info.size() });
   const ReadResult result = readLaz(copc);
   EXPECT_EQ(result.error, "");
   EXPECT_EQ(result.format, "COPC 1.4 (point format 7)");
@@ -148,23 +170,30 @@ TEST_F(Laz, OfTheCloudOptimisedKindIsReadAndNamed)
 
 TEST_F(Laz, CutShortAnywhereIsRefused)
 {
-  const LazFile laz = lazOf(3, 2, randomRecords(3, 2, 4, 2));
-  for (std::size_t size = 0; size < laz.bytes.size(); ++size)
+  for (const int format : { 3, 7 })
   {
-    const ReadResult result = readCloud(write("a.laz", laz.bytes.substr(0, size)));
-    expectRefused(result, "a.laz: ");
+    const LazFile laz = lazOf(format, 2, randomRecords(format, 2, 4, 2));
+    for (std::size_t size = 0; size < laz.bytes.size(); ++size)
+    {
+      const ReadResult result = readCloud(write("a.laz", laz.bytes.substr(0, size)));
+      expectRefused(result, "a.laz: ");
+    }
   }
 }
 
-TEST_F(Laz, WhatLaszipSaysOfAPointIsHandedOn)
+TEST_F(Laz, CutShortWithoutATableIsRefused)
 {
-  // The table of chunks takes the place of points 2 and 3, so that only LASzip can find out.
-  LazFile laz = lazOf(0, 0, randomRecords(0, 0, 4, 3));
-  put(laz.bytes, 247, std::uint64_t{ 6 });
-  expectRefused(readLaz(laz), "point 4 of 6: LASzip: reading point 4 of 6 total points; ");
-  laz = lazOf(0, 0, randomRecords(0, 0, 4, 3));
-  laz.bytes[6] = 99;
-  expectRefused(readLaz(laz), "LASzip: a version this LASzip does not know; ");
+  LazLayout layout;
+  layout.table = LazTable::Missing;
+  layout.chunkSize = 50;
+  for (const int format : { 3, 7 })
+  {
+    const LazFile laz = lazOf(format, 0, randomRecords(format, 0, 200, 3), layout);
+    for (const std::size_t left : { 10, 100, 1000, 4000 })
+    {
+      expectRefused(readCloud(write("a.laz", laz.bytes.substr(0, laz.bytes.size() - left))), "a.laz: ");
+    }
+  }
 }
 
 TEST_F(Laz, StopsOnRequest)
@@ -189,7 +218,7 @@ TEST_F(Laz, StopsOnRequest)
   EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 0);
 }
 
-TEST_F(Laz, ThatLiesIsRefusedBeforeLaszipBelievesIt)
+TEST_F(Laz, ThatLiesIsRefusedBeforeItIsBelieved)
 {
   const std::string records = randomRecords(3, 2, 4, 5);
   const LazFile good = lazOf(3, 2, records);
@@ -201,17 +230,23 @@ TEST_F(Laz, ThatLiesIsRefusedBeforeLaszipBelievesIt)
   };
   ASSERT_EQ(readLaz(good).error, "");
   refuse(247, std::uint64_t{ 1000000000000 }, "counts 1000000000000 points, but a file of");
+  refuse(247, std::uint64_t{ 50001 }, "counts 50001 points, but the chunks hold 50000");
   refuse(100, std::uint32_t{ 0xffffffff }, "counts 4294967295 variable length records, but only 1");
   refuse(100, std::uint32_t{ 0 }, "no record says how");
   refuse(375 + 20, std::uint16_t{ 60000 }, "variable length records");
   refuse(good.description, std::uint16_t{ 0 }, "unknown compressor 0");
+  refuse(good.description, std::uint16_t{ 3 }, "unknown compressor 3 for point format 3");
+  refuse(good.description + 2, std::uint16_t{ 1 }, "unknown coder 1");
+  refuse(good.description + 12, std::uint32_t{ 0 }, "chunks of 0 points");
   refuse(good.description + 32, std::uint16_t{ 65535 }, "not a record of point format 3 with 36 bytes");
   refuse(good.description + 34, std::uint16_t{ 10 }, "not a record of point format 3");
   refuse(good.description + 34 + 6 + 2, std::uint16_t{ 80 }, "not a record of point format 3");
   refuse(105, std::uint16_t{ 37 }, "not a record of point format 3 with 37 bytes");
   refuse(good.points, std::uint64_t{ 1 } << 60, "table of chunks is at byte");
   refuse(good.points, std::uint64_t{ 3 }, "table of chunks is at byte 3 of");
-  refuse(good.bytes.size() - 4, std::uint32_t{ 0xffffffff }, "table of 4294967295 chunks");
+  refuse(good.table + 4, std::uint32_t{ 0xffffffff }, "table of 4294967295 chunks");
+  refuse(good.table + 4, std::uint32_t{ 0 }, "but the chunks hold 0");
+  refuse(good.table + 8, std::uint32_t{ 0xffffffff }, "chunk 0 of 1 has");
   refuse(96, std::uint32_t{ 4000000000u }, "byte 96");
 
   LazFile twice = good;
@@ -222,6 +257,42 @@ TEST_F(Laz, ThatLiesIsRefusedBeforeLaszipBelievesIt)
   LazFile shorter = good;
   put(shorter.bytes, 375 + 20, std::uint16_t{ 20 });
   expectRefused(readLaz(shorter), "takes at least 34");
+}
+
+TEST_F(Laz, OfUnknownVersionsIsRefusedWithTheirNumber)
+{
+  for (const int format : { 3, 7 })
+  {
+    LazFile laz = lazOf(format, 0, randomRecords(format, 0, 4, 5));
+    put(laz.bytes, laz.description + 34 + 6 + 4, std::uint16_t{ 4 });
+    expectRefused(readLaz(laz), "is compressed in version 4, which is not known here; ");
+  }
+}
+
+TEST_F(Laz, WhoseLayersDoNotFitIsRefused)
+{
+  LazFile laz = lazOf(7, 0, randomRecords(7, 0, 10, 6));
+  const std::size_t sizes = laz.points + 8 + 36 + 4;
+  put(laz.bytes, sizes + 4, std::uint32_t{ 0xfffffff0 });
+  expectRefused(readLaz(laz), "the layers of a chunk take more than its");
+}
+
+TEST_F(Laz, OfGarbageIsReadOrRefusedWithinItsSize)
+{
+  // Behind the first point anything may come: it is decoded to something, or found to end too early.
+  for (const int format : { 0, 5, 6, 10 })
+  {
+    for (std::uint64_t seed = 0; seed < 20; ++seed)
+    {
+      LazFile laz = lazOf(format, 3, randomRecords(format, 3, 300, seed, true));
+      std::mt19937_64 random(seed);
+      for (std::size_t at = laz.points + 8 + kRecordLengths[format] + 3; at < laz.table; ++at)
+      {
+        laz.bytes[at] = static_cast<char>(random() % 3 == 0 ? random() : laz.bytes[at]);
+      }
+      LLVMFuzzerTestOneInput(reinterpret_cast<const unsigned char*>(laz.bytes.data()), laz.bytes.size());
+    }
+  }
 }
 
 TEST_F(Laz, MutationsKeepThePromises)

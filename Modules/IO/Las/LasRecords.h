@@ -1,0 +1,105 @@
+/// @file
+/// From LAS's point records to the arrays of a cloud.
+#pragma once
+
+#include "CloudColumns.h"
+#include "IO/Las/LasHeader.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <atomic>
+#include <mutex>
+#include <vector>
+
+class vtkPolyData;
+
+namespace pointhaptics::io
+{
+
+/// Records that lie one behind the other.
+struct LasBlock
+{
+  const char* first = nullptr;
+  vtkIdType row = 0; ///< of the first one in the cloud
+  vtkIdType count = 0;
+};
+
+/// An array for bits that most files leave at zero: it comes to be with the first one that is set.
+class RareBits
+{
+public:
+  explicit RareBits(const char* name)
+    : name_(name)
+  {
+  }
+  /// values[i] = bits(record i) for the records of @p block, of @p rows in all. Blocks may come from several
+  /// threads at once.
+  template <typename Bits>
+  void fill(const LasBlock& block, std::size_t stride, vtkIdType rows, Bits bits);
+  void moveTo(vtkPolyData* cloud) const;
+
+private:
+  std::uint8_t* allocate(vtkIdType rows);
+
+  const char* name_;
+  std::mutex mutex_;
+  std::atomic<std::uint8_t*> values_{ nullptr };
+  vtkSmartPointer<vtkUnsignedCharArray> array_;
+};
+
+/// Owns the arrays and fills them block by block; one object per file.
+class LasRecords
+{
+public:
+  /// @p header must outlive this object. With @p onlyPositions there is no array beside the points.
+  LasRecords(const LasHeader& header, bool onlyPositions);
+  /// Blocks of different rows may be filled by several threads at once.
+  void fill(const LasBlock& block);
+  /// Gives the arrays to @p cloud when all blocks are filled.
+  void moveTo(vtkPolyData* cloud);
+
+private:
+  /// The columns, and which of them holds what only some files have.
+  struct Columns
+  {
+    std::vector<Column> all;
+    std::size_t gpsTime = 0;
+    std::size_t wideColor = 0;
+    std::size_t color = 0;
+    std::size_t nearInfrared = 0;
+    std::size_t firstExtra = 0;
+
+    Columns(const LasHeader& header, bool onlyPositions);
+    std::size_t addIf(std::size_t offset, const Column& column);
+  };
+
+  template <typename From, typename To, typename Change>
+  void fillColumn(
+    const LasBlock& block, std::size_t column, std::size_t offset, Change change, int component = 0) const;
+  template <typename T>
+  void copyColumn(const LasBlock& block, std::size_t column, std::size_t offset, int component = 0) const;
+  void fillPosition(const LasBlock& block) const;
+  void fillLegacy(const LasBlock& block);
+  void fillExtended(const LasBlock& block);
+  void fillExtra(const LasBlock& block) const;
+  void fillColors();
+  template <typename Bits>
+  void fillRare(const LasBlock& block, RareBits& array, Bits bits) const
+  {
+    array.fill(block, header_.recordLength, rows_, bits);
+  }
+
+  const LasHeader& header_;
+  const bool onlyPositions_;
+  const Columns names_;
+  const vtkIdType rows_;
+  CloudColumns columns_;
+  RareBits flags_{ "ClassificationFlags" };
+  RareBits scannerChannel_{ "ScannerChannel" };
+  RareBits scanDirection_{ "ScanDirection" };
+  RareBits edgeOfFlightLine_{ "EdgeOfFlightLine" };
+};
+
+} // namespace pointhaptics::io

@@ -1,0 +1,248 @@
+#include "IO/Las/Laz/LazChunks.h"
+
+#include "FileProblem.h"
+#include "IO/Las/LasHeader.h"
+#include "IO/Las/Laz/ArithmeticDecoder.h"
+#include "IO/Las/Laz/ArithmeticEncoder.h"
+#include "IO/Las/Laz/IntegerModels.h"
+#include "IO/Las/Laz/LazSchema.h"
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr std::uint64_t kTableAtTheEnd = 0xffffffffffffffff;
+constexpr std::size_t kTableHeader = 8; ///< bytes: version and number of chunks
+
+template <typename T>
+T numberAt(std::string_view bytes, std::size_t offset)
+{
+  return loadLittle<T>(bytes.data() + offset);
+}
+
+[[noreturn]] void failChunks(std::size_t byte, const std::string& what)
+{
+  failFormat("byte " + std::to_string(byte) + ": " + what, "the file is damaged: copy or compress it again");
+}
+
+/// Finds the chunks of one file; one object per file.
+class ChunkFinder
+{
+public:
+  ChunkFinder(std::string_view bytes, const LasHeader& header, const LazSchema& schema)
+    : bytes_(bytes)
+    , header_(header)
+    , schema_(schema)
+    , first_(header.pointsOffset + sizeof(std::uint64_t))
+  {
+  }
+  LazChunks find();
+
+private:
+  bool hasVariableChunks() const { return schema_.chunkSize == LazSchema::kVariableChunks; }
+  bool isLayered() const { return schema_.compressor == LazSchema::Compressor::Layered; }
+  void checkCount() const;
+  /// 0 where the writer was interrupted before it.
+  std::size_t tableOffset() const;
+  LazChunks readTable(std::size_t table) const;
+  LazChunks walkLayers() const;
+  LazChunks countOnly() const;
+  bool add(LazChunks& chunks, std::size_t offset, std::size_t size, std::uint64_t count) const;
+  void checkSum(const LazChunks& chunks, std::size_t at) const;
+
+  std::string_view bytes_;
+  const LasHeader& header_;
+  const LazSchema& schema_;
+  std::size_t first_; ///< byte of the first chunk
+};
+
+void ChunkFinder::checkCount() const
+{
+  const std::size_t most = std::max(kLazFloor, kMostLazRatio * bytes_.size()) / header_.recordLength;
+  if (header_.count > most)
+  {
+    failFormat("the header counts " + std::to_string(header_.count) + " points, but a file of " +
+        std::to_string(bytes_.size()) + " bytes is not expected to hold more than " + std::to_string(most),
+      "if this is no attack, unpack it first: laszip -i in.laz -o out.las");
+  }
+}
+
+std::size_t ChunkFinder::tableOffset() const
+{
+  if (first_ > bytes_.size())
+  {
+    failTruncated("the file ends at byte " + std::to_string(bytes_.size()) + " before its first chunk");
+  }
+  std::uint64_t table = numberAt<std::uint64_t>(bytes_, header_.pointsOffset);
+  if (table == header_.pointsOffset)
+  {
+    return 0;
+  }
+  table = table == kTableAtTheEnd ? numberAt<std::uint64_t>(bytes_, bytes_.size() - 8) : table;
+  if (table < first_ || table > bytes_.size() - kTableHeader)
+  {
+    failTruncated("byte " + std::to_string(header_.pointsOffset) + ": the table of chunks is at byte " +
+      std::to_string(table) + " of a file of " + std::to_string(bytes_.size()) + " bytes");
+  }
+  return static_cast<std::size_t>(table);
+}
+
+/// Adds a chunk with as many of its @p count points as the header counts. @return false when it has them all.
+bool ChunkFinder::add(LazChunks& chunks, std::size_t offset, std::size_t size, std::uint64_t count) const
+{
+  const std::uint64_t done = chunks.all.empty() ? 0 : chunks.all.back().first + chunks.all.back().count;
+  count = std::min(count, header_.count - done);
+  if (count > 0)
+  {
+    chunks.all.push_back({ offset, size, done, count });
+  }
+  return done + count < header_.count;
+}
+
+void ChunkFinder::checkSum(const LazChunks& chunks, std::size_t at) const
+{
+  const std::uint64_t sum = chunks.all.empty() ? 0 : chunks.all.back().first + chunks.all.back().count;
+  if (sum < header_.count)
+  {
+    failChunks(at,
+      "the header counts " + std::to_string(header_.count) + " points, but the chunks hold " +
+        std::to_string(sum));
+  }
+}
+
+LazChunks ChunkFinder::readTable(std::size_t table) const
+{
+  // Each chunk begins with a whole point.
+  const std::size_t count = numberAt<std::uint32_t>(bytes_, table + 4);
+  if (numberAt<std::uint32_t>(bytes_, table) != 0 || count > (table - first_) / header_.recordLength)
+  {
+    failChunks(table,
+      "a table of " + std::to_string(count) + " chunks, which " + std::to_string(table - first_) +
+        " compressed bytes cannot be");
+  }
+  ArithmeticDecoder decoder(bytes_.substr(table + kTableHeader));
+  IntegerModels numbers(32, 2);
+  LazChunks chunks;
+  std::uint32_t points = hasVariableChunks() ? 0 : schema_.chunkSize;
+  std::uint32_t size = 0;
+  std::size_t offset = first_;
+  bool goesOn = true;
+  for (std::size_t i = 0; i < count && goesOn; ++i)
+  {
+    if (hasVariableChunks())
+    {
+      points = static_cast<std::uint32_t>(numbers.code(decoder, static_cast<std::int32_t>(points), 0, 0));
+    }
+    size = static_cast<std::uint32_t>(numbers.code(decoder, static_cast<std::int32_t>(size), 0, 1));
+    if (decoder.isDamaged() || size > table - offset || (points > 0 && size < header_.recordLength))
+    {
+      failChunks(table,
+        "chunk " + std::to_string(i) + " of " + std::to_string(count) + " has " + std::to_string(size) +
+          " bytes at byte " + std::to_string(offset) + ", which " + std::to_string(points) +
+          " points cannot be");
+    }
+    goesOn = add(chunks, offset, size, points);
+    offset += size;
+  }
+  checkSum(chunks, table);
+  return chunks;
+}
+
+/// A layered chunk says itself how many points and bytes it has.
+LazChunks ChunkFinder::walkLayers() const
+{
+  const std::size_t layers = schema_.numberOfLayers();
+  const std::size_t sizesAt = header_.recordLength + sizeof(std::uint32_t);
+  const std::size_t headSize = sizesAt + layers * sizeof(std::uint32_t);
+  LazChunks chunks;
+  std::size_t offset = first_;
+  for (bool goesOn = true; goesOn;)
+  {
+    if (bytes_.size() - offset < headSize)
+    {
+      checkSum(chunks, offset);
+    }
+    std::uint64_t size = headSize;
+    for (std::size_t i = 0; i < layers; ++i)
+    {
+      size += numberAt<std::uint32_t>(bytes_, offset + sizesAt + i * sizeof(std::uint32_t));
+    }
+    const std::uint32_t points = numberAt<std::uint32_t>(bytes_, offset + header_.recordLength);
+    if (size > bytes_.size() - offset || points == 0)
+    {
+      failChunks(offset,
+        "a chunk of " + std::to_string(points) + " points in " + std::to_string(size) + " bytes, of which " +
+          std::to_string(bytes_.size() - offset) + " are there");
+    }
+    goesOn = add(chunks, offset, static_cast<std::size_t>(size), points);
+    offset += static_cast<std::size_t>(size);
+  }
+  return chunks;
+}
+
+LazChunks ChunkFinder::countOnly() const
+{
+  if (hasVariableChunks())
+  {
+    failFormat("byte " + std::to_string(header_.pointsOffset) +
+        ": there is no table of chunks, whose numbers of points vary",
+      "the file was not completely written: write it again");
+  }
+  const std::size_t available = bytes_.size() - first_;
+  if ((header_.count - 1) / schema_.chunkSize >= available / header_.recordLength + 1)
+  {
+    failTruncated("chunks of " + std::to_string(schema_.chunkSize) + " points for the " +
+      std::to_string(header_.count) + " that the header counts are more than " + std::to_string(available) +
+      " bytes can be");
+  }
+  LazChunks chunks;
+  chunks.arePlaced = false;
+  while (add(chunks, first_, available, schema_.chunkSize))
+  {
+  }
+  return chunks;
+}
+
+LazChunks ChunkFinder::find()
+{
+  checkCount();
+  if (schema_.compressor == LazSchema::Compressor::Pointwise)
+  {
+    LazChunks chunks;
+    add(chunks, header_.pointsOffset, bytes_.size() - header_.pointsOffset, header_.count);
+    return chunks;
+  }
+  const std::size_t table = tableOffset();
+  return table != 0 ? readTable(table) : isLayered() ? walkLayers() : countOnly();
+}
+
+} // namespace
+
+LazChunks findLazChunks(std::string_view bytes, const LasHeader& header, const LazSchema& schema)
+{
+  return ChunkFinder(bytes, header, schema).find();
+}
+
+std::string lazChunkTable(const std::vector<LazChunk>& chunks, const LazSchema& schema)
+{
+  std::string table(kTableHeader, '\0');
+  storeLittle(static_cast<std::uint32_t>(chunks.size()), &table[4]);
+  ArithmeticEncoder encoder;
+  IntegerModels numbers(32, 2);
+  LazChunk before;
+  for (const LazChunk& chunk : chunks)
+  {
+    if (schema.chunkSize == LazSchema::kVariableChunks)
+    {
+      numbers.code(
+        encoder, static_cast<std::int32_t>(before.count), static_cast<std::int32_t>(chunk.count), 0);
+    }
+    numbers.code(encoder, static_cast<std::int32_t>(before.size), static_cast<std::int32_t>(chunk.size), 1);
+    before = chunk;
+  }
+  return table + encoder.finish();
+}
+
+} // namespace pointhaptics::io

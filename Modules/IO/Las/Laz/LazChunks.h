@@ -1,0 +1,47 @@
+/// @file
+/// Where the chunks of a LAZ file lie: its table of chunks, or what can be had without it. Source: LAZ
+/// Specification 1.4 R1.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pointhaptics::io
+{
+
+struct LasHeader;
+struct LazSchema;
+
+/// Points that are compressed together, apart from all others.
+struct LazChunk
+{
+  std::size_t offset = 0;  ///< in the file
+  std::size_t size = 0;    ///< bytes; of one without a table: those up to the end of the file
+  std::uint64_t first = 0; ///< number of its first point
+  std::uint64_t count = 0;
+};
+
+struct LazChunks
+{
+  std::vector<LazChunk> all;
+  /// False of a pointwise file without a table: each chunk begins where the one before ends, which only
+  /// decoding it shows. Then the offset of the first chunk alone is set.
+  bool arePlaced = true;
+};
+
+/// Points may unpack to this many times the file's size, or to kLazFloor where that is more: real clouds stay
+/// far below, and memory for the sizes in a header stays in proportion to the file.
+constexpr std::size_t kMostLazRatio = 100;
+constexpr std::size_t kLazFloor = std::size_t{ 1 } << 26;
+
+/// The chunks of all points that @p header counts, each inside the file. @throws FileProblem with byte offset
+/// and value where table, sizes or counts cannot be true.
+LazChunks findLazChunks(std::string_view bytes, const LasHeader& header, const LazSchema& schema);
+
+/// The table of chunks with @p chunks, which lie one behind the other in a file of @p schema.
+std::string lazChunkTable(const std::vector<LazChunk>& chunks, const LazSchema& schema);
+
+} // namespace pointhaptics::io

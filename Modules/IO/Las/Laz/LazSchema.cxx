@@ -1,0 +1,287 @@
+#include "IO/Las/Laz/LazSchema.h"
+
+#include "FileProblem.h"
+#include "IO/Las/LasHeader.h"
+
+#include <array>
+#include <vector>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr std::size_t kDescriptionStart = 34; ///< bytes of LASzip's record before its items
+constexpr std::size_t kItemSize = 6;
+constexpr std::size_t kWavePacketSize = 29;
+
+/// LASzip's numbers for the items.
+enum ItemType
+{
+  kBytes = 0,
+  kPoint10 = 6,
+  kGpsTime11 = 7,
+  kColor12 = 8,
+  kWavePacket13 = 9,
+  kPoint14 = 10,
+  kColor14 = 11,
+  kColorNearInfrared14 = 12,
+  kWavePacket14 = 13,
+  kBytes14 = 14,
+};
+
+/// One item of a record.
+struct RecordItem
+{
+  int type;
+  std::size_t size;
+};
+
+template <typename T>
+T numberAt(std::string_view bytes, std::size_t offset)
+{
+  return loadLittle<T>(bytes.data() + offset);
+}
+
+[[noreturn]] void failSchema(std::size_t byte, const std::string& what)
+{
+  failFormat("byte " + std::to_string(byte) + ": " + what, "the file is damaged: copy or compress it again");
+}
+
+/// Where the content of LASzip's record begins, and its size.
+struct Description
+{
+  std::size_t at = 0;
+  std::size_t size = 0;
+};
+
+Description findDescription(std::string_view bytes, const LasHeader& header)
+{
+  const std::uint32_t records = numberAt<std::uint32_t>(bytes, 100);
+  const std::size_t end = header.pointsOffset;
+  std::size_t at = header.headerSize;
+  Description found;
+  for (std::uint32_t i = 0; i < records; ++i)
+  {
+    if (at + kLasVlrHeader > end || at + kLasVlrHeader + numberAt<std::uint16_t>(bytes, at + 20) > end)
+    {
+      failSchema(100,
+        "the header counts " + std::to_string(records) + " variable length records, but only " +
+          std::to_string(i) + " lie before the points");
+    }
+    const std::string_view user = bytes.substr(at + 2, 16);
+    const std::size_t size = numberAt<std::uint16_t>(bytes, at + 20);
+    if (user.substr(0, user.find('\0')) == kLaszipUser &&
+      numberAt<std::uint16_t>(bytes, at + 18) == kLaszipRecord)
+    {
+      if (found.at != 0)
+      {
+        failSchema(at, "a second record says how the points are compressed");
+      }
+      found = { at + kLasVlrHeader, size };
+    }
+    at += kLasVlrHeader + size;
+  }
+  if (found.at == 0)
+  {
+    failSchema(104, "the points are marked as compressed, but no record says how");
+  }
+  if (found.size < kDescriptionStart)
+  {
+    failSchema(found.at,
+      "a description of the compression of " + std::to_string(found.size) + " bytes, which takes at least " +
+        std::to_string(kDescriptionStart));
+  }
+  return found;
+}
+
+/// What LASzip stores for a record of this point format, in its order.
+std::vector<RecordItem> itemsOf(const LasHeader& header)
+{
+  const LasPointFormat& fields = header.fields();
+  const bool isExtended = header.isExtended();
+  std::vector<RecordItem> items;
+  std::size_t sum = 0;
+  const auto add = [&](int type, std::size_t size)
+  {
+    items.push_back({ type, size });
+    sum += size;
+  };
+  isExtended ? add(kPoint14, 30) : add(kPoint10, 20);
+  if (fields.gpsTime != 0 && !isExtended)
+  {
+    add(kGpsTime11, 8);
+  }
+  if (fields.nearInfrared != 0)
+  {
+    add(kColorNearInfrared14, 8);
+  }
+  else if (fields.rgb != 0)
+  {
+    add(isExtended ? kColor14 : kColor12, 6);
+  }
+  if (fields.size == sum + kWavePacketSize)
+  {
+    add(isExtended ? kWavePacket14 : kWavePacket13, kWavePacketSize);
+  }
+  if (header.recordLength > fields.size)
+  {
+    add(isExtended ? kBytes14 : kBytes, header.recordLength - fields.size);
+  }
+  return items;
+}
+
+/// The versions of an item that are read here.
+bool isKnownVersion(int type, int version)
+{
+  return type >= kPoint14 ? version == 3 : version == 1 || (version == 2 && type != kWavePacket13);
+}
+
+void place(LazSchema& schema, const RecordItem& item, std::size_t offset, int version)
+{
+  const LazSchema::Item placed{ offset, version };
+  switch (item.type)
+  {
+    case kPoint10:
+    case kPoint14:
+      schema.pointVersion = version;
+      break;
+    case kGpsTime11:
+      schema.gpsTime = placed;
+      break;
+    case kColor12:
+    case kColor14:
+      schema.color = placed;
+      break;
+    case kColorNearInfrared14:
+      schema.color = placed;
+      schema.nearInfrared = { offset + 6, version };
+      break;
+    case kWavePacket13:
+    case kWavePacket14:
+      schema.wavePacket = placed;
+      break;
+    default:
+      schema.extraBytes = placed;
+  }
+}
+
+void placeItems(
+  std::string_view bytes, const Description& description, const LasHeader& header, LazSchema& schema)
+{
+  const std::vector<RecordItem> expected = itemsOf(header);
+  const std::size_t count = numberAt<std::uint16_t>(bytes, description.at + 32);
+  bool same = count == expected.size() && description.size >= kDescriptionStart + kItemSize * expected.size();
+  std::size_t offset = 0;
+  for (std::size_t i = 0; same && i < count; ++i)
+  {
+    const std::size_t at = description.at + kDescriptionStart + kItemSize * i;
+    same = numberAt<std::uint16_t>(bytes, at) == expected[i].type &&
+      numberAt<std::uint16_t>(bytes, at + 2) == expected[i].size;
+    const int version = numberAt<std::uint16_t>(bytes, at + 4);
+    if (same && !isKnownVersion(expected[i].type, version))
+    {
+      failFormat("byte " + std::to_string(at + 4) + ": item " + std::to_string(expected[i].type) +
+          " is compressed in version " + std::to_string(version) + ", which is not known here",
+        "unpack it with the program that wrote it, or compress it with LASzip 3");
+    }
+    place(schema, expected[i], offset, version);
+    offset += expected[i].size;
+  }
+  if (!same)
+  {
+    failSchema(description.at + 32,
+      "what is compressed is not a record of point format " + std::to_string(header.pointFormat) + " with " +
+        std::to_string(header.recordLength) + " bytes");
+  }
+}
+
+template <typename T>
+void append(std::string& bytes, T value)
+{
+  char raw[sizeof(T)];
+  storeLittle(value, raw);
+  bytes.append(raw, sizeof(T));
+}
+
+} // namespace
+
+std::size_t LazSchema::numberOfLayers() const
+{
+  constexpr std::size_t kOfPoint14 = 9;
+  return kOfPoint14 + (color.offset != 0 ? 1 : 0) + (nearInfrared.offset != 0 ? 1 : 0) +
+    (wavePacket.offset != 0 ? 1 : 0) + numberOfExtraBytes();
+}
+
+LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header)
+{
+  const Description description = findDescription(bytes, header);
+  LazSchema schema;
+  const int compressor = numberAt<std::uint16_t>(bytes, description.at);
+  const int coder = numberAt<std::uint16_t>(bytes, description.at + 2);
+  const bool isLayered = compressor == static_cast<int>(LazSchema::Compressor::Layered);
+  if (compressor < 1 || compressor > 3 || isLayered != header.isExtended())
+  {
+    failSchema(description.at,
+      "unknown compressor " + std::to_string(compressor) + " for point format " +
+        std::to_string(header.pointFormat));
+  }
+  if (coder != 0)
+  {
+    failSchema(description.at + 2, "unknown coder " + std::to_string(coder));
+  }
+  schema.compressor = static_cast<LazSchema::Compressor>(compressor);
+  schema.chunkSize = numberAt<std::uint32_t>(bytes, description.at + 12);
+  schema.recordLength = header.recordLength;
+  if (schema.chunkSize == 0)
+  {
+    failSchema(description.at + 12, "chunks of 0 points");
+  }
+  placeItems(bytes, description, header, schema);
+  return schema;
+}
+
+LazSchema makeLazSchema(const LasHeader& header)
+{
+  LazSchema schema;
+  schema.compressor = header.isExtended() ? LazSchema::Compressor::Layered : LazSchema::Compressor::Chunked;
+  schema.recordLength = header.recordLength;
+  std::size_t offset = 0;
+  for (const RecordItem& item : itemsOf(header))
+  {
+    place(schema, item, offset, item.type >= kPoint14 ? 3 : item.type == kWavePacket13 ? 1 : 2);
+    offset += item.size;
+  }
+  return schema;
+}
+
+std::string lazRecord(const LazSchema& schema, const LasHeader& header)
+{
+  std::string record;
+  append(record, static_cast<std::uint16_t>(schema.compressor));
+  append(record, std::uint16_t{ 0 }); // the only coder
+  for (const std::uint8_t part : { 3, 4 })
+  {
+    append(record, part); // of the format's description
+  }
+  append(record, std::uint16_t{ 0 });
+  append(record, std::uint32_t{ 0 });
+  append(record, schema.chunkSize);
+  append(record, std::int64_t{ -1 });
+  append(record, std::int64_t{ -1 });
+  const std::vector<RecordItem> items = itemsOf(header);
+  append(record, static_cast<std::uint16_t>(items.size()));
+  for (const RecordItem& item : items)
+  {
+    append(record, static_cast<std::uint16_t>(item.type));
+    append(record, static_cast<std::uint16_t>(item.size));
+    append(record,
+      static_cast<std::uint16_t>(item.type >= kPoint14 ? 3
+          : item.type == kWavePacket13                 ? 1
+                                                       : 2));
+  }
+  return record;
+}
+
+} // namespace pointhaptics::io

@@ -1,0 +1,62 @@
+/// @file
+/// How the points of a LAZ file are compressed: LASzip's variable length record. Source: LAZ Specification
+/// 1.4 R1.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace pointhaptics::io
+{
+
+struct LasHeader;
+
+/// The items of a record: what lies where, and in which version it is coded; offset 0: there is none.
+struct LazSchema
+{
+  enum class Compressor
+  {
+    Pointwise = 1, ///< one run without chunks, of the first versions
+    Chunked = 2,
+    Layered = 3,
+  };
+  struct Item
+  {
+    std::size_t offset = 0;
+    int version = 0;
+  };
+
+  Compressor compressor = Compressor::Chunked;
+  std::uint32_t chunkSize = 50000; ///< points; kVariableChunks: the table of chunks says
+  std::size_t recordLength = 0;
+  int pointVersion = 2; ///< 1 or 2; 3 of layered files
+  Item gpsTime;         ///< of pointwise files
+  Item color;
+  Item nearInfrared;
+  Item wavePacket;
+  Item extraBytes;
+
+  static constexpr std::uint32_t kVariableChunks = 0xffffffffu;
+  /// What is after the fixed fields of a record.
+  std::size_t numberOfExtraBytes() const
+  {
+    return extraBytes.offset != 0 ? recordLength - extraBytes.offset : 0;
+  }
+  /// Layers of a chunk of a layered file, in their order.
+  std::size_t numberOfLayers() const;
+};
+
+/// What LASzip's record in @p bytes says of the points that @p header describes. Its items must be those of
+/// the point format, each once. @throws FileProblem with byte offset and value; versions of items that are
+/// not known are refused with their number.
+LazSchema parseLazSchema(std::string_view bytes, const LasHeader& header);
+
+/// How a file of the point format and the record length of @p header is written here.
+LazSchema makeLazSchema(const LasHeader& header);
+
+/// The content of LASzip's record for @p schema.
+std::string lazRecord(const LazSchema& schema, const LasHeader& header);
+
+} // namespace pointhaptics::io

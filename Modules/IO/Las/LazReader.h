@@ -1,0 +1,52 @@
+/// @file
+/// Reads the points of LAZ and COPC files: chunks are decoded in parallel, straight into the arrays.
+#pragma once
+
+#include "IO/Las/Laz/ChunkDecoder.h"
+
+#include "vtkType.h"
+
+#include <atomic>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace pointhaptics::io
+{
+
+class LasRecords;
+struct LasHeader;
+struct ReadTask;
+
+/// Records of a block stay in the cache while their columns are filled one after the other.
+constexpr vtkIdType kLasBlockRows = 4096;
+
+/// Reads the points of one file; one object per file.
+class LazReader
+{
+public:
+  /// Finds the chunks of the file. @throws FileProblem where what it says of them cannot be true. Both must
+  /// outlive this object.
+  LazReader(const ReadTask& task, const LasHeader& header);
+  /// Fills @p records with the points in the file's order. Uses as many threads as vtkSMPTools has; progress
+  /// is reported from the calling one, which decodes too. @throws FileProblem, StoppedOnRequest.
+  void read(LasRecords& records);
+
+private:
+  bool isCallingThread() const { return std::this_thread::get_id() == caller_; }
+  void work(LasRecords& records) noexcept;
+  void readChunk(ChunkDecoder& decoder, std::vector<char>& block, const LazChunk& chunk, LasRecords& records);
+  void readInOrder(LasRecords& records);
+
+  const ReadTask& task_;
+  const LasHeader& header_;
+  const LazSchema schema_;
+  const LazChunks chunks_;
+  const std::thread::id caller_ = std::this_thread::get_id();
+  std::atomic<std::size_t> next_{ 0 };
+  std::atomic<std::uint64_t> done_{ 0 }; ///< points
+  std::atomic<bool> isStopped_{ false };
+  std::vector<std::exception_ptr> faults_; ///< of each chunk
+};
+
+} // namespace pointhaptics::io
