@@ -154,6 +154,18 @@ std::string shortestDecimal(double value)
   return { text, std::to_chars(text, text + sizeof(text), value).ptr };
 }
 
+void packRecords(const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType row,
+  vtkIdType count, char* records) noexcept
+{
+  for (const RecordField& field : fields)
+  {
+    const ConstColumnView source{ field.source.first + row * field.source.stride, field.source.stride,
+      field.source.type };
+    copyStrided(
+      source, { records + field.offset, static_cast<std::ptrdiff_t>(recordSize), field.type }, count);
+  }
+}
+
 void writeRecords(const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType rows,
   WriteTask& task, double begin)
 {
@@ -167,13 +179,7 @@ void writeRecords(const std::vector<RecordField>& fields, std::size_t recordSize
       task.progress(begin + (1.0 - begin) * static_cast<double>(row) / static_cast<double>(rows));
     }
     const vtkIdType count = std::min(kBlock, rows - row);
-    for (const RecordField& field : fields)
-    {
-      const ConstColumnView source{ field.source.first + row * field.source.stride, field.source.stride,
-        field.source.type };
-      copyStrided(
-        source, { block.data() + field.offset, static_cast<std::ptrdiff_t>(recordSize), field.type }, count);
-    }
+    packRecords(fields, recordSize, row, count, block.data());
     task.out.write(block.data(), recordSize * static_cast<std::size_t>(count));
   }
   task.progress(1.0);

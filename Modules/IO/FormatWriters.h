@@ -24,8 +24,9 @@ void writeCsv(const std::vector<OutputArray>& arrays, WriteTask& task);
 
 /// LAS 1.2, or 1.4 where the arrays or well-known text need it. Arrays that the reader makes of LAS fields
 /// become these again, others extra bytes; @p fieldData may hold LasScale, LasOffset, LasGlobalEncoding and
-/// CoordinateSystem.
-void writeLas(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task);
+/// CoordinateSystem. With @p isPacked it is a LAZ file of the same records.
+void writeLas(
+  const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task, bool isPacked);
 
 /// The fewest digits that give @p value back.
 std::string shortestDecimal(double value);
@@ -37,6 +38,10 @@ struct RecordField
   std::size_t offset = 0; ///< inside the record
   int type = 0;           ///< VTK type in the record
 };
+
+/// Copies the fields of the rows from @p row on into @p count records; bytes between the fields stay.
+void packRecords(const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType row,
+  vtkIdType count, char* records) noexcept;
 
 /// Writes @p rows records of @p recordSize bytes, block by block, with progress from @p begin to 1.
 void writeRecords(const std::vector<RecordField>& fields, std::size_t recordSize, vtkIdType rows,

@@ -99,6 +99,7 @@ const FileFormat kFormats[] = {
   { "ply", "PLY", "" },
   { "pcd", "PCD", "Viewpoint OrganizedDimensions" },
   { "las", "LAS", "LasScale LasOffset LasGlobalEncoding CoordinateSystem LengthUnit" },
+  { "laz", "LAZ", "LasScale LasOffset LasGlobalEncoding CoordinateSystem LengthUnit" },
   { "csv", "CSV", "" },
 };
 
@@ -163,7 +164,7 @@ bool vtkPointCloudWriter::CanWrite(const std::string& fileName)
 
 const char* vtkPointCloudWriter::GetExtensions()
 {
-  return ".vtp, .ply, .pcd, .las or .csv";
+  return ".vtp, .ply, .pcd, .las, .laz or .csv";
 }
 
 vtkPointCloudWriter::~vtkPointCloudWriter()
@@ -228,7 +229,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
     {
       throw io::FileProblem(vtkErrorCode::CannotOpenFileError,
         "VTP files cannot be written to a pipe or a device",
-        "choose the name of a new file, or .ply, .pcd, .las or .csv");
+        "choose the name of a new file, or .ply, .pcd, .las, .laz or .csv");
     }
     writeVtp(cloud, task);
   }
@@ -244,9 +245,9 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
     {
       io::writePcd(arrays, cloud->GetFieldData(), task);
     }
-    else if (this->Format == "LAS")
+    else if (this->Format == "LAS" || this->Format == "LAZ")
     {
-      io::writeLas(arrays, cloud->GetFieldData(), task);
+      io::writeLas(arrays, cloud->GetFieldData(), task, this->Format == "LAZ");
     }
     else
     {

@@ -1,6 +1,6 @@
 /**
  * @class   vtkPointCloudWriter
- * @brief   write a point cloud with every array: .vtp, .ply, .pcd, .las or .csv by extension
+ * @brief   write a point cloud with every array: .vtp, .ply, .pcd, .las, .laz or .csv by extension
  *
  * Input: any vtkPointSet with at least one point. Points keep their precision (float or double).
  * vtkPointCloudReader gives the same points and arrays back, within what the format can say:
@@ -19,6 +19,8 @@
  *   is shorter than 1000 steps of it. Whoever transforms a cloud takes "LasScale" and "LasOffset" away.
  *   Arrays under the names vtkPointCloudReader gives to LAS fields become these, "RGB" becomes the colour,
  *   and all others become extra bytes. NaN points are refused.
+ * - .laz: the same records, compressed: pointwise for LAS 1.2, layered for 1.4, in chunks of 50,000 points that
+ *   are encoded in parallel. Costs the compressed size in memory.
  * - .csv: header x,y,z and the names of the arrays, arrays of several components as name_0,name_1,...; each
  * number with the fewest digits that give back the same value. Types are not stored: float arrays may be read
  * as double.
@@ -87,7 +89,7 @@ public:
   static bool CanWrite(const std::string& fileName);
 
   /**
-   * The extensions that can be written, for messages: ".vtp, .ply, .pcd, .las or .csv". Static storage.
+   * The extensions that can be written, for messages: ".vtp, .ply, .pcd, .las, .laz or .csv". Static storage.
    */
   static const char* GetExtensions();
 

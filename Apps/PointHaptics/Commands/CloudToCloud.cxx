@@ -13,7 +13,7 @@ namespace app
 void CloudToCloudOptions::addTo(CLI::App& command)
 {
   command.add_option("IN", this->input, "Point cloud to read")->required()->type_name("");
-  command.add_option("-o,--output", this->output, "File to write: .vtp, .ply, .pcd, .las or .csv")
+  command.add_option("-o,--output", this->output, "File to write: .vtp, .ply, .pcd, .las, .laz or .csv")
     ->required()
     ->type_name("OUT");
   addInteger(command, "--threads", this->threads, 1, 1024, "Threads to use; default all");

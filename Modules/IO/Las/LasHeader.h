@@ -46,6 +46,7 @@ constexpr std::size_t kLasVlrHeader = 54;
 constexpr std::size_t kLasExtraDescriptor = 192;
 constexpr int kLasExtraBytesRecord = 4; ///< of the user LASF_Spec
 constexpr int kLasPackedMark = 0xc0;    ///< bits of the point format that LAZ sets
+constexpr int kLasPackedBit = 0x80;     ///< the one of them that is written today
 constexpr std::string_view kLaszipUser = "laszip encoded";
 constexpr int kLaszipRecord = 22204; ///< how the points are compressed
 

@@ -3,6 +3,7 @@
 #include "IO/Las/LasGrid.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/LasRecordWriter.h"
+#include "IO/Las/LazWriter.h"
 #include "NumericType.h"
 
 #include "vtkDataArray.h"
@@ -43,13 +44,14 @@ int codeOf(int type)
 class LasWriter
 {
 public:
-  LasWriter(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task)
+  LasWriter(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task, bool isPacked)
     : arrays_(arrays)
     , taken_(arrays.size(), false)
     , fieldData_(fieldData)
     , task_(task)
     , notes_(task.notes)
     , rows_(arrays[0].array->GetNumberOfTuples())
+    , isPacked_(isPacked)
   {
   }
   void write();
@@ -78,6 +80,7 @@ private:
   WriteTask& task_;
   WriterNotes& notes_;
   const vtkIdType rows_;
+  const bool isPacked_;
 
   const OutputArray* intensity_ = nullptr;
   const OutputArray* returnNumber_ = nullptr;
@@ -377,7 +380,7 @@ std::string LasWriter::header(std::size_t pointsOffset, std::uint32_t records, s
   putLittle(bytes, 94, static_cast<std::uint16_t>(bytes.size()));
   putLittle(bytes, 96, static_cast<std::uint32_t>(pointsOffset));
   putLittle(bytes, 100, records);
-  bytes[104] = static_cast<char>(format_);
+  bytes[104] = static_cast<char>(isPacked_ ? format_ | kLasPackedBit : format_);
   putLittle(bytes, 105, static_cast<std::uint16_t>(recordSize_));
   std::uint64_t byReturn[15] = {};
   const Byte* returns =
@@ -444,16 +447,28 @@ void LasWriter::write()
     records += lasRecordHeader("LASF_Spec", kLasExtraBytesRecord, descriptors_.size()) + descriptors_;
     ++count;
   }
-  const std::size_t headerSize = header(0, count, encoding).size();
-  task_.out.write(header(headerSize + records.size(), count, encoding) + records);
-  writeRecords(fields_, recordSize_, rows_, task_, kPlanningPart);
+  if (isPacked_)
+  {
+    records += lazDescription(format_, recordSize_);
+    ++count;
+  }
+  const std::size_t pointsOffset = header(0, count, encoding).size() + records.size();
+  task_.out.write(header(pointsOffset, count, encoding) + records);
+  if (isPacked_)
+  {
+    writeLazRecords(fields_, format_, recordSize_, pointsOffset, rows_, task_, kPlanningPart);
+  }
+  else
+  {
+    writeRecords(fields_, recordSize_, rows_, task_, kPlanningPart);
+  }
 }
 
 } // namespace
 
-void writeLas(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task)
+void writeLas(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task, bool isPacked)
 {
-  LasWriter(arrays, fieldData, task).write();
+  LasWriter(arrays, fieldData, task, isPacked).write();
 }
 
 } // namespace pointhaptics::io

@@ -287,7 +287,7 @@ TEST_F(Writer, CsvStartsWithTheAgreedHeader)
 TEST_F(Writer, SaysWhatIsWrongAndLeavesNothingBehind)
 {
   const auto cloud = makeCloud(VTK_FLOAT);
-  EXPECT_NE(writeCloud(cloud, path("a.xls")).find(".vtp, .ply, .pcd, .las or .csv"), std::string::npos);
+  EXPECT_NE(writeCloud(cloud, path("a.xls")).find(".vtp, .ply, .pcd, .las, .laz or .csv"), std::string::npos);
   EXPECT_NE(writeCloud(cloud, path("none/a.ply")).find("No such file"), std::string::npos);
   EXPECT_NE(writeCloud(cloud, path("none/a.vtp")).find("No such file"), std::string::npos);
   EXPECT_NE(writeCloud(cloud, "").find("file name"), std::string::npos);
