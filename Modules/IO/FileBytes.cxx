@@ -109,6 +109,13 @@ public:
         "check the disk, or wait until the file is completely written");
     }
   }
+  /// The same from byte @p offset on.
+  void read(std::size_t offset, char* to, std::size_t size)
+  {
+    std::fseek(file_.get(), static_cast<long>(offset), SEEK_SET);
+    position_ = offset;
+    read(to, size);
+  }
   std::string_view peek(char* to, std::size_t size)
   {
     const std::size_t got = std::fread(to, 1, std::min(size, size_), file_.get());
@@ -141,6 +148,25 @@ FileBytes::FileBytes(const std::string& path, const Progress& progress, const In
   {
     readPlain(file, progress, inspect);
   }
+}
+
+FileBytes::FileBytes(const std::string& path)
+{
+  checkIsReadable(path);
+  file_ = std::make_unique<File>(path);
+  size_ = file_->size();
+  data_.reset(static_cast<char*>(std::calloc(std::max(size_, std::size_t{ 1 }), 1)));
+  if (!data_)
+  {
+    throw std::bad_alloc();
+  }
+}
+
+FileBytes::~FileBytes() = default;
+
+void FileBytes::load(std::size_t offset, std::size_t size)
+{
+  file_->read(offset, data_.get() + offset, size);
 }
 
 /// Memory that was never touched costs nothing: growing by much is cheap.
@@ -234,6 +260,19 @@ void FileBytes::unpack(File& file, const Progress& progress, const Inspect& insp
   {
     failTruncated("the gzip file holds 0 bytes");
   }
+}
+
+std::string startOfFile(const std::string& path, std::size_t size)
+{
+  std::string start(size, '\0');
+  std::error_code ignored; // a pipe would lose what is read
+  std::FILE* file = fs::is_regular_file(path, ignored) ? std::fopen(path.c_str(), "rb") : nullptr;
+  start.resize(file ? std::fread(start.data(), 1, size, file) : 0);
+  if (file)
+  {
+    std::fclose(file);
+  }
+  return start;
 }
 
 std::string lowerExtension(const std::string& path)

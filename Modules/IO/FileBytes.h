@@ -26,6 +26,13 @@ public:
   /// @throws FileProblem when the file is missing, a folder, not a regular file, empty, unreadable, or its
   /// gzip data are damaged, cut short or beyond the limit; what @p progress and @p inspect throw.
   FileBytes(const std::string& path, const Progress& progress, const Inspect& inspect);
+  /// Memory for the whole of @p path, a file that is not packed, of which load() reads what is needed.
+  explicit FileBytes(const std::string& path);
+  ~FileBytes();
+
+  /// Reads bytes that lie inside the file; bytes that were never read are zero, and cost no memory. Only for
+  /// objects made by FileBytes(path). @throws FileProblem when they cannot be read.
+  void load(std::size_t offset, std::size_t size);
   std::string_view view() const { return { data_.get(), size_ }; }
   /// Whether view() is the unpacked content of a gzip file.
   bool wasPacked() const { return wasPacked_; }
@@ -45,9 +52,13 @@ private:
   void resize(std::size_t size);
 
   std::unique_ptr<char, Free> data_;
+  std::unique_ptr<File> file_; ///< that load() reads
   std::size_t size_ = 0;
   bool wasPacked_ = false;
 };
+
+/// The first @p size bytes of a file, fewer where it has fewer; empty where it cannot be read.
+std::string startOfFile(const std::string& path, std::size_t size);
 
 /// The extension of @p path in lower case without its dot; empty when there is none.
 std::string lowerExtension(const std::string& path);

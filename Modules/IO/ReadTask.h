@@ -5,6 +5,10 @@
 #include "FileProblem.h"
 #include "Progress.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -16,10 +20,16 @@ namespace pointhaptics::io
 /// Part of the progress that reading the bytes takes; parsing them takes the rest.
 constexpr double kReadingPart = 0.3;
 
-/// What of a cloud is wanted.
+/// What of a cloud is wanted: see vtkPointCloudReader.
 struct WantedPart
 {
   bool onlyPositions = false; ///< no arrays beside the points, where leaving them out saves work
+  double resolution = 0.0;    ///< distance between points that is fine enough; 0: all points
+  std::array<double, 6> box{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 }; ///< x0, x1, y0, y1, z0, z1
+
+  bool hasBox() const { return box[0] <= box[1] && box[2] <= box[3] && box[4] <= box[5]; }
+  /// Whether a file that can be read in parts need not be read whole.
+  bool isPart() const { return hasBox() || resolution > 0.0; }
 };
 
 /// Lives during one read, in one thread.
@@ -30,8 +40,18 @@ struct ReadTask
   bool wasPacked = false; ///< the bytes are the unpacked content of a gzip file
   WantedPart wanted;
   vtkAlgorithm* algorithm = nullptr;
+  /// Reads bytes of the file; empty where all are there. Those that were never read are zero.
+  std::function<void(std::size_t offset, std::size_t size)> load;
   std::string format; ///< out: "PLY (binary little endian)", as soon as it is known
 
+  /// Must be called before bytes are looked at where load is set. They may lie outside the file.
+  void need(std::size_t offset, std::size_t size) const
+  {
+    if (load && offset < bytes.size())
+    {
+      load(offset, std::min(size, bytes.size() - offset));
+    }
+  }
   /// Reports how much of the parsing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop.
   void progress(double fraction) const { reportProgress(algorithm, overall(fraction)); }
   /// What part of the whole work is done when @p fraction of the parsing is.

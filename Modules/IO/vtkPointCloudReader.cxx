@@ -1,18 +1,24 @@
 #include "vtkPointCloudReader.h"
 
+#include "CloudColumns.h"
 #include "CloudFormat.h"
 #include "FileBytes.h"
 #include "FormatReaders.h"
+#include "IO/Las/LasHeader.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -27,6 +33,9 @@ namespace
 
 /// The universe spans 9e26 metres. A float, so that float and double points have the same limit.
 constexpr float kMostCoordinate = 1e30f;
+
+/// Bytes that tell a cloud optimised point cloud from others.
+constexpr std::size_t kCopcStart = 400;
 
 void readAs(io::CloudFormat format, io::ReadTask& task, vtkPolyData* cloud)
 {
@@ -103,6 +112,44 @@ void checkCoordinates(vtkPolyData* cloud)
   }
 }
 
+/// Takes away the points outside @p box, with their values in all arrays.
+void keepInside(vtkPolyData* cloud, const std::array<double, 6>& box)
+{
+  vtkNew<vtkIdList> kept;
+  vtkPoints* points = cloud->GetPoints();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double at[3];
+    points->GetPoint(i, at);
+    if (at[0] >= box[0] && at[0] <= box[1] && at[1] >= box[2] && at[1] <= box[3] && at[2] >= box[4] &&
+      at[2] <= box[5])
+    {
+      kept->InsertNextId(i);
+    }
+  }
+  if (kept->GetNumberOfIds() == points->GetNumberOfPoints())
+  {
+    return;
+  }
+  if (kept->GetNumberOfIds() == 0)
+  {
+    io::failFormat("no point lies in the box", "choose a box that meets the bounds of the cloud");
+  }
+  vtkNew<vtkPoints> inside;
+  inside->SetDataType(points->GetDataType());
+  points->GetPoints(kept, inside);
+  vtkNew<vtkPointData> values;
+  values->CopyAllOn();
+  values->CopyAllocate(cloud->GetPointData(), kept->GetNumberOfIds());
+  for (vtkIdType i = 0; i < kept->GetNumberOfIds(); ++i)
+  {
+    values->CopyData(cloud->GetPointData(), kept->GetId(i), i);
+  }
+  cloud->SetPoints(inside);
+  cloud->GetPointData()->ShallowCopy(values);
+  io::setOneVertexPerPoint(cloud);
+}
+
 /// Stores the format's name, also when reading fails.
 struct FormatName
 {
@@ -128,7 +175,30 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
   io::ReadTask task;
   task.path = this->FileName;
   task.algorithm = this;
+  task.wanted.onlyPositions = this->OnlyPositions;
+  task.wanted.resolution = this->Resolution;
+  std::copy_n(this->Box, 6, task.wanted.box.begin());
   const FormatName keepName{ task, this->Format };
+  if (task.wanted.isPart() && io::startsLikeCopc(io::startOfFile(task.path, kCopcStart)))
+  {
+    io::FileBytes part(task.path);
+    task.bytes = part.view();
+    task.load = [&](std::size_t offset, std::size_t size) { part.load(offset, size); };
+    io::readLas(task, cloud);
+  }
+  else
+  {
+    this->ReadWhole(task, cloud);
+  }
+  checkCoordinates(cloud);
+  if (task.wanted.hasBox())
+  {
+    keepInside(cloud, task.wanted.box);
+  }
+}
+
+void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
+{
   const bool isNamedGz = io::lowerExtension(task.path) == "gz";
   const std::string innerName = task.path.substr(0, task.path.size() - (isNamedGz ? 3 : 0));
   io::CloudFormat format = io::CloudFormat::Text;
@@ -142,7 +212,6 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
   task.bytes = bytes.view();
   task.wasPacked = bytes.wasPacked();
   readAs(format, task, cloud);
-  checkCoordinates(cloud);
 }
 
 void vtkPointCloudReader::Fail(unsigned long code, const std::string& message)
@@ -205,6 +274,10 @@ void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Resolution: " << this->Resolution << "\n";
+  os << indent << "Box: " << this->Box[0] << " " << this->Box[1] << " " << this->Box[2] << " " << this->Box[3]
+     << " " << this->Box[4] << " " << this->Box[5] << "\n";
+  os << indent << "OnlyPositions: " << (this->OnlyPositions ? "On" : "Off") << "\n";
   os << indent << "Format: " << this->Format << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
 }

@@ -56,6 +56,14 @@
 
 #include <string> // For std::string
 
+namespace pointhaptics
+{
+namespace io
+{
+struct ReadTask;
+}
+}
+
 class POINTHAPTICSIO_EXPORT vtkPointCloudReader : public vtkPolyDataAlgorithm
 {
 public:
@@ -69,6 +77,35 @@ public:
    */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * Distance between neighbouring points that is fine enough, in the file's units, finite and 0 or more; 0:
+   * all points. Cloud optimised point clouds (COPC) are read down to the level of their octree that has it:
+   * fewer bytes and less work. Other files are read whole. Default: 0.
+   */
+  vtkSetClampMacro(Resolution, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Resolution, double);
+  ///@}
+
+  ///@{
+  /**
+   * Only points inside this box, edges included, are given: xmin, xmax, ymin, ymax, zmin, zmax in the file's
+   * units. Of cloud optimised point clouds only the nodes that touch it are read; others are read whole
+   * first. Default: 1, -1, 1, -1, 1, -1, which is no box: all points.
+   */
+  vtkSetVector6Macro(Box, double);
+  vtkGetVector6Macro(Box, double);
+  ///@}
+
+  ///@{
+  /**
+   * Reads no arrays beside the points where that saves work: LAS, LAZ and COPC. Default: off.
+   */
+  vtkSetMacro(OnlyPositions, bool);
+  vtkGetMacro(OnlyPositions, bool);
+  vtkBooleanMacro(OnlyPositions, bool);
   ///@}
 
   /**
@@ -94,9 +131,13 @@ private:
   void operator=(const vtkPointCloudReader&) = delete;
 
   void ReadInto(vtkPolyData* cloud);
+  void ReadWhole(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   void Fail(unsigned long code, const std::string& message);
 
   char* FileName = nullptr;
+  double Resolution = 0.0;
+  double Box[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+  bool OnlyPositions = false;
   std::string ErrorMessage;
   std::string Format;
 };

@@ -36,6 +36,9 @@ struct HapticViewerNames
 /// Lengths are metres of the workspace unless said otherwise.
 struct HapticViewerOptions
 {
+  // The file.
+  double resolution = 0.0; ///< How far cloud optimised files are read, in their units; 0: all points.
+
   // The picture.
   int width = 1280; ///< Pixels of window or picture, at least 16.
   int height = 800;

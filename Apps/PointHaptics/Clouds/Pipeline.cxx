@@ -32,9 +32,10 @@ std::string firstOf(const std::vector<std::string>& messages)
 
 } // namespace
 
-bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message)
+bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message, double resolution)
 {
   vtkNew<vtkPointCloudReader> reader;
+  reader->SetResolution(resolution);
   reader->SetFileName(fileName.c_str());
   {
     const ProgressBar bar("reading", reader);

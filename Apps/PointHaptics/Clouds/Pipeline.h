@@ -24,8 +24,9 @@ struct Cloud
   std::string format; ///< As the reader calls it.
 };
 
-/// Reads @p fileName. False: @p message says what, where and the cure. A file without points is a fault.
-bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message);
+/// Reads @p fileName, down to @p resolution where it is a cloud optimised one (0: all of it). False: @p
+/// message says what, where and the cure. A file without points is a fault.
+bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message, double resolution = 0.0);
 /// Updates @p filter with a progress bar. False: @p message is the first error of any VTK class during the
 /// update, or says that a remembered signal (StopSignals.h) ended it.
 bool updateFilter(vtkAlgorithm* filter, const std::string& label, std::string& message);

@@ -16,6 +16,7 @@ void CloudToCloudOptions::addTo(CLI::App& command)
   command.add_option("-o,--output", this->output, "File to write: .vtp, .ply, .pcd, .las, .laz or .csv")
     ->required()
     ->type_name("OUT");
+  addResolution(command, this->resolution);
   addInteger(command, "--threads", this->threads, 1, 1024, "Threads to use; default all");
   command.add_flag("--json", this->json, "Print the figures as JSON");
 }
@@ -28,7 +29,7 @@ bool CloudToCloudOptions::open(Cloud& cloud, std::string& message) const
   }
   useThreads(this->threads);
   rememberStopSignals();
-  return readCloud(this->input, cloud, message);
+  return readCloud(this->input, cloud, message, this->resolution);
 }
 
 } // namespace app

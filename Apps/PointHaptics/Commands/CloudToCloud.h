@@ -21,6 +21,7 @@ struct CloudToCloudOptions
 {
   std::string input;
   std::string output;
+  double resolution = 0.0;  ///< Of the input, in its units; 0: all of it.
   std::int64_t threads = 0; ///< 0: all.
   bool json = false;
 

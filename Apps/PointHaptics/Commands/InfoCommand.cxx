@@ -1,6 +1,7 @@
 #include "Commands/Commands.h"
 
 #include "Clouds/Pipeline.h"
+#include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 
 #include "IO/Info/CloudSummary.h"
@@ -24,6 +25,7 @@ constexpr const char* kCommand = "info";
 struct InfoOptions
 {
   std::vector<std::string> files;
+  double resolution = 0.0;
   bool json = false;
 };
 
@@ -116,7 +118,7 @@ int runInfo(const InfoOptions& options)
   {
     Cloud cloud;
     std::string message;
-    if (!readCloud(file, cloud, message))
+    if (!readCloud(file, cloud, message, options.resolution))
     {
       exitCode = fail(kCommand, message);
       files.push_back({ { "file", file }, { "error", message } });
@@ -148,6 +150,7 @@ void addInfoCommand(CLI::App& program, int& exitCode)
   CLI::App* command = program.add_subcommand("info", "Say what is in point cloud files");
   auto options = std::make_shared<InfoOptions>();
   command->add_option("FILE", options->files, "Point clouds to look at")->required()->type_name("");
+  addResolution(*command, options->resolution);
   command->add_flag("--json", options->json, "Print all of it as JSON");
   command->callback([options, &exitCode] { exitCode = runInfo(*options); });
 }

@@ -98,6 +98,12 @@ CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value
     ->type_name(unit.empty() ? "NUMBER" : unit);
 }
 
+CLI::Option* addResolution(CLI::App& command, double& value)
+{
+  return addNumber(command, "--resolution", value, { 0.0, 1e30, true }, "UNITS",
+    "Read a COPC file no finer than this distance between points; others are read whole");
+}
+
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::int64_t& value, std::int64_t minimum,
   std::int64_t maximum, const std::string& description)
 {

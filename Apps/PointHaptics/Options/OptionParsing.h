@@ -55,6 +55,8 @@ CLI::Option* addInteger(CLI::App& command, const std::string& name, std::int64_t
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::function<void(std::int64_t)> keep,
   std::int64_t minimum, std::int64_t maximum, const std::string& description);
 ///@}
+/// Adds --resolution: how far a cloud optimised point cloud is read.
+CLI::Option* addResolution(CLI::App& command, double& value);
 /// Returns what is wrong with a list, and the cure, or an empty string.
 using NumbersCheck = std::function<std::string(const std::vector<double>&)>;
 /// Adds an option taking a comma-separated list with one of the @p counts of finite numbers. @p check may be

@@ -276,6 +276,7 @@ void ViewOptions::addTo(CLI::App& command)
   command.add_option("--color-by", this->viewer.colorBy)->type_name("ARRAY[:COMPONENT]");
   addNumber(command, "--point-size", this->viewer.pointSize, { 1.0, 50.0 }, "PIXELS",
     "Diameter of a point; default: as the kernel bandwidth says, so that surfaces close");
+  addResolution(command, this->viewer.resolution);
   command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");
   addWindowOptions(command, *this);
   this->touch.addTo(command);

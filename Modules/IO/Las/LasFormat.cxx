@@ -58,16 +58,18 @@ void readPlain(const ReadTask& task, const LasHeader& header, LasRecords& record
 
 void readLas(ReadTask& task, vtkPolyData* cloud)
 {
+  needLasHeader(task.bytes, [&](std::size_t offset, std::size_t size) { task.need(offset, size); });
   const std::string version =
     task.bytes.size() > 25 ? " 1." + std::to_string(byteAt(task.bytes.data(), 25)) : std::string();
   task.format = "LAS" + version;
-  const LasHeader header = parseLasHeader(task.bytes);
+  LasHeader header = parseLasHeader(task.bytes);
   task.format = (header.packing.empty() ? "LAS" : header.packing) + version + " (point format " +
     std::to_string(header.pointFormat) + ")";
   std::optional<LazReader> packed;
   if (!header.packing.empty())
   {
     packed.emplace(task, header);
+    header.count = packed->count();
   }
   LasRecords records(header, task.wanted.onlyPositions);
   if (packed)

@@ -211,6 +211,36 @@ void checkLayout(std::string_view bytes, const LasHeader& header)
 
 } // namespace
 
+bool startsLikeCopc(std::string_view start)
+{
+  return start.size() >= 395 && start.substr(0, 4) == "LASF" &&
+    start.substr(377, 5) == std::string_view("copc", 5) && numberAt<std::uint16_t>(start, 393) == 1;
+}
+
+void needLasHeader(std::string_view bytes, const std::function<void(std::size_t, std::size_t)>& need)
+{
+  need(0, kLasHeaderOf14);
+  if (bytes.size() < kLasHeaderOf14)
+  {
+    return;
+  }
+  need(0, numberAt<std::uint32_t>(bytes, 96));
+  std::uint64_t far = numberAt<std::uint64_t>(bytes, 235);
+  const std::uint32_t records = numberAt<std::uint32_t>(bytes, 243);
+  for (std::uint32_t i = 0; i < records && far < bytes.size() && bytes.size() - far >= kEvlrHeader; ++i)
+  {
+    const std::size_t start = static_cast<std::size_t>(far);
+    need(start, kEvlrHeader);
+    const std::uint64_t size =
+      std::min(bytes.size() - far - kEvlrHeader, numberAt<std::uint64_t>(bytes, start + 20));
+    if (untilZero(bytes.substr(start + 2, 16)) != "copc")
+    {
+      need(start + kEvlrHeader, static_cast<std::size_t>(size));
+    }
+    far += kEvlrHeader + size;
+  }
+}
+
 LasHeader parseLasHeader(std::string_view bytes)
 {
   if (bytes.size() < kLasHeaderOf12)

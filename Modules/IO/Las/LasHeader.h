@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -81,6 +82,12 @@ struct LasHeader
   bool isExtended() const { return pointFormat >= 6; }
   const LasPointFormat& fields() const { return kLasPointFormats[pointFormat]; }
 };
+
+/// Whether a file that begins with @p start, of which 400 bytes are enough, is a cloud optimised point cloud.
+bool startsLikeCopc(std::string_view start);
+
+/// Calls @p need(offset, size) for header and variable length records, which parseLasHeader() looks at.
+void needLasHeader(std::string_view bytes, const std::function<void(std::size_t, std::size_t)>& need);
 
 /// @throws FileProblem with byte offset and value; also when the file is too short for the points the header
 /// counts. Compressed points are only recognised: see Laz/LazSchema.h and Laz/LazChunks.h.

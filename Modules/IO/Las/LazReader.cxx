@@ -1,6 +1,8 @@
 #include "IO/Las/LazReader.h"
 
+#include "IO/Las/LasHeader.h"
 #include "IO/Las/LasRecords.h"
+#include "IO/Las/Laz/CopcHierarchy.h"
 #include "ReadTask.h"
 
 #include "vtkSMPTools.h"
@@ -11,11 +13,36 @@
 namespace pointhaptics::io
 {
 
+namespace
+{
+
+LazChunks chunksOf(const ReadTask& task, const LasHeader& header, const LazSchema& schema)
+{
+  if (!task.load)
+  {
+    return findLazChunks(task.bytes, header, schema);
+  }
+  checkLazCount(task.bytes, header);
+  LazChunks part{ findCopcChunks(task, header), true };
+  if (part.all.empty())
+  {
+    failFormat("no node of the octree touches the box", "choose a box that meets the bounds of the cloud");
+  }
+  for (std::size_t i = 0; i < part.all.size(); ++i)
+  {
+    task.need(part.all[i].offset, part.all[i].size);
+    task.readingProgress(static_cast<double>(i + 1) / static_cast<double>(part.all.size()));
+  }
+  return part;
+}
+
+} // namespace
+
 LazReader::LazReader(const ReadTask& task, const LasHeader& header)
   : task_(task)
-  , header_(header)
   , schema_(parseLazSchema(task.bytes, header))
-  , chunks_(findLazChunks(task.bytes, header, schema_))
+  , chunks_(chunksOf(task, header, schema_))
+  , count_(chunks_.all.back().first + chunks_.all.back().count)
   , faults_(chunks_.all.size())
 {
 }
@@ -34,7 +61,7 @@ void LazReader::readChunk(
     done_ += static_cast<std::uint64_t>(count);
     if (isCallingThread())
     {
-      task_.progress(static_cast<double>(done_) / static_cast<double>(header_.count));
+      task_.progress(static_cast<double>(done_) / static_cast<double>(count_));
     }
   }
 }
@@ -46,7 +73,7 @@ void LazReader::work(LasRecords& records) noexcept
   try
   {
     ChunkDecoder decoder(schema_, task_.wanted.onlyPositions ? LazFields::Positions : LazFields::All);
-    std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * header_.recordLength);
+    std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * schema_.recordLength);
     while (!isStopped_ && (chunk = next_++) < chunks_.all.size())
     {
       readChunk(decoder, block, chunks_.all[chunk], records);
@@ -63,7 +90,7 @@ void LazReader::work(LasRecords& records) noexcept
 void LazReader::readInOrder(LasRecords& records)
 {
   ChunkDecoder decoder(schema_, LazFields::All);
-  std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * header_.recordLength);
+  std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * schema_.recordLength);
   std::size_t offset = chunks_.all.front().offset;
   for (LazChunk chunk : chunks_.all)
   {

@@ -25,9 +25,12 @@ constexpr vtkIdType kLasBlockRows = 4096;
 class LazReader
 {
 public:
-  /// Finds the chunks of the file. @throws FileProblem where what it says of them cannot be true. Both must
-  /// outlive this object.
+  /// Finds the chunks of the file; where only a part of a cloud optimised one is wanted, those of the part,
+  /// and has them read (ReadTask::load). @throws FileProblem where what the file says of them cannot be true.
+  /// @p task must outlive this object.
   LazReader(const ReadTask& task, const LasHeader& header);
+  /// The points that read() gives: those of the header, or of the wanted part.
+  std::uint64_t count() const { return count_; }
   /// Fills @p records with the points in the file's order. Uses as many threads as vtkSMPTools has; progress
   /// is reported from the calling one, which decodes too. @throws FileProblem, StoppedOnRequest.
   void read(LasRecords& records);
@@ -39,9 +42,9 @@ private:
   void readInOrder(LasRecords& records);
 
   const ReadTask& task_;
-  const LasHeader& header_;
   const LazSchema schema_;
   const LazChunks chunks_;
+  const std::uint64_t count_;
   const std::thread::id caller_ = std::this_thread::get_id();
   std::atomic<std::size_t> next_{ 0 };
   std::atomic<std::uint64_t> done_{ 0 }; ///< points

@@ -42,7 +42,7 @@ struct Listener
 };
 
 /// The points of a file with all arrays, without its cells. Null: @p message says why.
-vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName,
+vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, double resolution,
   const std::function<bool(double)>& goesOn, std::string& format, std::string& message)
 {
   vtkNew<vtkPointCloudReader> reader;
@@ -64,6 +64,7 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName,
   silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   reader->AddObserver(vtkCommand::ErrorEvent, silence);
   reader->SetFileName(fileName.c_str());
+  reader->SetResolution(resolution);
   reader->Update();
   message = reader->GetErrorMessage();
   vtkPolyData* read = reader->GetOutput();
@@ -246,7 +247,7 @@ vtkSmartPointer<vtkPolyData> readAll(const CloudRequest& request, const std::fun
   for (const std::string& file : request.files)
   {
     const auto askOn = [&](double part) { return goesOn(begin + share * part); };
-    const vtkSmartPointer<vtkPolyData> points = readPoints(file, askOn, format, message);
+    const vtkSmartPointer<vtkPolyData> points = readPoints(file, request.resolution, askOn, format, message);
     if (!points)
     {
       return nullptr;
@@ -273,6 +274,7 @@ CloudRequest CloudRequest::of(const std::vector<std::string>& files, const Hapti
 {
   CloudRequest request;
   request.files = files;
+  request.resolution = options.resolution;
   request.colorBy = options.colorBy;
   request.colorByName = options.names.colorBy;
   request.up = options.up;

@@ -32,6 +32,7 @@ struct CloudRequest
   static CloudRequest of(const std::vector<std::string>& files, const HapticViewerOptions& options);
 
   std::vector<std::string> files;
+  double resolution = 0.0;             ///< How far cloud optimised files are read; 0: all points.
   vtkSmartPointer<vtkPolyData> points; ///< Instead of files; nobody else's.
   std::string title;                   ///< Of the points; that of files is their names.
   std::string colorBy; ///< What findColorSource() takes, rgb, or nothing; upper or lower case as it may.

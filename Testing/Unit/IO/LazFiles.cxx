@@ -79,6 +79,124 @@ LazFile lazOf(int format, std::size_t extra, const std::string& records, const L
   return laz;
 }
 
+namespace
+{
+
+struct CopcNode
+{
+  int level;
+  int cell[3];
+};
+
+/// 200 points in the cell of @p node.
+std::string recordsIn(const CopcNode& node, std::uint64_t seed)
+{
+  constexpr std::size_t kCount = 200;
+  std::mt19937_64 random(seed);
+  std::string records = randomRecords(6, 0, kCount, seed, true);
+  for (std::size_t i = 0; i < kCount; ++i)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const int side = 1024 >> node.level;
+      put(records, 30 * i + 4 * axis,
+        static_cast<std::int32_t>(
+          side * node.cell[axis] + static_cast<int>(random() % static_cast<unsigned>(side))));
+    }
+  }
+  return records;
+}
+
+void appendEntry(std::string& page, const CopcNode& node, std::uint64_t offset, std::size_t size, int count)
+{
+  append(page, std::int32_t{ node.level });
+  for (const int cell : node.cell)
+  {
+    append(page, std::int32_t{ cell });
+  }
+  append(page, offset);
+  append(page, static_cast<std::int32_t>(size));
+  append(page, std::int32_t{ count });
+}
+
+} // namespace
+
+CopcFile makeCopc()
+{
+  const std::vector<CopcNode> nodes = { { 0, { 0, 0, 0 } }, { 1, { 0, 0, 0 } }, { 1, { 1, 0, 1 } },
+    { 2, { 0, 1, 0 } }, { 3, { 1, 3, 0 } } };
+  constexpr std::size_t kInRootPage = 3;
+  CopcFile copc;
+  std::string header = lasOf(6, 0, recordsIn(nodes[0], 0)).substr(0, 375);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    put(header, 131 + 8 * axis, 1.0);
+    put(header, 155 + 8 * axis, 0.0);
+  }
+  io::LasHeader parsed = io::parseLasHeader(lasOf(6, 0, recordsIn(nodes[0], 0)));
+  io::LazSchema schema = io::makeLazSchema(parsed);
+  schema.chunkSize = io::LazSchema::kVariableChunks;
+  const std::string description = io::lazRecord(schema, parsed);
+  const auto recordHeader = [](const std::string& user, int id, std::size_t size)
+  {
+    std::string record(54, '\0');
+    record.replace(2, user.size(), user);
+    put(record, 18, static_cast<std::uint16_t>(id));
+    put(record, 20, static_cast<std::uint16_t>(size));
+    return record;
+  };
+  copc.info = 375 + 54;
+  std::string info(160, '\0');
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    put(info, 8 * i, 512.0); // centre and half size
+  }
+  put(info, 32, 16.0); // spacing
+  copc.bytes = header + recordHeader("copc", 1, 160) + info +
+    recordHeader("laszip encoded", 22204, description.size()) + description;
+  put(copc.bytes, 96, static_cast<std::uint32_t>(copc.bytes.size()));
+  put(copc.bytes, 100, std::uint32_t{ 2 });
+  copc.bytes[104] = static_cast<char>(6 | 0x80);
+  const std::size_t points = copc.bytes.size();
+  append(copc.bytes, std::uint64_t{ 0 });
+  std::vector<io::LazChunk> chunks;
+  io::ChunkEncoder encoder(schema);
+  for (const CopcNode& node : nodes)
+  {
+    std::string records = recordsIn(node, chunks.size() + 1);
+    copc.records += records;
+    const std::string chunk = encoder.encode(records.data(), records.size() / 30);
+    copc.chunks.push_back(copc.bytes.size());
+    chunks.push_back({ copc.bytes.size(), chunk.size(), 0, records.size() / 30 });
+    copc.bytes += chunk;
+  }
+  put(copc.bytes, points, std::uint64_t{ copc.bytes.size() });
+  copc.bytes += io::lazChunkTable(chunks, schema);
+  put(copc.bytes, 235, std::uint64_t{ copc.bytes.size() });
+  put(copc.bytes, 243, std::uint32_t{ 1 });
+  put(copc.bytes, 247, std::uint64_t{ copc.records.size() / 30 });
+  std::string evlr(60, '\0');
+  evlr.replace(2, 4, "copc");
+  put(evlr, 18, std::uint16_t{ 1000 });
+  put(evlr, 20, std::uint64_t{ (nodes.size() + 1) * 32 });
+  copc.bytes += evlr;
+  copc.rootPage = copc.bytes.size();
+  copc.secondPage = copc.rootPage + 32 * (kInRootPage + 1);
+  std::string pages;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    if (i == kInRootPage)
+    {
+      appendEntry(pages, { 2, { 0, 1, 0 } }, copc.secondPage, 32 * (nodes.size() - kInRootPage), -1);
+    }
+    appendEntry(pages, nodes[i], chunks[i].offset, chunks[i].size, static_cast<int>(chunks[i].count));
+  }
+  copc.bytes += pages;
+  put(copc.bytes, copc.info + 40, std::uint64_t{ copc.rootPage });
+  put(copc.bytes, copc.info + 48, std::uint64_t{ 32 * (kInRootPage + 1) });
+  return copc;
+}
+
 std::string randomRecords(int format, std::size_t extra, std::size_t count, std::uint64_t seed, bool calm)
 {
   const std::size_t length = kRecordLengths[format] + extra;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 /// Bytes of a record of point format 0 to 10 without extra bytes.
 constexpr std::size_t kRecordLengths[] = { 20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67 };
@@ -36,6 +37,20 @@ struct LazFile
 /// The LAS 1.4 file of the same point records.
 std::string lasOf(int format, std::size_t extra, const std::string& records);
 LazFile lazOf(int format, std::size_t extra, const std::string& records, const LazLayout& layout = {});
+
+/// A cloud optimised point cloud of point format 6 with an octree of four levels about 0..1024 on each axis,
+/// whose points lie in the cells of their nodes. The root page has nodes of levels 0 and 1; a page of its own
+/// lists those of levels 2 and 3.
+struct CopcFile
+{
+  std::string bytes;
+  std::string records;      ///< of all points in the file's order
+  std::size_t info = 0;     ///< where the content of the octree's record begins
+  std::size_t rootPage = 0; ///< 32 bytes an entry
+  std::size_t secondPage = 0;
+  std::vector<std::size_t> chunks; ///< offsets of the nodes' chunks, in the order of the pages
+};
+CopcFile makeCopc();
 
 /// Every bit of every field, but for gps times that are NaN, whose bits need not survive. Neighbours share
 /// most bytes where @p calm.

@@ -43,7 +43,6 @@ public:
 private:
   bool hasVariableChunks() const { return schema_.chunkSize == LazSchema::kVariableChunks; }
   bool isLayered() const { return schema_.compressor == LazSchema::Compressor::Layered; }
-  void checkCount() const;
   /// 0 where the writer was interrupted before it.
   std::size_t tableOffset() const;
   LazChunks readTable(std::size_t table) const;
@@ -57,17 +56,6 @@ private:
   const LazSchema& schema_;
   std::size_t first_; ///< byte of the first chunk
 };
-
-void ChunkFinder::checkCount() const
-{
-  const std::size_t most = std::max(kLazFloor, kMostLazRatio * bytes_.size()) / header_.recordLength;
-  if (header_.count > most)
-  {
-    failFormat("the header counts " + std::to_string(header_.count) + " points, but a file of " +
-        std::to_string(bytes_.size()) + " bytes is not expected to hold more than " + std::to_string(most),
-      "if this is no attack, unpack it first: laszip -i in.laz -o out.las");
-  }
-}
 
 std::size_t ChunkFinder::tableOffset() const
 {
@@ -207,7 +195,7 @@ LazChunks ChunkFinder::countOnly() const
 
 LazChunks ChunkFinder::find()
 {
-  checkCount();
+  checkLazCount(bytes_, header_);
   if (schema_.compressor == LazSchema::Compressor::Pointwise)
   {
     LazChunks chunks;
@@ -219,6 +207,17 @@ LazChunks ChunkFinder::find()
 }
 
 } // namespace
+
+void checkLazCount(std::string_view bytes, const LasHeader& header)
+{
+  const std::size_t most = std::max(kLazFloor, kMostLazRatio * bytes.size()) / header.recordLength;
+  if (header.count > most)
+  {
+    failFormat("the header counts " + std::to_string(header.count) + " points, but a file of " +
+        std::to_string(bytes.size()) + " bytes is not expected to hold more than " + std::to_string(most),
+      "if this is no attack, unpack it first: laszip -i in.laz -o out.las");
+  }
+}
 
 LazChunks findLazChunks(std::string_view bytes, const LasHeader& header, const LazSchema& schema)
 {

@@ -41,6 +41,9 @@ constexpr std::size_t kLazFloor = std::size_t{ 1 } << 26;
 /// and value where table, sizes or counts cannot be true.
 LazChunks findLazChunks(std::string_view bytes, const LasHeader& header, const LazSchema& schema);
 
+/// @throws FileProblem where @p header counts more points than a file of its size is expected to hold.
+void checkLazCount(std::string_view bytes, const LasHeader& header);
+
 /// The table of chunks with @p chunks, which lie one behind the other in a file of @p schema.
 std::string lazChunkTable(const std::vector<LazChunk>& chunks, const LazSchema& schema);
 

@@ -1,0 +1,224 @@
+#include "IO/Las/Laz/CopcHierarchy.h"
+
+#include "FileProblem.h"
+#include "IO/Las/LasHeader.h"
+#include "ReadTask.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+constexpr std::size_t kInfoAt = 375 + kLasVlrHeader; ///< the specification says where
+constexpr std::size_t kInfoSize = 160;
+constexpr std::size_t kEntrySize = 32;
+constexpr int kMostLevel = 30; ///< cells of a level are counted by 32 bits
+
+[[noreturn]] void failHierarchy(std::size_t byte, const std::string& what)
+{
+  failFormat("byte " + std::to_string(byte) + ": " + what, "the file is damaged: copy or write it again");
+}
+
+/// One line of a page: a node, or with count -1 the page of all that is below it.
+struct Entry
+{
+  int level = 0;
+  std::array<std::int32_t, 3> cell{};
+  std::uint64_t offset = 0;
+  std::int32_t size = 0;
+  std::int32_t count = 0;
+};
+
+/// Walks the hierarchy of one file; one object per file.
+class Hierarchy
+{
+public:
+  Hierarchy(const ReadTask& task, const LasHeader& header)
+    : task_(task)
+    , header_(header)
+  {
+  }
+  std::vector<LazChunk> find();
+
+private:
+  template <typename T>
+  T numberAt(std::size_t offset) const
+  {
+    return loadLittle<T>(task_.bytes.data() + offset);
+  }
+  void readInfo();
+  void readPage(std::uint64_t offset, std::uint64_t size);
+  void readEntry(std::size_t at);
+  bool isWanted(const Entry& entry) const;
+  void take(std::uint64_t offset, std::uint64_t size, std::size_t at, const char* what);
+
+  const ReadTask& task_;
+  const LasHeader& header_;
+  std::array<double, 3> origin_{};
+  double side_ = 0.0; ///< of the root's cube
+  int lastLevel_ = kMostLevel;
+  std::map<std::uint64_t, std::uint64_t> pages_; ///< offsets and ends of those that were found, read or not
+  std::map<std::uint64_t, std::uint64_t> nodes_; ///< offsets and ends of the wanted ones
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> pending_; ///< pages to read
+  std::map<std::uint64_t, std::uint64_t> counts_;                ///< points of the wanted nodes by offset
+};
+
+void Hierarchy::readInfo()
+{
+  const std::string_view bytes = task_.bytes;
+  const bool isHere = header_.headerSize == kLasHeaderOf14 && header_.pointsOffset >= kInfoAt + kInfoSize &&
+    bytes.substr(377, 4) == "copc" && numberAt<std::uint16_t>(393) == 1;
+  if (!isHere)
+  {
+    failHierarchy(375, "the first variable length record does not describe the octree");
+  }
+  const double half = numberAt<double>(kInfoAt + 24);
+  const double spacing = numberAt<double>(kInfoAt + 32);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    origin_[axis] = numberAt<double>(kInfoAt + 8 * axis) - half;
+  }
+  side_ = 2.0 * half;
+  if (!std::isfinite(origin_[0] + origin_[1] + origin_[2] + side_) || !(half > 0.0) || !(spacing > 0.0) ||
+    !std::isfinite(spacing))
+  {
+    failHierarchy(
+      kInfoAt, "an octree of half size " + std::to_string(half) + " and spacing " + std::to_string(spacing));
+  }
+  if (task_.wanted.resolution > 0.0)
+  {
+    lastLevel_ = 0;
+    for (double finer = spacing; finer > task_.wanted.resolution && lastLevel_ < kMostLevel; finer /= 2.0)
+    {
+      ++lastLevel_;
+    }
+  }
+  pending_.emplace_back(numberAt<std::uint64_t>(kInfoAt + 40), numberAt<std::uint64_t>(kInfoAt + 48));
+  take(pending_[0].first, pending_[0].second, kInfoAt + 40, "page");
+}
+
+/// Notes that a page or node lies at @p offset. @p at: of the entry that says so.
+void Hierarchy::take(std::uint64_t offset, std::uint64_t size, std::size_t at, const char* what)
+{
+  const std::string shown =
+    std::string("a ") + what + " of " + std::to_string(size) + " bytes at byte " + std::to_string(offset);
+  if (size == 0 || offset < kInfoAt + kInfoSize || offset > task_.bytes.size() ||
+    size > task_.bytes.size() - offset)
+  {
+    failHierarchy(at, shown + ", which is outside the file's " + std::to_string(task_.bytes.size()));
+  }
+  auto& taken = *what == 'p' ? pages_ : nodes_;
+  const auto next = taken.lower_bound(offset);
+  const bool meetsNext = next != taken.end() && next->first < offset + size;
+  const bool meetsBefore = next != taken.begin() && std::prev(next)->second > offset;
+  if (meetsNext || meetsBefore)
+  {
+    failHierarchy(at, shown + " overlaps another");
+  }
+  taken.emplace(offset, offset + size);
+}
+
+bool Hierarchy::isWanted(const Entry& entry) const
+{
+  if (entry.level > lastLevel_)
+  {
+    return false;
+  }
+  const double side = std::ldexp(side_, -entry.level);
+  for (std::size_t axis = 0; axis < 3 && task_.wanted.hasBox(); ++axis)
+  {
+    // Points at the edge of a cell are rounded to the file's grid.
+    const double slack = std::abs(header_.scale[axis]);
+    const double low = origin_[axis] + side * entry.cell[axis];
+    if (task_.wanted.box[2 * axis] > low + side + slack || task_.wanted.box[2 * axis + 1] < low - slack)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void Hierarchy::readEntry(std::size_t at)
+{
+  Entry entry;
+  entry.level = numberAt<std::int32_t>(at);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    entry.cell[axis] = numberAt<std::int32_t>(at + 4 + 4 * axis);
+    if (entry.level < 0 || entry.level > kMostLevel || entry.cell[axis] < 0 ||
+      entry.cell[axis] >> entry.level != 0)
+    {
+      failHierarchy(
+        at, "cell " + std::to_string(entry.cell[axis]) + " of level " + std::to_string(entry.level));
+    }
+  }
+  entry.offset = numberAt<std::uint64_t>(at + 16);
+  entry.size = numberAt<std::int32_t>(at + 24);
+  entry.count = numberAt<std::int32_t>(at + 28);
+  if (entry.count < -1 || entry.size < 0)
+  {
+    failHierarchy(
+      at, "a node of " + std::to_string(entry.count) + " points in " + std::to_string(entry.size) + " bytes");
+  }
+  if (entry.count == 0 || !isWanted(entry))
+  {
+    return;
+  }
+  const std::uint64_t size = static_cast<std::uint64_t>(entry.size);
+  take(entry.offset, size, at, entry.count < 0 ? "page" : "node");
+  if (entry.count < 0)
+  {
+    pending_.emplace_back(entry.offset, size);
+    return;
+  }
+  counts_.emplace(entry.offset, static_cast<std::uint64_t>(entry.count));
+}
+
+void Hierarchy::readPage(std::uint64_t offset, std::uint64_t size)
+{
+  task_.need(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));
+  for (std::size_t at = 0; at + kEntrySize <= size; at += kEntrySize)
+  {
+    readEntry(static_cast<std::size_t>(offset) + at);
+  }
+}
+
+std::vector<LazChunk> Hierarchy::find()
+{
+  readInfo();
+  while (!pending_.empty())
+  {
+    const auto page = pending_.back();
+    pending_.pop_back();
+    readPage(page.first, page.second);
+  }
+  std::vector<LazChunk> chunks;
+  std::uint64_t sum = 0;
+  for (const auto& node : counts_)
+  {
+    const std::size_t offset = static_cast<std::size_t>(node.first);
+    chunks.push_back({ offset, static_cast<std::size_t>(nodes_[node.first] - node.first), sum, node.second });
+    sum += node.second;
+  }
+  if (sum > header_.count)
+  {
+    failHierarchy(kInfoAt + 40,
+      "the nodes hold " + std::to_string(sum) + " points, but the header counts " +
+        std::to_string(header_.count));
+  }
+  return chunks;
+}
+
+} // namespace
+
+std::vector<LazChunk> findCopcChunks(const ReadTask& task, const LasHeader& header)
+{
+  return Hierarchy(task, header).find();
+}
+
+} // namespace pointhaptics::io
