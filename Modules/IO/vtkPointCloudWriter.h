@@ -19,8 +19,8 @@
  *   is shorter than 1000 steps of it. Whoever transforms a cloud takes "LasScale" and "LasOffset" away.
  *   Arrays under the names vtkPointCloudReader gives to LAS fields become these, "RGB" becomes the colour,
  *   and all others become extra bytes. NaN points are refused.
- * - .laz: the same records, compressed: pointwise for LAS 1.2, layered for 1.4, in chunks of 50,000 points that
- *   are encoded in parallel. Costs the compressed size in memory.
+ * - .laz: the same records, compressed: pointwise for LAS 1.2, layered for 1.4, in chunks of 50,000 points
+ * that are encoded in parallel. Costs the compressed size in memory.
  * - .csv: header x,y,z and the names of the arrays, arrays of several components as name_0,name_1,...; each
  * number with the fewest digits that give back the same value. Types are not stored: float arrays may be read
  * as double.
