@@ -32,8 +32,6 @@ constexpr std::string_view operator""_bytes(const char* text, std::size_t size)
 }
 
 const Foreign kForeign[] = {
-  { "ASTM-E57", "this is an E57 file, which is not read here",
-    "convert it first: pdal translate in.e57 out.las, or CloudCompare" },
   { "\x1f\x8b"_bytes, "this is a gzip file inside a gzip file", "unpack it once: gunzip -k FILE" },
   { "PK\x03\x04", "this is a zip archive", "unpack it first: unzip FILE" },
   { "BZh", "this file is bzip2-compressed", "unpack it first: bunzip2 -k FILE" },
@@ -209,6 +207,10 @@ CloudFormat identifyFormat(std::string_view bytes, std::size_t size, const std::
   {
     return CloudFormat::Las;
   }
+  if (startsWith(bytes, "ASTM-E57"))
+  {
+    return CloudFormat::E57;
+  }
   if (startsWith(bytes, "# vtk DataFile"))
   {
     return CloudFormat::VtkLegacy;
@@ -247,7 +249,7 @@ CloudFormat identifyFormat(std::string_view bytes, std::size_t size, const std::
   }
   throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
     "unknown format: starts with " + inQuotes(bytes.substr(0, 16)),
-    "use PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS, or text with columns x y z");
+    "use PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS, E57, or text with columns x y z");
 }
 
 const char* nameOf(CloudFormat format)
@@ -270,6 +272,8 @@ const char* nameOf(CloudFormat format)
       return "STL";
     case CloudFormat::Las:
       return "LAS";
+    case CloudFormat::E57:
+      return "E57";
     case CloudFormat::Text:
       return "text";
   }

@@ -18,13 +18,14 @@ enum class CloudFormat
   Off,
   Stl,
   Las,
+  E57,
   Text,
 };
 
 /// Looks at the first bytes of a file; @p extension (lower case, no dot) decides only between OBJ and columns
 /// of text, and where binary STL, which begins with anything, was not recognised by the file's size. @p size:
 /// of the whole file, 0 when it is not known.
-/// @throws FileProblem for what is recognised but not read here (E57, zip, ...), naming a converter, and for
+/// @throws FileProblem for what is recognised but not read here (glTF, zip, ...), naming a converter, and for
 /// what is not recognised at all.
 CloudFormat identifyFormat(std::string_view start, std::size_t size, const std::string& extension);
 

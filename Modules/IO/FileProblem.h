@@ -43,10 +43,20 @@ class StoppedOnRequest : public std::exception
     "the file is cut short or its header is wrong: copy it again");
 }
 
-/// The header is valid and announces no points.
+/// The file is valid and announces no points: what it says beside them is worth knowing.
+class NoPoints : public FileProblem
+{
+public:
+  explicit NoPoints(const std::string& what = "the file holds no points")
+    : FileProblem(
+        vtkErrorCode::FileFormatError, what, "export the cloud again and check that it is not empty")
+  {
+  }
+};
+
 [[noreturn]] inline void failNoPoints()
 {
-  failFormat("the file holds no points", "export the cloud again and check that it is not empty");
+  throw NoPoints();
 }
 
 /// @p text in quotes, cut to 40 characters, with unprintable bytes shown as '?': safe to print.

@@ -35,6 +35,9 @@ void readObj(ReadTask& task, vtkPolyData* cloud);
 /// LAS 1.0 to 1.4, point formats 0 to 10, uncompressed, LAZ and COPC.
 void readLas(ReadTask& task, vtkPolyData* cloud);
 
+/// E57 1.0: all scans of the file as one cloud, their poses applied unless the task says otherwise.
+void readE57(ReadTask& task, vtkPolyData* cloud);
+
 /// Columns of numbers (XYZ, TXT, CSV, PTS): separator and header are found by looking.
 void readText(ReadTask& task, vtkPolyData* cloud);
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 class vtkAlgorithm;
 
@@ -42,7 +43,9 @@ struct ReadTask
   vtkAlgorithm* algorithm = nullptr;
   /// Reads bytes of the file; empty where all are there. Those that were never read are zero.
   std::function<void(std::size_t offset, std::size_t size)> load;
-  std::string format; ///< out: "PLY (binary little endian)", as soon as it is known
+  bool applyPoses = true;         ///< scans of several positions in one frame
+  std::string format;             ///< out: "PLY (binary little endian)", as soon as it is known
+  std::vector<std::string> notes; ///< out: what the cloud does not have of the file, one line each
 
   /// Must be called before bytes are looked at where load is set. They may lie outside the file.
   void need(std::size_t offset, std::size_t size) const

@@ -57,6 +57,8 @@ void readAs(io::CloudFormat format, io::ReadTask& task, vtkPolyData* cloud)
       return io::readStl(task, cloud);
     case io::CloudFormat::Las:
       return io::readLas(task, cloud);
+    case io::CloudFormat::E57:
+      return io::readE57(task, cloud);
     case io::CloudFormat::Text:
       return io::readText(task, cloud);
   }
@@ -150,12 +152,17 @@ void keepInside(vtkPolyData* cloud, const std::array<double, 6>& box)
   io::setOneVertexPerPoint(cloud);
 }
 
-/// Stores the format's name, also when reading fails.
-struct FormatName
+/// Stores the format's name and the notes, also when reading fails.
+struct KeepFindings
 {
   io::ReadTask& task;
-  std::string& target;
-  ~FormatName() { target = task.format; }
+  std::string& format;
+  std::vector<std::string>& notes;
+  ~KeepFindings()
+  {
+    format = std::move(task.format);
+    notes = std::move(task.notes);
+  }
 };
 
 } // namespace
@@ -178,7 +185,8 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
   task.wanted.onlyPositions = this->OnlyPositions;
   task.wanted.resolution = this->Resolution;
   std::copy_n(this->Box, 6, task.wanted.box.begin());
-  const FormatName keepName{ task, this->Format };
+  task.applyPoses = this->ApplyPoses;
+  const KeepFindings keep{ task, this->Format, this->Notes };
   if (task.wanted.isPart() && io::startsLikeCopc(io::startOfFile(task.path, kCopcStart)))
   {
     io::FileBytes part(task.path);
@@ -233,6 +241,8 @@ int vtkPointCloudReader::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   this->ErrorMessage.clear();
   this->Format.clear();
+  this->Notes.clear();
+  this->ValidWithoutPoints = false;
   this->SetErrorCode(vtkErrorCode::NoError);
   // The pipeline goes on with an empty cloud after a fault: returning 0 would add the executive's own
   // message, which callers cannot silence.
@@ -246,6 +256,12 @@ int vtkPointCloudReader::RequestData(
     this->ReadInto(output);
     this->UpdateProgress(1.0);
     return 1;
+  }
+  catch (const io::NoPoints& problem)
+  {
+    this->ValidWithoutPoints = true;
+    this->Fail(problem.code, problem.what());
+    return 1; // with the field data that was found
   }
   catch (const io::FileProblem& problem)
   {
@@ -278,6 +294,7 @@ void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Box: " << this->Box[0] << " " << this->Box[1] << " " << this->Box[2] << " " << this->Box[3]
      << " " << this->Box[4] << " " << this->Box[5] << "\n";
   os << indent << "OnlyPositions: " << (this->OnlyPositions ? "On" : "Off") << "\n";
+  os << indent << "ApplyPoses: " << this->ApplyPoses << "\n";
   os << indent << "Format: " << this->Format << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
 }

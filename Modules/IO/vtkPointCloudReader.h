@@ -1,6 +1,6 @@
 /**
  * @class   vtkPointCloudReader
- * @brief   read raw point clouds: PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS, LAZ and text
+ * @brief   read raw point clouds: PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS, LAZ, E57 and text
  *
  * The format is detected by the file's content; the extension decides only between OBJ and columns of text,
  * and for a binary STL inside a gzip file. Files packed by gzip are read as if they were unpacked (VTP and
@@ -11,9 +11,10 @@
  * "RGBA" (unsigned char, the active scalars), nx ny nz or normal_x normal_y normal_z become "Normals" (the
  * active normals), name_0 name_1 ... become "name". Faces and lines are dropped.
  *
- * Points are double where the file's numbers need it (double fields, LAS, text and OBJ with more than 6
- * significant digits), else float. Points that are NaN or infinite are kept; a finite coordinate beyond 1e30
- * is taken for damage. Coordinates are those of the file: nothing is moved, scaled or turned.
+ * Points are double where the file's numbers need it (double fields, LAS, E57 with scaled integers or poses,
+ * text and OBJ with more than 6 significant digits), else float. Points that are NaN or infinite are kept; a
+ * finite coordinate beyond 1e30 is taken for damage. Coordinates are those of the file: nothing is moved,
+ * scaled or turned, but for the poses of E57's scans.
  *
  * - PLY: ascii and both binary orders, all scalar types; lists and other elements are skipped.
  * - PCD: ascii, binary and binary_compressed. rgb and rgba are unpacked. The viewpoint is kept, not applied:
@@ -29,6 +30,19 @@
  * - LAZ and COPC give the same arrays, in the file's order of points: pointwise compression (versions 1 and
  *   2, point formats 0 to 5) and layered compression (version 3, 6 to 10). Chunks are decoded in parallel, by
  *   as many threads as vtkSMPTools has. More than 100 times the file's size (64 MB at least) is not unpacked.
+ * - E57 1.0: all scans as one cloud. Cartesian coordinates, or those made of spherical ones, which are kept
+ * as SphericalRange, SphericalAzimuth and SphericalElevation (metres, radians). Each scan's pose is applied
+ *   (SetApplyPoses); field data "ScanPoses" (tx ty tz qw qx qy qz), "ScanNames" and "ScanPoints" have a row
+ * per scan of the file, and the array ScanIndex says which one a point is of where there are several. Points
+ *   whose invalid state is set are NaN; InvalidState, SphericalInvalidState, IntensityInvalid, ColorInvalid
+ * and TimeStampInvalid are there where one point sets them. Intensity, RowIndex, ColumnIndex, ReturnNumber
+ *   (counted from 1, as in LAS; the file counts from 0), NumberOfReturns, TimeStamp, Normals of the extension
+ *   nor; others keep their names. Integers get the smallest type that holds their limits, scaled integers are
+ *   double. Colours of bytes are RGB; others are kept as Color16 (integers of 16 bits) or Color, beside an
+ * RGB made by the file's colour limits. OrganizedDimensions where the points are all cells of the scanner's
+ *   grid, row by row. What a scan lacks that others have is NaN, or 0 for integers. Generator,
+ *   CoordinateSystem and LengthUnit are field data. Images and texts are not read: GetNotes(). All checksums
+ *   are checked.
  * - VTP, VTU and legacy VTK (PolyData, UnstructuredGrid, StructuredGrid): points and point data; cells are
  *   dropped. Legacy files with strings or bits are refused.
  * - OFF, NOFF, COFF, CNOFF as text; STL, both kinds: each distinct vertex once, as float, without normals.
@@ -55,6 +69,7 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #include <string> // For std::string
+#include <vector> // For std::vector
 
 namespace pointhaptics
 {
@@ -108,6 +123,27 @@ public:
   vtkBooleanMacro(OnlyPositions, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether scans of a file with poses (E57) are moved to where they belong. Off: each point is in the frame
+   * of its scanner, and the field data has the poses. Default: on.
+   */
+  vtkSetMacro(ApplyPoses, bool);
+  vtkGetMacro(ApplyPoses, bool);
+  vtkBooleanMacro(ApplyPoses, bool);
+  ///@}
+
+  /**
+   * What the cloud of the last update does not have of its file, one line each.
+   */
+  const std::vector<std::string>& GetNotes() const { return this->Notes; }
+
+  /**
+   * Whether the last update found a valid file that announces no points. This is an error, too, but the
+   * output has the field data that the file gave.
+   */
+  bool IsValidWithoutPoints() const { return this->ValidWithoutPoints; }
+
   /**
    * What went wrong in the last update, in one line; empty when all went well. Never null; valid until the
    * next update.
@@ -140,6 +176,9 @@ private:
   bool OnlyPositions = false;
   std::string ErrorMessage;
   std::string Format;
+  std::vector<std::string> Notes;
+  bool ApplyPoses = true;
+  bool ValidWithoutPoints = false;
 };
 
 #endif

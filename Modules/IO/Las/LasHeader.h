@@ -5,7 +5,6 @@
 
 #include "LittleEndian.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -54,6 +54,8 @@ struct ReadResult
   std::string format;
   unsigned long code = 0;
   int errorEvents = 0;
+  std::vector<std::string> notes;
+  bool validWithoutPoints = false;
 
   vtkIdType points() const { return cloud->GetNumberOfPoints(); }
   vtkDataArray* array(const char* name) const { return cloud->GetPointData()->GetArray(name); }
@@ -82,6 +84,8 @@ inline ReadResult readCloud(const std::string& path)
   result.error = reader->GetErrorMessage();
   result.format = reader->GetFormat();
   result.code = reader->GetErrorCode();
+  result.notes = reader->GetNotes();
+  result.validWithoutPoints = reader->IsValidWithoutPoints();
   return result;
 }
 

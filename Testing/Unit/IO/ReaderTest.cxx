@@ -33,7 +33,7 @@ TEST_F(Reader, RefusesUnknownContent)
 
 TEST_F(Reader, NamesAConverterForKnownForeignFormats)
 {
-  expectRefused(readCloud(write("a.e57", "ASTM-E57 and so on")), "pdal");
+  expectRefused(readCloud(write("a.glb", "glTF and so on")), "meshio");
   expectRefused(readCloud(write("a.ply.gz", "\x1f\x8b\x08 and so on")), "gunzip");
   expectRefused(readCloud(write("a.zip", "PK\x03\x04 and so on")), "unzip");
 }
@@ -41,7 +41,7 @@ TEST_F(Reader, NamesAConverterForKnownForeignFormats)
 TEST_F(Reader, SurvivesRandomBytesAfterEveryMagic)
 {
   const std::string starts[] = { "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n",
-    "LASF", "# .PCD v0.7\n", "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", "v 1 2 3\n", "1 2 3\n" };
+    "LASF", "ASTM-E57", "# .PCD v0.7\n", "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", "v 1 2 3\n", "1 2 3\n" };
   std::mt19937 random(20260101);
   for (const std::string& start : starts)
   {

@@ -1,0 +1,299 @@
+#include "FormatReaders.h"
+
+#include "CloudColumns.h"
+#include "IO/E57/E57Columns.h"
+#include "IO/E57/E57Decoder.h"
+#include "IO/E57/E57Packets.h"
+#include "IO/E57/E57Pages.h"
+#include "IO/E57/E57Scan.h"
+#include "IO/E57/E57Xml.h"
+#include "NumericType.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+#include "vtkStringArray.h"
+#include "vtkTypeInt64Array.h"
+
+#include <algorithm>
+#include <deque>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+/// Part of the parsing that checking the pages takes.
+constexpr double kCheckingPart = 0.2;
+/// Blocks between two reports of progress.
+constexpr vtkIdType kReportedBlocks = 64;
+/// Most bytes of arrays for one byte of the file, as for gzip: constant fields take no bytes in the file.
+constexpr std::uint64_t kMostGrowth = 100;
+constexpr std::uint64_t kGrowthFloor = std::uint64_t{ 1 } << 26;
+
+void addText(vtkPolyData* cloud, const char* name, const std::string& text)
+{
+  if (!text.empty())
+  {
+    vtkNew<vtkStringArray> array;
+    array->SetName(name);
+    array->InsertNextValue(text);
+    cloud->GetFieldData()->AddArray(array);
+  }
+}
+
+/// What is known of the file without its points.
+void addFieldData(const E57Contents& contents, vtkPolyData* cloud)
+{
+  addText(cloud, "Generator", contents.generator);
+  addText(cloud, "CoordinateSystem", contents.coordinateSystem);
+  addText(cloud, "LengthUnit", "metre");
+  vtkNew<vtkStringArray> names;
+  names->SetName("ScanNames");
+  vtkNew<vtkTypeInt64Array> points;
+  points->SetName("ScanPoints");
+  vtkNew<vtkDoubleArray> poses;
+  poses->SetName("ScanPoses");
+  poses->SetNumberOfComponents(7);
+  for (const E57Scan& scan : contents.scans)
+  {
+    names->InsertNextValue(scan.name);
+    points->InsertNextValue(static_cast<vtkTypeInt64>(scan.records));
+    const auto& t = scan.pose.translation;
+    const auto& q = scan.pose.rotation;
+    const double pose[7] = { t[0], t[1], t[2], q[0], q[1], q[2], q[3] };
+    poses->InsertNextTuple(pose);
+  }
+  cloud->GetFieldData()->AddArray(names);
+  cloud->GetFieldData()->AddArray(points);
+  cloud->GetFieldData()->AddArray(poses);
+}
+
+std::string described(const E57Scan& scan)
+{
+  return "scan " + std::to_string(scan.number + 1) + " " + inQuotes(scan.name);
+}
+
+/// Sections of the file, of which no two may share a byte: reading these again and again would cost more time
+/// than the file has bytes for.
+class Sections
+{
+public:
+  void add(std::pair<std::uint64_t, std::uint64_t> section)
+  {
+    const auto [at, isNew] = ends_.insert(section);
+    const auto next = std::next(at);
+    if (!isNew || (at != ends_.begin() && std::prev(at)->second > section.first) ||
+      (next != ends_.end() && next->first < section.second))
+    {
+      failFormat("byte " + std::to_string(E57Pages::physical(section.first)) + ": a section of " +
+          std::to_string(section.second - section.first) + " bytes that overlaps another one",
+        "the file is damaged: copy or write it again");
+    }
+  }
+
+private:
+  std::map<std::uint64_t, std::uint64_t> ends_; ///< by where they begin
+};
+
+/// @return the number of points. @throws FileProblem before anything of their size is allocated.
+vtkIdType checkedRows(const std::vector<E57Scan>& scans, const E57Columns& plan, std::uint64_t fileSize)
+{
+  std::uint64_t rows = 0;
+  for (const E57Scan& scan : scans)
+  {
+    rows += scan.records; // each at most eight times the bytes of its section
+  }
+  std::uint64_t rowSize = 0;
+  for (const Column& column : plan.all())
+  {
+    rowSize += static_cast<std::uint64_t>(column.components * sizeOfType(column.type));
+  }
+  const std::uint64_t most = std::max(kGrowthFloor, kMostGrowth * fileSize);
+  if (rows > most / rowSize)
+  {
+    failFormat(std::to_string(rows) + " points of " + std::to_string(rowSize) + " bytes would be more than " +
+        std::to_string(kMostGrowth) + " times the file's size",
+      "the file is damaged or hostile: write it again");
+  }
+  return static_cast<vtkIdType>(rows);
+}
+
+void decode(const ReadTask& task, const E57Decoder& decoder, vtkIdType first, vtkIdType rows)
+{
+  const vtkIdType blocks = decoder.blocks();
+  for (vtkIdType begin = 0; begin < blocks; begin += kReportedBlocks)
+  {
+    const vtkIdType end = std::min(begin + kReportedBlocks, blocks);
+    vtkSMPTools::For(begin, end, 1,
+      [&](vtkIdType from, vtkIdType to)
+      {
+        for (vtkIdType block = from; block < to; ++block)
+        {
+          decoder.decode(block);
+        }
+      });
+    const double done = static_cast<double>(first + end * E57Decoder::kBlockRows) / static_cast<double>(rows);
+    task.progress(kCheckingPart + (1.0 - kCheckingPart) * std::min(done, 1.0));
+  }
+}
+
+/// Flags that no point sets say nothing.
+void dropUnsetFlags(vtkPolyData* cloud)
+{
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    double range[2] = { 0.0, 0.0 };
+    if (array && isE57Flag(array->GetName()))
+    {
+      array->GetRange(range, 0);
+      if (range[0] == 0.0 && range[1] == 0.0)
+      {
+        data->RemoveArray(i);
+      }
+    }
+  }
+}
+
+/// The scanner's grid, where the points are all of its cells, row after row.
+void addDimensions(vtkPolyData* cloud)
+{
+  vtkDataArray* row = cloud->GetPointData()->GetArray("RowIndex");
+  vtkDataArray* column = cloud->GetPointData()->GetArray("ColumnIndex");
+  if (!row || !column || cloud->GetPointData()->HasArray("ScanIndex"))
+  {
+    return;
+  }
+  double rows[2], columns[2];
+  row->GetRange(rows, 0);
+  column->GetRange(columns, 0);
+  const double width = columns[1] - columns[0] + 1.0;
+  const double height = rows[1] - rows[0] + 1.0;
+  constexpr double kMost = std::numeric_limits<int>::max();
+  if (!(height > 1.0 && width <= kMost && height <= kMost) ||
+    width * height != static_cast<double>(cloud->GetNumberOfPoints()))
+  {
+    return;
+  }
+  const vtkIdType wide = static_cast<vtkIdType>(width);
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    if (row->GetComponent(i, 0) != rows[0] + static_cast<double>(i / wide) ||
+      column->GetComponent(i, 0) != columns[0] + static_cast<double>(i % wide))
+    {
+      return;
+    }
+  }
+  vtkNew<vtkIntArray> dimensions;
+  dimensions->SetName("OrganizedDimensions");
+  dimensions->SetNumberOfComponents(2);
+  const int values[2] = { static_cast<int>(width), static_cast<int>(height) };
+  dimensions->InsertNextTypedTuple(values);
+  cloud->GetFieldData()->AddArray(dimensions);
+}
+
+/// What the cloud does not have of the file.
+void addNotes(
+  const E57Contents& contents, const std::vector<E57Scan>& scans, const E57Columns& plan, ReadTask& task)
+{
+  if (contents.images > 0)
+  {
+    task.notes.push_back(std::to_string(contents.images) +
+      (contents.images == 1 ? " image is" : " images are") + " not read: only points are");
+  }
+  std::set<std::string> texts;
+  std::vector<std::size_t> missing(plan.all().size(), 0);
+  for (std::size_t i = 0; i < scans.size(); ++i)
+  {
+    for (const E57Field& field : scans[i].fields)
+    {
+      if (field.kind == E57Field::Kind::Text)
+      {
+        texts.insert(field.name);
+      }
+    }
+    for (const std::size_t column : plan.missing(i))
+    {
+      ++missing[column];
+    }
+  }
+  for (const std::string& name : texts)
+  {
+    task.notes.push_back("the texts of field " + inQuotes(name) + " are not read: arrays hold numbers");
+  }
+  for (std::size_t i = 0; i < missing.size(); ++i)
+  {
+    const Column& column = plan.all()[i];
+    if (missing[i] > 0 && !isE57Flag(column.name))
+    {
+      task.notes.push_back(std::to_string(missing[i]) + " of " + std::to_string(scans.size()) +
+        " scans have no " + inQuotes(column.name) + ": their points have " +
+        (isFloatingType(column.type) ? "NaN" : "0") + " there");
+    }
+  }
+}
+
+std::vector<E57Scan> scansWithPoints(const E57Contents& contents)
+{
+  if (contents.scans.empty())
+  {
+    throw NoPoints("the file is valid, but it holds no scan");
+  }
+  std::vector<E57Scan> scans;
+  std::copy_if(contents.scans.begin(), contents.scans.end(), std::back_inserter(scans),
+    [](const E57Scan& scan) { return scan.records > 0; });
+  if (scans.empty())
+  {
+    throw NoPoints("the file is valid, but its " + std::to_string(contents.scans.size()) +
+      (contents.scans.size() == 1 ? " scan holds no points" : " scans hold no points"));
+  }
+  return scans;
+}
+
+} // namespace
+
+void readE57(ReadTask& task, vtkPolyData* cloud)
+{
+  const E57Pages pages(task.bytes);
+  task.format = "E57 " + pages.version();
+  pages.check(task, kCheckingPart);
+  const E57Contents contents = parseE57Contents(parseE57Xml(pages));
+  addFieldData(contents, cloud);
+  const std::vector<E57Scan> scans = scansWithPoints(contents);
+  Sections sections;
+  sections.add({ pages.xmlOffset(), pages.xmlOffset() + pages.xmlLength() });
+  std::deque<E57Packets> packets;
+  for (const E57Scan& scan : scans)
+  {
+    packets.emplace_back(pages, scan, described(scan));
+    sections.add(packets.back().section());
+  }
+  const bool moves = task.applyPoses &&
+    std::any_of(scans.begin(), scans.end(), [](const E57Scan& scan) { return !scan.pose.isIdentity(); });
+  const E57Columns plan(scans, moves);
+  const vtkIdType rows = checkedRows(scans, plan, task.bytes.size());
+  CloudColumns columns(plan.all(), rows);
+  vtkIdType first = 0;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+  {
+    const E57Decoder decoder(plan, columns, scans[i], i, packets[i], first, task.applyPoses);
+    decode(task, decoder, first, rows);
+    first += static_cast<vtkIdType>(scans[i].records);
+  }
+  columns.moveTo(cloud);
+  dropUnsetFlags(cloud);
+  addDimensions(cloud);
+  addNotes(contents, scans, plan, task);
+}
+
+} // namespace pointhaptics::io

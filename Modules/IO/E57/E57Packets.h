@@ -1,0 +1,61 @@
+/// @file
+/// The records of one scan: a stream of bits per field, cut into packets.
+#pragma once
+
+#include "IO/E57/E57Scan.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace pointhaptics::io
+{
+
+class E57Pages;
+
+/// Finds where the parts of each stream are; the bytes stay in the file. Reading from many threads at once is
+/// safe. Costs 16 bytes for each part of a stream.
+class E57Packets
+{
+public:
+  /// Walks over the packets of @p scan until each stream has what its records need. The index packets are not
+  /// needed for that. @throws FileProblem with the byte offset of a packet that cannot be, and where the
+  /// streams end before the records that the XML promises: nothing need be allocated for those before.
+  E57Packets(const E57Pages& pages, const E57Scan& scan, const std::string& where);
+
+  /// Copies bytes of a stream: as many of @p count as there are, behind them zeros.
+  void gather(std::size_t field, std::uint64_t first, std::size_t count, char* to) const noexcept;
+
+  /// The logical bytes of the section that holds the packets, from first to one past the last.
+  std::pair<std::uint64_t, std::uint64_t> section() const { return { begin_, end_ }; }
+
+private:
+  struct Part
+  {
+    std::uint64_t before; ///< bytes of the stream in front of it
+    std::uint64_t at;     ///< logical
+  };
+  struct Stream
+  {
+    std::vector<Part> parts;
+    std::uint64_t size = 0;
+    std::uint64_t needed = 0;
+  };
+
+  std::uint64_t findSection(const E57Scan& scan);
+  void planStreams(const E57Scan& scan);
+  void walk(std::uint64_t at);
+  void addDataPacket(std::uint64_t at, std::size_t length);
+  [[noreturn]] void failPacket(std::uint64_t at, const std::string& fault) const;
+  [[noreturn]] void failMissing(const E57Scan& scan) const;
+
+  const E57Pages& pages_;
+  const std::string where_;
+  std::vector<Stream> streams_;
+  std::size_t unfinished_ = 0; ///< streams that need more bytes
+  std::uint64_t begin_ = 0;
+  std::uint64_t end_ = 0;
+};
+
+} // namespace pointhaptics::io
