@@ -1,5 +1,7 @@
 #include "Benchmark/Io/Files.h"
 
+#include "Benchmark/Io/E57File.h"
+
 #include <fmt/format.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
@@ -163,6 +165,8 @@ const char* extensionOf(FileKind kind)
       return ".xyz";
     case FileKind::Las:
       return ".las";
+    case FileKind::E57:
+      return ".e57";
     case FileKind::Vtp:
       return ".vtp";
   }
@@ -234,7 +238,10 @@ std::string Files::write(FileKind kind, vtkPolyData* cloud) const
     return name;
   }
   std::ofstream stream(name, std::ios::binary);
-  stream << (kind == FileKind::CompressedPcd ? asCompressedPcd(cloud) : asText(kind, cloud)) << std::flush;
+  stream << (kind == FileKind::CompressedPcd ? asCompressedPcd(cloud)
+      : kind == FileKind::E57                ? asE57(cloud)
+                                             : asText(kind, cloud))
+         << std::flush;
   if (!stream)
   {
     throw std::runtime_error(name + ": cannot be written; set TMPDIR to a folder with space");

@@ -26,10 +26,12 @@ enum class FileKind
   Csv,
   Xyz,
   Las,
+  E57,
   Vtp,
 };
 constexpr FileKind kAllKinds[] = { FileKind::BinaryPly, FileKind::AsciiPly, FileKind::BinaryPcd,
-  FileKind::CompressedPcd, FileKind::AsciiPcd, FileKind::Csv, FileKind::Xyz, FileKind::Las, FileKind::Vtp };
+  FileKind::CompressedPcd, FileKind::AsciiPcd, FileKind::Csv, FileKind::Xyz, FileKind::Las, FileKind::E57,
+  FileKind::Vtp };
 /// "PLY binary".
 const char* nameOf(FileKind kind);
 
