@@ -23,7 +23,7 @@ constexpr unsigned kIndexPacket = 0;
 constexpr unsigned kDataPacket = 1;
 constexpr unsigned kEmptyPacket = 2;
 
-std::string byteAt(std::uint64_t logical)
+std::string atByte(std::uint64_t logical)
 {
   return "byte " + std::to_string(E57Pages::physical(logical)) + ": ";
 }
@@ -51,20 +51,20 @@ std::uint64_t E57Packets::findSection(const E57Scan& scan)
   std::array<char, kSectionHeader> header{};
   if (pages_.size() - begin_ < header.size())
   {
-    failTruncated(byteAt(begin_) + "the file ends inside the section of the points of " + where_);
+    failTruncated(atByte(begin_) + "the file ends inside the section of the points of " + where_);
   }
   pages_.copy(begin_, header.size(), header.data());
   const unsigned kind = static_cast<unsigned char>(header[0]);
   const std::uint64_t length = loadLittle<std::uint64_t>(header.data() + 8);
   if (kind != kCompressedVectorSection)
   {
-    failFormat(byteAt(begin_) + "a section of kind " + std::to_string(kind) + " where the points of " +
+    failFormat(atByte(begin_) + "a section of kind " + std::to_string(kind) + " where the points of " +
         where_ + " are said to be",
       kCure);
   }
   if (length < kSectionHeader || length > pages_.size() - begin_)
   {
-    failTruncated(byteAt(begin_) + "a section of " + std::to_string(length) + " bytes, but only " +
+    failTruncated(atByte(begin_) + "a section of " + std::to_string(length) + " bytes, but only " +
       std::to_string(pages_.size() - begin_) + " follow");
   }
   end_ = begin_ + length;
@@ -72,7 +72,7 @@ std::uint64_t E57Packets::findSection(const E57Scan& scan)
     pages_.logical(loadLittle<std::uint64_t>(header.data() + 16), where_ + ": its first packet");
   if (first < begin_ + kSectionHeader || first > end_)
   {
-    failFormat(byteAt(begin_) + "the first packet of " + where_ + " is at byte " +
+    failFormat(atByte(begin_) + "the first packet of " + where_ + " is at byte " +
         std::to_string(E57Pages::physical(first)) + ", outside of its section",
       kCure);
   }
@@ -157,7 +157,7 @@ void E57Packets::addDataPacket(std::uint64_t at, std::size_t length)
 
 void E57Packets::failPacket(std::uint64_t at, const std::string& fault) const
 {
-  failFormat(byteAt(at) + where_ + ": a packet " + fault, kCure);
+  failFormat(atByte(at) + where_ + ": a packet " + fault, kCure);
 }
 
 void E57Packets::failMissing(const E57Scan& scan) const

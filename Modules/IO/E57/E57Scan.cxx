@@ -86,6 +86,15 @@ double numberOf(const E57Element* parent, const char* name, const Numbers& numbe
   return element ? numberOf(*element, numbers) : 0.0;
 }
 
+/// @p text for one line.
+std::string inOneLine(std::string_view text)
+{
+  std::string line(text);
+  std::replace_if(
+    line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  return line;
+}
+
 unsigned bitsOfRange(std::int64_t minimum, std::int64_t maximum)
 {
   std::uint64_t range = static_cast<std::uint64_t>(maximum) - static_cast<std::uint64_t>(minimum);
@@ -228,7 +237,7 @@ E57Scan scanOf(const E57Element& element, std::size_t number)
   E57Scan scan;
   scan.number = number - 1;
   const std::string ordinal = "scan " + std::to_string(number);
-  scan.name = element.textOf("name");
+  scan.name = inOneLine(element.textOf("name"));
   const Numbers numbers(scan.name.empty() ? ordinal : ordinal + " " + inQuotes(scan.name));
   scan.name = scan.name.empty() ? ordinal : scan.name;
   scan.pose = poseOf(element.child("pose"), numbers);
@@ -273,7 +282,7 @@ E57Contents parseE57Contents(const E57Element& root)
     failFormat("the XML begins with " + inQuotes(root.name) + ", not with 'e57Root'", kCure);
   }
   E57Contents contents;
-  contents.generator = root.textOf("e57LibraryVersion");
+  contents.generator = inOneLine(root.textOf("e57LibraryVersion"));
   contents.coordinateSystem = root.textOf("coordinateMetadata");
   const E57Element* images = root.child("images2D");
   contents.images = images ? images->children.size() : 0;

@@ -5,6 +5,7 @@
 
 #include "LittleEndian.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

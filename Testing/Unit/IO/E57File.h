@@ -33,7 +33,7 @@ struct E57TestScan
 
 struct E57TestFile
 {
-  std::vector<E57TestScan> scans;
+  std::vector<E57TestScan> scans{};
   std::string xml{};          ///< beside data3D
   std::string prologue{};     ///< before the root element
   bool sharesSection = false; ///< all scans point at the first one's
