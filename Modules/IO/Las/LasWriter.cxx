@@ -58,6 +58,7 @@ public:
 
 private:
   const OutputArray* take(const char* name, int type, int components = 1);
+  const OutputArray* takeWhole(const char* name, int type);
   template <typename T>
   T largestOf(const OutputArray* array) const;
   bool needsExtended() const;
@@ -76,6 +77,7 @@ private:
 
   const std::vector<OutputArray>& arrays_;
   std::vector<bool> taken_;
+  std::deque<OutputArray> converted_; ///< the references to them stay
   vtkFieldData* fieldData_;
   WriteTask& task_;
   WriterNotes& notes_;
@@ -123,19 +125,52 @@ const OutputArray* LasWriter::take(const char* name, int type, int components)
   return nullptr;
 }
 
+/// Also an array of another type, whose values are whole and fit: other formats store them as they like.
+const OutputArray* LasWriter::takeWhole(const char* name, int type)
+{
+  if (const OutputArray* exact = take(name, type))
+  {
+    return exact;
+  }
+  const double most = std::ldexp(1.0, 8 * sizeOfType(type)) - 1.0;
+  for (std::size_t i = 1; i < arrays_.size(); ++i)
+  {
+    if (taken_[i] || arrays_[i].name != name || arrays_[i].components() != 1)
+    {
+      continue;
+    }
+    OutputArray converted = arrays_[i];
+    converted.array.TakeReference(vtkDataArray::CreateDataArray(type));
+    converted.array->SetNumberOfValues(rows_);
+    for (vtkIdType row = 0; row < rows_; ++row)
+    {
+      const double value = arrays_[i].array->GetComponent(row, 0);
+      if (!(value >= 0.0 && value <= most && value == std::floor(value)))
+      {
+        return nullptr;
+      }
+      converted.array->SetComponent(row, 0, value);
+    }
+    taken_[i] = true;
+    converted_.push_back(converted);
+    return &converted_.back();
+  }
+  return nullptr;
+}
+
 void LasWriter::takeStandardArrays()
 {
-  intensity_ = take("Intensity", VTK_TYPE_UINT16);
-  returnNumber_ = take("ReturnNumber", VTK_TYPE_UINT8);
-  numberOfReturns_ = take("NumberOfReturns", VTK_TYPE_UINT8);
-  classification_ = take("Classification", VTK_TYPE_UINT8);
+  intensity_ = takeWhole("Intensity", VTK_TYPE_UINT16);
+  returnNumber_ = takeWhole("ReturnNumber", VTK_TYPE_UINT8);
+  numberOfReturns_ = takeWhole("NumberOfReturns", VTK_TYPE_UINT8);
+  classification_ = takeWhole("Classification", VTK_TYPE_UINT8);
   flags_ = take("ClassificationFlags", VTK_TYPE_UINT8);
   scannerChannel_ = take("ScannerChannel", VTK_TYPE_UINT8);
   scanDirection_ = take("ScanDirection", VTK_TYPE_UINT8);
   edge_ = take("EdgeOfFlightLine", VTK_TYPE_UINT8);
   scanAngle_ = take("ScanAngle", VTK_FLOAT);
-  userData_ = take("UserData", VTK_TYPE_UINT8);
-  pointSourceId_ = take("PointSourceId", VTK_TYPE_UINT16);
+  userData_ = takeWhole("UserData", VTK_TYPE_UINT8);
+  pointSourceId_ = takeWhole("PointSourceId", VTK_TYPE_UINT16);
   gpsTime_ = take("GpsTime", VTK_DOUBLE);
   wideColor_ = take("Color16", VTK_TYPE_UINT16, 3);
   color_ = take("RGB", VTK_TYPE_UINT8, 3);

@@ -86,6 +86,24 @@ TEST_F(LasWriting, GivesBackEveryByteOfEveryRecord)
   }
 }
 
+TEST_F(LasWriting, WholeNumbersOfOtherTypesBecomeTheFieldsOfTheirNames)
+{
+  ReadResult text = readCloud(write("a.csv", "x,y,z,Intensity,Classification\n1,2,3,65535,2\n4,5,6,7,9\n"));
+  ASSERT_EQ(text.error, "");
+  ASSERT_EQ(text.array("Intensity")->GetDataType(), VTK_INT);
+  ASSERT_EQ(writeCloud(text.cloud, path("a.las")), "");
+  ReadResult las = readCloud(path("a.las"));
+  EXPECT_EQ(las.value("Intensity", 0), 65535);
+  EXPECT_EQ(las.value("Classification", 1), 9);
+  EXPECT_EQ(las.array("Intensity_again"), nullptr);
+  // What does not fit stays an array of its own.
+  text = readCloud(write("b.csv", "x,y,z,Intensity\n1,2,3,65536\n4,5,6,7\n"));
+  ASSERT_EQ(writeCloud(text.cloud, path("b.las")), "");
+  las = readCloud(path("b.las"));
+  EXPECT_EQ(las.value("Intensity", 0), 0);
+  EXPECT_EQ(las.value("Intensity_again", 0), 65536);
+}
+
 TEST_F(LasWriting, KeepsFloatsOnAGridOfBinarySteps)
 {
   vtkNew<vtkPolyData> cloud;
