@@ -1,5 +1,6 @@
 #include "PointPicking.h"
 
+#include "AsprsClasses.h"
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
@@ -158,6 +159,10 @@ std::string describeArrays(vtkPolyData* cloud, vtkIdType index, double step)
     {
       const double value = array->GetComponent(index, c);
       text += " " + (name == kHeightArrayName ? coordinateText(value, step) : valueText(value));
+    }
+    if (name == "Classification" && array->GetNumberOfComponents() == 1)
+    {
+      text += std::string(" (") + asprsClassName(int(array->GetComponent(index, 0))) + ")";
     }
   }
   return text;

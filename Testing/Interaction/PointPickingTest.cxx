@@ -119,4 +119,22 @@ TEST(PointPicking, ShowsValuesOfArraysAsTheyAreRead)
   EXPECT_EQ(arrayText("VoxelPointCount", 3.0, 1.0), "3");
 }
 
+TEST(PointPicking, NamesTheClassOfALidarPoint)
+{
+  const auto lineOf = [](double value)
+  {
+    vtkNew<vtkPolyData> cloud;
+    addArray(cloud, "Classification", value);
+    PickedPoint picked;
+    picked.index = 0;
+    const std::string text = describePicked(cloud, picked);
+    return text.substr(text.rfind('\n') + 1);
+  };
+  EXPECT_EQ(lineOf(2), "Classification  2 (ground)");
+  EXPECT_EQ(lineOf(6), "Classification  6 (building)");
+  EXPECT_EQ(lineOf(23), "Classification  23 (reserved)");
+  EXPECT_EQ(lineOf(64), "Classification  64 (user defined)");
+  EXPECT_EQ(lineOf(-1), "Classification  -1 (no class)");
+}
+
 } // namespace
