@@ -71,6 +71,7 @@ int run(std::vector<std::string> arguments)
   addFeelCommand(program, exitCode);
   addResampleCommand(program, exitCode);
   addBandwidthCommand(program, exitCode);
+  addConvertCommand(program, exitCode);
   addInfoCommand(program, exitCode);
   addGenerateCommand(program, exitCode);
   addDevicesCommand(program, exitCode);

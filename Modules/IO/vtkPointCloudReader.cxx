@@ -177,6 +177,15 @@ vtkPointCloudReader::~vtkPointCloudReader()
   this->SetFileName(nullptr);
 }
 
+void vtkPointCloudReader::SetExtension(const std::string& extension)
+{
+  if (this->Extension != extension)
+  {
+    this->Extension = extension;
+    this->Modified();
+  }
+}
+
 void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
 {
   io::ReadTask task;
@@ -214,7 +223,8 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
     task.path, [&](double done) { task.readingProgress(done); },
     [&](std::string_view start, std::size_t size)
     {
-      format = io::identifyFormat(start, size, io::lowerExtension(innerName));
+      format = io::identifyFormat(
+        start, size, this->Extension.empty() ? io::lowerExtension(innerName) : this->Extension);
       task.format = io::nameOf(format);
     });
   task.bytes = bytes.view();
@@ -294,6 +304,7 @@ void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Box: " << this->Box[0] << " " << this->Box[1] << " " << this->Box[2] << " " << this->Box[3]
      << " " << this->Box[4] << " " << this->Box[5] << "\n";
   os << indent << "OnlyPositions: " << (this->OnlyPositions ? "On" : "Off") << "\n";
+  os << indent << "Extension: " << this->Extension << "\n";
   os << indent << "ApplyPoses: " << this->ApplyPoses << "\n";
   os << indent << "Format: " << this->Format << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";

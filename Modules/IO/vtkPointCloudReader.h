@@ -30,19 +30,20 @@
  * - LAZ and COPC give the same arrays, in the file's order of points: pointwise compression (versions 1 and
  *   2, point formats 0 to 5) and layered compression (version 3, 6 to 10). Chunks are decoded in parallel, by
  *   as many threads as vtkSMPTools has. More than 100 times the file's size (64 MB at least) is not unpacked.
- * - E57 1.0: all scans as one cloud. Cartesian coordinates, or those made of spherical ones, which are kept
- * as SphericalRange, SphericalAzimuth and SphericalElevation (metres, radians). Each scan's pose is applied
- *   (SetApplyPoses); field data "ScanPoses" (tx ty tz qw qx qy qz), "ScanNames" and "ScanPoints" have a row
- * per scan of the file, and the array ScanIndex says which one a point is of where there are several. Points
- *   whose invalid state is set are NaN; InvalidState, SphericalInvalidState, IntensityInvalid, ColorInvalid
- * and TimeStampInvalid are there where one point sets them. Intensity, RowIndex, ColumnIndex, ReturnNumber
- *   (counted from 1, as in LAS; the file counts from 0), NumberOfReturns, TimeStamp, Normals of the extension
- *   nor; others keep their names. Integers get the smallest type that holds their limits, scaled integers are
- *   double. Colours of bytes are RGB; others are kept as Color16 (integers of 16 bits) or Color, beside an
- * RGB made by the file's colour limits. OrganizedDimensions where the points are all cells of the scanner's
- *   grid, row by row. What a scan lacks that others have is NaN, or 0 for integers. Generator,
- *   CoordinateSystem and LengthUnit are field data. Images and texts are not read: GetNotes(). All checksums
- *   are checked.
+ * - E57 1.0: all scans as one cloud. Cartesian coordinates, or those made of spherical ones, which are
+ *   kept as SphericalRange, SphericalAzimuth and SphericalElevation (metres, radians). Each scan's pose
+ *   is applied (SetApplyPoses); field data "ScanPoses" (tx ty tz qw qx qy qz), "ScanNames" and
+ *   "ScanPoints" have a row per scan of the file, and the array ScanIndex says which one a point is of
+ *   where there are several. Points whose invalid state is set are NaN; InvalidState,
+ *   SphericalInvalidState, IntensityInvalid, ColorInvalid and TimeStampInvalid are there where one point
+ *   sets them. Intensity, RowIndex, ColumnIndex, ReturnNumber (counted from 1, as in LAS; the file
+ *   counts from 0), NumberOfReturns, TimeStamp, Normals of the extension nor; others keep their names.
+ *   Integers get the smallest type that holds their limits, scaled integers are double. Colours of bytes
+ *   are RGB; others are kept as Color16 (integers of 16 bits) or Color, beside an RGB made by the file's
+ *   colour limits. OrganizedDimensions where the points are all cells of the scanner's grid, row by row.
+ *   What a scan lacks that others have is NaN, or 0 for integers. Generator, CoordinateSystem and
+ *   LengthUnit are field data, and so are LasScale and LasOffset where scaled integers stay on their
+ *   grid. Images and texts are not read: GetNotes(). All checksums are checked.
  * - VTP, VTU and legacy VTK (PolyData, UnstructuredGrid, StructuredGrid): points and point data; cells are
  *   dropped. Legacy files with strings or bits are refused.
  * - OFF, NOFF, COFF, CNOFF as text; STL, both kinds: each distinct vertex once, as float, without normals.
@@ -125,6 +126,15 @@ public:
 
   ///@{
   /**
+   * The extension to go by instead of the file name's, where the content leaves the format open: "obj" or
+   * "xyz". Default: empty.
+   */
+  void SetExtension(const std::string& extension);
+  const std::string& GetExtension() const { return this->Extension; }
+  ///@}
+
+  ///@{
+  /**
    * Whether scans of a file with poses (E57) are moved to where they belong. Off: each point is in the frame
    * of its scanner, and the field data has the poses. Default: on.
    */
@@ -174,6 +184,7 @@ private:
   double Resolution = 0.0;
   double Box[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   bool OnlyPositions = false;
+  std::string Extension;
   std::string ErrorMessage;
   std::string Format;
   std::vector<std::string> Notes;

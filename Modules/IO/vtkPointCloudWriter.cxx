@@ -104,27 +104,29 @@ const FileFormat kFormats[] = {
 };
 
 /// Null where no format has the extension.
-const FileFormat* formatOf(const std::string& fileName)
+const FileFormat* formatOf(const std::string& extension)
 {
-  const std::string extension = io::lowerExtension(fileName);
   const FileFormat* found = std::find_if(std::begin(kFormats), std::end(kFormats),
     [&](const FileFormat& format) { return extension == format.extension; });
   return found == std::end(kFormats) ? nullptr : found;
 }
 
 /// Field data that vtkPointCloudReader adds to a cloud; that of filters is no loss.
-constexpr const char* kOfTheCloud[] = { "Viewpoint", "OrganizedDimensions", "CoordinateSystem",
-  "LengthUnit" };
+constexpr const char* kOfTheCloud[] = { "Viewpoint", "OrganizedDimensions", "CoordinateSystem", "LengthUnit",
+  "ScanPoses" };
 
-/// Whether the viewpoint is the default of files that name none.
-bool isAtOrigin(vtkPointSet* cloud)
+/// Whether @p name is a viewpoint or poses (tx ty tz qw qx qy qz) that change nothing.
+bool isIdentityPose(vtkPointSet* cloud, const std::string& name)
 {
   const double usual[] = { 0, 0, 0, 1, 0, 0, 0 };
-  vtkDataArray* viewpoint = cloud->GetFieldData()->GetArray("Viewpoint");
-  bool same = viewpoint && viewpoint->GetNumberOfComponents() == 7 && viewpoint->GetNumberOfTuples() == 1;
-  for (int i = 0; i < 7 && same; ++i)
+  vtkDataArray* poses = cloud->GetFieldData()->GetArray(name.c_str());
+  bool same = (name == "Viewpoint" || name == "ScanPoses") && poses && poses->GetNumberOfComponents() == 7;
+  for (vtkIdType row = 0; same && row < poses->GetNumberOfTuples(); ++row)
   {
-    same = viewpoint->GetComponent(0, i) == usual[i];
+    for (int i = 0; i < 7 && same; ++i)
+    {
+      same = poses->GetComponent(row, i) == usual[i];
+    }
   }
   return same;
 }
@@ -135,8 +137,7 @@ void noteWhatIsNoColumn(vtkPointSet* cloud, const std::string& keptFieldData, io
   for (const std::string name : kOfTheCloud)
   {
     const bool isKept = (" " + keptFieldData + " ").find(" " + name + " ") != std::string::npos;
-    if (!isKept && cloud->GetFieldData()->HasArray(name.c_str()) &&
-      !(name == "Viewpoint" && isAtOrigin(cloud)))
+    if (!isKept && cloud->GetFieldData()->HasArray(name.c_str()) && !isIdentityPose(cloud, name))
     {
       lost += (lost.empty() ? "" : ", ") + name;
     }
@@ -159,7 +160,7 @@ vtkPointCloudWriter::vtkPointCloudWriter() = default;
 
 bool vtkPointCloudWriter::CanWrite(const std::string& fileName)
 {
-  return formatOf(fileName) != nullptr;
+  return formatOf(io::lowerExtension(fileName)) != nullptr;
 }
 
 const char* vtkPointCloudWriter::GetExtensions()
@@ -191,6 +192,15 @@ void vtkPointCloudWriter::Fail(unsigned long code, const std::string& message)
   vtkErrorMacro(<< this->ErrorMessage);
 }
 
+void vtkPointCloudWriter::SetExtension(const std::string& extension)
+{
+  if (this->Extension != extension)
+  {
+    this->Extension = extension;
+    this->Modified();
+  }
+}
+
 int vtkPointCloudWriter::Write()
 {
   this->ErrorMessage.clear();
@@ -208,12 +218,13 @@ int vtkPointCloudWriter::Write()
 
 void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
 {
-  const FileFormat* format = formatOf(this->FileName);
+  const std::string extension =
+    this->Extension.empty() ? io::lowerExtension(this->FileName) : this->Extension;
+  const FileFormat* format = formatOf(extension);
   if (!format)
   {
     throw io::FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
-      "unknown extension " + io::inQuotes("." + io::lowerExtension(this->FileName)),
-      std::string("use ") + GetExtensions());
+      "unknown extension " + io::inQuotes("." + extension), std::string("use ") + GetExtensions());
   }
   this->Format = format->name;
   if (!cloud || cloud->GetNumberOfPoints() == 0)
@@ -293,5 +304,6 @@ void vtkPointCloudWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Extension: " << this->Extension << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
 }

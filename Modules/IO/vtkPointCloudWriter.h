@@ -17,10 +17,11 @@
  *   that gives every bit back. Others, such as means of points, are rounded, by at most half a step, to the
  *   scale of that file, or to the finest power of ten that spans the cloud where there is none or the cloud
  *   is shorter than 1000 steps of it. Whoever transforms a cloud takes "LasScale" and "LasOffset" away.
- *   Arrays under the names vtkPointCloudReader gives to LAS fields become these, "RGB" becomes the colour,
- *   and all others become extra bytes. NaN points are refused.
+ *   Arrays under the names vtkPointCloudReader gives to LAS fields become these, integers of other types
+ *   too where their values fit. "RGB" becomes the colour, and all others become extra bytes. NaN points are
+ *   refused.
  * - .laz: the same records, compressed: pointwise for LAS 1.2, layered for 1.4, in chunks of 50,000 points
- * that are encoded in parallel. Costs the compressed size in memory.
+ *   that are encoded in parallel. Costs the compressed size in memory.
  * - .csv: header x,y,z and the names of the arrays, arrays of several components as name_0,name_1,...; each
  * number with the fewest digits that give back the same value. Types are not stored: float arrays may be read
  * as double.
@@ -67,6 +68,14 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  ///@{
+  /**
+   * The extension that chooses the format instead of the file name's, such as "ply". Default: empty.
+   */
+  void SetExtension(const std::string& extension);
+  const std::string& GetExtension() const { return this->Extension; }
+  ///@}
+
   /**
    * Write the file. Returns 1 when it is complete under its name, else 0.
    */
@@ -108,6 +117,7 @@ private:
   void Fail(unsigned long code, const std::string& message);
 
   char* FileName = nullptr;
+  std::string Extension;
   std::string ErrorMessage;
   std::string Format;
   std::vector<std::string> Notes;

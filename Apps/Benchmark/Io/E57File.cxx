@@ -118,12 +118,13 @@ std::string xmlOf(vtkIdType points)
   {
     fields += fmt::format("<{} type=\"Integer\" minimum=\"0\" maximum=\"255\"/>", name);
   }
-  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                     "<e57Root type=\"Structure\" xmlns=\"http://www.astm.org/COMMIT/E57/2010-e57-v1.0\">"
-                     "<data3D type=\"Vector\" allowHeterogeneousChildren=\"1\"><vectorChild type=\"Structure\">"
-                     "<points type=\"CompressedVector\" fileOffset=\"48\" recordCount=\"{}\">"
-                     "<prototype type=\"Structure\">{}</prototype><codecs type=\"Vector\"/></points>"
-                     "</vectorChild></data3D></e57Root>\n",
+  return fmt::format(
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<e57Root type=\"Structure\" xmlns=\"http://www.astm.org/COMMIT/E57/2010-e57-v1.0\">"
+    "<data3D type=\"Vector\" allowHeterogeneousChildren=\"1\"><vectorChild type=\"Structure\">"
+    "<points type=\"CompressedVector\" fileOffset=\"48\" recordCount=\"{}\">"
+    "<prototype type=\"Structure\">{}</prototype><codecs type=\"Vector\"/></points>"
+    "</vectorChild></data3D></e57Root>\n",
     points, fields);
 }
 

@@ -13,8 +13,8 @@ namespace bench
 namespace io
 {
 
-/// One scan: x y z as doubles, "intensity" as single floats and "RGB" as bytes, in packets of 64 kB. Costs the
-/// size of the file three times in memory.
+/// One scan: x y z as doubles, "intensity" as single floats and "RGB" as bytes, in packets of 64 kB. Costs
+/// the size of the file three times in memory.
 std::string asE57(vtkPolyData* cloud);
 
 } // namespace io

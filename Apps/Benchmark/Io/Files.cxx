@@ -239,7 +239,7 @@ std::string Files::write(FileKind kind, vtkPolyData* cloud) const
   }
   std::ofstream stream(name, std::ios::binary);
   stream << (kind == FileKind::CompressedPcd ? asCompressedPcd(cloud)
-      : kind == FileKind::E57                ? asE57(cloud)
+                : kind == FileKind::E57      ? asE57(cloud)
                                              : asText(kind, cloud))
          << std::flush;
   if (!stream)

@@ -30,9 +30,10 @@ constexpr double kLasTolerance = 1e-8;
 constexpr double kPromisedMegabytes = 64.0;
 
 constexpr const char* kMethod =
-  "The files lie in the page cache; everything runs on one thread, but for our\n"
-  "reader of E57, which takes all there are. A time is that of the whole call: from a name to the finished result in memory, which is freed outside the timing, and for\n"
-  "writing from a cloud in memory to a closed file. Before anything is timed every coordinate is\n"
+  "The files lie in the page cache; everything runs on one thread, but for our reader of E57, which\n"
+  "takes all there are. A time is that of the whole call: from a name to the finished result in\n"
+  "memory, which is freed outside the timing, and for writing from a cloud in memory to a closed\n"
+  "file. Before anything is timed every coordinate is\n"
   "compared with the cloud that was written.\n"
   "\n"
   "- The cloud has float x y z, a float intensity and colours. Ours reads all of them, and so does\n"

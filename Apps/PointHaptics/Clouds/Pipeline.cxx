@@ -2,6 +2,7 @@
 
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
+#include "Terminal/StandardStreams.h"
 #include "Terminal/StopSignals.h"
 
 #include "vtkPointCloudReader.h"
@@ -17,6 +18,7 @@
 #include <vtkSMPTools.h>
 
 #include <filesystem>
+#include <sstream>
 
 namespace pointhaptics
 {
@@ -30,30 +32,85 @@ std::string firstOf(const std::vector<std::string>& messages)
   return messages.empty() ? std::string() : messages.front();
 }
 
-} // namespace
-
-bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message, double resolution)
+/// @p shown: what messages call the file.
+bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, std::string& message,
+  const ReadOptions& options)
 {
   vtkNew<vtkPointCloudReader> reader;
-  reader->SetResolution(resolution);
-  reader->SetFileName(fileName.c_str());
+  reader->SetFileName(path.c_str());
+  reader->SetExtension(options.extension);
+  reader->SetResolution(options.resolution);
+  reader->SetApplyPoses(options.applyPoses);
   {
     const ProgressBar bar("reading", reader);
     reader->Update();
   }
   message = reader->GetErrorMessage();
+  if (message.compare(0, path.size(), path) == 0)
+  {
+    message.replace(0, path.size(), shown);
+  }
   const std::string other = firstOf(takeVtkErrors());
   if (message.empty() && !other.empty())
   {
-    message = fileName + ": " + other;
+    message = shown + ": " + other;
   }
   if (message.empty() && reader->GetOutput()->GetNumberOfPoints() == 0)
   {
-    message = fileName + ": holds no points; give a file with at least one";
+    message = shown + ": holds no points; give a file with at least one";
   }
   cloud.points = reader->GetOutput();
   cloud.format = reader->GetFormat();
+  cloud.notes = reader->GetNotes();
+  cloud.isValidWithoutPoints = reader->IsValidWithoutPoints();
   return message.empty();
+}
+
+bool writeFile(vtkPointSet* points, const std::string& path, const std::string& shown,
+  const std::string& command, std::string& message, const std::string& extension)
+{
+  vtkNew<vtkPointCloudWriter> writer;
+  writer->SetFileName(path.c_str());
+  writer->SetExtension(extension);
+  writer->SetInputDataObject(points);
+  bool written = false;
+  {
+    const ProgressBar bar("writing", writer);
+    written = writer->Write() == 1;
+  }
+  for (const std::string& note : writer->GetNotes())
+  {
+    warn(command, shown + ": " + note);
+  }
+  if (written)
+  {
+    return true;
+  }
+  message = writer->GetErrorMessage();
+  const std::string other = firstOf(takeVtkErrors());
+  if (message.compare(0, path.size(), path) == 0)
+  {
+    message.replace(0, path.size(), shown);
+  }
+  if (message.empty())
+  {
+    message =
+      shown + ": " + (other.empty() ? "cannot be written; check the folder and the space left" : other);
+  }
+  return false;
+}
+
+} // namespace
+
+bool readCloud(const std::string& fileName, Cloud& cloud, std::string& message, const ReadOptions& options)
+{
+  if (fileName != kStandardStream)
+  {
+    return readFile(fileName, fileName, cloud, message, options);
+  }
+  const TemporaryFolder folder;
+  const std::string path = folder.path("input");
+  return copyStandardInput(path, message) && readFile(path, "standard input", cloud, message, options);
 }
 
 bool updateFilter(vtkAlgorithm* filter, const std::string& label, std::string& message)
@@ -79,34 +136,33 @@ bool canWriteCloud(const std::string& fileName, std::string& message)
   return false;
 }
 
-bool writeCloud(
-  vtkPointSet* points, const std::string& fileName, const std::string& command, std::string& message)
+std::vector<std::string> writableExtensions()
+{
+  std::vector<std::string> extensions;
+  std::istringstream words(vtkPointCloudWriter::GetExtensions()); // ".vtp, .ply or .csv"
+  for (std::string word; words >> word;)
+  {
+    if (word.front() == '.')
+    {
+      extensions.push_back(word.substr(1, word.find_last_not_of(',')));
+    }
+  }
+  return extensions;
+}
+
+bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::string& command,
+  std::string& message, const std::string& extension)
 {
   rememberStopSignals();
-  vtkNew<vtkPointCloudWriter> writer;
-  writer->SetFileName(fileName.c_str());
-  writer->SetInputDataObject(points);
-  bool written = false;
+  if (fileName != kStandardStream)
   {
-    const ProgressBar bar("writing", writer);
-    written = writer->Write() == 1;
+    return writeFile(points, fileName, fileName, command, message, extension);
   }
-  for (const std::string& note : writer->GetNotes())
-  {
-    warn(command, fileName + ": " + note);
-  }
-  if (written)
-  {
-    return true;
-  }
-  message = writer->GetErrorMessage();
-  const std::string other = firstOf(takeVtkErrors());
-  if (message.empty())
-  {
-    message =
-      fileName + ": " + (other.empty() ? "cannot be written; check the folder and the space left" : other);
-  }
-  return false;
+  // Not straight into the pipe: nobody shall get half a cloud, and VTP goes back in its file.
+  const TemporaryFolder folder;
+  const std::string path = folder.path("output");
+  return writeFile(points, path, "standard output", command, message, extension) &&
+    copyToStandardOutput(path, message);
 }
 
 vtkSmartPointer<vtkPolyData> transformedPoints(
@@ -129,6 +185,14 @@ vtkSmartPointer<vtkPolyData> transformedPoints(
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(points);
   return result;
+}
+
+void showNotes(const std::string& command, const std::string& fileName, const Cloud& cloud)
+{
+  for (const std::string& note : cloud.notes)
+  {
+    warn(command, fileName + ": " + note);
+  }
 }
 
 void showWarnings(const std::string& command)

@@ -99,7 +99,7 @@ int runBandwidth(const BandwidthCommandOptions& options)
 {
   std::string message;
   Cloud cloud;
-  if (!options.files.open(cloud, message))
+  if (!options.files.open(kCommand, cloud, message))
   {
     return fail(kCommand, message);
   }

@@ -21,7 +21,7 @@ void CloudToCloudOptions::addTo(CLI::App& command)
   command.add_flag("--json", this->json, "Print the figures as JSON");
 }
 
-bool CloudToCloudOptions::open(Cloud& cloud, std::string& message) const
+bool CloudToCloudOptions::open(const std::string& command, Cloud& cloud, std::string& message) const
 {
   if (!canWriteCloud(this->output, message))
   {
@@ -29,7 +29,14 @@ bool CloudToCloudOptions::open(Cloud& cloud, std::string& message) const
   }
   useThreads(this->threads);
   rememberStopSignals();
-  return readCloud(this->input, cloud, message, this->resolution);
+  ReadOptions reading;
+  reading.resolution = this->resolution;
+  if (!readCloud(this->input, cloud, message, reading))
+  {
+    return false;
+  }
+  showNotes(command, this->input, cloud);
+  return true;
 }
 
 } // namespace app

@@ -29,7 +29,7 @@ struct CloudToCloudOptions
   /// Asks whether the output can be written before any work is done, sets the threads and reads the input.
   /// False:
   /// @p message says what failed.
-  bool open(Cloud& cloud, std::string& message) const;
+  bool open(const std::string& command, Cloud& cloud, std::string& message) const;
 };
 
 } // namespace app

@@ -20,6 +20,7 @@ void addViewCommand(CLI::App& program, int& exitCode);
 void addFeelCommand(CLI::App& program, int& exitCode);
 void addResampleCommand(CLI::App& program, int& exitCode);
 void addBandwidthCommand(CLI::App& program, int& exitCode);
+void addConvertCommand(CLI::App& program, int& exitCode);
 void addInfoCommand(CLI::App& program, int& exitCode);
 void addGenerateCommand(CLI::App& program, int& exitCode);
 void addDevicesCommand(CLI::App& program, int& exitCode);

@@ -34,6 +34,29 @@ std::vector<double> numbers(const Vec3& v)
   return { v.x, v.y, v.z };
 }
 
+/// Who wrote the file, and of which parts.
+void addOrigin(const CloudSummary& s, nlohmann::ordered_json& result)
+{
+  if (!s.generator.empty())
+  {
+    result["generator"] = s.generator;
+  }
+  if (s.chunks > 0)
+  {
+    result["chunks"] = s.chunks;
+  }
+  for (const ScanSummary& scan : s.scans)
+  {
+    result["scans"].push_back({ { "name", scan.name }, { "points", scan.points },
+      { "translation", std::vector<double>(scan.pose.begin(), scan.pose.begin() + 3) },
+      { "quaternion_wxyz", std::vector<double>(scan.pose.begin() + 3, scan.pose.end()) } });
+  }
+  if (!s.notes.empty())
+  {
+    result["notes"] = s.notes;
+  }
+}
+
 nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
 {
   nlohmann::ordered_json arrays = nlohmann::ordered_json::array();
@@ -44,6 +67,7 @@ nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
   }
   nlohmann::ordered_json result = { { "file", file }, { "format", s.format }, { "points", s.points },
     { "points_invalid", s.invalid }, { "points_duplicate", s.duplicates } };
+  addOrigin(s, result);
   if (!s.bounds.empty())
   {
     result["bounds"] = { { "min", numbers(s.bounds.minimum) }, { "max", numbers(s.bounds.maximum) } };
@@ -72,11 +96,31 @@ nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
   return result;
 }
 
+void printOrigin(const CloudSummary& s)
+{
+  if (!s.generator.empty())
+  {
+    fmt::print("  written  by {}\n", s.generator);
+  }
+  if (s.chunks > 0)
+  {
+    fmt::print("  chunks   {}\n", s.chunks);
+  }
+  for (std::size_t i = 0; i < s.scans.size(); ++i)
+  {
+    const ScanSummary& scan = s.scans[i];
+    const std::array<double, 7>& p = scan.pose;
+    fmt::print("  scan {:<3} {}: {} points, scanner at {} {} {}, quaternion {} {} {} {}\n", i + 1, scan.name,
+      scan.points, p[0], p[1], p[2], p[3], p[4], p[5], p[6]);
+  }
+}
+
 void print(const std::string& file, const CloudSummary& s)
 {
   fmt::print("{}\n  format   {}\n  points   {}{}{}\n", file, s.format, s.points,
     s.invalid > 0 ? fmt::format(", {} of them NaN or infinite", s.invalid) : "",
     s.duplicates > 0 ? fmt::format(", {} at the place of another", s.duplicates) : "");
+  printOrigin(s);
   if (!s.bounds.empty())
   {
     const Vec3 low = s.bounds.minimum, high = s.bounds.maximum, size = s.bounds.extent();
@@ -104,10 +148,20 @@ void print(const std::string& file, const CloudSummary& s)
     }
     fmt::print("  array    {}: {} x {}{}\n", array.name, array.type, array.components, ranges);
   }
+  for (const std::string& note : s.notes)
+  {
+    fmt::print("  note     {}\n", note);
+  }
   if (!s.hint.empty())
   {
     fmt::print("  hint     {}\n", s.hint);
   }
+}
+
+/// The message of the reader begins with the name.
+std::string withoutFileName(const std::string& message, const std::string& file)
+{
+  return message.compare(0, file.size() + 2, file + ": ") == 0 ? message.substr(file.size() + 2) : message;
 }
 
 int runInfo(const InfoOptions& options)
@@ -118,14 +172,22 @@ int runInfo(const InfoOptions& options)
   {
     Cloud cloud;
     std::string message;
-    if (!readCloud(file, cloud, message, options.resolution))
+    ReadOptions reading;
+    reading.resolution = options.resolution;
+    const bool hasPoints = readCloud(file, cloud, message, reading);
+    if (cloud.isValidWithoutPoints)
+    {
+      cloud.notes.push_back(withoutFileName(message, file));
+    }
+    else if (!hasPoints)
     {
       exitCode = fail(kCommand, message);
       files.push_back({ { "file", file }, { "error", message } });
       continue;
     }
     showWarnings(kCommand);
-    const CloudSummary summary = summarize(cloud.points, cloud.format);
+    CloudSummary summary = summarize(cloud.points, cloud.format);
+    summary.notes = cloud.notes;
     if (options.json)
     {
       files.push_back(toJson(file, summary));

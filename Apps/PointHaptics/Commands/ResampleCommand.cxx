@@ -126,7 +126,7 @@ int runResample(const ResampleOptions& options)
     return fail(kCommand, options.voxelIndex + ": --voxel-index and -o name one file; give it another name");
   }
   if ((!options.voxelIndex.empty() && !index.open(options.voxelIndex, "voxel", message)) ||
-    !options.files.open(cloud, message))
+    !options.files.open(kCommand, cloud, message))
   {
     return fail(kCommand, message);
   }

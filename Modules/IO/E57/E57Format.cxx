@@ -77,6 +77,38 @@ void addFieldData(const E57Contents& contents, vtkPolyData* cloud)
   cloud->GetFieldData()->AddArray(poses);
 }
 
+/// The grid of the coordinates, under the names that the writer of LAS knows, where nothing moves them off
+/// it.
+void addGrid(const std::vector<E57Scan>& scans, bool moves, vtkPolyData* cloud)
+{
+  double scale[3] = {};
+  double offset[3] = {};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::string name = std::string("cartesian") + static_cast<char>('X' + axis);
+    for (const E57Scan& scan : scans)
+    {
+      const std::size_t at = scan.find(name);
+      const bool isFirst = scan.number == scans.front().number;
+      if (moves || at == E57Scan::npos || scan.fields[at].kind != E57Field::Kind::Scaled ||
+        (!isFirst && (scan.fields[at].scale != scale[axis] || scan.fields[at].offset != offset[axis])))
+      {
+        return;
+      }
+      scale[axis] = scan.fields[at].scale;
+      offset[axis] = scan.fields[at].offset;
+    }
+  }
+  for (const auto& [name, values] : { std::pair{ "LasScale", scale }, std::pair{ "LasOffset", offset } })
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(3);
+    array->InsertNextTuple(values);
+    cloud->GetFieldData()->AddArray(array);
+  }
+}
+
 std::string described(const E57Scan& scan)
 {
   return "scan " + std::to_string(scan.number + 1) + " " + inQuotes(scan.name);
@@ -293,6 +325,7 @@ void readE57(ReadTask& task, vtkPolyData* cloud)
   columns.moveTo(cloud);
   dropUnsetFlags(cloud);
   addDimensions(cloud);
+  addGrid(scans, moves, cloud);
   addNotes(contents, scans, plan, task);
 }
 

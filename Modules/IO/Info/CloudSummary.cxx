@@ -112,10 +112,36 @@ std::int64_t countDuplicates(std::vector<Vec3> points)
   return points.end() - std::unique(points.begin(), points.end());
 }
 
-std::string textIn(vtkPolyData* cloud, const char* name)
+std::string textIn(vtkPolyData* cloud, const char* name, vtkIdType row = 0)
 {
   vtkStringArray* array = vtkStringArray::SafeDownCast(cloud->GetFieldData()->GetAbstractArray(name));
-  return array && array->GetNumberOfValues() > 0 ? array->GetValue(0) : std::string();
+  return array && array->GetNumberOfValues() > row ? array->GetValue(row) : std::string();
+}
+
+double numberIn(vtkPolyData* cloud, const char* name, vtkIdType row = 0, int component = 0)
+{
+  vtkDataArray* array = cloud->GetFieldData()->GetArray(name);
+  const bool isThere =
+    array && row < array->GetNumberOfTuples() && component < array->GetNumberOfComponents();
+  return isThere ? array->GetComponent(row, component) : 0.0;
+}
+
+std::vector<ScanSummary> scansOf(vtkPolyData* cloud)
+{
+  std::vector<ScanSummary> scans;
+  vtkAbstractArray* names = cloud->GetFieldData()->GetAbstractArray("ScanNames");
+  for (vtkIdType row = 0; names && row < names->GetNumberOfTuples(); ++row)
+  {
+    ScanSummary scan;
+    scan.name = textIn(cloud, "ScanNames", row);
+    scan.points = std::int64_t(numberIn(cloud, "ScanPoints", row));
+    for (std::size_t i = 0; i < scan.pose.size(); ++i)
+    {
+      scan.pose[i] = numberIn(cloud, "ScanPoses", row, int(i));
+    }
+    scans.push_back(scan);
+  }
+  return scans;
 }
 
 /// Scanners measure in metres, map coordinates are far from the origin, and models of things are in
@@ -188,6 +214,9 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
 {
   CloudSummary summary;
   summary.format = format;
+  summary.generator = textIn(cloud, "Generator");
+  summary.chunks = std::int64_t(numberIn(cloud, "Chunks"));
+  summary.scans = scansOf(cloud);
   summary.points = cloud->GetNumberOfPoints();
   const std::vector<Vec3> points = finitePoints(cloud);
   summary.invalid = summary.points - std::int64_t(points.size());

@@ -25,9 +25,20 @@ struct ArraySummary
   std::vector<double> maxima;
 };
 
+struct ScanSummary
+{
+  std::string name;
+  std::int64_t points = 0;
+  std::array<double, 7> pose{}; ///< Where the scanner stood, x y z, and its quaternion w x y z.
+};
+
 struct CloudSummary
 {
-  std::string format;
+  std::string format;      ///< With the version, where files of it have one.
+  std::string generator;   ///< The program that wrote the file; empty where it does not say.
+  std::int64_t chunks = 0; ///< Parts that are packed one by one; 0 where there are none.
+  std::vector<ScanSummary> scans;
+  std::vector<std::string> notes; ///< What the file has beside this.
   std::int64_t points = 0;
   std::int64_t invalid = 0;    ///< NaN or infinite.
   Bounds bounds;               ///< Of the finite points.

@@ -41,7 +41,8 @@ TEST_F(Reader, NamesAConverterForKnownForeignFormats)
 TEST_F(Reader, SurvivesRandomBytesAfterEveryMagic)
 {
   const std::string starts[] = { "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n",
-    "LASF", "ASTM-E57", "# .PCD v0.7\n", "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", "v 1 2 3\n", "1 2 3\n" };
+    "LASF", "ASTM-E57", "# .PCD v0.7\n", "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", "v 1 2 3\n",
+    "1 2 3\n" };
   std::mt19937 random(20260101);
   for (const std::string& start : starts)
   {

@@ -1,0 +1,221 @@
+#include "Clouds/MergedCloud.h"
+
+#include <fmt/format.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkVariant.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+/// True of one cloud, never of several.
+constexpr const char* kOfOneCloud[] = { "OrganizedDimensions", "ScanNames", "ScanPoints", "ScanPoses",
+  "Chunks" };
+
+/// The writer finds another grid, and says so where that rounds.
+constexpr const char* kOfOneGrid[] = { "LasScale", "LasOffset" };
+
+struct MergedArray
+{
+  std::string name;
+  int type = VTK_DOUBLE;
+  int components = 1;
+  std::vector<vtkDataArray*> sources; ///< One a cloud; null where it has none.
+};
+
+MergedArray& arrayFor(std::vector<MergedArray>& arrays, vtkDataArray* source, std::size_t clouds)
+{
+  const std::string given = source->GetName() ? source->GetName() : "unnamed";
+  const int components = source->GetNumberOfComponents();
+  const auto named = [&](const std::string& name)
+  {
+    return std::find_if(
+      arrays.begin(), arrays.end(), [&](const MergedArray& array) { return array.name == name; });
+  };
+  std::string name = given;
+  auto found = named(name);
+  while (found != arrays.end() && found->components != components)
+  {
+    name += fmt::format("_{}", components);
+    found = named(name);
+  }
+  if (found != arrays.end())
+  {
+    found->type = found->type == source->GetDataType() ? found->type : VTK_DOUBLE;
+    return *found;
+  }
+  arrays.push_back({ name, source->GetDataType(), components, std::vector<vtkDataArray*>(clouds, nullptr) });
+  return arrays.back();
+}
+
+std::vector<MergedArray> planArrays(const std::vector<Cloud>& clouds, std::vector<std::string>& notes)
+{
+  std::vector<MergedArray> arrays;
+  for (std::size_t i = 0; i < clouds.size(); ++i)
+  {
+    vtkPointData* data = clouds[i].points->GetPointData();
+    for (int k = 0; k < data->GetNumberOfArrays(); ++k)
+    {
+      vtkDataArray* source = data->GetArray(k);
+      if (source)
+      {
+        arrayFor(arrays, source, clouds.size()).sources[i] = source;
+      }
+      else
+      {
+        notes.push_back(fmt::format("array {} holds no numbers and is left out",
+          data->GetAbstractArray(k)->GetName() ? data->GetAbstractArray(k)->GetName() : "without a name"));
+      }
+    }
+  }
+  return arrays;
+}
+
+vtkSmartPointer<vtkDataArray> filled(
+  const MergedArray& array, const std::vector<Cloud>& clouds, std::vector<std::string>& notes)
+{
+  vtkSmartPointer<vtkDataArray> result;
+  result.TakeReference(vtkDataArray::CreateDataArray(array.type));
+  result->SetName(array.name.c_str());
+  result->SetNumberOfComponents(array.components);
+  vtkIdType rows = 0;
+  for (const Cloud& cloud : clouds)
+  {
+    rows += cloud.points->GetNumberOfPoints();
+  }
+  result->SetNumberOfTuples(rows);
+  const bool isFloating = array.type == VTK_FLOAT || array.type == VTK_DOUBLE;
+  const double none = isFloating ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+  vtkIdType begin = 0;
+  std::size_t lacking = 0;
+  for (std::size_t i = 0; i < clouds.size(); ++i)
+  {
+    const vtkIdType count = clouds[i].points->GetNumberOfPoints();
+    if (array.sources[i])
+    {
+      result->InsertTuples(begin, count, 0, array.sources[i]);
+    }
+    for (vtkIdType row = begin; row < begin + count && !array.sources[i]; ++row)
+    {
+      for (int component = 0; component < array.components; ++component)
+      {
+        result->SetComponent(row, component, none);
+      }
+    }
+    lacking += array.sources[i] ? 0 : 1;
+    begin += count;
+  }
+  if (lacking > 0)
+  {
+    notes.push_back(fmt::format("{} of {} inputs have no {}: their points have {} there", lacking,
+      clouds.size(), array.name, isFloating ? "NaN" : "0"));
+  }
+  return result;
+}
+
+bool isSame(vtkAbstractArray* a, vtkAbstractArray* b)
+{
+  if (!a || !b || a->GetDataType() != b->GetDataType() || a->GetNumberOfValues() != b->GetNumberOfValues() ||
+    a->GetNumberOfComponents() != b->GetNumberOfComponents())
+  {
+    return false;
+  }
+  for (vtkIdType i = 0; i < a->GetNumberOfValues(); ++i)
+  {
+    if (a->GetVariantValue(i) != b->GetVariantValue(i))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+template <std::size_t N>
+bool isOneOf(const char* const (&names)[N], const std::string& name)
+{
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+/// The clouds without GPS times have nothing to say about how these count.
+bool isOfAll(const std::vector<Cloud>& clouds, vtkAbstractArray* field, const std::string& name)
+{
+  return !isOneOf(kOfOneCloud, name) &&
+    std::all_of(clouds.begin(), clouds.end(),
+      [&](const Cloud& cloud)
+      {
+        vtkAbstractArray* other = cloud.points->GetFieldData()->GetAbstractArray(name.c_str());
+        return isSame(field, other) || (!other && name == "LasGlobalEncoding");
+      });
+}
+
+void mergeFieldData(const std::vector<Cloud>& clouds, vtkPolyData* merged, std::vector<std::string>& notes)
+{
+  std::vector<std::string> lost;
+  for (const Cloud& from : clouds)
+  {
+    vtkFieldData* fields = from.points->GetFieldData();
+    for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* field = fields->GetAbstractArray(i);
+      const std::string name = field->GetName() ? field->GetName() : "";
+      if (isOfAll(clouds, field, name))
+      {
+        merged->GetFieldData()->AddArray(field);
+      }
+      else if (!isOneOf(kOfOneGrid, name) && std::find(lost.begin(), lost.end(), name) == lost.end())
+      {
+        lost.push_back(name);
+        notes.push_back(fmt::format("field data {} is not that of all inputs and is left out", name));
+      }
+    }
+  }
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPolyData> mergeClouds(const std::vector<Cloud>& clouds, std::vector<std::string>& notes)
+{
+  auto merged = vtkSmartPointer<vtkPolyData>::New();
+  MergedArray coordinates{ "Points", clouds.front().points->GetPoints()->GetDataType(), 3, {} };
+  for (const Cloud& cloud : clouds)
+  {
+    vtkDataArray* points = cloud.points->GetPoints()->GetData();
+    coordinates.type = coordinates.type == points->GetDataType() ? coordinates.type : VTK_DOUBLE;
+    coordinates.sources.push_back(points);
+  }
+  vtkNew<vtkPoints> points;
+  points->SetData(filled(coordinates, clouds, notes));
+  merged->SetPoints(points);
+  for (const MergedArray& array : planArrays(clouds, notes))
+  {
+    merged->GetPointData()->AddArray(filled(array, clouds, notes));
+  }
+  for (const Cloud& cloud : clouds)
+  {
+    vtkPointData* data = cloud.points->GetPointData();
+    if (data->GetScalars() && data->GetScalars()->GetName())
+    {
+      merged->GetPointData()->SetActiveScalars(data->GetScalars()->GetName());
+    }
+    if (data->GetNormals() && data->GetNormals()->GetName())
+    {
+      merged->GetPointData()->SetActiveNormals(data->GetNormals()->GetName());
+    }
+  }
+  mergeFieldData(clouds, merged, notes);
+  return merged;
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,138 @@
+#include "Terminal/StandardStreams.h"
+
+#include "Terminal/StopSignals.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr std::size_t kBlock = std::size_t{ 1 } << 20;
+
+/// Closes at the end.
+class Descriptor
+{
+public:
+  explicit Descriptor(int number)
+    : number_(number)
+  {
+  }
+  ~Descriptor()
+  {
+    if (number_ >= 0)
+    {
+      ::close(number_);
+    }
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+
+private:
+  int number_;
+};
+
+/// Waits, as a read cannot be ended by a signal that restarts it. False: a signal came.
+bool waitFor(int descriptor, short events)
+{
+  struct pollfd one = { descriptor, events, 0 };
+  while (!stopIsRequested() && ::poll(&one, 1, -1) < 0 && errno == EINTR)
+  {
+  }
+  return !stopIsRequested();
+}
+
+/// False: errno says why, or a signal came.
+bool copyAll(int from, int to)
+{
+  std::vector<char> block(kBlock);
+  while (waitFor(from, POLLIN))
+  {
+    const ssize_t got = ::read(from, block.data(), block.size());
+    if (got == 0)
+    {
+      return true;
+    }
+    if (got < 0 && errno != EINTR && errno != EAGAIN)
+    {
+      return false;
+    }
+    for (ssize_t done = 0; done < got;)
+    {
+      if (!waitFor(to, POLLOUT))
+      {
+        return false;
+      }
+      const ssize_t put = ::write(to, block.data() + done, static_cast<std::size_t>(got - done));
+      if (put < 0 && errno != EINTR && errno != EAGAIN)
+      {
+        return false;
+      }
+      done += put > 0 ? put : 0;
+    }
+  }
+  return false;
+}
+
+std::string reason()
+{
+  return stopIsRequested() ? "stopped on request; start it again"
+                           : std::string(std::strerror(errno)) + "; check the pipe and the space in TMPDIR";
+}
+
+} // namespace
+
+TemporaryFolder::TemporaryFolder()
+{
+  std::string name = (std::filesystem::temp_directory_path() / "pointhaptics-XXXXXX").string();
+  if (!::mkdtemp(name.data()))
+  {
+    throw std::runtime_error(
+      name + ": no temporary folder can be made: " + std::strerror(errno) + "; set TMPDIR to one with space");
+  }
+  folder_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+bool copyStandardInput(const std::string& path, std::string& message)
+{
+  rememberStopSignals();
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+  if (file.number() >= 0 && copyAll(STDIN_FILENO, file.number()))
+  {
+    return true;
+  }
+  message = "standard input cannot be read into " + path + ": " + reason();
+  return false;
+}
+
+bool copyToStandardOutput(const std::string& path, std::string& message)
+{
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.number() >= 0 && copyAll(file.number(), STDOUT_FILENO))
+  {
+    return true;
+  }
+  message = "standard output cannot be written: " + reason();
+  return false;
+}
+
+} // namespace app
+} // namespace pointhaptics

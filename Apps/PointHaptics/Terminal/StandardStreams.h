@@ -1,0 +1,34 @@
+/// @file
+/// Standard input and output as files: readers look at a file more than once, and writers go back in it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// A folder in that of temporary files (TMPDIR), removed at the end with all in it.
+class TemporaryFolder
+{
+public:
+  /// Throws std::runtime_error, with the cure, where none can be made.
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+private:
+  std::filesystem::path folder_;
+};
+
+/// Reads standard input to its end into a new file. A signal (StopSignals.h) ends it. False: @p message.
+bool copyStandardInput(const std::string& path, std::string& message);
+/// Writes the content of a file to standard output. False: @p message.
+bool copyToStandardOutput(const std::string& path, std::string& message);
+
+} // namespace app
+} // namespace pointhaptics

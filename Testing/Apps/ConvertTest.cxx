@@ -1,0 +1,175 @@
+#include "RunProgram.h"
+
+#include "../Unit/IO/E57File.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace
+{
+
+using namespace pointhaptics;
+using apptest::parseTable;
+using apptest::Table;
+using nlohmann::json;
+
+/// While it lives, a file is the standard input of this program and those it starts.
+class InputFrom
+{
+public:
+  explicit InputFrom(const std::string& path)
+    : before_(::dup(STDIN_FILENO))
+  {
+    const int file = ::open(path.c_str(), O_RDONLY);
+    ::dup2(file, STDIN_FILENO);
+    ::close(file);
+  }
+  ~InputFrom()
+  {
+    ::dup2(before_, STDIN_FILENO);
+    ::close(before_);
+  }
+
+private:
+  int before_;
+};
+
+class Convert : public apptest::CommandLine
+{
+protected:
+  void SetUp() override { this->write("in.csv", "x,y,z,Intensity\n1,2,3,10\n4,5.25,6,20\n"); }
+  /// Two scans, the second one turned by half about x and lifted.
+  std::string twoScans() const
+  {
+    E57TestScan first{ { e57Double("cartesianX", { 1, 2 }), e57Double("cartesianY", { 3, 4 }),
+                         e57Double("cartesianZ", { 5, 6 }) },
+      "<name type=\"String\">door</name>", "" };
+    E57TestScan second = first;
+    second.xml = e57Pose({ 0, 1, 0, 0 }, { 0, 0, 5017906.07 });
+    E57TestFile file{ { first, second } };
+    file.xml = "<e57LibraryVersion type=\"String\">a test</e57LibraryVersion>"
+               "<images2D type=\"Vector\"><vectorChild type=\"Structure\"/></images2D>";
+    return file.bytes();
+  }
+};
+
+TEST_F(Convert, GoesThroughEveryFormatAndBack)
+{
+  std::string last = "in.csv";
+  for (const char* extension : { "vtp", "ply", "pcd", "las", "csv" })
+  {
+    const std::string next = std::string("next.") + extension;
+    ASSERT_EQ(this->run({ "convert", last, next }).exitCode, 0) << next;
+    last = next;
+  }
+  const Table table = parseTable(this->read("next.csv"));
+  EXPECT_EQ(table.at("x"), (std::vector<double>{ 1, 4 }));
+  EXPECT_EQ(table.at("y"), (std::vector<double>{ 2, 5.25 }));
+  EXPECT_EQ(table.at("Intensity"), (std::vector<double>{ 10, 20 }));
+}
+
+TEST_F(Convert, SaysWhatItWrote)
+{
+  EXPECT_EQ(this->succeed({ "convert", "in.csv", "out.ply" }), "2 points: out.ply\n");
+  const json result = json::parse(this->succeed({ "convert", "in.csv", "out.ply", "--json" }));
+  EXPECT_EQ(result["inputs"], json::array({ "in.csv" }));
+  EXPECT_EQ(result["points"], 2);
+}
+
+TEST_F(Convert, TakesStandardInputAndOutput)
+{
+  this->succeed({ "convert", "in.csv", "in.vtp" });
+  {
+    const InputFrom input(this->path("in.vtp"));
+    const std::string ply = this->succeed({ "convert", "-", "-", "--output-format", "ply" });
+    this->write("back.ply", ply);
+  }
+  this->succeed({ "convert", "back.ply", "back.csv" });
+  EXPECT_EQ(parseTable(this->read("back.csv")), parseTable(this->read("in.csv")));
+  this->write("shape", "o shape\nv 1 2 3\n");
+  const InputFrom input(this->path("shape"));
+  EXPECT_EQ(this->succeed({ "convert", "-", "-", "--input-format", "obj", "--output-format", "csv" }),
+    "x,y,z\n1,2,3\n");
+}
+
+TEST_F(Convert, NamesStandardInputInItsMessages)
+{
+  this->write("odd", std::string("\1\2\3\0odd", 7));
+  const InputFrom input(this->path("odd"));
+  this->refuse(1, { "convert", "-", "out.ply" }, { "standard input: unknown format" });
+  EXPECT_FALSE(this->exists("out.ply"));
+}
+
+TEST_F(Convert, OutputFormatGoesBeforeTheExtension)
+{
+  this->succeed({ "convert", "in.csv", "out", "--output-format", "pcd" });
+  EXPECT_EQ(this->read("out").substr(0, 6), "# .PCD");
+  this->refuse(1, { "convert", "in.csv", "out.e57" }, { "out.e57: unknown extension \".e57\"", ".las" });
+}
+
+TEST_F(Convert, MergesWithEveryArrayOfEach)
+{
+  this->write("b.csv", "x,y,z,Class\n7,8,9,2\n");
+  const apptest::Outcome outcome = this->run({ "convert", "in.csv", "b.csv", "out.csv", "--together" });
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.errors.find("1 of 2 inputs have no Class: their points have 0 there"), std::string::npos)
+    << outcome.errors;
+  const Table table = parseTable(this->read("out.csv"));
+  EXPECT_EQ(table.at("x"), (std::vector<double>{ 1, 4, 7 }));
+  EXPECT_EQ(table.at("Intensity"), (std::vector<double>{ 10, 20, 0 }));
+  EXPECT_EQ(table.at("Class"), (std::vector<double>{ 0, 0, 2 }));
+}
+
+TEST_F(Convert, RefusesWhatWouldLoseAFile)
+{
+  this->write("b.csv", "x,y,z\n7,8,9\n");
+  this->refuse(2, { "convert", "in.csv", "b.csv", "out.csv" }, { "2 inputs and one output", "--together" });
+  this->refuse(2, { "convert", "in.csv", "in.csv", "b.csv", "--together" }, { "b.csv: is there already" });
+  EXPECT_EQ(this->read("b.csv"), "x,y,z\n7,8,9\n");
+  this->refuse(2, { "convert", "in.csv", "-" }, { "--output-format" });
+  this->refuse(2, { "convert", "in.csv", "-", "--output-format", "ply", "--json" }, { "--json" });
+}
+
+TEST_F(Convert, ScansComeTogetherOrStayWithTheirScanners)
+{
+  this->write("scans.e57", this->twoScans());
+  const apptest::Outcome outcome = this->run({ "convert", "scans.e57", "out.csv" });
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_NE(outcome.errors.find("1 image is not read"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("ScanPoses"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(
+    parseTable(this->read("out.csv")).at("z"), (std::vector<double>{ 5, 6, 5017906.07 - 5, 5017906.07 - 6 }));
+  EXPECT_EQ(this->run({ "convert", "scans.e57", "kept.csv", "--keep-poses" }).exitCode, 0);
+  EXPECT_EQ(parseTable(this->read("kept.csv")).at("z"), (std::vector<double>{ 5, 6, 5, 6 }));
+}
+
+TEST_F(Convert, InfoTellsGeneratorScansAndPoses)
+{
+  this->write("scans.e57", this->twoScans());
+  const std::string text = this->succeed({ "info", "scans.e57" });
+  for (const char* part :
+    { "format   E57 1.0", "written  by a test", "scan 1   door: 2 points, scanner at 0 0 0",
+      "scan 2   scan 2: 2 points, scanner at 0 0 5017906.07, quaternion 0 1 0 0",
+      "note     1 image is not read" })
+  {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  }
+  const json file = json::parse(this->succeed({ "info", "scans.e57", "--json" }))["files"][0];
+  EXPECT_EQ(file["generator"], "a test");
+  EXPECT_EQ(file["scans"][1]["translation"][2], 5017906.07);
+}
+
+TEST_F(Convert, InfoOfAValidFileWithoutPointsSaysSo)
+{
+  this->write("empty.e57", E57TestFile{}.bytes());
+  EXPECT_NE(this->succeed({ "info", "empty.e57" }).find("valid, but it holds no scan"), std::string::npos);
+  this->refuse(1, { "convert", "empty.e57", "out.ply" },
+    { "empty.e57: E57 1.0: the file is valid, but it holds no scan" });
+}
+
+} // namespace
