@@ -2,6 +2,7 @@
 /// What a servo loop drives: a hand position in, a force out.
 #pragma once
 
+#include "Core/Base/Lifetime.h"
 #include "Core/Base/Status.h"
 #include "Core/Base/Vector3.h"
 #include "Haptics/Servo/PassivityLimit.h"
@@ -38,6 +39,11 @@ public:
   /// Servo thread. Whether the loop may idle while the hand stands still in free space: true only where
   /// nobody can tell that an answer came a fiftieth of a second late. Default: no.
   virtual bool mayIdle() const noexcept { return false; }
+  /// For those who point to the port without owning it.
+  const Lifetime& lifetime() const noexcept { return lifetime_; }
+
+private:
+  Lifetime lifetime_;
 };
 
 } // namespace pointhaptics

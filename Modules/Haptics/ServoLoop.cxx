@@ -326,6 +326,7 @@ ServoLoop::ServoLoop()
 
 ServoLoop::~ServoLoop()
 {
+  lifetime_.end(); // nobody publishes any more
   stop();
 }
 

@@ -3,6 +3,7 @@
 /// sample.
 #pragma once
 
+#include "Core/Base/Lifetime.h"
 #include "Haptics/HapticPort.h"
 #include "Haptics/Proxy.h"
 #include "Haptics/Servo/ForceGuard.h"
@@ -141,10 +142,13 @@ public:
   ServoStatistics statistics() const noexcept;
   /// Moves all ticks since the last call to the end of @p samples, oldest first.
   void takeTrace(std::vector<ServoSample>& samples);
+  /// For those who point to the loop without owning it, such as threads that publish scenes.
+  const Lifetime& lifetime() const noexcept { return lifetime_; }
 
 private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
+  Lifetime lifetime_;
 };
 
 } // namespace pointhaptics

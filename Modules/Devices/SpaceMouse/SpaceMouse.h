@@ -5,6 +5,7 @@
 #include "Devices/SpaceMouse/HidBus.h"
 #include "Devices/SpaceMouse/SpaceMouseReport.h"
 
+#include "Core/Base/Lifetime.h"
 #include "Core/Base/Status.h"
 
 #include <memory>
@@ -40,10 +41,13 @@ public:
   std::string message() const;
   /// What message() says while none is plugged in.
   static constexpr const char* kNonePluggedIn = "spacemouse: none is plugged in";
+  /// For those who point to it without owning it.
+  const Lifetime& lifetime() const noexcept { return lifetime_; }
 
 private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
+  Lifetime lifetime_;
 };
 
 } // namespace pointhaptics
