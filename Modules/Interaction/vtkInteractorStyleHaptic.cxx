@@ -1,289 +1,120 @@
 #include "vtkInteractorStyleHaptic.h"
 
-#include "vtkInteractorStyleHapticInternals.h"
+#include "Gesture.h"
+#include "SteadyTime.h"
+#include "StyleCommands.h"
+#include "vtkHapticSliders.h"
+#include "vtkTDxInteractorStyleModel.h"
 
-#include "vtkCamera.h"
+#include "Devices/HapticDevice.h"
+#include "Devices/SimulatedDevice.h"
+
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
-#include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
-#include "vtkRenderer.h"
-#include "vtkRendererCollection.h"
 #include "vtkStringArray.h"
 
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <string>
+#include <algorithm>
 #include <utility>
-#include <vector>
 
 using pointhaptics::ServoSample;
-using pointhaptics::Vec3;
-
-namespace
-{
-
-constexpr std::size_t kLongestHistory = 100;
-
-/// While it lives, a chart that did not change is not drawn: the window keeps what it shows of it.
-class ChartPause
-{
-public:
-  ChartPause(vtkRenderer* chart, bool changed, std::vector<double>& picture)
-  {
-    const int* size = chart->GetVTKWindow() ? chart->GetVTKWindow()->GetActualSize() : nullptr;
-    std::vector<double> wanted(4);
-    chart->GetViewport(wanted.data());
-    wanted.push_back(size ? size[0] : 0);
-    wanted.push_back(size ? size[1] : 0);
-    if (chart->GetDraw() && !changed && wanted == picture)
-    {
-      chart_ = chart;
-      chart_->DrawOff();
-    }
-    picture = chart->GetDraw() || chart_ ? wanted : std::vector<double>();
-  }
-  ~ChartPause()
-  {
-    if (chart_)
-    {
-      chart_->DrawOn();
-    }
-  }
-  ChartPause(const ChartPause&) = delete;
-  ChartPause& operator=(const ChartPause&) = delete;
-
-private:
-  vtkRenderer* chart_ = nullptr;
-};
-
-} // namespace
 
 vtkStandardNewMacro(vtkInteractorStyleHaptic);
 
 vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
-  : Parts(new Internals)
+  : Screen(*this)
+  , Input(this->Commands)
+  , Scenes(this->Model)
+  , Hand(this->Screen, this->Model)
+  , Clutch(this->Commands, this->Screen, this->Model)
+  , Cap(this->Model, this->Screen)
+  , Tdx(vtkSmartPointer<vtkTDxInteractorStyleModel>::New())
+  , Status(this->Commands, this->Scenes, this->Hand, this->Clutch)
+  , Display(this->Screen)
+  , Picker(this->Screen, this->Scenes, this->Status)
 {
-  this->Parts->model->PostMultiply();
+  this->Tdx->SetModel(&this->Model, &this->Screen);
+  this->SetTDxStyle(this->Tdx);
+  pointhaptics::addStyleCommands(*this);
+  this->Commands.setObserver(
+    [this]
+    {
+      this->Status.updateHelp();
+      this->Display.requestRender();
+    });
+  this->Model.setObserver([this] { this->ModelMoved(); });
+  this->Scenes.setObserver([this](const pointhaptics::BuiltScene& built) { this->SceneShown(built); });
 }
 
-vtkInteractorStyleHaptic::~vtkInteractorStyleHaptic() = default;
+vtkInteractorStyleHaptic::~vtkInteractorStyleHaptic()
+{
+  this->Tdx->SetModel(nullptr, nullptr); // others may hold it still
+}
 
 void vtkInteractorStyleHaptic::SetServoLoop(pointhaptics::ServoLoop* servo)
 {
-  if (this->Parts->clutched)
-  {
-    this->Parts->servo->setClutched(false);
-  }
-  this->Parts->clutched = false;
-  this->Parts->hold = pointhaptics::HapticAction::None;
-  this->StopBuilding();
-  this->Parts->servo = servo;
-  this->Parts->publisher.setSink(
-    [servo](std::shared_ptr<const pointhaptics::HapticScene> scene)
-    {
-      if (servo)
-      {
-        servo->publishScene(std::move(scene));
-      }
-    });
-  this->Parts->modelChanged = true;
+  this->Servo = servo;
+  this->Clutch.setServo(servo);
+  this->Scenes.setServo(servo);
 }
 
-void vtkInteractorStyleHaptic::SetDevice(pointhaptics::SimulatedDevice* device)
+void vtkInteractorStyleHaptic::SetDevice(pointhaptics::HapticPort* device)
 {
-  this->Parts->device = device;
-}
-
-void vtkInteractorStyleHaptic::SetSpaceMouse(pointhaptics::SpaceMouse* mouse)
-{
-  this->Parts->mouse = mouse;
-}
-
-void vtkInteractorStyleHaptic::SetResampler(vtkVoxelMeanResampler* resampler)
-{
-  this->Parts->resampler = resampler;
-  this->Parts->modelChanged = true;
-  if (resampler)
-  {
-    resampler->SetTransform(this->Parts->resampled);
-  }
-}
-
-void vtkInteractorStyleHaptic::SetBandwidthFilter(vtkKernelBandwidthFilter* filter)
-{
-  this->Parts->bandwidth = filter;
-  this->Parts->modelChanged = true;
-}
-
-void vtkInteractorStyleHaptic::SetCloudActor(vtkActor* actor)
-{
-  this->Parts->cloudActor = actor;
-}
-
-void vtkInteractorStyleHaptic::SetProps(vtkHapticProps* props)
-{
-  this->Parts->props = props;
-}
-
-void vtkInteractorStyleHaptic::SetChart(vtkHapticChart* chart)
-{
-  this->Parts->chart = chart;
-}
-
-void vtkInteractorStyleHaptic::SetOverlay(vtkHapticOverlay* overlay)
-{
-  this->Parts->overlay = overlay;
-  if (overlay)
-  {
-    overlay->SetHelp(this->Parts->bindings.describe());
-  }
+  const auto* named = dynamic_cast<pointhaptics::HapticDevice*>(device);
+  this->Status.setDeviceName(named ? named->name() : device ? "without a name" : "");
+  this->Hand.setDevice(dynamic_cast<pointhaptics::SimulatedDevice*>(device));
 }
 
 void vtkInteractorStyleHaptic::SetSliders(vtkHapticSliders* sliders)
 {
-  this->Parts->sliders = sliders;
+  this->Sliders = sliders;
 }
 
-void vtkInteractorStyleHaptic::SetIdealForce(std::function<double(const Vec3&)> ideal)
+vtkHapticSliders* vtkInteractorStyleHaptic::GetSliders() const
 {
-  this->Parts->idealForce = std::move(ideal);
+  return this->Sliders;
 }
 
-void vtkInteractorStyleHaptic::SetBinding(pointhaptics::HapticAction action, const std::string& gestures)
+void vtkInteractorStyleHaptic::AdoptModel(
+  vtkMatrix4x4* matrix, std::shared_ptr<const pointhaptics::HapticScene> scene)
 {
-  if (this->Parts->bindings.set(action, gestures))
+  if (!this->Scenes.hasCloud())
   {
-    this->SetOverlay(this->Parts->overlay);
-    this->Parts->rendersWanted = true;
-  }
-}
-
-std::string vtkInteractorStyleHaptic::GetBinding(pointhaptics::HapticAction action) const
-{
-  return this->Parts->bindings.get(action);
-}
-
-void vtkInteractorStyleHaptic::SetWorkspaceBounds(const double bounds[6])
-{
-  std::copy(bounds, bounds + 6, this->Parts->workspace.begin());
-}
-
-void vtkInteractorStyleHaptic::SetModelMatrix(vtkMatrix4x4* matrix)
-{
-  this->Parts->initial->DeepCopy(matrix);
-  this->ResetModel();
-  this->Parts->history.clear();
-}
-
-vtkTransform* vtkInteractorStyleHaptic::GetModelTransform()
-{
-  return this->Parts->model;
-}
-
-void vtkInteractorStyleHaptic::TurnModel(double degrees, const Vec3& axis)
-{
-  if (!std::isfinite(degrees) || !isFinite(axis) || !(norm(axis) > 0.0))
-  {
+    this->SetModelMatrix(matrix);
     return;
   }
-  this->RememberModel();
-  const Vec3 c = this->Parts->center();
-  this->Parts->model->Translate(-c.x, -c.y, -c.z);
-  this->Parts->model->RotateWXYZ(degrees, axis.x, axis.y, axis.z);
-  this->Parts->model->Translate(c.x, c.y, c.z);
-  this->ModelChanged();
-}
-
-void vtkInteractorStyleHaptic::ShiftModel(const Vec3& offset)
-{
-  if (isFinite(offset))
-  {
-    this->RememberModel();
-    this->Parts->model->Translate(offset.x, offset.y, offset.z);
-    this->ModelChanged();
-  }
-}
-
-void vtkInteractorStyleHaptic::ZoomModel(double factor)
-{
-  if (!std::isfinite(factor) || !(factor > 0.0))
-  {
-    return;
-  }
-  this->RememberModel();
-  const Vec3 c = this->Parts->center();
-  this->Parts->model->Translate(-c.x, -c.y, -c.z);
-  this->Parts->model->Scale(factor, factor, factor);
-  this->Parts->model->Translate(c.x, c.y, c.z);
-  this->ModelChanged();
-}
-
-void vtkInteractorStyleHaptic::ResetModel()
-{
-  this->RememberModel();
-  this->Parts->model->SetMatrix(this->Parts->initial);
-  this->ModelChanged();
-}
-
-void vtkInteractorStyleHaptic::RememberModel()
-{
-  Internals& parts = *this->Parts;
-  if (parts.inGesture() && parts.gestureRemembered)
-  {
-    return;
-  }
-  parts.gestureRemembered = true;
-  std::array<double, 16> elements;
-  std::copy_n(parts.model->GetMatrix()->GetData(), elements.size(), elements.begin());
-  parts.history.push_back(elements);
-  if (parts.history.size() > kLongestHistory)
-  {
-    parts.history.pop_front();
-  }
-}
-
-bool vtkInteractorStyleHaptic::UndoModel()
-{
-  Internals& parts = *this->Parts;
-  while (!parts.history.empty())
-  {
-    const std::array<double, 16> elements = parts.history.back();
-    parts.history.pop_back();
-    // A reset of a model that had not moved changed nothing.
-    if (!std::equal(elements.begin(), elements.end(), parts.model->GetMatrix()->GetData()))
-    {
-      parts.model->SetMatrix(elements.data());
-      this->ModelChanged();
-      return true;
-    }
-  }
-  return false;
+  this->Model.adoptMatrix(matrix);
+  this->Picker.forget();
+  this->Scenes.adopt(std::move(scene));
+  this->InvokeEvent(ModelChangedEvent);
 }
 
 void vtkInteractorStyleHaptic::InvalidateModel()
 {
-  this->Parts->modelChanged = true;
-  this->ForgetPicked();
-}
-
-void vtkInteractorStyleHaptic::SetComputeResiduals(bool on)
-{
-  if (on != this->ComputeResiduals)
+  this->Scenes.invalidate();
+  if (this->Picker.forget())
   {
-    this->ComputeResiduals = on;
-    this->InvalidateModel();
+    this->Display.requestRender();
   }
 }
 
-void vtkInteractorStyleHaptic::SetComputeNormals(bool on)
+void vtkInteractorStyleHaptic::ModelMoved()
 {
-  if (on != this->ComputeNormals)
+  this->Picker.forget();
+  // With a timer at once: the next one, and what it has to draw, would come later.
+  this->Scenes.moveModel(this->Timer >= 0);
+  this->Display.requestRender();
+  this->InvokeEvent(ModelChangedEvent);
+}
+
+void vtkInteractorStyleHaptic::SceneShown(const pointhaptics::BuiltScene& built)
+{
+  if (built.empty && built.status != pointhaptics::Status::Empty)
   {
-    this->ComputeNormals = on;
-    this->InvalidateModel();
+    vtkErrorMacro("The model cannot be felt as it stands: " << pointhaptics::message(built.status)
+                                                            << this->Status.resetHint());
   }
+  this->Display.requestRender();
+  this->InvokeEvent(SceneChangedEvent);
 }
 
 void vtkInteractorStyleHaptic::StartUpdates(unsigned long milliseconds)
@@ -291,115 +122,129 @@ void vtkInteractorStyleHaptic::StartUpdates(unsigned long milliseconds)
   this->StopUpdates();
   if (this->Interactor)
   {
-    this->Parts->timer = this->Interactor->CreateRepeatingTimer(std::max(1ul, milliseconds));
+    this->Timer = this->Interactor->CreateRepeatingTimer(std::max(1ul, milliseconds));
   }
 }
 
 void vtkInteractorStyleHaptic::StopUpdates()
 {
-  if (this->Interactor && this->Parts->timer >= 0)
+  if (this->Interactor && this->Timer >= 0)
   {
-    this->Interactor->DestroyTimer(this->Parts->timer);
+    this->Interactor->DestroyTimer(this->Timer);
   }
-  this->Parts->timer = -1;
-}
-
-void vtkInteractorStyleHaptic::OnTimer()
-{
-  this->Refresh();
+  this->Timer = -1;
 }
 
 void vtkInteractorStyleHaptic::Refresh()
 {
-  Internals& parts = *this->Parts;
-  this->MoveBySpaceMouse();
-  if (parts.modelChanged && parts.resampler)
+  this->Cap.update(pointhaptics::steadySeconds());
+  this->Tdx->CheckForRest();
+  this->Scenes.poll();
+  const std::vector<ServoSample> samples = this->TakeSamples();
+  const ServoSample latest = this->Servo ? this->Servo->latest() : ServoSample();
+  const bool touchMoved = this->Servo && this->Display.update(samples, latest);
+  const bool commandRun = this->Clutch.take(samples);
+  if (this->Scenes.isSettled())
   {
-    this->RequestScene();
+    this->Clutch.letGo();
   }
-  this->ShowScene();
-  const bool touchMoved = this->ReadServo();
-  this->MoveByHand();
-  this->PushPointer();
-  const bool statusChanged = this->UpdateStatus();
-  parts.rendersWanted = parts.rendersWanted || touchMoved || statusChanged;
-  parts.touchMoved = touchMoved ? pointhaptics::style::now() : parts.touchMoved;
-  if (parts.rendersWanted && parts.renderShare.due())
+  this->Hand.update();
+  if (!this->Clutch.isHolding())
   {
-    this->RenderNow();
+    this->Hand.pushPointer(latest.state);
+  }
+  if (this->Status.update(this->Servo.get(), touchMoved) || touchMoved || commandRun)
+  {
+    this->Display.requestRender();
+  }
+  this->Display.renderIfDue();
+}
+
+std::vector<ServoSample> vtkInteractorStyleHaptic::TakeSamples()
+{
+  std::vector<ServoSample> samples;
+  if (!this->Servo)
+  {
+    this->Clutch.setServo(nullptr); // the loop may be gone while the hand held the model
+    return samples;
+  }
+  this->Servo->takeTrace(samples);
+  if (!samples.empty())
+  {
+    this->InvokeEvent(SamplesEvent, &samples);
+  }
+  return samples;
+}
+
+std::string vtkInteractorStyleHaptic::GestureOf(const char* name) const
+{
+  return pointhaptics::gestureOf(
+    name, this->Interactor->GetControlKey() != 0, this->Interactor->GetShiftKey() != 0);
+}
+
+void vtkInteractorStyleHaptic::Press(const char* button)
+{
+  if (this->Input.isDragging() || this->State != VTKIS_NONE)
+  {
+    return; // another button is down already
+  }
+  const int* position = this->Interactor->GetEventPosition();
+  this->FindPokedRenderer(position[0], position[1]);
+  this->Input.pressButton(this->GestureOf(button));
+  this->Display.requestRender();
+}
+
+void vtkInteractorStyleHaptic::OnMouseMove()
+{
+  this->Hand.setPointerInside(true);
+  if (this->Input.moveMouse())
+  {
+    return;
+  }
+  if (!this->Hand.followsMouse() || this->State != VTKIS_NONE || this->Input.isDragging())
+  {
+    this->Superclass::OnMouseMove();
+  }
+  // While the workspace moves over the model the camera moves too: the pointer is no place then.
+  else if (this->Clutch.hold() == pointhaptics::kIndexByHand)
+  {
+    this->Hand.drag();
+  }
+  else
+  {
+    this->Hand.follow();
   }
 }
 
-bool vtkInteractorStyleHaptic::ReadServo()
+void vtkInteractorStyleHaptic::OnKeyPress()
 {
-  Internals& parts = *this->Parts;
-  parts.samples.clear();
-  if (!parts.servo)
+  const char* symbol = this->Interactor->GetKeySym();
+  const std::string gesture =
+    pointhaptics::gestureOf(symbol ? symbol : "", this->Interactor->GetControlKey() != 0,
+      this->Interactor->GetShiftKey() != 0, this->Interactor->GetAltKey() != 0);
+  if (this->Input.pressKey(gesture))
   {
-    return false;
+    this->Display.requestRender();
   }
-  parts.servo->takeTrace(parts.samples);
-  bool changed = false;
-  if (parts.chart)
+  else
   {
-    for (const ServoSample& sample : parts.samples)
-    {
-      const double ideal =
-        parts.idealForce ? parts.idealForce(sample.state.hip) : std::numeric_limits<double>::quiet_NaN();
-      parts.chart->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius, ideal);
-    }
-    // A chart that is drawn seldom costs little; it is brought up to date only where a render would show it.
-    changed = parts.renderShare.due() && parts.chart->GetVisibility() && parts.chart->Update();
-    parts.chartChanged = parts.chartChanged || changed;
-  }
-  if (!parts.samples.empty())
-  {
-    this->InvokeEvent(SamplesEvent, &parts.samples);
-  }
-  const ServoSample latest = parts.servo->latest();
-  if (parts.props && latest.tick > 0)
-  {
-    changed = parts.props->Update(latest.state) || changed;
-  }
-  return changed;
-}
-
-void vtkInteractorStyleHaptic::RenderNow()
-{
-  Internals& parts = *this->Parts;
-  parts.rendersWanted = false;
-  if (this->Interactor)
-  {
-    parts.renderShare.run(
-      [this, &parts]
-      {
-        if (vtkRenderer* renderer = this->MainRenderer())
-        {
-          renderer->ResetCameraClippingRange();
-        }
-        std::optional<ChartPause> pause;
-        if (parts.chart)
-        {
-          pause.emplace(parts.chart->GetRenderer(), parts.chartChanged, parts.chartPicture);
-        }
-        parts.chartChanged = false;
-        this->Interactor->Render();
-      });
+    this->Superclass::OnKeyPress();
   }
 }
 
-vtkRenderer* vtkInteractorStyleHaptic::MainRenderer()
+void vtkInteractorStyleHaptic::OnKeyRelease()
 {
-  if (this->CurrentRenderer)
+  const char* symbol = this->Interactor->GetKeySym();
+  if (!this->Input.releaseKey(symbol ? symbol : ""))
   {
-    return this->CurrentRenderer;
+    this->Superclass::OnKeyRelease();
   }
-  if (this->DefaultRenderer)
-  {
-    return this->DefaultRenderer;
-  }
-  vtkRenderWindow* window = this->Interactor ? this->Interactor->GetRenderWindow() : nullptr;
-  return window ? window->GetRenderers()->GetFirstRenderer() : nullptr;
+}
+
+void vtkInteractorStyleHaptic::OnLeave()
+{
+  this->Hand.setPointerInside(false);
+  this->Superclass::OnLeave();
 }
 
 void vtkInteractorStyleHaptic::OnDropFiles(vtkStringArray* filePaths)
@@ -410,12 +255,8 @@ void vtkInteractorStyleHaptic::OnDropFiles(vtkStringArray* filePaths)
 void vtkInteractorStyleHaptic::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "UseCovariance: " << this->UseCovariance << "\n";
-  os << indent << "RefinesNearHand: " << this->RefinesNearHand << "\n";
-  os << indent << "ComputeResiduals: " << this->ComputeResiduals << "\n";
-  os << indent << "ComputeNormals: " << this->ComputeNormals << "\n";
-  os << indent << "HandMode: " << this->Parts->handMode << "\n";
-  os << indent << "ModelChanged: " << this->Parts->modelChanged << "\n";
+  os << indent << "HandMode: " << this->GetHandMode() << "\n";
+  os << indent << "ModelChanged: " << this->IsModelChanged() << "\n";
   os << indent << "ModelTransform:\n";
-  this->Parts->model->PrintSelf(os, indent.GetNextIndent());
+  this->Model.transform()->PrintSelf(os, indent.GetNextIndent());
 }

@@ -364,7 +364,7 @@ std::uint64_t HapticViewer::numberOfResamplings() const
 {
   const std::unique_ptr<ViewWindow>& window = implementation_->window;
   return std::uint64_t(implementation_->scene.resamplings()) +
-    (window ? window->style()->GetNumberOfBuilds() : 0);
+    (window ? window->style()->GetScenes().numberOfBuilds() : 0);
 }
 
 } // namespace pointhaptics

@@ -22,6 +22,8 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
+class CommandRegistry;
+
 /// Opens clouds, shows them and lets a hand feel them.
 /// @code
 /// HapticViewerOptions options;
@@ -83,6 +85,10 @@ public:
   vtkInteractorStyleHaptic* style();
   vtkRenderer* renderer();
   ///@}
+
+  /// The commands of every viewer with their usual keys, to be described, not run: for help texts. Those of a
+  /// viewer, to which a host may add its own: style()->GetCommands().
+  static CommandRegistry commands();
 
   /// What is drawn: voxel means with their arrays. Null before open().
   vtkPolyData* means();

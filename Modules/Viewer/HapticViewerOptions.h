@@ -74,11 +74,10 @@ struct HapticViewerOptions
   std::string forceChart; ///< PNG to write, force and proxy radius over time; empty: none.
 
   // The window.
-  std::vector<std::string>
-    bindings;               ///< ACTION=GESTURES, as vtkInteractorStyleHaptic::SetBinding() takes them.
-  bool pushPointer = false; ///< The mouse pointer is pushed out of what the hand touches.
-  bool together = false;    ///< All files as one cloud; else one at a time.
-  bool watch = false;       ///< Read files again when they change.
+  std::vector<std::string> bindings; ///< NAME=GESTURES, as CommandRegistry::bind() takes them.
+  bool pushPointer = false;          ///< The mouse pointer is pushed out of what the hand touches.
+  bool together = false;             ///< All files as one cloud; else one at a time.
+  bool watch = false;                ///< Read files again when they change.
   /// The window is shown while the first file is read, where that takes longer than 0.2 s and there is a
   /// display: for programs that call HapticViewer::run() next.
   bool showsReading = false;

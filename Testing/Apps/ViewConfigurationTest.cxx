@@ -59,7 +59,7 @@ const std::map<std::string, std::string>& valuesOfOptions()
   static const std::map<std::string, std::string> values = { { "--together", "" }, { "--watch", "" },
     { "--size", "320x240" }, { "--path", "hip.csv" }, { "--device", "none" },
     { "--falcon-firmware", "image.bin" }, { "--max-force", "3" }, { "--up", "y" }, { "--color-by", "Height" },
-    { "--point-size", "4" }, { "--resolution", "0.5" }, { "--bind", "help=F1 F2,turn-x=Ctrl+x" },
+    { "--point-size", "4" }, { "--resolution", "0.5" }, { "--bind", "help=F1 F2,rotate-x=Ctrl+x" },
     { "--camera", "0,0,1,0,0,0,0,1,0" }, { "--push-pointer", "" }, { "--axes", "" }, { "--figure", "" },
     { "--ambient", "" }, { "--ideal", "torus" }, { "--method", "gradient-steps" }, { "--preset", "paper" },
     { "--stiffness", "500" }, { "--damping", "1.5" }, { "--mu-s", "0.5" }, { "--mu-d", "0.25" },

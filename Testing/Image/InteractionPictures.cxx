@@ -120,14 +120,13 @@ void build(vtkRenderer* renderer)
 void mixBindings()
 {
   vtkInteractorStyleHaptic* style = stage().style;
-  const HapticAction swapped[][2] = { { HapticAction::TurnModelDrag, HapticAction::ShiftModelDrag },
-    { HapticAction::TurnViewDrag, HapticAction::PanViewDrag },
-    { HapticAction::HandAway, HapticAction::HandBack }, { HapticAction::Help, HapticAction::Sliders } };
+  const char* const swapped[][2] = { { "rotate-model-drag", "translate-model-drag" },
+    { "rotate-view-drag", "pan-view-drag" }, { "hand-away", "hand-back" }, { "help", "sliders" } };
   for (const auto& pair : swapped)
   {
-    const std::string first = style->GetBinding(pair[0]);
-    style->SetBinding(pair[0], style->GetBinding(pair[1]));
-    style->SetBinding(pair[1], first);
+    const std::string first = style->GetCommands().bindings(pair[0]);
+    style->GetCommands().bind(pair[0], style->GetCommands().bindings(pair[1]));
+    style->GetCommands().bind(pair[1], first);
   }
 }
 
@@ -193,7 +192,7 @@ std::string interactionState()
   const Vec3 hand = s.hand.target();
   addNumbers(text, "hand", &hand.x, 3);
   const double shown[] = { double(s.overlay->GetHelpVisibility()), double(s.sliders->GetVisibility()),
-    double(s.style->GetServoPanelVisibility()), double(s.style->GetHandMode()),
+    double(s.style->GetStatus().panelVisibility()), double(s.style->GetHandMode()),
     double(!s.overlay->GetDetail().empty()) };
   addNumbers(text, "shown", shown, 5);
   return text;

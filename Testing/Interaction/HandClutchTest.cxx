@@ -86,16 +86,16 @@ TEST_F(HandClutch, ShiftsTheModelByTheWayOfTheHandWhileTheButtonIsDownAndByNoOth
   hold(1);
   moveTo({ 0.010, -0.004, 0.025 });
   style->Refresh();
-  EXPECT_EQ(style->GetHold(), HapticAction::ShiftModelByHand);
+  EXPECT_EQ(style->GetClutch().hold(), "translate-model-by-hand");
   moveTo({ 0.012, -0.004, 0.025 });
   hold(0);
   moveTo({ 0.04, 0.04, 0.04 }); // before anybody has looked
   settle();
-  EXPECT_EQ(style->GetHold(), HapticAction::None);
+  EXPECT_EQ(style->GetClutch().hold(), "");
   EXPECT_NEAR(element(0, 3), 0.012, 1e-12);
   EXPECT_NEAR(element(1, 3), -0.004, 1e-12);
   EXPECT_NEAR(element(2, 3), -0.005, 1e-12);
-  EXPECT_TRUE(style->UndoModel());
+  EXPECT_TRUE(style->GetModel().undo());
   EXPECT_EQ(element(0, 3), 0.0) << "the whole hold is one change";
 }
 
@@ -192,7 +192,7 @@ TEST_F(HandClutch, SaysInTheWindowThatTheHandHoldsTheModel)
   vtkNew<vtkHapticOverlay> overlay;
   style->SetOverlay(overlay);
   style->SetHandMode(true);
-  style->SetPushPointer(true);
+  style->GetHand().setPushesPointer(true);
   style->Refresh();
   EXPECT_NE(overlay->GetStatus().find("touch pushes it"), std::string::npos) << overlay->GetStatus();
   hold(4);
@@ -212,7 +212,7 @@ TEST_F(HandClutch, LetsGoWhenTheDeviceFallsSilent)
   ASSERT_TRUE(eventually([&] { return servo.latest().device == Status::DeviceSilent; }));
   hand.device.setTarget({ -0.04, 0.0, 0.02 });
   style->Refresh();
-  EXPECT_EQ(style->GetHold(), HapticAction::None);
+  EXPECT_EQ(style->GetClutch().hold(), "");
   hand.silent = false;
   ASSERT_TRUE(eventually([&] { return servo.latest().device == Status::Ok; }));
   moveTo({ -0.03, 0.0, 0.02 });
@@ -225,7 +225,7 @@ TEST_F(HandClutch, LetsGoWhenTheDeviceFallsSilent)
 TEST_F(HandClutch, DoesWhatElseAButtonIsBoundToWhenItIsPressed)
 {
   begin(-0.03, 0.03);
-  style->SetBinding(HapticAction::ZoomIn, "hand2");
+  style->GetCommands().bind("scale-up", "hand2");
   hold(2);
   style->Refresh();
   const std::uint64_t then = servo.latest().tick;
@@ -260,7 +260,7 @@ TEST_F(HandClutch, HoldsAButtonOfTheSimulatedHandAsLongAsItsKey)
     style->Refresh(); // a timer may come between the two
     key(vtkCommand::KeyPressEvent);
     style->Refresh();
-    EXPECT_EQ(style->GetHold(), HapticAction::ShiftModelByHand) << "a key that repeats stays down";
+    EXPECT_EQ(style->GetClutch().hold(), "translate-model-by-hand") << "a key that repeats stays down";
   }
   key(vtkCommand::KeyReleaseEvent);
   EXPECT_TRUE(eventually(
@@ -270,7 +270,7 @@ TEST_F(HandClutch, HoldsAButtonOfTheSimulatedHandAsLongAsItsKey)
       return servo.latest().buttons == 0;
     }));
   settle();
-  EXPECT_EQ(style->GetHold(), HapticAction::None);
+  EXPECT_EQ(style->GetClutch().hold(), "");
 }
 
 } // namespace

@@ -56,12 +56,12 @@ TEST_F(InteractorStyleHaptic, ShowsTheOldMeansWhereTheModelIsUntilTheNewOnesCome
   EXPECT_EQ(shift(), 0.0);
   for (int step = 1; step <= 3; ++step)
   {
-    style_->ShiftModel({ 0.002, 0.0, 0.0 });
+    style_->GetModel().translate({ 0.002, 0.0, 0.0 });
     EXPECT_NEAR(shift(), 0.002 * step, 1e-12) << step;
   }
   style_->UpdateModel();
   EXPECT_NEAR(shift(), 0.0, 1e-12); // the new means are there themselves
-  style_->ShiftModel({ 0.002, 0.0, 0.0 });
+  style_->GetModel().translate({ 0.002, 0.0, 0.0 });
   EXPECT_NEAR(shift(), 0.002, 1e-12);
 }
 
@@ -69,15 +69,18 @@ TEST_F(InteractorStyleHaptic, ComputesArraysOfTheFeltSurfaceOnRequest)
 {
   vtkPointData* data = bandwidth_->GetOutput()->GetPointData();
   EXPECT_FALSE(data->HasArray(kResidualArrayName));
-  style_->SetComputeResiduals(true);
-  style_->SetComputeNormals(true);
+  SceneOptions options;
+  options.computeResiduals = true;
+  options.computeNormals = true;
+  style_->GetScenes().setOptions(options);
   EXPECT_TRUE(style_->IsModelChanged());
   style_->UpdateModel();
   EXPECT_TRUE(data->HasArray(kResidualArrayName));
   EXPECT_TRUE(data->HasArray(kSurfaceNormalArrayName));
-  style_->SetComputeResiduals(true);
+  style_->GetScenes().setOptions(options);
   EXPECT_FALSE(style_->IsModelChanged()) << "nothing is other than it was";
-  style_->SetComputeResiduals(false);
+  options.computeResiduals = false;
+  style_->GetScenes().setOptions(options);
   style_->UpdateModel();
   EXPECT_FALSE(data->HasArray(kResidualArrayName));
   EXPECT_TRUE(data->HasArray(kSurfaceNormalArrayName));
@@ -116,31 +119,31 @@ TEST_F(InteractorStyleHaptic, GoesBackToTheMatrixItWasGiven)
 TEST_F(InteractorStyleHaptic, TellsThatZoomGivesMoreVoxels)
 {
   resampler_->SetDimensions(40, 40, 40);
-  style_->ZoomModel(0.5);
+  style_->GetModel().scale(0.5);
   style_->UpdateModel();
   const vtkIdType before = bandwidth_->GetOutput()->GetNumberOfPoints();
-  style_->ZoomModel(2.0);
+  style_->GetModel().scale(2.0);
   style_->UpdateModel();
   EXPECT_GT(bandwidth_->GetOutput()->GetNumberOfPoints(), before);
 }
 
 TEST_F(InteractorStyleHaptic, SaysThatTheModelHasLeftTheWorkspace)
 {
-  style_->ShiftModel({ 1.0, 0.0, 0.0 });
+  style_->GetModel().translate({ 1.0, 0.0, 0.0 });
   EXPECT_FALSE(style_->UpdateModel());
   EXPECT_EQ(sceneChanges_, 1);
-  style_->ResetModel();
+  style_->GetModel().reset();
   EXPECT_TRUE(style_->UpdateModel());
 }
 
 TEST_F(InteractorStyleHaptic, IgnoresNumbersThatAreNone)
 {
-  style_->ZoomModel(0.0);
-  style_->ZoomModel(-1.0);
-  style_->ZoomModel(NAN);
-  style_->TurnModel(NAN, { 1, 0, 0 });
-  style_->TurnModel(10, { 0, 0, 0 });
-  style_->ShiftModel({ NAN, 0, 0 });
+  style_->GetModel().scale(0.0);
+  style_->GetModel().scale(-1.0);
+  style_->GetModel().scale(NAN);
+  style_->GetModel().rotate(NAN, { 1, 0, 0 });
+  style_->GetModel().rotate(10, { 0, 0, 0 });
+  style_->GetModel().translate({ NAN, 0, 0 });
   EXPECT_TRUE(this->modelIsIdentity());
   EXPECT_EQ(modelChanges_, 0);
 }
@@ -152,7 +155,7 @@ TEST_F(InteractorStyleHaptic, TurnsTheCameraOnAPlainDragAndTheModelWithShift)
   this->drag(vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, 30, 0, false, true);
   EXPECT_FALSE(this->modelIsIdentity());
   EXPECT_DOUBLE_EQ(renderer_->GetActiveCamera()->GetPosition()[0], before[0]);
-  style_->ResetModel();
+  style_->GetModel().reset();
   this->drag(vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, 30, 0, false, false);
   EXPECT_TRUE(this->modelIsIdentity());
   EXPECT_NE(renderer_->GetActiveCamera()->GetPosition()[0], before[0]);
@@ -192,7 +195,7 @@ TEST_F(InteractorStyleHaptic, DrivesTheHandInTheViewPlaneAndInDepth)
   interactor_->SetEventInformation(100, 140, 0, 0);
   interactor_->InvokeEvent(vtkCommand::MouseMoveEvent);
   EXPECT_GT(device.target().y, 0.01);
-  style_->MoveHand({ 10, 10, 10 });
+  style_->GetHand().move({ 10, 10, 10 });
   EXPECT_DOUBLE_EQ(device.target().x, 0.05); // stays in the workspace
   style_->SetDevice(nullptr);
 }
@@ -256,32 +259,32 @@ TEST_F(InteractorStyleHaptic, TakesBackTheLastMoveAsAWhole)
   EXPECT_TRUE(style_->IsModelChanged());
   this->press("u");
   EXPECT_TRUE(this->modelIsIdentity());
-  EXPECT_FALSE(style_->UndoModel());
+  EXPECT_FALSE(style_->GetModel().undo());
 }
 
 TEST_F(InteractorStyleHaptic, TakesAResetBackButNotTheMatrixOfAnotherCloud)
 {
-  style_->ZoomModel(2.0);
-  style_->ResetModel();
-  style_->ResetModel(); // changes nothing
-  EXPECT_TRUE(style_->UndoModel());
+  style_->GetModel().scale(2.0);
+  style_->GetModel().reset();
+  style_->GetModel().reset(); // changes nothing
+  EXPECT_TRUE(style_->GetModel().undo());
   EXPECT_EQ(this->element(0, 0), 2.0);
   vtkNew<vtkMatrix4x4> other;
   style_->SetModelMatrix(other);
-  EXPECT_FALSE(style_->UndoModel());
+  EXPECT_FALSE(style_->GetModel().undo());
 }
 
 TEST_F(InteractorStyleHaptic, DoesOnAnotherKeyWhatItIsToldTo)
 {
   vtkNew<vtkHapticOverlay> overlay;
   style_->SetOverlay(overlay);
-  style_->SetBinding(HapticAction::TurnX, "F5");
-  EXPECT_EQ(style_->GetBinding(HapticAction::TurnX), "F5");
+  style_->GetCommands().bind("rotate-x", "F5");
+  EXPECT_EQ(style_->GetCommands().bindings("rotate-x"), "F5");
   EXPECT_NE(overlay->GetHelp().find("F5"), std::string::npos);
   this->press("F5");
   EXPECT_FALSE(this->modelIsIdentity());
   this->press("u");
-  style_->SetBinding(HapticAction::TurnModelDrag, "left");
+  style_->GetCommands().bind("rotate-model-drag", "left");
   this->drag(vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent, 30, 0, false, false);
   EXPECT_FALSE(this->modelIsIdentity());
 }
@@ -309,9 +312,9 @@ TEST_F(InteractorStyleHaptic, PicksTheMeanUnderTheMouseAlsoInAPartOfTheWindow)
   EXPECT_NE(overlay->GetDetail().find("bandwidth"), std::string::npos) << overlay->GetDetail();
   EXPECT_NEAR(picked.voxelBounds->minimum.x, -0.05 + 0.001 * picked.voxel->x, 1e-12);
   EXPECT_NEAR(picked.voxelBounds->extent().y, 0.001, 1e-12);
-  EXPECT_FALSE(style_->PickAt(1, 199));
+  EXPECT_FALSE(style_->GetPicker().pickAt(1, 199));
   EXPECT_EQ(overlay->GetDetail(), "");
-  EXPECT_TRUE(style_->PickAt(int(display[0]), int(display[1])));
+  EXPECT_TRUE(style_->GetPicker().pickAt(int(display[0]), int(display[1])));
   this->press("x");
   EXPECT_EQ(overlay->GetDetail(), "") << "another place has another voxel";
 }

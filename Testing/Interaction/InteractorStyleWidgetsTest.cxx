@@ -79,7 +79,7 @@ TEST_F(InteractorStyleWidgets, KeepsThePictureOfAChartThatDidNotChange)
   countStarts(chart->GetRenderer(), drawings);
   const auto draw = [&](const char* note)
   {
-    style_->SetStatusNote(note);
+    style_->GetStatus().setNote(note);
     const int before = frames;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (frames == before && std::chrono::steady_clock::now() < deadline)
@@ -107,7 +107,7 @@ TEST_F(InteractorStyleWidgets, ShowsTheServoPanelWithTheDevice)
 {
   vtkNew<vtkHapticOverlay> overlay;
   style_->SetOverlay(overlay);
-  style_->SetDeviceNote("falcon, unhomed");
+  style_->GetStatus().setDeviceNote("falcon, unhomed");
   style_->Refresh();
   EXPECT_EQ(overlay->GetPanel(), "");
   this->press("i");
@@ -117,12 +117,12 @@ TEST_F(InteractorStyleWidgets, ShowsTheServoPanelWithTheDevice)
   SimulatedDevice device;
   style_->SetServoLoop(&servo);
   ASSERT_EQ(servo.start(device, {}), Status::Ok);
-  style_->SetDeviceNote("simulated");
+  style_->GetStatus().setDeviceNote("simulated");
   style_->Refresh();
   servo.stop();
   style_->SetServoLoop(nullptr);
   EXPECT_NE(overlay->GetPanel().find("running"), std::string::npos);
-  EXPECT_NE(overlay->GetPanel().find("missed"), std::string::npos);
+  EXPECT_NE(overlay->GetPanel().find("deadline misses"), std::string::npos);
 }
 
 TEST_F(InteractorStyleWidgets, KeepsAPausedChartAsItIs)

@@ -138,7 +138,7 @@ TEST_F(SpaceMouseStyle, ShiftsTheModelAsTheCapIsShiftedOnTheScreen)
   // Seen from the right, where the screen's right is the workspace's -z.
   cap.shift[2] = 0;
   ASSERT_TRUE(rests());
-  style->ResetModel();
+  style->GetModel().reset();
   renderer->GetActiveCamera()->SetPosition(0.4, 0, 0);
   cap.shift[0] = 350;
   EXPECT_TRUE(refreshUntil([&] { return model()->GetElement(2, 3) < -0.002; }));

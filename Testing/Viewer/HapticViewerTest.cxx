@@ -210,7 +210,7 @@ TEST_F(HapticViewerTest, ResamplesACloudOnceBeforeItsFirstPicture)
   };
   ticks(20); // also the hand's scenes make no more of them
   EXPECT_EQ(viewer.numberOfResamplings(), 1u);
-  viewer.style()->InvokeEvent(vtkInteractorStyleHaptic::NextFileEvent);
+  EXPECT_TRUE(viewer.style()->GetCommands().run("next-file"));
   for (int i = 0; i < 2000 && viewer.numberOfPoints() != 50000; ++i)
   {
     ticks(1);
@@ -219,7 +219,7 @@ TEST_F(HapticViewerTest, ResamplesACloudOnceBeforeItsFirstPicture)
   ticks(20);
   EXPECT_EQ(viewer.numberOfResamplings(), 2u);
   EXPECT_FALSE(viewer.style()->IsModelChanged());
-  viewer.style()->ZoomModel(0.9);
+  viewer.style()->GetModel().scale(0.9);
   EXPECT_TRUE(viewer.style()->UpdateModel());
   EXPECT_EQ(viewer.numberOfResamplings(), 3u);
   EXPECT_TRUE(viewer.stop());
@@ -247,7 +247,7 @@ TEST_F(HapticViewerTest, RunsInTheEventLoopOfItsHost)
   ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
   viewer.renderWindow()->SetOffScreenRendering(1);
   ASSERT_TRUE(viewer.start()) << viewer.message();
-  viewer.style()->ZoomModel(2.0);
+  viewer.style()->GetModel().scale(2.0);
   for (int i = 0; i < 3; ++i)
   {
     int timer = 1;

@@ -4,8 +4,8 @@
 
 #include "Options/OptionParsing.h"
 
-#include "HapticBindings.h"
-#include "vtkInteractorStyleHaptic.h"
+#include "CommandRegistry.h"
+#include "HapticViewer.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -48,6 +48,12 @@ std::string upper(std::string word)
   return word;
 }
 
+/// Of all commands, also those that some windows have not.
+std::string keysHelp()
+{
+  return HapticViewer::commands().help(CommandRegistry::Scope::All);
+}
+
 std::string optionsOf(const CLI::App& command)
 {
   std::string text;
@@ -82,7 +88,7 @@ std::string manPage(CLI::App& program)
         roff(below->get_description()), optionsOf(*below));
     }
   }
-  text += ".SH KEYS AND MOUSE OF VIEW\n.nf\n" + roff(vtkInteractorStyleHaptic::GetHelpText()) + "\n.fi\n";
+  text += ".SH KEYS AND MOUSE OF VIEW\n.nf\n" + roff(keysHelp()) + "\n.fi\n";
   text += ".SH EXIT STATUS\n0: done, 1: failed, 2: the command line is wrong.\n";
   text +=
     ".SH FILES\n.TP\n\\fI$XDG_STATE_HOME/pointhaptics/view.json\\fR\nWhat the last window ended with, in "
@@ -142,9 +148,8 @@ complete -o filenames -F _pointhaptics pointhaptics
 std::string cheatSheet()
 {
   return "# Keys and mouse of `pointhaptics view`\n\nThis is what the help in the window (key " +
-    HapticBindings().firstLabel(HapticAction::Help) +
-    ") shows. Made by `pointhaptics manual keys`.\n\n```\n" +
-    std::string(vtkInteractorStyleHaptic::GetHelpText()) + "\n```\n";
+    HapticViewer::commands().label("help") + ") shows. Made by `pointhaptics manual keys`.\n\n```\n" +
+    keysHelp() + "\n```\n";
 }
 
 } // namespace

@@ -5,7 +5,9 @@
 #include "Terminal/KeyedHelp.h"
 #include "Terminal/Messages.h"
 
-#include "HapticBindings.h"
+#include "CommandRegistry.h"
+#include "Gesture.h"
+#include "HapticViewer.h"
 
 #include "Shapes/Shapes.h"
 
@@ -159,21 +161,17 @@ void checkBinding(const std::string& text)
 {
   const std::size_t equals = text.find('=');
   const std::string action = text.substr(0, equals);
-  if (equals == std::string::npos || hapticActionFromName(action) == HapticAction::None)
+  const CommandRegistry commands = HapticViewer::commands();
+  if (equals == std::string::npos || !commands.get(action))
   {
-    std::vector<std::string> names;
-    for (HapticAction each : hapticActions())
-    {
-      names.emplace_back(hapticActionName(each));
-    }
     throwUsage("--bind", text,
       fmt::format("{}; give ACTION=KEY, such as help=F1, with one of: {}",
-        equals == std::string::npos ? "no key" : "no such action", fmt::join(names, ", ")));
+        equals == std::string::npos ? "no key" : "no such action", fmt::join(commands.names(), ", ")));
   }
   std::istringstream gestures(text.substr(equals + 1));
   for (std::string gesture; gestures >> gesture;)
   {
-    if (!HapticBindings::isGesture(gesture))
+    if (!isGesture(gesture))
     {
       throwUsage("--bind", text,
         fmt::format("\"{}\" is no key or gesture; give names such as F1, plus, Ctrl+z, Shift+left or hand1, "
@@ -203,7 +201,7 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
   };
   command
     .add_option_function<std::vector<std::string>>("--bind", keepBindings,
-      "Gives an action other keys or gestures, such as help=F1 or shift-model-by-hand=hand2; several "
+      "Gives an action other keys or gestures, such as help=F1 or translate-model-by-hand=hand2; several "
       "separated by commas")
     ->delimiter(',')
     ->type_name("ACTION=KEY,...")

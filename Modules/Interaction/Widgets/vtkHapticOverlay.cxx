@@ -3,7 +3,6 @@
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkCoordinate.h"
-#include "vtkInteractorStyleHaptic.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
 #include "vtkTextActor.h"
@@ -90,7 +89,6 @@ vtkHapticOverlay::vtkHapticOverlay()
   this->Help->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   this->Help->SetPosition(0.5, 0.5);
   this->Help->VisibilityOff();
-  this->SetHelp(vtkInteractorStyleHaptic::GetHelpText());
   this->Fitting->SetClientData(this);
   this->Fitting->SetCallback(
     [](vtkObject*, unsigned long, void* self, void*) { static_cast<vtkHapticOverlay*>(self)->FitHelp(); });

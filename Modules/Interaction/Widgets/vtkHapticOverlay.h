@@ -49,7 +49,8 @@ public:
   ///@}
 
   /**
-   * Text of the help plate in the middle. Default: the keys and drags of vtkInteractorStyleHaptic.
+   * Text of the help plate in the middle. Default: none; vtkInteractorStyleHaptic sets
+   * that of its commands.
    */
   void SetHelp(const std::string& text);
 

@@ -5,6 +5,7 @@
 #include "ViewScene.h"
 
 #include "CloudAppearance.h"
+#include "Gesture.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
@@ -52,6 +53,8 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
   , parameters_(options.haptics)
   , files_(std::move(files))
 {
+  ViewWindow::addCommands(style_->GetCommands(), this);
+  style_->GetCommands().bind(options_.bindings);
 }
 
 ViewWindow::~ViewWindow()
@@ -61,19 +64,10 @@ ViewWindow::~ViewWindow()
   {
     this->report(HapticViewerObserver::Kind::Error, message);
   }
-  this->letGo();
   if (isOpen_)
   {
     window_->RemoveRenderer(scene_.renderer());
   }
-}
-
-/// The style outlives this where a host keeps it, and its threads look at the servo loop.
-void ViewWindow::letGo()
-{
-  style_->SetServoLoop(nullptr);
-  style_->SetDevice(nullptr);
-  style_->SetSpaceMouse(nullptr);
 }
 
 void ViewWindow::report(HapticViewerObserver::Kind kind, const std::string& message) const
@@ -92,11 +86,6 @@ void ViewWindow::openWindow()
   window_->SetWindowName("PointHaptics");
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(nullptr); // until there is something to move
-  for (const std::string& binding : options_.bindings)
-  {
-    const std::size_t equals = binding.find('=');
-    style_->SetBinding(hapticActionFromName(binding.substr(0, equals)), binding.substr(equals + 1));
-  }
   isOpen_ = true;
 }
 
@@ -121,11 +110,9 @@ void ViewWindow::showBar(const std::string& words, double part)
 bool ViewWindow::isCancelKey()
 {
   const std::string key = interactor_->GetKeySym() ? interactor_->GetKeySym() : "";
-  const std::string gesture = HapticBindings::gestureOf(
-    key, interactor_->GetControlKey() != 0, interactor_->GetShiftKey() != 0, interactor_->GetAltKey() != 0);
-  HapticBindings bindings;
-  bindings.set(HapticAction::Quit, style_->GetBinding(HapticAction::Quit));
-  return key == "Escape" || bindings.find(gesture) == HapticAction::Quit;
+  const Command* command = style_->GetCommands().find(gestureOf(
+    key, interactor_->GetControlKey() != 0, interactor_->GetShiftKey() != 0, interactor_->GetAltKey() != 0));
+  return key == "Escape" || (command && command->name == "quit");
 }
 
 bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
@@ -266,9 +253,8 @@ bool ViewWindow::openDevice(std::string& message)
       openProblem(*device_, status, options_.names.firmware));
     return false;
   }
-  style_->SetDevice(hand_.get());
+  style_->SetDevice(device_);
   style_->SetServoLoop(device_ ? &servo_ : nullptr);
-  style_->SetDeviceNote(device_ ? device_->name() : "none");
   // Where there is none, it may be plugged in later; where there is no driver, the window does without.
   static_cast<void>(spaceMouse_.start());
   style_->SetSpaceMouse(&spaceMouse_);
@@ -288,7 +274,7 @@ void ViewWindow::observe(unsigned long event, void (ViewWindow::*handler)(void*)
 {
   struct Link
   {
-    ViewWindow* window;
+    WatchedPointer<ViewWindow> window; // a host may keep the style for longer
     void (ViewWindow::*handler)(void*);
   };
   vtkNew<vtkCallbackCommand> command;
@@ -298,7 +284,10 @@ void ViewWindow::observe(unsigned long event, void (ViewWindow::*handler)(void*)
     [](vtkObject*, unsigned long, void* client, void* callData)
     {
       const Link* link = static_cast<Link*>(client);
-      (link->window->*link->handler)(callData);
+      if (ViewWindow* window = link->window.get())
+      {
+        (window->*link->handler)(callData);
+      }
     });
   style_->AddObserver(event, command);
 }
@@ -308,17 +297,14 @@ void ViewWindow::connectStyle()
   double bounds[6];
   scene_.getWorkspaceBounds(bounds);
   style_->SetWorkspaceBounds(bounds);
-  style_->SetUseCovariance(options_.voxels.computeCovariance);
-  style_->SetRefinesNearHand(!options_.hasVoxels());
   scene_.showAmbient(options_.ambient);
-  style_->SetComputeNormals(options_.ambient);
-  style_->SetComputeResiduals(scene_.wantsResiduals());
+  this->setSceneOptions();
   style_->SetResampler(scene_.resampler());
   style_->SetBandwidthFilter(scene_.bandwidth());
   style_->SetCloudActor(scene_.actor());
   style_->SetProps(scene_.props());
   style_->SetOverlay(overlay_);
-  style_->SetPushPointer(options_.pushPointer);
+  style_->GetHand().setPushesPointer(options_.pushPointer);
   this->findIdeal();
   style_->SetDefaultRenderer(scene_.renderer());
   this->showNote();
@@ -326,14 +312,6 @@ void ViewWindow::connectStyle()
   this->observe(vtkInteractorStyleHaptic::SceneChangedEvent, &ViewWindow::onSceneChanged);
   this->observe(vtkInteractorStyleHaptic::SamplesEvent, &ViewWindow::onSamples);
   this->observe(vtkInteractorStyleHaptic::FilesDroppedEvent, &ViewWindow::onFilesDropped);
-  this->observe(vtkInteractorStyleHaptic::ScreenshotEvent, &ViewWindow::onScreenshot);
-  this->observe(vtkInteractorStyleHaptic::NextFileEvent, &ViewWindow::onNextFile);
-  this->observe(vtkInteractorStyleHaptic::PreviousFileEvent, &ViewWindow::onPreviousFile);
-  this->observe(vtkInteractorStyleHaptic::WriteSettingsEvent, &ViewWindow::onWriteSettings);
-  this->observe(vtkInteractorStyleHaptic::AxesEvent, &ViewWindow::onAxes);
-  this->observe(vtkInteractorStyleHaptic::FigureEvent, &ViewWindow::onFigure);
-  this->observe(vtkInteractorStyleHaptic::ColorsEvent, &ViewWindow::onColors);
-  this->observe(vtkInteractorStyleHaptic::AmbientEvent, &ViewWindow::onAmbient);
   interactor_->SetInteractorStyle(style_);
   this->connectSliders();
   if (options_.figure)
@@ -411,7 +389,7 @@ void ViewWindow::followDevices()
     const std::string news = falconUpdates_.next(*falcon_);
     if (falconUpdates_.state() != before)
     {
-      style_->SetDeviceNote(fmt::format("falcon, {}", name(falconUpdates_.state())));
+      style_->GetStatus().setDeviceNote(fmt::format("falcon, {}", name(falconUpdates_.state())));
     }
     if (!news.empty())
     {
@@ -445,7 +423,7 @@ void ViewWindow::showNote()
 {
   const std::string scale =
     describeScale(style_->GetModelTransform()->GetMatrix(), options_.unit, options_.metresPerUnit);
-  style_->SetStatusNote(news_.empty() ? scale : scale + "\n" + news_);
+  style_->GetStatus().setNote(news_.empty() ? scale : scale + "\n" + news_);
 }
 
 /// To the host and in the window.
@@ -487,7 +465,6 @@ bool ViewWindow::finish(std::string& message)
   }
   servo_.stop();
   style_->Refresh(); // the last ticks
-  this->letGo();
   spaceMouse_.stop();
   if (device_)
   {

@@ -1,6 +1,6 @@
 /// @file
 /// The viewer's window with the live touch: ViewWindow.cxx sets it up, runs it and closes it,
-/// ViewWindowActions.cxx does what the user asks of it.
+/// ViewCommands.cxx lists what its keys do, ViewWindowActions.cxx does it.
 #pragma once
 
 #include "CloudLoader.h"
@@ -15,6 +15,7 @@
 #include "vtkHapticSliders.h"
 #include "vtkInteractorStyleHaptic.h"
 
+#include "Core/Base/Lifetime.h"
 #include "Devices/Falcon/FalconDevice.h"
 #include "Devices/Falcon/FalconUpdates.h"
 #include "Devices/PathReplay.h"
@@ -69,6 +70,10 @@ public:
   vtkRenderWindow* window() { return window_; }
   vtkRenderWindowInteractor* interactor() { return interactor_; }
   vtkInteractorStyleHaptic* style() { return style_; }
+  const Lifetime& lifetime() const { return lifetime_; }
+
+  /// Adds what @p window can do to the commands of its style. Null: to be described, not run.
+  static void addCommands(CommandRegistry& commands, ViewWindow* window);
 
 private:
   /// Files that are being read to be shown.
@@ -80,7 +85,6 @@ private:
     std::function<void(bool isShown)> then; ///< Also after a cancel.
     FileWatch watch;                        ///< From before the first byte was read.
   };
-  void letGo();
   void openWindow();
   bool isCancelKey();
   void showBar(const std::string& words, double part);
@@ -95,14 +99,15 @@ private:
   void observe(unsigned long event, void (ViewWindow::*handler)(void*));
   void onSamples(void* callData);
   void onFilesDropped(void* callData);
-  void onScreenshot(void*);
-  void onNextFile(void*);
-  void onPreviousFile(void*);
-  void onWriteSettings(void*);
-  void onAxes(void*);
-  void onFigure(void*);
-  void onColors(void*);
-  void onAmbient(void*);
+  void writeScreenshot();
+  void showNextFile();
+  void showPreviousFile();
+  void writeSettings();
+  void toggleAxes();
+  void toggleFigure();
+  void showNextColors();
+  void toggleAmbient();
+  void setSceneOptions();
   void endAwaitingColors();
   void showFigure(bool figure);
   void onSlider(int slider);
@@ -168,7 +173,8 @@ private:
   SpaceMouse spaceMouse_;
   HapticDevice* device_ = nullptr;
   CloudLoader loader_;
-  ServoLoop servo_; // last: destroyed, and so stopped, first
+  ServoLoop servo_;   // destroyed, and so stopped, before the device
+  Lifetime lifetime_; // last: it ends first
 };
 
 } // namespace pointhaptics

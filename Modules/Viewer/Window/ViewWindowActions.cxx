@@ -175,7 +175,7 @@ void ViewWindow::show(LoadedCloud cloud)
   scene_.getWorkspaceBounds(bounds);
   style_->SetWorkspaceBounds(bounds);
   style_->SetResampler(scene_.resampler());
-  style_->SetComputeResiduals(scene_.wantsResiduals());
+  this->setSceneOptions();
   this->adoptModel(model);
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
   if (!keepsModel)
@@ -221,9 +221,9 @@ void ViewWindow::findIdeal()
 {
   const std::shared_ptr<IdealForce> ideal = idealFor(scene_, options_);
   wholeIdeal_ = ideal ? std::make_shared<IdealForce>(*ideal) : nullptr;
-  style_->SetIdealForce(ideal ? [this, ideal](const Vec3& hip)
+  style_->GetDisplay().setIdealForce(ideal ? [this, ideal](const Vec3& hip)
       { return idealForce(*ideal, scene_, hip, parameters_.contact.stiffness); }
-                              : std::function<double(const Vec3&)>());
+                                           : std::function<double(const Vec3&)>());
 }
 
 void ViewWindow::showFile(std::size_t index)
@@ -247,12 +247,12 @@ void ViewWindow::showFile(std::size_t index)
   }
 }
 
-void ViewWindow::onNextFile(void*)
+void ViewWindow::showNextFile()
 {
   this->showFile((fileIndex_ + 1) % std::max<std::size_t>(1, files_.size()));
 }
 
-void ViewWindow::onPreviousFile(void*)
+void ViewWindow::showPreviousFile()
 {
   const std::size_t count = std::max<std::size_t>(1, files_.size());
   this->showFile((fileIndex_ + count - 1) % count);
@@ -271,7 +271,7 @@ HapticViewerState ViewWindow::state()
   camera->GetPosition(&state.camera[0]);
   camera->GetFocalPoint(&state.camera[3]);
   camera->GetViewUp(&state.camera[6]);
-  state.pushPointer = style_->GetPushPointer();
+  state.pushPointer = style_->GetHand().pushesPointer();
   state.axes = scene_.showsAxes();
   state.figure = scene_.isFigure();
   state.ambient = options_.ambient;
@@ -282,7 +282,7 @@ HapticViewerState ViewWindow::state()
   return state;
 }
 
-void ViewWindow::onWriteSettings(void*)
+void ViewWindow::writeSettings()
 {
   if (!observer_.writeState)
   {
@@ -344,7 +344,7 @@ void ViewWindow::onSlider(int slider)
     default:
       voxelSize_ = 1e-3 * value;
       scene_.resampler()->SetVoxelSize(voxelSize_);
-      style_->SetRefinesNearHand(false); // whoever chooses voxels feels these
+      this->setSceneOptions();
       style_->InvalidateModel();
   }
 }
@@ -365,19 +365,20 @@ void ViewWindow::setContact(const ContactParameters& contact)
   this->tell(message.empty() ? pointhaptics::message(status) : message);
 }
 
-void ViewWindow::onAxes(void*)
+void ViewWindow::toggleAxes()
 {
   scene_.showAxes(!scene_.showsAxes());
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
 }
 
-void ViewWindow::onFigure(void*)
+void ViewWindow::toggleFigure()
 {
+  style_->GetPicker().forget();
   this->showFigure(!scene_.isFigure());
 }
 
 /// The next of what the cloud can be coloured by.
-void ViewWindow::onColors(void*)
+void ViewWindow::showNextColors()
 {
   const std::vector<std::string> choices = scene_.colorChoices();
   const auto shown = std::find(choices.begin(), choices.end(), scene_.colorBy());
@@ -386,7 +387,7 @@ void ViewWindow::onColors(void*)
   // Another file may have no colours: they are what comes of itself.
   options_.colorBy = next == "rgb" ? std::string() : next;
   const bool waits = scene_.setColorBy(options_.colorBy);
-  style_->SetComputeResiduals(scene_.wantsResiduals());
+  this->setSceneOptions();
   if (waits)
   {
     style_->InvalidateModel();
@@ -409,11 +410,22 @@ void ViewWindow::endAwaitingColors()
   awaitedColors_.clear();
 }
 
-void ViewWindow::onAmbient(void*)
+void ViewWindow::toggleAmbient()
 {
   options_.ambient = !options_.ambient;
   scene_.showAmbient(options_.ambient);
-  style_->SetComputeNormals(options_.ambient);
+  this->setSceneOptions();
+}
+
+/// What scenes are made with, and which arrays the picture needs.
+void ViewWindow::setSceneOptions()
+{
+  SceneOptions options;
+  options.useCovariance = options_.useCovariance;
+  options.refinesNearHand = !options_.hasVoxels() && voxelSize_ <= 0.0; // whoever chooses voxels feels these
+  options.computeResiduals = scene_.wantsResiduals();
+  options.computeNormals = options_.ambient;
+  style_->GetScenes().setOptions(options);
 }
 
 /// Texts, chart and sliders go; help, chart and sliders that the user opens in the figure are shown.
@@ -428,7 +440,7 @@ void ViewWindow::showFigure(bool figure)
     sliders_->SetVisibility(false);
     chartBesideFigure_ = chart_->GetVisibility();
   }
-  style_->SetChartVisibility(!figure && chartBesideFigure_);
+  style_->GetDisplay().setChartVisibility(!figure && chartBesideFigure_);
 }
 
 bool ViewWindow::writeImage(const std::string& fileName, std::string& message)
@@ -438,7 +450,7 @@ bool ViewWindow::writeImage(const std::string& fileName, std::string& message)
   return writePicture(window_, fileName, message);
 }
 
-void ViewWindow::onScreenshot(void*)
+void ViewWindow::writeScreenshot()
 {
   const std::string name = freeFileName("png", screenshots_);
   std::string message;

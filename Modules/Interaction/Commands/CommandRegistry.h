@@ -1,0 +1,137 @@
+/// @file
+/// Everything that keys, mouse and the device's buttons do: one entry a command.
+#pragma once
+
+#include "Core/Base/Vector3.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// From the press of a mouse button to its release. Each may be empty; without @c move the mouse is left to
+/// VTK's style.
+struct DragAction
+{
+  std::function<void()> begin = {};
+  std::function<void()> move = {};
+  std::function<void()> end = {};
+};
+
+/// A notch of the wheel: +1 away from the person, -1 towards the person.
+struct WheelAction
+{
+  std::function<void(int direction)> turn;
+};
+
+/// As long as a key is down. A key that repeats is up and down again each time.
+struct HoldAction
+{
+  std::function<void(bool isDown)> hold;
+};
+
+/// As long as a button of the haptic device is down: the hand holds the model instead of feeling it. @c move
+/// gets how far the hand has moved since the last call, metres in the workspace; @c end may be empty.
+struct GripAction
+{
+  std::function<void(const Vec3& way)> move = {};
+  std::function<void()> end = {};
+};
+
+/// A plain function is called once per key press, click or press of the device's button.
+using CommandAction = std::variant<std::function<void()>, DragAction, WheelAction, HoldAction, GripAction>;
+
+struct Command
+{
+  std::string name;     ///< "write-settings": for --bind and SetBinding().
+  std::string gestures; ///< The default ones, separated by spaces; see Gesture.h. Empty: none.
+  std::string group;    ///< Heading in the help.
+  std::string help;     ///< Commands of a group with the same text share a line of the help.
+  CommandAction action = {};
+  /// Whether the program has what the command works on; the help leaves it out otherwise. Empty: always.
+  std::function<bool()> isAvailable = {};
+};
+
+/// Calls the function of @p command if it is of the kind that happens once. False: it is null or of another
+/// kind.
+POINTHAPTICSINTERACTION_EXPORT bool runOnce(const Command* command);
+
+/// The commands of one window, and the table from gestures to them. A gesture has one command at most.
+///
+/// A program adds a key, its line in the help and its name for bindings by one call:
+/// @code
+/// commands.add({ "grid", "g", "Show", "a grid on the floor", [&] { grid.toggle(); } });
+/// @endcode
+/// Not thread safe: GUI thread only.
+class POINTHAPTICSINTERACTION_EXPORT CommandRegistry
+{
+public:
+  /// Which commands the help has: those of this program at this moment, or all.
+  enum class Scope
+  {
+    Available,
+    All
+  };
+
+  /// Adds @p command with its default gestures, which are taken from the commands that had them. One with the
+  /// same name is replaced, and its gestures in force stay.
+  void add(Command command);
+  /// False: there is no such command.
+  bool remove(const std::string& name);
+  /// A line of the help for what is no command, such as "files dropped on the window".
+  void addNote(const std::string& group, const std::string& what, const std::string& help);
+
+  /// The command named so, or null. Valid until the next add() or remove().
+  const Command* get(const std::string& name) const;
+  /// What its key does, for a button or menu of the program. False: see runOnce().
+  bool run(const std::string& name) const { return runOnce(this->get(name)); }
+  /// In the order they were added.
+  std::vector<std::string> names() const;
+
+  /// Gives the command @p name these gestures, separated by spaces, in place of those it has; they are taken
+  /// from the commands that had them. Empty: it cannot be reached. False, and nothing changes: there is no
+  /// such command.
+  bool bind(const std::string& name, const std::string& gestures);
+  /// The same for each NAME=GESTURES of @p bindings. What is no binding or names no command is left out.
+  void bind(const std::vector<std::string>& bindings);
+  /// The gestures of @p name, separated by spaces, in the order they were given.
+  std::string bindings(const std::string& name) const;
+  /// The first of them as it stands on the keyboard: "A", "Page Up", "Shift+left drag". Empty: there is none.
+  std::string label(const std::string& name) const;
+  /// What @p gesture does, or null; see fallbacksOf(). Valid as get()'s.
+  const Command* find(const std::string& gesture) const;
+
+  /// What can be done, one thing a line, in columns: group, gestures, words. Groups and lines in the order of
+  /// their first command. Commands without a gesture are left out.
+  std::string help(Scope scope = Scope::Available) const;
+
+  /// Called after each change.
+  void setObserver(std::function<void()> changed) { changed_ = std::move(changed); }
+  /// A copy to be bound and described, but not run: without functions and observer. help(Scope::All) is its.
+  CommandRegistry described() const;
+
+private:
+  struct Entry
+  {
+    Command command; ///< A note has no name; what it is about stands in place of the gesture.
+    std::vector<std::string> gestures;
+  };
+  Entry* entryOf(const std::string& name);
+  const Entry* entryOf(const std::string& name) const;
+  void setGestures(Entry& entry, const std::string& gestures);
+  const Command* findExactly(const std::string& gesture) const;
+  std::string labelOf(const std::string& gesture) const;
+  std::string labelsOf(const std::vector<const Entry*>& line, Scope scope) const;
+  void reportChange() const;
+
+  std::vector<Entry> entries_;
+  std::function<void()> changed_;
+};
+
+} // namespace pointhaptics

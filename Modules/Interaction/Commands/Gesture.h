@@ -1,0 +1,37 @@
+/// @file
+/// The names of keys and mouse gestures.
+#pragma once
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// A gesture is a button of the mouse (left, middle, right), wheel, a button of the haptic device (hand1 to
+/// hand4), or a key by its X11 name (h, H, Prior, Left, plus), after the modifiers it takes in this order:
+/// Ctrl+, Shift+. Letters carry Shift themselves: X, not Shift+x.
+
+/// "Ctrl+Shift+left" and the like of an event; @p name is a button, wheel or a key. With @p alt it begins
+/// with Alt+, which no binding has. A capital letter with Ctrl and without Shift is one of Caps Lock, and
+/// becomes small.
+POINTHAPTICSINTERACTION_EXPORT std::string gestureOf(
+  const std::string& name, bool control, bool shift, bool alt = false);
+/// Whether @p gesture can be made at all: modifiers in their order, then a button, the wheel or one word. A
+/// key is known by its keyboard only, so that every other word counts as one.
+POINTHAPTICSINTERACTION_EXPORT bool isGesture(const std::string& gesture);
+
+/// What @p gesture also stands for where it has no command itself, best first. A key does what it does
+/// without modifiers and in lower case. But a letter with Ctrl+ or Alt+ is another command in most programs,
+/// and the mouse does only what it is bound to: these stand for nothing else.
+std::vector<std::string> fallbacksOf(const std::string& gesture);
+/// As it stands on the keyboard: "Page Up", "Shift+left", "device's button 1". A small letter stays small.
+std::string gestureLabel(const std::string& gesture);
+/// The same letter in upper case, where @p gesture is a small letter with or without Ctrl+; else empty.
+std::string capitalOf(const std::string& gesture);
+/// Of the mouse: left, middle, right, with or without modifiers.
+bool isMouseButton(const std::string& gesture);
+
+} // namespace pointhaptics

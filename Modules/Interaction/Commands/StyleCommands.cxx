@@ -1,0 +1,273 @@
+#include "StyleCommands.h"
+
+#include "vtkHapticChart.h"
+#include "vtkHapticSliders.h"
+#include "vtkInteractorStyleHaptic.h"
+
+#include "vtkCamera.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+
+#include <cmath>
+#include <string>
+
+namespace pointhaptics
+{
+namespace
+{
+
+using Camera = vtkInteractorStyleTrackballCamera;
+
+constexpr double kDegreesPerPixel = 0.4;
+constexpr double kDegreesPerKey = 5.0;
+constexpr double kScalePerStep = 1.1;
+/// Parts of the workspace's longest edge.
+constexpr double kTranslationPerKey = 0.02;
+constexpr double kDepthPerKey = 0.02;
+constexpr double kDepthPerWheelStep = 0.01;
+/// Radius of the ball that the hand rolls, and the way it has to go to scale by e.
+constexpr double kBallRadius = 0.25;
+constexpr double kWayPerScale = 0.25;
+
+void addCameraCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
+{
+  const auto drag = [&style](void (vtkInteractorStyle::*begin)(), void (vtkInteractorStyle::*end)()) {
+    return DragAction{ [&style, begin] { (style.*begin)(); }, {}, [&style, end] { (style.*end)(); } };
+  };
+  const auto dolly = [&style](int direction)
+  {
+    if (style.GetHand().followsMouse())
+    {
+      style.GetHand().moveInDepth(direction * kDepthPerWheelStep * style.GetModel().edge());
+    }
+    else if (direction > 0)
+    {
+      style.Camera::OnMouseWheelForward();
+    }
+    else
+    {
+      style.Camera::OnMouseWheelBackward();
+    }
+  };
+  const auto showAll = [&style]
+  {
+    if (vtkRenderer* renderer = style.GetScreen().renderer())
+    {
+      renderer->ResetCamera(style.GetModel().workspaceBounds().data());
+    }
+  };
+  const char* const group = "Look";
+  commands.add({ "rotate-view-drag", "left", group, "rotate the view",
+    drag(&vtkInteractorStyle::StartRotate, &vtkInteractorStyle::EndRotate) });
+  commands.add({ "pan-view-drag", "middle", group, "pan",
+    drag(&vtkInteractorStyle::StartPan, &vtkInteractorStyle::EndPan) });
+  commands.add({ "dolly-view-drag", "right", group, "nearer, farther",
+    drag(&vtkInteractorStyle::StartDolly, &vtkInteractorStyle::EndDolly) });
+  commands.add({ "dolly-view-wheel", "wheel", group, "nearer, farther", WheelAction{ dolly } });
+  commands.add({ "reset-view", "r", group, "whole workspace", showAll });
+}
+
+/// The mouse rolls a ball: the axis lies in the view plane, across the motion.
+void rotateByMouse(vtkInteractorStyleHaptic& style)
+{
+  if (style.GetScreen().renderer())
+  {
+    const int* to = style.GetInteractor()->GetEventPosition();
+    const int* from = style.GetInteractor()->GetLastEventPosition();
+    const ScreenAxes screen = style.GetScreen().axes();
+    const double dx = to[0] - from[0];
+    const double dy = to[1] - from[1];
+    style.GetModel().rotate(kDegreesPerPixel * std::hypot(dx, dy), dx * screen.up - dy * screen.right);
+  }
+}
+
+void translateByMouse(vtkInteractorStyleHaptic& style)
+{
+  if (style.GetScreen().renderer())
+  {
+    style.GetModel().translate(style.GetScreen().mouseMotion(style.GetModel().center()));
+  }
+}
+
+void translateOnScreen(vtkInteractorStyleHaptic& style, double right, double up)
+{
+  if (style.GetScreen().renderer())
+  {
+    const ScreenAxes screen = style.GetScreen().axes();
+    const double step = kTranslationPerKey * style.GetModel().edge();
+    style.GetModel().translate(step * (right * screen.right + up * screen.up));
+  }
+}
+
+void addModelCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
+{
+  ModelTransform& model = style.GetModel();
+  const auto drag = [&style, &model](void (*move)(vtkInteractorStyleHaptic&))
+  {
+    return DragAction{ [&model] { model.beginGesture(); }, [&style, move] { move(style); },
+      [&model] { model.endGesture(); } };
+  };
+  const auto rotate = [&model](double degrees, const Vec3& axis)
+  { return [&model, degrees, axis] { model.rotate(degrees, axis); }; };
+  const auto translate = [&style](double right, double up)
+  { return [&style, right, up] { translateOnScreen(style, right, up); }; };
+  const auto scale = [&model](int direction) { model.scale(std::pow(kScalePerStep, direction)); };
+  const char* const group = "Model";
+  commands.add({ "rotate-model-drag", "Shift+left", group, "rotate", drag(rotateByMouse) });
+  commands.add({ "rotate-x", "x", group, "rotate", rotate(kDegreesPerKey, { 1.0, 0.0, 0.0 }) });
+  commands.add({ "rotate-back-x", "X", group, "rotate", rotate(-kDegreesPerKey, { 1.0, 0.0, 0.0 }) });
+  commands.add({ "rotate-y", "y", group, "rotate", rotate(kDegreesPerKey, { 0.0, 1.0, 0.0 }) });
+  commands.add({ "rotate-back-y", "Y", group, "rotate", rotate(-kDegreesPerKey, { 0.0, 1.0, 0.0 }) });
+  commands.add({ "rotate-z", "z", group, "rotate", rotate(kDegreesPerKey, { 0.0, 0.0, 1.0 }) });
+  commands.add({ "rotate-back-z", "Z", group, "rotate", rotate(-kDegreesPerKey, { 0.0, 0.0, 1.0 }) });
+  commands.add(
+    { "translate-model-drag", "Shift+middle Ctrl+Shift+left", group, "translate", drag(translateByMouse) });
+  commands.add({ "translate-left", "Left", group, "translate", translate(-1.0, 0.0) });
+  commands.add({ "translate-right", "Right", group, "translate", translate(1.0, 0.0) });
+  commands.add({ "translate-up", "Up", group, "translate", translate(0.0, 1.0) });
+  commands.add({ "translate-down", "Down", group, "translate", translate(0.0, -1.0) });
+  commands.add({ "scale-model-wheel", "Shift+wheel", group, "scale", WheelAction{ scale } });
+  commands.add({ "scale-up", "plus equal KP_Add", group, "scale", [scale] { scale(+1); } });
+  commands.add({ "scale-down", "minus underscore KP_Subtract", group, "scale", [scale] { scale(-1); } });
+  commands.add({ "undo-model", "u Ctrl+z", group, "undo the last move", [&model] { model.undo(); } });
+  commands.add(
+    { "reset-model", "0 Home KP_0 KP_Home", group, "back to the start", [&model] { model.reset(); } });
+}
+
+void addHandCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
+{
+  MouseHand& hand = style.GetHand();
+  const auto hasHand = [&hand] { return hand.hasDevice(); };
+  const auto depth = [&style, &hand](double edges) { hand.moveInDepth(edges * style.GetModel().edge()); };
+  const auto wheel = [depth](int direction) { depth(direction * kDepthPerWheelStep); };
+  const auto follow = [&hand] { hand.setFollowsMouse(!hand.followsMouse()); };
+  const auto push = [&hand] { hand.setPushesPointer(!hand.pushesPointer()); };
+  const char* const group = "Hand";
+  commands.add({ "move-hand-drag", "Ctrl+left", group, "move in the view plane",
+    DragAction{ {}, [&hand] { hand.drag(); }, {} }, hasHand });
+  commands.add({ "hand-depth-wheel", "Ctrl+wheel", group, "depth", WheelAction{ wheel }, hasHand });
+  commands.add(
+    { "hand-away", "Prior KP_Prior Page_Up", group, "depth", [depth] { depth(kDepthPerKey); }, hasHand });
+  commands.add(
+    { "hand-back", "Next KP_Next Page_Down", group, "depth", [depth] { depth(-kDepthPerKey); }, hasHand });
+  commands.add({ "hand-mode", "f space", group, "hand follows the mouse", follow, hasHand });
+  commands.add({ "push-pointer", "g", group, "touch pushes the mouse pointer", push, hasHand });
+}
+
+/// As if a ball of a quarter of the workspace were rolled under the hand.
+void rotateByHand(vtkInteractorStyleHaptic& style, const Vec3& way)
+{
+  const ScreenAxes screen = style.GetScreen().axes();
+  const Vec3 inPlane = way - dot(way, screen.forward) * screen.forward;
+  const double degrees = norm(inPlane) / (kBallRadius * style.GetModel().edge()) * 180.0 / std::acos(-1.0);
+  style.GetModel().rotate(degrees, -1.0 * cross(screen.forward, inPlane));
+}
+
+/// The camera goes with the model, which stays where it is on the screen.
+void moveWorkspace(vtkInteractorStyleHaptic& style, const Vec3& way)
+{
+  vtkCamera* camera = style.GetScreen().renderer()->GetActiveCamera();
+  Vec3 eye;
+  Vec3 focus;
+  camera->GetPosition(&eye.x);
+  camera->GetFocalPoint(&focus.x);
+  eye += way;
+  focus += way;
+  camera->SetPosition(&eye.x);
+  camera->SetFocalPoint(&focus.x);
+  style.GetModel().translate(way);
+}
+
+void addClutchCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
+{
+  const auto hasServo = [&style] { return style.GetServoLoop() != nullptr; };
+  const auto translate = [&style](const Vec3& way) { style.GetModel().translate(way); };
+  const auto rotate = [&style](const Vec3& way) { rotateByHand(style, way); };
+  const auto index = [&style](const Vec3& way) { moveWorkspace(style, way); };
+  // The pointer drives the hand, and the picture stayed while the hand went.
+  const auto indexed = [&style] { style.GetHand().putPointerOnHand(); };
+  const auto scale = [&style](const Vec3& way)
+  {
+    const double forward = dot(way, style.GetScreen().axes().forward);
+    style.GetModel().scale(std::exp(-forward / (kWayPerScale * style.GetModel().edge())));
+  };
+  const char* const group = "Hand";
+  commands.add({ "translate-model-by-hand", "hand1", group, "held: hand translates the model",
+    GripAction{ translate }, hasServo });
+  commands.add({ "rotate-model-by-hand", "hand2", group, "held: hand rotates the model", GripAction{ rotate },
+    hasServo });
+  commands.add({ kIndexByHand, "hand3", group, "held: workspace moves over the model",
+    GripAction{ index, indexed }, hasServo });
+  commands.add(
+    { "scale-model-by-hand", "hand4", group, "held: hand scales the model", GripAction{ scale }, hasServo });
+  for (int i = 0; i < 4; ++i)
+  {
+    const std::string key = std::to_string(i + 1);
+    commands.add({ "hand-button-" + key, key + " KP_" + key, group, "buttons of the simulated hand",
+      HoldAction{ [&style, i](bool isDown) { style.GetHand().holdButton(i, isDown); } },
+      [&style] { return style.GetHand().hasDevice(); } });
+  }
+}
+
+void addShowCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
+{
+  StatusText& status = style.GetStatus();
+  TouchDisplay& display = style.GetDisplay();
+  const auto help = [&status]
+  { status.showHelp(status.overlay() && !status.overlay()->GetHelpVisibility()); };
+  const auto pick = [&style]
+  {
+    const int* position = style.GetInteractor()->GetEventPosition();
+    style.GetPicker().pickAt(position[0], position[1]);
+  };
+  const auto sliders = [&style]
+  {
+    if (style.GetSliders())
+    {
+      style.GetSliders()->SetVisibility(!style.GetSliders()->GetVisibility());
+    }
+  };
+  const auto panel = [&status] { status.setPanelVisibility(!status.panelVisibility()); };
+  const auto hasChart = [&display] { return display.chart() != nullptr; };
+  const auto chart = [&display, hasChart]
+  { display.setChartVisibility(hasChart() && !display.chart()->GetVisibility()); };
+  const auto pause = [&display]
+  {
+    if (display.chart())
+    {
+      display.chart()->SetPaused(!display.chart()->GetPaused());
+    }
+  };
+  const auto hasOverlay = [&status] { return status.overlay() != nullptr; };
+  const auto hasCloud = [&style] { return style.GetScenes().hasCloud(); };
+  const auto hasSliders = [&style] { return style.GetSliders() != nullptr; };
+  const char* const group = "Show";
+  commands.add({ "help", "h question", group, "this help", help, hasOverlay });
+  commands.add({ "pick", "p", group, "the point under the mouse", pick, hasCloud });
+  commands.add({ "sliders", "v", group, "sliders of the touch", sliders, hasSliders });
+  commands.add({ "servo-panel", "i", group, "servo loop and device", panel, hasOverlay });
+  commands.add({ "chart", "c", group, "chart, pause the chart", chart, hasChart });
+  commands.add({ "pause-chart", "t", group, "chart, pause the chart", pause, hasChart });
+}
+
+} // namespace
+
+void addStyleCommands(vtkInteractorStyleHaptic& style)
+{
+  CommandRegistry& commands = style.GetCommands();
+  addCameraCommands(commands, style);
+  addModelCommands(commands, style);
+  addHandCommands(commands, style);
+  addClutchCommands(commands, style);
+  addShowCommands(commands, style);
+  commands.add({ "quit", "q Escape", "Program", "quit",
+    [&style]
+    {
+      if (style.GetInteractor())
+      {
+        style.GetInteractor()->ExitCallback();
+      }
+    } });
+}
+
+} // namespace pointhaptics

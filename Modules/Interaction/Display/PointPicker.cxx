@@ -1,0 +1,72 @@
+#include "PointPicker.h"
+
+#include "PointPicking.h"
+#include "ScenePipeline.h"
+#include "ScreenView.h"
+#include "StatusText.h"
+#include "vtkPickMarker.h"
+
+#include "vtkPolyData.h"
+#include "vtkRenderer.h"
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kPickPixels = 8.0;
+
+} // namespace
+
+PointPicker::PointPicker(const ScreenView& screen, const ScenePipeline& scenes, const StatusText& status)
+  : screen_(screen)
+  , scenes_(scenes)
+  , status_(status)
+  , marker_(vtkSmartPointer<vtkPickMarker>::New())
+{
+}
+
+PointPicker::~PointPicker() = default;
+
+bool PointPicker::pickAt(int x, int y)
+{
+  vtkRenderer* renderer = screen_.renderer();
+  vtkPolyData* cloud = scenes_.cloud();
+  PickedPoint picked;
+  if (!renderer || !cloud || !pickPoint(cloud, renderer, x, y, kPickPixels, picked))
+  {
+    this->forget();
+    return false;
+  }
+  if (scenes_.bandwidthFilter())
+  {
+    // A neighborhood that has no bandwidth leaves it at 0, which is not shown.
+    static_cast<void>(measurePicked(cloud, scenes_.bandwidthFilter()->GetSettings(), picked));
+  }
+  double voxel[6];
+  for (int axis = 0; picked.voxelBounds && axis < 3; ++axis)
+  {
+    voxel[2 * axis] = picked.voxelBounds->minimum[axis];
+    voxel[2 * axis + 1] = picked.voxelBounds->maximum[axis];
+  }
+  marker_->AddTo(renderer);
+  marker_->Mark(&picked.inWorkspace.x, picked.voxelBounds ? voxel : nullptr, picked.bandwidth);
+  if (vtkHapticOverlay* overlay = status_.overlay())
+  {
+    overlay->SetDetail(describePicked(cloud, picked));
+  }
+  return true;
+}
+
+bool PointPicker::forget()
+{
+  const bool wasShown = marker_->GetVisibility();
+  marker_->SetVisibility(false);
+  if (vtkHapticOverlay* overlay = status_.overlay())
+  {
+    overlay->SetDetail("");
+  }
+  return wasShown;
+}
+
+} // namespace pointhaptics

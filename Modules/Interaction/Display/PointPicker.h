@@ -1,0 +1,42 @@
+/// @file
+/// The voxel mean under the mouse: marked in the picture, and told in the overlay.
+#pragma once
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include "vtkSmartPointer.h"
+
+class vtkHapticOverlay;
+class vtkPickMarker;
+
+namespace pointhaptics
+{
+
+class ScenePipeline;
+class ScreenView;
+class StatusText;
+
+/// GUI thread only.
+class POINTHAPTICSINTERACTION_EXPORT PointPicker
+{
+public:
+  /// All must outlive this. The overlay is that of @p status.
+  PointPicker(const ScreenView& screen, const ScenePipeline& scenes, const StatusText& status);
+  ~PointPicker();
+  PointPicker(const PointPicker&) = delete;
+  PointPicker& operator=(const PointPicker&) = delete;
+
+  /// Shows position, voxel, bandwidth and arrays of the voxel mean at a display position, until the model
+  /// moves. False: no mean is drawn within 8 pixels of it; none is shown then.
+  bool pickAt(int x, int y);
+  /// Voxel and bandwidth are those of one resampling: the next one has others. True: something was shown.
+  bool forget();
+
+private:
+  const ScreenView& screen_;
+  const ScenePipeline& scenes_;
+  const StatusText& status_;
+  vtkSmartPointer<vtkPickMarker> marker_;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,79 @@
+/// @file
+/// What the interactor style says in words: the status line and the panel of the servo loop.
+#pragma once
+
+#include "CommandRegistry.h"
+#include "vtkHapticOverlay.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+namespace pointhaptics
+{
+
+class DeviceClutch;
+class MouseHand;
+class ScenePipeline;
+class ServoLoop;
+
+/// Texts name the keys that are bound at the moment. GUI thread only.
+class POINTHAPTICSINTERACTION_EXPORT StatusText
+{
+public:
+  /// All must outlive this.
+  StatusText(const CommandRegistry& commands, const ScenePipeline& scenes, const MouseHand& hand,
+    const DeviceClutch& clutch);
+  ~StatusText();
+  StatusText(const StatusText&) = delete;
+  StatusText& operator=(const StatusText&) = delete;
+
+  /// Where the texts go; null: nowhere.
+  void setOverlay(vtkHapticOverlay* overlay);
+  vtkHapticOverlay* overlay() const { return overlay_; }
+
+  /// Text at the end of the status line, such as the scale of the model.
+  void setNote(const std::string& note);
+  /// What the device is and how it is, for the panel. Empty: the device's own name.
+  void setDeviceNote(const std::string& note);
+  /// Name of the device, until there is a note.
+  void setDeviceName(const std::string& name);
+  ///@{
+  /// Show rate, latencies, missed deadlines, faults and the device. Default: off.
+  void setPanelVisibility(bool visible);
+  bool panelVisibility() const { return showsPanel_; }
+  ///@}
+  void showHelp(bool visible);
+  /// The help says what the commands are now.
+  void updateHelp();
+
+  /// Brings the texts up to date, four times a second, and every four seconds while nothing moves: a line of
+  /// text costs a frame. At once after a change of what is set here, of the hand's mode or of its hold.
+  /// @p servo may be null. @p touchMoved: the picture of the touch has changed. True: a text has changed.
+  bool update(const ServoLoop* servo, bool touchMoved);
+  /// The key that resets the model, as part of a sentence: ": key 0 resets the model"; empty where it has
+  /// none.
+  std::string resetHint() const;
+
+private:
+  std::string statusLine(const ServoLoop* servo) const;
+  std::string panel(const ServoLoop* servo) const;
+  const char* handMode() const;
+
+  const CommandRegistry& commands_;
+  const ScenePipeline& scenes_;
+  const MouseHand& hand_;
+  const DeviceClutch& clutch_;
+  vtkSmartPointer<vtkHapticOverlay> overlay_;
+  std::string note_;
+  std::string deviceNote_;
+  std::string deviceName_;
+  bool showsPanel_ = false;
+  const char* shownMode_ = nullptr;
+  double lastUpdate_ = -1e9;
+  double lastMotion_ = -1e9;
+};
+
+} // namespace pointhaptics

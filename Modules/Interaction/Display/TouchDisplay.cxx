@@ -1,0 +1,141 @@
+#include "TouchDisplay.h"
+
+#include "ScreenView.h"
+#include "SteadyTime.h"
+
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+
+#include <limits>
+#include <optional>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// While it lives, a chart that did not change is not drawn: the window keeps what it shows of it.
+class ChartPause
+{
+public:
+  ChartPause(vtkRenderer* chart, bool changed, std::vector<double>& picture)
+  {
+    const int* size = chart->GetVTKWindow() ? chart->GetVTKWindow()->GetActualSize() : nullptr;
+    std::vector<double> wanted(4);
+    chart->GetViewport(wanted.data());
+    wanted.push_back(size ? size[0] : 0);
+    wanted.push_back(size ? size[1] : 0);
+    if (chart->GetDraw() && !changed && wanted == picture)
+    {
+      chart_ = chart;
+      chart_->DrawOff();
+    }
+    picture = chart->GetDraw() || chart_ ? wanted : std::vector<double>();
+  }
+  ~ChartPause()
+  {
+    if (chart_)
+    {
+      chart_->DrawOn();
+    }
+  }
+  ChartPause(const ChartPause&) = delete;
+  ChartPause& operator=(const ChartPause&) = delete;
+
+private:
+  vtkRenderer* chart_ = nullptr;
+};
+
+} // namespace
+
+TouchDisplay::TouchDisplay(const ScreenView& screen)
+  : screen_(screen)
+{
+}
+
+TouchDisplay::~TouchDisplay() = default;
+
+void TouchDisplay::setProps(vtkHapticProps* props)
+{
+  props_ = props;
+}
+
+void TouchDisplay::setChart(vtkHapticChart* chart)
+{
+  chart_ = chart;
+}
+
+void TouchDisplay::setChartVisibility(bool visible)
+{
+  vtkRenderer* renderer = screen_.renderer();
+  if (chart_ && renderer && chart_->GetVisibility() != visible)
+  {
+    chart_->SetVisibility(visible);
+    chartChanged_ = true;
+    double viewport[4] = { 0.0, 0.0, 1.0, 1.0 };
+    chart_->GetRenderer()->GetViewport(viewport);
+    renderer->SetViewport(0.0, visible ? viewport[3] : 0.0, 1.0, 1.0);
+    this->requestRender();
+  }
+}
+
+bool TouchDisplay::update(const std::vector<ServoSample>& samples, const ServoSample& latest)
+{
+  bool changed = false;
+  if (chart_)
+  {
+    for (const ServoSample& sample : samples)
+    {
+      const double ideal =
+        idealForce_ ? idealForce_(sample.state.hip) : std::numeric_limits<double>::quiet_NaN();
+      chart_->AddSample(sample.timeSeconds, norm(sample.state.force), sample.state.radius, ideal);
+    }
+    // A chart that is drawn seldom costs little; it is brought up to date only where a render would show it.
+    changed = this->isDue() && chart_->GetVisibility() && chart_->Update();
+    chartChanged_ = chartChanged_ || changed;
+  }
+  if (props_ && latest.tick > 0)
+  {
+    changed = props_->Update(latest.state) || changed;
+  }
+  return changed;
+}
+
+bool TouchDisplay::isDue() const
+{
+  return steadySeconds() - frameEnd_ >= frameSeconds_;
+}
+
+void TouchDisplay::renderIfDue()
+{
+  if (isRequested_ && this->isDue())
+  {
+    isRequested_ = false;
+    const double begin = steadySeconds();
+    this->render();
+    frameEnd_ = steadySeconds();
+    frameSeconds_ = frameEnd_ - begin;
+  }
+}
+
+void TouchDisplay::render()
+{
+  if (!screen_.interactor())
+  {
+    return;
+  }
+  if (vtkRenderer* renderer = screen_.renderer())
+  {
+    renderer->ResetCameraClippingRange();
+  }
+  std::optional<ChartPause> pause;
+  if (chart_)
+  {
+    pause.emplace(chart_->GetRenderer(), chartChanged_, chartPicture_);
+  }
+  chartChanged_ = false;
+  screen_.interactor()->Render();
+}
+
+} // namespace pointhaptics

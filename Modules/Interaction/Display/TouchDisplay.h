@@ -1,0 +1,69 @@
+/// @file
+/// The touch in the picture: the props, the chart of the force, and when a frame is worth its time.
+#pragma once
+
+#include "vtkHapticChart.h"
+#include "vtkHapticProps.h"
+
+#include "Core/Base/Vector3.h"
+#include "Haptics/ServoLoop.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include "vtkSmartPointer.h"
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace pointhaptics
+{
+
+class ScreenView;
+
+/// A frame is drawn only where something has changed, and drawing leaves at least half of the time to events.
+/// GUI thread only.
+class POINTHAPTICSINTERACTION_EXPORT TouchDisplay
+{
+public:
+  /// @p screen must outlive this.
+  explicit TouchDisplay(const ScreenView& screen);
+  ~TouchDisplay();
+  TouchDisplay(const TouchDisplay&) = delete;
+  TouchDisplay& operator=(const TouchDisplay&) = delete;
+
+  ///@{
+  /// Null takes one away.
+  void setProps(vtkHapticProps* props);
+  void setChart(vtkHapticChart* chart);
+  vtkHapticChart* chart() const { return chart_; }
+  ///@}
+  /// What an exact surface would answer the hand of a tick, in newtons, for the chart; NaN: not known. Called
+  /// for every tick in the order of time. Empty (default): none.
+  void setIdealForce(std::function<double(const Vec3& hip)> ideal) { idealForce_ = std::move(ideal); }
+  /// The chart is a strip along the lower edge; the picture takes the room that it leaves.
+  void setChartVisibility(bool visible);
+
+  /// Takes the new ticks, and the newest one there is. True: the picture has changed.
+  bool update(const std::vector<ServoSample>& samples, const ServoSample& latest);
+
+  /// The next renderIfDue() draws a frame.
+  void requestRender() { isRequested_ = true; }
+  void renderIfDue();
+
+private:
+  bool isDue() const;
+  void render();
+
+  const ScreenView& screen_;
+  vtkSmartPointer<vtkHapticProps> props_;
+  vtkSmartPointer<vtkHapticChart> chart_;
+  std::function<double(const Vec3&)> idealForce_;
+  bool isRequested_ = false;
+  bool chartChanged_ = true;         ///< Since it was drawn.
+  std::vector<double> chartPicture_; ///< What else its picture depends on.
+  double frameSeconds_ = 0.0;        ///< Of the last frame.
+  double frameEnd_ = -1e9;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,84 @@
+/// @file
+/// The simulated hand under mouse and keys.
+#pragma once
+
+#include "Core/Base/Lifetime.h"
+#include "Core/Base/Vector3.h"
+#include "Devices/SimulatedDevice.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include <cstdint>
+
+namespace pointhaptics
+{
+
+class ModelTransform;
+class ScreenView;
+struct ProxyState;
+
+/// Without a device every call has no effect. GUI thread only.
+class POINTHAPTICSINTERACTION_EXPORT MouseHand
+{
+public:
+  /// Both must outlive this. The model's workspace bounds the hand.
+  MouseHand(const ScreenView& screen, const ModelTransform& model)
+    : screen_(screen)
+    , model_(model)
+  {
+  }
+
+  /// Not owned, and may be destroyed at any time.
+  void setDevice(SimulatedDevice* device) { device_ = device; }
+  bool hasDevice() const { return bool(device_); }
+
+  ///@{
+  /// Hand mode: the hand follows the mouse pointer in the view plane at its depth. Default: off.
+  void setFollowsMouse(bool on) { followsMouse_ = on; }
+  bool followsMouse() const { return followsMouse_; }
+  ///@}
+  ///@{
+  /// In hand mode, push the mouse pointer out of what the hand touches: the pointer goes to where the surface
+  /// has pushed the hand, and the person has to push against it. Default: off.
+  void setPushesPointer(bool on) { pushesPointer_ = on; }
+  bool pushesPointer() const { return pushesPointer_; }
+  ///@}
+
+  ///@{
+  /// Metres in the workspace; clamped to it. Depth: away from the person (positive) or back, along the view
+  /// direction.
+  void move(const Vec3& offset);
+  void moveInDepth(double metres);
+  ///@}
+  /// As far as the mouse has moved, in the view plane.
+  void drag();
+  /// To where the pointer is, in the view plane.
+  void follow();
+  void setPointerInside(bool isInside) { isPointerInside_ = isInside; }
+  /// The surface has pushed the hand away from where the pointer wants it: the pointer goes where the hand
+  /// is.
+  void pushPointer(const ProxyState& latest);
+  /// In hand mode the pointer goes where the hand is.
+  void putPointerOnHand();
+
+  /// A key presses or releases button @p index, 0 to 3, of the device. A key that repeats is released and
+  /// pressed again at once: whether it stays up is decided by update().
+  void holdButton(int index, bool isDown);
+  /// To be called from a timer.
+  void update();
+
+private:
+  void placePointer(const Vec3& point);
+
+  const ScreenView& screen_;
+  const ModelTransform& model_;
+  WatchedPointer<SimulatedDevice> device_;
+  bool followsMouse_ = false;
+  bool pushesPointer_ = false;
+  bool isPointerInside_ = false;
+  std::uint32_t heldButtons_ = 0;
+  std::uint32_t releasedButtons_ = 0; ///< To be released unless the key repeats.
+  double releaseTime_ = -1e9;
+};
+
+} // namespace pointhaptics

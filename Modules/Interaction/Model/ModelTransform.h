@@ -1,0 +1,81 @@
+/// @file
+/// Where the model lies in the haptic workspace, and how to take changes back.
+#pragma once
+
+#include "Core/Base/Vector3.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include "vtkSmartPointer.h"
+#include "vtkTransform.h"
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <utility>
+
+class vtkMatrix4x4;
+
+namespace pointhaptics
+{
+
+/// Maps the cloud's frame into the workspace's (x_T = T x + t); metres. It is rotated and scaled about the
+/// centre of the workspace. GUI thread only.
+class POINTHAPTICSINTERACTION_EXPORT ModelTransform
+{
+public:
+  ModelTransform();
+  ~ModelTransform();
+  ModelTransform(const ModelTransform&) = delete;
+  ModelTransform& operator=(const ModelTransform&) = delete;
+
+  /// Called after each change.
+  void setObserver(std::function<void()> changed) { changed_ = std::move(changed); }
+
+  /// Box of the hand: xmin, xmax, ymin, ymax, zmin, zmax. Default: the 10 cm cube about the origin.
+  void setWorkspaceBounds(const double bounds[6]);
+  const std::array<double, 6>& workspaceBounds() const { return workspace_; }
+  Vec3 center() const;
+  double edge() const; ///< The longest one.
+
+  /// For reading. The same object at all times.
+  vtkTransform* transform() const { return transform_; }
+  /// Also what reset() goes back to. undo() ends here.
+  void setMatrix(vtkMatrix4x4* matrix);
+  /// The same without telling the observer: the scene of this matrix is there already.
+  void adoptMatrix(vtkMatrix4x4* matrix);
+
+  ///@{
+  /// Degrees, right-handed, about an axis of the workspace; metres; a factor above 0. Values that are not
+  /// finite, an axis or a factor of 0 are ignored.
+  void rotate(double degrees, const Vec3& axis);
+  void translate(const Vec3& offset);
+  void scale(double factor);
+  ///@}
+  /// Back to setMatrix().
+  void reset();
+  /// Takes back the last change. The last 100 are kept. False: there is none.
+  bool undo();
+
+  ///@{
+  /// The changes in between are one to undo(), such as the steps of a drag. Gestures may overlap: they are
+  /// one then.
+  void beginGesture();
+  void endGesture();
+  ///@}
+
+private:
+  using Elements = std::array<double, 16>;
+  void remember();
+  void report();
+
+  vtkSmartPointer<vtkTransform> transform_;
+  vtkSmartPointer<vtkMatrix4x4> initial_;
+  std::array<double, 6> workspace_{ -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
+  std::deque<Elements> history_; ///< Matrices before the last changes, oldest first.
+  int gestures_ = 0;             ///< Under way.
+  bool isRemembered_ = false;    ///< What was before the gesture.
+  std::function<void()> changed_;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,257 @@
+#include "ScenePipeline.h"
+
+#include "ModelTransform.h"
+#include "PolyDataAccess.h"
+
+#include "vtkActor.h"
+#include "vtkMapper.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkTransform.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// What must be within reach of the hand: itself and what it touches. The worker's threads ask.
+Bounds handBounds(const WatchedPointer<ServoLoop>& servo)
+{
+  ServoSample latest;
+  servo.use([&latest](const ServoLoop& loop) { latest = loop.latest(); });
+  Bounds bounds;
+  if (latest.tick > 0)
+  {
+    bounds.include(latest.state.hip);
+    bounds.include(latest.state.proxy);
+  }
+  return bounds;
+}
+
+} // namespace
+
+ScenePipeline::ScenePipeline(ModelTransform& model)
+  : model_(model)
+  , resampled_(vtkSmartPointer<vtkTransform>::New())
+  , preview_(vtkSmartPointer<vtkMatrix4x4>::New())
+{
+}
+
+ScenePipeline::~ScenePipeline() = default;
+
+void ScenePipeline::setServo(ServoLoop* servo)
+{
+  // What is in flight would go to the loop before.
+  worker_.cancel();
+  isInvalid_ = true;
+  shownNumber_ = requested_;
+  servo_ = servo;
+  publisher_.setSink([target = servo_](std::shared_ptr<const HapticScene> scene)
+    { target.use([&scene](ServoLoop& loop) { loop.publishScene(std::move(scene)); }); });
+}
+
+void ScenePipeline::setResampler(vtkVoxelMeanResampler* resampler)
+{
+  resampler_ = resampler;
+  isInvalid_ = true;
+  if (resampler)
+  {
+    resampler->SetTransform(resampled_);
+  }
+}
+
+void ScenePipeline::setBandwidthFilter(vtkKernelBandwidthFilter* filter)
+{
+  bandwidth_ = filter;
+  isInvalid_ = true;
+}
+
+void ScenePipeline::setCloudActor(vtkActor* actor)
+{
+  actor_ = actor;
+}
+
+void ScenePipeline::setOptions(const SceneOptions& options)
+{
+  isInvalid_ = isInvalid_ || options.computeResiduals != options_.computeResiduals ||
+    options.computeNormals != options_.computeNormals;
+  options_ = options;
+}
+
+void ScenePipeline::moveModel(bool requestsNow)
+{
+  isInvalid_ = true;
+  this->publishMoved();
+  this->preview();
+  if (requestsNow && resampler_)
+  {
+    this->request();
+  }
+}
+
+/// The hand feels the model where it is before it is resampled there. Not with another cloud than before:
+/// what is felt until that is resampled stays where it was.
+void ScenePipeline::publishMoved()
+{
+  AffineTransform modelToWorkspace;
+  if (this->isCloudSent() && affineFromTransform(model_.transform(), modelToWorkspace))
+  {
+    publisher_.move(modelToWorkspace);
+  }
+}
+
+/// The drawn means are those of the last resampling: show them where the model is now.
+void ScenePipeline::preview()
+{
+  if (actor_)
+  {
+    vtkNew<vtkMatrix4x4> back;
+    vtkMatrix4x4::Invert(resampled_->GetMatrix(), back);
+    vtkMatrix4x4::Multiply4x4(model_.transform()->GetMatrix(), back, preview_);
+    preview_->Modified(); // the product does not say so itself
+    actor_->SetUserMatrix(preview_);
+  }
+}
+
+void ScenePipeline::poll()
+{
+  if (isInvalid_ && resampler_)
+  {
+    this->request();
+  }
+  this->showFinished();
+}
+
+bool ScenePipeline::update()
+{
+  if (resampler_ && this->isChanged())
+  {
+    if (isInvalid_)
+    {
+      this->request();
+    }
+    worker_.wait();
+    this->showFinished();
+  }
+  return !isEmpty_;
+}
+
+bool ScenePipeline::isCloudSent() const
+{
+  auto* cloud = resampler_ ? vtkPointSet::SafeDownCast(resampler_->GetInputDataObject(0, 0)) : nullptr;
+  return cloud == sentCloud_ && (cloud ? cloud->GetMTime() : 0) == sentCloudTime_;
+}
+
+void ScenePipeline::sendCloud()
+{
+  if (vtkAlgorithm* source = resampler_->GetInputAlgorithm())
+  {
+    source->Update();
+  }
+  if (this->isCloudSent())
+  {
+    return;
+  }
+  auto* cloud = vtkPointSet::SafeDownCast(resampler_->GetInputDataObject(0, 0));
+  sentCloud_ = cloud;
+  sentCloudTime_ = cloud ? cloud->GetMTime() : 0;
+  vtkSmartPointer<vtkPointSet> copy;
+  if (cloud)
+  {
+    copy.TakeReference(vtkPointSet::SafeDownCast(cloud->NewInstance()));
+    copy->ShallowCopy(cloud);
+  }
+  publisher_.startCloud();
+  worker_.setCloud(std::move(copy));
+}
+
+SceneRequest ScenePipeline::makeRequest()
+{
+  SceneRequest request = SceneRequest::of(resampler_, bandwidth_);
+  std::copy_n(model_.transform()->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
+  request.useCovariance = options_.useCovariance;
+  request.hand = [servo = servo_] { return handBounds(servo); };
+  request.refinesNearHand = options_.refinesNearHand;
+  request.hasResiduals = options_.computeResiduals;
+  request.hasNormals = options_.computeNormals;
+  request.publish = [publisher = &publisher_, cloud = publisher_.cloud()](
+                      std::shared_ptr<const HapticScene> scene, std::uint64_t number)
+  { publisher->publish(std::move(scene), cloud, number); };
+  return request;
+}
+
+void ScenePipeline::request()
+{
+  isInvalid_ = false;
+  this->sendCloud();
+  this->publishMoved();
+  requested_ = worker_.request(this->makeRequest());
+}
+
+void ScenePipeline::adopt(std::shared_ptr<const HapticScene> scene)
+{
+  isInvalid_ = false;
+  this->sendCloud();
+  this->publishMoved();
+  BuiltScene built;
+  std::copy_n(model_.transform()->GetMatrix()->GetData(), 16, built.modelToWorkspace.begin());
+  built.means = this->cloud();
+  auto* input = vtkPointSet::SafeDownCast(resampler_->GetInputDataObject(0, 0));
+  built.numberOfPoints = input ? input->GetNumberOfPoints() : 0;
+  built.empty = scene == nullptr;
+  requested_ = worker_.adopt(this->makeRequest(), std::move(scene));
+  built.number = requested_;
+  this->show(built);
+}
+
+std::uint64_t ScenePipeline::numberOfBuilds() const
+{
+  return worker_.numberOfBuilds();
+}
+
+/// The data object that others see.
+vtkPolyData* ScenePipeline::cloud() const
+{
+  return bandwidth_ ? bandwidth_->GetOutput() : resampler_ ? resampler_->GetOutput() : nullptr;
+}
+
+void ScenePipeline::showFinished()
+{
+  BuiltScene built;
+  if (worker_.take(built))
+  {
+    this->show(built);
+  }
+}
+
+/// What the worker has made becomes the output of the filters that the program knows, as if they had run.
+void ScenePipeline::show(const BuiltScene& built)
+{
+  shownNumber_ = built.number;
+  isEmpty_ = built.empty;
+  numberOfPoints_ = built.numberOfPoints;
+  numberOfVoxels_ = built.means->GetNumberOfPoints();
+  resampled_->SetMatrix(built.modelToWorkspace.data());
+  vtkPolyData* shown = this->cloud();
+  if (shown && shown != built.means)
+  {
+    shown->ShallowCopy(built.means);
+  }
+  vtkMapper* mapper = actor_ ? actor_->GetMapper() : nullptr;
+  if (mapper && mapper->GetInputDataObject(0, 0) == shown)
+  {
+    mapper->SetInputDataObject(shown); // a connection to the filters would make them run
+  }
+  this->preview();
+  if (shownObserver_)
+  {
+    shownObserver_(built);
+  }
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,51 @@
+// What the keys of the viewer do beside those of vtkInteractorStyleHaptic: one entry a command.
+#include "HapticViewer.h"
+#include "ViewWindow.h"
+
+#include <vtkNew.h>
+
+namespace pointhaptics
+{
+
+void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
+{
+  const WatchedPointer<ViewWindow> self(window); // a host may keep the style for longer
+  const auto isOpen = [self] { return bool(self); };
+  const auto hasOtherFiles = [self] { return self && !self->options_.together && self->files_.size() > 1; };
+  const auto keepsSettings = [self] { return self && self->observer_.writeState; };
+  const auto call = [self](void (ViewWindow::*action)())
+  {
+    return [self, action]
+    {
+      if (ViewWindow* open = self.get())
+      {
+        (open->*action)();
+      }
+    };
+  };
+  using Window = ViewWindow;
+  commands.add({ "axes", "a", "Show", "axes and bounds", call(&Window::toggleAxes), isOpen });
+  commands.add(
+    { "figure", "o", "Show", "figure: cloud, cube, touch only", call(&Window::toggleFigure), isOpen });
+  commands.add({ "colors", "m", "Show", "color by the next array", call(&Window::showNextColors), isOpen });
+  commands.add(
+    { "ambient", "l", "Show", "ambient light from the normals", call(&Window::toggleAmbient), isOpen });
+  commands.add(
+    { "next-file", "n", "Program", "next, previous file", call(&Window::showNextFile), hasOtherFiles });
+  commands.add({ "previous-file", "b", "Program", "next, previous file", call(&Window::showPreviousFile),
+    hasOtherFiles });
+  commands.add({ "screenshot", "s", "Program", "screenshot", call(&Window::writeScreenshot), isOpen });
+  commands.add({ "write-settings", "w", "Program", "write the settings to a file",
+    call(&Window::writeSettings), keepsSettings });
+  commands.addNote("Program", "files dropped on the window", "open them");
+  commands.addNote("Program", "Escape while a file is read", "keep the former cloud");
+}
+
+CommandRegistry HapticViewer::commands()
+{
+  vtkNew<vtkInteractorStyleHaptic> style;
+  ViewWindow::addCommands(style->GetCommands(), nullptr);
+  return style->GetCommands().described();
+}
+
+} // namespace pointhaptics
