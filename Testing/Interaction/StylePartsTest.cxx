@@ -1,4 +1,5 @@
 // The parts of the style: any device, in any order, for as long as they live. No window, no display.
+#include "HapticTouch.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
 #include "vtkInteractorStyleHaptic.h"
@@ -280,4 +281,19 @@ TEST_F(StyleParts, NameTheKeyInForceInTheStatus)
   style->Refresh();
   EXPECT_NE(overlay->GetStatus().find("key F8 resets the model"), std::string::npos) << overlay->GetStatus();
   EXPECT_EQ(overlay->GetStatus().find("help"), std::string::npos) << overlay->GetStatus();
+}
+
+TEST_F(StyleParts, SayWhyTheTouchCannotBegin)
+{
+  HapticTouch touch(style);
+  EXPECT_FALSE(touch.start());
+  EXPECT_NE(touch.message().find("the style has no window"), std::string::npos) << touch.message();
+  EXPECT_TRUE(style->GetHand().hasDevice());
+  EXPECT_EQ(style->GetServoLoop(), &touch.servo());
+  vtkNew<vtkRenderWindowInteractor> interactor;
+  interactor->SetInteractorStyle(style);
+  EXPECT_FALSE(touch.start());
+  EXPECT_NE(touch.message().find("no point lies in the workspace"), std::string::npos) << touch.message();
+  EXPECT_FALSE(touch.servo().running());
+  style = nullptr; // the touch keeps it until it ends itself
 }

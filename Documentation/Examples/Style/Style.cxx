@@ -1,12 +1,6 @@
-// Style [X Y]: a ball of points is touched with the mouse; the hand follows the pointer. Key Q ends it. With
-// X and Y, pixels, the pointer goes there by itself, and after a second the program says what the hand feels.
-#include <vtkHapticProps.h>
-#include <vtkInteractorStyleHaptic.h>
-#include <vtkVoxelMeanResampler.h>
-
-#include <Devices/SimulatedDevice.h>
-#include <Haptics/ServoLoop.h>
-
+// A ball of points is touched with the mouse. Keys: F the hand follows the pointer, J what it feels, Q the
+// end.
+#include <HapticTouch.h>
 #include <vtkActor.h>
 #include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
@@ -16,9 +10,8 @@
 #include <vtkSphereSource.h>
 
 #include <cstdio>
-#include <cstdlib>
 
-int main(int argc, char* argv[])
+int main()
 {
   vtkNew<vtkSphereSource> ball; // or a vtkPointCloudReader: only the points count
   ball->SetRadius(0.02);
@@ -36,41 +29,13 @@ int main(int argc, char* argv[])
   renderer->AddActor(actor);
   vtkNew<vtkRenderWindow> window;
   window->AddRenderer(renderer);
-  window->SetOffScreenRendering(argc == 3);
   vtkNew<vtkRenderWindowInteractor> interactor;
   interactor->SetRenderWindow(window);
-
-  vtkNew<vtkHapticProps> props; // workspace, proxy, normal and force
-  props->AddTo(renderer);
-  pointhaptics::SimulatedDevice hand;
-  pointhaptics::ServoLoop servo;
   vtkNew<vtkInteractorStyleHaptic> style;
   style->SetResampler(resampler);
-  style->SetServoLoop(&servo);
-  style->SetDevice(&hand);
-  style->SetProps(props);
-  style->SetHandMode(true);
   interactor->SetInteractorStyle(style);
-  if (!style->UpdateModel() || hand.open() != pointhaptics::Status::Ok ||
-    servo.start(hand, {}) != pointhaptics::Status::Ok)
-  {
-    std::fprintf(stderr, "there is nothing to feel\n");
-    return 1;
-  }
-  window->Render();
-  interactor->Initialize();
-  style->StartUpdates();
-  if (argc != 3)
-  {
-    interactor->Start();
-    return 0;
-  }
-  interactor->SetEventPosition(std::atoi(argv[1]), std::atoi(argv[2]));
-  interactor->InvokeEvent(vtkCommand::MouseMoveEvent);
-  for (const double end = servo.latest().timeSeconds + 1.0; servo.latest().timeSeconds < end;)
-  {
-    style->Refresh();
-  }
-  std::printf("the hand feels %.2f N to the right\n", servo.latest().state.force.x);
-  return 0;
+  pointhaptics::HapticTouch touch(style); // a simulated hand, its servo loop and what is seen of them
+  style->GetCommands().add({ "say-force", "j", "Touch", "say what the hand feels",
+    [&touch] { std::printf("%.2f N to the right\n", touch.servo().latest().state.force.x); } });
+  return touch.run() ? 0 : 1;
 }

@@ -1,0 +1,61 @@
+/// @file
+/// The touch of a program that has none yet: device, servo loop and props for an interactor style.
+#pragma once
+
+#include "vtkHapticProps.h"
+#include "vtkInteractorStyleHaptic.h"
+
+#include "Devices/HapticDevice.h"
+#include "Devices/SimulatedDevice.h"
+#include "Haptics/ServoLoop.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include "vtkNew.h"
+
+#include <string>
+
+namespace pointhaptics
+{
+
+/// Use, where a style has a resampler and is that of an interactor with a window:
+/// @code
+/// HapticTouch touch(style); // a simulated hand under the mouse
+/// touch.run();
+/// @endcode
+/// GUI thread only. The style may end before or after this.
+class POINTHAPTICSINTERACTION_EXPORT HapticTouch
+{
+public:
+  /// Gives the style all three. @p device is not owned, is closed and must outlive this; null: a simulated
+  /// hand.
+  explicit HapticTouch(vtkInteractorStyleHaptic* style, HapticDevice* device = nullptr);
+  ~HapticTouch(); ///< Stops.
+  HapticTouch(const HapticTouch&) = delete;
+  HapticTouch& operator=(const HapticTouch&) = delete;
+
+  /// Shows the window, makes the scene, opens the device, starts the servo loop and the style's timer. False:
+  /// message() says what failed, and the touch is stopped.
+  bool start(const HapticParameters& parameters = {}, const ServoSettings& settings = {});
+  /// Stops the loop, closes the device.
+  void stop();
+  /// start(), events until the user closes the window, stop(). What failed is an error of the style too,
+  /// which VTK shows.
+  bool run();
+
+  const std::string& message() const { return message_; }
+  ServoLoop& servo() { return servo_; }
+  vtkHapticProps* props() { return props_; }
+
+private:
+  bool fail(const std::string& message);
+
+  vtkSmartPointer<vtkInteractorStyleHaptic> style_;
+  SimulatedDevice hand_;
+  HapticDevice& device_;
+  vtkNew<vtkHapticProps> props_;
+  std::string message_;
+  ServoLoop servo_; ///< Last: destroyed, and so stopped, first.
+};
+
+} // namespace pointhaptics
