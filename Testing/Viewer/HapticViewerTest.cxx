@@ -1,5 +1,6 @@
 #include "HapticViewer.h"
 
+#include "CommandRegistry.h"
 #include "ViewDisplay.h"
 #include "vtkInteractorStyleHaptic.h"
 
@@ -11,11 +12,13 @@
 #include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkSmartPointer.h>
 
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -260,6 +263,39 @@ TEST_F(HapticViewerTest, RunsInTheEventLoopOfItsHost)
   EXPECT_EQ(last.width, 160);
   EXPECT_TRUE(std::filesystem::exists(this->path("window.png")));
   EXPECT_TRUE(std::filesystem::exists(this->path("trace.csv")));
+}
+
+TEST_F(HapticViewerTest, LetsAHostAddAKeyAndKeepTheStyleForLonger)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.device = HapticViewerDevice::Simulated;
+  options_.bindings = { "axes=F5" };
+  auto viewer = std::make_unique<HapticViewer>(options_, observer_);
+  ASSERT_TRUE(viewer->open(makeSphere())) << viewer->message();
+  viewer->renderWindow()->SetOffScreenRendering(1);
+  const vtkSmartPointer<vtkInteractorStyleHaptic> style = viewer->style();
+  CommandRegistry& commands = style->GetCommands();
+  int grids = 0;
+  commands.add({ "grid", "j", "Show", "a grid on the floor", [&grids] { ++grids; } });
+  ASSERT_TRUE(viewer->start()) << viewer->message();
+  EXPECT_EQ(commands.label("axes"), "F5");
+  EXPECT_NE(commands.help().find("a grid on the floor"), std::string::npos);
+  EXPECT_NE(commands.help().find("axes and bounds"), std::string::npos);
+  EXPECT_EQ(commands.help().find("next, previous file"), std::string::npos) << "there is one cloud";
+  EXPECT_EQ(commands.help().find("write the settings"), std::string::npos) << "the host keeps none";
+  EXPECT_NE(
+    HapticViewer::commands().help(CommandRegistry::Scope::All).find("write the settings"), std::string::npos);
+  viewer.reset();
+  EXPECT_TRUE(commands.run("axes")) << "without effect";
+  EXPECT_TRUE(commands.run("grid"));
+  EXPECT_EQ(grids, 1);
+  EXPECT_EQ(commands.help().find("axes and bounds"), std::string::npos);
+  style->GetModel().scale(0.9);
+  style->Refresh();
 }
 
 } // namespace

@@ -49,7 +49,7 @@ using CommandAction = std::variant<std::function<void()>, DragAction, WheelActio
 
 struct Command
 {
-  std::string name;     ///< "write-settings": for --bind and SetBinding().
+  std::string name;     ///< "write-settings": for bind() and --bind.
   std::string gestures; ///< The default ones, separated by spaces; see Gesture.h. Empty: none.
   std::string group;    ///< Heading in the help.
   std::string help;     ///< Commands of a group with the same text share a line of the help.

@@ -217,8 +217,10 @@ void addShowCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
   { status.showHelp(status.overlay() && !status.overlay()->GetHelpVisibility()); };
   const auto pick = [&style]
   {
-    const int* position = style.GetInteractor()->GetEventPosition();
-    style.GetPicker().pickAt(position[0], position[1]);
+    if (vtkRenderWindowInteractor* interactor = style.GetInteractor())
+    {
+      style.GetPicker().pickAt(interactor->GetEventPosition()[0], interactor->GetEventPosition()[1]);
+    }
   };
   const auto sliders = [&style]
   {
