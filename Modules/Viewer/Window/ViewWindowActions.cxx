@@ -421,7 +421,7 @@ void ViewWindow::toggleAmbient()
 void ViewWindow::setSceneOptions()
 {
   SceneOptions options;
-  options.useCovariance = options_.useCovariance;
+  options.useCovariance = options_.voxels.computeCovariance;
   options.refinesNearHand = !options_.hasVoxels() && voxelSize_ <= 0.0; // whoever chooses voxels feels these
   options.computeResiduals = scene_.wantsResiduals();
   options.computeNormals = options_.ambient;
