@@ -1,0 +1,391 @@
+#include "Core/Neighbors/LocalShape.h"
+
+#include "Core/Base/Vector3.h"
+#include "Core/Neighbors/NeighborSweep.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr int kNear = 8; ///< Neighbours that flatness and normal are averaged over.
+constexpr std::int64_t kSample = 512;
+constexpr double kDiscRadius = 5.0; ///< Pixels.
+constexpr double kCrowdedDisc = 24.0;
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kFlatEnough = 0.5; ///< Neighbourhoods whose thickness is noise.
+
+double ramp(double x, double from, double to)
+{
+  return std::clamp((x - from) / (to - from), 0.0, 1.0);
+}
+
+double spacingOf(const double* squared, int others)
+{
+  if (others < 1)
+  {
+    return 0.0;
+  }
+  // A disc that holds k other points of one a unit square has the radius sqrt(k / pi).
+  const int first = std::min(4, others);
+  const int second = std::min(8, others);
+  return std::max(std::sqrt(squared[first] * kPi / first), std::sqrt(squared[second] * kPi / second));
+}
+
+/// Of a symmetric matrix that is no multiple of the identity: eigenvalues in ascending order by the
+/// trigonometric solution of the cubic, and the vector of the smallest. Absolute error about 1e-8 of the
+/// largest, which thinness does not see.
+struct Spread
+{
+  double values[3] = { 0.0, 0.0, 0.0 };
+  Vec3 normal;
+};
+
+Vec3 nullVector(const SymMat3& m, double value)
+{
+  const Vec3 rows[3] = { { m.xx - value, m.xy, m.xz }, { m.xy, m.yy - value, m.yz },
+    { m.xz, m.yz, m.zz - value } };
+  Vec3 best;
+  double longest = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const Vec3 candidate = cross(rows[i], rows[(i + 1) % 3]);
+    if (norm2(candidate) > longest)
+    {
+      longest = norm2(candidate);
+      best = candidate;
+    }
+  }
+  return longest > 0.0 ? best / std::sqrt(longest) : Vec3();
+}
+
+Spread spreadOf(const SymMat3& m)
+{
+  Spread spread;
+  const double mean = m.trace() / 3.0;
+  const SymMat3 a{ m.xx - mean, m.yy - mean, m.zz - mean, m.xy, m.yz, m.xz };
+  const double p2 =
+    (a.xx * a.xx + a.yy * a.yy + a.zz * a.zz + 2.0 * (a.xy * a.xy + a.yz * a.yz + a.xz * a.xz)) / 6.0;
+  const double p = std::sqrt(p2);
+  if (!(p > 0.0))
+  {
+    std::fill(spread.values, spread.values + 3, mean);
+    return spread;
+  }
+  const double determinant = a.xx * (a.yy * a.zz - a.yz * a.yz) - a.xy * (a.xy * a.zz - a.yz * a.xz) +
+    a.xz * (a.xy * a.yz - a.yy * a.xz);
+  const double angle = std::acos(std::clamp(determinant / (2.0 * p2 * p), -1.0, 1.0)) / 3.0;
+  spread.values[2] = mean + 2.0 * p * std::cos(angle);
+  spread.values[0] = std::max(0.0, mean + 2.0 * p * std::cos(angle + 2.0 * kPi / 3.0));
+  spread.values[1] = std::max(spread.values[0], 3.0 * mean - spread.values[0] - spread.values[2]);
+  spread.normal = nullVector(m, mean + 2.0 * p * std::cos(angle + 2.0 * kPi / 3.0));
+  return spread;
+}
+
+/// The slots of a query without those at the place of one before. Equal places lie within a leaf's length of
+/// each other in the order of SpatialOrder.h.
+struct Places
+{
+  std::vector<Vec3> points;          ///< Empty where all are distinct.
+  std::vector<std::uint32_t> places; ///< Of each slot: its index in points.
+};
+
+Places distinctPlaces(const NeighborQuery& query)
+{
+  Places result;
+  const std::int64_t size = query.size();
+  std::vector<std::uint32_t> first(static_cast<std::size_t>(size));
+  bool repeats = false;
+  for (std::int64_t slot = 0; slot < size; ++slot)
+  {
+    first[std::size_t(slot)] = std::uint32_t(slot);
+    const Vec3 here = query.point(slot);
+    for (std::int64_t before = slot - 1; before >= std::max<std::int64_t>(0, slot - simd::kLeafPoints);
+         --before)
+    {
+      if (query.point(before) == here)
+      {
+        first[std::size_t(slot)] = first[std::size_t(before)];
+        repeats = true;
+        break;
+      }
+    }
+  }
+  if (repeats)
+  {
+    result.places.resize(std::size_t(size));
+    for (std::size_t slot = 0; slot < result.places.size(); ++slot)
+    {
+      if (first[slot] == slot)
+      {
+        result.places[slot] = std::uint32_t(result.points.size());
+        result.points.push_back(query.point(std::int64_t(slot)));
+      }
+      else
+      {
+        result.places[slot] = result.places[first[slot]];
+      }
+    }
+  }
+  return result;
+}
+
+/// The value in the middle; 0 where there are none.
+double medianOf(std::vector<float>& values)
+{
+  if (values.empty())
+  {
+    return 0.0;
+  }
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return double(*middle);
+}
+
+int chosenNeighbors(const NeighborQuery& query, const LocalShapeSettings& settings)
+{
+  if (settings.numberOfNeighbors > 0)
+  {
+    return settings.numberOfNeighbors;
+  }
+  std::vector<float> spacings;
+  const std::int64_t step = 1 + query.size() / kSample;
+  for (std::int64_t slot = 0; settings.pixel > 0.0 && slot < query.size(); slot += step)
+  {
+    Neighbor neighbors[9];
+    const int count = query.nearest(query.point(slot), 9, neighbors);
+    double squared[9];
+    std::transform(
+      neighbors, neighbors + count, squared, [](const Neighbor& each) { return each.squaredDistance; });
+    spacings.push_back(float(spacingOf(squared, count - 1)));
+  }
+  const double spacing = medianOf(spacings);
+  const double held = spacing > 0.0 ? kPi * std::pow(kDiscRadius * settings.pixel / spacing, 2.0) : 0.0;
+  return held > kCrowdedDisc ? int(std::min(held, double(LocalShapeSettings::kMost)))
+                             : LocalShapeSettings::kFewest;
+}
+
+/// The passes over the distinct places, by slot of their query.
+class Measurement
+{
+public:
+  Measurement(const NeighborQuery& query, int neighbors)
+    : query_(query)
+    , neighbors_(neighbors)
+    , size_(std::size_t(query.size()))
+    , near_(size_)
+    , thickness_(size_)
+    , agreed_(size_)
+    , raw_(size_)
+    , smooth_(size_)
+  {
+  }
+
+  void fit(const Executor& executor)
+  {
+    forRange(executor, NeighborSweep::leaves(query_), NeighborSweep::kSmallestRange,
+      [this](std::int64_t begin, std::int64_t end)
+      {
+        NeighborSweep sweep(query_, neighbors_ + 1);
+        sweep.run(begin, end, [this](const NeighborList& list) { this->fitOne(list); });
+      });
+  }
+  void compareNormals(const Executor& executor)
+  {
+    forRange(executor, query_.size(),
+      [this](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t slot = begin; slot < end; ++slot)
+        {
+          this->compareOne(std::size_t(slot));
+        }
+      });
+  }
+  void average(const Executor& executor)
+  {
+    forRange(executor, query_.size(),
+      [this](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t slot = begin; slot < end; ++slot)
+        {
+          this->averageOne(std::size_t(slot));
+        }
+      });
+  }
+
+  const PointShape& result(std::int64_t slot) const { return smooth_[std::size_t(slot)]; }
+  double noise() const
+  {
+    std::vector<float> ratios;
+    for (std::size_t slot = 0; slot < size_; slot += 1 + size_ / 20000)
+    {
+      if (double(smooth_[slot].flatness) > kFlatEnough && smooth_[slot].spacing > 0.0F)
+      {
+        ratios.push_back(thickness_[slot] / smooth_[slot].spacing);
+      }
+    }
+    return medianOf(ratios);
+  }
+
+private:
+  void fitOne(const NeighborList& list)
+  {
+    const auto slot = std::size_t(list.slot);
+    const int others = list.count - 1;
+    PointShape& shape = raw_[slot];
+    shape.spacing = float(spacingOf(list.squaredDistances, others));
+    std::array<std::uint32_t, kNear>& near = near_[slot];
+    near.fill(std::uint32_t(slot));
+    std::copy_n(list.slots + (others > 0 ? 1 : 0), std::min(kNear, others), near.begin());
+    if (others < 3)
+    {
+      return;
+    }
+    const Vec3 here = query_.point(list.slot);
+    Vec3 sum;
+    SymMat3 moments;
+    for (int i = 0; i < list.count; ++i)
+    {
+      const Vec3 d = query_.point(std::int64_t(list.slots[i])) - here;
+      sum += d;
+      moments += outerProduct(d);
+    }
+    SymMat3 mean = outerProduct(sum);
+    mean *= -1.0 / list.count;
+    moments += mean;
+    const Spread spread = spreadOf(moments);
+    const double* l = spread.values;
+    shape.normal[0] = float(spread.normal.x);
+    shape.normal[1] = float(spread.normal.y);
+    shape.normal[2] = float(spread.normal.z);
+    shape.flatness =
+      l[1] > 0.0 ? float((1.0 - ramp(l[0] / l[1], 0.08, 0.35)) * ramp(l[1] / l[2], 0.03, 0.12)) : 0.0F;
+    thickness_[slot] = float(std::sqrt(l[0] / list.count));
+  }
+
+  float agreement(std::size_t a, std::size_t b) const
+  {
+    const float* p = raw_[a].normal;
+    const float* q = raw_[b].normal;
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+  }
+  void compareOne(std::size_t slot)
+  {
+    float sum = 0.0F;
+    for (const std::uint32_t other : near_[slot])
+    {
+      sum += std::abs(this->agreement(slot, other));
+    }
+    agreed_[slot] = raw_[slot].flatness * float(ramp(double(sum / kNear), 0.55, 0.85));
+  }
+  void averageOne(std::size_t slot)
+  {
+    float flatness = agreed_[slot];
+    float n[3];
+    std::transform(raw_[slot].normal, raw_[slot].normal + 3, n, [flatness](float c) { return flatness * c; });
+    for (const std::uint32_t other : near_[slot])
+    {
+      const float weight = std::copysign(agreed_[other], this->agreement(slot, other));
+      flatness += agreed_[other];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        n[axis] += weight * raw_[other].normal[axis];
+      }
+    }
+    const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    PointShape& shape = smooth_[slot];
+    shape.spacing = raw_[slot].spacing;
+    shape.flatness = flatness / float(1 + kNear);
+    for (int axis = 0; axis < 3 && length > 0.0F; ++axis)
+    {
+      shape.normal[axis] = n[axis] / length;
+    }
+  }
+
+  const NeighborQuery& query_;
+  const int neighbors_;
+  const std::size_t size_;
+  std::vector<std::array<std::uint32_t, kNear>> near_;
+  std::vector<float> thickness_; ///< Root mean square distance from the plane.
+  std::vector<float> agreed_;    ///< Flatness before it is averaged.
+  std::vector<PointShape> raw_;
+  std::vector<PointShape> smooth_;
+};
+
+/// From the places back to the points of the cloud, with the sums over them.
+LocalShape collect(const PointView& cloud, const NeighborQuery& query, const Places& places,
+  const NeighborQuery& distinct, const Measurement& measurement)
+{
+  LocalShape shape;
+  shape.points.resize(std::size_t(cloud.size()));
+  std::vector<std::uint32_t> slots(places.points.size());
+  for (std::size_t slot = 0; slot < slots.size(); ++slot)
+  {
+    slots[std::size_t(distinct.index(std::int64_t(slot)))] = std::uint32_t(slot);
+  }
+  double flatness = 0.0;
+  std::vector<float> spacings;
+  for (std::int64_t slot = 0; slot < query.size(); ++slot)
+  {
+    const std::int64_t place = slots.empty() ? slot : std::int64_t(slots[places.places[std::size_t(slot)]]);
+    const PointShape& each = measurement.result(place);
+    shape.points[std::size_t(query.index(slot))] = each;
+    flatness += double(each.flatness);
+    if (slot % (1 + query.size() / 20000) == 0)
+    {
+      spacings.push_back(each.spacing);
+    }
+  }
+  shape.meanFlatness = flatness / double(query.size());
+  shape.medianSpacing = medianOf(spacings);
+  shape.noise = measurement.noise();
+  return shape;
+}
+
+} // namespace
+
+Status measureLocalShape(const PointView& cloud, const NeighborQuery& query,
+  const LocalShapeSettings& settings, LocalShape& shape, const Executor& executor, ProgressObserver* observer)
+{
+  if (settings.numberOfNeighbors != 0 &&
+    (settings.numberOfNeighbors < LocalShapeSettings::kFewest ||
+      settings.numberOfNeighbors > LocalShapeSettings::kMost))
+  {
+    return Status::InvalidParameter;
+  }
+  if (query.size() == 0)
+  {
+    return Status::Empty;
+  }
+  const auto goesOn = [observer](double part) { return !observer || observer->report(part); };
+  const Places places = distinctPlaces(query);
+  NeighborQuery ofPlaces;
+  if (!places.points.empty())
+  {
+    ofPlaces.build({ places.points.data(), std::int64_t(places.points.size()) }, executor);
+  }
+  const NeighborQuery& distinct = places.points.empty() ? query : ofPlaces;
+  const int neighbors = chosenNeighbors(distinct, settings);
+  Measurement measurement(distinct, neighbors);
+  if (!goesOn(0.1))
+  {
+    return Status::Aborted;
+  }
+  measurement.fit(executor);
+  if (!goesOn(0.8))
+  {
+    return Status::Aborted;
+  }
+  measurement.compareNormals(executor);
+  measurement.average(executor);
+  shape = collect(cloud, query, places, distinct, measurement);
+  shape.numberOfNeighbors = neighbors;
+  return goesOn(1.0) ? Status::Ok : Status::Aborted;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,62 @@
+/// @file
+/// What the neighbours of each point of a cloud tell of its surface: spacing, flatness and normal.
+#pragma once
+
+#include "Core/Base/Executor.h"
+#include "Core/Base/PointView.h"
+#include "Core/Base/ProgressObserver.h"
+#include "Core/Base/Status.h"
+#include "Core/Neighbors/NeighborQuery.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+
+struct PointShape
+{
+  /// Distance to the next points, as if they lay in a square grid on a plane; 0: the point is not finite, or
+  /// there is no other place. Unit of the coordinates.
+  float spacing = 0.0F;
+  /// 1: the neighbours lie on a smooth surface. 0: on a line, in foliage, or too few.
+  float flatness = 0.0F;
+  /// Unit normal on either side; zero where the flatness of all neighbours is 0.
+  float normal[3] = { 0.0F, 0.0F, 0.0F };
+};
+
+struct LocalShape
+{
+  std::vector<PointShape> points; ///< One for each point of the cloud, in its order.
+  double medianSpacing = 0.0;
+  double meanFlatness = 0.0;
+  /// Median distance of flat neighbourhoods from their plane (root mean square) over the spacing.
+  double noise = 0.0;
+  int numberOfNeighbors = 0;
+};
+
+struct LocalShapeSettings
+{
+  static constexpr int kFewest = 16;
+  static constexpr int kMost = 48;
+  /// Neighbours of a point, kFewest to kMost; 0: kFewest, or as many as a disc of five pixels' radius holds
+  /// where those are more than 24.
+  int numberOfNeighbors = 0;
+  /// Edge of a pixel in the unit of the coordinates, for that choice; 0: not known.
+  double pixel = 0.0;
+};
+
+/// Measures all points of @p cloud. Points at the same place count once as neighbours. The spacing is
+/// max(0.886 r4, 0.627 r8), r_k the distance to the k-th neighbour: 1 on average, within 10 %, where one
+/// point a unit square lies at random, and 0.89 in a unit grid. The flatness is a product of three ramps: the
+/// neighbourhood is thin (eigenvalues of its covariance l0/l1 from 0.35 down to 0.08), no line (l1/l2 from
+/// 0.03 up to 0.12), and its normals agree (mean |n . n_j| from 0.55 up to 0.85); both it and the normal are
+/// averaged over the nine nearest places. Independent of @p executor.
+/// @param query built of @p cloud.
+/// @return Empty: no point is finite. Aborted: @p observer said so. InvalidParameter: settings out of range.
+/// Cost: O(n log n), about 0.6 us a point on one core for 16 neighbours, 100 bytes a point while it runs.
+Status measureLocalShape(const PointView& cloud, const NeighborQuery& query,
+  const LocalShapeSettings& settings, LocalShape& shape, const Executor& executor = {},
+  ProgressObserver* observer = nullptr);
+
+} // namespace pointhaptics

@@ -1,0 +1,167 @@
+#include "Core/Neighbors/LocalShape.h"
+
+#include "RandomClouds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+LocalShape measured(const std::vector<Vec3>& points, const LocalShapeSettings& settings = {})
+{
+  const PointView view(points.data(), std::int64_t(points.size()));
+  NeighborQuery query;
+  query.build(view);
+  LocalShape shape;
+  EXPECT_EQ(measureLocalShape(view, query, settings, shape), Status::Ok);
+  return shape;
+}
+
+Vec3 normalOf(const PointShape& shape)
+{
+  return { double(shape.normal[0]), double(shape.normal[1]), double(shape.normal[2]) };
+}
+
+std::vector<Vec3> grid(int edge, double spacing)
+{
+  std::vector<Vec3> points;
+  for (int i = 0; i < edge * edge; ++i)
+  {
+    points.emplace_back(spacing * (i % edge), spacing * (i / edge), 0.0);
+  }
+  return points;
+}
+
+std::vector<Vec3> sphere(int count, double radius)
+{
+  std::vector<Vec3> points;
+  trial::Random random(5);
+  while (int(points.size()) < count)
+  {
+    const Vec3 p{ random.uniform() * 2 - 1, random.uniform() * 2 - 1, random.uniform() * 2 - 1 };
+    if (norm(p) > 0.1 && norm(p) < 1.0)
+    {
+      points.push_back(radius * normalized(p));
+    }
+  }
+  return points;
+}
+
+TEST(LocalShape, OfAPlaneIsFlatWithItsNormal)
+{
+  const Vec3 normal = normalized({ 1.0, 2.0, 3.0 });
+  const Vec3 u = anyPerpendicular(normal);
+  std::vector<Vec3> points = grid(40, 0.5);
+  for (Vec3& p : points)
+  {
+    p = p.x * u + p.y * cross(normal, u) + Vec3(500000.0, 5e6, 100.0);
+  }
+  const LocalShape shape = measured(points);
+  for (int i = 0; i < 1600; ++i)
+  {
+    const PointShape& each = shape.points[std::size_t(i)];
+    const bool isInside = i % 40 > 3 && i % 40 < 36 && i / 40 > 3 && i / 40 < 36;
+    if (isInside)
+    {
+      EXPECT_NEAR(each.spacing, 0.5, 0.08);
+      EXPECT_NEAR(each.flatness, 1.0, 1e-4);
+      EXPECT_GT(std::abs(dot(normalOf(each), normal)), 1.0 - 1e-5);
+    }
+  }
+  EXPECT_NEAR(shape.medianSpacing, 0.5, 0.08);
+  EXPECT_LT(shape.noise, 1e-3);
+}
+
+TEST(LocalShape, OfASphereHasRadialNormals)
+{
+  const std::vector<Vec3> points = sphere(20000, 2.0);
+  const LocalShape shape = measured(points);
+  // The area over the points, for a random sample.
+  EXPECT_NEAR(shape.medianSpacing, std::sqrt(4 * 3.14159265 * 4.0 / 20000), 0.1 * 0.05);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    EXPECT_GT(std::abs(dot(normalOf(shape.points[i]), normalized(points[i]))), 0.99);
+  }
+  EXPECT_GT(shape.meanFlatness, 0.9);
+}
+
+TEST(LocalShape, OfALineAndOfFoliageIsNotFlat)
+{
+  std::vector<Vec3> line;
+  for (int i = 0; i < 300; ++i)
+  {
+    line.emplace_back(0.01 * i, 0.02 * i, 0.0);
+  }
+  EXPECT_LT(measured(line).meanFlatness, 1e-6);
+  EXPECT_LT(measured(trial::randomBox(3000, 3, { 0, 0, 0 }, { 1, 1, 1 })).meanFlatness, 0.2);
+}
+
+TEST(LocalShape, SeesTheNoiseOfASurface)
+{
+  for (const double sigma : { 0.05, 0.15 })
+  {
+    std::vector<Vec3> points = grid(60, 1.0);
+    trial::Random random(7);
+    for (Vec3& p : points)
+    {
+      p.z = sigma * random.normal();
+    }
+    LocalShapeSettings settings;
+    settings.numberOfNeighbors = 48;
+    const LocalShape shape = measured(points, settings);
+    EXPECT_NEAR(shape.noise * shape.medianSpacing, sigma, 0.2 * sigma);
+  }
+}
+
+TEST(LocalShape, CountsPointsAtOnePlaceOnce)
+{
+  std::vector<Vec3> points = grid(30, 1.0);
+  const LocalShape once = measured(points);
+  const std::vector<Vec3> copy = points;
+  for (int i = 0; i < 3; ++i)
+  {
+    points.insert(points.end(), copy.begin(), copy.end());
+  }
+  const LocalShape shape = measured(points);
+  ASSERT_EQ(shape.points.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    EXPECT_EQ(shape.points[i].spacing, once.points[i % 900].spacing);
+    EXPECT_EQ(shape.points[i].flatness, once.points[i % 900].flatness);
+  }
+  const LocalShape same = measured(std::vector<Vec3>(100, Vec3(1, 2, 3)));
+  EXPECT_EQ(same.points[50].spacing, 0.0F);
+  EXPECT_EQ(same.points[50].flatness, 0.0F);
+}
+
+TEST(LocalShape, TakesMoreNeighborsWhereAPixelHoldsMany)
+{
+  LocalShapeSettings settings;
+  settings.pixel = 0.45; // a disc of 20
+  EXPECT_EQ(measured(grid(30, 1.0), settings).numberOfNeighbors, 16);
+  settings.pixel = 0.575; // a disc of 33
+  EXPECT_NEAR(measured(grid(30, 1.0), settings).numberOfNeighbors, 33, 5);
+  settings.pixel = 100.0;
+  EXPECT_EQ(measured(grid(30, 1.0), settings).numberOfNeighbors, 48);
+}
+
+TEST(LocalShape, OfFewOrNoPointsIsLeftOpen)
+{
+  const std::vector<Vec3> two = { { 0, 0, 0 }, { 3, 0, 0 }, { NAN, 0, 0 } };
+  const LocalShape shape = measured(two);
+  EXPECT_GT(shape.points[0].spacing, 0.0F);
+  EXPECT_EQ(shape.points[0].flatness, 0.0F);
+  EXPECT_EQ(shape.points[2].spacing, 0.0F);
+
+  LocalShape none;
+  EXPECT_EQ(measureLocalShape({}, NeighborQuery(), {}, none), Status::Empty);
+  LocalShapeSettings settings;
+  settings.numberOfNeighbors = 3;
+  EXPECT_EQ(measureLocalShape({}, NeighborQuery(), settings, none), Status::InvalidParameter);
+}
+
+} // namespace
