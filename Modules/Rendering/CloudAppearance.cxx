@@ -42,6 +42,12 @@ constexpr double kColorPoints[9][3] = { { 0.267, 0.005, 0.329 }, { 0.278, 0.175,
   { 0.231, 0.322, 0.546 }, { 0.173, 0.449, 0.558 }, { 0.128, 0.567, 0.551 }, { 0.153, 0.678, 0.506 },
   { 0.361, 0.785, 0.388 }, { 0.627, 0.842, 0.224 }, { 0.890, 0.840, 0.130 } };
 
+// From blue through green and yellow to a pale red: even on a dark ground, where viridis begins unseen.
+constexpr int kGroundSteps = 8;
+constexpr double kGroundColors[kGroundSteps][3] = { { 0.24, 0.40, 0.70 }, { 0.22, 0.58, 0.76 },
+  { 0.30, 0.70, 0.62 }, { 0.50, 0.78, 0.47 }, { 0.75, 0.83, 0.40 }, { 0.95, 0.80, 0.42 },
+  { 0.98, 0.66, 0.45 }, { 0.97, 0.75, 0.70 } };
+
 /// Of the larger end of a range of colours: an error's least value is an accident.
 constexpr double kAsGoodAsZero = 3e-3;
 /// Of the width of a range that stays.
@@ -138,6 +144,27 @@ void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
 }
 
 } // namespace
+
+Vec3 groundColor(double position)
+{
+  const double scaled = (position > 0.0 ? std::min(position, 1.0) : 0.0) * (kGroundSteps - 1); // not NaN
+  const int lower = std::min(kGroundSteps - 2, int(scaled));
+  const double t = scaled - lower;
+  const double* a = kGroundColors[lower];
+  const double* b = kGroundColors[lower + 1];
+  return { (1.0 - t) * a[0] + t * b[0], (1.0 - t) * a[1] + t * b[1], (1.0 - t) * a[2] + t * b[2] };
+}
+
+vtkLookupTable* newGroundColorMap()
+{
+  vtkLookupTable* colors = newCloudColorMap();
+  for (int i = 0; i < 256; ++i)
+  {
+    const Vec3 color = groundColor(i / 255.0);
+    colors->SetTableValue(i, color.x, color.y, color.z, 1.0);
+  }
+  return colors;
+}
 
 vtkLookupTable* newCloudColorMap()
 {
@@ -354,6 +381,12 @@ void applyBackground(vtkRenderer* renderer)
   renderer->SetBackground2(0.80, 0.84, 0.89);
 }
 
+void applyGround(vtkRenderer* renderer)
+{
+  renderer->GradientBackgroundOff();
+  renderer->SetBackground(0.125, 0.135, 0.155);
+}
+
 void applyFigureAppearance(vtkPolyDataMapper* mapper, vtkActor* actor, vtkRenderer* renderer)
 {
   mapper->ScalarVisibilityOff();
@@ -362,7 +395,7 @@ void applyFigureAppearance(vtkPolyDataMapper* mapper, vtkActor* actor, vtkRender
   renderer->SetBackground(1.0, 1.0, 1.0);
 }
 
-void applyDepthShading(vtkRenderer* renderer, double depthScale, double depthTolerance)
+void applyDepthShading(vtkRenderer* renderer, double noise, double noisePerDistance)
 {
   auto* sequence = vtkSequencePass::SafeDownCast(renderer->GetPass());
   vtkRenderPass* first = sequence && sequence->GetPasses()->GetNumberOfItems() > 0
@@ -370,8 +403,8 @@ void applyDepthShading(vtkRenderer* renderer, double depthScale, double depthTol
     : nullptr;
   if (auto* present = vtkDepthShadingPass::SafeDownCast(first))
   {
-    present->SetDepthScale(depthScale);
-    present->SetDepthTolerance(depthTolerance);
+    present->SetNoiseLength(noise);
+    present->SetNoisePerDistance(noisePerDistance);
     return;
   }
   vtkNew<vtkLightsPass> lights;
@@ -387,8 +420,8 @@ void applyDepthShading(vtkRenderer* renderer, double depthScale, double depthTol
   camera->SetDelegatePass(world);
   vtkNew<vtkDepthShadingPass> shading;
   shading->SetDelegatePass(camera);
-  shading->SetDepthScale(depthScale);
-  shading->SetDepthTolerance(depthTolerance);
+  shading->SetNoiseLength(noise);
+  shading->SetNoisePerDistance(noisePerDistance);
   // Text comes after the shading: it has no depth.
   vtkNew<vtkOverlayPass> overlay;
   vtkNew<vtkRenderPassCollection> passes;

@@ -27,6 +27,11 @@ constexpr const char* kHeightArrayName = "Height";
 /// (Delete()).
 POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newCloudColorMap();
 
+/// The same for a dark ground, of eight steps from blue to a pale red. The caller owns the result (Delete()).
+POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newGroundColorMap();
+/// Red, green and blue, 0 to 1, at @p position 0 to 1 of that map.
+POINTHAPTICSRENDERING_EXPORT Vec3 groundColor(double position);
+
 /// Adds the float array "Height": the position along @p up, metres above the lowest finite point (0 for
 /// points that are not finite). Taken before the cloud is transformed, so the colours turn with the model.
 POINTHAPTICSRENDERING_EXPORT void addHeightArray(vtkPolyData* cloud, const Vec3& up);
@@ -81,6 +86,9 @@ POINTHAPTICSRENDERING_EXPORT void placeScalarBar(vtkScalarBarActor* bar, vtkRend
 /// read.
 POINTHAPTICSRENDERING_EXPORT void applyBackground(vtkRenderer* renderer);
 
+/// A dark ground without a gradient, on which a cloud's own colours stand out.
+POINTHAPTICSRENDERING_EXPORT void applyGround(vtkRenderer* renderer);
+
 /// One plain colour on white, as in a printed figure. applyCloudAppearance() and applyBackground() take it
 /// back.
 POINTHAPTICSRENDERING_EXPORT void applyFigureAppearance(
@@ -88,11 +96,11 @@ POINTHAPTICSRENDERING_EXPORT void applyFigureAppearance(
 
 /// Darkens what lies behind its surroundings (eye-dome lighting, vtkDepthShadingPass): points without normals
 /// show their shape.
-/// @param depthScale a point this far behind its neighbours, in the units of the scene, keeps 1/e of its
-/// lightness: larger is weaker. May be called again with other ones.
-/// @param depthTolerance what lies less than this behind its neighbours is not darkened.
+/// May be called again with other numbers.
+/// @param noise what lies less than this behind its neighbours, in the units of the scene, is not darkened.
+/// @param noisePerDistance the same over the distance from the camera.
 POINTHAPTICSRENDERING_EXPORT void applyDepthShading(
-  vtkRenderer* renderer, double depthScale, double depthTolerance = 0.0);
+  vtkRenderer* renderer, double noise = 0.0, double noisePerDistance = 0.0);
 
 /// Median distance between neighbours, of a sample of the points; 0 where there are none.
 POINTHAPTICSRENDERING_EXPORT double medianSpacing(vtkPolyData* cloud);

@@ -38,8 +38,8 @@ constexpr double kLeastSeen = 0.1;
 /// Points nearer to each other on the screen than this cannot be told apart: half of the smallest splat lies
 /// on its neighbour.
 constexpr double kFinestPixels = 0.5;
-/// Spacing of voxel means over their bandwidth: see vtkSplatMapper::SetSizeScale().
-constexpr double kSpacingPerLength = 1.44;
+/// Diameter of splats that close to a surface over their spacing, at least.
+constexpr double kDiameterPerSpacing = 1.8;
 
 double steadySeconds()
 {
@@ -341,7 +341,7 @@ std::int64_t CloudDetail::finestFor(vtkPolyData* cloud)
   }
   if (spacing_ < 0.0)
   {
-    spacing_ = kSpacingPerLength * upperDecile(lengths);
+    spacing_ = splats->GetSizeScale() / kDiameterPerSpacing * upperDecile(lengths);
   }
   vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
     renderer_->GetTiledAspectRatio(), -1, 1);

@@ -4,6 +4,7 @@
 
 #include "vtkActor2D.h"
 #include "vtkCamera.h"
+#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
@@ -16,35 +17,91 @@
 #include "vtkTextureObject.h"
 #include "vtk_glew.h"
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 namespace
 {
 
-/// Neighbours two to three pixels away: nearer ones mostly belong to the same splat.
-constexpr const char* kFragmentShader = R"(//VTK::System::Dec
+/// Sizes are pixels of a window of 800 lines; pixelScale makes them those of this one.
+constexpr double kUsualHeight = 800.0;
+
+constexpr const char* kCommon = R"(//VTK::System::Dec
 //VTK::Output::Dec
 in vec2 texCoord;
 uniform sampler2D colors;
 uniform sampler2D depths;
 uniform vec2 clipping;
 uniform int isParallel;
-uniform float depthScale;
-uniform float depthTolerance;
-uniform float minimumLightness;
-uniform int isShaded;
-// A line far in front of a surface, which few neighbours see, must not draw a black band on it.
-const float mostBehind = 1.5;
+uniform float pixelSize; // at distance 1
+uniform float pixelScale;
+uniform vec2 noise; // in the scene, and over the distance
 
 float distanceAt(float depth)
 {
   return isParallel != 0 ? mix(clipping.x, clipping.y, depth)
                          : clipping.x * clipping.y / (clipping.y - depth * (clipping.y - clipping.x));
 }
-
-float behind(ivec2 place, ivec2 last, float here)
+float pixelAt(float here)
 {
-  float depth = texelFetch(depths, clamp(place, ivec2(0), last), 0).r;
-  return depth < 1.0 ? clamp(here - distanceAt(depth) - depthTolerance, 0.0, mostBehind * depthScale) : 0.0;
+  return isParallel != 0 ? pixelSize : pixelSize * here;
 }
+float depthAt(ivec2 place, ivec2 last)
+{
+  return texelFetch(depths, clamp(place, ivec2(0), last), 0).r;
+}
+)";
+
+/// A pixel that lies behind nearly all around it is a hole between splats.
+constexpr const char* kFillShader = R"(
+const int enough = 6;
+void main()
+{
+  ivec2 last = textureSize(depths, 0) - ivec2(1);
+  ivec2 place = ivec2(texCoord * vec2(last + ivec2(1)));
+  float depth = texelFetch(depths, place, 0).r;
+  float here = depth < 1.0 ? distanceAt(depth) : 3.4e38;
+  int side = int(1.5 * pixelScale + 0.5);
+  int corner = int(1.06 * pixelScale + 0.5);
+  ivec2 steps[8] = ivec2[8](ivec2(side, 0), ivec2(-side, 0), ivec2(0, side), ivec2(0, -side),
+    ivec2(corner, corner), ivec2(-corner, corner), ivec2(corner, -corner), ivec2(-corner, -corner));
+  int before = 0;
+  float farthest = -1.0;
+  ivec2 source = place;
+  for (int i = 0; i < 8; ++i)
+  {
+    float other = depthAt(place + steps[i], last);
+    if (other < depth)
+    {
+      float there = distanceAt(other);
+      float pixel = pixelAt(there);
+      if (here - there > max(3.0 * pixelScale * pixel, noise.x + noise.y * there))
+      {
+        ++before;
+        if (other > farthest)
+        {
+          farthest = other;
+          source = place + steps[i];
+        }
+      }
+    }
+    if (before + 7 - i < enough)
+    {
+      break;
+    }
+  }
+  bool fills = before >= enough;
+  gl_FragDepth = fills ? farthest : depth;
+  gl_FragData[0] = texelFetch(colors, fills ? clamp(source, ivec2(0), last) : place, 0);
+}
+)";
+
+/// Depths along a line over a plane are even: only what bends towards the viewer on both sides is dark.
+constexpr const char* kShadeShader = R"(
+uniform float strength;
+uniform float minimumLightness;
+uniform int isShaded;
 
 void main()
 {
@@ -56,11 +113,35 @@ void main()
   if (depth < 1.0 && isShaded == 0)
   {
     float here = distanceAt(depth);
-    float sum = behind(place + ivec2(3, 0), last, here) + behind(place + ivec2(-3, 0), last, here) +
-      behind(place + ivec2(0, 3), last, here) + behind(place + ivec2(0, -3), last, here) +
-      behind(place + ivec2(2, 2), last, here) + behind(place + ivec2(-2, 2), last, here) +
-      behind(place + ivec2(2, -2), last, here) + behind(place + ivec2(-2, -2), last, here);
-    color.rgb *= max(minimumLightness, exp(-0.125 * sum / depthScale));
+    float slope = isParallel != 0 ? clipping.y - clipping.x
+                                  : here * here * (clipping.y - clipping.x) / (clipping.x * clipping.y);
+    float pixel = pixelAt(here) * pixelScale;
+    float rough = (noise.x + noise.y * here) / pixel;
+    float radii[3] = float[3](2.0, 5.0, 12.0);
+    float weights[3] = float[3](0.075, 0.0875, 0.0875);
+    float sum = 0.0;
+    for (int ring = 0; ring < 3; ++ring)
+    {
+      float radius = radii[ring];
+      float perRadius = slope / (pixel * radius);
+      float least = 0.15 + rough / radius;
+      int side = int(radius * pixelScale + 0.5);
+      int corner = int(0.7071 * radius * pixelScale + 0.5);
+      ivec2 steps[4] = ivec2[4](ivec2(side, 0), ivec2(0, side), ivec2(corner, corner), ivec2(-corner, corner));
+      float part = 0.0;
+      for (int i = 0; i < 4; ++i)
+      {
+        float one = depthAt(place + steps[i], last);
+        float other = depthAt(place - steps[i], last);
+        if (one < 1.0 && other < 1.0)
+        {
+          float bend = clamp((depth - one) * perRadius, -3.0, 3.0) + clamp((depth - other) * perRadius, -3.0, 3.0);
+          part += clamp(0.5 * bend - least, 0.0, 1.0);
+        }
+      }
+      sum += weights[ring] * part;
+    }
+    color.rgb *= max(minimumLightness, exp(-strength * sum));
   }
   gl_FragData[0] = color;
 }
@@ -83,6 +164,12 @@ void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
     this->Colors->SetContext(window);
     this->Depths = vtkSmartPointer<vtkTextureObject>::New();
     this->Depths->SetContext(window);
+    this->FilledFrame = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
+    this->FilledFrame->SetContext(window);
+    this->FilledColors = vtkSmartPointer<vtkTextureObject>::New();
+    this->FilledColors->SetContext(window);
+    this->FilledDepths = vtkSmartPointer<vtkTextureObject>::New();
+    this->FilledDepths->SetContext(window);
     this->Kept.clear();
   }
   const auto width = static_cast<unsigned int>(this->W);
@@ -91,6 +178,8 @@ void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
   {
     this->Colors->Create2D(width, height, 4, VTK_UNSIGNED_CHAR, false);
     this->Depths->AllocateDepth(width, height, vtkTextureObject::Float32);
+    this->FilledColors->Create2D(width, height, 4, VTK_UNSIGNED_CHAR, false);
+    this->FilledDepths->AllocateDepth(width, height, vtkTextureObject::Float32);
     this->Kept.clear();
   }
 }
@@ -112,16 +201,18 @@ void vtkDepthShadingPass::Render(const vtkRenderState* state)
   this->PrepareTargets(window);
 
   std::vector<double> wanted = pointhaptics::pictureState(renderer);
-  const bool sameShades = !this->KeptIsShaded ||
-    (this->KeptDepthScale == this->DepthScale && this->KeptDepthTolerance == this->DepthTolerance &&
-      this->KeptMinimumLightness == this->MinimumLightness);
+  const std::array<double, 5> numbers = { this->NoiseLength, this->NoisePerDistance, this->Strength,
+    this->MinimumLightness, this->FillsPinholes ? 1.0 : 0.0 };
+  const bool sameShades = numbers == this->KeptNumbers;
   if (wanted != this->Kept || !sameShades || renderer->GetSelector())
   {
     window->GetState()->PushFramebufferBindings();
     this->Frame->Bind();
     this->RenderDelegate(
       state, this->Width, this->Height, this->W, this->H, this->Frame, this->Colors, this->Depths);
+    this->FillPinholes(renderer, window);
     window->GetState()->PopFramebufferBindings();
+    this->KeptNumbers = numbers;
     this->Kept = renderer->GetSelector() ? std::vector<double>() : std::move(wanted);
     this->KeptIsShaded = false;
     ++this->NumberOfPictures;
@@ -147,30 +238,91 @@ void vtkDepthShadingPass::Render(const vtkRenderState* state)
     renderer->GetTiledSizeAndOrigin(&width, &height, &x, &y);
     this->Colors->CopyFromFrameBuffer(x, y, 0, 0, width, height);
     this->KeptIsShaded = true;
-    this->KeptDepthScale = this->DepthScale;
-    this->KeptDepthTolerance = this->DepthTolerance;
-    this->KeptMinimumLightness = this->MinimumLightness;
   }
 }
 
-void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+/// Makes @p quad draw with @p fragment over the whole of the target that is bound. False: it cannot be built.
+bool vtkDepthShadingPass::PrepareQuad(
+  std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragment, vtkOpenGLRenderWindow* window)
 {
-  if (!this->Quad)
+  if (!quad)
   {
-    this->Quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, kFragmentShader, "");
+    const std::string source = std::string(kCommon) + fragment;
+    quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), "");
   }
   else
   {
-    window->GetShaderCache()->ReadyShaderProgram(this->Quad->Program);
+    window->GetShaderCache()->ReadyShaderProgram(quad->Program);
   }
-  vtkShaderProgram* program = this->Quad->Program;
-  if (!program || !program->GetCompiled())
+  if (!quad->Program || !quad->Program->GetCompiled())
   {
     vtkErrorMacro(
       "The shader could not be built, so nothing is drawn; update the graphics driver to one with "
       "OpenGL 3.2.");
+    return false;
+  }
+  return true;
+}
+
+void vtkDepthShadingPass::SetUniforms(
+  vtkShaderProgram* program, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double* range = camera->GetClippingRange();
+  const float clipping[2] = { static_cast<float>(range[0]), static_cast<float>(range[1]) };
+  const float noise[2] = { static_cast<float>(this->NoiseLength),
+    static_cast<float>(this->NoisePerDistance) };
+  const bool isParallel = camera->GetParallelProjection() != 0;
+  const double height = isParallel
+    ? 2.0 * camera->GetParallelScale()
+    : 2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+  colors->Activate();
+  depths->Activate();
+  program->SetUniformi("colors", colors->GetTextureUnit());
+  program->SetUniformi("depths", depths->GetTextureUnit());
+  program->SetUniform2f("clipping", clipping);
+  program->SetUniformi("isParallel", isParallel ? 1 : 0);
+  program->SetUniformf("pixelSize", static_cast<float>(height / std::max(1, this->Height)));
+  program->SetUniformf("pixelScale", static_cast<float>(std::max(0.5, this->Height / kUsualHeight)));
+  program->SetUniform2f("noise", noise);
+}
+
+/// From the delegate's picture to that without holes.
+void vtkDepthShadingPass::FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
+  if (!this->FillsPinholes || !this->PrepareQuad(this->FillQuad, kFillShader, window))
+  {
     return;
   }
+  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+  this->FilledFrame->Bind();
+  this->FilledFrame->AddColorAttachment(0, this->FilledColors);
+  this->FilledFrame->AddDepthAttachment(this->FilledDepths);
+  this->FilledFrame->ActivateDrawBuffer(0);
+  this->FilledFrame->StartNonOrtho(this->Width, this->Height);
+  state->vtkglViewport(0, 0, this->Width, this->Height);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthFunc(GL_ALWAYS);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  this->SetUniforms(this->FillQuad->Program, this->Colors, this->Depths, renderer);
+  this->FillQuad->Render();
+  this->Depths->Deactivate();
+  this->Colors->Deactivate();
+  state->vtkglDepthFunc(GL_LEQUAL);
+}
+
+void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
+  if (!this->PrepareQuad(this->Quad, kShadeShader, window))
+  {
+    return;
+  }
+  vtkShaderProgram* program = this->Quad->Program;
   vtkOpenGLState* state = window->GetState();
   vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
   vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
@@ -187,22 +339,15 @@ void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDisable(GL_BLEND);
 
-  vtkCamera* camera = renderer->GetActiveCamera();
-  const double* range = camera->GetClippingRange();
-  const float clipping[2] = { static_cast<float>(range[0]), static_cast<float>(range[1]) };
-  this->Colors->Activate();
-  this->Depths->Activate();
-  program->SetUniformi("colors", this->Colors->GetTextureUnit());
-  program->SetUniformi("depths", this->Depths->GetTextureUnit());
-  program->SetUniform2f("clipping", clipping);
-  program->SetUniformi("isParallel", camera->GetParallelProjection() ? 1 : 0);
+  vtkTextureObject* colors = this->FillsPinholes && !this->KeptIsShaded ? this->FilledColors : this->Colors;
+  vtkTextureObject* depths = this->FillsPinholes ? this->FilledDepths : this->Depths;
+  this->SetUniforms(program, colors, depths, renderer);
   program->SetUniformi("isShaded", this->KeptIsShaded ? 1 : 0);
-  program->SetUniformf("depthScale", static_cast<float>(this->DepthScale));
-  program->SetUniformf("depthTolerance", static_cast<float>(this->DepthTolerance));
+  program->SetUniformf("strength", static_cast<float>(this->Strength));
   program->SetUniformf("minimumLightness", static_cast<float>(this->MinimumLightness));
   this->Quad->Render();
-  this->Depths->Deactivate();
-  this->Colors->Deactivate();
+  depths->Deactivate();
+  colors->Deactivate();
   state->vtkglDepthFunc(GL_LEQUAL);
 }
 
@@ -210,11 +355,18 @@ void vtkDepthShadingPass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Superclass::ReleaseGraphicsResources(window);
   this->Quad.reset();
+  this->FillQuad.reset();
   if (this->Frame)
   {
     this->Frame->ReleaseGraphicsResources(window);
     this->Colors->ReleaseGraphicsResources(window);
     this->Depths->ReleaseGraphicsResources(window);
+    this->FilledFrame->ReleaseGraphicsResources(window);
+    this->FilledColors->ReleaseGraphicsResources(window);
+    this->FilledDepths->ReleaseGraphicsResources(window);
+    this->FilledFrame = nullptr;
+    this->FilledColors = nullptr;
+    this->FilledDepths = nullptr;
     this->Frame = nullptr;
     this->Colors = nullptr;
     this->Depths = nullptr;
@@ -225,8 +377,10 @@ void vtkDepthShadingPass::ReleaseGraphicsResources(vtkWindow* window)
 void vtkDepthShadingPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "DepthScale: " << this->DepthScale << "\n";
-  os << indent << "DepthTolerance: " << this->DepthTolerance << "\n";
+  os << indent << "NoiseLength: " << this->NoiseLength << "\n";
+  os << indent << "NoisePerDistance: " << this->NoisePerDistance << "\n";
+  os << indent << "Strength: " << this->Strength << "\n";
+  os << indent << "FillsPinholes: " << this->FillsPinholes << "\n";
   os << indent << "MinimumLightness: " << this->MinimumLightness << "\n";
   os << indent << "NumberOfPictures: " << this->NumberOfPictures << "\n";
 }

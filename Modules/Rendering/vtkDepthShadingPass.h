@@ -2,13 +2,16 @@
  * @class   vtkDepthShadingPass
  * @brief   Eye-dome lighting for point clouds: darkens what lies behind its surroundings.
  *
- * Renders its delegate (a vtkCameraPass) and darkens each point by how far it lies behind eight of its
- * neighbours in the picture, so that points without normals show their shape. It differs from vtkEDLShading
- * in three ways:
- * - the background is never darkened, neither around the cloud nor where it shines through gaps between
- *   points;
- * - its strength is a number (DepthScale), not that of the bounds of what is visible;
- * - it is one step at full resolution, which costs a software renderer less than half as much.
+ * Renders its delegate (a vtkCameraPass), fills pixels that lie behind nearly all around them, the holes
+ * between splats, and darkens each by how far it lies behind what is on both sides of it, at three distances
+ * in the picture: points without normals show their shape. It differs from vtkEDLShading in four ways:
+ * - opposite sides are taken together: a slope is as light as a plane that faces the viewer, and a splat in
+ *   front of a surface draws no outline on it;
+ * - the background is never darkened, and darkens nothing;
+ * - what lies deeper by no more than the noise of the cloud stays as light as the rest;
+ * - it is two steps at full resolution, which cost a software renderer a sixth as much.
+ *
+ * Sizes in pixels are those of a window of 800 lines and grow with it.
  *
  * A picture in which only text changed (vtkActor2D) is not drawn anew: the delegate's last one is taken.
  *
@@ -24,12 +27,14 @@
 #include "vtkDepthImageProcessingPass.h"
 #include "vtkSmartPointer.h" // For members
 
+#include <array>  // For members
 #include <memory> // For std::unique_ptr
 #include <vector> // For members
 
 class vtkOpenGLFramebufferObject;
 class vtkOpenGLQuadHelper;
 class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
 class vtkTextureObject;
 
 class POINTHAPTICSRENDERING_EXPORT vtkDepthShadingPass : public vtkDepthImageProcessingPass
@@ -41,26 +46,41 @@ public:
 
   ///@{
   /**
-   * A point that lies this much behind all its neighbours, in the units of the scene, keeps 1/e of its
-   * lightness; one and a half times as much, and more, leave 22 %, though never less than MinimumLightness.
-   * Above 0; default 0.01, a tenth of the haptic workspace.
-   */
-  vtkSetClampMacro(DepthScale, double, 1e-12, 1e12);
-  vtkGetMacro(DepthScale, double);
-  ///@}
-
-  ///@{
-  /**
    * What lies less than this behind its neighbours, in the units of the scene, stays as light as they are:
    * the splats of a noisy wall do not cast shadows on each other. 0 and above; default 0.
    */
-  vtkSetClampMacro(DepthTolerance, double, 0.0, 1e12);
-  vtkGetMacro(DepthTolerance, double);
+  vtkSetClampMacro(NoiseLength, double, 0.0, 1e12);
+  vtkGetMacro(NoiseLength, double);
   ///@}
 
   ///@{
   /**
-   * Lightness that is left to the darkest points, 0 to 1; default 0.35.
+   * The same over the distance from the camera, for depth cameras. Added to NoiseLength. Default 0.
+   */
+  vtkSetClampMacro(NoisePerDistance, double, 0.0, 1.0);
+  vtkGetMacro(NoisePerDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * A point as deep as far on all sides keeps exp(-Strength) of its lightness. 0: none is darkened. Default
+   * 1.6.
+   */
+  vtkSetClampMacro(Strength, double, 0.0, 100.0);
+  vtkGetMacro(Strength, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether holes of a pixel or two are filled. Default: on.
+   */
+  vtkSetMacro(FillsPinholes, bool);
+  vtkGetMacro(FillsPinholes, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Lightness that is left to the darkest points, 0 to 1; default 0.25.
    */
   vtkSetClampMacro(MinimumLightness, double, 0.0, 1.0);
   vtkGetMacro(MinimumLightness, double);
@@ -83,19 +103,28 @@ private:
   void operator=(const vtkDepthShadingPass&) = delete;
 
   void PrepareTargets(vtkOpenGLRenderWindow* window);
+  bool PrepareQuad(
+    std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragment, vtkOpenGLRenderWindow* window);
+  void SetUniforms(
+    vtkShaderProgram* program, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer);
+  void FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
 
-  double DepthScale = 0.01;
-  double DepthTolerance = 0.0;
-  double MinimumLightness = 0.35;
+  double NoiseLength = 0.0;
+  double NoisePerDistance = 0.0;
+  double Strength = 1.6;
+  double MinimumLightness = 0.25;
+  bool FillsPinholes = true;
   vtkSmartPointer<vtkOpenGLFramebufferObject> Frame;
   vtkSmartPointer<vtkTextureObject> Colors;
   vtkSmartPointer<vtkTextureObject> Depths;
+  vtkSmartPointer<vtkOpenGLFramebufferObject> FilledFrame;
+  vtkSmartPointer<vtkTextureObject> FilledColors;
+  vtkSmartPointer<vtkTextureObject> FilledDepths;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
-  std::vector<double> Kept; // what Colors and Depths show, see pictureState()
+  std::unique_ptr<vtkOpenGLQuadHelper> FillQuad;
+  std::vector<double> Kept; // what the textures show, see pictureState()
   bool KeptIsShaded = false;
-  double KeptDepthScale = 0.0;
-  double KeptDepthTolerance = 0.0;
-  double KeptMinimumLightness = 0.0;
+  std::array<double, 5> KeptNumbers{}; // all settings they were made with
   vtkTypeUInt64 NumberOfPictures = 0;
 };

@@ -32,31 +32,72 @@ namespace
 constexpr const char* kAttribute = "splatLength";
 constexpr const char* kNormalAttribute = "splatNormal";
 constexpr double kPixelsWithoutArray = 3.0;
+/// Of the window that the sizes in pixels are meant for.
+constexpr double kUsualHeight = 800.0;
 /// From the viewer's left and above, in view coordinates.
 constexpr double kLightDirection[3] = { -0.45, 0.55, 0.70 };
 
 /// The light on a side of a splat is that of the sky, which is darker below, and the part of the lamp's that
-/// wraps around the shape. Near the outline, where noise turns normals away, both sides count.
+/// wraps around the shape. Near the outline, where noise turns normals away, both sides count. The length of
+/// a normal is how much of the light is seen.
 constexpr const char* kLightFunctions = R"(
 in vec3 splatNormal;
 uniform vec3 splatSky;
 uniform vec3 splatLamp;
 uniform vec4 splatEye;
 uniform vec3 splatUnscale;
+uniform float splatUnit;
+uniform float splatStrength;
+uniform int splatHides;
 out float splatLight;
 float lightOn(vec3 normal)
 {
   float sky = 0.5 + 0.5 * dot(normal, splatSky);
   float lamp = 0.5 + 0.5 * dot(normal, splatLamp);
-  return 0.30 + 0.28 * sky + 0.58 * lamp * lamp;
+  return 0.16 + 0.20 * sky + 0.66 * lamp * lamp;
 }
 )";
 constexpr const char* kLightStatements = R"(
+  float splatFlat = length(splatNormal) * splatUnit;
+  vec3 splatAxis = splatFlat > 1e-3 ? normalize(splatNormal) : vec3(0.0);
   vec3 splatSight = normalize((splatEye.xyz - splatEye.w * vertexMC.xyz) * splatUnscale);
-  float splatFacing = smoothstep(-0.2, 0.2, dot(splatNormal, splatSight));
-  splatLight = dot(splatNormal, splatNormal) < 0.25
-    ? 0.85
-    : mix(lightOn(-splatNormal), lightOn(splatNormal), splatFacing);
+  float splatFacing = smoothstep(-0.2, 0.2, dot(splatAxis, splatSight));
+  float splatShade = mix(lightOn(-splatAxis), lightOn(splatAxis), splatFacing);
+  splatLight = 1.0 + min(1.0, splatFlat) * splatStrength * (splatShade - 0.85);
+  if (splatHides != 0 && splatFlat > 0.02 && dot(splatAxis, splatSight) < 0.0)
+  {
+    gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+  }
+)";
+
+/// Slope of the disc seen from the eye: how far towards the viewer it goes for a step on the screen. The
+/// lengths are of the view: splatDepth.x is half a pixel at distance 1, splatTerms those of the projection.
+constexpr const char* kSurfaceDeclarations = R"(
+uniform mat3 splatTurn;
+uniform vec4 splatTerms;
+uniform float splatHalfPixel;
+uniform int splatIsParallel;
+out vec2 splatSlope;
+out vec2 splatReach;
+)";
+constexpr const char* kSurfaceStatements = R"(
+  vec3 splatRay = splatIsParallel != 0 ? vec3(0.0, 0.0, -1.0)
+    : vec3(gl_Position.xy / gl_Position.w / splatTerms.xy, -1.0);
+  vec3 splatTilted = splatTurn * splatAxis;
+  float splatAcross = dot(splatTilted, splatRay);
+  splatSlope = abs(splatAcross) > 1e-4 ? splatTilted.xy / splatAcross : vec2(0.0);
+  float splatSteep = length(splatSlope);
+  splatSlope *= min(1.0, 1.5 / max(splatSteep, 1e-6)) * clamp(2.0 * splatFlat - 0.6, 0.0, 1.0);
+  splatReach = vec2(gl_Position.w, gl_PointSize * splatHalfPixel * gl_Position.w);
+)";
+constexpr const char* kSurfaceFragment = R"(
+  vec2 splatPlace = vec2(2.0 * gl_PointCoord.x - 1.0, 1.0 - 2.0 * gl_PointCoord.y);
+  float splatRise = dot(splatSlope, splatPlace);
+  if (dot(splatPlace, splatPlace) + splatRise * splatRise > 1.0) { discard; }
+  float splatNear = splatReach.y * splatRise;
+  gl_FragDepth = clamp(splatIsParallel != 0
+    ? gl_FragCoord.z + 0.5 * splatTerms.z * splatNear
+    : 0.5 + 0.5 * (-splatTerms.z + splatTerms.w / max(1e-6 * splatReach.x, splatReach.x - splatNear)), 0.0, 1.0);
 )";
 
 /// Of the values above 0 among at most about 10,000; 0 where there is none.
@@ -133,6 +174,35 @@ void vtkSplatMapper::SetAmbientLight(bool on)
   }
 }
 
+void vtkSplatMapper::SetSurfaces(bool on)
+{
+  if (on != this->Surfaces)
+  {
+    this->Surfaces = on;
+    this->Modified();
+  }
+}
+
+void vtkSplatMapper::SetPointPixels(double pixels)
+{
+  this->PointPixels = pixels > 0.0 && std::isfinite(pixels) ? pixels : this->PointPixels;
+}
+
+void vtkSplatMapper::SetLightStrength(double strength)
+{
+  this->LightStrength = strength >= 0.0 && strength <= 1.0 ? strength : this->LightStrength;
+}
+
+void vtkSplatMapper::SetNormalUnit(double unit)
+{
+  this->NormalUnit = unit > 0.0 && std::isfinite(unit) ? unit : this->NormalUnit;
+}
+
+void vtkSplatMapper::SetHidesBackFaces(bool on)
+{
+  this->HidesBackFaces = on;
+}
+
 void vtkSplatMapper::SetNormalArrayName(const std::string& name)
 {
   if (name != this->NormalArrayName)
@@ -168,11 +238,18 @@ void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double factor)
   this->SetSizeArrayName(other->SizeArrayName);
   this->SetSizeScale(factor * other->SizeScale);
   this->SetLargestRatio(other->LargestRatio);
-  this->SetPixelRange(other->SmallestPixels, other->LargestPixels);
+  const double wider = other->Surfaces ? factor : 1.0;
+  this->SetPixelRange(other->SmallestPixels, wider * other->LargestPixels);
+  this->SetPointPixels(wider * other->PointPixels);
   this->SetFixedPixels(factor * other->FixedPixels);
   this->SetAmbientLight(other->AmbientLight);
   this->SetNormalArrayName(other->NormalArrayName);
   this->SkyDirection = other->SkyDirection;
+  this->SetSurfaces(other->Surfaces);
+  this->SetLightStrength(other->LightStrength);
+  this->SetNormalUnit(other->NormalUnit);
+  this->SetHidesBackFaces(other->HidesBackFaces);
+  this->SetClippingPlanes(other->ClippingPlanes);
 }
 
 /// Uploads @p array, or what was uploaded no more where it is null.
@@ -243,25 +320,40 @@ void vtkSplatMapper::ReplaceShaderValues(
 {
   // In front of the superclass, which takes the marks away.
   std::string vertex = shaders[vtkShader::Vertex]->GetSource();
+  const bool tilts = this->Surfaces && this->HasNormals;
   const std::string declared = (this->HasSizes ? std::string("in float ") + kAttribute + ";\n" : "") +
-    (this->HasNormals ? kLightFunctions : "");
+    (this->HasNormals ? kLightFunctions : "") + (tilts ? kSurfaceDeclarations : "");
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Dec",
     "//VTK::PositionVC::Dec\n" + declared +
-      "uniform float splatPixels;\nuniform float splatLongest;\nuniform vec2 splatRange;\n");
+      "uniform float splatPixels;\nuniform float splatLongest;\nuniform vec3 splatRange;\n");
+  const std::string largest =
+    tilts ? "mix(splatRange.z, splatRange.y, splatFlat * splatFlat)" : "splatRange.y";
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Impl",
-    std::string("//VTK::PositionVC::Impl\n  gl_PointSize = clamp(splatPixels") +
+    std::string("//VTK::PositionVC::Impl\n") + (this->HasNormals ? kLightStatements : "") +
+      "  gl_PointSize = clamp(splatPixels" +
       (this->HasSizes ? std::string(" * min(splatLongest, ") + kAttribute + ") / gl_Position.w" : "") +
-      ", splatRange.x, splatRange.y);\n" + (this->HasNormals ? kLightStatements : ""));
+      ", splatRange.x, max(splatRange.x, " + largest + "));\n" + (tilts ? kSurfaceStatements : ""));
   shaders[vtkShader::Vertex]->SetSource(vertex);
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
-  vtkShaderProgram::Substitute(fragment, "//VTK::Clip::Impl",
-    "  vec2 splatPlace = 2.0 * gl_PointCoord - vec2(1.0);\n"
-    "  if (dot(splatPlace, splatPlace) > 1.0) { discard; }\n"
-    "//VTK::Clip::Impl\n");
+  // Depths come before the clipping: what sets them must discard there too.
+  if (tilts)
+  {
+    vtkShaderProgram::Substitute(fragment, "//VTK::Depth::Impl", kSurfaceFragment);
+  }
+  else
+  {
+    vtkShaderProgram::Substitute(fragment, "//VTK::Clip::Impl",
+      "  vec2 splatPlace = 2.0 * gl_PointCoord - vec2(1.0);\n"
+      "  if (dot(splatPlace, splatPlace) > 1.0) { discard; }\n"
+      "//VTK::Clip::Impl\n");
+  }
   if (this->HasNormals)
   {
-    vtkShaderProgram::Substitute(
-      fragment, "//VTK::PositionVC::Dec", "//VTK::PositionVC::Dec\nin float splatLight;\n");
+    vtkShaderProgram::Substitute(fragment, "//VTK::PositionVC::Dec",
+      std::string("//VTK::PositionVC::Dec\nin float splatLight;\n") +
+        (tilts ? "in vec2 splatSlope;\nin vec2 splatReach;\nuniform vec4 splatTerms;\n"
+                 "uniform int splatIsParallel;\n"
+               : ""));
     vtkShaderProgram::Substitute(
       fragment, "//VTK::Light::Impl", "//VTK::Light::Impl\n  gl_FragData[0].rgb *= splatLight;\n");
   }
@@ -276,8 +368,12 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
   {
     this->SetLightParameters(cells, renderer, actor);
   }
+  if (this->HasNormals && this->Surfaces)
+  {
+    this->SetSurfaceParameters(cells, renderer, actor);
+  }
   double pixels = this->FixedPixels > 0.0 ? this->FixedPixels : kPixelsWithoutArray;
-  double range[2] = { 1.0, std::max(this->FixedPixels, this->LargestPixels) };
+  double range[3] = { 1.0, std::max(this->FixedPixels, this->LargestPixels), 0.0 };
   if (this->HasSizes && this->FixedPixels == 0.0)
   {
     // A length at distance w covers as many pixels, for both kinds of projection: w is 1 for a parallel one.
@@ -285,14 +381,17 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
       renderer->GetActiveCamera()->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1);
     const double modelScale = std::cbrt(std::abs(actor->GetMatrix()->Determinant()));
     pixels = this->SizeScale * modelScale * 0.5 * renderer->GetSize()[1] * projection->GetElement(1, 1);
-    range[0] = this->SmallestPixels;
-    range[1] = this->LargestPixels;
+    const double scale = this->Surfaces ? renderer->GetSize()[1] / kUsualHeight : 1.0;
+    range[0] = std::max(1.0, scale * this->SmallestPixels);
+    range[1] = scale * this->LargestPixels;
+    range[2] = scale * this->PointPixels;
   }
   else if (this->HasSizes)
   {
-    range[0] = range[1] = pixels; // whatever the array says
+    range[0] = range[1] = range[2] = pixels; // whatever the array says
   }
-  const float limits[2] = { static_cast<float>(range[0]), static_cast<float>(range[1]) };
+  const float limits[3] = { static_cast<float>(range[0]), static_cast<float>(range[1]),
+    static_cast<float>(range[2]) };
   if (cells.Program->IsUniformUsed("splatPixels"))
   {
     cells.Program->SetUniformf("splatPixels", static_cast<float>(pixels));
@@ -303,7 +402,60 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
   }
   if (cells.Program->IsUniformUsed("splatRange"))
   {
-    cells.Program->SetUniform2f("splatRange", limits);
+    cells.Program->SetUniform3f("splatRange", limits);
+  }
+}
+
+/// The slopes of the discs come from normals in the frame of the view: it knows no large coordinates.
+void vtkSplatMapper::SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkNew<vtkMatrix4x4> toView;
+  vtkMatrix4x4::Multiply4x4(camera->GetViewTransformMatrix(), actor->GetMatrix(), toView);
+  double linear[3][3];
+  double inverse[3][3];
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      linear[row][column] = toView->GetElement(row, column);
+    }
+  }
+  vtkMath::Invert3x3(linear, inverse); // its transpose takes normals
+  double longest = 0.0;
+  for (const auto& row : inverse)
+  {
+    longest = std::max(longest, vtkMath::Norm(row));
+  }
+  float turn[3][3]; // column by column, as OpenGL has it
+  for (std::size_t column = 0; column < 3; ++column)
+  {
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      turn[column][row] = static_cast<float>(longest > 0.0 ? inverse[column][row] / longest : 0.0);
+    }
+  }
+  vtkMatrix4x4* projection = camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1);
+  const float terms[4] = { static_cast<float>(projection->GetElement(0, 0)),
+    static_cast<float>(projection->GetElement(1, 1)), static_cast<float>(projection->GetElement(2, 2)),
+    static_cast<float>(projection->GetElement(2, 3)) };
+  const double halfPixel = 1.0 / (projection->GetElement(1, 1) * renderer->GetSize()[1]);
+  const auto isUsed = [&cells](const char* name) { return cells.Program->IsUniformUsed(name); };
+  if (isUsed("splatTurn"))
+  {
+    cells.Program->SetUniformMatrix3x3("splatTurn", &turn[0][0]);
+  }
+  if (isUsed("splatTerms"))
+  {
+    cells.Program->SetUniform4f("splatTerms", terms);
+  }
+  if (isUsed("splatHalfPixel"))
+  {
+    cells.Program->SetUniformf("splatHalfPixel", static_cast<float>(halfPixel));
+  }
+  if (isUsed("splatIsParallel"))
+  {
+    cells.Program->SetUniformi("splatIsParallel", camera->GetParallelProjection() ? 1 : 0);
   }
 }
 
@@ -353,6 +505,18 @@ void vtkSplatMapper::SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* ren
       cells.Program->SetUniform3f(name, values);
     }
   };
+  if (cells.Program->IsUniformUsed("splatUnit"))
+  {
+    cells.Program->SetUniformf("splatUnit", static_cast<float>(1.0 / this->NormalUnit));
+  }
+  if (cells.Program->IsUniformUsed("splatStrength"))
+  {
+    cells.Program->SetUniformf("splatStrength", static_cast<float>(this->LightStrength));
+  }
+  if (cells.Program->IsUniformUsed("splatHides"))
+  {
+    cells.Program->SetUniformi("splatHides", this->HidesBackFaces ? 1 : 0);
+  }
   set("splatLamp", lamp);
   set("splatSky", sky);
   set("splatUnscale", unscale);
@@ -374,6 +538,11 @@ void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LargestPixels: " << this->LargestPixels << "\n";
   os << indent << "FixedPixels: " << this->FixedPixels << "\n";
   os << indent << "AmbientLight: " << this->AmbientLight << "\n";
+  os << indent << "Surfaces: " << this->Surfaces << "\n";
+  os << indent << "PointPixels: " << this->PointPixels << "\n";
+  os << indent << "LightStrength: " << this->LightStrength << "\n";
+  os << indent << "NormalUnit: " << this->NormalUnit << "\n";
+  os << indent << "HidesBackFaces: " << this->HidesBackFaces << "\n";
   os << indent << "NormalArrayName: " << this->NormalArrayName << "\n";
   os << indent << "SkyDirection: " << this->SkyDirection[0] << ", " << this->SkyDirection[1] << ", "
      << this->SkyDirection[2] << "\n";

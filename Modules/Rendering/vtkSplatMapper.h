@@ -18,6 +18,10 @@
  * below, and as a soft light from beside the viewer does: a cloud without colours shows its shape. The
  * normals need no side: the one towards the viewer counts.
  *
+ * With Surfaces the normals also say how flat the neighbourhood of each point is, by their length, 0 to 1.
+ * Flat neighbourhoods close to a surface: their splats are discs that tilt with it and have depth, and may
+ * grow up to LargestPixels. The others stay points: they face the camera, and have at most PointPixels.
+ *
  * Changing a number is free; changing the array uploads the points again. Colours, lookup tables and lighting
  * are those of vtkPolyDataMapper; other cells than vertices have no place in the input.
  *
@@ -121,6 +125,48 @@ public:
   void GetSkyDirection(double direction[3]) const;
   ///@}
 
+  ///@{
+  /**
+   * Draw what is flat as surfaces, by the length of the normals. Needs AmbientLight and the array of normals.
+   * Default: off. A change uploads the points again.
+   */
+  void SetSurfaces(bool on);
+  bool GetSurfaces() const { return this->Surfaces; }
+  ///@}
+
+  ///@{
+  /**
+   * Largest diameter, pixels, of a splat whose neighbourhood is not flat at all; with Surfaces. Default: 4.
+   */
+  void SetPointPixels(double pixels);
+  double GetPointPixels() const { return this->PointPixels; }
+  ///@}
+
+  ///@{
+  /**
+   * How much of the light is seen, 0 (the colours themselves) to 1 (default).
+   */
+  void SetLightStrength(double strength);
+  double GetLightStrength() const { return this->LightStrength; }
+  ///@}
+
+  ///@{
+  /**
+   * Length of a normal of 1 in the array: 32767 for short integers. Default: 1.
+   */
+  void SetNormalUnit(double unit);
+  double GetNormalUnit() const { return this->NormalUnit; }
+  ///@}
+
+  ///@{
+  /**
+   * Leave out what looks away from the viewer, where the normals are on the side that was seen: a room
+   * without its near walls. Splats with a normal shorter than 0.02 stay. Default: off.
+   */
+  void SetHidesBackFaces(bool on);
+  bool GetHidesBackFaces() const { return this->HidesBackFaces; }
+  ///@}
+
   /**
    * Takes over all numbers, the names of the arrays and the light, SizeScale times @p factor.
    */
@@ -138,6 +184,7 @@ protected:
 
 private:
   void MapArray(vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped);
+  void SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor);
   void SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor);
 
   vtkSplatMapper(const vtkSplatMapper&) = delete;
@@ -150,6 +197,11 @@ private:
   double LargestPixels = 64.0;
   double FixedPixels = 0.0;
   bool AmbientLight = false;
+  bool Surfaces = false;
+  double PointPixels = 4.0;
+  double LightStrength = 1.0;
+  double NormalUnit = 1.0;
+  bool HidesBackFaces = false;
   std::string NormalArrayName = "SurfaceNormal";
   std::array<double, 3> SkyDirection = { 0.0, 0.0, 1.0 };
   std::vector<std::array<vtkIdType, 2>> Ranges;

@@ -44,10 +44,12 @@ struct HapticViewerOptions
   int height = 800;
   std::string colorBy;     ///< An array of the cloud or the pipeline, ARRAY:COMPONENT, rgb; empty: a choice.
   std::string up = "auto"; ///< Axis of the cloud that points up: x, y, z; auto: a guess.
-  double pointSize = 0.0;  ///< Pixels; 0: from the spacing of the points, so that surfaces close.
-  bool axes = false;       ///< Box and axes of the cloud's own frame.
-  bool figure = false;     ///< Nothing but the cloud in one color on white, workspace, proxy and normal.
-  bool ambient = false;    ///< Light by the normals of the felt surface.
+  std::string kind = "auto";  ///< object, terrain, sweep, indoors, frame: see CloudLook.h; auto: a guess.
+  bool felt = false;          ///< Show the means that are felt, not the points of the file.
+  double pointSize = 0.0;     ///< Pixels; 0: from the spacing of the points, so that surfaces close.
+  bool axes = false;          ///< Box and axes of the cloud's own frame.
+  bool figure = false;        ///< Nothing but the cloud in one color on white, workspace, proxy and normal.
+  bool ambient = false;       ///< Light by the normals of the felt surface.
   std::vector<double> camera; ///< Position, focal point, view up: 9 numbers; empty: from in front.
 
   // Where the cloud lies, and the lattice it is resampled on.

@@ -13,9 +13,12 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <vtkCallbackCommand.h>
 #include <vtkNew.h>
+#include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkWindowToImageFilter.h>
 
 namespace pointhaptics
 {
@@ -35,6 +38,27 @@ void note(const HapticViewerObserver& observer, const std::string& text)
 }
 
 } // namespace
+
+bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message)
+{
+  vtkNew<vtkWindowToImageFilter> grabber;
+  grabber->SetInput(window);
+  grabber->ReadFrontBufferOff();
+  grabber->ShouldRerenderOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(grabber->GetOutputPort());
+  writer->SetFileName(fileName.c_str());
+  vtkNew<vtkCallbackCommand> silence; // the message says it
+  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  writer->AddObserver(vtkCommand::ErrorEvent, silence);
+  writer->Write();
+  if (writer->GetErrorCode() != 0)
+  {
+    message = fmt::format("{}: cannot be written; check that its folder exists and can be written", fileName);
+    return false;
+  }
+  return true;
+}
 
 bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
   ServoSample& shown, std::string& message)

@@ -9,8 +9,13 @@
 #include <optional>
 #include <string>
 
+class vtkRenderWindow;
+
 namespace pointhaptics
 {
+
+/// Writes what @p window shows as PNG. False: @p message says why not.
+bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message);
 
 class ViewScene;
 

@@ -5,6 +5,7 @@
 
 #include "CloudAppearance.h"
 #include "HapticSceneBuilder.h"
+#include "PolyDataAccess.h"
 #include "SurfaceArrays.h"
 #include "vtkCloudAxes.h"
 #include "vtkHapticProps.h"
@@ -13,7 +14,6 @@
 
 #include "Core/Base/Lattice.h"
 
-#include <fmt/format.h>
 #include <vtkActor.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
@@ -22,15 +22,14 @@
 #include <vtkLookupTable.h>
 #include <vtkMatrix4x4.h>
 #include <vtkMatrixToLinearTransform.h>
-#include <vtkPNGWriter.h>
+#include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
+#include <vtkTextProperty.h>
 #include <vtkVariant.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <chrono>
@@ -43,13 +42,49 @@ namespace pointhaptics
 namespace
 {
 
-/// Scales for applyDepthShading() in edges of the workspace; photographed colours show the shape themselves.
-constexpr double kDepthShadingScale = 0.03;
-constexpr double kDepthShadingScaleOfColors = 0.08;
-/// Above the noise of a depth camera in a room: the splats of a wall cast no shadows on each other.
-constexpr double kDepthToleranceOfColors = 0.015;
 /// The proxy sphere is drawn at least this large, over the workspace's edge.
 constexpr double kSmallestSphere = 0.022;
+/// Of the depths between neighbouring means, over their spacing.
+constexpr double kStepsOfMeans = 0.75;
+/// A model that was made larger than this many times as it was opened is shown in the workspace only.
+constexpr double kShownWhole = 1.05;
+
+/// Arrays that means alone have.
+bool isFeltOnly(const std::string& name)
+{
+  return name == "ProxyRadius" || name == kResidualArrayName || name == "Bandwidth" ||
+    name == "MeanBandwidth" || name == "VoxelPointCount";
+}
+
+double scaleOf(vtkMatrix4x4* matrix)
+{
+  return std::cbrt(std::abs(matrix->Determinant()));
+}
+
+AffineTransform transformOf(vtkMatrix4x4* matrix)
+{
+  AffineTransform transform;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      transform.m[row][column] = matrix->GetElement(row, column);
+    }
+  }
+  return transform;
+}
+
+/// The colours of the map for a dark ground, over the same range.
+void useGroundColors(vtkMapper* mapper)
+{
+  auto* table = vtkLookupTable::SafeDownCast(mapper->GetLookupTable());
+  if (mapper->GetScalarVisibility() && mapper->GetColorMode() == VTK_COLOR_MODE_MAP_SCALARS && table)
+  {
+    const auto ground = vtkSmartPointer<vtkLookupTable>::Take(newGroundColorMap());
+    table->SetTable(ground->GetTable());
+  }
+}
+
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
 constexpr double kFacingEnough = 0.25;
 
@@ -61,10 +96,18 @@ ViewScene::ViewScene()
   mapper_->SetInputDataObject(bandwidth_->GetOutput()); // a connection would make the filters run
   actor_->SetMapper(mapper_);
   actor_->PickableOff();
+  actor_->VisibilityOff();
   renderer_->AddActor(actor_);
+  pointsActor_->SetMapper(pointsMapper_);
+  pointsActor_->PickableOff();
+  pointsActor_->SetUserMatrix(pointsMatrix_);
+  pointsActor_->GetProperty()->LightingOff();
+  renderer_->AddActor(pointsActor_);
+  renderer_->AddActor(brackets_);
   props_->AddTo(renderer_);
   axes_->AddTo(renderer_);
-  applyBackground(renderer_);
+  applyGround(renderer_);
+  applyDepthShading(renderer_);
   vtkNew<vtkCallbackCommand> sizing;
   sizing->SetClientData(this);
   sizing->SetCallback(
@@ -94,7 +137,7 @@ void ViewScene::beginFrame()
   {
     placeScalarBar(scalarBar_, renderer_);
   }
-  detail_.beginFrame(
+  this->detail().beginFrame(
     std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());
 }
 
@@ -141,8 +184,9 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   axes_->SetMetresPerUnit(options.metresPerUnit);
   orientation_ = loaded.orientation;
   orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));
-  orientation_.front = normalized(loaded.placement.applyToVector(orientation_.front));
+  orientation_.front = normalized(loaded.placement.applyToVector(loaded.shown->look.front));
   title_ = loaded.title;
+  shown_ = loaded.shown;
   scene_ = loaded.scene;
   resamplings_ += loaded.resamplings;
   setElements(modelMatrix_, loaded.placement);
@@ -175,18 +219,28 @@ void ViewScene::showMeans(const LoadedCloud& loaded, const HapticViewerOptions& 
   // As if the filters had run, which they shall not.
   bandwidth_->GetOutput()->ShallowCopy(loaded.means);
   mapper_->SetSizeArrayName("MeanBandwidth");
+  drawShown(*shown_, pointsMapper_);
   workspace_ = loaded.workspace;
   double bounds[6];
   getWorkspaceBounds(bounds);
   resampler_->SetWorkspaceBounds(bounds); // it stays, whatever the user does to the model
   props_->SetWorkspaceBounds(bounds);
-  detail_.setWorkspace(workspace_);
+  brackets_->SetBox(bounds);
+  feltDetail_.setWorkspace(workspace_);
   const Vec3 extent = workspace_.extent();
   const double edge = std::max({ extent.x, extent.y, extent.z });
   props_->SetForceScale(0.06 * edge);
   props_->SetSmallestSphereRadius(kSmallestSphere * edge);
-  mapper_->SetFixedPixels(options.pointSize);
-  mapper_->SetSkyDirection(&orientation_.up.x);
+  for (vtkSplatMapper* mapper : { mapper_.Get(), pointsMapper_.Get() })
+  {
+    mapper->SetFixedPixels(options.pointSize);
+    mapper->SetSkyDirection(&orientation_.up.x);
+  }
+  showsFelt_ = showsFelt_ || options.felt;
+  loadedScale_ = scaleOf(modelMatrix_);
+  vtkNew<vtkMatrix4x4> model;
+  setElements(model, loaded.model);
+  this->placeModel(model);
   this->applyColors();
 }
 
@@ -196,40 +250,149 @@ void ViewScene::chooseArrays()
   bandwidth_->SetComputeProxyRadius(colorBy_ == "ProxyRadius");
 }
 
-/// Colours the means by what is asked for, or as if nothing were where they do not have it.
+/// Colours points and means by what is asked for, or as if nothing were where they do not have it.
 void ViewScene::applyColors()
 {
   vtkPolyData* output = bandwidth_->GetOutput();
-  const Vec3 extent = workspace_.extent();
-  const bool showsColors = hasColors(output) && (colorBy_.empty() || colorBy_ == "rgb");
-  const double edge = std::max({ extent.x, extent.y, extent.z });
-  applyDepthShading(renderer_, (showsColors ? kDepthShadingScaleOfColors : kDepthShadingScale) * edge,
-    showsColors ? kDepthToleranceOfColors * edge : 0.0);
   applyCloudAppearance(output, mapper_, actor_, colorBy_);
-  coloredBy_ = showsColors || findColorSource(output, colorBy_) ? colorBy_ : std::string();
-  isColored_ = mapper_->GetScalarVisibility() != 0;
-  actor_->GetProperty()->GetColor(plainColor_);
+  useGroundColors(mapper_);
+  this->chooseDrawn();
+  this->colorPoints();
+  const bool isThere = colorBy_.empty() || colorBy_ == kClayName ||
+    (drawsFelt_ ? findColorSource(output, colorBy_).has_value()
+                : (colorBy_ == "rgb" && hasColors(shown_->points)) ||
+          findColorSource(shown_->points, colorBy_).has_value());
+  coloredBy_ = isThere ? colorBy_ : std::string();
   this->applyLook();
+}
+
+/// Points or means, and what stands beside the one that is shown.
+void ViewScene::chooseDrawn()
+{
+  const bool drawsFelt =
+    showsFelt_ || (isFeltOnly(colorBy_) && !shown_->points->GetPointData()->HasArray(colorBy_.c_str()));
+  if (drawsFelt != drawsFelt_)
+  {
+    const bool isEnabled = this->detail().isEnabled();
+    this->detail().setEnabled(false);
+    drawsFelt_ = drawsFelt;
+    this->detail().setEnabled(isEnabled);
+  }
+  this->applyNoise();
+  actor_->SetVisibility(drawsFelt_);
+  pointsActor_->SetVisibility(!drawsFelt_);
+}
+
+void ViewScene::setShowsFelt(bool felt)
+{
+  showsFelt_ = felt;
+  if (shown_)
+  {
+    this->applyColors();
+  }
+}
+
+void ViewScene::colorPoints()
+{
+  vtkPolyData* points = shown_->points;
+  vtkPointData* data = points->GetPointData();
+  const CloudColors& colors = shown_->colors;
+  double light = 1.0;
+  if (colorBy_ == kHeightArrayName && !data->HasArray(kHeightArrayName))
+  {
+    addHeightArray(points, cloudUp_);
+  }
+  if (colorBy_ == "Density" && !data->HasArray("Density"))
+  {
+    addDensity(points);
+  }
+  const bool isAutomatic = colorBy_.empty() || isFeltOnly(colorBy_);
+  if (isAutomatic && data->HasArray(kLookColorName))
+  {
+    pointsMapper_->SetScalarModeToUsePointFieldData();
+    pointsMapper_->SelectColorArray(kLookColorName);
+    pointsMapper_->SetColorModeToDirectScalars();
+    pointsMapper_->ScalarVisibilityOn();
+    light = colors.lightStrength;
+  }
+  else if (colorBy_ == kClayName || (isAutomatic && colors.rule == ColorRule::Clay))
+  {
+    pointsMapper_->ScalarVisibilityOff();
+  }
+  else
+  {
+    const std::string name = isAutomatic ? std::string("rgb") : colorBy_;
+    applyCloudAppearance(points, pointsMapper_, pointsActor_, name);
+    useGroundColors(pointsMapper_);
+    light = name == "rgb" ? colors.lightStrength : 1.0;
+  }
+  pointsMapper_->SetLightStrength(ambient_ ? 1.0 : light);
+  pointsActor_->GetProperty()->SetColor(kClayColor[0], kClayColor[1], kClayColor[2]);
+}
+
+/// The discs of means face the viewer: where a surface is steep they stand in steps.
+void ViewScene::applyNoise()
+{
+  const double noise = drawsFelt_ ? kStepsOfMeans * medianSpacing(bandwidth_->GetOutput())
+                                  : scaleOf(pointsMatrix_) * shown_->look.noiseLength;
+  applyDepthShading(renderer_, noise, shown_->look.noisePerDistance);
+}
+
+/// The model may leave the workspace where it is turned; made larger, it would stand in front of it.
+void ViewScene::placeModel(vtkMatrix4x4* model)
+{
+  pointsMatrix_->DeepCopy(model);
+  pointsMatrix_->Modified();
+  if (!shown_)
+  {
+    return;
+  }
+  const double scale = scaleOf(model);
+  this->applyNoise();
+  const bool isWhole = scale <= kShownWhole * loadedScale_;
+  if (isWhole != (pointsMapper_->GetNumberOfClippingPlanes() == 0))
+  {
+    pointsMapper_->RemoveAllClippingPlanes();
+    for (int side = 0; side < 6 && !isWhole; ++side)
+    {
+      vtkNew<vtkPlane> plane;
+      double normal[3] = { 0.0, 0.0, 0.0 };
+      normal[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
+      const Vec3& corner = side % 2 == 0 ? workspace_.minimum : workspace_.maximum;
+      plane->SetOrigin(corner.x, corner.y, corner.z);
+      plane->SetNormal(normal);
+      pointsMapper_->AddClippingPlane(plane);
+    }
+    detail_.setWorkspace(isWhole ? Bounds() : workspace_);
+  }
 }
 
 std::vector<std::string> ViewScene::colorChoices() const
 {
+  // What is shown where nothing is chosen comes first.
   std::vector<std::string> names;
-  if (hasColors(cloud_))
+  const auto add = [&names](const std::string& name)
   {
-    names.emplace_back("rgb");
-  }
-  names.emplace_back(kHeightArrayName);
-  if (!ownColor_.empty())
-  {
-    names.push_back(ownColor_);
-  }
-  for (const char* name : { "Density", "ProxyRadius", kResidualArrayName })
-  {
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
     {
-      names.emplace_back(name);
+      names.push_back(name);
     }
+  };
+  const ColorRule rule = shown_->colors.rule;
+  add(rule == ColorRule::Rgb ? "rgb" : "");
+  add(rule == ColorRule::Classes ? shown_->colors.array : "");
+  add(rule == ColorRule::Clay ? kClayName : "");
+  add(kHeightArrayName);
+  add(hasColors(shown_->points) ? "rgb" : "");
+  for (const char* name : { "classification", "intensity" })
+  {
+    vtkDataArray* array = findArrayAnyCase(shown_->points, name);
+    add(array ? array->GetName() : "");
+  }
+  add(ownColor_);
+  for (const char* name : { kClayName, "Density", "ProxyRadius", kResidualArrayName })
+  {
+    add(name);
   }
   return names;
 }
@@ -238,25 +401,19 @@ bool ViewScene::setColorBy(const std::string& name)
 {
   colorBy_ = name;
   this->chooseArrays();
-  vtkPointData* data = cloud_->GetPointData();
-  const bool lacksHeight = name == kHeightArrayName && !data->HasArray(kHeightArrayName);
-  if (lacksHeight)
-  {
-    addHeightArray(cloud_, cloudUp_);
-  }
-  vtkPolyData* output = bandwidth_->GetOutput();
-  const bool isThere = name.empty() || (name == "rgb" && hasColors(output)) || findColorSource(output, name);
-  if (isThere)
-  {
-    this->applyColors();
-  }
-  return !isThere;
+  this->applyColors();
+  return coloredBy_ != colorBy_;
 }
 
 void ViewScene::showAmbient(bool ambient)
 {
+  ambient_ = ambient;
   mapper_->SetAmbientLight(ambient);
-  detail_.recolor();
+  if (shown_)
+  {
+    this->colorPoints();
+  }
+  this->detail().recolor();
 }
 
 bool ViewScene::wantsResiduals() const
@@ -307,28 +464,36 @@ void ViewScene::showAxes(bool visible)
 void ViewScene::showFigure(bool figure)
 {
   figure_ = figure;
-  this->applyLook();
+  if (shown_)
+  {
+    this->applyColors();
+  }
 }
 
 /// Colours of the cloud and the background, and what stands beside the cloud.
 void ViewScene::applyLook()
 {
-  vtkPolyData* output = bandwidth_->GetOutput();
-  mapper_->SetScalarVisibility(isColored_); // the range of the colours stays
-  actor_->GetProperty()->SetColor(plainColor_);
-  applyBackground(renderer_);
-  scalarBar_->SetLookupTable(mapper_->GetLookupTable());
-  const std::optional<ColorSource> source = findColorSource(output, colorBy_);
-  const std::string name = source ? describeColorSource(output, *source) : std::string();
+  vtkPolyData* drawn = drawsFelt_ ? bandwidth_->GetOutput() : shown_->points.Get();
+  applyGround(renderer_);
+  scalarBar_->SetLookupTable(this->drawnMapper()->GetLookupTable());
+  const std::optional<ColorSource> source = findColorSource(drawn, colorBy_);
+  const std::string name = source ? describeColorSource(drawn, *source) : std::string();
   scalarBar_->SetTitle((name + (this->wantsResiduals() ? " (" + unit_ + ")\n" : "\n")).c_str());
   scalarBar_->SetVisibility(!figure_ && source.has_value());
+  for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty() })
+  {
+    text->SetColor(0.88, 0.89, 0.91);
+  }
   if (figure_)
   {
     applyFigureAppearance(mapper_, actor_, renderer_);
+    applyFigureAppearance(pointsMapper_, pointsActor_, renderer_);
   }
+  brackets_->SetVisibility(!figure_);
+  props_->GetWorkspaceActor()->SetVisibility(figure_);
   axes_->SetVisibility(wantsAxes_ && !figure_);
   props_->SetHandVisibility(!figure_);
-  detail_.recolor();
+  this->detail().recolor();
 }
 
 /// The box ends where the workspace does: of a monument the part in reach is what is looked at.
@@ -367,33 +532,34 @@ void ViewScene::placeAxes(vtkMatrix4x4* model)
 
 void ViewScene::placeCamera(const ProxyState* contact)
 {
-  Vec3 center;
-  double edge = 0.0;
-  framingCube(bandwidth_->GetOutput(), workspace_, center, edge);
-  const double aside = orientation_.fromSensor ? 16.0 : 28.0;
-  const double above = orientation_.fromSensor ? 12.0 : 18.0;
-  vtkCamera* camera = renderer_->GetActiveCamera();
+  if (!shown_)
+  {
+    return;
+  }
+  const PointAccess access(shown_->points->GetPoints());
+  const AffineTransform model = transformOf(pointsMatrix_);
+  const double aspect = renderer_->GetTiledAspectRatio();
+  const bool turns = contact && contact->contact && shown_->look.kind != CloudKind::Frame;
   // A contact is wanted on the side we see: the smallest turn that shows it, or else the one that faces it
   // most.
-  double best = -2.0;
-  double azimuth = aside;
+  CameraFit best = fitCamera(access.view(), shown_->look, model, aspect);
+  double facing = -2.0;
   for (double turn : { 0.0, -60.0, 60.0, 120.0, -120.0, 180.0 })
   {
-    pointhaptics::placeCamera(camera, orientation_, center, edge, aside + turn, above);
-    Vec3 forward;
-    camera->GetDirectionOfProjection(&forward.x);
-    const double facing = contact && contact->contact ? -dot(contact->normal, forward) : 1.0;
-    if (facing > best)
-    {
-      best = facing;
-      azimuth = aside + turn;
-    }
-    if (best > kFacingEnough)
+    if (!turns || facing > kFacingEnough)
     {
       break;
     }
+    const CameraFit fit = fitCamera(access.view(), shown_->look, model, aspect, turn);
+    const double cosine = dot(contact->normal, normalized(fit.position - fit.focalPoint));
+    best = cosine > facing ? fit : best;
+    facing = std::max(facing, cosine);
   }
-  pointhaptics::placeCamera(camera, orientation_, center, edge, azimuth, above);
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->SetViewAngle(best.viewAngle);
+  camera->SetPosition(&best.position.x);
+  camera->SetFocalPoint(&best.focalPoint.x);
+  camera->SetViewUp(&best.up.x);
   renderer_->ResetCameraClippingRange();
 }
 
@@ -415,27 +581,6 @@ std::shared_ptr<const HapticScene> ViewScene::makeScene(bool useCovariance, Stat
   status = Status::Ok;
   return scene_ ? scene_
                 : makeHapticScene(bandwidth_->GetOutput(), status, useCovariance, bandwidth_->GetSettings());
-}
-
-bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message)
-{
-  vtkNew<vtkWindowToImageFilter> grabber;
-  grabber->SetInput(window);
-  grabber->ReadFrontBufferOff();
-  grabber->ShouldRerenderOff();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(grabber->GetOutputPort());
-  writer->SetFileName(fileName.c_str());
-  vtkNew<vtkCallbackCommand> silence; // the message says it
-  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  writer->AddObserver(vtkCommand::ErrorEvent, silence);
-  writer->Write();
-  if (writer->GetErrorCode() != 0)
-  {
-    message = fmt::format("{}: cannot be written; check that its folder exists and can be written", fileName);
-    return false;
-  }
-  return true;
 }
 
 } // namespace pointhaptics

@@ -4,6 +4,7 @@
 
 #include "HapticViewerOptions.h"
 #include "LoadedCloud.h"
+#include "ShownCloud.h"
 
 #include "CloudDetail.h"
 #include "CloudOrientation.h"
@@ -13,6 +14,7 @@
 #include "Haptics/Proxy.h"
 #include "PointHapticsViewerModule.h" // For export macro
 #include "vtkSplatMapper.h"
+#include "vtkWorkspaceBrackets.h"
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -27,7 +29,6 @@ class vtkHapticProps;
 class vtkKernelBandwidthFilter;
 class vtkMatrix4x4;
 class vtkPolyData;
-class vtkRenderWindow;
 class vtkRenderer;
 class vtkScalarBarActor;
 class vtkVoxelMeanResampler;
@@ -48,7 +49,13 @@ public:
   /// Shows what loadCloud() made of a request with these @p options; resamples nothing. False: no point lies
   /// in the workspace, @p message says so; the scene shows that.
   bool open(LoadedCloud loaded, const HapticViewerOptions& options, std::string& message);
-  /// Puts the camera in front of the workspace. @p contact, if given, is turned into view.
+  /// The points of the file (the default), or the means that are felt. Some colours are of means alone:
+  /// while one of them is shown, means are.
+  void setShowsFelt(bool felt);
+  bool showsFelt() const { return showsFelt_; }
+  /// Where @p model, from the file to the workspace, puts what is drawn.
+  void placeModel(vtkMatrix4x4* model);
+  /// Puts the camera where it sees all of the cloud. @p contact, if given, is turned into view.
   void placeCamera(const ProxyState* contact = nullptr);
   /// Where @p camera says: HapticViewerOptions::camera; nothing where that is empty.
   void setCamera(const std::vector<double>& camera);
@@ -71,9 +78,9 @@ public:
   bool awaitsColors() const { return coloredBy_ != colorBy_; }
   /// rgb where there are colours, Height, the array the user named, and what the pipeline makes.
   std::vector<std::string> colorChoices() const;
-  /// Light from the normals, of means that have them.
+  /// The whole light on clouds with photographed colours too, and on means that have normals.
   void showAmbient(bool ambient);
-  bool isAmbient() const { return mapper_->GetAmbientLight(); }
+  bool isAmbient() const { return ambient_; }
   /// Whether the picture needs the residuals of addSurfaceArrays().
   bool wantsResiduals() const;
   /// Makes the arrays of addSurfaceArrays() that the picture needs, and waits for them: for pictures without
@@ -94,12 +101,15 @@ public:
   vtkMatrix4x4* modelMatrix() { return modelMatrix_; }
   vtkVoxelMeanResampler* resampler() { return resampler_; }
   vtkKernelBandwidthFilter* bandwidth() { return bandwidth_; }
+  /// Of the means that are felt; of the points of the file.
   vtkActor* actor() { return actor_; }
+  vtkActor* pointsActor() { return pointsActor_; }
+  const ShownCloud* shown() const { return shown_.get(); }
   vtkRenderer* renderer() { return renderer_; }
   vtkHapticProps* props() { return props_; }
   /// Off until it is enabled: then the picture must be refined when it rests.
-  CloudDetail& detail() { return detail_; }
-  const CloudDetail& detail() const { return detail_; }
+  CloudDetail& detail() { return drawsFelt_ ? feltDetail_ : detail_; }
+  const CloudDetail& detail() const { return drawsFelt_ ? feltDetail_ : detail_; }
   const Bounds& workspace() const { return workspace_; }
   void getWorkspaceBounds(double bounds[6]) const;
   /// Edges of a voxel, metres; 0 before open().
@@ -112,6 +122,10 @@ private:
   void beginFrame();
   void applyLook();
   void applyColors();
+  void colorPoints();
+  void chooseDrawn();
+  void applyNoise();
+  vtkSplatMapper* drawnMapper() { return drawsFelt_ ? mapper_ : pointsMapper_; }
   void chooseArrays();
   void configure(const LoadedCloud& loaded, const HapticViewerOptions& options);
   void showMeans(const LoadedCloud& loaded, const HapticViewerOptions& options);
@@ -122,13 +136,20 @@ private:
   vtkNew<vtkKernelBandwidthFilter> bandwidth_;
   vtkNew<vtkSplatMapper> mapper_;
   vtkNew<vtkActor> actor_;
+  std::shared_ptr<ShownCloud> shown_;
+  vtkNew<vtkSplatMapper> pointsMapper_;
+  vtkNew<vtkActor> pointsActor_;
+  vtkNew<vtkMatrix4x4> pointsMatrix_; ///< From the file to the workspace.
+  bool showsFelt_ = false;            ///< As it was asked for.
+  bool drawsFelt_ = false;            ///< As it is.
+  bool ambient_ = false;
+  double loadedScale_ = 1.0; ///< Of the model as it was opened.
+  vtkNew<vtkWorkspaceBrackets> brackets_;
   vtkNew<vtkScalarBarActor> scalarBar_;
   vtkNew<vtkHapticProps> props_;
   vtkNew<vtkCloudAxes> axes_;
   bool wantsAxes_ = false;
   bool figure_ = false;
-  bool isColored_ = false; ///< By an array or its own colours, when it is no figure.
-  double plainColor_[3] = { 0.0, 0.0, 0.0 };
   std::string colorBy_;
   std::string ownColor_;  ///< An array of the file that the user named.
   std::string coloredBy_; ///< What the picture shows by now.
@@ -136,7 +157,8 @@ private:
   Vec3 cloudUp_;          ///< In the frame of the file.
   Bounds cloudBounds_;    ///< Of the finite points, as in the file; empty until the axes are shown.
   vtkNew<vtkRenderer> renderer_;
-  CloudDetail detail_{ renderer_, actor_ };
+  CloudDetail detail_{ renderer_, pointsActor_ };
+  CloudDetail feltDetail_{ renderer_, actor_ };
   Bounds workspace_;
   CloudOrientation orientation_;
   std::string scaleNote_;
@@ -144,8 +166,5 @@ private:
   std::shared_ptr<const HapticScene> scene_; ///< Came with the cloud, until it is asked for.
   int resamplings_ = 0;
 };
-
-/// Writes what @p window shows as PNG. False: @p message says why not.
-bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message);
 
 } // namespace pointhaptics

@@ -447,6 +447,7 @@ bool buildPicture(
     { "CoarseSplats", { "equal-sizes", "all-points" }, buildCoarseSplats },
     { "Residuals", { "not-a-number-as-zero", "larger" }, buildResiduals },
     { "AmbientLight", { "no-light", "sky-below", "wrong-normals" }, buildAmbientLight },
+    { "FirstGlance", { "no-tilt", "no-light", "no-depth", "no-brackets" }, buildFirstGlance },
     { "CoarseAmbientLight", { "no-light" }, buildCoarseAmbientLight },
     { "HelpOverlay", { "missing-line" }, buildHelpOverlay },
     { "StatusOverlay", { "wrong-number" }, buildStatusOverlay },

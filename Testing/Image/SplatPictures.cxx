@@ -4,10 +4,13 @@
 #include "CloudDetail.h"
 #include "CloudOrientation.h"
 #include "HapticSceneBuilder.h"
+#include "PolyDataAccess.h"
+#include "ShownCloud.h"
 #include "SurfaceArrays.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkSplatMapper.h"
 #include "vtkVoxelMeanResampler.h"
+#include "vtkWorkspaceBrackets.h"
 
 #include "Core/Base/Vector3.h"
 #include "Shapes/Shapes.h"
@@ -26,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,7 +70,7 @@ vtkSmartPointer<vtkActor> showStatue(vtkRenderer* renderer, std::int64_t count, 
   mapper->SetFixedPixels(equalSizes ? 3.0 : 0.0);
   renderer->AddActor(actor);
   applyBackground(renderer);
-  applyDepthShading(renderer, 0.003);
+  applyDepthShading(renderer, 0.75 * medianSpacing(bandwidth->GetOutput()));
   // From below and behind, where it is sparse.
   placeCamera(renderer->GetActiveCamera(), CloudOrientation(), {}, 0.1, 200.0, 12.0);
   renderer->GetActiveCamera()->Zoom(1.6);
@@ -164,6 +168,51 @@ void buildResiduals(const std::string& fault, vtkRenderer* renderer)
 void buildAmbientLight(const std::string& fault, vtkRenderer* renderer)
 {
   showLitStatue(renderer, 12000, fault);
+}
+
+void buildFirstGlance(const std::string& fault, vtkRenderer* renderer)
+{
+  std::vector<Vec3> positions;
+  if (generateShape(Shape::Idol, 20000, 3, 0.0, positions) != Status::Ok)
+  {
+    return;
+  }
+  vtkNew<vtkPoints> points;
+  for (const Vec3& p : positions)
+  {
+    points->InsertNextPoint(p.x, p.y, p.z);
+  }
+  // Strays, and rays that did not return.
+  points->InsertNextPoint(1.0, 0.0, 0.0);
+  points->InsertNextPoint(0.0, 0.0, 0.0);
+  points->InsertNextPoint(0.0, 0.0, 0.0);
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  const std::shared_ptr<ShownCloud> shown =
+    makeShownCloud(cloud, CloudOrientation(), "", std::nullopt, [] { return true; });
+  vtkNew<vtkSplatMapper> mapper;
+  drawShown(*shown, mapper);
+  mapper->ScalarVisibilityOff();
+  mapper->SetSurfaces(fault != "no-tilt");
+  mapper->SetLightStrength(fault == "no-light" ? 0.0 : 1.0);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetColor(kClayColor[0], kClayColor[1], kClayColor[2]);
+  renderer->AddActor(actor);
+  vtkNew<vtkWorkspaceBrackets> brackets;
+  const double box[6] = { -0.05, 0.05, -0.05, 0.05, -0.05, 0.05 };
+  brackets->SetBox(box);
+  brackets->SetVisibility(fault != "no-brackets");
+  renderer->AddActor(brackets);
+  applyGround(renderer);
+  applyDepthShading(renderer, fault == "no-depth" ? 1.0 : shown->look.noiseLength);
+  const CameraFit fit =
+    fitCamera(PointAccess(shown->points->GetPoints()).view(), shown->look, AffineTransform(), 4.0 / 3.0);
+  renderer->GetActiveCamera()->SetPosition(&fit.position.x);
+  renderer->GetActiveCamera()->SetFocalPoint(&fit.focalPoint.x);
+  renderer->GetActiveCamera()->SetViewUp(&fit.up.x);
+  renderer->GetActiveCamera()->SetViewAngle(fit.viewAngle);
 }
 
 void buildCoarseAmbientLight(const std::string& fault, vtkRenderer* renderer)

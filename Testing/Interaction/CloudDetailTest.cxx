@@ -79,7 +79,7 @@ protected:
     applyCloudAppearance(cloud_, mapper_, actor_);
     renderer_->AddActor(actor_);
     applyBackground(renderer_);
-    applyDepthShading(renderer_, 0.003);
+    applyDepthShading(renderer_);
     window_->SetOffScreenRendering(1);
     window_->SetMultiSamples(0);
     window_->SetSize(kSize, kSize);
@@ -288,7 +288,7 @@ TEST_F(CloudDetailTest, DrawsTheCloudAnewOnlyWhereMoreThanTextChanged)
     { "matrix in place", [&place] { place->SetElement(0, 3, 0.01); } },
     { "colour", [&proxy] { proxy->GetProperty()->SetColor(1, 0, 0); } },
     { "visibility", [&proxy] { proxy->VisibilityOff(); } },
-    { "depth scale", [shading] { shading->SetDepthScale(0.001); } },
+    { "strength", [shading] { shading->SetStrength(3.0); } },
     { "background", [this] { renderer_->SetBackground(1, 0, 0); } },
     { "size", [this] { window_->SetSize(kSize + 10, kSize); } },
   };

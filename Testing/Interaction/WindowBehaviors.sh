@@ -137,8 +137,9 @@ KeyMGoesThroughTheColors() {
   write_settings
   [[ "$(setting color-by "$settings")" == "" ]] || fail "a colour that nobody chose"
   key m
-  said "coloured by Density, as soon as it is computed"
-  until_true "the status still waits for Density" grep -qxF "coloured by Density" said.txt
+  said "coloured by Clay"
+  key m
+  said "coloured by Density"
   write_settings
   is color-by '"Density"' || fail "the settings do not have the colours"
   key m m

@@ -3,6 +3,7 @@
 #include "CloudAppearance.h"
 #include "HapticViewerOptions.h"
 #include "ResampledCloud.h"
+#include "ShownCloud.h"
 #include "SurfaceArrays.h"
 #include "vtkPointCloudReader.h"
 
@@ -103,8 +104,8 @@ void keepArrays(vtkPolyData* cloud, const std::string& colorBy)
 }
 
 /// Arrays the pipeline adds to those of the cloud.
-constexpr const char* kMadeByPipeline[] = { kHeightArrayName, "Density", "ProxyRadius", "Bandwidth",
-  "MeanBandwidth", "VoxelPointCount", kResidualArrayName };
+constexpr const char* kMadeByPipeline[] = { kClayName, kHeightArrayName, "Density", "ProxyRadius",
+  "Bandwidth", "MeanBandwidth", "VoxelPointCount", kResidualArrayName };
 
 bool isMadeByPipeline(const std::string& name)
 {
@@ -341,6 +342,18 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   if (!hasColors(result.cloud) || !request.colorBy.empty())
   {
     addHeightArray(result.cloud, result.orientation.up);
+  }
+  if (request.options)
+  {
+    CloudKind kind = CloudKind::Object;
+    const bool isSaid = cloudKindFromName(request.options->kind, kind);
+    result.shown = makeShownCloud(result.cloud, result.orientation, result.colorBy,
+      isSaid ? std::optional<CloudKind>(kind) : std::nullopt, [&goesOn] { return goesOn(1.0); });
+    if (!result.shown)
+    {
+      message = result.title + ": reading was stopped on request; start it again";
+      return false;
+    }
   }
   keepArrays(result.cloud, result.colorBy);
   if (request.options)

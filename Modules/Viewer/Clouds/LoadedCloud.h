@@ -24,6 +24,7 @@ namespace pointhaptics
 {
 
 class HapticScene;
+struct ShownCloud;
 struct HapticViewerOptions;
 
 struct CloudRequest
@@ -54,6 +55,8 @@ struct LoadedCloud
   CloudOrientation orientation;
   std::string colorBy; ///< What was asked for, exactly as the cloud or the pipeline writes it.
   std::string title;   ///< The names of the files, without their folders.
+
+  std::shared_ptr<ShownCloud> shown; ///< How its points are drawn; null: it was only read.
 
   // Where it was resampled:
   AffineTransform placement; ///< Where the options place the cloud: from its coordinates to the workspace.

@@ -437,6 +437,7 @@ void ViewWindow::tell(const std::string& message)
 void ViewWindow::onModelChanged(void*)
 {
   news_.clear();
+  scene_.placeModel(style_->GetModelTransform()->GetMatrix());
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
   this->showNote();
 }

@@ -1,4 +1,5 @@
 #include "ResampledCloud.h"
+#include "ViewPicture.h"
 #include "ViewWindow.h"
 
 #include "PolyDataAccess.h"

@@ -1,0 +1,261 @@
+#include "CloudColors.h"
+
+#include "CloudAppearance.h"
+
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <set>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr vtkIdType kSample = 20000;
+constexpr double kRgbRange = 16.0;
+constexpr double kPlainRange = 20.0;
+constexpr double kRgbLight = 0.35;
+constexpr std::size_t kFewestClasses = 3;
+constexpr double kClayFlatness = 0.63;
+constexpr double kCoherent = 0.5;
+
+/// Red, green and blue of the ASPRS classes 0 to 18; what is higher is grey.
+constexpr double kClassColors[19][3] = { { 0.60, 0.60, 0.60 }, { 0.65, 0.65, 0.65 }, { 0.66, 0.50, 0.34 },
+  { 0.62, 0.76, 0.40 }, { 0.40, 0.68, 0.34 }, { 0.22, 0.54, 0.30 }, { 0.90, 0.45, 0.36 },
+  { 0.95, 0.35, 0.60 }, { 0.85, 0.80, 0.55 }, { 0.30, 0.56, 0.86 }, { 0.55, 0.45, 0.65 },
+  { 0.55, 0.57, 0.62 }, { 0.65, 0.65, 0.65 }, { 0.95, 0.85, 0.40 }, { 0.98, 0.72, 0.30 },
+  { 0.80, 0.55, 0.30 }, { 0.95, 0.60, 0.25 }, { 0.78, 0.70, 0.62 }, { 0.95, 0.35, 0.60 } };
+
+std::string lowered(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+double at(const std::vector<double>& sorted, double part)
+{
+  return sorted.empty() ? 0.0 : sorted[std::size_t(part * double(sorted.size() - 1))];
+}
+
+/// The finite values of @p value(i) over a sample of @p count, ascending.
+template <typename Value>
+std::vector<double> sortedSample(vtkIdType count, Value&& value)
+{
+  std::vector<double> values;
+  for (vtkIdType i = 0; i < count; i += 1 + count / kSample)
+  {
+    const double each = value(i);
+    if (std::isfinite(each))
+    {
+      values.push_back(each);
+    }
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+/// The part of the sample below @p value, half of the equal ones with it.
+double rankOf(const std::vector<double>& sorted, double value)
+{
+  const auto range = std::equal_range(sorted.begin(), sorted.end(), value);
+  return 0.5 * double((range.first - sorted.begin()) + (range.second - sorted.begin())) /
+    double(sorted.size());
+}
+
+/// Whether the colours tell anything, and how much of the light they leave to see.
+bool rgbIsUseful(vtkDataArray* rgb, double& lightStrength)
+{
+  const auto luma = [rgb](vtkIdType i)
+  {
+    return 0.299 * rgb->GetComponent(i, 0) + 0.587 * rgb->GetComponent(i, 1) +
+      0.114 * rgb->GetComponent(i, 2);
+  };
+  bool differs = false;
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    const std::vector<double> values =
+      sortedSample(rgb->GetNumberOfTuples(), [&](vtkIdType i) { return rgb->GetComponent(i, channel); });
+    differs = differs || at(values, 0.98) - at(values, 0.02) > kRgbRange;
+  }
+  const std::vector<double> lumas = sortedSample(rgb->GetNumberOfTuples(), luma);
+  lightStrength = at(lumas, 0.75) - at(lumas, 0.25) < kPlainRange ? 1.0 : kRgbLight;
+  return differs;
+}
+
+bool hasUsefulClasses(vtkDataArray* classes)
+{
+  std::set<int> found;
+  for (vtkIdType i = 0; i < classes->GetNumberOfTuples() && found.size() < kFewestClasses; ++i)
+  {
+    const int each = int(classes->GetComponent(i, 0));
+    if (each != 0 && each != 1 && each != 12)
+    {
+      found.insert(each);
+    }
+  }
+  return found.size() >= kFewestClasses;
+}
+
+Vec3 positionOf(vtkPolyData* cloud, vtkIdType i)
+{
+  Vec3 p;
+  cloud->GetPoint(i, &p.x);
+  return p;
+}
+
+} // namespace
+
+vtkDataArray* findArrayAnyCase(vtkPolyData* cloud, const std::string& name)
+{
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    const std::string own = array && array->GetName() ? lowered(array->GetName()) : "";
+    if ((own == name || own == "scalar_" + name) && array->GetNumberOfComponents() == 1)
+    {
+      return array;
+    }
+  }
+  return nullptr;
+}
+
+double spatialCoherence(vtkDataArray* values, const NeighborQuery& query, const LocalShape& shape)
+{
+  constexpr int kNeighbors = 24; // some at the same place
+  constexpr int kUsed = 8;
+  constexpr std::int64_t kProbes = 5000;
+  const std::vector<double> sorted =
+    sortedSample(values->GetNumberOfTuples(), [values](vtkIdType i) { return values->GetComponent(i, 0); });
+  if (sorted.empty() || sorted.front() == sorted.back())
+  {
+    return 0.0;
+  }
+  double n = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  double residuals = 0.0;
+  for (std::int64_t slot = 0; slot < query.size(); slot += 1 + query.size() / kProbes)
+  {
+    const std::int64_t index = query.index(slot);
+    if (shape.points[std::size_t(index)].flatness < 0.5F)
+    {
+      continue;
+    }
+    Neighbor neighbors[kNeighbors];
+    const int count = query.nearest(query.point(slot), kNeighbors, neighbors);
+    double mean = 0.0;
+    int used = 0;
+    for (int i = 0; i < count && used < kUsed; ++i)
+    {
+      if (neighbors[i].squaredDistance > 0.0)
+      {
+        mean += rankOf(sorted, values->GetComponent(neighbors[i].index, 0));
+        ++used;
+      }
+    }
+    if (used > 0)
+    {
+      const double rank = rankOf(sorted, values->GetComponent(index, 0));
+      const double residual = rank - mean / used;
+      n += 1.0;
+      sum += rank;
+      squares += rank * rank;
+      residuals += residual * residual;
+    }
+  }
+  const double variance = n > 0.0 ? squares / n - sum * sum / (n * n) : 0.0;
+  return variance > 0.0 ? 1.0 - residuals / n / variance : 0.0;
+}
+
+CloudColors chooseColors(
+  vtkPolyData* cloud, const NeighborQuery& query, const LocalShape& shape, const CloudLook& look)
+{
+  CloudColors colors;
+  const bool isFrame = look.kind == CloudKind::Frame;
+  double lightStrength = 1.0;
+  if (hasColors(cloud) && rgbIsUseful(cloud->GetPointData()->GetScalars(), lightStrength))
+  {
+    colors.rule = ColorRule::Rgb;
+    colors.lightStrength = isFrame ? 0.0 : lightStrength;
+    return colors;
+  }
+  vtkDataArray* intensity = findArrayAnyCase(cloud, "intensity");
+  if (intensity && spatialCoherence(intensity, query, shape) > kCoherent)
+  {
+    colors.intensity = intensity->GetName();
+  }
+  vtkDataArray* classes = findArrayAnyCase(cloud, "classification");
+  if (classes && hasUsefulClasses(classes))
+  {
+    colors.rule = ColorRule::Classes;
+    colors.array = classes->GetName();
+  }
+  else if (look.kind == CloudKind::Object && shape.meanFlatness > kClayFlatness && colors.intensity.empty())
+  {
+    colors.rule = ColorRule::Clay;
+  }
+  else
+  {
+    colors.rule = isFrame ? ColorRule::Depth : ColorRule::Height;
+  }
+  return colors;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> makeColors(
+  vtkPolyData* cloud, const CloudColors& colors, const CloudLook& look)
+{
+  if (colors.rule == ColorRule::Rgb || (colors.rule == ColorRule::Clay && colors.intensity.empty()))
+  {
+    return nullptr;
+  }
+  const vtkIdType count = cloud->GetNumberOfPoints();
+  vtkPointData* data = cloud->GetPointData();
+  vtkDataArray* classes = colors.rule == ColorRule::Classes ? data->GetArray(colors.array.c_str()) : nullptr;
+  vtkDataArray* intensity = colors.intensity.empty() ? nullptr : data->GetArray(colors.intensity.c_str());
+  const auto level = [&](vtkIdType i)
+  {
+    const Vec3 p = positionOf(cloud, i);
+    return colors.rule == ColorRule::Depth ? -std::log(p.z) : dot(p, look.up);
+  };
+  const std::vector<double> levels = sortedSample(count, level);
+  const double low = at(levels, 0.01);
+  const double width = std::max(1e-300, at(levels, 0.99) - low);
+  const std::vector<double> ranks = intensity
+    ? sortedSample(count, [intensity](vtkIdType i) { return intensity->GetComponent(i, 0); })
+    : std::vector<double>();
+  auto result = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  result->SetNumberOfComponents(3);
+  result->SetNumberOfTuples(count);
+  unsigned char* out = result->GetPointer(0);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    Vec3 color{ kClayColor[0], kClayColor[1], kClayColor[2] };
+    if (classes)
+    {
+      const int each = std::clamp(int(classes->GetComponent(i, 0)), 0, 255);
+      const double* entry = kClassColors[each < 19 ? each : 0];
+      color = { entry[0], entry[1], entry[2] };
+    }
+    else if (colors.rule != ColorRule::Clay)
+    {
+      color = groundColor((level(i) - low) / width);
+    }
+    color *= ranks.empty() ? 1.0 : 0.75 + 0.40 * rankOf(ranks, intensity->GetComponent(i, 0));
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      *out++ = static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[channel], 0.0, 1.0)));
+    }
+  }
+  return result;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,64 @@
+/// @file
+/// What a cloud is coloured by where nobody says: decided from its arrays.
+#pragma once
+
+#include "CloudLook.h"
+#include "Core/Neighbors/LocalShape.h"
+#include "Core/Neighbors/NeighborQuery.h"
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkPolyData;
+class vtkUnsignedCharArray;
+
+namespace pointhaptics
+{
+
+enum class ColorRule
+{
+  Rgb,     ///< The cloud's own colours.
+  Classes, ///< Those of the ASPRS classes of LAS files.
+  Clay,    ///< One light colour: the light shows the shape.
+  Height,  ///< Along the up axis.
+  Depth,   ///< The logarithm of the distance along the view of a depth camera.
+};
+
+struct CloudColors
+{
+  ColorRule rule = ColorRule::Height;
+  std::string array;          ///< Classes: the array of them.
+  std::string intensity;      ///< Makes the colours lighter and darker, by its rank; empty: nothing does.
+  double lightStrength = 1.0; ///< See vtkSplatMapper::SetLightStrength().
+};
+
+/// What the user calls ColorRule::Clay.
+constexpr const char* kClayName = "Clay";
+/// Red, green and blue of ColorRule::Clay, 0 to 1.
+constexpr double kClayColor[3] = { 0.80, 0.76, 0.70 };
+
+/// The point array of one component of @p cloud with that name in any case, "scalar_" before it or not; null:
+/// there is none.
+POINTHAPTICSRENDERING_EXPORT vtkDataArray* findArrayAnyCase(vtkPolyData* cloud, const std::string& name);
+
+/// How much of the variance of @p values is between neighbourhoods rather than within them, by their ranks:
+/// 1 for a pattern on the surface, about 0 for noise. Of at most about 5,000 flat points.
+POINTHAPTICSRENDERING_EXPORT double spatialCoherence(
+  vtkDataArray* values, const NeighborQuery& query, const LocalShape& shape);
+
+/// The first rule that fits: colours that differ, three classes and more, clay for an object of smooth
+/// surfaces, height, or depth for a frame. An intensity that is coherent in space joins all but the first.
+/// @param query, @p shape of the points of @p cloud, in their order.
+POINTHAPTICSRENDERING_EXPORT CloudColors chooseColors(
+  vtkPolyData* cloud, const NeighborQuery& query, const LocalShape& shape, const CloudLook& look);
+
+/// The colours of all points. Null: those are the cloud's own (Rgb), or one colour (Clay without intensity).
+POINTHAPTICSRENDERING_EXPORT vtkSmartPointer<vtkUnsignedCharArray> makeColors(
+  vtkPolyData* cloud, const CloudColors& colors, const CloudLook& look);
+
+} // namespace pointhaptics

@@ -1,0 +1,455 @@
+#include "CloudLook.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <cstddef>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
+constexpr const char* kKindNames[] = { "object", "terrain", "sweep", "indoors", "frame" };
+/// Points that the kind is decided by.
+constexpr std::int64_t kSample = 50000;
+
+constexpr double kSweepCorrelation = 0.6;
+constexpr double kSweepRange = 5.0;
+constexpr double kIndoorCells = 0.6;
+constexpr double kTerrainUp = 0.7;
+constexpr double kStripRatio = 1.6;
+
+double valueAt(std::vector<double>& values, double part)
+{
+  const auto place = values.begin() + std::ptrdiff_t(std::lround(part * double(values.size() - 1)));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+Vec3 normalOf(const PointShape& shape)
+{
+  return { double(shape.normal[0]), double(shape.normal[1]), double(shape.normal[2]) };
+}
+
+template <typename Visit>
+void forSample(const PointView& cloud, const LocalShape& shape, Visit&& visit)
+{
+  const std::int64_t step = 1 + cloud.size() / kSample;
+  for (std::int64_t i = 0; i < cloud.size(); i += step)
+  {
+    if (shape.points[std::size_t(i)].spacing > 0.0F && norm2(cloud[i]) > 0.0)
+    {
+      visit(cloud[i], shape.points[std::size_t(i)]);
+    }
+  }
+}
+
+/// Rays from one place spread: what is twice as far is twice as sparse.
+bool isScannedFromOrigin(const PointView& cloud, const LocalShape& shape)
+{
+  std::vector<double> distances;
+  double n = 0.0;
+  double sx = 0.0;
+  double sy = 0.0;
+  double sxx = 0.0;
+  double syy = 0.0;
+  double sxy = 0.0;
+  forSample(cloud, shape,
+    [&](const Vec3& p, const PointShape& each)
+    {
+      const double x = std::log(norm(p));
+      const double y = std::log(double(each.spacing));
+      distances.push_back(norm(p));
+      n += 1.0;
+      sx += x;
+      sy += y;
+      sxx += x * x;
+      syy += y * y;
+      sxy += x * y;
+    });
+  if (distances.size() < 100)
+  {
+    return false;
+  }
+  const double spread = (sxx - sx * sx / n) * (syy - sy * sy / n);
+  const double correlation = spread > 0.0 ? (sxy - sx * sy / n) / std::sqrt(spread) : 0.0;
+  return correlation > kSweepCorrelation && valueAt(distances, 0.98) > kSweepRange * valueAt(distances, 0.02);
+}
+
+/// Whether there is something in most directions above the horizon.
+bool isUnderARoof(const PointView& cloud, const LocalShape& shape, const Vec3& up)
+{
+  constexpr int kAround = 24;
+  constexpr int kAbove = 4; // from 15 to 75 degrees
+  const Vec3 u = anyPerpendicular(up);
+  const Vec3 v = cross(up, u);
+  std::bitset<kAround * kAbove> hit;
+  for (std::int64_t i = 0; i < cloud.size(); ++i)
+  {
+    const Vec3 p = cloud[i];
+    const double length = norm(p);
+    if (shape.points[std::size_t(i)].spacing > 0.0F && length > 0.0)
+    {
+      const double above = std::asin(std::clamp(dot(p, up) / length, -1.0, 1.0)) / kDegree;
+      const double around = std::atan2(dot(p, v), dot(p, u)) / kDegree + 180.0;
+      if (above >= 15.0 && above < 75.0)
+      {
+        const int column = std::min(kAround - 1, int(around / 15.0));
+        hit.set(std::size_t(column * kAbove + int((above - 15.0) / 15.0)));
+      }
+    }
+  }
+  return double(hit.count()) > kIndoorCells * kAround * kAbove;
+}
+
+bool facesUp(const PointView& cloud, const LocalShape& shape, const Vec3& up)
+{
+  double sum = 0.0;
+  double weight = 0.0;
+  forSample(cloud, shape,
+    [&](const Vec3&, const PointShape& each)
+    {
+      sum += double(each.flatness) * std::abs(dot(normalOf(each), up));
+      weight += double(each.flatness);
+    });
+  return weight > 0.0 && sum > kTerrainUp * weight;
+}
+
+/// Of the two horizontal axes of the cloud: the direction of the longer one, and how much more it varies.
+double horizontalStrip(const PointView& cloud, const LocalShape& shape, const Vec3& up, Vec3& along)
+{
+  const Vec3 u = anyPerpendicular(up);
+  const Vec3 v = cross(up, u);
+  double n = 0.0;
+  Vec3 sum;
+  SymMat3 moments;
+  Vec3 origin;
+  forSample(cloud, shape,
+    [&](const Vec3& p, const PointShape&)
+    {
+      origin = n == 0.0 ? p : origin; // coordinates may be large
+      const Vec3 q{ dot(p - origin, u), dot(p - origin, v), 0.0 };
+      n += 1.0;
+      sum += q;
+      moments += outerProduct(q);
+    });
+  if (n < 2.0)
+  {
+    return 1.0;
+  }
+  SymMat3 mean = outerProduct(sum);
+  mean *= -1.0 / n;
+  moments += mean;
+  const double middle = 0.5 * (moments.xx + moments.yy);
+  const double radius = std::hypot(0.5 * (moments.xx - moments.yy), moments.xy);
+  const double angle = 0.5 * std::atan2(2.0 * moments.xy, moments.xx - moments.yy);
+  along = std::cos(angle) * u + std::sin(angle) * v;
+  return middle > radius ? (middle + radius) / (middle - radius) : INFINITY;
+}
+
+/// Where the walls look that the sensor at the origin sees.
+Vec3 facesOfWalls(const PointView& cloud, const LocalShape& shape, const Vec3& up, const Vec3& fallback)
+{
+  Vec3 sum;
+  forSample(cloud, shape,
+    [&](const Vec3& p, const PointShape& each)
+    {
+      const Vec3 n = normalOf(each);
+      sum += (dot(n, p) > 0.0 ? -1.0 : 1.0) * double(each.flatness) * n;
+    });
+  sum -= dot(sum, up) * up;
+  return normalized(sum, fallback);
+}
+
+void lookAtTerrain(CloudLook& look, const PointView& cloud, const LocalShape& shape)
+{
+  look.elevation = 35.0;
+  Vec3 along;
+  const double ratio = horizontalStrip(cloud, shape, look.up, along);
+  if (ratio > kStripRatio)
+  {
+    // The long axis runs across the window, its front on the side nearer to the usual one.
+    const Vec3 front = cross(along, look.up);
+    look.front = dot(front, look.front) < 0.0 ? -1.0 * front : front;
+    look.azimuth = 12.0;
+    look.tilt = ratio;
+  }
+}
+
+/// The axes of a view.
+struct View
+{
+  Vec3 right;
+  Vec3 up;
+  Vec3 back; ///< Towards the viewer.
+};
+
+View viewOf(const CloudLook& look, const AffineTransform& toWorld, double aspect, double turn)
+{
+  const Vec3 up = normalized(toWorld.applyToVector(look.up));
+  const Vec3 front = toWorld.applyToVector(look.front);
+  const Vec3 right = normalized(cross(up, front), anyPerpendicular(up));
+  const Vec3 ahead = cross(right, up);
+  double elevation = look.elevation;
+  if (look.tilt > 0.0)
+  {
+    elevation = std::clamp(std::asin(std::min(1.0, std::sqrt(look.tilt) / aspect)) / kDegree, 35.0, 55.0);
+  }
+  const double a = (look.azimuth + turn) * kDegree;
+  const double e = elevation * kDegree;
+  View view;
+  view.back = std::cos(e) * (std::cos(a) * ahead + std::sin(a) * right) + std::sin(e) * up;
+  view.right = normalized(cross(up, view.back), right);
+  view.up = cross(view.back, view.right);
+  return view;
+}
+
+/// Extremes of x + tz, -x + tz, y + tz, -y + tz: a point is in view where they say so.
+struct Extremes
+{
+  double most[4] = { -INFINITY, -INFINITY, -INFINITY, -INFINITY };
+  void include(const Vec3& p, double tx, double ty)
+  {
+    most[0] = std::max(most[0], p.x + tx * p.z);
+    most[1] = std::max(most[1], -p.x + tx * p.z);
+    most[2] = std::max(most[2], p.y + ty * p.z);
+    most[3] = std::max(most[3], -p.y + ty * p.z);
+  }
+  double distance(double tx, double ty) const
+  {
+    return std::max((most[0] + most[1]) / (2.0 * tx), (most[2] + most[3]) / (2.0 * ty));
+  }
+};
+
+constexpr double kViewAngle = 30.0;
+constexpr double kFilledPart = 0.92;
+constexpr double kStrayFactor = 1.5;
+
+/// The part of a sample that is no stray on any axis of the view: from, to on each.
+void coreOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
+{
+  std::vector<double> values(sample.size());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::transform(sample.begin(), sample.end(), values.begin(), [axis](const Vec3& p) { return p[axis]; });
+    from[axis] = valueAt(values, share);
+    to[axis] = valueAt(values, 1.0 - share);
+  }
+}
+
+CameraFit fitFrame(
+  const PointView& cloud, const CloudLook& look, const AffineTransform& toWorld, double aspect)
+{
+  constexpr double kRays = 0.998;
+  constexpr double kFilled = 0.985;
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> z;
+  for (std::int64_t i = 0; i < cloud.size(); ++i)
+  {
+    const Vec3 p = cloud[i];
+    if (p.z > 0.0)
+    {
+      x.push_back(p.x / p.z);
+      y.push_back(p.y / p.z);
+      z.push_back(p.z);
+    }
+  }
+  if (z.empty())
+  {
+    x = y = { 0.0 };
+    z = { 1.0 };
+  }
+  const double cut = 0.5 * (1.0 - kRays);
+  const double left = std::atan(valueAt(x, cut));
+  const double right = std::atan(valueAt(x, 1.0 - cut));
+  const double top = std::atan(valueAt(y, cut));
+  const double bottom = std::atan(valueAt(y, 1.0 - cut));
+  const double half =
+    std::max(std::tan(0.5 * (bottom - top)), std::tan(0.5 * (right - left)) / aspect) / kFilled;
+  const Vec3 ahead{ std::tan(0.5 * (left + right)), std::tan(0.5 * (top + bottom)), 1.0 };
+  CameraFit fit;
+  fit.position = toWorld.apply({ 0.0, 0.0, 0.0 });
+  fit.focalPoint = toWorld.apply(valueAt(z, 0.5) * ahead);
+  fit.up = normalized(toWorld.applyToVector(look.up));
+  fit.viewAngle = std::clamp(2.0 * std::atan(half) / kDegree, 1.0, 150.0);
+  return fit;
+}
+
+} // namespace
+
+const char* cloudKindName(CloudKind kind)
+{
+  return kKindNames[static_cast<int>(kind)];
+}
+
+bool cloudKindFromName(const std::string& name, CloudKind& kind)
+{
+  for (int i = 0; i < 5; ++i)
+  {
+    if (name == kKindNames[i])
+    {
+      kind = static_cast<CloudKind>(i);
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<std::uint32_t> drawnPoints(const PointView& cloud)
+{
+  std::vector<std::uint32_t> drawn;
+  std::vector<std::uint32_t> zeros;
+  drawn.reserve(std::size_t(cloud.size()));
+  for (std::int64_t i = 0; i < cloud.size(); ++i)
+  {
+    const Vec3 p = cloud[i];
+    if (isFinite(p))
+    {
+      (norm2(p) == 0.0 ? zeros : drawn).push_back(std::uint32_t(i));
+    }
+  }
+  if (zeros.size() == 1 || drawn.empty())
+  {
+    drawn.insert(drawn.end(), zeros.begin(), zeros.end());
+    std::inplace_merge(drawn.begin(), drawn.end() - std::ptrdiff_t(zeros.size()), drawn.end());
+  }
+  return drawn;
+}
+
+CloudKind cloudKind(const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation)
+{
+  if (orientation.fromSensor)
+  {
+    return CloudKind::Frame;
+  }
+  if (std::abs(orientation.up.y) > 0.5)
+  {
+    return CloudKind::Object;
+  }
+  if (isScannedFromOrigin(cloud, shape))
+  {
+    return isUnderARoof(cloud, shape, orientation.up) ? CloudKind::Indoors : CloudKind::Sweep;
+  }
+  return facesUp(cloud, shape, orientation.up) ? CloudKind::Terrain : CloudKind::Object;
+}
+
+CloudLook cloudLook(
+  CloudKind kind, const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation)
+{
+  CloudLook look;
+  look.kind = kind;
+  look.up = orientation.up;
+  look.front = orientation.front;
+  look.noiseLength = 2.0 * shape.noise * shape.medianSpacing;
+  look.meanFlatness = shape.meanFlatness;
+  switch (kind)
+  {
+    case CloudKind::Object:
+      break;
+    case CloudKind::Terrain:
+      lookAtTerrain(look, cloud, shape);
+      break;
+    case CloudKind::Sweep:
+    case CloudKind::Indoors:
+      look.front = facesOfWalls(cloud, shape, look.up, look.front);
+      look.azimuth = 0.0;
+      look.elevation = 40.0;
+      look.hidesBackFaces = kind == CloudKind::Indoors;
+      look.largestPixels = kind == CloudKind::Sweep ? 8.0 : 16.0;
+      look.strayShare = kind == CloudKind::Sweep ? 0.06 : 0.03;
+      break;
+    case CloudKind::Frame:
+      look.azimuth = look.elevation = 0.0;
+      look.noisePerDistance = 0.04;
+      break;
+  }
+  return look;
+}
+
+void spaceByRays(const PointView& cloud, LocalShape& shape)
+{
+  std::vector<double> angles;
+  for (std::int64_t i = 0; i + 1 < cloud.size(); ++i)
+  {
+    const Vec3 a = cloud[i];
+    const Vec3 b = cloud[i + 1];
+    if (isFinite(a) && isFinite(b) && a.z > 0.0 && b.z > 0.0)
+    {
+      angles.push_back(std::hypot(a.x / a.z - b.x / b.z, a.y / a.z - b.y / b.z));
+    }
+  }
+  const double angle = angles.empty() ? 0.0 : valueAt(angles, 0.5);
+  for (std::int64_t i = 0; angle > 0.0 && i < cloud.size(); ++i)
+  {
+    PointShape& each = shape.points[std::size_t(i)];
+    each.spacing = each.spacing > 0.0F ? float(angle * cloud[i].z) : 0.0F;
+  }
+}
+
+CameraFit fitCamera(
+  const PointView& cloud, const CloudLook& look, const AffineTransform& toWorld, double aspect, double turn)
+{
+  if (look.kind == CloudKind::Frame && cloud.size() > 0)
+  {
+    return fitFrame(cloud, look, toWorld, aspect);
+  }
+  const View view = viewOf(look, toWorld, aspect, turn);
+  const double ty = kFilledPart * std::tan(0.5 * kViewAngle * kDegree);
+  const double tx = ty * aspect;
+  const auto inView = [&](std::int64_t i)
+  {
+    const Vec3 p = toWorld.apply(cloud[i]);
+    return Vec3(dot(p, view.right), dot(p, view.up), dot(p, view.back));
+  };
+  Extremes extremes;
+  std::vector<Vec3> sample;
+  const std::int64_t step = 1 + cloud.size() / kSample;
+  for (std::int64_t i = 0; i < cloud.size(); ++i)
+  {
+    const Vec3 p = inView(i);
+    extremes.include(p, tx, ty);
+    if (i % step == 0)
+    {
+      sample.push_back(p);
+    }
+  }
+  CameraFit fit;
+  fit.viewAngle = kViewAngle;
+  fit.up = view.up;
+  if (sample.empty())
+  {
+    fit.position = view.back;
+    return fit;
+  }
+  Vec3 from;
+  Vec3 to;
+  coreOf(sample, look.strayShare, from, to);
+  Extremes core;
+  for (const Vec3& p : sample)
+  {
+    const bool isCore =
+      p.x >= from.x && p.x <= to.x && p.y >= from.y && p.y <= to.y && p.z >= from.z && p.z <= to.z;
+    if (isCore)
+    {
+      core.include(p, tx, ty);
+    }
+  }
+  // The focal point is what the camera turns about.
+  const double depth = 0.5 * (from.z + to.z);
+  const double coreDistance = std::isfinite(core.most[0]) ? core.distance(tx, ty) - depth : INFINITY;
+  const bool hasStrays = extremes.distance(tx, ty) - depth >= kStrayFactor * coreDistance;
+  const Extremes& seen = hasStrays ? core : extremes;
+  const double distance = std::max(seen.distance(tx, ty), depth + 1e-6 * (1.0 + std::abs(depth)));
+  const double x = 0.5 * (seen.most[0] - seen.most[1]);
+  const double y = 0.5 * (seen.most[2] - seen.most[3]);
+  const auto place = [&](double z) { return x * view.right + y * view.up + z * view.back; };
+  fit.position = place(distance);
+  fit.focalPoint = place(depth);
+  return fit;
+}
+
+} // namespace pointhaptics

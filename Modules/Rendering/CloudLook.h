@@ -1,0 +1,85 @@
+/// @file
+/// How a cloud is shown at first glance, decided from the data alone: what kind of cloud it is, from where it
+/// is seen, and how its points are drawn. Plain functions, without a window; any thread may call them.
+#pragma once
+
+#include "CloudOrientation.h"
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/PointView.h"
+#include "Core/Neighbors/LocalShape.h"
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+
+enum class CloudKind
+{
+  Object,  ///< A thing to walk around: statue, part, tree.
+  Terrain, ///< Ground seen from above.
+  Sweep,   ///< Scanned from the origin of the file, outdoors.
+  Indoors, ///< The same in a room, which is shown without its near walls.
+  Frame,   ///< One picture of a depth camera.
+};
+
+/// "object", "terrain", "sweep", "indoors", "frame".
+POINTHAPTICSRENDERING_EXPORT const char* cloudKindName(CloudKind kind);
+/// False: @p name is none of them; @p kind is as it was.
+POINTHAPTICSRENDERING_EXPORT bool cloudKindFromName(const std::string& name, CloudKind& kind);
+
+/// All directions and lengths in the frame of the file.
+struct CloudLook
+{
+  CloudKind kind = CloudKind::Object;
+  Vec3 up{ 0.0, 0.0, 1.0 };
+  Vec3 front{ 0.0, -1.0, 0.0 };  ///< From the cloud towards the viewer, before it is turned.
+  double azimuth = 25.0;         ///< Degrees the viewer stands to the right of the front,
+  double elevation = 12.0;       ///< and above.
+  double tilt = 0.0;             ///< Ratio of the horizontal variances of a strip; 0: the elevation holds.
+  double strayShare = 0.03;      ///< Part at each end of an axis that may be strays.
+  double largestPixels = 16.0;   ///< Of the splats of a surface, in a window of 800 lines.
+  double noiseLength = 0.0;      ///< Depths that differ by less are one surface,
+  double noisePerDistance = 0.0; ///< the same over the distance from the camera.
+  bool hidesBackFaces = false;
+  double meanFlatness = 0.0;
+};
+
+/// The indices of the points that are drawn: those that are finite, without those at exactly (0, 0, 0) where
+/// there is more than one: scanners write them for rays that did not return. All, if none would be left.
+POINTHAPTICSRENDERING_EXPORT std::vector<std::uint32_t> drawnPoints(const PointView& cloud);
+
+/// The first kind that fits: a frame, as @p orientation says; a sweep where the spacing grows with the
+/// distance from the origin, indoors where it hits most directions above the sensor; terrain where the
+/// surfaces face up; an object. With y up it is an object.
+POINTHAPTICSRENDERING_EXPORT CloudKind cloudKind(
+  const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation);
+
+/// Everything that follows from the @p kind.
+POINTHAPTICSRENDERING_EXPORT CloudLook cloudLook(
+  CloudKind kind, const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation);
+
+/// Gives a frame the spacing of its rays: the distance along the view times the median angle between rays
+/// that follow each other.
+POINTHAPTICSRENDERING_EXPORT void spaceByRays(const PointView& cloud, LocalShape& shape);
+
+/// A camera with its own view angle.
+struct CameraFit
+{
+  Vec3 position;
+  Vec3 focalPoint;
+  Vec3 up;
+  double viewAngle = 30.0; ///< Degrees from bottom to top.
+};
+
+/// The camera that sees the points of @p cloud after @p toWorld, all of them finite, from where @p look says,
+/// turned to the right by @p turn degrees more. The cloud takes 92 % of the width or the height of the
+/// window, exactly, unless strays would make it much smaller.
+/// @param aspect width of the window over its height, above 0.
+POINTHAPTICSRENDERING_EXPORT CameraFit fitCamera(const PointView& cloud, const CloudLook& look,
+  const AffineTransform& toWorld, double aspect, double turn = 0.0);
+
+} // namespace pointhaptics

@@ -1,0 +1,51 @@
+/**
+ * @class   vtkWorkspaceBrackets
+ * @brief   the corners of a box, drawn over the shaded picture
+ *
+ * Shows where the hand can reach without a cage in front of the cloud: the outer 6 % of each edge of the box,
+ * faintly, and fainter still where the cloud hides them. Drawn with the overlays, so that a shading by depth
+ * (vtkDepthShadingPass) neither darkens them nor is changed by them; needs the depths of the picture in the
+ * frame buffer.
+ *
+ * @warning Needs the OpenGL back end. GUI thread only.
+ * @sa vtkDepthShadingPass
+ */
+#pragma once
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include "vtkActor.h"
+#include "vtkNew.h"
+
+class vtkPolyData;
+class vtkPolyDataMapper;
+
+class POINTHAPTICSRENDERING_EXPORT vtkWorkspaceBrackets : public vtkActor
+{
+public:
+  static vtkWorkspaceBrackets* New();
+  vtkTypeMacro(vtkWorkspaceBrackets, vtkActor);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The box: xmin, xmax, ymin, ymax, zmin, zmax.
+   */
+  void SetBox(const double box[6]);
+
+  int RenderOpaqueGeometry(vtkViewport*) override { return 0; }
+  int RenderTranslucentPolygonalGeometry(vtkViewport*) override { return 0; }
+  vtkTypeBool HasTranslucentPolygonalGeometry() override { return 0; }
+  int RenderOverlay(vtkViewport* viewport) override;
+
+protected:
+  vtkWorkspaceBrackets();
+  ~vtkWorkspaceBrackets() override;
+
+private:
+  vtkWorkspaceBrackets(const vtkWorkspaceBrackets&) = delete;
+  void operator=(const vtkWorkspaceBrackets&) = delete;
+
+  vtkNew<vtkPolyData> Lines;
+  vtkNew<vtkPolyDataMapper> LinesMapper;
+  double Box[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+};

@@ -1,0 +1,247 @@
+#include "ShownCloud.h"
+
+#include "CloudAppearance.h"
+#include "PolyDataAccess.h"
+#include "SmpExecutor.h"
+#include "vtkSplatMapper.h"
+
+#include "Core/Neighbors/LocalShape.h"
+#include "Core/Neighbors/NeighborQuery.h"
+
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkShortArray.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Diameter of a splat over the spacing: where nothing is flat, and what flatness adds.
+constexpr double kPointDiameter = 1.1;
+constexpr double kFlatDiameter = 0.7;
+constexpr double kSmallestPixels = 2.0;
+/// The pixels bound the splats, not the median of their lengths: a sweep is sparse far away.
+constexpr double kFarthestRatio = 1e6;
+/// Of the window that the first picture is reckoned with.
+constexpr double kUsualHeight = 800.0;
+
+class AbortQuestion : public ProgressObserver
+{
+public:
+  explicit AbortQuestion(const std::function<bool()>& goesOn)
+    : goesOn_(goesOn)
+  {
+  }
+  bool report(double) override { return goesOn_(); }
+
+private:
+  const std::function<bool()>& goesOn_;
+};
+
+/// The arrays of @p cloud that a picture may need.
+std::vector<vtkDataArray*> neededArrays(vtkPolyData* cloud, const std::string& keptArray)
+{
+  const std::optional<ColorSource> source = findColorSource(cloud, keptArray);
+  vtkPointData* data = cloud->GetPointData();
+  std::vector<vtkDataArray*> arrays = { hasColors(cloud) ? data->GetScalars() : nullptr,
+    findArrayAnyCase(cloud, "intensity"), findArrayAnyCase(cloud, "classification"),
+    source ? data->GetArray(source->array.c_str()) : nullptr };
+  arrays.erase(std::remove(arrays.begin(), arrays.end(), nullptr), arrays.end());
+  return arrays;
+}
+
+/// The points @p drawn of @p cloud with these arrays; those of the cloud itself where all are drawn.
+vtkSmartPointer<vtkPolyData> pick(
+  vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, const std::string& keptArray)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  const bool all = std::int64_t(drawn.size()) == cloud->GetNumberOfPoints();
+  vtkNew<vtkIdList> ids;
+  if (!all)
+  {
+    ids->SetNumberOfIds(vtkIdType(drawn.size()));
+    std::copy(drawn.begin(), drawn.end(), ids->GetPointer(0));
+    vtkNew<vtkPoints> points;
+    points->SetDataType(cloud->GetPoints()->GetDataType());
+    cloud->GetPoints()->GetPoints(ids, points);
+    result->SetPoints(points);
+  }
+  else
+  {
+    result->SetPoints(cloud->GetPoints());
+  }
+  for (vtkDataArray* array : neededArrays(cloud, keptArray))
+  {
+    vtkSmartPointer<vtkDataArray> kept = array;
+    if (!all)
+    {
+      kept = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+      kept->SetName(array->GetName());
+      kept->SetNumberOfComponents(array->GetNumberOfComponents());
+      kept->SetNumberOfTuples(ids->GetNumberOfIds());
+      array->GetTuples(ids, kept);
+    }
+    const int index = result->GetPointData()->AddArray(kept);
+    if (array == cloud->GetPointData()->GetScalars() && hasColors(cloud))
+    {
+      result->GetPointData()->SetActiveAttribute(index, vtkDataSetAttributes::SCALARS);
+    }
+  }
+  return result;
+}
+
+/// One cell of all points.
+void addVertices(vtkPolyData* points)
+{
+  const vtkIdType count = points->GetNumberOfPoints();
+  vtkNew<vtkTypeInt32Array> offsets;
+  offsets->SetNumberOfValues(2);
+  offsets->SetValue(0, 0);
+  offsets->SetValue(1, vtkTypeInt32(count));
+  vtkNew<vtkTypeInt32Array> ids;
+  ids->SetNumberOfValues(count);
+  std::iota(ids->GetPointer(0), ids->GetPointer(0) + count, 0);
+  vtkNew<vtkCellArray> vertices;
+  vertices->SetData(offsets, ids);
+  points->SetVerts(vertices);
+}
+
+void addSplats(vtkPolyData* points, const LocalShape& shape, bool facesSensor, vtkDataArray* ownNormals)
+{
+  const vtkIdType count = points->GetNumberOfPoints();
+  vtkNew<vtkFloatArray> lengths;
+  lengths->SetName(kSplatLengthName);
+  lengths->SetNumberOfValues(count);
+  vtkNew<vtkShortArray> normals;
+  normals->SetName(kSplatNormalName);
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(count);
+  short* out = normals->GetPointer(0);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const PointShape& each = shape.points[std::size_t(i)];
+    lengths->SetValue(
+      i, float((kPointDiameter + kFlatDiameter * double(each.flatness)) * double(each.spacing)));
+    Vec3 n{ double(each.normal[0]), double(each.normal[1]), double(each.normal[2]) };
+    if (ownNormals)
+    {
+      Vec3 own;
+      ownNormals->GetTuple(i, &own.x);
+      n = normalized(own, n);
+    }
+    Vec3 p;
+    points->GetPoint(i, &p.x);
+    const double side = facesSensor && dot(n, p) > 0.0 ? -1.0 : 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      *out++ =
+        short(std::lround(side * kSplatNormalUnit * std::clamp(double(each.flatness) * n[axis], -1.0, 1.0)));
+    }
+  }
+  points->GetPointData()->AddArray(lengths);
+  points->GetPointData()->AddArray(normals);
+}
+
+/// Edge of a pixel of the first picture, roughly.
+double firstPixel(vtkPolyData* points)
+{
+  double bounds[6];
+  points->GetBounds(bounds);
+  const double height = std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  return height / kUsualHeight;
+}
+
+} // namespace
+
+std::shared_ptr<ShownCloud> makeShownCloud(vtkPolyData* cloud, const CloudOrientation& orientation,
+  const std::string& keptArray, const std::optional<CloudKind>& kind, const std::function<bool()>& goesOn)
+{
+  auto shown = std::make_shared<ShownCloud>();
+  const std::vector<std::uint32_t> drawn = drawnPoints(PointAccess(cloud->GetPoints()).view());
+  if (drawn.empty())
+  {
+    return nullptr;
+  }
+  shown->points = pick(cloud, drawn, keptArray);
+  addVertices(shown->points);
+  const PointAccess access(shown->points->GetPoints());
+  const PointView view = access.view();
+  const SmpExecutor executor;
+  NeighborQuery query;
+  query.build(view, executor);
+  LocalShape shape;
+  LocalShapeSettings settings;
+  settings.pixel = firstPixel(shown->points);
+  AbortQuestion observer(goesOn);
+  if (measureLocalShape(view, query, settings, shape, executor, &observer) != Status::Ok)
+  {
+    return nullptr;
+  }
+  const CloudKind decided = kind ? *kind : cloudKind(view, shape, orientation);
+  shown->look = cloudLook(decided, view, shape, orientation);
+  if (decided == CloudKind::Frame)
+  {
+    spaceByRays(view, shape);
+  }
+  shown->colors = chooseColors(shown->points, query, shape, shown->look);
+  if (const auto colors = makeColors(shown->points, shown->colors, shown->look))
+  {
+    colors->SetName(kLookColorName);
+    shown->points->GetPointData()->AddArray(colors);
+  }
+  vtkDataArray* own =
+    std::int64_t(drawn.size()) == cloud->GetNumberOfPoints() ? cloud->GetPointData()->GetNormals() : nullptr;
+  addSplats(shown->points, shape, decided == CloudKind::Sweep || decided == CloudKind::Indoors, own);
+  return shown;
+}
+
+void drawShown(const ShownCloud& shown, vtkSplatMapper* mapper)
+{
+  mapper->SetInputData(shown.points);
+  mapper->SetSizeArrayName(kSplatLengthName);
+  mapper->SetSizeScale(1.0);
+  mapper->SetLargestRatio(kFarthestRatio);
+  mapper->SetPixelRange(kSmallestPixels, shown.look.largestPixels);
+  mapper->SetNormalArrayName(kSplatNormalName);
+  mapper->SetNormalUnit(kSplatNormalUnit);
+  mapper->SetAmbientLight(true);
+  mapper->SetSurfaces(true);
+  mapper->SetHidesBackFaces(shown.look.hidesBackFaces);
+  mapper->SetLightStrength(shown.colors.lightStrength);
+}
+
+void addDensity(vtkPolyData* points)
+{
+  vtkDataArray* lengths = points->GetPointData()->GetArray(kSplatLengthName);
+  vtkDataArray* normals = points->GetPointData()->GetArray(kSplatNormalName);
+  vtkNew<vtkFloatArray> density;
+  density->SetName("Density");
+  density->SetNumberOfValues(points->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    Vec3 n;
+    normals->GetTuple(i, &n.x);
+    const double spacing =
+      lengths->GetComponent(i, 0) / (kPointDiameter + kFlatDiameter * norm(n) / kSplatNormalUnit);
+    density->SetValue(i, spacing > 0.0 ? float(1.0 / (spacing * spacing)) : NAN);
+  }
+  points->GetPointData()->AddArray(density);
+}
+
+} // namespace pointhaptics

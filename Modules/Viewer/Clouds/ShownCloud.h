@@ -1,0 +1,52 @@
+/// @file
+/// The points of a file as they are drawn: their shapes, colours and the way they are looked at.
+#pragma once
+
+#include "CloudColors.h"
+#include "CloudLook.h"
+
+#include "PointHapticsViewerModule.h" // For export macro
+
+#include <vtkSmartPointer.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+class vtkPolyData;
+class vtkSplatMapper;
+
+namespace pointhaptics
+{
+
+/// Names of the arrays of ShownCloud::points.
+constexpr const char* kSplatLengthName = "SplatLength"; ///< Diameter of each splat, unit of the file.
+constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSplatNormalUnit is flat.
+constexpr const char* kLookColorName = "LookColor";
+constexpr double kSplatNormalUnit = 32767.0;
+
+/// Memory beside the file's arrays: 14 bytes a point, 3 more for colours that are made, and as many as the
+/// coordinates where some points are not drawn.
+struct ShownCloud
+{
+  vtkSmartPointer<vtkPolyData> points; ///< In the frame of the file, one vertex each.
+  CloudLook look;
+  CloudColors colors;
+};
+
+/// Leaves out points that tell nothing, measures the others and decides how they are shown.
+/// @param keptArray an array to keep beside those that the colours need.
+/// @param kind instead of cloudKind(), where somebody says it.
+/// Null: @p goesOn said no, or no point can be drawn.
+POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makeShownCloud(vtkPolyData* cloud,
+  const CloudOrientation& orientation, const std::string& keptArray, const std::optional<CloudKind>& kind,
+  const std::function<bool()>& goesOn);
+
+/// Lets @p mapper draw @p shown: its input, sizes, normals and light. The colours are the caller's.
+POINTHAPTICSVIEWER_EXPORT void drawShown(const ShownCloud& shown, vtkSplatMapper* mapper);
+
+/// Adds "Density" to the points: points in a square of one unit of the file.
+POINTHAPTICSVIEWER_EXPORT void addDensity(vtkPolyData* points);
+
+} // namespace pointhaptics
