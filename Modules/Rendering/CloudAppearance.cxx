@@ -23,6 +23,7 @@
 #include "vtkRenderer.h"
 #include "vtkScalarBarActor.h"
 #include "vtkSequencePass.h"
+#include "vtkSmartPointer.h"
 #include "vtkTextProperty.h"
 #include "vtkTranslucentPass.h"
 
@@ -379,6 +380,16 @@ void applyBackground(vtkRenderer* renderer)
   renderer->GradientBackgroundOn();
   renderer->SetBackground(0.97, 0.97, 0.96);
   renderer->SetBackground2(0.80, 0.84, 0.89);
+}
+
+void applyGroundColors(vtkMapper* mapper)
+{
+  auto* table = vtkLookupTable::SafeDownCast(mapper->GetLookupTable());
+  if (mapper->GetScalarVisibility() && mapper->GetColorMode() == VTK_COLOR_MODE_MAP_SCALARS && table)
+  {
+    const auto ground = vtkSmartPointer<vtkLookupTable>::Take(newGroundColorMap());
+    table->SetTable(ground->GetTable());
+  }
 }
 
 void applyGround(vtkRenderer* renderer)

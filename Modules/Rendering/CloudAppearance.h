@@ -11,6 +11,7 @@
 
 class vtkActor;
 class vtkLookupTable;
+class vtkMapper;
 class vtkPolyData;
 class vtkPolyDataMapper;
 class vtkRenderer;
@@ -85,6 +86,9 @@ POINTHAPTICSRENDERING_EXPORT void placeScalarBar(vtkScalarBarActor* bar, vtkRend
 /// A light background, white below to a pale blue-grey above, on which black lines and all colours of the map
 /// read.
 POINTHAPTICSRENDERING_EXPORT void applyBackground(vtkRenderer* renderer);
+
+/// Where @p mapper colours by a map: the colours of newGroundColorMap() over the same range.
+POINTHAPTICSRENDERING_EXPORT void applyGroundColors(vtkMapper* mapper);
 
 /// A dark ground without a gradient, on which a cloud's own colours stand out.
 POINTHAPTICSRENDERING_EXPORT void applyGround(vtkRenderer* renderer);

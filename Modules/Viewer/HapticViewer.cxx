@@ -161,6 +161,7 @@ void HapticViewer::Implementation::skip(const std::string& title)
 /// In the loader's thread, without a word of what fails.
 bool HapticViewer::Implementation::read(CloudRequest request, LoadedCloud& loaded)
 {
+  request.measuresLater = this->options.showsReading;
   request.makesScene = this->options.showsReading || !this->options.path.empty();
   const std::string title = request.name();
   CloudLoader loader;

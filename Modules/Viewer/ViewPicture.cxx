@@ -130,6 +130,7 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
   }
   scene.showAmbient(options.ambient);
   scene.completeMeans(options.voxels.computeCovariance);
+  scene.followMeasurement(true);
   scene.showAxes(options.axes);
   scene.showFigure(options.figure);
   scene.placeAxes(scene.modelMatrix());

@@ -44,50 +44,6 @@ namespace
 
 /// The proxy sphere is drawn at least this large, over the workspace's edge.
 constexpr double kSmallestSphere = 0.022;
-/// Of the depths between neighbouring means, over their spacing.
-constexpr double kStepsOfMeans = 0.75;
-/// A model that was made larger than this many times as it was opened is shown in the workspace only.
-constexpr double kShownWhole = 1.05;
-
-/// Arrays that means alone have.
-bool isFeltOnly(const std::string& name)
-{
-  return name == "ProxyRadius" || name == kResidualArrayName || name == "Bandwidth" ||
-    name == "MeanBandwidth" || name == "VoxelPointCount";
-}
-
-double scaleOf(vtkMatrix4x4* matrix)
-{
-  return std::cbrt(std::abs(matrix->Determinant()));
-}
-
-AffineTransform transformOf(vtkMatrix4x4* matrix)
-{
-  AffineTransform transform;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      transform.m[row][column] = matrix->GetElement(row, column);
-    }
-  }
-  return transform;
-}
-
-/// The colours of the map for a dark ground, over the same range.
-void useGroundColors(vtkMapper* mapper)
-{
-  auto* table = vtkLookupTable::SafeDownCast(mapper->GetLookupTable());
-  if (mapper->GetScalarVisibility() && mapper->GetColorMode() == VTK_COLOR_MODE_MAP_SCALARS && table)
-  {
-    const auto ground = vtkSmartPointer<vtkLookupTable>::Take(newGroundColorMap());
-    table->SetTable(ground->GetTable());
-  }
-}
-
-/// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
-constexpr double kFacingEnough = 0.25;
-
 } // namespace
 
 ViewScene::ViewScene()
@@ -184,9 +140,13 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   axes_->SetMetresPerUnit(options.metresPerUnit);
   orientation_ = loaded.orientation;
   orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));
-  orientation_.front = normalized(loaded.placement.applyToVector(loaded.shown->look.front));
   title_ = loaded.title;
   shown_ = loaded.shown;
+  measurement_.cancel();
+  if (loaded.toMeasure)
+  {
+    measurement_.start(loaded.toMeasure, loaded.orientation, loaded.colorBy, saidKind(options));
+  }
   scene_ = loaded.scene;
   resamplings_ += loaded.resamplings;
   setElements(modelMatrix_, loaded.placement);
@@ -219,7 +179,7 @@ void ViewScene::showMeans(const LoadedCloud& loaded, const HapticViewerOptions& 
   // As if the filters had run, which they shall not.
   bandwidth_->GetOutput()->ShallowCopy(loaded.means);
   mapper_->SetSizeArrayName("MeanBandwidth");
-  drawShown(*shown_, pointsMapper_);
+  this->drawPoints();
   workspace_ = loaded.workspace;
   double bounds[6];
   getWorkspaceBounds(bounds);
@@ -237,7 +197,7 @@ void ViewScene::showMeans(const LoadedCloud& loaded, const HapticViewerOptions& 
     mapper->SetSkyDirection(&orientation_.up.x);
   }
   showsFelt_ = showsFelt_ || options.felt;
-  loadedScale_ = scaleOf(modelMatrix_);
+  loadedScale_ = std::cbrt(std::abs(modelMatrix_->Determinant()));
   vtkNew<vtkMatrix4x4> model;
   setElements(model, loaded.model);
   this->placeModel(model);
@@ -255,7 +215,7 @@ void ViewScene::applyColors()
 {
   vtkPolyData* output = bandwidth_->GetOutput();
   applyCloudAppearance(output, mapper_, actor_, colorBy_);
-  useGroundColors(mapper_);
+  applyGroundColors(mapper_);
   this->chooseDrawn();
   this->colorPoints();
   const bool isThere = colorBy_.empty() || colorBy_ == kClayName ||
@@ -264,107 +224,6 @@ void ViewScene::applyColors()
           findColorSource(shown_->points, colorBy_).has_value());
   coloredBy_ = isThere ? colorBy_ : std::string();
   this->applyLook();
-}
-
-/// Points or means, and what stands beside the one that is shown.
-void ViewScene::chooseDrawn()
-{
-  const bool drawsFelt =
-    showsFelt_ || (isFeltOnly(colorBy_) && !shown_->points->GetPointData()->HasArray(colorBy_.c_str()));
-  if (drawsFelt != drawsFelt_)
-  {
-    const bool isEnabled = this->detail().isEnabled();
-    this->detail().setEnabled(false);
-    drawsFelt_ = drawsFelt;
-    this->detail().setEnabled(isEnabled);
-  }
-  this->applyNoise();
-  actor_->SetVisibility(drawsFelt_);
-  pointsActor_->SetVisibility(!drawsFelt_);
-}
-
-void ViewScene::setShowsFelt(bool felt)
-{
-  showsFelt_ = felt;
-  if (shown_)
-  {
-    this->applyColors();
-  }
-}
-
-void ViewScene::colorPoints()
-{
-  vtkPolyData* points = shown_->points;
-  vtkPointData* data = points->GetPointData();
-  const CloudColors& colors = shown_->colors;
-  double light = 1.0;
-  if (colorBy_ == kHeightArrayName && !data->HasArray(kHeightArrayName))
-  {
-    addHeightArray(points, cloudUp_);
-  }
-  if (colorBy_ == "Density" && !data->HasArray("Density"))
-  {
-    addDensity(points);
-  }
-  const bool isAutomatic = colorBy_.empty() || isFeltOnly(colorBy_);
-  if (isAutomatic && data->HasArray(kLookColorName))
-  {
-    pointsMapper_->SetScalarModeToUsePointFieldData();
-    pointsMapper_->SelectColorArray(kLookColorName);
-    pointsMapper_->SetColorModeToDirectScalars();
-    pointsMapper_->ScalarVisibilityOn();
-    light = colors.lightStrength;
-  }
-  else if (colorBy_ == kClayName || (isAutomatic && colors.rule == ColorRule::Clay))
-  {
-    pointsMapper_->ScalarVisibilityOff();
-  }
-  else
-  {
-    const std::string name = isAutomatic ? std::string("rgb") : colorBy_;
-    applyCloudAppearance(points, pointsMapper_, pointsActor_, name);
-    useGroundColors(pointsMapper_);
-    light = name == "rgb" ? colors.lightStrength : 1.0;
-  }
-  pointsMapper_->SetLightStrength(ambient_ ? 1.0 : light);
-  pointsActor_->GetProperty()->SetColor(kClayColor[0], kClayColor[1], kClayColor[2]);
-}
-
-/// The discs of means face the viewer: where a surface is steep they stand in steps.
-void ViewScene::applyNoise()
-{
-  const double noise = drawsFelt_ ? kStepsOfMeans * medianSpacing(bandwidth_->GetOutput())
-                                  : scaleOf(pointsMatrix_) * shown_->look.noiseLength;
-  applyDepthShading(renderer_, noise, shown_->look.noisePerDistance);
-}
-
-/// The model may leave the workspace where it is turned; made larger, it would stand in front of it.
-void ViewScene::placeModel(vtkMatrix4x4* model)
-{
-  pointsMatrix_->DeepCopy(model);
-  pointsMatrix_->Modified();
-  if (!shown_)
-  {
-    return;
-  }
-  const double scale = scaleOf(model);
-  this->applyNoise();
-  const bool isWhole = scale <= kShownWhole * loadedScale_;
-  if (isWhole != (pointsMapper_->GetNumberOfClippingPlanes() == 0))
-  {
-    pointsMapper_->RemoveAllClippingPlanes();
-    for (int side = 0; side < 6 && !isWhole; ++side)
-    {
-      vtkNew<vtkPlane> plane;
-      double normal[3] = { 0.0, 0.0, 0.0 };
-      normal[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
-      const Vec3& corner = side % 2 == 0 ? workspace_.minimum : workspace_.maximum;
-      plane->SetOrigin(corner.x, corner.y, corner.z);
-      plane->SetNormal(normal);
-      pointsMapper_->AddClippingPlane(plane);
-    }
-    detail_.setWorkspace(isWhole ? Bounds() : workspace_);
-  }
 }
 
 std::vector<std::string> ViewScene::colorChoices() const
@@ -528,39 +387,6 @@ void ViewScene::placeAxes(vtkMatrix4x4* model)
   }
   axes_->SetBounds(bounds);
   axes_->SetModelMatrix(model);
-}
-
-void ViewScene::placeCamera(const ProxyState* contact)
-{
-  if (!shown_)
-  {
-    return;
-  }
-  const PointAccess access(shown_->points->GetPoints());
-  const AffineTransform model = transformOf(pointsMatrix_);
-  const double aspect = renderer_->GetTiledAspectRatio();
-  const bool turns = contact && contact->contact && shown_->look.kind != CloudKind::Frame;
-  // A contact is wanted on the side we see: the smallest turn that shows it, or else the one that faces it
-  // most.
-  CameraFit best = fitCamera(access.view(), shown_->look, model, aspect);
-  double facing = -2.0;
-  for (double turn : { 0.0, -60.0, 60.0, 120.0, -120.0, 180.0 })
-  {
-    if (!turns || facing > kFacingEnough)
-    {
-      break;
-    }
-    const CameraFit fit = fitCamera(access.view(), shown_->look, model, aspect, turn);
-    const double cosine = dot(contact->normal, normalized(fit.position - fit.focalPoint));
-    best = cosine > facing ? fit : best;
-    facing = std::max(facing, cosine);
-  }
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  camera->SetViewAngle(best.viewAngle);
-  camera->SetPosition(&best.position.x);
-  camera->SetFocalPoint(&best.focalPoint.x);
-  camera->SetViewUp(&best.up.x);
-  renderer_->ResetCameraClippingRange();
 }
 
 void ViewScene::setCamera(const std::vector<double>& camera)

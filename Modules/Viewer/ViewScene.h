@@ -53,6 +53,9 @@ public:
   /// while one of them is shown, means are.
   void setShowsFelt(bool felt);
   bool showsFelt() const { return showsFelt_; }
+  /// Shows what was measured of a cloud that was opened plain; the camera follows, unless it was moved.
+  /// @param waits until it is there. @return whether something is shown otherwise.
+  bool followMeasurement(bool waits);
   /// Where @p model, from the file to the workspace, puts what is drawn.
   void placeModel(vtkMatrix4x4* model);
   /// Puts the camera where it sees all of the cloud. @p contact, if given, is turned into view.
@@ -125,6 +128,7 @@ private:
   void colorPoints();
   void chooseDrawn();
   void applyNoise();
+  void drawPoints();
   vtkSplatMapper* drawnMapper() { return drawsFelt_ ? mapper_ : pointsMapper_; }
   void chooseArrays();
   void configure(const LoadedCloud& loaded, const HapticViewerOptions& options);
@@ -137,6 +141,8 @@ private:
   vtkNew<vtkSplatMapper> mapper_;
   vtkNew<vtkActor> actor_;
   std::shared_ptr<ShownCloud> shown_;
+  ShownMeasurement measurement_;
+  std::vector<double> placedCamera_; ///< As placeCamera() left it.
   vtkNew<vtkSplatMapper> pointsMapper_;
   vtkNew<vtkActor> pointsActor_;
   vtkNew<vtkMatrix4x4> pointsMatrix_; ///< From the file to the workspace.

@@ -42,6 +42,9 @@ struct Listener
   std::function<bool(double)> goesOn;
 };
 
+/// Points that are measured before the first picture: it takes no longer than a frame or two.
+constexpr vtkIdType kMeasuredAtOnce = 60000;
+
 /// The points of a file with all arrays, without its cells. Null: @p message says why.
 vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, double resolution,
   const std::function<bool(double)>& goesOn, std::string& format, std::string& message)
@@ -304,6 +307,12 @@ Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
   return bounds;
 }
 
+std::optional<CloudKind> saidKind(const HapticViewerOptions& options)
+{
+  CloudKind kind = CloudKind::Object;
+  return cloudKindFromName(options.kind, kind) ? std::optional<CloudKind>(kind) : std::nullopt;
+}
+
 std::string titleOf(const std::vector<std::string>& files)
 {
   std::string names;
@@ -345,10 +354,18 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   }
   if (request.options)
   {
-    CloudKind kind = CloudKind::Object;
-    const bool isSaid = cloudKindFromName(request.options->kind, kind);
-    result.shown = makeShownCloud(result.cloud, result.orientation, result.colorBy,
-      isSaid ? std::optional<CloudKind>(kind) : std::nullopt, [&goesOn] { return goesOn(1.0); });
+    const std::optional<CloudKind> kind = saidKind(*request.options);
+    if (request.measuresLater && result.cloud->GetNumberOfPoints() > kMeasuredAtOnce)
+    {
+      result.toMeasure = vtkSmartPointer<vtkPolyData>::New();
+      result.toMeasure->ShallowCopy(result.cloud);
+      result.shown = makePlainCloud(result.cloud, result.orientation, result.colorBy, kind);
+    }
+    else
+    {
+      result.shown = makeShownCloud(
+        result.cloud, result.orientation, result.colorBy, kind, [&goesOn] { return goesOn(1.0); });
+    }
     if (!result.shown)
     {
       message = result.title + ": reading was stopped on request; start it again";

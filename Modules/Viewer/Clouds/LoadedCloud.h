@@ -3,6 +3,7 @@
 /// it: any thread may do it.
 #pragma once
 
+#include "CloudLook.h"
 #include "CloudOrientation.h"
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
@@ -44,6 +45,7 @@ struct CloudRequest
   std::shared_ptr<const HapticViewerOptions> options;
   std::optional<AffineTransform> model; ///< Where the cloud is resampled; empty: where the options place it.
   bool makesScene = false;              ///< It will be felt.
+  bool measuresLater = false;           ///< Large clouds are shown plain first: LoadedCloud::toMeasure.
 
   std::string name() const; ///< For messages.
 };
@@ -57,6 +59,8 @@ struct LoadedCloud
   std::string title;   ///< The names of the files, without their folders.
 
   std::shared_ptr<ShownCloud> shown; ///< How its points are drawn; null: it was only read.
+
+  vtkSmartPointer<vtkPolyData> toMeasure; ///< With all arrays, where @c shown is plain; else null.
 
   // Where it was resampled:
   AffineTransform placement; ///< Where the options place the cloud: from its coordinates to the workspace.
@@ -72,6 +76,9 @@ struct LoadedCloud
 
 /// Bounds of the finite points after @p transform; the corners of a box would be too wide for a turned cloud.
 Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform);
+
+/// The kind of cloud that the options say; empty: it is guessed.
+std::optional<CloudKind> saidKind(const HapticViewerOptions& options);
 
 /// The names of @p files without their folders.
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);

@@ -22,8 +22,10 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <new>
 #include <numeric>
 #include <vector>
 
@@ -35,6 +37,8 @@ namespace
 /// Diameter of a splat over the spacing: where nothing is flat, and what flatness adds.
 constexpr double kPointDiameter = 1.1;
 constexpr double kFlatDiameter = 0.7;
+/// A cloud this many times as wide as it is high may be terrain.
+constexpr double kLowParts = 3.0;
 constexpr double kSmallestPixels = 2.0;
 /// The pixels bound the splats, not the median of their lengths: a sweep is sparse far away.
 constexpr double kFarthestRatio = 1e6;
@@ -158,13 +162,22 @@ void addSplats(vtkPolyData* points, const LocalShape& shape, bool facesSensor, v
   points->GetPointData()->AddArray(normals);
 }
 
-/// Edge of a pixel of the first picture, roughly.
-double firstPixel(vtkPolyData* points)
+/// Not those of vtkPoints, which other threads may read at the same time.
+Bounds boundsOf(const PointView& points)
 {
-  double bounds[6];
-  points->GetBounds(bounds);
-  const double height = std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
-  return height / kUsualHeight;
+  Bounds bounds;
+  for (std::int64_t i = 0; i < points.size(); ++i)
+  {
+    bounds.include(points[i]);
+  }
+  return bounds;
+}
+
+/// Edge of a pixel of the first picture, roughly.
+double firstPixel(const PointView& points)
+{
+  const Vec3 extent = boundsOf(points).extent();
+  return std::max({ extent.x, extent.y, extent.z }) / kUsualHeight;
 }
 
 } // namespace
@@ -187,7 +200,7 @@ std::shared_ptr<ShownCloud> makeShownCloud(vtkPolyData* cloud, const CloudOrient
   query.build(view, executor);
   LocalShape shape;
   LocalShapeSettings settings;
-  settings.pixel = firstPixel(shown->points);
+  settings.pixel = firstPixel(view);
   AbortQuestion observer(goesOn);
   if (measureLocalShape(view, query, settings, shape, executor, &observer) != Status::Ok)
   {
@@ -211,6 +224,73 @@ std::shared_ptr<ShownCloud> makeShownCloud(vtkPolyData* cloud, const CloudOrient
   return shown;
 }
 
+std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const CloudOrientation& orientation,
+  const std::string& keptArray, const std::optional<CloudKind>& kind)
+{
+  auto shown = std::make_shared<ShownCloud>();
+  const std::vector<std::uint32_t> drawn = drawnPoints(PointAccess(cloud->GetPoints()).view());
+  if (drawn.empty())
+  {
+    return nullptr;
+  }
+  shown->points = pick(cloud, drawn, keptArray);
+  addVertices(shown->points);
+  const PointAccess access(shown->points->GetPoints());
+  const Vec3 extent = boundsOf(access.view()).extent();
+  const bool isLow = kLowParts * extent.z < std::max(extent.x, extent.y) && orientation.up.z > 0.5;
+  const CloudKind guess = orientation.fromSensor ? CloudKind::Frame
+    : isLow                                      ? CloudKind::Terrain
+                                                 : CloudKind::Object;
+  LocalShape unknown;
+  unknown.points.resize(drawn.size());
+  unknown.meanFlatness = 1.0; // most objects are statues and parts
+  shown->look = cloudLook(kind.value_or(guess), access.view(), unknown, orientation);
+  shown->colors = chooseColors(shown->points, NeighborQuery(), unknown, shown->look);
+  if (const auto colors = makeColors(shown->points, shown->colors, shown->look))
+  {
+    colors->SetName(kLookColorName);
+    shown->points->GetPointData()->AddArray(colors);
+  }
+  return shown;
+}
+
+void ShownMeasurement::start(vtkSmartPointer<vtkPolyData> cloud, const CloudOrientation& orientation,
+  const std::string& keptArray, const std::optional<CloudKind>& kind)
+{
+  this->cancel();
+  cancelled_ = false;
+  const auto measure = [this, cloud = std::move(cloud), orientation, keptArray,
+                         kind]() -> std::shared_ptr<ShownCloud>
+  {
+    try
+    {
+      return makeShownCloud(cloud, orientation, keptArray, kind, [this] { return !cancelled_; });
+    }
+    catch (const std::bad_alloc&)
+    {
+      return nullptr; // it stays plain
+    }
+  };
+  result_ = std::async(std::launch::async, measure);
+}
+
+std::shared_ptr<ShownCloud> ShownMeasurement::take(bool waits)
+{
+  const bool isThere =
+    result_.valid() && (waits || result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready);
+  return isThere ? result_.get() : nullptr;
+}
+
+void ShownMeasurement::cancel()
+{
+  cancelled_ = true;
+  if (result_.valid())
+  {
+    result_.wait();
+    result_ = {};
+  }
+}
+
 void drawShown(const ShownCloud& shown, vtkSplatMapper* mapper)
 {
   mapper->SetInputData(shown.points);
@@ -230,6 +310,10 @@ void addDensity(vtkPolyData* points)
 {
   vtkDataArray* lengths = points->GetPointData()->GetArray(kSplatLengthName);
   vtkDataArray* normals = points->GetPointData()->GetArray(kSplatNormalName);
+  if (!lengths || !normals)
+  {
+    return; // not measured yet
+  }
   vtkNew<vtkFloatArray> density;
   density->SetName("Density");
   density->SetNumberOfValues(points->GetNumberOfPoints());

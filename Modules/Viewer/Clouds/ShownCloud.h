@@ -9,7 +9,9 @@
 
 #include <vtkSmartPointer.h>
 
+#include <atomic>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,10 +45,38 @@ POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makeShownCloud(vtkPolyData
   const CloudOrientation& orientation, const std::string& keptArray, const std::optional<CloudKind>& kind,
   const std::function<bool()>& goesOn);
 
+/// The same without measuring, at once: all points as small discs, seen and coloured by what their bounds and
+/// arrays tell. Null: no point can be drawn.
+POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud,
+  const CloudOrientation& orientation, const std::string& keptArray, const std::optional<CloudKind>& kind);
+
+/// makeShownCloud() in a thread of its own. All functions belong to one thread, the GUI's.
+class POINTHAPTICSVIEWER_EXPORT ShownMeasurement
+{
+public:
+  /// @p cloud is nobody else's; its arrays may be read by others. What was measured before is given up.
+  void start(vtkSmartPointer<vtkPolyData> cloud, const CloudOrientation& orientation,
+    const std::string& keptArray, const std::optional<CloudKind>& kind);
+  bool busy() const { return result_.valid(); }
+  /// What was measured, once; null: not yet, or nothing is. @param waits until it is there.
+  std::shared_ptr<ShownCloud> take(bool waits);
+  /// Gives up what is measured and waits for the thread.
+  void cancel();
+
+  ShownMeasurement() = default;
+  ~ShownMeasurement() { this->cancel(); }
+  ShownMeasurement(const ShownMeasurement&) = delete;
+  ShownMeasurement& operator=(const ShownMeasurement&) = delete;
+
+private:
+  std::atomic<bool> cancelled_{ false };
+  std::future<std::shared_ptr<ShownCloud>> result_;
+};
+
 /// Lets @p mapper draw @p shown: its input, sizes, normals and light. The colours are the caller's.
 POINTHAPTICSVIEWER_EXPORT void drawShown(const ShownCloud& shown, vtkSplatMapper* mapper);
 
-/// Adds "Density" to the points: points in a square of one unit of the file.
+/// Adds "Density" to the points, where they were measured: points in a square of one unit of the file.
 POINTHAPTICSVIEWER_EXPORT void addDensity(vtkPolyData* points);
 
 } // namespace pointhaptics

@@ -82,6 +82,7 @@ void ViewWindow::load(const std::vector<std::string>& files, bool keepsModel, st
   loading_.watch.watch(files);
   CloudRequest request = CloudRequest::of(files, options);
   request.makesScene = true;
+  request.measuresLater = true;
   AffineTransform model;
   if (keepsModel && affineFromTransform(style_->GetModelTransform(), model))
   {
@@ -446,6 +447,7 @@ void ViewWindow::showFigure(bool figure)
 
 bool ViewWindow::writeImage(const std::string& fileName, std::string& message)
 {
+  scene_.followMeasurement(true);
   scene_.detail().showAllOnce();
   window_->Render();
   return writePicture(window_, fileName, message);

@@ -1,0 +1,228 @@
+// What is drawn of a scene: points or means, where the model is, and from where they are seen.
+#include "ViewScene.h"
+
+#include "CloudAppearance.h"
+#include "PolyDataAccess.h"
+#include "SurfaceArrays.h"
+#include "vtkKernelBandwidthFilter.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkMatrix4x4.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Of the depths between neighbouring means, over their spacing.
+constexpr double kStepsOfMeans = 0.75;
+/// A model that was made larger than this many times as it was opened is shown in the workspace only.
+constexpr double kShownWhole = 1.05;
+
+/// Arrays that means alone have.
+bool isFeltOnly(const std::string& name)
+{
+  return name == "ProxyRadius" || name == kResidualArrayName || name == "Bandwidth" ||
+    name == "MeanBandwidth" || name == "VoxelPointCount";
+}
+
+std::vector<double> pictureCamera(vtkCamera* camera)
+{
+  const double* view = camera->GetViewTransformMatrix()->GetData();
+  std::vector<double> numbers(view, view + 16);
+  numbers.push_back(camera->GetViewAngle());
+  return numbers;
+}
+
+double scaleOf(vtkMatrix4x4* matrix)
+{
+  return std::cbrt(std::abs(matrix->Determinant()));
+}
+
+AffineTransform transformOf(vtkMatrix4x4* matrix)
+{
+  AffineTransform transform;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      transform.m[row][column] = matrix->GetElement(row, column);
+    }
+  }
+  return transform;
+}
+
+/// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
+constexpr double kFacingEnough = 0.25;
+
+} // namespace
+
+/// Points or means, and what stands beside the one that is shown.
+void ViewScene::chooseDrawn()
+{
+  const bool drawsFelt =
+    showsFelt_ || (isFeltOnly(colorBy_) && !shown_->points->GetPointData()->HasArray(colorBy_.c_str()));
+  if (drawsFelt != drawsFelt_)
+  {
+    const bool isEnabled = this->detail().isEnabled();
+    this->detail().setEnabled(false);
+    drawsFelt_ = drawsFelt;
+    this->detail().setEnabled(isEnabled);
+  }
+  this->applyNoise();
+  actor_->SetVisibility(drawsFelt_);
+  pointsActor_->SetVisibility(!drawsFelt_);
+}
+
+void ViewScene::setShowsFelt(bool felt)
+{
+  showsFelt_ = felt;
+  if (shown_)
+  {
+    this->applyColors();
+  }
+}
+
+void ViewScene::colorPoints()
+{
+  vtkPolyData* points = shown_->points;
+  vtkPointData* data = points->GetPointData();
+  const CloudColors& colors = shown_->colors;
+  double light = 1.0;
+  if (colorBy_ == kHeightArrayName && !data->HasArray(kHeightArrayName))
+  {
+    addHeightArray(points, cloudUp_);
+  }
+  if (colorBy_ == "Density" && !data->HasArray("Density"))
+  {
+    addDensity(points);
+  }
+  const bool isAutomatic = colorBy_.empty() || isFeltOnly(colorBy_);
+  if (isAutomatic && data->HasArray(kLookColorName))
+  {
+    pointsMapper_->SetScalarModeToUsePointFieldData();
+    pointsMapper_->SelectColorArray(kLookColorName);
+    pointsMapper_->SetColorModeToDirectScalars();
+    pointsMapper_->ScalarVisibilityOn();
+    light = colors.lightStrength;
+  }
+  else if (colorBy_ == kClayName || (isAutomatic && colors.rule == ColorRule::Clay))
+  {
+    pointsMapper_->ScalarVisibilityOff();
+  }
+  else
+  {
+    const std::string name = isAutomatic ? std::string("rgb") : colorBy_;
+    applyCloudAppearance(points, pointsMapper_, pointsActor_, name);
+    applyGroundColors(pointsMapper_);
+    light = name == "rgb" ? colors.lightStrength : 1.0;
+  }
+  pointsMapper_->SetLightStrength(ambient_ ? 1.0 : light);
+  pointsActor_->GetProperty()->SetColor(kClayColor[0], kClayColor[1], kClayColor[2]);
+}
+
+void ViewScene::drawPoints()
+{
+  drawShown(*shown_, pointsMapper_);
+  orientation_.front = normalized(transformOf(modelMatrix_).applyToVector(shown_->look.front));
+}
+
+bool ViewScene::followMeasurement(bool waits)
+{
+  const std::shared_ptr<ShownCloud> measured = measurement_.take(waits);
+  if (!measured)
+  {
+    return false;
+  }
+  shown_ = measured;
+  const bool isPlaced = placedCamera_ == pictureCamera(renderer_->GetActiveCamera());
+  this->drawPoints();
+  this->applyColors();
+  if (isPlaced)
+  {
+    this->placeCamera();
+  }
+  return true;
+}
+
+/// The discs of means face the viewer: where a surface is steep they stand in steps.
+void ViewScene::applyNoise()
+{
+  const double noise = drawsFelt_ ? kStepsOfMeans * medianSpacing(bandwidth_->GetOutput())
+                                  : scaleOf(pointsMatrix_) * shown_->look.noiseLength;
+  applyDepthShading(renderer_, noise, shown_->look.noisePerDistance);
+}
+
+/// The model may leave the workspace where it is turned; made larger, it would stand in front of it.
+void ViewScene::placeModel(vtkMatrix4x4* model)
+{
+  pointsMatrix_->DeepCopy(model);
+  pointsMatrix_->Modified();
+  if (!shown_)
+  {
+    return;
+  }
+  const double scale = scaleOf(model);
+  this->applyNoise();
+  const bool isWhole = scale <= kShownWhole * loadedScale_;
+  if (isWhole != (pointsMapper_->GetNumberOfClippingPlanes() == 0))
+  {
+    pointsMapper_->RemoveAllClippingPlanes();
+    for (int side = 0; side < 6 && !isWhole; ++side)
+    {
+      vtkNew<vtkPlane> plane;
+      double normal[3] = { 0.0, 0.0, 0.0 };
+      normal[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
+      const Vec3& corner = side % 2 == 0 ? workspace_.minimum : workspace_.maximum;
+      plane->SetOrigin(corner.x, corner.y, corner.z);
+      plane->SetNormal(normal);
+      pointsMapper_->AddClippingPlane(plane);
+    }
+    detail_.setWorkspace(isWhole ? Bounds() : workspace_);
+  }
+}
+
+void ViewScene::placeCamera(const ProxyState* contact)
+{
+  if (!shown_)
+  {
+    return;
+  }
+  const PointAccess access(shown_->points->GetPoints());
+  const AffineTransform model = transformOf(pointsMatrix_);
+  const double aspect = renderer_->GetTiledAspectRatio();
+  const bool turns = contact && contact->contact && shown_->look.kind != CloudKind::Frame;
+  // A contact is wanted on the side we see: the smallest turn that shows it, or else the one that faces it
+  // most.
+  CameraFit best = fitCamera(access.view(), shown_->look, model, aspect);
+  double facing = -2.0;
+  for (double turn : { 0.0, -60.0, 60.0, 120.0, -120.0, 180.0 })
+  {
+    if (!turns || facing > kFacingEnough)
+    {
+      break;
+    }
+    const CameraFit fit = fitCamera(access.view(), shown_->look, model, aspect, turn);
+    const double cosine = dot(contact->normal, normalized(fit.position - fit.focalPoint));
+    best = cosine > facing ? fit : best;
+    facing = std::max(facing, cosine);
+  }
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->SetViewAngle(best.viewAngle);
+  camera->SetPosition(&best.position.x);
+  camera->SetFocalPoint(&best.focalPoint.x);
+  camera->SetViewUp(&best.up.x);
+  renderer_->ResetCameraClippingRange();
+  placedCamera_ = pictureCamera(camera);
+}
+
+} // namespace pointhaptics
