@@ -6,7 +6,6 @@
 #include "vtkOpenGLState.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtk_glew.h"
@@ -26,11 +25,17 @@ vtkStandardNewMacro(vtkWorkspaceBrackets);
 
 vtkWorkspaceBrackets::vtkWorkspaceBrackets()
 {
-  this->LinesMapper->SetInputData(this->Lines);
-  this->SetMapper(this->LinesMapper);
-  this->GetProperty()->SetColor(0.80, 0.82, 0.86);
-  this->GetProperty()->LightingOff();
-  this->GetProperty()->SetLineWidth(1.5F);
+  for (Look* look : { &this->Seen, &this->Hidden })
+  {
+    look->Mapper->SetInputData(this->Lines);
+    look->Actor->SetMapper(look->Mapper);
+    look->Actor->GetProperty()->SetColor(0.80, 0.82, 0.86);
+    look->Actor->GetProperty()->LightingOff();
+    look->Actor->GetProperty()->SetLineWidth(1.5F);
+  }
+  this->Seen.Actor->GetProperty()->SetOpacity(kOpacity);
+  this->Hidden.Actor->GetProperty()->SetOpacity(kHiddenOpacity);
+  this->SetMapper(this->Seen.Mapper);
   this->PickableOff();
 }
 
@@ -64,6 +69,12 @@ void vtkWorkspaceBrackets::SetBox(const double box[6])
   this->Modified();
 }
 
+void vtkWorkspaceBrackets::Draw(Look& look, vtkRenderer* renderer)
+{
+  look.Actor->GetProperty()->Render(look.Actor, renderer);
+  look.Mapper->Render(renderer, look.Actor);
+}
+
 /// Once where the cloud hides it, once where it does not.
 int vtkWorkspaceBrackets::RenderOverlay(vtkViewport* viewport)
 {
@@ -79,15 +90,10 @@ int vtkWorkspaceBrackets::RenderOverlay(vtkViewport* viewport)
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglEnable(GL_BLEND);
   state->vtkglDepthMask(GL_FALSE);
-  this->GetProperty()->SetOpacity(kHiddenOpacity);
   state->vtkglDepthFunc(GL_GREATER);
-  this->Property->Render(this, renderer);
-  this->LinesMapper->Render(renderer, this);
-  this->GetProperty()->SetOpacity(kOpacity);
+  this->Draw(this->Hidden, renderer);
   state->vtkglDepthFunc(GL_LEQUAL);
-  this->Property->Render(this, renderer);
-  this->LinesMapper->Render(renderer, this);
-  this->GetProperty()->SetOpacity(1.0);
+  this->Draw(this->Seen, renderer);
   state->vtkglDepthMask(GL_TRUE);
   return 1;
 }

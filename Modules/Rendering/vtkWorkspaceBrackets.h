@@ -16,9 +16,10 @@
 
 #include "vtkActor.h"
 #include "vtkNew.h"
+#include "vtkPolyDataMapper.h" // For members
 
 class vtkPolyData;
-class vtkPolyDataMapper;
+class vtkRenderer;
 
 class POINTHAPTICSRENDERING_EXPORT vtkWorkspaceBrackets : public vtkActor
 {
@@ -46,6 +47,15 @@ private:
   void operator=(const vtkWorkspaceBrackets&) = delete;
 
   vtkNew<vtkPolyData> Lines;
-  vtkNew<vtkPolyDataMapper> LinesMapper;
+  // Beside this actor, so that drawing changes nothing of it: what is unchanged is not drawn anew.
+  struct Look
+  {
+    vtkNew<vtkPolyDataMapper> Mapper;
+    vtkNew<vtkActor> Actor;
+  };
+  void Draw(Look& look, vtkRenderer* renderer);
+
+  Look Seen;
+  Look Hidden;
   double Box[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 };
