@@ -4,7 +4,7 @@
 
 #include "Core/Base/Buffer.h"
 #include "Core/Resample/AttributeMean.h"
-#include "Core/Resample/AttributeMode.h"
+#include "Core/Resample/AttributeTuples.h"
 #include "Core/Resample/VoxelMean.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace pointhaptics
 namespace
 {
 
-using Tuples = std::variant<AttributeMean, AttributeMode>;
+using Tuples = std::variant<AttributeMean, AttributeTuples>;
 
 const Executor& executorFor(unsigned threads)
 {
@@ -123,8 +123,8 @@ Status RecordVoxels::Implementation::average(const RecordCloud& cloud, const Exe
       std::int64_t(cloud.step) };
     if (field.kind == FieldKind::Category)
     {
-      tuples.emplace_back(AttributeMode(field.type, field.components));
-      std::get<AttributeMode>(tuples.back()).prepare(engine.counts(), engine.size());
+      tuples.emplace_back(AttributeTuples(field.type, field.components));
+      std::get<AttributeTuples>(tuples.back()).prepare(engine.counts(), engine.size());
       continue;
     }
     tuples.emplace_back(AttributeMean(view, executor));
@@ -267,7 +267,7 @@ void RecordVoxels::write(char* records, std::size_t step, const std::array<std::
     const auto* mean = std::get_if<AttributeMean>(&mine.tuples[i]);
     if (!mean)
     {
-      static_cast<void>(std::get<AttributeMode>(mine.tuples[i]).write(packed.data(), executor, nullptr));
+      static_cast<void>(std::get<AttributeTuples>(mine.tuples[i]).write(packed.data(), executor, nullptr));
     }
     else if (field.kind == FieldKind::Normal)
     {
