@@ -271,9 +271,9 @@ void addFeelCommand(CLI::App& program, int& exitCode)
   auto options = std::make_shared<FeelOptions>();
   options->addTo(*command);
   command->callback(
-    [options, &exitCode]
+    [command, options, &exitCode]
     {
-      options->complete();
+      options->complete(*command);
       exitCode = runFeel(*options);
     });
 }
