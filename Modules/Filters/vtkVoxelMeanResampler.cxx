@@ -213,9 +213,11 @@ int vtkVoxelMeanResampler::RequestData(
     outputs.emplace_back(vtkPolyData::GetData(outputVector, level));
     outputs.back()->GetFieldData()->PassData(input->GetFieldData());
   }
-  vtkPolyData* index = this->Settings.computeVoxelIndex
-    ? vtkPolyData::GetData(outputVector, this->Settings.numberOfLevels)
-    : nullptr;
+  vtkSmartPointer<vtkPolyData> index;
+  if (this->Settings.computeVoxelIndex)
+  {
+    index = vtkPolyData::GetData(outputVector, this->Settings.numberOfLevels);
+  }
   if (this->Impl->Update(input, outputs, index))
   {
     this->UpdateProgress(1.0);

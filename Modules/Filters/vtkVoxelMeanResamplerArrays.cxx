@@ -65,9 +65,8 @@ std::vector<int> rolesOf(vtkDataSetAttributes* attributes, vtkAbstractArray* arr
 
 bool vtkVoxelMeanResampler::Internals::KeepsPoints() const
 {
-  const Representative representative = this->Filter->Settings.representative;
-  return representative == vtkVoxelMeanResampler::NearestToMean ||
-    representative == vtkVoxelMeanResampler::NearestToCenter;
+  return this->Request.representative == pointhaptics::Representative::NearestToMean ||
+    this->Request.representative == pointhaptics::Representative::NearestToCenter;
 }
 
 AttributeKind vtkVoxelMeanResampler::Internals::KindOf(vtkDataArray* array, bool isNormal) const
@@ -80,7 +79,7 @@ AttributeKind vtkVoxelMeanResampler::Internals::KindOf(vtkDataArray* array, bool
   {
     return AttributeKind::Category;
   }
-  if (this->Filter->Settings.representative == Representative::Median)
+  if (this->Request.representative == pointhaptics::Representative::Median)
   {
     return AttributeKind::Median;
   }

@@ -84,6 +84,8 @@ bool vtkVoxelMeanResampler::Internals::Update(
 {
   const UpdateScope scope(*this);
   this->Aborted = false;
+  // Once: observers of progress may ask for another.
+  this->Request.representative = this->Filter->Settings.representative;
   this->PassBegin = 0.0;
   this->PassEnd = 1.0;
   this->PartBegin = this->PartEnd = 0.0;
@@ -93,11 +95,12 @@ bool vtkVoxelMeanResampler::Internals::Update(
   }
   // Levels that would not equal the resampling of the points at their spacing take a second pass over the
   // points.
-  const bool isMean = this->Filter->Settings.representative == Representative::Mean && !index;
+  const bool isMean = this->Request.representative == pointhaptics::Representative::Mean && !index;
   const int levels = int(outputs.size());
   const double begin = this->PartEnd;
   for (int first = 0; first < levels; first += this->Request.levels)
   {
+    this->Request.voxelIndex = first == 0 && index;
     this->Request.levels = isMean ? VoxelResampler::exactLevels(this->Request.lattice, levels - first) : 1;
     this->BeginPass(begin + (1.0 - begin) * first / levels,
       begin + (1.0 - begin) * (first + this->Request.levels) / levels);
@@ -228,8 +231,6 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst
     : settings.outputPointsPrecision == PointsPrecision::Single;
   this->Request.covariances = settings.computeCovariance;
   this->Request.instructions = settings.instructionSet;
-  this->Request.representative = settings.representative;
-  this->Request.voxelIndex = isFirst && settings.computeVoxelIndex;
   const bool visits = !this->Attributes.empty() && !this->KeepsPoints();
   this->Request.keys = visits;
   this->Request.keepPointRecords = visits;

@@ -266,3 +266,49 @@ TEST(VoxelMeanRepresentative, IdsOfMeansAreRefusedWithAWarning)
   EXPECT_EQ(warnings.count, 1);
   EXPECT_EQ(resampler->GetOutput()->GetPointData()->GetArray("vtkOriginalPointIds"), nullptr);
 }
+
+namespace
+{
+
+/// Asks for something else while the filter works.
+struct Changer
+{
+  vtkVoxelMeanResampler* resampler;
+  void change()
+  {
+    if (resampler->GetProgress() == 0.0)
+    {
+      return; // VTK reports it before the update begins.
+    }
+    resampler->SetRepresentative((resampler->GetRepresentative() + 1) % 4);
+    resampler->SetComputeVoxelIndex(!resampler->GetComputeVoxelIndex());
+  }
+};
+
+}
+
+TEST(VoxelMeanRepresentative, WhatAnObserverAsksForMeanwhileIsForTheNextUpdate)
+{
+  for (int representative = vtkVoxelMeanResampler::Mean; representative <= vtkVoxelMeanResampler::Median;
+       ++representative)
+  {
+    vtkNew<vtkVoxelMeanResampler> expected;
+    vtkNew<vtkVoxelMeanResampler> changing;
+    Changer changer{ changing };
+    for (vtkVoxelMeanResampler* resampler : { expected.Get(), changing.Get() })
+    {
+      trial::useUnitCube(resampler, 8);
+      resampler->SetInputData(makeCloud());
+      resampler->SetRepresentative(representative);
+    }
+    changing->AddObserver(vtkCommand::ProgressEvent, &changer, &Changer::change);
+    expected->Update();
+    changing->Update();
+    ASSERT_EQ(changing->GetOutput()->GetNumberOfPoints(), expected->GetOutput()->GetNumberOfPoints());
+    for (const char* name : { "Number", "RGB" })
+    {
+      EXPECT_EQ(changing->GetOutput()->GetPointData()->GetArray(name)->GetComponent(7, 0),
+        expected->GetOutput()->GetPointData()->GetArray(name)->GetComponent(7, 0));
+    }
+  }
+}
