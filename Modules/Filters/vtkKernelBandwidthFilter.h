@@ -255,6 +255,7 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
+#ifndef __VTK_WRAP__ // which cannot read pointers to members
   template <typename Owner, typename Value>
   void SetMember(Value Owner::*member, Value value)
   {
@@ -262,6 +263,7 @@ private:
     settings.*member = value;
     this->SetSettings(settings);
   }
+#endif
   bool Estimate(
     vtkPolyData* input, vtkPolyData* output, const pointhaptics::LocalBandwidthSettings& settings);
 

@@ -344,6 +344,7 @@ private:
   class Internals;
   std::unique_ptr<Internals> Impl;
 
+#ifndef __VTK_WRAP__ // which cannot read pointers to members
   template <typename Value>
   void SetMember(Value pointhaptics::VoxelMeanSettings::*member, Value value)
   {
@@ -351,6 +352,7 @@ private:
     settings.*member = value;
     this->SetSettings(settings);
   }
+#endif
   void UpdateVectors();
 
   pointhaptics::VoxelMeanSettings Settings;
