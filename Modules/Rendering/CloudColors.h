@@ -29,6 +29,7 @@ enum class ColorRule
   Depth,   ///< The logarithm of the distance along the view of a depth camera.
 };
 
+/// How the points of a cloud are coloured.
 struct CloudColors
 {
   ColorRule rule = ColorRule::Height;
@@ -53,7 +54,7 @@ POINTHAPTICSRENDERING_EXPORT double spatialCoherence(
 
 /// The first rule that fits: colours that differ, three classes and more, clay for an object of smooth
 /// surfaces, height, or depth for a frame. An intensity that is coherent in space joins all but the first.
-/// @param query, @p shape of the points of @p cloud, in their order.
+/// @param query of the points of @p cloud. @param shape of the same points, in their order.
 POINTHAPTICSRENDERING_EXPORT CloudColors chooseColors(
   vtkPolyData* cloud, const NeighborQuery& query, const LocalShape& shape, const CloudLook& look);
 

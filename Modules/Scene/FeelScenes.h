@@ -17,6 +17,7 @@ class vtkVoxelMeanResampler;
 namespace pointhaptics
 {
 
+/// How the scenes of a cloud are made.
 struct FeelSceneSettings
 {
   LocalBandwidthSettings bandwidth; ///< The rule for proxy radii.

@@ -323,7 +323,7 @@ TEST_F(Bench, FilesAreReadAndWrittenRightlyAndComparedWithRivals)
       kinds.insert(row["file"].get<std::string>());
     }
   }
-  EXPECT_EQ(kinds.size(), 9u);
+  EXPECT_EQ(kinds.size(), 10u);
   for (const json& row : result["memory"]["rows"])
   {
     EXPECT_TRUE(row["contestant"] != "ours" || row["beyond_bytes"] <= 64e6) << row;

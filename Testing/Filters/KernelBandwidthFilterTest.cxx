@@ -498,12 +498,14 @@ TEST(Pipeline, RadiiOfAResampledCloudAreThoseOfThePoints)
   const auto cloud = densityStep(64000);
   vtkNew<vtkKernelBandwidthFilter> raw;
   raw->SetInputData(cloud);
+  raw->ComputeDensityOn();
   raw->Update();
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetInputData(cloud);
   vtkNew<vtkKernelBandwidthFilter> filter;
   EXPECT_TRUE(filter->GetUsePointCounts());
   filter->SetInputConnection(resampler->GetOutputPort());
+  filter->ComputeDensityOn();
   filter->Update();
   for (const char* name : { "ProxyRadius", "Bandwidth" })
   {

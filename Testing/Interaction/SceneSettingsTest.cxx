@@ -88,6 +88,7 @@ protected:
   {
     resampler_->SetWorkspaceBounds(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
     resampler_->SetDimensions(60, 60, 60);
+    bandwidth_->ComputeDensityOn();
     bandwidth_->SetMinimumRadius(0.003);
     bandwidth_->SetMaximumRadius(0.006);
     resampler_->SetInputData(makeCloud());

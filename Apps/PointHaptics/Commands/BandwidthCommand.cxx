@@ -42,6 +42,7 @@ void BandwidthCommandOptions::addTo(CLI::App& command)
   this->files.addTo(command);
   this->bandwidth.addTo(command);
   constexpr int kNone = -1;
+  this->bandwidth.settings.computeDensity = true;
   const auto keep = [&settings = this->bandwidth.settings](int kernel)
   {
     settings.computeDensity = kernel != kNone;

@@ -14,6 +14,7 @@
 namespace pointhaptics
 {
 
+/// The surface about one point.
 struct PointShape
 {
   /// Distance to the next points, as if they lay in a square grid on a plane; 0: the point is not finite, or
@@ -25,6 +26,7 @@ struct PointShape
   float normal[3] = { 0.0F, 0.0F, 0.0F };
 };
 
+/// The surface about each point of a cloud.
 struct LocalShape
 {
   std::vector<PointShape> points; ///< One for each point of the cloud, in its order.
@@ -35,6 +37,7 @@ struct LocalShape
   int numberOfNeighbors = 0;
 };
 
+/// Which neighbours are looked at.
 struct LocalShapeSettings
 {
   static constexpr int kFewest = 16;

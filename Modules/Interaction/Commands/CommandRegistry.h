@@ -47,6 +47,7 @@ struct GripAction
 /// A plain function is called once per key press, click or press of the device's button.
 using CommandAction = std::variant<std::function<void()>, DragAction, WheelAction, HoldAction, GripAction>;
 
+/// Something that a user can do by a key, a gesture or a button of the device.
 struct Command
 {
   std::string name;     ///< "write-settings": for bind() and --bind.
