@@ -534,6 +534,7 @@ TEST(Pipeline, RadiiOfAResampledCloudAreThoseOfThePoints)
   means->GetPointData()->RemoveArray("VoxelPointCount");
   vtkNew<vtkKernelBandwidthFilter> ofMeans;
   ofMeans->SetInputData(means);
+  ofMeans->ComputeDensityOn();
   ofMeans->Update();
   for (vtkIdType i = 0; i < means->GetNumberOfPoints(); ++i)
   {

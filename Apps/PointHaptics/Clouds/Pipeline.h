@@ -32,8 +32,8 @@ constexpr const char* kStandardStream = "-";
 
 struct ReadOptions
 {
-  std::string extension;  ///< Of a name that does not say it; empty: the name's.
-  bool applyPoses = true; ///< Of scans (E57).
+  std::string extension;   ///< Of a name that does not say it; empty: the name's.
+  bool applyPoses = true;  ///< Of scans (E57).
   double resolution = 0.0; ///< How far a cloud optimised one is read, in its units; 0: all of it.
 };
 
