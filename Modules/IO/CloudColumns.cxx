@@ -1,8 +1,8 @@
 #include "CloudColumns.h"
 
+#include "Bytes/NumericType.h"
 #include "FileProblem.h"
 #include "IO/Text/TextScan.h"
-#include "NumericType.h"
 
 #include "vtkCellArray.h"
 #include "vtkNew.h"

@@ -2,7 +2,7 @@
 /// Named, typed columns of a file and the vtkPolyData they become.
 #pragma once
 
-#include "StridedCopy.h"
+#include "Bytes/StridedCopy.h"
 
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"

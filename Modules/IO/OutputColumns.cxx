@@ -1,7 +1,7 @@
 #include "OutputColumns.h"
 
+#include "Bytes/NumericType.h"
 #include "FileProblem.h"
-#include "NumericType.h"
 
 #include "vtkPointData.h"
 #include "vtkPointSet.h"

@@ -2,7 +2,7 @@
 /// The points and point data of a cloud as named arrays, ready to be written.
 #pragma once
 
-#include "StridedCopy.h"
+#include "Bytes/StridedCopy.h"
 
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"

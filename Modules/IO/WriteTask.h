@@ -2,8 +2,8 @@
 /// What every format writer gets: where the bytes go, where to report progress, and where to note losses.
 #pragma once
 
+#include "Bytes/OutputStream.h"
 #include "OutputColumns.h"
-#include "OutputStream.h"
 #include "Progress.h"
 
 #include <string>

@@ -1,8 +1,8 @@
 #include "vtkPointCloudReader.h"
 
+#include "Bytes/FileBytes.h"
 #include "CloudColumns.h"
 #include "CloudFormat.h"
-#include "FileBytes.h"
 #include "FormatReaders.h"
 #include "IO/Las/LasHeader.h"
 

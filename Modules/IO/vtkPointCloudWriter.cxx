@@ -1,7 +1,7 @@
 #include "vtkPointCloudWriter.h"
 
+#include "Bytes/FileBytes.h"
 #include "CloudColumns.h"
-#include "FileBytes.h"
 #include "FileProblem.h"
 #include "FormatWriters.h"
 #include "IO/Vtk/ErrorCollector.h"

@@ -113,6 +113,7 @@ struct HapticViewerState
   bool pushPointer = false;
   bool axes = false;
   bool figure = false;
+  bool felt = false;
   bool ambient = false;
   std::string colorBy;
   int width = 0;

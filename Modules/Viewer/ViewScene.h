@@ -6,12 +6,12 @@
 #include "LoadedCloud.h"
 #include "ShownCloud.h"
 
-#include "CloudDetail.h"
 #include "CloudOrientation.h"
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
 #include "Haptics/HapticScene.h"
 #include "Haptics/Proxy.h"
+#include "LevelOfDetail.h"
 #include "PointHapticsViewerModule.h" // For export macro
 #include "vtkSplatMapper.h"
 #include "vtkWorkspaceBrackets.h"
@@ -111,8 +111,8 @@ public:
   vtkRenderer* renderer() { return renderer_; }
   vtkHapticProps* props() { return props_; }
   /// Off until it is enabled: then the picture must be refined when it rests.
-  CloudDetail& detail() { return drawsFelt_ ? feltDetail_ : detail_; }
-  const CloudDetail& detail() const { return drawsFelt_ ? feltDetail_ : detail_; }
+  LevelOfDetail& detail() { return drawsFelt_ ? feltDetail_ : detail_; }
+  const LevelOfDetail& detail() const { return drawsFelt_ ? feltDetail_ : detail_; }
   const Bounds& workspace() const { return workspace_; }
   void getWorkspaceBounds(double bounds[6]) const;
   /// Edges of a voxel, metres; 0 before open().
@@ -163,8 +163,8 @@ private:
   Vec3 cloudUp_;          ///< In the frame of the file.
   Bounds cloudBounds_;    ///< Of the finite points, as in the file; empty until the axes are shown.
   vtkNew<vtkRenderer> renderer_;
-  CloudDetail detail_{ renderer_, pointsActor_ };
-  CloudDetail feltDetail_{ renderer_, actor_ };
+  LevelOfDetail detail_{ renderer_, pointsActor_ };
+  LevelOfDetail feltDetail_{ renderer_, actor_ };
   Bounds workspace_;
   CloudOrientation orientation_;
   std::string scaleNote_;

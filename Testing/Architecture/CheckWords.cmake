@@ -6,6 +6,8 @@ cmake_minimum_required(VERSION 3.18)
 # A name as a regular expression, and what is said instead.
 set(words
   "HandPort" "HapticPort"
+  "CloudDetail" "LevelOfDetail"
+  "[fF]airOrder" "ProgressiveOrder, progressiveOrder"
   "signOfLife|newestSign" "heartbeat"
   "sayGoodbye" "shutdown"
   "FalconServo" "FalconProtocol"

@@ -2,11 +2,11 @@
 
 #include "CloudAppearance.h"
 #include "CloudOrientation.h"
-#include "FairOrder.h"
 #include "HapticSceneBuilder.h"
 #include "InteractionPictures.h"
 #include "OverlayPictures.h"
 #include "PolyDataAccess.h"
+#include "ProgressiveOrder.h"
 #include "SplatPictures.h"
 #include "vtkCloudAxes.h"
 #include "vtkHapticProps.h"
@@ -385,7 +385,7 @@ void showLevel(const std::string& fault, vtkRenderer* renderer, int part, double
   }
   const vtkSmartPointer<vtkPolyData> means = resample(cloudOf(points), 0.0005);
   const PointAccess access(means->GetPoints());
-  const std::vector<std::int64_t> order = fairOrder(access.view());
+  const std::vector<std::int64_t> order = progressiveOrder(access.view());
   vtkNew<vtkCellArray> vertices;
   for (vtkIdType i = 0; i < means->GetNumberOfPoints() / part; ++i)
   {

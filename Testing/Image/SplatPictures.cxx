@@ -1,9 +1,9 @@
 #include "SplatPictures.h"
 
 #include "CloudAppearance.h"
-#include "CloudDetail.h"
 #include "CloudOrientation.h"
 #include "HapticSceneBuilder.h"
+#include "LevelOfDetail.h"
 #include "PolyDataAccess.h"
 #include "ShownCloud.h"
 #include "SurfaceArrays.h"
@@ -218,8 +218,8 @@ void buildFirstGlance(const std::string& fault, vtkRenderer* renderer)
 void buildCoarseAmbientLight(const std::string& fault, vtkRenderer* renderer)
 {
   const vtkSmartPointer<vtkActor> actor = showLitStatue(renderer, 40000, fault);
-  static std::unique_ptr<CloudDetail> detail; // until the program ends
-  detail = std::make_unique<CloudDetail>(renderer, actor);
+  static std::unique_ptr<LevelOfDetail> detail; // until the program ends
+  detail = std::make_unique<LevelOfDetail>(renderer, actor);
   detail->setEnabled(true);
   detail->beginFrame(0.0);
 }
@@ -232,8 +232,8 @@ void buildSplats(const std::string& fault, vtkRenderer* renderer)
 void buildCoarseSplats(const std::string& fault, vtkRenderer* renderer)
 {
   const vtkSmartPointer<vtkActor> actor = showStatue(renderer, 100000, fault == "equal-sizes");
-  static std::unique_ptr<CloudDetail> detail; // until the program ends
-  detail = std::make_unique<CloudDetail>(renderer, actor);
+  static std::unique_ptr<LevelOfDetail> detail; // until the program ends
+  detail = std::make_unique<LevelOfDetail>(renderer, actor);
   detail->setEnabled(fault != "all-points");
   detail->beginFrame(0.0);
 }

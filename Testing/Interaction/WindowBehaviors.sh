@@ -160,6 +160,22 @@ KeyMGoesThroughTheColors() {
   said "coloured by Height"
 }
 
+KeyDShowsTheMeansThatAreFelt() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  write_settings
+  is felt false || fail "the means are shown already"
+  key s d
+  said "shown: the voxel means that are felt"
+  key s
+  said "screenshot: pointhaptics-002.png"
+  ! cmp -s pointhaptics-001.png pointhaptics-002.png || fail "the picture is the same"
+  write_settings
+  is felt true || fail "the settings do not have it"
+  key d
+  said "shown: the points of the file"
+}
+
 KeyLLightsTheCloud() {
   make sphere cloud.ply
   open_viewer cloud.ply

@@ -96,7 +96,7 @@ void addTurn(Context& context, std::int64_t points, ReportPart& part, std::vecto
     addPoint(series, detail ? "level of detail" : "all points", double(points), 1.0 / q.median);
     if (table->drawnPoints() != table->allPoints())
     {
-      context.wrong = "at rest the picture does not show all points; look at CloudDetail";
+      context.wrong = "at rest the picture does not show all points; look at LevelOfDetail";
     }
   }
 }

@@ -41,7 +41,7 @@ public:
   int rest() override
   {
     int frames = 0;
-    std::this_thread::sleep_for(std::chrono::duration<double>(CloudDetail::kRestSeconds));
+    std::this_thread::sleep_for(std::chrono::duration<double>(LevelOfDetail::kRestSeconds));
     for (; !view_.scene().detail().showsAll() && frames < 100; ++frames)
     {
       this->render();

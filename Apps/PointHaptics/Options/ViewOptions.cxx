@@ -273,7 +273,7 @@ void ViewOptions::addTo(CLI::App& command)
     "Axis of the cloud that points up; default: a guess");
   addWord(command, "--kind", this->viewer.kind, { "auto", "object", "terrain", "sweep", "indoors", "frame" },
     "What the cloud is, and so from where it is seen and how it is drawn; default: a guess");
-  command.add_flag("--felt", this->viewer.felt, "Show the voxel means that are felt instead of the points");
+  command.add_flag("--felt", this->viewer.felt);
   command.add_option("--color-by", this->viewer.colorBy)->type_name("ARRAY[:COMPONENT]");
   addNumber(command, "--point-size", this->viewer.pointSize, { 1.0, 50.0 }, "PIXELS",
     "Diameter of a point; default: from the spacing of its neighbours, so that surfaces close");

@@ -97,6 +97,7 @@ void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, 
   settings["push-pointer"] = state.pushPointer;
   settings["axes"] = state.axes;
   settings["figure"] = state.figure;
+  settings["felt"] = state.felt;
   settings["ambient"] = state.ambient;
   settings.erase("color-by");
   if (!state.colorBy.empty())

@@ -39,6 +39,7 @@ const std::vector<KeyedHelp>& keyedHelps()
       { "axes" } },
     { "--figure", "Nothing but the cloud in one colour on white, the workspace, proxy and normal",
       { "figure" } },
+    { "--felt", "Show the voxel means that are felt instead of the points", { "felt" } },
     { "--ambient",
       "Ambient light from the normals of the surface that is felt: shows the shape of a cloud without "
       "colours",

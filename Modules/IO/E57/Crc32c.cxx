@@ -1,6 +1,6 @@
 #include "IO/E57/Crc32c.h"
 
-#include "LittleEndian.h"
+#include "Bytes/LittleEndian.h"
 
 #include <array>
 

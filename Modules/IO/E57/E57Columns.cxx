@@ -1,7 +1,7 @@
 #include "IO/E57/E57Columns.h"
 
+#include "Bytes/NumericType.h"
 #include "FileProblem.h"
-#include "NumericType.h"
 
 #include <algorithm>
 #include <limits>

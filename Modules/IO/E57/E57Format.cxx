@@ -1,5 +1,6 @@
 #include "FormatReaders.h"
 
+#include "Bytes/NumericType.h"
 #include "CloudColumns.h"
 #include "IO/E57/E57Columns.h"
 #include "IO/E57/E57Decoder.h"
@@ -7,7 +8,6 @@
 #include "IO/E57/E57Pages.h"
 #include "IO/E57/E57Scan.h"
 #include "IO/E57/E57Xml.h"
-#include "NumericType.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"

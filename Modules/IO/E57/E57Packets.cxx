@@ -1,8 +1,8 @@
 #include "IO/E57/E57Packets.h"
 
+#include "Bytes/LittleEndian.h"
 #include "FileProblem.h"
 #include "IO/E57/E57Pages.h"
-#include "LittleEndian.h"
 
 #include <algorithm>
 #include <array>

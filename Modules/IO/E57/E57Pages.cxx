@@ -1,7 +1,7 @@
 #include "IO/E57/E57Pages.h"
 
+#include "Bytes/LittleEndian.h"
 #include "IO/E57/Crc32c.h"
-#include "LittleEndian.h"
 #include "ReadTask.h"
 
 #include "vtkSMPTools.h"

@@ -9,6 +9,7 @@
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <optional>
@@ -87,6 +88,14 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   encoding->SetName("LasGlobalEncoding");
   encoding->InsertNextValue(header.globalEncoding);
   cloud->GetFieldData()->AddArray(encoding);
+  if (packed)
+  {
+    vtkNew<vtkTypeInt64Array> chunks;
+    chunks->SetName("Chunks");
+    chunks->InsertNextValue(packed->numberOfChunks());
+    cloud->GetFieldData()->AddArray(chunks);
+  }
+  addText(cloud, "Generator", header.generator);
   addText(cloud, "CoordinateSystem", header.coordinateSystem);
   addText(cloud, "LengthUnit", header.lengthUnit);
 }

@@ -2,7 +2,7 @@
 /// The grid of 32-bit integers on which LAS stores coordinates.
 #pragma once
 
-#include "StridedCopy.h"
+#include "Bytes/StridedCopy.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "IO/Las/LasHeader.h"
 
+#include "Bytes/NumericType.h"
 #include "FileProblem.h"
 #include "IO/Las/LasCoordinateSystem.h"
-#include "NumericType.h"
 
 #include <cmath>
 #include <limits>
@@ -256,6 +256,8 @@ LasHeader parseLasHeader(std::string_view bytes)
       "convert it to LAS 1.0 to 1.4");
   }
   header.globalEncoding = numberAt<std::uint16_t>(bytes, 6);
+  const std::string_view generator = bytes.substr(58, 32);
+  header.generator = generator.substr(0, generator.find('\0'));
   header.headerSize = numberAt<std::uint16_t>(bytes, 94);
   if (header.headerSize < kLasHeaderOf12)
   {

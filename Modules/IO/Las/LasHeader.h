@@ -3,7 +3,7 @@
 /// sizes is allocated. Layouts: ASPRS, LAS Specification 1.4 R15.
 #pragma once
 
-#include "LittleEndian.h"
+#include "Bytes/LittleEndian.h"
 
 #include <algorithm>
 #include <array>
@@ -75,6 +75,7 @@ struct LasHeader
   std::array<double, 3> scale{};
   std::array<double, 3> offset{};
   std::vector<LasExtraField> extraFields;
+  std::string generator;        ///< the program that wrote the file; empty when it does not say
   std::string coordinateSystem; ///< WKT or "EPSG:26917"; empty when the file does not say
   std::string lengthUnit;       ///< of a projected system: "metre"; empty when the file does not say
   std::string packing;          ///< "LAZ" or "COPC" where the points are compressed, else empty

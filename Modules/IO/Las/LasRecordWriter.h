@@ -2,7 +2,7 @@
 /// Numbers and variable length records of a LAS file.
 #pragma once
 
-#include "StridedCopy.h"
+#include "Bytes/StridedCopy.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "IO/Las/LasRecords.h"
 
-#include "NumericType.h"
+#include "Bytes/NumericType.h"
 
 #include "vtkPointData.h"
 #include "vtkPolyData.h"

@@ -1,10 +1,10 @@
 #include "FormatWriters.h"
 
+#include "Bytes/NumericType.h"
 #include "IO/Las/LasGrid.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/LasRecordWriter.h"
 #include "IO/Las/LazWriter.h"
-#include "NumericType.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"

@@ -1,9 +1,9 @@
 #include "FormatReaders.h"
 
+#include "Bytes/LittleEndian.h"
 #include "CloudColumns.h"
 #include "CloudFormat.h"
 #include "IO/Text/TextScan.h"
-#include "LittleEndian.h"
 
 #include <array>
 #include <cstdint>

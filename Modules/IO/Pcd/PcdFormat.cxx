@@ -1,10 +1,10 @@
 #include "FormatReaders.h"
 
+#include "Bytes/NumericType.h"
 #include "CloudColumns.h"
 #include "IO/Pcd/LzfStream.h"
 #include "IO/Pcd/PcdHeader.h"
 #include "IO/Text/TextScan.h"
-#include "NumericType.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"

@@ -1,9 +1,9 @@
 #include "IO/Pcd/PcdHeader.h"
 
+#include "Bytes/NumericType.h"
 #include "CloudColumns.h"
 #include "FileProblem.h"
 #include "IO/Text/TextScan.h"
-#include "NumericType.h"
 
 #include <algorithm>
 #include <cstdint>

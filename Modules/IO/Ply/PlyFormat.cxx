@@ -1,9 +1,9 @@
 #include "FormatReaders.h"
 
+#include "Bytes/NumericType.h"
 #include "CloudColumns.h"
 #include "IO/Ply/PlyHeader.h"
 #include "IO/Text/TextScan.h"
-#include "NumericType.h"
 
 #include <algorithm>
 

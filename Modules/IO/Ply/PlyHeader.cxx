@@ -1,9 +1,9 @@
 #include "IO/Ply/PlyHeader.h"
 
+#include "Bytes/NumericType.h"
 #include "CloudColumns.h"
 #include "FileProblem.h"
 #include "IO/Text/TextScan.h"
-#include "NumericType.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "FormatWriters.h"
 
-#include "NumericType.h"
+#include "Bytes/NumericType.h"
 
 #include <charconv>
 #include <cstring>

@@ -2,9 +2,9 @@
 /// Numbers in columns of text: how they are separated, what a header calls them, and their values.
 #pragma once
 
+#include "Bytes/StridedCopy.h"
 #include "IO/Text/NumberColumn.h"
 #include "ReadTask.h"
-#include "StridedCopy.h"
 
 #include <cstddef>
 #include <string>

@@ -1,8 +1,8 @@
 #include "IO/Vtk/VtkLegacyCursor.h"
 
+#include "Bytes/NumericType.h"
 #include "CloudColumns.h"
 #include "IO/Text/TextScan.h"
-#include "NumericType.h"
 
 #include <algorithm>
 

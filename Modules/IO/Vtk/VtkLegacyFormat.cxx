@@ -1,9 +1,9 @@
 #include "FormatReaders.h"
 
+#include "Bytes/NumericType.h"
 #include "CloudColumns.h"
 #include "IO/Text/TextScan.h"
 #include "IO/Vtk/VtkLegacyCursor.h"
-#include "NumericType.h"
 
 #include "vtkDataArray.h"
 #include "vtkNew.h"

@@ -29,6 +29,8 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
     { "figure", "o", "Show", "figure: cloud, cube, touch only", call(&Window::toggleFigure), isOpen });
   commands.add({ "colors", "m", "Show", "color by the next array", call(&Window::showNextColors), isOpen });
   commands.add(
+    { "felt", "d", "Show", "voxel means that are felt, or the points", call(&Window::toggleFelt), isOpen });
+  commands.add(
     { "ambient", "l", "Show", "ambient light from the normals", call(&Window::toggleAmbient), isOpen });
   commands.add(
     { "next-file", "n", "Program", "next, previous file", call(&Window::showNextFile), hasOtherFiles });

@@ -106,6 +106,7 @@ private:
   void toggleAxes();
   void toggleFigure();
   void showNextColors();
+  void toggleFelt();
   void toggleAmbient();
   void setSceneOptions();
   void endAwaitingColors();

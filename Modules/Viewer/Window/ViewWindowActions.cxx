@@ -276,6 +276,7 @@ HapticViewerState ViewWindow::state()
   state.pushPointer = style_->GetHand().pushesPointer();
   state.axes = scene_.showsAxes();
   state.figure = scene_.isFigure();
+  state.felt = options_.felt;
   state.ambient = options_.ambient;
   state.colorBy = options_.colorBy;
   const int* size = window_->GetSize();
@@ -410,6 +411,13 @@ void ViewWindow::endAwaitingColors()
     this->say(news_.substr(0, news_.size() - std::string(kAsSoonAsComputed).size()));
   }
   awaitedColors_.clear();
+}
+
+void ViewWindow::toggleFelt()
+{
+  options_.felt = !options_.felt;
+  scene_.setShowsFelt(options_.felt);
+  say(options_.felt ? "shown: the voxel means that are felt" : "shown: the points of the file");
 }
 
 void ViewWindow::toggleAmbient()

@@ -2,7 +2,7 @@
 /// LAZ's layers (point formats 6 to 10) learn the points of each scanner channel apart.
 #pragma once
 
-#include "LittleEndian.h"
+#include "Bytes/LittleEndian.h"
 
 #include <array>
 #include <cstdint>

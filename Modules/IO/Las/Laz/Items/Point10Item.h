@@ -3,10 +3,10 @@
 /// (M. Isenburg, 2013).
 #pragma once
 
+#include "Bytes/LittleEndian.h"
 #include "IO/Las/Laz/IntegerModels.h"
 #include "IO/Las/Laz/Items/ReturnContexts.h"
 #include "IO/Las/Laz/Items/StreamingMedian.h"
-#include "LittleEndian.h"
 
 #include <array>
 

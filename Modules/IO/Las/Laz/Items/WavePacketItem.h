@@ -3,8 +3,8 @@
 /// 10). Source: LASzip's published format (M. Isenburg, 2013).
 #pragma once
 
+#include "Bytes/LittleEndian.h"
 #include "IO/Las/Laz/IntegerModels.h"
-#include "LittleEndian.h"
 
 #include <array>
 

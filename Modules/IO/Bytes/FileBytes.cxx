@@ -1,4 +1,4 @@
-#include "FileBytes.h"
+#include "Bytes/FileBytes.h"
 
 #include "FileProblem.h"
 

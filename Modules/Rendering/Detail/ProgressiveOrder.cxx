@@ -1,4 +1,4 @@
-#include "FairOrder.h"
+#include "ProgressiveOrder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +82,7 @@ std::vector<std::int64_t> alongCurve(const PointView& points)
 
 } // namespace
 
-std::vector<std::int64_t> fairOrder(const PointView& points)
+std::vector<std::int64_t> progressiveOrder(const PointView& points)
 {
   const std::vector<std::int64_t> curve = alongCurve(points);
   const auto size = std::int64_t(curve.size());

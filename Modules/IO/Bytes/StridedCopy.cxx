@@ -1,6 +1,6 @@
-#include "StridedCopy.h"
+#include "Bytes/StridedCopy.h"
 
-#include "NumericType.h"
+#include "Bytes/NumericType.h"
 
 #include <algorithm>
 #include <cmath>

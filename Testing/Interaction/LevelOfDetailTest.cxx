@@ -1,4 +1,4 @@
-#include "CloudDetail.h"
+#include "LevelOfDetail.h"
 #include "CloudAppearance.h"
 #include "vtkDepthShadingPass.h"
 #include "vtkSplatMapper.h"
@@ -67,7 +67,7 @@ vtkSmartPointer<vtkPolyData> makeSphere()
 }
 
 /// A window that shows a cloud, with the detail that belongs to it; time passes as the test says.
-class CloudDetailTest : public ::testing::Test
+class LevelOfDetailTest : public ::testing::Test
 {
 protected:
   void SetUp() override
@@ -93,7 +93,7 @@ protected:
     begin_->SetCallback(
       [](vtkObject*, unsigned long, void* self, void*)
       {
-        auto* test = static_cast<CloudDetailTest*>(self);
+        auto* test = static_cast<LevelOfDetailTest*>(self);
         test->detail_.beginFrame(test->now_);
       });
     renderer_->AddObserver(vtkCommand::StartEvent, begin_);
@@ -129,10 +129,10 @@ protected:
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkCallbackCommand> begin_;
-  CloudDetail detail_{ renderer_, actor_ };
+  LevelOfDetail detail_{ renderer_, actor_ };
 };
 
-TEST_F(CloudDetailTest, MovesWithFewPointsAndRestsWithThePictureOfAllPoints)
+TEST_F(LevelOfDetailTest, MovesWithFewPointsAndRestsWithThePictureOfAllPoints)
 {
   detail_.setEnabled(false);
   this->render(0.0);
@@ -145,7 +145,7 @@ TEST_F(CloudDetailTest, MovesWithFewPointsAndRestsWithThePictureOfAllPoints)
   EXPECT_NEAR(detail_.spacingFactor(), std::sqrt(double(kPoints) / double(detail_.drawnPoints())), 1e-12);
   EXPECT_NE(this->pixels(), whole);
   EXPECT_FALSE(detail_.refinementDue(now_));
-  EXPECT_TRUE(detail_.refinementDue(now_ + 2.0 * CloudDetail::kRestSeconds));
+  EXPECT_TRUE(detail_.refinementDue(now_ + 2.0 * LevelOfDetail::kRestSeconds));
   std::int64_t last = detail_.drawnPoints();
   while (detail_.refinementDue(now_ + 1.0))
   {
@@ -157,7 +157,7 @@ TEST_F(CloudDetailTest, MovesWithFewPointsAndRestsWithThePictureOfAllPoints)
   EXPECT_EQ(this->pixels(), whole);
 }
 
-TEST_F(CloudDetailTest, TheCoarsePictureCoversWhatTheWholeOneDoes)
+TEST_F(LevelOfDetailTest, TheCoarsePictureCoversWhatTheWholeOneDoes)
 {
   detail_.setEnabled(false);
   actor_->VisibilityOff();
@@ -183,7 +183,7 @@ TEST_F(CloudDetailTest, TheCoarsePictureCoversWhatTheWholeOneDoes)
   EXPECT_LE(missed, covered / 100);
 }
 
-TEST_F(CloudDetailTest, KeepsItsDetailWhereNothingButTextChanges)
+TEST_F(LevelOfDetailTest, KeepsItsDetailWhereNothingButTextChanges)
 {
   this->render(0.0);
   this->renderUntilFine();
@@ -193,7 +193,7 @@ TEST_F(CloudDetailTest, KeepsItsDetailWhereNothingButTextChanges)
   EXPECT_FALSE(detail_.refinementDue(now_ + 10.0));
 }
 
-TEST_F(CloudDetailTest, CameraCloudModelAndOtherActorsAreMotion)
+TEST_F(LevelOfDetailTest, CameraCloudModelAndOtherActorsAreMotion)
 {
   vtkNew<vtkActor> proxy;
   renderer_->AddActor(proxy);
@@ -214,7 +214,7 @@ TEST_F(CloudDetailTest, CameraCloudModelAndOtherActorsAreMotion)
   }
 }
 
-TEST_F(CloudDetailTest, ShowsAllForAPictureThatIsKept)
+TEST_F(LevelOfDetailTest, ShowsAllForAPictureThatIsKept)
 {
   this->render(0.0);
   ASSERT_FALSE(detail_.showsAll());
@@ -224,7 +224,7 @@ TEST_F(CloudDetailTest, ShowsAllForAPictureThatIsKept)
   EXPECT_TRUE(detail_.showsAll());
 }
 
-TEST_F(CloudDetailTest, DepthShadingLeavesTheBackgroundAsItIs)
+TEST_F(LevelOfDetailTest, DepthShadingLeavesTheBackgroundAsItIs)
 {
   detail_.setEnabled(false);
   renderer_->GradientBackgroundOff();
@@ -252,7 +252,7 @@ TEST_F(CloudDetailTest, DepthShadingLeavesTheBackgroundAsItIs)
   EXPECT_GT(darker, 300); // the rim of the sphere falls away from the eye
 }
 
-TEST_F(CloudDetailTest, DrawsTheCloudAnewOnlyWhereMoreThanTextChanged)
+TEST_F(LevelOfDetailTest, DrawsTheCloudAnewOnlyWhereMoreThanTextChanged)
 {
   detail_.setEnabled(false);
   auto* passes = vtkSequencePass::SafeDownCast(renderer_->GetPass())->GetPasses();
@@ -303,7 +303,7 @@ TEST_F(CloudDetailTest, DrawsTheCloudAnewOnlyWhereMoreThanTextChanged)
   }
 }
 
-TEST_F(CloudDetailTest, LeavesOutWhatIsOutOfViewWithoutChangingThePicture)
+TEST_F(LevelOfDetailTest, LeavesOutWhatIsOutOfViewWithoutChangingThePicture)
 {
   vtkNew<vtkFloatArray> lengths;
   lengths->SetName("Bandwidth");
@@ -407,7 +407,7 @@ Difference differenceOf(const std::vector<unsigned char>& one, const std::vector
   return difference;
 }
 
-TEST_F(CloudDetailTest, LeavesOutOfThePictureAtRestWhatIsOutOfViewWithoutChangingAPixel)
+TEST_F(LevelOfDetailTest, LeavesOutOfThePictureAtRestWhatIsOutOfViewWithoutChangingAPixel)
 {
   vtkNew<vtkFloatArray> lengths;
   lengths->SetName("Bandwidth");
@@ -458,7 +458,7 @@ TEST_F(CloudDetailTest, LeavesOutOfThePictureAtRestWhatIsOutOfViewWithoutChangin
   EXPECT_FALSE(splats->GetRanges().empty());
 }
 
-TEST_F(CloudDetailTest, DrawsPointsInAnotherOrderThanTheirOwnAll)
+TEST_F(LevelOfDetailTest, DrawsPointsInAnotherOrderThanTheirOwnAll)
 {
   vtkNew<vtkCellArray> backwards;
   for (vtkIdType i = kPoints - 1; i >= 0; --i)
@@ -476,7 +476,7 @@ TEST_F(CloudDetailTest, DrawsPointsInAnotherOrderThanTheirOwnAll)
   EXPECT_EQ(detail_.visiblePoints(), kPoints);
 }
 
-TEST_F(CloudDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
+TEST_F(LevelOfDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
 {
   vtkNew<vtkFloatArray> lengths;
   lengths->SetName("Bandwidth");
@@ -523,7 +523,7 @@ TEST_F(CloudDetailTest, LeavesOutWhatIsBelowAPixelFromAfar)
   }
 }
 
-TEST_F(CloudDetailTest, LeavesOutWhatTheWorkspaceClips)
+TEST_F(LevelOfDetailTest, LeavesOutWhatTheWorkspaceClips)
 {
   vtkNew<vtkSplatMapper> splats;
   splats->SetInputData(cloud_);

@@ -26,11 +26,11 @@ namespace pointhaptics
 {
 
 /// Stands beside the actor of a cloud in a renderer. A frame that differs from the last one by its camera,
-/// its cloud or another actor is drawn with as many points, in fairOrder(), as fit the frame budget, which is
-/// learnt from the times such frames take; the splats of a vtkSplatMapper grow so that surfaces stay closed.
-/// After kRestSeconds without such a frame refinementDue() asks for frames with four times as many points
-/// each, until the cloud's own actor is drawn: the picture at rest is the one without this class. Of the
-/// splats of a vtkSplatMapper only the bricks in view, and in the workspace if there is one, are drawn in
+/// its cloud or another actor is drawn with as many points, in progressiveOrder(), as fit the frame budget,
+/// which is learnt from the times such frames take; the splats of a vtkSplatMapper grow so that surfaces stay
+/// closed. After kRestSeconds without such a frame refinementDue() asks for frames with four times as many
+/// points each, until the cloud's own actor is drawn: the picture at rest is the one without this class. Of
+/// the splats of a vtkSplatMapper only the bricks in view, and in the workspace if there is one, are drawn in
 /// such a frame, and only they count: a part of the cloud seen from near by is shown with more points. In the
 /// picture at rest what is out of view is left out too, which changes no pixel. From so far that neighbours
 /// are much less than a pixel apart the picture is as fine as it gets with a part of the points: the others
@@ -39,16 +39,16 @@ namespace pointhaptics
 ///
 /// The picture only gets finer when somebody renders: call refinementDue() from a timer. GUI thread only. To
 /// be destroyed before the actor's renderer.
-class POINTHAPTICSRENDERING_EXPORT CloudDetail
+class POINTHAPTICSRENDERING_EXPORT LevelOfDetail
 {
 public:
   static constexpr double kRestSeconds = 0.15;
 
   /// @param actor draws the whole cloud with a vtkPolyDataMapper, in @p renderer.
-  CloudDetail(vtkRenderer* renderer, vtkActor* actor);
-  ~CloudDetail();
-  CloudDetail(const CloudDetail&) = delete;
-  CloudDetail& operator=(const CloudDetail&) = delete;
+  LevelOfDetail(vtkRenderer* renderer, vtkActor* actor);
+  ~LevelOfDetail();
+  LevelOfDetail(const LevelOfDetail&) = delete;
+  LevelOfDetail& operator=(const LevelOfDetail&) = delete;
 
   /// A box in the frame of the scene: what lies outside is not drawn while the picture moves. Default: none.
   void setWorkspace(const Bounds& box) { workspace_ = box; }
@@ -98,7 +98,7 @@ private:
   std::int64_t levelFor(std::int64_t points) const;
   void show(vtkPolyData* cloud, std::int64_t points);
   void addLevel(vtkPolyData* cloud);
-  void leaveOutUnseen();
+  void cullOutsideFrustum();
   void leaveOutOfView(vtkPolyData* cloud);
   std::vector<HalfSpace> sides(double pixels) const;
   std::vector<HalfSpace> view() const;

@@ -1,7 +1,7 @@
-#include "CloudDetail.h"
+#include "LevelOfDetail.h"
 
 #include "CloudParts.h"
-#include "FairOrder.h"
+#include "ProgressiveOrder.h"
 #include "vtkSplatMapper.h"
 
 #include "vtkActor.h"
@@ -48,16 +48,16 @@ double steadySeconds()
 
 } // namespace
 
-CloudDetail::CloudDetail(vtkRenderer* renderer, vtkActor* actor)
+LevelOfDetail::LevelOfDetail(vtkRenderer* renderer, vtkActor* actor)
   : renderer_(renderer)
   , actor_(actor)
 {
   onEnd_->SetClientData(this);
   onEnd_->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*) { static_cast<CloudDetail*>(self)->endFrame(); });
+    [](vtkObject*, unsigned long, void* self, void*) { static_cast<LevelOfDetail*>(self)->endFrame(); });
 }
 
-CloudDetail::~CloudDetail()
+LevelOfDetail::~LevelOfDetail()
 {
   this->dropLevels();
   if (window_)
@@ -66,7 +66,7 @@ CloudDetail::~CloudDetail()
   }
 }
 
-void CloudDetail::setEnabled(bool enabled)
+void LevelOfDetail::setEnabled(bool enabled)
 {
   enabled_ = enabled;
   if (!enabled)
@@ -80,22 +80,22 @@ void CloudDetail::setEnabled(bool enabled)
   }
 }
 
-double CloudDetail::spacingFactor() const
+double LevelOfDetail::spacingFactor() const
 {
   return drawn_ > 0 ? std::sqrt(double(total_) / double(drawn_)) : 1.0;
 }
 
-void CloudDetail::setCoarsePointSize(double pixels)
+void LevelOfDetail::setCoarsePointSize(double pixels)
 {
   coarse_->SetPointSize(static_cast<float>(pixels));
 }
 
-bool CloudDetail::refinementDue(double now) const
+bool LevelOfDetail::refinementDue(double now) const
 {
   return enabled_ && total_ > 0 && !this->showsAll() && now - lastMotion_ >= kRestSeconds;
 }
 
-void CloudDetail::watchWindow()
+void LevelOfDetail::watchWindow()
 {
   vtkRenderWindow* window = renderer_->GetRenderWindow();
   if (window != window_)
@@ -112,7 +112,7 @@ void CloudDetail::watchWindow()
   }
 }
 
-bool CloudDetail::sceneChanged(vtkPolyData* cloud)
+bool LevelOfDetail::sceneChanged(vtkPolyData* cloud)
 {
   std::vector<double> placement;
   const auto add = [&placement](vtkMatrix4x4* matrix)
@@ -145,7 +145,7 @@ bool CloudDetail::sceneChanged(vtkPolyData* cloud)
 }
 
 /// How many points the coming frame may draw.
-std::int64_t CloudDetail::wanted(double now)
+std::int64_t LevelOfDetail::wanted(double now)
 {
   if (allOnce_)
   {
@@ -167,7 +167,7 @@ std::int64_t CloudDetail::wanted(double now)
   return now - lastMotion_ >= kRestSeconds ? kRefinement * drawn_ : drawn_;
 }
 
-void CloudDetail::beginFrame(double now)
+void LevelOfDetail::beginFrame(double now)
 {
   auto* mapper = vtkPolyDataMapper::SafeDownCast(actor_->GetMapper());
   vtkPolyData* cloud = mapper ? mapper->GetInput() : nullptr;
@@ -191,7 +191,7 @@ void CloudDetail::beginFrame(double now)
   frameBegin_ = steadySeconds();
 }
 
-void CloudDetail::endFrame()
+void LevelOfDetail::endFrame()
 {
   if (frameIsTypical_ && window_)
   {
@@ -202,7 +202,7 @@ void CloudDetail::endFrame()
 }
 
 /// The end of the largest level, made or not, that has at most @p points; all of them where no level has.
-std::int64_t CloudDetail::levelFor(std::int64_t points) const
+std::int64_t LevelOfDetail::levelFor(std::int64_t points) const
 {
   if (points >= total_)
   {
@@ -216,7 +216,7 @@ std::int64_t CloudDetail::levelFor(std::int64_t points) const
   return std::min(total_, std::int64_t(end));
 }
 
-void CloudDetail::show(vtkPolyData* cloud, std::int64_t points)
+void LevelOfDetail::show(vtkPolyData* cloud, std::int64_t points)
 {
   drawn_ = points >= finest_ ? finest_ : this->levelFor(points);
   const bool all = drawn_ >= total_;
@@ -244,7 +244,7 @@ void CloudDetail::show(vtkPolyData* cloud, std::int64_t points)
   }
   else
   {
-    this->leaveOutUnseen();
+    this->cullOutsideFrustum();
   }
   coarse_->SetOpacity(actor_->GetProperty()->GetOpacity());
   coarse_->SetColor(actor_->GetProperty()->GetColor());
@@ -253,7 +253,7 @@ void CloudDetail::show(vtkPolyData* cloud, std::int64_t points)
 
 /// Left, right, bottom and top of the frustum, @p pixels outside of the picture; the clipping range holds the
 /// whole scene.
-std::vector<HalfSpace> CloudDetail::sides(double pixels) const
+std::vector<HalfSpace> LevelOfDetail::sides(double pixels) const
 {
   vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
     renderer_->GetTiledAspectRatio(), -1, 1);
@@ -276,7 +276,7 @@ std::vector<HalfSpace> CloudDetail::sides(double pixels) const
 }
 
 /// The sides of the frustum and of the workspace.
-std::vector<HalfSpace> CloudDetail::view() const
+std::vector<HalfSpace> LevelOfDetail::view() const
 {
   std::vector<HalfSpace> result = this->sides(0.0);
   for (int axis = 0; axis < 3 && !workspace_.empty(); ++axis)
@@ -294,7 +294,7 @@ std::vector<HalfSpace> CloudDetail::view() const
 }
 
 /// Of the whole cloud, by its own mapper: what no pixel can show.
-void CloudDetail::leaveOutOfView(vtkPolyData* cloud)
+void LevelOfDetail::leaveOutOfView(vtkPolyData* cloud)
 {
   auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper());
   if (!splats)
@@ -329,8 +329,8 @@ void CloudDetail::leaveOutOfView(vtkPolyData* cloud)
   splats->SetRanges(std::move(ranges));
 }
 
-/// All points, or as many of the fair order as lie kFinestPixels apart where the cloud is nearest.
-std::int64_t CloudDetail::finestFor(vtkPolyData* cloud)
+/// All points, or as many of the progressive order as lie kFinestPixels apart where the cloud is nearest.
+std::int64_t LevelOfDetail::finestFor(vtkPolyData* cloud)
 {
   auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper());
   vtkDataArray* lengths =
@@ -374,7 +374,7 @@ std::int64_t CloudDetail::finestFor(vtkPolyData* cloud)
   return std::min(total_, std::int64_t(end));
 }
 
-void CloudDetail::leaveOutUnseen()
+void LevelOfDetail::cullOutsideFrustum()
 {
   const std::vector<HalfSpace> halfSpaces = this->view();
   visible_ = 0;
@@ -406,13 +406,13 @@ void CloudDetail::leaveOutUnseen()
   }
 }
 
-void CloudDetail::addLevel(vtkPolyData* cloud)
+void LevelOfDetail::addLevel(vtkPolyData* cloud)
 {
   std::vector<Vec3> copy;
   const PointView points = viewOf(cloud, copy);
   if (order_.empty())
   {
-    order_ = fairOrder(points);
+    order_ = progressiveOrder(points);
   }
   const std::int64_t begin = levels_.empty() ? 0 : levels_.back().end;
   double end = double(FrameBudget::kFewestPoints);
@@ -445,7 +445,7 @@ void CloudDetail::addLevel(vtkPolyData* cloud)
   levels_.push_back(level);
 }
 
-void CloudDetail::removeLevels()
+void LevelOfDetail::removeLevels()
 {
   for (const Level& level : levels_)
   {
@@ -457,7 +457,7 @@ void CloudDetail::removeLevels()
   levels_.clear();
 }
 
-void CloudDetail::dropLevels()
+void LevelOfDetail::dropLevels()
 {
   this->removeLevels();
   order_.clear();

@@ -1,5 +1,5 @@
 /// @file
-/// Parts of a cloud as CloudDetail draws them.
+/// Parts of a cloud as LevelOfDetail draws them.
 #pragma once
 
 #include "Core/Base/PointView.h"

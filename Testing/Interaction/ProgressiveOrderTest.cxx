@@ -1,4 +1,4 @@
-#include "FairOrder.h"
+#include "ProgressiveOrder.h"
 
 #include <gtest/gtest.h>
 
@@ -27,12 +27,12 @@ std::vector<Vec3> unevenCloud(int count)
   return points;
 }
 
-TEST(FairOrder, IsAPermutation)
+TEST(ProgressiveOrder, IsAPermutation)
 {
   for (const int count : { 0, 1, 2, 1000, 1024, 1025 })
   {
     const std::vector<Vec3> points = unevenCloud(count);
-    std::vector<std::int64_t> order = fairOrder({ points.data(), std::int64_t(points.size()) });
+    std::vector<std::int64_t> order = progressiveOrder({ points.data(), std::int64_t(points.size()) });
     std::sort(order.begin(), order.end());
     ASSERT_EQ(order.size(), points.size());
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -42,11 +42,11 @@ TEST(FairOrder, IsAPermutation)
   }
 }
 
-TEST(FairOrder, EveryBeginningTakesFromEveryCubeItsShare)
+TEST(ProgressiveOrder, EveryBeginningTakesFromEveryCubeItsShare)
 {
   constexpr int kCubes = 4; // per edge
   const std::vector<Vec3> points = unevenCloud(60000);
-  const std::vector<std::int64_t> order = fairOrder({ points.data(), std::int64_t(points.size()) });
+  const std::vector<std::int64_t> order = progressiveOrder({ points.data(), std::int64_t(points.size()) });
   // The same box as that of the order.
   Bounds bounds;
   for (const Vec3& p : points)
@@ -85,10 +85,10 @@ TEST(FairOrder, EveryBeginningTakesFromEveryCubeItsShare)
   }
 }
 
-TEST(FairOrder, TakesPointsThatAreNotFiniteAndPointsInOnePlace)
+TEST(ProgressiveOrder, TakesPointsThatAreNotFiniteAndPointsInOnePlace)
 {
   const std::vector<Vec3> points = { { NAN, 0, 0 }, { 1, 1, 1 }, { 1, 1, 1 }, { INFINITY, 0, 2 } };
-  EXPECT_EQ(fairOrder({ points.data(), 4 }).size(), 4u);
+  EXPECT_EQ(progressiveOrder({ points.data(), 4 }).size(), 4u);
 }
 
 } // namespace

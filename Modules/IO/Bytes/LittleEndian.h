@@ -2,7 +2,7 @@
 /// Numbers in little-endian records.
 #pragma once
 
-#include "StridedCopy.h"
+#include "Bytes/StridedCopy.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -16,6 +16,6 @@ namespace pointhaptics
 /// points (down to 1/64 of their extent) its share, m / points.size() of its points, give or take a few:
 /// what is dense stays dense, and no part is left out. Points that are not finite come anywhere. Linear time:
 /// about 15 ns a point. The same for the same points.
-POINTHAPTICSRENDERING_EXPORT std::vector<std::int64_t> fairOrder(const PointView& points);
+POINTHAPTICSRENDERING_EXPORT std::vector<std::int64_t> progressiveOrder(const PointView& points);
 
 } // namespace pointhaptics
