@@ -1,5 +1,7 @@
 #include "vtkSplatMapper.h"
 
+#include "CloudParts.h"
+
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkDataArray.h"
@@ -99,28 +101,6 @@ constexpr const char* kSurfaceFragment = R"(
     ? gl_FragCoord.z + 0.5 * splatTerms.z * splatNear
     : 0.5 + 0.5 * (-splatTerms.z + splatTerms.w / max(1e-6 * splatReach.x, splatReach.x - splatNear)), 0.0, 1.0);
 )";
-
-/// Of the values above 0 among at most about 10,000; 0 where there is none.
-double medianOf(vtkDataArray* array)
-{
-  std::vector<double> values;
-  const vtkIdType step = 1 + array->GetNumberOfTuples() / 10000;
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); i += step)
-  {
-    const double value = array->GetComponent(i, 0);
-    if (value > 0.0 && std::isfinite(value))
-    {
-      values.push_back(value);
-    }
-  }
-  if (values.empty())
-  {
-    return 0.0;
-  }
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 } // namespace
 
@@ -283,7 +263,7 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
   if (sizes && sizes->GetMTime() != this->MedianTime)
   {
     this->MedianTime = sizes->GetMTime();
-    this->MedianLength = medianOf(sizes);
+    this->MedianLength = pointhaptics::quantileOfPositive(sizes, 5);
   }
   this->Superclass::RenderPieceStart(renderer, actor);
 }

@@ -65,7 +65,7 @@ PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy)
   return { copy.data(), std::int64_t(copy.size()) };
 }
 
-double upperDecile(vtkDataArray* array)
+double quantileOfPositive(vtkDataArray* array, std::size_t tenths)
 {
   std::vector<double> values;
   const vtkIdType step = 1 + array->GetNumberOfTuples() / 10000;
@@ -81,7 +81,7 @@ double upperDecile(vtkDataArray* array)
   {
     return 0.0;
   }
-  const auto place = values.begin() + std::ptrdiff_t(9 * values.size() / 10);
+  const auto place = values.begin() + std::ptrdiff_t(tenths * values.size() / 10);
   std::nth_element(values.begin(), place, values.end());
   return *place;
 }

@@ -6,6 +6,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <cstddef>
 #include <vector>
 
 class vtkDataArray;
@@ -20,8 +21,9 @@ namespace pointhaptics
 /// double.
 PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy);
 
-/// Of the values above 0 among at most about 10,000, the one that a tenth is above; 0 where there is none.
-double upperDecile(vtkDataArray* array);
+/// Of the values above 0 among at most about 10,000, the one that @p tenths tenths are below; 0 where there
+/// is none. @param tenths 0 to 9.
+double quantileOfPositive(vtkDataArray* array, std::size_t tenths);
 
 /// Whether the cells of @p cloud are vertices at all of its points, first to last.
 bool drawsInOrder(vtkPolyData* cloud);

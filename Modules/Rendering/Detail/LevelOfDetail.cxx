@@ -341,7 +341,7 @@ std::int64_t LevelOfDetail::finestFor(vtkPolyData* cloud)
   }
   if (spacing_ < 0.0)
   {
-    spacing_ = splats->GetSizeScale() / kDiameterPerSpacing * upperDecile(lengths);
+    spacing_ = splats->GetSizeScale() / kDiameterPerSpacing * quantileOfPositive(lengths, 9);
   }
   vtkMatrix4x4* toClip = renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
     renderer_->GetTiledAspectRatio(), -1, 1);
