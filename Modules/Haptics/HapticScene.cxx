@@ -206,6 +206,70 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
 
 }
 
+Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell> cells)
+{
+  number = nextCloudNumber();
+  modelToLattice = input.modelToWorkspace;
+  for (const Cell& cell : cells)
+  {
+    bounds.include(cell.mean);
+  }
+  const auto merged = [](const Cell& cell) { return cell.count > 1.0; };
+  const bool ofVoxels = std::any_of(cells.begin(), cells.end(), merged);
+  exactMoments = !input.covariances.empty() || !ofVoxels;
+  const Vec3 above = input.corner ? bounds.minimum - *input.corner : Vec3{ -1.0, -1.0, -1.0 };
+  aligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
+  const Vec3* const corner = aligned ? &*input.corner : nullptr;
+  Status status = Status::InvalidParameter;
+  if (!input.region)
+  {
+    status = buildPyramid(std::move(cells), input.cellSize, norm(bounds.extent()), corner, pyramid);
+  }
+  else if (aligned)
+  {
+    std::vector<std::uint32_t> source;
+    status = pyramid.build(std::move(cells), input.region->cellSize(), source, corner);
+  }
+  if (status == Status::Ok)
+  {
+    const double size = pyramid.level(0).voxelSize;
+    latticeCells = size == input.cellSize;
+    leastCovering = ofVoxels ? kRadiusInSpacings * size : 0.0;
+  }
+  return status;
+}
+
+Status HapticScene::Cloud::measure(HapticSceneInput input, const Executor& executor)
+{
+  const std::optional<LocalRegion> region = std::move(input.region);
+  const std::vector<NodeUse> uses = region ? region->uses(pyramid) : std::vector<NodeUse>();
+  // Where there are few points a fit may grow over the whole cloud.
+  const double whole =
+    region ? region->scale() * norm(region->globalScene()->bounds().extent()) : norm(bounds.extent());
+  std::vector<LocalScale> scales;
+  const Status status = newScales(input, pyramid, whole, executor, region ? &uses : nullptr, scales);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  input = HapticSceneInput(); // its memory is needed for the field
+  if (region)
+  {
+    region->completeScales(pyramid, uses, scales);
+  }
+  scale.build(pyramid, std::move(scales));
+  pyramid.reclassifyMixedCells([this](const Vec3& place) { return scale.noiseAt(pyramid, place); });
+  // Beyond a node's reach no cell of its voxel can be nearer than the reach less the voxel's diagonal.
+  const int nodeLevel = RadiusField::nodeLevel(pyramid);
+  clearance = scale.reach() - std::sqrt(3.0) * pyramid.level(nodeLevel).voxelSize;
+  if (region)
+  {
+    covered = region->covered();
+    scale.setTypical(scaled(region->globalScene()->typicalScale(), region->scale()));
+  }
+  return Status::Ok;
+}
+
 std::shared_ptr<const HapticScene> HapticScene::create(
   HapticSceneInput input, Status& status, const Executor& executor)
 {
@@ -226,75 +290,27 @@ std::shared_ptr<const HapticScene> HapticScene::create(
     return nullptr;
   }
   const auto cloud = std::make_shared<Cloud>();
-  cloud->number = nextCloudNumber();
-  cloud->modelToLattice = input.modelToWorkspace;
-  for (const Cell& cell : cells)
-  {
-    cloud->bounds.include(cell.mean);
-  }
-  const double extent = norm(cloud->bounds.extent());
-  const auto merged = [](const Cell& cell) { return cell.count > 1.0; };
-  const bool ofVoxels = std::any_of(cells.begin(), cells.end(), merged);
-  cloud->exactMoments = !input.covariances.empty() || !ofVoxels;
-  const Vec3 above = input.corner ? cloud->bounds.minimum - *input.corner : Vec3{ -1.0, -1.0, -1.0 };
-  cloud->aligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
-  const Vec3* const corner = cloud->aligned ? &*input.corner : nullptr;
-  if (input.region)
-  {
-    std::vector<std::uint32_t> source;
-    status = cloud->aligned ? cloud->pyramid.build(std::move(cells), input.region->cellSize(), source, corner)
-                            : Status::InvalidParameter;
-  }
-  else
-  {
-    status = buildPyramid(std::move(cells), input.cellSize, extent, corner, cloud->pyramid);
-  }
-  if (status != Status::Ok)
-  {
-    return nullptr;
-  }
-  const double size = cloud->pyramid.level(0).voxelSize;
-  cloud->latticeCells = size == input.cellSize;
-  cloud->leastCovering = ofVoxels ? kRadiusInSpacings * size : 0.0;
-  const std::optional<LocalRegion> region = std::move(input.region);
   const std::optional<HapticSceneInput::Local> local = input.local;
-  const std::vector<NodeUse> uses = region ? region->uses(cloud->pyramid) : std::vector<NodeUse>();
-  // Where there are few points a fit may grow over the whole cloud.
-  const double whole = region ? region->scale() * norm(region->globalScene()->bounds().extent()) : extent;
-  std::vector<LocalScale> scales;
-  status = newScales(input, cloud->pyramid, whole, executor, region ? &uses : nullptr, scales);
+  std::shared_ptr<const HapticScene> global = input.region ? input.region->globalScene() : nullptr;
+  status = cloud->index(input, std::move(cells));
+  if (status == Status::Ok)
+  {
+    status = cloud->measure(std::move(input), executor);
+  }
   if (status != Status::Ok)
   {
     return nullptr;
-  }
-  if (region)
-  {
-    region->completeScales(cloud->pyramid, uses, scales);
-  }
-  input = HapticSceneInput();
-  cloud->scale.build(cloud->pyramid, std::move(scales));
-  cloud->pyramid.reclassifyMixedCells(
-    [&cloud](const Vec3& place) { return cloud->scale.noiseAt(cloud->pyramid, place); });
-  // Beyond a node's reach no cell of its voxel can be nearer than the reach less the voxel's diagonal.
-  const int nodeLevel = RadiusField::nodeLevel(cloud->pyramid);
-  const double diagonal = std::sqrt(3.0) * cloud->pyramid.level(nodeLevel).voxelSize;
-  cloud->clearance = cloud->scale.reach() - diagonal;
-  std::shared_ptr<HapticScene> scene(new HapticScene());
-  scene->modelToWorkspace_ = cloud->modelToLattice;
-  if (region)
-  {
-    cloud->covered = region->covered();
-    cloud->scale.setTypical(scaled(region->globalScene()->typicalScale(), region->scale()));
-    scene->fallback_ = region->globalScene()->moved(cloud->modelToLattice, status);
-    if (!scene->fallback_)
-    {
-      return nullptr;
-    }
   }
   if (local)
   {
     cloud->covered = local->covered;
-    scene->fallback_ = local->global->moved(cloud->modelToLattice, status);
+    global = local->global;
+  }
+  std::shared_ptr<HapticScene> scene(new HapticScene());
+  scene->modelToWorkspace_ = cloud->modelToLattice;
+  if (global)
+  {
+    scene->fallback_ = global->moved(cloud->modelToLattice, status);
     if (!scene->fallback_)
     {
       return nullptr;

@@ -170,6 +170,11 @@ private:
     bool aligned = false;
     bool latticeCells = false;
     std::uint64_t number = 0;
+
+    /// Sorts the cells into the pyramid. @pre at least one cell, and a valid modelToWorkspace.
+    Status index(const HapticSceneInput& input, std::vector<Cell> cells);
+    /// Fills the fields of radii and fits over the pyramid. @pre index() gave Ok.
+    Status measure(HapticSceneInput input, const Executor& executor);
   };
 
   std::shared_ptr<const Cloud> cloud_;

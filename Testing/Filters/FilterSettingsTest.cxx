@@ -30,140 +30,141 @@ using VoxelProperty = Property<Resampler, VoxelMeanSettings>;
 using Bandwidth = vtkKernelBandwidthFilter;
 using BandwidthProperty = Property<Bandwidth, BandwidthSettings>;
 
-const std::map<std::string, VoxelProperty>& voxelProperties()
-{
-  using S = VoxelMeanSettings;
-  static const std::map<std::string, VoxelProperty> table = {
-    { "lattice.dimensions",
-      { [](Resampler* f, const S& s)
+const std::map<std::string, VoxelProperty> kVoxelProperties = {
+  { "lattice.dimensions",
+    { [](Resampler* f, const VoxelMeanSettings& s)
+      {
+        const auto& n = s.lattice.dimensions;
+        f->SetDimensions(int(n[0]), int(n[1]), int(n[2]));
+      },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      { return std::equal(f->GetDimensions(), f->GetDimensions() + 3, s.lattice.dimensions.begin()); } } },
+  { "lattice.voxelSize",
+    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetVoxelSize(s.lattice.voxelSize); },
+      [](Resampler* f, const VoxelMeanSettings& s) { return f->GetVoxelSize() == s.lattice.voxelSize; } } },
+  { "lattice.automaticWorkspace",
+    { [](Resampler* f, const VoxelMeanSettings& s)
+      { f->SetAutomaticWorkspace(s.lattice.automaticWorkspace); },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      { return f->GetAutomaticWorkspace() == s.lattice.automaticWorkspace; } } },
+  { "lattice.workspace",
+    { [](Resampler* f, const VoxelMeanSettings& s)
+      {
+        const Bounds& b = s.lattice.workspace;
+        f->SetWorkspaceBounds(b.minimum.x, b.maximum.x, b.minimum.y, b.maximum.y, b.minimum.z, b.maximum.z);
+        f->SetAutomaticWorkspace(s.lattice.automaticWorkspace);
+      },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      {
+        const double* b = f->GetWorkspaceBounds();
+        return Bounds{ { b[0], b[2], b[4] }, { b[1], b[3], b[5] } } == s.lattice.workspace;
+      } } },
+  { "outputPointsPrecision",
+    { [](Resampler* f, const VoxelMeanSettings& s)
+      { f->SetOutputPointsPrecision(int(s.outputPointsPrecision)); },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      { return f->GetOutputPointsPrecision() == int(s.outputPointsPrecision); } } },
+  { "computeCovariance",
+    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetComputeCovariance(s.computeCovariance); },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      { return f->GetComputeCovariance() == s.computeCovariance; } } },
+  { "passAttributes",
+    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetPassAttributes(s.passAttributes); },
+      [](Resampler* f, const VoxelMeanSettings& s) { return f->GetPassAttributes() == s.passAttributes; } } },
+  { "categoricalArrays",
+    { [](Resampler* f, const VoxelMeanSettings& s)
+      {
+        f->ClearCategoricalArrays();
+        for (const std::string& name : s.categoricalArrays)
         {
-          const auto& n = s.lattice.dimensions;
-          f->SetDimensions(int(n[0]), int(n[1]), int(n[2]));
-        },
-        [](Resampler* f, const S& s)
-        { return std::equal(f->GetDimensions(), f->GetDimensions() + 3, s.lattice.dimensions.begin()); } } },
-    { "lattice.voxelSize",
-      { [](Resampler* f, const S& s) { f->SetVoxelSize(s.lattice.voxelSize); },
-        [](Resampler* f, const S& s) { return f->GetVoxelSize() == s.lattice.voxelSize; } } },
-    { "lattice.automaticWorkspace",
-      { [](Resampler* f, const S& s) { f->SetAutomaticWorkspace(s.lattice.automaticWorkspace); },
-        [](Resampler* f, const S& s)
-        { return f->GetAutomaticWorkspace() == s.lattice.automaticWorkspace; } } },
-    { "lattice.workspace",
-      { [](Resampler* f, const S& s)
-        {
-          const Bounds& b = s.lattice.workspace;
-          f->SetWorkspaceBounds(b.minimum.x, b.maximum.x, b.minimum.y, b.maximum.y, b.minimum.z, b.maximum.z);
-          f->SetAutomaticWorkspace(s.lattice.automaticWorkspace);
-        },
-        [](Resampler* f, const S& s)
-        {
-          const double* b = f->GetWorkspaceBounds();
-          return Bounds{ { b[0], b[2], b[4] }, { b[1], b[3], b[5] } } == s.lattice.workspace;
-        } } },
-    { "outputPointsPrecision",
-      { [](Resampler* f, const S& s) { f->SetOutputPointsPrecision(int(s.outputPointsPrecision)); },
-        [](Resampler* f, const S& s)
-        { return f->GetOutputPointsPrecision() == int(s.outputPointsPrecision); } } },
-    { "computeCovariance",
-      { [](Resampler* f, const S& s) { f->SetComputeCovariance(s.computeCovariance); },
-        [](Resampler* f, const S& s) { return f->GetComputeCovariance() == s.computeCovariance; } } },
-    { "passAttributes",
-      { [](Resampler* f, const S& s) { f->SetPassAttributes(s.passAttributes); },
-        [](Resampler* f, const S& s) { return f->GetPassAttributes() == s.passAttributes; } } },
-    { "categoricalArrays",
-      { [](Resampler* f, const S& s)
-        {
-          f->ClearCategoricalArrays();
-          for (const std::string& name : s.categoricalArrays)
-          {
-            f->AddCategoricalArray(name.c_str());
-          }
-        },
-        [](Resampler* f, const S& s) { return f->GetCategoricalArrays() == s.categoricalArrays; } } },
-    { "representative",
-      { [](Resampler* f, const S& s) { f->SetRepresentative(int(s.representative)); },
-        [](Resampler* f, const S& s) { return f->GetRepresentative() == int(s.representative); } } },
-    { "minimumPointsPerVoxel",
-      { [](Resampler* f, const S& s) { f->SetMinimumPointsPerVoxel(s.minimumPointsPerVoxel); },
-        [](Resampler* f, const S& s) { return f->GetMinimumPointsPerVoxel() == s.minimumPointsPerVoxel; } } },
-    { "computeVoxelIndex",
-      { [](Resampler* f, const S& s) { f->SetComputeVoxelIndex(s.computeVoxelIndex); },
-        [](Resampler* f, const S& s)
-        {
-          return f->GetComputeVoxelIndex() == s.computeVoxelIndex &&
-            f->GetNumberOfOutputPorts() == s.numberOfLevels + int(s.computeVoxelIndex);
-        } } },
-    { "keepOriginalPointIds",
-      { [](Resampler* f, const S& s) { f->SetKeepOriginalPointIds(s.keepOriginalPointIds); },
-        [](Resampler* f, const S& s) { return f->GetKeepOriginalPointIds() == s.keepOriginalPointIds; } } },
-    { "numberOfLevels",
-      { [](Resampler* f, const S& s) { f->SetNumberOfLevels(s.numberOfLevels); },
-        [](Resampler* f, const S& s) {
-          return f->GetNumberOfLevels() == s.numberOfLevels &&
-            f->GetNumberOfOutputPorts() == s.numberOfLevels;
-        } } },
-    { "usePointIndex",
-      { [](Resampler* f, const S& s) { f->SetUsePointIndex(s.usePointIndex); },
-        [](Resampler* f, const S& s) { return f->GetUsePointIndex() == s.usePointIndex; } } },
-    { "instructionSet",
-      { [](Resampler* f, const S& s) { f->SetInstructionSet(int(s.instructionSet)); },
-        [](Resampler* f, const S& s) { return f->GetInstructionSet() == int(s.instructionSet); } } },
-  };
-  return table;
-}
+          f->AddCategoricalArray(name.c_str());
+        }
+      },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      { return f->GetCategoricalArrays() == s.categoricalArrays; } } },
+  { "representative",
+    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetRepresentative(int(s.representative)); },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      { return f->GetRepresentative() == int(s.representative); } } },
+  { "minimumPointsPerVoxel",
+    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetMinimumPointsPerVoxel(s.minimumPointsPerVoxel); },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      { return f->GetMinimumPointsPerVoxel() == s.minimumPointsPerVoxel; } } },
+  { "computeVoxelIndex",
+    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetComputeVoxelIndex(s.computeVoxelIndex); },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      {
+        return f->GetComputeVoxelIndex() == s.computeVoxelIndex &&
+          f->GetNumberOfOutputPorts() == s.numberOfLevels + int(s.computeVoxelIndex);
+      } } },
+  { "keepOriginalPointIds",
+    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetKeepOriginalPointIds(s.keepOriginalPointIds); },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      { return f->GetKeepOriginalPointIds() == s.keepOriginalPointIds; } } },
+  { "numberOfLevels",
+    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetNumberOfLevels(s.numberOfLevels); },
+      [](Resampler* f, const VoxelMeanSettings& s) {
+        return f->GetNumberOfLevels() == s.numberOfLevels && f->GetNumberOfOutputPorts() == s.numberOfLevels;
+      } } },
+  { "usePointIndex",
+    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetUsePointIndex(s.usePointIndex); },
+      [](Resampler* f, const VoxelMeanSettings& s) { return f->GetUsePointIndex() == s.usePointIndex; } } },
+  { "instructionSet",
+    { [](Resampler* f, const VoxelMeanSettings& s) { f->SetInstructionSet(int(s.instructionSet)); },
+      [](Resampler* f, const VoxelMeanSettings& s)
+      { return f->GetInstructionSet() == int(s.instructionSet); } } },
+};
 
-const std::map<std::string, BandwidthProperty>& bandwidthProperties()
-{
-  using S = BandwidthSettings;
-  static const std::map<std::string, BandwidthProperty> table = {
-    { "fixedRadius",
-      { [](Bandwidth* f, const S& s) { f->SetNeighborhood(s.fixedRadius ? 1 : 0); },
-        [](Bandwidth* f, const S& s) {
-          return f->GetNeighborhood() == (s.fixedRadius ? Bandwidth::FixedRadius : Bandwidth::KNearest);
-        } } },
-    { "numberOfNeighbors",
-      { [](Bandwidth* f, const S& s) { f->SetNumberOfNeighbors(s.numberOfNeighbors); },
-        [](Bandwidth* f, const S& s) { return f->GetNumberOfNeighbors() == s.numberOfNeighbors; } } },
-    { "radius",
-      { [](Bandwidth* f, const S& s) { f->SetRadius(s.radius); },
-        [](Bandwidth* f, const S& s) { return f->GetRadius() == s.radius; } } },
-    { "rule",
-      { [](Bandwidth* f, const S& s) { f->SetRule(int(s.rule)); },
-        [](Bandwidth* f, const S& s) { return f->GetRule() == int(s.rule); } } },
-    { "radiusScale",
-      { [](Bandwidth* f, const S& s) { f->SetRadiusScale(s.radiusScale); },
-        [](Bandwidth* f, const S& s) { return f->GetRadiusScale() == s.radiusScale; } } },
-    { "minimumRadius",
-      { [](Bandwidth* f, const S& s) { f->SetMinimumRadius(s.minimumRadius); },
-        [](Bandwidth* f, const S& s) { return f->GetMinimumRadius() == s.minimumRadius; } } },
-    { "maximumRadius",
-      { [](Bandwidth* f, const S& s) { f->SetMaximumRadius(s.maximumRadius); },
-        [](Bandwidth* f, const S& s) { return f->GetMaximumRadius() == s.maximumRadius; } } },
-    { "smoothRadius",
-      { [](Bandwidth* f, const S& s) { f->SetSmoothRadius(s.smoothRadius); },
-        [](Bandwidth* f, const S& s) { return f->GetSmoothRadius() == s.smoothRadius; } } },
-    { "usePointCounts",
-      { [](Bandwidth* f, const S& s) { f->SetUsePointCounts(s.usePointCounts); },
-        [](Bandwidth* f, const S& s) { return f->GetUsePointCounts() == s.usePointCounts; } } },
-    { "densityKernel",
-      { [](Bandwidth* f, const S& s) { f->SetDensityKernel(int(s.densityKernel)); },
-        [](Bandwidth* f, const S& s) { return f->GetDensityKernel() == int(s.densityKernel); } } },
-    { "computeBandwidth",
-      { [](Bandwidth* f, const S& s) { f->SetComputeBandwidth(s.computeBandwidth); },
-        [](Bandwidth* f, const S& s) { return f->GetComputeBandwidth() == s.computeBandwidth; } } },
-    { "computeProxyRadius",
-      { [](Bandwidth* f, const S& s) { f->SetComputeProxyRadius(s.computeProxyRadius); },
-        [](Bandwidth* f, const S& s) { return f->GetComputeProxyRadius() == s.computeProxyRadius; } } },
-    { "computeDensity",
-      { [](Bandwidth* f, const S& s) { f->SetComputeDensity(s.computeDensity); },
-        [](Bandwidth* f, const S& s) { return f->GetComputeDensity() == s.computeDensity; } } },
-    { "computeMeanBandwidth",
-      { [](Bandwidth* f, const S& s) { f->SetComputeMeanBandwidth(s.computeMeanBandwidth); },
-        [](Bandwidth* f, const S& s) { return f->GetComputeMeanBandwidth() == s.computeMeanBandwidth; } } },
-  };
-  return table;
-}
+const std::map<std::string, BandwidthProperty> kBandwidthProperties = {
+  { "fixedRadius",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetNeighborhood(s.fixedRadius ? 1 : 0); },
+      [](Bandwidth* f, const BandwidthSettings& s)
+      { return f->GetNeighborhood() == (s.fixedRadius ? Bandwidth::FixedRadius : Bandwidth::KNearest); } } },
+  { "numberOfNeighbors",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetNumberOfNeighbors(s.numberOfNeighbors); },
+      [](Bandwidth* f, const BandwidthSettings& s)
+      { return f->GetNumberOfNeighbors() == s.numberOfNeighbors; } } },
+  { "radius",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetRadius(s.radius); },
+      [](Bandwidth* f, const BandwidthSettings& s) { return f->GetRadius() == s.radius; } } },
+  { "rule",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetRule(int(s.rule)); },
+      [](Bandwidth* f, const BandwidthSettings& s) { return f->GetRule() == int(s.rule); } } },
+  { "radiusScale",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetRadiusScale(s.radiusScale); },
+      [](Bandwidth* f, const BandwidthSettings& s) { return f->GetRadiusScale() == s.radiusScale; } } },
+  { "minimumRadius",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetMinimumRadius(s.minimumRadius); },
+      [](Bandwidth* f, const BandwidthSettings& s) { return f->GetMinimumRadius() == s.minimumRadius; } } },
+  { "maximumRadius",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetMaximumRadius(s.maximumRadius); },
+      [](Bandwidth* f, const BandwidthSettings& s) { return f->GetMaximumRadius() == s.maximumRadius; } } },
+  { "smoothRadius",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetSmoothRadius(s.smoothRadius); },
+      [](Bandwidth* f, const BandwidthSettings& s) { return f->GetSmoothRadius() == s.smoothRadius; } } },
+  { "usePointCounts",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetUsePointCounts(s.usePointCounts); },
+      [](Bandwidth* f, const BandwidthSettings& s) { return f->GetUsePointCounts() == s.usePointCounts; } } },
+  { "densityKernel",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetDensityKernel(int(s.densityKernel)); },
+      [](Bandwidth* f, const BandwidthSettings& s)
+      { return f->GetDensityKernel() == int(s.densityKernel); } } },
+  { "computeBandwidth",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetComputeBandwidth(s.computeBandwidth); },
+      [](Bandwidth* f, const BandwidthSettings& s)
+      { return f->GetComputeBandwidth() == s.computeBandwidth; } } },
+  { "computeProxyRadius",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetComputeProxyRadius(s.computeProxyRadius); },
+      [](Bandwidth* f, const BandwidthSettings& s)
+      { return f->GetComputeProxyRadius() == s.computeProxyRadius; } } },
+  { "computeDensity",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetComputeDensity(s.computeDensity); },
+      [](Bandwidth* f, const BandwidthSettings& s) { return f->GetComputeDensity() == s.computeDensity; } } },
+  { "computeMeanBandwidth",
+    { [](Bandwidth* f, const BandwidthSettings& s) { f->SetComputeMeanBandwidth(s.computeMeanBandwidth); },
+      [](Bandwidth* f, const BandwidthSettings& s)
+      { return f->GetComputeMeanBandwidth() == s.computeMeanBandwidth; } } },
+};
 
 /// Each member by its own Set function and by SetSettings(), and back by both Get functions; and in what the
 /// filter prints of itself.
@@ -209,12 +210,12 @@ void walk(const std::map<std::string, Property<Filter, Settings>>& table)
 
 TEST(FilterSettings, OfTheResamplerAreItsProperties)
 {
-  walk(voxelProperties());
+  walk(kVoxelProperties);
 }
 
 TEST(FilterSettings, OfTheBandwidthFilterAreItsProperties)
 {
-  walk(bandwidthProperties());
+  walk(kBandwidthProperties);
 }
 
 TEST(FilterSettings, StayInTheirRanges)

@@ -337,9 +337,12 @@ TEST(PclVoxelMeanOfFields, IsThatOfPoints)
   }
 }
 
-TEST(PclVoxelMeanOfFields, KeepsEveryFieldOfEveryType)
+constexpr std::uint64_t kFirstTime = (1ull << 60) + 7;
+
+/// Double coordinates, at odd offsets; a time of 64 bits, a flag and three channels. Three points to a voxel
+/// of 0.25.
+Fields cloudOfManyTypes(unsigned points)
 {
-  // Double coordinates, at odd offsets; a time of 64 bits, a ring, a flag and three channels.
   Fields cloud;
   const auto add = [&](const char* name, std::uint8_t type, unsigned count, unsigned bytes)
   {
@@ -358,17 +361,15 @@ TEST(PclVoxelMeanOfFields, KeepsEveryFieldOfEveryType)
   add("y", Type::FLOAT64, 1, 8);
   add("time", Type::UINT64, 1, 8);
   add("channels", Type::INT16, 3, 2);
-  constexpr unsigned kPoints = 300;
-  cloud.width = kPoints;
+  cloud.width = points;
   cloud.height = 1;
   cloud.row_step = cloud.width * cloud.point_step;
   cloud.data.resize(cloud.row_step);
-  const std::uint64_t start = (1ull << 60) + 7;
-  for (unsigned i = 0; i < kPoints; ++i)
+  for (unsigned i = 0; i < points; ++i)
   {
     std::uint8_t* p = cloud.data.data() + cloud.point_step * i;
     const double xyz[3] = { 1e6 + 0.25 * (i / 3) + 0.1, 2.0, 3.0 };
-    const std::uint64_t time = start + i;
+    const std::uint64_t time = kFirstTime + i;
     const std::int16_t channels[3] = { std::int16_t(i), std::int16_t(-int(i)), 7 };
     p[0] = i % 3 > 0;
     std::memcpy(p + 1, &xyz[2], 8);
@@ -377,6 +378,13 @@ TEST(PclVoxelMeanOfFields, KeepsEveryFieldOfEveryType)
     std::memcpy(p + 25, &time, 8);
     std::memcpy(p + 33, channels, 6);
   }
+  return cloud;
+}
+
+TEST(PclVoxelMeanOfFields, KeepsEveryFieldOfEveryType)
+{
+  constexpr unsigned kPoints = 300;
+  const Fields cloud = cloudOfManyTypes(kPoints);
   PclVoxelMean<Fields> grid;
   const auto means = filtered<PclVoxelMean<Fields>, Fields>(grid, pcl::make_shared<Fields>(cloud), 0.25f);
   ASSERT_EQ(means.width, kPoints / 3);
@@ -393,7 +401,7 @@ TEST(PclVoxelMeanOfFields, KeepsEveryFieldOfEveryType)
     std::memcpy(channels, p + 33, 6);
     ASSERT_EQ(p[0], 1);
     ASSERT_NEAR(x, 1e6 + 0.25 * v + 0.1, 1e-9);
-    ASSERT_EQ(time, start + 3 * v + 1);
+    ASSERT_EQ(time, kFirstTime + 3 * v + 1);
     ASSERT_EQ(channels[0], 3 * int(v) + 1);
     ASSERT_EQ(channels[1], -3 * int(v) - 1);
     ASSERT_EQ(channels[2], 7);

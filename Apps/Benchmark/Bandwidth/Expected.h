@@ -2,7 +2,7 @@
 /// Bandwidths and radii in long double at some points of a cloud: what a contestant's answer is held against.
 #pragma once
 
-#include "Benchmark/Bandwidth/Rival.h"
+#include "Benchmark/Bandwidth/Rivals/Rival.h"
 
 #include <string>
 #include <vector>

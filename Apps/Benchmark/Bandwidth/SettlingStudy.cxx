@@ -1,5 +1,5 @@
 #include "Benchmark/Bandwidth/Clouds.h"
-#include "Benchmark/Bandwidth/Rival.h"
+#include "Benchmark/Bandwidth/Rivals/Rival.h"
 #include "Benchmark/Bandwidth/Studies.h"
 
 #include "vtkKernelBandwidthFilter.h"

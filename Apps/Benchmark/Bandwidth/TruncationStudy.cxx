@@ -84,6 +84,32 @@ Errors errorsOf(const std::vector<double>& densities, const std::vector<Expected
   return errors;
 }
 
+/// The density at all points with each cutoff, and last the filter's other kernel; each to fill its own
+/// result.
+std::vector<Contestant> contestants(const NamedCloud& cloud, const NeighborQuery& query,
+  const std::vector<double>& bandwidths, std::vector<std::vector<double>>& densities)
+{
+  std::vector<Contestant> all;
+  for (std::size_t i = 0; i < densities.size(); ++i)
+  {
+    std::vector<double>& result = densities[i];
+    Contestant contestant;
+    contestant.run = [&, i]
+    {
+      if (i < std::size(kCutoffs) && kCutoffs[i] != kDensityCutoff)
+      {
+        densitiesCutOff(query, bandwidths, kCutoffs[i], result);
+        return;
+      }
+      const DensityKernel kernel =
+        i < std::size(kCutoffs) ? DensityKernel::Gaussian : DensityKernel::Epanechnikov;
+      surfaceDensities(cloud.view(), query, bandwidths, result, SmpExecutor(), kernel);
+    };
+    all.push_back(std::move(contestant));
+  }
+  return all;
+}
+
 } // namespace
 
 ReportPart studyTruncation(StudyContext& context)
@@ -111,25 +137,8 @@ ReportPart studyTruncation(StudyContext& context)
   (void)localBandwidths(cloud.view(), query, settings, bandwidths, radii);
   const std::vector<Expected> expected = directSums(cloud.view(), bandwidths, context.options.checkedPoints);
   std::vector<std::vector<double>> densities(std::size(kCutoffs) + 1);
-  std::vector<Contestant> contestants;
-  for (std::size_t i = 0; i < densities.size(); ++i)
-  {
-    std::vector<double>& result = densities[i];
-    Contestant contestant;
-    contestant.run = [&, i]
-    {
-      if (i < std::size(kCutoffs) && kCutoffs[i] != kDensityCutoff)
-      {
-        densitiesCutOff(query, bandwidths, kCutoffs[i], result);
-        return;
-      }
-      const DensityKernel kernel =
-        i < std::size(kCutoffs) ? DensityKernel::Gaussian : DensityKernel::Epanechnikov;
-      surfaceDensities(cloud.view(), query, bandwidths, result, SmpExecutor(), kernel);
-    };
-    contestants.push_back(std::move(contestant));
-  }
-  const std::vector<Lap> laps = timed(contestants, context.mostThreads(), context, 0.5);
+  const std::vector<Lap> laps =
+    timed(contestants(cloud, query, bandwidths, densities), context.mostThreads(), context, 0.5);
   std::vector<Series> lines;
   for (std::size_t i = 0; i < densities.size(); ++i)
   {

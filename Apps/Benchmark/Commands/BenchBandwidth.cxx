@@ -3,7 +3,7 @@
 #include "Options/OptionParsing.h"
 
 #include "Benchmark/Bandwidth/BandwidthBenchmark.h"
-#include "Benchmark/Bandwidth/Rival.h"
+#include "Benchmark/Bandwidth/Rivals/Rival.h"
 
 #include <CLI/CLI.hpp>
 

@@ -3,7 +3,7 @@
 #include "Options/OptionParsing.h"
 
 #include "Benchmark/Resample/ResampleBenchmark.h"
-#include "Benchmark/Resample/Rival.h"
+#include "Benchmark/Resample/Rivals/Rival.h"
 
 #include <CLI/CLI.hpp>
 

@@ -3,8 +3,8 @@
 #include "Benchmark/Commands/BenchScan.h"
 #include "Options/OptionParsing.h"
 
+#include "Benchmark/Touch/Methods/TouchMethod.h"
 #include "Benchmark/Touch/TouchBenchmark.h"
-#include "Benchmark/Touch/TouchMethod.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,7 +1,7 @@
 #include "Benchmark/Proxy/ProxyBenchmark.h"
 
 #include "Benchmark/Harness/StudyList.h"
-#include "Benchmark/Proxy/Studies.h"
+#include "Benchmark/Proxy/Studies/Studies.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// The clouds of the resampling benchmark: the same on every machine.
 #pragma once
 
-#include "Benchmark/Resample/Rival.h"
+#include "Benchmark/Resample/Rivals/Rival.h"
 
 #include <vtkSmartPointer.h>
 

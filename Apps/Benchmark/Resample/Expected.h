@@ -2,7 +2,7 @@
 /// The right answer of a resampling, by sorting and long double, and how far an answer is from it.
 #pragma once
 
-#include "Benchmark/Resample/Rival.h"
+#include "Benchmark/Resample/Rivals/Rival.h"
 
 #include "Core/Base/Lattice.h"
 

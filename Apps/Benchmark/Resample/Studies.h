@@ -6,7 +6,7 @@
 #include "Benchmark/Report/Report.h"
 #include "Benchmark/Resample/Expected.h"
 #include "Benchmark/Resample/ResampleBenchmark.h"
-#include "Benchmark/Resample/Rival.h"
+#include "Benchmark/Resample/Rivals/Rival.h"
 
 #include <memory>
 #include <string>

@@ -1,5 +1,5 @@
 #include "Benchmark/Resample/Clouds.h"
-#include "Benchmark/Resample/Ours.h"
+#include "Benchmark/Resample/Rivals/Ours.h"
 #include "Benchmark/Resample/Studies.h"
 
 #include <fmt/format.h>

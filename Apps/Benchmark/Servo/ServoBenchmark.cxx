@@ -138,6 +138,47 @@ std::vector<std::string> rateWords()
   return wordsOf(kRates);
 }
 
+namespace
+{
+
+/// A row for each setting; what the reader must know of the machine below them.
+ReportPart loopStudy(const ServoBenchmarkOptions& options, const std::vector<Setting>& settings, double load,
+  const Progress& progress, bool& allRight)
+{
+  ReportPart part;
+  part.key = "loop";
+  part.title = "Step time, jitter and deadline misses";
+  part.text = fmt::format("{} points; {:g} s for each row.", grouped(options.points), options.seconds);
+  part.table.header = { "hand", "machine", "Hz", "step us: p50 / p99 / p99.9 / max",
+    "jitter us: p50 / p99 / p99.9 / max", "ticks", "deadline misses", "misses of an empty loop",
+    "achieved Hz", "force" };
+  const auto scene = sphereScene(options.points);
+  allRight = scene != nullptr;
+  ServoStatistics last;
+  for (const Setting& setting : settings)
+  {
+    progress(fmt::format("{}, {}, {:g} Hz", name(setting.hand), name(setting.load), setting.rateHz));
+    const Outcome outcome = run(setting, scene);
+    allRight = addRow(setting, outcome, part) && allRight;
+    last = outcome.statistics;
+  }
+  part.remarks.push_back(grant(last));
+  if (load > kQuietLoad)
+  {
+    part.remarks.push_back(
+      fmt::format("Other programs ran beside these (load {:.1f} before the run): jitter and "
+                  "deadline misses are theirs too, and \"idle\" means idle as far as we were.",
+        load));
+  }
+  if (!options.draw)
+  {
+    part.remarks.push_back("Without a display: the rows with drawing were left out.");
+  }
+  return part;
+}
+
+} // namespace
+
 Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& progress, bool& allRight)
 {
   Report report;
@@ -145,7 +186,6 @@ Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& prog
   report.title = "Servo loop";
   report.machine = thisMachine();
   report.method =
-
     "A hand presses up to 2 mm into a sphere and slides over it at 50 mm/s, in real time.\n"
     "\n"
     "- step: the whole tick, from reading the device, through scene and parameters, proxy and force\n"
@@ -160,41 +200,13 @@ Report benchmarkServo(const ServoBenchmarkOptions& options, const Progress& prog
     "- empty loop: on an idle machine a second loop keeps the same deadlines at the same priority on\n"
     "  another core. What it misses, the machine (its firmware, kernel or host) took from its\n"
     "  programs.";
-  ReportPart part;
-  part.key = "loop";
-  part.title = "Step time, jitter and deadline misses";
-  part.text = fmt::format("{} points; {:g} s for each row.", grouped(options.points), options.seconds);
-  part.table.header = { "hand", "machine", "Hz", "step us: p50 / p99 / p99.9 / max",
-    "jitter us: p50 / p99 / p99.9 / max", "ticks", "deadline misses", "misses of an empty loop",
-    "achieved Hz", "force" };
   const std::vector<Setting> settings = settingsOf(options);
   if (settings.empty())
   {
     allRight = true;
     return report;
   }
-  const auto scene = sphereScene(options.points);
-  allRight = scene != nullptr;
-  ServoStatistics last;
-  for (const Setting& setting : settings)
-  {
-    progress(fmt::format("{}, {}, {:g} Hz", name(setting.hand), name(setting.load), setting.rateHz));
-    const Outcome outcome = run(setting, scene);
-    allRight = addRow(setting, outcome, part) && allRight;
-    last = outcome.statistics;
-  }
-  part.remarks.push_back(grant(last));
-  if (report.machine.load > kQuietLoad)
-  {
-    part.remarks.push_back(
-      fmt::format("Other programs ran beside these (load {:.1f} before the run): jitter and "
-                  "deadline misses are theirs too, and \"idle\" means idle as far as we were.",
-        report.machine.load));
-  }
-  if (!options.draw)
-  {
-    part.remarks.push_back("Without a display: the rows with drawing were left out.");
-  }
+  ReportPart part = loopStudy(options, settings, report.machine.load, progress, allRight);
   progress("round trip against an emulated Falcon");
   ReportPart roundTrip;
   const bool hasRoundTrip = roundTripStudy(std::min(options.seconds, kLongestRoundTrip), roundTrip, allRight);

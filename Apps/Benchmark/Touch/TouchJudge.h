@@ -2,7 +2,7 @@
 /// How far the touch of a cloud was from the god object on its mesh.
 #pragma once
 
-#include "Benchmark/Touch/TouchMethod.h"
+#include "Benchmark/Touch/Methods/TouchMethod.h"
 #include "Benchmark/Touch/TouchStrokes.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 /// Hands that press, slide and lift on a mesh, and what they must feel.
 #pragma once
 
-#include "Benchmark/Touch/MeshGodObject.h"
+#include "Benchmark/Touch/Methods/MeshGodObject.h"
 
 #include <cstdint>
 #include <vector>

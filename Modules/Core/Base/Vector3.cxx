@@ -4,6 +4,40 @@
 
 namespace pointhaptics
 {
+namespace
+{
+
+/// One rotation of Jacobi's method: makes a[p][q] zero and turns the eigenvectors with it.
+void rotate(double (&a)[3][3], std::array<Vec3, 3>& v, int p, int q) noexcept
+{
+  if (a[p][q] == 0.0)
+  {
+    return;
+  }
+  const double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+  const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+  const double c = 1.0 / std::sqrt(t * t + 1.0);
+  const double s = t * c;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double akp = a[k][p];
+    const double akq = a[k][q];
+    a[k][p] = c * akp - s * akq;
+    a[k][q] = s * akp + c * akq;
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    const double apk = a[p][k];
+    const double aqk = a[q][k];
+    a[p][k] = c * apk - s * aqk;
+    a[q][k] = s * apk + c * aqk;
+  }
+  const Vec3 vp = v[p];
+  v[p] = c * vp - s * v[q];
+  v[q] = s * vp + c * v[q];
+}
+
+} // namespace
 
 SymEigen symmetricEigen(const SymMat3& m) noexcept
 {
@@ -27,31 +61,7 @@ SymEigen symmetricEigen(const SymMat3& m) noexcept
     {
       for (int q = p + 1; q < 3; ++q)
       {
-        if (a[p][q] == 0.0)
-        {
-          continue;
-        }
-        const double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
-        const double c = 1.0 / std::sqrt(t * t + 1.0);
-        const double s = t * c;
-        for (int k = 0; k < 3; ++k)
-        {
-          const double akp = a[k][p];
-          const double akq = a[k][q];
-          a[k][p] = c * akp - s * akq;
-          a[k][q] = s * akp + c * akq;
-        }
-        for (int k = 0; k < 3; ++k)
-        {
-          const double apk = a[p][k];
-          const double aqk = a[q][k];
-          a[p][k] = c * apk - s * aqk;
-          a[q][k] = s * apk + c * aqk;
-        }
-        const Vec3 vp = v[p];
-        v[p] = c * vp - s * v[q];
-        v[q] = s * vp + c * v[q];
+        rotate(a, v, p, q);
       }
     }
   }

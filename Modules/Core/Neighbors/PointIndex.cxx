@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace pointhaptics
@@ -107,6 +108,40 @@ struct Grid
   }
 };
 
+/// The box of the finite points, empty where there are none; nothing if the observer aborted the work.
+std::optional<Bounds> boxOf(const PointView& points, const Slices& slices, PointProgress& progress)
+{
+  std::vector<Bounds> boxes(slices.count());
+  const bool isDone = slices.pass(progress,
+    [&](std::size_t slice, std::int64_t begin, std::int64_t end)
+    {
+      Bounds box = boxes[slice];
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const Vec3 p = points[i];
+        if (isFinite(p))
+        {
+          box.include(p);
+        }
+      }
+      boxes[slice] = box;
+    });
+  if (!isDone)
+  {
+    return std::nullopt;
+  }
+  Bounds box;
+  for (const Bounds& ofSlice : boxes)
+  {
+    if (!ofSlice.empty())
+    {
+      box.include(ofSlice.minimum);
+      box.include(ofSlice.maximum);
+    }
+  }
+  return box;
+}
+
 }
 
 Status PointIndex::build(const PointView& points, const Executor& executor, ProgressObserver* observer)
@@ -129,40 +164,13 @@ Status PointIndex::sort(const PointView& points, const Executor& executor, Point
 {
   cloudSize_ = points.size();
   const Slices slices(points.size(), executor);
-  std::vector<Bounds> boxes(slices.count());
-  const bool isBounded = slices.pass(progress,
-    [&](std::size_t slice, std::int64_t begin, std::int64_t end)
-    {
-      Bounds box = boxes[slice];
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const Vec3 p = points[i];
-        if (isFinite(p))
-        {
-          box.include(p);
-        }
-      }
-      boxes[slice] = box;
-    });
-  if (!isBounded)
+  const std::optional<Bounds> box = boxOf(points, slices, progress);
+  if (!box || box->empty())
   {
-    return Status::Aborted;
-  }
-  Bounds box;
-  for (const Bounds& ofSlice : boxes)
-  {
-    if (!ofSlice.empty())
-    {
-      box.include(ofSlice.minimum);
-      box.include(ofSlice.maximum);
-    }
-  }
-  if (box.empty())
-  {
-    return Status::Empty;
+    return box ? Status::Empty : Status::Aborted;
   }
   // Slices count and place their points by themselves.
-  const Grid grid(box, cellsPerAxis(points.size()));
+  const Grid grid(*box, cellsPerAxis(points.size()));
   std::vector<std::uint32_t> cells(std::size_t(points.size()));
   const std::size_t cellCount = std::size_t(grid.cells) * std::size_t(grid.cells) * std::size_t(grid.cells);
   std::vector<std::uint32_t> places(cellCount * slices.count(), 0);
@@ -185,15 +193,24 @@ Status PointIndex::sort(const PointView& points, const Executor& executor, Point
   {
     return Status::Aborted;
   }
+  this->assignPlaces(places, cellCount);
+  single_ = points.floats() != nullptr;
+  originals_.reserve(std::size_t(size_));
+  const bool isFilled = single_ ? this->fill(points, cells, places, floats_, executor, progress)
+                                : this->fill(points, cells, places, doubles_, executor, progress);
+  return isFilled && this->bound(executor, progress) ? Status::Ok : Status::Aborted;
+}
+
+void PointIndex::assignPlaces(std::vector<std::uint32_t>& places, std::size_t cellCount)
+{
   std::uint32_t sum = 0;
   for (std::size_t cell = 0; cell < cellCount; ++cell)
   {
     const std::uint32_t begin = sum;
-    for (std::size_t slice = 0; slice < slices.count(); ++slice)
+    for (std::size_t place = cell; place < places.size(); place += cellCount)
     {
-      std::uint32_t& place = places[cell + cellCount * slice];
-      const std::uint32_t count = place;
-      place = sum;
+      const std::uint32_t count = places[place];
+      places[place] = sum;
       sum += count;
     }
     if (sum > begin)
@@ -203,11 +220,6 @@ Status PointIndex::sort(const PointView& points, const Executor& executor, Point
   }
   size_ = sum;
   begins_.push_back(size_);
-  single_ = points.floats() != nullptr;
-  originals_.reserve(std::size_t(size_));
-  const bool isFilled = single_ ? this->fill(points, cells, places, floats_, executor, progress)
-                                : this->fill(points, cells, places, doubles_, executor, progress);
-  return isFilled && this->bound(executor, progress) ? Status::Ok : Status::Aborted;
 }
 
 template <typename Real>

@@ -46,6 +46,8 @@ private:
   bool staysFinite(const AffineTransform& transform) const;
   // The steps of build(); false: aborted.
   Status sort(const PointView& points, const Executor& executor, PointProgress& progress);
+  /// Turns the counts, slice after slice in @p places, into the place of each slice's first point of a cell.
+  void assignPlaces(std::vector<std::uint32_t>& places, std::size_t cellCount);
   template <typename Real>
   bool fill(const PointView& points, const std::vector<std::uint32_t>& bricks,
     std::vector<std::uint32_t>& places, Buffer<Real>& copy, const Executor& executor,

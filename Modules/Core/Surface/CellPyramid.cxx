@@ -157,7 +157,15 @@ Status CellPyramid::build(
   {
     return Status::InvalidParameter;
   }
+  std::vector<std::uint64_t> codes;
+  levels_.push_back(this->finestLevel(cells, voxelSize, codes, sourceIndex));
+  buildUpperLevels(codes, corner ? kCellLevels : 1);
+  return Status::Ok;
+}
 
+CellPyramid::Level CellPyramid::finestLevel(const std::vector<Cell>& cells, double voxelSize,
+  std::vector<std::uint64_t>& codes, std::vector<std::uint32_t>& sourceIndex) const
+{
   struct Entry
   {
     std::uint64_t code;
@@ -174,7 +182,6 @@ Status CellPyramid::build(
   Level finest;
   finest.voxelSize = voxelSize;
   finest.cells.reserve(cells.size());
-  std::vector<std::uint64_t> codes;
   sourceIndex.reserve(cells.size());
   for (const Entry& entry : entries)
   {
@@ -189,9 +196,7 @@ Status CellPyramid::build(
   }
   finest.slotBegin.push_back(std::uint32_t(finest.cells.size()));
   finest.bricks = makeBricks(codes);
-  levels_.push_back(std::move(finest));
-  buildUpperLevels(codes, corner ? kCellLevels : 1);
-  return Status::Ok;
+  return finest;
 }
 
 void CellPyramid::buildUpperLevels(const std::vector<std::uint64_t>& codes, int leastLevels)

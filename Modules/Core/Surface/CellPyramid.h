@@ -254,6 +254,10 @@ private:
     }
   }
 
+  /// The cells along the Morton curve; @p codes receives the distinct voxels', @p sourceIndex each cell's
+  /// index.
+  Level finestLevel(const std::vector<Cell>& cells, double voxelSize, std::vector<std::uint64_t>& codes,
+    std::vector<std::uint32_t>& sourceIndex) const;
   void buildUpperLevels(const std::vector<std::uint64_t>& codes, int leastLevels);
 
   static constexpr int kMaximumLevels = 22;

@@ -75,6 +75,22 @@ struct Inflater
   ~Inflater() { inflateEnd(&stream); }
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
+
+  /// Unpacks at most @p room bytes; @p ended receives whether the member ends there. @return their number.
+  template <typename Where>
+  std::size_t unpack(char* to, std::size_t room, bool& ended, const Where& where)
+  {
+    stream.next_out = reinterpret_cast<Bytef*>(to);
+    stream.avail_out = static_cast<uInt>(room);
+    const int result = inflate(&stream, Z_NO_FLUSH);
+    ended = result == Z_STREAM_END;
+    if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
+    {
+      failFormat(where() + (stream.msg ? stream.msg : "damaged data"),
+        "the file is damaged: copy it again, or test it with gunzip -t");
+    }
+    return room - stream.avail_out;
+  }
 };
 
 } // namespace
@@ -200,55 +216,44 @@ void FileBytes::readPlain(File& file, const Progress& progress, const Inspect& i
 void FileBytes::unpack(File& file, const Progress& progress, const Inspect& inspect)
 {
   const std::size_t limit = std::max(kGzipFloor, kMostGzipRatio * file.size());
-  const auto where = [&](const Inflater& inflater)
-  { return "byte " + std::to_string(file.position() - inflater.stream.avail_in) + " of the gzip file: "; };
   Inflater inflater;
-  z_stream& stream = inflater.stream;
+  const auto where = [&]
+  { return "byte " + std::to_string(file.position() - inflater.stream.avail_in) + " of the gzip file: "; };
+  const auto unread = [&] { return inflater.stream.avail_in > 0 || file.position() < file.size(); };
   std::unique_ptr<char[]> packed(new char[kPackedAtOnce]);
   std::size_t capacity = kInspected;
   resize(capacity);
   bool inspected = false;
   bool ended = false;
-  while (!ended || stream.avail_in > 0 || file.position() < file.size())
+  while (!ended || unread())
   {
-    if (stream.avail_in == 0 && file.position() < file.size())
+    if (inflater.stream.avail_in == 0 && file.position() < file.size())
     {
       const std::size_t piece = std::min(kPackedAtOnce, file.size() - file.position());
       file.read(packed.get(), piece);
-      stream.next_in = reinterpret_cast<Bytef*>(packed.get());
-      stream.avail_in = static_cast<uInt>(piece);
+      inflater.stream.next_in = reinterpret_cast<Bytef*>(packed.get());
+      inflater.stream.avail_in = static_cast<uInt>(piece);
       progress(file.done());
     }
     if (ended)
     {
-      inflateReset(&stream); // another member follows
-      ended = false;
+      inflateReset(&inflater.stream); // another member follows
     }
-    stream.next_out = reinterpret_cast<Bytef*>(data_.get() + size_);
-    const std::size_t room = std::min(capacity - size_, kReadAtOnce);
-    stream.avail_out = static_cast<uInt>(room);
-    const int result = inflate(&stream, Z_NO_FLUSH);
-    size_ += room - stream.avail_out;
-    ended = result == Z_STREAM_END;
-    if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
-    {
-      failFormat(where(inflater) + (stream.msg ? stream.msg : "damaged data"),
-        "the file is damaged: copy it again, or test it with gunzip -t");
-    }
+    size_ += inflater.unpack(data_.get() + size_, std::min(capacity - size_, kReadAtOnce), ended, where);
     if (!inspected && size_ > 0 && (size_ == kInspected || ended))
     {
       inspect(view(), ended && file.position() == file.size() ? size_ : 0);
       inspected = true;
     }
-    if (!ended && size_ < capacity && stream.avail_in == 0 && file.position() == file.size())
+    if (!ended && size_ < capacity && !unread())
     {
-      failTruncated(where(inflater) + "the compressed data end too early");
+      failTruncated(where() + "the compressed data end too early");
     }
     if (size_ == capacity)
     {
       if (capacity == limit)
       {
-        failFormat(where(inflater) + "unpacks to more than " + std::to_string(limit) + " bytes from " +
+        failFormat(where() + "unpacks to more than " + std::to_string(limit) + " bytes from " +
             std::to_string(file.size()),
           "if this is no attack, unpack it first: gunzip -k FILE");
       }

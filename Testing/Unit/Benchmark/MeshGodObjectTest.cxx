@@ -1,5 +1,5 @@
 /// The god object on a mesh is the truth of `bench touch`: it is held against closed forms here.
-#include "Benchmark/Touch/MeshGodObject.h"
+#include "Benchmark/Touch/Methods/MeshGodObject.h"
 #include "Benchmark/Touch/TouchJudge.h"
 #include "Benchmark/Touch/TouchStrokes.h"
 #include "Core/Base/PortableRandom.h"

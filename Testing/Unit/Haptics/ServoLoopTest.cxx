@@ -142,52 +142,60 @@ TEST(ServoLoop, CountsWhatAFullTraceLoses)
   EXPECT_EQ(loop.statistics().lostTraceSamples + 8, loop.statistics().ticks);
 }
 
+/// What the readers of a loop share with the thread that starts and stops it.
+struct Watch
+{
+  std::atomic<bool> done{ false };
+  std::atomic<int> runs{ 0 }; // Odd while the loop runs.
+  std::atomic<int> compared{ 0 };
+};
+
+/// Expects whole samples and counters that only grow within a run, until the watch is done.
+void readUntilDone(const ServoLoop& loop, const ScriptedPort& port, Watch& watch)
+{
+  int lastRun = 0;
+  std::uint64_t lastTick = 0;
+  std::uint64_t lastCount = 0;
+  while (!watch.done)
+  {
+    const int run = watch.runs;
+    const ServoSample sample = loop.latest();
+    const ServoStatistics statistics = loop.statistics();
+    if (sample.tick > 0)
+    {
+      EXPECT_EQ(sample.state.hip, port.path(sample.timeSeconds)) << "torn at tick " << sample.tick;
+    }
+    if (run % 2 == 1 && run == watch.runs)
+    {
+      EXPECT_GE(sample.tick, run == lastRun ? lastTick : 0);
+      EXPECT_GE(statistics.ticks, run == lastRun ? lastCount : 0);
+      lastRun = run;
+      lastTick = sample.tick;
+      lastCount = statistics.ticks;
+      watch.compared += sample.tick > 0 ? 1 : 0;
+    }
+    std::this_thread::yield();
+  }
+}
+
 TEST(ServoLoop, IsReadByManyThreadsWhileItRunsAndRestarts)
 {
   ScriptedPort port;
   // Elsewhere in each tick: the parts of a sample tell whether they belong together.
   port.path = [](double t) { return press(t) + Vec3(0.001 * t, -0.002 * t, 0.0); };
   ServoLoop loop;
-  std::atomic<bool> done{ false };
-  std::atomic<int> runs{ 0 }; // Odd while the loop runs.
-  std::atomic<int> compared{ 0 };
+  Watch watch;
   ServoSettings settings = plainSettings();
   settings.rateHz = 10000.0;
   std::vector<std::thread> readers;
   for (int i = 0; i < 2; ++i)
   {
-    readers.emplace_back(
-      [&]
-      {
-        int lastRun = 0;
-        std::uint64_t lastTick = 0;
-        std::uint64_t lastCount = 0;
-        while (!done)
-        {
-          const int run = runs;
-          const ServoSample sample = loop.latest();
-          const ServoStatistics statistics = loop.statistics();
-          if (sample.tick > 0)
-          {
-            EXPECT_EQ(sample.state.hip, port.path(sample.timeSeconds)) << "torn at tick " << sample.tick;
-          }
-          if (run % 2 == 1 && run == runs)
-          {
-            EXPECT_GE(sample.tick, run == lastRun ? lastTick : 0);
-            EXPECT_GE(statistics.ticks, run == lastRun ? lastCount : 0);
-            lastRun = run;
-            lastTick = sample.tick;
-            lastCount = statistics.ticks;
-            compared += sample.tick > 0 ? 1 : 0;
-          }
-          std::this_thread::yield();
-        }
-      });
+    readers.emplace_back([&] { readUntilDone(loop, port, watch); });
   }
   for (int round = 0; round < 3; ++round)
   {
     ASSERT_EQ(loop.start(port, HapticParameters(), settings), Status::Ok);
-    ++runs;
+    ++watch.runs;
     for (int i = 0; i < 5; ++i)
     {
       loop.publishScene(plane());
@@ -195,12 +203,12 @@ TEST(ServoLoop, IsReadByManyThreadsWhileItRunsAndRestarts)
       const std::uint64_t before = loop.statistics().ticks;
       EXPECT_TRUE(eventually([&] { return loop.statistics().ticks > before; }));
     }
-    const int before = compared;
-    EXPECT_TRUE(eventually([&] { return compared > before + 20000; })) << "nobody reads";
-    ++runs;
+    const int before = watch.compared;
+    EXPECT_TRUE(eventually([&] { return watch.compared > before + 20000; })) << "nobody reads";
+    ++watch.runs;
     loop.stop();
   }
-  done = true;
+  watch.done = true;
   for (std::thread& reader : readers)
   {
     reader.join();

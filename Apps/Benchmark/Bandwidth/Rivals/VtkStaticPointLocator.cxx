@@ -1,4 +1,4 @@
-#include "Benchmark/Bandwidth/RivalLoop.h"
+#include "Benchmark/Bandwidth/Rivals/RivalLoop.h"
 
 #include <vtkIdList.h>
 #include <vtkNew.h>

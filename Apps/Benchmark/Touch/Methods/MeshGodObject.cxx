@@ -1,4 +1,4 @@
-#include "Benchmark/Touch/MeshGodObject.h"
+#include "Benchmark/Touch/Methods/MeshGodObject.h"
 
 #include <algorithm>
 #include <cmath>

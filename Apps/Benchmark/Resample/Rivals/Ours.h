@@ -2,7 +2,7 @@
 /// The filter under test, for the studies that drive it themselves.
 #pragma once
 
-#include "Benchmark/Resample/Rival.h"
+#include "Benchmark/Resample/Rivals/Rival.h"
 
 #include "vtkVoxelMeanResampler.h"
 

@@ -1,7 +1,7 @@
 /// Does the proxy hold on real scans? And where the scan has a mesh: is the force right?
 #include "Benchmark/Harness/Statistics.h"
 #include "Benchmark/Proxy/Strokes.h"
-#include "Benchmark/Proxy/Studies.h"
+#include "Benchmark/Proxy/Studies/Studies.h"
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>

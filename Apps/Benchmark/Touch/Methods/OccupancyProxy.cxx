@@ -1,4 +1,4 @@
-#include "Benchmark/Touch/OccupancyProxy.h"
+#include "Benchmark/Touch/Methods/OccupancyProxy.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 /// vtkKernelBandwidthFilter defines them, and the loop itself.
 #pragma once
 
-#include "Benchmark/Bandwidth/Rival.h"
+#include "Benchmark/Bandwidth/Rivals/Rival.h"
 
 #include "Core/Base/Vector3.h"
 

@@ -1,4 +1,4 @@
-#include "Benchmark/Resample/Rival.h"
+#include "Benchmark/Resample/Rivals/Rival.h"
 
 #include "Benchmark/Harness/RivalModule.h"
 

@@ -1,4 +1,4 @@
-#include "Benchmark/Bandwidth/Rival.h"
+#include "Benchmark/Bandwidth/Rivals/Rival.h"
 
 #include "vtkKernelBandwidthFilter.h"
 

@@ -1,6 +1,6 @@
 /// When does the paper's method reach the 0.4 % that the paper reports, and when not?
 #include "Benchmark/Harness/Statistics.h"
-#include "Benchmark/Proxy/Studies.h"
+#include "Benchmark/Proxy/Studies/Studies.h"
 
 #include <fmt/format.h>
 

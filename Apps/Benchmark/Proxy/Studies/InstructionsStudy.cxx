@@ -1,7 +1,7 @@
 /// What does an update take with each of the instruction sets this machine has?
 #include "Benchmark/Harness/Statistics.h"
 #include "Benchmark/Proxy/Strokes.h"
-#include "Benchmark/Proxy/Studies.h"
+#include "Benchmark/Proxy/Studies/Studies.h"
 
 #include "Core/Surface/SurfaceFit.h"
 

@@ -1,5 +1,5 @@
 /// What does each method and setting cost, and how far off is it? And the paper's own figures again.
-#include "Benchmark/Proxy/Studies.h"
+#include "Benchmark/Proxy/Studies/Studies.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "Benchmark/Resample/Ours.h"
+#include "Benchmark/Resample/Rivals/Ours.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>

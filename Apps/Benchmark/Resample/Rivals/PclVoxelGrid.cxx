@@ -1,5 +1,5 @@
 // Includes PCL: must see no -march flag, or Eigen's alignment differs from that of Debian's PCL.
-#include "Benchmark/Resample/Rival.h"
+#include "Benchmark/Resample/Rivals/Rival.h"
 
 #include <pcl/console/print.h>
 #include <pcl/filters/voxel_grid.h>

@@ -1,5 +1,5 @@
 // Includes Eigen: must see no -march flag, or its alignment differs from that of the installed Open3D.
-#include "Benchmark/Resample/Rival.h"
+#include "Benchmark/Resample/Rivals/Rival.h"
 
 #include <open3d/Open3DConfig.h>
 #include <open3d/geometry/PointCloud.h>

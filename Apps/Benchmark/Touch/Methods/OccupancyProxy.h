@@ -4,7 +4,7 @@
 /// data, IEEE Transactions on Haptics 6(3), 2013.
 #pragma once
 
-#include "Benchmark/Touch/TouchMethod.h"
+#include "Benchmark/Touch/Methods/TouchMethod.h"
 
 #include <cstdint>
 #include <unordered_map>

@@ -1,5 +1,5 @@
 // Includes PCL: must see no -march flag, or Eigen's alignment differs from that of Debian's PCL.
-#include "Benchmark/Bandwidth/RivalLoop.h"
+#include "Benchmark/Bandwidth/Rivals/RivalLoop.h"
 
 #include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/pcl_config.h>

@@ -1,5 +1,5 @@
 /// How accurate is the default, on every shape, size and noise? And along other paths?
-#include "Benchmark/Proxy/Studies.h"
+#include "Benchmark/Proxy/Studies/Studies.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "Benchmark/Touch/TouchMethod.h"
+#include "Benchmark/Touch/Methods/TouchMethod.h"
 
-#include "Benchmark/Touch/OccupancyProxy.h"
+#include "Benchmark/Touch/Methods/OccupancyProxy.h"
 
 #include <algorithm>
 #include <optional>
