@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -24,13 +25,14 @@ constexpr double kReadingPart = 0.3;
 /// What of a cloud is wanted: see vtkPointCloudReader.
 struct WantedPart
 {
-  bool onlyPositions = false; ///< no arrays beside the points, where leaving them out saves work
-  double resolution = 0.0;    ///< distance between points that is fine enough; 0: all points
+  bool onlyPositions = false;   ///< no arrays beside the points, where leaving them out saves work
+  double resolution = 0.0;      ///< distance between points that is fine enough; 0: all points
+  std::uint64_t mostPoints = 0; ///< by leaving out fine levels of the octree, where there is one; 0: no bound
   std::array<double, 6> box{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 }; ///< x0, x1, y0, y1, z0, z1
 
   bool hasBox() const { return box[0] <= box[1] && box[2] <= box[3] && box[4] <= box[5]; }
   /// Whether a file that can be read in parts need not be read whole.
-  bool isPart() const { return hasBox() || resolution > 0.0; }
+  bool isPart() const { return hasBox() || resolution > 0.0 || mostPoints > 0; }
 };
 
 /// Lives during one read, in one thread.
@@ -44,6 +46,7 @@ struct ReadTask
   /// Reads bytes of the file; empty where all are there. Those that were never read are zero.
   std::function<void(std::size_t offset, std::size_t size)> load;
   bool applyPoses = true;         ///< scans of several positions in one frame
+  bool isCoarse = false;          ///< out: WantedPart::mostPoints left out points
   std::string format;             ///< out: "PLY (binary little endian)", as soon as it is known
   std::vector<std::string> notes; ///< out: what the cloud does not have of the file, one line each
 

@@ -193,6 +193,7 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
   task.algorithm = this;
   task.wanted.onlyPositions = this->OnlyPositions;
   task.wanted.resolution = this->Resolution;
+  task.wanted.mostPoints = static_cast<std::uint64_t>(this->MostPoints);
   std::copy_n(this->Box, 6, task.wanted.box.begin());
   task.applyPoses = this->ApplyPoses;
   const KeepFindings keep{ task, this->Format, this->Notes };
@@ -207,6 +208,7 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
   {
     this->ReadWhole(task, cloud);
   }
+  this->Coarse = task.isCoarse;
   checkCoordinates(cloud);
   if (task.wanted.hasBox())
   {
@@ -253,6 +255,7 @@ int vtkPointCloudReader::RequestData(
   this->Format.clear();
   this->Notes.clear();
   this->ValidWithoutPoints = false;
+  this->Coarse = false;
   this->SetErrorCode(vtkErrorCode::NoError);
   // The pipeline goes on with an empty cloud after a fault: returning 0 would add the executive's own
   // message, which callers cannot silence.
@@ -301,6 +304,7 @@ void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "Resolution: " << this->Resolution << "\n";
+  os << indent << "MostPoints: " << this->MostPoints << "\n";
   os << indent << "Box: " << this->Box[0] << " " << this->Box[1] << " " << this->Box[2] << " " << this->Box[3]
      << " " << this->Box[4] << " " << this->Box[5] << "\n";
   os << indent << "OnlyPositions: " << (this->OnlyPositions ? "On" : "Off") << "\n";

@@ -107,6 +107,18 @@ public:
 
   ///@{
   /**
+   * At most so many points, where the file has an octree: cloud optimised point clouds are read down to the
+   * finest level with no more (the coarsest one is always read), and IsCoarse() says whether finer ones were
+   * left out. Other files are read whole. Default: 0, which is no bound.
+   */
+  vtkSetClampMacro(MostPoints, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(MostPoints, vtkIdType);
+  /// Of the last update.
+  bool IsCoarse() const { return this->Coarse; }
+  ///@}
+
+  ///@{
+  /**
    * Only points inside this box, edges included, are given: xmin, xmax, ymin, ymax, zmin, zmax in the file's
    * units. Of cloud optimised point clouds only the nodes that touch it are read; others are read whole
    * first. Default: 1, -1, 1, -1, 1, -1, which is no box: all points.
@@ -182,6 +194,8 @@ private:
 
   char* FileName = nullptr;
   double Resolution = 0.0;
+  vtkIdType MostPoints = 0;
+  bool Coarse = false;
   double Box[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   bool OnlyPositions = false;
   std::string Extension;

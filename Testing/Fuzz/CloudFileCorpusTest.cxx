@@ -16,8 +16,14 @@ namespace
 
 std::vector<std::string> corpus()
 {
-  std::vector<std::filesystem::path> paths(
-    std::filesystem::directory_iterator(POINTHAPTICS_FUZZ_CORPUS), std::filesystem::directory_iterator());
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(POINTHAPTICS_FUZZ_CORPUS))
+  {
+    if (entry.is_regular_file())
+    {
+      paths.push_back(entry.path());
+    }
+  }
   std::sort(paths.begin(), paths.end());
   std::vector<std::string> files;
   for (const std::filesystem::path& path : paths)

@@ -1,5 +1,6 @@
-// Any bytes as a point cloud file. With POINTHAPTICS_BUILD_FUZZERS this becomes a libFuzzer program; the test
-// Fuzz.CloudFiles replays the same function on the files of Data/Fuzz.
+// Any bytes as a point cloud file. With POINTHAPTICS_BUILD_FUZZERS this becomes libFuzzer programs, one for
+// all formats and one for each that has a corpus of its own; the test Fuzz.CloudFiles replays the same
+// function on the files of Data/Fuzz.
 //
 // What must hold: either points, or a message of one line with a cure and no points; and what was read can be
 // written and read again.
@@ -21,6 +22,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -61,15 +63,31 @@ private:
   std::filesystem::path folder_;
 };
 
-/// @p resolution: how far a cloud optimised file is read; 0: all of it.
-vtkSmartPointer<vtkPolyData> read(const std::string& path, std::string& error, double resolution = 0.0)
+#ifdef POINTHAPTICS_FUZZ_START
+constexpr std::string_view kStart = POINTHAPTICS_FUZZ_START;
+#else
+constexpr std::string_view kStart;
+#endif
+
+/// How much of a cloud optimised file is read: down to a resolution, to a number of points, in a box.
+struct Part
+{
+  double resolution = 0.0;
+  vtkIdType mostPoints = 0;
+  double box[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+};
+const Part kParts[] = { { 8.0 }, { 0.0, 50 }, { 0.0, 0, { 0.0, 600.0, 0.0, 600.0, 0.0, 600.0 } } };
+
+vtkSmartPointer<vtkPolyData> read(const std::string& path, std::string& error, const Part& part = {})
 {
   vtkNew<vtkCallbackCommand> silence;
   silence->SetCallback(&ignoreEvent);
   vtkNew<vtkPointCloudReader> reader;
   reader->AddObserver(vtkCommand::ErrorEvent, silence);
   reader->SetFileName(path.c_str());
-  reader->SetResolution(resolution);
+  reader->SetResolution(part.resolution);
+  reader->SetMostPoints(part.mostPoints);
+  reader->SetBox(part.box);
   reader->Update();
   error = reader->GetErrorMessage();
   return reader->GetOutput();
@@ -106,10 +124,10 @@ void writeAndReadAgain(vtkPolyData* cloud, const std::string& path)
 }
 
 /// @return the points; none where they were refused.
-vtkSmartPointer<vtkPolyData> readAsPromised(const std::string& path, double resolution)
+vtkSmartPointer<vtkPolyData> readAsPromised(const std::string& path, const Part& part = {})
 {
   std::string error;
-  vtkSmartPointer<vtkPolyData> cloud = read(path, error, resolution);
+  vtkSmartPointer<vtkPolyData> cloud = read(path, error, part);
   require(error.empty() == (cloud->GetNumberOfPoints() > 0), "either points or a message");
   require(error.find('\n') == std::string::npos, "a message of one line");
   require(error.empty() || error.find("; ") != std::string::npos, "a message with a cure");
@@ -136,11 +154,18 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
 {
   static const Scratch scratch;
   const std::string path = scratch.path("cloud");
+  if (std::string_view(reinterpret_cast<const char*>(data), size).substr(0, kStart.size()) != kStart)
+  {
+    return 0; // another format
+  }
   std::ofstream(path, std::ios::binary) << mended(std::string(reinterpret_cast<const char*>(data), size));
-  const vtkSmartPointer<vtkPolyData> cloud = readAsPromised(path, 0.0);
+  const vtkSmartPointer<vtkPolyData> cloud = readAsPromised(path);
   if (size > 377 && data[377] == 'c') // the record that cloud optimised files begin with
   {
-    readAsPromised(path, 8.0);
+    for (const Part& part : kParts)
+    {
+      readAsPromised(path, part);
+    }
   }
   constexpr vtkIdType kMostWritten = 200;
   if (cloud->GetNumberOfPoints() > 0 && cloud->GetNumberOfPoints() <= kMostWritten)

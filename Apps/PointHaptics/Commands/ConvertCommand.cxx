@@ -1,7 +1,7 @@
 #include "Commands/Commands.h"
 
-#include "Clouds/MergedCloud.h"
 #include "Clouds/Pipeline.h"
+#include "MergedCloud.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 #include "Terminal/StopSignals.h"
@@ -124,8 +124,13 @@ int runConvert(const ConvertOptions& options)
   vtkSmartPointer<vtkPolyData> cloud = clouds.front().points;
   if (clouds.size() > 1)
   {
+    std::vector<vtkPolyData*> inputs;
+    for (const Cloud& each : clouds)
+    {
+      inputs.push_back(each.points);
+    }
     std::vector<std::string> notes;
-    cloud = mergeClouds(clouds, notes);
+    cloud = io::mergeClouds(inputs, notes);
     for (const std::string& note : notes)
     {
       warn(kCommand, note);

@@ -71,6 +71,7 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   {
     packed.emplace(task, header);
     header.count = packed->count();
+    task.isCoarse = packed->isCoarse();
   }
   LasRecords records(header, task.wanted.onlyPositions);
   if (packed)

@@ -23,7 +23,7 @@ LazChunks chunksOf(const ReadTask& task, const LasHeader& header, const LazSchem
     return findLazChunks(task.bytes, header, schema);
   }
   checkLazCount(task.bytes, header);
-  LazChunks part{ findCopcChunks(task, header), true };
+  LazChunks part = findCopcChunks(task, header);
   if (part.all.empty())
   {
     failFormat("no node of the octree touches the box", "choose a box that meets the bounds of the cloud");

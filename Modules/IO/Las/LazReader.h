@@ -31,6 +31,8 @@ public:
   LazReader(const ReadTask& task, const LasHeader& header);
   /// The points that read() gives: those of the header, or of the wanted part.
   std::uint64_t count() const { return count_; }
+  /// Whether WantedPart::mostPoints left out points.
+  bool isCoarse() const { return chunks_.isCoarse; }
   /// Parts that are packed one by one, of those points.
   std::int64_t numberOfChunks() const { return std::int64_t(chunks_.all.size()); }
   /// Fills @p records with the points in the file's order. Uses as many threads as vtkSMPTools has; progress

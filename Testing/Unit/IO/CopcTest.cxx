@@ -113,6 +113,50 @@ TEST_F(Copc, HasMorePointsTheFinerTheResolution)
   EXPECT_EQ(readPart(file, 0.0).points(), 1000);
 }
 
+TEST_F(Copc, LeavesOutFineLevelsWhereTheirPointsAreTooMany)
+{
+  const std::string file = write("a.copc.laz", makeCopc().bytes);
+  // Of levels 0 to 3: 200, 400, 200 and 200 points.
+  const auto expectPoints = [&](vtkIdType most, vtkIdType points)
+  {
+    SCOPED_TRACE(most);
+    vtkNew<vtkPointCloudReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->SetMostPoints(most);
+    reader->Update();
+    EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), points);
+    EXPECT_EQ(reader->IsCoarse(), points < 1000);
+  };
+  expectPoints(1, 200); // the coarsest level at least
+  expectPoints(200, 200);
+  expectPoints(599, 200);
+  expectPoints(600, 600);
+  expectPoints(999, 800);
+  expectPoints(1000, 1000);
+  expectPoints(0, 1000);
+}
+
+TEST_F(Copc, IsNotCoarseWhereTheResolutionAsksForNoMore)
+{
+  const std::string file = write("a.copc.laz", makeCopc().bytes);
+  vtkNew<vtkPointCloudReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->SetResolution(8.0);
+  reader->SetMostPoints(600);
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 600);
+  EXPECT_FALSE(reader->IsCoarse());
+  reader->SetMostPoints(599);
+  reader->Update();
+  EXPECT_TRUE(reader->IsCoarse());
+  // Other files are read whole.
+  const std::string plain = write("a.las", lasOf(6, 0, makeCopc().records));
+  reader->SetFileName(plain.c_str());
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 1000);
+  EXPECT_FALSE(reader->IsCoarse());
+}
+
 TEST_F(Copc, ReadsThoseNodesOnlyThatAreNeeded)
 {
   CopcFile copc = makeCopc();

@@ -88,13 +88,12 @@ struct CopcNode
   int cell[3];
 };
 
-/// 200 points in the cell of @p node.
-std::string recordsIn(const CopcNode& node, std::uint64_t seed)
+/// @p count points in the cell of @p node.
+std::string recordsIn(const CopcNode& node, std::size_t count, std::uint64_t seed)
 {
-  constexpr std::size_t kCount = 200;
   std::mt19937_64 random(seed);
-  std::string records = randomRecords(6, 0, kCount, seed, true);
-  for (std::size_t i = 0; i < kCount; ++i)
+  std::string records = randomRecords(6, 0, count, seed, true);
+  for (std::size_t i = 0; i < count; ++i)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -121,19 +120,19 @@ void appendEntry(std::string& page, const CopcNode& node, std::uint64_t offset, 
 
 } // namespace
 
-CopcFile makeCopc()
+CopcFile makeCopc(std::size_t pointsOfNode)
 {
   const std::vector<CopcNode> nodes = { { 0, { 0, 0, 0 } }, { 1, { 0, 0, 0 } }, { 1, { 1, 0, 1 } },
     { 2, { 0, 1, 0 } }, { 3, { 1, 3, 0 } } };
   constexpr std::size_t kInRootPage = 3;
   CopcFile copc;
-  std::string header = lasOf(6, 0, recordsIn(nodes[0], 0)).substr(0, 375);
+  std::string header = lasOf(6, 0, recordsIn(nodes[0], pointsOfNode, 0)).substr(0, 375);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     put(header, 131 + 8 * axis, 1.0);
     put(header, 155 + 8 * axis, 0.0);
   }
-  io::LasHeader parsed = io::parseLasHeader(lasOf(6, 0, recordsIn(nodes[0], 0)));
+  io::LasHeader parsed = io::parseLasHeader(lasOf(6, 0, recordsIn(nodes[0], pointsOfNode, 0)));
   io::LazSchema schema = io::makeLazSchema(parsed);
   schema.chunkSize = io::LazSchema::kVariableChunks;
   const std::string description = io::lazRecord(schema, parsed);
@@ -163,7 +162,7 @@ CopcFile makeCopc()
   io::ChunkEncoder encoder(schema);
   for (const CopcNode& node : nodes)
   {
-    std::string records = recordsIn(node, chunks.size() + 1);
+    std::string records = recordsIn(node, pointsOfNode, chunks.size() + 1);
     copc.records += records;
     const std::string chunk = encoder.encode(records.data(), records.size() / 30);
     copc.chunks.push_back(copc.bytes.size());

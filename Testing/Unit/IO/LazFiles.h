@@ -50,7 +50,7 @@ struct CopcFile
   std::size_t secondPage = 0;
   std::vector<std::size_t> chunks; ///< offsets of the nodes' chunks, in the order of the pages
 };
-CopcFile makeCopc();
+CopcFile makeCopc(std::size_t pointsOfNode = 200);
 
 /// Every bit of every field, but for gps times that are NaN, whose bits need not survive. Neighbours share
 /// most bytes where @p calm.

@@ -43,7 +43,7 @@ public:
     , header_(header)
   {
   }
-  std::vector<LazChunk> find();
+  LazChunks find();
 
 private:
   template <typename T>
@@ -56,6 +56,7 @@ private:
   void readEntry(std::size_t at);
   bool isWanted(const Entry& entry) const;
   void take(std::uint64_t offset, std::uint64_t size, std::size_t at, const char* what);
+  int lastLevelFor(std::uint64_t mostPoints) const;
 
   const ReadTask& task_;
   const LasHeader& header_;
@@ -65,7 +66,13 @@ private:
   std::map<std::uint64_t, std::uint64_t> pages_; ///< offsets and ends of those that were found, read or not
   std::map<std::uint64_t, std::uint64_t> nodes_; ///< offsets and ends of the wanted ones
   std::vector<std::pair<std::uint64_t, std::uint64_t>> pending_; ///< pages to read
-  std::map<std::uint64_t, std::uint64_t> counts_;                ///< points of the wanted nodes by offset
+  /// Of a wanted node.
+  struct Points
+  {
+    int level;
+    std::uint64_t count;
+  };
+  std::map<std::uint64_t, Points> points_; ///< by the node's offset
 };
 
 void Hierarchy::readInfo()
@@ -176,7 +183,7 @@ void Hierarchy::readEntry(std::size_t at)
     pending_.emplace_back(entry.offset, size);
     return;
   }
-  counts_.emplace(entry.offset, static_cast<std::uint64_t>(entry.count));
+  points_.emplace(entry.offset, Points{ entry.level, static_cast<std::uint64_t>(entry.count) });
 }
 
 void Hierarchy::readPage(std::uint64_t offset, std::uint64_t size)
@@ -188,7 +195,28 @@ void Hierarchy::readPage(std::uint64_t offset, std::uint64_t size)
   }
 }
 
-std::vector<LazChunk> Hierarchy::find()
+/// The finest level down to which there are no more points; the coarsest one that has any at least.
+int Hierarchy::lastLevelFor(std::uint64_t mostPoints) const
+{
+  std::array<std::uint64_t, kMostLevel + 1> counts{};
+  for (const auto& node : points_)
+  {
+    counts[static_cast<std::size_t>(node.second.level)] += node.second.count;
+  }
+  std::uint64_t sum = 0;
+  for (int level = 0; level <= kMostLevel; ++level)
+  {
+    const bool hasCoarser = sum > 0;
+    sum += counts[static_cast<std::size_t>(level)];
+    if (sum > mostPoints)
+    {
+      return hasCoarser ? level - 1 : level;
+    }
+  }
+  return kMostLevel;
+}
+
+LazChunks Hierarchy::find()
 {
   readInfo();
   while (!pending_.empty())
@@ -197,13 +225,21 @@ std::vector<LazChunk> Hierarchy::find()
     pending_.pop_back();
     readPage(page.first, page.second);
   }
-  std::vector<LazChunk> chunks;
+  const std::uint64_t most = task_.wanted.mostPoints;
+  const int lastLevel = most > 0 ? lastLevelFor(most) : kMostLevel;
+  LazChunks chunks;
   std::uint64_t sum = 0;
-  for (const auto& node : counts_)
+  for (const auto& [start, points] : points_)
   {
-    const std::size_t offset = static_cast<std::size_t>(node.first);
-    chunks.push_back({ offset, static_cast<std::size_t>(nodes_[node.first] - node.first), sum, node.second });
-    sum += node.second;
+    sum += points.count;
+    if (points.level > lastLevel)
+    {
+      chunks.isCoarse = true;
+      continue;
+    }
+    const std::uint64_t first = chunks.all.empty() ? 0 : chunks.all.back().first + chunks.all.back().count;
+    chunks.all.push_back({ static_cast<std::size_t>(start),
+      static_cast<std::size_t>(nodes_.at(start) - start), first, points.count });
   }
   if (sum > header_.count)
   {
@@ -216,7 +252,7 @@ std::vector<LazChunk> Hierarchy::find()
 
 } // namespace
 
-std::vector<LazChunk> findCopcChunks(const ReadTask& task, const LasHeader& header)
+LazChunks findCopcChunks(const ReadTask& task, const LasHeader& header)
 {
   return Hierarchy(task, header).find();
 }

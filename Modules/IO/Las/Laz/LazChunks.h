@@ -30,6 +30,7 @@ struct LazChunks
   /// False of a pointwise file without a table: each chunk begins where the one before ends, which only
   /// decoding it shows. Then the offset of the first chunk alone is set.
   bool arePlaced = true;
+  bool isCoarse = false; ///< WantedPart::mostPoints left out chunks
 };
 
 /// Points may unpack to this many times the file's size, or to kLazFloor where that is more: real clouds stay

@@ -1,4 +1,4 @@
-#include "Clouds/MergedCloud.h"
+#include "MergedCloud.h"
 
 #include <fmt/format.h>
 #include <vtkDataArray.h>
@@ -12,10 +12,9 @@
 #include <algorithm>
 #include <limits>
 
-namespace pointhaptics
+namespace pointhaptics::io
 {
-namespace app
-{
+
 namespace
 {
 
@@ -59,12 +58,12 @@ MergedArray& arrayFor(std::vector<MergedArray>& arrays, vtkDataArray* source, st
   return arrays.back();
 }
 
-std::vector<MergedArray> planArrays(const std::vector<Cloud>& clouds, std::vector<std::string>& notes)
+std::vector<MergedArray> planArrays(const std::vector<vtkPolyData*>& clouds, std::vector<std::string>& notes)
 {
   std::vector<MergedArray> arrays;
   for (std::size_t i = 0; i < clouds.size(); ++i)
   {
-    vtkPointData* data = clouds[i].points->GetPointData();
+    vtkPointData* data = clouds[i]->GetPointData();
     for (int k = 0; k < data->GetNumberOfArrays(); ++k)
     {
       vtkDataArray* source = data->GetArray(k);
@@ -83,16 +82,16 @@ std::vector<MergedArray> planArrays(const std::vector<Cloud>& clouds, std::vecto
 }
 
 vtkSmartPointer<vtkDataArray> filled(
-  const MergedArray& array, const std::vector<Cloud>& clouds, std::vector<std::string>& notes)
+  const MergedArray& array, const std::vector<vtkPolyData*>& clouds, std::vector<std::string>& notes)
 {
   vtkSmartPointer<vtkDataArray> result;
   result.TakeReference(vtkDataArray::CreateDataArray(array.type));
   result->SetName(array.name.c_str());
   result->SetNumberOfComponents(array.components);
   vtkIdType rows = 0;
-  for (const Cloud& cloud : clouds)
+  for (vtkPolyData* cloud : clouds)
   {
-    rows += cloud.points->GetNumberOfPoints();
+    rows += cloud->GetNumberOfPoints();
   }
   result->SetNumberOfTuples(rows);
   const bool isFloating = array.type == VTK_FLOAT || array.type == VTK_DOUBLE;
@@ -101,7 +100,7 @@ vtkSmartPointer<vtkDataArray> filled(
   std::size_t lacking = 0;
   for (std::size_t i = 0; i < clouds.size(); ++i)
   {
-    const vtkIdType count = clouds[i].points->GetNumberOfPoints();
+    const vtkIdType count = clouds[i]->GetNumberOfPoints();
     if (array.sources[i])
     {
       result->InsertTuples(begin, count, 0, array.sources[i]);
@@ -148,23 +147,24 @@ bool isOneOf(const char* const (&names)[N], const std::string& name)
 }
 
 /// The clouds without GPS times have nothing to say about how these count.
-bool isOfAll(const std::vector<Cloud>& clouds, vtkAbstractArray* field, const std::string& name)
+bool isOfAll(const std::vector<vtkPolyData*>& clouds, vtkAbstractArray* field, const std::string& name)
 {
   return !isOneOf(kOfOneCloud, name) &&
     std::all_of(clouds.begin(), clouds.end(),
-      [&](const Cloud& cloud)
+      [&](vtkPolyData* cloud)
       {
-        vtkAbstractArray* other = cloud.points->GetFieldData()->GetAbstractArray(name.c_str());
+        vtkAbstractArray* other = cloud->GetFieldData()->GetAbstractArray(name.c_str());
         return isSame(field, other) || (!other && name == "LasGlobalEncoding");
       });
 }
 
-void mergeFieldData(const std::vector<Cloud>& clouds, vtkPolyData* merged, std::vector<std::string>& notes)
+void mergeFieldData(
+  const std::vector<vtkPolyData*>& clouds, vtkPolyData* merged, std::vector<std::string>& notes)
 {
   std::vector<std::string> lost;
-  for (const Cloud& from : clouds)
+  for (vtkPolyData* from : clouds)
   {
-    vtkFieldData* fields = from.points->GetFieldData();
+    vtkFieldData* fields = from->GetFieldData();
     for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
     {
       vtkAbstractArray* field = fields->GetAbstractArray(i);
@@ -184,13 +184,14 @@ void mergeFieldData(const std::vector<Cloud>& clouds, vtkPolyData* merged, std::
 
 } // namespace
 
-vtkSmartPointer<vtkPolyData> mergeClouds(const std::vector<Cloud>& clouds, std::vector<std::string>& notes)
+vtkSmartPointer<vtkPolyData> mergeClouds(
+  const std::vector<vtkPolyData*>& clouds, std::vector<std::string>& notes)
 {
   auto merged = vtkSmartPointer<vtkPolyData>::New();
-  MergedArray coordinates{ "Points", clouds.front().points->GetPoints()->GetDataType(), 3, {} };
-  for (const Cloud& cloud : clouds)
+  MergedArray coordinates{ "Points", clouds.front()->GetPoints()->GetDataType(), 3, {} };
+  for (vtkPolyData* cloud : clouds)
   {
-    vtkDataArray* points = cloud.points->GetPoints()->GetData();
+    vtkDataArray* points = cloud->GetPoints()->GetData();
     coordinates.type = coordinates.type == points->GetDataType() ? coordinates.type : VTK_DOUBLE;
     coordinates.sources.push_back(points);
   }
@@ -201,9 +202,9 @@ vtkSmartPointer<vtkPolyData> mergeClouds(const std::vector<Cloud>& clouds, std::
   {
     merged->GetPointData()->AddArray(filled(array, clouds, notes));
   }
-  for (const Cloud& cloud : clouds)
+  for (vtkPolyData* cloud : clouds)
   {
-    vtkPointData* data = cloud.points->GetPointData();
+    vtkPointData* data = cloud->GetPointData();
     if (data->GetScalars() && data->GetScalars()->GetName())
     {
       merged->GetPointData()->SetActiveScalars(data->GetScalars()->GetName());
@@ -217,5 +218,4 @@ vtkSmartPointer<vtkPolyData> mergeClouds(const std::vector<Cloud>& clouds, std::
   return merged;
 }
 
-} // namespace app
-} // namespace pointhaptics
+} // namespace pointhaptics::io
