@@ -162,6 +162,7 @@ void HapticViewer::Implementation::skip(const std::string& title)
 bool HapticViewer::Implementation::read(CloudRequest request, LoadedCloud& loaded)
 {
   request.measuresLater = this->options.showsReading;
+  request.mostPoints = this->options.showsReading ? this->options.coarsePoints : 0;
   request.makesScene = this->options.showsReading || !this->options.path.empty();
   const std::string title = request.name();
   CloudLoader loader;
@@ -201,6 +202,14 @@ bool HapticViewer::Implementation::show(LoadedCloud loaded)
   this->felt.reset();
   this->resampleSeconds = loaded.resampleSeconds;
   this->readSeconds -= loaded.resampleSeconds;
+  for (const std::string& note : loaded.notes)
+  {
+    if (this->observer.message)
+    {
+      this->observer.message(HapticViewerObserver::Kind::Warning, note);
+    }
+  }
+  this->news += (this->news.empty() || loaded.notes.empty() ? "" : "\n") + shortNote(loaded.notes);
   this->isOpen = this->scene.open(std::move(loaded), this->options, this->message);
   // What VTK classes complained of comes first: it may be why.
   const std::vector<std::string> errors =

@@ -9,6 +9,7 @@
 #include "Haptics/HapticParameters.h"
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -80,6 +81,8 @@ struct HapticViewerOptions
   bool pushPointer = false;          ///< The mouse pointer is pushed out of what the hand touches.
   bool together = false;             ///< All files as one cloud; else one at a time.
   bool watch = false;                ///< Read files again when they change.
+  /// Of cloud optimised files: points that the window shows at once, while all are read; 0: it waits for all.
+  std::int64_t coarsePoints = 60000;
   /// The window is shown while the first file is read, where that takes longer than 0.2 s and there is a
   /// display: for programs that call HapticViewer::run() next.
   bool showsReading = false;

@@ -3,6 +3,7 @@
 #include "ResampledCloud.h"
 #include "ScaleNote.h"
 
+#include "AsprsClasses.h"
 #include "CloudAppearance.h"
 #include "HapticSceneBuilder.h"
 #include "PolyDataAccess.h"
@@ -131,12 +132,14 @@ bool ViewScene::open(
 
 bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std::string& message)
 {
+  const bool refines = loaded.showing.colors.has_value();
+  const ColorRange before = this->colorRange();
   cloud_ = loaded.cloud;
   cloudBounds_ = {};
   colorBy_ = loaded.colorBy;
   ownColor_ = colorBy_ != "rgb" && findColorSource(cloud_, colorBy_) ? colorBy_ : std::string();
   unit_ = options.unit;
-  cloudUp_ = loaded.orientation.up;
+  cloudOrientation_ = loaded.orientation;
   axes_->SetMetresPerUnit(options.metresPerUnit);
   orientation_ = loaded.orientation;
   orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));
@@ -145,14 +148,21 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   measurement_.cancel();
   if (loaded.toMeasure)
   {
-    measurement_.start(loaded.toMeasure, loaded.orientation, loaded.colorBy, saidKind(options));
+    measurement_.start(loaded.toMeasure, loaded.showing);
   }
+  placedCamera_.clear();
+  isCoarse_ = loaded.isCoarse;
+  heightZero_ = loaded.heightZero;
   scene_ = loaded.scene;
   resamplings_ += loaded.resamplings;
   setElements(modelMatrix_, loaded.placement);
   scaleNote_ = describeScale(modelMatrix_, options.unit, options.metresPerUnit);
   this->configure(loaded, options);
   this->showMeans(loaded, options);
+  if (refines)
+  {
+    this->keepColorRange(before);
+  }
   if (loaded.means->GetNumberOfPoints() == 0)
   {
     message = "no point of the cloud lies in the workspace; leave out " + options.names.placement +
@@ -226,6 +236,34 @@ void ViewScene::applyColors()
   this->applyLook();
 }
 
+ShownRequest ViewScene::showing() const
+{
+  ShownRequest request;
+  request.orientation = cloudOrientation_;
+  request.kind = shown_->look.kind;
+  request.colors = shown_->colors;
+  return request;
+}
+
+ViewScene::ColorRange ViewScene::colorRange()
+{
+  ColorRange range{ coloredBy_, heightZero_, {}, {} };
+  std::copy_n(mapper_->GetLookupTable()->GetRange(), 2, range.ofMeans);
+  std::copy_n(pointsMapper_->GetLookupTable()->GetRange(), 2, range.ofPoints);
+  return range;
+}
+
+/// The same colours for the same places and values, where more points would make a wider range.
+void ViewScene::keepColorRange(const ColorRange& before)
+{
+  if (before.coloredBy == coloredBy_)
+  {
+    const double shift = coloredBy_ == kHeightArrayName ? before.heightZero - heightZero_ : 0.0;
+    mapper_->GetLookupTable()->SetRange(before.ofMeans[0] + shift, before.ofMeans[1] + shift);
+    pointsMapper_->GetLookupTable()->SetRange(before.ofPoints[0] + shift, before.ofPoints[1] + shift);
+  }
+}
+
 std::vector<std::string> ViewScene::colorChoices() const
 {
   // What is shown where nothing is chosen comes first.
@@ -243,7 +281,7 @@ std::vector<std::string> ViewScene::colorChoices() const
   add(rule == ColorRule::Clay ? kClayName : "");
   add(kHeightArrayName);
   add(hasColors(shown_->points) ? "rgb" : "");
-  for (const char* name : { "classification", "intensity" })
+  for (const char* name : { "classification", "intensity", "returnnumber" })
   {
     vtkDataArray* array = findArrayAnyCase(shown_->points, name);
     add(array ? array->GetName() : "");
@@ -336,6 +374,11 @@ void ViewScene::applyLook()
   applyGround(renderer_);
   scalarBar_->SetLookupTable(this->drawnMapper()->GetLookupTable());
   const std::optional<ColorSource> source = findColorSource(drawn, colorBy_);
+  if (source && holdsAsprsClasses(source->array))
+  {
+    scalarBar_->SetLookupTable(vtkSmartPointer<vtkLookupTable>::Take(
+      newClassLegend(drawn->GetPointData()->GetArray(source->array.c_str()))));
+  }
   const std::string name = source ? describeColorSource(drawn, *source) : std::string();
   scalarBar_->SetTitle((name + (this->wantsResiduals() ? " (" + unit_ + ")\n" : "\n")).c_str());
   scalarBar_->SetVisibility(!figure_ && source.has_value());

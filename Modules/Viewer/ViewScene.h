@@ -108,6 +108,11 @@ public:
   vtkActor* actor() { return actor_; }
   vtkActor* pointsActor() { return pointsActor_; }
   const ShownCloud* shown() const { return shown_.get(); }
+  /// What is shown is a coarse level of its files.
+  bool isCoarse() const { return isCoarse_; }
+  /// How a finer level of the same files is shown in the place of this one: see CloudRequest::before. The
+  /// colours of open() go on in it.
+  ShownRequest showing() const;
   vtkRenderer* renderer() { return renderer_; }
   vtkHapticProps* props() { return props_; }
   /// Off until it is enabled: then the picture must be refined when it rests.
@@ -122,6 +127,16 @@ public:
   vtkIdType numberOfPoints() const;
 
 private:
+  /// What the maps of colours run between.
+  struct ColorRange
+  {
+    std::string coloredBy;
+    double heightZero;
+    double ofMeans[2];
+    double ofPoints[2];
+  };
+  ColorRange colorRange();
+  void keepColorRange(const ColorRange& before);
   void beginFrame();
   void applyLook();
   void applyColors();
@@ -157,11 +172,13 @@ private:
   bool wantsAxes_ = false;
   bool figure_ = false;
   std::string colorBy_;
-  std::string ownColor_;  ///< An array of the file that the user named.
-  std::string coloredBy_; ///< What the picture shows by now.
-  std::string unit_;      ///< Of the file.
-  Vec3 cloudUp_;          ///< In the frame of the file.
-  Bounds cloudBounds_;    ///< Of the finite points, as in the file; empty until the axes are shown.
+  std::string ownColor_;              ///< An array of the file that the user named.
+  std::string coloredBy_;             ///< What the picture shows by now.
+  std::string unit_;                  ///< Of the file.
+  CloudOrientation cloudOrientation_; ///< In the frame of the file.
+  bool isCoarse_ = false;
+  double heightZero_ = 0.0; ///< See LoadedCloud.
+  Bounds cloudBounds_;      ///< Of the finite points, as in the file; empty until the axes are shown.
   vtkNew<vtkRenderer> renderer_;
   LevelOfDetail detail_{ renderer_, pointsActor_ };
   LevelOfDetail feltDetail_{ renderer_, actor_ };

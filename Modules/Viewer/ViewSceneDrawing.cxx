@@ -100,7 +100,7 @@ void ViewScene::colorPoints()
   double light = 1.0;
   if (colorBy_ == kHeightArrayName && !data->HasArray(kHeightArrayName))
   {
-    addHeightArray(points, cloudUp_);
+    heightZero_ = addHeightArray(points, cloudOrientation_.up);
   }
   if (colorBy_ == "Density" && !data->HasArray("Density"))
   {

@@ -1,6 +1,8 @@
 // Files that cannot be read and devices that are not there, in `view` without a window.
 #include "RunProgram.h"
 
+#include "../Unit/IO/E57File.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -81,6 +83,27 @@ TEST_F(ViewFiles, ThatCannotBeReadAtAllEndTheProgramWithAnError)
 TEST_F(ViewFiles, ThatAreOneCloudMustAllBeRead)
 {
   this->refuse(1, { "view", "bad.laz", "good.ply", "--together" }, { "bad.laz" });
+}
+
+TEST_F(ViewFiles, ThatAreOneCloudHaveTheArraysOfEach)
+{
+  this->write("warm.csv", "x,y,z,Warmth\n0,0,0,1\n0.01,0,0,2\n0,0.01,0,3\n0.01,0.01,0,4\n");
+  const Outcome outcome = this->view({ "good.ply", "warm.csv" }, { "--together", "--color-by", "Warmth" });
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_TRUE(contains(outcome.output, "2004 points")) << outcome.output;
+  EXPECT_TRUE(contains(outcome.errors, "warning: 1 of 2 inputs have no Warmth: their points have 0 there"))
+    << outcome.errors;
+}
+
+TEST_F(ViewFiles, ThatAreNotReadWithAllTheyHaveAreShownWithAWarning)
+{
+  E57TestFile file{ { { { e57Double("cartesianX", { 0.0, 1.0 }), e57Double("cartesianY", { 0.0, 1.0 }),
+    e57Double("cartesianZ", { 0.0, 1.0 }) } } } };
+  file.xml = "<images2D type=\"Vector\"><vectorChild type=\"Structure\"/></images2D>";
+  this->write("scan.e57", file.bytes());
+  const Outcome outcome = this->view({ "scan.e57" });
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_EQ(outcome.errors, "pointhaptics view: warning: scan.e57: 1 image is not read: only points are\n");
 }
 
 TEST_F(ViewFiles, AreNotDrawnForADeviceThatIsNotThere)

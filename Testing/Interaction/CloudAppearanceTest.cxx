@@ -1,4 +1,5 @@
 #include "CloudAppearance.h"
+#include "AsprsClasses.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
@@ -59,6 +60,38 @@ TEST(CloudAppearance, PrefersTheCloudsOwnColors)
   EXPECT_TRUE(hasColors(cloud));
   EXPECT_TRUE(applyCloudAppearance(cloud, mapper, actor));
   EXPECT_EQ(mapper->GetColorMode(), VTK_COLOR_MODE_DIRECT_SCALARS);
+}
+
+TEST(CloudAppearance, DrawsAndNamesTheClassesOfLidarPoints)
+{
+  const auto cloud = makeColumn();
+  vtkNew<vtkUnsignedCharArray> classes;
+  classes->SetName("Classification");
+  for (const unsigned char number : { 6, 2, 6 })
+  {
+    classes->InsertNextValue(number);
+  }
+  cloud->GetPointData()->AddArray(classes);
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkActor> actor;
+  EXPECT_TRUE(applyCloudAppearance(cloud, mapper, actor, "Classification"));
+  applyGroundColors(mapper);
+  for (const int number : { 2, 6, 17, 255 })
+  {
+    double color[3];
+    mapper->GetLookupTable()->GetColor(number, color);
+    for (int c = 0; c < 3; ++c)
+    {
+      EXPECT_NEAR(color[c], asprsClass(number).color[c], 0.003) << number;
+    }
+  }
+  const auto legend = vtkSmartPointer<vtkLookupTable>::Take(newClassLegend(classes));
+  ASSERT_EQ(legend->GetNumberOfAnnotatedValues(), 2);
+  EXPECT_EQ(legend->GetAnnotation(0), "2 ground");
+  EXPECT_EQ(legend->GetAnnotation(1), "6 building");
+  double color[4];
+  legend->GetAnnotationColor(6, color);
+  EXPECT_NEAR(color[0], asprsClass(6).color[0], 0.003);
 }
 
 TEST(CloudAppearance, SaysThatAnArrayIsNotThere)

@@ -332,4 +332,35 @@ TEST_F(Colors, TakeIntensityThatIsAPatternAndNoNoise)
   EXPECT_EQ(colors->GetNumberOfTuples(), cloud_->GetNumberOfPoints());
 }
 
+TEST_F(Colors, OfAPlaceStayWhereMorePointsComeIn)
+{
+  use(hills(100, 90));
+  add("Intensity", [](const Vec3& p) { return std::sin(0.1 * p.x) > 0.0 ? 800.0 : 50.0; });
+  const CloudColors coarse = chosen(CloudKind::Terrain);
+  ASSERT_EQ(coarse.rule, ColorRule::Height);
+  const auto before = makeColors(cloud_, coarse, CloudLook());
+  // As many points again, high above and dark.
+  vtkNew<vtkPolyData> all;
+  vtkNew<vtkPoints> points;
+  points->SetDataType(cloud_->GetPoints()->GetDataType());
+  vtkNew<vtkFloatArray> intensity;
+  intensity->SetName("Intensity");
+  const vtkIdType count = cloud_->GetNumberOfPoints();
+  for (vtkIdType i = 0; i < 2 * count; ++i)
+  {
+    double p[3];
+    cloud_->GetPoint(i % count, p);
+    points->InsertNextPoint(p[0], p[1], p[2] + (i < count ? 0.0 : 500.0));
+    intensity->InsertNextValue(
+      i < count ? float(cloud_->GetPointData()->GetArray("Intensity")->GetComponent(i, 0)) : 1.0F);
+  }
+  all->SetPoints(points);
+  all->GetPointData()->AddArray(intensity);
+  const auto after = makeColors(all, coarse, CloudLook());
+  for (vtkIdType i = 0; i < 3 * count; ++i)
+  {
+    ASSERT_EQ(before->GetValue(i), after->GetValue(i)) << i / 3;
+  }
+}
+
 } // namespace

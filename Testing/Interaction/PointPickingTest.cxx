@@ -5,6 +5,7 @@
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 
 #include <string>
@@ -119,6 +120,34 @@ TEST(PointPicking, ShowsValuesOfArraysAsTheyAreRead)
   EXPECT_EQ(arrayText("VoxelPointCount", 3.0, 1.0), "3");
 }
 
+TEST(PointPicking, TellsThePlaceOfThePointOfTheFileWithTheDecimalsOfItsGrid)
+{
+  vtkNew<vtkPolyData> means;
+  setVoxel(means, 2.0);
+  addArray(means, "VoxelPointCount", 4.0);
+  addArray(means, "Intensity", 99.5);
+  vtkNew<vtkPolyData> file;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(439112.2, 5017906.07, -0.001);
+  file->SetPoints(points);
+  addArray(file, "Intensity", 312.0);
+  addArray(file, "Classification", 6.0);
+  addArray(file, "ReturnNumber", 2.0);
+  addArray(file, "SplatLength", 1.5);
+  addField(file, "LasScale", { 0.01, 0.01, 0.0001 });
+  PickedPoint picked;
+  picked.index = 0;
+  picked.inCloud = Vec3{ 439112.0, 5017906.0, 0.0 };
+  EXPECT_EQ(describePicked(means, picked, { file, 0, { "SplatLength" } }),
+    "in the file  439112.20  5017906.07  -0.0010\nin the workspace  0.00  0.00  0.00 mm\nIntensity  312\n"
+    "Classification  6 (building)\nReturnNumber  2\nVoxelPointCount  4");
+  // A file without a grid: down to a thousandth of a voxel.
+  file->GetFieldData()->Initialize();
+  EXPECT_EQ(describePicked(means, picked, { file, 0, {} }).substr(0, 48),
+    "in the file  439112.200  5017906.070  -0.001\nin ");
+}
+
 TEST(PointPicking, NamesTheClassOfALidarPoint)
 {
   const auto lineOf = [](double value)
@@ -135,6 +164,7 @@ TEST(PointPicking, NamesTheClassOfALidarPoint)
   EXPECT_EQ(lineOf(23), "Classification  23 (reserved)");
   EXPECT_EQ(lineOf(64), "Classification  64 (user defined)");
   EXPECT_EQ(lineOf(-1), "Classification  -1 (no class)");
+  EXPECT_EQ(lineOf(300), "Classification  300 (no class)");
 }
 
 } // namespace

@@ -5,19 +5,27 @@
 #include "vtkInteractorStyleHaptic.h"
 
 #include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
 #include <vtkCommand.h>
+#include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkScalarsToColors.h>
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -263,6 +271,86 @@ TEST_F(HapticViewerTest, RunsInTheEventLoopOfItsHost)
   EXPECT_EQ(last.width, 160);
   EXPECT_TRUE(std::filesystem::exists(this->path("window.png")));
   EXPECT_TRUE(std::filesystem::exists(this->path("trace.csv")));
+}
+
+/// The octree of a cloud optimised file: 200 points of the coarsest level, 1000 in all.
+constexpr const char* kOctree = POINTHAPTICS_DATA "/Fuzz/Copc/octree.copc.laz";
+
+/// The colours of the points that are drawn by height, by their places in the file.
+std::map<std::array<double, 3>, std::array<double, 3>> colorsByPlace(HapticViewer& viewer)
+{
+  std::map<std::array<double, 3>, std::array<double, 3>> colors;
+  vtkActorCollection* actors = viewer.renderer()->GetActors();
+  actors->InitTraversal();
+  while (vtkActor* actor = actors->GetNextActor())
+  {
+    auto* mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
+    vtkPolyData* points = actor->GetVisibility() && mapper ? mapper->GetInput() : nullptr;
+    vtkDataArray* heights = points ? points->GetPointData()->GetArray("Height") : nullptr;
+    for (vtkIdType i = 0; heights && i < points->GetNumberOfPoints(); ++i)
+    {
+      std::array<double, 3> place{};
+      points->GetPoint(i, place.data());
+      mapper->GetLookupTable()->GetColor(heights->GetComponent(i, 0), colors[place].data());
+    }
+  }
+  return colors;
+}
+
+TEST_F(HapticViewerTest, ShowsACoarseLevelAtOnceAndThenAllPointsWhereTheyWere)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.device = HapticViewerDevice::None;
+  options_.showsReading = true;
+  options_.coarsePoints = 300;
+  options_.colorBy = "Height";
+  HapticViewerState state;
+  observer_.writeState = [&state](const HapticViewerState& now, const std::string&, std::string&)
+  {
+    state = now;
+    return true;
+  };
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open({ std::string(kOctree) })) << viewer.message();
+  EXPECT_EQ(viewer.numberOfPoints(), 200);
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  EXPECT_TRUE(viewer.style()->GetCommands().run("write-settings"));
+  const HapticViewerState coarse = state;
+  const auto coarseColors = colorsByPlace(viewer);
+  EXPECT_EQ(coarseColors.size(), 200u);
+  for (int i = 0; i < 4000 && viewer.numberOfPoints() != 1000; ++i)
+  {
+    int timer = 1;
+    viewer.interactor()->InvokeEvent(vtkCommand::TimerEvent, &timer);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_EQ(viewer.numberOfPoints(), 1000);
+  EXPECT_EQ(notes_.back(), "octree.copc.laz: all 1000 points");
+  EXPECT_TRUE(viewer.style()->GetCommands().run("write-settings"));
+  EXPECT_EQ(state.camera, coarse.camera);
+  EXPECT_EQ(state.modelToWorkspace, coarse.modelToWorkspace);
+  EXPECT_EQ(state.workspace, coarse.workspace);
+  const auto colors = colorsByPlace(viewer);
+  EXPECT_EQ(colors.size(), 1000u);
+  for (const auto& [place, color] : coarseColors)
+  {
+    ASSERT_EQ(colors.count(place), 1u);
+    EXPECT_EQ(colors.at(place), color);
+  }
+  EXPECT_TRUE(viewer.stop());
+}
+
+TEST_F(HapticViewerTest, ReadsAllAtOnceWhereNoWindowWaits)
+{
+  options_.coarsePoints = 300;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open({ std::string(kOctree) })) << viewer.message();
+  EXPECT_EQ(viewer.numberOfPoints(), 1000);
 }
 
 TEST_F(HapticViewerTest, LetsAHostAddAKeyAndKeepTheStyleForLonger)

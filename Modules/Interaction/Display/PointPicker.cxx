@@ -6,7 +6,10 @@
 #include "StatusText.h"
 #include "vtkPickMarker.h"
 
+#include "vtkActor.h"
+#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
 #include "vtkRenderer.h"
 
 namespace pointhaptics
@@ -27,6 +30,27 @@ PointPicker::PointPicker(const ScreenView& screen, const ScenePipeline& scenes, 
 }
 
 PointPicker::~PointPicker() = default;
+
+void PointPicker::setPointsOfFile(vtkActor* actor, const std::set<std::string>& leftOut)
+{
+  fileActor_ = actor;
+  leftOut_ = leftOut;
+}
+
+PickedOfFile PointPicker::pickOfFile(int x, int y) const
+{
+  auto* mapper = fileActor_ && fileActor_->GetVisibility()
+    ? vtkPolyDataMapper::SafeDownCast(fileActor_->GetMapper())
+    : nullptr;
+  vtkPolyData* points = mapper ? mapper->GetInput() : nullptr;
+  PickedPoint picked;
+  PickedOfFile result;
+  if (points && pickPoint(points, screen_.renderer(), x, y, kPickPixels, picked, fileActor_->GetMatrix()))
+  {
+    result = { points, picked.index, leftOut_ };
+  }
+  return result;
+}
 
 bool PointPicker::pickAt(int x, int y)
 {
@@ -53,7 +77,7 @@ bool PointPicker::pickAt(int x, int y)
   marker_->Mark(&picked.inWorkspace.x, picked.voxelBounds ? voxel : nullptr, picked.bandwidth);
   if (vtkHapticOverlay* overlay = status_.overlay())
   {
-    overlay->SetDetail(describePicked(cloud, picked));
+    overlay->SetDetail(describePicked(cloud, picked, this->pickOfFile(x, y)));
   }
   return true;
 }

@@ -6,12 +6,17 @@
 
 #include "vtkSmartPointer.h"
 
+#include <set>
+#include <string>
+
+class vtkActor;
 class vtkHapticOverlay;
 class vtkPickMarker;
 
 namespace pointhaptics
 {
 
+struct PickedOfFile;
 class ScenePipeline;
 class ScreenView;
 class StatusText;
@@ -26,6 +31,10 @@ public:
   PointPicker(const PointPicker&) = delete;
   PointPicker& operator=(const PointPicker&) = delete;
 
+  /// Of the points of the file that @p actor draws, in whatever frame, the values are told that the picked
+  /// one has, without the arrays @p leftOut. Null, or while it is hidden: those of the mean alone. It must
+  /// outlive this, or be taken back.
+  void setPointsOfFile(vtkActor* actor, const std::set<std::string>& leftOut);
   /// Shows position, voxel, bandwidth and arrays of the voxel mean at a display position, until the model
   /// moves. False: no mean is drawn within 8 pixels of it; none is shown then.
   bool pickAt(int x, int y);
@@ -33,10 +42,14 @@ public:
   bool forget();
 
 private:
+  PickedOfFile pickOfFile(int x, int y) const;
+
   const ScreenView& screen_;
   const ScenePipeline& scenes_;
   const StatusText& status_;
   vtkSmartPointer<vtkPickMarker> marker_;
+  vtkActor* fileActor_ = nullptr;
+  std::set<std::string> leftOut_;
 };
 
 } // namespace pointhaptics

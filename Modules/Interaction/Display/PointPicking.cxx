@@ -141,8 +141,25 @@ std::string valueText(double value)
   return fixedText(value, value == std::round(value) ? 0 : kLeastDecimals);
 }
 
-/// A line for each array but the covariances.
-std::string describeArrays(vtkPolyData* cloud, vtkIdType index, double step)
+/// On a line of its own.
+std::string describeArray(vtkDataArray* array, vtkIdType index, double step)
+{
+  const std::string name = array->GetName();
+  std::string text = "\n" + name + " ";
+  for (int c = 0; c < std::min(array->GetNumberOfComponents(), kMostComponents); ++c)
+  {
+    const double value = array->GetComponent(index, c);
+    text += " " + (name == kHeightArrayName ? coordinateText(value, step) : valueText(value));
+  }
+  if (array->GetNumberOfComponents() == 1 && holdsAsprsClasses(name))
+  {
+    text += std::string(" (") + asprsClass(int(array->GetComponent(index, 0))).name + ")";
+  }
+  return text;
+}
+
+/// A line for each array but @p leftOut, which gets their names.
+std::string describeArrays(vtkPolyData* cloud, vtkIdType index, double step, std::set<std::string>& leftOut)
 {
   std::string text;
   vtkPointData* data = cloud->GetPointData();
@@ -150,20 +167,29 @@ std::string describeArrays(vtkPolyData* cloud, vtkIdType index, double step)
   {
     vtkDataArray* array = data->GetArray(i);
     const std::string name = array && array->GetName() ? array->GetName() : "";
-    if (name.empty() || name == "VoxelCovariance")
+    if (!name.empty() && leftOut.insert(name).second)
     {
-      continue;
+      text += describeArray(array, index, step);
     }
-    text += "\n" + name + " ";
-    for (int c = 0; c < std::min(array->GetNumberOfComponents(), kMostComponents); ++c)
-    {
-      const double value = array->GetComponent(index, c);
-      text += " " + (name == kHeightArrayName ? coordinateText(value, step) : valueText(value));
-    }
-    if (name == "Classification" && array->GetNumberOfComponents() == 1)
-    {
-      text += std::string(" (") + asprsClassName(int(array->GetComponent(index, 0))) + ")";
-    }
+  }
+  return text;
+}
+
+/// The place of a point of the file: with the decimals of its grid, or down to @p step.
+std::string placeInFile(const PickedOfFile& ofFile, double step)
+{
+  Vec3 p;
+  ofFile.cloud->GetPoint(ofFile.index, &p.x);
+  Vec3 scale;
+  const bool hasGrid = fieldValues(ofFile.cloud, "LasScale", 3, &scale.x);
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const bool isFixed =
+      hasGrid && scale[axis] > 0.0 && scale[axis] <= 1.0 && std::abs(p[axis]) < kLargestFixed;
+    const int decimals =
+      isFixed ? int(std::ceil(std::min(-std::log10(scale[axis]) - 1e-9, double(kMostDigits)))) : 0;
+    text += "  " + (isFixed ? fixedText(p[axis], std::max(decimals, 0)) : coordinateText(p[axis], step));
   }
   return text;
 }
@@ -191,8 +217,8 @@ void findVoxel(vtkPolyData* cloud, PickedPoint& picked)
 
 } // namespace
 
-bool pickPoint(
-  vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, double pixels, PickedPoint& picked)
+bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, double pixels,
+  PickedPoint& picked, vtkMatrix4x4* toWorkspace)
 {
   double viewport[4];
   renderer->GetViewport(viewport);
@@ -200,8 +226,13 @@ bool pickPoint(
   const int* size = renderer->GetSize();
   const double left = viewport[0] * window[0];
   const double bottom = viewport[1] * window[1];
-  vtkMatrix4x4* projection =
-    renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(renderer->GetTiledAspectRatio(), 0, 1);
+  vtkNew<vtkMatrix4x4> projection;
+  projection->DeepCopy(renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
+    renderer->GetTiledAspectRatio(), 0, 1));
+  if (toWorkspace)
+  {
+    vtkMatrix4x4::Multiply4x4(projection, toWorkspace, projection);
+  }
   double best = INFINITY;
   vtkIdType found = -1;
   Vec3 p;
@@ -292,12 +323,16 @@ Status measurePicked(vtkPolyData* cloud, const LocalBandwidthSettings& settings,
   return status;
 }
 
-std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked)
+std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked, const PickedOfFile& ofFile)
 {
   char line[200];
   std::string text;
   const double step = coordinateStep(cloud);
-  if (picked.inCloud)
+  if (ofFile.cloud)
+  {
+    text = "in the file" + placeInFile(ofFile, step) + "\n";
+  }
+  else if (picked.inCloud)
   {
     text = "in the file";
     for (int axis = 0; axis < 3; ++axis)
@@ -321,7 +356,13 @@ std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked)
       1e3 * picked.radius);
     text += line;
   }
-  return text + describeArrays(cloud, picked.index, step);
+  std::set<std::string> leftOut = ofFile.leftOut;
+  leftOut.insert("VoxelCovariance");
+  if (ofFile.cloud)
+  {
+    text += describeArrays(ofFile.cloud, ofFile.index, step, leftOut);
+  }
+  return text + describeArrays(cloud, picked.index, step, leftOut);
 }
 
 } // namespace pointhaptics

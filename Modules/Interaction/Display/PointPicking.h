@@ -11,8 +11,10 @@
 #include "vtkType.h"
 
 #include <optional>
+#include <set>
 #include <string>
 
+class vtkMatrix4x4;
 class vtkPolyData;
 class vtkRenderer;
 
@@ -31,11 +33,20 @@ struct PickedPoint
   double radius = 0.0;               ///< Of the proxy, metres; not smoothed (see LocalBandwidthSettings).
 };
 
+/// The point of the file that was picked with a mean of its points.
+struct PickedOfFile
+{
+  vtkPolyData* cloud = nullptr; ///< In the frame of the file; null: none was.
+  vtkIdType index = -1;
+  std::set<std::string> leftOut; ///< Arrays that were made for the picture.
+};
+
 /// Of the points of @p cloud (in the workspace's frame: the output of vtkVoxelMeanResampler) that are drawn
 /// within @p pixels of the display position (@p x, @p y) of @p renderer's window, the one nearest to the
 /// camera. False: there is none. Cost: a few ns a point. GUI thread only.
-POINTHAPTICSINTERACTION_EXPORT bool pickPoint(
-  vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, double pixels, PickedPoint& picked);
+/// @param toWorkspace of a cloud in another frame, as that of its file; null: it is in the workspace.
+POINTHAPTICSINTERACTION_EXPORT bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y,
+  double pixels, PickedPoint& picked, vtkMatrix4x4* toWorkspace = nullptr);
 
 /// Fills in bandwidth and radius: those vtkKernelBandwidthFilter gives the point with @p settings. Searches
 /// its neighbours among all points of @p cloud: about 0.1 s for a million. Errors: those of localBandwidths.
@@ -45,7 +56,10 @@ POINTHAPTICSINTERACTION_EXPORT Status measurePicked(
 /// Position, voxel, bandwidth and the values of all point arrays of @p cloud, one a line; lengths of the
 /// workspace in millimetres. Coordinates of the file, the height among them, have decimals down to a
 /// thousandth of a voxel and at least three, so that a northing in metres shows its millimetres; no number
-/// below 1e9 has an exponent, but for those below 1e-4.
-POINTHAPTICSINTERACTION_EXPORT std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked);
+/// below 1e9 has an exponent, but for those below 1e-4. Where @p ofFile is given, place and values are those
+/// of that point of the file, and of the mean only what the file does not have; coordinates have the decimals
+/// of the file's grid, where it has one (field data "LasScale").
+POINTHAPTICSINTERACTION_EXPORT std::string describePicked(
+  vtkPolyData* cloud, const PickedPoint& picked, const PickedOfFile& ofFile = {});
 
 } // namespace pointhaptics

@@ -1,5 +1,6 @@
 #include "CloudAppearance.h"
 
+#include "AsprsClasses.h"
 #include "SmpExecutor.h"
 
 #include "Core/Bandwidth/LocalBandwidth.h"
@@ -28,8 +29,10 @@
 #include "vtkTranslucentPass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <string>
 #include <vector>
 
 namespace pointhaptics
@@ -54,6 +57,7 @@ constexpr double kAsGoodAsZero = 3e-3;
 /// Of the width of a range that stays.
 constexpr double kSameRange = 0.1;
 constexpr int kScalarBarFont = 15;
+constexpr int kNumberOfClasses = 256;
 
 double valueOf(vtkDataArray* array, vtkIdType tuple, int component)
 {
@@ -102,6 +106,21 @@ std::string componentName(vtkDataArray* array, int component)
   return array->GetNumberOfComponents() == 3 ? std::string(1, "xyz"[component]) : std::to_string(component);
 }
 
+/// One colour for each number of a class, 0 to 255. The caller owns the result.
+vtkLookupTable* newClassColorMap()
+{
+  vtkLookupTable* colors = vtkLookupTable::New();
+  colors->SetNumberOfTableValues(kNumberOfClasses);
+  colors->SetTableRange(-0.5, kNumberOfClasses - 0.5);
+  for (int i = 0; i < kNumberOfClasses; ++i)
+  {
+    const double* color = asprsClass(i).color;
+    colors->SetTableValue(i, color[0], color[1], color[2], 1.0);
+  }
+  colors->SetNanColor(0.5, 0.5, 0.5, 1.0);
+  return colors;
+}
+
 /// Range of the finite values between the 1st and the 99th percentile.
 void robustRange(vtkDataArray* array, int component, double range[2])
 {
@@ -122,9 +141,14 @@ void robustRange(vtkDataArray* array, int component, double range[2])
 
 void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
 {
-  double range[2];
-  robustRange(array, component, range);
-  vtkLookupTable* colors = newCloudColorMap();
+  const bool areClasses = array->GetNumberOfComponents() == 1 && holdsAsprsClasses(array->GetName());
+  vtkLookupTable* colors = areClasses ? newClassColorMap() : newCloudColorMap();
+  if (!areClasses)
+  {
+    double range[2];
+    robustRange(array, component, range);
+    colors->SetTableRange(range);
+  }
   if (component == kMagnitude)
   {
     colors->SetVectorModeToMagnitude();
@@ -134,7 +158,6 @@ void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
     colors->SetVectorModeToComponent();
     colors->SetVectorComponent(component);
   }
-  colors->SetTableRange(range);
   mapper->SetLookupTable(colors);
   colors->Delete();
   mapper->UseLookupTableScalarRangeOn();
@@ -187,7 +210,7 @@ vtkLookupTable* newCloudColorMap()
   return colors;
 }
 
-void addHeightArray(vtkPolyData* cloud, const Vec3& up)
+double addHeightArray(vtkPolyData* cloud, const Vec3& up)
 {
   const vtkIdType count = cloud->GetNumberOfPoints();
   std::vector<double> heights(static_cast<std::size_t>(count));
@@ -209,6 +232,7 @@ void addHeightArray(vtkPolyData* cloud, const Vec3& up)
     array->SetValue(i, std::isnan(height) ? 0.0f : static_cast<float>(height - lowest));
   }
   cloud->GetPointData()->AddArray(array);
+  return lowest;
 }
 
 std::optional<ColorSource> findColorSource(vtkPolyData* cloud, const std::string& colorBy)
@@ -257,6 +281,33 @@ bool followColorRange(vtkPolyData* cloud, const ColorSource& source, vtkLookupTa
     colors->SetTableRange(range);
   }
   return isOther;
+}
+
+vtkLookupTable* newClassLegend(vtkDataArray* classes)
+{
+  std::array<bool, kNumberOfClasses> found{};
+  for (vtkIdType i = 0; i < classes->GetNumberOfTuples(); ++i)
+  {
+    const double number = std::round(classes->GetComponent(i, 0));
+    if (number >= 0.0 && number < kNumberOfClasses)
+    {
+      found[std::size_t(number)] = true;
+    }
+  }
+  vtkLookupTable* legend = vtkLookupTable::New();
+  legend->IndexedLookupOn();
+  legend->SetNumberOfTableValues(std::max<vtkIdType>(1, std::count(found.begin(), found.end(), true)));
+  vtkIdType row = 0;
+  for (int number = 0; number < kNumberOfClasses; ++number)
+  {
+    if (found[std::size_t(number)])
+    {
+      const AsprsClass& each = asprsClass(number);
+      legend->SetAnnotation(number, std::to_string(number) + " " + each.name);
+      legend->SetTableValue(row++, each.color[0], each.color[1], each.color[2], 1.0);
+    }
+  }
+  return legend;
 }
 
 bool hasColors(vtkPolyData* cloud)
@@ -356,16 +407,28 @@ void setUpScalarBar(vtkScalarBarActor* bar)
   bar->SetTextPositionToPrecedeScalarBar(); // a long title grows away from the edge
 }
 
+/// Of the numbers beside @p bar, or of the names where it has them.
+static double longestLabel(vtkScalarBarActor* bar)
+{
+  constexpr double kNumberLetters = 9.0; // -1.23e-05
+  vtkScalarsToColors* colors = bar->GetLookupTable();
+  double longest = kNumberLetters;
+  for (vtkIdType i = 0; colors && colors->GetIndexedLookup() && i < colors->GetNumberOfAnnotatedValues(); ++i)
+  {
+    longest = std::max(longest, double(colors->GetAnnotation(i).size()));
+  }
+  return longest;
+}
+
 void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer)
 {
   constexpr double kMargin = 12.0;
   constexpr double kBarWidth = 24.0;
-  constexpr double kNumberLetters = 9.0; // -1.23e-05
-  constexpr double kLetterWidth = 0.57;  // of the font's size
+  constexpr double kLetterWidth = 0.57; // of the font's size
   const double size = renderer->GetSize()[0];
   const double letter = kLetterWidth * kScalarBarFont;
   const double title = letter * double(bar->GetTitle() ? std::strlen(bar->GetTitle()) : 0);
-  const double width = std::min(size, std::max(title, kBarWidth + letter * kNumberLetters));
+  const double width = std::min(size, std::max(title, kBarWidth + letter * longestLabel(bar)));
   if (width > 0.0)
   {
     bar->SetPosition(std::max(0.0, (size - kMargin - width) / size), 0.28);
@@ -385,7 +448,9 @@ void applyBackground(vtkRenderer* renderer)
 void applyGroundColors(vtkMapper* mapper)
 {
   auto* table = vtkLookupTable::SafeDownCast(mapper->GetLookupTable());
-  if (mapper->GetScalarVisibility() && mapper->GetColorMode() == VTK_COLOR_MODE_MAP_SCALARS && table)
+  const bool areClasses = mapper->GetArrayName() && holdsAsprsClasses(mapper->GetArrayName());
+  if (mapper->GetScalarVisibility() && mapper->GetColorMode() == VTK_COLOR_MODE_MAP_SCALARS && table &&
+    !areClasses)
   {
     const auto ground = vtkSmartPointer<vtkLookupTable>::Take(newGroundColorMap());
     table->SetTable(ground->GetTable());

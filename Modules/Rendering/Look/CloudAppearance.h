@@ -10,6 +10,7 @@
 #include <string>
 
 class vtkActor;
+class vtkDataArray;
 class vtkLookupTable;
 class vtkMapper;
 class vtkPolyData;
@@ -35,7 +36,8 @@ POINTHAPTICSRENDERING_EXPORT Vec3 groundColor(double position);
 
 /// Adds the float array "Height": the position along @p up, metres above the lowest finite point (0 for
 /// points that are not finite). Taken before the cloud is transformed, so the colours turn with the model.
-POINTHAPTICSRENDERING_EXPORT void addHeightArray(vtkPolyData* cloud, const Vec3& up);
+/// @return that lowest position along @p up; infinite where no point is finite.
+POINTHAPTICSRENDERING_EXPORT double addHeightArray(vtkPolyData* cloud, const Vec3& up);
 
 /// True where the active scalars are colours: unsigned char with 3 or 4 components.
 POINTHAPTICSRENDERING_EXPORT bool hasColors(vtkPolyData* cloud);
@@ -69,9 +71,14 @@ POINTHAPTICSRENDERING_EXPORT void colorRange(vtkPolyData* cloud, const ColorSour
 POINTHAPTICSRENDERING_EXPORT bool followColorRange(
   vtkPolyData* cloud, const ColorSource& source, vtkLookupTable* colors);
 
+/// The ASPRS classes that occur in the array @p classes, with their names and colours: for a scalar bar,
+/// which shows them as a list. The caller owns the result (Delete()).
+POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newClassLegend(vtkDataArray* classes);
+
 /// Makes @p mapper and @p actor draw the points of the mapper's input as squares of @p pointSize pixels.
 /// @param colorBy what findColorSource() takes; "rgb" for the active colours; empty: colours if there, else
-/// "Height", else one colour. An array is coloured over its colorRange(), grey where it is NaN. False: there
+/// "Height", else one colour. An array is coloured over its colorRange(), grey where it is NaN; classes
+/// (holdsAsprsClasses()) have the colours of asprsClass(). False: there
 /// is no such array, and the appearance is that of the empty name.
 POINTHAPTICSRENDERING_EXPORT bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper,
   vtkActor* actor, const std::string& colorBy = {}, double pointSize = 3.0);
@@ -87,7 +94,8 @@ POINTHAPTICSRENDERING_EXPORT void placeScalarBar(vtkScalarBarActor* bar, vtkRend
 /// read.
 POINTHAPTICSRENDERING_EXPORT void applyBackground(vtkRenderer* renderer);
 
-/// Where @p mapper colours by a map: the colours of newGroundColorMap() over the same range.
+/// Where @p mapper colours by a map: the colours of newGroundColorMap() over the same range. Those of classes
+/// stay.
 POINTHAPTICSRENDERING_EXPORT void applyGroundColors(vtkMapper* mapper);
 
 /// A dark ground without a gradient, on which a cloud's own colours stand out.

@@ -1,5 +1,6 @@
 #include "CloudColors.h"
 
+#include "AsprsClasses.h"
 #include "CloudAppearance.h"
 
 #include "vtkDataArray.h"
@@ -25,13 +26,6 @@ constexpr double kRgbLight = 0.35;
 constexpr std::size_t kFewestClasses = 3;
 constexpr double kClayFlatness = 0.63;
 constexpr double kCoherent = 0.5;
-
-/// Red, green and blue of the ASPRS classes 0 to 18; what is higher is grey.
-constexpr double kClassColors[19][3] = { { 0.60, 0.60, 0.60 }, { 0.65, 0.65, 0.65 }, { 0.66, 0.50, 0.34 },
-  { 0.62, 0.76, 0.40 }, { 0.40, 0.68, 0.34 }, { 0.22, 0.54, 0.30 }, { 0.90, 0.45, 0.36 },
-  { 0.95, 0.35, 0.60 }, { 0.85, 0.80, 0.55 }, { 0.30, 0.56, 0.86 }, { 0.55, 0.45, 0.65 },
-  { 0.55, 0.57, 0.62 }, { 0.65, 0.65, 0.65 }, { 0.95, 0.85, 0.40 }, { 0.98, 0.72, 0.30 },
-  { 0.80, 0.55, 0.30 }, { 0.95, 0.60, 0.25 }, { 0.78, 0.70, 0.62 }, { 0.95, 0.35, 0.60 } };
 
 std::string lowered(std::string text)
 {
@@ -109,6 +103,30 @@ Vec3 positionOf(vtkPolyData* cloud, vtkIdType i)
   Vec3 p;
   cloud->GetPoint(i, &p.x);
   return p;
+}
+
+/// Where a point stands on the map of colours of ColorRule::Height and Depth.
+double levelOf(vtkPolyData* cloud, vtkIdType i, ColorRule rule, const CloudLook& look)
+{
+  const Vec3 p = positionOf(cloud, i);
+  return rule == ColorRule::Depth ? -std::log(p.z) : dot(p, look.up);
+}
+
+void measureRanges(vtkPolyData* cloud, const CloudLook& look, CloudColors& colors)
+{
+  const vtkIdType count = cloud->GetNumberOfPoints();
+  if (colors.rule == ColorRule::Height || colors.rule == ColorRule::Depth)
+  {
+    const std::vector<double> levels =
+      sortedSample(count, [&](vtkIdType i) { return levelOf(cloud, i, colors.rule, look); });
+    colors.low = at(levels, 0.01);
+    colors.high = at(levels, 0.99);
+  }
+  if (!colors.intensity.empty())
+  {
+    vtkDataArray* intensity = cloud->GetPointData()->GetArray(colors.intensity.c_str());
+    colors.ranks = sortedSample(count, [intensity](vtkIdType i) { return intensity->GetComponent(i, 0); });
+  }
 }
 
 } // namespace
@@ -207,6 +225,7 @@ CloudColors chooseColors(
   {
     colors.rule = isFrame ? ColorRule::Depth : ColorRule::Height;
   }
+  measureRanges(cloud, look, colors);
   return colors;
 }
 
@@ -220,18 +239,8 @@ vtkSmartPointer<vtkUnsignedCharArray> makeColors(
   const vtkIdType count = cloud->GetNumberOfPoints();
   vtkPointData* data = cloud->GetPointData();
   vtkDataArray* classes = colors.rule == ColorRule::Classes ? data->GetArray(colors.array.c_str()) : nullptr;
-  vtkDataArray* intensity = colors.intensity.empty() ? nullptr : data->GetArray(colors.intensity.c_str());
-  const auto level = [&](vtkIdType i)
-  {
-    const Vec3 p = positionOf(cloud, i);
-    return colors.rule == ColorRule::Depth ? -std::log(p.z) : dot(p, look.up);
-  };
-  const std::vector<double> levels = sortedSample(count, level);
-  const double low = at(levels, 0.01);
-  const double width = std::max(1e-300, at(levels, 0.99) - low);
-  const std::vector<double> ranks = intensity
-    ? sortedSample(count, [intensity](vtkIdType i) { return intensity->GetComponent(i, 0); })
-    : std::vector<double>();
+  vtkDataArray* intensity = colors.ranks.empty() ? nullptr : data->GetArray(colors.intensity.c_str());
+  const double width = std::max(1e-300, colors.high - colors.low);
   auto result = vtkSmartPointer<vtkUnsignedCharArray>::New();
   result->SetNumberOfComponents(3);
   result->SetNumberOfTuples(count);
@@ -241,15 +250,14 @@ vtkSmartPointer<vtkUnsignedCharArray> makeColors(
     Vec3 color{ kClayColor[0], kClayColor[1], kClayColor[2] };
     if (classes)
     {
-      const int each = std::clamp(int(classes->GetComponent(i, 0)), 0, 255);
-      const double* entry = kClassColors[each < 19 ? each : 0];
+      const double* entry = asprsClass(int(classes->GetComponent(i, 0))).color;
       color = { entry[0], entry[1], entry[2] };
     }
     else if (colors.rule != ColorRule::Clay)
     {
-      color = groundColor((level(i) - low) / width);
+      color = groundColor((levelOf(cloud, i, colors.rule, look) - colors.low) / width);
     }
-    color *= ranks.empty() ? 1.0 : 0.75 + 0.40 * rankOf(ranks, intensity->GetComponent(i, 0));
+    color *= intensity ? 0.75 + 0.40 * rankOf(colors.ranks, intensity->GetComponent(i, 0)) : 1.0;
     for (int channel = 0; channel < 3; ++channel)
     {
       *out++ = static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[channel], 0.0, 1.0)));

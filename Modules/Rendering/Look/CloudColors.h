@@ -36,6 +36,9 @@ struct CloudColors
   std::string array;          ///< Classes: the array of them.
   std::string intensity;      ///< Makes the colours lighter and darker, by its rank; empty: nothing does.
   double lightStrength = 1.0; ///< See vtkSplatMapper::SetLightStrength().
+  double low = 0.0;           ///< Height and Depth: where the map begins, along the axis or the view,
+  double high = 1.0;          ///< and where it ends.
+  std::vector<double> ranks;  ///< Of a sample of the intensities, ascending.
 };
 
 /// What the user calls ColorRule::Clay.
@@ -58,7 +61,9 @@ POINTHAPTICSRENDERING_EXPORT double spatialCoherence(
 POINTHAPTICSRENDERING_EXPORT CloudColors chooseColors(
   vtkPolyData* cloud, const NeighborQuery& query, const LocalShape& shape, const CloudLook& look);
 
-/// The colours of all points. Null: those are the cloud's own (Rgb), or one colour (Clay without intensity).
+/// The colours of all points, each by its own place and values and by @p colors alone: finer levels of a
+/// cloud go on in the colours of a coarse one. Null: those are the cloud's own (Rgb), or one colour (Clay
+/// without intensity).
 POINTHAPTICSRENDERING_EXPORT vtkSmartPointer<vtkUnsignedCharArray> makeColors(
   vtkPolyData* cloud, const CloudColors& colors, const CloudLook& look);
 

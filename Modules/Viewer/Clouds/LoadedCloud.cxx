@@ -2,13 +2,13 @@
 
 #include "CloudAppearance.h"
 #include "HapticViewerOptions.h"
+#include "MergedCloud.h"
 #include "ResampledCloud.h"
 #include "ShownCloud.h"
 #include "SurfaceArrays.h"
 #include "vtkPointCloudReader.h"
 
 #include <fmt/format.h>
-#include <vtkAppendPolyData.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
@@ -45,9 +45,17 @@ struct Listener
 /// Points that are measured before the first picture: it takes no longer than a frame or two.
 constexpr vtkIdType kMeasuredAtOnce = 60000;
 
+/// What is found while the files are read.
+struct Findings
+{
+  std::string format; ///< Of the last file.
+  std::vector<std::string> notes;
+  bool isCoarse = false;
+};
+
 /// The points of a file with all arrays, without its cells. Null: @p message says why.
-vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, double resolution,
-  const std::function<bool(double)>& goesOn, std::string& format, std::string& message)
+vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, const CloudRequest& request,
+  const std::function<bool(double)>& goesOn, Findings& findings, std::string& message)
 {
   vtkNew<vtkPointCloudReader> reader;
   Listener listener{ reader, goesOn };
@@ -68,7 +76,8 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, double reso
   silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   reader->AddObserver(vtkCommand::ErrorEvent, silence);
   reader->SetFileName(fileName.c_str());
-  reader->SetResolution(resolution);
+  reader->SetResolution(request.resolution);
+  reader->SetMostPoints(request.mostPoints);
   reader->Update();
   message = reader->GetErrorMessage();
   vtkPolyData* read = reader->GetOutput();
@@ -80,7 +89,12 @@ vtkSmartPointer<vtkPolyData> readPoints(const std::string& fileName, double reso
   {
     return nullptr;
   }
-  format = reader->GetFormat();
+  findings.format = reader->GetFormat();
+  findings.isCoarse = findings.isCoarse || reader->IsCoarse();
+  for (const std::string& note : reader->GetNotes())
+  {
+    findings.notes.push_back(baseName(fileName) + ": " + note);
+  }
   auto points = vtkSmartPointer<vtkPolyData>::New();
   points->SetPoints(read->GetPoints());
   points->GetPointData()->ShallowCopy(read->GetPointData());
@@ -239,37 +253,67 @@ bool canColorBy(vtkPolyData* cloud, const std::string& option, const std::string
 
 /// One cloud of all files, or the points that are there already. Null: @p message says why.
 vtkSmartPointer<vtkPolyData> readAll(const CloudRequest& request, const std::function<bool(double)>& goesOn,
-  std::string& format, std::string& message)
+  Findings& findings, std::string& message)
 {
   if (request.points)
   {
     return request.points;
   }
-  vtkNew<vtkAppendPolyData> append;
+  std::vector<vtkSmartPointer<vtkPolyData>> clouds;
+  std::vector<vtkPolyData*> inputs;
   double begin = 0.0;
   const double share = 1.0 / double(request.files.size());
   for (const std::string& file : request.files)
   {
     const auto askOn = [&](double part) { return goesOn(begin + share * part); };
-    const vtkSmartPointer<vtkPolyData> points = readPoints(file, request.resolution, askOn, format, message);
-    if (!points)
+    clouds.push_back(readPoints(file, request, askOn, findings, message));
+    inputs.push_back(clouds.back());
+    if (!inputs.back())
     {
       return nullptr;
     }
-    append->AddInputData(points);
     begin += share;
   }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  if (request.files.size() > 1)
+  if (clouds.size() == 1)
   {
-    append->Update();
-    cloud->ShallowCopy(append->GetOutput());
+    return clouds.front();
+  }
+  vtkSmartPointer<vtkPolyData> merged = io::mergeClouds(inputs, findings.notes);
+  if (!std::all_of(inputs.begin(), inputs.end(), hasColors))
+  {
+    merged->GetPointData()->SetActiveScalars(nullptr); // those of some would leave the others black
+  }
+  return merged;
+}
+
+/// How the cloud is shown where no coarse level of it was shown before.
+ShownRequest showingOf(const CloudRequest& request, vtkPolyData* cloud, const std::string& format)
+{
+  ShownRequest showing;
+  showing.orientation =
+    request.up == "auto" ? guessCloudOrientation(cloud, format) : orientationForUpAxis(request.up[0]);
+  CloudKind kind = CloudKind::Object;
+  if (request.options && cloudKindFromName(request.options->kind, kind))
+  {
+    showing.kind = kind;
+  }
+  return showing;
+}
+
+/// Fills in LoadedCloud::shown, or what is to be measured for it. False: @p goesOn said no.
+bool show(const CloudRequest& request, const std::function<bool()>& goesOn, LoadedCloud& loaded)
+{
+  if (request.measuresLater && loaded.cloud->GetNumberOfPoints() > kMeasuredAtOnce)
+  {
+    loaded.toMeasure = vtkSmartPointer<vtkPolyData>::New();
+    loaded.toMeasure->ShallowCopy(loaded.cloud);
+    loaded.shown = makePlainCloud(loaded.cloud, loaded.showing);
   }
   else
   {
-    cloud->ShallowCopy(append->GetInput(0));
+    loaded.shown = makeShownCloud(loaded.cloud, loaded.showing, goesOn);
   }
-  return cloud;
+  return loaded.shown != nullptr;
 }
 
 } // namespace
@@ -292,6 +336,12 @@ std::string CloudRequest::name() const
   return points ? title : titleOf(files);
 }
 
+std::string shortNote(const std::vector<std::string>& notes)
+{
+  return notes.size() < 2 ? (notes.empty() ? std::string() : notes.front())
+                          : fmt::format("{} (and {} more)", notes.front(), notes.size() - 1);
+}
+
 Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
 {
   Bounds bounds;
@@ -305,12 +355,6 @@ Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
     }
   }
   return bounds;
-}
-
-std::optional<CloudKind> saidKind(const HapticViewerOptions& options)
-{
-  CloudKind kind = CloudKind::Object;
-  return cloudKindFromName(options.kind, kind) ? std::optional<CloudKind>(kind) : std::nullopt;
 }
 
 std::string titleOf(const std::vector<std::string>& files)
@@ -327,13 +371,15 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   std::string& message)
 {
   LoadedCloud result;
-  std::string format;
+  Findings findings;
   result.title = request.name();
-  result.cloud = readAll(request, goesOn, format, message);
+  result.cloud = readAll(request, goesOn, findings, message);
   if (!result.cloud)
   {
     return false;
   }
+  result.isCoarse = findings.isCoarse;
+  result.notes = std::move(findings.notes);
   result.bounds = transformedBounds(result.cloud, request.transform);
   if (result.bounds.empty())
   {
@@ -346,37 +392,23 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   {
     return false;
   }
-  result.orientation =
-    request.up == "auto" ? guessCloudOrientation(result.cloud, format) : orientationForUpAxis(request.up[0]);
+  result.showing = request.before ? *request.before : showingOf(request, result.cloud, findings.format);
+  result.showing.keptArray = result.colorBy;
+  result.orientation = result.showing.orientation;
   if (!hasColors(result.cloud) || !request.colorBy.empty())
   {
-    addHeightArray(result.cloud, result.orientation.up);
+    result.heightZero = addHeightArray(result.cloud, result.orientation.up);
   }
-  if (request.options)
+  const auto askOn = [&goesOn] { return goesOn(1.0); };
+  if (request.options && !show(request, askOn, result))
   {
-    const std::optional<CloudKind> kind = saidKind(*request.options);
-    if (request.measuresLater && result.cloud->GetNumberOfPoints() > kMeasuredAtOnce)
-    {
-      result.toMeasure = vtkSmartPointer<vtkPolyData>::New();
-      result.toMeasure->ShallowCopy(result.cloud);
-      result.shown = makePlainCloud(result.cloud, result.orientation, result.colorBy, kind);
-    }
-    else
-    {
-      result.shown = makeShownCloud(
-        result.cloud, result.orientation, result.colorBy, kind, [&goesOn] { return goesOn(1.0); });
-    }
-    if (!result.shown)
-    {
-      message = result.title + ": reading was stopped on request; start it again";
-      return false;
-    }
+    message = result.title + ": reading was stopped on request; start it again";
+    return false;
   }
   keepArrays(result.cloud, result.colorBy);
   if (request.options)
   {
     placeCloud(request, result);
-    const auto askOn = [&goesOn] { return goesOn(1.0); };
     if (!resampleCloud(request, askOn, result, message))
     {
       return false;

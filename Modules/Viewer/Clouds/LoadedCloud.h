@@ -3,11 +3,10 @@
 /// it: any thread may do it.
 #pragma once
 
-#include "CloudLook.h"
-#include "CloudOrientation.h"
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
 #include "Core/Base/Status.h"
+#include "ShownCloud.h"
 
 #include "PointHapticsViewerModule.h" // For export macro
 
@@ -25,7 +24,6 @@ namespace pointhaptics
 {
 
 class HapticScene;
-struct ShownCloud;
 struct HapticViewerOptions;
 
 struct CloudRequest
@@ -34,7 +32,10 @@ struct CloudRequest
   static CloudRequest of(const std::vector<std::string>& files, const HapticViewerOptions& options);
 
   std::vector<std::string> files;
-  double resolution = 0.0;             ///< How far cloud optimised files are read; 0: all points.
+  double resolution = 0.0; ///< How far cloud optimised files are read; 0: all points.
+  /// Of cloud optimised files: how many are read, by leaving out fine levels; see LoadedCloud::isCoarse. 0:
+  /// all.
+  vtkIdType mostPoints = 0;
   vtkSmartPointer<vtkPolyData> points; ///< Instead of files; nobody else's.
   std::string title;                   ///< Of the points; that of files is their names.
   std::string colorBy; ///< What findColorSource() takes, rgb, or nothing; upper or lower case as it may.
@@ -45,7 +46,8 @@ struct CloudRequest
   std::shared_ptr<const HapticViewerOptions> options;
   std::optional<AffineTransform> model; ///< Where the cloud is resampled; empty: where the options place it.
   bool makesScene = false;              ///< It will be felt.
-  bool measuresLater = false;           ///< Large clouds are shown plain first: LoadedCloud::toMeasure.
+  std::optional<ShownRequest> before; ///< How a coarse level of the same files was shown: so are all points.
+  bool measuresLater = false;         ///< Large clouds are shown plain first: LoadedCloud::toMeasure.
 
   std::string name() const; ///< For messages.
 };
@@ -55,11 +57,15 @@ struct LoadedCloud
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
   Bounds bounds;                      ///< Of the finite points, after CloudRequest::transform.
   CloudOrientation orientation;
-  std::string colorBy; ///< What was asked for, exactly as the cloud or the pipeline writes it.
-  std::string title;   ///< The names of the files, without their folders.
+  std::string colorBy;            ///< What was asked for, exactly as the cloud or the pipeline writes it.
+  std::string title;              ///< The names of the files, without their folders.
+  bool isCoarse = false;          ///< CloudRequest::mostPoints left out points.
+  double heightZero = 0.0;        ///< Where the array of heights begins, along the up axis; 0: it has none.
+  std::vector<std::string> notes; ///< What the cloud does not have of the files, a line each.
 
   std::shared_ptr<ShownCloud> shown; ///< How its points are drawn; null: it was only read.
 
+  ShownRequest showing;                   ///< What @c shown was made of.
   vtkSmartPointer<vtkPolyData> toMeasure; ///< With all arrays, where @c shown is plain; else null.
 
   // Where it was resampled:
@@ -77,16 +83,15 @@ struct LoadedCloud
 /// Bounds of the finite points after @p transform; the corners of a box would be too wide for a turned cloud.
 Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform);
 
-/// The kind of cloud that the options say; empty: it is guessed.
-std::optional<CloudKind> saidKind(const HapticViewerOptions& options);
-
 /// The names of @p files without their folders.
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);
 
-/// Reads the files into one cloud and resamples it. @p goesOn is asked with the part of the work that is
-/// done, 0 to 1, which ascends; as soon as it answers false, it ends. False: @p message says which file and
-/// why, and
-/// @p loaded is as it was.
+/// The first of @p notes, and how many there are besides; empty where there is none.
+std::string shortNote(const std::vector<std::string>& notes);
+
+/// Reads the files into one cloud, which has every array of each (io::mergeClouds()), and resamples it.
+/// @p goesOn is asked with the part of the work that is done, 0 to 1, which ascends; as soon as it answers
+/// false, it ends. False: @p message says which file and why, and @p loaded is as it was.
 POINTHAPTICSVIEWER_EXPORT bool loadCloud(const CloudRequest& request,
   const std::function<bool(double)>& goesOn, LoadedCloud& loaded, std::string& message);
 

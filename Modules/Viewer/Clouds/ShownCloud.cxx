@@ -65,7 +65,7 @@ std::vector<vtkDataArray*> neededArrays(vtkPolyData* cloud, const std::string& k
   vtkPointData* data = cloud->GetPointData();
   std::vector<vtkDataArray*> arrays = { hasColors(cloud) ? data->GetScalars() : nullptr,
     findArrayAnyCase(cloud, "intensity"), findArrayAnyCase(cloud, "classification"),
-    source ? data->GetArray(source->array.c_str()) : nullptr };
+    findArrayAnyCase(cloud, "returnnumber"), source ? data->GetArray(source->array.c_str()) : nullptr };
   arrays.erase(std::remove(arrays.begin(), arrays.end(), nullptr), arrays.end());
   return arrays;
 }
@@ -90,6 +90,7 @@ vtkSmartPointer<vtkPolyData> pick(
   {
     result->SetPoints(cloud->GetPoints());
   }
+  result->GetFieldData()->ShallowCopy(cloud->GetFieldData());
   for (vtkDataArray* array : neededArrays(cloud, keptArray))
   {
     vtkSmartPointer<vtkDataArray> kept = array;
@@ -180,10 +181,32 @@ double firstPixel(const PointView& points)
   return std::max({ extent.x, extent.y, extent.z }) / kUsualHeight;
 }
 
+/// Whether @p colors need no array that @p points do not have.
+bool fits(const CloudColors& colors, vtkPolyData* points)
+{
+  vtkPointData* data = points->GetPointData();
+  return (colors.rule != ColorRule::Rgb || hasColors(points)) &&
+    (colors.array.empty() || data->HasArray(colors.array.c_str())) &&
+    (colors.intensity.empty() || data->HasArray(colors.intensity.c_str()));
+}
+
+void addColors(
+  ShownCloud& shown, const ShownRequest& request, const NeighborQuery& query, const LocalShape& shape)
+{
+  shown.colors = request.colors && fits(*request.colors, shown.points)
+    ? *request.colors
+    : chooseColors(shown.points, query, shape, shown.look);
+  if (const auto colors = makeColors(shown.points, shown.colors, shown.look))
+  {
+    colors->SetName(kLookColorName);
+    shown.points->GetPointData()->AddArray(colors);
+  }
+}
+
 } // namespace
 
-std::shared_ptr<ShownCloud> makeShownCloud(vtkPolyData* cloud, const CloudOrientation& orientation,
-  const std::string& keptArray, const std::optional<CloudKind>& kind, const std::function<bool()>& goesOn)
+std::shared_ptr<ShownCloud> makeShownCloud(
+  vtkPolyData* cloud, const ShownRequest& request, const std::function<bool()>& goesOn)
 {
   auto shown = std::make_shared<ShownCloud>();
   const std::vector<std::uint32_t> drawn = drawnPoints(PointAccess(cloud->GetPoints()).view());
@@ -191,7 +214,7 @@ std::shared_ptr<ShownCloud> makeShownCloud(vtkPolyData* cloud, const CloudOrient
   {
     return nullptr;
   }
-  shown->points = pick(cloud, drawn, keptArray);
+  shown->points = pick(cloud, drawn, request.keptArray);
   addVertices(shown->points);
   const PointAccess access(shown->points->GetPoints());
   const PointView view = access.view();
@@ -206,26 +229,20 @@ std::shared_ptr<ShownCloud> makeShownCloud(vtkPolyData* cloud, const CloudOrient
   {
     return nullptr;
   }
-  const CloudKind decided = kind ? *kind : cloudKind(view, shape, orientation);
-  shown->look = cloudLook(decided, view, shape, orientation);
+  const CloudKind decided = request.kind ? *request.kind : cloudKind(view, shape, request.orientation);
+  shown->look = cloudLook(decided, view, shape, request.orientation);
   if (decided == CloudKind::Frame)
   {
     spaceByRays(view, shape);
   }
-  shown->colors = chooseColors(shown->points, query, shape, shown->look);
-  if (const auto colors = makeColors(shown->points, shown->colors, shown->look))
-  {
-    colors->SetName(kLookColorName);
-    shown->points->GetPointData()->AddArray(colors);
-  }
+  addColors(*shown, request, query, shape);
   vtkDataArray* own =
     std::int64_t(drawn.size()) == cloud->GetNumberOfPoints() ? cloud->GetPointData()->GetNormals() : nullptr;
   addSplats(shown->points, shape, decided == CloudKind::Sweep || decided == CloudKind::Indoors, own);
   return shown;
 }
 
-std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const CloudOrientation& orientation,
-  const std::string& keptArray, const std::optional<CloudKind>& kind)
+std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const ShownRequest& request)
 {
   auto shown = std::make_shared<ShownCloud>();
   const std::vector<std::uint32_t> drawn = drawnPoints(PointAccess(cloud->GetPoints()).view());
@@ -233,38 +250,31 @@ std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const CloudOrient
   {
     return nullptr;
   }
-  shown->points = pick(cloud, drawn, keptArray);
+  shown->points = pick(cloud, drawn, request.keptArray);
   addVertices(shown->points);
   const PointAccess access(shown->points->GetPoints());
   const Vec3 extent = boundsOf(access.view()).extent();
-  const bool isLow = kLowParts * extent.z < std::max(extent.x, extent.y) && orientation.up.z > 0.5;
-  const CloudKind guess = orientation.fromSensor ? CloudKind::Frame
-    : isLow                                      ? CloudKind::Terrain
-                                                 : CloudKind::Object;
+  const bool isLow = kLowParts * extent.z < std::max(extent.x, extent.y) && request.orientation.up.z > 0.5;
+  const CloudKind guess = request.orientation.fromSensor ? CloudKind::Frame
+    : isLow                                              ? CloudKind::Terrain
+                                                         : CloudKind::Object;
   LocalShape unknown;
   unknown.points.resize(drawn.size());
   unknown.meanFlatness = 1.0; // most objects are statues and parts
-  shown->look = cloudLook(kind.value_or(guess), access.view(), unknown, orientation);
-  shown->colors = chooseColors(shown->points, NeighborQuery(), unknown, shown->look);
-  if (const auto colors = makeColors(shown->points, shown->colors, shown->look))
-  {
-    colors->SetName(kLookColorName);
-    shown->points->GetPointData()->AddArray(colors);
-  }
+  shown->look = cloudLook(request.kind.value_or(guess), access.view(), unknown, request.orientation);
+  addColors(*shown, request, NeighborQuery(), unknown);
   return shown;
 }
 
-void ShownMeasurement::start(vtkSmartPointer<vtkPolyData> cloud, const CloudOrientation& orientation,
-  const std::string& keptArray, const std::optional<CloudKind>& kind)
+void ShownMeasurement::start(vtkSmartPointer<vtkPolyData> cloud, const ShownRequest& request)
 {
   this->cancel();
   cancelled_ = false;
-  const auto measure = [this, cloud = std::move(cloud), orientation, keptArray,
-                         kind]() -> std::shared_ptr<ShownCloud>
+  const auto measure = [this, cloud = std::move(cloud), request]() -> std::shared_ptr<ShownCloud>
   {
     try
     {
-      return makeShownCloud(cloud, orientation, keptArray, kind, [this] { return !cancelled_; });
+      return makeShownCloud(cloud, request, [this] { return !cancelled_; });
     }
     catch (const std::bad_alloc&)
     {

@@ -4,6 +4,7 @@
 
 #include "CloudColors.h"
 #include "CloudLook.h"
+#include "CloudOrientation.h"
 
 #include "PointHapticsViewerModule.h" // For export macro
 
@@ -37,26 +38,31 @@ struct ShownCloud
   CloudColors colors;
 };
 
+/// How a cloud is to be shown.
+struct ShownRequest
+{
+  CloudOrientation orientation;
+  std::string keptArray;             ///< To keep beside those that the colours need; empty: none.
+  std::optional<CloudKind> kind;     ///< Instead of cloudKind(), where somebody says it.
+  std::optional<CloudColors> colors; ///< Instead of chooseColors(): those of a coarse level shown before.
+};
+
 /// Leaves out points that tell nothing, measures the others and decides how they are shown.
-/// @param keptArray an array to keep beside those that the colours need.
-/// @param kind instead of cloudKind(), where somebody says it.
 /// Null: @p goesOn said no, or no point can be drawn.
-POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makeShownCloud(vtkPolyData* cloud,
-  const CloudOrientation& orientation, const std::string& keptArray, const std::optional<CloudKind>& kind,
-  const std::function<bool()>& goesOn);
+POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makeShownCloud(
+  vtkPolyData* cloud, const ShownRequest& request, const std::function<bool()>& goesOn);
 
 /// The same without measuring, at once: all points as small discs, seen and coloured by what their bounds and
 /// arrays tell. Null: no point can be drawn.
-POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud,
-  const CloudOrientation& orientation, const std::string& keptArray, const std::optional<CloudKind>& kind);
+POINTHAPTICSVIEWER_EXPORT std::shared_ptr<ShownCloud> makePlainCloud(
+  vtkPolyData* cloud, const ShownRequest& request);
 
 /// makeShownCloud() in a thread of its own. All functions belong to one thread, the GUI's.
 class POINTHAPTICSVIEWER_EXPORT ShownMeasurement
 {
 public:
   /// @p cloud is nobody else's; its arrays may be read by others. What was measured before is given up.
-  void start(vtkSmartPointer<vtkPolyData> cloud, const CloudOrientation& orientation,
-    const std::string& keptArray, const std::optional<CloudKind>& kind);
+  void start(vtkSmartPointer<vtkPolyData> cloud, const ShownRequest& request);
   bool busy() const { return result_.valid(); }
   /// What was measured, once; null: not yet, or nothing is. @param waits until it is there.
   std::shared_ptr<ShownCloud> take(bool waits);

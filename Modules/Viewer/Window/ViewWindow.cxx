@@ -302,6 +302,8 @@ void ViewWindow::connectStyle()
   style_->SetResampler(scene_.resampler());
   style_->SetBandwidthFilter(scene_.bandwidth());
   style_->SetCloudActor(scene_.actor());
+  style_->GetPicker().setPointsOfFile(
+    scene_.pointsActor(), { kSplatLengthName, kSplatNormalName, kLookColorName });
   style_->SetProps(scene_.props());
   style_->SetOverlay(overlay_);
   style_->GetHand().setPushesPointer(options_.pushPointer);
@@ -370,7 +372,7 @@ void ViewWindow::onTimer()
     sinceLook_ = 0;
     if (watch_.look())
     {
-      this->load(shown_, true,
+      this->load(shown_, Load::Again,
         [this](bool isShown)
         {
           if (isShown)
@@ -527,6 +529,10 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
   if (hasWaited)
   {
     this->forgiveEscape();
+  }
+  if (scene_.isCoarse())
+  {
+    this->refine();
   }
   return true;
 }

@@ -76,11 +76,18 @@ public:
   static void addCommands(CommandRegistry& commands, ViewWindow* window);
 
 private:
+  /// What files are read for.
+  enum class Load
+  {
+    New,   ///< To be fitted to the workspace.
+    Again, ///< They have changed: model and camera stay.
+    Finer, ///< All points of what is shown coarsely: model, camera and colours stay.
+  };
   /// Files that are being read to be shown.
   struct Loading
   {
     std::vector<std::string> files;
-    bool keepsModel = false;
+    Load kind = Load::New;
     HapticViewerOptions options;            ///< As they were when it began.
     std::function<void(bool isShown)> then; ///< Also after a cancel.
     FileWatch watch;                        ///< From before the first byte was read.
@@ -115,13 +122,16 @@ private:
   void connectSliders();
   void setContact(const ContactParameters& contact);
   void showSliderValues();
-  void load(const std::vector<std::string>& files, bool keepsModel, std::function<void(bool)> then);
+  void load(const std::vector<std::string>& files, Load kind, std::function<void(bool)> then);
+  void refine();
   void followLoading();
   void endLoading(bool isShown);
   void cancelLoading();
   void forgiveEscape();
   void onKey();
   void show(LoadedCloud cloud);
+  void warn(const std::vector<std::string>& notes);
+  void followOptions();
   void adoptModel(const AffineTransform& model);
   void showFile(std::size_t index);
   void findIdeal();

@@ -57,7 +57,7 @@ void ViewWindow::onFilesDropped(void* callData)
   }
   if (!files.empty())
   {
-    this->load(options_.together ? files : std::vector<std::string>{ files.front() }, false,
+    this->load(options_.together ? files : std::vector<std::string>{ files.front() }, Load::New,
       [this, files](bool isShown)
       {
         if (isShown)
@@ -70,7 +70,7 @@ void ViewWindow::onFilesDropped(void* callData)
 }
 
 /// Begins to read; what is being read already is given up.
-void ViewWindow::load(const std::vector<std::string>& files, bool keepsModel, std::function<void(bool)> then)
+void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::function<void(bool)> then)
 {
   HapticViewerOptions options = options_;
   if (voxelSize_ > 0.0)
@@ -78,17 +78,35 @@ void ViewWindow::load(const std::vector<std::string>& files, bool keepsModel, st
     options.voxels.lattice.voxelSize = voxelSize_;
   }
   options.bandwidth.radiusScale = sliders_->GetValue(vtkHapticSliders::RadiusScale);
-  loading_ = { files, keepsModel, options, std::move(then), FileWatch() };
+  loading_ = { files, kind, options, std::move(then), FileWatch() };
   loading_.watch.watch(files);
   CloudRequest request = CloudRequest::of(files, options);
   request.makesScene = true;
   request.measuresLater = true;
+  request.mostPoints = kind == Load::New ? options.coarsePoints : 0;
+  if (kind == Load::Finer)
+  {
+    request.before = scene_.showing();
+  }
   AffineTransform model;
-  if (keepsModel && affineFromTransform(style_->GetModelTransform(), model))
+  if (kind != Load::New && affineFromTransform(style_->GetModelTransform(), model))
   {
     request.model = model;
   }
   loader_.start(std::move(request));
+}
+
+/// Reads all points of what is shown coarsely.
+void ViewWindow::refine()
+{
+  this->load(shown_, Load::Finer,
+    [this](bool isShown)
+    {
+      if (isShown)
+      {
+        this->say(fmt::format("{}: all {} points", scene_.title(), scene_.numberOfPoints()));
+      }
+    });
 }
 
 /// At every call of the timer.
@@ -102,7 +120,8 @@ void ViewWindow::followLoading()
   std::string message;
   if (!loader_.take(cloud, message))
   {
-    const std::string words = "reading " + titleOf(loading_.files);
+    const std::string words =
+      (loading_.kind == Load::Finer ? "reading all of " : "reading ") + titleOf(loading_.files);
     if (loader_.seconds() > kProgressDelay && progress_->SetProgress(words, loader_.progress()))
     {
       window_->SetWindowName(("PointHaptics: " + words).c_str());
@@ -110,15 +129,35 @@ void ViewWindow::followLoading()
     }
     return;
   }
-  if (message.empty())
-  {
-    this->show(std::move(cloud));
-  }
-  else
+  if (!message.empty())
   {
     this->tell(message); // the window shows what it showed before
+    this->endLoading(false);
+    return;
   }
-  this->endLoading(message.empty());
+  const std::vector<std::string> notes =
+    loading_.kind == Load::Finer ? std::vector<std::string>() : cloud.notes; // they were told
+  this->show(std::move(cloud));
+  this->endLoading(true);
+  this->warn(notes);
+  if (scene_.isCoarse())
+  {
+    this->refine();
+  }
+}
+
+/// What the readers warn of.
+void ViewWindow::warn(const std::vector<std::string>& notes)
+{
+  for (const std::string& note : notes)
+  {
+    this->report(HapticViewerObserver::Kind::Warning, note);
+  }
+  if (!notes.empty())
+  {
+    news_ += (news_.empty() ? "" : "\n") + shortNote(notes);
+    this->showNote();
+  }
 }
 
 void ViewWindow::endLoading(bool isShown)
@@ -137,7 +176,9 @@ void ViewWindow::endLoading(bool isShown)
 void ViewWindow::cancelLoading()
 {
   loader_.cancel();
-  this->say(titleOf(loading_.files) + ": not read, it was cancelled; the former cloud stays");
+  const bool isFiner = loading_.kind == Load::Finer;
+  this->say(titleOf(loading_.files) + ": not read" + (isFiner ? " to its end" : "") +
+    ", it was cancelled; the " + (isFiner ? "coarse level" : "former cloud") + " stays");
   this->endLoading(false);
 }
 
@@ -163,7 +204,7 @@ void ViewWindow::onKey()
 
 void ViewWindow::show(LoadedCloud cloud)
 {
-  const bool keepsModel = loading_.keepsModel;
+  const bool keepsModel = loading_.kind != Load::New;
   const AffineTransform model = cloud.model;
   std::string message;
   shown_ = loading_.files;
@@ -179,6 +220,7 @@ void ViewWindow::show(LoadedCloud cloud)
   style_->SetResampler(scene_.resampler());
   this->setSceneOptions();
   this->adoptModel(model);
+  this->followOptions();
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
   if (!keepsModel)
   {
@@ -189,14 +231,28 @@ void ViewWindow::show(LoadedCloud cloud)
   this->findIdeal();
 }
 
+/// What keys have changed while the cloud was read.
+void ViewWindow::followOptions()
+{
+  if (options_.felt != loading_.options.felt)
+  {
+    scene_.setShowsFelt(options_.felt);
+  }
+  if (options_.colorBy != loading_.options.colorBy && scene_.setColorBy(options_.colorBy))
+  {
+    this->setSceneOptions();
+    style_->InvalidateModel();
+  }
+}
+
 /// What was read is shown where it was resampled; what the user has done meanwhile is done to it too.
 void ViewWindow::adoptModel(const AffineTransform& model)
 {
   vtkNew<vtkMatrix4x4> kept;
   kept->DeepCopy(style_->GetModelTransform()->GetMatrix());
   AffineTransform keptModel;
-  const bool isMoved = loading_.keepsModel && affineFromTransform(style_->GetModelTransform(), keptModel) &&
-    !(keptModel == model);
+  const bool isMoved = loading_.kind != Load::New &&
+    affineFromTransform(style_->GetModelTransform(), keptModel) && !(keptModel == model);
   vtkNew<vtkMatrix4x4> matrix;
   setElements(matrix, model);
   Status status = Status::Ok;
@@ -238,7 +294,7 @@ void ViewWindow::showFile(std::size_t index)
   {
     // The next key goes on from here, not to a broken or cancelled file again.
     fileIndex_ = index;
-    this->load({ files_[index] }, false,
+    this->load({ files_[index] }, Load::New,
       [this, index](bool isShown)
       {
         if (isShown)
