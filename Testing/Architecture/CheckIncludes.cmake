@@ -14,6 +14,7 @@ set(may_include_Rendering Core Filters Rendering)
 set(may_include_Interaction Core Shapes Haptics Devices Filters IO Scene Rendering Interaction)
 set(may_include_Viewer Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer)
 set(may_include_PCL Core Filters PCL)
+set(may_include_ParaView Core Filters IO ParaView)
 set(may_include_Apps Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer Apps)
 # Within Core: from the room to those that it may include besides itself.
 set(rooms_of_Base "")
@@ -30,7 +31,7 @@ set(not_in_plain_folders "^(vtk[A-Za-z0-9_]*\\.h|pcl/.*|Eigen/.*|CLI/.*|nlohmann
 set(not_in_skins "std::floor|std::accumulate|std::reduce|[^a-zA-Z_]floor\\(|\\+= *\\(?double|floorf\\(")
 # The viewer is a library: it prints nothing and knows no command line.
 set(not_in_viewer "^(CLI/.*|nlohmann/.*|iostream|cstdio|stdio\\.h)$")
-set(modules Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer PCL)
+set(modules Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer PCL ParaView)
 list(JOIN modules "|" modules_pattern)
 
 # Sets home_<header> to the folder a header that is included by its bare name belongs to.
@@ -123,7 +124,7 @@ foreach (folder IN LISTS modules ITEMS Apps)
   foreach (file IN LISTS files)
     math(EXPR number_of_files "${number_of_files} + 1")
     check_file("${file}" "${folder}")
-    if (folder STREQUAL "PCL")
+    if (folder MATCHES "^(PCL|ParaView)$")
       check_skin("${file}")
     endif ()
   endforeach ()

@@ -1,0 +1,35 @@
+# The build of the ParaView plugin: Core, Filters and IO from the same sources as everywhere, against the VTK that
+# ParaView brings along, and nothing else. One shared object, as a plugin is copied and loaded by itself.
+
+# ParaView's VTK needs MPI::MPI_C and does not look for it.
+find_package(MPI REQUIRED COMPONENTS C)
+find_package(ParaView 5.11 REQUIRED COMPONENTS WrapClientServer ProcessXML RemotingCore RemotingServerManager)
+message(STATUS "ParaView plugin: for ParaView ${ParaView_VERSION} in ${ParaView_DIR}")
+
+set(BUILD_SHARED_LIBS OFF)
+add_subdirectory(Modules/Core)
+vtk_module_scan(
+  MODULE_FILES
+    "${CMAKE_CURRENT_SOURCE_DIR}/Modules/Filters/vtk.module"
+    "${CMAKE_CURRENT_SOURCE_DIR}/Modules/IO/vtk.module"
+    "${CMAKE_CURRENT_SOURCE_DIR}/Modules/ParaView/vtk.module"
+  PROVIDES_MODULES pointhaptics_provided
+  WANT_BY_DEFAULT ON)
+vtk_module_build(
+  MODULES ${pointhaptics_provided}
+  PACKAGE PointHapticsParaView
+  VERSION "${PROJECT_VERSION}"
+  SOVERSION "0.1"
+  INSTALL_HEADERS OFF)
+
+set(BUILD_SHARED_LIBS ON)
+paraview_plugin_scan(
+  PLUGIN_FILES "${CMAKE_CURRENT_SOURCE_DIR}/Modules/ParaView/Plugin/paraview.plugin"
+  PROVIDES_PLUGINS pointhaptics_plugins
+  ENABLE_BY_DEFAULT ON
+  HIDE_PLUGINS_FROM_CACHE ON)
+paraview_plugin_build(
+  PLUGINS ${pointhaptics_plugins}
+  LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
+  PLUGINS_COMPONENT paraview
+  DISABLE_XML_DOCUMENTATION ON)

@@ -1,0 +1,88 @@
+#include "vtkPVVoxelMeanResampler.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkPVVoxelMeanResampler);
+
+vtkPVVoxelMeanResampler::vtkPVVoxelMeanResampler()
+  : Chosen(this->GetSettings().lattice)
+{
+}
+
+void vtkPVVoxelMeanResampler::SetLatticeMode(int mode)
+{
+  this->LatticeMode = std::clamp<int>(mode, ByVoxelSize, ByDimensions);
+  this->ApplyLattice();
+}
+
+void vtkPVVoxelMeanResampler::SetVoxelSize(double size)
+{
+  this->Chosen.voxelSize = size;
+  this->ApplyLattice();
+}
+
+void vtkPVVoxelMeanResampler::SetDimensions(int nx, int ny, int nz)
+{
+  this->Chosen.dimensions = { nx, ny, nz };
+  this->ApplyLattice();
+}
+
+void vtkPVVoxelMeanResampler::SetDimensions(const int dimensions[3])
+{
+  this->SetDimensions(dimensions[0], dimensions[1], dimensions[2]);
+}
+
+void vtkPVVoxelMeanResampler::SetAutomaticWorkspace(bool automatic)
+{
+  this->Chosen.automaticWorkspace = automatic;
+  this->ApplyLattice();
+}
+
+void vtkPVVoxelMeanResampler::SetWorkspaceBounds(
+  double x0, double x1, double y0, double y1, double z0, double z1)
+{
+  this->Chosen.workspace = { { x0, y0, z0 }, { x1, y1, z1 } };
+  this->ApplyLattice();
+}
+
+void vtkPVVoxelMeanResampler::SetWorkspaceBounds(const double bounds[6])
+{
+  this->SetWorkspaceBounds(bounds[0], bounds[1], bounds[2], bounds[3], bounds[4], bounds[5]);
+}
+
+void vtkPVVoxelMeanResampler::ApplyLattice()
+{
+  pointhaptics::VoxelMeanSettings settings = this->GetSettings();
+  settings.lattice = this->Chosen;
+  if (this->LatticeMode == ByDimensions)
+  {
+    settings.lattice.voxelSize = 0.0;
+  }
+  this->SetSettings(settings);
+}
+
+int vtkPVVoxelMeanResampler::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  // 0 would mean Dimensions to the superclass.
+  if (this->LatticeMode == ByVoxelSize && !(this->Chosen.voxelSize > 0.0))
+  {
+    vtkErrorMacro(
+      "VoxelSize is " << this->Chosen.voxelSize
+                      << "; give an edge above 0 in the unit of the points, or set the lattice by "
+                         "its dimensions");
+    vtkPolyData::GetData(outputs)->Initialize();
+    return 1;
+  }
+  return this->Superclass::RequestData(request, inputs, outputs);
+}
+
+void vtkPVVoxelMeanResampler::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LatticeMode: " << (this->LatticeMode == ByVoxelSize ? "ByVoxelSize" : "ByDimensions")
+     << "\n";
+}

@@ -1,0 +1,188 @@
+"""The ParaView plugin in pvpython: results are the program's bit for bit, defaults fit, bad input is an error."""
+
+import unittest
+
+from paraview import servermanager, simple
+from support import ErrorMessages, TestCase, load_plugin, read_vtp, run_program, shared_data
+
+load_plugin()
+
+
+class Resampling(TestCase):
+    def cloud(self):
+        run_program("generate", "idol", "-n", 20000, "-o", self.path("in.ply"))
+        return simple.PointHapticsReader(FileNames=[self.path("in.ply")])
+
+    def test_by_voxel_size(self):
+        self.resampled(
+            simple.VoxelMeanResampler(Input=self.cloud(), VoxelSize=0.002, ComputeCovariance=1),
+            self.path("in.ply"), "--voxel", 0.002, "--covariance",
+        )  # fmt: skip
+
+    def test_by_dimensions_as_the_program_does_by_default(self):
+        means = simple.VoxelMeanResampler(Input=self.cloud(), LatticeMode="Dimensions")
+        self.resampled(means, self.path("in.ply"))
+
+    def test_each_change_is_what_the_panel_shows(self):
+        means = simple.VoxelMeanResampler(Input=self.cloud(), VoxelSize=0.004)
+        means.Dimensions = [40, 50, 60]  # sent, but the voxel size rules
+        self.resampled(means, self.path("in.ply"), "--voxel", 0.004)
+        means.LatticeMode = "Dimensions"
+        self.resampled(means, self.path("in.ply"), "--dims", "40,50,60")
+        means.VoxelSize = 0.001
+        self.resampled(means, self.path("in.ply"), "--dims", "40,50,60")
+        means.WorkspaceBounds = [-0.01, 0.02, -0.02, 0.03, -0.03, 0.04]
+        self.resampled(means, self.path("in.ply"), "--dims", "40,50,60")
+        means.AutomaticWorkspace = 0
+        self.resampled(means, self.path("in.ply"), "--dims", "40,50,60", "--workspace=-0.01,0.02,-0.02,0.03,-0.03,0.04")
+        means.UpdatePropertyInformation()
+        self.assertGreater(means.GetPropertyValue("NumberOfClippedPoints"), 0)
+        means.AutomaticWorkspace = 1
+        means.LatticeMode = "Voxel Size"
+        self.resampled(means, self.path("in.ply"), "--voxel", 0.001)
+
+    def test_representatives(self):
+        means = simple.VoxelMeanResampler(Input=self.cloud(), VoxelSize=0.004, MinimumPointsPerVoxel=2)
+        for shown, option in (("Nearest to the Mean", "nearest-to-mean"), ("Median", "median")):
+            means.Representative = shown
+            self.resampled(means, self.path("in.ply"), "--voxel", 0.004, "--representative", option,
+                           "--minimum-points", 2)  # fmt: skip
+
+    def test_defaults_fit_the_input(self):
+        cloud = self.cloud()
+        for factor in (1, 1000):
+            scaled = simple.Transform(Input=cloud)
+            scaled.Transform.Scale = [factor] * 3
+            scaled.UpdatePipeline()
+            means = simple.VoxelMeanResampler(Input=scaled)
+            bounds = scaled.GetDataInformation().GetBounds()
+            longest = max(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4])
+            self.assertAlmostEqual(means.VoxelSize / (longest / 100), 1, places=6)
+            self.assertEqual([round(x, 9) for x in means.WorkspaceBounds], [round(x, 9) for x in bounds])
+            found = servermanager.Fetch(means).GetNumberOfPoints()
+            self.assertTrue(1000 < found < 20000, found)
+
+
+class Bandwidths(TestCase):
+    def test_of_a_cloud_and_of_means(self):
+        run_program("generate", "idol", "-n", 20000, "-o", self.path("in.ply"))
+        cloud = simple.PointHapticsReader(FileNames=[self.path("in.ply")])
+        self.bandwidths(simple.KernelBandwidth(Input=cloud, ComputeDensity=1), self.path("in.ply"), "--density",
+                        "gaussian")  # fmt: skip
+        means = simple.VoxelMeanResampler(Input=cloud, VoxelSize=0.002)
+        run_program("resample", self.path("in.ply"), "-o", self.path("means.vtp"), "--voxel", 0.002)
+        radii = simple.KernelBandwidth(
+            Input=means, Rule="Silverman, Robust", RadiusScale=3, MinimumRadius=0.0001, MaximumRadius=0.002,
+            NumberOfNeighbors=12,
+        )  # fmt: skip
+        self.bandwidths(radii, self.path("means.vtp"), "--rule", "silverman-robust", "--beta", 3, "--r1", 0.0001,
+                        "--r2", 0.002, "--neighbors", 12, "--density", "none")  # fmt: skip
+
+
+class RealClouds(TestCase):
+    def test_lidar_with_labels_and_colors(self):
+        path = shared_data("formats/autzen_trim.laz")
+        means = simple.VoxelMeanResampler(Input=simple.PointHapticsReader(FileNames=[path]), VoxelSize=20)
+        self.resampled(means, path, "--voxel", 20)
+
+    def test_scan(self):
+        path = shared_data("office1.pcd")
+        means = simple.VoxelMeanResampler(Input=simple.PointHapticsReader(FileNames=[path]), LatticeMode="Dimensions")
+        self.resampled(means, path)
+
+
+class Files(TestCase):
+    def test_the_writer_writes_what_the_program_does(self):
+        cloud = read_sphere(self)
+        for extension in ("ply", "pcd", "las", "laz", "csv", "vtp"):
+            with self.subTest(extension):
+                path, other = self.path(f"out.{extension}"), self.path(f"program.{extension}")
+                servermanager.writers.PointHapticsWriter(Input=cloud, FileName=path).UpdatePipeline()
+                run_program("convert", self.path("in.ply"), other)
+                found, expected = (simple.PointHapticsReader(FileNames=[name]) for name in (path, other))
+                self.assert_same_bits(servermanager.Fetch(found), servermanager.Fetch(expected))
+
+    def test_the_reader_gives_what_the_program_reads(self):
+        cloud = read_sphere(self)
+        run_program("convert", self.path("in.ply"), self.path("program.vtp"))
+        self.assert_same_bits(servermanager.Fetch(cloud), read_vtp(self.path("program.vtp")))
+
+    def test_saving_data_finds_the_writer(self):
+        simple.SaveData(self.path("out.laz"), proxy=read_sphere(self))
+        self.assertIn("LAZ", run_program("info", self.path("out.laz")))
+
+    def test_the_reader_is_offered_for_its_formats(self):
+        factory = servermanager.vtkSMProxyManager.GetProxyManager().GetReaderFactory()
+        shown = factory.GetSupportedFileTypes(servermanager.ActiveConnection.Session)
+        ours = [line for line in shown.split(";;") if "PointHaptics" in line]
+        self.assertEqual(len(ours), 1, shown)
+        for extension in "ply pcd las laz e57 vtp vtu vtk obj off stl xyz txt csv pts".split():
+            self.assertIn(f"*.{extension}", ours[0])
+
+    def test_several_files_are_a_time_series(self):
+        for points in (100, 200):
+            run_program("generate", "sphere", "-n", points, "-o", self.path(f"{points}.ply"))
+        cloud = simple.PointHapticsReader(FileNames=[self.path("100.ply"), self.path("200.ply")])
+        cloud.UpdatePipelineInformation()
+        for time, points in ((0, 100), (1, 200)):
+            cloud.UpdatePipeline(time)
+            self.assertEqual(cloud.GetDataInformation().GetNumberOfPoints(), points)
+
+
+class BadInput(TestCase):
+    """Each is an error in ParaView's message window that names the cure, and an empty output: no crash."""
+
+    def assert_error(self, proxy, *words):
+        with ErrorMessages() as messages:
+            proxy.UpdatePipeline()
+        text = " ".join(messages.found)
+        for word in words:
+            self.assertIn(word, text)
+        self.assertEqual(proxy.GetDataInformation().GetNumberOfPoints(), 0)
+
+    def test_files(self):
+        with open(self.path("bad.las"), "wb") as file:
+            file.write(b"LASF" + b"\xff" * 300)
+        self.assert_error(simple.PointHapticsReader(FileNames=[self.path("bad.las")]), "bad.las", "LAS")
+
+    def test_lattice(self):
+        cloud = read_sphere(self)
+        for size in (0, -1, float("nan")):
+            with self.subTest(size):
+                self.assert_error(simple.VoxelMeanResampler(Input=cloud, VoxelSize=size), "VoxelSize", "above 0")
+        self.assert_error(simple.VoxelMeanResampler(Input=cloud, VoxelSize=1e-12), "voxel")
+        self.assert_error(simple.VoxelMeanResampler(Input=cloud, LatticeMode="Dimensions", Dimensions=[0, 1, 1]), "0")
+        self.assert_error(
+            simple.VoxelMeanResampler(Input=cloud, AutomaticWorkspace=0, WorkspaceBounds=[0, 0, 0, 1, 0, 1]), "workspace"
+        )
+        flat = simple.VoxelMeanResampler(Input=cloud)
+        flat.Transform.Scale = [1, 1, 0]
+        self.assert_error(flat, "singular")
+
+    def test_bandwidths(self):
+        cloud = read_sphere(self)
+        for options in ({"NumberOfNeighbors": 0}, {"RadiusScale": 0}, {"MinimumRadius": 2, "MaximumRadius": 1}):
+            with self.subTest(options):
+                self.assert_error(simple.KernelBandwidth(Input=cloud, **options), *options)
+
+    def test_a_file_that_cannot_be_written(self):
+        cloud = read_sphere(self)
+        with ErrorMessages() as messages:
+            writer = simple.CreateWriter(self.path("no/such/folder/out.pcd"), cloud)
+            writer.UpdatePipeline()
+        self.assertIn("out.pcd", " ".join(messages.found))
+
+    def test_nothing_at_all(self):
+        empty = simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script="")
+        for proxy in (simple.VoxelMeanResampler(Input=empty), simple.KernelBandwidth(Input=empty)):
+            proxy.UpdatePipeline()
+            self.assertEqual(proxy.GetDataInformation().GetNumberOfPoints(), 0)
+
+
+def read_sphere(test):
+    run_program("generate", "sphere", "-n", 5000, "-o", test.path("in.ply"))
+    return simple.PointHapticsReader(FileNames=[test.path("in.ply")])
+
+
+if __name__ == "__main__":
+    unittest.main()

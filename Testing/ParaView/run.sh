@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Testing/ParaView/run.sh ROOT PLUGIN COMMAND...: runs a program of the private root (root.sh) with the plugin.
+# Exit code 77, which ctest takes for skipped, where there is no root.
+set -euo pipefail
+
+readonly ROOT="$1" PLUGIN="$2"
+shift 2
+if [[ ! -e "$ROOT/complete" ]]; then
+  printf 'skipped: no ParaView in %s; Testing/ParaView/root.sh %s downloads it\n' "$ROOT" "$ROOT"
+  exit 77
+fi
+libraries="$(dirname -- "$(find "$ROOT/usr/lib" -maxdepth 2 -name 'libvtkRemotingCore-pv*.so' -print -quit)")"
+export LD_LIBRARY_PATH="$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+export PYTHONPATH="$ROOT/usr/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}"
+export PATH="$ROOT/usr/bin:$PATH"
+export POINTHAPTICS_PLUGIN="$PLUGIN"
+# Several ranks on few cores, in a container too.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+exec "$@"
