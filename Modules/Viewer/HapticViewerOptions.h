@@ -57,6 +57,7 @@ struct HapticViewerOptions
   AffineTransform transform;  ///< From the file's coordinates to metres.
   std::string unit = "m";     ///< Name of the unit of the file's coordinates, for texts.
   double metresPerUnit = 1.0; ///< What that unit is; @c transform holds it already.
+  bool unitIsChosen = false;  ///< Else texts take the unit that a file itself says, where it says one.
   bool fitsWorkspace = true;  ///< Fit the transformed cloud to the 10 cm cube about the origin.
   /// How the cloud is resampled. Its lattice: dimensions of 0 are a choice, 300 to 1200; where fitsWorkspace
   /// is on the workspace is that cube, else an automatic one is a cube about the cloud. With
@@ -119,6 +120,8 @@ struct HapticViewerState
   bool felt = false;
   bool ambient = false;
   std::string colorBy;
+  std::string unit; ///< The one that the user took for the file's; empty: none.
+  double metresPerUnit = 1.0;
   int width = 0;
   int height = 0;
 };

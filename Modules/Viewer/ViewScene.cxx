@@ -138,9 +138,7 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   cloudBounds_ = {};
   colorBy_ = loaded.colorBy;
   ownColor_ = colorBy_ != "rgb" && findColorSource(cloud_, colorBy_) ? colorBy_ : std::string();
-  unit_ = options.unit;
   cloudOrientation_ = loaded.orientation;
-  axes_->SetMetresPerUnit(options.metresPerUnit);
   orientation_ = loaded.orientation;
   orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));
   title_ = loaded.title;
@@ -156,7 +154,7 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   scene_ = loaded.scene;
   resamplings_ += loaded.resamplings;
   setElements(modelMatrix_, loaded.placement);
-  scaleNote_ = describeScale(modelMatrix_, options.unit, options.metresPerUnit);
+  this->chooseUnit(loaded, options);
   this->configure(loaded, options);
   this->showMeans(loaded, options);
   if (refines)
@@ -170,6 +168,26 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
     return false;
   }
   return true;
+}
+
+void ViewScene::chooseUnit(const LoadedCloud& loaded, const HapticViewerOptions& options)
+{
+  const LengthUnit chosen{ options.unit, options.metresPerUnit, UnitEvidence::None };
+  LengthUnit likely = options.unitIsChosen ? chosen : lengthUnitOf(loaded.cloud, loaded.bounds);
+  const bool isSaid = likely.evidence == UnitEvidence::File;
+  this->setUnit(isSaid ? likely : chosen);
+  likelyUnit_ = likely.name == unit_.name ? LengthUnit{ "", 1.0, UnitEvidence::None } : likely;
+}
+
+void ViewScene::setUnit(const LengthUnit& unit)
+{
+  unit_ = unit;
+  axes_->SetMetresPerUnit(unit.metres);
+  scaleNote_ = describeScale(modelMatrix_, unit.name, unit.metres);
+  if (shown_)
+  {
+    this->applyLook();
+  }
 }
 
 /// The filters, as those were that made the means: for what is made after a change.
@@ -380,7 +398,7 @@ void ViewScene::applyLook()
       newClassLegend(drawn->GetPointData()->GetArray(source->array.c_str()))));
   }
   const std::string name = source ? describeColorSource(drawn, *source) : std::string();
-  scalarBar_->SetTitle((name + (this->wantsResiduals() ? " (" + unit_ + ")\n" : "\n")).c_str());
+  scalarBar_->SetTitle((name + (this->wantsResiduals() ? " (" + unit_.name + ")\n" : "\n")).c_str());
   scalarBar_->SetVisibility(!figure_ && source.has_value());
   for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty() })
   {

@@ -11,6 +11,7 @@
 #include "Core/Base/PointView.h"
 #include "Haptics/HapticScene.h"
 #include "Haptics/Proxy.h"
+#include "IO/Info/LengthUnit.h"
 #include "LevelOfDetail.h"
 #include "PointHapticsViewerModule.h" // For export macro
 #include "vtkSplatMapper.h"
@@ -101,6 +102,12 @@ public:
   int resamplings() const { return resamplings_; }
   /// describeScale() of the model as it was opened.
   const std::string& scaleNote() const { return scaleNote_; }
+  /// What one unit of the file is taken for in texts: as the options say, else as the file says, else metres.
+  const LengthUnit& unit() const { return unit_; }
+  /// The unit that the file seems to have where it is another; the name is empty where it seems to have none.
+  const LengthUnit& likelyUnit() const { return likelyUnit_; }
+  /// Takes @p unit for the file's in texts. Nothing moves: the model is as large in the hand as it was.
+  void setUnit(const LengthUnit& unit);
   vtkMatrix4x4* modelMatrix() { return modelMatrix_; }
   vtkVoxelMeanResampler* resampler() { return resampler_; }
   vtkKernelBandwidthFilter* bandwidth() { return bandwidth_; }
@@ -146,6 +153,7 @@ private:
   void drawPoints();
   vtkSplatMapper* drawnMapper() { return drawsFelt_ ? mapper_ : pointsMapper_; }
   void chooseArrays();
+  void chooseUnit(const LoadedCloud& loaded, const HapticViewerOptions& options);
   void configure(const LoadedCloud& loaded, const HapticViewerOptions& options);
   void showMeans(const LoadedCloud& loaded, const HapticViewerOptions& options);
 
@@ -172,9 +180,10 @@ private:
   bool wantsAxes_ = false;
   bool figure_ = false;
   std::string colorBy_;
-  std::string ownColor_;              ///< An array of the file that the user named.
-  std::string coloredBy_;             ///< What the picture shows by now.
-  std::string unit_;                  ///< Of the file.
+  std::string ownColor_;  ///< An array of the file that the user named.
+  std::string coloredBy_; ///< What the picture shows by now.
+  LengthUnit unit_;       ///< Of the file.
+  LengthUnit likelyUnit_;
   CloudOrientation cloudOrientation_; ///< In the frame of the file.
   bool isCoarse_ = false;
   double heightZero_ = 0.0; ///< See LoadedCloud.

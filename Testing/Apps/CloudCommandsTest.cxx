@@ -281,7 +281,7 @@ TEST_F(CloudCommands, InfoTellsDuplicatesSpacingAndUnit)
   EXPECT_NE(this->succeed({ "info", "grid.csv" }).find("2 at the place of another"), std::string::npos);
   this->write("map.csv", "x,y,z\n684766.39,5017773.08,0\n684993.29,5018007.25,30\n");
   EXPECT_EQ(json::parse(this->succeed({ "info", "map.csv", "--json" }))["files"][0]["unit"], "m");
-  this->write("part.csv", "x,y,z\n0,0,0\n400,0,0\n");
+  this->write("part.csv", "x,y,z\n0,0,0\n400,200,150\n");
   EXPECT_EQ(json::parse(this->succeed({ "info", "part.csv", "--json" }))["files"][0]["unit"], "mm");
 }
 

@@ -37,32 +37,32 @@ LatticeOptions withUnit(const std::string& unit)
   return options;
 }
 
-TEST(ScaleNote, OfEachUnitIsOneWhereTheCloudIsAsLargeAsItIs)
+TEST(ScaleNote, OfEachUnitIsOneToOneWhereTheCloudIsAsLargeAsItIs)
 {
   for (const std::string unit : { "m", "cm", "mm", "um", "km", "in", "ft" })
   {
-    EXPECT_EQ(noteFor(withUnit(unit)), "scale 1 (1 " + unit + " of the cloud is 1 " + unit + " in the hand)");
+    EXPECT_EQ(noteFor(withUnit(unit)), "1 : 1, as large as it is");
   }
 }
 
-TEST(ScaleNote, SaysHowLargeAZoomedUnitIs)
+TEST(ScaleNote, SaysTheScaleAsAMapDoes)
 {
-  EXPECT_EQ(noteFor(withUnit("m"), 0.52), "scale 0.52 (1 m of the cloud is 0.52 m in the hand)");
-  EXPECT_EQ(noteFor(withUnit("m"), 1.8), "scale 1.8 (1 m of the cloud is 1.8 m in the hand)");
-  EXPECT_EQ(noteFor(withUnit("mm"), 2.0), "scale 2 (1 mm of the cloud is 2 mm in the hand)");
+  EXPECT_EQ(noteFor(withUnit("m"), 1.0 / 12204.0), "1 : 12,200; 1 mm in the hand is 12 m");
+  EXPECT_EQ(noteFor(withUnit("m"), 0.45), "1 : 2.22; 1 mm in the hand is 2.2 mm");
+  EXPECT_EQ(noteFor(withUnit("mm"), 2.0), "2 : 1; 1 mm in the hand is 0.5 mm");
   LatticeOptions halved = withUnit("in");
   halved.scale = { 0.5 };
-  EXPECT_EQ(noteFor(halved), "scale 0.5 (1 in of the cloud is 0.5 in in the hand)");
+  EXPECT_EQ(noteFor(halved), "1 : 2; 1 mm in the hand is 2 mm");
 }
 
 TEST(ScaleNote, TakesAUnitInWhichTheLengthCanBeRead)
 {
   // An aerial scan fitted to the workspace.
-  EXPECT_EQ(noteFor(withUnit("m"), 0.000384), "scale 0.000384 (1 m of the cloud is 0.384 mm in the hand)");
-  EXPECT_EQ(noteFor(withUnit("ft"), 0.01), "scale 0.01 (1 ft of the cloud is 3.05 mm in the hand)");
-  EXPECT_EQ(noteFor(withUnit("km"), 3e-5), "scale 3e-05 (1 km of the cloud is 30 mm in the hand)");
-  EXPECT_EQ(noteFor(withUnit("um"), 1000.0), "scale 1e+03 (1 um of the cloud is 1 mm in the hand)");
-  EXPECT_EQ(noteFor(withUnit("m"), 1e-8), "scale 1e-08 (1 m of the cloud is 0.01 um in the hand)");
+  EXPECT_EQ(noteFor(withUnit("m"), 0.000384), "1 : 2,600; 1 mm in the hand is 2.6 m");
+  EXPECT_EQ(noteFor(withUnit("ft"), 0.000384), "1 : 2,600; 1 mm in the hand is 8.5 ft");
+  EXPECT_EQ(noteFor(withUnit("km"), 3e-5), "1 : 33,300; 1 mm in the hand is 33 m");
+  EXPECT_EQ(noteFor(withUnit("um"), 1000.0), "1,000 : 1; 1 mm in the hand is 1 um");
+  EXPECT_EQ(noteFor(withUnit("m"), 1e-8), "1 : 100,000,000; 1 mm in the hand is 100 km");
 }
 
 TEST(ScaleNote, OfTurnedUnevenAndMirroredModelsIsTheMeanOne)
@@ -71,7 +71,7 @@ TEST(ScaleNote, OfTurnedUnevenAndMirroredModelsIsTheMeanOne)
   options.scale = { 1.0, 2.0, -4.0 };
   options.rotate = { 30.0, 1.0, 1.0, 0.0 };
   options.translate = { 5.0, 0.0, 0.0 };
-  EXPECT_EQ(noteFor(options), "scale 2 (1 mm of the cloud is 2 mm in the hand)");
+  EXPECT_EQ(noteFor(options), "2 : 1; 1 mm in the hand is 0.5 mm");
 }
 
 } // namespace

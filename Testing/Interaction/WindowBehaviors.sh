@@ -30,14 +30,38 @@ ShiftAndDragTurnsTheModel() {
   changed matrix || fail "the model did not turn"
 }
 
-KeyUTakesTheDragBack() {
+KeyCtrlZTakesTheDragBack() {
   make sphere cloud.ply
   open_viewer cloud.ply
   write_settings
   turn_model
-  key u
+  key ctrl+z
   write_settings
   same matrix || fail "the model stays turned"
+}
+
+# A thing of 160 units without intensities is offered in millimetres; the model stays where it is.
+KeyUTakesTheUnitThatTheFileSeemsToHave() {
+  make sphere small.csv
+  awk -F, 'NR == 1 { print "x,y,z"; next } { print 4000 * $1 "," 4000 * $2 "," 4000 * $3 }' small.csv >thing.csv
+  open_viewer thing.csv
+  said "1 mm in the hand is"
+  write_settings
+  key u
+  said "the file is taken to be in mm"
+  write_settings
+  is unit '"mm"' || fail "the settings do not have the unit"
+  key u
+  said "the file is taken to be in m"
+  key q
+  ends_with 0 "key Q"
+  mv said.txt before.txt
+  start_viewer thing.csv --config "$settings"
+  shows thing.csv
+  has_keys
+  said "1 : "
+  write_settings
+  is unit '"mm"' || fail "the unit of the configuration is lost"
 }
 
 DragTurnsTheView() {

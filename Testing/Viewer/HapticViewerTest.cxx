@@ -101,7 +101,7 @@ TEST_F(HapticViewerTest, ShowsPointsOfItsHostAndLeavesThemAsTheyAre)
   EXPECT_EQ(viewer.means(), nullptr);
   ASSERT_TRUE(viewer.open(sphere, "sphere")) << viewer.message();
   EXPECT_EQ(viewer.numberOfPoints(), kPoints);
-  EXPECT_EQ(viewer.scaleNote(), "scale 0.045 (1 m of the cloud is 45 mm in the hand)");
+  EXPECT_EQ(viewer.scaleNote(), "1 : 22.2; 1 mm in the hand is 22 mm");
   ASSERT_NE(viewer.means(), nullptr);
   EXPECT_GT(viewer.means()->GetNumberOfPoints(), kPoints / 2);
   EXPECT_EQ(sphere->GetPointData()->GetNumberOfArrays(), 0);

@@ -127,7 +127,10 @@ void print(const std::string& file, const CloudSummary& s)
     fmt::print(
       "  bounds   x {} .. {}  y {} .. {}  z {} .. {}\n", low.x, high.x, low.y, high.y, low.z, high.z);
     fmt::print("  size     {:.6g} x {:.6g} x {:.6g}\n", size.x, size.y, size.z);
-    fmt::print("  unit     {} ({})\n", s.unit, s.unitIsGuess ? "a guess by the size" : "the file says so");
+    fmt::print("  unit     {} ({})\n", s.unit,
+      !s.unitIsGuess   ? "the file says so"
+        : s.unitIsTold ? "a guess by size and arrays"
+                       : "nothing tells the unit; --unit does");
     fmt::print(
       "  spacing  {:.4g} (median distance to the nearest other point; 5 % {:.4g}, 25 % {:.4g}, 75 % {:.4g}, "
       "95 % {:.4g})\n",

@@ -365,6 +365,7 @@ void ViewOptions::completeViewer(CLI::App& command)
   options.transform = this->lattice.transform();
   options.unit = this->lattice.unit;
   options.metresPerUnit = this->lattice.metresPerUnit();
+  options.unitIsChosen = command.count("--unit") > 0;
   options.voxels = this->lattice.voxels;
   if (!this->lattice.voxelsAreGiven)
   {

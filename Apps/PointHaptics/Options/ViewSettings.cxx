@@ -85,7 +85,11 @@ nlohmann::ordered_json givenSettings(CLI::App& command)
 
 void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, double metresPerUnit)
 {
-  setModel(settings, state, metresPerUnit);
+  setModel(settings, state, state.unit.empty() ? metresPerUnit : state.metresPerUnit);
+  if (!state.unit.empty())
+  {
+    settings["unit"] = state.unit;
+  }
   if (state.voxelSize > 0.0)
   {
     settings.erase("dims");

@@ -24,7 +24,7 @@ namespace app
 nlohmann::ordered_json givenSettings(CLI::App& command);
 
 /// Puts @p state in place of the options that led to it; but --unit, of @p metresPerUnit, stays what it is,
-/// for the axes.
+/// for the axes, unless the state has another.
 void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, double metresPerUnit);
 
 /// False: @p message says why the file cannot be written.

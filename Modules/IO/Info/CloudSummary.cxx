@@ -1,5 +1,7 @@
 #include "IO/Info/CloudSummary.h"
 
+#include "IO/Info/LengthUnit.h"
+
 #include "Core/Base/Lattice.h"
 #include "Core/Neighbors/NeighborQuery.h"
 
@@ -20,11 +22,6 @@ namespace
 {
 
 constexpr std::size_t kSamples = 10000;
-/// Map coordinates have at least six digits before the point.
-constexpr double kMapCoordinate = 1e5;
-/// Longest side of what is taken for metres, and for millimetres.
-constexpr double kLargestInMetres = 100.0;
-constexpr double kLargestInMillimetres = 1e5;
 /// A surface with a point every spacing has four in a voxel of twice that.
 constexpr double kSpacingsPerVoxel = 2.0;
 /// Points in one search tree; larger clouds are searched piece by piece.
@@ -144,16 +141,6 @@ std::vector<ScanSummary> scansOf(vtkPolyData* cloud)
   return scans;
 }
 
-/// Scanners measure in metres, map coordinates are far from the origin, and models of things are in
-/// millimetres.
-std::string guessUnit(const Bounds& bounds, double longest)
-{
-  const double farthest = std::max({ std::abs(bounds.minimum.x), std::abs(bounds.maximum.x),
-    std::abs(bounds.minimum.y), std::abs(bounds.maximum.y) });
-  const bool isMap = farthest > kMapCoordinate && longest < farthest;
-  return isMap || longest < kLargestInMetres ? "m" : longest < kLargestInMillimetres ? "mm" : "um";
-}
-
 std::vector<ArraySummary> arraysOf(vtkPolyData* cloud)
 {
   std::vector<ArraySummary> result;
@@ -233,8 +220,9 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
   summary.unitIsGuess = summary.unit.empty();
   if (summary.unitIsGuess && !summary.bounds.empty())
   {
-    const Vec3 size = summary.bounds.extent();
-    summary.unit = guessUnit(summary.bounds, std::max({ size.x, size.y, size.z }));
+    const LengthUnit unit = lengthUnitOf(cloud, summary.bounds);
+    summary.unit = unit.name;
+    summary.unitIsTold = unit.evidence != UnitEvidence::None;
   }
   summary.arrays = arraysOf(cloud);
   suggest(summary);

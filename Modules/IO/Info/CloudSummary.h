@@ -52,6 +52,7 @@ struct CloudSummary
   std::string coordinateSystem; ///< As the file says it.
   std::string unit;             ///< "m"; what the file says, or a guess.
   bool unitIsGuess = true;
+  bool unitIsTold = true; ///< False: nothing tells the unit, and metres are taken.
   std::vector<ArraySummary> arrays;
   std::string hint;            ///< Unit or scale to try where the size is not about that of the workspace.
   double suggestedScale = 1.0; ///< Makes the cloud fill most of the workspace.

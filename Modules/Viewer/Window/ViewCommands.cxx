@@ -36,6 +36,8 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
     { "next-file", "n", "Program", "next, previous file", call(&Window::showNextFile), hasOtherFiles });
   commands.add({ "previous-file", "b", "Program", "next, previous file", call(&Window::showPreviousFile),
     hasOtherFiles });
+  commands.add(
+    { "take-unit", "u", "Show", "take the unit the file seems to have", call(&Window::toggleUnit), isOpen });
   commands.add({ "screenshot", "s", "Program", "screenshot", call(&Window::writeScreenshot), isOpen });
   commands.add({ "write-settings", "w", "Program", "write the settings to a file",
     call(&Window::writeSettings), keepsSettings });

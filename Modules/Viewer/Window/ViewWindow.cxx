@@ -1,6 +1,5 @@
 #include "ViewWindow.h"
 
-#include "ScaleNote.h"
 #include "ViewEvents.h"
 #include "ViewScene.h"
 
@@ -424,8 +423,7 @@ void ViewWindow::say(const std::string& news)
 /// The scale as it is after all zooming, and the last news.
 void ViewWindow::showNote()
 {
-  const std::string scale =
-    describeScale(style_->GetModelTransform()->GetMatrix(), options_.unit, options_.metresPerUnit);
+  const std::string scale = this->scaleText();
   style_->GetStatus().setNote(news_.empty() ? scale : scale + "\n" + news_);
 }
 

@@ -139,6 +139,8 @@ private:
   void onModelChanged(void*);
   void onSceneChanged(void*);
   void showNote();
+  std::string scaleText();
+  void toggleUnit();
   void tell(const std::string& message);
   void say(const std::string& news);
   void report(HapticViewerObserver::Kind kind, const std::string& message) const;
@@ -174,6 +176,7 @@ private:
   TraceFile trace_;
   int screenshots_ = 0;
   bool chartBesideFigure_ = true; ///< Comes back when the figure goes.
+  LengthUnit firstUnit_;          ///< Of the file before the user took another; no name: none was taken.
   std::string news_;              // last line of the status
   std::string awaitedColors_;     ///< The news while colours are computed; empty: none are.
   std::unique_ptr<SimulatedDevice> hand_;

@@ -335,6 +335,11 @@ HapticViewerState ViewWindow::state()
   state.felt = options_.felt;
   state.ambient = options_.ambient;
   state.colorBy = options_.colorBy;
+  if (scene_.unit().name == scene_.likelyUnit().name)
+  {
+    state.unit = scene_.unit().name;
+    state.metresPerUnit = scene_.unit().metres;
+  }
   const int* size = window_->GetSize();
   state.width = size[0];
   state.height = size[1];

@@ -1,0 +1,112 @@
+#include "IO/Info/LengthUnit.h"
+
+#include "vtkFieldData.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Map coordinates have at least six digits before the point.
+constexpr double kMapCoordinate = 1e5;
+/// Longest side of a thing that is measured in millimetres: from a teapot to a lorry.
+constexpr double kSmallestThing = 100.0;
+constexpr double kLargestThing = 1e4;
+/// Shortest over longest side of a thing; of streets, terrain and rooms it is less where the scanner stands
+/// within.
+constexpr double kCompact = 0.2;
+constexpr double kCompactAboutOrigin = 0.45;
+constexpr double kFoot = 0.3048;
+constexpr double kSurveyFoot = 1200.0 / 3937.0;
+
+std::string lower(std::string text)
+{
+  std::transform(
+    text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
+
+bool has(const std::string& text, const char* part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+/// Of a file that names its unit; one that is not known here counts as not named.
+bool readUnit(vtkPolyData* cloud, LengthUnit& unit)
+{
+  auto* array = vtkStringArray::SafeDownCast(cloud->GetFieldData()->GetAbstractArray("LengthUnit"));
+  const std::string said = array && array->GetNumberOfValues() > 0 ? lower(array->GetValue(0)) : "";
+  if (has(said, "foot") || has(said, "feet") || said == "ft")
+  {
+    unit = { "ft", has(said, "survey") ? kSurveyFoot : kFoot, UnitEvidence::File };
+    return true;
+  }
+  if (said == "m" || said == "metre" || said == "meter" || said == "metres" || said == "meters")
+  {
+    unit = { "m", 1.0, UnitEvidence::File };
+    return true;
+  }
+  return false;
+}
+
+/// Whether a point array of @p cloud has one of these words in its name.
+template <std::size_t Count>
+bool hasArray(vtkPolyData* cloud, const char* const (&words)[Count])
+{
+  vtkPointData* data = cloud->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    const std::string name = lower(data->GetArrayName(i) ? data->GetArrayName(i) : "");
+    if (std::any_of(words, words + Count, [&](const char* word) { return has(name, word); }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool isThing(vtkPolyData* cloud, const Bounds& bounds)
+{
+  constexpr const char* kMeasured[] = { "intensity", "reflectivity", "reflectance" };
+  const Vec3 size = bounds.extent();
+  const double longest = std::max({ size.x, size.y, size.z });
+  const double shortest = std::min({ size.x, size.y, size.z });
+  bool isAboutOrigin = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    isAboutOrigin = isAboutOrigin && bounds.minimum[axis] < 0.0 && bounds.maximum[axis] > 0.0;
+  }
+  return longest >= kSmallestThing && longest <= kLargestThing &&
+    shortest >= (isAboutOrigin ? kCompactAboutOrigin : kCompact) * longest && !hasArray(cloud, kMeasured);
+}
+
+} // namespace
+
+LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds)
+{
+  constexpr const char* kLidar[] = { "classification", "returnnumber", "gpstime", "gps_time", "ring",
+    "timestamp" };
+  LengthUnit unit;
+  if (!cloud || readUnit(cloud, unit) || bounds.empty())
+  {
+    return unit;
+  }
+  const Vec3 size = bounds.extent();
+  const double farthest = std::max({ std::abs(bounds.minimum.x), std::abs(bounds.maximum.x),
+    std::abs(bounds.minimum.y), std::abs(bounds.maximum.y) });
+  const bool isMap = farthest > kMapCoordinate && std::max({ size.x, size.y, size.z }) < farthest;
+  if (isMap || hasArray(cloud, kLidar))
+  {
+    return { "m", 1.0, UnitEvidence::Shape };
+  }
+  return isThing(cloud, bounds) ? LengthUnit{ "mm", 1e-3, UnitEvidence::Shape } : unit;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,36 @@
+/// @file
+/// The unit of a cloud's coordinates, and what tells it.
+#pragma once
+
+#include "Core/Base/PointView.h"
+
+#include "PointHapticsIOModule.h" // For export macro
+
+#include <string>
+
+class vtkPolyData;
+
+namespace pointhaptics
+{
+
+enum class UnitEvidence
+{
+  File,  ///< The file says it.
+  Shape, ///< Coordinates and arrays leave little doubt.
+  None,  ///< Nothing tells; metres are taken.
+};
+
+struct LengthUnit
+{
+  std::string name = "m"; ///< m, mm or ft.
+  double metres = 1.0;    ///< Of one unit.
+  UnitEvidence evidence = UnitEvidence::None;
+};
+
+/// What @p cloud, of finite points within @p bounds, is measured in. The field array LengthUnit, which the
+/// LAS reader makes, is believed. Map coordinates, and arrays that only LiDAR has, mean metres. A compact
+/// cloud of 100 to 10,000 units without intensities, not about its scanner, is a thing in millimetres:
+/// statues of 1600 units are, a street of 160 m is not. Cost: none a point.
+POINTHAPTICSIO_EXPORT LengthUnit lengthUnitOf(vtkPolyData* cloud, const Bounds& bounds);
+
+} // namespace pointhaptics

@@ -1,0 +1,39 @@
+// The unit of the file's coordinates, in the words of the window.
+#include "ScaleNote.h"
+#include "ViewWindow.h"
+
+#include <vtkTransform.h>
+
+namespace pointhaptics
+{
+
+/// The scale as it is after all zooming, and the unit that could be taken.
+std::string ViewWindow::scaleText()
+{
+  const LengthUnit& unit = scene_.unit();
+  const LengthUnit& likely = scene_.likelyUnit();
+  const std::string scale = describeScale(style_->GetModelTransform()->GetMatrix(), unit.name, unit.metres);
+  const std::string key = style_->GetCommands().label("take-unit");
+  const bool isOffered = !likely.name.empty() && likely.name != unit.name && !key.empty();
+  return isOffered ? scale + "    " + key + ": the file is in " + likely.name : scale;
+}
+
+/// Takes what the file seems to be in, and gives it back.
+void ViewWindow::toggleUnit()
+{
+  const LengthUnit likely = scene_.likelyUnit();
+  if (likely.name.empty())
+  {
+    this->say("the file is taken to be in " + scene_.unit().name + ", and nothing speaks for another unit");
+    return;
+  }
+  const bool isTaken = scene_.unit().name == likely.name;
+  if (!isTaken)
+  {
+    firstUnit_ = scene_.unit();
+  }
+  scene_.setUnit(isTaken ? firstUnit_ : likely);
+  this->say("the file is taken to be in " + scene_.unit().name);
+}
+
+} // namespace pointhaptics

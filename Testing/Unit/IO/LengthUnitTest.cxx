@@ -1,0 +1,129 @@
+#include "IO/Info/LengthUnit.h"
+
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkPointCloudReader.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace
+{
+
+using namespace pointhaptics;
+
+Bounds boxOf(const Vec3& minimum, const Vec3& maximum)
+{
+  Bounds bounds;
+  bounds.include(minimum);
+  bounds.include(maximum);
+  return bounds;
+}
+
+void addArray(vtkPolyData* cloud, const char* name)
+{
+  vtkNew<vtkFloatArray> array;
+  array->SetName(name);
+  cloud->GetPointData()->AddArray(array);
+}
+
+void sayUnit(vtkPolyData* cloud, const char* unit)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName("LengthUnit");
+  array->InsertNextValue(unit);
+  cloud->GetFieldData()->AddArray(array);
+}
+
+const Bounds kStatue = boxOf({ 226, -388, -606 }, { 1156, 145, 991 });
+const Bounds kStreet = boxOf({ -79, -80, -10 }, { 80, 75, 3 });
+const Bounds kMap = boxOf({ 684766, 5017773, 0 }, { 684993, 5018007, 30 });
+
+TEST(LengthUnit, IsWhatTheFileSays)
+{
+  vtkNew<vtkPolyData> cloud;
+  sayUnit(cloud, "metre");
+  EXPECT_EQ(lengthUnitOf(cloud, kStatue).name, "m");
+  EXPECT_EQ(lengthUnitOf(cloud, kStatue).evidence, UnitEvidence::File);
+  vtkNew<vtkPolyData> survey;
+  sayUnit(survey, "US survey foot");
+  EXPECT_EQ(lengthUnitOf(survey, kMap).name, "ft");
+  EXPECT_NEAR(lengthUnitOf(survey, kMap).metres, 0.3048006096, 1e-10);
+  vtkNew<vtkPolyData> feet;
+  sayUnit(feet, "foot");
+  EXPECT_EQ(lengthUnitOf(feet, kMap).metres, 0.3048);
+}
+
+TEST(LengthUnit, OfAStatueOfManyUnitsIsMillimetres)
+{
+  vtkNew<vtkPolyData> cloud;
+  const LengthUnit unit = lengthUnitOf(cloud, kStatue);
+  EXPECT_EQ(unit.name, "mm");
+  EXPECT_EQ(unit.metres, 1e-3);
+  EXPECT_EQ(unit.evidence, UnitEvidence::Shape);
+}
+
+TEST(LengthUnit, OfAStreetAboutItsScannerIsNotMillimetres)
+{
+  vtkNew<vtkPolyData> bare;
+  EXPECT_EQ(lengthUnitOf(bare, kStreet).name, "m");
+  EXPECT_EQ(lengthUnitOf(bare, kStreet).evidence, UnitEvidence::None);
+  vtkNew<vtkPolyData> sweep;
+  addArray(sweep, "intensity");
+  EXPECT_EQ(lengthUnitOf(sweep, kStreet).name, "m");
+  // Intensities alone speak against millimetres, whatever the shape.
+  EXPECT_EQ(lengthUnitOf(sweep, kStatue).name, "m");
+}
+
+TEST(LengthUnit, OfMapCoordinatesAndLidarArraysIsMetres)
+{
+  vtkNew<vtkPolyData> cloud;
+  EXPECT_EQ(lengthUnitOf(cloud, kMap).evidence, UnitEvidence::Shape);
+  EXPECT_EQ(lengthUnitOf(cloud, kMap).name, "m");
+  addArray(cloud, "ReturnNumber");
+  EXPECT_EQ(lengthUnitOf(cloud, kStatue).name, "m");
+}
+
+TEST(LengthUnit, OfSmallHugeAndEmptyCloudsIsNotTold)
+{
+  vtkNew<vtkPolyData> cloud;
+  EXPECT_EQ(lengthUnitOf(cloud, boxOf({ 0, 0, 0 }, { 1, 1, 1 })).evidence, UnitEvidence::None);
+  EXPECT_EQ(lengthUnitOf(cloud, boxOf({ 1, 1, 1 }, { 5e4, 5e4, 5e4 })).evidence, UnitEvidence::None);
+  EXPECT_EQ(lengthUnitOf(cloud, Bounds()).name, "m");
+  EXPECT_EQ(lengthUnitOf(nullptr, kStatue).name, "m");
+}
+
+TEST(LengthUnit, OfSharedCloudsIsRight)
+{
+  const std::string folder = POINTHAPTICS_SHARED_DATA;
+  if (!std::filesystem::exists(folder + "/lucy_50k.ply"))
+  {
+    GTEST_SKIP() << "no shared clouds";
+  }
+  const auto unitOf = [&folder](const char* file)
+  {
+    vtkNew<vtkPointCloudReader> reader;
+    reader->SetFileName((folder + "/" + file).c_str());
+    reader->Update();
+    double box[6];
+    reader->GetOutput()->GetBounds(box);
+    return lengthUnitOf(reader->GetOutput(), boxOf({ box[0], box[2], box[4] }, { box[1], box[3], box[5] }));
+  };
+  EXPECT_EQ(unitOf("lucy_50k.ply").name, "mm");
+  for (const char* file : { "happy_543652.ply", "lion_takanawa.ply", "outdoor_lidar.ply", "office1.pcd" })
+  {
+    EXPECT_EQ(unitOf(file).name, "m") << file;
+    EXPECT_EQ(unitOf(file).evidence, UnitEvidence::None) << file;
+  }
+  EXPECT_EQ(unitOf("Megaplot.las").evidence, UnitEvidence::File);
+  EXPECT_EQ(unitOf("formats/autzen_trim.las").name, "ft");
+  EXPECT_EQ(unitOf("formats/autzen_trim.las").evidence, UnitEvidence::File);
+}
+
+} // namespace
