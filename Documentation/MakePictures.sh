@@ -92,12 +92,12 @@ keep tour-panels
 # A hand that holds the model has turned it.
 open_window idol.ply --size 1000x700
 keys f
-xdotool keydown 2
+xdotool keydown F2
 sleep 0.4
 for ((i = 0; i < 10; ++i)); do
   xdotool mousemove_relative -- 12 3
   sleep 0.1
 done
 keep tour-hold
-xdotool keyup 2 || true
+xdotool keyup F2 || true
 ls -l "$folder"/idol.png "$folder"/idol-force.png "$folder"/idol-radius.png "$folder"/tour-*.png

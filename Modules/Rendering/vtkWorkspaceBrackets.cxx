@@ -41,6 +41,14 @@ vtkWorkspaceBrackets::vtkWorkspaceBrackets()
 
 vtkWorkspaceBrackets::~vtkWorkspaceBrackets() = default;
 
+void vtkWorkspaceBrackets::SetColor(double red, double green, double blue)
+{
+  for (Look* look : { &this->Seen, &this->Hidden })
+  {
+    look->Actor->GetProperty()->SetColor(red, green, blue);
+  }
+}
+
 void vtkWorkspaceBrackets::SetBox(const double box[6])
 {
   if (std::equal(box, box + 6, this->Box))

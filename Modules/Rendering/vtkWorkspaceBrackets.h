@@ -33,6 +33,11 @@ public:
    */
   void SetBox(const double box[6]);
 
+  /**
+   * Red, green and blue, 0 to 1. Default: a light grey, for a dark ground.
+   */
+  void SetColor(double red, double green, double blue);
+
   int RenderOpaqueGeometry(vtkViewport*) override { return 0; }
   int RenderTranslucentPolygonalGeometry(vtkViewport*) override { return 0; }
   vtkTypeBool HasTranslucentPolygonalGeometry() override { return 0; }

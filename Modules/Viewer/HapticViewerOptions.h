@@ -7,6 +7,7 @@
 #include "Core/Resample/VoxelMeanSettings.h"
 #include "Devices/Falcon/FalconDevice.h"
 #include "Haptics/HapticParameters.h"
+#include "PictureSettings.h"
 
 #include <array>
 #include <cstdint>
@@ -44,13 +45,14 @@ struct HapticViewerOptions
   int width = 1280; ///< Pixels of window or picture, at least 16.
   int height = 800;
   std::string colorBy;     ///< An array of the cloud or the pipeline, ARRAY:COMPONENT, rgb; empty: a choice.
-  std::string up = "auto"; ///< Axis of the cloud that points up: x, y, z; auto: a guess.
+  std::string up = "auto"; ///< Axis of the cloud that points up: x, -x, ... -z; auto: a guess.
   std::string kind = "auto";  ///< object, terrain, sweep, indoors, frame: see CloudLook.h; auto: a guess.
   bool felt = false;          ///< Show the means that are felt, not the points of the file.
   double pointSize = 0.0;     ///< Pixels; 0: from the spacing of the points, so that surfaces close.
   bool axes = false;          ///< Box and axes of the cloud's own frame.
   bool figure = false;        ///< Nothing but the cloud in one color on white, workspace, proxy and normal.
   bool ambient = false;       ///< Light by the normals of the felt surface.
+  PictureSettings picture;    ///< Projection, background and the like.
   std::vector<double> camera; ///< Position, focal point, view up: 9 numbers; empty: from in front.
 
   // Where the cloud lies, and the lattice it is resampled on.
@@ -84,6 +86,7 @@ struct HapticViewerOptions
   bool watch = false;                ///< Read files again when they change.
   /// Of cloud optimised files: points that the window shows at once, while all are read; 0: it waits for all.
   std::int64_t coarsePoints = 60000;
+  bool fullScreen = false; ///< The window covers the screen, without a border.
   /// The window is shown while the first file is read, where that takes longer than 0.2 s and there is a
   /// display: for programs that call HapticViewer::run() next.
   bool showsReading = false;
@@ -113,12 +116,15 @@ struct HapticViewerState
   double voxelSize = 0.0;                    ///< As the slider was set; 0: it was not.
   ContactParameters contact;
   double radiusScale = 0.0; ///< beta.
+  /// As HapticViewerOptions::camera. In a parallel projection the distance tells the scale, see fitCamera().
   std::array<double, 9> camera{};
   bool pushPointer = false;
   bool axes = false;
   bool figure = false;
   bool felt = false;
   bool ambient = false;
+  PictureSettings picture;
+  bool fullScreen = false;
   std::string colorBy;
   std::string unit; ///< The one that the user took for the file's; empty: none.
   double metresPerUnit = 1.0;

@@ -129,6 +129,7 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
     scene.props()->Update(shown->state);
   }
   scene.showAmbient(options.ambient);
+  scene.setPicture(options.picture);
   scene.completeMeans(options.voxels.computeCovariance);
   scene.followMeasurement(true);
   scene.showAxes(options.axes);

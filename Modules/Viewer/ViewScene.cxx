@@ -139,6 +139,7 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   colorBy_ = loaded.colorBy;
   ownColor_ = colorBy_ != "rgb" && findColorSource(cloud_, colorBy_) ? colorBy_ : std::string();
   cloudOrientation_ = loaded.orientation;
+  picture_ = options.picture;
   orientation_ = loaded.orientation;
   orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));
   title_ = loaded.title;
@@ -221,9 +222,10 @@ void ViewScene::showMeans(const LoadedCloud& loaded, const HapticViewerOptions& 
   props_->SetSmallestSphereRadius(kSmallestSphere * edge);
   for (vtkSplatMapper* mapper : { mapper_.Get(), pointsMapper_.Get() })
   {
-    mapper->SetFixedPixels(options.pointSize);
     mapper->SetSkyDirection(&orientation_.up.x);
   }
+  fixedPixels_ = options.pointSize;
+  this->applyPicture();
   showsFelt_ = showsFelt_ || options.felt;
   loadedScale_ = std::cbrt(std::abs(modelMatrix_->Determinant()));
   vtkNew<vtkMatrix4x4> model;
@@ -389,7 +391,7 @@ void ViewScene::showFigure(bool figure)
 void ViewScene::applyLook()
 {
   vtkPolyData* drawn = drawsFelt_ ? bandwidth_->GetOutput() : shown_->points.Get();
-  applyGround(renderer_);
+  applyGround(renderer_, picture_.background);
   scalarBar_->SetLookupTable(this->drawnMapper()->GetLookupTable());
   const std::optional<ColorSource> source = findColorSource(drawn, colorBy_);
   if (source && holdsAsprsClasses(source->array))
@@ -402,13 +404,16 @@ void ViewScene::applyLook()
   scalarBar_->SetVisibility(!figure_ && source.has_value());
   for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty() })
   {
-    text->SetColor(0.88, 0.89, 0.91);
+    const Vec3 ink = inkOn(picture_.background);
+    text->SetColor(ink.x, ink.y, ink.z);
   }
   if (figure_)
   {
     applyFigureAppearance(mapper_, actor_, renderer_);
     applyFigureAppearance(pointsMapper_, pointsActor_, renderer_);
   }
+  const Vec3 edges = isLightGround(picture_.background) ? Vec3{ 0.25, 0.27, 0.32 } : Vec3{ 0.80, 0.82, 0.86 };
+  brackets_->SetColor(edges.x, edges.y, edges.z);
   brackets_->SetVisibility(!figure_);
   props_->GetWorkspaceActor()->SetVisibility(figure_);
   axes_->SetVisibility(wantsAxes_ && !figure_);
@@ -459,6 +464,7 @@ void ViewScene::setCamera(const std::vector<double>& camera)
     active->SetFocalPoint(&camera[3]);
     active->SetViewUp(&camera[6]);
     active->OrthogonalizeViewUp();
+    this->applyProjection();
     renderer_->ResetCameraClippingRange();
   }
 }

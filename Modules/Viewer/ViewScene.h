@@ -37,6 +37,9 @@ class vtkVoxelMeanResampler;
 namespace pointhaptics
 {
 
+/// The colour of text on a background of that name.
+Vec3 inkOn(const std::string& ground);
+
 /// GUI thread only. Frames: the cloud's (as in the file) and the workspace's; metres in the latter.
 class POINTHAPTICSVIEWER_EXPORT ViewScene
 {
@@ -63,6 +66,19 @@ public:
   void placeCamera(const ProxyState* contact = nullptr);
   /// Where @p camera says: HapticViewerOptions::camera; nothing where that is empty.
   void setCamera(const std::vector<double>& camera);
+  /// Puts the camera @p azimuth degrees to the right of the cloud's front and @p elevation above, with its up
+  /// upwards, where the cloud fills the window.
+  void lookFrom(double azimuth, double elevation);
+  /// The same from where the camera is.
+  void fitView();
+  /// From camera to focal point, as HapticViewerOptions::camera has it: see fitCamera().
+  double viewDistance() const;
+  /// Turns the camera about the cloud's up by @p degrees.
+  void turnView(double degrees);
+
+  /// Draws this and later clouds as @p picture says.
+  void setPicture(const PictureSettings& picture);
+  const PictureSettings& picture() const { return picture_; }
 
   /// Box, bounds and directions of the cloud's own frame. They stay where the model was until placeAxes().
   void showAxes(bool visible);
@@ -154,6 +170,12 @@ private:
   vtkSplatMapper* drawnMapper() { return drawsFelt_ ? mapper_ : pointsMapper_; }
   void chooseArrays();
   void chooseUnit(const LoadedCloud& loaded, const HapticViewerOptions& options);
+  void applyPicture();
+  void applyProjection();
+  void applyPointSizes();
+  void placeCamera(const CameraFit& fit);
+  CameraFit fitFrom(const CloudLook& look, double turn = 0.0) const;
+  CloudLook axisLook() const;
   void configure(const LoadedCloud& loaded, const HapticViewerOptions& options);
   void showMeans(const LoadedCloud& loaded, const HapticViewerOptions& options);
 
@@ -185,9 +207,11 @@ private:
   LengthUnit unit_;       ///< Of the file.
   LengthUnit likelyUnit_;
   CloudOrientation cloudOrientation_; ///< In the frame of the file.
+  PictureSettings picture_;
   bool isCoarse_ = false;
-  double heightZero_ = 0.0; ///< See LoadedCloud.
-  Bounds cloudBounds_;      ///< Of the finite points, as in the file; empty until the axes are shown.
+  double heightZero_ = 0.0;  ///< See LoadedCloud.
+  double fixedPixels_ = 0.0; ///< HapticViewerOptions::pointSize.
+  Bounds cloudBounds_;       ///< Of the finite points, as in the file; empty until the axes are shown.
   vtkNew<vtkRenderer> renderer_;
   LevelOfDetail detail_{ renderer_, pointsActor_ };
   LevelOfDetail feltDetail_{ renderer_, actor_ };

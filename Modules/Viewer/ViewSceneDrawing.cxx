@@ -1,6 +1,8 @@
 // What is drawn of a scene: points or means, where the model is, and from where they are seen.
 #include "ViewScene.h"
 
+#include "ResampledCloud.h"
+
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
 #include "SurfaceArrays.h"
@@ -40,25 +42,13 @@ std::vector<double> pictureCamera(vtkCamera* camera)
   const double* view = camera->GetViewTransformMatrix()->GetData();
   std::vector<double> numbers(view, view + 16);
   numbers.push_back(camera->GetViewAngle());
+  numbers.push_back(camera->GetParallelScale());
   return numbers;
 }
 
 double scaleOf(vtkMatrix4x4* matrix)
 {
   return std::cbrt(std::abs(matrix->Determinant()));
-}
-
-AffineTransform transformOf(vtkMatrix4x4* matrix)
-{
-  AffineTransform transform;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      transform.m[row][column] = matrix->GetElement(row, column);
-    }
-  }
-  return transform;
 }
 
 /// Cosine between the surface normal and the direction to the camera from which on a contact counts as seen.
@@ -133,6 +123,7 @@ void ViewScene::colorPoints()
 void ViewScene::drawPoints()
 {
   drawShown(*shown_, pointsMapper_);
+  this->applyPointSizes();
   orientation_.front = normalized(transformOf(modelMatrix_).applyToVector(shown_->look.front));
 }
 
@@ -197,13 +188,10 @@ void ViewScene::placeCamera(const ProxyState* contact)
   {
     return;
   }
-  const PointAccess access(shown_->points->GetPoints());
-  const AffineTransform model = transformOf(pointsMatrix_);
-  const double aspect = renderer_->GetTiledAspectRatio();
   const bool turns = contact && contact->contact && shown_->look.kind != CloudKind::Frame;
   // A contact is wanted on the side we see: the smallest turn that shows it, or else the one that faces it
   // most.
-  CameraFit best = fitCamera(access.view(), shown_->look, model, aspect);
+  CameraFit best = this->fitFrom(shown_->look);
   double facing = -2.0;
   for (double turn : { 0.0, -60.0, 60.0, 120.0, -120.0, 180.0 })
   {
@@ -211,18 +199,13 @@ void ViewScene::placeCamera(const ProxyState* contact)
     {
       break;
     }
-    const CameraFit fit = fitCamera(access.view(), shown_->look, model, aspect, turn);
+    const CameraFit fit = this->fitFrom(shown_->look, turn);
     const double cosine = dot(contact->normal, normalized(fit.position - fit.focalPoint));
     best = cosine > facing ? fit : best;
     facing = std::max(facing, cosine);
   }
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  camera->SetViewAngle(best.viewAngle);
-  camera->SetPosition(&best.position.x);
-  camera->SetFocalPoint(&best.focalPoint.x);
-  camera->SetViewUp(&best.up.x);
-  renderer_->ResetCameraClippingRange();
-  placedCamera_ = pictureCamera(camera);
+  this->placeCamera(best);
+  placedCamera_ = pictureCamera(renderer_->GetActiveCamera());
 }
 
 } // namespace pointhaptics

@@ -112,7 +112,7 @@ TEST(CloudLook, KnowsAnObjectTerrainASweepAndARoom)
   CloudOrientation camera;
   camera.fromSensor = true;
   EXPECT_EQ(kindOf(ball(500), camera), CloudKind::Frame);
-  EXPECT_EQ(kindOf(hills(100, 90), orientationForUpAxis('y')), CloudKind::Object) << "y is up";
+  EXPECT_EQ(kindOf(hills(100, 90), orientationForUpAxis("y")), CloudKind::Object) << "y is up";
 }
 
 TEST(CloudLook, NamesItsKinds)
@@ -185,6 +185,30 @@ TEST(CloudLook, IsNotMadeSmallByStrays)
   // A wire that is part of it is no stray.
   points.emplace_back(10.0, -20.0, 5.0);
   EXPECT_GT(norm(fitCamera(viewOf(points), look, AffineTransform(), 1.6).position - fit.position), 0.05);
+}
+
+TEST(CloudLook, FillsAParallelPictureToo)
+{
+  const std::vector<Vec3> points = hills(300, 80);
+  CloudLook look = cloudLook(CloudKind::Terrain, viewOf(points), measured(points), {});
+  for (const double elevation : { 0.0, 35.0, 90.0, -90.0 })
+  {
+    look.elevation = elevation;
+    look.tilt = 0.0;
+    const CameraFit fit = fitCamera(viewOf(points), look, AffineTransform(), 1.6, 0.0, true);
+    const Vec3 back = normalized(fit.position - fit.focalPoint);
+    const Vec3 right = cross(fit.up, back);
+    const double half = norm(fit.position - fit.focalPoint) * std::tan(0.5 * fit.viewAngle * kPi / 180.0);
+    double width = 0.0;
+    double height = 0.0;
+    for (const Vec3& p : points)
+    {
+      width = std::max(width, std::abs(dot(p - fit.focalPoint, right)) / (1.6 * half));
+      height = std::max(height, std::abs(dot(p - fit.focalPoint, fit.up)) / half);
+    }
+    EXPECT_NEAR(std::max(width, height), 0.92, 1e-6) << elevation;
+    EXPECT_NEAR(back.z, std::sin(elevation * kPi / 180.0), 1e-9);
+  }
 }
 
 TEST(CloudLook, LaysAStripAcrossTheWindow)

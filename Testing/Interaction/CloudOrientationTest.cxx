@@ -89,7 +89,7 @@ TEST(CloudOrientation, HasAnAnswerForNothing)
 TEST(CloudOrientation, PlacesTheCameraInFrontOfTheWorkspace)
 {
   vtkNew<vtkCamera> camera;
-  for (char axis : { 'x', 'y', 'z' })
+  for (const char* axis : { "x", "-x", "y", "-y", "z", "-z" })
   {
     const CloudOrientation orientation = orientationForUpAxis(axis);
     placeCamera(camera, orientation, { 1, 2, 3 }, 0.1, 0.0, 0.0);
@@ -97,6 +97,9 @@ TEST(CloudOrientation, PlacesTheCameraInFrontOfTheWorkspace)
     camera->GetDirectionOfProjection(&forward.x);
     EXPECT_NEAR(dot(forward, orientation.front), -1.0, 1e-12) << axis;
     EXPECT_GT(camera->GetDistance(), 0.1) << axis;
+    const bool isDown = axis[0] == '-';
+    const double up = orientation.up[axis[isDown ? 1 : 0] - 'x'];
+    EXPECT_EQ(up, isDown ? -1.0 : 1.0) << axis;
   }
 }
 

@@ -113,7 +113,7 @@ TEST_F(StyleCommands, AreFoundByTheButtonsOfTheDeviceWithWhateverModifiersAreHel
   EXPECT_EQ(this->find("hand1"), "translate-model-by-hand");
   EXPECT_EQ(this->find("Ctrl+hand3"), "index-by-hand");
   EXPECT_EQ(this->find("hand5"), "");
-  EXPECT_EQ(this->find("1"), "hand-button-1");
+  EXPECT_EQ(this->find("F1"), "hand-button-1");
 }
 
 TEST_F(StyleCommands, HaveNamesGesturesAndHelpOfTheirOwn)

@@ -246,7 +246,7 @@ TEST_F(HandClutch, HoldsAButtonOfTheSimulatedHandAsLongAsItsKey)
   interactor->SetInteractorStyle(style);
   const auto key = [&](unsigned long event)
   {
-    interactor->SetKeyEventInformation(0, 0, '1', 0, "1");
+    interactor->SetKeyEventInformation(0, 0, 0, 0, "F1");
     interactor->InvokeEvent(event);
   };
   key(vtkCommand::KeyPressEvent);

@@ -200,6 +200,118 @@ KeyDShowsTheMeansThatAreFelt() {
   said "shown: the points of the file"
 }
 
+# Keys 1 to 7 look along the axes: settings of each, all different, and key E goes back to the first.
+KeysOneToSevenLookAlongTheAxes() {
+  local each first
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  write_settings
+  first="$(setting camera "$settings")"
+  for each in 1 2 3 4 5 6 7; do
+    key "$each"
+    write_settings
+    setting camera "$settings" >>cameras.txt
+    echo >>cameras.txt
+  done
+  (($(grep . cameras.txt | sort -u | wc -l) == 7)) || fail "two views are the same"
+  key e
+  write_settings
+  [[ "$(setting camera "$settings")" == "$first" ]] || fail "key E does not bring the first view back"
+  same matrix || fail "the model moved"
+}
+
+# What turns the camera aside leaves the horizon where it is; a view from below with another up does not.
+KeyRLevelsTheHorizon() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --camera 0,-0.4,0,0,0,0,0.7,0,0.7
+  write_settings
+  key r
+  write_settings
+  changed camera || fail "the camera stays as it was"
+  [[ "$(setting camera "$settings" | tr -d ']' | awk -F, '{ print ($(NF-2) < 1e-6 && $(NF-2) > -1e-6 && $NF > 0.9) }')" == 1 ]] ||
+    fail "the horizon is not level: $(setting camera "$settings")"
+}
+
+ShiftPChangesTheProjection() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  write_settings
+  key s P s
+  said "parallel projection"
+  said "screenshot: pointhaptics-002.png"
+  ! cmp -s pointhaptics-001.png pointhaptics-002.png || fail "the picture is the same"
+  write_settings
+  is projection '"parallel"' || fail "the settings do not have it"
+  same camera || fail "the camera moved"
+  key P
+  said "perspective projection"
+}
+
+# With and without a window manager.
+KeyF11FillsTheScreen() {
+  local manager=""
+  make sphere cloud.ply
+  if command -v openbox >/dev/null; then
+    XDG_CONFIG_HOME="$folder" HOME="$folder" openbox >/dev/null 2>&1 &
+    manager=$!
+    sleep 0.5 # no condition: without it the window is managed later, which is well too
+  fi
+  open_viewer cloud.ply
+  fills_and_returns
+  key q
+  ends_with 0 "key Q"
+  if [[ -n "$manager" ]]; then
+    kill "$manager"
+    wait "$manager" 2>/dev/null || true
+    open_viewer cloud.ply
+    fills_and_returns
+  fi
+}
+fills_and_returns() {
+  key F11
+  until_true "the window does not fill the screen" has_size 800x600
+  key 5 F11
+  until_true "the window does not go back" has_size 640x480
+}
+has_size() { [[ "$(xdotool getwindowgeometry "$window" | sed -n 's/.*Geometry: //p')" == "$1" ]]; }
+
+PlusAndMinusChangeThePoints() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  key s plus plus
+  said "point size: 1.56 times"
+  key s
+  said "screenshot: pointhaptics-002.png"
+  ! cmp -s pointhaptics-001.png pointhaptics-002.png || fail "the picture is the same"
+  write_settings
+  is point-scale 1.5625 || fail "the settings do not have it"
+  key minus minus
+  said "point size: 1 times"
+}
+
+BracketsChangeTheShadingByDepth() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  key bracketright
+  said "shading by depth: strength 2"
+  write_settings
+  is edl-strength 2.0 || fail "the settings do not have it"
+  key bracketleft bracketleft bracketleft bracketleft bracketleft
+  said "shading by depth: off"
+}
+
+ShiftGChangesTheBackground() {
+  make sphere cloud.ply
+  open_viewer cloud.ply
+  key G
+  said "background: light"
+  key G G G
+  said "background: dark"
+  key G
+  write_settings
+  is background '"light"' || fail "the settings do not have it"
+}
+
 KeyLLightsTheCloud() {
   make sphere cloud.ply
   open_viewer cloud.ply
@@ -210,18 +322,18 @@ KeyLLightsTheCloud() {
   is ambient true || fail "it is not"
 }
 
-# The hand holds the model as long as key 1 is down, and goes aside with the mouse.
-TheHandHoldsTheModelWhileKey1IsDown() {
+# The hand holds the model as long as key F1 is down, and goes aside with the mouse.
+TheHandHoldsTheModelWhileKeyF1IsDown() {
   make sphere cloud.ply
   open_viewer cloud.ply --device simulated
   move_to 300 150
   write_settings
   key f
-  xdotool keydown 1
+  xdotool keydown F1
   sleep 0.8 # no condition: until the server repeats the key, as it does after 0.66 s
   move_to 360 150
   until_true "the hand did not shift the model" model_is_shifted
-  xdotool keyup 1
+  xdotool keyup F1
   until_true "the hand still holds the model" model_rests
   move_to 300 150
   sleep 0.3 # no condition: nothing may happen
@@ -286,13 +398,13 @@ WrittenSettingsBringTheViewBack() {
   open_viewer cloud.ply --bind "screenshot=s F2"
   drag 320 150 360 166
   turn_model
-  key a o
+  key a o P G plus
   write_settings
   key q
   ends_with 0 "key Q"
   open_viewer cloud.ply --config "$settings"
   write_settings
-  for name in camera matrix bind size axes figure; do
+  for name in camera matrix bind size axes figure projection background point-scale; do
     same "$name" || fail "--config lost $name"
     [[ -n "$(setting "$name" "$settings")" ]] || fail "no $name in the written settings"
   done
@@ -365,8 +477,10 @@ TheWindowHearsKeysAfterASlowFirstFile() {
   shows_in_the_same_window slow.ply
   write_settings
   turn_model
+  key 5
   write_settings
   changed matrix || fail "the model did not turn"
+  changed camera || fail "key 5 does not look from above"
 }
 shows_in_the_same_window() {
   local waiting="$window"

@@ -1,6 +1,7 @@
 #include "Options/ViewOptions.h"
 
 #include "Options/OptionParsing.h"
+#include "Options/PictureOptions.h"
 #include "Options/ViewSettings.h"
 #include "Terminal/KeyedHelp.h"
 #include "Terminal/Messages.h"
@@ -213,6 +214,7 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
   command.add_flag("--axes", options.viewer.axes)->group(group);
   command.add_flag("--figure", options.viewer.figure)->group(group);
   command.add_flag("--ambient", options.viewer.ambient)->group(group);
+  command.add_flag("--full-screen", options.viewer.fullScreen)->group(group);
   std::vector<std::string> shapes = { "auto", "none" };
   for (int shape = 0; shape < kNumberOfShapes; ++shape)
   {
@@ -269,7 +271,7 @@ void ViewOptions::addTo(CLI::App& command)
     ->type_name("OUT.png");
   command.add_option("--trace", this->viewer.trace, "Write one row per tick, as feel does")
     ->type_name("OUT.csv");
-  addWord(command, "--up", this->viewer.up, { "auto", "x", "y", "z" },
+  addWord(command, "--up", this->viewer.up, { "auto", "x", "-x", "y", "-y", "z", "-z" },
     "Axis of the cloud that points up; default: a guess");
   addWord(command, "--kind", this->viewer.kind, { "auto", "object", "terrain", "sweep", "indoors", "frame" },
     "What the cloud is, and so from where it is seen and how it is drawn; default: a guess");
@@ -277,6 +279,7 @@ void ViewOptions::addTo(CLI::App& command)
   command.add_option("--color-by", this->viewer.colorBy)->type_name("ARRAY[:COMPONENT]");
   addNumber(command, "--point-size", this->viewer.pointSize, { 1.0, 50.0 }, "PIXELS",
     "Diameter of a point; default: from the spacing of its neighbours, so that surfaces close");
+  addPictureOptions(command, this->viewer.picture);
   addResolution(command, this->viewer.resolution);
   command.add_flag("-v,--verbose", this->verbose, "Say on stderr what takes how long");
   addWindowOptions(command, *this);

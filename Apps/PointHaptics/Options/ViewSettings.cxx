@@ -1,5 +1,6 @@
 #include "Options/ViewSettings.h"
 
+#include "Options/PictureOptions.h"
 #include "Options/TouchOptions.h"
 
 #include "HapticViewerOptions.h"
@@ -103,6 +104,8 @@ void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, 
   settings["figure"] = state.figure;
   settings["felt"] = state.felt;
   settings["ambient"] = state.ambient;
+  settings["full-screen"] = state.fullScreen;
+  setPicture(settings, state.picture);
   settings.erase("color-by");
   if (!state.colorBy.empty())
   {

@@ -44,6 +44,16 @@ const std::vector<KeyedHelp>& keyedHelps()
       "Ambient light from the normals of the surface that is felt: shows the shape of a cloud without "
       "colours",
       { "ambient" } },
+    { "--full-screen", "The window covers the screen, without a border", { "full-screen" } },
+    { "--projection", "How the cloud is seen: perspective (the default), or parallel, without perspective",
+      { "projection" } },
+    { "--background", "What is behind the cloud; default dark", { "background" } },
+    { "--point-scale", "All points are drawn this many times as large",
+      { "points-larger", "points-smaller" } },
+    { "--edl-strength",
+      "How much darker points are that lie behind those around them (eye-dome lighting); 0: none; default "
+      "1.6",
+      { "depth-stronger", "depth-weaker" } },
   };
   return helps;
 }

@@ -80,7 +80,7 @@ std::string gestureLabel(const std::string& gesture)
 {
   static const std::map<std::string, std::string> labels = { { "plus", "+" }, { "minus", "-" },
     { "Prior", "Page Up" }, { "Next", "Page Down" }, { "space", "Space" }, { "question", "?" },
-    { "equal", "=" }, { "underscore", "_" } };
+    { "equal", "=" }, { "underscore", "_" }, { "bracketleft", "[" }, { "bracketright", "]" } };
   const std::string name = nameOf(gesture);
   const std::string modifiers = gesture.substr(0, gesture.size() - name.size());
   const auto known = labels.find(name);

@@ -202,8 +202,8 @@ void addClutchCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& styl
     { "scale-model-by-hand", "hand4", group, "held: hand scales the model", GripAction{ scale }, hasServo });
   for (int i = 0; i < 4; ++i)
   {
-    const std::string key = std::to_string(i + 1);
-    commands.add({ "hand-button-" + key, key + " KP_" + key, group, "buttons of the simulated hand",
+    const std::string number = std::to_string(i + 1);
+    commands.add({ "hand-button-" + number, "F" + number, group, "buttons of the simulated hand",
       HoldAction{ [&style, i](bool isDown) { style.GetHand().holdButton(i, isDown); } },
       [&style] { return style.GetHand().hasDevice(); } });
   }

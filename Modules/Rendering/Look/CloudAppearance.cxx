@@ -167,6 +167,15 @@ void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
   mapper->ScalarVisibilityOn();
 }
 
+/// What applyDepthShading() made; null: nothing yet.
+vtkDepthShadingPass* depthShadingOf(vtkRenderer* renderer)
+{
+  auto* sequence = vtkSequencePass::SafeDownCast(renderer->GetPass());
+  return sequence && sequence->GetPasses()->GetNumberOfItems() > 0
+    ? vtkDepthShadingPass::SafeDownCast(sequence->GetPasses()->GetItemAsObject(0))
+    : nullptr;
+}
+
 } // namespace
 
 Vec3 groundColor(double position)
@@ -457,10 +466,32 @@ void applyGroundColors(vtkMapper* mapper)
   }
 }
 
-void applyGround(vtkRenderer* renderer)
+const std::vector<std::string>& groundNames()
 {
+  static const std::vector<std::string> names = { "dark", "light", "white", "black" };
+  return names;
+}
+
+void applyGround(vtkRenderer* renderer, const std::string& name)
+{
+  if (name == "light")
+  {
+    applyBackground(renderer);
+    return;
+  }
   renderer->GradientBackgroundOff();
+  if (name == "white" || name == "black")
+  {
+    const double grey = name == "white" ? 1.0 : 0.0;
+    renderer->SetBackground(grey, grey, grey);
+    return;
+  }
   renderer->SetBackground(0.125, 0.135, 0.155);
+}
+
+bool isLightGround(const std::string& name)
+{
+  return name == "light" || name == "white";
 }
 
 void applyFigureAppearance(vtkPolyDataMapper* mapper, vtkActor* actor, vtkRenderer* renderer)
@@ -473,11 +504,7 @@ void applyFigureAppearance(vtkPolyDataMapper* mapper, vtkActor* actor, vtkRender
 
 void applyDepthShading(vtkRenderer* renderer, double noise, double noisePerDistance)
 {
-  auto* sequence = vtkSequencePass::SafeDownCast(renderer->GetPass());
-  vtkRenderPass* first = sequence && sequence->GetPasses()->GetNumberOfItems() > 0
-    ? vtkRenderPass::SafeDownCast(sequence->GetPasses()->GetItemAsObject(0))
-    : nullptr;
-  if (auto* present = vtkDepthShadingPass::SafeDownCast(first))
+  if (vtkDepthShadingPass* present = depthShadingOf(renderer))
   {
     present->SetNoiseLength(noise);
     present->SetNoisePerDistance(noisePerDistance);
@@ -506,6 +533,14 @@ void applyDepthShading(vtkRenderer* renderer, double noise, double noisePerDista
   vtkNew<vtkSequencePass> all;
   all->SetPasses(passes);
   renderer->SetPass(all);
+}
+
+void setDepthStrength(vtkRenderer* renderer, double strength)
+{
+  if (vtkDepthShadingPass* shading = depthShadingOf(renderer))
+  {
+    shading->SetStrength(strength);
+  }
 }
 
 } // namespace pointhaptics

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 class vtkActor;
 class vtkDataArray;
@@ -98,8 +99,13 @@ POINTHAPTICSRENDERING_EXPORT void applyBackground(vtkRenderer* renderer);
 /// stay.
 POINTHAPTICSRENDERING_EXPORT void applyGroundColors(vtkMapper* mapper);
 
-/// A dark ground without a gradient, on which a cloud's own colours stand out.
-POINTHAPTICSRENDERING_EXPORT void applyGround(vtkRenderer* renderer);
+/// The names of applyGround(): dark, on which a cloud's own colours stand out; light, that of
+/// applyBackground(); white; black.
+POINTHAPTICSRENDERING_EXPORT const std::vector<std::string>& groundNames();
+/// The background of that name; dark where there is none.
+POINTHAPTICSRENDERING_EXPORT void applyGround(vtkRenderer* renderer, const std::string& name = "dark");
+/// Whether text on that background must be dark.
+POINTHAPTICSRENDERING_EXPORT bool isLightGround(const std::string& name);
 
 /// One plain colour on white, as in a printed figure. applyCloudAppearance() and applyBackground() take it
 /// back.
@@ -113,6 +119,9 @@ POINTHAPTICSRENDERING_EXPORT void applyFigureAppearance(
 /// @param noisePerDistance the same over the distance from the camera.
 POINTHAPTICSRENDERING_EXPORT void applyDepthShading(
   vtkRenderer* renderer, double noise = 0.0, double noisePerDistance = 0.0);
+/// Strength of the shading that applyDepthShading() made: see vtkDepthShadingPass; nothing where there is
+/// none.
+POINTHAPTICSRENDERING_EXPORT void setDepthStrength(vtkRenderer* renderer, double strength);
 
 /// Median distance between neighbours, of a sample of the points; 0 where there are none.
 POINTHAPTICSRENDERING_EXPORT double medianSpacing(vtkPolyData* cloud);

@@ -390,15 +390,16 @@ void spaceByRays(const PointView& cloud, LocalShape& shape)
   }
 }
 
-CameraFit fitCamera(
-  const PointView& cloud, const CloudLook& look, const AffineTransform& toWorld, double aspect, double turn)
+CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineTransform& toWorld,
+  double aspect, double turn, bool parallel)
 {
-  if (look.kind == CloudKind::Frame && cloud.size() > 0)
+  if (look.kind == CloudKind::Frame && cloud.size() > 0 && !parallel)
   {
     return fitFrame(cloud, look, toWorld, aspect);
   }
   const View view = viewOf(look, toWorld, aspect, turn);
-  const double ty = kFilledPart * std::tan(0.5 * kViewAngle * kDegree);
+  const double tangent = kFilledPart * std::tan(0.5 * kViewAngle * kDegree);
+  const double ty = parallel ? 0.0 : tangent; // rays that do not diverge
   const double tx = ty * aspect;
   const auto inView = [&](std::int64_t i)
   {
@@ -440,10 +441,12 @@ CameraFit fitCamera(
   }
   // The focal point is what the camera turns about.
   const double depth = 0.5 * (from.z + to.z);
-  const double coreDistance = std::isfinite(core.most[0]) ? core.distance(tx, ty) - depth : INFINITY;
-  const bool hasStrays = extremes.distance(tx, ty) - depth >= kStrayFactor * coreDistance;
+  const auto distanceOf = [&](const Extremes& each)
+  { return parallel ? depth + each.distance(tangent * aspect, tangent) : each.distance(tx, ty); };
+  const double coreDistance = std::isfinite(core.most[0]) ? distanceOf(core) - depth : INFINITY;
+  const bool hasStrays = distanceOf(extremes) - depth >= kStrayFactor * coreDistance;
   const Extremes& seen = hasStrays ? core : extremes;
-  const double distance = std::max(seen.distance(tx, ty), depth + 1e-6 * (1.0 + std::abs(depth)));
+  const double distance = std::max(distanceOf(seen), depth + 1e-6 * (1.0 + std::abs(depth)));
   const double x = 0.5 * (seen.most[0] - seen.most[1]);
   const double y = 0.5 * (seen.most[2] - seen.most[3]);
   const auto place = [&](double z) { return x * view.right + y * view.up + z * view.back; };

@@ -79,7 +79,9 @@ struct CameraFit
 /// turned to the right by @p turn degrees more. The cloud takes 92 % of the width or the height of the
 /// window, exactly, unless strays would make it much smaller.
 /// @param aspect width of the window over its height, above 0.
+/// @param parallel for a parallel projection, in which the distance tells the scale: half the height of the
+/// picture is the distance from position to focal point times the tangent of half the view angle.
 POINTHAPTICSRENDERING_EXPORT CameraFit fitCamera(const PointView& cloud, const CloudLook& look,
-  const AffineTransform& toWorld, double aspect, double turn = 0.0);
+  const AffineTransform& toWorld, double aspect, double turn = 0.0, bool parallel = false);
 
 } // namespace pointhaptics

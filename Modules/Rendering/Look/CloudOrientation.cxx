@@ -109,18 +109,29 @@ bool standsAlongY(const Bounds& bounds)
 
 } // namespace
 
-CloudOrientation orientationForUpAxis(char axis)
+CloudOrientation orientationForUpAxis(const std::string& axis)
 {
+  struct Named
+  {
+    const char* axis;
+    Vec3 up;
+    Vec3 front;
+  };
+  static const Named orientations[] = {
+    { "x", { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 } },
+    { "-x", { -1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 } },
+    { "y", { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } },
+    { "-y", { 0.0, -1.0, 0.0 }, { 0.0, 0.0, -1.0 } }, // as a camera sees: y down, z away
+    { "-z", { 0.0, 0.0, -1.0 }, { 0.0, 1.0, 0.0 } },
+  };
   CloudOrientation orientation;
-  if (axis == 'y')
+  for (const Named& each : orientations)
   {
-    orientation.up = { 0.0, 1.0, 0.0 };
-    orientation.front = { 0.0, 0.0, 1.0 };
-  }
-  else if (axis == 'x')
-  {
-    orientation.up = { 1.0, 0.0, 0.0 };
-    orientation.front = { 0.0, 0.0, 1.0 };
+    if (axis == each.axis)
+    {
+      orientation.up = each.up;
+      orientation.front = each.front;
+    }
   }
   return orientation;
 }
@@ -134,7 +145,7 @@ CloudOrientation guessCloudOrientation(vtkPolyData* cloud, const std::string& fo
   }
   if (isMeshFormat(format) && standsAlongY(finiteBounds(cloud)))
   {
-    orientation = orientationForUpAxis('y');
+    orientation = orientationForUpAxis("y");
   }
   return orientation;
 }

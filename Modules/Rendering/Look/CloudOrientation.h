@@ -31,8 +31,8 @@ struct CloudOrientation
 POINTHAPTICSRENDERING_EXPORT CloudOrientation guessCloudOrientation(
   vtkPolyData* cloud, const std::string& format);
 
-/// The orientation for an up axis the user named: 'x', 'y' or 'z' (anything else: z).
-POINTHAPTICSRENDERING_EXPORT CloudOrientation orientationForUpAxis(char axis);
+/// The orientation for an up axis the user named: "x", "-x", "y", "-y", "z" or "-z" (anything else: z).
+POINTHAPTICSRENDERING_EXPORT CloudOrientation orientationForUpAxis(const std::string& axis);
 
 /// What a first picture should frame: @p workspace, or, where nearly all points lie in a small part of it
 /// (strays of a scan have set its size), a cube about those points. @p edge is at most the workspace's

@@ -291,7 +291,7 @@ ShownRequest showingOf(const CloudRequest& request, vtkPolyData* cloud, const st
 {
   ShownRequest showing;
   showing.orientation =
-    request.up == "auto" ? guessCloudOrientation(cloud, format) : orientationForUpAxis(request.up[0]);
+    request.up == "auto" ? guessCloudOrientation(cloud, format) : orientationForUpAxis(request.up);
   CloudKind kind = CloudKind::Object;
   if (request.options && cloudKindFromName(request.options->kind, kind))
   {

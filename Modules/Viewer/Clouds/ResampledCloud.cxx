@@ -163,6 +163,19 @@ void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
   }
 }
 
+AffineTransform transformOf(vtkMatrix4x4* matrix)
+{
+  AffineTransform transform;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      transform.m[row][column] = matrix->GetElement(row, column);
+    }
+  }
+  return transform;
+}
+
 void placeCloud(const CloudRequest& request, LoadedCloud& loaded)
 {
   loaded.placement = request.options->transform;

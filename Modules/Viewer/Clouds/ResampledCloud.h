@@ -30,5 +30,6 @@ bool resampleCloud(const CloudRequest& request, const std::function<bool()>& goe
   std::string& message);
 
 void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform);
+AffineTransform transformOf(vtkMatrix4x4* matrix);
 
 } // namespace pointhaptics

@@ -1,5 +1,6 @@
 // What the keys of the viewer do beside those of vtkInteractorStyleHaptic: one entry a command.
 #include "HapticViewer.h"
+#include "PictureControls.h"
 #include "ViewWindow.h"
 
 #include <vtkNew.h>
@@ -23,6 +24,12 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
       }
     };
   };
+  PictureControls::addCommands(commands,
+    [self]() -> PictureControls*
+    {
+      ViewWindow* open = self.get();
+      return open ? &open->controls_ : nullptr;
+    });
   using Window = ViewWindow;
   commands.add({ "axes", "a", "Show", "axes and bounds", call(&Window::toggleAxes), isOpen });
   commands.add(

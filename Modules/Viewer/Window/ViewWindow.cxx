@@ -51,6 +51,7 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
   , observer_(observer)
   , parameters_(options.haptics)
   , files_(std::move(files))
+  , controls_(scene, options_, window_, [this](const std::string& news) { this->say(news); })
 {
   ViewWindow::addCommands(style_->GetCommands(), this);
   style_->GetCommands().bind(options_.bindings);
@@ -181,6 +182,7 @@ void ViewWindow::setUpRendering()
     style_->SetChart(chart_);
   }
   scene_.detail().setEnabled(true);
+  scene_.setPicture(options_.picture);
   scene_.placeCamera();
   scene_.setCamera(options_.camera);
   scene_.showAxes(options_.axes);
@@ -524,6 +526,10 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
   }
   isStarted_ = true;
   style_->StartUpdates();
+  if (options_.fullScreen)
+  {
+    controls_.toggleFullScreen();
+  }
   if (hasWaited)
   {
     this->forgiveEscape();

@@ -6,6 +6,7 @@
 #include "CloudLoader.h"
 #include "FileWatch.h"
 #include "HapticViewerOptions.h"
+#include "PictureControls.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
 
@@ -171,6 +172,7 @@ private:
   vtkNew<vtkHapticSliders> sliders_;
   vtkNew<vtkHapticProgress> progress_;
   vtkNew<vtkRenderer> waiting_; // before the first cloud
+  PictureControls controls_;
   vtkNew<vtkCallbackCommand> cancelKey_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   TraceFile trace_;

@@ -222,8 +222,10 @@ void ViewWindow::show(LoadedCloud cloud)
   this->adoptModel(model);
   this->followOptions();
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
+  scene_.setPicture(options_.picture); // as it is by now
   if (!keepsModel)
   {
+    options_.camera.clear(); // it was for the first cloud
     scene_.placeCamera();
   }
   window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
@@ -326,7 +328,13 @@ HapticViewerState ViewWindow::state()
   state.contact = parameters_.contact;
   state.radiusScale = sliders_->GetValue(vtkHapticSliders::RadiusScale);
   vtkCamera* camera = scene_.renderer()->GetActiveCamera();
-  camera->GetPosition(&state.camera[0]);
+  // In a parallel projection the wheel changes the scale alone.
+  Vec3 focus;
+  Vec3 forward;
+  camera->GetFocalPoint(&focus.x);
+  camera->GetDirectionOfProjection(&forward.x);
+  const Vec3 position = focus - scene_.viewDistance() * forward;
+  std::copy_n(&position.x, 3, state.camera.begin());
   camera->GetFocalPoint(&state.camera[3]);
   camera->GetViewUp(&state.camera[6]);
   state.pushPointer = style_->GetHand().pushesPointer();
@@ -334,6 +342,8 @@ HapticViewerState ViewWindow::state()
   state.figure = scene_.isFigure();
   state.felt = options_.felt;
   state.ambient = options_.ambient;
+  state.picture = options_.picture;
+  state.fullScreen = controls_.fullScreen().isFull();
   state.colorBy = options_.colorBy;
   if (scene_.unit().name == scene_.likelyUnit().name)
   {

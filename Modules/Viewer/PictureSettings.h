@@ -1,0 +1,18 @@
+/// @file
+/// How a picture is drawn, whatever the cloud is: plain values that options give, keys change and files keep.
+#pragma once
+
+#include <string>
+
+namespace pointhaptics
+{
+
+struct PictureSettings
+{
+  bool parallel = false;           ///< Parallel projection; else perspective.
+  std::string background = "dark"; ///< One of groundNames(): dark, light, white, black.
+  double pointScale = 1.0;         ///< Factor on the diameter of all points, 0.1 to 10.
+  double depthStrength = 1.6;      ///< Of the shading by depth, 0 (none) to 10: see vtkDepthShadingPass.
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,187 @@
+// How the scene is drawn and from where, as PictureSettings and the person say.
+#include "ViewScene.h"
+
+#include "ResampledCloud.h"
+
+#include "CloudAppearance.h"
+#include "PolyDataAccess.h"
+#include "vtkCloudAxes.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkMatrix4x4.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+/// Of vtkSplatMapper, at a scale of 1.
+constexpr double kSmallestPixels = 2.0;
+constexpr double kPointPixels = 4.0;
+constexpr double kFeltScale = 3.6;
+constexpr double kFeltLargest = 64.0;
+/// From straight above the camera's own up says which way it is turned.
+constexpr double kSteepest = 0.999;
+
+double halfTangent(vtkCamera* camera)
+{
+  return std::tan(0.5 * camera->GetViewAngle() * kDegree);
+}
+
+} // namespace
+
+Vec3 inkOn(const std::string& ground)
+{
+  return isLightGround(ground) ? Vec3{ 0.10, 0.10, 0.12 } : Vec3{ 0.88, 0.89, 0.91 };
+}
+
+void ViewScene::setPicture(const PictureSettings& picture)
+{
+  const bool isProjected = picture.parallel == picture_.parallel;
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  if (!isProjected && !picture.parallel)
+  {
+    // From where what lies at the focal point keeps its size.
+    const double distance = this->viewDistance();
+    Vec3 focus;
+    Vec3 forward;
+    camera->GetFocalPoint(&focus.x);
+    camera->GetDirectionOfProjection(&forward.x);
+    const Vec3 eye = focus - distance * forward;
+    camera->SetPosition(&eye.x);
+  }
+  picture_ = picture;
+  if (!isProjected)
+  {
+    this->applyProjection();
+  }
+  if (shown_)
+  {
+    this->applyPicture();
+    this->applyLook();
+  }
+}
+
+double ViewScene::viewDistance() const
+{
+  vtkRenderer* renderer = renderer_;
+  vtkCamera* camera = renderer->GetActiveCamera();
+  return picture_.parallel ? camera->GetParallelScale() / halfTangent(camera) : camera->GetDistance();
+}
+
+/// In a parallel projection the picture shows what a perspective one shows at the focal point.
+void ViewScene::applyProjection()
+{
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->SetParallelProjection(picture_.parallel);
+  camera->SetParallelScale(camera->GetDistance() * halfTangent(camera));
+  renderer_->ResetCameraClippingRange();
+}
+
+void ViewScene::applyPicture()
+{
+  setDepthStrength(renderer_, picture_.depthStrength);
+  this->applyPointSizes();
+}
+
+void ViewScene::applyPointSizes()
+{
+  const double scale = picture_.pointScale;
+  pointsMapper_->SetSizeScale(scale);
+  pointsMapper_->SetPixelRange(kSmallestPixels * std::min(1.0, scale),
+    std::max(kSmallestPixels, scale * (shown_ ? shown_->look.largestPixels : 1.0)));
+  mapper_->SetSizeScale(kFeltScale * scale);
+  mapper_->SetPixelRange(kSmallestPixels * std::min(1.0, scale), kFeltLargest * std::max(1.0, scale));
+  for (vtkSplatMapper* mapper : { mapper_.Get(), pointsMapper_.Get() })
+  {
+    mapper->SetPointPixels(kPointPixels * scale);
+    mapper->SetFixedPixels(fixedPixels_ * scale);
+  }
+}
+
+CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
+{
+  const PointAccess access(shown_->points->GetPoints());
+  vtkRenderer* renderer = renderer_;
+  vtkMatrix4x4* model = pointsMatrix_;
+  return fitCamera(
+    access.view(), look, transformOf(model), renderer->GetTiledAspectRatio(), turn, picture_.parallel);
+}
+
+void ViewScene::placeCamera(const CameraFit& fit)
+{
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->SetViewAngle(fit.viewAngle);
+  camera->SetPosition(&fit.position.x);
+  camera->SetFocalPoint(&fit.focalPoint.x);
+  camera->SetViewUp(&fit.up.x);
+  this->applyProjection();
+}
+
+/// Seen along the axes of the file, and from outside, also where the first view is that of a sensor.
+CloudLook ViewScene::axisLook() const
+{
+  CloudLook look = shown_->look;
+  look.kind = CloudKind::Object;
+  look.up = cloudOrientation_.up;
+  look.front = cloudOrientation_.front;
+  look.azimuth = look.elevation = look.tilt = 0.0;
+  return look;
+}
+
+void ViewScene::lookFrom(double azimuth, double elevation)
+{
+  if (shown_)
+  {
+    CloudLook look = this->axisLook();
+    look.azimuth = azimuth;
+    look.elevation = elevation;
+    this->placeCamera(this->fitFrom(look));
+  }
+}
+
+void ViewScene::fitView()
+{
+  const AffineTransform model = transformOf(pointsMatrix_);
+  const Vec3 up = normalized(model.applyToVector(cloudOrientation_.up));
+  const Vec3 right = normalized(cross(up, model.applyToVector(cloudOrientation_.front)));
+  const Vec3 front = cross(right, up);
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  Vec3 forward;
+  Vec3 viewUp;
+  camera->GetDirectionOfProjection(&forward.x);
+  camera->GetViewUp(&viewUp.x);
+  const double height = std::clamp(-dot(forward, up), -1.0, 1.0);
+  const Vec3 aside = std::abs(height) < kSteepest ? -1.0 * forward : (height > 0.0 ? -1.0 : 1.0) * viewUp;
+  this->lookFrom(std::atan2(dot(aside, right), dot(aside, front)) / kDegree, std::asin(height) / kDegree);
+}
+
+void ViewScene::turnView(double degrees)
+{
+  const AffineTransform model = transformOf(pointsMatrix_);
+  const Vec3 up = normalized(model.applyToVector(cloudOrientation_.up));
+  const double c = std::cos(degrees * kDegree);
+  const double s = std::sin(degrees * kDegree);
+  const auto turned = [&](const Vec3& v) { return c * v + s * cross(up, v) + (1.0 - c) * dot(up, v) * up; };
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  Vec3 focus;
+  Vec3 eye;
+  Vec3 viewUp;
+  camera->GetFocalPoint(&focus.x);
+  camera->GetPosition(&eye.x);
+  camera->GetViewUp(&viewUp.x);
+  eye = focus + turned(eye - focus);
+  viewUp = turned(viewUp);
+  camera->SetPosition(&eye.x);
+  camera->SetViewUp(&viewUp.x);
+  renderer_->ResetCameraClippingRange();
+}
+
+} // namespace pointhaptics

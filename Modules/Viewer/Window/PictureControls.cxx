@@ -1,0 +1,188 @@
+#include "PictureControls.h"
+
+#include "ViewScene.h"
+
+#include "CloudAppearance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kPointStep = 1.25;
+constexpr double kLargestScale = 10.0;
+constexpr double kDepthStep = 0.4;
+constexpr double kStrongest = 10.0;
+/// Seen so, a cube shows three faces alike.
+constexpr double kIsometricAzimuth = 45.0;
+constexpr double kIsometricElevation = 35.2643896828;
+
+struct AxisView
+{
+  const char* name;
+  const char* keys;
+  double azimuth;
+  double elevation;
+};
+
+constexpr AxisView kViews[] = { { "view-front", "1 KP_1", 0.0, 0.0 }, { "view-back", "2 KP_2", 180.0, 0.0 },
+  { "view-left", "3 KP_3", -90.0, 0.0 }, { "view-right", "4 KP_4", 90.0, 0.0 },
+  { "view-top", "5 KP_5", 0.0, 90.0 }, { "view-bottom", "6 KP_6", 0.0, -90.0 },
+  { "view-isometric", "7 KP_7", kIsometricAzimuth, kIsometricElevation } };
+
+} // namespace
+
+PictureControls::PictureControls(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindow* window,
+  std::function<void(const std::string&)> say)
+  : scene_(scene)
+  , options_(options)
+  , fullScreen_(window)
+  , say_(std::move(say))
+{
+}
+
+void PictureControls::apply()
+{
+  scene_.setPicture(options_.picture);
+}
+
+void PictureControls::lookFrom(double azimuth, double elevation)
+{
+  scene_.lookFrom(azimuth, elevation);
+}
+
+void PictureControls::showFirstView()
+{
+  scene_.placeCamera();
+  scene_.setCamera(options_.camera);
+}
+
+void PictureControls::fitView()
+{
+  scene_.fitView();
+}
+
+void PictureControls::toggleProjection()
+{
+  options_.picture.parallel = !options_.picture.parallel;
+  this->apply();
+  say_(options_.picture.parallel ? "parallel projection" : "perspective projection");
+}
+
+void PictureControls::toggleFullScreen()
+{
+  if (!fullScreen_.set(!fullScreen_.isFull()))
+  {
+    say_("full screen: this window system does not offer it; enlarge the window by its border");
+  }
+}
+
+void PictureControls::scalePoints(int direction)
+{
+  double& scale = options_.picture.pointScale;
+  scale = std::clamp(scale * std::pow(kPointStep, direction), 1.0 / kLargestScale, kLargestScale);
+  scale = std::abs(scale - 1.0) < 1e-6 ? 1.0 : scale;
+  this->apply();
+  say_(fmt::format("point size: {:.3g} times", scale));
+}
+
+void PictureControls::changeDepthStrength(int direction)
+{
+  double& strength = options_.picture.depthStrength;
+  strength = std::clamp(strength + direction * kDepthStep, 0.0, kStrongest);
+  strength = 1e-6 * std::round(1e6 * strength);
+  this->apply();
+  say_(strength > 0.0 ? fmt::format("shading by depth: strength {:.2g}", strength) : "shading by depth: off");
+}
+
+void PictureControls::showNextBackground()
+{
+  const std::vector<std::string>& names = groundNames();
+  std::string& name = options_.picture.background;
+  const auto found = std::find(names.begin(), names.end(), name);
+  name = found == names.end() || found + 1 == names.end() ? names.front() : *(found + 1);
+  this->apply();
+  say_("background: " + name);
+}
+
+void PictureControls::addViewCommands(
+  CommandRegistry& commands, const std::function<PictureControls*()>& controls)
+{
+  const auto isOpen = [controls] { return controls() != nullptr; };
+  const auto call = [controls](void (PictureControls::*action)())
+  {
+    return [controls, action]
+    {
+      if (PictureControls* open = controls())
+      {
+        (open->*action)();
+      }
+    };
+  };
+  const char* const group = "Look";
+  for (const AxisView& view : kViews)
+  {
+    const auto look = [controls, view]
+    {
+      if (PictureControls* open = controls())
+      {
+        open->lookFrom(view.azimuth, view.elevation);
+      }
+    };
+    commands.add(
+      { view.name, view.keys, group, "front, back, left, right, top, bottom, isometric", look, isOpen });
+  }
+  using Controls = PictureControls;
+  commands.add({ "first-view", "e", group, "as it was first seen", call(&Controls::showFirstView), isOpen });
+  commands.add(
+    { "reset-view", "r", group, "fit the cloud, level the horizon", call(&Controls::fitView), isOpen });
+  commands.add({ "projection", "P", group, "parallel or perspective projection",
+    call(&Controls::toggleProjection), isOpen });
+  commands.add({ "full-screen", "F11", group, "full screen", call(&Controls::toggleFullScreen), isOpen });
+}
+
+void PictureControls::addCommands(CommandRegistry& commands, std::function<PictureControls*()> controls)
+{
+  addViewCommands(commands, controls);
+  const auto isOpen = [controls] { return controls() != nullptr; };
+  const auto step = [controls](void (PictureControls::*action)(int), int direction)
+  {
+    return [controls, action, direction]
+    {
+      if (PictureControls* open = controls())
+      {
+        (open->*action)(direction);
+      }
+    };
+  };
+  using Controls = PictureControls;
+  const char* const group = "Show";
+  commands.add({ "points-larger", "plus equal KP_Add", group, "larger, smaller points",
+    step(&Controls::scalePoints, +1), isOpen });
+  commands.add({ "points-smaller", "minus underscore KP_Subtract", group, "larger, smaller points",
+    step(&Controls::scalePoints, -1), isOpen });
+  commands.bind("scale-up", "Ctrl+plus Ctrl+Shift+plus Ctrl+equal Ctrl+KP_Add");
+  commands.bind("scale-down", "Ctrl+minus Ctrl+KP_Subtract");
+  commands.add({ "depth-stronger", "bracketright", group, "stronger, weaker shading by depth",
+    step(&Controls::changeDepthStrength, +1), isOpen });
+  commands.add({ "depth-weaker", "bracketleft", group, "stronger, weaker shading by depth",
+    step(&Controls::changeDepthStrength, -1), isOpen });
+  commands.add({ "background", "G", group, "background: dark, light, white, black",
+    [controls]
+    {
+      if (PictureControls* open = controls())
+      {
+        open->showNextBackground();
+      }
+    },
+    isOpen });
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,52 @@
+/// @file
+/// What keys do to the picture: from where it is taken, and how it is drawn.
+#pragma once
+
+#include "CommandRegistry.h"
+#include "FullScreen.h"
+#include "HapticViewerOptions.h"
+
+#include <functional>
+#include <string>
+
+namespace pointhaptics
+{
+
+class ViewScene;
+
+/// GUI thread only.
+class PictureControls
+{
+public:
+  /// Changes @p scene and the picture of @p options, which must outlive this, and @p window. @p say tells the
+  /// person what was done.
+  PictureControls(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindow* window,
+    std::function<void(const std::string&)> say);
+
+  void lookFrom(double azimuth, double elevation);
+  /// As the cloud was first seen.
+  void showFirstView();
+  void fitView();
+  void toggleProjection();
+  void toggleFullScreen();
+  FullScreen& fullScreen() { return fullScreen_; }
+  /// @p direction 1: larger, -1: smaller.
+  void scalePoints(int direction);
+  /// @p direction 1: stronger, -1: weaker.
+  void changeDepthStrength(int direction);
+  void showNextBackground();
+
+  /// Adds what the result of @p controls can do, as long as there is one.
+  static void addCommands(CommandRegistry& commands, std::function<PictureControls*()> controls);
+
+private:
+  static void addViewCommands(CommandRegistry& commands, const std::function<PictureControls*()>& controls);
+  void apply();
+
+  ViewScene& scene_;
+  HapticViewerOptions& options_;
+  FullScreen fullScreen_;
+  std::function<void(const std::string&)> say_;
+};
+
+} // namespace pointhaptics
