@@ -165,6 +165,8 @@ const char* extensionOf(FileKind kind)
       return ".xyz";
     case FileKind::Las:
       return ".las";
+    case FileKind::Laz:
+      return ".laz";
     case FileKind::E57:
       return ".e57";
     case FileKind::Vtp:

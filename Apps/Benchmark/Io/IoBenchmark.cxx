@@ -4,6 +4,7 @@
 #include "Benchmark/Harness/Race.h"
 #include "Benchmark/Harness/StudyList.h"
 #include "Benchmark/Io/Files.h"
+#include "Benchmark/Io/PackedStudy.h"
 
 #include <fmt/format.h>
 #include <vtkPolyData.h>
@@ -30,8 +31,8 @@ constexpr double kLasTolerance = 1e-8;
 constexpr double kPromisedMegabytes = 64.0;
 
 constexpr const char* kMethod =
-  "The files lie in the page cache; everything runs on one thread, but for our reader of E57, which\n"
-  "takes all there are. A time is that of the whole call: from a name to the finished result in\n"
+  "The files lie in the page cache; everything runs on one thread, but for our readers of E57 and LAZ,\n"
+  "which take all there are. A time is that of the whole call: from a name to the finished result in\n"
   "memory, which is freed outside the timing, and for writing from a cloud in memory to a closed\n"
   "file. Before anything is timed every coordinate is\n"
   "compared with the cloud that was written.\n"
@@ -82,9 +83,15 @@ const Lap* lapOf(const std::vector<Lap>& laps, const std::string& name)
   return found == laps.end() ? nullptr : &*found;
 }
 
+/// LAS and LAZ round to a grid.
+bool isOnGrid(FileKind kind)
+{
+  return kind == FileKind::Las || kind == FileKind::Laz;
+}
+
 std::string verdictOn(FileKind kind, double error)
 {
-  const double allowed = kind == FileKind::Las ? kLasTolerance : 0.0;
+  const double allowed = isOnGrid(kind) ? kLasTolerance : 0.0;
   return error <= allowed ? "right" : fmt::format("wrong by {}", brief(error));
 }
 
@@ -169,8 +176,7 @@ void readKind(
     contestant.run = [&rival, kind, &path] { rival.read(kind, path); };
     contestant.check = [&rival, &verdict, kind, cloud, name = contestant.name, &context]
     {
-      verdict =
-        isBytes(name) ? "-" : verdictOn(kind, largestError(cloud, rival.points(), kind != FileKind::Las));
+      verdict = isBytes(name) ? "-" : verdictOn(kind, largestError(cloud, rival.points(), !isOnGrid(kind)));
       context.allRight = context.allRight && (name != kOurs || verdict == "right");
       return true; // a wrong one is timed too, and said to be wrong
     };
@@ -234,7 +240,7 @@ void writeKind(
     {
       const std::unique_ptr<Rival> reader = makeOurs();
       reader->read(kind, path);
-      verdict = verdictOn(kind, largestError(cloud, reader->points(), kind != FileKind::Las));
+      verdict = verdictOn(kind, largestError(cloud, reader->points(), !isOnGrid(kind)));
       context.allRight = context.allRight && (name != kOurs || verdict == "right");
       return true;
     };
@@ -334,9 +340,15 @@ ReportPart studyMemory(Context& context)
   return part;
 }
 
+ReportPart studyScans(Context& context)
+{
+  context.progress("reading compressed files");
+  return studyPacked(context.options.points, settingsOf(context), context.files, context.allRight);
+}
+
 /// In the order of the report.
-constexpr Study<Context> kStudies[] = { { "read", studyRead }, { "write", studyWrite },
-  { "memory", studyMemory, true } };
+constexpr Study<Context> kStudies[] = { { "read", studyRead }, { "packed", studyScans },
+  { "write", studyWrite }, { "memory", studyMemory, true } };
 
 } // namespace
 

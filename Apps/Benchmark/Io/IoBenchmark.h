@@ -28,7 +28,7 @@ struct IoBenchmarkOptions
   void makeQuick();
 };
 
-/// What --studies takes: read, write, memory.
+/// What --studies takes: read, packed, write, memory.
 std::vector<std::string> studyWords();
 
 /// Runs the studies on files in a temporary folder. Throws std::runtime_error where they cannot be written.

@@ -35,6 +35,7 @@ public:
       case FileKind::BinaryPcd:
       case FileKind::Csv:
       case FileKind::Las:
+      case FileKind::Laz:
       case FileKind::Vtp:
         return "ours";
       default:

@@ -40,6 +40,8 @@ const char* nameOf(FileKind kind)
       return "XYZ";
     case FileKind::Las:
       return "LAS";
+    case FileKind::Laz:
+      return "LAZ";
     case FileKind::E57:
       return "E57";
     case FileKind::Vtp:

@@ -26,12 +26,13 @@ enum class FileKind
   Csv,
   Xyz,
   Las,
+  Laz,
   E57,
   Vtp,
 };
 constexpr FileKind kAllKinds[] = { FileKind::BinaryPly, FileKind::AsciiPly, FileKind::BinaryPcd,
-  FileKind::CompressedPcd, FileKind::AsciiPcd, FileKind::Csv, FileKind::Xyz, FileKind::Las, FileKind::E57,
-  FileKind::Vtp };
+  FileKind::CompressedPcd, FileKind::AsciiPcd, FileKind::Csv, FileKind::Xyz, FileKind::Las, FileKind::Laz,
+  FileKind::E57, FileKind::Vtp };
 /// "PLY binary".
 const char* nameOf(FileKind kind);
 
