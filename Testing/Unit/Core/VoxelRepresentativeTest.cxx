@@ -157,6 +157,29 @@ TEST(VoxelRepresentative, IsTheOraclesOnEveryPath)
   }
 }
 
+/// A transform that doubles can follow exactly.
+TEST(VoxelRepresentative, OfPointsThatAreMovedIsThatOfPointsThatLieThere)
+{
+  const AffineTransform transform =
+    AffineTransform::translation({ 0.5, -0.25, 1.0 }) * AffineTransform::scaling({ 0.5, 2.0, 1.0 });
+  for (const Lattice& lattice : lattices())
+  {
+    const Cloud cloud(lattice);
+    Cloud there = cloud;
+    for (Vec3& point : there.points)
+    {
+      point = transform.apply(point);
+    }
+    for (const Representative representative : kAll)
+    {
+      VoxelRequest request = cloud.request(lattice, representative);
+      request.transform = transform;
+      expectSameChoice(chosenBy(request), chosenBy(there.request(lattice, representative)),
+        nameOf(lattice) + ", representative " + std::to_string(int(representative)));
+    }
+  }
+}
+
 TEST(VoxelRepresentative, IsTheSameForEveryExecutorInstructionSetChunkAndIndex)
 {
   for (const Lattice& lattice : lattices())

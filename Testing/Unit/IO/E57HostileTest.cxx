@@ -128,11 +128,16 @@ TEST_F(HostileE57, XmlBombsAreRefused)
   file.prologue = "<!DOCTYPE e57Root [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\">]>\n";
   refuse(read(file), "XML line 2: a document type, which could declare entities; ");
   file.prologue.clear();
-  for (int i = 0; i < 100000; ++i)
+  for (const std::size_t depth : { 65, 100000 })
   {
-    file.xml += "<a>";
+    file.xml.clear();
+    for (std::size_t i = 0; i < depth; ++i)
+    {
+      file.xml.insert(0, "<a>");
+      file.xml += depth == 65 ? "</a>" : "";
+    }
+    refuse(read(file), "more than 64 elements inside each other");
   }
-  refuse(read(file), "more than 64 elements inside each other");
   file.xml.clear();
   for (int i = 0; i < 500001; ++i)
   {
