@@ -439,6 +439,20 @@ void vtkSplatMapper::SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* r
   }
 }
 
+namespace
+{
+
+/// A point (@p w 1) or a direction (@p w 0) in the frame that @p matrix leads to; @p result may be @p vector.
+void taken(vtkMatrix4x4* matrix, const double* vector, double w, double* result)
+{
+  const double in[4] = { vector[0], vector[1], vector[2], w };
+  double out[4];
+  matrix->MultiplyPoint(in, out);
+  std::copy(out, out + 3, result);
+}
+
+} // namespace
+
 /// All in the frame of the uploaded points.
 void vtkSplatMapper::SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
 {
@@ -447,13 +461,6 @@ void vtkSplatMapper::SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* ren
   vtkMatrix4x4::Invert(actor->GetMatrix(), toModel);
   vtkNew<vtkMatrix4x4> fromView;
   vtkMatrix4x4::Invert(camera->GetViewTransformMatrix(), fromView);
-  const auto taken = [](vtkMatrix4x4* matrix, const double* vector, double w, double* result)
-  {
-    const double in[4] = { vector[0], vector[1], vector[2], w };
-    double out[4];
-    matrix->MultiplyPoint(in, out);
-    std::copy(out, out + 3, result);
-  };
   double lamp[3];
   taken(fromView, kLightDirection, 0.0, lamp);
   taken(toModel, lamp, 0.0, lamp);
@@ -485,14 +492,15 @@ void vtkSplatMapper::SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* ren
       cells.Program->SetUniform3f(name, values);
     }
   };
-  if (cells.Program->IsUniformUsed("splatUnit"))
+  const auto setNumber = [&cells](const char* name, double value)
   {
-    cells.Program->SetUniformf("splatUnit", static_cast<float>(1.0 / this->NormalUnit));
-  }
-  if (cells.Program->IsUniformUsed("splatStrength"))
-  {
-    cells.Program->SetUniformf("splatStrength", static_cast<float>(this->LightStrength));
-  }
+    if (cells.Program->IsUniformUsed(name))
+    {
+      cells.Program->SetUniformf(name, static_cast<float>(value));
+    }
+  };
+  setNumber("splatUnit", 1.0 / this->NormalUnit);
+  setNumber("splatStrength", this->LightStrength);
   if (cells.Program->IsUniformUsed("splatHides"))
   {
     cells.Program->SetUniformi("splatHides", this->HidesBackFaces ? 1 : 0);

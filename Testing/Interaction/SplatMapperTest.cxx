@@ -25,9 +25,9 @@ namespace
 
 constexpr int kSize = 200;
 
-TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
+/// Points in a row, 30 mm apart, with lengths of 2, 4 and 6 mm.
+vtkSmartPointer<vtkPolyData> threePoints()
 {
-  SKIP_WITHOUT_DISPLAY();
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> vertices;
   vtkNew<vtkFloatArray> lengths;
@@ -38,12 +38,32 @@ TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
     vertices->InsertNextCell(1, &i);
     lengths->InsertNextValue(float(0.002 * double(i + 1))); // 2, 4, 6 mm
   }
-  vtkNew<vtkPolyData> three;
+  auto three = vtkSmartPointer<vtkPolyData>::New();
   three->SetPoints(points);
   three->SetVerts(vertices);
   three->GetPointData()->AddArray(lengths);
+  return three;
+}
+
+/// Dark pixels within 25 columns of @p middle.
+int darkPixels(const std::vector<unsigned char>& seen, int middle)
+{
+  int dark = 0;
+  for (int y = 0; y < kSize; ++y)
+  {
+    for (int x = middle - 25; x < middle + 25; ++x)
+    {
+      dark += x >= 0 && x < kSize && seen[std::size_t(3 * (y * kSize + x))] < 128;
+    }
+  }
+  return dark;
+}
+
+TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
+{
+  SKIP_WITHOUT_DISPLAY();
   vtkNew<vtkSplatMapper> splats;
-  splats->SetInputData(three);
+  splats->SetInputData(threePoints());
   splats->SetSizeArrayName("Length");
   splats->SetSizeScale(2.0);
   splats->ScalarVisibilityOff();
@@ -76,15 +96,7 @@ TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
     const double perMetre = kSize / (2.0 * 0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
     for (int i = 0; i < 3; ++i)
     {
-      int dark = 0;
-      const int middle = int(kSize / 2 + (0.03 * i - 0.03) * perMetre);
-      for (int y = 0; y < kSize; ++y)
-      {
-        for (int x = middle - 25; x < middle + 25; ++x)
-        {
-          dark += x >= 0 && x < kSize && seen[std::size_t(3 * (y * kSize + x))] < 128;
-        }
-      }
+      const int dark = darkPixels(seen, int(kSize / 2 + (0.03 * i - 0.03) * perMetre));
       const double radius = 0.002 * (i + 1) * perMetre;
       EXPECT_NEAR(dark, 3.14159 * radius * radius, 0.1 * 3.14159 * radius * radius + 8.0) << i << parallel;
     }

@@ -118,6 +118,13 @@ double SurfaceFitProxy::fitWeight(
   return result;
 }
 
+void SurfaceFitProxy::forgetFit() noexcept
+{
+  hasFit_ = false;
+  isPatient_ = false;
+  ticksWithoutFit_ = 0;
+}
+
 void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const ContactParameters& parameters,
   const Vec3& hip, bool refines, ProxyState& state) noexcept
 {
@@ -128,9 +135,7 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   double weight = 0.0;
   if (ball_.isFree() || !ball_.isThere())
   {
-    hasFit_ = false;
-    isPatient_ = false;
-    ticksWithoutFit_ = 0;
+    this->forgetFit();
   }
   else
   {

@@ -45,6 +45,8 @@ public:
     bool refines, ProxyState& state) noexcept;
 
 private:
+  /// Where the ball is free: the next contact looks for a fit anew.
+  void forgetFit() noexcept;
   /// A point of the surface nearest to the HIP, the unit normal there, and whether the HIP is below it.
   struct Contact
   {

@@ -77,6 +77,29 @@ int pointsNear(const HapticScene& scene, const Vec3& center, double radius)
   return count;
 }
 
+/// The distance from the HIP that the ball may have now. It follows the HIP's way in strides of a radius. In
+/// one stride it ends no farther from the HIP than it stood; over several, farther than before by no more
+/// than the HIP went. And by what growing pushes it, and by the bumps that gliding lifts it over, a tenth of
+/// a radius each. @p bound: the last tick's; it receives this tick's.
+double mostAway(
+  const ProxyBall& before, const ProxyBall& ball, double moved, const Vec3& asked, double& bound)
+{
+  const double grown = std::max(0.0, ball.radius() - before.radius());
+  const bool oneStride = before.isThere() && moved < 0.9 * before.radius();
+  const double most =
+    (oneStride ? norm(before.center() - asked) : bound + moved) + 3.0 * grown + 0.3 * ball.radius();
+  bound = ball.isThere() ? norm(ball.center() - asked) : bound + moved;
+  return most;
+}
+
+/// Whether more points are near than the memory holds: the ball knows only some of them.
+bool isCrowded(const HapticScene& scene, const ProxyBall& before, const ProxyBall& ball, double moved)
+{
+  const double reach = 4.0 * std::max(before.radius(), ball.radius()) + std::min(moved, 1.0);
+  return pointsNear(scene, before.center(), reach) > BallCells::kCapacity ||
+    pointsNear(scene, ball.center(), reach) > BallCells::kCapacity;
+}
+
 } // namespace
 
 TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
@@ -123,20 +146,8 @@ TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
         ? trial::leastDistance(hand.scene(), ball.center())
         : trial::leastDistanceWithin(hand.scene(), ball.center(), ball.radius());
       const double covered = double(1.0L - gap / ball.radius());
-      // It follows the HIP's way in strides of a radius. In one stride it ends no farther from the HIP than
-      // it stood; over several, farther than before by no more than the HIP went. And by what growing pushes
-      // it, and by the bumps that gliding lifts it over, a tenth of a radius each.
-      const double moved = norm(asked - last);
-      const double grown = std::max(0.0, ball.radius() - before.radius());
-      const double away = norm(ball.center() - asked);
-      const bool oneStride = before.isThere() && moved < 0.9 * before.radius();
-      const double most =
-        (oneStride ? norm(before.center() - asked) : bound + moved) + 3.0 * grown + 0.3 * ball.radius();
-      bound = ball.isThere() ? away : bound + moved;
-      // Where more points are near than the memory holds the ball knows only some of them.
-      const double reach = 4.0 * std::max(before.radius(), ball.radius()) + std::min(moved, 1.0);
-      if (pointsNear(hand.scene(), before.center(), reach) > BallCells::kCapacity ||
-        pointsNear(hand.scene(), ball.center(), reach) > BallCells::kCapacity)
+      const double most = mostAway(before, ball, norm(asked - last), asked, bound);
+      if (isCrowded(hand.scene(), before, ball, norm(asked - last)))
       {
         ++crowded;
         mostCovered = std::max(mostCovered, covered);
@@ -145,7 +156,7 @@ TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
         continue;
       }
       ASSERT_LE(covered, 1e-8);
-      ASSERT_LE(away, most + 1e-9 * ball.radius());
+      ASSERT_LE(norm(ball.center() - asked), most + 1e-9 * ball.radius());
     }
   }
   trial::recorded("coveredWhereCrowdedOverRadius", mostCovered);

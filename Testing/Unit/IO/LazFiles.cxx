@@ -118,13 +118,58 @@ void appendEntry(std::string& page, const CopcNode& node, std::uint64_t offset, 
   append(page, std::int32_t{ count });
 }
 
+std::string recordHeader(const std::string& user, int id, std::size_t size)
+{
+  std::string record(54, '\0');
+  record.replace(2, user.size(), user);
+  put(record, 18, static_cast<std::uint16_t>(id));
+  put(record, 20, static_cast<std::uint16_t>(size));
+  return record;
+}
+
+std::string infoOf512Units()
+{
+  std::string info(160, '\0');
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    put(info, 8 * i, 512.0); // centre and half size
+  }
+  put(info, 32, 16.0); // spacing
+  return info;
+}
+
+/// The two pages of the hierarchy in their extended record.
+void appendHierarchy(
+  CopcFile& copc, const std::vector<CopcNode>& nodes, const std::vector<io::LazChunk>& chunks)
+{
+  constexpr std::size_t kInRootPage = 3;
+  std::string evlr(60, '\0');
+  evlr.replace(2, 4, "copc");
+  put(evlr, 18, std::uint16_t{ 1000 });
+  put(evlr, 20, std::uint64_t{ (nodes.size() + 1) * 32 });
+  copc.bytes += evlr;
+  copc.rootPage = copc.bytes.size();
+  copc.secondPage = copc.rootPage + 32 * (kInRootPage + 1);
+  std::string pages;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    if (i == kInRootPage)
+    {
+      appendEntry(pages, { 2, { 0, 1, 0 } }, copc.secondPage, 32 * (nodes.size() - kInRootPage), -1);
+    }
+    appendEntry(pages, nodes[i], chunks[i].offset, chunks[i].size, static_cast<int>(chunks[i].count));
+  }
+  copc.bytes += pages;
+  put(copc.bytes, copc.info + 40, std::uint64_t{ copc.rootPage });
+  put(copc.bytes, copc.info + 48, std::uint64_t{ 32 * (kInRootPage + 1) });
+}
+
 } // namespace
 
 CopcFile makeCopc(std::size_t pointsOfNode)
 {
   const std::vector<CopcNode> nodes = { { 0, { 0, 0, 0 } }, { 1, { 0, 0, 0 } }, { 1, { 1, 0, 1 } },
     { 2, { 0, 1, 0 } }, { 3, { 1, 3, 0 } } };
-  constexpr std::size_t kInRootPage = 3;
   CopcFile copc;
   std::string header = lasOf(6, 0, recordsIn(nodes[0], pointsOfNode, 0)).substr(0, 375);
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -136,22 +181,8 @@ CopcFile makeCopc(std::size_t pointsOfNode)
   io::LazSchema schema = io::makeLazSchema(parsed);
   schema.chunkSize = io::LazSchema::kVariableChunks;
   const std::string description = io::lazRecord(schema, parsed);
-  const auto recordHeader = [](const std::string& user, int id, std::size_t size)
-  {
-    std::string record(54, '\0');
-    record.replace(2, user.size(), user);
-    put(record, 18, static_cast<std::uint16_t>(id));
-    put(record, 20, static_cast<std::uint16_t>(size));
-    return record;
-  };
   copc.info = 375 + 54;
-  std::string info(160, '\0');
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    put(info, 8 * i, 512.0); // centre and half size
-  }
-  put(info, 32, 16.0); // spacing
-  copc.bytes = header + recordHeader("copc", 1, 160) + info +
+  copc.bytes = header + recordHeader("copc", 1, 160) + infoOf512Units() +
     recordHeader("laszip encoded", 22204, description.size()) + description;
   put(copc.bytes, 96, static_cast<std::uint32_t>(copc.bytes.size()));
   put(copc.bytes, 100, std::uint32_t{ 2 });
@@ -174,25 +205,7 @@ CopcFile makeCopc(std::size_t pointsOfNode)
   put(copc.bytes, 235, std::uint64_t{ copc.bytes.size() });
   put(copc.bytes, 243, std::uint32_t{ 1 });
   put(copc.bytes, 247, std::uint64_t{ copc.records.size() / 30 });
-  std::string evlr(60, '\0');
-  evlr.replace(2, 4, "copc");
-  put(evlr, 18, std::uint16_t{ 1000 });
-  put(evlr, 20, std::uint64_t{ (nodes.size() + 1) * 32 });
-  copc.bytes += evlr;
-  copc.rootPage = copc.bytes.size();
-  copc.secondPage = copc.rootPage + 32 * (kInRootPage + 1);
-  std::string pages;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-  {
-    if (i == kInRootPage)
-    {
-      appendEntry(pages, { 2, { 0, 1, 0 } }, copc.secondPage, 32 * (nodes.size() - kInRootPage), -1);
-    }
-    appendEntry(pages, nodes[i], chunks[i].offset, chunks[i].size, static_cast<int>(chunks[i].count));
-  }
-  copc.bytes += pages;
-  put(copc.bytes, copc.info + 40, std::uint64_t{ copc.rootPage });
-  put(copc.bytes, copc.info + 48, std::uint64_t{ 32 * (kInRootPage + 1) });
+  appendHierarchy(copc, nodes, chunks);
   return copc;
 }
 
