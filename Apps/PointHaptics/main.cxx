@@ -69,6 +69,7 @@ int run(std::vector<std::string> arguments)
   int exitCode = kSuccess;
   addViewCommand(program, exitCode);
   addFeelCommand(program, exitCode);
+  addCompareCommand(program, exitCode);
   addResampleCommand(program, exitCode);
   addBandwidthCommand(program, exitCode);
   addConvertCommand(program, exitCode);

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <system_error>
 
 namespace pointhaptics
@@ -166,6 +167,16 @@ bool parseRow(const std::string& line, const Columns& columns, HipPathPoint& poi
   return true;
 }
 
+/// The line that names the columns, after those of remarks. False: there is none.
+bool readHeader(std::istream& stream, std::string& line, std::size_t& lineNumber)
+{
+  for (lineNumber = 1; stream.peek() == '#'; ++lineNumber)
+  {
+    stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  return readLine(stream, line);
+}
+
 /// Reads the rows below the header. False: @p problem and the number of its line are set.
 bool readRows(
   std::istream& stream, const Columns& columns, HipPath& path, std::size_t& lineNumber, std::string& problem)
@@ -284,10 +295,10 @@ Status readHipPath(const std::string& fileName, HipPath& path, std::string& mess
     return Status::FileNotReadable;
   }
   std::string line;
-  std::size_t lineNumber = 1;
+  std::size_t lineNumber = 0;
   std::string problem;
   Columns columns;
-  if (!readLine(stream, line) || !findColumns(line, columns))
+  if (!readHeader(stream, line, lineNumber) || !findColumns(line, columns))
   {
     problem = "the header is " + quote(line) +
       ": make the first line t,x,y,z (seconds and metres), or give a table of felt forces, which has t,hip_x,"

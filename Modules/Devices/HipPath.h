@@ -39,7 +39,8 @@ struct HipPath
 
 /// Reads the columns t, x, y and z that the header line names, or t, hip_x, hip_y and hip_z as the tables of
 /// felt forces have them: seconds and metres, one row a line, decimal point, spaces about numbers and CRLF
-/// line ends allowed, blank lines at the end only. What other columns hold is not looked at. On an error @p
+/// line ends allowed, blank lines at the end only. Lines before it that begin with # are remarks, as a
+/// recording has. What other columns hold is not looked at. On an error @p
 /// message says file, line, value and cure, and @p path is empty: FileNotReadable, FileMalformed (no row
 /// among others).
 Status readHipPath(const std::string& fileName, HipPath& path, std::string& message);

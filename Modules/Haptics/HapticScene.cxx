@@ -118,6 +118,12 @@ std::uint64_t nextCloudNumber()
   return ++last;
 }
 
+std::uint64_t nextSceneNumber()
+{
+  static std::atomic<std::uint64_t> last{ 0 };
+  return ++last;
+}
+
 /// True where @p transform keeps angles; @p scale receives what it does to lengths.
 bool isSimilarity(const AffineTransform& transform, double& scale)
 {
@@ -209,6 +215,7 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
 Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell> cells)
 {
   number = nextCloudNumber();
+  origin = input.origin;
   modelToLattice = input.modelToWorkspace;
   for (const Cell& cell : cells)
   {
@@ -268,6 +275,11 @@ Status HapticScene::Cloud::measure(HapticSceneInput input, const Executor& execu
     scale.setTypical(scaled(region->globalScene()->typicalScale(), region->scale()));
   }
   return Status::Ok;
+}
+
+HapticScene::HapticScene()
+  : number_(nextSceneNumber())
+{
 }
 
 std::shared_ptr<const HapticScene> HapticScene::create(
@@ -352,6 +364,7 @@ std::shared_ptr<const HapticScene> HapticScene::moved(
 std::shared_ptr<const HapticScene> HapticScene::withFallback(const HapticScene& global, Status& status) const
 {
   std::shared_ptr<HapticScene> scene(new HapticScene(*this));
+  scene->number_ = nextSceneNumber();
   scene->fallback_ = global.moved(modelToWorkspace_, status);
   return scene->fallback_ ? scene : nullptr;
 }

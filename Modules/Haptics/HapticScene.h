@@ -10,6 +10,7 @@
 #include "Core/Surface/FitCells.h"
 #include "Core/Surface/RadiusField.h"
 #include "Haptics/LocalRegion.h"
+#include "Haptics/SceneOrigin.h"
 
 #include <cstdint>
 #include <memory>
@@ -50,6 +51,7 @@ struct HapticSceneInput
   std::optional<LocalRegion> region;
   /// What builds it, as far as this machine has them; the scene is the same, bit for bit.
   InstructionSet instructions = InstructionSet::Automatic;
+  std::shared_ptr<const SceneOrigin> origin; ///< How the points came about; null: not known.
   AffineTransform
     modelToWorkspace; ///< The transform the points went through; carries the proxy into a new snapshot.
 };
@@ -103,6 +105,10 @@ public:
   /// The transform the points went through.
   const AffineTransform& modelToLattice() const { return cloud_->modelToLattice; }
   bool isMoved() const { return isMoved_; }
+  /// Another one for each scene, also those that moved() and withFallback() make; above 0.
+  std::uint64_t number() const { return number_; }
+  /// How its cloud was made; null where that is not known. The same for scenes that share their cloud.
+  const std::shared_ptr<const SceneOrigin>& origin() const { return cloud_->origin; }
   /// The same for scenes that share their cloud, and for no others of this run.
   std::uint64_t cloudNumber() const { return cloud_->number; }
   /// The same for the global scene of a cloud and the local ones beside it: of the global one.
@@ -154,7 +160,7 @@ public:
   bool hasExactMoments() const { return cloud_->exactMoments; }
 
 private:
-  HapticScene() = default;
+  HapticScene();
 
   /// What does not change when the model moves.
   struct Cloud
@@ -170,6 +176,7 @@ private:
     bool aligned = false;
     bool latticeCells = false;
     std::uint64_t number = 0;
+    std::shared_ptr<const SceneOrigin> origin;
 
     /// Sorts the cells into the pyramid. @pre at least one cell, and a valid modelToWorkspace.
     Status index(const HapticSceneInput& input, std::vector<Cell> cells);
@@ -184,6 +191,7 @@ private:
   AffineTransform workspaceToLattice_;
   double scale_ = 1.0;
   bool isMoved_ = false;
+  std::uint64_t number_ = 0;
 };
 
 } // namespace pointhaptics

@@ -208,6 +208,21 @@ Lattice LocalSceneBuilder::latticeOf(const HapticScene& global, double cell) con
   return lattice;
 }
 
+std::shared_ptr<const SceneOrigin> LocalSceneBuilder::originOf(
+  const Bounds& hand, const HapticScene& global) const
+{
+  auto origin = std::make_shared<SceneOrigin>();
+  origin->kind = SceneOrigin::Kind::Fine;
+  origin->voxels.lattice.automaticWorkspace = workspace_.empty();
+  origin->voxels.lattice.workspace = workspace_;
+  origin->bandwidth = bandwidth_;
+  origin->modelToWorkspace = global.modelToWorkspace();
+  origin->hand = hand;
+  origin->globalCloud = global.cloudNumber();
+  origin->global = global.origin();
+  return origin;
+}
+
 std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   const Bounds& hand, const std::shared_ptr<const HapticScene>& global, const Executor& executor)
 {
@@ -255,6 +270,7 @@ std::shared_ptr<const HapticScene> LocalSceneBuilder::build(
   input.cellSize = cell;
   input.corner = lattice.origin;
   input.modelToWorkspace = request.transform;
+  input.origin = this->originOf(hand, *global);
   Status status = Status::Ok;
   return HapticScene::create(std::move(input), status, executor);
 }

@@ -48,6 +48,7 @@ public:
 private:
   Lattice latticeOf(const HapticScene& global, double cell) const;
   double cellSize(const Vec3& place, const HapticScene& global) const noexcept;
+  std::shared_ptr<const SceneOrigin> originOf(const Bounds& hand, const HapticScene& global) const;
 
   std::shared_ptr<const PointIndex> index_;
   std::optional<LocalBandwidthSettings> bandwidth_;

@@ -279,6 +279,21 @@ void Proxy::reset() noexcept
   implementation_->reset();
 }
 
+void Proxy::restart() noexcept
+{
+  Implementation& self = *implementation_;
+  self.reset();
+  self.memory.invalidate();
+  self.scene = nullptr;
+  self.lastLattice = AffineTransform();
+  self.lastCloud = 0;
+  self.hadScene = false;
+  self.modelMoved = false;
+  self.lastDt = 0.0;
+  self.vanished = ProxyState();
+  self.parametersChanged = false;
+}
+
 ProxyState Proxy::step(const Vec3& hip, double dt) noexcept
 {
   Implementation& self = *implementation_;

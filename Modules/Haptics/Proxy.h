@@ -76,6 +76,9 @@ public:
   /// Out of contact, no memory of a side; the next HIP is taken as free space.
   void reset() noexcept;
 
+  /// As a new proxy with the present parameters and no scene. Safe in the servo thread.
+  void restart() noexcept;
+
   /// @param hip Position of the hand in the workspace frame, metres. @param dt Seconds since the last step, >
   /// 0.
   ProxyState step(const Vec3& hip, double dt) noexcept;

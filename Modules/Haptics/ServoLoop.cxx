@@ -1,6 +1,5 @@
 #include "Haptics/ServoLoop.h"
 
-#include "Haptics/Servo/ForceGate.h"
 #include "Haptics/Servo/LatestValue.h"
 #include "Haptics/Servo/SceneExchange.h"
 #include "Haptics/Servo/ServoMessages.h"
@@ -9,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <mutex>
 #include <thread>
 
@@ -16,10 +16,6 @@ namespace pointhaptics
 {
 namespace
 {
-/// A device whose reads failed for longer than this may have moved anywhere: its hand is taken as new.
-constexpr double kNewHandAfterSeconds = 0.1;
-/// A machine that stood still for less leaves the hand where it was: on its side of the surface.
-constexpr double kNewHandAfterStallSeconds = 1.0;
 /// A hand that moved less in a tick stood still, metres.
 constexpr double kStill = 1e-8;
 constexpr double kIdleAfterSeconds = 0.5;
@@ -29,6 +25,8 @@ constexpr double kLongestWatch = 3600.0;
 constexpr double kEarliestWake = 1e-3;
 /// Of a period, to wake early by: the rest of the core is for others.
 constexpr double kLargestEarlyPart = 0.5;
+/// Inputs kept for a reader that does not come.
+constexpr std::size_t kMostInputs = 10000;
 
 bool valid(const ServoSettings& settings)
 {
@@ -51,13 +49,42 @@ void increase(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcep
 {
   counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
 }
+
+template <typename Input>
+void keep(std::vector<Input>& inputs, Input input)
+{
+  if (inputs.size() >= kMostInputs)
+  {
+    inputs.erase(inputs.begin(), inputs.begin() + kMostInputs / 2);
+  }
+  inputs.push_back(std::move(input));
+}
+}
+
+PublishedScene PublishedScene::of(const HapticScene* scene)
+{
+  PublishedScene published;
+  if (scene)
+  {
+    published.number = scene->number();
+    published.modelToWorkspace = scene->modelToWorkspace();
+    published.cloud = scene->cloudNumber();
+    published.origin = scene->origin();
+    if (const HapticScene* fallback = scene->fallback())
+    {
+      published.fallbackCloud = fallback->cloudNumber();
+      published.fallbackOrigin = fallback->origin();
+    }
+  }
+  return published;
 }
 
 struct ServoLoop::Implementation
 {
   // Shared between the threads, each by an exchange without waiting.
   SceneExchange scenes;
-  std::mutex publishing; ///< Of its publishing side; the servo thread never takes it.
+  std::mutex publishing; ///< Of its publishing side and inputs; the servo thread never takes it.
+  ServoInputs inputs;
   LatestValue<HapticParameters> parameters;
   LatestValue<ServoSample> newest;
   TraceRing<ServoSample> trace;
@@ -81,6 +108,7 @@ struct ServoLoop::Implementation
   std::atomic<bool> running{ false };
   std::atomic<bool> stopRequested{ false };
   std::atomic<bool> clutched{ false };
+  std::atomic<bool> beginsAnew{ false }; ///< As soon as the hand allows it.
 
   WakefulCores wakefulCores; ///< Of the thread that starts and stops.
 
@@ -88,25 +116,24 @@ struct ServoLoop::Implementation
   std::thread thread;
   ServoSettings settings;
   HapticPort* port = nullptr;
-  Proxy proxy;
-  ForceGuard guard;
   HandLimits limits;
-  ForceGate gate;
-  ForceGate clutch;
+  ServoStepSettings stepSettings;
+  ServoStep step;
   const HapticScene* scene = nullptr;
+  bool isFed = false; ///< By feed(): the thread does not run. Of the thread that starts and stops.
   std::uint64_t parametersVersion = 0;
-  std::uint64_t lastSteppedTick = 0;
-  std::uint64_t firstFailedTick = 0; ///< Of the reads that failed in a row; 0: the last one did not.
   Vec3 lastHip;
   std::uint64_t stillTicks = 0; ///< In a row, without anything to do.
   bool hasUpdates = false;      ///< In this tick.
   ServoSample sample;
 
+  void writeParameters(const HapticParameters& newParameters);
+  void clear();
+  void publish(const ServoSample& newSample, std::int64_t wake) noexcept;
   void prepare(HapticPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings);
   void run() noexcept;
   void waitFor(std::int64_t deadline, double early) noexcept;
   Status tick(std::uint64_t number, std::int64_t wake) noexcept;
-  Vec3 answer(const HandState& hand, std::uint64_t number) noexcept;
   void applyUpdates() noexcept;
   bool gateIsOpen(std::int64_t wake) noexcept;
   std::uint64_t ticksToIdle() noexcept;
@@ -114,25 +141,16 @@ struct ServoLoop::Implementation
   void heartbeat() noexcept { newestHeartbeat.store(steadyNanoseconds(), std::memory_order_relaxed); }
 };
 
-void ServoLoop::Implementation::prepare(
-  HapticPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings)
+void ServoLoop::Implementation::writeParameters(const HapticParameters& newParameters)
 {
-  port = &newPort;
-  settings = newSettings;
-  proxy = Proxy(newParameters);
-  guard = ForceGuard(settings.limits);
-  limits = port->limits();
-  gate = ForceGate(limits.rampDownSeconds, limits.rampUpSeconds);
-  clutch = ForceGate(std::max(limits.rampDownSeconds, ServoLoop::kClutchDownSeconds),
-    std::max(limits.rampUpSeconds, ServoLoop::kClutchUpSeconds));
-  clutched.store(false, std::memory_order_relaxed);
-  scene = nullptr;
-  lastSteppedTick = 0;
-  firstFailedTick = 0;
-  stillTicks = 0;
-  sample = ServoSample();
+  const std::lock_guard<std::mutex> lock(publishing);
   parameters.write(newParameters);
-  parametersVersion = parameters.version();
+  keep(inputs.parameters, { parameters.version(), newParameters });
+}
+
+/// Statistics, trace and the newest sample, for a new start.
+void ServoLoop::Implementation::clear()
+{
   newest.write(sample);
   trace.resize(std::size_t(settings.traceCapacity));
   jitter.clear();
@@ -145,6 +163,31 @@ void ServoLoop::Implementation::prepare(
   newestWake.store(0, std::memory_order_relaxed);
   realtime.store(false, std::memory_order_relaxed);
   realtimeRefusal.store(0, std::memory_order_relaxed);
+  stopRequested.store(false, std::memory_order_relaxed);
+}
+
+void ServoLoop::Implementation::prepare(
+  HapticPort& newPort, const HapticParameters& newParameters, const ServoSettings& newSettings)
+{
+  port = &newPort;
+  settings = newSettings;
+  limits = port->limits();
+  stepSettings.rateHz = settings.rateHz;
+  stepSettings.limits = settings.limits;
+  stepSettings.rampDownSeconds = limits.rampDownSeconds;
+  stepSettings.rampUpSeconds = limits.rampUpSeconds;
+  stepSettings.clutchDownSeconds = std::max(limits.rampDownSeconds, ServoLoop::kClutchDownSeconds);
+  stepSettings.clutchUpSeconds = std::max(limits.rampUpSeconds, ServoLoop::kClutchUpSeconds);
+  step = ServoStep(stepSettings, newParameters);
+  clutched.store(false, std::memory_order_relaxed);
+  beginsAnew.store(true, std::memory_order_relaxed); // whatever the number of the first tick
+  scene = nullptr;
+  stillTicks = 0;
+  sample = ServoSample();
+  writeParameters(newParameters);
+  parametersVersion = parameters.version();
+  sample.parameters = parametersVersion;
+  clear();
   const int refusal = settings.lockMemory ? lockMemory() : 0;
   memoryRefusal.store(refusal, std::memory_order_relaxed);
   memoryLocked.store(settings.lockMemory && refusal == 0, std::memory_order_relaxed);
@@ -175,7 +218,7 @@ void ServoLoop::Implementation::run() noexcept
   std::uint64_t number = 1;
   std::uint64_t idle = 0; // deadlines passed over since the last tick
   // A stop is obeyed once the gate has closed, and at once where nothing pushes.
-  while (!stopRequested.load(std::memory_order_acquire) || (gate.fraction() > 0.0 && pushes()))
+  while (!stopRequested.load(std::memory_order_acquire) || (step.openFraction() > 0.0 && pushes()))
   {
     // An idle loop saves the work of waking early too.
     waitFor(deadline(number),
@@ -210,7 +253,7 @@ void ServoLoop::Implementation::waitFor(std::int64_t deadline, double early) noe
   sleepUntil(deadline - std::int64_t(1e9 * early));
   if (early > 0.0 && steadyNanoseconds() < deadline)
   {
-    proxy.prefetch();
+    step.prefetch();
     spinUntil(deadline);
   }
 }
@@ -218,49 +261,48 @@ void ServoLoop::Implementation::waitFor(std::int64_t deadline, double early) noe
 Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) noexcept
 {
   const double time = double(number - 1) / settings.rateHz;
-  HandState hand;
-  const Status reading = port->read(time, hand);
-  if (reading == Status::EndOfPath)
+  TickInput input;
+  input.number = number;
+  input.reading = port->read(time, input.hand);
+  if (input.reading == Status::EndOfPath)
   {
-    return reading;
+    return input.reading;
   }
   // Before the updates: whoever let go had published the scene that is to be felt.
-  const bool holdsModel = clutched.load(std::memory_order_acquire);
+  input.holdsModel = clutched.load(std::memory_order_acquire);
   applyUpdates();
-  sample.tick = number;
-  sample.timeSeconds = time;
-  const double opening =
-    gate.step(gateIsOpen(wake), 1.0 / settings.rateHz) * clutch.step(!holdsModel, 1.0 / settings.rateHz);
-  const bool healthy = reading == Status::Ok;
-  firstFailedTick = healthy || firstFailedTick != 0 ? firstFailedTick : number;
-  if (healthy)
+  input.gateIsOpen = gateIsOpen(wake);
+  if (beginsAnew.load(std::memory_order_relaxed) && !input.holdsModel && input.gateIsOpen && step.isAtRest())
   {
-    sample.buttons = hand.buttons;
-    // One period even after deadline misses: a force that the hand did not feel grow must not arrive all at
-    // once.
-    sample.state.force = guard.limit(opening * answer(hand, number), 1.0 / settings.rateHz);
+    beginsAnew.store(false, std::memory_order_relaxed);
+    step.restart(number);
   }
+  step.step(input, sample);
+  const bool healthy = input.reading == Status::Ok;
   const Status writing = port->write(time, healthy ? sample.state.force : Vec3());
-  sample.device = healthy ? writing : reading;
+  step.finish(input, writing, sample);
   if (sample.device != Status::Ok)
   {
-    sample.state.force = {};
-    guard.reset();
-    const bool waits = (healthy || reading == Status::DeviceNotReady) &&
+    const bool waits = (healthy || input.reading == Status::DeviceNotReady) &&
       (writing == Status::Ok || writing == Status::DeviceNotReady);
     increase(waits ? waitingTicks : deviceFaults, 1);
   }
   sample.updateSeconds = 1e-9 * double(steadyNanoseconds() - wake);
   update.record(sample.updateSeconds);
-  trace.push(sample);
-  newest.write(sample);
+  publish(sample, wake);
+  return Status::Ok;
+}
+
+void ServoLoop::Implementation::publish(const ServoSample& newSample, std::int64_t wake) noexcept
+{
+  trace.push(newSample);
+  newest.write(newSample);
   if (firstWake.load(std::memory_order_relaxed) == 0)
   {
     firstWake.store(wake, std::memory_order_relaxed);
   }
   newestWake.store(wake, std::memory_order_relaxed);
   increase(ticks, 1);
-  return Status::Ok;
 }
 
 bool ServoLoop::Implementation::gateIsOpen(std::int64_t wake) noexcept
@@ -285,22 +327,6 @@ std::uint64_t ServoLoop::Implementation::ticksToIdle() noexcept
   return std::uint64_t(kIdlePeriodSeconds * settings.rateHz) - 1;
 }
 
-/// Steps the proxy; fills the sample's state. @return the proxy's force.
-Vec3 ServoLoop::Implementation::answer(const HandState& hand, std::uint64_t number) noexcept
-{
-  const double elapsed = double(number - lastSteppedTick) / settings.rateHz;
-  const double failed = firstFailedTick != 0 ? double(number - firstFailedTick) / settings.rateHz : 0.0;
-  const bool stoodStill = number - lastSteppedTick > 1 && elapsed > kNewHandAfterStallSeconds;
-  if (lastSteppedTick != 0 && (hand.isNew || stoodStill || failed > kNewHandAfterSeconds))
-  {
-    proxy.reset();
-  }
-  firstFailedTick = 0;
-  lastSteppedTick = number;
-  sample.state = proxy.step(hand.position, elapsed);
-  return sample.state.force;
-}
-
 void ServoLoop::Implementation::applyUpdates() noexcept
 {
   const HapticScene* const newScene = scenes.acquire();
@@ -309,12 +335,14 @@ void ServoLoop::Implementation::applyUpdates() noexcept
   {
     scene = newScene;
     ++sample.scenes;
-    proxy.setScene(scene);
+    sample.scene = scene ? scene->number() : 0;
+    step.setScene(scene);
   }
   HapticParameters newParameters;
   if (parameters.version() != parametersVersion && parameters.tryRead(newParameters, &parametersVersion))
   {
-    proxy.setParameters(newParameters);
+    step.setParameters(newParameters);
+    sample.parameters = parametersVersion;
     hasUpdates = true;
   }
 }
@@ -356,9 +384,43 @@ Status ServoLoop::start(
   return Status::Ok;
 }
 
+Status ServoLoop::startFed(const ServoStepSettings& settings, int traceCapacity)
+{
+  if (running() || traceCapacity < 1 || traceCapacity > kLargestTrace)
+  {
+    return Status::InvalidParameter;
+  }
+  stop();
+  Implementation& self = *implementation_;
+  self.settings = ServoSettings();
+  self.settings.rateHz = settings.rateHz;
+  self.settings.traceCapacity = traceCapacity;
+  self.limits = HandLimits();
+  self.stepSettings = settings;
+  self.sample = ServoSample();
+  self.clear();
+  self.isFed = true;
+  self.running.store(true, std::memory_order_release);
+  return Status::Ok;
+}
+
+void ServoLoop::feed(const ServoSample& sample) noexcept
+{
+  Implementation& self = *implementation_;
+  static_cast<void>(self.scenes.acquire()); // what is published for nobody is out of use
+  const std::int64_t now = steadyNanoseconds();
+  self.update.record(sample.updateSeconds);
+  self.publish(sample, now);
+}
+
 void ServoLoop::stop()
 {
   Implementation& self = *implementation_;
+  if (self.isFed)
+  {
+    self.isFed = false;
+    self.running.store(false, std::memory_order_release);
+  }
   self.stopRequested.store(true, std::memory_order_release);
   if (self.thread.joinable())
   {
@@ -377,6 +439,7 @@ bool ServoLoop::running() const noexcept
 void ServoLoop::publishScene(std::shared_ptr<const HapticScene> scene)
 {
   const std::lock_guard<std::mutex> lock(implementation_->publishing);
+  keep(implementation_->inputs.scenes, PublishedScene::of(scene.get()));
   implementation_->scenes.publish(std::move(scene));
 }
 
@@ -387,7 +450,7 @@ Status ServoLoop::setParameters(const HapticParameters& parameters, std::string*
   const Status status = checkSpring(self.limits, parameters, self.settings.rateHz);
   if (status == Status::Ok)
   {
-    self.parameters.write(parameters);
+    self.writeParameters(parameters);
   }
   return explained(status, self.limits, parameters.contact, self.settings.rateHz, message);
 }
@@ -439,6 +502,29 @@ void ServoLoop::takeTrace(std::vector<ServoSample>& samples)
   implementation_->trace.take(samples);
   const std::lock_guard<std::mutex> lock(implementation_->publishing);
   implementation_->scenes.collect();
+}
+
+void ServoLoop::takeInputs(ServoInputs& inputs)
+{
+  const std::lock_guard<std::mutex> lock(implementation_->publishing);
+  ServoInputs& taken = implementation_->inputs;
+  const auto move = [](auto& from, auto& to)
+  {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+    from.clear();
+  };
+  move(taken.scenes, inputs.scenes);
+  move(taken.parameters, inputs.parameters);
+}
+
+void ServoLoop::beginAnew() noexcept
+{
+  implementation_->beginsAnew.store(true, std::memory_order_relaxed);
+}
+
+const ServoStepSettings& ServoLoop::stepSettings() const noexcept
+{
+  return implementation_->stepSettings;
 }
 
 } // namespace pointhaptics

@@ -6,8 +6,11 @@
 #include "Core/Base/Lifetime.h"
 #include "Haptics/HapticPort.h"
 #include "Haptics/Proxy.h"
+#include "Haptics/SceneOrigin.h"
 #include "Haptics/Servo/ForceGuard.h"
 #include "Haptics/Servo/LatencyHistogram.h"
+#include "Haptics/Servo/ServoSample.h"
+#include "Haptics/Servo/ServoStep.h"
 
 #include <cstdint>
 #include <memory>
@@ -40,20 +43,6 @@ struct ServoSettings
   ForceLimits limits;
 };
 
-/// One tick, as traced and published.
-struct ServoSample
-{
-  std::uint64_t tick =
-    0; ///< 1, 2, ...; ticks of missed deadlines have their numbers too, so that a gap shows where they were.
-  double timeSeconds = 0.0; ///< Deadline of the tick since the first one: (tick - 1) / rate.
-  ProxyState state; ///< force is the one that was sent: after the guard, zero where the device failed.
-  std::uint32_t buttons = 0;
-  Status device =
-    Status::Ok; ///< What the device said; unless Ok, state is that of the tick before, without force.
-  double updateSeconds = 0.0; ///< Wall time of the tick's work, reading and writing the device included.
-  std::uint64_t scenes = 0;   ///< Scenes taken since start(), this tick's included.
-};
-
 /// What a servo loop did since start(): ticks, deadline misses, faults and times.
 struct ServoStatistics
 {
@@ -75,6 +64,32 @@ struct ServoStatistics
   int realtimeRefusal = 0;          ///< errno of a refused SCHED_FIFO; 0: granted or not asked for.
   int memoryRefusal = 0;            ///< errno of a refused mlockall; 0: granted or not asked for.
   int awakeRefusal = 0;             ///< errno of refused keepCoresAwake; 0: granted or not asked for.
+};
+
+/// A scene as it was published: enough to make it again where its cloud is.
+struct PublishedScene
+{
+  static PublishedScene of(const HapticScene* scene);
+
+  std::uint64_t number = 0; ///< HapticScene::number(); 0: no scene.
+  AffineTransform modelToWorkspace;
+  std::uint64_t cloud = 0;                   ///< HapticScene::cloudNumber().
+  std::shared_ptr<const SceneOrigin> origin; ///< Of the cloud; null: not known.
+  std::uint64_t fallbackCloud = 0;           ///< The same of HapticScene::fallback(); 0: there is none.
+  std::shared_ptr<const SceneOrigin> fallbackOrigin;
+};
+
+struct PublishedParameters
+{
+  std::uint64_t number = 0; ///< As ServoSample::parameters names them.
+  HapticParameters parameters;
+};
+
+/// What a servo loop was given beside the device, oldest first.
+struct ServoInputs
+{
+  std::vector<PublishedScene> scenes;
+  std::vector<PublishedParameters> parameters;
 };
 
 /// What the system refused, one sentence each with the cure; empty where nothing was.
@@ -117,6 +132,11 @@ public:
   /// Takes the force away over the port's rampDownSeconds, writes zero force, joins; waits that long and two
   /// periods at most. Safe to call twice.
   void stop();
+  /// Instead of start(): the samples are those of feed(), as of a replay, and nothing is felt here.
+  /// Statistics and trace start anew; stop() ends it. InvalidParameter: already running.
+  Status startFed(const ServoStepSettings& settings, int traceCapacity = ServoSettings().traceCapacity);
+  /// The newest tick, from one thread, between startFed() and stop(). Does not wait.
+  void feed(const ServoSample& sample) noexcept;
   /// False before start(), after stop() and after the end of a path.
   bool running() const noexcept;
 
@@ -142,6 +162,16 @@ public:
   ServoStatistics statistics() const noexcept;
   /// Moves all ticks since the last call to the end of @p samples, oldest first.
   void takeTrace(std::vector<ServoSample>& samples);
+  /// Moves what was published since the last call to the end of @p inputs, the scene and the parameters in
+  /// use included where this is the first call. What a sample of takeTrace() names was published before that
+  /// call. The 10,000 newest of either are kept. Thread: that of takeTrace().
+  void takeInputs(ServoInputs& inputs);
+  /// From the next tick on in which the hand touches nothing and no force is held back, the proxy forgets
+  /// what was before (ServoSample::tickFlags, kTickBegins): from there on the forces can be computed again
+  /// from samples and inputs. The hand feels nothing of it. The first tick after start() is such a one.
+  void beginAnew() noexcept;
+  /// Of a loop that runs: what a replay of its ticks needs.
+  const ServoStepSettings& stepSettings() const noexcept;
   /// For those who point to the loop without owning it, such as threads that publish scenes.
   const Lifetime& lifetime() const noexcept { return lifetime_; }
 

@@ -7,6 +7,8 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <utility>
+
 namespace pointhaptics
 {
 
@@ -19,10 +21,17 @@ void prepareForTouch(vtkVoxelMeanResampler* resampler, bool useCovariance)
 
 Status FeelScenes::make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings)
 {
-  follower_.reset();
   Status status = Status::Ok;
   // No picture is drawn: the scene computes the few radii it needs.
-  whole_ = makeHapticScene(felt, status, settings.useCovariance, settings.bandwidth);
+  this->adopt(makeHapticScene(felt, status, settings.useCovariance, settings.bandwidth), cloud, settings);
+  return status;
+}
+
+void FeelScenes::adopt(
+  std::shared_ptr<const HapticScene> whole, vtkPoints* cloud, const FeelSceneSettings& settings)
+{
+  follower_.reset();
+  whole_ = std::move(whole);
   if (whole_ && settings.refineNearHand && cloud &&
     builder_.setCloud(PointAccess(cloud).view(), SmpExecutor()) == Status::Ok)
   {
@@ -30,7 +39,6 @@ Status FeelScenes::make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSett
     builder_.setWorkspace(settings.workspace);
     follower_.emplace(builder_, whole_);
   }
-  return status;
 }
 
 void FeelScenes::restart()

@@ -39,6 +39,8 @@ public:
   /// cloud after prepareForTouch(), or raw points. @param cloud the points of the cloud in its own frame, for
   /// the scenes near the hand; no reference is kept. Errors: those of HapticScene::create().
   Status make(vtkPolyData* felt, vtkPoints* cloud, const FeelSceneSettings& settings);
+  /// The same with a scene of the whole cloud that is there already.
+  void adopt(std::shared_ptr<const HapticScene> whole, vtkPoints* cloud, const FeelSceneSettings& settings);
   /// Forgets where the hand was: the next path is felt as the first one.
   void restart();
 

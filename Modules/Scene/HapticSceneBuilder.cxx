@@ -69,7 +69,7 @@ std::vector<SymMat3> copyCovariances(vtkDataArray* array)
 } // namespace
 
 std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& status, bool useCovariance,
-  const std::optional<LocalBandwidthSettings>& bandwidth)
+  const std::optional<LocalBandwidthSettings>& bandwidth, const VoxelMeanSettings* voxels)
 {
   if (!cloud || cloud->GetNumberOfPoints() == 0)
   {
@@ -106,6 +106,15 @@ std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud, Status& s
         input.modelToWorkspace.m[row][column] = fieldValue(matrix, 4 * row + column);
       }
     }
+  }
+  if (voxels)
+  {
+    auto origin = std::make_shared<SceneOrigin>();
+    origin->voxels = *voxels;
+    origin->bandwidth = bandwidth;
+    origin->useCovariance = useCovariance;
+    origin->modelToWorkspace = input.modelToWorkspace;
+    input.origin = std::move(origin);
   }
   return HapticScene::create(std::move(input), status, SmpExecutor());
 }

@@ -18,9 +18,11 @@ namespace pointhaptics
 /// LatticeOrigin, LatticeSpacing and ModelToWorkspace where they are there (the output of
 /// vtkVoxelMeanResampler and vtkKernelBandwidthFilter has them all). @p useCovariance false leaves
 /// VoxelCovariance unused. Where there is no ProxyRadius the scene computes the radii it needs by @p
-/// bandwidth, if given: the same as with the whole array, and sooner. Null on an error, and @p status says
-/// which (see HapticScene::create).
+/// bandwidth, if given: the same as with the whole array, and sooner. @p voxels, if given: what @p cloud was
+/// resampled with, for HapticScene::origin(). Null on an error, and @p status says which (see
+/// HapticScene::create).
 POINTHAPTICSSCENE_EXPORT std::shared_ptr<const HapticScene> makeHapticScene(vtkPolyData* cloud,
-  Status& status, bool useCovariance = true, const std::optional<LocalBandwidthSettings>& bandwidth = {});
+  Status& status, bool useCovariance = true, const std::optional<LocalBandwidthSettings>& bandwidth = {},
+  const VoxelMeanSettings* voxels = nullptr);
 
 } // namespace pointhaptics

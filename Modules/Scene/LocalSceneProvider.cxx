@@ -79,6 +79,16 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::build(
     return nullptr;
   }
   HapticSceneInput input = this->input(request);
+  auto origin = std::make_shared<SceneOrigin>();
+  origin->kind = SceneOrigin::Kind::Region;
+  origin->voxels = request.voxels;
+  origin->bandwidth = request.bandwidth;
+  origin->useCovariance = request.useCovariance;
+  origin->modelToWorkspace = voxels_.transform;
+  origin->hand = hand;
+  origin->globalCloud = region->globalScene()->cloudNumber();
+  origin->global = region->globalScene()->origin();
+  input.origin = std::move(origin);
   input.region = std::move(region);
   Status status = Status::Ok;
   return HapticScene::create(std::move(input), status, smp_);
@@ -93,6 +103,32 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::refine(
     return nullptr;
   }
   return follower_->scene() == global ? nullptr : follower_->scene();
+}
+
+std::shared_ptr<const HapticScene> LocalSceneProvider::make(
+  const SceneOrigin& origin, const std::shared_ptr<const HapticScene>& global)
+{
+  SceneRequest request;
+  request.voxels = origin.voxels;
+  if (origin.bandwidth)
+  {
+    static_cast<LocalBandwidthSettings&>(request.bandwidth.emplace()) = *origin.bandwidth;
+  }
+  request.useCovariance = origin.useCovariance;
+  request.hand = [&origin] { return origin.hand; };
+  const AffineTransform& model = origin.modelToWorkspace;
+  if (origin.kind == SceneOrigin::Kind::Region)
+  {
+    for (int row = 0; row < 3; ++row)
+    {
+      std::copy_n(model.m[row], 4, request.modelToWorkspace.begin() + 4 * row);
+    }
+    return this->build(request, global);
+  }
+  Status status = Status::Ok;
+  const bool isThere = global->modelToWorkspace() == model;
+  const std::shared_ptr<const HapticScene> beside = isThere ? global : global->moved(model, status);
+  return beside && this->follow(request, beside) ? finer_.build(origin.hand, beside, smp_) : nullptr;
 }
 
 /// False: there is nothing to make finer scenes of.

@@ -44,6 +44,11 @@ public:
   std::shared_ptr<const HapticScene> refine(
     const SceneRequest& request, const std::shared_ptr<const HapticScene>& global);
 
+  /// The scene of @p origin, a Region or a Fine one, made again beside @p global, which was made as
+  /// origin.global says. Null where it cannot be.
+  std::shared_ptr<const HapticScene> make(
+    const SceneOrigin& origin, const std::shared_ptr<const HapticScene>& global);
+
   /// Whether the points are indexed by now: not before a scene is made of them.
   bool isIndexed() const { return index_ != nullptr; }
 

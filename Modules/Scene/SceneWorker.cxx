@@ -65,7 +65,7 @@ public:
     if (numberOfPoints_ > 0)
     {
       resampler_->Update();
-      scene = makeHapticScene(resampler_->GetOutput(), built.status, request.useCovariance, rule);
+      scene = makeHapticScene(resampler_->GetOutput(), built.status, request.useCovariance, rule, &voxels);
     }
     built.empty = scene == nullptr;
     scene_ = request.hasResiduals || request.hasNormals ? scene : nullptr;

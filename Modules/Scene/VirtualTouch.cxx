@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace pointhaptics
 {
@@ -14,29 +15,46 @@ std::array<double, kFeltColumns.size()> feltRow(
     state.contact ? 1.0 : 0.0, microseconds };
 }
 
-VirtualTouch::VirtualTouch(const HapticParameters& parameters, FeelScenes& scenes, double rateHz)
-  : proxy_(parameters)
-  , scenes_(scenes)
-  , period_(1.0 / rateHz)
+ServoStepSettings VirtualTouch::settings(double rateHz)
 {
+  ServoStepSettings settings;
+  settings.rateHz = rateHz;
+  settings.limits.maximumForce = INFINITY;
+  settings.limits.maximumSlewRate = INFINITY;
+  return settings;
+}
+
+VirtualTouch::VirtualTouch(const HapticParameters& parameters, FeelScenes& scenes, double rateHz)
+  : scenes_(scenes)
+  , step_(settings(rateHz), parameters)
+{
+  sample_.parameters = 1;
 }
 
 const ProxyState& VirtualTouch::step(const Vec3& hip, double& microseconds)
 {
-  const HapticScene* scene = scenes_.at(hip, state_.contact ? state_.proxy : hip);
+  const HapticScene* scene = scenes_.at(hip, sample_.state.contact ? sample_.state.proxy : hip);
   if (scene != scene_)
   {
-    proxy_.setScene(scene_ = scene);
+    scene_ = scene;
+    sample_.scene = scene ? scene->number() : 0;
+    ++sample_.scenes;
+    step_.setScene(scene);
   }
+  TickInput input;
+  input.number = sample_.tick + 1;
+  input.hand.position = hip;
   const auto before = std::chrono::steady_clock::now();
-  state_ = proxy_.step(hip, period_);
-  const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;
-  microseconds = took.count();
-  return state_;
+  step_.step(input, sample_);
+  step_.finish(input, Status::Ok, sample_);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
+  sample_.updateSeconds = took.count();
+  microseconds = 1e6 * took.count();
+  return sample_.state;
 }
 
-void feelPath(const HapticParameters& parameters, FeelScenes& scenes, const HipPath& path, double rateHz,
-  std::int64_t ticks, const OnTick& onTick)
+void feelPathWith(const HapticParameters& parameters, FeelScenes& scenes, const HipPath& path, double rateHz,
+  std::int64_t ticks, const OnTouch& onTouch)
 {
   VirtualTouch touch(parameters, scenes, rateHz);
   const double start = path.points.front().timeSeconds;
@@ -46,12 +64,20 @@ void feelPath(const HapticParameters& parameters, FeelScenes& scenes, const HipP
   {
     const double time = std::min(start + double(tick) / rateHz, end);
     double microseconds = 0.0;
-    const ProxyState& state = touch.step(path.position(time, hint), microseconds);
-    if (!onTick(time, state, microseconds))
+    touch.step(path.position(time, hint), microseconds);
+    if (!onTouch(time, touch))
     {
       return;
     }
   }
+}
+
+void feelPath(const HapticParameters& parameters, FeelScenes& scenes, const HipPath& path, double rateHz,
+  std::int64_t ticks, const OnTick& onTick)
+{
+  feelPathWith(parameters, scenes, path, rateHz, ticks,
+    [&onTick](double time, const VirtualTouch& touch)
+    { return onTick(time, touch.sample().state, 1e6 * touch.sample().updateSeconds); });
 }
 
 } // namespace pointhaptics

@@ -5,7 +5,7 @@
 #include "FeelScenes.h"
 
 #include "Devices/HipPath.h"
-#include "Haptics/Proxy.h"
+#include "Haptics/Servo/ServoStep.h"
 
 #include "PointHapticsSceneModule.h" // For export macro
 
@@ -28,7 +28,7 @@ constexpr std::array<const char*, 16> kFeltColumns = { "t", "hip_x", "hip_y", "h
 POINTHAPTICSSCENE_EXPORT std::array<double, kFeltColumns.size()> feltRow(
   double timeSeconds, const ProxyState& state, double microseconds);
 
-/// A proxy in the scenes of where it comes. One thread at a time.
+/// A servo step without force limits in the scenes of where the hand comes. One thread at a time.
 class POINTHAPTICSSCENE_EXPORT VirtualTouch
 {
 public:
@@ -37,21 +37,30 @@ public:
   /// The hand is at @p hip for one tick. @param microseconds gets the duration of the tick alone: a scene
   /// that it needs is there in time.
   const ProxyState& step(const Vec3& hip, double& microseconds);
+  /// What the last step came to; its tick is its number, 1, 2, ...
+  const ServoSample& sample() const { return sample_; }
+  /// That the last step was felt in; may be null.
+  const HapticScene* scene() const { return scene_; }
+  /// Of all ticks.
+  static ServoStepSettings settings(double rateHz);
 
 private:
-  Proxy proxy_;
   FeelScenes& scenes_;
-  double period_;
+  ServoStep step_;
   const HapticScene* scene_ = nullptr;
-  ProxyState state_;
+  ServoSample sample_;
 };
 
 /// What feelPath() tells of each tick; false stops it.
 using OnTick = std::function<bool(double timeSeconds, const ProxyState& state, double microseconds)>;
+/// The same with all there is to know; the time of its sample counts from the first tick.
+using OnTouch = std::function<bool(double timeSeconds, const VirtualTouch& touch)>;
 
 /// Moves the hand along @p path, whatever the force, linearly between its points, for so many ticks (see
 /// countTicks()). @pre the path is checked and not empty.
 POINTHAPTICSSCENE_EXPORT void feelPath(const HapticParameters& parameters, FeelScenes& scenes,
   const HipPath& path, double rateHz, std::int64_t ticks, const OnTick& onTick);
+POINTHAPTICSSCENE_EXPORT void feelPathWith(const HapticParameters& parameters, FeelScenes& scenes,
+  const HipPath& path, double rateHz, std::int64_t ticks, const OnTouch& onTouch);
 
 } // namespace pointhaptics

@@ -162,8 +162,10 @@ void HapticViewer::Implementation::skip(const std::string& title)
 bool HapticViewer::Implementation::read(CloudRequest request, LoadedCloud& loaded)
 {
   request.measuresLater = this->options.showsReading;
-  request.mostPoints = this->options.showsReading ? this->options.coarsePoints : 0;
-  request.makesScene = this->options.showsReading || !this->options.path.empty();
+  // A recording is of all points.
+  const bool needsAll = !this->options.replay.empty() || !this->options.record.empty();
+  request.mostPoints = this->options.showsReading && !needsAll ? this->options.coarsePoints : 0;
+  request.makesScene = this->options.showsReading || this->options.followsFile();
   const std::string title = request.name();
   CloudLoader loader;
   loader.start(std::move(request));

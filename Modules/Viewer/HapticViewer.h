@@ -56,8 +56,9 @@ public:
   bool open(vtkPolyData* cloud, const std::string& title = "cloud");
   ///@}
 
-  /// Feels the cloud along HapticViewerOptions::path, in virtual time, and writes trace and forceChart. The
-  /// next picture shows the tick of the largest force. Needs a cloud, and a display for a forceChart.
+  /// Feels the cloud along HapticViewerOptions::path, or what HapticViewerOptions::replay says, in virtual
+  /// time, and writes trace and forceChart. The next picture shows the tick of the largest force. Needs a
+  /// cloud, and a display for a forceChart.
   bool feelPath();
   /// Writes a PNG: of the window while it is there, else of what it would show first, off the screen. Needs a
   /// cloud and a display.

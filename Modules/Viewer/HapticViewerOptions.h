@@ -76,6 +76,8 @@ struct HapticViewerOptions
   HapticViewerDevice device = HapticViewerDevice::Auto;
   FalconSettings falcon;  ///< @c cancelled is taken from HapticViewerObserver where it is empty.
   std::string path;       ///< File of a hand path, t,x,y,z, that moves the hand instead of a device.
+  std::string replay;     ///< A recording that is felt again instead of a path.
+  std::string record;     ///< A recording to write, from the first tick to the last; empty: a key begins one.
   std::string trace;      ///< CSV to write, one row a tick; empty: none.
   std::string forceChart; ///< PNG to write, force and proxy radius over time; empty: none.
 
@@ -93,6 +95,8 @@ struct HapticViewerOptions
 
   HapticViewerNames names;
 
+  /// Whether the hand goes where a file says.
+  bool followsFile() const { return !this->path.empty() || !this->replay.empty(); }
   /// Whether the lattice's voxels were chosen.
   bool hasVoxels() const
   {
@@ -155,6 +159,10 @@ struct HapticViewerObserver
   /// no effect.
   std::function<bool(const HapticViewerState& state, const std::string& fileName, std::string& message)>
     writeState;
+  /// @p state as a configuration in one line, and the program's name and version: for the header of a
+  /// recording. Either may be missing.
+  std::function<std::string(const HapticViewerState& state)> describeState;
+  std::string program;
   /// The window closes.
   std::function<void(const HapticViewerState& state)> rememberState;
 };

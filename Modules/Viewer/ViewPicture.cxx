@@ -1,21 +1,25 @@
 #include "ViewPicture.h"
 
 #include "PathTicks.h"
+#include "Replay.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
 
 #include "vtkHapticChart.h"
 #include "vtkHapticProps.h"
+#include "vtkVoxelMeanResampler.h"
 
 #include "Devices/HipPath.h"
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkPointSet.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkWindowToImageFilter.h>
@@ -60,27 +64,75 @@ bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::str
   return true;
 }
 
+namespace
+{
+
+/// A hand that follows HapticViewerOptions::path.
+bool feelPathOf(ViewScene& scene, const HapticViewerOptions& options, std::vector<ServoSample>& samples,
+  std::string& message)
+{
+  HipPath path;
+  std::int64_t ticks = 0;
+  FeelScenes scenes;
+  if (readHipPath(options.path, path, message) != Status::Ok ||
+    !countTicks(path, options.path, kRateHz, kMostTicks, ticks, message) ||
+    !makeFeelScenes(scene, options, scenes, message))
+  {
+    return false;
+  }
+  samples = samplesAlong(path, ticks, scenes, options.haptics, kRateHz);
+  return true;
+}
+
+/// What was recorded in HapticViewerOptions::replay, felt again.
+bool feelReplay(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
+  std::vector<ServoSample>& samples, std::string& message)
+{
+  Recording recording;
+  auto* cloud = vtkPointSet::SafeDownCast(scene.resampler()->GetInputDataObject(0, 0));
+  if (!readRecording(options.replay, recording, message))
+  {
+    return false;
+  }
+  if (!RecordedScenes::isOf(recording, cloud, message))
+  {
+    message.insert(0, scene.title() + ": ");
+    return false;
+  }
+  RecordedScenes scenes(recording, cloud);
+  Replay replay(recording, scenes);
+  ReplayDifference difference;
+  while (!replay.isAtEnd())
+  {
+    const RecordedTick& row = replay.row();
+    samples.emplace_back();
+    if (!replay.step(samples.back(), message))
+    {
+      message.insert(0, options.replay + ": ");
+      return false;
+    }
+    difference.add(row, samples.back());
+    if (observer.shouldStop && observer.shouldStop())
+    {
+      message = options.replay + ": the replay was stopped on request";
+      return false;
+    }
+  }
+  note(observer, "replay: " + difference.text());
+  return true;
+}
+
+} // namespace
+
 bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
   ServoSample& shown, std::string& message)
 {
-  HipPath path;
-  if (readHipPath(options.path, path, message) != Status::Ok)
+  std::vector<ServoSample> samples;
+  if (!(options.replay.empty() ? feelPathOf(scene, options, samples, message)
+                               : feelReplay(scene, options, observer, samples, message)))
   {
     return false;
   }
-  std::int64_t ticks = 0;
-  if (!countTicks(path, options.path, kRateHz, kMostTicks, ticks, message))
-  {
-    return false;
-  }
-  Status status = Status::Ok;
-  const auto snapshot = scene.makeScene(options.voxels.computeCovariance, status);
-  if (!snapshot)
-  {
-    message = fmt::format("the cloud cannot be felt: {}", pointhaptics::message(status));
-    return false;
-  }
-  const std::vector<ServoSample> samples = feelPath(*snapshot, path, ticks, options.haptics, kRateHz);
   shown = mostTelling(samples);
   if (!options.trace.empty())
   {

@@ -473,7 +473,8 @@ std::shared_ptr<const HapticScene> ViewScene::makeScene(bool useCovariance, Stat
 {
   status = Status::Ok;
   return scene_ ? scene_
-                : makeHapticScene(bandwidth_->GetOutput(), status, useCovariance, bandwidth_->GetSettings());
+                : makeHapticScene(bandwidth_->GetOutput(), status, useCovariance, bandwidth_->GetSettings(),
+                    &resampler_->GetSettings());
 }
 
 } // namespace pointhaptics

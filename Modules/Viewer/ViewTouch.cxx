@@ -2,6 +2,7 @@
 
 #include "HapticViewerOptions.h"
 #include "ViewScene.h"
+#include "VirtualTouch.h"
 
 #include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
@@ -9,33 +10,46 @@
 #include <vtkPointSet.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 namespace pointhaptics
 {
 
-std::vector<ServoSample> feelPath(const HapticScene& scene, const HipPath& path, std::int64_t ticks,
+std::vector<ServoSample> samplesAlong(const HipPath& path, std::int64_t ticks, FeelScenes& scenes,
   const HapticParameters& parameters, double rateHz)
 {
-  using Clock = std::chrono::steady_clock;
   std::vector<ServoSample> samples;
-  Proxy proxy(parameters);
-  proxy.setScene(&scene);
   samples.reserve(std::size_t(ticks));
-  std::size_t hint = 0;
-  for (std::int64_t tick = 0; tick < ticks; ++tick)
-  {
-    ServoSample sample;
-    sample.tick = std::uint64_t(tick + 1);
-    sample.timeSeconds = path.points.front().timeSeconds + double(tick) / rateHz;
-    const Clock::time_point begin = Clock::now();
-    sample.state = proxy.step(path.position(sample.timeSeconds, hint), 1.0 / rateHz);
-    sample.updateSeconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    samples.push_back(sample);
-  }
+  feelPathWith(parameters, scenes, path, rateHz, ticks,
+    [&samples](double time, const VirtualTouch& touch)
+    {
+      samples.push_back(touch.sample());
+      samples.back().timeSeconds = time;
+      return true;
+    });
   return samples;
+}
+
+bool makeFeelScenes(
+  ViewScene& scene, const HapticViewerOptions& options, FeelScenes& scenes, std::string& message)
+{
+  Status status = Status::Ok;
+  auto whole = scene.makeScene(options.voxels.computeCovariance, status);
+  if (!whole)
+  {
+    message = std::string("the cloud cannot be felt: ") + pointhaptics::message(status);
+    return false;
+  }
+  const LatticeSettings& lattice = scene.resampler()->GetSettings().lattice;
+  FeelSceneSettings settings;
+  settings.bandwidth = options.bandwidth;
+  settings.workspace = lattice.automaticWorkspace ? Bounds() : lattice.workspace;
+  settings.useCovariance = options.voxels.computeCovariance;
+  settings.refineNearHand = !options.hasVoxels() && settings.useCovariance;
+  auto* cloud = vtkPointSet::SafeDownCast(scene.resampler()->GetInputDataObject(0, 0));
+  scenes.adopt(std::move(whole), cloud ? cloud->GetPoints() : nullptr, settings);
+  return true;
 }
 
 const ServoSample& mostTelling(const std::vector<ServoSample>& samples)
@@ -76,10 +90,12 @@ double idealForce(IdealForce& ideal, ViewScene& scene, const Vec3& hip, double s
 
 bool TraceFile::open(const std::string& fileName, std::string& message)
 {
-  isOpen_ = writer_.open(fileName,
-    "t,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,"
-    "force_x,force_y,force_z,radius,contact,update_us",
-    message);
+  std::string header;
+  for (const char* column : kFeltColumns)
+  {
+    header += (header.empty() ? "" : ",") + std::string(column);
+  }
+  isOpen_ = writer_.open(fileName, header, message);
   return isOpen_;
 }
 
@@ -87,11 +103,8 @@ void TraceFile::add(const std::vector<ServoSample>& samples)
 {
   for (const ServoSample& sample : samples)
   {
-    const ProxyState& state = sample.state;
-    const double row[] = { sample.timeSeconds, state.hip.x, state.hip.y, state.hip.z, state.proxy.x,
-      state.proxy.y, state.proxy.z, state.normal.x, state.normal.y, state.normal.z, state.force.x,
-      state.force.y, state.force.z, state.radius, state.contact ? 1.0 : 0.0, 1e6 * sample.updateSeconds };
-    writer_.row(row, std::size(row));
+    const auto row = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
+    writer_.row(row.data(), row.size());
   }
 }
 

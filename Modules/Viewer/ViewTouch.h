@@ -3,6 +3,7 @@
 #pragma once
 
 #include "CsvWriter.h"
+#include "FeelScenes.h"
 
 #include "Devices/HipPath.h"
 #include "Haptics/Proxy.h"
@@ -19,10 +20,13 @@ namespace pointhaptics
 class ViewScene;
 struct HapticViewerOptions;
 
-/// One sample for each of the @p ticks of @p rateHz along @p path (see countTicks), as `feel` does it. @pre
-/// path not empty.
-std::vector<ServoSample> feelPath(const HapticScene& scene, const HipPath& path, std::int64_t ticks,
+/// One sample for each of the @p ticks of @p rateHz along @p path (see countTicks), as `feel` does it; its
+/// time is that of the path. @pre path not empty.
+std::vector<ServoSample> samplesAlong(const HipPath& path, std::int64_t ticks, FeelScenes& scenes,
   const HapticParameters& parameters, double rateHz);
+/// What `feel` feels of the cloud of @p scene, with the same options. False: @p message says why not.
+bool makeFeelScenes(
+  ViewScene& scene, const HapticViewerOptions& options, FeelScenes& scenes, std::string& message);
 
 /// The tick to show: that of the largest force, or the last one where nothing was touched. @pre not empty.
 const ServoSample& mostTelling(const std::vector<ServoSample>& samples);

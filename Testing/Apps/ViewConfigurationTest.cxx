@@ -76,7 +76,7 @@ const std::map<std::string, std::string>& valuesOfOptions()
 const std::set<std::string>& deeds()
 {
   static const std::set<std::string> names = { "--help", "--version", "--verbose", "--screenshot",
-    "--force-chart", "--trace", "--config", "--write-config", "--recent" };
+    "--force-chart", "--trace", "--record", "--replay", "--config", "--write-config", "--recent" };
   return names;
 }
 

@@ -366,6 +366,54 @@ touch_pushes() {
   (($(xdotool getmouselocation --shell | sed -n 's/^X=//p') < 275))
 }
 
+# Two presses of a key, and in between the hand touches the sphere, and the model is zoomed: feel answers with the same bits.
+KeyJRecordsWhatFeelFeelsAgain() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated
+  move_to 225 180
+  key f j
+  said "recording to pointhaptics-001.csv"
+  until_true "nothing was touched" touches
+  key space ctrl+plus
+  said "marker 1"
+  touches
+  key j
+  said "recording: pointhaptics-001.csv"
+  feels_again pointhaptics-001.csv
+  grep -v '^#' pointhaptics-001.csv | cut -d, -f15 | grep -qx 1 || fail "the recording has no contact"
+  grep -v '^#' pointhaptics-001.csv | cut -d, -f18 | grep -qx 1 || fail "the recording has no marker"
+  (($(grep -c '^# tick .*: scene' pointhaptics-001.csv) > 1)) || fail "the recording has no motion of the model"
+}
+# To the side of the sphere and into it; the status is what a person sees.
+touches() {
+  move_to 225 180
+  sleep 0.3 # no condition: the hand comes there and back in some tenths of a second
+  move_to 290 180
+  sleep 0.5
+}
+# feels_again RECORDING
+feels_again() {
+  "$program" feel --replay "$1" -o again.csv >felt.txt || fail "feel --replay failed"
+  grep -qF "to the last bit" felt.txt || fail "$(cat felt.txt)"
+  cmp <(grep -v '^#' "$1" | cut -d, -f1-15) <(cut -d, -f1-15 again.csv) || fail "other forces"
+}
+
+AWindowShowsARecording() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated --record rec.csv
+  move_to 225 180
+  key f
+  touches
+  key q
+  ends_with 0 "key Q"
+  said "recording: rec.csv"
+  feels_again rec.csv
+  start_viewer --replay rec.csv
+  shows cloud.ply
+  has_keys
+  said "to the last bit"
+}
+
 ADroppedFileIsShown() {
   make sphere cloud.ply
   make torus dropped.ply

@@ -18,6 +18,7 @@ namespace app
 /// exitCode, which must outlive the parsing.
 void addViewCommand(CLI::App& program, int& exitCode);
 void addFeelCommand(CLI::App& program, int& exitCode);
+void addCompareCommand(CLI::App& program, int& exitCode);
 void addResampleCommand(CLI::App& program, int& exitCode);
 void addBandwidthCommand(CLI::App& program, int& exitCode);
 void addConvertCommand(CLI::App& program, int& exitCode);

@@ -3,6 +3,7 @@
 #include "Clouds/Pipeline.h"
 #include "Feel/FeelLive.h"
 #include "Feel/FeelOptions.h"
+#include "Feel/FeelReplay.h"
 #include "Feel/FeltCloud.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
@@ -10,6 +11,8 @@
 
 #include "CsvWriter.h"
 #include "PathTicks.h"
+#include "RecordingWriter.h"
+#include "Replay.h"
 #include "VirtualTouch.h"
 
 #include "Devices/HipPath.h"
@@ -25,6 +28,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pointhaptics
@@ -67,9 +71,24 @@ std::string header()
 class Rows
 {
 public:
-  explicit Rows(CsvWriter& table)
+  /// @param recording gets what add() gets as a sample, if it is open.
+  Rows(CsvWriter& table, RecordingWriter& recording)
     : table_(table)
+    , recording_(recording)
   {
+  }
+  RecordingWriter& recording() { return recording_; }
+  /// At another time than the sample's, which counts from the first tick.
+  void add(double time, const VirtualTouch& touch)
+  {
+    const ServoSample& sample = touch.sample();
+    if (recording_.isOpen() && sample.scene != scene_)
+    {
+      recording_.publish(PublishedScene::of(touch.scene()));
+      scene_ = sample.scene;
+    }
+    recording_.add(sample);
+    this->add(time, sample.state, 1e6 * sample.updateSeconds);
   }
   void add(double time, const ProxyState& state, double microseconds)
   {
@@ -91,8 +110,10 @@ public:
 
 private:
   CsvWriter& table_;
+  RecordingWriter& recording_;
   Summary summary_;
   std::vector<float> durations_;
+  std::uint64_t scene_ = 0;
 };
 
 /// A person pulled along @p path, who yields to the force; in virtual time.
@@ -139,7 +160,7 @@ bool walkYielding(const FeelOptions& options, FeelScenes& scenes, const HipPath&
     double microseconds = 0.0;
     const ProxyState& felt = touch.step(state.position, microseconds);
     static_cast<void>(hand.write(time, felt.force));
-    rows.add(path.points.front().timeSeconds + time, felt, microseconds);
+    rows.add(path.points.front().timeSeconds + time, touch);
     bar.show(double(tick) / double(ticks));
   }
   return true;
@@ -150,10 +171,10 @@ void walk(const FeelOptions& options, FeelScenes& scenes, const HipPath& path, s
 {
   ProgressBar bar("feeling");
   std::int64_t tick = 0;
-  feelPath(options.touch.parameters, scenes, path, options.rateHz, ticks,
-    [&](double time, const ProxyState& state, double microseconds)
+  feelPathWith(options.touch.parameters, scenes, path, options.rateHz, ticks,
+    [&](double time, const VirtualTouch& touch)
     {
-      rows.add(time, state, microseconds);
+      rows.add(time, touch);
       bar.show(double(tick++) / double(ticks));
       return !stopIsRequested();
     });
@@ -167,6 +188,7 @@ bool touch(const FeelOptions& options, FeelScenes& scenes, Rows& rows, std::stri
   live.parameters = options.touch.parameters;
   live.rateHz = options.rateHz;
   live.seconds = options.seconds;
+  live.recording = &rows.recording();
   ServoStatistics statistics;
   const auto row = [&rows](const ServoSample& sample)
   { rows.add(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds); };
@@ -220,6 +242,84 @@ void print(const FeelOptions& options, const FeelScenes& scenes, const Summary& 
     options.output);
 }
 
+void printReplay(const FeelOptions& options, const ReplayDifference& difference, const Summary& s)
+{
+  if (options.json)
+  {
+    printJson({ { "output", options.output }, { "ticks", s.ticks }, { "contact_ticks", s.contactTicks },
+      { "max_force_n", s.maximumForce }, { "same_ticks", difference.sameTicks },
+      { "max_difference_n", difference.largest } });
+    return;
+  }
+  fmt::print("{} ticks, {} in contact, max force {:.4g} N: {}\n{}\n", s.ticks, s.contactTicks, s.maximumForce,
+    options.output, difference.text());
+}
+
+/// A recording felt again.
+int runReplay(const FeelOptions& options)
+{
+  std::string message;
+  Recording recording;
+  vtkSmartPointer<vtkPolyData> cloud;
+  rememberStopSignals();
+  if (!openRecording(options.replay, options.file, recording, cloud, message))
+  {
+    return fail(kCommand, message);
+  }
+  CsvWriter table;
+  if (!table.open(options.output, header(), message))
+  {
+    return fail(kCommand, message);
+  }
+  RecordedScenes scenes(recording, cloud);
+  std::optional<ProxyMethod> method;
+  if (options.methodIsGiven)
+  {
+    method = options.touch.parameters.method;
+  }
+  Replay replay(recording, scenes, method);
+  RecordingWriter none;
+  Rows rows(table, none);
+  ReplayDifference difference;
+  ProgressBar bar("feeling");
+  while (!replay.isAtEnd() && !stopIsRequested())
+  {
+    const RecordedTick& row = replay.row();
+    ServoSample sample;
+    if (!replay.step(sample, message))
+    {
+      return fail(kCommand, options.replay + ": " + message);
+    }
+    difference.add(row, sample);
+    rows.add(row.felt[0], sample.state, 1e6 * sample.updateSeconds);
+    bar.show(double(difference.ticks) / double(recording.ticks.size()));
+  }
+  if (stopIsRequested())
+  {
+    return fail(kCommand, options.output + ": feeling was stopped on request; start it again");
+  }
+  if (!table.commit(message))
+  {
+    return fail(kCommand, message);
+  }
+  printReplay(options, difference, rows.summary());
+  return kSuccess;
+}
+
+bool openRecordingOutput(
+  const FeelOptions& options, vtkPolyData* cloud, RecordingWriter& recording, std::string& message)
+{
+  if (options.record.empty())
+  {
+    return true;
+  }
+  RecordingHeader header = headerOf(options.file, 0.0, cloud);
+  header.settings = options.settings;
+  header.step = VirtualTouch::settings(options.rateHz);
+  recording.publish(PublishedParameters{ 1, options.touch.parameters });
+  return recording.open(options.record, header, message);
+}
+
 int runFeel(const FeelOptions& options)
 {
   std::string message;
@@ -246,17 +346,24 @@ int runFeel(const FeelOptions& options)
   {
     return fail(kCommand, message);
   }
-  cloud = {};
   rememberStopSignals(); // before there is an unfinished file
+  RecordingWriter recording;
   CsvWriter table;
-  if (!table.open(options.output, header(), message))
+  if (!openRecordingOutput(options, cloud.points, recording, message) ||
+    !table.open(options.output, header(), message))
   {
     return fail(kCommand, message);
   }
-  Rows rows(table);
-  if (!feelAs(options, scenes, path, ticks, rows, message) || !table.commit(message))
+  cloud = {};
+  Rows rows(table, recording);
+  if (!feelAs(options, scenes, path, ticks, rows, message) || !table.commit(message) ||
+    !recording.close(message))
   {
     return fail(kCommand, message);
+  }
+  if (!recording.problem().empty())
+  {
+    warn(kCommand, fmt::format("{}: it ends early: {}", options.record, recording.problem()));
   }
   print(options, scenes, rows.summary());
   return kSuccess;
@@ -273,8 +380,10 @@ void addFeelCommand(CLI::App& program, int& exitCode)
   command->callback(
     [command, options, &exitCode]
     {
-      options->complete(*command);
-      exitCode = runFeel(*options);
+      std::string message;
+      exitCode = !options->complete(*command, message) ? fail(kCommand, message)
+        : options->replay.empty()                      ? runFeel(*options)
+                                                       : runReplay(*options);
     });
 }
 

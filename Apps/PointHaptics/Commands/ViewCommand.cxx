@@ -33,12 +33,12 @@ constexpr int kCancelled = 130;
 bool checkDevice(const ViewOptions& options, std::string& message)
 {
   // Where the hand follows a path or is in no window, nothing else would notice.
-  const bool opensFalcon = options.needsWindow() && options.viewer.path.empty();
+  const bool opensFalcon = options.needsWindow() && !options.viewer.followsFile();
   if (options.device == "falcon" && !opensFalcon && !falconIsUsable(message))
   {
     message = fmt::format("--device falcon: {}; {} does without a device: leave the option out, or give "
                           "--device none",
-      message, options.viewer.path.empty() ? "a picture" : "a hand path");
+      message, options.viewer.followsFile() ? "a hand path" : "a picture");
     return false;
   }
   return true;
@@ -89,6 +89,8 @@ HapticViewerObserver observerFor(const ViewOptions& options)
   observer.writeState = [settingsOf](
                           const HapticViewerState& state, const std::string& fileName, std::string& message)
   { return writeSettings(settingsOf(state), fileName, message); };
+  observer.program = "pointhaptics " POINTHAPTICS_VERSION;
+  observer.describeState = [settingsOf](const HapticViewerState& state) { return settingsOf(state).dump(); };
   observer.rememberState = [settingsOf](const HapticViewerState& state)
   { rememberSettings(settingsOf(state)); };
   return observer;
@@ -112,7 +114,7 @@ bool show(const ViewOptions& options, HapticViewer& viewer)
     rememberStopSignals(); // before a device that takes its time to start
     return viewer.run();
   }
-  return (options.viewer.path.empty() || viewer.feelPath()) &&
+  return (!options.viewer.followsFile() || viewer.feelPath()) &&
     (options.screenshot.empty() || viewer.renderToFile(options.screenshot));
 }
 

@@ -87,6 +87,10 @@ bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   {
     samples.clear();
     loop.takeTrace(samples);
+    if (settings.recording)
+    {
+      settings.recording->add(loop, samples);
+    }
     for (const ServoSample& sample : samples)
     {
       if (sample.device == Status::Ok)

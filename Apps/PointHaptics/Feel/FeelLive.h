@@ -5,6 +5,7 @@
 #include "Options/FalconOptions.h"
 
 #include "FeelScenes.h"
+#include "RecordingWriter.h"
 
 #include <functional>
 #include <string>
@@ -19,6 +20,7 @@ struct LiveSettings
   FalconOptions falcon;
   HapticParameters parameters;
   double rateHz = 1000.0;
+  RecordingWriter* recording = nullptr; ///< Gets all ticks; may be null.
   double seconds = 0.0; ///< Of touch, from the first tick with forces on; 0: until a stop signal.
 };
 

@@ -1,22 +1,67 @@
 #include "Feel/FeelOptions.h"
 
+#include "Options/ConfigFile.h"
 #include "Options/OptionParsing.h"
+#include "Options/ViewOptions.h"
+#include "Options/ViewSettings.h"
 
 #include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <vector>
 
 namespace pointhaptics
 {
 namespace app
 {
 
+namespace
+{
+
+/// Options of `view` that `feel` does not have, and the device, which means another thing there.
+std::vector<std::string> namesOfTheViewAlone(CLI::App& feel)
+{
+  CLI::App other("view");
+  ViewOptions view;
+  view.addTo(other);
+  const std::vector<std::string> ours = configurableNames(feel);
+  std::vector<std::string> names = { "device" };
+  for (const std::string& name : configurableNames(other))
+  {
+    if (std::find(ours.begin(), ours.end(), name) == ours.end())
+    {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+} // namespace
+
 void FeelOptions::addTo(CLI::App& command)
 {
-  command.add_option("FILE", this->file, "Point cloud to feel")->required()->type_name("");
+  command
+    .add_option(
+      "FILE", this->file, "Point cloud to feel; with --replay the one that was recorded is the default")
+    ->type_name("");
   command
     .add_option("--path", this->path,
       "Path of the hand: t,x,y,z in seconds and metres, or what feel or view --trace wrote; needed unless "
       "--device is falcon")
     ->type_name("HIP.csv");
+  command
+    .add_option("--replay", this->replay,
+      "Feel this recording again, with its scenes, settings and motions of the model: the same forces to the "
+      "last bit; --method replaces its method")
+    ->type_name("REC.csv");
+  command.add_option("--record", this->record, "Write a recording, for --replay, beside the output")
+    ->type_name("REC.csv");
+  command
+    .add_option("--config", this->config,
+      "Defaults for these options, a JSON object as view writes it; the command line wins")
+    ->type_name("FILE.json");
+  command.add_flag("--fit", this->fit,
+    "Fit the cloud to the 10 cm workspace and choose its voxels, as view does where no transform is given");
   command.add_option("-o,--output", this->output, "Where the felt forces go, one row a tick")
     ->required()
     ->type_name("OUT.csv");
@@ -41,15 +86,40 @@ void FeelOptions::addTo(CLI::App& command)
   this->bandwidth.addTo(command);
 }
 
-void FeelOptions::complete(const CLI::App& command)
+bool FeelOptions::complete(CLI::App& command, std::string& message)
 {
-  if (this->device == "falcon" ? !this->path.empty() : this->path.empty())
+  if (!this->config.empty() && !applyConfigFile(command, this->config, namesOfTheViewAlone(command), message))
+  {
+    return false;
+  }
+  this->methodIsGiven = command.count("--method") > 0;
+  if (this->file.empty() && this->replay.empty())
+  {
+    throwUsage("FILE", "(none)", "give the point cloud to feel, or a recording by --replay");
+  }
+  if (!this->replay.empty() && (!this->path.empty() || !this->record.empty() || this->device != "none"))
+  {
+    throwUsage(
+      "--replay", this->replay, "the hand goes where it went; leave out --path, --record and --device");
+  }
+  if (this->fit && (this->raw || this->lattice.hasTransform() || !this->lattice.workspace().empty()))
+  {
+    throwUsage(
+      "--fit", "", "the cloud is placed already; leave out --fit, or the transform, --workspace and --raw");
+  }
+  if (!this->record.empty() && this->raw)
+  {
+    throwUsage("--record", this->record, "what --raw feels cannot be made again; leave out one of them");
+  }
+  if (this->replay.empty() && (this->device == "falcon" ? !this->path.empty() : this->path.empty()))
   {
     throwUsage("--path", this->path.empty() ? "(none)" : this->path,
       this->path.empty() ? "give the path of the hand, or --device falcon"
                          : "a Falcon's hand goes where it likes; leave out --path or --device falcon");
   }
   this->touch.complete(command);
+  this->settings = givenSettings(command).dump();
+  return true;
 }
 
 } // namespace app

@@ -24,6 +24,12 @@ struct FeelOptions
   std::string file;
   std::string path;
   std::string output;
+  std::string replay; ///< A recording to feel again, instead of a path.
+  std::string record; ///< A recording to write, beside the output.
+  std::string config;
+  std::string settings; ///< All that was given, as a configuration in one line; filled in by complete().
+  bool fit = false;     ///< Fit the cloud to the workspace, as view does.
+  bool methodIsGiven = false; ///< --method, which a replay takes instead of its own.
   LatticeOptions lattice;
   BandwidthOptions bandwidth;
   TouchOptions touch;
@@ -38,9 +44,10 @@ struct FeelOptions
 
   /// Adds the options to @p command; bad values end the parse with a usage error.
   void addTo(CLI::App& command);
-  /// What can only be said once all options of @p command are known. Ends in a usage error where they
-  /// contradict each other; warns of one that has no effect.
-  void complete(const CLI::App& command);
+  /// Takes the values of --config, and says what can only be said once all options of @p command are known.
+  /// Ends in a usage error where they contradict each other; warns of one that has no effect. False: @p
+  /// message says what is wrong with the configuration file.
+  bool complete(CLI::App& command, std::string& message);
   /// Whether scenes near the hand are as fine as the points there: nobody asked for other voxels, or none.
   bool refinesNearHand() const { return !this->lattice.voxelsAreGiven && !this->raw && !this->noCovariance; }
 };

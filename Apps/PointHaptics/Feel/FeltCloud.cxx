@@ -1,13 +1,22 @@
 #include "Feel/FeltCloud.h"
 
 #include "Clouds/Pipeline.h"
+#include "Terminal/Messages.h"
+#include "Terminal/ProgressBar.h"
+#include "Terminal/StopSignals.h"
 
 #include "FeelScenes.h"
-#include "vtkVoxelMeanResampler.h"
+#include "HapticViewerOptions.h"
+#include "LoadedCloud.h"
+#include "ResampledCloud.h"
 
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -42,50 +51,72 @@ vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* 
   return moved;
 }
 
-/// The cloud as the proxy will feel it: resampled or raw.
-vtkSmartPointer<vtkPolyData> preparedCloud(
-  const FeelOptions& options, vtkPolyData* cloud, std::string& message)
+/// The scene of the whole cloud, as the viewer makes it, and in @p box what of the workspace is felt. Null:
+/// @p message says why.
+std::shared_ptr<const HapticScene> resampledScene(
+  const FeelOptions& options, vtkPolyData* cloud, Bounds& box, std::string& message)
 {
-  vtkSmartPointer<vtkPolyData> prepared;
-  if (options.raw)
+  HapticViewerOptions viewer;
+  viewer.transform = options.lattice.transform();
+  viewer.fitsWorkspace = options.fit;
+  viewer.voxels = options.lattice.voxels;
+  if (!options.lattice.voxelsAreGiven)
   {
-    prepared = rawPoints(options, cloud);
+    viewer.voxels.lattice.dimensions = { 0, 0, 0 }; // as the viewer chooses
   }
-  else
+  viewer.voxels.computeCovariance = !options.noCovariance;
+  viewer.voxels.passAttributes = false;
+  viewer.bandwidth = options.bandwidth.settings;
+  ProgressBar bar("resampling");
+  CloudRequest request = CloudRequest::of({ options.file }, viewer);
+  request.makesScene = true;
+  request.isFeltOnly = true;
+  request.resampling = [&bar](double part) { bar.show(part); };
+  LoadedCloud loaded;
+  loaded.cloud = cloud;
+  loaded.title = options.file;
+  loaded.bounds = transformedBounds(cloud, viewer.transform);
+  placeCloud(request, loaded);
+  const bool isMade = resampleCloud(
+    request, [] { return !stopIsRequested(); }, loaded, message);
+  if (const std::vector<std::string> errors = takeVtkErrors(); !errors.empty())
   {
-    vtkNew<vtkVoxelMeanResampler> resampler;
-    resampler->SetInputData(cloud);
-    options.lattice.configure(resampler);
-    prepareForTouch(resampler, !options.noCovariance);
-    if (!updateFilter(resampler, "resampling", message))
-    {
-      return nullptr;
-    }
-    prepared = resampler->GetOutput();
-  }
-  if (prepared->GetNumberOfPoints() == 0)
-  {
-    message =
-      options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform";
+    message = errors.front();
     return nullptr;
   }
-  return prepared;
+  if (isMade && !loaded.scene)
+  {
+    message = loaded.means->GetNumberOfPoints() == 0
+      ? options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform"
+      : options.file + ": " + pointhaptics::message(loaded.sceneStatus);
+  }
+  box = loaded.voxels.lattice.automaticWorkspace ? Bounds() : loaded.voxels.lattice.workspace;
+  return isMade ? loaded.scene : nullptr;
 }
 
 } // namespace
 
 bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& scenes, std::string& message)
 {
-  const vtkSmartPointer<vtkPolyData> prepared = preparedCloud(options, cloud, message);
-  if (!prepared)
-  {
-    return false;
-  }
   FeelSceneSettings settings;
   settings.bandwidth = options.bandwidth.settings;
-  settings.workspace = options.lattice.workspace();
   settings.useCovariance = !options.noCovariance;
   settings.refineNearHand = options.refinesNearHand();
+  if (!options.raw)
+  {
+    auto whole = resampledScene(options, cloud, settings.workspace, message);
+    const bool isMade = whole != nullptr;
+    scenes.adopt(std::move(whole), cloud->GetPoints(), settings);
+    return isMade;
+  }
+  const vtkSmartPointer<vtkPolyData> prepared = rawPoints(options, cloud);
+  if (prepared->GetNumberOfPoints() == 0)
+  {
+    message =
+      options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform";
+    return false;
+  }
+  settings.workspace = options.lattice.workspace();
   if (const Status status = scenes.make(prepared, cloud->GetPoints(), settings); status != Status::Ok)
   {
     message = options.file + ": " + pointhaptics::message(status);

@@ -1,5 +1,6 @@
 #include "Options/ViewOptions.h"
 
+#include "Options/ConfigFile.h"
 #include "Options/OptionParsing.h"
 #include "Options/PictureOptions.h"
 #include "Options/ViewSettings.h"
@@ -9,6 +10,7 @@
 #include "CommandRegistry.h"
 #include "Gesture.h"
 #include "HapticViewer.h"
+#include "Recording.h"
 
 #include "Shapes/Shapes.h"
 
@@ -19,7 +21,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -31,131 +32,6 @@ namespace
 {
 
 constexpr int kLargestPicture = 16384;
-
-/// One JSON value as it would stand on the command line. False: objects and null have no such form.
-bool textOf(const nlohmann::json& value, std::string& text)
-{
-  if (value.is_string())
-  {
-    text = value.get<std::string>();
-    return true;
-  }
-  if (value.is_array())
-  {
-    text.clear();
-    for (const nlohmann::json& element : value)
-    {
-      std::string part;
-      if (element.is_array() || !textOf(element, part))
-      {
-        return false;
-      }
-      text += (text.empty() ? "" : ",") + part;
-    }
-    return true;
-  }
-  if (value.is_boolean() || value.is_number())
-  {
-    text = value.dump();
-    return true;
-  }
-  return false;
-}
-
-/// Long names of the options a configuration file may set, without the dashes.
-std::vector<std::string> configurableNames(CLI::App& command)
-{
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options())
-  {
-    for (const std::string& name : option->get_lnames())
-    {
-      const std::set<std::string> others = { "help", "version", "config", "write-config", "recent" };
-      if (others.count(name) == 0)
-      {
-        names.push_back(name);
-      }
-    }
-  }
-  return names;
-}
-
-bool isGivenOnCommandLine(const CLI::Option* option, const std::vector<const CLI::Option*>& given)
-{
-  return std::find(given.begin(), given.end(), option) != given.end();
-}
-
-/// The command line wins: also over a key that cannot stand beside one of its options.
-bool isOverruled(CLI::Option* option, const std::vector<const CLI::Option*>& given)
-{
-  if (isGivenOnCommandLine(option, given))
-  {
-    return true;
-  }
-  for (CLI::Option* other : given.empty() ? std::set<CLI::Option*>() : option->get_excludes())
-  {
-    if (isGivenOnCommandLine(other, given))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-std::string applyValue(CLI::Option* option, const std::string& key, const nlohmann::json& value)
-{
-  std::string text;
-  if (!textOf(value, text))
-  {
-    return fmt::format("key \"{}\": give a number, a text, true or false, or a list of numbers", key);
-  }
-  for (const CLI::Option* other : option->get_excludes())
-  {
-    if (other->count() > 0)
-    {
-      return fmt::format(
-        "key \"{}\" cannot stand beside \"{}\"; keep one of them", key, other->get_single_name());
-    }
-  }
-  try
-  {
-    option->add_result(text);
-    option->run_callback();
-  }
-  catch (const CLI::Error& error)
-  {
-    return fmt::format("key \"{}\": {}", key, error.what());
-  }
-  return {};
-}
-
-std::string applyKeys(CLI::App& command, const nlohmann::json& keys)
-{
-  std::vector<const CLI::Option*> given;
-  for (const CLI::Option* option : command.get_options())
-  {
-    if (option->count() > 0)
-    {
-      given.push_back(option);
-    }
-  }
-  const std::vector<std::string> names = configurableNames(command);
-  for (const auto& item : keys.items())
-  {
-    if (std::find(names.begin(), names.end(), item.key()) == names.end())
-    {
-      return fmt::format("unknown key \"{}\"; valid keys: {}", item.key(), fmt::join(names, ", "));
-    }
-    CLI::Option* option = command.get_option("--" + item.key());
-    const std::string problem =
-      isOverruled(option, given) ? std::string() : applyValue(option, item.key(), item.value());
-    if (!problem.empty())
-    {
-      return problem;
-    }
-  }
-  return {};
-}
 
 /// Ends the parse where @p text is not ACTION=GESTURES.
 void checkBinding(const std::string& text)
@@ -230,11 +106,9 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
 
 void ViewOptions::addTo(CLI::App& command)
 {
-  command
-    .add_option("FILE", this->files,
-      "Point clouds: PLY, PCD, LAS, VTP, OBJ or columns of text; one that cannot be read is skipped "
-      "where there are others, but with --together")
-    ->required();
+  command.add_option("FILE", this->files,
+    "Point clouds: PLY, PCD, LAS, VTP, OBJ or columns of text; one that cannot be read is skipped "
+    "where there are others, but with --together; with --replay those that were recorded are the default");
   command.add_flag("--together", this->viewer.together);
   command.add_flag("--watch", this->viewer.watch, "Read a file again when it changes");
   command.add_option("--screenshot", this->screenshot, "Write this PNG instead of opening a window");
@@ -269,6 +143,16 @@ void ViewOptions::addTo(CLI::App& command)
   command
     .add_option("--force-chart", this->viewer.forceChart, "Write force and proxy radius over time as a PNG")
     ->type_name("OUT.png");
+  command
+    .add_option("--record", this->viewer.record,
+      "Record the touch, from the first tick to the last, for --replay; a key records, too")
+    ->type_name("REC.csv");
+  command
+    .add_option("--replay", this->viewer.replay,
+      "Feel and show this recording again, with its settings and motions of the model: the same forces to "
+      "the "
+      "last bit")
+    ->type_name("REC.csv");
   command.add_option("--trace", this->viewer.trace, "Write one row per tick, as feel does")
     ->type_name("OUT.csv");
   addWord(command, "--up", this->viewer.up, { "auto", "x", "-x", "y", "-y", "z", "-z" },
@@ -305,23 +189,7 @@ bool ViewOptions::readConfig(CLI::App& command, std::string& message)
   {
     return true;
   }
-  std::error_code error;
-  std::ifstream file(this->config);
-  if (!file || std::filesystem::is_directory(this->config, error))
-  {
-    message = fmt::format("{}: cannot be opened; check the name given to --config", this->config);
-    return false;
-  }
-  const nlohmann::json keys = nlohmann::json::parse(file, nullptr, false, true);
-  if (!keys.is_object())
-  {
-    message = fmt::format(
-      "{}: not a JSON object; write {{\"stiffness\": 600, \"up\": \"z\"}} for example", this->config);
-    return false;
-  }
-  const std::string problem = applyKeys(command, keys);
-  message = problem.empty() ? std::string() : fmt::format("{}: {}", this->config, problem);
-  return problem.empty();
+  return applyConfigFile(command, this->config, {}, message);
 }
 
 /// Ends in a usage error where files that are to be written cannot be.
@@ -337,7 +205,21 @@ void ViewOptions::checkFiles() const
       throwUsage(option, *name, "pictures are written as PNG; end the name in .png");
     }
   }
-  if (this->viewer.path.empty() && !this->screenshot.empty() && (!trace.empty() || !chart.empty()))
+  if (this->files.empty() && this->viewer.replay.empty() && this->writeConfig.empty())
+  {
+    throwUsage("FILE", "(none)", "name a point cloud to show, or a recording by --replay");
+  }
+  if (!this->viewer.replay.empty() && (!this->viewer.path.empty() || !this->viewer.record.empty()))
+  {
+    throwUsage("--replay", this->viewer.replay, "the hand goes where it went; leave out --path and --record");
+  }
+  if (!this->viewer.record.empty() && (!this->needsWindow() || this->device == "none"))
+  {
+    throwUsage("--record", this->viewer.record,
+      "nobody touches what has no window; leave out --screenshot, "
+      "--trace and --force-chart of a --path, and --device none; feel --record records a path");
+  }
+  if (!this->viewer.followsFile() && !this->screenshot.empty() && (!trace.empty() || !chart.empty()))
   {
     throwUsage(trace.empty() ? "--force-chart" : "--trace", trace.empty() ? chart : trace,
       "nothing is felt in a still picture; give the hand's path with --path");
@@ -351,6 +233,17 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
     return false;
   }
   this->checkFiles();
+  if (this->files.empty() && !this->viewer.replay.empty())
+  {
+    Recording recording;
+    if (!readRecording(this->viewer.replay, recording, message))
+    {
+      return false;
+    }
+    this->files = recording.header.cloud.files;
+    this->viewer.resolution = recording.header.cloud.resolution;
+    this->viewer.together = this->files.size() > 1;
+  }
   this->touch.complete(command);
   this->completeViewer(command);
   this->given = givenSettings(command);
@@ -389,7 +282,7 @@ void ViewOptions::completeViewer(CLI::App& command)
 bool ViewOptions::needsWindow() const
 {
   const bool writesTouch = !this->viewer.forceChart.empty() || !this->viewer.trace.empty();
-  return this->screenshot.empty() && (this->viewer.path.empty() || !writesTouch);
+  return this->screenshot.empty() && (!this->viewer.followsFile() || !writesTouch);
 }
 
 bool ViewOptions::draws() const

@@ -50,6 +50,21 @@ void flushDenormalsToZero() noexcept
 #endif
 }
 
+DenormalsAreZero::DenormalsAreZero() noexcept
+{
+#ifdef __SSE__
+  before_ = _mm_getcsr();
+#endif
+  flushDenormalsToZero();
+}
+
+DenormalsAreZero::~DenormalsAreZero()
+{
+#ifdef __SSE__
+  _mm_setcsr(before_);
+#endif
+}
+
 void setFinestTimerSlack() noexcept
 {
 #ifdef __linux__

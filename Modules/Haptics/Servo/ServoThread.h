@@ -12,6 +12,19 @@ namespace pointhaptics
 /// others, and no force of 1e-308 N is felt. x86 only; elsewhere nothing happens.
 void flushDenormalsToZero() noexcept;
 
+/// The same while it lives, for threads that compute what a servo thread computes; then as before.
+class DenormalsAreZero
+{
+public:
+  DenormalsAreZero() noexcept;
+  ~DenormalsAreZero();
+  DenormalsAreZero(const DenormalsAreZero&) = delete;
+  DenormalsAreZero& operator=(const DenormalsAreZero&) = delete;
+
+private:
+  unsigned int before_ = 0;
+};
+
 /// Lets the kernel wake this thread at its deadline instead of up to 50 us later. Linux only.
 void setFinestTimerSlack() noexcept;
 

@@ -233,6 +233,15 @@ void vtkHapticChart::AddSample(double seconds, double newtons, double metres)
   this->AddSample(seconds, newtons, metres, std::numeric_limits<double>::quiet_NaN());
 }
 
+void vtkHapticChart::SetForceNames(const char* force, const char* other)
+{
+  Internals& parts = *this->Parts;
+  parts.force->SetName(force);
+  parts.ideal->SetName(other);
+  parts.chart->GetPlot(1)->SetInputData(parts.table, 0, 1);
+  parts.chart->GetPlot(kIdealPlot)->SetInputData(parts.table, 0, 3);
+}
+
 void vtkHapticChart::AddSample(double seconds, double newtons, double metres, double idealNewtons)
 {
   if (std::isfinite(seconds) && std::isfinite(newtons) && std::isfinite(metres))

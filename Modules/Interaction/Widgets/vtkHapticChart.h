@@ -44,6 +44,12 @@ public:
   bool GetVisibility() const;
   ///@}
 
+  /**
+   * What the legend calls the two forces of AddSample(), such as two methods. Default: "force (N)" and "ideal
+   * force (N)".
+   */
+  void SetForceNames(const char* force, const char* other);
+
   ///@{
   /**
    * Keep what is drawn: samples that come are kept out of the picture until this is off again; then the chart

@@ -6,6 +6,7 @@
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
 #include "Core/Base/Status.h"
+#include "Core/Resample/VoxelMeanSettings.h"
 #include "ShownCloud.h"
 
 #include "PointHapticsViewerModule.h" // For export macro
@@ -26,7 +27,7 @@ namespace pointhaptics
 class HapticScene;
 struct HapticViewerOptions;
 
-struct CloudRequest
+struct POINTHAPTICSVIEWER_EXPORT CloudRequest
 {
   /// To read @p files, or take @p points, and resample them as @p options say.
   static CloudRequest of(const std::vector<std::string>& files, const HapticViewerOptions& options);
@@ -47,7 +48,9 @@ struct CloudRequest
   std::optional<AffineTransform> model; ///< Where the cloud is resampled; empty: where the options place it.
   bool makesScene = false;              ///< It will be felt.
   std::optional<ShownRequest> before; ///< How a coarse level of the same files was shown: so are all points.
-  bool measuresLater = false;         ///< Large clouds are shown plain first: LoadedCloud::toMeasure.
+  bool isFeltOnly = false;            ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
+  std::function<void(double)> resampling; ///< Gets the progress of resampling, 0 to 1; may be empty.
+  bool measuresLater = false;             ///< Large clouds are shown plain first: LoadedCloud::toMeasure.
 
   std::string name() const; ///< For messages.
 };
@@ -73,6 +76,7 @@ struct LoadedCloud
   AffineTransform model;     ///< Where it was resampled: there, or CloudRequest::model.
   int latticeDimension = 0;  ///< Voxels on each axis, where nobody had chosen them; else 0.
   Bounds workspace;          ///< The lattice's box.
+  VoxelMeanSettings voxels;  ///< What the means were resampled with.
   vtkSmartPointer<vtkPolyData> means;       ///< With the arrays of both filters; nobody else's.
   std::shared_ptr<const HapticScene> scene; ///< Null: not wanted, or there is none: sceneStatus.
   Status sceneStatus = Status::Ok;
@@ -81,7 +85,7 @@ struct LoadedCloud
 };
 
 /// Bounds of the finite points after @p transform; the corners of a box would be too wide for a turned cloud.
-Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform);
+POINTHAPTICSVIEWER_EXPORT Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform);
 
 /// The names of @p files without their folders.
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);

@@ -85,6 +85,10 @@ public:
       [](vtkObject*, unsigned long, void* client, void*)
       {
         const auto& self = *static_cast<FirstRun*>(client);
+        if (self.request_.resampling)
+        {
+          self.request_.resampling(self.resampler_->GetProgress());
+        }
         self.resampler_->SetAbortExecute(self.goesOn_() ? 0 : 1);
       });
     resampler_->AddObserver(vtkCommand::ProgressEvent, ask);
@@ -126,10 +130,17 @@ public:
     const bool residuals =
       loaded_.colorBy == kResidualArrayName && !loaded_.cloud->GetPointData()->HasArray(kResidualArrayName);
     const bool normals = request_.options->ambient;
+    configureFilters(*request_.options, loaded_, resampler_, bandwidth_); // a finer try may have come after
     if (request_.makesScene || residuals || normals)
     {
-      loaded_.scene = makeHapticScene(
-        means, loaded_.sceneStatus, request_.options->voxels.computeCovariance, bandwidth_->GetSettings());
+      loaded_.scene = makeHapticScene(means, loaded_.sceneStatus, request_.options->voxels.computeCovariance,
+        bandwidth_->GetSettings(), &resampler_->GetSettings());
+    }
+    loaded_.voxels = resampler_->GetSettings();
+    if (request_.isFeltOnly)
+    {
+      loaded_.means = means;
+      return;
     }
     bandwidth_->SetInputData(means);
     bandwidth_->Update();
@@ -195,6 +206,7 @@ void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loa
 {
   VoxelMeanSettings voxels = options.voxels;
   voxels.lattice = latticeOf(options, loaded);
+  voxels.outputPointsPrecision = PointsPrecision::Double; // as feel does: the same forces
   if (const Bounds box = workspaceOf(options, loaded); !box.empty())
   {
     voxels.lattice.workspace = box;

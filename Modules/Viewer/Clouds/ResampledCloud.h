@@ -15,7 +15,7 @@ namespace pointhaptics
 {
 
 /// Fills in LoadedCloud::placement and model, from the bounds and @p request.
-void placeCloud(const CloudRequest& request, LoadedCloud& loaded);
+POINTHAPTICSVIEWER_EXPORT void placeCloud(const CloudRequest& request, LoadedCloud& loaded);
 
 /// Sets on the filters all that @p options and @p loaded say, input and transform aside.
 void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loaded,
@@ -26,8 +26,8 @@ void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loa
 /// cloud that finer voxels would tell apart (a sweep of LiDAR over a street, dense near the scanner and thin
 /// at 80 m), it looks at 600 and 1200 too. @p goesOn is asked now and then; once it answers false, it ends.
 /// False: it was ended, @p message says so.
-bool resampleCloud(const CloudRequest& request, const std::function<bool()>& goesOn, LoadedCloud& loaded,
-  std::string& message);
+POINTHAPTICSVIEWER_EXPORT bool resampleCloud(const CloudRequest& request, const std::function<bool()>& goesOn,
+  LoadedCloud& loaded, std::string& message);
 
 void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform);
 AffineTransform transformOf(vtkMatrix4x4* matrix);

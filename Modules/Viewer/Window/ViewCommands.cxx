@@ -48,6 +48,10 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
   commands.add({ "screenshot", "s", "Program", "screenshot", call(&Window::writeScreenshot), isOpen });
   commands.add({ "write-settings", "w", "Program", "write the settings to a file",
     call(&Window::writeSettings), keepsSettings });
+  commands.add(
+    { "record", "j", "Program", "start, stop recording the touch", call(&Window::toggleRecording), isOpen });
+  commands.add(
+    { "marker", "space", "Program", "set a marker in the recording", call(&Window::setMarker), isOpen });
   commands.addNote("Program", "files dropped on the window", "open them");
   commands.addNote("Program", "Escape while a file is read", "keep the former cloud");
 }

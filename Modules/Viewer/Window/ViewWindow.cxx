@@ -174,7 +174,7 @@ void ViewWindow::setUpRendering()
   window_->AddRenderer(scene_.renderer());
   overlay_->AddTo(scene_.renderer());
   progress_->AddTo(scene_.renderer());
-  if (options_.device != HapticViewerDevice::None || !options_.path.empty())
+  if (options_.device != HapticViewerDevice::None || options_.followsFile())
   {
     window_->AddRenderer(chart_->GetRenderer());
     chart_->GetRenderer()->SetViewport(0.0, 0.0, 1.0, kChartHeight);
@@ -219,7 +219,14 @@ void ViewWindow::openFalcon()
 bool ViewWindow::openDevice(std::string& message)
 {
   std::string unusable;
-  if (!options_.path.empty())
+  if (!options_.replay.empty())
+  {
+    if (!this->openReplay(message))
+    {
+      return false;
+    }
+  }
+  else if (!options_.path.empty())
   {
     HipPath path;
     if (readHipPath(options_.path, path, message) != Status::Ok)
@@ -255,7 +262,7 @@ bool ViewWindow::openDevice(std::string& message)
     return false;
   }
   style_->SetDevice(device_);
-  style_->SetServoLoop(device_ ? &servo_ : nullptr);
+  style_->SetServoLoop(device_ || player_ ? &servo_ : nullptr);
   // Where there is none, it may be plugged in later; where there is no driver, the window does without.
   static_cast<void>(spaceMouse_.start());
   style_->SetSpaceMouse(&spaceMouse_);
@@ -265,8 +272,14 @@ bool ViewWindow::openDevice(std::string& message)
 /// After the first scene was published: a path must not begin in an empty world.
 bool ViewWindow::startServo(std::string& message)
 {
+  if (player_)
+  {
+    const Status status = servo_.startFed(player_->stepSettings());
+    player_->start(servo_);
+    return status == Status::Ok;
+  }
   ServoSettings settings = falcon_ ? pushingServoSettings(1000.0) : ServoSettings();
-  settings.idlesWhenStill = options_.trace.empty(); // a trace has all ticks
+  settings.idlesWhenStill = options_.trace.empty() && options_.record.empty(); // these have all ticks
   const Status status = device_ ? servo_.start(*device_, parameters_, settings, &message) : Status::Ok;
   return status == Status::Ok;
 }
@@ -336,6 +349,7 @@ void ViewWindow::connectStyle()
 void ViewWindow::onSamples(void* callData)
 {
   const auto& samples = *static_cast<std::vector<ServoSample>*>(callData);
+  recording_.add(servo_, samples);
   if (trace_.isOpen())
   {
     trace_.add(samples);
@@ -367,6 +381,8 @@ void ViewWindow::onTimer()
     interactor_->TerminateApp();
   }
   this->followDevices();
+  this->followRecording();
+  this->followReplay();
   this->followLoading();
   if (options_.watch && ++sinceLook_ >= kLooksApart && !loader_.busy())
   {
@@ -467,6 +483,10 @@ bool ViewWindow::finish(std::string& message)
   {
     observer_.rememberState(this->state());
   }
+  if (player_)
+  {
+    player_->stop();
+  }
   servo_.stop();
   style_->Refresh(); // the last ticks
   spaceMouse_.stop();
@@ -477,6 +497,10 @@ bool ViewWindow::finish(std::string& message)
   if (const std::string refusals = describeRefusals(servo_.statistics()); falcon_ && !refusals.empty())
   {
     this->report(HapticViewerObserver::Kind::Warning, refusals);
+  }
+  if (!this->endRecording(message))
+  {
+    return false;
   }
   if (trace_.isOpen())
   {
@@ -515,6 +539,10 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
   shown_ = options_.together || files_.empty() ? files_ : std::vector<std::string>{ files_[cloud] };
   fileIndex_ = cloud;
   watch_.watch(shown_);
+  if (!options_.record.empty() && !this->startRecording(options_.record, message))
+  {
+    return false;
+  }
   this->connectStyle();
   Status status = Status::Ok;
   style_->AdoptModel(scene_.modelMatrix(), scene_.makeScene(options_.voxels.computeCovariance, status));

@@ -1,12 +1,14 @@
 /// @file
 /// The viewer's window with the live touch: ViewWindow.cxx sets it up, runs it and closes it,
-/// ViewCommands.cxx lists what its keys do, ViewWindowActions.cxx does it.
+/// ViewCommands.cxx lists what its keys do, ViewWindowActions.cxx and ViewRecording.cxx do it.
 #pragma once
 
 #include "CloudLoader.h"
 #include "FileWatch.h"
 #include "HapticViewerOptions.h"
 #include "PictureControls.h"
+#include "RecordingWriter.h"
+#include "ReplayPlayer.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
 
@@ -108,6 +110,14 @@ private:
   void onSamples(void* callData);
   void onFilesDropped(void* callData);
   void writeScreenshot();
+  // ViewRecording.cxx
+  bool startRecording(const std::string& fileName, std::string& message);
+  bool endRecording(std::string& message);
+  void toggleRecording();
+  void setMarker();
+  void followRecording();
+  bool openReplay(std::string& message);
+  void followReplay();
   void showNextFile();
   void showPreviousFile();
   void writeSettings();
@@ -176,6 +186,9 @@ private:
   vtkNew<vtkCallbackCommand> cancelKey_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   TraceFile trace_;
+  RecordingWriter recording_;
+  int recordings_ = 0;
+  bool recordingWaits_ = false; ///< As the user was told.
   int screenshots_ = 0;
   bool chartBesideFigure_ = true; ///< Comes back when the figure goes.
   LengthUnit firstUnit_;          ///< Of the file before the user took another; no name: none was taken.
@@ -189,8 +202,9 @@ private:
   SpaceMouse spaceMouse_;
   HapticDevice* device_ = nullptr;
   CloudLoader loader_;
-  ServoLoop servo_;   // destroyed, and so stopped, before the device
-  Lifetime lifetime_; // last: it ends first
+  ServoLoop servo_;                      // destroyed, and so stopped, before the device
+  std::unique_ptr<ReplayPlayer> player_; // feeds the loop
+  Lifetime lifetime_;                    // last: it ends first
 };
 
 } // namespace pointhaptics

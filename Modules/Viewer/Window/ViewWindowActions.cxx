@@ -207,6 +207,14 @@ void ViewWindow::show(LoadedCloud cloud)
   const bool keepsModel = loading_.kind != Load::New;
   const AffineTransform model = cloud.model;
   std::string message;
+  if (!this->endRecording(message)) // of the former cloud
+  {
+    this->tell(message);
+  }
+  if (player_)
+  {
+    player_->stop(); // it is of the former cloud
+  }
   shown_ = loading_.files;
   watch_ = loading_.watch;
   // From here on the window shows the new cloud, also where nothing of it lies in the workspace.

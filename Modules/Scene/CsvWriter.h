@@ -5,7 +5,7 @@
 
 #include "Core/Base/OutputFile.h"
 
-#include "PointHapticsViewerModule.h" // For export macro
+#include "PointHapticsSceneModule.h" // For export macro
 
 #include <string>
 
@@ -13,7 +13,7 @@ namespace pointhaptics
 {
 
 /// Rows of numbers into an OutputFile: without commit() nothing is left behind.
-class POINTHAPTICSVIEWER_EXPORT CsvWriter
+class POINTHAPTICSSCENE_EXPORT CsvWriter
 {
 public:
   /// False: @p message says why the file cannot be created.

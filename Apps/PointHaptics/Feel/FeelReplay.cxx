@@ -1,0 +1,64 @@
+#include "Feel/FeelReplay.h"
+
+#include "Terminal/ProgressBar.h"
+#include "Terminal/StopSignals.h"
+
+#include "LoadedCloud.h"
+#include "RecordedScenes.h"
+
+#include <vtkPolyData.h>
+
+#include <filesystem>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+bool openRecording(const std::string& fileName, const std::string& cloudFile, Recording& recording,
+  vtkSmartPointer<vtkPolyData>& cloud, std::string& message)
+{
+  if (!readRecording(fileName, recording, message))
+  {
+    return false;
+  }
+  const RecordedFiles& felt = recording.header.cloud;
+  CloudRequest request;
+  request.files = cloudFile.empty() ? felt.files : std::vector<std::string>{ cloudFile };
+  request.resolution = felt.resolution;
+  ProgressBar bar("reading");
+  LoadedCloud loaded;
+  const auto goesOn = [&bar](double part)
+  {
+    bar.show(part);
+    return !stopIsRequested();
+  };
+  if (!loadCloud(request, goesOn, loaded, message))
+  {
+    return false;
+  }
+  if (!RecordedScenes::isOf(recording, loaded.cloud, message))
+  {
+    message.insert(0, request.files.front() + ": ");
+    return false;
+  }
+  cloud = loaded.cloud;
+  return true;
+}
+
+RecordingHeader headerOf(const std::string& fileName, double resolution, vtkPolyData* cloud)
+{
+  RecordingHeader header;
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::absolute(fileName, error);
+  header.program = "pointhaptics " POINTHAPTICS_VERSION;
+  header.cloud.files = { error ? fileName : path.string() };
+  header.cloud.resolution = resolution;
+  header.cloud.points = cloud->GetNumberOfPoints();
+  header.cloud.checksum = checksumOf(cloud);
+  return header;
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,27 @@
+/// @file
+/// A recording and its cloud, for the commands that feel it again.
+#pragma once
+
+#include "Recording.h"
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+class vtkPolyData;
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// Reads @p fileName and the cloud that it was made with: @p cloudFile, or where that is empty the files that
+/// its header names. False: @p message says what is wrong, and the cure.
+bool openRecording(const std::string& fileName, const std::string& cloudFile, Recording& recording,
+  vtkSmartPointer<vtkPolyData>& cloud, std::string& message);
+
+/// The header of a recording of @p cloud, which was read from @p fileName: all but settings and servo.
+RecordingHeader headerOf(const std::string& fileName, double resolution, vtkPolyData* cloud);
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,28 @@
+/// @file
+/// --config: options as a JSON object.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI
+{
+class App;
+}
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// Long names of the options a configuration file may set, without the dashes.
+std::vector<std::string> configurableNames(CLI::App& command);
+
+/// Takes the values of the JSON file for the options of @p command that the command line does not give. Keys
+/// among @p ignored are of another command, and mean nothing here. False: @p message says what
+/// is wrong with the file.
+bool applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored,
+  std::string& message);
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,136 @@
+#include "Recording.h"
+
+#include "KeyedText.h"
+#include "PolyDataAccess.h"
+#include "VirtualTouch.h"
+
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Not to be broken: it finds out that a file is another one, or in another order.
+template <typename Real>
+std::uint64_t mixed(const Real* numbers, std::int64_t count)
+{
+  constexpr std::uint64_t kPrime = 0x100000001b3;
+  std::uint64_t sum = 0xcbf29ce484222325;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, numbers + i, sizeof(Real));
+    sum = (sum ^ bits) * kPrime;
+    sum ^= sum >> 29;
+  }
+  return sum;
+}
+
+} // namespace
+
+std::uint64_t checksumOf(vtkPointSet* cloud)
+{
+  if (!cloud || !cloud->GetPoints() || cloud->GetNumberOfPoints() == 0)
+  {
+    return 0;
+  }
+  const PointAccess access(cloud->GetPoints());
+  const PointView view = access.view();
+  if (view.stride() == 3)
+  {
+    return view.floats() ? mixed(view.floats(), 3 * view.size()) : mixed(view.doubles(), 3 * view.size());
+  }
+  std::uint64_t sum = 0;
+  for (std::int64_t i = 0; i < view.size(); ++i)
+  {
+    const Vec3 p = view[i];
+    sum = sum * 31 + mixed(&p.x, 3);
+  }
+  return sum;
+}
+
+std::string recordedColumns()
+{
+  std::string line;
+  for (const char* column : kFeltColumns)
+  {
+    line += std::string(column) + ",";
+  }
+  return line + "buttons,marker";
+}
+
+std::vector<std::string> linesOf(const RecordingHeader& header)
+{
+  std::vector<std::string> lines = { "pointhaptics recording: 1", "program: " + header.program };
+  for (const std::string& file : header.cloud.files)
+  {
+    lines.push_back("file: " + file);
+  }
+  lines.push_back(fmt::format("cloud: points={} checksum={:016x} resolution={}", header.cloud.points,
+    header.cloud.checksum, keyed::textOf(header.cloud.resolution)));
+  if (!header.settings.empty())
+  {
+    lines.push_back("settings: " + header.settings);
+  }
+  const ServoStepSettings& step = header.step;
+  lines.push_back(fmt::format(
+    "servo: rate={} maximumForce={} maximumSlewRate={} rampDown={} rampUp={} clutchDown={} clutchUp={}",
+    keyed::textOf(step.rateHz), keyed::textOf(step.limits.maximumForce),
+    keyed::textOf(step.limits.maximumSlewRate), keyed::textOf(step.rampDownSeconds),
+    keyed::textOf(step.rampUpSeconds), keyed::textOf(step.clutchDownSeconds),
+    keyed::textOf(step.clutchUpSeconds)));
+  return lines;
+}
+
+std::string lineOf(std::uint64_t cloud, const SceneOrigin& origin)
+{
+  std::string line = fmt::format("made {}: kind={} model={}", cloud, kSceneOrigins[std::size_t(origin.kind)],
+    keyed::toText(origin.modelToWorkspace));
+  if (origin.kind != SceneOrigin::Kind::Whole)
+  {
+    line += fmt::format(" beside={} hand={}", origin.globalCloud, keyed::toText(origin.hand));
+  }
+  line += fmt::format(" covariance={}", origin.useCovariance ? 1 : 0) +
+    (origin.kind == SceneOrigin::Kind::Fine ? keyed::wordsOf(origin.voxels.lattice, "lattice.")
+                                            : keyed::wordsOf(origin.voxels));
+  return line + (origin.bandwidth ? keyed::wordsOf(*origin.bandwidth, "bandwidth.") : std::string());
+}
+
+std::string lineOf(std::uint64_t number, const HapticParameters& parameters)
+{
+  return fmt::format("parameters {}:", number) + keyed::wordsOf(parameters);
+}
+
+std::string lineOf(const RecordedEvent& event)
+{
+  using Kind = RecordedEvent::Kind;
+  std::string line = fmt::format("tick {}: {}", event.tick, kEventKinds[std::size_t(event.kind)]);
+  switch (event.kind)
+  {
+    case Kind::Scene:
+      line += event.number == 0
+        ? std::string(" none")
+        : fmt::format(" of={} beyond={} model={}", event.number, event.fallback, keyed::toText(event.model));
+      break;
+    case Kind::Parameters:
+      line += fmt::format(" {}", event.number);
+      break;
+    case Kind::Clutch:
+    case Kind::Gate:
+    case Kind::Reading:
+    case Kind::Writing:
+      line += event.on ? " on" : " off";
+      break;
+    default:
+      break;
+  }
+  return line;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,114 @@
+/// @file
+/// A recording of touch: what a servo loop was given, tick by tick, and what it answered. As a file it is a
+/// table of felt forces with a header (Documentation/Recordings.md).
+#pragma once
+
+#include "Devices/HipPath.h"
+#include "Haptics/HapticParameters.h"
+#include "Haptics/SceneOrigin.h"
+#include "Haptics/Servo/ServoStep.h"
+
+#include "PointHapticsSceneModule.h" // For export macro
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkPointSet;
+
+namespace pointhaptics
+{
+
+/// The cloud that was felt.
+struct RecordedFiles
+{
+  std::vector<std::string> files; ///< Read as one cloud where there are several.
+  double resolution = 0.0;        ///< How far cloud optimised files were read; 0: all points.
+  std::int64_t points = 0;
+  std::uint64_t checksum = 0; ///< checksumOf() its points.
+};
+
+/// Of the coordinates of @p cloud, in their order and type.
+POINTHAPTICSSCENE_EXPORT std::uint64_t checksumOf(vtkPointSet* cloud);
+
+/// What changes before a tick is felt.
+struct RecordedEvent
+{
+  enum class Kind
+  {
+    Scene,      ///< Another scene: cloud, fallback, model.
+    Parameters, ///< Others: number.
+    Clutch,     ///< The hand holds the model (on), or lets go.
+    Gate,       ///< The force may come (on), or goes.
+    Reading,    ///< The device can be read (on), or not.
+    Writing,    ///< The device takes the force (on), or not.
+    NewHand,    ///< In this tick the hand was found anew.
+    NoPosition, ///< In this tick the position was not finite.
+    Begins,     ///< The proxy begins anew.
+  };
+
+  std::uint64_t tick = 0;
+  Kind kind = Kind::Scene;
+  bool on = false;
+  std::uint64_t number = 0;   ///< Of parameters, or of the cloud of a scene; 0: there is no scene.
+  std::uint64_t fallback = 0; ///< Cloud of what is felt where a scene of a part ends; 0: the scene is whole.
+  AffineTransform model;      ///< From the file to the workspace.
+};
+
+/// A row of the table.
+struct RecordedTick
+{
+  std::uint64_t tick = 0;        ///< Of the servo loop: time * rate + 1.
+  std::array<double, 16> felt{}; ///< kFeltColumns.
+  std::uint32_t buttons = 0;
+  std::uint32_t marker = 0; ///< 1, 2, ... where one was set; else 0.
+
+  Vec3 hip() const { return { felt[1], felt[2], felt[3] }; }
+  Vec3 force() const { return { felt[10], felt[11], felt[12] }; }
+};
+
+/// What the file's header says.
+struct RecordingHeader
+{
+  std::string program;  ///< Name and version.
+  std::string settings; ///< A configuration of `view` in one line of JSON; empty: not known.
+  RecordedFiles cloud;
+  ServoStepSettings step;
+};
+
+struct Recording
+{
+  RecordingHeader header;
+  std::map<std::uint64_t, std::shared_ptr<const SceneOrigin>> clouds;
+  std::map<std::uint64_t, HapticParameters> parameters;
+  std::vector<RecordedEvent> events; ///< By tick.
+  std::vector<RecordedTick> ticks;   ///< Ascending; not empty.
+};
+
+/// Reads a recording. False: @p message says file, line, value and cure. What it accepts can be replayed:
+/// ticks ascend, each event names clouds and parameters that are there, all numbers that matter are finite.
+POINTHAPTICSSCENE_EXPORT bool readRecording(
+  const std::string& fileName, Recording& recording, std::string& message);
+
+///@{
+/// The lines of a header, without their "# ".
+POINTHAPTICSSCENE_EXPORT std::vector<std::string> linesOf(const RecordingHeader& header);
+std::string lineOf(std::uint64_t cloud, const SceneOrigin& origin);
+std::string lineOf(std::uint64_t number, const HapticParameters& parameters);
+std::string lineOf(const RecordedEvent& event);
+///@}
+
+///@{
+/// The words for RecordedEvent::Kind and SceneOrigin::Kind, in their order.
+constexpr std::array<const char*, 9> kEventKinds = { "scene", "parameters", "clutch", "gate", "reading",
+  "writing", "new-hand", "no-position", "begins" };
+constexpr std::array<const char*, 3> kSceneOrigins = { "whole", "region", "fine" };
+///@}
+
+/// The last line of a header: the columns.
+std::string recordedColumns();
+
+} // namespace pointhaptics

@@ -1,0 +1,129 @@
+#include "ReplayPlayer.h"
+
+#include "vtkPointSet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// Longest sleep between two looks whether it shall end.
+constexpr std::chrono::milliseconds kLongestSleep(50);
+
+} // namespace
+
+bool ReplayPlayer::open(const std::string& fileName, vtkPointSet* cloud, std::string& message)
+{
+  fileName_ = fileName;
+  if (!readRecording(fileName, recording_, message))
+  {
+    return false;
+  }
+  if (!RecordedScenes::isOf(recording_, cloud, message))
+  {
+    message = fmt::format("{}: the cloud is another one: {}", fileName, message);
+    return false;
+  }
+  // An object of its own: its points are shared.
+  cloud_ = vtkSmartPointer<vtkPointSet>::Take(cloud->NewInstance());
+  cloud_->SetPoints(cloud->GetPoints());
+  return true;
+}
+
+void ReplayPlayer::start(ServoLoop& loop)
+{
+  this->stop();
+  ending_ = false;
+  thread_ = std::thread([this, &loop] { this->run(loop); });
+}
+
+void ReplayPlayer::stop()
+{
+  ending_ = true;
+  if (thread_.joinable())
+  {
+    thread_.join();
+  }
+}
+
+bool ReplayPlayer::takeModel(AffineTransform& model)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const bool isThere = hasModel_;
+  model = model_;
+  hasModel_ = false;
+  return isThere;
+}
+
+std::string ReplayPlayer::takeMessage()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::string news;
+  news.swap(message_);
+  return news;
+}
+
+void ReplayPlayer::say(const std::string& news)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  message_ = news;
+}
+
+void ReplayPlayer::run(ServoLoop& loop)
+{
+  using Clock = std::chrono::steady_clock;
+  const auto secondsOf = [](double seconds)
+  { return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)); };
+  RecordedScenes scenes(recording_, cloud_);
+  Replay replay(recording_, scenes);
+  ReplayDifference difference;
+  const double begin = recording_.ticks.front().felt[0];
+  Clock::time_point start = Clock::now();
+  const HapticScene* scene = nullptr;
+  while (!replay.isAtEnd() && !ending_)
+  {
+    const RecordedTick& row = replay.row();
+    const Clock::time_point due = start + secondsOf(row.felt[0] - begin);
+    if (const Clock::duration early = due - Clock::now(); early > Clock::duration::zero())
+    {
+      std::this_thread::sleep_for(std::min<Clock::duration>(early, kLongestSleep));
+      if (Clock::now() < due)
+      {
+        continue;
+      }
+    }
+    ServoSample sample;
+    std::string message;
+    if (!replay.step(sample, message))
+    {
+      this->say(fmt::format("replay: {}: {}", fileName_, message));
+      return;
+    }
+    start = std::max(start, Clock::now() - secondsOf(row.felt[0] - begin) - kLongestSleep);
+    difference.add(row, sample);
+    sample.buttons = 0; // they did what they did: the recording has it
+    loop.feed(sample);
+    if (replay.scene() && replay.scene().get() != scene)
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      hasModel_ = true;
+      model_ = replay.scene()->modelToWorkspace();
+    }
+    scene = replay.scene().get();
+    if (row.marker > 0)
+    {
+      this->say(fmt::format("replay: marker {}", row.marker));
+    }
+  }
+  if (replay.isAtEnd())
+  {
+    this->say("replay: " + difference.text());
+  }
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,146 @@
+// What the window does to record touch, and to show a recording.
+#include "ResampledCloud.h"
+#include "ViewWindow.h"
+
+#include "vtkVoxelMeanResampler.h"
+
+#include <fmt/format.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPointSet.h>
+
+#include <filesystem>
+
+namespace pointhaptics
+{
+
+bool ViewWindow::startRecording(const std::string& fileName, std::string& message)
+{
+  auto* cloud = vtkPointSet::SafeDownCast(scene_.resampler()->GetInputDataObject(0, 0));
+  RecordingHeader header;
+  header.program = observer_.program;
+  header.settings = observer_.describeState ? observer_.describeState(this->state()) : std::string();
+  std::error_code error;
+  for (const std::string& file : shown_.empty() ? std::vector<std::string>{ scene_.title() } : shown_)
+  {
+    const std::filesystem::path path = std::filesystem::absolute(file, error);
+    header.cloud.files.push_back(error ? file : path.string());
+  }
+  header.cloud.resolution = options_.resolution;
+  header.cloud.points = scene_.numberOfPoints();
+  header.cloud.checksum = checksumOf(cloud);
+  return recording_.open(fileName, header, message);
+}
+
+/// False: @p message says what is lost. Says where the recording is.
+bool ViewWindow::endRecording(std::string& message)
+{
+  if (!recording_.isOpen())
+  {
+    return true;
+  }
+  const std::string why = recording_.problem();
+  if (!recording_.close(message))
+  {
+    return false;
+  }
+  this->say(fmt::format("recording: {} ({} ticks, {} markers){}", recording_.fileName(),
+    recording_.numberOfTicks(), recording_.numberOfMarkers(), why.empty() ? "" : "; it ends early: " + why));
+  return true;
+}
+
+void ViewWindow::toggleRecording()
+{
+  std::string message;
+  if (recording_.isOpen())
+  {
+    if (!this->endRecording(message))
+    {
+      this->tell(message);
+    }
+    return;
+  }
+  if (!device_ || !servo_.running())
+  {
+    this->say("nothing is touched here that could be recorded");
+    return;
+  }
+  if (loader_.busy())
+  {
+    this->say("not all points are read yet; record once they are");
+    return;
+  }
+  std::string name;
+  do
+  {
+    name = fmt::format("pointhaptics-{:03}.csv", ++recordings_);
+  } while (std::filesystem::exists(name));
+  if (!this->startRecording(name, message))
+  {
+    this->tell(message);
+    return;
+  }
+  servo_.beginAnew();
+  recordingWaits_ = false;
+  this->say("recording to " + name);
+}
+
+void ViewWindow::setMarker()
+{
+  const std::uint32_t marker = recording_.mark(servo_.latest().tick);
+  this->say(marker > 0 ? fmt::format("marker {}", marker) : "no marker: nothing is recorded");
+}
+
+/// At every call of the timer.
+void ViewWindow::followRecording()
+{
+  if (!recording_.isOpen())
+  {
+    return;
+  }
+  if (!recording_.problem().empty())
+  {
+    std::string message;
+    if (!this->endRecording(message))
+    {
+      this->tell(message);
+    }
+    return;
+  }
+  if (recording_.isWaiting() && !recordingWaits_ && servo_.latest().state.contact)
+  {
+    recordingWaits_ = true;
+    this->say("recording begins when the hand lets go of the surface");
+  }
+  else if (!recording_.isWaiting() && recordingWaits_)
+  {
+    recordingWaits_ = false;
+    this->say("recording to " + recording_.fileName());
+  }
+}
+
+bool ViewWindow::openReplay(std::string& message)
+{
+  player_ = std::make_unique<ReplayPlayer>();
+  auto* cloud = vtkPointSet::SafeDownCast(scene_.resampler()->GetInputDataObject(0, 0));
+  return player_->open(options_.replay, cloud, message);
+}
+
+/// At every call of the timer: the model goes where it went.
+void ViewWindow::followReplay()
+{
+  AffineTransform model;
+  if (player_ && player_->takeModel(model))
+  {
+    vtkNew<vtkMatrix4x4> matrix;
+    setElements(matrix, model);
+    style_->SetModelMatrix(matrix);
+  }
+  const std::string news = player_ ? player_->takeMessage() : std::string();
+  if (!news.empty())
+  {
+    this->say(news);
+  }
+}
+
+} // namespace pointhaptics

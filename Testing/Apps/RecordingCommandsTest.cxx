@@ -1,0 +1,159 @@
+// feel --record, feel --replay, view --replay and compare, as a user meets them.
+#include "RunProgram.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace pointhaptics;
+using apptest::parseTable;
+
+constexpr const char* kIdolPath = POINTHAPTICS_DATA "/Paths/idol-touch.csv";
+
+/// The first 15 columns of a table: all but how long a tick took, and what a recording has beside them.
+std::string felt(const std::string& text)
+{
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);)
+  {
+    if (!line.empty() && line[0] != '#')
+    {
+      std::size_t end = 0;
+      for (int column = 0; column < 15; ++column)
+      {
+        end = line.find(',', end + 1);
+      }
+      result += line.substr(0, end) + "\n";
+    }
+  }
+  return result;
+}
+
+class RecordingCommands : public apptest::CommandLine
+{
+protected:
+  void record(const std::vector<std::string>& options = {}) const
+  {
+    this->succeed({ "generate", "idol", "-n", "300000", "-o", "idol.ply" });
+    std::vector<std::string> words = { "feel", "idol.ply", "--path", kIdolPath, "-o", "out.csv", "--record",
+      "rec.csv" };
+    words.insert(words.end(), options.begin(), options.end());
+    this->succeed(words);
+  }
+};
+
+TEST_F(RecordingCommands, ARecordingIsFeltAgainToTheLastBit)
+{
+  this->record({ "--mu-d", "0.3", "--damping", "0.5" });
+  const std::string recording = this->read("rec.csv");
+  EXPECT_NE(recording.find("kind=fine"), std::string::npos) << "no scene near the hand was felt";
+  EXPECT_NE(recording.find("\nt,hip_x,hip_y,hip_z,proxy_x,proxy_y,proxy_z,normal_x,normal_y,normal_z,force_x,"
+                           "force_y,force_z,radius,contact,update_us,buttons,marker\n"),
+    std::string::npos);
+  EXPECT_EQ(felt(recording), felt(this->read("out.csv")));
+  const std::string said = this->succeed({ "feel", "--replay", "rec.csv", "-o", "again.csv" });
+  EXPECT_NE(said.find("to the last bit"), std::string::npos) << said;
+  EXPECT_EQ(felt(this->read("again.csv")), felt(recording));
+  // A named cloud is as good, and a path is what the hand of a recording went.
+  this->succeed({ "feel", "idol.ply", "--replay", "rec.csv", "-o", "named.csv" });
+  EXPECT_EQ(felt(this->read("named.csv")), felt(recording));
+  this->succeed({ "feel", "idol.ply", "--path", "rec.csv", "-o", "path.csv" });
+  EXPECT_EQ(parseTable(this->read("path.csv")).at("hip_x"), parseTable(felt(recording)).at("hip_x"));
+}
+
+TEST_F(RecordingCommands, TheViewerFeelsARecordingAsFeelDoes)
+{
+  this->record();
+  const apptest::Outcome outcome = this->run({ "view", "--replay", "rec.csv", "--trace", "trace.csv" });
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("to the last bit"), std::string::npos) << outcome.output;
+  EXPECT_EQ(felt(this->read("trace.csv")), felt(this->read("rec.csv")));
+}
+
+TEST_F(RecordingCommands, ViewAndFeelFeelAPathAlike)
+{
+  this->succeed({ "generate", "idol", "-n", "300000", "-o", "idol.ply" });
+  const std::vector<std::vector<std::string>> options = { { "--scale", "0.8", "--mu-d", "0.2" },
+    { "--unit", "m", "--no-covariance" }, { "--translate", "0.001,0,0", "--voxel", "0.0006" },
+    { "--unit", "m", "--method", "gradient-steps" }, {} };
+  for (const std::vector<std::string>& some : options)
+  {
+    std::vector<std::string> view = { "view", "idol.ply", "--path", kIdolPath, "--trace", "trace.csv" };
+    std::vector<std::string> feel = { "feel", "idol.ply", "--path", kIdolPath, "-o", "out.csv" };
+    view.insert(view.end(), some.begin(), some.end());
+    feel.insert(feel.end(), some.begin(), some.end());
+    if (some.empty())
+    {
+      feel.push_back("--fit");
+    }
+    this->succeed(view);
+    this->succeed(feel);
+    const std::string trace = felt(this->read("trace.csv"));
+    EXPECT_TRUE(trace == felt(this->read("out.csv"))) << (some.empty() ? "--fit" : some.front());
+    EXPECT_NE(trace.find(",1\n"), std::string::npos) << "nothing was touched";
+  }
+}
+
+TEST_F(RecordingCommands, FeelTakesAConfigurationOfTheViewer)
+{
+  this->succeed({ "generate", "idol", "-n", "50000", "-o", "idol.ply" });
+  this->write(
+    "view.json", R"({"stiffness": 500, "scale": 0.9, "device": "auto", "camera": "0,0,1,0,0,0,0,1,0",
+    "axes": true, "color-by": "Height"})");
+  this->succeed({ "feel", "idol.ply", "--config", "view.json", "--path", kIdolPath, "-o", "configured.csv" });
+  this->succeed(
+    { "feel", "idol.ply", "--stiffness", "500", "--scale", "0.9", "--path", kIdolPath, "-o", "out.csv" });
+  EXPECT_EQ(felt(this->read("configured.csv")), felt(this->read("out.csv")));
+  this->succeed({ "feel", "idol.ply", "--config", "view.json", "--stiffness", "800", "--path", kIdolPath,
+    "-o", "overruled.csv" });
+  EXPECT_NE(felt(this->read("overruled.csv")), felt(this->read("out.csv")));
+  this->write("bad.json", R"({"stifness": 500})");
+  this->refuse(1, { "feel", "idol.ply", "--config", "bad.json", "--path", kIdolPath, "-o", "out.csv" },
+    { "bad.json", "stifness" });
+}
+
+TEST_F(RecordingCommands, TwoMethodsAreCompared)
+{
+  this->record();
+  const auto figures = nlohmann::json::parse(this->succeed(
+    { "compare", "rec.csv", "--methods", "surface-fit,sphere", "--csv", "both.csv", "--json" }));
+  const apptest::Table out = parseTable(this->read("out.csv"));
+  const apptest::Table both = parseTable(this->read("both.csv"));
+  EXPECT_EQ(figures["ticks"], out.at("t").size());
+  EXPECT_EQ(both.at("first_x"), out.at("force_x")) << "the recorded method is one of the two";
+  EXPECT_EQ(both.at("first_contact"), out.at("contact"));
+  EXPECT_NE(both.at("second_x"), out.at("force_x"));
+  EXPECT_GT(figures["rms_difference_n"].get<double>(), 0.0);
+  EXPECT_GE(figures["max_difference_n"].get<double>(), figures["rms_difference_n"].get<double>());
+  this->refuse(2, { "compare", "rec.csv", "--methods", "sphere" }, { "--methods", "two methods" });
+}
+
+TEST_F(RecordingCommands, WhatCannotBeReplayedIsRefused)
+{
+  this->record();
+  this->succeed({ "generate", "sphere", "-n", "300000", "-o", "sphere.ply" });
+  this->refuse(1, { "feel", "sphere.ply", "--replay", "rec.csv", "-o", "again.csv" },
+    { "sphere.ply", "others", "idol.ply" });
+  const apptest::Outcome view =
+    this->run({ "view", "sphere.ply", "--replay", "rec.csv", "--trace", "again.csv" });
+  EXPECT_EQ(view.exitCode, 1);
+  EXPECT_EQ(view.errors.rfind("pointhaptics view: sphere.ply: ", 0), 0u) << view.errors;
+  this->refuse(1, { "feel", "--replay", "out.csv", "-o", "again.csv" }, { "out.csv:1", "no recording" });
+  this->refuse(1, { "compare", "idol.ply" }, { "idol.ply:1", "no recording" });
+  this->refuse(2, { "feel", "--replay", "rec.csv", "--path", kIdolPath, "-o", "again.csv" }, { "--replay" });
+  this->refuse(2, { "view", "--replay", "rec.csv", "--path", kIdolPath }, { "--replay" });
+  this->refuse(2, { "feel", "idol.ply", "--raw", "--path", kIdolPath, "-o", "x.csv", "--record", "r.csv" },
+    { "--record", "--raw" });
+  this->refuse(2, { "feel", "-o", "x.csv" }, { "FILE" });
+  this->refuse(2, { "view" }, { "FILE" });
+  EXPECT_FALSE(this->exists("again.csv"));
+}
+
+} // namespace

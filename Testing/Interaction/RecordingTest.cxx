@@ -1,0 +1,364 @@
+// A recording of a running servo loop is felt again to the last bit, and a bad one is refused in one line.
+#include "Recording.h"
+#include "RecordedScenes.h"
+#include "RecordingWriter.h"
+#include "Replay.h"
+
+#include "HapticSceneBuilder.h"
+#include "LocalSceneProvider.h"
+#include "vtkVoxelMeanResampler.h"
+
+#include "Shapes/Shapes.h"
+#include "Unit/Haptics/ServoLoopFixtures.h"
+
+#include <gtest/gtest.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMatrixToLinearTransform.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+vtkSmartPointer<vtkPolyData> sphere()
+{
+  std::vector<Vec3> drawn;
+  EXPECT_EQ(generateShape(Shape::Sphere, 100000, 1, 0.0, drawn), Status::Ok);
+  vtkNew<vtkPoints> points;
+  for (const Vec3& p : drawn)
+  {
+    points->InsertNextPoint(&p.x);
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  return cloud;
+}
+
+/// In and out of the sphere of 25 mm, and along it.
+Vec3 handAt(double seconds)
+{
+  const double depth = 0.0275 - 0.004 * std::pow(std::sin(6.0 * seconds), 2);
+  return depth * Vec3{ std::cos(0.4 * seconds), std::sin(0.4 * seconds), 0.1 };
+}
+
+VoxelMeanSettings voxels()
+{
+  VoxelMeanSettings settings;
+  settings.lattice.dimensions = { 300, 300, 300 };
+  settings.lattice.automaticWorkspace = false;
+  settings.lattice.workspace = defaultWorkspace();
+  settings.computeCovariance = true;
+  return settings;
+}
+
+std::shared_ptr<const HapticScene> wholeScene(vtkPolyData* cloud)
+{
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  vtkNew<vtkMatrix4x4> matrix;
+  vtkNew<vtkMatrixToLinearTransform> transform;
+  transform->SetInput(matrix);
+  const VoxelMeanSettings settings = voxels();
+  resampler->SetSettings(settings);
+  resampler->SetTransform(transform);
+  resampler->SetInputData(cloud);
+  resampler->Update();
+  Status status = Status::Ok;
+  return makeHapticScene(resampler->GetOutput(), status, true, LocalBandwidthSettings(), &settings);
+}
+
+class RecordingTest : public ::testing::Test
+{
+protected:
+  RecordingTest()
+  {
+    header_.program = "test 1";
+    header_.settings = R"({"stiffness": 700})";
+    header_.cloud = { { "/no/where/sphere.ply" }, 0.0, cloud_->GetNumberOfPoints(), checksumOf(cloud_) };
+    port_.path = handAt;
+  }
+  ~RecordingTest() override { std::filesystem::remove(file_); }
+
+  /// Until the loop has made @p ticks more.
+  void recordFor(std::uint64_t ticks)
+  {
+    const std::uint64_t end = loop_.latest().tick + ticks;
+    EXPECT_TRUE(trial::eventually(
+      [&]
+      {
+        this->take();
+        return loop_.latest().tick >= end;
+      }));
+    this->take();
+  }
+  void take()
+  {
+    std::vector<ServoSample> samples;
+    loop_.takeTrace(samples);
+    writer_.add(loop_, samples);
+    samples_.insert(samples_.end(), samples.begin(), samples.end());
+  }
+  void start()
+  {
+    ASSERT_TRUE(writer_.open(file_, header_, message_)) << message_;
+    loop_.publishScene(whole_);
+    ServoSettings settings = trial::plainSettings();
+    settings.limits.maximumForce = 2.0;
+    ASSERT_EQ(loop_.start(port_, HapticParameters(), settings), Status::Ok);
+  }
+  void stop()
+  {
+    loop_.stop();
+    this->take();
+    ASSERT_TRUE(writer_.close(message_)) << message_;
+    EXPECT_EQ(writer_.problem(), "");
+  }
+  /// Expects that the recording is felt again with the same bits.
+  void replay(std::size_t leastContacts)
+  {
+    Recording recording;
+    ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
+    EXPECT_TRUE(RecordedScenes::isOf(recording, cloud_, message_)) << message_;
+    RecordedScenes scenes(recording, cloud_);
+    Replay replay(recording, scenes);
+    ReplayDifference difference;
+    std::size_t contacts = 0;
+    while (!replay.isAtEnd())
+    {
+      const RecordedTick& row = replay.row();
+      ServoSample sample;
+      ASSERT_TRUE(replay.step(sample, message_)) << message_;
+      difference.add(row, sample);
+      contacts += sample.state.contact;
+      EXPECT_EQ(sample.tick, row.tick);
+    }
+    EXPECT_EQ(difference.sameTicks, difference.ticks) << difference.text();
+    EXPECT_EQ(difference.ticks, writer_.numberOfTicks());
+    EXPECT_GE(contacts, leastContacts);
+  }
+  std::string text() const
+  {
+    std::ostringstream stream;
+    stream << std::ifstream(file_).rdbuf();
+    return stream.str();
+  }
+  /// Expects that the file with @p text is refused by a line with @p words.
+  void refuse(const std::string& text, const std::string& words)
+  {
+    std::ofstream(file_) << text;
+    Recording recording;
+    message_.clear();
+    EXPECT_FALSE(readRecording(file_, recording, message_)) << words;
+    EXPECT_NE(message_.find(words), std::string::npos) << message_;
+    EXPECT_EQ(message_.find(file_), 0u) << message_;
+    EXPECT_EQ(message_.find('\n'), std::string::npos) << message_;
+    EXPECT_TRUE(recording.ticks.empty());
+  }
+
+  vtkSmartPointer<vtkPolyData> cloud_ = sphere();
+  std::shared_ptr<const HapticScene> whole_ = wholeScene(cloud_);
+  std::string file_ =
+    (std::filesystem::temp_directory_path() / ("recording-" + std::to_string(std::uintptr_t(this)) + ".csv"))
+      .string();
+  std::string message_;
+  RecordingHeader header_;
+  RecordingWriter writer_;
+  trial::ScriptedPort port_;
+  std::vector<ServoSample> samples_;
+  ServoLoop loop_;
+};
+
+TEST_F(RecordingTest, ARunWithMotionsOfTheModelAndOtherSettingsIsFeltAgain)
+{
+  this->start();
+  this->recordFor(300);
+  Status status = Status::Ok;
+  loop_.publishScene(whole_->moved(AffineTransform::scaling({ 1.02, 1.02, 1.02 }), status));
+  this->recordFor(150);
+  HapticParameters parameters;
+  parameters.contact.stiffness = 500.0;
+  parameters.contact.damping = 0.3;
+  parameters.contact.staticFriction = parameters.contact.dynamicFriction = 0.4;
+  ASSERT_EQ(loop_.setParameters(parameters), Status::Ok);
+  this->recordFor(150);
+  parameters.method = ProxyMethod::GradientSteps;
+  ASSERT_EQ(loop_.setParameters(parameters), Status::Ok);
+  loop_.publishScene(whole_);
+  this->recordFor(150);
+  loop_.setClutched(true);
+  this->recordFor(120);
+  loop_.setClutched(false);
+  this->recordFor(400);
+  loop_.publishScene(nullptr);
+  this->recordFor(50);
+  this->stop();
+  this->replay(200);
+}
+
+TEST_F(RecordingTest, ScenesOfPartsAreMadeAgain)
+{
+  LocalSceneProvider provider;
+  provider.setCloud(cloud_);
+  SceneRequest request;
+  request.voxels = voxels();
+  request.voxels.outputPointsPrecision = PointsPrecision::Double;
+  request.bandwidth.emplace();
+  request.hand = [this]
+  {
+    Bounds hand;
+    hand.include(loop_.latest().state.hip);
+    return hand;
+  };
+  this->start();
+  this->recordFor(100);
+  // Moved as the surroundings of the hand are, before the whole cloud is.
+  const double scale = 1.01;
+  for (const std::size_t i : { 0u, 5u, 10u })
+  {
+    request.modelToWorkspace[i] = scale;
+  }
+  const std::shared_ptr<const HapticScene> region = provider.build(request, whole_);
+  ASSERT_TRUE(region && region->fallback());
+  loop_.publishScene(region);
+  this->recordFor(200);
+  Status status = Status::Ok;
+  const auto moved = whole_->moved(region->modelToWorkspace(), status);
+  loop_.publishScene(region->withFallback(*moved, status));
+  this->recordFor(200);
+  this->stop();
+  this->replay(100);
+  EXPECT_NE(this->text().find("kind=region"), std::string::npos);
+}
+
+TEST_F(RecordingTest, AFaultyDeviceIsReplayedToo)
+{
+  // Silences of the device, in and out of contact, short and longer than what makes a hand new.
+  port_.readStatus = [](int n)
+  { return n % 400 > 250 && n % 400 < 250 + (n > 500 ? 130 : 20) ? Status::DeviceSilent : Status::Ok; };
+  port_.writeStatus = [](int n) { return n % 333 == 100 ? Status::DeviceLost : Status::Ok; };
+  this->start();
+  this->recordFor(1500);
+  this->stop();
+  this->replay(200);
+}
+
+TEST_F(RecordingTest, ItBeginsWhenTheHandIsFreeAndHasMarkers)
+{
+  loop_.publishScene(whole_);
+  ASSERT_EQ(loop_.start(port_, HapticParameters(), trial::plainSettings()), Status::Ok);
+  ASSERT_TRUE(trial::eventually([&] { return loop_.latest().state.contact; }));
+  this->take();
+  ASSERT_TRUE(writer_.open(file_, header_, message_)) << message_;
+  EXPECT_EQ(writer_.mark(loop_.latest().tick), 0u);
+  loop_.beginAnew();
+  ASSERT_TRUE(trial::eventually(
+    [&]
+    {
+      this->take();
+      return !writer_.isWaiting();
+    }));
+  this->recordFor(300);
+  const std::uint64_t marked = loop_.latest().tick;
+  EXPECT_EQ(writer_.mark(marked), 1u);
+  this->recordFor(300);
+  this->stop();
+  this->replay(100);
+  Recording recording;
+  ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
+  EXPECT_GT(recording.ticks.front().tick, 1u);
+  const auto row = std::find_if(recording.ticks.begin(), recording.ticks.end(),
+    [](const RecordedTick& tick) { return tick.marker == 1; });
+  ASSERT_NE(row, recording.ticks.end());
+  EXPECT_GT(row->tick, marked);
+  EXPECT_LT(row->tick, marked + 20);
+  EXPECT_EQ(row->buttons, 5u);
+  EXPECT_EQ(recording.header.settings, header_.settings);
+  EXPECT_EQ(recording.header.program, header_.program);
+}
+
+TEST_F(RecordingTest, ALostTickEndsIt)
+{
+  ASSERT_TRUE(writer_.open(file_, header_, message_)) << message_;
+  loop_.publishScene(whole_);
+  ServoSettings settings = trial::plainSettings();
+  settings.traceCapacity = 50;
+  ASSERT_EQ(loop_.start(port_, HapticParameters(), settings), Status::Ok);
+  ASSERT_TRUE(trial::eventually([&] { return loop_.latest().tick > 20; }));
+  this->take();
+  ASSERT_TRUE(trial::eventually([&] { return loop_.statistics().lostTraceSamples > 0; }));
+  this->take();
+  loop_.stop();
+  EXPECT_NE(writer_.problem().find("lost"), std::string::npos);
+  ASSERT_TRUE(writer_.close(message_)) << message_;
+  this->replay(0);
+}
+
+TEST_F(RecordingTest, WhatIsNoRecordingIsRefusedInOneLine)
+{
+  this->start();
+  this->recordFor(200);
+  this->stop();
+  const std::string good = this->text();
+  const auto with = [&good](const std::string& from, const std::string& to)
+  {
+    const std::size_t place = good.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    return std::string(good).replace(place, from.size(), to);
+  };
+  const std::string rows = good.substr(good.find("marker\n") + 7);
+  const std::string head = good.substr(0, good.size() - rows.size());
+  this->refuse("", "no recording");
+  this->refuse("t,x,y,z\n0,0,0,0\n", "no recording");
+  this->refuse(std::string(5000, 'x'), "no recording");
+  this->refuse(with("recording: 1", "recording: 2"), "another version");
+  this->refuse(head, "no row");
+  this->refuse(with("buttons,marker", "buttons"), "the columns are");
+  this->refuse(head + rows.substr(0, rows.size() - 20), "cut off");
+  this->refuse(head + "nan" + rows.substr(rows.find(',')), "NaN");
+  this->refuse(head + "inf" + rows.substr(rows.find(',')), "out of range");
+  this->refuse(head + rows + rows, "not after");
+  this->refuse(with("of=1", "of=77"), "no such event");
+  this->refuse(with(": parameters 2", ": parameters 77"), "no such event");
+  this->refuse(with("kind=whole", "kind=half"), "no such scene");
+  this->refuse(with("model=1,0", "model=0,0"), "no such scene");
+  this->refuse(with("contact.stiffness=800", "contact.stiffness=-1"), "no such parameters");
+  this->refuse(with("bandwidth.rule=0", "bandwidth.rule=9"), "no such scene");
+  this->refuse(with("rate=1000", "rate=0"), "servo setting");
+  this->refuse(with("points=100000", "points=many"), "points");
+  this->refuse(with("# file: ", "# note: "), "names no cloud");
+  std::filesystem::remove(file_);
+  Recording recording;
+  EXPECT_FALSE(readRecording(file_, recording, message_));
+  EXPECT_NE(message_.find("cannot be opened"), std::string::npos);
+}
+
+TEST_F(RecordingTest, AnotherCloudIsRefused)
+{
+  this->start();
+  this->recordFor(100);
+  this->stop();
+  Recording recording;
+  ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
+  double p[3];
+  cloud_->GetPoints()->GetPoint(7, p);
+  p[0] = std::nextafter(float(p[0]), 1.0F);
+  cloud_->GetPoints()->SetPoint(7, p);
+  EXPECT_FALSE(RecordedScenes::isOf(recording, cloud_, message_));
+  EXPECT_NE(message_.find("others"), std::string::npos) << message_;
+  cloud_->GetPoints()->InsertNextPoint(p);
+  EXPECT_FALSE(RecordedScenes::isOf(recording, cloud_, message_));
+  EXPECT_NE(message_.find("100001 points"), std::string::npos) << message_;
+}
+
+} // namespace
