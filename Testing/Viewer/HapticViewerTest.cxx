@@ -334,6 +334,7 @@ TEST_F(HapticViewerTest, ShowsACoarseLevelAtOnceAndThenAllPointsWhereTheyWere)
   EXPECT_TRUE(viewer.style()->GetCommands().run("write-settings"));
   EXPECT_EQ(state.camera, coarse.camera);
   EXPECT_EQ(state.modelToWorkspace, coarse.modelToWorkspace);
+  EXPECT_FALSE(viewer.style()->IsModelChanged()) << "it was resampled where it is";
   EXPECT_EQ(state.workspace, coarse.workspace);
   const auto colors = colorsByPlace(viewer);
   EXPECT_EQ(colors.size(), 1000u);
