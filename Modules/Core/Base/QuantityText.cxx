@@ -1,8 +1,8 @@
 #include "Core/Base/QuantityText.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace pointhaptics
 {
@@ -28,12 +28,16 @@ bool isReadable(double value)
   return value >= kLeast && value < kMost;
 }
 
-template <typename... Values>
-std::string formatted(const char* form, Values... values)
+/// As printf writes it: %.Nf, %.Ne or %.Ng, N the @p precision.
+std::string formatted(double value, std::chars_format format, int precision)
 {
-  char text[64];
-  std::snprintf(text, sizeof(text), form, values...);
-  return text;
+  char text[400]; // the longest double has 309 digits before its point
+  return { text, std::to_chars(text, text + sizeof(text), value, format, precision).ptr };
+}
+
+std::string fixed(double value, int decimals)
+{
+  return formatted(value, std::chars_format::fixed, decimals);
 }
 
 /// Without an exponent. @pre above 0.
@@ -44,7 +48,7 @@ std::string significant(double value, int digits)
   const double rounded = std::round(value / step) * step;
   // 1200 has four digits before the point, whatever their number is to be.
   const int whole = 1 + int(std::floor(std::log10(rounded * (1.0 + 1e-12))));
-  return formatted("%.*g", std::max(digits, whole), rounded);
+  return formatted(rounded, std::chars_format::general, std::max(digits, whole));
 }
 
 std::string withCommas(std::string digits)
@@ -79,9 +83,9 @@ std::string lengthText(double metres, int digits)
   }
   if (size > 1.0 && size < kLargestWithCommas)
   {
-    return sign + withCommas(formatted("%.0f", 1e-3 * size)) + " km";
+    return sign + withCommas(fixed(1e-3 * size, 0)) + " km";
   }
-  return sign + formatted("%.1e m", size);
+  return sign + formatted(size, std::chars_format::scientific, 1) + " m";
 }
 
 std::string lengthText(double metres, const std::string& unitName, double metresPerUnit, int digits)
@@ -100,17 +104,17 @@ std::string forceText(double newtons)
   }
   if (std::abs(newtons) >= kLeastNewtons)
   {
-    return formatted(std::abs(newtons) < 100.0 ? "%.2f N" : "%.0f N", newtons);
+    return fixed(newtons, std::abs(newtons) < 100.0 ? 2 : 0) + " N";
   }
   const double milli = std::round(1e3 * newtons);
-  return milli == 0.0 ? "0 N" : formatted("%.0f mN", milli);
+  return milli == 0.0 ? "0 N" : fixed(milli, 0) + " mN";
 }
 
 std::string ratioText(double ratio, int digits)
 {
   if (!(ratio < kLargestWithCommas))
   {
-    return formatted("%.2e", ratio);
+    return formatted(ratio, std::chars_format::scientific, 2);
   }
   const std::string text = significant(ratio, digits);
   return text.find_first_of(".e") == std::string::npos ? withCommas(text) : text;
