@@ -79,6 +79,7 @@ struct PublishedScene
   std::shared_ptr<const SceneOrigin> fallbackOrigin;
 };
 
+/// Parameters that a servo loop was given.
 struct PublishedParameters
 {
   std::uint64_t number = 0; ///< As ServoSample::parameters names them.

@@ -7,6 +7,7 @@
 namespace pointhaptics
 {
 
+/// The choices; each can be a command-line option, a key and a line of the configuration file.
 struct PictureSettings
 {
   bool parallel = false;           ///< Parallel projection; else perspective.
