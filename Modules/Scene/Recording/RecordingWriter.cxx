@@ -243,18 +243,22 @@ void RecordingWriter::addRow(const ServoSample& sample)
     marker = ++markers_;
   }
   const auto felt = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
-  char line[40 * (kFeltColumns.size() + 2)];
-  char* end = line;
+  std::string line;
+  const auto append = [&line](auto value)
+  {
+    char text[40];
+    line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+  };
   for (const double value : felt)
   {
-    end = std::to_chars(end, line + sizeof line, value).ptr;
-    *end++ = ',';
+    append(value);
+    line += ',';
   }
-  end = std::to_chars(end, line + sizeof line, sample.buttons).ptr;
-  *end++ = ',';
-  end = std::to_chars(end, line + sizeof line, marker).ptr;
-  *end++ = '\n';
-  std::fwrite(line, 1, std::size_t(end - line), rows_.get()); // close() looks whether it failed
+  append(sample.buttons);
+  line += ',';
+  append(marker);
+  line += '\n';
+  std::fwrite(line.data(), 1, line.size(), rows_.get()); // close() looks whether it failed
   ++numberOfTicks_;
 }
 
