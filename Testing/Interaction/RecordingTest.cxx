@@ -328,7 +328,7 @@ TEST_F(RecordingTest, WhatIsNoRecordingIsRefusedInOneLine)
   this->refuse(head + "nan" + rows.substr(rows.find(',')), "NaN");
   this->refuse(head + "inf" + rows.substr(rows.find(',')), "out of range");
   this->refuse(head + rows + rows, "not after");
-  this->refuse(with("of=1", "of=77"), "no such event");
+  this->refuse(with("scene of=", "scene of=77"), "no such event");
   this->refuse(with(": parameters 2", ": parameters 77"), "no such event");
   this->refuse(with("kind=whole", "kind=half"), "no such scene");
   this->refuse(with("model=1,0", "model=0,0"), "no such scene");
