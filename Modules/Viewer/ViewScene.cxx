@@ -402,10 +402,12 @@ void ViewScene::applyLook()
   const std::string name = source ? describeColorSource(drawn, *source) : std::string();
   scalarBar_->SetTitle((name + (this->wantsResiduals() ? " (" + unit_.name + ")\n" : "\n")).c_str());
   scalarBar_->SetVisibility(!figure_ && source.has_value());
-  for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty() })
+  const Vec3 ink = inkOn(picture_.background);
+  for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty(),
+         scalarBar_->GetAnnotationTextProperty() })
   {
-    const Vec3 ink = inkOn(picture_.background);
     text->SetColor(ink.x, ink.y, ink.z);
+    text->ShadowOn(); // points may lie behind
   }
   if (figure_)
   {

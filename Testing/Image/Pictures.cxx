@@ -1,5 +1,6 @@
 #include "Pictures.h"
 
+#include "AsprsClasses.h"
 #include "CloudAppearance.h"
 #include "CloudOrientation.h"
 #include "HapticSceneBuilder.h"
@@ -34,6 +35,7 @@
 #include <vtkScalarBarActor.h>
 #include <vtkScalarsToColors.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -347,6 +349,27 @@ void buildScalarBar(const std::string& fault, vtkRenderer* renderer)
   renderer->AddActor2D(bar);
 }
 
+/// The names of three classes beside their colours, all within the picture.
+void buildClassLegend(const std::string& fault, vtkRenderer* renderer)
+{
+  look(renderer);
+  vtkNew<vtkUnsignedCharArray> classes;
+  for (const unsigned char number : { 2, 6, fault == "other-class" ? 9 : 5 })
+  {
+    classes->InsertNextValue(number);
+  }
+  vtkNew<vtkScalarBarActor> bar;
+  setUpScalarBar(bar);
+  bar->SetLookupTable(vtkSmartPointer<vtkLookupTable>::Take(newClassLegend(classes)));
+  bar->SetTitle("Classification\n");
+  placeScalarBar(bar, renderer);
+  if (fault == "names-outside")
+  {
+    bar->SetTextPositionToPrecedeScalarBar();
+  }
+  renderer->AddActor2D(bar);
+}
+
 /// Box, labels and marker about a cloud of a map in millimetres, which the model turns and shrinks.
 void buildCloudAxes(const std::string& fault, vtkRenderer* renderer)
 {
@@ -459,6 +482,7 @@ bool buildPicture(
     { "Figure", { "colored", "hand-shown" }, buildFigure },
     { "ComponentColors", { "other-component", "magnitude" }, buildComponentColors },
     { "ScalarBar", { "wrong-range", "at-the-edge" }, buildScalarBar },
+    { "ClassLegend", { "other-class", "names-outside" }, buildClassLegend },
     { "CloudAxes", { "hidden", "no-turn", "wrong-unit" }, buildCloudAxes },
     { "Progress", { "wrong-part" }, buildProgress }, { "CoarseLevel", { "unfair-order" }, buildCoarseLevel },
     { "MiddleLevel", { "unfair-order" }, buildMiddleLevel },

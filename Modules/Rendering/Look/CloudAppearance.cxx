@@ -404,7 +404,8 @@ void setUpScalarBar(vtkScalarBarActor* bar)
 {
   bar->SetNumberOfLabels(4);
   bar->UnconstrainedFontSizeOn();
-  for (vtkTextProperty* text : { bar->GetTitleTextProperty(), bar->GetLabelTextProperty() })
+  for (vtkTextProperty* text :
+    { bar->GetTitleTextProperty(), bar->GetLabelTextProperty(), bar->GetAnnotationTextProperty() })
   {
     text->SetFontSize(kScalarBarFont);
     text->SetColor(0.1, 0.1, 0.1);
@@ -413,37 +414,35 @@ void setUpScalarBar(vtkScalarBarActor* bar)
     text->ShadowOff();
   }
   bar->SetLabelFormat("%#.3g ");
-  bar->SetTextPositionToPrecedeScalarBar(); // a long title grows away from the edge
 }
 
-/// Of the numbers beside @p bar, or of the names where it has them.
-static double longestLabel(vtkScalarBarActor* bar)
+/// Whether names stand beside @p bar in the place of numbers.
+static bool hasNames(vtkScalarBarActor* bar)
 {
-  constexpr double kNumberLetters = 9.0; // -1.23e-05
-  vtkScalarsToColors* colors = bar->GetLookupTable();
-  double longest = kNumberLetters;
-  for (vtkIdType i = 0; colors && colors->GetIndexedLookup() && i < colors->GetNumberOfAnnotatedValues(); ++i)
-  {
-    longest = std::max(longest, double(colors->GetAnnotation(i).size()));
-  }
-  return longest;
+  return bar->GetLookupTable() && bar->GetLookupTable()->GetIndexedLookup();
 }
 
 void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer)
 {
   constexpr double kMargin = 12.0;
   constexpr double kBarWidth = 24.0;
-  constexpr double kLetterWidth = 0.57; // of the font's size
+  constexpr double kNumberLetters = 9.0; // -1.23e-05
+  constexpr double kLetterWidth = 0.57;  // of the font's size
   const double size = renderer->GetSize()[0];
   const double letter = kLetterWidth * kScalarBarFont;
   const double title = letter * double(bar->GetTitle() ? std::strlen(bar->GetTitle()) : 0);
-  const double width = std::min(size, std::max(title, kBarWidth + letter * longestLabel(bar)));
+  // Names stand outside of the bar's box.
+  const double labels = hasNames(bar) ? 0.0 : letter * kNumberLetters;
+  const double width = std::min(size, std::max(title, kBarWidth + labels));
   if (width > 0.0)
   {
     bar->SetPosition(std::max(0.0, (size - kMargin - width) / size), 0.28);
     bar->SetWidth(width / size);
     bar->SetHeight(0.5);
     bar->SetBarRatio(std::min(1.0, kBarWidth / width));
+    // All text stands away from the window's edge: numbers where the position says, names opposite to it.
+    bar->SetTextPosition(
+      hasNames(bar) ? vtkScalarBarActor::SucceedScalarBar : vtkScalarBarActor::PrecedeScalarBar);
   }
 }
 
