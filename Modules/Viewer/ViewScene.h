@@ -73,8 +73,6 @@ public:
   void fitView();
   /// From camera to focal point, as HapticViewerOptions::camera has it: see fitCamera().
   double viewDistance() const;
-  /// Turns the camera about the cloud's up by @p degrees.
-  void turnView(double degrees);
 
   /// Draws this and later clouds as @p picture says.
   void setPicture(const PictureSettings& picture);

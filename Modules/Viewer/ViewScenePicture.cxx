@@ -163,25 +163,4 @@ void ViewScene::fitView()
   this->lookFrom(std::atan2(dot(aside, right), dot(aside, front)) / kDegree, std::asin(height) / kDegree);
 }
 
-void ViewScene::turnView(double degrees)
-{
-  const AffineTransform model = transformOf(pointsMatrix_);
-  const Vec3 up = normalized(model.applyToVector(cloudOrientation_.up));
-  const double c = std::cos(degrees * kDegree);
-  const double s = std::sin(degrees * kDegree);
-  const auto turned = [&](const Vec3& v) { return c * v + s * cross(up, v) + (1.0 - c) * dot(up, v) * up; };
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  Vec3 focus;
-  Vec3 eye;
-  Vec3 viewUp;
-  camera->GetFocalPoint(&focus.x);
-  camera->GetPosition(&eye.x);
-  camera->GetViewUp(&viewUp.x);
-  eye = focus + turned(eye - focus);
-  viewUp = turned(viewUp);
-  camera->SetPosition(&eye.x);
-  camera->SetViewUp(&viewUp.x);
-  renderer_->ResetCameraClippingRange();
-}
-
 } // namespace pointhaptics

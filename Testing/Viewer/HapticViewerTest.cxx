@@ -9,6 +9,7 @@
 #include <vtkActorCollection.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -19,6 +20,7 @@
 #include <vtkRenderer.h>
 #include <vtkScalarsToColors.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 
 #include <array>
 #include <chrono>
@@ -93,6 +95,23 @@ protected:
   std::vector<std::string> warnings_;
   std::vector<std::string> notes_;
 };
+
+TEST_F(HapticViewerTest, TakesTheUnitThatTheCloudSaysUnlessTheHostHasChosenOne)
+{
+  const vtkSmartPointer<vtkPolyData> sphere = makeSphere();
+  vtkNew<vtkStringArray> unit;
+  unit->SetName("LengthUnit");
+  unit->InsertNextValue("foot");
+  sphere->GetFieldData()->AddArray(unit);
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(sphere, "sphere")) << viewer.message();
+  EXPECT_EQ(viewer.scaleNote(), "1 : 6.77; 1 mm in the hand is 6.8 mm");
+  options_.unit = "m";
+  options_.unitIsChosen = true;
+  HapticViewer chosen(options_, observer_);
+  ASSERT_TRUE(chosen.open(sphere, "sphere")) << chosen.message();
+  EXPECT_EQ(chosen.scaleNote(), "1 : 22.2; 1 mm in the hand is 22 mm");
+}
 
 TEST_F(HapticViewerTest, ShowsPointsOfItsHostAndLeavesThemAsTheyAre)
 {
