@@ -63,4 +63,29 @@ bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& resul
   return true;
 }
 
+void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
+{
+  matrix->Identity();
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      matrix->SetElement(row, column, transform.m[row][column]);
+    }
+  }
+}
+
+AffineTransform transformOf(const vtkMatrix4x4* matrix)
+{
+  AffineTransform transform;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      transform.m[row][column] = matrix->GetElement(row, column);
+    }
+  }
+  return transform;
+}
+
 } // namespace pointhaptics

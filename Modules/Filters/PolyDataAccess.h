@@ -10,6 +10,7 @@
 
 class vtkAbstractTransform;
 class vtkDataArray;
+class vtkMatrix4x4;
 class vtkPoints;
 
 namespace pointhaptics
@@ -31,5 +32,11 @@ private:
 /// The matrix of a linear transform; null gives the identity. @return false for a transform that is not
 /// affine.
 bool affineFromTransform(vtkAbstractTransform* transform, AffineTransform& result);
+
+///@{
+/// The first three rows of a matrix whose fourth is 0, 0, 0, 1.
+void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform);
+AffineTransform transformOf(const vtkMatrix4x4* matrix);
+///@}
 
 } // namespace pointhaptics

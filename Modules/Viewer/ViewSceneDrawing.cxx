@@ -1,8 +1,6 @@
 // What is drawn of a scene: points or means, where the model is, and from where they are seen.
 #include "ViewScene.h"
 
-#include "ResampledCloud.h"
-
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
 #include "SurfaceArrays.h"

@@ -1,8 +1,6 @@
 // How the scene is drawn and from where, as PictureSettings and the person say.
 #include "ViewScene.h"
 
-#include "ResampledCloud.h"
-
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
 #include "vtkCloudAxes.h"

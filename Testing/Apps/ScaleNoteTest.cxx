@@ -1,4 +1,5 @@
 #include "ScaleNote.h"
+#include "PolyDataAccess.h"
 
 #include "Options/LatticeOptions.h"
 
@@ -18,15 +19,8 @@ namespace
 /// For a model that the options make, enlarged by @p zoom afterwards, as the fit and the window do.
 std::string noteFor(const LatticeOptions& options, double zoom = 1.0)
 {
-  const AffineTransform transform = AffineTransform::scaling({ zoom, zoom, zoom }) * options.transform();
   vtkNew<vtkMatrix4x4> model;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      model->SetElement(row, column, transform.m[row][column]);
-    }
-  }
+  setElements(model, AffineTransform::scaling({ zoom, zoom, zoom }) * options.transform());
   return describeScale(model, options.unit, options.metresPerUnit());
 }
 

@@ -3,6 +3,7 @@
 #include "Options/SettingOptions.h"
 
 #include "Core/Base/Lattice.h"
+#include "PolyDataAccess.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include <CLI/CLI.hpp>
@@ -208,14 +209,7 @@ void LatticeOptions::configure(vtkVoxelMeanResampler* resampler) const
   if (this->hasTransform())
   {
     vtkNew<vtkMatrix4x4> matrix4x4;
-    const AffineTransform affine = this->transform();
-    for (int row = 0; row < 3; ++row)
-    {
-      for (int column = 0; column < 4; ++column)
-      {
-        matrix4x4->SetElement(row, column, affine.m[row][column]);
-      }
-    }
+    setElements(matrix4x4, this->transform());
     vtkNew<vtkMatrixToLinearTransform> linear;
     linear->SetInput(matrix4x4);
     resampler->SetTransform(linear);

@@ -41,13 +41,7 @@ struct RecordedScenes::Maker
 
   std::shared_ptr<const HapticScene> makeWhole(const SceneOrigin& origin)
   {
-    for (int row = 0; row < 3; ++row)
-    {
-      for (int column = 0; column < 4; ++column)
-      {
-        matrix->SetElement(row, column, origin.modelToWorkspace.m[row][column]);
-      }
-    }
+    setElements(matrix, origin.modelToWorkspace);
     resampler->SetSettings(origin.voxels);
     resampler->Update();
     Status status = Status::Ok;

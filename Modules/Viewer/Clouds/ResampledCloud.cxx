@@ -2,6 +2,7 @@
 
 #include "HapticSceneBuilder.h"
 #include "HapticViewerOptions.h"
+#include "PolyDataAccess.h"
 #include "SurfaceArrays.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -161,31 +162,6 @@ private:
 };
 
 } // namespace
-
-void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform)
-{
-  matrix->Identity();
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      matrix->SetElement(row, column, transform.m[row][column]);
-    }
-  }
-}
-
-AffineTransform transformOf(vtkMatrix4x4* matrix)
-{
-  AffineTransform transform;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      transform.m[row][column] = matrix->GetElement(row, column);
-    }
-  }
-  return transform;
-}
 
 void placeCloud(const CloudRequest& request, LoadedCloud& loaded)
 {

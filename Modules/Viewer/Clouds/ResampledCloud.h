@@ -8,7 +8,6 @@
 #include <string>
 
 class vtkKernelBandwidthFilter;
-class vtkMatrix4x4;
 class vtkVoxelMeanResampler;
 
 namespace pointhaptics
@@ -28,8 +27,5 @@ void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loa
 /// False: it was ended, @p message says so.
 POINTHAPTICSVIEWER_EXPORT bool resampleCloud(const CloudRequest& request, const std::function<bool()>& goesOn,
   LoadedCloud& loaded, std::string& message);
-
-void setElements(vtkMatrix4x4* matrix, const AffineTransform& transform);
-AffineTransform transformOf(vtkMatrix4x4* matrix);
 
 } // namespace pointhaptics

@@ -1,5 +1,5 @@
 // What the window does to record touch, and to show a recording.
-#include "ResampledCloud.h"
+#include "PolyDataAccess.h"
 #include "ViewWindow.h"
 
 #include "vtkVoxelMeanResampler.h"

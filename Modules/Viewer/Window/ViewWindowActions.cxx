@@ -1,4 +1,3 @@
-#include "ResampledCloud.h"
 #include "ViewPicture.h"
 #include "ViewWindow.h"
 
