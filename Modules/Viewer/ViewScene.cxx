@@ -297,13 +297,14 @@ std::vector<std::string> ViewScene::colorChoices() const
   };
   const ColorRule rule = shown_->colors.rule;
   add(rule == ColorRule::Rgb ? "rgb" : "");
-  add(rule == ColorRule::Classes ? shown_->colors.array : "");
+  add(rule == ColorRule::Classes && !showsFelt_ ? shown_->colors.array : "");
   add(rule == ColorRule::Clay ? kClayName : "");
   add(kHeightArrayName);
   add(hasColors(shown_->points) ? "rgb" : "");
   for (const char* name : { "classification", "intensity", "returnnumber" })
   {
-    vtkDataArray* array = findArrayAnyCase(shown_->points, name);
+    // The means have none of what only the points were read for, and never get it.
+    vtkDataArray* array = findArrayAnyCase(showsFelt_ ? cloud_ : shown_->points, name);
     add(array ? array->GetName() : "");
   }
   add(ownColor_);

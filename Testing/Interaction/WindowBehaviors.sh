@@ -184,6 +184,20 @@ KeyMGoesThroughTheColors() {
   said "coloured by Height"
 }
 
+# The means have no values of an array that only the points were read for.
+KeyMOffersTheMeansWhatTheyHave() {
+  awk 'BEGIN { print "x,y,z,Intensity"; for (i = 0; i < 9999; ++i) print i % 99, int(i / 99), i % 7, i % 5 }' >cloud.csv
+  open_viewer cloud.csv --felt
+  local step
+  for step in 1 2 3 4 5 6; do key m; done
+  said "coloured by Residual"
+  key m
+  said "coloured by Height"
+  never_said "coloured by Intensity"
+  key d m m m m m m
+  said "coloured by Intensity"
+}
+
 KeyDShowsTheMeansThatAreFelt() {
   make sphere cloud.ply
   open_viewer cloud.ply
