@@ -249,7 +249,7 @@ CloudFormat identifyFormat(std::string_view bytes, std::size_t size, const std::
   }
   throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError,
     "unknown format: starts with " + inQuotes(bytes.substr(0, 16)),
-    "use PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS, E57, or text with columns x y z");
+    "use PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS, LAZ, E57, or text with columns x y z");
 }
 
 const char* nameOf(CloudFormat format)

@@ -124,8 +124,9 @@ void print(const std::string& file, const CloudSummary& s)
   if (!s.bounds.empty())
   {
     const Vec3 low = s.bounds.minimum, high = s.bounds.maximum, size = s.bounds.extent();
-    fmt::print(
-      "  bounds   x {} .. {}  y {} .. {}  z {} .. {}\n", low.x, high.x, low.y, high.y, low.z, high.z);
+    // The 15 digits that a double has for certain: a multiple of 0.01 ends there, too.
+    fmt::print("  bounds   x {:.15g} .. {:.15g}  y {:.15g} .. {:.15g}  z {:.15g} .. {:.15g}\n", low.x, high.x,
+      low.y, high.y, low.z, high.z);
     fmt::print("  size     {:.6g} x {:.6g} x {:.6g}\n", size.x, size.y, size.z);
     fmt::print("  unit     {} ({})\n", s.unit,
       !s.unitIsGuess   ? "the file says so"
