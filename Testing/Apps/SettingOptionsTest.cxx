@@ -1,7 +1,7 @@
 #include "Options/SettingOptions.h"
 
-#include "Options/ViewOptions.h"
-#include "Options/ViewSettings.h"
+#include "View/ViewOptions.h"
+#include "View/ViewSettings.h"
 
 #include "../Unit/ChangedSettings.h"
 

@@ -1,4 +1,4 @@
-#include "Options/ViewSettings.h"
+#include "View/ViewSettings.h"
 
 #include "Options/LatticeOptions.h"
 

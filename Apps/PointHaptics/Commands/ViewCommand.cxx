@@ -1,7 +1,7 @@
 #include "Commands/Commands.h"
 
-#include "Options/ViewOptions.h"
-#include "Options/ViewSettings.h"
+#include "View/ViewOptions.h"
+#include "View/ViewSettings.h"
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"

@@ -58,6 +58,25 @@ private:
   std::thread thread_; // last: it uses the other
 };
 
+/// Gives the samples that came since the last call to the recording and, where the device spoke, to onSample.
+void passSamples(ServoLoop& loop, const LiveSettings& settings, std::vector<ServoSample>& samples,
+  const std::function<void(const ServoSample&)>& onSample)
+{
+  samples.clear();
+  loop.takeTrace(samples);
+  if (settings.recording)
+  {
+    settings.recording->add(loop, samples);
+  }
+  for (const ServoSample& sample : samples)
+  {
+    if (sample.device == Status::Ok)
+    {
+      onSample(sample);
+    }
+  }
+}
+
 } // namespace
 
 bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
@@ -83,22 +102,7 @@ bool feelLive(const LiveSettings& settings, FeelScenes& scenes,
   }
   FalconUpdates updates;
   std::vector<ServoSample> samples;
-  const auto pass = [&]
-  {
-    samples.clear();
-    loop.takeTrace(samples);
-    if (settings.recording)
-    {
-      settings.recording->add(loop, samples);
-    }
-    for (const ServoSample& sample : samples)
-    {
-      if (sample.device == Status::Ok)
-      {
-        onSample(sample);
-      }
-    }
-  };
+  const auto pass = [&] { passSamples(loop, settings, samples, onSample); };
   double touchBegan = -1.0;
   while (loop.running() && !stopIsRequested())
   {

@@ -2,8 +2,8 @@
 
 #include "Options/ConfigFile.h"
 #include "Options/OptionParsing.h"
-#include "Options/ViewOptions.h"
-#include "Options/ViewSettings.h"
+#include "View/ViewOptions.h"
+#include "View/ViewSettings.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,11 +1,11 @@
-#include "Options/ViewOptions.h"
+#include "View/ViewOptions.h"
 
 #include "Options/ConfigFile.h"
 #include "Options/OptionParsing.h"
-#include "Options/PictureOptions.h"
-#include "Options/ViewSettings.h"
 #include "Terminal/KeyedHelp.h"
 #include "Terminal/Messages.h"
+#include "View/PictureOptions.h"
+#include "View/ViewSettings.h"
 
 #include "CommandRegistry.h"
 #include "Gesture.h"
@@ -102,12 +102,29 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
     ->group(group);
 }
 
+/// What of a touch is written, and what of an earlier one is felt again.
+void addTouchFileOptions(CLI::App& command, HapticViewerOptions& viewer)
+{
+  command.add_option("--force-chart", viewer.forceChart, "Write force and proxy radius over time as a PNG")
+    ->type_name("OUT.png");
+  command
+    .add_option("--record", viewer.record,
+      "Record the touch, from the first tick to the last, for --replay; a key records, too")
+    ->type_name("REC.csv");
+  command
+    .add_option("--replay", viewer.replay,
+      "Feel and show this recording again, with its settings and motions of the model: the same forces to "
+      "the last bit")
+    ->type_name("REC.csv");
+  command.add_option("--trace", viewer.trace, "Write one row per tick, as feel does")->type_name("OUT.csv");
+}
+
 } // namespace
 
 void ViewOptions::addTo(CLI::App& command)
 {
   command.add_option("FILE", this->files,
-    "Point clouds: PLY, PCD, LAS, VTP, OBJ or columns of text; one that cannot be read is skipped "
+    "Point clouds: PLY, PCD, LAS, LAZ, E57, VTP, OBJ or columns of text; one that cannot be read is skipped "
     "where there are others, but with --together; with --replay those that were recorded are the default");
   command.add_flag("--together", this->viewer.together);
   command.add_flag("--watch", this->viewer.watch, "Read a file again when it changes");
@@ -140,21 +157,7 @@ void ViewOptions::addTo(CLI::App& command)
     ->type_name("FILE.json");
   command.add_option("--write-config", this->writeConfig)->type_name("OUT.json");
   command.add_flag("--recent", this->recent, "Begin with the settings the last window ended with");
-  command
-    .add_option("--force-chart", this->viewer.forceChart, "Write force and proxy radius over time as a PNG")
-    ->type_name("OUT.png");
-  command
-    .add_option("--record", this->viewer.record,
-      "Record the touch, from the first tick to the last, for --replay; a key records, too")
-    ->type_name("REC.csv");
-  command
-    .add_option("--replay", this->viewer.replay,
-      "Feel and show this recording again, with its settings and motions of the model: the same forces to "
-      "the "
-      "last bit")
-    ->type_name("REC.csv");
-  command.add_option("--trace", this->viewer.trace, "Write one row per tick, as feel does")
-    ->type_name("OUT.csv");
+  addTouchFileOptions(command, this->viewer);
   addWord(command, "--up", this->viewer.up, { "auto", "x", "-x", "y", "-y", "z", "-z" },
     "Axis of the cloud that points up; default: a guess");
   addWord(command, "--kind", this->viewer.kind, { "auto", "object", "terrain", "sweep", "indoors", "frame" },

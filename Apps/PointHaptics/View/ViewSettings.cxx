@@ -1,7 +1,7 @@
-#include "Options/ViewSettings.h"
+#include "View/ViewSettings.h"
 
-#include "Options/PictureOptions.h"
 #include "Options/TouchOptions.h"
+#include "View/PictureOptions.h"
 
 #include "HapticViewerOptions.h"
 

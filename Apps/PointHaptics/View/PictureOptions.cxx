@@ -1,4 +1,4 @@
-#include "Options/PictureOptions.h"
+#include "View/PictureOptions.h"
 
 #include "Options/OptionParsing.h"
 
