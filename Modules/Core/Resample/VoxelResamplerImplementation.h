@@ -84,6 +84,7 @@ private:
     simd::CoarseVoxels::Scratch coarse;
   };
   class WorkerLease;
+  class PartitionGroups;
 
   void clear();
   /// How often the voxels of a lattice are halved so that they can be divided into partitions; -1: they
@@ -103,6 +104,8 @@ private:
   Status finishRuns(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   void keepBatches(const VoxelRequest& request, simd::PartitionWorker& worker, std::uint32_t partition);
   void finish(const VoxelRequest& request, const Executor& executor);
+  void coarsen(
+    const VoxelRequest& request, const PartitionGroups& groups, std::uint32_t group, Worker& worker);
   /// The part of the work of run() that the finest level is.
   static double fractionOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
   bool writeRuns(const VoxelRequest& request, simd::VoxelRuns& runs, bool keeps, simd::Level& level,

@@ -1,6 +1,7 @@
 /// VoxelResampler on lattices whose voxels can be divided into partitions.
 #include "Core/Base/PointBlocks.h"
 #include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/Stages/VoxelWriter.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
@@ -47,20 +48,8 @@ private:
   std::unique_ptr<Worker> worker_;
 };
 
-namespace
-{
-
-/// So many points may be in one voxel before the sums of their offsets could need more than 62 bits.
-std::int64_t mostPointsOfBatch(int indexBits)
-{
-  return (std::int64_t(1) << (62 - kPositionBits + indexBits)) - 1;
-}
-static_assert(
-  kChunkPoints < std::int64_t(1) << (62 - kPositionBits + kMinimumIndexBits), "a batch must hold a chunk");
-static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
-
 /// Partitions that are whole layers of the next coarser lattice together.
-class PartitionGroups
+class VoxelResampler::Implementation::PartitionGroups
 {
 public:
   explicit PartitionGroups(const PartitionPlan& plan)
@@ -86,6 +75,18 @@ private:
   std::uint32_t size_;
   std::vector<std::atomic<std::uint32_t>> done_;
 };
+
+namespace
+{
+
+/// So many points may be in one voxel before the sums of their offsets could need more than 62 bits.
+std::int64_t mostPointsOfBatch(int indexBits)
+{
+  return (std::int64_t(1) << (62 - kPositionBits + indexBits)) - 1;
+}
+static_assert(
+  kChunkPoints < std::int64_t(1) << (62 - kPositionBits + kMinimumIndexBits), "a batch must hold a chunk");
+static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
 
 /// The kernels' partition loops for points with other fields between them, block by block. With
 /// PointRecordWriter::slots there is one range of one block at most, as slots count from its first point.
@@ -336,14 +337,10 @@ void VoxelResampler::Implementation::keepBatches(
   accumulated_[partition] = AccumulatedPartition(worker.accumulated);
 }
 
-/// Means of the pool's records and the accumulated sums; with levels, sums of the next level too. A partition
-/// writes its voxels in place if those before it have been counted by then, as they nearly always are;
-/// otherwise they are moved there in the end.
+/// Means of the pool's records and the accumulated sums; with levels, sums of the next level too.
 void VoxelResampler::Implementation::finish(const VoxelRequest& request, const Executor& executor)
 {
   const Kernels& kernels = kernelsFor(request.instructions);
-  const MeanArena::Layout layout = { request.singlePrecision, request.keys, request.covariances };
-  Level& level = levels[0];
   std::size_t room = 0;
   bool hasAccumulated = false;
   for (std::uint32_t p = 0; p < plan_.partitions; ++p)
@@ -351,17 +348,9 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
     room += mostVoxels(plan_, pool_.count(p), accumulated_[p].size());
     hasAccumulated = hasAccumulated || accumulated_[p].size() > 0;
   }
-  level.arena.prepare(room, layout, request.lattice, plan_.fractionBits, request.allocator);
-  struct Late
-  {
-    std::uint32_t partition;
-    std::size_t size;
-    MeanArena arena;
-  };
-  std::vector<Late> late;
-  PartitionOrder order(plan_.partitions);
+  VoxelWriter writer(levels[0], plan_.partitions, room,
+    { request.singlePrecision, request.keys, request.covariances }, plan_.fractionBits, request.allocator);
   const bool makesCoarse = request.levels > 1 && plan_.dense;
-  const CoarseVoxels coarsening(request.lattice, plan_.fractionBits, request.covariances);
   PartitionGroups groups(plan_);
   if (makesCoarse)
   {
@@ -375,63 +364,36 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
         [&](std::size_t known)
         {
           size = known;
-          order.publish(p, size);
+          writer.publish(p, size);
         });
-      std::size_t offset = order.first(p);
-      const bool isLate = offset == PartitionOrder::kUnknown;
-      MeanArena aside;
-      if (isLate)
+      writer.write(kernels, p, size, worker);
+      if (makesCoarse && groups.finish(p))
       {
-        aside.prepare(size, layout, request.lattice, plan_.fractionBits);
-        offset = 0;
+        coarsen(request, groups, groups.groupOf(p), worker);
       }
-      MeanArena& arena = isLate ? aside : level.arena;
-      if (const PartitionVoxels* voxels = worker.packed())
-      {
-        arena.write(kernels, offset, *voxels);
-      }
-      else
-      {
-        worker.forBatches(
-          [&](const MomentBatch<std::int64_t>& batch)
-          {
-            arena.write(kernels, offset, batch);
-            offset += std::size_t(batch.size);
-          });
-      }
-      if (makesCoarse)
-      {
-        const std::uint32_t group = groups.groupOf(p);
-        if (groups.finish(p))
-        {
-          runs_.add(group,
-            coarsening.ofPartitions(
-              plan_, accumulated_, groups.begin(group), groups.end(group), worker.coarse));
-          for (std::uint32_t used = groups.begin(group); used < groups.end(group); ++used)
-          {
-            accumulated_[used] = AccumulatedPartition();
-          }
-        }
-      }
-      else if (request.levels > 1)
+      else if (request.levels > 1 && !makesCoarse)
       {
         keepBatches(request, worker, p);
       }
-      else if (hasAccumulated)
+      else if (hasAccumulated && !makesCoarse)
       {
         accumulated_[p].trim();
       }
-      if (isLate)
-      {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        late.push_back({ p, size, std::move(aside) });
-      }
     });
-  level.firsts = order.take();
-  level.size = std::int64_t(level.firsts.back());
-  for (const Late& piece : late)
+  writer.finish();
+}
+
+/// Adds the voxels of the next level that a group of partitions, which are all done, makes.
+void VoxelResampler::Implementation::coarsen(
+  const VoxelRequest& request, const PartitionGroups& groups, std::uint32_t group, Worker& worker)
+{
+  const CoarseVoxels coarsening(request.lattice, plan_.fractionBits, request.covariances);
+  const std::uint32_t begin = groups.begin(group);
+  const std::uint32_t end = groups.end(group);
+  runs_.add(group, coarsening.ofPartitions(plan_, accumulated_, begin, end, worker.coarse));
+  for (std::uint32_t p = begin; p < end; ++p)
   {
-    level.arena.write(level.firsts[piece.partition], piece.arena, piece.size);
+    accumulated_[p] = AccumulatedPartition();
   }
 }
 

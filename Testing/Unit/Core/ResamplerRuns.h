@@ -160,10 +160,76 @@ inline std::vector<Vec3> quantisedPoints(
   return points;
 }
 
+/// The exact sums of the points of a voxel, of their offsets in it in quanta.
+class ExactVoxel
+{
+public:
+  explicit ExactVoxel(const std::array<std::int64_t, 3>& index)
+    : index_(index)
+  {
+  }
+  void add(const Vec3& point)
+  {
+    Wide place[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = Wide((point[axis] - double(index_[std::size_t(axis)])) / kQuantum);
+      first_[axis] += place[axis];
+    }
+    for (int m = 0; m < 6; ++m)
+    {
+      second_[m] += place[kRows[m]] * place[kColumns[m]];
+    }
+    ++count_;
+  }
+  std::int64_t count() const { return count_; }
+  double mean(int axis) const
+  {
+    return double(
+      (long double)index_[std::size_t(axis)] + (long double)first_[axis] / (long double)count_ * kQuantum);
+  }
+  /// In the order of SymMat3.
+  double covariance(int m) const
+  {
+    const Wide central = second_[m] * count_ - first_[kRows[m]] * first_[kColumns[m]];
+    return double((long double)central / (long double)count_ / (long double)count_) * kQuantum * kQuantum;
+  }
+
+private:
+  __extension__ typedef __int128 Wide;
+  static constexpr int kRows[6] = { 0, 1, 2, 0, 1, 0 };
+  static constexpr int kColumns[6] = { 0, 1, 2, 1, 2, 2 };
+
+  std::array<std::int64_t, 3> index_;
+  std::int64_t count_ = 0;
+  Wide first_[3] = { 0, 0, 0 };
+  Wide second_[6] = { 0, 0, 0, 0, 0, 0 };
+};
+
+inline void expectExact(const ExactVoxel& exact, const LevelResult& level, std::size_t v)
+{
+  ASSERT_EQ(level.counts[v], exact.count()) << "voxel " << v;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double expected = exact.mean(axis);
+    ASSERT_NEAR(level.means[3 * v + std::size_t(axis)], expected, 4e-16 * (expected + 1.0)) << "voxel " << v;
+  }
+  if (level.covariances.empty())
+  {
+    return;
+  }
+  const SymMat3& c = level.covariances[v];
+  const double got[6] = { c.xx, c.yy, c.zz, c.xy, c.yz, c.xz };
+  for (int m = 0; m < 6; ++m)
+  {
+    const double expected = exact.covariance(m);
+    ASSERT_NEAR(got[m], expected, 1e-15 * std::fabs(expected) + 1e-18) << "voxel " << v << " moment " << m;
+  }
+}
+
 /// Compares with sums in integers of quanta. @pre unit voxels from the origin, quantised points.
 inline void expectExact(const std::vector<Vec3>& points, const Lattice& lattice, const RunResult& result)
 {
-  __extension__ typedef __int128 Wide;
   std::vector<std::pair<std::uint64_t, std::size_t>> members;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -180,51 +246,14 @@ inline void expectExact(const std::vector<Vec3>& points, const Lattice& lattice,
   for (std::size_t begin = 0; begin < members.size(); ++v)
   {
     const std::uint64_t key = members[begin].first;
-    const auto index = lattice.indexOf(key);
-    std::size_t end = begin;
-    Wide first[3] = { 0, 0, 0 };
-    Wide second[6] = { 0, 0, 0, 0, 0, 0 };
-    const int rows[6] = { 0, 1, 2, 0, 1, 0 };
-    const int columns[6] = { 0, 1, 2, 1, 2, 2 };
-    for (; end < members.size() && members[end].first == key; ++end)
+    ExactVoxel exact(lattice.indexOf(key));
+    for (; begin < members.size() && members[begin].first == key; ++begin)
     {
-      Wide place[3];
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double inVoxel = points[members[end].second][axis] - double(index[std::size_t(axis)]);
-        place[axis] = Wide(inVoxel / kQuantum);
-        first[axis] += place[axis];
-      }
-      for (int m = 0; m < 6; ++m)
-      {
-        second[m] += place[rows[m]] * place[columns[m]];
-      }
+      exact.add(points[members[begin].second]);
     }
-    const auto count = std::int64_t(end - begin);
-    begin = end;
     ASSERT_LT(v, level.counts.size());
     ASSERT_EQ(level.keys[v], key);
-    ASSERT_EQ(level.counts[v], count) << "voxel " << v;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double expected = double(
-        (long double)index[std::size_t(axis)] + (long double)first[axis] / (long double)count * kQuantum);
-      ASSERT_NEAR(level.means[3 * v + std::size_t(axis)], expected, 4e-16 * (expected + 1.0))
-        << "voxel " << v;
-    }
-    if (level.covariances.empty())
-    {
-      continue;
-    }
-    const SymMat3& c = level.covariances[v];
-    const double got[6] = { c.xx, c.yy, c.zz, c.xy, c.yz, c.xz };
-    for (int m = 0; m < 6; ++m)
-    {
-      const Wide central = second[m] * count - first[rows[m]] * first[columns[m]];
-      const double expected =
-        double((long double)central / (long double)count / (long double)count) * kQuantum * kQuantum;
-      ASSERT_NEAR(got[m], expected, 1e-15 * std::fabs(expected) + 1e-18) << "voxel " << v << " moment " << m;
-    }
+    ASSERT_NO_FATAL_FAILURE(expectExact(exact, level, v));
   }
   EXPECT_EQ(v, level.counts.size());
 }

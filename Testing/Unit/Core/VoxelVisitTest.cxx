@@ -112,93 +112,112 @@ struct Attributes
   }
 };
 
-/// Every point inside is visited once, with its attributes and its voxel; no voxel by two threads
-/// at a time.
+/// Notes the visits of points by several threads: every point once, with its attributes, no voxel by two
+/// threads at a time.
+class VisitLog
+{
+public:
+  VisitLog(const Attributes& attributes, std::size_t points, std::size_t voxels)
+    : attributes_(attributes)
+    , voxelOf_(points)
+    , busy_(voxels)
+  {
+    clear();
+  }
+  void clear()
+  {
+    for (auto& voxel : voxelOf_)
+    {
+      voxel = -1;
+    }
+  }
+  /// @p first: of the set that voxels are counted from.
+  void note(const PointRows& rows, std::int64_t first, const std::int64_t* voxels, int count)
+  {
+    std::vector<std::int64_t> taken;
+    for (int i = 0; i < count; ++i)
+    {
+      const std::int64_t point = attributes_.pointOf(rows, i);
+      const std::int64_t voxel = first + voxels[i];
+      if (point < 0 || voxel < first || std::size_t(voxel) >= busy_.size())
+      {
+        ++faults_;
+        continue;
+      }
+      faults_ += voxelOf_[std::size_t(point)].exchange(voxel) != -1;
+      taken.push_back(voxel);
+    }
+    std::sort(taken.begin(), taken.end());
+    taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
+    for (const std::int64_t voxel : taken)
+    {
+      faults_ += busy_[std::size_t(voxel)].exchange(1) != 0;
+    }
+    for (const std::int64_t voxel : taken)
+    {
+      busy_[std::size_t(voxel)] = 0;
+    }
+  }
+  /// What was visited is what there is.
+  void expectAll(const VoxelRequest& request, const LevelResult& level, const std::string& what) const
+  {
+    EXPECT_EQ(faults_, 0) << what;
+    std::vector<std::int64_t> counts(level.counts.size(), 0);
+    for (std::size_t i = 0; i < voxelOf_.size(); ++i)
+    {
+      const Vec3 u = request.lattice.continuousIndex(request.points[std::int64_t(i)]);
+      const std::int64_t voxel = voxelOf_[i];
+      ASSERT_EQ(voxel >= 0, request.lattice.contains(u)) << what << " point " << i;
+      if (voxel >= 0)
+      {
+        ASSERT_EQ(level.keys[std::size_t(voxel)],
+          request.lattice.key(std::int64_t(u.x), std::int64_t(u.y), std::int64_t(u.z)))
+          << what;
+        ++counts[std::size_t(voxel)];
+      }
+    }
+    EXPECT_EQ(counts, level.counts) << what;
+  }
+
+private:
+  const Attributes& attributes_;
+  std::vector<std::atomic<std::int64_t>> voxelOf_; ///< Of each point.
+  std::vector<std::atomic<int>> busy_;             ///< Whether a thread is at each voxel.
+  std::atomic<std::int64_t> faults_{ 0 };
+};
+
 void expectVisited(VoxelRequest request, bool keepsRecords, bool isWide, const Executor& executor)
 {
   request.keepPointRecords = keepsRecords;
-  const Attributes attributes(std::size_t(request.points.size()), isWide);
+  const auto points = std::size_t(request.points.size());
+  const Attributes attributes(points, isWide);
   request.tuples = attributes.sources();
   const std::string what = nameOf(request.lattice) + (request.index ? " with an index" : "") +
     (keepsRecords ? ", keeps records" : "") + (isWide ? ", wide" : "");
   VoxelResampler resampler;
   const RunResult result = runOf(resampler, request, executor);
   const LevelResult& level = result.levels[0];
-  const auto points = std::size_t(request.points.size());
-  std::vector<std::atomic<std::int64_t>> voxelOf(points);
-  std::vector<std::atomic<int>> busy(level.keys.size());
-  std::atomic<std::int64_t> faults{ 0 };
-  const auto visit = [&](const PointRows& rows, const std::int64_t* voxels, int count)
-  {
-    std::vector<std::int64_t> taken;
-    for (int i = 0; i < count; ++i)
-    {
-      const std::int64_t point = attributes.pointOf(rows, i);
-      if (point < 0 || voxels[i] < 0 || std::size_t(voxels[i]) >= busy.size())
-      {
-        ++faults;
-        continue;
-      }
-      faults += voxelOf[std::size_t(point)].exchange(voxels[i]) != -1;
-      taken.push_back(voxels[i]);
-    }
-    std::sort(taken.begin(), taken.end());
-    taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
-    for (const std::int64_t voxel : taken)
-    {
-      faults += busy[std::size_t(voxel)].exchange(1) != 0;
-    }
-    for (const std::int64_t voxel : taken)
-    {
-      busy[std::size_t(voxel)] = 0;
-    }
-  };
+  VisitLog log(attributes, points, level.keys.size());
   for (int round = 0; round < (keepsRecords ? 2 : 1); ++round)
   {
-    for (auto& voxel : voxelOf)
-    {
-      voxel = -1;
-    }
+    log.clear();
+    const auto visit = [&](const PointRows& rows, const std::int64_t* voxels, int count)
+    { log.note(rows, 0, voxels, count); };
     ASSERT_EQ(resampler.visitPointsByVoxel(request, visit, executor), Status::Ok);
+    log.expectAll(request, level, what);
   }
-  EXPECT_EQ(faults, 0) << what;
-  std::vector<std::int64_t> counts(level.counts.size(), 0);
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    const Vec3 u = request.lattice.continuousIndex(request.points[std::int64_t(i)]);
-    const std::int64_t voxel = voxelOf[i];
-    ASSERT_EQ(voxel >= 0, request.lattice.contains(u)) << what << " point " << i;
-    if (voxel >= 0)
-    {
-      ASSERT_EQ(level.keys[std::size_t(voxel)],
-        request.lattice.key(std::int64_t(u.x), std::int64_t(u.y), std::int64_t(u.z)))
-        << what;
-      ++counts[std::size_t(voxel)];
-    }
-  }
-  EXPECT_EQ(counts, level.counts) << what;
   if (resampler.canVisitByVoxelSet())
   {
-    std::atomic<std::int64_t> seen{ 0 };
+    log.clear();
     resampler.visitPointsByVoxelSet(
       request,
-      [&](std::int64_t first, std::int64_t voxels, const auto& forPoints)
+      [&](std::int64_t first, std::int64_t, const auto& forPoints)
       {
-        forPoints(
-          [&](const PointRows& rows, const std::int64_t* numbers, int count)
-          {
-            for (int i = 0; i < count; ++i)
-            {
-              const std::int64_t point = attributes.pointOf(rows, i);
-              faults += point < 0 || numbers[i] >= voxels ||
-                voxelOf[std::size_t(std::max<std::int64_t>(point, 0))] != first + numbers[i];
-            }
-            seen += count;
-          });
+        forPoints([&](const PointRows& rows, const std::int64_t* numbers, int count)
+          { log.note(rows, first, numbers, count); });
       },
       executor);
-    EXPECT_EQ(faults, 0) << what << " in sets";
-    EXPECT_EQ(seen, std::accumulate(counts.begin(), counts.end(), std::int64_t(0))) << what;
+    log.expectAll(request, level, what + " in sets");
   }
   EXPECT_TRUE(keepsRecords || !resampler.canVisitByVoxelSet()) << what;
   expectSame(runOf(resampler, request, executor), result, what + " run again");

@@ -157,6 +157,25 @@ __attribute__((always_inline)) inline void move(
   }
 }
 
+/// @p u: V::width points in quanta. Fetches points that come later.
+template <class V, Motion motion, bool Pair, typename Real>
+__attribute__((always_inline)) inline void locate(
+  const QuantizerVectors<V>& c, const Real* xyz, typename V::Doubles u[3])
+{
+  constexpr int kAhead = 2048 / int(sizeof(Real));
+  __builtin_prefetch(xyz + kAhead);
+  if (V::width * 3 * sizeof(Real) > 64)
+  {
+    __builtin_prefetch(xyz + kAhead + 64 / sizeof(Real));
+  }
+  typename V::Doubles v[3];
+  move<V, motion>(c, xyz, v);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    u[axis] = quotient<V, Pair>(c, v[axis], axis);
+  }
+}
+
 /// Quantizes V::width points, which are at @p u in quanta, into @p to and after it. Bit i of the result:
 /// point i is inside.
 template <class V>
@@ -256,7 +275,6 @@ __attribute__((noinline)) int quantizeGroups(const QuantizerVectors<V>& given, c
   unsigned present, std::uint32_t index, QuantizedPoints<V>& quantized, const QuantizedPoints<V>& binned,
   int& turn, PointRecordWriter& writer)
 {
-  constexpr int kAhead = 2048 / int(sizeof(Real));
   constexpr int kTurns = Batches<V>::kTurns;
   constexpr int kGroups = V::groupsTogether;
   static_assert(
@@ -273,18 +291,7 @@ __attribute__((noinline)) int quantizeGroups(const QuantizerVectors<V>& given, c
     const int together = groups - first < kGroups ? groups - first : kGroups;
     for (int g = 0; g < together; ++g)
     {
-      const Real* from = xyz + 3 * V::width * (first + g);
-      __builtin_prefetch(from + kAhead);
-      if (V::width * 3 * sizeof(Real) > 64)
-      {
-        __builtin_prefetch(from + kAhead + 64 / sizeof(Real));
-      }
-      typename V::Doubles v[3];
-      move<V, motion>(constants, from, v);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        u[g][axis] = quotient<V, Pair>(constants, v[axis], axis);
-      }
+      locate<V, motion, Pair>(constants, xyz + 3 * V::width * (first + g), u[g]);
     }
     for (int g = 0; g < together; ++g)
     {
