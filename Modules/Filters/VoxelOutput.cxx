@@ -18,9 +18,8 @@
 namespace pointhaptics
 {
 
-void* ArrayAllocator::allocate(Part part, std::size_t bytes)
+void* ArrayAllocator::reserve(void*& memory, std::size_t bytes)
 {
-  void*& memory = memory_[int(part)];
   if (memory)
   {
     ArrayPool::giveBack(memory);
@@ -29,9 +28,8 @@ void* ArrayAllocator::allocate(Part part, std::size_t bytes)
   return memory;
 }
 
-void ArrayAllocator::take(Part part, vtkDataArray* array, std::int64_t tuples)
+void ArrayAllocator::move(void*& memory, vtkDataArray* array, std::int64_t tuples)
 {
-  void*& memory = memory_[int(part)];
   if (memory)
   {
     pool_.take(memory, array, tuples);
@@ -39,6 +37,28 @@ void ArrayAllocator::take(Part part, vtkDataArray* array, std::int64_t tuples)
     return;
   }
   pool_.allocate(array, tuples);
+}
+
+void* ArrayAllocator::allocate(Part part, std::size_t bytes)
+{
+  return reserve(memory_[std::size_t(part)], bytes);
+}
+
+void* ArrayAllocator::allocateAttribute(std::size_t attribute, std::size_t bytes)
+{
+  memory_.resize(std::max(memory_.size(), kParts + attribute + 1));
+  return reserve(memory_[kParts + attribute], bytes);
+}
+
+void ArrayAllocator::take(Part part, vtkDataArray* array, std::int64_t tuples)
+{
+  move(memory_[std::size_t(part)], array, tuples);
+}
+
+void ArrayAllocator::takeAttribute(std::size_t attribute, vtkDataArray* array, std::int64_t tuples)
+{
+  memory_.resize(std::max(memory_.size(), kParts + attribute + 1));
+  move(memory_[kParts + attribute], array, tuples);
 }
 
 void ArrayAllocator::release()
@@ -51,6 +71,13 @@ void ArrayAllocator::release()
       memory = nullptr;
     }
   }
+}
+
+void fillAttribute(const VoxelResampler& engine, int level, std::size_t attribute, vtkDataArray* array,
+  ArrayAllocator& allocator, const Executor& executor)
+{
+  allocator.takeAttribute(attribute, array, engine.size(level));
+  engine.copyAttribute(level, attribute, array->GetVoidPointer(0), executor);
 }
 
 vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, int level, bool singlePrecision,

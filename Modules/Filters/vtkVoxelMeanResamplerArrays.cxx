@@ -8,7 +8,6 @@
 #include "vtkPointSet.h"
 
 #include <algorithm>
-#include <mutex>
 #include <sstream>
 #include <string>
 
@@ -128,109 +127,23 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input, bool war
   }
 }
 
-bool vtkVoxelMeanResampler::Internals::AverageArrays()
+vtkSmartPointer<vtkDataArray> vtkVoxelMeanResampler::Internals::ReducedArray(std::size_t i, int level)
 {
-  if (this->Attributes.empty() || this->KeepsPoints())
-  {
-    return true;
-  }
-  this->BeginPart(kRunEnd);
-  const bool canWriteSets = std::all_of(this->Attributes.begin(), this->Attributes.end(),
-    [](const NamedAttribute& named) { return named.attribute.canWriteSets(); });
-  if (canWriteSets && this->Engine.canVisitByVoxelSet() && this->Request.levels == 1)
-  {
-    this->AverageInSets();
-    return this->report(1.0);
-  }
-  const std::int64_t mostPoints = this->Engine.mostPoints(this->Request.levels - 1);
-  for (NamedAttribute& named : this->Attributes)
-  {
-    Buffer<std::int64_t> spare;
-    if (!this->SpareSums.empty())
-    {
-      spare = std::move(this->SpareSums.back());
-      this->SpareSums.pop_back();
-    }
-    named.attribute.prepare(
-      this->Engine.counts(), this->Engine.size(), mostPoints, std::move(spare), this->Smp);
-  }
-  const Status status = this->Engine.visitPointsByVoxel(
-    this->Request,
-    [this](const PointRows& rows, const std::int64_t* voxels, int count)
-    {
-      for (std::size_t i = 0; i < this->Attributes.size(); ++i)
-      {
-        this->Attributes[i].attribute.add(rows.tuples(i), rows.bytes, voxels, count);
-      }
-    },
-    this->Smp, this);
-  return status == Status::Ok;
-}
-
-/// One set of voxels at a time: its sums and tuples stay in the caches, and its means are written in place.
-void vtkVoxelMeanResampler::Internals::AverageInSets()
-{
-  for (NamedAttribute& named : this->Attributes)
-  {
-    named.attribute.prepareSets(this->Engine.size(), this->Request.transform, this->Pool);
-  }
-  const std::int64_t mostPoints = this->Engine.mostPoints();
-  std::mutex mutex;
-  using TuplesOfAll = std::vector<VoxelAttribute::Tuples>;
-  std::vector<TuplesOfAll> idle;
-  const auto take = [&]
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    TuplesOfAll tuples;
-    if (!idle.empty())
-    {
-      tuples = std::move(idle.back());
-      idle.pop_back();
-      return tuples;
-    }
-    for (const NamedAttribute& named : this->Attributes)
-    {
-      tuples.push_back(named.attribute.tuplesOfSet());
-    }
-    return tuples;
-  };
-  this->Engine.visitPointsByVoxelSet(
-    this->Request,
-    [&](std::int64_t first, std::int64_t voxels, const auto& forPoints)
-    {
-      TuplesOfAll tuples = take();
-      const std::int64_t* counts = this->Engine.counts() + first;
-      for (VoxelAttribute::Tuples& ofArray : tuples)
-      {
-        VoxelAttribute::prepare(ofArray, counts, voxels, mostPoints);
-      }
-      forPoints(
-        [&](const PointRows& rows, const std::int64_t* numbers, int count)
-        {
-          for (std::size_t i = 0; i < tuples.size(); ++i)
-          {
-            VoxelAttribute::add(tuples[i], rows.tuples(i), rows.bytes, numbers, count);
-          }
-        });
-      for (std::size_t i = 0; i < tuples.size(); ++i)
-      {
-        this->Attributes[i].attribute.writeSet(tuples[i], first, counts);
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      idle.push_back(std::move(tuples));
-    },
-    this->Smp);
-}
-
-vtkSmartPointer<vtkDataArray> vtkVoxelMeanResampler::Internals::Reduce(
-  NamedAttribute& named, const std::int64_t* counts)
-{
+  const NamedAttribute& named = this->Attributes[i];
   const AffineTransform& transform = this->Request.transform;
-  const vtkSmartPointer<vtkDataArray> array = this->KeepsPoints()
-    ? named.attribute.chosen(this->Engine.chosenPoints(), this->Pool, this->Smp)
-    : named.attribute.output(counts, transform, this->Pool, this->Smp, this);
+  vtkSmartPointer<vtkDataArray> array;
+  if (this->KeepsPoints())
+  {
+    array = named.attribute.chosen(this->Engine.chosenPoints(), this->Pool, this->Smp);
+  }
+  else
+  {
+    array = named.attribute.emptyArray();
+    fillAttribute(this->Engine, level, i, array, this->Allocator, this->Smp);
+    array = named.attribute.inOwnType(array);
+  }
   const bool turns = this->Request.representative != pointhaptics::Representative::Mean && named.isNormal;
-  if (turns && array && !transform.isIdentity())
+  if (turns && !transform.isIdentity())
   {
     turnNormals(array, transform);
   }

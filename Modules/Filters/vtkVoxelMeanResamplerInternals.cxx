@@ -231,18 +231,15 @@ bool vtkVoxelMeanResampler::Internals::Resample(vtkPointSet* input, bool isFirst
     : settings.outputPointsPrecision == PointsPrecision::Single;
   this->Request.covariances = settings.computeCovariance;
   this->Request.instructions = settings.instructionSet;
-  const bool visits = !this->Attributes.empty() && !this->KeepsPoints();
-  this->Request.keys = visits;
-  this->Request.keepPointRecords = visits;
-  this->Request.tuples.clear();
+  this->Request.attributes.clear();
   this->Request.tieBreakers.clear();
   for (const NamedAttribute& named : this->Attributes)
   {
-    visits ? this->Request.tuples.push_back(named.attribute.source())
-           : this->Request.tieBreakers.push_back(named.attribute.view());
+    this->KeepsPoints() ? this->Request.tieBreakers.push_back(named.attribute.view())
+                        : this->Request.attributes.push_back(named.attribute.request());
   }
   this->Request.allocator = &this->Allocator;
-  this->BeginPart(visits ? 0.5 : kRunEnd);
+  this->BeginPart(kRunEnd);
   const Status status = this->Engine.run(this->Request, this->Smp, this);
   if (status == Status::Aborted)
   {
@@ -272,16 +269,11 @@ bool vtkVoxelMeanResampler::Internals::Run(vtkPointSet* input, bool isFirst)
       "NearestToCenter.");
   }
   this->ChooseArrays(input, isFirst);
-  return this->Resample(input, isFirst) && this->AverageArrays();
+  return this->Resample(input, isFirst);
 }
 
 void vtkVoxelMeanResampler::Internals::Release()
 {
-  this->SpareSums.clear();
-  for (NamedAttribute& named : this->Attributes)
-  {
-    this->SpareSums.push_back(named.attribute.takeSums());
-  }
   this->Attributes.clear();
   for (KnownValues& known : this->Known)
   {
@@ -302,24 +294,19 @@ bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
     makePoints(this->Engine, level, this->Request.singlePrecision, this->Allocator, this->Smp));
   output->SetVerts(makeVertices(vtkIdType(this->Engine.size(level)), this->Pool, this->Smp));
   const auto counts = makeCounts(this->Engine, level, this->Allocator, this->Smp);
-  const auto* countValues = reinterpret_cast<const std::int64_t*>(counts->GetPointer(0));
   // Steps of the filling of all levels.
   const auto steps = double(this->Attributes.size() + 1);
   double done = steps * level;
-  for (NamedAttribute& named : this->Attributes)
+  for (std::size_t i = 0; i < this->Attributes.size(); ++i)
   {
     this->BeginPart(kRunEnd + (kFillEnd - kRunEnd) * ++done / (steps * this->Request.levels));
-    if (level > 0)
-    {
-      named.attribute.coarsen(this->Engine.parents(level), this->Engine.size(level));
-    }
-    const vtkSmartPointer<vtkDataArray> array = this->Reduce(named, countValues);
-    if (!array || !this->report(1.0))
+    const vtkSmartPointer<vtkDataArray> array = this->ReducedArray(i, level);
+    if (!this->report(1.0))
     {
       return false;
     }
     const int index = data->AddArray(array);
-    for (const int role : named.roles)
+    for (const int role : this->Attributes[i].roles)
     {
       data->SetActiveAttribute(index, role);
     }
@@ -375,10 +362,6 @@ bool vtkVoxelMeanResampler::Internals::FillAll(
 std::size_t vtkVoxelMeanResampler::Internals::ScratchBytes() const
 {
   std::size_t sum = this->Engine.scratchBytes() + this->Index.bytes() + this->Pool.bytes();
-  for (const Buffer<std::int64_t>& sums : this->SpareSums)
-  {
-    sum += sums.bytes();
-  }
   for (const KnownValues& known : this->Known)
   {
     sum += known.values.copy ? std::size_t(1024) * known.values.copy->GetActualMemorySize() : 0;
@@ -395,7 +378,6 @@ void vtkVoxelMeanResampler::Internals::ReleaseCaches()
   }
   this->Engine.releaseScratch();
   this->Pool.trim();
-  this->SpareSums.clear();
   this->Index = PointIndex();
   this->Indexed = false;
   this->PartialViews = 0;

@@ -104,20 +104,18 @@ private:
 
   /// A point of the input stands for each voxel.
   bool KeepsPoints() const;
-  vtkSmartPointer<vtkDataArray> Reduce(NamedAttribute& named, const std::int64_t* counts);
+  /// What an attribute is on a level.
+  vtkSmartPointer<vtkDataArray> ReducedArray(std::size_t i, int level);
   pointhaptics::AttributeKind KindOf(vtkDataArray* array, bool isNormal) const;
   void ChooseArrays(vtkPointSet* input, bool warns);
   bool UseIndex(vtkPointSet* input);
   bool Resample(vtkPointSet* input, bool isFirst);
-  bool AverageArrays();
-  void AverageInSets();
 
   vtkVoxelMeanResampler* Filter;
   pointhaptics::SmpExecutor Smp;
   pointhaptics::VoxelRequest Request;
   std::unique_ptr<pointhaptics::PointAccess> Points;
   std::vector<NamedAttribute> Attributes;
-  std::vector<pointhaptics::Buffer<std::int64_t>> SpareSums; ///< Of the last update's attributes.
   pointhaptics::ArrayPool Pool;
   pointhaptics::ArrayAllocator Allocator{ this->Pool };
   std::optional<std::vector<std::int64_t>> Kept; ///< Voxels of output 0, where some may be left out.

@@ -3,21 +3,16 @@
 #include "SmpExecutor.h"
 
 #include "Core/Base/Buffer.h"
-#include "Core/Resample/AttributeMean.h"
-#include "Core/Resample/AttributeTuples.h"
 #include "Core/Resample/VoxelMean.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <variant>
 
 namespace pointhaptics
 {
 namespace
 {
-
-using Tuples = std::variant<AttributeMean, AttributeTuples>;
 
 const Executor& executorFor(unsigned threads)
 {
@@ -75,6 +70,17 @@ private:
   std::array<Buffer<std::uint64_t>, 3> buffers_; ///< One for each part.
 };
 
+AttributeRequest requestFor(const RecordCloud& cloud, const RecordField& field)
+{
+  AttributeRequest request;
+  request.view = { cloud.records + field.offset, field.type, field.components, cloud.size,
+    std::int64_t(cloud.step) };
+  request.statistic = field.kind == FieldKind::Category ? AttributeStatistic::Mode
+    : field.kind == FieldKind::Normal                   ? AttributeStatistic::Normal
+                                                        : AttributeStatistic::Mean;
+  return request;
+}
+
 }
 
 struct RecordVoxels::Implementation
@@ -84,13 +90,11 @@ struct RecordVoxels::Implementation
   RecordVoxelSettings settings;
   VoxelRequest request;
   std::vector<RecordField> fields;
-  std::vector<Tuples> tuples;
   std::vector<std::int64_t> kept; ///< Voxels that are not left out; empty: all are kept.
   std::vector<std::uint64_t> keys;
   std::array<std::int64_t, 3> first{};
   std::int64_t size = 0;
 
-  Status average(const RecordCloud& cloud, const Executor& executor);
   Status run(const RecordCloud& cloud, const Executor& executor);
   void choose();
   template <typename Real>
@@ -112,36 +116,6 @@ RecordVoxels::RecordVoxels()
 }
 
 RecordVoxels::~RecordVoxels() = default;
-
-/// Sums the fields, voxel by voxel. @pre the engine has run.
-Status RecordVoxels::Implementation::average(const RecordCloud& cloud, const Executor& executor)
-{
-  for (std::size_t i = 0; i < fields.size(); ++i)
-  {
-    const RecordField& field = fields[i];
-    const AttributeView view{ cloud.records + field.offset, field.type, field.components, cloud.size,
-      std::int64_t(cloud.step) };
-    if (field.kind == FieldKind::Category)
-    {
-      tuples.emplace_back(AttributeTuples(field.type, field.components));
-      std::get<AttributeTuples>(tuples.back()).prepare(engine.counts(), engine.size());
-      continue;
-    }
-    tuples.emplace_back(AttributeMean(view, executor));
-    std::get<AttributeMean>(tuples.back()).prepare(engine.size(), engine.mostPoints(), {}, executor);
-  }
-  return engine.visitPointsByVoxel(
-    request,
-    [this](const PointRows& rows, const std::int64_t* voxels, int count)
-    {
-      for (std::size_t i = 0; i < tuples.size(); ++i)
-      {
-        std::visit(
-          [&](auto& ofVoxels) { ofVoxels.add(rows.tuples(i), rows.bytes, voxels, count); }, tuples[i]);
-      }
-    },
-    executor);
-}
 
 /// Which voxels are kept.
 void RecordVoxels::Implementation::choose()
@@ -183,17 +157,12 @@ Status RecordVoxels::Implementation::run(const RecordCloud& cloud, const Executo
     return status;
   }
   request.allocator = &means;
-  request.keys = settings.keepKeys || !fields.empty();
-  request.keepPointRecords = !fields.empty();
+  request.keys = settings.keepKeys;
   for (const RecordField& field : fields)
   {
-    request.tuples.push_back({ cloud.records + field.offset, bytesOf(field), cloud.step });
+    request.attributes.push_back(requestFor(cloud, field));
   }
   status = engine.run(request, executor);
-  if (status == Status::Ok && !fields.empty())
-  {
-    status = average(cloud, executor);
-  }
   if (status == Status::Ok)
   {
     choose();
@@ -207,7 +176,6 @@ Status RecordVoxels::run(
   Implementation& mine = *implementation_;
   mine.settings = settings;
   mine.fields = fields;
-  mine.tuples.clear();
   mine.kept.clear();
   mine.keys.clear();
   mine.size = 0;
@@ -257,27 +225,10 @@ void RecordVoxels::write(char* records, std::size_t step, const std::array<std::
   }
   mine.request.singlePrecision ? mine.writeMeans<float>(records, step, xyz)
                                : mine.writeMeans<double>(records, step, xyz);
-  const Executor& executor = executorFor(mine.settings.threads);
-  const Vec3 unturned[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
-  std::vector<std::uint64_t> packed;
   for (std::size_t i = 0; i < mine.fields.size(); ++i)
   {
-    const RecordField& field = mine.fields[i];
-    packed.resize(std::size_t(mine.engine.size()) * bytesOf(field) / sizeof(std::uint64_t) + 1);
-    const auto* mean = std::get_if<AttributeMean>(&mine.tuples[i]);
-    if (!mean)
-    {
-      static_cast<void>(std::get<AttributeTuples>(mine.tuples[i]).write(packed.data(), executor, nullptr));
-    }
-    else if (field.kind == FieldKind::Normal)
-    {
-      mean->writeUnitVectors(mine.engine.counts(), unturned, packed.data(), executor);
-    }
-    else
-    {
-      mean->write(mine.engine.counts(), packed.data(), executor);
-    }
-    mine.scatter(reinterpret_cast<const char*>(packed.data()), bytesOf(field), records + offsets[i], step);
+    mine.scatter(static_cast<const char*>(mine.engine.attribute(0, i)), bytesOf(mine.fields[i]),
+      records + offsets[i], step);
   }
 }
 

@@ -138,7 +138,8 @@ void AttributeMean::chooseParts(std::int64_t mostPoints)
   const int bits = range_.exponent - range_.lastBit;
   const int sumBits = bitsOf(mostPoints);
   const bool inOne = bits + sumBits <= 63;
-  partBits_ = inOne ? bits : std::min(kMostPartBits, 62 - sumBits);
+  // In several parts there is room for all points of the array: more voxels' points may be added.
+  partBits_ = inOne ? bits : std::min(kMostPartBits, 62 - std::max(sumBits, bitsOf(view_.tuples)));
   lanes_ = inOne ? 1 : std::min((bits + partBits_ - 1) / partBits_, kMostLanes);
   // In two factors: for tiny arrays one would overflow.
   const int shift = partBits_ - range_.exponent;
@@ -361,21 +362,58 @@ void AttributeMean::add(const void* tuples, std::size_t stride, const std::int64
 
 void AttributeMean::coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels)
 {
+  regroup(parents, voxels, mostPoints_);
+}
+
+void AttributeMean::spread(
+  const std::vector<std::uint32_t>& places, std::int64_t voxels, std::int64_t mostPoints)
+{
+  regroup(places, voxels, std::max(mostPoints, mostPoints_));
+}
+
+/// Cuts a sum in one part, in units of 2^-bits, into parts.
+void AttributeMean::split(std::int64_t sum, int bits, int partBits, std::int64_t* parts)
+{
+  for (; bits > partBits; bits -= partBits)
+  {
+    const std::int64_t part = sum >> (bits - partBits);
+    *parts++ += part;
+    sum -= part * (std::int64_t(1) << (bits - partBits));
+  }
+  *parts += sum * (std::int64_t(1) << (partBits - bits));
+}
+
+template <typename Place>
+void AttributeMean::regroup(const std::vector<Place>& places, std::int64_t voxels, std::int64_t mostPoints)
+{
   const Buffer<std::int64_t> fine = std::move(sums_);
   const Buffer<std::uint8_t> fineSpecial = std::move(special_);
-  clear(voxels, Executor());
-  const std::size_t components = std::size_t(view_.components);
-  const std::size_t width = components * std::size_t(lanes_);
-  for (std::size_t v = 0; v < parents.size(); ++v)
+  const int bits = partBits_;
+  const auto fineLanes = std::size_t(lanes_);
+  mostPoints_ = mostPoints;
+  if (isFloating())
   {
-    const auto parent = std::size_t(parents[v]);
-    for (std::size_t c = 0; c < width; ++c)
+    chooseParts(mostPoints);
+  }
+  clear(voxels, Executor());
+  const auto components = std::size_t(view_.components);
+  const std::size_t width = components * fineLanes;
+  const bool splits = fineLanes != std::size_t(lanes_);
+  for (std::size_t v = 0; v < places.size(); ++v)
+  {
+    const auto place = std::size_t(places[v]);
+    for (std::size_t c = 0; !splits && c < width; ++c)
     {
-      sums_[parent * width + c] += fine[v * width + c];
+      sums_[place * width + c] += fine[v * width + c];
+    }
+    for (std::size_t c = 0; splits && c < components; ++c)
+    {
+      split(fine[v * components + c], bits, partBits_,
+        sums_.data() + (place * components + c) * std::size_t(lanes_));
     }
     for (std::size_t c = 0; range_.hasNonFinite && c < components; ++c)
     {
-      special_[parent * components + c] |= fineSpecial[v * components + c];
+      special_[place * components + c] |= fineSpecial[v * components + c];
     }
   }
 }

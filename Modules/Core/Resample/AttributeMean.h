@@ -21,14 +21,6 @@ struct AttributeKernels;
 struct WordSums;
 }
 
-/// What must be known of all finite values of a floating-point array before some of them are summed.
-struct AttributeRange
-{
-  int exponent = 0; ///< All magnitudes are below 2^exponent.
-  int lastBit = 0;  ///< And multiples of 2^lastBit.
-  bool hasNonFinite = false;
-};
-
 /// Scans the values of a floating-point array once; integers need no range.
 AttributeRange rangeOf(const AttributeView& view, const Executor& executor,
   InstructionSet instructions = InstructionSet::Automatic);
@@ -68,6 +60,9 @@ public:
   void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
   /// The sums of voxels become those of their parents: see VoxelResampler::parents().
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
+  /// The sums of voxel i become those of voxel places[i] of @p voxels, of at most @p mostPoints points each
+  /// once more are added.
+  void spread(const std::vector<std::uint32_t>& places, std::int64_t voxels, std::int64_t mostPoints);
 
   /// Means of all voxels in the array's own type; integers are rounded to the nearest, halves away from zero.
   /// @p counts: points of each voxel.
@@ -76,6 +71,9 @@ public:
   /// on - and made unit vectors; 0 where they have no direction, NaN where they are not finite. Of the
   /// array's own type.
   void writeUnitVectors(
+    const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const;
+  /// The same of vectors of any type: those of integers are as long as their mean.
+  void writeNormals(
     const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const;
   /// The mean of one voxel in double: components numbers.
   void mean(std::int64_t voxel, std::int64_t count, double* means) const;
@@ -96,6 +94,9 @@ private:
 
   bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
   void chooseParts(std::int64_t mostPoints);
+  static void split(std::int64_t sum, int bits, int partBits, std::int64_t* parts);
+  template <typename Place>
+  void regroup(const std::vector<Place>& places, std::int64_t voxels, std::int64_t mostPoints);
   void clear(std::int64_t voxels, const Executor& executor);
   template <typename Integer>
   void addIntegers(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count);
@@ -108,6 +109,9 @@ private:
   template <typename Real>
   void writeVectors(
     const std::int64_t* counts, const Vec3 (&columns)[3], Real* vectors, const Executor& executor) const;
+  template <typename Integer>
+  void writeTurned(
+    const std::int64_t* counts, const Vec3 (&columns)[3], Integer* vectors, const Executor& executor) const;
   bool sumsAreWords() const;
   simd::WordSums wordSums(const std::int64_t* counts, std::int64_t begin, std::int64_t end) const;
   const std::int64_t* lanes(std::int64_t voxel, int component) const

@@ -242,6 +242,51 @@ void AttributeMean::writeUnitVectors(
   }
 }
 
+/// Integers have a scale of their own: they keep the length of their mean.
+template <typename Integer>
+void AttributeMean::writeTurned(
+  const std::int64_t* counts, const Vec3 (&columns)[3], Integer* vectors, const Executor& executor) const
+{
+  constexpr auto kLow = double(std::numeric_limits<Integer>::min());
+  // The largest 64-bit integer is no double; the one below is.
+  const double high = sizeof(Integer) < 8 ? double(std::numeric_limits<Integer>::max())
+                                          : std::nextafter(double(std::numeric_limits<Integer>::max()), 0.0);
+  forRange(executor, voxels_,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t v = begin; v < end; ++v)
+      {
+        Vec3 sum;
+        mean(v, counts[v], &sum.x);
+        const Vec3 turned = sum.x * columns[0] + sum.y * columns[1] + sum.z * columns[2];
+        const double length = norm(turned);
+        const double scale = length > 0.0 ? norm(sum) / length : 0.0;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          vectors[3 * v + axis] = Integer(std::clamp(std::round(scale * turned[axis]), kLow, high));
+        }
+      }
+    });
+}
+
+void AttributeMean::writeNormals(
+  const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const
+{
+  withType(view_.type,
+    [&](auto example)
+    {
+      using T = decltype(example);
+      if constexpr (std::is_floating_point_v<T>)
+      {
+        writeVectors<T>(counts, columns, static_cast<T*>(vectors), executor);
+      }
+      else
+      {
+        writeTurned<T>(counts, columns, static_cast<T*>(vectors), executor);
+      }
+    });
+}
+
 void AttributeMean::write(const std::int64_t* counts, void* means, const Executor& executor) const
 {
   withType(view_.type,

@@ -1,10 +1,11 @@
 /// @file
-/// A non-owning view of an array of attributes.
+/// Arrays of attributes, and what is made of them voxel by voxel.
 #pragma once
 
 #include "Core/Base/ScalarType.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace pointhaptics
 {
@@ -17,6 +18,33 @@ struct AttributeView
   int components = 1;
   std::int64_t tuples = 0;
   std::int64_t stride = 0; ///< Bytes from one tuple to the next; 0: none lie between.
+};
+
+/// What must be known of all finite values of a floating-point array before some of them are summed.
+struct AttributeRange
+{
+  int exponent = 0; ///< All magnitudes are below 2^exponent.
+  int lastBit = 0;  ///< And multiples of 2^lastBit.
+  bool hasNonFinite = false;
+};
+
+/// What an array becomes in a voxel. All are exact, and none depends on the order of the points.
+enum class AttributeStatistic
+{
+  Mean, ///< Of integers rounded to the nearest, halves away from zero.
+  /// The mean of vectors of three, turned as normals are by the request's transform: unit vectors, 0 without
+  /// a direction; those of integers are as long as their mean.
+  Normal,
+  Mode,   ///< The value that most points have, component by component, the smallest of several: for labels.
+  Median, ///< Component by component, of an even number the lower middle one.
+};
+
+/// An array to reduce to one tuple a voxel, of its own type.
+struct AttributeRequest
+{
+  AttributeView view; ///< A tuple for each point.
+  AttributeStatistic statistic = AttributeStatistic::Mean;
+  std::optional<AttributeRange> range = {}; ///< rangeOf() the view as it is, where that is known already.
 };
 
 } // namespace pointhaptics

@@ -11,6 +11,9 @@ namespace pointhaptics
 namespace
 {
 
+/// Far enough that a line comes in time, near enough that it is still there.
+constexpr std::size_t kBytesAhead = 128;
+
 /// The largest power of two that divides a size, at most that of the largest number.
 std::size_t alignmentOf(std::size_t bytes)
 {
@@ -81,6 +84,11 @@ void RowLayout::choose(const std::vector<TupleSource>& sources)
 
 void RowLayout::copy(const std::int64_t* points, const std::uint32_t* slots, int count, char* rows) const
 {
+  // Where the rows of points to come go: after this one's.
+  for (int i = 0; i < count; ++i)
+  {
+    simd::fetchToWrite(rows + bytes_ * slots[i] + kBytesAhead);
+  }
   // Points in the order of their memory need no fetching.
   const bool areScattered = count > 0 && points[count - 1] - points[0] != count - 1;
   for (const TupleSource& source : sources_)

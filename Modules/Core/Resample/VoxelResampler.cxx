@@ -18,6 +18,7 @@ constexpr int kMostLevels = 22;
 /// What choosePoints() reads of each point: its coordinates, where one is to be chosen, and last its number.
 void addPointSources(VoxelRequest& request)
 {
+  request.keys = request.keepPointRecords = true;
   const PointView& points = request.points;
   if (request.representative != Representative::Mean && points.floats())
   {
@@ -52,7 +53,9 @@ Status VoxelResampler::Implementation::check(const VoxelRequest& request)
     request.points.doubles() == index->points().doubles();
   if (request.levels < 1 || request.levels > kMostLevels ||
     (keepsPoints && (request.levels > 1 || isOwnPoints)) ||
-    (index && index->cloudSize() != points && finitePoints(*index) != points))
+    (index && index->cloudSize() != points && finitePoints(*index) != points) ||
+    std::any_of(request.attributes.begin(), request.attributes.end(),
+      [&](const AttributeRequest& attribute) { return attribute.view.tuples < points; }))
   {
     return Status::InvalidParameter;
   }
@@ -69,20 +72,21 @@ Status VoxelResampler::Implementation::run(
   {
     return status;
   }
-  if (request.representative == Representative::Mean && !request.voxelIndex)
+  VoxelRequest wanted = request;
+  const bool chooses = request.representative != Representative::Mean || request.voxelIndex;
+  addAttributes(wanted, executor);
+  if (chooses)
   {
-    status = runMeans(request, executor, observer);
+    addPointSources(wanted);
   }
-  else
-  {
-    VoxelRequest kept = request;
-    kept.keys = kept.keepPointRecords = true;
-    addPointSources(kept);
-    SubProgress summing(observer, 0.0, 0.5);
-    SubProgress choosing(observer, 0.5, 1.0);
-    status = runMeans(kept, executor, &summing);
-    status = status == Status::Ok ? choosePoints(kept, executor, &choosing) : status;
-  }
+  const double summed = !chooses && reducers_.empty() ? 1.0 : 0.5;
+  SubProgress summing(observer, 0.0, summed);
+  SubProgress reducing(observer, summed, chooses ? 0.75 : 1.0);
+  SubProgress choosing(observer, 0.75, 1.0);
+  status = runMeans(wanted, executor, &summing);
+  status = status == Status::Ok ? reduceAttributes(wanted, executor, &reducing) : status;
+  status = status == Status::Ok && chooses ? choosePoints(wanted, executor, &choosing) : status;
+  reducers_.clear();
   if (status != Status::Ok)
   {
     clear();
@@ -107,6 +111,7 @@ void VoxelResampler::Implementation::clear()
   chosenPoints.clear();
   voxelIndex.clear();
   poolHoldsAll_ = false;
+  reducesInPass_ = false;
   runs_.reset(0, 0);
 }
 
@@ -273,10 +278,9 @@ std::int64_t VoxelResampler::size(int level) const
   return implementation_->levels[std::size_t(level)].size;
 }
 
-std::int64_t VoxelResampler::mostPoints(int l) const
+std::int64_t VoxelResampler::mostPoints(int level) const
 {
-  const Level& level = implementation_->levels[std::size_t(l)];
-  return level.size == 0 ? 0 : *std::max_element(counts(l), counts(l) + level.size);
+  return implementation_->levels[std::size_t(level)].mostPoints();
 }
 
 const Lattice& VoxelResampler::lattice(int level) const
@@ -332,6 +336,18 @@ void VoxelResampler::copyCovariances(int l, SymMat3* covariances, const Executor
 {
   const Level& level = implementation_->levels[std::size_t(l)];
   copyArray(level.arena.covariances(), level.size, covariances, executor);
+}
+
+const void* VoxelResampler::attribute(int l, std::size_t attribute) const
+{
+  return implementation_->levels[std::size_t(l)].arena.attribute(attribute, 0);
+}
+
+void VoxelResampler::copyAttribute(int l, std::size_t attribute, void* tuples, const Executor& executor) const
+{
+  const Level& level = implementation_->levels[std::size_t(l)];
+  copyArray(level.arena.attribute(attribute, 0),
+    level.size * std::int64_t(level.arena.attributeBytes(attribute)), static_cast<char*>(tuples), executor);
 }
 
 void VoxelResampler::releaseScratch()

@@ -40,6 +40,13 @@ public:
   /// At least so many bytes, aligned for their type, valid until the next run(). The result may need fewer in
   /// the end. Called from the thread that called run(), at most once for each part.
   virtual void* allocate(Part part, std::size_t bytes) = 0;
+  /// The same for an attribute of the request. Null: the resampler's own memory.
+  virtual void* allocateAttribute(std::size_t attribute, std::size_t bytes)
+  {
+    static_cast<void>(attribute);
+    static_cast<void>(bytes);
+    return nullptr;
+  }
 };
 
 /// What to resample, and what to make of it.
@@ -57,6 +64,9 @@ struct VoxelRequest
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
   bool keys = false; ///< For keys(), visitPointsByVoxel() and parents().
+  /// Arrays of the points, to be reduced to a tuple for each voxel. Sums of numbers are made in the pass that
+  /// sums the points, but with several levels and beyond 4096 voxels an axis.
+  std::vector<AttributeRequest> attributes;
   /// The attributes of each point that visitPointsByVoxel() passes on.
   std::vector<TupleSource> tuples;
   /// Keeps the point records of run(), if one chunk holds all points: visitPointsByVoxel() then needs no
@@ -116,8 +126,9 @@ public:
   static int exactLevels(const Lattice& lattice, int levels);
 
   /// Errors: the transform's, the lattice's, InvalidParameter (levels below 1 or above 22, an index of
-  /// another number of points, more than a level with a representative or VoxelRequest::voxelIndex), Aborted
-  /// (the observer said so); there are no voxels then. A cloud without a point inside is no error.
+  /// another number of points, more than a level with a representative or VoxelRequest::voxelIndex, an
+  /// attribute of fewer tuples), Aborted (the observer said so); there are no voxels then. A cloud without a
+  /// point inside is no error.
   Status run(
     const VoxelRequest& request, const Executor& executor = {}, ProgressObserver* observer = nullptr);
 
@@ -137,6 +148,9 @@ public:
   const std::int64_t* counts(int level = 0) const;
   void copyKeys(int level, std::uint64_t* keys, const Executor& executor = {}) const;
   void copyCovariances(int level, SymMat3* covariances, const Executor& executor = {}) const;
+  /// The tuples of an attribute of the request, of the array's own type; in place until the next run().
+  void copyAttribute(int level, std::size_t attribute, void* tuples, const Executor& executor = {}) const;
+  const void* attribute(int level, std::size_t attribute) const;
   /// Of each voxel of level - 1, the voxel of @p level it lies in. @pre level >= 1, keys were asked for.
   const std::vector<std::int64_t>& parents(int level) const;
 

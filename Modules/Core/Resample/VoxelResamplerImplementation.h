@@ -2,7 +2,7 @@
 /// The state and the steps of VoxelResampler. Private to Core.
 #pragma once
 
-#include "Core/Base/Buffer.h"
+#include "Core/Resample/AttributeReducer.h"
 #include "Core/Resample/Stages/CoarseVoxels.h"
 #include "Core/Resample/Stages/KeyRanges.h"
 #include "Core/Resample/Stages/PartitionSums.h"
@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <vector>
 
 namespace pointhaptics
@@ -28,29 +27,6 @@ inline std::int64_t finitePoints(const PointIndex& index)
 {
   return index.cloudSize() - index.invalidPoints();
 }
-
-/// Gathers rows from the caller's arrays, a block at a time.
-class RowCollector
-{
-public:
-  explicit RowCollector(const RowLayout& layout)
-    : layout_(layout)
-  {
-    std::iota(slots_, slots_ + simd::kBlockRecords, 0);
-  }
-  /// Those of at most kBlockRecords points, until the next call.
-  PointRows collect(const std::int64_t* points, int count)
-  {
-    rows_.reserve(simd::kBlockRecords * layout_.bytes());
-    layout_.copy(points, slots_, count, rows_.data());
-    return { rows_.data(), layout_.bytes(), layout_.offsets() };
-  }
-
-private:
-  const RowLayout& layout_;
-  std::uint32_t slots_[simd::kBlockRecords];
-  Buffer<char> rows_;
-};
 
 class VoxelResampler::Implementation
 {
@@ -97,6 +73,9 @@ private:
   void fillPool(const VoxelRequest& request, const simd::Chunks& chunks, std::size_t chunk, bool withRows,
     const Executor& executor);
   void chooseRows(const VoxelRequest& request);
+  void addAttributes(VoxelRequest& request, const Executor& executor);
+  std::vector<std::size_t> attributeBytes() const;
+  Status reduceAttributes(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   template <typename Work>
   void forPartitions(const VoxelRequest& request, const Executor& executor, Work&& work);
   void accumulateChunk(const VoxelRequest& request, const Executor& executor);
@@ -130,9 +109,12 @@ private:
   alignas(simd::kApart) simd::PartitionPlan plan_;
   alignas(simd::kApart) simd::PointQuantizer quantizer_{};
   alignas(simd::kApart) simd::PointRecordPool pool_;
-  bool poolHoldsAll_ = false; ///< It holds all points of the last run, with their rows.
-  RowLayout rows_;            ///< As visitPointsByVoxel() passes them on.
-  RowLayout binnedRows_;      ///< As they are binned with the records.
+  bool poolHoldsAll_ = false;              ///< It holds all points of the last run, with their rows.
+  RowLayout rows_;                         ///< As visitPointsByVoxel() passes them on.
+  RowLayout binnedRows_;                   ///< As they are binned with the records.
+  std::vector<AttributeReducer> reducers_; ///< One for each attribute of the request, during the run.
+  std::size_t firstAttribute_ = 0;         ///< Among the request's sources of tuples.
+  bool reducesInPass_ = false;             ///< Attributes are reduced where points are summed.
   std::vector<simd::AccumulatedPartition> accumulated_;
   std::vector<std::unique_ptr<Worker>> idle_;
   simd::KeyRanges ranges_;

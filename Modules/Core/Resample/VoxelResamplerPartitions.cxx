@@ -19,6 +19,7 @@ class VoxelResampler::Implementation::WorkerLease
 public:
   WorkerLease(Implementation& owner, bool covariances)
     : owner_(owner)
+    , attributes_{ owner.reducers_, owner.firstAttribute_, owner.rows_, owner.binnedRows_ }
   {
     {
       const std::lock_guard<std::mutex> lock(owner_.mutex_);
@@ -33,9 +34,11 @@ public:
       worker_ = std::make_unique<Worker>();
     }
     worker_->prepare(owner_.plan_, covariances);
+    worker_->reduce(owner_.reducesInPass_ ? &attributes_ : nullptr);
   }
   ~WorkerLease()
   {
+    worker_->reduce(nullptr);
     const std::lock_guard<std::mutex> lock(owner_.mutex_);
     owner_.idle_.push_back(std::move(worker_));
   }
@@ -45,6 +48,7 @@ public:
 
 private:
   Implementation& owner_;
+  PartitionAttributes attributes_;
   std::unique_ptr<Worker> worker_;
 };
 
@@ -118,7 +122,7 @@ void partitionStrided(const Kernels& kernels, const PointQuantizer& quantizer, c
 class RowSlots
 {
 public:
-  static constexpr std::int64_t kMost = 512;
+  static constexpr std::int64_t kMost = 1024;
   static_assert(kMost <= kPointBlock, "slots count from the first point of a block");
 
   /// Room for as many as that.
@@ -177,14 +181,18 @@ Status VoxelResampler::Implementation::runPlanned(
   }
   const std::int64_t mostPoints = mostPointsOfBatch(indexBits);
   const bool inBatches = keepsRuns_ || halvings_ > 0 || pointsOf(chunks) > mostPoints;
-  const bool holdsAll = request.keepPointRecords && chunks.count() == 1 && !inBatches;
+  reducesInPass_ = !reducers_.empty() && request.levels == 1 && plan_.dense && !inBatches &&
+    (chunks.count() <= 1 ||
+      std::all_of(reducers_.begin(), reducers_.end(), [](const auto& reducer) { return reducer.isSum(); }));
+  const bool holdsAll = (request.keepPointRecords || (!reducers_.empty() && !reducesInPass_)) &&
+    chunks.count() == 1 && !inBatches;
   runs_.reset(inBatches ? plan_.partitions : 0, plan_.fractionBits);
   std::int64_t batchPoints = 0;
   std::int64_t inside = 0;
   invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    fillPool(request, chunks, chunk, holdsAll, executor);
+    fillPool(request, chunks, chunk, holdsAll || reducesInPass_, executor);
     inside += pool_.inside();
     invalid += pool_.invalid();
     batchPoints += chunks.pointCount(chunk);
@@ -334,7 +342,10 @@ void VoxelResampler::Implementation::keepBatches(
   worker.forBatches(
     [&](const MomentBatch<std::int64_t>& batch) { appendBatch(request.lattice, batch, worker.accumulated); });
   // Copies: exactly as large as they need be.
-  accumulated_[partition] = AccumulatedPartition(worker.accumulated);
+  AccumulatedPartition exact;
+  exact.voxels = worker.accumulated.voxels;
+  exact.secondMoments = worker.accumulated.secondMoments;
+  accumulated_[partition] = std::move(exact);
 }
 
 /// Means of the pool's records and the accumulated sums; with levels, sums of the next level too.
@@ -349,7 +360,9 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
     hasAccumulated = hasAccumulated || accumulated_[p].size() > 0;
   }
   VoxelWriter writer(levels[0], plan_.partitions, room,
-    { request.singlePrecision, request.keys, request.covariances }, plan_.fractionBits, request.allocator);
+    { request.singlePrecision, request.keys, request.covariances,
+      reducesInPass_ ? attributeBytes() : std::vector<std::size_t>() },
+    plan_.fractionBits, request.allocator);
   const bool makesCoarse = request.levels > 1 && plan_.dense;
   PartitionGroups groups(plan_);
   if (makesCoarse)
@@ -377,6 +390,7 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
       }
       else if (hasAccumulated && !makesCoarse)
       {
+        accumulated_[p].attributes.clear();
         accumulated_[p].trim();
       }
     });
@@ -453,8 +467,7 @@ void VoxelResampler::Implementation::visitPartition(const VoxelRequest& request,
   const Level& level = levels[0];
   const std::size_t first = level.firsts[partition];
   std::int64_t voxels[kBlockRecords];
-  RowCollector collector(rows_);
-  const bool areWhole = rows_.bytes() == binnedRows_.bytes();
+  RowReader reader(rows_, binnedRows_);
   worker.rank(kernelsFor(request.instructions), pool_, partition, level.arena.keys() + first,
     level.firsts[partition + 1] - first,
     [&](const char* rows, const std::uint32_t* ranks, int count)
@@ -463,9 +476,7 @@ void VoxelResampler::Implementation::visitPartition(const VoxelRequest& request,
       {
         voxels[i] = firstVoxel + ranks[i];
       }
-      visit(areWhole ? PointRows{ rows, rows_.bytes(), rows_.offsets() }
-                     : collector.collect(reinterpret_cast<const std::int64_t*>(rows), count),
-        voxels, count);
+      visit(reader.read(rows, count), voxels, count);
     });
 }
 

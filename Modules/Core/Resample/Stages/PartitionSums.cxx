@@ -153,6 +153,12 @@ void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
   byteRankTable_.reserve(words);
 }
 
+void PartitionWorker::reduce(const PartitionAttributes* attributes)
+{
+  attributes_ = attributes;
+  own_.attributes.clear();
+}
+
 CellRanks PartitionWorker::ranks() const
 {
   return { occupancy_.data(), rankTable_.data(), byteRankTable_.data(), occupancyWords(plan_) };
@@ -235,6 +241,11 @@ void PartitionWorker::sumDense(const Kernels& kernels, const PointRecordPool& po
   {
     own_.cellCount = 0;
   }
+  if (attributes_)
+  {
+    places_.assign(to.cells.data(), to.cells.data() + to.cellCount);
+    kernels.rank(ranks(), places_.data(), int(places_.size()));
+  }
   makeRoom(kernels, to);
   const CellSums sums = { to.cells.data(), to.packed.data(),
     batch_->secondMoments ? to.splitSecondMoments.data() : nullptr };
@@ -248,7 +259,61 @@ void PartitionWorker::sumDense(const Kernels& kernels, const PointRecordPool& po
     const PointRecord* const next = following.next() ? following.records() : block.records();
     kernels.accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
   }
+  if (attributes_)
+  {
+    reduceAttributes(kernels, pool, to);
+  }
   clearOccupancy({ voxels_.cells, voxels_.size });
+}
+
+/// Adds the rows of the records to the reducers of their cells, whose sums are complete.
+void PartitionWorker::reduceAttributes(
+  const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& sums)
+{
+  const auto voxels = std::int64_t(voxels_.size);
+  counts_.resize(voxels_.size);
+  std::transform(sums.packed.data(), sums.packed.data() + voxels_.size, counts_.begin(), &packedCount);
+  std::int64_t mostPoints = *std::max_element(counts_.begin(), counts_.end());
+  std::int64_t mostBefore = 0;
+  for (const AccumulatedSums& overfull : sums.voxels)
+  {
+    mostBefore = std::max(mostBefore, overfull.count);
+  }
+  mostPoints += mostBefore;
+  const bool isFirst = sums.attributes.empty();
+  for (std::size_t i = 0; isFirst && i < attributes_->reducers.size(); ++i)
+  {
+    sums.attributes.push_back(attributes_->reducers[i].another());
+  }
+  for (AttributeReducer& reducer : sums.attributes)
+  {
+    places_.empty() ? reducer.prepare(counts_.data(), voxels, mostPoints)
+                    : reducer.spread(places_, voxels, mostPoints);
+  }
+  RowReader reader(attributes_->rows, attributes_->binned);
+  std::int64_t ranksOfBlock[kBlockRecords];
+  std::uint32_t* cells = recordCells_.data();
+  for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
+  {
+    kernels.rank(ranks(), cells, block.count());
+    std::copy(cells, cells + block.count(), ranksOfBlock);
+    const PointRows rows = reader.read(block.rows(), block.count());
+    for (std::size_t i = 0; i < sums.attributes.size(); ++i)
+    {
+      sums.attributes[i].add(
+        rows.tuples(attributes_->firstSource + i), rows.bytes, ranksOfBlock, block.count());
+    }
+  }
+  reduced_ = &sums.attributes;
+}
+
+void PartitionWorker::writeAttributes(MeanArena& arena, std::size_t offset) const
+{
+  for (std::size_t i = 0; voxels_.size > 0 && i < arena.attributes(); ++i)
+  {
+    static_cast<void>(
+      (*reduced_)[i].write(arena.counts() + offset, arena.attribute(i, offset), Executor(), nullptr));
+  }
 }
 
 /// Moves sums, which are in ascending order, to the ranks of their cells among all voxels, with zeros

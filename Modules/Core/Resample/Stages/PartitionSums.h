@@ -4,6 +4,7 @@
 
 #include "Core/Base/Buffer.h"
 #include "Core/Resample/Stages/PointRecordPool.h"
+#include "Core/Resample/Stages/RowReader.h"
 #include "Core/Resample/Stages/VoxelSink.h"
 
 #include <cstdint>
@@ -60,6 +61,16 @@ PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t point
 /// An upper bound of a partition's voxels, from its records and accumulated voxels.
 std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t accumulated);
 
+/// Attributes that are reduced where points are summed: one reducer for each, without tuples, and the rows
+/// with their tuples.
+struct PartitionAttributes
+{
+  const std::vector<AttributeReducer>& reducers;
+  std::size_t firstSource; ///< Of the rows, that of the first reducer.
+  const RowLayout& rows;
+  const RowLayout& binned;
+};
+
 /// Works on one partition at a time and is used by one thread at a time.
 class alignas(kApart) PartitionWorker
 {
@@ -69,6 +80,8 @@ public:
 
   /// Readies the scratch for partitions of a plan.
   void prepare(const PartitionPlan& plan, bool covariances);
+  /// What load() and accumulateDense() reduce besides; nothing if null. @pre the plan is dense.
+  void reduce(const PartitionAttributes* attributes);
   /// Adds the records of a partition to its @p old sums. These may change, and do with @p keeps if the plan
   /// is dense. Calls publish(size) as soon as the number of voxels is known. The voxels are valid until the
   /// next call.
@@ -102,6 +115,8 @@ public:
       emit(*batch_);
     }
   }
+  /// Writes the attributes of the voxels to @p arena, from @p offset on. @pre what else is written there is.
+  void writeAttributes(MeanArena& arena, std::size_t offset) const;
   /// Adds the records of a partition to its accumulated sums. @pre the plan is dense.
   void accumulateDense(
     const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition, AccumulatedPartition& sums);
@@ -165,6 +180,7 @@ private:
   void countOccupied(const Kernels& kernels, const PointRecordPool& pool);
   void sumDense(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to);
   void makeRoom(const Kernels& kernels, AccumulatedPartition& sums) const;
+  void reduceAttributes(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& sums);
   void collectDense(std::size_t& position, std::size_t& next);
   static void unpack(std::uint64_t key, PackedSums& packed, AccumulatedPartition& sums);
   void sortRecords(const Kernels& kernels, const PointRecordPool& pool);
@@ -186,6 +202,10 @@ private:
   Buffer<std::uint64_t> byteRankTable_;
   Buffer<std::uint32_t> recordCells_;
   AccumulatedPartition own_; ///< Sums that are not accumulated further.
+  const PartitionAttributes* attributes_ = nullptr;
+  const std::vector<AttributeReducer>* reduced_ = nullptr; ///< Of the voxels.
+  std::vector<std::uint32_t> places_;                      ///< Of the accumulated cells among the voxels.
+  std::vector<std::int64_t> counts_;                       ///< Of the voxels.
   // Sorted.
   std::size_t listed_ = 0; ///< Records.
   Buffer<PointRecord> records_;

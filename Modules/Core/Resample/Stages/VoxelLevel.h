@@ -33,6 +33,12 @@ struct Level
   std::vector<std::size_t> firsts;
   std::int64_t size = 0;
   std::vector<std::int64_t> parents;
+
+  /// Of the voxel that has most of them.
+  std::int64_t mostPoints() const
+  {
+    return size == 0 ? 0 : *std::max_element(arena.counts(), arena.counts() + size);
+  }
 };
 
 /// The offset of each partition's first voxel in the output. It is known as soon as all partitions before it

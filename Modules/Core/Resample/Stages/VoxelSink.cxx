@@ -144,6 +144,24 @@ void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& l
   {
     keys_.reserve(room);
   }
+  prepareAttributes(room, layout.attributeBytes, allocator);
+}
+
+void MeanArena::prepareAttributes(
+  std::size_t room, const std::vector<std::size_t>& bytes, OutputAllocator* allocator)
+{
+  attributes_.resize(bytes.size());
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+  {
+    Attribute& attribute = attributes_[i];
+    attribute.bytes = bytes[i];
+    void* given = allocator ? allocator->allocateAttribute(i, room * bytes[i]) : nullptr;
+    if (!given)
+    {
+      attribute.own.reserve(room * bytes[i]);
+    }
+    attribute.values = given ? static_cast<char*>(given) : attribute.own.data();
+  }
 }
 
 void MeanArena::write(std::size_t offset, const MeanArena& other, std::size_t size)
@@ -162,6 +180,10 @@ void MeanArena::write(std::size_t offset, const MeanArena& other, std::size_t si
   if (layout_.keys)
   {
     copy(other.keys_.data(), keys_.data(), 1);
+  }
+  for (std::size_t i = 0; i < attributes_.size(); ++i)
+  {
+    std::copy_n(other.attribute(i, 0), attributes_[i].bytes * size, attribute(i, offset));
   }
 }
 

@@ -5,10 +5,12 @@
 #include "Core/Base/Buffer.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Base/Vector3.h"
+#include "Core/Resample/AttributeReducer.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace pointhaptics
@@ -43,7 +45,8 @@ struct alignas(kApart) AccumulatedPartition
   std::vector<SplitSecondMoments> splitSecondMoments;
   std::vector<AccumulatedSums> voxels;
   std::vector<SecondMoments> secondMoments;
-  std::int64_t points = 0; ///< In cells; as many or fewer are in their packed sums.
+  std::vector<AttributeReducer> attributes; ///< Of the cells, where attributes are summed with the points.
+  std::int64_t points = 0;                  ///< In cells; as many or fewer are in their packed sums.
 
   std::size_t size() const { return cellCount == 0 ? voxels.size() : cellCount; }
   void clear()
@@ -51,6 +54,7 @@ struct alignas(kApart) AccumulatedPartition
     cellCount = 0;
     voxels.clear();
     secondMoments.clear();
+    attributes.clear();
     points = 0;
   }
   /// Frees memory that is mostly unused. The sums are dropped then: call it when they are no longer needed.
@@ -98,10 +102,14 @@ public:
     bool singlePrecision = false;
     bool keys = false;
     bool covariances = false;
+    std::vector<std::size_t> attributeBytes = {}; ///< Of a voxel's tuple of each.
   };
 
   void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
     OutputAllocator* allocator = nullptr);
+  /// Room for attributes alone, of voxels that are written.
+  void prepareAttributes(
+    std::size_t room, const std::vector<std::size_t>& bytes, OutputAllocator* allocator = nullptr);
   /// Writes the voxels of a partition, or a batch of voxels, at @p offset.
   void write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
   void write(const Kernels& kernels, std::size_t offset, const MomentBatch<std::int64_t>& batch);
@@ -134,13 +142,28 @@ public:
   const std::int64_t* counts() const { return counts_; }
   const std::uint64_t* keys() const { return keys_.data(); }
   const SymMat3* covariances() const { return covariances_; }
+  std::size_t attributes() const { return attributes_.size(); }
+  /// The tuples of an attribute from a voxel on.
+  char* attribute(std::size_t attribute, std::size_t voxel) const
+  {
+    return attributes_[attribute].values + attributes_[attribute].bytes * voxel;
+  }
+  std::size_t attributeBytes(std::size_t attribute) const { return attributes_[attribute].bytes; }
   std::size_t bytes() const
   {
-    return ownFloats_.bytes() + ownDoubles_.bytes() + ownCounts_.bytes() + keys_.bytes() +
+    const std::size_t ofAttributes = std::accumulate(attributes_.begin(), attributes_.end(), std::size_t(0),
+      [](std::size_t sum, const Attribute& attribute) { return sum + attribute.own.bytes(); });
+    return ofAttributes + ownFloats_.bytes() + ownDoubles_.bytes() + ownCounts_.bytes() + keys_.bytes() +
       ownCovariances_.bytes();
   }
 
 private:
+  struct Attribute
+  {
+    std::size_t bytes; ///< Of a tuple.
+    char* values;
+    Buffer<char> own;
+  };
   void writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
 
   Layout layout_;
@@ -155,6 +178,7 @@ private:
   Buffer<std::int64_t> ownCounts_;
   Buffer<SymMat3> ownCovariances_;
   Buffer<std::uint64_t> keys_;
+  std::vector<Attribute> attributes_;
 };
 
 /// Appends the voxels of a batch to accumulated sums.

@@ -14,14 +14,18 @@ void writeLoaded(const Kernels& kernels, std::size_t offset, PartitionWorker& wo
   if (const PartitionVoxels* voxels = worker.packed())
   {
     arena.write(kernels, offset, *voxels);
-    return;
   }
-  worker.forBatches(
-    [&](const MomentBatch<std::int64_t>& batch)
-    {
-      arena.write(kernels, offset, batch);
-      offset += std::size_t(batch.size);
-    });
+  else
+  {
+    std::size_t next = offset;
+    worker.forBatches(
+      [&](const MomentBatch<std::int64_t>& batch)
+      {
+        arena.write(kernels, next, batch);
+        next += std::size_t(batch.size);
+      });
+  }
+  worker.writeAttributes(arena, offset);
 }
 
 }

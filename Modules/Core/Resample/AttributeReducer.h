@@ -1,0 +1,62 @@
+/// @file
+/// One array on its way from the tuples of the points to those of the voxels.
+#pragma once
+
+#include "Core/Base/AffineTransform.h"
+#include "Core/Base/Executor.h"
+#include "Core/Base/ProgressObserver.h"
+#include "Core/Base/Vector3.h"
+#include "Core/Resample/AttributeMean.h"
+#include "Core/Resample/AttributeTuples.h"
+#include "Core/Resample/AttributeView.h"
+#include "Core/Resample/PointRows.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+namespace pointhaptics
+{
+
+/// Means are summed, and need no more memory for more points; of modes and medians all tuples are kept.
+class AttributeReducer
+{
+public:
+  AttributeReducer(const AttributeRequest& request, const AffineTransform& transform,
+    InstructionSet instructions, const Executor& executor);
+  /// Another for the same array, without tuples.
+  AttributeReducer another() const;
+
+  /// The tuples that add() needs.
+  static TupleSource sourceOf(const AttributeView& view);
+  /// Of a tuple.
+  std::size_t tupleBytes() const;
+  bool isSum() const { return std::holds_alternative<AttributeMean>(tuples_); }
+
+  /// Drops all tuples and makes room for those of @p voxels, @p counts each, at most @p mostPoints.
+  void prepare(
+    const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor = {});
+  /// Adds tuples, each @p stride bytes after the one before. Several threads may add at once if no two have a
+  /// voxel in common.
+  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
+  /// Of sums: voxel i becomes places[i] of @p voxels, of at most @p mostPoints points each by then.
+  void spread(const std::vector<std::uint32_t>& places, std::int64_t voxels, std::int64_t mostPoints);
+  /// Voxels become their parents: see VoxelResampler::parents().
+  void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
+  /// Writes the tuples of all voxels, @p counts points each. @return false where @p observer, which may be
+  /// null, aborted the work.
+  bool write(
+    const std::int64_t* counts, void* values, const Executor& executor, ProgressObserver* observer) const;
+
+private:
+  using Tuples = std::variant<AttributeMean, AttributeTuples>;
+  AttributeReducer(Tuples tuples, const AttributeReducer& like);
+
+  AttributeView view_;
+  AttributeStatistic statistic_;
+  Vec3 columns_[3]; ///< How normals are turned.
+  Tuples tuples_;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,244 @@
+// VoxelResampler's attributes: whichever pass reduces them, they are what the points of each voxel give.
+#include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/AttributeReducer.h"
+#include "Core/Resample/VoxelResampler.h"
+
+#include "RandomClouds.h"
+#include "ResamplerRuns.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace pointhaptics;
+using namespace pointhaptics::trial;
+
+namespace
+{
+
+/// Arrays of all kinds of sums: one word, several parts, halves of 64 bits, not finite.
+struct Arrays
+{
+  std::vector<std::array<std::uint8_t, 3>> colors;
+  std::vector<std::array<float, 3>> normals;
+  std::vector<double> wide; ///< Magnitudes that differ by far more than 2^50.
+  std::vector<std::int64_t> integers;
+  std::vector<float> withNaN;
+  std::vector<std::int16_t> labels;
+  std::vector<std::array<std::int16_t, 3>> turned;
+  std::vector<std::array<double, 9>> tensors; ///< Rows too wide to be binned.
+
+  Arrays(std::size_t points, std::uint64_t seed)
+  {
+    Random random(seed);
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      const Vec3 n = random.direction();
+      colors.push_back({ std::uint8_t(random.below(256)), std::uint8_t(random.below(256)),
+        std::uint8_t(random.below(256)) });
+      normals.push_back({ float(n.x), float(n.y), float(n.z) });
+      wide.push_back(std::ldexp(random.uniform(-1, 1), int(random.below(300)) - 150));
+      integers.push_back(std::int64_t(random.below(std::size_t(1) << 62)) - (std::int64_t(1) << 61));
+      withNaN.push_back(random.below(50) == 0 ? std::numeric_limits<float>::quiet_NaN() : float(n.x));
+      labels.push_back(std::int16_t(random.below(4)));
+      turned.push_back({ std::int16_t(3e4 * n.x), std::int16_t(3e4 * n.y), std::int16_t(3e4 * n.z) });
+      tensors.emplace_back();
+      std::generate(tensors.back().begin(), tensors.back().end(), [&] { return random.uniform(-1, 1); });
+    }
+  }
+  std::vector<AttributeRequest> sums() const
+  {
+    const auto n = std::int64_t(labels.size());
+    return { { { colors.data(), ScalarType::UInt8, 3, n } },
+      { { normals.data(), ScalarType::Float, 3, n }, AttributeStatistic::Normal },
+      { { wide.data(), ScalarType::Double, 1, n } }, { { integers.data(), ScalarType::Int64, 1, n } },
+      { { withNaN.data(), ScalarType::Float, 1, n } },
+      { { turned.data(), ScalarType::Int16, 3, n }, AttributeStatistic::Normal } };
+  }
+  AttributeRequest label(AttributeStatistic statistic) const
+  {
+    return { { labels.data(), ScalarType::Int16, 1, std::int64_t(labels.size()) }, statistic };
+  }
+  AttributeRequest tensor() const
+  {
+    return { { tensors.data(), ScalarType::Double, 9, std::int64_t(tensors.size()) } };
+  }
+};
+
+using Tuples = std::vector<char>;
+
+std::vector<Tuples> attributesOf(const VoxelResampler& resampler, const VoxelRequest& request, int level)
+{
+  std::vector<Tuples> all;
+  for (std::size_t i = 0; i < request.attributes.size(); ++i)
+  {
+    all.emplace_back(
+      std::size_t(resampler.size(level)) * AttributeReducer::sourceOf(request.attributes[i].view).bytes);
+    resampler.copyAttribute(level, i, all.back().data());
+  }
+  return all;
+}
+
+/// What reducers make of the points of each voxel, point by point.
+std::vector<Tuples> expectedOf(const VoxelRequest& request)
+{
+  VoxelRequest plain;
+  plain.points = request.points;
+  plain.lattice = request.lattice;
+  plain.transform = request.transform;
+  plain.voxelIndex = true;
+  VoxelResampler resampler;
+  EXPECT_EQ(resampler.run(plain), Status::Ok);
+  std::vector<Tuples> all;
+  for (const AttributeRequest& attribute : request.attributes)
+  {
+    AttributeReducer reducer(attribute, request.transform, InstructionSet::Baseline, {});
+    const TupleSource source = AttributeReducer::sourceOf(attribute.view);
+    reducer.prepare(resampler.counts(), resampler.size(), resampler.mostPoints());
+    for (std::int64_t i = 0; i < request.points.size(); ++i)
+    {
+      const std::int64_t voxel = resampler.voxelIndex()[std::size_t(i)];
+      if (voxel >= 0)
+      {
+        reducer.add(
+          static_cast<const char*>(source.values) + source.step() * std::size_t(i), source.bytes, &voxel, 1);
+      }
+    }
+    all.emplace_back(std::size_t(resampler.size()) * source.bytes);
+    EXPECT_TRUE(reducer.write(resampler.counts(), all.back().data(), {}, nullptr));
+  }
+  return all;
+}
+
+void expectAttributes(VoxelRequest request, const Executor& executor, const std::string& what)
+{
+  const std::vector<Tuples> expected = expectedOf(request);
+  for (const std::int64_t chunkPoints : { std::int64_t(0), std::int64_t(1700) })
+  {
+    for (const InstructionSet set :
+      { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Automatic })
+    {
+      request.chunkPoints = chunkPoints;
+      request.instructions = set;
+      VoxelResampler resampler;
+      for (int round = 0; round < 2; ++round)
+      {
+        ASSERT_EQ(resampler.run(request, executor), Status::Ok);
+        EXPECT_EQ(attributesOf(resampler, request, 0), expected) << what << ", chunks of " << chunkPoints;
+      }
+    }
+  }
+}
+
+} // namespace
+
+TEST(VoxelAttributes, AreThoseOfThePointsOfEachVoxelOnEveryPath)
+{
+  constexpr std::size_t kPoints = 6000;
+  const Arrays arrays(kPoints, 1);
+  for (const Lattice& lattice : latticesOfAllPaths())
+  {
+    std::vector<Vec3> points = quantisedPoints(kPoints, 2, lattice);
+    points[7].y = NAN;
+    VoxelRequest request;
+    request.points = { points.data(), std::int64_t(kPoints) };
+    request.lattice = lattice;
+    request.attributes = arrays.sums();
+    expectAttributes(request, {}, nameOf(lattice) + ", sums");
+    request.attributes = { arrays.tensor() };
+    expectAttributes(request, ThreadedExecutor(3), nameOf(lattice) + ", wide rows");
+    request.attributes = arrays.sums();
+    request.attributes.push_back(arrays.label(AttributeStatistic::Mode));
+    request.attributes.push_back(arrays.label(AttributeStatistic::Median));
+    expectAttributes(request, BackwardExecutor(5), nameOf(lattice) + ", with labels");
+  }
+}
+
+TEST(VoxelAttributes, ComeWithAnIndexAndATransformAsWithout)
+{
+  constexpr std::size_t kPoints = 9000;
+  const Arrays arrays(kPoints, 3);
+  const std::vector<Vec3> points = randomBox(kPoints, 4, { -1, -1, -1 }, { 1, 1, 1 });
+  VoxelRequest request;
+  request.points = { points.data(), std::int64_t(kPoints) };
+  request.lattice = latticeOf(40, 50, 60);
+  request.transform = AffineTransform::rotation(40, { 1, 2, 3 }) * AffineTransform::scaling({ 45, 50, 55 });
+  request.attributes = arrays.sums();
+  const std::vector<Tuples> expected = expectedOf(request);
+  PointIndex index;
+  ASSERT_EQ(index.build(request.points), Status::Ok);
+  request.index = &index;
+  for (const std::int64_t chunkPoints : { std::int64_t(0), std::int64_t(500) })
+  {
+    request.chunkPoints = chunkPoints;
+    VoxelResampler resampler;
+    ASSERT_EQ(resampler.run(request, ThreadedExecutor(2)), Status::Ok);
+    EXPECT_EQ(attributesOf(resampler, request, 0), expected);
+  }
+}
+
+TEST(VoxelAttributes, OfACrowdNeedMorePartsAsPointsCome)
+{
+  // 53 bits each: a word holds sums of 1023 of them, as many as the first chunks have in a voxel.
+  constexpr std::size_t kPoints = 5000;
+  std::vector<Vec3> points = randomBox(kPoints, 5, { 0, 0, 0 }, { 8, 8, 8 });
+  std::vector<double> values(kPoints);
+  Random random(6);
+  for (std::size_t i = 0; i < kPoints; ++i)
+  {
+    // At first a point or two a voxel, then thousands in one.
+    points[i] = i < 300 ? points[i] : Vec3(3.25, 3.5, 3.75);
+    values[i] = (i % 3 == 0 ? -1.0 : 1.0) * random.uniform(0.25, 0.5);
+  }
+  VoxelRequest request;
+  request.points = { points.data(), std::int64_t(kPoints) };
+  request.lattice = latticeOf(8, 8, 8);
+  request.attributes = { { { values.data(), ScalarType::Double, 1, std::int64_t(kPoints) } } };
+  const std::vector<Tuples> expected = expectedOf(request);
+  for (const std::int64_t chunkPoints : { 250, 600, 5000 })
+  {
+    request.chunkPoints = chunkPoints;
+    VoxelResampler resampler;
+    ASSERT_EQ(resampler.run(request), Status::Ok);
+    EXPECT_EQ(attributesOf(resampler, request, 0), expected) << "chunks of " << chunkPoints;
+  }
+}
+
+TEST(VoxelAttributes, OfLevelsAreThoseOfTheResamplingAtTheirSpacing)
+{
+  constexpr std::size_t kPoints = 5000;
+  const Arrays arrays(kPoints, 7);
+  const std::vector<Vec3> points = randomBox(kPoints, 8, { 0, 0, 0 }, { 32, 32, 32 });
+  VoxelRequest request;
+  request.points = { points.data(), std::int64_t(kPoints) };
+  request.lattice = latticeOf(32, 32, 32);
+  request.attributes = arrays.sums();
+  request.attributes.push_back(arrays.label(AttributeStatistic::Mode));
+  request.levels = 4;
+  VoxelResampler resampler;
+  ASSERT_EQ(resampler.run(request), Status::Ok);
+  for (int level = 0; level < 4; ++level)
+  {
+    VoxelRequest direct = request;
+    direct.levels = 1;
+    direct.lattice = resampler.lattice(level);
+    EXPECT_EQ(attributesOf(resampler, request, level), expectedOf(direct)) << "level " << level;
+  }
+}
+
+TEST(VoxelAttributes, OfFewerTuplesThanPointsAreRefused)
+{
+  const std::vector<Vec3> points(10, Vec3(0.5, 0.5, 0.5));
+  const std::vector<float> values(9);
+  VoxelRequest request;
+  request.points = { points.data(), 10 };
+  request.attributes = { { { values.data(), ScalarType::Float, 1, 9 } } };
+  VoxelResampler resampler;
+  EXPECT_EQ(resampler.run(request), Status::InvalidParameter);
+  EXPECT_EQ(resampler.size(), 0);
+}
