@@ -39,9 +39,8 @@ int VoxelResampler::Implementation::halvingsOf(const Lattice& lattice)
 {
   const int indexBits = indexBitsOf(lattice);
   const int halvings = std::max(kMinimumIndexBits - indexBits, 0);
-  const bool isPlanned =
-    indexBits <= kMaximumIndexBits && hasOrdinarySpacing(finerLattice(lattice, halvings));
-  return isPlanned ? halvings : -1;
+  const Lattice fine = finerLattice(lattice, halvings);
+  return fitsPartitions(fine, indexBits + halvings) && hasOrdinarySpacing(fine) ? halvings : -1;
 }
 
 Status VoxelResampler::Implementation::check(const VoxelRequest& request)

@@ -81,7 +81,6 @@ private:
   void accumulateChunk(const VoxelRequest& request, const Executor& executor);
   void closeBatch(const VoxelRequest& request, const Executor& executor);
   Status finishRuns(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  void keepBatches(const VoxelRequest& request, simd::PartitionWorker& worker, std::uint32_t partition);
   void finish(const VoxelRequest& request, const Executor& executor);
   void coarsen(
     const VoxelRequest& request, const PartitionGroups& groups, std::uint32_t group, Worker& worker);
@@ -91,7 +90,6 @@ private:
     OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer);
   Status addLevels(const VoxelRequest& request, simd::VoxelRuns runs, int levelOfRuns,
     const Executor& executor, ProgressObserver* observer);
-  simd::VoxelRuns takeAccumulated(const Executor& executor);
   Status choosePoints(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   void choosePointsBySet(const VoxelRequest& request, const Executor& executor);
   void notePoints(const PointRows& rows, std::size_t numbers, std::int64_t firstVoxel,

@@ -181,7 +181,7 @@ Status VoxelResampler::Implementation::runPlanned(
   }
   const std::int64_t mostPoints = mostPointsOfBatch(indexBits);
   const bool inBatches = keepsRuns_ || halvings_ > 0 || pointsOf(chunks) > mostPoints;
-  reducesInPass_ = !reducers_.empty() && request.levels == 1 && plan_.dense && !inBatches &&
+  reducesInPass_ = !reducers_.empty() && request.levels == 1 && !inBatches &&
     (chunks.count() <= 1 ||
       std::all_of(reducers_.begin(), reducers_.end(), [](const auto& reducer) { return reducer.isSum(); }));
   const bool holdsAll = (request.keepPointRecords || (!reducers_.empty() && !reducesInPass_)) &&
@@ -221,8 +221,7 @@ Status VoxelResampler::Implementation::runPlanned(
   {
     return Status::Ok;
   }
-  return plan_.dense ? addLevels(request, std::move(runs_), 1, executor, observer)
-                     : addLevels(request, takeAccumulated(executor), 0, executor, observer);
+  return addLevels(request, std::move(runs_), 1, executor, observer);
 }
 
 void VoxelResampler::Implementation::chooseRows(const VoxelRequest& request)
@@ -307,16 +306,7 @@ void VoxelResampler::Implementation::accumulateChunk(const VoxelRequest& request
 {
   const Kernels& kernels = kernelsFor(request.instructions);
   forPartitions(request, executor,
-    [&](PartitionWorker& worker, std::uint32_t p)
-    {
-      if (plan_.dense)
-      {
-        worker.accumulateDense(kernels, pool_, p, accumulated_[p]);
-        return;
-      }
-      worker.load(kernels, pool_, p, accumulated_[p], false, [](std::size_t) {});
-      keepBatches(request, worker, p);
-    });
+    [&](PartitionWorker& worker, std::uint32_t p) { worker.accumulate(kernels, pool_, p, accumulated_[p]); });
 }
 
 /// Adds the pool's records and the accumulated sums to the runs.
@@ -334,20 +324,6 @@ void VoxelResampler::Implementation::closeBatch(const VoxelRequest& request, con
     });
 }
 
-/// Accumulates the voxels of a partition, unpacked.
-void VoxelResampler::Implementation::keepBatches(
-  const VoxelRequest& request, PartitionWorker& worker, std::uint32_t partition)
-{
-  worker.accumulated.clear();
-  worker.forBatches(
-    [&](const MomentBatch<std::int64_t>& batch) { appendBatch(request.lattice, batch, worker.accumulated); });
-  // Copies: exactly as large as they need be.
-  AccumulatedPartition exact;
-  exact.voxels = worker.accumulated.voxels;
-  exact.secondMoments = worker.accumulated.secondMoments;
-  accumulated_[partition] = std::move(exact);
-}
-
 /// Means of the pool's records and the accumulated sums; with levels, sums of the next level too.
 void VoxelResampler::Implementation::finish(const VoxelRequest& request, const Executor& executor)
 {
@@ -356,14 +332,14 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
   bool hasAccumulated = false;
   for (std::uint32_t p = 0; p < plan_.partitions; ++p)
   {
-    room += mostVoxels(plan_, pool_.count(p), accumulated_[p].size());
-    hasAccumulated = hasAccumulated || accumulated_[p].size() > 0;
+    room += mostVoxels(plan_, pool_.count(p), accumulated_[p].cellCount);
+    hasAccumulated = hasAccumulated || accumulated_[p].cellCount > 0;
   }
   VoxelWriter writer(levels[0], plan_.partitions, room,
     { request.singlePrecision, request.keys, request.covariances,
       reducesInPass_ ? attributeBytes() : std::vector<std::size_t>() },
     plan_.fractionBits, request.allocator);
-  const bool makesCoarse = request.levels > 1 && plan_.dense;
+  const bool makesCoarse = request.levels > 1;
   PartitionGroups groups(plan_);
   if (makesCoarse)
   {
@@ -383,10 +359,6 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
       if (makesCoarse && groups.finish(p))
       {
         coarsen(request, groups, groups.groupOf(p), worker);
-      }
-      else if (request.levels > 1 && !makesCoarse)
-      {
-        keepBatches(request, worker, p);
       }
       else if (hasAccumulated && !makesCoarse)
       {
@@ -409,28 +381,6 @@ void VoxelResampler::Implementation::coarsen(
   {
     accumulated_[p] = AccumulatedPartition();
   }
-}
-
-/// Moves the accumulated sums out.
-VoxelRuns VoxelResampler::Implementation::takeAccumulated(const Executor& executor)
-{
-  VoxelRuns runs;
-  runs.reset(accumulated_.size(), plan_.fractionBits);
-  forEachItem(executor, accumulated_.size(),
-    [&](std::size_t p)
-    {
-      AccumulatedPartition partition = std::move(accumulated_[p]);
-      VoxelRun run;
-      run.voxels.reserve(partition.voxels.size());
-      for (const AccumulatedSums& voxel : partition.voxels)
-      {
-        run.voxels.push_back({ voxel.key, voxel.count,
-          { std::uint64_t(voxel.sums[0]), std::uint64_t(voxel.sums[1]), std::uint64_t(voxel.sums[2]) }, 0 });
-      }
-      run.secondMoments = std::move(partition.secondMoments);
-      runs.add(p, std::move(run));
-    });
-  return runs;
 }
 
 Status VoxelResampler::Implementation::visitPlanned(

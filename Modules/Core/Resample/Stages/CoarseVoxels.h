@@ -83,7 +83,7 @@ public:
   /// @p fractionBits: of offsets in the fine voxels.
   CoarseVoxels(const Lattice& fine, int fractionBits, bool withSecondMoments);
 
-  /// Those of the partitions [first, last), which are whole coarse layers. @pre the plan is dense
+  /// Those of the partitions [first, last), which are whole coarse layers.
   VoxelRun ofPartitions(const PartitionPlan& plan, const std::vector<AccumulatedPartition>& partitions,
     std::uint32_t first, std::uint32_t last, Scratch& scratch) const;
   /// Those of all voxels, in ranges of whole coarse layers. @return false where @p observer, which may be

@@ -1,6 +1,5 @@
 #include "Core/Resample/Stages/PartitionSums.h"
 
-#include "Core/Base/RadixSort.h"
 #include "Core/Resample/Kernel/Fetch.h"
 #include "Core/Resample/Kernel/InFours.h"
 
@@ -14,13 +13,13 @@ namespace simd
 namespace
 {
 
-/// Most cells of a dense partition: their occupancy bits should stay in the second-level cache. (The sums do
+/// Most cells of a partition: their occupancy bits should stay in the second-level cache. (The sums do
 /// anyway: a chunk has a few thousand records in a partition.)
-constexpr std::size_t kDenseCells = std::size_t(1) << 22;
+constexpr std::size_t kMostCells = std::size_t(1) << 22;
 /// While records are binned, the cursors of more partitions than this do not fit the first-level cache.
 constexpr std::uint32_t kMostPartitions = 512;
-/// Dense partitions may be more: that saves the sorting.
-constexpr std::uint32_t kMostDensePartitions = 2048;
+/// On large lattices they are more: points would be sorted otherwise.
+constexpr std::uint32_t kMostLargePartitions = 2048;
 /// Fewer points than this in a partition on average do not pay its overhead: a dozen loops, each with a
 /// mispredicted end.
 constexpr std::int64_t kPointsPerPartition = 1024;
@@ -54,12 +53,7 @@ void addAccumulated(
   batch.counts[i] += old.count;
   for (int axis = 0; axis < 3; ++axis)
   {
-    batch.sums[axis][i] += old.sums[axis];
-  }
-  // Second moments kept by cell are in the batch already.
-  for (int m = 0; accumulated.cellCount == 0 && batch.secondMoments && m < 6; ++m)
-  {
-    batch.secondMoments[i].lanes[m] += accumulated.secondMoments[voxel].lanes[m];
+    batch.sums[axis][i] += old.sums[axis]; // Second moments are not unpacked.
   }
 }
 
@@ -68,19 +62,6 @@ template <typename T>
 void moveUp(std::vector<T>& all, std::size_t first, std::size_t last, std::size_t offset)
 {
   std::memmove(all.data() + offset, all.data() + first, (last - first) * sizeof(T));
-}
-
-/// Blocks of layers, as many as may be: how many cells they have does not matter.
-void planForSorting(PartitionPlan& plan, std::uint32_t layers)
-{
-  plan.layerShift = 0;
-  while (blocks(layers, plan.layerShift) > kMostPartitions)
-  {
-    ++plan.layerShift;
-  }
-  plan.blocksPerLayer = 1;
-  plan.rowShift = kPositionBits - plan.fractionBits;
-  plan.partitions = blocks(layers, plan.layerShift);
 }
 
 }
@@ -102,24 +83,29 @@ PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t point
   {
     ++plan.layerShift;
   }
-  while (plan.layerShift > 0 && plan.cells() > kDenseCells)
+  while (plan.layerShift > 0 && plan.cells() > kMostCells)
   {
     --plan.layerShift;
   }
   plan.rowShift = indexBits;
   while (plan.layerShift == 0 && plan.rowShift > 0 &&
-    (plan.cells() > kDenseCells || 2 * layers * plan.blocksPerLayer <= wanted))
+    (plan.cells() > kMostCells || 2 * layers * plan.blocksPerLayer <= wanted))
   {
     --plan.rowShift;
     plan.blocksPerLayer = blocks(plan.rowsPerLayer, plan.rowShift);
   }
   plan.partitions = blocks(layers, plan.layerShift) * plan.blocksPerLayer;
-  plan.dense = plan.cells() <= kDenseCells && plan.partitions <= kMostDensePartitions;
-  if (!plan.dense)
-  {
-    planForSorting(plan, layers);
-  }
   return plan;
+}
+
+bool fitsPartitions(const Lattice& lattice, int indexBits)
+{
+  if (indexBits > kMaximumIndexBits)
+  {
+    return false;
+  }
+  const PartitionPlan plan = makePlan(lattice, indexBits, kChunkPoints);
+  return plan.cells() <= kMostCells && plan.partitions <= kMostLargePartitions;
 }
 
 std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t accumulated)
@@ -139,7 +125,7 @@ void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
   plan_ = plan;
   batchSecondMoments_.resize(covariances ? kBatch : 0);
   batch_->secondMoments = covariances ? batchSecondMoments_.data() : nullptr;
-  const std::size_t words = plan.dense ? occupancyWords(plan) : 0;
+  const std::size_t words = occupancyWords(plan);
   if (occupancy_.reserve(words))
   {
     std::fill(occupancy_.data(), occupancy_.data() + words, 0);
@@ -231,7 +217,8 @@ void PartitionWorker::countOccupied(const Kernels& kernels, const PointRecordPoo
 }
 
 /// Adds the records to the sums at @p to, which become the voxels.
-void PartitionWorker::sumDense(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to)
+void PartitionWorker::sumRecords(
+  const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to)
 {
   if (voxels_.size == 0)
   {
@@ -257,6 +244,11 @@ void PartitionWorker::sumDense(const Kernels& kernels, const PointRecordPool& po
   for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
     const PointRecord* const next = following.next() ? following.records() : block.records();
+    for (std::size_t i = 0; attributes_ && i < std::size_t(block.count()) * attributes_->binned.bytes();
+         i += 64)
+    {
+      fetch(block.rows() + i); // for reduceAttributes()
+    }
     kernels.accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
   }
   if (attributes_)
@@ -380,13 +372,13 @@ void PartitionWorker::makeRoom(const Kernels& kernels, AccumulatedPartition& sum
   clearTo(left);
 }
 
-void PartitionWorker::accumulateDense(
+void PartitionWorker::accumulate(
   const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition, AccumulatedPartition& sums)
 {
   partition_ = partition;
   old_ = &sums;
   countOccupied(kernels, pool);
-  sumDense(kernels, pool, sums);
+  sumRecords(kernels, pool, sums);
   // No voxel has more points than all have together.
   sums.points += std::int64_t(pool.count(partition));
   const std::uint64_t firstKey = plan_.firstKey(partition);
@@ -413,7 +405,7 @@ void PartitionWorker::unpack(std::uint64_t key, PackedSums& packed, AccumulatedP
   packed = PackedSums{ { 0, 0, 0, 0 } };
 }
 
-void PartitionWorker::collectDense(std::size_t& position, std::size_t& next)
+void PartitionWorker::collect(std::size_t position, std::size_t& next)
 {
   MomentBatch<std::int64_t>& batch = *batch_;
   batch.size = int(std::min<std::size_t>(voxels_.size - position, kBatch));
@@ -440,103 +432,10 @@ void PartitionWorker::collectDense(std::size_t& position, std::size_t& next)
   }
 }
 
-void PartitionWorker::sortRecords(const Kernels& kernels, const PointRecordPool& pool)
-{
-  listed_ = pool.count(partition_);
-  records_.reserve(listed_);
-  entries_.reserve(listed_);
-  otherEntries_.reserve(listed_);
-  std::size_t filled = 0;
-  const CellMap map = plan_.cellMap(partition_);
-  for (PointRecordPool::Walk block(pool, partition_); block.next();)
-  {
-    std::uint32_t cells[kBlockRecords];
-    kernels.cells(map, block.records(), block.count(), block.recordsAhead(), cells);
-    for (int i = 0; i < block.count(); ++i, ++filled)
-    {
-      records_[filled] = block.records()[i];
-      entries_[filled] = { cells[i], std::uint32_t(filled) };
-    }
-  }
-  radixSort(entries_, otherEntries_, listed_, [](const Entry& entry) { return entry.cell; });
-}
-
-/// Voxels of the sorted records and of the accumulated sums.
-std::size_t PartitionWorker::countSorted() const
-{
-  const std::uint64_t firstKey = plan_.firstKey(partition_);
-  std::size_t count = old_->voxels.size();
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < listed_; ++i)
-  {
-    if (i > 0 && entries_[i].cell == entries_[i - 1].cell)
-    {
-      continue;
-    }
-    const std::uint64_t key = firstKey + entries_[i].cell;
-    while (next < old_->voxels.size() && old_->voxels[next].key < key)
-    {
-      ++next;
-    }
-    count += next == old_->voxels.size() || old_->voxels[next].key != key;
-  }
-  return count;
-}
-
-void PartitionWorker::collectSorted(std::size_t& position, std::size_t& next)
-{
-  const AccumulatedPartition& old = *old_;
-  const std::uint64_t firstKey = plan_.firstKey(partition_);
-  const std::uint64_t fractionMask = (std::uint64_t(1) << plan_.fractionBits) - 1;
-  MomentBatch<std::int64_t>& batch = *batch_;
-  int size = 0;
-  for (; size < kBatch && (position < listed_ || next < old.voxels.size()); ++size)
-  {
-    const std::uint64_t ours = position < listed_ ? firstKey + entries_[position].cell : ~std::uint64_t(0);
-    const std::uint64_t theirs = next < old.voxels.size() ? old.voxels[next].key : ~std::uint64_t(0);
-    const std::uint64_t key = std::min(ours, theirs);
-    const std::uint64_t row = key / plan_.columns;
-    batch.indices[0][size] = std::int32_t(key % plan_.columns);
-    batch.indices[1][size] = std::int32_t(row % plan_.rowsPerLayer);
-    batch.indices[2][size] = std::int32_t(row / plan_.rowsPerLayer);
-    batch.counts[size] = 0;
-    batch.sums[0][size] = batch.sums[1][size] = batch.sums[2][size] = 0;
-    if (batch.secondMoments)
-    {
-      batch.secondMoments[size] = SecondMoments{ { 0, 0, 0, 0, 0, 0 } };
-    }
-    for (; position < listed_ && firstKey + entries_[position].cell == key; ++position)
-    {
-      const PointRecord& r = records_[entries_[position].record];
-      batch.counts[size] += 1;
-      batch.sums[0][size] += std::int64_t(xFraction(r, fractionMask));
-      batch.sums[1][size] += std::int64_t(yFraction(r, fractionMask));
-      batch.sums[2][size] += std::int64_t(zFraction(r, fractionMask));
-      if (batch.secondMoments)
-      {
-        addProducts(batch.secondMoments[size], xFraction(r, fractionMask), yFraction(r, fractionMask),
-          zFraction(r, fractionMask));
-      }
-    }
-    if (theirs == key)
-    {
-      addAccumulated(batch, size, old, next++);
-    }
-  }
-  batch.size = size;
-}
-
-std::uint32_t PartitionWorker::rankOf(std::uint64_t key, const std::uint64_t* keys, std::size_t size)
-{
-  return std::uint32_t(std::lower_bound(keys, keys + size, key) - keys);
-}
-
 std::size_t PartitionWorker::bytes() const
 {
   return occupancy_.bytes() + touched_.bytes() + rankTable_.bytes() + byteRankTable_.bytes() +
-    recordCells_.bytes() + own_.bytes() + records_.bytes() + entries_.bytes() + otherEntries_.bytes() +
-    sizeof(MomentBatch<std::int64_t>) + accumulated.voxels.capacity() * sizeof(AccumulatedSums) +
-    accumulated.secondMoments.capacity() * sizeof(SecondMoments);
+    recordCells_.bytes() + own_.bytes() + sizeof(MomentBatch<std::int64_t>);
 }
 
 } // namespace simd

@@ -28,8 +28,6 @@ struct PartitionPlan
   int rowShift = 0;   ///< Rows of a block, as a power of two.
   int layerShift = 0; ///< Layers of a block, likewise; above 0 only with one block per layer.
   std::uint32_t partitions = 1;
-  /// A partition has a rank table over all its cells; otherwise its records are sorted.
-  bool dense = true;
 
   std::uint32_t firstRow(std::uint32_t partition) const
   {
@@ -55,7 +53,10 @@ struct PartitionPlan
   }
 };
 
-/// A plan for @p points points at a time. @pre dimensions up to 2^kMaximumIndexBits.
+/// Whether the voxels of a lattice can be divided into partitions whose rank tables stay in the caches:
+/// dimensions up to 2^kMaximumIndexBits, and about 8.6 billion voxels in all.
+bool fitsPartitions(const Lattice& lattice, int indexBits);
+/// A plan for @p points points at a time. @pre fitsPartitions()
 PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t points);
 
 /// An upper bound of a partition's voxels, from its records and accumulated voxels.
@@ -80,45 +81,37 @@ public:
 
   /// Readies the scratch for partitions of a plan.
   void prepare(const PartitionPlan& plan, bool covariances);
-  /// What load() and accumulateDense() reduce besides; nothing if null. @pre the plan is dense.
+  /// What load() and accumulate() reduce besides; nothing if null.
   void reduce(const PartitionAttributes* attributes);
-  /// Adds the records of a partition to its @p old sums. These may change, and do with @p keeps if the plan
-  /// is dense. Calls publish(size) as soon as the number of voxels is known. The voxels are valid until the
-  /// next call.
+  /// Adds the records of a partition to its @p old sums. These may change, and do with @p keeps. Calls
+  /// publish(size) as soon as the number of voxels is known. The voxels are valid until the next call.
   template <typename Publish>
   void load(const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition,
     AccumulatedPartition& old, bool keeps, Publish&& publish)
   {
     partition_ = partition;
     old_ = &old;
-    if (plan_.dense)
-    {
-      countOccupied(kernels, pool);
-      publish(voxels_.size);
-      sumDense(kernels, pool, keeps || old_->cellCount > 0 ? *old_ : own_);
-      return;
-    }
-    sortRecords(kernels, pool);
-    publish(countSorted());
+    countOccupied(kernels, pool);
+    publish(voxels_.size);
+    sumRecords(kernels, pool, keeps || old_->cellCount > 0 ? *old_ : own_);
   }
-  /// The voxels, if the plan is dense and no accumulated sum is unpacked; else null.
-  const PartitionVoxels* packed() const { return plan_.dense && old_->voxels.empty() ? &voxels_ : nullptr; }
+  /// The voxels, if no accumulated sum is unpacked; else null.
+  const PartitionVoxels* packed() const { return old_->voxels.empty() ? &voxels_ : nullptr; }
   /// Calls emit(batch) with all the voxels.
   template <typename Emit>
   void forBatches(Emit&& emit)
   {
-    std::size_t position = 0; // among the voxels or records
-    std::size_t next = 0;     // among the accumulated voxels
-    while (position < (plan_.dense ? voxels_.size : listed_) || (!plan_.dense && next < old_->voxels.size()))
+    std::size_t next = 0; // among the accumulated voxels
+    for (std::size_t position = 0; position < voxels_.size; position += std::size_t(batch_->size))
     {
-      plan_.dense ? collectDense(position, next) : collectSorted(position, next);
+      collect(position, next);
       emit(*batch_);
     }
   }
   /// Writes the attributes of the voxels to @p arena, from @p offset on. @pre what else is written there is.
   void writeAttributes(MeanArena& arena, std::size_t offset) const;
-  /// Adds the records of a partition to its accumulated sums. @pre the plan is dense.
-  void accumulateDense(
+  /// Adds the records of a partition to its accumulated sums.
+  void accumulate(
     const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition, AccumulatedPartition& sums);
   /// Calls visit(rows, ranks, count) with the row of each record and the rank of its voxel among the
   /// partition's @p keys (ascending).
@@ -128,46 +121,25 @@ public:
   {
     const CellMap map = plan_.cellMap(partition);
     const std::uint64_t firstKey = plan_.firstKey(partition);
-    if (plan_.dense)
+    recordCells_.reserve(size);
+    for (std::size_t i = 0; i < size; ++i)
     {
-      recordCells_.reserve(size);
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        recordCells_[i] = std::uint32_t(keys[i] - firstKey);
-      }
-      kernels.setOccupied(recordCells_.data(), int(size), occupancy_.data());
-      rankOccupied(kernels, { recordCells_.data(), size }, {});
+      recordCells_[i] = std::uint32_t(keys[i] - firstKey);
     }
+    kernels.setOccupied(recordCells_.data(), int(size), occupancy_.data());
+    rankOccupied(kernels, { recordCells_.data(), size }, {});
     for (PointRecordPool::Walk block(pool, partition); block.next();)
     {
       std::uint32_t cells[kBlockRecords];
       kernels.cells(map, block.records(), block.count(), block.recordsAhead(), cells);
-      if (plan_.dense)
-      {
-        kernels.rank(ranks(), cells, block.count());
-      }
-      for (int i = 0; !plan_.dense && i < block.count(); ++i)
-      {
-        cells[i] = rankOf(firstKey + cells[i], keys, size);
-      }
+      kernels.rank(ranks(), cells, block.count());
       visit(block.rows(), cells, block.count());
     }
-    if (plan_.dense)
-    {
-      clearOccupancy({ recordCells_.data(), size });
-    }
+    clearOccupancy({ recordCells_.data(), size });
   }
   std::size_t bytes() const;
-  /// Scratch in which callers collect the batches.
-  AccumulatedPartition accumulated;
 
 private:
-  struct Entry
-  {
-    std::uint32_t cell;
-    std::uint32_t record;
-  };
-
   struct CellList
   {
     const std::uint32_t* cells = nullptr;
@@ -178,15 +150,11 @@ private:
   std::size_t rankOccupied(const Kernels& kernels, CellList cells, CellList others);
   void clearOccupancy(CellList cells);
   void countOccupied(const Kernels& kernels, const PointRecordPool& pool);
-  void sumDense(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to);
+  void sumRecords(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to);
   void makeRoom(const Kernels& kernels, AccumulatedPartition& sums) const;
   void reduceAttributes(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& sums);
-  void collectDense(std::size_t& position, std::size_t& next);
+  void collect(std::size_t position, std::size_t& next);
   static void unpack(std::uint64_t key, PackedSums& packed, AccumulatedPartition& sums);
-  void sortRecords(const Kernels& kernels, const PointRecordPool& pool);
-  std::size_t countSorted() const;
-  void collectSorted(std::size_t& position, std::size_t& next);
-  static std::uint32_t rankOf(std::uint64_t key, const std::uint64_t* keys, std::size_t size);
 
   PartitionPlan plan_;
   std::uint32_t partition_ = 0;
@@ -194,8 +162,7 @@ private:
   PartitionVoxels voxels_;
   std::unique_ptr<MomentBatch<std::int64_t>> batch_;
   std::vector<SecondMoments> batchSecondMoments_;
-  // Dense: the occupancy bits are zero between partitions.
-  Buffer<std::uint64_t> occupancy_;
+  Buffer<std::uint64_t> occupancy_; ///< Zeros between partitions.
   Buffer<std::uint64_t> touched_; ///< Likewise; a bit for each occupancy word in use, of a sparse partition.
   bool isSparse_ = false;
   Buffer<std::uint32_t> rankTable_;
@@ -206,11 +173,6 @@ private:
   const std::vector<AttributeReducer>* reduced_ = nullptr; ///< Of the voxels.
   std::vector<std::uint32_t> places_;                      ///< Of the accumulated cells among the voxels.
   std::vector<std::int64_t> counts_;                       ///< Of the voxels.
-  // Sorted.
-  std::size_t listed_ = 0; ///< Records.
-  Buffer<PointRecord> records_;
-  Buffer<Entry> entries_;
-  Buffer<Entry> otherEntries_;
 };
 
 } // namespace simd

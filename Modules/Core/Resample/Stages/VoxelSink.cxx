@@ -299,19 +299,5 @@ void MeanArena::write(std::size_t offset, const VoxelSums& voxel, const SecondMo
   }
 }
 
-void appendBatch(
-  const Lattice& lattice, const MomentBatch<std::int64_t>& batch, AccumulatedPartition& partition)
-{
-  for (int i = 0; i < batch.size; ++i)
-  {
-    partition.voxels.push_back({ keyOf(lattice, batch, i), batch.counts[i],
-      { batch.sums[0][i], batch.sums[1][i], batch.sums[2][i] } });
-    if (batch.secondMoments)
-    {
-      partition.secondMoments.push_back(batch.secondMoments[i]);
-    }
-  }
-}
-
 } // namespace simd
 } // namespace pointhaptics

@@ -34,9 +34,8 @@ struct AccumulatedSums
   std::int64_t sums[3];
 };
 
-/// The accumulated sums of a partition. A dense partition has cells with packed sums, and in voxels the sums
-/// of overfull cells; another one has voxels by key. Second moments are kept with the cells, split, or with
-/// the voxels; they exist only if covariances are wanted.
+/// The accumulated sums of a partition: cells with packed sums, and in voxels the sums of overfull cells.
+/// Second moments are kept with the cells; they exist only if covariances are wanted.
 struct alignas(kApart) AccumulatedPartition
 {
   std::size_t cellCount = 0; ///< The vectors may have more elements, which are unused.
@@ -44,16 +43,13 @@ struct alignas(kApart) AccumulatedPartition
   std::vector<PackedSums> packed;
   std::vector<SplitSecondMoments> splitSecondMoments;
   std::vector<AccumulatedSums> voxels;
-  std::vector<SecondMoments> secondMoments;
   std::vector<AttributeReducer> attributes; ///< Of the cells, where attributes are summed with the points.
   std::int64_t points = 0;                  ///< In cells; as many or fewer are in their packed sums.
 
-  std::size_t size() const { return cellCount == 0 ? voxels.size() : cellCount; }
   void clear()
   {
     cellCount = 0;
     voxels.clear();
-    secondMoments.clear();
     attributes.clear();
     points = 0;
   }
@@ -70,7 +66,7 @@ struct alignas(kApart) AccumulatedPartition
   {
     return cells.capacity() * sizeof(std::uint32_t) + packed.capacity() * sizeof(PackedSums) +
       splitSecondMoments.capacity() * sizeof(SplitSecondMoments) +
-      voxels.capacity() * sizeof(AccumulatedSums) + secondMoments.capacity() * sizeof(SecondMoments);
+      voxels.capacity() * sizeof(AccumulatedSums);
   }
 };
 
@@ -180,10 +176,6 @@ private:
   Buffer<std::uint64_t> keys_;
   std::vector<Attribute> attributes_;
 };
-
-/// Appends the voxels of a batch to accumulated sums.
-void appendBatch(
-  const Lattice& lattice, const MomentBatch<std::int64_t>& batch, AccumulatedPartition& partition);
 
 } // namespace simd
 } // namespace pointhaptics
