@@ -17,6 +17,28 @@ if (POINTHAPTICS_BUILD_FUZZERS)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif ()
 
+# pointhaptics_compile_with(<target> <interface library>...)
+# Compiles a library with the settings, definitions and headers of interface libraries, and links nothing: an installed
+# static library would otherwise name them to its users, who have none of them.
+function (pointhaptics_compile_with target)
+  get_target_property(aliased ${target} ALIASED_TARGET)
+  if (aliased)
+    set(target ${aliased})
+  endif ()
+  foreach (library IN LISTS ARGN)
+    # As they are now: imported targets are not known everywhere that looks at the library.
+    foreach (property IN ITEMS COMPILE_OPTIONS COMPILE_DEFINITIONS INCLUDE_DIRECTORIES)
+      get_target_property(${property} ${library} INTERFACE_${property})
+      if (NOT ${property})
+        set(${property} "")
+      endif ()
+    endforeach ()
+    target_compile_options(${target} PRIVATE ${COMPILE_OPTIONS})
+    target_compile_definitions(${target} PRIVATE ${COMPILE_DEFINITIONS})
+    target_include_directories(${target} SYSTEM PRIVATE ${INCLUDE_DIRECTORIES})
+  endforeach ()
+endfunction ()
+
 # pointhaptics_plain_library(<Name> SOURCES ... HEADERS ... [PUBLIC libs...] [PRIVATE libs...] [EXPORT set])
 # A C++17 library that is no VTK module: target PointHaptics<Name>, alias PointHaptics::<Name>, installed and
 # exported with the package. Export set: PointHapticsPlain, of those that do without VTK.
@@ -32,7 +54,8 @@ function (pointhaptics_plain_library name)
   target_include_directories(${target} PUBLIC
     "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/Modules>"
     "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/PointHaptics>")
-  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:pointhaptics_compiler>)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  pointhaptics_compile_with(${target} pointhaptics_compiler)
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name}
     VERSION ${PROJECT_VERSION}
