@@ -29,6 +29,11 @@ set(plain_folders Core Shapes Haptics Devices)
 set(not_in_plain_folders "^(vtk[A-Za-z0-9_]*\\.h|pcl/.*|Eigen/.*|CLI/.*|nlohmann/.*|fmt/.*|iostream|cstdio|stdio\\.h)$")
 # A skin over Core and Filters: it finds no voxel and adds up nothing itself.
 set(not_in_skins "std::floor|std::accumulate|std::reduce|[^a-zA-Z_]floor\\(|\\+= *\\(?double|floorf\\(")
+# The same of the Python package: no sums, no means, no rounding to voxels, no distances.
+set(not_in_python "(np|numpy|math)\\.(floor|rint|round|sum|nansum|add|cumsum|mean|nanmean|average|median|var|std|cov|bincount|histogram|digitize|unique|sort|lexsort|argsort|dot|einsum|linalg)|\\.(sum|mean|var|std|cumsum|round|sort|reduceat|at)\\(|[])a-zA-Z0-9_] *// *[a-zA-Z0-9_(]|\\+= ")
+# The same sources compile against every VTK from 9.1 on, that of ParaView, too. Where versions must differ, they do so here.
+set(asks_for_version "VTK_(MAJOR|MINOR|BUILD)_VERSION|VTK_VERSION|PARAVIEW_VERSION")
+set(may_ask_for_version "Modules/Filters/VtkVersions.h")
 # The viewer is a library: it prints nothing and knows no command line.
 set(not_in_viewer "^(CLI/.*|nlohmann/.*|iostream|cstdio|stdio\\.h)$")
 set(modules Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer PCL ParaView)
@@ -102,13 +107,24 @@ function (check_file file folder)
   set(problems "${problems}" PARENT_SCOPE)
 endfunction ()
 
-# Appends to problems the lines of a skin that compute.
-macro (check_skin file)
-  file(STRINGS "${file}" lines REGEX "${not_in_skins}")
+# Appends to problems the lines of a skin that match the pattern of this name: they compute.
+macro (check_skin file pattern)
+  file(STRINGS "${file}" lines REGEX "${${pattern}}")
   file(RELATIVE_PATH shown "${ROOT}" "${file}")
   foreach (line IN LISTS lines)
     list(APPEND problems "${shown}: \"${line}\": a skin computes nothing; put it into Core")
   endforeach ()
+endmacro ()
+
+# Appends to problems the lines that ask for the version of VTK.
+macro (check_versions file)
+  file(RELATIVE_PATH shown "${ROOT}" "${file}")
+  if (NOT shown STREQUAL may_ask_for_version)
+    file(STRINGS "${file}" lines REGEX "${asks_for_version}")
+    foreach (line IN LISTS lines)
+      list(APPEND problems "${shown}: \"${line}\": only ${may_ask_for_version} may ask for the version of VTK")
+    endforeach ()
+  endif ()
 endmacro ()
 
 find_homes()
@@ -124,10 +140,15 @@ foreach (folder IN LISTS modules ITEMS Apps)
   foreach (file IN LISTS files)
     math(EXPR number_of_files "${number_of_files} + 1")
     check_file("${file}" "${folder}")
+    check_versions("${file}")
     if (folder MATCHES "^(PCL|ParaView)$")
-      check_skin("${file}")
+      check_skin("${file}" not_in_skins)
     endif ()
   endforeach ()
+endforeach ()
+file(GLOB_RECURSE files "${ROOT}/Modules/Python/*.py")
+foreach (file IN LISTS files)
+  check_skin("${file}" not_in_python)
 endforeach ()
 
 if (problems)
