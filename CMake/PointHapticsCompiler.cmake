@@ -39,14 +39,21 @@ function (pointhaptics_compile_with target)
   endforeach ()
 endfunction ()
 
-# pointhaptics_plain_library(<Name> SOURCES ... HEADERS ... [PUBLIC libs...] [PRIVATE libs...] [EXPORT set])
+# pointhaptics_plain_library(<Name> SOURCES ... HEADERS ... [PUBLIC libs...] [PRIVATE libs...] [EXPORT set]
+#   [COMPONENTS <of the library> <of its headers>])
 # A C++17 library that is no VTK module: target PointHaptics<Name>, alias PointHaptics::<Name>, installed and
-# exported with the package. Export set: PointHapticsPlain, of those that do without VTK.
+# exported with the package. Export set: PointHapticsPlain, of those that do without VTK. Components of the installation: those
+# that VTK's modules have.
 function (pointhaptics_plain_library name)
-  cmake_parse_arguments(ARG "" "EXPORT" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "EXPORT" "SOURCES;HEADERS;PUBLIC;PRIVATE;COMPONENTS" ${ARGN})
   if (NOT ARG_EXPORT)
     set(ARG_EXPORT PointHapticsPlain)
   endif ()
+  if (NOT ARG_COMPONENTS)
+    set(ARG_COMPONENTS runtime development)
+  endif ()
+  list(GET ARG_COMPONENTS 0 runtime)
+  list(GET ARG_COMPONENTS 1 development)
   set(target "PointHaptics${name}")
   add_library(${target} ${ARG_SOURCES} ${ARG_HEADERS})
   add_library(PointHaptics::${name} ALIAS ${target})
@@ -61,13 +68,14 @@ function (pointhaptics_plain_library name)
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   install(TARGETS ${target} EXPORT ${ARG_EXPORT}
-    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
-    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT ${runtime}
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${runtime} NAMELINK_COMPONENT ${development}
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${development})
   list(TRANSFORM ARG_HEADERS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/" OUTPUT_VARIABLE headers)
   set_target_properties(${target} PROPERTIES POINTHAPTICS_HEADERS "${headers}") # for the documentation
   foreach (header IN LISTS ARG_HEADERS)
     get_filename_component(folder "${header}" DIRECTORY)
-    install(FILES "${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/PointHaptics/${name}/${folder}")
+    install(FILES "${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/PointHaptics/${name}/${folder}"
+      COMPONENT ${development})
   endforeach ()
 endfunction ()

@@ -33,3 +33,5 @@ paraview_plugin_build(
   LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
   PLUGINS_COMPONENT paraview
   DISABLE_XML_DOCUMENTATION ON)
+
+include(PointHapticsPackages)

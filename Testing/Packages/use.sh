@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# Testing/Packages/use.sh ROOT program | development COMPILER GENERATOR MAKE | python INTERPRETER
+# Uses what install.sh installed below ROOT, and nothing of the build. Exit code 0: it works; 1: not; 77: skipped.
+set -euo pipefail
+
+readonly ROOT="$1" PART="$2"
+shift 2
+if [[ ! -x "$ROOT/usr/bin/pointhaptics" ]]; then
+  printf 'skipped: no packages in %s\n' "$ROOT"
+  exit 77
+fi
+
+fail() {
+  printf '%s\n' "$1"
+  exit 1
+}
+
+# Every library of ours that FILE loads lies below the root.
+check_libraries() {
+  local name arrow path rest
+  while read -r name arrow path rest; do
+    [[ "$name" != libPointHaptics* || "$(realpath -- "$path")" == "$(realpath -- "$ROOT")"/* ]] ||
+      fail "$1 loads $name from ${path/#not/nowhere}"
+    [[ "$path" != not ]] || fail "$1 does not find $name"
+  done < <(ldd "$1")
+}
+
+use_program() {
+  local file
+  check_libraries "$ROOT/usr/bin/pointhaptics"
+  "$ROOT/usr/bin/pointhaptics" generate sphere -n 1000 -o packaged.ply
+  "$ROOT/usr/bin/pointhaptics" resample packaged.ply -o packaged.vtp --dims 10
+  "$ROOT/usr/bin/pointhaptics" info packaged.vtp | grep -q VoxelPointCount || fail "packaged.vtp has no VoxelPointCount"
+  for file in share/man/man1/pointhaptics.1 share/bash-completion/completions/pointhaptics \
+    share/applications/pointhaptics.desktop share/doc/pointhaptics/copyright lib/udev/rules.d/70-pointhaptics.rules; do
+    [[ -s "$ROOT/usr/$file" ]] || fail "/usr/$file is not installed"
+  done
+}
+
+# Builds and runs the example Resample as it is installed.
+use_development() {
+  local compiler="$1" generator="$2" make="$3"
+  rm -rf -- packaged-example
+  cmake -S "$ROOT/usr/share/doc/PointHaptics/Examples/Resample" -B packaged-example -G "$generator" \
+    "-DCMAKE_MAKE_PROGRAM=$make" "-DCMAKE_CXX_COMPILER=$compiler" -DCMAKE_BUILD_TYPE=Release \
+    "-DCMAKE_PREFIX_PATH=$ROOT/usr" -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
+  cmake --build packaged-example
+  printf 'x,y,z\n0.1,0.1,0.1\n0.2,0.2,0.2\n9.1,9.1,9.1\n' >packaged-points.csv
+  check_libraries packaged-example/Resample
+  packaged-example/Resample packaged-points.csv packaged-means.csv
+}
+
+use_python() {
+  PYTHONPATH="$ROOT/usr/lib/python3/dist-packages" "$1" - "$ROOT" <<'PYTHON'
+import os, sys
+import numpy as np
+import pointhaptics as ph
+
+root = os.path.realpath(sys.argv[1])
+assert os.path.realpath(ph.__file__).startswith(root), ph.__file__
+loaded = {line.split()[-1] for line in open("/proc/self/maps") if "PointHaptics" in line}
+assert loaded and all(os.path.realpath(path).startswith(root) for path in loaded), loaded
+print(ph.resample(np.array([[0.0, 0, 0], [1, 1, 1]]), voxel=3).points)
+PYTHON
+}
+
+"use_$PART" "$@"
