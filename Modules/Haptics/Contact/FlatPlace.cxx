@@ -1,5 +1,7 @@
 #include "Haptics/Contact/FlatPlace.h"
 
+#include "Haptics/Contact/PointMoments.h"
+
 #include <cmath>
 
 namespace pointhaptics
@@ -18,37 +20,12 @@ constexpr int kTrims = 3;
 constexpr double kUnder = 0.5;
 constexpr double kAhead = 0.04;
 
-/// Points of which each offset is from the point to the ball's center.
-struct Moments
-{
-  double count = 0.0;
-  Vec3 sum;
-  SymMat3 squares;
-
-  void add(const Vec3& offset) noexcept
-  {
-    count += 1.0;
-    sum += offset;
-    squares += outerProduct(offset);
-  }
-  Vec3 mean() const noexcept { return count > 0.0 ? sum / count : Vec3(); }
-  SymMat3 covariance() const noexcept
-  {
-    SymMat3 result = squares;
-    result *= count > 0.0 ? 1.0 / count : 0.0;
-    SymMat3 middle = outerProduct(mean());
-    middle *= -1.0;
-    result += middle;
-    return result;
-  }
-};
-
 }
 
 bool FlatPlace::find(
   const BallCells& cells, const Vec3& center, double radius, double reach, Vec3& away) noexcept
 {
-  Moments all;
+  PointMoments all;
   cells.visitBall(center, reach, [&](const Vec3& offset, double) { all.add(offset); });
   Vec3 mean = all.mean();
   away = normalized(mean);
@@ -60,7 +37,7 @@ bool FlatPlace::find(
   for (int trim = 0; trim < kTrims; ++trim)
   {
     const double gate = std::sqrt(std::max(0.0, eigen.values[0]));
-    Moments rest;
+    PointMoments rest;
     cells.visitBall(center, reach,
       [&](const Vec3& offset, double)
       {

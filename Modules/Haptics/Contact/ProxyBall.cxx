@@ -25,11 +25,11 @@ constexpr double kRises[] = { 0.0, 1.0, 2.0, kHighestRise };
 /// Points within this many radii determine the radius.
 constexpr double kSearch = 4.0;
 
-/// Moves of one slide, and of one step: a hand at 1 m/s needs some ten.
+/// Moves of one slide.
 constexpr int kMostSlides = 24;
-constexpr int kMostRounds = 192;
 /// What a visit of the pyramid costs, in rounds.
 constexpr int kRoundsOfPass = 3;
+/// Glides of one step.
 constexpr int kMostGlides = 3;
 constexpr int kMostPushes = 16;
 /// Part of the radius that is free of points from which on a ball that begins is out of them.
@@ -48,32 +48,11 @@ constexpr double kFarAway = 1e6;
 constexpr double kNoWay = 1e-4;
 /// Rounding that a covered point may be off by, over the radius.
 constexpr double kRounding = 1e-9;
-/// Reach of the points that decide whether the place is flat, and a smaller one for the first touch beside an
-/// edge, over the radius. A flat place serves so many radii further and up to this angle.
-constexpr double kPlaneReach = 1.4;
+/// Reach of the points that decide whether the place is flat for the first touch beside an edge, over the
+/// radius.
 constexpr double kTouchReach = 1.2;
-constexpr double kFlatNear = 2.0;
-constexpr double kFlatCosine = 0.5;
 /// How far aside of the HIP, seen along the normal of a flat place, bumps may push the ball, over its radius.
 constexpr double kMostAside = 0.25;
-/// Radius of the ball that glides, shortest pull along the surface, longest way and least gain of a glide;
-/// all over the radius.
-constexpr double kGlideRadius = 0.9;
-/// On a flat place, so many radii around where that was seen, a ball that leans less waits.
-constexpr double kWaitNear = 0.3;
-constexpr double kWaitLean = 0.2;
-/// The same for a ball that need not keep up.
-constexpr double kPatientNear = 1.0;
-constexpr double kPatientLean = 0.5;
-constexpr int kMostLifts = 3;
-constexpr double kLongestProposal = 2.0;
-constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
-constexpr double kLeastLean = 0.02;
-constexpr double kLongestGlide = 0.5;
-constexpr double kLeastGain = 1e-3;
-/// Points higher than this above the surface are of a wall; how far a glide may lift the ball.
-constexpr double kWallHeight = 0.2;
-constexpr double kLargestRise = 0.1;
 /// After a glide that did not help the HIP moves by this many radii before the next.
 constexpr double kGlideAgain = 0.05;
 
@@ -215,6 +194,7 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
     }
   }
   free_ = center_ == hip;
+  isConfined_ = radius_ < kTooSmall * wanted_;
 }
 
 /// Makes room for a ball that has grown: beside the points that held @p before, or above them, as in a gap of
@@ -301,7 +281,8 @@ void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
 }
 
 /// Takes the radius towards what the cloud asks for: at once where the ball is free, else little by little.
-/// It grows only where there is room, and shrinks where it is pinched between points on two sides.
+/// It grows only where there is room, and shrinks where it is pinched between points on two sides, or held
+/// among points where it began without room: it was on no side of them.
 void ProxyBall::updateRadius(Work& work, const Vec3& hip) noexcept
 {
   const double every = kMeasureEvery * work.scene.cellSize();
@@ -310,6 +291,11 @@ void ProxyBall::updateRadius(Work& work, const Vec3& hip) noexcept
     measure(work, hip);
   }
   const ProxyBall before = *this;
+  if (isConfined_ && isHeld_)
+  {
+    radius_ /= kLargestGrowth;
+    return;
+  }
   const double growth = radius_ < kTooSmall * wanted_ ? kHurriedGrowth : kLargestGrowth;
   const double most = adopts_ ? std::max(wanted_, radius_) : radius_ * growth;
   adopts_ = false;
@@ -329,6 +315,7 @@ void ProxyBall::updateRadius(Work& work, const Vec3& hip) noexcept
     }
     free_ = free_ && center_ == before.center_;
   }
+  isConfined_ = isConfined_ && (!free_ || radius_ < kTooSmall * wanted_);
 }
 
 /// A free ball goes with the HIP. @return how far it came before it touched a point, metres.
@@ -423,102 +410,6 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     }
   }
   work.status |= kProxyRoundLimit;
-}
-
-/// The normal of the surface that the ball lies on: of a plane through the points about it. Where they are
-/// not flat, as at an edge, the last flat one near by: the ball has not gone around yet.
-Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
-{
-  Vec3 away;
-  if (!flat_.find(cells, center_, radius_, kPlaneReach * radius_, away) &&
-    !(flat_.isNear(center_, kFlatNear * radius_) && dot(flat_.normal(), away) >= kFlatCosine))
-  {
-    flat_.invalidate();
-  }
-  return flat_.isKnown() ? flat_.normal() : away;
-}
-
-/// Whether the ball lies on a flat place and leans so little that it may wait.
-bool ProxyBall::mayWait(const Vec3& hip) const noexcept
-{
-  return flat_.isNear(center_, (isPatient_ ? kPatientNear : kWaitNear) * radius_) &&
-    norm(flat_.along(hip - center_)) < (isPatient_ ? kPatientLean : kWaitLean) * radius_;
-}
-
-bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
-{
-  gather(work, kPlaneReach * radius_);
-  const Vec3 up = surfaceNormal(work.cells);
-  const Vec3 pull = hip - center_;
-  const Vec3 lean = pull - dot(pull, up) * up;
-  const double leaning = norm(lean);
-  if (leaning < kLeastLean * radius_)
-  {
-    return false;
-  }
-  // What rises from the surface is a wall: there only what brings the ball nearer to the HIP is progress.
-  bool isWalled = !flat_.isKnown();
-  const double highest = isWalled ? 0.0 : flat_.height(center_) - kWallHeight * radius_;
-  work.cells.visitBall(center_, kPlaneReach * radius_,
-    [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < highest; });
-  const ProxyBall before = *this;
-  const Vec3 direction = lean / leaning;
-  gather(work, (1.0 + kLongestGlide + kLifts[kMostLifts - 1]) * radius_);
-  for (const double lift : kLifts)
-  {
-    // Bumps are passed by a smaller ball, deeper gaps are left by lifting it.
-    const double ball = lift > 0.0 ? radius_ : kGlideRadius * radius_;
-    center_ += work.cells.sweep(center_, up, lift * radius_, ball) * up;
-    center_ +=
-      work.cells.sweep(center_, direction, std::min(leaning, kLongestGlide * radius_), ball) * direction;
-    const bool isOut = pushOut(work.cells);
-    if (lift > 0.0)
-    {
-      slide(work, hip);
-    }
-    const Vec3 left = hip - center_;
-    const double stillLeaning = isWalled ? norm(left) : norm(left - dot(left, up) * up);
-    if (isOut && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
-      norm(left) <= norm(pull) + kLargestRise * radius_)
-    {
-      if (lift == 0.0)
-      {
-        slide(work, hip);
-      }
-      return true;
-    }
-    *this = before;
-  }
-  return false;
-}
-
-bool ProxyBall::goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
-  const Vec3& up, std::uint32_t& status) noexcept
-{
-  Work work{ scene, fields, cells, kMostRounds, status };
-  const ProxyBall before = *this;
-  const Vec3 place = foot + radius_ * up;
-  const double distance = norm(place - center_);
-  if (distance > kLongestProposal * radius_)
-  {
-    return false;
-  }
-  gather(work, (1.0 + kLifts[kMostLifts - 1]) * radius_ + distance);
-  for (int i = 1; i < kMostLifts; ++i)
-  {
-    center_ += work.cells.sweep(center_, up, kLifts[i] * radius_, radius_) * up;
-    const Vec3 way = place + kLifts[i] * radius_ * up - center_;
-    const double length = norm(way);
-    const Vec3 direction = normalized(way);
-    center_ += work.cells.sweep(center_, direction, length, radius_) * direction;
-    slide(work, hip_);
-    if (norm(hip_ - center_) < norm(hip_ - before.center_) - kLeastGain * radius_)
-    {
-      return true;
-    }
-    *this = before;
-  }
-  return false;
 }
 
 /// Follows the HIP along its way: free, or in strides of a radius where points are touched.

@@ -53,6 +53,10 @@ public:
   /// unit normal @p up, if nothing is in its way and that brings it nearer to the HIP. False: it stays.
   bool goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot, const Vec3& up,
     std::uint32_t& status) noexcept;
+  /// Goes over the edge of what it lies on and down beside the surface through @p foot with the unit normal
+  /// @p up, where no point is in its way and the HIP is then inside it: it came out there. False: it stays.
+  bool goAround(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
+    const Vec3& up, std::uint32_t& status) noexcept;
   /// False: the HIP went further than one step can follow; the ball is on its way.
   bool isThere() const noexcept { return there_; }
   const Vec3& center() const noexcept { return center_; }
@@ -68,6 +72,13 @@ public:
   double depth(const Vec3& hip) const noexcept { return norm(hip - center_) - radius_; }
 
 private:
+  /// Moves of one step: a hand at 1 m/s needs some ten.
+  static constexpr int kMostRounds = 192;
+  /// Reach of the points that decide whether the place is flat, over the radius. A flat place serves so many
+  /// radii further.
+  static constexpr double kPlaneReach = 1.4;
+  static constexpr double kFlatNear = 2.0;
+
   /// What a step works with.
   struct Work
   {
@@ -84,6 +95,7 @@ private:
   void updateRadius(Work& work, const Vec3& hip) noexcept;
   void walk(Work& work, const Vec3& hip) noexcept;
   double fly(Work& work, const Vec3& direction, double length) noexcept;
+  void advance(Work& work, const Vec3& direction, double length) noexcept;
   void slide(Work& work, const Vec3& hip) noexcept;
   bool mayWait(const Vec3& hip) const noexcept;
   bool glide(Work& work, const Vec3& hip) noexcept;
@@ -102,6 +114,7 @@ private:
   Vec3 heldAt_; ///< The HIP when gliding did not help.
   FlatPlace flat_;
   bool isHeld_ = false;
+  bool isConfined_ = false; ///< Began where it has no room, and has not found any yet.
   bool isPatient_ = false;
   bool isMeasured_ = false;
   bool free_ = true;

@@ -25,6 +25,10 @@ constexpr double kDistrust = 1.5;
 /// The ball sinks into the gaps between points: it may be this much above the surface, over its radius, and
 /// how fast contact ends when it is higher.
 constexpr double kReleaseSlope = 1.25;
+/// The HIP comes out through a face that is nearer than this, and as flat as that; over the ball's radius. A
+/// fit that sees two faces of a wedge is further from its points.
+constexpr double kOutNear = 0.5;
+constexpr double kOutResidual = 0.01;
 
 double smoothStep(double t) noexcept
 {
@@ -68,6 +72,39 @@ bool SurfaceFitProxy::isPlain() const noexcept
     tracker_.residual() < kSmoothResidual * ball_.radius();
 }
 
+/// Whether the HIP came out through a smooth face beside the one that the ball lies on: it is in front of
+/// that face, and the ball can go there. Bumps between points would hold the ball back at the edge.
+bool SurfaceFitProxy::comesOut(
+  const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
+{
+  double distance = 0.0;
+  const std::int64_t cell = scene.pyramid().nearest(0, hip, kOutNear * ball_.radius(), distance);
+  SurfaceTracker face;
+  if (cell < 0 || !face.settle(scene, memory.fit, scene.pyramid().level(0).cells[std::size_t(cell)].mean) ||
+    face.follow(scene, memory.fit, hip, kRoundsPerTick) == TrackResult::Lost ||
+    face.residual() >= kOutResidual * ball_.radius())
+  {
+    return false;
+  }
+  // The normal may point either way: the ball, once it is there, says which side is free.
+  const bool isBelow = face.height(hip) < 0.0;
+  const ProxyBall before = ball_;
+  if (ball_.goAround(
+        scene, memory.fit, memory.ball, face.point(), isBelow ? -face.normal() : face.normal(), status) &&
+    (face.height(ball_.center()) < 0.0) == isBelow)
+  {
+    tracker_ = face;
+    if (isBelow)
+    {
+      tracker_.flip();
+    }
+    hasFit_ = !ball_.isFree();
+    return true;
+  }
+  ball_ = before;
+  return false;
+}
+
 /// Follows the fit to the HIP. @return how much of the answer is the fit's, 0 to 1.
 double SurfaceFitProxy::fitWeight(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
@@ -79,7 +116,9 @@ double SurfaceFitProxy::fitWeight(
       std::max(kTrustRadii * ball_.radius() + kTrustDepths * std::max(0.0, ball_.depth(hip)),
         isPlain() ? kTrustPlain * ball_.radius() : 0.0);
     const double apart = norm(tracker_.point() - ball_.nearestPoint(hip));
-    const bool agrees = tracker_.height(ball_.center()) > 0.0;
+    // A HIP in front of the fit that the ball has deep inside is in front of another sheet.
+    const bool agrees =
+      tracker_.height(ball_.center()) > 0.0 && !(tracker_.height(hip) > 0.0 && ball_.depth(hip) > trust);
     return agrees ? 1.0 - smoothStep((apart - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
   };
   double result = 0.0;
@@ -115,6 +154,11 @@ double SurfaceFitProxy::fitWeight(
   {
     ticksWithoutFit_ = 0;
   }
+  if ((result < 1.0 || !tracker_.continuesAround()) && ball_.depth(hip) > 0.0 &&
+    comesOut(scene, memory, hip, status))
+  {
+    return ball_.isFree() ? 0.0 : 1.0;
+  }
   return result;
 }
 
@@ -139,8 +183,8 @@ void SurfaceFitProxy::step(const HapticScene& scene, Memory& memory, const Conta
   }
   else
   {
-    const double depth = ball_.depth(hip);
     weight = refines ? fitWeight(scene, memory, hip, state.status) : 0.0;
+    const double depth = ball_.isFree() ? -ball_.radius() : ball_.depth(hip);
     isPatient_ = weight == 1.0 && isPlain();
     const Vec3 ballPoint = ball_.nearestPoint(hip);
     Vec3 offset = (1.0 - weight) * (depth > 0.0 ? ballPoint - hip : Vec3());

@@ -57,6 +57,7 @@ private:
 
   double fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool seek(const HapticScene& scene, FitCells& fit, const Vec3& hip) noexcept;
+  bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool isPlain() const noexcept;
 
   ProxyBall ball_;

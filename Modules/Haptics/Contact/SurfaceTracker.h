@@ -32,6 +32,9 @@ public:
   /// Moves to the surface point nearest to @p target, at most @p rounds fits.
   TrackResult follow(const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept;
 
+  /// Looks from the other side.
+  void flip() noexcept;
+
   /// Carries point and normal along with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
 
@@ -54,8 +57,6 @@ private:
   bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
   /// Fits anew at frame_. False: there is no surface to fit.
   bool refit(const HapticScene& scene, FitCells& memory) noexcept;
-  /// Looks from the other side.
-  void flip() noexcept;
   void adopt(const Vec3& foot, const Vec3& normal) noexcept;
 
   SurfaceFrame frame_;

@@ -175,8 +175,9 @@ TEST(ProxyBallPassage, IsLetOutOfACrowdOfPointsThatItBeginsIn)
     hand.rest(500);
     held += !hand.ball().isFree();
   }
-  // Some are held for ever: a ball as large as its void finds no way out between the points.
-  EXPECT_LE(trial::recorded("heldOf40", held), 10);
+  // Of 400 14 are held: balls that began beside the points, and are on that side of them. Of a ball that does
+  // not shrink among them 101 are, of these 40 10.
+  EXPECT_LE(trial::recorded("heldOf40", held), 3);
 }
 
 TEST(ProxyBallPassage, StaysOnTheFaceThatIsPressedBesideAnEdge)

@@ -1,0 +1,172 @@
+#include "Haptics/Contact/ProxyBall.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+/// A flat place serves up to this angle.
+constexpr double kFlatCosine = 0.5;
+/// Radius of the ball that glides, shortest pull along the surface, longest way and least gain of a glide;
+/// all over the radius.
+constexpr double kGlideRadius = 0.9;
+/// On a flat place, so many radii around where that was seen, a ball that leans less waits.
+constexpr double kWaitNear = 0.3;
+constexpr double kWaitLean = 0.2;
+/// The same for a ball that need not keep up.
+constexpr double kPatientNear = 1.0;
+constexpr double kPatientLean = 0.5;
+constexpr int kMostLifts = 3;
+constexpr double kLongestProposal = 2.0;
+constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
+/// How near a ball that went around an edge must come to the HIP.
+constexpr double kAround = 0.1;
+constexpr double kLeastLean = 0.02;
+constexpr double kLongestGlide = 0.5;
+constexpr double kLeastGain = 1e-3;
+/// Points higher than this above the surface are of a wall; how far a glide may lift the ball.
+constexpr double kWallHeight = 0.2;
+constexpr double kLargestRise = 0.1;
+
+}
+
+/// The normal of the surface that the ball lies on: of a plane through the points about it. Where they are
+/// not flat, as at an edge, the last flat one near by: the ball has not gone around yet.
+Vec3 ProxyBall::surfaceNormal(const BallCells& cells) noexcept
+{
+  Vec3 away;
+  if (!flat_.find(cells, center_, radius_, kPlaneReach * radius_, away) &&
+    !(flat_.isNear(center_, kFlatNear * radius_) && dot(flat_.normal(), away) >= kFlatCosine))
+  {
+    flat_.invalidate();
+  }
+  return flat_.isKnown() ? flat_.normal() : away;
+}
+
+/// Whether the ball lies on a flat place and leans so little that it may wait.
+bool ProxyBall::mayWait(const Vec3& hip) const noexcept
+{
+  return flat_.isNear(center_, (isPatient_ ? kPatientNear : kWaitNear) * radius_) &&
+    norm(flat_.along(hip - center_)) < (isPatient_ ? kPatientLean : kWaitLean) * radius_;
+}
+
+bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
+{
+  gather(work, kPlaneReach * radius_);
+  const Vec3 up = surfaceNormal(work.cells);
+  const Vec3 pull = hip - center_;
+  const Vec3 lean = pull - dot(pull, up) * up;
+  const double leaning = norm(lean);
+  if (leaning < kLeastLean * radius_)
+  {
+    return false;
+  }
+  // What rises from the surface is a wall: there only what brings the ball nearer to the HIP is progress.
+  bool isWalled = !flat_.isKnown();
+  const double highest = isWalled ? 0.0 : flat_.height(center_) - kWallHeight * radius_;
+  work.cells.visitBall(center_, kPlaneReach * radius_,
+    [&](const Vec3& offset, double) { isWalled = isWalled || dot(offset, up) < highest; });
+  const ProxyBall before = *this;
+  const Vec3 direction = lean / leaning;
+  gather(work, (1.0 + kLongestGlide + kLifts[kMostLifts - 1]) * radius_);
+  for (const double lift : kLifts)
+  {
+    // Bumps are passed by a smaller ball, deeper gaps are left by lifting it.
+    const double ball = lift > 0.0 ? radius_ : kGlideRadius * radius_;
+    center_ += work.cells.sweep(center_, up, lift * radius_, ball) * up;
+    center_ +=
+      work.cells.sweep(center_, direction, std::min(leaning, kLongestGlide * radius_), ball) * direction;
+    const bool isOut = pushOut(work.cells);
+    if (lift > 0.0)
+    {
+      slide(work, hip);
+    }
+    const Vec3 left = hip - center_;
+    const double stillLeaning = isWalled ? norm(left) : norm(left - dot(left, up) * up);
+    if (isOut && stillLeaning <= (isWalled ? norm(pull) : leaning) - kLeastGain * radius_ &&
+      norm(left) <= norm(pull) + kLargestRise * radius_)
+    {
+      if (lift == 0.0)
+      {
+        slide(work, hip);
+      }
+      return true;
+    }
+    *this = before;
+  }
+  return false;
+}
+
+bool ProxyBall::goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
+  const Vec3& up, std::uint32_t& status) noexcept
+{
+  Work work{ scene, fields, cells, kMostRounds, status };
+  const ProxyBall before = *this;
+  const Vec3 place = foot + radius_ * up;
+  const double distance = norm(place - center_);
+  if (distance > kLongestProposal * radius_)
+  {
+    return false;
+  }
+  gather(work, (1.0 + kLifts[kMostLifts - 1]) * radius_ + distance);
+  for (int i = 1; i < kMostLifts; ++i)
+  {
+    center_ += work.cells.sweep(center_, up, kLifts[i] * radius_, radius_) * up;
+    const Vec3 way = place + kLifts[i] * radius_ * up - center_;
+    const double length = norm(way);
+    const Vec3 direction = normalized(way);
+    center_ += work.cells.sweep(center_, direction, length, radius_) * direction;
+    slide(work, hip_);
+    if (norm(hip_ - center_) < norm(hip_ - before.center_) - kLeastGain * radius_)
+    {
+      return true;
+    }
+    *this = before;
+  }
+  return false;
+}
+
+/// Along the unit vector @p direction by up to @p length metres, as far as no point is in the way.
+void ProxyBall::advance(Work& work, const Vec3& direction, double length) noexcept
+{
+  double left = length;
+  double stride = 0.0;
+  double reached = 0.0;
+  for (; left > 0.0 && reached == stride && work.rounds > 0; --work.rounds)
+  {
+    stride = std::min(left, radius_);
+    gather(work, radius_ + stride);
+    reached = work.cells.sweep(center_, direction, stride, radius_);
+    center_ += reached * direction;
+    left -= reached;
+  }
+}
+
+bool ProxyBall::goAround(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
+  const Vec3& up, std::uint32_t& status) noexcept
+{
+  Work work{ scene, fields, cells, kMostRounds, status };
+  const ProxyBall before = *this;
+  const double beside = std::clamp(radius_ - dot(center_ - foot, up), 0.0, kLongestProposal * radius_);
+  for (int i = 1; i < kMostLifts; ++i)
+  {
+    const double lift = kLifts[i] * radius_;
+    // Off the points that it lies on, beside the edge, and down.
+    advance(work, normalized(center_ - hip_), lift);
+    advance(work, up, beside + lift);
+    const Vec3 way = foot + (radius_ + lift) * up - center_;
+    advance(work, normalized(way), norm(way));
+    slide(work, hip_);
+    if (free_ || depth(hip_) <= kAround * radius_)
+    {
+      return true;
+    }
+    *this = before;
+  }
+  return false;
+}
+
+} // namespace pointhaptics
