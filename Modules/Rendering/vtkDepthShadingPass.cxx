@@ -147,6 +147,27 @@ void main()
 }
 )";
 
+/// The end of a clipping range, outward to a step: four steps double it.
+double clippingStep(double distance, bool isNear)
+{
+  constexpr double kStepsPerDoubling = 4.0;
+  constexpr double kOnStep = 1e-6; // a step stays where it is
+  const double at = kStepsPerDoubling * std::log2(distance);
+  const double step = isNear ? std::floor(at + kOnStep) : std::ceil(at - kOnStep);
+  return std::exp2(step / kStepsPerDoubling);
+}
+
+/// Shades depend on depths, and their last bits on the clipping range, which follows all that is in the scene
+/// and is reset before most frames: in steps, an equal view has an equal picture.
+void setClippingRangeToSteps(vtkCamera* camera)
+{
+  const double* range = camera->GetClippingRange();
+  if (range[0] > 0.0 && std::isfinite(range[1]))
+  {
+    camera->SetClippingRange(clippingStep(range[0], true), clippingStep(range[1], false));
+  }
+}
+
 } // namespace
 
 vtkStandardNewMacro(vtkDepthShadingPass);
@@ -199,6 +220,7 @@ void vtkDepthShadingPass::Render(const vtkRenderState* state)
   this->W = this->Width;
   this->H = this->Height;
   this->PrepareTargets(window);
+  setClippingRangeToSteps(renderer->GetActiveCamera());
 
   std::vector<double> wanted = pointhaptics::pictureState(renderer);
   const std::array<double, 5> numbers = { this->NoiseLength, this->NoisePerDistance, this->Strength,

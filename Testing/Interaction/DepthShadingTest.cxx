@@ -16,6 +16,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <vector>
 
 using namespace pointhaptics;
 
@@ -67,6 +68,15 @@ protected:
     return *std::min_element(row->GetPointer(0), row->GetPointer(0) + row->GetNumberOfValues());
   }
 
+  std::vector<unsigned char> pictureWithin(double nearest, double farthest)
+  {
+    renderer_->GetActiveCamera()->SetClippingRange(nearest, farthest);
+    window_->Render();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    window_->GetPixelData(0, 0, kSize - 1, kSize - 1, 0, pixels);
+    return { pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues() };
+  }
+
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkRenderWindow> window_;
 };
@@ -78,6 +88,22 @@ TEST_F(DepthShading, DarkensAStepThatIsLargerThanTheToleranceOnly)
   const int half = darkest(0.1 * kStep);
   EXPECT_LT(half, 255);
   EXPECT_GT(half, darkest(0.0));
+}
+
+TEST_F(DepthShading, APictureIsTheSameToTheByteWhateverElseWidensTheClippingRange)
+{
+  renderer_->GetActiveCamera()->Azimuth(40.0); // each pixel has a depth of its own
+  applyDepthShading(renderer_, 0.1 * kStep);
+  const std::vector<unsigned char> first = pictureWithin(0.150, 0.26);
+  EXPECT_EQ(pictureWithin(0.150 * (1.0 + 1e-7), 0.26 * (1.0 - 1e-7)), first);
+  EXPECT_EQ(pictureWithin(0.155, 0.27), first);
+  const double once[2] = { renderer_->GetActiveCamera()->GetClippingRange()[0],
+    renderer_->GetActiveCamera()->GetClippingRange()[1] };
+  EXPECT_EQ(pictureWithin(once[0], once[1]), first);
+  EXPECT_EQ(renderer_->GetActiveCamera()->GetClippingRange()[0], once[0]) << "steps stay where they are";
+  EXPECT_EQ(renderer_->GetActiveCamera()->GetClippingRange()[1], once[1]);
+  EXPECT_LE(once[0], 0.150);
+  EXPECT_GE(once[1], 0.27);
 }
 
 } // namespace
