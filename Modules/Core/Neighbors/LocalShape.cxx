@@ -81,9 +81,10 @@ Spread spreadOf(const SymMat3& m)
     a.xz * (a.xy * a.yz - a.yy * a.xz);
   const double angle = std::acos(std::clamp(determinant / (2.0 * p2 * p), -1.0, 1.0)) / 3.0;
   spread.values[2] = mean + 2.0 * p * std::cos(angle);
-  spread.values[0] = std::max(0.0, mean + 2.0 * p * std::cos(angle + 2.0 * kPi / 3.0));
+  const double smallest = mean + 2.0 * p * std::cos(angle + 2.0 * kPi / 3.0);
+  spread.values[0] = std::max(0.0, smallest);
   spread.values[1] = std::max(spread.values[0], 3.0 * mean - spread.values[0] - spread.values[2]);
-  spread.normal = nullVector(m, mean + 2.0 * p * std::cos(angle + 2.0 * kPi / 3.0));
+  spread.normal = nullVector(m, smallest);
   return spread;
 }
 
