@@ -1,5 +1,6 @@
 #include "vtkDepthShadingPass.h"
 
+#include "DepthShadingShaders.h"
 #include "PictureState.h"
 
 #include "vtkActor2D.h"
@@ -11,8 +12,10 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
+#include "vtkRenderPassCollection.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
+#include "vtkSequencePass.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 #include "vtk_glew.h"
@@ -20,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace
 {
@@ -27,125 +31,9 @@ namespace
 /// Sizes are pixels of a window of 800 lines; pixelScale makes them those of this one.
 constexpr double kUsualHeight = 800.0;
 
-constexpr const char* kCommon = R"(//VTK::System::Dec
-//VTK::Output::Dec
-in vec2 texCoord;
-uniform sampler2D colors;
-uniform sampler2D depths;
-uniform vec2 clipping;
-uniform int isParallel;
-uniform float pixelSize; // at distance 1
-uniform float pixelScale;
-uniform vec2 noise; // in the scene, and over the distance
-
-float distanceAt(float depth)
-{
-  return isParallel != 0 ? mix(clipping.x, clipping.y, depth)
-                         : clipping.x * clipping.y / (clipping.y - depth * (clipping.y - clipping.x));
-}
-float pixelAt(float here)
-{
-  return isParallel != 0 ? pixelSize : pixelSize * here;
-}
-float depthAt(ivec2 place, ivec2 last)
-{
-  return texelFetch(depths, clamp(place, ivec2(0), last), 0).r;
-}
-)";
-
-/// A pixel that lies behind nearly all around it is a hole between splats.
-constexpr const char* kFillShader = R"(
-const int enough = 6;
-void main()
-{
-  ivec2 last = textureSize(depths, 0) - ivec2(1);
-  ivec2 place = ivec2(texCoord * vec2(last + ivec2(1)));
-  float depth = texelFetch(depths, place, 0).r;
-  float here = depth < 1.0 ? distanceAt(depth) : 3.4e38;
-  int side = int(1.5 * pixelScale + 0.5);
-  int corner = int(1.06 * pixelScale + 0.5);
-  ivec2 steps[8] = ivec2[8](ivec2(side, 0), ivec2(-side, 0), ivec2(0, side), ivec2(0, -side),
-    ivec2(corner, corner), ivec2(-corner, corner), ivec2(corner, -corner), ivec2(-corner, -corner));
-  int before = 0;
-  float farthest = -1.0;
-  ivec2 source = place;
-  for (int i = 0; i < 8; ++i)
-  {
-    float other = depthAt(place + steps[i], last);
-    if (other < depth)
-    {
-      float there = distanceAt(other);
-      float pixel = pixelAt(there);
-      if (here - there > max(3.0 * pixelScale * pixel, noise.x + noise.y * there))
-      {
-        ++before;
-        if (other > farthest)
-        {
-          farthest = other;
-          source = place + steps[i];
-        }
-      }
-    }
-    if (before + 7 - i < enough)
-    {
-      break;
-    }
-  }
-  bool fills = before >= enough;
-  gl_FragDepth = fills ? farthest : depth;
-  gl_FragData[0] = texelFetch(colors, fills ? clamp(source, ivec2(0), last) : place, 0);
-}
-)";
-
-/// Depths along a line over a plane are even: only what bends towards the viewer on both sides is dark.
-constexpr const char* kShadeShader = R"(
-uniform float strength;
-uniform float minimumLightness;
-uniform int isShaded;
-
-void main()
-{
-  ivec2 last = textureSize(depths, 0) - ivec2(1);
-  ivec2 place = ivec2(texCoord * vec2(last + ivec2(1)));
-  float depth = texelFetch(depths, place, 0).r;
-  vec4 color = texelFetch(colors, place, 0);
-  gl_FragDepth = depth;
-  if (depth < 1.0 && isShaded == 0)
-  {
-    float here = distanceAt(depth);
-    float slope = isParallel != 0 ? clipping.y - clipping.x
-                                  : here * here * (clipping.y - clipping.x) / (clipping.x * clipping.y);
-    float pixel = pixelAt(here) * pixelScale;
-    float rough = (noise.x + noise.y * here) / pixel;
-    float radii[3] = float[3](2.0, 5.0, 12.0);
-    float weights[3] = float[3](0.075, 0.0875, 0.0875);
-    float sum = 0.0;
-    for (int ring = 0; ring < 3; ++ring)
-    {
-      float radius = radii[ring];
-      float perRadius = slope / (pixel * radius);
-      float least = 0.15 + rough / radius;
-      int side = int(radius * pixelScale + 0.5);
-      int corner = int(0.7071 * radius * pixelScale + 0.5);
-      ivec2 steps[4] = ivec2[4](ivec2(side, 0), ivec2(0, side), ivec2(corner, corner), ivec2(-corner, corner));
-      float part = 0.0;
-      for (int i = 0; i < 4; ++i)
-      {
-        float one = depthAt(place + steps[i], last);
-        float other = depthAt(place - steps[i], last);
-        if (one < 1.0 && other < 1.0)
-        {
-          float bend = clamp((depth - one) * perRadius, -3.0, 3.0) + clamp((depth - other) * perRadius, -3.0, 3.0);
-          part += clamp(0.5 * bend - least, 0.0, 1.0);
-        }
-      }
-      sum += weights[ring] * part;
-    }
-    color.rgb *= max(minimumLightness, exp(-strength * sum));
-  }
-  gl_FragData[0] = color;
-}
-)";
+/// From the middle of a pixel, in pixels: no two in a row or column.
+constexpr double kSamples[vtkDepthShadingPass::kMostSamples][2] = { { 0.0, 0.0 }, { 0.125, 0.375 },
+  { -0.375, 0.125 }, { -0.125, -0.375 }, { 0.375, -0.125 } };
 
 /// The end of a clipping range, outward to a step: four steps double it.
 double clippingStep(double distance, bool isNear)
@@ -155,6 +43,24 @@ double clippingStep(double distance, bool isNear)
   const double at = kStepsPerDoubling * std::log2(distance);
   const double step = isNear ? std::floor(at + kOnStep) : std::ceil(at - kOnStep);
   return std::exp2(step / kStepsPerDoubling);
+}
+
+/// All of @p frame is drawn, into these; @p depths may be null.
+void drawInto(vtkOpenGLFramebufferObject* frame, vtkTextureObject* colors, vtkTextureObject* depths,
+  vtkOpenGLState* state)
+{
+  const int width = int(colors->GetWidth());
+  const int height = int(colors->GetHeight());
+  frame->Bind();
+  frame->AddColorAttachment(0, colors);
+  if (depths)
+  {
+    frame->AddDepthAttachment(depths);
+  }
+  frame->ActivateDrawBuffer(0);
+  frame->StartNonOrtho(width, height);
+  state->vtkglViewport(0, 0, width, height);
+  state->vtkglDisable(GL_SCISSOR_TEST);
 }
 
 /// Shades depend on depths, and their last bits on the clipping range, which follows all that is in the scene
@@ -175,22 +81,29 @@ vtkStandardNewMacro(vtkDepthShadingPass);
 vtkDepthShadingPass::vtkDepthShadingPass() = default;
 vtkDepthShadingPass::~vtkDepthShadingPass() = default;
 
+vtkDepthShadingPass* vtkDepthShadingPass::GetPassOf(vtkRenderer* renderer)
+{
+  auto* sequence = vtkSequencePass::SafeDownCast(renderer->GetPass());
+  return sequence && sequence->GetPasses()->GetNumberOfItems() > 0
+    ? vtkDepthShadingPass::SafeDownCast(sequence->GetPasses()->GetItemAsObject(0))
+    : nullptr;
+}
+
 void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
 {
   if (!this->Frame)
   {
-    this->Frame = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
-    this->Frame->SetContext(window);
-    this->Colors = vtkSmartPointer<vtkTextureObject>::New();
-    this->Colors->SetContext(window);
-    this->Depths = vtkSmartPointer<vtkTextureObject>::New();
-    this->Depths->SetContext(window);
-    this->FilledFrame = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
-    this->FilledFrame->SetContext(window);
-    this->FilledColors = vtkSmartPointer<vtkTextureObject>::New();
-    this->FilledColors->SetContext(window);
-    this->FilledDepths = vtkSmartPointer<vtkTextureObject>::New();
-    this->FilledDepths->SetContext(window);
+    for (auto* frame : { &this->Frame, &this->FilledFrame, &this->SumFrame })
+    {
+      *frame = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
+      (*frame)->SetContext(window);
+    }
+    for (auto* texture : { &this->Colors, &this->Depths, &this->FilledColors, &this->FilledDepths, &this->Sum,
+           &this->FirstDepths })
+    {
+      *texture = vtkSmartPointer<vtkTextureObject>::New();
+      (*texture)->SetContext(window);
+    }
     this->Kept.clear();
   }
   const auto width = static_cast<unsigned int>(this->W);
@@ -208,6 +121,7 @@ void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
 void vtkDepthShadingPass::Render(const vtkRenderState* state)
 {
   this->NumberOfRenderedProps = 0;
+  const int samplesToAdd = std::exchange(this->SamplesToAdd, 0);
   vtkRenderer* renderer = state->GetRenderer();
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (!this->DelegatePass || !window)
@@ -226,31 +140,33 @@ void vtkDepthShadingPass::Render(const vtkRenderState* state)
   const std::array<double, 5> numbers = { this->NoiseLength, this->NoisePerDistance, this->Strength,
     this->MinimumLightness, this->FillsPinholes ? 1.0 : 0.0 };
   const bool sameShades = numbers == this->KeptNumbers;
-  if (wanted != this->Kept || !sameShades || renderer->GetSelector())
+  const bool isNew = wanted != this->Kept || !sameShades || renderer->GetSelector();
+  if (isNew)
   {
-    window->GetState()->PushFramebufferBindings();
-    this->Frame->Bind();
-    this->RenderDelegate(
-      state, this->Width, this->Height, this->W, this->H, this->Frame, this->Colors, this->Depths);
-    this->FillPinholes(renderer, window);
-    window->GetState()->PopFramebufferBindings();
+    this->NumberOfSamples = 1;
+    this->DrawSample(state, window);
     this->KeptNumbers = numbers;
     this->Kept = renderer->GetSelector() ? std::vector<double>() : std::move(wanted);
     this->KeptIsShaded = false;
     ++this->NumberOfPictures;
-    this->Shade(renderer, window);
-    return;
   }
-  // Text makes its image where it has nothing to draw yet.
-  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  else
   {
-    if (auto* text = vtkActor2D::SafeDownCast(state->GetPropArray()[i]))
+    // Text makes its image where it has nothing to draw yet.
+    for (int i = 0; i < state->GetPropArrayCount(); ++i)
     {
-      text->RenderOpaqueGeometry(renderer);
+      if (auto* text = vtkActor2D::SafeDownCast(state->GetPropArray()[i]))
+      {
+        text->RenderOpaqueGeometry(renderer);
+      }
     }
   }
-  this->Shade(renderer, window);
-  if (!this->KeptIsShaded)
+  if (!renderer->GetSelector())
+  {
+    this->DrawSamples(state, window, samplesToAdd);
+  }
+  this->Show(renderer, window);
+  if (!isNew && this->NumberOfSamples == 1 && !this->KeptIsShaded)
   {
     // The first of a row of equal pictures: from now on it need not be shaded either.
     int width = 0;
@@ -263,13 +179,88 @@ void vtkDepthShadingPass::Render(const vtkRenderState* state)
   }
 }
 
+void vtkDepthShadingPass::DrawSample(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
+{
+  window->GetState()->PushFramebufferBindings();
+  this->Frame->Bind();
+  this->RenderDelegate(
+    state, this->Width, this->Height, this->W, this->H, this->Frame, this->Colors, this->Depths);
+  this->FillPinholes(state->GetRenderer(), window);
+  window->GetState()->PopFramebufferBindings();
+}
+
+/// @p count samples more of the picture that was drawn last.
+void vtkDepthShadingPass::DrawSamples(const vtkRenderState* state, vtkOpenGLRenderWindow* window, int count)
+{
+  const int end = std::min(kMostSamples, this->NumberOfSamples + count);
+  if (this->NumberOfSamples >= end)
+  {
+    return;
+  }
+  vtkCamera* camera = state->GetRenderer()->GetActiveCamera();
+  double center[2];
+  camera->GetWindowCenter(center);
+  if (this->NumberOfSamples == 1)
+  {
+    this->AddToSum(state->GetRenderer(), window);
+    // What is picked by depth is picked where the pixel's middle shows it.
+    std::swap(this->FirstDepths, this->FillsPinholes ? this->FilledDepths : this->Depths);
+    vtkTextureObject* spare = this->FillsPinholes ? this->FilledDepths : this->Depths;
+    if (spare->GetWidth() != unsigned(this->W) || spare->GetHeight() != unsigned(this->H))
+    {
+      spare->AllocateDepth(unsigned(this->W), unsigned(this->H), vtkTextureObject::Float32);
+    }
+  }
+  this->KeptIsShaded = false;
+  while (this->NumberOfSamples < end)
+  {
+    const double* offset = kSamples[this->NumberOfSamples];
+    camera->SetWindowCenter(
+      center[0] + 2.0 * offset[0] / this->Width, center[1] + 2.0 * offset[1] / this->Height);
+    this->DrawSample(state, window);
+    ++this->NumberOfSamples;
+    this->AddToSum(state->GetRenderer(), window);
+  }
+  camera->SetWindowCenter(center[0], center[1]);
+}
+
+/// Shades the sample that was drawn last. The first one begins the sum. Each counts as the bytes it would
+/// have alone, so that the picture does not depend on which frames its samples were drawn in.
+void vtkDepthShadingPass::AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
+  if (this->Sum->GetWidth() != unsigned(this->W) || this->Sum->GetHeight() != unsigned(this->H))
+  {
+    this->Sum->Create2D(unsigned(this->W), unsigned(this->H), 4, VTK_FLOAT, false);
+  }
+  if (!this->PrepareQuad(this->Quad, pointhaptics::kDepthShader, window))
+  {
+    return;
+  }
+  vtkOpenGLState* state = window->GetState();
+  state->PushFramebufferBindings();
+  {
+    vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+    vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+    vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+    vtkOpenGLState::ScopedglBlendFuncSeparate sum(state);
+    drawInto(this->SumFrame, this->Sum, nullptr, state);
+    state->vtkglDisable(GL_DEPTH_TEST);
+    state->SetEnumState(GL_BLEND, this->NumberOfSamples > 1);
+    state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+    const bool isFilled = this->FillsPinholes && !this->KeptIsShaded;
+    this->DrawShaded(renderer, isFilled ? this->FilledColors : this->Colors,
+      this->FillsPinholes ? this->FilledDepths : this->Depths, 1.0, true);
+  }
+  state->PopFramebufferBindings();
+}
+
 /// Makes @p quad draw with @p fragment over the whole of the target that is bound. False: it cannot be built.
 bool vtkDepthShadingPass::PrepareQuad(
   std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragment, vtkOpenGLRenderWindow* window)
 {
   if (!quad)
   {
-    const std::string source = std::string(kCommon) + fragment;
+    const std::string source = std::string(pointhaptics::kDepthCommon) + fragment;
     quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), "");
   }
   else
@@ -312,7 +303,7 @@ void vtkDepthShadingPass::SetUniforms(
 /// From the delegate's picture to that without holes.
 void vtkDepthShadingPass::FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
-  if (!this->FillsPinholes || !this->PrepareQuad(this->FillQuad, kFillShader, window))
+  if (!this->FillsPinholes || !this->PrepareQuad(this->FillQuad, pointhaptics::kPinholeShader, window))
   {
     return;
   }
@@ -320,17 +311,11 @@ void vtkDepthShadingPass::FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWin
   vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
   vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-  this->FilledFrame->Bind();
-  this->FilledFrame->AddColorAttachment(0, this->FilledColors);
-  this->FilledFrame->AddDepthAttachment(this->FilledDepths);
-  this->FilledFrame->ActivateDrawBuffer(0);
-  this->FilledFrame->StartNonOrtho(this->Width, this->Height);
-  state->vtkglViewport(0, 0, this->Width, this->Height);
+  drawInto(this->FilledFrame, this->FilledColors, this->FilledDepths, state);
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglDepthFunc(GL_ALWAYS);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDisable(GL_BLEND);
-  state->vtkglDisable(GL_SCISSOR_TEST);
   this->SetUniforms(this->FillQuad->Program, this->Colors, this->Depths, renderer);
   this->FillQuad->Render();
   this->Depths->Deactivate();
@@ -338,13 +323,29 @@ void vtkDepthShadingPass::FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWin
   state->vtkglDepthFunc(GL_LEQUAL);
 }
 
-void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+/// The shaded picture of @p colors, or the mean of what was shaded before.
+void vtkDepthShadingPass::DrawShaded(
+  vtkRenderer* renderer, vtkTextureObject* colors, vtkTextureObject* depths, double samples, bool isRounded)
 {
-  if (!this->PrepareQuad(this->Quad, kShadeShader, window))
+  vtkShaderProgram* program = this->Quad->Program;
+  this->SetUniforms(program, colors, depths, renderer);
+  program->SetUniformi("isShaded", this->KeptIsShaded || colors == this->Sum ? 1 : 0);
+  program->SetUniformf("samples", static_cast<float>(samples));
+  program->SetUniformi("isRounded", isRounded ? 1 : 0);
+  program->SetUniformf("strength", static_cast<float>(this->Strength));
+  program->SetUniformf("minimumLightness", static_cast<float>(this->MinimumLightness));
+  this->Quad->Render();
+  depths->Deactivate();
+  colors->Deactivate();
+}
+
+/// Into the frame buffer.
+void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
+  if (!this->PrepareQuad(this->Quad, pointhaptics::kDepthShader, window))
   {
     return;
   }
-  vtkShaderProgram* program = this->Quad->Program;
   vtkOpenGLState* state = window->GetState();
   vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
   vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
@@ -360,16 +361,16 @@ void vtkDepthShadingPass::Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* wi
   state->vtkglDepthFunc(GL_ALWAYS);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDisable(GL_BLEND);
-
-  vtkTextureObject* colors = this->FillsPinholes && !this->KeptIsShaded ? this->FilledColors : this->Colors;
-  vtkTextureObject* depths = this->FillsPinholes ? this->FilledDepths : this->Depths;
-  this->SetUniforms(program, colors, depths, renderer);
-  program->SetUniformi("isShaded", this->KeptIsShaded ? 1 : 0);
-  program->SetUniformf("strength", static_cast<float>(this->Strength));
-  program->SetUniformf("minimumLightness", static_cast<float>(this->MinimumLightness));
-  this->Quad->Render();
-  depths->Deactivate();
-  colors->Deactivate();
+  if (this->NumberOfSamples > 1)
+  {
+    this->DrawShaded(renderer, this->Sum, this->FirstDepths, this->NumberOfSamples, false);
+  }
+  else
+  {
+    const bool isFilled = this->FillsPinholes && !this->KeptIsShaded;
+    this->DrawShaded(renderer, isFilled ? this->FilledColors : this->Colors,
+      this->FillsPinholes ? this->FilledDepths : this->Depths, 1.0, false);
+  }
   state->vtkglDepthFunc(GL_LEQUAL);
 }
 
@@ -380,18 +381,17 @@ void vtkDepthShadingPass::ReleaseGraphicsResources(vtkWindow* window)
   this->FillQuad.reset();
   if (this->Frame)
   {
-    this->Frame->ReleaseGraphicsResources(window);
-    this->Colors->ReleaseGraphicsResources(window);
-    this->Depths->ReleaseGraphicsResources(window);
-    this->FilledFrame->ReleaseGraphicsResources(window);
-    this->FilledColors->ReleaseGraphicsResources(window);
-    this->FilledDepths->ReleaseGraphicsResources(window);
-    this->FilledFrame = nullptr;
-    this->FilledColors = nullptr;
-    this->FilledDepths = nullptr;
-    this->Frame = nullptr;
-    this->Colors = nullptr;
-    this->Depths = nullptr;
+    for (auto* frame : { &this->Frame, &this->FilledFrame, &this->SumFrame })
+    {
+      (*frame)->ReleaseGraphicsResources(window);
+      *frame = nullptr;
+    }
+    for (auto* texture : { &this->Colors, &this->Depths, &this->FilledColors, &this->FilledDepths, &this->Sum,
+           &this->FirstDepths })
+    {
+      (*texture)->ReleaseGraphicsResources(window);
+      *texture = nullptr;
+    }
   }
   this->Kept.clear();
 }
@@ -404,5 +404,6 @@ void vtkDepthShadingPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Strength: " << this->Strength << "\n";
   os << indent << "FillsPinholes: " << this->FillsPinholes << "\n";
   os << indent << "MinimumLightness: " << this->MinimumLightness << "\n";
+  os << indent << "NumberOfSamples: " << this->NumberOfSamples << "\n";
   os << indent << "NumberOfPictures: " << this->NumberOfPictures << "\n";
 }

@@ -11,12 +11,15 @@
  * - what lies deeper by no more than the noise of the cloud stays as light as the rest;
  * - it is two steps at full resolution, which cost a software renderer a sixth as much.
  *
- * The camera's clipping range is widened to powers of the fourth root of 2: where it is reset, or another prop
- * comes into the scene, the picture of an equal view stays the same to the bit.
+ * The camera's clipping range is widened to powers of the fourth root of 2: where it is reset, or another
+ * prop comes into the scene, the picture of an equal view stays the same to the bit.
  *
  * Sizes in pixels are those of a window of 800 lines and grow with it.
  *
  * A picture in which only text changed (vtkActor2D) is not drawn anew: the delegate's last one is taken.
+ *
+ * A picture is first drawn with one sample a pixel. Each that AddSamples() asks for is drawn elsewhere within
+ * the pixels and averaged with those before: edges get smooth where there is time, in frames of equal length.
  *
  * The depth of the delegate's picture becomes that of the frame buffer: what is picked by depth still is.
  *
@@ -89,8 +92,23 @@ public:
   vtkGetMacro(MinimumLightness, double);
   ///@}
 
+  /// That of @p renderer, made by applyDepthShading(); null: it has none.
+  static vtkDepthShadingPass* GetPassOf(vtkRenderer* renderer);
+
+  /// Samples of a pixel that tell: the first in its middle, the others about it.
+  static constexpr int kMostSamples = 5;
   /**
-   * How often the delegate has drawn.
+   * The next frame draws up to @p count samples more of its picture, until it has kMostSamples. A picture
+   * that is not the kept one begins anew, with one sample more.
+   */
+  void AddSamples(int count) { this->SamplesToAdd = count; }
+  /**
+   * Those of the picture that was shown last; 0: none was.
+   */
+  vtkGetMacro(NumberOfSamples, int);
+
+  /**
+   * How often the delegate has drawn another picture.
    */
   vtkGetMacro(NumberOfPictures, vtkTypeUInt64);
 
@@ -110,8 +128,13 @@ private:
     std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragment, vtkOpenGLRenderWindow* window);
   void SetUniforms(
     vtkShaderProgram* program, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer);
+  void DrawSample(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
+  void DrawSamples(const vtkRenderState* state, vtkOpenGLRenderWindow* window, int count);
+  void AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void Shade(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
+  void Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
+  void DrawShaded(vtkRenderer* renderer, vtkTextureObject* colors, vtkTextureObject* depths, double samples,
+    bool isRounded);
 
   double NoiseLength = 0.0;
   double NoisePerDistance = 0.0;
@@ -124,10 +147,16 @@ private:
   vtkSmartPointer<vtkOpenGLFramebufferObject> FilledFrame;
   vtkSmartPointer<vtkTextureObject> FilledColors;
   vtkSmartPointer<vtkTextureObject> FilledDepths;
+  // Of pictures with several samples: the sum of the shaded ones, and the depths of the first.
+  vtkSmartPointer<vtkOpenGLFramebufferObject> SumFrame;
+  vtkSmartPointer<vtkTextureObject> Sum;
+  vtkSmartPointer<vtkTextureObject> FirstDepths;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
   std::unique_ptr<vtkOpenGLQuadHelper> FillQuad;
   std::vector<double> Kept; // what the textures show, see pictureState()
   bool KeptIsShaded = false;
   std::array<double, 5> KeptNumbers{}; // all settings they were made with
+  int SamplesToAdd = 0;
+  int NumberOfSamples = 0;
   vtkTypeUInt64 NumberOfPictures = 0;
 };

@@ -189,6 +189,7 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
   scene.placeAxes(scene.modelMatrix());
   scene.placeCamera(shown ? &shown->state : nullptr);
   scene.setCamera(options.camera);
+  scene.completeNextFrame();
   window->Render();
   const bool isWritten = writePicture(window, fileName, message);
   window->RemoveRenderer(scene.renderer());

@@ -7,8 +7,10 @@
 #include "CloudAppearance.h"
 #include "HapticSceneBuilder.h"
 #include "PolyDataAccess.h"
+#include "SteadyTime.h"
 #include "SurfaceArrays.h"
 #include "vtkCloudAxes.h"
+#include "vtkDepthShadingPass.h"
 #include "vtkHapticProps.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -33,7 +35,6 @@
 #include <vtkVariant.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -94,8 +95,26 @@ void ViewScene::beginFrame()
   {
     placeScalarBar(scalarBar_, renderer_);
   }
-  this->detail().beginFrame(
-    std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());
+  this->detail().beginFrame(steadySeconds());
+}
+
+bool ViewScene::refinementDue()
+{
+  const double now = steadySeconds();
+  vtkDepthShadingPass* shading = vtkDepthShadingPass::GetPassOf(renderer_);
+  if (this->detail().isComplete(now) && shading->GetNumberOfSamples() < vtkDepthShadingPass::kMostSamples)
+  {
+    // One a frame: whatever comes meanwhile waits for no more than that.
+    shading->AddSamples(1);
+    return true;
+  }
+  return this->detail().refinementDue(now);
+}
+
+void ViewScene::completeNextFrame()
+{
+  this->detail().showAllOnce();
+  vtkDepthShadingPass::GetPassOf(renderer_)->AddSamples(vtkDepthShadingPass::kMostSamples);
 }
 
 vtkIdType ViewScene::numberOfPoints() const

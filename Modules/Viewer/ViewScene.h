@@ -139,6 +139,10 @@ public:
   /// Off until it is enabled: then the picture must be refined when it rests.
   LevelOfDetail& detail() { return drawsFelt_ ? feltDetail_ : detail_; }
   const LevelOfDetail& detail() const { return drawsFelt_ ? feltDetail_ : detail_; }
+  /// The picture rests and can become finer: render it.
+  bool refinementDue();
+  /// The next frame is as fine as a picture gets, whatever moves: for pictures that are kept.
+  void completeNextFrame();
   const Bounds& workspace() const { return workspace_; }
   void getWorkspaceBounds(double bounds[6]) const;
   /// Edges of a voxel, metres; 0 before open().

@@ -95,6 +95,11 @@ bool LevelOfDetail::refinementDue(double now) const
   return enabled_ && total_ > 0 && !this->showsAll() && now - lastMotion_ >= kRestSeconds;
 }
 
+bool LevelOfDetail::isComplete(double now) const
+{
+  return enabled_ && total_ > 0 && this->showsAll() && now - lastMotion_ >= kRestSeconds;
+}
+
 void LevelOfDetail::watchWindow()
 {
   vtkRenderWindow* window = renderer_->GetRenderWindow();
@@ -187,7 +192,8 @@ void LevelOfDetail::beginFrame(double now)
   finest_ = this->finestFor(cloud);
   const std::int64_t before = cloudChanged_ ? -1 : drawn_;
   this->show(cloud, this->wanted(now));
-  frameIsTypical_ = drawn_ == before;
+  // At rest a frame may take the picture of the one before, or draw it several times.
+  frameIsTypical_ = moving_ && drawn_ == before;
   frameBegin_ = steadySeconds();
 }
 

@@ -62,6 +62,8 @@ public:
 
   /// The picture rests and does not show all points: render it.
   bool refinementDue(double now) const;
+  /// The picture rests and shows all points.
+  bool isComplete(double now) const;
   /// The next frame shows all points, whatever moves: for pictures that are kept.
   void showAllOnce() { allOnce_ = true; }
 

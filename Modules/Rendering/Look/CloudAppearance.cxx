@@ -167,15 +167,6 @@ void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
   mapper->ScalarVisibilityOn();
 }
 
-/// What applyDepthShading() made; null: nothing yet.
-vtkDepthShadingPass* depthShadingOf(vtkRenderer* renderer)
-{
-  auto* sequence = vtkSequencePass::SafeDownCast(renderer->GetPass());
-  return sequence && sequence->GetPasses()->GetNumberOfItems() > 0
-    ? vtkDepthShadingPass::SafeDownCast(sequence->GetPasses()->GetItemAsObject(0))
-    : nullptr;
-}
-
 } // namespace
 
 Vec3 groundColor(double position)
@@ -503,7 +494,7 @@ void applyFigureAppearance(vtkPolyDataMapper* mapper, vtkActor* actor, vtkRender
 
 void applyDepthShading(vtkRenderer* renderer, double noise, double noisePerDistance)
 {
-  if (vtkDepthShadingPass* present = depthShadingOf(renderer))
+  if (vtkDepthShadingPass* present = vtkDepthShadingPass::GetPassOf(renderer))
   {
     present->SetNoiseLength(noise);
     present->SetNoisePerDistance(noisePerDistance);
@@ -536,7 +527,7 @@ void applyDepthShading(vtkRenderer* renderer, double noise, double noisePerDista
 
 void setDepthStrength(vtkRenderer* renderer, double strength)
 {
-  if (vtkDepthShadingPass* shading = depthShadingOf(renderer))
+  if (vtkDepthShadingPass* shading = vtkDepthShadingPass::GetPassOf(renderer))
   {
     shading->SetStrength(strength);
   }

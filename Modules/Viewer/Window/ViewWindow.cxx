@@ -370,9 +370,7 @@ void ViewWindow::onSamples(void* callData)
 /// to end, and whether a picture that rests is to become finer.
 void ViewWindow::onTimer()
 {
-  if (scene_.followMeasurement(false) ||
-    scene_.detail().refinementDue(
-      std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count()))
+  if (scene_.followMeasurement(false) || scene_.refinementDue())
   {
     interactor_->Render();
   }

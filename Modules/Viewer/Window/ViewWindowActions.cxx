@@ -534,7 +534,7 @@ void ViewWindow::showFigure(bool figure)
 bool ViewWindow::writeImage(const std::string& fileName, std::string& message)
 {
   scene_.followMeasurement(true);
-  scene_.detail().showAllOnce();
+  scene_.completeNextFrame();
   window_->Render();
   return writePicture(window_, fileName, message);
 }

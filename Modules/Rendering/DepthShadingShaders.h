@@ -1,0 +1,132 @@
+/// @file
+/// The fragment shaders of vtkDepthShadingPass, which alone includes this.
+#pragma once
+
+namespace pointhaptics
+{
+
+/// Comes before each of the others.
+constexpr const char* kDepthCommon = R"(//VTK::System::Dec
+//VTK::Output::Dec
+in vec2 texCoord;
+uniform sampler2D colors;
+uniform sampler2D depths;
+uniform vec2 clipping;
+uniform int isParallel;
+uniform float pixelSize; // at distance 1
+uniform float pixelScale;
+uniform vec2 noise; // in the scene, and over the distance
+
+float distanceAt(float depth)
+{
+  return isParallel != 0 ? mix(clipping.x, clipping.y, depth)
+                         : clipping.x * clipping.y / (clipping.y - depth * (clipping.y - clipping.x));
+}
+float pixelAt(float here)
+{
+  return isParallel != 0 ? pixelSize : pixelSize * here;
+}
+float depthAt(ivec2 place, ivec2 last)
+{
+  return texelFetch(depths, clamp(place, ivec2(0), last), 0).r;
+}
+)";
+
+/// A pixel that lies behind nearly all around it is a hole between splats.
+constexpr const char* kPinholeShader = R"(
+const int enough = 6;
+void main()
+{
+  ivec2 last = textureSize(depths, 0) - ivec2(1);
+  ivec2 place = ivec2(texCoord * vec2(last + ivec2(1)));
+  float depth = texelFetch(depths, place, 0).r;
+  float here = depth < 1.0 ? distanceAt(depth) : 3.4e38;
+  int side = int(1.5 * pixelScale + 0.5);
+  int corner = int(1.06 * pixelScale + 0.5);
+  ivec2 steps[8] = ivec2[8](ivec2(side, 0), ivec2(-side, 0), ivec2(0, side), ivec2(0, -side),
+    ivec2(corner, corner), ivec2(-corner, corner), ivec2(corner, -corner), ivec2(-corner, -corner));
+  int before = 0;
+  float farthest = -1.0;
+  ivec2 source = place;
+  for (int i = 0; i < 8; ++i)
+  {
+    float other = depthAt(place + steps[i], last);
+    if (other < depth)
+    {
+      float there = distanceAt(other);
+      float pixel = pixelAt(there);
+      if (here - there > max(3.0 * pixelScale * pixel, noise.x + noise.y * there))
+      {
+        ++before;
+        if (other > farthest)
+        {
+          farthest = other;
+          source = place + steps[i];
+        }
+      }
+    }
+    if (before + 7 - i < enough)
+    {
+      break;
+    }
+  }
+  bool fills = before >= enough;
+  gl_FragDepth = fills ? farthest : depth;
+  gl_FragData[0] = texelFetch(colors, fills ? clamp(source, ivec2(0), last) : place, 0);
+}
+)";
+
+/// Depths along a line over a plane are even: only what bends towards the viewer on both sides is dark.
+constexpr const char* kDepthShader = R"(
+uniform float strength;
+uniform float minimumLightness;
+uniform int isShaded;
+uniform float samples; // that the colours are the sum of
+uniform int isRounded; // to what a picture can hold
+
+void main()
+{
+  ivec2 last = textureSize(depths, 0) - ivec2(1);
+  ivec2 place = ivec2(texCoord * vec2(last + ivec2(1)));
+  float depth = texelFetch(depths, place, 0).r;
+  vec4 color = texelFetch(colors, place, 0);
+  gl_FragDepth = depth;
+  if (depth < 1.0 && isShaded == 0)
+  {
+    float here = distanceAt(depth);
+    float slope = isParallel != 0 ? clipping.y - clipping.x
+                                  : here * here * (clipping.y - clipping.x) / (clipping.x * clipping.y);
+    float pixel = pixelAt(here) * pixelScale;
+    float rough = (noise.x + noise.y * here) / pixel;
+    float radii[3] = float[3](2.0, 5.0, 12.0);
+    float weights[3] = float[3](0.075, 0.0875, 0.0875);
+    float sum = 0.0;
+    for (int ring = 0; ring < 3; ++ring)
+    {
+      float radius = radii[ring];
+      float perRadius = slope / (pixel * radius);
+      float least = 0.15 + rough / radius;
+      int side = int(radius * pixelScale + 0.5);
+      int corner = int(0.7071 * radius * pixelScale + 0.5);
+      ivec2 steps[4] = ivec2[4](ivec2(side, 0), ivec2(0, side), ivec2(corner, corner), ivec2(-corner, corner));
+      float part = 0.0;
+      for (int i = 0; i < 4; ++i)
+      {
+        float one = depthAt(place + steps[i], last);
+        float other = depthAt(place - steps[i], last);
+        if (one < 1.0 && other < 1.0)
+        {
+          float bend = clamp((depth - one) * perRadius, -3.0, 3.0) + clamp((depth - other) * perRadius, -3.0, 3.0);
+          part += clamp(0.5 * bend - least, 0.0, 1.0);
+        }
+      }
+      sum += weights[ring] * part;
+    }
+    color.rgb *= max(minimumLightness, exp(-strength * sum));
+  }
+  color /= samples;
+  gl_FragData[0] = isRounded != 0 ? floor(255.0 * color + 0.5) / 255.0 : color;
+}
+)";
+
+} // namespace pointhaptics
