@@ -7,6 +7,7 @@
 #include "PolyDataAccess.h"
 #include "ShownCloud.h"
 #include "SurfaceArrays.h"
+#include "vtkDepthShadingPass.h"
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkSplatMapper.h"
 #include "vtkVoxelMeanResampler.h"
@@ -16,7 +17,9 @@
 #include "Shapes/Shapes.h"
 
 #include <vtkActor.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
@@ -212,6 +215,23 @@ void buildFirstGlance(const std::string& fault, vtkRenderer* renderer)
   renderer->GetActiveCamera()->SetFocalPoint(&fit.focalPoint.x);
   renderer->GetActiveCamera()->SetViewUp(&fit.up.x);
   renderer->GetActiveCamera()->SetViewAngle(fit.viewAngle);
+}
+
+void buildSmoothGlance(const std::string& fault, vtkRenderer* renderer)
+{
+  buildFirstGlance("", renderer);
+  if (fault != "one-sample")
+  {
+    // In every frame: the first one makes a light, and the next is another picture.
+    vtkNew<vtkCallbackCommand> completing;
+    completing->SetCallback(
+      [](vtkObject* caller, unsigned long, void*, void*)
+      {
+        vtkDepthShadingPass::GetPassOf(vtkRenderer::SafeDownCast(caller))
+          ->AddSamples(vtkDepthShadingPass::kMostSamples);
+      });
+    renderer->AddObserver(vtkCommand::StartEvent, completing);
+  }
 }
 
 void buildCoarseAmbientLight(const std::string& fault, vtkRenderer* renderer)
