@@ -5,6 +5,7 @@
 #include "vtkProperty2D.h"
 #include "vtkRenderer.h"
 #include "vtkTextProperty.h"
+#include "vtkWindow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,8 @@ namespace
 /// Estimates for the font, parts of its size.
 constexpr double kLetterWidth = 0.62;
 constexpr double kLetterHeight = 1.25;
+/// At which a point is a pixel.
+constexpr double kPointsPerInch = 72.0;
 }
 
 ScreenProjection::ScreenProjection(vtkRenderer* renderer)
@@ -114,6 +117,7 @@ void ScreenTexts::clear(vtkRenderer* renderer, int fontSize)
   taken_.clear();
   used_ = 0;
   fontSize_ = fontSize;
+  pixels_ = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
   width_ = renderer->GetSize()[0];
   height_ = renderer->GetSize()[1];
 }
@@ -128,14 +132,14 @@ void ScreenTexts::finish()
 
 double ScreenTexts::widthOf(const std::string& words) const
 {
-  return kLetterWidth * fontSize_ * double(words.size());
+  return kLetterWidth * fontSize_ * pixels_ * double(words.size());
 }
 
 bool ScreenTexts::put(
   const std::string& words, double x, double y, double outX, double outY, const unsigned char color[3])
 {
   const double width = widthOf(words);
-  const double height = kLetterHeight * fontSize_;
+  const double height = kLetterHeight * fontSize_ * pixels_;
   const int across = outX < -0.4 ? -1 : (outX > 0.4 ? 1 : 0);
   const int upward = outY < -0.4 ? -1 : (outY > 0.4 ? 1 : 0);
   const double left = x + 0.5 * (across - 1) * width;

@@ -83,6 +83,8 @@ public:
     const std::string& words, double x, double y, double outX, double outY, const unsigned char color[3]);
   /// After the last put().
   void finish();
+  /// Of a point, as the window's dots per inch say.
+  double pixelsPerPoint() const { return pixels_; }
   /// An estimate, pixels.
   double widthOf(const std::string& words) const;
 
@@ -98,6 +100,7 @@ private:
   std::array<vtkNew<vtkTextActor>, kMost> texts_;
   int used_ = 0;
   int fontSize_ = 13;
+  double pixels_ = 1.0;
   double width_ = 0.0;
   double height_ = 0.0;
   std::vector<Rectangle> taken_;

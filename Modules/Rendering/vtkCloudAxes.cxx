@@ -234,15 +234,18 @@ void vtkCloudAxes::Internals::drawMarker()
   }
   std::sort(order.begin(), order.end(),
     [&](int a, int b) { return dot(axes[std::size_t(a)], forward) > dot(axes[std::size_t(b)], forward); });
-  const double x = this->renderer->GetSize()[0] - kCorner;
-  const double y = kCorner;
+  const double pixels = this->texts.pixelsPerPoint();
+  const double x = this->renderer->GetSize()[0] - pixels * kCorner;
+  const double y = pixels * kCorner;
   for (int axis : order)
   {
     const double toX = dot(axes[std::size_t(axis)], right);
     const double toY = dot(axes[std::size_t(axis)], up);
-    this->marker.add(x, y, x + kArm * toX, y + kArm * toY, kAxisColors[axis]);
-    this->texts.put(std::string(1, "xyz"[axis]), x + (kArm + 9.0) * toX, y + (kArm + 9.0) * toY, 0.0, 0.0,
-      kAxisColors[axis]);
+    const double arm = pixels * kArm;
+    const double letter = pixels * (kArm + 9.0);
+    this->marker.add(x, y, x + arm * toX, y + arm * toY, kAxisColors[axis]);
+    this->texts.put(
+      std::string(1, "xyz"[axis]), x + letter * toX, y + letter * toY, 0.0, 0.0, kAxisColors[axis]);
   }
 }
 

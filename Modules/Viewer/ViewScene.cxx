@@ -7,6 +7,7 @@
 #include "CloudAppearance.h"
 #include "HapticSceneBuilder.h"
 #include "PolyDataAccess.h"
+#include "ScreenScale.h"
 #include "SteadyTime.h"
 #include "SurfaceArrays.h"
 #include "vtkCloudAxes.h"
@@ -91,7 +92,8 @@ ViewScene::~ViewScene()
 /// Before every render: how many points it shows, and room for the scalar bar.
 void ViewScene::beginFrame()
 {
-  if (scalarBar_->GetVisibility())
+  applyTextScale(renderer_->GetRenderWindow(), picture_.fontScale);
+  if (scalarBar_->GetVisibility() && !layoutPlacesBar_)
   {
     placeScalarBar(scalarBar_, renderer_);
   }
@@ -421,7 +423,8 @@ void ViewScene::applyLook()
   }
   const std::string name = source ? describeColorSource(drawn, *source) : std::string();
   scalarBar_->SetTitle((name + (this->wantsResiduals() ? " (" + unit_.name + ")\n" : "\n")).c_str());
-  scalarBar_->SetVisibility(!figure_ && source.has_value());
+  wantsScalarBar_ = !figure_ && source.has_value();
+  scalarBar_->SetVisibility(wantsScalarBar_ && barHasRoom_);
   const Vec3 ink = inkOn(picture_.background);
   for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty(),
          scalarBar_->GetAnnotationTextProperty() })

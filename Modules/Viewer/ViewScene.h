@@ -14,6 +14,7 @@
 #include "IO/Info/LengthUnit.h"
 #include "LevelOfDetail.h"
 #include "PointHapticsViewerModule.h" // For export macro
+#include "ScreenLayout.h"
 #include "vtkSplatMapper.h"
 #include "vtkWorkspaceBrackets.h"
 
@@ -77,6 +78,12 @@ public:
   /// Draws this and later clouds as @p picture says.
   void setPicture(const PictureSettings& picture);
   const PictureSettings& picture() const { return picture_; }
+
+  /// The scalar bar for a layout, which then places it; without one it stands at the right edge.
+  ScreenBlock takeScalarBar();
+  void releaseScalarBar();
+  /// Pixels, at 72 dots per inch, of the lower right corner that the directions of the axes take.
+  double takenCorner() const;
 
   /// Box, bounds and directions of the cloud's own frame. They stay where the model was until placeAxes().
   void showAxes(bool visible);
@@ -199,6 +206,9 @@ private:
   double loadedScale_ = 1.0; ///< Of the model as it was opened.
   vtkNew<vtkWorkspaceBrackets> brackets_;
   vtkNew<vtkScalarBarActor> scalarBar_;
+  bool wantsScalarBar_ = false;
+  bool layoutPlacesBar_ = false;
+  bool barHasRoom_ = true;
   vtkNew<vtkHapticProps> props_;
   vtkNew<vtkCloudAxes> axes_;
   bool wantsAxes_ = false;

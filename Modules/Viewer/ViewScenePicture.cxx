@@ -9,7 +9,9 @@
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPolyData.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +29,8 @@ constexpr double kFeltScale = 3.6;
 constexpr double kFeltLargest = 64.0;
 /// From straight above the camera's own up says which way it is turned.
 constexpr double kSteepest = 0.999;
+/// At which a point is a pixel.
+constexpr double kPointsPerInch = 72.0;
 
 double halfTangent(vtkCamera* camera)
 {
@@ -102,6 +106,45 @@ void ViewScene::applyPointSizes()
     mapper->SetPointPixels(kPointPixels * scale);
     mapper->SetFixedPixels(fixedPixels_ * scale);
   }
+}
+
+ScreenBlock ViewScene::takeScalarBar()
+{
+  layoutPlacesBar_ = true;
+  ScreenBlock block;
+  block.measure = [this](double font, double& width, double& height)
+  {
+    double size[2];
+    measureScalarBar(scalarBar_, font, renderer_->GetRenderWindow()->GetDPI() / kPointsPerInch, size);
+    width = size[0];
+    height = size[1];
+    return wantsScalarBar_;
+  };
+  block.place = [this](const ScreenRectangle& box, double font)
+  {
+    barHasRoom_ = !box.empty();
+    scalarBar_->SetVisibility(wantsScalarBar_ && barHasRoom_);
+    const double edges[4] = { box.left, box.bottom, box.right, box.top };
+    if (barHasRoom_)
+    {
+      placeScalarBar(
+        scalarBar_, renderer_, font, renderer_->GetRenderWindow()->GetDPI() / kPointsPerInch, edges);
+    }
+  };
+  return block;
+}
+
+void ViewScene::releaseScalarBar()
+{
+  layoutPlacesBar_ = false;
+  barHasRoom_ = true;
+  scalarBar_->SetVisibility(wantsScalarBar_);
+}
+
+double ViewScene::takenCorner() const
+{
+  constexpr double kMarker = 112.0;
+  return const_cast<vtkCloudAxes*>(axes_.Get())->GetVisibility() ? kMarker : 0.0;
 }
 
 CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const

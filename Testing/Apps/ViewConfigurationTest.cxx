@@ -62,7 +62,7 @@ const std::map<std::string, std::string>& valuesOfOptions()
     { "--point-size", "4" }, { "--resolution", "0.5" }, { "--bind", "help=F1 F2,rotate-x=Ctrl+x" },
     { "--camera", "0,0,1,0,0,0,0,1,0" }, { "--push-pointer", "" }, { "--axes", "" }, { "--figure", "" },
     { "--ambient", "" }, { "--felt", "" }, { "--full-screen", "" }, { "--projection", "parallel" },
-    { "--background", "white" }, { "--point-scale", "2" }, { "--edl-strength", "0.5" },
+    { "--background", "white" }, { "--point-scale", "2" }, { "--edl-strength", "0.5" }, { "--font-scale", "1.5" },
     { "--kind", "terrain" }, { "--ideal", "torus" }, { "--method", "gradient-steps" },
     { "--preset", "paper" }, { "--stiffness", "500" }, { "--damping", "1.5" }, { "--mu-s", "0.5" },
     { "--mu-d", "0.25" }, { "--no-covariance", "" }, { "--neighbors", "20" }, { "--radius", "0.002" },

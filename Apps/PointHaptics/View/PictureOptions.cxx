@@ -19,6 +19,9 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture)
   addWord(command, "--background", picture.background, groundNames(), "")->group(group);
   addNumber(command, "--point-scale", picture.pointScale, { 0.1, 10.0 }, "FACTOR", "")->group(group);
   addNumber(command, "--edl-strength", picture.depthStrength, { 0.0, 10.0 }, "STRENGTH", "")->group(group);
+  addNumber(command, "--font-scale", picture.fontScale, { 0.5, 4.0 }, "FACTOR",
+    "Size of all texts over the usual one, which follows the screen's dots per inch; default 1")
+    ->group(group);
 }
 
 void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture)
@@ -27,6 +30,7 @@ void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture
   settings["background"] = picture.background;
   settings["point-scale"] = picture.pointScale;
   settings["edl-strength"] = picture.depthStrength;
+  settings["font-scale"] = picture.fontScale;
 }
 
 } // namespace app

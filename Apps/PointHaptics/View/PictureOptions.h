@@ -1,5 +1,6 @@
 /// @file
-/// --projection --background --point-scale --edl-strength: how the viewer draws, whatever the cloud is.
+/// --projection --background --point-scale --edl-strength --font-scale: how the viewer draws, whatever the
+/// cloud is.
 #pragma once
 
 #include "PictureSettings.h"

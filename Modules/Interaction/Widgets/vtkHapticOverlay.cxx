@@ -7,6 +7,7 @@
 #include "vtkRenderer.h"
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
+#include "vtkWindow.h"
 
 #include <algorithm>
 #include <sstream>
@@ -62,6 +63,51 @@ void placeCorner(vtkTextActor* actor, bool right, bool top)
   actor->VisibilityOff();
 }
 
+std::vector<std::string> linesOf(const std::string& text)
+{
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+  {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// Lines of at most @p longest bytes, broken at blanks, or within a word that is longer itself.
+std::vector<std::string> wrapped(const std::vector<std::string>& lines, std::size_t longest)
+{
+  std::vector<std::string> result;
+  for (std::string rest : lines)
+  {
+    while (rest.size() > longest)
+    {
+      std::size_t end = rest.rfind(' ', longest);
+      const bool atBlank = end != std::string::npos && end > longest / 3;
+      end = atBlank ? end : longest;
+      while (!atBlank && end > 1 && (static_cast<unsigned char>(rest[end]) & 0xC0U) == 0x80U)
+      {
+        --end; // not within a character of UTF-8
+      }
+      result.push_back(rest.substr(0, end));
+      rest = "  " + rest.substr(end + (atBlank ? 1 : 0));
+    }
+    result.push_back(rest);
+  }
+  return result;
+}
+
+std::string firstOf(const std::vector<std::string>& lines, std::size_t most)
+{
+  std::string text;
+  for (std::size_t i = 0; i < std::min(lines.size(), most); ++i)
+  {
+    const bool isCut = i + 1 == most && lines.size() > most;
+    text += (i ? "\n" : "") + (isCut ? std::string("...") : lines[i]);
+  }
+  return text;
+}
+
 /// Empty hides it, and so does @p visible false. True: it is another text than before.
 bool show(vtkTextActor* actor, std::string& shown, const std::string& text, bool visible)
 {
@@ -106,12 +152,14 @@ vtkHapticOverlay::~vtkHapticOverlay()
 void vtkHapticOverlay::FitHelp()
 {
   const int* size = this->Renderer->GetSize();
-  const bool fits = size[0] == this->FittedTo[0] && size[1] == this->FittedTo[1];
+  const int dots = this->Renderer->GetVTKWindow() ? this->Renderer->GetVTKWindow()->GetDPI() : 0;
+  const bool fits = size[0] == this->FittedTo[0] && size[1] == this->FittedTo[1] && dots == this->FittedTo[2];
   if (fits || !this->GetHelpVisibility() || size[0] < 1 || size[1] < 1)
   {
     return;
   }
   std::copy(size, size + 2, this->FittedTo);
+  this->FittedTo[2] = dots;
   double needed[2] = { 0.0, 0.0 };
   for (int font = kLargestHelp; font >= kSmallestHelp; --font)
   {
@@ -122,6 +170,70 @@ void vtkHapticOverlay::FitHelp()
       return;
     }
   }
+}
+
+vtkTextActor* vtkHapticOverlay::ActorOf(int block) const
+{
+  const vtkNew<vtkTextActor>* actors[NumberOfBlocks] = { &this->Status, &this->Panel, &this->Detail,
+    &this->Help };
+  return const_cast<vtkTextActor*>(actors[block]->Get());
+}
+
+const std::string& vtkHapticOverlay::TextOf(int block) const
+{
+  const std::string* texts[NumberOfBlocks] = { &this->StatusText, &this->PanelText, &this->DetailText,
+    &this->HelpText };
+  return *texts[block];
+}
+
+bool vtkHapticOverlay::IsBlockShown(int block) const
+{
+  return block == HelpBlock ? this->GetHelpVisibility()
+                            : this->TextVisibility && !this->TextOf(block).empty();
+}
+
+void vtkHapticOverlay::MeasureBlock(int block, int font, double width, int lines, double size[2])
+{
+  constexpr std::size_t kShortest = 8;
+  vtkTextActor* actor = this->ActorOf(block);
+  if (block == HelpBlock)
+  {
+    this->FitHelp();
+    actor->GetSize(this->Renderer, size);
+    return;
+  }
+  actor->GetTextProperty()->SetFontSize(font);
+  const std::vector<std::string> all = linesOf(this->TextOf(block));
+  std::size_t longest = kShortest;
+  for (const std::string& line : all)
+  {
+    longest = std::max(longest, line.size());
+  }
+  const std::size_t most = std::size_t(std::max(1, lines));
+  actor->SetInput(firstOf(all, most).c_str());
+  actor->GetSize(this->Renderer, size);
+  // Letters differ in width: a little shorter until it fits.
+  while (size[0] > width && longest > kShortest)
+  {
+    longest = std::max(kShortest, std::min(longest - 1, std::size_t(double(longest) * width / size[0])));
+    actor->SetInput(firstOf(wrapped(all, longest), most).c_str());
+    actor->GetSize(this->Renderer, size);
+  }
+}
+
+void vtkHapticOverlay::PlaceBlock(int block, double left, double bottom)
+{
+  vtkTextActor* actor = this->ActorOf(block);
+  double box[4];
+  actor->GetBoundingBox(this->Renderer, box);
+  actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
+  actor->SetPosition(left - box[0], bottom - box[2]);
+  actor->VisibilityOn();
+}
+
+void vtkHapticOverlay::HideBlock(int block)
+{
+  this->ActorOf(block)->VisibilityOff();
 }
 
 bool vtkHapticOverlay::SetStatus(const std::string& text)

@@ -3,8 +3,9 @@
  * @brief   words over the picture: status, panel and detail in three corners, the list of keys on request
  *
  * Text on a translucent plate, so that it reads on every cloud. The list of keys takes a smaller font where
- * the renderer is too small for it, down to 7 pixels. GUI thread only.
- * @sa vtkInteractorStyleHaptic
+ * the renderer is too small for it, down to 7 pixels. pointhaptics::ScreenLayout keeps the rest from lying
+ * over each other; without one they stand in their corners. GUI thread only.
+ * @sa vtkInteractorStyleHaptic pointhaptics::ScreenLayout
  */
 #ifndef vtkHapticOverlay_h
 #define vtkHapticOverlay_h
@@ -70,6 +71,27 @@ public:
   bool GetTextVisibility() const { return this->TextVisibility; }
   ///@}
 
+  enum Block
+  {
+    StatusBlock,
+    PanelBlock,
+    DetailBlock,
+    HelpBlock,
+    NumberOfBlocks
+  };
+
+  ///@{
+  /**
+   * For a layout. Whether a block is shown; MeasureBlock() breaks its lines where they are wider than @p
+   * width pixels with a font of @p font points, leaves out all but the first @p lines, and says how large it
+   * is; PlaceBlock() puts its box's corner at (@p left, @p bottom), or hides it until it is placed again.
+   */
+  bool IsBlockShown(int block) const;
+  void MeasureBlock(int block, int font, double width, int lines, double size[2]);
+  void PlaceBlock(int block, double left, double bottom);
+  void HideBlock(int block);
+  ///@}
+
   ///@{
   /**
    * Add all to @p renderer, one at a time, or take them out.
@@ -93,10 +115,12 @@ protected:
   bool TextVisibility = true;
 
   void FitHelp();
+  vtkTextActor* ActorOf(int block) const;
+  const std::string& TextOf(int block) const;
 
   vtkNew<vtkCallbackCommand> Fitting;
   vtkWeakPointer<vtkRenderer> Renderer;
-  int FittedTo[2] = { 0, 0 };
+  int FittedTo[3] = { 0, 0, 0 }; ///< Width, height, dots per inch.
 
 private:
   vtkHapticOverlay(const vtkHapticOverlay&) = delete;

@@ -8,6 +8,7 @@
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper2D.h"
 #include "vtkProperty2D.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
@@ -28,6 +29,8 @@ constexpr double kHalfBar = 170.0;
 constexpr double kBarTop = -6.0;
 constexpr double kBarBottom = -20.0;
 constexpr std::size_t kLongestText = 38;
+/// At which a point is a pixel.
+constexpr double kPointsPerInch = 72.0;
 
 void setCorners(vtkPoints* corners, double left, double right, double bottom, double top)
 {
@@ -82,14 +85,10 @@ std::string shortened(const std::string& text)
 
 vtkHapticProgress::vtkHapticProgress()
 {
-  vtkNew<vtkPoints> plate;
-  setCorners(plate, -kHalfPlate, kHalfPlate, kPlateBottom, kPlateTop);
-  setUpRectangle(this->Plate, plate, 1.0, 1.0, 1.0);
+  this->SetCorners();
+  setUpRectangle(this->Plate, this->PlateCorners, 1.0, 1.0, 1.0);
   this->Plate->GetProperty()->SetOpacity(0.88);
-  vtkNew<vtkPoints> trough;
-  setCorners(trough, -kHalfBar, kHalfBar, kBarBottom, kBarTop);
-  setUpRectangle(this->Trough, trough, 0.80, 0.82, 0.85);
-  setCorners(this->BarCorners, -kHalfBar, -kHalfBar, kBarBottom, kBarTop);
+  setUpRectangle(this->Trough, this->TroughCorners, 0.80, 0.82, 0.85);
   setUpRectangle(this->Bar, this->BarCorners, 0.13, 0.40, 0.67);
 
   vtkTextProperty* style = this->Text->GetTextProperty();
@@ -105,6 +104,38 @@ vtkHapticProgress::vtkHapticProgress()
 
 vtkHapticProgress::~vtkHapticProgress() = default;
 
+void vtkHapticProgress::SetCorners()
+{
+  const double s = this->Scale;
+  const double end = -kHalfBar + 2.0 * kHalfBar * this->Percent / 100.0;
+  setCorners(this->PlateCorners, -s * kHalfPlate, s * kHalfPlate, s * kPlateBottom, s * kPlateTop);
+  setCorners(this->TroughCorners, -s * kHalfBar, s * kHalfBar, s * kBarBottom, s * kBarTop);
+  setCorners(this->BarCorners, -s * kHalfBar, s * end, s * kBarBottom, s * kBarTop);
+}
+
+void vtkHapticProgress::Measure(vtkRenderer* renderer, double size[2])
+{
+  const double scale = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
+  if (scale != this->Scale)
+  {
+    this->Scale = scale;
+    this->SetCorners();
+  }
+  size[0] = 2.0 * kHalfPlate * scale;
+  size[1] = (kPlateTop - kPlateBottom) * scale;
+}
+
+void vtkHapticProgress::Place(vtkRenderer* renderer, double x, double y)
+{
+  const int* size = renderer->GetSize();
+  const double middle = y - 0.5 * (kPlateTop + kPlateBottom) * this->Scale;
+  for (vtkActor2D* actor :
+    { this->Plate.Get(), this->Trough.Get(), this->Bar.Get(), static_cast<vtkActor2D*>(this->Text.Get()) })
+  {
+    actor->SetPosition(x / size[0], middle / size[1]);
+  }
+}
+
 bool vtkHapticProgress::SetProgress(const std::string& what, double part)
 {
   const double done = std::isfinite(part) ? std::clamp(part, 0.0, 1.0) : 0.0;
@@ -116,7 +147,8 @@ bool vtkHapticProgress::SetProgress(const std::string& what, double part)
   }
   this->ShownText = text;
   this->Text->SetInput(text.c_str());
-  setCorners(this->BarCorners, -kHalfBar, -kHalfBar + 2.0 * kHalfBar * percent / 100.0, kBarBottom, kBarTop);
+  this->Percent = percent;
+  this->SetCorners();
   for (vtkActor2D* actor : { this->Plate.Get(), this->Trough.Get(), this->Bar.Get() })
   {
     actor->VisibilityOn();

@@ -43,6 +43,15 @@ public:
 
   ///@{
   /**
+   * For pointhaptics::ScreenLayout: the pixels that it takes, and where its middle is; at first in the middle
+   * of the renderer.
+   */
+  void Measure(vtkRenderer* renderer, double size[2]);
+  void Place(vtkRenderer* renderer, double x, double y);
+  ///@}
+
+  ///@{
+  /**
    * Add the bar to @p renderer, one at a time, or take it out.
    */
   void AddTo(vtkRenderer* renderer);
@@ -57,8 +66,14 @@ protected:
   vtkNew<vtkActor2D> Trough;
   vtkNew<vtkActor2D> Bar;
   vtkNew<vtkTextActor> Text;
+  vtkNew<vtkPoints> PlateCorners;
+  vtkNew<vtkPoints> TroughCorners;
   vtkNew<vtkPoints> BarCorners;
   std::string ShownText;
+  int Percent = 0;
+  double Scale = 1.0; ///< Pixels per point.
+
+  void SetCorners();
 
 private:
   vtkHapticProgress(const vtkHapticProgress&) = delete;

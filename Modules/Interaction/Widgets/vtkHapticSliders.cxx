@@ -45,6 +45,12 @@ constexpr double kRight = 0.98;
 constexpr double kLowest = 0.30;
 constexpr double kStep = 0.1;
 constexpr double kTextAbove = 0.022;
+/// Pixels of a column that is laid out, and the height of a slider with its text over that of the text.
+constexpr double kLeastWidth = 96.0;
+constexpr double kHalfKnob = 4.0;
+constexpr double kSliderPerText = 2.4;
+/// Of the room below the text.
+constexpr double kSliderAt = 0.55;
 
 struct One
 {
@@ -119,6 +125,7 @@ struct vtkHapticSliders::Internals
   vtkNew<vtkCallbackCommand> drawn;
   vtkRenderWindowInteractor* interactor = nullptr;
   bool visible = false;
+  bool covered = false;
 };
 
 vtkHapticSliders::vtkHapticSliders()
@@ -225,11 +232,57 @@ void vtkHapticSliders::SetVisibility(bool visible)
     return;
   }
   this->Parts->visible = visible;
-  this->Parts->renderer->SetDraw(visible);
+  this->ShowOrHide();
+}
+
+void vtkHapticSliders::SetCovered(bool covered)
+{
+  if (covered != this->Parts->covered && this->Parts->interactor)
+  {
+    this->Parts->covered = covered;
+    this->ShowOrHide();
+  }
+}
+
+void vtkHapticSliders::ShowOrHide()
+{
+  const bool isSeen = this->Parts->visible && !this->Parts->covered;
+  this->Parts->renderer->SetDraw(isSeen);
   for (One& one : this->Parts->sliders)
   {
-    one.widget->SetEnabled(visible);
+    one.widget->SetEnabled(isSeen);
     one.widget->ProcessEventsOff(); // until it is drawn
+  }
+}
+
+void vtkHapticSliders::Measure(int font, double size[2])
+{
+  size[0] = kLeastWidth;
+  size[1] = 0.0;
+  for (One& one : this->Parts->sliders)
+  {
+    one.text->GetTextProperty()->SetFontSize(font);
+    double text[2] = { 0.0, 0.0 };
+    one.text->GetSize(this->Parts->renderer, text);
+    size[0] = std::max(size[0], text[0]);
+    size[1] += kSliderPerText * text[1];
+  }
+}
+
+void vtkHapticSliders::Place(double left, double bottom, double right, double top)
+{
+  const int* window = this->Parts->renderer->GetSize();
+  const double step = (top - bottom) / NumberOfSliders;
+  for (One& one : this->Parts->sliders)
+  {
+    double text[2] = { 0.0, 0.0 };
+    one.text->GetSize(this->Parts->renderer, text);
+    const double row = top - (one.index + 1) * step;
+    const double way = row + kSliderAt * (step - text[1]);
+    one.picture->GetPoint1Coordinate()->SetValue((left + kHalfKnob) / window[0], way / window[1]);
+    one.picture->GetPoint2Coordinate()->SetValue((right - kHalfKnob) / window[0], way / window[1]);
+    one.text->SetPosition(right / window[0], (row + step - text[1]) / window[1]);
+    one.text->GetTextProperty()->SetVerticalJustificationToBottom();
   }
 }
 

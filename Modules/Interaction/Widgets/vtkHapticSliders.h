@@ -68,10 +68,21 @@ public:
 
   ///@{
   /**
-   * Show the sliders. Default: off.
+   * Show the sliders. Default: off. Covered they are not seen, and no drag reaches them, as long as something
+   * else lies over the picture.
    */
   void SetVisibility(bool visible);
   bool GetVisibility() const;
+  void SetCovered(bool covered);
+  ///@}
+
+  ///@{
+  /**
+   * For pointhaptics::ScreenLayout: the pixels that the sliders need with a font of @p font points, and their
+   * box in pixels of the window. Without one they stand at the right.
+   */
+  void Measure(int font, double size[2]);
+  void Place(double left, double bottom, double right, double top);
   ///@}
 
 protected:
@@ -79,6 +90,8 @@ protected:
   ~vtkHapticSliders() override;
 
 private:
+  void ShowOrHide();
+
   vtkHapticSliders(const vtkHapticSliders&) = delete;
   void operator=(const vtkHapticSliders&) = delete;
 

@@ -27,6 +27,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkTextProperty.h"
 #include "vtkTranslucentPass.h"
+#include "vtkWindow.h"
 
 #include <algorithm>
 #include <array>
@@ -413,24 +414,78 @@ static bool hasNames(vtkScalarBarActor* bar)
   return bar->GetLookupTable() && bar->GetLookupTable()->GetIndexedLookup();
 }
 
+namespace
+{
+
+constexpr double kPointsPerInch = 72.0; // at which a point is a pixel
+constexpr double kBarWidth = 24.0;      // points
+constexpr double kNumberLetters = 9.0;  // -1.23e-05
+constexpr double kLetterWidth = 0.57;   // of the font's size
+
+/// Points: of the box with the colours, and of the names, which stand beside it.
+struct BarWidths
+{
+  double box = 0.0;
+  double names = 0.0;
+};
+
+BarWidths widthsOf(vtkScalarBarActor* bar, double font)
+{
+  const double letter = kLetterWidth * font;
+  const double title = letter * double(bar->GetTitle() ? std::strlen(bar->GetTitle()) : 0);
+  BarWidths widths;
+  widths.box = std::max(title, kBarWidth + (hasNames(bar) ? 0.0 : letter * kNumberLetters));
+  for (vtkIdType i = 0; hasNames(bar) && i < bar->GetLookupTable()->GetNumberOfAnnotatedValues(); ++i)
+  {
+    constexpr double kLeader = 24.0;
+    const double name = letter * double(bar->GetLookupTable()->GetAnnotation(i).size());
+    widths.names = std::max(widths.names, kLeader + name);
+  }
+  return widths;
+}
+
+} // namespace
+
 void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer)
 {
   constexpr double kMargin = 12.0;
-  constexpr double kBarWidth = 24.0;
-  constexpr double kNumberLetters = 9.0; // -1.23e-05
-  constexpr double kLetterWidth = 0.57;  // of the font's size
+  const double pixels = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
   const double size = renderer->GetSize()[0];
-  const double letter = kLetterWidth * kScalarBarFont;
-  const double title = letter * double(bar->GetTitle() ? std::strlen(bar->GetTitle()) : 0);
-  // Names stand outside of the bar's box.
-  const double labels = hasNames(bar) ? 0.0 : letter * kNumberLetters;
-  const double width = std::min(size, std::max(title, kBarWidth + labels));
+  const double width = std::min(size, pixels * widthsOf(bar, kScalarBarFont).box);
+  const double left = std::max(0.0, size - pixels * kMargin - width);
+  const double height = renderer->GetSize()[1];
+  const double box[4] = { left, 0.28 * height, left + width, 0.78 * height };
+  placeScalarBar(bar, renderer, kScalarBarFont, pixels, box);
+}
+
+void measureScalarBar(vtkScalarBarActor* bar, double font, double pixelsPerPoint, double size[2])
+{
+  constexpr double kLine = 1.5; // of the font's size
+  constexpr double kLeastLines = 6.0;
+  const BarWidths widths = widthsOf(bar, font);
+  const double names = hasNames(bar) ? double(bar->GetLookupTable()->GetNumberOfAnnotatedValues()) : 0.0;
+  size[0] = pixelsPerPoint * (widths.box + widths.names);
+  size[1] = pixelsPerPoint * font * kLine * std::max(kLeastLines, names + 2.0);
+}
+
+void placeScalarBar(
+  vtkScalarBarActor* bar, vtkRenderer* renderer, double font, double pixelsPerPoint, const double box[4])
+{
+  const BarWidths widths = widthsOf(bar, font);
+  const double left = hasNames(bar) ? std::max(box[0], box[2] - pixelsPerPoint * widths.box) : box[0];
+  const double width = box[2] - left;
   if (width > 0.0)
   {
-    bar->SetPosition(std::max(0.0, (size - kMargin - width) / size), 0.28);
-    bar->SetWidth(width / size);
-    bar->SetHeight(0.5);
-    bar->SetBarRatio(std::min(1.0, kBarWidth / width));
+    const int* size = renderer->GetSize();
+    for (vtkTextProperty* text :
+      { bar->GetTitleTextProperty(), bar->GetLabelTextProperty(), bar->GetAnnotationTextProperty() })
+    {
+      text->SetFontSize(int(font));
+    }
+    bar->SetPosition(left / size[0], box[1] / size[1]);
+    bar->SetWidth(width / size[0]);
+    bar->SetHeight((box[3] - box[1]) / size[1]);
+    bar->SetBarRatio(std::min(1.0, kBarWidth * pixelsPerPoint / width));
     // All text stands away from the window's edge: numbers where the position says, names opposite to it.
     bar->SetTextPosition(
       hasNames(bar) ? vtkScalarBarActor::SucceedScalarBar : vtkScalarBarActor::PrecedeScalarBar);

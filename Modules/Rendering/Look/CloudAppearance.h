@@ -91,6 +91,15 @@ POINTHAPTICSRENDERING_EXPORT void setUpScalarBar(vtkScalarBarActor* bar);
 /// called before a render whose size or title may be another one.
 POINTHAPTICSRENDERING_EXPORT void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer);
 
+///@{
+/// The same for a layout: the pixels that @p bar needs with a font of @p font points, each of @p
+/// pixelsPerPoint, and the box it is put in: left, bottom, right, top, pixels of @p renderer.
+POINTHAPTICSRENDERING_EXPORT void measureScalarBar(
+  vtkScalarBarActor* bar, double font, double pixelsPerPoint, double size[2]);
+POINTHAPTICSRENDERING_EXPORT void placeScalarBar(
+  vtkScalarBarActor* bar, vtkRenderer* renderer, double font, double pixelsPerPoint, const double box[4]);
+///@}
+
 /// A light background, white below to a pale blue-grey above, on which black lines and all colours of the map
 /// read.
 POINTHAPTICSRENDERING_EXPORT void applyBackground(vtkRenderer* renderer);

@@ -5,6 +5,7 @@
 
 #include "CloudAppearance.h"
 #include "Gesture.h"
+#include "ScreenScale.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
@@ -64,6 +65,8 @@ ViewWindow::~ViewWindow()
   {
     this->report(HapticViewerObserver::Kind::Error, message);
   }
+  layout_.follow(nullptr);
+  scene_.releaseScalarBar();
   if (isOpen_)
   {
     window_->RemoveRenderer(scene_.renderer());
@@ -99,6 +102,9 @@ void ViewWindow::showBar(const std::string& words, double part)
   applyBackground(waiting_);
   progress_->SetProgress(words, part);
   progress_->AddTo(waiting_);
+  applyTextScale(window_, options_.picture.fontScale);
+  layout_.setProgress(progress_);
+  layout_.follow(waiting_);
   window_->AddRenderer(waiting_);
   window_->Render();
   interactor_->Initialize();
@@ -174,6 +180,12 @@ void ViewWindow::setUpRendering()
   window_->AddRenderer(scene_.renderer());
   overlay_->AddTo(scene_.renderer());
   progress_->AddTo(scene_.renderer());
+  layout_.setOverlay(overlay_);
+  layout_.setSliders(sliders_);
+  layout_.setProgress(progress_);
+  layout_.setScalarBar(scene_.takeScalarBar());
+  layout_.setCorner([this] { return scene_.takenCorner(); });
+  layout_.follow(scene_.renderer());
   if (options_.device != HapticViewerDevice::None || options_.followsFile())
   {
     window_->AddRenderer(chart_->GetRenderer());

@@ -9,6 +9,7 @@
 #include "PictureControls.h"
 #include "RecordingWriter.h"
 #include "ReplayPlayer.h"
+#include "ScreenLayout.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
 
@@ -181,6 +182,7 @@ private:
   vtkNew<vtkHapticOverlay> overlay_;
   vtkNew<vtkHapticSliders> sliders_;
   vtkNew<vtkHapticProgress> progress_;
+  ScreenLayout layout_;
   vtkNew<vtkRenderer> waiting_; // before the first cloud
   PictureControls controls_;
   vtkNew<vtkCallbackCommand> cancelKey_;

@@ -1,0 +1,331 @@
+#include "ScreenLayout.h"
+
+#include "vtkHapticOverlay.h"
+#include "vtkHapticProgress.h"
+#include "vtkHapticSliders.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+using Overlay = vtkHapticOverlay;
+
+/// Points.
+constexpr double kLargestFont = 15.0;
+constexpr double kSmallestFont = 8.0;
+constexpr double kMargin = 8.0;
+constexpr double kGap = 8.0;
+constexpr double kPointsPerInch = 72.0;
+/// Where the column at the right begins and ends if nothing is in its way, over the renderer's height.
+constexpr double kColumnBottom = 0.28;
+constexpr double kColumnTop = 0.78;
+constexpr int kAllLines = 1000;
+/// Part of the width that the status may take beside the panel.
+constexpr double kStatusPart = 0.62;
+/// After every other observer of the render, which may change what is shown.
+constexpr float kLast = -1.0F;
+
+} // namespace
+
+/// What is still free, and the font that is tried.
+struct ScreenLayout::Room
+{
+  vtkRenderer* renderer = nullptr;
+  double font = kLargestFont;
+  double pixels = 1.0; ///< Of a point.
+  ScreenRectangle free;
+  double leftTop = 0.0; ///< Below the texts at the upper left, and at the upper right.
+  double rightTop = 0.0;
+  double columnLeft = 0.0; ///< Of the column at the right.
+  double bottom = 0.0;     ///< Above what is at the lower left.
+  bool fits = true;
+
+  double gap() const { return kGap * pixels; }
+};
+
+ScreenLayout::ScreenLayout()
+  : before_(vtkSmartPointer<vtkCallbackCommand>::New())
+{
+  before_->SetClientData(this);
+  before_->SetCallback([](vtkObject* caller, unsigned long, void* self, void*)
+    { static_cast<ScreenLayout*>(self)->arrange(vtkRenderer::SafeDownCast(caller)); });
+}
+
+ScreenLayout::~ScreenLayout()
+{
+  this->follow(nullptr);
+}
+
+void ScreenLayout::setOverlay(vtkHapticOverlay* overlay)
+{
+  overlay_ = overlay;
+}
+
+void ScreenLayout::setSliders(vtkHapticSliders* sliders)
+{
+  sliders_ = sliders;
+}
+
+void ScreenLayout::setProgress(vtkHapticProgress* progress)
+{
+  progress_ = progress;
+}
+
+void ScreenLayout::follow(vtkRenderer* renderer)
+{
+  if (renderer_)
+  {
+    renderer_->RemoveObserver(before_);
+  }
+  renderer_ = renderer;
+  arranged_.clear();
+  if (renderer)
+  {
+    renderer->AddObserver(vtkCommand::StartEvent, before_, kLast);
+  }
+}
+
+void ScreenLayout::add(const char* name, const ScreenRectangle& box)
+{
+  places_.push_back({ name, box });
+}
+
+std::vector<double> ScreenLayout::state(vtkRenderer* renderer) const
+{
+  const int* size = renderer->GetSize();
+  const int* origin = renderer->GetOrigin();
+  std::vector<double> state{ double(size[0]), double(size[1]), double(origin[0]), double(origin[1]),
+    double(renderer->GetRenderWindow()->GetDPI()), corner_ ? corner_() : 0.0,
+    double(sliders_ && sliders_->GetVisibility()), double(progress_ && !progress_->GetText().empty()) };
+  for (int block = 0; overlay_ && block < Overlay::NumberOfBlocks; ++block)
+  {
+    state.push_back(double(overlay_->IsBlockShown(block)));
+  }
+  double bar[2] = { 0.0, 0.0 };
+  const bool hasBar = bar_.measure && bar_.measure(kLargestFont, bar[0], bar[1]);
+  state.insert(state.end(), { double(hasBar), bar[0], bar[1] });
+  return state;
+}
+
+void ScreenLayout::arrange(vtkRenderer* renderer)
+{
+  if (!renderer || !renderer->GetRenderWindow() || renderer->GetSize()[0] < 1 || renderer->GetSize()[1] < 1)
+  {
+    return;
+  }
+  std::vector<double> wanted = this->state(renderer);
+  const std::string texts = overlay_ ? overlay_->GetStatus() + '\f' + overlay_->GetPanel() + '\f' +
+      overlay_->GetDetail() + '\f' + overlay_->GetHelp()
+                                     : std::string();
+  if (wanted == arranged_ && texts == arrangedTexts_)
+  {
+    return;
+  }
+  arranged_ = std::move(wanted);
+  arrangedTexts_ = texts;
+  const bool isHelp = overlay_ && overlay_->GetHelpVisibility();
+  if (sliders_)
+  {
+    sliders_->SetCovered(isHelp);
+  }
+  if (isHelp)
+  {
+    this->placeHelp(renderer);
+    return;
+  }
+  for (double font = kLargestFont; !this->tryFont(renderer, font, font <= kSmallestFont); --font)
+  {
+  }
+}
+
+/// Help stands alone.
+void ScreenLayout::placeHelp(vtkRenderer* renderer)
+{
+  places_.clear();
+  for (int block : { Overlay::StatusBlock, Overlay::PanelBlock, Overlay::DetailBlock })
+  {
+    overlay_->HideBlock(block);
+  }
+  if (bar_.place)
+  {
+    bar_.place({}, kLargestFont);
+  }
+  double size[2];
+  overlay_->MeasureBlock(Overlay::HelpBlock, 0, 0.0, kAllLines, size);
+  const int* all = renderer->GetSize();
+  const double left = std::round(0.5 * (all[0] - size[0]));
+  const double bottom = std::round(0.5 * (all[1] - size[1]));
+  overlay_->PlaceBlock(Overlay::HelpBlock, left, bottom);
+  this->add("help", { left, bottom, left + size[0], bottom + size[1] });
+}
+
+bool ScreenLayout::tryFont(vtkRenderer* renderer, double font, bool isLast)
+{
+  places_.clear();
+  Room room;
+  room.renderer = renderer;
+  room.font = font;
+  room.pixels = renderer->GetRenderWindow()->GetDPI() / kPointsPerInch;
+  const double margin = kMargin * room.pixels;
+  room.free = { margin, margin, renderer->GetSize()[0] - margin, renderer->GetSize()[1] - margin };
+  room.leftTop = room.rightTop = room.free.top;
+  room.columnLeft = room.free.right;
+  room.bottom = room.free.bottom;
+  this->placeTop(room, isLast);
+  this->placeColumn(room, isLast);
+  this->placeDetail(room, isLast);
+  this->placeProgress(room);
+  return room.fits || isLast;
+}
+
+/// Status at the left, panel at the right; below it where both do not fit side by side.
+void ScreenLayout::placeTop(Room& room, bool isLast)
+{
+  const double width = room.free.width();
+  const bool hasPanel = overlay_ && overlay_->IsBlockShown(Overlay::PanelBlock);
+  const int lines =
+    isLast ? std::max(1, int(0.5 * room.free.height() / (1.4 * room.font * room.pixels))) : kAllLines;
+  double status[2] = { 0.0, 0.0 };
+  if (overlay_ && overlay_->IsBlockShown(Overlay::StatusBlock))
+  {
+    overlay_->MeasureBlock(
+      Overlay::StatusBlock, int(room.font), hasPanel ? kStatusPart * width : width, lines, status);
+    const ScreenRectangle box{ room.free.left, room.free.top - status[1], room.free.left + status[0],
+      room.free.top };
+    overlay_->PlaceBlock(Overlay::StatusBlock, box.left, box.bottom);
+    this->add("status", box);
+    room.leftTop = box.bottom - room.gap();
+  }
+  if (hasPanel)
+  {
+    double panel[2];
+    overlay_->MeasureBlock(Overlay::PanelBlock, int(room.font), width, lines, panel);
+    const bool isBeside = status[0] + room.gap() + panel[0] <= width;
+    const double top = isBeside ? room.free.top : room.leftTop;
+    const ScreenRectangle box{ room.free.right - panel[0], top - panel[1], room.free.right, top };
+    overlay_->PlaceBlock(Overlay::PanelBlock, box.left, box.bottom);
+    this->add("panel", box);
+    room.rightTop = box.bottom - room.gap();
+    room.leftTop = isBeside ? room.leftTop : room.rightTop;
+  }
+  // The column must not run into a status that is as wide as the window.
+  room.fits = room.fits && std::min(room.leftTop, room.rightTop) > 0.4 * room.free.height();
+}
+
+/// Sliders at the right edge, the scalar bar beside them.
+void ScreenLayout::placeColumn(Room& room, bool isLast)
+{
+  const double height = room.renderer->GetSize()[1];
+  const double floor = std::max(room.free.bottom, (corner_ ? corner_() : 0.0) * room.pixels);
+  const double top = std::min({ kColumnTop * height, room.leftTop, room.rightTop });
+  const auto take = [&](double wide, double high, ScreenRectangle& box)
+  {
+    const double bottom = std::max(floor, std::min(kColumnBottom * height, top - high));
+    box = { room.columnLeft - wide, bottom, room.columnLeft, top };
+    const bool hasRoom = high <= box.height() + 1.0 && box.left >= room.free.left;
+    room.fits = room.fits && hasRoom;
+    room.columnLeft = hasRoom || !isLast ? box.left - room.gap() : room.columnLeft;
+    return hasRoom;
+  };
+  ScreenRectangle box;
+  double size[2] = { 0.0, 0.0 };
+  if (sliders_ && sliders_->GetVisibility())
+  {
+    sliders_->Measure(int(room.font), size);
+    const bool hasRoom = take(size[0], size[1], box);
+    sliders_->SetCovered(isLast && !hasRoom);
+    if (hasRoom)
+    {
+      const int* origin = room.renderer->GetOrigin();
+      sliders_->Place(
+        box.left + origin[0], box.bottom + origin[1], box.right + origin[0], box.top + origin[1]);
+      this->add("sliders", box);
+    }
+  }
+  if (bar_.measure && bar_.measure(room.font, size[0], size[1]))
+  {
+    const bool hasRoom = take(size[0], size[1], box);
+    bar_.place(hasRoom ? box : ScreenRectangle(), room.font);
+    if (hasRoom)
+    {
+      this->add("bar", box);
+    }
+  }
+}
+
+void ScreenLayout::placeDetail(Room& room, bool isLast)
+{
+  if (!overlay_ || !overlay_->IsBlockShown(Overlay::DetailBlock))
+  {
+    return;
+  }
+  const double width = room.columnLeft - room.free.left;
+  const double height = room.leftTop - room.free.bottom;
+  double size[2];
+  overlay_->MeasureBlock(Overlay::DetailBlock, int(room.font), std::max(width, 1.0), kAllLines, size);
+  for (int lines = 60; isLast && lines > 0 && size[1] > height; --lines)
+  {
+    overlay_->MeasureBlock(Overlay::DetailBlock, int(room.font), std::max(width, 1.0), lines, size);
+  }
+  const bool hasRoom = size[0] <= width && size[1] <= height;
+  room.fits = room.fits && hasRoom;
+  if (isLast && !hasRoom)
+  {
+    overlay_->HideBlock(Overlay::DetailBlock);
+    return;
+  }
+  overlay_->PlaceBlock(Overlay::DetailBlock, room.free.left, room.free.bottom);
+  this->add(
+    "detail", { room.free.left, room.free.bottom, room.free.left + size[0], room.free.bottom + size[1] });
+  room.bottom = room.free.bottom + size[1] + room.gap();
+}
+
+/// In the middle of what is left; what was picked of a cloud that goes makes room.
+void ScreenLayout::placeProgress(Room& room)
+{
+  if (!progress_ || progress_->GetText().empty())
+  {
+    return;
+  }
+  double size[2];
+  progress_->Measure(room.renderer, size);
+  const auto detail =
+    std::find_if(places_.begin(), places_.end(), [](const Place& place) { return place.name == "detail"; });
+  if (detail != places_.end() && room.leftTop - room.bottom < size[1])
+  {
+    overlay_->HideBlock(Overlay::DetailBlock);
+    places_.erase(detail);
+    room.bottom = room.free.bottom;
+  }
+  const double right = std::max(room.columnLeft, room.free.left + size[0]);
+  const double x = std::max(0.5 * (room.free.left + right), room.free.left + 0.5 * size[0]);
+  const double y = 0.5 * (room.leftTop + room.bottom);
+  const ScreenRectangle box{ x - 0.5 * size[0], y - 0.5 * size[1], x + 0.5 * size[0], y + 0.5 * size[1] };
+  // A column that does not leave its width goes until the file is read.
+  const auto isInTheWay = [&](const Place& place) { return place.box.meets(box); };
+  for (const Place& place : places_)
+  {
+    if (isInTheWay(place) && place.name == "bar")
+    {
+      bar_.place({}, room.font);
+    }
+    else if (isInTheWay(place) && place.name == "sliders")
+    {
+      sliders_->SetCovered(true);
+    }
+  }
+  places_.erase(std::remove_if(places_.begin(), places_.end(), isInTheWay), places_.end());
+  progress_->Place(room.renderer, x, y);
+  this->add("progress", box);
+}
+
+} // namespace pointhaptics

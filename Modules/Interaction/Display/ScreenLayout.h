@@ -1,0 +1,109 @@
+/// @file
+/// Where the words and controls over the picture stand, so that none lies over another.
+#pragma once
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkCallbackCommand;
+class vtkHapticOverlay;
+class vtkHapticProgress;
+class vtkHapticSliders;
+class vtkRenderer;
+
+namespace pointhaptics
+{
+
+/// Pixels of the renderer, from its lower left corner.
+struct ScreenRectangle
+{
+  double left = 0.0;
+  double bottom = 0.0;
+  double right = 0.0;
+  double top = 0.0;
+
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+  bool empty() const { return !(left < right && bottom < top); }
+  bool meets(const ScreenRectangle& other) const
+  {
+    return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
+  }
+};
+
+/// A block that the layout knows by its size alone, such as a scalar bar.
+struct ScreenBlock
+{
+  /// Width and least height in pixels for a font of @p font points; false: it is not shown.
+  std::function<bool(double font, double& width, double& height)> measure;
+  /// Puts it within @p box; an empty one hides it.
+  std::function<void(const ScreenRectangle& box, double font)> place;
+};
+
+/// The places of all that is written over a picture: status at the upper left, the panel beside it or below,
+/// a column at the right with the scalar bar and the sliders, details at the lower left, progress in the
+/// middle of what is left. Help covers all: the others go as long as it is open. Where the window is too
+/// small the font shrinks, then lines are left out, and at last what is asked for least.
+///
+/// Lengths follow the window's dots per inch: at 72, the default of VTK, one point is one pixel. GUI thread
+/// only.
+class POINTHAPTICSINTERACTION_EXPORT ScreenLayout
+{
+public:
+  ScreenLayout();
+  ~ScreenLayout();
+  ScreenLayout(const ScreenLayout&) = delete;
+  ScreenLayout& operator=(const ScreenLayout&) = delete;
+
+  ///@{
+  /// What it places; null takes one away.
+  void setOverlay(vtkHapticOverlay* overlay);
+  void setSliders(vtkHapticSliders* sliders);
+  void setProgress(vtkHapticProgress* progress);
+  void setScalarBar(ScreenBlock bar) { bar_ = std::move(bar); }
+  /// Pixels, at 72 dots per inch, of the lower right corner that are taken; 0: none.
+  void setCorner(std::function<double()> corner) { corner_ = std::move(corner); }
+  ///@}
+  /// Arranges before each render of @p renderer, in which all are drawn; null: no longer.
+  void follow(vtkRenderer* renderer);
+  /// At once, if anything has changed since.
+  void arrange(vtkRenderer* renderer);
+
+  struct Place
+  {
+    std::string name; ///< "status", "panel", "detail", "help", "progress", "sliders", "bar".
+    ScreenRectangle box;
+  };
+  /// What is shown and where, as it was arranged last.
+  const std::vector<Place>& places() const { return places_; }
+
+private:
+  struct Room;
+  std::vector<double> state(vtkRenderer* renderer) const;
+  bool tryFont(vtkRenderer* renderer, double font, bool isLast);
+  void placeTop(Room& room, bool isLast);
+  void placeColumn(Room& room, bool isLast);
+  void placeProgress(Room& room);
+  void placeDetail(Room& room, bool isLast);
+  void placeHelp(vtkRenderer* renderer);
+  void add(const char* name, const ScreenRectangle& box);
+
+  vtkSmartPointer<vtkHapticOverlay> overlay_;
+  vtkSmartPointer<vtkHapticSliders> sliders_;
+  vtkSmartPointer<vtkHapticProgress> progress_;
+  ScreenBlock bar_;
+  std::function<double()> corner_;
+  vtkSmartPointer<vtkCallbackCommand> before_;
+  vtkWeakPointer<vtkRenderer> renderer_;
+  std::vector<double> arranged_; ///< What the places depend on, as it was.
+  std::string arrangedTexts_;
+  std::vector<Place> places_;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,59 @@
+#include "ScreenScale.h"
+
+#include "XLibrary.h"
+
+#include "vtkRenderWindow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr double kUsualDotsPerInch = 96.0;
+constexpr double kUsualHeight = 1080.0;
+constexpr double kLargestScale = 4.0;
+/// At which a point is a pixel: VTK's default.
+constexpr double kPointsPerInch = 72.0;
+
+} // namespace
+
+double dotsPerInchOf(const char* text)
+{
+  const char* const name = "Xft.dpi:";
+  const char* found = text ? std::strstr(text, name) : nullptr;
+  const double dots = found ? std::strtod(found + std::strlen(name), nullptr) : 0.0;
+  return std::isfinite(dots) && dots > 0.0 ? dots : 0.0;
+}
+
+double screenScale(vtkRenderWindow* window)
+{
+  double scale = 1.0;
+  if (window->GetOffScreenRendering())
+  {
+    scale = window->GetSize()[1] / kUsualHeight;
+  }
+  else if (void* display = xDisplayOf(window))
+  {
+    const auto resources = reinterpret_cast<char* (*)(void*)>(findXFunction("XResourceManagerString"));
+    scale = resources ? dotsPerInchOf(resources(display)) / kUsualDotsPerInch : 1.0;
+  }
+#if defined(_WIN32) || defined(__APPLE__)
+  else
+  {
+    scale = window->DetectDPI() ? window->GetDPI() / kUsualDotsPerInch : 1.0;
+  }
+#endif
+  return std::clamp(scale, 1.0, kLargestScale);
+}
+
+void applyTextScale(vtkRenderWindow* window, double factor)
+{
+  window->SetDPI(int(std::lround(kPointsPerInch * factor * screenScale(window))));
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,334 @@
+#include "ScreenLayout.h"
+
+#include "../Unit/SkipWithoutDisplay.h"
+#include "CloudAppearance.h"
+#include "ScreenScale.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticProgress.h"
+#include "vtkHapticSliders.h"
+
+#include <gtest/gtest.h>
+
+#include "vtkActor2D.h"
+#include "vtkActor2DCollection.h"
+#include "vtkLookupTable.h"
+#include "vtkNew.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+#include "vtkScalarBarActor.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+constexpr double kPointsPerInch = 72.0;
+
+const char* const kStatus =
+  "5000000 points in 401222 active voxels\nproxy radius 0.31 mm    force 1.20 N    in contact\n"
+  "servo 1000 Hz, 0 deadline misses    hand follows the mouse, touch pushes it\n"
+  "1 : 12,200; 1 mm in the hand is 12 m    U: the file is in mm\nH: help";
+const char* const kPanel =
+  "servo loop: running, SCHED_FIFO\nrate: 1000.0 Hz\njitter: p50 0 us, p99 82 us, max 279 us\n"
+  "step time: p50 1 us, p99 29 us, max 42 us\nticks: 1234567, deadline misses: 0, idle: 88\n"
+  "device faults: 0, waiting: 0\ndevice: simulated hand";
+
+/// A window with everything that the viewer writes over its picture.
+struct Screen
+{
+  Screen(int width, int height, double fontScale, bool hasClasses)
+  {
+    window->SetOffScreenRendering(1);
+    window->SetMultiSamples(0);
+    window->SetSize(width, height);
+    interactor->SetRenderWindow(window);
+    renderer->SetBackground(0.3, 0.5, 0.3); // none of the colours drawn
+    renderer->SetViewport(0.0, 0.24, 1.0, 1.0);
+    window->AddRenderer(renderer);
+    applyTextScale(window, fontScale);
+    overlay->AddTo(renderer);
+    progress->AddTo(renderer);
+    sliders->SetInteractor(interactor);
+    setUpScalarBar(bar);
+    if (hasClasses)
+    {
+      vtkNew<vtkUnsignedCharArray> classes;
+      for (const unsigned char number : { 1, 2, 3, 4, 5, 6, 9, 17 })
+      {
+        classes->InsertNextValue(number);
+      }
+      bar->SetLookupTable(vtkSmartPointer<vtkLookupTable>::Take(newClassLegend(classes)));
+      bar->SetTitle("Classification\n");
+    }
+    else
+    {
+      const auto colors = vtkSmartPointer<vtkLookupTable>::Take(newCloudColorMap());
+      colors->SetTableRange(-0.00077, 0.0025);
+      bar->SetLookupTable(colors);
+      bar->SetTitle("DistanceToSurface:x\n");
+    }
+    renderer->AddActor2D(bar);
+    layout.setOverlay(overlay);
+    layout.setSliders(sliders);
+    layout.setProgress(progress);
+    layout.setScalarBar({ [this](double font, double& wide, double& high)
+      {
+        double size[2];
+        measureScalarBar(bar, font, window->GetDPI() / kPointsPerInch, size);
+        wide = size[0];
+        high = size[1];
+        return wantsBar;
+      },
+      [this](const ScreenRectangle& box, double font)
+      {
+        bar->SetVisibility(!box.empty());
+        const double edges[4] = { box.left, box.bottom, box.right, box.top };
+        placeScalarBar(bar, renderer, font, window->GetDPI() / kPointsPerInch, edges);
+      } });
+    layout.follow(renderer);
+  }
+  ~Screen() { sliders->SetInteractor(nullptr); }
+
+  void showAll(int detailLines)
+  {
+    overlay->SetStatus(kStatus);
+    overlay->SetPanel(kPanel);
+    std::string detail = "point 123456";
+    for (int i = 1; i < detailLines; ++i)
+    {
+      detail += "\nGpsTime  411234567.123456 and more of it";
+    }
+    overlay->SetDetail(detail);
+    sliders->SetVisibility(true);
+    wantsBar = true;
+  }
+
+  std::set<std::string> names() const
+  {
+    std::set<std::string> found;
+    for (const ScreenLayout::Place& place : layout.places())
+    {
+      found.insert(place.name);
+    }
+    return found;
+  }
+
+  /// Pixels of the renderer that differ from its background.
+  ScreenRectangle drawn()
+  {
+    window->Render();
+    const int* size = renderer->GetSize();
+    const int* origin = renderer->GetOrigin();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    window->GetRGBACharPixelData(
+      origin[0], origin[1], origin[0] + size[0] - 1, origin[1] + size[1] - 1, 0, pixels);
+    ScreenRectangle box{ 1e9, 1e9, 0.0, 0.0 };
+    for (int y = 0; y < size[1]; ++y)
+    {
+      for (int x = 0; x < size[0]; ++x)
+      {
+        const unsigned char* p = pixels->GetPointer(4 * (vtkIdType(y) * size[0] + x));
+        if (std::abs(p[0] - 77) > 2 || std::abs(p[1] - 128) > 2 || std::abs(p[2] - 77) > 2)
+        {
+          box = { std::min(box.left, double(x)), std::min(box.bottom, double(y)),
+            std::max(box.right, x + 1.0), std::max(box.top, y + 1.0) };
+        }
+      }
+    }
+    return box;
+  }
+
+  vtkNew<vtkRenderWindow> window;
+  vtkNew<vtkRenderWindowInteractor> interactor;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkHapticOverlay> overlay;
+  vtkNew<vtkHapticSliders> sliders;
+  vtkNew<vtkHapticProgress> progress;
+  vtkNew<vtkScalarBarActor> bar;
+  bool wantsBar = false;
+  ScreenLayout layout;
+};
+
+/// No two places meet, and all lie within the renderer.
+void expectApart(const Screen& screen, const std::string& what)
+{
+  const int* size = const_cast<vtkRenderer*>(screen.renderer.Get())->GetSize();
+  const std::vector<ScreenLayout::Place>& places = screen.layout.places();
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const ScreenRectangle& a = places[i].box;
+    EXPECT_FALSE(a.empty()) << what << places[i].name;
+    EXPECT_TRUE(a.left >= 0.0 && a.bottom >= 0.0 && a.right <= size[0] && a.top <= size[1])
+      << what << places[i].name << " " << a.left << ".." << a.right << ", " << a.bottom << ".." << a.top;
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      EXPECT_FALSE(a.meets(places[j].box)) << what << places[i].name << " over " << places[j].name;
+    }
+  }
+}
+
+/// What each actor draws alone lies in a place.
+void expectInPlaces(Screen& screen, const std::string& what)
+{
+  constexpr double kSlack = 3.0; // pixels
+  screen.window->Render();
+  const std::vector<ScreenLayout::Place> places = screen.layout.places();
+  screen.layout.follow(nullptr);
+  std::vector<vtkActor2D*> shown;
+  vtkActor2DCollection* actors = screen.renderer->GetActors2D();
+  actors->InitTraversal();
+  while (vtkActor2D* actor = actors->GetNextActor2D())
+  {
+    if (actor->GetVisibility())
+    {
+      shown.push_back(actor);
+      actor->VisibilityOff();
+    }
+  }
+  const auto isIn = [&](const ScreenRectangle& box)
+  {
+    return box.empty() ||
+      std::any_of(places.begin(), places.end(),
+        [&](const ScreenLayout::Place& place)
+        {
+          return box.left >= place.box.left - kSlack && box.right <= place.box.right + kSlack &&
+            box.bottom >= place.box.bottom - kSlack && box.top <= place.box.top + kSlack;
+        });
+  };
+  const auto expectIn = [&](const char* name)
+  {
+    const ScreenRectangle box = screen.drawn();
+    EXPECT_TRUE(isIn(box)) << what << name << " draws " << box.left << ".." << box.right << ", " << box.bottom
+                           << ".." << box.top;
+  };
+  expectIn("sliders");
+  screen.sliders->SetCovered(true);
+  for (vtkActor2D* actor : shown)
+  {
+    actor->VisibilityOn();
+    expectIn(actor->GetClassName());
+    actor->VisibilityOff();
+  }
+}
+
+struct Size
+{
+  int width;
+  int height;
+  double fontScale;
+};
+
+constexpr Size kSizes[] = { { 640, 480, 1.0 }, { 1280, 800, 1.0 }, { 3840, 2160, 1.0 }, { 640, 480, 2.0 },
+  { 1280, 800, 1.6 } };
+
+class ScreenLayoutTest : public ::testing::Test
+{
+protected:
+  void SetUp() override { SKIP_WITHOUT_DISPLAY(); }
+};
+
+TEST_F(ScreenLayoutTest, NothingThatIsShownAtOnceOverlaps)
+{
+  for (const Size& size : kSizes)
+  {
+    for (const bool hasClasses : { false, true })
+    {
+      const std::string what = std::to_string(size.width) + " times " + std::to_string(size.fontScale) +
+        (hasClasses ? ", classes: " : ", numbers: ");
+      Screen screen(size.width, size.height, size.fontScale, hasClasses);
+      screen.showAll(6);
+      screen.window->Render();
+      expectApart(screen, what);
+      EXPECT_TRUE(screen.names().count("status") && screen.names().count("panel")) << what;
+      if (size.width > 640)
+      {
+        EXPECT_EQ(screen.names(), (std::set<std::string>{ "status", "panel", "detail", "sliders", "bar" }))
+          << what;
+      }
+      screen.overlay->SetHelpVisibility(true);
+      screen.overlay->SetHelp("Look     left drag    rotate the view\nModel    0, Home    back to the start");
+      screen.window->Render();
+      EXPECT_EQ(screen.names(), std::set<std::string>{ "help" }) << what;
+      screen.overlay->SetHelpVisibility(false);
+      screen.progress->SetProgress("reading lucy.ply", 0.4);
+      screen.window->Render();
+      expectApart(screen, what + "progress: ");
+      EXPECT_TRUE(screen.names().count("progress")) << what;
+    }
+  }
+}
+
+TEST_F(ScreenLayoutTest, EverythingIsDrawnWhereTheLayoutSays)
+{
+  for (const Size& size : kSizes)
+  {
+    for (const bool hasClasses : { false, true })
+    {
+      const std::string what = std::to_string(size.width) + " times " + std::to_string(size.fontScale) +
+        (hasClasses ? ", classes: " : ", numbers: ");
+      Screen screen(size.width, size.height, size.fontScale, hasClasses);
+      screen.showAll(6);
+      expectInPlaces(screen, what);
+    }
+  }
+}
+
+TEST_F(ScreenLayoutTest, WhatOneAsksForAloneIsShownInASmallWindow)
+{
+  for (const bool asksSliders : { false, true })
+  {
+    Screen screen(640, 480, 1.0, true);
+    screen.overlay->SetStatus(kStatus);
+    asksSliders ? screen.sliders->SetVisibility(true) : void(screen.wantsBar = true);
+    screen.window->Render();
+    EXPECT_EQ(screen.names(), (std::set<std::string>{ "status", asksSliders ? "sliders" : "bar" }));
+    expectApart(screen, "");
+  }
+}
+
+TEST_F(ScreenLayoutTest, LongLinesAreBrokenAndLongDetailsCut)
+{
+  Screen screen(640, 480, 1.0, false);
+  screen.showAll(60);
+  screen.overlay->SetStatus(
+    "a file in a folder with a name that is by far too long to be read in one line of a "
+    "small window: " +
+    std::string(200, 'x') + ".ply: row 7 has 2 values");
+  screen.window->Render();
+  expectApart(screen, "");
+  expectInPlaces(screen, "");
+}
+
+TEST_F(ScreenLayoutTest, TextGrowsWithTheScaleAndWithThePicture)
+{
+  const auto statusHeight = [](int width, int height, double fontScale)
+  {
+    Screen screen(width, height, fontScale, false);
+    screen.overlay->SetStatus("20000 points");
+    screen.window->Render();
+    return screen.layout.places().front().box.height();
+  };
+  const double usual = statusHeight(1280, 800, 1.0);
+  EXPECT_NEAR(statusHeight(1280, 800, 2.0), 2.0 * usual, 3.0);
+  EXPECT_NEAR(statusHeight(3840, 2160, 1.0), 2.0 * usual, 3.0);
+  EXPECT_NEAR(statusHeight(640, 480, 1.0), usual, 1.0);
+}
+
+TEST(ScreenScale, TakesTheDotsThatTheDesktopSays)
+{
+  EXPECT_EQ(dotsPerInchOf("*background: white\nXft.antialias:\t1\nXft.dpi:\t192\nXft.hinting:\t1\n"), 192.0);
+  EXPECT_EQ(dotsPerInchOf("Xft.dpi: 120.5"), 120.5);
+  EXPECT_EQ(dotsPerInchOf("Xft.dpi:\tmany"), 0.0);
+  EXPECT_EQ(dotsPerInchOf("Xft.antialias: 1"), 0.0);
+  EXPECT_EQ(dotsPerInchOf(nullptr), 0.0);
+}
+
+} // namespace
