@@ -77,6 +77,20 @@ protected:
   }
 };
 
+TEST_F(Feel, SaysHowFarAHandThatTouchesNothingStaysAway)
+{
+  this->succeed({ "generate", "plane", "-n", "4000", "-o", "plane.ply" });
+  this->write("above.csv", "t,x,y,z\n0,0,0,0.4\n0.5,0,0,0.31\n1,0,0,0.5\n");
+  const std::string said = this->succeed({ "feel", "plane.ply", "--path", "above.csv", "-o", "out.csv" });
+  EXPECT_NE(said.find("0 of 1001 ticks in contact; nearest point 0.31 m away"), std::string::npos) << said;
+  const auto json = nlohmann::json::parse(
+    this->succeed({ "feel", "plane.ply", "--path", "above.csv", "-o", "out.csv", "--json" }));
+  EXPECT_NEAR(json.at("nearest_point_m").get<double>(), 0.31, 0.003);
+  this->write("deep.csv", "t,x,y,z\n0,0,0,0.01\n1,0,0,-0.002\n");
+  const std::string touched = this->succeed({ "feel", "plane.ply", "--path", "deep.csv", "-o", "out.csv" });
+  EXPECT_EQ(touched.find("nearest point"), std::string::npos) << touched;
+}
+
 TEST_F(Feel, TheSphereOfThePaperIsFeltWithinATwentiethOfAPercent)
 {
   this->succeed({ "generate", "sphere", "-n", "543652", "-o", "sphere.ply" });

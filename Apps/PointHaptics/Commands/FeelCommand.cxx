@@ -1,6 +1,7 @@
 #include "Commands/Commands.h"
 
 #include "Clouds/Pipeline.h"
+#include "Feel/ClosestApproach.h"
 #include "Feel/FeelLive.h"
 #include "Feel/FeelOptions.h"
 #include "Feel/FeelReplay.h"
@@ -15,6 +16,7 @@
 #include "Replay.h"
 #include "VirtualTouch.h"
 
+#include "Core/Base/QuantityText.h"
 #include "Devices/HipPath.h"
 #include "Devices/SimulatedDevice.h"
 
@@ -93,6 +95,10 @@ public:
   void add(double time, const ProxyState& state, double microseconds)
   {
     ++summary_.ticks;
+    if (summary_.contactTicks == 0)
+    {
+      approach_.add(state.hip);
+    }
     summary_.contactTicks += state.contact;
     summary_.maximumForce = std::max(summary_.maximumForce, norm(state.force));
     durations_.push_back(static_cast<float>(microseconds));
@@ -108,9 +114,13 @@ public:
     return summary_;
   }
 
+  /// Of a hand that has touched nothing.
+  const ClosestApproach& approach() const { return approach_; }
+
 private:
   CsvWriter& table_;
   RecordingWriter& recording_;
+  ClosestApproach approach_;
   Summary summary_;
   std::vector<float> durations_;
   std::uint64_t scene_ = 0;
@@ -224,22 +234,33 @@ bool feelAs(const FeelOptions& options, FeelScenes& scenes, const HipPath& path,
   return !stopIsRequested();
 }
 
-void print(const FeelOptions& options, const FeelScenes& scenes, const Summary& s)
+/// Of a hand that has touched nothing @p nearest says how near it came, metres.
+void print(const FeelOptions& options, const FeelScenes& scenes, const Summary& s,
+  const std::optional<double>& nearest)
 {
   if (options.json)
   {
-    const nlohmann::ordered_json result = { { "output", options.output },
+    nlohmann::ordered_json result = { { "output", options.output },
       { "points_felt", scenes.whole()->numberOfPoints() }, { "local_scenes", scenes.numberOfLocalScenes() },
       { "finest_cell_m", scenes.finestCell() }, { "ticks", s.ticks }, { "contact_ticks", s.contactTicks },
       { "max_force_n", s.maximumForce },
       { "update_us",
         { { "p50", s.p50Microseconds }, { "p99", s.p99Microseconds }, { "max", s.maximumMicroseconds } } } };
+    if (nearest)
+    {
+      result["nearest_point_m"] = *nearest;
+    }
     printJson(result);
     return;
   }
   fmt::print("{} ticks, {} in contact, max force {:.4g} N, update p50 {:.2f} p99 {:.2f} max {:.2f} us: {}\n",
     s.ticks, s.contactTicks, s.maximumForce, s.p50Microseconds, s.p99Microseconds, s.maximumMicroseconds,
     options.output);
+  if (nearest)
+  {
+    fmt::print(
+      "{} of {} ticks in contact; nearest point {} away\n", s.contactTicks, s.ticks, lengthText(*nearest, 2));
+  }
 }
 
 void printReplay(const FeelOptions& options, const ReplayDifference& difference, const Summary& s)
@@ -365,7 +386,9 @@ int runFeel(const FeelOptions& options)
   {
     warn(kCommand, fmt::format("{}: it ends early: {}", options.record, recording.problem()));
   }
-  print(options, scenes, rows.summary());
+  const Summary summary = rows.summary();
+  print(options, scenes, summary,
+    summary.contactTicks == 0 ? rows.approach().distance(*scenes.whole()) : std::nullopt);
   return kSuccess;
 }
 
