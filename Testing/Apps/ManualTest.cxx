@@ -25,11 +25,12 @@ TEST_F(Manual, ManPageHasEveryCommandOptionAndKey)
   const std::string page = this->succeed({ "manual", "man" });
   EXPECT_EQ(page.rfind(".TH POINTHAPTICS 1", 0), 0u);
   for (const char* part : { "POINTHAPTICS VIEW", "POINTHAPTICS RESAMPLE", "\\-\\-write\\-config",
-         "\\-\\-watch", "\\-\\-stiffness", "undo the last move" })
+         "\\-\\-watch", "SH EXAMPLES", "\\-\\-stiffness", "undo the last move" })
   {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
-  EXPECT_EQ(page.find("MANUAL"), std::string::npos) << "the hidden command is no command of the user's";
+  EXPECT_NE(page.find("POINTHAPTICS MANUAL"), std::string::npos);
+  EXPECT_NE(this->succeed({ "--help" }).find("  manual "), std::string::npos);
 }
 
 TEST_F(Manual, BashCompletesCommandsAndOptions)
@@ -47,6 +48,13 @@ TEST_F(Manual, BashCompletesCommandsAndOptions)
   EXPECT_EQ(complete("pointhaptics view --stif", 2), "--stiffness\n");
   EXPECT_EQ(complete("pointhaptics info --stif", 2), "\n");
   EXPECT_EQ(complete("pointhaptics info compl", 2), "completion\n");
+  EXPECT_EQ(complete("pointhaptics view --background w", 3), "white\n");
+  EXPECT_EQ(complete("pointhaptics view --up \"\"", 3), "auto x -x y -y z -z\n");
+  EXPECT_EQ(complete("pointhaptics cloud.ply --kind ter", 3), "terrain\n") << "view is the default command";
+  EXPECT_EQ(complete("pointhaptics feel --method surf", 3), "surface-fit\n");
+  EXPECT_EQ(complete("pointhaptics generate tor", 2), "torus\n");
+  EXPECT_EQ(complete("pointhaptics manual ke", 2), "keys\n");
+  EXPECT_EQ(complete("pointhaptics man", 1), "manual\n");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // `pointhaptics manual man|bash|keys`: man page, bash completion and cheat sheet, from the options and
-// bindings themselves. The build calls it; it is not in the help.
+// bindings themselves. The build calls it.
 #include "Commands/Commands.h"
 
 #include "Options/OptionParsing.h"
@@ -13,6 +13,9 @@
 #include <algorithm>
 #include <cctype>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -68,6 +71,27 @@ std::string optionsOf(const CLI::App& command)
   return text;
 }
 
+std::string examples()
+{
+  const std::pair<const char*, const char*> all[] = {
+    { "pointhaptics scan.laz", "Show and feel a scan; F lets the hand follow the mouse." },
+    { "pointhaptics view scan.laz --screenshot scan.png --size 1920x1080", "Write a picture." },
+    { "pointhaptics info scan.laz", "Say what is in it, and in which unit it seems to be." },
+    { "pointhaptics resample scan.laz --voxel 0.05 -o small.ply", "One point in each voxel of 5 cm." },
+    { "pointhaptics feel scan.laz --fit --path hip.csv -o felt.csv",
+      "Feel it along a path of t,x,y,z in seconds and metres: a row a tick." },
+    { "pointhaptics view scan.laz --record touch.csv", "Record what a person feels." },
+    { "pointhaptics compare touch.csv -o forces.png", "Feel that again by two methods, and draw both." },
+    { "pointhaptics convert a.e57 b.pcd --together all.laz", "One file of several, with all their arrays." },
+  };
+  std::string text = ".SH EXAMPLES\n";
+  for (const auto& [line, words] : all)
+  {
+    text += fmt::format(".TP\n\\fB{}\\fR\n{}\n", roff(line), roff(words));
+  }
+  return text;
+}
+
 std::string manPage(CLI::App& program)
 {
   std::string text = fmt::format(
@@ -89,6 +113,7 @@ std::string manPage(CLI::App& program)
     }
   }
   text += ".SH KEYS AND MOUSE OF VIEW\n.nf\n" + roff(keysHelp()) + "\n.fi\n";
+  text += examples();
   text += ".SH EXIT STATUS\n0: done, 1: failed, 2: the command line is wrong.\n";
   text +=
     ".SH FILES\n.TP\n\\fI$XDG_STATE_HOME/pointhaptics/view.json\\fR\nWhat the last window ended with, in "
@@ -109,14 +134,52 @@ std::string longOptions(const CLI::App& command)
   return words;
 }
 
+/// The values of an option or argument that takes one of a few words: "a b c"; empty where it takes others.
+std::string choicesOf(const CLI::Option& option)
+{
+  std::string words = option.get_expected_max() > 0 ? option.get_type_name() : std::string();
+  const bool areChoices =
+    words.find('|') != std::string::npos && words.find_first_of(" ,[:") == std::string::npos;
+  std::replace(words.begin(), words.end(), '|', ' ');
+  return areChoices ? words : std::string();
+}
+
+/// A case for each option of @p command with choices, and their words.
+std::string choiceCases(const CLI::App& command, const std::string& name)
+{
+  std::string cases;
+  for (const CLI::Option* option : command.get_options())
+  {
+    const std::string choices = choicesOf(*option);
+    for (const std::string& each : choices.empty() ? std::vector<std::string>() : option->get_lnames())
+    {
+      cases += fmt::format("    '{} --{}') values=\"{}\" ;;\n", name, each, choices);
+    }
+  }
+  return cases;
+}
+
+/// The choices of its arguments that are no options.
+std::string argumentChoices(const CLI::App& command)
+{
+  std::string words;
+  for (const CLI::Option* option : command.get_options())
+  {
+    words += option->nonpositional() ? "" : " " + choicesOf(*option);
+  }
+  return words;
+}
+
 /// Commands and files first, then the options of the command; everything else is a file.
 std::string bashCompletion(CLI::App& program)
 {
   std::string names;
   std::string cases;
+  std::string values;
   for (const CLI::App* command : shownCommands(program))
   {
-    std::string words = longOptions(*command);
+    std::string words = longOptions(*command) + argumentChoices(*command);
+    values += choiceCases(*command, command->get_name());
     for (const CLI::App* below : command->get_subcommands([](const CLI::App*) { return true; }))
     {
       words += " " + below->get_name() + " " + longOptions(*below);
@@ -124,9 +187,19 @@ std::string bashCompletion(CLI::App& program)
     names += (names.empty() ? "" : " ") + command->get_name();
     cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), words);
   }
-  return fmt::format(R"(# bash completion for pointhaptics
+  return fmt::format(R"bash(# bash completion for pointhaptics
 _pointhaptics() {{
-  local word="${{COMP_WORDS[COMP_CWORD]}}" words command="${{COMP_WORDS[1]}}"
+  local word="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD - 1]}}" words command="${{COMP_WORDS[1]}}" values=""
+  case " {1} " in
+    *" $command "*) ;;
+    *) command=view ;;
+  esac
+  case "$command $before" in
+{3}  esac
+  if [[ -n "$values" ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word")
+    return
+  fi
   case "$command" in
 {0}    *) words="{2}" ;;
   esac
@@ -136,13 +209,15 @@ _pointhaptics() {{
   if [[ "$word" == -* ]] || ((COMP_CWORD == 1)); then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
   fi
-  if [[ "$word" != -* ]]; then
-    mapfile -t -O "${{#COMPREPLY[@]}}" COMPREPLY < <(compgen -f -- "$word")
-  fi
-}}
+  if [[ "$word" != -* ]] && ((COMP_CWORD > 1)); then
+    mapfile -t COMPREPLY < <(compgen -W "$(printf '%s\n' $words | grep -v '^-')" --"$word")
+    fi if[["$word" != -*]];
+  then mapfile - t - O "${{#COMPREPLY[@]}}" COMPREPLY < < (compgen - f-- "$word") fi
+}
+}
 complete -o filenames -F _pointhaptics pointhaptics
-)",
-    cases, names, longOptions(*program.get_subcommand("view")));
+)bash",
+    cases, names, longOptions(*program.get_subcommand("view")), values);
 }
 
 std::string cheatSheet()
@@ -158,7 +233,6 @@ void addManualCommand(CLI::App& program)
 {
   CLI::App* command =
     program.add_subcommand("manual", "Print the man page, the bash completion or the cheat sheet");
-  command->group("");
   auto what = std::make_shared<std::string>();
   addWord(*command, "what", *what, { "man", "bash", "keys" }, "What to print")->required();
   command->callback(
