@@ -95,9 +95,9 @@ TEST_F(HandMode, KnowsHowFarTheCloudIsAndWhere)
   ASSERT_TRUE(distance.nearest());
   EXPECT_NEAR(*distance.distance(), 0.02, 1e-4);
   EXPECT_EQ(distance.text(style_->GetScreen().axes()), "nearest point 20 mm away: deeper");
-  state = this->freeAt({ 0.045, 0.0, -0.015 }); // the plane ends at 0.03
+  state = this->freeAt({ 0.045, 0.0, -0.013 }); // the plane ends at 0.03
   distance.update(&state);
-  EXPECT_EQ(distance.text(style_->GetScreen().axes()), "nearest point 21 mm away: nearer to you, left");
+  EXPECT_EQ(distance.text(style_->GetScreen().axes()), "nearest point 20 mm away: left, nearer to you");
   state.contact = true;
   distance.update(&state);
   EXPECT_EQ(distance.distance(), 0.0);

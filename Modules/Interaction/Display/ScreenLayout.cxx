@@ -210,6 +210,12 @@ void ScreenLayout::placeTop(Room& room, bool isLast)
     double panel[2];
     overlay_->MeasureBlock(Overlay::PanelBlock, int(room.font), width, lines, panel);
     const bool isBeside = status[0] + room.gap() + panel[0] <= width;
+    const bool makesRoom = isLast && !isBeside && progress_ && !progress_->GetText().empty();
+    if (makesRoom)
+    {
+      overlay_->HideBlock(Overlay::PanelBlock);
+      return;
+    }
     const double top = isBeside ? room.free.top : room.leftTop;
     const ScreenRectangle box{ room.free.right - panel[0], top - panel[1], room.free.right, top };
     overlay_->PlaceBlock(Overlay::PanelBlock, box.left, box.bottom);
@@ -224,28 +230,17 @@ void ScreenLayout::placeTop(Room& room, bool isLast)
 /// Sliders at the right edge, the scalar bar beside them.
 void ScreenLayout::placeColumn(Room& room, bool isLast)
 {
-  const double height = room.renderer->GetSize()[1];
-  const double floor = std::max(room.free.bottom, (corner_ ? corner_() : 0.0) * room.pixels);
-  const double top = std::min({ kColumnTop * height, room.leftTop, room.rightTop });
-  const auto take = [&](double wide, double high, ScreenRectangle& box)
-  {
-    const double bottom = std::max(floor, std::min(kColumnBottom * height, top - high));
-    box = { room.columnLeft - wide, bottom, room.columnLeft, top };
-    const bool hasRoom = high <= box.height() + 1.0 && box.left >= room.free.left;
-    room.fits = room.fits && hasRoom;
-    room.columnLeft = hasRoom || !isLast ? box.left - room.gap() : room.columnLeft;
-    return hasRoom;
-  };
-  ScreenRectangle box;
   double size[2] = { 0.0, 0.0 };
   if (sliders_ && sliders_->GetVisibility())
   {
     sliders_->Measure(int(room.font), size);
-    const bool hasRoom = take(size[0], size[1], box);
-    sliders_->SetCovered(isLast && !hasRoom);
-    if (hasRoom)
+    double wished[4];
+    sliders_->PreferredPlace(size, wished);
+    const int* origin = room.renderer->GetOrigin();
+    const ScreenRectangle box = this->takeColumn(room, size, wished[1] - origin[1], wished[3] - origin[1]);
+    sliders_->SetCovered(isLast && box.empty());
+    if (!box.empty())
     {
-      const int* origin = room.renderer->GetOrigin();
       sliders_->Place(
         box.left + origin[0], box.bottom + origin[1], box.right + origin[0], box.top + origin[1]);
       this->add("sliders", box);
@@ -253,13 +248,33 @@ void ScreenLayout::placeColumn(Room& room, bool isLast)
   }
   if (bar_.measure && bar_.measure(room.font, size[0], size[1]))
   {
-    const bool hasRoom = take(size[0], size[1], box);
-    bar_.place(hasRoom ? box : ScreenRectangle(), room.font);
-    if (hasRoom)
+    const double height = room.renderer->GetSize()[1];
+    const ScreenRectangle box = this->takeColumn(room, size, kColumnBottom * height, kColumnTop * height);
+    bar_.place(box, room.font);
+    if (!box.empty())
     {
       this->add("bar", box);
     }
   }
+}
+
+/// A box of at least @p size left of what is at the right edge, from @p bottom to @p top where that is free;
+/// empty: there is no room.
+ScreenRectangle ScreenLayout::takeColumn(Room& room, const double size[2], double bottom, double top)
+{
+  const double floor = std::max(room.free.bottom, (corner_ ? corner_() : 0.0) * room.pixels);
+  const double ceiling = std::min(room.leftTop, room.rightTop);
+  ScreenRectangle box{ room.columnLeft - size[0], 0.0, room.columnLeft, std::min(top, ceiling) };
+  box.bottom = std::max(floor, std::min(bottom, box.top - size[1]));
+  box.top = std::min(ceiling, std::max(box.top, box.bottom + size[1]));
+  const bool hasRoom = size[1] <= box.height() + 1.0 && box.left >= room.free.left;
+  room.fits = room.fits && hasRoom;
+  if (!hasRoom)
+  {
+    return {};
+  }
+  room.columnLeft = box.left - room.gap();
+  return box;
 }
 
 void ScreenLayout::placeDetail(Room& room, bool isLast)
@@ -289,7 +304,8 @@ void ScreenLayout::placeDetail(Room& room, bool isLast)
   room.bottom = room.free.bottom + size[1] + room.gap();
 }
 
-/// In the middle of what is left; what was picked of a cloud that goes makes room.
+/// In the middle of what is left, smaller where that is small; what is in its way goes until the file is
+/// read.
 void ScreenLayout::placeProgress(Room& room)
 {
   if (!progress_ || progress_->GetText().empty())
@@ -297,35 +313,51 @@ void ScreenLayout::placeProgress(Room& room)
     return;
   }
   double size[2];
-  progress_->Measure(room.renderer, size);
-  const auto detail =
-    std::find_if(places_.begin(), places_.end(), [](const Place& place) { return place.name == "detail"; });
-  if (detail != places_.end() && room.leftTop - room.bottom < size[1])
+  progress_->Measure(room.renderer, 1.0, size);
+  if (room.leftTop - room.bottom < size[1])
   {
-    overlay_->HideBlock(Overlay::DetailBlock);
-    places_.erase(detail);
+    this->leaveOut("detail");
     room.bottom = room.free.bottom;
   }
-  const double right = std::max(room.columnLeft, room.free.left + size[0]);
-  const double x = std::max(0.5 * (room.free.left + right), room.free.left + 0.5 * size[0]);
+  const double part =
+    std::min({ 1.0, room.free.width() / size[0], std::max(0.1, (room.leftTop - room.bottom) / size[1]) });
+  progress_->Measure(room.renderer, part, size);
+  const double x = std::max(0.5 * (room.free.left + room.columnLeft), room.free.left + 0.5 * size[0]);
   const double y = 0.5 * (room.leftTop + room.bottom);
   const ScreenRectangle box{ x - 0.5 * size[0], y - 0.5 * size[1], x + 0.5 * size[0], y + 0.5 * size[1] };
-  // A column that does not leave its width goes until the file is read.
-  const auto isInTheWay = [&](const Place& place) { return place.box.meets(box); };
-  for (const Place& place : places_)
+  for (const char* name : { "bar", "sliders", "panel" })
   {
-    if (isInTheWay(place) && place.name == "bar")
+    const auto place =
+      std::find_if(places_.begin(), places_.end(), [name](const Place& each) { return each.name == name; });
+    if (place != places_.end() && place->box.meets(box))
     {
-      bar_.place({}, room.font);
-    }
-    else if (isInTheWay(place) && place.name == "sliders")
-    {
-      sliders_->SetCovered(true);
+      this->leaveOut(name);
     }
   }
-  places_.erase(std::remove_if(places_.begin(), places_.end(), isInTheWay), places_.end());
   progress_->Place(room.renderer, x, y);
   this->add("progress", box);
+}
+
+void ScreenLayout::leaveOut(const std::string& name)
+{
+  const auto isIt = [&name](const Place& place) { return place.name == name; };
+  if (std::none_of(places_.begin(), places_.end(), isIt))
+  {
+    return;
+  }
+  if (name == "bar")
+  {
+    bar_.place({}, kLargestFont);
+  }
+  else if (name == "sliders")
+  {
+    sliders_->SetCovered(true);
+  }
+  else
+  {
+    overlay_->HideBlock(name == "panel" ? Overlay::PanelBlock : Overlay::DetailBlock);
+  }
+  places_.erase(std::remove_if(places_.begin(), places_.end(), isIt), places_.end());
 }
 
 } // namespace pointhaptics

@@ -89,7 +89,9 @@ private:
   bool tryFont(vtkRenderer* renderer, double font, bool isLast);
   void placeTop(Room& room, bool isLast);
   void placeColumn(Room& room, bool isLast);
+  ScreenRectangle takeColumn(Room& room, const double size[2], double bottom, double top);
   void placeProgress(Room& room);
+  void leaveOut(const std::string& name);
   void placeDetail(Room& room, bool isLast);
   void placeHelp(vtkRenderer* renderer);
   void add(const char* name, const ScreenRectangle& box);

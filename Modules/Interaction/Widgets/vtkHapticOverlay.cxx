@@ -74,7 +74,10 @@ std::vector<std::string> linesOf(const std::string& text)
   return lines;
 }
 
-/// Lines of at most @p longest bytes, broken at blanks, or within a word that is longer itself.
+/// Bytes of a letter in UTF-8.
+constexpr std::size_t kLongestLetter = 4;
+
+/// Lines of at most @p longest bytes, 8 at least, broken at blanks, or within a word that is longer itself.
 std::vector<std::string> wrapped(const std::vector<std::string>& lines, std::size_t longest)
 {
   std::vector<std::string> result;
@@ -85,7 +88,8 @@ std::vector<std::string> wrapped(const std::vector<std::string>& lines, std::siz
       std::size_t end = rest.rfind(' ', longest);
       const bool atBlank = end != std::string::npos && end > longest / 3;
       end = atBlank ? end : longest;
-      while (!atBlank && end > 1 && (static_cast<unsigned char>(rest[end]) & 0xC0U) == 0x80U)
+      while (!atBlank && end + kLongestLetter > longest &&
+        (static_cast<unsigned char>(rest[end]) & 0xC0U) == 0x80U)
       {
         --end; // not within a character of UTF-8
       }

@@ -29,6 +29,7 @@ constexpr double kHalfBar = 170.0;
 constexpr double kBarTop = -6.0;
 constexpr double kBarBottom = -20.0;
 constexpr std::size_t kLongestText = 38;
+constexpr int kFont = 15;
 /// At which a point is a pixel.
 constexpr double kPointsPerInch = 72.0;
 
@@ -92,7 +93,7 @@ vtkHapticProgress::vtkHapticProgress()
   setUpRectangle(this->Bar, this->BarCorners, 0.13, 0.40, 0.67);
 
   vtkTextProperty* style = this->Text->GetTextProperty();
-  style->SetFontSize(15);
+  style->SetFontSize(kFont);
   style->SetColor(0.08, 0.08, 0.10);
   style->SetLineSpacing(1.15);
   style->SetJustificationToCentered();
@@ -113,9 +114,11 @@ void vtkHapticProgress::SetCorners()
   setCorners(this->BarCorners, -s * kHalfBar, s * end, s * kBarBottom, s * kBarTop);
 }
 
-void vtkHapticProgress::Measure(vtkRenderer* renderer, double size[2])
+void vtkHapticProgress::Measure(vtkRenderer* renderer, double part, double size[2])
 {
-  const double scale = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
+  const double pixels = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
+  const double scale = part * pixels;
+  this->Text->GetTextProperty()->SetFontSize(std::max(1, int(part * kFont)));
   if (scale != this->Scale)
   {
     this->Scale = scale;

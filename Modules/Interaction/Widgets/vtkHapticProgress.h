@@ -43,10 +43,10 @@ public:
 
   ///@{
   /**
-   * For pointhaptics::ScreenLayout: the pixels that it takes, and where its middle is; at first in the middle
-   * of the renderer.
+   * For pointhaptics::ScreenLayout: the pixels that it takes @p part times as large as usual, and where its
+   * middle is; at first in the middle of the renderer.
    */
-  void Measure(vtkRenderer* renderer, double size[2]);
+  void Measure(vtkRenderer* renderer, double part, double size[2]);
   void Place(vtkRenderer* renderer, double x, double y);
   ///@}
 

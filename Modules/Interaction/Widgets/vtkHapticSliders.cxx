@@ -47,10 +47,10 @@ constexpr double kStep = 0.1;
 constexpr double kTextAbove = 0.022;
 /// Pixels of a column that is laid out, and the height of a slider with its text over that of the text.
 constexpr double kLeastWidth = 96.0;
-constexpr double kHalfKnob = 4.0;
+constexpr double kHalfKnob = 6.0; // points
 constexpr double kSliderPerText = 2.4;
 /// Of the room below the text.
-constexpr double kSliderAt = 0.55;
+constexpr double kSliderAt = 0.5;
 
 struct One
 {
@@ -269,9 +269,24 @@ void vtkHapticSliders::Measure(int font, double size[2])
   }
 }
 
+void vtkHapticSliders::PreferredPlace(const double size[2], double box[4]) const
+{
+  const int* window = this->Parts->renderer->GetSize();
+  const double text = size[1] / (NumberOfSliders * kSliderPerText);
+  const double step = kStep * window[1];
+  box[2] = kRight * window[0] + kHalfKnob;
+  box[0] = box[2] - size[0];
+  box[1] = kLowest * window[1] - kSliderAt * (step - text);
+  box[3] = box[1] + NumberOfSliders * step;
+}
+
 void vtkHapticSliders::Place(double left, double bottom, double right, double top)
 {
   const int* window = this->Parts->renderer->GetSize();
+  const double knob = kHalfKnob * this->Parts->renderer->GetVTKWindow()->GetDPI() / 72.0;
+  // As long as without a layout, where there is room.
+  const double length =
+    std::min(right - left - 2.0 * knob, std::max(kLeastWidth, (kRight - kLeft) * window[0]));
   const double step = (top - bottom) / NumberOfSliders;
   for (One& one : this->Parts->sliders)
   {
@@ -279,8 +294,8 @@ void vtkHapticSliders::Place(double left, double bottom, double right, double to
     one.text->GetSize(this->Parts->renderer, text);
     const double row = top - (one.index + 1) * step;
     const double way = row + kSliderAt * (step - text[1]);
-    one.picture->GetPoint1Coordinate()->SetValue((left + kHalfKnob) / window[0], way / window[1]);
-    one.picture->GetPoint2Coordinate()->SetValue((right - kHalfKnob) / window[0], way / window[1]);
+    one.picture->GetPoint1Coordinate()->SetValue((right - knob - length) / window[0], way / window[1]);
+    one.picture->GetPoint2Coordinate()->SetValue((right - knob) / window[0], way / window[1]);
     one.text->SetPosition(right / window[0], (row + step - text[1]) / window[1]);
     one.text->GetTextProperty()->SetVerticalJustificationToBottom();
   }

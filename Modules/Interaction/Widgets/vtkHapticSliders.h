@@ -79,9 +79,11 @@ public:
   ///@{
   /**
    * For pointhaptics::ScreenLayout: the pixels that the sliders need with a font of @p font points, and their
-   * box in pixels of the window. Without one they stand at the right.
+   * box in pixels of the window. Without one they stand at the right: PreferredPlace() says where, for the
+   * size that Measure() gave.
    */
   void Measure(int font, double size[2]);
+  void PreferredPlace(const double size[2], double box[4]) const;
   void Place(double left, double bottom, double right, double top);
   ///@}
 
