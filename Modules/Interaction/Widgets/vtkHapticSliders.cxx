@@ -47,7 +47,7 @@ constexpr double kStep = 0.1;
 constexpr double kTextAbove = 0.022;
 /// Pixels of a column that is laid out, and the height of a slider with its text over that of the text.
 constexpr double kLeastWidth = 96.0;
-constexpr double kHalfKnob = 6.0; // points
+constexpr double kHalfKnob = 0.06; // over the length of the way
 constexpr double kSliderPerText = 2.4;
 /// Of the room below the text.
 constexpr double kSliderAt = 0.5;
@@ -255,9 +255,14 @@ void vtkHapticSliders::ShowOrHide()
   }
 }
 
+double vtkHapticSliders::WayLength() const
+{
+  return std::max(kLeastWidth, (kRight - kLeft) * this->Parts->renderer->GetSize()[0]);
+}
+
 void vtkHapticSliders::Measure(int font, double size[2])
 {
-  size[0] = kLeastWidth;
+  size[0] = (1.0 + 2.0 * kHalfKnob) * this->WayLength();
   size[1] = 0.0;
   for (One& one : this->Parts->sliders)
   {
@@ -274,7 +279,7 @@ void vtkHapticSliders::PreferredPlace(const double size[2], double box[4]) const
   const int* window = this->Parts->renderer->GetSize();
   const double text = size[1] / (NumberOfSliders * kSliderPerText);
   const double step = kStep * window[1];
-  box[2] = kRight * window[0] + kHalfKnob;
+  box[2] = kRight * window[0] + kHalfKnob * this->WayLength();
   box[0] = box[2] - size[0];
   box[1] = kLowest * window[1] - kSliderAt * (step - text);
   box[3] = box[1] + NumberOfSliders * step;
@@ -283,10 +288,9 @@ void vtkHapticSliders::PreferredPlace(const double size[2], double box[4]) const
 void vtkHapticSliders::Place(double left, double bottom, double right, double top)
 {
   const int* window = this->Parts->renderer->GetSize();
-  const double knob = kHalfKnob * this->Parts->renderer->GetVTKWindow()->GetDPI() / 72.0;
   // As long as without a layout, where there is room.
-  const double length =
-    std::min(right - left - 2.0 * knob, std::max(kLeastWidth, (kRight - kLeft) * window[0]));
+  const double length = std::min((right - left) / (1.0 + 2.0 * kHalfKnob), this->WayLength());
+  const double knob = kHalfKnob * length;
   const double step = (top - bottom) / NumberOfSliders;
   for (One& one : this->Parts->sliders)
   {

@@ -93,6 +93,7 @@ protected:
 
 private:
   void ShowOrHide();
+  double WayLength() const;
 
   vtkHapticSliders(const vtkHapticSliders&) = delete;
   void operator=(const vtkHapticSliders&) = delete;

@@ -427,6 +427,10 @@ struct BarWidths
 {
   double box = 0.0;
   double names = 0.0;
+  double title = 0.0;
+
+  /// The title stands over the middle of the bar, and so ends farther right.
+  double beyond() const { return std::max(0.0, 0.5 * (title - kBarWidth)); }
 };
 
 BarWidths widthsOf(vtkScalarBarActor* bar, double font)
@@ -434,6 +438,7 @@ BarWidths widthsOf(vtkScalarBarActor* bar, double font)
   const double letter = kLetterWidth * font;
   const double title = letter * double(bar->GetTitle() ? std::strlen(bar->GetTitle()) : 0);
   BarWidths widths;
+  widths.title = title;
   widths.box = std::max(title, kBarWidth + (hasNames(bar) ? 0.0 : letter * kNumberLetters));
   for (vtkIdType i = 0; hasNames(bar) && i < bar->GetLookupTable()->GetNumberOfAnnotatedValues(); ++i)
   {
@@ -446,29 +451,7 @@ BarWidths widthsOf(vtkScalarBarActor* bar, double font)
 
 } // namespace
 
-void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer)
-{
-  constexpr double kMargin = 12.0;
-  const double pixels = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
-  const double size = renderer->GetSize()[0];
-  const double width = std::min(size, pixels * widthsOf(bar, kScalarBarFont).box);
-  const double left = std::max(0.0, size - pixels * kMargin - width);
-  const double height = renderer->GetSize()[1];
-  const double box[4] = { left, 0.28 * height, left + width, 0.78 * height };
-  placeScalarBar(bar, renderer, kScalarBarFont, pixels, box);
-}
-
-void measureScalarBar(vtkScalarBarActor* bar, double font, double pixelsPerPoint, double size[2])
-{
-  constexpr double kLine = 1.5; // of the font's size
-  constexpr double kLeastLines = 6.0;
-  const BarWidths widths = widthsOf(bar, font);
-  const double names = hasNames(bar) ? double(bar->GetLookupTable()->GetNumberOfAnnotatedValues()) : 0.0;
-  size[0] = pixelsPerPoint * (widths.box + widths.names);
-  size[1] = pixelsPerPoint * font * kLine * std::max(kLeastLines, names + 2.0);
-}
-
-void placeScalarBar(
+static void putScalarBar(
   vtkScalarBarActor* bar, vtkRenderer* renderer, double font, double pixelsPerPoint, const double box[4])
 {
   const BarWidths widths = widthsOf(bar, font);
@@ -490,6 +473,36 @@ void placeScalarBar(
     bar->SetTextPosition(
       hasNames(bar) ? vtkScalarBarActor::SucceedScalarBar : vtkScalarBarActor::PrecedeScalarBar);
   }
+}
+
+void placeScalarBar(vtkScalarBarActor* bar, vtkRenderer* renderer)
+{
+  constexpr double kMargin = 12.0;
+  const double pixels = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
+  const double size = renderer->GetSize()[0];
+  const double width = std::min(size, pixels * widthsOf(bar, kScalarBarFont).box);
+  const double left = std::max(0.0, size - pixels * kMargin - width);
+  const double height = renderer->GetSize()[1];
+  const double box[4] = { left, 0.28 * height, left + width, 0.78 * height };
+  putScalarBar(bar, renderer, kScalarBarFont, pixels, box);
+}
+
+void measureScalarBar(vtkScalarBarActor* bar, double font, double pixelsPerPoint, double size[2])
+{
+  constexpr double kLine = 1.5; // of the font's size
+  constexpr double kLeastLines = 6.0;
+  const BarWidths widths = widthsOf(bar, font);
+  const double names = hasNames(bar) ? double(bar->GetLookupTable()->GetNumberOfAnnotatedValues()) : 0.0;
+  size[0] = pixelsPerPoint * (widths.box + widths.names + widths.beyond());
+  size[1] = pixelsPerPoint * font * kLine * std::max(kLeastLines, names + 2.0);
+}
+
+void placeScalarBar(
+  vtkScalarBarActor* bar, vtkRenderer* renderer, double font, double pixelsPerPoint, const double box[4])
+{
+  const double beyond = pixelsPerPoint * widthsOf(bar, font).beyond();
+  const double inner[4] = { box[0], box[1], box[2] - beyond, box[3] };
+  putScalarBar(bar, renderer, font, pixelsPerPoint, inner);
 }
 
 void applyBackground(vtkRenderer* renderer)
