@@ -317,8 +317,8 @@ TEST_F(ScreenLayoutTest, TextGrowsWithTheScaleAndWithThePicture)
     return screen.layout.places().front().box.height();
   };
   const double usual = statusHeight(1280, 800, 1.0);
-  EXPECT_NEAR(statusHeight(1280, 800, 2.0), 2.0 * usual, 3.0);
-  EXPECT_NEAR(statusHeight(3840, 2160, 1.0), 2.0 * usual, 3.0);
+  EXPECT_NEAR(statusHeight(1280, 800, 2.0), 2.0 * usual, 0.15 * 2.0 * usual);
+  EXPECT_NEAR(statusHeight(3840, 2160, 1.0), 2.0 * usual, 0.15 * 2.0 * usual);
   EXPECT_NEAR(statusHeight(640, 480, 1.0), usual, 1.0);
 }
 
