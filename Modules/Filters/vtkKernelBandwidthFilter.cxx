@@ -1,5 +1,6 @@
 #include "vtkKernelBandwidthFilter.h"
 
+#include "BandwidthArrays.h"
 #include "PolyDataAccess.h"
 #include "PrintSettings.h"
 #include "SmpExecutor.h"
@@ -7,13 +8,9 @@
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
 
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -82,32 +79,6 @@ private:
   double To;
 };
 
-/// VoxelPointCount; empty where it is missing, has another shape, or is not to be used.
-std::vector<double> countsOf(vtkPolyData* cloud, bool use)
-{
-  std::vector<double> counts;
-  vtkDataArray* array = use ? cloud->GetPointData()->GetArray("VoxelPointCount") : nullptr;
-  if (array && array->GetNumberOfComponents() == 1 &&
-    array->GetNumberOfTuples() == cloud->GetNumberOfPoints())
-  {
-    counts.resize(std::size_t(array->GetNumberOfTuples()));
-    for (std::size_t i = 0; i < counts.size(); ++i)
-    {
-      counts[i] = array->GetComponent(vtkIdType(i), 0);
-    }
-  }
-  return counts;
-}
-
-void addArray(vtkPolyData* output, const char* name, const std::vector<double>& values)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfValues(vtkIdType(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  output->GetPointData()->AddArray(array);
-}
-
 }
 
 void vtkKernelBandwidthFilter::SetSettings(const BandwidthSettings& settings)
@@ -142,10 +113,7 @@ int vtkKernelBandwidthFilter::RequestData(
   const Status status = settings.check();
   if (status != Status::Ok)
   {
-    vtkErrorMacro("NumberOfNeighbors " << settings.numberOfNeighbors << ", Radius " << settings.radius
-                                       << ", RadiusScale " << settings.radiusScale << ", MinimumRadius "
-                                       << settings.minimumRadius << ", MaximumRadius "
-                                       << settings.maximumRadius << ": " << message(status) << ".");
+    vtkErrorMacro(<< bandwidthProblem(this->Settings, status));
     return 1;
   }
   if (input->GetNumberOfPoints() > NeighborQuery::kMostPoints)
@@ -173,7 +141,7 @@ bool vtkKernelBandwidthFilter::Estimate(
   NeighborQuery query;
   query.build(points.view(), SmpExecutor());
   this->UpdateProgress(0.1);
-  const std::vector<double> counts = countsOf(input, settings.usePointCounts);
+  const std::vector<double> counts = voxelCounts(input, settings.usePointCounts);
   const bool wantsPoints = this->Settings.computeBandwidth || this->Settings.computeProxyRadius;
   const bool wantsMeans = this->Settings.computeDensity || this->Settings.computeMeanBandwidth;
   std::vector<double> bandwidths;
@@ -206,22 +174,7 @@ bool vtkKernelBandwidthFilter::Estimate(
   {
     return false;
   }
-  if (this->Settings.computeDensity)
-  {
-    addArray(output, "Density", densities);
-  }
-  if (this->Settings.computeMeanBandwidth)
-  {
-    addArray(output, "MeanBandwidth", widths);
-  }
-  if (this->Settings.computeBandwidth)
-  {
-    addArray(output, "Bandwidth", bandwidths);
-  }
-  if (this->Settings.computeProxyRadius)
-  {
-    addArray(output, "ProxyRadius", radii);
-  }
+  addBandwidthArrays(output, this->Settings, densities, widths, bandwidths, radii);
   this->UpdateProgress(1.0);
   return true;
 }

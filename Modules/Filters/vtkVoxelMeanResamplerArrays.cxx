@@ -1,88 +1,20 @@
 /// The point arrays of vtkVoxelMeanResampler: which there are, and what they become.
 #include "vtkVoxelMeanResamplerInternals.h"
 
-#include "vtkAbstractArray.h"
+#include "VoxelArrays.h"
+
 #include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 
 using namespace pointhaptics;
 
-namespace
-{
-
-std::string nameOf(vtkAbstractArray* array)
-{
-  return array->GetName() ? array->GetName() : "";
-}
-
-/// Identifiers and ghost flags are meaningless once points are merged, and so are counts and covariances of
-/// an earlier resampling.
-bool isBookkeeping(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
-{
-  const std::string name = nameOf(array);
-  return array == attributes->GetGlobalIds() || array == attributes->GetPedigreeIds() ||
-    name == vtkDataSetAttributes::GhostArrayName() || name == "VoxelPointCount" ||
-    name == "VoxelCovariance" || name == "VoxelIndex" || name == kOriginalPointIds;
-}
-
-std::string whyDropped(vtkAbstractArray* array, vtkIdType points)
-{
-  std::ostringstream text;
-  text << "Array \"" << nameOf(array) << "\" ";
-  if (!vtkDataArray::SafeDownCast(array))
-  {
-    text << "is not numeric: it has no mean and is dropped.";
-  }
-  else
-  {
-    text << "has " << array->GetNumberOfTuples() << " tuples for " << points << " points: it is dropped.";
-  }
-  return text.str();
-}
-
-/// An array may be the active one of several types.
-std::vector<int> rolesOf(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
-{
-  std::vector<int> roles;
-  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-  {
-    if (attributes->GetAbstractAttribute(type) == array)
-    {
-      roles.push_back(type);
-    }
-  }
-  return roles;
-}
-
-}
-
 bool vtkVoxelMeanResampler::Internals::KeepsPoints() const
 {
-  return this->Request.representative == pointhaptics::Representative::NearestToMean ||
-    this->Request.representative == pointhaptics::Representative::NearestToCenter;
-}
-
-AttributeKind vtkVoxelMeanResampler::Internals::KindOf(vtkDataArray* array, bool isNormal) const
-{
-  if (this->KeepsPoints())
-  {
-    return AttributeKind::Chosen;
-  }
-  if (this->Filter->IsCategoricalArray(array->GetName()))
-  {
-    return AttributeKind::Category;
-  }
-  if (this->Request.representative == pointhaptics::Representative::Median)
-  {
-    return AttributeKind::Median;
-  }
-  return isNormal ? AttributeKind::Normal : AttributeKind::Mean;
+  return keepsPoints(this->Request.representative);
 }
 
 void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input, bool warns)
@@ -93,37 +25,28 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input, bool war
     this->Known.clear();
     return;
   }
-  vtkPointData* data = input->GetPointData();
+  const vtkMTimeType ownersTime =
+    std::max(input->GetPointData()->vtkObject::GetMTime(), input->vtkObject::GetMTime());
   std::vector<KnownValues> known;
   known.swap(this->Known);
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  std::vector<std::string> dropped;
+  for (const VoxelArray& found :
+    voxelArrays(input, this->Filter->Settings.categoricalArrays, this->Request.representative, dropped))
   {
-    vtkAbstractArray* any = data->GetAbstractArray(i);
-    if (isBookkeeping(data, any))
-    {
-      continue;
-    }
-    vtkDataArray* array = vtkDataArray::SafeDownCast(any);
-    if (!array || array->GetNumberOfTuples() != input->GetNumberOfPoints())
-    {
-      if (warns)
-      {
-        vtkWarningWithObjectMacro(this->Filter, << whyDropped(any, input->GetNumberOfPoints()));
-      }
-      continue;
-    }
-    const bool isNormal = array == data->GetNormals() && array->GetNumberOfComponents() == 3;
-    const AttributeKind kind = this->KindOf(array, isNormal);
-    const ArraySeen seen(array, std::max(data->vtkObject::GetMTime(), input->vtkObject::GetMTime()));
+    const ArraySeen seen(found.array, ownersTime);
     const auto old = std::find_if(known.begin(), known.end(),
-      [&](const KnownValues& values) { return values.seen == seen && values.kind == kind; });
-    VoxelAttribute attribute(array, kind, old == known.end() ? nullptr : &old->values,
+      [&](const KnownValues& values) { return values.seen == seen && values.kind == found.kind; });
+    VoxelAttribute attribute(found.array, found.kind, old == known.end() ? nullptr : &old->values,
       this->Filter->Settings.instructionSet, this->Smp);
     if (this->Filter->Settings.usePointIndex)
     {
-      this->Known.push_back({ seen, kind, attribute.values() });
+      this->Known.push_back({ seen, found.kind, attribute.values() });
     }
-    this->Attributes.push_back({ std::move(attribute), rolesOf(data, array), isNormal });
+    this->Attributes.push_back({ std::move(attribute), found.roles, found.isNormal });
+  }
+  for (std::size_t i = 0; warns && i < dropped.size(); ++i)
+  {
+    vtkWarningWithObjectMacro(this->Filter, << dropped[i]);
   }
 }
 

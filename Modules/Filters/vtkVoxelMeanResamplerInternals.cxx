@@ -1,24 +1,21 @@
 #include "vtkVoxelMeanResamplerInternals.h"
 
+#include "ResamplerInput.h"
+
 #include "Core/Resample/VoxelMean.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkHomogeneousTransform.h"
 #include "vtkIdTypeArray.h"
-#include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <sstream>
 #include <string>
 
 using namespace pointhaptics;
@@ -28,29 +25,6 @@ namespace
 
 /// The part of an update's progress after which the outputs are filled: see kRunEnd.
 constexpr double kFillEnd = 0.99;
-
-std::string latticeText(const LatticeSettings& lattice)
-{
-  std::ostringstream text;
-  if (lattice.voxelSize != 0.0)
-  {
-    text << "Lattice of voxel size " << lattice.voxelSize;
-  }
-  else
-  {
-    const std::array<std::int64_t, 3>& n = lattice.dimensions;
-    text << "Lattice of " << n[0] << " x " << n[1] << " x " << n[2] << " voxels";
-  }
-  return text.str();
-}
-
-/// Such a matrix is often not affine either: NaN times 0 is NaN.
-bool holdsNonFinite(vtkAbstractTransform* transform)
-{
-  auto* homogeneous = vtkHomogeneousTransform::SafeDownCast(transform);
-  const double* elements = homogeneous ? homogeneous->GetMatrix()->GetData() : nullptr;
-  return elements && !std::all_of(elements, elements + 16, [](double e) { return std::isfinite(e); });
-}
 
 }
 
@@ -128,27 +102,12 @@ bool vtkVoxelMeanResampler::Internals::Update(
 
 bool vtkVoxelMeanResampler::Internals::ReadTransform()
 {
-  vtkAbstractTransform* transform = this->Filter->Transform;
-  if (!affineFromTransform(transform, this->Request.transform))
+  const std::string problem = readTransform(this->Filter->Transform, this->Request.transform);
+  if (!problem.empty())
   {
-    if (holdsNonFinite(transform))
-    {
-      vtkErrorWithObjectMacro(this->Filter, "SetTransform: " << message(Status::NonFiniteTransform) << ".");
-      return false;
-    }
-    vtkErrorWithObjectMacro(this->Filter,
-      "SetTransform: " << transform->GetClassName()
-                       << " is not affine; use a vtkTransform or vtkMatrixToLinearTransform whose matrix has "
-                          "the last row 0, 0, 0, 1.");
-    return false;
+    vtkErrorWithObjectMacro(this->Filter, << problem);
   }
-  const Status status = this->Request.transform.check();
-  if (status != Status::Ok)
-  {
-    vtkErrorWithObjectMacro(this->Filter, "SetTransform: " << message(status) << ".");
-    return false;
-  }
-  return true;
+  return problem.empty();
 }
 
 bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
@@ -169,7 +128,7 @@ bool vtkVoxelMeanResampler::Internals::MakeLattice(vtkPointSet* input)
   const Status status = makeLattice(settings, cloud, this->Request.lattice);
   if (status != Status::Ok)
   {
-    vtkErrorWithObjectMacro(this->Filter, << latticeText(settings) << ": " << message(status) << ".");
+    vtkErrorWithObjectMacro(this->Filter, << latticeProblem(settings, status));
     return false;
   }
   return true;

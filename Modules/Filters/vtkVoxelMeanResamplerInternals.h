@@ -4,6 +4,7 @@
 
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
+#include "VoxelArrays.h"
 #include "VoxelAttribute.h"
 #include "VoxelOutput.h"
 #include "vtkVoxelMeanResampler.h"
@@ -28,8 +29,6 @@ namespace pointhaptics
 
 /// The part of an update's progress after which the means are known.
 constexpr double kRunEnd = 0.9;
-/// The array of KeepOriginalPointIds.
-constexpr const char* kOriginalPointIds = "vtkOriginalPointIds";
 
 }
 
@@ -106,7 +105,6 @@ private:
   bool KeepsPoints() const;
   /// What an attribute is on a level.
   vtkSmartPointer<vtkDataArray> ReducedArray(std::size_t i, int level);
-  pointhaptics::AttributeKind KindOf(vtkDataArray* array, bool isNormal) const;
   void ChooseArrays(vtkPointSet* input, bool warns);
   bool UseIndex(vtkPointSet* input);
   bool Resample(vtkPointSet* input, bool isFirst);

@@ -15,7 +15,8 @@ set(may_include_Interaction Core Shapes Haptics Devices Filters IO Scene Renderi
 set(may_include_Viewer Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer)
 set(may_include_PCL Core Filters PCL)
 set(may_include_ParaView Core Filters IO ParaView)
-set(may_include_Apps Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer Apps)
+set(may_include_Parallel Core Filters Parallel)
+set(may_include_Apps Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer Parallel Apps)
 # Within Core: from the room to those that it may include besides itself.
 set(rooms_of_Base "")
 set(rooms_of_Simd Base)
@@ -23,6 +24,7 @@ set(rooms_of_Neighbors Base Simd)
 set(rooms_of_Resample Base Simd Neighbors)
 set(rooms_of_Bandwidth Base Simd Neighbors)
 set(rooms_of_Surface Base Simd)
+set(rooms_of_Distributed Base Simd Neighbors Resample Bandwidth)
 set(rooms_of_Reference Base Simd Neighbors Resample Bandwidth Surface)
 # Plain C++17: no VTK, no PCL, nothing that prints.
 set(plain_folders Core Shapes Haptics Devices)
@@ -36,7 +38,7 @@ set(asks_for_version "VTK_(MAJOR|MINOR|BUILD)_VERSION|VTK_VERSION|PARAVIEW_VERSI
 set(may_ask_for_version "Modules/Filters/VtkVersions.h")
 # The viewer is a library: it prints nothing and knows no command line.
 set(not_in_viewer "^(CLI/.*|nlohmann/.*|iostream|cstdio|stdio\\.h)$")
-set(modules Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer PCL ParaView)
+set(modules Core Shapes Haptics Devices Filters IO Scene Rendering Interaction Viewer PCL ParaView Parallel)
 list(JOIN modules "|" modules_pattern)
 
 # Sets home_<header> to the folder a header that is included by its bare name belongs to.
@@ -141,7 +143,7 @@ foreach (folder IN LISTS modules ITEMS Apps)
     math(EXPR number_of_files "${number_of_files} + 1")
     check_file("${file}" "${folder}")
     check_versions("${file}")
-    if (folder MATCHES "^(PCL|ParaView)$")
+    if (folder MATCHES "^(PCL|ParaView|Parallel)$" OR file MATCHES "/Apps/Mpi/")
       check_skin("${file}" not_in_skins)
     endif ()
   endforeach ()

@@ -20,44 +20,60 @@ struct Weights
   const NeighborQuery& query;
   const std::vector<double>& counts;
   double total = 0.0;
+  /// A power of two by which the total is at most OrderedSum::kMost.
+  double scale = 1.0;
 
   double at(std::int64_t slot) const
   {
-    return counts.empty() ? 1.0 : std::max(1.0, counts[std::size_t(query.index(slot))]);
+    return scale * (counts.empty() ? 1.0 : std::max(1.0, counts[std::size_t(query.index(slot))]));
   }
 };
 
-Weights weightsOf(const NeighborQuery& query, const std::vector<double>& counts)
+/// A sum of numbers from 0 to 2^34 that does not depend on their order: each is cut to multiples of 2^-60, in
+/// two words.
+class OrderedSum
 {
-  Weights weights{ query, counts, 0.0 };
-  if (counts.empty())
+public:
+  static constexpr double kMost = 0x1p34;
+
+  void add(double value)
   {
-    weights.total = double(query.size());
-    return weights;
+    const double scaled = value * kHighScale;
+    const auto high = std::int64_t(scaled);
+    high_ += high;
+    low_ += std::int64_t((scaled - double(high)) * kLowScale);
   }
-  for (std::int64_t slot = 0; slot < query.size(); ++slot)
+  double value() const
   {
-    weights.total += weights.at(slot);
+    const std::int64_t carry = low_ >> kLowBits;
+    const std::int64_t low = low_ - (carry << kLowBits);
+    return (double(high_ + carry) + double(low) / kLowScale) / kHighScale;
   }
-  return weights;
-}
+
+private:
+  static constexpr int kLowBits = 34;
+  static constexpr double kHighScale = 0x1p26;
+  static constexpr double kLowScale = 0x1p34;
+  std::int64_t high_ = 0;
+  std::int64_t low_ = 0;
+};
 
 double gaussianOnSurface(const Weights& weights, const Vec3& center, double b)
 {
-  double sum = 0.0;
+  OrderedSum sum;
   weights.query.visitBallSlots(center, kDensityCutoff * b,
-    [&](double d2, std::int64_t slot) { sum += weights.at(slot) * std::exp(-0.5 * d2 / (b * b)); });
-  return sum / (weights.total * kTwoPi * b * b);
+    [&](double d2, std::int64_t slot) { sum.add(weights.at(slot) * std::exp(-0.5 * d2 / (b * b))); });
+  return sum.value() / (weights.scale * weights.total * kTwoPi * b * b);
 }
 
 double epanechnikovOnSurface(const Weights& weights, const Vec3& center, double b)
 {
   const double reach = kEpanechnikovReachOnSurface * b;
-  double sum = 0.0;
+  OrderedSum sum;
   weights.query.visitBallSlots(center, reach,
     [&](double d2, std::int64_t slot)
-    { sum += weights.at(slot) * std::max(0.0, 1.0 - d2 / (reach * reach)); });
-  return sum / (weights.total * 0.5 * kPi * reach * reach);
+    { sum.add(weights.at(slot) * std::max(0.0, 1.0 - d2 / (reach * reach))); });
+  return sum.value() / (weights.scale * weights.total * 0.5 * kPi * reach * reach);
 }
 
 template <typename Sum>
@@ -137,8 +153,39 @@ void surfaceDensities(const PointView& points, const std::vector<double>& counts
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor,
   DensityKernel kernel)
 {
-  const Weights weights = weightsOf(query, counts);
+  surfaceDensitiesOfPart(
+    points, counts, query, bandwidths, totalWeight(points, counts), densities, executor, kernel);
+}
+
+double totalWeight(const PointView& points, const std::vector<double>& counts)
+{
+  double total = 0.0;
+  for (std::int64_t i = 0; i < points.size(); ++i)
+  {
+    total += !isFinite(points[i]) ? 0.0 : counts.empty() ? 1.0 : std::max(1.0, counts[std::size_t(i)]);
+  }
+  return total;
+}
+
+double densityReach(DensityKernel kernel)
+{
+  return kernel == DensityKernel::Epanechnikov ? kEpanechnikovReachOnSurface : kDensityCutoff;
+}
+
+void surfaceDensitiesOfPart(const PointView& points, const std::vector<double>& counts,
+  const NeighborQuery& query, const std::vector<double>& bandwidths, double total,
+  std::vector<double>& densities, const Executor& executor, DensityKernel kernel)
+{
   densities.assign(std::size_t(points.size()), 0.0);
+  if (!std::isfinite(total))
+  {
+    return;
+  }
+  Weights weights{ query, counts, total };
+  while (weights.scale * total > OrderedSum::kMost)
+  {
+    weights.scale *= 0.5;
+  }
   const auto density = kernel == DensityKernel::Epanechnikov ? &epanechnikovOnSurface : &gaussianOnSurface;
   // In spatial order, where the points of one ball after the other are close in memory.
   forRange(executor, query.size(),

@@ -43,7 +43,8 @@ Status univariateDensities(DensityKernel kernel, const double* sample, std::int6
 /// f_b(x) = 1/(N 2 pi b^2) sum_i exp(-|x - x_i|^2 / (2 b^2)), per squared unit of the coordinates, N =
 /// query.size(), cut off at kDensityCutoff; or with the Epanechnikov kernel 1/(N pi/2 w^2 b^2) sum_i
 /// (1 - |x - x_i|^2 / (w b)^2) over the points closer than w b, where nothing is cut off. Points that are not
-/// finite, or whose bandwidth is not above 0, get 0. Independent of @p executor.
+/// finite, or whose bandwidth is not above 0, get 0. Independent of @p executor, and of the order in which
+/// the query has the points: terms are summed as whole multiples of 2^-60 of a kernel's height.
 void surfaceDensities(const PointView& points, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
   DensityKernel kernel = DensityKernel::Gaussian);
@@ -53,5 +54,16 @@ void surfaceDensities(const PointView& points, const NeighborQuery& query,
 void surfaceDensities(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
   const std::vector<double>& bandwidths, std::vector<double>& densities, const Executor& executor = {},
   DensityKernel kernel = DensityKernel::Gaussian);
+/// The same of a part of a cloud, and the points nearby: @p total is N of the whole cloud, totalWeight() of
+/// its parts together. Points that do not matter have bandwidth 0.
+void surfaceDensitiesOfPart(const PointView& points, const std::vector<double>& counts,
+  const NeighborQuery& query, const std::vector<double>& bandwidths, double total,
+  std::vector<double>& densities, const Executor& executor = {},
+  DensityKernel kernel = DensityKernel::Gaussian);
+/// The sum of the counts of finite points, each at least 1; without counts how many there are. Exact, where
+/// counts are whole numbers below 2^53 in all.
+double totalWeight(const PointView& points, const std::vector<double>& counts);
+/// As far as the kernel of a point with bandwidth 1 is summed.
+double densityReach(DensityKernel kernel);
 
 } // namespace pointhaptics

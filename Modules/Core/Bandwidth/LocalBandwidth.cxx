@@ -213,48 +213,36 @@ double partOfDiagonal(const Bounds& box, double part)
 
 /// The radius of a point whose neighbours all coincide with it, or are so near or so far that their squared
 /// distances are out of range.
-double fallbackRadius(
-  const PointView& points, const std::vector<double>& radii, const LocalBandwidthSettings& settings)
+double fallbackRadius(double smallest, const Bounds& box, const LocalBandwidthSettings& settings)
 {
   double radius = settings.minimumRadius;
   if (!(radius > 0.0))
   {
-    double smallest = INFINITY;
-    Bounds box;
-    for (std::int64_t i = 0; i < points.size(); ++i)
-    {
-      const double r = radii[std::size_t(i)];
-      smallest = r > 0.0 ? std::min(smallest, r) : smallest;
-      if (isFinite(points[i]))
-      {
-        box.include(points[i]);
-      }
-    }
     const double part = box.empty() ? 0.0 : partOfDiagonal(box, 1e-3);
     radius = std::isfinite(smallest) ? smallest : part > 0.0 ? part : kRadiusWithoutExtent;
   }
   return settings.maximumRadius > 0.0 ? std::min(radius, settings.maximumRadius) : radius;
 }
 
-void fillWithout(const Sample& sample, std::vector<double>& bandwidths, std::vector<double>& radii)
+void fillWithout(const PointView& points, const LocalBandwidthSettings& settings, PartialBandwidths& all)
 {
-  const PointView& points = sample.points;
-  const LocalBandwidthSettings& settings = sample.settings;
-  const double fallback = fallbackRadius(points, radii, settings);
+  double smallest = INFINITY;
+  Bounds box;
   for (std::int64_t i = 0; i < points.size(); ++i)
   {
-    if (!(radii[std::size_t(i)] > 0.0) && isFinite(points[i]))
+    const double r = all.radii[std::size_t(i)];
+    smallest = r > 0.0 ? std::min(smallest, r) : smallest;
+    if (isFinite(points[i]))
     {
-      radii[std::size_t(i)] = fallback;
-      bandwidths[std::size_t(i)] = fallback / settings.radiusScale;
+      box.include(points[i]);
     }
   }
+  completeBandwidths(points, settings, smallest, box, all);
 }
 
 /// @return whether every point has got a radius.
 template <typename MakeSweep>
-bool readAll(const Sample& sample, MakeSweep&& makeSweep, std::vector<double>& bandwidths,
-  std::vector<double>& radii, const Executor& executor)
+bool readAll(const Sample& sample, MakeSweep&& makeSweep, PartialBandwidths& result, const Executor& executor)
 {
   const NeighborQuery& query = sample.query;
   std::atomic<bool> complete{ true };
@@ -267,14 +255,20 @@ bool readAll(const Sample& sample, MakeSweep&& makeSweep, std::vector<double>& b
         {
           const Neighborhood near = reader.read(list);
           const double radius = radiusOf(near, sample.settings);
+          const std::size_t index = std::size_t(query.index(list.slot));
+          if (!result.reaches.empty())
+          {
+            result.reaches[index] = sample.settings.fixedRadius
+              ? sample.settings.radius
+              : std::sqrt(list.squaredDistances[list.count - 1]);
+          }
           if (!(near.bandwidth > 0.0) || !std::isfinite(radius))
           {
             complete.store(false, std::memory_order_relaxed);
             return;
           }
-          const std::size_t index = std::size_t(query.index(list.slot));
-          bandwidths[index] = near.bandwidth;
-          radii[index] = radius;
+          result.bandwidths[index] = near.bandwidth;
+          result.radii[index] = radius;
         });
     });
   return complete;
@@ -335,6 +329,22 @@ Sample sampleOf(const PointView& points, const std::vector<double>& counts, cons
   return { points, query, NeighborCounts(query, settings.usePointCounts ? counts : kNone), settings };
 }
 
+Status readWhole(const PointView& points, const std::vector<double>& counts, const NeighborQuery& query,
+  const LocalBandwidthSettings& settings, PartialBandwidths& result, bool& isComplete,
+  const Executor& executor)
+{
+  result.bandwidths.assign(std::size_t(points.size()), 0.0);
+  result.radii.assign(std::size_t(points.size()), 0.0);
+  const Status status = checked(points, counts, settings);
+  if (status == Status::Ok)
+  {
+    const Sample sample = sampleOf(points, counts, query, settings);
+    isComplete = withNeighborhoods(
+      sample, [&](auto&& makeSweep) { return readAll(sample, makeSweep, result, executor); });
+  }
+  return status;
+}
+
 }
 
 Status LocalBandwidthSettings::check() const noexcept
@@ -362,25 +372,43 @@ Status localBandwidths(const PointView& points, const std::vector<double>& count
   const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
   const Executor& executor)
 {
-  bandwidths.assign(std::size_t(points.size()), 0.0);
-  radii.assign(std::size_t(points.size()), 0.0);
-  const Status status = checked(points, counts, settings);
-  if (status != Status::Ok)
+  PartialBandwidths all;
+  bool isComplete = false;
+  const Status status = readWhole(points, counts, query, settings, all, isComplete, executor);
+  if (status == Status::Ok && !isComplete)
   {
-    return status;
+    fillWithout(points, settings, all);
   }
-  const Sample sample = sampleOf(points, counts, query, settings);
-  const bool complete = withNeighborhoods(
-    sample, [&](auto&& makeSweep) { return readAll(sample, makeSweep, bandwidths, radii, executor); });
-  if (!complete)
-  {
-    fillWithout(sample, bandwidths, radii);
-  }
-  if (settings.smoothRadius)
+  bandwidths = std::move(all.bandwidths);
+  radii = std::move(all.radii);
+  if (status == Status::Ok && settings.smoothRadius)
   {
     limitSlope(query, kRadiusSlope, radii, executor);
   }
-  return Status::Ok;
+  return status;
+}
+
+Status partialBandwidths(const PointView& points, const std::vector<double>& counts,
+  const NeighborQuery& query, const LocalBandwidthSettings& settings, PartialBandwidths& result,
+  const Executor& executor)
+{
+  result.reaches.assign(std::size_t(points.size()), 0.0);
+  bool isComplete = false;
+  return readWhole(points, counts, query, settings, result, isComplete, executor);
+}
+
+void completeBandwidths(const PointView& points, const LocalBandwidthSettings& settings,
+  double smallestRadius, const Bounds& box, PartialBandwidths& part)
+{
+  const double fallback = fallbackRadius(smallestRadius, box, settings);
+  for (std::int64_t i = 0; i < points.size(); ++i)
+  {
+    if (!(part.radii[std::size_t(i)] > 0.0) && isFinite(points[i]))
+    {
+      part.radii[std::size_t(i)] = fallback;
+      part.bandwidths[std::size_t(i)] = fallback / settings.radiusScale;
+    }
+  }
 }
 
 Status localRadiiAt(const PointView& points, const NeighborQuery& query,

@@ -59,6 +59,25 @@ Status localBandwidths(const PointView& points, const std::vector<double>& count
   const LocalBandwidthSettings& settings, std::vector<double>& bandwidths, std::vector<double>& radii,
   const Executor& executor = {});
 
+/// What is known of the neighbourhoods of a part of a cloud: see partialBandwidths().
+struct PartialBandwidths
+{
+  std::vector<double> bandwidths; ///< 0 where the neighbourhood has no spread.
+  std::vector<double> radii;      ///< The same.
+  std::vector<double> reaches;    ///< Distance of the last neighbour; of a ball's, its radius.
+};
+
+/// The first step of localBandwidths, for processes that each have a part of a cloud: @p points are that
+/// part, and others nearby, so that no point is missing in the neighbourhoods of those that matter.
+/// smoothRadius is not looked at.
+Status partialBandwidths(const PointView& points, const std::vector<double>& counts,
+  const NeighborQuery& query, const LocalBandwidthSettings& settings, PartialBandwidths& result,
+  const Executor& executor = {});
+/// The second step: gives the finite points of @p part that have no radius theirs. @p smallestRadius: of the
+/// whole cloud, infinite where none has one; @p box: about its finite points.
+void completeBandwidths(const PointView& points, const LocalBandwidthSettings& settings,
+  double smallestRadius, const Bounds& box, PartialBandwidths& part);
+
 /// The radii of the points at @p slots of @p query alone, in that order: those of localBandwidths, bit for
 /// bit, without its work for all the others. For a few of many points: about 2 us each at k = 16. All points
 /// are processed only with smoothRadius, or where one of the neighbourhoods has no spread. Errors as for

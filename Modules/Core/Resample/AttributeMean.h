@@ -10,6 +10,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -63,6 +65,16 @@ public:
   /// The sums of voxel i become those of voxel places[i] of @p voxels, of at most @p mostPoints points each
   /// once more are added.
   void spread(const std::vector<std::uint32_t>& places, std::int64_t voxels, std::int64_t mostPoints);
+
+  ///@{
+  /// Sums for another process, which averages the rest of the array: those of voxels @p first to before @p
+  /// last, appended to @p bytes. @pre of both: the same range, type and components, and mostPoints of
+  /// prepare().
+  void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const;
+  /// Adds what serialize() appended to the sums of @p voxels, which are as many. @return false, with nothing
+  /// added, for another number of bytes.
+  bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels);
+  ///@}
 
   /// Means of all voxels in the array's own type; integers are rounded to the nearest, halves away from zero.
   /// @p counts: points of each voxel.

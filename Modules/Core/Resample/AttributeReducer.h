@@ -13,6 +13,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -42,6 +44,15 @@ public:
   void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
   /// Of sums: voxel i becomes places[i] of @p voxels, of at most @p mostPoints points each by then.
   void spread(const std::vector<std::uint32_t>& places, std::int64_t voxels, std::int64_t mostPoints);
+  /// For processes that share the points: see AttributeMean and AttributeTuples.
+  void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const
+  {
+    std::visit([&](const auto& ofVoxels) { ofVoxels.serialize(first, last, bytes); }, tuples_);
+  }
+  bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels)
+  {
+    return std::visit([&](auto& ofVoxels) { return ofVoxels.merge(bytes, voxels); }, tuples_);
+  }
   /// Voxels become their parents: see VoxelResampler::parents().
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
   /// Writes the tuples of all voxels, @p counts points each. @return false where @p observer, which may be

@@ -75,6 +75,7 @@ void AttributeTuples::makeRoom(std::int64_t tuples)
 {
   constexpr std::size_t kWord = sizeof(std::uint64_t);
   const std::size_t bytes = std::size_t(tuples * components_ * bytesOf(type_));
+  room_ = tuples;
   tuples_.reserve((bytes + kWord - 1) / kWord, Pages::Huge);
 }
 

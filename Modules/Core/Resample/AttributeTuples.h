@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -61,6 +63,16 @@ public:
   /// The tuples of voxels become those of their parents: see VoxelResampler::parents().
   void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
 
+  ///@{
+  /// Tuples for another process, which has the rest of the array: of voxels @p first to before @p last,
+  /// appended to @p bytes. Each value of a component once, with how many points have it: 16 bytes a value at
+  /// most, and 8 a voxel.
+  void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const;
+  /// Adds what serialize() appended to @p voxels, which are as many. @return false for bytes that are not
+  /// theirs, or more tuples than prepare() made room for; what was added then is of no use.
+  bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels);
+  ///@}
+
   /// Modes or medians of all voxels, in the tuples' own type. @pre each voxel has as many tuples as it was
   /// said to get. @return false where @p observer, which may be null, aborted the work.
   bool write(void* values, const Executor& executor, ProgressObserver* observer) const;
@@ -77,12 +89,17 @@ private:
     return reinterpret_cast<T*>(tuples_.data()) + components_ * i;
   }
   template <typename T>
+  void serializeVoxel(std::int64_t voxel, std::string& bytes) const;
+  template <typename T>
+  bool mergeVoxel(std::string_view& bytes, std::int64_t voxel);
+  template <typename T>
   void writeValues(std::int64_t first, std::int64_t last, T* to) const;
 
   ScalarType type_;
   int components_;
   TupleStatistic statistic_;
   Buffer<std::uint64_t> tuples_;   ///< Those of a voxel after each other.
+  std::int64_t room_ = 0;          ///< For so many tuples.
   std::vector<std::int64_t> ends_; ///< Where the next tuple of each voxel goes.
 };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 namespace pointhaptics
@@ -89,9 +91,27 @@ void put(std::string& bytes, T value)
   static_assert(sizeof(T) == 8, "words of 64 bits");
   std::uint64_t word;
   std::memcpy(&word, &value, sizeof word);
-  for (int shift = 0; shift < 64; shift += 8)
+  char ordered[sizeof word];
+  for (std::size_t i = 0; i < sizeof word; ++i)
   {
-    bytes.push_back(char(word >> shift & 255));
+    ordered[i] = char(word >> (8 * i) & 255);
+  }
+  bytes.append(ordered, sizeof ordered);
+}
+
+void putVoxel(std::string& bytes, const VoxelSums& sums, const SecondMoments* moments)
+{
+  put(bytes, sums.key);
+  put(bytes, sums.count);
+  for (const Int128 sum : sums.sums)
+  {
+    put(bytes, std::uint64_t(sum));
+    put(bytes, std::uint64_t(sum >> 64));
+  }
+  for (int m = 0; moments && m < 6; ++m)
+  {
+    put(bytes, std::uint64_t(moments->lanes[m]));
+    put(bytes, std::uint64_t(moments->lanes[m] >> 64));
   }
 }
 
@@ -368,16 +388,57 @@ Status VoxelAccumulator::finish(
   return status;
 }
 
+/// Of voxels that have several sums, those whose keys are in a range.
+VoxelRun VoxelAccumulator::halvesInRange(
+  const VoxelRun& all, const Lattice& lattice, std::uint64_t first, std::uint64_t end)
+{
+  VoxelRun some;
+  for (std::size_t v = 0; v < all.voxels.size(); ++v)
+  {
+    const std::uint64_t key = VoxelResampler::Implementation::keyOfSums(lattice, all.voxels[v].key);
+    if (key >= first && key < end)
+    {
+      some.voxels.push_back(all.voxels[v]);
+      if (!all.secondMoments.empty())
+      {
+        some.secondMoments.push_back(all.secondMoments[v]);
+      }
+    }
+  }
+  return some;
+}
+
 std::string VoxelAccumulator::serialize()
+{
+  return this->serialize(0, std::numeric_limits<std::uint64_t>::max());
+}
+
+std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
 {
   std::string bytes;
   if (!this->settle())
   {
     return bytes;
   }
-  const VoxelRun& run = added_->run();
-  const std::size_t words =
-    kHeaderWords + run.voxels.size() * (kVoxelWords + (covariances_ ? kMomentWords : 0));
+  const bool halves = VoxelResampler::Implementation::hasHalves(lattice_);
+  const VoxelRun& all = added_->run();
+  const VoxelRun some = halves ? halvesInRange(all, lattice_, first, end) : VoxelRun();
+  const VoxelRun& run = halves ? some : all;
+  const auto place = [&run](std::uint64_t key)
+  {
+    return std::size_t(std::lower_bound(run.voxels.begin(), run.voxels.end(), key,
+                         [](const WideSums& voxel, std::uint64_t k) { return voxel.key < k; }) -
+      run.voxels.begin());
+  };
+  const std::size_t begin = halves ? 0 : place(first);
+  const std::size_t last = halves ? run.voxels.size() : std::max(begin, place(end));
+  const bool isFirst = first == 0 && end > 0;
+  const std::int64_t clipped = isFirst ? added_->clipped : 0;
+  const std::int64_t invalid = isFirst ? added_->invalid : 0;
+  const std::int64_t points =
+    std::accumulate(run.voxels.begin() + std::ptrdiff_t(begin), run.voxels.begin() + std::ptrdiff_t(last),
+      clipped + invalid, [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
+  const std::size_t words = kHeaderWords + (last - begin) * (kVoxelWords + (covariances_ ? kMomentWords : 0));
   bytes.reserve(sizeof kMagic + words * sizeof(std::uint64_t));
   bytes.append(kMagic, sizeof kMagic);
   for (int axis = 0; axis < 3; ++axis)
@@ -387,28 +448,41 @@ std::string VoxelAccumulator::serialize()
     put(bytes, lattice_.dimensions[std::size_t(axis)]);
     put(bytes, lattice_.end[axis]);
   }
-  for (const std::int64_t number : { std::int64_t(covariances_), std::int64_t(added_->fractionBits),
-         added_->points, added_->clipped, added_->invalid, std::int64_t(run.voxels.size()) })
+  for (const std::int64_t number : { std::int64_t(covariances_), std::int64_t(added_->fractionBits), points,
+         clipped, invalid, std::int64_t(last - begin) })
   {
     put(bytes, number);
   }
-  for (std::size_t v = 0; v < run.voxels.size(); ++v)
+  for (std::size_t v = begin; v < last; ++v)
   {
-    const VoxelSums sums = run.voxels[v].whole();
-    put(bytes, sums.key);
-    put(bytes, sums.count);
-    for (const Int128 sum : sums.sums)
-    {
-      put(bytes, std::uint64_t(sum));
-      put(bytes, std::uint64_t(sum >> 64));
-    }
-    for (int m = 0; covariances_ && m < 6; ++m)
-    {
-      put(bytes, std::uint64_t(run.secondMoments[v].lanes[m]));
-      put(bytes, std::uint64_t(run.secondMoments[v].lanes[m] >> 64));
-    }
+    putVoxel(bytes, run.voxels[v].whole(), covariances_ ? &run.secondMoments[v] : nullptr);
   }
   return bytes;
+}
+
+std::vector<std::uint64_t> VoxelAccumulator::keys(std::int64_t step)
+{
+  std::vector<std::uint64_t> all;
+  if (!this->settle())
+  {
+    return all;
+  }
+  const bool halves = VoxelResampler::Implementation::hasHalves(lattice_);
+  for (const WideSums& voxel : added_->run().voxels)
+  {
+    all.push_back(halves ? VoxelResampler::Implementation::keyOfSums(lattice_, voxel.key) : voxel.key);
+  }
+  if (halves)
+  {
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  }
+  std::vector<std::uint64_t> keys;
+  for (std::size_t v = 0; v < all.size(); v += std::size_t(step))
+  {
+    keys.push_back(all[v]);
+  }
+  return keys;
 }
 
 Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& result)

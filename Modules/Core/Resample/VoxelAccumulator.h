@@ -15,9 +15,14 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pointhaptics
 {
+namespace simd
+{
+struct VoxelRun;
+}
 
 /// Accumulates clouds voxel by voxel: frames of a sensor, parts of a file, what other processes have summed.
 ///
@@ -74,6 +79,12 @@ public:
   /// The sums as bytes, for a file or another process: a version, the lattice, the voxels; little-endian, the
   /// same for equal sums. Empty where points were subtracted that had not been added.
   std::string serialize();
+  /// The same of the voxels whose keys are from @p first to before @p end, and of their points alone; those
+  /// clipped or invalid go with the first key, 0. The parts of all ranges merge to the whole.
+  std::string serialize(std::uint64_t first, std::uint64_t end);
+  /// Keys of active voxels in ascending order, every @p step th of them (at least 1). None where points were
+  /// subtracted that had not been added.
+  std::vector<std::uint64_t> keys(std::int64_t step = 1);
   /// What serialize() made. InvalidParameter, with @p result unchanged: bytes of another version or that no
   /// accumulator writes. Sizes are checked before memory is allocated; keys ascend and lie in the lattice,
   /// means in their voxels.
@@ -84,6 +95,8 @@ public:
 
 private:
   class Sums;
+  static simd::VoxelRun halvesInRange(
+    const simd::VoxelRun& all, const Lattice& lattice, std::uint64_t first, std::uint64_t end);
   Status change(Sums& sums, const PointView& points, const AffineTransform& transform,
     const Executor& executor, ProgressObserver* observer);
   bool settle();

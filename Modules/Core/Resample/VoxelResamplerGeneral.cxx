@@ -123,6 +123,17 @@ void VoxelResampler::Implementation::describeSums(
   keys = fine.key(0, 0, fine.dimensions[2]);
 }
 
+std::uint64_t VoxelResampler::Implementation::keyOfSums(const Lattice& lattice, std::uint64_t key)
+{
+  const int halvings = halvingsOf(lattice);
+  if (halvings <= 0)
+  {
+    return key;
+  }
+  const auto index = finerLattice(lattice, halvings).indexOf(key);
+  return lattice.key(index[0] >> halvings, index[1] >> halvings, index[2] >> halvings);
+}
+
 /// @param sums the voxels in ascending order.
 Status VoxelResampler::Implementation::finishSums(const VoxelRequest& request, const VoxelRun& sums,
   int fractionBits, const Executor& executor, ProgressObserver* observer)

@@ -42,6 +42,9 @@ public:
     ProgressObserver* observer);
   /// Bits of offsets in such sums, and above all their keys.
   static void describeSums(const Lattice& lattice, int& fractionBits, std::uint64_t& keys);
+  /// Whether each voxel has several such sums, and the key of the voxel that has the sums of a key.
+  static bool hasHalves(const Lattice& lattice) { return halvingsOf(lattice) > 0; }
+  static std::uint64_t keyOfSums(const Lattice& lattice, std::uint64_t key);
   Status finishSums(const VoxelRequest& request, const simd::VoxelRun& sums, int fractionBits,
     const Executor& executor, ProgressObserver* observer);
 

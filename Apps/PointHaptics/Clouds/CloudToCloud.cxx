@@ -1,4 +1,4 @@
-#include "Commands/CloudToCloud.h"
+#include "Clouds/CloudToCloud.h"
 
 #include "Options/OptionParsing.h"
 #include "Terminal/StopSignals.h"

@@ -1,0 +1,62 @@
+#include "Job.h"
+
+#include "Terminal/CommandLine.h"
+#include "Terminal/Messages.h"
+
+#include <fmt/format.h>
+#include <vtkMPIController.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+Job::Job(int* argc, char*** argv)
+  : ranks_(controller_)
+{
+  controller_->Initialize(argc, argv);
+  vtkMultiProcessController::SetGlobalController(controller_);
+}
+
+Job::~Job()
+{
+  if (!isFinished_)
+  {
+    // The others may wait for a message of this one.
+    abortJob(kFailed);
+  }
+  vtkMultiProcessController::SetGlobalController(nullptr);
+  controller_->Finalize();
+}
+
+bool Job::agree(const std::string& command, const std::string& problem)
+{
+  const std::vector<std::string> problems = ranks_.gather(problem);
+  const auto first =
+    std::find_if(problems.begin(), problems.end(), [](const std::string& text) { return !text.empty(); });
+  if (first == problems.end())
+  {
+    return true;
+  }
+  const bool isEverywhere =
+    std::all_of(problems.begin(), problems.end(), [&](const std::string& text) { return text == *first; });
+  if (first - problems.begin() == ranks_.rank())
+  {
+    fail(command,
+      isEverywhere ? problem : fmt::format("rank {} of {}: {}", ranks_.rank(), ranks_.size(), problem));
+  }
+  return false;
+}
+
+int Job::finish(int exitCode)
+{
+  const int code = ranks_.reduce(exitCode, [](int a, int b) { return std::max(a, b); });
+  isFinished_ = true;
+  return code;
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,84 @@
+#include "MpiCommands.h"
+
+#include "Job.h"
+#include "MpiOutput.h"
+
+#include "Clouds/BandwidthTask.h"
+#include "Clouds/Pipeline.h"
+#include "Terminal/CommandLine.h"
+#include "Terminal/Messages.h"
+
+#include "vtkDistributedKernelBandwidthFilter.h"
+
+#include <CLI/CLI.hpp>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+
+#include <memory>
+#include <string>
+
+namespace pointhaptics
+{
+namespace app
+{
+namespace
+{
+
+constexpr const char* kCommand = "bandwidth";
+
+struct MpiBandwidthOptions : BandwidthCommandOptions
+{
+  bool traffic = false;
+};
+
+int runBandwidth(const MpiBandwidthOptions& options, Job& job)
+{
+  Piece piece;
+  if (!openPiece(job, kCommand, options.files, piece))
+  {
+    return kFailed;
+  }
+  std::string problem;
+  vtkNew<vtkDistributedKernelBandwidthFilter> filter;
+  filter->SetInputData(piece.points);
+  filter->SetSettings(options.bandwidth.settings);
+  if (!updateFilter(filter, "bandwidth", problem))
+  {
+    problem = options.files.input + ": " + problem;
+  }
+  if (!job.agree(kCommand, problem))
+  {
+    return kFailed;
+  }
+  if (job.isRoot())
+  {
+    showWarnings(kCommand);
+  }
+  const BandwidthFigures figures = job.ranks().reduce(bandwidthFigures(filter->GetOutput()), together);
+  if (!job.agree(kCommand, whyNone(options, figures)) ||
+    !writePieces(job, kCommand, options.files.output, filter->GetOutput()))
+  {
+    return kFailed;
+  }
+  if (job.isRoot())
+  {
+    print(options, figures);
+  }
+  sayTraffic(job, options.traffic, filter->GetNumberOfBytesSent());
+  return kSuccess;
+}
+
+} // namespace
+
+void addMpiBandwidth(CLI::App& program, MpiWork& work)
+{
+  CLI::App* command =
+    program.add_subcommand("bandwidth", "Add kernel bandwidth, proxy radius and density to every point");
+  auto options = std::make_shared<MpiBandwidthOptions>();
+  options->addTo(*command);
+  addTraffic(*command, options->traffic);
+  command->callback([options, &work] { work = [options](Job& job) { return runBandwidth(*options, job); }; });
+}
+
+} // namespace app
+} // namespace pointhaptics

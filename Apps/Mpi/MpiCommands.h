@@ -1,0 +1,27 @@
+/// @file
+/// The commands of pointhaptics-mpi.
+#pragma once
+
+#include <functional>
+
+namespace CLI
+{
+class App;
+}
+
+namespace pointhaptics
+{
+namespace app
+{
+
+class Job;
+
+/// What a command line asks for, run after it was parsed on all ranks. @return an ExitCode.
+using MpiWork = std::function<int(Job&)>;
+
+/// Each adds its command to @p program; its callback stores what to run in @p work.
+void addMpiResample(CLI::App& program, MpiWork& work);
+void addMpiBandwidth(CLI::App& program, MpiWork& work);
+
+} // namespace app
+} // namespace pointhaptics

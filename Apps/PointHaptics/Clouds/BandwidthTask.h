@@ -1,0 +1,48 @@
+/// @file
+/// What the command `bandwidth` is asked for and says, of this program and of pointhaptics-mpi.
+#pragma once
+
+#include "Clouds/CloudToCloud.h"
+#include "Options/BandwidthOptions.h"
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace CLI
+{
+class App;
+}
+class vtkPolyData;
+
+namespace pointhaptics
+{
+namespace app
+{
+
+struct BandwidthCommandOptions
+{
+  CloudToCloudOptions files;
+  BandwidthOptions bandwidth;
+
+  void addTo(CLI::App& command);
+};
+
+/// Of a cloud or a part of it. Points that are not finite have radius 0: they take no part.
+struct BandwidthFigures
+{
+  double smallestRadius = INFINITY;
+  double largestRadius = 0.0;
+  std::int64_t points = 0;
+  std::int64_t invalid = 0;
+};
+
+BandwidthFigures bandwidthFigures(vtkPolyData* cloud);
+/// Of two parts.
+BandwidthFigures together(const BandwidthFigures& a, const BandwidthFigures& b);
+/// Why there is no radius; empty where there is one.
+std::string whyNone(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
+void print(const BandwidthCommandOptions& options, const BandwidthFigures& figures);
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,87 @@
+#include "Clouds/ResampleTask.h"
+
+#include "Options/OptionParsing.h"
+#include "Terminal/Messages.h"
+
+#include "vtkVoxelMeanResampler.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <vtkFieldData.h>
+#include <vtkPolyData.h>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+void ResampleOptions::addTo(CLI::App& command)
+{
+  VoxelMeanSettings& voxels = this->lattice.voxels;
+  this->files.addTo(command);
+  command.add_flag(
+    "--covariance", voxels.computeCovariance, "Add the second moments of each voxel: VoxelCovariance");
+  addChoice(
+    command, "--representative",
+    [&voxels](int value) { voxels.representative = static_cast<Representative>(value); },
+    { { "mean", int(Representative::Mean) }, { "nearest-to-mean", int(Representative::NearestToMean) },
+      { "nearest-to-center", int(Representative::NearestToCenter) },
+      { "median", int(Representative::Median) } },
+    "What stands for the points of a voxel: one of them, or the median of each value; default mean");
+  addInteger(command, "--minimum-points", this->minimumPoints, 1, VTK_INT_MAX,
+    "Leave out voxels with fewer points; default 1");
+  command
+    .add_option("--voxel-index", this->voxelIndex,
+      "File to write with the row in OUT of each point of IN, from 0, or -1: .csv")
+    ->type_name("FILE");
+  this->lattice.addTo(command);
+}
+
+void ResampleOptions::configure(vtkVoxelMeanResampler* resampler) const
+{
+  this->lattice.configure(resampler);
+  resampler->SetMinimumPointsPerVoxel(int(this->minimumPoints));
+}
+
+/// The steps of the file's coordinates are not those of transformed ones.
+void ResampleOptions::finish(vtkPolyData* means) const
+{
+  for (const char* name : { "LasScale", "LasOffset" })
+  {
+    if (this->lattice.hasTransform())
+    {
+      means->GetFieldData()->RemoveArray(name);
+    }
+  }
+}
+
+std::string whyEmpty(const ResampleOptions& options, const ResampleFigures& figures)
+{
+  if (figures.clipped + figures.invalid < figures.in)
+  {
+    return fmt::format("{}: no voxel has {} points; give fewer to --minimum-points, or larger voxels",
+      options.files.input, options.minimumPoints);
+  }
+  return fmt::format(
+    "{}: no point lies in the workspace: {} clipped, {} invalid; leave out --workspace, or mend the "
+    "transform",
+    options.files.input, figures.clipped, figures.invalid);
+}
+
+void print(const ResampleOptions& options, const ResampleFigures& figures)
+{
+  if (options.files.json)
+  {
+    const nlohmann::ordered_json result = { { "input", options.files.input },
+      { "output", options.files.output }, { "points_in", figures.in }, { "points_out", figures.out },
+      { "points_clipped", figures.clipped }, { "points_invalid", figures.invalid } };
+    printJson(result);
+    return;
+  }
+  fmt::print("{} points in, {} out, {} clipped, {} invalid: {}\n", figures.in, figures.out, figures.clipped,
+    figures.invalid, options.files.output);
+}
+
+} // namespace app
+} // namespace pointhaptics

@@ -1,0 +1,327 @@
+#include "Core/Distributed/SharedBandwidths.h"
+
+#include "Core/Bandwidth/Density.h"
+#include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Distributed/SpaceSlabs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr SlabRange kEverywhere{ -INFINITY, INFINITY };
+
+SlabRange both(const SlabRange& a, const SlabRange& b)
+{
+  return { std::min(a.low, b.low), std::max(a.high, b.high) };
+}
+
+/// The steps on one rank. All are collective.
+class SharedEstimate
+{
+public:
+  SharedEstimate(Ranks& ranks, const PointView& points, const std::vector<double>& counts, bool hasCounts,
+    const BandwidthSettings& settings, const Executor& executor)
+    : ranks_(ranks)
+    , settings_(settings)
+    , executor_(executor)
+    , hasCounts_(hasCounts)
+    , slabs_(ranks, points, counts)
+  {
+  }
+
+  std::vector<double> bandwidths(std::vector<double>& radii);
+  std::vector<double> bandwidthsOfMeans();
+  void smooth(std::vector<double>& radii);
+  std::vector<double> densities(const std::vector<double>& widths);
+  std::vector<double> giveBack(const std::vector<double>& values, int width)
+  {
+    return slabs_.giveBack(values, width);
+  }
+  std::size_t size() { return slabs_.own().size(); }
+
+private:
+  PointView view() const { return { places_.data(), std::int64_t(places_.size()) }; }
+  std::vector<double> ofOwn(const std::vector<double>& all) const;
+  SlabRange reachOf(const std::vector<double>& distances);
+  SlabRange guess();
+  void take(std::vector<SlabPoint> points);
+  bool ensure(const SlabRange& needed);
+  std::vector<double> estimate(
+    const std::vector<double>& counts, const LocalBandwidthSettings& settings, std::vector<double>& radii);
+
+  Ranks& ranks_;
+  const BandwidthSettings& settings_;
+  const Executor& executor_;
+  const bool hasCounts_;
+  SpaceSlabs slabs_;
+  // The own points and ghosts, all that lie in covered_.
+  SlabRange covered_;
+  bool isCovered_ = false;
+  std::vector<Vec3> places_;
+  std::vector<double> counts_;
+  std::vector<double> radii_;
+  std::vector<std::size_t> own_; ///< Where the own points are among them.
+  NeighborQuery query_;
+};
+
+std::vector<double> SharedEstimate::ofOwn(const std::vector<double>& all) const
+{
+  std::vector<double> values;
+  values.reserve(own_.size());
+  for (const std::size_t i : own_)
+  {
+    values.push_back(all[i]);
+  }
+  return values;
+}
+
+/// The range of balls about the own points, with some room for rounding.
+SlabRange SharedEstimate::reachOf(const std::vector<double>& distances)
+{
+  constexpr double kRoom = 0x1p-40;
+  SlabRange range;
+  for (std::size_t i = 0; i < distances.size(); ++i)
+  {
+    const double c = slabs_.coordinate(slabs_.own()[i]);
+    const double far = distances[i] + kRoom * (distances[i] + std::fabs(c));
+    range.include(c - far, c + far);
+  }
+  return range;
+}
+
+/// How far the neighbourhoods reach as a rule, on a surface and in a volume: whether it does is looked at.
+SlabRange SharedEstimate::guess()
+{
+  Bounds box;
+  for (const SlabPoint& point : slabs_.own())
+  {
+    box.include(point.place);
+  }
+  if (box.empty())
+  {
+    return {};
+  }
+  double edges[3] = { box.extent().x, box.extent().y, box.extent().z };
+  std::sort(edges, edges + 3);
+  const double points = double(this->size());
+  const double spacing =
+    std::max(std::sqrt(edges[2] * edges[1] / points), std::cbrt(edges[2] * edges[1] * edges[0] / points));
+  const double reach =
+    settings_.fixedRadius ? settings_.radius : 2.0 * spacing * std::sqrt(double(settings_.numberOfNeighbors));
+  return this->reachOf(std::vector<double>(this->size(), reach));
+}
+
+void SharedEstimate::take(std::vector<SlabPoint> points)
+{
+  places_.clear();
+  counts_.clear();
+  radii_.clear();
+  own_.clear();
+  const std::vector<SlabPoint>& own = slabs_.own();
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (own_.size() < own.size() && own[own_.size()].index == points[i].index)
+    {
+      own_.push_back(i);
+    }
+    places_.push_back(points[i].place);
+    counts_.push_back(points[i].count);
+    radii_.push_back(points[i].radius);
+  }
+  counts_.resize(hasCounts_ ? counts_.size() : 0);
+  query_.build(this->view(), executor_);
+}
+
+/// Gets what lies in @p needed, where it is not here yet. @return whether a rank got something.
+bool SharedEstimate::ensure(const SlabRange& needed)
+{
+  const bool isHere =
+    isCovered_ && (this->size() == 0 || (covered_.low <= needed.low && needed.high <= covered_.high));
+  if (ranks_.reduce(isHere, [](bool a, bool b) { return a && b; }))
+  {
+    return false;
+  }
+  // Ranks that have all they need take part, and ask for nothing.
+  const SlabRange range = isHere ? SlabRange() : both(needed, covered_);
+  std::vector<SlabPoint> points = slabs_.withGhosts(range);
+  if (!isHere)
+  {
+    this->take(std::move(points));
+    covered_ = range;
+    isCovered_ = true;
+  }
+  return true;
+}
+
+/// Of the own points. What is found in too few points lies too far away: the range that it reaches is certain
+/// to hold the neighbours.
+std::vector<double> SharedEstimate::estimate(
+  const std::vector<double>& counts, const LocalBandwidthSettings& settings, std::vector<double>& radii)
+{
+  PartialBandwidths part;
+  const std::int64_t wanted =
+    settings.fixedRadius ? 0 : std::min(slabs_.pointsOfAll(), std::int64_t(settings.numberOfNeighbors) + 1);
+  this->ensure(both(this->guess(), covered_));
+  for (bool isNew = true; isNew;)
+  {
+    static_cast<void>(partialBandwidths(this->view(), counts, query_, settings, part, executor_));
+    isNew = this->ensure(
+      query_.size() < wanted ? kEverywhere : both(this->reachOf(this->ofOwn(part.reaches)), covered_));
+  }
+  double smallest = INFINITY;
+  for (const double radius : this->ofOwn(part.radii))
+  {
+    smallest = radius > 0.0 ? std::min(smallest, radius) : smallest;
+  }
+  smallest = ranks_.reduce(smallest, [](double a, double b) { return std::min(a, b); });
+  completeBandwidths(this->view(), settings, smallest, slabs_.box(), part);
+  radii = this->ofOwn(part.radii);
+  return this->ofOwn(part.bandwidths);
+}
+
+std::vector<double> SharedEstimate::bandwidths(std::vector<double>& radii)
+{
+  return this->estimate(counts_, settings_, radii);
+}
+
+std::vector<double> SharedEstimate::bandwidthsOfMeans()
+{
+  std::vector<double> unused;
+  return this->estimate({}, settings_, unused);
+}
+
+/// A radius is cut by none that is further away than the slope takes it down to the smallest.
+void SharedEstimate::smooth(std::vector<double>& radii)
+{
+  double smallest = INFINITY;
+  for (std::size_t i = 0; i < radii.size(); ++i)
+  {
+    slabs_.own()[i].radius = radii[i];
+    smallest = std::min(smallest, radii[i]);
+  }
+  smallest = ranks_.reduce(smallest, [](double a, double b) { return std::min(a, b); });
+  std::vector<double> distances;
+  for (const double radius : radii)
+  {
+    distances.push_back((radius - smallest) / kRadiusSlope);
+  }
+  isCovered_ = false; // the ghosts that are here have no radii
+  this->ensure(both(this->reachOf(distances), covered_));
+  std::vector<double> all = radii_;
+  limitSlope(query_, kRadiusSlope, all, executor_);
+  radii = this->ofOwn(all);
+}
+
+std::vector<double> SharedEstimate::densities(const std::vector<double>& widths)
+{
+  std::vector<double> distances;
+  for (const double width : widths)
+  {
+    distances.push_back(densityReach(settings_.densityKernel) * width);
+  }
+  this->ensure(both(this->reachOf(distances), covered_));
+  std::vector<double> all(places_.size(), 0.0);
+  std::vector<Vec3> ownPlaces;
+  for (std::size_t i = 0; i < own_.size(); ++i)
+  {
+    all[own_[i]] = widths[i];
+    ownPlaces.push_back(places_[own_[i]]);
+  }
+  const double own = totalWeight({ ownPlaces.data(), std::int64_t(ownPlaces.size()) },
+    hasCounts_ ? this->ofOwn(counts_) : std::vector<double>());
+  const double total = ranks_.reduce(own, [](double a, double b) { return a + b; });
+  std::vector<double> densities;
+  surfaceDensitiesOfPart(
+    this->view(), counts_, query_, all, total, densities, executor_, settings_.densityKernel);
+  return this->ofOwn(densities);
+}
+
+/// The values of own points side by side, and apart again where they belong.
+class Columns
+{
+public:
+  void add(std::vector<double>& column) { columns_.push_back(&column); }
+  void giveBack(SharedEstimate& estimate)
+  {
+    const int width = int(columns_.size());
+    std::vector<double> rows;
+    rows.reserve(columns_.size() * estimate.size());
+    for (std::size_t i = 0; i < estimate.size(); ++i)
+    {
+      for (const std::vector<double>* column : columns_)
+      {
+        rows.push_back((*column)[i]);
+      }
+    }
+    rows = estimate.giveBack(rows, width);
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+    {
+      columns_[c]->clear();
+      for (std::size_t at = c; at < rows.size(); at += columns_.size())
+      {
+        columns_[c]->push_back(rows[at]);
+      }
+    }
+  }
+
+private:
+  std::vector<std::vector<double>*> columns_;
+};
+
+Status checkAll(Ranks& ranks, const PointView& points, const std::vector<double>& counts, bool hasCounts,
+  const BandwidthSettings& settings)
+{
+  const std::int64_t all = ranks.reduce(points.size(), [](std::int64_t a, std::int64_t b) { return a + b; });
+  const bool fits =
+    all <= NeighborQuery::kMostPoints && (!hasCounts || counts.size() == std::size_t(points.size()));
+  const Status own = settings.check() != Status::Ok ? settings.check()
+    : fits                                          ? Status::Ok
+                                                    : Status::InvalidParameter;
+  return ranks.reduce(own, [](Status a, Status b) { return a != Status::Ok ? a : b; });
+}
+
+}
+
+Status sharedBandwidths(Ranks& ranks, const PointView& points, const std::vector<double>& counts,
+  const BandwidthSettings& settings, BandwidthsOfPoints& result, const Executor& executor)
+{
+  result = BandwidthsOfPoints();
+  const bool hasCounts = ranks.reduce(!counts.empty(), [](bool a, bool b) { return a || b; });
+  const Status status = checkAll(ranks, points, counts, hasCounts, settings);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  SharedEstimate estimate(ranks, points, counts, hasCounts, settings, executor);
+  const bool wantsPoints = settings.computeBandwidth || settings.computeProxyRadius;
+  const bool wantsMeans = settings.computeDensity || settings.computeMeanBandwidth;
+  Columns columns;
+  if (wantsPoints || (wantsMeans && !hasCounts))
+  {
+    result.bandwidths = estimate.bandwidths(result.radii);
+    if (settings.smoothRadius && settings.computeProxyRadius)
+    {
+      estimate.smooth(result.radii);
+    }
+    columns.add(result.bandwidths);
+    columns.add(result.radii);
+  }
+  if (wantsMeans)
+  {
+    result.ofMeans = hasCounts ? estimate.bandwidthsOfMeans() : result.bandwidths;
+    columns.add(result.ofMeans);
+  }
+  if (settings.computeDensity)
+  {
+    result.densities = estimate.densities(result.ofMeans);
+    columns.add(result.densities);
+  }
+  columns.giveBack(estimate);
+  return Status::Ok;
+}
+
+} // namespace pointhaptics

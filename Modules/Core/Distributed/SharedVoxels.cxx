@@ -1,0 +1,141 @@
+#include "Core/Distributed/SharedVoxels.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr std::uint64_t kBeyondAllKeys = std::numeric_limits<std::uint64_t>::max();
+
+/// Keys of the cells of the coarsest of @p levels levels: a range between multiples of it cuts none of them.
+std::uint64_t uncutKeys(const Lattice& lattice, int levels)
+{
+  return levels <= 1
+    ? 1
+    : std::uint64_t(lattice.dimensions[0]) * std::uint64_t(lattice.dimensions[1]) << (levels - 1);
+}
+
+}
+
+Bounds commonBounds(Ranks& ranks, const Bounds& own)
+{
+  return ranks.reduce(own,
+    [](Bounds a, const Bounds& b)
+    {
+      if (!b.empty())
+      {
+        a.include(b.minimum);
+        a.include(b.maximum);
+      }
+      return a;
+    });
+}
+
+AttributeRange commonRange(Ranks& ranks, const AttributeRange& own)
+{
+  return ranks.reduce(own,
+    [](const AttributeRange& a, const AttributeRange& b)
+    {
+      // Without a number that is not 0 there are no bits.
+      const bool aIsZero = a.exponent == a.lastBit;
+      const bool bIsZero = b.exponent == b.lastBit;
+      AttributeRange both = aIsZero ? b : a;
+      if (!aIsZero && !bIsZero)
+      {
+        both.exponent = std::max(a.exponent, b.exponent);
+        both.lastBit = std::min(a.lastBit, b.lastBit);
+      }
+      both.hasNonFinite = a.hasNonFinite || b.hasNonFinite;
+      return both;
+    });
+}
+
+std::int64_t commonSum(Ranks& ranks, std::int64_t own)
+{
+  return ranks.reduce(own, [](std::int64_t a, std::int64_t b) { return a + b; });
+}
+
+/// The ends of the ranges of keys, from 0 on. Every rank shows each n-th of its voxels, the same n on all, so
+/// that a rank's part of the sample is its part of the voxels.
+std::vector<std::uint64_t> SharedVoxels::chooseCuts(Ranks& ranks, VoxelAccumulator& own, int levels) const
+{
+  constexpr std::int64_t kSamplesPerRank = 256;
+  const auto size = std::size_t(ranks.size());
+  const std::int64_t voxels = commonSum(ranks, std::int64_t(own.keys().size()));
+  const std::int64_t step = std::max<std::int64_t>(1, voxels / (kSamplesPerRank * std::int64_t(size)));
+  std::vector<std::uint64_t> sample;
+  for (const std::string& bytes : ranks.gather(bytesOfValues(own.keys(step))))
+  {
+    const auto keys = valuesOfBytes<std::uint64_t>(bytes);
+    sample.insert(sample.end(), keys.begin(), keys.end());
+  }
+  std::sort(sample.begin(), sample.end());
+  const std::uint64_t uncut = uncutKeys(own.lattice(), levels);
+  std::vector<std::uint64_t> cuts(size + 1, 0);
+  for (std::size_t r = 1; r < size && !sample.empty(); ++r)
+  {
+    cuts[r] = sample[sample.size() * r / size] / uncut * uncut;
+  }
+  cuts.back() = kBeyondAllKeys;
+  return cuts;
+}
+
+Status SharedVoxels::merge(const std::vector<std::string>& messages, VoxelAccumulator& own)
+{
+  voxels_ = VoxelAccumulator(own.lattice(), own.hasCovariances());
+  std::vector<std::vector<std::uint64_t>> keysOfRanks;
+  for (const std::string& bytes : messages)
+  {
+    VoxelAccumulator part{ Lattice() };
+    const Status status = VoxelAccumulator::deserialize(bytes, part);
+    const Status merged = status == Status::Ok ? voxels_.merge(part) : status;
+    if (merged != Status::Ok)
+    {
+      return merged;
+    }
+    keysOfRanks.push_back(part.keys());
+  }
+  const std::vector<std::uint64_t> keys = voxels_.keys();
+  places_.clear();
+  for (const std::vector<std::uint64_t>& ofRank : keysOfRanks)
+  {
+    places_.emplace_back();
+    auto place = keys.begin();
+    for (const std::uint64_t key : ofRank)
+    {
+      place = std::lower_bound(place, keys.end(), key);
+      places_.back().push_back(place - keys.begin());
+    }
+  }
+  return Status::Ok;
+}
+
+void SharedVoxels::findEnds(const std::vector<std::uint64_t>& ownKeys, const std::vector<std::uint64_t>& cuts)
+{
+  ends_.clear();
+  for (const std::uint64_t cut : cuts)
+  {
+    ends_.push_back(std::lower_bound(ownKeys.begin(), ownKeys.end(), cut) - ownKeys.begin());
+  }
+}
+
+Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator& own, int levels)
+{
+  const std::vector<std::uint64_t> cuts = this->chooseCuts(ranks, own, levels);
+  std::vector<std::string> messages;
+  for (std::size_t r = 0; r + 1 < cuts.size(); ++r)
+  {
+    messages.push_back(own.serialize(cuts[r], cuts[r + 1]));
+  }
+  const Status status = this->merge(ranks.exchange(std::move(messages)), own);
+  clipped_ = commonSum(ranks, own.clippedPoints());
+  invalid_ = commonSum(ranks, own.invalidPoints());
+  this->findEnds(own.keys(), cuts);
+  return ranks.reduce(status, [](Status a, Status b) { return a != Status::Ok ? a : b; });
+}
+
+} // namespace pointhaptics

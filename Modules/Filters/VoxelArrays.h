@@ -1,0 +1,42 @@
+/// @file
+/// Which point arrays of a cloud have values in voxels.
+#pragma once
+
+#include "VoxelAttribute.h"
+
+#include "Core/Resample/Representative.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkPointSet;
+
+namespace pointhaptics
+{
+
+/// The array of KeepOriginalPointIds.
+constexpr const char* kOriginalPointIds = "vtkOriginalPointIds";
+
+/// A point of the input stands for each voxel.
+inline bool keepsPoints(Representative representative)
+{
+  return representative == Representative::NearestToMean || representative == Representative::NearestToCenter;
+}
+
+/// A point array of the input, and what becomes of it.
+struct VoxelArray
+{
+  vtkDataArray* array = nullptr;
+  AttributeKind kind = AttributeKind::Mean;
+  std::vector<int> roles; ///< vtkDataSetAttributes::AttributeTypes it is the active one of.
+  bool isNormal = false;
+};
+
+/// Those of @p input in its order, identifiers, ghost flags and what an earlier resampling made aside.
+/// @p dropped: a sentence for each array that has no value in voxels.
+std::vector<VoxelArray> voxelArrays(vtkPointSet* input, const std::set<std::string>& categoricalArrays,
+  Representative representative, std::vector<std::string>& dropped);
+
+} // namespace pointhaptics

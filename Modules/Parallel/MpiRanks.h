@@ -1,0 +1,41 @@
+/// @file
+/// The ranks of a job on VTK's controllers.
+#pragma once
+
+#include "PointHapticsParallelModule.h"
+
+#include "Core/Distributed/Ranks.h"
+
+#include <cstdint>
+
+class vtkMultiProcessController;
+
+namespace pointhaptics
+{
+
+/// Messages of a vtkMPIController; without a controller, or with one of one process, a job of one rank. The
+/// controller must outlive it.
+///
+/// Every exchange is collective: a rank that ends without it must end the job (abortJob()), or the others
+/// wait for it.
+class POINTHAPTICSPARALLEL_EXPORT MpiRanks : public Ranks
+{
+public:
+  explicit MpiRanks(vtkMultiProcessController* controller);
+
+  int rank() const override;
+  int size() const override;
+  std::vector<std::string> exchange(std::vector<std::string> messages) override;
+  /// Sent to other ranks by this one so far.
+  std::int64_t bytesSent() const { return sent_; }
+
+private:
+  vtkMultiProcessController* controller_;
+  std::int64_t sent_ = 0;
+};
+
+/// Ends all processes of an MPI job at once, this one with @p exitCode; without MPI this one alone. Does not
+/// return.
+[[noreturn]] POINTHAPTICSPARALLEL_EXPORT void abortJob(int exitCode);
+
+} // namespace pointhaptics

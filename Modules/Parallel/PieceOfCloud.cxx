@@ -1,0 +1,157 @@
+#include "PieceOfCloud.h"
+
+#include "SmpExecutor.h"
+#include "VoxelOutput.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkVariant.h"
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <string>
+
+namespace pointhaptics
+{
+namespace
+{
+
+using NewTuples = std::function<void(vtkAbstractArray* from, vtkAbstractArray* to)>;
+
+vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array)
+{
+  auto empty = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(array->GetDataType()));
+  empty->SetName(array->GetName());
+  empty->SetNumberOfComponents(array->GetNumberOfComponents());
+  empty->CopyComponentNames(array);
+  if (array->HasInformation())
+  {
+    empty->CopyInformation(array->GetInformation());
+  }
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  if (numbers && numbers->GetLookupTable())
+  {
+    vtkDataArray::SafeDownCast(empty)->SetLookupTable(numbers->GetLookupTable());
+  }
+  return empty;
+}
+
+/// A cloud of other points with arrays as those of @p cloud, which @p fill fills, and the same field data.
+vtkSmartPointer<vtkPolyData> cloudLike(vtkPolyData* cloud, vtkIdType points, const NewTuples& fill)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> places;
+  places->SetDataType(cloud->GetPoints() ? cloud->GetPoints()->GetDataType() : VTK_FLOAT);
+  if (cloud->GetPoints())
+  {
+    fill(cloud->GetPoints()->GetData(), places->GetData());
+  }
+  result->SetPoints(places);
+  ArrayPool pool;
+  result->SetVerts(makeVertices(points, pool, SmpExecutor()));
+  // Readers number vertices by 32 bits where these do; files show it.
+  if (!cloud->GetVerts()->IsStorage64Bit() && points < VTK_INT_MAX)
+  {
+    result->GetVerts()->ConvertTo32BitStorage();
+  }
+  vtkPointData* from = cloud->GetPointData();
+  vtkPointData* to = result->GetPointData();
+  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = from->GetAbstractArray(i);
+    const vtkSmartPointer<vtkAbstractArray> filled = emptyLike(array);
+    fill(array, filled);
+    const int at = to->AddArray(filled);
+    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+    {
+      if (from->GetAbstractAttribute(type) == array)
+      {
+        to->SetActiveAttribute(at, type);
+      }
+    }
+  }
+  result->GetFieldData()->PassData(cloud->GetFieldData());
+  return result;
+}
+
+/// Values one after the other; VTK packs bits, which are a byte each here.
+std::string bytesOf(vtkAbstractArray* array)
+{
+  if (array->GetDataType() == VTK_BIT)
+  {
+    std::string bits;
+    for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
+    {
+      bits.push_back(char(array->GetVariantValue(i).ToInt()));
+    }
+    return bits;
+  }
+  const auto bytes =
+    std::size_t(array->GetNumberOfValues()) * std::size_t(std::max(array->GetDataTypeSize(), 0));
+  return bytes == 0 ? std::string() : std::string(static_cast<const char*>(array->GetVoidPointer(0)), bytes);
+}
+
+void setBytes(vtkAbstractArray* array, const std::vector<std::string>& pieces)
+{
+  char* next = array->GetDataType() == VTK_BIT ? nullptr : static_cast<char*>(array->GetVoidPointer(0));
+  vtkIdType bit = 0;
+  for (const std::string& bytes : pieces)
+  {
+    for (std::size_t i = 0; !next && i < bytes.size(); ++i)
+    {
+      array->SetVariantValue(bit++, int(bytes[i]));
+    }
+    if (next)
+    {
+      std::memcpy(next, bytes.data(), bytes.size());
+      next += bytes.size();
+    }
+  }
+}
+
+}
+
+vtkSmartPointer<vtkPolyData> pieceOfCloud(vtkPolyData* cloud, vtkIdType first, vtkIdType last)
+{
+  return cloudLike(cloud, last - first,
+    [&](vtkAbstractArray* from, vtkAbstractArray* to)
+    {
+      to->SetNumberOfTuples(last - first);
+      if (last > first)
+      {
+        to->InsertTuples(0, last - first, first, from);
+      }
+    });
+}
+
+vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ranks, vtkPolyData* piece)
+{
+  if (ranks.size() == 1)
+  {
+    return piece;
+  }
+  const vtkIdType points =
+    ranks.reduce(piece->GetNumberOfPoints(), [](vtkIdType a, vtkIdType b) { return a + b; });
+  const vtkSmartPointer<vtkPolyData> all = cloudLike(piece, points,
+    [&](vtkAbstractArray* from, vtkAbstractArray* to)
+    {
+      std::vector<std::string> messages(std::size_t(ranks.size()));
+      messages.front() = bytesOf(from);
+      messages = ranks.exchange(std::move(messages));
+      if (ranks.rank() != 0)
+      {
+        return;
+      }
+      to->SetNumberOfTuples(points);
+      setBytes(to, messages);
+    });
+  return ranks.rank() == 0 ? all : nullptr;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# FailingJob.sh CASE: a rank that fails ends the job with a message and an exit code, and does not let the others wait.
+source "$(dirname -- "${BASH_SOURCE[0]}")/support.sh"
+
+"$PROGRAM" generate idol -n 20000 -o idol.ply >said
+
+# expect_end CODE TEXT COMMAND...: within 60 s.
+expect_end() {
+  local code="$1" text="$2" ended=0 begin=$SECONDS
+  shift 2
+  timeout --kill-after=5 60 "$@" >output 2>&1 || ended=$?
+  ((SECONDS - begin < 60)) || fault "$*: the job hangs: $(cat output)"
+  if [[ "$code" == any ]]; then
+    ((ended != 0)) || fault "$*: exit code 0: $(cat output)"
+  else
+    ((ended == code)) || fault "$*: exit code $ended, not $code: $(cat output)"
+  fi
+  grep -qF -- "$text" output || fault "$*: no \"$text\" in: $(cat output)"
+  [[ ! -e out.ply ]] || fault "$*: a failed job left out.ply behind"
+}
+
+case "$1" in
+  MissingFile)
+    expect_end 1 "pointhaptics-mpi resample: rank 2 of 3: absent.ply: " "$MPIRUN" \
+      -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply : -n 1 "$MPI_PROGRAM" resample absent.ply -o out.ply
+    # Missing for all: one message, as from the plain program.
+    expect_end 1 "pointhaptics-mpi bandwidth: absent.ply: " "$MPIRUN" -n 3 "$MPI_PROGRAM" bandwidth absent.ply -o out.ply
+    (($(grep -c "absent.ply" output) == 1)) || fault "more than one message: $(cat output)"
+    ;;
+  KilledRank)
+    # The second rank is killed while both work, or while they start: each of them waits for the other many times.
+    printf '#!/bin/sh\n(sleep 0.7; kill -9 $$) &\nexec "$@"\n' >killed
+    chmod +x killed
+    "$PROGRAM" generate idol -n 300000 -o large.ply >said
+    expect_end any "signal 9" "$MPIRUN" -n 1 "$MPI_PROGRAM" bandwidth large.ply -o out.ply --neighbors 500 : \
+      -n 1 ./killed "$MPI_PROGRAM" bandwidth large.ply -o out.ply --neighbors 500
+    ;;
+  BadInput)
+    printf 'x,y,z\nnan,0,0\nnan,1,1\n' >invalid.csv
+    expect_end 1 "invalid" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample invalid.csv -o out.ply
+    expect_end 1 "each of the 2 points has a coordinate that is NaN" "$MPIRUN" -n 2 "$MPI_PROGRAM" bandwidth invalid.csv -o out.ply
+    expect_end 1 "unknown extension" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.xyz
+    expect_end 1 "RepresentativeToMean" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --representative median
+    expect_end 1 "use pointhaptics resample" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --voxel-index i.csv
+    expect_end 1 "standard input" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample - -o out.ply
+    expect_end 2 "pointhaptics-mpi resample: " "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --dims 0
+    (($(grep -c "^pointhaptics-mpi" output) == 1)) || fault "more than one message: $(cat output)"
+    ;;
+  *) fault "unknown case $1" ;;
+esac

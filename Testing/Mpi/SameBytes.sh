@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# SameBytes.sh CASE: what ranks write is byte for byte what the program pointhaptics writes.
+source "$(dirname -- "${BASH_SOURCE[0]}")/support.sh"
+
+# Points with floats, doubles whose magnitudes differ, integers, labels, normals, colours; some not finite, some outside.
+arrays_csv() {
+  awk 'BEGIN {
+    srand(7)
+    print "x,y,z,nx,ny,nz,red,green,blue,Classification,Temperature,Large,Time"
+    for (i = 0; i < 6000; ++i) {
+      t = i % 997 == 3 ? "nan" : (rand() - 0.5) * 10 ^ (i % 9)
+      printf "%.9g,%.9g,%.9g,%.6g,%.6g,%.6g,%d,%d,%d,%d,%s,%d,%.17g\n", rand(), rand() * rand(), 0.1 * rand(),
+        rand() - 0.5, rand() - 0.5, rand(), 255 * rand(), 255 * rand(), i % 256, 7 * rand() * rand(), t,
+        2000000000 * rand(), 300000000 + i * 0.001
+    }
+  }' >arrays.csv
+}
+
+case "$1" in
+  Points)
+    "$PROGRAM" generate idol -n 20000 -o idol.ply >said
+    same_bytes vtp resample idol.ply
+    RANKS="3" same_bytes ply resample idol.ply --dims 40
+    ;;
+  Arrays)
+    arrays_csv
+    same_bytes vtp resample arrays.csv --dims 12 --covariance
+    RANKS="3 8" same_bytes csv resample arrays.csv --voxel 0.11
+    ;;
+  Options)
+    arrays_csv
+    RANKS="2 5" same_bytes vtp resample arrays.csv --dims 30,20,5000 --rotate 30,1,2,3 --minimum-points 2
+    RANKS="4" same_bytes las resample arrays.csv --workspace 0.2,0.7,0,0.5,0,0.2 --unit mm --scale 1000
+    RANKS="3" same_bytes pcd resample arrays.csv --json --dims 1
+    # More ranks than points.
+    printf 'x,y,z\n0,0,0\n1,2,3\n' >two.csv
+    RANKS="4" same_bytes vtp resample two.csv
+    ;;
+  Bandwidth)
+    "$PROGRAM" generate idol -n 6000 -o idol.ply >said
+    same_bytes vtp bandwidth idol.ply
+    "$PROGRAM" resample idol.ply -o means.vtp --dims 60 >said
+    RANKS="2 3" same_bytes vtp bandwidth means.vtp
+    RANKS="3" same_bytes ply bandwidth idol.ply --neighbors 40 --rule sheather-jones --density epanechnikov --r2 0.1
+    RANKS="4" same_bytes csv bandwidth idol.ply --radius 0.02 --smooth --json
+    ;;
+  RealClouds)
+    [[ -f "$SHARED_DATA/pine.las" ]] || {
+      echo "skipped: no real clouds in $SHARED_DATA"
+      exit 0
+    }
+    for cloud in office1.pcd samp11-utm.pcd pine.las; do
+      RANKS="2 3" same_bytes vtp resample "$SHARED_DATA/$cloud" --covariance
+    done
+    RANKS="3" same_bytes las resample "$SHARED_DATA/pine.las" --voxel 0.5
+    RANKS="3" same_bytes vtp bandwidth "$SHARED_DATA/samp11-utm.pcd"
+    RANKS="2" same_bytes ply bandwidth "$SHARED_DATA/lucy_50k.ply" --density none
+    ;;
+  *) fault "unknown case $1" ;;
+esac

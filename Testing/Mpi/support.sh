@@ -1,0 +1,46 @@
+# What the tests under mpirun share: a folder that goes, and run_ranks. Sourced.
+set -euo pipefail
+
+if [[ -z "${MPIRUN:-}" || ! -x "$MPIRUN" ]]; then
+  echo "skipped: no mpirun (package openmpi-bin)"
+  exit 0
+fi
+# Containers run tests as root, on fewer cores than ranks; Open MPI 4, then 5.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+export PRTE_ALLOW_RUN_AS_ROOT=1 PRTE_ALLOW_RUN_AS_ROOT_CONFIRM=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
+# Ranks that wait give their core to the others; no copies through another process's memory, which containers forbid.
+export OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
+export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_plm_rsh_agent=
+
+folder="$(mktemp -d)"
+trap 'rm -rf -- "$folder"' EXIT
+cd -- "$folder"
+
+fault() {
+  printf 'FAULT: %s\n' "$*"
+  exit 1
+}
+
+# run_ranks N WORDS...: pointhaptics-mpi on N ranks.
+run_ranks() {
+  local ranks="$1"
+  shift
+  timeout 120 "$MPIRUN" -n "$ranks" "$MPI_PROGRAM" "$@"
+}
+
+# same_bytes EXTENSION COMMAND IN WORDS...: OUT of 1, 2, 3, 4 and 8 ranks ($RANKS) is that of the plain program, and so is
+# what is said.
+same_bytes() {
+  local extension="$1" command="$2" input="$3" ranks
+  shift 3
+  "$PROGRAM" "$command" "$input" -o "out.$extension" "$@" >said 2>warned
+  mv "out.$extension" "expected.$extension"
+  for ranks in ${RANKS:-1 2 3 4 8}; do
+    run_ranks "$ranks" "$command" "$input" -o "out.$extension" "$@" >said-by-ranks 2>warned-by-ranks ||
+      fault "$command $input $* on $ranks ranks: exit code $?: $(cat warned-by-ranks)"
+    cmp "expected.$extension" "out.$extension" || fault "$command $input $* on $ranks ranks: other bytes"
+    cmp said said-by-ranks || fault "$command $input $* on $ranks ranks says $(cat said-by-ranks)"
+    rm "out.$extension"
+  done
+  printf 'the same: %s %s %s: %s\n' "$command" "$input" "$*" "$(cat said)"
+}
