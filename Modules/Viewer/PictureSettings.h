@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -15,6 +16,11 @@ struct PictureSettings
   double pointScale = 1.0;         ///< Factor on the diameter of all points, 0.1 to 10.
   double depthStrength = 1.6;      ///< Of the shading by depth, 0 (none) to 10: see vtkDepthShadingPass.
   double fontScale = 1.0;          ///< Factor on the size of all texts, 0.5 to 4.
+  std::string colorMap = "auto";   ///< One of colorMapNames().
+  /// The values of what colours the cloud that have the first and the last colour; empty: nearly all that
+  /// occur.
+  std::vector<double> colorRange;
+  bool transparent = false; ///< Pictures that are written have no background: what is behind shows through.
 };
 
 } // namespace pointhaptics

@@ -11,17 +11,22 @@
 
 #include "Devices/HipPath.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointSet.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
+#include <vtkSmartPointer.h>
 #include <vtkWindowToImageFilter.h>
 
 namespace pointhaptics
@@ -41,16 +46,108 @@ void note(const HapticViewerObserver& observer, const std::string& text)
   }
 }
 
-} // namespace
-
-bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message)
+vtkSmartPointer<vtkImageData> grab(vtkRenderWindow* window)
 {
   vtkNew<vtkWindowToImageFilter> grabber;
   grabber->SetInput(window);
   grabber->ReadFrontBufferOff();
   grabber->ShouldRerenderOff();
+  grabber->Update();
+  return grabber->GetOutput();
+}
+
+/// A background of one grey, or what was there before.
+class PlainGround
+{
+public:
+  explicit PlainGround(vtkRenderer* renderer)
+    : renderer_(renderer)
+    , isGradient_(renderer->GetGradientBackground())
+  {
+    renderer->GetBackground(color_.data());
+  }
+  void set(double grey)
+  {
+    renderer_->GradientBackgroundOff();
+    renderer_->SetBackground(grey, grey, grey);
+  }
+  void restore()
+  {
+    renderer_->SetGradientBackground(isGradient_);
+    renderer_->SetBackground(color_.data());
+  }
+
+private:
+  vtkRenderer* renderer_;
+  bool isGradient_;
+  std::array<double, 3> color_{};
+};
+
+/// What gives @p black over black and @p white over white: of each colour the share that is not the
+/// background's.
+vtkSmartPointer<vtkImageData> withoutGround(vtkImageData* black, vtkImageData* white)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(black->GetDimensions());
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  const vtkIdType pixels = image->GetNumberOfPoints();
+  const auto* over = static_cast<const unsigned char*>(black->GetScalarPointer());
+  const auto* under = static_cast<const unsigned char*>(white->GetScalarPointer());
+  auto* out = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (vtkIdType i = 0; i < pixels; ++i, over += 3, under += 3, out += 4)
+  {
+    int through = 255;
+    for (int c = 0; c < 3; ++c)
+    {
+      through = std::min(through, std::max(0, under[c] - over[c]));
+    }
+    const int opacity = 255 - through;
+    for (int c = 0; c < 3; ++c)
+    {
+      out[c] =
+        static_cast<unsigned char>(opacity > 0 ? std::min(255, (over[c] * 255 + opacity / 2) / opacity) : 0);
+    }
+    out[3] = static_cast<unsigned char>(opacity);
+  }
+  return image;
+}
+
+vtkSmartPointer<vtkImageData> grabWithoutGround(vtkRenderWindow* window, const std::function<void()>& render)
+{
+  std::vector<PlainGround> grounds;
+  vtkCollectionSimpleIterator place;
+  window->GetRenderers()->InitTraversal(place);
+  while (vtkRenderer* renderer = window->GetRenderers()->GetNextRenderer(place))
+  {
+    grounds.emplace_back(renderer);
+  }
+  std::array<vtkSmartPointer<vtkImageData>, 2> images;
+  for (std::size_t i = 0; i < images.size(); ++i)
+  {
+    for (PlainGround& ground : grounds)
+    {
+      ground.set(double(i));
+    }
+    render();
+    images[i] = grab(window);
+  }
+  for (PlainGround& ground : grounds)
+  {
+    ground.restore();
+  }
+  return withoutGround(images[0], images[1]);
+}
+
+} // namespace
+
+bool writePicture(vtkRenderWindow* window, const std::function<void()>& render, bool transparent,
+  const std::string& fileName, std::string& message)
+{
+  vtkSmartPointer<vtkImageData> image = transparent ? grabWithoutGround(window, render) : nullptr;
+  render(); // also what the window goes on to show
+  image = image ? image : grab(window);
   vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(grabber->GetOutputPort());
+  writer->SetInputData(image);
   writer->SetFileName(fileName.c_str());
   vtkNew<vtkCallbackCommand> silence; // the message says it
   silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
@@ -189,9 +286,12 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
   scene.placeAxes(scene.modelMatrix());
   scene.placeCamera(shown ? &shown->state : nullptr);
   scene.setCamera(options.camera);
-  scene.completeNextFrame();
-  window->Render();
-  const bool isWritten = writePicture(window, fileName, message);
+  const auto render = [&]
+  {
+    scene.completeNextFrame();
+    window->Render();
+  };
+  const bool isWritten = writePicture(window, render, options.picture.transparent, fileName, message);
   window->RemoveRenderer(scene.renderer());
   if (!isWritten)
   {

@@ -6,6 +6,7 @@
 
 #include "Haptics/ServoLoop.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -14,8 +15,11 @@ class vtkRenderWindow;
 namespace pointhaptics
 {
 
-/// Writes what @p window shows as PNG. False: @p message says why not.
-bool writePicture(vtkRenderWindow* window, const std::string& fileName, std::string& message);
+/// Renders @p window by @p render and writes what it shows as PNG; where @p transparent, without the
+/// background: it is rendered over black and over white, and what is alike there is opaque. False: @p message
+/// says why not.
+bool writePicture(vtkRenderWindow* window, const std::function<void()>& render, bool transparent,
+  const std::string& fileName, std::string& message);
 
 class ViewScene;
 

@@ -266,7 +266,7 @@ void ViewScene::applyColors()
 {
   vtkPolyData* output = bandwidth_->GetOutput();
   applyCloudAppearance(output, mapper_, actor_, colorBy_);
-  applyGroundColors(mapper_);
+  applyColorMap(mapper_, picture_.colorMap, picture_.colorRange);
   this->chooseDrawn();
   this->colorPoints();
   const bool isThere = colorBy_.empty() || colorBy_ == kClayName ||
@@ -297,7 +297,7 @@ ViewScene::ColorRange ViewScene::colorRange()
 /// The same colours for the same places and values, where more points would make a wider range.
 void ViewScene::keepColorRange(const ColorRange& before)
 {
-  if (before.coloredBy == coloredBy_)
+  if (before.coloredBy == coloredBy_ && picture_.colorRange.empty())
   {
     const double shift = coloredBy_ == kHeightArrayName ? before.heightZero - heightZero_ : 0.0;
     mapper_->GetLookupTable()->SetRange(before.ofMeans[0] + shift, before.ofMeans[1] + shift);
@@ -388,7 +388,7 @@ void ViewScene::meansChanged()
     return;
   }
   auto* colors = vtkLookupTable::SafeDownCast(mapper_->GetLookupTable());
-  if (colors && !cloud_->GetPointData()->HasArray(source->array.c_str()))
+  if (colors && picture_.colorRange.empty() && !cloud_->GetPointData()->HasArray(source->array.c_str()))
   {
     followColorRange(output, *source, colors);
   }

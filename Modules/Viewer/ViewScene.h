@@ -21,7 +21,9 @@
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,6 +80,13 @@ public:
   /// Draws this and later clouds as @p picture says.
   void setPicture(const PictureSettings& picture);
   const PictureSettings& picture() const { return picture_; }
+  /// Whether a bar tells which values the colours stand for.
+  bool isColoredByMap();
+  /// The values at the two ends of the bar.
+  std::array<double, 2> shownColorRange();
+  /// How far up the strip of colours a place of the window is, in pixels from its lower left corner: 0 to 1;
+  /// nothing: it is elsewhere.
+  std::optional<double> placeOnColorBar(double x, double y);
 
   /// The scalar bar for a layout, which then places it; without one it stands at the right edge.
   ScreenBlock takeScalarBar();

@@ -111,7 +111,7 @@ void ViewScene::colorPoints()
   {
     const std::string name = isAutomatic ? std::string("rgb") : colorBy_;
     applyCloudAppearance(points, pointsMapper_, pointsActor_, name);
-    applyGroundColors(pointsMapper_);
+    applyColorMap(pointsMapper_, picture_.colorMap, picture_.colorRange);
     light = name == "rgb" ? colors.lightStrength : 1.0;
   }
   pointsMapper_->SetLightStrength(ambient_ ? 1.0 : light);

@@ -1,6 +1,7 @@
 // How the scene is drawn and from where, as PictureSettings and the person say.
 #include "ViewScene.h"
 
+#include "AsprsClasses.h"
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
 #include "vtkCloudAxes.h"
@@ -59,7 +60,13 @@ void ViewScene::setPicture(const PictureSettings& picture)
     const Vec3 eye = focus - distance * forward;
     camera->SetPosition(&eye.x);
   }
+  const bool hasOtherColors =
+    picture.colorMap != picture_.colorMap || picture.colorRange != picture_.colorRange;
   picture_ = picture;
+  if (shown_ && hasOtherColors)
+  {
+    this->applyColors();
+  }
   if (!isProjected)
   {
     this->applyProjection();
@@ -85,6 +92,33 @@ void ViewScene::applyProjection()
   camera->SetParallelProjection(picture_.parallel);
   camera->SetParallelScale(camera->GetDistance() * halfTangent(camera));
   renderer_->ResetCameraClippingRange();
+}
+
+bool ViewScene::isColoredByMap()
+{
+  vtkMapper* mapper = this->drawnMapper();
+  return scalarBar_->GetVisibility() && mapper->GetArrayName() && !holdsAsprsClasses(mapper->GetArrayName());
+}
+
+std::array<double, 2> ViewScene::shownColorRange()
+{
+  const double* range = this->drawnMapper()->GetLookupTable()->GetRange();
+  return { range[0], range[1] };
+}
+
+std::optional<double> ViewScene::placeOnColorBar(double x, double y)
+{
+  if (!this->isColoredByMap())
+  {
+    return std::nullopt;
+  }
+  std::array<int, 4> strip{}; // where it begins, and its size, from the corner of the bar
+  scalarBar_->GetScalarBarRect(strip.data(), renderer_);
+  const int* corner = scalarBar_->GetPositionCoordinate()->GetComputedDisplayValue(renderer_);
+  const double across = x - corner[0] - strip[0];
+  const double along = y - corner[1] - strip[1];
+  const bool isInside = across >= 0.0 && across <= strip[2] && along >= 0.0 && along <= strip[3];
+  return isInside ? std::optional<double>(along / strip[3]) : std::nullopt;
 }
 
 void ViewScene::applyPicture()

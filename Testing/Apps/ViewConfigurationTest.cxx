@@ -62,13 +62,15 @@ const std::map<std::string, std::string>& valuesOfOptions()
     { "--point-size", "4" }, { "--resolution", "0.5" }, { "--bind", "help=F1 F2,rotate-x=Ctrl+x" },
     { "--camera", "0,0,1,0,0,0,0,1,0" }, { "--push-pointer", "" }, { "--axes", "" }, { "--figure", "" },
     { "--ambient", "" }, { "--felt", "" }, { "--full-screen", "" }, { "--projection", "parallel" },
-    { "--background", "white" }, { "--point-scale", "2" }, { "--edl-strength", "0.5" }, { "--font-scale", "1.5" },
-    { "--kind", "terrain" }, { "--ideal", "torus" }, { "--method", "gradient-steps" },
-    { "--preset", "paper" }, { "--stiffness", "500" }, { "--damping", "1.5" }, { "--mu-s", "0.5" },
-    { "--mu-d", "0.25" }, { "--no-covariance", "" }, { "--neighbors", "20" }, { "--radius", "0.002" },
-    { "--rule", "scott" }, { "--beta", "3" }, { "--r1", "0.001" }, { "--r2", "0.01" }, { "--smooth", "" },
-    { "--dims", "100,50,25" }, { "--voxel", "0.002" }, { "--workspace", "0,1,0,1,0,1" },
-    { "--scale", "1,2,3" }, { "--rotate", "30,0,0,1" }, { "--translate", "0,0,0.5" },
+    { "--background", "white" }, { "--point-scale", "2" }, { "--edl-strength", "0.5" },
+    { "--font-scale", "1.5" }, { "--color-map", "greys" }, { "--color-range", "1,2" },
+    { "--transparent", "" }, { "--kind", "terrain" }, { "--ideal", "torus" },
+    { "--method", "gradient-steps" }, { "--preset", "paper" }, { "--stiffness", "500" },
+    { "--damping", "1.5" }, { "--mu-s", "0.5" }, { "--mu-d", "0.25" }, { "--no-covariance", "" },
+    { "--neighbors", "20" }, { "--radius", "0.002" }, { "--rule", "scott" }, { "--beta", "3" },
+    { "--r1", "0.001" }, { "--r2", "0.01" }, { "--smooth", "" }, { "--dims", "100,50,25" },
+    { "--voxel", "0.002" }, { "--workspace", "0,1,0,1,0,1" }, { "--scale", "1,2,3" },
+    { "--rotate", "30,0,0,1" }, { "--translate", "0,0,0.5" },
     { "--matrix", "2,0,0,0,0,2,0,0,0,0,2,0,0,0,0,1" }, { "--unit", "mm" } };
   return values;
 }

@@ -1,5 +1,6 @@
 #include "CloudAppearance.h"
 #include "AsprsClasses.h"
+#include "ColorMaps.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
@@ -14,6 +15,9 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <cmath>
+#include <set>
+#include <string>
+#include <vector>
 
 using namespace pointhaptics;
 
@@ -75,7 +79,7 @@ TEST(CloudAppearance, DrawsAndNamesTheClassesOfLidarPoints)
   vtkNew<vtkPolyDataMapper> mapper;
   vtkNew<vtkActor> actor;
   EXPECT_TRUE(applyCloudAppearance(cloud, mapper, actor, "Classification"));
-  applyGroundColors(mapper);
+  applyColorMap(mapper);
   for (const int number : { 2, 6, 17, 255 })
   {
     double color[3];
@@ -92,6 +96,44 @@ TEST(CloudAppearance, DrawsAndNamesTheClassesOfLidarPoints)
   double color[4];
   legend->GetAnnotationColor(6, color);
   EXPECT_NEAR(color[0], asprsClass(6).color[0], 0.003);
+}
+
+TEST(CloudAppearance, HasAMapOfItsOwnForEachName)
+{
+  std::set<std::vector<double>> ends;
+  for (const std::string& name : colorMapNames())
+  {
+    const auto map = vtkSmartPointer<vtkLookupTable>::Take(newColorMap(name));
+    std::vector<double> colors(9);
+    map->GetColor(0.0, &colors[0]);
+    map->GetColor(0.5, &colors[3]);
+    map->GetColor(1.0, &colors[6]);
+    EXPECT_TRUE(ends.insert(colors).second) << name;
+    double nan[3];
+    map->GetColor(NAN, nan);
+    EXPECT_EQ(nan[0], 0.5) << name;
+    EXPECT_EQ(nan[1], 0.5) << name;
+  }
+  const auto unknown = vtkSmartPointer<vtkLookupTable>::Take(newColorMap("none such"));
+  double color[3];
+  unknown->GetColor(0.0, color);
+  EXPECT_NEAR(color[2], groundColor(0.0).z, 0.003);
+}
+
+TEST(CloudAppearance, TakesAMapOverARange)
+{
+  const auto cloud = makeColumn();
+  addHeightArray(cloud, { 0.0, 0.0, 1.0 });
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkActor> actor;
+  ASSERT_TRUE(applyCloudAppearance(cloud, mapper, actor, kHeightArrayName));
+  applyColorMap(mapper, "cool-warm", { -1.0, 3.0 });
+  EXPECT_EQ(mapper->GetLookupTable()->GetRange()[0], -1.0);
+  EXPECT_EQ(mapper->GetLookupTable()->GetRange()[1], 3.0);
+  double color[3];
+  mapper->GetLookupTable()->GetColor(-2.0, color);
+  EXPECT_NEAR(color[0], 0.230, 0.01);
+  EXPECT_NEAR(color[2], 0.754, 0.01);
 }
 
 TEST(CloudAppearance, SaysThatAnArrayIsNotThere)

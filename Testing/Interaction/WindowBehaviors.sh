@@ -184,6 +184,35 @@ KeyMGoesThroughTheColors() {
   said "coloured by Height"
 }
 
+KeyKChangesTheColors() {
+  make plane cloud.ply
+  open_viewer cloud.ply --color-by density
+  key k
+  said "colours: viridis"
+  picture 1
+  key k
+  said "colours: cividis"
+  picture 2
+  ! cmp -s pointhaptics-001.png pointhaptics-002.png || fail "the picture is the same"
+  write_settings
+  is color-map '"cividis"' || fail "the settings do not have the colours"
+}
+
+# The bar is at the right edge, half as high as the window.
+ADragOnTheColorBarChangesItsRange() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --color-by height
+  write_settings
+  before="$settings"
+  drag BARX 180 BARX 200
+  said "colours from"
+  write_settings
+  same camera || fail "the view has turned"
+  changed color-range || fail "the settings do not have the range"
+  key K
+  said "colours over all values"
+}
+
 # The means have no values of an array that only the points were read for.
 KeyMOffersTheMeansWhatTheyHave() {
   awk 'BEGIN { print "x,y,z,Intensity"; for (i = 0; i < 9999; ++i) print i % 99, int(i / 99), i % 7, i % 5 }' >cloud.csv

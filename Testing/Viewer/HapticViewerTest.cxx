@@ -10,7 +10,9 @@
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkPNGReader.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -209,6 +211,48 @@ TEST_F(HapticViewerTest, WritesPicturesOffTheScreen)
   EXPECT_EQ(notes_.size(), 2u);
   EXPECT_FALSE(viewer.renderToFile(this->path("no/folder.png")));
   EXPECT_NE(viewer.message().find("no/folder.png: cannot be written"), std::string::npos);
+}
+
+TEST_F(HapticViewerTest, LeavesTheBackgroundOutOfTransparentPictures)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.picture.background = "black";
+  HapticViewer opaque(options_, observer_);
+  ASSERT_TRUE(opaque.open(makeSphere())) << opaque.message();
+  ASSERT_TRUE(opaque.renderToFile(this->path("opaque.png"))) << opaque.message();
+  options_.picture.transparent = true;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("transparent.png"))) << viewer.message();
+  vtkNew<vtkPNGReader> readers[2];
+  readers[0]->SetFileName(this->path("opaque.png").c_str());
+  readers[1]->SetFileName(this->path("transparent.png").c_str());
+  readers[0]->Update();
+  readers[1]->Update();
+  ASSERT_EQ(readers[0]->GetNumberOfScalarComponents(), 3);
+  ASSERT_EQ(readers[1]->GetNumberOfScalarComponents(), 4);
+  vtkDataArray* expected = readers[0]->GetOutput()->GetPointData()->GetScalars();
+  vtkDataArray* got = readers[1]->GetOutput()->GetPointData()->GetScalars();
+  ASSERT_EQ(got->GetNumberOfTuples(), expected->GetNumberOfTuples());
+  vtkIdType clear = 0, solid = 0, wrong = 0;
+  for (vtkIdType i = 0; i < got->GetNumberOfTuples(); ++i)
+  {
+    const double opacity = got->GetComponent(i, 3) / 255.0;
+    clear += opacity == 0.0;
+    solid += opacity == 1.0;
+    for (int c = 0; c < 3; ++c) // laid on black it is the picture on black
+    {
+      wrong += std::abs(opacity * got->GetComponent(i, c) - expected->GetComponent(i, c)) > 2.0;
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(got->GetComponent(0, 3), 0.0);
+  EXPECT_GT(clear, got->GetNumberOfTuples() / 10);
+  EXPECT_GT(solid, got->GetNumberOfTuples() / 10);
 }
 
 TEST_F(HapticViewerTest, ResamplesACloudOnceBeforeItsFirstPicture)

@@ -54,6 +54,12 @@ const std::vector<KeyedHelp>& keyedHelps()
       "How much darker points are that lie behind those around them (eye-dome lighting); 0: none; default "
       "1.6",
       { "depth-stronger", "depth-weaker" } },
+    { "--color-map", "The colours that stand for numbers", { "color-map" } },
+    { "--color-range",
+      "The values that have the first and the last of these colours; default: nearly all that occur; drag on "
+      "the "
+      "colour bar to change them",
+      { "color-range" }, " takes all again" },
   };
   return helps;
 }

@@ -3,6 +3,7 @@
 #include "Options/OptionParsing.h"
 
 #include "CloudAppearance.h"
+#include "ColorMaps.h"
 
 #include <CLI/CLI.hpp>
 
@@ -22,6 +23,14 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture)
   addNumber(command, "--font-scale", picture.fontScale, { 0.5, 4.0 }, "FACTOR",
     "Size of all texts over the usual one, which follows the screen's dots per inch; default 1")
     ->group(group);
+  addWord(command, "--color-map", picture.colorMap, colorMapNames(), "")->group(group);
+  const auto checkRange = [](const std::vector<double>& range)
+  { return range[0] < range[1] ? "" : "the first colour's value must be less than the last one's"; };
+  addNumbers(command, "--color-range", picture.colorRange, { 2 }, checkRange, "LOW,HIGH", "")->group(group);
+  command
+    .add_flag("--transparent", picture.transparent,
+      "Pictures have no background: what they are laid on shows through")
+    ->group(group);
 }
 
 void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture)
@@ -31,6 +40,13 @@ void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture
   settings["point-scale"] = picture.pointScale;
   settings["edl-strength"] = picture.depthStrength;
   settings["font-scale"] = picture.fontScale;
+  settings["color-map"] = picture.colorMap;
+  settings["transparent"] = picture.transparent;
+  settings.erase("color-range");
+  if (!picture.colorRange.empty())
+  {
+    settings["color-range"] = picture.colorRange;
+  }
 }
 
 } // namespace app

@@ -1,6 +1,7 @@
 #include "CloudAppearance.h"
 
 #include "AsprsClasses.h"
+#include "ColorMaps.h"
 #include "SmpExecutor.h"
 
 #include "Core/Bandwidth/LocalBandwidth.h"
@@ -512,15 +513,20 @@ void applyBackground(vtkRenderer* renderer)
   renderer->SetBackground2(0.80, 0.84, 0.89);
 }
 
-void applyGroundColors(vtkMapper* mapper)
+void applyColorMap(vtkMapper* mapper, const std::string& name, const std::vector<double>& range)
 {
   auto* table = vtkLookupTable::SafeDownCast(mapper->GetLookupTable());
   const bool areClasses = mapper->GetArrayName() && holdsAsprsClasses(mapper->GetArrayName());
-  if (mapper->GetScalarVisibility() && mapper->GetColorMode() == VTK_COLOR_MODE_MAP_SCALARS && table &&
-    !areClasses)
+  if (!mapper->GetScalarVisibility() || mapper->GetColorMode() != VTK_COLOR_MODE_MAP_SCALARS || !table ||
+    areClasses)
   {
-    const auto ground = vtkSmartPointer<vtkLookupTable>::Take(newGroundColorMap());
-    table->SetTable(ground->GetTable());
+    return;
+  }
+  const auto map = vtkSmartPointer<vtkLookupTable>::Take(newColorMap(name));
+  table->SetTable(map->GetTable());
+  if (range.size() == 2)
+  {
+    table->SetTableRange(range[0], range[1]);
   }
 }
 

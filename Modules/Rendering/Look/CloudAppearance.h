@@ -104,9 +104,10 @@ POINTHAPTICSRENDERING_EXPORT void placeScalarBar(
 /// read.
 POINTHAPTICSRENDERING_EXPORT void applyBackground(vtkRenderer* renderer);
 
-/// Where @p mapper colours by a map: the colours of newGroundColorMap() over the same range. Those of classes
-/// stay.
-POINTHAPTICSRENDERING_EXPORT void applyGroundColors(vtkMapper* mapper);
+/// Where @p mapper colours by a map: the colours of newColorMap() of that @p name, over @p range, two values
+/// of the array, or over the same as before where it is empty. Those of classes stay.
+POINTHAPTICSRENDERING_EXPORT void applyColorMap(
+  vtkMapper* mapper, const std::string& name = "auto", const std::vector<double>& range = {});
 
 /// The names of applyGround(): dark, on which a cloud's own colours stand out; light, that of
 /// applyBackground(); white; black.

@@ -3,10 +3,12 @@
 #include "ViewScene.h"
 
 #include "CloudAppearance.h"
+#include "ColorMaps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -23,6 +25,15 @@ constexpr double kStrongest = 10.0;
 /// Seen so, a cube shows three faces alike.
 constexpr double kIsometricAzimuth = 45.0;
 constexpr double kIsometricElevation = 35.2643896828;
+
+/// A bar is not stretched further by one drag.
+constexpr double kNearestToEnd = 0.05;
+
+void takeNext(std::string& name, const std::vector<std::string>& names)
+{
+  const auto found = std::find(names.begin(), names.end(), name);
+  name = found == names.end() || found + 1 == names.end() ? names.front() : *(found + 1);
+}
 
 struct AxisView
 {
@@ -104,12 +115,46 @@ void PictureControls::changeDepthStrength(int direction)
 
 void PictureControls::showNextBackground()
 {
-  const std::vector<std::string>& names = groundNames();
-  std::string& name = options_.picture.background;
-  const auto found = std::find(names.begin(), names.end(), name);
-  name = found == names.end() || found + 1 == names.end() ? names.front() : *(found + 1);
+  takeNext(options_.picture.background, groundNames());
   this->apply();
-  say_("background: " + name);
+  say_("background: " + options_.picture.background);
+}
+
+void PictureControls::showNextColorMap()
+{
+  takeNext(options_.picture.colorMap, colorMapNames());
+  this->apply();
+  say_("colours: " + options_.picture.colorMap +
+    (scene_.isColoredByMap() ? "" : "; seen where numbers colour the cloud"));
+}
+
+void PictureControls::dragColorRange(double from, double to)
+{
+  if (!scene_.isColoredByMap())
+  {
+    return;
+  }
+  std::array<double, 2> range = scene_.shownColorRange();
+  const double value = range[0] + from * (range[1] - range[0]);
+  // The value that was taken is where the pointer is; the end that is farther stays.
+  if (from > 0.5)
+  {
+    range[1] = range[0] + (value - range[0]) / std::clamp(to, kNearestToEnd, 1.0);
+  }
+  else
+  {
+    range[0] = range[1] - (range[1] - value) / std::clamp(1.0 - to, kNearestToEnd, 1.0);
+  }
+  options_.picture.colorRange = { range[0], range[1] };
+  this->apply();
+  say_(fmt::format("colours from {:.4g} to {:.4g}", range[0], range[1]));
+}
+
+void PictureControls::resetColorRange()
+{
+  options_.picture.colorRange.clear();
+  this->apply();
+  say_("colours over all values");
 }
 
 void PictureControls::addViewCommands(
@@ -174,15 +219,22 @@ void PictureControls::addCommands(CommandRegistry& commands, std::function<Pictu
     step(&Controls::changeDepthStrength, +1), isOpen });
   commands.add({ "depth-weaker", "bracketleft", group, "stronger, weaker shading by depth",
     step(&Controls::changeDepthStrength, -1), isOpen });
-  commands.add({ "background", "G", group, "background: dark, light, white, black",
-    [controls]
+  const auto call = [controls](void (PictureControls::*action)())
+  {
+    return [controls, action]
     {
       if (PictureControls* open = controls())
       {
-        open->showNextBackground();
+        (open->*action)();
       }
-    },
-    isOpen });
+    };
+  };
+  commands.add({ "background", "G", group, "background: dark, light, white, black",
+    call(&Controls::showNextBackground), isOpen });
+  commands.add({ "color-map", "k", group, "next colour map", call(&Controls::showNextColorMap), isOpen });
+  commands.add(
+    { "color-range", "K", group, "colours over all values", call(&Controls::resetColorRange), isOpen });
+  commands.addNote(group, "drag on the colour bar", "colours over fewer or more values");
 }
 
 } // namespace pointhaptics

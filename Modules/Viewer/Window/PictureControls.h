@@ -35,6 +35,10 @@ public:
   /// @p direction 1: stronger, -1: weaker.
   void changeDepthStrength(int direction);
   void showNextBackground();
+  void showNextColorMap();
+  /// Takes the value that is @p from up the colour bar, 0 to 1, to @p to; the end farther away stays.
+  void dragColorRange(double from, double to);
+  void resetColorRange();
 
   /// Adds what the result of @p controls can do, as long as there is one.
   static void addCommands(CommandRegistry& commands, std::function<PictureControls*()> controls);

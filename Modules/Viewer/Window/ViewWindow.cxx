@@ -53,6 +53,7 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
   , parameters_(options.haptics)
   , files_(std::move(files))
   , controls_(scene, options_, window_, [this](const std::string& news) { this->say(news); })
+  , colorBar_(scene, controls_, interactor_)
 {
   ViewWindow::addCommands(style_->GetCommands(), this);
   style_->GetCommands().bind(options_.bindings);

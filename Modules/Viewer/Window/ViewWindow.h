@@ -4,6 +4,7 @@
 #pragma once
 
 #include "CloudLoader.h"
+#include "ColorBarDrag.h"
 #include "FileWatch.h"
 #include "HapticViewerOptions.h"
 #include "PictureControls.h"
@@ -185,6 +186,7 @@ private:
   ScreenLayout layout_;
   vtkNew<vtkRenderer> waiting_; // before the first cloud
   PictureControls controls_;
+  ColorBarDrag colorBar_;
   vtkNew<vtkCallbackCommand> cancelKey_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   TraceFile trace_;

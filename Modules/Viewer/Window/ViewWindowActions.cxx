@@ -467,6 +467,8 @@ void ViewWindow::showNextColors()
   const std::string& next = choices[(place + 1) % choices.size()];
   // Another file may have no colours: they are what comes of itself.
   options_.colorBy = next == "rgb" ? std::string() : next;
+  options_.picture.colorRange.clear(); // of other numbers
+  scene_.setPicture(options_.picture);
   const bool waits = scene_.setColorBy(options_.colorBy);
   this->setSceneOptions();
   if (waits)
@@ -534,9 +536,12 @@ void ViewWindow::showFigure(bool figure)
 bool ViewWindow::writeImage(const std::string& fileName, std::string& message)
 {
   scene_.followMeasurement(true);
-  scene_.completeNextFrame();
-  window_->Render();
-  return writePicture(window_, fileName, message);
+  const auto render = [this]
+  {
+    scene_.completeNextFrame();
+    window_->Render();
+  };
+  return writePicture(window_, render, options_.picture.transparent, fileName, message);
 }
 
 void ViewWindow::writeScreenshot()

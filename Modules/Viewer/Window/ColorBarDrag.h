@@ -1,0 +1,40 @@
+/// @file
+/// The colour bar under the mouse.
+#pragma once
+
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkWeakPointer.h>
+
+class vtkRenderWindowInteractor;
+
+namespace pointhaptics
+{
+
+class PictureControls;
+class ViewScene;
+
+/// A drag that begins on the colour bar takes the value under the pointer along, and nothing else moves. GUI
+/// thread only.
+class ColorBarDrag
+{
+public:
+  /// @p scene and @p controls must outlive this.
+  ColorBarDrag(ViewScene& scene, PictureControls& controls, vtkRenderWindowInteractor* interactor);
+  ~ColorBarDrag();
+  ColorBarDrag(const ColorBarDrag&) = delete;
+  ColorBarDrag& operator=(const ColorBarDrag&) = delete;
+
+private:
+  /// Whether nobody else shall see the event.
+  bool takes(unsigned long event);
+
+  ViewScene& scene_;
+  PictureControls& controls_;
+  vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
+  vtkNew<vtkCallbackCommand> command_;
+  bool drags_ = false;
+  double place_ = 0.0; ///< Where the pointer is on the bar: 0 at its lower end, 1 at its upper.
+};
+
+} // namespace pointhaptics
