@@ -1,0 +1,55 @@
+# cmake -DROOT=<folder with Modules, Apps and Testing> -DAWK=<awk> -P CheckSizes.cmake
+# What grows too large to be read at one go gets split: functions above 60 lines, files above 600, folders of Modules above
+# 25 sources, of Apps above 15. Fails with all that are larger.
+cmake_minimum_required(VERSION 3.18)
+
+set(functionLines 60)
+set(fileLines 600)
+set(ModulesSources 25)
+set(AppsSources 15)
+
+set(files "")
+foreach (top IN ITEMS Modules Apps Testing)
+  file(GLOB_RECURSE found "${ROOT}/${top}/*.cxx" "${ROOT}/${top}/*.h")
+  list(APPEND files ${found})
+  if (NOT DEFINED ${top}Sources)
+    continue ()
+  endif ()
+  set(folders "")
+  foreach (file IN LISTS found)
+    get_filename_component(folder "${file}" DIRECTORY)
+    list(APPEND folders "${folder}")
+  endforeach ()
+  list(REMOVE_DUPLICATES folders)
+  foreach (folder IN LISTS folders)
+    file(GLOB sources "${folder}/*.cxx" "${folder}/*.h")
+    list(LENGTH sources number)
+    if (number GREATER ${top}Sources)
+      file(RELATIVE_PATH shown "${ROOT}" "${folder}")
+      message(SEND_ERROR "${shown} has ${number} sources, more than ${${top}Sources}: give what belongs together a folder")
+    endif ()
+  endforeach ()
+endforeach ()
+
+# One call for each hundred files keeps the command line short.
+set(long "")
+list(LENGTH files number)
+foreach (begin RANGE 0 ${number} 100)
+  list(SUBLIST files ${begin} 100 some)
+  execute_process(
+    COMMAND "${AWK}" -v "functionLines=${functionLines}" -v "fileLines=${fileLines}"
+      -f "${CMAKE_CURRENT_LIST_DIR}/LongTexts.awk" ${some}
+    OUTPUT_VARIABLE output RESULT_VARIABLE code ERROR_VARIABLE error)
+  if (NOT code EQUAL 0)
+    message(FATAL_ERROR "${AWK} failed: ${error}")
+  endif ()
+  string(APPEND long "${output}")
+  math(EXPR left "${number} - ${begin}")
+  if (left LESS_EQUAL 100)
+    break ()
+  endif ()
+endforeach ()
+if (long)
+  string(REPLACE "${ROOT}/" "" long "${long}")
+  message(SEND_ERROR "Too long to be read at one go; look for the second concept:\n${long}")
+endif ()

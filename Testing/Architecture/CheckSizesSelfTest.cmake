@@ -1,0 +1,55 @@
+# cmake -DFOLDER=<scratch> -DAWK=<awk> -P CheckSizesSelfTest.cmake
+# Plants functions, files and folders of a size and expects CheckSizes.cmake to accept or refuse them.
+cmake_minimum_required(VERSION 3.18)
+
+function (check_planted expected what)
+  execute_process(COMMAND "${CMAKE_COMMAND}" "-DROOT=${FOLDER}" "-DAWK=${AWK}" -P "${CMAKE_CURRENT_LIST_DIR}/CheckSizes.cmake"
+    RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE error)
+  string(REGEX REPLACE "[ \n]+" " " error "${error}")
+  if (expected STREQUAL "accepted" AND NOT code EQUAL 0)
+    message(SEND_ERROR "${what} was refused:\n${error}")
+  elseif (NOT expected STREQUAL "accepted" AND (code EQUAL 0 OR NOT error MATCHES "${expected}"))
+    message(SEND_ERROR "${what} was not refused with \"${expected}\":\n${output}${error}")
+  endif ()
+  file(REMOVE_RECURSE "${FOLDER}")
+endfunction ()
+
+# A file with this head before a body of so many lines, two spaces further in where it is a member.
+function (plant_function file head lines indent)
+  string(REPEAT "${indent}  work(); // { } (\n" ${lines} body)
+  file(WRITE "${FOLDER}/${file}" "#pragma once\n\n${head}\n${indent}{\n${body}${indent}}\n")
+endfunction ()
+
+plant_function(Modules/Core/A.cxx "void f(int a,\n  int b)" 60 "")
+check_planted(accepted "a function of 60 lines")
+plant_function(Modules/Core/A.cxx "void Thing::f(int a,\n  int b) const" 61 "")
+check_planted("Modules/Core/A.cxx:5: Thing::f has 61 lines" "a function of 61 lines")
+plant_function(Apps/A.h "class Thing\n{\n  int f() const override" 61 "  ")
+check_planted("Apps/A.h:6: f has 61 lines" "a member function of 61 lines")
+plant_function(Testing/A.cxx "TEST(Thing, Works)" 61 "")
+check_planted("Testing/A.cxx:4: TEST has 61 lines" "a test of 61 lines")
+plant_function(Modules/Core/A.cxx "namespace thing" 61 "")
+check_planted(accepted "a namespace of 61 lines")
+plant_function(Modules/Core/A.cxx "class Thing : public Other<int(int)>" 61 "")
+check_planted(accepted "a class of 61 lines")
+
+string(REPEAT "int a;\n" 600 text)
+file(WRITE "${FOLDER}/Testing/A.h" "${text}")
+check_planted(accepted "a file of 600 lines")
+file(WRITE "${FOLDER}/Testing/A.h" "${text}int a;\n")
+check_planted("Testing/A.h has 601 lines" "a file of 601 lines")
+
+function (plant_folder folder number)
+  foreach (index RANGE 1 ${number})
+    file(WRITE "${FOLDER}/${folder}/A${index}.h" "#pragma once\n")
+  endforeach ()
+endfunction ()
+
+plant_folder(Modules/Core 25)
+plant_folder(Apps/Some 15)
+plant_folder(Testing/Unit 26)
+check_planted(accepted "folders of 25 and 15 sources")
+plant_folder(Modules/Core 26)
+check_planted("Modules/Core has 26 sources" "a folder of 26 sources")
+plant_folder(Apps/Some 16)
+check_planted("Apps/Some has 16 sources" "a folder of 16 sources in Apps")
