@@ -1,7 +1,6 @@
 #include "CloudAppearance.h"
 
 #include "AsprsClasses.h"
-#include "ColorMaps.h"
 #include "SmpExecutor.h"
 
 #include "Core/Bandwidth/LocalBandwidth.h"
@@ -41,18 +40,6 @@ namespace pointhaptics
 {
 namespace
 {
-
-// Viridis at 1/8 steps (BSD, from matplotlib, CC0), its last step replaced by a darker yellow for light
-// backgrounds.
-constexpr double kColorPoints[9][3] = { { 0.267, 0.005, 0.329 }, { 0.278, 0.175, 0.483 },
-  { 0.231, 0.322, 0.546 }, { 0.173, 0.449, 0.558 }, { 0.128, 0.567, 0.551 }, { 0.153, 0.678, 0.506 },
-  { 0.361, 0.785, 0.388 }, { 0.627, 0.842, 0.224 }, { 0.890, 0.840, 0.130 } };
-
-// From blue through green and yellow to a pale red: even on a dark ground, where viridis begins unseen.
-constexpr int kGroundSteps = 8;
-constexpr double kGroundColors[kGroundSteps][3] = { { 0.24, 0.40, 0.70 }, { 0.22, 0.58, 0.76 },
-  { 0.30, 0.70, 0.62 }, { 0.50, 0.78, 0.47 }, { 0.75, 0.83, 0.40 }, { 0.95, 0.80, 0.42 },
-  { 0.98, 0.66, 0.45 }, { 0.97, 0.75, 0.70 } };
 
 /// Of the larger end of a range of colours: an error's least value is an accident.
 constexpr double kAsGoodAsZero = 3e-3;
@@ -170,47 +157,6 @@ void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
 }
 
 } // namespace
-
-Vec3 groundColor(double position)
-{
-  const double scaled = (position > 0.0 ? std::min(position, 1.0) : 0.0) * (kGroundSteps - 1); // not NaN
-  const int lower = std::min(kGroundSteps - 2, int(scaled));
-  const double t = scaled - lower;
-  const double* a = kGroundColors[lower];
-  const double* b = kGroundColors[lower + 1];
-  return { (1.0 - t) * a[0] + t * b[0], (1.0 - t) * a[1] + t * b[1], (1.0 - t) * a[2] + t * b[2] };
-}
-
-vtkLookupTable* newGroundColorMap()
-{
-  vtkLookupTable* colors = newCloudColorMap();
-  for (int i = 0; i < 256; ++i)
-  {
-    const Vec3 color = groundColor(i / 255.0);
-    colors->SetTableValue(i, color.x, color.y, color.z, 1.0);
-  }
-  return colors;
-}
-
-vtkLookupTable* newCloudColorMap()
-{
-  vtkLookupTable* colors = vtkLookupTable::New();
-  colors->SetNumberOfTableValues(256);
-  for (int i = 0; i < 256; ++i)
-  {
-    const double position = i / 255.0 * 8.0;
-    const int lower = std::min(7, static_cast<int>(position));
-    const double t = position - lower;
-    double color[3];
-    for (int c = 0; c < 3; ++c)
-    {
-      color[c] = (1.0 - t) * kColorPoints[lower][c] + t * kColorPoints[lower + 1][c];
-    }
-    colors->SetTableValue(i, color[0], color[1], color[2], 1.0);
-  }
-  colors->SetNanColor(0.5, 0.5, 0.5, 1.0);
-  return colors;
-}
 
 double addHeightArray(vtkPolyData* cloud, const Vec3& up)
 {

@@ -2,6 +2,8 @@
 /// How a cloud is drawn: its own colours where it has them, else height by a perceptually uniform map.
 #pragma once
 
+#include "ColorMaps.h"
+
 #include "Core/Base/Vector3.h"
 
 #include "PointHapticsRenderingModule.h" // For export macro
@@ -24,16 +26,6 @@ namespace pointhaptics
 
 /// Name of the array addHeightArray() makes.
 constexpr const char* kHeightArrayName = "Height";
-
-/// 256 colours from dark violet-blue through green to a yellow that still reads on a light background: even
-/// steps of lightness, and also right for people who do not see red or green. The caller owns the result
-/// (Delete()).
-POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newCloudColorMap();
-
-/// The same for a dark ground, of eight steps from blue to a pale red. The caller owns the result (Delete()).
-POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newGroundColorMap();
-/// Red, green and blue, 0 to 1, at @p position 0 to 1 of that map.
-POINTHAPTICSRENDERING_EXPORT Vec3 groundColor(double position);
 
 /// Adds the float array "Height": the position along @p up, metres above the lowest finite point (0 for
 /// points that are not finite). Taken before the cloud is transformed, so the colours turn with the model.

@@ -2,7 +2,9 @@
 /// The colours that stand for numbers.
 #pragma once
 
-#include "PointHapticsRenderingModule.h"
+#include "Core/Base/Vector3.h"
+
+#include "PointHapticsRenderingModule.h" // For export macro
 
 #include <string>
 #include <vector>
@@ -11,6 +13,16 @@ class vtkLookupTable;
 
 namespace pointhaptics
 {
+
+/// 256 colours from dark violet-blue through green to a yellow that still reads on a light background: even
+/// steps of lightness, and also right for people who do not see red or green. The caller owns the result
+/// (Delete()).
+POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newCloudColorMap();
+
+/// The same for a dark ground, of eight steps from blue to a pale red. The caller owns the result (Delete()).
+POINTHAPTICSRENDERING_EXPORT vtkLookupTable* newGroundColorMap();
+/// Red, green and blue, 0 to 1, at @p position 0 to 1 of that map.
+POINTHAPTICSRENDERING_EXPORT Vec3 groundColor(double position);
 
 /// The names of newColorMap(), in the order that a key goes through them. auto: newGroundColorMap(); viridis
 /// and cividis: even steps of lightness, the latter seen alike by those who do not tell red from green;
