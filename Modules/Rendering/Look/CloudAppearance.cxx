@@ -365,6 +365,7 @@ namespace
 {
 
 constexpr double kPointsPerInch = 72.0; // at which a point is a pixel
+constexpr double kTitleAbove = 0.75;    // VTK's title ends this much above its box, of the font's size
 constexpr double kBarWidth = 24.0;      // points
 constexpr double kNumberLetters = 9.0;  // -1.23e-05
 constexpr double kLetterWidth = 0.57;   // of the font's size
@@ -448,7 +449,8 @@ void placeScalarBar(
   vtkScalarBarActor* bar, vtkRenderer* renderer, double font, double pixelsPerPoint, const double box[4])
 {
   const double beyond = pixelsPerPoint * widthsOf(bar, font).beyond();
-  const double inner[4] = { box[0], box[1], box[2] - beyond, box[3] };
+  const double above = kTitleAbove * font * pixelsPerPoint;
+  const double inner[4] = { box[0], box[1], box[2] - beyond, box[3] - above };
   putScalarBar(bar, renderer, font, pixelsPerPoint, inner);
 }
 
