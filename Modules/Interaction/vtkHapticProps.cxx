@@ -13,7 +13,6 @@
 #include "vtkOutlineSource.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
-#include "vtkRegularPolygonSource.h"
 #include "vtkRenderer.h"
 #include "vtkSphereSource.h"
 #include "vtkWeakPointer.h"
@@ -39,7 +38,6 @@ constexpr double kPalePink[3] = { 1.0, 0.55, 0.78 };
 constexpr double kGreen[3] = { 0.05, 0.78, 0.15 };
 constexpr double kBlue[3] = { 0.05, 0.25, 0.95 };
 constexpr double kOrange[3] = { 0.95, 0.42, 0.02 };
-constexpr double kYellow[3] = { 1.0, 0.85, 0.10 };
 constexpr double kSmallestForce = 0.01; // newtons: shorter arrows are not drawn
 
 /// Sizes as parts of the workspace's edge.
@@ -51,9 +49,6 @@ constexpr double kArrowThickness = 0.06;
 constexpr double kSphereGhost = 0.75;
 constexpr double kFreeSphereGhost = 0.35;
 constexpr double kVisibleMotion = 1e-4;
-/// Radius of the ring about the nearest point: of its distance, and at least, of the edge.
-constexpr double kRingPart = 0.3;
-constexpr double kSmallestRing = 0.012;
 
 /// One shape with its actor, and a faint copy that is not hidden by what stands in front of it.
 struct Prop
@@ -127,13 +122,6 @@ struct vtkHapticProps::Internals
   Prop normal;
   Prop hip;
   Prop force;
-  vtkNew<vtkRegularPolygonSource> circle;
-  Prop ring;
-  Prop plumb;
-  vtkNew<vtkMatrix4x4> ringMatrix;
-  vtkNew<vtkMatrix4x4> plumbMatrix;
-  Vec3 nearest;
-  Vec3 nearestTo;
   vtkNew<vtkMatrix4x4> proxyMatrix;
   vtkNew<vtkMatrix4x4> normalMatrix;
   vtkNew<vtkMatrix4x4> hipMatrix;
@@ -191,20 +179,6 @@ vtkHapticProps::vtkHapticProps()
   parts.force.setUp(parts.arrow->GetOutputPort(), kOrange, true, 0.55);
   parts.normal.actor->GetProperty()->SetLineWidth(4.0f);
   parts.normal.ghost->GetProperty()->SetLineWidth(4.0f);
-  parts.circle->SetNormal(1.0, 0.0, 0.0);
-  parts.circle->SetRadius(1.0);
-  parts.circle->SetNumberOfSides(48);
-  parts.circle->GeneratePolygonOff();
-  parts.ring.setUp(parts.circle->GetOutputPort(), kYellow, false, 0.8);
-  parts.plumb.setUp(parts.line->GetOutputPort(), kYellow, false, 0.5);
-  parts.ring.place(parts.ringMatrix);
-  parts.plumb.place(parts.plumbMatrix);
-  for (vtkActor* actor : { parts.ring.actor.Get(), parts.ring.ghost.Get() })
-  {
-    actor->GetProperty()->SetLineWidth(3.0f);
-  }
-  parts.ring.setVisible(false);
-  parts.plumb.setVisible(false);
   parts.proxy.place(parts.proxyMatrix);
   parts.normal.place(parts.normalMatrix);
   parts.hip.place(parts.hipMatrix);
@@ -246,10 +220,6 @@ void vtkHapticProps::SetGaugeVisibility(bool visible)
 void vtkHapticProps::SetHandVisibility(bool visible)
 {
   this->HandVisibility = visible;
-  if (!visible)
-  {
-    this->HideNearest();
-  }
   if (this->Parts->shown)
   {
     this->Parts->shown = false;
@@ -268,8 +238,7 @@ void vtkHapticProps::AddTo(vtkRenderer* renderer)
   this->Parts->renderer = renderer;
   renderer->AddActor(this->Parts->outlineActor);
   // The normal last: without friction the force lies along it, and the arrow would hide it.
-  for (Prop* prop : { &this->Parts->force, &this->Parts->hip, &this->Parts->proxy, &this->Parts->normal,
-         &this->Parts->ring, &this->Parts->plumb })
+  for (Prop* prop : { &this->Parts->force, &this->Parts->hip, &this->Parts->proxy, &this->Parts->normal })
   {
     renderer->AddActor(prop->actor);
     renderer->AddActor(prop->ghost);
@@ -280,52 +249,12 @@ void vtkHapticProps::AddTo(vtkRenderer* renderer)
 void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
 {
   renderer->RemoveActor(this->Parts->outlineActor);
-  for (Prop* prop : { &this->Parts->force, &this->Parts->hip, &this->Parts->proxy, &this->Parts->normal,
-         &this->Parts->ring, &this->Parts->plumb })
+  for (Prop* prop : { &this->Parts->force, &this->Parts->hip, &this->Parts->proxy, &this->Parts->normal })
   {
     renderer->RemoveActor(prop->actor);
     renderer->RemoveActor(prop->ghost);
   }
   this->Parts->gauge->RemoveFrom(renderer);
-}
-
-bool vtkHapticProps::ShowNearest(const double hip[3], const double point[3])
-{
-  Internals& parts = *this->Parts;
-  const Vec3 from{ hip[0], hip[1], hip[2] };
-  const Vec3 to{ point[0], point[1], point[2] };
-  const Vec3 way = from - to;
-  if (!this->HandVisibility || !isFinite(way) || !(norm(way) > 0.0))
-  {
-    return this->HideNearest();
-  }
-  const double visible = kVisibleMotion * parts.edge;
-  if (parts.ring.actor->GetVisibility() && norm(from - parts.nearestTo) < visible &&
-    norm(to - parts.nearest) < visible)
-  {
-    return false;
-  }
-  parts.nearest = to;
-  parts.nearestTo = from;
-  setFrame(
-    parts.ringMatrix, to, normalized(way), 1.0, std::max(kSmallestRing * parts.edge, kRingPart * norm(way)));
-  setFrame(parts.plumbMatrix, to, normalized(way), norm(way), 1.0);
-  parts.ring.setVisible(true);
-  parts.plumb.setVisible(true);
-  return true;
-}
-
-bool vtkHapticProps::HideNearest()
-{
-  const bool wasShown = this->Parts->ring.actor->GetVisibility() != 0;
-  this->Parts->ring.setVisible(false);
-  this->Parts->plumb.setVisible(false);
-  return wasShown;
-}
-
-vtkActor* vtkHapticProps::GetRingActor()
-{
-  return this->Parts->ring.actor;
 }
 
 bool vtkHapticProps::Update(const ProxyState& state)

@@ -113,22 +113,12 @@ public:
 
   ///@{
   /**
-   * Show where a hand in free space would touch: a yellow line from @p hip to @p point of the cloud, and a
-   * ring about it, the smaller the nearer. True: the picture changed.
-   */
-  bool ShowNearest(const double hip[3], const double point[3]);
-  bool HideNearest();
-  ///@}
-
-  ///@{
-  /**
    * The single actors, for other colours or tests.
    */
   vtkActor* GetProxyActor();
   vtkActor* GetNormalActor();
   vtkActor* GetHipActor();
   vtkActor* GetForceActor();
-  vtkActor* GetRingActor();
   vtkActor* GetWorkspaceActor();
   ///@}
 

@@ -84,9 +84,14 @@ public:
   bool isColoredByMap();
   /// The values at the two ends of the bar.
   std::array<double, 2> shownColorRange();
-  /// How far up the strip of colours a place of the window is, in pixels from its lower left corner: 0 to 1;
-  /// nothing: it is elsewhere.
-  std::optional<double> placeOnColorBar(double x, double y);
+  struct ColorBarPlace
+  {
+    double along = 0.0;  ///< 0 at the lower end of the strip of colours, 1 at the upper.
+    double pixels = 1.0; ///< Height of the strip.
+  };
+  /// Where on the strip of colours a place of the window is, in pixels from its lower left corner; nothing:
+  /// it is elsewhere.
+  std::optional<ColorBarPlace> placeOnColorBar(double x, double y);
 
   /// The scalar bar for a layout, which then places it; without one it stands at the right edge.
   ScreenBlock takeScalarBar();

@@ -13,9 +13,12 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
+#include <vtkScalarsToColors.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace pointhaptics
 {
@@ -106,19 +109,19 @@ std::array<double, 2> ViewScene::shownColorRange()
   return { range[0], range[1] };
 }
 
-std::optional<double> ViewScene::placeOnColorBar(double x, double y)
+std::optional<ViewScene::ColorBarPlace> ViewScene::placeOnColorBar(double x, double y)
 {
   if (!this->isColoredByMap())
   {
     return std::nullopt;
   }
-  std::array<int, 4> strip{}; // where it begins, and its size, from the corner of the bar
+  std::array<int, 4> strip{}; // where it begins in the viewport, and its size
   scalarBar_->GetScalarBarRect(strip.data(), renderer_);
-  const int* corner = scalarBar_->GetPositionCoordinate()->GetComputedDisplayValue(renderer_);
+  const int* corner = renderer_->GetOrigin(); // a chart may lie below
   const double across = x - corner[0] - strip[0];
   const double along = y - corner[1] - strip[1];
   const bool isInside = across >= 0.0 && across <= strip[2] && along >= 0.0 && along <= strip[3];
-  return isInside ? std::optional<double>(along / strip[3]) : std::nullopt;
+  return isInside ? std::optional(ColorBarPlace{ along / strip[3], double(strip[3]) }) : std::nullopt;
 }
 
 void ViewScene::applyPicture()

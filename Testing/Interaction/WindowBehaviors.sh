@@ -204,7 +204,11 @@ ADragOnTheColorBarChangesItsRange() {
   open_viewer cloud.ply --color-by height
   write_settings
   before="$settings"
-  drag BARX 180 BARX 200
+  xdotool mousemove --window "$window" 600 200 mousedown 1
+  sleep 0.3
+  xdotool mousemove --window "$window" 600 190
+  sleep 0.3
+  xdotool mousemove --window "$window" 600 180 mouseup 1
   said "colours from"
   write_settings
   same camera || fail "the view has turned"
@@ -529,6 +533,7 @@ EscapeKeepsTheFormerCloud() {
   key n
   is_reading
   key Escape
+  sleep 1 # a frame that is drawn keeps the key waiting, and the file is read at once
   let_it_read
   said "slow.ply: not read, it was cancelled"
   shows first.ply

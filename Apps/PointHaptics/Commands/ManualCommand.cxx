@@ -187,7 +187,7 @@ std::string bashCompletion(CLI::App& program)
     names += (names.empty() ? "" : " ") + command->get_name();
     cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), words);
   }
-  return fmt::format(R"bash(# bash completion for pointhaptics
+  return fmt::format(R"text(# bash completion for pointhaptics
 _pointhaptics() {{
   local word="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD - 1]}}" words command="${{COMP_WORDS[1]}}" values=""
   case " {1} " in
@@ -210,13 +210,14 @@ _pointhaptics() {{
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
   fi
   if [[ "$word" != -* ]] && ((COMP_CWORD > 1)); then
-    mapfile -t COMPREPLY < <(compgen -W "$(printf '%s\n' $words | grep -v '^-')" --"$word")
-    fi if[["$word" != -*]];
-  then mapfile - t - O "${{#COMPREPLY[@]}}" COMPREPLY < < (compgen - f-- "$word") fi
-}
-}
+    mapfile -t COMPREPLY < <(compgen -W "$(printf '%s\n' $words | grep -v '^-')" -- "$word")
+  fi
+  if [[ "$word" != -* ]]; then
+    mapfile -t -O "${{#COMPREPLY[@]}}" COMPREPLY < <(compgen -f -- "$word")
+  fi
+}}
 complete -o filenames -F _pointhaptics pointhaptics
-)bash",
+)text",
     cases, names, longOptions(*program.get_subcommand("view")), values);
 }
 

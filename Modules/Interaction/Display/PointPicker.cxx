@@ -52,14 +52,6 @@ PickedOfFile PointPicker::pickOfFile(int x, int y) const
   return result;
 }
 
-std::optional<Vec3> PointPicker::surfaceAt(int x, int y) const
-{
-  PickedPoint picked;
-  const bool isThere = screen_.renderer() && scenes_.cloud() && !scenes_.isChanged() &&
-    pickPoint(scenes_.cloud(), screen_.renderer(), x, y, kPickPixels, picked);
-  return isThere ? std::optional<Vec3>(picked.inWorkspace) : std::nullopt;
-}
-
 bool PointPicker::pickAt(int x, int y)
 {
   vtkRenderer* renderer = screen_.renderer();

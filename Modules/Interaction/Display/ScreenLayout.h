@@ -75,6 +75,7 @@ public:
   /// At once, if anything has changed since.
   void arrange(vtkRenderer* renderer);
 
+  /// A part of the screen, and who has it.
   struct Place
   {
     std::string name; ///< "status", "panel", "detail", "help", "progress", "sliders", "bar".

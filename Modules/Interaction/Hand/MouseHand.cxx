@@ -48,23 +48,6 @@ void MouseHand::moveInDepth(double metres)
   }
 }
 
-void MouseHand::moveOnScreen(double right, double up)
-{
-  if (screen_.renderer())
-  {
-    const ScreenAxes screen = screen_.axes();
-    this->move(right * screen.right + up * screen.up);
-  }
-}
-
-void MouseHand::moveTo(const Vec3& place)
-{
-  if (device_)
-  {
-    this->move(place - device_->target());
-  }
-}
-
 void MouseHand::drag()
 {
   if (device_ && screen_.renderer())

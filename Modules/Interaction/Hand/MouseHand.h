@@ -49,9 +49,6 @@ public:
   /// direction.
   void move(const Vec3& offset);
   void moveInDepth(double metres);
-  /// In the view plane, as arrow keys do.
-  void moveOnScreen(double right, double up);
-  void moveTo(const Vec3& place);
   ///@}
   /// As far as the mouse has moved, in the view plane.
   void drag();

@@ -6,7 +6,6 @@
 #include <vtkCommand.h>
 #include <vtkRenderWindowInteractor.h>
 
-#include <optional>
 #include <utility>
 
 namespace pointhaptics
@@ -53,10 +52,15 @@ bool ColorBarDrag::takes(unsigned long event)
   {
     // With a key held the drag is the model's or the hand's.
     const bool isPlain = !interactor_->GetShiftKey() && !interactor_->GetControlKey();
-    const std::optional<double> place =
-      isPlain ? scene_.placeOnColorBar(position[0], position[1]) : std::nullopt;
+    const auto place = isPlain ? scene_.placeOnColorBar(position[0], position[1]) : std::nullopt;
     drags_ = place.has_value();
-    place_ = place.value_or(0.0);
+    if (drags_)
+    {
+      from_ = place->along;
+      pixels_ = place->pixels;
+      fromY_ = position[1];
+      range_ = scene_.shownColorRange();
+    }
     return drags_;
   }
   if (event == vtkCommand::LeftButtonReleaseEvent)
@@ -65,11 +69,7 @@ bool ColorBarDrag::takes(unsigned long event)
   }
   if (drags_)
   {
-    if (const std::optional<double> place = scene_.placeOnColorBar(position[0], position[1]))
-    {
-      controls_.dragColorRange(place_, *place);
-      place_ = *place;
-    }
+    controls_.dragColorRange(range_, from_, from_ + (position[1] - fromY_) / pixels_);
   }
   return drags_;
 }

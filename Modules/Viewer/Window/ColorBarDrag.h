@@ -6,6 +6,8 @@
 #include <vtkNew.h>
 #include <vtkWeakPointer.h>
 
+#include <array>
+
 class vtkRenderWindowInteractor;
 
 namespace pointhaptics
@@ -34,7 +36,11 @@ private:
   vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
   vtkNew<vtkCallbackCommand> command_;
   bool drags_ = false;
-  double place_ = 0.0; ///< Where the pointer is on the bar: 0 at its lower end, 1 at its upper.
+  // The bar as the drag found it: words that come and go may move it.
+  double from_ = 0.0; ///< ViewScene::ColorBarPlace::along.
+  double pixels_ = 1.0;
+  int fromY_ = 0;
+  std::array<double, 2> range_{};
 };
 
 } // namespace pointhaptics

@@ -128,13 +128,8 @@ void PictureControls::showNextColorMap()
     (scene_.isColoredByMap() ? "" : "; seen where numbers colour the cloud"));
 }
 
-void PictureControls::dragColorRange(double from, double to)
+void PictureControls::dragColorRange(std::array<double, 2> range, double from, double to)
 {
-  if (!scene_.isColoredByMap())
-  {
-    return;
-  }
-  std::array<double, 2> range = scene_.shownColorRange();
   const double value = range[0] + from * (range[1] - range[0]);
   // The value that was taken is where the pointer is; the end that is farther stays.
   if (from > 0.5)

@@ -6,6 +6,7 @@
 #include "FullScreen.h"
 #include "HapticViewerOptions.h"
 
+#include <array>
 #include <functional>
 #include <string>
 
@@ -36,8 +37,9 @@ public:
   void changeDepthStrength(int direction);
   void showNextBackground();
   void showNextColorMap();
-  /// Takes the value that is @p from up the colour bar, 0 to 1, to @p to; the end farther away stays.
-  void dragColorRange(double from, double to);
+  /// Takes the value that was @p from up a colour bar of that @p range, 0 to 1, to @p to; the end farther
+  /// away stays.
+  void dragColorRange(std::array<double, 2> range, double from, double to);
   void resetColorRange();
 
   /// Adds what the result of @p controls can do, as long as there is one.
