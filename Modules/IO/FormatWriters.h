@@ -19,8 +19,10 @@ void writePly(const std::vector<OutputArray>& arrays, WriteTask& task);
 /// Binary PCD; @p fieldData may hold Viewpoint (7) and OrganizedDimensions (width, height).
 void writePcd(const std::vector<OutputArray>& arrays, vtkFieldData* fieldData, WriteTask& task);
 
-/// Comma separated text with a header; each number with the fewest digits that give it back exactly.
-void writeCsv(const std::vector<OutputArray>& arrays, WriteTask& task);
+/// Text with a column per component and a line of their names; each number with the fewest digits that give it
+/// back exactly. @p separator is ',' or ' ': between spaces the names are a comment ("//x y z ..."), which
+/// programs that take bare numbers leave out, and white space inside a name becomes '_'.
+void writeTable(const std::vector<OutputArray>& arrays, WriteTask& task, char separator);
 
 /// LAS 1.2, or 1.4 where the arrays or well-known text need it. Arrays that the reader makes of LAS fields
 /// become these again, others extra bytes; @p fieldData may hold LasScale, LasOffset, LasGlobalEncoding and

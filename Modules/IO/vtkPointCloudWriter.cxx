@@ -101,6 +101,7 @@ const FileFormat kFormats[] = {
   { "las", "LAS", "LasScale LasOffset LasGlobalEncoding CoordinateSystem LengthUnit" },
   { "laz", "LAZ", "LasScale LasOffset LasGlobalEncoding CoordinateSystem LengthUnit" },
   { "csv", "CSV", "" },
+  { "xyz", "text", "" },
 };
 
 /// Null where no format has the extension.
@@ -165,7 +166,7 @@ bool vtkPointCloudWriter::CanWrite(const std::string& fileName)
 
 const char* vtkPointCloudWriter::GetExtensions()
 {
-  return ".vtp, .ply, .pcd, .las, .laz or .csv";
+  return ".vtp, .ply, .pcd, .las, .laz, .csv or .xyz";
 }
 
 vtkPointCloudWriter::~vtkPointCloudWriter()
@@ -240,7 +241,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
     {
       throw io::FileProblem(vtkErrorCode::CannotOpenFileError,
         "VTP files cannot be written to a pipe or a device",
-        "choose the name of a new file, or .ply, .pcd, .las, .laz or .csv");
+        "choose the name of a new file, or .ply, .pcd, .las, .laz, .csv or .xyz");
     }
     writeVtp(cloud, task);
   }
@@ -262,7 +263,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
     }
     else
     {
-      io::writeCsv(arrays, task);
+      io::writeTable(arrays, task, this->Format == "CSV" ? ',' : ' ');
     }
   }
   task.out.commit();

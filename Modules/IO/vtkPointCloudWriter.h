@@ -1,6 +1,6 @@
 /**
  * @class   vtkPointCloudWriter
- * @brief   write a point cloud with every array: .vtp, .ply, .pcd, .las, .laz or .csv by extension
+ * @brief   write a point cloud with every array: .vtp, .ply, .pcd, .las, .laz, .csv or .xyz by extension
  *
  * Input: any vtkPointSet with at least one point. Points keep their precision (float or double).
  * vtkPointCloudReader gives the same points and arrays back, within what the format can say:
@@ -98,7 +98,8 @@ public:
   static bool CanWrite(const std::string& fileName);
 
   /**
-   * The extensions that can be written, for messages: ".vtp, .ply, .pcd, .las, .laz or .csv". Static storage.
+   * The extensions that can be written, for messages: ".vtp, .ply, .pcd, .las, .laz, .csv or .xyz". Static
+   * storage.
    */
   static const char* GetExtensions();
 

@@ -61,7 +61,7 @@ protected:
 TEST_F(Convert, GoesThroughEveryFormatAndBack)
 {
   std::string last = "in.csv";
-  for (const char* extension : { "vtp", "ply", "pcd", "las", "csv" })
+  for (const char* extension : { "vtp", "ply", "pcd", "las", "xyz", "csv" })
   {
     const std::string next = std::string("next.") + extension;
     ASSERT_EQ(this->run({ "convert", last, next }).exitCode, 0) << next;

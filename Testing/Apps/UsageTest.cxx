@@ -249,7 +249,7 @@ TEST_F(Usage, BadPathsAreFailuresInOneLine)
 TEST_F(Usage, BadOutputsAreFailuresThatLeaveNothingBehind)
 {
   this->makeInputs();
-  for (const char* output : { "out.xyz", "out", "none/out.ply" })
+  for (const char* output : { "out.xls", "out", "none/out.ply" })
   {
     this->refuse(1, { "resample", "in.ply", "-o", output }, { "pointhaptics resample: ", output });
     this->refuse(1, { "bandwidth", "in.ply", "-o", output }, { "pointhaptics bandwidth: ", output });

@@ -4,6 +4,7 @@
 #include "Terminal/StopSignals.h"
 
 #include <CLI/CLI.hpp>
+#include <vtkPointCloudWriter.h>
 
 namespace pointhaptics
 {
@@ -13,7 +14,9 @@ namespace app
 void CloudToCloudOptions::addTo(CLI::App& command)
 {
   command.add_option("IN", this->input, "Point cloud to read")->required()->type_name("");
-  command.add_option("-o,--output", this->output, "File to write: .vtp, .ply, .pcd, .las, .laz or .csv")
+  command
+    .add_option(
+      "-o,--output", this->output, std::string("File to write: ") + vtkPointCloudWriter::GetExtensions())
     ->required()
     ->type_name("OUT");
   addResolution(command, this->resolution);

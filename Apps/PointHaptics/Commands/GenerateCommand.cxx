@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
+#include <vtkPointCloudWriter.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -111,7 +112,9 @@ void addGenerateCommand(CLI::App& program, int& exitCode)
   addInteger(*command, "--seed", options->seed, 0, kLargestSeed, "Same seed, same points; default 1");
   addNumber(*command, "--noise", options->noise, { 0.0, 1.0 }, "SIGMA",
     "Standard deviation of noise along the normal, metres; default 0");
-  command->add_option("-o,--output", options->output, "File to write: .vtp, .ply, .pcd, .las, .laz or .csv")
+  command
+    ->add_option(
+      "-o,--output", options->output, std::string("File to write: ") + vtkPointCloudWriter::GetExtensions())
     ->required()
     ->type_name("OUT");
   command->add_flag("--json", options->json, "Print what was made as JSON");

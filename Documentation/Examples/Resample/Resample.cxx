@@ -14,7 +14,7 @@ int main(int argc, char* argv[])
 {
   if (argc != 3)
   {
-    std::fprintf(stderr, "usage: Resample IN OUT (.vtp, .ply, .pcd, .las, .laz or .csv)\n");
+    std::fprintf(stderr, "usage: Resample IN OUT (.vtp, .ply, .pcd, .las, .laz, .csv or .xyz)\n");
     return 2;
   }
   vtkNew<vtkPointCloudReader> reader;

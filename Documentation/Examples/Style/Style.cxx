@@ -1,5 +1,4 @@
-// A ball of points is touched with the mouse. Keys: F the hand follows the pointer, J what it feels, Q the
-// end.
+// A ball of points is touched with the mouse: F: the hand follows the pointer, J: what it feels, Q: the end.
 #include <HapticTouch.h>
 #include <vtkActor.h>
 #include <vtkNew.h>

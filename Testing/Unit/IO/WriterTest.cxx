@@ -111,7 +111,7 @@ class WriterRoundTrip
 TEST_P(WriterRoundTrip, GivesBackPointsAndEveryArray)
 {
   const std::string extension = GetParam().extension;
-  const bool typesAreStored = extension != "csv";
+  const bool typesAreStored = extension != "csv" && extension != "xyz";
   const auto cloud = makeCloud(GetParam().pointType);
   const std::string file = path("cloud." + extension);
   ASSERT_EQ(writeCloud(cloud, file), "");
@@ -144,7 +144,8 @@ TEST_P(WriterRoundTrip, GivesBackPointsAndEveryArray)
 INSTANTIATE_TEST_SUITE_P(Formats, WriterRoundTrip,
   ::testing::Values(RoundTrip{ "vtp", VTK_FLOAT }, RoundTrip{ "vtp", VTK_DOUBLE },
     RoundTrip{ "ply", VTK_FLOAT }, RoundTrip{ "ply", VTK_DOUBLE }, RoundTrip{ "pcd", VTK_FLOAT },
-    RoundTrip{ "pcd", VTK_DOUBLE }, RoundTrip{ "csv", VTK_FLOAT }, RoundTrip{ "csv", VTK_DOUBLE }),
+    RoundTrip{ "pcd", VTK_DOUBLE }, RoundTrip{ "csv", VTK_FLOAT }, RoundTrip{ "csv", VTK_DOUBLE },
+    RoundTrip{ "xyz", VTK_FLOAT }, RoundTrip{ "xyz", VTK_DOUBLE }),
   [](const ::testing::TestParamInfo<RoundTrip>& test)
   { return std::string(test.param.extension) + (test.param.pointType == VTK_FLOAT ? "_float" : "_double"); });
 
@@ -284,10 +285,23 @@ TEST_F(Writer, CsvStartsWithTheAgreedHeader)
     "VoxelCovariance_5");
 }
 
+TEST_F(Writer, ColumnsBetweenSpacesHaveTheirNamesInAComment)
+{
+  const auto cloud = makeCloud(VTK_FLOAT);
+  cloud->GetPointData()->GetArray("Intensity")->SetName("Return strength");
+  ASSERT_EQ(writeCloud(cloud, path("a.xyz")), "");
+  std::ifstream file(path("a.xyz"));
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line.substr(0, 26), "//x y z RGB_0 RGB_1 RGB_2 ");
+  EXPECT_NE(line.find(" Return_strength "), std::string::npos);
+}
+
 TEST_F(Writer, SaysWhatIsWrongAndLeavesNothingBehind)
 {
   const auto cloud = makeCloud(VTK_FLOAT);
-  EXPECT_NE(writeCloud(cloud, path("a.xls")).find(".vtp, .ply, .pcd, .las, .laz or .csv"), std::string::npos);
+  EXPECT_NE(
+    writeCloud(cloud, path("a.xls")).find(".vtp, .ply, .pcd, .las, .laz, .csv or .xyz"), std::string::npos);
   EXPECT_NE(writeCloud(cloud, path("none/a.ply")).find("No such file"), std::string::npos);
   EXPECT_NE(writeCloud(cloud, path("none/a.vtp")).find("No such file"), std::string::npos);
   EXPECT_NE(writeCloud(cloud, "").find("file name"), std::string::npos);

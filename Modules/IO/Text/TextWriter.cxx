@@ -2,6 +2,8 @@
 
 #include "Bytes/NumericType.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstring>
 
@@ -32,26 +34,38 @@ char* appendNumber(const char* from, char* to)
   }
 }
 
-struct CsvColumn
+struct TableColumn
 {
   ConstColumnView view;
   Append append = nullptr;
 };
 
+std::string nameOf(const OutputArray& array, int component, char separator)
+{
+  std::string name =
+    array.role == ArrayRole::Points ? std::string(1, "xyz"[component]) : array.componentName(component);
+  if (separator == ' ')
+  {
+    std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isspace(c) != 0; }, '_');
+  }
+  return name;
+}
+
 } // namespace
 
-void writeCsv(const std::vector<OutputArray>& arrays, WriteTask& task)
+void writeTable(const std::vector<OutputArray>& arrays, WriteTask& task, char separator)
 {
+  const std::string mark = separator == ' ' ? "//" : "";
   std::string header;
-  std::vector<CsvColumn> columns;
+  std::vector<TableColumn> columns;
   for (const OutputArray& array : arrays)
   {
     for (int component = 0; component < array.components(); ++component)
     {
-      const bool isPoints = array.role == ArrayRole::Points;
-      header += header.empty() ? "" : ",";
-      header += isPoints ? std::string(1, "xyz"[component]) : array.componentName(component);
-      CsvColumn column;
+      header += header.empty() ? mark : std::string(1, separator);
+      header += nameOf(array, component, separator);
+      TableColumn column;
       column.view = array.column(component);
       withType(array.type(), [&](auto zero) { column.append = &appendNumber<decltype(zero)>; });
       columns.push_back(column);
@@ -67,10 +81,10 @@ void writeCsv(const std::vector<OutputArray>& arrays, WriteTask& task)
     {
       task.progress(static_cast<double>(row) / static_cast<double>(rows));
     }
-    for (const CsvColumn& column : columns)
+    for (const TableColumn& column : columns)
     {
       end = column.append(column.view.first + row * column.view.stride, end);
-      *end++ = ',';
+      *end++ = separator;
     }
     end[-1] = '\n';
     if (static_cast<std::size_t>(end - buffer.data()) >= kFlushAt)
