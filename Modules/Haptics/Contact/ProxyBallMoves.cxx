@@ -22,8 +22,10 @@ constexpr double kPatientLean = 0.5;
 constexpr int kMostLifts = 3;
 constexpr double kLongestProposal = 2.0;
 constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
-/// How near a ball that went around an edge must come to the HIP.
+/// How near a ball that went around an edge must come to the HIP, and how far before the edge the HIP may be
+/// along the face that the ball comes from.
 constexpr double kAround = 0.1;
+constexpr double kBeforeEdge = 0.02;
 constexpr double kLeastLean = 0.02;
 constexpr double kLongestGlide = 0.5;
 constexpr double kLeastGain = 1e-3;
@@ -148,6 +150,12 @@ void ProxyBall::advance(Work& work, const Vec3& direction, double length) noexce
 bool ProxyBall::goAround(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
   const Vec3& up, std::uint32_t& status) noexcept
 {
+  // At an edge sharper than a right angle the HIP is out through the other face before it is past the edge.
+  if (flat_.isNear(center_, kFlatNear * radius_) &&
+    dot(hip_ - flat_.height(hip_) * flat_.normal() - foot, up) < -kBeforeEdge * radius_)
+  {
+    return false;
+  }
   Work work{ scene, fields, cells, kMostRounds, status };
   const ProxyBall before = *this;
   const double beside = std::clamp(radius_ - dot(center_ - foot, up), 0.0, kLongestProposal * radius_);
