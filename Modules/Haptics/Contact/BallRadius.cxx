@@ -1,5 +1,7 @@
 #include "Haptics/Contact/BallRadius.h"
 
+#include "Haptics/Contact/PointMoments.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,13 +25,65 @@ constexpr double kChanceOffset = 0.2;
 constexpr double kPartPerOffset = 2.3;
 constexpr double kLeastPart = 0.25;
 constexpr double kMostSheets = 2.0;
+/// Points are of one sheet where their RMS distance from a plane is less, over the reach; and at its rim
+/// where their middle lies further aside.
+constexpr double kOneSheet = 0.1;
+constexpr double kRimOffset = 0.3;
+/// Part of the ball that must have room beside a rim.
+constexpr double kRoom = 0.9;
+constexpr double kPi = 3.14159265358979323846;
+
+/// Calls visit(offset from @p seed) for the points within @p reach of it.
+template <typename Visitor>
+void visitPoints(
+  const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach, Visitor&& visit) noexcept
+{
+  if (near.holds(scene.pyramid(), seed, reach))
+  {
+    near.visitBall(seed, reach, [&](const Vec3& offset, double) { visit(-offset); });
+    return;
+  }
+  scene.pyramid().visitBall(
+    0, seed, reach, [&](std::uint32_t, const Cell& cell, double) { visit(cell.mean - seed); });
+}
+
+/// Part of a disk that points fill whose middle lies @p aside, over its radius.
+double filledPart(double aside) noexcept
+{
+  return std::clamp(1.0 - kPartPerOffset * (aside - kChanceOffset), kLeastPart, 1.0);
+}
+
+/// The spacing at @p seed if that is at the rim of a hole, or of the sheet, with room for a ball that the
+/// spacing asks for; else @p spacing. There a ball that leans into the hole sees the sheet aslant, and few of
+/// its points.
+double rimSpacing(
+  const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach, double spacing) noexcept
+{
+  PointMoments points;
+  visitPoints(scene, near, seed, reach, [&](const Vec3& offset) { points.add(offset); });
+  const Vec3 middle = points.mean();
+  const double aside = norm(middle) / reach;
+  if (aside < kRimOffset ||
+    symmetricEigen(points.covariance()).values[0] > kOneSheet * kOneSheet * reach * reach)
+  {
+    return spacing;
+  }
+  const double own = reach * std::sqrt(kPi * filledPart(aside) / points.count);
+  const double radius = kBallRadiusInSpacings * own;
+  bool hasRoom = own < spacing;
+  if (hasRoom)
+  {
+    visitPoints(scene, near, seed - (radius / norm(middle)) * middle, kRoom * radius,
+      [&](const Vec3&) { hasRoom = false; });
+  }
+  return hasRoom ? own : spacing;
+}
 
 }
 
 double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& near, const Vec3& seed,
   const Vec3& center) noexcept
 {
-  constexpr double kPi = 3.14159265358979323846;
   const Vec3 up = normalized(center - seed);
   double points = 0.0;
   double reach = kFirstReach * scene.cellSize();
@@ -38,31 +92,23 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
     double all = 0.0;
     double count = 0.0;
     Vec3 sum;
-    const auto add = [&](const Vec3& offset)
-    {
-      all += 1.0;
-      if (std::abs(dot(offset, up)) < kSheetDepth * reach)
+    visitPoints(scene, near, seed, reach,
+      [&](const Vec3& offset)
       {
-        count += 1.0;
-        sum += offset;
-      }
-    };
-    if (near.holds(scene.pyramid(), seed, reach))
-    {
-      near.visitBall(seed, reach, [&](const Vec3& offset, double) { add(-offset); });
-    }
-    else
-    {
-      scene.pyramid().visitBall(
-        0, seed, reach, [&](std::uint32_t, const Cell& cell, double) { add(cell.mean - seed); });
-    }
+        all += 1.0;
+        if (std::abs(dot(offset, up)) < kSheetDepth * reach)
+        {
+          count += 1.0;
+          sum += offset;
+        }
+      });
     // Where the sheet ends the points fill a part of the disk alone, and their middle lies aside.
-    const double aside = norm(sum) / (std::max(1.0, count) * reach);
-    const double part = std::clamp(1.0 - kPartPerOffset * (aside - kChanceOffset), kLeastPart, 1.0);
+    const double part = filledPart(norm(sum) / (std::max(1.0, count) * reach));
     // Two sheets have twice the points of one; where the gate leaves fewer the surface is bent.
     points = std::max({ 1.0, count / part, all / kMostSheets });
   }
-  const double spacing = reach / kReachGrowth * std::sqrt(kPi / points);
+  reach /= kReachGrowth;
+  const double spacing = rimSpacing(scene, near, seed, reach, reach * std::sqrt(kPi / points));
   // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
   Vec3 ignored;
   const double field = kRadiusOfField * scene.fitScale(seed, fields, ignored).proxyRadius;

@@ -1,5 +1,7 @@
 #include "BallFixtures.h"
 
+#include "Haptics/Contact/BallRadius.h"
+
 #include "Shapes/Shapes.h"
 
 using namespace pointhaptics;
@@ -37,6 +39,33 @@ private:
   double step_ = 1e-4;
   int left_ = 0;
 };
+
+/// The mean radius that clouds ask for at the rim of a hole of so many spacings, of balls that lean into it
+/// by so many degrees.
+double radiusOfLeaning(double hole, double degrees)
+{
+  constexpr int kClouds = 20;
+  constexpr double kSpacing = 0.0002;
+  trial::Random random(36);
+  const auto fields = std::make_unique<FitCells>();
+  const BallCells none;
+  double sum = 0.0;
+  for (int cloud = 0; cloud < kClouds; ++cloud)
+  {
+    std::vector<Vec3> points = trial::jitteredPlane(70, 70 * kSpacing, 0.0, random);
+    points.erase(std::remove_if(points.begin(), points.end(),
+                   [&](const Vec3& p) { return std::hypot(p.x, p.y) < hole * kSpacing; }),
+      points.end());
+    const Vec3 rim = *std::min_element(
+      points.begin(), points.end(), [](const Vec3& a, const Vec3& b) { return norm(a) < norm(b); });
+    const double angle = degrees * trial::kPi / 180.0;
+    const Vec3 up = std::cos(angle) * Vec3(0, 0, 1) - std::sin(angle) * normalized(rim);
+    const trial::Scene scene = trial::rawScene(points);
+    fields->invalidate();
+    sum += ballRadius(*scene, *fields, none, rim, rim + 2.4 * kSpacing * up);
+  }
+  return sum / kClouds;
+}
 
 } // namespace
 
@@ -132,6 +161,18 @@ TEST(ProxyBallPassage, FallsThroughHolesWiderThanItselfAndThroughNoOthers)
   }
   EXPECT_GT(through, 10);
   EXPECT_GT(held, 10);
+}
+
+TEST(ProxyBallPassage, SeesHowDenseTheRimOfAHoleIsThatItLeansInto)
+{
+  // 1.92 and 1.40 where only the points count that the leaning ball sees level. Where the ball has no room
+  // the cloud asks for a larger one, lest it is wedged between the points.
+  const double wide =
+    trial::recorded("leaningInAWideHole", radiusOfLeaning(8.0, 60.0) / radiusOfLeaning(8.0, 0.0));
+  const double narrow =
+    trial::recorded("leaningInANarrowHole", radiusOfLeaning(1.5, 60.0) / radiusOfLeaning(1.5, 0.0));
+  EXPECT_LE(wide, 1.2);
+  EXPECT_GE(narrow, 1.2);
 }
 
 TEST(ProxyBallPassage, IsLetOutOfAGapThatItHasNoRoomIn)
