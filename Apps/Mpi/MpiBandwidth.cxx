@@ -28,13 +28,13 @@ constexpr const char* kCommand = "bandwidth";
 
 struct MpiBandwidthOptions : BandwidthCommandOptions
 {
-  bool traffic = false;
+  Traffic traffic;
 };
 
-int runBandwidth(const MpiBandwidthOptions& options, Job& job)
+int runBandwidth(MpiBandwidthOptions& options, Job& job)
 {
   Piece piece;
-  if (!openPiece(job, kCommand, options.files, piece))
+  if (!openPiece(job, kCommand, options.files, options.traffic, piece))
   {
     return kFailed;
   }
@@ -64,7 +64,7 @@ int runBandwidth(const MpiBandwidthOptions& options, Job& job)
   {
     print(options, figures);
   }
-  sayTraffic(job, options.traffic, filter->GetNumberOfBytesSent());
+  options.traffic.show(job, filter->GetNumberOfBytesSent());
   return kSuccess;
 }
 
@@ -76,7 +76,8 @@ void addMpiBandwidth(CLI::App& program, MpiWork& work)
     program.add_subcommand("bandwidth", "Add kernel bandwidth, proxy radius and density to every point");
   auto options = std::make_shared<MpiBandwidthOptions>();
   options->addTo(*command);
-  addTraffic(*command, options->traffic);
+  options->traffic.addTo(*command);
+  describeOutput(*command);
   command->callback([options, &work] { work = [options](Job& job) { return runBandwidth(*options, job); }; });
 }
 

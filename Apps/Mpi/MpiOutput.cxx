@@ -2,35 +2,90 @@
 
 #include "Job.h"
 #include "PieceOfCloud.h"
+#include "PiecesFile.h"
 
 #include "Clouds/Pipeline.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <vector>
 
 namespace pointhaptics
 {
 namespace app
 {
+namespace
+{
 
-bool openPiece(Job& job, const std::string& command, const CloudToCloudOptions& files, Piece& piece)
+bool canWritePieces(const std::string& fileName, std::string& problem)
+{
+  const bool canWrite = isPiecesFile(fileName) || canWriteCloud(fileName, problem);
+  problem += canWrite ? "" : ", or .pvtp for a file per rank";
+  return canWrite;
+}
+
+/// Ranks without points have no file.
+bool writePerRank(Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece)
+{
+  const int rank = job.ranks().rank();
+  const std::string own = pieceFileOf(fileName, rank);
+  const bool hasPoints = piece->GetNumberOfPoints() > 0;
+  std::string problem;
+  if (hasPoints)
+  {
+    writeCloud(piece, own, command, problem);
+  }
+  std::vector<int> withPoints;
+  for (const int r : job.ranks().gatherValues(hasPoints ? rank : -1))
+  {
+    if (r >= 0)
+    {
+      withPoints.push_back(r);
+    }
+  }
+  bool isWritten = job.agree(command, problem);
+  if (isWritten && job.isRoot())
+  {
+    writePiecesFile(fileName, piece, withPoints, problem);
+  }
+  isWritten = isWritten && job.agree(command, problem);
+  if (!isWritten && hasPoints)
+  {
+    std::remove(own.c_str());
+  }
+  return isWritten;
+}
+
+} // namespace
+
+void describeOutput(CLI::App& command)
+{
+  command.get_option("--output")
+    ->description("File to write: .vtp, .ply, .pcd, .las, .laz or .csv; .pvtp writes a file per rank");
+}
+
+bool openPiece(
+  Job& job, const std::string& command, const CloudToCloudOptions& files, Traffic& traffic, Piece& piece)
 {
   useThreads(std::max<std::int64_t>(files.threads, 1));
   std::string problem;
-  Cloud cloud;
   if (files.input == kStandardStream)
   {
     problem = "standard input has no parts that ranks could read; give the name of a file";
   }
-  else if (canWriteCloud(files.output, problem))
+  else
   {
-    ReadOptions reading;
-    reading.resolution = files.resolution;
-    readCloud(files.input, cloud, problem, reading);
+    canWritePieces(files.output, problem);
   }
+  if (!job.agree(command, problem))
+  {
+    return false;
+  }
+  Cloud cloud;
+  files.read(cloud, problem, &job.ranks());
   if (!job.agree(command, problem))
   {
     return false;
@@ -39,16 +94,19 @@ bool openPiece(Job& job, const std::string& command, const CloudToCloudOptions& 
   {
     showNotes(command, files.input, cloud);
   }
-  const vtkIdType all = cloud.points->GetNumberOfPoints();
-  const vtkIdType rank = job.ranks().rank();
-  const vtkIdType size = job.ranks().size();
-  piece.pointsOfAll = all;
-  piece.points = pieceOfCloud(cloud.points, all * rank / size, all * (rank + 1) / size);
+  traffic.read = cloud.bytesRead;
+  piece.points = cloud.points;
+  piece.pointsOfAll =
+    job.ranks().reduce(cloud.points->GetNumberOfPoints(), [](vtkIdType a, vtkIdType b) { return a + b; });
   return true;
 }
 
 bool writePieces(Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece)
 {
+  if (isPiecesFile(fileName))
+  {
+    return writePerRank(job, command, fileName, piece);
+  }
   const vtkSmartPointer<vtkPolyData> all = gatherPieces(job.ranks(), piece);
   std::string problem;
   if (all)
@@ -56,25 +114,6 @@ bool writePieces(Job& job, const std::string& command, const std::string& fileNa
     writeCloud(all, fileName, command, problem);
   }
   return job.agree(command, problem);
-}
-
-void addTraffic(CLI::App& command, bool& isWanted)
-{
-  command.add_flag(
-    "--traffic", isWanted, "Say on stderr how many bytes the ranks sent each other for the computation");
-}
-
-void sayTraffic(Job& job, bool isWanted, std::int64_t own)
-{
-  if (!isWanted)
-  {
-    return;
-  }
-  const std::int64_t sent = job.ranks().reduce(own, [](std::int64_t a, std::int64_t b) { return a + b; });
-  if (job.isRoot())
-  {
-    fmt::print(stderr, "{} bytes sent between {} ranks\n", sent, job.ranks().size());
-  }
 }
 
 } // namespace app

@@ -2,18 +2,15 @@
 /// Clouds of a job: read in pieces, written as one file or as one per rank.
 #pragma once
 
+#include "Traffic.h"
+
 #include "Clouds/CloudToCloud.h"
 
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
-#include <cstdint>
 #include <string>
 
-namespace CLI
-{
-class App;
-}
 class vtkPolyData;
 
 namespace pointhaptics
@@ -30,19 +27,18 @@ struct Piece
   vtkIdType pointsOfAll = 0; ///< Of all ranks.
 };
 
+/// What a command of ranks says about its options beside those of the same one of pointhaptics.
+void describeOutput(CLI::App& command);
+
 /// Asks whether the output can be written, sets the threads, one per rank unless the options say more, and
 /// reads this rank's points of the input: contiguous ones, as many on each rank. False on all ranks: the
 /// message is printed.
-bool openPiece(Job& job, const std::string& command, const CloudToCloudOptions& files, Piece& piece);
+bool openPiece(
+  Job& job, const std::string& command, const CloudToCloudOptions& files, Traffic& traffic, Piece& piece);
 
 /// Writes the pieces of all ranks: as one file by rank 0, or for a .pvtp a file of each rank beside it and
 /// the list of these. False on all ranks: the message is printed.
 bool writePieces(Job& job, const std::string& command, const std::string& fileName, vtkPolyData* piece);
-
-/// --traffic, which asks for sayTraffic().
-void addTraffic(CLI::App& command, bool& isWanted);
-/// How many bytes the ranks sent each other; @p own: this one. Collective, where it @p isWanted.
-void sayTraffic(Job& job, bool isWanted, std::int64_t own);
 
 } // namespace app
 } // namespace pointhaptics

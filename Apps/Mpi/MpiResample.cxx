@@ -8,6 +8,7 @@
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 
+#include "CsvWriter.h"
 #include "vtkDistributedVoxelMeanResampler.h"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -28,24 +31,45 @@ constexpr const char* kCommand = "resample";
 
 struct MpiResampleOptions : ResampleOptions
 {
-  bool traffic = false;
+  Traffic traffic;
 };
 
-int runResample(const MpiResampleOptions& options, Job& job)
+/// By rank 0, which gathers the rows: pieces of IN are in its order.
+bool writeIndex(Job& job, CsvWriter& file, vtkVoxelMeanResampler* resampler)
+{
+  std::vector<std::string> messages(std::size_t(job.ranks().size()));
+  messages.front() = bytesOfValues(voxelIndexOf(resampler));
+  std::string problem;
+  messages = job.ranks().exchange(std::move(messages));
+  if (job.isRoot())
+  {
+    for (const std::string& bytes : messages)
+    {
+      addVoxelIndex(valuesOfBytes<std::int64_t>(bytes), file);
+    }
+    file.commit(problem);
+  }
+  return job.agree(kCommand, problem);
+}
+
+int runResample(MpiResampleOptions& options, Job& job)
 {
   Piece piece;
+  CsvWriter index;
   std::string problem;
-  if (!options.voxelIndex.empty())
+  const bool wantsIndex = !options.voxelIndex.empty();
+  if (wantsIndex && job.isRoot())
   {
-    problem = "--voxel-index is not written by ranks; leave it out, or use pointhaptics resample";
+    openVoxelIndex(options, index, problem);
   }
-  if (!job.agree(kCommand, problem) || !openPiece(job, kCommand, options.files, piece))
+  if (!job.agree(kCommand, problem) || !openPiece(job, kCommand, options.files, options.traffic, piece))
   {
     return kFailed;
   }
   vtkNew<vtkDistributedVoxelMeanResampler> resampler;
   resampler->SetInputData(piece.points);
   options.configure(resampler);
+  resampler->SetComputeVoxelIndex(wantsIndex);
   if (!updateFilter(resampler, "resampling", problem))
   {
     problem = options.files.input + ": " + problem;
@@ -67,7 +91,8 @@ int runResample(const MpiResampleOptions& options, Job& job)
     return kFailed;
   }
   options.finish(resampler->GetOutput());
-  if (!writePieces(job, kCommand, options.files.output, resampler->GetOutput()))
+  if (!writePieces(job, kCommand, options.files.output, resampler->GetOutput()) ||
+    (wantsIndex && !writeIndex(job, index, resampler)))
   {
     return kFailed;
   }
@@ -75,7 +100,7 @@ int runResample(const MpiResampleOptions& options, Job& job)
   {
     print(options, figures);
   }
-  sayTraffic(job, options.traffic, resampler->GetNumberOfBytesSent());
+  options.traffic.show(job, resampler->GetNumberOfBytesSent());
   return kSuccess;
 }
 
@@ -87,7 +112,8 @@ void addMpiResample(CLI::App& program, MpiWork& work)
     program.add_subcommand("resample", "Replace the points in each voxel of a lattice by their mean");
   auto options = std::make_shared<MpiResampleOptions>();
   options->addTo(*command);
-  addTraffic(*command, options->traffic);
+  options->traffic.addTo(*command);
+  describeOutput(*command);
   command->callback([options, &work] { work = [options](Job& job) { return runResample(*options, job); }; });
 }
 

@@ -1,5 +1,7 @@
 #include "VoxelOutput.h"
 
+#include "VoxelArrays.h"
+
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -95,6 +97,28 @@ vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, int level, b
     engine.copyMeans(level, vtkDoubleArray::FastDownCast(points->GetData())->GetPointer(0), executor);
   }
   return points;
+}
+
+vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, int level, std::size_t i,
+  const VoxelAttribute& attribute, bool isNormal, const VoxelRequest& request, ArrayPool& pool,
+  ArrayAllocator& allocator, const Executor& executor)
+{
+  vtkSmartPointer<vtkDataArray> array;
+  if (keepsPoints(request.representative))
+  {
+    array = attribute.chosen(engine.chosenPoints(), pool, executor);
+  }
+  else
+  {
+    array = attribute.emptyArray();
+    fillAttribute(engine, level, i, array, allocator, executor);
+    array = attribute.inOwnType(array);
+  }
+  if (request.representative != Representative::Mean && isNormal && !request.transform.isIdentity())
+  {
+    turnNormals(array, request.transform);
+  }
+  return array;
 }
 
 vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor)

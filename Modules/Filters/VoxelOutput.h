@@ -27,6 +27,8 @@ class vtkPolyData;
 namespace pointhaptics
 {
 
+class VoxelAttribute;
+
 /// Lets the engine write its results in memory that VTK arrays then take over.
 class ArrayAllocator : public OutputAllocator
 {
@@ -63,6 +65,11 @@ vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, int level, b
   ArrayAllocator& allocator, const Executor& executor);
 /// The tuples of an attribute of the request as @p array, which has its type and components.
 void fillAttribute(const VoxelResampler& engine, int level, std::size_t attribute, vtkDataArray* array,
+  ArrayAllocator& allocator, const Executor& executor);
+/// What the engine made of the array of @p attribute on a level: for a representative that is a point of the
+/// input its tuples, else those of attribute @p i of @p request.
+vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, int level, std::size_t i,
+  const VoxelAttribute& attribute, bool isNormal, const VoxelRequest& request, ArrayPool& pool,
   ArrayAllocator& allocator, const Executor& executor);
 /// @p count vertex cells, one per point, in order.
 vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count, ArrayPool& pool, const Executor& executor);

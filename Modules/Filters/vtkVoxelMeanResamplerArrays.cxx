@@ -53,22 +53,6 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input, bool war
 vtkSmartPointer<vtkDataArray> vtkVoxelMeanResampler::Internals::ReducedArray(std::size_t i, int level)
 {
   const NamedAttribute& named = this->Attributes[i];
-  const AffineTransform& transform = this->Request.transform;
-  vtkSmartPointer<vtkDataArray> array;
-  if (this->KeepsPoints())
-  {
-    array = named.attribute.chosen(this->Engine.chosenPoints(), this->Pool, this->Smp);
-  }
-  else
-  {
-    array = named.attribute.emptyArray();
-    fillAttribute(this->Engine, level, i, array, this->Allocator, this->Smp);
-    array = named.attribute.inOwnType(array);
-  }
-  const bool turns = this->Request.representative != pointhaptics::Representative::Mean && named.isNormal;
-  if (turns && !transform.isIdentity())
-  {
-    turnNormals(array, transform);
-  }
-  return array;
+  return reducedArray(this->Engine, level, i, named.attribute, named.isNormal, this->Request, this->Pool,
+    this->Allocator, this->Smp);
 }

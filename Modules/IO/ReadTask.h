@@ -4,6 +4,7 @@
 
 #include "FileProblem.h"
 #include "Progress.h"
+#include "SharedReading.h"
 
 #include <algorithm>
 #include <array>
@@ -45,6 +46,9 @@ struct ReadTask
   vtkAlgorithm* algorithm = nullptr;
   /// Reads bytes of the file; empty where all are there. Those that were never read are zero.
   std::function<void(std::size_t offset, std::size_t size)> load;
+  /// Where ranks read the file together, and its format can be read in parts: null where it is read whole.
+  SharedReading* shared = nullptr;
+  bool isCut = false;             ///< out: the cloud is this rank's part
   bool applyPoses = true;         ///< scans of several positions in one frame
   bool isCoarse = false;          ///< out: WantedPart::mostPoints left out points
   std::string format;             ///< out: "PLY (binary little endian)", as soon as it is known
@@ -57,6 +61,18 @@ struct ReadTask
     {
       load(offset, std::min(size, bytes.size() - offset));
     }
+  }
+  /// Rows of a file that has @p all: this rank's, or all of them.
+  RowRange rowsOf(std::uint64_t all)
+  {
+    isCut = shared != nullptr;
+    return shared ? shared->rowsOf(all) : RowRange{ 0, all };
+  }
+  /// The same as a rank that reads it alone: for what cannot be read in parts.
+  void takeWhole()
+  {
+    shared = nullptr;
+    need(0, bytes.size());
   }
   /// Reports how much of the parsing is done, 0..1. @throws StoppedOnRequest when an observer asked to stop.
   void progress(double fraction) const { reportProgress(algorithm, overall(fraction)); }

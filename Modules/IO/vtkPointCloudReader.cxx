@@ -20,6 +20,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
+#include <filesystem>
 #include <limits>
 #include <new>
 #include <sstream>
@@ -36,6 +38,8 @@ constexpr float kMostCoordinate = 1e30f;
 
 /// Bytes that tell a cloud optimised point cloud from others.
 constexpr std::size_t kCopcStart = 400;
+/// Bytes that show what format a file has.
+constexpr std::size_t kStart = 65536;
 
 void readAs(io::CloudFormat format, io::ReadTask& task, vtkPolyData* cloud)
 {
@@ -114,6 +118,37 @@ void checkCoordinates(vtkPolyData* cloud)
   }
 }
 
+/// Takes away all but @p count points from @p first on, with their values in all arrays.
+void keepRows(vtkPolyData* cloud, vtkIdType first, vtkIdType count)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(cloud->GetPoints()->GetDataType());
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkPointData> values;
+  values->CopyAllOn();
+  values->CopyAllocate(cloud->GetPointData(), count);
+  if (count > 0)
+  {
+    points->InsertPoints(0, count, first, cloud->GetPoints());
+    values->CopyData(cloud->GetPointData(), 0, count, first);
+  }
+  cloud->SetPoints(points);
+  cloud->GetPointData()->ShallowCopy(values);
+  io::setOneVertexPerPoint(cloud);
+}
+
+/// Whether the format, told by the file's @p start, can be read in parts.
+bool canBeCut(const std::string& start, std::size_t size, const std::string& extension)
+{
+  if (start.empty() || start.compare(0, 2, "\x1f\x8b") == 0) // gzip
+  {
+    return false;
+  }
+  const io::CloudFormat format = io::identifyFormat(start, size, extension);
+  return format == io::CloudFormat::Ply || format == io::CloudFormat::Pcd || format == io::CloudFormat::Las ||
+    format == io::CloudFormat::Text;
+}
+
 /// Takes away the points outside @p box, with their values in all arrays.
 void keepInside(vtkPolyData* cloud, const std::array<double, 6>& box)
 {
@@ -186,6 +221,15 @@ void vtkPointCloudReader::SetExtension(const std::string& extension)
   }
 }
 
+void vtkPointCloudReader::SetRanks(pointhaptics::Ranks* ranks)
+{
+  if (this->Ranks != ranks)
+  {
+    this->Ranks = ranks;
+    this->Modified();
+  }
+}
+
 void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
 {
   io::ReadTask task;
@@ -197,18 +241,91 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
   std::copy_n(this->Box, 6, task.wanted.box.begin());
   task.applyPoses = this->ApplyPoses;
   const KeepFindings keep{ task, this->Format, this->Notes };
-  if (task.wanted.isPart() && io::startsLikeCopc(io::startOfFile(task.path, kCopcStart)))
+  if (this->Ranks && this->Ranks->size() > 1)
   {
-    io::FileBytes part(task.path);
-    task.bytes = part.view();
-    task.load = [&](std::size_t offset, std::size_t size) { part.load(offset, size); };
-    io::readLas(task, cloud);
+    this->ReadTogether(task, cloud);
+  }
+  else if (task.wanted.isPart() && io::startsLikeCopc(io::startOfFile(task.path, kCopcStart)))
+  {
+    this->ReadPart(task, cloud);
   }
   else
   {
     this->ReadWhole(task, cloud);
   }
   this->Coarse = task.isCoarse;
+}
+
+/// A fault of this rank is told to the others before it goes on its way.
+void vtkPointCloudReader::ReadTogether(io::ReadTask& task, vtkPolyData* cloud)
+{
+  std::error_code missing;
+  const std::uintmax_t bytes = std::filesystem::file_size(task.path, missing);
+  io::SharedReading shared(*this->Ranks, missing ? 0 : bytes);
+  try
+  {
+    const std::string start = io::startOfFile(task.path, kStart);
+    if (canBeCut(start, static_cast<std::size_t>(missing ? 0 : bytes), this->ExtensionOf(task.path)))
+    {
+      task.shared = &shared;
+      this->ReadPart(task, cloud);
+    }
+    else
+    {
+      this->ReadWhole(task, cloud);
+    }
+    if (!task.isCut)
+    {
+      const io::RowRange own = shared.rowsOf(static_cast<std::uint64_t>(cloud->GetNumberOfPoints()));
+      keepRows(cloud, static_cast<vtkIdType>(own.first), static_cast<vtkIdType>(own.count()));
+    }
+    shared.gather({});
+  }
+  catch (const io::OtherRankFailed&)
+  {
+    throw;
+  }
+  catch (...)
+  {
+    shared.fail();
+    throw;
+  }
+}
+
+/// Loads no more of the file than is asked for.
+void vtkPointCloudReader::ReadPart(io::ReadTask& task, vtkPolyData* cloud)
+{
+  io::FileBytes part(task.path);
+  task.bytes = part.view();
+  task.load = [&](std::size_t offset, std::size_t size) { part.load(offset, size); };
+  const io::CloudFormat format =
+    io::identifyFormat(io::startOfFile(task.path, kStart), part.view().size(), this->ExtensionOf(task.path));
+  task.format = io::nameOf(format);
+  readAs(format, task, cloud);
+  this->NumberOfBytesRead = static_cast<vtkTypeInt64>(part.loaded());
+  this->Finish(task, cloud);
+}
+
+void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
+{
+  io::CloudFormat format = io::CloudFormat::Text;
+  const io::FileBytes bytes(
+    task.path, [&](double done) { task.readingProgress(done); },
+    [&](std::string_view start, std::size_t size)
+    {
+      format = io::identifyFormat(start, size, this->ExtensionOf(task.path));
+      task.format = io::nameOf(format);
+    });
+  task.bytes = bytes.view();
+  task.wasPacked = bytes.wasPacked();
+  readAs(format, task, cloud);
+  this->NumberOfBytesRead = static_cast<vtkTypeInt64>(bytes.view().size());
+  this->Finish(task, cloud);
+}
+
+/// What is looked at in the cloud of any format.
+void vtkPointCloudReader::Finish(const io::ReadTask& task, vtkPolyData* cloud)
+{
   checkCoordinates(cloud);
   if (task.wanted.hasBox())
   {
@@ -216,22 +333,12 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
   }
 }
 
-void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
+/// The one to go by where the content leaves the format open.
+std::string vtkPointCloudReader::ExtensionOf(const std::string& path) const
 {
-  const bool isNamedGz = io::lowerExtension(task.path) == "gz";
-  const std::string innerName = task.path.substr(0, task.path.size() - (isNamedGz ? 3 : 0));
-  io::CloudFormat format = io::CloudFormat::Text;
-  const io::FileBytes bytes(
-    task.path, [&](double done) { task.readingProgress(done); },
-    [&](std::string_view start, std::size_t size)
-    {
-      format = io::identifyFormat(
-        start, size, this->Extension.empty() ? io::lowerExtension(innerName) : this->Extension);
-      task.format = io::nameOf(format);
-    });
-  task.bytes = bytes.view();
-  task.wasPacked = bytes.wasPacked();
-  readAs(format, task, cloud);
+  const bool isNamedGz = io::lowerExtension(path) == "gz";
+  return this->Extension.empty() ? io::lowerExtension(path.substr(0, path.size() - (isNamedGz ? 3 : 0)))
+                                 : this->Extension;
 }
 
 void vtkPointCloudReader::Fail(unsigned long code, const std::string& message)
@@ -255,6 +362,8 @@ int vtkPointCloudReader::RequestData(
   this->Format.clear();
   this->Notes.clear();
   this->ValidWithoutPoints = false;
+  this->OtherRankFailed = false;
+  this->NumberOfBytesRead = 0;
   this->Coarse = false;
   this->SetErrorCode(vtkErrorCode::NoError);
   // The pipeline goes on with an empty cloud after a fault: returning 0 would add the executive's own
@@ -279,6 +388,11 @@ int vtkPointCloudReader::RequestData(
   catch (const io::FileProblem& problem)
   {
     this->Fail(problem.code, problem.what());
+  }
+  catch (const io::OtherRankFailed&)
+  {
+    this->OtherRankFailed = true;
+    this->SetErrorCode(vtkErrorCode::UserError);
   }
   catch (const io::StoppedOnRequest&)
   {

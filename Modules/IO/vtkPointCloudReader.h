@@ -74,6 +74,7 @@
 
 namespace pointhaptics
 {
+class Ranks;
 namespace io
 {
 struct ReadTask;
@@ -156,6 +157,27 @@ public:
   ///@}
 
   /**
+   * The processes that read the file together: each gets its part of the points, as many on each, one after
+   * the other in the order of the file, with the same arrays. Update() is then collective. PLY, PCD, LAS,
+   * LAZ, COPC and columns of text are read in parts: a process reads headers and its own bytes. Other
+   * formats, compressed PCD, PLY with lists, PTS and what gzip has packed are read whole by each, and cut. A
+   * fault of one ends the reading of all. Null (the default): this process reads all. The ranks must outlive
+   * updates.
+   */
+  void SetRanks(pointhaptics::Ranks* ranks);
+
+  /**
+   * Whether the last update ended without points and without a fault of its own, as another of the ranks had
+   * one.
+   */
+  bool FailedElsewhere() const { return this->OtherRankFailed; }
+
+  /**
+   * Bytes of the file that the last update read.
+   */
+  vtkGetMacro(NumberOfBytesRead, vtkTypeInt64);
+
+  /**
    * What the cloud of the last update does not have of its file, one line each.
    */
   const std::vector<std::string>& GetNotes() const { return this->Notes; }
@@ -189,7 +211,11 @@ private:
   void operator=(const vtkPointCloudReader&) = delete;
 
   void ReadInto(vtkPolyData* cloud);
+  void ReadPart(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
   void ReadWhole(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
+  void ReadTogether(pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
+  void Finish(const pointhaptics::io::ReadTask& task, vtkPolyData* cloud);
+  std::string ExtensionOf(const std::string& path) const;
   void Fail(unsigned long code, const std::string& message);
 
   char* FileName = nullptr;
@@ -204,6 +230,9 @@ private:
   std::vector<std::string> Notes;
   bool ApplyPoses = true;
   bool ValidWithoutPoints = false;
+  pointhaptics::Ranks* Ranks = nullptr;
+  bool OtherRankFailed = false;
+  vtkTypeInt64 NumberOfBytesRead = 0;
 };
 
 #endif

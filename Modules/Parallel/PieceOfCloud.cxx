@@ -3,9 +3,12 @@
 #include "SmpExecutor.h"
 #include "VoxelOutput.h"
 
+#include "Core/Distributed/SharedVoxels.h"
+
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -117,19 +120,6 @@ void setBytes(vtkAbstractArray* array, const std::vector<std::string>& pieces)
 
 }
 
-vtkSmartPointer<vtkPolyData> pieceOfCloud(vtkPolyData* cloud, vtkIdType first, vtkIdType last)
-{
-  return cloudLike(cloud, last - first,
-    [&](vtkAbstractArray* from, vtkAbstractArray* to)
-    {
-      to->SetNumberOfTuples(last - first);
-      if (last > first)
-      {
-        to->InsertTuples(0, last - first, first, from);
-      }
-    });
-}
-
 vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ranks, vtkPolyData* piece)
 {
   if (ranks.size() == 1)
@@ -152,6 +142,46 @@ vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ranks, vtkPolyData* piece)
       setBytes(to, messages);
     });
   return ranks.rank() == 0 ? all : nullptr;
+}
+
+vtkSmartPointer<vtkPolyData> exchangePoints(
+  Ranks& ranks, vtkPolyData* piece, const std::vector<int>& to, std::vector<std::int64_t>& numbers)
+{
+  const auto size = std::size_t(ranks.size());
+  const std::int64_t first = sumBefore(ranks, piece->GetNumberOfPoints());
+  std::vector<vtkNew<vtkIdList>> rows(size);
+  std::vector<std::vector<std::int64_t>> numbersFor(size);
+  for (std::size_t i = 0; i < to.size(); ++i)
+  {
+    if (to[i] >= 0)
+    {
+      rows[std::size_t(to[i])]->InsertNextId(vtkIdType(i));
+      numbersFor[std::size_t(to[i])].push_back(first + std::int64_t(i));
+    }
+  }
+  std::vector<std::string> messages(size);
+  std::transform(numbersFor.begin(), numbersFor.end(), messages.begin(), &bytesOfValues<std::int64_t>);
+  numbers.clear();
+  for (const std::string& bytes : ranks.exchange(std::move(messages)))
+  {
+    const auto some = valuesOfBytes<std::int64_t>(bytes);
+    numbers.insert(numbers.end(), some.begin(), some.end());
+  }
+  return cloudLike(piece, vtkIdType(numbers.size()),
+    [&](vtkAbstractArray* from, vtkAbstractArray* into)
+    {
+      std::vector<std::string> parts;
+      for (const vtkNew<vtkIdList>& wanted : rows)
+      {
+        const vtkSmartPointer<vtkAbstractArray> part = emptyLike(from);
+        part->SetNumberOfTuples(wanted->GetNumberOfIds());
+        from->GetTuples(wanted, part);
+        parts.push_back(bytesOf(part));
+      }
+      parts = ranks.exchange(std::move(parts));
+      into->SetNumberOfTuples(vtkIdType(numbers.size()));
+      setBytes(into, parts);
+    });
 }
 
 } // namespace pointhaptics

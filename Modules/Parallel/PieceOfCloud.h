@@ -7,20 +7,24 @@
 #include "Core/Distributed/Ranks.h"
 
 #include "vtkSmartPointer.h"
-#include "vtkType.h"
+
+#include <cstdint>
+#include <vector>
 
 class vtkPolyData;
 
 namespace pointhaptics
 {
 
-/// The points of @p cloud from @p first to before @p last with their arrays, one vertex each, and all of its
-/// field data. Copies.
-POINTHAPTICSPARALLEL_EXPORT vtkSmartPointer<vtkPolyData> pieceOfCloud(
-  vtkPolyData* cloud, vtkIdType first, vtkIdType last);
-
 /// The pieces of all ranks, by rank one after the other, on rank 0; on the others null. Field data is that of
 /// rank 0. @pre all pieces have arrays of the same names, types and components.
 POINTHAPTICSPARALLEL_EXPORT vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ranks, vtkPolyData* piece);
+
+/// The points of all ranks that are meant for this one, with their arrays, in the order of ranks and on each
+/// in its own. @p to: for each point of @p piece the rank that gets it, or -1. @p numbers: of each point that
+/// came, its number among the points of all ranks, one rank after the other. @pre as of gatherPieces();
+/// arrays of numbers alone.
+POINTHAPTICSPARALLEL_EXPORT vtkSmartPointer<vtkPolyData> exchangePoints(
+  Ranks& ranks, vtkPolyData* piece, const std::vector<int>& to, std::vector<std::int64_t>& numbers);
 
 } // namespace pointhaptics

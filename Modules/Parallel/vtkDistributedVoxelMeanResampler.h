@@ -14,8 +14,8 @@
  *
  * Properties are those of vtkVoxelMeanResampler and must be the same on all ranks; so must be the names,
  * types and components of the arrays. The numbers of clipped and invalid points are those of all ranks.
- * RepresentativeToMean is the only one, ComputeVoxelIndex and KeepOriginalPointIds must be off: what is asked
- * for beyond that is an error on all ranks.
+ * Other representatives than the mean need the points of a voxel together: points, not sums, go to the rank
+ * that has their voxel. ComputeVoxelIndex numbers the voxels of all ranks, KeepOriginalPointIds the points.
  *
  * Update() is collective: all ranks of the controller call it. AbortExecute is not looked at, as other ranks
  * would wait. Memory: a second pass over the points where there are arrays; else as vtkVoxelMeanResampler,

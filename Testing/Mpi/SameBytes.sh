@@ -36,6 +36,34 @@ case "$1" in
     printf 'x,y,z\n0,0,0\n1,2,3\n' >two.csv
     RANKS="4" same_bytes vtp resample two.csv
     ;;
+  Representatives)
+    arrays_csv
+    for kind in nearest-to-mean nearest-to-center median; do
+      RANKS="1 3" same_bytes vtp resample arrays.csv --dims 12 --representative "$kind" --covariance
+    done
+    RANKS="4" same_bytes csv resample arrays.csv --dims 9 --representative median --rotate 30,1,2,3 --minimum-points 4
+    for options in "--dims 9" "--dims 9 --minimum-points 5 --representative nearest-to-mean --workspace 0.2,0.7,0,0.5,0,0.2"; do
+      # shellcheck disable=SC2086 # several words
+      "$PROGRAM" resample arrays.csv -o expected.vtp --voxel-index expected-index.csv $options >said
+      for ranks in 1 2 5; do
+        # shellcheck disable=SC2086
+        run_ranks "$ranks" resample arrays.csv -o out.vtp --voxel-index index.csv $options >said-by-ranks
+        cmp expected.vtp out.vtp
+        cmp expected-index.csv index.csv || fault "--voxel-index $options on $ranks ranks: other bytes"
+      done
+    done
+    ;;
+  Formats)
+    # Read in parts, and whole: each gives the same points.
+    arrays_csv
+    "$PROGRAM" generate idol -n 5000 -o idol.ply >said
+    for file in arrays.ply arrays.pcd arrays.las arrays.laz arrays.vtp; do
+      "$PROGRAM" convert arrays.csv "$file" >said
+      RANKS="2 3" same_bytes vtp resample "$file" --dims 12
+    done
+    gzip -k idol.ply
+    RANKS="3" same_bytes vtp bandwidth idol.ply.gz --density none
+    ;;
   Bandwidth)
     "$PROGRAM" generate idol -n 6000 -o idol.ply >said
     same_bytes vtp bandwidth idol.ply

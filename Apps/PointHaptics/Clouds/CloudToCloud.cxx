@@ -32,14 +32,20 @@ bool CloudToCloudOptions::open(const std::string& command, Cloud& cloud, std::st
   }
   useThreads(this->threads);
   rememberStopSignals();
-  ReadOptions reading;
-  reading.resolution = this->resolution;
-  if (!readCloud(this->input, cloud, message, reading))
+  if (!this->read(cloud, message))
   {
     return false;
   }
   showNotes(command, this->input, cloud);
   return true;
+}
+
+bool CloudToCloudOptions::read(Cloud& cloud, std::string& message, Ranks* ranks) const
+{
+  ReadOptions reading;
+  reading.resolution = this->resolution;
+  reading.ranks = ranks;
+  return readCloud(this->input, cloud, message, reading);
 }
 
 } // namespace app

@@ -30,6 +30,8 @@ struct CloudToCloudOptions
   /// False:
   /// @p message says what failed.
   bool open(const std::string& command, Cloud& cloud, std::string& message) const;
+  /// Reads the input, or where ranks read it together this one's part.
+  bool read(Cloud& cloud, std::string& message, Ranks* ranks = nullptr) const;
 };
 
 } // namespace app

@@ -41,6 +41,7 @@ bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, s
   reader->SetExtension(options.extension);
   reader->SetResolution(options.resolution);
   reader->SetApplyPoses(options.applyPoses);
+  reader->SetRanks(options.ranks);
   {
     const ProgressBar bar("reading", reader);
     reader->Update();
@@ -55,7 +56,7 @@ bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, s
   {
     message = shown + ": " + other;
   }
-  if (message.empty() && reader->GetOutput()->GetNumberOfPoints() == 0)
+  if (message.empty() && !options.ranks && reader->GetOutput()->GetNumberOfPoints() == 0)
   {
     message = shown + ": holds no points; give a file with at least one";
   }
@@ -63,7 +64,8 @@ bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, s
   cloud.format = reader->GetFormat();
   cloud.notes = reader->GetNotes();
   cloud.isValidWithoutPoints = reader->IsValidWithoutPoints();
-  return message.empty();
+  cloud.bytesRead = reader->GetNumberOfBytesRead();
+  return message.empty() && !reader->FailedElsewhere();
 }
 
 bool writeFile(vtkPointSet* points, const std::string& path, const std::string& shown,

@@ -16,6 +16,7 @@ class vtkPolyData;
 
 namespace pointhaptics
 {
+class Ranks;
 namespace app
 {
 
@@ -25,6 +26,7 @@ struct Cloud
   std::string format;             ///< As the reader calls it.
   std::vector<std::string> notes; ///< What the file has and the points have not.
   bool isValidWithoutPoints = false;
+  std::int64_t bytesRead = 0;
 };
 
 /// Standard input or output in place of a file.
@@ -35,11 +37,12 @@ struct ReadOptions
   std::string extension;   ///< Of a name that does not say it; empty: the name's.
   bool applyPoses = true;  ///< Of scans (E57).
   double resolution = 0.0; ///< How far a cloud optimised one is read, in its units; 0: all of it.
+  Ranks* ranks = nullptr;  ///< That read it together, each its part of the points; null: this process alone.
 };
 
 /// Reads @p fileName, or standard input, which is kept in a temporary file meanwhile. False: @p message says
 /// what, where and the cure. A file without points is a fault; where it is a valid one, @p cloud says so and
-/// has its field data.
+/// has its field data. Where ranks read together and another one has a fault, @p message stays empty.
 bool readCloud(
   const std::string& fileName, Cloud& cloud, std::string& message, const ReadOptions& options = {});
 /// Updates @p filter with a progress bar. False: @p message is the first error of any VTK class during the

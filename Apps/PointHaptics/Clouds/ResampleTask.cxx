@@ -3,12 +3,15 @@
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 
+#include "CsvWriter.h"
 #include "vtkVoxelMeanResampler.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 
 namespace pointhaptics
@@ -53,6 +56,33 @@ void ResampleOptions::finish(vtkPolyData* means) const
     {
       means->GetFieldData()->RemoveArray(name);
     }
+  }
+}
+
+bool openVoxelIndex(const ResampleOptions& options, CsvWriter& file, std::string& message)
+{
+  if (options.voxelIndex == options.files.output)
+  {
+    message = options.voxelIndex + ": --voxel-index and -o name one file; give it another name";
+    return false;
+  }
+  return file.open(options.voxelIndex, "voxel", message);
+}
+
+std::vector<std::int64_t> voxelIndexOf(vtkVoxelMeanResampler* resampler)
+{
+  auto* index = vtkIdTypeArray::SafeDownCast(resampler->GetOutput(1)->GetPointData()->GetArray("VoxelIndex"));
+  return index
+    ? std::vector<std::int64_t>(index->GetPointer(0), index->GetPointer(0) + index->GetNumberOfTuples())
+    : std::vector<std::int64_t>();
+}
+
+void addVoxelIndex(const std::vector<std::int64_t>& rows, CsvWriter& file)
+{
+  for (const std::int64_t row : rows)
+  {
+    const auto value = double(row);
+    file.row(&value, 1);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace CLI
 {
@@ -17,6 +18,7 @@ class vtkVoxelMeanResampler;
 
 namespace pointhaptics
 {
+class CsvWriter;
 namespace app
 {
 
@@ -33,6 +35,12 @@ struct ResampleOptions
   /// What is done with the means before they are written.
   void finish(vtkPolyData* means) const;
 };
+
+/// Opens the file of --voxel-index. False: @p message says why it cannot be written.
+bool openVoxelIndex(const ResampleOptions& options, CsvWriter& file, std::string& message);
+/// Of each point the row of its voxel in the output, or -1. @pre ComputeVoxelIndex is on.
+std::vector<std::int64_t> voxelIndexOf(vtkVoxelMeanResampler* resampler);
+void addVoxelIndex(const std::vector<std::int64_t>& rows, CsvWriter& file);
 
 /// Numbers of points.
 struct ResampleFigures

@@ -8,9 +8,7 @@
 #include "vtkVoxelMeanResampler.h"
 
 #include <CLI/CLI.hpp>
-#include <vtkDataArray.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 
 #include <memory>
@@ -25,27 +23,13 @@ namespace
 
 constexpr const char* kCommand = "resample";
 
-bool writeVoxelIndex(CsvWriter& file, vtkVoxelMeanResampler* resampler, std::string& message)
-{
-  vtkDataArray* index = resampler->GetOutput(1)->GetPointData()->GetArray("VoxelIndex");
-  for (vtkIdType i = 0; index && i < index->GetNumberOfTuples(); ++i)
-  {
-    const double row = index->GetComponent(i, 0);
-    file.row(&row, 1);
-  }
-  return file.commit(message);
-}
-
 int runResample(const ResampleOptions& options)
 {
   std::string message;
   Cloud cloud;
   CsvWriter index;
-  if (options.voxelIndex == options.files.output)
-  {
-    return fail(kCommand, options.voxelIndex + ": --voxel-index and -o name one file; give it another name");
-  }
-  if ((!options.voxelIndex.empty() && !index.open(options.voxelIndex, "voxel", message)) ||
+  const bool wantsIndex = !options.voxelIndex.empty();
+  if ((wantsIndex && !openVoxelIndex(options, index, message)) ||
     !options.files.open(kCommand, cloud, message))
   {
     return fail(kCommand, message);
@@ -53,7 +37,7 @@ int runResample(const ResampleOptions& options)
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetInputData(cloud.points);
   options.configure(resampler);
-  resampler->SetComputeVoxelIndex(!options.voxelIndex.empty());
+  resampler->SetComputeVoxelIndex(wantsIndex);
   if (!updateFilter(resampler, "resampling", message))
   {
     return fail(kCommand, options.files.input + ": " + message);
@@ -67,10 +51,17 @@ int runResample(const ResampleOptions& options)
     return fail(kCommand, whyEmpty(options, figures));
   }
   options.finish(resampler->GetOutput());
-  if (!writeCloud(resampler->GetOutput(), options.files.output, kCommand, message) ||
-    (!options.voxelIndex.empty() && !writeVoxelIndex(index, resampler, message)))
+  if (!writeCloud(resampler->GetOutput(), options.files.output, kCommand, message))
   {
     return fail(kCommand, message);
+  }
+  if (wantsIndex)
+  {
+    addVoxelIndex(voxelIndexOf(resampler), index);
+    if (!index.commit(message))
+    {
+      return fail(kCommand, message);
+    }
   }
   print(options, figures);
   return kSuccess;

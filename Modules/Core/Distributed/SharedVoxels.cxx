@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace pointhaptics
@@ -35,23 +36,24 @@ Bounds commonBounds(Ranks& ranks, const Bounds& own)
     });
 }
 
+AttributeRange joinedRange(const AttributeRange& a, const AttributeRange& b)
+{
+  // Without a number that is not 0 there are no bits.
+  const bool aIsZero = a.exponent == a.lastBit;
+  const bool bIsZero = b.exponent == b.lastBit;
+  AttributeRange both = aIsZero ? b : a;
+  if (!aIsZero && !bIsZero)
+  {
+    both.exponent = std::max(a.exponent, b.exponent);
+    both.lastBit = std::min(a.lastBit, b.lastBit);
+  }
+  both.hasNonFinite = a.hasNonFinite || b.hasNonFinite;
+  return both;
+}
+
 AttributeRange commonRange(Ranks& ranks, const AttributeRange& own)
 {
-  return ranks.reduce(own,
-    [](const AttributeRange& a, const AttributeRange& b)
-    {
-      // Without a number that is not 0 there are no bits.
-      const bool aIsZero = a.exponent == a.lastBit;
-      const bool bIsZero = b.exponent == b.lastBit;
-      AttributeRange both = aIsZero ? b : a;
-      if (!aIsZero && !bIsZero)
-      {
-        both.exponent = std::max(a.exponent, b.exponent);
-        both.lastBit = std::min(a.lastBit, b.lastBit);
-      }
-      both.hasNonFinite = a.hasNonFinite || b.hasNonFinite;
-      return both;
-    });
+  return ranks.reduce(own, &joinedRange);
 }
 
 std::int64_t commonSum(Ranks& ranks, std::int64_t own)
@@ -59,29 +61,71 @@ std::int64_t commonSum(Ranks& ranks, std::int64_t own)
   return ranks.reduce(own, [](std::int64_t a, std::int64_t b) { return a + b; });
 }
 
-/// The ends of the ranges of keys, from 0 on. Every rank shows each n-th of its voxels, the same n on all, so
-/// that a rank's part of the sample is its part of the voxels.
-std::vector<std::uint64_t> SharedVoxels::chooseCuts(Ranks& ranks, VoxelAccumulator& own, int levels) const
+std::int64_t sumBefore(Ranks& ranks, std::int64_t own)
+{
+  const std::vector<std::int64_t> all = ranks.gatherValues(own);
+  return std::accumulate(all.begin(), all.begin() + ranks.rank(), std::int64_t(0));
+}
+
+/// Every rank shows each n-th of its voxels, the same n on all, so that a rank's part of the sample is its
+/// part of the voxels.
+std::vector<std::uint64_t> shareKeys(Ranks& ranks, const std::vector<std::uint64_t>& own, std::uint64_t uncut)
 {
   constexpr std::int64_t kSamplesPerRank = 256;
   const auto size = std::size_t(ranks.size());
-  const std::int64_t voxels = commonSum(ranks, std::int64_t(own.keys().size()));
-  const std::int64_t step = std::max<std::int64_t>(1, voxels / (kSamplesPerRank * std::int64_t(size)));
+  const std::int64_t voxels = commonSum(ranks, std::int64_t(own.size()));
+  const auto step = std::size_t(std::max<std::int64_t>(1, voxels / (kSamplesPerRank * std::int64_t(size))));
+  std::vector<std::uint64_t> shown;
+  for (std::size_t i = 0; i < own.size(); i += step)
+  {
+    shown.push_back(own[i]);
+  }
   std::vector<std::uint64_t> sample;
-  for (const std::string& bytes : ranks.gather(bytesOfValues(own.keys(step))))
+  for (const std::string& bytes : ranks.gather(bytesOfValues(shown)))
   {
     const auto keys = valuesOfBytes<std::uint64_t>(bytes);
     sample.insert(sample.end(), keys.begin(), keys.end());
   }
   std::sort(sample.begin(), sample.end());
-  const std::uint64_t uncut = uncutKeys(own.lattice(), levels);
-  std::vector<std::uint64_t> cuts(size + 1, 0);
+  std::vector<std::uint64_t> ranges(size + 1, 0);
   for (std::size_t r = 1; r < size && !sample.empty(); ++r)
   {
-    cuts[r] = sample[sample.size() * r / size] / uncut * uncut;
+    ranges[r] = sample[sample.size() * r / size] / uncut * uncut;
   }
-  cuts.back() = kBeyondAllKeys;
-  return cuts;
+  ranges.back() = kBeyondAllKeys;
+  return ranges;
+}
+
+std::vector<std::int64_t> numbersOfKeys(Ranks& ranks, const std::vector<std::uint64_t>& ranges,
+  const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& keys,
+  const std::vector<std::int64_t>& numbers)
+{
+  std::vector<std::string> messages;
+  for (std::size_t r = 0; r + 1 < ranges.size(); ++r)
+  {
+    messages.push_back(
+      bytesOfValues(std::vector<std::uint64_t>(std::lower_bound(own.begin(), own.end(), ranges[r]),
+        std::lower_bound(own.begin(), own.end(), ranges[r + 1]))));
+  }
+  messages = ranks.exchange(std::move(messages));
+  for (std::string& message : messages)
+  {
+    std::vector<std::int64_t> answer;
+    for (const std::uint64_t key : valuesOfBytes<std::uint64_t>(message))
+    {
+      const auto found = std::lower_bound(keys.begin(), keys.end(), key);
+      answer.push_back(
+        found != keys.end() && *found == key ? numbers[std::size_t(found - keys.begin())] : -1);
+    }
+    message = bytesOfValues(answer);
+  }
+  std::vector<std::int64_t> all;
+  for (const std::string& message : ranks.exchange(std::move(messages)))
+  {
+    const auto some = valuesOfBytes<std::int64_t>(message);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
 }
 
 Status SharedVoxels::merge(const std::vector<std::string>& messages, VoxelAccumulator& own)
@@ -114,27 +158,28 @@ Status SharedVoxels::merge(const std::vector<std::string>& messages, VoxelAccumu
   return Status::Ok;
 }
 
-void SharedVoxels::findEnds(const std::vector<std::uint64_t>& ownKeys, const std::vector<std::uint64_t>& cuts)
+void SharedVoxels::findEnds(const std::vector<std::uint64_t>& ownKeys)
 {
   ends_.clear();
-  for (const std::uint64_t cut : cuts)
+  for (const std::uint64_t begin : ranges_)
   {
-    ends_.push_back(std::lower_bound(ownKeys.begin(), ownKeys.end(), cut) - ownKeys.begin());
+    ends_.push_back(std::lower_bound(ownKeys.begin(), ownKeys.end(), begin) - ownKeys.begin());
   }
 }
 
 Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator& own, int levels)
 {
-  const std::vector<std::uint64_t> cuts = this->chooseCuts(ranks, own, levels);
+  const std::vector<std::uint64_t> keys = own.keys();
+  ranges_ = shareKeys(ranks, keys, uncutKeys(own.lattice(), levels));
   std::vector<std::string> messages;
-  for (std::size_t r = 0; r + 1 < cuts.size(); ++r)
+  for (std::size_t r = 0; r + 1 < ranges_.size(); ++r)
   {
-    messages.push_back(own.serialize(cuts[r], cuts[r + 1]));
+    messages.push_back(own.serialize(ranges_[r], ranges_[r + 1]));
   }
   const Status status = this->merge(ranks.exchange(std::move(messages)), own);
   clipped_ = commonSum(ranks, own.clippedPoints());
   invalid_ = commonSum(ranks, own.invalidPoints());
-  this->findEnds(own.keys(), cuts);
+  this->findEnds(keys);
   return ranks.reduce(status, [](Status a, Status b) { return a != Status::Ok ? a : b; });
 }
 

@@ -18,10 +18,27 @@ namespace pointhaptics
 
 /// The box about those of all ranks.
 Bounds commonBounds(Ranks& ranks, const Bounds& own);
+/// The range of an array of which two parts have these.
+AttributeRange joinedRange(const AttributeRange& a, const AttributeRange& b);
 /// The range of an array whose values lie on all ranks.
 AttributeRange commonRange(Ranks& ranks, const AttributeRange& own);
 /// The sum of the numbers of all ranks, on each.
 std::int64_t commonSum(Ranks& ranks, std::int64_t own);
+/// The sum of the numbers of the ranks before this one.
+std::int64_t sumBefore(Ranks& ranks, std::int64_t own);
+
+/// Which keys of voxels belong to which rank: contiguous ranges, which begin at multiples of @p uncut, with
+/// about as many of the voxels that ranks have; rank r has those from [r] to before [r + 1]. Collective.
+/// @p own: the keys that this rank has points for, ascending.
+std::vector<std::uint64_t> shareKeys(
+  Ranks& ranks, const std::vector<std::uint64_t>& own, std::uint64_t uncut = 1);
+
+/// Of each of the keys @p own, ascending, the number that the rank whose range it is in gives it; -1 where it
+/// has none. Collective; 16 bytes a key are sent. @p ranges: of shareKeys(). @p keys, ascending, and @p
+/// numbers: of this rank's range.
+std::vector<std::int64_t> numbersOfKeys(Ranks& ranks, const std::vector<std::uint64_t>& ranges,
+  const std::vector<std::uint64_t>& own, const std::vector<std::uint64_t>& keys,
+  const std::vector<std::int64_t>& numbers);
 
 /// Which rank gets which voxels: contiguous ranges of keys with about as many voxels each.
 ///
@@ -37,12 +54,15 @@ public:
   /// Errors, on all ranks: InvalidParameter (other lattices, more points than an accumulator takes).
   Status share(Ranks& ranks, VoxelAccumulator& own, int levels = 1);
   VoxelAccumulator& voxels() { return voxels_; }
+  /// The ranges of keys of all ranks: see shareKeys().
+  const std::vector<std::uint64_t>& ranges() const { return ranges_; }
   /// Points outside the lattice and those not finite, of all ranks.
   std::int64_t clippedPoints() const { return clipped_; }
   std::int64_t invalidPoints() const { return invalid_; }
 
   /// Exchanges what an array has in the voxels of share(): @p own has one entry for each voxel of this rank's
-  /// points, @p merged, just prepared, one for each of voxels(). Tuples: AttributeMean, AttributeTuples, AttributeReducer.
+  /// points, @p merged, just prepared, one for each of voxels(). Tuples: AttributeMean, AttributeTuples,
+  /// AttributeReducer.
   /// @return false on ranks that got what does not fit.
   template <typename Tuples>
   bool exchange(Ranks& ranks, const Tuples& own, Tuples& merged) const
@@ -62,13 +82,13 @@ public:
   }
 
 private:
-  std::vector<std::uint64_t> chooseCuts(Ranks& ranks, VoxelAccumulator& own, int levels) const;
   Status merge(const std::vector<std::string>& messages, VoxelAccumulator& own);
-  void findEnds(const std::vector<std::uint64_t>& ownKeys, const std::vector<std::uint64_t>& cuts);
+  void findEnds(const std::vector<std::uint64_t>& ownKeys);
 
   VoxelAccumulator voxels_{ Lattice() };
   std::int64_t clipped_ = 0;
   std::int64_t invalid_ = 0;
+  std::vector<std::uint64_t> ranges_;
   std::vector<std::int64_t> ends_;                ///< Of the own voxels for each rank; 0 before the first.
   std::vector<std::vector<std::int64_t>> places_; ///< In voxels(), of those that each rank sent.
 };

@@ -183,6 +183,7 @@ FileBytes::~FileBytes() = default;
 void FileBytes::load(std::size_t offset, std::size_t size)
 {
   file_->read(offset, data_.get() + offset, size);
+  loaded_ += size;
 }
 
 /// Memory that was never touched costs nothing: growing by much is cheap.

@@ -33,6 +33,8 @@ public:
   /// Reads bytes that lie inside the file; bytes that were never read are zero, and cost no memory. Only for
   /// objects made by FileBytes(path). @throws FileProblem when they cannot be read.
   void load(std::size_t offset, std::size_t size);
+  /// Bytes that load() has read.
+  std::size_t loaded() const { return loaded_; }
   std::string_view view() const { return { data_.get(), size_ }; }
   /// Whether view() is the unpacked content of a gzip file.
   bool wasPacked() const { return wasPacked_; }
@@ -54,6 +56,7 @@ private:
   std::unique_ptr<char, Free> data_;
   std::unique_ptr<File> file_; ///< that load() reads
   std::size_t size_ = 0;
+  std::size_t loaded_ = 0;
   bool wasPacked_ = false;
 };
 

@@ -40,10 +40,13 @@ void addTriple(vtkPolyData* cloud, const char* name, const std::array<double, 3>
   cloud->GetFieldData()->AddArray(array);
 }
 
-void readPlain(const ReadTask& task, const LasHeader& header, LasRecords& records)
+/// The records from number @p begin on, as many as @p header counts.
+void readPlain(const ReadTask& task, const LasHeader& header, std::uint64_t begin, LasRecords& records)
 {
   const vtkIdType rows = static_cast<vtkIdType>(header.count);
-  const char* first = task.bytes.data() + header.pointsOffset;
+  const std::size_t offset = header.pointsOffset + static_cast<std::size_t>(begin) * header.recordLength;
+  task.need(offset, static_cast<std::size_t>(header.count) * header.recordLength);
+  const char* first = task.bytes.data() + offset;
   for (vtkIdType row = 0; row < rows; row += kLasBlockRows)
   {
     const vtkIdType count = std::min(kLasBlockRows, rows - row);
@@ -67,7 +70,12 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   task.format = (header.packing.empty() ? "LAS" : header.packing) + version + " (point format " +
     std::to_string(header.pointFormat) + ")";
   std::optional<LazReader> packed;
-  if (!header.packing.empty())
+  const RowRange rows = header.packing.empty() ? task.rowsOf(header.count) : RowRange();
+  if (header.packing.empty())
+  {
+    header.count = rows.count();
+  }
+  else
   {
     packed.emplace(task, header);
     header.count = packed->count();
@@ -80,7 +88,11 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   }
   else
   {
-    readPlain(task, header, records);
+    readPlain(task, header, rows.first, records);
+  }
+  if (task.shared)
+  {
+    records.agree(*task.shared);
   }
   records.moveTo(cloud);
   addTriple(cloud, "LasScale", header.scale);

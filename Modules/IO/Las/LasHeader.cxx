@@ -225,6 +225,10 @@ void needLasHeader(std::string_view bytes, const std::function<void(std::size_t,
     return;
   }
   need(0, numberAt<std::uint32_t>(bytes, 96));
+  if (numberAt<std::uint8_t>(bytes, 25) < 4)
+  {
+    return; // no records behind the points
+  }
   std::uint64_t far = numberAt<std::uint64_t>(bytes, 235);
   const std::uint32_t records = numberAt<std::uint32_t>(bytes, 243);
   for (std::uint32_t i = 0; i < records && far < bytes.size() && bytes.size() - far >= kEvlrHeader; ++i)

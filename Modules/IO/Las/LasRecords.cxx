@@ -253,7 +253,42 @@ void LasRecords::fill(const LasBlock& block)
   fillExtra(block);
 }
 
-/// 8-bit colours: the high byte, or the value itself in files that (against the standard) store 0..255.
+/// Files that (against the standard) store 0..255 have none.
+bool LasRecords::hasWideColors() const
+{
+  if (header_.fields().rgb == 0 || onlyPositions_)
+  {
+    return false;
+  }
+  const auto* from = reinterpret_cast<const std::uint16_t*>(columns_.target(names_.wideColor).first);
+  return std::any_of(from, from + 3 * rows_, [](std::uint16_t v) { return v > 255; });
+}
+
+void LasRecords::agree(SharedReading& shared)
+{
+  struct Found
+  {
+    bool rare[4];
+    bool wideColors;
+  };
+  RareBits* const rare[4] = { &flags_, &scannerChannel_, &scanDirection_, &edgeOfFlightLine_ };
+  Found own{};
+  std::transform(rare, rare + 4, own.rare, [](const RareBits* bits) { return bits->isHere(); });
+  own.wideColors = hasWideColors();
+  for (const Found& found : shared.gatherValues(own))
+  {
+    othersHaveWideColors_ = othersHaveWideColors_ || found.wideColors;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      if (found.rare[i])
+      {
+        rare[i]->allocate(rows_);
+      }
+    }
+  }
+}
+
+/// 8-bit colours: the high byte, or the value itself where no value of the file needs more.
 void LasRecords::fillColors()
 {
   if (header_.fields().rgb == 0 || onlyPositions_)
@@ -263,8 +298,7 @@ void LasRecords::fillColors()
   const std::uint16_t* from = reinterpret_cast<const std::uint16_t*>(columns_.target(names_.wideColor).first);
   Byte* to = reinterpret_cast<Byte*>(columns_.target(names_.color).first);
   const vtkIdType values = 3 * rows_;
-  const bool sixteenBit = std::any_of(from, from + values, [](std::uint16_t v) { return v > 255; });
-  const int shift = sixteenBit ? 8 : 0;
+  const int shift = othersHaveWideColors_ || hasWideColors() ? 8 : 0;
   std::transform(from, from + values, to, [=](std::uint16_t v) { return static_cast<Byte>(v >> shift); });
 }
 

@@ -4,6 +4,7 @@
 
 #include "CloudColumns.h"
 #include "IO/Las/LasHeader.h"
+#include "SharedReading.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -39,10 +40,11 @@ public:
   template <typename Bits>
   void fill(const LasBlock& block, std::size_t stride, vtkIdType rows, Bits bits);
   void moveTo(vtkPolyData* cloud) const;
-
-private:
+  bool isHere() const { return array_ != nullptr; }
+  /// The array of zeros, where there is none yet.
   std::uint8_t* allocate(vtkIdType rows);
 
+private:
   const char* name_;
   std::mutex mutex_;
   std::atomic<std::uint8_t*> values_{ nullptr };
@@ -57,6 +59,9 @@ public:
   LasRecords(const LasHeader& header, bool onlyPositions);
   /// Blocks of different rows may be filled by several threads at once.
   void fill(const LasBlock& block);
+  /// Collective, when all blocks are filled, where ranks read a file together: the same arrays on each, and
+  /// colours of the same bits.
+  void agree(SharedReading& shared);
   /// Gives the arrays to @p cloud when all blocks are filled.
   void moveTo(vtkPolyData* cloud);
 
@@ -84,6 +89,7 @@ private:
   void fillLegacy(const LasBlock& block);
   void fillExtended(const LasBlock& block);
   void fillExtra(const LasBlock& block) const;
+  bool hasWideColors() const;
   void fillColors();
   template <typename Bits>
   void fillRare(const LasBlock& block, RareBits& array, Bits bits) const
@@ -94,6 +100,7 @@ private:
   const LasHeader& header_;
   const bool onlyPositions_;
   const Columns names_;
+  bool othersHaveWideColors_ = false;
   const vtkIdType rows_;
   CloudColumns columns_;
   RareBits flags_{ "ClassificationFlags" };

@@ -22,46 +22,69 @@ LazChunks chunksOf(const ReadTask& task, const LasHeader& header, const LazSchem
   {
     return findLazChunks(task.bytes, header, schema);
   }
+  if (!task.wanted.isPart())
+  {
+    return findLazChunks(
+      task.bytes, header, schema, [&](std::size_t offset, std::size_t size) { task.need(offset, size); });
+  }
   checkLazCount(task.bytes, header);
   LazChunks part = findCopcChunks(task, header);
   if (part.all.empty())
   {
     failFormat("no node of the octree touches the box", "choose a box that meets the bounds of the cloud");
   }
-  for (std::size_t i = 0; i < part.all.size(); ++i)
-  {
-    task.need(part.all[i].offset, part.all[i].size);
-    task.readingProgress(static_cast<double>(i + 1) / static_cast<double>(part.all.size()));
-  }
   return part;
+}
+
+RowRange rowsOf(ReadTask& task, const LazChunks& chunks)
+{
+  const LazChunk& last = chunks.all.back();
+  const RowRange rows = task.rowsOf(last.first + last.count);
+  for (std::size_t i = 0; task.load && i < chunks.all.size(); ++i)
+  {
+    const LazChunk& chunk = chunks.all[i];
+    // Where it is not known where they lie, all was loaded to find them.
+    if (chunks.arePlaced && rows.meets(chunk.first, chunk.first + chunk.count))
+    {
+      task.need(chunk.offset, chunk.size);
+    }
+    task.readingProgress(static_cast<double>(i + 1) / static_cast<double>(chunks.all.size()));
+  }
+  return rows;
 }
 
 } // namespace
 
-LazReader::LazReader(const ReadTask& task, const LasHeader& header)
+LazReader::LazReader(ReadTask& task, const LasHeader& header)
   : task_(task)
   , schema_(parseLazSchema(task.bytes, header))
   , chunks_(chunksOf(task, header, schema_))
-  , count_(chunks_.all.back().first + chunks_.all.back().count)
+  , rows_(rowsOf(task, chunks_))
   , faults_(chunks_.all.size())
 {
 }
 
+/// Decodes the chunk as far as points of it are wanted.
 void LazReader::readChunk(
   ChunkDecoder& decoder, std::vector<char>& block, const LazChunk& chunk, LasRecords& records)
 {
   decoder.start(task_.bytes, chunk);
-  for (std::uint64_t at = 0; at < chunk.count && !isStopped_;)
+  const std::uint64_t end = std::min(chunk.first + chunk.count, rows_.last);
+  for (std::uint64_t at = chunk.first; at < end && !isStopped_;)
   {
-    const vtkIdType count =
-      static_cast<vtkIdType>(std::min(static_cast<std::uint64_t>(kLasBlockRows), chunk.count - at));
-    decoder.next(block.data(), static_cast<std::size_t>(count));
-    records.fill({ block.data(), static_cast<vtkIdType>(chunk.first + at), count });
-    at += static_cast<std::uint64_t>(count);
-    done_ += static_cast<std::uint64_t>(count);
-    if (isCallingThread())
+    const std::uint64_t next = std::min(at + static_cast<std::uint64_t>(kLasBlockRows), end);
+    decoder.next(block.data(), static_cast<std::size_t>(next - at));
+    const std::uint64_t first = std::max(at, rows_.first);
+    if (first < next)
     {
-      task_.progress(static_cast<double>(done_) / static_cast<double>(count_));
+      records.fill({ block.data() + static_cast<std::size_t>(first - at) * schema_.recordLength,
+        static_cast<vtkIdType>(first - rows_.first), static_cast<vtkIdType>(next - first) });
+      done_ += next - first;
+    }
+    at = next;
+    if (isCallingThread() && rows_.count() > 0)
+    {
+      task_.progress(static_cast<double>(done_) / static_cast<double>(rows_.count()));
     }
   }
 }
@@ -76,7 +99,11 @@ void LazReader::work(LasRecords& records) noexcept
     std::vector<char> block(static_cast<std::size_t>(kLasBlockRows) * schema_.recordLength);
     while (!isStopped_ && (chunk = next_++) < chunks_.all.size())
     {
-      readChunk(decoder, block, chunks_.all[chunk], records);
+      const LazChunk& next = chunks_.all[chunk];
+      if (rows_.meets(next.first, next.first + next.count))
+      {
+        readChunk(decoder, block, next, records);
+      }
     }
   }
   catch (...)
@@ -94,6 +121,10 @@ void LazReader::readInOrder(LasRecords& records)
   std::size_t offset = chunks_.all.front().offset;
   for (LazChunk chunk : chunks_.all)
   {
+    if (chunk.first >= rows_.last)
+    {
+      break;
+    }
     chunk.offset = offset;
     chunk.size = task_.bytes.size() - offset;
     readChunk(decoder, block, chunk, records);

@@ -4,6 +4,8 @@
 
 #include "IO/Las/Laz/ChunkDecoder.h"
 
+#include "SharedReading.h"
+
 #include "vtkType.h"
 
 #include <atomic>
@@ -25,12 +27,14 @@ constexpr vtkIdType kLasBlockRows = 4096;
 class LazReader
 {
 public:
-  /// Finds the chunks of the file; where only a part of a cloud optimised one is wanted, those of the part,
-  /// and has them read (ReadTask::load). @throws FileProblem where what the file says of them cannot be true.
+  /// Finds the chunks of the file, and where not all is loaded has those read that hold wanted points: of a
+  /// part of a cloud optimised one, and where ranks read together of this one. @throws FileProblem where what
+  /// the file says of them cannot be true.
   /// @p task must outlive this object.
-  LazReader(const ReadTask& task, const LasHeader& header);
-  /// The points that read() gives: those of the header, or of the wanted part.
-  std::uint64_t count() const { return count_; }
+  LazReader(ReadTask& task, const LasHeader& header);
+  /// The points that read() gives: those of the header, or of the wanted part; where ranks read together,
+  /// this one's of them.
+  std::uint64_t count() const { return rows_.count(); }
   /// Whether WantedPart::mostPoints left out points.
   bool isCoarse() const { return chunks_.isCoarse; }
   /// Parts that are packed one by one, of those points.
@@ -48,7 +52,7 @@ private:
   const ReadTask& task_;
   const LazSchema schema_;
   const LazChunks chunks_;
-  const std::uint64_t count_;
+  const RowRange rows_; ///< of the points of all chunks
   const std::thread::id caller_ = std::this_thread::get_id();
   std::atomic<std::size_t> next_{ 0 };
   std::atomic<std::uint64_t> done_{ 0 }; ///< points

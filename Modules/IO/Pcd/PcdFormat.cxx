@@ -4,6 +4,7 @@
 #include "CloudColumns.h"
 #include "IO/Pcd/LzfStream.h"
 #include "IO/Pcd/PcdHeader.h"
+#include "IO/Text/TextPart.h"
 #include "IO/Text/TextScan.h"
 
 #include "vtkDoubleArray.h"
@@ -89,11 +90,13 @@ void copyField(const PcdTable::Entry& entry, const char* first, std::ptrdiff_t s
   }
 }
 
-void fillFromRecords(
-  const ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
+void fillFromRecords(const ReadTask& task, const PcdHeader& header, const RowRange& wanted,
+  const PcdTable& table, const CloudColumns& columns)
 {
-  const char* records = task.bytes.data() + header.bodyOffset;
-  const vtkIdType rows = static_cast<vtkIdType>(header.points);
+  const std::size_t begin = header.bodyOffset + static_cast<std::size_t>(wanted.first) * header.recordSize;
+  task.need(begin, static_cast<std::size_t>(wanted.count()) * header.recordSize);
+  const char* records = task.bytes.data() + begin;
+  const vtkIdType rows = static_cast<vtkIdType>(wanted.count());
   const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(header.recordSize);
   for (vtkIdType row = 0; row < rows; row += kProgressRows)
   {
@@ -212,14 +215,13 @@ void parseAsciiRow(
 }
 
 /// Not left to PCL, which names no line when a number is malformed.
-void fillFromAscii(
-  const ReadTask& task, const PcdHeader& header, const PcdTable& table, const CloudColumns& columns)
+void fillFromAscii(const ReadTask& task, const TextPart& part, vtkIdType rows, const PcdTable& table,
+  const CloudColumns& columns)
 {
   const std::vector<AsciiNumber> numbers = asciiNumbers(table, columns);
-  LineReader lines(task.bytes.substr(header.bodyOffset), header.bodyLine);
+  LineReader lines(task.bytes.substr(part.begin, part.end - part.begin), part.firstLine);
   std::string_view line;
   vtkIdType point = 0;
-  const vtkIdType rows = static_cast<vtkIdType>(header.points);
   while (point < rows && lines.next(line))
   {
     if (trimmed(line).empty())
@@ -237,6 +239,17 @@ void fillFromAscii(
     failTruncated("the file ends at line " + std::to_string(lines.lineNumber()) + " after " +
       std::to_string(point) + " of " + std::to_string(rows) + " points");
   }
+}
+
+/// @throws FileProblem where the lines of all ranks are too few.
+RowRange rowsIn(const TextPart& part, const PcdHeader& header)
+{
+  if (part.filledOfAll < header.points)
+  {
+    failTruncated("the file ends after " + std::to_string(part.filledOfAll) + " of " +
+      std::to_string(header.points) + " points");
+  }
+  return part.rowsOf(header.points);
 }
 
 void addFieldData(const PcdHeader& header, vtkPolyData* cloud)
@@ -262,17 +275,37 @@ void addFieldData(const PcdHeader& header, vtkPolyData* cloud)
 
 void readPcd(ReadTask& task, vtkPolyData* cloud)
 {
+  task.need(0, kStartOfText);
+  if (task.bytes.substr(0, kStartOfText).find("DATA") == std::string_view::npos)
+  {
+    task.takeWhole();
+  }
   const PcdHeader header = parsePcdHeader(task.bytes);
   task.format = std::string("PCD (") + nameOf(header.encoding) + ")";
   const PcdTable table(header);
-  CloudColumns columns(table.columns, static_cast<vtkIdType>(header.points));
+  TextPart part;
+  RowRange rows{ 0, header.points };
+  if (header.encoding == PcdEncoding::Ascii)
+  {
+    part = partOfText(task, task.bytes, header.bodyOffset, header.bodyLine);
+    rows = rowsIn(part, header);
+  }
+  else if (header.encoding == PcdEncoding::Binary)
+  {
+    rows = task.rowsOf(header.points);
+  }
+  else
+  {
+    task.takeWhole(); // field after field, packed as one
+  }
+  CloudColumns columns(table.columns, static_cast<vtkIdType>(rows.count()));
   switch (header.encoding)
   {
     case PcdEncoding::Ascii:
-      fillFromAscii(task, header, table, columns);
+      fillFromAscii(task, part, static_cast<vtkIdType>(rows.count()), table, columns);
       break;
     case PcdEncoding::Binary:
-      fillFromRecords(task, header, table, columns);
+      fillFromRecords(task, header, rows, table, columns);
       break;
     case PcdEncoding::Compressed:
       fillFromCompressed(task, header, table, columns);

@@ -3,6 +3,7 @@
 #include "Bytes/NumericType.h"
 #include "CloudColumns.h"
 #include "IO/Ply/PlyHeader.h"
+#include "IO/Text/TextPart.h"
 #include "IO/Text/TextScan.h"
 
 #include <algorithm>
@@ -42,6 +43,7 @@ public:
     offset_ += size;
     return data;
   }
+  void skip(std::size_t size) { offset_ += size; }
   /// Steps over a list property.
   void skipList(const PlyProperty& list, const PlyElement& element, unsigned long long index)
   {
@@ -120,11 +122,10 @@ void checkVertexCount(const PlyElement& vertex, std::size_t available, std::size
 }
 
 /// Records of fixed size: one pass per column over blocks that stay in the cache.
-void fillFixedRecords(
-  BinaryBody& body, const PlyElement& vertex, const CloudColumns& columns, const ReadTask& task)
+void fillFixedRecords(BinaryBody& body, const PlyElement& vertex, vtkIdType rows, const CloudColumns& columns,
+  const ReadTask& task)
 {
   const std::size_t recordSize = vertex.minimumRecordSize();
-  const vtkIdType rows = static_cast<vtkIdType>(vertex.count);
   for (vtkIdType row = 0; row < rows; row += kProgressRows)
   {
     const vtkIdType count = std::min(kProgressRows, rows - row);
@@ -165,26 +166,34 @@ void fillRecordsWithLists(BinaryBody& body, const PlyElement& vertex, const Vert
   }
 }
 
-void readBinaryBody(const ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
+void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
 {
+  const std::size_t vertexIndex = header.vertexElement();
+  const PlyElement& vertex = header.elements[vertexIndex];
+  if (vertexIndex > 0 || vertex.hasList())
+  {
+    task.takeWhole(); // where a record lies is known only after reading those before it
+  }
   const bool littleEndianFile = header.encoding == PlyEncoding::LittleEndian;
   BinaryBody body(task.bytes, header.bodyOffset, littleEndianFile != kIsLittleEndianHost);
-  const std::size_t vertexIndex = header.vertexElement();
   for (std::size_t i = 0; i < vertexIndex; ++i)
   {
     skipBinaryElement(body, header.elements[i]);
   }
-  const PlyElement& vertex = header.elements[vertexIndex];
-  checkVertexCount(vertex, body.remaining(), vertex.minimumRecordSize());
+  const std::size_t recordSize = vertex.minimumRecordSize();
+  checkVertexCount(vertex, body.remaining(), recordSize);
+  const RowRange rows = task.rowsOf(vertex.count);
   const VertexPlan plan(vertex);
-  CloudColumns columns(plan.columns, static_cast<vtkIdType>(vertex.count));
+  CloudColumns columns(plan.columns, static_cast<vtkIdType>(rows.count()));
   if (vertex.hasList())
   {
     fillRecordsWithLists(body, vertex, plan, columns, task);
   }
   else
   {
-    fillFixedRecords(body, vertex, columns, task);
+    body.skip(static_cast<std::size_t>(rows.first) * recordSize);
+    task.need(body.offset(), static_cast<std::size_t>(rows.count()) * recordSize);
+    fillFixedRecords(body, vertex, static_cast<vtkIdType>(rows.count()), columns, task);
   }
   columns.moveTo(cloud);
 }
@@ -280,27 +289,44 @@ void skipAsciiElement(LineReader& lines, const PlyElement& element)
   }
 }
 
-void readAsciiBody(const ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
+/// @throws FileProblem where the lines of all ranks are too few.
+RowRange rowsIn(const TextPart& part, const PlyElement& vertex)
 {
-  const std::string_view text = task.bytes.substr(header.bodyOffset);
-  LineReader lines(text, header.bodyLine);
+  if (part.filledOfAll < vertex.count)
+  {
+    failTruncated("the file ends before " + recordNumber("vertex", part.filledOfAll, vertex.count));
+  }
+  return part.rowsOf(vertex.count);
+}
+
+void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
+{
   const std::size_t vertexIndex = header.vertexElement();
+  if (vertexIndex > 0)
+  {
+    task.takeWhole();
+  }
+  const PlyElement& vertex = header.elements[vertexIndex];
+  const TextPart part = partOfText(task, task.bytes, header.bodyOffset, header.bodyLine);
+  const std::string_view text = task.bytes.substr(part.begin, part.end - part.begin);
+  LineReader lines(text, part.firstLine);
   for (std::size_t i = 0; i < vertexIndex; ++i)
   {
     skipAsciiElement(lines, header.elements[i]);
   }
-  const PlyElement& vertex = header.elements[vertexIndex];
+  const RowRange rows = rowsIn(part, vertex);
   // Each number takes a digit and a separator; the last one may lack the separator.
-  checkVertexCount(vertex, text.size() - lines.position() + 1, 2 * vertex.properties.size());
+  checkVertexCount(
+    vertex, task.bytes.size() - header.bodyOffset - lines.position() + 1, 2 * vertex.properties.size());
   const VertexPlan plan(vertex);
-  CloudColumns columns(plan.columns, static_cast<vtkIdType>(vertex.count));
+  CloudColumns columns(plan.columns, static_cast<vtkIdType>(rows.count()));
   std::vector<ColumnView> targets;
   for (const std::size_t column : plan.columnOfProperty)
   {
     targets.push_back(column == std::string::npos ? ColumnView{} : columns.target(column));
   }
   std::string_view line;
-  for (unsigned long long row = 0; row < vertex.count; ++row)
+  for (unsigned long long row = 0; row < rows.count(); ++row)
   {
     if (!nextFilledLine(lines, line))
     {
@@ -310,7 +336,7 @@ void readAsciiBody(const ReadTask& task, const PlyHeader& header, vtkPolyData* c
     fillAsciiRow(AsciiRecord(line, lines.lineNumber()), static_cast<vtkIdType>(row), vertex, targets);
     if (row % kProgressRows == 0)
     {
-      task.progress(static_cast<double>(row) / static_cast<double>(vertex.count));
+      task.progress(static_cast<double>(row) / static_cast<double>(rows.count()));
     }
   }
   columns.moveTo(cloud);
@@ -320,6 +346,11 @@ void readAsciiBody(const ReadTask& task, const PlyHeader& header, vtkPolyData* c
 
 void readPly(ReadTask& task, vtkPolyData* cloud)
 {
+  task.need(0, kStartOfText);
+  if (task.bytes.substr(0, kStartOfText).find("end_header") == std::string_view::npos)
+  {
+    task.takeWhole();
+  }
   const PlyHeader header = parsePlyHeader(task.bytes);
   task.format = std::string("PLY (") + nameOf(header.encoding) + ")";
   if (header.encoding == PlyEncoding::Ascii)

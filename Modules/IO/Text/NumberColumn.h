@@ -25,6 +25,14 @@ public:
   }
   /// An empty cell reads as NaN.
   void addEmpty() { isInteger_ = false; }
+  /// Adds all that were added to @p other.
+  void add(const NumberColumn& other)
+  {
+    fitsFloat_ = fitsFloat_ && other.fitsFloat_;
+    isInteger_ = isInteger_ && other.isInteger_;
+    smallest_ = std::min(smallest_, other.smallest_);
+    largest_ = std::max(largest_, other.largest_);
+  }
   /// Whether all are integers in 0..255.
   bool isByte() const { return isInteger_ && smallest_ >= 0.0 && largest_ <= 255.0; }
   double largest() const { return largest_; }

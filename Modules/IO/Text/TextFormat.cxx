@@ -2,6 +2,7 @@
 
 #include "CloudColumns.h"
 #include "CloudFormat.h"
+#include "IO/Text/TextPart.h"
 #include "IO/Text/TextTable.h"
 
 #include <algorithm>
@@ -79,11 +80,53 @@ const char* separatorName(const TextLayout& layout)
   }
 }
 
+/// What all ranks found, each in its lines.
+TextTable ofAll(SharedReading& shared, const TextTable& own)
+{
+  TextTable all;
+  all.columns.resize(own.columns.size());
+  for (const std::string& bytes : shared.gather(bytesOfValues(own.columns)))
+  {
+    const auto columns = valuesOfBytes<NumberColumn>(bytes);
+    for (std::size_t i = 0; i < columns.size() && i < all.columns.size(); ++i)
+    {
+      all.columns[i].add(columns[i]);
+    }
+  }
+  for (const std::int64_t rows : shared.gatherValues(std::int64_t{ own.rows }))
+  {
+    all.rows += static_cast<vtkIdType>(rows);
+  }
+  return all;
+}
+
+/// The layout of a text, of which the start may be all that was loaded.
+TextLayout layoutOf(ReadTask& task, std::string_view text)
+{
+  const std::string_view start = text.substr(0, kStartOfText);
+  TextLayout layout;
+  if (task.shared)
+  {
+    layout = inspectText(start.substr(0, start.rfind('\n') + 1));
+  }
+  if (layout.columns == 0 || layout.hasPointCount)
+  {
+    task.takeWhole();
+    layout = inspectText(text);
+  }
+  return layout;
+}
+
 } // namespace
 
-void readTable(const ReadTask& task, std::string_view text, const TextLayout& layout, vtkPolyData* cloud)
+void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud)
 {
-  const TextTable table = surveyTable(task, text, layout);
+  const TextPart part = partOfText(task, text, layout.bodyOffset, layout.bodyLine);
+  text = text.substr(0, part.end);
+  layout.bodyOffset = part.begin;
+  layout.bodyLine = part.firstLine;
+  const TextTable own = surveyTable(task, text, layout);
+  const TextTable table = task.shared ? ofAll(*task.shared, own) : own;
   if (table.rows == 0)
   {
     failNoPoints();
@@ -94,7 +137,7 @@ void readTable(const ReadTask& task, std::string_view text, const TextLayout& la
   {
     planned.push_back({ names[i], typeOf(names[i], table.columns[i]) });
   }
-  CloudColumns columns(planned, table.rows);
+  CloudColumns columns(planned, own.rows);
   std::vector<ColumnView> targets;
   for (std::size_t i = 0; i < names.size(); ++i)
   {
@@ -107,8 +150,9 @@ void readTable(const ReadTask& task, std::string_view text, const TextLayout& la
 void readText(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "text";
+  task.need(0, kStartOfText);
   const std::string_view text = withoutByteOrderMark(task.bytes);
-  const TextLayout layout = inspectText(text);
+  const TextLayout layout = layoutOf(task, text);
   task.format = layout.hasPointCount ? "PTS" : std::string("text (") + separatorName(layout) + ")";
   if (layout.columns == 0)
   {

@@ -48,7 +48,8 @@ void storeTable(const ReadTask& task, std::string_view text, const TextLayout& l
   const std::vector<ColumnView>& targets);
 
 /// Fills @p cloud with the points and arrays of a table: the columns are called as in @p layout, or as their
-/// number and values suggest. @throws FileProblem; StoppedOnRequest.
-void readTable(const ReadTask& task, std::string_view text, const TextLayout& layout, vtkPolyData* cloud);
+/// number and values suggest. Where ranks read it together: of this rank's lines, with names and types that
+/// suit those of all. @throws FileProblem; StoppedOnRequest; OtherRankFailed.
+void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud);
 
 } // namespace pointhaptics::io

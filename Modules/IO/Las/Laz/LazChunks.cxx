@@ -38,7 +38,7 @@ public:
     , first_(header.pointsOffset + sizeof(std::uint64_t))
   {
   }
-  LazChunks find();
+  LazChunks find(const std::function<void(std::size_t, std::size_t)>& need);
 
 private:
   bool hasVariableChunks() const { return schema_.chunkSize == LazSchema::kVariableChunks; }
@@ -193,7 +193,7 @@ LazChunks ChunkFinder::countOnly() const
   return chunks;
 }
 
-LazChunks ChunkFinder::find()
+LazChunks ChunkFinder::find(const std::function<void(std::size_t, std::size_t)>& need)
 {
   checkLazCount(bytes_, header_);
   if (schema_.compressor == LazSchema::Compressor::Pointwise)
@@ -202,7 +202,10 @@ LazChunks ChunkFinder::find()
     add(chunks, header_.pointsOffset, bytes_.size() - header_.pointsOffset, header_.count);
     return chunks;
   }
+  need(header_.pointsOffset, sizeof(std::uint64_t));
+  need(bytes_.size() - sizeof(std::uint64_t), sizeof(std::uint64_t));
   const std::size_t table = tableOffset();
+  need(table != 0 ? table : first_, bytes_.size());
   return table != 0 ? readTable(table) : isLayered() ? walkLayers() : countOnly();
 }
 
@@ -219,9 +222,10 @@ void checkLazCount(std::string_view bytes, const LasHeader& header)
   }
 }
 
-LazChunks findLazChunks(std::string_view bytes, const LasHeader& header, const LazSchema& schema)
+LazChunks findLazChunks(std::string_view bytes, const LasHeader& header, const LazSchema& schema,
+  const std::function<void(std::size_t offset, std::size_t size)>& need)
 {
-  return ChunkFinder(bytes, header, schema).find();
+  return ChunkFinder(bytes, header, schema).find(need);
 }
 
 std::string lazChunkTable(const std::vector<LazChunk>& chunks, const LazSchema& schema)

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,7 +41,10 @@ constexpr std::size_t kLazFloor = std::size_t{ 1 } << 26;
 
 /// The chunks of all points that @p header counts, each inside the file. @throws FileProblem with byte offset
 /// and value where table, sizes or counts cannot be true.
-LazChunks findLazChunks(std::string_view bytes, const LasHeader& header, const LazSchema& schema);
+/// @p need: called before bytes are looked at, where not all are there.
+LazChunks findLazChunks(
+  std::string_view bytes, const LasHeader& header, const LazSchema& schema,
+  const std::function<void(std::size_t offset, std::size_t size)>& need = [](std::size_t, std::size_t) {});
 
 /// @throws FileProblem where @p header counts more points than a file of its size is expected to hold.
 void checkLazCount(std::string_view bytes, const LasHeader& header);

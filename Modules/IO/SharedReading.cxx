@@ -1,0 +1,65 @@
+#include "SharedReading.h"
+
+#include "FileProblem.h"
+
+#include <algorithm>
+
+namespace pointhaptics::io
+{
+
+namespace
+{
+
+/// What stands before each message.
+struct Preface
+{
+  std::uint64_t bytes = 0;  ///< Of the file.
+  std::uint64_t failed = 0; ///< 1: there is no more to come.
+};
+
+} // namespace
+
+RowRange SharedReading::rowsOf(std::uint64_t all) const
+{
+  const auto size = static_cast<std::uint64_t>(ranks_.size());
+  const auto rank = static_cast<std::uint64_t>(ranks_.rank());
+  // Without a product that could overflow.
+  const auto end = [&](std::uint64_t r) { return all / size * r + all % size * r / size; };
+  return { end(rank), end(rank + 1) };
+}
+
+std::vector<std::string> SharedReading::gather(const std::string& own)
+{
+  std::vector<std::string> all = ranks_.gather(bytesOfValues(std::vector<Preface>{ { bytes_, 0 } }) + own);
+  bool hasFailed = false;
+  bool isSame = true;
+  for (std::string& message : all)
+  {
+    const Preface preface = valuesOfBytes<Preface>(message.substr(0, sizeof(Preface))).at(0);
+    hasFailed = hasFailed || preface.failed != 0;
+    isSame = isSame && preface.bytes == bytes_;
+    message.erase(0, sizeof(Preface));
+  }
+  isOver_ = hasFailed || !isSame;
+  if (hasFailed)
+  {
+    throw OtherRankFailed();
+  }
+  if (!isSame)
+  {
+    failFormat("the file has " + std::to_string(bytes_) + " bytes here and another size on another rank",
+      "give all ranks the same file");
+  }
+  return all;
+}
+
+void SharedReading::fail()
+{
+  if (!isOver_)
+  {
+    isOver_ = true;
+    ranks_.gather(bytesOfValues(std::vector<Preface>{ { bytes_, 1 } }));
+  }
+}
+
+} // namespace pointhaptics::io

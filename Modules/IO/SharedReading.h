@@ -1,0 +1,68 @@
+/// @file
+/// One file that several ranks read together, each its part of the points.
+#pragma once
+
+#include "Core/Distributed/Ranks.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace pointhaptics::io
+{
+
+/// Consecutive ones, from 0.
+struct RowRange
+{
+  std::uint64_t first = 0;
+  std::uint64_t last = 0; ///< One past the end.
+
+  std::uint64_t count() const { return last - first; }
+  bool meets(std::uint64_t from, std::uint64_t to) const { return from < last && first < to; }
+};
+
+/// Another rank could not go on, and says why; this one had no fault.
+class OtherRankFailed : public std::exception
+{
+};
+
+/// What ranks say to each other while they read. Each says whether it can go on with every message, so that a
+/// fault of one ends the reading of all, and none waits for it.
+class SharedReading
+{
+public:
+  /// @p ranks must outlive this object. @p bytes: of the file; all ranks must see the same.
+  SharedReading(Ranks& ranks, std::uint64_t bytes)
+    : ranks_(ranks)
+    , bytes_(bytes)
+  {
+  }
+  std::size_t rank() const { return std::size_t(ranks_.rank()); }
+  /// This rank's of @p all rows: as many on each.
+  RowRange rowsOf(std::uint64_t all) const;
+  /// Collective: what each rank has. @throws OtherRankFailed; FileProblem where ranks see files of different
+  /// sizes.
+  std::vector<std::string> gather(const std::string& own);
+  /// The same of a plain value.
+  template <typename T>
+  std::vector<T> gatherValues(const T& own)
+  {
+    std::vector<T> all;
+    for (const std::string& bytes : this->gather(bytesOfValues(std::vector<T>{ own })))
+    {
+      all.push_back(valuesOfBytes<T>(bytes).at(0));
+    }
+    return all;
+  }
+  /// This rank cannot go on: tells the others in the place of the next gather(), unless they know.
+  void fail();
+
+private:
+  Ranks& ranks_;
+  std::uint64_t bytes_;
+  bool isOver_ = false; ///< The ranks have given up.
+};
+
+} // namespace pointhaptics::io

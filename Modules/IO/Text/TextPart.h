@@ -1,0 +1,38 @@
+/// @file
+/// The lines of a text that a rank reads, where ranks read it together.
+#pragma once
+
+#include "ReadTask.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace pointhaptics::io
+{
+
+/// Bytes of a file that are looked at before it is known what else is needed: headers are much shorter.
+constexpr std::size_t kStartOfText = std::size_t{ 1 } << 20;
+
+/// Whole lines that follow each other.
+struct TextPart
+{
+  std::size_t begin = 0; ///< Bytes of the text.
+  std::size_t end = 0;
+  std::size_t firstLine = 1;     ///< Its number.
+  RowRange filled;               ///< Which of the lines that are not blank.
+  std::uint64_t filledOfAll = 0; ///< Those of all ranks.
+
+  /// Rows of this part, where the first @p all lines that are not blank are rows.
+  RowRange rowsOf(std::uint64_t all) const
+  {
+    return { filled.first < all ? filled.first : all, filled.last < all ? filled.last : all };
+  }
+};
+
+/// Collective: of the lines of @p text, a part of task.bytes, from the byte @p bodyOffset and line number @p
+/// bodyLine on, those that begin in this rank's part of its bytes; all of them, not counted, where one reads
+/// alone. Texts without a line feed in their first bytes are read whole.
+TextPart partOfText(ReadTask& task, std::string_view text, std::size_t bodyOffset, std::size_t bodyLine);
+
+} // namespace pointhaptics::io

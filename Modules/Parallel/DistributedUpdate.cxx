@@ -1,0 +1,386 @@
+#include "DistributedUpdate.h"
+
+#include "PieceOfCloud.h"
+
+#include "ResamplerInput.h"
+
+#include "Core/Resample/VoxelMean.h"
+
+#include "vtkAbstractTransform.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace pointhaptics
+{
+
+namespace
+{
+
+std::vector<std::uint64_t> keysOf(const VoxelResampler& voxels)
+{
+  std::vector<std::uint64_t> keys(std::size_t(voxels.size()));
+  voxels.copyKeys(0, keys.data());
+  return keys;
+}
+
+void addArray(vtkPointData* data, vtkDataArray* array, const VoxelArray& from)
+{
+  const int index = data->AddArray(array);
+  for (const int role : from.roles)
+  {
+    data->SetActiveAttribute(index, role);
+  }
+}
+
+/// Where all ranks share a status that is not Ok.
+std::string problemOf(Status status)
+{
+  return std::string(message(status == Status::Ok ? Status::InvalidParameter : status)) + ".";
+}
+
+std::string signatureOf(const std::vector<VoxelArray>& arrays)
+{
+  std::ostringstream text;
+  for (const VoxelArray& found : arrays)
+  {
+    text << found.array->GetName() << " of " << found.array->GetNumberOfComponents() << " "
+         << found.array->GetDataTypeAsString() << "; ";
+  }
+  return text.str();
+}
+
+}
+
+std::string DistributedUpdate::chooseArrays()
+{
+  if (!settings_.passAttributes)
+  {
+    return {};
+  }
+  found_ = voxelArrays(input_, settings_.categoricalArrays, settings_.representative, dropped_);
+  const std::string signature = signatureOf(found_);
+  if (!this->agree(signature))
+  {
+    return "Ranks have different point arrays; this one has: " + signature +
+      "give all ranks pieces of one cloud.";
+  }
+  for (std::size_t i = 0; this->sharesSums() && i < found_.size(); ++i)
+  {
+    const VoxelArray& array = found_[i];
+    AttributeValues values =
+      VoxelAttribute(array.array, array.kind, nullptr, settings_.instructionSet, smp_).values();
+    values.range = commonRange(ranks_, values.range);
+    arrays_.push_back(
+      { array, VoxelAttribute(array.array, array.kind, &values, settings_.instructionSet, smp_), nullptr });
+  }
+  return {};
+}
+
+/// That of the input on ranks which have points.
+void DistributedUpdate::choosePrecision()
+{
+  const vtkPoints* points = input_->GetPoints();
+  const bool isSingle = !points || points->GetDataType() == VTK_FLOAT;
+  const bool hasPoints = points_.view().size() > 0;
+  const bool somePoints = !this->all(!hasPoints);
+  singlePrecision_ = this->all(isSingle || (somePoints && !hasPoints));
+  if (settings_.outputPointsPrecision != PointsPrecision::OfInput)
+  {
+    singlePrecision_ = settings_.outputPointsPrecision == PointsPrecision::Single;
+  }
+}
+
+std::string DistributedUpdate::prepare(vtkAbstractTransform* transform)
+{
+  if (settings_.keepOriginalPointIds && !keepsPoints(settings_.representative))
+  {
+    return "A mean or median is no point of the input; set KeepOriginalPointIdsOff, or choose Representative "
+           "NearestToMean or NearestToCenter.";
+  }
+  const std::string problem = readTransform(transform, transform_);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  Bounds cloud;
+  if (settings_.lattice.automaticWorkspace)
+  {
+    cloud = commonBounds(ranks_, transformedBounds(points_.view(), transform_, smp_));
+  }
+  const Status status = makeLattice(settings_.lattice, cloud, lattice_);
+  if (status != Status::Ok)
+  {
+    return latticeProblem(settings_.lattice, status);
+  }
+  this->choosePrecision();
+  return this->chooseArrays();
+}
+
+int DistributedUpdate::run(const vtkSmartPointer<vtkPolyData>* outputs, int levels, std::string& problem)
+{
+  // As in vtkVoxelMeanResampler: further levels take another pass over the points.
+  const int exact = this->sharesSums() ? VoxelResampler::exactLevels(lattice_, levels) : 1;
+  problem = this->sharesSums() ? this->runOfSums(outputs, exact) : this->runOfPoints(outputs[0]);
+  if (!problem.empty())
+  {
+    return 0;
+  }
+  lattice_ = coarserLattice(made_.lattice(exact - 1));
+  return exact;
+}
+
+std::string DistributedUpdate::runOfSums(const vtkSmartPointer<vtkPolyData>* outputs, int levels)
+{
+  VoxelAccumulator own(lattice_, settings_.computeCovariance);
+  Status status = own.add(points_.view(), transform_, smp_);
+  if (!this->all(status == Status::Ok))
+  {
+    return problemOf(status);
+  }
+  status = shared_.share(ranks_, own, levels);
+  VoxelAccumulator::Request wanted;
+  wanted.singlePrecision = singlePrecision_;
+  wanted.keys = true;
+  wanted.levels = levels;
+  wanted.instructions = settings_.instructionSet;
+  wanted.allocator = &allocator_;
+  status = status == Status::Ok ? shared_.voxels().finish(wanted, made_, smp_) : status;
+  if (!this->all(status == Status::Ok))
+  {
+    return problemOf(status);
+  }
+  clipped_ = shared_.clippedPoints();
+  invalid_ = shared_.invalidPoints();
+  ranges_ = shared_.ranges();
+  const std::string problem = this->shareArrays(levels);
+  for (int level = 0; problem.empty() && level < levels; ++level)
+  {
+    this->fill(level, outputs[level],
+      [&](vtkIdTypeArray* counts, vtkPointData* data) { this->addMeans(level, counts, data); });
+  }
+  return problem;
+}
+
+std::string DistributedUpdate::shareArrays(int levels)
+{
+  if (arrays_.empty())
+  {
+    return {};
+  }
+  const std::int64_t mostPoints = ranks_.reduce(
+    made_.mostPoints(levels - 1), [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
+  VoxelRequest request;
+  request.points = points_.view();
+  request.transform = transform_;
+  request.lattice = shared_.voxels().lattice();
+  request.keys = true;
+  request.keepPointRecords = true;
+  request.instructions = settings_.instructionSet;
+  std::vector<AttributeReducer> own;
+  for (const SharedArray& array : arrays_)
+  {
+    own.emplace_back(array.attribute.request(), transform_, settings_.instructionSet, smp_);
+    request.tuples.push_back(AttributeReducer::sourceOf(array.attribute.view()));
+  }
+  VoxelResampler engine;
+  Status status = engine.run(request, smp_);
+  for (AttributeReducer& reducer : own)
+  {
+    reducer.prepare(engine.counts(), engine.size(), mostPoints, smp_);
+  }
+  const auto add = [&own](const PointRows& rows, const std::int64_t* voxels, int count)
+  {
+    for (std::size_t i = 0; i < own.size(); ++i)
+    {
+      own[i].add(rows.tuples(i), rows.bytes, voxels, count);
+    }
+  };
+  status = status == Status::Ok ? engine.visitPointsByVoxel(request, add, smp_) : status;
+  if (!this->all(status == Status::Ok))
+  {
+    return "A rank could not average its arrays: " + std::string(message(status)) + ".";
+  }
+  bool fits = true;
+  for (std::size_t i = 0; i < own.size(); ++i)
+  {
+    SharedArray& array = arrays_[i];
+    array.merged = std::make_unique<AttributeReducer>(own[i].another());
+    array.merged->prepare(made_.counts(), made_.size(), mostPoints, smp_);
+    fits = shared_.exchange(ranks_, own[i], *array.merged) && fits;
+  }
+  return this->all(fits) ? std::string() : "Sums of arrays got lost between ranks; are all of one build?";
+}
+
+void DistributedUpdate::addMeans(int level, vtkIdTypeArray* counts, vtkPointData* data)
+{
+  for (SharedArray& array : arrays_)
+  {
+    if (level > 0)
+    {
+      array.merged->coarsen(made_.parents(level), made_.size(level));
+    }
+    const vtkSmartPointer<vtkDataArray> tuples = array.attribute.emptyArray();
+    pool_.allocate(tuples, made_.size(level));
+    array.merged->write(
+      reinterpret_cast<const std::int64_t*>(counts->GetPointer(0)), tuples->GetVoidPointer(0), smp_, nullptr);
+    addArray(data, array.attribute.inOwnType(tuples), array.from);
+  }
+}
+
+template <typename Function>
+void DistributedUpdate::fill(int level, vtkPolyData* output, Function&& addArrays)
+{
+  vtkPointData* data = output->GetPointData();
+  output->SetPoints(makePoints(made_, level, singlePrecision_, allocator_, smp_));
+  output->SetVerts(makeVertices(vtkIdType(made_.size(level)), pool_, smp_));
+  const auto counts = makeCounts(made_, level, allocator_, smp_);
+  addArrays(counts, data);
+  data->AddArray(counts);
+  if (settings_.computeCovariance)
+  {
+    data->AddArray(makeCovariances(made_, level, allocator_, smp_));
+  }
+  if (settings_.keepOriginalPointIds)
+  {
+    std::vector<std::int64_t> ids = made_.chosenPoints();
+    std::transform(
+      ids.begin(), ids.end(), ids.begin(), [this](std::int64_t i) { return numbers_[std::size_t(i)]; });
+    data->AddArray(makeIds(ids, kOriginalPointIds));
+  }
+  auto kept = keepVoxels(output, counts, settings_.minimumPointsPerVoxel, pool_, smp_);
+  if (level == 0)
+  {
+    kept_ = std::move(kept);
+  }
+  addLattice(made_.lattice(level), transform_, output->GetFieldData());
+}
+
+/// With keys and the voxel of each point.
+std::string DistributedUpdate::findOwnVoxels(const Lattice& lattice, VoxelResampler& own)
+{
+  VoxelRequest request;
+  request.points = points_.view();
+  request.transform = transform_;
+  request.lattice = lattice;
+  request.keys = true;
+  request.voxelIndex = true;
+  request.instructions = settings_.instructionSet;
+  const Status status = own.run(request, smp_);
+  return this->all(status == Status::Ok) ? std::string() : problemOf(status);
+}
+
+vtkSmartPointer<vtkPolyData> DistributedUpdate::sharePoints(const VoxelResampler& own)
+{
+  const std::vector<std::uint64_t> keys = keysOf(own);
+  ranges_ = shareKeys(ranks_, keys);
+  std::vector<int> owners;
+  for (const std::uint64_t key : keys)
+  {
+    owners.push_back(int(std::upper_bound(ranges_.begin(), ranges_.end() - 1, key) - ranges_.begin()) - 1);
+  }
+  std::vector<int> to;
+  for (const std::int64_t voxel : own.voxelIndex())
+  {
+    to.push_back(voxel < 0 ? -1 : owners[std::size_t(voxel)]);
+  }
+  // Of one type on all ranks, also where some have no points.
+  const bool isFloat = !input_->GetPoints() || input_->GetPoints()->GetDataType() == VTK_FLOAT;
+  const bool areFloat = this->all(isFloat || to.empty());
+  vtkNew<vtkPoints> places;
+  places->SetDataType(areFloat ? VTK_FLOAT : VTK_DOUBLE);
+  if (input_->GetPoints())
+  {
+    places->DeepCopy(input_->GetPoints());
+  }
+  vtkNew<vtkPolyData> piece;
+  piece->SetPoints(places);
+  for (const VoxelArray& found : found_)
+  {
+    piece->GetPointData()->AddArray(found.array);
+  }
+  return exchangePoints(ranks_, piece, to, numbers_);
+}
+
+std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
+{
+  VoxelResampler own;
+  const std::string problem = this->findOwnVoxels(lattice_, own);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  clipped_ = commonSum(ranks_, own.clippedPoints());
+  invalid_ = commonSum(ranks_, own.invalidPoints());
+  const vtkSmartPointer<vtkPolyData> points = this->sharePoints(own);
+  const PointAccess access(points->GetPoints());
+  VoxelRequest request;
+  request.points = access.view();
+  request.transform = transform_;
+  request.lattice = lattice_;
+  request.singlePrecision = singlePrecision_;
+  request.covariances = settings_.computeCovariance;
+  request.keys = true;
+  request.representative = settings_.representative;
+  request.instructions = settings_.instructionSet;
+  request.allocator = &allocator_;
+  std::vector<VoxelAttribute> attributes;
+  for (std::size_t i = 0; i < found_.size(); ++i)
+  {
+    attributes.emplace_back(
+      points->GetPointData()->GetArray(int(i)), found_[i].kind, nullptr, settings_.instructionSet, smp_);
+    keepsPoints(request.representative) ? request.tieBreakers.push_back(attributes.back().view())
+                                        : request.attributes.push_back(attributes.back().request());
+  }
+  const Status status = made_.run(request, smp_);
+  if (!this->all(status == Status::Ok))
+  {
+    return problemOf(status);
+  }
+  this->fill(0, output,
+    [&](vtkIdTypeArray*, vtkPointData* data)
+    {
+      for (std::size_t i = 0; i < found_.size(); ++i)
+      {
+        addArray(data,
+          reducedArray(made_, 0, i, attributes[i], found_[i].isNormal, request, pool_, allocator_, smp_),
+          found_[i]);
+      }
+    });
+  return {};
+}
+
+std::string DistributedUpdate::fillIndex(vtkPolyData* output, vtkIdType voxels)
+{
+  VoxelResampler own;
+  const std::string problem = this->findOwnVoxels(made_.lattice(), own);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  const std::int64_t first = sumBefore(ranks_, voxels);
+  std::vector<std::int64_t> rows(std::size_t(made_.size()), -1);
+  for (std::size_t i = 0; i < std::size_t(voxels); ++i)
+  {
+    rows[kept_ ? std::size_t((*kept_)[i]) : i] = first + std::int64_t(i);
+  }
+  const std::vector<std::int64_t> ofOwn = numbersOfKeys(ranks_, ranges_, keysOf(own), keysOf(made_), rows);
+  std::vector<std::int64_t> index = own.voxelIndex();
+  std::transform(index.begin(), index.end(), index.begin(),
+    [&](std::int64_t voxel) { return voxel < 0 ? voxel : ofOwn[std::size_t(voxel)]; });
+  output->SetPoints(input_->GetPoints());
+  output->GetPointData()->PassData(input_->GetPointData());
+  output->GetPointData()->AddArray(makeIds(index, "VoxelIndex"));
+  output->GetFieldData()->PassData(input_->GetFieldData());
+  return {};
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,110 @@
+/// @file
+/// The steps of vtkDistributedVoxelMeanResampler. Private to Parallel.
+#pragma once
+
+#include "PolyDataAccess.h"
+#include "SmpExecutor.h"
+#include "VoxelArrays.h"
+#include "VoxelOutput.h"
+
+#include "Core/Distributed/SharedVoxels.h"
+#include "Core/Resample/AttributeReducer.h"
+#include "Core/Resample/VoxelMeanSettings.h"
+#include "Core/Resample/VoxelResampler.h"
+
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkAbstractTransform;
+class vtkIdTypeArray;
+class vtkPointData;
+class vtkPolyData;
+
+namespace pointhaptics
+{
+
+/// A point array in the voxels of this rank's points, and in those of this rank's range.
+struct SharedArray
+{
+  VoxelArray from;
+  VoxelAttribute attribute; ///< It knows the range of the values of all ranks.
+  std::unique_ptr<AttributeReducer> merged;
+};
+
+/// The steps of one update. Each returns what is wrong, the same on all ranks, or nothing.
+class DistributedUpdate
+{
+public:
+  DistributedUpdate(Ranks& ranks, const VoxelMeanSettings& settings, vtkPointSet* input)
+    : ranks_(ranks)
+    , settings_(settings)
+    , input_(input)
+    , points_(input->GetPoints())
+  {
+  }
+
+  std::string prepare(vtkAbstractTransform* transform);
+  /// Fills the outputs of the levels from @p outputs on. @return how many it filled, 0 with a @p problem.
+  int run(const vtkSmartPointer<vtkPolyData>* outputs, int levels, std::string& problem);
+  /// Fills the output with the index of this rank's points in the @p voxels of level 0, which run() has just
+  /// given to this rank's output, and those of the others.
+  std::string fillIndex(vtkPolyData* output, vtkIdType voxels);
+  std::int64_t clippedPoints() const { return clipped_; }
+  std::int64_t invalidPoints() const { return invalid_; }
+  const std::vector<std::string>& dropped() const { return dropped_; }
+
+private:
+  bool all(bool own)
+  {
+    return ranks_.reduce(own, [](bool a, bool b) { return a && b; });
+  }
+  bool agree(const std::string& text)
+  {
+    const std::vector<std::string> texts = ranks_.gather(text);
+    return std::all_of(texts.begin(), texts.end(), [&](const std::string& t) { return t == texts.front(); });
+  }
+  bool sharesSums() const { return settings_.representative == Representative::Mean; }
+  std::string chooseArrays();
+  void choosePrecision();
+  /// The voxels of this rank's points.
+  std::string findOwnVoxels(const Lattice& lattice, VoxelResampler& own);
+  // Means: sums are shared.
+  std::string runOfSums(const vtkSmartPointer<vtkPolyData>* outputs, int levels);
+  std::string shareArrays(int levels);
+  void addMeans(int level, vtkIdTypeArray* counts, vtkPointData* data);
+  // Others, of one level: points go to the rank that has their voxel.
+  std::string runOfPoints(vtkPolyData* output);
+  vtkSmartPointer<vtkPolyData> sharePoints(const VoxelResampler& own);
+  /// @p addArrays adds what points have beside places, counts and covariances.
+  template <typename Function>
+  void fill(int level, vtkPolyData* output, Function&& addArrays);
+
+  Ranks& ranks_;
+  const VoxelMeanSettings& settings_;
+  vtkPointSet* input_;
+  PointAccess points_;
+  SmpExecutor smp_;
+  ArrayPool pool_;
+  ArrayAllocator allocator_{ pool_ };
+  AffineTransform transform_;
+  Lattice lattice_;
+  bool singlePrecision_ = true;
+  std::vector<VoxelArray> found_;
+  std::vector<SharedArray> arrays_; ///< Of these, where sums are shared.
+  std::vector<std::string> dropped_;
+  std::int64_t clipped_ = 0; ///< Of all ranks.
+  std::int64_t invalid_ = 0;
+  SharedVoxels shared_;
+  std::vector<std::uint64_t> ranges_; ///< Of keys, of all ranks.
+  std::vector<std::int64_t> numbers_; ///< Of the points that came to this rank: their numbers in all.
+  VoxelResampler made_;               ///< Of this rank's range.
+  std::optional<std::vector<std::int64_t>> kept_; ///< Of its voxels, where some may be left out.
+};
+
+} // namespace pointhaptics
