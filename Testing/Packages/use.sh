@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Testing/Packages/use.sh ROOT program | development COMPILER GENERATOR MAKE | python INTERPRETER
+# Testing/Packages/use.sh ROOT program | mpi MPIRUN | development COMPILER GENERATOR MAKE | python INTERPRETER
 # Uses what install.sh installed below ROOT, and nothing of the build. Exit code 0: it works; 1: not; 77: skipped.
 set -euo pipefail
 
@@ -35,6 +35,21 @@ use_program() {
     share/applications/pointhaptics.desktop share/doc/pointhaptics/copyright lib/udev/rules.d/70-pointhaptics.rules; do
     [[ -s "$ROOT/usr/$file" ]] || fail "/usr/$file is not installed"
   done
+}
+
+use_mpi() {
+  local MPIRUN="$1"
+  [[ -x "$MPIRUN" ]] || {
+    printf 'skipped: no mpirun (package openmpi-bin)\n'
+    exit 77
+  }
+  check_libraries "$ROOT/usr/bin/pointhaptics-mpi"
+  [[ -s "$ROOT/usr/share/doc/pointhaptics-mpi/copyright" ]] || fail "the copyright is not installed"
+  source "$(dirname -- "${BASH_SOURCE[0]}")/../Mpi/support.sh"
+  "$ROOT/usr/bin/pointhaptics" generate sphere -n 1000 -o sphere.ply
+  "$ROOT/usr/bin/pointhaptics" resample sphere.ply -o expected.vtp --dims 10
+  "$MPIRUN" -n 2 "$ROOT/usr/bin/pointhaptics-mpi" resample sphere.ply -o means.vtp --dims 10
+  cmp expected.vtp means.vtp || fail "two ranks write other bytes"
 }
 
 # Builds and runs the example Resample as it is installed.
