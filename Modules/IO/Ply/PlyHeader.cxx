@@ -149,7 +149,8 @@ std::size_t PlyHeader::vertexElement() const
 PlyHeader parsePlyHeader(std::string_view bytes)
 {
   // A header of CR-only lines may stand before a body with LF bytes: cut it off before splitting lines.
-  std::size_t end = std::min(bytes.find("\nend_header"), bytes.find("\rend_header"));
+  std::size_t end = bytes.find("\nend_header");
+  end = std::min(end, bytes.substr(0, end).find("\rend_header")); // not in the body, which may be large
   if (end == std::string_view::npos)
   {
     failTruncated("the header has no line end_header within " + std::to_string(bytes.size()) + " bytes");
