@@ -165,6 +165,40 @@ class BadInput(TestCase):
             with self.subTest(options):
                 self.assert_error(simple.KernelBandwidth(Input=cloud, **options), *options)
 
+    def test_points_that_are_not_finite(self):
+        with open(self.path("some.csv"), "w") as file:
+            file.write("x,y,z,t\n" + "".join(f"{i},{i % 7},{i % 3},{i}.5\nnan,1,inf,0.5\n" for i in range(500)))
+        some = simple.PointHapticsReader(FileNames=[self.path("some.csv")])
+        means = simple.VoxelMeanResampler(Input=some, LatticeMode="Dimensions", Dimensions=[40, 40, 40])
+        self.resampled(means, self.path("some.csv"), "--dims", 40)
+        means.UpdatePropertyInformation()
+        self.assertEqual(means.GetPropertyValue("NumberOfInvalidPoints"), 500)
+        self.bandwidths(simple.KernelBandwidth(Input=some), self.path("some.csv"), "--density", "none")
+        with open(self.path("all.csv"), "w") as file:
+            file.write("x,y,z\n" + "nan,nan,nan\n" * 100)
+        none = simple.PointHapticsReader(FileNames=[self.path("all.csv")])
+        for mode in ("Voxel Size", "Dimensions"):
+            with ErrorMessages():
+                means = simple.VoxelMeanResampler(Input=none, LatticeMode=mode)
+                means.UpdatePipeline()
+            self.assertEqual(means.GetDataInformation().GetNumberOfPoints(), 0)
+        radii = simple.KernelBandwidth(Input=none)
+        radii.UpdatePipeline()
+        self.assertEqual(radii.GetDataInformation().GetNumberOfPoints(), 100)
+
+    def test_huge_lattices(self):
+        cloud = read_sphere(self)
+        most = 2**21
+        means = simple.VoxelMeanResampler(Input=cloud, LatticeMode="Dimensions", Dimensions=[most] * 3)
+        self.resampled(means, self.path("in.ply"), "--dims", most)
+        self.assert_error(
+            simple.VoxelMeanResampler(Input=cloud, LatticeMode="Dimensions", Dimensions=[most + 1] * 3), str(most + 1)
+        )
+        self.assert_error(
+            simple.VoxelMeanResampler(Input=cloud, VoxelSize=1e-9, AutomaticWorkspace=0,
+                                      WorkspaceBounds=[-1e30, 1e30] * 3), "voxel"
+        )  # fmt: skip
+
     def test_a_file_that_cannot_be_written(self):
         cloud = read_sphere(self)
         with ErrorMessages() as messages:
