@@ -3,22 +3,36 @@
 #include "SmpExecutor.h"
 
 #include "Core/Base/Buffer.h"
+#include "Core/Distributed/SharedVoxels.h"
+#include "Core/Resample/AttributeMean.h"
 #include "Core/Resample/VoxelMean.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 
 namespace pointhaptics
 {
 namespace
 {
 
-const Executor& executorFor(unsigned threads)
+/// Calls work(executor) with at most so many threads; 0: as vtkSMPTools is set.
+template <typename Work>
+void withThreads(unsigned threads, Work&& work)
 {
-  static const Executor one;
-  static const SmpExecutor all;
-  return threads == 1 ? one : static_cast<const Executor&>(all);
+  if (threads == 1)
+  {
+    work(Executor());
+    return;
+  }
+  const SmpExecutor all;
+  if (threads == 0)
+  {
+    work(all);
+    return;
+  }
+  vtkSMPTools::LocalScope(vtkSMPTools::Config(int(std::min(threads, 1u << 16))), [&] { work(all); });
 }
 
 std::size_t bytesOf(const RecordField& field)
@@ -81,6 +95,114 @@ AttributeRequest requestFor(const RecordCloud& cloud, const RecordField& field)
   return request;
 }
 
+/// Records that are read together stay in the first cache until all of their fields have been.
+constexpr std::int64_t kBlock = 512;
+
+/// What is to be known of a cloud before its points are summed.
+struct Survey
+{
+  Bounds box;
+  std::vector<AttributeRange> ranges;
+
+  void include(const Survey& other)
+  {
+    if (!other.box.empty())
+    {
+      box.include(other.box.minimum);
+      box.include(other.box.maximum);
+    }
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+    {
+      ranges[i] = joinedRange(ranges[i], other.ranges[i]);
+    }
+  }
+};
+
+PointView partOf(const PointView& points, std::int64_t first, std::int64_t count)
+{
+  const std::int64_t at = points.stride() * first;
+  return points.floats() ? PointView(points.floats() + at, count, points.stride())
+                         : PointView(points.doubles() + at, count, points.stride());
+}
+
+/// The fields of a record lie together: each record is read once.
+Survey surveyOf(
+  const PointView& points, const std::vector<AttributeRequest>& attributes, const Executor& executor)
+{
+  Survey all;
+  all.ranges.resize(attributes.size());
+  std::mutex mutex;
+  forRange(executor, (points.size() + kBlock - 1) / kBlock, 16,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      const Executor alone;
+      Survey own;
+      own.ranges.resize(attributes.size());
+      for (std::int64_t first = kBlock * begin; first < std::min(kBlock * end, points.size());
+           first += kBlock)
+      {
+        const std::int64_t count = std::min(kBlock, points.size() - first);
+        Survey block{ transformedBounds(partOf(points, first, count), {}, alone), {} };
+        for (const AttributeRequest& attribute : attributes)
+        {
+          AttributeView view = attribute.view;
+          view.values = static_cast<const char*>(view.values) + view.stride * first;
+          view.tuples = count;
+          block.ranges.push_back(rangeOf(view, alone));
+        }
+        own.include(block);
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      all.include(own);
+    });
+  return all;
+}
+
+/// A field of the voxels, and where it goes.
+struct Written
+{
+  const char* tuples;
+  std::size_t every; ///< Bytes from one tuple to the next.
+  std::size_t bytes; ///< That are copied of each.
+  char* to;          ///< In the first record.
+
+  /// To records @p first to before @p last, the tuples of the voxels @p kept, or of all where that is null.
+  void copy(const std::int64_t* kept, std::int64_t first, std::int64_t last, std::size_t step) const
+  {
+    // The compiler is to know the usual sizes.
+    bytes == 4      ? copyBytes<4>(kept, first, last, step)
+      : bytes == 8  ? copyBytes<8>(kept, first, last, step)
+      : bytes == 12 ? copyBytes<12>(kept, first, last, step)
+                    : copyBytes<0>(kept, first, last, step);
+  }
+
+private:
+  template <std::size_t Bytes>
+  void copyBytes(const std::int64_t* kept, std::int64_t first, std::int64_t last, std::size_t step) const
+  {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      std::memcpy(to + step * std::size_t(i), tuples + every * std::size_t(kept ? kept[i] : i),
+        Bytes > 0 ? Bytes : bytes);
+    }
+  }
+};
+
+/// That of means @p xyz, at the offsets @p places of the records.
+void addMeans(const char* xyz, std::size_t bytes, char* records, const std::array<std::size_t, 3>& places,
+  std::vector<Written>& written)
+{
+  if (places[1] == places[0] + bytes && places[2] == places[1] + bytes)
+  {
+    written.push_back({ xyz, 3 * bytes, 3 * bytes, records + places[0] });
+    return;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    written.push_back({ xyz + axis * bytes, 3 * bytes, bytes, records + places[axis] });
+  }
+}
+
 }
 
 struct RecordVoxels::Implementation
@@ -97,17 +219,6 @@ struct RecordVoxels::Implementation
 
   Status run(const RecordCloud& cloud, const Executor& executor);
   void choose();
-  template <typename Real>
-  void writeMeans(char* records, std::size_t step, const std::array<std::size_t, 3>& xyz) const;
-  /// Copies of kept voxels' tuples to records.
-  void scatter(const char* packed, std::size_t bytes, char* to, std::size_t step) const
-  {
-    for (std::int64_t i = 0; i < size; ++i)
-    {
-      const std::int64_t voxel = kept.empty() ? i : kept[std::size_t(i)];
-      std::memcpy(to + step * std::size_t(i), packed + bytes * std::size_t(voxel), bytes);
-    }
-  }
 };
 
 RecordVoxels::RecordVoxels()
@@ -131,11 +242,13 @@ void RecordVoxels::Implementation::choose()
   size = settings.minimumPoints > 1 ? std::int64_t(kept.size()) : engine.size();
   if (settings.keepKeys)
   {
-    std::vector<std::uint64_t> all(std::size_t(engine.size()));
-    engine.copyKeys(0, all.data());
+    keys.resize(std::size_t(engine.size()));
+    engine.copyKeys(0, keys.data());
+    for (std::size_t i = 0; i < kept.size(); ++i)
+    {
+      keys[i] = keys[std::size_t(kept[i])];
+    }
     keys.resize(std::size_t(size));
-    scatter(reinterpret_cast<const char*>(all.data()), sizeof(std::uint64_t),
-      reinterpret_cast<char*>(keys.data()), sizeof(std::uint64_t));
   }
 }
 
@@ -146,22 +259,26 @@ Status RecordVoxels::Implementation::run(const RecordCloud& cloud, const Executo
   request = VoxelRequest();
   request.singlePrecision = cloud.type == ScalarType::Float;
   request.points = request.singlePrecision ? viewOf(cloud, floats) : viewOf(cloud, doubles);
-  const Bounds box = transformedBounds(request.points, request.transform, executor);
-  if (box.empty())
-  {
-    return Status::Empty;
-  }
-  Status status = alignedLattice(settings.leaf, box, request.lattice, first);
-  if (status != Status::Ok)
-  {
-    return status;
-  }
-  request.allocator = &means;
-  request.keys = settings.keepKeys;
   for (const RecordField& field : fields)
   {
     request.attributes.push_back(requestFor(cloud, field));
   }
+  const Survey survey = surveyOf(request.points, request.attributes, executor);
+  if (survey.box.empty())
+  {
+    return Status::Empty;
+  }
+  Status status = alignedLattice(settings.leaf, survey.box, request.lattice, first);
+  if (status != Status::Ok)
+  {
+    return status;
+  }
+  for (std::size_t i = 0; i < fields.size(); ++i)
+  {
+    request.attributes[i].range = survey.ranges[i];
+  }
+  request.allocator = &means;
+  request.keys = settings.keepKeys;
   status = engine.run(request, executor);
   if (status == Status::Ok)
   {
@@ -179,13 +296,8 @@ Status RecordVoxels::run(
   mine.kept.clear();
   mine.keys.clear();
   mine.size = 0;
-  if (settings.threads < 2)
-  {
-    return mine.run(cloud, executorFor(settings.threads));
-  }
   Status status = Status::Ok;
-  vtkSMPTools::LocalScope(vtkSMPTools::Config(int(std::min(settings.threads, 1u << 16))),
-    [&] { status = mine.run(cloud, executorFor(settings.threads)); });
+  withThreads(settings.threads, [&](const Executor& executor) { status = mine.run(cloud, executor); });
   return status;
 }
 
@@ -194,27 +306,7 @@ std::int64_t RecordVoxels::size() const
   return implementation_->size;
 }
 
-template <typename Real>
-void RecordVoxels::Implementation::writeMeans(
-  char* records, std::size_t step, const std::array<std::size_t, 3>& xyz) const
-{
-  const auto* mean = static_cast<const Real*>(means.memory());
-  const bool together = xyz[1] == xyz[0] + sizeof(Real) && xyz[2] == xyz[1] + sizeof(Real);
-  for (std::int64_t i = 0; i < size; ++i, records += step)
-  {
-    const Real* from = mean + 3 * (kept.empty() ? i : kept[std::size_t(i)]);
-    if (together)
-    {
-      std::memcpy(records + xyz[0], from, 3 * sizeof(Real));
-      continue;
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      std::memcpy(records + xyz[axis], from + axis, sizeof(Real));
-    }
-  }
-}
-
+/// The fields of a record lie together: each record is written once.
 void RecordVoxels::write(char* records, std::size_t step, const std::array<std::size_t, 3>& xyz,
   const std::vector<std::size_t>& offsets) const
 {
@@ -223,13 +315,31 @@ void RecordVoxels::write(char* records, std::size_t step, const std::array<std::
   {
     return;
   }
-  mine.request.singlePrecision ? mine.writeMeans<float>(records, step, xyz)
-                               : mine.writeMeans<double>(records, step, xyz);
-  for (std::size_t i = 0; i < mine.fields.size(); ++i)
+  std::vector<Written> written;
+  addMeans(static_cast<const char*>(mine.means.memory()),
+    mine.request.singlePrecision ? sizeof(float) : sizeof(double), records, xyz, written);
+  for (std::size_t i = 0; i < offsets.size(); ++i)
   {
-    mine.scatter(static_cast<const char*>(mine.engine.attribute(0, i)), bytesOf(mine.fields[i]),
-      records + offsets[i], step);
+    const std::size_t bytes = bytesOf(mine.fields[i]);
+    written.push_back(
+      { static_cast<const char*>(mine.engine.attribute(0, i)), bytes, bytes, records + offsets[i] });
   }
+  const std::int64_t* kept = mine.kept.empty() ? nullptr : mine.kept.data();
+  withThreads(mine.settings.threads,
+    [&](const Executor& executor)
+    {
+      forRange(executor, mine.size, 16 * kBlock,
+        [&](std::int64_t begin, std::int64_t end)
+        {
+          for (std::int64_t first = begin; first < end; first += kBlock)
+          {
+            for (const Written& field : written)
+            {
+              field.copy(kept, first, std::min(first + kBlock, end), step);
+            }
+          }
+        });
+    });
 }
 
 const Lattice& RecordVoxels::lattice() const
