@@ -19,6 +19,8 @@ constexpr double kLetterWidth = 0.62;
 constexpr double kLetterHeight = 1.25;
 /// At which a point is a pixel.
 constexpr double kPointsPerInch = 72.0;
+/// So near to the plane of the camera a line ends: far outside the window.
+constexpr int kHalvings = 12;
 }
 
 ScreenProjection::ScreenProjection(vtkRenderer* renderer)
@@ -40,6 +42,24 @@ Pixel ScreenProjection::operator()(const Vec3& p) const
   pixel.x = 0.5 * (out[0] / w + 1.0) * width_;
   pixel.y = 0.5 * (out[1] / w + 1.0) * height_;
   return pixel;
+}
+
+bool ScreenProjection::leaveSeenPart(Vec3& a, Vec3& b) const
+{
+  const bool seesA = (*this)(a).seen;
+  const bool seesB = (*this)(b).seen;
+  if (seesA != seesB)
+  {
+    Vec3 seen = seesA ? a : b;
+    Vec3 behind = seesA ? b : a;
+    for (int i = 0; i < kHalvings; ++i)
+    {
+      const Vec3 middle = 0.5 * (seen + behind);
+      ((*this)(middle).seen ? seen : behind) = middle;
+    }
+    (seesA ? b : a) = seen;
+  }
+  return seesA || seesB;
 }
 
 ScreenLines::ScreenLines(float width)

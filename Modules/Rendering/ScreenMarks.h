@@ -36,6 +36,8 @@ class ScreenProjection
 public:
   explicit ScreenProjection(vtkRenderer* renderer);
   Pixel operator()(const Vec3& p) const;
+  /// Moves the end that is not in front of the camera to where the line from @p a to @p b is. False: none is.
+  bool leaveSeenPart(Vec3& a, Vec3& b) const;
 
 private:
   vtkNew<vtkMatrix4x4> matrix_;

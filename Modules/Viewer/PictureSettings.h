@@ -20,6 +20,9 @@ struct PictureSettings
   /// The values of what colours the cloud that have the first and the last colour; empty: nearly all that
   /// occur.
   std::vector<double> colorRange;
+  /// Two places in the frame of the file, x, y, z each, whose distance is shown; one: its end is still to be
+  /// chosen; empty: none.
+  std::vector<double> measure;
   bool transparent = false; ///< Pictures that are written have no background: what is behind shows through.
 };
 

@@ -298,6 +298,10 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
     return false;
   }
   note(observer, fmt::format("screenshot: {} ({}x{})", fileName, options.width, options.height));
+  if (const std::vector<std::string> words = scene.measuredText(); !words.empty())
+  {
+    note(observer, "  distance: " + words.front() + "; " + words.back());
+  }
   if (shown)
   {
     note(observer,

@@ -65,6 +65,7 @@ ViewScene::ViewScene()
   renderer_->AddActor(brackets_);
   props_->AddTo(renderer_);
   axes_->AddTo(renderer_);
+  distance_.addTo(renderer_);
   applyGround(renderer_);
   applyDepthShading(renderer_);
   vtkNew<vtkCallbackCommand> sizing;
@@ -206,6 +207,7 @@ void ViewScene::setUnit(const LengthUnit& unit)
   unit_ = unit;
   axes_->SetMetresPerUnit(unit.metres);
   scaleNote_ = describeScale(modelMatrix_, unit.name, unit.metres);
+  this->applyMarks();
   if (shown_)
   {
     this->applyLook();
@@ -403,6 +405,7 @@ void ViewScene::showAxes(bool visible)
 void ViewScene::showFigure(bool figure)
 {
   figure_ = figure;
+  this->applyMarks();
   if (shown_)
   {
     this->applyColors();

@@ -9,6 +9,7 @@
 #include "CloudOrientation.h"
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
+#include "DistanceMark.h"
 #include "Haptics/HapticScene.h"
 #include "Haptics/Proxy.h"
 #include "IO/Info/LengthUnit.h"
@@ -92,6 +93,13 @@ public:
   /// Where on the strip of colours a place of the window is, in pixels from its lower left corner; nothing:
   /// it is elsewhere.
   std::optional<ColorBarPlace> placeOnColorBar(double x, double y);
+
+  /// Where the nearest point is, in the frame of the file, that is drawn at a place of the window; a voxel
+  /// mean while means are drawn. False: none is within 8 pixels.
+  bool placeAt(int x, int y, Vec3& place);
+  /// PictureSettings::measure in words: the distance, and in a second line that along each axis. Empty: there
+  /// is none.
+  std::vector<std::string> measuredText() const;
 
   /// The scalar bar for a layout, which then places it; without one it stands at the right edge.
   ScreenBlock takeScalarBar();
@@ -196,6 +204,7 @@ private:
   void applyPicture();
   void applyProjection();
   void applyPointSizes();
+  void applyMarks();
   void placeCamera(const CameraFit& fit);
   CameraFit fitFrom(const CloudLook& look, double turn = 0.0) const;
   CloudLook axisLook() const;
@@ -239,6 +248,7 @@ private:
   double fixedPixels_ = 0.0; ///< HapticViewerOptions::pointSize.
   Bounds cloudBounds_;       ///< Of the finite points, as in the file; empty until the axes are shown.
   vtkNew<vtkRenderer> renderer_;
+  DistanceMark distance_; ///< Before the renderer it goes.
   LevelOfDetail detail_{ renderer_, pointsActor_ };
   LevelOfDetail feltDetail_{ renderer_, actor_ };
   Bounds workspace_;

@@ -128,6 +128,7 @@ void ViewScene::applyPicture()
 {
   setDepthStrength(renderer_, picture_.depthStrength);
   this->applyPointSizes();
+  this->applyMarks();
 }
 
 void ViewScene::applyPointSizes()

@@ -79,6 +79,8 @@ drag() {
   xdotool mousemove --window "$window" "$1" "$2" mousedown 1 \
     mousemove --window "$window" $((($1 + $3) / 2)) $((($2 + $4) / 2)) mousemove --window "$window" "$3" "$4" mouseup 1
 }
+# click X Y: with the left button, in the window.
+click() { xdotool mousemove --window "$window" "$1" "$2" click 1; }
 turn_model() {
   xdotool keydown shift
   drag 320 150 420 150

@@ -1,4 +1,5 @@
 #include "PointPicking.h"
+#include "CoordinateText.h"
 
 #include <gtest/gtest.h>
 #include <vtkDoubleArray.h>
@@ -165,6 +166,43 @@ TEST(PointPicking, NamesTheClassOfALidarPoint)
   EXPECT_EQ(lineOf(64), "Classification  64 (user defined)");
   EXPECT_EQ(lineOf(-1), "Classification  -1 (no class)");
   EXPECT_EQ(lineOf(300), "Classification  300 (no class)");
+}
+
+/// The two lines of a distance in a cloud of that precision.
+std::vector<std::string> distanceIn(int type, const Vec3& from, const Vec3& to)
+{
+  vtkNew<vtkPolyData> cloud;
+  vtkNew<vtkPoints> points;
+  points->SetDataType(type);
+  cloud->SetPoints(points);
+  return pointhaptics::distanceText(cloud, from, to, "m");
+}
+
+TEST(PointPicking, TellsDistancesToTheGridOfTheFile)
+{
+  vtkNew<vtkPolyData> cloud;
+  addField(cloud, "LasScale", { 0.01, 0.01, 0.001 });
+  const std::vector<std::string> words =
+    pointhaptics::distanceText(cloud, { 512000.25, 5403000.5, 100.0 }, { 512003.25, 5403004.5, 100.0 }, "ft");
+  ASSERT_EQ(words.size(), 2u);
+  EXPECT_EQ(words[0], "5.000 ft");
+  EXPECT_EQ(words[1], "dx 3.00   dy 4.00   dz 0.000 ft");
+}
+
+TEST(PointPicking, TellsDistancesWithSixDigitsWhereThereIsNoGrid)
+{
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, { 0, 0, 0 }, { 0.03, 0.04, 0 })[0], "0.0500000 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, { 0, 0, 0 }, { -300, 0, -400 })[0], "500.000 m");
+  EXPECT_EQ(
+    distanceIn(VTK_DOUBLE, { 0, 0, 0 }, { -300, 0, -400 })[1], "dx -300.000   dy 0.000   dz -400.000 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, { 1, 1, 1 }, { 1, 1, 1 })[0], "0.000 m");
+}
+
+TEST(PointPicking, TellsNoDigitsThatSinglePrecisionDoesNotHold)
+{
+  // Neighbouring numbers there are 0.06 apart.
+  EXPECT_EQ(distanceIn(VTK_FLOAT, { 500000, 0, 0 }, { 500012, 0, 0 })[0], "12.0 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, { 500000, 0, 0 }, { 500012, 0, 0 })[0], "12.0000 m");
 }
 
 } // namespace

@@ -217,6 +217,36 @@ ADragOnTheColorBarChangesItsRange() {
   said "colours over all values"
 }
 
+# The plane seen from above fills the window: a click on it always meets a point. Escape ends measuring, not the program.
+ShiftDMeasuresBetweenTwoClicks() {
+  make plane cloud.ply
+  open_viewer cloud.ply --up z --device none
+  key 5
+  write_settings
+  click 260 240
+  never_said distance
+  key D
+  said "measuring: click on two points"
+  click 260 240
+  said "measuring: click on the second point"
+  click 380 240
+  said "distance: "
+  write_settings
+  [[ "$(setting measure "$settings" | tr -cd ,)" == ",,,,," ]] || fail "the settings do not have the distance"
+  same camera || fail "the view has turned"
+  drag 300 200 340 220
+  write_settings
+  changed camera || fail "a drag does not turn the view"
+  same measure || fail "a drag has measured"
+  click 260 240
+  until_true "the third click does not begin anew" has_second_start
+  key Escape
+  said "measuring: ended"
+  write_settings
+  [[ "$(setting measure "$settings")" == "" ]] || fail "the distance stays"
+}
+has_second_start() { (($(grep -cF "measuring: click on the second point" said.txt) == 2)); }
+
 # The means have no values of an array that only the points were read for.
 KeyMOffersTheMeansWhatTheyHave() {
   awk 'BEGIN { print "x,y,z,Intensity"; for (i = 0; i < 9999; ++i) print i % 99, int(i / 99), i % 7, i % 5 }' >cloud.csv

@@ -24,6 +24,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -253,6 +254,75 @@ TEST_F(HapticViewerTest, LeavesTheBackgroundOutOfTransparentPictures)
   EXPECT_EQ(got->GetComponent(0, 3), 0.0);
   EXPECT_GT(clear, got->GetNumberOfTuples() / 10);
   EXPECT_GT(solid, got->GetNumberOfTuples() / 10);
+}
+
+/// Pixels of the colour of a measured line, and their middle.
+struct LinePixels
+{
+  int count = 0;
+  double x = 0.0;
+  double y = 0.0;
+};
+
+LinePixels linePixels(const std::string& fileName)
+{
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  const int* size = image->GetDimensions();
+  LinePixels found;
+  for (int i = 0; i < size[0] * size[1]; ++i)
+  {
+    vtkDataArray* pixels = image->GetPointData()->GetScalars();
+    if (pixels->GetComponent(i, 0) == 255.0 && pixels->GetComponent(i, 1) == 196.0 &&
+      pixels->GetComponent(i, 2) == 40.0)
+    {
+      ++found.count;
+      found.x += i % size[0];
+      found.y += i / size[0];
+    }
+  }
+  found.x /= std::max(1, found.count);
+  found.y /= std::max(1, found.count);
+  return found;
+}
+
+TEST_F(HapticViewerTest, ShowsADistanceWhereItsEndsAre)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.width = 400;
+  options_.height = 300;
+  options_.up = "z";
+  options_.camera = { 0, -0.4, 0, 0, 0, 0, 0, 0, 1 };
+  HapticViewer none(options_, observer_);
+  ASSERT_TRUE(none.open(makeSphere())) << none.message();
+  ASSERT_TRUE(none.renderToFile(this->path("none.png"))) << none.message();
+  EXPECT_EQ(linePixels(this->path("none.png")).count, 0);
+  EXPECT_EQ(notes_.size(), 1u);
+  options_.picture.measure = { 0, 0, 0, 1, 0, 0 }; // to the right of the middle
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("right.png"))) << viewer.message();
+  const LinePixels right = linePixels(this->path("right.png"));
+  EXPECT_GT(right.count, 100);
+  EXPECT_GT(right.x, 200.0 + 10.0);
+  EXPECT_NEAR(right.y, 150.0, 3.0);
+  ASSERT_FALSE(notes_.empty());
+  EXPECT_EQ(notes_.back(), "  distance: 1.00000 m; dx 1.00000   dy 0.00000   dz 0.00000 m");
+  // The line goes with the model, and tells what is true of the file.
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  viewer.style()->GetModel().scale(0.5);
+  ASSERT_TRUE(viewer.renderToFile(this->path("half.png"))) << viewer.message();
+  const LinePixels half = linePixels(this->path("half.png"));
+  EXPECT_GT(half.count, 50);
+  EXPECT_LT(half.x, right.x - 5.0);
+  EXPECT_TRUE(viewer.stop());
 }
 
 TEST_F(HapticViewerTest, ResamplesACloudOnceBeforeItsFirstPicture)

@@ -60,6 +60,8 @@ const std::vector<KeyedHelp>& keyedHelps()
       "the "
       "colour bar to change them",
       { "color-range" }, " takes all again" },
+    { "--measure", "Shows the distance of two places of the file, in its coordinates and its unit",
+      { "measure" }, " measures between points that are clicked on" },
   };
   return helps;
 }

@@ -7,10 +7,19 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+
 namespace pointhaptics
 {
 namespace app
 {
+namespace
+{
+
+/// x, y, z of both ends; while a person has chosen only one, there is none to keep.
+constexpr std::size_t kNumbersOfDistance = 6;
+
+} // namespace
 
 void addPictureOptions(CLI::App& command, PictureSettings& picture)
 {
@@ -27,6 +36,13 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture)
   const auto checkRange = [](const std::vector<double>& range)
   { return range[0] < range[1] ? "" : "the first colour's value must be less than the last one's"; };
   addNumbers(command, "--color-range", picture.colorRange, { 2 }, checkRange, "LOW,HIGH", "")->group(group);
+  const auto checkEnds = [](const std::vector<double>& ends)
+  {
+    return std::equal(ends.begin(), ends.begin() + 3, ends.begin() + 3)
+      ? "both are the same place; give two, in coordinates of the file"
+      : "";
+  };
+  addNumbers(command, "--measure", picture.measure, { 6 }, checkEnds, "X,Y,Z,X,Y,Z", "")->group(group);
   command
     .add_flag("--transparent", picture.transparent,
       "Pictures have no background: what they are laid on shows through")
@@ -46,6 +62,11 @@ void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture
   if (!picture.colorRange.empty())
   {
     settings["color-range"] = picture.colorRange;
+  }
+  settings.erase("measure");
+  if (picture.measure.size() == kNumbersOfDistance)
+  {
+    settings["measure"] = picture.measure;
   }
 }
 

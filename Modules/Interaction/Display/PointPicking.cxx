@@ -2,6 +2,7 @@
 
 #include "AsprsClasses.h"
 #include "CloudAppearance.h"
+#include "CoordinateText.h"
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
 
@@ -32,27 +33,10 @@ namespace
 /// Coordinates of the file are told to this part of a voxel.
 constexpr double kStepInVoxels = 1e-3;
 constexpr int kLeastDecimals = 3;
-/// Of a double.
-constexpr int kMostDigits = 15;
 /// From here to there numbers with a fraction have decimals instead of six digits, and none has an exponent.
 constexpr double kLeastFixed = 1e5;
 constexpr double kLargestFixed = 1e9;
 constexpr int kMostComponents = 9;
-
-bool fieldValues(vtkPolyData* cloud, const char* name, vtkIdType count, double* values)
-{
-  vtkDataArray* array = cloud->GetFieldData()->GetArray(name);
-  if (!array || array->GetNumberOfValues() < count)
-  {
-    return false;
-  }
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    const int components = array->GetNumberOfComponents();
-    values[i] = array->GetComponent(i / components, static_cast<int>(i % components));
-  }
-  return true;
-}
 
 std::optional<Vec3> placeInCloud(vtkPolyData* cloud, const Vec3& inWorkspace)
 {
@@ -101,33 +85,11 @@ double coordinateStep(vtkPolyData* cloud)
   return kStepInVoxels * smallest;
 }
 
-/// Without the sign of a number that is rounded to zero.
-std::string fixedText(double value, int decimals)
-{
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  const bool isZero = std::strspn(text, "-0.") == std::strlen(text);
-  return isZero && text[0] == '-' ? text + 1 : text;
-}
-
 std::string shortText(double value)
 {
   char text[64];
   std::snprintf(text, sizeof(text), "%.6g", value);
   return text;
-}
-
-/// With decimals down to @p step, and no more digits than a double has.
-std::string coordinateText(double value, double step)
-{
-  if (!(std::abs(value) < kLargestFixed))
-  {
-    return shortText(value);
-  }
-  const int wanted =
-    step > 0.0 ? int(std::ceil(std::min(-std::log10(step) - 1e-9, double(kMostDigits)))) : kLeastDecimals;
-  const int whole = std::abs(value) < 1.0 ? 1 : 1 + int(std::log10(std::abs(value)));
-  return fixedText(value, std::clamp(wanted, kLeastDecimals, std::max(kLeastDecimals, kMostDigits - whole)));
 }
 
 /// A value of an array: whole numbers whole, large ones without an exponent.
@@ -180,16 +142,11 @@ std::string placeInFile(const PickedOfFile& ofFile, double step)
 {
   Vec3 p;
   ofFile.cloud->GetPoint(ofFile.index, &p.x);
-  Vec3 scale;
-  const bool hasGrid = fieldValues(ofFile.cloud, "LasScale", 3, &scale.x);
   std::string text;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const bool isFixed =
-      hasGrid && scale[axis] > 0.0 && scale[axis] <= 1.0 && std::abs(p[axis]) < kLargestFixed;
-    const int decimals =
-      isFixed ? int(std::ceil(std::min(-std::log10(scale[axis]) - 1e-9, double(kMostDigits)))) : 0;
-    text += "  " + (isFixed ? fixedText(p[axis], std::max(decimals, 0)) : coordinateText(p[axis], step));
+    const int decimals = gridDecimals(ofFile.cloud, axis, p[axis]);
+    text += "  " + (decimals < 0 ? coordinateText(p[axis], step) : fixedText(p[axis], decimals));
   }
   return text;
 }

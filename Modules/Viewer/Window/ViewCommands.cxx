@@ -45,6 +45,8 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
     hasOtherFiles });
   commands.add(
     { "take-unit", "u", "Show", "take the unit the file seems to have", call(&Window::toggleUnit), isOpen });
+  commands.add(
+    { "measure", "D", "Show", "measure: click on two points", call(&Window::toggleMeasuring), isOpen });
   commands.add({ "screenshot", "s", "Program", "screenshot", call(&Window::writeScreenshot), isOpen });
   commands.add({ "write-settings", "w", "Program", "write the settings to a file",
     call(&Window::writeSettings), keepsSettings });
@@ -54,6 +56,7 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
     { "marker", "space", "Program", "set a marker in the recording", call(&Window::setMarker), isOpen });
   commands.addNote("Program", "files dropped on the window", "open them");
   commands.addNote("Program", "Escape while a file is read", "keep the former cloud");
+  commands.addNote("Program", "Escape while a distance is shown", "end measuring");
 }
 
 CommandRegistry HapticViewer::commands()

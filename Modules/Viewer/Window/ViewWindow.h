@@ -5,6 +5,7 @@
 
 #include "CloudLoader.h"
 #include "ColorBarDrag.h"
+#include "DistanceMeasuring.h"
 #include "FileWatch.h"
 #include "HapticViewerOptions.h"
 #include "PictureControls.h"
@@ -125,6 +126,7 @@ private:
   void writeSettings();
   void toggleAxes();
   void toggleFigure();
+  void toggleMeasuring();
   void showNextColors();
   void toggleFelt();
   void toggleAmbient();
@@ -187,6 +189,7 @@ private:
   vtkNew<vtkRenderer> waiting_; // before the first cloud
   PictureControls controls_;
   ColorBarDrag colorBar_;
+  DistanceMeasuring measuring_;
   vtkNew<vtkCallbackCommand> cancelKey_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   TraceFile trace_;

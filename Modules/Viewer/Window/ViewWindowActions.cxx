@@ -186,12 +186,13 @@ void ViewWindow::forgiveEscape()
   escapeIsLate_ = std::chrono::steady_clock::now() + kLateEscape;
 }
 
-/// Escape while a file is read is for the reader, and does not reach the style.
+/// Escape while a file is read is for the reader, then for a distance in the picture, and does not reach the
+/// style.
 void ViewWindow::onKey()
 {
   const char* key = interactor_->GetKeySym();
   const bool isLate = std::chrono::steady_clock::now() < escapeIsLate_;
-  if (key && std::string(key) == "Escape" && (loader_.busy() || isLate))
+  if (key && std::string(key) == "Escape" && (loader_.busy() || isLate || measuring_.end()))
   {
     if (loader_.busy())
     {
@@ -229,6 +230,10 @@ void ViewWindow::show(LoadedCloud cloud)
   this->adoptModel(model);
   this->followOptions();
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
+  if (!keepsModel)
+  {
+    options_.picture.measure.clear(); // it was in the first cloud
+  }
   scene_.setPicture(options_.picture); // as it is by now
   if (!keepsModel)
   {
@@ -456,6 +461,11 @@ void ViewWindow::toggleFigure()
 {
   style_->GetPicker().forget();
   this->showFigure(!scene_.isFigure());
+}
+
+void ViewWindow::toggleMeasuring()
+{
+  measuring_.toggle(style_->GetCommands().label("measure"));
 }
 
 /// The next of what the cloud can be coloured by.

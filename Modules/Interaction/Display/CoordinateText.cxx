@@ -1,0 +1,112 @@
+#include "CoordinateText.h"
+
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr int kLeastDecimals = 3;
+/// Of a double.
+constexpr int kMostDigits = 15;
+/// Of a distance between points that lie on no grid.
+constexpr int kDistanceDigits = 6;
+/// From here on numbers have an exponent.
+constexpr double kLargestFixed = 1e9;
+/// Between neighbouring numbers of single precision, over the smaller.
+constexpr double kSinglePrecision = 1.2e-7;
+
+int decimalsDownTo(double step)
+{
+  return int(std::ceil(std::min(-std::log10(step) - 1e-9, double(kMostDigits))));
+}
+
+/// Of a distance, where the file has no grid.
+int distanceDecimals(vtkPolyData* cloud, const Vec3& from, const Vec3& to)
+{
+  const double distance = norm(to - from);
+  const int digits =
+    distance > 0.0 ? kDistanceDigits - 1 - int(std::floor(std::log10(distance))) : kLeastDecimals;
+  double largest = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    largest = std::max({ largest, std::abs(from[axis]), std::abs(to[axis]) });
+  }
+  const bool isSingle = cloud->GetPoints() && cloud->GetPoints()->GetDataType() == VTK_FLOAT && largest > 0.0;
+  const int held = isSingle ? int(std::floor(-std::log10(kSinglePrecision * largest))) : kMostDigits;
+  return std::clamp(std::min(digits, held), 0, kMostDigits);
+}
+
+} // namespace
+
+bool fieldValues(vtkPolyData* cloud, const char* name, int count, double* values)
+{
+  vtkDataArray* array = cloud->GetFieldData()->GetArray(name);
+  if (!array || array->GetNumberOfValues() < count)
+  {
+    return false;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    const int components = array->GetNumberOfComponents();
+    values[i] = array->GetComponent(i / components, i % components);
+  }
+  return true;
+}
+
+std::string fixedText(double value, int decimals)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
+  const bool isZero = std::strspn(text, "-0.") == std::strlen(text);
+  return isZero && text[0] == '-' ? text + 1 : text;
+}
+
+std::string coordinateText(double value, double step)
+{
+  if (!(std::abs(value) < kLargestFixed))
+  {
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.6g", value);
+    return text;
+  }
+  const int wanted = step > 0.0 ? decimalsDownTo(step) : kLeastDecimals;
+  const int whole = std::abs(value) < 1.0 ? 1 : 1 + int(std::log10(std::abs(value)));
+  return fixedText(value, std::clamp(wanted, kLeastDecimals, std::max(kLeastDecimals, kMostDigits - whole)));
+}
+
+int gridDecimals(vtkPolyData* cloud, int axis, double largest)
+{
+  Vec3 scale;
+  const bool isFixed = fieldValues(cloud, "LasScale", 3, &scale.x) && scale[axis] > 0.0 &&
+    scale[axis] <= 1.0 && std::abs(largest) < kLargestFixed;
+  return isFixed ? std::max(0, decimalsDownTo(scale[axis])) : -1;
+}
+
+std::vector<std::string> distanceText(
+  vtkPolyData* cloud, const Vec3& from, const Vec3& to, const std::string& unit)
+{
+  const Vec3 way = to - from;
+  const int usual = distanceDecimals(cloud, from, to);
+  int finest = -1;
+  std::string parts;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int grid = gridDecimals(cloud, axis, std::max(std::abs(from[axis]), std::abs(to[axis])));
+    finest = std::max(finest, grid);
+    parts += std::string(axis > 0 ? "   " : "") + "d" + "xyz"[axis] + " " +
+      fixedText(way[axis], grid < 0 ? usual : grid);
+  }
+  return { fixedText(norm(way), finest < 0 ? usual : finest) + " " + unit, parts + " " + unit };
+}
+
+} // namespace pointhaptics

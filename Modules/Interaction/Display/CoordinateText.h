@@ -1,0 +1,36 @@
+/// @file
+/// Coordinates and lengths of a file in words: as finely as the file has them, and no finer.
+#pragma once
+
+#include "Core/Base/Vector3.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace pointhaptics
+{
+
+/// @p count values of a field array, tuple by tuple. False: @p cloud has none of that name, or fewer.
+bool fieldValues(vtkPolyData* cloud, const char* name, int count, double* values);
+
+/// With @p decimals; without the sign of a number that is rounded to zero.
+std::string fixedText(double value, int decimals);
+
+/// With decimals down to @p step, at least three where that is 0, and no more digits than a double has.
+std::string coordinateText(double value, double step);
+
+/// Of the grid of a LAS file (field data "LasScale") along @p axis, for coordinates as large as @p largest;
+/// below 0: @p cloud has none.
+int gridDecimals(vtkPolyData* cloud, int axis, double largest);
+
+/// How far @p to is from @p from, both in the frame of the file @p cloud, in its @p unit: the distance, and
+/// in a second line that along each axis. Decimals are those of the file's grid; where there is none, six
+/// digits of the distance, and of single precision no more than its coordinates have.
+POINTHAPTICSINTERACTION_EXPORT std::vector<std::string> distanceText(
+  vtkPolyData* cloud, const Vec3& from, const Vec3& to, const std::string& unit);
+
+} // namespace pointhaptics

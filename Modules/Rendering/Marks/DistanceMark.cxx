@@ -1,0 +1,181 @@
+#include "DistanceMark.h"
+
+#include "ScreenMarks.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkRenderer.h"
+#include "vtkWeakPointer.h"
+#include "vtkWindow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr unsigned char kColor[3] = { 255, 196, 40 };
+constexpr unsigned char kRim[3] = { 30, 30, 34 };
+constexpr unsigned char kInk[3] = { 25, 25, 30 };
+constexpr float kWidth = 2.0F;
+constexpr float kRimWidth = 5.0F;
+/// Points, which are pixels at 72 dots per inch.
+constexpr int kFont = 15;
+constexpr double kArm = 7.0;
+constexpr double kGap = 8.0;
+constexpr double kLine = 22.0;
+constexpr double kPointsPerInch = 72.0;
+/// A line steeper than this has its words to the right.
+constexpr double kSteep = 0.25;
+
+} // namespace
+
+struct DistanceMark::Parts
+{
+  std::vector<Vec3> places;
+  std::vector<std::string> words;
+  vtkNew<vtkMatrix4x4> model;
+  ScreenLines rim{ kRimWidth };
+  ScreenLines line{ kWidth };
+  ScreenTexts texts;
+  vtkNew<vtkCallbackCommand> onStart;
+  vtkWeakPointer<vtkRenderer> renderer;
+
+  Vec3 inPicture(const Vec3& place)
+  {
+    const double in[4] = { place.x, place.y, place.z, 1.0 };
+    double out[4];
+    this->model->MultiplyPoint(in, out);
+    return { out[0], out[1], out[2] };
+  }
+  void draw(const Pixel& a, const Pixel& b)
+  {
+    this->rim.add(a.x, a.y, b.x, b.y, kRim);
+    this->line.add(a.x, a.y, b.x, b.y, kColor);
+  }
+  void drawCross(const Pixel& p, double arm)
+  {
+    this->draw({ p.x - arm, p.y - arm, true }, { p.x + arm, p.y + arm, true });
+    this->draw({ p.x - arm, p.y + arm, true }, { p.x + arm, p.y - arm, true });
+  }
+  void place();
+  void write(const Pixel& a, const Pixel& b);
+};
+
+/// Beside the middle of what is seen of the line, and within the viewport.
+void DistanceMark::Parts::write(const Pixel& a, const Pixel& b)
+{
+  const double pixels = this->texts.pixelsPerPoint();
+  const int* size = this->renderer->GetSize();
+  const auto within = [](double value, double edge) { return std::clamp(value, 0.0, edge); };
+  const double x = 0.5 * (within(a.x, size[0]) + within(b.x, size[0]));
+  const double y = 0.5 * (within(a.y, size[1]) + within(b.y, size[1]));
+  // Above and below a flat line; beside a steep one, on the side that it leaves free.
+  const bool isSteep = std::abs(b.y - a.y) > kSteep * std::abs(b.x - a.x);
+  const double first = isSteep ? ((b.y - a.y) * (b.x - a.x) > 0.0 ? -0.5 : 1.5) * kLine : kGap + 0.5 * kLine;
+  const double step = isSteep ? kLine : 2.0 * first;
+  for (std::size_t i = 0; i < this->words.size(); ++i)
+  {
+    const double width = this->texts.widthOf(this->words[i]);
+    const double room = pixels * kGap;
+    const double left = isSteep ? x + room : x - 0.5 * width;
+    const double middle = y + pixels * (first - double(i) * step);
+    const double most = std::max(room, size[0] - width - room);
+    const double high = std::max(pixels * kLine, size[1] - pixels * kLine);
+    this->texts.put(
+      this->words[i], std::clamp(left, room, most), std::clamp(middle, pixels * kLine, high), 1.0, 0.0, kInk);
+  }
+}
+
+void DistanceMark::Parts::place()
+{
+  this->rim.clear();
+  this->line.clear();
+  this->texts.clear(this->renderer, kFont);
+  const ScreenProjection project(this->renderer);
+  for (const Vec3& place : this->places)
+  {
+    const Pixel pixel = project(this->inPicture(place));
+    if (pixel.seen)
+    {
+      this->drawCross(pixel, this->texts.pixelsPerPoint() * kArm);
+    }
+  }
+  if (this->places.size() > 1)
+  {
+    Vec3 a = this->inPicture(this->places[0]);
+    Vec3 b = this->inPicture(this->places[1]);
+    if (project.leaveSeenPart(a, b))
+    {
+      this->draw(project(a), project(b));
+      this->write(project(a), project(b));
+    }
+  }
+  this->texts.finish();
+  this->rim.finish();
+  this->line.finish();
+}
+
+DistanceMark::DistanceMark()
+  : parts_(std::make_unique<Parts>())
+{
+  parts_->onStart->SetClientData(this);
+  parts_->onStart->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void*)
+    {
+      Parts& parts = *static_cast<DistanceMark*>(self)->parts_;
+      if (parts.renderer && !parts.places.empty())
+      {
+        parts.place();
+      }
+    });
+}
+
+DistanceMark::~DistanceMark()
+{
+  if (vtkRenderer* renderer = parts_->renderer)
+  {
+    renderer->RemoveObserver(parts_->onStart);
+    renderer->RemoveActor2D(parts_->rim.actor());
+    renderer->RemoveActor2D(parts_->line.actor());
+    parts_->texts.removeFrom(renderer);
+  }
+}
+
+void DistanceMark::addTo(vtkRenderer* renderer)
+{
+  parts_->renderer = renderer;
+  renderer->AddActor2D(parts_->rim.actor());
+  renderer->AddActor2D(parts_->line.actor());
+  parts_->texts.addTo(renderer);
+  renderer->AddObserver(vtkCommand::StartEvent, parts_->onStart);
+}
+
+void DistanceMark::setPlaces(std::vector<Vec3> places)
+{
+  parts_->places = std::move(places);
+  parts_->rim.actor()->SetVisibility(!parts_->places.empty());
+  parts_->line.actor()->SetVisibility(!parts_->places.empty());
+  if (parts_->places.empty())
+  {
+    parts_->texts.hide();
+  }
+}
+
+void DistanceMark::setWords(std::vector<std::string> words)
+{
+  parts_->words = std::move(words);
+}
+
+void DistanceMark::setModel(vtkMatrix4x4* model)
+{
+  parts_->model->DeepCopy(model);
+}
+
+} // namespace pointhaptics

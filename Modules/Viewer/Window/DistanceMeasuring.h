@@ -1,0 +1,53 @@
+/// @file
+/// Distances between points of a cloud under the mouse.
+#pragma once
+
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkWeakPointer.h>
+
+#include <array>
+#include <functional>
+#include <string>
+
+class vtkRenderWindowInteractor;
+
+namespace pointhaptics
+{
+
+class ViewScene;
+struct HapticViewerOptions;
+
+/// While it is on, clicks choose points: two are the ends of a distance, which stays where they are until a
+/// third begins another. Drags turn the view as ever. GUI thread only.
+class DistanceMeasuring
+{
+public:
+  /// All must outlive this, the interactor aside. @p say tells the person what was measured.
+  DistanceMeasuring(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindowInteractor* interactor,
+    std::function<void(const std::string&)> say);
+  ~DistanceMeasuring();
+  DistanceMeasuring(const DistanceMeasuring&) = delete;
+  DistanceMeasuring& operator=(const DistanceMeasuring&) = delete;
+
+  /// On, or off without a distance in the picture. @p key is that of the command, for the words.
+  void toggle(const std::string& key);
+  /// Off. False: it was off, and nothing was measured.
+  bool end();
+
+private:
+  void follow(unsigned long event);
+  void choose();
+  void show();
+
+  ViewScene& scene_;
+  HapticViewerOptions& options_;
+  vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
+  std::function<void(const std::string&)> say_;
+  vtkNew<vtkCallbackCommand> command_;
+  bool isOn_ = false;
+  bool isPressed_ = false;
+  std::array<int, 2> pressedAt_{};
+};
+
+} // namespace pointhaptics
