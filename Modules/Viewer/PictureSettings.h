@@ -2,6 +2,7 @@
 /// How a picture is drawn, whatever the cloud is: plain values that options give, keys change and files keep.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct PictureSettings
   /// Two places in the frame of the file, x, y, z each, whose distance is shown; one: its end is still to be
   /// chosen; empty: none.
   std::vector<double> measure;
+  /// Width and height in pixels of pictures that are written; 0: those of the window.
+  std::array<int, 2> screenshotSize{};
   bool transparent = false; ///< Pictures that are written have no background: what is behind shows through.
 };
 

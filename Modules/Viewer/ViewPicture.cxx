@@ -19,6 +19,7 @@
 
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
@@ -54,6 +55,18 @@ vtkSmartPointer<vtkImageData> grab(vtkRenderWindow* window)
   grabber->ShouldRerenderOff();
   grabber->Update();
   return grabber->GetOutput();
+}
+
+std::vector<vtkSmartPointer<vtkRenderer>> renderersOf(vtkRenderWindow* window)
+{
+  std::vector<vtkSmartPointer<vtkRenderer>> renderers;
+  vtkCollectionSimpleIterator place;
+  window->GetRenderers()->InitTraversal(place);
+  while (vtkRenderer* renderer = window->GetRenderers()->GetNextRenderer(place))
+  {
+    renderers.emplace_back(renderer);
+  }
+  return renderers;
 }
 
 /// A background of one grey, or what was there before.
@@ -115,9 +128,7 @@ vtkSmartPointer<vtkImageData> withoutGround(vtkImageData* black, vtkImageData* w
 vtkSmartPointer<vtkImageData> grabWithoutGround(vtkRenderWindow* window, const std::function<void()>& render)
 {
   std::vector<PlainGround> grounds;
-  vtkCollectionSimpleIterator place;
-  window->GetRenderers()->InitTraversal(place);
-  while (vtkRenderer* renderer = window->GetRenderers()->GetNextRenderer(place))
+  for (const auto& renderer : renderersOf(window))
   {
     grounds.emplace_back(renderer);
   }
@@ -159,6 +170,63 @@ bool writePicture(vtkRenderWindow* window, const std::function<void()>& render, 
     return false;
   }
   return true;
+}
+
+namespace
+{
+
+/// All renderers go from @p from to @p to. What they drew with goes with the window it is of.
+void moveRenderers(vtkRenderWindow* from, vtkRenderWindow* to)
+{
+  for (const auto& renderer : renderersOf(from))
+  {
+    from->RemoveRenderer(renderer);
+    to->AddRenderer(renderer);
+  }
+}
+
+double aspectOf(const int* size)
+{
+  return double(size[0]) / std::max(1, size[1]);
+}
+
+/// Makes the view of @p camera @p factor times as high.
+void widenView(vtkCamera* camera, double factor)
+{
+  constexpr double kHalfDegree = 0.5 * 3.14159265358979323846 / 180.0;
+  camera->SetViewAngle(std::atan(factor * std::tan(camera->GetViewAngle() * kHalfDegree)) / kHalfDegree);
+  camera->SetParallelScale(factor * camera->GetParallelScale());
+}
+
+} // namespace
+
+bool writePictureOfSize(vtkRenderWindow* window, vtkCamera* camera, const std::array<int, 2>& size,
+  const std::function<void(vtkRenderWindow*)>& render, bool transparent, const std::string& fileName,
+  std::string& message)
+{
+  const double angle = camera->GetViewAngle();
+  const double scale = camera->GetParallelScale();
+  const double factor = std::max(1.0, aspectOf(window->GetSize()) / aspectOf(size.data()));
+  vtkNew<vtkRenderWindow> other;
+  other->SetOffScreenRendering(1);
+  other->SetMultiSamples(0);
+  other->SetSize(size[0], size[1]);
+  other->SetNumberOfLayers(window->GetNumberOfLayers());
+  if (factor > 1.0)
+  {
+    widenView(camera, factor);
+  }
+  moveRenderers(window, other);
+  const bool isWritten = writePicture(
+    other, [&render, &other] { render(other); }, transparent, fileName, message);
+  moveRenderers(other, window);
+  if (factor > 1.0)
+  {
+    camera->SetViewAngle(angle);
+    camera->SetParallelScale(scale);
+  }
+  window->Render();
+  return isWritten;
 }
 
 namespace
@@ -271,7 +339,10 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(0);
-  window->SetSize(options.width, options.height);
+  const bool hasSize = options.picture.screenshotSize[0] > 0;
+  const int width = hasSize ? options.picture.screenshotSize[0] : options.width;
+  const int height = hasSize ? options.picture.screenshotSize[1] : options.height;
+  window->SetSize(width, height);
   window->AddRenderer(scene.renderer());
   if (shown)
   {
@@ -297,7 +368,7 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
   {
     return false;
   }
-  note(observer, fmt::format("screenshot: {} ({}x{})", fileName, options.width, options.height));
+  note(observer, fmt::format("screenshot: {} ({}x{})", fileName, width, height));
   if (const std::vector<std::string> words = scene.measuredText(); !words.empty())
   {
     note(observer, "  distance: " + words.front() + "; " + words.back());

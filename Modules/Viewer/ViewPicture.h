@@ -6,10 +6,12 @@
 
 #include "Haptics/ServoLoop.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
 
+class vtkCamera;
 class vtkRenderWindow;
 
 namespace pointhaptics
@@ -20,6 +22,13 @@ namespace pointhaptics
 /// says why not.
 bool writePicture(vtkRenderWindow* window, const std::function<void()>& render, bool transparent,
   const std::string& fileName, std::string& message);
+
+/// The same of @p width by @p height pixels, whatever the size of @p window is: its renderers are in another
+/// one, off the screen, meanwhile. The picture shows at least what @p window does; of the cameras that is
+/// @p camera. @p render is given the window to render.
+bool writePictureOfSize(vtkRenderWindow* window, vtkCamera* camera, const std::array<int, 2>& size,
+  const std::function<void(vtkRenderWindow*)>& render, bool transparent, const std::string& fileName,
+  std::string& message);
 
 class ViewScene;
 

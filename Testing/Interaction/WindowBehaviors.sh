@@ -119,6 +119,22 @@ ABoundKeySavesAPicture() {
   [[ -s pointhaptics-001.png ]] || fail "the screenshot is empty"
 }
 
+# In a PNG width and height are the four bytes each from the 17th on.
+KeySSavesAPictureOfASizeOfItsOwn() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --screenshot-size 1000x700
+  key s
+  said "screenshot: pointhaptics-001.png (1000x700)"
+  [[ "$(od -An -tu1 -j16 -N8 pointhaptics-001.png | tr -s ' ')" == " 0 0 3 232 0 0 2 188" ]] ||
+    fail "the picture is not 1000x700"
+  write_settings
+  is screenshot-size '"1000x700"' || fail "the settings do not have the size"
+  is size '"640x480"' || fail "the window has another size"
+  drag 320 150 360 166
+  write_settings
+  changed camera || fail "the window does not go on"
+}
+
 KeyAShowsTheAxes() {
   make sphere cloud.ply
   open_viewer cloud.ply

@@ -262,6 +262,8 @@ struct LinePixels
   int count = 0;
   double x = 0.0;
   double y = 0.0;
+  int left = 1000000;
+  int right = 0;
 };
 
 LinePixels linePixels(const std::string& fileName)
@@ -279,6 +281,8 @@ LinePixels linePixels(const std::string& fileName)
       pixels->GetComponent(i, 2) == 40.0)
     {
       ++found.count;
+      found.left = std::min(found.left, i % size[0]);
+      found.right = std::max(found.right, i % size[0]);
       found.x += i % size[0];
       found.y += i / size[0];
     }
@@ -322,6 +326,46 @@ TEST_F(HapticViewerTest, ShowsADistanceWhereItsEndsAre)
   const LinePixels half = linePixels(this->path("half.png"));
   EXPECT_GT(half.count, 50);
   EXPECT_LT(half.x, right.x - 5.0);
+  EXPECT_TRUE(viewer.stop());
+}
+
+TEST_F(HapticViewerTest, WritesPicturesOfASizeOfTheirOwnThatShowWhatTheWindowShows)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.device = HapticViewerDevice::Simulated;
+  options_.width = 400;
+  options_.height = 200;
+  options_.up = "z";
+  options_.picture.screenshotSize = { 300, 300 };
+  options_.picture.measure = { -4, 0, 0, 4, 0, 0 };
+  options_.camera = { 0, -0.4, 0, 0, 0, 0, 0, 0, 1 };
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("off.png"))) << viewer.message();
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("first.png"))) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("second.png"))) << viewer.message();
+  vtkNew<vtkPNGReader> readers[3];
+  readers[0]->SetFileName(this->path("off.png").c_str());
+  readers[1]->SetFileName(this->path("first.png").c_str());
+  readers[2]->SetFileName(this->path("second.png").c_str());
+  for (auto& reader : readers)
+  {
+    reader->Update();
+    EXPECT_EQ(reader->GetOutput()->GetDimensions()[0], 300);
+    EXPECT_EQ(reader->GetOutput()->GetDimensions()[1], 300);
+  }
+  EXPECT_EQ(viewer.renderWindow()->GetSize()[0], 400);
+  // A picture as high as the window, of half its width, would end before the line does.
+  const LinePixels line = linePixels(this->path("first.png"));
+  EXPECT_GT(line.left, 10);
+  EXPECT_LT(line.right, 290);
+  EXPECT_EQ(line.count, linePixels(this->path("second.png")).count);
   EXPECT_TRUE(viewer.stop());
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 namespace pointhaptics
 {
@@ -96,6 +97,27 @@ CLI::Option* addNumber(CLI::App& command, const std::string& name, double& value
   };
   return command.add_option_function<std::string>(name, store, description)
     ->type_name(unit.empty() ? "NUMBER" : unit);
+}
+
+CLI::Option* addSize(CLI::App& command, const std::string& name, std::function<void(int, int)> keep,
+  const std::string& description)
+{
+  static constexpr int kSmallest = 16;
+  static constexpr int kLargest = 16384;
+  const auto isSize = [](int pixels) { return pixels >= kSmallest && pixels <= kLargest; };
+  const auto store = [keep = std::move(keep), isSize, name](const std::string& text)
+  {
+    int width = 0;
+    int height = 0;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || !isSize(width) ||
+      !isSize(height))
+    {
+      throwUsage(name, text, fmt::format("give WIDTHxHEIGHT in pixels, {} to {}", kSmallest, kLargest));
+    }
+    keep(width, height);
+  };
+  return command.add_option_function<std::string>(name, store, description)->type_name("WxH");
 }
 
 CLI::Option* addResolution(CLI::App& command, double& value)

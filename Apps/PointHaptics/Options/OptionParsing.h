@@ -55,6 +55,9 @@ CLI::Option* addInteger(CLI::App& command, const std::string& name, std::int64_t
 CLI::Option* addInteger(CLI::App& command, const std::string& name, std::function<void(std::int64_t)> keep,
   std::int64_t minimum, std::int64_t maximum, const std::string& description);
 ///@}
+/// Adds an option taking a size in pixels, WxH, each from 16 to 16384, which is handed to @p keep.
+CLI::Option* addSize(CLI::App& command, const std::string& name, std::function<void(int, int)> keep,
+  const std::string& description);
 /// Adds --resolution: how far a cloud optimised point cloud is read.
 CLI::Option* addResolution(CLI::App& command, double& value);
 /// Returns what is wrong with a list, and the cure, or an empty string.

@@ -60,6 +60,10 @@ const std::vector<KeyedHelp>& keyedHelps()
       "the "
       "colour bar to change them",
       { "color-range" }, " takes all again" },
+    { "--screenshot-size",
+      "Size of pictures that are written, whatever the window's is; they show at least what it shows; "
+      "default: the window's, or --size",
+      { "screenshot" }, " writes one" },
     { "--measure", "Shows the distance of two places of the file, in its coordinates and its unit",
       { "measure" }, " measures between points that are clicked on" },
   };

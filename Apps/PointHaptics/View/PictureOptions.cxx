@@ -6,6 +6,7 @@
 #include "ColorMaps.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -43,6 +44,8 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture)
       : "";
   };
   addNumbers(command, "--measure", picture.measure, { 6 }, checkEnds, "X,Y,Z,X,Y,Z", "")->group(group);
+  const auto keepSize = [&picture](int width, int height) { picture.screenshotSize = { width, height }; };
+  addSize(command, "--screenshot-size", keepSize, "")->group(group);
   command
     .add_flag("--transparent", picture.transparent,
       "Pictures have no background: what they are laid on shows through")
@@ -62,6 +65,11 @@ void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture
   if (!picture.colorRange.empty())
   {
     settings["color-range"] = picture.colorRange;
+  }
+  settings.erase("screenshot-size");
+  if (picture.screenshotSize[0] > 0)
+  {
+    settings["screenshot-size"] = fmt::format("{}x{}", picture.screenshotSize[0], picture.screenshotSize[1]);
   }
   settings.erase("measure");
   if (picture.measure.size() == kNumbersOfDistance)

@@ -19,7 +19,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -30,8 +29,6 @@ namespace app
 {
 namespace
 {
-
-constexpr int kLargestPicture = 16384;
 
 /// Ends the parse where @p text is not ACTION=GESTURES.
 void checkBinding(const std::string& text)
@@ -129,21 +126,12 @@ void ViewOptions::addTo(CLI::App& command)
   command.add_flag("--together", this->viewer.together);
   command.add_flag("--watch", this->viewer.watch, "Read a file again when it changes");
   command.add_option("--screenshot", this->screenshot, "Write this PNG instead of opening a window");
-  command
-    .add_option_function<std::string>(
-      "--size",
-      [this](const std::string& text)
-      {
-        char rest = 0;
-        if (std::sscanf(text.c_str(), "%dx%d%c", &this->viewer.width, &this->viewer.height, &rest) != 2 ||
-          this->viewer.width < 16 || this->viewer.height < 16 || this->viewer.width > kLargestPicture ||
-          this->viewer.height > kLargestPicture)
-        {
-          throwUsage("--size", text, fmt::format("give WIDTHxHEIGHT in pixels, 16 to {}", kLargestPicture));
-        }
-      },
-      "Size of the window or picture; default 1280x800")
-    ->type_name("WxH");
+  const auto keepSize = [this](int width, int height)
+  {
+    this->viewer.width = width;
+    this->viewer.height = height;
+  };
+  addSize(command, "--size", keepSize, "Size of the window or picture; default 1280x800");
   command
     .add_option("--path", this->viewer.path,
       "Follow the hand path in this file: t,x,y,z, or what feel or --trace wrote")

@@ -14,6 +14,7 @@
 #include <vtkTransform.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -546,19 +547,28 @@ void ViewWindow::showFigure(bool figure)
 bool ViewWindow::writeImage(const std::string& fileName, std::string& message)
 {
   scene_.followMeasurement(true);
-  const auto render = [this]
+  const auto render = [this](vtkRenderWindow* window)
   {
     scene_.completeNextFrame();
-    window_->Render();
+    window->Render();
   };
-  return writePicture(window_, render, options_.picture.transparent, fileName, message);
+  const PictureSettings& picture = options_.picture;
+  if (picture.screenshotSize[0] > 0)
+  {
+    return writePictureOfSize(window_, scene_.renderer()->GetActiveCamera(), picture.screenshotSize, render,
+      picture.transparent, fileName, message);
+  }
+  return writePicture(
+    window_, [this, render] { render(window_); }, picture.transparent, fileName, message);
 }
 
 void ViewWindow::writeScreenshot()
 {
   const std::string name = freeFileName("png", screenshots_);
   std::string message;
-  say(this->writeImage(name, message) ? "screenshot: " + name : message);
+  const std::array<int, 2>& size = options_.picture.screenshotSize;
+  const std::string words = size[0] > 0 ? fmt::format(" ({}x{})", size[0], size[1]) : "";
+  say(this->writeImage(name, message) ? "screenshot: " + name + words : message);
 }
 
 } // namespace pointhaptics
