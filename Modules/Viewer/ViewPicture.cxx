@@ -333,6 +333,40 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
   return true;
 }
 
+namespace
+{
+
+/// OUT-001.png for the first of OUT.png: with as many digits as the last one needs, and at least three.
+std::string numberedName(const std::string& fileName, int number, int last)
+{
+  const std::size_t dot = std::min(fileName.rfind('.'), fileName.size());
+  const std::size_t digits = std::max<std::size_t>(3, std::to_string(last).size());
+  return fmt::format("{}-{:0{}}{}", fileName.substr(0, dot), number, digits, fileName.substr(dot));
+}
+
+/// Once about the cloud in equal steps, beginning with the view as it is.
+bool writeTurntable(ViewScene& scene, const std::function<bool(const std::string&)>& write, int pictures,
+  const HapticViewerObserver& observer, const std::string& fileName, std::string& message)
+{
+  for (int i = 1; i <= pictures; ++i)
+  {
+    if (observer.shouldStop && observer.shouldStop())
+    {
+      message = fmt::format(
+        "{}: the turntable was stopped on request, after {} of {} pictures", fileName, i - 1, pictures);
+      return false;
+    }
+    if (!write(numberedName(fileName, i, pictures)))
+    {
+      return false;
+    }
+    scene.turnView(360.0 / pictures);
+  }
+  return true;
+}
+
+} // namespace
+
 bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const HapticViewerObserver& observer,
   const std::optional<ServoSample>& shown, const std::string& fileName, std::string& message)
 {
@@ -362,13 +396,20 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
     scene.completeNextFrame();
     window->Render();
   };
-  const bool isWritten = writePicture(window, render, options.picture.transparent, fileName, message);
+  const auto write = [&](const std::string& name)
+  { return writePicture(window, render, options.picture.transparent, name, message); };
+  const int pictures = options.turntable;
+  const bool isWritten =
+    pictures > 0 ? writeTurntable(scene, write, pictures, observer, fileName, message) : write(fileName);
   window->RemoveRenderer(scene.renderer());
   if (!isWritten)
   {
     return false;
   }
-  note(observer, fmt::format("screenshot: {} ({}x{})", fileName, width, height));
+  const std::string names = pictures > 0
+    ? numberedName(fileName, 1, pictures) + " to " + numberedName(fileName, pictures, pictures)
+    : fileName;
+  note(observer, fmt::format("screenshot: {} ({}x{})", names, width, height));
   if (const std::vector<std::string> words = scene.measuredText(); !words.empty())
   {
     note(observer, "  distance: " + words.front() + "; " + words.back());

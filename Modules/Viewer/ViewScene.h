@@ -75,6 +75,9 @@ public:
   void lookFrom(double azimuth, double elevation);
   /// The same from where the camera is.
   void fitView();
+  /// Takes the camera @p degrees about the vertical line through the middle of the cloud: it turns to the
+  /// left.
+  void turnView(double degrees);
   /// From camera to focal point, as HapticViewerOptions::camera has it: see fitCamera().
   double viewDistance() const;
 

@@ -14,6 +14,7 @@
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
 #include <vtkScalarsToColors.h>
+#include <vtkTransform.h>
 
 #include <algorithm>
 #include <array>
@@ -224,6 +225,26 @@ void ViewScene::lookFrom(double azimuth, double elevation)
     look.elevation = elevation;
     this->placeCamera(this->fitFrom(look));
   }
+}
+
+void ViewScene::turnView(double degrees)
+{
+  if (!shown_)
+  {
+    return;
+  }
+  const AffineTransform model = transformOf(pointsMatrix_);
+  const Vec3 up = normalized(model.applyToVector(cloudOrientation_.up));
+  Vec3 middle;
+  shown_->points->GetCenter(&middle.x);
+  middle = model.apply(middle);
+  vtkNew<vtkTransform> turn;
+  turn->PostMultiply();
+  turn->Translate(-middle.x, -middle.y, -middle.z);
+  turn->RotateWXYZ(degrees, &up.x);
+  turn->Translate(&middle.x);
+  renderer_->GetActiveCamera()->ApplyTransform(turn);
+  renderer_->ResetCameraClippingRange();
 }
 
 void ViewScene::fitView()

@@ -78,7 +78,8 @@ const std::map<std::string, std::string>& valuesOfOptions()
 const std::set<std::string>& deeds()
 {
   static const std::set<std::string> names = { "--help", "--version", "--verbose", "--screenshot",
-    "--force-chart", "--trace", "--record", "--replay", "--config", "--write-config", "--recent" };
+    "--turntable", "--force-chart", "--trace", "--record", "--replay", "--config", "--write-config",
+    "--recent" };
   return names;
 }
 
@@ -130,6 +131,9 @@ TEST_F(ViewConfiguration, RefusesBindingsAndCamerasThatCannotBe)
   this->refuse(2, { "view", "in.ply", "--camera", "0,0,1" }, { "3 numbers", "9" });
   this->refuse(2, { "view", "in.ply", "--screenshot-size", "4000" },
     { "--screenshot-size 4000", "WIDTHxHEIGHT", "16 to 16384" });
+  this->refuse(2, { "view", "in.ply", "--turntable", "36" }, { "--turntable 36", "--screenshot" });
+  this->refuse(2, { "view", "in.ply", "--screenshot", "out.png", "--turntable", "1" },
+    { "--turntable 1", "from 2", "9999" });
   this->refuse(
     2, { "view", "in.ply", "--measure", "1,2,3,1,2,3" }, { "--measure 1,2,3,1,2,3", "same place" });
   this->write("bad.json", R"({"bind": ["help=F1", "hepl=F2"]})");

@@ -135,6 +135,29 @@ KeySSavesAPictureOfASizeOfItsOwn() {
   changed camera || fail "the window does not go on"
 }
 
+# Other keys work meanwhile, and the horizon stays level.
+ShiftTTurnsTheView() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --up z --device none
+  key 1 T
+  said "turntable: turning"
+  write_settings
+  until_true "the view does not turn" has_turned
+  [[ "$(setting camera "$settings" | tr -d ']' | awk -F, '{ print ($NF > 0.999999) }')" == 1 ]] || fail "the horizon is not level"
+  same matrix || fail "the model turns"
+  key k
+  said "colours: viridis"
+  key T
+  said "turntable: stopped"
+  write_settings
+  write_settings
+  same camera || fail "the view still turns"
+}
+has_turned() {
+  write_settings
+  changed camera
+}
+
 KeyAShowsTheAxes() {
   make sphere cloud.ply
   open_viewer cloud.ply

@@ -369,6 +369,39 @@ TEST_F(HapticViewerTest, WritesPicturesOfASizeOfTheirOwnThatShowWhatTheWindowSho
   EXPECT_TRUE(viewer.stop());
 }
 
+TEST_F(HapticViewerTest, WritesPicturesFromAllAroundTheCloud)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.width = 300;
+  options_.height = 300;
+  options_.up = "z";
+  options_.camera = { 0, -0.4, 0, 0, 0, 0, 0, 0, 1 };
+  options_.picture.measure = { 0, 0, 0, 1, 0, 0 };
+  options_.turntable = 4;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("turn.png"))) << viewer.message();
+  EXPECT_FALSE(std::filesystem::exists(this->path("turn.png")));
+  EXPECT_FALSE(std::filesystem::exists(this->path("turn-005.png")));
+  // The line to the right of the middle points to the viewer, to the left, and away. The camera goes to the
+  // right: what is there comes to the front.
+  const int middles[4] = { 1, 0, -1, 0 };
+  for (int i = 0; i < 4; ++i)
+  {
+    const LinePixels line = linePixels(this->path("turn-00" + std::to_string(i + 1) + ".png"));
+    EXPECT_GT(line.count, 10) << i;
+    const double aside = line.x - 150.0;
+    EXPECT_EQ(aside > 10.0 ? 1 : aside < -10.0 ? -1 : 0, middles[i]) << i;
+    EXPECT_NEAR(line.y, 150.0, 5.0) << i;
+  }
+  EXPECT_NE(notes_.front().find("turn-001.png to "), std::string::npos) << notes_.front();
+  EXPECT_NE(notes_.front().find("turn-004.png (300x300)"), std::string::npos) << notes_.front();
+}
+
 TEST_F(HapticViewerTest, ResamplesACloudOnceBeforeItsFirstPicture)
 {
   std::string whyNot;

@@ -64,6 +64,9 @@ const std::vector<KeyedHelp>& keyedHelps()
       "Size of pictures that are written, whatever the window's is; they show at least what it shows; "
       "default: the window's, or --size",
       { "screenshot" }, " writes one" },
+    { "--turntable",
+      "With --screenshot OUT.png: as many pictures, OUT-001.png and so on, from all around the cloud",
+      { "turntable" }, " turns in the window" },
     { "--measure", "Shows the distance of two places of the file, in its coordinates and its unit",
       { "measure" }, " measures between points that are clicked on" },
   };

@@ -30,6 +30,9 @@ namespace app
 namespace
 {
 
+/// Of a turntable.
+constexpr std::int64_t kMostPictures = 9999;
+
 /// Ends the parse where @p text is not ACTION=GESTURES.
 void checkBinding(const std::string& text)
 {
@@ -131,6 +134,9 @@ void ViewOptions::addTo(CLI::App& command)
     this->viewer.width = width;
     this->viewer.height = height;
   };
+  addInteger(
+    command, "--turntable", [this](std::int64_t pictures) { this->viewer.turntable = int(pictures); }, 2,
+    kMostPictures, "");
   addSize(command, "--size", keepSize, "Size of the window or picture; default 1280x800");
   command
     .add_option("--path", this->viewer.path,
@@ -195,6 +201,12 @@ void ViewOptions::checkFiles() const
     {
       throwUsage(option, *name, "pictures are written as PNG; end the name in .png");
     }
+  }
+  if (this->viewer.turntable > 0 && this->screenshot.empty())
+  {
+    throwUsage("--turntable", std::to_string(this->viewer.turntable),
+      "no picture is to be written; give the name of the first by --screenshot, or turn in the window by its "
+      "key");
   }
   if (this->files.empty() && this->viewer.replay.empty() && this->writeConfig.empty())
   {

@@ -26,7 +26,7 @@ namespace
 const std::set<std::string>& deeds()
 {
   static const std::set<std::string> names = { "help", "version", "config", "write-config", "recent",
-    "verbose", "screenshot", "force-chart", "trace", "record", "replay", "output" };
+    "verbose", "screenshot", "turntable", "force-chart", "trace", "record", "replay", "output" };
   return names;
 }
 

@@ -22,6 +22,9 @@ constexpr double kPointStep = 1.25;
 constexpr double kLargestScale = 10.0;
 constexpr double kDepthStep = 0.4;
 constexpr double kStrongest = 10.0;
+/// Of the turntable: a turn takes 12 seconds.
+constexpr double kDegreesPerSecond = 30.0;
+constexpr double kLongestStep = 0.2; // seconds
 /// Seen so, a cube shows three faces alike.
 constexpr double kIsometricAzimuth = 45.0;
 constexpr double kIsometricElevation = 35.2643896828;
@@ -93,6 +96,25 @@ void PictureControls::toggleFullScreen()
   {
     say_("full screen: this window system does not offer it; enlarge the window by its border");
   }
+}
+
+void PictureControls::toggleTurntable()
+{
+  turns_ = !turns_;
+  turnedAt_ = -1.0;
+  say_(turns_ ? "turntable: turning" : "turntable: stopped");
+}
+
+bool PictureControls::turnTable(double seconds)
+{
+  if (turns_)
+  {
+    // A frame that takes long does not make it jump.
+    const double since = turnedAt_ < 0.0 ? 0.0 : std::min(seconds - turnedAt_, kLongestStep);
+    scene_.turnView(kDegreesPerSecond * since);
+    turnedAt_ = seconds;
+  }
+  return turns_;
 }
 
 void PictureControls::scalePoints(int direction)
@@ -185,6 +207,8 @@ void PictureControls::addViewCommands(
     { "reset-view", "r", group, "fit the cloud, level the horizon", call(&Controls::fitView), isOpen });
   commands.add({ "projection", "P", group, "parallel or perspective projection",
     call(&Controls::toggleProjection), isOpen });
+  commands.add(
+    { "turntable", "T", group, "turn about the cloud, stop", call(&Controls::toggleTurntable), isOpen });
   commands.add({ "full-screen", "F11", group, "full screen", call(&Controls::toggleFullScreen), isOpen });
 }
 

@@ -30,6 +30,10 @@ public:
   void fitView();
   void toggleProjection();
   void toggleFullScreen();
+  /// The view turns about the cloud, or stops.
+  void toggleTurntable();
+  /// Turns it on to what it is at @p seconds of a steady clock. False: it stands still.
+  bool turnTable(double seconds);
   FullScreen& fullScreen() { return fullScreen_; }
   /// @p direction 1: larger, -1: smaller.
   void scalePoints(int direction);
@@ -53,6 +57,8 @@ private:
   HapticViewerOptions& options_;
   FullScreen fullScreen_;
   std::function<void(const std::string&)> say_;
+  bool turns_ = false;
+  double turnedAt_ = -1.0; ///< Seconds; below 0: not yet.
 };
 
 } // namespace pointhaptics

@@ -6,6 +6,7 @@
 #include "CloudAppearance.h"
 #include "Gesture.h"
 #include "ScreenScale.h"
+#include "SteadyTime.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
@@ -387,6 +388,10 @@ void ViewWindow::onTimer()
   if (scene_.followMeasurement(false) || scene_.refinementDue())
   {
     interactor_->Render();
+  }
+  if (controls_.turnTable(steadySeconds()))
+  {
+    style_->GetDisplay().requestRender();
   }
   if (this->shouldStop())
   {
