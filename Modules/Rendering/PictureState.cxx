@@ -50,6 +50,7 @@ void addProp(std::vector<double>& state, vtkProp* prop)
     double sky[3];
     splats->GetSkyDirection(sky);
     add(state, sky, 3);
+    add(state, splats->GetClipBox().data(), 6);
     for (const auto& range : splats->GetRanges())
     {
       state.insert(state.end(), { double(range[0]), double(range[1]) });

@@ -102,11 +102,25 @@ constexpr const char* kSurfaceFragment = R"(
     : 0.5 + 0.5 * (-splatTerms.z + splatTerms.w / max(1e-6 * splatReach.x, splatReach.x - splatNear)), 0.0, 1.0);
 )";
 
+/// What is outside of the box goes behind the far plane.
+constexpr const char* kClipStatements = R"(
+  if (any(lessThan(vertexMC.xyz, splatLow)) || any(greaterThan(vertexMC.xyz, splatHigh)))
+  {
+    gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+  }
+)";
+
 } // namespace
 
 vtkStandardNewMacro(vtkSplatMapper);
 
-vtkSplatMapper::vtkSplatMapper() = default;
+vtkSplatMapper::vtkSplatMapper()
+{
+  for (std::size_t side = 0; side < this->ClipBox.size(); ++side)
+  {
+    this->ClipBox[side] = side % 2 == 0 ? -INFINITY : INFINITY;
+  }
+}
 vtkSplatMapper::~vtkSplatMapper() = default;
 
 void vtkSplatMapper::SetSizeArrayName(const std::string& name)
@@ -208,6 +222,11 @@ void vtkSplatMapper::GetSkyDirection(double direction[3]) const
   std::copy(this->SkyDirection.begin(), this->SkyDirection.end(), direction);
 }
 
+void vtkSplatMapper::SetClipBox(const double box[6])
+{
+  std::copy(box, box + 6, this->ClipBox.begin());
+}
+
 void vtkSplatMapper::SetRanges(std::vector<std::array<vtkIdType, 2>> ranges)
 {
   this->Ranges = std::move(ranges);
@@ -229,6 +248,7 @@ void vtkSplatMapper::CopySizes(const vtkSplatMapper* other, double factor)
   this->SetLightStrength(other->LightStrength);
   this->SetNormalUnit(other->NormalUnit);
   this->SetHidesBackFaces(other->HidesBackFaces);
+  this->ClipBox = other->ClipBox;
   this->SetClippingPlanes(other->ClippingPlanes);
 }
 
@@ -305,14 +325,16 @@ void vtkSplatMapper::ReplaceShaderValues(
     (this->HasNormals ? kLightFunctions : "") + (tilts ? kSurfaceDeclarations : "");
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Dec",
     "//VTK::PositionVC::Dec\n" + declared +
-      "uniform float splatPixels;\nuniform float splatLongest;\nuniform vec3 splatRange;\n");
+      "uniform float splatPixels;\nuniform float splatLongest;\nuniform vec3 splatRange;\n"
+      "uniform vec3 splatLow;\nuniform vec3 splatHigh;\n");
   const std::string largest =
     tilts ? "mix(splatRange.z, splatRange.y, splatFlat * splatFlat)" : "splatRange.y";
   vtkShaderProgram::Substitute(vertex, "//VTK::PositionVC::Impl",
     std::string("//VTK::PositionVC::Impl\n") + (this->HasNormals ? kLightStatements : "") +
       "  gl_PointSize = clamp(splatPixels" +
       (this->HasSizes ? std::string(" * min(splatLongest, ") + kAttribute + ") / gl_Position.w" : "") +
-      ", splatRange.x, max(splatRange.x, " + largest + "));\n" + (tilts ? kSurfaceStatements : ""));
+      ", splatRange.x, max(splatRange.x, " + largest + "));\n" + (tilts ? kSurfaceStatements : "") +
+      kClipStatements);
   shaders[vtkShader::Vertex]->SetSource(vertex);
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
   // Depths come before the clipping: what sets them must discard there too.
@@ -344,6 +366,7 @@ void vtkSplatMapper::ReplaceShaderValues(
 void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor)
 {
   this->Superclass::SetMapperShaderParameters(cells, renderer, actor);
+  this->SetClipParameters(cells);
   if (this->HasNormals)
   {
     this->SetLightParameters(cells, renderer, actor);
@@ -383,6 +406,31 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
   if (cells.Program->IsUniformUsed("splatRange"))
   {
     cells.Program->SetUniform3f("splatRange", limits);
+  }
+}
+
+/// In the frame of the uploaded points, which are shifted and scaled where they are far from the origin.
+void vtkSplatMapper::SetClipParameters(vtkOpenGLHelper& cells)
+{
+  constexpr double kLargest = 3e38; // of single precision
+  vtkOpenGLVertexBufferObject* points = this->VBOs->GetVBO("vertexMC");
+  const bool isShifted = points && points->GetCoordShiftAndScaleEnabled();
+  float ends[2][3];
+  for (std::size_t side = 0; side < this->ClipBox.size(); ++side)
+  {
+    const std::size_t axis = side / 2;
+    const double shift = isShifted ? points->GetShift()[axis] : 0.0;
+    const double scale = isShifted ? points->GetScale()[axis] : 1.0;
+    ends[side % 2][axis] =
+      static_cast<float>(std::clamp((this->ClipBox[side] - shift) * scale, -kLargest, kLargest));
+  }
+  if (cells.Program->IsUniformUsed("splatLow"))
+  {
+    cells.Program->SetUniform3f("splatLow", ends[0]);
+  }
+  if (cells.Program->IsUniformUsed("splatHigh"))
+  {
+    cells.Program->SetUniform3f("splatHigh", ends[1]);
   }
 }
 
@@ -532,6 +580,8 @@ void vtkSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NormalUnit: " << this->NormalUnit << "\n";
   os << indent << "HidesBackFaces: " << this->HidesBackFaces << "\n";
   os << indent << "NormalArrayName: " << this->NormalArrayName << "\n";
+  os << indent << "ClipBox: " << this->ClipBox[0] << ", " << this->ClipBox[1] << ", " << this->ClipBox[2]
+     << ", " << this->ClipBox[3] << ", " << this->ClipBox[4] << ", " << this->ClipBox[5] << "\n";
   os << indent << "SkyDirection: " << this->SkyDirection[0] << ", " << this->SkyDirection[1] << ", "
      << this->SkyDirection[2] << "\n";
 }

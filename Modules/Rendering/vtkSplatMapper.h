@@ -167,6 +167,15 @@ public:
   bool GetHidesBackFaces() const { return this->HidesBackFaces; }
   ///@}
 
+  ///@{
+  /**
+   * Draw only what lies in this box, xmin, xmax, ymin ... zmax, in the frame of the input. Default: from
+   * -infinity to infinity. Free to change.
+   */
+  void SetClipBox(const double box[6]);
+  const std::array<double, 6>& GetClipBox() const { return this->ClipBox; }
+  ///@}
+
   /**
    * Takes over all numbers, the names of the arrays and the light, SizeScale times @p factor.
    */
@@ -185,6 +194,7 @@ protected:
 private:
   void MapArray(vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped);
   void SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor);
+  void SetClipParameters(vtkOpenGLHelper& cells);
   void SetLightParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor);
 
   vtkSplatMapper(const vtkSplatMapper&) = delete;
@@ -204,6 +214,7 @@ private:
   bool HidesBackFaces = false;
   std::string NormalArrayName = "SurfaceNormal";
   std::array<double, 3> SkyDirection = { 0.0, 0.0, 1.0 };
+  std::array<double, 6> ClipBox;
   std::vector<std::array<vtkIdType, 2>> Ranges;
   bool HasNormals = false; // the shader in use reads the normals
   bool HasSizes = false;   // the shader in use reads the array

@@ -31,6 +31,7 @@ enum class HapticViewerDevice
 struct HapticViewerNames
 {
   std::string colorBy = "colorBy";
+  std::string clip = "clip";
   std::string firmware = "falcon.firmwareFile";
   std::string placement = "workspace and transform"; ///< Whatever may leave the cloud out of the workspace.
 };
@@ -46,6 +47,8 @@ struct HapticViewerOptions
   int height = 800;
   std::string colorBy;     ///< An array of the cloud or the pipeline, ARRAY:COMPONENT, rgb; empty: a choice.
   std::string up = "auto"; ///< Axis of the cloud that points up: x, -x, ... -z; auto: a guess.
+  /// xmin, xmax, ymin, ymax, zmin, zmax in the file: only points in this box are shown and felt; empty: all.
+  std::vector<double> clip;
   std::string kind = "auto";  ///< object, terrain, sweep, indoors, frame: see CloudLook.h; auto: a guess.
   bool felt = false;          ///< Show the means that are felt, not the points of the file.
   double pointSize = 0.0;     ///< Pixels; 0: from the spacing of the points, so that surfaces close.
@@ -129,6 +132,7 @@ struct HapticViewerState
   bool felt = false;
   bool ambient = false;
   PictureSettings picture;
+  std::vector<double> clip; ///< As in the options.
   bool fullScreen = false;
   std::string colorBy;
   std::string unit; ///< The one that the user took for the file's; empty: none.

@@ -65,6 +65,7 @@ ViewScene::ViewScene()
   renderer_->AddActor(brackets_);
   props_->AddTo(renderer_);
   axes_->AddTo(renderer_);
+  clipMark_.addTo(renderer_);
   distance_.addTo(renderer_);
   applyGround(renderer_);
   applyDepthShading(renderer_);
@@ -162,6 +163,7 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   ownColor_ = colorBy_ != "rgb" && findColorSource(cloud_, colorBy_) ? colorBy_ : std::string();
   cloudOrientation_ = loaded.orientation;
   picture_ = options.picture;
+  this->setClip(options.clip);
   orientation_ = loaded.orientation;
   orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));
   title_ = loaded.title;
@@ -217,7 +219,7 @@ void ViewScene::setUnit(const LengthUnit& unit)
 /// The filters, as those were that made the means: for what is made after a change.
 void ViewScene::configure(const LoadedCloud& loaded, const HapticViewerOptions& options)
 {
-  resampler_->SetInputData(cloud_);
+  resampler_->SetInputData(loaded.felt ? loaded.felt : cloud_);
   configureFilters(options, loaded, resampler_, bandwidth_);
   vtkNew<vtkMatrix4x4> model;
   setElements(model, loaded.model);
@@ -456,10 +458,7 @@ void ViewScene::placeAxes(vtkMatrix4x4* model)
   {
     return;
   }
-  if (cloudBounds_.empty())
-  {
-    cloudBounds_ = transformedBounds(cloud_, AffineTransform());
-  }
+  const Bounds& cloud = this->cloudBounds();
   vtkNew<vtkMatrix4x4> toCloud;
   vtkMatrix4x4::Invert(model, toCloud);
   Bounds reach;
@@ -475,9 +474,8 @@ void ViewScene::placeAxes(vtkMatrix4x4* model)
   double bounds[6];
   for (int axis = 0; axis < 3; ++axis)
   {
-    bounds[2 * axis] = std::max(cloudBounds_.minimum[axis], reach.minimum[axis]);
-    bounds[2 * axis + 1] =
-      std::max(bounds[2 * axis], std::min(cloudBounds_.maximum[axis], reach.maximum[axis]));
+    bounds[2 * axis] = std::max(cloud.minimum[axis], reach.minimum[axis]);
+    bounds[2 * axis + 1] = std::max(bounds[2 * axis], std::min(cloud.maximum[axis], reach.maximum[axis]));
   }
   axes_->SetBounds(bounds);
   axes_->SetModelMatrix(model);

@@ -6,6 +6,7 @@
 #include "LoadedCloud.h"
 #include "ShownCloud.h"
 
+#include "ClipBoxMark.h"
 #include "CloudOrientation.h"
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/PointView.h"
@@ -100,6 +101,14 @@ public:
   /// Where the nearest point is, in the frame of the file, that is drawn at a place of the window; a voxel
   /// mean while means are drawn. False: none is within 8 pixels.
   bool placeAt(int x, int y, Vec3& place);
+  /// Shows nothing outside of HapticViewerOptions::clip @p clip; what is felt follows with clipFelt() and the
+  /// next scene.
+  void setClip(const std::vector<double>& clip);
+  void clipFelt();
+  /// The box with its handles.
+  ClipBoxMark& clipMark() { return clipMark_; }
+  /// Of the finite points of the cloud, in the frame of the file; empty: there is none.
+  const Bounds& cloudBounds();
   /// PictureSettings::measure in words: the distance, and in a second line that along each axis. Empty: there
   /// is none.
   std::vector<std::string> measuredText() const;
@@ -249,8 +258,10 @@ private:
   bool isCoarse_ = false;
   double heightZero_ = 0.0;  ///< See LoadedCloud.
   double fixedPixels_ = 0.0; ///< HapticViewerOptions::pointSize.
-  Bounds cloudBounds_;       ///< Of the finite points, as in the file; empty until the axes are shown.
+  Bounds cloudBounds_;       ///< Of the finite points, as in the file; empty until somebody asks.
   vtkNew<vtkRenderer> renderer_;
+  std::vector<double> clip_; ///< As HapticViewerOptions::clip.
+  ClipBoxMark clipMark_;
   DistanceMark distance_; ///< Before the renderer it goes.
   LevelOfDetail detail_{ renderer_, pointsActor_ };
   LevelOfDetail feltDetail_{ renderer_, actor_ };

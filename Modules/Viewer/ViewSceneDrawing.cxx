@@ -157,6 +157,7 @@ void ViewScene::placeModel(vtkMatrix4x4* model)
   pointsMatrix_->DeepCopy(model);
   pointsMatrix_->Modified();
   distance_.setModel(model);
+  clipMark_.setModel(model);
   if (!shown_)
   {
     return;

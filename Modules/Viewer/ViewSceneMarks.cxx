@@ -1,15 +1,18 @@
-// What a person marks in a cloud: the two ends of a distance.
+// What a person marks in a cloud: the two ends of a distance, and the box outside of which nothing is shown.
 #include "ViewScene.h"
 
+#include "ClippedCloud.h"
 #include "CoordinateText.h"
 #include "PointPicking.h"
 #include "vtkKernelBandwidthFilter.h"
+#include "vtkVoxelMeanResampler.h"
 
 #include <vtkMatrix4x4.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -35,7 +38,8 @@ bool ViewScene::placeAt(int x, int y, Vec3& place)
   PickedPoint picked;
   for (const double pixels : kPickPixels)
   {
-    if (!drawsFelt_ && pickPoint(shown_->points, renderer_, x, y, pixels, picked, pointsMatrix_))
+    if (!drawsFelt_ &&
+      pickPoint(shown_->points, renderer_, x, y, pixels, picked, pointsMatrix_, drawnBy(pointsActor_)))
     {
       shown_->points->GetPoint(picked.index, &place.x);
       return true;
@@ -68,6 +72,32 @@ void ViewScene::applyMarks()
   distance_.setPlaces(std::move(places));
   distance_.setWords(this->measuredText());
   distance_.setModel(pointsMatrix_);
+}
+
+const Bounds& ViewScene::cloudBounds()
+{
+  if (cloudBounds_.empty() && cloud_)
+  {
+    cloudBounds_ = transformedBounds(cloud_, AffineTransform());
+  }
+  return cloudBounds_;
+}
+
+void ViewScene::setClip(const std::vector<double>& clip)
+{
+  clip_ = clip;
+  const vtkNew<vtkSplatMapper> all;
+  const std::array<double, 6>& whole = all->GetClipBox();
+  pointsMapper_->SetClipBox(clip_.size() == whole.size() ? clip_.data() : whole.data());
+}
+
+void ViewScene::clipFelt()
+{
+  if (cloud_)
+  {
+    resampler_->SetInputData(clippedCloud(cloud_, clipBox(clip_)));
+    scene_.reset();
+  }
 }
 
 } // namespace pointhaptics

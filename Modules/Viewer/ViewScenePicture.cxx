@@ -2,6 +2,7 @@
 #include "ViewScene.h"
 
 #include "AsprsClasses.h"
+#include "ClippedCloud.h"
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
 #include "vtkCloudAxes.h"
@@ -188,7 +189,10 @@ double ViewScene::takenCorner() const
 
 CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
 {
-  const PointAccess access(shown_->points->GetPoints());
+  // What the box leaves, where it leaves something.
+  const vtkSmartPointer<vtkPolyData> clipped = clippedCloud(shown_->points, clipBox(clip_));
+  const bool isEmpty = clipped->GetNumberOfPoints() == 0;
+  const PointAccess access((isEmpty ? shown_->points : clipped)->GetPoints());
   vtkRenderer* renderer = renderer_;
   vtkMatrix4x4* model = pointsMatrix_;
   return fitCamera(
@@ -237,6 +241,10 @@ void ViewScene::turnView(double degrees)
   const Vec3 up = normalized(model.applyToVector(cloudOrientation_.up));
   Vec3 middle;
   shown_->points->GetCenter(&middle.x);
+  if (const std::optional<Bounds> box = clipBox(clip_))
+  {
+    middle = box->center();
+  }
   middle = model.apply(middle);
   vtkNew<vtkTransform> turn;
   turn->PostMultiply();

@@ -64,13 +64,14 @@ const std::map<std::string, std::string>& valuesOfOptions()
     { "--ambient", "" }, { "--felt", "" }, { "--full-screen", "" }, { "--projection", "parallel" },
     { "--background", "white" }, { "--point-scale", "2" }, { "--edl-strength", "0.5" },
     { "--font-scale", "1.5" }, { "--color-map", "greys" }, { "--color-range", "1,2" },
-    { "--measure", "0,0,0,1,1,1" }, { "--screenshot-size", "4000x3000" }, { "--transparent", "" },
-    { "--kind", "terrain" }, { "--ideal", "torus" }, { "--method", "gradient-steps" },
-    { "--preset", "paper" }, { "--stiffness", "500" }, { "--damping", "1.5" }, { "--mu-s", "0.5" },
-    { "--mu-d", "0.25" }, { "--no-covariance", "" }, { "--neighbors", "20" }, { "--radius", "0.002" },
-    { "--rule", "scott" }, { "--beta", "3" }, { "--r1", "0.001" }, { "--r2", "0.01" }, { "--smooth", "" },
-    { "--dims", "100,50,25" }, { "--voxel", "0.002" }, { "--workspace", "0,1,0,1,0,1" },
-    { "--scale", "1,2,3" }, { "--rotate", "30,0,0,1" }, { "--translate", "0,0,0.5" },
+    { "--measure", "0,0,0,1,1,1" }, { "--clip", "0,1,0,1,0,1" }, { "--screenshot-size", "4000x3000" },
+    { "--transparent", "" }, { "--kind", "terrain" }, { "--ideal", "torus" },
+    { "--method", "gradient-steps" }, { "--preset", "paper" }, { "--stiffness", "500" },
+    { "--damping", "1.5" }, { "--mu-s", "0.5" }, { "--mu-d", "0.25" }, { "--no-covariance", "" },
+    { "--neighbors", "20" }, { "--radius", "0.002" }, { "--rule", "scott" }, { "--beta", "3" },
+    { "--r1", "0.001" }, { "--r2", "0.01" }, { "--smooth", "" }, { "--dims", "100,50,25" },
+    { "--voxel", "0.002" }, { "--workspace", "0,1,0,1,0,1" }, { "--scale", "1,2,3" },
+    { "--rotate", "30,0,0,1" }, { "--translate", "0,0,0.5" },
     { "--matrix", "2,0,0,0,0,2,0,0,0,0,2,0,0,0,0,1" }, { "--unit", "mm" } };
   return values;
 }
@@ -134,6 +135,7 @@ TEST_F(ViewConfiguration, RefusesBindingsAndCamerasThatCannotBe)
   this->refuse(2, { "view", "in.ply", "--turntable", "36" }, { "--turntable 36", "--screenshot" });
   this->refuse(2, { "view", "in.ply", "--screenshot", "out.png", "--turntable", "1" },
     { "--turntable 1", "from 2", "9999" });
+  this->refuse(2, { "view", "in.ply", "--clip", "0,1,2,1,0,1" }, { "--clip 0,1,2,1,0,1", "no box" });
   this->refuse(
     2, { "view", "in.ply", "--measure", "1,2,3,1,2,3" }, { "--measure 1,2,3,1,2,3", "same place" });
   this->write("bad.json", R"({"bind": ["help=F1", "hepl=F2"]})");

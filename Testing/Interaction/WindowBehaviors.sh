@@ -158,6 +158,51 @@ has_turned() {
   changed camera
 }
 
+# A sphere of 25 mm. Seen from the front xmax is at the right edge of the sphere, half as high as the picture.
+ShiftCDragsTheClippingBox() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --up z --device none
+  key 1
+  write_settings
+  [[ "$(setting clip "$settings")" == "" ]] || fail "it is clipped already"
+  key C
+  said "clipping box: drag its handles"
+  write_settings
+  [[ "$(setting clip "$settings")" == "" ]] || fail "the box that is shown clips"
+  until_true "no handle was dragged" drags_xmax
+  same camera || fail "the view has turned"
+  clip_is 2 '< 0.0237'
+  clip_is 1 '< -0.0247'
+  key Tab comma comma
+  said "clipping box: keys move ymin"
+  said "clipping box: ymin"
+  write_settings
+  clip_is 3 '> -0.0235'
+  clip_is 3 '< -0.0225'
+  key Delete
+  said "clipping box: none"
+  write_settings
+  [[ "$(setting clip "$settings")" == "" ]] || fail "the clipping stays"
+  same camera || fail "the view has turned"
+}
+# From where the handle may be; the mouse moves on as a hand does.
+drags_xmax() {
+  local x
+  for x in 520 528 536 544 552 560; do
+    xdotool mousemove --window "$window" "$x" 240 mousedown 1 mousemove --window "$window" $((x - 20)) 240 \
+      mousemove --window "$window" $((x - 60)) 240 mouseup 1
+    sleep 0.5 # for what a hit makes it say
+    if grep -qF "clipping box: xmax" said.txt; then break; fi
+    key 1 # a miss has turned the view
+  done
+  write_settings
+  changed clip
+}
+# clip_is NUMBER CONDITION: of the six in the settings.
+clip_is() {
+  awk -v "n=$1" -F'[][,]' "{ exit !(\$(n + 1) $2) }" <<<"$(setting clip "$settings")" || fail "number $1 of the box is not $2: $(setting clip "$settings")"
+}
+
 KeyAShowsTheAxes() {
   make sphere cloud.ply
   open_viewer cloud.ply

@@ -1,4 +1,4 @@
-#include "HapticViewer.h"
+#include "HapticViewerFixture.h"
 
 #include "CommandRegistry.h"
 #include "ViewDisplay.h"
@@ -10,9 +10,7 @@
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGReader.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -24,80 +22,20 @@
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include <unistd.h>
-
 using namespace pointhaptics;
 
 namespace
 {
-
-constexpr int kPoints = 20000;
-
-/// Evenly on a sphere of radius 1 about the origin.
-vtkSmartPointer<vtkPolyData> makeSphere()
-{
-  const double golden = 2.399963229728653;
-  vtkNew<vtkPoints> points;
-  for (int i = 0; i < kPoints; ++i)
-  {
-    const double z = 1.0 - (2.0 * i + 1.0) / kPoints;
-    const double ring = std::sqrt(1.0 - z * z);
-    points->InsertNextPoint(ring * std::cos(golden * i), ring * std::sin(golden * i), z);
-  }
-  auto cloud = vtkSmartPointer<vtkPolyData>::New();
-  cloud->SetPoints(points);
-  return cloud;
-}
-
-class HapticViewerTest : public ::testing::Test
-{
-protected:
-  HapticViewerTest()
-    : folder_(std::filesystem::temp_directory_path() / ("HapticViewerTest-" + std::to_string(getpid())))
-  {
-    std::filesystem::create_directories(folder_);
-    options_.width = 160;
-    options_.height = 120;
-    observer_.message = [this](HapticViewerObserver::Kind kind, const std::string& text)
-    { (kind == HapticViewerObserver::Kind::Warning ? warnings_ : notes_).push_back(text); };
-  }
-  ~HapticViewerTest() override
-  {
-    std::error_code error;
-    std::filesystem::remove_all(folder_, error);
-  }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  std::string writeCloud(const std::string& name, int rows) const
-  {
-    std::ofstream file(this->path(name));
-    file << "x,y,z\n";
-    for (int i = 0; i < rows; ++i)
-    {
-      file << 0.01 * (i % 250) << ',' << 0.01 * (i / 250) << ",0\n";
-    }
-    return this->path(name);
-  }
-
-  std::filesystem::path folder_;
-  HapticViewerOptions options_;
-  HapticViewerObserver observer_;
-  std::vector<std::string> warnings_;
-  std::vector<std::string> notes_;
-};
 
 TEST_F(HapticViewerTest, TakesTheUnitThatTheCloudSaysUnlessTheHostHasChosenOne)
 {
@@ -212,194 +150,6 @@ TEST_F(HapticViewerTest, WritesPicturesOffTheScreen)
   EXPECT_EQ(notes_.size(), 2u);
   EXPECT_FALSE(viewer.renderToFile(this->path("no/folder.png")));
   EXPECT_NE(viewer.message().find("no/folder.png: cannot be written"), std::string::npos);
-}
-
-TEST_F(HapticViewerTest, LeavesTheBackgroundOutOfTransparentPictures)
-{
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
-  options_.picture.background = "black";
-  HapticViewer opaque(options_, observer_);
-  ASSERT_TRUE(opaque.open(makeSphere())) << opaque.message();
-  ASSERT_TRUE(opaque.renderToFile(this->path("opaque.png"))) << opaque.message();
-  options_.picture.transparent = true;
-  HapticViewer viewer(options_, observer_);
-  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
-  ASSERT_TRUE(viewer.renderToFile(this->path("transparent.png"))) << viewer.message();
-  vtkNew<vtkPNGReader> readers[2];
-  readers[0]->SetFileName(this->path("opaque.png").c_str());
-  readers[1]->SetFileName(this->path("transparent.png").c_str());
-  readers[0]->Update();
-  readers[1]->Update();
-  ASSERT_EQ(readers[0]->GetNumberOfScalarComponents(), 3);
-  ASSERT_EQ(readers[1]->GetNumberOfScalarComponents(), 4);
-  vtkDataArray* expected = readers[0]->GetOutput()->GetPointData()->GetScalars();
-  vtkDataArray* got = readers[1]->GetOutput()->GetPointData()->GetScalars();
-  ASSERT_EQ(got->GetNumberOfTuples(), expected->GetNumberOfTuples());
-  vtkIdType clear = 0, solid = 0, wrong = 0;
-  for (vtkIdType i = 0; i < got->GetNumberOfTuples(); ++i)
-  {
-    const double opacity = got->GetComponent(i, 3) / 255.0;
-    clear += opacity == 0.0;
-    solid += opacity == 1.0;
-    for (int c = 0; c < 3; ++c) // laid on black it is the picture on black
-    {
-      wrong += std::abs(opacity * got->GetComponent(i, c) - expected->GetComponent(i, c)) > 2.0;
-    }
-  }
-  EXPECT_EQ(wrong, 0);
-  EXPECT_EQ(got->GetComponent(0, 3), 0.0);
-  EXPECT_GT(clear, got->GetNumberOfTuples() / 10);
-  EXPECT_GT(solid, got->GetNumberOfTuples() / 10);
-}
-
-/// Pixels of the colour of a measured line, and their middle.
-struct LinePixels
-{
-  int count = 0;
-  double x = 0.0;
-  double y = 0.0;
-  int left = 1000000;
-  int right = 0;
-};
-
-LinePixels linePixels(const std::string& fileName)
-{
-  vtkNew<vtkPNGReader> reader;
-  reader->SetFileName(fileName.c_str());
-  reader->Update();
-  vtkImageData* image = reader->GetOutput();
-  const int* size = image->GetDimensions();
-  LinePixels found;
-  for (int i = 0; i < size[0] * size[1]; ++i)
-  {
-    vtkDataArray* pixels = image->GetPointData()->GetScalars();
-    if (pixels->GetComponent(i, 0) == 255.0 && pixels->GetComponent(i, 1) == 196.0 &&
-      pixels->GetComponent(i, 2) == 40.0)
-    {
-      ++found.count;
-      found.left = std::min(found.left, i % size[0]);
-      found.right = std::max(found.right, i % size[0]);
-      found.x += i % size[0];
-      found.y += i / size[0];
-    }
-  }
-  found.x /= std::max(1, found.count);
-  found.y /= std::max(1, found.count);
-  return found;
-}
-
-TEST_F(HapticViewerTest, ShowsADistanceWhereItsEndsAre)
-{
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
-  options_.width = 400;
-  options_.height = 300;
-  options_.up = "z";
-  options_.camera = { 0, -0.4, 0, 0, 0, 0, 0, 0, 1 };
-  HapticViewer none(options_, observer_);
-  ASSERT_TRUE(none.open(makeSphere())) << none.message();
-  ASSERT_TRUE(none.renderToFile(this->path("none.png"))) << none.message();
-  EXPECT_EQ(linePixels(this->path("none.png")).count, 0);
-  EXPECT_EQ(notes_.size(), 1u);
-  options_.picture.measure = { 0, 0, 0, 1, 0, 0 }; // to the right of the middle
-  HapticViewer viewer(options_, observer_);
-  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
-  ASSERT_TRUE(viewer.renderToFile(this->path("right.png"))) << viewer.message();
-  const LinePixels right = linePixels(this->path("right.png"));
-  EXPECT_GT(right.count, 100);
-  EXPECT_GT(right.x, 200.0 + 10.0);
-  EXPECT_NEAR(right.y, 150.0, 3.0);
-  ASSERT_FALSE(notes_.empty());
-  EXPECT_EQ(notes_.back(), "  distance: 1.00000 m; dx 1.00000   dy 0.00000   dz 0.00000 m");
-  // The line goes with the model, and tells what is true of the file.
-  viewer.renderWindow()->SetOffScreenRendering(1);
-  ASSERT_TRUE(viewer.start()) << viewer.message();
-  viewer.style()->GetModel().scale(0.5);
-  ASSERT_TRUE(viewer.renderToFile(this->path("half.png"))) << viewer.message();
-  const LinePixels half = linePixels(this->path("half.png"));
-  EXPECT_GT(half.count, 50);
-  EXPECT_LT(half.x, right.x - 5.0);
-  EXPECT_TRUE(viewer.stop());
-}
-
-TEST_F(HapticViewerTest, WritesPicturesOfASizeOfTheirOwnThatShowWhatTheWindowShows)
-{
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
-  options_.device = HapticViewerDevice::Simulated;
-  options_.width = 400;
-  options_.height = 200;
-  options_.up = "z";
-  options_.picture.screenshotSize = { 300, 300 };
-  options_.picture.measure = { -4, 0, 0, 4, 0, 0 };
-  options_.camera = { 0, -0.4, 0, 0, 0, 0, 0, 0, 1 };
-  HapticViewer viewer(options_, observer_);
-  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
-  ASSERT_TRUE(viewer.renderToFile(this->path("off.png"))) << viewer.message();
-  viewer.renderWindow()->SetOffScreenRendering(1);
-  ASSERT_TRUE(viewer.start()) << viewer.message();
-  ASSERT_TRUE(viewer.renderToFile(this->path("first.png"))) << viewer.message();
-  ASSERT_TRUE(viewer.renderToFile(this->path("second.png"))) << viewer.message();
-  vtkNew<vtkPNGReader> readers[3];
-  readers[0]->SetFileName(this->path("off.png").c_str());
-  readers[1]->SetFileName(this->path("first.png").c_str());
-  readers[2]->SetFileName(this->path("second.png").c_str());
-  for (auto& reader : readers)
-  {
-    reader->Update();
-    EXPECT_EQ(reader->GetOutput()->GetDimensions()[0], 300);
-    EXPECT_EQ(reader->GetOutput()->GetDimensions()[1], 300);
-  }
-  EXPECT_EQ(viewer.renderWindow()->GetSize()[0], 400);
-  // A picture as high as the window, of half its width, would end before the line does.
-  const LinePixels line = linePixels(this->path("first.png"));
-  EXPECT_GT(line.left, 10);
-  EXPECT_LT(line.right, 290);
-  EXPECT_EQ(line.count, linePixels(this->path("second.png")).count);
-  EXPECT_TRUE(viewer.stop());
-}
-
-TEST_F(HapticViewerTest, WritesPicturesFromAllAroundTheCloud)
-{
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
-  options_.width = 300;
-  options_.height = 300;
-  options_.up = "z";
-  options_.camera = { 0, -0.4, 0, 0, 0, 0, 0, 0, 1 };
-  options_.picture.measure = { 0, 0, 0, 1, 0, 0 };
-  options_.turntable = 4;
-  HapticViewer viewer(options_, observer_);
-  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
-  ASSERT_TRUE(viewer.renderToFile(this->path("turn.png"))) << viewer.message();
-  EXPECT_FALSE(std::filesystem::exists(this->path("turn.png")));
-  EXPECT_FALSE(std::filesystem::exists(this->path("turn-005.png")));
-  // The line to the right of the middle points to the viewer, to the left, and away. The camera goes to the
-  // right: what is there comes to the front.
-  const int middles[4] = { 1, 0, -1, 0 };
-  for (int i = 0; i < 4; ++i)
-  {
-    const LinePixels line = linePixels(this->path("turn-00" + std::to_string(i + 1) + ".png"));
-    EXPECT_GT(line.count, 10) << i;
-    const double aside = line.x - 150.0;
-    EXPECT_EQ(aside > 10.0 ? 1 : aside < -10.0 ? -1 : 0, middles[i]) << i;
-    EXPECT_NEAR(line.y, 150.0, 5.0) << i;
-  }
-  EXPECT_NE(notes_.front().find("turn-001.png to "), std::string::npos) << notes_.front();
-  EXPECT_NE(notes_.front().find("turn-004.png (300x300)"), std::string::npos) << notes_.front();
 }
 
 TEST_F(HapticViewerTest, ResamplesACloudOnceBeforeItsFirstPicture)

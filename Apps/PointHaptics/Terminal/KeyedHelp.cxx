@@ -60,6 +60,9 @@ const std::vector<KeyedHelp>& keyedHelps()
       "the "
       "colour bar to change them",
       { "color-range" }, " takes all again" },
+    { "--clip",
+      "Shows, lets feel and pick only what lies in this box, in coordinates of the file; default: all",
+      { "clip-box" }, " shows its handles" },
     { "--screenshot-size",
       "Size of pictures that are written, whatever the window's is; they show at least what it shows; "
       "default: the window's, or --size",

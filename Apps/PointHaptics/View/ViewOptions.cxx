@@ -156,6 +156,13 @@ void ViewOptions::addTo(CLI::App& command)
     "Axis of the cloud that points up; default: a guess");
   addWord(command, "--kind", this->viewer.kind, { "auto", "object", "terrain", "sweep", "indoors", "frame" },
     "What the cloud is, and so from where it is seen and how it is drawn; default: a guess");
+  const auto checkBox = [](const std::vector<double>& box)
+  {
+    return box[0] < box[1] && box[2] < box[3] && box[4] < box[5]
+      ? ""
+      : "no box; each minimum must be less than its maximum";
+  };
+  addNumbers(command, "--clip", this->viewer.clip, { 6 }, checkBox, "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX", "");
   command.add_flag("--felt", this->viewer.felt);
   command.add_option("--color-by", this->viewer.colorBy)->type_name("ARRAY[:COMPONENT]");
   addNumber(command, "--point-size", this->viewer.pointSize, { 1.0, 50.0 }, "PIXELS",
@@ -279,7 +286,7 @@ void ViewOptions::completeViewer(CLI::App& command)
                                             : HapticViewerDevice::Auto;
   options.falcon = this->falcon.settings();
   options.showsReading = this->needsWindow();
-  options.names = { "--color-by", kFirmwareOption, "--workspace, --scale and --translate" };
+  options.names = { "--color-by", "--clip", kFirmwareOption, "--workspace, --scale and --translate" };
 }
 
 bool ViewOptions::needsWindow() const

@@ -32,8 +32,8 @@ const std::set<std::string>& deeds()
 
 /// Of the cloud at hand, and of no other.
 constexpr const char* kOfTheCloud[] = { "matrix", "workspace", "voxel", "dims", "scale", "rotate",
-  "translate", "unit", "resolution", "path", "up", "color-by", "color-range", "measure", "together", "watch",
-  "camera", "ideal" };
+  "translate", "unit", "resolution", "path", "up", "color-by", "color-range", "clip", "measure", "together",
+  "watch", "camera", "ideal" };
 
 /// A number where it reads back as it was written, else text: an array may be called 1e3.
 nlohmann::ordered_json valueOf(const CLI::Option& option)
@@ -107,6 +107,11 @@ void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, 
   settings["ambient"] = state.ambient;
   settings["full-screen"] = state.fullScreen;
   setPicture(settings, state.picture);
+  settings.erase("clip");
+  if (!state.clip.empty())
+  {
+    settings["clip"] = state.clip;
+  }
   settings.erase("color-by");
   if (!state.colorBy.empty())
   {

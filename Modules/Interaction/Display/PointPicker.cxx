@@ -45,7 +45,9 @@ PickedOfFile PointPicker::pickOfFile(int x, int y) const
   vtkPolyData* points = mapper ? mapper->GetInput() : nullptr;
   PickedPoint picked;
   PickedOfFile result;
-  if (points && pickPoint(points, screen_.renderer(), x, y, kPickPixels, picked, fileActor_->GetMatrix()))
+  if (points &&
+    pickPoint(
+      points, screen_.renderer(), x, y, kPickPixels, picked, fileActor_->GetMatrix(), drawnBy(fileActor_)))
   {
     result = { points, picked.index, leftOut_ };
   }

@@ -5,21 +5,27 @@
 #include "CoordinateText.h"
 #include "PolyDataAccess.h"
 #include "SmpExecutor.h"
+#include "vtkSplatMapper.h"
 
 #include "Core/Base/AffineTransform.h"
 #include "Core/Neighbors/NeighborQuery.h"
 
+#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -174,8 +180,42 @@ void findVoxel(vtkPolyData* cloud, PickedPoint& picked)
 
 } // namespace
 
+std::function<bool(const Vec3&)> drawnBy(vtkActor* actor)
+{
+  auto* mapper = vtkSplatMapper::SafeDownCast(actor->GetMapper());
+  if (!mapper)
+  {
+    return {};
+  }
+  vtkNew<vtkMatrix4x4> toPicture;
+  toPicture->DeepCopy(actor->GetMatrix());
+  return [mapper, toPicture = vtkSmartPointer<vtkMatrix4x4>(toPicture)](const Vec3& p)
+  {
+    const std::array<double, 6>& box = mapper->GetClipBox();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (p[axis] < box[std::size_t(2 * axis)] || p[axis] > box[std::size_t(2 * axis + 1)])
+      {
+        return false;
+      }
+    }
+    const double in[4] = { p.x, p.y, p.z, 1.0 };
+    double out[4];
+    toPicture->MultiplyPoint(in, out);
+    vtkPlaneCollection* planes = mapper->GetClippingPlanes();
+    for (int i = 0; planes && i < planes->GetNumberOfItems(); ++i)
+    {
+      if (planes->GetItem(i)->EvaluateFunction(out) < 0.0)
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+}
+
 bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, double pixels,
-  PickedPoint& picked, vtkMatrix4x4* toWorkspace)
+  PickedPoint& picked, vtkMatrix4x4* toWorkspace, const std::function<bool(const Vec3&)>& isDrawn)
 {
   double viewport[4];
   renderer->GetViewport(viewport);
@@ -205,7 +245,7 @@ bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, do
     }
     const double column = left + 0.5 * size[0] * (1.0 + (m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]) / w);
     const double row = bottom + 0.5 * size[1] * (1.0 + (m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7]) / w);
-    if (std::hypot(column - x, row - y) <= pixels)
+    if (std::hypot(column - x, row - y) <= pixels && (!isDrawn || isDrawn(p)))
     {
       best = depth;
       found = i;

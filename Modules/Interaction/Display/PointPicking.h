@@ -10,10 +10,12 @@
 
 #include "vtkType.h"
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
 
+class vtkActor;
 class vtkMatrix4x4;
 class vtkPolyData;
 class vtkRenderer;
@@ -45,8 +47,14 @@ struct PickedOfFile
 /// within @p pixels of the display position (@p x, @p y) of @p renderer's window, the one nearest to the
 /// camera. False: there is none. Cost: a few ns a point. GUI thread only.
 /// @param toWorkspace of a cloud in another frame, as that of its file; null: it is in the workspace.
+/// @param isDrawn of places in the frame of @p cloud; empty: all are.
 POINTHAPTICSINTERACTION_EXPORT bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y,
-  double pixels, PickedPoint& picked, vtkMatrix4x4* toWorkspace = nullptr);
+  double pixels, PickedPoint& picked, vtkMatrix4x4* toWorkspace = nullptr,
+  const std::function<bool(const Vec3&)>& isDrawn = {});
+
+/// Whether @p actor draws a place, in the frame of its points: its clipping planes, and the box of a
+/// vtkSplatMapper, leave it. Both must outlive the result.
+POINTHAPTICSINTERACTION_EXPORT std::function<bool(const Vec3&)> drawnBy(vtkActor* actor);
 
 /// Fills in bandwidth and radius: those vtkKernelBandwidthFilter gives the point with @p settings. Searches
 /// its neighbours among all points of @p cloud: about 0.1 s for a million. Errors: those of localBandwidths.

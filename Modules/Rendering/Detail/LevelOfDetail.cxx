@@ -128,6 +128,10 @@ bool LevelOfDetail::sceneChanged(vtkPolyData* cloud)
   add(actor_->GetMatrix());
   placement.push_back(renderer_->GetSize()[0]);
   placement.push_back(renderer_->GetSize()[1]);
+  if (auto* splats = vtkSplatMapper::SafeDownCast(actor_->GetMapper()))
+  {
+    placement.insert(placement.end(), splats->GetClipBox().begin(), splats->GetClipBox().end());
+  }
 
   unsigned long long propsTime = 0;
   vtkActorCollection* actors = renderer_->GetActors();

@@ -58,6 +58,7 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
 struct LoadedCloud
 {
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
+  vtkSmartPointer<vtkPolyData> felt;  ///< What of it was resampled: all, or the points in the clipping box.
   Bounds bounds;                      ///< Of the finite points, after CloudRequest::transform.
   CloudOrientation orientation;
   std::string colorBy;            ///< What was asked for, exactly as the cloud or the pipeline writes it.

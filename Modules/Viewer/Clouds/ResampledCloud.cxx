@@ -1,5 +1,6 @@
 #include "ResampledCloud.h"
 
+#include "ClippedCloud.h"
 #include "HapticSceneBuilder.h"
 #include "HapticViewerOptions.h"
 #include "PolyDataAccess.h"
@@ -9,6 +10,8 @@
 
 #include "Core/Base/Lattice.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
@@ -77,7 +80,8 @@ public:
     vtkNew<vtkMatrixToLinearTransform> transform;
     transform->SetInput(model);
     vtkNew<vtkPolyData> cloud; // the object itself belongs to the one that takes it
-    cloud->ShallowCopy(loaded.cloud);
+    loaded.felt = clippedCloud(loaded.cloud, clipBox(request.options->clip));
+    cloud->ShallowCopy(loaded.felt);
     resampler_->SetInputData(cloud);
     resampler_->SetTransform(transform);
     vtkNew<vtkCallbackCommand> ask;
@@ -204,6 +208,13 @@ bool resampleCloud(
 {
   const auto begin = std::chrono::steady_clock::now();
   FirstRun run(request, goesOn, loaded);
+  if (loaded.felt->GetNumberOfPoints() == 0)
+  {
+    const Bounds all = transformedBounds(loaded.cloud, AffineTransform());
+    message = fmt::format("{}: no point lies in the box of {} {:.6g}; the cloud has {:.6g}", loaded.title,
+      request.options->names.clip, fmt::join(request.options->clip, ","), fmt::join(clipNumbers(all), ","));
+    return false;
+  }
   const bool chooses = request.options->fitsWorkspace && !request.options->hasVoxels();
   const vtkSmartPointer<vtkPolyData> means = chooses ? run.resampleAsFits() : run.resample();
   if (!goesOn())

@@ -30,6 +30,12 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
       ViewWindow* open = self.get();
       return open ? &open->controls_ : nullptr;
     });
+  ClipBoxTool::addCommands(commands,
+    [self]() -> ClipBoxTool*
+    {
+      ViewWindow* open = self.get();
+      return open ? &open->clipping_ : nullptr;
+    });
   using Window = ViewWindow;
   commands.add({ "axes", "a", "Show", "axes and bounds", call(&Window::toggleAxes), isOpen });
   commands.add(

@@ -27,7 +27,7 @@ bool ViewWindow::startRecording(const std::string& fileName, std::string& messag
     header.cloud.files.push_back(error ? file : path.string());
   }
   header.cloud.resolution = options_.resolution;
-  header.cloud.points = scene_.numberOfPoints();
+  header.cloud.points = cloud->GetNumberOfPoints(); // of the clipping box, where there is one
   header.cloud.checksum = checksumOf(cloud);
   return recording_.open(fileName, header, message);
 }

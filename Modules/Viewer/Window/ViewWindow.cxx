@@ -56,6 +56,9 @@ ViewWindow::ViewWindow(ViewScene& scene, const HapticViewerOptions& options,
   , controls_(scene, options_, window_, [this](const std::string& news) { this->say(news); })
   , colorBar_(scene, controls_, interactor_)
   , measuring_(scene, options_, interactor_, [this](const std::string& news) { this->say(news); })
+  , clipping_(
+      scene, options_, interactor_, [this] { this->clipFelt(); },
+      [this](const std::string& news) { this->say(news); })
 {
   ViewWindow::addCommands(style_->GetCommands(), this);
   style_->GetCommands().bind(options_.bindings);

@@ -3,6 +3,7 @@
 /// ViewCommands.cxx lists what its keys do, ViewWindowActions.cxx and ViewRecording.cxx do it.
 #pragma once
 
+#include "ClipBoxTool.h"
 #include "CloudLoader.h"
 #include "ColorBarDrag.h"
 #include "DistanceMeasuring.h"
@@ -127,6 +128,7 @@ private:
   void toggleAxes();
   void toggleFigure();
   void toggleMeasuring();
+  void clipFelt();
   void showNextColors();
   void toggleFelt();
   void toggleAmbient();
@@ -190,6 +192,7 @@ private:
   PictureControls controls_;
   ColorBarDrag colorBar_;
   DistanceMeasuring measuring_;
+  ClipBoxTool clipping_;
   vtkNew<vtkCallbackCommand> cancelKey_;
   std::shared_ptr<IdealForce> wholeIdeal_; // for the same
   TraceFile trace_;

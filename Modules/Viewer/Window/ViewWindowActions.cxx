@@ -73,6 +73,10 @@ void ViewWindow::onFilesDropped(void* callData)
 void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::function<void(bool)> then)
 {
   HapticViewerOptions options = options_;
+  if (kind == Load::New)
+  {
+    options.clip.clear(); // it is of another cloud
+  }
   if (voxelSize_ > 0.0)
   {
     options.voxels.lattice.voxelSize = voxelSize_;
@@ -227,14 +231,15 @@ void ViewWindow::show(LoadedCloud cloud)
   scene_.getWorkspaceBounds(bounds);
   style_->SetWorkspaceBounds(bounds);
   style_->SetResampler(scene_.resampler());
+  if (!keepsModel)
+  {
+    options_.picture.measure.clear(); // they were in the first cloud
+    clipping_.forget();
+  }
   this->setSceneOptions();
   this->adoptModel(model);
   this->followOptions();
   scene_.placeAxes(style_->GetModelTransform()->GetMatrix());
-  if (!keepsModel)
-  {
-    options_.picture.measure.clear(); // it was in the first cloud
-  }
   scene_.setPicture(options_.picture); // as it is by now
   if (!keepsModel)
   {
@@ -252,6 +257,11 @@ void ViewWindow::followOptions()
   if (options_.felt != loading_.options.felt)
   {
     scene_.setShowsFelt(options_.felt);
+  }
+  if (options_.clip != loading_.options.clip)
+  {
+    scene_.setClip(options_.clip);
+    this->clipFelt();
   }
   if (options_.colorBy != loading_.options.colorBy && scene_.setColorBy(options_.colorBy))
   {
@@ -356,6 +366,7 @@ HapticViewerState ViewWindow::state()
   state.felt = options_.felt;
   state.ambient = options_.ambient;
   state.picture = options_.picture;
+  state.clip = options_.clip;
   state.fullScreen = controls_.fullScreen().isFull();
   state.colorBy = options_.colorBy;
   if (scene_.unit().name == scene_.likelyUnit().name)
@@ -467,6 +478,18 @@ void ViewWindow::toggleFigure()
 void ViewWindow::toggleMeasuring()
 {
   measuring_.toggle(style_->GetCommands().label("measure"));
+}
+
+/// What is felt is of the box as it is now; a recording is of one cloud.
+void ViewWindow::clipFelt()
+{
+  std::string message;
+  if (!this->endRecording(message))
+  {
+    this->tell(message);
+  }
+  scene_.clipFelt();
+  style_->InvalidateModel();
 }
 
 /// The next of what the cloud can be coloured by.

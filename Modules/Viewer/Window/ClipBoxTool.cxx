@@ -1,0 +1,221 @@
+#include "ClipBoxTool.h"
+
+#include "ClippedCloud.h"
+#include "CommandRegistry.h"
+#include "HapticViewerOptions.h"
+#include "ViewScene.h"
+
+#include <fmt/format.h>
+#include <vtkCommand.h>
+#include <vtkRenderWindowInteractor.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr float kBeforeTheStyle = 1.0F;
+constexpr int kFaces = 6;
+/// Parts of the cloud's extent.
+constexpr double kStep = 0.02;
+constexpr double kThinnest = 1e-3;
+constexpr const char* kFaceNames[kFaces] = { "xmin", "xmax", "ymin", "ymax", "zmin", "zmax" };
+
+} // namespace
+
+ClipBoxTool::ClipBoxTool(ViewScene& scene, HapticViewerOptions& options,
+  vtkRenderWindowInteractor* interactor, std::function<void()> clipped,
+  std::function<void(const std::string&)> say)
+  : scene_(scene)
+  , options_(options)
+  , interactor_(interactor)
+  , clipped_(std::move(clipped))
+  , say_(std::move(say))
+{
+  command_->SetClientData(this);
+  command_->SetCallback(
+    [](vtkObject*, unsigned long event, void* self, void*)
+    {
+      auto& tool = *static_cast<ClipBoxTool*>(self);
+      tool.command_->SetAbortFlag(tool.takes(event));
+    });
+  for (const auto event :
+    { vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent })
+  {
+    interactor->AddObserver(event, command_, kBeforeTheStyle);
+  }
+}
+
+ClipBoxTool::~ClipBoxTool()
+{
+  if (interactor_)
+  {
+    interactor_->RemoveObserver(command_);
+  }
+}
+
+Bounds ClipBoxTool::box() const
+{
+  return clipBox(options_.clip).value_or(scene_.cloudBounds());
+}
+
+void ClipBoxTool::render()
+{
+  if (interactor_)
+  {
+    interactor_->Render();
+  }
+}
+
+void ClipBoxTool::toggle()
+{
+  ClipBoxMark& mark = scene_.clipMark();
+  mark.setBox(this->box());
+  mark.setVisible(!mark.isVisible());
+  say_(mark.isVisible() ? "clipping box: drag its handles" : "clipping box: hidden");
+}
+
+void ClipBoxTool::clear()
+{
+  const bool wasClipped = !options_.clip.empty();
+  this->forget();
+  scene_.setClip({});
+  if (wasClipped)
+  {
+    clipped_();
+  }
+  say_("clipping box: none, the whole cloud is shown");
+}
+
+void ClipBoxTool::forget()
+{
+  options_.clip.clear();
+  dragged_ = -1;
+  scene_.clipMark().setVisible(false);
+}
+
+void ClipBoxTool::chooseNextFace()
+{
+  ClipBoxMark& mark = scene_.clipMark();
+  if (mark.isVisible())
+  {
+    mark.setActiveFace((mark.activeFace() + 1) % kFaces);
+  }
+  else
+  {
+    this->toggle();
+  }
+  say_(std::string("clipping box: keys move ") + kFaceNames[mark.activeFace()]);
+}
+
+void ClipBoxTool::moveFace(int direction)
+{
+  ClipBoxMark& mark = scene_.clipMark();
+  if (!mark.isVisible())
+  {
+    this->toggle();
+  }
+  const int face = mark.activeFace();
+  this->move(face, this->box(), direction * kStep * scene_.cloudBounds().extent()[face / 2]);
+  this->finish();
+}
+
+/// Face @p face of @p from goes @p way outward: neither through the one opposite, nor, where it is not there
+/// yet, out of the cloud.
+void ClipBoxTool::move(int face, const Bounds& from, double way)
+{
+  const int axis = face / 2;
+  const Bounds cloud = scene_.cloudBounds();
+  const double thinnest = kThinnest * cloud.extent()[axis];
+  Bounds box = from;
+  if (face % 2 == 0)
+  {
+    const double least = std::min(cloud.minimum[axis], from.minimum[axis]);
+    const double most = std::max(least, from.maximum[axis] - thinnest);
+    box.minimum[axis] = std::clamp(from.minimum[axis] - way, least, most);
+  }
+  else
+  {
+    const double most = std::max(cloud.maximum[axis], from.maximum[axis]);
+    const double least = std::min(most, from.minimum[axis] + thinnest);
+    box.maximum[axis] = std::clamp(from.maximum[axis] + way, least, most);
+  }
+  options_.clip = clipNumbers(box);
+  scene_.setClip(options_.clip);
+  scene_.clipMark().setBox(box);
+}
+
+/// What is felt is what is shown.
+void ClipBoxTool::finish()
+{
+  clipped_();
+  const int face = scene_.clipMark().activeFace();
+  const std::vector<double>& clip = options_.clip;
+  say_(
+    fmt::format("clipping box: {} {:.6g} {}", kFaceNames[face], clip[std::size_t(face)], scene_.unit().name));
+}
+
+bool ClipBoxTool::takes(unsigned long event)
+{
+  const int* position = interactor_->GetEventPosition();
+  ClipBoxMark& mark = scene_.clipMark();
+  if (event == vtkCommand::LeftButtonPressEvent)
+  {
+    // With a key held the drag is the model's or the hand's.
+    const bool isPlain = !interactor_->GetShiftKey() && !interactor_->GetControlKey();
+    dragged_ = isPlain ? mark.faceAt(position[0], position[1]).value_or(-1) : -1;
+    if (dragged_ >= 0)
+    {
+      mark.setActiveFace(dragged_);
+      from_ = this->box();
+      fromX_ = position[0];
+      fromY_ = position[1];
+      perRight_ = mark.wayOf(dragged_, 1.0, 0.0);
+      perUp_ = mark.wayOf(dragged_, 0.0, 1.0);
+    }
+    return dragged_ >= 0;
+  }
+  if (dragged_ < 0)
+  {
+    return false;
+  }
+  this->move(dragged_, from_, perRight_ * (position[0] - fromX_) + perUp_ * (position[1] - fromY_));
+  if (event == vtkCommand::LeftButtonReleaseEvent)
+  {
+    dragged_ = -1;
+    this->finish();
+  }
+  this->render();
+  return true;
+}
+
+void ClipBoxTool::addCommands(CommandRegistry& commands, const std::function<ClipBoxTool*()>& tool)
+{
+  const auto isOpen = [tool] { return tool() != nullptr; };
+  const auto call = [tool](const std::function<void(ClipBoxTool&)>& action)
+  {
+    return [tool, action]
+    {
+      if (ClipBoxTool* open = tool())
+      {
+        action(*open);
+      }
+    };
+  };
+  const char* const group = "Show";
+  commands.add({ "clip-box", "C", group, "clipping box: drag its handles",
+    call([](ClipBoxTool& open) { open.toggle(); }), isOpen });
+  commands.add({ "clip-face", "Tab", group, "next face of the box; inward, outward",
+    call([](ClipBoxTool& open) { open.chooseNextFace(); }), isOpen });
+  commands.add({ "clip-inward", "comma less", group, "next face of the box; inward, outward",
+    call([](ClipBoxTool& open) { open.moveFace(-1); }), isOpen });
+  commands.add({ "clip-outward", "period greater", group, "next face of the box; inward, outward",
+    call([](ClipBoxTool& open) { open.moveFace(+1); }), isOpen });
+  commands.add({ "clip-nothing", "Delete", group, "clip nothing",
+    call([](ClipBoxTool& open) { open.clear(); }), isOpen });
+}
+
+} // namespace pointhaptics

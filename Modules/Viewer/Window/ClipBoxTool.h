@@ -1,0 +1,71 @@
+/// @file
+/// The clipping box under mouse and keys.
+#pragma once
+
+#include "Core/Base/PointView.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkWeakPointer.h>
+
+#include <functional>
+#include <string>
+
+class vtkRenderWindowInteractor;
+
+namespace pointhaptics
+{
+
+class CommandRegistry;
+class ViewScene;
+struct HapticViewerOptions;
+
+/// Shows the box; drags on a handle and keys move its faces. While a face is dragged the picture follows;
+/// what is felt follows when it is let go. GUI thread only.
+class ClipBoxTool
+{
+public:
+  /// @p scene and @p options, whose clip is kept up to date, must outlive this. @p clipped is called when the
+  /// box has become another and what is felt is to follow.
+  ClipBoxTool(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindowInteractor* interactor,
+    std::function<void()> clipped, std::function<void(const std::string&)> say);
+  ~ClipBoxTool();
+  ClipBoxTool(const ClipBoxTool&) = delete;
+  ClipBoxTool& operator=(const ClipBoxTool&) = delete;
+
+  /// Shows or hides the box; what it clips stays clipped.
+  void toggle();
+  /// The whole cloud again; the box goes.
+  void clear();
+  /// Keys work on the next face.
+  void chooseNextFace();
+  /// @p direction 1: outward, -1: inward.
+  void moveFace(int direction);
+  /// Another cloud is shown.
+  void forget();
+
+  /// Adds what the result of @p tool can do, as long as there is one.
+  static void addCommands(CommandRegistry& commands, const std::function<ClipBoxTool*()>& tool);
+
+private:
+  bool takes(unsigned long event);
+  Bounds box() const;
+  void move(int face, const Bounds& from, double way);
+  void finish();
+  void render();
+
+  ViewScene& scene_;
+  HapticViewerOptions& options_;
+  vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
+  std::function<void()> clipped_;
+  std::function<void(const std::string&)> say_;
+  vtkNew<vtkCallbackCommand> command_;
+  int dragged_ = -1; ///< A face; below 0: none.
+  int fromX_ = 0;
+  int fromY_ = 0;
+  double perRight_ = 0.0; ///< Way of the dragged face for a pixel, as the drag found it.
+  double perUp_ = 0.0;
+  Bounds from_;
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,298 @@
+// The pictures that a HapticViewer writes.
+#include "HapticViewerFixture.h"
+
+#include "CommandRegistry.h"
+#include "ViewDisplay.h"
+#include "vtkInteractorStyleHaptic.h"
+
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+using HapticViewerPictures = HapticViewerTest;
+
+TEST_F(HapticViewerPictures, LeavesTheBackgroundOutOfTransparentPictures)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.picture.background = "black";
+  HapticViewer opaque(options_, observer_);
+  ASSERT_TRUE(opaque.open(makeSphere())) << opaque.message();
+  ASSERT_TRUE(opaque.renderToFile(this->path("opaque.png"))) << opaque.message();
+  options_.picture.transparent = true;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("transparent.png"))) << viewer.message();
+  vtkNew<vtkPNGReader> readers[2];
+  readers[0]->SetFileName(this->path("opaque.png").c_str());
+  readers[1]->SetFileName(this->path("transparent.png").c_str());
+  readers[0]->Update();
+  readers[1]->Update();
+  ASSERT_EQ(readers[0]->GetNumberOfScalarComponents(), 3);
+  ASSERT_EQ(readers[1]->GetNumberOfScalarComponents(), 4);
+  vtkDataArray* expected = readers[0]->GetOutput()->GetPointData()->GetScalars();
+  vtkDataArray* got = readers[1]->GetOutput()->GetPointData()->GetScalars();
+  ASSERT_EQ(got->GetNumberOfTuples(), expected->GetNumberOfTuples());
+  vtkIdType clear = 0, solid = 0, wrong = 0;
+  for (vtkIdType i = 0; i < got->GetNumberOfTuples(); ++i)
+  {
+    const double opacity = got->GetComponent(i, 3) / 255.0;
+    clear += opacity == 0.0;
+    solid += opacity == 1.0;
+    for (int c = 0; c < 3; ++c) // laid on black it is the picture on black
+    {
+      wrong += std::abs(opacity * got->GetComponent(i, c) - expected->GetComponent(i, c)) > 2.0;
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(got->GetComponent(0, 3), 0.0);
+  EXPECT_GT(clear, got->GetNumberOfTuples() / 10);
+  EXPECT_GT(solid, got->GetNumberOfTuples() / 10);
+}
+
+/// Pixels of the colour of a measured line, and their middle.
+struct LinePixels
+{
+  int count = 0;
+  double x = 0.0;
+  double y = 0.0;
+  int left = 1000000;
+  int right = 0;
+};
+
+LinePixels linePixels(const std::string& fileName)
+{
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  const int* size = image->GetDimensions();
+  LinePixels found;
+  for (int i = 0; i < size[0] * size[1]; ++i)
+  {
+    vtkDataArray* pixels = image->GetPointData()->GetScalars();
+    if (pixels->GetComponent(i, 0) == 255.0 && pixels->GetComponent(i, 1) == 196.0 &&
+      pixels->GetComponent(i, 2) == 40.0)
+    {
+      ++found.count;
+      found.left = std::min(found.left, i % size[0]);
+      found.right = std::max(found.right, i % size[0]);
+      found.x += i % size[0];
+      found.y += i / size[0];
+    }
+  }
+  found.x /= std::max(1, found.count);
+  found.y /= std::max(1, found.count);
+  return found;
+}
+
+TEST_F(HapticViewerPictures, ShowsADistanceWhereItsEndsAre)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.width = 400;
+  options_.height = 300;
+  options_.up = "z";
+  options_.camera = { 0, -0.4, 0, 0, 0, 0, 0, 0, 1 };
+  HapticViewer none(options_, observer_);
+  ASSERT_TRUE(none.open(makeSphere())) << none.message();
+  ASSERT_TRUE(none.renderToFile(this->path("none.png"))) << none.message();
+  EXPECT_EQ(linePixels(this->path("none.png")).count, 0);
+  EXPECT_EQ(notes_.size(), 1u);
+  options_.picture.measure = { 0, 0, 0, 1, 0, 0 }; // to the right of the middle
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("right.png"))) << viewer.message();
+  const LinePixels right = linePixels(this->path("right.png"));
+  EXPECT_GT(right.count, 100);
+  EXPECT_GT(right.x, 200.0 + 10.0);
+  EXPECT_NEAR(right.y, 150.0, 3.0);
+  ASSERT_FALSE(notes_.empty());
+  EXPECT_EQ(notes_.back(), "  distance: 1.00000 m; dx 1.00000   dy 0.00000   dz 0.00000 m");
+  // The line goes with the model, and tells what is true of the file.
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  viewer.style()->GetModel().scale(0.5);
+  ASSERT_TRUE(viewer.renderToFile(this->path("half.png"))) << viewer.message();
+  const LinePixels half = linePixels(this->path("half.png"));
+  EXPECT_GT(half.count, 50);
+  EXPECT_LT(half.x, right.x - 5.0);
+  EXPECT_TRUE(viewer.stop());
+}
+
+TEST_F(HapticViewerPictures, WritesPicturesOfASizeOfTheirOwnThatShowWhatTheWindowShows)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.device = HapticViewerDevice::Simulated;
+  options_.width = 400;
+  options_.height = 200;
+  options_.up = "z";
+  options_.picture.screenshotSize = { 300, 300 };
+  options_.picture.measure = { -4, 0, 0, 4, 0, 0 };
+  options_.camera = { 0, -0.4, 0, 0, 0, 0, 0, 0, 1 };
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("off.png"))) << viewer.message();
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("first.png"))) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("second.png"))) << viewer.message();
+  vtkNew<vtkPNGReader> readers[3];
+  readers[0]->SetFileName(this->path("off.png").c_str());
+  readers[1]->SetFileName(this->path("first.png").c_str());
+  readers[2]->SetFileName(this->path("second.png").c_str());
+  for (auto& reader : readers)
+  {
+    reader->Update();
+    EXPECT_EQ(reader->GetOutput()->GetDimensions()[0], 300);
+    EXPECT_EQ(reader->GetOutput()->GetDimensions()[1], 300);
+  }
+  EXPECT_EQ(viewer.renderWindow()->GetSize()[0], 400);
+  // A picture as high as the window, of half its width, would end before the line does.
+  const LinePixels line = linePixels(this->path("first.png"));
+  EXPECT_GT(line.left, 10);
+  EXPECT_LT(line.right, 290);
+  EXPECT_EQ(line.count, linePixels(this->path("second.png")).count);
+  EXPECT_TRUE(viewer.stop());
+}
+
+TEST_F(HapticViewerPictures, WritesPicturesFromAllAroundTheCloud)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.width = 300;
+  options_.height = 300;
+  options_.up = "z";
+  options_.camera = { 0, -0.4, 0, 0, 0, 0, 0, 0, 1 };
+  options_.picture.measure = { 0, 0, 0, 1, 0, 0 };
+  options_.turntable = 4;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("turn.png"))) << viewer.message();
+  EXPECT_FALSE(std::filesystem::exists(this->path("turn.png")));
+  EXPECT_FALSE(std::filesystem::exists(this->path("turn-005.png")));
+  // The line to the right of the middle points to the viewer, to the left, and away. The camera goes to the
+  // right: what is there comes to the front.
+  const int middles[4] = { 1, 0, -1, 0 };
+  for (int i = 0; i < 4; ++i)
+  {
+    const LinePixels line = linePixels(this->path("turn-00" + std::to_string(i + 1) + ".png"));
+    EXPECT_GT(line.count, 10) << i;
+    const double aside = line.x - 150.0;
+    EXPECT_EQ(aside > 10.0 ? 1 : aside < -10.0 ? -1 : 0, middles[i]) << i;
+    EXPECT_NEAR(line.y, 150.0, 5.0) << i;
+  }
+  EXPECT_NE(notes_.front().find("turn-001.png to "), std::string::npos) << notes_.front();
+  EXPECT_NE(notes_.front().find("turn-004.png (300x300)"), std::string::npos) << notes_.front();
+}
+
+TEST_F(HapticViewerPictures, FeelsOnlyWhatIsInTheClippingBox)
+{
+  options_.clip = { -2, 2, -2, 2, 0.5, 2 }; // a cap of a quarter of the sphere
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  EXPECT_EQ(viewer.numberOfPoints(), kPoints);
+  vtkDataArray* counts = viewer.means()->GetPointData()->GetArray("VoxelPointCount");
+  ASSERT_NE(counts, nullptr);
+  double felt = 0.0;
+  for (vtkIdType i = 0; i < counts->GetNumberOfTuples(); ++i)
+  {
+    felt += counts->GetComponent(i, 0);
+  }
+  EXPECT_EQ(felt, kPoints / 4);
+  double bounds[6];
+  viewer.means()->GetBounds(bounds);
+  EXPECT_GT(bounds[4], 0.5 * 0.045 - 1e-6); // of a sphere of 4.5 cm
+  EXPECT_NEAR(bounds[5], 0.045, 1e-3);
+}
+
+TEST_F(HapticViewerPictures, SaysWhatBoxTheCloudHasWhereTheClippingBoxHoldsNothing)
+{
+  options_.clip = { 5, 6, 5, 6, 5, 6 };
+  options_.names.clip = "--clip";
+  HapticViewer viewer(options_, observer_);
+  EXPECT_FALSE(viewer.open({ this->writeCloud("plane.csv", 500) }));
+  EXPECT_NE(viewer.message().find("no point lies in the box of --clip 5,6,5,6,5,6"), std::string::npos)
+    << viewer.message();
+  EXPECT_NE(viewer.message().find("the cloud has 0,2.49,0,0.01,0,0"), std::string::npos) << viewer.message();
+}
+
+/// Pixels that differ from the lower left one by more than a little.
+int drawnPixels(const std::string& fileName, int fromRow, int toRow)
+{
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  const int* size = reader->GetOutput()->GetDimensions();
+  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
+  int drawn = 0;
+  for (int i = fromRow * size[0]; i < toRow * size[0]; ++i)
+  {
+    drawn += std::abs(pixels->GetComponent(i, 0) - pixels->GetComponent(0, 0)) > 40.0;
+  }
+  return drawn;
+}
+
+TEST_F(HapticViewerPictures, DrawsOnlyWhatIsInTheClippingBox)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.width = 300;
+  options_.height = 300;
+  options_.up = "z";
+  options_.camera = { 0, -0.4, 0, 0, 0, 0, 0, 0, 1 };
+  HapticViewer whole(options_, observer_);
+  ASSERT_TRUE(whole.open(makeSphere())) << whole.message();
+  ASSERT_TRUE(whole.renderToFile(this->path("whole.png"))) << whole.message();
+  EXPECT_GT(drawnPixels(this->path("whole.png"), 0, 145), 5000);
+  EXPECT_GT(drawnPixels(this->path("whole.png"), 155, 300), 5000);
+  // Far from the origin points are uploaded shifted.
+  for (const double offset : { 0.0, 5e5 })
+  {
+    const vtkSmartPointer<vtkPolyData> sphere = makeSphere();
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (vtkIdType i = 0; i < kPoints; ++i)
+    {
+      const double* p = sphere->GetPoint(i);
+      points->InsertNextPoint(p[0] + offset, p[1], p[2]);
+    }
+    sphere->SetPoints(points);
+    options_.clip = { offset - 2, offset + 2, -2, 2, 0, 2 };
+    HapticViewer viewer(options_, observer_);
+    ASSERT_TRUE(viewer.open(sphere)) << viewer.message();
+    ASSERT_TRUE(viewer.renderToFile(this->path("half.png"))) << viewer.message();
+    EXPECT_LT(drawnPixels(this->path("half.png"), 0, 100), 300) << offset << ": more than the brackets";
+    EXPECT_GT(drawnPixels(this->path("half.png"), 155, 300), 5000) << offset;
+  }
+}
+
+} // namespace
