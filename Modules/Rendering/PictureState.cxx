@@ -10,6 +10,7 @@
 #include "vtkMatrix4x4.h"
 #include "vtkProp3D.h"
 #include "vtkPropCollection.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
 #include <cstdint>
@@ -69,6 +70,8 @@ std::vector<double> pictureState(vtkRenderer* renderer)
   const double lens = camera->GetParallelProjection() ? -camera->GetParallelScale() : camera->GetViewAngle();
   state.push_back(lens);
   add(state, camera->GetWindowCenter(), 2);
+  vtkRenderWindow* window = renderer->GetRenderWindow();
+  state.push_back(window && window->GetStereoRender() ? camera->GetEyeAngle() : 0.0);
   const int* size = renderer->GetSize();
   const int* origin = renderer->GetOrigin();
   state.insert(state.end(), { double(size[0]), double(size[1]), double(origin[0]), double(origin[1]) });

@@ -118,7 +118,44 @@ void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
   }
 }
 
+/// With textures of its own: else each eye's picture would take the place of the other's, and none be kept.
+void vtkDepthShadingPass::RenderRightEye(const vtkRenderState* state)
+{
+  if (!this->RightEye)
+  {
+    this->RightEye = vtkSmartPointer<vtkDepthShadingPass>::New();
+  }
+  vtkDepthShadingPass* right = this->RightEye;
+  right->SetDelegatePass(this->DelegatePass);
+  right->SetNoiseLength(this->NoiseLength);
+  right->SetNoisePerDistance(this->NoisePerDistance);
+  right->SetStrength(this->Strength);
+  right->SetMinimumLightness(this->MinimumLightness);
+  right->SetFillsPinholes(this->FillsPinholes);
+  right->IsRightEye = true;
+  right->AddSamples(std::exchange(this->SamplesToAddRight, 0));
+  const vtkTypeUInt64 before = right->NumberOfPictures;
+  right->Render(state);
+  this->NumberOfPictures += right->NumberOfPictures - before;
+  this->NumberOfRenderedProps = right->GetNumberOfRenderedProps();
+}
+
 void vtkDepthShadingPass::Render(const vtkRenderState* state)
+{
+  vtkRenderer* renderer = state->GetRenderer();
+  vtkRenderWindow* window = renderer->GetRenderWindow();
+  const bool isRight = window && window->GetStereoRender() && !renderer->GetActiveCamera()->GetLeftEye();
+  if (isRight && !this->IsRightEye)
+  {
+    this->RenderRightEye(state);
+  }
+  else
+  {
+    this->RenderEye(state);
+  }
+}
+
+void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
 {
   this->NumberOfRenderedProps = 0;
   const int samplesToAdd = std::exchange(this->SamplesToAdd, 0);
@@ -377,6 +414,10 @@ void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* win
 void vtkDepthShadingPass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Superclass::ReleaseGraphicsResources(window);
+  if (this->RightEye)
+  {
+    this->RightEye->ReleaseGraphicsResources(window);
+  }
   this->Quad.reset();
   this->FillQuad.reset();
   if (this->Frame)

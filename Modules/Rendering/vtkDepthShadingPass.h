@@ -14,6 +14,8 @@
  * The camera's clipping range is widened to powers of the fourth root of 2: where it is reset, or another
  * prop comes into the scene, the picture of an equal view stays the same to the bit.
  *
+ * In a window with a picture for each eye (vtkRenderWindow::StereoRender) each has kept pictures of its own.
+ *
  * Sizes in pixels are those of a window of 800 lines and grow with it.
  *
  * A picture in which only text changed (vtkActor2D) is not drawn anew: the delegate's last one is taken.
@@ -101,7 +103,7 @@ public:
    * The next frame draws up to @p count samples more of its picture, until it has kMostSamples. A picture
    * that is not the kept one begins anew, with one sample more.
    */
-  void AddSamples(int count) { this->SamplesToAdd = count; }
+  void AddSamples(int count) { this->SamplesToAdd = this->SamplesToAddRight = count; }
   /**
    * Those of the picture that was shown last; 0: none was.
    */
@@ -123,6 +125,8 @@ private:
   vtkDepthShadingPass(const vtkDepthShadingPass&) = delete;
   void operator=(const vtkDepthShadingPass&) = delete;
 
+  void RenderEye(const vtkRenderState* state);
+  void RenderRightEye(const vtkRenderState* state);
   void PrepareTargets(vtkOpenGLRenderWindow* window);
   bool PrepareQuad(
     std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragment, vtkOpenGLRenderWindow* window);
@@ -157,6 +161,9 @@ private:
   bool KeptIsShaded = false;
   std::array<double, 5> KeptNumbers{}; // all settings they were made with
   int SamplesToAdd = 0;
+  int SamplesToAddRight = 0; // for the right eye
+  vtkSmartPointer<vtkDepthShadingPass> RightEye;
+  bool IsRightEye = false;
   int NumberOfSamples = 0;
   vtkTypeUInt64 NumberOfPictures = 0;
 };

@@ -14,6 +14,7 @@ struct PictureSettings
 {
   bool parallel = false;           ///< Parallel projection; else perspective.
   std::string background = "dark"; ///< One of groundNames(): dark, light, white, black.
+  std::string stereo = "none";     ///< One of stereoNames(): one picture, or how those of two eyes are shown.
   double pointScale = 1.0;         ///< Factor on the diameter of all points, 0.1 to 10.
   double depthStrength = 1.6;      ///< Of the shading by depth, 0 (none) to 10: see vtkDepthShadingPass.
   double fontScale = 1.0;          ///< Factor on the size of all texts, 0.5 to 4.

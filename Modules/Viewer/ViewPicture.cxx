@@ -2,6 +2,7 @@
 
 #include "PathTicks.h"
 #include "Replay.h"
+#include "StereoPicture.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
 
@@ -212,6 +213,8 @@ bool writePictureOfSize(vtkRenderWindow* window, vtkCamera* camera, const std::a
   other->SetMultiSamples(0);
   other->SetSize(size[0], size[1]);
   other->SetNumberOfLayers(window->GetNumberOfLayers());
+  other->SetStereoType(window->GetStereoType());
+  other->SetStereoRender(window->GetStereoRender() && window->GetStereoType() != VTK_STEREO_CRYSTAL_EYES);
   if (factor > 1.0)
   {
     widenView(camera, factor);
@@ -336,6 +339,16 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
 namespace
 {
 
+/// Says where a picture is for one eye alone though it was asked for two.
+void checkStereo(vtkRenderWindow* window, const std::string& stereo, const HapticViewerObserver& observer)
+{
+  if (!window->GetStereoRender() && stereo != stereoNames().front() && observer.message)
+  {
+    observer.message(HapticViewerObserver::Kind::Warning,
+      fmt::format("stereo: {} needs a screen that shows two pictures; this one is for one eye", stereo));
+  }
+}
+
 /// OUT-001.png for the first of OUT.png: with as many digits as the last one needs, and at least three.
 std::string numberedName(const std::string& fileName, int number, int last)
 {
@@ -391,6 +404,7 @@ bool makePicture(ViewScene& scene, const HapticViewerOptions& options, const Hap
   scene.placeAxes(scene.modelMatrix());
   scene.placeCamera(shown ? &shown->state : nullptr);
   scene.setCamera(options.camera);
+  checkStereo(window, options.picture.stereo, observer);
   const auto render = [&]
   {
     scene.completeNextFrame();

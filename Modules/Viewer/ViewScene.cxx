@@ -9,6 +9,7 @@
 #include "PolyDataAccess.h"
 #include "ScreenScale.h"
 #include "SteadyTime.h"
+#include "StereoPicture.h"
 #include "SurfaceArrays.h"
 #include "vtkCloudAxes.h"
 #include "vtkDepthShadingPass.h"
@@ -73,7 +74,7 @@ ViewScene::ViewScene()
   sizing->SetClientData(this);
   sizing->SetCallback(
     [](vtkObject*, unsigned long, void* self, void*) { static_cast<ViewScene*>(self)->beginFrame(); });
-  renderer_->AddObserver(vtkCommand::StartEvent, sizing);
+  renderer_->AddObserver(vtkCommand::StartEvent, sizing, 1.0F); // before what is placed for each eye
   vtkNew<vtkCallbackCommand> counting;
   counting->SetClientData(this);
   counting->SetCallback(
@@ -95,6 +96,7 @@ ViewScene::~ViewScene()
 void ViewScene::beginFrame()
 {
   applyTextScale(renderer_->GetRenderWindow(), picture_.fontScale);
+  tellStereo(renderer_);
   if (scalarBar_->GetVisibility() && !layoutPlacesBar_)
   {
     placeScalarBar(scalarBar_, renderer_);

@@ -84,6 +84,8 @@ public:
 
   /// Draws this and later clouds as @p picture says.
   void setPicture(const PictureSettings& picture);
+  /// Whether the window shows two pictures: not where it has no buffers for those that are asked for.
+  bool isStereo() const;
   const PictureSettings& picture() const { return picture_; }
   /// Whether a bar tells which values the colours stand for.
   bool isColoredByMap();

@@ -5,6 +5,7 @@
 #include "ClippedCloud.h"
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
+#include "StereoPicture.h"
 #include "vtkCloudAxes.h"
 
 #include <vtkActor.h>
@@ -68,6 +69,10 @@ void ViewScene::setPicture(const PictureSettings& picture)
   const bool hasOtherColors =
     picture.colorMap != picture_.colorMap || picture.colorRange != picture_.colorRange;
   picture_ = picture;
+  if (vtkRenderWindow* window = renderer_->GetRenderWindow())
+  {
+    static_cast<void>(applyStereo(window, picture.stereo)); // isStereo() tells
+  }
   if (shown_ && hasOtherColors)
   {
     this->applyColors();
@@ -81,6 +86,12 @@ void ViewScene::setPicture(const PictureSettings& picture)
     this->applyPicture();
     this->applyLook();
   }
+}
+
+bool ViewScene::isStereo() const
+{
+  vtkRenderer* renderer = renderer_;
+  return renderer->GetRenderWindow() && renderer->GetRenderWindow()->GetStereoRender();
 }
 
 double ViewScene::viewDistance() const

@@ -203,6 +203,20 @@ clip_is() {
   awk -v "n=$1" -F'[][,]' "{ exit !(\$(n + 1) $2) }" <<<"$(setting clip "$settings")" || fail "number $1 of the box is not $2: $(setting clip "$settings")"
 }
 
+ShiftSShowsTwoEyes() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device none --stereo red-blue
+  picture 1
+  key S
+  said "stereo: none"
+  picture 2
+  ! cmp -s pointhaptics-001.png pointhaptics-002.png || fail "the picture is the same"
+  key S
+  said "stereo: red-blue"
+  write_settings
+  is stereo '"red-blue"' || fail "the settings do not have it"
+}
+
 KeyAShowsTheAxes() {
   make sphere cloud.ply
   open_viewer cloud.ply

@@ -3,6 +3,7 @@
 
 #include "CommandRegistry.h"
 #include "ViewDisplay.h"
+#include "vtkDepthShadingPass.h"
 #include "vtkInteractorStyleHaptic.h"
 
 #include <vtkDataArray.h>
@@ -293,6 +294,62 @@ TEST_F(HapticViewerPictures, DrawsOnlyWhatIsInTheClippingBox)
     EXPECT_LT(drawnPixels(this->path("half.png"), 0, 100), 300) << offset << ": more than the brackets";
     EXPECT_GT(drawnPixels(this->path("half.png"), 155, 300), 5000) << offset;
   }
+}
+
+/// Pixels with red other than green: what only one eye sees in an anaglyph of a grey cloud.
+int coloredPixels(const std::string& fileName)
+{
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
+  int colored = 0;
+  for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
+  {
+    colored += std::abs(pixels->GetComponent(i, 0) - pixels->GetComponent(i, 1)) > 60.0;
+  }
+  return colored;
+}
+
+TEST_F(HapticViewerPictures, ShowsEachEyeItsPicture)
+{
+  std::string whyNot;
+  if (!displayIsAvailable(whyNot))
+  {
+    GTEST_SKIP() << whyNot;
+  }
+  options_.width = 300;
+  options_.height = 300;
+  options_.colorBy = "Height";
+  options_.picture.colorMap = "greys";
+  options_.device = HapticViewerDevice::None;
+  HapticViewer plain(options_, observer_);
+  ASSERT_TRUE(plain.open(makeSphere())) << plain.message();
+  ASSERT_TRUE(plain.renderToFile(this->path("plain.png"))) << plain.message();
+  EXPECT_LT(coloredPixels(this->path("plain.png")), 20);
+  options_.picture.stereo = "anaglyph";
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("anaglyph.png"))) << viewer.message();
+  const int colored = coloredPixels(this->path("anaglyph.png"));
+  EXPECT_GT(colored, 200);
+  // In a window the pictures at rest are kept, one for each eye.
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("window.png"))) << viewer.message();
+  vtkDepthShadingPass* shading = vtkDepthShadingPass::GetPassOf(viewer.renderer());
+  const vtkTypeUInt64 pictures = shading->GetNumberOfPictures();
+  ASSERT_TRUE(viewer.renderToFile(this->path("again.png"))) << viewer.message();
+  EXPECT_EQ(shading->GetNumberOfPictures(), pictures);
+  EXPECT_EQ(shading->GetNumberOfSamples(), vtkDepthShadingPass::kMostSamples);
+  EXPECT_EQ(coloredPixels(this->path("again.png")), coloredPixels(this->path("window.png")));
+  EXPECT_TRUE(viewer.style()->GetCommands().run("stereo"));
+  EXPECT_EQ(notes_.back(), "stereo: none");
+  ASSERT_TRUE(viewer.renderToFile(this->path("one.png"))) << viewer.message();
+  EXPECT_LT(coloredPixels(this->path("one.png")), colored / 4);
+  EXPECT_TRUE(viewer.style()->GetCommands().run("stereo"));
+  EXPECT_EQ(notes_.back(), "stereo: anaglyph");
+  EXPECT_TRUE(viewer.stop());
 }
 
 } // namespace

@@ -120,6 +120,17 @@ CLI::Option* addSize(CLI::App& command, const std::string& name, std::function<v
   return command.add_option_function<std::string>(name, store, description)->type_name("WxH");
 }
 
+CLI::Option* addClip(CLI::App& command, std::vector<double>& box, const std::string& description)
+{
+  const auto check = [](const std::vector<double>& ends)
+  {
+    return ends[0] < ends[1] && ends[2] < ends[3] && ends[4] < ends[5]
+      ? ""
+      : "no box; each minimum must be less than its maximum";
+  };
+  return addNumbers(command, "--clip", box, { 6 }, check, "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX", description);
+}
+
 CLI::Option* addResolution(CLI::App& command, double& value)
 {
   return addNumber(command, "--resolution", value, { 0.0, 1e30, true }, "UNITS",

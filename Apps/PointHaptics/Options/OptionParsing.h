@@ -58,6 +58,8 @@ CLI::Option* addInteger(CLI::App& command, const std::string& name, std::functio
 /// Adds an option taking a size in pixels, WxH, each from 16 to 16384, which is handed to @p keep.
 CLI::Option* addSize(CLI::App& command, const std::string& name, std::function<void(int, int)> keep,
   const std::string& description);
+/// Adds --clip: the box of a cloud that is shown and felt, six numbers in the coordinates of its file.
+CLI::Option* addClip(CLI::App& command, std::vector<double>& box, const std::string& description);
 /// Adds --resolution: how far a cloud optimised point cloud is read.
 CLI::Option* addResolution(CLI::App& command, double& value);
 /// Returns what is wrong with a list, and the cure, or an empty string.

@@ -47,6 +47,11 @@ const std::vector<KeyedHelp>& keyedHelps()
     { "--full-screen", "The window covers the screen, without a border", { "full-screen" } },
     { "--projection", "How the cloud is seen: perspective (the default), or parallel, without perspective",
       { "projection" } },
+    { "--stereo",
+      "A picture for each eye: by colours for red and cyan, or red and blue glasses, by lines, by pixels, "
+      "beside "
+      "each other, or on a screen that shows two",
+      { "stereo" } },
     { "--background", "What is behind the cloud; default dark", { "background" } },
     { "--point-scale", "All points are drawn this many times as large",
       { "points-larger", "points-smaller" } },

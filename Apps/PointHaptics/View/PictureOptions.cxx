@@ -4,6 +4,7 @@
 
 #include "CloudAppearance.h"
 #include "ColorMaps.h"
+#include "StereoPicture.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -27,6 +28,7 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture)
   const char* const group = "Picture";
   const auto project = [&picture](int choice) { picture.parallel = choice == 1; };
   addChoice(command, "--projection", project, { { "perspective", 0 }, { "parallel", 1 } }, "")->group(group);
+  addWord(command, "--stereo", picture.stereo, stereoNames(), "")->group(group);
   addWord(command, "--background", picture.background, groundNames(), "")->group(group);
   addNumber(command, "--point-scale", picture.pointScale, { 0.1, 10.0 }, "FACTOR", "")->group(group);
   addNumber(command, "--edl-strength", picture.depthStrength, { 0.0, 10.0 }, "STRENGTH", "")->group(group);
@@ -55,6 +57,7 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture)
 void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture)
 {
   settings["projection"] = picture.parallel ? "parallel" : "perspective";
+  settings["stereo"] = picture.stereo;
   settings["background"] = picture.background;
   settings["point-scale"] = picture.pointScale;
   settings["edl-strength"] = picture.depthStrength;

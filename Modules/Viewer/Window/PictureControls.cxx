@@ -1,5 +1,6 @@
 #include "PictureControls.h"
 
+#include "StereoPicture.h"
 #include "ViewScene.h"
 
 #include "CloudAppearance.h"
@@ -22,6 +23,9 @@ constexpr double kPointStep = 1.25;
 constexpr double kLargestScale = 10.0;
 constexpr double kDepthStep = 0.4;
 constexpr double kStrongest = 10.0;
+constexpr const char* kNoQuadBuffers =
+  " needs a screen that shows two pictures, and to be asked for at the start; choose anaglyph or another by "
+  "--stereo";
 /// Of the turntable: a turn takes 12 seconds.
 constexpr double kDegreesPerSecond = 30.0;
 constexpr double kLongestStep = 0.2; // seconds
@@ -96,6 +100,23 @@ void PictureControls::toggleFullScreen()
   {
     say_("full screen: this window system does not offer it; enlarge the window by its border");
   }
+}
+
+void PictureControls::toggleStereo()
+{
+  std::string& stereo = options_.picture.stereo;
+  if (stereo == stereoNames().front())
+  {
+    stereo = stereo_.empty() ? kUsualStereo : stereo_;
+  }
+  else
+  {
+    stereo_ = stereo;
+    stereo = stereoNames().front();
+  }
+  this->apply();
+  const bool fails = stereo != stereoNames().front() && !scene_.isStereo();
+  say_("stereo: " + stereo + (fails ? std::string(kNoQuadBuffers) : std::string()));
 }
 
 void PictureControls::toggleTurntable()
@@ -209,6 +230,8 @@ void PictureControls::addViewCommands(
     call(&Controls::toggleProjection), isOpen });
   commands.add(
     { "turntable", "T", group, "turn about the cloud, stop", call(&Controls::toggleTurntable), isOpen });
+  commands.add(
+    { "stereo", "S", group, "a picture for each eye, or one", call(&Controls::toggleStereo), isOpen });
   commands.add({ "full-screen", "F11", group, "full screen", call(&Controls::toggleFullScreen), isOpen });
 }
 

@@ -30,6 +30,8 @@ public:
   void fitView();
   void toggleProjection();
   void toggleFullScreen();
+  /// Pictures for two eyes, as they were asked for last, or one.
+  void toggleStereo();
   /// The view turns about the cloud, or stops.
   void toggleTurntable();
   /// Turns it on to what it is at @p seconds of a steady clock. False: it stands still.
@@ -57,6 +59,7 @@ private:
   HapticViewerOptions& options_;
   FullScreen fullScreen_;
   std::function<void(const std::string&)> say_;
+  std::string stereo_; ///< The one that was shown last; empty: none was.
   bool turns_ = false;
   double turnedAt_ = -1.0; ///< Seconds; below 0: not yet.
 };

@@ -18,6 +18,13 @@ std::string ViewWindow::scaleText()
   return isOffered ? scale + "    " + key + ": the file is in " + likely.name : scale;
 }
 
+/// The scale, and the last news.
+void ViewWindow::showNote()
+{
+  const std::string scale = this->scaleText();
+  style_->GetStatus().setNote(news_.empty() ? scale : scale + "\n" + news_);
+}
+
 /// Takes what the file seems to be in, and gives it back.
 void ViewWindow::toggleUnit()
 {

@@ -1,5 +1,6 @@
 #include "ViewWindow.h"
 
+#include "StereoPicture.h"
 #include "ViewEvents.h"
 #include "ViewScene.h"
 
@@ -91,6 +92,7 @@ void ViewWindow::report(HapticViewerObserver::Kind kind, const std::string& mess
 void ViewWindow::openWindow()
 {
   window_->SetMultiSamples(0);
+  window_->SetStereoCapableWindow(options_.picture.stereo == kQuadBuffers);
   window_->SetSize(options_.width, options_.height);
   window_->SetWindowName("PointHaptics");
   interactor_->SetRenderWindow(window_);
@@ -456,13 +458,6 @@ void ViewWindow::say(const std::string& news)
   this->report(HapticViewerObserver::Kind::Note, news);
   news_ = news;
   this->showNote();
-}
-
-/// The scale as it is after all zooming, and the last news.
-void ViewWindow::showNote()
-{
-  const std::string scale = this->scaleText();
-  style_->GetStatus().setNote(news_.empty() ? scale : scale + "\n" + news_);
 }
 
 /// To the host and in the window.

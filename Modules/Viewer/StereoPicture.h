@@ -1,0 +1,32 @@
+/// @file
+/// Pictures for two eyes.
+#pragma once
+
+#include "PointHapticsViewerModule.h" // For export macro
+
+#include <string>
+#include <vector>
+
+class vtkRenderer;
+class vtkRenderWindow;
+
+namespace pointhaptics
+{
+
+/// none, then the ways of VTK to show two pictures in one, then crystal-eyes, which needs a screen with
+/// buffers for both.
+POINTHAPTICSVIEWER_EXPORT const std::vector<std::string>& stereoNames();
+
+/// What is used where nobody has chosen.
+constexpr const char* kUsualStereo = "anaglyph";
+constexpr const char* kQuadBuffers = "crystal-eyes";
+
+/// Shows @p window as one of stereoNames() from its next frame on. False: it has no buffers for that, and
+/// shows one picture.
+bool applyStereo(vtkRenderWindow* window, const std::string& name);
+
+/// Before each frame: the camera of @p renderer learns whether its window shows two pictures, which VTK 9.1
+/// forgets where a renderer has a render pass.
+void tellStereo(vtkRenderer* renderer);
+
+} // namespace pointhaptics
