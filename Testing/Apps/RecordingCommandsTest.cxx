@@ -82,7 +82,7 @@ TEST_F(RecordingCommands, ViewAndFeelFeelAPathAlike)
   this->succeed({ "generate", "idol", "-n", "300000", "-o", "idol.ply" });
   const std::vector<std::vector<std::string>> options = { { "--scale", "0.8", "--mu-d", "0.2" },
     { "--unit", "m", "--no-covariance" }, { "--translate", "0.001,0,0", "--voxel", "0.0006" },
-    { "--unit", "m", "--method", "gradient-steps" }, {} };
+    { "--unit", "m", "--method", "gradient-steps" }, { "--unit", "m", "--clip", "-1,1,-1,1,-1,0.02" }, {} };
   for (const std::vector<std::string>& some : options)
   {
     std::vector<std::string> view = { "view", "idol.ply", "--path", kIdolPath, "--trace", "trace.csv" };
@@ -99,6 +99,25 @@ TEST_F(RecordingCommands, ViewAndFeelFeelAPathAlike)
     EXPECT_TRUE(trace == felt(this->read("out.csv"))) << (some.empty() ? "--fit" : some.front());
     EXPECT_NE(trace.find(",1\n"), std::string::npos) << "nothing was touched";
   }
+}
+
+TEST_F(RecordingCommands, ARecordingOfAClippedCloudIsFeltInItsBox)
+{
+  this->succeed({ "generate", "idol", "-n", "50000", "-o", "idol.ply" });
+  const std::vector<std::string> feel = { "feel", "idol.ply", "--path", kIdolPath, "--record", "rec.csv",
+    "-o" };
+  std::vector<std::string> whole = feel;
+  whole.emplace_back("whole.csv");
+  this->succeed(whole);
+  std::vector<std::string> clipped = feel;
+  clipped.insert(clipped.end(), { "clipped.csv", "--clip", "-1,1,-1,1,-1,0.02" });
+  this->succeed(clipped);
+  const std::string expected = felt(this->read("clipped.csv"));
+  EXPECT_NE(felt(this->read("whole.csv")), expected) << "the box changes nothing that is touched";
+  this->succeed({ "feel", "--replay", "rec.csv", "-o", "again.csv" });
+  EXPECT_TRUE(felt(this->read("again.csv")) == expected);
+  this->succeed({ "view", "--replay", "rec.csv", "--trace", "trace.csv" });
+  EXPECT_TRUE(felt(this->read("trace.csv")) == expected);
 }
 
 TEST_F(RecordingCommands, FeelTakesAConfigurationOfTheViewer)

@@ -10,6 +10,7 @@
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
 
+#include "ClippedCloud.h"
 #include "CsvWriter.h"
 #include "PathTicks.h"
 #include "RecordingWriter.h"
@@ -370,7 +371,7 @@ int runFeel(const FeelOptions& options)
   rememberStopSignals(); // before there is an unfinished file
   RecordingWriter recording;
   CsvWriter table;
-  if (!openRecordingOutput(options, cloud.points, recording, message) ||
+  if (!openRecordingOutput(options, clippedCloud(cloud.points, clipBox(options.clip)), recording, message) ||
     !table.open(options.output, header(), message))
   {
     return fail(kCommand, message);

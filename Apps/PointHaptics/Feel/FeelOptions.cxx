@@ -62,6 +62,8 @@ void FeelOptions::addTo(CLI::App& command)
     ->type_name("FILE.json");
   command.add_flag("--fit", this->fit,
     "Fit the cloud to the 10 cm workspace and choose its voxels, as view does where no transform is given");
+  addClip(
+    command, this->clip, "Only what lies in this box is felt, in coordinates of the file; default: all");
   command.add_option("-o,--output", this->output, "Where the felt forces go, one row a tick")
     ->required()
     ->type_name("OUT.csv");

@@ -8,6 +8,7 @@
 #include "Options/TouchOptions.h"
 
 #include <string>
+#include <vector>
 
 namespace CLI
 {
@@ -27,8 +28,9 @@ struct FeelOptions
   std::string replay; ///< A recording to feel again, instead of a path.
   std::string record; ///< A recording to write, beside the output.
   std::string config;
-  std::string settings; ///< All that was given, as a configuration in one line; filled in by complete().
-  bool fit = false;     ///< Fit the cloud to the workspace, as view does.
+  std::string settings;     ///< All that was given, as a configuration in one line; filled in by complete().
+  bool fit = false;         ///< Fit the cloud to the workspace, as view does.
+  std::vector<double> clip; ///< See HapticViewerOptions::clip.
   bool methodIsGiven = false; ///< --method, which a replay takes instead of its own.
   LatticeOptions lattice;
   BandwidthOptions bandwidth;

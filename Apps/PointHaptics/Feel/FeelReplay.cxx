@@ -1,8 +1,10 @@
 #include "Feel/FeelReplay.h"
 
+#include "Options/ConfigFile.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
 
+#include "ClippedCloud.h"
 #include "LoadedCloud.h"
 #include "RecordedScenes.h"
 
@@ -38,12 +40,12 @@ bool openRecording(const std::string& fileName, const std::string& cloudFile, Re
   {
     return false;
   }
-  if (!RecordedScenes::isOf(recording, loaded.cloud, message))
+  cloud = clippedCloud(loaded.cloud, clipBox(numbersOf(recording.header.settings, "clip")));
+  if (!RecordedScenes::isOf(recording, cloud, message))
   {
     message.insert(0, request.files.front() + ": ");
     return false;
   }
-  cloud = loaded.cloud;
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
 
+#include "ClippedCloud.h"
 #include "FeelScenes.h"
 #include "HapticViewerOptions.h"
 #include "LoadedCloud.h"
@@ -59,6 +60,8 @@ std::shared_ptr<const HapticScene> resampledScene(
   HapticViewerOptions viewer;
   viewer.transform = options.lattice.transform();
   viewer.fitsWorkspace = options.fit;
+  viewer.clip = options.clip;
+  viewer.names.clip = "--clip";
   viewer.voxels = options.lattice.voxels;
   if (!options.lattice.voxelsAreGiven)
   {
@@ -106,10 +109,11 @@ bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& 
   {
     auto whole = resampledScene(options, cloud, settings.workspace, message);
     const bool isMade = whole != nullptr;
-    scenes.adopt(std::move(whole), cloud->GetPoints(), settings);
+    scenes.adopt(std::move(whole), clippedCloud(cloud, clipBox(options.clip))->GetPoints(), settings);
     return isMade;
   }
-  const vtkSmartPointer<vtkPolyData> prepared = rawPoints(options, cloud);
+  const vtkSmartPointer<vtkPolyData> felt = clippedCloud(cloud, clipBox(options.clip));
+  const vtkSmartPointer<vtkPolyData> prepared = rawPoints(options, felt);
   if (prepared->GetNumberOfPoints() == 0)
   {
     message =
@@ -117,7 +121,7 @@ bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& 
     return false;
   }
   settings.workspace = options.lattice.workspace();
-  if (const Status status = scenes.make(prepared, cloud->GetPoints(), settings); status != Status::Ok)
+  if (const Status status = scenes.make(prepared, felt->GetPoints(), settings); status != Status::Ok)
   {
     message = options.file + ": " + pointhaptics::message(status);
     return false;

@@ -16,8 +16,8 @@ class FeelScenes;
 namespace app
 {
 
-/// Resamples @p cloud, or takes its points as they are (--raw), and makes @p scenes of that. False: @p
-/// message says why there is nothing to feel.
+/// Resamples @p cloud, or what --clip leaves of it, or takes its points as they are (--raw), and makes @p
+/// scenes of that. False: @p message says why there is nothing to feel.
 bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& scenes, std::string& message);
 
 } // namespace app

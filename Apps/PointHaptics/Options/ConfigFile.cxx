@@ -1,5 +1,7 @@
 #include "Options/ConfigFile.h"
 
+#include "Options/OptionParsing.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -146,6 +148,29 @@ std::string applyKeys(CLI::App& command, const nlohmann::json& keys, const std::
 }
 
 } // namespace
+
+std::vector<double> numbersOf(const std::string& settings, const std::string& key)
+{
+  const nlohmann::json keys = nlohmann::json::parse(settings, nullptr, false, true);
+  const auto found = keys.is_object() ? keys.find(key) : keys.end();
+  std::vector<double> numbers;
+  if (!keys.is_object() || found == keys.end())
+  {
+    return numbers;
+  }
+  if (found->is_string()) // as the command line has it
+  {
+    return parseNumbers(found->get<std::string>(), numbers) ? numbers : std::vector<double>();
+  }
+  for (const nlohmann::json& each : *found)
+  {
+    if (each.is_number())
+    {
+      numbers.push_back(each.get<double>());
+    }
+  }
+  return numbers;
+}
 
 bool applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored,
   std::string& message)

@@ -24,5 +24,8 @@ std::vector<std::string> configurableNames(CLI::App& command);
 bool applyConfigFile(CLI::App& command, const std::string& fileName, const std::vector<std::string>& ignored,
   std::string& message);
 
+/// The numbers of @p key in @p settings, a configuration in one line; empty: it has none.
+std::vector<double> numbersOf(const std::string& settings, const std::string& key);
+
 } // namespace app
 } // namespace pointhaptics

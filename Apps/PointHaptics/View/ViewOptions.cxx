@@ -156,13 +156,7 @@ void ViewOptions::addTo(CLI::App& command)
     "Axis of the cloud that points up; default: a guess");
   addWord(command, "--kind", this->viewer.kind, { "auto", "object", "terrain", "sweep", "indoors", "frame" },
     "What the cloud is, and so from where it is seen and how it is drawn; default: a guess");
-  const auto checkBox = [](const std::vector<double>& box)
-  {
-    return box[0] < box[1] && box[2] < box[3] && box[4] < box[5]
-      ? ""
-      : "no box; each minimum must be less than its maximum";
-  };
-  addNumbers(command, "--clip", this->viewer.clip, { 6 }, checkBox, "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX", "");
+  addClip(command, this->viewer.clip, "");
   command.add_flag("--felt", this->viewer.felt);
   command.add_option("--color-by", this->viewer.colorBy)->type_name("ARRAY[:COMPONENT]");
   addNumber(command, "--point-size", this->viewer.pointSize, { 1.0, 50.0 }, "PIXELS",
@@ -236,6 +230,24 @@ void ViewOptions::checkFiles() const
   }
 }
 
+/// The cloud of a recording, and the box that it was felt in.
+bool ViewOptions::takeRecording(std::string& message)
+{
+  Recording recording;
+  if (!readRecording(this->viewer.replay, recording, message))
+  {
+    return false;
+  }
+  if (this->files.empty())
+  {
+    this->files = recording.header.cloud.files;
+    this->viewer.resolution = recording.header.cloud.resolution;
+    this->viewer.together = this->files.size() > 1;
+  }
+  this->viewer.clip = numbersOf(recording.header.settings, "clip");
+  return true;
+}
+
 bool ViewOptions::complete(CLI::App& command, std::string& message)
 {
   if (!this->readConfig(command, message))
@@ -243,16 +255,9 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
     return false;
   }
   this->checkFiles();
-  if (this->files.empty() && !this->viewer.replay.empty())
+  if (!this->viewer.replay.empty() && !this->takeRecording(message))
   {
-    Recording recording;
-    if (!readRecording(this->viewer.replay, recording, message))
-    {
-      return false;
-    }
-    this->files = recording.header.cloud.files;
-    this->viewer.resolution = recording.header.cloud.resolution;
-    this->viewer.together = this->files.size() > 1;
+    return false;
   }
   this->touch.complete(command);
   this->completeViewer(command);
