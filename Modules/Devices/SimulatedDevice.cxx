@@ -79,6 +79,7 @@ Status SimulatedDevice::open()
   force_ = {};
   lastTarget_ = position_;
   target_.write(position_);
+  seenPlacings_ = placings_.load(std::memory_order_relaxed);
   timed_ = false;
   open_ = true;
   return Status::Ok;
@@ -96,6 +97,7 @@ Status SimulatedDevice::read(double timeSeconds, HandState& state) noexcept
   {
     return Status::DeviceNotOpen;
   }
+  state.isNew = false;
   if (!path_.points.empty())
   {
     if (timeSeconds > path_.duration() + kTimeTolerance)
@@ -107,11 +109,15 @@ Status SimulatedDevice::read(double timeSeconds, HandState& state) noexcept
   }
   else
   {
+    // Before the target, which is written first.
+    const std::uint32_t placings = placings_.load(std::memory_order_acquire);
     // Met half way through a write the target before it serves one tick more.
-    static_cast<void>(target_.tryRead(lastTarget_));
+    state.isNew = target_.tryRead(lastTarget_) && placings != seenPlacings_;
+    seenPlacings_ = state.isNew ? placings : seenPlacings_;
   }
-  const double elapsed = timed_ ? timeSeconds - lastTime_ : 0.0;
-  if (!settings_.yieldsToForce)
+  const double elapsed = timed_ && !state.isNew ? timeSeconds - lastTime_ : 0.0;
+  velocity_ = state.isNew ? Vec3() : velocity_;
+  if (!settings_.yieldsToForce || state.isNew)
   {
     position_ = lastTarget_;
   }
@@ -164,6 +170,15 @@ void SimulatedDevice::setTarget(const Vec3& target) noexcept
   if (isFinite(target))
   {
     target_.write(clamped(target, settings_.workspace));
+  }
+}
+
+void SimulatedDevice::placeAt(const Vec3& target) noexcept
+{
+  if (isFinite(target))
+  {
+    this->setTarget(target);
+    placings_.fetch_add(1, std::memory_order_release);
   }
 }
 

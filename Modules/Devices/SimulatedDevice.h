@@ -31,8 +31,8 @@ struct SimulatedHandSettings
 ///
 /// The person's target comes from setTarget(), such as the mouse, or from a path (setPath()).
 ///
-/// setTarget() and setButtons() may be called from one other thread at any time; neither side waits for the
-/// other.
+/// setTarget(), placeAt() and setButtons() may be called from one other thread at any time; neither side
+/// waits for the other.
 class SimulatedDevice : public HapticDevice
 {
 public:
@@ -58,6 +58,9 @@ public:
 
   /// Where the person wants the hand, workspace frame, metres; not finite: ignored.
   void setTarget(const Vec3& target) noexcept;
+  /// The same, and the hand is there at the next read(), at rest, without a way from where it was
+  /// (HandState::isNew): what lies between is not touched.
+  void placeAt(const Vec3& target) noexcept;
   /// The target in effect, after clamping. Any thread.
   Vec3 target() const noexcept { return target_.read(); }
   void setButtons(std::uint32_t buttons) noexcept { buttons_.store(buttons, std::memory_order_relaxed); }
@@ -70,6 +73,8 @@ private:
   std::size_t hint_ = 0;
   LatestValue<Vec3> target_;
   std::atomic<std::uint32_t> buttons_{ 0 };
+  std::atomic<std::uint32_t> placings_{ 0 }; ///< Calls of placeAt().
+  std::uint32_t seenPlacings_ = 0;
   Vec3 lastTarget_;
   Vec3 position_;
   Vec3 velocity_;

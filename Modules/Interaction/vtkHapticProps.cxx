@@ -1,5 +1,6 @@
 #include "vtkHapticProps.h"
 
+#include "TouchOutlines.h"
 #include "vtkHapticGauge.h"
 
 #include "vtkActor.h"
@@ -28,16 +29,30 @@ VTK_MODULE_INIT(vtkRenderingOpenGL2);
 VTK_MODULE_INIT(vtkRenderingUI);
 
 using pointhaptics::ProxyState;
+using pointhaptics::TouchMarks;
+using pointhaptics::TouchOutlines;
 using pointhaptics::Vec3;
 
 namespace
 {
 
-constexpr double kPink[3] = { 1.0, 0.30, 0.62 };
-constexpr double kPalePink[3] = { 1.0, 0.55, 0.78 };
-constexpr double kGreen[3] = { 0.05, 0.78, 0.15 };
-constexpr double kBlue[3] = { 0.05, 0.25, 0.95 };
-constexpr double kOrange[3] = { 0.95, 0.42, 0.02 };
+/// Of the marks.
+struct Colors
+{
+  double sphere[3];
+  double freeSphere[3];
+  double normal[3];
+  double hip[3];
+  double force[3];
+  float lineWidth;
+};
+constexpr Colors kUsual = { { 1.0, 0.30, 0.62 }, { 1.0, 0.55, 0.78 }, { 0.05, 0.78, 0.15 },
+  { 0.05, 0.25, 0.95 }, { 0.95, 0.42, 0.02 }, 4.0f };
+/// Of Okabe and Ito's palette; they differ in lightness too.
+constexpr Colors kHighContrast = { { 0.94, 0.89, 0.26 }, { 0.97, 0.94, 0.60 }, { 1.0, 1.0, 1.0 },
+  { 0.34, 0.71, 0.91 }, { 0.84, 0.37, 0.0 }, 6.0f };
+/// Of outlines, with high contrast.
+constexpr double kThicker = 1.6;
 constexpr double kSmallestForce = 0.01; // newtons: shorter arrows are not drawn
 
 /// Sizes as parts of the workspace's edge.
@@ -49,6 +64,13 @@ constexpr double kArrowThickness = 0.06;
 constexpr double kSphereGhost = 0.75;
 constexpr double kFreeSphereGhost = 0.35;
 constexpr double kVisibleMotion = 1e-4;
+/// Of the arrow, over its length and thickness.
+constexpr double kShaftRadius = 0.10;
+constexpr double kTipRadius = 0.24;
+constexpr double kTipLength = 0.3;
+/// Radius of the ring about the nearest point: of its distance, and at least, of the edge.
+constexpr double kRingPart = 0.3;
+constexpr double kSmallestRing = 0.012;
 
 /// One shape with its actor, and a faint copy that is not hidden by what stands in front of it.
 struct Prop
@@ -81,6 +103,16 @@ struct Prop
       each->PickableOff();
     }
   }
+  void setColor(const double color[3])
+  {
+    actor->GetProperty()->SetColor(const_cast<double*>(color));
+    ghost->GetProperty()->SetColor(const_cast<double*>(color));
+  }
+  void setLineWidth(float width)
+  {
+    actor->GetProperty()->SetLineWidth(width);
+    ghost->GetProperty()->SetLineWidth(width);
+  }
   void setVisible(bool visible)
   {
     actor->SetVisibility(visible);
@@ -107,6 +139,16 @@ void setFrame(vtkMatrix4x4* matrix, const Vec3& origin, const Vec3& along, doubl
   }
 }
 
+Vec3 columnOf(vtkMatrix4x4* matrix, int column)
+{
+  return { matrix->GetElement(0, column), matrix->GetElement(1, column), matrix->GetElement(2, column) };
+}
+
+Vec3 originOf(vtkMatrix4x4* matrix)
+{
+  return columnOf(matrix, 3);
+}
+
 } // namespace
 
 struct vtkHapticProps::Internals
@@ -122,6 +164,13 @@ struct vtkHapticProps::Internals
   Prop normal;
   Prop hip;
   Prop force;
+  TouchOutlines outlines{ [this] { return this->marks(); } };
+  Colors colors = kUsual;
+  bool outlined = false;
+  bool highContrast = false;
+  bool showsNearest = false;
+  Vec3 nearest;
+  Vec3 nearestTo;
   vtkNew<vtkMatrix4x4> proxyMatrix;
   vtkNew<vtkMatrix4x4> normalMatrix;
   vtkNew<vtkMatrix4x4> hipMatrix;
@@ -131,6 +180,8 @@ struct vtkHapticProps::Internals
   double edge = 0.1;
   bool shown = false;
   ProxyState state;
+
+  TouchMarks marks();
 
   /// On the screen: the gauge stands where the arrow goes, not over what it comes from.
   bool pointsLeft(const Vec3& begin, const Vec3& tip) const
@@ -147,6 +198,50 @@ struct vtkHapticProps::Internals
     return dot(tip - begin, cross(forward, up)) < 0.0;
   }
 };
+
+/// What is outlined, as it is shown.
+TouchMarks vtkHapticProps::Internals::marks()
+{
+  TouchMarks marks;
+  marks.width = this->highContrast ? kThicker : 1.0;
+  if (this->showsNearest)
+  {
+    const double away = norm(this->nearestTo - this->nearest);
+    marks.hand = this->nearestTo;
+    marks.nearest = this->nearest;
+    marks.ringRadius = std::max(kSmallestRing * this->edge, kRingPart * away);
+  }
+  if (!this->outlined)
+  {
+    return marks;
+  }
+  if (this->proxy.actor->GetVisibility())
+  {
+    marks.proxy = originOf(this->proxyMatrix);
+    marks.proxyRadius = norm(columnOf(this->proxyMatrix, 0));
+  }
+  if (this->hip.actor->GetVisibility())
+  {
+    marks.hip = originOf(this->hipMatrix);
+    marks.hipRadius = norm(columnOf(this->hipMatrix, 0));
+  }
+  if (this->normal.actor->GetVisibility())
+  {
+    marks.normalBegin = originOf(this->normalMatrix);
+    marks.normalEnd = marks.normalBegin + columnOf(this->normalMatrix, 0);
+  }
+  if (this->force.actor->GetVisibility())
+  {
+    const Vec3 along = columnOf(this->forceMatrix, 0);
+    const double thickness = norm(columnOf(this->forceMatrix, 1));
+    marks.arrowBegin = originOf(this->forceMatrix);
+    marks.arrowEnd = marks.arrowBegin + along;
+    marks.arrowNeck = marks.arrowEnd - kTipLength * along;
+    marks.shaftRadius = kShaftRadius * thickness;
+    marks.tipRadius = kTipRadius * thickness;
+  }
+  return marks;
+}
 
 vtkStandardNewMacro(vtkHapticProps);
 
@@ -170,15 +265,14 @@ vtkHapticProps::vtkHapticProps()
   parts.line->SetPoint2(1.0, 0.0, 0.0);
   parts.arrow->SetShaftResolution(20);
   parts.arrow->SetTipResolution(20);
-  parts.arrow->SetShaftRadius(0.10);
-  parts.arrow->SetTipRadius(0.24);
-  parts.arrow->SetTipLength(0.3);
-  parts.proxy.setUp(parts.sphere->GetOutputPort(), kPink, true, kSphereGhost);
-  parts.normal.setUp(parts.line->GetOutputPort(), kGreen, false, 1.0);
-  parts.hip.setUp(parts.ball->GetOutputPort(), kBlue, true, 0.55);
-  parts.force.setUp(parts.arrow->GetOutputPort(), kOrange, true, 0.55);
-  parts.normal.actor->GetProperty()->SetLineWidth(4.0f);
-  parts.normal.ghost->GetProperty()->SetLineWidth(4.0f);
+  parts.arrow->SetShaftRadius(kShaftRadius);
+  parts.arrow->SetTipRadius(kTipRadius);
+  parts.arrow->SetTipLength(kTipLength);
+  parts.proxy.setUp(parts.sphere->GetOutputPort(), kUsual.sphere, true, kSphereGhost);
+  parts.normal.setUp(parts.line->GetOutputPort(), kUsual.normal, false, 1.0);
+  parts.hip.setUp(parts.ball->GetOutputPort(), kUsual.hip, true, 0.55);
+  parts.force.setUp(parts.arrow->GetOutputPort(), kUsual.force, true, 0.55);
+  parts.normal.setLineWidth(kUsual.lineWidth);
   parts.proxy.place(parts.proxyMatrix);
   parts.normal.place(parts.normalMatrix);
   parts.hip.place(parts.hipMatrix);
@@ -220,6 +314,11 @@ void vtkHapticProps::SetGaugeVisibility(bool visible)
 void vtkHapticProps::SetHandVisibility(bool visible)
 {
   this->HandVisibility = visible;
+  this->Parts->outlined = visible && this->OutlineVisibility;
+  if (!visible)
+  {
+    this->HideNearest();
+  }
   if (this->Parts->shown)
   {
     this->Parts->shown = false;
@@ -243,6 +342,7 @@ void vtkHapticProps::AddTo(vtkRenderer* renderer)
     renderer->AddActor(prop->actor);
     renderer->AddActor(prop->ghost);
   }
+  this->Parts->outlines.addTo(renderer);
   this->Parts->gauge->AddTo(renderer);
 }
 
@@ -254,7 +354,70 @@ void vtkHapticProps::RemoveFrom(vtkRenderer* renderer)
     renderer->RemoveActor(prop->actor);
     renderer->RemoveActor(prop->ghost);
   }
+  this->Parts->outlines.removeFrom(renderer);
   this->Parts->gauge->RemoveFrom(renderer);
+}
+
+void vtkHapticProps::SetOutlineVisibility(bool visible)
+{
+  this->OutlineVisibility = visible;
+  this->Parts->outlined = visible && this->HandVisibility;
+  this->Modified();
+}
+
+void vtkHapticProps::SetHighContrast(bool high)
+{
+  Internals& parts = *this->Parts;
+  if (high == this->HighContrast)
+  {
+    return;
+  }
+  this->HighContrast = parts.highContrast = high;
+  parts.colors = high ? kHighContrast : kUsual;
+  parts.normal.setColor(parts.colors.normal);
+  parts.normal.setLineWidth(parts.colors.lineWidth);
+  parts.hip.setColor(parts.colors.hip);
+  parts.force.setColor(parts.colors.force);
+  parts.gauge->SetOpaque(high);
+  if (parts.shown)
+  {
+    parts.shown = false;
+    this->Update(parts.state);
+  }
+  this->Modified();
+}
+
+bool vtkHapticProps::ShowNearest(const double hip[3], const double point[3])
+{
+  Internals& parts = *this->Parts;
+  const Vec3 from{ hip[0], hip[1], hip[2] };
+  const Vec3 to{ point[0], point[1], point[2] };
+  if (!this->HandVisibility || !isFinite(from - to) || from == to)
+  {
+    return this->HideNearest();
+  }
+  const double visible = kVisibleMotion * parts.edge;
+  if (parts.showsNearest && norm(from - parts.nearestTo) < visible && norm(to - parts.nearest) < visible)
+  {
+    return false;
+  }
+  parts.nearest = to;
+  parts.nearestTo = from;
+  parts.showsNearest = true;
+  return true;
+}
+
+bool vtkHapticProps::HideNearest()
+{
+  const bool wasShown = this->Parts->showsNearest;
+  this->Parts->showsNearest = false;
+  return wasShown;
+}
+
+bool vtkHapticProps::GetNearest(double point[3]) const
+{
+  std::copy(&this->Parts->nearest.x, &this->Parts->nearest.x + 3, point);
+  return this->Parts->showsNearest;
 }
 
 bool vtkHapticProps::Update(const ProxyState& state)
@@ -298,7 +461,7 @@ bool vtkHapticProps::Update(const ProxyState& state)
     parts.gauge->SetVisibility(false);
   }
   vtkProperty* sphere = parts.proxy.actor->GetProperty();
-  sphere->SetColor(const_cast<double*>(state.contact ? kPink : kPalePink));
+  sphere->SetColor(const_cast<double*>(state.contact ? parts.colors.sphere : parts.colors.freeSphere));
   sphere->SetOpacity(state.contact ? 1.0 : 0.45);
   vtkProperty* ghost = parts.proxy.ghost->GetProperty();
   ghost->SetColor(sphere->GetColor());
@@ -341,6 +504,8 @@ void vtkHapticProps::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ForceScale: " << this->ForceScale << "\n";
   os << indent << "SmallestSphereRadius: " << this->SmallestSphereRadius << "\n";
   os << indent << "GaugeVisibility: " << this->GaugeVisibility << "\n";
+  os << indent << "HighContrast: " << this->HighContrast << "\n";
+  os << indent << "OutlineVisibility: " << this->OutlineVisibility << "\n";
   os << indent << "HandVisibility: " << this->HandVisibility << "\n";
   os << indent << "TouchVisibility: " << this->TouchVisibility << "\n";
 }

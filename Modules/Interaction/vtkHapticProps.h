@@ -92,6 +92,25 @@ public:
   bool GetHandVisibility() const { return this->HandVisibility; }
   ///@}
 
+  ///@{
+  /**
+   * Draw a light line with dark edges about sphere, arrow, normal and HIP: they are seen on every background
+   * and every colour of cloud. Lines are as wide as the window's dots per inch say. Not where the hand is
+   * not shown. Default: off.
+   */
+  void SetOutlineVisibility(bool visible);
+  bool GetOutlineVisibility() const { return this->OutlineVisibility; }
+  ///@}
+
+  ///@{
+  /**
+   * Draw the marks in colours that people with colour vision deficiencies tell apart (white normal, yellow
+   * sphere, sky-blue HIP, vermilion force), thicker, with the gauge on an opaque plate. Default: off.
+   */
+  void SetHighContrast(bool high);
+  bool GetHighContrast() const { return this->HighContrast; }
+  ///@}
+
   /**
    * The gauge, to set its range.
    */
@@ -110,6 +129,17 @@ public:
    * worth a render.
    */
   bool Update(const pointhaptics::ProxyState& state);
+
+  ///@{
+  /**
+   * Show where a hand in free space would touch: a yellow line from @p hip to @p point of the cloud, and a
+   * ring about it, the smaller the nearer. True: the picture changed. GetNearest: the point; whether it is
+   * shown.
+   */
+  bool ShowNearest(const double hip[3], const double point[3]);
+  bool HideNearest();
+  bool GetNearest(double point[3]) const;
+  ///@}
 
   ///@{
   /**
@@ -132,6 +162,8 @@ protected:
   bool TouchVisibility = false;
   bool GaugeVisibility = true;
   bool HandVisibility = true;
+  bool OutlineVisibility = false;
+  bool HighContrast = false;
 
 private:
   vtkHapticProps(const vtkHapticProps&) = delete;

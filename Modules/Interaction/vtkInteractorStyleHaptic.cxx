@@ -26,6 +26,7 @@ vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
   , Scenes(this->Model)
   , Hand(this->Screen, this->Model)
   , Clutch(this->Commands, this->Screen, this->Model)
+  , Distance(this->Scenes)
   , Cap(this->Model, this->Screen)
   , Tdx(vtkSmartPointer<vtkTDxInteractorStyleModel>::New())
   , Status(this->Commands, this->Scenes, this->Hand, this->Clutch)
@@ -142,7 +143,9 @@ void vtkInteractorStyleHaptic::Refresh()
   this->Scenes.poll();
   const std::vector<ServoSample> samples = this->TakeSamples();
   const ServoSample latest = this->Servo ? this->Servo->latest() : ServoSample();
-  const bool touchMoved = this->Servo && this->Display.update(samples, latest);
+  bool touchMoved = this->Servo && this->Display.update(samples, latest);
+  this->MeasureDistance(latest);
+  touchMoved = this->Display.showDistance(this->Distance) || touchMoved;
   const bool commandRun = this->Clutch.take(samples);
   if (this->Scenes.isSettled())
   {
@@ -158,6 +161,17 @@ void vtkInteractorStyleHaptic::Refresh()
     this->Display.requestRender();
   }
   this->Display.renderIfDue();
+}
+
+/// Of a hand that somebody moves: of the mouse's only in hand mode.
+void vtkInteractorStyleHaptic::MeasureDistance(const ServoSample& latest)
+{
+  const bool isHeld = this->Servo && latest.tick > 0 && !this->Clutch.isHolding() &&
+    (this->Hand.followsMouse() || !this->Hand.hasDevice());
+  this->Distance.update(isHeld ? &latest.state : nullptr);
+  this->Status.setDistance(this->Screen.renderer() && this->Distance.nearest()
+      ? this->Distance.text(this->Screen.axes())
+      : std::string());
 }
 
 std::vector<ServoSample> vtkInteractorStyleHaptic::TakeSamples()

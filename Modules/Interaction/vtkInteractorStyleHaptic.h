@@ -50,6 +50,7 @@
 #include "CommandInput.h"         // For the drag under way
 #include "CommandRegistry.h"      // For the commands
 #include "DeviceClutch.h"         // For the device's buttons
+#include "HandDistance.h"         // For a hand in free space
 #include "ModelTransform.h"       // For the model
 #include "MouseHand.h"            // For the simulated hand
 #include "PointPicker.h"          // For the picked point
@@ -112,6 +113,7 @@ public:
   pointhaptics::ModelTransform& GetModel() { return this->Model; }
   pointhaptics::ScenePipeline& GetScenes() { return this->Scenes; }
   pointhaptics::MouseHand& GetHand() { return this->Hand; }
+  const pointhaptics::HandDistance& GetDistance() const { return this->Distance; }
   pointhaptics::DeviceClutch& GetClutch() { return this->Clutch; }
   pointhaptics::StatusText& GetStatus() { return this->Status; }
   pointhaptics::TouchDisplay& GetDisplay() { return this->Display; }
@@ -201,6 +203,7 @@ private:
   void Press(const char* button);
   std::string GestureOf(const char* name) const;
   void ModelMoved();
+  void MeasureDistance(const pointhaptics::ServoSample& latest);
   void SceneShown(const pointhaptics::BuiltScene& built);
   std::vector<pointhaptics::ServoSample> TakeSamples();
 
@@ -212,6 +215,7 @@ private:
   pointhaptics::ScenePipeline Scenes;
   pointhaptics::MouseHand Hand;
   pointhaptics::DeviceClutch Clutch;
+  pointhaptics::HandDistance Distance;
   pointhaptics::SpaceMouseController Cap;
   vtkSmartPointer<vtkTDxInteractorStyleModel> Tdx;
   pointhaptics::StatusText Status;

@@ -4,6 +4,8 @@
 
 #include "Core/Base/Vector3.h"
 
+#include "PointHapticsRenderingModule.h" // For export macro
+
 #include "vtkActor2D.h"
 #include "vtkCellArray.h"
 #include "vtkMatrix4x4.h"
@@ -31,7 +33,7 @@ struct Pixel
 };
 
 /// From coordinates of the picture to pixels of the viewport, for the camera as it is.
-class ScreenProjection
+class POINTHAPTICSRENDERING_EXPORT ScreenProjection
 {
 public:
   explicit ScreenProjection(vtkRenderer* renderer);
@@ -46,7 +48,7 @@ private:
 };
 
 /// Each of its own colour.
-class ScreenLines
+class POINTHAPTICSRENDERING_EXPORT ScreenLines
 {
 public:
   explicit ScreenLines(float width);
@@ -83,6 +85,11 @@ public:
   /// no room.
   bool put(
     const std::string& words, double x, double y, double outX, double outY, const unsigned char color[3]);
+  /// Nothing is put where somebody else is: left, bottom, right, top.
+  void take(const std::array<double, 4>& place)
+  {
+    taken_.push_back({ place[0], place[2], place[1], place[3] });
+  }
   /// After the last put().
   void finish();
   /// Of a point, as the window's dots per inch say.

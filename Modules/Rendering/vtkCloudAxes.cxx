@@ -16,6 +16,7 @@
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkProperty2D.h"
 #include "vtkRenderer.h"
 #include "vtkWeakPointer.h"
 
@@ -25,6 +26,7 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <utility>
 
 using pointhaptics::Pixel;
 using pointhaptics::ScreenLines;
@@ -35,7 +37,7 @@ using pointhaptics::Vec3;
 namespace
 {
 
-/// Pixels.
+/// Points.
 constexpr double kTick = 6.0;
 constexpr double kGap = 4.0;
 constexpr double kLeastStep = 26.0;
@@ -43,6 +45,11 @@ constexpr double kShortestEdge = 40.0;
 constexpr double kFarthest = 200.0;
 constexpr double kArm = 34.0;
 constexpr double kCorner = 58.0;
+/// After ScreenLayout, which says what is taken.
+constexpr float kLast = -2.0F;
+/// Points.
+constexpr float kTickWidth = 1.0F;
+constexpr float kArmWidth = 3.0F;
 /// Windows from this height on take the larger font.
 constexpr int kTallWindow = 600;
 
@@ -97,11 +104,12 @@ struct vtkCloudAxes::Internals
   vtkNew<vtkPolyData> box;
   vtkNew<vtkPolyDataMapper> boxMapper;
   vtkNew<vtkActor> boxActor;
-  ScreenLines ticks{ 1.0f };
-  ScreenLines marker{ 3.0f };
+  ScreenLines ticks{ kTickWidth };
+  ScreenLines marker{ kArmWidth };
   ScreenTexts texts;
   vtkNew<vtkCallbackCommand> onStart;
   vtkWeakPointer<vtkRenderer> renderer;
+  std::function<std::vector<std::array<double, 4>>()> taken;
 
   Vec3 corner(int index) const
   {
@@ -175,7 +183,9 @@ void vtkCloudAxes::Internals::label(
 {
   static const unsigned char dark[3] = { 40, 40, 45 };
   const double range = high - low;
-  double step = niceStep(range * kLeastStep / edge.length);
+  const double pixels = this->texts.pixelsPerPoint();
+  const double least = pixels * kLeastStep;
+  double step = niceStep(range * least / edge.length);
   // Numbers beside each other need their width.
   const double along = std::abs(edge.endPixel.x - edge.beginPixel.x) / edge.length;
   const auto longest = [&](double each)
@@ -184,7 +194,7 @@ void vtkCloudAxes::Internals::label(
     return std::max(
       this->texts.widthOf(numberText(low, decimals)), this->texts.widthOf(numberText(high, decimals)));
   };
-  while (step < range && step / range * edge.length < kLeastStep + 1.2 * along * longest(step))
+  while (step < range && step / range * edge.length < least + 1.2 * along * longest(step))
   {
     step = niceStep(1.01 * step);
   }
@@ -195,9 +205,9 @@ void vtkCloudAxes::Internals::label(
   {
     const double part = std::clamp((i * step - low) / range, 0.0, 1.0);
     const Pixel p = project(edge.begin + part * (edge.end - edge.begin));
-    this->ticks.add(p.x, p.y, p.x + kTick * edge.outX, p.y + kTick * edge.outY, dark);
-    this->texts.put(numberText(i * step, decimals), p.x + (kTick + kGap) * edge.outX,
-      p.y + (kTick + kGap) * edge.outY, edge.outX, edge.outY, dark);
+    this->ticks.add(p.x, p.y, p.x + pixels * kTick * edge.outX, p.y + pixels * kTick * edge.outY, dark);
+    this->texts.put(numberText(i * step, decimals), p.x + pixels * (kTick + kGap) * edge.outX,
+      p.y + pixels * (kTick + kGap) * edge.outY, edge.outX, edge.outY, dark);
   }
   const std::string bounds = std::string(1, "xyz"[edge.axis]) + "  " + numberText(low, decimals + 1) +
     " to " + numberText(high, decimals + 1) + " m";
@@ -205,7 +215,7 @@ void vtkCloudAxes::Internals::label(
   // Farther out until the numbers leave room; where the picture ends before that, the letter must do.
   for (const std::string& words : { bounds, bounds.substr(0, 1) })
   {
-    for (double away = kTick + 2.0 * kGap; away < kFarthest; away += kGap)
+    for (double away = pixels * (kTick + 2.0 * kGap); away < pixels * kFarthest; away += pixels * kGap)
     {
       if (this->texts.put(words, middle.x + away * edge.outX, middle.y + away * edge.outY, edge.outX,
             edge.outY, kAxisColors[edge.axis]))
@@ -312,6 +322,11 @@ void vtkCloudAxes::SetModelMatrix(vtkMatrix4x4* matrix)
   }
 }
 
+void vtkCloudAxes::SetTaken(std::function<std::vector<std::array<double, 4>>()> taken)
+{
+  this->Parts->taken = std::move(taken);
+}
+
 void vtkCloudAxes::SetVisibility(bool visible)
 {
   Internals& parts = *this->Parts;
@@ -350,6 +365,14 @@ void vtkCloudAxes::PlaceLabels()
   parts.ticks.clear();
   parts.marker.clear();
   parts.texts.clear(parts.renderer, parts.renderer->GetSize()[1] < kTallWindow ? 12 : 14);
+  for (const std::array<double, 4>& place :
+    parts.taken ? parts.taken() : std::vector<std::array<double, 4>>())
+  {
+    parts.texts.take(place);
+  }
+  const double pixels = parts.texts.pixelsPerPoint();
+  parts.ticks.actor()->GetProperty()->SetLineWidth(float(kTickWidth * pixels));
+  parts.marker.actor()->GetProperty()->SetLineWidth(float(kArmWidth * pixels));
   const ScreenProjection project(parts.renderer);
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -375,7 +398,7 @@ void vtkCloudAxes::AddTo(vtkRenderer* renderer)
   renderer->AddActor2D(parts.ticks.actor());
   renderer->AddActor2D(parts.marker.actor());
   parts.texts.addTo(renderer);
-  renderer->AddObserver(vtkCommand::StartEvent, parts.onStart);
+  renderer->AddObserver(vtkCommand::StartEvent, parts.onStart, kLast);
 }
 
 void vtkCloudAxes::RemoveFrom(vtkRenderer* renderer)

@@ -24,7 +24,10 @@
 #include "PointHapticsRenderingModule.h" // For export macro
 #include "vtkObject.h"
 
-#include <memory> // For Internals
+#include <array>      // For places
+#include <functional> // For SetTaken
+#include <memory>     // For Internals
+#include <vector>     // For places
 
 class vtkMatrix4x4;
 class vtkRenderer;
@@ -56,6 +59,12 @@ public:
    * From coordinates of the cloud to those of the picture; copied. Default: the identity.
    */
   void SetModelMatrix(vtkMatrix4x4* matrix);
+
+  /**
+   * Asked before each render: where no texts may stand, pixels of the renderer: left, bottom, right, top of
+   * each. It may be empty.
+   */
+  void SetTaken(std::function<std::vector<std::array<double, 4>>()> taken);
 
   ///@{
   /**

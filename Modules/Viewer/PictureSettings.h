@@ -9,6 +9,13 @@
 namespace pointhaptics
 {
 
+/// Of PictureSettings::theme.
+inline const std::vector<std::string>& themeNames()
+{
+  static const std::vector<std::string> names = { "usual", "high-contrast" };
+  return names;
+}
+
 /// The choices; each can be a command-line option, a key and a line of the configuration file.
 struct PictureSettings
 {
@@ -27,7 +34,13 @@ struct PictureSettings
   std::vector<double> measure;
   /// Width and height in pixels of pictures that are written; 0: those of the window.
   std::array<int, 2> screenshotSize{};
+  /// One of themeNames(). high-contrast: backgrounds are black or white, texts a quarter larger on opaque
+  /// plates, marks of touch in colours that people with colour vision deficiencies tell apart, with thick
+  /// outlines.
+  std::string theme = "usual";
   bool transparent = false; ///< Pictures that are written have no background: what is behind shows through.
+
+  bool isHighContrast() const { return theme == "high-contrast"; }
 };
 
 } // namespace pointhaptics

@@ -65,6 +65,7 @@ ViewScene::ViewScene()
   renderer_->AddActor(pointsActor_);
   renderer_->AddActor(brackets_);
   props_->AddTo(renderer_);
+  props_->SetOutlineVisibility(true);
   axes_->AddTo(renderer_);
   clipMark_.addTo(renderer_);
   distance_.addTo(renderer_);
@@ -95,7 +96,7 @@ ViewScene::~ViewScene()
 /// Before every render: how many points it shows, and room for the scalar bar.
 void ViewScene::beginFrame()
 {
-  applyTextScale(renderer_->GetRenderWindow(), picture_.fontScale);
+  applyTextScale(renderer_->GetRenderWindow(), this->textScale());
   tellStereo(renderer_);
   if (scalarBar_->GetVisibility() && !layoutPlacesBar_)
   {
@@ -420,7 +421,8 @@ void ViewScene::showFigure(bool figure)
 void ViewScene::applyLook()
 {
   vtkPolyData* drawn = drawsFelt_ ? bandwidth_->GetOutput() : shown_->points.Get();
-  applyGround(renderer_, picture_.background);
+  const std::string ground = groundOf(picture_);
+  applyGround(renderer_, ground);
   scalarBar_->SetLookupTable(this->drawnMapper()->GetLookupTable());
   const std::optional<ColorSource> source = findColorSource(drawn, colorBy_);
   if (source && holdsAsprsClasses(source->array))
@@ -432,7 +434,7 @@ void ViewScene::applyLook()
   scalarBar_->SetTitle((name + (this->wantsResiduals() ? " (" + unit_.name + ")\n" : "\n")).c_str());
   wantsScalarBar_ = !figure_ && source.has_value();
   scalarBar_->SetVisibility(wantsScalarBar_ && barHasRoom_);
-  const Vec3 ink = inkOn(picture_.background);
+  const Vec3 ink = inkOn(ground);
   for (vtkTextProperty* text : { scalarBar_->GetTitleTextProperty(), scalarBar_->GetLabelTextProperty(),
          scalarBar_->GetAnnotationTextProperty() })
   {
@@ -444,7 +446,7 @@ void ViewScene::applyLook()
     applyFigureAppearance(mapper_, actor_, renderer_);
     applyFigureAppearance(pointsMapper_, pointsActor_, renderer_);
   }
-  const Vec3 edges = isLightGround(picture_.background) ? Vec3{ 0.25, 0.27, 0.32 } : Vec3{ 0.80, 0.82, 0.86 };
+  const Vec3 edges = isLightGround(ground) ? Vec3{ 0.25, 0.27, 0.32 } : Vec3{ 0.80, 0.82, 0.86 };
   brackets_->SetColor(edges.x, edges.y, edges.z);
   brackets_->SetVisibility(!figure_);
   props_->GetWorkspaceActor()->SetVisibility(figure_);

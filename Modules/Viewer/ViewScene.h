@@ -24,6 +24,7 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,6 +45,9 @@ namespace pointhaptics
 
 /// The colour of text on a background of that name.
 Vec3 inkOn(const std::string& ground);
+
+/// The background that a picture has: that of its settings, or the nearest one of its theme.
+std::string groundOf(const PictureSettings& picture);
 
 /// GUI thread only. Frames: the cloud's (as in the file) and the workspace's; metres in the latter.
 class POINTHAPTICSVIEWER_EXPORT ViewScene
@@ -115,11 +119,11 @@ public:
   /// is none.
   std::vector<std::string> measuredText() const;
 
-  /// The scalar bar for a layout, which then places it; without one it stands at the right edge.
-  ScreenBlock takeScalarBar();
-  void releaseScalarBar();
-  /// Pixels, at 72 dots per inch, of the lower right corner that the directions of the axes take.
-  double takenCorner() const;
+  /// @p layout places the scalar bar and leaves room for the directions of the axes; numbers of axes and
+  /// gauge give way to what it places. Without one the bar stands at the right edge. It must live until
+  /// leaveLayout().
+  void join(ScreenLayout& layout);
+  void leaveLayout();
 
   /// Box, bounds and directions of the cloud's own frame. They stay where the model was until placeAxes().
   void showAxes(bool visible);
@@ -216,6 +220,8 @@ private:
   void chooseArrays();
   void chooseUnit(const LoadedCloud& loaded, const HapticViewerOptions& options);
   void applyPicture();
+  double textScale() const;
+  ScreenBlock scalarBarBlock();
   void applyProjection();
   void applyPointSizes();
   void applyMarks();

@@ -7,6 +7,8 @@
 #include "PolyDataAccess.h"
 #include "StereoPicture.h"
 #include "vtkCloudAxes.h"
+#include "vtkHapticGauge.h"
+#include "vtkHapticProps.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -28,6 +30,8 @@ namespace pointhaptics
 namespace
 {
 
+/// Of texts of the theme high-contrast.
+constexpr double kLargerText = 1.25;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 /// Of vtkSplatMapper, at a scale of 1.
 constexpr double kSmallestPixels = 2.0;
@@ -45,6 +49,13 @@ double halfTangent(vtkCamera* camera)
 }
 
 } // namespace
+
+std::string groundOf(const PictureSettings& picture)
+{
+  return !picture.isHighContrast()      ? picture.background
+    : isLightGround(picture.background) ? "white"
+                                        : "black";
+}
 
 Vec3 inkOn(const std::string& ground)
 {
@@ -137,8 +148,14 @@ std::optional<ViewScene::ColorBarPlace> ViewScene::placeOnColorBar(double x, dou
   return isInside ? std::optional(ColorBarPlace{ along / strip[3], double(strip[3]) }) : std::nullopt;
 }
 
+double ViewScene::textScale() const
+{
+  return picture_.fontScale * (picture_.isHighContrast() ? kLargerText : 1.0);
+}
+
 void ViewScene::applyPicture()
 {
+  props_->SetHighContrast(picture_.isHighContrast());
   setDepthStrength(renderer_, picture_.depthStrength);
   this->applyPointSizes();
   this->applyMarks();
@@ -159,9 +176,8 @@ void ViewScene::applyPointSizes()
   }
 }
 
-ScreenBlock ViewScene::takeScalarBar()
+ScreenBlock ViewScene::scalarBarBlock()
 {
-  layoutPlacesBar_ = true;
   ScreenBlock block;
   block.measure = [this](double font, double& width, double& height)
   {
@@ -185,17 +201,36 @@ ScreenBlock ViewScene::takeScalarBar()
   return block;
 }
 
-void ViewScene::releaseScalarBar()
+void ViewScene::join(ScreenLayout& layout)
+{
+  // The corner of the axes' directions, pixels at 72 dots per inch.
+  constexpr double kMarker = 112.0;
+  layoutPlacesBar_ = true;
+  layout.setScalarBar(this->scalarBarBlock());
+  layout.setCorner([this] { return axes_->GetVisibility() ? kMarker : 0.0; });
+  layout.setOpaque([this] { return picture_.isHighContrast(); });
+  vtkHapticGauge* gauge = props_->GetGauge();
+  gauge->SetTaken([&layout] { return layout.boxes(); });
+  // The gauge is placed first: it moves, and the numbers give way.
+  axes_->SetTaken(
+    [&layout, gauge]
+    {
+      std::vector<std::array<double, 4>> boxes = layout.boxes();
+      if (gauge->GetVisibility())
+      {
+        boxes.push_back(gauge->GetPlace());
+      }
+      return boxes;
+    });
+}
+
+void ViewScene::leaveLayout()
 {
   layoutPlacesBar_ = false;
   barHasRoom_ = true;
   scalarBar_->SetVisibility(wantsScalarBar_);
-}
-
-double ViewScene::takenCorner() const
-{
-  constexpr double kMarker = 112.0;
-  return const_cast<vtkCloudAxes*>(axes_.Get())->GetVisibility() ? kMarker : 0.0;
+  axes_->SetTaken(nullptr);
+  props_->GetGauge()->SetTaken(nullptr);
 }
 
 CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const

@@ -4,8 +4,11 @@
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProgress.h"
+#include "vtkHapticProps.h"
 #include "vtkHapticSliders.h"
 
+#include <vtkActor.h>
+#include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
@@ -14,6 +17,7 @@
 #include <vtkSmartPointer.h>
 
 #include <cmath>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -130,6 +134,50 @@ void buildProgress(const std::string& fault, vtkRenderer* renderer)
   progress->SetProgress(
     "reading a-name-that-is-too-long-for-the-plate-001.ply", fault == "wrong-part" ? 0.47 : 0.42);
   progress->AddTo(renderer);
+}
+
+/// A touch on grounds that are as the marks are: of the colour of arrow and sphere, black and white, the last
+/// two in high contrast too.
+void buildMarks(const std::string& fault, vtkRenderer* renderer)
+{
+  static std::vector<vtkSmartPointer<vtkHapticProps>> all;
+  renderer->DrawOff();
+  const double grounds[6][3] = { { 0.0, 0.0, 0.0 }, { 1.0, 1.0, 1.0 }, { 0.95, 0.42, 0.02 },
+    { 1.0, 0.30, 0.62 }, { 0.0, 0.0, 0.0 }, { 1.0, 1.0, 1.0 } };
+  for (int i = 0; i < 6; ++i)
+  {
+    vtkNew<vtkRenderer> part;
+    const double left = (i / 2) / 3.0;
+    part->SetViewport(left, 0.5 * (i % 2), left + 1.0 / 3.0, 0.5 * (i % 2) + 0.5);
+    part->SetBackground(grounds[i][0], grounds[i][1], grounds[i][2]);
+    renderer->GetRenderWindow()->AddRenderer(part);
+    all.push_back(vtkSmartPointer<vtkHapticProps>::New());
+    all.back()->AddTo(part);
+    all.back()->GetWorkspaceActor()->VisibilityOff();
+    all.back()->SetGaugeVisibility(false);
+    all.back()->SetOutlineVisibility(fault != "no-outline");
+    all.back()->SetHighContrast(i > 3 && fault != "usual-colors");
+    const bool isFree = i == 3;
+    ProxyState state;
+    state.contact = !isFree;
+    state.proxy = { -0.02, 0.0, 0.0 };
+    state.normal = { 0.0, 0.0, 1.0 };
+    state.radius = 0.004;
+    state.sphereCenter = { -0.02, 0.0, 0.004 };
+    state.hip = isFree ? state.sphereCenter : Vec3{ -0.022, 0.0, -0.008 };
+    state.force = isFree ? Vec3() : Vec3{ 3.0, 0.0, 4.0 };
+    all.back()->Update(state);
+    const Vec3 nearest{ 0.012, 0.0, -0.02 };
+    if (isFree && fault != "no-ring")
+    {
+      all.back()->ShowNearest(&state.hip.x, &nearest.x);
+    }
+    vtkCamera* camera = part->GetActiveCamera();
+    camera->SetPosition(0.025, -0.10, 0.03);
+    camera->SetFocalPoint(-0.006, 0.0, 0.004);
+    camera->SetViewUp(0.0, 0.0, 1.0);
+    part->ResetCameraClippingRange();
+  }
 }
 
 } // namespace testing

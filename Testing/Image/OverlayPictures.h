@@ -22,7 +22,8 @@ void buildChart(const std::string& fault, vtkRenderer* renderer);
 void buildIdealChart(const std::string& fault, vtkRenderer* renderer);   ///< "wrong-ideal"
 void buildHelpFits(const std::string& fault, vtkRenderer* renderer);     ///< "large-font"
 void buildErrorOverlay(const std::string& fault, vtkRenderer* renderer); ///< "no-message"
-void buildProgress(const std::string& fault, vtkRenderer* renderer);     ///< "wrong-part"
+void buildMarks(const std::string& fault, vtkRenderer* renderer);
+void buildProgress(const std::string& fault, vtkRenderer* renderer); ///< "wrong-part"
 
 } // namespace testing
 } // namespace pointhaptics

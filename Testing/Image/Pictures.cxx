@@ -478,6 +478,7 @@ bool buildPicture(
     { "Sliders", { "wrong-value" }, buildSliders }, { "Chart", { "wrong-force" }, buildChart },
     { "IdealChart", { "wrong-ideal" }, buildIdealChart },
     { "ForceGauge", { "wrong-force" }, buildForceGauge },
+    { "Marks", { "no-outline", "no-ring", "usual-colors" }, buildMarks },
     { "PickMarker", { "wrong-bandwidth", "wrong-voxel" }, buildPickMarker },
     { "HelpFits", { "large-font" }, buildHelpFits }, { "ErrorOverlay", { "no-message" }, buildErrorOverlay },
     { "Figure", { "colored", "hand-shown" }, buildFigure },

@@ -3,6 +3,7 @@
 #include "../Unit/SkipWithoutDisplay.h"
 #include "CloudAppearance.h"
 #include "ScreenScale.h"
+#include "vtkHapticGauge.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProgress.h"
 #include "vtkHapticSliders.h"
@@ -21,6 +22,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 #include <vector>
@@ -320,6 +322,47 @@ TEST_F(ScreenLayoutTest, TextGrowsWithTheScaleAndWithThePicture)
   EXPECT_NEAR(statusHeight(1280, 800, 2.0), 2.0 * usual, 0.15 * 2.0 * usual);
   EXPECT_NEAR(statusHeight(3840, 2160, 1.0), 2.0 * usual, 0.15 * 2.0 * usual);
   EXPECT_NEAR(statusHeight(640, 480, 1.0), usual, 1.0);
+}
+
+/// At places all over the picture, under a panel too.
+TEST_F(ScreenLayoutTest, TheGaugeGivesWayToTheTexts)
+{
+  for (const Size& size : kSizes)
+  {
+    Screen screen(size.width, size.height, size.fontScale, false);
+    screen.overlay->SetStatus(kStatus);
+    screen.overlay->SetPanel(kPanel);
+    vtkNew<vtkHapticGauge> gauge;
+    gauge->AddTo(screen.renderer);
+    gauge->SetTaken([&screen] { return screen.layout.boxes(); });
+    screen.window->Render();
+    const double text = screen.layout.places().front().box.height();
+    const int* all = screen.renderer->GetSize();
+    for (const double x :
+      size.width > 2000 ? std::vector<double>{ 0.2 } : std::vector<double>{ 0.02, 0.2, 0.5, 0.97 })
+    {
+      for (const double y : { 0.03, 0.4, 0.8, 0.98 })
+      {
+        screen.renderer->SetViewPoint(2.0 * x - 1.0, 2.0 * y - 1.0, 0.5);
+        screen.renderer->ViewToWorld();
+        double anchor[4];
+        screen.renderer->GetWorldPoint(anchor);
+        gauge->SetLeft(y > 0.5);
+        gauge->Show(anchor, 5.0);
+        screen.window->Render();
+        const std::array<double, 4> place = gauge->GetPlace();
+        const ScreenRectangle box{ place[0], place[1], place[2], place[3] };
+        const std::string what =
+          std::to_string(size.width) + ": " + std::to_string(x) + ", " + std::to_string(y);
+        EXPECT_TRUE(box.left >= 0.0 && box.bottom >= 0.0 && box.right <= all[0] && box.top <= all[1]) << what;
+        for (const ScreenLayout::Place& other : screen.layout.places())
+        {
+          EXPECT_FALSE(box.meets(other.box)) << what << " over " << other.name;
+        }
+        EXPECT_GT(box.height(), 0.3 * text) << what << ": too small to be seen";
+      }
+    }
+  }
 }
 
 TEST(ScreenScale, TakesTheDotsThatTheDesktopSays)

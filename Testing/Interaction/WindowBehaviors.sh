@@ -537,27 +537,59 @@ model_rests() {
 }
 
 # From the left into a sphere: the touch pushes the pointer back.
+KeyF9GivesHighContrast() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated --theme high-contrast
+  write_settings
+  is theme '"high-contrast"' || fail "the option is not in force"
+  key F9
+  said "theme: usual"
+  key F9
+  said "theme: high-contrast"
+  key F9
+  write_settings
+  is theme '"usual"' || fail "the settings do not have it"
+}
+
 TheTouchPushesThePointer() {
   make sphere cloud.ply
   open_viewer cloud.ply --device simulated
-  move_to 225 180
+  move_to 162 180
   key f g
+  for ((i = 0; i < 8; ++i)); do key Page_Up; sleep 0.1; done # deeper: a flank pushes aside
   until_true "the touch did not push the pointer" touch_pushes
 }
-# Each time from the side; the hand comes there and back in some tenths of a second.
+# Each time from the flank, which faces left; the hand comes there and back in some tenths of a second.
 touch_pushes() {
-  move_to 225 180
+  move_to 162 180
   sleep 0.3
-  move_to 290 180
+  move_to 260 180
   sleep 0.5
-  (($(xdotool getmouselocation --shell | sed -n 's/^X=//p') < 275))
+  (($(xdotool getmouselocation --shell | sed -n 's/^X=//p') < 245))
+}
+
+# Hand mode begins above the sphere, keys alone take the hand into it, and the model stays.
+KeysAloneTouchTheCloud() {
+  make sphere cloud.ply
+  open_viewer cloud.ply --device simulated
+  move_to 320 180
+  key f j
+  said "recording to pointhaptics-001.csv"
+  for ((i = 0; i < 16; ++i)); do key Page_Up; sleep 0.2; done
+  key Left Up Right Down
+  key j
+  said "recording: pointhaptics-001.csv"
+  [[ "$(awk -F, '!/^#/ && ++row == 2 { print $15 }' pointhaptics-001.csv)" == 0 ]] || fail "the hand began in the sphere"
+  has_value 15 1 pointhaptics-001.csv || fail "the keys did not take the hand into the sphere"
+  (($(grep -c '^# tick .*: scene' pointhaptics-001.csv) == 1)) || fail "the model moved"
+  feels_again pointhaptics-001.csv
 }
 
 # Two presses of a key, and in between the hand touches the sphere, and the model is zoomed: feel answers with the same bits.
 KeyJRecordsWhatFeelFeelsAgain() {
   make sphere cloud.ply
   open_viewer cloud.ply --device simulated
-  move_to 225 180
+  move_to 175 180
   key f j
   said "recording to pointhaptics-001.csv"
   until_true "nothing was touched" touches
@@ -567,17 +599,19 @@ KeyJRecordsWhatFeelFeelsAgain() {
   key j
   said "recording: pointhaptics-001.csv"
   feels_again pointhaptics-001.csv
-  grep -v '^#' pointhaptics-001.csv | cut -d, -f15 | grep -qx 1 || fail "the recording has no contact"
-  grep -v '^#' pointhaptics-001.csv | cut -d, -f18 | grep -qx 1 || fail "the recording has no marker"
+  has_value 15 1 pointhaptics-001.csv || fail "the recording has no contact"
+  has_value 18 1 pointhaptics-001.csv || fail "the recording has no marker"
   (($(grep -c '^# tick .*: scene' pointhaptics-001.csv) > 1)) || fail "the recording has no motion of the model"
 }
-# To the side of the sphere and into it; the status is what a person sees.
+# Above the flank of the sphere and into it; the status is what a person sees.
 touches() {
-  move_to 225 180
+  move_to 175 180
   sleep 0.3 # no condition: the hand comes there and back in some tenths of a second
-  move_to 290 180
+  move_to 240 180
   sleep 0.5
 }
+# has_value COLUMN VALUE RECORDING: in a row. A grep that ends at the first hit would break the pipe before it.
+has_value() { awk -F, -v column="$1" -v value="$2" '!/^#/ && $column == value { found = 1 } END { exit !found }' "$3"; }
 # feels_again RECORDING
 feels_again() {
   "$program" feel --replay "$1" -o again.csv >felt.txt || fail "feel --replay failed"
@@ -588,7 +622,7 @@ feels_again() {
 AWindowShowsARecording() {
   make sphere cloud.ply
   open_viewer cloud.ply --device simulated --record rec.csv
-  move_to 225 180
+  move_to 175 180
   key f
   touches
   key q

@@ -53,6 +53,10 @@ const std::vector<KeyedHelp>& keyedHelps()
       "each other, or on a screen that shows two",
       { "stereo" } },
     { "--background", "What is behind the cloud; default dark", { "background" } },
+    { "--theme",
+      "high-contrast: black or white background, larger texts on opaque plates, thick outlines and other "
+      "colours of the marks of touch; default usual",
+      { "theme" } },
     { "--point-scale", "All points are drawn this many times as large",
       { "points-larger", "points-smaller" } },
     { "--edl-strength",

@@ -30,6 +30,7 @@ void addPictureOptions(CLI::App& command, PictureSettings& picture)
   addChoice(command, "--projection", project, { { "perspective", 0 }, { "parallel", 1 } }, "")->group(group);
   addWord(command, "--stereo", picture.stereo, stereoNames(), "")->group(group);
   addWord(command, "--background", picture.background, groundNames(), "")->group(group);
+  addWord(command, "--theme", picture.theme, themeNames(), "")->group(group);
   addNumber(command, "--point-scale", picture.pointScale, { 0.1, 10.0 }, "FACTOR", "")->group(group);
   addNumber(command, "--edl-strength", picture.depthStrength, { 0.0, 10.0 }, "STRENGTH", "")->group(group);
   addNumber(command, "--font-scale", picture.fontScale, { 0.5, 4.0 }, "FACTOR",
@@ -59,6 +60,7 @@ void setPicture(nlohmann::ordered_json& settings, const PictureSettings& picture
   settings["projection"] = picture.parallel ? "parallel" : "perspective";
   settings["stereo"] = picture.stereo;
   settings["background"] = picture.background;
+  settings["theme"] = picture.theme;
   settings["point-scale"] = picture.pointScale;
   settings["edl-strength"] = picture.depthStrength;
   settings["font-scale"] = picture.fontScale;

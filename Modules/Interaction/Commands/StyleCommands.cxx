@@ -8,7 +8,9 @@
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace pointhaptics
@@ -18,6 +20,7 @@ namespace
 
 using Camera = vtkInteractorStyleTrackballCamera;
 
+constexpr const char* kTranslateHelp = "translate; in hand mode keys move the hand";
 constexpr double kDegreesPerPixel = 0.4;
 constexpr double kDegreesPerKey = 5.0;
 constexpr double kScalePerStep = 1.1;
@@ -25,9 +28,26 @@ constexpr double kScalePerStep = 1.1;
 constexpr double kTranslationPerKey = 0.02;
 constexpr double kDepthPerKey = 0.02;
 constexpr double kDepthPerWheelStep = 0.01;
+/// A hand whose distance is known goes this part of it at once, between these steps.
+constexpr double kStepOfDistance = 0.3;
+constexpr double kShortestStep = 0.002;
+constexpr double kShortestStepAside = 0.01; ///< Along a surface that is touched.
+constexpr double kLongestStep = 0.05;
+/// How high above the surface hand mode begins.
+constexpr double kHoverHeight = 0.04;
 /// Radius of the ball that the hand rolls, and the way it has to go to scale by e.
 constexpr double kBallRadius = 0.25;
 constexpr double kWayPerScale = 0.25;
+
+/// Metres of a step of the hand, of at least @p shortest edges of the workspace; @p usual edges where nobody
+/// knows how far the cloud is.
+double handStep(vtkInteractorStyleHaptic& style, double usual, double shortest)
+{
+  const std::optional<double> distance = style.GetDistance().distance();
+  const double edge = style.GetModel().edge();
+  return distance ? std::clamp(kStepOfDistance * *distance, shortest * edge, kLongestStep * edge)
+                  : usual * edge;
+}
 
 void addCameraCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
 {
@@ -38,7 +58,7 @@ void addCameraCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& styl
   {
     if (style.GetHand().followsMouse())
     {
-      style.GetHand().moveInDepth(direction * kDepthPerWheelStep * style.GetModel().edge());
+      style.GetHand().moveInDepth(direction * handStep(style, kDepthPerWheelStep, kShortestStep));
     }
     else if (direction > 0)
     {
@@ -89,8 +109,15 @@ void translateByMouse(vtkInteractorStyleHaptic& style)
   }
 }
 
+/// In hand mode the hand, else the model.
 void translateOnScreen(vtkInteractorStyleHaptic& style, double right, double up)
 {
+  if (style.GetHand().followsMouse() && style.GetHand().hasDevice())
+  {
+    const double step = handStep(style, kTranslationPerKey, kShortestStepAside);
+    style.GetHand().moveOnScreen(step * right, step * up);
+    return;
+  }
   if (style.GetScreen().renderer())
   {
     const ScreenAxes screen = style.GetScreen().axes();
@@ -120,12 +147,12 @@ void addModelCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style
   commands.add({ "rotate-back-y", "Y", group, "rotate", rotate(-kDegreesPerKey, { 0.0, 1.0, 0.0 }) });
   commands.add({ "rotate-z", "z", group, "rotate", rotate(kDegreesPerKey, { 0.0, 0.0, 1.0 }) });
   commands.add({ "rotate-back-z", "Z", group, "rotate", rotate(-kDegreesPerKey, { 0.0, 0.0, 1.0 }) });
-  commands.add(
-    { "translate-model-drag", "Shift+middle Ctrl+Shift+left", group, "translate", drag(translateByMouse) });
-  commands.add({ "translate-left", "Left", group, "translate", translate(-1.0, 0.0) });
-  commands.add({ "translate-right", "Right", group, "translate", translate(1.0, 0.0) });
-  commands.add({ "translate-up", "Up", group, "translate", translate(0.0, 1.0) });
-  commands.add({ "translate-down", "Down", group, "translate", translate(0.0, -1.0) });
+  commands.add({ "translate-model-drag", "Shift+middle Ctrl+Shift+left", group, kTranslateHelp,
+    drag(translateByMouse) });
+  commands.add({ "translate-left", "Left", group, kTranslateHelp, translate(-1.0, 0.0) });
+  commands.add({ "translate-right", "Right", group, kTranslateHelp, translate(1.0, 0.0) });
+  commands.add({ "translate-up", "Up", group, kTranslateHelp, translate(0.0, 1.0) });
+  commands.add({ "translate-down", "Down", group, kTranslateHelp, translate(0.0, -1.0) });
   commands.add({ "scale-model-wheel", "Shift+wheel", group, "scale", WheelAction{ scale } });
   commands.add({ "scale-up", "plus equal KP_Add", group, "scale", [scale] { scale(+1); } });
   commands.add({ "scale-down", "minus underscore KP_Subtract", group, "scale", [scale] { scale(-1); } });
@@ -134,22 +161,40 @@ void addModelCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style
     { "reset-model", "0 Home KP_0 KP_Home", group, "back to the start", [&model] { model.reset(); } });
 }
 
+/// Hand mode begins above the surface under the pointer.
+void toggleHandMode(vtkInteractorStyleHaptic& style)
+{
+  MouseHand& hand = style.GetHand();
+  hand.setFollowsMouse(!hand.followsMouse());
+  vtkRenderWindowInteractor* interactor = style.GetInteractor();
+  if (!hand.followsMouse() || !hand.hasDevice() || !interactor)
+  {
+    return;
+  }
+  const int* pointer = interactor->GetEventPosition();
+  if (const std::optional<Vec3> surface = style.GetPicker().surfaceAt(pointer[0], pointer[1]))
+  {
+    hand.placeAt(*surface - kHoverHeight * style.GetModel().edge() * style.GetScreen().forward());
+  }
+}
+
 void addHandCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
 {
   MouseHand& hand = style.GetHand();
   const auto hasHand = [&hand] { return hand.hasDevice(); };
-  const auto depth = [&style, &hand](double edges) { hand.moveInDepth(edges * style.GetModel().edge()); };
-  const auto wheel = [depth](int direction) { depth(direction * kDepthPerWheelStep); };
-  const auto follow = [&hand] { hand.setFollowsMouse(!hand.followsMouse()); };
+  const auto depth = [&style, &hand](int direction, double usual)
+  { hand.moveInDepth(direction * handStep(style, usual, kShortestStep)); };
+  const auto wheel = [depth](int direction) { depth(direction, kDepthPerWheelStep); };
+  const auto follow = [&style] { toggleHandMode(style); };
   const auto push = [&hand] { hand.setPushesPointer(!hand.pushesPointer()); };
   const char* const group = "Hand";
   commands.add({ "move-hand-drag", "Ctrl+left", group, "move in the view plane",
     DragAction{ {}, [&hand] { hand.drag(); }, {} }, hasHand });
   commands.add({ "hand-depth-wheel", "Ctrl+wheel", group, "depth", WheelAction{ wheel }, hasHand });
   commands.add(
-    { "hand-away", "Prior KP_Prior Page_Up", group, "depth", [depth] { depth(kDepthPerKey); }, hasHand });
+    { "hand-away", "Prior KP_Prior Page_Up", group, "depth", [depth] { depth(+1, kDepthPerKey); }, hasHand });
   commands.add(
-    { "hand-back", "Next KP_Next Page_Down", group, "depth", [depth] { depth(-kDepthPerKey); }, hasHand });
+    { "hand-back", "Next KP_Next Page_Down", group, "depth", [depth] { depth(-1, kDepthPerKey); }, hasHand });
   commands.add({ "hand-mode", "f space", group, "hand follows the mouse", follow, hasHand });
   commands.add({ "push-pointer", "g", group, "touch pushes the mouse pointer", push, hasHand });
 }

@@ -18,6 +18,8 @@ namespace
 {
 
 constexpr double kPickPixels = 8.0;
+/// Of a surface, which must not be looked for through the holes between sparse points.
+constexpr double kSurfacePixels = 24.0;
 
 } // namespace
 
@@ -52,6 +54,15 @@ PickedOfFile PointPicker::pickOfFile(int x, int y) const
     result = { points, picked.index, leftOut_ };
   }
   return result;
+}
+
+std::optional<Vec3> PointPicker::surfaceAt(int x, int y) const
+{
+  PickedPoint picked;
+  const bool isThere = screen_.renderer() && scenes_.cloud() && !scenes_.isChanged() &&
+    pickPoint(scenes_.cloud(), screen_.renderer(), x, y, kSurfacePixels, picked);
+  return isThere ? std::optional<Vec3>(screen_.toWorkspace(x, y, screen_.toDisplay(picked.inWorkspace).z))
+                 : std::nullopt;
 }
 
 bool PointPicker::pickAt(int x, int y)

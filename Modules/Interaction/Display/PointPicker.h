@@ -2,10 +2,13 @@
 /// The voxel mean under the mouse: marked in the picture, and told in the overlay.
 #pragma once
 
+#include "Core/Base/Vector3.h"
+
 #include "PointHapticsInteractionModule.h" // For export macro
 
 #include "vtkSmartPointer.h"
 
+#include <optional>
 #include <set>
 #include <string>
 
@@ -40,6 +43,9 @@ public:
   bool pickAt(int x, int y);
   /// Voxel and bandwidth are those of one resampling: the next one has others. True: something was shown.
   bool forget();
+
+  /// The place there that is as deep as the nearest mean about it; workspace. Marks and says nothing.
+  std::optional<Vec3> surfaceAt(int x, int y) const;
 
 private:
   PickedOfFile pickOfFile(int x, int y) const;

@@ -94,6 +94,16 @@ void ScreenLayout::follow(vtkRenderer* renderer)
   }
 }
 
+std::vector<std::array<double, 4>> ScreenLayout::boxes() const
+{
+  std::vector<std::array<double, 4>> boxes;
+  for (const Place& place : places_)
+  {
+    boxes.push_back({ place.box.left, place.box.bottom, place.box.right, place.box.top });
+  }
+  return boxes;
+}
+
 void ScreenLayout::add(const char* name, const ScreenRectangle& box)
 {
   places_.push_back({ name, box });
@@ -121,6 +131,10 @@ void ScreenLayout::arrange(vtkRenderer* renderer)
   if (!renderer || !renderer->GetRenderWindow() || renderer->GetSize()[0] < 1 || renderer->GetSize()[1] < 1)
   {
     return;
+  }
+  if (overlay_ && opaque_ && overlay_->GetOpaque() != opaque_())
+  {
+    overlay_->SetOpaque(opaque_());
   }
   std::vector<double> wanted = this->state(renderer);
   const std::string texts = overlay_ ? overlay_->GetStatus() + '\f' + overlay_->GetPanel() + '\f' +

@@ -7,6 +7,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -69,6 +70,8 @@ public:
   void setScalarBar(ScreenBlock bar) { bar_ = std::move(bar); }
   /// Pixels, at 72 dots per inch, of the lower right corner that are taken; 0: none.
   void setCorner(std::function<double()> corner) { corner_ = std::move(corner); }
+  /// Whether texts stand on opaque plates.
+  void setOpaque(std::function<bool()> opaque) { opaque_ = std::move(opaque); }
   ///@}
   /// Arranges before each render of @p renderer, in which all are drawn; null: no longer.
   void follow(vtkRenderer* renderer);
@@ -83,6 +86,8 @@ public:
   };
   /// What is shown and where, as it was arranged last.
   const std::vector<Place>& places() const { return places_; }
+  /// The boxes of the same: left, bottom, right, top. For marks that follow the model and give way.
+  std::vector<std::array<double, 4>> boxes() const;
 
 private:
   struct Room;
@@ -102,6 +107,7 @@ private:
   vtkSmartPointer<vtkHapticProgress> progress_;
   ScreenBlock bar_;
   std::function<double()> corner_;
+  std::function<bool()> opaque_;
   vtkSmartPointer<vtkCallbackCommand> before_;
   vtkWeakPointer<vtkRenderer> renderer_;
   std::vector<double> arranged_; ///< What the places depend on, as it was.

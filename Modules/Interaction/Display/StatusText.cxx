@@ -89,6 +89,7 @@ bool StatusText::update(const ServoLoop* servo, bool touchMoved)
 {
   const double time = steadySeconds();
   lastMotion_ = touchMoved ? time : lastMotion_;
+  hasTouched_ = hasTouched_ || (servo && hand_.followsMouse() && servo->latest().state.contact);
   const bool isIdle = time - lastMotion_ > kIdlePeriodSeconds && !scenes_.isChanged();
   const bool isDue = time - lastUpdate_ >= (isIdle ? kIdlePeriodSeconds : kPeriodSeconds);
   if (!overlay_ || (!isDue && this->handMode() == shownMode_))
@@ -108,6 +109,19 @@ const char* StatusText::handMode() const
     : !hand_.followsMouse()  ? ""
     : hand_.pushesPointer()  ? "    hand follows the mouse, touch pushes it"
                              : "    hand follows the mouse";
+}
+
+/// How the mouse moves the hand, until it has touched something.
+std::string StatusText::firstUse() const
+{
+  if (hasTouched_ || !hand_.followsMouse() || !hand_.hasDevice())
+  {
+    return {};
+  }
+  const std::string deeper = commands_.label("hand-away");
+  const std::string leave = commands_.label("hand-mode");
+  return "\nmove: mouse    deeper: wheel" + (deeper.empty() ? "" : ", " + deeper) +
+    (leave.empty() ? "" : "    leave: " + leave);
 }
 
 std::string StatusText::resetHint() const
@@ -135,6 +149,11 @@ std::string StatusText::statusLine(const ServoLoop* servo) const
       1e3 * latest.state.radius, norm(latest.state.force), latest.state.contact ? "    in contact" : "",
       statistics.rateHz, count(statistics.deadlineMisses), this->handMode());
     status += text;
+    if (!latest.state.contact && !distance_.empty())
+    {
+      status += "\n" + distance_;
+    }
+    status += this->firstUse();
   }
   if (!note_.empty())
   {

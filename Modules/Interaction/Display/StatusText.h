@@ -45,6 +45,8 @@ public:
   void setPanelVisibility(bool visible);
   bool panelVisibility() const { return showsPanel_; }
   ///@}
+  /// Of a hand that touches nothing: how far the cloud is. Empty: nothing to say.
+  void setDistance(const std::string& distance) { distance_ = distance; }
   void showHelp(bool visible);
   /// The help says what the commands are now.
   void updateHelp();
@@ -61,6 +63,7 @@ private:
   std::string statusLine(const ServoLoop* servo) const;
   std::string panel(const ServoLoop* servo) const;
   const char* handMode() const;
+  std::string firstUse() const;
 
   const CommandRegistry& commands_;
   const ScenePipeline& scenes_;
@@ -70,6 +73,8 @@ private:
   std::string note_;
   std::string deviceNote_;
   std::string deviceName_;
+  std::string distance_;
+  bool hasTouched_ = false; ///< In hand mode: then its keys are known.
   bool showsPanel_ = false;
   const char* shownMode_ = nullptr;
   double lastUpdate_ = -1e9;

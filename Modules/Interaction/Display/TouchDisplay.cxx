@@ -1,5 +1,6 @@
 #include "TouchDisplay.h"
 
+#include "HandDistance.h"
 #include "ScreenView.h"
 #include "SteadyTime.h"
 
@@ -100,6 +101,16 @@ bool TouchDisplay::update(const std::vector<ServoSample>& samples, const ServoSa
     changed = props_->Update(latest.state) || changed;
   }
   return changed;
+}
+
+bool TouchDisplay::showDistance(const HandDistance& distance)
+{
+  if (!props_)
+  {
+    return false;
+  }
+  return distance.nearest() ? props_->ShowNearest(&distance.hand().x, &distance.nearest()->x)
+                            : props_->HideNearest();
 }
 
 bool TouchDisplay::isDue() const

@@ -19,6 +19,7 @@
 namespace pointhaptics
 {
 
+class HandDistance;
 class ScreenView;
 
 /// A frame is drawn only where something has changed, and drawing leaves at least half of the time to events.
@@ -46,6 +47,9 @@ public:
 
   /// Takes the new ticks, and the newest one there is. True: the picture has changed.
   bool update(const std::vector<ServoSample>& samples, const ServoSample& latest);
+
+  /// Shows where the hand of @p distance would touch. True: the picture has changed.
+  bool showDistance(const HandDistance& distance);
 
   /// The next renderIfDue() draws a frame.
   void requestRender() { isRequested_ = true; }

@@ -25,19 +25,22 @@ constexpr double kPointerSlack = 1.0;
 
 } // namespace
 
-void MouseHand::move(const Vec3& offset)
+Vec3 MouseHand::inWorkspace(Vec3 place) const
 {
-  if (!device_ || !isFinite(offset))
-  {
-    return;
-  }
   const std::array<double, 6>& box = model_.workspaceBounds();
-  Vec3 target = device_->target() + offset;
   for (int axis = 0; axis < 3; ++axis)
   {
-    target[axis] = std::min(std::max(target[axis], box[2 * axis]), box[2 * axis + 1]);
+    place[axis] = std::min(std::max(place[axis], box[2 * axis]), box[2 * axis + 1]);
   }
-  device_->setTarget(target);
+  return place;
+}
+
+void MouseHand::move(const Vec3& offset)
+{
+  if (device_ && isFinite(offset))
+  {
+    device_->setTarget(this->inWorkspace(device_->target() + offset));
+  }
 }
 
 void MouseHand::moveInDepth(double metres)
@@ -45,6 +48,23 @@ void MouseHand::moveInDepth(double metres)
   if (screen_.renderer())
   {
     this->move(metres * screen_.forward());
+  }
+}
+
+void MouseHand::moveOnScreen(double right, double up)
+{
+  if (screen_.renderer())
+  {
+    const ScreenAxes screen = screen_.axes();
+    this->move(right * screen.right + up * screen.up);
+  }
+}
+
+void MouseHand::placeAt(const Vec3& place)
+{
+  if (device_ && isFinite(place))
+  {
+    device_->placeAt(this->inWorkspace(place));
   }
 }
 

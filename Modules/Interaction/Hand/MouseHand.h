@@ -49,6 +49,10 @@ public:
   /// direction.
   void move(const Vec3& offset);
   void moveInDepth(double metres);
+  /// In the view plane, as arrow keys do.
+  void moveOnScreen(double right, double up);
+  /// Without a way from where it was: nothing in between is touched.
+  void placeAt(const Vec3& place);
   ///@}
   /// As far as the mouse has moved, in the view plane.
   void drag();
@@ -68,6 +72,7 @@ public:
   void update();
 
 private:
+  Vec3 inWorkspace(Vec3 place) const;
   void placePointer(const Vec3& point);
 
   const ScreenView& screen_;

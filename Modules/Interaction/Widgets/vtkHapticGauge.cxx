@@ -1,7 +1,11 @@
 #include "vtkHapticGauge.h"
 
+#include "ScreenMarks.h"
+
 #include "vtkActor2D.h"
+#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
+#include "vtkCommand.h"
 #include "vtkCoordinate.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -9,22 +13,38 @@
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper2D.h"
 #include "vtkProperty2D.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace
 {
 
-/// Pixels, from the anchor's display position.
+/// Points, from the anchor's display position.
 constexpr double kAside = 22.0;
 constexpr double kWidth = 9.0;
 constexpr double kHeight = 60.0;
 constexpr double kTextAside = kAside + kWidth + 6.0;
+/// Opacity.
+constexpr double kBarGround = 0.75;
+constexpr double kNumberGround = 0.6;
+/// Of a search for a place that is free.
+constexpr double kStep = 12.0;
+constexpr double kPointsPerInch = 72.0;
+/// After ScreenLayout, which says what is taken.
+constexpr float kLast = -2.0F;
+
+bool meet(const std::array<double, 4>& a, const std::array<double, 4>& b)
+{
+  return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+}
 
 /// A rectangle in pixels, kept where the anchor is drawn.
 struct Bar
@@ -49,12 +69,12 @@ struct Bar
     this->actor->GetPositionCoordinate()->SetCoordinateSystemToWorld();
     this->actor->VisibilityOff();
   }
-  void setHeight(double bottom, double top, double side)
+  void setBox(double near, double far, double bottom, double top)
   {
-    this->points->SetPoint(0, side * kAside, bottom, 0.0);
-    this->points->SetPoint(1, side * (kAside + kWidth), bottom, 0.0);
-    this->points->SetPoint(2, side * (kAside + kWidth), top, 0.0);
-    this->points->SetPoint(3, side * kAside, top, 0.0);
+    this->points->SetPoint(0, near, bottom, 0.0);
+    this->points->SetPoint(1, far, bottom, 0.0);
+    this->points->SetPoint(2, far, top, 0.0);
+    this->points->SetPoint(3, near, top, 0.0);
     this->points->Modified();
     this->shape->Modified();
   }
@@ -70,20 +90,43 @@ struct vtkHapticGauge::Internals
   /// The text's own position is pixels from a corner that follows the anchor.
   vtkNew<vtkTextActor> number;
   vtkNew<vtkCoordinate> anchor;
-  double part = 0.0; // of the full bar
-  double side = 1.0; // -1: left
+  double part = 0.0;       // of the full bar
+  double wantedSide = 1.0; // -1: left
+  double side = 1.0;
+  double higher = 0.0; // pixels
+  double pixels = 1.0; // of a point
+  std::function<std::vector<std::array<double, 4>>()> taken;
+  vtkNew<vtkCallbackCommand> onStart;
+  vtkWeakPointer<vtkRenderer> renderer;
+  std::array<double, 4> box{};
 
   void place();
+  std::array<double, 4> boxAt(const pointhaptics::Pixel& at, const double text[2]) const;
 };
 
 void vtkHapticGauge::Internals::place()
 {
-  this->ground.setHeight(-0.5 * kHeight, 0.5 * kHeight, this->side);
-  this->frame.setHeight(-0.5 * kHeight, 0.5 * kHeight, this->side);
-  this->fill.setHeight(-0.5 * kHeight, (this->part - 0.5) * kHeight, this->side);
-  this->number->SetPosition(this->side * kTextAside, 0.0);
+  const double near = this->side * this->pixels * kAside;
+  const double far = this->side * this->pixels * (kAside + kWidth);
+  const double height = this->pixels * kHeight;
+  const double bottom = this->higher - 0.5 * height;
+  this->ground.setBox(near, far, bottom, bottom + height);
+  this->frame.setBox(near, far, bottom, bottom + height);
+  this->fill.setBox(near, far, bottom, bottom + this->part * height);
+  this->number->SetPosition(this->side * this->pixels * kTextAside, this->higher);
   vtkTextProperty* text = this->number->GetTextProperty();
   this->side > 0.0 ? text->SetJustificationToLeft() : text->SetJustificationToRight();
+}
+
+/// What it takes where it is now; @p text is the size of the number.
+std::array<double, 4> vtkHapticGauge::Internals::boxAt(
+  const pointhaptics::Pixel& at, const double text[2]) const
+{
+  const double near = at.x + this->side * this->pixels * kAside;
+  const double far = at.x + this->side * (this->pixels * kTextAside + text[0]);
+  const double half = 0.5 * std::max(this->pixels * kHeight, text[1]);
+  const double middle = at.y + this->higher;
+  return { std::min(near, far), middle - half, std::max(near, far), middle + half };
 }
 
 vtkStandardNewMacro(vtkHapticGauge);
@@ -92,7 +135,7 @@ vtkHapticGauge::vtkHapticGauge()
   : Parts(new Internals)
 {
   Internals& parts = *this->Parts;
-  parts.ground.setUp(true, 1.0, 1.0, 1.0, 0.75);
+  parts.ground.setUp(true, 1.0, 1.0, 1.0, kBarGround);
   parts.fill.setUp(true, 0.95, 0.42, 0.02, 1.0);
   parts.frame.setUp(false, 0.15, 0.15, 0.18, 1.0);
   parts.anchor->SetCoordinateSystemToWorld();
@@ -101,15 +144,86 @@ vtkHapticGauge::vtkHapticGauge()
   text->SetBold(true);
   text->SetColor(0.08, 0.08, 0.10);
   text->SetBackgroundColor(1.0, 1.0, 1.0);
-  text->SetBackgroundOpacity(0.6);
+  text->SetBackgroundOpacity(kNumberGround);
   text->SetVerticalJustificationToCentered();
   parts.number->GetPositionCoordinate()->SetCoordinateSystemToViewport();
   parts.number->GetPositionCoordinate()->SetReferenceCoordinate(parts.anchor);
   parts.number->VisibilityOff();
+  parts.onStart->SetClientData(this);
+  parts.onStart->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void*) { static_cast<vtkHapticGauge*>(self)->Arrange(); });
   parts.place();
 }
 
-vtkHapticGauge::~vtkHapticGauge() = default;
+vtkHapticGauge::~vtkHapticGauge()
+{
+  if (this->Parts->renderer)
+  {
+    this->Parts->renderer->RemoveObserver(this->Parts->onStart);
+  }
+}
+
+void vtkHapticGauge::SetOpaque(bool opaque)
+{
+  this->Parts->ground.actor->GetProperty()->SetOpacity(opaque ? 1.0 : kBarGround);
+  this->Parts->number->GetTextProperty()->SetBackgroundOpacity(opaque ? 1.0 : kNumberGround);
+}
+
+void vtkHapticGauge::SetTaken(std::function<std::vector<std::array<double, 4>>()> taken)
+{
+  this->Parts->taken = std::move(taken);
+}
+
+std::array<double, 4> vtkHapticGauge::GetPlace() const
+{
+  return this->Parts->box;
+}
+
+/// Beside the anchor, or at the nearest place on either side that is in the picture and free.
+void vtkHapticGauge::Arrange()
+{
+  Internals& parts = *this->Parts;
+  vtkRenderer* renderer = parts.renderer;
+  if (!renderer || !renderer->GetRenderWindow() || !this->GetVisibility())
+  {
+    return;
+  }
+  parts.pixels = renderer->GetRenderWindow()->GetDPI() / kPointsPerInch;
+  const double* point = parts.anchor->GetValue();
+  const pointhaptics::Pixel anchor =
+    pointhaptics::ScreenProjection(renderer)({ point[0], point[1], point[2] });
+  double text[2];
+  parts.number->GetSize(renderer, text);
+  const double height = renderer->GetSize()[1];
+  const std::vector<std::array<double, 4>> taken =
+    parts.taken ? parts.taken() : std::vector<std::array<double, 4>>();
+  const auto isFree = [&](const std::array<double, 4>& box)
+  {
+    return box[0] >= 0.0 && box[1] >= 0.0 && box[2] <= renderer->GetSize()[0] && box[3] <= height &&
+      std::none_of(taken.begin(), taken.end(), [&](const auto& other) { return meet(box, other); });
+  };
+  for (double away = 0.0; away < height; away += parts.pixels * kStep)
+  {
+    for (const double higher : { away, -away })
+    {
+      for (const double side : { parts.wantedSide, -parts.wantedSide })
+      {
+        parts.side = side;
+        parts.higher = higher;
+        parts.box = parts.boxAt(anchor, text);
+        if (isFree(parts.box))
+        {
+          parts.place();
+          return;
+        }
+      }
+    }
+  }
+  parts.side = parts.wantedSide;
+  parts.higher = 0.0;
+  parts.box = parts.boxAt(anchor, text);
+  parts.place();
+}
 
 void vtkHapticGauge::Show(const double anchor[3], double newtons)
 {
@@ -133,13 +247,14 @@ void vtkHapticGauge::Show(const double anchor[3], double newtons)
 
 void vtkHapticGauge::SetLeft(bool left)
 {
-  this->Parts->side = left ? -1.0 : 1.0;
+  this->Parts->wantedSide = left ? -1.0 : 1.0;
+  this->Parts->side = this->Parts->wantedSide;
   this->Parts->place();
 }
 
 bool vtkHapticGauge::GetLeft() const
 {
-  return this->Parts->side < 0.0;
+  return this->Parts->wantedSide < 0.0;
 }
 
 void vtkHapticGauge::SetVisibility(bool visible)
@@ -163,6 +278,8 @@ void vtkHapticGauge::AddTo(vtkRenderer* renderer)
     renderer->AddActor2D(bar->actor);
   }
   renderer->AddActor2D(this->Parts->number);
+  this->Parts->renderer = renderer;
+  renderer->AddObserver(vtkCommand::StartEvent, this->Parts->onStart, kLast);
 }
 
 void vtkHapticGauge::RemoveFrom(vtkRenderer* renderer)
@@ -172,6 +289,8 @@ void vtkHapticGauge::RemoveFrom(vtkRenderer* renderer)
     renderer->RemoveActor2D(bar->actor);
   }
   renderer->RemoveActor2D(this->Parts->number);
+  renderer->RemoveObserver(this->Parts->onStart);
+  this->Parts->renderer = nullptr;
 }
 
 void vtkHapticGauge::PrintSelf(ostream& os, vtkIndent indent)

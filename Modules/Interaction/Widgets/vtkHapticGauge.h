@@ -2,8 +2,9 @@
  * @class   vtkHapticGauge
  * @brief   a bar with the force in newtons, beside a point of the picture
  *
- * Stands a few pixels beside the display position of its anchor, whatever the camera does. The bar is full at
- * MaximumForce, the number says how much it is.
+ * Stands a few pixels beside the display position of its anchor, whatever the camera does, on the other side
+ * or higher or lower where that is out of the picture or taken. The bar is full at MaximumForce, the number
+ * says how much it is. Both are as large as the window's dots per inch say.
  *
  * Frame: workspace, metres and newtons. GUI thread only.
  * @sa vtkHapticProps
@@ -14,7 +15,10 @@
 #include "PointHapticsInteractionModule.h" // For export macro
 #include "vtkObject.h"
 
-#include <memory> // For Internals
+#include <array>      // For places
+#include <functional> // For SetTaken
+#include <memory>     // For Internals
+#include <vector>     // For places
 
 class vtkRenderer;
 
@@ -46,6 +50,22 @@ public:
   bool GetLeft() const;
   ///@}
 
+  /**
+   * Put number and bar on an opaque plate. Default: off.
+   */
+  void SetOpaque(bool opaque);
+
+  /**
+   * Asked before each render: what is taken, pixels of the renderer: left, bottom, right, top of each. It may
+   * be empty.
+   */
+  void SetTaken(std::function<std::vector<std::array<double, 4>>()> taken);
+
+  /**
+   * Where it stood in the last render, as SetTaken() has it.
+   */
+  std::array<double, 4> GetPlace() const;
+
   ///@{
   /**
    * Show or hide. Default: off until the first Show().
@@ -65,6 +85,8 @@ public:
 protected:
   vtkHapticGauge();
   ~vtkHapticGauge() override;
+
+  void Arrange();
 
   double MaximumForce = 8.0;
 

@@ -22,6 +22,9 @@ constexpr int kLargestHelp = 16;
 constexpr int kSmallestHelp = 7;
 /// Part of the renderer that the list of keys may take.
 constexpr double kHelpPart = 0.98;
+/// Opacity of plates.
+constexpr double kTextPlate = 0.6;
+constexpr double kHelpPlate = 0.92;
 
 void styleText(vtkTextProperty* text, int size, double plateOpacity)
 {
@@ -53,7 +56,7 @@ std::string padded(const std::string& text)
 
 void placeCorner(vtkTextActor* actor, bool right, bool top)
 {
-  styleText(actor->GetTextProperty(), 15, 0.6);
+  styleText(actor->GetTextProperty(), 15, kTextPlate);
   right ? actor->GetTextProperty()->SetJustificationToRight()
         : actor->GetTextProperty()->SetJustificationToLeft();
   top ? actor->GetTextProperty()->SetVerticalJustificationToTop()
@@ -132,7 +135,7 @@ vtkHapticOverlay::vtkHapticOverlay()
   placeCorner(this->Status, false, true);
   placeCorner(this->Panel, true, true);
   placeCorner(this->Detail, false, false);
-  styleText(this->Help->GetTextProperty(), kLargestHelp, 0.92);
+  styleText(this->Help->GetTextProperty(), kLargestHelp, kHelpPlate);
   this->Help->GetTextProperty()->SetFontFamilyToCourier();
   this->Help->GetTextProperty()->SetJustificationToCentered();
   this->Help->GetTextProperty()->SetVerticalJustificationToCentered();
@@ -283,6 +286,16 @@ void vtkHapticOverlay::SetTextVisibility(bool visible)
   this->Status->SetVisibility(visible && !this->StatusText.empty());
   this->Panel->SetVisibility(visible && !this->PanelText.empty());
   this->Detail->SetVisibility(visible && !this->DetailText.empty());
+}
+
+void vtkHapticOverlay::SetOpaque(bool opaque)
+{
+  this->Opaque = opaque;
+  for (int block = 0; block < NumberOfBlocks; ++block)
+  {
+    const double usual = block == HelpBlock ? kHelpPlate : kTextPlate;
+    this->ActorOf(block)->GetTextProperty()->SetBackgroundOpacity(opaque ? 1.0 : usual);
+  }
 }
 
 void vtkHapticOverlay::AddTo(vtkRenderer* renderer)

@@ -71,6 +71,14 @@ public:
   bool GetTextVisibility() const { return this->TextVisibility; }
   ///@}
 
+  ///@{
+  /**
+   * Put all texts on opaque plates, whatever lies behind. Default: off, a part of the picture shines through.
+   */
+  void SetOpaque(bool opaque);
+  bool GetOpaque() const { return this->Opaque; }
+  ///@}
+
   enum Block
   {
     StatusBlock,
@@ -113,6 +121,7 @@ protected:
   std::string DetailText;
   std::string HelpText;
   bool TextVisibility = true;
+  bool Opaque = false;
 
   void FitHelp();
   vtkTextActor* ActorOf(int block) const;

@@ -163,6 +163,13 @@ void PictureControls::showNextBackground()
   say_("background: " + options_.picture.background);
 }
 
+void PictureControls::showNextTheme()
+{
+  takeNext(options_.picture.theme, themeNames());
+  this->apply();
+  say_("theme: " + options_.picture.theme);
+}
+
 void PictureControls::showNextColorMap()
 {
   takeNext(options_.picture.colorMap, colorMapNames());
@@ -273,6 +280,7 @@ void PictureControls::addCommands(CommandRegistry& commands, std::function<Pictu
   };
   commands.add({ "background", "G", group, "background: dark, light, white, black",
     call(&Controls::showNextBackground), isOpen });
+  commands.add({ "theme", "F9", group, "high contrast", call(&Controls::showNextTheme), isOpen });
   commands.add({ "color-map", "k", group, "next colour map", call(&Controls::showNextColorMap), isOpen });
   commands.add(
     { "color-range", "K", group, "colours over all values", call(&Controls::resetColorRange), isOpen });

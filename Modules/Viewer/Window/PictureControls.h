@@ -42,6 +42,7 @@ public:
   /// @p direction 1: stronger, -1: weaker.
   void changeDepthStrength(int direction);
   void showNextBackground();
+  void showNextTheme();
   void showNextColorMap();
   /// Takes the value that was @p from up a colour bar of that @p range, 0 to 1, to @p to; the end farther
   /// away stays.

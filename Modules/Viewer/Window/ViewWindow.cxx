@@ -73,7 +73,7 @@ ViewWindow::~ViewWindow()
     this->report(HapticViewerObserver::Kind::Error, message);
   }
   layout_.follow(nullptr);
-  scene_.releaseScalarBar();
+  scene_.leaveLayout();
   if (isOpen_)
   {
     window_->RemoveRenderer(scene_.renderer());
@@ -191,8 +191,7 @@ void ViewWindow::setUpRendering()
   layout_.setOverlay(overlay_);
   layout_.setSliders(sliders_);
   layout_.setProgress(progress_);
-  layout_.setScalarBar(scene_.takeScalarBar());
-  layout_.setCorner([this] { return scene_.takenCorner(); });
+  scene_.join(layout_);
   layout_.follow(scene_.renderer());
   if (options_.device != HapticViewerDevice::None || options_.followsFile())
   {

@@ -129,6 +129,27 @@ TEST(SimulatedDevice, WithoutYieldIsAtItsTargetWhateverTheForce)
   EXPECT_EQ(readZ(device, 0.001), 0.02);
 }
 
+TEST(SimulatedDevice, IsPlacedWithoutAWayAndSaysSoOnce)
+{
+  SimulatedDevice device;
+  ASSERT_EQ(device.open(), Status::Ok);
+  HandState hand;
+  ASSERT_EQ(device.read(0.0, hand), Status::Ok);
+  device.setTarget({ 0.02, 0.0, 0.0 });
+  ASSERT_EQ(device.read(0.01, hand), Status::Ok);
+  EXPECT_GT(hand.position.x, 0.0);
+  EXPECT_FALSE(hand.isNew);
+  device.placeAt({ 0.0, 1.0, 0.03 });
+  device.placeAt({ std::nan(""), 0.0, 0.0 });
+  EXPECT_EQ(device.target(), Vec3(0.0, 0.05, 0.03));
+  ASSERT_EQ(device.read(0.011, hand), Status::Ok);
+  EXPECT_EQ(hand.position, Vec3(0.0, 0.05, 0.03));
+  EXPECT_TRUE(hand.isNew);
+  ASSERT_EQ(device.read(0.012, hand), Status::Ok);
+  EXPECT_EQ(hand.position, Vec3(0.0, 0.05, 0.03)) << "it was at rest";
+  EXPECT_FALSE(hand.isNew);
+}
+
 TEST(SimulatedDevice, ClampsTargetsAndIgnoresThoseThatAreNotFinite)
 {
   SimulatedDevice device;

@@ -1,0 +1,58 @@
+/// @file
+/// How far a hand in free space is from the cloud, and in which direction.
+#pragma once
+
+#include "ScreenView.h"
+
+#include "Core/Base/Vector3.h"
+#include "Core/Neighbors/NeighborQuery.h"
+
+#include "PointHapticsInteractionModule.h" // For export macro
+
+#include "vtkType.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace pointhaptics
+{
+
+class ScenePipeline;
+struct ProxyState;
+
+/// Of the means that are felt, where the model is at rest. GUI thread only.
+class POINTHAPTICSINTERACTION_EXPORT HandDistance
+{
+public:
+  /// @p scenes must outlive this.
+  explicit HandDistance(const ScenePipeline& scenes)
+    : scenes_(scenes)
+  {
+  }
+
+  /// Takes the hand of @p latest; null: nobody asks. The first call after the cloud has changed makes an
+  /// index, 0.1 us a point; later ones take some microseconds.
+  void update(const ProxyState* latest);
+
+  /// The point nearest to the hand, which touches nothing; workspace, metres.
+  const std::optional<Vec3>& nearest() const { return nearest_; }
+  const Vec3& hand() const { return hand_; }
+  /// Metres; 0 in contact. Nothing: nobody asked, or there is no point.
+  std::optional<double> distance() const { return distance_; }
+  /// "nearest point 3.1 mm away: left, ahead", as the person sees it; empty where there is nothing to say.
+  std::string text(const ScreenAxes& screen) const;
+
+private:
+  bool index();
+
+  const ScenePipeline& scenes_;
+  std::unique_ptr<NeighborQuery> query_;
+  const void* cloud_ = nullptr;
+  vtkMTimeType cloudTime_ = 0;
+  Vec3 hand_;
+  std::optional<Vec3> nearest_;
+  std::optional<double> distance_;
+};
+
+} // namespace pointhaptics

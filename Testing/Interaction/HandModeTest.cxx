@@ -1,0 +1,163 @@
+// What hand mode does before anything is touched.
+#include "HandDistance.h"
+#include "InteractorStyleFixture.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticProps.h"
+
+#include "Devices/SimulatedDevice.h"
+#include "Haptics/Proxy.h"
+#include "Haptics/ServoLoop.h"
+
+#include <gtest/gtest.h>
+#include <vtkCommand.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+/// The cloud is the plane z = 0; the person looks along -z.
+class HandMode : public InteractorStyleFixture
+{
+protected:
+  void SetUp() override
+  {
+    InteractorStyleFixture::SetUp();
+    if (IsSkipped())
+    {
+      return;
+    }
+    style_->SetDevice(&device_);
+    device_.setTarget({ 0.04, 0.04, 0.045 });
+  }
+  void TearDown() override { style_->SetDevice(nullptr); }
+
+  ProxyState freeAt(const Vec3& hip) const
+  {
+    ProxyState state;
+    state.hip = hip;
+    return state;
+  }
+
+  SimulatedDevice device_;
+};
+
+TEST_F(HandMode, BeginsAboveTheSurfaceUnderThePointer)
+{
+  interactor_->SetEventInformation(110, 95, 0, 0);
+  this->press("f");
+  EXPECT_LT(std::abs(device_.target().x), 0.02);
+  EXPECT_LT(std::abs(device_.target().y), 0.02);
+  EXPECT_NEAR(device_.target().z, 0.004, 1e-3); // 4 % of the workspace
+  this->press("f");
+  EXPECT_NEAR(device_.target().z, 0.004, 1e-3) << "it stays where it was when the mode ends";
+}
+
+TEST_F(HandMode, LeavesTheHandWhereNothingIsUnderThePointer)
+{
+  interactor_->SetEventInformation(2, 2, 0, 0);
+  this->press("f");
+  EXPECT_DOUBLE_EQ(device_.target().x, 0.04);
+  EXPECT_DOUBLE_EQ(device_.target().z, 0.045);
+}
+
+TEST_F(HandMode, ArrowKeysMoveTheHandAndWithoutItTheModel)
+{
+  interactor_->SetEventInformation(2, 2, 0, 0);
+  device_.setTarget({ 0, 0, 0.02 });
+  this->press("Right");
+  EXPECT_GT(this->element(0, 3), 0.0);
+  EXPECT_DOUBLE_EQ(device_.target().x, 0.0);
+  style_->GetModel().reset();
+  this->press("f");
+  this->press("Right");
+  EXPECT_GT(device_.target().x, 0.0);
+  this->press("Down");
+  EXPECT_LT(device_.target().y, 0.0);
+  this->press("Prior");
+  EXPECT_LT(device_.target().z, 0.02);
+  EXPECT_TRUE(this->modelIsIdentity());
+}
+
+TEST_F(HandMode, KnowsHowFarTheCloudIsAndWhere)
+{
+  style_->Refresh();
+  HandDistance distance(style_->GetScenes());
+  EXPECT_FALSE(distance.distance());
+  ProxyState state = this->freeAt({ 0.0, 0.0, 0.02 });
+  distance.update(&state);
+  ASSERT_TRUE(distance.nearest());
+  EXPECT_NEAR(*distance.distance(), 0.02, 1e-4);
+  EXPECT_EQ(distance.text(style_->GetScreen().axes()), "nearest point 20 mm away: deeper");
+  state = this->freeAt({ 0.045, 0.0, -0.013 }); // the plane ends at 0.03
+  distance.update(&state);
+  EXPECT_EQ(distance.text(style_->GetScreen().axes()), "nearest point 20 mm away: left, nearer to you");
+  state.contact = true;
+  distance.update(&state);
+  EXPECT_EQ(distance.distance(), 0.0);
+  EXPECT_EQ(distance.text(style_->GetScreen().axes()), "");
+  distance.update(nullptr);
+  EXPECT_FALSE(distance.distance());
+}
+
+TEST_F(HandMode, SaysTheDistanceAndHowToTouchUntilItWasDone)
+{
+  SimulatedHandSettings settings;
+  settings.yieldsToForce = false;
+  settings.start = { 0.0, 0.0, 0.03 };
+  SimulatedDevice device(settings);
+  device.setTarget(settings.start);
+  ASSERT_EQ(device.open(), Status::Ok);
+  ServoLoop servo;
+  ServoSettings servoSettings;
+  servoSettings.realtimePriority = false;
+  ASSERT_EQ(servo.start(device, HapticParameters(), servoSettings), Status::Ok);
+  vtkNew<vtkHapticProps> props;
+  vtkNew<vtkHapticOverlay> overlay;
+  props->AddTo(renderer_);
+  overlay->AddTo(renderer_);
+  style_->SetServoLoop(&servo);
+  style_->SetDevice(&device);
+  style_->SetProps(props);
+  style_->SetOverlay(overlay);
+  const auto eventually = [&](auto&& condition)
+  {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!condition() && std::chrono::steady_clock::now() < deadline)
+    {
+      interactor_->InvokeEvent(vtkCommand::TimerEvent);
+      std::this_thread::yield();
+    }
+    return condition();
+  };
+  const auto says = [&](const char* words) { return overlay->GetStatus().find(words) != std::string::npos; };
+  interactor_->SetEventInformation(2, 2, 0, 0);
+  EXPECT_TRUE(eventually([&] { return servo.latest().state.radius > 0.0; }));
+  EXPECT_FALSE(says("nearest point")) << "of a hand that nobody moves";
+  this->press("f");
+  EXPECT_TRUE(eventually([&] { return says("nearest point 30 mm away: deeper"); })) << overlay->GetStatus();
+  EXPECT_TRUE(says("move: mouse    deeper: wheel, Page Up    leave: F")) << overlay->GetStatus();
+  double nearest[3];
+  EXPECT_TRUE(props->GetNearest(nearest));
+  EXPECT_NEAR(nearest[2], 0.0, 1e-4);
+  // A step is a part of the way, so it is shorter the nearer the surface is.
+  this->press("Prior");
+  const double first = 0.03 - device.target().z;
+  EXPECT_NEAR(first, 0.005, 1e-9); // the longest
+  device.setTarget({ 0.0, 0.0, 0.004 });
+  EXPECT_TRUE(eventually([&] { return says("nearest point 4 mm away"); })) << overlay->GetStatus();
+  this->press("Prior");
+  EXPECT_NEAR(0.004 - device.target().z, 0.0012, 1e-4);
+  device.setTarget({ 0.0, 0.0, -0.002 });
+  EXPECT_TRUE(eventually([&] { return says("in contact") && !says("move: mouse"); })) << overlay->GetStatus();
+  EXPECT_FALSE(says("nearest point"));
+  EXPECT_FALSE(props->GetNearest(nearest));
+  servo.stop();
+  style_->SetServoLoop(nullptr);
+}
+
+} // namespace
