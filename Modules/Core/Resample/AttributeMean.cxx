@@ -1,6 +1,6 @@
 #include "Core/Resample/AttributeMean.h"
 
-#include "Core/Resample/Kernel/AttributeKernel.h"
+#include "Core/Resample/Kernel/VoxelKernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +105,7 @@ AttributeRange rangeOfReals(
 
 AttributeRange rangeOf(const AttributeView& view, const Executor& executor, InstructionSet instructions)
 {
-  const simd::AttributeKernels& kernels = simd::attributeKernels(instructions);
+  const simd::AttributeKernels& kernels = simd::kernelsFor(instructions).attributes;
   switch (view.type)
   {
     case ScalarType::Float:
@@ -119,7 +119,7 @@ AttributeRange rangeOf(const AttributeView& view, const Executor& executor, Inst
 
 AttributeMean::AttributeMean(
   const AttributeView& view, const AttributeRange& range, InstructionSet instructions)
-  : AttributeMean(&simd::attributeKernels(instructions), view, range)
+  : AttributeMean(&simd::kernelsFor(instructions).attributes, view, range)
 {
 }
 
@@ -147,17 +147,12 @@ void AttributeMean::chooseParts(std::int64_t mostPoints)
   scale_[1] = std::ldexp(1.0, std::max(shift - 1000, 0));
 }
 
-void AttributeMean::prepare(
-  std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare, const Executor& executor)
+void AttributeMean::prepare(std::int64_t voxels, std::int64_t mostPoints, const Executor& executor)
 {
   mostPoints_ = mostPoints;
   if (isFloating())
   {
     chooseParts(mostPoints);
-  }
-  if (spare.bytes() > sums_.bytes())
-  {
-    sums_ = std::move(spare);
   }
   clear(voxels, executor);
 }
@@ -174,56 +169,6 @@ void AttributeMean::clear(std::int64_t voxels, const Executor& executor)
     special_.reserve(size);
     std::fill(special_.data(), special_.data() + size, std::uint8_t(0));
   }
-}
-
-namespace
-{
-
-/// Copies of tuples.
-template <typename T>
-struct Tuples
-{
-  const char* first;
-  std::size_t stride;
-
-  const T* operator[](int i) const { return reinterpret_cast<const T*>(first + stride * std::size_t(i)); }
-};
-
-template <int Components, typename Integer>
-void addTuples(
-  Tuples<Integer> tuples, int components, const std::int64_t* voxels, int count, std::int64_t* sums)
-{
-  constexpr int kLanes = sizeof(Integer) == 8 ? 2 : 1;
-  const int width = Components > 0 ? Components : components;
-  for (int i = 0; i < count; ++i)
-  {
-    const Integer* value = tuples[i];
-    std::int64_t* sum = sums + kLanes * width * voxels[i];
-    for (int c = 0; c < width; ++c)
-    {
-      if constexpr (kLanes == 2)
-      {
-        // High and low halves: the low one is not negative.
-        sum[2 * c] += std::int64_t(value[c] >> 32);
-        sum[2 * c + 1] += std::int64_t(value[c] & Integer(0xffffffff));
-      }
-      else
-      {
-        sum[c] += value[c];
-      }
-    }
-  }
-}
-
-}
-
-template <typename Integer>
-void AttributeMean::addIntegers(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count)
-{
-  const auto add = view_.components == 3 ? &addTuples<3, Integer>
-    : view_.components == 1              ? &addTuples<1, Integer>
-                                         : &addTuples<0, Integer>;
-  add({ tuples, stride }, view_.components, voxels, count, sums_.data());
 }
 
 namespace
@@ -251,67 +196,83 @@ inline void addParts(double scaled, double partScale, int parts, std::int64_t* s
   }
 }
 
-/// The usual cases: all numbers finite, one scale, and either one part
-template <int Components, typename Real>
-void addWhole(Tuples<Real> tuples, int components, const std::int64_t* voxels, int count, double scale,
-  std::int64_t* sums)
+/// Copies of tuples, and the voxels they are added to.
+struct Terms
+{
+  const char* first;
+  std::size_t stride;
+  const std::int64_t* voxels;
+  int count;
+};
+
+/// Calls add(sum, value) for each number: the sums have @p Lanes words for each of @p Components components,
+/// or of @p components where the compiler is not to know.
+template <int Lanes, int Components, typename T, typename Add>
+void forNumbers(const Terms& terms, int components, std::int64_t* sums, const Add& add)
 {
   const int width = Components > 0 ? Components : components;
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < terms.count; ++i)
   {
-    const Real* value = tuples[i];
-    std::int64_t* sum = sums + width * voxels[i];
+    const T* value = reinterpret_cast<const T*>(terms.first + terms.stride * std::size_t(i));
+    std::int64_t* sum = sums + Lanes * width * terms.voxels[i];
     for (int c = 0; c < width; ++c)
     {
-      sum[c] += std::int64_t(double(value[c]) * scale);
+      add(sum + Lanes * c, value[c]);
     }
   }
 }
-
-/// or two.
-template <int Components, typename Real>
-void addPairs(Tuples<Real> tuples, int components, const std::int64_t* voxels, int count, double scale,
-  double partScale, std::int64_t* sums)
+template <int Lanes, typename T, typename Add>
+void forNumbers(const Terms& terms, int components, std::int64_t* sums, const Add& add)
 {
-  const int width = Components > 0 ? Components : components;
-  for (int i = 0; i < count; ++i)
-  {
-    const Real* value = tuples[i];
-    std::int64_t* sum = sums + 2 * width * voxels[i];
-    for (int c = 0; c < width; ++c)
-    {
-      addParts(double(value[c]) * scale, partScale, 2, sum + 2 * c);
-    }
-  }
+  components == 3     ? forNumbers<Lanes, 3, T>(terms, components, sums, add)
+    : components == 1 ? forNumbers<Lanes, 1, T>(terms, components, sums, add)
+                      : forNumbers<Lanes, 0, T>(terms, components, sums, add);
 }
 
+}
+
+template <typename Integer>
+void AttributeMean::addIntegers(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count)
+{
+  constexpr int kLanes = sizeof(Integer) == 8 ? 2 : 1;
+  forNumbers<kLanes, Integer>({ tuples, stride, voxels, count }, view_.components, sums_.data(),
+    [](std::int64_t* sum, Integer value)
+    {
+      if constexpr (kLanes == 2)
+      {
+        // High and low halves: the low one is not negative.
+        sum[0] += std::int64_t(value >> 32);
+        sum[1] += std::int64_t(value & Integer(0xffffffff));
+      }
+      else
+      {
+        sum[0] += value;
+      }
+    });
 }
 
 template <typename Real>
 void AttributeMean::addReals(const char* first, std::size_t stride, const std::int64_t* voxels, int count)
 {
-  const Tuples<Real> tuples = { first, stride };
   const int components = view_.components;
+  const double scale = scale_[0];
   const double partScale = std::ldexp(1.0, partBits_);
-  if (lanes_ == 1 && !range_.hasNonFinite && scale_[1] == 1.0)
+  const bool isPlain = !range_.hasNonFinite && scale_[1] == 1.0;
+  if (lanes_ == 1 && isPlain)
   {
-    const auto whole = components == 3 ? &addWhole<3, Real>
-      : components == 1                ? &addWhole<1, Real>
-                                       : &addWhole<0, Real>;
-    whole(tuples, components, voxels, count, scale_[0], sums_.data());
+    forNumbers<1, Real>({ first, stride, voxels, count }, components, sums_.data(),
+      [=](std::int64_t* sum, Real value) { sum[0] += std::int64_t(double(value) * scale); });
     return;
   }
-  if (lanes_ == 2 && !range_.hasNonFinite && scale_[1] == 1.0)
+  if (lanes_ == 2 && isPlain)
   {
-    const auto pairs = components == 3 ? &addPairs<3, Real>
-      : components == 1                ? &addPairs<1, Real>
-                                       : &addPairs<0, Real>;
-    pairs(tuples, components, voxels, count, scale_[0], partScale, sums_.data());
+    forNumbers<2, Real>({ first, stride, voxels, count }, components, sums_.data(),
+      [=](std::int64_t* sum, Real value) { addParts(double(value) * scale, partScale, 2, sum); });
     return;
   }
   for (int i = 0; i < count; ++i)
   {
-    const Real* value = tuples[i];
+    const Real* value = reinterpret_cast<const Real*>(first + stride * std::size_t(i));
     std::int64_t* sum = sums_.data() + std::int64_t(lanes_) * components * voxels[i];
     for (int c = 0; c < components; ++c)
     {

@@ -52,11 +52,8 @@ public:
   AttributeMean another() const { return { kernels_, view_, range_ }; }
 
   /// Drops all sums and makes room for @p voxels of at most @p mostPoints points each, at coarser levels
-  /// too, in @p spare if that is large enough.
-  void prepare(std::int64_t voxels, std::int64_t mostPoints, Buffer<std::int64_t> spare = {},
-    const Executor& executor = {});
-  /// The memory of the sums, which are gone then.
-  Buffer<std::int64_t> takeSums() { return std::move(sums_); }
+  /// too.
+  void prepare(std::int64_t voxels, std::int64_t mostPoints, const Executor& executor = {});
   /// Adds copies of tuples of the array, each @p stride bytes after the one before and aligned like its
   /// numbers, to the sums of voxels. Several threads may add at once if no two have a voxel in common.
   void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
@@ -79,12 +76,9 @@ public:
   /// Means of all voxels in the array's own type; integers are rounded to the nearest, halves away from zero.
   /// @p counts: points of each voxel.
   void write(const std::int64_t* counts, void* means, const Executor& executor) const;
-  /// Means of vectors of three floating-point numbers, turned - mean.x times the first of @p columns and so
-  /// on - and made unit vectors; 0 where they have no direction, NaN where they are not finite. Of the
-  /// array's own type.
-  void writeUnitVectors(
-    const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const;
-  /// The same of vectors of any type: those of integers are as long as their mean.
+  /// Means of vectors of three numbers, turned - mean.x times the first of @p columns and so on - and made
+  /// unit vectors, those of integers as long as their mean; 0 where they have no direction, NaN where they
+  /// are not finite. Of the array's own type.
   void writeNormals(
     const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const;
   /// The mean of one voxel in double: components numbers.

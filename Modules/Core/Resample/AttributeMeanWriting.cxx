@@ -1,7 +1,7 @@
 // From the sums of arrays to their means.
 #include "Core/Resample/AttributeMean.h"
 
-#include "Core/Resample/Kernel/AttributeKernel.h"
+#include "Core/Resample/Kernel/VoxelKernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -227,19 +227,6 @@ void AttributeMean::writeVectors(
         }
       }
     });
-}
-
-void AttributeMean::writeUnitVectors(
-  const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const
-{
-  if (view_.type == ScalarType::Float)
-  {
-    writeVectors(counts, columns, static_cast<float*>(vectors), executor);
-  }
-  else
-  {
-    writeVectors(counts, columns, static_cast<double*>(vectors), executor);
-  }
 }
 
 /// Integers have a scale of their own: they keep the length of their mean.

@@ -65,7 +65,7 @@ void AttributeReducer::prepare(
 {
   if (auto* mean = std::get_if<AttributeMean>(&tuples_))
   {
-    mean->prepare(voxels, mostPoints, {}, executor);
+    mean->prepare(voxels, mostPoints, executor);
     return;
   }
   std::get<AttributeTuples>(tuples_).prepare(counts, voxels);

@@ -59,7 +59,6 @@ bool subtractSums(const WideSums& a, const WideSums& b, WideSums& difference)
 /// @return false where @p b has more than @p a.
 bool subtractRun(const VoxelRun& a, const VoxelRun& b, VoxelRun& difference)
 {
-  const bool withSecondMoments = !a.secondMoments.empty();
   std::size_t j = 0;
   for (std::size_t i = 0; i < a.voxels.size(); ++i)
   {
@@ -69,15 +68,14 @@ bool subtractRun(const VoxelRun& a, const VoxelRun& b, VoxelRun& difference)
     {
       return false;
     }
+    SecondMoments moments = a.momentsOf(i) ? *a.momentsOf(i) : SecondMoments{};
+    for (int m = 0; isIn && b.momentsOf(j) && m < 6; ++m)
+    {
+      moments.lanes[m] -= b.momentsOf(j)->lanes[m];
+    }
     if (left.count > 0)
     {
-      difference.voxels.push_back(left);
-    }
-    for (int m = 0; left.count > 0 && withSecondMoments && m < 6; ++m)
-    {
-      difference.secondMoments.resize(difference.voxels.size());
-      difference.secondMoments.back().lanes[m] =
-        a.secondMoments[i].lanes[m] - (isIn ? b.secondMoments[j].lanes[m] : UInt128(0));
+      difference.push(left, a.momentsOf(i) ? &moments : nullptr);
     }
     j += isIn;
   }
@@ -228,13 +226,13 @@ bool readVoxels(std::string_view bytes, const Header& header, std::uint64_t keys
       return false;
     }
     points += voxel.count;
-    run.voxels.push_back(WideSums::of(voxel));
+    SecondMoments moments{};
     for (int m = 0; header.covariances && m < 6; ++m)
     {
-      run.secondMoments.resize(run.voxels.size());
       const std::uint64_t low = reader.take();
-      run.secondMoments.back().lanes[m] = UInt128(reader.take()) << 64 | low;
+      moments.lanes[m] = UInt128(reader.take()) << 64 | low;
     }
+    run.push(WideSums::of(voxel), header.covariances ? &moments : nullptr);
   }
   return points == header.points;
 }
@@ -388,26 +386,6 @@ Status VoxelAccumulator::finish(
   return status;
 }
 
-/// Of voxels that have several sums, those whose keys are in a range.
-VoxelRun VoxelAccumulator::halvesInRange(
-  const VoxelRun& all, const Lattice& lattice, std::uint64_t first, std::uint64_t end)
-{
-  VoxelRun some;
-  for (std::size_t v = 0; v < all.voxels.size(); ++v)
-  {
-    const std::uint64_t key = VoxelResampler::Implementation::keyOfSums(lattice, all.voxels[v].key);
-    if (key >= first && key < end)
-    {
-      some.voxels.push_back(all.voxels[v]);
-      if (!all.secondMoments.empty())
-      {
-        some.secondMoments.push_back(all.secondMoments[v]);
-      }
-    }
-  }
-  return some;
-}
-
 std::string VoxelAccumulator::serialize()
 {
   return this->serialize(0, std::numeric_limits<std::uint64_t>::max());
@@ -420,18 +398,15 @@ std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
   {
     return bytes;
   }
-  const bool halves = VoxelResampler::Implementation::hasHalves(lattice_);
-  const VoxelRun& all = added_->run();
-  const VoxelRun some = halves ? halvesInRange(all, lattice_, first, end) : VoxelRun();
-  const VoxelRun& run = halves ? some : all;
+  const VoxelRun& run = added_->run();
   const auto place = [&run](std::uint64_t key)
   {
     return std::size_t(std::lower_bound(run.voxels.begin(), run.voxels.end(), key,
                          [](const WideSums& voxel, std::uint64_t k) { return voxel.key < k; }) -
       run.voxels.begin());
   };
-  const std::size_t begin = halves ? 0 : place(first);
-  const std::size_t last = halves ? run.voxels.size() : std::max(begin, place(end));
+  const std::size_t begin = place(first);
+  const std::size_t last = std::max(begin, place(end));
   const bool isFirst = first == 0 && end > 0;
   const std::int64_t clipped = isFirst ? added_->clipped : 0;
   const std::int64_t invalid = isFirst ? added_->invalid : 0;
@@ -455,32 +430,22 @@ std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
   }
   for (std::size_t v = begin; v < last; ++v)
   {
-    putVoxel(bytes, run.voxels[v].whole(), covariances_ ? &run.secondMoments[v] : nullptr);
+    putVoxel(bytes, run.voxels[v].whole(), run.momentsOf(v));
   }
   return bytes;
 }
 
 std::vector<std::uint64_t> VoxelAccumulator::keys(std::int64_t step)
 {
-  std::vector<std::uint64_t> all;
+  std::vector<std::uint64_t> keys;
   if (!this->settle())
   {
-    return all;
+    return keys;
   }
-  const bool halves = VoxelResampler::Implementation::hasHalves(lattice_);
-  for (const WideSums& voxel : added_->run().voxels)
+  const std::vector<WideSums>& voxels = added_->run().voxels;
+  for (std::size_t v = 0; v < voxels.size(); v += std::size_t(step))
   {
-    all.push_back(halves ? VoxelResampler::Implementation::keyOfSums(lattice_, voxel.key) : voxel.key);
-  }
-  if (halves)
-  {
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-  }
-  std::vector<std::uint64_t> keys;
-  for (std::size_t v = 0; v < all.size(); v += std::size_t(step))
-  {
-    keys.push_back(all[v]);
+    keys.push_back(voxels[v].key);
   }
   return keys;
 }
@@ -492,9 +457,9 @@ Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& r
   {
     return Status::InvalidParameter;
   }
-  int fractionBits = 0;
-  std::uint64_t keys = 0;
-  VoxelResampler::Implementation::describeSums(header.lattice, fractionBits, keys);
+  const int indexBits = indexBitsOf(header.lattice);
+  const int fractionBits = positionBitsFor(indexBits) - indexBits;
+  const std::uint64_t keys = header.lattice.key(0, 0, header.lattice.dimensions[2]);
   VoxelRun run;
   if ((header.fractionBits != fractionBits && (header.voxels > 0 || header.fractionBits != 0)) ||
     !readVoxels(bytes.substr(kHeaderBytes), header, keys, run))

@@ -19,11 +19,6 @@
 
 namespace pointhaptics
 {
-namespace simd
-{
-struct VoxelRun;
-}
-
 /// Accumulates clouds voxel by voxel: frames of a sensor, parts of a file, what other processes have summed.
 ///
 /// Sums are exact integers, those of VoxelResampler. So neither the order of add(), subtract() and merge(),
@@ -95,8 +90,6 @@ public:
 
 private:
   class Sums;
-  static simd::VoxelRun halvesInRange(
-    const simd::VoxelRun& all, const Lattice& lattice, std::uint64_t first, std::uint64_t end);
   Status change(Sums& sums, const PointView& points, const AffineTransform& transform,
     const Executor& executor, ProgressObserver* observer);
   bool settle();

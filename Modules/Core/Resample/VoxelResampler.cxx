@@ -35,12 +35,9 @@ void addPointSources(VoxelRequest& request)
 
 }
 
-int VoxelResampler::Implementation::halvingsOf(const Lattice& lattice)
+bool VoxelResampler::Implementation::usesPartitions(const Lattice& lattice)
 {
-  const int indexBits = indexBitsOf(lattice);
-  const int halvings = std::max(kMinimumIndexBits - indexBits, 0);
-  const Lattice fine = finerLattice(lattice, halvings);
-  return fitsPartitions(fine, indexBits + halvings) && hasOrdinarySpacing(fine) ? halvings : -1;
+  return fitsPartitions(lattice, indexBitsOf(lattice)) && hasOrdinarySpacing(lattice);
 }
 
 Status VoxelResampler::Implementation::check(const VoxelRequest& request)
@@ -97,8 +94,8 @@ Status VoxelResampler::Implementation::runMeans(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   levels[0].lattice = request.lattice;
-  halvings_ = halvingsOf(request.lattice);
-  return halvings_ >= 0 ? runPlanned(request, executor, observer) : runGeneral(request, executor, observer);
+  usesPartitions_ = usesPartitions(request.lattice);
+  return usesPartitions_ ? runPlanned(request, executor, observer) : runGeneral(request, executor, observer);
 }
 
 void VoxelResampler::Implementation::clear()
@@ -114,21 +111,20 @@ void VoxelResampler::Implementation::clear()
   runs_.reset(0, 0);
 }
 
-/// Writes the means of runs to a level. @pre these are joined. @param keeps: the runs are of use afterwards.
+/// Writes the means of the runs to a level. @pre these are joined. @param keeps: they are of use afterwards.
 /// @return false where the observer ended the work.
-bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, VoxelRuns& runs, bool keeps,
-  Level& level, OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer)
+bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, bool keeps, Level& level,
+  OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer)
 {
-  const std::size_t ranges = runs.ranges();
+  const std::size_t ranges = runs_.ranges();
   level.firsts.assign(ranges + 1, 0);
   for (std::size_t range = 0; range < ranges; ++range)
   {
-    level.firsts[range + 1] = level.firsts[range] + runs.size(range);
+    level.firsts[range + 1] = level.firsts[range] + runs_.size(range);
   }
   level.size = std::int64_t(level.firsts.back());
   level.arena.prepare(level.firsts.back(), { request.singlePrecision, request.keys, request.covariances },
-    level.lattice, runs.fractionBits(), allocator);
-  const bool plain = !hasOrdinarySpacing(level.lattice);
+    level.lattice, runs_.fractionBits(), allocator);
   PointProgress progress(observer, level.size, 1);
   for (std::size_t first = 0, last = 0; first < ranges; first = last)
   {
@@ -140,11 +136,13 @@ bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, Voxe
       [&](std::size_t i)
       {
         const std::size_t range = first + i;
-        runs.write(
-          range, kernelsFor(request.instructions), level.lattice, plain, level.arena, level.firsts[range]);
+        if (runs_.size(range) > 0)
+        {
+          level.arena.write(level.firsts[range], runs_.run(range));
+        }
         if (!keeps)
         {
-          runs.release(range);
+          runs_.release(range);
         }
       });
     if (!progress.add(std::int64_t(level.firsts[last] - level.firsts[first])))
@@ -155,9 +153,9 @@ bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, Voxe
   return true;
 }
 
-/// @param runs of level @p levelOfRuns, 0 or 1.
-Status VoxelResampler::Implementation::addLevels(const VoxelRequest& request, VoxelRuns runs, int levelOfRuns,
-  const Executor& executor, ProgressObserver* observer)
+/// @pre the runs are those of the finest level.
+Status VoxelResampler::Implementation::addLevels(
+  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   const double finest = fractionOfFinest(request);
   const auto progressAt = [&](int level)
@@ -168,23 +166,19 @@ Status VoxelResampler::Implementation::addLevels(const VoxelRequest& request, Vo
     Level level;
     level.lattice = coarserLattice(finer.lattice);
     SubProgress part(observer, progressAt(l), progressAt(l + 1));
-    if (l > levelOfRuns)
-    {
-      VoxelRuns coarse;
-      const CoarseVoxels coarsening(finer.lattice, runs.fractionBits(), request.covariances);
-      SubProgress summing(&part, 0.0, 0.6);
-      if (!coarsening.ofRuns(runs, coarse, executor, &summing))
-      {
-        return Status::Aborted;
-      }
-      runs = std::move(coarse);
-    }
+    SubProgress summing(&part, 0.0, 0.6);
     SubProgress writing(&part, 0.6, request.keys ? 0.8 : 1.0);
     SubProgress looking(&part, 0.8, 1.0);
-    if (!writeRuns(request, runs, l + 1 < request.levels, level, nullptr, executor, &writing) ||
+    VoxelRuns coarse;
+    if (!sumCoarseVoxels(runs_, finer.lattice, coarse, executor, &summing))
+    {
+      return Status::Aborted;
+    }
+    runs_ = std::move(coarse);
+    if (!writeRuns(request, l + 1 < request.levels, level, nullptr, executor, &writing) ||
       (request.keys &&
         !findParents(finer.arena.keys(), finer.size, finer.lattice, level.arena.keys(), level.size,
-          level.lattice, level.parents, executor, &looking)))
+          level.parents, executor, &looking)))
     {
       return Status::Aborted;
     }
@@ -196,18 +190,17 @@ Status VoxelResampler::Implementation::addLevels(const VoxelRequest& request, Vo
 Status VoxelResampler::Implementation::visitPointsByVoxel(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
-  // Halved voxels are not those asked for.
-  return halvings_ == 0 ? visitPlanned(request, visit, executor, observer)
-                        : visitGeneral(request, visit, executor, observer);
+  return usesPartitions_ ? visitPlanned(request, visit, executor, observer)
+                         : visitGeneral(request, visit, executor, observer);
 }
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
-  std::size_t sum = pool_.bytes() + ranges_.bytes() + runs_.bytes() +
+  std::size_t sum = pool_.bytes() + sorted_.bytes() + runs_.bytes() +
     (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t);
-  for (const std::unique_ptr<Worker>& worker : idle_)
+  for (const std::unique_ptr<PartitionWorker>& worker : idle_)
   {
-    sum += worker->bytes() + worker->coarse.bytes();
+    sum += worker->bytes();
   }
   for (const AccumulatedPartition& partition : accumulated_)
   {

@@ -82,7 +82,7 @@ struct VoxelRequest
   /// Level l is a lattice 2^l times as coarse, until that is one voxel; further levels repeat it.
   int levels = 1;
   /// Points that go through all steps at once, at least 1; 0 or more than the default: the default (1.25
-  /// million; 524,288 beyond 4096 voxels an axis). It changes memory and time, not the results.
+  /// million; 262,144 on lattices where points are sorted). It changes memory and time, not the results.
   std::int64_t chunkPoints = 0;
   InstructionSet instructions = InstructionSet::Automatic;
   OutputAllocator* allocator = nullptr; ///< Null: the resampler's own memory.
@@ -105,13 +105,14 @@ struct VoxelRequest
 /// in two words each. That takes about half as much time again (several times as much on processors without a
 /// fused multiplication).
 ///
-/// Time: a few nanoseconds a point; beyond 4096 voxels an axis or 8.6 billion in all some tens of them,
-/// growing with the logarithm of the points. Memory beyond input and results: 16 bytes for each of at
-/// most 1.25 million points, 60 bytes an active voxel (20 of them its results, where these are not in the
-/// caller's memory), a few megabytes (of which up to 1.3 for each thread where a layer of the lattice has up
-/// to 4 million voxels); lattices beyond 4096 an axis: 30 bytes (38 for visitPointsByVoxel()) for each of at
-/// most 524,288 points and 66 an active voxel; covariances: 100 an active voxel more, 132 on these. One
-/// object is used by one thread at a time; the executor's threads may be many.
+/// Time: a few nanoseconds a point; beyond 4096 voxels an axis or 8.6 billion in all, and where no axis has
+/// more than two, points are sorted: some tens of them, growing with the logarithm of the points. Memory
+/// beyond input and results: 16 bytes for each of at most 1.25 million points, 60 bytes an active voxel (20
+/// of them its results, where these are not in the caller's memory), a few megabytes (of which up to 1.3 for
+/// each thread where a layer of the lattice has up to 4 million voxels); where points are sorted 64 bytes
+/// (160 with covariances) for each of at most 262,144 points and 66 an active voxel; covariances: 100 an
+/// active voxel more, 132 where points are sorted. One object is used by one thread at a time; the executor's
+/// threads may be many.
 class VoxelResampler
 {
 public:

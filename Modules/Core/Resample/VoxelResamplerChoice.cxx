@@ -22,96 +22,79 @@ void VoxelResampler::Implementation::notePoints(
   }
 }
 
+/// Chooses for the voxels from @p first on, whose points forPoints(visit) visits.
+Status VoxelResampler::Implementation::chooseInSet(const VoxelRequest& request, VoxelRepresentatives& set,
+  std::int64_t first, std::int64_t voxels, const std::function<Status(const Visitor&)>& forPoints,
+  const Executor& executor, ProgressObserver* observer)
+{
+  const bool chooses = request.representative != Representative::Mean;
+  const std::size_t numbers = request.tuples.size() - 1;
+  MeanArena& arena = levels[0].arena;
+  if (chooses)
+  {
+    set.prepare(arena.counts() + first, voxels);
+  }
+  const Status status = forPoints(
+    [&](const PointRows& rows, const std::int64_t* ranks, int count)
+    {
+      if (chooses)
+      {
+        set.add(rows.tuples(numbers - 1), rows.tuples(numbers), rows.bytes, ranks, count);
+      }
+      if (request.voxelIndex)
+      {
+        notePoints(rows, numbers, first, ranks, count);
+      }
+    });
+  const bool isWritten =
+    status != Status::Ok || !chooses || set.write(first, arena, chosenPoints.data(), executor, observer);
+  return isWritten ? status : Status::Aborted;
+}
+
 Status VoxelResampler::Implementation::choosePoints(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   const bool chooses = request.representative != Representative::Mean;
   const bool isMedian = request.representative == Representative::Median;
-  const std::size_t numbers = request.tuples.size() - 1;
-  Level& level = levels[0];
-  chosenPoints.resize(chooses && !isMedian ? std::size_t(level.size) : 0);
+  chosenPoints.resize(chooses && !isMedian ? std::size_t(levels[0].size) : 0);
   voxelIndex.assign(request.voxelIndex ? std::size_t(request.points.size()) : 0, -1);
-  if (poolHoldsAll_)
+  if (!poolHoldsAll_)
   {
-    choosePointsBySet(request, executor);
-    return !observer || observer->report(1.0) ? Status::Ok : Status::Aborted;
+    SubProgress visiting(observer, 0.0, chooses ? 0.7 : 1.0);
+    SubProgress writing(observer, 0.7, 1.0);
+    VoxelRepresentatives all(request);
+    return chooseInSet(
+      request, all, 0, levels[0].size,
+      [&](const Visitor& visit) { return visitPointsByVoxel(request, visit, executor, &visiting); }, executor,
+      &writing);
   }
-  VoxelRepresentatives all(request);
-  if (chooses)
-  {
-    all.prepare(level.arena.counts(), level.size);
-  }
-  SubProgress visiting(observer, 0.0, chooses ? 0.7 : 1.0);
-  SubProgress writing(observer, 0.7, 1.0);
-  const Status status = visitPointsByVoxel(
-    request,
-    [&](const PointRows& rows, const std::int64_t* voxels, int count)
-    {
-      if (chooses)
-      {
-        all.add(rows.tuples(numbers - 1), rows.tuples(numbers), rows.bytes, voxels, count);
-      }
-      if (request.voxelIndex)
-      {
-        notePoints(rows, numbers, 0, voxels, count);
-      }
-    },
-    executor, &visiting);
-  if (status == Status::Ok && chooses && !all.write(0, level.arena, chosenPoints.data(), executor, &writing))
-  {
-    return Status::Aborted;
-  }
-  return status;
-}
-
-/// The points of a set of voxels stay in the caches.
-void VoxelResampler::Implementation::choosePointsBySet(const VoxelRequest& request, const Executor& executor)
-{
-  const bool chooses = request.representative != Representative::Mean;
-  const std::size_t numbers = request.tuples.size() - 1;
-  Level& level = levels[0];
+  // The points of a set of voxels stay in the caches.
   std::mutex mutex;
   std::vector<VoxelRepresentatives> idle;
-  const auto take = [&]
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (idle.empty())
-    {
-      return VoxelRepresentatives(request);
-    }
-    VoxelRepresentatives set = std::move(idle.back());
-    idle.pop_back();
-    return set;
-  };
   visitPointsByVoxelSet(
     request,
     [&](std::int64_t first, std::int64_t voxels, const auto& forPoints)
     {
-      VoxelRepresentatives set = take();
-      if (chooses)
+      std::unique_lock<std::mutex> lock(mutex);
+      if (idle.empty())
       {
-        set.prepare(level.arena.counts() + first, voxels);
+        idle.emplace_back(request);
       }
-      forPoints(
-        [&](const PointRows& rows, const std::int64_t* ranks, int count)
-        {
-          if (chooses)
-          {
-            set.add(rows.tuples(numbers - 1), rows.tuples(numbers), rows.bytes, ranks, count);
-          }
-          if (request.voxelIndex)
-          {
-            notePoints(rows, numbers, first, ranks, count);
-          }
-        });
-      if (chooses)
+      VoxelRepresentatives set = std::move(idle.back());
+      idle.pop_back();
+      lock.unlock();
+      const auto visitAll = [&](const Visitor& visit)
       {
-        set.write(first, level.arena, chosenPoints.data(), Executor(), nullptr);
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
+        forPoints(visit);
+        return Status::Ok;
+      };
+      static_cast<void>(
+        chooseInSet(request, set, first, voxels, visitAll, Executor(), nullptr)); // It cannot fail.
+      lock.lock();
       idle.push_back(std::move(set));
     },
     executor);
+  return !observer || observer->report(1.0) ? Status::Ok : Status::Aborted;
 }
 
 } // namespace pointhaptics

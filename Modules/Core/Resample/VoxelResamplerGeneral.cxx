@@ -49,18 +49,15 @@ Status VoxelResampler::Implementation::runGeneral(
   const VoxelRequest usable = withUsableIndex(request);
   const Chunks chunks(usable, kGeneralChunk, executor);
   quantizer_ = generalQuantizer(request);
-  ranges_.choose(quantizer_, request.lattice, chunks);
-  runs_.reset(ranges_.count(), quantizer_.fractionBits);
+  sorted_.choose(quantizer_, request.lattice, chunks);
+  runs_.reset(sorted_.ranges(), quantizer_.fractionBits);
   std::int64_t inside = 0;
   invalid = usable.index ? request.points.size() - finitePoints(*usable.index) : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    ranges_.bin(quantizer_, request.lattice, chunks, chunk, false, executor);
-    inside += ranges_.inside();
-    invalid += ranges_.invalid();
-    forEachItem<KeyRanges::Sorted>(executor, ranges_.count(),
-      [&](std::size_t range, KeyRanges::Sorted& scratch)
-      { runs_.add(range, ranges_.sumsOf(range, scratch, request.covariances)); });
+    sorted_.sum(chunks, chunk, request.covariances, runs_, executor);
+    inside += sorted_.inside();
+    invalid += sorted_.invalid();
     if (observer && !observer->report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
@@ -79,17 +76,8 @@ Status VoxelResampler::Implementation::finishRuns(
   {
     return Status::Ok;
   }
-  for (int halvings = halvings_; halvings > 0; --halvings)
-  {
-    // Of 64 voxels at most.
-    VoxelRuns coarse;
-    const Lattice fine = finerLattice(request.lattice, halvings);
-    const CoarseVoxels coarsening(fine, runs_.fractionBits(), request.covariances);
-    coarsening.ofRuns(runs_, coarse, executor, nullptr);
-    runs_ = std::move(coarse);
-  }
-  writeRuns(request, runs_, request.levels > 1, levels[0], request.allocator, executor, nullptr);
-  return request.levels > 1 ? addLevels(request, std::move(runs_), 0, executor, observer) : Status::Ok;
+  writeRuns(request, request.levels > 1, levels[0], request.allocator, executor, nullptr);
+  return request.levels > 1 ? addLevels(request, executor, observer) : Status::Ok;
 }
 
 Status VoxelResampler::Implementation::sum(const VoxelRequest& request, VoxelRun& sums, int& fractionBits,
@@ -113,27 +101,6 @@ Status VoxelResampler::Implementation::sum(const VoxelRequest& request, VoxelRun
   return status;
 }
 
-void VoxelResampler::Implementation::describeSums(
-  const Lattice& lattice, int& fractionBits, std::uint64_t& keys)
-{
-  const int halvings = halvingsOf(lattice);
-  const Lattice fine = halvings > 0 ? finerLattice(lattice, halvings) : lattice;
-  const int indexBits = indexBitsOf(fine);
-  fractionBits = (halvings >= 0 ? kPositionBits : positionBitsFor(indexBits)) - indexBits;
-  keys = fine.key(0, 0, fine.dimensions[2]);
-}
-
-std::uint64_t VoxelResampler::Implementation::keyOfSums(const Lattice& lattice, std::uint64_t key)
-{
-  const int halvings = halvingsOf(lattice);
-  if (halvings <= 0)
-  {
-    return key;
-  }
-  const auto index = finerLattice(lattice, halvings).indexOf(key);
-  return lattice.key(index[0] >> halvings, index[1] >> halvings, index[2] >> halvings);
-}
-
 /// @param sums the voxels in ascending order.
 Status VoxelResampler::Implementation::finishSums(const VoxelRequest& request, const VoxelRun& sums,
   int fractionBits, const Executor& executor, ProgressObserver* observer)
@@ -144,7 +111,6 @@ Status VoxelResampler::Implementation::finishSums(const VoxelRequest& request, c
   {
     constexpr std::size_t kRanges = 64;
     levels[0].lattice = request.lattice;
-    halvings_ = std::max(halvingsOf(request.lattice), 0);
     runs_.reset(kRanges, fractionBits);
     for (std::size_t range = 0; range < kRanges; ++range)
     {
@@ -172,35 +138,34 @@ Status VoxelResampler::Implementation::visitGeneral(
 {
   const VoxelRequest usable = withUsableIndex(request);
   const Chunks chunks(usable, kGeneralChunk, executor);
-  const PointQuantizer quantizer = generalQuantizer(request);
   const std::uint64_t* keys = levels[0].arena.keys();
   const std::uint64_t* end = keys + levels[0].size;
   chooseRows(request);
-  ranges_.choose(quantizer, request.lattice, chunks);
+  sorted_.choose(generalQuantizer(request), request.lattice, chunks);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    ranges_.bin(quantizer, request.lattice, chunks, chunk, true, executor);
-    forEachItem<KeyRanges::Sorted>(executor, ranges_.count(),
-      [&](std::size_t range, KeyRanges::Sorted& sorted)
+    sorted_.sort(chunks, chunk, executor);
+    forEachItem(executor, sorted_.ranges(),
+      [&](std::size_t range)
       {
-        ranges_.sort(range, sorted);
         RowCollector collector(rows_);
         std::int64_t points[kBlockRecords];
         std::int64_t voxels[kBlockRecords];
-        const std::uint64_t* at = keys;
-        for (std::size_t first = 0; first < sorted.size; first += kBlockRecords)
-        {
-          const std::size_t size = std::min(sorted.size - first, kBlockRecords);
-          for (std::size_t i = 0; i < size; ++i)
+        sorted_.forEntries(range,
+          [&](const SortedPoints::Entry* entry, const SortedPoints::Entry* last)
           {
-            const KeyRanges::Entry& entry = sorted.entries[first + i];
-            const std::int64_t point = ranges_.pointOf(entry.point);
-            at = firstNotBelow(at, end, entry.key);
-            points[i] = usable.index ? usable.index->original(point) : point;
-            voxels[i] = at - keys;
-          }
-          visit(collector.collect(points, int(size)), voxels, int(size));
-        }
+            for (const std::uint64_t* at = keys; entry != last;)
+            {
+              int size = 0;
+              for (; entry != last && size < int(kBlockRecords); ++entry, ++size)
+              {
+                at = firstNotBelow(at, end, entry->key);
+                points[size] = usable.index ? usable.index->original(entry->point) : entry->point;
+                voxels[size] = at - keys;
+              }
+              visit(collector.collect(points, size), voxels, size);
+            }
+          });
       });
     if (observer && !observer->report(double(chunk + 1) / double(chunks.count())))
     {

@@ -4,12 +4,13 @@
 
 #include "Core/Resample/AttributeReducer.h"
 #include "Core/Resample/Stages/CoarseVoxels.h"
-#include "Core/Resample/Stages/KeyRanges.h"
 #include "Core/Resample/Stages/PartitionSums.h"
 #include "Core/Resample/Stages/PointChunks.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
 #include "Core/Resample/Stages/PointRecordPool.h"
+#include "Core/Resample/Stages/SortedPoints.h"
 #include "Core/Resample/Stages/VoxelLevel.h"
+#include "Core/Resample/Stages/VoxelRepresentatives.h"
 #include "Core/Resample/Stages/VoxelRuns.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -36,15 +37,9 @@ public:
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
   void visitPointsByVoxelSet(const VoxelRequest& request, const SetWork& work, const Executor& executor);
   bool poolHoldsAll() const { return poolHoldsAll_; }
-  /// For VoxelAccumulator: the sums of the points in the lattice's voxels, or in halves of these where it has
-  /// few; and the levels of such sums.
+  /// For VoxelAccumulator: the sums of the points in the lattice's voxels, and the levels of such sums.
   Status sum(const VoxelRequest& request, simd::VoxelRun& sums, int& fractionBits, const Executor& executor,
     ProgressObserver* observer);
-  /// Bits of offsets in such sums, and above all their keys.
-  static void describeSums(const Lattice& lattice, int& fractionBits, std::uint64_t& keys);
-  /// Whether each voxel has several such sums, and the key of the voxel that has the sums of a key.
-  static bool hasHalves(const Lattice& lattice) { return halvingsOf(lattice) > 0; }
-  static std::uint64_t keyOfSums(const Lattice& lattice, std::uint64_t key);
   Status finishSums(const VoxelRequest& request, const simd::VoxelRun& sums, int fractionBits,
     const Executor& executor, ProgressObserver* observer);
 
@@ -57,18 +52,11 @@ public:
   std::size_t scratchBytes() const;
 
 private:
-  /// With the scratch for coarse voxels.
-  struct Worker : simd::PartitionWorker
-  {
-    simd::CoarseVoxels::Scratch coarse;
-  };
   class WorkerLease;
-  class PartitionGroups;
 
   void clear();
-  /// How often the voxels of a lattice are halved so that they can be divided into partitions; -1: they
-  /// cannot.
-  static int halvingsOf(const Lattice& lattice);
+  /// Whether points are binned into partitions of the lattice, or sorted.
+  static bool usesPartitions(const Lattice& lattice);
   static Status check(const VoxelRequest& request);
   Status runMeans(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status runPlanned(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
@@ -82,19 +70,17 @@ private:
   template <typename Work>
   void forPartitions(const VoxelRequest& request, const Executor& executor, Work&& work);
   void accumulateChunk(const VoxelRequest& request, const Executor& executor);
-  void closeBatch(const VoxelRequest& request, const Executor& executor);
   Status finishRuns(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   void finish(const VoxelRequest& request, const Executor& executor);
-  void coarsen(
-    const VoxelRequest& request, const PartitionGroups& groups, std::uint32_t group, Worker& worker);
   /// The part of the work of run() that the finest level is.
   static double fractionOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
-  bool writeRuns(const VoxelRequest& request, simd::VoxelRuns& runs, bool keeps, simd::Level& level,
-    OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer);
-  Status addLevels(const VoxelRequest& request, simd::VoxelRuns runs, int levelOfRuns,
+  bool writeRuns(const VoxelRequest& request, bool keeps, simd::Level& level, OutputAllocator* allocator,
     const Executor& executor, ProgressObserver* observer);
+  Status addLevels(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status choosePoints(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  void choosePointsBySet(const VoxelRequest& request, const Executor& executor);
+  Status chooseInSet(const VoxelRequest& request, simd::VoxelRepresentatives& set, std::int64_t first,
+    std::int64_t voxels, const std::function<Status(const Visitor&)>& forPoints, const Executor& executor,
+    ProgressObserver* observer);
   void notePoints(const PointRows& rows, std::size_t numbers, std::int64_t firstVoxel,
     const std::int64_t* voxels, int count);
   Status visitPlanned(
@@ -104,9 +90,8 @@ private:
   Status visitGeneral(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
 
-  bool keepsRuns_ = false; ///< For sum().
-  int halvings_ = 0;
-  Lattice halved_; ///< The lattice asked for, or what halvings_ make of it.
+  bool keepsRuns_ = false;      ///< For sum().
+  bool usesPartitions_ = false; ///< In the last run.
   alignas(simd::kApart) simd::PartitionPlan plan_;
   alignas(simd::kApart) simd::PointQuantizer quantizer_{};
   alignas(simd::kApart) simd::PointRecordPool pool_;
@@ -117,8 +102,8 @@ private:
   std::size_t firstAttribute_ = 0;         ///< Among the request's sources of tuples.
   bool reducesInPass_ = false;             ///< Attributes are reduced where points are summed.
   std::vector<simd::AccumulatedPartition> accumulated_;
-  std::vector<std::unique_ptr<Worker>> idle_;
-  simd::KeyRanges ranges_;
+  std::vector<std::unique_ptr<simd::PartitionWorker>> idle_;
+  simd::SortedPoints sorted_;
   simd::VoxelRuns runs_;
   alignas(simd::kApart) std::mutex mutex_;
 };

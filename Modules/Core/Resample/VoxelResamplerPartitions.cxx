@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <type_traits>
 #include <utility>
 
 namespace pointhaptics
@@ -31,7 +32,7 @@ public:
     }
     if (!worker_)
     {
-      worker_ = std::make_unique<Worker>();
+      worker_ = std::make_unique<PartitionWorker>();
     }
     worker_->prepare(owner_.plan_, covariances);
     worker_->reduce(owner_.reducesInPass_ ? &attributes_ : nullptr);
@@ -44,121 +45,73 @@ public:
   }
   WorkerLease(const WorkerLease&) = delete;
   WorkerLease& operator=(const WorkerLease&) = delete;
-  Worker& operator*() const { return *worker_; }
+  PartitionWorker& operator*() const { return *worker_; }
 
 private:
   Implementation& owner_;
   PartitionAttributes attributes_;
-  std::unique_ptr<Worker> worker_;
-};
-
-/// Partitions that are whole layers of the next coarser lattice together.
-class VoxelResampler::Implementation::PartitionGroups
-{
-public:
-  explicit PartitionGroups(const PartitionPlan& plan)
-    : partitions_(plan.partitions)
-    , size_(plan.layerShift > 0 ? 1 : 2 * plan.blocksPerLayer)
-    , done_((partitions_ - 1) / size_ + 1)
-  {
-  }
-  std::uint32_t count() const { return std::uint32_t(done_.size()); }
-  std::uint32_t groupOf(std::uint32_t partition) const { return partition / size_; }
-  std::uint32_t begin(std::uint32_t group) const { return group * size_; }
-  std::uint32_t end(std::uint32_t group) const { return std::min((group + 1) * size_, partitions_); }
-  /// Marks a partition as done. @return true if it is the last of its group: what other threads wrote to the
-  /// group's other partitions is visible then.
-  bool finish(std::uint32_t partition)
-  {
-    const std::uint32_t group = groupOf(partition);
-    return ++done_[group] == end(group) - begin(group);
-  }
-
-private:
-  std::uint32_t partitions_;
-  std::uint32_t size_;
-  std::vector<std::atomic<std::uint32_t>> done_;
+  std::unique_ptr<PartitionWorker> worker_;
 };
 
 namespace
 {
 
-/// So many points may be in one voxel before the sums of their offsets could need more than 62 bits.
-std::int64_t mostPointsOfBatch(int indexBits)
-{
-  return (std::int64_t(1) << (62 - kPositionBits + indexBits)) - 1;
-}
-static_assert(
-  kChunkPoints < std::int64_t(1) << (62 - kPositionBits + kMinimumIndexBits), "a batch must hold a chunk");
 static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
 
-/// The kernels' partition loops for points with other fields between them, block by block. With
-/// PointRecordWriter::slots there is one range of one block at most, as slots count from its first point.
-void partitionStrided(const Kernels& kernels, const PointQuantizer& quantizer, const PointView& points,
-  const PointRange* ranges, std::int64_t count, PointRecordWriter& writer)
+/// Copies the rows of points beside their records.
+struct RowCopier
 {
-  for (std::int64_t r = 0; r < count; ++r)
-  {
-    if (points.floats())
-    {
-      forPointBlocks(points.floats(), points, ranges[r].begin, ranges[r].end,
-        [&](const float* xyz, std::int64_t size)
-        {
-          const PointRange block = { 0, size };
-          kernels.partitionFloats(quantizer, xyz, &block, 1, writer);
-        });
-      continue;
-    }
-    forPointBlocks(points.doubles(), points, ranges[r].begin, ranges[r].end,
-      [&](const double* xyz, std::int64_t size)
-      {
-        const PointRange block = { 0, size };
-        kernels.partitionDoubles(quantizer, xyz, &block, 1, writer);
-      });
-  }
-}
+  const RowLayout& layout;
+  const PointIndex* index;
+  char* rows;
+  std::int64_t first; ///< Point that the writer counts from.
 
-/// The slots of the records of up to kMost points.
-class RowSlots
-{
-public:
-  static constexpr std::int64_t kMost = 1024;
-  static_assert(kMost <= kPointBlock, "slots count from the first point of a block");
-
-  /// Room for as many as that.
-  std::uint32_t* clear()
+  static void copy(const void* context, const std::uint32_t* points, const std::uint32_t* slots, int count)
   {
-    std::fill(slots_, slots_ + kMost, kOutside);
-    return slots_;
+    const auto& self = *static_cast<const RowCopier*>(context);
+    std::int64_t numbers[kBlockRecords];
+    std::transform(points, points + count, numbers,
+      [&](std::uint32_t point)
+      { return self.index ? self.index->original(self.first + point) : self.first + point; });
+    self.layout.copy(numbers, slots, count, self.rows);
   }
-  /// Writes the rows of the points inside beside their records.
-  void copy(const RowLayout& layout, PointRange points, const PointIndex* index, char* rows) const
-  {
-    std::int64_t numbers[kMost];
-    std::uint32_t slots[kMost];
-    int inside = 0;
-    for (std::int64_t i = points.begin; i < points.end; ++i)
-    {
-      slots[inside] = slots_[i - points.begin];
-      numbers[inside] = index ? index->original(i) : i;
-      inside += slots[inside] != kOutside;
-    }
-    layout.copy(numbers, slots, inside, rows);
-  }
-
-private:
-  static constexpr std::uint32_t kOutside = ~std::uint32_t(0);
-  std::uint32_t slots_[kMost];
 };
 
-std::int64_t pointsOf(const Chunks& chunks)
+/// Bins ranges of points: all at once, or, with rows or where other fields lie between points, one by one.
+void binRanges(const Kernels& kernels, const PointQuantizer& quantizer, const PointView& points,
+  const PointRange* ranges, std::int64_t count, RowCopier& rows, PointRecordWriter& writer)
 {
-  std::int64_t sum = 0;
-  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  const auto bin = [&](const auto* xyz, const PointRange* some, std::int64_t number)
   {
-    sum += chunks.pointCount(chunk);
-  }
-  return sum;
+    if constexpr (std::is_same_v<decltype(xyz), const float*>)
+    {
+      kernels.partitionFloats(quantizer, xyz, some, number, writer);
+    }
+    else
+    {
+      kernels.partitionDoubles(quantizer, xyz, some, number, writer);
+    }
+  };
+  const auto binAll = [&](const auto* xyz)
+  {
+    const bool atOnce = points.stride() == 3 && !writer.binned;
+    if (atOnce)
+    {
+      bin(xyz, ranges, count);
+    }
+    for (std::int64_t r = 0; !atOnce && r < count; ++r)
+    {
+      rows.first = ranges[r].begin;
+      forPointBlocks(xyz, points, ranges[r].begin, ranges[r].end,
+        [&](const auto* block, std::int64_t size)
+        {
+          const PointRange all = { 0, size };
+          bin(block, &all, 1);
+          rows.first += size;
+        });
+    }
+  };
+  points.floats() ? binAll(points.floats()) : binAll(points.doubles());
 }
 
 }
@@ -166,11 +119,10 @@ std::int64_t pointsOf(const Chunks& chunks)
 Status VoxelResampler::Implementation::runPlanned(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
-  halved_ = finerLattice(request.lattice, halvings_);
-  const int indexBits = indexBitsOf(halved_);
+  const int indexBits = indexBitsOf(request.lattice);
   const Chunks chunks(request, kChunkPoints, executor);
-  plan_ = makePlan(halved_, indexBits, chunks.count() == 0 ? 0 : chunks.pointCount(0));
-  quantizer_ = makeQuantizer(request.transform, halved_, indexBits, kPositionBits);
+  plan_ = makePlan(request.lattice, indexBits, chunks.count() == 0 ? 0 : chunks.pointCount(0));
+  quantizer_ = makeQuantizer(request.transform, request.lattice, indexBits, kPositionBits);
   quantizer_.blocksPerLayer = plan_.blocksPerLayer;
   quantizer_.rowShift = plan_.rowShift;
   quantizer_.layerShift = plan_.layerShift;
@@ -179,15 +131,12 @@ Status VoxelResampler::Implementation::runPlanned(
   {
     partition.clear();
   }
-  const std::int64_t mostPoints = mostPointsOfBatch(indexBits);
-  const bool inBatches = keepsRuns_ || halvings_ > 0 || pointsOf(chunks) > mostPoints;
-  reducesInPass_ = !reducers_.empty() && request.levels == 1 && !inBatches &&
+  reducesInPass_ = !reducers_.empty() && request.levels == 1 &&
     (chunks.count() <= 1 ||
       std::all_of(reducers_.begin(), reducers_.end(), [](const auto& reducer) { return reducer.isSum(); }));
-  const bool holdsAll = (request.keepPointRecords || (!reducers_.empty() && !reducesInPass_)) &&
-    chunks.count() == 1 && !inBatches;
-  runs_.reset(inBatches ? plan_.partitions : 0, plan_.fractionBits);
-  std::int64_t batchPoints = 0;
+  const bool holdsAll =
+    (request.keepPointRecords || (!reducers_.empty() && !reducesInPass_)) && chunks.count() == 1;
+  runs_.reset(0, plan_.fractionBits);
   std::int64_t inside = 0;
   invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
@@ -195,17 +144,7 @@ Status VoxelResampler::Implementation::runPlanned(
     fillPool(request, chunks, chunk, holdsAll || reducesInPass_, executor);
     inside += pool_.inside();
     invalid += pool_.invalid();
-    batchPoints += chunks.pointCount(chunk);
-    const bool isLast = chunk + 1 == chunks.count();
-    if (inBatches && (isLast || batchPoints + chunks.pointCount(chunk + 1) > mostPoints))
-    {
-      closeBatch(request, executor);
-      batchPoints = 0;
-    }
-    else
-    {
-      isLast ? finish(request, executor) : accumulateChunk(request, executor);
-    }
+    chunk + 1 == chunks.count() ? finish(request, executor) : accumulateChunk(request, executor);
     if (observer && !observer->report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
@@ -213,15 +152,7 @@ Status VoxelResampler::Implementation::runPlanned(
   }
   clipped = request.points.size() - inside - invalid;
   poolHoldsAll_ = holdsAll;
-  if (inBatches)
-  {
-    return finishRuns(request, executor, observer);
-  }
-  if (request.levels == 1)
-  {
-    return Status::Ok;
-  }
-  return addLevels(request, std::move(runs_), 1, executor, observer);
+  return request.levels > 1 ? addLevels(request, executor, observer) : Status::Ok;
 }
 
 void VoxelResampler::Implementation::chooseRows(const VoxelRequest& request)
@@ -242,44 +173,16 @@ void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const
   }
   pool_.prepare(
     chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), withRows ? binnedRows_.bytes() : 0);
-  const Kernels& kernels = kernelsFor(request.instructions);
   const PointRange* pieces = chunks.pieces(chunk);
-  const PointView& points = chunks.points();
-  const auto quantize = [&](const PointRange* ranges, std::int64_t count, PointRecordWriter& writer)
-  {
-    if (points.stride() != 3)
-    {
-      partitionStrided(kernels, quantizer_, points, ranges, count, writer);
-      return;
-    }
-    points.floats() ? kernels.partitionFloats(quantizer_, points.floats(), ranges, count, writer)
-                    : kernels.partitionDoubles(quantizer_, points.doubles(), ranges, count, writer);
-  };
-  const auto quantizeWithRows = [&](PointRange piece, PointRecordWriter& writer)
-  {
-    RowSlots slots;
-    while (piece.begin < piece.end)
-    {
-      const PointRange part = { piece.begin, std::min(piece.begin + RowSlots::kMost, piece.end) };
-      writer.slots = slots.clear();
-      quantize(&part, 1, writer);
-      slots.copy(binnedRows_, part, request.index, pool_.rows());
-      piece.begin = part.end;
-    }
-  };
   forRange(executor, chunks.pieceCount(chunk), grainFor(chunks.pieceCount(chunk), executor),
     [&](std::int64_t first, std::int64_t last)
     {
       const PointRecordPool::Lease lease(pool_);
-      if (!withRows)
-      {
-        quantize(pieces + first, last - first, lease.writer());
-        return;
-      }
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        quantizeWithRows(pieces[i], lease.writer());
-      }
+      RowCopier rows = { binnedRows_, request.index, pool_.rows(), 0 };
+      lease.writer().binned = withRows ? &RowCopier::copy : nullptr;
+      lease.writer().context = &rows;
+      binRanges(kernelsFor(request.instructions), quantizer_, chunks.points(), pieces + first, last - first,
+        rows, lease.writer());
     });
 }
 
@@ -309,78 +212,44 @@ void VoxelResampler::Implementation::accumulateChunk(const VoxelRequest& request
     [&](PartitionWorker& worker, std::uint32_t p) { worker.accumulate(kernels, pool_, p, accumulated_[p]); });
 }
 
-/// Adds the pool's records and the accumulated sums to the runs.
-void VoxelResampler::Implementation::closeBatch(const VoxelRequest& request, const Executor& executor)
-{
-  const Kernels& kernels = kernelsFor(request.instructions);
-  forPartitions(request, executor,
-    [&](PartitionWorker& worker, std::uint32_t p)
-    {
-      VoxelRun run;
-      worker.load(kernels, pool_, p, accumulated_[p], false, [](std::size_t) {});
-      worker.forBatches([&](const MomentBatch<std::int64_t>& batch) { run.append(halved_, batch); });
-      runs_.add(p, std::move(run));
-      accumulated_[p].clear();
-    });
-}
-
-/// Means of the pool's records and the accumulated sums; with levels, sums of the next level too.
+/// The pool's records and the accumulated sums become means, or sums, or both where levels are to follow.
 void VoxelResampler::Implementation::finish(const VoxelRequest& request, const Executor& executor)
 {
   const Kernels& kernels = kernelsFor(request.instructions);
+  const bool keepsSums = keepsRuns_ || request.levels > 1;
+  runs_.reset(keepsSums ? plan_.partitions : 0, plan_.fractionBits);
   std::size_t room = 0;
-  bool hasAccumulated = false;
-  for (std::uint32_t p = 0; p < plan_.partitions; ++p)
+  for (std::uint32_t p = 0; !keepsRuns_ && p < plan_.partitions; ++p)
   {
     room += mostVoxels(plan_, pool_.count(p), accumulated_[p].cellCount);
-    hasAccumulated = hasAccumulated || accumulated_[p].cellCount > 0;
   }
   VoxelWriter writer(levels[0], plan_.partitions, room,
     { request.singlePrecision, request.keys, request.covariances,
       reducesInPass_ ? attributeBytes() : std::vector<std::size_t>() },
     plan_.fractionBits, request.allocator);
-  const bool makesCoarse = request.levels > 1;
-  PartitionGroups groups(plan_);
-  if (makesCoarse)
-  {
-    runs_.reset(groups.count(), plan_.fractionBits + 1);
-  }
   forPartitions(request, executor,
-    [&](Worker& worker, std::uint32_t p)
+    [&](PartitionWorker& worker, std::uint32_t p)
     {
       std::size_t size = 0;
-      worker.load(kernels, pool_, p, accumulated_[p], makesCoarse,
+      worker.load(kernels, pool_, p, accumulated_[p],
         [&](std::size_t known)
         {
-          size = known;
+          size = keepsRuns_ ? 0 : known;
           writer.publish(p, size);
         });
-      writer.write(kernels, p, size, worker);
-      if (makesCoarse && groups.finish(p))
+      if (!keepsRuns_)
       {
-        coarsen(request, groups, groups.groupOf(p), worker);
+        writer.write(kernels, p, size, worker);
       }
-      else if (hasAccumulated && !makesCoarse)
+      if (keepsSums)
       {
-        accumulated_[p].attributes.clear();
-        accumulated_[p].trim();
+        runs_.add(p, worker.wide());
+        accumulated_[p] = AccumulatedPartition();
       }
+      accumulated_[p].attributes.clear();
+      accumulated_[p].trim();
     });
   writer.finish();
-}
-
-/// Adds the voxels of the next level that a group of partitions, which are all done, makes.
-void VoxelResampler::Implementation::coarsen(
-  const VoxelRequest& request, const PartitionGroups& groups, std::uint32_t group, Worker& worker)
-{
-  const CoarseVoxels coarsening(request.lattice, plan_.fractionBits, request.covariances);
-  const std::uint32_t begin = groups.begin(group);
-  const std::uint32_t end = groups.end(group);
-  runs_.add(group, coarsening.ofPartitions(plan_, accumulated_, begin, end, worker.coarse));
-  for (std::uint32_t p = begin; p < end; ++p)
-  {
-    accumulated_[p] = AccumulatedPartition();
-  }
 }
 
 Status VoxelResampler::Implementation::visitPlanned(

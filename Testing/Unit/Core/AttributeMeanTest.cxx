@@ -325,7 +325,7 @@ void expectSameOnAllPaths(const std::vector<T>& values, int components, const Pl
       if (components == 3)
       {
         std::vector<T> vectors(all.size());
-        mean.writeUnitVectors(counts.data(), columns, vectors.data(), {});
+        mean.writeNormals(counts.data(), columns, vectors.data(), {});
         all.insert(all.end(), vectors.begin(), vectors.end());
       }
     }
@@ -395,7 +395,7 @@ TEST(AttributeMean, MakesUnitVectorsOfTurnedMeans)
   const AttributeMean mean = meanOf(values, 3, plan);
   const Vec3 columns[3] = { { 0, 1, 0 }, { -1, 0, 0 }, { 0, 0, 1 } };
   std::vector<float> vectors(6, 7.0F);
-  mean.writeUnitVectors(countsOf(plan).data(), columns, vectors.data(), {});
+  mean.writeNormals(countsOf(plan).data(), columns, vectors.data(), {});
   const float third = float(2.0 / std::sqrt(12.0));
   EXPECT_EQ(vectors, (std::vector<float>{ -third, third, third, 0, 0, 0 }));
 }
@@ -451,16 +451,15 @@ TEST(AttributeMean, OfParentsIsThatOfTheirPoints)
   expectSame(floats, 4);
 }
 
-TEST(AttributeMean, StartsFromNothingInTheMemoryOfAnother)
+TEST(AttributeMean, StartsFromNothingHoweverOftenItIsPrepared)
 {
   const std::vector<float> values = magnitudes<float>(900, -3, 3, 23);
   for (const std::int64_t voxels : { 5, 90, 300 })
   {
     const Plan plan = planFor(300, voxels, 24);
     const std::vector<float> expected = written<float>(meanOf(values, 3, plan), plan);
-    AttributeMean other = meanOf(values, 3, planFor(300, 90, 25));
-    AttributeMean mean({ values.data(), ScalarType::Float, 3, 300 }, Executor());
-    mean.prepare(voxels, 300, other.takeSums(), trial::BackwardExecutor(17));
+    AttributeMean mean = meanOf(values, 3, planFor(300, 90, 25));
+    mean.prepare(voxels, 300, trial::BackwardExecutor(17));
     addTuples(mean, values, plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected));
     mean.prepare(voxels, 300);

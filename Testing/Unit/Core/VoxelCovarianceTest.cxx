@@ -79,32 +79,31 @@ Sums sumsOf(const Kernels& kernels, const Cells& cells, int fractionBits)
     }
   }
   const CellMap map = { fractionBits, kEdge, kEdge, 0, 0 };
-  std::vector<std::uint64_t> occupancy(kOccupancyGroup, 0);
-  std::vector<std::uint64_t> byteRankTable(kOccupancyGroup);
-  std::vector<std::uint32_t> rankTable(kOccupancyGroup);
-  const CellRanks ranks = { occupancy.data(), rankTable.data(), byteRankTable.data(), kOccupancyGroup };
+  std::uint64_t occupancy = 0;
+  std::uint32_t rankTable = 0;
+  const CellRanks ranks = { &occupancy, &rankTable, 1 };
   std::vector<std::uint32_t> cellsOf(size);
   kernels.cells(map, records.data(), int(size), records.data(), cellsOf.data());
-  kernels.setOccupied(cellsOf.data(), int(size), occupancy.data());
-  EXPECT_EQ(kernels.rankWords(ranks), kCells);
+  kernels.setOccupied(cellsOf.data(), int(size), &occupancy);
+  EXPECT_EQ(kernels.rankWords(ranks, nullptr), kCells);
   Sums sums = { std::vector<PackedSums>(kCells + kWidest, PackedSums{}),
-    std::vector<SplitSecondMoments>(kCells, SplitSecondMoments{}) };
+    std::vector<SplitSecondMoments>(kCells + kWidest, SplitSecondMoments{}) };
   std::vector<std::uint32_t> order(kCells);
   kernels.accumulate(map, ranks, records.data(), cellsOf.data(), int(size), records.data(),
     { order.data(), sums.packed.data(), sums.secondMoments.data() });
   return sums;
 }
 
-struct WideSums
+struct WideVoxel
 {
   std::int64_t count = 0;
   Int128 sums[3] = { 0, 0, 0 };
   SecondMoments secondMoments = { { 0, 0, 0, 0, 0, 0 } };
 };
 
-WideSums wideSumsOf(const std::vector<Places>& points)
+WideVoxel wideSumsOf(const std::vector<Places>& points)
 {
-  WideSums wide;
+  WideVoxel wide;
   for (const Places& p : points)
   {
     ++wide.count;
@@ -133,7 +132,7 @@ void expectSameAsWide(const Cells& cells, int fractionBits, bool allFit)
     EXPECT_EQ(found, allFit ? 0 : int(kCells));
     for (std::size_t c = 0; c < kCells; ++c)
     {
-      const WideSums wide = wideSumsOf(cells[c]);
+      const WideVoxel wide = wideSumsOf(cells[c]);
       const SecondMoments secondMoments = whole(sums.secondMoments[c], fractionBits);
       for (int m = 0; m < 6; ++m)
       {

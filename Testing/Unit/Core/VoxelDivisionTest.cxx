@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <vector>
 
 using namespace pointhaptics;
@@ -34,7 +33,7 @@ std::vector<Fraction> fractions(std::size_t n)
   std::vector<Fraction> all;
   while (all.size() < n)
   {
-    const auto bits = int(random.below(47));
+    const auto bits = int(random.below(20)); // As many as a packed sum counts.
     const std::int64_t count = 1 + std::int64_t(random.uniform() * std::ldexp(1.0, bits));
     all.push_back({ std::int64_t(random.uniform() * std::ldexp(1.0, int(random.below(62)))), count });
     const std::int64_t few = 1 + std::int64_t(random.below(255));
@@ -92,29 +91,28 @@ TEST(VoxelDivision, ByCountsIsCorrectlyRounded)
     spacing = 1.0;
   }
   const std::vector<Fraction> all = fractions(300000);
-  const auto batch = std::make_unique<MomentBatch<std::int64_t>>();
-  batch->size = kBatch;
+  const CellMap cellMap = { 0, 1, 1, 0, 0 };
+  const std::vector<std::uint32_t> cells(kBatch + kWidest, 0);
+  std::vector<PackedSums> packed(kBatch + kWidest);
   for (const InstructionSet set : kSets)
   {
     const Kernels& kernels = kernelsFor(set);
     for (std::size_t first = 0; first + kBatch <= all.size(); first += kBatch)
     {
-      for (int i = 0; i < kBatch; ++i)
+      for (std::size_t i = 0; i < kBatch; ++i)
       {
-        const Fraction& fraction = all[first + std::size_t(i)];
-        batch->counts[i] = fraction.count;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          batch->sums[axis][i] = fraction.sum;
-        }
+        const auto sum = std::uint64_t(all[first + i].sum);
+        packed[i] = { { sum, sum, sum, std::uint64_t(all[first + i].count) << kCountShift } };
       }
       double means[3 * kBatch];
+      std::int64_t counts[kBatch];
       int nearFace[kBatch];
-      kernels.meansDouble(map, *batch, means, nearFace);
+      kernels.packedMeansDouble(map, cellMap, cells.data(), packed.data(), kBatch, means, counts, nearFace);
       for (int i = 0; i < kBatch; ++i)
       {
         const Fraction& fraction = all[first + std::size_t(i)];
         const double expected = double(fraction.sum) / double(fraction.count);
+        ASSERT_EQ(counts[i], fraction.count);
         for (int axis = 0; axis < 3; ++axis)
         {
           ASSERT_EQ(means[3 * i + axis], expected)

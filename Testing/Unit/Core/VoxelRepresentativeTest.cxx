@@ -93,7 +93,7 @@ void expectSameChoice(const Chosen& found, const Chosen& expected, const std::st
   EXPECT_EQ(found.counts, expected.counts) << what;
 }
 
-/// All paths: cells side by side, sorted records, any lattice, halved voxels.
+/// All paths: cells side by side, sorted records, any lattice, few voxels.
 std::vector<Lattice> lattices()
 {
   return { latticeOf(300, 300, 300), latticeOf(9, 7, 5), latticeOf(1024, 1024, 1024), latticeOf(5000, 3, 2),

@@ -1,5 +1,7 @@
 #include "Core/Resample/Stages/VoxelRuns.h"
 
+#include "Core/Resample/Stages/VoxelSink.h"
+
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
@@ -104,7 +106,7 @@ TEST(VoxelRuns, MeansOfSumsThatVectorsCannotTakeLieWhereTheyBelong)
   runs.join(0);
   MeanArena arena;
   arena.prepare(2, { false, true, false }, lattice, 39);
-  runs.write(0, kernelsFor(InstructionSet::Automatic), lattice, false, arena, 0);
+  arena.write(0, runs.run(0));
   const double expected[6] = { 7.75, 8.75, 9.75, 1.75, 2.75, 10.75 };
   for (int i = 0; i < 6; ++i)
   {

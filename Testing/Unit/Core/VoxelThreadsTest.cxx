@@ -72,7 +72,7 @@ std::vector<float> meansOf(const std::vector<float>& values, VoxelResampler& res
 {
   AttributeMean mean(
     { values.data(), ScalarType::Float, 3, request.points.size() }, executor, request.instructions);
-  mean.prepare(resampler.size(), resampler.mostPoints(), {}, executor);
+  mean.prepare(resampler.size(), resampler.mostPoints(), executor);
   const auto add = [&](const PointRows& rows, const std::int64_t* voxels, int count)
   { mean.add(rows.tuples(0), rows.bytes, voxels, count); };
   VoxelRequest withValues = request;

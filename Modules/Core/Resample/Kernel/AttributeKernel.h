@@ -1,9 +1,6 @@
 /// @file
-/// The inner loops of averaging arrays, one set per instruction set. Private to Core: AttributeMean drives
-/// them. All sets give the same bits.
+/// The inner loops of averaging arrays: a part of VoxelKernel.h.
 #pragma once
-
-#include "Core/Simd/InstructionSet.h"
 
 #include <cstdint>
 
@@ -55,14 +52,6 @@ struct AttributeKernels
   void (*unitVectorsFloat)(const WordSums&, const Turn&, float* vectors);
   void (*unitVectorsDouble)(const WordSums&, const Turn&, double* vectors);
 };
-
-/// Those of usableInstructionSet(@p wanted).
-const AttributeKernels& attributeKernels(InstructionSet wanted) noexcept;
-
-const AttributeKernels& baselineAttributeKernels();
-/// Null where the compiler or the processor family lacks them.
-const AttributeKernels* avx2AttributeKernels();
-const AttributeKernels* avx512AttributeKernels();
 
 } // namespace simd
 } // namespace pointhaptics

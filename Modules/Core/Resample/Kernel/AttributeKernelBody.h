@@ -1,7 +1,5 @@
 /// @file
-/// The loops of AttributeKernel.h, for the compiler to make vectors of. Included by one source per
-/// instruction set; all is in an anonymous namespace and calls nothing of the standard library, so that the
-/// linker cannot choose one set's version for the others.
+/// Part of VoxelKernelBody.h: the loops of AttributeKernel.h, for the compiler to make vectors of.
 #pragma once
 
 #include "Core/Resample/Kernel/AttributeKernel.h"
@@ -159,8 +157,8 @@ inline void unitVectors(const WordSums& s, const Turn& turn, Real* vectors)
   }
 }
 
-constexpr AttributeKernels kKernels = { &magnitudes<std::uint32_t, float>, &magnitudes<std::uint64_t, double>,
-  &means<float>, &means<double>,
+constexpr AttributeKernels kAttributeKernels = { &magnitudes<std::uint32_t, float>,
+  &magnitudes<std::uint64_t, double>, &means<float>, &means<double>,
   { &integerMeans<std::int8_t>, &integerMeans<std::uint8_t>, &integerMeans<std::int16_t>,
     &integerMeans<std::uint16_t>, &integerMeans<std::int32_t>, &integerMeans<std::uint32_t> },
   &unitVectors<float>, &unitVectors<double> };

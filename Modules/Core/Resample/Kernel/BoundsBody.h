@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Resample/Kernel/VoxelKernel.h"
+#include "Core/Simd/Words.h"
 
 namespace pointhaptics
 {
@@ -17,148 +18,116 @@ inline void widen(double box[6], int axis, double low, double high)
   box[2 * axis + 1] = high > box[2 * axis + 1] ? high : box[2 * axis + 1];
 }
 
-/// Widens the box by the transformed points that are finite, as AffineTransform::apply() rounds them, one by
-/// one.
-template <class V, typename Real>
-void boundsOfEach(const double matrix[3][4], const Real* xyz, std::int64_t count, double box[6])
-{
-  const double infinity = __builtin_inf();
-  typename V::Doubles low[3], high[3];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    low[axis] = V::all(infinity);
-    high[axis] = V::all(-infinity);
-  }
-  const auto include = [&](const Real* from)
-  {
-    typename V::Doubles p[3], moved[3];
-    V::load(from, p[0], p[1], p[2]);
-    // What is not finite makes the sum not a number.
-    typename V::Doubles check =
-      V::add(V::add(V::subtract(p[0], p[0]), V::subtract(p[1], p[1])), V::subtract(p[2], p[2]));
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double* row = matrix[axis];
-      moved[axis] =
-        V::add(V::add(V::add(V::multiply(V::all(row[0]), p[0]), V::multiply(V::all(row[1]), p[1])),
-                 V::multiply(V::all(row[2]), p[2])),
-          V::all(row[3]));
-      check = V::add(check, V::subtract(moved[axis], moved[axis]));
-    }
-    const typename V::Mask valid = V::finite(check);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      low[axis] = V::least(low[axis], V::choose(valid, moved[axis], low[axis]));
-      high[axis] = V::most(high[axis], V::choose(valid, moved[axis], high[axis]));
-    }
-  };
-  std::int64_t i = 0;
-  for (; i + V::width <= count; i += V::width)
-  {
-    include(xyz + 3 * i);
-  }
-  if (i < count)
-  {
-    Real last[3 * kWidest];
-    for (int j = 0; j < 3 * kWidest; ++j)
-    {
-      last[j] = Real(__builtin_nan(""));
-    }
-    for (std::int64_t j = 0; j < 3 * (count - i); ++j)
-    {
-      last[j] = xyz[3 * i + j];
-    }
-    include(last);
-  }
-  alignas(64) double lows[kWidest];
-  alignas(64) double highs[kWidest];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    V::store(lows, low[axis]);
-    V::store(highs, high[axis]);
-    for (int j = 0; j < V::width; ++j)
-    {
-      widen(box, axis, lows[j], highs[j]);
-    }
-  }
-}
+/// Points looked at together by keptAxes(): whole vectors.
+constexpr std::int64_t kBoxPoints = 1024;
 
-/// Points looked at together by plainBounds(): a multiple of the lanes of any vector.
-constexpr std::int64_t kPlainPoints = 1024;
-
-/// The box of kPlainPoints points as they are. @return false if not all are finite; then it is not valid.
-template <int vectorBytes, typename Real>
-inline bool plainBounds(const Real* xyz, double box[6])
+/// Widens the box by kBoxPoints points under a diagonal matrix and an offset: rounding keeps the order of
+/// numbers, so the ends of each axis are those of the points as they are, moved. @return false, without that,
+/// if they are not finite.
+template <typename Real>
+inline bool keptAxes(const double matrix[3][4], const Real* xyz, double box[6])
 {
-  constexpr int kLanes = vectorBytes / int(sizeof(Real));
-  static_assert(kPlainPoints % kLanes == 0, "there are no points past the last vectors");
-  typedef Real Wide __attribute__((vector_size(vectorBytes)));
-  typedef Real Unaligned __attribute__((vector_size(vectorBytes), aligned(sizeof(Real)), may_alias));
+  typedef Real Numbers __attribute__((vector_size(8 * kWidth)));
+  typedef Real NumbersAt __attribute__((vector_size(8 * kWidth), aligned(sizeof(Real)), may_alias));
+  constexpr int kInVector = 8 * kWidth / int(sizeof(Real));
   // Three vectors hold x y z x y z ...: each lane stays with one axis.
-  Wide low[3], high[3], check[3];
-  for (int k = 0; k < 3; ++k)
-  {
-    low[k] = high[k] = reinterpret_cast<const Unaligned*>(xyz)[k];
-    check[k] = Wide{};
-  }
-  for (std::int64_t i = 0; i < kPlainPoints; i += kLanes)
+  const auto* at = reinterpret_cast<const NumbersAt*>(xyz);
+  Numbers low[3] = { at[0], at[1], at[2] };
+  Numbers high[3] = { at[0], at[1], at[2] };
+  Numbers check[3] = {};
+  for (std::int64_t i = 0; i < kBoxPoints / kInVector; ++i, at += 3)
   {
     for (int k = 0; k < 3; ++k)
     {
-      const Wide x = reinterpret_cast<const Unaligned*>(xyz + 3 * i)[k];
+      const Numbers x = at[k];
       low[k] = x < low[k] ? x : low[k];
       high[k] = x > high[k] ? x : high[k];
       check[k] += x - x; // Not a number from the first that is not finite on.
     }
   }
-  bool areFinite = true;
+  double moved[6] = { __builtin_inf(), -__builtin_inf(), __builtin_inf(), -__builtin_inf(), __builtin_inf(),
+    -__builtin_inf() };
+  double sum = 0.0;
+  for (int i = 0; i < 3 * kInVector; ++i)
+  {
+    const double ends[2] = { double(low[i / kInVector][i % kInVector]),
+      double(high[i / kInVector][i % kInVector]) };
+    for (const double end : ends)
+    {
+      const double x = matrix[i % 3][i % 3] * end + matrix[i % 3][3];
+      sum += x - x;
+      widen(moved, i % 3, x, x);
+    }
+    sum += double(check[i / kInVector][i % kInVector]);
+  }
+  for (int axis = 0; sum == 0.0 && axis < 3; ++axis)
+  {
+    widen(box, axis, moved[2 * axis], moved[2 * axis + 1]);
+  }
+  return sum == 0.0;
+}
+
+/// Widens the box by the transformed points that are finite, as AffineTransform::apply() rounds them, each.
+template <typename Real>
+void boundsOfEach(const double matrix[3][4], const Real* xyz, std::int64_t count, double box[6])
+{
+  Pack low[3], high[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    box[2 * axis] = __builtin_inf();
-    box[2 * axis + 1] = -__builtin_inf();
+    low[axis] = all(__builtin_inf());
+    high[axis] = all(-__builtin_inf());
   }
-  for (int i = 0; i < 3 * kLanes; ++i)
+  const auto include = [&](const Real* from)
   {
-    widen(box, i % 3, double(low[i / kLanes][i % kLanes]), double(high[i / kLanes][i % kLanes]));
-    areFinite = areFinite && check[i / kLanes][i % kLanes] == Real(0);
+    Pack p[3], moved[3];
+    loadPoints(from, p);
+    // What is not finite makes the sum not a number.
+    Pack check = (p[0] - p[0]) + (p[1] - p[1]) + (p[2] - p[2]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double* row = matrix[axis];
+      moved[axis] = ((row[0] * p[0] + row[1] * p[1]) + row[2] * p[2]) + row[3];
+      check += moved[axis] - moved[axis];
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      // Not a number: neither is chosen.
+      low[axis] = smaller(moved[axis] + check, low[axis]);
+      high[axis] = larger(moved[axis] + check, high[axis]);
+    }
+  };
+  for (; count >= kWidth; count -= kWidth, xyz += 3 * kWidth)
+  {
+    include(xyz);
   }
-  return areFinite;
+  for (; count > 0; --count, xyz += 3)
+  {
+    Real one[3 * kWidth];
+    for (int j = 0; j < 3 * kWidth; ++j)
+    {
+      one[j] = xyz[j % 3];
+    }
+    include(one);
+  }
+  for (int j = 0; j < 3 * kWidth; ++j)
+  {
+    const int axis = j % 3;
+    widen(box, axis, low[axis][j / 3], high[axis][j / 3]);
+  }
 }
 
-/// Widens a box by one transformed by a diagonal matrix and an offset: rounding keeps the order of numbers,
-/// so the ends of its axes are those of the points in it. @return false, without that, if they are not
-/// finite.
-inline bool includeMoved(const double matrix[3][4], const double plain[6], double box[6])
-{
-  double moved[6];
-  double check = 0.0;
-  for (int i = 0; i < 6; ++i)
-  {
-    const double* row = matrix[i / 2];
-    moved[i] = row[i / 2] * plain[i] + row[3];
-    check += moved[i] - moved[i];
-  }
-  for (int i = 0; check == 0.0 && i < 6; ++i)
-  {
-    widen(box, i / 2, moved[i], moved[i]);
-  }
-  return check == 0.0;
-}
-
-/// Widens the box by the transformed points that are finite, as AffineTransform::apply() rounds them.
-template <class V, typename Real>
+template <typename Real>
 void bounds(const double matrix[3][4], const Real* xyz, std::int64_t count, double box[6])
 {
   const bool keepsAxes = isDiagonal(matrix);
-  for (; keepsAxes && count >= kPlainPoints; xyz += 3 * kPlainPoints, count -= kPlainPoints)
+  for (; keepsAxes && count >= kBoxPoints; xyz += 3 * kBoxPoints, count -= kBoxPoints)
   {
-    double plain[6];
-    if (!plainBounds<8 * V::width>(xyz, plain) || !includeMoved(matrix, plain, box))
+    if (!keptAxes(matrix, xyz, box))
     {
-      boundsOfEach<V>(matrix, xyz, kPlainPoints, box);
+      boundsOfEach(matrix, xyz, kBoxPoints, box);
     }
   }
-  boundsOfEach<V>(matrix, xyz, count, box);
+  boundsOfEach(matrix, xyz, count, box);
 }
 
 }

@@ -10,26 +10,9 @@ namespace simd
 namespace
 {
 
-/// Calls visit(i) for all i below @p count.
-template <typename Visit>
-__attribute__((always_inline)) inline void inFours(int count, Visit&& visit)
-{
-  int i = 0;
-  for (; i + 4 <= count; i += 4)
-  {
-    visit(i);
-    visit(i + 1);
-    visit(i + 2);
-    visit(i + 3);
-  }
-  for (; i < count; ++i)
-  {
-    visit(i);
-  }
-}
-
-/// The same, taking turns in four parts of the range. Neighbours in a scan are in one voxel and one
-/// partition, so that an update would wait for the one before: updates elsewhere hide this latency.
+/// Calls visit(i) for all i below @p count, taking turns in four parts of the range. Neighbours in a scan are
+/// in one voxel and one partition, so that an update would wait for the one before: updates elsewhere hide
+/// this latency.
 template <typename Visit>
 __attribute__((always_inline)) inline void fromFourParts(int count, Visit&& visit)
 {

@@ -1,9 +1,8 @@
 /// @file
-/// Part of VoxelKernelBody.h: from sums to means.
+/// Part of VoxelKernelBody.h: from sums to means and covariances.
 #pragma once
 
-#include "Core/Resample/Kernel/Fetch.h"
-#include "Core/Resample/Kernel/VoxelKernel.h"
+#include "Core/Resample/Kernel/CellSumBody.h"
 
 namespace pointhaptics
 {
@@ -12,178 +11,190 @@ namespace simd
 namespace
 {
 
-/// Lists the lanes of a group that are not clear of the faces.
-inline int listLanes(unsigned lanes, int first, int last, int* list, int found)
+/// The packed sums of kWidth voxels.
+struct PackedVectors
 {
-  for (; lanes != 0; lanes &= lanes - 1)
-  {
-    const int i = first + __builtin_ctz(lanes);
-    if (i < last)
-    {
-      list[found++] = i;
-    }
-  }
-  return found;
-}
+  Words count;
+  Words sums[3];
 
-/// Stores the first of a vector's points, at most @p room.
-template <class V, typename Real>
-inline void storePoints(Real* to, int room, const typename V::Doubles xyz[3])
-{
-  if (room >= V::width)
+  explicit PackedVectors(const PackedSums* from)
   {
-    V::storeInterleaved(to, xyz);
-    return;
-  }
-  Real all[3 * kWidest];
-  V::storeInterleaved(all, xyz);
-  for (int i = 0; i < 3 * room; ++i)
-  {
-    to[i] = all[i];
-  }
-}
-
-/// Stores the first of a vector's counts, at most @p room. Not by a mask: that takes as long as twenty stores
-/// on Zen 3.
-template <class V>
-inline void storeCounts(std::int64_t* to, int room, typename V::Bits counts)
-{
-  if (room >= V::width)
-  {
-    V::storeCounts(to, counts);
-    return;
-  }
-  std::int64_t all[kWidest];
-  V::storeCounts(all, counts);
-  for (int i = 0; i < room; ++i)
-  {
-    to[i] = all[i];
-  }
-}
-
-/// a / n, correctly rounded, for counts n below 2^48. The product is within 2^-52 of a / n, relatively, and
-/// what is corrected within 2^-103: no quotient by such an n is that near to the midpoint of two doubles.
-template <class V>
-inline typename V::Doubles divideByCount(
-  typename V::Doubles a, typename V::Doubles n, typename V::Doubles reciprocal)
-{
-  if constexpr (V::hasFusedMultiply)
-  {
-    return V::corrected(V::multiply(a, reciprocal), a, n, reciprocal);
-  }
-  else
-  {
-    return V::quotient(a, n);
-  }
-}
-
-/// The constants of MeanMap, in vectors.
-template <class V>
-struct MeanVectors
-{
-  using Doubles = typename V::Doubles;
-  Doubles origin[3], spacing[3], quantum, one;
-  // In quanta: from the lower face, and from there on to as much below the upper one.
-  Doubles margin[3], clearance[3];
-
-  explicit MeanVectors(const MeanMap& map)
-    : quantum(V::all(map.quantum))
-    , one(V::all(1.0))
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      origin[axis] = V::all(map.origin[axis]);
-      spacing[axis] = V::all(map.spacing[axis]);
-      const double width = 1.0 - 2.0 * map.faceMargin[axis];
-      margin[axis] = V::all(map.faceMargin[axis] / map.quantum);
-      clearance[axis] = V::all(width > 0.0 ? width / map.quantum : 0.0);
-    }
-  }
-  /// Coordinates of a vector's means. Bit i of the result: that of voxel i is clear of the faces.
-  unsigned mean(Doubles count, const Doubles sums[3], const Doubles indices[3], Doubles xyz[3]) const
-  {
-    const Doubles reciprocal = V::quotient(one, count);
-    typename V::Mask clear = V::allTrue();
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const Doubles fraction = divideByCount<V>(sums[axis], count, reciprocal);
-      const Doubles u = V::multiplyAdd(fraction, quantum, indices[axis]);
-      xyz[axis] = V::add(origin[axis], V::multiply(u, spacing[axis]));
-      clear = V::below(clear, V::subtract(fraction, margin[axis]), clearance[axis]);
-    }
-    return V::toUnsigned(clear);
+    Words lanes[4];
+    turnWords(from->lanes, sizeof *from / sizeof from->lanes[0], lanes);
+    count = lanes[3] >> kCountShift;
+    sums[0] = lanes[0];
+    sums[1] = lanes[1];
+    sums[2] = lanes[2] + ((lanes[3] & ((std::uint64_t(1) << kCountShift) - 1)) << kLowBits);
   }
 };
 
-template <class V, typename Real>
-int means(const MeanMap& map, const MomentBatch<std::int64_t>& batch, Real* xyz, int* nearFace)
+/// Coordinates of means, from sums and voxels' indices.
+struct MeanVectors
 {
-  const MeanVectors<V> constants(map);
-  int found = 0;
-  // Whole vectors: past the batch's end they work on what an earlier one left there.
-  for (int i = 0; i < batch.size; i += V::width)
+  Pack origin[3], spacing[3];
+  // In quanta: from the lower face, and from there on to as much below the upper one.
+  Pack margin[3], clearance[3];
+  Pack quantum;
+
+  explicit MeanVectors(const MeanMap& map)
+    : quantum(all(map.quantum))
   {
-    typename V::Doubles sums[3], indices[3], means[3];
     for (int axis = 0; axis < 3; ++axis)
     {
-      sums[axis] = V::fromInts(batch.sums[axis] + i);
-      indices[axis] = V::fromInts(batch.indices[axis] + i);
+      origin[axis] = all(map.origin[axis]);
+      spacing[axis] = all(map.spacing[axis]);
+      const double width = 1.0 - 2.0 * map.faceMargin[axis];
+      margin[axis] = all(map.faceMargin[axis] / map.quantum);
+      clearance[axis] = all(width > 0.0 ? width / map.quantum : 0.0);
     }
-    const unsigned clear = constants.mean(V::fromInts(batch.counts + i), sums, indices, means);
-    storePoints<V>(xyz + 3 * i, batch.size - i, means);
-    if (clear != V::full)
+  }
+  /// Bit i of the result: that of voxel i is clear of the faces.
+  unsigned mean(const PackedVectors& packed, const Pack indices[3], Pack xyz[3]) const
+  {
+    const Pack count = smallToNumbers(packed.count);
+    const Pack reciprocal = 1.0 / count;
+    Words clear = allWords(~std::uint64_t(0));
+    for (int axis = 0; axis < 3; ++axis)
     {
-      found = listLanes(V::full & ~clear, i, batch.size, nearFace, found);
+      // Correctly rounded, for counts below 2^48. The product is within 2^-52 of the quotient, relatively,
+      // and what is corrected within 2^-103: no quotient by such a count is that near to the midpoint of two
+      // doubles.
+      const Pack sum = toNumbers(packed.sums[axis]);
+      const Pack fraction = kFuses ? corrected(sum * reciprocal, sum, count, reciprocal) : sum / count;
+      xyz[axis] = origin[axis] + multiplyAdd(fraction, quantum, indices[axis]) * spacing[axis];
+      const Pack above = fraction - margin[axis];
+      clear &= ~bitsOf(above) & reinterpret_cast<Words>(above < clearance[axis]);
+    }
+    return highestBits(clear);
+  }
+};
+
+template <typename Real>
+int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t* cells,
+  const PackedSums* packed, int size, Real* xyz, std::int64_t* counts, int* nearFace)
+{
+  const MeanVectors constants(map);
+  const double columns = cellMap.columns;
+  const double rows = cellMap.rowsPerLayer;
+  // The integer below a quotient a / b of integers, from 1 / b: the one nearest to (a + 1/2) / b - 1/2, which
+  // rounding does not carry over a midpoint.
+  const Pack perColumn = all(1.0 / columns);
+  const Pack perLayer = all(1.0 / rows);
+  const Pack toColumn = all(0.5 / columns - 0.5);
+  const Pack toLayer = all(0.5 / rows - 0.5);
+  constexpr int kAhead = 64; // The result is memory of another update, far away.
+  int found = 0;
+  for (int i = 0; i < size; i += kWidth)
+  {
+    fetchToWrite(xyz + 3 * (i + kAhead), 3 * kWidth * sizeof(Real));
+    fetchToWrite(counts + i + kAhead, kWidth * sizeof(std::int64_t));
+    const PackedVectors voxels(packed + i);
+    const Pack cell = numbersAt(cells + i);
+    const Pack localRow = nearest(multiplyAdd(cell, perColumn, toColumn));
+    const Pack row = localRow + double(cellMap.firstRow);
+    const Pack layer = nearest(multiplyAdd(row, perLayer, toLayer));
+    const Pack indices[3] = { cell - localRow * columns, row - layer * rows, layer };
+    Pack means[3];
+    unsigned nearFaces = ((1u << kWidth) - 1) & ~constants.mean(voxels, indices, means);
+    const int last = size - i < kWidth ? size - i : kWidth;
+    if (last == kWidth)
+    {
+      storePoints(xyz + 3 * i, means);
+      *reinterpret_cast<WordsAt*>(counts + i) = voxels.count;
+    }
+    for (int v = 0; last < kWidth && v < last; ++v)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        xyz[3 * (i + v) + axis] = Real(means[axis][v]);
+      }
+      counts[i + v] = std::int64_t(voxels.count[v]);
+    }
+    for (; nearFaces != 0; nearFaces &= nearFaces - 1)
+    {
+      const int v = __builtin_ctz(nearFaces);
+      nearFace[found] = i + v;
+      found += v < last;
     }
   }
   return found;
 }
 
-template <class V, typename Real>
-int packedMeans(const MeanMap& map, const CellMap& cellMap, const std::uint32_t* cells,
-  const PackedSums* packed, int size, Real* xyz, std::int64_t* counts, int* nearFace)
+/// A voxel with more points than this may have a central sum of products, which is below n 2^(2
+/// fractionBits), that 53 bits and another 32 do not hold.
+inline std::int64_t mostCovariancePoints(int fractionBits)
 {
-  using Doubles = typename V::Doubles;
-  const MeanVectors<V> constants(map);
-  const Doubles columns = V::all(double(cellMap.columns));
-  const Doubles perColumn = V::all(1.0 / double(cellMap.columns));
-  const Doubles rows = V::all(double(cellMap.rowsPerLayer));
-  const Doubles perLayer = V::all(1.0 / double(cellMap.rowsPerLayer));
-  const Doubles firstRow = V::all(double(cellMap.firstRow));
-  // The integer below a quotient a / b of integers, from 1 / b: the one nearest to (a + 1/2) / b - 1/2, which
-  // rounding does not carry over a midpoint.
-  const Doubles toColumn = V::all(0.5 / double(cellMap.columns) - 0.5);
-  const Doubles toLayer = V::all(0.5 / double(cellMap.rowsPerLayer) - 0.5);
-  constexpr int kAhead = 64; // The result is memory of another update, far away.
-  int found = 0;
-  for (int i = 0; i < size; i += V::width)
+  const int bits = 85 - 2 * fractionBits;
+  return std::int64_t(1) << (bits < kCountShift ? bits : kCountShift);
+}
+
+/// The integers below numbers from 0 to below 2^52, and the same as numbers.
+inline Words truncated(const Pack& v, Pack& real)
+{
+  const Words bits = floorBits(v);
+  real = fromBits(bits) - kToBits;
+  return bits ^ bitsOf(all(kToBits));
+}
+
+/// What covarianceOf() gives, in 64-bit arithmetic. About an integer m near the mean, with
+/// sum = n m + rest, the central sum of a product is
+///   S_ab - m_a sum_b - m_b rest_a.
+/// Modulo 2^64 integers give it exactly; doubles are nearer to it than 2^63 and show which multiple of 2^64
+/// that leaves out. Both together make 53 bits and the last 32, whose sum is rounded once.
+inline void covariancesTogether(
+  const CovarianceMap& map, const PackedSums* packed, const SplitSecondMoments* secondMoments, Pack result[6])
+{
+  const PackedVectors voxels(packed);
+  Words split[3][4];
+  for (std::size_t part = 0; part < 3; ++part)
   {
-    fetchToWrite(xyz + 3 * (i + kAhead), 3 * V::width * sizeof(Real));
-    fetchToWrite(counts + i + kAhead, V::width * sizeof(std::int64_t));
-    typename V::Bits lanes[4];
-    V::loadPacked(packed + i, lanes);
-    const typename V::Bits count = V::template rightBy<kCountShift>(lanes[3]);
-    const typename V::Bits z = V::addBits(lanes[2], V::template left<kLowBits>(V::onlyPosition(lanes[3])));
-    const typename V::Bits sumBits[3] = { lanes[0], lanes[1], z };
-    const bool areSmall = V::areSmall(sumBits); // As most are.
-    Doubles sums[3];
-    for (int axis = 0; axis < 3; ++axis)
+    turnWords(
+      secondMoments->high + 4 * part, sizeof *secondMoments / sizeof secondMoments->high[0], split[part]);
+  }
+  const Pack perPoint = 1.0 / toNumbers(voxels.count);
+  const double highUnit = double(std::int64_t(1) << map.fractionBits);
+  Words m[3], rest[3];
+  Pack mReal[3], sumReal[3], restReal[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    sumReal[axis] = toNumbers(voxels.sums[axis]);
+    m[axis] = truncated(sumReal[axis] * perPoint, mReal[axis]);
+    rest[axis] = voxels.sums[axis] - m[axis] * voxels.count;
+    restReal[axis] = toNumbers(rest[axis]);
+  }
+  for (int i = 0; i < 6; ++i)
+  {
+    const int a = kFirstAxis[i];
+    const int b = kSecondAxis[i];
+    const Words& high = split[i / 4][i % 4];
+    const Words sum = (high << map.fractionBits) + split[(6 + i) / 4][(6 + i) % 4];
+    const Words bits = sum - m[a] * voxels.sums[b] - m[b] * rest[a];
+    const Pack near = toNumbers(high) * highUnit - mReal[a] * sumReal[b];
+    const Pack turns = nearest((near - toNumbers(bits)) * 0x1p-64);
+    const Pack upper = smallToNumbers((bits >> 32) ^ 0x80000000u) - 0x1p31; // signed
+    const Pack central = (turns * 0x1p32 + upper) * 0x1p32 + smallToNumbers(bits & 0xffffffffu);
+    const Pack value = (central - restReal[a] * restReal[b] * perPoint) * perPoint;
+    result[i] = (a == b ? larger(value, Pack{}) : value) * map.unit[a] * map.unit[b];
+  }
+}
+
+int covariances(const CovarianceMap& map, const PackedSums* sums, const SplitSecondMoments* secondMoments,
+  int count, double* covariances, int* full)
+{
+  const std::int64_t most = mostCovariancePoints(map.fractionBits);
+  int found = 0;
+  for (int i = 0; i < count; i += kWidth)
+  {
+    Pack result[6];
+    covariancesTogether(map, sums + i, secondMoments + i, result);
+    for (int v = 0; v < kWidth && i + v < count; ++v)
     {
-      sums[axis] = areSmall ? V::smallToDoubles(sumBits[axis]) : V::toDoubles(sumBits[axis]);
-    }
-    const Doubles cell = V::fromInts(reinterpret_cast<const std::int32_t*>(cells + i));
-    const Doubles localRow = V::nearest(V::multiplyAdd(cell, perColumn, toColumn));
-    const Doubles row = V::add(localRow, firstRow);
-    const Doubles layer = V::nearest(V::multiplyAdd(row, perLayer, toLayer));
-    const Doubles indices[3] = { V::subtract(cell, V::multiply(localRow, columns)),
-      V::subtract(row, V::multiply(layer, rows)), layer };
-    Doubles means[3];
-    const unsigned clear = constants.mean(V::smallToDoubles(count), sums, indices, means);
-    storePoints<V>(xyz + 3 * i, size - i, means);
-    storeCounts<V>(counts + i, size - i, count);
-    if (clear != V::full)
-    {
-      found = listLanes(V::full & ~clear, i, size, nearFace, found);
+      for (int m = 0; m < 6; ++m)
+      {
+        covariances[6 * (i + v) + m] = result[m][v];
+      }
+      full[found] = i + v;
+      found += packedCount(sums[i + v]) > most;
     }
   }
   return found;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Core/Base/PointRange.h"
+#include "Core/Resample/Kernel/AttributeKernel.h"
 #include "Core/Simd/InstructionSet.h"
 
 #include <cstddef>
@@ -158,13 +159,8 @@ struct CellRanks
 {
   std::uint64_t* occupancy;
   std::uint32_t* rankTable; ///< Occupied cells in the words before.
-  /// For each byte of a word, the occupied cells in the word's bytes before it: for instruction sets that
-  /// cannot count bits.
-  std::uint64_t* byteRankTable;
-  std::size_t words; ///< A multiple of kOccupancyGroup.
+  std::size_t words;
 };
-/// Occupancy words that are counted together.
-constexpr std::size_t kOccupancyGroup = 16;
 
 /// The sums of a partition's occupied cells, in ascending order.
 struct CellSums
@@ -209,17 +205,6 @@ static inline void addProducts(SecondMoments& sums, std::uint64_t x, std::uint64
 /// Voxels on their way from the sums to the result, at most this many at once.
 constexpr int kBatch = 256;
 
-/// Sums over the points of each voxel of their offsets in it, in quanta.
-template <typename Sum>
-struct MomentBatch
-{
-  int size = 0;
-  alignas(64) std::int32_t indices[3][kBatch] = {};
-  alignas(64) std::int64_t counts[kBatch] = {};
-  alignas(64) Sum sums[3][kBatch] = {};
-  SecondMoments* secondMoments = nullptr; ///< kBatch of them, or null.
-};
-
 /// How sums become coordinates. The mean of a voxel is origin + (index + sum / (count 2^fractionBits))
 /// spacing.
 struct MeanMap
@@ -256,10 +241,9 @@ struct Kernels
     const CellMap&, const PointRecord* records, int count, const PointRecord* next, std::uint32_t* cells);
   /// Sets the occupancy bits of cells.
   void (*setOccupied)(const std::uint32_t* cells, int count, std::uint64_t* occupancy);
-  /// Builds the rank table. @return the number of occupied cells.
-  std::uint32_t (*rankWords)(const CellRanks& ranks);
-  /// The same, looking only at the words whose bits are set in @p touched.
-  std::uint32_t (*rankTouchedWords)(const CellRanks& ranks, const std::uint64_t* touched);
+  /// Builds the rank table, of the words alone whose bits are set in @p touched, unless that is null.
+  /// @return the number of occupied cells.
+  std::uint32_t (*rankWords)(const CellRanks& ranks, const std::uint64_t* touched);
   /// Replaces each cell by its rank among the occupied cells.
   void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);
   /// Adds records to the sums of their @p cells; fetches @p next like cells().
@@ -274,15 +258,13 @@ struct Kernels
     int count, double* xyz, std::int64_t* counts, int* nearFace);
   /// Covariances of cells, six numbers each in the order of SecondMoments. Positions among them of those with
   /// too many points for this go to @p full, at most @p count: theirs are not valid. @return the number of
-  /// these.
+  /// these. Reads, but does not use, kWidest elements past the end.
   int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSecondMoments* secondMoments,
     int count, double* covariances, int* full);
-  /// The same as packedMeans of a batch.
-  int (*meansFloat)(const MeanMap&, const MomentBatch<std::int64_t>&, float* xyz, int* nearFace);
-  int (*meansDouble)(const MeanMap&, const MomentBatch<std::int64_t>&, double* xyz, int* nearFace);
   /// Widens a box (x0 x1 y0 y1 z0 z1) by the transformed points that are finite before and after.
   void (*boundsFloats)(const double matrix[3][4], const float* xyz, std::int64_t count, double box[6]);
   void (*boundsDoubles)(const double matrix[3][4], const double* xyz, std::int64_t count, double box[6]);
+  AttributeKernels attributes;
 };
 
 /// The set that InstructionSet stands for on this machine.

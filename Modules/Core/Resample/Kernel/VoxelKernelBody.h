@@ -1,12 +1,12 @@
 /// @file
-/// The loops of VoxelKernel.h, written once over a class of vector operations. Included by one source file
-/// per instruction set, each compiled with its own flags: everything here has internal linkage, and nothing
-/// of the standard library is called, so that no function compiled for one set can stand in for another's.
+/// The loops of VoxelKernel.h, written once over the vectors of Core/Simd. Included by one source file per
+/// instruction set, each compiled with its own flags: everything here has internal linkage, and nothing of
+/// the standard library is called, so that no function compiled for one set can stand in for another's.
 #pragma once
 
+#include "Core/Resample/Kernel/AttributeKernelBody.h"
 #include "Core/Resample/Kernel/BoundsBody.h"
 #include "Core/Resample/Kernel/CellSumBody.h"
-#include "Core/Resample/Kernel/CovarianceBody.h"
 #include "Core/Resample/Kernel/MeanBody.h"
 #include "Core/Resample/Kernel/QuantizeBody.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
@@ -18,13 +18,9 @@ namespace simd
 namespace
 {
 
-template <class V>
-Kernels makeKernels()
-{
-  return { &partition<V, float>, &partition<V, double>, &cellsOf<V>, &setOccupied, &V::rankWords,
-    &rankTouchedWords<V>, &rank<V>, &accumulate<V>, &packedMeans<V, float>, &packedMeans<V, double>,
-    &V::covariances, &means<V, float>, &means<V, double>, &bounds<V, float>, &bounds<V, double> };
-}
+constexpr Kernels kKernels = { &partition<float>, &partition<double>, &cellsOf, &setOccupied, &rankWords,
+  &rank, &accumulate, &packedMeans<float>, &packedMeans<double>, &covariances, &bounds<float>,
+  &bounds<double>, kAttributeKernels };
 
 }
 } // namespace simd

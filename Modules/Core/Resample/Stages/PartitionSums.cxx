@@ -4,7 +4,6 @@
 #include "Core/Resample/Kernel/InFours.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace pointhaptics
 {
@@ -32,8 +31,7 @@ std::uint32_t blocks(std::uint32_t count, int shift)
 /// Words with an occupancy bit for each cell.
 std::size_t occupancyWords(const PartitionPlan& plan)
 {
-  constexpr std::size_t kGroupCells = 64 * kOccupancyGroup;
-  return ((plan.cells() - 1) / kGroupCells + 1) * kOccupancyGroup;
+  return (plan.cells() - 1) / 64 + 1;
 }
 
 /// A partition is sparse where it has fewer cells in use than one for so many occupancy words: visiting the
@@ -42,27 +40,9 @@ constexpr std::size_t kWordsPerSparseCell = 3;
 
 /// A cell with so many points is overfull: its sums are moved out of the packed ones, which hold less than
 /// 2^21 points.
-constexpr std::uint64_t kPackedCounts = std::uint64_t(1) << 19;
-static_assert(kPackedCounts + std::uint64_t(kChunkPoints) < (std::uint64_t(1) << 21),
+constexpr std::int64_t kPackedCounts = std::int64_t(1) << 19;
+static_assert(kPackedCounts + kChunkPoints < (std::int64_t(1) << 21),
   "a packed sum must hold a chunk in one voxel and the accumulated points");
-
-void addAccumulated(
-  MomentBatch<std::int64_t>& batch, int i, const AccumulatedPartition& accumulated, std::size_t voxel)
-{
-  const AccumulatedSums& old = accumulated.voxels[voxel];
-  batch.counts[i] += old.count;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    batch.sums[axis][i] += old.sums[axis]; // Second moments are not unpacked.
-  }
-}
-
-/// Moves the elements from @p first to @p last up to @p offset.
-template <typename T>
-void moveUp(std::vector<T>& all, std::size_t first, std::size_t last, std::size_t offset)
-{
-  std::memmove(all.data() + offset, all.data() + first, (last - first) * sizeof(T));
-}
 
 }
 
@@ -100,7 +80,7 @@ PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t point
 
 bool fitsPartitions(const Lattice& lattice, int indexBits)
 {
-  if (indexBits > kMaximumIndexBits)
+  if (indexBits < kMinimumIndexBits || indexBits > kMaximumIndexBits)
   {
     return false;
   }
@@ -113,18 +93,10 @@ std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size
   return std::min(records + accumulated, plan.cells());
 }
 
-PartitionWorker::PartitionWorker()
-  : batch_(std::make_unique<MomentBatch<std::int64_t>>())
-{
-}
-
-PartitionWorker::~PartitionWorker() = default;
-
 void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
 {
   plan_ = plan;
-  batchSecondMoments_.resize(covariances ? kBatch : 0);
-  batch_->secondMoments = covariances ? batchSecondMoments_.data() : nullptr;
+  covariances_ = covariances;
   const std::size_t words = occupancyWords(plan);
   if (occupancy_.reserve(words))
   {
@@ -136,7 +108,6 @@ void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
     std::fill(touched_.data(), touched_.data() + touchedWords, 0);
   }
   rankTable_.reserve(words);
-  byteRankTable_.reserve(words);
 }
 
 void PartitionWorker::reduce(const PartitionAttributes* attributes)
@@ -147,7 +118,7 @@ void PartitionWorker::reduce(const PartitionAttributes* attributes)
 
 CellRanks PartitionWorker::ranks() const
 {
-  return { occupancy_.data(), rankTable_.data(), byteRankTable_.data(), occupancyWords(plan_) };
+  return { occupancy_.data(), rankTable_.data(), occupancyWords(plan_) };
 }
 
 /// Builds the rank table for the occupied cells, which are those of one list or two.
@@ -156,7 +127,7 @@ std::size_t PartitionWorker::rankOccupied(const Kernels& kernels, CellList cells
   isSparse_ = kWordsPerSparseCell * (cells.count + others.count) < occupancyWords(plan_);
   if (!isSparse_)
   {
-    return kernels.rankWords(ranks());
+    return kernels.rankWords(ranks(), nullptr);
   }
   for (const CellList& list : { cells, others })
   {
@@ -165,7 +136,7 @@ std::size_t PartitionWorker::rankOccupied(const Kernels& kernels, CellList cells
     fromFourParts(int(list.count),
       [=](int i) { touched[marked[i] / 4096] |= std::uint64_t(1) << (marked[i] / 64 % 64); });
   }
-  return kernels.rankTouchedWords(ranks(), touched_.data());
+  return kernels.rankWords(ranks(), touched_.data());
 }
 
 /// For the same cells, in any order.
@@ -228,14 +199,11 @@ void PartitionWorker::sumRecords(
   {
     own_.cellCount = 0;
   }
-  if (attributes_)
-  {
-    places_.assign(to.cells.data(), to.cells.data() + to.cellCount);
-    kernels.rank(ranks(), places_.data(), int(places_.size()));
-  }
-  makeRoom(kernels, to);
+  places_.assign(to.cells.data(), to.cells.data() + to.cellCount);
+  kernels.rank(ranks(), places_.data(), int(places_.size()));
+  makeRoom(to);
   const CellSums sums = { to.cells.data(), to.packed.data(),
-    batch_->secondMoments ? to.splitSecondMoments.data() : nullptr };
+    covariances_ ? to.splitSecondMoments.data() : nullptr };
   voxels_.cells = sums.cells;
   voxels_.sums = sums.sums;
   voxels_.secondMoments = sums.secondMoments;
@@ -267,7 +235,7 @@ void PartitionWorker::reduceAttributes(
   std::transform(sums.packed.data(), sums.packed.data() + voxels_.size, counts_.begin(), &packedCount);
   std::int64_t mostPoints = *std::max_element(counts_.begin(), counts_.end());
   std::int64_t mostBefore = 0;
-  for (const AccumulatedSums& overfull : sums.voxels)
+  for (const WideSums& overfull : sums.overfull.voxels)
   {
     mostBefore = std::max(mostBefore, overfull.count);
   }
@@ -308,9 +276,8 @@ void PartitionWorker::writeAttributes(MeanArena& arena, std::size_t offset) cons
   }
 }
 
-/// Moves sums, which are in ascending order, to the ranks of their cells among all voxels, with zeros
-/// between.
-void PartitionWorker::makeRoom(const Kernels& kernels, AccumulatedPartition& sums) const
+/// Moves sums, which are in ascending order, to their places among all voxels, with zeros between.
+void PartitionWorker::makeRoom(AccumulatedPartition& sums) const
 {
   const std::size_t size = voxels_.size;
   if (sums.packed.size() < size + kWidest)
@@ -322,54 +289,36 @@ void PartitionWorker::makeRoom(const Kernels& kernels, AccumulatedPartition& sum
     sums.cells.resize(size + kWidest);
     sums.packed.resize(size + kWidest);
   }
-  if (batch_->secondMoments && sums.splitSecondMoments.size() < size)
+  if (covariances_ && sums.splitSecondMoments.size() < size + kWidest)
   {
-    sums.splitSecondMoments.reserve(size + size / 16);
-    sums.splitSecondMoments.resize(size);
+    sums.splitSecondMoments.reserve(size + size / 16 + kWidest);
+    sums.splitSecondMoments.resize(size + kWidest);
   }
   std::size_t end = size; // From here on all are where they belong.
-  const auto clearTo = [&](std::size_t offset)
+  const auto clearFrom = [&](std::size_t first)
   {
-    if (end <= offset)
+    std::fill(sums.packed.data() + first, sums.packed.data() + end, PackedSums{});
+    if (covariances_)
     {
-      return;
+      std::fill(
+        sums.splitSecondMoments.data() + first, sums.splitSecondMoments.data() + end, SplitSecondMoments{});
     }
-    std::memset(sums.packed.data() + offset, 0, (end - offset) * sizeof(PackedSums));
-    if (batch_->secondMoments)
-    {
-      std::memset(sums.splitSecondMoments.data() + offset, 0, (end - offset) * sizeof(SplitSecondMoments));
-    }
-    end = offset;
   };
-  std::uint32_t offsets[kBatch];
-  std::size_t left = sums.cellCount;
-  sums.cellCount = size;
-  while (left > 0 && left < end)
+  std::size_t i = sums.cellCount;
+  for (; i > 0 && places_[i - 1] > i - 1; --i)
   {
-    const std::size_t begin = left - std::min<std::size_t>(left, kBatch);
-    std::copy(sums.cells.data() + begin, sums.cells.data() + left, offsets);
-    kernels.rank(ranks(), offsets, int(left - begin));
-    while (left > begin && left < end)
+    const std::size_t place = places_[i - 1];
+    clearFrom(place + 1);
+    sums.cells[place] = sums.cells[i - 1];
+    sums.packed[place] = sums.packed[i - 1];
+    if (covariances_)
     {
-      // Those that stay neighbours move together.
-      std::size_t first = left - 1;
-      while (first > begin && offsets[first - 1 - begin] + 1 == offsets[first - begin])
-      {
-        --first;
-      }
-      const std::size_t offset = offsets[first - begin];
-      clearTo(offset + left - first);
-      moveUp(sums.cells, first, left, offset);
-      moveUp(sums.packed, first, left, offset);
-      if (batch_->secondMoments)
-      {
-        moveUp(sums.splitSecondMoments, first, left, offset);
-      }
-      left = first;
-      end = offset;
+      sums.splitSecondMoments[place] = sums.splitSecondMoments[i - 1];
     }
+    end = place;
   }
-  clearTo(left);
+  clearFrom(i);
+  sums.cellCount = size;
 }
 
 void PartitionWorker::accumulate(
@@ -381,61 +330,47 @@ void PartitionWorker::accumulate(
   sumRecords(kernels, pool, sums);
   // No voxel has more points than all have together.
   sums.points += std::int64_t(pool.count(partition));
-  const std::uint64_t firstKey = plan_.firstKey(partition);
-  for (std::size_t i = 0; sums.points >= std::int64_t(kPackedCounts) && i < sums.cellCount; ++i)
+  VoxelRun overfull;
+  for (std::size_t i = 0; sums.points >= kPackedCounts && i < sums.cellCount; ++i)
   {
-    if (sums.packed[i].lanes[3] >> kCountShift >= kPackedCounts)
+    if (packedCount(sums.packed[i]) >= kPackedCounts)
     {
-      unpack(firstKey + sums.cells[i], sums.packed[i], sums);
+      const SecondMoments moments =
+        covariances_ ? whole(sums.splitSecondMoments[i], plan_.fractionBits) : SecondMoments{};
+      overfull.push(
+        WideSums::of(voxels_.firstKey + sums.cells[i], sums.packed[i]), covariances_ ? &moments : nullptr);
+      sums.packed[i] = PackedSums{};
+      if (covariances_)
+      {
+        sums.splitSecondMoments[i] = SplitSecondMoments{};
+      }
     }
+  }
+  if (!overfull.voxels.empty())
+  {
+    sums.overfull = merged(sums.overfull, overfull);
   }
 }
 
-/// Moves the packed sums of an overfull cell to sums of 64 bits each.
-void PartitionWorker::unpack(std::uint64_t key, PackedSums& packed, AccumulatedPartition& sums)
+VoxelRun PartitionWorker::wide() const
 {
-  const auto found = std::lower_bound(sums.voxels.begin(), sums.voxels.end(), key,
-    [](const AccumulatedSums& voxel, std::uint64_t wanted) { return voxel.key < wanted; });
-  const bool isNew = found == sums.voxels.end() || found->key != key;
-  AccumulatedSums& voxel = isNew ? *sums.voxels.insert(found, { key, 0, { 0, 0, 0 } }) : *found;
-  voxel.count += packedCount(packed);
-  voxel.sums[0] += std::int64_t(packed.lanes[0]);
-  voxel.sums[1] += std::int64_t(packed.lanes[1]);
-  voxel.sums[2] += packedZ(packed);
-  packed = PackedSums{ { 0, 0, 0, 0 } };
-}
-
-void PartitionWorker::collect(std::size_t position, std::size_t& next)
-{
-  MomentBatch<std::int64_t>& batch = *batch_;
-  batch.size = int(std::min<std::size_t>(voxels_.size - position, kBatch));
-  for (int i = 0; i < batch.size; ++i, ++position)
+  VoxelRun run;
+  run.voxels.reserve(voxels_.size);
+  run.secondMoments.reserve(covariances_ ? voxels_.size : 0);
+  for (std::size_t i = 0; i < voxels_.size; ++i)
   {
-    const PackedSums& sums = voxels_.sums[position];
-    const std::uint32_t cell = voxels_.cells[position];
-    const std::uint32_t row = cell / plan_.columns + voxels_.map.firstRow;
-    batch.indices[0][i] = std::int32_t(cell % plan_.columns);
-    batch.indices[1][i] = std::int32_t(row % plan_.rowsPerLayer);
-    batch.indices[2][i] = std::int32_t(row / plan_.rowsPerLayer);
-    batch.counts[i] = packedCount(sums);
-    batch.sums[0][i] = std::int64_t(sums.lanes[0]);
-    batch.sums[1][i] = std::int64_t(sums.lanes[1]);
-    batch.sums[2][i] = packedZ(sums);
-    if (batch.secondMoments)
-    {
-      batch.secondMoments[i] = whole(voxels_.secondMoments[position], plan_.fractionBits);
-    }
-    if (next < old_->voxels.size() && old_->voxels[next].key == voxels_.firstKey + cell)
-    {
-      addAccumulated(batch, i, *old_, next++);
-    }
+    run.voxels.push_back(WideSums::of(voxels_.firstKey + voxels_.cells[i], voxels_.sums[i]));
   }
+  for (std::size_t i = 0; covariances_ && i < voxels_.size; ++i)
+  {
+    run.secondMoments.push_back(whole(voxels_.secondMoments[i], plan_.fractionBits));
+  }
+  return old_->overfull.voxels.empty() ? run : merged(run, old_->overfull);
 }
 
 std::size_t PartitionWorker::bytes() const
 {
-  return occupancy_.bytes() + touched_.bytes() + rankTable_.bytes() + byteRankTable_.bytes() +
-    recordCells_.bytes() + own_.bytes() + sizeof(MomentBatch<std::int64_t>);
+  return occupancy_.bytes() + touched_.bytes() + rankTable_.bytes() + recordCells_.bytes() + own_.bytes();
 }
 
 } // namespace simd

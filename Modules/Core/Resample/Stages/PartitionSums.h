@@ -8,7 +8,6 @@
 #include "Core/Resample/Stages/VoxelSink.h"
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace pointhaptics
@@ -53,8 +52,8 @@ struct PartitionPlan
   }
 };
 
-/// Whether the voxels of a lattice can be divided into partitions whose rank tables stay in the caches:
-/// dimensions up to 2^kMaximumIndexBits, and about 8.6 billion voxels in all.
+/// Whether the voxels of a lattice can be divided into partitions whose rank tables stay in the caches: more
+/// than two voxels on an axis and no more than 2^kMaximumIndexBits, and about 8.6 billion in all.
 bool fitsPartitions(const Lattice& lattice, int indexBits);
 /// A plan for @p points points at a time. @pre fitsPartitions()
 PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t points);
@@ -76,38 +75,26 @@ struct PartitionAttributes
 class alignas(kApart) PartitionWorker
 {
 public:
-  PartitionWorker();
-  ~PartitionWorker();
-
   /// Readies the scratch for partitions of a plan.
   void prepare(const PartitionPlan& plan, bool covariances);
   /// What load() and accumulate() reduce besides; nothing if null.
   void reduce(const PartitionAttributes* attributes);
-  /// Adds the records of a partition to its @p old sums. These may change, and do with @p keeps. Calls
-  /// publish(size) as soon as the number of voxels is known. The voxels are valid until the next call.
+  /// Adds the records of a partition to its @p old sums, which may change. Calls publish(size) as soon as the
+  /// number of voxels is known. The voxels are valid until the next call.
   template <typename Publish>
   void load(const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition,
-    AccumulatedPartition& old, bool keeps, Publish&& publish)
+    AccumulatedPartition& old, Publish&& publish)
   {
     partition_ = partition;
     old_ = &old;
     countOccupied(kernels, pool);
     publish(voxels_.size);
-    sumRecords(kernels, pool, keeps || old_->cellCount > 0 ? *old_ : own_);
+    sumRecords(kernels, pool, old_->cellCount > 0 ? *old_ : own_);
   }
-  /// The voxels, if no accumulated sum is unpacked; else null.
-  const PartitionVoxels* packed() const { return old_->voxels.empty() ? &voxels_ : nullptr; }
-  /// Calls emit(batch) with all the voxels.
-  template <typename Emit>
-  void forBatches(Emit&& emit)
-  {
-    std::size_t next = 0; // among the accumulated voxels
-    for (std::size_t position = 0; position < voxels_.size; position += std::size_t(batch_->size))
-    {
-      collect(position, next);
-      emit(*batch_);
-    }
-  }
+  /// The voxels, if their packed sums are all; else null.
+  const PartitionVoxels* packed() const { return old_->overfull.voxels.empty() ? &voxels_ : nullptr; }
+  /// All the voxels in wide sums.
+  VoxelRun wide() const;
   /// Writes the attributes of the voxels to @p arena, from @p offset on. @pre what else is written there is.
   void writeAttributes(MeanArena& arena, std::size_t offset) const;
   /// Adds the records of a partition to its accumulated sums.
@@ -151,22 +138,18 @@ private:
   void clearOccupancy(CellList cells);
   void countOccupied(const Kernels& kernels, const PointRecordPool& pool);
   void sumRecords(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to);
-  void makeRoom(const Kernels& kernels, AccumulatedPartition& sums) const;
+  void makeRoom(AccumulatedPartition& sums) const;
   void reduceAttributes(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& sums);
-  void collect(std::size_t position, std::size_t& next);
-  static void unpack(std::uint64_t key, PackedSums& packed, AccumulatedPartition& sums);
 
   PartitionPlan plan_;
   std::uint32_t partition_ = 0;
   AccumulatedPartition* old_ = nullptr;
   PartitionVoxels voxels_;
-  std::unique_ptr<MomentBatch<std::int64_t>> batch_;
-  std::vector<SecondMoments> batchSecondMoments_;
+  bool covariances_ = false;
   Buffer<std::uint64_t> occupancy_; ///< Zeros between partitions.
   Buffer<std::uint64_t> touched_; ///< Likewise; a bit for each occupancy word in use, of a sparse partition.
   bool isSparse_ = false;
   Buffer<std::uint32_t> rankTable_;
-  Buffer<std::uint64_t> byteRankTable_;
   Buffer<std::uint32_t> recordCells_;
   AccumulatedPartition own_; ///< Sums that are not accumulated further.
   const PartitionAttributes* attributes_ = nullptr;

@@ -53,7 +53,7 @@ void PointRecordPool::prepare(
     writer->previous = previous_.data();
     writer->taken = &takenBlocks_;
     writer->nextBlock = writer->endBlock = 0;
-    writer->slots = nullptr;
+    writer->binned = nullptr;
     writer->inside = 0;
     writer->invalid = 0;
     writer->inUse = false;

@@ -25,7 +25,7 @@ public:
   /// Room for @p points records of @p partitions partitions, written by at most @p writers writers at once,
   /// and a row of so many bytes beside each. Empties the pool.
   void prepare(std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes);
-  /// Rows, indexed by PointRecordWriter::slots.
+  /// Rows, one beside each record.
   char* rows() { return rows_.data(); }
 
   /// Exclusive use of a writer while this lives. Blocks while all writers are in use.

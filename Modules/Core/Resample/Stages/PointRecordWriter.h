@@ -26,9 +26,10 @@ struct PointRecordWriter
   std::uint32_t* taken;      ///< Blocks that the pool's writers have taken: they share it.
   std::uint32_t nextBlock;   ///< Of those it took in advance.
   std::uint32_t endBlock;
-  /// Receives the index of each inside point's record, by the point's index from the first range's begin; or
-  /// null.
-  std::uint32_t* slots;
+  /// Called with the points that were binned, counted from the first range's begin, and the indices of their
+  /// records; or null.
+  void (*binned)(const void* context, const std::uint32_t* points, const std::uint32_t* slots, int count);
+  const void* context;
   std::int64_t inside;
   std::int64_t invalid;
 };

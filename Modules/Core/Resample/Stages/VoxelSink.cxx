@@ -11,11 +11,6 @@ namespace simd
 namespace
 {
 
-std::uint64_t keyOf(const Lattice& lattice, const MomentBatch<std::int64_t>& batch, int i)
-{
-  return lattice.key(batch.indices[0][i], batch.indices[1][i], batch.indices[2][i]);
-}
-
 /// Rounded once, as the compiler's own conversion of 128 bits is; nearly all values take the quick way.
 double toDouble(Int128 value)
 {
@@ -26,47 +21,6 @@ double toDouble(Int128 value)
     return double(high) * 0x1p32 + double(std::uint32_t(value));
   }
   return double(value);
-}
-
-/// Memory for a part of the result, from the caller's allocator or the arena's own.
-template <typename T>
-T* memoryFor(OutputAllocator::Part part, std::size_t count, OutputAllocator* allocator, Buffer<T>& own)
-{
-  if (allocator)
-  {
-    return static_cast<T*>(allocator->allocate(part, count * sizeof(T)));
-  }
-  own.reserve(count);
-  return own.data();
-}
-
-template <typename Real>
-void keepInVoxels(
-  const Lattice& lattice, const MomentBatch<std::int64_t>& batch, const int* list, int size, Real* xyz)
-{
-  for (int j = 0; j < size; ++j)
-  {
-    const int i = list[j];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      xyz[3 * i + axis] = lattice.keptInVoxel(xyz[3 * i + axis], axis, batch.indices[axis][i]);
-    }
-  }
-}
-
-template <typename Real>
-void keepInVoxels(const Lattice& lattice, const PartitionVoxels& voxels, std::size_t first, const int* list,
-  int size, Real* xyz)
-{
-  for (int j = 0; j < size; ++j)
-  {
-    const auto index = lattice.indexOf(voxels.firstKey + voxels.cells[first + std::size_t(list[j])]);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      Real& coordinate = xyz[3 * list[j] + axis];
-      coordinate = lattice.keptInVoxel(coordinate, axis, index[std::size_t(axis)]);
-    }
-  }
 }
 
 }
@@ -118,31 +72,26 @@ MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecisi
   return map;
 }
 
+void MeanArena::Array::prepare(std::size_t room, std::size_t voxelBytes, void* given)
+{
+  bytes = voxelBytes;
+  own.reserve(given ? 0 : room * voxelBytes);
+  values = given ? static_cast<char*>(given) : own.data();
+}
+
 void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
   OutputAllocator* allocator)
 {
   layout_ = layout;
   lattice_ = lattice;
   map_ = makeMeanMap(lattice, fractionBits, layout.singlePrecision);
-  floats_ = nullptr;
-  doubles_ = nullptr;
-  covariances_ = nullptr;
-  if (layout.singlePrecision)
+  const std::size_t bytes[kAttributes] = { 3 * (layout.singlePrecision ? sizeof(float) : sizeof(double)),
+    sizeof(std::int64_t), layout.covariances ? sizeof(SymMat3) : 0, layout.keys ? sizeof(std::uint64_t) : 0 };
+  for (std::size_t i = 0; i < kAttributes; ++i)
   {
-    floats_ = memoryFor(OutputAllocator::Part::Means, 3 * room, allocator, ownFloats_);
-  }
-  else
-  {
-    doubles_ = memoryFor(OutputAllocator::Part::Means, 3 * room, allocator, ownDoubles_);
-  }
-  counts_ = memoryFor(OutputAllocator::Part::Counts, room, allocator, ownCounts_);
-  if (layout.covariances)
-  {
-    covariances_ = memoryFor(OutputAllocator::Part::Covariances, room, allocator, ownCovariances_);
-  }
-  if (layout.keys)
-  {
-    keys_.reserve(room);
+    const bool isGiven = allocator && i != kKeys && bytes[i] > 0;
+    arrays_[i].prepare(
+      room, bytes[i], isGiven ? allocator->allocate(OutputAllocator::Part(i), room * bytes[i]) : nullptr);
   }
   prepareAttributes(room, layout.attributeBytes, allocator);
 }
@@ -150,70 +99,26 @@ void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& l
 void MeanArena::prepareAttributes(
   std::size_t room, const std::vector<std::size_t>& bytes, OutputAllocator* allocator)
 {
-  attributes_.resize(bytes.size());
+  arrays_.resize(kAttributes + bytes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i)
   {
-    Attribute& attribute = attributes_[i];
-    attribute.bytes = bytes[i];
-    void* given = allocator ? allocator->allocateAttribute(i, room * bytes[i]) : nullptr;
-    if (!given)
-    {
-      attribute.own.reserve(room * bytes[i]);
-    }
-    attribute.values = given ? static_cast<char*>(given) : attribute.own.data();
+    arrays_[kAttributes + i].prepare(
+      room, bytes[i], allocator ? allocator->allocateAttribute(i, room * bytes[i]) : nullptr);
   }
 }
 
 void MeanArena::write(std::size_t offset, const MeanArena& other, std::size_t size)
 {
-  const auto copy = [&](const auto* from, auto* to, std::size_t components)
+  for (std::size_t i = 0; i < arrays_.size(); ++i)
   {
-    if (from)
-    {
-      std::copy(from, from + components * size, to + components * offset);
-    }
-  };
-  copy(other.floats_, floats_, 3);
-  copy(other.doubles_, doubles_, 3);
-  copy(other.counts_, counts_, 1);
-  copy(other.covariances_, covariances_, 1);
-  if (layout_.keys)
-  {
-    copy(other.keys_.data(), keys_.data(), 1);
-  }
-  for (std::size_t i = 0; i < attributes_.size(); ++i)
-  {
-    std::copy_n(other.attribute(i, 0), attributes_[i].bytes * size, attribute(i, offset));
+    const std::size_t bytes = arrays_[i].bytes;
+    std::copy_n(other.arrays_[i].values, bytes * size, arrays_[i].values + bytes * offset);
   }
 }
 
-void MeanArena::write(const Kernels& kernels, std::size_t offset, const MomentBatch<std::int64_t>& batch)
-{
-  int nearFace[kBatch];
-  if (layout_.singlePrecision)
-  {
-    float* xyz = floats_ + 3 * offset;
-    keepInVoxels(lattice_, batch, nearFace, kernels.meansFloat(map_, batch, xyz, nearFace), xyz);
-  }
-  else
-  {
-    double* xyz = doubles_ + 3 * offset;
-    keepInVoxels(lattice_, batch, nearFace, kernels.meansDouble(map_, batch, xyz, nearFace), xyz);
-  }
-  std::copy(batch.counts, batch.counts + batch.size, counts_ + offset);
-  for (int i = 0; layout_.keys && i < batch.size; ++i)
-  {
-    keys_[offset + std::size_t(i)] = keyOf(lattice_, batch, i);
-  }
-  for (int i = 0; layout_.covariances && i < batch.size; ++i)
-  {
-    const Int128 sums[3] = { batch.sums[0][i], batch.sums[1][i], batch.sums[2][i] };
-    covariances_[offset + std::size_t(i)] =
-      covarianceOf(batch.counts[i], sums, batch.secondMoments[i], map_.quantum, lattice_.spacing);
-  }
-}
-
-void MeanArena::write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
+template <typename Real>
+void MeanArena::writeMeans(
+  const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels, Real* xyz)
 {
   int nearFace[kBatch];
   for (std::size_t first = 0; first < voxels.size; first += kBatch)
@@ -221,23 +126,37 @@ void MeanArena::write(const Kernels& kernels, std::size_t offset, const Partitio
     const int size = int(std::min<std::size_t>(voxels.size - first, kBatch));
     const std::uint32_t* cells = voxels.cells + first;
     const PackedSums* sums = voxels.sums + first;
-    std::int64_t* counts = counts_ + offset + first;
-    if (layout_.singlePrecision)
+    std::int64_t* to = counts() + offset + first;
+    Real* means = xyz + 3 * (offset + first);
+    int found = 0;
+    if constexpr (sizeof(Real) == sizeof(float))
     {
-      float* xyz = floats_ + 3 * (offset + first);
-      const int found = kernels.packedMeansFloat(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
-      keepInVoxels(lattice_, voxels, first, nearFace, found, xyz);
+      found = kernels.packedMeansFloat(map_, voxels.map, cells, sums, size, means, to, nearFace);
     }
     else
     {
-      double* xyz = doubles_ + 3 * (offset + first);
-      const int found = kernels.packedMeansDouble(map_, voxels.map, cells, sums, size, xyz, counts, nearFace);
-      keepInVoxels(lattice_, voxels, first, nearFace, found, xyz);
+      found = kernels.packedMeansDouble(map_, voxels.map, cells, sums, size, means, to, nearFace);
+    }
+    for (int j = 0; j < found; ++j)
+    {
+      const auto index = lattice_.indexOf(voxels.firstKey + cells[nearFace[j]]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        Real& coordinate = means[3 * nearFace[j] + axis];
+        coordinate = lattice_.keptInVoxel(coordinate, axis, index[std::size_t(axis)]);
+      }
     }
   }
+}
+
+void MeanArena::write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels)
+{
+  layout_.singlePrecision ? writeMeans(kernels, offset, voxels, floats())
+                          : writeMeans(kernels, offset, voxels, doubles());
+  std::uint64_t* const to = keys() + offset;
   for (std::size_t i = 0; layout_.keys && i < voxels.size; ++i)
   {
-    keys_[offset + i] = voxels.firstKey + voxels.cells[i];
+    to[i] = voxels.firstKey + voxels.cells[i];
   }
   if (layout_.covariances)
   {
@@ -257,7 +176,7 @@ void MeanArena::writeCovariances(const Kernels& kernels, std::size_t offset, con
     const int size = int(std::min<std::size_t>(voxels.size - first, kBatch));
     const PackedSums* packed = voxels.sums + first;
     const SplitSecondMoments* secondMoments = voxels.secondMoments + first;
-    SymMat3* to = covariances_ + offset + first;
+    SymMat3* to = covariances() + offset + first;
     const int found = kernels.covariances(map, packed, secondMoments, size, &to->xx, full);
     for (int j = 0; j < found; ++j)
     {
@@ -269,32 +188,34 @@ void MeanArena::writeCovariances(const Kernels& kernels, std::size_t offset, con
   }
 }
 
+void MeanArena::write(std::size_t offset, const VoxelRun& run)
+{
+  for (std::size_t v = 0; v < run.voxels.size(); ++v)
+  {
+    this->write(offset + v, run.voxels[v].whole(), run.momentsOf(v));
+  }
+}
+
 void MeanArena::write(std::size_t offset, const VoxelSums& voxel, const SecondMoments* secondMoments)
 {
   const auto index = lattice_.indexOf(voxel.key);
   for (int axis = 0; axis < 3; ++axis)
   {
     const std::int64_t i = index[std::size_t(axis)];
-    const double inVoxel = double(voxel.sums[axis]) / double(voxel.count) * map_.quantum;
+    const double inVoxel = toDouble(voxel.sums[axis]) / double(voxel.count) * map_.quantum;
     const double coordinate = map_.origin[axis] + (double(i) + inVoxel) * map_.spacing[axis];
-    const std::size_t to = 3 * offset + std::size_t(axis);
-    if (layout_.singlePrecision)
-    {
-      floats_[to] = lattice_.keptInVoxel(float(coordinate), axis, i);
-    }
-    else
-    {
-      doubles_[to] = lattice_.keptInVoxel(coordinate, axis, i);
-    }
+    setCoordinate(offset, axis,
+      layout_.singlePrecision ? double(lattice_.keptInVoxel(float(coordinate), axis, i))
+                              : lattice_.keptInVoxel(coordinate, axis, i));
   }
-  counts_[offset] = voxel.count;
+  counts()[offset] = voxel.count;
   if (layout_.keys)
   {
-    keys_[offset] = voxel.key;
+    keys()[offset] = voxel.key;
   }
   if (layout_.covariances)
   {
-    covariances_[offset] =
+    covariances()[offset] =
       covarianceOf(voxel.count, voxel.sums, *secondMoments, map_.quantum, lattice_.spacing);
   }
 }

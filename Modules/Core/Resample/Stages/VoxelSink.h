@@ -6,7 +6,7 @@
 #include "Core/Base/Lattice.h"
 #include "Core/Base/Vector3.h"
 #include "Core/Resample/AttributeReducer.h"
-#include "Core/Resample/Kernel/VoxelKernel.h"
+#include "Core/Resample/Stages/VoxelSums.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstdint>
@@ -18,38 +18,22 @@ namespace pointhaptics
 namespace simd
 {
 
-/// Sums over the points of a voxel of their offsets in it, in quanta.
-struct VoxelSums
-{
-  std::uint64_t key;
-  std::int64_t count;
-  Int128 sums[3];
-};
-
-/// Accumulated sums: those of one voxel over the chunks so far.
-struct AccumulatedSums
-{
-  std::uint64_t key;
-  std::int64_t count;
-  std::int64_t sums[3];
-};
-
-/// The accumulated sums of a partition: cells with packed sums, and in voxels the sums of overfull cells.
-/// Second moments are kept with the cells; they exist only if covariances are wanted.
+/// The accumulated sums of a partition: cells with packed sums, and what the packed sums of overfull cells
+/// could not hold. Second moments exist only if covariances are wanted.
 struct alignas(kApart) AccumulatedPartition
 {
   std::size_t cellCount = 0; ///< The vectors may have more elements, which are unused.
   std::vector<std::uint32_t> cells;
   std::vector<PackedSums> packed;
   std::vector<SplitSecondMoments> splitSecondMoments;
-  std::vector<AccumulatedSums> voxels;
+  VoxelRun overfull;
   std::vector<AttributeReducer> attributes; ///< Of the cells, where attributes are summed with the points.
   std::int64_t points = 0;                  ///< In cells; as many or fewer are in their packed sums.
 
   void clear()
   {
     cellCount = 0;
-    voxels.clear();
+    overfull.clear();
     attributes.clear();
     points = 0;
   }
@@ -65,8 +49,7 @@ struct alignas(kApart) AccumulatedPartition
   std::size_t bytes() const
   {
     return cells.capacity() * sizeof(std::uint32_t) + packed.capacity() * sizeof(PackedSums) +
-      splitSecondMoments.capacity() * sizeof(SplitSecondMoments) +
-      voxels.capacity() * sizeof(AccumulatedSums);
+      splitSecondMoments.capacity() * sizeof(SplitSecondMoments) + overfull.bytes();
   }
 };
 
@@ -88,8 +71,8 @@ SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMomen
 /// How sums become coordinates in a lattice with offsets of @p fractionBits bits, rounded to float or double.
 MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecision);
 
-/// Means, counts and on request keys and covariances of active voxels, in the arena's own memory or, where
-/// asked for, in the caller's.
+/// Means, counts and on request keys, covariances and attributes of active voxels, an array each: in the
+/// arena's own memory or, where asked for, in the caller's.
 class MeanArena
 {
 public:
@@ -106,75 +89,80 @@ public:
   /// Room for attributes alone, of voxels that are written.
   void prepareAttributes(
     std::size_t room, const std::vector<std::size_t>& bytes, OutputAllocator* allocator = nullptr);
-  /// Writes the voxels of a partition, or a batch of voxels, at @p offset.
+  /// Writes the voxels of a partition, or of a run, at @p offset.
   void write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
-  void write(const Kernels& kernels, std::size_t offset, const MomentBatch<std::int64_t>& batch);
-  /// Writes one voxel; second moments are null without covariances.
-  void write(std::size_t offset, const VoxelSums& voxel, const SecondMoments* secondMoments);
+  void write(std::size_t offset, const VoxelRun& run);
   /// Copies what another arena of the same layout has.
   void write(std::size_t offset, const MeanArena& other, std::size_t size);
 
   Vec3 point(std::size_t voxel) const
   {
-    return layout_.singlePrecision ? PointView(floats_, std::int64_t(voxel) + 1)[std::int64_t(voxel)]
-                                   : PointView(doubles_, std::int64_t(voxel) + 1)[std::int64_t(voxel)];
+    const auto i = std::int64_t(voxel);
+    return layout_.singlePrecision ? PointView(floats(), i + 1)[i] : PointView(doubles(), i + 1)[i];
   }
   /// Replaces the coordinates of a voxel's mean.
   void setPoint(std::size_t voxel, const Vec3& point)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      const std::size_t to = 3 * voxel + std::size_t(axis);
-      layout_.singlePrecision ? void(floats_[to] = float(point[axis])) : void(doubles_[to] = point[axis]);
+      setCoordinate(voxel, axis, point[axis]);
     }
   }
   /// The coordinates from a voxel on, of the type that was asked for.
-  void* pointsFrom(std::size_t voxel)
-  {
-    return layout_.singlePrecision ? static_cast<void*>(floats_ + 3 * voxel) : doubles_ + 3 * voxel;
-  }
-  const float* floats() const { return floats_; }
-  const double* doubles() const { return doubles_; }
-  const std::int64_t* counts() const { return counts_; }
-  const std::uint64_t* keys() const { return keys_.data(); }
-  const SymMat3* covariances() const { return covariances_; }
-  std::size_t attributes() const { return attributes_.size(); }
+  void* pointsFrom(std::size_t voxel) const { return arrays_[kMeans].values + arrays_[kMeans].bytes * voxel; }
+  /// Null where the others were asked for.
+  float* floats() const { return layout_.singlePrecision ? of<float>(kMeans) : nullptr; }
+  double* doubles() const { return layout_.singlePrecision ? nullptr : of<double>(kMeans); }
+  std::int64_t* counts() const { return of<std::int64_t>(kCounts); }
+  SymMat3* covariances() const { return of<SymMat3>(kCovariances); }
+  std::uint64_t* keys() const { return of<std::uint64_t>(kKeys); }
+  std::size_t attributes() const { return arrays_.size() - kAttributes; }
   /// The tuples of an attribute from a voxel on.
   char* attribute(std::size_t attribute, std::size_t voxel) const
   {
-    return attributes_[attribute].values + attributes_[attribute].bytes * voxel;
+    return arrays_[kAttributes + attribute].values + attributeBytes(attribute) * voxel;
   }
-  std::size_t attributeBytes(std::size_t attribute) const { return attributes_[attribute].bytes; }
+  std::size_t attributeBytes(std::size_t attribute) const { return arrays_[kAttributes + attribute].bytes; }
   std::size_t bytes() const
   {
-    const std::size_t ofAttributes = std::accumulate(attributes_.begin(), attributes_.end(), std::size_t(0),
-      [](std::size_t sum, const Attribute& attribute) { return sum + attribute.own.bytes(); });
-    return ofAttributes + ownFloats_.bytes() + ownDoubles_.bytes() + ownCounts_.bytes() + keys_.bytes() +
-      ownCovariances_.bytes();
+    return std::accumulate(arrays_.begin(), arrays_.end(), std::size_t(0),
+      [](std::size_t sum, const Array& array) { return sum + array.own.bytes(); });
   }
 
 private:
-  struct Attribute
+  struct Array
   {
-    std::size_t bytes; ///< Of a tuple.
-    char* values;
+    std::size_t bytes = 0; ///< Of a voxel; 0: not asked for.
+    char* values = nullptr;
     Buffer<char> own;
+
+    void prepare(std::size_t room, std::size_t voxelBytes, void* given);
   };
+  static constexpr std::size_t kMeans = 0; // The parts of OutputAllocator first.
+  static constexpr std::size_t kCounts = 1;
+  static constexpr std::size_t kCovariances = 2;
+  static constexpr std::size_t kKeys = 3;
+  static constexpr std::size_t kAttributes = 4;
+
+  template <typename T>
+  T* of(std::size_t array) const
+  {
+    return reinterpret_cast<T*>(arrays_[array].values);
+  }
+  void setCoordinate(std::size_t voxel, int axis, double x)
+  {
+    const std::size_t to = 3 * voxel + std::size_t(axis);
+    layout_.singlePrecision ? void(floats()[to] = float(x)) : void(doubles()[to] = x);
+  }
+  template <typename Real>
+  void writeMeans(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels, Real* xyz);
   void writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
+  void write(std::size_t offset, const VoxelSums& voxel, const SecondMoments* secondMoments);
 
   Layout layout_;
   Lattice lattice_;
   MeanMap map_{};
-  float* floats_ = nullptr;
-  double* doubles_ = nullptr;
-  std::int64_t* counts_ = nullptr;
-  SymMat3* covariances_ = nullptr;
-  Buffer<float> ownFloats_;
-  Buffer<double> ownDoubles_;
-  Buffer<std::int64_t> ownCounts_;
-  Buffer<SymMat3> ownCovariances_;
-  Buffer<std::uint64_t> keys_;
-  std::vector<Attribute> attributes_;
+  std::vector<Array> arrays_ = std::vector<Array>(kAttributes);
 };
 
 } // namespace simd

@@ -17,13 +17,7 @@ void writeLoaded(const Kernels& kernels, std::size_t offset, PartitionWorker& wo
   }
   else
   {
-    std::size_t next = offset;
-    worker.forBatches(
-      [&](const MomentBatch<std::int64_t>& batch)
-      {
-        arena.write(kernels, next, batch);
-        next += std::size_t(batch.size);
-      });
+    arena.write(offset, worker.wide());
   }
   worker.writeAttributes(arena, offset);
 }

@@ -1,0 +1,130 @@
+/// @file
+/// Exact sums of voxels' points: whole, and in as few words as they need.
+#pragma once
+
+#include "Core/Resample/Kernel/VoxelKernel.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace simd
+{
+
+/// Sums over the points of a voxel of their offsets in it, in quanta.
+struct VoxelSums
+{
+  std::uint64_t key;
+  std::int64_t count;
+  Int128 sums[3];
+};
+
+/// The same below 2^85.
+struct WideSums
+{
+  std::uint64_t key;
+  std::int64_t count;
+  std::uint64_t low[3];
+  std::uint64_t high; ///< What stands above the low 64 bits: kHighBits for each axis.
+
+  static constexpr int kHighBits = 21;
+
+  void add(const WideSums& other)
+  {
+    count += other.count;
+    high += other.high;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] += other.low[axis];
+      high += std::uint64_t(low[axis] < other.low[axis]) << (kHighBits * axis);
+    }
+  }
+  static WideSums of(const VoxelSums& voxel)
+  {
+    WideSums sums{ voxel.key, voxel.count, { 0, 0, 0 }, 0 };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sums.low[axis] = std::uint64_t(voxel.sums[axis]);
+      sums.high |= std::uint64_t(voxel.sums[axis] >> 64) << (kHighBits * axis);
+    }
+    return sums;
+  }
+  static WideSums of(std::uint64_t key, const PackedSums& packed)
+  {
+    return { key, packedCount(packed), { packed.lanes[0], packed.lanes[1], std::uint64_t(packedZ(packed)) },
+      0 };
+  }
+  VoxelSums whole() const
+  {
+    constexpr std::uint64_t kMask = (std::uint64_t(1) << kHighBits) - 1;
+    VoxelSums sums{ key, count, { 0, 0, 0 } };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sums.sums[axis] = (Int128((high >> (kHighBits * axis)) & kMask) << 64) + Int128(low[axis]);
+    }
+    return sums;
+  }
+};
+
+inline void add(SecondMoments& to, const SecondMoments& moments)
+{
+  for (int m = 0; m < 6; ++m)
+  {
+    to.lanes[m] += moments.lanes[m];
+  }
+}
+
+/// Voxels in ascending order of their keys. Second moments are empty unless asked for.
+struct VoxelRun
+{
+  std::vector<WideSums> voxels;
+  std::vector<SecondMoments> secondMoments;
+
+  /// Of a voxel; null unless asked for.
+  const SecondMoments* momentsOf(std::size_t voxel) const
+  {
+    return secondMoments.empty() ? nullptr : secondMoments.data() + voxel;
+  }
+  void push(const WideSums& sums, const SecondMoments* moments)
+  {
+    voxels.push_back(sums);
+    if (moments)
+    {
+      secondMoments.push_back(*moments);
+    }
+  }
+  /// Adds to the last voxel.
+  void addToLast(const WideSums& sums, const SecondMoments* moments)
+  {
+    voxels.back().add(sums);
+    if (moments)
+    {
+      add(secondMoments.back(), *moments);
+    }
+  }
+  void clear()
+  {
+    voxels.clear();
+    secondMoments.clear();
+  }
+  /// Frees memory where much of it is unused.
+  void trim()
+  {
+    if (voxels.capacity() > voxels.size() + voxels.size() / 32)
+    {
+      voxels.shrink_to_fit();
+      secondMoments.shrink_to_fit();
+    }
+  }
+  std::size_t bytes() const
+  {
+    return voxels.capacity() * sizeof(WideSums) + secondMoments.capacity() * sizeof(SecondMoments);
+  }
+};
+
+/// The sums of two runs.
+VoxelRun merged(const VoxelRun& a, const VoxelRun& b);
+
+} // namespace simd
+} // namespace pointhaptics

@@ -1,0 +1,334 @@
+/// @file
+/// Vectors of 64-bit integers as wide as a Pack, and what turns numbers into them and back. For sources that
+/// are compiled once per instruction set, like Packs.h. Every operation gives the same bits on all of them.
+///
+/// Not google/highway: see Packs.h.
+#pragma once
+
+#include "Core/Simd/Packs.h"
+
+#include <cstdint>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace pointhaptics
+{
+namespace simd
+{
+namespace
+{
+
+#if defined(__FMA__)
+constexpr bool kFuses = true;
+#else
+constexpr bool kFuses = false;
+#endif
+
+using Words = std::uint64_t __attribute__((vector_size(8 * kWidth)));
+using WordsAt = std::uint64_t __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
+using FloatsAt = float __attribute__((vector_size(4 * kWidth), aligned(4), may_alias));
+using DoublesAt = double __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
+using IntsAt = std::int32_t __attribute__((vector_size(4 * kWidth), aligned(4), may_alias));
+
+inline Words allWords(std::uint64_t value)
+{
+  return Words{} + value;
+}
+
+inline Words bitsOf(const Pack& v)
+{
+  return reinterpret_cast<Words>(v);
+}
+
+inline Pack fromBits(const Words& v)
+{
+  return reinterpret_cast<Pack>(v);
+}
+
+/// a b + c, rounded once where processors can, twice elsewhere: the same where a b is exact.
+inline Pack multiplyAdd(const Pack& a, const Pack& b, const Pack& c)
+{
+#if defined(__AVX512F__)
+  return _mm512_fmadd_pd(a, b, c);
+#elif defined(__AVX__) && defined(__FMA__)
+  return _mm256_fmadd_pd(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
+/// a b - product, rounded once.
+inline Pack productRest(const Pack& a, const Pack& b, const Pack& product)
+{
+  if constexpr (kFuses)
+  {
+    return multiplyAdd(a, b, -product);
+  }
+  Pack rest;
+  for (int i = 0; i < kWidth; ++i)
+  {
+    rest[i] = __builtin_fma(a[i], b[i], -product[i]);
+  }
+  return rest;
+}
+
+/// a / b, correctly rounded, from one of the two doubles next to it, by its exact residual (Markstein 1990).
+/// @p reciprocal: 1 / b, correctly rounded. @pre kFuses
+inline Pack corrected(const Pack& q, const Pack& a, const Pack& b, const Pack& reciprocal)
+{
+  return multiplyAdd(multiplyAdd(-q, b, a), reciprocal, q);
+}
+
+/// The integer below each number, in the low 52 bits. @pre 0 <= v < 2^52; others give any bits.
+inline Words floorBits(const Pack& v)
+{
+#if defined(__AVX512F__)
+  return bitsOf(_mm512_add_round_pd(v, all(0x1p52), _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
+#elif defined(__AVX__)
+  return bitsOf(Pack(_mm256_floor_pd(v)) + 0x1p52);
+#else
+  const Pack rounded = v + 0x1p52;
+  return bitsOf(rounded) + reinterpret_cast<Words>(rounded - 0x1p52 > v); // A true comparison is -1.
+#endif
+}
+
+/// Bit i of the result: the highest bit of number i.
+inline unsigned highestBits(const Words& v)
+{
+#if defined(__AVX512F__)
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(v));
+#elif defined(__AVX__)
+  return unsigned(_mm256_movemask_pd(reinterpret_cast<__m256d>(v)));
+#elif defined(__SSE2__)
+  return unsigned(_mm_movemask_pd(reinterpret_cast<__m128d>(v)));
+#else
+  return unsigned(v[0] >> 63) | unsigned(v[1] >> 63) << 1;
+#endif
+}
+
+/// The product of the low 32 bits of each.
+inline Words productOfHalves(const Words& a, const Words& b)
+{
+#if defined(__AVX512F__)
+  return reinterpret_cast<Words>(
+    _mm512_mul_epu32(reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)));
+#elif defined(__AVX2__)
+  return reinterpret_cast<Words>(
+    _mm256_mul_epu32(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
+#elif defined(__SSE2__)
+  return reinterpret_cast<Words>(_mm_mul_epu32(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
+#else
+  return (a & 0xffffffffu) * (b & 0xffffffffu);
+#endif
+}
+
+/// Of what is below 2^52.
+inline Pack smallToNumbers(const Words& v)
+{
+  return fromBits(v | std::uint64_t(0x4330000000000000)) - 0x1p52;
+}
+
+/// Of signed integers. The halves are put beside 2^52, 2^63 and 2^84; only their sum is rounded.
+inline Pack toNumbers(const Words& v)
+{
+#if defined(__AVX512DQ__)
+  return _mm512_cvtepi64_pd(reinterpret_cast<__m512i>(v));
+#else
+  const Words low = (v & 0xffffffffu) | std::uint64_t(0x4330000000000000);
+  const Words high = (v >> 32) ^ std::uint64_t(0x4530000080000000);
+  return (fromBits(high) - (0x1p84 + 0x1p63 + 0x1p52)) + fromBits(low);
+#endif
+}
+
+/// The nearest integer of what is far below 2^51: adding so much leaves no room for a fraction.
+inline Pack nearest(const Pack& v)
+{
+  return (v + 0x1.8p52) - 0x1.8p52;
+}
+
+/// Pairs of the numbers of @p a and @p b, one after the other, in two vectors.
+inline void storePairs(std::uint64_t* to, const Words& a, const Words& b)
+{
+#if defined(__AVX512F__)
+  reinterpret_cast<WordsAt*>(to)[0] = __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+  reinterpret_cast<WordsAt*>(to)[1] = __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
+#elif defined(__AVX__)
+  reinterpret_cast<WordsAt*>(to)[0] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  reinterpret_cast<WordsAt*>(to)[1] = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+#else
+  reinterpret_cast<WordsAt*>(to)[0] = __builtin_shufflevector(a, b, 0, 2);
+  reinterpret_cast<WordsAt*>(to)[1] = __builtin_shufflevector(a, b, 1, 3);
+#endif
+}
+
+/// kWidth numbers of an array. (GCC's own conversions of vectors go by way of halves.)
+inline Pack numbersAt(const double* from)
+{
+  return *reinterpret_cast<const DoublesAt*>(from);
+}
+inline Pack numbersAt(const float* from)
+{
+#if defined(__AVX512F__)
+  return _mm512_cvtps_pd(_mm256_loadu_ps(from));
+#elif defined(__AVX__)
+  return _mm256_cvtps_pd(_mm_loadu_ps(from));
+#else
+  return Pack{ double(from[0]), double(from[1]) };
+#endif
+}
+/// Of integers below 2^31.
+inline Pack numbersAt(const std::uint32_t* from)
+{
+#if defined(__AVX512F__)
+  return _mm512_cvtepi32_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i_u*>(from)));
+#elif defined(__AVX__)
+  return _mm256_cvtepi32_pd(_mm_loadu_si128(reinterpret_cast<const __m128i_u*>(from)));
+#else
+  return Pack{ double(from[0]), double(from[1]) };
+#endif
+}
+
+/// kWidth points, x y z interleaved.
+inline void loadPoints(const Pack& a, const Pack& b, const Pack& c, Pack p[3])
+{
+#if defined(__AVX512F__)
+  const Pack x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
+  const Pack y = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0);
+  const Pack z = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
+  p[0] = __builtin_shufflevector(x, c, 0, 1, 2, 3, 4, 5, 10, 13);
+  p[1] = __builtin_shufflevector(y, c, 0, 1, 2, 3, 4, 8, 11, 14);
+  p[2] = __builtin_shufflevector(z, c, 0, 1, 2, 3, 4, 9, 12, 15);
+#elif defined(__AVX__)
+  const Pack ab = __builtin_shufflevector(a, b, 0, 1, 6, 7);
+  const Pack ac = __builtin_shufflevector(a, c, 2, 3, 4, 5);
+  const Pack bc = __builtin_shufflevector(b, c, 0, 1, 6, 7);
+  p[0] = __builtin_shufflevector(ab, ac, 0, 5, 2, 7);
+  p[1] = __builtin_shufflevector(ab, bc, 1, 4, 3, 6);
+  p[2] = __builtin_shufflevector(ac, bc, 0, 5, 2, 7);
+#else
+  p[0] = __builtin_shufflevector(a, b, 0, 3);
+  p[1] = __builtin_shufflevector(a, c, 1, 2);
+  p[2] = __builtin_shufflevector(b, c, 0, 3);
+#endif
+}
+
+template <typename Real>
+inline void loadPoints(const Real* xyz, Pack p[3])
+{
+  loadPoints(numbersAt(xyz), numbersAt(xyz + kWidth), numbersAt(xyz + 2 * kWidth), p);
+}
+
+/// The same the other way round, rounded to the type.
+inline void storePoints(double* xyz, const Pack p[3])
+{
+  for (int i = 0; i < kWidth; ++i)
+  {
+    xyz[3 * i] = p[0][i];
+    xyz[3 * i + 1] = p[1][i];
+    xyz[3 * i + 2] = p[2][i];
+  }
+}
+
+inline void storePoints(float* xyz, const Pack p[3])
+{
+  using Floats = float __attribute__((vector_size(4 * kWidth)));
+  const auto rounded = [](const Pack& v) -> Floats
+  {
+#if defined(__AVX512F__)
+    return _mm512_cvtpd_ps(v);
+#elif defined(__AVX__)
+    return _mm256_cvtpd_ps(v);
+#else
+    return Floats{ float(v[0]), float(v[1]) };
+#endif
+  };
+  const Floats x = rounded(p[0]);
+  const Floats y = rounded(p[1]);
+  const Floats z = rounded(p[2]);
+#if defined(__AVX512F__)
+  const __m512 xy = __builtin_shufflevector(x, y, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const __m512 zz = __builtin_shufflevector(z, z, 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
+  _mm512_storeu_ps(
+    xyz, __builtin_shufflevector(xy, zz, 0, 8, 16, 1, 9, 17, 2, 10, 18, 3, 11, 19, 4, 12, 20, 5));
+  reinterpret_cast<FloatsAt*>(xyz)[2] = __builtin_shufflevector(xy, zz, 13, 21, 6, 14, 22, 7, 15, 23);
+#elif defined(__AVX__)
+  const Floats xy01 = __builtin_shufflevector(x, y, 0, 4, 1, 5);
+  const Floats xy23 = __builtin_shufflevector(x, y, 2, 6, 3, 7);
+  const Floats z01xy1 = __builtin_shufflevector(z, xy01, 0, 1, 6, 7);
+  const Floats z23xy3 = __builtin_shufflevector(z, xy23, 2, 3, 6, 7);
+  auto* to = reinterpret_cast<FloatsAt*>(xyz);
+  to[0] = __builtin_shufflevector(xy01, z01xy1, 0, 1, 4, 6);
+  to[1] = __builtin_shufflevector(z01xy1, xy23, 3, 1, 4, 5);
+  to[2] = __builtin_shufflevector(z23xy3, z23xy3, 0, 2, 3, 1);
+#else
+  for (int i = 0; i < kWidth; ++i)
+  {
+    xyz[3 * i] = x[i];
+    xyz[3 * i + 1] = y[i];
+    xyz[3 * i + 2] = z[i];
+  }
+#endif
+}
+
+#if defined(__AVX__)
+/// Four consecutive words of each of four structures of @p stride words: a vector for each word.
+inline void turnFour(
+  const std::uint64_t* from, std::size_t stride, std::uint64_t __attribute__((vector_size(32))) (&to)[4])
+{
+  typedef std::uint64_t Four __attribute__((vector_size(32)));
+  typedef std::uint64_t FourAt __attribute__((vector_size(32), aligned(8), may_alias));
+  const auto at = [=](std::size_t i) { return Four(*reinterpret_cast<const FourAt*>(from + stride * i)); };
+  const Four a = at(0);
+  const Four b = at(1);
+  const Four c = at(2);
+  const Four d = at(3);
+  const Four ab02 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Four ab13 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Four cd02 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Four cd13 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  to[0] = __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5);
+  to[1] = __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5);
+  to[2] = __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7);
+  to[3] = __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7);
+}
+#endif
+
+/// The same of kWidth structures.
+inline void turnWords(const std::uint64_t* from, std::size_t stride, Words (&to)[4])
+{
+#if defined(__AVX512F__)
+  std::uint64_t __attribute__((vector_size(32))) low[4], high[4];
+  turnFour(from, stride, low);
+  turnFour(from + 4 * stride, stride, high);
+  for (int w = 0; w < 4; ++w)
+  {
+    to[w] = __builtin_shufflevector(low[w], high[w], 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+#elif defined(__AVX__)
+  turnFour(from, stride, to);
+#else
+  for (std::size_t w = 0; w < 4; ++w)
+  {
+    to[w] = Words{ from[w], from[stride + w] };
+  }
+#endif
+}
+
+/// How many bits are set. Without an instruction for it: two at a time, four, eight, then all bytes added.
+inline std::uint32_t onesOf(std::uint64_t bits)
+{
+#if defined(__x86_64__) && !defined(__POPCNT__)
+  bits -= (bits >> 1) & 0x5555555555555555u;
+  bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
+  bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Fu;
+  return std::uint32_t(bits * 0x0101010101010101u >> 56);
+#else
+  return std::uint32_t(__builtin_popcountll(bits));
+#endif
+}
+
+}
+} // namespace simd
+} // namespace pointhaptics
