@@ -95,7 +95,7 @@ Status VoxelResampler::Implementation::runMeans(
 {
   levels[0].lattice = request.lattice;
   usesPartitions_ = usesPartitions(request.lattice);
-  return usesPartitions_ ? runPlanned(request, executor, observer) : runGeneral(request, executor, observer);
+  return usesPartitions_ ? runBinned(request, executor, observer) : runSorted(request, executor, observer);
 }
 
 void VoxelResampler::Implementation::clear()
@@ -153,9 +153,9 @@ bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, bool
   return true;
 }
 
-/// @pre the runs are those of the finest level.
+/// @param levelOfRuns 0 or 1: that of the runs there are.
 Status VoxelResampler::Implementation::addLevels(
-  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
+  const VoxelRequest& request, int levelOfRuns, const Executor& executor, ProgressObserver* observer)
 {
   const double finest = fractionOfFinest(request);
   const auto progressAt = [&](int level)
@@ -169,12 +169,15 @@ Status VoxelResampler::Implementation::addLevels(
     SubProgress summing(&part, 0.0, 0.6);
     SubProgress writing(&part, 0.6, request.keys ? 0.8 : 1.0);
     SubProgress looking(&part, 0.8, 1.0);
-    VoxelRuns coarse;
-    if (!sumCoarseVoxels(runs_, finer.lattice, coarse, executor, &summing))
+    if (l > levelOfRuns)
     {
-      return Status::Aborted;
+      VoxelRuns coarse;
+      if (!sumCoarseVoxels(runs_, finer.lattice, coarse, executor, &summing))
+      {
+        return Status::Aborted;
+      }
+      runs_ = std::move(coarse);
     }
-    runs_ = std::move(coarse);
     if (!writeRuns(request, l + 1 < request.levels, level, nullptr, executor, &writing) ||
       (request.keys &&
         !findParents(finer.arena.keys(), finer.size, finer.lattice, level.arena.keys(), level.size,
@@ -190,13 +193,13 @@ Status VoxelResampler::Implementation::addLevels(
 Status VoxelResampler::Implementation::visitPointsByVoxel(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
-  return usesPartitions_ ? visitPlanned(request, visit, executor, observer)
-                         : visitGeneral(request, visit, executor, observer);
+  return usesPartitions_ ? visitBinned(request, visit, executor, observer)
+                         : visitSorted(request, visit, executor, observer);
 }
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
-  std::size_t sum = pool_.bytes() + sorted_.bytes() + runs_.bytes() +
+  std::size_t sum = binner_.pool().bytes() + sorted_.bytes() + runs_.bytes() +
     (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t);
   for (const std::unique_ptr<PartitionWorker>& worker : idle_)
   {

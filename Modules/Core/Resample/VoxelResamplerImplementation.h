@@ -5,9 +5,8 @@
 #include "Core/Resample/AttributeReducer.h"
 #include "Core/Resample/Stages/CoarseVoxels.h"
 #include "Core/Resample/Stages/PartitionSums.h"
-#include "Core/Resample/Stages/PointChunks.h"
+#include "Core/Resample/Stages/PointBinner.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
-#include "Core/Resample/Stages/PointRecordPool.h"
 #include "Core/Resample/Stages/SortedPoints.h"
 #include "Core/Resample/Stages/VoxelLevel.h"
 #include "Core/Resample/Stages/VoxelRepresentatives.h"
@@ -59,11 +58,8 @@ private:
   static bool usesPartitions(const Lattice& lattice);
   static Status check(const VoxelRequest& request);
   Status runMeans(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  Status runPlanned(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  Status runGeneral(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  void fillPool(const VoxelRequest& request, const simd::Chunks& chunks, std::size_t chunk, bool withRows,
-    const Executor& executor);
-  void chooseRows(const VoxelRequest& request);
+  Status runBinned(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
+  Status runSorted(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   void addAttributes(VoxelRequest& request, const Executor& executor);
   std::vector<std::size_t> attributeBytes() const;
   Status reduceAttributes(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
@@ -72,32 +68,30 @@ private:
   void accumulateChunk(const VoxelRequest& request, const Executor& executor);
   Status finishRuns(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   void finish(const VoxelRequest& request, const Executor& executor);
+  void joinLayers(const Executor& executor);
   /// The part of the work of run() that the finest level is.
   static double fractionOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
   bool writeRuns(const VoxelRequest& request, bool keeps, simd::Level& level, OutputAllocator* allocator,
     const Executor& executor, ProgressObserver* observer);
-  Status addLevels(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
+  Status addLevels(
+    const VoxelRequest& request, int levelOfRuns, const Executor& executor, ProgressObserver* observer);
   Status choosePoints(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status chooseInSet(const VoxelRequest& request, simd::VoxelRepresentatives& set, std::int64_t first,
     std::int64_t voxels, const std::function<Status(const Visitor&)>& forPoints, const Executor& executor,
     ProgressObserver* observer);
   void notePoints(const PointRows& rows, std::size_t numbers, std::int64_t firstVoxel,
     const std::int64_t* voxels, int count);
-  Status visitPlanned(
+  Status visitBinned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
   void visitPartition(const VoxelRequest& request, simd::PartitionWorker& worker, std::uint32_t partition,
     std::int64_t firstVoxel, const Visitor& visit);
-  Status visitGeneral(
+  Status visitSorted(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
 
   bool keepsRuns_ = false;      ///< For sum().
   bool usesPartitions_ = false; ///< In the last run.
-  alignas(simd::kApart) simd::PartitionPlan plan_;
-  alignas(simd::kApart) simd::PointQuantizer quantizer_{};
-  alignas(simd::kApart) simd::PointRecordPool pool_;
-  bool poolHoldsAll_ = false;              ///< It holds all points of the last run, with their rows.
-  RowLayout rows_;                         ///< As visitPointsByVoxel() passes them on.
-  RowLayout binnedRows_;                   ///< As they are binned with the records.
+  simd::PointBinner binner_;
+  bool poolHoldsAll_ = false; ///< The binner's pool holds all points of the last run, with their rows.
   std::vector<AttributeReducer> reducers_; ///< One for each attribute of the request, during the run.
   std::size_t firstAttribute_ = 0;         ///< Among the request's sources of tuples.
   bool reducesInPass_ = false;             ///< Attributes are reduced where points are summed.

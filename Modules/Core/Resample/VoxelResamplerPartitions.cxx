@@ -1,12 +1,10 @@
 /// VoxelResampler on lattices whose voxels can be divided into partitions.
-#include "Core/Base/PointBlocks.h"
 #include "Core/Neighbors/PointIndex.h"
 #include "Core/Resample/Stages/VoxelWriter.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
 #include <atomic>
-#include <type_traits>
 #include <utility>
 
 namespace pointhaptics
@@ -20,7 +18,7 @@ class VoxelResampler::Implementation::WorkerLease
 public:
   WorkerLease(Implementation& owner, bool covariances)
     : owner_(owner)
-    , attributes_{ owner.reducers_, owner.firstAttribute_, owner.rows_, owner.binnedRows_ }
+    , attributes_{ owner.reducers_, owner.firstAttribute_, owner.binner_.rows(), owner.binner_.binnedRows() }
   {
     {
       const std::lock_guard<std::mutex> lock(owner_.mutex_);
@@ -34,7 +32,7 @@ public:
     {
       worker_ = std::make_unique<PartitionWorker>();
     }
-    worker_->prepare(owner_.plan_, covariances);
+    worker_->prepare(owner_.binner_.plan(), covariances);
     worker_->reduce(owner_.reducesInPass_ ? &attributes_ : nullptr);
   }
   ~WorkerLease()
@@ -53,80 +51,15 @@ private:
   std::unique_ptr<PartitionWorker> worker_;
 };
 
-namespace
-{
-
 static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
 
-/// Copies the rows of points beside their records.
-struct RowCopier
-{
-  const RowLayout& layout;
-  const PointIndex* index;
-  char* rows;
-  std::int64_t first; ///< Point that the writer counts from.
-
-  static void copy(const void* context, const std::uint32_t* points, const std::uint32_t* slots, int count)
-  {
-    const auto& self = *static_cast<const RowCopier*>(context);
-    std::int64_t numbers[kBlockRecords];
-    std::transform(points, points + count, numbers,
-      [&](std::uint32_t point)
-      { return self.index ? self.index->original(self.first + point) : self.first + point; });
-    self.layout.copy(numbers, slots, count, self.rows);
-  }
-};
-
-/// Bins ranges of points: all at once, or, with rows or where other fields lie between points, one by one.
-void binRanges(const Kernels& kernels, const PointQuantizer& quantizer, const PointView& points,
-  const PointRange* ranges, std::int64_t count, RowCopier& rows, PointRecordWriter& writer)
-{
-  const auto bin = [&](const auto* xyz, const PointRange* some, std::int64_t number)
-  {
-    if constexpr (std::is_same_v<decltype(xyz), const float*>)
-    {
-      kernels.partitionFloats(quantizer, xyz, some, number, writer);
-    }
-    else
-    {
-      kernels.partitionDoubles(quantizer, xyz, some, number, writer);
-    }
-  };
-  const auto binAll = [&](const auto* xyz)
-  {
-    const bool atOnce = points.stride() == 3 && !writer.binned;
-    if (atOnce)
-    {
-      bin(xyz, ranges, count);
-    }
-    for (std::int64_t r = 0; !atOnce && r < count; ++r)
-    {
-      rows.first = ranges[r].begin;
-      forPointBlocks(xyz, points, ranges[r].begin, ranges[r].end,
-        [&](const auto* block, std::int64_t size)
-        {
-          const PointRange all = { 0, size };
-          bin(block, &all, 1);
-          rows.first += size;
-        });
-    }
-  };
-  points.floats() ? binAll(points.floats()) : binAll(points.doubles());
-}
-
-}
-
-Status VoxelResampler::Implementation::runPlanned(
+Status VoxelResampler::Implementation::runBinned(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
-  const int indexBits = indexBitsOf(request.lattice);
   const Chunks chunks(request, kChunkPoints, executor);
-  plan_ = makePlan(request.lattice, indexBits, chunks.count() == 0 ? 0 : chunks.pointCount(0));
-  quantizer_ = makeQuantizer(request.transform, request.lattice, indexBits, kPositionBits);
-  quantizer_.blocksPerLayer = plan_.blocksPerLayer;
-  quantizer_.rowShift = plan_.rowShift;
-  quantizer_.layerShift = plan_.layerShift;
-  accumulated_.resize(plan_.partitions);
+  binner_.prepare(request, chunks.count() == 0 ? 0 : chunks.pointCount(0));
+  const PartitionPlan& plan = binner_.plan();
+  accumulated_.resize(plan.partitions);
   for (AccumulatedPartition& partition : accumulated_)
   {
     partition.clear();
@@ -136,14 +69,14 @@ Status VoxelResampler::Implementation::runPlanned(
       std::all_of(reducers_.begin(), reducers_.end(), [](const auto& reducer) { return reducer.isSum(); }));
   const bool holdsAll =
     (request.keepPointRecords || (!reducers_.empty() && !reducesInPass_)) && chunks.count() == 1;
-  runs_.reset(0, plan_.fractionBits);
+  runs_.reset(0, plan.fractionBits);
   std::int64_t inside = 0;
   invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    fillPool(request, chunks, chunk, holdsAll || reducesInPass_, executor);
-    inside += pool_.inside();
-    invalid += pool_.invalid();
+    binner_.bin(request, chunks, chunk, holdsAll || reducesInPass_, executor);
+    inside += binner_.pool().inside();
+    invalid += binner_.pool().invalid();
     chunk + 1 == chunks.count() ? finish(request, executor) : accumulateChunk(request, executor);
     if (observer && !observer->report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
@@ -152,38 +85,7 @@ Status VoxelResampler::Implementation::runPlanned(
   }
   clipped = request.points.size() - inside - invalid;
   poolHoldsAll_ = holdsAll;
-  return request.levels > 1 ? addLevels(request, executor, observer) : Status::Ok;
-}
-
-void VoxelResampler::Implementation::chooseRows(const VoxelRequest& request)
-{
-  // Wider rows cost more memory than their locality is worth.
-  constexpr std::size_t kMostBinnedBytes = 64;
-  rows_.choose(request.tuples);
-  binnedRows_.choose(rows_.bytes() > kMostBinnedBytes ? std::vector<TupleSource>(1) : request.tuples);
-}
-
-/// @param withRows for visitPointsByVoxel().
-void VoxelResampler::Implementation::fillPool(const VoxelRequest& request, const Chunks& chunks,
-  std::size_t chunk, bool withRows, const Executor& executor)
-{
-  if (withRows)
-  {
-    chooseRows(request);
-  }
-  pool_.prepare(
-    chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), withRows ? binnedRows_.bytes() : 0);
-  const PointRange* pieces = chunks.pieces(chunk);
-  forRange(executor, chunks.pieceCount(chunk), grainFor(chunks.pieceCount(chunk), executor),
-    [&](std::int64_t first, std::int64_t last)
-    {
-      const PointRecordPool::Lease lease(pool_);
-      RowCopier rows = { binnedRows_, request.index, pool_.rows(), 0 };
-      lease.writer().binned = withRows ? &RowCopier::copy : nullptr;
-      lease.writer().context = &rows;
-      binRanges(kernelsFor(request.instructions), quantizer_, chunks.points(), pieces + first, last - first,
-        rows, lease.writer());
-    });
+  return request.levels > 1 ? addLevels(request, 1, executor, observer) : Status::Ok;
 }
 
 /// Calls work(worker, partition) for all partitions: each thread takes the next one, so that those before any
@@ -197,7 +99,7 @@ void VoxelResampler::Implementation::forPartitions(
     [&](std::int64_t, std::int64_t)
     {
       const WorkerLease lease(*this, request.covariances);
-      for (std::uint32_t p = next++; p < plan_.partitions; p = next++)
+      for (std::uint32_t p = next++; p < binner_.plan().partitions; p = next++)
       {
         work(*lease, p);
       }
@@ -209,7 +111,8 @@ void VoxelResampler::Implementation::accumulateChunk(const VoxelRequest& request
 {
   const Kernels& kernels = kernelsFor(request.instructions);
   forPartitions(request, executor,
-    [&](PartitionWorker& worker, std::uint32_t p) { worker.accumulate(kernels, pool_, p, accumulated_[p]); });
+    [&](PartitionWorker& worker, std::uint32_t p)
+    { worker.accumulate(kernels, binner_.pool(), p, accumulated_[p]); });
 }
 
 /// The pool's records and the accumulated sums become means, or sums, or both where levels are to follow.
@@ -217,21 +120,23 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
 {
   const Kernels& kernels = kernelsFor(request.instructions);
   const bool keepsSums = keepsRuns_ || request.levels > 1;
-  runs_.reset(keepsSums ? plan_.partitions : 0, plan_.fractionBits);
+  const int fractionBits = binner_.plan().fractionBits;
+  const bool isCoarse = !keepsRuns_ && request.levels > 1;
+  runs_.reset(keepsSums ? binner_.plan().partitions : 0, fractionBits + int(isCoarse));
   std::size_t room = 0;
-  for (std::uint32_t p = 0; !keepsRuns_ && p < plan_.partitions; ++p)
+  for (std::uint32_t p = 0; !keepsRuns_ && p < binner_.plan().partitions; ++p)
   {
-    room += mostVoxels(plan_, pool_.count(p), accumulated_[p].cellCount);
+    room += mostVoxels(binner_.plan(), binner_.pool().count(p), accumulated_[p].cellCount);
   }
-  VoxelWriter writer(levels[0], plan_.partitions, room,
+  VoxelWriter writer(levels[0], binner_.plan().partitions, room,
     { request.singlePrecision, request.keys, request.covariances,
       reducesInPass_ ? attributeBytes() : std::vector<std::size_t>() },
-    plan_.fractionBits, request.allocator);
+    binner_.plan().fractionBits, request.allocator);
   forPartitions(request, executor,
     [&](PartitionWorker& worker, std::uint32_t p)
     {
       std::size_t size = 0;
-      worker.load(kernels, pool_, p, accumulated_[p],
+      worker.load(kernels, binner_.pool(), p, accumulated_[p],
         [&](std::size_t known)
         {
           size = keepsRuns_ ? 0 : known;
@@ -243,16 +148,41 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
       }
       if (keepsSums)
       {
-        runs_.add(p, worker.wide());
-        accumulated_[p] = AccumulatedPartition();
+        runs_.add(
+          p, isCoarse ? sumCoarseVoxels(worker.wide(), request.lattice, fractionBits) : worker.wide());
       }
       accumulated_[p].attributes.clear();
       accumulated_[p].trim();
     });
   writer.finish();
+  if (isCoarse)
+  {
+    joinLayers(executor);
+  }
 }
 
-Status VoxelResampler::Implementation::visitPlanned(
+/// The runs of partitions, which have parts of coarse layers, become those of whole ones.
+void VoxelResampler::Implementation::joinLayers(const Executor& executor)
+{
+  const std::size_t together = binner_.plan().layerShift > 0 ? 1 : 2 * binner_.plan().blocksPerLayer;
+  VoxelRuns layers;
+  layers.reset((runs_.ranges() - 1) / together + 1, runs_.fractionBits());
+  forEachItem(executor, layers.ranges(),
+    [&](std::size_t layer)
+    {
+      for (std::size_t p = layer * together; p < std::min((layer + 1) * together, runs_.ranges()); ++p)
+      {
+        if (runs_.size(p) > 0)
+        {
+          layers.add(layer, runs_.run(p));
+        }
+      }
+      layers.join(layer);
+    });
+  runs_ = std::move(layers);
+}
+
+Status VoxelResampler::Implementation::visitBinned(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   const Chunks chunks(request, kChunkPoints, executor);
@@ -260,9 +190,9 @@ Status VoxelResampler::Implementation::visitPlanned(
   {
     if (!poolHoldsAll_)
     {
-      fillPool(request, chunks, chunk, true, executor);
+      binner_.bin(request, chunks, chunk, true, executor);
     }
-    forRange(executor, plan_.partitions, grainFor(plan_.partitions, executor),
+    forRange(executor, binner_.plan().partitions, grainFor(binner_.plan().partitions, executor),
       [&](std::int64_t begin, std::int64_t end)
       {
         const WorkerLease lease(*this, false);
@@ -286,8 +216,8 @@ void VoxelResampler::Implementation::visitPartition(const VoxelRequest& request,
   const Level& level = levels[0];
   const std::size_t first = level.firsts[partition];
   std::int64_t voxels[kBlockRecords];
-  RowReader reader(rows_, binnedRows_);
-  worker.rank(kernelsFor(request.instructions), pool_, partition, level.arena.keys() + first,
+  RowReader reader(binner_.rows(), binner_.binnedRows());
+  worker.rank(kernelsFor(request.instructions), binner_.pool(), partition, level.arena.keys() + first,
     level.firsts[partition + 1] - first,
     [&](const char* rows, const std::uint32_t* ranks, int count)
     {

@@ -4,8 +4,8 @@
 
 #include "Core/Resample/Kernel/Fetch.h"
 #include "Core/Resample/Kernel/InFours.h"
+#include "Core/Resample/Kernel/PointRecordWriter.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
-#include "Core/Resample/Stages/PointRecordWriter.h"
 #include "Core/Simd/Words.h"
 
 namespace pointhaptics

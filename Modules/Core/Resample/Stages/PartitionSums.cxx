@@ -12,22 +12,6 @@ namespace simd
 namespace
 {
 
-/// Most cells of a partition: their occupancy bits should stay in the second-level cache. (The sums do
-/// anyway: a chunk has a few thousand records in a partition.)
-constexpr std::size_t kMostCells = std::size_t(1) << 22;
-/// While records are binned, the cursors of more partitions than this do not fit the first-level cache.
-constexpr std::uint32_t kMostPartitions = 512;
-/// On large lattices they are more: points would be sorted otherwise.
-constexpr std::uint32_t kMostLargePartitions = 2048;
-/// Fewer points than this in a partition on average do not pay its overhead: a dozen loops, each with a
-/// mispredicted end.
-constexpr std::int64_t kPointsPerPartition = 1024;
-
-std::uint32_t blocks(std::uint32_t count, int shift)
-{
-  return ((count - 1) >> shift) + 1;
-}
-
 /// Words with an occupancy bit for each cell.
 std::size_t occupancyWords(const PartitionPlan& plan)
 {
@@ -44,53 +28,6 @@ constexpr std::int64_t kPackedCounts = std::int64_t(1) << 19;
 static_assert(kPackedCounts + kChunkPoints < (std::int64_t(1) << 21),
   "a packed sum must hold a chunk in one voxel and the accumulated points");
 
-}
-
-PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t points)
-{
-  PartitionPlan plan;
-  plan.columns = std::uint32_t(lattice.dimensions[0]);
-  plan.rowsPerLayer = std::uint32_t(lattice.dimensions[1]);
-  const auto layers = std::uint32_t(lattice.dimensions[2]);
-  plan.fractionBits = kPositionBits - indexBits;
-  const std::uint32_t half = std::uint32_t(1) << (indexBits - 1);
-  plan.upperRows = layers > half ? plan.rowsPerLayer * half : 0;
-
-  const auto wanted = std::uint32_t(
-    std::min<std::int64_t>(std::max<std::int64_t>(points / kPointsPerPartition, 1), kMostPartitions));
-  // No partition may span more than half the layers.
-  while (blocks(layers, plan.layerShift) > wanted && plan.layerShift < indexBits - 1)
-  {
-    ++plan.layerShift;
-  }
-  while (plan.layerShift > 0 && plan.cells() > kMostCells)
-  {
-    --plan.layerShift;
-  }
-  plan.rowShift = indexBits;
-  while (plan.layerShift == 0 && plan.rowShift > 0 &&
-    (plan.cells() > kMostCells || 2 * layers * plan.blocksPerLayer <= wanted))
-  {
-    --plan.rowShift;
-    plan.blocksPerLayer = blocks(plan.rowsPerLayer, plan.rowShift);
-  }
-  plan.partitions = blocks(layers, plan.layerShift) * plan.blocksPerLayer;
-  return plan;
-}
-
-bool fitsPartitions(const Lattice& lattice, int indexBits)
-{
-  if (indexBits < kMinimumIndexBits || indexBits > kMaximumIndexBits)
-  {
-    return false;
-  }
-  const PartitionPlan plan = makePlan(lattice, indexBits, kChunkPoints);
-  return plan.cells() <= kMostCells && plan.partitions <= kMostLargePartitions;
-}
-
-std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t accumulated)
-{
-  return std::min(records + accumulated, plan.cells());
 }
 
 void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)

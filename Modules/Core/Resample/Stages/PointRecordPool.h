@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Resample/Stages/PointRecordWriter.h"
+#include "Core/Resample/Kernel/PointRecordWriter.h"
 
 #include <condition_variable>
 #include <cstdint>

@@ -114,7 +114,7 @@ void SortedPoints::sortSlice(
 
 void SortedPoints::sumSlice(bool secondMoments, Slice& slice, const Scratch& scratch) const
 {
-  static_assert(2 * kGeneralChunk <= std::int64_t(1) << (64 - kPositionBits), "sums of a chunk fit 64 bits");
+  static_assert(2 * kSortedChunk <= std::int64_t(1) << (64 - kPositionBits), "sums of a chunk fit 64 bits");
   const std::uint64_t mask = (std::uint64_t(1) << quantizer_.fractionBits) - 1;
   const SecondMoments none{};
   slice.run.clear();

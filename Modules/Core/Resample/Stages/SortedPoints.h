@@ -19,7 +19,7 @@ namespace simd
 {
 
 /// Points of a chunk on this path.
-constexpr std::int64_t kGeneralChunk = std::int64_t(1) << 18;
+constexpr std::int64_t kSortedChunk = std::int64_t(1) << 18;
 
 /// Threads quantize and sort slices of a chunk. Then they take ranges of keys, about as many points each, and
 /// find those of a range in all slices: no two of them have a voxel in common.

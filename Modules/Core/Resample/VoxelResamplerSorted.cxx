@@ -23,7 +23,7 @@ VoxelRequest withUsableIndex(const VoxelRequest& request)
   return usable;
 }
 
-PointQuantizer generalQuantizer(const VoxelRequest& request)
+PointQuantizer sortedQuantizer(const VoxelRequest& request)
 {
   const int indexBits = indexBitsOf(request.lattice);
   return makeQuantizer(request.transform, request.lattice, indexBits, positionBitsFor(indexBits));
@@ -43,14 +43,14 @@ const std::uint64_t* firstNotBelow(const std::uint64_t* keys, const std::uint64_
 
 }
 
-Status VoxelResampler::Implementation::runGeneral(
+Status VoxelResampler::Implementation::runSorted(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   const VoxelRequest usable = withUsableIndex(request);
-  const Chunks chunks(usable, kGeneralChunk, executor);
-  quantizer_ = generalQuantizer(request);
-  sorted_.choose(quantizer_, request.lattice, chunks);
-  runs_.reset(sorted_.ranges(), quantizer_.fractionBits);
+  const Chunks chunks(usable, kSortedChunk, executor);
+  const PointQuantizer quantizer = sortedQuantizer(request);
+  sorted_.choose(quantizer, request.lattice, chunks);
+  runs_.reset(sorted_.ranges(), quantizer.fractionBits);
   std::int64_t inside = 0;
   invalid = usable.index ? request.points.size() - finitePoints(*usable.index) : 0;
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
@@ -77,7 +77,7 @@ Status VoxelResampler::Implementation::finishRuns(
     return Status::Ok;
   }
   writeRuns(request, request.levels > 1, levels[0], request.allocator, executor, nullptr);
-  return request.levels > 1 ? addLevels(request, executor, observer) : Status::Ok;
+  return request.levels > 1 ? addLevels(request, 0, executor, observer) : Status::Ok;
 }
 
 Status VoxelResampler::Implementation::sum(const VoxelRequest& request, VoxelRun& sums, int& fractionBits,
@@ -133,22 +133,22 @@ Status VoxelResampler::Implementation::finishSums(const VoxelRequest& request, c
   return status;
 }
 
-Status VoxelResampler::Implementation::visitGeneral(
+Status VoxelResampler::Implementation::visitSorted(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   const VoxelRequest usable = withUsableIndex(request);
-  const Chunks chunks(usable, kGeneralChunk, executor);
+  const Chunks chunks(usable, kSortedChunk, executor);
   const std::uint64_t* keys = levels[0].arena.keys();
   const std::uint64_t* end = keys + levels[0].size;
-  chooseRows(request);
-  sorted_.choose(generalQuantizer(request), request.lattice, chunks);
+  binner_.chooseRows(request);
+  sorted_.choose(sortedQuantizer(request), request.lattice, chunks);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
     sorted_.sort(chunks, chunk, executor);
     forEachItem(executor, sorted_.ranges(),
       [&](std::size_t range)
       {
-        RowCollector collector(rows_);
+        RowCollector collector(binner_.rows());
         std::int64_t points[kBlockRecords];
         std::int64_t voxels[kBlockRecords];
         sorted_.forEntries(range,
