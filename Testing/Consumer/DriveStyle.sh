@@ -19,9 +19,10 @@ finish() {
 }
 trap finish EXIT
 
-# The window is 300 pixels wide; it takes the focus when the pointer comes in and it looks at events.
+# The window is 300 pixels wide; it takes the focus when the pointer comes in and it looks at events. Here the pointer is off
+# the ball: hand mode begins in the middle of the workspace's depth, not above a surface.
 takes_focus() {
-  xdotool mousemove 500 400 mousemove --window "$window" 150 150
+  xdotool mousemove 500 400 mousemove --window "$window" 200 150
   sleep 0.1
   [[ "$(xdotool getwindowfocus 2>/dev/null)" == "$window" ]]
 }
