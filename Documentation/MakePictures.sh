@@ -75,7 +75,7 @@ keep() {
 
 # Tour: the hand of the mouse presses on the statue.
 open_window idol.ply --size 1000x700
-keys f Prior Prior Prior Prior Prior Prior Prior Prior Prior Prior Prior Prior Prior Prior
+keys f $(printf "Prior %.0s" {1..24})
 for ((i = 0; i < 4; ++i)); do
   xdotool mousemove_relative -- -4 2
   sleep 0.1
