@@ -25,6 +25,15 @@ class vtkRenderer;
 namespace pointhaptics
 {
 
+/// Where the affine @p matrix puts @p place.
+inline Vec3 transformed(vtkMatrix4x4* matrix, const Vec3& place)
+{
+  const double in[4] = { place.x, place.y, place.z, 1.0 };
+  double out[4];
+  matrix->MultiplyPoint(in, out);
+  return { out[0], out[1], out[2] };
+}
+
 struct Pixel
 {
   double x = 0.0;

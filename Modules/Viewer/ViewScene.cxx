@@ -7,6 +7,7 @@
 #include "CloudAppearance.h"
 #include "HapticSceneBuilder.h"
 #include "PolyDataAccess.h"
+#include "ScreenMarks.h"
 #include "ScreenScale.h"
 #include "SteadyTime.h"
 #include "StereoPicture.h"
@@ -468,12 +469,10 @@ void ViewScene::placeAxes(vtkMatrix4x4* model)
   Bounds reach;
   for (int corner = 0; corner < 8; ++corner)
   {
-    const double in[4] = { corner & 1 ? workspace_.maximum.x : workspace_.minimum.x,
-      corner & 2 ? workspace_.maximum.y : workspace_.minimum.y,
-      corner & 4 ? workspace_.maximum.z : workspace_.minimum.z, 1.0 };
-    double out[4];
-    toCloud->MultiplyPoint(in, out);
-    reach.include({ out[0], out[1], out[2] });
+    reach.include(transformed(toCloud,
+      { corner & 1 ? workspace_.maximum.x : workspace_.minimum.x,
+        corner & 2 ? workspace_.maximum.y : workspace_.minimum.y,
+        corner & 4 ? workspace_.maximum.z : workspace_.minimum.z }));
   }
   double bounds[6];
   for (int axis = 0; axis < 3; ++axis)

@@ -124,22 +124,13 @@ TEST_F(HandMode, SaysTheDistanceAndHowToTouchUntilItWasDone)
   style_->SetDevice(&device);
   style_->SetProps(props);
   style_->SetOverlay(overlay);
-  const auto eventually = [&](auto&& condition)
-  {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!condition() && std::chrono::steady_clock::now() < deadline)
-    {
-      interactor_->InvokeEvent(vtkCommand::TimerEvent);
-      std::this_thread::yield();
-    }
-    return condition();
-  };
   const auto says = [&](const char* words) { return overlay->GetStatus().find(words) != std::string::npos; };
   interactor_->SetEventInformation(2, 2, 0, 0);
-  EXPECT_TRUE(eventually([&] { return servo.latest().state.radius > 0.0; }));
+  EXPECT_TRUE(this->eventually([&] { return servo.latest().state.radius > 0.0; }));
   EXPECT_FALSE(says("nearest point")) << "of a hand that nobody moves";
   this->press("f");
-  EXPECT_TRUE(eventually([&] { return says("nearest point 30 mm away: deeper"); })) << overlay->GetStatus();
+  EXPECT_TRUE(this->eventually([&] { return says("nearest point 30 mm away: deeper"); }))
+    << overlay->GetStatus();
   EXPECT_TRUE(says("move: mouse    deeper: wheel, Page Up    leave: F")) << overlay->GetStatus();
   double nearest[3];
   EXPECT_TRUE(props->GetNearest(nearest));
@@ -149,11 +140,12 @@ TEST_F(HandMode, SaysTheDistanceAndHowToTouchUntilItWasDone)
   const double first = 0.03 - device.target().z;
   EXPECT_NEAR(first, 0.005, 1e-9); // the longest
   device.setTarget({ 0.0, 0.0, 0.004 });
-  EXPECT_TRUE(eventually([&] { return says("nearest point 4 mm away"); })) << overlay->GetStatus();
+  EXPECT_TRUE(this->eventually([&] { return says("nearest point 4 mm away"); })) << overlay->GetStatus();
   this->press("Prior");
   EXPECT_NEAR(0.004 - device.target().z, 0.0012, 1e-4);
   device.setTarget({ 0.0, 0.0, -0.002 });
-  EXPECT_TRUE(eventually([&] { return says("in contact") && !says("move: mouse"); })) << overlay->GetStatus();
+  EXPECT_TRUE(this->eventually([&] { return says("in contact") && !says("move: mouse"); }))
+    << overlay->GetStatus();
   EXPECT_FALSE(says("nearest point"));
   EXPECT_FALSE(props->GetNearest(nearest));
   servo.stop();

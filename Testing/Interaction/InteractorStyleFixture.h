@@ -20,7 +20,9 @@
 #include <vtkRenderer.h>
 #include <vtkTransform.h>
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 namespace pointhaptics
 {
@@ -79,6 +81,18 @@ protected:
   double element(int row, int column)
   {
     return style_->GetModelTransform()->GetMatrix()->GetElement(row, column);
+  }
+  /// Lets the style's timer tick until @p condition holds. @return whether it does, in 20 seconds.
+  template <typename Condition>
+  bool eventually(const Condition& condition)
+  {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!condition() && std::chrono::steady_clock::now() < deadline)
+    {
+      interactor_->InvokeEvent(vtkCommand::TimerEvent);
+      std::this_thread::yield();
+    }
+    return condition();
   }
   bool modelIsIdentity() { return style_->GetModelTransform()->GetMatrix()->IsIdentity(); }
 

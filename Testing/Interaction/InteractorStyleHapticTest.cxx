@@ -217,23 +217,13 @@ TEST_F(InteractorStyleHaptic, MovesThePropsFromTheTimer)
   style_->SetServoLoop(&servo);
   style_->SetDevice(&device);
   style_->SetProps(props);
-  const auto waitFor = [&](auto&& condition)
-  {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!condition() && std::chrono::steady_clock::now() < deadline)
-    {
-      interactor_->InvokeEvent(vtkCommand::TimerEvent);
-      std::this_thread::yield();
-    }
-    return condition();
-  };
   // A radius above 0 tells that the servo thread has the scene; before that a hand below the plane is in free
   // space.
-  EXPECT_TRUE(
-    waitFor([&] { return props->GetHipActor()->GetVisibility() != 0 && servo.latest().state.radius > 0.0; }));
+  EXPECT_TRUE(this->eventually(
+    [&] { return props->GetHipActor()->GetVisibility() != 0 && servo.latest().state.radius > 0.0; }));
   EXPECT_NEAR(props->GetHipActor()->GetUserMatrix()->GetElement(2, 3), 0.02, 1e-9);
   device.setTarget({ 0.01, 0.0, -0.002 });
-  EXPECT_TRUE(waitFor([&] { return props->GetForceActor()->GetVisibility() != 0; }));
+  EXPECT_TRUE(this->eventually([&] { return props->GetForceActor()->GetVisibility() != 0; }));
   EXPECT_GT(props->GetForceActor()->GetUserMatrix()->GetElement(2, 0), 0.0); // pushes up, out of the plane
   style_->SetServoLoop(nullptr);
   style_->SetDevice(nullptr);

@@ -1,8 +1,8 @@
 // The pictures that a HapticViewer writes.
 #include "HapticViewerFixture.h"
 
+#include "../Unit/SkipWithoutDisplay.h"
 #include "CommandRegistry.h"
-#include "ViewDisplay.h"
 #include "vtkDepthShadingPass.h"
 #include "vtkInteractorStyleHaptic.h"
 
@@ -26,11 +26,7 @@ using HapticViewerPictures = HapticViewerTest;
 
 TEST_F(HapticViewerPictures, LeavesTheBackgroundOutOfTransparentPictures)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   options_.picture.background = "black";
   HapticViewer opaque(options_, observer_);
   ASSERT_TRUE(opaque.open(makeSphere())) << opaque.message();
@@ -74,6 +70,7 @@ struct LinePixels
   double y = 0.0;
   int left = 1000000;
   int right = 0;
+  int inMiddle = 0; ///< In the middle third of the columns between left and right.
 };
 
 LinePixels linePixels(const std::string& fileName)
@@ -84,6 +81,7 @@ LinePixels linePixels(const std::string& fileName)
   vtkImageData* image = reader->GetOutput();
   const int* size = image->GetDimensions();
   LinePixels found;
+  std::vector<int> columns;
   for (int i = 0; i < size[0] * size[1]; ++i)
   {
     vtkDataArray* pixels = image->GetPointData()->GetScalars();
@@ -95,8 +93,12 @@ LinePixels linePixels(const std::string& fileName)
       found.right = std::max(found.right, i % size[0]);
       found.x += i % size[0];
       found.y += i / size[0];
+      columns.push_back(i % size[0]);
     }
   }
+  const int third = (found.right - found.left) / 3;
+  found.inMiddle = int(std::count_if(columns.begin(), columns.end(),
+    [&](int column) { return column > found.left + third && column < found.right - third; }));
   found.x /= std::max(1, found.count);
   found.y /= std::max(1, found.count);
   return found;
@@ -104,11 +106,7 @@ LinePixels linePixels(const std::string& fileName)
 
 TEST_F(HapticViewerPictures, ShowsADistanceWhereItsEndsAre)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   options_.width = 400;
   options_.height = 300;
   options_.up = "z";
@@ -124,6 +122,7 @@ TEST_F(HapticViewerPictures, ShowsADistanceWhereItsEndsAre)
   ASSERT_TRUE(viewer.renderToFile(this->path("right.png"))) << viewer.message();
   const LinePixels right = linePixels(this->path("right.png"));
   EXPECT_GT(right.count, 100);
+  EXPECT_GE(right.inMiddle, (right.right - right.left) / 3 - 2) << "the line between the crosses";
   EXPECT_GT(right.x, 200.0 + 10.0);
   EXPECT_NEAR(right.y, 150.0, 3.0);
   ASSERT_FALSE(notes_.empty());
@@ -141,11 +140,7 @@ TEST_F(HapticViewerPictures, ShowsADistanceWhereItsEndsAre)
 
 TEST_F(HapticViewerPictures, WritesPicturesOfASizeOfTheirOwnThatShowWhatTheWindowShows)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   options_.device = HapticViewerDevice::Simulated;
   options_.width = 400;
   options_.height = 200;
@@ -181,11 +176,7 @@ TEST_F(HapticViewerPictures, WritesPicturesOfASizeOfTheirOwnThatShowWhatTheWindo
 
 TEST_F(HapticViewerPictures, WritesPicturesFromAllAroundTheCloud)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   options_.width = 300;
   options_.height = 300;
   options_.up = "z";
@@ -232,6 +223,32 @@ TEST_F(HapticViewerPictures, FeelsOnlyWhatIsInTheClippingBox)
   EXPECT_NEAR(bounds[5], 0.045, 1e-3);
 }
 
+TEST_F(HapticViewerPictures, FeelsNothingBeyondEachFaceOfTheClippingBox)
+{
+  const vtkSmartPointer<vtkPolyData> sphere = makeSphere();
+  for (int face = 0; face < 6; ++face)
+  {
+    const double sign = face % 2 == 0 ? 1.0 : -1.0;
+    options_.clip = { -2, 2, -2, 2, -2, 2 };
+    options_.clip[std::size_t(face)] = 0.3 * sign;
+    int within = 0;
+    for (vtkIdType i = 0; i < kPoints; ++i)
+    {
+      within += sign * sphere->GetPoint(i)[face / 2] >= 0.3;
+    }
+    HapticViewer viewer(options_, observer_);
+    ASSERT_TRUE(viewer.open(sphere)) << viewer.message();
+    vtkDataArray* counts = viewer.means()->GetPointData()->GetArray("VoxelPointCount");
+    double felt = 0.0;
+    for (vtkIdType i = 0; i < counts->GetNumberOfTuples(); ++i)
+    {
+      felt += counts->GetComponent(i, 0);
+    }
+    EXPECT_EQ(felt, within) << "face " << face;
+    EXPECT_NEAR(within, 0.35 * kPoints, 0.01 * kPoints);
+  }
+}
+
 TEST_F(HapticViewerPictures, SaysWhatBoxTheCloudHasWhereTheClippingBoxHoldsNothing)
 {
   options_.clip = { 5, 6, 5, 6, 5, 6 };
@@ -261,11 +278,7 @@ int drawnPixels(const std::string& fileName, int fromRow, int toRow)
 
 TEST_F(HapticViewerPictures, DrawsOnlyWhatIsInTheClippingBox)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   options_.width = 300;
   options_.height = 300;
   options_.up = "z";
@@ -313,11 +326,7 @@ int coloredPixels(const std::string& fileName)
 
 TEST_F(HapticViewerPictures, ShowsEachEyeItsPicture)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   options_.width = 300;
   options_.height = 300;
   options_.colorBy = "Height";

@@ -1,7 +1,7 @@
 #include "HapticViewerFixture.h"
 
+#include "../Unit/SkipWithoutDisplay.h"
 #include "CommandRegistry.h"
-#include "ViewDisplay.h"
 #include "vtkInteractorStyleHaptic.h"
 
 #include <gtest/gtest.h>
@@ -135,11 +135,7 @@ TEST_F(HapticViewerTest, EndsReadingWhenItsHostSaysStop)
 
 TEST_F(HapticViewerTest, WritesPicturesOffTheScreen)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   HapticViewer viewer(options_, observer_);
   ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
   ASSERT_TRUE(viewer.renderToFile(this->path("first.png"))) << viewer.message();
@@ -154,11 +150,7 @@ TEST_F(HapticViewerTest, WritesPicturesOffTheScreen)
 
 TEST_F(HapticViewerTest, ResamplesACloudOnceBeforeItsFirstPicture)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   options_.device = HapticViewerDevice::Simulated;
   HapticViewer viewer(options_, observer_);
   ASSERT_TRUE(viewer.open({ this->writeCloud("first.csv", 60000), this->writeCloud("second.csv", 50000) }))
@@ -205,11 +197,7 @@ TEST_F(HapticViewerTest, LooksAtFinerVoxelsOnlyWhereTheUsualOnesTellLittle)
 
 TEST_F(HapticViewerTest, RunsInTheEventLoopOfItsHost)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   options_.device = HapticViewerDevice::Simulated;
   options_.trace = this->path("trace.csv");
   HapticViewerState last;
@@ -259,11 +247,7 @@ std::map<std::array<double, 3>, std::array<double, 3>> colorsByPlace(HapticViewe
 
 TEST_F(HapticViewerTest, ShowsACoarseLevelAtOnceAndThenAllPointsWhereTheyWere)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   options_.device = HapticViewerDevice::None;
   options_.showsReading = true;
   options_.coarsePoints = 300;
@@ -320,11 +304,7 @@ TEST_F(HapticViewerTest, ReadsAllAtOnceWhereNoWindowWaits)
 
 TEST_F(HapticViewerTest, LetsAHostAddAKeyAndKeepTheStyleForLonger)
 {
-  std::string whyNot;
-  if (!displayIsAvailable(whyNot))
-  {
-    GTEST_SKIP() << whyNot;
-  }
+  SKIP_WITHOUT_DISPLAY();
   options_.device = HapticViewerDevice::Simulated;
   options_.bindings = { "axes=F5" };
   auto viewer = std::make_unique<HapticViewer>(options_, observer_);

@@ -4,6 +4,7 @@
 #include "CloudAppearance.h"
 #include "CoordinateText.h"
 #include "PolyDataAccess.h"
+#include "ScreenMarks.h"
 #include "SmpExecutor.h"
 #include "vtkSplatMapper.h"
 
@@ -58,10 +59,7 @@ std::optional<Vec3> placeInCloud(vtkPolyData* cloud, const Vec3& inWorkspace)
     return {};
   }
   matrix->Invert();
-  const double p[4] = { inWorkspace.x, inWorkspace.y, inWorkspace.z, 1.0 };
-  double q[4];
-  matrix->MultiplyPoint(p, q);
-  return Vec3{ q[0], q[1], q[2] };
+  return transformed(matrix, inWorkspace);
 }
 
 /// How finely coordinates of the file are told: a thousandth of the smallest edge of a voxel there; 0 where
@@ -199,13 +197,11 @@ std::function<bool(const Vec3&)> drawnBy(vtkActor* actor)
         return false;
       }
     }
-    const double in[4] = { p.x, p.y, p.z, 1.0 };
-    double out[4];
-    toPicture->MultiplyPoint(in, out);
+    Vec3 out = transformed(toPicture, p);
     vtkPlaneCollection* planes = mapper->GetClippingPlanes();
     for (int i = 0; planes && i < planes->GetNumberOfItems(); ++i)
     {
-      if (planes->GetItem(i)->EvaluateFunction(out) < 0.0)
+      if (planes->GetItem(i)->EvaluateFunction(&out.x) < 0.0)
       {
         return false;
       }

@@ -52,13 +52,7 @@ struct ClipBoxMark::Parts
   {
     return this->renderer->GetVTKWindow() ? this->renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
   }
-  Vec3 inPicture(const Vec3& place)
-  {
-    const double in[4] = { place.x, place.y, place.z, 1.0 };
-    double out[4];
-    this->model->MultiplyPoint(in, out);
-    return { out[0], out[1], out[2] };
-  }
+  Vec3 inPicture(const Vec3& place) { return transformed(this->model, place); }
   Vec3 corner(int index) const
   {
     return { index & 1 ? this->box.maximum.x : this->box.minimum.x,

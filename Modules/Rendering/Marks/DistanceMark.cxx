@@ -47,13 +47,7 @@ struct DistanceMark::Parts
   vtkNew<vtkCallbackCommand> onStart;
   vtkWeakPointer<vtkRenderer> renderer;
 
-  Vec3 inPicture(const Vec3& place)
-  {
-    const double in[4] = { place.x, place.y, place.z, 1.0 };
-    double out[4];
-    this->model->MultiplyPoint(in, out);
-    return { out[0], out[1], out[2] };
-  }
+  Vec3 inPicture(const Vec3& place) { return transformed(this->model, place); }
   void draw(const Pixel& a, const Pixel& b)
   {
     this->rim.add(a.x, a.y, b.x, b.y, kRim);
