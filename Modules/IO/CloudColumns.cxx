@@ -201,7 +201,6 @@ void CloudColumns::moveTo(vtkPolyData* cloud)
     cloud->GetPointData()->AddArray(arrays_[i]);
   }
   setActiveAttributes(cloud);
-  setOneVertexPerPoint(cloud);
 }
 
 namespace

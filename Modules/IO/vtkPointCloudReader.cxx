@@ -134,7 +134,6 @@ void keepRows(vtkPolyData* cloud, vtkIdType first, vtkIdType count)
   }
   cloud->SetPoints(points);
   cloud->GetPointData()->ShallowCopy(values);
-  io::setOneVertexPerPoint(cloud);
 }
 
 /// Whether the format, told by the file's @p start, can be read in parts.
@@ -184,7 +183,6 @@ void keepInside(vtkPolyData* cloud, const std::array<double, 6>& box)
   }
   cloud->SetPoints(inside);
   cloud->GetPointData()->ShallowCopy(values);
-  io::setOneVertexPerPoint(cloud);
 }
 
 /// Stores the format's name and the notes, also when reading fails.
@@ -254,6 +252,10 @@ void vtkPointCloudReader::ReadInto(vtkPolyData* cloud)
     this->ReadWhole(task, cloud);
   }
   this->Coarse = task.isCoarse;
+  if (this->GenerateVertices)
+  {
+    io::setOneVertexPerPoint(cloud);
+  }
 }
 
 /// A fault of this rank is told to the others before it goes on its way.
@@ -422,6 +424,7 @@ void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Box: " << this->Box[0] << " " << this->Box[1] << " " << this->Box[2] << " " << this->Box[3]
      << " " << this->Box[4] << " " << this->Box[5] << "\n";
   os << indent << "OnlyPositions: " << (this->OnlyPositions ? "On" : "Off") << "\n";
+  os << indent << "GenerateVertices: " << (this->GenerateVertices ? "On" : "Off") << "\n";
   os << indent << "Extension: " << this->Extension << "\n";
   os << indent << "ApplyPoses: " << this->ApplyPoses << "\n";
   os << indent << "Format: " << this->Format << "\n";

@@ -45,8 +45,40 @@ vtkSmartPointer<vtkAbstractArray> emptyLike(vtkAbstractArray* array)
   return empty;
 }
 
-/// A cloud of other points with arrays as those of @p cloud, which @p fill fills, and the same field data.
-vtkSmartPointer<vtkPolyData> cloudLike(vtkPolyData* cloud, vtkIdType points, const NewTuples& fill)
+/// Which vertex cells the pieces of all ranks have: a rank without points shows nothing.
+struct Vertices
+{
+  bool isThere = false;
+  bool isNumberedBy64Bits = false;
+
+  Vertices(Ranks& ranks, vtkPolyData* piece)
+  {
+    const int own = piece->GetNumberOfVerts() == 0 ? 0 : piece->GetVerts()->IsStorage64Bit() ? 2 : 1;
+    const int most = ranks.reduce(own, [](int a, int b) { return std::max(a, b); });
+    isThere = most > 0;
+    isNumberedBy64Bits = most > 1;
+  }
+
+  /// Files show the bits, too.
+  void addTo(vtkPolyData* cloud) const
+  {
+    const vtkIdType points = cloud->GetNumberOfPoints();
+    if (!isThere)
+    {
+      return;
+    }
+    ArrayPool pool;
+    cloud->SetVerts(makeVertices(points, pool, SmpExecutor()));
+    if (!isNumberedBy64Bits && points < VTK_INT_MAX)
+    {
+      cloud->GetVerts()->ConvertTo32BitStorage();
+    }
+  }
+};
+
+/// A cloud of other points, without cells, with arrays as those of @p cloud, which @p fill fills, and the
+/// same field data.
+vtkSmartPointer<vtkPolyData> cloudLike(vtkPolyData* cloud, const NewTuples& fill)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> places;
@@ -56,13 +88,6 @@ vtkSmartPointer<vtkPolyData> cloudLike(vtkPolyData* cloud, vtkIdType points, con
     fill(cloud->GetPoints()->GetData(), places->GetData());
   }
   result->SetPoints(places);
-  ArrayPool pool;
-  result->SetVerts(makeVertices(points, pool, SmpExecutor()));
-  // Readers number vertices by 32 bits where these do; files show it.
-  if (!cloud->GetVerts()->IsStorage64Bit() && points < VTK_INT_MAX)
-  {
-    result->GetVerts()->ConvertTo32BitStorage();
-  }
   vtkPointData* from = cloud->GetPointData();
   vtkPointData* to = result->GetPointData();
   for (int i = 0; i < from->GetNumberOfArrays(); ++i)
@@ -128,7 +153,8 @@ vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ranks, vtkPolyData* piece)
   }
   const vtkIdType points =
     ranks.reduce(piece->GetNumberOfPoints(), [](vtkIdType a, vtkIdType b) { return a + b; });
-  const vtkSmartPointer<vtkPolyData> all = cloudLike(piece, points,
+  const Vertices vertices(ranks, piece);
+  const vtkSmartPointer<vtkPolyData> all = cloudLike(piece,
     [&](vtkAbstractArray* from, vtkAbstractArray* to)
     {
       std::vector<std::string> messages(std::size_t(ranks.size()));
@@ -141,7 +167,12 @@ vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ranks, vtkPolyData* piece)
       to->SetNumberOfTuples(points);
       setBytes(to, messages);
     });
-  return ranks.rank() == 0 ? all : nullptr;
+  if (ranks.rank() != 0)
+  {
+    return nullptr;
+  }
+  vertices.addTo(all);
+  return all;
 }
 
 vtkSmartPointer<vtkPolyData> exchangePoints(
@@ -167,7 +198,8 @@ vtkSmartPointer<vtkPolyData> exchangePoints(
     const auto some = valuesOfBytes<std::int64_t>(bytes);
     numbers.insert(numbers.end(), some.begin(), some.end());
   }
-  return cloudLike(piece, vtkIdType(numbers.size()),
+  const Vertices vertices(ranks, piece);
+  const vtkSmartPointer<vtkPolyData> result = cloudLike(piece,
     [&](vtkAbstractArray* from, vtkAbstractArray* into)
     {
       std::vector<std::string> parts;
@@ -182,6 +214,8 @@ vtkSmartPointer<vtkPolyData> exchangePoints(
       into->SetNumberOfTuples(vtkIdType(numbers.size()));
       setBytes(into, parts);
     });
+  vertices.addTo(result);
+  return result;
 }
 
 } // namespace pointhaptics

@@ -42,6 +42,7 @@ bool readFile(const std::string& path, const std::string& shown, Cloud& cloud, s
   reader->SetResolution(options.resolution);
   reader->SetApplyPoses(options.applyPoses);
   reader->SetRanks(options.ranks);
+  reader->SetGenerateVertices(false); // a writer whose format has cells makes them
   {
     const ProgressBar bar("reading", reader);
     reader->Update();

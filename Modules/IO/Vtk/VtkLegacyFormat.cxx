@@ -306,7 +306,6 @@ void readVtkLegacy(ReadTask& task, vtkPolyData* cloud)
   task.format = "VTK (legacy)";
   LegacyParser(task, cloud).parse();
   setActiveAttributes(cloud);
-  setOneVertexPerPoint(cloud);
 }
 
 } // namespace pointhaptics::io

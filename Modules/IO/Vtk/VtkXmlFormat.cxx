@@ -102,7 +102,6 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
     setActiveAttributes(cloud);
   }
   read->ReleaseData(); // its cells would lie beside those that take their place
-  setOneVertexPerPoint(cloud);
 }
 
 } // namespace pointhaptics::io

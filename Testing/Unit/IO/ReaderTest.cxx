@@ -59,6 +59,21 @@ TEST_F(Reader, SurvivesRandomBytesAfterEveryMagic)
   }
 }
 
+TEST_F(Reader, MakesAVertexPerPointOnlyWhereAsked)
+{
+  const std::string name = write("three.xyz", "0 0 0\n1 2 3\n4 5 6\n");
+  vtkNew<vtkPointCloudReader> reader;
+  reader->SetFileName(name.c_str());
+  reader->SetBox(0.5, 9.0, 0.0, 9.0, 0.0, 9.0);
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 2);
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfVerts(), 2);
+  reader->GenerateVerticesOff();
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 2);
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfCells(), 0);
+}
+
 TEST_F(Reader, CanBeUsedAgainAfterAFault)
 {
   vtkNew<vtkPointCloudReader> reader;
