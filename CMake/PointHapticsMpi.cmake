@@ -11,7 +11,6 @@ if (TARGET MPI::MPI_C)
 endif ()
 if (TARGET MPI::MPI_C AND TARGET VTK::ParallelMPI)
   set(POINTHAPTICS_HAS_MPI ON)
-  list(APPEND POINTHAPTICS_VTK_COMPONENTS ParallelCore ParallelMPI) # for users of the package
   message(STATUS "MPI: on, ${MPI_C_LIBRARY_VERSION_STRING}")
 else ()
   message(STATUS "MPI: off, an MPI and VTK's ParallelMPI were not found (packages libopenmpi-dev and libvtk9-dev)")

@@ -56,7 +56,7 @@ else ()
     pointhaptics_package(mpi pointhaptics-mpi SECTION science
       SUMMARY "See and feel raw point clouds: on many processes"
       TEXT "The program pointhaptics-mpi: resampling and kernel bandwidths under mpirun."
-      DEPENDS "libpointhaptics0 ${_same}" RECOMMENDS "openmpi-bin | mpi-default-bin")
+      DEPENDS "libpointhaptics0 ${_same}" "libpointhaptics-mpi0 ${_same}" RECOMMENDS "openmpi-bin | mpi-default-bin")
   endif ()
   pointhaptics_package(runtime libpointhaptics0 SECTION libs
     SUMMARY "See and feel raw point clouds: libraries"
@@ -65,6 +65,17 @@ else ()
     SUMMARY "See and feel raw point clouds: headers, CMake package and examples"
     TEXT "find_package(PointHaptics) for programs; the plain components do without VTK."
     DEPENDS "libpointhaptics0 ${_same}" libvtk9-dev RECOMMENDS cmake)
+  # Apart, as the other libraries need no MPI.
+  if (POINTHAPTICS_HAS_MPI)
+    pointhaptics_package(parallel libpointhaptics-mpi0 SECTION libs
+      SUMMARY "See and feel raw point clouds: library for many processes"
+      TEXT "The VTK filters for clouds whose points lie on several processes, on VTK's MPI."
+      DEPENDS "libpointhaptics0 ${_same}")
+    pointhaptics_package(parallel-development libpointhaptics-mpi-dev SECTION libdevel
+      SUMMARY "See and feel raw point clouds: headers for many processes"
+      TEXT "The component Parallel of find_package(PointHaptics)."
+      DEPENDS "libpointhaptics-mpi0 ${_same}" "libpointhaptics-dev ${_same}")
+  endif ()
   # Apart, as PCL brings many libraries.
   if (POINTHAPTICS_HAS_PCL)
     pointhaptics_package(pcl libpointhaptics-pcl0 SECTION libs
@@ -86,4 +97,5 @@ endif ()
 # So that the loader finds new libraries, and packages of others depend on them.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PCL_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PARALLEL_PACKAGE_GENERATE_SHLIBS ON)
 include(CPack)

@@ -33,8 +33,13 @@ cpack --config "$BUILD/CPackConfig.cmake" -B "$FOLDER/packages" >"$FOLDER/cpack.
   exit 1
 }
 for package in "$FOLDER"/packages/*.deb; do
-  printf '%s\n' "${package##*/}"
-  dpkg-deb --field "$package" Depends
+  depends="$(dpkg-deb --field "$package" Depends)"
+  printf '%s\n%s\n' "${package##*/}" "$depends"
+  # Whoever has one machine installs no MPI for it: what needs that are packages apart.
+  if [[ "$depends" == *mpi* && "${package##*/}" != *-mpi* ]]; then
+    printf 'FAULT: %s depends on MPI\n' "${package##*/}"
+    exit 1
+  fi
 done
 # Files of the machine's own packages are not listed in the root: dpkg warns of each.
 run_dpkg() {

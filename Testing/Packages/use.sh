@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Testing/Packages/use.sh ROOT program | mpi MPIRUN | development COMPILER GENERATOR MAKE | python INTERPRETER
+# Testing/Packages/use.sh ROOT program | mpi MPIRUN | development COMPILER GENERATOR MAKE | parallel (the same) | python INTERPRETER
 # Uses what install.sh installed below ROOT, and nothing of the build. Exit code 0: it works; 1: not; 77: skipped.
 set -euo pipefail
 
@@ -25,8 +25,22 @@ check_libraries() {
   done < <(ldd "$1")
 }
 
+# None of ours but those made for it links MPI itself. (Debian's libvtkIOXML brings it all the same, for VTK's own filters.)
+check_without_mpi() {
+  local file
+  for file in "$ROOT"/usr/bin/pointhaptics "$ROOT"/usr/lib/*/libPointHaptics*.so.*.*.* \
+    "$ROOT"/usr/lib/python3/dist-packages/pointhaptics/*.so; do
+    [[ -e "$file" ]] || continue
+    if readelf -d "$file" | grep -E 'NEEDED.*(libmpi|libopen-|ParallelMPI|PointHapticsParallel)' &&
+      [[ "$file" != *libPointHapticsParallel.so* ]]; then
+      fail "$file links MPI"
+    fi
+  done
+}
+
 use_program() {
   local file
+  check_without_mpi
   check_libraries "$ROOT/usr/bin/pointhaptics"
   "$ROOT/usr/bin/pointhaptics" generate sphere -n 1000 -o packaged.ply
   "$ROOT/usr/bin/pointhaptics" resample packaged.ply -o packaged.vtp --dims 10
@@ -63,6 +77,34 @@ use_development() {
   printf 'x,y,z\n0.1,0.1,0.1\n0.2,0.2,0.2\n9.1,9.1,9.1\n' >packaged-points.csv
   check_libraries packaged-example/Resample
   packaged-example/Resample packaged-points.csv packaged-means.csv
+}
+
+# A program of somebody's own on many processes.
+use_parallel() {
+  local compiler="$1" generator="$2" make="$3"
+  rm -rf -- packaged-parallel
+  mkdir -p packaged-parallel/source
+  cat >packaged-parallel/source/CMakeLists.txt <<'CMAKE'
+cmake_minimum_required(VERSION 3.18)
+project(Parallel LANGUAGES CXX)
+find_package(PointHaptics REQUIRED COMPONENTS Parallel)
+add_executable(Parallel main.cxx)
+target_link_libraries(Parallel PRIVATE PointHaptics::Parallel)
+CMAKE
+  cat >packaged-parallel/source/main.cxx <<'CXX'
+#include <vtkDistributedVoxelMeanResampler.h>
+#include <vtkNew.h>
+int main()
+{
+  vtkNew<vtkDistributedVoxelMeanResampler> resampler;
+  return resampler->GetController() != nullptr; // none: MPI was not started
+}
+CXX
+  cmake -S packaged-parallel/source -B packaged-parallel -G "$generator" "-DCMAKE_MAKE_PROGRAM=$make" \
+    "-DCMAKE_CXX_COMPILER=$compiler" "-DCMAKE_PREFIX_PATH=$ROOT/usr" -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
+  cmake --build packaged-parallel
+  check_libraries packaged-parallel/Parallel
+  packaged-parallel/Parallel
 }
 
 use_python() {
