@@ -2,6 +2,7 @@
 
 #include "Haptics/NodeRadii.h"
 
+#include "Core/Base/Boxes.h"
 #include "Core/Surface/FitRadius.h"
 
 #include <algorithm>
@@ -29,6 +30,8 @@ constexpr double kCellWithoutExtent = 1e-3;
 constexpr double kMostCellsAcross = 1 << 20;
 /// Points per cell up to which cells are as fine as the points.
 constexpr double kPointsPerFineCell = 2.0;
+/// How far beyond what they cover local scenes have all cells and fields, in index cells.
+constexpr double kSharedCells = 8.0;
 constexpr std::size_t kSpacingSamples = 500;
 constexpr std::size_t kSpacingNeighbors = 6;
 constexpr double kSpacingGrowth = 1.3;
@@ -367,6 +370,14 @@ std::shared_ptr<const HapticScene> HapticScene::withFallback(const HapticScene& 
   scene->number_ = nextSceneNumber();
   scene->fallback_ = global.moved(modelToWorkspace_, status);
   return scene->fallback_ ? scene : nullptr;
+}
+
+Bounds HapticScene::sharedWith(const HapticScene& other) const noexcept
+{
+  const bool isShared = fallback_ && other.fallback_ && globalCloudNumber() == other.globalCloudNumber() &&
+    modelToLattice() == other.modelToLattice() && cellSize() == other.cellSize() &&
+    pyramid().corner() == other.pyramid().corner();
+  return isShared ? grown(intersection(covered(), other.covered()), kSharedCells * cellSize()) : Bounds();
 }
 
 double HapticScene::proxyRadius(const Vec3& position) const noexcept

@@ -95,6 +95,14 @@ public:
   }
   /// Of a local scene, where it is felt; lattice frame.
   const Bounds& covered() const { return cloud_->covered; }
+  /// Where this scene has the same cells and fields as @p other, of the same lattice frame: what was gathered
+  /// there serves both. Empty: nowhere. Local scenes overlap.
+  Bounds sharedWith(const HapticScene& other) const noexcept;
+  /// @p memory served a scene that is the same in @p shared, and serves this one next.
+  void carryOver(FitCells& memory, const Bounds& shared) const noexcept
+  {
+    memory.carryOver(pyramid(), cloud_->scale, shared);
+  }
   /// The same local scene with another fallback, which is moved to where this one is; null where it cannot be
   /// (see moved()).
   std::shared_ptr<const HapticScene> withFallback(const HapticScene& global, Status& status) const;

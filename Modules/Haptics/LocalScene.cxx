@@ -1,5 +1,6 @@
 #include "Haptics/LocalScene.h"
 
+#include "Core/Base/Boxes.h"
 #include "Core/Surface/SurfaceFit.h"
 
 #include <algorithm>
@@ -100,21 +101,6 @@ bool hasFineShape(const HapticScene& global, const Vec3& seed, double reach)
   const double noise = kShapeOverNoise * *middle;
   return *middle < kThick * cell &&
     (isMixed || off > std::max(kSmooth * cell, noise) || offWide > std::max(kSmoothWide * cell, noise));
-}
-
-Bounds grown(const Bounds& box, double margin)
-{
-  const Vec3 by(margin, margin, margin);
-  Bounds result = box;
-  result.minimum -= by;
-  result.maximum += by;
-  return result;
-}
-
-bool contains(const Bounds& box, const Vec3& p)
-{
-  return !box.empty() && p.x >= box.minimum.x && p.y >= box.minimum.y && p.z >= box.minimum.z &&
-    p.x <= box.maximum.x && p.y <= box.maximum.y && p.z <= box.maximum.z;
 }
 
 /// The voxels of @p lattice about @p box, in whole cells of the levels that a fit may see there; none where

@@ -59,9 +59,14 @@ struct Proxy::Implementation
       vanished = scene ? last : vanished;
       reset();
     }
-    // A new cloud may lie where an old one lay.
-    if (!newScene || newScene->cloudNumber() != lastCloud)
+    const Bounds shared = newScene && scene ? newScene->sharedWith(*scene) : Bounds();
+    if (!shared.empty())
     {
+      memory.carryOver(*newScene, shared);
+    }
+    else if (!newScene || newScene->cloudNumber() != lastCloud)
+    {
+      // A new cloud may lie where an old one lay.
       memory.invalidate();
       surfaceFit.changeCells();
     }

@@ -68,6 +68,8 @@ public:
   /// metres; called with the means of mixed cells.
   void reclassifyMixedCells(const std::function<double(const Vec3&)>& noiseAt);
 
+  /// Where voxels are counted from.
+  const Vec3& corner() const { return origin_; }
   int numberOfLevels() const { return int(levels_.size()); }
   int numberOfCellLevels() const { return numberOfLevels() < kCellLevels ? numberOfLevels() : kCellLevels; }
   const Level& level(int l) const { return levels_[std::size_t(l)]; }

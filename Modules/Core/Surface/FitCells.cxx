@@ -1,5 +1,7 @@
 #include "Core/Surface/FitCells.h"
 
+#include "Core/Base/Boxes.h"
+
 #include <algorithm>
 
 namespace pointhaptics
@@ -36,6 +38,17 @@ void FitCells::invalidate() noexcept
   field_ = nullptr;
   blocks_[0].level = blocks_[1].level = -1;
   nodes_.reach = -1.0;
+}
+
+void FitCells::carryOver(const CellPyramid& pyramid, const RadiusField& field, const Bounds& same) noexcept
+{
+  pyramid_ = &pyramid;
+  field_ = &field;
+  for (simd::FitBlock& block : blocks_)
+  {
+    block.level = containsBall(same, block.center, block.reach) ? block.level : -1;
+  }
+  nodes_.reach = containsBall(same, nodes_.center, nodes_.reach) ? nodes_.reach : -1.0;
 }
 
 bool FitCells::gather(

@@ -23,6 +23,9 @@ public:
 
   /// Drops everything gathered. Call it before a pyramid or field is used whose address another one had.
   void invalidate() noexcept;
+  /// What is used next are @p pyramid and @p field, which are the same as the last ones in @p same: what was
+  /// gathered there stays.
+  void carryOver(const CellPyramid& pyramid, const RadiusField& field, const Bounds& same) noexcept;
 
   /// The cells of @p level (mixed ones as their children) that can lie within @p radius of @p center, and
   /// maybe others. Where there are more than a block holds, those of the next coarser level that fits; @p

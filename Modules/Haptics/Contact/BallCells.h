@@ -11,7 +11,7 @@ namespace pointhaptics
 {
 
 /// Points near a center, each coordinate in an array of its own; all lengths in metres of the lattice frame,
-/// coordinates relative to the center. 12 kB, plain state, one thread. No member function allocates or
+/// coordinates relative to the center. 25 kB, plain state, one thread. No member function allocates or
 /// throws.
 class BallCells
 {
@@ -26,11 +26,19 @@ public:
 
   /// Everything gathered is dropped. Must be called before a pyramid at an address used before.
   void invalidate() noexcept { pyramid_ = nullptr; }
+  /// What is used next is @p pyramid, which is the same as the last one in @p same: what was gathered there
+  /// stays.
+  void carryOver(const CellPyramid& pyramid, const Bounds& same) noexcept;
 
   /// Makes sure that all points within @p radius of @p center are here. Where there are more than kCapacity,
   /// one point of each finest voxel, or means of coarser voxels, of at most @p coarsest metres. False: points
-  /// are left out.
-  bool gather(const CellPyramid& pyramid, const Vec3& center, double radius, double coarsest) noexcept;
+  /// are left out. @param likely a radius that will be asked for soon: gathered at once, if there is room.
+  bool gather(const CellPyramid& pyramid, const Vec3& center, double radius, double coarsest,
+    double likely = 0.0) noexcept;
+
+  /// What is asked next is within @p radius of @p center. The answers are the same, and cost less where more
+  /// was gathered.
+  void focus(const Vec3& center, double radius) noexcept;
 
   /// Whether all points of @p pyramid within @p radius of @p p are here.
   bool holds(const CellPyramid& pyramid, const Vec3& p, double radius) const noexcept
@@ -62,30 +70,57 @@ public:
   {
     const Vec3 local = p - center_;
     int indices[kCapacity];
-    const int count = kernels_->pointsWithin(points(), local, radius * radius, indices, kCapacity);
+    const Part part = partAbout(p, radius);
+    const int count = kernels_->pointsWithin(points(part), local, radius * radius, indices, kCapacity);
     for (int k = 0; k < count; ++k)
     {
-      const int i = indices[k];
+      const int i = part.first + indices[k];
       const Vec3 offset(local.x - x_[i], local.y - y_[i], local.z - z_[i]);
       visit(offset, norm2(offset));
     }
   }
 
 private:
-  simd::BallPoints points() const noexcept
+  /// The points near the focus stand behind all others.
+  static constexpr int kNear = kCapacity + simd::kFitLanes;
+  struct Part
   {
-    return { x_, y_, z_, (size_ + simd::kFitLanes - 1) / simd::kFitLanes * simd::kFitLanes };
-  }
-  bool add(const Vec3& p) noexcept;
-  bool gatherFrom(const CellPyramid& pyramid, int level, bool onePerVoxel) noexcept;
+    int first;
+    int size;
+  };
 
-  alignas(64) double x_[kCapacity + 8];
-  alignas(64) double y_[kCapacity + 8];
-  alignas(64) double z_[kCapacity + 8];
+  bool servesNear(const Vec3& p, double radius) const noexcept
+  {
+    const double left = nearReach_ - radius;
+    return left >= 0.0 && norm2(p - nearCenter_) <= left * left;
+  }
+  /// The fewest points that hold all within @p radius of @p p.
+  Part partAbout(const Vec3& p, double radius) const noexcept
+  {
+    return servesNear(p, radius) ? Part{ kNear, nearSize_ } : Part{ 0, size_ };
+  }
+  simd::BallPoints points(const Part& part) const noexcept
+  {
+    return { x_ + part.first, y_ + part.first, z_ + part.first,
+      (part.size + simd::kFitLanes - 1) / simd::kFitLanes * simd::kFitLanes };
+  }
+  void pad(int end) noexcept;
+  template <typename PointAt>
+  bool add(std::uint32_t count, const PointAt& pointAt) noexcept;
+  bool shrink() noexcept;
+  bool gatherFrom(const CellPyramid& pyramid, int level, double likely, bool onePerVoxel) noexcept;
+
+  alignas(64) double x_[2 * kNear];
+  alignas(64) double y_[2 * kNear];
+  alignas(64) double z_[2 * kNear];
   int size_ = 0;
+  int nearSize_ = 0;
+  Vec3 nearCenter_;
+  double nearReach_ = -1.0;
   Vec3 center_;
   double reach_ = 0.0;
-  bool complete_ = true; ///< All points of the cloud, not some or means of them.
+  std::size_t margin_ = 0; ///< Which of the margins, from large to small, reach_ has.
+  bool complete_ = true;   ///< All points of the cloud, not some or means of them.
   double askedRadius_ = 0.0;
   int passes_ = 0;
   const simd::FitKernels* kernels_;

@@ -29,6 +29,8 @@ constexpr double kSearch = 4.0;
 constexpr int kMostSlides = 24;
 /// What a visit of the pyramid costs, in rounds.
 constexpr int kRoundsOfPass = 3;
+/// How far a tick in contact looks, over the radius: as far as a glide.
+constexpr double kReachOfTick = 2.1;
 /// Glides of one step.
 constexpr int kMostGlides = 3;
 constexpr int kMostPushes = 16;
@@ -128,7 +130,9 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
 void ProxyBall::gather(Work& work, double reach) noexcept
 {
   const int before = work.cells.passes();
-  const bool all = work.cells.gather(work.scene.pyramid(), center_, reach, radius_ / kBallRadiusInCells);
+  const double likely = free_ ? 0.0 : kReachOfTick * radius_;
+  const bool all =
+    work.cells.gather(work.scene.pyramid(), center_, reach, radius_ / kBallRadiusInCells, likely);
   work.rounds -= kRoundsOfPass * (work.cells.passes() - before);
   work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
 }
@@ -257,7 +261,9 @@ void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
   {
     gather(work, 2.0 * radius_);
   }
-  const double search = kSearch * std::max(radius_, work.scene.coveringRadius(center_));
+  Vec3 ignored;
+  const double search =
+    kSearch * std::max(radius_, work.scene.fitScale(center_, work.fields, ignored).proxyRadius);
   Vec3 nearest;
   const bool isFound = nearestPoint(work, center_, search, nearest);
   const auto wantedAt = [&](const Vec3& seed)
@@ -373,6 +379,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     const Vec3 pull = hip - center_;
     const double longest = std::min(norm(pull), radius_);
     gather(work, kTouch * radius_ + longest);
+    work.cells.focus(center_, kTouch * radius_ + longest);
     Vec3 normals[kMostTouched];
     int touched = 0;
     work.cells.visitBall(center_, kTouch * radius_,

@@ -47,23 +47,6 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
   normal_ = normalized(change.applyToNormal(normal_), normal_);
 }
 
-/// Finds the fitted surface at the ball's point nearest to the HIP, from the ball's side.
-bool SurfaceFitProxy::seek(const HapticScene& scene, FitCells& fit, const Vec3& hip) noexcept
-{
-  double distance = 0.0;
-  const std::int64_t cell =
-    scene.pyramid().nearest(0, ball_.nearestPoint(hip), 2.0 * ball_.radius(), distance);
-  SurfaceTracker found;
-  if (cell < 0 ||
-    !found.acquire(scene, fit, scene.pyramid().level(0).cells[std::size_t(cell)].mean, ball_.center()) ||
-    found.follow(scene, fit, hip, kRoundsPerTick) == TrackResult::Lost)
-  {
-    return false;
-  }
-  tracker_ = found;
-  return true;
-}
-
 /// Whether the ball lies above a smooth surface that goes on all around: what it sinks into are gaps between
 /// points, and nothing that a hand could fall off.
 bool SurfaceFitProxy::isPlain() const noexcept
@@ -77,32 +60,22 @@ bool SurfaceFitProxy::isPlain() const noexcept
 bool SurfaceFitProxy::comesOut(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
-  double distance = 0.0;
-  const std::int64_t cell = scene.pyramid().nearest(0, hip, kOutNear * ball_.radius(), distance);
   SurfaceTracker face;
-  if (cell < 0 || !face.settle(scene, memory.fit, scene.pyramid().level(0).cells[std::size_t(cell)].mean) ||
-    face.follow(scene, memory.fit, hip, kRoundsPerTick) == TrackResult::Lost ||
-    face.residual() >= kOutResidual * ball_.radius())
+  if (!face.find(scene, memory.fit, hip, kOutNear * ball_.radius(), hip, hip, kRoundsPerTick) ||
+    face.height(hip) < 0.0 || face.residual() >= kOutResidual * ball_.radius())
   {
     return false;
   }
-  // The normal may point either way: the ball, once it is there, says which side is free.
-  const bool isBelow = face.height(hip) < 0.0;
   const ProxyBall before = ball_;
-  if (ball_.goAround(
-        scene, memory.fit, memory.ball, face.point(), isBelow ? -face.normal() : face.normal(), status) &&
-    (face.height(ball_.center()) < 0.0) == isBelow)
+  if (!ball_.goAround(scene, memory.fit, memory.ball, face.point(), face.normal(), status) ||
+    face.height(ball_.center()) < 0.0)
   {
-    tracker_ = face;
-    if (isBelow)
-    {
-      tracker_.flip();
-    }
-    hasFit_ = !ball_.isFree();
-    return true;
+    ball_ = before;
+    return false;
   }
-  ball_ = before;
-  return false;
+  tracker_ = face;
+  hasFit_ = !ball_.isFree();
+  return true;
 }
 
 /// Follows the fit to the HIP. @return how much of the answer is the fit's, 0 to 1.
@@ -139,7 +112,9 @@ double SurfaceFitProxy::fitWeight(
   if (result < kSeekBelow && ticksWithoutFit_++ % kSeekEvery == 0)
   {
     const SurfaceTracker before = tracker_;
-    const double sought = seek(scene, fit, hip) ? weight() : 0.0;
+    const bool isFound = tracker_.find(
+      scene, fit, ball_.nearestPoint(hip), 2.0 * ball_.radius(), ball_.center(), hip, kRoundsPerTick);
+    const double sought = isFound ? weight() : 0.0;
     if (sought > result)
     {
       result = sought;

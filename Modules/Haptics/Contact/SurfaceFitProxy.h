@@ -33,6 +33,12 @@ public:
       fit.invalidate();
       ball.invalidate();
     }
+    /// What is used next is @p scene, which is the same as the last one in @p shared.
+    void carryOver(const HapticScene& scene, const Bounds& shared) noexcept
+    {
+      scene.carryOver(fit, shared);
+      ball.carryOver(scene.pyramid(), shared);
+    }
   };
 
   /// A contact moves with the model from one transform to another.
@@ -56,7 +62,6 @@ private:
   };
 
   double fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
-  bool seek(const HapticScene& scene, FitCells& fit, const Vec3& hip) noexcept;
   bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool isPlain() const noexcept;
 

@@ -14,6 +14,8 @@ namespace
 /// What is gathered for one point serves the next, up to rounding; it is dropped after so many, so that the
 /// result does not depend on how the points are shared out.
 constexpr std::int64_t kRow = 256;
+/// Fits of a point, at most.
+constexpr int kRounds = 8;
 
 struct Outputs
 {
@@ -42,7 +44,8 @@ void sampleRow(const HapticScene& scene, const PointView& points, std::int64_t b
   {
     const Vec3 place = scene.toLattice(points[i]);
     SurfaceTracker tracker;
-    if (isFinite(place) && tracker.settle(scene, memory, place))
+    if (isFinite(place) && tracker.findSheet(scene, memory, place) &&
+      tracker.follow(scene, memory, place, kRounds) != TrackResult::Lost)
     {
       outputs.set(i, scene.latticeScale() * norm(place - tracker.point()),
         scene.directionToWorkspace(tracker.normal()));

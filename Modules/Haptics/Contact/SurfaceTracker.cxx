@@ -16,7 +16,6 @@ constexpr double kSmallestDamping = 0.15;
 constexpr double kAwaySlack = 1e-3;
 /// A point that moves further than this many fit radii from where it started has lost its sheet.
 constexpr double kLostRadii = 2.0;
-constexpr int kAcquireRounds = 8;
 constexpr int kWidenings = 2;
 constexpr double kWidening = 1.4;
 /// Part of the fit radius in which the fit stands for the surface.
@@ -89,18 +88,6 @@ bool SurfaceTracker::findSheet(const HapticScene& scene, FitCells& memory, const
   return found;
 }
 
-bool SurfaceTracker::settle(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept
-{
-  SurfaceTracker best;
-  if (!best.findSheet(scene, memory, onSurface) ||
-    best.follow(scene, memory, onSurface, kAcquireRounds) == TrackResult::Lost)
-  {
-    return false;
-  }
-  *this = best;
-  return true;
-}
-
 void SurfaceTracker::flip() noexcept
 {
   frame_.turnTo(-frame_.normal);
@@ -108,32 +95,28 @@ void SurfaceTracker::flip() noexcept
   fresh_ = false;
 }
 
-bool SurfaceTracker::acquire(
-  const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& freeSide) noexcept
+bool SurfaceTracker::find(const HapticScene& scene, FitCells& memory, const Vec3& place, double search,
+  const Vec3& side, const Vec3& target, int rounds) noexcept
 {
-  SurfaceTracker best;
-  if (!best.findSheet(scene, memory, onSurface))
+  double distance = 0.0;
+  const std::int64_t cell = scene.pyramid().nearest(0, place, search, distance);
+  SurfaceTracker found;
+  if (cell < 0 || !found.findSheet(scene, memory, scene.pyramid().level(0).cells[std::size_t(cell)].mean))
   {
     return false;
   }
-  // Following may find that the free side is the other one.
-  for (int side = 0; side < 2; ++side)
+  if (found.height(side) < 0.0)
   {
-    if (best.height(freeSide) < 0.0)
-    {
-      best.flip();
-    }
-    if (best.follow(scene, memory, freeSide, kAcquireRounds) == TrackResult::Lost)
-    {
-      return false;
-    }
-    if (best.height(freeSide) >= 0.0)
-    {
-      *this = best;
-      return true;
-    }
+    found.flip();
   }
-  return false;
+  // From the side, lest it begins on another face beside an edge.
+  if (found.follow(scene, memory, side, rounds) == TrackResult::Lost || found.height(side) < 0.0 ||
+    found.follow(scene, memory, target, rounds) == TrackResult::Lost)
+  {
+    return false;
+  }
+  *this = found;
+  return true;
 }
 
 bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept

@@ -21,19 +21,16 @@ enum class TrackResult
 class SurfaceTracker
 {
 public:
-  /// Finds the sheet at the cell mean @p onSurface, its normal towards @p freeSide. False where there is
-  /// none.
-  bool acquire(
-    const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& freeSide) noexcept;
+  /// Finds the sheet at the cell nearest to @p place, at most @p search away, its normal to the side of @p
+  /// side, and follows it to @p target. False, and nothing changes: there is none.
+  bool find(const HapticScene& scene, FitCells& memory, const Vec3& place, double search, const Vec3& side,
+    const Vec3& target, int rounds) noexcept;
 
-  /// The same without a free side: to the surface point nearest to @p onSurface, the normal on either side.
-  bool settle(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
+  /// The sheet through the cells about @p onSurface, near enough to follow it; the normal to either side.
+  bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
 
   /// Moves to the surface point nearest to @p target, at most @p rounds fits.
   TrackResult follow(const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept;
-
-  /// Looks from the other side.
-  void flip() noexcept;
 
   /// Carries point and normal along with the model from one transform to another.
   void carry(const AffineTransform& from, const AffineTransform& to) noexcept;
@@ -53,8 +50,8 @@ public:
   double proxyRadius() const noexcept { return scale_.proxyRadius; }
 
 private:
-  /// The sheet through the cells about @p onSurface, near enough to follow it.
-  bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
+  /// Looks from the other side.
+  void flip() noexcept;
   /// Fits anew at frame_. False: there is no surface to fit.
   bool refit(const HapticScene& scene, FitCells& memory) noexcept;
   void adopt(const Vec3& foot, const Vec3& normal) noexcept;

@@ -159,6 +159,55 @@ TEST(BallCells, GathersEveryPointInReachOfALargeCloudWhereNotTooManyAre)
   EXPECT_GT(exact, 300);
 }
 
+TEST(BallCells, AnswersTheSameBitForBitWhereItWasFocused)
+{
+  trial::Random random(17);
+  for (int cloud = 0; cloud < 60; ++cloud)
+  {
+    const std::vector<Vec3> points = randomPoints(random, 1 + random.below(BallCells::kCapacity), 0.01);
+    const CellPyramid pyramid = pyramidOf(points, 1e-3);
+    BallCells all;
+    ASSERT_TRUE(all.gather(pyramid, points[0], 0.01, kCoarse));
+    BallCells focused = all;
+    for (int i = 0; i < 50; ++i)
+    {
+      const Vec3 p = points[0] + random.uniform(0.0, 2e-3) * random.direction();
+      const double radius = random.uniform(1e-4, 3e-3);
+      const double length = random.uniform(0.0, 1e-3);
+      const Vec3 direction = random.direction();
+      focused.focus(p, radius + length);
+      EXPECT_EQ(all.sweep(p, direction, length, radius), focused.sweep(p, direction, length, radius));
+      const int nearest[2] = { all.nearestWithin(p, radius), focused.nearestWithin(p, radius) };
+      ASSERT_EQ(nearest[0] < 0, nearest[1] < 0);
+      EXPECT_TRUE(nearest[0] < 0 || all.point(nearest[0]) == focused.point(nearest[1]));
+      std::vector<Vec3> visited[2];
+      all.visitBall(p, radius, [&](const Vec3& offset, double) { visited[0].push_back(offset); });
+      focused.visitBall(p, radius, [&](const Vec3& offset, double) { visited[1].push_back(offset); });
+      EXPECT_EQ(visited[0], visited[1]);
+    }
+  }
+}
+
+TEST(BallCells, GathersWhatIsLikelyToBeAskedWhereThereIsRoom)
+{
+  trial::Random random(18);
+  const std::vector<Vec3> few = randomPoints(random, BallCells::kCapacity, 0.01);
+  const CellPyramid sparse = pyramidOf(few, 1e-3);
+  BallCells cells;
+  ASSERT_TRUE(cells.gather(sparse, few[0], 1e-3, kCoarse, 4e-3));
+  ASSERT_TRUE(cells.gather(sparse, few[0], 4e-3, kCoarse));
+  EXPECT_EQ(cells.passes(), 1);
+  std::vector<Vec3> many;
+  for (int i = 0; i < 20000; ++i)
+  {
+    many.push_back(random.inBox({ -0.01, -0.01, 0.0 }, { 0.01, 0.01, 0.0 }));
+  }
+  const CellPyramid dense = pyramidOf(many, 3e-4);
+  BallCells crowded;
+  EXPECT_TRUE(crowded.gather(dense, Vec3(), 1e-3, kCoarse, 4e-3)) << "no more than that has room";
+  EXPECT_LE(worstGap(many, crowded, Vec3(), 1e-3), 1e-16);
+}
+
 TEST(BallCells, TakesOnePointOfEachVoxelWhereThereAreTooMany)
 {
   trial::Random random(13);

@@ -2,7 +2,9 @@
 
 #include "HapticFixtures.h"
 
+#include "Core/Base/Boxes.h"
 #include "Core/Resample/VoxelMean.h"
+#include "Haptics/Contact/BallCells.h"
 
 #include <gtest/gtest.h>
 
@@ -108,6 +110,37 @@ TEST(LocalScene, OverlappingOnesHaveTheSameCellsBitForBit)
     { return std::any_of(second.begin(), second.end(), [&](const Cell& c) { return isSame(c, cell); }); };
     EXPECT_TRUE(std::all_of(first.begin(), first.end(), isAmong)) << level;
   }
+}
+
+TEST(LocalScene, SharesWhatWasGatheredWhereItOverlapsTheLastOne)
+{
+  Cloud cloud(waves(kDense));
+  const Vec3 hand{ 0.0009, -0.0008, 0.0 };
+  const Scene a = cloud.builder.build(handAt({}), cloud.whole);
+  const Scene b = cloud.builder.build(handAt({ 0.0018, -0.0016, 0.0 }), cloud.whole);
+  const Scene far = cloud.builder.build(handAt({ 0.009, 0.0, 0.0 }), cloud.whole);
+  ASSERT_TRUE(a && b && far);
+  const Bounds shared = b->sharedWith(*a);
+  EXPECT_TRUE(contains(shared, hand));
+  EXPECT_FALSE(contains(shared, { -0.0028, 0.0, 0.0 })) << "of the first alone";
+  EXPECT_TRUE(far->sharedWith(*a).empty());
+  EXPECT_TRUE(a->sharedWith(*cloud.whole).empty());
+  Cloud other(waves(kDense));
+  EXPECT_TRUE(other.builder.build(handAt({}), other.whole)->sharedWith(*a).empty()) << "another cloud";
+  BallCells ball;
+  FitCells fit;
+  Vec3 gradient;
+  ASSERT_TRUE(ball.gather(a->pyramid(), hand, 4e-4, 1.0));
+  a->fitScale(hand, fit, gradient);
+  ball.carryOver(b->pyramid(), shared);
+  b->carryOver(fit, shared);
+  ASSERT_TRUE(ball.gather(b->pyramid(), hand, 4e-4, 1.0));
+  EXPECT_EQ(ball.passes(), 1) << "what was gathered serves the next scene";
+  const double radius = b->fitRadius(hand);
+  EXPECT_NEAR(b->fitScale(hand, fit, gradient).radius, radius, 1e-12 * radius);
+  ball.carryOver(a->pyramid(), handAt(hand));
+  ASSERT_TRUE(ball.gather(a->pyramid(), hand, 4e-4, 1.0));
+  EXPECT_EQ(ball.passes(), 2) << "it lay beyond what the two share";
 }
 
 TEST(LocalScene, CoversWhatIsWithinReachOfTheHandAndItsContact)

@@ -1,0 +1,49 @@
+/// @file
+/// What lies in boxes.
+#pragma once
+
+#include "Core/Base/PointView.h"
+
+namespace pointhaptics
+{
+
+/// Whether the ball lies in @p box, its surface included. False for an empty box, and where a number is NaN.
+inline bool containsBall(const Bounds& box, const Vec3& center, double radius) noexcept
+{
+  bool result = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result =
+      result && center[axis] - radius >= box.minimum[axis] && center[axis] + radius <= box.maximum[axis];
+  }
+  return result;
+}
+
+inline bool contains(const Bounds& box, const Vec3& p) noexcept
+{
+  return containsBall(box, p, 0.0);
+}
+
+/// @p box with @p margin more on each side.
+inline Bounds grown(const Bounds& box, double margin) noexcept
+{
+  const Vec3 by(margin, margin, margin);
+  Bounds result = box;
+  result.minimum -= by;
+  result.maximum += by;
+  return result;
+}
+
+/// What lies in both; empty where nothing does.
+inline Bounds intersection(const Bounds& a, const Bounds& b) noexcept
+{
+  Bounds result;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result.minimum[axis] = a.minimum[axis] > b.minimum[axis] ? a.minimum[axis] : b.minimum[axis];
+    result.maximum[axis] = a.maximum[axis] < b.maximum[axis] ? a.maximum[axis] : b.maximum[axis];
+  }
+  return result;
+}
+
+} // namespace pointhaptics
