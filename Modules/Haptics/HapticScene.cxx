@@ -231,7 +231,7 @@ Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell
   aligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
   const Vec3* const corner = aligned ? &*input.corner : nullptr;
   Status status = Status::InvalidParameter;
-  if (!input.region)
+  if (!input.region || (aligned && !input.region->globalScene()))
   {
     status = buildPyramid(std::move(cells), input.cellSize, norm(bounds.extent()), corner, pyramid);
   }
@@ -244,6 +244,8 @@ Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell
   {
     const double size = pyramid.level(0).voxelSize;
     latticeCells = size == input.cellSize;
+    // Nobody knows how far a region without a global scene must go if its cells are coarser than voxels.
+    status = input.region && size != input.region->cellSize() ? Status::InvalidParameter : status;
     leastCovering = ofVoxels ? kRadiusInSpacings * size : 0.0;
   }
   return status;
@@ -254,8 +256,8 @@ Status HapticScene::Cloud::measure(HapticSceneInput input, const Executor& execu
   const std::optional<LocalRegion> region = std::move(input.region);
   const std::vector<NodeUse> uses = region ? region->uses(pyramid) : std::vector<NodeUse>();
   // Where there are few points a fit may grow over the whole cloud.
-  const double whole =
-    region ? region->scale() * norm(region->globalScene()->bounds().extent()) : norm(bounds.extent());
+  const HapticScene* const global = region ? region->globalScene().get() : nullptr;
+  const double whole = global ? region->scale() * norm(global->bounds().extent()) : norm(bounds.extent());
   std::vector<LocalScale> scales;
   const Status status = newScales(input, pyramid, whole, executor, region ? &uses : nullptr, scales);
   if (status != Status::Ok)
@@ -263,9 +265,9 @@ Status HapticScene::Cloud::measure(HapticSceneInput input, const Executor& execu
     return status;
   }
   input = HapticSceneInput(); // its memory is needed for the field
-  if (region)
+  if (region && !region->completeScales(pyramid, uses, scales))
   {
-    region->completeScales(pyramid, uses, scales);
+    return Status::Empty;
   }
   scale.build(pyramid, std::move(scales));
   pyramid.reclassifyMixedCells([this](const Vec3& place) { return scale.noiseAt(pyramid, place); });
@@ -275,7 +277,10 @@ Status HapticScene::Cloud::measure(HapticSceneInput input, const Executor& execu
   if (region)
   {
     covered = region->covered();
-    scale.setTypical(scaled(region->globalScene()->typicalScale(), region->scale()));
+  }
+  if (global)
+  {
+    scale.setTypical(scaled(global->typicalScale(), region->scale()));
   }
   return Status::Ok;
 }

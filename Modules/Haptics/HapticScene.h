@@ -47,7 +47,8 @@ struct HapticSceneInput
     std::shared_ptr<const HapticScene> global; ///< What is felt elsewhere; not null.
   };
   std::optional<Local> local;
-  /// The scene is of these cells of the cloud alone; points that the region does not hold are left out.
+  /// The scene is of these cells of the cloud alone; points that the region does not hold are left out. Where
+  /// it has no global scene the points must be dense enough for cells of cellSize.
   std::optional<LocalRegion> region;
   /// What builds it, as far as this machine has them; the scene is the same, bit for bit.
   InstructionSet instructions = InstructionSet::Automatic;
@@ -83,13 +84,15 @@ public:
   std::shared_ptr<const HapticScene> moved(const AffineTransform& modelToWorkspace, Status& status) const;
 
   /// A local scene has the newest global one, of the whole cloud, as its fallback, moved to the same place:
-  /// that is to be felt where this one does not cover(). Null: this one is global.
+  /// that is to be felt where this one does not cover(). Null: this one is global, or nothing can be felt
+  /// elsewhere before there is a global scene.
   const HapticScene* fallback() const { return fallback_.get(); }
+  bool isLocal() const { return !cloud_->covered.empty(); }
   /// Whether a hand at @p p (lattice frame) feels what it would feel in a global scene.
   bool covers(const Vec3& p) const noexcept
   {
     const Bounds& box = cloud_->covered;
-    return !fallback_ ||
+    return box.empty() ||
       (p.x >= box.minimum.x && p.y >= box.minimum.y && p.z >= box.minimum.z && p.x <= box.maximum.x &&
         p.y <= box.maximum.y && p.z <= box.maximum.z);
   }

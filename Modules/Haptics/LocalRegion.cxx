@@ -21,6 +21,8 @@ constexpr double kSeedCells = 4.0;
 /// Longest radius a node may try, over the one it chooses, and in cells.
 constexpr double kTriedRadii = 2.0;
 constexpr double kMostTriedCells = 20.0;
+/// The same, and beyond, where nobody knows which radii there are: those of clouds with little noise.
+constexpr double kTriedAlone = 14.0;
 
 /// Whether @p p is in @p box or within @p margin of it on every axis.
 bool isAbout(const Bounds& box, double margin, const Vec3& p)
@@ -64,33 +66,48 @@ std::optional<LocalRegion> LocalRegion::about(const Bounds& hand, std::shared_pt
     std::min(kTriedRadii * fit, kMostTriedCells * region.cellSize_) + kSeedCells * region.cellSize_;
   const double margin = (kNodeCells + kVoteReachInCells) * region.cellSize_ + tried;
   region.global_ = std::move(global);
-  region.voxels_ = lattice;
-  const double reach = kReachCells * region.cellSize_;
-  const double block = kBlockCells * region.cellSize_;
+  return region.cut(hand, lattice, margin) ? std::optional<LocalRegion>(region) : std::nullopt;
+}
+
+std::optional<LocalRegion> LocalRegion::alone(const Bounds& hand, const Lattice& lattice)
+{
+  LocalRegion region;
+  region.cellSize_ = std::max({ lattice.spacing.x, lattice.spacing.y, lattice.spacing.z });
+  region.corner_ = lattice.origin;
+  const double margin = (kNodeCells + kTriedAlone) * region.cellSize_;
+  const bool isThere = !hand.empty() && isFinite(hand.extent()) && region.cut(hand, lattice, margin);
+  return isThere ? std::optional<LocalRegion>(region) : std::nullopt;
+}
+
+/// Finds what is covered, and the blocks and voxels within @p margin of it. False: there are none.
+bool LocalRegion::cut(const Bounds& hand, const Lattice& lattice, double margin)
+{
+  voxels_ = lattice;
+  const double reach = kReachCells * cellSize_;
+  const double block = kBlockCells * cellSize_;
   for (int axis = 0; axis < 3; ++axis)
   {
-    region.covered_.minimum[axis] = hand.minimum[axis] - reach;
-    region.covered_.maximum[axis] = hand.maximum[axis] + reach;
+    covered_.minimum[axis] = hand.minimum[axis] - reach;
+    covered_.maximum[axis] = hand.maximum[axis] + reach;
     const double dimension = double(lattice.dimensions[std::size_t(axis)]);
     const double blocks = std::ceil(dimension * lattice.spacing[axis] / block);
-    const double low = std::floor((region.covered_.minimum[axis] - margin - region.corner_[axis]) / block);
-    const double high = std::ceil((region.covered_.maximum[axis] + margin - region.corner_[axis]) / block);
+    const double low = std::floor((covered_.minimum[axis] - margin - corner_[axis]) / block);
+    const double high = std::ceil((covered_.maximum[axis] + margin - corner_[axis]) / block);
     if (!(low < blocks) || !(high > 0.0))
     {
-      return {};
+      return false;
     }
-    region.first_[std::size_t(axis)] = std::int64_t(kBlockCells * std::max(0.0, low));
-    region.end_[std::size_t(axis)] = std::int64_t(kBlockCells * std::min(blocks, high));
+    first_[std::size_t(axis)] = std::int64_t(kBlockCells * std::max(0.0, low));
+    end_[std::size_t(axis)] = std::int64_t(kBlockCells * std::min(blocks, high));
     // A voxel more on either side: blocks need not end where voxels do.
-    const double perVoxel = region.cellSize_ / lattice.spacing[axis];
-    const double first = std::max(0.0, std::floor(double(region.first_[std::size_t(axis)]) * perVoxel) - 1.0);
-    const double end =
-      std::min(dimension, std::ceil(double(region.end_[std::size_t(axis)]) * perVoxel) + 1.0);
-    region.voxels_.origin[axis] = lattice.origin[axis] + first * lattice.spacing[axis];
-    region.voxels_.dimensions[std::size_t(axis)] = std::int64_t(end - first);
-    region.voxels_.end[axis] = lattice.end[axis] - first;
+    const double perVoxel = cellSize_ / lattice.spacing[axis];
+    const double first = std::max(0.0, std::floor(double(first_[std::size_t(axis)]) * perVoxel) - 1.0);
+    const double end = std::min(dimension, std::ceil(double(end_[std::size_t(axis)]) * perVoxel) + 1.0);
+    voxels_.origin[axis] = lattice.origin[axis] + first * lattice.spacing[axis];
+    voxels_.dimensions[std::size_t(axis)] = std::int64_t(end - first);
+    voxels_.end[axis] = lattice.end[axis] - first;
   }
-  return region;
+  return true;
 }
 
 double LocalRegion::fraction() const
@@ -108,25 +125,50 @@ std::vector<NodeUse> LocalRegion::uses(const CellPyramid& pyramid) const
   for (const Cell& node : pyramid.level(RadiusField::nodeLevel(pyramid)).cells)
   {
     const bool isAll = isAbout(covered_, kNodeCells * cellSize_, node.mean);
-    const bool votes = isAbout(covered_, (kNodeCells + kVoteReachInCells) * cellSize_, node.mean);
+    const bool votes = global_ && isAbout(covered_, (kNodeCells + kVoteReachInCells) * cellSize_, node.mean);
     uses.push_back(isAll ? NodeUse::All : votes ? NodeUse::Vote : NodeUse::None);
   }
   return uses;
 }
 
-void LocalRegion::completeScales(
+bool LocalRegion::completeScales(
   const CellPyramid& pyramid, const std::vector<NodeUse>& uses, std::vector<LocalScale>& scales) const
 {
   const std::vector<Cell>& nodes = pyramid.level(RadiusField::nodeLevel(pyramid)).cells;
+  LocalScale typical;
+  if (!global_)
+  {
+    std::vector<LocalScale> known;
+    for (std::size_t i = 0; i < scales.size(); ++i)
+    {
+      if (uses[i] == NodeUse::All)
+      {
+        known.push_back(scales[i]);
+      }
+    }
+    if (known.empty())
+    {
+      return false;
+    }
+    const auto middle = known.begin() + std::ptrdiff_t(known.size() / 2);
+    std::nth_element(known.begin(), middle, known.end(),
+      [](const LocalScale& a, const LocalScale& b) { return a.radius < b.radius; });
+    typical = *middle;
+  }
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
-    if (uses[i] != NodeUse::All)
+    if (uses[i] != NodeUse::All && global_)
     {
       const Vec3 place = toGlobal_.apply(nodes[i].mean);
       scales[i] = scaled(global_->fitScale(place), scale_);
       scales[i].noise = scale_ * global_->noise(place);
     }
+    else if (uses[i] != NodeUse::All)
+    {
+      scales[i] = typical;
+    }
   }
+  return true;
 }
 
 bool LocalRegion::holds(const Vec3& mean) const noexcept

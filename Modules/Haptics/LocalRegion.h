@@ -19,7 +19,8 @@ namespace pointhaptics
 
 class HapticScene;
 
-/// A box about the hand, and what a scene of the cells about it takes from the newest one of the whole cloud.
+/// A box about the hand, and what a scene of the cells about it takes from the newest one of the whole cloud,
+/// or without any. With one:
 /// Within covered() forces are those of a scene of the whole cloud (LocalSceneProviderTest: to 1e-13 of the
 /// strongest): the cells are the same bit for bit, and there are enough of them for the same radii of fit and
 /// proxy at all nodes of the fields that matter there. They may differ by some parts in a thousand where
@@ -42,6 +43,12 @@ public:
   static std::optional<LocalRegion> about(const Bounds& hand, std::shared_ptr<const HapticScene> global,
     const AffineTransform& modelToLattice, const Lattice& lattice);
 
+  /// Where there is no scene of the whole cloud yet. Nodes beside what is covered() have fewer votes, so
+  /// radii near its end may differ from those of the whole cloud. @return nothing: the hand is far from the
+  /// workspace.
+  static std::optional<LocalRegion> alone(const Bounds& hand, const Lattice& lattice);
+
+  /// Null: there is none yet.
   const std::shared_ptr<const HapticScene>& globalScene() const { return global_; }
   const Bounds& covered() const { return covered_; }
   double cellSize() const { return cellSize_; }
@@ -52,16 +59,19 @@ public:
   bool holds(const Vec3& mean) const noexcept;
   /// Voxels of @p lattice that have all means that the region holds.
   const Lattice& voxels() const { return voxels_; }
-  /// About which fraction of the global scene's cells is in it, 0 to 1.
+  /// About which fraction of the global scene's cells is in it, 0 to 1. @pre there is a global scene.
   double fraction() const;
   /// What is to be found out of each cell of the field's node level: the others are too near to the end of
   /// the cells, and too far from what is covered to matter.
   std::vector<NodeUse> uses(const CellPyramid& pyramid) const;
-  /// Gives the nodes of which not all is found out the answers of the global scene.
-  void completeScales(
+  /// Gives the nodes of which not all is found out the answers of the global scene, or else a typical one of
+  /// the others. False: there is neither.
+  bool completeScales(
     const CellPyramid& pyramid, const std::vector<NodeUse>& uses, std::vector<LocalScale>& scales) const;
 
 private:
+  bool cut(const Bounds& hand, const Lattice& lattice, double margin);
+
   std::shared_ptr<const HapticScene> global_;
   AffineTransform toGlobal_; ///< Into the global one's lattice frame.
   AffineTransform fromGlobal_;

@@ -98,10 +98,10 @@ struct Proxy::Implementation
       local.covers(change.apply(scene->toLattice(last.sphereCenter)));
   }
 
-  /// Takes the fallback where a local scene is left.
+  /// Takes the fallback where a local scene is left: nothing where it has none yet.
   void enterFallback(const Vec3& place) noexcept
   {
-    if (scene && scene->fallback() && !scene->covers(scene->toLattice(place)))
+    if (scene && !scene->covers(scene->toLattice(place)))
     {
       take(scene->fallback());
     }
@@ -274,7 +274,7 @@ const HapticParameters& Proxy::parameters() const noexcept
 void Proxy::setScene(const HapticScene* scene) noexcept
 {
   Implementation& self = *implementation_;
-  const bool reaches = !scene || !scene->fallback() || self.isCoveredBy(*scene);
+  const bool reaches = !scene || !scene->isLocal() || self.isCoveredBy(*scene);
   self.take(reaches ? scene : scene->fallback());
 }
 

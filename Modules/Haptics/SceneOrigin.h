@@ -31,7 +31,7 @@ struct SceneOrigin
   bool useCovariance = true;
   AffineTransform modelToWorkspace; ///< The points went through it.
   Bounds hand;                      ///< Of Region and Fine: what the scene was made about.
-  /// Of Region and Fine: the scene of the whole cloud that they were made beside.
+  /// Of Region and Fine: the scene of the whole cloud that they were made beside; a Region may have none.
   std::uint64_t globalCloud = 0; ///< HapticScene::cloudNumber() of it.
   std::shared_ptr<const SceneOrigin> global;
 };

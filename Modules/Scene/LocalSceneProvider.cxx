@@ -2,10 +2,14 @@
 
 #include "PolyDataAccess.h"
 
+#include "Core/Base/PointBlocks.h"
+
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -16,6 +20,7 @@ namespace
 
 /// Fraction of the cells in the local scene from which on it does not pay.
 constexpr double kLargestFraction = 0.7;
+constexpr std::int64_t kBlocksAPiece = 32;
 
 AffineTransform affineFromRows(const std::array<double, 16>& rows)
 {
@@ -28,6 +33,74 @@ AffineTransform affineFromRows(const std::array<double, 16>& rows)
     }
   }
   return transform;
+}
+
+/// How many of the points from @p begin to before @p end lie in @p box; their numbers to @p inside, which has
+/// room for all of them. Without branches: they would be guessed wrong.
+template <typename Real>
+std::size_t findWithin(const Real* first, std::int64_t stride, const Bounds& box, std::int64_t begin,
+  std::int64_t end, std::int64_t* inside)
+{
+  std::size_t count = 0;
+  for (std::int64_t i = begin; i < end; ++i)
+  {
+    const Real* p = first + stride * i;
+    inside[count] = i;
+    count += std::size_t((p[0] >= box.minimum.x) & (p[0] <= box.maximum.x) & (p[1] >= box.minimum.y) &
+      (p[1] <= box.maximum.y) & (p[2] >= box.minimum.z) & (p[2] <= box.maximum.z));
+  }
+  return count;
+}
+
+/// Those of @p points in @p box, x y z together. Found twice: memory that grows costs more than a second
+/// look.
+template <typename Real>
+std::vector<Real> pointsWithin(
+  const Real* first, const PointView& points, const Bounds& box, const Executor& executor)
+{
+  const std::int64_t blocks = (points.size() + kPointBlock - 1) / kPointBlock;
+  std::vector<std::size_t> begins(std::size_t(blocks) + 1, 0);
+  const auto forBlocks = [&](auto&& use)
+  {
+    forRange(executor, blocks, kBlocksAPiece,
+      [&](std::int64_t block, std::int64_t end)
+      {
+        std::array<std::int64_t, kPointBlock> inside;
+        for (; block < end; ++block)
+        {
+          const std::int64_t from = block * kPointBlock;
+          const std::int64_t to = std::min(points.size(), from + kPointBlock);
+          use(block, inside.data(), findWithin(first, points.stride(), box, from, to, inside.data()));
+        }
+      });
+  };
+  forBlocks([&](std::int64_t block, const std::int64_t*, std::size_t count)
+    { begins[std::size_t(block) + 1] = count; });
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<Real> found(3 * begins.back());
+  forBlocks(
+    [&](std::int64_t block, const std::int64_t* inside, std::size_t count)
+    {
+      Real* to = found.data() + 3 * begins[std::size_t(block)];
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        std::copy_n(first + points.stride() * inside[i], 3, to + 3 * i);
+      }
+    });
+  return found;
+}
+
+/// The smallest box of the model's frame that @p transform takes to a body about @p box.
+Bounds boxOfModel(const AffineTransform& transform, const Bounds& box)
+{
+  const AffineTransform back = transform.inverse();
+  Bounds model;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    model.include(back.apply({ corner & 1 ? box.maximum.x : box.minimum.x,
+      corner & 2 ? box.maximum.y : box.minimum.y, corner & 4 ? box.maximum.z : box.minimum.z }));
+  }
+  return model;
 }
 
 template <typename Real>
@@ -61,20 +134,14 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::build(
   const SceneRequest& request, std::shared_ptr<const HapticScene> global)
 {
   const Bounds hand = request.hand ? request.hand() : Bounds();
-  if (hand.empty() || !global || !this->prepare(request))
+  if (hand.empty() || !this->prepare(request))
   {
     return nullptr;
   }
-  std::optional<LocalRegion> region =
-    LocalRegion::about(hand, std::move(global), voxels_.transform, voxels_.lattice);
-  if (!region || region->fraction() > kLargestFraction || !this->index())
-  {
-    return nullptr;
-  }
-  voxels_.points = index_->points();
-  voxels_.index = index_.get();
-  voxels_.part = region->voxels();
-  if (engine_.run(voxels_, smp_) != Status::Ok || engine_.size() == 0)
+  std::optional<LocalRegion> region = global
+    ? LocalRegion::about(hand, std::move(global), voxels_.transform, voxels_.lattice)
+    : LocalRegion::alone(hand, voxels_.lattice);
+  if (!region || !this->resample(*region))
   {
     return nullptr;
   }
@@ -86,12 +153,52 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::build(
   origin->useCovariance = request.useCovariance;
   origin->modelToWorkspace = voxels_.transform;
   origin->hand = hand;
-  origin->globalCloud = region->globalScene()->cloudNumber();
-  origin->global = region->globalScene()->origin();
+  if (region->globalScene())
+  {
+    origin->globalCloud = region->globalScene()->cloudNumber();
+    origin->global = region->globalScene()->origin();
+  }
   input.origin = std::move(origin);
   input.region = std::move(region);
   Status status = Status::Ok;
   return HapticScene::create(std::move(input), status, smp_);
+}
+
+/// The voxels of @p region. False: there are none, or most of the cloud is in it.
+bool LocalSceneProvider::resample(const LocalRegion& region)
+{
+  std::vector<float> floats;
+  std::vector<double> doubles;
+  if (!region.globalScene())
+  {
+    // A look at each point costs less than an index of them, which nobody needs yet.
+    const PointAccess access(cloud_->GetPoints());
+    const PointView& all = access.view();
+    const Bounds box = boxOfModel(voxels_.transform, region.voxels().bounds());
+    if (all.floats())
+    {
+      floats = pointsWithin(all.floats(), all, box, smp_);
+      voxels_.points = PointView(floats.data(), std::int64_t(floats.size() / 3));
+    }
+    else
+    {
+      doubles = pointsWithin(all.doubles(), all, box, smp_);
+      voxels_.points = PointView(doubles.data(), std::int64_t(doubles.size() / 3));
+    }
+  }
+  else if (region.fraction() <= kLargestFraction && this->index())
+  {
+    voxels_.points = index_->points();
+    voxels_.index = index_.get();
+    voxels_.part = region.voxels();
+  }
+  else
+  {
+    return false;
+  }
+  const bool isMade = engine_.run(voxels_, smp_) == Status::Ok && engine_.size() > 0;
+  voxels_.points = PointView();
+  return isMade;
 }
 
 std::shared_ptr<const HapticScene> LocalSceneProvider::refine(

@@ -32,9 +32,11 @@ public:
   void setCloud(vtkSmartPointer<vtkPointSet> cloud);
 
   /// A scene of what is near the hand of @p request, with @p global, the newest scene of the whole cloud,
-  /// beside it: within what it covers it is felt as the whole cloud resampled by @p request would be. Null
-  /// where that is of no use or cannot be: no hand, no such global scene (LocalRegion::about()), nothing near
-  /// the hand or most of the cloud; or on an error, which the scene of the whole cloud will tell of.
+  /// beside it: within what it covers it is felt as the whole cloud resampled by @p request would be. Without
+  /// one (null) nothing is felt elsewhere; that takes a look at each point and no index of them.
+  /// Null where it is of no use or cannot be: no hand, a global scene that does not fit
+  /// (LocalRegion::about()), nothing near the hand or most of the cloud, no global scene and points sparser
+  /// than voxels; or on an error, which the scene of the whole cloud will tell of.
   std::shared_ptr<const HapticScene> build(
     const SceneRequest& request, std::shared_ptr<const HapticScene> global);
 
@@ -54,6 +56,7 @@ public:
 
 private:
   bool index();
+  bool resample(const LocalRegion& region);
   bool follow(const SceneRequest& request, const std::shared_ptr<const HapticScene>& global);
   bool prepare(const SceneRequest& request);
   HapticSceneInput input(const SceneRequest& request) const;

@@ -36,13 +36,13 @@ void ScenePublisher::publish(
   {
     return;
   }
-  const bool isPart = scene && scene->fallback();
+  const bool isPart = scene && scene->isLocal();
   const bool isFiner =
     isPart && number == number_ && newest_ && scene->globalCloudNumber() == newest_->globalCloudNumber();
   if (number < number_ || (isPart && number == number_ && !isFiner))
   {
     Status status = Status::Ok;
-    const bool joins = !isPart && scene && newest_ && newest_->fallback();
+    const bool joins = !isPart && scene && newest_ && newest_->isLocal();
     scene = joins ? newest_->withFallback(*scene, status) : nullptr;
     if (!scene)
     {

@@ -91,7 +91,7 @@ protected:
     request.publish = [&](std::shared_ptr<const HapticScene> scene, std::uint64_t)
     {
       const std::lock_guard<std::mutex> lock(mutex);
-      (scene && scene->fallback() ? scenes.near : scenes.whole) = std::move(scene);
+      (scene && scene->isLocal() ? scenes.near : scenes.whole) = std::move(scene);
     };
     worker_.request(std::move(request));
     worker_.wait();
@@ -153,7 +153,8 @@ TEST_F(LocalSceneProviderTest, HasTheCellsOfTheWholeCloudWithinReachBitForBit)
   const Vec3 hand{ 0.036, 0.0, 0.0 };
   const Scenes before = this->request({}, hand);
   ASSERT_NE(before.whole, nullptr);
-  EXPECT_EQ(before.near, nullptr) << "there was no whole one yet";
+  ASSERT_NE(before.near, nullptr);
+  EXPECT_EQ(before.near->fallback(), nullptr) << "there was no whole one yet";
   const Scenes scenes = this->request(placed(-3.0, 1.1, -0.003), hand);
   ASSERT_NE(scenes.near, nullptr);
   EXPECT_LT(scenes.near->numberOfPoints(), scenes.whole->numberOfPoints() / 2);
@@ -199,7 +200,7 @@ TEST_F(LocalSceneProviderTest, WithinReachItIsFeltAsTheWholeCloud)
     {
       const Vec3 surface = place.apply(closestPoint(Shape::Torus, place.inverse().apply(hand)).point);
       const Scenes scenes = this->request(place, hand, surface);
-      if (!scenes.near)
+      if (!scenes.near || !scenes.near->fallback())
       {
         EXPECT_EQ(place, AffineTransform());
         continue;
@@ -300,7 +301,7 @@ TEST_F(LocalSceneProviderTest, AHandThatIsTakenFarAwayFeelsWhatIsThere)
 
 TEST_F(LocalSceneProviderTest, IndexesNoPointsBeforeThereIsASceneToMake)
 {
-  const vtkSmartPointer<vtkPolyData> cloud = makeCloud(Shape::Torus, 50000, 0.0);
+  const vtkSmartPointer<vtkPolyData> cloud = makeCloud(Shape::Torus, 150000, 0.0);
   const Vec3 hand{ 0.036, 0.0, 0.0 };
   worker_.setCloud(cloud);
   const std::shared_ptr<const HapticScene> whole = this->request({}, hand).whole;
@@ -315,7 +316,7 @@ TEST_F(LocalSceneProviderTest, IndexesNoPointsBeforeThereIsASceneToMake)
   };
   LocalSceneProvider builder;
   builder.setCloud(cloud);
-  EXPECT_EQ(builder.build(request, nullptr), nullptr);
+  EXPECT_NE(builder.build(request, nullptr), nullptr);
   EXPECT_FALSE(builder.isIndexed()) << "no scene of the whole cloud is there yet";
   EXPECT_NE(builder.build(request, whole), nullptr);
   EXPECT_TRUE(builder.isIndexed());
@@ -336,7 +337,99 @@ TEST_F(LocalSceneProviderTest, IsLeftOutWhereItDoesNotPayOrCannotBe)
   ASSERT_NE(this->request({}, hand).whole, nullptr);
   EXPECT_EQ(this->request(placed(1.0, 1.0, 0.0), hand).near, nullptr) << "most of the cloud is near";
   worker_.setCloud(makeCloud(Shape::Sphere, 50000, 0.0));
-  EXPECT_EQ(this->request({}, hand).near, nullptr) << "the whole one is of another cloud";
+  const Scenes other = this->request({}, hand);
+  EXPECT_TRUE(!other.near || !other.near->fallback()) << "the whole one is of another cloud";
+}
+
+TEST_F(LocalSceneProviderTest, BeforeThereIsAWholeCloudWhatIsNearTheHandIsFeltAlone)
+{
+  const Vec3 hand{ 0.036, 0.0, 0.0 };
+  for (const double noise : { 0.0, 4e-5 })
+  {
+    for (const AffineTransform& place : { AffineTransform(), placed(5.0, 1.1, 0.001) })
+    {
+      worker_.setCloud(makeCloud(Shape::Torus, 150000, noise));
+      const Vec3 surface = place.apply(closestPoint(Shape::Torus, place.inverse().apply(hand)).point);
+      const Scenes scenes = this->request(place, hand, surface);
+      ASSERT_TRUE(scenes.near && scenes.whole);
+      EXPECT_EQ(scenes.near->fallback(), nullptr);
+      EXPECT_LT(scenes.near->numberOfPoints(), scenes.whole->numberOfPoints() / 2);
+      EXPECT_EQ(scenes.near->cellSize(), scenes.whole->cellSize());
+      const Difference difference = compare(scenes, surface, { 1.0, 0.0, 0.0 });
+      EXPECT_GT(difference.touched, 200);
+      EXPECT_EQ(difference.left, 0);
+      EXPECT_GT(difference.strongest, 1.0);
+      EXPECT_LT(difference.largest, (noise > 0.0 ? 5e-3 : 1e-9) * difference.strongest);
+    }
+  }
+}
+
+TEST_F(LocalSceneProviderTest, AWholeCloudTakesOverFromAPartThatWasAloneWithoutAKick)
+{
+  worker_.setCloud(makeCloud(Shape::Torus, 150000, 4e-5));
+  const Vec3 hand{ 0.036, 0.0, 0.0 };
+  const Scenes scenes = this->request({}, hand);
+  ASSERT_TRUE(scenes.near && scenes.whole);
+  Proxy proxy;
+  proxy.setScene(scenes.near.get());
+  ProxyState state;
+  for (int i = 0; i <= 60; ++i)
+  {
+    state = proxy.step(hand - Vec3{ 5e-5 * i, 0.0, 0.0 }, kTick);
+  }
+  ASSERT_TRUE(state.contact);
+  const Vec3 before = state.force;
+  proxy.setScene(scenes.whole.get());
+  state = proxy.step(state.hip, kTick);
+  EXPECT_TRUE(state.contact);
+  EXPECT_LT(norm(state.force - before), 0.01 * norm(before));
+}
+
+TEST_F(LocalSceneProviderTest, AHandThatLeavesAPartThatIsAloneFeelsNothing)
+{
+  worker_.setCloud(makeCloud(Shape::Torus, 150000, 0.0));
+  const Vec3 hand{ 0.036, 0.0, 0.0 };
+  const Scenes scenes = this->request({}, hand);
+  ASSERT_TRUE(scenes.near && scenes.whole);
+  for (const ProxyMethod method : { ProxyMethod::SurfaceFit, ProxyMethod::GradientSteps })
+  {
+    HapticParameters parameters;
+    parameters.method = method;
+    Proxy proxy(parameters);
+    proxy.setScene(scenes.near.get());
+    // Along the surface, 1 mm deep, 50 mm/s.
+    double strongest = 0.0;
+    int outside = 0;
+    ProxyState state = proxy.step(hand, kTick);
+    for (int i = 0; i < 400; ++i)
+    {
+      const double angle = 0.05 / 0.034 * kTick * i;
+      const double radius = std::max(0.034, 0.036 - 5e-5 * i);
+      const Vec3 hip{ radius * std::cos(angle), radius * std::sin(angle), 0.0 };
+      state = proxy.step(hip, kTick);
+      strongest = std::max(strongest, norm(state.force));
+      outside += !scenes.near->covers(hip);
+      ASSERT_TRUE(outside < 12 || state.force == Vec3()) << "it fades in 10 ms; tick " << i;
+    }
+    EXPECT_GT(strongest, 0.4);
+    EXPECT_GT(outside, 100);
+    EXPECT_FALSE(state.contact);
+    proxy.setScene(scenes.whole.get());
+    for (int i = 0; i < 10; ++i)
+    {
+      state = proxy.step(state.hip, kTick);
+      ASSERT_TRUE(std::isfinite(norm(state.force)));
+    }
+  }
+}
+
+TEST_F(LocalSceneProviderTest, NoPartIsAloneFarFromThePointsOrWhereTheyAreSparse)
+{
+  worker_.setCloud(makeCloud(Shape::Torus, 150000, 0.0));
+  EXPECT_EQ(this->request({}, { 0.0, 0.0, 0.3 }).near, nullptr);
+  EXPECT_EQ(this->request({}, { 0.049, 0.049, 0.049 }).near, nullptr);
+  worker_.setCloud(makeCloud(Shape::Torus, 15000, 0.0));
+  EXPECT_EQ(this->request({}, { 0.036, 0.0, 0.0 }).near, nullptr);
 }
 
 } // namespace

@@ -241,6 +241,33 @@ TEST_F(RecordingTest, ScenesOfPartsAreMadeAgain)
   EXPECT_NE(this->text().find("kind=region"), std::string::npos);
 }
 
+TEST_F(RecordingTest, AScenePartThatWasAloneIsMadeAgain)
+{
+  LocalSceneProvider provider;
+  provider.setCloud(cloud_);
+  SceneRequest request;
+  request.voxels = voxels();
+  request.voxels.outputPointsPrecision = PointsPrecision::Double;
+  request.bandwidth.emplace();
+  Bounds hand;
+  hand.include(handAt(0));
+  request.hand = [&hand] { return hand; };
+  const std::shared_ptr<const HapticScene> whole = whole_;
+  whole_ = provider.build(request, nullptr);
+  ASSERT_TRUE(whole_ && whole_->isLocal() && !whole_->fallback());
+  this->start();
+  this->recordFor(250);
+  Status status = Status::Ok;
+  loop_.publishScene(whole_->withFallback(*whole, status));
+  this->recordFor(150);
+  loop_.publishScene(whole);
+  this->recordFor(200);
+  this->stop();
+  this->replay(100);
+  EXPECT_NE(this->text().find("kind=region"), std::string::npos);
+  EXPECT_NE(this->text().find("beside=0 "), std::string::npos);
+}
+
 TEST_F(RecordingTest, AFaultyDeviceIsReplayedToo)
 {
   // Silences of the device, in and out of contact, short and longer than what makes a hand new.

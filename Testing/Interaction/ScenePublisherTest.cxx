@@ -135,7 +135,8 @@ std::shared_ptr<const HapticScene> partAt(
   Bounds hand;
   hand.include({ 0.0, 0.0, 0.0 });
   HapticSceneInput input = squareAt(modelToWorkspace);
-  input.region = LocalRegion::about(hand, whole, modelToWorkspace, lattice);
+  input.region =
+    whole ? LocalRegion::about(hand, whole, modelToWorkspace, lattice) : LocalRegion::alone(hand, lattice);
   EXPECT_TRUE(input.region);
   Status status = Status::Ok;
   auto scene = HapticScene::create(std::move(input), status);
@@ -155,6 +156,28 @@ TEST_F(ScenePublisherTest, APartIsFeltUntilTheWholeOfTheSameRequestIsThere)
   publisher_.publish(whole, cloud, 2);
   EXPECT_EQ(felt_.back(), whole);
   publisher_.publish(part, cloud, 2);
+  EXPECT_EQ(felt_.back(), whole);
+}
+
+TEST_F(ScenePublisherTest, APartIsFeltBeforeThereIsAWhole)
+{
+  const std::uint64_t cloud = publisher_.cloud();
+  const auto part = partAt(shiftBy(0.0), nullptr);
+  ASSERT_NE(part, nullptr);
+  publisher_.publish(part, cloud, 1);
+  EXPECT_EQ(felt_.back(), part);
+  const auto later = partAt(shiftBy(0.001), nullptr);
+  publisher_.publish(later, cloud, 2);
+  EXPECT_EQ(felt_.back(), later);
+  const auto first = sceneAt(shiftBy(0.0));
+  publisher_.publish(first, cloud, 1);
+  EXPECT_EQ(felt_.back()->cloudNumber(), later->cloudNumber());
+  ASSERT_NE(felt_.back()->fallback(), nullptr) << "an earlier whole is felt beyond it";
+  EXPECT_EQ(felt_.back()->fallback()->cloudNumber(), first->cloudNumber());
+  const auto whole = sceneAt(shiftBy(0.001));
+  publisher_.publish(whole, cloud, 2);
+  EXPECT_EQ(felt_.back(), whole);
+  publisher_.publish(later, cloud, 2);
   EXPECT_EQ(felt_.back(), whole);
 }
 

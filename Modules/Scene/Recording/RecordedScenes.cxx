@@ -113,6 +113,10 @@ std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number)
   {
     made = maker_->makeWhole(*origin->second);
   }
+  else if (origin->second->globalCloud == 0)
+  {
+    made = maker_->local.make(*origin->second, nullptr);
+  }
   else if (const std::shared_ptr<const HapticScene> global = this->cloudOf(origin->second->globalCloud))
   {
     made = maker_->local.make(*origin->second, global);
@@ -142,7 +146,7 @@ bool RecordedScenes::make(
   }
   Status status = Status::Ok;
   scene = this->cloudOf(event.number);
-  if (scene && scene->fallback() && recording_.clouds.at(event.number)->globalCloud != event.fallback)
+  if (scene && event.fallback != 0 && recording_.clouds.at(event.number)->globalCloud != event.fallback)
   {
     const std::shared_ptr<const HapticScene> global = this->cloudOf(event.fallback);
     scene = global ? scene->withFallback(*global, status) : nullptr;

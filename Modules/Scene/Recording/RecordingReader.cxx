@@ -35,6 +35,14 @@ bool startsWith(const std::string& text, const std::string& with)
   return text.rfind(with, 0) == 0;
 }
 
+/// Whether a scene of @p origin may have such a fallback: a part has one, unless it was made before there was
+/// a whole.
+bool mayEnd(const SceneOrigin& origin, std::uint64_t fallback)
+{
+  const bool isWhole = origin.kind == SceneOrigin::Kind::Whole;
+  return isWhole ? fallback == 0 : fallback != 0 || origin.globalCloud == 0;
+}
+
 class Reader
 {
 public:
@@ -202,10 +210,11 @@ bool Reader::takeMade(std::uint64_t number, const std::string& text)
   if (isRead && origin->kind != SceneOrigin::Kind::Whole)
   {
     isRead = keyed::parse(words["beside"], origin->globalCloud) &&
-      keyed::fromText(words["hand"], origin->hand) && !origin->hand.empty() &&
-      made_.count(origin->globalCloud) == 1;
-    origin->global = isRead ? made_[origin->globalCloud] : nullptr;
-    isRead = isRead && origin->global->kind == SceneOrigin::Kind::Whole;
+      keyed::fromText(words["hand"], origin->hand) && !origin->hand.empty();
+    const bool isAlone = origin->globalCloud == 0 && origin->kind == SceneOrigin::Kind::Region;
+    isRead = isRead && (isAlone || made_.count(origin->globalCloud) == 1);
+    origin->global = isRead && !isAlone ? made_[origin->globalCloud] : nullptr;
+    isRead = isRead && (isAlone || origin->global->kind == SceneOrigin::Kind::Whole);
   }
   if (isRead && words.lower_bound("bandwidth.") != words.lower_bound("bandwidth/"))
   {
@@ -239,7 +248,7 @@ bool Reader::takeEvent(std::uint64_t tick, const std::string& text)
     isRead = isRead && keyed::split(rest, words) && keyed::parse(words["of"], event.number) &&
       keyed::parse(words["beyond"], event.fallback) && keyed::fromText(words["model"], event.model) &&
       recording_.clouds.count(event.number) == 1 &&
-      (event.fallback == 0) == (recording_.clouds[event.number]->kind == SceneOrigin::Kind::Whole) &&
+      mayEnd(*recording_.clouds[event.number], event.fallback) &&
       (event.fallback == 0 ||
         (recording_.clouds.count(event.fallback) == 1 &&
           recording_.clouds[event.fallback]->kind == SceneOrigin::Kind::Whole));

@@ -125,7 +125,7 @@ void RecordingWriter::addCloud(std::uint64_t number, const std::shared_ptr<const
     return;
   }
   clouds_[number] = true;
-  if (origin->kind != SceneOrigin::Kind::Whole)
+  if (origin->globalCloud != 0)
   {
     this->addCloud(origin->globalCloud, origin->global);
   }
