@@ -453,6 +453,8 @@ bool vtkHapticProps::Update(const ProxyState& state)
   const Vec3 tip = center + length * normalized(state.force);
   if (pushes && this->GaugeVisibility)
   {
+    const Vec3 normalEnd = state.proxy + kNormalLength * parts.edge * normalized(state.normal);
+    parts.gauge->KeepOffLine(&state.proxy.x, &normalEnd.x);
     parts.gauge->SetLeft(parts.pointsLeft(center, tip));
     parts.gauge->Show(&tip.x, force);
   }

@@ -3,6 +3,7 @@
 #include "vtkCamera.h"
 #include "vtkCellData.h"
 #include "vtkProperty2D.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTextProperty.h"
 #include "vtkWindow.h"
@@ -21,12 +22,65 @@ constexpr double kLetterHeight = 1.25;
 constexpr double kPointsPerInch = 72.0;
 /// So near to the plane of the camera a line ends: far outside the window.
 constexpr int kHalvings = 12;
+
+/// Of the eye whose picture is drawn; the camera's composite matrix leaves eyes out.
+void eyeProjection(vtkRenderer* renderer, double nearest, double farthest, vtkMatrix4x4* matrix)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkMatrix4x4::Multiply4x4(
+    camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), nearest, farthest),
+    camera->GetViewTransformMatrix(), matrix);
+}
+
+bool isSideBySide(vtkRenderer* renderer)
+{
+  vtkRenderWindow* window = renderer->GetRenderWindow();
+  return window && window->GetStereoRender() &&
+    window->GetStereoType() == VTK_STEREO_SPLITVIEWPORT_HORIZONTAL;
+}
+
+} // namespace
+
+double pixelsPerPoint(vtkRenderer* renderer)
+{
+  return renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
+}
+
+std::array<double, 2> placeInPicture(vtkRenderer* renderer, double x, double y)
+{
+  if (!isSideBySide(renderer))
+  {
+    return { x, y };
+  }
+  const double half = 0.5 * renderer->GetRenderWindow()->GetSize()[0];
+  return { 2.0 * (x < half ? x : x - half), y };
+}
+
+void pointerProjection(vtkRenderer* renderer, double x, double nearest, double farthest, vtkMatrix4x4* matrix)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  if (!isSideBySide(renderer))
+  {
+    matrix->DeepCopy(
+      camera->GetCompositeProjectionTransformMatrix(renderer->GetTiledAspectRatio(), nearest, farthest));
+    return;
+  }
+  const int before = camera->GetLeftEye();
+  camera->SetLeftEye(x < 0.5 * renderer->GetRenderWindow()->GetSize()[0]);
+  eyeProjection(renderer, nearest, farthest, matrix);
+  camera->SetLeftEye(before);
+}
+
+ScreenProjection::ScreenProjection(vtkRenderer* renderer, double x)
+{
+  pointerProjection(renderer, x, -1.0, 1.0, matrix_);
+  width_ = renderer->GetSize()[0];
+  height_ = renderer->GetSize()[1];
 }
 
 ScreenProjection::ScreenProjection(vtkRenderer* renderer)
 {
-  matrix_->DeepCopy(renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
-    renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  eyeProjection(renderer, -1.0, 1.0, matrix_);
   width_ = renderer->GetSize()[0];
   height_ = renderer->GetSize()[1];
 }
@@ -137,7 +191,7 @@ void ScreenTexts::clear(vtkRenderer* renderer, int fontSize)
   taken_.clear();
   used_ = 0;
   fontSize_ = fontSize;
-  pixels_ = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
+  pixels_ = pointhaptics::pixelsPerPoint(renderer);
   width_ = renderer->GetSize()[0];
   height_ = renderer->GetSize()[1];
 }

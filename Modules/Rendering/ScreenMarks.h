@@ -34,6 +34,21 @@ inline Vec3 transformed(vtkMatrix4x4* matrix, const Vec3& place)
   return { out[0], out[1], out[2] };
 }
 
+/// Of what a person marks in a picture: what stands out, and the dark rim that is seen on light points.
+constexpr unsigned char kMarkColor[3] = { 255, 196, 40 };
+constexpr unsigned char kMarkRim[3] = { 30, 30, 34 };
+
+/// Of a point in the window of @p renderer, as its dots per inch say.
+POINTHAPTICSRENDERING_EXPORT double pixelsPerPoint(vtkRenderer* renderer);
+
+/// Where in the whole picture of an eye a place of the window is, both pixels from the window's lower left
+/// corner: two pictures may stand side by side.
+POINTHAPTICSRENDERING_EXPORT std::array<double, 2> placeInPicture(vtkRenderer* renderer, double x, double y);
+/// From the picture's coordinates to -1 ... 1 across and up, and @p nearest ... @p farthest along the view,
+/// for what lies under the pointer at @p x: that of the eye whose picture is there, or of one between both.
+POINTHAPTICSRENDERING_EXPORT void pointerProjection(
+  vtkRenderer* renderer, double x, double nearest, double farthest, vtkMatrix4x4* matrix);
+
 struct Pixel
 {
   double x = 0.0;
@@ -41,11 +56,13 @@ struct Pixel
   bool seen = false; ///< In front of the camera.
 };
 
-/// From coordinates of the picture to pixels of the viewport, for the camera as it is.
+/// From coordinates of the picture to pixels of the viewport, for the camera and the eye as they are.
 class POINTHAPTICSRENDERING_EXPORT ScreenProjection
 {
 public:
   explicit ScreenProjection(vtkRenderer* renderer);
+  /// For what lies under the pointer at @p x: see pointerProjection().
+  ScreenProjection(vtkRenderer* renderer, double x);
   Pixel operator()(const Vec3& p) const;
   /// Moves the end that is not in front of the camera to where the line from @p a to @p b is. False: none is.
   bool leaveSeenPart(Vec3& a, Vec3& b) const;

@@ -1,10 +1,10 @@
 #include "vtkCloudAxes.h"
 
 #include "ScreenMarks.h"
+#include "vtkOverlayLines.h"
 
 #include "Core/Base/Vector3.h"
 
-#include "vtkActor.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
@@ -14,8 +14,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
-#include "vtkProperty.h"
 #include "vtkProperty2D.h"
 #include "vtkRenderer.h"
 #include "vtkWeakPointer.h"
@@ -102,8 +100,7 @@ struct vtkCloudAxes::Internals
   vtkNew<vtkMatrix4x4> model;
   vtkNew<vtkPoints> corners;
   vtkNew<vtkPolyData> box;
-  vtkNew<vtkPolyDataMapper> boxMapper;
-  vtkNew<vtkActor> boxActor;
+  vtkNew<vtkOverlayLines> boxLines;
   ScreenLines ticks{ kTickWidth };
   ScreenLines marker{ kArmWidth };
   ScreenTexts texts;
@@ -281,12 +278,9 @@ vtkCloudAxes::vtkCloudAxes()
   }
   parts.box->SetPoints(parts.corners);
   parts.box->SetLines(edges);
-  parts.boxMapper->SetInputData(parts.box);
-  parts.boxActor->SetMapper(parts.boxMapper);
-  parts.boxActor->GetProperty()->SetColor(0.35, 0.35, 0.40);
-  parts.boxActor->GetProperty()->LightingOff();
-  parts.boxActor->PickableOff();
-  parts.boxActor->VisibilityOff();
+  parts.boxLines->SetLines(parts.box);
+  parts.boxLines->SetColor(0.35, 0.35, 0.40);
+  parts.boxLines->VisibilityOff();
   parts.onStart->SetClientData(this);
   parts.onStart->SetCallback(
     [](vtkObject*, unsigned long, void* self, void*) { static_cast<vtkCloudAxes*>(self)->PlaceLabels(); });
@@ -331,7 +325,7 @@ void vtkCloudAxes::SetVisibility(bool visible)
 {
   Internals& parts = *this->Parts;
   this->Visibility = visible;
-  parts.boxActor->SetVisibility(visible);
+  parts.boxLines->SetVisibility(visible);
   parts.ticks.actor()->SetVisibility(visible);
   parts.marker.actor()->SetVisibility(visible);
   parts.texts.hide(); // until the next render places them
@@ -394,7 +388,7 @@ void vtkCloudAxes::AddTo(vtkRenderer* renderer)
 {
   Internals& parts = *this->Parts;
   parts.renderer = renderer;
-  renderer->AddActor(parts.boxActor);
+  renderer->AddActor(parts.boxLines);
   renderer->AddActor2D(parts.ticks.actor());
   renderer->AddActor2D(parts.marker.actor());
   parts.texts.addTo(renderer);
@@ -405,7 +399,7 @@ void vtkCloudAxes::RemoveFrom(vtkRenderer* renderer)
 {
   Internals& parts = *this->Parts;
   renderer->RemoveObserver(parts.onStart);
-  renderer->RemoveActor(parts.boxActor);
+  renderer->RemoveActor(parts.boxLines);
   renderer->RemoveActor2D(parts.ticks.actor());
   renderer->RemoveActor2D(parts.marker.actor());
   parts.texts.removeFrom(renderer);

@@ -2,13 +2,8 @@
 
 #include "vtkCellArray.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLState.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkProperty.h"
-#include "vtkRenderer.h"
-#include "vtk_glew.h"
 
 #include <algorithm>
 
@@ -25,29 +20,13 @@ vtkStandardNewMacro(vtkWorkspaceBrackets);
 
 vtkWorkspaceBrackets::vtkWorkspaceBrackets()
 {
-  for (Look* look : { &this->Seen, &this->Hidden })
-  {
-    look->Mapper->SetInputData(this->Lines);
-    look->Actor->SetMapper(look->Mapper);
-    look->Actor->GetProperty()->SetColor(0.80, 0.82, 0.86);
-    look->Actor->GetProperty()->LightingOff();
-    look->Actor->GetProperty()->SetLineWidth(1.5F);
-  }
-  this->Seen.Actor->GetProperty()->SetOpacity(kOpacity);
-  this->Hidden.Actor->GetProperty()->SetOpacity(kHiddenOpacity);
-  this->SetMapper(this->Seen.Mapper);
-  this->PickableOff();
+  this->SetLines(this->Lines);
+  this->SetColor(0.80, 0.82, 0.86); // for a dark ground
+  this->SetOpacities(kOpacity, kHiddenOpacity);
+  this->SetLineWidth(1.5F);
 }
 
 vtkWorkspaceBrackets::~vtkWorkspaceBrackets() = default;
-
-void vtkWorkspaceBrackets::SetColor(double red, double green, double blue)
-{
-  for (Look* look : { &this->Seen, &this->Hidden })
-  {
-    look->Actor->GetProperty()->SetColor(red, green, blue);
-  }
-}
 
 void vtkWorkspaceBrackets::SetBox(const double box[6])
 {
@@ -75,35 +54,6 @@ void vtkWorkspaceBrackets::SetBox(const double box[6])
   this->Lines->SetPoints(points);
   this->Lines->SetLines(lines);
   this->Modified();
-}
-
-void vtkWorkspaceBrackets::Draw(Look& look, vtkRenderer* renderer)
-{
-  look.Actor->GetProperty()->Render(look.Actor, renderer);
-  look.Mapper->Render(renderer, look.Actor);
-}
-
-/// Once where the cloud hides it, once where it does not.
-int vtkWorkspaceBrackets::RenderOverlay(vtkViewport* viewport)
-{
-  auto* renderer = vtkRenderer::SafeDownCast(viewport);
-  auto* window = renderer ? vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()) : nullptr;
-  if (!window || !this->GetVisibility())
-  {
-    return 0;
-  }
-  vtkOpenGLState* state = window->GetState();
-  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglEnable(GL_BLEND);
-  state->vtkglDepthMask(GL_FALSE);
-  state->vtkglDepthFunc(GL_GREATER);
-  this->Draw(this->Hidden, renderer);
-  state->vtkglDepthFunc(GL_LEQUAL);
-  this->Draw(this->Seen, renderer);
-  state->vtkglDepthMask(GL_TRUE);
-  return 1;
 }
 
 void vtkWorkspaceBrackets::PrintSelf(ostream& os, vtkIndent indent)

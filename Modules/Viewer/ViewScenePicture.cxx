@@ -211,6 +211,7 @@ void ViewScene::join(ScreenLayout& layout)
   layout.setOpaque([this] { return picture_.isHighContrast(); });
   vtkHapticGauge* gauge = props_->GetGauge();
   gauge->SetTaken([&layout] { return layout.boxes(); });
+  distance_.setTaken([&layout] { return layout.boxes(); });
   // The gauge is placed first: it moves, and the numbers give way.
   axes_->SetTaken(
     [&layout, gauge]
@@ -230,6 +231,7 @@ void ViewScene::leaveLayout()
   barHasRoom_ = true;
   scalarBar_->SetVisibility(wantsScalarBar_);
   axes_->SetTaken(nullptr);
+  distance_.setTaken(nullptr);
   props_->GetGauge()->SetTaken(nullptr);
 }
 

@@ -89,6 +89,9 @@ TEST_F(Usage, UnknownAndSurplusArgumentsAreUsageErrors)
   this->refuse(2, { "feel", "a.ply", "b.ply", "--path", "h.csv", "-o", "c.csv" }, { "b.ply" });
   this->refuse(2, { "generate", "sphere", "torus", "-n", "5", "-o", "c.ply" }, { "torus" });
   this->refuse(2, { "resample", "a.ply", "-o", "c.ply", "--foo", "1" }, { "--foo" });
+  this->refuse(
+    2, { "info", "a.ply", "--foo", "--bar", "--baz" }, { "unexpected arguments --foo --bar --baz;" });
+  this->refuse(2, { "info", "a.ply", "--foo" }, { "unexpected argument --foo;" });
   this->refuse(2, { "bandwidth", "a.ply", "-o", "c.ply", "--voxel", "1" }, { "--voxel" });
   this->refuse(2, { "resample", "a.ply", "-o", "c.ply", "--dims" }, { "--dims" });
   this->refuse(2, { "resample", "a.ply", "-o", "c.ply", "--dims", "3", "--dims", "4" }, { "--dims" });

@@ -1,5 +1,6 @@
 // What the shading by depth darkens, pixel by pixel: needs a window, skips itself without a display.
 #include "CloudAppearance.h"
+#include "vtkCloudAxes.h"
 #include "vtkDepthShadingPass.h"
 
 #include "../Unit/SkipWithoutDisplay.h"
@@ -159,6 +160,36 @@ TEST_F(DepthShading, SamplesSmoothTheEdgesWhicheverFramesTheyAreDrawnIn)
   EXPECT_EQ(numberOfShades(picture()), 2u) << "a picture that moves has one sample";
   renderer_->GetActiveCamera()->Roll(1.0);
   EXPECT_EQ(picture(vtkDepthShadingPass::kMostSamples), smooth) << "all in one frame";
+}
+
+/// Right of a line that stands in front of the wall: a step of the depth would darken these columns.
+TEST_F(DepthShading, TheBoxOfTheAxesDarkensNothingBesideItsLines)
+{
+  constexpr int kLarge = 300;
+  window_->SetSize(kLarge, kLarge);
+  applyDepthShading(renderer_, 0.0);
+  const auto columnsRightOfTheLine = [this]
+  {
+    window_->Render();
+    vtkNew<vtkUnsignedCharArray> row; // above the directions of the axes, below the texts of the upper edge
+    window_->GetPixelData(0, 200, kLarge - 1, 200, 0, row);
+    return std::vector<unsigned char>(row->GetPointer(0), row->GetPointer(0) + row->GetNumberOfValues());
+  };
+  const std::vector<unsigned char> plain = columnsRightOfTheLine();
+  vtkNew<vtkCloudAxes> axes;
+  const double bounds[6] = { 0.005, 0.05, -0.05, 0.05, -0.001, 0.01 };
+  axes->SetBounds(bounds);
+  axes->AddTo(renderer_);
+  axes->SetVisibility(true);
+  const std::vector<unsigned char> crossed = columnsRightOfTheLine();
+  ASSERT_EQ(crossed.size(), plain.size());
+  int changed = 0;
+  for (std::size_t i = 3 * 198; i < plain.size(); i += 3) // left of it its numbers stand
+  {
+    changed += plain[i] != crossed[i];
+  }
+  EXPECT_GT(changed, 0) << "the line is seen";
+  EXPECT_LE(changed, 2);
 }
 
 } // namespace

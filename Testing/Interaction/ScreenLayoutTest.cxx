@@ -2,6 +2,7 @@
 
 #include "../Unit/SkipWithoutDisplay.h"
 #include "CloudAppearance.h"
+#include "DistanceMark.h"
 #include "ScreenScale.h"
 #include "vtkHapticGauge.h"
 #include "vtkHapticOverlay.h"
@@ -363,6 +364,78 @@ TEST_F(ScreenLayoutTest, TheGaugeGivesWayToTheTexts)
       }
     }
   }
+}
+
+/// An end of the normal beside the number would read like a sign.
+TEST_F(ScreenLayoutTest, TheGaugeKeepsOffTheNormal)
+{
+  Screen screen(640, 480, 1.0, false);
+  vtkNew<vtkHapticGauge> gauge;
+  gauge->AddTo(screen.renderer);
+  const auto worldAt = [&screen](double x, double y)
+  {
+    screen.renderer->SetViewPoint(
+      2.0 * x / screen.renderer->GetSize()[0] - 1.0, 2.0 * y / screen.renderer->GetSize()[1] - 1.0, 0.5);
+    screen.renderer->ViewToWorld();
+    std::array<double, 4> place{};
+    screen.renderer->GetWorldPoint(place.data());
+    return place;
+  };
+  screen.window->Render();
+  const std::array<double, 4> anchor = worldAt(300, 180);
+  gauge->Show(anchor.data(), 0.5);
+  screen.window->Render();
+  const std::array<double, 4> usual = gauge->GetPlace();
+  // Out of the anchor through the middle of the gauge, as a normal without friction, and past its lower edge.
+  const double middle = 0.5 * (usual[1] + usual[3]);
+  for (const double y : { middle, usual[1] - 2.0 })
+  {
+    const std::array<double, 4> begin = worldAt(290, y);
+    const std::array<double, 4> end = worldAt(420, y);
+    gauge->KeepOffLine(begin.data(), end.data());
+    screen.window->Render();
+    const std::array<double, 4> place = gauge->GetPlace();
+    EXPECT_TRUE(place[3] < y - 2.0 || place[1] > y + 2.0 || place[2] < 288.0)
+      << place[0] << ", " << place[1] << " to " << place[2] << ", " << place[3] << " about " << y;
+  }
+  gauge->KeepOffLine(anchor.data(), anchor.data());
+  screen.window->Render();
+  EXPECT_EQ(gauge->GetPlace(), usual);
+}
+
+/// Words of a measured distance, which would stand in the middle of what is taken.
+TEST_F(ScreenLayoutTest, TheWordsOfADistanceGiveWay)
+{
+  Screen screen(640, 480, 1.0, false);
+  DistanceMark mark;
+  mark.addTo(screen.renderer);
+  screen.window->Render();
+  screen.renderer->SetViewPoint(0.0, 0.0, 0.5);
+  screen.renderer->ViewToWorld();
+  double middle[4];
+  screen.renderer->GetWorldPoint(middle);
+  mark.setPlaces({ { middle[0] - 0.01, middle[1], middle[2] }, { middle[0] + 0.01, middle[1], middle[2] } });
+  mark.setWords({ "1.23 m", "x 1 m" });
+  const int* size = screen.renderer->GetSize();
+  const std::array<double, 4> taken = { 220.0, 0.5 * size[1] - 60.0, 420.0, 0.5 * size[1] + 60.0 };
+  const auto drawnIn = [&screen](const std::array<double, 4>& box)
+  {
+    screen.window->Render();
+    const int* corner = screen.renderer->GetOrigin();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    screen.window->GetPixelData(
+      int(box[0]), corner[1] + int(box[1]), int(box[2]), corner[1] + int(box[3]), 0, pixels);
+    int plates = 0; // light, where the words stand
+    for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
+    {
+      plates += pixels->GetTypedComponent(i, 0) > 150 && pixels->GetTypedComponent(i, 2) > 150;
+    }
+    return plates;
+  };
+  EXPECT_GT(drawnIn(taken), 100);
+  mark.setTaken([taken] { return std::vector<std::array<double, 4>>{ taken }; });
+  EXPECT_EQ(drawnIn(taken), 0);
+  EXPECT_GT(drawnIn({ 0.0, 0.0, double(size[0] - 1), double(size[1] - 1) }), 100) << "they stand elsewhere";
 }
 
 TEST(ScreenScale, TakesTheDotsThatTheDesktopSays)

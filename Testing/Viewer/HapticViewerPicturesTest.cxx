@@ -309,6 +309,46 @@ TEST_F(HapticViewerPictures, DrawsOnlyWhatIsInTheClippingBox)
   }
 }
 
+/// In the blue of the clipping box's lines.
+int bluePixels(const std::string& fileName)
+{
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
+  int blue = 0;
+  for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
+  {
+    blue += pixels->GetComponent(i, 2) - pixels->GetComponent(i, 0) > 100.0;
+  }
+  return blue;
+}
+
+TEST_F(HapticViewerPictures, LeavesTheHandlesOfTheClippingBoxOutOfTheFigure)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.device = HapticViewerDevice::None;
+  options_.width = options_.height = 300;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  const auto blueAfter = [&](const char* command)
+  {
+    EXPECT_TRUE(viewer.style()->GetCommands().run(command));
+    EXPECT_TRUE(viewer.renderToFile(this->path("box.png"))) << viewer.message();
+    return bluePixels(this->path("box.png"));
+  };
+  EXPECT_TRUE(viewer.style()->GetCommands().run("background"));
+  const int shown = blueAfter("clip-box");
+  EXPECT_GT(shown, 100);
+  EXPECT_LT(blueAfter("figure"), 20);
+  EXPECT_GT(blueAfter("clip-box"), 100) << "who asks for it in the figure sees it";
+  EXPECT_TRUE(viewer.style()->GetCommands().run("clip-box"));
+  EXPECT_EQ(blueAfter("figure"), shown) << "it comes back";
+  EXPECT_TRUE(viewer.stop());
+}
+
 /// Pixels with red other than green: what only one eye sees in an anaglyph of a grey cloud.
 int coloredPixels(const std::string& fileName)
 {

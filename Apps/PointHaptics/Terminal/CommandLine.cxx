@@ -19,8 +19,14 @@ namespace
 {
 
 /// CLI11's wording for the user, in one line.
-std::string usageMessage(const CLI::ParseError& error)
+std::string usageMessage(const CLI::App& program, const CLI::ParseError& error)
 {
+  // In the order in which they were given; the message has them from the last to the first.
+  if (const std::vector<std::string> extras = program.remaining(true);
+      dynamic_cast<const CLI::ExtrasError*>(&error) && !extras.empty())
+  {
+    return fmt::format("unexpected argument{} {}", extras.size() > 1 ? "s" : "", fmt::join(extras, " "));
+  }
   std::string message = error.what();
   std::replace(message.begin(), message.end(), '\n', ' ');
   if (const std::string extras = "arguments were not expected: "; message.find(extras) != std::string::npos)
@@ -42,7 +48,7 @@ int reportUsage(const CLI::App& program, const CLI::ParseError& error)
     app = app->get_subcommands().front();
     command += " " + app->get_name();
   }
-  fmt::print(stderr, "{}: {}; see {} --help\n", command, usageMessage(error), command);
+  fmt::print(stderr, "{}: {}; see {} --help\n", command, usageMessage(program, error), command);
   return kUsage;
 }
 

@@ -12,7 +12,6 @@
 #include "Core/Neighbors/NeighborQuery.h"
 
 #include "vtkActor.h"
-#include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkMatrix4x4.h"
@@ -220,8 +219,8 @@ bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, do
   const double left = viewport[0] * window[0];
   const double bottom = viewport[1] * window[1];
   vtkNew<vtkMatrix4x4> projection;
-  projection->DeepCopy(renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
-    renderer->GetTiledAspectRatio(), 0, 1));
+  pointerProjection(renderer, x, 0.0, 1.0, projection);
+  const std::array<double, 2> pointer = placeInPicture(renderer, x, y);
   if (toWorkspace)
   {
     vtkMatrix4x4::Multiply4x4(projection, toWorkspace, projection);
@@ -241,7 +240,7 @@ bool pickPoint(vtkPolyData* cloud, vtkRenderer* renderer, double x, double y, do
     }
     const double column = left + 0.5 * size[0] * (1.0 + (m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]) / w);
     const double row = bottom + 0.5 * size[1] * (1.0 + (m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7]) / w);
-    if (std::hypot(column - x, row - y) <= pixels && (!isDrawn || isDrawn(p)))
+    if (std::hypot(column - pointer[0], row - pointer[1]) <= pixels && (!isDrawn || isDrawn(p)))
     {
       best = depth;
       found = i;

@@ -32,6 +32,8 @@ constexpr double kAside = 22.0;
 constexpr double kWidth = 9.0;
 constexpr double kHeight = 60.0;
 constexpr double kTextAside = kAside + kWidth + 6.0;
+/// Free on all sides of a line that is kept off.
+constexpr double kBesideLine = 5.0;
 /// Opacity.
 constexpr double kBarGround = 0.75;
 constexpr double kNumberGround = 0.6;
@@ -44,6 +46,28 @@ constexpr float kLast = -2.0F;
 bool meet(const std::array<double, 4>& a, const std::array<double, 4>& b)
 {
   return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+}
+
+/// Whether the line from @p a to @p b goes through @p box.
+bool meets(const pointhaptics::Pixel& a, const pointhaptics::Pixel& b, const std::array<double, 4>& box)
+{
+  const double from[2] = { a.x, a.y };
+  const double way[2] = { b.x - a.x, b.y - a.y };
+  double enters = 0.0; // parts of the way
+  double leaves = 1.0;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double low = box[std::size_t(axis)] - from[axis];
+    const double high = box[std::size_t(axis + 2)] - from[axis];
+    if (way[axis] == 0.0)
+    {
+      enters = low <= 0.0 && high >= 0.0 ? enters : 2.0;
+      continue;
+    }
+    enters = std::max(enters, std::min(low / way[axis], high / way[axis]));
+    leaves = std::min(leaves, std::max(low / way[axis], high / way[axis]));
+  }
+  return enters <= leaves;
 }
 
 /// A rectangle in pixels, kept where the anchor is drawn.
@@ -96,6 +120,8 @@ struct vtkHapticGauge::Internals
   double higher = 0.0; // pixels
   double pixels = 1.0; // of a point
   std::function<std::vector<std::array<double, 4>>()> taken;
+  pointhaptics::Vec3 lineBegin; // kept off; equal: there is none
+  pointhaptics::Vec3 lineEnd;
   vtkNew<vtkCallbackCommand> onStart;
   vtkWeakPointer<vtkRenderer> renderer;
   std::array<double, 4> box{};
@@ -174,6 +200,12 @@ void vtkHapticGauge::SetTaken(std::function<std::vector<std::array<double, 4>>()
   this->Parts->taken = std::move(taken);
 }
 
+void vtkHapticGauge::KeepOffLine(const double begin[3], const double end[3])
+{
+  this->Parts->lineBegin = { begin[0], begin[1], begin[2] };
+  this->Parts->lineEnd = { end[0], end[1], end[2] };
+}
+
 std::array<double, 4> vtkHapticGauge::GetPlace() const
 {
   return this->Parts->box;
@@ -190,8 +222,12 @@ void vtkHapticGauge::Arrange()
   }
   parts.pixels = renderer->GetRenderWindow()->GetDPI() / kPointsPerInch;
   const double* point = parts.anchor->GetValue();
-  const pointhaptics::Pixel anchor =
-    pointhaptics::ScreenProjection(renderer)({ point[0], point[1], point[2] });
+  const pointhaptics::ScreenProjection project(renderer);
+  const pointhaptics::Pixel anchor = project({ point[0], point[1], point[2] });
+  pointhaptics::Vec3 begin = parts.lineBegin;
+  pointhaptics::Vec3 end = parts.lineEnd;
+  const bool hasLine = begin != end && project.leaveSeenPart(begin, end);
+  const double beside = parts.pixels * kBesideLine;
   double text[2];
   parts.number->GetSize(renderer, text);
   const double height = renderer->GetSize()[1];
@@ -199,7 +235,9 @@ void vtkHapticGauge::Arrange()
     parts.taken ? parts.taken() : std::vector<std::array<double, 4>>();
   const auto isFree = [&](const std::array<double, 4>& box)
   {
-    return box[0] >= 0.0 && box[1] >= 0.0 && box[2] <= renderer->GetSize()[0] && box[3] <= height &&
+    const std::array<double, 4> wide = { box[0] - beside, box[1] - beside, box[2] + beside, box[3] + beside };
+    return !(hasLine && meets(project(begin), project(end), wide)) && box[0] >= 0.0 && box[1] >= 0.0 &&
+      box[2] <= renderer->GetSize()[0] && box[3] <= height &&
       std::none_of(taken.begin(), taken.end(), [&](const auto& other) { return meet(box, other); });
   };
   for (double away = 0.0; away < height; away += parts.pixels * kStep)

@@ -62,6 +62,12 @@ public:
   void SetTaken(std::function<std::vector<std::array<double, 4>>()> taken);
 
   /**
+   * Keep off the line from @p begin to @p end, of the workspace: an end of it beside the number reads like a
+   * sign. Equal ends, the default: there is none.
+   */
+  void KeepOffLine(const double begin[3], const double end[3]);
+
+  /**
    * Where it stood in the last render, as SetTaken() has it.
    */
   std::array<double, 4> GetPlace() const;

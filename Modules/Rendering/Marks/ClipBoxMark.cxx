@@ -8,8 +8,8 @@
 #include "vtkNew.h"
 #include "vtkRenderer.h"
 #include "vtkWeakPointer.h"
-#include "vtkWindow.h"
 
+#include <array>
 #include <cmath>
 
 namespace pointhaptics
@@ -18,8 +18,6 @@ namespace
 {
 
 constexpr unsigned char kColor[3] = { 90, 200, 250 };
-constexpr unsigned char kActive[3] = { 255, 196, 40 };
-constexpr unsigned char kRim[3] = { 30, 30, 34 };
 constexpr float kWidth = 1.5F;
 constexpr float kHandleWidth = 3.0F;
 constexpr float kRimWidth = 6.0F;
@@ -27,7 +25,6 @@ constexpr int kFaces = 6;
 /// Points, which are pixels at 72 dots per inch: of a handle, and how near to its middle it is taken.
 constexpr double kHandle = 6.0;
 constexpr double kReach = 11.0;
-constexpr double kPointsPerInch = 72.0;
 /// Of the box: short enough to be in front of the camera where the handle is.
 constexpr double kProbe = 0.01;
 /// A face seen from straight above goes so many pixels up for the whole box.
@@ -48,10 +45,7 @@ struct ClipBoxMark::Parts
   vtkNew<vtkCallbackCommand> onStart;
   vtkWeakPointer<vtkRenderer> renderer;
 
-  double pixels() const
-  {
-    return this->renderer->GetVTKWindow() ? this->renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
-  }
+  double pixels() const { return pixelsPerPoint(this->renderer); }
   Vec3 inPicture(const Vec3& place) { return transformed(this->model, place); }
   Vec3 corner(int index) const
   {
@@ -78,7 +72,7 @@ void ClipBoxMark::Parts::drawHandle(const Pixel& at, const unsigned char color[3
     const double fromY = side < 2 ? -half : half;
     const double toX = side < 2 ? half : -half;
     const double toY = side == 1 || side == 2 ? half : -half;
-    this->rims.add(at.x + fromX, at.y + fromY, at.x + toX, at.y + toY, kRim);
+    this->rims.add(at.x + fromX, at.y + fromY, at.x + toX, at.y + toY, kMarkRim);
     this->handles.add(at.x + fromX, at.y + fromY, at.x + toX, at.y + toY, color);
   }
 }
@@ -109,7 +103,7 @@ void ClipBoxMark::Parts::draw()
     const Pixel at = project(this->inPicture(this->middleOf(face)));
     if (at.seen)
     {
-      this->drawHandle(at, face == this->active ? kActive : kColor);
+      this->drawHandle(at, face == this->active ? kMarkColor : kColor);
     }
   }
   for (ScreenLines* lines : { &this->edges, &this->rims, &this->handles })
@@ -196,14 +190,15 @@ std::optional<int> ClipBoxMark::faceAt(double x, double y) const
   {
     return std::nullopt;
   }
-  const ScreenProjection project(parts.renderer);
+  const ScreenProjection project(parts.renderer, x);
+  const std::array<double, 2> place = placeInPicture(parts.renderer, x, y);
   const int* corner = parts.renderer->GetOrigin(); // a chart may lie below
   std::optional<int> found;
   double nearest = parts.pixels() * kReach;
   for (int face = 0; face < kFaces; ++face)
   {
     const Pixel at = project(parts.inPicture(parts.middleOf(face)));
-    const double distance = std::hypot(x - corner[0] - at.x, y - corner[1] - at.y);
+    const double distance = std::hypot(place[0] - corner[0] - at.x, place[1] - corner[1] - at.y);
     // Of two in one place the one that stands out.
     if (at.seen && (distance < nearest || (distance == nearest && face == parts.active)))
     {

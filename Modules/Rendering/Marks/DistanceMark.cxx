@@ -8,7 +8,6 @@
 #include "vtkNew.h"
 #include "vtkRenderer.h"
 #include "vtkWeakPointer.h"
-#include "vtkWindow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +19,6 @@ namespace pointhaptics
 namespace
 {
 
-constexpr unsigned char kColor[3] = { 255, 196, 40 };
-constexpr unsigned char kRim[3] = { 30, 30, 34 };
 constexpr unsigned char kInk[3] = { 25, 25, 30 };
 constexpr float kWidth = 2.0F;
 constexpr float kRimWidth = 5.0F;
@@ -30,7 +27,10 @@ constexpr int kFont = 15;
 constexpr double kArm = 7.0;
 constexpr double kGap = 8.0;
 constexpr double kLine = 22.0;
-constexpr double kPointsPerInch = 72.0;
+/// Of a search for a place that is free, over kLine.
+constexpr int kMostSteps = 40;
+/// After ScreenLayout, which says what is taken.
+constexpr float kLast = -2.0F;
 /// A line steeper than this has its words to the right.
 constexpr double kSteep = 0.25;
 
@@ -46,12 +46,13 @@ struct DistanceMark::Parts
   ScreenTexts texts;
   vtkNew<vtkCallbackCommand> onStart;
   vtkWeakPointer<vtkRenderer> renderer;
+  std::function<std::vector<std::array<double, 4>>()> taken;
 
   Vec3 inPicture(const Vec3& place) { return transformed(this->model, place); }
   void draw(const Pixel& a, const Pixel& b)
   {
-    this->rim.add(a.x, a.y, b.x, b.y, kRim);
-    this->line.add(a.x, a.y, b.x, b.y, kColor);
+    this->rim.add(a.x, a.y, b.x, b.y, kMarkRim);
+    this->line.add(a.x, a.y, b.x, b.y, kMarkColor);
   }
   void drawCross(const Pixel& p, double arm)
   {
@@ -62,7 +63,7 @@ struct DistanceMark::Parts
   void write(const Pixel& a, const Pixel& b);
 };
 
-/// Beside the middle of what is seen of the line, and within the viewport.
+/// Beside the middle of what is seen of the line, within the viewport, and where nothing else is written.
 void DistanceMark::Parts::write(const Pixel& a, const Pixel& b)
 {
   const double pixels = this->texts.pixelsPerPoint();
@@ -82,8 +83,16 @@ void DistanceMark::Parts::write(const Pixel& a, const Pixel& b)
     const double middle = y + pixels * (first - double(i) * step);
     const double most = std::max(room, size[0] - width - room);
     const double high = std::max(pixels * kLine, size[1] - pixels * kLine);
-    this->texts.put(
-      this->words[i], std::clamp(left, room, most), std::clamp(middle, pixels * kLine, high), 1.0, 0.0, kInk);
+    const double across = std::clamp(left, room, most);
+    bool isPut = false;
+    for (int away = 0; away < kMostSteps && !isPut; ++away)
+    {
+      for (int side : { 1, -1 })
+      {
+        const double up = std::clamp(middle + side * away * pixels * kLine, pixels * kLine, high);
+        isPut = isPut || this->texts.put(this->words[i], across, up, 1.0, 0.0, kInk);
+      }
+    }
   }
 }
 
@@ -92,6 +101,10 @@ void DistanceMark::Parts::place()
   this->rim.clear();
   this->line.clear();
   this->texts.clear(this->renderer, kFont);
+  for (const std::array<double, 4>& box : this->taken ? this->taken() : std::vector<std::array<double, 4>>())
+  {
+    this->texts.take(box);
+  }
   const ScreenProjection project(this->renderer);
   for (const Vec3& place : this->places)
   {
@@ -148,7 +161,7 @@ void DistanceMark::addTo(vtkRenderer* renderer)
   renderer->AddActor2D(parts_->rim.actor());
   renderer->AddActor2D(parts_->line.actor());
   parts_->texts.addTo(renderer);
-  renderer->AddObserver(vtkCommand::StartEvent, parts_->onStart);
+  renderer->AddObserver(vtkCommand::StartEvent, parts_->onStart, kLast);
 }
 
 void DistanceMark::setPlaces(std::vector<Vec3> places)
@@ -165,6 +178,11 @@ void DistanceMark::setPlaces(std::vector<Vec3> places)
 void DistanceMark::setWords(std::vector<std::string> words)
 {
   parts_->words = std::move(words);
+}
+
+void DistanceMark::setTaken(std::function<std::vector<std::array<double, 4>>()> taken)
+{
+  parts_->taken = std::move(taken);
 }
 
 void DistanceMark::setModel(vtkMatrix4x4* model)

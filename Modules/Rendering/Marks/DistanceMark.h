@@ -6,6 +6,8 @@
 
 #include "PointHapticsRenderingModule.h" // For export macro
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +35,9 @@ public:
   void setPlaces(std::vector<Vec3> places);
   /// Up to two lines beside the middle: above and below it, or to its right where the line is steep.
   void setWords(std::vector<std::string> words);
+  /// Asked before each render: where no words may stand, pixels of the renderer: left, bottom, right, top of
+  /// each. It may be empty.
+  void setTaken(std::function<std::vector<std::array<double, 4>>()> taken);
   /// From the frame of the cloud to that of the picture; copied. Default: the identity.
   void setModel(vtkMatrix4x4* model);
 

@@ -1,6 +1,7 @@
 /// @file
 /// The viewer's window with the live touch: ViewWindow.cxx sets it up, runs it and closes it,
-/// ViewCommands.cxx lists what its keys do, ViewWindowActions.cxx and ViewRecording.cxx do it.
+/// ViewCommands.cxx lists what its keys do, ViewWindowActions.cxx, ViewSliders.cxx and ViewRecording.cxx do
+/// it.
 #pragma once
 
 #include "ClipBoxTool.h"
@@ -201,9 +202,10 @@ private:
   bool recordingWaits_ = false; ///< As the user was told.
   int screenshots_ = 0;
   bool chartBesideFigure_ = true; ///< Comes back when the figure goes.
-  LengthUnit firstUnit_;          ///< Of the file before the user took another; no name: none was taken.
-  std::string news_;              // last line of the status
-  std::string awaitedColors_;     ///< The news while colours are computed; empty: none are.
+  bool clipBoxBesideFigure_ = false;
+  LengthUnit firstUnit_;      ///< Of the file before the user took another; no name: none was taken.
+  std::string news_;          // last line of the status
+  std::string awaitedColors_; ///< The news while colours are computed; empty: none are.
   std::unique_ptr<SimulatedDevice> hand_;
   std::unique_ptr<PathReplayDevice> replay_;
   std::unique_ptr<FalconDevice> falcon_;

@@ -398,71 +398,6 @@ void ViewWindow::writeSettings()
   }
 }
 
-void ViewWindow::connectSliders()
-{
-  sliders_->SetInteractor(interactor_);
-  this->showSliderValues();
-  vtkNew<vtkCallbackCommand> moved;
-  moved->SetClientData(this);
-  moved->SetCallback([](vtkObject*, unsigned long, void* window, void* slider)
-    { static_cast<ViewWindow*>(window)->onSlider(*static_cast<int*>(slider)); });
-  sliders_->AddObserver(vtkHapticSliders::ValueChangedEvent, moved);
-  style_->SetSliders(sliders_);
-}
-
-void ViewWindow::showSliderValues()
-{
-  double voxel[3];
-  scene_.getVoxel(voxel);
-  sliders_->SetValue(vtkHapticSliders::Stiffness, parameters_.contact.stiffness);
-  sliders_->SetValue(vtkHapticSliders::Friction, parameters_.contact.dynamicFriction);
-  sliders_->SetValue(vtkHapticSliders::RadiusScale, scene_.bandwidth()->GetRadiusScale());
-  sliders_->SetValue(vtkHapticSliders::VoxelSize, 1e3 * std::cbrt(voxel[0] * voxel[1] * voxel[2]));
-}
-
-void ViewWindow::onSlider(int slider)
-{
-  const double value = sliders_->GetValue(slider);
-  ContactParameters contact = parameters_.contact;
-  switch (slider)
-  {
-    case vtkHapticSliders::Stiffness:
-      contact.stiffness = value;
-      this->setContact(contact);
-      break;
-    case vtkHapticSliders::Friction:
-      contact.dynamicFriction = value;
-      contact.staticFriction = std::max(value, options_.haptics.contact.staticFriction);
-      this->setContact(contact);
-      break;
-    case vtkHapticSliders::RadiusScale:
-      scene_.bandwidth()->SetRadiusScale(value);
-      style_->InvalidateModel();
-      break;
-    default:
-      voxelSize_ = 1e-3 * value;
-      scene_.resampler()->SetVoxelSize(voxelSize_);
-      this->setSceneOptions();
-      style_->InvalidateModel();
-  }
-}
-
-/// A device may refuse what it cannot render: then everything stays as it was, and the window says why.
-void ViewWindow::setContact(const ContactParameters& contact)
-{
-  HapticParameters parameters = parameters_;
-  parameters.contact = contact;
-  std::string message;
-  const Status status = device_ ? servo_.setParameters(parameters, &message) : parameters.check();
-  if (status == Status::Ok)
-  {
-    parameters_ = parameters;
-    return;
-  }
-  this->showSliderValues();
-  this->tell(message.empty() ? pointhaptics::message(status) : message);
-}
-
 void ViewWindow::toggleAxes()
 {
   scene_.showAxes(!scene_.showsAxes());
@@ -552,7 +487,8 @@ void ViewWindow::setSceneOptions()
   style_->GetScenes().setOptions(options);
 }
 
-/// Texts, chart and sliders go; help, chart and sliders that the user opens in the figure are shown.
+/// Texts, chart, sliders and the handles of the clipping box go; those that the user opens in the figure are
+/// shown.
 void ViewWindow::showFigure(bool figure)
 {
   scene_.showFigure(figure);
@@ -563,7 +499,9 @@ void ViewWindow::showFigure(bool figure)
     overlay_->SetHelpVisibility(false);
     sliders_->SetVisibility(false);
     chartBesideFigure_ = chart_->GetVisibility();
+    clipBoxBesideFigure_ = scene_.clipMark().isVisible();
   }
+  scene_.clipMark().setVisible(!figure && clipBoxBesideFigure_);
   style_->GetDisplay().setChartVisibility(!figure && chartBesideFigure_);
 }
 
