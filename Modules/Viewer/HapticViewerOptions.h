@@ -93,6 +93,7 @@ struct HapticViewerOptions
   /// Of cloud optimised files: points that the window shows at once, while all are read; 0: it waits for all.
   std::int64_t coarsePoints = 60000;
   bool fullScreen = false; ///< The window covers the screen, without a border.
+  bool sound = false;      ///< The touch is heard (SoundPlayer.h), where the machine has a loudspeaker.
   /// The window is shown while the first file is read, where that takes longer than 0.2 s and there is a
   /// display: for programs that call HapticViewer::run() next.
   bool showsReading = false;
@@ -134,6 +135,7 @@ struct HapticViewerState
   PictureSettings picture;
   std::vector<double> clip; ///< As in the options.
   bool fullScreen = false;
+  bool sound = false;
   std::string colorBy;
   std::string unit; ///< The one that the user took for the file's; empty: none.
   double metresPerUnit = 1.0;

@@ -77,6 +77,58 @@ protected:
   }
 };
 
+/// The 16 bit samples of a WAV file.
+std::vector<int> samplesOf(const std::string& bytes)
+{
+  std::vector<int> samples;
+  for (std::size_t i = 44; i + 1 < bytes.size(); i += 2)
+  {
+    const auto value = static_cast<unsigned>(static_cast<unsigned char>(bytes[i])) |
+      static_cast<unsigned>(static_cast<unsigned char>(bytes[i + 1])) << 8;
+    samples.push_back(value < 32768 ? int(value) : int(value) - 65536);
+  }
+  return samples;
+}
+
+TEST_F(Feel, WritesTheTouchAsSoundThatIsSilentWhereNothingIsTouched)
+{
+  this->succeed({ "generate", "sphere", "-n", "20000", "-o", "sphere.ply" });
+  const Table felt = this->feel("sphere.ply", kSpherePath, { "--sound-file", "touch.wav" });
+  const std::string bytes = this->read("touch.wav");
+  EXPECT_EQ(bytes.substr(0, 4), "RIFF");
+  const std::vector<int> samples = samplesOf(bytes);
+  constexpr std::size_t kPerTick = 48;
+  const std::size_t ticks = felt.at("t").size();
+  ASSERT_EQ(samples.size(), kPerTick * ticks);
+  const auto loudest = [&samples](std::size_t begin, std::size_t end)
+  {
+    int most = 0;
+    for (std::size_t i = kPerTick * begin; i < kPerTick * end; ++i)
+    {
+      most = std::max(most, std::abs(samples[i]));
+    }
+    return most;
+  };
+  const std::vector<double>& contact = felt.at("contact");
+  const auto first = std::size_t(std::find(contact.begin(), contact.end(), 1.0) - contact.begin());
+  ASSERT_LT(first + 100, ticks);
+  EXPECT_EQ(loudest(0, first), 0);
+  EXPECT_GT(loudest(first, first + 10), 2000) << "the click";
+  // As loud as the force where that has been felt for a while.
+  std::size_t most = first + 60;
+  const auto force = [&felt](std::size_t tick) { return norm(vectorOf(felt, "force", tick)); };
+  for (std::size_t tick = most; tick < ticks; ++tick)
+  {
+    most = contact[tick] == 1.0 && force(tick) > force(most) ? tick : most;
+  }
+  EXPECT_NEAR(loudest(most - 5, most + 1), 32767.0 * 0.2 * force(most) / (force(most) + 1.0), 600.0);
+  this->refuse(2, { "feel", "sphere.ply", "--path", kSpherePath, "-o", "o.csv", "--sound-file", "touch.mp3" },
+    { "--sound-file", "touch.mp3", ".wav" });
+  this->refuse(1,
+    { "feel", "sphere.ply", "--path", kSpherePath, "-o", "o.csv", "--sound-file", "nowhere/touch.wav" },
+    { "nowhere/touch.wav: cannot be written" });
+}
+
 TEST_F(Feel, SaysHowFarAHandThatTouchesNothingStaysAway)
 {
   this->succeed({ "generate", "plane", "-n", "4000", "-o", "plane.ply" });

@@ -55,6 +55,11 @@ TEST_F(Manual, BashCompletesCommandsAndOptions)
   EXPECT_EQ(complete("pointhaptics generate tor", 2), "torus\n");
   EXPECT_EQ(complete("pointhaptics manual ke", 2), "keys\n");
   EXPECT_EQ(complete("pointhaptics man", 1), "manual\n");
+  EXPECT_EQ(complete("pointhaptics compare --methods sph", 3), "sphere\n");
+  EXPECT_EQ(complete("pointhaptics compare --methods sphere,surf", 3), "sphere,surface-fit\n");
+  EXPECT_EQ(complete("pointhaptics view --bind screens", 3), "screenshot=\n");
+  EXPECT_EQ(complete("pointhaptics view --color-by den", 3), "density\n");
+  EXPECT_EQ(complete("pointhaptics view --measure 0,0", 3), "\n") << "numbers are no choice";
 }
 
 } // namespace

@@ -61,7 +61,7 @@ const std::map<std::string, std::string>& valuesOfOptions()
     { "--falcon-firmware", "image.bin" }, { "--max-force", "3" }, { "--up", "y" }, { "--color-by", "Height" },
     { "--point-size", "4" }, { "--resolution", "0.5" }, { "--bind", "help=F1 F2,rotate-x=Ctrl+x" },
     { "--camera", "0,0,1,0,0,0,0,1,0" }, { "--push-pointer", "" }, { "--axes", "" }, { "--figure", "" },
-    { "--ambient", "" }, { "--felt", "" }, { "--full-screen", "" }, { "--projection", "parallel" },
+    { "--ambient", "" }, { "--felt", "" }, { "--full-screen", "" }, { "--sound", "" }, { "--projection", "parallel" },
     { "--background", "white" }, { "--theme", "high-contrast" }, { "--stereo", "red-blue" },
     { "--point-scale", "2" }, { "--edl-strength", "0.5" }, { "--font-scale", "1.5" },
     { "--color-map", "greys" }, { "--color-range", "1,2" }, { "--measure", "0,0,0,1,1,1" },

@@ -203,6 +203,25 @@ clip_is() {
   awk -v "n=$1" -F'[][,]' "{ exit !(\$(n + 1) $2) }" <<<"$(setting clip "$settings")" || fail "number $1 of the box is not $2: $(setting clip "$settings")"
 }
 
+# ALSA plays into a file, or is not there and the window says so.
+KeyF8MakesTheTouchHeard() {
+  make sphere cloud.ply
+  printf 'pcm.!default { type file slave.pcm { type null } file "%s/heard.raw" format "raw" }\n' "$folder" >asound.conf
+  environment=("ALSA_CONFIG_PATH=$folder/asound.conf")
+  open_viewer cloud.ply
+  write_settings
+  is sound false || fail "there is sound already"
+  key F8
+  until_true "it says nothing of sound" grep -qE "sound: as loud|sound needs libasound" said.txt
+  if grep -qF "sound: as loud" said.txt; then
+    until_true "nothing is played" test -s heard.raw
+    write_settings
+    is sound true || fail "the settings do not have it"
+    key F8
+    said "sound: off"
+  fi
+}
+
 ShiftSShowsTwoEyes() {
   make sphere cloud.ply
   open_viewer cloud.ply --device none --stereo red-blue

@@ -6,6 +6,7 @@
 #include "Feel/FeelOptions.h"
 #include "Feel/FeelReplay.h"
 #include "Feel/FeltCloud.h"
+#include "Feel/FeltSound.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
@@ -74,10 +75,11 @@ std::string header()
 class Rows
 {
 public:
-  /// @param recording gets what add() gets as a sample, if it is open.
-  Rows(CsvWriter& table, RecordingWriter& recording)
+  /// @param recording gets what add() gets as a sample, if it is open; @p sound what is felt.
+  Rows(CsvWriter& table, RecordingWriter& recording, FeltSound& sound)
     : table_(table)
     , recording_(recording)
+    , sound_(sound)
   {
   }
   RecordingWriter& recording() { return recording_; }
@@ -103,6 +105,7 @@ public:
     summary_.contactTicks += state.contact;
     summary_.maximumForce = std::max(summary_.maximumForce, norm(state.force));
     durations_.push_back(static_cast<float>(microseconds));
+    sound_.add(time, state);
     const auto row = feltRow(time, state, microseconds);
     table_.row(row.data(), row.size());
   }
@@ -121,6 +124,7 @@ public:
 private:
   CsvWriter& table_;
   RecordingWriter& recording_;
+  FeltSound& sound_;
   ClosestApproach approach_;
   Summary summary_;
   std::vector<float> durations_;
@@ -277,6 +281,11 @@ void printReplay(const FeelOptions& options, const ReplayDifference& difference,
     options.output, difference.text());
 }
 
+bool openSound(const FeelOptions& options, FeltSound& sound, std::string& message)
+{
+  return options.soundFile.empty() || sound.open(options.soundFile, message);
+}
+
 /// A recording felt again.
 int runReplay(const FeelOptions& options)
 {
@@ -289,7 +298,8 @@ int runReplay(const FeelOptions& options)
     return fail(kCommand, message);
   }
   CsvWriter table;
-  if (!table.open(options.output, header(), message))
+  FeltSound sound;
+  if (!table.open(options.output, header(), message) || !openSound(options, sound, message))
   {
     return fail(kCommand, message);
   }
@@ -301,7 +311,7 @@ int runReplay(const FeelOptions& options)
   }
   Replay replay(recording, scenes, method);
   RecordingWriter none;
-  Rows rows(table, none);
+  Rows rows(table, none, sound);
   ReplayDifference difference;
   ProgressBar bar("feeling");
   while (!replay.isAtEnd() && !stopIsRequested())
@@ -320,7 +330,7 @@ int runReplay(const FeelOptions& options)
   {
     return fail(kCommand, options.output + ": feeling was stopped on request; start it again");
   }
-  if (!table.commit(message))
+  if (!table.commit(message) || !sound.close(message))
   {
     return fail(kCommand, message);
   }
@@ -371,15 +381,16 @@ int runFeel(const FeelOptions& options)
   rememberStopSignals(); // before there is an unfinished file
   RecordingWriter recording;
   CsvWriter table;
+  FeltSound sound;
   if (!openRecordingOutput(options, clippedCloud(cloud.points, clipBox(options.clip)), recording, message) ||
-    !table.open(options.output, header(), message))
+    !table.open(options.output, header(), message) || !openSound(options, sound, message))
   {
     return fail(kCommand, message);
   }
   cloud = {};
-  Rows rows(table, recording);
+  Rows rows(table, recording, sound);
   if (!feelAs(options, scenes, path, ticks, rows, message) || !table.commit(message) ||
-    !recording.close(message))
+    !recording.close(message) || !sound.close(message))
   {
     return fail(kCommand, message);
   }

@@ -144,6 +144,31 @@ std::string choicesOf(const CLI::Option& option)
   return areChoices ? words : std::string();
 }
 
+/// The words of an option that takes some of a few, with commas between them; empty where it takes others.
+std::string listOf(const CLI::Option& option)
+{
+  std::string words = option.get_type_name();
+  const bool areWords = words.find(',') != std::string::npos &&
+    std::all_of(
+      words.begin(), words.end(), [](unsigned char c) { return std::islower(c) || c == '-' || c == ','; });
+  std::replace(words.begin(), words.end(), ',', ' ');
+  return areWords ? words : std::string();
+}
+
+/// What options with other values begin with: actions of --bind, and colours that every cloud has.
+std::string beginningsOf(const std::string& option)
+{
+  std::string words = option == "color-by" ? "rgb height density proxyradius residual" : "";
+  if (option == "bind")
+  {
+    for (const std::string& name : HapticViewer::commands().names())
+    {
+      words += (words.empty() ? "" : " ") + name + "=";
+    }
+  }
+  return words;
+}
+
 /// A case for each option of @p command with choices, and their words.
 std::string choiceCases(const CLI::App& command, const std::string& name)
 {
@@ -151,9 +176,15 @@ std::string choiceCases(const CLI::App& command, const std::string& name)
   for (const CLI::Option* option : command.get_options())
   {
     const std::string choices = choicesOf(*option);
-    for (const std::string& each : choices.empty() ? std::vector<std::string>() : option->get_lnames())
+    const std::string list = listOf(*option);
+    for (const std::string& each : option->get_lnames())
     {
-      cases += fmt::format("    '{} --{}') values=\"{}\" ;;\n", name, each, choices);
+      const std::string words = !choices.empty() ? choices : !list.empty() ? list : beginningsOf(each);
+      if (!words.empty())
+      {
+        cases += fmt::format(
+          "    '{} --{}') values=\"{}\"{} ;;\n", name, each, words, choices.empty() ? " separator=," : "");
+      }
     }
   }
   return cases;
@@ -189,13 +220,20 @@ std::string bashCompletion(CLI::App& program)
   }
   return fmt::format(R"text(# bash completion for pointhaptics
 _pointhaptics() {{
-  local word="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD - 1]}}" words command="${{COMP_WORDS[1]}}" values=""
+  local word="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD - 1]}}" words command="${{COMP_WORDS[1]}}" values="" separator=""
   case " {1} " in
     *" $command "*) ;;
     *) command=view ;;
   esac
   case "$command $before" in
 {3}  esac
+  if [[ -n "$separator" ]]; then
+    local head=""
+    [[ "$word" != *,* ]] || head="${{word%,*}},"
+    mapfile -t COMPREPLY < <(compgen -P "$head" -W "$values" -- "${{word##*,}}")
+    compopt -o nospace 2>/dev/null
+    return
+  fi
   if [[ -n "$values" ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word")
     return

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <vector>
 
 namespace pointhaptics
@@ -56,6 +57,10 @@ void FeelOptions::addTo(CLI::App& command)
     ->type_name("REC.csv");
   command.add_option("--record", this->record, "Write a recording, for --replay, beside the output")
     ->type_name("REC.csv");
+  command
+    .add_option("--sound-file", this->soundFile,
+      "Write what is felt as sound, too: a quiet tone as loud as the force, and a click where contact begins")
+    ->type_name("OUT.wav");
   command
     .add_option("--config", this->config,
       "Defaults for these options, a JSON object as view writes it; the command line wins")
@@ -118,6 +123,10 @@ bool FeelOptions::complete(CLI::App& command, std::string& message)
     throwUsage("--path", this->path.empty() ? "(none)" : this->path,
       this->path.empty() ? "give the path of the hand, or --device falcon"
                          : "a Falcon's hand goes where it likes; leave out --path or --device falcon");
+  }
+  if (!this->soundFile.empty() && std::filesystem::path(this->soundFile).extension() != ".wav")
+  {
+    throwUsage("--sound-file", this->soundFile, "sound is written as WAV; end the name in .wav");
   }
   this->touch.complete(command);
   this->settings = givenSettings(command).dump();

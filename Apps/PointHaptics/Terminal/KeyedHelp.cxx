@@ -44,6 +44,7 @@ const std::vector<KeyedHelp>& keyedHelps()
       "Ambient light from the normals of the surface that is felt: shows the shape of a cloud without "
       "colours",
       { "ambient" } },
+    { "--sound", "Hear the touch: a tone as loud as the force, a click where contact begins", { "sound" } },
     { "--full-screen", "The window covers the screen, without a border", { "full-screen" } },
     { "--projection", "How the cloud is seen: perspective (the default), or parallel, without perspective",
       { "projection" } },

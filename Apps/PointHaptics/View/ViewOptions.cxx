@@ -91,6 +91,7 @@ void addWindowOptions(CLI::App& command, ViewOptions& options)
   command.add_flag("--figure", options.viewer.figure)->group(group);
   command.add_flag("--ambient", options.viewer.ambient)->group(group);
   command.add_flag("--full-screen", options.viewer.fullScreen)->group(group);
+  command.add_flag("--sound", options.viewer.sound)->group(group);
   std::vector<std::string> shapes = { "auto", "none" };
   for (int shape = 0; shape < kNumberOfShapes; ++shape)
   {

@@ -26,7 +26,7 @@ namespace
 const std::set<std::string>& deeds()
 {
   static const std::set<std::string> names = { "help", "version", "config", "write-config", "recent",
-    "verbose", "screenshot", "turntable", "force-chart", "trace", "record", "replay", "output" };
+    "verbose", "screenshot", "turntable", "force-chart", "trace", "record", "replay", "output", "sound-file" };
   return names;
 }
 
@@ -106,6 +106,7 @@ void setState(nlohmann::ordered_json& settings, const HapticViewerState& state, 
   settings["felt"] = state.felt;
   settings["ambient"] = state.ambient;
   settings["full-screen"] = state.fullScreen;
+  settings["sound"] = state.sound;
   setPicture(settings, state.picture);
   settings.erase("clip");
   if (!state.clip.empty())

@@ -53,6 +53,7 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
     { "take-unit", "u", "Show", "take the unit the file seems to have", call(&Window::toggleUnit), isOpen });
   commands.add(
     { "measure", "D", "Show", "measure: click on two points", call(&Window::toggleMeasuring), isOpen });
+  commands.add({ "sound", "F8", "Hand", "hear the touch", call(&Window::toggleSound), isOpen });
   commands.add({ "screenshot", "s", "Program", "screenshot", call(&Window::writeScreenshot), isOpen });
   commands.add({ "write-settings", "w", "Program", "write the settings to a file",
     call(&Window::writeSettings), keepsSettings });

@@ -1,4 +1,4 @@
-// What the window does to record touch, and to show a recording.
+// What the window does to record touch, to show a recording, and to make touch heard.
 #include "PolyDataAccess.h"
 #include "ViewWindow.h"
 
@@ -10,6 +10,8 @@
 #include <vtkPointSet.h>
 
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -116,6 +118,46 @@ void ViewWindow::followRecording()
   {
     recordingWaits_ = false;
     this->say("recording to " + recording_.fileName());
+  }
+}
+
+/// On, or off.
+void ViewWindow::toggleSound()
+{
+  options_.sound = !options_.sound;
+  std::string message;
+  std::unique_ptr<SoundOutput> loudspeaker;
+  if (!options_.sound)
+  {
+    sound_.stop();
+    this->say("sound: off");
+  }
+  else if (!device_ && !player_)
+  {
+    options_.sound = false;
+    this->say("nothing is touched here that could be heard");
+  }
+  else if ((loudspeaker = openLoudspeaker(message)))
+  {
+    sound_.start(servo_, std::move(loudspeaker));
+    this->say("sound: as loud as the force, a click where contact begins");
+  }
+  else
+  {
+    options_.sound = false;
+    this->tell(message);
+  }
+}
+
+/// At every call of the timer.
+void ViewWindow::followSound()
+{
+  const std::string problem = sound_.takeProblem();
+  if (!problem.empty())
+  {
+    sound_.stop();
+    options_.sound = false;
+    this->tell(problem);
   }
 }
 

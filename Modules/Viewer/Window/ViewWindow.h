@@ -1,7 +1,7 @@
 /// @file
-/// The viewer's window with the live touch: ViewWindow.cxx sets it up, runs it and closes it,
-/// ViewCommands.cxx lists what its keys do, ViewWindowActions.cxx, ViewSliders.cxx and ViewRecording.cxx do
-/// it.
+/// The viewer's window with the live touch: ViewWindow.cxx sets it up, runs it and closes it, ViewDevices.cxx
+/// has devices and servo loop, ViewCommands.cxx lists what its keys do, ViewWindowActions.cxx,
+/// ViewSliders.cxx and ViewRecording.cxx do it.
 #pragma once
 
 #include "ClipBoxTool.h"
@@ -28,6 +28,7 @@
 #include "Devices/Falcon/FalconUpdates.h"
 #include "Devices/PathReplay.h"
 #include "Devices/SimulatedDevice.h"
+#include "Devices/Sound/SoundPlayer.h"
 #include "Devices/SpaceMouse/SpaceMouse.h"
 #include "Haptics/ServoLoop.h"
 
@@ -121,6 +122,8 @@ private:
   void toggleRecording();
   void setMarker();
   void followRecording();
+  void toggleSound();
+  void followSound();
   bool openReplay(std::string& message);
   void followReplay();
   void showNextFile();
@@ -215,6 +218,7 @@ private:
   HapticDevice* device_ = nullptr;
   CloudLoader loader_;
   ServoLoop servo_;                      // destroyed, and so stopped, before the device
+  SoundPlayer sound_;                    // before the servo loop, which it plays
   std::unique_ptr<ReplayPlayer> player_; // feeds the loop
   Lifetime lifetime_;                    // last: it ends first
 };

@@ -367,6 +367,7 @@ HapticViewerState ViewWindow::state()
   state.ambient = options_.ambient;
   state.picture = options_.picture;
   state.clip = options_.clip;
+  state.sound = options_.sound;
   state.fullScreen = controls_.fullScreen().isFull();
   state.colorBy = options_.colorBy;
   if (scene_.unit().name == scene_.likelyUnit().name)

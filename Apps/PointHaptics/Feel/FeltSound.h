@@ -1,0 +1,44 @@
+/// @file
+/// What `feel` feels, as sound.
+#pragma once
+
+#include "Devices/Sound/ContactTone.h"
+#include "Devices/Sound/WavFile.h"
+#include "Haptics/Proxy.h"
+
+#include <string>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace app
+{
+
+/// A WAV file as long as the touch: each tick is heard until the next one.
+class FeltSound
+{
+public:
+  /// False: @p message says why the file cannot be created.
+  bool open(const std::string& fileName, std::string& message);
+  /// What is felt from @p time on, seconds; a pause longer than a second is cut to one.
+  void add(double time, const ProxyState& state);
+  /// False: @p message says what is lost. True also where it was not opened.
+  bool close(std::string& message);
+
+private:
+  void play(double seconds);
+
+  WavFile file_;
+  ContactTone tone_;
+  std::vector<float> samples_;
+  bool isOpen_ = false;
+  bool hasBegun_ = false;
+  HeardTouch touch_;
+  double time_ = 0.0;   ///< Of the newest tick.
+  double step_ = 0.0;   ///< Between the last two.
+  double wanted_ = 0.0; ///< Seconds of sound so far.
+  std::string problem_;
+};
+
+} // namespace app
+} // namespace pointhaptics

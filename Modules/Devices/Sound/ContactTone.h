@@ -1,0 +1,48 @@
+/// @file
+/// The sound of a touch: a tone as loud as the force, and a click where contact begins.
+#pragma once
+
+#include <cstddef>
+
+namespace pointhaptics
+{
+
+/// What is heard at a moment.
+struct HeardTouch
+{
+  double newtons = 0.0;
+  bool contact = false;
+};
+
+/// Samples of the sound, one after the other: the same for the same touches, whatever the lengths that they
+/// are asked for in. Where nothing is touched there is silence, to the last bit, once the tone has died away
+/// (kFadeSeconds). No sample exceeds kLoudest, and loudness never jumps. Neither allocates nor locks; one
+/// object serves one thread.
+class ContactTone
+{
+public:
+  static constexpr double kSamplesPerSecond = 48000.0;
+  static constexpr double kHertz = 330.0;
+  /// Of a full scale of 1: quiet beside what else a machine says.
+  static constexpr double kLoudest = 0.35;
+  /// Loudness of the tone where the force is without limit, and the force that has half of it.
+  static constexpr double kLoudestTone = 0.20;
+  static constexpr double kHalfNewtons = 1.0;
+  /// From one loudness to another; twice as long after a release.
+  static constexpr double kFadeSeconds = 0.010;
+
+  /// Writes the next @p count samples to @p samples, all of @p touch; a count of 0 takes a beginning contact
+  /// along. A force that is not finite is none.
+  void render(const HeardTouch& touch, float* samples, std::size_t count);
+
+  /// Loudness of the tone at a force, 0 to kLoudestTone.
+  static double loudnessOf(double newtons);
+
+private:
+  bool contact_ = false;
+  double phase_ = 0.0; ///< Of the tone, in periods.
+  double loudness_ = 0.0;
+  double clickSeconds_ = 1.0; ///< Since contact began.
+};
+
+} // namespace pointhaptics

@@ -1,0 +1,147 @@
+// What moves the hand and the model: the devices of the window, and the servo loop.
+#include "ViewScene.h"
+#include "ViewWindow.h"
+
+#include "vtkInteractorStyleHaptic.h"
+
+#include "Devices/Falcon/FalconDevice.h"
+#include "Devices/PathReplay.h"
+#include "Devices/SimulatedDevice.h"
+#include "Devices/SpaceMouse/SpaceMouse.h"
+#include "Haptics/ServoLoop.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace pointhaptics
+{
+
+void ViewWindow::openSimulated()
+{
+  SimulatedHandSettings settings;
+  settings.workspace = scene_.workspace();
+  // In front of the cloud, where the person sees it.
+  const Bounds& box = scene_.workspace();
+  const Vec3 front = scene_.towardsViewer();
+  settings.start = box.center() +
+    0.47 * Vec3{ front.x * box.extent().x, front.y * box.extent().y, front.z * box.extent().z };
+  hand_ = std::make_unique<SimulatedDevice>(settings);
+  hand_->setTarget(settings.start);
+  device_ = hand_.get();
+}
+
+/// Its workspace is the 10 cm cube about the origin, which the cloud is fitted to.
+void ViewWindow::openFalcon()
+{
+  FalconSettings settings = options_.falcon;
+  if (!settings.cancelled)
+  {
+    settings.cancelled = observer_.shouldStop;
+  }
+  falcon_ = std::make_unique<FalconDevice>(settings);
+  device_ = falcon_.get();
+  this->report(HapticViewerObserver::Kind::Note, "falcon: starting; loading its firmware takes some seconds");
+}
+
+bool ViewWindow::openDevice(std::string& message)
+{
+  std::string unusable;
+  if (!options_.replay.empty())
+  {
+    if (!this->openReplay(message))
+    {
+      return false;
+    }
+  }
+  else if (!options_.path.empty())
+  {
+    HipPath path;
+    if (readHipPath(options_.path, path, message) != Status::Ok)
+    {
+      return false;
+    }
+    replay_ = std::make_unique<PathReplayDevice>(std::move(path), true);
+    device_ = replay_.get();
+  }
+  else if (options_.device == HapticViewerDevice::Falcon ||
+    (options_.device == HapticViewerDevice::Auto && falconIsUsable(unusable)))
+  {
+    this->openFalcon();
+  }
+  else if (options_.device != HapticViewerDevice::None)
+  {
+    this->openSimulated();
+  }
+  Status status = device_ ? device_->open() : Status::Ok;
+  if (status != Status::Ok && falcon_ && options_.device == HapticViewerDevice::Auto && !this->shouldStop())
+  {
+    news_ = fmt::format("the Falcon cannot be used: {}; the simulated hand takes its place",
+      openProblem(*falcon_, status, options_.names.firmware));
+    this->report(HapticViewerObserver::Kind::Warning, news_);
+    falcon_.reset();
+    this->openSimulated();
+    status = device_->open();
+  }
+  if (status != Status::Ok)
+  {
+    message = fmt::format("the {} device cannot be used: {}", device_->name(),
+      openProblem(*device_, status, options_.names.firmware));
+    return false;
+  }
+  style_->SetDevice(device_);
+  style_->SetServoLoop(device_ || player_ ? &servo_ : nullptr);
+  // Where there is none, it may be plugged in later; where there is no driver, the window does without.
+  static_cast<void>(spaceMouse_.start());
+  style_->SetSpaceMouse(&spaceMouse_);
+  return true;
+}
+
+/// After the first scene was published: a path must not begin in an empty world.
+bool ViewWindow::startServo(std::string& message)
+{
+  if (player_)
+  {
+    const Status status = servo_.startFed(player_->stepSettings());
+    player_->start(servo_);
+    return status == Status::Ok;
+  }
+  ServoSettings settings = falcon_ ? pushingServoSettings(1000.0) : ServoSettings();
+  settings.idlesWhenStill = options_.trace.empty() && options_.record.empty(); // these have all ticks
+  const Status status = device_ ? servo_.start(*device_, parameters_, settings, &message) : Status::Ok;
+  return status == Status::Ok;
+}
+
+void ViewWindow::followDevices()
+{
+  if (falcon_)
+  {
+    const FalconState before = falconUpdates_.state();
+    const std::string news = falconUpdates_.next(*falcon_);
+    if (falconUpdates_.state() != before)
+    {
+      style_->GetStatus().setDeviceNote(fmt::format("falcon, {}", name(falconUpdates_.state())));
+    }
+    if (!news.empty())
+    {
+      this->say(news);
+    }
+  }
+  const std::string spaceMouse = spaceMouse_.message();
+  if (spaceMouse != spaceMouseMessage_)
+  {
+    spaceMouseMessage_ = spaceMouse;
+    if (spaceMouse_.motion().connected)
+    {
+      this->say(fmt::format("spacemouse: {} moves the model", spaceMouse));
+    }
+    else if (spaceMouse != SpaceMouse::kNonePluggedIn)
+    {
+      this->say(spaceMouse);
+    }
+  }
+}
+
+} // namespace pointhaptics
