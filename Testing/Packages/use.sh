@@ -28,7 +28,7 @@ check_libraries() {
 # None of ours but those made for it links MPI itself. (Debian's libvtkIOXML brings it all the same, for VTK's own filters.)
 check_without_mpi() {
   local file
-  for file in "$ROOT"/usr/bin/pointhaptics "$ROOT"/usr/lib/*/libPointHaptics*.so.*.*.* \
+  for file in "$ROOT"/usr/bin/pointhaptics "$ROOT"/usr/lib/libPointHaptics*.so.* \
     "$ROOT"/usr/lib/python3/dist-packages/pointhaptics/*.so; do
     [[ -e "$file" ]] || continue
     if readelf -d "$file" | grep -E 'NEEDED.*(libmpi|libopen-|ParallelMPI|PointHapticsParallel)' &&
