@@ -22,6 +22,12 @@ public:
     , code(vtkCode)
   {
   }
+  /// @p message: with its cure.
+  FileProblem(unsigned long vtkCode, const std::string& message)
+    : std::runtime_error(message)
+    , code(vtkCode)
+  {
+  }
   unsigned long code; ///< One of vtkErrorCode::ErrorIds.
 };
 

@@ -49,6 +49,7 @@ struct ReadTask
   /// Where ranks read the file together, and its format can be read in parts: null where it is read whole.
   SharedReading* shared = nullptr;
   bool isCut = false;             ///< out: the cloud is this rank's part
+  std::size_t bytesElsewhere = 0; ///< out: read of other files, which this one lists
   bool applyPoses = true;         ///< scans of several positions in one frame
   bool isCoarse = false;          ///< out: WantedPart::mostPoints left out points
   std::string format;             ///< out: "PLY (binary little endian)", as soon as it is known

@@ -145,7 +145,7 @@ bool canBeCut(const std::string& start, std::size_t size, const std::string& ext
   }
   const io::CloudFormat format = io::identifyFormat(start, size, extension);
   return format == io::CloudFormat::Ply || format == io::CloudFormat::Pcd || format == io::CloudFormat::Las ||
-    format == io::CloudFormat::Text;
+    format == io::CloudFormat::Text || format == io::CloudFormat::VtkXml;
 }
 
 /// Takes away the points outside @p box, with their values in all arrays.
@@ -304,7 +304,7 @@ void vtkPointCloudReader::ReadPart(io::ReadTask& task, vtkPolyData* cloud)
     io::identifyFormat(io::startOfFile(task.path, kStart), part.view().size(), this->ExtensionOf(task.path));
   task.format = io::nameOf(format);
   readAs(format, task, cloud);
-  this->NumberOfBytesRead = static_cast<vtkTypeInt64>(part.loaded());
+  this->NumberOfBytesRead = static_cast<vtkTypeInt64>(part.loaded() + task.bytesElsewhere);
   this->Finish(task, cloud);
 }
 
@@ -321,7 +321,7 @@ void vtkPointCloudReader::ReadWhole(io::ReadTask& task, vtkPolyData* cloud)
   task.bytes = bytes.view();
   task.wasPacked = bytes.wasPacked();
   readAs(format, task, cloud);
-  this->NumberOfBytesRead = static_cast<vtkTypeInt64>(bytes.view().size());
+  this->NumberOfBytesRead = static_cast<vtkTypeInt64>(bytes.view().size() + task.bytesElsewhere);
   this->Finish(task, cloud);
 }
 

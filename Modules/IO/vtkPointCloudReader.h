@@ -1,10 +1,10 @@
 /**
  * @class   vtkPointCloudReader
- * @brief   read raw point clouds: PLY, PCD, VTP, VTU, VTK, OBJ, OFF, STL, LAS, LAZ, E57 and text
+ * @brief   read raw point clouds: PLY, PCD, VTP, PVTP, VTU, VTK, OBJ, OFF, STL, LAS, LAZ, E57 and text
  *
  * The format is detected by the file's content; the extension decides only between OBJ and columns of text,
- * and for a binary STL inside a gzip file. Files packed by gzip are read as if they were unpacked (VTP and
- * VTU are not).
+ * and for a binary STL inside a gzip file. Files packed by gzip are read as if they were unpacked (VTP, PVTP
+ * and VTU are not).
  *
  * Output: points, one vertex cell per point, and every scalar field of the file as a point data array with
  * its name and type. Fields that belong together become one array: red green blue [alpha] become "RGB" or
@@ -44,6 +44,9 @@
  *   What a scan lacks that others have is NaN, or 0 for integers. Generator, CoordinateSystem and
  *   LengthUnit are field data, and so are LasScale and LasOffset where scaled integers stay on their
  *   grid. Images and texts are not read: GetNotes(). All checksums are checked.
+ * - PVTP, a list of VTP files as vtkXMLPPolyDataWriter and pointhaptics-mpi write it: the points of all
+ * pieces in the order of the list. The pieces lie beside or below the list, and have the same arrays; ghost
+ * levels are refused.
  * - VTP, VTU and legacy VTK (PolyData, UnstructuredGrid, StructuredGrid): points and point data; cells are
  *   dropped. Legacy files with strings or bits are refused.
  * - OFF, NOFF, COFF, CNOFF as text; STL, both kinds: each distinct vertex once, as float, without normals.
@@ -169,7 +172,8 @@ public:
   /**
    * The processes that read the file together: each gets its part of the points, as many on each, one after
    * the other in the order of the file, with the same arrays. Update() is then collective. PLY, PCD, LAS,
-   * LAZ, COPC and columns of text are read in parts: a process reads headers and its own bytes. Other
+   * LAZ, COPC and columns of text are read in parts: a process reads headers and its own bytes; of a PVTP the
+   * starts of all pieces, and those pieces that have its points. Other
    * formats, compressed PCD, PLY with lists, PTS and what gzip has packed are read whole by each, and cut. A
    * fault of one ends the reading of all. Null (the default): this process reads all. The ranks must outlive
    * updates.

@@ -36,6 +36,15 @@ for role in range(4):
     assert (left and left.GetName()) == (right and right.GetName()), role
 PYTHON
   fi
+  # The program reads it, too, and ranks read it in parts.
+  "$PROGRAM" convert out.pvtp together.vtp >converted
+  "$PROGRAM" convert expected.vtp alone.vtp >converted
+  cmp together.vtp alone.vtp || fault "out.pvtp is not read as out.vtp"
+  "$PROGRAM" info out.pvtp | grep -q "PVTP" || fault "info says: $("$PROGRAM" info out.pvtp)"
+  RANKS="1 2 5" same_bytes vtp resample out.pvtp --dims 20
+  mv out_1.vtp away.vtp
+  ! "$PROGRAM" info out.pvtp >failed 2>&1 || fault "a missing piece is no fault"
+  grep -q "out.pvtp: .*piece 2 of 3, 'out_1.vtp': there is no such file.*; " failed || fault "a missing piece: $(cat failed)"
   rm out.pvtp out_?.vtp
 }
 

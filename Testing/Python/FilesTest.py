@@ -30,6 +30,20 @@ class Files(TestCase):
                     np.testing.assert_array_equal(arrays[key], attributes[key])
                 np.testing.assert_array_equal(arrays["Normals"].astype(np.float32), attributes["Normals"])
 
+    def test_pieces_are_one_cloud(self):
+        points = sphere(300)
+        for name, rows in (("a.vtp", points[:100]), ("b.vtp", points[100:])):
+            ph.write(self.path(name), rows, {"Time": rows[:, 0].copy()})
+        with open(self.path("both.pvtp"), "w") as file:
+            file.write('<?xml version="1.0"?><VTKFile type="PPolyData"><PPolyData>'
+                       '<Piece Source="a.vtp"/><Piece Source="b.vtp"/></PPolyData></VTKFile>')  # fmt: skip
+        together, arrays = ph.read(self.path("both.pvtp"))
+        self.assert_same_bits(together, points)
+        self.assert_same_bits(arrays["Time"], points[:, 0].copy())
+        os.remove(self.path("b.vtp"))
+        with self.assertRaisesRegex(ValueError, "piece 2 of 2, 'b.vtp': there is no such file"):
+            ph.read(self.path("both.pvtp"))
+
     def test_info_is_that_of_the_program(self):
         points = sphere(5000)
         points[7] = np.nan

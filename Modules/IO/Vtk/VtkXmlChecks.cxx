@@ -214,9 +214,9 @@ void checkArray(const DataLayout& layout, std::string_view tag, std::size_t tagA
 class CountCheck
 {
 public:
-  explicit CountCheck(const DataLayout& layout)
-    : mostBytes_(static_cast<double>(layout.bytes.size()) * (layout.isPacked ? kMostUnpackedBytes : 1.0))
-    , fileSize_(layout.bytes.size())
+  CountCheck(const DataLayout& layout, std::size_t fileSize)
+    : mostBytes_(static_cast<double>(fileSize) * (layout.isPacked ? kMostUnpackedBytes : 1.0))
+    , fileSize_(fileSize)
   {
   }
   void check(std::string_view tag, std::size_t tagAt)
@@ -317,11 +317,29 @@ std::string_view vtkFileTag(std::string_view bytes)
   return tags.tag();
 }
 
+std::uint64_t pointsOfVtkXml(std::string_view start, std::size_t fileSize)
+{
+  CountCheck counts(layoutOf(start), fileSize);
+  std::uint64_t points = 0;
+  XmlTags tags(start);
+  while (tags.next())
+  {
+    unsigned long long count = 0;
+    if (tags.tag().substr(0, 6) == "<Piece")
+    {
+      counts.check(tags.tag(), tags.begin());
+      parseCount(xmlAttribute(tags.tag(), "NumberOfPoints"), count);
+      points += count;
+    }
+  }
+  return points;
+}
+
 void checkVtkXml(std::string_view bytes)
 {
   checkIsComplete(bytes);
   const DataLayout layout = layoutOf(bytes);
-  CountCheck counts(layout);
+  CountCheck counts(layout, bytes.size());
   XmlTags tags(bytes);
   while (tags.next())
   {

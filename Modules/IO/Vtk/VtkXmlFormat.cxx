@@ -2,6 +2,7 @@
 
 #include "CloudColumns.h"
 #include "IO/Vtk/ErrorCollector.h"
+#include "IO/Vtk/VtkPieces.h"
 #include "IO/Vtk/VtkXmlChecks.h"
 
 #include "vtkDataArray.h"
@@ -61,17 +62,45 @@ void checkArrays(vtkPointSet* read)
 
 void readVtkXml(ReadTask& task, vtkPolyData* cloud)
 {
+  task.need(0, task.bytes.size());
   const std::string_view type = xmlAttribute(vtkFileTag(task.bytes), "type");
-  task.format = type == "UnstructuredGrid" ? "VTU (VTK XML UnstructuredGrid)" : "VTP (VTK XML PolyData)";
-  const vtkSmartPointer<vtkXMLUnstructuredDataReader> reader = makeReader(type);
+  const bool isList = type == "PPolyData";
+  task.format = isList           ? "PVTP (VTK XML PolyData in pieces)"
+    : type == "UnstructuredGrid" ? "VTU (VTK XML UnstructuredGrid)"
+                                 : "VTP (VTK XML PolyData)";
   if (task.wasPacked)
   {
     throw FileProblem(vtkErrorCode::UnrecognizedFileTypeError, "VTK's XML reader does not read gzip files",
       "unpack it first: gunzip -k FILE");
   }
-  checkVtkXml(task.bytes);
+  if (isList)
+  {
+    readVtkPieces(task, cloud);
+  }
+  else
+  {
+    task.takeWhole();
+    const vtkSmartPointer<vtkPointSet> read = readVtkXmlFile(task, task.path, task.bytes, 0.0, 1.0);
+    cloud->SetPoints(read->GetPoints());
+    cloud->GetPointData()->ShallowCopy(read->GetPointData());
+    cloud->GetFieldData()->ShallowCopy(read->GetFieldData());
+    read->ReleaseData(); // its cells would lie beside those that take their place
+  }
+  if (!cloud->GetPointData()->GetScalars() || !cloud->GetPointData()->GetNormals())
+  {
+    setActiveAttributes(cloud);
+  }
+}
+
+vtkSmartPointer<vtkPointSet> readVtkXmlFile(
+  const ReadTask& task, const std::string& path, std::string_view bytes, double begin, double end)
+{
+  const vtkSmartPointer<vtkXMLUnstructuredDataReader> reader =
+    makeReader(xmlAttribute(vtkFileTag(bytes), "type"));
+  checkVtkXml(bytes);
   constexpr double kCheckPart = 0.1;
-  task.progress(kCheckPart);
+  const double checked = begin + kCheckPart * (end - begin);
+  task.progress(checked);
   vtkNew<ErrorCollector> errors;
   // The executive adds a message of its own to each failure of its algorithm.
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
@@ -79,11 +108,11 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
   reader->AddObserver(vtkCommand::WarningEvent, errors);
   reader->SetReaderErrorObserver(errors);
   reader->SetParserErrorObserver(errors);
-  reader->SetFileName(task.path.c_str());
-  RelayedProgress progress(reader, task.algorithm, task.overall(kCheckPart), 1.0);
+  reader->SetFileName(path.c_str());
+  RelayedProgress progress(reader, task.algorithm, task.overall(checked), task.overall(end));
   reader->Update();
   progress.finish();
-  vtkPointSet* read = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
+  const vtkSmartPointer<vtkPointSet> read = vtkPointSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (!errors->first().empty() || reader->GetErrorCode() != vtkErrorCode::NoError)
   {
     const std::string what = errors->first().empty() ? "VTK's XML reader failed" : errors->first();
@@ -94,14 +123,7 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
     failNoPoints();
   }
   checkArrays(read);
-  cloud->SetPoints(read->GetPoints());
-  cloud->GetPointData()->ShallowCopy(read->GetPointData());
-  cloud->GetFieldData()->ShallowCopy(read->GetFieldData());
-  if (!cloud->GetPointData()->GetScalars() || !cloud->GetPointData()->GetNormals())
-  {
-    setActiveAttributes(cloud);
-  }
-  read->ReleaseData(); // its cells would lie beside those that take their place
+  return read;
 }
 
 } // namespace pointhaptics::io
