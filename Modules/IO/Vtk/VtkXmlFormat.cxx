@@ -79,7 +79,7 @@ void readVtkXml(ReadTask& task, vtkPolyData* cloud)
   }
   else
   {
-    task.takeWhole();
+    task.shared = nullptr; // all of it is there
     const vtkSmartPointer<vtkPointSet> read = readVtkXmlFile(task, task.path, task.bytes, 0.0, 1.0);
     cloud->SetPoints(read->GetPoints());
     cloud->GetPointData()->ShallowCopy(read->GetPointData());
