@@ -286,6 +286,15 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
     this->MedianLength = pointhaptics::quantileOfPositive(sizes, 5);
   }
   this->Superclass::RenderPieceStart(renderer, actor);
+  // What is in the graphics card's memory, or the software renderer's, is kept here by nobody: 28 bytes a
+  // point.
+  for (const char* attribute : { "vertexMC", "scalarColor", kAttribute, kNormalAttribute })
+  {
+    if (vtkOpenGLVertexBufferObject* buffer = this->VBOs->GetVBO(attribute))
+    {
+      std::vector<float>().swap(buffer->GetPackedVBO());
+    }
+  }
 }
 
 void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)

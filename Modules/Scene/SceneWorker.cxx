@@ -28,6 +28,9 @@ using Clock = std::chrono::steady_clock;
 
 /// Between two looks at where the hand is: 0.5 mm at 50 mm/s.
 constexpr std::chrono::milliseconds kLookPeriod(10);
+/// The same of a hand that rested for so many looks.
+constexpr std::chrono::milliseconds kRestPeriod(40);
+constexpr int kRestingLooks = 50;
 
 /// The filters, which live and die in the worker's thread.
 class Pipeline
@@ -189,7 +192,11 @@ struct SceneWorker::Implementation
   std::shared_ptr<const Refinable> refinable;      // while no request follows, if that is wanted
   Owned<BuiltScene> finished;
   bool ending = false;
+  // Of the thread near the hand.
+  Bounds seenHand;
+  int restingLooks = 0;
 
+  void look(const SceneRequest& request);
   void start(Builder& builder, void (Implementation::*build)());
   std::optional<Job> next(Builder& builder);
   void waitForLocal(const Job& job);
@@ -219,7 +226,8 @@ std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
   while (!isDue())
   {
     this->changed.wait(lock, [&] { return isDue() || mayRefine(); });
-    if (!this->changed.wait_for(lock, kLookPeriod, isDue) && mayRefine())
+    const auto period = this->restingLooks < kRestingLooks ? kLookPeriod : kRestPeriod;
+    if (!this->changed.wait_for(lock, period, isDue) && mayRefine())
     {
       builder.refines = true;
       return Job{ {}, this->refinable->number, this->cloudNumber, takeOwned(builder.cloud), this->refinable };
@@ -308,6 +316,14 @@ void SceneWorker::Implementation::buildGlobalScenes()
   }
 }
 
+/// Whether the hand rests: then there is time until the next look, and a window at rest sleeps.
+void SceneWorker::Implementation::look(const SceneRequest& request)
+{
+  const Bounds hand = request.hand();
+  this->restingLooks = hand == this->seenHand ? this->restingLooks + 1 : 0;
+  this->seenHand = hand;
+}
+
 void SceneWorker::Implementation::buildLocalScenes()
 {
   LocalSceneProvider builder;
@@ -320,6 +336,7 @@ void SceneWorker::Implementation::buildLocalScenes()
     if (job->refinable)
     {
       const SceneRequest& request = job->refinable->request;
+      this->look(request);
       if (std::shared_ptr<const HapticScene> finer = builder.refine(request, job->refinable->global))
       {
         request.publish(std::move(finer), job->number);

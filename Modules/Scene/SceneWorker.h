@@ -70,7 +70,8 @@ struct BuiltScene
 /// is built. The picture may be left out of a build that is followed by another, but not for longer than
 /// kPictureSeconds. A second thread builds what is near the hand (LocalSceneProvider) in the same way, and
 /// goes first: new voxels are felt before the whole cloud is resampled. While the model rests it looks at the
-/// hand 100 times a second, if the newest request says so, and makes finer scenes of where that comes.
+/// hand 100 times a second, 25 times a hand that rests, if the newest request says so, and makes finer scenes
+/// of where that comes.
 ///
 /// request(), adopt(), setCloud(), take(), wait() and cancel() from one thread (the GUI's), which waits in
 /// the last two only. VTK objects pass from thread to thread whole: the worker has filters of its own, and

@@ -177,6 +177,7 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   {
     measurement_.start(loaded.toMeasure, loaded.showing);
   }
+  memoryDue_ = steadySeconds() + kMemorySeconds;
   placedCamera_.clear();
   isCoarse_ = loaded.isCoarse;
   heightZero_ = loaded.heightZero;

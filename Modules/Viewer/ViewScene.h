@@ -24,6 +24,7 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -199,6 +200,9 @@ public:
   vtkIdType numberOfPoints() const;
 
 private:
+  static constexpr double kMemorySeconds = 2.0; ///< After the last of what takes memory for a while.
+
+  void returnMemory();
   /// What the maps of colours run between.
   struct ColorRange
   {
@@ -239,6 +243,7 @@ private:
   vtkNew<vtkActor> actor_;
   std::shared_ptr<ShownCloud> shown_;
   ShownMeasurement measurement_;
+  double memoryDue_ = INFINITY;      ///< When returnMemory() has something to do, by steadySeconds().
   std::vector<double> placedCamera_; ///< As placeCamera() left it.
   vtkNew<vtkSplatMapper> pointsMapper_;
   vtkNew<vtkActor> pointsActor_;

@@ -3,6 +3,7 @@
 
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
+#include "SteadyTime.h"
 #include "SurfaceArrays.h"
 #include "vtkKernelBandwidthFilter.h"
 
@@ -17,6 +18,10 @@
 
 #include <algorithm>
 #include <cmath>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace pointhaptics
 {
@@ -125,13 +130,28 @@ void ViewScene::drawPoints()
   orientation_.front = normalized(transformOf(modelMatrix_).applyToVector(shown_->look.front));
 }
 
+/// What was freed while the cloud was read, measured and drawn goes back to the machine, once that is over:
+/// about 200 bytes a point.
+void ViewScene::returnMemory()
+{
+  if (steadySeconds() >= memoryDue_ && !measurement_.busy())
+  {
+    memoryDue_ = INFINITY;
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+  }
+}
+
 bool ViewScene::followMeasurement(bool waits)
 {
+  this->returnMemory();
   const std::shared_ptr<ShownCloud> measured = measurement_.take(waits);
   if (!measured)
   {
     return false;
   }
+  memoryDue_ = steadySeconds() + kMemorySeconds;
   shown_ = measured;
   const bool isPlaced = placedCamera_ == pictureCamera(renderer_->GetActiveCamera());
   this->drawPoints();

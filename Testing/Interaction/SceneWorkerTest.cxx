@@ -2,6 +2,7 @@
 #include "ScenePublisher.h"
 
 #include "SurfaceArrays.h"
+#include "Unit/Eventually.h"
 
 #include "vtkKernelBandwidthFilter.h"
 #include "vtkVoxelMeanResampler.h"
@@ -382,6 +383,19 @@ TEST_F(RefiningWorkerTest, LooksAtNoHandAfterItIsCancelled)
   EXPECT_EQ(looks_, looks);
   this->request(0.0, true);
   EXPECT_NE(published_.finerAt({ 0.01, 0.0, 0.0 }), nullptr);
+}
+
+TEST_F(RefiningWorkerTest, LooksSeldomAtAHandThatRests)
+{
+  this->request(0.0, true);
+  ASSERT_NE(published_.finerAt({}), nullptr);
+  const int first = looks_;
+  ASSERT_TRUE(trial::eventually([&] { return looks_ > first + 150; }));
+  const int rested = looks_;
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_LT(looks_ - rested, 100) << "it would be 200: two questions a look";
+  handX_ = 0.008;
+  EXPECT_NE(published_.finerAt({ 0.008, 0.0, 0.0 }), nullptr);
 }
 
 /// A hand that stays where it is.
