@@ -1,12 +1,11 @@
 // What hand mode does before anything is touched.
 #include "HandDistance.h"
 #include "InteractorStyleFixture.h"
+#include "SteadyHand.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
 
-#include "Devices/SimulatedDevice.h"
 #include "Haptics/Proxy.h"
-#include "Haptics/ServoLoop.h"
 
 #include <gtest/gtest.h>
 #include <vtkCommand.h>
@@ -106,27 +105,18 @@ TEST_F(HandMode, KnowsHowFarTheCloudIsAndWhere)
 
 TEST_F(HandMode, SaysTheDistanceAndHowToTouchUntilItWasDone)
 {
-  SimulatedHandSettings settings;
-  settings.yieldsToForce = false;
-  settings.start = { 0.0, 0.0, 0.03 };
-  SimulatedDevice device(settings);
-  device.setTarget(settings.start);
-  ASSERT_EQ(device.open(), Status::Ok);
-  ServoLoop servo;
-  ServoSettings servoSettings;
-  servoSettings.realtimePriority = false;
-  ASSERT_EQ(servo.start(device, HapticParameters(), servoSettings), Status::Ok);
+  pointhaptics::trial::SteadyHand hand({ 0.0, 0.0, 0.03 });
+  SimulatedDevice& device = hand.device;
   vtkNew<vtkHapticProps> props;
   vtkNew<vtkHapticOverlay> overlay;
   props->AddTo(renderer_);
   overlay->AddTo(renderer_);
-  style_->SetServoLoop(&servo);
-  style_->SetDevice(&device);
+  hand.begin(style_);
   style_->SetProps(props);
   style_->SetOverlay(overlay);
   const auto says = [&](const char* words) { return overlay->GetStatus().find(words) != std::string::npos; };
   interactor_->SetEventInformation(2, 2, 0, 0);
-  EXPECT_TRUE(this->eventually([&] { return servo.latest().state.radius > 0.0; }));
+  EXPECT_TRUE(this->eventually([&] { return hand.servo.latest().state.radius > 0.0; }));
   EXPECT_FALSE(says("nearest point")) << "of a hand that nobody moves";
   this->press("f");
   EXPECT_TRUE(this->eventually([&] { return says("nearest point 30 mm away: deeper"); }))
@@ -148,8 +138,6 @@ TEST_F(HandMode, SaysTheDistanceAndHowToTouchUntilItWasDone)
     << overlay->GetStatus();
   EXPECT_FALSE(says("nearest point"));
   EXPECT_FALSE(props->GetNearest(nearest));
-  servo.stop();
-  style_->SetServoLoop(nullptr);
 }
 
 } // namespace

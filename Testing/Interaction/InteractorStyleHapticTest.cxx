@@ -1,6 +1,7 @@
 #include "InteractorStyleFixture.h"
 
 #include "PointPicking.h"
+#include "SteadyHand.h"
 #include "SurfaceArrays.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProps.h"
@@ -202,32 +203,19 @@ TEST_F(InteractorStyleHaptic, DrivesTheHandInTheViewPlaneAndInDepth)
 
 TEST_F(InteractorStyleHaptic, MovesThePropsFromTheTimer)
 {
-  SimulatedHandSettings settings;
-  settings.yieldsToForce = false;
-  settings.start = { 0.01, 0.0, 0.02 };
-  SimulatedDevice device(settings);
-  device.setTarget(settings.start);
-  ASSERT_EQ(device.open(), Status::Ok);
+  pointhaptics::trial::SteadyHand hand({ 0.01, 0.0, 0.02 });
   vtkNew<vtkHapticProps> props;
   props->AddTo(renderer_);
-  ServoLoop servo;
-  ServoSettings servoSettings;
-  servoSettings.realtimePriority = false;
-  ASSERT_EQ(servo.start(device, HapticParameters(), servoSettings), Status::Ok);
-  style_->SetServoLoop(&servo);
-  style_->SetDevice(&device);
+  hand.begin(style_);
   style_->SetProps(props);
   // A radius above 0 tells that the servo thread has the scene; before that a hand below the plane is in free
   // space.
   EXPECT_TRUE(this->eventually(
-    [&] { return props->GetHipActor()->GetVisibility() != 0 && servo.latest().state.radius > 0.0; }));
+    [&] { return props->GetHipActor()->GetVisibility() != 0 && hand.servo.latest().state.radius > 0.0; }));
   EXPECT_NEAR(props->GetHipActor()->GetUserMatrix()->GetElement(2, 3), 0.02, 1e-9);
-  device.setTarget({ 0.01, 0.0, -0.002 });
+  hand.device.setTarget({ 0.01, 0.0, -0.002 });
   EXPECT_TRUE(this->eventually([&] { return props->GetForceActor()->GetVisibility() != 0; }));
   EXPECT_GT(props->GetForceActor()->GetUserMatrix()->GetElement(2, 0), 0.0); // pushes up, out of the plane
-  style_->SetServoLoop(nullptr);
-  style_->SetDevice(nullptr);
-  servo.stop();
 }
 
 TEST_F(InteractorStyleHaptic, TakesBackTheLastMoveAsAWhole)

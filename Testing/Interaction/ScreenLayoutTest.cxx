@@ -13,13 +13,20 @@
 
 #include "vtkActor2D.h"
 #include "vtkActor2DCollection.h"
+#include "vtkAlgorithm.h"
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper2D.h"
+#include "vtkPropCollection.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkRendererCollection.h"
 #include "vtkScalarBarActor.h"
+#include "vtkSliderRepresentation2D.h"
 #include "vtkSmartPointer.h"
+#include "vtkTextActor.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -364,6 +371,45 @@ TEST_F(ScreenLayoutTest, TheGaugeGivesWayToTheTexts)
       }
     }
   }
+}
+
+/// Where only what lies over the picture is drawn again, knobs stayed where they were when their words went.
+TEST_F(ScreenLayoutTest, TheKnobsOfSlidersGoWithTheirWords)
+{
+  Screen screen(640, 480, 1.0, false);
+  screen.sliders->SetVisibility(true);
+  screen.window->Render();
+  screen.sliders->Place(100.0, 50.0, 300.0, 250.0);
+  int parts = 0;
+  // They have a renderer of their own.
+  auto* own = vtkRenderer::SafeDownCast(screen.window->GetRenderers()->GetItemAsObject(1));
+  ASSERT_NE(own, nullptr);
+  vtkPropCollection* props = own->GetViewProps();
+  props->InitTraversal();
+  while (vtkProp* prop = props->GetNextProp())
+  {
+    vtkNew<vtkPropCollection> actors;
+    if (vtkSliderRepresentation2D::SafeDownCast(prop))
+    {
+      prop->GetActors2D(actors);
+    }
+    actors->InitTraversal();
+    while (vtkProp* part = actors->GetNextProp())
+    {
+      auto* actor = vtkActor2D::SafeDownCast(part);
+      auto* mapper = actor ? vtkPolyDataMapper2D::SafeDownCast(actor->GetMapper()) : nullptr;
+      if (mapper && actor->GetVisibility() && !vtkTextActor::SafeDownCast(actor))
+      {
+        mapper->GetInputAlgorithm()->Update();
+        double box[6];
+        mapper->GetInput()->GetBounds(box);
+        ++parts;
+        EXPECT_TRUE(box[0] >= 97.0 && box[1] <= 303.0 && box[2] >= 47.0 && box[3] <= 253.0)
+          << box[0] << ".." << box[1] << ", " << box[2] << ".." << box[3];
+      }
+    }
+  }
+  EXPECT_GT(parts, 7);
 }
 
 /// An end of the normal beside the number would read like a sign.

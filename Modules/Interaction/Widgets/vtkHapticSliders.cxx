@@ -302,6 +302,9 @@ void vtkHapticSliders::Place(double left, double bottom, double right, double to
     one.picture->GetPoint2Coordinate()->SetValue((right - knob) / window[0], way / window[1]);
     one.text->SetPosition(right / window[0], (row + step - text[1]) / window[1]);
     one.text->GetTextProperty()->SetVerticalJustificationToBottom();
+    // Else the knob follows with the next picture that is drawn anew, and its words are there at once.
+    one.picture->Modified();
+    one.picture->BuildRepresentation();
   }
 }
 

@@ -27,8 +27,8 @@ constexpr int kFont = 15;
 constexpr double kArm = 7.0;
 constexpr double kGap = 8.0;
 constexpr double kLine = 22.0;
-/// Of a search for a place that is free, over kLine.
-constexpr int kMostSteps = 40;
+/// Of a search for a place that is free, kLine apart; farther away words belong to nothing, and are left out.
+constexpr int kMostSteps = 6;
 /// After ScreenLayout, which says what is taken.
 constexpr float kLast = -2.0F;
 /// A line steeper than this has its words to the right.
