@@ -16,7 +16,9 @@ fail() {
 
 main() {
   (($# == 1)) || fail "usage: Testing/ParaView/root.sh FOLDER"
-  local folder="$1" part="$1.part" package
+  local folder package part
+  folder="$(realpath -m -- "$1")" # apt-get runs in a folder below
+  part="$folder.part"
   if [[ -e "$folder/complete" ]]; then
     printf 'ParaView is in %s\n' "$folder"
     return
