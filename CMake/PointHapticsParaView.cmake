@@ -6,12 +6,14 @@ find_package(MPI REQUIRED COMPONENTS C)
 find_package(ParaView 5.11 REQUIRED COMPONENTS WrapClientServer ProcessXML RemotingCore RemotingServerManager)
 message(STATUS "ParaView plugin: for ParaView ${ParaView_VERSION} in ${ParaView_DIR}")
 
+set(POINTHAPTICS_HAS_MPI ON)
 set(BUILD_SHARED_LIBS OFF)
 add_subdirectory(Modules/Core)
 vtk_module_scan(
   MODULE_FILES
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/Filters/vtk.module"
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/IO/vtk.module"
+    "${CMAKE_CURRENT_SOURCE_DIR}/Modules/Parallel/vtk.module"
     "${CMAKE_CURRENT_SOURCE_DIR}/Modules/ParaView/vtk.module"
   PROVIDES_MODULES pointhaptics_provided
   WANT_BY_DEFAULT ON)

@@ -1,28 +1,28 @@
 /**
  * @class   vtkPVVoxelMeanResampler
- * @brief   vtkVoxelMeanResampler whose lattice does not depend on the order of its properties
+ * @brief   vtkDistributedVoxelMeanResampler whose lattice does not depend on the order of its properties
  *
  * In vtkVoxelMeanResampler the property set last rules: VoxelSize or Dimensions, WorkspaceBounds or
  * AutomaticWorkspace. ParaView sends the properties that changed, in an order of its own, and shows the
  * others as they are. Here all of them are kept, and LatticeMode and AutomaticWorkspace alone say which rule.
  *
- * It computes nothing: results and errors are those of vtkVoxelMeanResampler. One thread may use an object at
- * a time.
+ * It computes nothing: results and errors are those of vtkDistributedVoxelMeanResampler. One thread may use
+ * an object at a time.
  *
- * @sa vtkVoxelMeanResampler
+ * @sa vtkDistributedVoxelMeanResampler
  */
 #ifndef vtkPVVoxelMeanResampler_h
 #define vtkPVVoxelMeanResampler_h
 
 #include "Core/Base/Lattice.h"          // For Chosen
 #include "PointHapticsParaViewModule.h" // For export macro
-#include "vtkVoxelMeanResampler.h"
+#include "vtkDistributedVoxelMeanResampler.h"
 
-class POINTHAPTICSPARAVIEW_EXPORT vtkPVVoxelMeanResampler : public vtkVoxelMeanResampler
+class POINTHAPTICSPARAVIEW_EXPORT vtkPVVoxelMeanResampler : public vtkDistributedVoxelMeanResampler
 {
 public:
   static vtkPVVoxelMeanResampler* New();
-  vtkTypeMacro(vtkPVVoxelMeanResampler, vtkVoxelMeanResampler);
+  vtkTypeMacro(vtkPVVoxelMeanResampler, vtkDistributedVoxelMeanResampler);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum LatticeModeType

@@ -52,8 +52,8 @@ std::string signatureOf(const std::vector<VoxelArray>& arrays)
   std::ostringstream text;
   for (const VoxelArray& found : arrays)
   {
-    text << found.array->GetName() << " of " << found.array->GetNumberOfComponents() << " "
-         << found.array->GetDataTypeAsString() << "; ";
+    text << (found.array->GetName() ? found.array->GetName() : "") << " of "
+         << found.array->GetNumberOfComponents() << " " << found.array->GetDataTypeAsString() << "; ";
   }
   return text.str();
 }

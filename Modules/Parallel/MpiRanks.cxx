@@ -32,7 +32,7 @@ void inPieces(std::size_t bytes, Function&& send)
 }
 
 MpiRanks::MpiRanks(vtkMultiProcessController* controller)
-  : controller_(controller)
+  : controller_(vtkMPIController::SafeDownCast(controller))
 {
 }
 
@@ -50,9 +50,8 @@ int MpiRanks::size() const
 /// two send to the same one and no more than one message waits.
 std::vector<std::string> MpiRanks::exchange(std::vector<std::string> messages)
 {
-  auto* mpi = vtkMPIController::SafeDownCast(controller_);
   const int size = this->size();
-  if (!mpi || size == 1)
+  if (size == 1)
   {
     return messages;
   }
@@ -66,17 +65,17 @@ std::vector<std::string> MpiRanks::exchange(std::vector<std::string> messages)
     const auto bytes = vtkIdType(message.size());
     std::vector<vtkMPICommunicator::Request> requests(2 + message.size() / kMostAtOnce);
     std::size_t sends = 0;
-    mpi->NoBlockSend(&bytes, 1, to, kSizeTag, requests[sends++]);
+    controller_->NoBlockSend(&bytes, 1, to, kSizeTag, requests[sends++]);
     inPieces(message.size(),
       [&](std::size_t offset, int count)
-      { mpi->NoBlockSend(message.data() + offset, count, to, kMessageTag, requests[sends++]); });
+      { controller_->NoBlockSend(message.data() + offset, count, to, kMessageTag, requests[sends++]); });
     vtkIdType incoming = 0;
-    mpi->Receive(&incoming, 1, from, kSizeTag);
+    controller_->Receive(&incoming, 1, from, kSizeTag);
     std::string& into = received[std::size_t(from)];
     into.resize(std::size_t(incoming));
     inPieces(into.size(),
       [&](std::size_t offset, int count)
-      { mpi->Receive(into.data() + offset, vtkIdType(count), from, kMessageTag); });
+      { controller_->Receive(into.data() + offset, vtkIdType(count), from, kMessageTag); });
     for (std::size_t r = 0; r < sends; ++r)
     {
       requests[r].Wait();

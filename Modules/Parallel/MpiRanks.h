@@ -8,13 +8,14 @@
 
 #include <cstdint>
 
+class vtkMPIController;
 class vtkMultiProcessController;
 
 namespace pointhaptics
 {
 
-/// Messages of a vtkMPIController; without a controller, or with one of one process, a job of one rank. The
-/// controller must outlive it.
+/// Messages of a vtkMPIController; any other controller, or none, is a job of one rank. The controller must
+/// outlive it.
 ///
 /// Every exchange is collective: a rank that ends without it must end the job (abortJob()), or the others
 /// wait for it.
@@ -30,7 +31,7 @@ public:
   std::int64_t bytesSent() const { return sent_; }
 
 private:
-  vtkMultiProcessController* controller_;
+  vtkMPIController* controller_;
   std::int64_t sent_ = 0;
 };
 

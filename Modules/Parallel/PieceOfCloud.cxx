@@ -143,6 +143,70 @@ void setBytes(vtkAbstractArray* array, const std::vector<std::string>& pieces)
   }
 }
 
+/// What stands before the name of an array.
+struct ArrayPreface
+{
+  int type = 0;
+  int components = 0;
+  int roles = 0; ///< Bit n: the active one of vtkDataSetAttributes::AttributeTypes n.
+  int nameLength = 0;
+};
+
+/// Never empty.
+std::string namesAndTypes(vtkPointData* data)
+{
+  std::string text(1, '+');
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    ArrayPreface preface{ array->GetDataType(), array->GetNumberOfComponents(), 0, int(name.size()) };
+    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+    {
+      preface.roles |= int(data->GetAbstractAttribute(type) == array) << type;
+    }
+    text += bytesOfValues(std::vector<ArrayPreface>{ preface }) + name;
+  }
+  return text;
+}
+
+void addEmptyArrays(const std::string& text, vtkPointData* data)
+{
+  for (std::size_t at = 1; at < text.size();)
+  {
+    const auto preface = valuesOfBytes<ArrayPreface>(text.substr(at, sizeof(ArrayPreface))).at(0);
+    at += sizeof(ArrayPreface);
+    const auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(preface.type));
+    array->SetNumberOfComponents(preface.components);
+    array->SetName(text.substr(at, std::size_t(preface.nameLength)).c_str());
+    at += std::size_t(preface.nameLength);
+    const int index = data->AddArray(array);
+    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+    {
+      if ((preface.roles >> type & 1) != 0)
+      {
+        data->SetActiveAttribute(index, type);
+      }
+    }
+  }
+}
+
+}
+
+vtkSmartPointer<vtkPointSet> withArraysOfOthers(Ranks& ranks, vtkPointSet* piece)
+{
+  const bool hasPoints = piece->GetNumberOfPoints() > 0;
+  for (const std::string& arrays :
+    ranks.gather(hasPoints ? namesAndTypes(piece->GetPointData()) : std::string()))
+  {
+    if (!hasPoints && !arrays.empty())
+    {
+      auto empty = vtkSmartPointer<vtkPolyData>::New();
+      addEmptyArrays(arrays, empty->GetPointData());
+      return empty;
+    }
+  }
+  return piece;
 }
 
 vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ranks, vtkPolyData* piece)

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+class vtkPointSet;
 class vtkPolyData;
 
 namespace pointhaptics
@@ -26,5 +27,9 @@ POINTHAPTICSPARALLEL_EXPORT vtkSmartPointer<vtkPolyData> gatherPieces(Ranks& ran
 /// arrays of numbers alone.
 POINTHAPTICSPARALLEL_EXPORT vtkSmartPointer<vtkPolyData> exchangePoints(
   Ranks& ranks, vtkPolyData* piece, const std::vector<int>& to, std::vector<std::int64_t>& numbers);
+
+/// @p piece; where it has no points and others have, an empty cloud with point arrays as those of the first
+/// rank that has: sources that know no pieces give all to one rank, and to the others nothing at all.
+POINTHAPTICSPARALLEL_EXPORT vtkSmartPointer<vtkPointSet> withArraysOfOthers(Ranks& ranks, vtkPointSet* piece);
 
 } // namespace pointhaptics

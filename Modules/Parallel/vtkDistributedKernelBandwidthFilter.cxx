@@ -1,5 +1,6 @@
 #include "vtkDistributedKernelBandwidthFilter.h"
 
+#include "BlocksOfInput.h"
 #include "MpiRanks.h"
 
 #include "BandwidthArrays.h"
@@ -14,7 +15,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
-#include <vector>
+#include <string>
 
 using namespace pointhaptics;
 
@@ -41,12 +42,30 @@ vtkMultiProcessController* vtkDistributedKernelBandwidthFilter::GetController()
   return this->Controller;
 }
 
-int vtkDistributedKernelBandwidthFilter::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkDistributedKernelBandwidthFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
+  const int filled = this->Superclass::FillInputPortInformation(port, info);
+  takeBlocksAtOnce(info, this->Controller);
+  return filled;
+}
+
+int vtkDistributedKernelBandwidthFilter::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  MpiRanks ranks(this->Controller);
+  this->NumberOfBytesSent = 0;
+  if (ranks.size() == 1)
+  {
+    return this->Superclass::RequestData(request, inputVector, outputVector);
+  }
+  const std::string blocks = problemOfBlocks(vtkDataObject::GetData(inputVector[0]));
+  if (!blocks.empty())
+  {
+    vtkErrorMacro(<< blocks);
+    return 1;
+  }
   auto* input = vtkPolyData::GetData(inputVector[0]);
   auto* output = vtkPolyData::GetData(outputVector);
-  MpiRanks ranks(this->Controller);
   const BandwidthSettings settings = this->GetSettings();
   const PointAccess points(input->GetPoints());
   BandwidthsOfPoints found;

@@ -12,6 +12,8 @@
  *
  * Properties are those of vtkKernelBandwidthFilter and must be the same on all ranks. Update() is collective:
  * all ranks of the controller call it. AbortExecute is not looked at, as other ranks would wait.
+ * Composite datasets are refused: ranks may have other blocks. Where the controller has one process, all is
+ * as in vtkKernelBandwidthFilter.
  *
  * @sa vtkKernelBandwidthFilter vtkMultiProcessController
  */
@@ -49,6 +51,7 @@ protected:
   vtkDistributedKernelBandwidthFilter();
   ~vtkDistributedKernelBandwidthFilter() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

@@ -1,7 +1,9 @@
 #include "vtkDistributedVoxelMeanResampler.h"
 
+#include "BlocksOfInput.h"
 #include "DistributedUpdate.h"
 #include "MpiRanks.h"
+#include "PieceOfCloud.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkFieldData.h"
@@ -40,10 +42,29 @@ vtkMultiProcessController* vtkDistributedVoxelMeanResampler::GetController()
   return this->Controller;
 }
 
-int vtkDistributedVoxelMeanResampler::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkDistributedVoxelMeanResampler::FillInputPortInformation(int port, vtkInformation* info)
 {
-  auto* input = vtkPointSet::GetData(inputVector[0]);
+  const int filled = this->Superclass::FillInputPortInformation(port, info);
+  takeBlocksAtOnce(info, this->Controller);
+  return filled;
+}
+
+int vtkDistributedVoxelMeanResampler::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  MpiRanks ranks(this->Controller);
+  this->NumberOfBytesSent = 0;
+  if (ranks.size() == 1)
+  {
+    return this->Superclass::RequestData(request, inputVector, outputVector);
+  }
+  const std::string blocks = problemOfBlocks(vtkDataObject::GetData(inputVector[0]));
+  if (!blocks.empty())
+  {
+    vtkErrorMacro(<< blocks);
+    return 1;
+  }
+  const vtkSmartPointer<vtkPointSet> input = withArraysOfOthers(ranks, vtkPointSet::GetData(inputVector[0]));
   const VoxelMeanSettings settings = this->GetSettings();
   this->NumberOfClippedPoints = 0;
   this->NumberOfInvalidPoints = 0;
@@ -55,7 +76,6 @@ int vtkDistributedVoxelMeanResampler::RequestData(
   }
   vtkPolyData* index =
     settings.computeVoxelIndex ? vtkPolyData::GetData(outputVector, settings.numberOfLevels) : nullptr;
-  MpiRanks ranks(this->Controller);
   DistributedUpdate update(ranks, settings, input);
   std::string problem = update.prepare(this->Transform);
   for (int level = 0; problem.empty() && level < settings.numberOfLevels;)

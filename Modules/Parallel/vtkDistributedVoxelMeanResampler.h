@@ -13,13 +13,15 @@
  * for each value that occurs in a voxel), not to the points.
  *
  * Properties are those of vtkVoxelMeanResampler and must be the same on all ranks; so must be the names,
- * types and components of the arrays. The numbers of clipped and invalid points are those of all ranks.
- * Other representatives than the mean need the points of a voxel together: points, not sums, go to the rank
- * that has their voxel. ComputeVoxelIndex numbers the voxels of all ranks, KeepOriginalPointIds the points.
+ * types and components of the arrays, but for ranks without points, which may have none. The numbers of
+ * clipped and invalid points are those of all ranks. Other representatives than the mean need the points of a
+ * voxel together: points, not sums, go to the rank that has their voxel. ComputeVoxelIndex numbers the voxels
+ * of all ranks, KeepOriginalPointIds the points.
  *
  * Update() is collective: all ranks of the controller call it. AbortExecute is not looked at, as other ranks
- * would wait. Memory: a second pass over the points where there are arrays; else as vtkVoxelMeanResampler,
- * and the messages.
+ * would wait. Composite datasets are refused: ranks may have other blocks. Where the controller has one
+ * process, all is as in vtkVoxelMeanResampler. Memory: a second pass over the points where there are arrays;
+ * else as vtkVoxelMeanResampler, and the messages.
  *
  * @sa vtkVoxelMeanResampler vtkMultiProcessController
  */
@@ -56,6 +58,7 @@ protected:
   vtkDistributedVoxelMeanResampler();
   ~vtkDistributedVoxelMeanResampler() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

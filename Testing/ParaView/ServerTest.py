@@ -1,14 +1,17 @@
-"""The ParaView plugin on a pvserver of two ranks: real clouds come out as the program's, bit for bit.
+"""The ParaView plugin on a pvserver: real clouds come out as the program's, bit for bit, and each rank has its part.
 
-Started by server.sh, which tells in POINTHAPTICS_SERVER_PORT where the server listens.
+Started by server.sh, which tells in POINTHAPTICS_SERVER_PORT where the server listens, and in POINTHAPTICS_SERVER_RANKS how
+many ranks it has.
 """
 
 import os
 import unittest
 
+import numpy as np
 from paraview import servermanager, simple
-from support import ErrorMessages, TestCase, load_plugin, run_program, shared_data
+from support import ErrorMessages, TestCase, arrays_of, load_plugin, read_vtp, run_program, shared_data
 
+RANKS = int(os.environ["POINTHAPTICS_SERVER_RANKS"])
 simple.Connect("localhost", int(os.environ["POINTHAPTICS_SERVER_PORT"]))
 load_plugin(remote=True)
 
@@ -17,9 +20,51 @@ def read(path):
     return simple.PointHapticsReader(FileNames=[path])
 
 
-class TwoRanks(TestCase):
-    def test_there_are_two(self):
-        self.assertEqual(servermanager.ActiveConnection.GetNumberOfDataPartitions(), 2)
+def points_of_ranks(proxy):
+    """How many points of a proxy's output each rank of the server has."""
+    numbered = servermanager.Fetch(simple.ProcessIdScalars(Input=proxy))
+    return np.bincount(arrays_of(numbered)["ProcessId"].astype(int), minlength=RANKS).tolist()
+
+
+class Server(TestCase):
+    def test_it_has_the_ranks(self):
+        self.assertEqual(servermanager.ActiveConnection.GetNumberOfDataPartitions(), RANKS)
+
+    def test_each_rank_has_its_part(self):
+        run_program("generate", "idol", "-n", 200000, "-o", self.path("in.ply"))
+        cloud = read(self.path("in.ply"))
+        self.assertEqual(points_of_ranks(cloud), [200000 // RANKS] * RANKS)
+        cloud.UpdatePropertyInformation()
+        most = os.path.getsize(self.path("in.ply")) / RANKS + 2**20  # headers are looked for in the first megabyte
+        self.assertLess(cloud.GetPropertyValue("NumberOfBytesRead"), most)
+        means = points_of_ranks(simple.VoxelMeanResampler(Input=cloud, VoxelSize=0.002))
+        self.assertGreater(min(means), 0.3 * sum(means))
+
+    def test_the_reader_gives_the_program_its_cloud(self):
+        for path in (shared_data("office1.pcd"), shared_data("formats/autzen_trim.laz")):
+            with self.subTest(path):
+                run_program("convert", path, self.path("program.vtp"))
+                self.assert_same_bits(servermanager.Fetch(read(path)), read_vtp(self.path("program.vtp")))
+
+    def test_blocks_on_many_ranks_are_an_error_and_no_hang(self):
+        run_program("generate", "sphere", "-n", 5000, "-o", self.path("in.ply"))
+        blocks = simple.GroupDatasets(Input=[read(self.path("in.ply")), simple.PLYReader(FileNames=[self.path("in.ply")])])
+        for proxy in (simple.VoxelMeanResampler(Input=blocks, VoxelSize=0.1), simple.KernelBandwidth(Input=blocks)):
+            with ErrorMessages() as messages:
+                proxy.UpdatePipeline()
+            if RANKS > 1:
+                self.assertIn("Merge Blocks", " ".join(messages.found))
+            points = proxy.GetDataInformation().GetNumberOfPoints()
+            self.assertTrue(points == 0 if RANKS > 1 else points > 0, points)
+
+    def test_a_fault_that_one_rank_meets_is_told(self):
+        with open(self.path("bad.csv"), "w") as file:
+            file.write("x,y,z\n" + "".join(f"{i},{i % 7},{i % 3}\n" for i in range(20000)) + "1,2,three\n")
+        with ErrorMessages() as messages:
+            bad = read(self.path("bad.csv"))
+            bad.UpdatePipeline()
+        self.assertIn("three", " ".join(messages.found))
+        self.assertEqual(bad.GetDataInformation().GetNumberOfPoints(), 0)
 
     def test_a_scan_of_rooms(self):
         path = shared_data("office1.pcd")
@@ -47,8 +92,7 @@ class TwoRanks(TestCase):
         run_program("generate", "sphere", "-n", 5000, "-o", self.path("in.ply"))
         simple.SaveData(self.path("out.pcd"), proxy=read(self.path("in.ply")))
         run_program("convert", self.path("in.ply"), self.path("program.vtp"))
-        found, expected = servermanager.Fetch(read(self.path("out.pcd"))), servermanager.Fetch(read(self.path("in.ply")))
-        self.assertEqual(found.GetNumberOfPoints(), expected.GetNumberOfPoints())
+        self.assert_same_bits(servermanager.Fetch(read(self.path("out.pcd"))), read_vtp(self.path("program.vtp")))
 
     def test_bad_input_is_an_error_and_the_server_lives_on(self):
         run_program("generate", "sphere", "-n", 5000, "-o", self.path("in.ply"))

@@ -34,7 +34,7 @@ for attempt in 1 2 3; do
   done
   if grep -q 'Accepting connection' "$folder/log"; then
     code=0
-    POINTHAPTICS_SERVER_PORT="$port" pvpython "$SCRIPT" || code=$?
+    POINTHAPTICS_SERVER_PORT="$port" POINTHAPTICS_SERVER_RANKS="$RANKS" pvpython "$SCRIPT" || code=$?
     ((code == 0)) || tail -20 "$folder/log"
     exit "$code"
   fi

@@ -50,7 +50,9 @@ def shared_data(name):
 
 
 def arrays_of(cloud):
-    """Points and point arrays of a vtkPolyData by name."""
+    """Points and point arrays of a vtkPolyData by name; none of an empty one."""
+    if not cloud.GetPoints():
+        return {}
     arrays = {"(points)": vtk_to_numpy(cloud.GetPoints().GetData())}
     for index in range(cloud.GetPointData().GetNumberOfArrays()):
         array = cloud.GetPointData().GetArray(index)

@@ -1,0 +1,79 @@
+#include "vtkDistributedPointCloudReader.h"
+
+#include "MpiRanks.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using pointhaptics::MpiRanks;
+
+vtkStandardNewMacro(vtkDistributedPointCloudReader);
+
+vtkDistributedPointCloudReader::vtkDistributedPointCloudReader()
+  : Controller(vtkMultiProcessController::GetGlobalController())
+{
+}
+
+vtkDistributedPointCloudReader::~vtkDistributedPointCloudReader() = default;
+
+void vtkDistributedPointCloudReader::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Controller != controller)
+  {
+    this->Controller = controller;
+    this->Modified();
+  }
+}
+
+vtkMultiProcessController* vtkDistributedPointCloudReader::GetController()
+{
+  return this->Controller;
+}
+
+int vtkDistributedPointCloudReader::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return this->Superclass::RequestInformation(request, inputs, outputs);
+}
+
+int vtkDistributedPointCloudReader::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* asked = outputs->GetInformationObject(0);
+  MpiRanks ranks(this->Controller);
+  const bool isShared = asked->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == ranks.size() &&
+    asked->Get(Pipeline::UPDATE_PIECE_NUMBER()) == ranks.rank();
+  if (!isShared && asked->Get(Pipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    vtkPolyData::GetData(outputs)->Initialize();
+    return 1;
+  }
+  this->SetRanks(isShared ? &ranks : nullptr);
+  const int result = this->Superclass::RequestData(request, inputs, outputs);
+  this->SetRanks(nullptr);
+  const std::vector<std::string> messages =
+    isShared ? ranks.gather(this->GetErrorMessage()) : std::vector<std::string>();
+  const auto first =
+    std::find_if(messages.begin(), messages.end(), [](const std::string& text) { return !text.empty(); });
+  if (this->FailedElsewhere() && first != messages.end())
+  {
+    vtkErrorMacro(<< "rank " << first - messages.begin() << " of " << ranks.size() << ": " << *first);
+  }
+  return result;
+}
+
+void vtkDistributedPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Controller: " << (this->Controller ? this->Controller->GetClassName() : "(none)") << "\n";
+}
