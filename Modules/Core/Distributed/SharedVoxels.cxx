@@ -128,30 +128,34 @@ std::vector<std::int64_t> numbersOfKeys(Ranks& ranks, const std::vector<std::uin
   return all;
 }
 
-Status SharedVoxels::merge(const std::vector<std::string>& messages, VoxelAccumulator& own)
+Status SharedVoxels::merge(std::vector<std::string> messages, const VoxelAccumulator& own)
 {
   voxels_ = VoxelAccumulator(own.lattice(), own.hasCovariances());
   std::vector<std::vector<std::uint64_t>> keysOfRanks;
-  for (const std::string& bytes : messages)
+  for (std::string& bytes : messages)
   {
     VoxelAccumulator part{ Lattice() };
     const Status status = VoxelAccumulator::deserialize(bytes, part);
-    const Status merged = status == Status::Ok ? voxels_.merge(part) : status;
+    std::string().swap(bytes); // Its memory serves the sums of the next.
+    keysOfRanks.push_back(part.keys());
+    const Status merged = status == Status::Ok ? voxels_.merge(std::move(part)) : status;
     if (merged != Status::Ok)
     {
       return merged;
     }
-    keysOfRanks.push_back(part.keys());
   }
   const std::vector<std::uint64_t> keys = voxels_.keys();
   places_.clear();
   for (const std::vector<std::uint64_t>& ofRank : keysOfRanks)
   {
-    places_.emplace_back();
+    places_.emplace_back().reserve(ofRank.size());
     auto place = keys.begin();
     for (const std::uint64_t key : ofRank)
     {
-      place = std::lower_bound(place, keys.end(), key);
+      while (*place < key) // It has all keys of each rank.
+      {
+        ++place;
+      }
       places_.back().push_back(place - keys.begin());
     }
   }

@@ -82,7 +82,7 @@ public:
   }
 
 private:
-  Status merge(const std::vector<std::string>& messages, VoxelAccumulator& own);
+  Status merge(std::vector<std::string> messages, const VoxelAccumulator& own);
   void findEnds(const std::vector<std::uint64_t>& ownKeys);
 
   VoxelAccumulator voxels_{ Lattice() };

@@ -33,6 +33,12 @@ public:
     runs.join(0);
     return runs.size(0) > 0 ? runs.run(0) : none;
   }
+  /// Leaves none.
+  VoxelRun takeRun()
+  {
+    runs.join(0);
+    return runs.take(0);
+  }
 };
 
 namespace
@@ -82,34 +88,46 @@ bool subtractRun(const VoxelRun& a, const VoxelRun& b, VoxelRun& difference)
   return j == b.voxels.size();
 }
 
-template <typename T>
-void put(std::string& bytes, T value)
+/// Collects words and appends them at once.
+class WordWriter
 {
-  // Byte by byte: the order does not depend on the machine.
-  static_assert(sizeof(T) == 8, "words of 64 bits");
-  std::uint64_t word;
-  std::memcpy(&word, &value, sizeof word);
-  char ordered[sizeof word];
-  for (std::size_t i = 0; i < sizeof word; ++i)
+public:
+  template <typename T>
+  void put(T value)
   {
-    ordered[i] = char(word >> (8 * i) & 255);
+    // Byte by byte: the order does not depend on the machine.
+    static_assert(sizeof(T) == 8, "words of 64 bits");
+    std::uint64_t word;
+    std::memcpy(&word, &value, sizeof word);
+    for (std::size_t i = 0; i < sizeof word; ++i)
+    {
+      words_[size_++] = char(word >> (8 * i) & 255);
+    }
   }
-  bytes.append(ordered, sizeof ordered);
-}
+  void appendTo(std::string& bytes)
+  {
+    bytes.append(words_, size_);
+    size_ = 0;
+  }
 
-void putVoxel(std::string& bytes, const VoxelSums& sums, const SecondMoments* moments)
+private:
+  char words_[32 * sizeof(std::uint64_t)];
+  std::size_t size_ = 0;
+};
+
+void putVoxel(WordWriter& words, const VoxelSums& sums, const SecondMoments* moments)
 {
-  put(bytes, sums.key);
-  put(bytes, sums.count);
+  words.put(sums.key);
+  words.put(sums.count);
   for (const Int128 sum : sums.sums)
   {
-    put(bytes, std::uint64_t(sum));
-    put(bytes, std::uint64_t(sum >> 64));
+    words.put(std::uint64_t(sum));
+    words.put(std::uint64_t(sum >> 64));
   }
   for (int m = 0; moments && m < 6; ++m)
   {
-    put(bytes, std::uint64_t(moments->lanes[m]));
-    put(bytes, std::uint64_t(moments->lanes[m] >> 64));
+    words.put(std::uint64_t(moments->lanes[m]));
+    words.put(std::uint64_t(moments->lanes[m] >> 64));
   }
 }
 
@@ -314,7 +332,7 @@ Status VoxelAccumulator::subtract(const PointView& points, const AffineTransform
   return this->change(*subtracted_, points, transform, executor, observer);
 }
 
-Status VoxelAccumulator::merge(const VoxelAccumulator& other)
+Status VoxelAccumulator::merge(VoxelAccumulator&& other)
 {
   const auto fits = [](const Sums& a, const Sums& b) { return b.points <= kMostPoints - a.points; };
   if (!sameLattice(lattice_, other.lattice_) || covariances_ != other.covariances_ ||
@@ -324,17 +342,24 @@ Status VoxelAccumulator::merge(const VoxelAccumulator& other)
   }
   const auto mergeSums = [](Sums& to, Sums& from)
   {
-    // A copy: it may be the same object.
-    VoxelRun run = from.run();
     to.points += from.points;
     to.clipped += from.clipped;
     to.invalid += from.invalid;
     to.fractionBits = std::max(to.fractionBits, from.fractionBits);
-    to.runs.add(0, std::move(run));
+    to.runs.add(0, from.takeRun());
   };
   mergeSums(*added_, *other.added_);
   mergeSums(*subtracted_, *other.subtracted_);
+  other = VoxelAccumulator(lattice_, covariances_);
   return Status::Ok;
+}
+
+Status VoxelAccumulator::merge(const VoxelAccumulator& other)
+{
+  VoxelAccumulator copy(other.lattice_, other.covariances_);
+  *copy.added_ = *other.added_;
+  *copy.subtracted_ = *other.subtracted_;
+  return this->merge(std::move(copy));
 }
 
 /// Takes what was subtracted out of what was added. @return false where that is not possible.
@@ -416,21 +441,24 @@ std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
   const std::size_t words = kHeaderWords + (last - begin) * (kVoxelWords + (covariances_ ? kMomentWords : 0));
   bytes.reserve(sizeof kMagic + words * sizeof(std::uint64_t));
   bytes.append(kMagic, sizeof kMagic);
+  WordWriter writer;
   for (int axis = 0; axis < 3; ++axis)
   {
-    put(bytes, lattice_.origin[axis]);
-    put(bytes, lattice_.spacing[axis]);
-    put(bytes, lattice_.dimensions[std::size_t(axis)]);
-    put(bytes, lattice_.end[axis]);
+    writer.put(lattice_.origin[axis]);
+    writer.put(lattice_.spacing[axis]);
+    writer.put(lattice_.dimensions[std::size_t(axis)]);
+    writer.put(lattice_.end[axis]);
   }
   for (const std::int64_t number : { std::int64_t(covariances_), std::int64_t(added_->fractionBits), points,
          clipped, invalid, std::int64_t(last - begin) })
   {
-    put(bytes, number);
+    writer.put(number);
   }
+  writer.appendTo(bytes);
   for (std::size_t v = begin; v < last; ++v)
   {
-    putVoxel(bytes, run.voxels[v].whole(), run.momentsOf(v));
+    putVoxel(writer, run.voxels[v].whole(), run.momentsOf(v));
+    writer.appendTo(bytes);
   }
   return bytes;
 }

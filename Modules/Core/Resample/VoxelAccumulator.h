@@ -55,6 +55,8 @@ public:
   /// Adds all of another's sums. InvalidParameter: another lattice, covariances in one of them only, too many
   /// points; nothing is changed then.
   Status merge(const VoxelAccumulator& other);
+  /// The same of another one that is no longer needed: its sums are not copied, and it has none afterwards.
+  Status merge(VoxelAccumulator&& other);
 
   /// What to make of the sums; as in VoxelRequest.
   struct Request

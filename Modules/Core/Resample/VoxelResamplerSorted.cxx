@@ -87,6 +87,13 @@ Status VoxelResampler::Implementation::sum(const VoxelRequest& request, VoxelRun
   const Status status = this->run(request, executor, observer);
   keepsRuns_ = false;
   fractionBits = status == Status::Ok ? runs_.fractionBits() : fractionBits;
+  std::size_t voxels = 0;
+  for (std::size_t range = 0; range < runs_.ranges(); ++range)
+  {
+    voxels += runs_.size(range);
+  }
+  sums.voxels.reserve(voxels);
+  sums.secondMoments.reserve(request.covariances ? voxels : 0);
   for (std::size_t range = 0; status == Status::Ok && range < runs_.ranges(); ++range)
   {
     if (runs_.size(range) > 0)

@@ -123,6 +123,13 @@ TEST(VoxelAccumulator, MergesInAnyOrder)
     VoxelAccumulator d(lattice, true);
     ASSERT_EQ(d.merge(c), Status::Ok);
     expectFinishes(d, all, "merged into none");
+    VoxelAccumulator e = all.of(0, 1000);
+    VoxelAccumulator f = all.of(1000, kPoints);
+    ASSERT_EQ(e.merge(std::move(f)), Status::Ok);
+    expectFinishes(e, all, "merged with what is no longer needed");
+    EXPECT_EQ(f.points(), 0);
+    ASSERT_EQ(f.merge(std::move(e)), Status::Ok);
+    expectFinishes(f, all, "moved into none");
   }
 }
 

@@ -13,14 +13,31 @@ namespace
 /// at most a third larger than the largest, and no voxel is copied more than a few times.
 constexpr std::size_t kRunRatio = 4;
 
+/// How many voxels two runs have together.
+std::size_t sizeOfBoth(const VoxelRun& a, const VoxelRun& b)
+{
+  std::size_t inBoth = 0;
+  std::size_t j = 0;
+  for (const WideSums& voxel : a.voxels)
+  {
+    while (j < b.voxels.size() && b.voxels[j].key < voxel.key)
+    {
+      ++j;
+    }
+    inBoth += j < b.voxels.size() && b.voxels[j].key == voxel.key;
+  }
+  return a.voxels.size() + b.voxels.size() - inBoth;
+}
+
 }
 
 VoxelRun merged(const VoxelRun& a, const VoxelRun& b)
 {
   const bool withSecondMoments = !a.secondMoments.empty() || !b.secondMoments.empty();
   VoxelRun both;
-  both.voxels.reserve(a.voxels.size() + b.voxels.size());
-  both.secondMoments.reserve(withSecondMoments ? a.voxels.size() + b.voxels.size() : 0);
+  const std::size_t voxels = sizeOfBoth(a, b);
+  both.voxels.reserve(voxels);
+  both.secondMoments.reserve(withSecondMoments ? voxels : 0);
   std::size_t i = 0;
   std::size_t j = 0;
   while (i < a.voxels.size() || j < b.voxels.size())
@@ -37,7 +54,6 @@ VoxelRun merged(const VoxelRun& a, const VoxelRun& b)
       ++j;
     }
   }
-  both.trim();
   return both;
 }
 
@@ -70,6 +86,13 @@ void VoxelRuns::join(std::size_t range)
   {
     joinLast(range);
   }
+}
+
+VoxelRun VoxelRuns::take(std::size_t range)
+{
+  VoxelRun run = runs_[range].empty() ? VoxelRun() : std::move(runs_[range][0]);
+  this->release(range);
+  return run;
 }
 
 void VoxelRuns::joinLast(std::size_t range)

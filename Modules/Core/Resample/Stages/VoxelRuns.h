@@ -31,6 +31,8 @@ public:
   /// @pre it is joined and not empty.
   const VoxelRun& run(std::size_t range) const { return runs_[range][0]; }
   void release(std::size_t range) { std::vector<VoxelRun>().swap(runs_[range]); }
+  /// The run of a range, empty where there is none; leaves none. @pre it is joined.
+  VoxelRun take(std::size_t range);
   int fractionBits() const { return fractionBits_; }
   std::size_t bytes() const;
 
