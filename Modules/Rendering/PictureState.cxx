@@ -47,7 +47,8 @@ void addProp(std::vector<double>& state, vtkProp* prop)
   {
     state.insert(state.end(),
       { splats->GetSizeScale(), splats->GetSmallestPixels(), splats->GetLargestPixels(),
-        splats->GetFixedPixels() });
+        splats->GetFixedPixels(), splats->GetPointPixels(), splats->GetLightStrength(),
+        double(splats->GetHidesBackFaces()), double(splats->GetForeshortens()) });
     double sky[3];
     splats->GetSkyDirection(sky);
     add(state, sky, 3);

@@ -136,6 +136,16 @@ public:
 
   ///@{
   /**
+   * Whether discs that tilt away get narrow, as the spacing of points on a surface does. Off: they tilt but
+   * stay round, for points that are evenly apart on the screen as those of a camera are. Default: on. Free to
+   * change.
+   */
+  void SetForeshortens(bool on) { this->Foreshortens = on; }
+  bool GetForeshortens() const { return this->Foreshortens; }
+  ///@}
+
+  ///@{
+  /**
    * Largest diameter, pixels, of a splat whose neighbourhood is not flat at all; with Surfaces. Default: 4.
    */
   void SetPointPixels(double pixels);
@@ -208,6 +218,7 @@ private:
   double FixedPixels = 0.0;
   bool AmbientLight = false;
   bool Surfaces = false;
+  bool Foreshortens = true;
   double PointPixels = 4.0;
   double LightStrength = 1.0;
   double NormalUnit = 1.0;

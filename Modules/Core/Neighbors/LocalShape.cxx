@@ -2,6 +2,7 @@
 
 #include "Core/Base/Vector3.h"
 #include "Core/Neighbors/NeighborSweep.h"
+#include "Core/Neighbors/TangentCell.h"
 
 #include <algorithm>
 #include <array>
@@ -267,6 +268,21 @@ private:
     shape.flatness =
       l[1] > 0.0 ? float((1.0 - ramp(l[0] / l[1], 0.08, 0.35)) * ramp(l[1] / l[2], 0.03, 0.12)) : 0.0F;
     thickness_[slot] = float(std::sqrt(l[0] / list.count));
+    shape.reach = shape.flatness > 0.0F ? this->reachOf(list, spread.normal) : 0.0F;
+  }
+
+  float reachOf(const NeighborList& list, const Vec3& normal) const
+  {
+    const Vec3 here = query_.point(list.slot);
+    TangentCell cell(normal, PointShape::kLargestReach * double(raw_[std::size_t(list.slot)].spacing));
+    for (int i = 1; i < list.count; ++i)
+    {
+      if (!cell.add(query_.point(std::int64_t(list.slots[i])) - here))
+      {
+        break;
+      }
+    }
+    return float(cell.reach());
   }
 
   float agreement(std::size_t a, std::size_t b) const
@@ -301,6 +317,7 @@ private:
     const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     PointShape& shape = smooth_[slot];
     shape.spacing = raw_[slot].spacing;
+    shape.reach = raw_[slot].reach;
     shape.flatness = flatness / float(1 + kNear);
     for (int axis = 0; axis < 3 && length > 0.0F; ++axis)
     {

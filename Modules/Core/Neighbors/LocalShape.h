@@ -17,9 +17,15 @@ namespace pointhaptics
 /// The surface about one point.
 struct PointShape
 {
+  static constexpr double kLargestReach = 1.5;
+
   /// Distance to the next points, as if they lay in a square grid on a plane; 0: the point is not finite, or
   /// there is no other place. Unit of the coordinates.
   float spacing = 0.0F;
+  /// Radius of discs about flat points that leave no gap between them, up to kLargestReach of the spacing; 0:
+  /// the surface is not flat here, or ends. Points at random have gaps that their mean distance does not
+  /// tell of.
+  float reach = 0.0F;
   /// 1: the neighbours lie on a smooth surface. 0: on a line, in foliage, or too few.
   float flatness = 0.0F;
   /// Unit normal on either side; zero where the flatness of all neighbours is 0.

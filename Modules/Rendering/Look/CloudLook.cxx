@@ -387,6 +387,7 @@ void spaceByRays(const PointView& cloud, LocalShape& shape)
   {
     PointShape& each = shape.points[std::size_t(i)];
     each.spacing = each.spacing > 0.0F ? float(angle * cloud[i].z) : 0.0F;
+    each.reach = 0.0F;
   }
 }
 

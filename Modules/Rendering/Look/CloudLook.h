@@ -63,7 +63,7 @@ POINTHAPTICSRENDERING_EXPORT CloudLook cloudLook(
   CloudKind kind, const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation);
 
 /// Gives a frame the spacing of its rays: the distance along the view times the median angle between rays
-/// that follow each other.
+/// that follow each other. No gaps are left by discs that are not foreshortened.
 POINTHAPTICSRENDERING_EXPORT void spaceByRays(const PointView& cloud, LocalShape& shape);
 
 /// A camera with its own view angle.

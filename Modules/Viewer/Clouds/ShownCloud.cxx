@@ -37,6 +37,10 @@ namespace
 /// Diameter of a splat over the spacing: where nothing is flat, and what flatness adds.
 constexpr double kPointDiameter = 1.1;
 constexpr double kFlatDiameter = 0.7;
+/// Over the spacing of the rays of a frame, flat or not: they lie in a grid, whose diagonals close.
+constexpr double kGridDiameter = 1.5;
+constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: kNoGrowth where the spacing alone rules.
+constexpr double kNoGrowth = 64.0;
 /// A cloud this many times as wide as it is high may be terrain.
 constexpr double kLowParts = 3.0;
 constexpr double kSmallestPixels = 2.0;
@@ -127,8 +131,16 @@ void addVertices(vtkPolyData* points)
   points->SetVerts(vertices);
 }
 
-void addSplats(vtkPolyData* points, const LocalShape& shape, bool facesSensor, vtkDataArray* ownNormals)
+/// As the spacing says.
+double usualDiameter(double flatness, double spacing)
 {
+  return (kPointDiameter + kFlatDiameter * flatness) * spacing;
+}
+
+void addSplats(vtkPolyData* points, const LocalShape& shape, CloudKind kind, vtkDataArray* ownNormals)
+{
+  const bool facesSensor = kind == CloudKind::Sweep || kind == CloudKind::Indoors;
+  const double least = kind == CloudKind::Frame ? kGridDiameter : 0.0;
   const vtkIdType count = points->GetNumberOfPoints();
   vtkNew<vtkFloatArray> lengths;
   lengths->SetName(kSplatLengthName);
@@ -138,11 +150,18 @@ void addSplats(vtkPolyData* points, const LocalShape& shape, bool facesSensor, v
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(count);
   short* out = normals->GetPointer(0);
+  vtkNew<vtkUnsignedCharArray> growths;
+  growths->SetName(kSplatGrowthName);
+  growths->SetNumberOfValues(count);
   for (vtkIdType i = 0; i < count; ++i)
   {
     const PointShape& each = shape.points[std::size_t(i)];
-    lengths->SetValue(
-      i, float((kPointDiameter + kFlatDiameter * double(each.flatness)) * double(each.spacing)));
+    const double usual = usualDiameter(double(each.flatness), double(each.spacing));
+    const double length =
+      std::max({ usual, least * double(each.spacing), 2.0 * double(each.flatness) * double(each.reach) });
+    lengths->SetValue(i, float(length));
+    growths->SetValue(
+      i, static_cast<unsigned char>(usual > 0.0 ? kNoGrowth * length / usual + 0.5 : kNoGrowth));
     Vec3 n{ double(each.normal[0]), double(each.normal[1]), double(each.normal[2]) };
     if (ownNormals)
     {
@@ -160,6 +179,7 @@ void addSplats(vtkPolyData* points, const LocalShape& shape, bool facesSensor, v
     }
   }
   points->GetPointData()->AddArray(lengths);
+  points->GetPointData()->AddArray(growths);
   points->GetPointData()->AddArray(normals);
 }
 
@@ -231,6 +251,7 @@ std::shared_ptr<ShownCloud> makeShownCloud(
   }
   const CloudKind decided = request.kind ? *request.kind : cloudKind(view, shape, request.orientation);
   shown->look = cloudLook(decided, view, shape, request.orientation);
+  shown->medianSpacing = shape.medianSpacing;
   if (decided == CloudKind::Frame)
   {
     spaceByRays(view, shape);
@@ -238,7 +259,7 @@ std::shared_ptr<ShownCloud> makeShownCloud(
   addColors(*shown, request, query, shape);
   vtkDataArray* own =
     std::int64_t(drawn.size()) == cloud->GetNumberOfPoints() ? cloud->GetPointData()->GetNormals() : nullptr;
-  addSplats(shown->points, shape, decided == CloudKind::Sweep || decided == CloudKind::Indoors, own);
+  addSplats(shown->points, shape, decided, own);
   return shown;
 }
 
@@ -313,6 +334,7 @@ void drawShown(const ShownCloud& shown, vtkSplatMapper* mapper)
   mapper->SetAmbientLight(true);
   mapper->SetSurfaces(true);
   mapper->SetHidesBackFaces(shown.look.hidesBackFaces);
+  mapper->SetForeshortens(shown.look.kind != CloudKind::Frame);
   mapper->SetLightStrength(shown.colors.lightStrength);
 }
 
@@ -320,7 +342,8 @@ void addDensity(vtkPolyData* points)
 {
   vtkDataArray* lengths = points->GetPointData()->GetArray(kSplatLengthName);
   vtkDataArray* normals = points->GetPointData()->GetArray(kSplatNormalName);
-  if (!lengths || !normals)
+  vtkDataArray* growths = points->GetPointData()->GetArray(kSplatGrowthName);
+  if (!lengths || !normals || !growths)
   {
     return; // not measured yet
   }
@@ -331,8 +354,8 @@ void addDensity(vtkPolyData* points)
   {
     Vec3 n;
     normals->GetTuple(i, &n.x);
-    const double spacing =
-      lengths->GetComponent(i, 0) / (kPointDiameter + kFlatDiameter * norm(n) / kSplatNormalUnit);
+    const double usual = lengths->GetComponent(i, 0) * kNoGrowth / growths->GetComponent(i, 0);
+    const double spacing = usual / usualDiameter(norm(n) / kSplatNormalUnit, 1.0);
     density->SetValue(i, spacing > 0.0 ? float(1.0 / (spacing * spacing)) : NAN);
   }
   points->GetPointData()->AddArray(density);

@@ -76,6 +76,81 @@ TEST(LocalShape, OfAPlaneIsFlatWithItsNormal)
   EXPECT_LT(shape.noise, 1e-3);
 }
 
+TEST(LocalShape, ReachesTheCornersOfTheCellsOfAGrid)
+{
+  const LocalShape shape = measured(grid(30, 0.5));
+  for (int i = 0; i < 900; ++i)
+  {
+    const bool isInside = i % 30 > 3 && i % 30 < 26 && i / 30 > 3 && i / 30 < 26;
+    if (isInside)
+    {
+      EXPECT_NEAR(shape.points[std::size_t(i)].reach, 0.5 * std::sqrt(0.5), 1e-6) << i;
+    }
+  }
+}
+
+TEST(LocalShape, ReachClosesPointsAtRandom)
+{
+  trial::Random random(9);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 3000; ++i)
+  {
+    points.emplace_back(random.uniform(), random.uniform(), 0.0);
+  }
+  const LocalShape shape = measured(points);
+  int open[2] = { 0, 0 };
+  constexpr int kPlaces = 4000;
+  for (int i = 0; i < kPlaces; ++i)
+  {
+    const Vec3 place{ 0.1 + 0.8 * random.uniform(), 0.1 + 0.8 * random.uniform(), 0.0 };
+    bool bySpacing = false;
+    bool byReach = false;
+    for (std::size_t p = 0; p < points.size(); ++p)
+    {
+      const double distance = norm(points[p] - place);
+      bySpacing = bySpacing || distance <= 0.9 * double(shape.points[p].spacing);
+      byReach = byReach || distance <= double(shape.points[p].reach);
+    }
+    open[0] += !bySpacing;
+    open[1] += !byReach;
+  }
+  EXPECT_GT(open[0], kPlaces / 100) << "the mean spacing closes them already";
+  EXPECT_LT(open[1], kPlaces / 400);
+}
+
+TEST(LocalShape, DoesNotReachIntoHoles)
+{
+  // A grid without its middle: what is at the edge of the hole has corners there, far away.
+  std::vector<Vec3> points;
+  for (const Vec3& p : grid(40, 0.5))
+  {
+    if (norm(p - Vec3(10.0, 10.0, 0.0)) > 3.0)
+    {
+      points.push_back(p);
+    }
+  }
+  const LocalShape shape = measured(points);
+  for (const PointShape& each : shape.points)
+  {
+    EXPECT_LT(each.reach, PointShape::kLargestReach * double(each.spacing));
+    EXPECT_LE(each.reach, 0.8F) << "where the hole has a radius of 3";
+  }
+}
+
+TEST(LocalShape, HasNoReachWhereNothingIsFlat)
+{
+  trial::Random random(4);
+  std::vector<Vec3> line;
+  for (int i = 0; i < 200; ++i)
+  {
+    line.emplace_back(0.01 * i + 0.002 * random.uniform(), 0.0, 0.0);
+  }
+  for (const PointShape& each : measured(line).points)
+  {
+    EXPECT_EQ(each.reach, 0.0F);
+  }
+}
+
 TEST(LocalShape, OfASphereHasRadialNormals)
 {
   const std::vector<Vec3> points = sphere(20000, 2.0);

@@ -1,0 +1,78 @@
+#include "Core/Neighbors/TangentCell.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointhaptics
+{
+
+TangentCell::TangentCell(const Vec3& normal, double largest)
+  : u_(anyPerpendicular(normal))
+  , v_(cross(normal, u_))
+  , largest_(largest)
+  , farthest2_(2.0 * largest * largest)
+  , corners_{ { largest, largest }, { -largest, largest }, { -largest, -largest }, { largest, -largest } }
+{
+}
+
+bool TangentCell::add(const Vec3& place)
+{
+  const double x = dot(place, u_);
+  const double y = dot(place, v_);
+  const double half = 0.5 * (x * x + y * y);
+  // The line half way lies beyond all corners, and where it is of a place farther away, too.
+  if (0.25 * norm2(place) >= farthest2_)
+  {
+    return false;
+  }
+  double beyond[kMostCorners];
+  bool cuts = false;
+  for (int i = 0; i < count_; ++i)
+  {
+    beyond[i] = corners_[i].x * x + corners_[i].y * y - half;
+    cuts = cuts || beyond[i] > 0.0;
+  }
+  if (!cuts || half <= 0.0 || count_ + 2 > kMostCorners)
+  {
+    return true;
+  }
+  Corner kept[kMostCorners];
+  int count = 0;
+  farthest2_ = 0.0;
+  const auto keep = [&](double cx, double cy)
+  {
+    kept[count++] = { cx, cy };
+    farthest2_ = std::max(farthest2_, cx * cx + cy * cy);
+  };
+  for (int i = 0; i < count_; ++i)
+  {
+    const int next = i + 1 < count_ ? i + 1 : 0;
+    if (beyond[i] <= 0.0)
+    {
+      keep(corners_[i].x, corners_[i].y);
+    }
+    if ((beyond[i] <= 0.0) != (beyond[next] <= 0.0))
+    {
+      const double t = beyond[i] / (beyond[i] - beyond[next]);
+      keep(corners_[i].x + t * (corners_[next].x - corners_[i].x),
+        corners_[i].y + t * (corners_[next].y - corners_[i].y));
+    }
+  }
+  count_ = count;
+  std::copy_n(kept, count, corners_);
+  return true;
+}
+
+double TangentCell::reach() const
+{
+  const double edge2 = largest_ * largest_ * (1.0 - 1e-12);
+  double most2 = 0.0;
+  for (int i = 0; i < count_; ++i)
+  {
+    const double length2 = corners_[i].x * corners_[i].x + corners_[i].y * corners_[i].y;
+    most2 = std::max(most2, length2 < edge2 ? length2 : 0.0);
+  }
+  return std::sqrt(most2);
+}
+
+} // namespace pointhaptics

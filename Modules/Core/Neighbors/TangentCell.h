@@ -1,0 +1,42 @@
+/// @file
+/// How far a surface goes about one of its points until another point is nearer.
+#pragma once
+
+#include "Core/Base/Vector3.h"
+
+namespace pointhaptics
+{
+
+/// The part of a plane through the origin that is nearer to it than to the places added: a cell of the
+/// Voronoi diagram. A disc as large as the farthest corner of the cell, and one such about each other place,
+/// leave no gap between them.
+class TangentCell
+{
+public:
+  /// @param normal unit vector. @param largest corners so far away, or farther, belong to the edge of the
+  /// cloud or to a hole in it.
+  TangentCell(const Vec3& normal, double largest);
+
+  /// Cuts away what is nearer to @p place. False: this and all that are farther away cut nothing any more.
+  bool add(const Vec3& place);
+
+  /// Distance of the farthest corner that is nearer than the largest; 0: there is none.
+  double reach() const;
+
+private:
+  static constexpr int kMostCorners = 24;
+  struct Corner
+  {
+    double x;
+    double y;
+  };
+
+  Vec3 u_;
+  Vec3 v_;
+  double largest_;
+  double farthest2_; ///< Of all corners, squared.
+  int count_ = 4;
+  Corner corners_[kMostCorners];
+};
+
+} // namespace pointhaptics

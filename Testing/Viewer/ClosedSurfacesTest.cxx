@@ -1,0 +1,122 @@
+// Surfaces of points have no holes in the pictures of a HapticViewer.
+#include "HapticViewerFixture.h"
+
+#include "../Unit/SkipWithoutDisplay.h"
+
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
+
+#include <cmath>
+#include <random>
+
+using namespace pointhaptics;
+
+namespace
+{
+
+using ClosedSurfaces = HapticViewerTest;
+
+/// Pixels in the middle third of the picture, each way, that the black background shows through, and all.
+struct Holes
+{
+  int dark = 0;
+  int all = 0;
+};
+
+Holes holesOf(const std::string& fileName)
+{
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  const int* size = reader->GetOutput()->GetDimensions();
+  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
+  Holes holes;
+  for (int y = size[1] / 3; y < 2 * size[1] / 3; ++y)
+  {
+    for (int x = size[0] / 3; x < 2 * size[0] / 3; ++x)
+    {
+      ++holes.all;
+      holes.dark += pixels->GetComponent(vtkIdType(y) * size[0] + x, 0) < 80.0;
+    }
+  }
+  return holes;
+}
+
+/// At random on a square of edge 1 in the plane z = 0.
+vtkSmartPointer<vtkPolyData> randomSquare(int count)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-0.5, 0.5);
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < count; ++i)
+  {
+    const double x = place(random);
+    points->InsertNextPoint(x, place(random), 0.0);
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  return cloud;
+}
+
+TEST_F(ClosedSurfaces, PointsAtRandomCloseFromAboveAndAtASlant)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.width = 400;
+  options_.height = 300;
+  options_.up = "z";
+  options_.kind = "object";
+  options_.colorBy = "Clay";
+  options_.picture.background = "black";
+  // Neighbours are about 1.5 pixels apart.
+  for (const double elevation : { 90.0, 35.0, 20.0 })
+  {
+    const double a = elevation * 3.14159265358979323846 / 180.0;
+    const double distance = 0.13; // the square is 10 cm wide in the workspace
+    options_.camera = { 0.0, -distance * std::cos(a), distance * std::sin(a), 0, 0, 0, 0, std::sin(a),
+      std::cos(a) };
+    HapticViewer viewer(options_, observer_);
+    ASSERT_TRUE(viewer.open(randomSquare(80000))) << viewer.message();
+    ASSERT_TRUE(viewer.renderToFile(this->path("square.png"))) << viewer.message();
+    const Holes holes = holesOf(this->path("square.png"));
+    EXPECT_LT(holes.dark, holes.all / 5000) << "of " << holes.all << " pixels at " << elevation << " degrees";
+  }
+}
+
+/// A wall that turns away to the right, as a camera with so many rays sees it.
+vtkSmartPointer<vtkPolyData> slantedWall(int columns, int rows)
+{
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 0.006);
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < columns * rows; ++i)
+  {
+    const double x = (i % columns - 0.5 * columns) / columns;
+    const double y = (i / columns - 0.5 * rows) / columns;
+    const double z = 2.0 / (1.2 - 2.0 * x) + noise(random); // along z = 1.7 + 1.7 x
+    points->InsertNextPoint(x * z, y * z, z);
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  return cloud;
+}
+
+TEST_F(ClosedSurfaces, AFrameOfACameraClosesWhereItsWallsTurnAway)
+{
+  SKIP_WITHOUT_DISPLAY();
+  // Rays are about as far apart as pixels.
+  options_.width = 400;
+  options_.height = 250;
+  options_.up = "-y";
+  options_.kind = "frame";
+  options_.colorBy = "Clay";
+  options_.picture.background = "black";
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(slantedWall(320, 240))) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("wall.png"))) << viewer.message();
+  const Holes holes = holesOf(this->path("wall.png"));
+  EXPECT_EQ(holes.dark, 0) << "of " << holes.all << " pixels";
+}
+
+} // namespace
