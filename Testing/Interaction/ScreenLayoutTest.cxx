@@ -493,4 +493,14 @@ TEST(ScreenScale, TakesTheDotsThatTheDesktopSays)
   EXPECT_EQ(dotsPerInchOf(nullptr), 0.0);
 }
 
+TEST(ScreenScale, GoesByTheLinesOfAScreenWhoseDotsNobodySays)
+{
+  EXPECT_EQ(scaleOfScreen(600, 600), 1.0);
+  EXPECT_EQ(scaleOfScreen(1200, 1200), 1.0);
+  EXPECT_NEAR(scaleOfScreen(1440, 1440), 4.0 / 3.0, 1e-12);
+  EXPECT_EQ(scaleOfScreen(2160, 2160), 2.0);
+  EXPECT_EQ(scaleOfScreen(2160, 480), 1.0) << "no room for larger ones";
+  EXPECT_NEAR(scaleOfScreen(2160, 800), 4.0 / 3.0, 1e-12);
+}
+
 } // namespace

@@ -45,6 +45,7 @@ until_true() {
 # start_server WIDTHxHEIGHT [OPTION]: sets DISPLAY. The option is -noreset where none is given.
 start_server() {
   : >said.txt
+  rm -f display
   Xvfb -displayfd 3 "${2:--noreset}" -nolisten tcp -screen 0 "$1x24" 3>display >/dev/null 2>&1 &
   server=$!
   until_true "Xvfb did not start" test -s display

@@ -236,6 +236,26 @@ ShiftSShowsTwoEyes() {
   is stereo '"red-blue"' || fail "the settings do not have it"
 }
 
+# Where nobody says how many dots an inch has: as --font-scale 2 on a small screen, to the byte.
+TextsAreTwiceAsLargeOnAScreenOf4K() {
+  make sphere cloud.ply
+  kill "$server"
+  start_server 1400x1300
+  open_viewer cloud.ply --device none --up z --font-scale 2
+  xdotool windowsize --sync "$window" 1300 1200
+  key o h
+  picture 1
+  key q
+  ends_with 0 "key Q"
+  kill "$server"
+  start_server 3840x2160
+  open_viewer cloud.ply --device none --up z
+  xdotool windowsize --sync "$window" 1300 1200
+  key o h
+  picture 2
+  cmp -s pointhaptics-001.png pointhaptics-002.png || fail "the texts are not twice as large"
+}
+
 KeyAShowsTheAxes() {
   make sphere cloud.ply
   open_viewer cloud.ply

@@ -16,6 +16,11 @@ namespace
 
 constexpr double kUsualDotsPerInch = 96.0;
 constexpr double kUsualHeight = 1080.0;
+/// From here on texts of the usual size are small: such screens have more dots an inch, or are looked at from
+/// farther away.
+constexpr int kTallScreen = 1440;
+/// Lines of a window in which texts of the usual size have room, all at once.
+constexpr double kLeastHeight = 600.0;
 constexpr double kLargestScale = 4.0;
 /// At which a point is a pixel: VTK's default.
 constexpr double kPointsPerInch = 72.0;
@@ -30,6 +35,12 @@ double dotsPerInchOf(const char* text)
   return std::isfinite(dots) && dots > 0.0 ? dots : 0.0;
 }
 
+double scaleOfScreen(int screenLines, int windowLines)
+{
+  const double wanted = screenLines < kTallScreen ? 1.0 : screenLines / kUsualHeight;
+  return std::clamp(windowLines / kLeastHeight, 1.0, wanted);
+}
+
 double screenScale(vtkRenderWindow* window)
 {
   double scale = 1.0;
@@ -40,7 +51,9 @@ double screenScale(vtkRenderWindow* window)
   else if (void* display = xDisplayOf(window))
   {
     const auto resources = reinterpret_cast<char* (*)(void*)>(findXFunction("XResourceManagerString"));
-    scale = resources ? dotsPerInchOf(resources(display)) / kUsualDotsPerInch : 1.0;
+    const double dots = resources ? dotsPerInchOf(resources(display)) : 0.0;
+    scale =
+      dots > 0.0 ? dots / kUsualDotsPerInch : scaleOfScreen(window->GetScreenSize()[1], window->GetSize()[1]);
   }
 #if defined(_WIN32) || defined(__APPLE__)
   else
