@@ -56,7 +56,8 @@ bool ViewScene::placeAt(int x, int y, Vec3& place)
 std::vector<std::string> ViewScene::measuredText() const
 {
   const std::vector<double>& ends = picture_.measure;
-  return cloud_ && ends.size() == 6 ? distanceText(cloud_, placeOf(ends, 0), placeOf(ends, 1), unit_.name)
+  return cloud_ && ends.size() == 6 ? distanceText(cloud_, placeOf(ends, 0), placeOf(ends, 1), unit_.name,
+                                        shown_ ? shown_->medianSpacing : 0.0)
                                     : std::vector<std::string>();
 }
 

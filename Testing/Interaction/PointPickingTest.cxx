@@ -169,40 +169,57 @@ TEST(PointPicking, NamesTheClassOfALidarPoint)
 }
 
 /// The two lines of a distance in a cloud of that precision.
-std::vector<std::string> distanceIn(int type, const Vec3& from, const Vec3& to)
+std::vector<std::string> distanceIn(int type, const Vec3& from, const Vec3& to, double spacing)
 {
   vtkNew<vtkPolyData> cloud;
   vtkNew<vtkPoints> points;
   points->SetDataType(type);
   cloud->SetPoints(points);
-  return pointhaptics::distanceText(cloud, from, to, "m");
+  return pointhaptics::distanceText(cloud, from, to, "m", spacing);
 }
 
 TEST(PointPicking, TellsDistancesToTheGridOfTheFile)
 {
   vtkNew<vtkPolyData> cloud;
   addField(cloud, "LasScale", { 0.01, 0.01, 0.001 });
-  const std::vector<std::string> words =
-    pointhaptics::distanceText(cloud, { 512000.25, 5403000.5, 100.0 }, { 512003.25, 5403004.5, 100.0 }, "ft");
+  const std::vector<std::string> words = pointhaptics::distanceText(
+    cloud, { 512000.25, 5403000.5, 100.0 }, { 512003.25, 5403004.5, 100.0 }, "ft", 0.5);
   ASSERT_EQ(words.size(), 2u);
   EXPECT_EQ(words[0], "5.000 ft");
   EXPECT_EQ(words[1], "dx 3.00   dy 4.00   dz 0.000 ft");
 }
 
-TEST(PointPicking, TellsDistancesWithSixDigitsWhereThereIsNoGrid)
+TEST(PointPicking, TellsDistancesDownToTheSpacingWhereThereIsNoGrid)
 {
-  EXPECT_EQ(distanceIn(VTK_DOUBLE, { 0, 0, 0 }, { 0.03, 0.04, 0 })[0], "0.0500000 m");
-  EXPECT_EQ(distanceIn(VTK_DOUBLE, { 0, 0, 0 }, { -300, 0, -400 })[0], "500.000 m");
-  EXPECT_EQ(
-    distanceIn(VTK_DOUBLE, { 0, 0, 0 }, { -300, 0, -400 })[1], "dx -300.000   dy 0.000   dz -400.000 m");
-  EXPECT_EQ(distanceIn(VTK_DOUBLE, { 1, 1, 1 }, { 1, 1, 1 })[0], "0.000 m");
+  const Vec3 zero;
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, { 0.314159, 0, 0 }, 0.002)[0], "0.314 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, { 0.314159, 0, 0 }, 0.05)[0], "0.31 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, { -300, 0, -400 }, 0.2)[1], "dx -300.0   dy 0.0   dz -400.0 m");
+}
+
+TEST(PointPicking, TellsTwoToFourDigitsOfADistance)
+{
+  const Vec3 zero;
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, { 0.314159, 0, 0 }, 1.0)[0], "0.31 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, { 314.159, 0, 0 }, 1e-6)[0], "314.2 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, { 0.000314159, 0, 0 }, 1e-9)[0], "0.0003142 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, { 123456.7, 0, 0 }, 0.01)[0], "123457 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, zero, 0.02)[0], "0.00 m");
+}
+
+TEST(PointPicking, TellsThreeDigitsOfADistanceWhereTheSpacingIsNotKnown)
+{
+  const Vec3 zero;
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, { 0.03, 0.04, 0 }, 0.0)[0], "0.0500 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, { -300, 0, -400 }, 0.0)[0], "500 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, zero, zero, 0.0)[0], "0.000 m");
 }
 
 TEST(PointPicking, TellsNoDigitsThatSinglePrecisionDoesNotHold)
 {
   // Neighbouring numbers there are 0.06 apart.
-  EXPECT_EQ(distanceIn(VTK_FLOAT, { 500000, 0, 0 }, { 500012, 0, 0 })[0], "12.0 m");
-  EXPECT_EQ(distanceIn(VTK_DOUBLE, { 500000, 0, 0 }, { 500012, 0, 0 })[0], "12.0000 m");
+  EXPECT_EQ(distanceIn(VTK_FLOAT, { 500000, 0, 0 }, { 500012, 0, 0 }, 0.001)[0], "12.0 m");
+  EXPECT_EQ(distanceIn(VTK_DOUBLE, { 500000, 0, 0 }, { 500012, 0, 0 }, 0.001)[0], "12.00 m");
 }
 
 } // namespace

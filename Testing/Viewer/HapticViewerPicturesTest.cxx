@@ -126,7 +126,7 @@ TEST_F(HapticViewerPictures, ShowsADistanceWhereItsEndsAre)
   EXPECT_GT(right.x, 200.0 + 10.0);
   EXPECT_NEAR(right.y, 150.0, 3.0);
   ASSERT_FALSE(notes_.empty());
-  EXPECT_EQ(notes_.back(), "  distance: 1.00000 m; dx 1.00000   dy 0.00000   dz 0.00000 m");
+  EXPECT_EQ(notes_.back(), "  distance: 1.00 m; dx 1.00   dy 0.00   dz 0.00 m");
   // The line goes with the model, and tells what is true of the file.
   viewer.renderWindow()->SetOffScreenRendering(1);
   ASSERT_TRUE(viewer.start()) << viewer.message();

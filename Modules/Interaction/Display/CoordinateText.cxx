@@ -18,8 +18,10 @@ namespace
 constexpr int kLeastDecimals = 3;
 /// Of a double.
 constexpr int kMostDigits = 15;
-/// Of a distance between points that lie on no grid.
-constexpr int kDistanceDigits = 6;
+/// Of a distance between points that lie on no grid: at least, at most, and where their spacing is not known.
+constexpr int kFewestDigits = 2;
+constexpr int kMostDistanceDigits = 4;
+constexpr int kUsualDigits = 3;
 /// From here on numbers have an exponent.
 constexpr double kLargestFixed = 1e9;
 /// Between neighbouring numbers of single precision, over the smaller.
@@ -31,11 +33,16 @@ int decimalsDownTo(double step)
 }
 
 /// Of a distance, where the file has no grid.
-int distanceDecimals(vtkPolyData* cloud, const Vec3& from, const Vec3& to)
+int distanceDecimals(vtkPolyData* cloud, const Vec3& from, const Vec3& to, double spacing)
 {
   const double distance = norm(to - from);
-  const int digits =
-    distance > 0.0 ? kDistanceDigits - 1 - int(std::floor(std::log10(distance))) : kLeastDecimals;
+  int decimals = spacing > 0.0 ? decimalsDownTo(spacing) : kLeastDecimals;
+  if (distance > 0.0)
+  {
+    const int before = 1 + int(std::floor(std::log10(distance))); // digits in front of the point
+    const int digits = spacing > 0.0 ? before + decimals : kUsualDigits;
+    decimals = std::clamp(digits, kFewestDigits, kMostDistanceDigits) - before;
+  }
   double largest = 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -43,7 +50,7 @@ int distanceDecimals(vtkPolyData* cloud, const Vec3& from, const Vec3& to)
   }
   const bool isSingle = cloud->GetPoints() && cloud->GetPoints()->GetDataType() == VTK_FLOAT && largest > 0.0;
   const int held = isSingle ? int(std::floor(-std::log10(kSinglePrecision * largest))) : kMostDigits;
-  return std::clamp(std::min(digits, held), 0, kMostDigits);
+  return std::clamp(std::min(decimals, held), 0, kMostDigits);
 }
 
 } // namespace
@@ -93,10 +100,10 @@ int gridDecimals(vtkPolyData* cloud, int axis, double largest)
 }
 
 std::vector<std::string> distanceText(
-  vtkPolyData* cloud, const Vec3& from, const Vec3& to, const std::string& unit)
+  vtkPolyData* cloud, const Vec3& from, const Vec3& to, const std::string& unit, double spacing)
 {
   const Vec3 way = to - from;
-  const int usual = distanceDecimals(cloud, from, to);
+  const int usual = distanceDecimals(cloud, from, to, spacing);
   int finest = -1;
   std::string parts;
   for (int axis = 0; axis < 3; ++axis)

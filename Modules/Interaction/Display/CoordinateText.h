@@ -28,9 +28,11 @@ std::string coordinateText(double value, double step);
 int gridDecimals(vtkPolyData* cloud, int axis, double largest);
 
 /// How far @p to is from @p from, both in the frame of the file @p cloud, in its @p unit: the distance, and
-/// in a second line that along each axis. Decimals are those of the file's grid; where there is none, six
-/// digits of the distance, and of single precision no more than its coordinates have.
+/// in a second line that along each axis. Decimals are those of the file's grid; where there is none, they go
+/// down to @p spacing, that of the points, nearer than which a click tells nothing: two to four digits of the
+/// distance, and of single precision no more than its coordinates have.
+/// @param spacing 0: not known; three digits.
 POINTHAPTICSINTERACTION_EXPORT std::vector<std::string> distanceText(
-  vtkPolyData* cloud, const Vec3& from, const Vec3& to, const std::string& unit);
+  vtkPolyData* cloud, const Vec3& from, const Vec3& to, const std::string& unit, double spacing);
 
 } // namespace pointhaptics
