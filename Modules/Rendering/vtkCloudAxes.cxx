@@ -115,7 +115,8 @@ struct vtkCloudAxes::Internals
     return p;
   }
   bool findEdge(const ScreenProjection& project, int axis, Edge& best) const;
-  void label(const ScreenProjection& project, const Edge& edge, double low, double high);
+  void label(
+    const ScreenProjection& project, const Edge& edge, double low, double high, const std::string& unit);
   void drawMarker();
 };
 
@@ -174,9 +175,9 @@ bool vtkCloudAxes::Internals::findEdge(const ScreenProjection& project, int axis
   return std::isfinite(lowest);
 }
 
-/// Ticks with numbers from @p low to @p high, metres, along @p edge, and the bounds beside its middle.
+/// Ticks with numbers from @p low to @p high along @p edge, and the bounds beside its middle.
 void vtkCloudAxes::Internals::label(
-  const ScreenProjection& project, const Edge& edge, double low, double high)
+  const ScreenProjection& project, const Edge& edge, double low, double high, const std::string& unit)
 {
   static const unsigned char dark[3] = { 40, 40, 45 };
   const double range = high - low;
@@ -206,8 +207,9 @@ void vtkCloudAxes::Internals::label(
     this->texts.put(numberText(i * step, decimals), p.x + pixels * (kTick + kGap) * edge.outX,
       p.y + pixels * (kTick + kGap) * edge.outY, edge.outX, edge.outY, dark);
   }
-  const std::string bounds = std::string(1, "xyz"[edge.axis]) + "  " + numberText(low, decimals + 1) +
-    " to " + numberText(high, decimals + 1) + " m";
+  const int finer = decimalsFor(0.1 * step);
+  const std::string bounds = std::string(1, "xyz"[edge.axis]) + "  " + numberText(low, finer) + " to " +
+    numberText(high, finer) + " " + unit;
   const Pixel middle = project(0.5 * (edge.begin + edge.end));
   // Farther out until the numbers leave room; where the picture ends before that, the letter must do.
   for (const std::string& words : { bounds, bounds.substr(0, 1) })
@@ -305,6 +307,15 @@ void vtkCloudAxes::SetBounds(const double bounds[6])
   }
 }
 
+void vtkCloudAxes::SetUnitName(const std::string& name)
+{
+  if (name != this->UnitName)
+  {
+    this->UnitName = name;
+    this->Modified();
+  }
+}
+
 void vtkCloudAxes::SetModelMatrix(vtkMatrix4x4* matrix)
 {
   vtkMatrix4x4* model = this->Parts->model;
@@ -370,12 +381,12 @@ void vtkCloudAxes::PlaceLabels()
   const ScreenProjection project(parts.renderer);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double low = this->MetresPerUnit * this->Bounds[2 * axis];
-    const double high = this->MetresPerUnit * this->Bounds[2 * axis + 1];
+    const double low = this->Bounds[2 * axis];
+    const double high = this->Bounds[2 * axis + 1];
     Edge edge;
     if (high > low && std::isfinite(high - low) && parts.findEdge(project, axis, edge))
     {
-      parts.label(project, edge, low, high);
+      parts.label(project, edge, low, high, this->UnitName);
     }
   }
   parts.drawMarker();
@@ -411,6 +422,6 @@ void vtkCloudAxes::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Bounds: " << this->Bounds[0] << ", " << this->Bounds[1] << ", " << this->Bounds[2] << ", "
      << this->Bounds[3] << ", " << this->Bounds[4] << ", " << this->Bounds[5] << "\n";
-  os << indent << "MetresPerUnit: " << this->MetresPerUnit << "\n";
+  os << indent << "UnitName: " << this->UnitName << "\n";
   os << indent << "Visibility: " << this->Visibility << "\n";
 }

@@ -1,6 +1,6 @@
 /**
  * @class   vtkCloudAxes
- * @brief   a box about the cloud with labels in metres of the cloud's own frame, and where its axes point
+ * @brief   a box about the cloud with labels in coordinates of the cloud, and where its axes point
  *
  * The box turns with the model; three of its edges, those at the outline of the picture, carry ticks, and
  * beside each stand the bounds along it. An orientation marker in the lower right corner shows the directions
@@ -27,6 +27,7 @@
 #include <array>      // For places
 #include <functional> // For SetTaken
 #include <memory>     // For Internals
+#include <string>     // For the unit
 #include <vector>     // For places
 
 class vtkMatrix4x4;
@@ -49,10 +50,10 @@ public:
 
   ///@{
   /**
-   * What a unit of the cloud's coordinates is in the labels; above 0. Default: 1.
+   * Unit of the cloud's coordinates, as it stands behind the bounds. Default: "m".
    */
-  vtkSetClampMacro(MetresPerUnit, double, 1e-12, 1e12);
-  vtkGetMacro(MetresPerUnit, double);
+  void SetUnitName(const std::string& name);
+  const std::string& GetUnitName() const { return this->UnitName; }
   ///@}
 
   /**
@@ -90,7 +91,7 @@ protected:
   void PlaceLabels();
 
   double Bounds[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
-  double MetresPerUnit = 1.0;
+  std::string UnitName = "m";
   bool Visibility = false;
 
 private:

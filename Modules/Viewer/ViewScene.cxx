@@ -49,6 +49,8 @@ namespace
 
 /// The proxy sphere is drawn at least this large, over the workspace's edge.
 constexpr double kSmallestSphere = 0.022;
+/// Of what words stand on that lie over points.
+constexpr double kPlateOpacity = 0.6;
 } // namespace
 
 ViewScene::ViewScene()
@@ -212,7 +214,7 @@ void ViewScene::chooseUnit(const LoadedCloud& loaded, const HapticViewerOptions&
 void ViewScene::setUnit(const LengthUnit& unit)
 {
   unit_ = unit;
-  axes_->SetMetresPerUnit(unit.metres);
+  axes_->SetUnitName(unit.name);
   scaleNote_ = describeScale(modelMatrix_, unit.name, unit.metres);
   this->applyMarks();
   if (shown_)
@@ -441,7 +443,10 @@ void ViewScene::applyLook()
          scalarBar_->GetAnnotationTextProperty() })
   {
     text->SetColor(ink.x, ink.y, ink.z);
-    text->ShadowOn(); // points may lie behind
+    // Points may lie behind, of any colour.
+    const double plate = isLightGround(ground) ? 1.0 : 0.0;
+    text->SetBackgroundColor(plate, plate, plate);
+    text->SetBackgroundOpacity(kPlateOpacity);
   }
   if (figure_)
   {

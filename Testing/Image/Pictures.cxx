@@ -391,7 +391,7 @@ void buildCloudAxes(const std::string& fault, vtkRenderer* renderer)
   }
   const double bounds[6] = { 4544900.0, 4546300.0, 350300.0, 352100.0, 0.0, 800.0 };
   axes->SetBounds(bounds);
-  axes->SetMetresPerUnit(fault == "wrong-unit" ? 1.0 : 1e-3);
+  axes->SetUnitName(fault == "wrong-unit" ? "m" : "mm");
   axes->SetModelMatrix(model);
   axes->AddTo(renderer);
   axes->SetVisibility(fault != "hidden");

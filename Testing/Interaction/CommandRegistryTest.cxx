@@ -97,6 +97,7 @@ TEST_F(StyleCommands, HaveLabelsAsOnTheKeyboard)
 {
   EXPECT_EQ(commands.label("help"), "H");
   EXPECT_EQ(commands.label("rotate-x"), "x") << "X rotates back";
+  EXPECT_EQ(commands.label("rotate-back-x"), "Shift+X");
   EXPECT_EQ(commands.label("hand-away"), "Page Up");
   EXPECT_EQ(commands.label("rotate-model-drag"), "Shift+left drag");
   commands.bind({ "help=F5 h", "no binding", "no-such-command=F5" });

@@ -177,7 +177,13 @@ std::string CommandRegistry::bindings(const std::string& name) const
 std::string CommandRegistry::label(const std::string& name) const
 {
   const Entry* entry = this->entryOf(name);
-  return entry && !entry->gestures.empty() ? this->labelOf(entry->gestures.front()) : std::string();
+  if (!entry || entry->gestures.empty())
+  {
+    return {};
+  }
+  const std::string words = this->labelOf(entry->gestures.front());
+  const bool isCapital = words.size() == 1 && words[0] >= 'A' && words[0] <= 'Z';
+  return isCapital && words == entry->gestures.front() ? "Shift+" + words : words;
 }
 
 const Command* CommandRegistry::findExactly(const std::string& gesture) const

@@ -103,7 +103,8 @@ public:
   void bind(const std::vector<std::string>& bindings);
   /// The gestures of @p name, separated by spaces, in the order they were given.
   std::string bindings(const std::string& name) const;
-  /// The first of them as it stands on the keyboard: "A", "Page Up", "Shift+left drag". Empty: there is none.
+  /// The first of them as it stands on the keyboard: "A", "Shift+A" where the small letter is another,
+  /// "Page Up", "Shift+left drag". Empty: there is none.
   std::string label(const std::string& name) const;
   /// What @p gesture does, or null; see fallbacksOf(). Valid as get()'s.
   const Command* find(const std::string& gesture) const;
