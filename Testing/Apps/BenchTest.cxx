@@ -347,11 +347,41 @@ TEST_F(Bench, ThePictureTurnsWithFewerPointsAndRestsWithAll)
   for (const json& row : result["turning"]["rows"])
   {
     EXPECT_GT(row["frames_per_second"], 0.0) << row;
-    EXPECT_EQ(row["drawn"] == row["means"], row["detail"] == false) << row;
+    EXPECT_EQ(row["drawn"] == row["all"], row["detail"] == false) << row;
   }
   ASSERT_EQ(result["first_picture"]["rows"].size(), 1u);
   EXPECT_EQ(result["first_picture"]["rows"][0]["failed"], false);
   EXPECT_GT(result["first_picture"]["rows"][0]["peak_bytes"], 1e7);
+}
+
+TEST_F(Bench, ThePictureOfAFileIsMeasuredEffectByEffect)
+{
+  this->refuse(1, { "bench", "render", "--quick", "--file", "none.ply" },
+    { "bench render", std::getenv("DISPLAY") ? "none.ply" : "no display" });
+  if (!std::getenv("DISPLAY"))
+  {
+    return;
+  }
+  this->succeed({ "generate", "torus", "-n", "60000", "-o", "ring.ply" });
+  this->succeed({ "generate", "sphere", "-n", "500", "-o", "ball.ply" });
+  const json result = json::parse(this->succeed({ "bench", "render", "--quick", "--file",
+    this->path("ring.ply") + "," + this->path("ball.ply"), "--json" }));
+  EXPECT_NE(result["command"].get<std::string>().find("--file ring.ply,ball.ply"), std::string::npos);
+  ASSERT_EQ(result["files"]["rows"].size(), 2u);
+  EXPECT_FALSE(result.contains("turning")) << "made points take minutes";
+  for (const json& row : result["files"]["rows"])
+  {
+    EXPECT_EQ(row["kind"], "object") << row;
+    EXPECT_GT(row["frames_per_second"], 0.0) << row;
+    EXPECT_GT(row["discs_seconds"], 0.0) << row;
+    for (const char* effect : { "sizes", "tilt", "shading", "pinholes" })
+    {
+      EXPECT_GT(row[std::string(effect) + "_seconds"], 0.0) << row;
+    }
+    EXPECT_GT(row["still_seconds"], 2.0 * row["pinholes_seconds"].get<double>()) << row; // five samples
+  }
+  EXPECT_EQ(result["files"]["rows"][0]["file"], "ring.ply");
+  EXPECT_EQ(result["files"]["rows"][0]["points"], 60000);
 }
 
 TEST_F(Bench, HelpAndVersionWorkOnBothLevels)

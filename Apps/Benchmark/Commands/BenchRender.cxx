@@ -23,6 +23,7 @@ constexpr double kMostPoints = 1e8;
 struct RenderOptions
 {
   std::vector<double> points;
+  std::vector<std::string> files;
   bool noF3d = false;
 };
 
@@ -43,6 +44,7 @@ BenchOutcome runRender(
   {
     settings.points.assign(options.points.begin(), options.points.end());
   }
+  settings.files = options.files;
   settings.repetitions = shared.repetitions > 0 ? shared.repetitions : settings.repetitions;
   settings.withF3d = !options.noF3d;
   settings.makeTurntable = makeSceneTurntable;
@@ -56,6 +58,12 @@ BenchRun addRenderOptions(CLI::App& command)
   auto options = std::make_shared<RenderOptions>();
   addWholeNumbers(command, "--points", options->points, kMostPoints,
     "Points of the clouds that are drawn; default 543652,5000000");
+  command
+    .add_option_function<std::string>(
+      "--file", [options](const std::string& text) { options->files = CLI::detail::split(text, ','); },
+      "Clouds of your own, separated by commas: what the picture of each costs, as the viewer chooses it; "
+      "nothing else is measured then")
+    ->type_name("FILE,...");
   command.add_flag("--no-f3d", options->noF3d, "Leave out f3d, which runs beside ours where it is installed");
   return [options](const BenchSettings& shared, const bench::Progress& progress)
   { return runRender(*options, shared, progress); };

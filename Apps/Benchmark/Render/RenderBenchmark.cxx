@@ -2,6 +2,7 @@
 
 #include "Benchmark/Harness/Machine.h"
 #include "Benchmark/Harness/Statistics.h"
+#include "Benchmark/Render/FileBenchmark.h"
 #include "Benchmark/Render/WholeProcess.h"
 
 #include <fmt/format.h>
@@ -22,8 +23,8 @@ namespace
 
 constexpr const char* kMethod =
   "The statue of `pointhaptics generate idol` as a binary PLY file in the page cache, drawn as the viewer "
-  "draws it: voxel means of a lattice of 300^3, eye-dome lighting, the workspace; off the screen, without "
-  "the chart. Without a graphics card, Mesa's software renderer draws on all cores.";
+  "draws it: the points of the file as tilted discs with eye-dome light, the workspace; off the screen, "
+  "without the chart. Without a graphics card, Mesa's software renderer draws on all cores.";
 
 constexpr double kDegreesPerFrame = 2.0;
 
@@ -89,7 +90,7 @@ void addTurn(Context& context, std::int64_t points, ReportPart& part, std::vecto
       fmt::format("{} - {}", brief(1e3 * q.lower), brief(1e3 * q.upper)),
       fmt::format("{:.1f}", 1.0 / q.median),
       detail ? fmt::format("{} in {}", brief(1e3 * refined), refinements) : "-" });
-    part.rows.push_back({ { "points", points }, { "means", table->allPoints() }, { "detail", detail },
+    part.rows.push_back({ { "points", points }, { "all", table->allPoints() }, { "detail", detail },
       { "drawn", drawn }, { "median_seconds", q.median }, { "lower_quartile_seconds", q.lower },
       { "upper_quartile_seconds", q.upper }, { "frames_per_second", 1.0 / q.median },
       { "refining_seconds", refined }, { "refining_frames", refinements } });
@@ -111,7 +112,7 @@ ReportPart studyTurning(Context& context)
     "mean number of points in a frame. \"refined\" is the time from the last frame of the motion to the "
     "picture of all points, and the number of frames, with the {} s of rest before.",
     context.options.frames, context.options.width, context.options.height, kDegreesPerFrame, 0.15);
-  part.table.header = { "points in the file", "voxel means", "level of detail", "drawn", "median ms",
+  part.table.header = { "points in the file", "points drawn at rest", "level of detail", "drawn", "median ms",
     "quartiles ms", "fps", "refined ms" };
   std::vector<Series> series;
   for (const std::int64_t points : context.options.points)
@@ -188,8 +189,8 @@ ReportPart studyFirstPicture(Context& context)
   part.key = "first_picture";
   part.title = "Time to the first picture, and memory";
   part.text = fmt::format(
-    "The whole process, from its start until the picture of {} x {} pixels is written and it has ended. Ours "
-    "shows all voxel means, f3d all points. Memory is the highest that was resident, libraries included.",
+    "The whole process, from its start until the picture of {} x {} pixels is written and it has ended. Both "
+    "show all points. Memory is the highest that was resident, libraries included.",
     context.options.width, context.options.height);
   part.table.header = { "points", "program", "median s", "quartiles s", "x ours", "peak MB", "" };
   for (const std::int64_t points : context.options.points)
@@ -310,10 +311,15 @@ void RenderBenchmarkOptions::makeQuick()
   repetitions = 1;
   width = 320;
   height = 180;
+  fileHeight = 200;
 }
 
 Report benchmarkRender(const RenderBenchmarkOptions& options, const Progress& progress, std::string& wrong)
 {
+  if (!options.files.empty())
+  {
+    return benchmarkFiles(options, progress, wrong);
+  }
   Report report;
   report.task = "render";
   report.title = "The viewer's picture";

@@ -17,18 +17,35 @@ namespace bench
 namespace render
 {
 
+/// What a picture is drawn with, each with all before it.
+enum class Effect
+{
+  Discs,    ///< Of 3 pixels each.
+  Sizes,    ///< As large as the spacing says.
+  Tilt,     ///< With light and depth by their normals.
+  Shading,  ///< Eye-dome light.
+  Pinholes, ///< Filled: all that the viewer draws.
+};
+
 /// The viewer's picture of a file, off the screen. GUI thread only.
 class Turntable
 {
 public:
   virtual ~Turntable() = default;
+  /// What the viewer takes the file for: "object", "terrain", "sweep", "indoors" or "frame".
+  virtual std::string kind() const = 0;
+  /// Effects up to @p last, from the next frame on; all at first.
+  virtual void setEffects(Effect last) = 0;
   /// Level of detail on or off, from the next frame on.
   virtual void setDetail(bool on) = 0;
   /// Turns the camera and renders; returns when the frame is finished.
   virtual void turn(double degrees) = 0;
   /// Renders without a motion, until nothing gets finer; returns the number of frames.
   virtual int rest() = 0;
-  /// Voxel means there are, and those of the last frame.
+  /// Turns the camera and renders the picture of a camera at rest at once: all points, several samples a
+  /// pixel. With all effects only.
+  virtual void turnToStill(double degrees) = 0;
+  /// Points there are, and those of the last frame.
   virtual std::int64_t allPoints() const = 0;
   virtual std::int64_t drawnPoints() const = 0;
 };
@@ -61,9 +78,11 @@ using MakeModelMover = std::function<std::unique_ptr<ModelMover>(
 struct RenderBenchmarkOptions
 {
   std::vector<std::int64_t> points = { 543652, 5000000 };
+  std::vector<std::string> files; ///< Measured in the place of made points, where there are any.
   int width = 1280;
   int height = 720;
-  int frames = 60; ///< Of a turn; half as many come before, untimed, for the budget to settle.
+  int fileHeight = 800; ///< Of the pictures of files.
+  int frames = 60;      ///< Of a turn; half as many come before, untimed, for the budget to settle.
   int repetitions = 5;
   bool withF3d = true;
   int presses = 30; ///< Of each key.

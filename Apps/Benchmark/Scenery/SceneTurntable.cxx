@@ -2,9 +2,15 @@
 
 #include "Benchmark/Scenery/SceneWindow.h"
 
+#include "vtkDepthShadingPass.h"
+#include "vtkSplatMapper.h"
+
+#include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkRenderPass.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 #include <chrono>
 #include <thread>
@@ -16,6 +22,8 @@ namespace app
 namespace
 {
 
+constexpr double kDiscPixels = 3.0;
+
 /// The viewer's scene in a window of its own.
 class SceneTurntable : public bench::render::Turntable
 {
@@ -26,8 +34,33 @@ public:
     {
       return false;
     }
+    pass_ = view_.scene().renderer()->GetPass();
     this->render();
     return true;
+  }
+
+  std::string kind() const override { return cloudKindName(view_.scene().shown()->look.kind); }
+
+  void setEffects(bench::render::Effect last) override
+  {
+    using bench::render::Effect;
+    vtkRenderer* renderer = view_.scene().renderer();
+    auto* splats = vtkSplatMapper::SafeDownCast(view_.scene().pointsActor()->GetMapper());
+    splats->SetFixedPixels(last >= Effect::Sizes ? 0.0 : kDiscPixels);
+    splats->SetAmbientLight(last >= Effect::Tilt);
+    splats->SetSurfaces(last >= Effect::Tilt);
+    renderer->SetPass(pass_);
+    vtkDepthShadingPass::GetPassOf(renderer)->SetFillsPinholes(last >= Effect::Pinholes);
+    if (last < Effect::Shading)
+    {
+      renderer->SetPass(nullptr);
+    }
+  }
+
+  void turnToStill(double degrees) override
+  {
+    view_.scene().completeNextFrame();
+    this->turn(degrees);
   }
 
   void setDetail(bool on) override { view_.scene().detail().setEnabled(on); }
@@ -61,6 +94,7 @@ private:
   }
 
   SceneWindow view_;
+  vtkSmartPointer<vtkRenderPass> pass_; ///< Of all effects.
 };
 
 } // namespace
