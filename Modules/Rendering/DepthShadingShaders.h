@@ -32,9 +32,12 @@ float depthAt(ivec2 place, ivec2 last)
 }
 )";
 
-/// A pixel that lies behind nearly all around it is a hole between splats.
+/// A pixel that lies behind nearly all around it is a hole between splats. The number of neighbours is a
+/// uniform so that the loop stays one: a software renderer leaves a loop where all its pixels have, but works
+/// on both branches of a condition.
 constexpr const char* kPinholeShader = R"(
 const int enough = 6;
+uniform int neighbors; // 8
 void main()
 {
   ivec2 last = textureSize(depths, 0) - ivec2(1);
@@ -43,29 +46,24 @@ void main()
   float here = depth < 1.0 ? distanceAt(depth) : 3.4e38;
   int side = int(1.5 * pixelScale + 0.5);
   int corner = int(1.06 * pixelScale + 0.5);
-  ivec2 steps[8] = ivec2[8](ivec2(side, 0), ivec2(-side, 0), ivec2(0, side), ivec2(0, -side),
-    ivec2(corner, corner), ivec2(-corner, corner), ivec2(corner, -corner), ivec2(-corner, -corner));
   int before = 0;
   float farthest = -1.0;
   ivec2 source = place;
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < neighbors; ++i)
   {
-    float other = depthAt(place + steps[i], last);
-    if (other < depth)
+    int way = 1 - 2 * (i & 1);
+    ivec2 along = (i & 2) == 0 ? ivec2(1, 0) : ivec2(0, 1);
+    ivec2 other = place + (i < 4 ? side * way * along : corner * ivec2(way, 1 - (i & 2)));
+    float depthThere = depthAt(other, last);
+    float there = distanceAt(depthThere);
+    float gap = max(3.0 * pixelScale * pixelAt(there), noise.x + noise.y * there);
+    if (depthThere < depth && here - there > gap)
     {
-      float there = distanceAt(other);
-      float pixel = pixelAt(there);
-      if (here - there > max(3.0 * pixelScale * pixel, noise.x + noise.y * there))
-      {
-        ++before;
-        if (other > farthest)
-        {
-          farthest = other;
-          source = place + steps[i];
-        }
-      }
+      ++before;
+      source = depthThere > farthest ? other : source;
+      farthest = max(farthest, depthThere);
     }
-    if (before + 7 - i < enough)
+    if (before + neighbors - 1 - i < enough)
     {
       break;
     }
@@ -76,13 +74,74 @@ void main()
 }
 )";
 
+/// Colours and depths as they are.
+constexpr const char* kCopyShader = R"(
+uniform float samples; // that the colours are the sum of
+
+void main()
+{
+  ivec2 place = ivec2(texCoord * vec2(textureSize(depths, 0)));
+  gl_FragDepth = texelFetch(depths, place, 0).r;
+  gl_FragData[0] = texelFetch(colors, place, 0) / samples;
+}
+)";
+
 /// Depths along a line over a plane are even: only what bends towards the viewer on both sides is dark.
-constexpr const char* kDepthShader = R"(
+constexpr const char* kShade = R"(
 uniform float strength;
 uniform float minimumLightness;
+
+float shadeAt(ivec2 place, ivec2 last, float depth)
+{
+  float here = distanceAt(depth);
+  float slope = isParallel != 0 ? clipping.y - clipping.x
+                                : here * here * (clipping.y - clipping.x) / (clipping.x * clipping.y);
+  float pixel = pixelAt(here) * pixelScale;
+  float rough = (noise.x + noise.y * here) / pixel;
+  float radii[3] = float[3](2.0, 5.0, 12.0);
+  float weights[3] = float[3](0.075, 0.0875, 0.0875);
+  float sum = 0.0;
+  for (int ring = 0; ring < 3; ++ring)
+  {
+    float radius = radii[ring];
+    float perRadius = slope / (pixel * radius);
+    float least = 0.15 + rough / radius;
+    int side = int(radius * pixelScale + 0.5);
+    int corner = int(0.7071 * radius * pixelScale + 0.5);
+    ivec2 steps[4] = ivec2[4](ivec2(side, 0), ivec2(0, side), ivec2(corner, corner), ivec2(-corner, corner));
+    float part = 0.0;
+    for (int i = 0; i < 4; ++i)
+    {
+      float one = depthAt(place + steps[i], last);
+      float other = depthAt(place - steps[i], last);
+      if (one < 1.0 && other < 1.0)
+      {
+        float bend = clamp((depth - one) * perRadius, -3.0, 3.0) + clamp((depth - other) * perRadius, -3.0, 3.0);
+        part += clamp(0.5 * bend - least, 0.0, 1.0);
+      }
+    }
+    sum += weights[ring] * part;
+  }
+  return max(minimumLightness, exp(-strength * sum));
+}
+)";
+
+/// Of the pixels that something is drawn in, over what kCopyShader left: their depths are tested before, so
+/// that a software renderer works on no others.
+constexpr const char* kShadeShader = R"(
+void main()
+{
+  ivec2 last = textureSize(depths, 0) - ivec2(1);
+  ivec2 place = ivec2(texCoord * vec2(last + ivec2(1)));
+  vec4 color = texelFetch(colors, place, 0);
+  color.rgb *= shadeAt(place, last, texelFetch(depths, place, 0).r);
+  gl_FragData[0] = color;
+}
+)";
+
+/// All at once, for a sum that has no depths.
+constexpr const char* kSampleShader = R"(
 uniform int isShaded;
-uniform float samples; // that the colours are the sum of
-uniform int isRounded; // to what a picture can hold
 
 void main()
 {
@@ -90,42 +149,11 @@ void main()
   ivec2 place = ivec2(texCoord * vec2(last + ivec2(1)));
   float depth = texelFetch(depths, place, 0).r;
   vec4 color = texelFetch(colors, place, 0);
-  gl_FragDepth = depth;
   if (depth < 1.0 && isShaded == 0)
   {
-    float here = distanceAt(depth);
-    float slope = isParallel != 0 ? clipping.y - clipping.x
-                                  : here * here * (clipping.y - clipping.x) / (clipping.x * clipping.y);
-    float pixel = pixelAt(here) * pixelScale;
-    float rough = (noise.x + noise.y * here) / pixel;
-    float radii[3] = float[3](2.0, 5.0, 12.0);
-    float weights[3] = float[3](0.075, 0.0875, 0.0875);
-    float sum = 0.0;
-    for (int ring = 0; ring < 3; ++ring)
-    {
-      float radius = radii[ring];
-      float perRadius = slope / (pixel * radius);
-      float least = 0.15 + rough / radius;
-      int side = int(radius * pixelScale + 0.5);
-      int corner = int(0.7071 * radius * pixelScale + 0.5);
-      ivec2 steps[4] = ivec2[4](ivec2(side, 0), ivec2(0, side), ivec2(corner, corner), ivec2(-corner, corner));
-      float part = 0.0;
-      for (int i = 0; i < 4; ++i)
-      {
-        float one = depthAt(place + steps[i], last);
-        float other = depthAt(place - steps[i], last);
-        if (one < 1.0 && other < 1.0)
-        {
-          float bend = clamp((depth - one) * perRadius, -3.0, 3.0) + clamp((depth - other) * perRadius, -3.0, 3.0);
-          part += clamp(0.5 * bend - least, 0.0, 1.0);
-        }
-      }
-      sum += weights[ring] * part;
-    }
-    color.rgb *= max(minimumLightness, exp(-strength * sum));
+    color.rgb *= shadeAt(place, last, depth);
   }
-  color /= samples;
-  gl_FragData[0] = isRounded != 0 ? floor(255.0 * color + 0.5) / 255.0 : color;
+  gl_FragData[0] = floor(255.0 * color + 0.5) / 255.0; // what a picture can hold
 }
 )";
 

@@ -9,6 +9,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
+#include "vtkOpenGLRenderUtilities.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
@@ -269,7 +270,8 @@ void vtkDepthShadingPass::AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow*
   {
     this->Sum->Create2D(unsigned(this->W), unsigned(this->H), 4, VTK_FLOAT, false);
   }
-  if (!this->PrepareQuad(this->Quad, pointhaptics::kDepthShader, window))
+  if (!this->PrepareQuad(
+        this->SampleQuad, std::string(pointhaptics::kShade) + pointhaptics::kSampleShader, window))
   {
     return;
   }
@@ -284,21 +286,28 @@ void vtkDepthShadingPass::AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow*
     state->vtkglDisable(GL_DEPTH_TEST);
     state->SetEnumState(GL_BLEND, this->NumberOfSamples > 1);
     state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
-    const bool isFilled = this->FillsPinholes && !this->KeptIsShaded;
-    this->DrawShaded(renderer, isFilled ? this->FilledColors : this->Colors,
-      this->FillsPinholes ? this->FilledDepths : this->Depths, 1.0, true);
+    this->SampleQuad->Program->SetUniformi("isShaded", this->KeptIsShaded ? 1 : 0);
+    this->SetShade(*this->SampleQuad);
+    this->Draw(*this->SampleQuad, this->ShownColors(), this->ShownDepths(), renderer);
   }
   state->PopFramebufferBindings();
 }
 
-/// Makes @p quad draw with @p fragment over the whole of the target that is bound. False: it cannot be built.
-bool vtkDepthShadingPass::PrepareQuad(
-  std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragment, vtkOpenGLRenderWindow* window)
+/// Makes @p quad draw with @p fragment over the whole of the target that is bound; at the largest depth if it
+/// @p isBehindAll. False: it cannot be built.
+bool vtkDepthShadingPass::PrepareQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const std::string& fragment,
+  vtkOpenGLRenderWindow* window, bool isBehindAll)
 {
   if (!quad)
   {
-    const std::string source = std::string(pointhaptics::kDepthCommon) + fragment;
-    quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), "");
+    std::string vertex = vtkOpenGLRenderUtilities::GetFullScreenQuadVertexShader();
+    if (isBehindAll)
+    {
+      vtkShaderProgram::Substitute(
+        vertex, "gl_Position = ndCoordIn;", "gl_Position = vec4(ndCoordIn.xy, 1.0, 1.0);");
+    }
+    const std::string source = pointhaptics::kDepthCommon + fragment;
+    quad = std::make_unique<vtkOpenGLQuadHelper>(window, vertex.c_str(), source.c_str(), "");
   }
   else
   {
@@ -353,25 +362,33 @@ void vtkDepthShadingPass::FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWin
   state->vtkglDepthFunc(GL_ALWAYS);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDisable(GL_BLEND);
-  this->SetUniforms(this->FillQuad->Program, this->Colors, this->Depths, renderer);
-  this->FillQuad->Render();
-  this->Depths->Deactivate();
-  this->Colors->Deactivate();
+  this->FillQuad->Program->SetUniformi("neighbors", 8);
+  this->Draw(*this->FillQuad, this->Colors, this->Depths, renderer);
   state->vtkglDepthFunc(GL_LEQUAL);
 }
 
-/// The shaded picture of @p colors, or the mean of what was shaded before.
-void vtkDepthShadingPass::DrawShaded(
-  vtkRenderer* renderer, vtkTextureObject* colors, vtkTextureObject* depths, double samples, bool isRounded)
+/// Of the picture that is shown: filled, or after it was kept as it is.
+vtkTextureObject* vtkDepthShadingPass::ShownColors()
 {
-  vtkShaderProgram* program = this->Quad->Program;
-  this->SetUniforms(program, colors, depths, renderer);
-  program->SetUniformi("isShaded", this->KeptIsShaded || colors == this->Sum ? 1 : 0);
-  program->SetUniformf("samples", static_cast<float>(samples));
-  program->SetUniformi("isRounded", isRounded ? 1 : 0);
-  program->SetUniformf("strength", static_cast<float>(this->Strength));
-  program->SetUniformf("minimumLightness", static_cast<float>(this->MinimumLightness));
-  this->Quad->Render();
+  return this->FillsPinholes && !this->KeptIsShaded ? this->FilledColors : this->Colors;
+}
+
+vtkTextureObject* vtkDepthShadingPass::ShownDepths()
+{
+  return this->FillsPinholes ? this->FilledDepths : this->Depths;
+}
+
+void vtkDepthShadingPass::SetShade(vtkOpenGLQuadHelper& quad)
+{
+  quad.Program->SetUniformf("strength", static_cast<float>(this->Strength));
+  quad.Program->SetUniformf("minimumLightness", static_cast<float>(this->MinimumLightness));
+}
+
+void vtkDepthShadingPass::Draw(
+  vtkOpenGLQuadHelper& quad, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer)
+{
+  this->SetUniforms(quad.Program, colors, depths, renderer);
+  quad.Render();
   depths->Deactivate();
   colors->Deactivate();
 }
@@ -379,7 +396,7 @@ void vtkDepthShadingPass::DrawShaded(
 /// Into the frame buffer.
 void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
-  if (!this->PrepareQuad(this->Quad, pointhaptics::kDepthShader, window))
+  if (!this->PrepareQuad(this->CopyQuad, pointhaptics::kCopyShader, window))
   {
     return;
   }
@@ -398,15 +415,19 @@ void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* win
   state->vtkglDepthFunc(GL_ALWAYS);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDisable(GL_BLEND);
-  if (this->NumberOfSamples > 1)
+  const bool isMean = this->NumberOfSamples > 1;
+  this->CopyQuad->Program->SetUniformf("samples", static_cast<float>(this->NumberOfSamples));
+  this->Draw(*this->CopyQuad, isMean ? this->Sum.Get() : this->ShownColors(),
+    isMean ? this->FirstDepths.Get() : this->ShownDepths(), renderer);
+  if (!isMean && !this->KeptIsShaded &&
+    this->PrepareQuad(
+      this->ShadeQuad, std::string(pointhaptics::kShade) + pointhaptics::kShadeShader, window, true))
   {
-    this->DrawShaded(renderer, this->Sum, this->FirstDepths, this->NumberOfSamples, false);
-  }
-  else
-  {
-    const bool isFilled = this->FillsPinholes && !this->KeptIsShaded;
-    this->DrawShaded(renderer, isFilled ? this->FilledColors : this->Colors,
-      this->FillsPinholes ? this->FilledDepths : this->Depths, 1.0, false);
+    state->vtkglDepthMask(GL_FALSE);
+    state->vtkglDepthFunc(GL_GREATER);
+    this->SetShade(*this->ShadeQuad);
+    this->Draw(*this->ShadeQuad, this->ShownColors(), this->ShownDepths(), renderer);
+    state->vtkglDepthMask(GL_TRUE);
   }
   state->vtkglDepthFunc(GL_LEQUAL);
 }
@@ -418,8 +439,10 @@ void vtkDepthShadingPass::ReleaseGraphicsResources(vtkWindow* window)
   {
     this->RightEye->ReleaseGraphicsResources(window);
   }
-  this->Quad.reset();
-  this->FillQuad.reset();
+  for (auto* quad : { &this->FillQuad, &this->CopyQuad, &this->ShadeQuad, &this->SampleQuad })
+  {
+    quad->reset();
+  }
   if (this->Frame)
   {
     for (auto* frame : { &this->Frame, &this->FilledFrame, &this->SumFrame })

@@ -9,7 +9,7 @@
  *   front of a surface draws no outline on it;
  * - the background is never darkened, and darkens nothing;
  * - what lies deeper by no more than the noise of the cloud stays as light as the rest;
- * - it is two steps at full resolution, which cost a software renderer a sixth as much.
+ * - its steps have full resolution, and cost a software renderer a sixth as much or less.
  *
  * The camera's clipping range is widened to powers of the fourth root of 2: where it is reset, or another
  * prop comes into the scene, the picture of an equal view stays the same to the bit.
@@ -37,6 +37,7 @@
 
 #include <array>  // For members
 #include <memory> // For std::unique_ptr
+#include <string> // For shaders
 #include <vector> // For members
 
 class vtkOpenGLFramebufferObject;
@@ -128,8 +129,8 @@ private:
   void RenderEye(const vtkRenderState* state);
   void RenderRightEye(const vtkRenderState* state);
   void PrepareTargets(vtkOpenGLRenderWindow* window);
-  bool PrepareQuad(
-    std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragment, vtkOpenGLRenderWindow* window);
+  bool PrepareQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const std::string& fragment,
+    vtkOpenGLRenderWindow* window, bool isBehindAll = false);
   void SetUniforms(
     vtkShaderProgram* program, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer);
   void DrawSample(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
@@ -137,8 +138,11 @@ private:
   void AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void DrawShaded(vtkRenderer* renderer, vtkTextureObject* colors, vtkTextureObject* depths, double samples,
-    bool isRounded);
+  void SetShade(vtkOpenGLQuadHelper& quad);
+  void Draw(
+    vtkOpenGLQuadHelper& quad, vtkTextureObject* colors, vtkTextureObject* depths, vtkRenderer* renderer);
+  vtkTextureObject* ShownColors();
+  vtkTextureObject* ShownDepths();
 
   double NoiseLength = 0.0;
   double NoisePerDistance = 0.0;
@@ -155,8 +159,10 @@ private:
   vtkSmartPointer<vtkOpenGLFramebufferObject> SumFrame;
   vtkSmartPointer<vtkTextureObject> Sum;
   vtkSmartPointer<vtkTextureObject> FirstDepths;
-  std::unique_ptr<vtkOpenGLQuadHelper> Quad;
   std::unique_ptr<vtkOpenGLQuadHelper> FillQuad;
+  std::unique_ptr<vtkOpenGLQuadHelper> CopyQuad;
+  std::unique_ptr<vtkOpenGLQuadHelper> ShadeQuad;
+  std::unique_ptr<vtkOpenGLQuadHelper> SampleQuad;
   std::vector<double> Kept; // what the textures show, see pictureState()
   bool KeptIsShaded = false;
   std::array<double, 5> KeptNumbers{}; // all settings they were made with
