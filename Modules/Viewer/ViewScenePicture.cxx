@@ -36,12 +36,23 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 /// Of vtkSplatMapper, at a scale of 1.
 constexpr double kSmallestPixels = 2.0;
 constexpr double kPointPixels = 4.0;
+/// Of a handful of points, which nobody would see else.
+constexpr double kLargestSmallest = 6.0;
+/// From here on points are as small as can be.
+constexpr double kManyPoints = 2000.0;
 constexpr double kFeltScale = 3.6;
 constexpr double kFeltLargest = 64.0;
 /// From straight above the camera's own up says which way it is turned.
 constexpr double kSteepest = 0.999;
 /// At which a point is a pixel.
 constexpr double kPointsPerInch = 72.0;
+
+/// Least diameter of so many points in the file, pixels.
+double smallestPixels(vtkIdType count)
+{
+  const double wanted = kSmallestPixels * std::sqrt(kManyPoints / std::max<double>(1.0, double(count)));
+  return std::clamp(wanted, kSmallestPixels, kLargestSmallest);
+}
 
 double halfTangent(vtkCamera* camera)
 {
@@ -165,13 +176,14 @@ void ViewScene::applyPointSizes()
 {
   const double scale = picture_.pointScale;
   pointsMapper_->SetSizeScale(scale);
-  pointsMapper_->SetPixelRange(kSmallestPixels * std::min(1.0, scale),
-    std::max(kSmallestPixels, scale * (shown_ ? shown_->look.largestPixels : 1.0)));
+  const double smallest = smallestPixels(shown_ ? shown_->points->GetNumberOfPoints() : 0);
+  pointsMapper_->SetPixelRange(
+    smallest * std::min(1.0, scale), std::max(smallest, scale * (shown_ ? shown_->look.largestPixels : 1.0)));
   mapper_->SetSizeScale(kFeltScale * scale);
   mapper_->SetPixelRange(kSmallestPixels * std::min(1.0, scale), kFeltLargest * std::max(1.0, scale));
   for (vtkSplatMapper* mapper : { mapper_.Get(), pointsMapper_.Get() })
   {
-    mapper->SetPointPixels(kPointPixels * scale);
+    mapper->SetPointPixels(std::max(kPointPixels, smallest) * scale);
     mapper->SetFixedPixels(fixedPixels_ * scale);
   }
 }

@@ -62,6 +62,37 @@ TEST_F(HapticViewerPictures, LeavesTheBackgroundOutOfTransparentPictures)
   EXPECT_GT(solid, got->GetNumberOfTuples() / 10);
 }
 
+TEST_F(HapticViewerPictures, MakesAHandfulOfPointsLarge)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.width = 1000;
+  options_.height = 800;
+  options_.picture.background = "black";
+  vtkNew<vtkPoints> points;
+  constexpr int kFew = 40;
+  for (int i = 0; i < kFew; ++i) // along a screw, far apart
+  {
+    points->InsertNextPoint(std::cos(0.7 * i), std::sin(0.7 * i), 0.1 * i);
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(cloud.Get())) << viewer.message();
+  ASSERT_TRUE(viewer.renderToFile(this->path("few.png"))) << viewer.message();
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(this->path("few.png").c_str());
+  reader->Update();
+  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
+  vtkIdType lit = 0;
+  for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
+  {
+    // Points have colours, the brackets of the workspace are grey.
+    lit += std::abs(pixels->GetComponent(i, 0) - pixels->GetComponent(i, 2)) > 40.0;
+  }
+  EXPECT_GT(lit, kFew * 3.14159 * 2.5 * 2.5) << "discs of six pixels";
+  EXPECT_LT(lit, kFew * 3.14159 * 4.0 * 4.0);
+}
+
 /// Pixels of the colour of a measured line, and their middle.
 struct LinePixels
 {
