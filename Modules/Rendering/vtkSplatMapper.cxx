@@ -1,6 +1,7 @@
 #include "vtkSplatMapper.h"
 
 #include "CloudParts.h"
+#include "DrawPace.h"
 #include "SplatShaders.h"
 
 #include "vtkActor.h"
@@ -13,6 +14,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLIndexBufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLVertexBufferObject.h"
 #include "vtkOpenGLVertexBufferObjectGroup.h"
 #include "vtkPointData.h"
@@ -241,14 +243,21 @@ void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
     // All by the same call as parts: others round otherwise.
     const std::vector<std::array<vtkIdType, 2>> all = { { 0,
       static_cast<vtkIdType>(points.IBO->IndexCount) } };
+    auto& pace = pointhaptics::DrawPace::of(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()));
     this->UpdateShaders(points, renderer, actor);
     points.IBO->Bind();
     for (const auto& [begin, end] : this->Ranges.empty() ? all : this->Ranges)
     {
       const auto last = std::min(end, static_cast<vtkIdType>(points.IBO->IndexCount));
-      const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(GLuint);
-      glDrawElements(GL_POINTS, static_cast<GLsizei>(std::max<vtkIdType>(0, last - begin)), GL_UNSIGNED_INT,
-        reinterpret_cast<const void*>(offset));
+      for (vtkIdType from = begin; from < last;)
+      {
+        const auto count = std::min<std::int64_t>(last - from, pace.room());
+        const auto offset = static_cast<std::uintptr_t>(from) * sizeof(GLuint);
+        glDrawElements(
+          GL_POINTS, static_cast<GLsizei>(count), GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+        pace.add(count);
+        from += count;
+      }
     }
     points.IBO->Release();
   }

@@ -1,3 +1,4 @@
+#include "DrawPace.h"
 #include "vtkSplatMapper.h"
 
 #include "../Unit/SkipWithoutDisplay.h"
@@ -8,6 +9,7 @@
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
+#include <vtkOpenGLRenderWindow.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -18,6 +20,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace
@@ -105,6 +109,48 @@ TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
   splats->SetLargestRatio(1.0);
   const std::vector<unsigned char> cut = pixels();
   EXPECT_LT(std::count(cut.begin(), cut.end(), 0), 3 * 900);
+}
+
+/// Of the many points only a few are under way at a time where they are drawn by the processor.
+TEST(SplatMapper, PointsAreDrawnInStepsWhereTheProcessorDrawsThem)
+{
+  SKIP_WITHOUT_DISPLAY();
+  constexpr vtkIdType kCount = 50000;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> vertices;
+  vertices->InsertNextCell(int(kCount));
+  for (vtkIdType i = 0; i < kCount; ++i)
+  {
+    points->InsertNextPoint(0.05 * std::cos(double(i)), 0.05 * std::sin(double(i)), 0.0);
+    vertices->InsertCellPoint(i);
+  }
+  vtkNew<vtkPolyData> ring;
+  ring->SetPoints(points);
+  ring->SetVerts(vertices);
+  vtkNew<vtkSplatMapper> splats;
+  splats->SetInputData(ring);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(splats);
+  vtkNew<vtkRenderer> renderer;
+  renderer->AddActor(actor);
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetSize(kSize, kSize);
+  window->AddRenderer(renderer);
+  window->Render();
+  auto& pace = pointhaptics::DrawPace::of(vtkOpenGLRenderWindow::SafeDownCast(window));
+  const std::int64_t before = pace.steps();
+  window->Render();
+  EXPECT_EQ(pace.steps() - before >= kCount / pointhaptics::DrawPace::kStep, pace.isNeeded());
+  EXPECT_LE(pace.underWay(), pointhaptics::DrawPace::kAhead);
+  const std::string library = window->ReportCapabilities();
+  EXPECT_EQ(pace.isNeeded(), library.find("llvmpipe") != std::string::npos);
+  // Ranges draw the same, and count as much.
+  const std::int64_t whole = pace.steps();
+  splats->SetRanges({ { 0, 10 }, { 20, kCount } });
+  window->Render();
+  EXPECT_NEAR(double(pace.steps() - whole),
+    pace.isNeeded() ? double(kCount) / pointhaptics::DrawPace::kStep : 0.0, 1.0);
 }
 
 } // namespace

@@ -1,0 +1,54 @@
+/// @file
+/// Draw calls in steps, for renderers that store what they have not drawn yet.
+#pragma once
+
+#include "PointHapticsRenderingModule.h" // For export macro
+
+#include "vtkWeakPointer.h"
+
+#include <cstdint>
+#include <deque>
+
+struct __GLsync;
+class vtkOpenGLRenderWindow;
+class vtkRenderWindow;
+
+namespace pointhaptics
+{
+
+/// Mesa's software renderer makes about 500 bytes of each point before it draws that on the pixels, and keeps
+/// the memory: of a frame with all of 543,652 points 200 MB, until the window closes. Few points at a time
+/// use the same few megabytes again, which lie in the cache: such a frame takes two thirds of the time.
+/// Of no effect on graphics cards. GUI thread only.
+class POINTHAPTICSRENDERING_EXPORT DrawPace
+{
+public:
+  /// Points of a step.
+  static constexpr std::int64_t kStep = 4096;
+  /// Steps that are drawn while the next one is made.
+  static constexpr std::size_t kAhead = 2;
+
+  /// That of @p window, whose context is current.
+  static DrawPace& of(vtkOpenGLRenderWindow* window);
+
+  /// So many points at most go into the next draw call; above 0.
+  std::int64_t room() const;
+  /// So many were drawn. Ends a step that is full and waits until no more than kAhead are under way.
+  void add(std::int64_t points);
+  /// The window's renderer works in steps.
+  bool isNeeded() const { return isNeeded_; }
+  /// Steps that were ended, and how many of them may be under way at present.
+  std::int64_t steps() const { return steps_; }
+  std::size_t underWay() const { return underWay_.size(); }
+
+private:
+  void follow(vtkOpenGLRenderWindow* window);
+
+  vtkWeakPointer<vtkRenderWindow> window_;
+  bool isNeeded_ = false;
+  std::int64_t drawn_ = 0; ///< Of the present step.
+  std::int64_t steps_ = 0;
+  std::deque<__GLsync*> underWay_;
+};
+
+} // namespace pointhaptics
