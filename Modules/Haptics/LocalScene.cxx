@@ -164,7 +164,7 @@ double LocalSceneBuilder::cellSize(const Vec3& place, const HapticScene& global)
 
 bool LocalSceneBuilder::isUseful(const Bounds& hand, const HapticScene& global) const noexcept
 {
-  return index_ && !hand.empty() && isFinite(hand.extent()) &&
+  return !hand.empty() && isFinite(hand.extent()) &&
     cellSize(global.toLattice(hand.center()), global) > 0.0;
 }
 

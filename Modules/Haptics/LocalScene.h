@@ -37,7 +37,7 @@ public:
 
   /// Whether the hand feels the cloud finer than in the scene of the whole: false where a scene would be of
   /// no use, as far from all points, where points are as sparse as the global cells, where the surface is so
-  /// smooth that these resolve it, or so noisy that finer ones resolve no more.
+  /// smooth that these resolve it, or so noisy that finer ones resolve no more. Needs no cloud.
   /// @param hand the HIP and what it touches, workspace frame. @param global the scene of the whole cloud.
   bool isUseful(const Bounds& hand, const HapticScene& global) const noexcept;
 

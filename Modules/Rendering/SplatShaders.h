@@ -8,7 +8,7 @@ namespace pointhaptics
 /// The light on a side of a splat is that of the sky, which is darker below, and the part of the lamp's that
 /// wraps around the shape. Near the outline, where noise turns normals away, both sides count. The length of
 /// a normal is how much of the light is seen.
-constexpr const char* kLightFunctions = R"(
+inline constexpr const char* kLightFunctions = R"(
 in vec3 splatNormal;
 uniform vec3 splatSky;
 uniform vec3 splatLamp;
@@ -25,7 +25,7 @@ float lightOn(vec3 normal)
   return 0.16 + 0.20 * sky + 0.66 * lamp * lamp;
 }
 )";
-constexpr const char* kLightStatements = R"(
+inline constexpr const char* kLightStatements = R"(
   float splatFlat = length(splatNormal) * splatUnit;
   vec3 splatAxis = splatFlat > 1e-3 ? normalize(splatNormal) : vec3(0.0);
   vec3 splatSight = normalize((splatEye.xyz - splatEye.w * vertexMC.xyz) * splatUnscale);
@@ -40,7 +40,7 @@ constexpr const char* kLightStatements = R"(
 
 /// Slope of the disc seen from the eye: how far towards the viewer it goes for a step on the screen. The
 /// lengths are of the view: splatDepth.x is half a pixel at distance 1, splatTerms those of the projection.
-constexpr const char* kSurfaceDeclarations = R"(
+inline constexpr const char* kSurfaceDeclarations = R"(
 uniform mat3 splatTurn;
 uniform vec4 splatTerms;
 uniform float splatHalfPixel;
@@ -48,7 +48,7 @@ uniform int splatIsParallel;
 out vec2 splatSlope;
 out vec2 splatReach;
 )";
-constexpr const char* kSurfaceStatements = R"(
+inline constexpr const char* kSurfaceStatements = R"(
   vec3 splatRay = splatIsParallel != 0 ? vec3(0.0, 0.0, -1.0)
     : vec3(gl_Position.xy / gl_Position.w / splatTerms.xy, -1.0);
   vec3 splatTilted = splatTurn * splatAxis;
@@ -58,7 +58,7 @@ constexpr const char* kSurfaceStatements = R"(
   splatSlope *= min(1.0, 1.5 / max(splatSteep, 1e-6)) * clamp(2.0 * splatFlat - 0.6, 0.0, 1.0);
   splatReach = vec2(gl_Position.w, gl_PointSize * splatHalfPixel * gl_Position.w);
 )";
-constexpr const char* kSurfaceFragment = R"(
+inline constexpr const char* kSurfaceFragment = R"(
   vec2 splatPlace = vec2(2.0 * gl_PointCoord.x - 1.0, 1.0 - 2.0 * gl_PointCoord.y);
   float splatRise = dot(splatSlope, splatPlace);
   if (dot(splatPlace, splatPlace) + splatNarrow * splatRise * splatRise > 1.0) { discard; }
@@ -69,7 +69,7 @@ constexpr const char* kSurfaceFragment = R"(
 )";
 
 /// What is outside of the box goes behind the far plane.
-constexpr const char* kClipStatements = R"(
+inline constexpr const char* kClipStatements = R"(
   if (any(lessThan(vertexMC.xyz, splatLow)) || any(greaterThan(vertexMC.xyz, splatHigh)))
   {
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0);

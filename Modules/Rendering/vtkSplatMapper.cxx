@@ -230,36 +230,72 @@ void vtkSplatMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
+/// In steps: see DrawPace.
+void vtkSplatMapper::DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed)
+{
+  auto& pace = pointhaptics::DrawPace::of(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()));
+  while (begin < end)
+  {
+    const auto count = static_cast<GLsizei>(std::min<std::int64_t>(end - begin, pace.room()));
+    if (isIndexed)
+    {
+      const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(GLuint);
+      glDrawElements(GL_POINTS, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+    }
+    else
+    {
+      glDrawArrays(GL_POINTS, static_cast<GLint>(begin), count);
+    }
+    pace.add(count);
+    begin += count;
+  }
+}
+
+/// Those of all points, where no cells say otherwise: one cell of all points would be copied.
+void vtkSplatMapper::ComputeBounds()
+{
+  vtkPolyData* input = this->GetInput();
+  if (input && input->GetPoints() && input->GetNumberOfCells() == 0)
+  {
+    input->GetPoints()->GetBounds(this->Bounds);
+  }
+  else
+  {
+    this->Superclass::ComputeBounds();
+  }
+}
+
 void vtkSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
   glEnable(GL_PROGRAM_POINT_SIZE);
   vtkOpenGLHelper& points = this->Primitives[PrimitivePoints];
+  const bool hasCells = this->CurrentInput->GetNumberOfCells() > 0;
+  const auto count =
+    hasCells ? static_cast<vtkIdType>(points.IBO->IndexCount) : this->CurrentInput->GetNumberOfPoints();
   if (renderer->GetSelector())
   {
     this->Superclass::RenderPieceDraw(renderer, actor);
   }
-  else if (points.IBO->IndexCount > 0)
+  else if (count > 0)
   {
     // All by the same call as parts: others round otherwise.
-    const std::vector<std::array<vtkIdType, 2>> all = { { 0,
-      static_cast<vtkIdType>(points.IBO->IndexCount) } };
-    auto& pace = pointhaptics::DrawPace::of(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()));
+    const std::vector<std::array<vtkIdType, 2>> all = { { 0, count } };
+    const std::size_t indices = points.IBO->IndexCount;
+    points.IBO->IndexCount = static_cast<std::size_t>(count); // of 0 the superclass binds no attributes
     this->UpdateShaders(points, renderer, actor);
-    points.IBO->Bind();
+    points.IBO->IndexCount = indices;
+    if (hasCells)
+    {
+      points.IBO->Bind();
+    }
     for (const auto& [begin, end] : this->Ranges.empty() ? all : this->Ranges)
     {
-      const auto last = std::min(end, static_cast<vtkIdType>(points.IBO->IndexCount));
-      for (vtkIdType from = begin; from < last;)
-      {
-        const auto count = std::min<std::int64_t>(last - from, pace.room());
-        const auto offset = static_cast<std::uintptr_t>(from) * sizeof(GLuint);
-        glDrawElements(
-          GL_POINTS, static_cast<GLsizei>(count), GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
-        pace.add(count);
-        from += count;
-      }
+      this->DrawRange(renderer, begin, std::min(end, count), hasCells);
     }
-    points.IBO->Release();
+    if (hasCells)
+    {
+      points.IBO->Release();
+    }
   }
   glDisable(GL_PROGRAM_POINT_SIZE);
 }

@@ -2,11 +2,11 @@
  * @class   vtkSplatMapper
  * @brief   points as round splats, each as large as an array says
  *
- * Draws the vertices of its input as discs that face the camera. The diameter of one is SizeScale times its
- * value of SizeArrayName, a length in the units of the points: with the bandwidths of
- * vtkKernelBandwidthFilter sparse regions close and dense ones stay crisp. Voxel means take MeanBandwidth:
- * they are farther apart than the points that Bandwidth tells of. Nearer splats are larger. Without
- * the array, or with FixedPixels above 0, all have the same size on the screen.
+ * Draws the vertices of its input, or all points of an input without cells, as discs that face the camera.
+ * The diameter of one is SizeScale times its value of SizeArrayName, a length in the units of the points:
+ * with the bandwidths of vtkKernelBandwidthFilter sparse regions close and dense ones stay crisp. Voxel means
+ * take MeanBandwidth: they are farther apart than the points that Bandwidth tells of. Nearer splats are
+ * larger. Without the array, or with FixedPixels above 0, all have the same size on the screen.
  *
  * @code
  * bandwidth->ComputeMeanBandwidthOn();
@@ -94,7 +94,8 @@ public:
 
   /**
    * Parts of the input's vertices that are drawn, in the order of its cells: the first and the one after the
-   * last of each. Empty (default): all. Free to change; for input whose cells are vertices of one point each.
+   * last of each. Empty (default): all. Free to change; for input without cells, where the parts are of the
+   * points, or whose cells are vertices of one point each.
    */
   void SetRanges(std::vector<std::array<vtkIdType, 2>> ranges);
   const std::vector<std::array<vtkIdType, 2>>& GetRanges() const { return this->Ranges; }
@@ -197,11 +198,13 @@ protected:
 
   void RenderPieceStart(vtkRenderer* renderer, vtkActor* actor) override;
   void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
+  void ComputeBounds() override;
   void ReplaceShaderValues(
     std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor) override;
 
 private:
+  void DrawRange(vtkRenderer* renderer, vtkIdType begin, vtkIdType end, bool isIndexed);
   void MapArray(vtkDataArray* array, const std::string& name, const char* attribute, bool& isMapped);
   void SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor);
   void SetClipParameters(vtkOpenGLHelper& cells);

@@ -205,7 +205,8 @@ std::shared_ptr<const HapticScene> LocalSceneProvider::refine(
   const SceneRequest& request, const std::shared_ptr<const HapticScene>& global)
 {
   const Bounds hand = request.hand ? request.hand() : Bounds();
-  if (hand.empty() || !this->follow(request, global) || !follower_->update(hand, smp_))
+  const bool mayServe = isIndexed() || (global && finer_.isUseful(hand, *global));
+  if (hand.empty() || !mayServe || !this->follow(request, global) || !follower_->update(hand, smp_))
   {
     return nullptr;
   }

@@ -42,7 +42,7 @@ public:
 
   /// A scene of what is near the hand, as fine as the points there, beside @p global, which was made for @p
   /// request; null where the last one serves, or none is of use (LocalSceneBuilder). Costs a look at the hand
-  /// then.
+  /// then. Points are indexed when the hand first comes where such a scene is of use.
   std::shared_ptr<const HapticScene> refine(
     const SceneRequest& request, const std::shared_ptr<const HapticScene>& global);
 

@@ -157,6 +157,16 @@ TEST_F(LevelOfDetailTest, MovesWithFewPointsAndRestsWithThePictureOfAllPoints)
   EXPECT_EQ(this->pixels(), whole);
 }
 
+TEST_F(LevelOfDetailTest, KeepsAtMostAQuarterOfThePointsBesideTheCloudOnItsWayToAll)
+{
+  this->render(0.01);
+  EXPECT_EQ(detail_.keptPoints(), detail_.drawnPoints());
+  this->renderUntilFine();
+  EXPECT_EQ(detail_.drawnPoints(), kPoints);
+  EXPECT_GT(detail_.keptPoints(), 0);
+  EXPECT_LE(detail_.keptPoints(), kPoints / 4);
+}
+
 TEST_F(LevelOfDetailTest, TheCoarsePictureCoversWhatTheWholeOneDoes)
 {
   detail_.setEnabled(false);

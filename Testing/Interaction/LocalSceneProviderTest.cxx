@@ -322,6 +322,35 @@ TEST_F(LocalSceneProviderTest, IndexesNoPointsBeforeThereIsASceneToMake)
   EXPECT_TRUE(builder.isIndexed());
 }
 
+TEST_F(LocalSceneProviderTest, IndexesNoPointsForAHandThatFeelsNothing)
+{
+  const vtkSmartPointer<vtkPolyData> cloud = makeCloud(Shape::Idol, 150000, 0.0);
+  worker_.setCloud(cloud);
+  const Vec3 far{ 0.049, 0.049, 0.049 };
+  const std::shared_ptr<const HapticScene> whole = this->request({}, far).whole;
+  ASSERT_NE(whole, nullptr);
+  SceneRequest request = SceneRequest::of(resampler_, bandwidth_);
+  Bounds hand;
+  hand.include(far);
+  request.hand = [&hand] { return hand; };
+  LocalSceneProvider builder;
+  builder.setCloud(cloud);
+  EXPECT_EQ(builder.refine(request, whole), nullptr);
+  EXPECT_FALSE(builder.isIndexed());
+  // Somewhere on the idol a finer scene is of use.
+  std::shared_ptr<const HapticScene> finer;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints() && !finer; i += 500)
+  {
+    Vec3 place;
+    cloud->GetPoint(i, &place.x);
+    hand = Bounds();
+    hand.include(place);
+    finer = builder.refine(request, whole);
+  }
+  EXPECT_NE(finer, nullptr);
+  EXPECT_TRUE(builder.isIndexed());
+}
+
 TEST_F(LocalSceneProviderTest, IsLeftOutWhereItDoesNotPayOrCannotBe)
 {
   worker_.setCloud(makeCloud(Shape::Torus, 50000, 0.0));

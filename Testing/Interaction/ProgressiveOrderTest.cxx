@@ -32,12 +32,12 @@ TEST(ProgressiveOrder, IsAPermutation)
   for (const int count : { 0, 1, 2, 1000, 1024, 1025 })
   {
     const std::vector<Vec3> points = unevenCloud(count);
-    std::vector<std::int64_t> order = progressiveOrder({ points.data(), std::int64_t(points.size()) });
+    std::vector<std::uint32_t> order = progressiveOrder({ points.data(), std::int64_t(points.size()) });
     std::sort(order.begin(), order.end());
     ASSERT_EQ(order.size(), points.size());
     for (std::size_t i = 0; i < order.size(); ++i)
     {
-      EXPECT_EQ(order[i], std::int64_t(i));
+      EXPECT_EQ(order[i], i);
     }
   }
 }
@@ -46,7 +46,7 @@ TEST(ProgressiveOrder, EveryBeginningTakesFromEveryCubeItsShare)
 {
   constexpr int kCubes = 4; // per edge
   const std::vector<Vec3> points = unevenCloud(60000);
-  const std::vector<std::int64_t> order = progressiveOrder({ points.data(), std::int64_t(points.size()) });
+  const std::vector<std::uint32_t> order = progressiveOrder({ points.data(), std::int64_t(points.size()) });
   // The same box as that of the order.
   Bounds bounds;
   for (const Vec3& p : points)

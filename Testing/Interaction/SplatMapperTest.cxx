@@ -20,7 +20,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -111,46 +113,110 @@ TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
   EXPECT_LT(std::count(cut.begin(), cut.end(), 0), 3 * 900);
 }
 
+/// A ring of many points, with one cell of all or without cells.
+vtkSmartPointer<vtkPolyData> ring(vtkIdType count, bool hasCells)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> vertices;
+  vertices->InsertNextCell(int(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    points->InsertNextPoint(0.05 * std::cos(double(i)), 0.04 * std::sin(double(i)), 0.0);
+    vertices->InsertCellPoint(i);
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  if (hasCells)
+  {
+    result->SetVerts(vertices);
+  }
+  return result;
+}
+
+/// An actor of splats in a window.
+struct SplatWindow
+{
+  explicit SplatWindow(vtkPolyData* input)
+  {
+    splats->SetInputData(input);
+    actor->SetMapper(splats);
+    renderer->AddActor(actor);
+    renderer->SetBackground(1, 1, 1);
+    actor->GetProperty()->SetColor(0, 0, 0);
+    window->SetOffScreenRendering(1);
+    window->SetMultiSamples(0);
+    window->SetSize(kSize, kSize);
+    window->AddRenderer(renderer);
+  }
+
+  std::vector<unsigned char> pixels()
+  {
+    window->Render();
+    vtkNew<vtkUnsignedCharArray> data;
+    window->GetPixelData(0, 0, kSize - 1, kSize - 1, 0, data);
+    return { data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues() };
+  }
+
+  vtkNew<vtkSplatMapper> splats;
+  vtkNew<vtkActor> actor;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkRenderWindow> window;
+};
+
 /// Of the many points only a few are under way at a time where they are drawn by the processor.
 TEST(SplatMapper, PointsAreDrawnInStepsWhereTheProcessorDrawsThem)
 {
   SKIP_WITHOUT_DISPLAY();
   constexpr vtkIdType kCount = 50000;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> vertices;
-  vertices->InsertNextCell(int(kCount));
-  for (vtkIdType i = 0; i < kCount; ++i)
-  {
-    points->InsertNextPoint(0.05 * std::cos(double(i)), 0.05 * std::sin(double(i)), 0.0);
-    vertices->InsertCellPoint(i);
-  }
-  vtkNew<vtkPolyData> ring;
-  ring->SetPoints(points);
-  ring->SetVerts(vertices);
-  vtkNew<vtkSplatMapper> splats;
-  splats->SetInputData(ring);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(splats);
-  vtkNew<vtkRenderer> renderer;
-  renderer->AddActor(actor);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetSize(kSize, kSize);
-  window->AddRenderer(renderer);
-  window->Render();
-  auto& pace = pointhaptics::DrawPace::of(vtkOpenGLRenderWindow::SafeDownCast(window));
+  constexpr auto kStep = pointhaptics::DrawPace::kStep;
+  SplatWindow view(ring(kCount, true));
+  view.window->Render();
+  auto& pace = pointhaptics::DrawPace::of(vtkOpenGLRenderWindow::SafeDownCast(view.window));
   const std::int64_t before = pace.steps();
-  window->Render();
-  EXPECT_EQ(pace.steps() - before >= kCount / pointhaptics::DrawPace::kStep, pace.isNeeded());
+  view.window->Render();
+  EXPECT_EQ(pace.steps() - before >= kCount / kStep, pace.isNeeded());
   EXPECT_LE(pace.underWay(), pointhaptics::DrawPace::kAhead);
-  const std::string library = window->ReportCapabilities();
+  const std::string library = view.window->ReportCapabilities();
   EXPECT_EQ(pace.isNeeded(), library.find("llvmpipe") != std::string::npos);
-  // Ranges draw the same, and count as much.
   const std::int64_t whole = pace.steps();
-  splats->SetRanges({ { 0, 10 }, { 20, kCount } });
-  window->Render();
-  EXPECT_NEAR(double(pace.steps() - whole),
-    pace.isNeeded() ? double(kCount) / pointhaptics::DrawPace::kStep : 0.0, 1.0);
+  view.splats->SetRanges({ { 0, 10 }, { 20, kCount } });
+  view.window->Render();
+  EXPECT_NEAR(double(pace.steps() - whole), pace.isNeeded() ? double(kCount) / kStep : 0.0, 1.0);
+}
+
+/// Values that differ by more than rounding does.
+std::size_t differences(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    count += std::size_t(std::abs(int(a[i]) - int(b[i])) > 2);
+  }
+  return count;
+}
+
+/// Cells cost 8 bytes a point, here and in the renderer's memory, and 8 more where bounds are asked for.
+TEST(SplatMapper, WithoutCellsAllPointsAreDrawn)
+{
+  SKIP_WITHOUT_DISPLAY();
+  constexpr vtkIdType kCount = 200;
+  SplatWindow with(ring(kCount, true));
+  SplatWindow without(ring(kCount, false));
+  const std::vector<unsigned char> expected = with.pixels();
+  const auto dark = std::size_t(std::count(expected.begin(), expected.end(), 0));
+  EXPECT_GT(dark, 500u);
+  EXPECT_LT(differences(without.pixels(), expected), dark / 20);
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_EQ(without.splats->GetBounds()[i], with.splats->GetBounds()[i]);
+  }
+  for (SplatWindow* view : { &with, &without })
+  {
+    view->splats->SetRanges({ { 10, 30 }, { 120, kCount } });
+  }
+  const std::vector<unsigned char> parts = with.pixels();
+  EXPECT_GT(differences(parts, expected), dark / 5);
+  EXPECT_LT(differences(without.pixels(), parts), dark / 20);
 }
 
 } // namespace

@@ -88,6 +88,10 @@ double quantileOfPositive(vtkDataArray* array, std::size_t tenths)
 
 bool drawsInOrder(vtkPolyData* cloud)
 {
+  if (cloud->GetNumberOfCells() == 0)
+  {
+    return true;
+  }
   vtkCellArray* vertices = cloud->GetVerts();
   vtkIdType next = 0;
   vtkIdType size = 0;
@@ -148,13 +152,16 @@ vtkSmartPointer<vtkPolyData> pickPoints(vtkPolyData* cloud, vtkMapper* mapper, v
       addTuples(array, ids, part);
     }
   }
-  vtkNew<vtkCellArray> vertices;
-  vertices->InsertNextCell(static_cast<int>(ids->GetNumberOfIds()));
-  for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+  if (cloud->GetNumberOfCells() > 0) // splats without cells round otherwise
   {
-    vertices->InsertCellPoint(i);
+    vtkNew<vtkCellArray> vertices;
+    vertices->InsertNextCell(static_cast<int>(ids->GetNumberOfIds()));
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      vertices->InsertCellPoint(i);
+    }
+    part->SetVerts(vertices);
   }
-  part->SetVerts(vertices);
   return part;
 }
 

@@ -25,14 +25,15 @@ PointView viewOf(vtkPolyData* cloud, std::vector<Vec3>& copy);
 /// is none. @param tenths 0 to 9.
 double quantileOfPositive(vtkDataArray* array, std::size_t tenths);
 
-/// Whether the cells of @p cloud are vertices at all of its points, first to last.
+/// Whether @p cloud has no cells, or vertices at all of its points, first to last.
 bool drawsInOrder(vtkPolyData* cloud);
 
 /// Lets @p to colour as @p from does: what vtkPolyDataMapper::ShallowCopy() would do, without its warnings of
 /// deprecated shaders.
 void colorAlike(vtkMapper* from, vtkMapper* to);
 
-/// The points @p ids of @p cloud with the arrays that @p mapper draws them with: colours, sizes and normals.
+/// The points @p ids of @p cloud with the arrays that @p mapper draws them with: colours, sizes and normals;
+/// without cells where the cloud has none.
 vtkSmartPointer<vtkPolyData> pickPoints(vtkPolyData* cloud, vtkMapper* mapper, vtkIdList* ids);
 
 } // namespace pointhaptics

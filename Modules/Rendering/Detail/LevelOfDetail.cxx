@@ -173,7 +173,13 @@ std::int64_t LevelOfDetail::wanted(double now)
     const double share = fitting / double(std::max<std::int64_t>(1, drawn_));
     return wentOn && share > kLeastShare && share < kMostShare ? drawn_ : std::int64_t(fitting);
   }
-  return now - lastMotion_ >= kRestSeconds ? kRefinement * drawn_ : drawn_;
+  if (now - lastMotion_ < kRestSeconds)
+  {
+    return drawn_;
+  }
+  // The last level before the whole cloud would be most of it, and kept beside it.
+  const std::int64_t finer = kRefinement * drawn_;
+  return finer > total_ / kRefinement ? total_ : finer;
 }
 
 void LevelOfDetail::beginFrame(double now)

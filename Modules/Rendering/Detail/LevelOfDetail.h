@@ -77,6 +77,9 @@ public:
   std::int64_t drawnPoints() const { return drawn_; }
   std::int64_t visiblePoints() const { return visible_; }
   std::int64_t allPoints() const { return total_; }
+  /// Points that are kept beside the cloud, for pictures with a part of them; after a picture that went from
+  /// few points to all of them at most a quarter of all.
+  std::int64_t keptPoints() const { return levels_.empty() ? 0 : levels_.back().end; }
   /// All points over those drawn, square root: how much farther apart the drawn ones lie on a surface.
   double spacingFactor() const;
   /// Pixels, for the points of the coming frame where it does not show all and the actor's mapper is no
@@ -113,7 +116,7 @@ private:
   vtkNew<vtkProperty> coarse_;
   vtkNew<vtkCallbackCommand> onEnd_;
   vtkWeakPointer<vtkRenderWindow> window_;
-  std::vector<std::int64_t> order_;
+  std::vector<std::uint32_t> order_;
   std::vector<Level> levels_;
   FrameBudget budget_;
   bool enabled_ = false;

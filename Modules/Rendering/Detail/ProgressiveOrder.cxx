@@ -47,7 +47,7 @@ std::int64_t reversedBits(std::int64_t value, int bits)
 }
 
 /// The indices in the order of the curve.
-std::vector<std::int64_t> alongCurve(const PointView& points)
+std::vector<std::uint32_t> alongCurve(const PointView& points)
 {
   Bounds bounds;
   for (std::int64_t i = 0; i < points.size(); ++i)
@@ -72,19 +72,19 @@ std::vector<std::int64_t> alongCurve(const PointView& points)
   {
     starts[cube + 1] += starts[cube];
   }
-  std::vector<std::int64_t> order(cubes.size());
+  std::vector<std::uint32_t> order(cubes.size());
   for (std::size_t i = 0; i < cubes.size(); ++i)
   {
-    order[std::size_t(starts[cubes[i]]++)] = std::int64_t(i);
+    order[std::size_t(starts[cubes[i]]++)] = std::uint32_t(i);
   }
   return order;
 }
 
 } // namespace
 
-std::vector<std::int64_t> progressiveOrder(const PointView& points)
+std::vector<std::uint32_t> progressiveOrder(const PointView& points)
 {
-  const std::vector<std::int64_t> curve = alongCurve(points);
+  const std::vector<std::uint32_t> curve = alongCurve(points);
   const auto size = std::int64_t(curve.size());
   int bits = 0;
   while ((std::int64_t(1) << bits) < size)
@@ -92,7 +92,7 @@ std::vector<std::int64_t> progressiveOrder(const PointView& points)
     ++bits;
   }
   // Numbers with their bits reversed fill an interval evenly, however many of them are taken.
-  std::vector<std::int64_t> order;
+  std::vector<std::uint32_t> order;
   order.reserve(curve.size());
   for (std::int64_t i = 0; i < std::int64_t(1) << bits; ++i)
   {

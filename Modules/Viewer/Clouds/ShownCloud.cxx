@@ -8,7 +8,6 @@
 #include "Core/Neighbors/LocalShape.h"
 #include "Core/Neighbors/NeighborQuery.h"
 
-#include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -18,7 +17,6 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkShortArray.h>
-#include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -26,7 +24,6 @@
 #include <cmath>
 #include <cstdint>
 #include <new>
-#include <numeric>
 #include <vector>
 
 namespace pointhaptics
@@ -113,22 +110,6 @@ vtkSmartPointer<vtkPolyData> pick(
     }
   }
   return result;
-}
-
-/// One cell of all points.
-void addVertices(vtkPolyData* points)
-{
-  const vtkIdType count = points->GetNumberOfPoints();
-  vtkNew<vtkTypeInt32Array> offsets;
-  offsets->SetNumberOfValues(2);
-  offsets->SetValue(0, 0);
-  offsets->SetValue(1, vtkTypeInt32(count));
-  vtkNew<vtkTypeInt32Array> ids;
-  ids->SetNumberOfValues(count);
-  std::iota(ids->GetPointer(0), ids->GetPointer(0) + count, 0);
-  vtkNew<vtkCellArray> vertices;
-  vertices->SetData(offsets, ids);
-  points->SetVerts(vertices);
 }
 
 /// As the spacing says.
@@ -235,7 +216,6 @@ std::shared_ptr<ShownCloud> makeShownCloud(
     return nullptr;
   }
   shown->points = pick(cloud, drawn, request.keptArray);
-  addVertices(shown->points);
   const PointAccess access(shown->points->GetPoints());
   const PointView view = access.view();
   const SmpExecutor executor;
@@ -272,7 +252,6 @@ std::shared_ptr<ShownCloud> makePlainCloud(vtkPolyData* cloud, const ShownReques
     return nullptr;
   }
   shown->points = pick(cloud, drawn, request.keptArray);
-  addVertices(shown->points);
   const PointAccess access(shown->points->GetPoints());
   const Vec3 extent = boundsOf(access.view()).extent();
   const bool isLow = kLowParts * extent.z < std::max(extent.x, extent.y) && request.orientation.up.z > 0.5;

@@ -29,11 +29,11 @@ constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSp
 constexpr const char* kLookColorName = "LookColor";
 constexpr double kSplatNormalUnit = 32767.0;
 
-/// Memory beside the file's arrays: 15 bytes a point, 3 more for colours that are made, and as many as the
+/// Memory beside the file's arrays: 10 bytes a point, 3 more for colours that are made, and as many as the
 /// coordinates where some points are not drawn.
 struct ShownCloud
 {
-  vtkSmartPointer<vtkPolyData> points; ///< In the frame of the file, one vertex each.
+  vtkSmartPointer<vtkPolyData> points; ///< In the frame of the file, without cells.
   CloudLook look;
   CloudColors colors;
   double medianSpacing = 0.0; ///< Of the points, unit of the file; 0: not measured.
