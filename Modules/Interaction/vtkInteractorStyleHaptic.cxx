@@ -89,6 +89,14 @@ void vtkInteractorStyleHaptic::AdoptModel(
   this->InvokeEvent(ModelChangedEvent);
 }
 
+void vtkInteractorStyleHaptic::StartModel(vtkMatrix4x4* matrix, bool findsLattice)
+{
+  this->Model.adoptMatrix(matrix);
+  this->Picker.forget();
+  this->Scenes.startCloud(findsLattice);
+  this->InvokeEvent(ModelChangedEvent);
+}
+
 void vtkInteractorStyleHaptic::InvalidateModel()
 {
   this->Scenes.invalidate();

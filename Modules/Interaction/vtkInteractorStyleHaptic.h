@@ -141,6 +141,11 @@ public:
   void AdoptModel(vtkMatrix4x4* matrix, std::shared_ptr<const pointhaptics::HapticScene> scene);
 
   /**
+   * The same for a model whose scene is to be made: see ScenePipeline::startCloud().
+   */
+  void StartModel(vtkMatrix4x4* matrix, bool findsLattice);
+
+  /**
    * Something else changed that the scene is made from, such as the voxel size or the filters' settings: the
    * next UpdateModel() or timer event makes a new one.
    */

@@ -1,6 +1,7 @@
 #include "SceneWorker.h"
 
 #include "HapticSceneBuilder.h"
+#include "LatticeChoice.h"
 #include "LocalSceneProvider.h"
 #include "SurfaceArrays.h"
 #include "vtkKernelBandwidthFilter.h"
@@ -67,12 +68,37 @@ public:
     std::shared_ptr<const HapticScene> scene;
     if (numberOfPoints_ > 0)
     {
-      resampler_->Update();
+      this->resample(request.findsLattice, voxels, built);
       scene = makeHapticScene(resampler_->GetOutput(), built.status, request.useCovariance, rule, &voxels);
     }
     built.empty = scene == nullptr;
     scene_ = request.hasResiduals || request.hasNormals ? scene : nullptr;
     return scene;
+  }
+
+  /// Updates the resampler, whose settings are @p voxels.
+  void resample(bool findsLattice, VoxelMeanSettings& voxels, BuiltScene& built)
+  {
+    const auto with = [&](int dimension)
+    {
+      voxels.lattice.dimensions = { dimension, dimension, dimension };
+      resampler_->SetSettings(voxels);
+      resampler_->Update();
+      auto means = vtkSmartPointer<vtkPolyData>::New();
+      means->ShallowCopy(resampler_->GetOutput());
+      return means;
+    };
+    if (!findsLattice)
+    {
+      resampler_->Update();
+      return;
+    }
+    const LatticeChoice choice = chooseLattice(with, [] { return true; });
+    built.latticeDimension = choice.dimension;
+    if (!choice.isNewest)
+    {
+      with(choice.dimension);
+    }
   }
 
   /// Makes the arrays of the picture and moves all of them into @p built.

@@ -46,6 +46,9 @@ struct SceneRequest
   /// While the model rests, scenes of what is near the hand are made that are as fine as the points there
   /// (LocalSceneBuilder), and published with this request's number. Needs a hand and covariances.
   bool refinesNearHand = false;
+  /// Nobody has chosen the lattice: that of the scene of the whole cloud is as chooseLattice() finds it, what
+  /// is near the hand has that of @c voxels.
+  bool findsLattice = false;
   /// A box about the hand and what it touches, in the workspace; empty: there is no hand. May be missing.
   /// Called in the worker's threads.
   std::function<Bounds()> hand;
@@ -62,6 +65,7 @@ struct BuiltScene
   std::array<double, 16> modelToWorkspace{};
   vtkSmartPointer<vtkPolyData> means; ///< With the arrays of both filters; nobody else has it.
   vtkIdType numberOfPoints = 0;       ///< Of the cloud.
+  int latticeDimension = 0;           ///< What SceneRequest::findsLattice found; else 0.
   bool empty = true;                  ///< No scene was made: @p status says why.
   Status status = Status::Empty;
 };

@@ -193,7 +193,9 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   {
     this->keepColorRange(before);
   }
-  if (loaded.means->GetNumberOfPoints() == 0)
+  isResampled_ = loaded.isResampled;
+  findsLattice_ = loaded.findsLattice;
+  if (isResampled_ && loaded.means->GetNumberOfPoints() == 0)
   {
     message = "no point of the cloud lies in the workspace; leave out " + options.names.placement +
       " to fit the cloud to it";
@@ -388,6 +390,10 @@ void ViewScene::completeMeans(bool useCovariance)
 void ViewScene::meansChanged()
 {
   scene_.reset();
+  if (!std::exchange(isResampled_, true) && drawsFelt_)
+  {
+    this->applyColors();
+  }
   vtkPolyData* output = bandwidth_->GetOutput();
   const std::optional<ColorSource> source = findColorSource(output, colorBy_);
   if (!source || coloredBy_ != colorBy_)

@@ -160,6 +160,10 @@ public:
   Vec3 towardsViewer() const { return orientation_.front; }
   /// Of the means that are shown; takes the one that came with the cloud where there is one.
   std::shared_ptr<const HapticScene> makeScene(bool useCovariance, Status& status);
+  /// False: the cloud has no means yet, until meansChanged().
+  bool isResampled() const { return isResampled_; }
+  /// LoadedCloud::findsLattice.
+  bool findsLattice() const { return findsLattice_; }
   /// How often clouds were resampled for this scene: by loadCloud(), or by the filters below.
   int resamplings() const { return resamplings_; }
   /// describeScale() of the model as it was opened.
@@ -284,6 +288,8 @@ private:
   std::string title_;
   std::shared_ptr<const HapticScene> scene_; ///< Came with the cloud, until it is asked for.
   int resamplings_ = 0;
+  bool isResampled_ = true;
+  bool findsLattice_ = false;
 };
 
 } // namespace pointhaptics

@@ -468,4 +468,31 @@ TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
   EXPECT_GT(sum, 0.0);
 }
 
+/// 0.3 mm voxels hold many points each of a plane of 1 cm; the dimensions of finer ones are said.
+TEST_F(SceneWorkerTest, FindsAFinerLatticeWhereTheUsualOneLosesMostOfTheCloud)
+{
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < 40000; ++i)
+  {
+    points->InsertNextPoint(5e-5 * double(i % 200), 5e-5 * double(i / 200), 0.0); // NOLINT
+  }
+  auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(points);
+  vtkNew<vtkVoxelMeanResampler> resampler;
+  resampler->SetWorkspaceBounds(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
+  SceneRequest request = SceneRequest::of(resampler, nullptr);
+  SceneWorker worker;
+  worker.setCloud(cloud);
+  for (const bool finds : { false, true })
+  {
+    request.findsLattice = finds;
+    worker.request(request);
+    worker.wait();
+    BuiltScene built;
+    ASSERT_TRUE(worker.take(built));
+    EXPECT_EQ(built.latticeDimension, finds ? 1200 : 0);
+    EXPECT_EQ(built.means->GetNumberOfPoints() > 10000, finds);
+  }
+}
+
 } // namespace

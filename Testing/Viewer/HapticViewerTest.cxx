@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -22,9 +23,11 @@
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -179,13 +182,72 @@ TEST_F(HapticViewerTest, ResamplesACloudOnceBeforeItsFirstPicture)
     ticks(1);
   }
   ASSERT_EQ(viewer.numberOfPoints(), 50000);
-  ticks(20);
+  for (int i = 0; i < 2000 && viewer.style()->IsModelChanged(); ++i)
+  {
+    ticks(1); // it is resampled in the background
+  }
   EXPECT_EQ(viewer.numberOfResamplings(), 2u);
   EXPECT_FALSE(viewer.style()->IsModelChanged());
   viewer.style()->GetModel().scale(0.9);
   EXPECT_TRUE(viewer.style()->UpdateModel());
   EXPECT_EQ(viewer.numberOfResamplings(), 3u);
   EXPECT_TRUE(viewer.stop());
+}
+
+TEST_F(HapticViewerTest, TheFirstPictureOfAWindowWaitsForNoMeans)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.showsReading = true;
+  options_.device = HapticViewerDevice::Simulated;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  EXPECT_EQ(viewer.numberOfResamplings(), 0u);
+  EXPECT_EQ(viewer.means()->GetNumberOfPoints(), 0);
+  std::uint64_t atFirstPicture = 99;
+  vtkNew<vtkCallbackCommand> drawn;
+  struct Seen
+  {
+    HapticViewer& viewer;
+    std::uint64_t& resamplings;
+  } seen{ viewer, atFirstPicture };
+  drawn->SetClientData(&seen);
+  drawn->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void*)
+    {
+      auto& [of, resamplings] = *static_cast<Seen*>(client);
+      resamplings = std::min(resamplings, of.numberOfResamplings());
+    });
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  const unsigned long tag = viewer.renderWindow()->AddObserver(vtkCommand::EndEvent, drawn);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  viewer.renderWindow()->RemoveObserver(tag);
+  EXPECT_EQ(atFirstPicture, 0u);
+  EXPECT_TRUE(viewer.style()->GetCommands().run("hand-mode")) << "before there is anything to feel";
+  for (int i = 0; i < 2000 && viewer.style()->IsModelChanged(); ++i)
+  {
+    int timer = 1;
+    viewer.interactor()->InvokeEvent(vtkCommand::TimerEvent, &timer);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_FALSE(viewer.style()->IsModelChanged());
+  EXPECT_FALSE(viewer.style()->GetScenes().isEmpty());
+  EXPECT_EQ(viewer.numberOfResamplings(), 1u);
+  EXPECT_GT(viewer.means()->GetNumberOfPoints(), 10000);
+  EXPECT_TRUE(viewer.stop());
+}
+
+TEST_F(HapticViewerTest, WhatIsRecordedOrShowsMeansIsResampledBeforeTheFirstPicture)
+{
+  options_.showsReading = true;
+  options_.felt = true;
+  HapticViewer felt(options_, observer_);
+  ASSERT_TRUE(felt.open(makeSphere())) << felt.message();
+  EXPECT_GT(felt.means()->GetNumberOfPoints(), 10000);
+  options_.felt = false;
+  options_.record = this->path("touch.csv");
+  HapticViewer recorded(options_, observer_);
+  ASSERT_TRUE(recorded.open(makeSphere())) << recorded.message();
+  EXPECT_GT(recorded.means()->GetNumberOfPoints(), 10000);
 }
 
 TEST_F(HapticViewerTest, LooksAtFinerVoxelsOnlyWhereTheUsualOnesTellLittle)
@@ -274,6 +336,12 @@ TEST_F(HapticViewerTest, ShowsACoarseLevelAtOnceAndThenAllPointsWhereTheyWere)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   ASSERT_EQ(viewer.numberOfPoints(), 1000);
+  for (int i = 0; i < 2000 && viewer.style()->IsModelChanged(); ++i)
+  {
+    int timer = 1;
+    viewer.interactor()->InvokeEvent(vtkCommand::TimerEvent, &timer);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
   EXPECT_EQ(notes_.back(), "octree.copc.laz: all 1000 points");
   EXPECT_TRUE(viewer.style()->GetCommands().run("write-settings"));
   for (std::size_t i = 0; i < state.camera.size(); ++i)

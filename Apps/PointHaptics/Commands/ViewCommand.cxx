@@ -1,11 +1,11 @@
 #include "Commands/Commands.h"
 
-#include "View/ViewOptions.h"
-#include "View/ViewSettings.h"
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
 #include "Terminal/StopSignals.h"
+#include "View/ViewOptions.h"
+#include "View/ViewSettings.h"
 
 #include "HapticViewer.h"
 #include "ViewDisplay.h"
@@ -102,8 +102,10 @@ void reportTimes(const ViewOptions& options, HapticViewer& viewer)
   {
     fmt::print(stderr, "view: settings from {}\n", options.config);
   }
-  fmt::print(stderr, "view: read in {:.2f} s, resampled in {:.2f} s: {} active voxels\n",
-    viewer.readSeconds(), viewer.resampleSeconds(), viewer.means()->GetNumberOfPoints());
+  const vtkIdType voxels = viewer.means()->GetNumberOfPoints();
+  fmt::print(stderr, "view: read in {:.2f} s{}\n", viewer.readSeconds(),
+    voxels > 0 ? fmt::format(", resampled in {:.2f} s: {} active voxels", viewer.resampleSeconds(), voxels)
+               : "");
 }
 
 /// The window, or the files that are asked for instead.

@@ -133,10 +133,11 @@ std::string StatusText::resetHint() const
 std::string StatusText::statusLine(const ServoLoop* servo) const
 {
   char text[320];
-  std::snprintf(text, sizeof(text), "%lld points in %lld active voxels",
+  const bool isPending = scenes_.isEmpty() && !scenes_.isSettled();
+  std::snprintf(text, sizeof(text), isPending ? "%lld points" : "%lld points in %lld active voxels",
     static_cast<long long>(scenes_.numberOfPoints()), static_cast<long long>(scenes_.numberOfVoxels()));
   std::string status = text;
-  if (scenes_.isEmpty())
+  if (scenes_.isEmpty() && !isPending)
   {
     status += " (nothing in the workspace" + this->resetHint() + ")";
   }

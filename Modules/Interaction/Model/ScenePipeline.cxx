@@ -94,6 +94,21 @@ void ScenePipeline::moveModel(bool requestsNow)
   }
 }
 
+void ScenePipeline::startCloud(bool findsLattice)
+{
+  isInvalid_ = true;
+  findsLattice_ = findsLattice;
+  isEmpty_ = true;
+  numberOfVoxels_ = 0;
+  auto* input = resampler_ ? vtkPointSet::SafeDownCast(resampler_->GetInputDataObject(0, 0)) : nullptr;
+  numberOfPoints_ = input ? input->GetNumberOfPoints() : 0;
+  // The means of another cloud are neither drawn nor felt.
+  if (vtkPolyData* shown = this->cloud())
+  {
+    shown->Initialize();
+  }
+}
+
 /// The hand feels the model where it is before it is resampled there. Not with another cloud than before:
 /// what is felt until that is resampled stays where it was.
 void ScenePipeline::publishMoved()
@@ -175,6 +190,7 @@ SceneRequest ScenePipeline::makeRequest()
   SceneRequest request = SceneRequest::of(resampler_, bandwidth_);
   std::copy_n(model_.transform()->GetMatrix()->GetData(), 16, request.modelToWorkspace.begin());
   request.useCovariance = options_.useCovariance;
+  request.findsLattice = findsLattice_;
   request.hand = [servo = servo_] { return handBounds(servo); };
   request.refinesNearHand = options_.refinesNearHand;
   request.hasResiduals = options_.computeResiduals;
@@ -196,6 +212,7 @@ void ScenePipeline::request()
 void ScenePipeline::adopt(std::shared_ptr<const HapticScene> scene)
 {
   isInvalid_ = false;
+  findsLattice_ = false;
   this->sendCloud();
   this->publishMoved();
   BuiltScene built;
@@ -237,6 +254,12 @@ void ScenePipeline::show(const BuiltScene& built)
   numberOfPoints_ = built.numberOfPoints;
   numberOfVoxels_ = built.means->GetNumberOfPoints();
   resampled_->SetMatrix(built.modelToWorkspace.data());
+  if (findsLattice_ && built.number == requested_ && built.latticeDimension > 0)
+  {
+    findsLattice_ = false;
+    const int n = built.latticeDimension;
+    resampler_->SetDimensions(n, n, n);
+  }
   vtkPolyData* shown = this->cloud();
   if (shown && shown != built.means)
   {

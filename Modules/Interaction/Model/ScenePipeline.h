@@ -79,6 +79,10 @@ public:
   /// Something that the scene is made from has changed, such as the filters' settings: poll() or update()
   /// asks for a new one.
   void invalidate() { isInvalid_ = true; }
+  /// Another cloud, or the same anew, is the resampler's input; the model is where it is to be. poll() asks
+  /// for its scene: what is near the hand is felt first. @param findsLattice SceneRequest::findsLattice,
+  /// until a scene is shown; the resampler gets the dimensions.
+  void startCloud(bool findsLattice);
   /// The model has moved. With @p requestsNow the new scene is asked for at once.
   void moveModel(bool requestsNow);
   /// Asks for a scene where something has changed, and shows what is finished. To be called from a timer.
@@ -127,6 +131,7 @@ private:
   std::function<void(const BuiltScene&)> shownObserver_;
   bool isInvalid_ = true;
   bool isEmpty_ = true;
+  bool findsLattice_ = false;
   std::uint64_t requested_ = 0; ///< The newest request for a scene, and the one that is shown.
   std::uint64_t shownNumber_ = 0;
   const void* sentCloud_ = nullptr;

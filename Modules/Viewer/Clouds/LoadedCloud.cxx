@@ -331,6 +331,12 @@ CloudRequest CloudRequest::of(const std::vector<std::string>& files, const Hapti
   return request;
 }
 
+bool CloudRequest::canResampleLater() const
+{
+  return options->fitsWorkspace && options->clip.empty() && !options->felt && !options->followsFile() &&
+    options->record.empty();
+}
+
 std::string CloudRequest::name() const
 {
   return points ? title : titleOf(files);
@@ -409,7 +415,11 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   if (request.options)
   {
     placeCloud(request, result);
-    if (!resampleCloud(request, askOn, result, message))
+    if (request.resamplesLater && request.canResampleLater())
+    {
+      resampleLater(request, result);
+    }
+    else if (!resampleCloud(request, askOn, result, message))
     {
       return false;
     }

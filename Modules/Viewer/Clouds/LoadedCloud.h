@@ -50,9 +50,15 @@ struct POINTHAPTICSVIEWER_EXPORT CloudRequest
   std::optional<ShownRequest> before; ///< How a coarse level of the same files was shown: so are all points.
   bool isFeltOnly = false;            ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
   std::function<void(double)> resampling; ///< Gets the progress of resampling, 0 to 1; may be empty.
-  bool measuresLater = false;             ///< Large clouds are shown plain first: LoadedCloud::toMeasure.
+  /// The first picture and what is near the hand do not wait for the means: LoadedCloud::isResampled. Of
+  /// effect where canResampleLater().
+  bool resamplesLater = false;
+  bool measuresLater = false; ///< Large clouds are shown plain first: LoadedCloud::toMeasure.
 
   std::string name() const; ///< For messages.
+  /// Whether the options say neither that means are shown or recorded, nor where the cloud is to lie, so that
+  /// it may have no points there.
+  bool canResampleLater() const;
 };
 
 struct LoadedCloud
@@ -71,6 +77,9 @@ struct LoadedCloud
 
   ShownRequest showing;                   ///< What @c shown was made of.
   vtkSmartPointer<vtkPolyData> toMeasure; ///< With all arrays, where @c shown is plain; else null.
+
+  bool isResampled = true;   ///< Else of what follows there are only placement, model and workspace.
+  bool findsLattice = false; ///< Nobody has chosen a lattice for what is resampled later.
 
   // Where it was resampled:
   AffineTransform placement; ///< Where the options place the cloud: from its coordinates to the workspace.

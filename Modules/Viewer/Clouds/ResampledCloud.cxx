@@ -3,6 +3,7 @@
 #include "ClippedCloud.h"
 #include "HapticSceneBuilder.h"
 #include "HapticViewerOptions.h"
+#include "LatticeChoice.h"
 #include "PolyDataAccess.h"
 #include "SurfaceArrays.h"
 #include "vtkKernelBandwidthFilter.h"
@@ -25,6 +26,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -34,11 +36,6 @@ namespace
 /// Part of the workspace's edge a fitted cloud takes: the hand needs room to reach it from every side.
 constexpr double kFittedPart = 0.9;
 constexpr int kUsual = kDefaultLatticeDimension;
-constexpr int kFinest = 4 * kUsual;
-/// So many means show and feel a shape well.
-constexpr vtkIdType kEnough = 30000;
-/// Finer voxels that give less than so many times the means only repeat the points.
-constexpr double kGain = 1.25;
 
 /// The lattice that the options ask for.
 LatticeSettings latticeOf(const HapticViewerOptions& options, const LoadedCloud& loaded)
@@ -64,6 +61,11 @@ Bounds workspaceOf(const HapticViewerOptions& options, const LoadedCloud& loaded
   Lattice lattice;
   return makeLattice(latticeOf(options, loaded), loaded.bounds, lattice) == Status::Ok ? lattice.bounds()
                                                                                        : Bounds();
+}
+
+bool choosesLattice(const HapticViewerOptions& options)
+{
+  return options.fitsWorkspace && !options.hasVoxels();
 }
 
 /// The filters, for one cloud.
@@ -112,21 +114,14 @@ public:
   /// With the lattice that suits the cloud.
   vtkSmartPointer<vtkPolyData> resampleAsFits()
   {
-    loaded_.latticeDimension = kUsual;
-    vtkSmartPointer<vtkPolyData> means = this->resample();
-    while (loaded_.latticeDimension < kFinest && means->GetNumberOfPoints() > 0 &&
-      means->GetNumberOfPoints() < kEnough && goesOn_())
+    const auto with = [this](int dimension)
     {
-      loaded_.latticeDimension *= 2;
-      vtkSmartPointer<vtkPolyData> finer = this->resample();
-      if (double(finer->GetNumberOfPoints()) < kGain * double(means->GetNumberOfPoints()))
-      {
-        loaded_.latticeDimension /= 2;
-        break;
-      }
-      means = std::move(finer);
-    }
-    return means;
+      loaded_.latticeDimension = dimension;
+      return this->resample();
+    };
+    LatticeChoice choice = chooseLattice(with, goesOn_);
+    loaded_.latticeDimension = choice.dimension;
+    return std::move(choice.means);
   }
 
   /// All that is made of the means.
@@ -203,6 +198,19 @@ void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loa
   bandwidth->SetSettings(settings);
 }
 
+void resampleLater(const CloudRequest& request, LoadedCloud& loaded)
+{
+  loaded.isResampled = false;
+  loaded.findsLattice = choosesLattice(*request.options);
+  loaded.felt = loaded.cloud;
+  loaded.means = vtkSmartPointer<vtkPolyData>::New();
+  loaded.workspace = workspaceOf(*request.options, loaded);
+  if (loaded.workspace.empty())
+  {
+    loaded.workspace = defaultWorkspace();
+  }
+}
+
 bool resampleCloud(
   const CloudRequest& request, const std::function<bool()>& goesOn, LoadedCloud& loaded, std::string& message)
 {
@@ -215,7 +223,7 @@ bool resampleCloud(
       request.options->names.clip, fmt::join(request.options->clip, ","), fmt::join(clipNumbers(all), ","));
     return false;
   }
-  const bool chooses = request.options->fitsWorkspace && !request.options->hasVoxels();
+  const bool chooses = choosesLattice(*request.options);
   const vtkSmartPointer<vtkPolyData> means = chooses ? run.resampleAsFits() : run.resample();
   if (!goesOn())
   {

@@ -21,11 +21,12 @@ void configureFilters(const HapticViewerOptions& options, const LoadedCloud& loa
   vtkVoxelMeanResampler* resampler, vtkKernelBandwidthFilter* bandwidth);
 
 /// Resamples the placed cloud and fills in means and workspace, and the scene where @p request wants it.
-/// Once; but where nobody has chosen a lattice and 300 voxels on an axis leave fewer than 30,000 means of a
-/// cloud that finer voxels would tell apart (a sweep of LiDAR over a street, dense near the scanner and thin
-/// at 80 m), it looks at 600 and 1200 too. @p goesOn is asked now and then; once it answers false, it ends.
-/// False: it was ended, @p message says so.
+/// Once; but where nobody has chosen a lattice as often as chooseLattice() does. @p goesOn is asked now and
+/// then; once it answers false, it ends. False: it was ended, @p message says so.
 POINTHAPTICSVIEWER_EXPORT bool resampleCloud(const CloudRequest& request, const std::function<bool()>& goesOn,
   LoadedCloud& loaded, std::string& message);
+
+/// Fills in what a cloud has that somebody else resamples: no means, and the workspace.
+void resampleLater(const CloudRequest& request, LoadedCloud& loaded);
 
 } // namespace pointhaptics

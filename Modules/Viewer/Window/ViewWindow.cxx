@@ -352,7 +352,12 @@ void ViewWindow::onModelChanged(void*)
 /// goes where the user looks.
 void ViewWindow::onSceneChanged(void*)
 {
+  const bool wasResampled = scene_.isResampled();
   scene_.meansChanged();
+  if (!wasResampled)
+  {
+    this->showSliderValues();
+  }
   this->endAwaitingColors();
   for (const std::string& error :
     observer_.takeVtkErrors ? observer_.takeVtkErrors() : std::vector<std::string>())
@@ -432,8 +437,7 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
     return false;
   }
   this->connectStyle();
-  Status status = Status::Ok;
-  style_->AdoptModel(scene_.modelMatrix(), scene_.makeScene(options_.voxels.computeCovariance, status));
+  this->giveModel(scene_.modelMatrix());
   window_->Render();
   interactor_->Initialize();
   if (!this->startServo(message))
@@ -447,6 +451,7 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
     this->toggleSound();
   }
   style_->StartUpdates();
+  style_->GetScenes().poll(); // the first picture did not wait for what it asks for
   if (options_.fullScreen)
   {
     controls_.toggleFullScreen();

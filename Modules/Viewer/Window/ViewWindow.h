@@ -154,6 +154,7 @@ private:
   void warn(const std::vector<std::string>& notes);
   void followOptions();
   void adoptModel(const AffineTransform& model);
+  void giveModel(vtkMatrix4x4* matrix);
   void showFile(std::size_t index);
   void findIdeal();
   HapticViewerState state();

@@ -87,6 +87,7 @@ void ViewWindow::load(const std::vector<std::string>& files, Load kind, std::fun
   CloudRequest request = CloudRequest::of(files, options);
   request.makesScene = true;
   request.measuresLater = true;
+  request.resamplesLater = true;
   request.mostPoints = kind == Load::New ? options.coarsePoints : 0;
   if (kind == Load::Finer)
   {
@@ -249,6 +250,7 @@ void ViewWindow::show(LoadedCloud cloud)
   window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
   this->showSliderValues();
   this->findIdeal();
+  style_->GetScenes().poll(); // what is near the hand, before the picture
 }
 
 /// What keys have changed while the cloud was read.
@@ -270,6 +272,20 @@ void ViewWindow::followOptions()
   }
 }
 
+/// With the scene that came with the cloud, or to be made.
+void ViewWindow::giveModel(vtkMatrix4x4* matrix)
+{
+  if (scene_.isResampled())
+  {
+    Status status = Status::Ok;
+    style_->AdoptModel(matrix, scene_.makeScene(options_.voxels.computeCovariance, status));
+  }
+  else
+  {
+    style_->StartModel(matrix, scene_.findsLattice());
+  }
+}
+
 /// What was read is shown where it was resampled; what the user has done meanwhile is done to it too.
 void ViewWindow::adoptModel(const AffineTransform& model)
 {
@@ -280,8 +296,7 @@ void ViewWindow::adoptModel(const AffineTransform& model)
     affineFromTransform(style_->GetModelTransform(), keptModel) && !(keptModel == model);
   vtkNew<vtkMatrix4x4> matrix;
   setElements(matrix, model);
-  Status status = Status::Ok;
-  style_->AdoptModel(matrix, scene_.makeScene(options_.voxels.computeCovariance, status));
+  this->giveModel(matrix);
   if (isMoved)
   {
     style_->SetModelMatrix(kept);

@@ -1,0 +1,40 @@
+#include "LatticeChoice.h"
+
+#include "Core/Base/Lattice.h"
+
+#include "vtkPolyData.h"
+
+#include <utility>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr int kFinest = 4 * kDefaultLatticeDimension;
+/// So many means show and feel a shape well.
+constexpr vtkIdType kEnough = 30000;
+/// Finer voxels that give less than so many times the means only repeat the points.
+constexpr double kGain = 1.25;
+
+} // namespace
+
+LatticeChoice chooseLattice(
+  const std::function<vtkSmartPointer<vtkPolyData>(int)>& resample, const std::function<bool()>& goesOn)
+{
+  LatticeChoice choice{ kDefaultLatticeDimension, resample(kDefaultLatticeDimension), true };
+  while (choice.dimension < kFinest && choice.means->GetNumberOfPoints() > 0 &&
+    choice.means->GetNumberOfPoints() < kEnough && goesOn())
+  {
+    vtkSmartPointer<vtkPolyData> finer = resample(2 * choice.dimension);
+    if (double(finer->GetNumberOfPoints()) < kGain * double(choice.means->GetNumberOfPoints()))
+    {
+      choice.isNewest = false;
+      break;
+    }
+    choice = { 2 * choice.dimension, std::move(finer), true };
+  }
+  return choice;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,29 @@
+/// @file
+/// How many voxels an axis a cloud is resampled into where nobody says it.
+#pragma once
+
+#include "PointHapticsSceneModule.h" // For export macro
+
+#include "vtkSmartPointer.h"
+
+#include <functional>
+
+class vtkPolyData;
+
+namespace pointhaptics
+{
+
+struct LatticeChoice
+{
+  int dimension = 0; ///< Voxels on each axis.
+  vtkSmartPointer<vtkPolyData> means;
+  bool isNewest = true; ///< The means are those of the last call of @c resample.
+};
+
+/// 300; but where these leave fewer than 30,000 means of a cloud that finer voxels would tell apart (a sweep
+/// of LiDAR over a street, dense near the scanner and thin at 80 m), 600 or 1200. @p resample gives the means
+/// of the cloud with so many voxels an axis. Once @p goesOn answers false, what there is is taken.
+POINTHAPTICSSCENE_EXPORT LatticeChoice chooseLattice(
+  const std::function<vtkSmartPointer<vtkPolyData>(int)>& resample, const std::function<bool()>& goesOn);
+
+} // namespace pointhaptics
