@@ -335,7 +335,7 @@ void SceneWorker::Implementation::buildGlobalScenes()
     pipeline.buildDisplay(job->request, built);
     displayed = Clock::now();
     const std::lock_guard<std::mutex> lock(this->mutex);
-    if (job->number > this->adopted)
+    if (job->number > this->adopted && job->cloudNumber == this->cloudNumber)
     {
       this->finished.emplace(std::move(built));
     }
@@ -418,6 +418,7 @@ void SceneWorker::setCloud(vtkSmartPointer<vtkPointSet> cloud)
   self.local.cloud.emplace(std::move(copy));
   self.newestGlobal.reset();
   self.refinable.reset();
+  self.finished.reset();
   ++self.cloudNumber;
 }
 

@@ -90,8 +90,8 @@ public:
   SceneWorker(const SceneWorker&) = delete;
   SceneWorker& operator=(const SceneWorker&) = delete;
 
-  /// The cloud of the requests from now on. Its points and arrays are shared and must not be changed; the
-  /// object itself is the worker's.
+  /// The cloud of the requests from now on; nothing of the former one can be taken any more. Its points and
+  /// arrays are shared and must not be changed; the object itself is the worker's.
   void setCloud(vtkSmartPointer<vtkPointSet> cloud);
   /// @return the request's number.
   std::uint64_t request(SceneRequest request);

@@ -495,4 +495,17 @@ TEST_F(SceneWorkerTest, FindsAFinerLatticeWhereTheUsualOneLosesMostOfTheCloud)
   }
 }
 
+TEST_F(SceneWorkerTest, GivesNoMeansOfACloudThatIsGone)
+{
+  worker_.request(this->shifted(0.0));
+  worker_.wait();
+  worker_.setCloud(makeCloud());
+  BuiltScene built;
+  EXPECT_FALSE(worker_.take(built));
+  const std::uint64_t number = worker_.request(this->shifted(0.0));
+  worker_.wait();
+  ASSERT_TRUE(worker_.take(built));
+  EXPECT_EQ(built.number, number);
+}
+
 } // namespace
