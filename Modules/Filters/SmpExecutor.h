@@ -7,6 +7,9 @@
 #include "vtkSMPTools.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <thread>
 
 namespace pointhaptics
 {
@@ -15,17 +18,42 @@ namespace pointhaptics
 class SmpExecutor : public Executor
 {
 public:
-  int concurrency() const override { return vtkSMPTools::GetEstimatedNumberOfThreads(); }
+  /// @param most threads, of those vtkSMPTools has; 0: all. vtkSMPTools::LocalScope would end and start its
+  /// threads at each call, and VTK 9.1 counts no more than these for the rest of the program.
+  explicit SmpExecutor(unsigned most = 0)
+    : most_(int(std::min(most, std::max(1u, std::thread::hardware_concurrency()))))
+  {
+  }
+  int concurrency() const override { return most_ > 0 ? most_ : vtkSMPTools::GetEstimatedNumberOfThreads(); }
   void run(std::int64_t count, std::int64_t grain, void* context, Body body) const override
   {
-    if (count < 2 * grain || this->concurrency() == 1)
+    const int threads = this->concurrency();
+    if (count < 2 * grain || threads == 1)
     {
       Executor::run(count, grain, context, body);
       return;
     }
-    vtkSMPTools::For(0, vtkIdType(count), vtkIdType(std::max(grain, count / 64)),
-      [&](vtkIdType begin, vtkIdType end) { body(context, begin, end); });
+    const std::int64_t piece = std::max(grain, count / 64);
+    const auto work = [&](vtkIdType begin, vtkIdType end) { body(context, begin, end); };
+    if (most_ == 0)
+    {
+      vtkSMPTools::For(0, vtkIdType(count), vtkIdType(piece), work);
+      return;
+    }
+    // So many calls, of which each takes the next piece.
+    std::atomic<std::int64_t> next{ 0 };
+    vtkSMPTools::For(0, threads, 1,
+      [&](vtkIdType, vtkIdType)
+      {
+        for (std::int64_t begin = next.fetch_add(piece); begin < count; begin = next.fetch_add(piece))
+        {
+          work(begin, std::min(begin + piece, count));
+        }
+      });
   }
+
+private:
+  int most_;
 };
 
 } // namespace pointhaptics

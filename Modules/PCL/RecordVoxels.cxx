@@ -21,18 +21,7 @@ namespace
 template <typename Work>
 void withThreads(unsigned threads, Work&& work)
 {
-  if (threads == 1)
-  {
-    work(Executor());
-    return;
-  }
-  const SmpExecutor all;
-  if (threads == 0)
-  {
-    work(all);
-    return;
-  }
-  vtkSMPTools::LocalScope(vtkSMPTools::Config(int(std::min(threads, 1u << 16))), [&] { work(all); });
+  threads == 1 ? work(Executor()) : work(SmpExecutor(threads));
 }
 
 std::size_t bytesOf(const RecordField& field)
@@ -96,7 +85,7 @@ AttributeRequest requestFor(const RecordCloud& cloud, const RecordField& field)
 }
 
 /// Records that are read together stay in the first cache until all of their fields have been.
-constexpr std::int64_t kBlock = 512;
+constexpr std::int64_t kBlock = 1024;
 
 /// What is to be known of a cloud before its points are summed.
 struct Survey

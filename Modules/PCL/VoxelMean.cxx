@@ -22,7 +22,7 @@ int toInt(std::int64_t value)
 }
 
 /// Copies the records that take part where not all do.
-bool VoxelMeanSettings::select(
+bool PclVoxelMeanSettings::select(
   const Input& input, const std::vector<::pcl::PCLPointField>& fields, RecordCloud& cloud)
 {
   cloud.records = input.records;
@@ -69,7 +69,7 @@ bool VoxelMeanSettings::select(
   return true;
 }
 
-bool VoxelMeanSettings::average(const Input& input, const std::vector<::pcl::PCLPointField>& fields)
+bool PclVoxelMeanSettings::average(const Input& input, const std::vector<::pcl::PCLPointField>& fields)
 {
   std::string message;
   RecordCloud cloud;
@@ -104,7 +104,7 @@ bool VoxelMeanSettings::average(const Input& input, const std::vector<::pcl::PCL
   return status == Status::Ok;
 }
 
-void VoxelMeanSettings::write(char* records, std::size_t step) const
+void PclVoxelMeanSettings::write(char* records, std::size_t step) const
 {
   std::vector<std::size_t> offsets;
   for (const RecordField& field : layout_.others)
@@ -114,41 +114,41 @@ void VoxelMeanSettings::write(char* records, std::size_t step) const
   voxels_.write(records, step, layout_.xyz, offsets);
 }
 
-void VoxelMeanSettings::write(char* records, std::size_t step, const std::array<std::size_t, 3>& xyz) const
+void PclVoxelMeanSettings::write(char* records, std::size_t step, const std::array<std::size_t, 3>& xyz) const
 {
   voxels_.write(records, step, xyz, {});
 }
 
-Eigen::Vector3i VoxelMeanSettings::getMinBoxCoordinates() const
+Eigen::Vector3i PclVoxelMeanSettings::getMinBoxCoordinates() const
 {
   const auto& first = voxels_.first();
   return { int(first[0]), int(first[1]), int(first[2]) };
 }
 
-Eigen::Vector3i VoxelMeanSettings::getMaxBoxCoordinates() const
+Eigen::Vector3i PclVoxelMeanSettings::getMaxBoxCoordinates() const
 {
   return getMinBoxCoordinates() + getNrDivisions() - Eigen::Vector3i::Ones();
 }
 
-Eigen::Vector3i VoxelMeanSettings::getNrDivisions() const
+Eigen::Vector3i PclVoxelMeanSettings::getNrDivisions() const
 {
   const auto& dimensions = voxels_.lattice().dimensions;
   return { int(dimensions[0]), int(dimensions[1]), int(dimensions[2]) };
 }
 
-Eigen::Vector3i VoxelMeanSettings::getDivisionMultiplier() const
+Eigen::Vector3i PclVoxelMeanSettings::getDivisionMultiplier() const
 {
   const auto& dimensions = voxels_.lattice().dimensions;
   return { 1, int(dimensions[0]), toInt(dimensions[0] * dimensions[1]) };
 }
 
-Eigen::Vector3i VoxelMeanSettings::getGridCoordinates(float x, float y, float z) const
+Eigen::Vector3i PclVoxelMeanSettings::getGridCoordinates(float x, float y, float z) const
 {
   const auto voxel = RecordVoxels::voxelOf({ double(x), double(y), double(z) }, leaf_);
   return { toInt(voxel[0]), toInt(voxel[1]), toInt(voxel[2]) };
 }
 
-int VoxelMeanSettings::getCentroidIndexAt(const Eigen::Vector3i& voxel) const
+int PclVoxelMeanSettings::getCentroidIndexAt(const Eigen::Vector3i& voxel) const
 {
   return toInt(voxels_.indexOf({ voxel[0], voxel[1], voxel[2] }));
 }

@@ -18,7 +18,7 @@ namespace pointhaptics
 {
 
 /// The settings of pcl::VoxelGrid, under its names, and what it tells of the grid.
-class VoxelMeanSettings
+class PclVoxelMeanSettings
 {
 public:
   /// Edges of a voxel in the unit of the points, above 0. Faces are at whole multiples of them.
@@ -143,7 +143,7 @@ private:
 template <typename PointT>
 class PclVoxelMean
   : public ::pcl::Filter<PointT>
-  , public VoxelMeanSettings
+  , public PclVoxelMeanSettings
 {
 public:
   using PointCloud = typename ::pcl::Filter<PointT>::PointCloud;
@@ -175,7 +175,7 @@ protected:
 template <>
 class PclVoxelMean<::pcl::PCLPointCloud2>
   : public ::pcl::Filter<::pcl::PCLPointCloud2>
-  , public VoxelMeanSettings
+  , public PclVoxelMeanSettings
 {
 public:
   using Ptr = ::pcl::shared_ptr<PclVoxelMean<::pcl::PCLPointCloud2>>;

@@ -2,6 +2,11 @@
 // a point is in is then the same in float and in double.
 #include "PCL/VoxelMean.h"
 
+// Other headers of the project are to be of use in the same file.
+#include "Core/Resample/VoxelMeanSettings.h"
+
+#include "vtkSMPTools.h"
+
 #include <gtest/gtest.h>
 #include <pcl/console/print.h>
 #include <pcl/conversions.h>
@@ -216,6 +221,22 @@ TEST(PclVoxelMean, TellsWhichVoxelHoldsWhichPoint)
 }
 
 /// Where pcl::VoxelGrid says "Leaf size is too small" and returns the cloud as it is.
+TEST(PclVoxelMean, LeavesTheThreadsOfVtkAlone)
+{
+  // VTK 9.1 goes on counting one thread, although it has all of them again.
+  vtkSMPTools::Initialize(1);
+  vtkSMPTools::Initialize(0);
+  const int threads = vtkSMPTools::GetEstimatedNumberOfThreads();
+  PclVoxelMean<pcl::PointXYZ> grid;
+  grid.setInputCloud(cloudOf<pcl::PointXYZ>(100000));
+  grid.setLeafSize(kLeaf, kLeaf, kLeaf);
+  grid.setNumberOfThreads(2);
+  pcl::PointCloud<pcl::PointXYZ> means;
+  grid.filter(means);
+  EXPECT_GT(means.size(), 0u);
+  EXPECT_EQ(vtkSMPTools::GetEstimatedNumberOfThreads(), threads);
+}
+
 TEST(PclVoxelMean, WorksWhereVoxelGridOverflows)
 {
   auto cloud = cloudOf<pcl::PointXYZ>(5000);
