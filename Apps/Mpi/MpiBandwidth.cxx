@@ -24,7 +24,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "bandwidth";
+constexpr const char* kBandwidthCommand = "bandwidth";
 
 struct MpiBandwidthOptions : BandwidthCommandOptions
 {
@@ -34,7 +34,7 @@ struct MpiBandwidthOptions : BandwidthCommandOptions
 int runBandwidth(MpiBandwidthOptions& options, Job& job)
 {
   Piece piece;
-  if (!openPiece(job, kCommand, options.files, options.traffic, piece))
+  if (!openPiece(job, kBandwidthCommand, options.files, options.traffic, piece))
   {
     return kFailed;
   }
@@ -46,17 +46,17 @@ int runBandwidth(MpiBandwidthOptions& options, Job& job)
   {
     problem = options.files.input + ": " + problem;
   }
-  if (!job.agree(kCommand, problem))
+  if (!job.agree(kBandwidthCommand, problem))
   {
     return kFailed;
   }
   if (job.isRoot())
   {
-    showWarnings(kCommand);
+    showWarnings(kBandwidthCommand);
   }
   const BandwidthFigures figures = job.ranks().reduce(bandwidthFigures(filter->GetOutput()), together);
-  if (!job.agree(kCommand, whyNone(options, figures)) ||
-    !writePieces(job, kCommand, options.files.output, filter->GetOutput()))
+  if (!job.agree(kBandwidthCommand, whyNone(options, figures)) ||
+    !writePieces(job, kBandwidthCommand, options.files.output, filter->GetOutput()))
   {
     return kFailed;
   }

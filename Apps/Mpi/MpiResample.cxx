@@ -27,7 +27,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "resample";
+constexpr const char* kResampleCommand = "resample";
 
 struct MpiResampleOptions : ResampleOptions
 {
@@ -49,7 +49,7 @@ bool writeIndex(Job& job, CsvWriter& file, vtkVoxelMeanResampler* resampler)
     }
     file.commit(problem);
   }
-  return job.agree(kCommand, problem);
+  return job.agree(kResampleCommand, problem);
 }
 
 int runResample(MpiResampleOptions& options, Job& job)
@@ -62,7 +62,8 @@ int runResample(MpiResampleOptions& options, Job& job)
   {
     openVoxelIndex(options, index, problem);
   }
-  if (!job.agree(kCommand, problem) || !openPiece(job, kCommand, options.files, options.traffic, piece))
+  if (!job.agree(kResampleCommand, problem) ||
+    !openPiece(job, kResampleCommand, options.files, options.traffic, piece))
   {
     return kFailed;
   }
@@ -74,7 +75,7 @@ int runResample(MpiResampleOptions& options, Job& job)
   {
     problem = options.files.input + ": " + problem;
   }
-  if (!job.agree(kCommand, problem))
+  if (!job.agree(kResampleCommand, problem))
   {
     return kFailed;
   }
@@ -84,14 +85,14 @@ int runResample(MpiResampleOptions& options, Job& job)
     resampler->GetNumberOfInvalidPoints() };
   if (job.isRoot())
   {
-    showWarnings(kCommand);
+    showWarnings(kResampleCommand);
   }
-  if (!job.agree(kCommand, figures.out == 0 ? whyEmpty(options, figures) : std::string()))
+  if (!job.agree(kResampleCommand, figures.out == 0 ? whyEmpty(options, figures) : std::string()))
   {
     return kFailed;
   }
   options.finish(resampler->GetOutput());
-  if (!writePieces(job, kCommand, options.files.output, resampler->GetOutput()) ||
+  if (!writePieces(job, kResampleCommand, options.files.output, resampler->GetOutput()) ||
     (wantsIndex && !writeIndex(job, index, resampler)))
   {
     return kFailed;

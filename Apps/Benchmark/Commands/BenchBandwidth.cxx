@@ -16,7 +16,7 @@ namespace app
 namespace
 {
 
-constexpr std::int64_t kMostPoints = 100000000;
+constexpr std::int64_t kMostBandwidthPoints = 100000000;
 constexpr std::int64_t kMostNeighbors = 1000;
 
 struct BandwidthBenchOptions
@@ -52,7 +52,8 @@ BenchOutcome runBandwidthBench(
 BenchRun addBandwidthOptions(CLI::App& command)
 {
   auto options = std::make_shared<BandwidthBenchOptions>();
-  addInteger(command, "--points", options->points, 100, kMostPoints, "Points of the clouds; default 200000");
+  addInteger(
+    command, "--points", options->points, 100, kMostBandwidthPoints, "Points of the clouds; default 200000");
   addInteger(command, "--neighbors", options->neighbors, 1, kMostNeighbors,
     "Nearest neighbours the spread is taken from; default 16");
   command.add_option("--file", options->file, "A cloud of your own that joins the study of neighbour search")

@@ -16,7 +16,7 @@ namespace app
 namespace
 {
 
-constexpr std::int64_t kMostPoints = 100'000'000;
+constexpr std::int64_t kMostIoPoints = 100'000'000;
 
 struct IoOptions
 {
@@ -44,7 +44,7 @@ BenchOutcome runIo(const IoOptions& options, const BenchSettings& shared, const 
 BenchRun addIoOptions(CLI::App& command)
 {
   auto options = std::make_shared<IoOptions>();
-  addInteger(command, "--points", options->points, 1, kMostPoints,
+  addInteger(command, "--points", options->points, 1, kMostIoPoints,
     "Points of the files that are read and written; default 543652");
   addChoices(command, options->choices, bench::io::rivalWords(), bench::io::studyWords());
   return [options](const BenchSettings& shared, const bench::Progress& progress)

@@ -16,8 +16,8 @@ namespace app
 namespace
 {
 
-constexpr double kMostPoints = 1e8;
-constexpr double kMostStrokes = 100000;
+constexpr double kMostProxyPoints = 1e8;
+constexpr double kMostProxyStrokes = 100000;
 
 struct ProxyOptions
 {
@@ -85,8 +85,8 @@ BenchRun addProxyOptions(CLI::App& command)
 {
   auto options = std::make_shared<ProxyOptions>();
   addWholeNumbers(
-    command, "--points", options->points, kMostPoints, "Numbers of points; default 47516,543652");
-  addWholeNumbers(command, "--sizes", options->sizes, kMostPoints,
+    command, "--points", options->points, kMostProxyPoints, "Numbers of points; default 47516,543652");
+  addWholeNumbers(command, "--sizes", options->sizes, kMostProxyPoints,
     "Numbers of points for the study of size; default 1e4,1e5,1e6,1e7");
   addWords(command, "--shapes", options->shapes, shapeWords(), false, "Shapes to feel; default all");
   addWords(command, "--studies", options->studies, bench::proxy::studyWords(), false,
@@ -96,7 +96,8 @@ BenchRun addProxyOptions(CLI::App& command)
       "--scans", [options](const std::string& text) { options->scans = CLI::detail::split(text, ','); },
       "Clouds of your own to feel, with or without a mesh")
     ->type_name("FILE,...");
-  addInteger(command, "--strokes", options->strokes, 1, kMostStrokes, "Strokes over each scan; default 60");
+  addInteger(
+    command, "--strokes", options->strokes, 1, kMostProxyStrokes, "Strokes over each scan; default 60");
   return [options](const BenchSettings& shared, const bench::Progress& progress)
   { return runProxy(*options, shared, progress); };
 }

@@ -18,7 +18,7 @@ namespace app
 namespace
 {
 
-constexpr double kMostPoints = 1e8;
+constexpr double kMostRenderPoints = 1e8;
 
 struct RenderOptions
 {
@@ -56,7 +56,7 @@ BenchOutcome runRender(
 BenchRun addRenderOptions(CLI::App& command)
 {
   auto options = std::make_shared<RenderOptions>();
-  addWholeNumbers(command, "--points", options->points, kMostPoints,
+  addWholeNumbers(command, "--points", options->points, kMostRenderPoints,
     "Points of the clouds that are drawn; default 543652,5000000");
   command
     .add_option_function<std::string>(

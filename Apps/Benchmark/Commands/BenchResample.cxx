@@ -16,7 +16,7 @@ namespace app
 namespace
 {
 
-constexpr double kMostPoints = 1e8;
+constexpr double kMostResamplePoints = 1e8;
 constexpr double kMostVoxels = 2097152;
 
 struct ResampleOptions
@@ -55,8 +55,8 @@ BenchOutcome runResample(
 BenchRun addResampleOptions(CLI::App& command)
 {
   auto options = std::make_shared<ResampleOptions>();
-  addWholeNumbers(
-    command, "--points", options->points, kMostPoints, "Numbers of points; default 1e4,1e5,543652,1e6,5e6");
+  addWholeNumbers(command, "--points", options->points, kMostResamplePoints,
+    "Numbers of points; default 1e4,1e5,543652,1e6,5e6");
   addWholeNumbers(command, "--dims", options->dimensions, kMostVoxels,
     "Voxels on an axis, for the study of voxel size; default 75,150,300,600,1200,4096");
   addChoices(command, options->choices, bench::resample::rivalWords(), bench::resample::studyWords());

@@ -21,7 +21,7 @@ namespace app
 namespace
 {
 
-constexpr std::int64_t kMostPoints = 100000000;
+constexpr std::int64_t kMostServoPoints = 100000000;
 constexpr double kLongestRun = 86400.0;
 constexpr double kQuickSeconds = 0.4;
 constexpr std::int64_t kQuickPoints = 30000;
@@ -100,7 +100,8 @@ BenchOutcome runServo(
 BenchRun addServoOptions(CLI::App& command)
 {
   auto options = std::make_shared<ServoOptions>();
-  addInteger(command, "--points", options->points, 1000, kMostPoints, "Points of the cloud; default 543652");
+  addInteger(
+    command, "--points", options->points, 1000, kMostServoPoints, "Points of the cloud; default 543652");
   addNumber(command, "--seconds", options->seconds, { 0.0, kLongestRun, true }, "S",
     "Length of each run; default 10");
   addWords(

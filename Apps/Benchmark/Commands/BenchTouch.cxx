@@ -17,8 +17,8 @@ namespace app
 namespace
 {
 
-constexpr std::int64_t kMostPoints = 100000000;
-constexpr std::int64_t kMostStrokes = 100000;
+constexpr std::int64_t kMostTouchPoints = 100000000;
+constexpr std::int64_t kMostTouchStrokes = 100000;
 
 struct TouchOptions
 {
@@ -88,8 +88,10 @@ BenchRun addTouchOptions(CLI::App& command)
     ->type_name("FILE,...");
   options->meshesOption = addWords(command, "--meshes", options->meshes, bench::touch::generatedMeshNames(),
     true, "Generated meshes to touch, or none; default all");
-  addInteger(command, "--points", options->points, 1, kMostPoints, "Samples of each mesh; default 543652");
-  addInteger(command, "--strokes", options->strokes, 1, kMostStrokes, "Strokes on each mesh; default 60");
+  addInteger(
+    command, "--points", options->points, 1, kMostTouchPoints, "Samples of each mesh; default 543652");
+  addInteger(
+    command, "--strokes", options->strokes, 1, kMostTouchStrokes, "Strokes on each mesh; default 60");
   addChoice(command, "--stroke-set", options->strokeSet,
     { { "a", int(bench::touch::StrokeSet::A) }, { "b", int(bench::touch::StrokeSet::B) } },
     "Which strokes: two sets that share no place; default a");

@@ -19,29 +19,29 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "bandwidth";
+constexpr const char* kBandwidthCommand = "bandwidth";
 
 int runBandwidth(const BandwidthCommandOptions& options)
 {
   std::string message;
   Cloud cloud;
-  if (!options.files.open(kCommand, cloud, message))
+  if (!options.files.open(kBandwidthCommand, cloud, message))
   {
-    return fail(kCommand, message);
+    return fail(kBandwidthCommand, message);
   }
   vtkNew<vtkKernelBandwidthFilter> filter;
   filter->SetInputData(cloud.points);
   filter->SetSettings(options.bandwidth.settings);
   if (!updateFilter(filter, "bandwidth", message))
   {
-    return fail(kCommand, options.files.input + ": " + message);
+    return fail(kBandwidthCommand, options.files.input + ": " + message);
   }
-  showWarnings(kCommand);
+  showWarnings(kBandwidthCommand);
   const BandwidthFigures figures = bandwidthFigures(filter->GetOutput());
   message = whyNone(options, figures);
-  if (!message.empty() || !writeCloud(filter->GetOutput(), options.files.output, kCommand, message))
+  if (!message.empty() || !writeCloud(filter->GetOutput(), options.files.output, kBandwidthCommand, message))
   {
-    return fail(kCommand, message);
+    return fail(kBandwidthCommand, message);
   }
   print(options, figures);
   return kSuccess;

@@ -23,7 +23,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "convert";
+constexpr const char* kConvertCommand = "convert";
 constexpr int kMostFiles = 100000;
 
 struct ConvertOptions
@@ -84,7 +84,7 @@ bool readInputs(const ConvertOptions& options, std::vector<Cloud>& clouds, std::
     {
       return false;
     }
-    showNotes(kCommand, file, clouds.back());
+    showNotes(kConvertCommand, file, clouds.back());
   }
   return true;
 }
@@ -108,18 +108,18 @@ int runConvert(const ConvertOptions& options)
   std::string message = contradiction(options);
   if (!message.empty())
   {
-    fail(kCommand, message);
+    fail(kConvertCommand, message);
     return kUsage;
   }
   if (options.outputFormat.empty() && !canWriteCloud(options.output(), message))
   {
-    return fail(kCommand, message);
+    return fail(kConvertCommand, message);
   }
   rememberStopSignals();
   std::vector<Cloud> clouds;
   if (!readInputs(options, clouds, message))
   {
-    return fail(kCommand, message);
+    return fail(kConvertCommand, message);
   }
   vtkSmartPointer<vtkPolyData> cloud = clouds.front().points;
   if (clouds.size() > 1)
@@ -133,14 +133,14 @@ int runConvert(const ConvertOptions& options)
     cloud = io::mergeClouds(inputs, notes);
     for (const std::string& note : notes)
     {
-      warn(kCommand, note);
+      warn(kConvertCommand, note);
     }
     clouds.clear();
   }
-  showWarnings(kCommand);
-  if (!writeCloud(cloud, options.output(), kCommand, message, options.outputFormat))
+  showWarnings(kConvertCommand);
+  if (!writeCloud(cloud, options.output(), kConvertCommand, message, options.outputFormat))
   {
-    return fail(kCommand, message);
+    return fail(kConvertCommand, message);
   }
   print(options, cloud->GetNumberOfPoints());
   return kSuccess;

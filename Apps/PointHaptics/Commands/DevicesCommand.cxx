@@ -19,7 +19,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "devices";
+constexpr const char* kDevicesCommand = "devices";
 
 struct DevicesOptions
 {
@@ -65,8 +65,9 @@ int runDevices(const DevicesOptions& options)
     return printDevices(options.json);
   }
   std::string message;
-  return diagnoseFalcon(options.falcon, options.report, options.yes, message) ? kSuccess
-                                                                              : fail(kCommand, message);
+  return diagnoseFalcon(options.falcon, options.report, options.yes, message)
+    ? kSuccess
+    : fail(kDevicesCommand, message);
 }
 
 } // namespace

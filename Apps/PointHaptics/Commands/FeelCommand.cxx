@@ -42,7 +42,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "feel";
+constexpr const char* kFeelCommand = "feel";
 /// Room about the path for a hand that yields, metres.
 constexpr double kHandMargin = 0.1;
 
@@ -295,13 +295,13 @@ int runReplay(const FeelOptions& options)
   rememberStopSignals();
   if (!openRecording(options.replay, options.file, recording, cloud, message))
   {
-    return fail(kCommand, message);
+    return fail(kFeelCommand, message);
   }
   CsvWriter table;
   FeltSound sound;
   if (!table.open(options.output, header(), message) || !openSound(options, sound, message))
   {
-    return fail(kCommand, message);
+    return fail(kFeelCommand, message);
   }
   RecordedScenes scenes(recording, cloud);
   std::optional<ProxyMethod> method;
@@ -320,7 +320,7 @@ int runReplay(const FeelOptions& options)
     ServoSample sample;
     if (!replay.step(sample, message))
     {
-      return fail(kCommand, options.replay + ": " + message);
+      return fail(kFeelCommand, options.replay + ": " + message);
     }
     difference.add(row, sample);
     rows.add(row.felt[0], sample.state, 1e6 * sample.updateSeconds);
@@ -328,11 +328,11 @@ int runReplay(const FeelOptions& options)
   }
   if (stopIsRequested())
   {
-    return fail(kCommand, options.output + ": feeling was stopped on request; start it again");
+    return fail(kFeelCommand, options.output + ": feeling was stopped on request; start it again");
   }
   if (!table.commit(message) || !sound.close(message))
   {
-    return fail(kCommand, message);
+    return fail(kFeelCommand, message);
   }
   printReplay(options, difference, rows.summary());
   return kSuccess;
@@ -360,23 +360,23 @@ int runFeel(const FeelOptions& options)
   const bool follows = options.device != "falcon";
   if (follows && readHipPath(options.path, path, message) != Status::Ok)
   {
-    return fail(kCommand, message);
+    return fail(kFeelCommand, message);
   }
   if (follows && !countTicks(path, options.path, options.rateHz, kMostTicks, ticks, message))
   {
-    return fail(kCommand, message);
+    return fail(kFeelCommand, message);
   }
   Cloud cloud;
   if (!readCloud(options.file, cloud, message))
   {
-    return fail(kCommand, message);
+    return fail(kFeelCommand, message);
   }
   FeelScenes scenes;
   const bool isMade = makeFeelScenes(options, cloud.points, scenes, message);
-  showWarnings(kCommand);
+  showWarnings(kFeelCommand);
   if (!isMade)
   {
-    return fail(kCommand, message);
+    return fail(kFeelCommand, message);
   }
   rememberStopSignals(); // before there is an unfinished file
   RecordingWriter recording;
@@ -385,18 +385,18 @@ int runFeel(const FeelOptions& options)
   if (!openRecordingOutput(options, clippedCloud(cloud.points, clipBox(options.clip)), recording, message) ||
     !table.open(options.output, header(), message) || !openSound(options, sound, message))
   {
-    return fail(kCommand, message);
+    return fail(kFeelCommand, message);
   }
   cloud = {};
   Rows rows(table, recording, sound);
   if (!feelAs(options, scenes, path, ticks, rows, message) || !table.commit(message) ||
     !recording.close(message) || !sound.close(message))
   {
-    return fail(kCommand, message);
+    return fail(kFeelCommand, message);
   }
   if (!recording.problem().empty())
   {
-    warn(kCommand, fmt::format("{}: it ends early: {}", options.record, recording.problem()));
+    warn(kFeelCommand, fmt::format("{}: it ends early: {}", options.record, recording.problem()));
   }
   const Summary summary = rows.summary();
   print(options, scenes, summary,
@@ -416,7 +416,7 @@ void addFeelCommand(CLI::App& program, int& exitCode)
     [command, options, &exitCode]
     {
       std::string message;
-      exitCode = !options->complete(*command, message) ? fail(kCommand, message)
+      exitCode = !options->complete(*command, message) ? fail(kFeelCommand, message)
         : options->replay.empty()                      ? runFeel(*options)
                                                        : runReplay(*options);
     });

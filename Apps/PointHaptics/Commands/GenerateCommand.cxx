@@ -26,7 +26,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "generate";
+constexpr const char* kGenerateCommand = "generate";
 constexpr std::int64_t kMostPoints = 100'000'000;
 /// Seeds up to here are whole numbers in a double, as JSON and most scripts have them.
 constexpr std::int64_t kLargestSeed = std::int64_t(1) << 53;
@@ -55,7 +55,7 @@ int runGenerate(const GenerateOptions& options)
   std::string message;
   if (!canWriteCloud(options.output, message))
   {
-    return fail(kCommand, message);
+    return fail(kGenerateCommand, message);
   }
   const Shape shape = static_cast<Shape>(options.shape);
   vtkNew<vtkPolyData> cloud;
@@ -65,7 +65,7 @@ int runGenerate(const GenerateOptions& options)
       shape, options.count, static_cast<std::uint64_t>(options.seed), options.noise, points, &normals);
     if (status != Status::Ok)
     {
-      return fail(kCommand, pointhaptics::message(status));
+      return fail(kGenerateCommand, pointhaptics::message(status));
     }
     vtkNew<vtkPoints> coordinates;
     coordinates->SetData(arrayOf(points));
@@ -74,9 +74,9 @@ int runGenerate(const GenerateOptions& options)
     normalArray->SetName("Normals");
     cloud->GetPointData()->SetNormals(normalArray);
   }
-  if (!writeCloud(cloud, options.output, kCommand, message))
+  if (!writeCloud(cloud, options.output, kGenerateCommand, message))
   {
-    return fail(kCommand, message);
+    return fail(kGenerateCommand, message);
   }
   if (options.json)
   {

@@ -20,7 +20,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "info";
+constexpr const char* kInfoCommand = "info";
 
 struct InfoOptions
 {
@@ -185,11 +185,11 @@ int runInfo(const InfoOptions& options)
     }
     else if (!hasPoints)
     {
-      exitCode = fail(kCommand, message);
+      exitCode = fail(kInfoCommand, message);
       files.push_back({ { "file", file }, { "error", message } });
       continue;
     }
-    showWarnings(kCommand);
+    showWarnings(kInfoCommand);
     CloudSummary summary = summarize(cloud.points, cloud.format);
     summary.notes = cloud.notes;
     if (options.json)

@@ -21,7 +21,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "resample";
+constexpr const char* kResampleCommand = "resample";
 
 int runResample(const ResampleOptions& options)
 {
@@ -30,9 +30,9 @@ int runResample(const ResampleOptions& options)
   CsvWriter index;
   const bool wantsIndex = !options.voxelIndex.empty();
   if ((wantsIndex && !openVoxelIndex(options, index, message)) ||
-    !options.files.open(kCommand, cloud, message))
+    !options.files.open(kResampleCommand, cloud, message))
   {
-    return fail(kCommand, message);
+    return fail(kResampleCommand, message);
   }
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetInputData(cloud.points);
@@ -40,27 +40,27 @@ int runResample(const ResampleOptions& options)
   resampler->SetComputeVoxelIndex(wantsIndex);
   if (!updateFilter(resampler, "resampling", message))
   {
-    return fail(kCommand, options.files.input + ": " + message);
+    return fail(kResampleCommand, options.files.input + ": " + message);
   }
-  showWarnings(kCommand);
+  showWarnings(kResampleCommand);
   const ResampleFigures figures{ cloud.points->GetNumberOfPoints(),
     resampler->GetOutput()->GetNumberOfPoints(), resampler->GetNumberOfClippedPoints(),
     resampler->GetNumberOfInvalidPoints() };
   if (figures.out == 0)
   {
-    return fail(kCommand, whyEmpty(options, figures));
+    return fail(kResampleCommand, whyEmpty(options, figures));
   }
   options.finish(resampler->GetOutput());
-  if (!writeCloud(resampler->GetOutput(), options.files.output, kCommand, message))
+  if (!writeCloud(resampler->GetOutput(), options.files.output, kResampleCommand, message))
   {
-    return fail(kCommand, message);
+    return fail(kResampleCommand, message);
   }
   if (wantsIndex)
   {
     addVoxelIndex(voxelIndexOf(resampler), index);
     if (!index.commit(message))
     {
-      return fail(kCommand, message);
+      return fail(kResampleCommand, message);
     }
   }
   print(options, figures);

@@ -25,7 +25,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "view";
+constexpr const char* kViewCommand = "view";
 /// As after Ctrl+C.
 constexpr int kCancelled = 130;
 
@@ -52,10 +52,10 @@ void showMessage(HapticViewerObserver::Kind kind, const std::string& text)
       printNow(stdout, text + "\n");
       break;
     case HapticViewerObserver::Kind::Warning:
-      warn(kCommand, text);
+      warn(kViewCommand, text);
       break;
     case HapticViewerObserver::Kind::Error:
-      fail(kCommand, text);
+      fail(kViewCommand, text);
   }
 }
 
@@ -126,25 +126,25 @@ int runView(CLI::App& command, ViewOptions& options)
   std::string message;
   if (!options.complete(command, message))
   {
-    return fail(kCommand, message);
+    return fail(kViewCommand, message);
   }
   if (!options.writeConfig.empty())
   {
     if (!writeSettings(options.given, options.writeConfig, message))
     {
-      return fail(kCommand, message);
+      return fail(kViewCommand, message);
     }
     fmt::print("settings: {}\n", options.writeConfig);
     return kSuccess;
   }
   if (!checkDevice(options, message))
   {
-    return fail(kCommand, message);
+    return fail(kViewCommand, message);
   }
   HapticViewer viewer(options.viewer, observerFor(options));
   if (!viewer.open(options.files))
   {
-    fail(kCommand, viewer.message());
+    fail(kViewCommand, viewer.message());
     return viewer.isCancelled() ? kCancelled : kFailed;
   }
   if (options.verbose)
@@ -154,9 +154,9 @@ int runView(CLI::App& command, ViewOptions& options)
   printNow(stdout, fmt::format("{} points, {}\n", viewer.numberOfPoints(), viewer.scaleNote()));
   if (options.draws() && !displayIsAvailable(message)) // before a path is felt
   {
-    return fail(kCommand, message);
+    return fail(kViewCommand, message);
   }
-  return show(options, viewer) ? kSuccess : fail(kCommand, viewer.message());
+  return show(options, viewer) ? kSuccess : fail(kViewCommand, viewer.message());
 }
 
 } // namespace

@@ -35,7 +35,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kCommand = "compare";
+constexpr const char* kCompareCommand = "compare";
 constexpr int kChartWidth = 1400;
 constexpr int kChartHeight = 560;
 
@@ -208,20 +208,20 @@ int runCompare(const CompareOptions& options)
   if ((!options.chart.empty() && !displayIsAvailable(message)) ||
     !openRecording(options.recording, options.cloud, recording, cloud, message))
   {
-    return fail(kCommand, message);
+    return fail(kCompareCommand, message);
   }
   std::array<std::vector<Felt>, 2> felt;
   for (std::size_t side = 0; side < 2; ++side)
   {
     if (!replayBy(options.methods[side], recording, cloud, felt[side], message))
     {
-      return fail(kCommand, options.recording + ": " + message);
+      return fail(kCompareCommand, options.recording + ": " + message);
     }
   }
   if ((!options.chart.empty() && !drawChart(options, recording, felt, message)) ||
     (!options.table.empty() && !writeTable(options, recording, felt, message)))
   {
-    return fail(kCommand, message);
+    return fail(kCompareCommand, message);
   }
   print(options, compared(recording, felt));
   return kSuccess;

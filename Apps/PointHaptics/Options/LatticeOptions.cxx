@@ -102,7 +102,7 @@ std::string checkMatrix(const Numbers& m)
   return affineFrom(m).check() == Status::Ok ? "" : "the matrix is singular; give one that can be inverted";
 }
 
-constexpr const char* kGroup = "Lattice and transform";
+constexpr const char* kLatticeGroup = "Lattice and transform";
 
 } // namespace
 
@@ -126,7 +126,7 @@ CLI::Option* addSetting(CLI::App& command, const SettingOption& row, Bounds& box
 
 void LatticeOptions::addTo(CLI::App& command)
 {
-  addSettings(command, this->voxels.lattice, kLatticeOptions, kGroup);
+  addSettings(command, this->voxels.lattice, kLatticeOptions, kLatticeGroup);
   CLI::Option* dims = command.get_option("--dims");
   CLI::Option* voxel = command.get_option("--voxel");
   for (CLI::Option* option : { dims, voxel })
@@ -154,7 +154,7 @@ void LatticeOptions::addTo(CLI::App& command)
   affine->excludes(scaling)->excludes(rotation)->excludes(shift);
   for (CLI::Option* option : { scaling, rotation, shift, affine, unitOption })
   {
-    option->group(kGroup);
+    option->group(kLatticeGroup);
   }
 }
 

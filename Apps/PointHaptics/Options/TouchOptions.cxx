@@ -13,7 +13,7 @@ namespace app
 namespace
 {
 
-constexpr const char* kGroup = "Touch";
+constexpr const char* kTouchGroup = "Touch";
 
 } // namespace
 
@@ -33,8 +33,8 @@ CLI::Option* addSetting(CLI::App& command, const SettingOption& row, GradientSte
 
 void TouchOptions::addTo(CLI::App& command)
 {
-  addSettings(command, this->parameters, kTouchOptions, kGroup);
-  addSettings(command, this->parameters.contact, kContactOptions, kGroup);
+  addSettings(command, this->parameters, kTouchOptions, kTouchGroup);
+  addSettings(command, this->parameters.contact, kContactOptions, kTouchGroup);
 }
 
 void TouchOptions::complete(const CLI::App& command)
