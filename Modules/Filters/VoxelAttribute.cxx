@@ -15,8 +15,12 @@ namespace
 {
 
 template <typename T>
-ScalarType integerType()
+ScalarType typeOf()
 {
+  if (std::is_floating_point<T>::value)
+  {
+    return sizeof(T) == sizeof(float) ? ScalarType::Float : ScalarType::Double;
+  }
   constexpr bool isSigned = std::is_signed<T>::value;
   switch (sizeof(T))
   {
@@ -35,32 +39,7 @@ ScalarType scalarType(int vtkType)
 {
   switch (vtkType)
   {
-    case VTK_FLOAT:
-      return ScalarType::Float;
-    case VTK_CHAR:
-      return integerType<char>();
-    case VTK_SIGNED_CHAR:
-      return integerType<signed char>();
-    case VTK_UNSIGNED_CHAR:
-      return integerType<unsigned char>();
-    case VTK_SHORT:
-      return integerType<short>();
-    case VTK_UNSIGNED_SHORT:
-      return integerType<unsigned short>();
-    case VTK_INT:
-      return integerType<int>();
-    case VTK_UNSIGNED_INT:
-      return integerType<unsigned int>();
-    case VTK_LONG:
-      return integerType<long>();
-    case VTK_UNSIGNED_LONG:
-      return integerType<unsigned long>();
-    case VTK_LONG_LONG:
-      return integerType<long long>();
-    case VTK_UNSIGNED_LONG_LONG:
-      return integerType<unsigned long long>();
-    case VTK_ID_TYPE:
-      return integerType<vtkIdType>();
+    vtkTemplateMacro(return typeOf<VTK_TT>());
     default:
       return ScalarType::Double;
   }
@@ -73,20 +52,13 @@ int plainType(int vtkType)
 }
 
 /// VTK copies arrays it has no fast path for by way of double, which has no room for 64-bit integers.
-template <typename Integer>
-void copyIntegers(vtkDataArray* from, Integer* to)
+void copyIntegers(vtkDataArray* from, bool isSigned, void* to)
 {
+  auto* const words = static_cast<std::uint64_t*>(to);
   for (vtkIdType i = 0; i < from->GetNumberOfValues(); ++i)
   {
-    to[i] = from->GetVariantValue(i).ToTypeInt64();
-  }
-}
-template <>
-void copyIntegers(vtkDataArray* from, std::uint64_t* to)
-{
-  for (vtkIdType i = 0; i < from->GetNumberOfValues(); ++i)
-  {
-    to[i] = from->GetVariantValue(i).ToTypeUInt64();
+    const vtkVariant value = from->GetVariantValue(i);
+    words[i] = isSigned ? std::uint64_t(value.ToTypeInt64()) : value.ToTypeUInt64();
   }
 }
 
@@ -106,14 +78,7 @@ vtkSmartPointer<vtkDataArray> plainArray(vtkDataArray* array)
   }
   copy->SetNumberOfComponents(array->GetNumberOfComponents());
   copy->SetNumberOfTuples(array->GetNumberOfTuples());
-  if (type == ScalarType::Int64)
-  {
-    copyIntegers(array, static_cast<std::int64_t*>(copy->GetVoidPointer(0)));
-  }
-  else
-  {
-    copyIntegers(array, static_cast<std::uint64_t*>(copy->GetVoidPointer(0)));
-  }
+  copyIntegers(array, type == ScalarType::Int64, copy->GetVoidPointer(0));
   return copy;
 }
 
