@@ -81,25 +81,21 @@ template <typename T>
 void AttributeTuples::serializeVoxel(std::int64_t voxel, std::string& bytes) const
 {
   put(bytes, end(voxel) - begin(voxel));
-  std::vector<T> values;
+  std::vector<decltype(orderedKey(T()))> keys;
   for (int c = 0; c < components_; ++c)
   {
-    values.clear();
+    keys.clear();
     for (std::int64_t i = begin(voxel); i < end(voxel); ++i)
     {
-      values.push_back(tuple<T>(i)[c]);
+      keys.push_back(orderedKey(tuple<T>(i)[c]));
     }
-    std::sort(values.begin(), values.end(), isLessValue<T>);
-    for (std::size_t i = 0; i < values.size();)
+    std::sort(keys.begin(), keys.end());
+    for (auto first = keys.begin(); first != keys.end();)
     {
-      std::size_t next = i + 1;
-      while (next < values.size() && !isLessValue(values[i], values[next]))
-      {
-        ++next;
-      }
-      put(bytes, values[i]);
-      put(bytes, std::int64_t(next - i));
-      i = next;
+      const auto next = std::upper_bound(first, keys.end(), *first);
+      put(bytes, valueOfKey<T>(*first));
+      put(bytes, std::int64_t(next - first));
+      first = next;
     }
   }
 }

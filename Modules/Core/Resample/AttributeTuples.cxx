@@ -3,9 +3,6 @@
 #include "Core/Resample/Stages/VoxelSlices.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <type_traits>
 #include <utility>
 
 namespace pointhaptics
@@ -13,60 +10,57 @@ namespace pointhaptics
 namespace
 {
 
-/// One value for those that differ in their bits only: the zeros, the NaNs.
-template <typename T>
-T canonical(T value)
+/// Up to so many tuples are sorted by exchanges without branches, which would be unpredictable.
+constexpr std::int64_t kFewTuples = 12;
+
+/// Sorts each component of tuples.
+template <typename Key>
+void sortFew(Key* keys, std::int64_t tuples, int components)
 {
-  if constexpr (std::is_floating_point_v<T>)
+  for (std::int64_t last = (tuples - 1) * components; last > 0; last -= components)
   {
-    return std::isnan(value) ? std::numeric_limits<T>::quiet_NaN() : value + T(0);
+    for (std::int64_t i = 0; i < last; ++i)
+    {
+      const Key a = keys[i];
+      const Key b = keys[i + components];
+      const Key less = std::min(a, b);
+      keys[i] = less;
+      keys[i + components] = Key(a ^ b ^ less); // Of std::max() the compiler would make a branch.
+    }
   }
-  return value;
 }
 
-template <typename T>
-bool areAllSame(const std::vector<T>& values)
+/// The key that is there most often, the smallest of several. @pre they are sorted, @p step apart.
+template <typename Key>
+Key mostFrequent(const Key* keys, std::int64_t count, int step)
 {
-  const auto differs = [&](T value)
-  { return isLessValue(value, values[0]) || isLessValue(values[0], value); };
-  return std::none_of(values.begin(), values.end(), differs);
-}
-
-/// The value that is there most often, the smallest of several. Sorts them.
-template <typename T>
-T mostFrequent(std::vector<T>& values)
-{
-  if (areAllSame(values))
+  Key best = keys[0];
+  std::int64_t longest = 0;
+  std::int64_t run = 0;
+  for (std::int64_t i = 0; i < count; ++i, keys += step)
   {
-    return values.front();
-  }
-  std::sort(values.begin(), values.end(), isLessValue<T>);
-  T best = values.front();
-  std::size_t longest = 0;
-  for (std::size_t i = 0; i < values.size();)
-  {
-    std::size_t end = i + 1;
-    while (end < values.size() && !isLessValue(values[i], values[end]))
-    {
-      ++end;
-    }
-    if (end - i > longest)
-    {
-      longest = end - i;
-      best = values[i];
-    }
-    i = end;
+    run = i > 0 && keys[-step] == keys[0] ? run + 1 : 1;
+    best = run > longest ? keys[0] : best;
+    longest = std::max(longest, run);
   }
   return best;
 }
 
-/// The middle value, of an even number the lower one. Reorders them.
-template <typename T>
-T middle(std::vector<T>& values)
+/// Of many keys.
+template <typename Key>
+Key statisticOf(TupleStatistic statistic, std::vector<Key>& keys)
 {
-  const auto at = values.begin() + std::ptrdiff_t((values.size() - 1) / 2);
-  std::nth_element(values.begin(), at, values.end(), isLessValue<T>);
-  return *at;
+  const auto at = keys.begin() + std::ptrdiff_t((keys.size() - 1) / 2);
+  if (statistic == TupleStatistic::Median)
+  {
+    std::nth_element(keys.begin(), at, keys.end());
+    return *at;
+  }
+  if (std::any_of(keys.begin(), keys.end(), [&](Key key) { return key != keys[0]; }))
+  {
+    std::sort(keys.begin(), keys.end());
+  }
+  return mostFrequent(keys.data(), std::int64_t(keys.size()), 1);
 }
 
 }
@@ -91,11 +85,18 @@ void AttributeTuples::add(const void* tuples, std::size_t stride, const std::int
     [&](auto example)
     {
       using T = decltype(example);
-      const auto* from = static_cast<const char*>(tuples);
-      for (int i = 0; i < count; ++i, from += stride)
+      const auto addAll = [&](auto components)
       {
-        std::copy_n(reinterpret_cast<const T*>(from), components_, tuple<T>(ends_[std::size_t(voxels[i])]++));
-      }
+        const auto* from = static_cast<const char*>(tuples);
+        for (int i = 0; i < count; ++i, from += stride)
+        {
+          std::memcpy(tuple<T>(ends_[std::size_t(voxels[i])]++), from, sizeof(T) * std::size_t(components));
+        }
+      };
+      // Without a call for each of the usual tuples.
+      components_ == 3     ? addAll(std::integral_constant<int, 3>())
+        : components_ == 1 ? addAll(std::integral_constant<int, 1>())
+                           : addAll(components_);
     });
 }
 
@@ -127,21 +128,35 @@ void AttributeTuples::coarsen(const std::vector<std::int64_t>& parents, std::int
     });
 }
 
-/// Of voxels @p first to @p last.
+/// Of voxels @p first to @p last. The components of few tuples go together: how many there are is
+/// unpredictable, once.
 template <typename T>
 void AttributeTuples::writeValues(std::int64_t first, std::int64_t last, T* to) const
 {
-  std::vector<T> values;
-  for (std::int64_t v = first; v < last; ++v)
+  using Key = decltype(orderedKey(T()));
+  std::vector<Key> few(std::size_t(kFewTuples * components_));
+  std::vector<Key> many;
+  to += components_ * first;
+  for (std::int64_t v = first; v < last; ++v, to += components_)
   {
+    const T* const values = tuple<T>(begin(v));
+    const std::int64_t size = end(v) - begin(v);
+    if (size <= kFewTuples)
+    {
+      std::transform(values, values + size * components_, few.begin(), &orderedKey<T>);
+      sortFew(few.data(), size, components_);
+    }
+    const Key* const middle = few.data() + (size - 1) / 2 * components_;
     for (int c = 0; c < components_; ++c)
     {
-      values.clear();
-      for (std::int64_t i = begin(v); i < end(v); ++i)
+      many.clear();
+      for (std::int64_t i = 0; size > kFewTuples && i < size; ++i)
       {
-        values.push_back(canonical(tuple<T>(i)[c]));
+        many.push_back(orderedKey(values[i * components_ + c]));
       }
-      to[components_ * v + c] = statistic_ == TupleStatistic::Mode ? mostFrequent(values) : middle(values);
+      to[c] = valueOfKey<T>(size > kFewTuples    ? statisticOf(statistic_, many)
+          : statistic_ == TupleStatistic::Median ? middle[c]
+                                                 : mostFrequent(few.data() + c, size, components_));
     }
   }
 }

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -25,15 +27,46 @@ enum class TupleStatistic
   Median, ///< Of an even number the lower middle one.
 };
 
-/// NaN is a value like others, the largest one; both zeros are one.
+/// Turns the order of negative numbers around, and back. Without a branch: signs are unpredictable.
+template <typename Key>
+Key turnedNegative(Key key)
+{
+  return Key(key ^ ((key >> (8 * sizeof(Key) - 1)) & std::numeric_limits<Key>::max()));
+}
+
+/// An integer for each value, in the order of the values. Of floating-point numbers NaN is the largest, and
+/// both zeros are one.
 template <typename T>
-bool isLessValue(T a, T b)
+auto orderedKey(T value)
 {
   if constexpr (std::is_floating_point_v<T>)
   {
-    return std::isnan(b) ? !std::isnan(a) : a < b;
+    value = std::isnan(value) ? std::numeric_limits<T>::quiet_NaN() : value + T(0);
+    std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t> key;
+    std::memcpy(&key, &value, sizeof key);
+    return turnedNegative(key);
   }
-  return a < b;
+  else
+  {
+    return value;
+  }
+}
+
+/// The value of a key: NaN for all NaNs, +0 for both zeros.
+template <typename T, typename Key>
+T valueOfKey(Key key)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    key = turnedNegative(key);
+    T value;
+    std::memcpy(&value, &key, sizeof value);
+    return value;
+  }
+  else
+  {
+    return key;
+  }
 }
 
 /// Keeps the tuples of the points of each voxel, and finds the mode or the median of each component. Of

@@ -23,11 +23,12 @@ namespace
 
 /// Adds the tuples in the order of the plan, each with others between it and the next.
 template <typename T>
-AttributeTuples modeOf(const std::vector<T>& values, int components, const Plan& plan, int piece = 100)
+AttributeTuples modeOf(const std::vector<T>& values, int components, const Plan& plan, int piece = 100,
+  TupleStatistic statistic = TupleStatistic::Mode)
 {
   constexpr std::size_t kApart = 3;
   const auto width = std::size_t(components);
-  AttributeTuples mode(typeOf<T>(), components);
+  AttributeTuples mode(typeOf<T>(), components, statistic);
   mode.prepare(countsOf(plan).data(), plan.size);
   for (std::size_t first = 0; first < plan.order.size(); first += std::size_t(piece))
   {
@@ -115,6 +116,43 @@ TEST(AttributeTuples, IsTheValueMostPointsHaveAndTheSmallestOnATie)
   expectRight(labels<std::uint64_t>(4000, 6, 7), 4);
   expectRight(labels<float>(2000, 2, 8), 1);
   expectRight(labels<double>(3000, 3, 9), 3);
+}
+
+TEST(AttributeTuples, FindsTheLowerMiddleValueOfFewAndOfMany)
+{
+  const auto expectRight = [](auto example, int components)
+  {
+    using T = decltype(example);
+    const auto width = std::size_t(components);
+    trial::Random random(std::uint64_t(20 + components));
+    std::vector<T> values(6000 * width);
+    for (T& value : values)
+    {
+      value = T(int(random.below(41)) - 20);
+    }
+    // Some 3 and 12 tuples a voxel, and 600.
+    for (const std::int64_t voxels : { 2000, 500, 10 })
+    {
+      const Plan plan = planFor(6000, voxels, 21);
+      std::vector<std::vector<T>> sorted(std::size_t(voxels) * width);
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        sorted[std::size_t(plan.voxels[i / width]) * width + i % width].push_back(values[i]);
+      }
+      std::vector<T> expected;
+      for (std::vector<T>& ofVoxel : sorted)
+      {
+        std::sort(ofVoxel.begin(), ofVoxel.end());
+        expected.push_back(ofVoxel[(ofVoxel.size() - 1) / 2]);
+      }
+      const AttributeTuples median = modeOf(values, components, plan, 100, TupleStatistic::Median);
+      EXPECT_TRUE(sameBits(written<T>(median, components, plan), expected)) << voxels;
+    }
+  };
+  expectRight(float(), 3);
+  expectRight(double(), 1);
+  expectRight(std::int8_t(), 2);
+  expectRight(std::int64_t(), 4);
 }
 
 TEST(AttributeTuples, TakesNaNsAsOneValueAndZerosAsOne)

@@ -149,10 +149,9 @@ void PartitionWorker::sumRecords(
   for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
     const PointRecord* const next = following.next() ? following.records() : block.records();
-    for (std::size_t i = 0; attributes_ && i < std::size_t(block.count()) * attributes_->binned.bytes();
-         i += 64)
+    if (attributes_)
     {
-      fetch(block.rows() + i); // for reduceAttributes()
+      block.fetchRows(); // for reduceAttributes()
     }
     kernels.accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
   }

@@ -72,6 +72,7 @@ public:
     for (PointRecordPool::Walk block(pool, partition); block.next();)
     {
       std::uint32_t cells[kBlockRecords];
+      block.fetchRows();
       kernels.cells(map, block.records(), block.count(), block.recordsAhead(), cells);
       kernels.rank(ranks(), cells, block.count());
       visit(block.rows(), cells, block.count());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
+#include "Core/Resample/Kernel/Fetch.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 
 #include <condition_variable>
@@ -63,6 +64,13 @@ public:
     }
     /// Beside each record a row.
     const char* rows() const { return pool_.rows_.data() + pool_.rowBytes_ * first_; }
+    void fetchRows() const
+    {
+      for (std::size_t i = 0; i < pool_.rowBytes_ * std::size_t(count()); i += 64)
+      {
+        fetch(rows() + i);
+      }
+    }
     int count() const { return int(end_ - first_); }
 
   private:

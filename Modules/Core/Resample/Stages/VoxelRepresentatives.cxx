@@ -54,7 +54,7 @@ int compareValues(const AttributeView& view, std::int64_t a, std::int64_t b)
         T ofB;
         std::memcpy(&ofA, values + step * a + c * std::int64_t(sizeof(T)), sizeof(T));
         std::memcpy(&ofB, values + step * b + c * std::int64_t(sizeof(T)), sizeof(T));
-        order = int(isLessValue(ofB, ofA)) - int(isLessValue(ofA, ofB));
+        order = int(orderedKey(ofB) < orderedKey(ofA)) - int(orderedKey(ofA) < orderedKey(ofB));
       }
     });
   return order;
@@ -91,7 +91,7 @@ void VoxelRepresentatives::keep(
   for (int i = 0; i < count; ++i, xyz += stride, numbers += stride)
   {
     const auto* point = reinterpret_cast<const Real*>(xyz);
-    const Vec3 place = PointView(point, 1)[0];
+    const Vec3 place(point[0], point[1], point[2]);
     Member& member = members_[std::size_t(ends_[std::size_t(voxels[i])]++)];
     member.place = isIdentity_ ? place : request_.transform.apply(place);
     std::memcpy(&member.number, numbers, sizeof member.number);
@@ -108,6 +108,11 @@ void VoxelRepresentatives::add(
     const char* number = static_cast<const char*>(numbers);
     isFloat ? keep<float>(xyz, number, stride, voxels, count)
             : keep<double>(xyz, number, stride, voxels, count);
+    return;
+  }
+  if (isIdentity_ && isFloat == request_.singlePrecision)
+  {
+    medians_.add(coordinates, stride, voxels, count);
     return;
   }
   Vec3 places[kBlockRecords];
@@ -187,7 +192,7 @@ bool VoxelRepresentatives::goesBefore(const Member& a, const Member& b) const
 
 /// The nearest in double; where another is about as near, exactly.
 const VoxelRepresentatives::Member& VoxelRepresentatives::chosenOf(
-  const Member* first, const Member* last, const Middle& middle) const
+  const Member* first, const Member* last, const MeanArena& arena, std::size_t voxel) const
 {
   const std::int64_t count = last - first;
   const bool toMean = request_.representative == Representative::NearestToMean;
@@ -195,6 +200,7 @@ const VoxelRepresentatives::Member& VoxelRepresentatives::chosenOf(
   {
     return count == 2 && goesBefore(first[1], first[0]) ? first[1] : first[0];
   }
+  const Middle middle = middleOf(arena, voxel);
   Vec3 target;
   for (const Member* member = first; toMean && member != last; ++member)
   {
@@ -274,7 +280,7 @@ bool VoxelRepresentatives::write(std::int64_t firstVoxel, MeanArena& arena, std:
         const Member* const first = members_.data() + (v == 0 ? 0 : ends_[std::size_t(v - 1)]);
         const Member* const last = members_.data() + ends_[std::size_t(v)];
         const auto voxel = std::size_t(firstVoxel + v);
-        const Member& member = chosenOf(first, last, middleOf(arena, voxel));
+        const Member& member = chosenOf(first, last, arena, voxel);
         arena.setPoint(voxel, member.place);
         chosen[voxel] = member.number;
       }

@@ -61,7 +61,8 @@ private:
     Vec3 pivot;
   };
   Middle middleOf(const MeanArena& arena, std::size_t voxel) const;
-  const Member& chosenOf(const Member* first, const Member* last, const Middle& middle) const;
+  const Member& chosenOf(
+    const Member* first, const Member* last, const MeanArena& arena, std::size_t voxel) const;
   const Member& exactlyChosenOf(const Member* first, const Member* last, const Middle& middle) const;
   bool goesBefore(const Member& a, const Member& b) const;
 
