@@ -10,14 +10,17 @@ namespace pointhaptics
 namespace
 {
 
-/// Up to so many tuples are sorted by exchanges without branches, which would be unpredictable.
-constexpr std::int64_t kFewTuples = 12;
+/// Up to so many tuples are sorted by exchanges without branches, which would be unpredictable: half of them
+/// for a median, all for a mode.
+constexpr std::int64_t kFewTuples = 24;
+constexpr std::int64_t kFewForMode = 12;
 
-/// Sorts each component of tuples.
+/// Sorts each component of tuples, from the largest down to that of tuple @p least.
 template <typename Key>
-void sortFew(Key* keys, std::int64_t tuples, int components)
+void sortFew(Key* keys, std::int64_t tuples, int components, std::int64_t least)
 {
-  for (std::int64_t last = (tuples - 1) * components; last > 0; last -= components)
+  const std::int64_t end = std::max<std::int64_t>(least, 1) * components;
+  for (std::int64_t last = (tuples - 1) * components; last >= end; last -= components)
   {
     for (std::int64_t i = 0; i < last; ++i)
     {
@@ -134,29 +137,31 @@ template <typename T>
 void AttributeTuples::writeValues(std::int64_t first, std::int64_t last, T* to) const
 {
   using Key = decltype(orderedKey(T()));
-  std::vector<Key> few(std::size_t(kFewTuples * components_));
+  const bool isMedian = statistic_ == TupleStatistic::Median;
+  const std::int64_t mostFew = isMedian ? kFewTuples : kFewForMode;
+  std::vector<Key> few(std::size_t(mostFew * components_));
   std::vector<Key> many;
   to += components_ * first;
   for (std::int64_t v = first; v < last; ++v, to += components_)
   {
     const T* const values = tuple<T>(begin(v));
     const std::int64_t size = end(v) - begin(v);
-    if (size <= kFewTuples)
+    const std::int64_t middle = (size - 1) / 2;
+    if (size <= mostFew)
     {
       std::transform(values, values + size * components_, few.begin(), &orderedKey<T>);
-      sortFew(few.data(), size, components_);
+      sortFew(few.data(), size, components_, isMedian ? middle : 0);
     }
-    const Key* const middle = few.data() + (size - 1) / 2 * components_;
     for (int c = 0; c < components_; ++c)
     {
       many.clear();
-      for (std::int64_t i = 0; size > kFewTuples && i < size; ++i)
+      for (std::int64_t i = 0; size > mostFew && i < size; ++i)
       {
         many.push_back(orderedKey(values[i * components_ + c]));
       }
-      to[c] = valueOfKey<T>(size > kFewTuples    ? statisticOf(statistic_, many)
-          : statistic_ == TupleStatistic::Median ? middle[c]
-                                                 : mostFrequent(few.data() + c, size, components_));
+      to[c] = valueOfKey<T>(size > mostFew ? statisticOf(statistic_, many)
+          : isMedian                       ? few[std::size_t(middle * components_ + c)]
+                                           : mostFrequent(few.data() + c, size, components_));
     }
   }
 }
