@@ -186,17 +186,10 @@ struct ProductAdder
 };
 #endif
 
-/// A function of its own: its vectors would take registers from the loop over the sums.
-__attribute__((noinline)) void accumulateProducts(int fractionBits, const CellRanks& givenRanks,
-  const PointRecord* records, const std::uint32_t* cells, int count, SplitSecondMoments* to)
-{
-  const CellRanks ranks = givenRanks; // A copy, which no store can change.
-  const ProductAdder adder(fractionBits);
-  fromFourParts(count, [=](int i) { adder.add(to[rankOf(ranks, cells[i])], records[i]); });
-}
-
-void accumulate(const CellMap& map, const CellRanks& givenRanks, const PointRecord* records,
-  const std::uint32_t* cells, int count, const PointRecord* next, const CellSums& given)
+/// @tparam KeepsRanks: cells become their ranks.
+template <bool KeepsRanks>
+inline void accumulateSums(const CellMap& map, const CellRanks& givenRanks, const PointRecord* records,
+  std::uint32_t* cells, int count, const PointRecord* next, const CellSums& given)
 {
   // Copies, which no store can change.
   const CellRanks ranks = givenRanks;
@@ -212,6 +205,10 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const PointReco
       const std::uint32_t cell = cells[first + i];
       const std::uint32_t rank = rankOf(ranks, cell);
       to.cells[rank] = cell;
+      if constexpr (KeepsRanks)
+      {
+        cells[first + i] = rank;
+      }
       adder.add(to.sums[rank], records[first + i]);
     };
     const int left = count - first;
@@ -230,9 +227,28 @@ void accumulate(const CellMap& map, const CellRanks& givenRanks, const PointReco
       visitStrided<kPart, 0, kParts>(i, add);
     }
   }
+}
+
+/// A function of its own: its vectors would take registers from the loop over the sums.
+__attribute__((noinline)) void accumulateProducts(
+  int fractionBits, const PointRecord* records, const std::uint32_t* ranks, int count, SplitSecondMoments* to)
+{
+  const ProductAdder adder(fractionBits);
+  fromFourParts(count, [=](int i) { adder.add(to[ranks[i]], records[i]); });
+}
+
+void accumulate(const CellMap& map, const CellRanks& ranks, const PointRecord* records, std::uint32_t* cells,
+  int count, const PointRecord* next, const CellSums& to)
+{
+  if (!to.keepsRanks)
+  {
+    accumulateSums<false>(map, ranks, records, cells, count, next, to);
+    return;
+  }
+  accumulateSums<true>(map, ranks, records, cells, count, next, to);
   if (to.secondMoments)
   {
-    accumulateProducts(map.fractionBits, ranks, records, cells, count, to.secondMoments);
+    accumulateProducts(map.fractionBits, records, cells, count, to.secondMoments);
   }
 }
 

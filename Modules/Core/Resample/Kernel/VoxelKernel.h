@@ -168,6 +168,7 @@ struct CellSums
   std::uint32_t* cells;
   PackedSums* sums;
   SplitSecondMoments* secondMoments; ///< Or null.
+  bool keepsRanks;                   ///< The cells of records become their ranks, as second moments need.
 };
 
 /// Whether the matrix of a transform scales and mirrors only.
@@ -247,8 +248,8 @@ struct Kernels
   /// Replaces each cell by its rank among the occupied cells.
   void (*rank)(const CellRanks& ranks, std::uint32_t* cells, int count);
   /// Adds records to the sums of their @p cells; fetches @p next like cells().
-  void (*accumulate)(const CellMap&, const CellRanks& ranks, const PointRecord* records,
-    const std::uint32_t* cells, int count, const PointRecord* next, const CellSums& sums);
+  void (*accumulate)(const CellMap&, const CellRanks& ranks, const PointRecord* records, std::uint32_t* cells,
+    int count, const PointRecord* next, const CellSums& sums);
   /// Coordinates, x y z interleaved, and counts of cells with their sums. Positions among them of means so
   /// near a face that they need another look go to @p nearFace. @return the number of these. Reads, but does
   /// not use, kWidest elements past the end.

@@ -140,11 +140,11 @@ void PartitionWorker::sumRecords(
   kernels.rank(ranks(), places_.data(), int(places_.size()));
   makeRoom(to);
   const CellSums sums = { to.cells.data(), to.packed.data(),
-    covariances_ ? to.splitSecondMoments.data() : nullptr };
+    covariances_ ? to.splitSecondMoments.data() : nullptr, covariances_ || attributes_ };
   voxels_.cells = sums.cells;
   voxels_.sums = sums.sums;
   voxels_.secondMoments = sums.secondMoments;
-  const std::uint32_t* cells = recordCells_.data();
+  std::uint32_t* cells = recordCells_.data();
   PointRecordPool::Walk following(pool, pool.following(partition_));
   for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
@@ -157,14 +157,13 @@ void PartitionWorker::sumRecords(
   }
   if (attributes_)
   {
-    reduceAttributes(kernels, pool, to);
+    reduceAttributes(pool, to);
   }
   clearOccupancy({ voxels_.cells, voxels_.size });
 }
 
 /// Adds the rows of the records to the reducers of their cells, whose sums are complete.
-void PartitionWorker::reduceAttributes(
-  const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& sums)
+void PartitionWorker::reduceAttributes(const PointRecordPool& pool, AccumulatedPartition& sums)
 {
   const auto voxels = std::int64_t(voxels_.size);
   counts_.resize(voxels_.size);
@@ -191,8 +190,7 @@ void PartitionWorker::reduceAttributes(
   std::uint32_t* cells = recordCells_.data();
   for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
-    kernels.rank(ranks(), cells, block.count());
-    std::copy(cells, cells + block.count(), ranksOfBlock);
+    std::copy(cells, cells + block.count(), ranksOfBlock); // See CellSums::keepsRanks.
     const PointRows rows = reader.read(block.rows(), block.count());
     for (std::size_t i = 0; i < sums.attributes.size(); ++i)
     {

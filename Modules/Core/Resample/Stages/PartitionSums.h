@@ -94,7 +94,7 @@ private:
   void countOccupied(const Kernels& kernels, const PointRecordPool& pool);
   void sumRecords(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to);
   void makeRoom(AccumulatedPartition& sums) const;
-  void reduceAttributes(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& sums);
+  void reduceAttributes(const PointRecordPool& pool, AccumulatedPartition& sums);
 
   PartitionPlan plan_;
   std::uint32_t partition_ = 0;
