@@ -95,7 +95,7 @@ private:
   void updateRadius(Work& work, const Vec3& hip) noexcept;
   void walk(Work& work, const Vec3& hip) noexcept;
   double fly(Work& work, const Vec3& direction, double length) noexcept;
-  void advance(Work& work, const Vec3& direction, double length) noexcept;
+  double advance(Work& work, const Vec3& direction, double length) noexcept;
   void slide(Work& work, const Vec3& hip) noexcept;
   bool mayWait(const Vec3& hip) const noexcept;
   bool glide(Work& work, const Vec3& hip) noexcept;

@@ -131,8 +131,9 @@ bool ProxyBall::goTo(const HapticScene& scene, FitCells& fields, BallCells& cell
   return false;
 }
 
-/// Along the unit vector @p direction by up to @p length metres, as far as no point is in the way.
-void ProxyBall::advance(Work& work, const Vec3& direction, double length) noexcept
+/// Along the unit vector @p direction by up to @p length metres, as far as no point is in the way. @return
+/// how far.
+double ProxyBall::advance(Work& work, const Vec3& direction, double length) noexcept
 {
   double left = length;
   double stride = 0.0;
@@ -145,6 +146,7 @@ void ProxyBall::advance(Work& work, const Vec3& direction, double length) noexce
     center_ += reached * direction;
     left -= reached;
   }
+  return length - left;
 }
 
 bool ProxyBall::goAround(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
@@ -162,8 +164,10 @@ bool ProxyBall::goAround(const HapticScene& scene, FitCells& fields, BallCells& 
   for (int i = 1; i < kMostLifts; ++i)
   {
     const double lift = kLifts[i] * radius_;
-    // Off the points that it lies on, beside the edge, and down.
-    advance(work, normalized(center_ - hip_), lift);
+    // Off the points that it lies on, in a gap to its middle; beside the edge, and down.
+    const Vec3 away = normalized(center_ - hip_);
+    const double lifted = advance(work, away, lift);
+    center_ -= lifted < lift ? 0.5 * lifted * away : Vec3();
     advance(work, up, beside + lift);
     const Vec3 way = foot + (radius_ + lift) * up - center_;
     advance(work, normalized(way), norm(way));

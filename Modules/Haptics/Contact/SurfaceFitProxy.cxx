@@ -95,9 +95,9 @@ double SurfaceFitProxy::fitWeight(
     return agrees ? 1.0 - smoothStep((apart - trust) / ((kDistrust - 1.0) * trust)) : 0.0;
   };
   double result = 0.0;
+  const auto followed = hasFit_ ? tracker_.follow(scene, fit, hip, kRoundsPerTick) : TrackResult::Lost;
   if (hasFit_)
   {
-    const TrackResult followed = tracker_.follow(scene, fit, hip, kRoundsPerTick);
     status |= std::uint32_t(followed == TrackResult::RoundLimit ? kProxyRoundLimit : kProxyOk);
     result = followed == TrackResult::Lost ? 0.0 : weight();
     // Where the surface is smooth a ball that lags behind is held by bumps.
@@ -129,8 +129,8 @@ double SurfaceFitProxy::fitWeight(
   {
     ticksWithoutFit_ = 0;
   }
-  if ((result < 1.0 || !tracker_.continuesAround()) && ball_.depth(hip) > 0.0 &&
-    comesOut(scene, memory, hip, status))
+  if ((result < 1.0 || followed == TrackResult::RoundLimit || !tracker_.continuesAround()) &&
+    ball_.depth(hip) > 0.0 && comesOut(scene, memory, hip, status))
   {
     return ball_.isFree() ? 0.0 : 1.0;
   }

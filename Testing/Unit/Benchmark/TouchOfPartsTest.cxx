@@ -56,6 +56,25 @@ std::vector<TouchStroke> strokesOverApex(double side, double low)
   return strokes;
 }
 
+/// Strokes 1 mm below the top of a plate of 3 mm, across its slot of 1 mm and on against the wall of that,
+/// and up.
+std::vector<TouchStroke> strokesAcrossSlot()
+{
+  std::vector<TouchStroke> strokes;
+  for (int i = 0; i < kStrokes; ++i)
+  {
+    const Vec3 start{ -6e-3, 1e-3 * (i - kStrokes / 2) * 0.3, 0.5e-3 };
+    const Vec3 end = start + Vec3(10.5e-3, 0.0, 0.0);
+    TouchStroke stroke;
+    moveTo(stroke, start + Vec3(0.0, 0.0, 4e-3), start, 0.025);
+    moveTo(stroke, start, end, 0.05);
+    moveTo(stroke, end, end + Vec3(0.0, 0.0, 4e-3), 0.05);
+    std::transform(stroke.hip.begin(), stroke.hip.end(), stroke.hip.begin(), turnedAway);
+    strokes.push_back(std::move(stroke));
+  }
+  return strokes;
+}
+
 } // namespace
 
 TEST(TouchOfParts, EndsInTheTickInWhichTheHandComesOutThroughAnotherFace)
@@ -92,4 +111,15 @@ TEST(TouchOfParts, HoldsOnUntilTheHandIsPastAnEdgeSharperThanARightAngle)
   const TouchFigures figures = figuresOf(mesh, tree, strokesOverApex(kSide, kLow), 60000);
   EXPECT_LE(figures.lostPercent, 2.0);
   EXPECT_EQ(figures.held, 0);
+}
+
+TEST(TouchOfParts, LetsGoOfTheWallOfANarrowSlotWhereTheHandIsOverThePlate)
+{
+  // A ball of 0.9 mm that is lifted off one wall touches the other, whose bumps hold it.
+  TouchMesh mesh = blockMesh({ -0.025, -0.5e-3, 0.5e-3, 0.025 }, { -0.025, -0.015, 0.015, 0.025 },
+    { -1.5e-3, 1.5e-3 }, [](int x, int y, int) { return x != 1 || y != 1; });
+  std::transform(mesh.points.begin(), mesh.points.end(), mesh.points.begin(), turnedAway);
+  const TouchFigures figures = figuresOf(mesh, TriangleTree(mesh), strokesAcrossSlot(), 543652);
+  EXPECT_LE(figures.phantomNewton, 0.05);
+  EXPECT_EQ(figures.lostPercent, 0.0);
 }
