@@ -49,10 +49,6 @@ public:
 
   /// The ball is at the HIP.
   bool isFree() const noexcept { return free_; }
-  /// Goes, lifted over the bumps between points, to where it would lie on a surface through @p foot with the
-  /// unit normal @p up, if nothing is in its way and that brings it nearer to the HIP. False: it stays.
-  bool goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot, const Vec3& up,
-    std::uint32_t& status) noexcept;
   /// Goes over the edge of what it lies on and down beside the surface through @p foot with the unit normal
   /// @p up, where no point is in its way and the HIP is then inside it: it came out there. False: it stays.
   bool goAround(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,

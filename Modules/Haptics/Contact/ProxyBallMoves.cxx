@@ -20,10 +20,10 @@ constexpr double kWaitLean = 0.2;
 constexpr double kPatientNear = 1.0;
 constexpr double kPatientLean = 0.5;
 constexpr int kMostLifts = 3;
-constexpr double kLongestProposal = 2.0;
 constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
-/// How near a ball that went around an edge must come to the HIP, and how far before the edge the HIP may be
-/// along the face that the ball comes from.
+/// How far beside an edge a ball goes around it, how near it must come to the HIP, and how far before the
+/// edge the HIP may be along the face that the ball comes from.
+constexpr double kMostBeside = 2.0;
 constexpr double kAround = 0.1;
 constexpr double kBeforeEdge = 0.02;
 constexpr double kLeastLean = 0.02;
@@ -102,35 +102,6 @@ bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
   return false;
 }
 
-bool ProxyBall::goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
-  const Vec3& up, std::uint32_t& status) noexcept
-{
-  Work work{ scene, fields, cells, kMostRounds, status };
-  const ProxyBall before = *this;
-  const Vec3 place = foot + radius_ * up;
-  const double distance = norm(place - center_);
-  if (distance > kLongestProposal * radius_)
-  {
-    return false;
-  }
-  gather(work, (1.0 + kLifts[kMostLifts - 1]) * radius_ + distance);
-  for (int i = 1; i < kMostLifts; ++i)
-  {
-    center_ += work.cells.sweep(center_, up, kLifts[i] * radius_, radius_) * up;
-    const Vec3 way = place + kLifts[i] * radius_ * up - center_;
-    const double length = norm(way);
-    const Vec3 direction = normalized(way);
-    center_ += work.cells.sweep(center_, direction, length, radius_) * direction;
-    slide(work, hip_);
-    if (norm(hip_ - center_) < norm(hip_ - before.center_) - kLeastGain * radius_)
-    {
-      return true;
-    }
-    *this = before;
-  }
-  return false;
-}
-
 /// Along the unit vector @p direction by up to @p length metres, as far as no point is in the way. @return
 /// how far.
 double ProxyBall::advance(Work& work, const Vec3& direction, double length) noexcept
@@ -160,7 +131,7 @@ bool ProxyBall::goAround(const HapticScene& scene, FitCells& fields, BallCells& 
   }
   Work work{ scene, fields, cells, kMostRounds, status };
   const ProxyBall before = *this;
-  const double beside = std::clamp(radius_ - dot(center_ - foot, up), 0.0, kLongestProposal * radius_);
+  const double beside = std::clamp(radius_ - dot(center_ - foot, up), 0.0, kMostBeside * radius_);
   for (int i = 1; i < kMostLifts; ++i)
   {
     const double lift = kLifts[i] * radius_;

@@ -100,13 +100,6 @@ double SurfaceFitProxy::fitWeight(
   {
     status |= std::uint32_t(followed == TrackResult::RoundLimit ? kProxyRoundLimit : kProxyOk);
     result = followed == TrackResult::Lost ? 0.0 : weight();
-    // Where the surface is smooth a ball that lags behind is held by bumps.
-    if (followed != TrackResult::Lost && result < 1.0 && tracker_.height(ball_.center()) > 0.0 &&
-      tracker_.residual() < kSmoothResidual * ball_.radius() &&
-      ball_.goTo(scene, memory.fit, memory.ball, tracker_.point(), tracker_.normal(), status))
-    {
-      result = weight();
-    }
     hasFit_ = result > 0.0;
   }
   if (result < kSeekBelow && ticksWithoutFit_++ % kSeekEvery == 0)

@@ -84,7 +84,10 @@ TEST(TouchOfParts, EndsInTheTickInWhichTheHandComesOutThroughAnotherFace)
   const TouchFigures sparse = figuresOf("stairs", StrokeSet::A, 100000);
   EXPECT_LE(sparse.phantomNewton, 0.1);
   EXPECT_EQ(sparse.held, 0);
-  EXPECT_LE(figuresOf("gear", StrokeSet::A, 543652).phantomNewton, 0.1);
+  const TouchFigures gear = figuresOf("gear", StrokeSet::A, 543652);
+  EXPECT_LE(gear.phantomNewton, 0.1);
+  // 12.4 % where the fit may carry the ball along.
+  EXPECT_LE(gear.rmsPercent, 10.0);
   EXPECT_LE(figuresOf("stairs", StrokeSet::B, 100000).phantomNewton, 0.1);
 }
 
