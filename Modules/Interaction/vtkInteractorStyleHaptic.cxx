@@ -149,7 +149,8 @@ void vtkInteractorStyleHaptic::Refresh()
   this->Cap.update(pointhaptics::steadySeconds());
   this->Tdx->CheckForRest();
   this->Scenes.poll();
-  const std::vector<ServoSample> samples = this->TakeSamples();
+  this->CollectSamples();
+  const std::vector<ServoSample> samples = std::exchange(this->Samples, {});
   const ServoSample latest = this->Servo ? this->Servo->latest() : ServoSample();
   bool touchMoved = this->Servo && this->Display.update(samples, latest);
   this->MeasureDistance(latest);
@@ -182,20 +183,20 @@ void vtkInteractorStyleHaptic::MeasureDistance(const ServoSample& latest)
       : std::string());
 }
 
-std::vector<ServoSample> vtkInteractorStyleHaptic::TakeSamples()
+void vtkInteractorStyleHaptic::CollectSamples()
 {
-  std::vector<ServoSample> samples;
   if (!this->Servo)
   {
     this->Clutch.setServo(nullptr); // the loop may be gone while the hand held the model
-    return samples;
+    return;
   }
+  std::vector<ServoSample> samples;
   this->Servo->takeTrace(samples);
   if (!samples.empty())
   {
     this->InvokeEvent(SamplesEvent, &samples);
+    this->Samples.insert(this->Samples.end(), samples.begin(), samples.end());
   }
-  return samples;
 }
 
 std::string vtkInteractorStyleHaptic::GestureOf(const char* name) const

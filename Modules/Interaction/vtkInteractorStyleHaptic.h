@@ -67,6 +67,7 @@
 
 #include <memory> // For scenes
 #include <string> // For gestures
+#include <vector> // For samples
 
 class vtkHapticSliders;
 class vtkTDxInteractorStyleModel;
@@ -181,6 +182,12 @@ public:
    */
   void Refresh();
 
+  /**
+   * Takes the servo loop's new ticks now: SamplesEvent; props, chart and buttons get them at the next
+   * Refresh().
+   */
+  void CollectSamples();
+
   void OnMouseMove() override;
   void OnLeftButtonDown() override { this->Press("left"); }
   void OnLeftButtonUp() override { this->Input.releaseButton(); }
@@ -210,13 +217,13 @@ private:
   void ModelMoved();
   void MeasureDistance(const pointhaptics::ServoSample& latest);
   void SceneShown(const pointhaptics::BuiltScene& built);
-  std::vector<pointhaptics::ServoSample> TakeSamples();
 
   pointhaptics::ScreenView Screen;
   pointhaptics::CommandRegistry Commands;
   pointhaptics::CommandInput Input;
   pointhaptics::ModelTransform Model;
   pointhaptics::WatchedPointer<pointhaptics::ServoLoop> Servo;
+  std::vector<pointhaptics::ServoSample> Samples; // collected, not shown yet
   pointhaptics::ScenePipeline Scenes;
   pointhaptics::MouseHand Hand;
   pointhaptics::DeviceClutch Clutch;

@@ -153,6 +153,22 @@ protected:
     stream << std::ifstream(file_).rdbuf();
     return stream.str();
   }
+  /// In the file; expects that they are numbered from 1 on.
+  std::vector<std::uint64_t> markedTicks()
+  {
+    Recording recording;
+    EXPECT_TRUE(readRecording(file_, recording, message_)) << message_;
+    std::vector<std::uint64_t> ticks;
+    for (const RecordedTick& row : recording.ticks)
+    {
+      if (row.marker > 0)
+      {
+        ticks.push_back(row.tick);
+        EXPECT_EQ(row.marker, ticks.size());
+      }
+    }
+    return ticks;
+  }
   /// Expects that the file with @p text is refused by a line with @p words.
   void refuse(const std::string& text, const std::string& words)
   {
@@ -287,7 +303,8 @@ TEST_F(RecordingTest, ItBeginsWhenTheHandIsFreeAndHasMarkers)
   ASSERT_TRUE(trial::eventually([&] { return loop_.latest().state.contact; }));
   this->take();
   ASSERT_TRUE(writer_.open(file_, header_, message_)) << message_;
-  EXPECT_EQ(writer_.mark(loop_.latest().tick), 0u);
+  EXPECT_EQ(writer_.mark(loop_.latest().tick), 1u);
+  EXPECT_EQ(writer_.mark(loop_.latest().tick), 1u) << "the first tick has one";
   loop_.beginAnew();
   ASSERT_TRUE(trial::eventually(
     [&]
@@ -297,21 +314,50 @@ TEST_F(RecordingTest, ItBeginsWhenTheHandIsFreeAndHasMarkers)
     }));
   this->recordFor(300);
   const std::uint64_t marked = loop_.latest().tick;
-  EXPECT_EQ(writer_.mark(marked), 1u);
+  EXPECT_EQ(writer_.mark(marked), 2u);
   this->recordFor(300);
   this->stop();
   this->replay(100);
   Recording recording;
   ASSERT_TRUE(readRecording(file_, recording, message_)) << message_;
   EXPECT_GT(recording.ticks.front().tick, 1u);
-  const auto row = std::find_if(recording.ticks.begin(), recording.ticks.end(),
-    [](const RecordedTick& tick) { return tick.marker == 1; });
-  ASSERT_NE(row, recording.ticks.end());
-  EXPECT_GT(row->tick, marked);
-  EXPECT_LT(row->tick, marked + 20);
-  EXPECT_EQ(row->buttons, 5u);
+  EXPECT_EQ(this->markedTicks(), (std::vector<std::uint64_t>{ recording.ticks.front().tick, marked }));
+  EXPECT_EQ(recording.ticks.back().buttons, 5u);
   EXPECT_EQ(recording.header.settings, header_.settings);
   EXPECT_EQ(recording.header.program, header_.program);
+}
+
+/// Nothing comes after the tick that a marker was set at: the loop is idle, or the recording ends.
+TEST_F(RecordingTest, AMarkerAtTheLastTickIsWritten)
+{
+  this->start();
+  this->recordFor(100);
+  const std::uint64_t taken = samples_.back().tick;
+  ASSERT_TRUE(trial::eventually([&] { return loop_.latest().tick > taken + 1; }));
+  EXPECT_EQ(writer_.mark(taken), 1u);
+  loop_.stop();
+  const std::uint64_t last = loop_.latest().tick;
+  EXPECT_EQ(writer_.mark(last), 2u);
+  EXPECT_EQ(writer_.mark(last), 2u) << "the tick has one";
+  this->stop();
+  EXPECT_EQ(writer_.numberOfMarkers(), 2u);
+  EXPECT_EQ(this->markedTicks(), (std::vector<std::uint64_t>{ taken, last }));
+}
+
+TEST_F(RecordingTest, AMarkerOfAnIdleHandIsWritten)
+{
+  port_.path = [](double) { return Vec3{ 0.06, 0.0, 0.0 }; };
+  ServoSettings settings = trial::plainSettings();
+  settings.idlesWhenStill = true;
+  ASSERT_TRUE(writer_.open(file_, header_, message_)) << message_;
+  ASSERT_EQ(loop_.start(port_, HapticParameters(), settings), Status::Ok);
+  ASSERT_TRUE(trial::eventually([&] { return loop_.statistics().idleTicks > 0; }));
+  this->take();
+  const std::uint64_t marked = samples_.back().tick;
+  EXPECT_EQ(writer_.mark(marked), 1u);
+  ASSERT_TRUE(writer_.close(message_)) << message_;
+  loop_.stop();
+  EXPECT_EQ(this->markedTicks(), std::vector<std::uint64_t>{ marked });
 }
 
 TEST_F(RecordingTest, ALostTickEndsIt)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <limits>
 
 namespace pointhaptics
 {
@@ -29,6 +30,14 @@ const Input* inUse(std::vector<Input>& inputs, std::uint64_t number)
   }
   inputs.erase(inputs.begin(), std::prev(used.base()));
   return &inputs.front();
+}
+
+template <typename Number>
+void appendCell(std::string& row, Number value)
+{
+  char text[40];
+  row.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+  row += ',';
 }
 
 } // namespace
@@ -52,6 +61,7 @@ bool RecordingWriter::open(const std::string& fileName, const RecordingHeader& h
   header_ = header;
   lines_.clear();
   clouds_.clear();
+  row_.clear();
   marks_.clear();
   markers_ = 0;
   numberOfTicks_ = 0;
@@ -61,12 +71,18 @@ bool RecordingWriter::open(const std::string& fileName, const RecordingHeader& h
 
 std::uint32_t RecordingWriter::mark(std::uint64_t tick)
 {
-  if (!this->isOpen() || this->isWaiting() || !problem_.empty())
+  if (!this->isOpen() || !problem_.empty())
   {
     return 0;
   }
-  marks_.push_back(tick);
-  return markers_ + std::uint32_t(marks_.size());
+  const std::uint64_t marked = this->isWaiting() ? 0 : tick;
+  if (markers_ == 0 || marked > lastMark_) // a row has room for one
+  {
+    marks_.push_back(marked);
+    lastMark_ = marked;
+    ++markers_;
+  }
+  return markers_;
 }
 
 void RecordingWriter::end(const std::string& problem)
@@ -236,30 +252,32 @@ void RecordingWriter::addRow(const ServoSample& sample)
   {
     return;
   }
-  std::uint32_t marker = 0;
-  if (!marks_.empty() && sample.tick > marks_.front())
-  {
-    marks_.pop_front();
-    marker = ++markers_;
-  }
+  this->writeRow(last_.tick);
   const auto felt = feltRow(sample.timeSeconds, sample.state, 1e6 * sample.updateSeconds);
-  std::string line;
-  const auto append = [&line](auto value)
-  {
-    char text[40];
-    line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
-  };
   for (const double value : felt)
   {
-    append(value);
-    line += ',';
+    appendCell(row_, value);
   }
-  append(sample.buttons);
-  line += ',';
-  append(marker);
-  line += '\n';
-  std::fwrite(line.data(), 1, line.size(), rows_.get()); // close() looks whether it failed
+  appendCell(row_, sample.buttons);
   ++numberOfTicks_;
+}
+
+/// The newest row, with the newest marker of those set until @p marksUntil.
+void RecordingWriter::writeRow(std::uint64_t marksUntil)
+{
+  if (row_.empty())
+  {
+    return;
+  }
+  std::uint32_t marker = 0;
+  for (; !marks_.empty() && marks_.front() <= marksUntil; marks_.pop_front())
+  {
+    marker = markers_ - std::uint32_t(marks_.size()) + 1;
+  }
+  appendCell(row_, marker);
+  row_.back() = '\n';
+  std::fwrite(row_.data(), 1, row_.size(), rows_.get()); // close() looks whether it failed
+  row_.clear();
 }
 
 bool RecordingWriter::close(std::string& message)
@@ -268,6 +286,7 @@ bool RecordingWriter::close(std::string& message)
   {
     return true;
   }
+  this->writeRow(std::numeric_limits<std::uint64_t>::max());
   const std::unique_ptr<std::FILE, CloseFile> rows = std::move(rows_);
   if (numberOfTicks_ == 0)
   {

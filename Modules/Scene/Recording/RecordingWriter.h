@@ -39,7 +39,8 @@ public:
   void publish(PublishedParameters parameters) { published_.parameters.push_back(parameters); }
   void add(const ServoSample& sample);
   ///@}
-  /// Sets a marker at the first tick after @p tick. @return its number, 1, 2, ...; 0: nothing is recorded.
+  /// Sets a marker at @p tick, the newest that is finished, or at the first one while there is none. @return
+  /// its number, 1, 2, ..., of that tick's where it has one; 0: nothing is recorded.
   std::uint32_t mark(std::uint64_t tick);
   std::uint64_t numberOfTicks() const { return numberOfTicks_; }
   std::uint32_t numberOfMarkers() const { return markers_; }
@@ -58,6 +59,7 @@ private:
   };
 
   void addRow(const ServoSample& sample);
+  void writeRow(std::uint64_t marksUntil);
   void addEvents(const ServoSample& sample);
   void addEvent(std::uint64_t tick, RecordedEvent::Kind kind, bool on = false);
   void addScene(const ServoSample& sample);
@@ -70,7 +72,9 @@ private:
   std::unique_ptr<std::FILE, CloseFile> rows_;
   std::string lines_; ///< Of the header: clouds, parameters and events.
   std::map<std::uint64_t, bool> clouds_;
-  std::deque<std::uint64_t> marks_; ///< Ticks after which markers are to come.
+  std::string row_;                 ///< The newest, without its marker, which may still come.
+  std::deque<std::uint64_t> marks_; ///< Ticks of markers that are not written yet, ascending.
+  std::uint64_t lastMark_ = 0;      ///< Tick of the newest marker, written or not.
   std::uint32_t markers_ = 0;
   std::uint64_t numberOfTicks_ = 0;
   std::uint64_t lost_ = 0; ///< Samples the loop had lost when the recording began.

@@ -41,6 +41,7 @@ bool ViewWindow::endRecording(std::string& message)
   {
     return true;
   }
+  style_->CollectSamples();
   const std::string why = recording_.problem();
   if (!recording_.close(message))
   {
