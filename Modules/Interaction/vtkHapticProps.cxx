@@ -1,5 +1,6 @@
 #include "vtkHapticProps.h"
 
+#include "ScreenMarks.h"
 #include "TouchOutlines.h"
 #include "vtkHapticGauge.h"
 
@@ -64,6 +65,8 @@ constexpr double kArrowThickness = 0.06;
 constexpr double kSphereGhost = 0.75;
 constexpr double kFreeSphereGhost = 0.35;
 constexpr double kVisibleMotion = 1e-4;
+/// Radius of a sphere that is drawn larger than it is, points: in a close view it would hide what it touches.
+constexpr double kLargestEnlarged = 24.0;
 /// Of the arrow, over its length and thickness.
 constexpr double kShaftRadius = 0.10;
 constexpr double kTipRadius = 0.24;
@@ -164,7 +167,11 @@ struct vtkHapticProps::Internals
   Prop normal;
   Prop hip;
   Prop force;
-  TouchOutlines outlines{ [this] { return this->marks(); } };
+  TouchOutlines outlines{ [this]
+    {
+      this->place();
+      return this->marks();
+    } };
   Colors colors = kUsual;
   bool outlined = false;
   bool highContrast = false;
@@ -180,11 +187,15 @@ struct vtkHapticProps::Internals
   double edge = 0.1;
   bool shown = false;
   ProxyState state;
+  double smallestRadius = 0.0; ///< As was set.
+  double arrowLength = 0.0;
 
   TouchMarks marks();
+  void place();
+  double drawnRadius() const;
 
   /// On the screen: the gauge stands where the arrow goes, not over what it comes from.
-  bool pointsLeft(const Vec3& begin, const Vec3& tip) const
+  bool pointsLeft(const Vec3& along) const
   {
     if (!this->renderer)
     {
@@ -195,9 +206,53 @@ struct vtkHapticProps::Internals
     Vec3 up;
     camera->GetDirectionOfProjection(&forward.x);
     camera->GetViewUp(&up.x);
-    return dot(tip - begin, cross(forward, up)) < 0.0;
+    return dot(along, cross(forward, up)) < 0.0;
   }
 };
+
+/// Of the sphere, for the camera as it is.
+double vtkHapticProps::Internals::drawnRadius() const
+{
+  double enlarged = this->smallestRadius;
+  if (this->renderer && this->renderer->GetRenderWindow() && this->renderer->IsActiveCameraCreated())
+  {
+    vtkCamera* camera = this->renderer->GetActiveCamera();
+    Vec3 forward;
+    Vec3 up;
+    camera->GetDirectionOfProjection(&forward.x);
+    camera->GetViewUp(&up.x);
+    const pointhaptics::ScreenProjection project(this->renderer);
+    const Vec3& center = this->state.sphereCenter;
+    const auto middle = project(center);
+    const auto side = project(center + enlarged * normalized(cross(forward, up)));
+    const double pixels = std::hypot(side.x - middle.x, side.y - middle.y);
+    const double most = kLargestEnlarged * pointhaptics::pixelsPerPoint(this->renderer);
+    enlarged *= middle.seen && side.seen && pixels > most ? most / pixels : 1.0;
+  }
+  return std::max(this->state.radius, enlarged);
+}
+
+/// The sphere, and what stands on it.
+void vtkHapticProps::Internals::place()
+{
+  if (!this->shown)
+  {
+    return;
+  }
+  const double radius = this->drawnRadius();
+  const Vec3 center = this->state.contact
+    ? this->state.sphereCenter + (radius - this->state.radius) * normalized(this->state.normal)
+    : this->state.sphereCenter;
+  const Vec3 along = normalized(this->state.force);
+  setFrame(this->proxyMatrix, center, { 1, 0, 0 }, radius, radius);
+  setFrame(this->forceMatrix, center, along, this->arrowLength,
+    std::max(1e-9, std::min(this->arrowLength, kArrowThickness * this->edge)));
+  if (this->gauge->GetVisibility())
+  {
+    const Vec3 tip = center + this->arrowLength * along;
+    this->gauge->Show(&tip.x, norm(this->state.force));
+  }
+}
 
 /// What is outlined, as it is shown.
 TouchMarks vtkHapticProps::Internals::marks()
@@ -435,33 +490,25 @@ bool vtkHapticProps::Update(const ProxyState& state)
   parts.state = state;
   parts.shown = true;
   this->TouchVisibility = true;
-  const double radius = std::max(state.radius, this->SmallestSphereRadius);
-  const Vec3 center = state.contact ? state.sphereCenter + (radius - state.radius) * normalized(state.normal)
-                                    : state.sphereCenter;
-  setFrame(parts.proxyMatrix, center, { 1, 0, 0 }, radius, radius);
+  const double force = norm(state.force);
+  parts.smallestRadius = this->SmallestSphereRadius;
+  parts.arrowLength = std::min(force * this->ForceScale, kLongestArrow * parts.edge);
   setFrame(parts.hipMatrix, state.hip, { 1, 0, 0 }, kHipRadius * parts.edge, kHipRadius * parts.edge);
   setFrame(parts.normalMatrix, state.proxy, normalized(state.normal), kNormalLength * parts.edge, 1.0);
-  const double force = norm(state.force);
-  const double length = std::min(force * this->ForceScale, kLongestArrow * parts.edge);
-  setFrame(parts.forceMatrix, center, normalized(state.force), length,
-    std::max(1e-9, std::min(length, kArrowThickness * parts.edge)));
   parts.proxy.setVisible(state.radius > 0.0);
   parts.hip.setVisible(this->HandVisibility);
   parts.normal.setVisible(state.contact);
   const bool pushes = this->HandVisibility && state.contact && force > kSmallestForce;
   parts.force.setVisible(pushes);
-  const Vec3 tip = center + length * normalized(state.force);
-  if (pushes && this->GaugeVisibility)
+  const bool isGauged = pushes && this->GaugeVisibility;
+  parts.gauge->SetVisibility(isGauged);
+  if (isGauged)
   {
     const Vec3 normalEnd = state.proxy + kNormalLength * parts.edge * normalized(state.normal);
     parts.gauge->KeepOffLine(&state.proxy.x, &normalEnd.x);
-    parts.gauge->SetLeft(parts.pointsLeft(center, tip));
-    parts.gauge->Show(&tip.x, force);
+    parts.gauge->SetLeft(parts.pointsLeft(state.force));
   }
-  else
-  {
-    parts.gauge->SetVisibility(false);
-  }
+  parts.place();
   vtkProperty* sphere = parts.proxy.actor->GetProperty();
   sphere->SetColor(const_cast<double*>(state.contact ? parts.colors.sphere : parts.colors.freeSphere));
   sphere->SetOpacity(state.contact ? 1.0 : 0.45);

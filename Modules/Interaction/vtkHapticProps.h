@@ -60,7 +60,8 @@ public:
   ///@{
   /**
    * The sphere is drawn no smaller than this, metres, and still touches the contact point: a radius of some
-   * tenths of a millimetre is a few pixels. 0 (default): always as large as the proxy.
+   * tenths of a millimetre is a few pixels. Where the camera is so near that this radius is more than 24
+   * points of the screen (1/72 inch), it is 24 points. 0 (default): always as large as the proxy.
    */
   vtkSetClampMacro(SmallestSphereRadius, double, 0.0, 1e9);
   vtkGetMacro(SmallestSphereRadius, double);

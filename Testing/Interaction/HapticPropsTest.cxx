@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkMath.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
 #include <cmath>
@@ -62,6 +65,44 @@ TEST(HapticProps, DrawASmallSphereLargerOnTheSameContactPoint)
   vtkMatrix4x4* sphere = props->GetProxyActor()->GetUserMatrix();
   EXPECT_DOUBLE_EQ(sphere->GetElement(0, 0), 0.005);
   EXPECT_DOUBLE_EQ(sphere->GetElement(2, 3), 0.005);
+}
+
+/// A small sphere that is drawn larger hides no more of a close view than of the whole cloud.
+TEST(HapticProps, LimitWhatIsDrawnLargerOnTheScreen)
+{
+  constexpr int kHeight = 800;
+  vtkNew<vtkRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  window->SetOffScreenRendering(1);
+  window->SetSize(kHeight, kHeight);
+  window->SetDPI(72);
+  window->AddRenderer(renderer);
+  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkNew<vtkHapticProps> props;
+  props->AddTo(renderer);
+  props->SetSmallestSphereRadius(0.0022);
+  ProxyState state = makeContact();
+  state.radius = 0.0004;
+  state.sphereCenter = state.proxy + state.radius * state.normal;
+  const auto radiusFrom = [&](double distance)
+  {
+    camera->SetFocalPoint(&state.sphereCenter.x);
+    camera->SetPosition(state.sphereCenter.x, state.sphereCenter.y - distance, state.sphereCenter.z);
+    camera->SetViewUp(0.0, 0.0, 1.0);
+    renderer->InvokeEvent(vtkCommand::StartEvent);
+    return props->GetProxyActor()->GetUserMatrix()->GetElement(0, 0);
+  };
+  const double pixelAtOneMetre =
+    2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle())) / kHeight;
+  props->Update(state);
+  EXPECT_DOUBLE_EQ(radiusFrom(0.3), 0.0022);
+  EXPECT_NEAR(radiusFrom(0.05), 24.0 * 0.05 * pixelAtOneMetre, 1e-6);
+  vtkMatrix4x4* sphere = props->GetProxyActor()->GetUserMatrix();
+  EXPECT_NEAR(sphere->GetElement(2, 3), sphere->GetElement(0, 0), 1e-12) << "it leaves the contact point";
+  EXPECT_DOUBLE_EQ(props->GetForceActor()->GetUserMatrix()->GetElement(2, 3), sphere->GetElement(2, 3));
+  EXPECT_DOUBLE_EQ(radiusFrom(0.002), 0.0004) << "no smaller than it is";
+  EXPECT_DOUBLE_EQ(radiusFrom(0.3), 0.0022);
+  props->RemoveFrom(renderer);
 }
 
 TEST(HapticProps, AreTranslucentWithoutNormalInFreeSpace)
