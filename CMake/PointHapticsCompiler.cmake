@@ -40,10 +40,16 @@ function (pointhaptics_compile_with target)
 endfunction ()
 
 # pointhaptics_compile_together(<target>)
-# Compiles a target's files seven at a time, for those of the command line, where CLI11's headers take most of the time. Names
-# in their anonymous namespaces must differ.
+# Compiles a target's files seven at a time, where the headers of VTK, CLI11 or GoogleTest take most of the time. Names in
+# their anonymous namespaces must differ.
 function (pointhaptics_compile_together target)
+  get_target_property(aliased ${target} ALIASED_TARGET)
+  if (aliased)
+    set(target ${aliased})
+  endif ()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 7)
+  # A class of a source file may have members of types of that file: GCC takes it for one of a header.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction ()
 
 # pointhaptics_plain_library(<Name> SOURCES ... HEADERS ... [PUBLIC libs...] [PRIVATE libs...] [EXPORT set]

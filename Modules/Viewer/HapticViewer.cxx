@@ -33,11 +33,7 @@ namespace pointhaptics
 namespace
 {
 
-/// Seconds in which most files are read: a window with a bar would only flicker.
-constexpr double kProgressDelay = 0.2;
 constexpr double kLookPeriod = 0.05;
-/// HapticViewerObserver::progress() is told 1 once, at the end.
-constexpr double kAlmostDone = 0.999;
 
 class Stopwatch
 {

@@ -20,7 +20,6 @@ namespace bandwidth
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSphereRadius = 0.025; // of Shape::Sphere
 constexpr double kPlaneEdge = 0.08;     // of Shape::DensityStep
 constexpr double kStepRatio = 16.0;

@@ -20,6 +20,8 @@ namespace bench
 namespace bandwidth
 {
 
+constexpr double kPi = 3.14159265358979323846;
+
 struct NamedCloud
 {
   std::string name;

@@ -22,7 +22,7 @@ namespace
 /// The slow rule takes its time: a part of the points will do.
 constexpr std::int64_t kPart = 10;
 
-struct Setting
+struct RuleSetting
 {
   const char* name;
   int rule;
@@ -31,7 +31,7 @@ struct Setting
   bool smooth;
 };
 
-constexpr Setting kSettings[] = {
+constexpr RuleSetting kSettings[] = {
   { "normal-reference", vtkKernelBandwidthFilter::NormalReference, false, 0, false },
   { "scott", vtkKernelBandwidthFilter::ScottMultivariate, false, 0, false },
   { "silverman", vtkKernelBandwidthFilter::SilvermanMultivariate, false, 0, false },
@@ -58,7 +58,7 @@ ReportPart studyRules(StudyContext& context)
   part.table.header = { "computed", "median ms", "quartiles ms", "ns/point", "x the default rule" };
   std::vector<vtkSmartPointer<vtkKernelBandwidthFilter>> filters;
   std::vector<Contestant> contestants;
-  for (const Setting& setting : kSettings)
+  for (const RuleSetting& setting : kSettings)
   {
     auto filter = vtkSmartPointer<vtkKernelBandwidthFilter>::New();
     filter->SetInputData(cloud.polyData);

@@ -24,7 +24,6 @@ namespace bandwidth
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kNeighbors[] = { 4, 8, 16, 32, 64, 128 };
 /// Strips across the step of density, each this wide, as far as this to both sides.
 constexpr double kStrip = 0.0002;

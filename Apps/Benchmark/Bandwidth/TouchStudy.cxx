@@ -36,7 +36,7 @@ constexpr double kStep = 2e-4;
 /// Part by which radii may differ from those of the whole cloud.
 constexpr double kRadiiAgree = 1e-3;
 
-enum class Radii
+enum class RadiiWanted
 {
   All,    ///< An array for every mean, as a picture of the radii needs it.
   Needed, ///< Those the scene needs.
@@ -69,7 +69,7 @@ ProxyState goDown(const HapticScene& scene, Vec3 hip)
 class Touch
 {
 public:
-  Touch(const NamedCloud& cloud, Radii radii)
+  Touch(const NamedCloud& cloud, RadiiWanted radii)
     : radii_(radii)
     , resampler_(vtkSmartPointer<vtkVoxelMeanResampler>::New())
     , filter_(vtkSmartPointer<vtkKernelBandwidthFilter>::New())
@@ -81,7 +81,7 @@ public:
     filter_->SetInputConnection(resampler_->GetOutputPort());
     filter_->ComputeDensityOff();
     filter_->ComputeBandwidthOff();
-    filter_->SetComputeProxyRadius(radii == Radii::All);
+    filter_->SetComputeProxyRadius(radii == RadiiWanted::All);
   }
   void run()
   {
@@ -106,12 +106,12 @@ private:
     {
       input.counts.push_back(counts->GetComponent(i, 0));
     }
-    if (radii_ == Radii::All)
+    if (radii_ == RadiiWanted::All)
     {
       auto* array = vtkDoubleArray::SafeDownCast(means->GetPointData()->GetArray("ProxyRadius"));
       input.proxyRadii.assign(array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues());
     }
-    if (radii_ == Radii::Needed)
+    if (radii_ == RadiiWanted::Needed)
     {
       input.bandwidth = filter_->GetSettings();
     }
@@ -119,7 +119,7 @@ private:
     return input;
   }
 
-  Radii radii_;
+  RadiiWanted radii_;
   vtkSmartPointer<vtkVoxelMeanResampler> resampler_;
   vtkSmartPointer<vtkKernelBandwidthFilter> filter_;
   std::shared_ptr<const HapticScene> scene_;
@@ -212,9 +212,9 @@ ReportPart studyTouch(StudyContext& context)
                           "too; it makes what is near the hand first, and the whole cloud after that.",
     grouped(cloud.size()), context.mostThreads(), kDimension);
   part.table.header = { "radii", "median ms", "quartiles ms", "x needed", "proxy radius mm", "answer" };
-  Touch needed(cloud, Radii::Needed);
-  Touch all(cloud, Radii::All);
-  Touch none(cloud, Radii::None);
+  Touch needed(cloud, RadiiWanted::Needed);
+  Touch all(cloud, RadiiWanted::All);
+  Touch none(cloud, RadiiWanted::None);
   WindowTouch near(cloud, true);
   WindowTouch whole(cloud, false);
   const auto wayOf = [](const char* name, auto& touch)

@@ -25,7 +25,7 @@ namespace
 /// In bandwidths.
 constexpr double kCutoffs[] = { 2.0, 3.0, 4.0, 5.0, kDensityCutoff, 8.0 };
 /// Ours leaves out kernels below 1.6e-8 of their height; the sum of those left out may be somewhat more.
-constexpr double kOursMayDiffer = 1e-6;
+constexpr double kCutMayDiffer = 1e-6;
 
 /// As surfaceDensities, with another cutoff.
 void densitiesCutOff(const NeighborQuery& query, const std::vector<double>& bandwidths, double cutoff,
@@ -65,15 +65,15 @@ std::vector<Expected> directSums(const PointView& points, const std::vector<doub
   return expected;
 }
 
-struct Errors
+struct DensityErrors
 {
   double worst = 0.0;
   double rms = 0.0;
 };
 
-Errors errorsOf(const std::vector<double>& densities, const std::vector<Expected>& expected)
+DensityErrors errorsOf(const std::vector<double>& densities, const std::vector<Expected>& expected)
 {
-  Errors errors;
+  DensityErrors errors;
   for (const Expected& point : expected)
   {
     const double error = double(std::fabs(densities[point.index] / point.density - 1));
@@ -144,17 +144,17 @@ ReportPart studyTruncation(StudyContext& context)
   {
     const double seconds = quartiles(laps[i].seconds).median;
     const bool gaussian = i < std::size(kCutoffs);
-    const Errors errors = gaussian ? errorsOf(densities[i], expected) : Errors();
+    const DensityErrors errors = gaussian ? errorsOf(densities[i], expected) : DensityErrors();
     const bool ours = gaussian && kCutoffs[i] == kDensityCutoff;
     const std::string name =
       gaussian ? fmt::format("{}{}", kCutoffs[i], ours ? ", the filter's" : "") : "Epanechnikov kernel";
-    context.allRight = context.allRight && (!ours || errors.worst <= kOursMayDiffer);
+    context.allRight = context.allRight && (!ours || errors.worst <= kCutMayDiffer);
     part.table.rows.push_back({ name, milliseconds(seconds), brief(1e9 * seconds / double(cloud.size())),
       gaussian ? fmt::format("{:.2g}", errors.worst) : "",
       gaussian ? fmt::format("{:.2g}", errors.rms) : "" });
     part.rows.push_back(
       { { "cutoff", name }, { "median_seconds", seconds }, { "worst_relative_error", errors.worst },
-        { "rms_relative_error", errors.rms }, { "right", !ours || errors.worst <= kOursMayDiffer } });
+        { "rms_relative_error", errors.rms }, { "right", !ours || errors.worst <= kCutMayDiffer } });
     if (gaussian)
     {
       addPoint(lines, "largest", 1e3 * seconds, errors.worst);

@@ -13,7 +13,6 @@ namespace proxy
 namespace
 {
 
-constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kHandSpeed = 0.047;
 constexpr double kSheetTop = 0.0004;
 /// Points at which a curve is measured before it is walked at constant speed.

@@ -16,6 +16,8 @@ namespace proxy
 {
 
 constexpr double kTickSeconds = 1e-3;
+constexpr double kTwoPi = 6.28318530717958647692;
+constexpr double kSmallestMove = 1e-6; ///< Of a hand, metres: steps of force after less are not looked at.
 
 /// HIP positions in metres, one a tick. The sheet's answer depends on the side the hand came from: courses
 /// come from outside, above.

@@ -17,7 +17,7 @@ namespace proxy
 namespace
 {
 
-constexpr std::uint64_t kSeed = 7;
+constexpr std::uint64_t kSceneSeed = 7;
 constexpr double kFittedSide = 0.095;
 
 /// False: the lattice cannot be had.
@@ -78,7 +78,7 @@ Scene sceneOf(const std::vector<Vec3>& points, const SceneSettings& settings)
 std::vector<Vec3> pointsOf(Shape shape, std::int64_t count, double noise)
 {
   std::vector<Vec3> points;
-  static_cast<void>(generateShape(shape, count, kSeed, noise, points));
+  static_cast<void>(generateShape(shape, count, kSceneSeed, noise, points));
   return points;
 }
 

@@ -17,7 +17,7 @@ namespace proxy
 namespace
 {
 
-constexpr std::uint64_t kSeed = 60;
+constexpr std::uint64_t kPlaceSeed = 60;
 constexpr double kStart = 3e-3;
 constexpr double kDepth = 1e-3;
 constexpr double kSpeed = 0.010;
@@ -47,7 +47,7 @@ std::vector<Stroke> strokesOn(const HapticScene& scene, int count)
 {
   const std::vector<Cell>& cells = scene.pyramid().level(0).cells;
   const Vec3 middle = 0.5 * (scene.bounds().minimum + scene.bounds().maximum);
-  detail::PortableRandom random(kSeed);
+  detail::PortableRandom random(kPlaceSeed);
   std::vector<Stroke> strokes;
   for (int tries = 0; int(strokes.size()) < count && tries < kMostTries * count; ++tries)
   {

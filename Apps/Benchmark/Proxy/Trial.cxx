@@ -15,10 +15,8 @@ namespace proxy
 namespace
 {
 
-constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kDegrees = 360.0 / kTwoPi;
 constexpr double kClear = 20e-6;
-constexpr double kSmallestMove = 1e-6;
 
 /// Walks the course; the update time of each tick in microseconds, the least over all walks so far.
 std::vector<ProxyState> walk(const HapticScene& scene, const HapticParameters& parameters,

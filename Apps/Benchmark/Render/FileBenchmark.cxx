@@ -22,7 +22,6 @@ namespace render
 namespace
 {
 
-constexpr double kDegreesPerFrame = 2.0;
 /// Frames of all points are slow: so many less are drawn.
 constexpr int kFewer = 4;
 

@@ -26,8 +26,6 @@ constexpr const char* kMethod =
   "draws it: the points of the file as tilted discs with eye-dome light, the workspace; off the screen, "
   "without the chart. Without a graphics card, Mesa's software renderer draws on all cores.";
 
-constexpr double kDegreesPerFrame = 2.0;
-
 struct Context
 {
   const RenderBenchmarkOptions& options;

@@ -17,6 +17,8 @@ namespace bench
 namespace render
 {
 
+constexpr double kDegreesPerFrame = 2.0;
+
 /// What a picture is drawn with, each with all before it.
 enum class Effect
 {

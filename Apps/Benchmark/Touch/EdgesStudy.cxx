@@ -23,8 +23,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kHalf = 0.025; ///< Of Shape::Box.
 constexpr double kBeyond = 0.015;
-constexpr double kPressSpeed = 0.025;
-constexpr int kEndTicks = 100;
+constexpr int kTicksAtRest = 100;
 constexpr double kLeastOutside = 5e-4;
 constexpr double kForce = 0.05;
 constexpr std::uint64_t kSeed = 540;
@@ -69,7 +68,7 @@ std::vector<TouchStroke> strokesOver(bool corner, int starts)
         TouchStroke stroke;
         moveTo(stroke, top + Vec3(0.0, 0.0, 3e-3), low, kPressSpeed);
         moveTo(stroke, low, low + (back + kBeyond) * along, speed);
-        stay(stroke, kEndTicks);
+        stay(stroke, kTicksAtRest);
         strokes.push_back(std::move(stroke));
       }
     }

@@ -12,7 +12,7 @@ namespace touch
 namespace
 {
 
-constexpr std::uint64_t kSampleSeed = 28;
+constexpr std::uint64_t kScanSampleSeed = 28;
 
 struct Cloud
 {
@@ -41,7 +41,7 @@ std::vector<TouchMesh> meshesOf(const TouchBenchmarkOptions& options)
 std::vector<Cloud> cloudsOf(const TouchMesh& mesh, const TouchBenchmarkOptions& options)
 {
   std::vector<Cloud> clouds;
-  clouds.push_back({ "samples", samplesOf(mesh, options.points, kSampleSeed) });
+  clouds.push_back({ "samples", samplesOf(mesh, options.points, kScanSampleSeed) });
   if (mesh.isScan)
   {
     clouds.push_back({ "vertices", mesh.points });

@@ -17,13 +17,11 @@ namespace touch
 namespace
 {
 
-constexpr std::uint64_t kSampleSeed = 29;
+constexpr std::uint64_t kThinSampleSeed = 29;
 constexpr std::uint64_t kStrokeSeed = 30;
-constexpr double kPressSpeed = 0.025;
 constexpr double kLiftSpeed = 0.050;
 constexpr double kAbove = 3e-3;
-constexpr double kHalf = 0.025;
-constexpr int kRestTicks = 60;
+constexpr double kPlateHalf = 0.025;
 constexpr double kDegree = 0.017453292519943295;
 
 struct Item
@@ -66,7 +64,7 @@ Item finished(Item item, std::int64_t points)
   {
     std::transform(stroke.hip.begin(), stroke.hip.end(), stroke.hip.begin(), turnedAway);
   }
-  item.points = samplesOf(item.mesh, points, kSampleSeed);
+  item.points = samplesOf(item.mesh, points, kThinSampleSeed);
   return item;
 }
 
@@ -76,8 +74,8 @@ Item plate(double thickness, int count, detail::PortableRandom& random)
   Item item;
   item.name = fmt::format("plate {:.1f} mm", 1e3 * thickness);
   const double half = 0.5 * thickness;
-  item.mesh =
-    blockMesh({ -kHalf, kHalf }, { -kHalf, kHalf }, { -half, half }, [](int, int, int) { return true; });
+  item.mesh = blockMesh({ -kPlateHalf, kPlateHalf }, { -kPlateHalf, kPlateHalf }, { -half, half },
+    [](int, int, int) { return true; });
   const double speeds[] = { 0.05, 0.2, 0.5, 1.0 };
   for (int i = 0; i < count; ++i)
   {
@@ -102,9 +100,9 @@ Item opening(const std::string& name, double width, double length, int count, de
 {
   Item item;
   item.name = fmt::format("{} {:.0f} mm", name, 1e3 * width);
-  item.mesh =
-    blockMesh({ -kHalf, -0.5 * width, 0.5 * width, kHalf }, { -kHalf, -0.5 * length, 0.5 * length, kHalf },
-      { -0.0015, 0.0015 }, [](int x, int y, int) { return x != 1 || y != 1; });
+  item.mesh = blockMesh({ -kPlateHalf, -0.5 * width, 0.5 * width, kPlateHalf },
+    { -kPlateHalf, -0.5 * length, 0.5 * length, kPlateHalf }, { -0.0015, 0.0015 },
+    [](int x, int y, int) { return x != 1 || y != 1; });
   for (int i = 0; i < count; ++i)
   {
     const double reach = 0.3 * length;
@@ -122,7 +120,7 @@ Item ridge(double thickness, int count, detail::PortableRandom& random)
   Item item;
   item.name = fmt::format("ridge {:.1f} mm", 1e3 * thickness);
   const double half = 0.5 * thickness;
-  item.mesh = blockMesh({ -0.015, -half, half, 0.015 }, { -kHalf, kHalf }, { -0.005, 0.0, 0.012 },
+  item.mesh = blockMesh({ -0.015, -half, half, 0.015 }, { -kPlateHalf, kPlateHalf }, { -0.005, 0.0, 0.012 },
     [](int x, int, int z) { return z == 0 || x == 1; });
   for (int i = 0; i < count; ++i)
   {

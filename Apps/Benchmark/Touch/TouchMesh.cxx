@@ -20,8 +20,6 @@ namespace
 {
 
 constexpr double kTwoPi = 6.28318530717958647692;
-/// Twice the area, m^2, below which a triangle has no usable normal.
-constexpr double kLeastArea = 1e-16;
 constexpr std::uint32_t kNone = ~0u;
 
 Vec3 areaVector(const TouchMesh& mesh, std::size_t triangle)

@@ -16,6 +16,9 @@ namespace bench
 namespace touch
 {
 
+/// Twice the area, m^2, below which a triangle has no usable normal.
+constexpr double kLeastArea = 1e-16;
+
 /// Metres, workspace frame. Counter-clockwise from outside.
 struct TouchMesh
 {

@@ -18,12 +18,10 @@ constexpr double kHeight = 4e-3;
 constexpr double kDepth = 1e-3;
 constexpr double kSlide = 10e-3;
 constexpr double kLift = 5e-3;
-constexpr double kPressSpeed = 0.025;
 constexpr double kSlowSpeed = 0.020;
 constexpr double kFastSpeed = 0.050;
-constexpr int kRestTicks = 60;
 /// A ray from outside ends this far above the place it goes to.
-constexpr double kAbove = 1e-6;
+constexpr double kJustAbove = 1e-6;
 /// Places tried for one that can be reached.
 constexpr int kMostTries = 200;
 constexpr double kNearShift = 10e-6;
@@ -109,7 +107,7 @@ std::vector<TouchStroke> strokesOn(const TriangleTree& tree, int count, StrokeSe
     double x = 0.0;
     double y = 0.0;
     random.circle(x, y);
-    if (!tree.isCrossed(place + kHeight * n, place + kAbove * n, TriangleTree::Side::Any))
+    if (!tree.isCrossed(place + kHeight * n, place + kJustAbove * n, TriangleTree::Side::Any))
     {
       strokes.push_back(
         strokeAt(place, n, x * a + y * cross(n, a), strokes.size() % 2 == 0 ? kSlowSpeed : kFastSpeed));

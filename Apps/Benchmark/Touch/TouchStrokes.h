@@ -15,6 +15,8 @@ namespace touch
 {
 
 constexpr double kTickSeconds = 1e-3;
+constexpr double kPressSpeed = 0.025; ///< Metres a second.
+constexpr int kRestTicks = 60;        ///< After the hand has lifted.
 
 /// The HIP of each tick, metres.
 struct TouchStroke

@@ -44,4 +44,9 @@ private:
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// Seconds in which most files are read: a bar would only flicker.
+constexpr double kProgressDelay = 0.2;
+/// HapticViewerObserver::progress() is told 1 once, at the end.
+constexpr double kAlmostDone = 0.999;
+
 } // namespace pointhaptics

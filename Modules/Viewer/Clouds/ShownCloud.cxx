@@ -40,7 +40,7 @@ constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: kNoGrowth wh
 constexpr double kNoGrowth = 64.0;
 /// A cloud this many times as wide as it is high may be terrain.
 constexpr double kLowParts = 3.0;
-constexpr double kSmallestPixels = 2.0;
+constexpr double kSmallestShownPixels = 2.0;
 /// The pixels bound the splats, not the median of their lengths: a sweep is sparse far away.
 constexpr double kFarthestRatio = 1e6;
 /// Of the window that the first picture is reckoned with.
@@ -307,7 +307,7 @@ void drawShown(const ShownCloud& shown, vtkSplatMapper* mapper)
   mapper->SetSizeArrayName(kSplatLengthName);
   mapper->SetSizeScale(1.0);
   mapper->SetLargestRatio(kFarthestRatio);
-  mapper->SetPixelRange(kSmallestPixels, shown.look.largestPixels);
+  mapper->SetPixelRange(kSmallestShownPixels, shown.look.largestPixels);
   mapper->SetNormalArrayName(kSplatNormalName);
   mapper->SetNormalUnit(kSplatNormalUnit);
   mapper->SetAmbientLight(true);

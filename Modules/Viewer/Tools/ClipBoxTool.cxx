@@ -17,7 +17,7 @@ namespace pointhaptics
 namespace
 {
 
-constexpr float kBeforeTheStyle = 1.0F;
+constexpr float kBoxBeforeTheStyle = 1.0F;
 constexpr int kFaces = 6;
 /// Parts of the cloud's extent.
 constexpr double kStep = 0.02;
@@ -45,7 +45,7 @@ ClipBoxTool::ClipBoxTool(ViewScene& scene, HapticViewerOptions& options,
   for (const auto event :
     { vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent })
   {
-    interactor->AddObserver(event, command_, kBeforeTheStyle);
+    interactor->AddObserver(event, command_, kBoxBeforeTheStyle);
   }
 }
 

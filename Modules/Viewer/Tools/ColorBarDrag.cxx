@@ -13,7 +13,7 @@ namespace pointhaptics
 namespace
 {
 
-constexpr float kBeforeTheStyle = 1.0f;
+constexpr float kBarBeforeTheStyle = 1.0f;
 
 } // namespace
 
@@ -32,7 +32,7 @@ ColorBarDrag::ColorBarDrag(ViewScene& scene, PictureControls& controls, vtkRende
   for (const auto event :
     { vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent })
   {
-    interactor->AddObserver(event, command_, kBeforeTheStyle);
+    interactor->AddObserver(event, command_, kBarBeforeTheStyle);
   }
 }
 

@@ -16,11 +16,11 @@ namespace
 {
 
 /// Sliders and the colour bar come first, and keep what is theirs.
-constexpr float kBeforeTheStyle = 0.1F;
+constexpr float kJustBeforeTheStyle = 0.1F;
 /// A button that is let go farther away, pixels, was a drag.
 constexpr double kClick = 3.0;
 /// Of a measured distance.
-constexpr std::size_t kNumbers = 6;
+constexpr std::size_t kNumbersOfTwoEnds = 6;
 
 } // namespace
 
@@ -36,7 +36,7 @@ DistanceMeasuring::DistanceMeasuring(ViewScene& scene, HapticViewerOptions& opti
     { static_cast<DistanceMeasuring*>(self)->follow(event); });
   for (const auto event : { vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent })
   {
-    interactor->AddObserver(event, command_, kBeforeTheStyle);
+    interactor->AddObserver(event, command_, kJustBeforeTheStyle);
   }
 }
 
@@ -98,7 +98,7 @@ void DistanceMeasuring::choose()
     return;
   }
   std::vector<double>& ends = options_.picture.measure;
-  if (ends.size() >= kNumbers)
+  if (ends.size() >= kNumbersOfTwoEnds)
   {
     ends.clear();
   }

@@ -39,8 +39,6 @@ namespace
 constexpr double kChartHeight = 0.24; // part of the window
 /// Calls of the timer, of 33 ms each, between two looks at the files.
 constexpr int kLooksApart = 8;
-/// HapticViewerObserver::progress() is told 1 once, at the end.
-constexpr double kAlmostDone = 0.999;
 
 } // namespace
 

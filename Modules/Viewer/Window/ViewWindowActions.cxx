@@ -28,8 +28,6 @@ namespace pointhaptics
 namespace
 {
 
-/// Seconds; what is read sooner shows no bar.
-constexpr double kProgressDelay = 0.2;
 constexpr const char* kAsSoonAsComputed = ", as soon as it is computed";
 constexpr auto kLateEscape = std::chrono::milliseconds(700);
 

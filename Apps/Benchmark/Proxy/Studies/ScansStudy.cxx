@@ -25,7 +25,6 @@ namespace
 
 /// A tick whose force falls by more than this is a drop, newtons.
 constexpr double kDrop = 0.2;
-constexpr double kSmallestMove = 1e-6;
 
 struct ScanFigures
 {

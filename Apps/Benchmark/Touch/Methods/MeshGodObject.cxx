@@ -13,7 +13,6 @@ namespace
 {
 
 constexpr int kLeafSize = 4;
-constexpr double kLeastArea = 1e-16;
 /// Facets reach this far beyond their sides, metres: no way leads between two neighbours.
 constexpr double kSide = 1e-10;
 /// A start this far behind a facet counts as in front of it, metres; the second holds before a release: a god

@@ -18,7 +18,7 @@ constexpr double kContact = 3.1;
 constexpr double kOuter = 5.0;
 constexpr double kStep = 0.05;
 constexpr int kMostSteps = 64;
-constexpr double kAtRest = 1e-3;
+constexpr double kVoxelsAtRest = 1e-3;
 
 std::uint64_t bucketKey(std::int64_t x, std::int64_t y, std::int64_t z)
 {
@@ -115,7 +115,7 @@ ProxyState OccupancyProxy::step(const Vec3& hip, double)
     const Vec3 before = center_;
     move(hip);
     move(hip);
-    if (norm(center_ - before) < kAtRest * voxel_)
+    if (norm(center_ - before) < kVoxelsAtRest * voxel_)
     {
       break;
     }
