@@ -5,19 +5,20 @@
 #include <algorithm>
 
 using namespace pointhaptics::bench;
+using RaceContestant = pointhaptics::bench::Contestant;
 
 namespace
 {
 
 /// A clock that goes only while a contestant runs.
-struct Course
+struct RaceCourse
 {
   double now = 0.0;
   std::vector<std::string> log;
 
-  Contestant contestant(const std::string& name, double seconds)
+  RaceContestant contestant(const std::string& name, double seconds)
   {
-    Contestant result;
+    RaceContestant result;
     result.name = name;
     result.before = [this, name] { log.push_back("before " + name); };
     result.run = [this, name, seconds]
@@ -46,7 +47,7 @@ struct Course
 
 TEST(Race, ChecksTheFirstAnswerBeforeAnythingElseRuns)
 {
-  Course course;
+  RaceCourse course;
   race({ course.contestant("a", 1.0), course.contestant("b", 2.0) }, course.settings(1, 0));
   const std::vector<std::string> begin(course.log.begin(), course.log.begin() + 6);
   EXPECT_EQ(begin, (std::vector<std::string>{ "before a", "a", "check a", "before b", "b", "check b" }));
@@ -54,9 +55,9 @@ TEST(Race, ChecksTheFirstAnswerBeforeAnythingElseRuns)
 
 TEST(Race, TimesEveryRoundAndTheFirstCallApart)
 {
-  Course course;
+  RaceCourse course;
   int calls = 0;
-  Contestant slowAtFirst = course.contestant("a", 1.0);
+  RaceContestant slowAtFirst = course.contestant("a", 1.0);
   slowAtFirst.run = [&] { course.now += ++calls == 1 ? 100.0 : 1.0; };
   const auto laps = race({ slowAtFirst, course.contestant("b", 2.0) }, course.settings(5, 2));
   ASSERT_EQ(laps.size(), 2u);
@@ -68,9 +69,9 @@ TEST(Race, TimesEveryRoundAndTheFirstCallApart)
 
 TEST(Race, OfCallsInARowTheLastIsTimedAndTheFirstKeptToo)
 {
-  Course course;
+  RaceCourse course;
   int calls = 0;
-  Contestant contestant = course.contestant("a", 1.0);
+  RaceContestant contestant = course.contestant("a", 1.0);
   contestant.run = [&] { course.now += ++calls % 3 == 2 ? 7.0 : calls % 3 == 0 ? 3.0 : 1.0; };
   RaceSettings settings = course.settings(4, 1);
   settings.inARow = 3;
@@ -82,16 +83,16 @@ TEST(Race, OfCallsInARowTheLastIsTimedAndTheFirstKeptToo)
 
 TEST(Race, WhatIsDoneBeforeARunIsNotTimed)
 {
-  Course course;
-  Contestant contestant = course.contestant("a", 1.0);
+  RaceCourse course;
+  RaceContestant contestant = course.contestant("a", 1.0);
   contestant.before = [&] { course.now += 50.0; };
   EXPECT_EQ(quartiles(race({ contestant }, course.settings(3, 0)).front().seconds).maximum, 1.0);
 }
 
 TEST(Race, EveryoneRunsOncePerRoundInChangingOrder)
 {
-  Course course;
-  std::vector<Contestant> contestants;
+  RaceCourse course;
+  std::vector<RaceContestant> contestants;
   for (const char* name : { "a", "b", "c" })
   {
     contestants.push_back(course.contestant(name, 1.0));
@@ -113,8 +114,8 @@ TEST(Race, EveryoneRunsOncePerRoundInChangingOrder)
 
 TEST(Race, WhoFailsTheCheckIsNotTimed)
 {
-  Course course;
-  Contestant bad = course.contestant("bad", 1.0);
+  RaceCourse course;
+  RaceContestant bad = course.contestant("bad", 1.0);
   bad.check = [] { return false; };
   const auto laps = race({ bad, course.contestant("good", 1.0) }, course.settings(4, 1));
   EXPECT_FALSE(laps[0].checked);
@@ -124,7 +125,7 @@ TEST(Race, WhoFailsTheCheckIsNotTimed)
 
 TEST(Race, ContestantsThatTakeTooLongSitOutTheRoundsLeft)
 {
-  Course course;
+  RaceCourse course;
   RaceSettings settings = course.settings(10, 2);
   settings.longestSeconds = 60.0;
   const auto laps = race(

@@ -17,7 +17,7 @@ std::string numberText(double value)
 }
 
 template <typename T>
-void append(std::string& bytes, T value)
+void appendLittle(std::string& bytes, T value)
 {
   for (std::size_t i = 0; i < sizeof(T); ++i)
   {
@@ -75,12 +75,12 @@ void appendPackets(std::string& logical, const E57TestScan& scan)
   {
     std::string packet(1, '\1');
     packet.resize(4);
-    append(packet, static_cast<std::uint16_t>(streams.size()));
+    appendLittle(packet, static_cast<std::uint16_t>(streams.size()));
     std::string content;
     for (const std::string& stream : streams)
     {
       const std::string part = at < stream.size() ? stream.substr(at, scan.bytesPerPart) : std::string();
-      append(packet, static_cast<std::uint16_t>(part.size()));
+      appendLittle(packet, static_cast<std::uint16_t>(part.size()));
       content += part;
     }
     appendPadded(logical, packet + content);
@@ -220,9 +220,9 @@ std::string E57TestFile::bytes() const
     std::string packets;
     appendPackets(packets, scan);
     logical += std::string("\1\0\0\0\0\0\0\0", 8);
-    append(logical, static_cast<std::uint64_t>(32 + packets.size()));
-    append(logical, physicalOf(section + 32));
-    append(logical, std::uint64_t{ 0 });
+    appendLittle(logical, static_cast<std::uint64_t>(32 + packets.size()));
+    appendLittle(logical, physicalOf(section + 32));
+    appendLittle(logical, std::uint64_t{ 0 });
     logical += packets;
     scansXml += "<vectorChild type=\"Structure\">" + scan.xml +
       pointsXml(scan, physicalOf(sharesSection ? first : section)) + "</vectorChild>\n";
@@ -234,12 +234,12 @@ std::string E57TestFile::bytes() const
   logical += document;
   const std::uint64_t length = (logical.size() + kContent - 1) / kContent * kPage;
   std::string header = "ASTM-E57";
-  append(header, std::uint32_t{ 1 });
-  append(header, std::uint32_t{ 0 });
-  append(header, length);
-  append(header, physicalOf(xmlAt));
-  append(header, static_cast<std::uint64_t>(document.size()));
-  append(header, std::uint64_t{ kPage });
+  appendLittle(header, std::uint32_t{ 1 });
+  appendLittle(header, std::uint32_t{ 0 });
+  appendLittle(header, length);
+  appendLittle(header, physicalOf(xmlAt));
+  appendLittle(header, static_cast<std::uint64_t>(document.size()));
+  appendLittle(header, std::uint64_t{ kPage });
   logical.replace(0, header.size(), header);
   return e57Physical(logical);
 }

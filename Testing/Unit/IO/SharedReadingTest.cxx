@@ -14,16 +14,16 @@ namespace
 using pointhaptics::Ranks;
 using pointhaptics::trial::ThreadJob;
 
-struct Part
+struct PartRead
 {
   ReadResult result;
   bool failedElsewhere = false;
   vtkTypeInt64 bytesRead = 0;
 };
 
-Part readAsRank(const std::string& file, Ranks* ranks)
+PartRead readAsRank(const std::string& file, Ranks* ranks)
 {
-  Part part;
+  PartRead part;
   vtkNew<vtkCallbackCommand> observer;
   observer->SetCallback(&countEvent);
   observer->SetClientData(&part.result.errorEvents);
@@ -40,9 +40,9 @@ Part readAsRank(const std::string& file, Ranks* ranks)
 }
 
 /// @p fileOf: what each rank reads.
-std::vector<Part> readTogether(int size, const std::function<std::string(int)>& fileOf)
+std::vector<PartRead> readTogether(int size, const std::function<std::string(int)>& fileOf)
 {
-  std::vector<Part> parts(static_cast<std::size_t>(size));
+  std::vector<PartRead> parts(static_cast<std::size_t>(size));
   ThreadJob(size).run([&](Ranks& ranks)
     { parts[static_cast<std::size_t>(ranks.rank())] = readAsRank(fileOf(ranks.rank()), &ranks); });
   return parts;
@@ -64,11 +64,11 @@ std::vector<vtkDataArray*> arraysOf(vtkPolyData* cloud)
   return arrays;
 }
 
-void expectSameArrays(const std::vector<Part>& parts, vtkPolyData* whole)
+void expectSameArrays(const std::vector<PartRead>& parts, vtkPolyData* whole)
 {
   const std::vector<vtkDataArray*> expected = arraysOf(whole);
   std::vector<std::string> together(expected.size());
-  for (const Part& part : parts)
+  for (const PartRead& part : parts)
   {
     ASSERT_EQ(part.result.error, "");
     ASSERT_FALSE(part.failedElsewhere);
@@ -97,14 +97,14 @@ protected:
   void expectPartsOf(const std::string& file, bool isEven = true) const
   {
     SCOPED_TRACE(file);
-    const Part whole = readAsRank(file, nullptr);
+    const PartRead whole = readAsRank(file, nullptr);
     ASSERT_EQ(whole.result.error, "");
     for (const int size : { 1, 2, 3, 7 })
     {
       SCOPED_TRACE(size);
-      const std::vector<Part> parts = readTogether(size, [&](int) { return file; });
+      const std::vector<PartRead> parts = readTogether(size, [&](int) { return file; });
       expectSameArrays(parts, whole.result.cloud);
-      for (const Part& part : parts)
+      for (const PartRead& part : parts)
       {
         const vtkIdType even = whole.result.points() / size;
         EXPECT_TRUE(!isEven || (part.result.points() >= even && part.result.points() <= even + 1));
@@ -224,7 +224,7 @@ TEST_F(SharedReading, ARankReadsItsBytesAlone)
          converted(write("large.las", lasOf(0, 0, records)), "large.ply") })
   {
     const auto size = static_cast<double>(std::filesystem::file_size(file));
-    for (const Part& part : readTogether(4, [&](int) { return file; }))
+    for (const PartRead& part : readTogether(4, [&](int) { return file; }))
     {
       EXPECT_EQ(part.result.points(), 100000);
       // A quarter, and the start of the file.
@@ -239,7 +239,7 @@ TEST_F(SharedReading, AFaultOfOneEndsTheReadingOfAll)
   const std::string bad = write("bad.csv", text + "1,2,3,4,x,6,7,8\n");
   const std::string good = write("good.csv", text);
   int faults = 0;
-  for (const Part& part : readTogether(4, [&](int) { return bad; }))
+  for (const PartRead& part : readTogether(4, [&](int) { return bad; }))
   {
     faults += part.result.error.empty() ? 0 : 1;
     EXPECT_NE(part.result.error.empty(), !part.failedElsewhere);
@@ -250,16 +250,16 @@ TEST_F(SharedReading, AFaultOfOneEndsTheReadingOfAll)
       << part.result.error;
   }
   EXPECT_EQ(faults, 1);
-  const std::vector<Part> missing =
+  const std::vector<PartRead> missing =
     readTogether(3, [&](int rank) { return rank == 1 ? path("absent.csv") : good; });
   EXPECT_NE(missing[1].result.error.find("no such file"), std::string::npos);
   EXPECT_TRUE(missing[0].failedElsewhere && missing[2].failedElsewhere);
-  for (const Part& part : readTogether(2, [&](int rank) { return rank == 0 ? good : bad; }))
+  for (const PartRead& part : readTogether(2, [&](int rank) { return rank == 0 ? good : bad; }))
   {
     EXPECT_NE(part.result.error.find("another size on another rank"), std::string::npos) << part.result.error;
   }
   const std::string empty = write("empty.csv", "x,y,z\n");
-  for (const Part& part : readTogether(3, [&](int) { return empty; }))
+  for (const PartRead& part : readTogether(3, [&](int) { return empty; }))
   {
     EXPECT_NE(part.result.error.find("no points"), std::string::npos) << part.result.error;
   }
