@@ -19,12 +19,6 @@ namespace pointhaptics
 /// The array of KeepOriginalPointIds.
 constexpr const char* kOriginalPointIds = "vtkOriginalPointIds";
 
-/// A point of the input stands for each voxel.
-inline bool keepsPoints(Representative representative)
-{
-  return representative == Representative::NearestToMean || representative == Representative::NearestToCenter;
-}
-
 /// A point array of the input, and what becomes of it.
 struct VoxelArray
 {

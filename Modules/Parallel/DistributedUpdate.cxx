@@ -185,10 +185,12 @@ std::string DistributedUpdate::shareArrays(int levels)
   request.keys = true;
   request.keepPointRecords = true;
   request.instructions = settings_.instructionSet;
+  const auto reducerOf = [&](const SharedArray& array)
+  { return AttributeReducer(array.attribute.request(), transform_, settings_.instructionSet, smp_); };
   std::vector<AttributeReducer> own;
   for (const SharedArray& array : arrays_)
   {
-    own.emplace_back(array.attribute.request(), transform_, settings_.instructionSet, smp_);
+    own.push_back(reducerOf(array));
     request.tuples.push_back(AttributeReducer::sourceOf(array.attribute.view()));
   }
   VoxelResampler engine;
@@ -213,7 +215,7 @@ std::string DistributedUpdate::shareArrays(int levels)
   for (std::size_t i = 0; i < own.size(); ++i)
   {
     SharedArray& array = arrays_[i];
-    array.merged = std::make_unique<AttributeReducer>(own[i].another());
+    array.merged = std::make_unique<AttributeReducer>(reducerOf(array));
     array.merged->prepare(made_.counts(), made_.size(), mostPoints, smp_);
     fits = shared_.exchange(ranks_, own[i], *array.merged) && fits;
   }

@@ -119,14 +119,8 @@ AttributeRange rangeOf(const AttributeView& view, const Executor& executor, Inst
 
 AttributeMean::AttributeMean(
   const AttributeView& view, const AttributeRange& range, InstructionSet instructions)
-  : AttributeMean(&simd::kernelsFor(instructions).attributes, view, range)
-{
-}
-
-AttributeMean::AttributeMean(
-  const simd::AttributeKernels* kernels, const AttributeView& view, const AttributeRange& range)
   : view_(view)
-  , kernels_(kernels)
+  , kernels_(&simd::kernelsFor(instructions).attributes)
   , lanes_(view.type == ScalarType::Int64 || view.type == ScalarType::UInt64 ? 2 : 1)
   , range_(range)
 {

@@ -48,9 +48,6 @@ public:
   {
   }
 
-  /// Another that averages the same array, without sums.
-  AttributeMean another() const { return { kernels_, view_, range_ }; }
-
   /// Drops all sums and makes room for @p voxels of at most @p mostPoints points each, at coarser levels
   /// too.
   void prepare(std::int64_t voxels, std::int64_t mostPoints, const Executor& executor = {});
@@ -88,8 +85,6 @@ public:
   const AttributeRange& range() const { return range_; }
 
 private:
-  AttributeMean(
-    const simd::AttributeKernels* kernels, const AttributeView& view, const AttributeRange& range);
   __extension__ typedef __int128 Int128;
   static constexpr int kMostPartBits = 40;
   /// The most parts from the largest double to the last bit of the smallest, at 28 bits each.

@@ -28,30 +28,11 @@ std::variant<AttributeMean, AttributeTuples> tuplesFor(
 
 AttributeReducer::AttributeReducer(const AttributeRequest& request, const AffineTransform& transform,
   InstructionSet instructions, const Executor& executor)
-  : view_(request.view)
-  , statistic_(request.statistic)
+  : statistic_(request.statistic)
   , columns_{ transform.applyToNormal({ 1, 0, 0 }), transform.applyToNormal({ 0, 1, 0 }),
     transform.applyToNormal({ 0, 0, 1 }) }
   , tuples_(tuplesFor(request, instructions, executor))
 {
-}
-
-AttributeReducer::AttributeReducer(Tuples tuples, const AttributeReducer& like)
-  : view_(like.view_)
-  , statistic_(like.statistic_)
-  , tuples_(std::move(tuples))
-{
-  std::copy(like.columns_, like.columns_ + 3, columns_);
-}
-
-AttributeReducer AttributeReducer::another() const
-{
-  return { std::visit([](const auto& ofVoxels) { return Tuples(ofVoxels.another()); }, tuples_), *this };
-}
-
-std::size_t AttributeReducer::tupleBytes() const
-{
-  return sourceOf(view_).bytes;
 }
 
 TupleSource AttributeReducer::sourceOf(const AttributeView& view)

@@ -21,20 +21,15 @@
 namespace pointhaptics
 {
 
-/// Means are summed, and need no more memory for more points; of modes and medians all tuples are kept.
+/// Keeps the sums or the tuples of voxels: see isSum().
 class AttributeReducer
 {
 public:
   AttributeReducer(const AttributeRequest& request, const AffineTransform& transform,
     InstructionSet instructions, const Executor& executor);
-  /// Another for the same array, without tuples.
-  AttributeReducer another() const;
 
   /// The tuples that add() needs.
   static TupleSource sourceOf(const AttributeView& view);
-  /// Of a tuple.
-  std::size_t tupleBytes() const;
-  bool isSum() const { return std::holds_alternative<AttributeMean>(tuples_); }
 
   /// Drops all tuples and makes room for those of @p voxels, @p counts each, at most @p mostPoints.
   void prepare(
@@ -61,13 +56,9 @@ public:
     const std::int64_t* counts, void* values, const Executor& executor, ProgressObserver* observer) const;
 
 private:
-  using Tuples = std::variant<AttributeMean, AttributeTuples>;
-  AttributeReducer(Tuples tuples, const AttributeReducer& like);
-
-  AttributeView view_;
   AttributeStatistic statistic_;
   Vec3 columns_[3]; ///< How normals are turned.
-  Tuples tuples_;
+  std::variant<AttributeMean, AttributeTuples> tuples_;
 };
 
 } // namespace pointhaptics

@@ -85,9 +85,6 @@ public:
   {
   }
 
-  /// Another for tuples of the same kind, without any.
-  AttributeTuples another() const { return { type_, components_, statistic_ }; }
-
   /// Drops all tuples and makes room for those of @p voxels, @p counts each.
   void prepare(const std::int64_t* counts, std::int64_t voxels);
   /// Keeps copies of tuples, each @p stride bytes after the one before and aligned like their numbers.

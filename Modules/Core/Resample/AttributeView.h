@@ -39,6 +39,12 @@ enum class AttributeStatistic
   Median, ///< Component by component, of an even number the lower middle one.
 };
 
+/// Such are summed, and need no more memory for more points; of others all tuples are kept.
+inline bool isSum(AttributeStatistic statistic)
+{
+  return statistic == AttributeStatistic::Mean || statistic == AttributeStatistic::Normal;
+}
+
 /// An array to reduce to one tuple a voxel, of its own type.
 struct AttributeRequest
 {

@@ -18,4 +18,10 @@ enum class Representative
   Median,          ///< Coordinate by coordinate; of an even number the lower middle one.
 };
 
+/// A point of the input stands for each voxel.
+inline bool keepsPoints(Representative representative)
+{
+  return representative == Representative::NearestToMean || representative == Representative::NearestToCenter;
+}
+
 } // namespace pointhaptics

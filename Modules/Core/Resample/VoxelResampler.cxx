@@ -10,30 +10,7 @@ namespace pointhaptics
 
 using namespace simd;
 
-namespace
-{
-
 constexpr int kMostLevels = 22;
-
-/// What choosePoints() reads of each point: its coordinates, where one is to be chosen, and last its number.
-void addPointSources(VoxelRequest& request)
-{
-  request.keys = request.keepPointRecords = true;
-  const PointView& points = request.points;
-  if (request.representative != Representative::Mean && points.floats())
-  {
-    request.tuples.push_back(
-      { points.floats(), 3 * sizeof(float), std::size_t(points.stride()) * sizeof(float) });
-  }
-  else if (request.representative != Representative::Mean)
-  {
-    request.tuples.push_back(
-      { points.doubles(), 3 * sizeof(double), std::size_t(points.stride()) * sizeof(double) });
-  }
-  request.tuples.emplace_back();
-}
-
-}
 
 bool VoxelResampler::Implementation::usesPartitions(const Lattice& lattice)
 {
@@ -44,11 +21,11 @@ Status VoxelResampler::Implementation::check(const VoxelRequest& request)
 {
   const PointIndex* index = request.index;
   const std::int64_t points = request.points.size();
-  const bool keepsPoints = request.representative != Representative::Mean || request.voxelIndex;
+  const bool choosesPoints = request.representative != Representative::Mean || request.voxelIndex;
   const bool isOwnPoints = index && points > 0 && request.points.floats() == index->points().floats() &&
     request.points.doubles() == index->points().doubles();
   if (request.levels < 1 || request.levels > kMostLevels ||
-    (keepsPoints && (request.levels > 1 || isOwnPoints)) ||
+    (choosesPoints && (request.levels > 1 || isOwnPoints)) ||
     (index && index->cloudSize() != points && finitePoints(*index) != points) ||
     std::any_of(request.attributes.begin(), request.attributes.end(),
       [&](const AttributeRequest& attribute) { return attribute.view.tuples < points; }))
@@ -69,20 +46,15 @@ Status VoxelResampler::Implementation::run(
     return status;
   }
   VoxelRequest wanted = request;
-  const bool chooses = request.representative != Representative::Mean || request.voxelIndex;
-  addAttributes(wanted, executor);
-  if (chooses)
-  {
-    addPointSources(wanted);
-  }
-  const double summed = !chooses && reducers_.empty() ? 1.0 : 0.5;
-  SubProgress summing(observer, 0.0, summed);
-  SubProgress reducing(observer, summed, chooses ? 0.75 : 1.0);
-  SubProgress choosing(observer, 0.75, 1.0);
-  status = runMeans(wanted, executor, &summing);
-  status = status == Status::Ok ? reduceAttributes(wanted, executor, &reducing) : status;
-  status = status == Status::Ok && chooses ? choosePoints(wanted, executor, &choosing) : status;
-  reducers_.clear();
+  VoxelReductions::chooseRows(wanted, executor);
+  wanted.keys = request.keys || wanted.tuples.size() > request.tuples.size();
+  wanted.keepPointRecords = request.keepPointRecords || request.voxelIndex;
+  levels[0].lattice = request.lattice;
+  usesPartitions_ = usesPartitions(request.lattice);
+  SubProgress summing(observer, 0.0, !reduces(request) && !request.voxelIndex ? 1.0 : 0.5);
+  SubProgress visiting(observer, 0.5, 1.0);
+  status = usesPartitions_ ? runBinned(wanted, executor, &summing) : runSorted(wanted, executor, &summing);
+  status = status == Status::Ok ? visitAgain(wanted, executor, &visiting) : status;
   if (status != Status::Ok)
   {
     clear();
@@ -90,12 +62,24 @@ Status VoxelResampler::Implementation::run(
   return status;
 }
 
-Status VoxelResampler::Implementation::runMeans(
+/// The stages: quantize and bin, accumulate, write.
+Status VoxelResampler::Implementation::runBinned(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
-  levels[0].lattice = request.lattice;
-  usesPartitions_ = usesPartitions(request.lattice);
-  return usesPartitions_ ? runBinned(request, executor, observer) : runSorted(request, executor, observer);
+  const Chunks chunks(request, kChunkPoints, executor);
+  prepareStages(request, chunks);
+  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  {
+    const bool isLast = chunk + 1 == chunks.count();
+    binner_.quantizeAndBin(request, chunks, chunk, poolHoldsAll_ || reducesInPass_, executor);
+    countPoints(binner_.pool().inside(), binner_.pool().invalid());
+    isLast ? accumulateAndWrite(request, executor) : accumulate(request, executor);
+    if (observer && !observer->report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
+    {
+      return Status::Aborted;
+    }
+  }
+  return request.levels > 1 ? addLevels(request, 1, executor, observer) : Status::Ok;
 }
 
 void VoxelResampler::Implementation::clear()
@@ -111,6 +95,29 @@ void VoxelResampler::Implementation::clear()
   runs_.reset(0, 0);
 }
 
+void VoxelResampler::Implementation::startCounts(const VoxelRequest& request)
+{
+  invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
+  clipped = request.points.size() - invalid;
+}
+
+void VoxelResampler::Implementation::countPoints(std::int64_t inside, std::int64_t invalidOnes)
+{
+  invalid += invalidOnes;
+  clipped -= inside + invalidOnes;
+}
+
+MeanArena::Layout VoxelResampler::Implementation::layoutOf(const VoxelRequest& request)
+{
+  MeanArena::Layout layout = { request.singlePrecision, request.keys, request.covariances,
+    keepsPoints(request.representative) };
+  for (const AttributeRequest& attribute : request.attributes)
+  {
+    layout.attributeBytes.push_back(AttributeReducer::sourceOf(attribute.view).bytes);
+  }
+  return layout;
+}
+
 /// Writes the means of the runs to a level. @pre these are joined. @param keeps: they are of use afterwards.
 /// @return false where the observer ended the work.
 bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, bool keeps, Level& level,
@@ -123,8 +130,7 @@ bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, bool
     level.firsts[range + 1] = level.firsts[range] + runs_.size(range);
   }
   level.size = std::int64_t(level.firsts.back());
-  level.arena.prepare(level.firsts.back(), { request.singlePrecision, request.keys, request.covariances },
-    level.lattice, runs_.fractionBits(), allocator);
+  level.arena.prepare(level.firsts.back(), layoutOf(request), level.lattice, runs_.fractionBits(), allocator);
   PointProgress progress(observer, level.size, 1);
   for (std::size_t first = 0, last = 0; first < ranges; first = last)
   {
@@ -190,13 +196,6 @@ Status VoxelResampler::Implementation::addLevels(
   return Status::Ok;
 }
 
-Status VoxelResampler::Implementation::visitPointsByVoxel(
-  const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
-{
-  return usesPartitions_ ? visitBinned(request, visit, executor, observer)
-                         : visitSorted(request, visit, executor, observer);
-}
-
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
   std::size_t sum = binner_.pool().bytes() + sorted_.bytes() + runs_.bytes() +
@@ -236,12 +235,6 @@ Status VoxelResampler::visitPointsByVoxel(
   return implementation_->visitPointsByVoxel(request, visit, executor, observer);
 }
 
-void VoxelResampler::visitPointsByVoxelSet(
-  const VoxelRequest& request, const SetWork& work, const Executor& executor)
-{
-  implementation_->visitPointsByVoxelSet(request, work, executor);
-}
-
 int VoxelResampler::exactLevels(const Lattice& lattice, int levels)
 {
   const int indexBits = indexBitsOf(lattice);
@@ -251,11 +244,6 @@ int VoxelResampler::exactLevels(const Lattice& lattice, int levels)
   }
   const int others = indexBits > kUncorrectedIndexBits ? kUncorrectedIndexBits : kMaximumIndexBits;
   return std::min(levels, indexBits - others);
-}
-
-bool VoxelResampler::canVisitByVoxelSet() const
-{
-  return implementation_->poolHoldsAll();
 }
 
 std::int64_t VoxelResampler::clippedPoints() const

@@ -171,15 +171,6 @@ public:
   Status visitPointsByVoxel(const VoxelRequest& request, const Visitor& visit, const Executor& executor = {},
     ProgressObserver* observer = nullptr);
 
-  /// The same for consecutive sets of voxels: calls work(first, voxels, forPoints) for each set, possibly
-  /// from several threads at once. forPoints(visit) visits all points of the set's voxels, whose numbers then
-  /// count from first. @pre that of visitPointsByVoxel(), and canVisitByVoxelSet()
-  using SetWork = std::function<void(
-    std::int64_t first, std::int64_t voxels, const std::function<void(const Visitor&)>& forPoints)>;
-  void visitPointsByVoxelSet(const VoxelRequest& request, const SetWork& work, const Executor& executor = {});
-  /// run() kept all point records: see VoxelRequest::keepPointRecords.
-  bool canVisitByVoxelSet() const;
-
   std::size_t scratchBytes() const;
   /// Frees the memory kept, results included.
   void releaseScratch();

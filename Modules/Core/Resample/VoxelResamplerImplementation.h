@@ -2,15 +2,14 @@
 /// The state and the steps of VoxelResampler. Private to Core.
 #pragma once
 
-#include "Core/Resample/AttributeReducer.h"
 #include "Core/Resample/Stages/CoarseVoxels.h"
 #include "Core/Resample/Stages/PartitionSums.h"
 #include "Core/Resample/Stages/PointBinner.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
 #include "Core/Resample/Stages/SortedPoints.h"
 #include "Core/Resample/Stages/VoxelLevel.h"
-#include "Core/Resample/Stages/VoxelRepresentatives.h"
 #include "Core/Resample/Stages/VoxelRuns.h"
+#include "Core/Resample/VoxelReductions.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstddef>
@@ -34,8 +33,6 @@ public:
   Status run(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status visitPointsByVoxel(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
-  void visitPointsByVoxelSet(const VoxelRequest& request, const SetWork& work, const Executor& executor);
-  bool poolHoldsAll() const { return poolHoldsAll_; }
   /// For VoxelAccumulator: the sums of the points in the lattice's voxels, and the levels of such sums.
   Status sum(const VoxelRequest& request, simd::VoxelRun& sums, int& fractionBits, const Executor& executor,
     ProgressObserver* observer);
@@ -57,44 +54,44 @@ private:
   /// Whether points are binned into partitions of the lattice, or sorted.
   static bool usesPartitions(const Lattice& lattice);
   static Status check(const VoxelRequest& request);
-  Status runMeans(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status runBinned(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status runSorted(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  void addAttributes(VoxelRequest& request, const Executor& executor);
-  std::vector<std::size_t> attributeBytes() const;
-  Status reduceAttributes(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
+  /// Points are clipped that are neither invalid nor, later, counted inside.
+  void startCounts(const VoxelRequest& request);
+  void countPoints(std::int64_t inside, std::int64_t invalidOnes);
+  void prepareStages(const VoxelRequest& request, const simd::Chunks& chunks);
+  void accumulate(const VoxelRequest& request, const Executor& executor);
+  void accumulateAndWrite(const VoxelRequest& request, const Executor& executor);
   template <typename Work>
   void forPartitions(const VoxelRequest& request, const Executor& executor, Work&& work);
-  void accumulateChunk(const VoxelRequest& request, const Executor& executor);
-  Status finishRuns(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  void finish(const VoxelRequest& request, const Executor& executor);
   void joinLayers(const Executor& executor);
+  Status finishRuns(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
+  /// Attributes, or the points that stand for voxels, are asked for.
+  static bool reduces(const VoxelRequest& request)
+  {
+    return !request.attributes.empty() || request.representative != Representative::Mean;
+  }
+  static simd::MeanArena::Layout layoutOf(const VoxelRequest& request);
   /// The part of the work of run() that the finest level is.
   static double fractionOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
   bool writeRuns(const VoxelRequest& request, bool keeps, simd::Level& level, OutputAllocator* allocator,
     const Executor& executor, ProgressObserver* observer);
   Status addLevels(
     const VoxelRequest& request, int levelOfRuns, const Executor& executor, ProgressObserver* observer);
-  Status choosePoints(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
-  Status chooseInSet(const VoxelRequest& request, simd::VoxelRepresentatives& set, std::int64_t first,
-    std::int64_t voxels, const std::function<Status(const Visitor&)>& forPoints, const Executor& executor,
-    ProgressObserver* observer);
-  void notePoints(const PointRows& rows, std::size_t numbers, std::int64_t firstVoxel,
-    const std::int64_t* voxels, int count);
+  Status visitAgain(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
+  Status reduceAgain(
+    const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
+  void notePoints(const PointRows& rows, std::size_t numbers, const std::int64_t* voxels, int count);
   Status visitBinned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
-  void visitPartition(const VoxelRequest& request, simd::PartitionWorker& worker, std::uint32_t partition,
-    std::int64_t firstVoxel, const Visitor& visit);
   Status visitSorted(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
 
   bool keepsRuns_ = false;      ///< For sum().
   bool usesPartitions_ = false; ///< In the last run.
   simd::PointBinner binner_;
-  bool poolHoldsAll_ = false; ///< The binner's pool holds all points of the last run, with their rows.
-  std::vector<AttributeReducer> reducers_; ///< One for each attribute of the request, during the run.
-  std::size_t firstAttribute_ = 0;         ///< Among the request's sources of tuples.
-  bool reducesInPass_ = false;             ///< Attributes are reduced where points are summed.
+  bool poolHoldsAll_ = false;  ///< The binner's pool holds all points of the last run, with their rows.
+  bool reducesInPass_ = false; ///< Attributes and representatives are made where points are summed.
   std::vector<simd::AccumulatedPartition> accumulated_;
   std::vector<std::unique_ptr<simd::PartitionWorker>> idle_;
   simd::SortedPoints sorted_;

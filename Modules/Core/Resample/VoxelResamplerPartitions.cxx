@@ -16,9 +16,9 @@ using namespace simd;
 class VoxelResampler::Implementation::WorkerLease
 {
 public:
-  WorkerLease(Implementation& owner, bool covariances)
+  WorkerLease(Implementation& owner, const VoxelRequest& request)
     : owner_(owner)
-    , attributes_{ owner.reducers_, owner.firstAttribute_, owner.binner_.rows(), owner.binner_.binnedRows() }
+    , reductions_{ request, owner.binner_.rows(), owner.binner_.binnedRows() }
   {
     {
       const std::lock_guard<std::mutex> lock(owner_.mutex_);
@@ -32,8 +32,8 @@ public:
     {
       worker_ = std::make_unique<PartitionWorker>();
     }
-    worker_->prepare(owner_.binner_.plan(), covariances);
-    worker_->reduce(owner_.reducesInPass_ ? &attributes_ : nullptr);
+    worker_->prepare(owner_.binner_.plan(), request.covariances);
+    worker_->reduce(owner_.reducesInPass_ ? &reductions_ : nullptr);
   }
   ~WorkerLease()
   {
@@ -47,45 +47,27 @@ public:
 
 private:
   Implementation& owner_;
-  PartitionAttributes attributes_;
+  PartitionReductions reductions_;
   std::unique_ptr<PartitionWorker> worker_;
 };
 
 static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
 
-Status VoxelResampler::Implementation::runBinned(
-  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
+void VoxelResampler::Implementation::prepareStages(const VoxelRequest& request, const Chunks& chunks)
 {
-  const Chunks chunks(request, kChunkPoints, executor);
-  binner_.prepare(request, chunks.count() == 0 ? 0 : chunks.pointCount(0));
-  const PartitionPlan& plan = binner_.plan();
-  accumulated_.resize(plan.partitions);
+  binner_.prepare(request, chunks.pointCount(0));
+  accumulated_.resize(binner_.plan().partitions);
   for (AccumulatedPartition& partition : accumulated_)
   {
     partition.clear();
   }
-  reducesInPass_ = !reducers_.empty() && request.levels == 1 &&
-    (chunks.count() <= 1 ||
-      std::all_of(reducers_.begin(), reducers_.end(), [](const auto& reducer) { return reducer.isSum(); }));
-  const bool holdsAll =
-    (request.keepPointRecords || (!reducers_.empty() && !reducesInPass_)) && chunks.count() == 1;
-  runs_.reset(0, plan.fractionBits);
-  std::int64_t inside = 0;
-  invalid = request.index ? request.points.size() - finitePoints(*request.index) : 0;
-  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
-  {
-    binner_.bin(request, chunks, chunk, holdsAll || reducesInPass_, executor);
-    inside += binner_.pool().inside();
-    invalid += binner_.pool().invalid();
-    chunk + 1 == chunks.count() ? finish(request, executor) : accumulateChunk(request, executor);
-    if (observer && !observer->report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
-    {
-      return Status::Aborted;
-    }
-  }
-  clipped = request.points.size() - inside - invalid;
-  poolHoldsAll_ = holdsAll;
-  return request.levels > 1 ? addLevels(request, 1, executor, observer) : Status::Ok;
+  const bool isOneChunk = chunks.count() == 1;
+  const bool areSums = request.representative == Representative::Mean &&
+    std::all_of(request.attributes.begin(), request.attributes.end(),
+      [](const AttributeRequest& attribute) { return isSum(attribute.statistic); });
+  reducesInPass_ = reduces(request) && request.levels == 1 && (isOneChunk || areSums);
+  poolHoldsAll_ = isOneChunk && (request.keepPointRecords || (reduces(request) && !reducesInPass_));
+  startCounts(request);
 }
 
 /// Calls work(worker, partition) for all partitions: each thread takes the next one, so that those before any
@@ -98,7 +80,7 @@ void VoxelResampler::Implementation::forPartitions(
   forRange(executor, executor.concurrency(), 1,
     [&](std::int64_t, std::int64_t)
     {
-      const WorkerLease lease(*this, request.covariances);
+      const WorkerLease lease(*this, request);
       for (std::uint32_t p = next++; p < binner_.plan().partitions; p = next++)
       {
         work(*lease, p);
@@ -107,7 +89,7 @@ void VoxelResampler::Implementation::forPartitions(
 }
 
 /// Adds the pool's records to the accumulated sums.
-void VoxelResampler::Implementation::accumulateChunk(const VoxelRequest& request, const Executor& executor)
+void VoxelResampler::Implementation::accumulate(const VoxelRequest& request, const Executor& executor)
 {
   const Kernels& kernels = kernelsFor(request.instructions);
   forPartitions(request, executor,
@@ -116,7 +98,7 @@ void VoxelResampler::Implementation::accumulateChunk(const VoxelRequest& request
 }
 
 /// The pool's records and the accumulated sums become means, or sums, or both where levels are to follow.
-void VoxelResampler::Implementation::finish(const VoxelRequest& request, const Executor& executor)
+void VoxelResampler::Implementation::accumulateAndWrite(const VoxelRequest& request, const Executor& executor)
 {
   const Kernels& kernels = kernelsFor(request.instructions);
   const bool keepsSums = keepsRuns_ || request.levels > 1;
@@ -128,10 +110,8 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
   {
     room += mostVoxels(binner_.plan(), binner_.pool().count(p), accumulated_[p].cellCount);
   }
-  VoxelWriter writer(levels[0], binner_.plan().partitions, room,
-    { request.singlePrecision, request.keys, request.covariances,
-      reducesInPass_ ? attributeBytes() : std::vector<std::size_t>() },
-    binner_.plan().fractionBits, request.allocator);
+  VoxelWriter writer(
+    levels[0], binner_.plan().partitions, room, layoutOf(request), fractionBits, request.allocator);
   forPartitions(request, executor,
     [&](PartitionWorker& worker, std::uint32_t p)
     {
@@ -151,7 +131,7 @@ void VoxelResampler::Implementation::finish(const VoxelRequest& request, const E
         runs_.add(
           p, isCoarse ? sumCoarseVoxels(worker.wide(), request.lattice, fractionBits) : worker.wide());
       }
-      accumulated_[p].attributes.clear();
+      accumulated_[p].reductions = {};
       accumulated_[p].trim();
     });
   writer.finish();
@@ -190,16 +170,22 @@ Status VoxelResampler::Implementation::visitBinned(
   {
     if (!poolHoldsAll_)
     {
-      binner_.bin(request, chunks, chunk, true, executor);
+      binner_.quantizeAndBin(request, chunks, chunk, true, executor);
     }
-    forRange(executor, binner_.plan().partitions, grainFor(binner_.plan().partitions, executor),
-      [&](std::int64_t begin, std::int64_t end)
+    forPartitions(request, executor,
+      [&](PartitionWorker& worker, std::uint32_t p)
       {
-        const WorkerLease lease(*this, false);
-        for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p)
-        {
-          visitPartition(request, *lease, p, std::int64_t(levels[0].firsts[p]), visit);
-        }
+        const std::size_t firstVoxel = levels[0].firsts[p];
+        std::int64_t voxels[kBlockRecords];
+        RowReader reader(binner_.rows(), binner_.binnedRows());
+        worker.rank(kernelsFor(request.instructions), binner_.pool(), p, levels[0].arena.keys() + firstVoxel,
+          levels[0].firsts[p + 1] - firstVoxel,
+          [&](const char* rows, const std::uint32_t* ranks, int count)
+          {
+            std::transform(ranks, ranks + count, voxels,
+              [=](std::uint32_t rank) { return std::int64_t(firstVoxel + rank); });
+            visit(reader.read(rows, count), voxels, count);
+          });
       });
     if (observer && !observer->report(double(chunk + 1) / double(chunks.count())))
     {
@@ -207,41 +193,6 @@ Status VoxelResampler::Implementation::visitBinned(
     }
   }
   return Status::Ok;
-}
-
-/// Visits the points of the pool in a partition. Its voxels get numbers from @p firstVoxel on.
-void VoxelResampler::Implementation::visitPartition(const VoxelRequest& request, PartitionWorker& worker,
-  std::uint32_t partition, std::int64_t firstVoxel, const Visitor& visit)
-{
-  const Level& level = levels[0];
-  const std::size_t first = level.firsts[partition];
-  std::int64_t voxels[kBlockRecords];
-  RowReader reader(binner_.rows(), binner_.binnedRows());
-  worker.rank(kernelsFor(request.instructions), binner_.pool(), partition, level.arena.keys() + first,
-    level.firsts[partition + 1] - first,
-    [&](const char* rows, const std::uint32_t* ranks, int count)
-    {
-      for (int i = 0; i < count; ++i)
-      {
-        voxels[i] = firstVoxel + ranks[i];
-      }
-      visit(reader.read(rows, count), voxels, count);
-    });
-}
-
-void VoxelResampler::Implementation::visitPointsByVoxelSet(
-  const VoxelRequest& request, const SetWork& work, const Executor& executor)
-{
-  const std::vector<std::size_t>& firsts = levels[0].firsts;
-  forPartitions(request, executor,
-    [&](PartitionWorker& worker, std::uint32_t p)
-    {
-      if (firsts[p + 1] > firsts[p])
-      {
-        work(std::int64_t(firsts[p]), std::int64_t(firsts[p + 1] - firsts[p]),
-          [&](const Visitor& visit) { visitPartition(request, worker, p, 0, visit); });
-      }
-    });
 }
 
 } // namespace pointhaptics

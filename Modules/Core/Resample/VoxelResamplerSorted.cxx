@@ -51,19 +51,16 @@ Status VoxelResampler::Implementation::runSorted(
   const PointQuantizer quantizer = sortedQuantizer(request);
   sorted_.choose(quantizer, request.lattice, chunks);
   runs_.reset(sorted_.ranges(), quantizer.fractionBits);
-  std::int64_t inside = 0;
-  invalid = usable.index ? request.points.size() - finitePoints(*usable.index) : 0;
+  startCounts(usable);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
     sorted_.sum(chunks, chunk, request.covariances, runs_, executor);
-    inside += sorted_.inside();
-    invalid += sorted_.invalid();
+    countPoints(sorted_.inside(), sorted_.invalid());
     if (observer && !observer->report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }
   }
-  clipped = request.points.size() - inside - invalid;
   return finishRuns(request, executor, observer);
 }
 

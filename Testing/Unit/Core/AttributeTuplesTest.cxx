@@ -196,7 +196,7 @@ TEST(AttributeTuples, StartsFromNothingEachTime)
   mode.prepare(countsOf(plan).data(), plan.size);
   mode.add(values.data(), sizeof(int), plan.voxels.data(), 900);
   EXPECT_TRUE(sameBits(written<int>(mode, 1, plan), expectedModes(values, 1, plan)));
-  const AttributeTuples none = mode.another();
+  const AttributeTuples none(ScalarType::Int32, 1);
   EXPECT_TRUE(none.write(nullptr, {}, nullptr)) << "no voxels";
 }
 

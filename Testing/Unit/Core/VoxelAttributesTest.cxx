@@ -182,6 +182,37 @@ TEST(VoxelAttributes, ComeWithAnIndexAndATransformAsWithout)
   }
 }
 
+TEST(VoxelAttributes, ComeWithRepresentativesAndTheVoxelsOfPointsAsWithout)
+{
+  constexpr std::size_t kPoints = 4000;
+  const Arrays arrays(kPoints, 9);
+  const std::vector<Vec3> points = randomBox(kPoints, 10, { 0, 0, 0 }, { 20, 20, 20 });
+  VoxelRequest request;
+  request.points = { points.data(), std::int64_t(kPoints) };
+  request.lattice = latticeOf(20, 20, 20);
+  request.attributes = arrays.sums();
+  request.attributes.push_back(arrays.label(AttributeStatistic::Mode));
+  const std::vector<Tuples> expected = expectedOf(request);
+  request.voxelIndex = true;
+  request.tuples = { AttributeReducer::sourceOf(arrays.label(AttributeStatistic::Mode).view) };
+  for (const Representative representative : { Representative::Mean, Representative::NearestToMean,
+         Representative::NearestToCenter, Representative::Median })
+  {
+    request.representative = representative;
+    for (const std::int64_t chunkPoints : { std::int64_t(0), std::int64_t(500) })
+    {
+      request.chunkPoints = chunkPoints;
+      VoxelResampler resampler;
+      ASSERT_EQ(resampler.run(request, BackwardExecutor(3)), Status::Ok);
+      EXPECT_EQ(attributesOf(resampler, request, 0), expected);
+      for (std::size_t v = 0; v < resampler.chosenPoints().size(); ++v)
+      {
+        ASSERT_EQ(resampler.voxelIndex()[std::size_t(resampler.chosenPoints()[v])], std::int64_t(v));
+      }
+    }
+  }
+}
+
 TEST(VoxelAttributes, OfACrowdNeedMorePartsAsPointsCome)
 {
   // 53 bits each: a word holds sums of 1023 of them, as many as the first chunks have in a voxel.

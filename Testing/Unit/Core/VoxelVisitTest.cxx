@@ -131,15 +131,14 @@ public:
       voxel = -1;
     }
   }
-  /// @p first: of the set that voxels are counted from.
-  void note(const PointRows& rows, std::int64_t first, const std::int64_t* voxels, int count)
+  void note(const PointRows& rows, const std::int64_t* voxels, int count)
   {
     std::vector<std::int64_t> taken;
     for (int i = 0; i < count; ++i)
     {
       const std::int64_t point = attributes_.pointOf(rows, i);
-      const std::int64_t voxel = first + voxels[i];
-      if (point < 0 || voxel < first || std::size_t(voxel) >= busy_.size())
+      const std::int64_t voxel = voxels[i];
+      if (point < 0 || voxel < 0 || std::size_t(voxel) >= busy_.size())
       {
         ++faults_;
         continue;
@@ -202,24 +201,10 @@ void expectVisited(VoxelRequest request, bool keepsRecords, bool isWide, const E
   {
     log.clear();
     const auto visit = [&](const PointRows& rows, const std::int64_t* voxels, int count)
-    { log.note(rows, 0, voxels, count); };
+    { log.note(rows, voxels, count); };
     ASSERT_EQ(resampler.visitPointsByVoxel(request, visit, executor), Status::Ok);
     log.expectAll(request, level, what);
   }
-  if (resampler.canVisitByVoxelSet())
-  {
-    log.clear();
-    resampler.visitPointsByVoxelSet(
-      request,
-      [&](std::int64_t first, std::int64_t, const auto& forPoints)
-      {
-        forPoints([&](const PointRows& rows, const std::int64_t* numbers, int count)
-          { log.note(rows, first, numbers, count); });
-      },
-      executor);
-    log.expectAll(request, level, what + " in sets");
-  }
-  EXPECT_TRUE(keepsRecords || !resampler.canVisitByVoxelSet()) << what;
   expectSame(runOf(resampler, request, executor), result, what + " run again");
 }
 

@@ -47,10 +47,10 @@ void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
   rankTable_.reserve(words);
 }
 
-void PartitionWorker::reduce(const PartitionAttributes* attributes)
+void PartitionWorker::reduce(const PartitionReductions* reductions)
 {
-  attributes_ = attributes;
-  own_.attributes.clear();
+  reductions_ = reductions;
+  own_.reductions = {};
 }
 
 CellRanks PartitionWorker::ranks() const
@@ -140,7 +140,7 @@ void PartitionWorker::sumRecords(
   kernels.rank(ranks(), places_.data(), int(places_.size()));
   makeRoom(to);
   const CellSums sums = { to.cells.data(), to.packed.data(),
-    covariances_ ? to.splitSecondMoments.data() : nullptr, covariances_ || attributes_ };
+    covariances_ ? to.splitSecondMoments.data() : nullptr, covariances_ || reductions_ };
   voxels_.cells = sums.cells;
   voxels_.sums = sums.sums;
   voxels_.secondMoments = sums.secondMoments;
@@ -149,21 +149,21 @@ void PartitionWorker::sumRecords(
   for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
     const PointRecord* const next = following.next() ? following.records() : block.records();
-    if (attributes_)
+    if (reductions_)
     {
-      block.fetchRows(); // for reduceAttributes()
+      block.fetchRows(); // for reduceRows()
     }
     kernels.accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
   }
-  if (attributes_)
+  if (reductions_)
   {
-    reduceAttributes(pool, to);
+    reduceRows(pool, to);
   }
   clearOccupancy({ voxels_.cells, voxels_.size });
 }
 
-/// Adds the rows of the records to the reducers of their cells, whose sums are complete.
-void PartitionWorker::reduceAttributes(const PointRecordPool& pool, AccumulatedPartition& sums)
+/// Adds the rows of the records to the reductions of their cells, whose sums are complete.
+void PartitionWorker::reduceRows(const PointRecordPool& pool, AccumulatedPartition& sums)
 {
   const auto voxels = std::int64_t(voxels_.size);
   counts_.resize(voxels_.size);
@@ -175,38 +175,28 @@ void PartitionWorker::reduceAttributes(const PointRecordPool& pool, AccumulatedP
     mostBefore = std::max(mostBefore, overfull.count);
   }
   mostPoints += mostBefore;
-  const bool isFirst = sums.attributes.empty();
-  for (std::size_t i = 0; isFirst && i < attributes_->reducers.size(); ++i)
+  if (sums.reductions.empty())
   {
-    sums.attributes.push_back(attributes_->reducers[i].another());
+    sums.reductions = VoxelReductions(reductions_->request);
   }
-  for (AttributeReducer& reducer : sums.attributes)
-  {
-    places_.empty() ? reducer.prepare(counts_.data(), voxels, mostPoints)
-                    : reducer.spread(places_, voxels, mostPoints);
-  }
-  RowReader reader(attributes_->rows, attributes_->binned);
+  places_.empty() ? sums.reductions.prepare(counts_.data(), voxels, mostPoints)
+                  : sums.reductions.spread(places_, voxels, mostPoints);
+  RowReader reader(reductions_->rows, reductions_->binned);
   std::int64_t ranksOfBlock[kBlockRecords];
   std::uint32_t* cells = recordCells_.data();
   for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
     std::copy(cells, cells + block.count(), ranksOfBlock); // See CellSums::keepsRanks.
-    const PointRows rows = reader.read(block.rows(), block.count());
-    for (std::size_t i = 0; i < sums.attributes.size(); ++i)
-    {
-      sums.attributes[i].add(
-        rows.tuples(attributes_->firstSource + i), rows.bytes, ranksOfBlock, block.count());
-    }
+    sums.reductions.add(reader.read(block.rows(), block.count()), ranksOfBlock, block.count());
   }
-  reduced_ = &sums.attributes;
+  reduced_ = &sums.reductions;
 }
 
-void PartitionWorker::writeAttributes(MeanArena& arena, std::size_t offset) const
+void PartitionWorker::writeReductions(MeanArena& arena, std::size_t offset) const
 {
-  for (std::size_t i = 0; voxels_.size > 0 && i < arena.attributes(); ++i)
+  if (reductions_ && voxels_.size > 0)
   {
-    static_cast<void>(
-      (*reduced_)[i].write(arena.counts() + offset, arena.attribute(i, offset), Executor(), nullptr));
+    static_cast<void>(reduced_->write(arena, offset)); // Nobody aborts it.
   }
 }
 

@@ -6,6 +6,7 @@
 #include "Core/Resample/Stages/PointBinner.h"
 #include "Core/Resample/Stages/RowReader.h"
 #include "Core/Resample/Stages/VoxelSink.h"
+#include "Core/Resample/VoxelReductions.h"
 
 #include <cstdint>
 #include <vector>
@@ -15,12 +16,45 @@ namespace pointhaptics
 namespace simd
 {
 
-/// Attributes that are reduced where points are summed: one reducer for each, without tuples, and the rows
-/// with their tuples.
-struct PartitionAttributes
+/// The accumulated sums of a partition: cells with packed sums, and what the packed sums of overfull cells
+/// could not hold. Second moments exist only if covariances are wanted.
+struct alignas(kApart) AccumulatedPartition
 {
-  const std::vector<AttributeReducer>& reducers;
-  std::size_t firstSource; ///< Of the rows, that of the first reducer.
+  std::size_t cellCount = 0; ///< The vectors may have more elements, which are unused.
+  std::vector<std::uint32_t> cells;
+  std::vector<PackedSums> packed;
+  std::vector<SplitSecondMoments> splitSecondMoments;
+  VoxelRun overfull;
+  VoxelReductions reductions; ///< Of the cells, where they are made with the sums.
+  std::int64_t points = 0;    ///< In cells; as many or fewer are in their packed sums.
+
+  void clear()
+  {
+    cellCount = 0;
+    overfull.clear();
+    reductions = {};
+    points = 0;
+  }
+  /// Frees memory that is mostly unused. The sums are dropped then: call it when they are no longer needed.
+  void trim()
+  {
+    constexpr std::size_t kFewCells = 1024;
+    if (packed.capacity() > 2 * cellCount + kFewCells)
+    {
+      *this = AccumulatedPartition();
+    }
+  }
+  std::size_t bytes() const
+  {
+    return cells.capacity() * sizeof(std::uint32_t) + packed.capacity() * sizeof(PackedSums) +
+      splitSecondMoments.capacity() * sizeof(SplitSecondMoments) + overfull.bytes();
+  }
+};
+
+/// The request for what is made of rows where points are summed, and the rows.
+struct PartitionReductions
+{
+  const VoxelRequest& request;
   const RowLayout& rows;
   const RowLayout& binned;
 };
@@ -32,7 +66,7 @@ public:
   /// Readies the scratch for partitions of a plan.
   void prepare(const PartitionPlan& plan, bool covariances);
   /// What load() and accumulate() reduce besides; nothing if null.
-  void reduce(const PartitionAttributes* attributes);
+  void reduce(const PartitionReductions* reductions);
   /// Adds the records of a partition to its @p old sums, which may change. Calls publish(size) as soon as the
   /// number of voxels is known. The voxels are valid until the next call.
   template <typename Publish>
@@ -49,8 +83,8 @@ public:
   const PartitionVoxels* packed() const { return old_->overfull.voxels.empty() ? &voxels_ : nullptr; }
   /// All the voxels in wide sums.
   VoxelRun wide() const;
-  /// Writes the attributes of the voxels to @p arena, from @p offset on. @pre what else is written there is.
-  void writeAttributes(MeanArena& arena, std::size_t offset) const;
+  /// Writes what reduce() asked for to @p arena, from @p offset on. @pre what else is written there is.
+  void writeReductions(MeanArena& arena, std::size_t offset) const;
   /// Adds the records of a partition to its accumulated sums.
   void accumulate(
     const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition, AccumulatedPartition& sums);
@@ -94,7 +128,7 @@ private:
   void countOccupied(const Kernels& kernels, const PointRecordPool& pool);
   void sumRecords(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to);
   void makeRoom(AccumulatedPartition& sums) const;
-  void reduceAttributes(const PointRecordPool& pool, AccumulatedPartition& sums);
+  void reduceRows(const PointRecordPool& pool, AccumulatedPartition& sums);
 
   PartitionPlan plan_;
   std::uint32_t partition_ = 0;
@@ -107,10 +141,10 @@ private:
   Buffer<std::uint32_t> rankTable_;
   Buffer<std::uint32_t> recordCells_;
   AccumulatedPartition own_; ///< Sums that are not accumulated further.
-  const PartitionAttributes* attributes_ = nullptr;
-  const std::vector<AttributeReducer>* reduced_ = nullptr; ///< Of the voxels.
-  std::vector<std::uint32_t> places_;                      ///< Of the accumulated cells among the voxels.
-  std::vector<std::int64_t> counts_;                       ///< Of the voxels.
+  const PartitionReductions* reductions_ = nullptr;
+  const VoxelReductions* reduced_ = nullptr; ///< Of the voxels.
+  std::vector<std::uint32_t> places_;        ///< Of the accumulated cells among the voxels.
+  std::vector<std::int64_t> counts_;         ///< Of the voxels.
 };
 
 } // namespace simd

@@ -154,8 +154,8 @@ void PointBinner::chooseRows(const VoxelRequest& request)
   binnedRows_.choose(rows_.bytes() > kMostBinnedBytes ? std::vector<TupleSource>(1) : request.tuples);
 }
 
-void PointBinner::bin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, bool withRows,
-  const Executor& executor)
+void PointBinner::quantizeAndBin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk,
+  bool withRows, const Executor& executor)
 {
   if (withRows)
   {

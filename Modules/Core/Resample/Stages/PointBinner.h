@@ -62,7 +62,7 @@ PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t point
 /// An upper bound of a partition's voxels, from its records and accumulated voxels.
 std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t accumulated);
 
-/// The second stage.
+/// The first two stages.
 class PointBinner
 {
 public:
@@ -70,8 +70,8 @@ public:
   void prepare(const VoxelRequest& request, std::int64_t points);
   /// How the tuples of a request lie beside the records.
   void chooseRows(const VoxelRequest& request);
-  /// Empties the pool and bins a chunk, with rows or without.
-  void bin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, bool withRows,
+  /// Empties the pool; quantizes and bins a chunk, with rows or without.
+  void quantizeAndBin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, bool withRows,
     const Executor& executor);
 
   const PartitionPlan& plan() const { return plan_; }

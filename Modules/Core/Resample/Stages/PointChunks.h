@@ -18,7 +18,8 @@ namespace simd
 /// Points of a piece: enough to make the cost of scheduling it negligible.
 constexpr std::int64_t kPieceSize = 1 << 12;
 
-/// A chunk goes through all steps before the next one; threads take its pieces one by one.
+/// A chunk goes through all steps before the next one; threads take its pieces one by one. There is at least
+/// one, which may be empty.
 class Chunks
 {
 public:
@@ -40,6 +41,10 @@ public:
     {
       points_ = request.points;
       append({ 0, points_.size() }, chunkPoints);
+    }
+    if (chunks_.empty())
+    {
+      chunks_.push_back(0);
     }
     chunks_.push_back(pieces_.size());
   }

@@ -63,7 +63,7 @@ int compareValues(const AttributeView& view, std::int64_t a, std::int64_t b)
 }
 
 VoxelRepresentatives::VoxelRepresentatives(const VoxelRequest& request)
-  : request_(request)
+  : request_(&request)
   , isIdentity_(request.transform.isIdentity())
   , exponent_(exponentOf(
       std::max({ request.lattice.spacing.x, request.lattice.spacing.y, request.lattice.spacing.z })))
@@ -75,7 +75,7 @@ VoxelRepresentatives::VoxelRepresentatives(const VoxelRequest& request)
 
 void VoxelRepresentatives::prepare(const std::int64_t* counts, std::int64_t voxels)
 {
-  if (request_.representative == Representative::Median)
+  if (request_->representative == Representative::Median)
   {
     medians_.prepare(counts, voxels);
     return;
@@ -93,7 +93,7 @@ void VoxelRepresentatives::keep(
     const auto* point = reinterpret_cast<const Real*>(xyz);
     const Vec3 place(point[0], point[1], point[2]);
     Member& member = members_[std::size_t(ends_[std::size_t(voxels[i])]++)];
-    member.place = isIdentity_ ? place : request_.transform.apply(place);
+    member.place = isIdentity_ ? place : request_->transform.apply(place);
     std::memcpy(&member.number, numbers, sizeof member.number);
   }
 }
@@ -102,15 +102,15 @@ void VoxelRepresentatives::add(
   const void* coordinates, const void* numbers, std::size_t stride, const std::int64_t* voxels, int count)
 {
   const char* xyz = static_cast<const char*>(coordinates);
-  const bool isFloat = request_.points.floats() != nullptr;
-  if (request_.representative != Representative::Median)
+  const bool isFloat = request_->points.floats() != nullptr;
+  if (request_->representative != Representative::Median)
   {
     const char* number = static_cast<const char*>(numbers);
     isFloat ? keep<float>(xyz, number, stride, voxels, count)
             : keep<double>(xyz, number, stride, voxels, count);
     return;
   }
-  if (isIdentity_ && isFloat == request_.singlePrecision)
+  if (isIdentity_ && isFloat == request_->singlePrecision)
   {
     medians_.add(coordinates, stride, voxels, count);
     return;
@@ -121,9 +121,9 @@ void VoxelRepresentatives::add(
   {
     const PointView one = isFloat ? PointView(reinterpret_cast<const float*>(xyz), 1)
                                   : PointView(reinterpret_cast<const double*>(xyz), 1);
-    places[i] = isIdentity_ ? one[0] : request_.transform.apply(one[0]);
+    places[i] = isIdentity_ ? one[0] : request_->transform.apply(one[0]);
   }
-  if (!request_.singlePrecision)
+  if (!request_->singlePrecision)
   {
     medians_.add(places, sizeof(Vec3), voxels, count);
     return;
@@ -153,9 +153,9 @@ inline VoxelRepresentatives::Offset VoxelRepresentatives::quantized(
 VoxelRepresentatives::Middle VoxelRepresentatives::middleOf(const MeanArena& arena, std::size_t voxel) const
 {
   Middle middle{ arena.point(voxel), {} };
-  if (request_.representative == Representative::NearestToCenter)
+  if (request_->representative == Representative::NearestToCenter)
   {
-    const Lattice& lattice = request_.lattice;
+    const Lattice& lattice = request_->lattice;
     const auto index = lattice.indexOf(arena.keys()[voxel]);
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -179,7 +179,7 @@ bool VoxelRepresentatives::goesBefore(const Member& a, const Member& b) const
       return a.place[axis] < b.place[axis];
     }
   }
-  for (const AttributeView& values : request_.tieBreakers)
+  for (const AttributeView& values : request_->tieBreakers)
   {
     const int order = compareValues(values, a.number, b.number);
     if (order != 0)
@@ -195,7 +195,7 @@ const VoxelRepresentatives::Member& VoxelRepresentatives::chosenOf(
   const Member* first, const Member* last, const MeanArena& arena, std::size_t voxel) const
 {
   const std::int64_t count = last - first;
-  const bool toMean = request_.representative == Representative::NearestToMean;
+  const bool toMean = request_->representative == Representative::NearestToMean;
   if (count == 1 || (count == 2 && toMean))
   {
     return count == 2 && goesBefore(first[1], first[0]) ? first[1] : first[0];
@@ -230,7 +230,7 @@ const VoxelRepresentatives::Member& VoxelRepresentatives::exactlyChosenOf(
   const Member* first, const Member* last, const Middle& middle) const
 {
   const std::int64_t count = last - first;
-  const bool toMean = request_.representative == Representative::NearestToMean;
+  const bool toMean = request_->representative == Representative::NearestToMean;
   const Vec3& pivot = middle.pivot;
   const Scale scale = count < kFewPoints ? scale_ : scaleOf(56 - exponentOf(double(count)));
   Int128 target[3] = {};
@@ -265,12 +265,12 @@ const VoxelRepresentatives::Member& VoxelRepresentatives::exactlyChosenOf(
   return *best;
 }
 
-bool VoxelRepresentatives::write(std::int64_t firstVoxel, MeanArena& arena, std::int64_t* chosen,
-  const Executor& executor, ProgressObserver* observer) const
+bool VoxelRepresentatives::write(
+  std::size_t firstVoxel, MeanArena& arena, const Executor& executor, ProgressObserver* observer) const
 {
-  if (request_.representative == Representative::Median)
+  if (request_->representative == Representative::Median)
   {
-    return medians_.write(arena.pointsFrom(std::size_t(firstVoxel)), executor, observer);
+    return medians_.write(arena.pointsFrom(firstVoxel), executor, observer);
   }
   return forVoxelSlices(ends_, executor, observer,
     [&](std::int64_t begin, std::int64_t end)
@@ -279,10 +279,10 @@ bool VoxelRepresentatives::write(std::int64_t firstVoxel, MeanArena& arena, std:
       {
         const Member* const first = members_.data() + (v == 0 ? 0 : ends_[std::size_t(v - 1)]);
         const Member* const last = members_.data() + ends_[std::size_t(v)];
-        const auto voxel = std::size_t(firstVoxel + v);
+        const std::size_t voxel = firstVoxel + std::size_t(v);
         const Member& member = chosenOf(first, last, arena, voxel);
         arena.setPoint(voxel, member.place);
-        chosen[voxel] = member.number;
+        arena.chosen()[voxel] = member.number;
       }
     });
 }

@@ -20,6 +20,7 @@ namespace simd
 class VoxelRepresentatives
 {
 public:
+  /// @p request must outlive this.
   explicit VoxelRepresentatives(const VoxelRequest& request);
 
   /// Drops all points and makes room for those of @p voxels, @p counts each.
@@ -28,10 +29,10 @@ public:
   /// threads may add at once if no two have a voxel in common.
   void add(
     const void* coordinates, const void* numbers, std::size_t stride, const std::int64_t* voxels, int count);
-  /// Replaces the means of the voxels from @p first on by the points that stand for them, whose numbers go to
-  /// @p chosen (not of medians). @return false where @p observer, which may be null, aborted the work.
-  bool write(std::int64_t first, MeanArena& arena, std::int64_t* chosen, const Executor& executor,
-    ProgressObserver* observer) const;
+  /// Replaces the means of the voxels from @p first on in @p arena by the points that stand for them, and
+  /// writes the numbers of these (not of medians). @return false where @p observer, which may be null,
+  /// aborted the work.
+  bool write(std::size_t first, MeanArena& arena, const Executor& executor, ProgressObserver* observer) const;
 
 private:
   struct Member
@@ -66,7 +67,7 @@ private:
   const Member& exactlyChosenOf(const Member* first, const Member* last, const Middle& middle) const;
   bool goesBefore(const Member& a, const Member& b) const;
 
-  const VoxelRequest& request_;
+  const VoxelRequest* request_;
   bool isIdentity_;
   int exponent_;                   ///< Of the longest edge of a voxel, as a power of two.
   double unit_;                    ///< That power of two.

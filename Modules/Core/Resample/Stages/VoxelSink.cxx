@@ -85,25 +85,23 @@ void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& l
   layout_ = layout;
   lattice_ = lattice;
   map_ = makeMeanMap(lattice, fractionBits, layout.singlePrecision);
-  const std::size_t bytes[kAttributes] = { 3 * (layout.singlePrecision ? sizeof(float) : sizeof(double)),
-    sizeof(std::int64_t), layout.covariances ? sizeof(SymMat3) : 0, layout.keys ? sizeof(std::uint64_t) : 0 };
-  for (std::size_t i = 0; i < kAttributes; ++i)
-  {
-    const bool isGiven = allocator && i != kKeys && bytes[i] > 0;
-    arrays_[i].prepare(
-      room, bytes[i], isGiven ? allocator->allocate(OutputAllocator::Part(i), room * bytes[i]) : nullptr);
-  }
-  prepareAttributes(room, layout.attributeBytes, allocator);
-}
-
-void MeanArena::prepareAttributes(
-  std::size_t room, const std::vector<std::size_t>& bytes, OutputAllocator* allocator)
-{
-  arrays_.resize(kAttributes + bytes.size());
+  std::vector<std::size_t> bytes = { 3 * (layout.singlePrecision ? sizeof(float) : sizeof(double)),
+    sizeof(std::int64_t), layout.covariances ? sizeof(SymMat3) : 0, layout.keys ? sizeof(std::uint64_t) : 0,
+    layout.chosen ? sizeof(std::int64_t) : 0 };
+  bytes.insert(bytes.end(), layout.attributeBytes.begin(), layout.attributeBytes.end());
+  arrays_.resize(bytes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i)
   {
-    arrays_[kAttributes + i].prepare(
-      room, bytes[i], allocator ? allocator->allocateAttribute(i, room * bytes[i]) : nullptr);
+    void* given = nullptr;
+    if (allocator && i < kKeys && bytes[i] > 0)
+    {
+      given = allocator->allocate(OutputAllocator::Part(i), room * bytes[i]);
+    }
+    else if (allocator && i >= kAttributes)
+    {
+      given = allocator->allocateAttribute(i - kAttributes, room * bytes[i]);
+    }
+    arrays_[i].prepare(room, bytes[i], given);
   }
 }
 

@@ -1,11 +1,10 @@
 /// @file
-/// Outputs of a partition's sums: means in the result, or accumulated sums for the next chunk.
+/// From the sums of voxels to means in the result.
 #pragma once
 
 #include "Core/Base/Buffer.h"
 #include "Core/Base/Lattice.h"
 #include "Core/Base/Vector3.h"
-#include "Core/Resample/AttributeReducer.h"
 #include "Core/Resample/Stages/VoxelSums.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -17,41 +16,6 @@ namespace pointhaptics
 {
 namespace simd
 {
-
-/// The accumulated sums of a partition: cells with packed sums, and what the packed sums of overfull cells
-/// could not hold. Second moments exist only if covariances are wanted.
-struct alignas(kApart) AccumulatedPartition
-{
-  std::size_t cellCount = 0; ///< The vectors may have more elements, which are unused.
-  std::vector<std::uint32_t> cells;
-  std::vector<PackedSums> packed;
-  std::vector<SplitSecondMoments> splitSecondMoments;
-  VoxelRun overfull;
-  std::vector<AttributeReducer> attributes; ///< Of the cells, where attributes are summed with the points.
-  std::int64_t points = 0;                  ///< In cells; as many or fewer are in their packed sums.
-
-  void clear()
-  {
-    cellCount = 0;
-    overfull.clear();
-    attributes.clear();
-    points = 0;
-  }
-  /// Frees memory that is mostly unused. The sums are dropped then: call it when they are no longer needed.
-  void trim()
-  {
-    constexpr std::size_t kFewCells = 1024;
-    if (packed.capacity() > 2 * cellCount + kFewCells)
-    {
-      *this = AccumulatedPartition();
-    }
-  }
-  std::size_t bytes() const
-  {
-    return cells.capacity() * sizeof(std::uint32_t) + packed.capacity() * sizeof(PackedSums) +
-      splitSecondMoments.capacity() * sizeof(SplitSecondMoments) + overfull.bytes();
-  }
-};
 
 /// The voxels of a partition, in ascending order.
 struct PartitionVoxels
@@ -71,8 +35,8 @@ SymMat3 covarianceOf(std::int64_t count, const Int128 sums[3], const SecondMomen
 /// How sums become coordinates in a lattice with offsets of @p fractionBits bits, rounded to float or double.
 MeanMap makeMeanMap(const Lattice& lattice, int fractionBits, bool singlePrecision);
 
-/// Means, counts and on request keys, covariances and attributes of active voxels, an array each: in the
-/// arena's own memory or, where asked for, in the caller's.
+/// Means, counts and on request keys, covariances, chosen points and attributes of active voxels, an array
+/// each: in the arena's own memory or, where asked for, in the caller's.
 class MeanArena
 {
 public:
@@ -81,14 +45,12 @@ public:
     bool singlePrecision = false;
     bool keys = false;
     bool covariances = false;
+    bool chosen = false;
     std::vector<std::size_t> attributeBytes = {}; ///< Of a voxel's tuple of each.
   };
 
   void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
     OutputAllocator* allocator = nullptr);
-  /// Room for attributes alone, of voxels that are written.
-  void prepareAttributes(
-    std::size_t room, const std::vector<std::size_t>& bytes, OutputAllocator* allocator = nullptr);
   /// Writes the voxels of a partition, or of a run, at @p offset.
   void write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
   void write(std::size_t offset, const VoxelRun& run);
@@ -116,6 +78,8 @@ public:
   std::int64_t* counts() const { return of<std::int64_t>(kCounts); }
   SymMat3* covariances() const { return of<SymMat3>(kCovariances); }
   std::uint64_t* keys() const { return of<std::uint64_t>(kKeys); }
+  /// Numbers of the points that stand for voxels.
+  std::int64_t* chosen() const { return of<std::int64_t>(kChosen); }
   std::size_t attributes() const { return arrays_.size() - kAttributes; }
   /// The tuples of an attribute from a voxel on.
   char* attribute(std::size_t attribute, std::size_t voxel) const
@@ -142,7 +106,8 @@ private:
   static constexpr std::size_t kCounts = 1;
   static constexpr std::size_t kCovariances = 2;
   static constexpr std::size_t kKeys = 3;
-  static constexpr std::size_t kAttributes = 4;
+  static constexpr std::size_t kChosen = 4;
+  static constexpr std::size_t kAttributes = 5;
 
   template <typename T>
   T* of(std::size_t array) const

@@ -19,7 +19,7 @@ void writeLoaded(const Kernels& kernels, std::size_t offset, PartitionWorker& wo
   {
     arena.write(offset, worker.wide());
   }
-  worker.writeAttributes(arena, offset);
+  worker.writeReductions(arena, offset);
 }
 
 }
