@@ -88,79 +88,48 @@ bool subtractRun(const VoxelRun& a, const VoxelRun& b, VoxelRun& difference)
   return j == b.voxels.size();
 }
 
-/// Collects words and appends them at once.
-class WordWriter
+/// Writes a number as a word of 64 bits or two, the lowest byte first on every machine. @return its end.
+template <typename Number>
+char* put(char* to, const Number& number)
 {
-public:
-  template <typename T>
-  void put(T value)
+  static_assert(sizeof(Number) % sizeof(std::uint64_t) == 0, "whole words");
+  if constexpr (sizeof(Number) > sizeof(std::uint64_t))
   {
-    // Byte by byte: the order does not depend on the machine.
-    static_assert(sizeof(T) == 8, "words of 64 bits");
+    return put(put(to, std::uint64_t(number)), std::uint64_t(UInt128(number) >> 64));
+  }
+  else
+  {
     std::uint64_t word;
-    std::memcpy(&word, &value, sizeof word);
+    std::memcpy(&word, &number, sizeof word);
     for (std::size_t i = 0; i < sizeof word; ++i)
     {
-      words_[size_++] = char(word >> (8 * i) & 255);
+      *to++ = char(word >> (8 * i) & 255);
     }
-  }
-  void appendTo(std::string& bytes)
-  {
-    bytes.append(words_, size_);
-    size_ = 0;
-  }
-
-private:
-  char words_[32 * sizeof(std::uint64_t)];
-  std::size_t size_ = 0;
-};
-
-void putVoxel(WordWriter& words, const VoxelSums& sums, const SecondMoments* moments)
-{
-  words.put(sums.key);
-  words.put(sums.count);
-  for (const Int128 sum : sums.sums)
-  {
-    words.put(std::uint64_t(sum));
-    words.put(std::uint64_t(sum >> 64));
-  }
-  for (int m = 0; moments && m < 6; ++m)
-  {
-    words.put(std::uint64_t(moments->lanes[m]));
-    words.put(std::uint64_t(moments->lanes[m] >> 64));
+    return to;
   }
 }
 
-/// Takes words off the front of bytes that are as many as were asked for.
-class WordReader
+/// Reads what put() wrote.
+template <typename Number>
+const char* take(const char* from, Number& number)
 {
-public:
-  explicit WordReader(std::string_view bytes)
-    : bytes_(bytes)
+  if constexpr (sizeof(Number) > sizeof(std::uint64_t))
   {
+    std::uint64_t words[2];
+    from = take(take(from, words[0]), words[1]);
+    number = Number(UInt128(words[1]) << 64 | words[0]);
   }
-  template <typename T = std::uint64_t>
-  T take()
+  else
   {
     std::uint64_t word = 0;
-    for (int shift = 0; shift < 64; shift += 8)
+    for (std::size_t i = 0; i < sizeof word; ++i)
     {
-      word |= std::uint64_t(static_cast<unsigned char>(bytes_.front())) << shift;
-      bytes_.remove_prefix(1);
+      word |= std::uint64_t(static_cast<unsigned char>(*from++)) << (8 * i);
     }
-    T value;
-    std::memcpy(&value, &word, sizeof value);
-    return value;
+    std::memcpy(&number, &word, sizeof word);
   }
-
-private:
-  std::string_view bytes_;
-};
-
-constexpr std::size_t kHeaderWords = 12 + 6;
-constexpr std::size_t kVoxelWords = 2 + 6;
-constexpr std::size_t kMomentWords = 12;
-constexpr std::size_t kHeaderBytes = sizeof kMagic + kHeaderWords * sizeof(std::uint64_t);
+  return from;
+}
 
 bool sameLattice(const Lattice& a, const Lattice& b)
 {
@@ -178,6 +147,45 @@ struct Header
   std::uint64_t voxels = 0;
 };
 
+constexpr std::size_t kHeaderBytes = sizeof kMagic + (12 + 6) * sizeof(std::uint64_t);
+
+/// Calls each(number) for the numbers of a header, in their order.
+template <typename SomeHeader, typename Each>
+void forNumbers(SomeHeader& header, const Each& each)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    each(header.lattice.origin[axis]);
+    each(header.lattice.spacing[axis]);
+    each(header.lattice.dimensions[std::size_t(axis)]);
+    each(header.lattice.end[axis]);
+  }
+  each(header.covariances);
+  each(header.fractionBits);
+  each(header.points);
+  each(header.clipped);
+  each(header.invalid);
+  each(header.voxels);
+}
+
+/// The same of a voxel.
+template <typename Sums, typename Moments, typename Each>
+void forNumbers(Sums& voxel, Moments* moments, const Each& each)
+{
+  each(voxel.key);
+  each(voxel.count);
+  std::for_each(voxel.sums, voxel.sums + 3, each);
+  if (moments)
+  {
+    std::for_each(moments->lanes, moments->lanes + 6, each);
+  }
+}
+
+std::size_t bytesOfVoxel(const Header& header)
+{
+  return sizeof(VoxelSums) + (header.covariances ? sizeof(SecondMoments) : 0);
+}
+
 bool isCount(std::int64_t n)
 {
   return n >= 0 && n <= VoxelAccumulator::kMostPoints;
@@ -190,67 +198,45 @@ bool readHeader(std::string_view bytes, Header& header)
   {
     return false;
   }
-  WordReader reader(bytes.substr(sizeof kMagic));
-  Lattice& lattice = header.lattice;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    lattice.origin[axis] = reader.take<double>();
-    lattice.spacing[axis] = reader.take<double>();
-    lattice.dimensions[std::size_t(axis)] = reader.take<std::int64_t>();
-    lattice.end[axis] = reader.take<double>();
-  }
-  header.covariances = reader.take();
-  header.fractionBits = reader.take<std::int64_t>();
-  header.points = reader.take<std::int64_t>();
-  header.clipped = reader.take<std::int64_t>();
-  header.invalid = reader.take<std::int64_t>();
-  header.voxels = reader.take();
-  const std::size_t stride = sizeof(std::uint64_t) * (kVoxelWords + (header.covariances ? kMomentWords : 0));
+  const char* from = bytes.data() + sizeof kMagic;
+  forNumbers(header, [&](auto& number) { from = take(from, number); });
+  const Lattice& lattice = header.lattice;
   const std::size_t left = bytes.size() - kHeaderBytes;
-  return header.covariances <= 1 && header.voxels == left / stride && left % stride == 0 &&
-    isCount(header.points) && isCount(header.clipped) && isCount(header.invalid) &&
-    lattice.check() == Status::Ok && !std::isnan(lattice.end.x) && !std::isnan(lattice.end.y) &&
-    !std::isnan(lattice.end.z);
+  return header.covariances <= 1 && header.voxels == left / bytesOfVoxel(header) &&
+    left % bytesOfVoxel(header) == 0 && isCount(header.points) && isCount(header.clipped) &&
+    isCount(header.invalid) && lattice.check() == Status::Ok && !std::isnan(lattice.end.x) &&
+    !std::isnan(lattice.end.y) && !std::isnan(lattice.end.z);
 }
 
 /// @return false where a mean would not lie in its voxel.
-bool readSums(WordReader& reader, std::int64_t fractionBits, VoxelSums& voxel)
+bool liesInVoxel(const VoxelSums& voxel, std::int64_t fractionBits)
 {
-  bool fits = isCount(voxel.count) && voxel.count > 0;
-  for (Int128& sum : voxel.sums)
-  {
-    const std::uint64_t low = reader.take();
-    const std::uint64_t high = reader.take();
-    fits = fits && high >> WideSums::kHighBits == 0;
-    sum = Int128(UInt128(high) << 64 | low);
-    fits = fits && sum < Int128(voxel.count) << fractionBits;
-  }
-  return fits;
+  return isCount(voxel.count) && voxel.count > 0 &&
+    std::all_of(voxel.sums, voxel.sums + 3,
+      [&](Int128 sum) {
+        return UInt128(sum) >> (64 + WideSums::kHighBits) == 0 && sum < Int128(voxel.count) << fractionBits;
+      });
 }
 
 /// @param keys above all of the lattice. @pre the bytes are as many as the header says.
-bool readVoxels(std::string_view bytes, const Header& header, std::uint64_t keys, VoxelRun& run)
+bool readVoxels(const char* from, const Header& header, std::uint64_t keys, VoxelRun& run)
 {
-  WordReader reader(bytes);
   std::int64_t points = header.clipped + header.invalid;
   run.voxels.reserve(header.voxels);
   run.secondMoments.reserve(header.covariances ? header.voxels : 0);
   for (std::uint64_t v = 0; v < header.voxels; ++v)
   {
-    VoxelSums voxel{ reader.take(), reader.take<std::int64_t>(), {} };
-    if (!readSums(reader, header.fractionBits, voxel) || voxel.key >= keys ||
+    VoxelSums voxel;
+    SecondMoments moments;
+    SecondMoments* const wanted = header.covariances ? &moments : nullptr;
+    forNumbers(voxel, wanted, [&](auto& number) { from = take(from, number); });
+    if (!liesInVoxel(voxel, header.fractionBits) || voxel.key >= keys ||
       (v > 0 && voxel.key <= run.voxels.back().key) || voxel.count > header.points - points)
     {
       return false;
     }
     points += voxel.count;
-    SecondMoments moments{};
-    for (int m = 0; header.covariances && m < 6; ++m)
-    {
-      const std::uint64_t low = reader.take();
-      moments.lanes[m] = UInt128(reader.take()) << 64 | low;
-    }
-    run.push(WideSums::of(voxel), header.covariances ? &moments : nullptr);
+    run.push(WideSums::of(voxel), wanted);
   }
   return points == header.points;
 }
@@ -433,32 +419,20 @@ std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
   const std::size_t begin = place(first);
   const std::size_t last = std::max(begin, place(end));
   const bool isFirst = first == 0 && end > 0;
-  const std::int64_t clipped = isFirst ? added_->clipped : 0;
-  const std::int64_t invalid = isFirst ? added_->invalid : 0;
-  const std::int64_t points =
-    std::accumulate(run.voxels.begin() + std::ptrdiff_t(begin), run.voxels.begin() + std::ptrdiff_t(last),
-      clipped + invalid, [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
-  const std::size_t words = kHeaderWords + (last - begin) * (kVoxelWords + (covariances_ ? kMomentWords : 0));
-  bytes.reserve(sizeof kMagic + words * sizeof(std::uint64_t));
-  bytes.append(kMagic, sizeof kMagic);
-  WordWriter writer;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    writer.put(lattice_.origin[axis]);
-    writer.put(lattice_.spacing[axis]);
-    writer.put(lattice_.dimensions[std::size_t(axis)]);
-    writer.put(lattice_.end[axis]);
-  }
-  for (const std::int64_t number : { std::int64_t(covariances_), std::int64_t(added_->fractionBits), points,
-         clipped, invalid, std::int64_t(last - begin) })
-  {
-    writer.put(number);
-  }
-  writer.appendTo(bytes);
+  Header header = { lattice_, covariances_, added_->fractionBits, 0, isFirst ? added_->clipped : 0,
+    isFirst ? added_->invalid : 0, last - begin };
+  header.points = std::accumulate(run.voxels.begin() + std::ptrdiff_t(begin),
+    run.voxels.begin() + std::ptrdiff_t(last), header.clipped + header.invalid,
+    [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
+  bytes.assign(kMagic, sizeof kMagic);
+  bytes.resize(kHeaderBytes + (last - begin) * bytesOfVoxel(header));
+  char* to = bytes.data() + sizeof kMagic;
+  const auto putNext = [&](const auto& number) { to = put(to, number); };
+  forNumbers(header, putNext);
   for (std::size_t v = begin; v < last; ++v)
   {
-    putVoxel(writer, run.voxels[v].whole(), run.momentsOf(v));
-    writer.appendTo(bytes);
+    const VoxelSums voxel = run.voxels[v].whole();
+    forNumbers(voxel, run.momentsOf(v), putNext);
   }
   return bytes;
 }
@@ -490,7 +464,7 @@ Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& r
   const std::uint64_t keys = header.lattice.key(0, 0, header.lattice.dimensions[2]);
   VoxelRun run;
   if ((header.fractionBits != fractionBits && (header.voxels > 0 || header.fractionBits != 0)) ||
-    !readVoxels(bytes.substr(kHeaderBytes), header, keys, run))
+    !readVoxels(bytes.data() + kHeaderBytes, header, keys, run))
   {
     return Status::InvalidParameter;
   }
