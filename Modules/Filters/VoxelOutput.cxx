@@ -16,51 +16,36 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace pointhaptics
 {
 
-void* ArrayAllocator::reserve(void*& memory, std::size_t bytes)
+void*& ArrayAllocator::of(std::size_t part)
 {
-  if (memory)
+  memory_.resize(std::max(memory_.size(), part + 1));
+  return memory_[part];
+}
+
+void* ArrayAllocator::allocate(std::size_t part, std::size_t bytes)
+{
+  void*& memory = of(part);
+  if (void* old = std::exchange(memory, nullptr))
   {
-    ArrayPool::giveBack(memory);
+    ArrayPool::giveBack(old);
   }
   memory = pool_.reserve(bytes);
   return memory;
 }
 
-void ArrayAllocator::move(void*& memory, vtkDataArray* array, std::int64_t tuples)
+void ArrayAllocator::take(std::size_t part, vtkDataArray* array, std::int64_t tuples)
 {
-  if (memory)
+  if (void* memory = std::exchange(of(part), nullptr))
   {
     pool_.take(memory, array, tuples);
-    memory = nullptr;
     return;
   }
   pool_.allocate(array, tuples);
-}
-
-void* ArrayAllocator::allocate(Part part, std::size_t bytes)
-{
-  return reserve(memory_[std::size_t(part)], bytes);
-}
-
-void* ArrayAllocator::allocateAttribute(std::size_t attribute, std::size_t bytes)
-{
-  memory_.resize(std::max(memory_.size(), kParts + attribute + 1));
-  return reserve(memory_[kParts + attribute], bytes);
-}
-
-void ArrayAllocator::take(Part part, vtkDataArray* array, std::int64_t tuples)
-{
-  move(memory_[std::size_t(part)], array, tuples);
-}
-
-void ArrayAllocator::takeAttribute(std::size_t attribute, vtkDataArray* array, std::int64_t tuples)
-{
-  memory_.resize(std::max(memory_.size(), kParts + attribute + 1));
-  move(memory_[kParts + attribute], array, tuples);
 }
 
 void ArrayAllocator::release()
@@ -75,19 +60,12 @@ void ArrayAllocator::release()
   }
 }
 
-void fillAttribute(const VoxelResampler& engine, int level, std::size_t attribute, vtkDataArray* array,
-  ArrayAllocator& allocator, const Executor& executor)
-{
-  allocator.takeAttribute(attribute, array, engine.size(level));
-  engine.copyAttribute(level, attribute, array->GetVoidPointer(0), executor);
-}
-
 vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, int level, bool singlePrecision,
   ArrayAllocator& allocator, const Executor& executor)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  allocator.take(OutputAllocator::Part::Means, points->GetData(), engine.size(level));
+  allocator.take(OutputAllocator::Means, points->GetData(), engine.size(level));
   if (singlePrecision)
   {
     engine.copyMeans(level, vtkFloatArray::FastDownCast(points->GetData())->GetPointer(0), executor);
@@ -111,7 +89,8 @@ vtkSmartPointer<vtkDataArray> reducedArray(const VoxelResampler& engine, int lev
   else
   {
     array = attribute.emptyArray();
-    fillAttribute(engine, level, i, array, allocator, executor);
+    allocator.take(OutputAllocator::Attributes + i, array, engine.size(level));
+    engine.copyAttribute(level, i, array->GetVoidPointer(0), executor);
     array = attribute.inOwnType(array);
   }
   if (request.representative != Representative::Mean && isNormal && !request.transform.isIdentity())
@@ -148,7 +127,7 @@ vtkSmartPointer<vtkIdTypeArray> makeCounts(
   static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
   auto counts = vtkSmartPointer<vtkIdTypeArray>::New();
   counts->SetName("VoxelPointCount");
-  allocator.take(OutputAllocator::Part::Counts, counts, engine.size(level));
+  allocator.take(OutputAllocator::Counts, counts, engine.size(level));
   engine.copyCounts(level, reinterpret_cast<std::int64_t*>(counts->GetPointer(0)), executor);
   return counts;
 }
@@ -165,7 +144,7 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(
   {
     array->SetComponentName(c, names[c]);
   }
-  allocator.take(OutputAllocator::Part::Covariances, array, engine.size(level));
+  allocator.take(OutputAllocator::Covariances, array, engine.size(level));
   engine.copyCovariances(level, reinterpret_cast<SymMat3*>(array->GetPointer(0)), executor);
   return array;
 }

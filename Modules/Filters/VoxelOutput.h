@@ -41,30 +41,23 @@ public:
   ArrayAllocator(const ArrayAllocator&) = delete;
   ArrayAllocator& operator=(const ArrayAllocator&) = delete;
 
-  void* allocate(Part part, std::size_t bytes) override;
-  void* allocateAttribute(std::size_t attribute, std::size_t bytes) override;
+  void* allocate(std::size_t part, std::size_t bytes) override;
   /// Moves the memory of a part into @p array, of so many tuples; where there is none, allocates it.
-  void take(Part part, vtkDataArray* array, std::int64_t tuples);
-  void takeAttribute(std::size_t attribute, vtkDataArray* array, std::int64_t tuples);
+  void take(std::size_t part, vtkDataArray* array, std::int64_t tuples);
   /// Frees what was not taken.
   void release();
 
 private:
-  static constexpr int kParts = 3;
-  void* reserve(void*& memory, std::size_t bytes);
-  void move(void*& memory, vtkDataArray* array, std::int64_t tuples);
+  void*& of(std::size_t part);
 
   ArrayPool& pool_;
-  std::vector<void*> memory_ = std::vector<void*>(kParts); ///< Attributes come after the parts.
+  std::vector<void*> memory_; ///< Of each part, or null.
 };
 
 // Level 0 takes its memory from the @p allocator that the engine wrote to.
 
 /// @p singlePrecision: that of the request.
 vtkSmartPointer<vtkPoints> makePoints(const VoxelResampler& engine, int level, bool singlePrecision,
-  ArrayAllocator& allocator, const Executor& executor);
-/// The tuples of an attribute of the request as @p array, which has its type and components.
-void fillAttribute(const VoxelResampler& engine, int level, std::size_t attribute, vtkDataArray* array,
   ArrayAllocator& allocator, const Executor& executor);
 /// What the engine made of the array of @p attribute on a level: for a representative that is a point of the
 /// input its tuples, else those of attribute @p i of @p request.

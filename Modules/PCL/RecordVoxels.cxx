@@ -61,16 +61,20 @@ PointView viewOf(const RecordCloud& cloud, std::vector<Real>& copy)
 class MeansAllocator : public OutputAllocator
 {
 public:
-  void* allocate(Part part, std::size_t bytes) override
+  void* allocate(std::size_t part, std::size_t bytes) override
   {
-    Buffer<std::uint64_t>& buffer = buffers_[std::size_t(part)];
+    if (part >= buffers_.size())
+    {
+      return nullptr;
+    }
+    Buffer<std::uint64_t>& buffer = buffers_[part];
     buffer.reserve(bytes / sizeof(std::uint64_t) + 1);
     return buffer.data();
   }
-  const void* memory() const { return buffers_[std::size_t(Part::Means)].data(); }
+  const void* memory() const { return buffers_[Means].data(); }
 
 private:
-  std::array<Buffer<std::uint64_t>, 3> buffers_; ///< One for each part.
+  std::array<Buffer<std::uint64_t>, Attributes> buffers_; ///< One for each part before these.
 };
 
 AttributeRequest requestFor(const RecordCloud& cloud, const RecordField& field)

@@ -30,23 +30,19 @@ class PointIndex;
 class OutputAllocator
 {
 public:
-  enum class Part
+  /// The arrays. Those of the request's attributes come last: Attributes, and the numbers after it.
+  enum Part : std::size_t
   {
     Means,
     Counts,
     Covariances,
+    Attributes,
   };
   virtual ~OutputAllocator() = default;
-  /// At least so many bytes, aligned for their type, valid until the next run(). The result may need fewer in
-  /// the end. Called from the thread that called run(), at most once for each part.
-  virtual void* allocate(Part part, std::size_t bytes) = 0;
-  /// The same for an attribute of the request. Null: the resampler's own memory.
-  virtual void* allocateAttribute(std::size_t attribute, std::size_t bytes)
-  {
-    static_cast<void>(attribute);
-    static_cast<void>(bytes);
-    return nullptr;
-  }
+  /// At least so many bytes, aligned for their type, valid until the next run(); or null: the resampler's own
+  /// memory. The result may need fewer in the end. Called from the thread that called run(), at most once for
+  /// each part.
+  virtual void* allocate(std::size_t part, std::size_t bytes) = 0;
 };
 
 /// What to resample, and what to make of it.

@@ -85,23 +85,15 @@ void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& l
   layout_ = layout;
   lattice_ = lattice;
   map_ = makeMeanMap(lattice, fractionBits, layout.singlePrecision);
-  std::vector<std::size_t> bytes = { 3 * (layout.singlePrecision ? sizeof(float) : sizeof(double)),
-    sizeof(std::int64_t), layout.covariances ? sizeof(SymMat3) : 0, layout.keys ? sizeof(std::uint64_t) : 0,
-    layout.chosen ? sizeof(std::int64_t) : 0 };
+  std::vector<std::size_t> bytes = { layout.keys ? sizeof(std::uint64_t) : 0,
+    layout.chosen ? sizeof(std::int64_t) : 0, 3 * (layout.singlePrecision ? sizeof(float) : sizeof(double)),
+    sizeof(std::int64_t), layout.covariances ? sizeof(SymMat3) : 0 };
   bytes.insert(bytes.end(), layout.attributeBytes.begin(), layout.attributeBytes.end());
   arrays_.resize(bytes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i)
   {
-    void* given = nullptr;
-    if (allocator && i < kKeys && bytes[i] > 0)
-    {
-      given = allocator->allocate(OutputAllocator::Part(i), room * bytes[i]);
-    }
-    else if (allocator && i >= kAttributes)
-    {
-      given = allocator->allocateAttribute(i - kAttributes, room * bytes[i]);
-    }
-    arrays_[i].prepare(room, bytes[i], given);
+    const bool isPart = allocator && i >= kParts && bytes[i] > 0;
+    arrays_[i].prepare(room, bytes[i], isPart ? allocator->allocate(i - kParts, room * bytes[i]) : nullptr);
   }
 }
 

@@ -102,12 +102,13 @@ private:
 
     void prepare(std::size_t room, std::size_t voxelBytes, void* given);
   };
-  static constexpr std::size_t kMeans = 0; // The parts of OutputAllocator first.
-  static constexpr std::size_t kCounts = 1;
-  static constexpr std::size_t kCovariances = 2;
-  static constexpr std::size_t kKeys = 3;
-  static constexpr std::size_t kChosen = 4;
-  static constexpr std::size_t kAttributes = 5;
+  static constexpr std::size_t kKeys = 0;
+  static constexpr std::size_t kChosen = 1;
+  static constexpr std::size_t kParts = 2; ///< From here on those of OutputAllocator.
+  static constexpr std::size_t kMeans = kParts + OutputAllocator::Means;
+  static constexpr std::size_t kCounts = kParts + OutputAllocator::Counts;
+  static constexpr std::size_t kCovariances = kParts + OutputAllocator::Covariances;
+  static constexpr std::size_t kAttributes = kParts + OutputAllocator::Attributes;
 
   template <typename T>
   T* of(std::size_t array) const
