@@ -1,6 +1,8 @@
 #include "ViewDisplay.h"
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #if defined(__unix__) && !defined(__APPLE__)
 #include <dlfcn.h>
@@ -31,7 +33,13 @@ bool displayIsAvailable(std::string& message)
   // Kept until the program ends: a server whose last client goes may begin anew, as that of xvfb-run does,
   // and cuts the connection that VTK opens meanwhile.
   static void* display = nullptr;
-  display = display ? display : openDisplay(nullptr);
+  // Such a server refuses who comes while it begins anew: a moment later it does not.
+  constexpr int kMostTries = 5;
+  for (int i = 0; !display && i < kMostTries; ++i)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(i == 0 ? 0 : 50));
+    display = openDisplay(nullptr);
+  }
   if (!display)
   {
     message = std::string("no display: the X server \"") + name + "\" (DISPLAY) cannot be reached; " + cure;
