@@ -8,6 +8,7 @@
 #include "IO/E57/E57Pages.h"
 #include "IO/E57/E57Scan.h"
 #include "IO/E57/E57Xml.h"
+#include "IO/Info/FieldText.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -39,23 +40,12 @@ constexpr vtkIdType kReportedBlocks = 64;
 constexpr std::uint64_t kMostGrowth = 100;
 constexpr std::uint64_t kGrowthFloor = std::uint64_t{ 1 } << 26;
 
-void addText(vtkPolyData* cloud, const char* name, const std::string& text)
-{
-  if (!text.empty())
-  {
-    vtkNew<vtkStringArray> array;
-    array->SetName(name);
-    array->InsertNextValue(text);
-    cloud->GetFieldData()->AddArray(array);
-  }
-}
-
 /// What is known of the file without its points.
 void addFieldData(const E57Contents& contents, vtkPolyData* cloud)
 {
-  addText(cloud, "Generator", contents.generator);
-  addText(cloud, "CoordinateSystem", contents.coordinateSystem);
-  addText(cloud, "LengthUnit", "metre");
+  addFieldText(cloud, "Generator", contents.generator);
+  addFieldText(cloud, "CoordinateSystem", contents.coordinateSystem);
+  addFieldText(cloud, "LengthUnit", "metre");
   vtkNew<vtkStringArray> names;
   names->SetName("ScanNames");
   vtkNew<vtkTypeInt64Array> points;

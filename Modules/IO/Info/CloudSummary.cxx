@@ -1,5 +1,6 @@
 #include "IO/Info/CloudSummary.h"
 
+#include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 
 #include "Core/Base/Lattice.h"
@@ -9,7 +10,6 @@
 #include "vtkFieldData.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -109,12 +109,6 @@ std::int64_t countDuplicates(std::vector<Vec3> points)
   return points.end() - std::unique(points.begin(), points.end());
 }
 
-std::string textIn(vtkPolyData* cloud, const char* name, vtkIdType row = 0)
-{
-  vtkStringArray* array = vtkStringArray::SafeDownCast(cloud->GetFieldData()->GetAbstractArray(name));
-  return array && array->GetNumberOfValues() > row ? array->GetValue(row) : std::string();
-}
-
 double numberIn(vtkPolyData* cloud, const char* name, vtkIdType row = 0, int component = 0)
 {
   vtkDataArray* array = cloud->GetFieldData()->GetArray(name);
@@ -130,7 +124,7 @@ std::vector<ScanSummary> scansOf(vtkPolyData* cloud)
   for (vtkIdType row = 0; names && row < names->GetNumberOfTuples(); ++row)
   {
     ScanSummary scan;
-    scan.name = textIn(cloud, "ScanNames", row);
+    scan.name = io::fieldText(cloud->GetFieldData(), "ScanNames", row);
     scan.points = std::int64_t(numberIn(cloud, "ScanPoints", row));
     for (std::size_t i = 0; i < scan.pose.size(); ++i)
     {
@@ -170,7 +164,8 @@ std::vector<ArraySummary> arraysOf(vtkPolyData* cloud)
   return result;
 }
 
-void suggest(CloudSummary& summary)
+/// @param known: what the coordinates are measured in, as far as the file and its points tell.
+void suggest(const LengthUnit& known, CloudSummary& summary)
 {
   const Vec3 size = summary.bounds.extent();
   const double longest = std::max({ size.x, size.y, size.z });
@@ -187,10 +182,15 @@ void suggest(CloudSummary& summary)
     "read as metres the longest side is {:.4g} m, the workspace {} m;", longest, kDefaultWorkspaceEdge);
   for (const Unit& unit : kUnits)
   {
-    if (longest >= unit.fromSize && longest < unit.toSize)
+    if (known.evidence == UnitEvidence::None && longest >= unit.fromSize && longest < unit.toSize)
     {
       summary.hint += fmt::format(" --unit {} if it is in {},", unit.name, unit.name);
     }
+  }
+  if (known.evidence != UnitEvidence::None && known.name != "m")
+  {
+    const char* const evidence = (known.evidence == UnitEvidence::File) ? "as the file says" : "by its size";
+    summary.hint += fmt::format(" --unit {} {},", known.name, evidence);
   }
   summary.hint += fmt::format(" --scale {} to fill the workspace", summary.suggestedScale);
 }
@@ -201,7 +201,7 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
 {
   CloudSummary summary;
   summary.format = format;
-  summary.generator = textIn(cloud, "Generator");
+  summary.generator = io::fieldText(cloud->GetFieldData(), "Generator");
   summary.chunks = std::int64_t(numberIn(cloud, "Chunks"));
   summary.scans = scansOf(cloud);
   summary.points = cloud->GetNumberOfPoints();
@@ -215,17 +215,17 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
   summary.densityVariation = summary.spacing[0] > 0.0 ? summary.spacing[4] / summary.spacing[0] : 0.0;
   summary.suggestedVoxel = kSpacingsPerVoxel * summary.spacing[2];
   summary.duplicates = countDuplicates(points);
-  summary.coordinateSystem = textIn(cloud, "CoordinateSystem");
-  summary.unit = textIn(cloud, "LengthUnit");
+  summary.coordinateSystem = io::fieldText(cloud->GetFieldData(), "CoordinateSystem");
+  summary.unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
   summary.unitIsGuess = summary.unit.empty();
+  const LengthUnit unit = lengthUnitOf(cloud, summary.bounds);
   if (summary.unitIsGuess && !summary.bounds.empty())
   {
-    const LengthUnit unit = lengthUnitOf(cloud, summary.bounds);
     summary.unit = unit.name;
     summary.unitIsTold = unit.evidence != UnitEvidence::None;
   }
   summary.arrays = arraysOf(cloud);
-  suggest(summary);
+  suggest(unit, summary);
   return summary;
 }
 

@@ -1,9 +1,9 @@
 #include "IO/Info/LengthUnit.h"
 
-#include "vtkFieldData.h"
+#include "IO/Info/FieldText.h"
+
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
 
 #include <algorithm>
 #include <cctype>
@@ -41,8 +41,7 @@ bool has(const std::string& text, const char* part)
 /// Of a file that names its unit; one that is not known here counts as not named.
 bool readUnit(vtkPolyData* cloud, LengthUnit& unit)
 {
-  auto* array = vtkStringArray::SafeDownCast(cloud->GetFieldData()->GetAbstractArray("LengthUnit"));
-  const std::string said = array && array->GetNumberOfValues() > 0 ? lower(array->GetValue(0)) : "";
+  const std::string said = lower(io::fieldText(cloud->GetFieldData(), "LengthUnit"));
   if (has(said, "foot") || has(said, "feet") || said == "ft")
   {
     unit = { "ft", has(said, "survey") ? kSurveyFoot : kFoot, UnitEvidence::File };

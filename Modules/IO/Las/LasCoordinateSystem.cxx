@@ -1,8 +1,14 @@
 #include "IO/Las/LasCoordinateSystem.h"
 
+#include "IO/Info/FieldText.h"
 #include "IO/Las/LasHeader.h"
+#include "IO/Las/LasRecordWriter.h"
+#include "IO/Text/TextScan.h"
 
-#include <cstdint>
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
 
 namespace pointhaptics::io
 {
@@ -18,19 +24,49 @@ constexpr int kProjectedSystem = 3072;
 constexpr int kProjectedUnit = 3076;
 constexpr int kUserDefined = 32767;
 
+constexpr std::size_t kMostText = 65535; ///< 16 bits hold the length of a record
+constexpr const char* kProjection = "LASF_Projection";
+
+/// From the code 9001 on.
+constexpr const char* kUnits[] = { "metre", "foot", "US survey foot" };
+constexpr int kFirstUnit = 9001;
+
 const char* nameOfUnit(int code)
 {
-  switch (code)
+  const int unit = code - kFirstUnit;
+  return unit >= 0 && unit < int(std::size(kUnits)) ? kUnits[unit] : "";
+}
+
+/// @return 0 for a unit without a code.
+int codeOfUnit(const std::string& name)
+{
+  const auto* const unit = std::find(std::begin(kUnits), std::end(kUnits), name);
+  return unit == std::end(kUnits) ? 0 : kFirstUnit + int(unit - std::begin(kUnits));
+}
+
+/// The record of GeoTIFF keys. @param code of the system, 0 where only the unit is known; @param unit 0 where
+/// it is not.
+std::string keysRecord(int code, int unit)
+{
+  constexpr int kModelType = 1024;
+  const bool isGeographic = code >= 4000 && code < 5000;
+  std::vector<std::pair<int, int>> keys = { { kModelType, isGeographic ? 2 : 1 },
+    { isGeographic ? kGeographicSystem : kProjectedSystem, code > 0 ? code : kUserDefined } };
+  if (unit > 0 && !isGeographic)
   {
-    case 9001:
-      return "metre";
-    case 9002:
-      return "foot";
-    case 9003:
-      return "US survey foot";
-    default:
-      return "";
+    keys.emplace_back(kProjectedUnit, unit);
   }
+  std::vector<int> numbers = { 1, 1, 0, int(keys.size()) };
+  for (const auto& [key, value] : keys)
+  {
+    numbers.insert(numbers.end(), { key, 0, 1, value });
+  }
+  std::string content(2 * numbers.size(), '\0');
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    putLittle(content, 2 * i, static_cast<std::uint16_t>(numbers[i]));
+  }
+  return lasRecordHeader(kProjection, kGeoKeys, content.size()) + content;
 }
 
 } // namespace
@@ -84,6 +120,24 @@ std::string LasCoordinateSystem::lengthUnit() const
   const std::size_t unit = part.rfind("UNIT[\"");
   const std::size_t name = unit == std::string::npos ? unit : part.find('"', unit) + 1;
   return name == std::string::npos ? unit_ : part.substr(name, part.find('"', name) - name);
+}
+
+std::string lasCoordinateSystemRecord(vtkFieldData* fieldData, std::uint16_t& encoding)
+{
+  const std::string system = fieldText(fieldData, "CoordinateSystem");
+  const int unit = codeOfUnit(fieldText(fieldData, "LengthUnit"));
+  unsigned long long code = 0;
+  if (system.rfind("EPSG:", 0) == 0 && parseCount(std::string_view(system).substr(5), code) &&
+    code < kUserDefined)
+  {
+    return keysRecord(int(code), unit);
+  }
+  if (!system.empty() && system.size() < kMostText)
+  {
+    encoding = static_cast<std::uint16_t>(encoding | kLasWellKnownTextBit);
+    return lasRecordHeader(kProjection, kWellKnownText, system.size() + 1) + system + '\0';
+  }
+  return unit > 0 ? keysRecord(0, unit) : std::string();
 }
 
 } // namespace pointhaptics::io

@@ -2,11 +2,16 @@
 /// The coordinate system of a LAS file.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
+class vtkFieldData;
+
 namespace pointhaptics::io
 {
+
+constexpr std::uint16_t kLasWellKnownTextBit = 16; ///< of the header's global encoding
 
 /// Takes the records of the user LASF_Projection; well-known text is preferred to GeoTIFF keys.
 class LasCoordinateSystem
@@ -26,5 +31,9 @@ private:
   std::string code_;
   std::string unit_;
 };
+
+/// The record that says what the field data's CoordinateSystem and LengthUnit say, empty when they say
+/// nothing; well-known text, which has its own unit, sets its bit in @p encoding.
+std::string lasCoordinateSystemRecord(vtkFieldData* fieldData, std::uint16_t& encoding);
 
 } // namespace pointhaptics::io

@@ -1,5 +1,6 @@
 #include "FormatReaders.h"
 
+#include "IO/Info/FieldText.h"
 #include "IO/Las/LasRecords.h"
 #include "IO/Las/LazReader.h"
 
@@ -8,7 +9,6 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
@@ -19,17 +19,6 @@ namespace pointhaptics::io
 
 namespace
 {
-
-void addText(vtkPolyData* cloud, const char* name, const std::string& text)
-{
-  if (!text.empty())
-  {
-    vtkNew<vtkStringArray> array;
-    array->SetName(name);
-    array->InsertNextValue(text);
-    cloud->GetFieldData()->AddArray(array);
-  }
-}
 
 void addTriple(vtkPolyData* cloud, const char* name, const std::array<double, 3>& values)
 {
@@ -108,9 +97,9 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
     chunks->InsertNextValue(packed->numberOfChunks());
     cloud->GetFieldData()->AddArray(chunks);
   }
-  addText(cloud, "Generator", header.generator);
-  addText(cloud, "CoordinateSystem", header.coordinateSystem);
-  addText(cloud, "LengthUnit", header.lengthUnit);
+  addFieldText(cloud, "Generator", header.generator);
+  addFieldText(cloud, "CoordinateSystem", header.coordinateSystem);
+  addFieldText(cloud, "LengthUnit", header.lengthUnit);
 }
 
 } // namespace pointhaptics::io

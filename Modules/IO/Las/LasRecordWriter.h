@@ -10,12 +10,8 @@
 #include <cstring>
 #include <string>
 
-class vtkFieldData;
-
 namespace pointhaptics::io
 {
-
-constexpr std::uint16_t kLasWellKnownTextBit = 16; ///< of the header's global encoding
 
 /// Writes @p value little-endian at @p offset. @pre it lies inside @p bytes.
 template <typename T>
@@ -30,9 +26,5 @@ void putLittle(std::string& bytes, std::size_t offset, T value)
 
 /// The header of a variable length record of @p size bytes.
 std::string lasRecordHeader(const std::string& user, int id, std::size_t size);
-
-/// The record that says what the field data's CoordinateSystem says, empty when it says nothing; well-known
-/// text sets its bit in @p encoding.
-std::string lasCoordinateSystemRecord(vtkFieldData* fieldData, std::uint16_t& encoding);
 
 } // namespace pointhaptics::io

@@ -1,6 +1,7 @@
 #include "FormatWriters.h"
 
 #include "Bytes/NumericType.h"
+#include "IO/Las/LasCoordinateSystem.h"
 #include "IO/Las/LasGrid.h"
 #include "IO/Las/LasHeader.h"
 #include "IO/Las/LasRecordWriter.h"
@@ -8,6 +9,8 @@
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -280,7 +283,7 @@ void LasWriter::planPositions()
   if (worst > 0.0)
   {
     notes_.add("coordinates are rounded to steps of " + shortestDecimal(step) + ", by at most " +
-      shortestDecimal(worst) + "; write .vtp or .ply to keep every bit");
+      fmt::format("{:.3g}", worst) + "; write .vtp or .ply to keep every bit");
   }
 }
 

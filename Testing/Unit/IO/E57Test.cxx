@@ -1,8 +1,9 @@
 #include "CloudFiles.h"
 #include "E57File.h"
 
+#include "IO/Info/FieldText.h"
+
 #include "vtkFieldData.h"
-#include "vtkStringArray.h"
 #include "vtk_zlib.h"
 
 #include <cmath>
@@ -12,6 +13,8 @@
 
 namespace
 {
+
+using pointhaptics::io::fieldText;
 
 class E57 : public CloudFiles
 {
@@ -53,11 +56,6 @@ double fieldValue(const ReadResult& result, const char* name, vtkIdType row, int
   return result.cloud->GetFieldData()->GetArray(name)->GetComponent(row, component);
 }
 
-std::string fieldText(const ReadResult& result, const char* name, vtkIdType row = 0)
-{
-  return vtkStringArray::SafeDownCast(result.cloud->GetFieldData()->GetAbstractArray(name))->GetValue(row);
-}
-
 TEST_F(E57, BunnyOfScaledIntegersIsRead)
 {
   NEEDS_SHARED_DATA();
@@ -75,8 +73,9 @@ TEST_F(E57, BunnyOfScaledIntegersIsRead)
   }
   EXPECT_EQ(checksumOf(bunny.cloud->GetPoints()->GetData()), 0x79b176e8u);
   EXPECT_EQ(bunny.array("InvalidState"), nullptr) << "no point is invalid";
-  EXPECT_EQ(fieldText(bunny, "ScanNames"), "bunny");
-  EXPECT_EQ(fieldText(bunny, "Generator"), "InteliSum-LD3-Studio-V5.1-E57RefImpl-1.0.154-x86-windows");
+  EXPECT_EQ(fieldText(bunny.cloud->GetFieldData(), "ScanNames"), "bunny");
+  EXPECT_EQ(fieldText(bunny.cloud->GetFieldData(), "Generator"),
+    "InteliSum-LD3-Studio-V5.1-E57RefImpl-1.0.154-x86-windows");
 }
 
 TEST_F(E57, CubeOfDoublesHasItsColors)
@@ -103,7 +102,7 @@ TEST_F(E57, ValidFilesWithoutPointsAreSaidToBeSo)
   const ReadResult zero = readCloud(shared("ZeroPoints.e57"));
   expectRefused(zero, "E57 1.0: the file is valid, but its 1 scan holds no points; ");
   EXPECT_TRUE(zero.validWithoutPoints);
-  EXPECT_EQ(fieldText(zero, "Generator"), "E57Format-3.1.1-x86_64-AppleClang140");
+  EXPECT_EQ(fieldText(zero.cloud->GetFieldData(), "Generator"), "E57Format-3.1.1-x86_64-AppleClang140");
   const ReadResult bad = readCloud(shared("bad-crc.e57"));
   expectRefused(bad, "byte 0: page 1 of 1 does not have the content of its checksum (CRC-32C); ");
   EXPECT_FALSE(bad.validWithoutPoints);
@@ -227,8 +226,8 @@ TEST_F(E57, SeveralScansGoWhereTheirPosesSay)
     EXPECT_EQ(result.value("ScanIndex", 3 + i), 1);
     EXPECT_EQ(result.value("Intensity", 3 + i), i + 1);
   }
-  EXPECT_EQ(fieldText(result, "ScanNames", 0), "door");
-  EXPECT_EQ(fieldText(result, "ScanNames", 1), "scan 2");
+  EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "ScanNames", 0), "door");
+  EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "ScanNames", 1), "scan 2");
   EXPECT_EQ(fieldValue(result, "ScanPoints", 1), 5);
   EXPECT_EQ(fieldValue(result, "ScanPoses", 0, 1), 5017906.07);
   EXPECT_EQ(fieldValue(result, "ScanPoses", 0, 6), half);
@@ -262,8 +261,8 @@ TEST_F(E57, PosesMakeDoublesOfFloatsAndTurnNormals)
   ASSERT_NE(normals, nullptr);
   EXPECT_NEAR(normals->GetComponent(0, 0), 0, 1e-7);
   EXPECT_NEAR(normals->GetComponent(0, 1), 1, 1e-7);
-  EXPECT_EQ(fieldText(result, "CoordinateSystem"), "PROJCS[\"x\"]");
-  EXPECT_EQ(fieldText(result, "LengthUnit"), "metre");
+  EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "CoordinateSystem"), "PROJCS[\"x\"]");
+  EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "LengthUnit"), "metre");
 }
 
 TEST_F(E57, SphericalCoordinatesBecomePointsAndStay)

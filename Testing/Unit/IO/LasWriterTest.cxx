@@ -1,11 +1,12 @@
 #include "CloudFiles.h"
 
+#include "IO/Info/FieldText.h"
+
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
 #include "vtkPointCloudWriter.h"
-#include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <cmath>
@@ -15,6 +16,9 @@
 
 namespace
 {
+
+using pointhaptics::io::addFieldText;
+using pointhaptics::io::fieldText;
 
 class LasWriting : public CloudFiles
 {
@@ -349,18 +353,32 @@ TEST_F(LasWriting, KeepsTheCoordinateSystem)
          std::string("PROJCS[\"made up\",GEOGCS[\"g\",UNIT[\"degree\",0.017]],UNIT[\"metre\",1]]") })
   {
     const ReadResult plain = readCloud(write("a.las", makeLas(2, 0, 20)));
-    vtkNew<vtkStringArray> text;
-    text->SetName("CoordinateSystem");
-    text->InsertNextValue(system);
-    plain.cloud->GetFieldData()->AddArray(text);
+    addFieldText(plain.cloud, "CoordinateSystem", system);
     ASSERT_EQ(writeCloud(plain.cloud, path("b.las")), "");
     const ReadResult result = readCloud(path("b.las"));
     ASSERT_EQ(result.error, "");
-    vtkAbstractArray* read = result.cloud->GetFieldData()->GetAbstractArray("CoordinateSystem");
-    ASSERT_NE(read, nullptr);
-    EXPECT_EQ(vtkStringArray::SafeDownCast(read)->GetValue(0), system);
+    EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "CoordinateSystem"), system);
     vtkAbstractArray* unit = result.cloud->GetFieldData()->GetAbstractArray("LengthUnit");
     EXPECT_EQ(unit != nullptr, system[0] == 'P');
+  }
+}
+
+TEST_F(LasWriting, KeepsTheUnit)
+{
+  for (const std::string& system : { std::string(), std::string("EPSG:2263") })
+  {
+    for (const std::string& unit :
+      { std::string("metre"), std::string("foot"), std::string("US survey foot") })
+    {
+      const ReadResult plain = readCloud(write("a.las", makeLas(2, 0, 20)));
+      addFieldText(plain.cloud, "CoordinateSystem", system);
+      addFieldText(plain.cloud, "LengthUnit", unit);
+      ASSERT_EQ(writeCloud(plain.cloud, path("b.las")), "");
+      const ReadResult result = readCloud(path("b.las"));
+      ASSERT_EQ(result.error, "");
+      EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "LengthUnit"), unit);
+      EXPECT_EQ(fieldText(result.cloud->GetFieldData(), "CoordinateSystem"), system);
+    }
   }
 }
 

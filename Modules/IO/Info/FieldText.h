@@ -1,0 +1,34 @@
+/// @file
+/// Words about a whole cloud, in its field data: "CoordinateSystem", "LengthUnit" and the like.
+#pragma once
+
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <string>
+
+namespace pointhaptics::io
+{
+
+/// @return nothing where there is no such array of words, or not so many.
+inline std::string fieldText(vtkFieldData* data, const char* name, vtkIdType row = 0)
+{
+  auto* array = vtkStringArray::SafeDownCast(data->GetAbstractArray(name));
+  return array && array->GetNumberOfValues() > row ? array->GetValue(row) : std::string();
+}
+
+/// Nothing is added for a @p text without letters.
+inline void addFieldText(vtkPolyData* cloud, const char* name, const std::string& text)
+{
+  if (!text.empty())
+  {
+    vtkNew<vtkStringArray> array;
+    array->SetName(name);
+    array->InsertNextValue(text);
+    cloud->GetFieldData()->AddArray(array);
+  }
+}
+
+} // namespace pointhaptics::io
