@@ -134,7 +134,12 @@ TEST_F(Feel, SaysHowFarAHandThatTouchesNothingStaysAway)
   this->succeed({ "generate", "plane", "-n", "4000", "-o", "plane.ply" });
   this->write("above.csv", "t,x,y,z\n0,0,0,0.4\n0.5,0,0,0.31\n1,0,0,0.5\n");
   const std::string said = this->succeed({ "feel", "plane.ply", "--path", "above.csv", "-o", "out.csv" });
-  EXPECT_NE(said.find("0 of 1001 ticks in contact; nearest point 0.31 m away"), std::string::npos) << said;
+  EXPECT_NE(
+    said.find("0 of 1001 ticks in contact; nearest point 0.31 m away; --fit brings"), std::string::npos)
+    << said;
+  const std::string placed =
+    this->succeed({ "feel", "plane.ply", "--path", "above.csv", "-o", "out.csv", "--scale", "1" });
+  EXPECT_EQ(placed.find("--fit"), std::string::npos) << placed;
   const auto json = nlohmann::json::parse(
     this->succeed({ "feel", "plane.ply", "--path", "above.csv", "-o", "out.csv", "--json" }));
   EXPECT_NEAR(json.at("nearest_point_m").get<double>(), 0.31, 0.003);

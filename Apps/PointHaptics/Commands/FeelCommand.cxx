@@ -263,8 +263,12 @@ void print(const FeelOptions& options, const FeelScenes& scenes, const Summary& 
     options.output);
   if (nearest)
   {
-    fmt::print(
-      "{} of {} ticks in contact; nearest point {} away\n", s.contactTicks, s.ticks, lengthText(*nearest, 2));
+    const bool isPlaced =
+      options.fit || options.lattice.hasTransform() || !options.lattice.workspace().empty();
+    fmt::print("{} of {} ticks in contact; nearest point {} away{}\n", s.contactTicks, s.ticks,
+      lengthText(*nearest, 2),
+      !isPlaced && *nearest > kDefaultWorkspaceEdge ? "; --fit brings the cloud into the 10 cm workspace"
+                                                    : "");
   }
 }
 
