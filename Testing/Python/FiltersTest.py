@@ -59,6 +59,30 @@ class EqualsTheProgram(TestCase):
             self.compare(voxels, self.path("out.vtp"))
             self.assertGreater(voxels.clipped, 0)
 
+    def test_representatives(self):
+        points, attributes = self.cloud(np.float32)
+        for representative in ("nearest-to-mean", "nearest-to-center", "median"):
+            run_program(
+                "resample", self.path("in.vtp"), "-o", self.path("out.vtp"), "--voxel", 0.002, "--minimum-points", 3,
+                "--representative", representative, "--voxel-index", self.path("index.csv"),
+            )  # fmt: skip
+            voxels = ph.resample(
+                points, voxel=0.002, attributes=attributes,
+                representative=representative, minimum_points=3, voxel_index=True,
+            )  # fmt: skip
+            self.compare(voxels, self.path("out.vtp"))
+            self.assertGreaterEqual(voxels.counts.min(), 3)
+            index = np.loadtxt(self.path("index.csv"), dtype=np.int64, delimiter=",", skiprows=1)
+            self.assert_same_bits(voxels.voxel_index, index.reshape(-1))
+            members = np.bincount(voxels.voxel_index[voxels.voxel_index >= 0], minlength=len(voxels))
+            self.assert_same_bits(members, voxels.counts)
+            if representative == "median":
+                self.assertIsNone(voxels.point_ids)
+                continue
+            self.assert_same_bits(voxels.points, points[voxels.point_ids])
+            self.assert_same_bits(voxels.attributes["Pair"], attributes["Pair"][voxels.point_ids])
+            self.assert_same_bits(voxels.voxel_index[voxels.point_ids], np.arange(len(voxels)))
+
     def test_a_vtk_transform_is_its_matrix(self):
         points, _ = self.cloud(np.float64)
         transform = vtkTransform()
@@ -207,6 +231,8 @@ class BadInput(TestCase):
             (ValueError, ["singular"], {"transform": np.diag([1, 1, 0, 1.0])}),
             (ValueError, ["threads", "0"], {"threads": 0}),
             (TypeError, ["threads", "1.5"], {"threads": 1.5}),
+            (ValueError, ["representative", "'nearest'", "'nearest-to-mean'"], {"representative": "nearest"}),
+            (ValueError, ["minimum_points", "0"], {"minimum_points": 0}),
             # What only the filter can know comes from it.
             (ValueError, ["voxel"], {"voxel": 1e-12}),
             (ValueError, ["voxel"], {"voxel": 5e-324}),
@@ -223,7 +249,7 @@ class BadInput(TestCase):
             (ValueError, ["beta", "0"], {"beta": 0}),
             (ValueError, ["r1", "-1"], {"r1": -1}),
             (ValueError, ["r2", "r1"], {"r1": 2, "r2": 1}),
-            (ValueError, ["VoxelPointCount", "(3,)"], {"counts": np.ones(3)}),
+            (ValueError, ["counts", "(3,)"], {"counts": np.ones(3)}),
         ):
             with self.subTest(options):
                 self.assert_raises(kind, words, ph.bandwidth, points, **options)

@@ -13,7 +13,8 @@ import pointhaptics as ph
 class Package(TestCase):
     def test_signatures_are_the_documented_ones(self):
         for function, expected in (
-            (ph.resample, "points voxel dims workspace transform attributes covariance categorical threads"),
+            (ph.resample, "points voxel dims workspace transform attributes covariance categorical threads "
+             "representative minimum_points voxel_index"),
             (ph.bandwidth, "points k rule beta r1 r2 density counts"),
             (ph.read, "path"),
             (ph.write, "path points attributes"),

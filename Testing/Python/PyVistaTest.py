@@ -65,6 +65,9 @@ class Accessor(TestCase):
         self.assert_same_bits(wide.point_data["a"], expected.attributes["a"])
         self.assertNotIn("Bandwidth", means.point_data)
         self.assertEqual(sorted(means.pointhaptics.resample(voxel=0.01).point_data), ["VoxelPointCount", "a"])
+        nearest = mesh.pointhaptics.resample(voxel=0.002, representative="nearest-to-mean", voxel_index=True)
+        ids = np.asarray(nearest.point_data["vtkOriginalPointIds"])
+        self.assert_same_bits(np.asarray(mesh.point_data["VoxelIndex"])[ids], np.arange(len(ids)))
 
     def test_errors_are_those_of_the_functions(self):
         mesh = PolyData(sphere(10))

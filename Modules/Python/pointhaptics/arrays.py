@@ -80,14 +80,15 @@ class Cloud:
     def __len__(self) -> int:
         return len(self._kept[0])
 
-    def add(self, name: str, values: object) -> None:
-        """Adds a point array; "Normals" of three components become the active normals."""
+    def add(self, name: str, values: object, argument: Optional[str] = None) -> None:
+        """Adds a point array; "Normals" of three components become the active normals. Errors name the argument."""
         if not isinstance(name, str) or not name:
             raise TypeError(f"attributes: the name {name!r}; give a string that is not empty")
-        array = _numbers(values, f"attributes[{name!r}]")
+        argument = argument or f"attributes[{name!r}]"
+        array = _numbers(values, argument)
         if array.ndim not in (1, 2) or len(array) != len(self) or array.size == 0:
             raise ValueError(
-                f"attributes[{name!r}]: shape {array.shape}; give one row for each of the {len(self)} points, "
+                f"{argument}: shape {array.shape}; give one row for each of the {len(self)} points, "
                 f"({len(self)},) or ({len(self)}, components)"
             )
         self._kept.append(array)

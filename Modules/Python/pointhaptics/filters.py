@@ -14,6 +14,7 @@ from .updates import update
 
 _MOST_VOXELS = 1 << 21  # on an axis
 _INT_MAX = (1 << 31) - 1
+_POINT_IDS = "vtkOriginalPointIds"
 _RULES = {
     "normal-reference": vtkKernelBandwidthFilter.NormalReference,
     "silverman-robust": vtkKernelBandwidthFilter.SilvermanRobust,
@@ -21,18 +22,30 @@ _RULES = {
     "silverman": vtkKernelBandwidthFilter.SilvermanMultivariate,
     "sheather-jones": vtkKernelBandwidthFilter.SheatherJones,
 }
+_REPRESENTATIVES = {
+    "mean": vtkVoxelMeanResampler.Mean,
+    "nearest-to-mean": vtkVoxelMeanResampler.NearestToMean,
+    "nearest-to-center": vtkVoxelMeanResampler.NearestToCenter,
+    "median": vtkVoxelMeanResampler.Median,
+}
 
 
 @dataclass(frozen=True, eq=False)
 class Voxels:
     """One row for each active voxel, in the order of the voxels' index (x fastest)."""
 
-    points: np.ndarray  #: (n, 3), the means of the points, of the input's type, in the workspace frame.
+    points: np.ndarray  #: (n, 3), the means of the points, or what else stands for them, of the input's type, in the
+    # workspace frame.
     counts: np.ndarray  #: (n,) int64, points of each voxel.
     covariance: Optional[np.ndarray]  #: (n, 6) float64, XX YY ZZ XY YZ XZ in squared units of the points, or None.
     attributes: Dict[str, np.ndarray] = field(repr=False)  #: By name, of the inputs' types: (n,) or (n, components).
     clipped: int  #: Finite points outside the workspace.
     invalid: int  #: Points that are NaN or infinite.
+    #: (n,) int64, the point of the input that stands for each voxel, where it is one of them, or None.
+    point_ids: Optional[np.ndarray] = field(default=None, repr=False)
+    #: (points of the input,) int64, the row of each one's voxel; -1: clipped, invalid or in a voxel that is left out.
+    #: None where it was not asked for.
+    voxel_index: Optional[np.ndarray] = field(default=None, repr=False)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -80,8 +93,12 @@ def resample(
     covariance: bool = False,
     categorical: Collection[str] = (),
     threads: Optional[int] = None,
+    *,
+    representative: str = "mean",
+    minimum_points: int = 1,
+    voxel_index: bool = False,
 ) -> Voxels:
-    """Replace the points in each voxel of a regular lattice by their mean.
+    """Replace the points in each voxel of a regular lattice by their mean, or by one of them.
 
     Parameters
     ----------
@@ -96,10 +113,14 @@ def resample(
     covariance : compute the six second moments of each voxel.
     categorical : names of attributes that hold labels: a voxel gets the most frequent one. "Classification" always is.
     threads : at most so many, 1 or more; default: as vtkSMPTools is set. The result is the same with any number.
+    representative : what stands for the points of a voxel: "mean"; "nearest-to-mean" or "nearest-to-center", the point
+        of the input, with its own attributes, whose row is in .point_ids; or "median", coordinate by coordinate.
+    minimum_points : voxels with fewer points are left out, 1 or more.
+    voxel_index : find the voxel of each point: .voxel_index, such that .points[.voxel_index[i]] stands for point i.
 
     Returns
     -------
-    Voxels, with .points .counts .covariance .attributes .clipped .invalid
+    Voxels, with .points .counts .covariance .attributes .clipped .invalid .point_ids .voxel_index
 
     Raises
     ------
@@ -119,6 +140,12 @@ def resample(
             raise ValueError(f"categorical: no attribute is called {name!r}; give names of {sorted(attributes)}")
         resampler.AddCategoricalArray(name)
     resampler.SetComputeCovariance(bool(covariance))
+    if representative not in _REPRESENTATIVES:
+        raise ValueError(f"representative: {representative!r}; give one of {', '.join(map(repr, _REPRESENTATIVES))}")
+    resampler.SetRepresentative(_REPRESENTATIVES[representative])
+    resampler.SetKeepOriginalPointIds(representative.startswith("nearest"))
+    resampler.SetMinimumPointsPerVoxel(whole(minimum_points, "minimum_points", 1, _INT_MAX))
+    resampler.SetComputeVoxelIndex(bool(voxel_index))
     cloud = Cloud(points, attributes)
     resampler.SetInputData(cloud.data)
     if threads is None:
@@ -127,7 +154,9 @@ def resample(
         _update_with(whole(threads, "threads", 1, _INT_MAX), resampler)
     output = resampler.GetOutput()
     data = output.GetPointData()
-    own = ("VoxelPointCount", "VoxelCovariance")
+    own = ("VoxelPointCount", "VoxelCovariance", _POINT_IDS)
+    point_ids = data.GetArray(_POINT_IDS)
+    places = resampler.GetOutput(1).GetPointData().GetArray("VoxelIndex") if voxel_index else None
     return Voxels(
         points=points_of(output),
         counts=from_vtk(data.GetArray("VoxelPointCount")),
@@ -135,6 +164,8 @@ def resample(
         attributes=arrays_of(data, without=own),
         clipped=resampler.GetNumberOfClippedPoints(),
         invalid=resampler.GetNumberOfInvalidPoints(),
+        point_ids=from_vtk(point_ids) if point_ids else None,
+        voxel_index=from_vtk(places) if places else None,
     )
 
 
@@ -194,7 +225,9 @@ def bandwidth(
         if r1 is not None and r2 < r1:
             raise ValueError(f"r2: {r2!r} is below r1 {r1!r}; give r1 <= r2")
     estimator.SetComputeDensity(bool(density))
-    cloud = Cloud(points, {} if counts is None else {"VoxelPointCount": counts})
+    cloud = Cloud(points)
+    if counts is not None:
+        cloud.add("VoxelPointCount", counts, "counts")
     estimator.SetInputData(cloud.data)
     update(estimator)
     data = estimator.GetOutput().GetPointData()

@@ -32,8 +32,9 @@ class PointHapticsAccessor:
     def resample(self, **options: Any) -> Any:
         """One mean for each active voxel, with the means of all point arrays and "VoxelPointCount".
 
-        options: those of pointhaptics.resample: voxel, dims, workspace, transform, covariance, categorical, threads;
-        attributes chooses other arrays than the mesh's. With covariance=True "VoxelCovariance" (n, 6) is there too.
+        options: those of pointhaptics.resample: voxel, dims, workspace, transform, covariance, categorical, threads,
+        representative, minimum_points; attributes chooses other arrays than the mesh's. With covariance=True
+        "VoxelCovariance" (n, 6) is there too, with voxel_index=True the mesh gets the point array "VoxelIndex".
         Raises TypeError or ValueError as pointhaptics.resample does.
         """
         options.setdefault("attributes", self._arrays())
@@ -44,6 +45,10 @@ class PointHapticsAccessor:
         result.point_data[_COUNTS] = voxels.counts
         if voxels.covariance is not None:
             result.point_data["VoxelCovariance"] = voxels.covariance
+        if voxels.point_ids is not None:
+            result.point_data["vtkOriginalPointIds"] = voxels.point_ids
+        if voxels.voxel_index is not None:
+            self._mesh.point_data["VoxelIndex"] = voxels.voxel_index
         return result
 
     def bandwidth(self, **options: Any) -> Any:
@@ -67,5 +72,5 @@ class PointHapticsAccessor:
 
     def _arrays(self, resampled: bool = False) -> Dict[str, np.ndarray]:
         """The point data by name; what an earlier resampling added only where it is wanted."""
-        own = () if resampled else (_COUNTS, "VoxelCovariance")
+        own = () if resampled else (_COUNTS, "VoxelCovariance", "VoxelIndex", "vtkOriginalPointIds")
         return {name: np.asarray(values) for name, values in self._mesh.point_data.items() if name not in own}
