@@ -84,11 +84,6 @@ void RowLayout::choose(const std::vector<TupleSource>& sources)
 
 void RowLayout::copy(const std::int64_t* points, const std::uint32_t* slots, int count, char* rows) const
 {
-  // Where the rows of points to come go: after this one's.
-  for (int i = 0; i < count; ++i)
-  {
-    simd::fetchToWrite(rows + bytes_ * slots[i] + kBytesAhead);
-  }
   // Points in the order of their memory need no fetching.
   const bool areScattered = count > 0 && points[count - 1] - points[0] != count - 1;
   for (const TupleSource& source : sources_)
@@ -113,6 +108,16 @@ void RowLayout::copy(const std::int64_t* points, const std::uint32_t* slots, int
       copyNumbers(points, slots, count, to, bytes_);
     }
   }
+}
+
+void RowLayout::bin(const std::int64_t* points, const std::uint32_t* slots, int count, char* rows) const
+{
+  // Where the rows of points to come go: after this one's.
+  for (int i = 0; i < count; ++i)
+  {
+    simd::fetchToWrite(rows + binnedBytes() * slots[i] + kBytesAhead);
+  }
+  areGathered() ? copyNumbers(points, slots, count, rows, binnedBytes()) : copy(points, slots, count, rows);
 }
 
 } // namespace pointhaptics

@@ -33,7 +33,17 @@ public:
   /// Writes rows of points: that of @p points[i] to rows + bytes() slots[i]. Several threads may at once.
   void copy(const std::int64_t* points, const std::uint32_t* slots, int count, char* rows) const;
 
+  /// Rows so wide that they cost more memory beside the points' records than their locality is worth: the
+  /// numbers of the points lie there, and the rows are copied later.
+  bool areGathered() const { return bytes_ > kMostBinnedBytes; }
+  /// Of what lies beside a record.
+  std::size_t binnedBytes() const { return areGathered() ? sizeof(std::int64_t) : bytes_; }
+  /// Writes that as copy() writes rows.
+  void bin(const std::int64_t* points, const std::uint32_t* slots, int count, char* rows) const;
+
 private:
+  static constexpr std::size_t kMostBinnedBytes = 64;
+
   std::vector<TupleSource> sources_;
   std::vector<std::size_t> offsets_;
   std::size_t bytes_ = 0;

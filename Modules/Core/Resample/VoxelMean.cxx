@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <type_traits>
 
 namespace pointhaptics
 {
@@ -20,17 +21,14 @@ Bounds transformedBounds(const PointView& points, const AffineTransform& transfo
   const auto include = [&](std::int64_t begin, std::int64_t end)
   {
     double local[6] = { INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY };
-    if (points.floats())
+    const auto includeAll = [&](const auto* from)
     {
-      forPointBlocks(points.floats(), points, begin, end,
-        [&](const float* xyz, std::int64_t count) { kernels.boundsFloats(transform.m, xyz, count, local); });
-    }
-    else
-    {
-      forPointBlocks(points.doubles(), points, begin, end,
-        [&](const double* xyz, std::int64_t count)
-        { kernels.boundsDoubles(transform.m, xyz, count, local); });
-    }
+      using Real = std::decay_t<decltype(*from)>;
+      forPointBlocks(from, points, begin, end,
+        [&](const Real* xyz, std::int64_t count)
+        { kernels.of<Real>().bounds(transform.m, xyz, count, local); });
+    };
+    points.floats() ? includeAll(points.floats()) : includeAll(points.doubles());
     if (local[0] <= local[1])
     {
       const std::lock_guard<std::mutex> lock(mutex);

@@ -200,7 +200,7 @@ std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
   std::size_t sum = binner_.pool().bytes() + sorted_.bytes() + runs_.bytes() +
     (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t);
-  for (const std::unique_ptr<PartitionWorker>& worker : idle_)
+  for (const std::unique_ptr<PartitionWorker>& worker : workers_)
   {
     sum += worker->bytes();
   }

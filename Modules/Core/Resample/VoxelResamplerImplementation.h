@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 namespace pointhaptics
@@ -48,8 +47,6 @@ public:
   std::size_t scratchBytes() const;
 
 private:
-  class WorkerLease;
-
   void clear();
   /// Whether points are binned into partitions of the lattice, or sorted.
   static bool usesPartitions(const Lattice& lattice);
@@ -93,10 +90,9 @@ private:
   bool poolHoldsAll_ = false;  ///< The binner's pool holds all points of the last run, with their rows.
   bool reducesInPass_ = false; ///< Attributes and representatives are made where points are summed.
   std::vector<simd::AccumulatedPartition> accumulated_;
-  std::vector<std::unique_ptr<simd::PartitionWorker>> idle_;
+  std::vector<std::unique_ptr<simd::PartitionWorker>> workers_; ///< One for each thread.
   simd::SortedPoints sorted_;
   simd::VoxelRuns runs_;
-  alignas(simd::kApart) std::mutex mutex_;
 };
 
 } // namespace pointhaptics

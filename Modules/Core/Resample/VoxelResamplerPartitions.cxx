@@ -4,52 +4,12 @@
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
-#include <atomic>
-#include <utility>
+#include <memory>
 
 namespace pointhaptics
 {
 
 using namespace simd;
-
-/// A worker nobody else uses, for as long as this lives.
-class VoxelResampler::Implementation::WorkerLease
-{
-public:
-  WorkerLease(Implementation& owner, const VoxelRequest& request)
-    : owner_(owner)
-    , reductions_{ request, owner.binner_.rows(), owner.binner_.binnedRows() }
-  {
-    {
-      const std::lock_guard<std::mutex> lock(owner_.mutex_);
-      if (!owner_.idle_.empty())
-      {
-        worker_ = std::move(owner_.idle_.back());
-        owner_.idle_.pop_back();
-      }
-    }
-    if (!worker_)
-    {
-      worker_ = std::make_unique<PartitionWorker>();
-    }
-    worker_->prepare(owner_.binner_.plan(), request.covariances);
-    worker_->reduce(owner_.reducesInPass_ ? &reductions_ : nullptr);
-  }
-  ~WorkerLease()
-  {
-    worker_->reduce(nullptr);
-    const std::lock_guard<std::mutex> lock(owner_.mutex_);
-    owner_.idle_.push_back(std::move(worker_));
-  }
-  WorkerLease(const WorkerLease&) = delete;
-  WorkerLease& operator=(const WorkerLease&) = delete;
-  PartitionWorker& operator*() const { return *worker_; }
-
-private:
-  Implementation& owner_;
-  PartitionReductions reductions_;
-  std::unique_ptr<PartitionWorker> worker_;
-};
 
 static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
 
@@ -76,16 +36,21 @@ template <typename Work>
 void VoxelResampler::Implementation::forPartitions(
   const VoxelRequest& request, const Executor& executor, Work&& work)
 {
-  std::atomic<std::uint32_t> next{ 0 };
-  forRange(executor, executor.concurrency(), 1,
-    [&](std::int64_t, std::int64_t)
-    {
-      const WorkerLease lease(*this, request);
-      for (std::uint32_t p = next++; p < binner_.plan().partitions; p = next++)
-      {
-        work(*lease, p);
-      }
-    });
+  const PartitionReductions reductions = { request, binner_.rows() };
+  while (workers_.size() < std::size_t(std::max(executor.concurrency(), 1)))
+  {
+    workers_.push_back(std::make_unique<PartitionWorker>());
+  }
+  for (const std::unique_ptr<PartitionWorker>& worker : workers_)
+  {
+    worker->prepare(binner_.plan(), request.covariances, reducesInPass_ ? &reductions : nullptr);
+  }
+  forItemsByThreads(executor, binner_.plan().partitions,
+    [&](std::int64_t p, std::size_t thread) { work(*workers_[thread], std::uint32_t(p)); });
+  for (const std::unique_ptr<PartitionWorker>& worker : workers_)
+  {
+    worker->finish();
+  }
 }
 
 /// Adds the pool's records to the accumulated sums.
@@ -177,7 +142,7 @@ Status VoxelResampler::Implementation::visitBinned(
       {
         const std::size_t firstVoxel = levels[0].firsts[p];
         std::int64_t voxels[kBlockRecords];
-        RowReader reader(binner_.rows(), binner_.binnedRows());
+        RowReader reader(binner_.rows());
         worker.rank(kernelsFor(request.instructions), binner_.pool(), p, levels[0].arena.keys() + firstVoxel,
           levels[0].firsts[p + 1] - firstVoxel,
           [&](const char* rows, const std::uint32_t* ranks, int count)

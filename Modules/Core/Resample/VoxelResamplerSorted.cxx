@@ -95,9 +95,7 @@ Status VoxelResampler::Implementation::sum(const VoxelRequest& request, VoxelRun
   {
     if (runs_.size(range) > 0)
     {
-      const VoxelRun& run = runs_.run(range);
-      sums.voxels.insert(sums.voxels.end(), run.voxels.begin(), run.voxels.end());
-      sums.secondMoments.insert(sums.secondMoments.end(), run.secondMoments.begin(), run.secondMoments.end());
+      sums.append(runs_.run(range), 0, runs_.size(range));
       runs_.release(range);
     }
   }
@@ -118,14 +116,9 @@ Status VoxelResampler::Implementation::finishSums(const VoxelRequest& request, c
     runs_.reset(kRanges, fractionBits);
     for (std::size_t range = 0; range < kRanges; ++range)
     {
-      const auto first = std::ptrdiff_t(sums.voxels.size() * range / kRanges);
-      const auto last = std::ptrdiff_t(sums.voxels.size() * (range + 1) / kRanges);
+      const std::size_t size = sums.voxels.size();
       VoxelRun run;
-      run.voxels.assign(sums.voxels.begin() + first, sums.voxels.begin() + last);
-      if (!sums.secondMoments.empty())
-      {
-        run.secondMoments.assign(sums.secondMoments.begin() + first, sums.secondMoments.begin() + last);
-      }
+      run.append(sums, size * range / kRanges, size * (range + 1) / kRanges);
       runs_.add(range, std::move(run));
     }
     status = finishRuns(request, executor, observer);
@@ -152,7 +145,7 @@ Status VoxelResampler::Implementation::visitSorted(
     forEachItem(executor, sorted_.ranges(),
       [&](std::size_t range)
       {
-        RowCollector collector(binner_.rows());
+        RowReader reader(binner_.rows());
         std::int64_t points[kBlockRecords];
         std::int64_t voxels[kBlockRecords];
         sorted_.forEntries(range,
@@ -167,7 +160,7 @@ Status VoxelResampler::Implementation::visitSorted(
                 points[size] = usable.index ? usable.index->original(entry->point) : entry->point;
                 voxels[size] = at - keys;
               }
-              visit(collector.collect(points, size), voxels, size);
+              visit(reader.gather(points, size), voxels, size);
             }
           });
       });

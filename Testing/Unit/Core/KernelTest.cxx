@@ -370,11 +370,11 @@ Bounds boundsOf(const Kernels& kernels, const AffineTransform& transform, const 
   const auto count = std::int64_t(xyz.size() / 3);
   if constexpr (std::is_same_v<Real, float>)
   {
-    kernels.boundsFloats(transform.m, xyz.data(), count, box);
+    kernels.of<float>().bounds(transform.m, xyz.data(), count, box);
   }
   else
   {
-    kernels.boundsDoubles(transform.m, xyz.data(), count, box);
+    kernels.of<double>().bounds(transform.m, xyz.data(), count, box);
   }
   Bounds bounds;
   if (box[0] <= box[1])

@@ -107,7 +107,8 @@ TEST(VoxelDivision, ByCountsIsCorrectlyRounded)
       double means[3 * kBatch];
       std::int64_t counts[kBatch];
       int nearFace[kBatch];
-      kernels.packedMeansDouble(map, cellMap, cells.data(), packed.data(), kBatch, means, counts, nearFace);
+      kernels.of<double>().packedMeans(
+        map, cellMap, cells.data(), packed.data(), kBatch, means, counts, nearFace);
       for (int i = 0; i < kBatch; ++i)
       {
         const Fraction& fraction = all[first + std::size_t(i)];

@@ -227,15 +227,39 @@ struct CovarianceMap
 /// Elements of the widest vectors.
 constexpr int kWidest = 8;
 
+/// The inner loops over coordinates of one type (x y z interleaved).
+template <typename Real>
+struct PointKernels
+{
+  /// Quantizes the points of @p count ranges of an array and appends those inside to their partitions.
+  void (*partition)(
+    const PointQuantizer&, const Real* xyz, const PointRange* ranges, std::int64_t count, PointRecordWriter&);
+  /// Coordinates and counts of cells with their sums. Positions among them of means so near a face that they
+  /// need another look go to @p nearFace. @return the number of these. Reads, but does not use, kWidest
+  /// elements past the end.
+  int (*packedMeans)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
+    int count, Real* xyz, std::int64_t* counts, int* nearFace);
+  /// Widens a box (x0 x1 y0 y1 z0 z1) by the transformed points that are finite before and after.
+  void (*bounds)(const double matrix[3][4], const Real* xyz, std::int64_t count, double box[6]);
+};
+
 /// The inner loops for one instruction set.
 struct Kernels
 {
-  /// Quantizes the points of @p count ranges of an array (x y z interleaved) and appends those inside to
-  /// their partitions.
-  void (*partitionFloats)(const PointQuantizer&, const float* xyz, const PointRange* ranges,
-    std::int64_t count, PointRecordWriter&);
-  void (*partitionDoubles)(const PointQuantizer&, const double* xyz, const PointRange* ranges,
-    std::int64_t count, PointRecordWriter&);
+  PointKernels<float> floats;
+  PointKernels<double> doubles;
+  template <typename Real>
+  const PointKernels<Real>& of() const
+  {
+    if constexpr (sizeof(Real) == sizeof(float))
+    {
+      return floats;
+    }
+    else
+    {
+      return doubles;
+    }
+  }
   /// The cell of each record. Prefetches the block of records that comes @p next: blocks are not contiguous
   /// often enough for the hardware's prefetcher.
   void (*cells)(
@@ -250,21 +274,11 @@ struct Kernels
   /// Adds records to the sums of their @p cells; fetches @p next like cells().
   void (*accumulate)(const CellMap&, const CellRanks& ranks, const PointRecord* records, std::uint32_t* cells,
     int count, const PointRecord* next, const CellSums& sums);
-  /// Coordinates, x y z interleaved, and counts of cells with their sums. Positions among them of means so
-  /// near a face that they need another look go to @p nearFace. @return the number of these. Reads, but does
-  /// not use, kWidest elements past the end.
-  int (*packedMeansFloat)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
-    int count, float* xyz, std::int64_t* counts, int* nearFace);
-  int (*packedMeansDouble)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
-    int count, double* xyz, std::int64_t* counts, int* nearFace);
   /// Covariances of cells, six numbers each in the order of SecondMoments. Positions among them of those with
   /// too many points for this go to @p full, at most @p count: theirs are not valid. @return the number of
   /// these. Reads, but does not use, kWidest elements past the end.
   int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSecondMoments* secondMoments,
     int count, double* covariances, int* full);
-  /// Widens a box (x0 x1 y0 y1 z0 z1) by the transformed points that are finite before and after.
-  void (*boundsFloats)(const double matrix[3][4], const float* xyz, std::int64_t count, double box[6]);
-  void (*boundsDoubles)(const double matrix[3][4], const double* xyz, std::int64_t count, double box[6]);
   AttributeKernels attributes;
 };
 

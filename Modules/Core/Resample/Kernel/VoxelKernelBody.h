@@ -18,9 +18,11 @@ namespace simd
 namespace
 {
 
-constexpr Kernels kKernels = { &partition<float>, &partition<double>, &cellsOf, &setOccupied, &rankWords,
-  &rank, &accumulate, &packedMeans<float>, &packedMeans<double>, &covariances, &bounds<float>,
-  &bounds<double>, kAttributeKernels };
+template <typename Real>
+constexpr PointKernels<Real> kPointKernels = { &partition<Real>, &packedMeans<Real>, &bounds<Real> };
+
+constexpr Kernels kKernels = { kPointKernels<float>, kPointKernels<double>, &cellsOf, &setOccupied,
+  &rankWords, &rank, &accumulate, &covariances, kAttributeKernels };
 
 }
 } // namespace simd

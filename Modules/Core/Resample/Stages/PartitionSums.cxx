@@ -30,11 +30,18 @@ static_assert(kPackedCounts + kChunkPoints < (std::int64_t(1) << 21),
 
 }
 
-void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
+void PartitionWorker::prepare(
+  const PartitionPlan& plan, bool covariances, const PartitionReductions* reductions)
 {
   plan_ = plan;
   covariances_ = covariances;
-  const std::size_t words = occupancyWords(plan);
+  reductions_ = reductions;
+}
+
+/// Memory that grows with the plan is touched by a thread that works.
+void PartitionWorker::makeTables()
+{
+  const std::size_t words = occupancyWords(plan_);
   if (occupancy_.reserve(words))
   {
     std::fill(occupancy_.data(), occupancy_.data() + words, 0);
@@ -45,12 +52,6 @@ void PartitionWorker::prepare(const PartitionPlan& plan, bool covariances)
     std::fill(touched_.data(), touched_.data() + touchedWords, 0);
   }
   rankTable_.reserve(words);
-}
-
-void PartitionWorker::reduce(const PartitionReductions* reductions)
-{
-  reductions_ = reductions;
-  own_.reductions = {};
 }
 
 CellRanks PartitionWorker::ranks() const
@@ -101,6 +102,7 @@ void PartitionWorker::countOccupied(const Kernels& kernels, const PointRecordPoo
   {
     return;
   }
+  makeTables();
   recordCells_.reserve(records);
   kernels.setOccupied(old_->cells.data(), int(old_->cellCount), occupancy_.data());
   // The accumulated sums come next and are in no near cache: prefetch a part of them with each block.
@@ -181,7 +183,7 @@ void PartitionWorker::reduceRows(const PointRecordPool& pool, AccumulatedPartiti
   }
   places_.empty() ? sums.reductions.prepare(counts_.data(), voxels, mostPoints)
                   : sums.reductions.spread(places_, voxels, mostPoints);
-  RowReader reader(reductions_->rows, reductions_->binned);
+  RowReader reader(reductions_->rows);
   std::int64_t ranksOfBlock[kBlockRecords];
   std::uint32_t* cells = recordCells_.data();
   for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())

@@ -56,17 +56,16 @@ struct PartitionReductions
 {
   const VoxelRequest& request;
   const RowLayout& rows;
-  const RowLayout& binned;
 };
 
 /// Works on one partition at a time and is used by one thread at a time.
 class alignas(kApart) PartitionWorker
 {
 public:
-  /// Readies the scratch for partitions of a plan.
-  void prepare(const PartitionPlan& plan, bool covariances);
-  /// What load() and accumulate() reduce besides; nothing if null.
-  void reduce(const PartitionReductions* reductions);
+  /// For partitions of a plan. @p reductions: what load() and accumulate() reduce besides; nothing if null.
+  void prepare(const PartitionPlan& plan, bool covariances, const PartitionReductions* reductions);
+  /// Frees what is of no use for another plan.
+  void finish() { own_.reductions = {}; }
   /// Adds the records of a partition to its @p old sums, which may change. Calls publish(size) as soon as the
   /// number of voxels is known. The voxels are valid until the next call.
   template <typename Publish>
@@ -94,6 +93,7 @@ public:
   void rank(const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition,
     const std::uint64_t* keys, std::size_t size, Visit&& visit)
   {
+    makeTables();
     const CellMap map = plan_.cellMap(partition);
     const std::uint64_t firstKey = plan_.firstKey(partition);
     recordCells_.reserve(size);
@@ -122,6 +122,7 @@ private:
     std::size_t count = 0;
   };
 
+  void makeTables();
   CellRanks ranks() const;
   std::size_t rankOccupied(const Kernels& kernels, CellList cells, CellList others);
   void clearOccupancy(CellList cells);

@@ -2,7 +2,6 @@
 
 #include "Core/Base/PointBlocks.h"
 #include "Core/Resample/Stages/PointQuantizer.h"
-#include "Core/Resample/Stages/VoxelLevel.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -46,7 +45,7 @@ struct RowCopier
     std::transform(points, points + count, numbers,
       [&](std::uint32_t point)
       { return self.index ? self.index->original(self.first + point) : self.first + point; });
-    self.layout.copy(numbers, slots, count, self.rows);
+    self.layout.bin(numbers, slots, count, self.rows);
   }
 };
 
@@ -54,23 +53,13 @@ struct RowCopier
 void binRanges(const Kernels& kernels, const PointQuantizer& quantizer, const PointView& points,
   const PointRange* ranges, std::int64_t count, RowCopier& rows, PointRecordWriter& writer)
 {
-  const auto bin = [&](const auto* xyz, const PointRange* some, std::int64_t number)
-  {
-    if constexpr (std::is_same_v<decltype(xyz), const float*>)
-    {
-      kernels.partitionFloats(quantizer, xyz, some, number, writer);
-    }
-    else
-    {
-      kernels.partitionDoubles(quantizer, xyz, some, number, writer);
-    }
-  };
   const auto binAll = [&](const auto* xyz)
   {
+    const auto bin = kernels.of<std::decay_t<decltype(*xyz)>>().partition;
     const bool atOnce = points.stride() == 3 && !writer.binned;
     if (atOnce)
     {
-      bin(xyz, ranges, count);
+      bin(quantizer, xyz, ranges, count, writer);
     }
     for (std::int64_t r = 0; !atOnce && r < count; ++r)
     {
@@ -79,7 +68,7 @@ void binRanges(const Kernels& kernels, const PointQuantizer& quantizer, const Po
         [&](const auto* block, std::int64_t size)
         {
           const PointRange all = { 0, size };
-          bin(block, &all, 1);
+          bin(quantizer, block, &all, 1, writer);
           rows.first += size;
         });
     }
@@ -146,14 +135,6 @@ void PointBinner::prepare(const VoxelRequest& request, std::int64_t points)
   quantizer_.layerShift = plan_.layerShift;
 }
 
-void PointBinner::chooseRows(const VoxelRequest& request)
-{
-  // Wider rows cost more memory than their locality is worth.
-  constexpr std::size_t kMostBinnedBytes = 64;
-  rows_.choose(request.tuples);
-  binnedRows_.choose(rows_.bytes() > kMostBinnedBytes ? std::vector<TupleSource>(1) : request.tuples);
-}
-
 void PointBinner::quantizeAndBin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk,
   bool withRows, const Executor& executor)
 {
@@ -162,17 +143,19 @@ void PointBinner::quantizeAndBin(const VoxelRequest& request, const Chunks& chun
     chooseRows(request);
   }
   pool_.prepare(
-    chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), withRows ? binnedRows_.bytes() : 0);
-  const PointRange* pieces = chunks.pieces(chunk);
-  forRange(executor, chunks.pieceCount(chunk), grainFor(chunks.pieceCount(chunk), executor),
-    [&](std::int64_t first, std::int64_t last)
+    chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), withRows ? rows_.binnedBytes() : 0);
+  const std::int64_t pieces = chunks.pieceCount(chunk);
+  const std::int64_t grain = std::max<std::int64_t>(1, pieces / (16 * executor.concurrency()));
+  forItemsByThreads(executor, (pieces + grain - 1) / grain,
+    [&](std::int64_t item, std::size_t thread)
     {
-      const PointRecordPool::Lease lease(pool_);
-      RowCopier rows = { binnedRows_, request.index, pool_.rows(), 0 };
-      lease.writer().binned = withRows ? &RowCopier::copy : nullptr;
-      lease.writer().context = &rows;
-      binRanges(kernelsFor(request.instructions), quantizer_, chunks.points(), pieces + first, last - first,
-        rows, lease.writer());
+      const std::int64_t first = item * grain;
+      RowCopier rows = { rows_, request.index, pool_.rows(), 0 };
+      PointRecordWriter& writer = pool_.writer(thread);
+      writer.binned = withRows ? &RowCopier::copy : nullptr;
+      writer.context = &rows;
+      binRanges(kernelsFor(request.instructions), quantizer_, chunks.points(), chunks.pieces(chunk) + first,
+        std::min(grain, pieces - first), rows, writer);
     });
 }
 

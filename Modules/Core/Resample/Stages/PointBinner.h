@@ -8,6 +8,7 @@
 #include "Core/Resample/Stages/PointChunks.h"
 #include "Core/Resample/Stages/PointRecordPool.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -62,30 +63,43 @@ PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t point
 /// An upper bound of a partition's voxels, from its records and accumulated voxels.
 std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t accumulated);
 
+/// Calls work(item, thread) for all items below @p count: each thread takes the next one. No two threads at a
+/// time have the same number, which is below the concurrency.
+template <typename Work>
+void forItemsByThreads(const Executor& executor, std::int64_t count, Work&& work)
+{
+  std::atomic<std::int64_t> next{ 0 };
+  forRange(executor, executor.concurrency(), 1,
+    [&](std::int64_t thread, std::int64_t)
+    {
+      for (std::int64_t item = next++; item < count; item = next++)
+      {
+        work(item, std::size_t(thread));
+      }
+    });
+}
+
 /// The first two stages.
 class PointBinner
 {
 public:
   /// For chunks of @p points points, of the lattice and the transform of @p request.
   void prepare(const VoxelRequest& request, std::int64_t points);
-  /// How the tuples of a request lie beside the records.
-  void chooseRows(const VoxelRequest& request);
+  /// The tuples of a request lie beside the records.
+  void chooseRows(const VoxelRequest& request) { rows_.choose(request.tuples); }
   /// Empties the pool; quantizes and bins a chunk, with rows or without.
   void quantizeAndBin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, bool withRows,
     const Executor& executor);
 
   const PartitionPlan& plan() const { return plan_; }
   const PointRecordPool& pool() const { return pool_; }
-  /// As they are wanted, and as they are binned: rows too wide for that are gathered later.
   const RowLayout& rows() const { return rows_; }
-  const RowLayout& binnedRows() const { return binnedRows_; }
 
 private:
   alignas(kApart) PartitionPlan plan_;
   alignas(kApart) PointQuantizer quantizer_{};
   alignas(kApart) PointRecordPool pool_;
   RowLayout rows_;
-  RowLayout binnedRows_;
 };
 
 } // namespace simd

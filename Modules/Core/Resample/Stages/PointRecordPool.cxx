@@ -56,42 +56,7 @@ void PointRecordPool::prepare(
     writer->binned = nullptr;
     writer->inside = 0;
     writer->invalid = 0;
-    writer->inUse = false;
   }
-}
-
-PointRecordPool::Lease::Lease(PointRecordPool& pool)
-  : pool_(pool)
-  , slot_(0)
-{
-  std::unique_lock<std::mutex> lock(pool_.mutex_);
-  const auto findFree = [this]
-  {
-    for (slot_ = 0; slot_ < pool_.writers_.size(); ++slot_)
-    {
-      if (!pool_.writers_[slot_]->inUse)
-      {
-        return true;
-      }
-    }
-    return false;
-  };
-  pool_.returned_.wait(lock, findFree);
-  pool_.writers_[slot_]->inUse = true;
-}
-
-PointRecordPool::Lease::~Lease()
-{
-  {
-    const std::lock_guard<std::mutex> lock(pool_.mutex_);
-    pool_.writers_[slot_]->inUse = false;
-  }
-  pool_.returned_.notify_one();
-}
-
-PointRecordWriter& PointRecordPool::Lease::writer() const
-{
-  return *pool_.writers_[slot_];
 }
 
 std::uint32_t PointRecordPool::following(std::uint32_t partition) const

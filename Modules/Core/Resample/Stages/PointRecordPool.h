@@ -6,10 +6,8 @@
 #include "Core/Resample/Kernel/Fetch.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 namespace pointhaptics
@@ -23,26 +21,14 @@ namespace simd
 class PointRecordPool
 {
 public:
-  /// Room for @p points records of @p partitions partitions, written by at most @p writers writers at once,
-  /// and a row of so many bytes beside each. Empties the pool.
+  /// Room for @p points records of @p partitions partitions, written by @p writers writers, and a row of so
+  /// many bytes beside each. Empties the pool.
   void prepare(std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes);
   /// Rows, one beside each record.
   char* rows() { return rows_.data(); }
 
-  /// Exclusive use of a writer while this lives. Blocks while all writers are in use.
-  class Lease
-  {
-  public:
-    explicit Lease(PointRecordPool& pool);
-    ~Lease();
-    Lease(const Lease&) = delete;
-    Lease& operator=(const Lease&) = delete;
-    PointRecordWriter& writer() const;
-
-  private:
-    PointRecordPool& pool_;
-    std::size_t slot_;
-  };
+  /// For one thread at a time.
+  PointRecordWriter& writer(std::size_t number) { return *writers_[number]; }
 
   /// Walks over the blocks of a partition, from the last of each writer to its first.
   class Walk
@@ -94,7 +80,6 @@ private:
   {
     std::vector<PointRecord*> cursorStorage;
     std::vector<std::uint32_t> lastStorage;
-    bool inUse = false;
   };
   std::uint32_t partitions() const { return std::uint32_t(writers_[0]->lastStorage.size()); }
 
@@ -105,8 +90,6 @@ private:
   Buffer<std::uint32_t> previous_;
   alignas(kApart) std::uint32_t takenBlocks_ = 0;
   std::vector<std::unique_ptr<Writer>> writers_;
-  std::mutex mutex_;
-  std::condition_variable returned_;
 };
 
 inline bool PointRecordPool::Walk::next()

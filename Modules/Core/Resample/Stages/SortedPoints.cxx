@@ -161,11 +161,8 @@ void SortedPoints::sum(
       for (const Slice& slice : slices_)
       {
         VoxelRun part;
-        const std::size_t end = place(slice.run.voxels, starts_[range + 1]);
-        for (std::size_t v = place(slice.run.voxels, starts_[range]); v < end; ++v)
-        {
-          part.push(slice.run.voxels[v], slice.run.momentsOf(v));
-        }
+        part.append(
+          slice.run, place(slice.run.voxels, starts_[range]), place(slice.run.voxels, starts_[range + 1]));
         runs.add(range, std::move(part));
       }
     });

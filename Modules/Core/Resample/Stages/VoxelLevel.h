@@ -18,12 +18,6 @@ namespace simd
 /// Elements worth a thread of their own to copy.
 constexpr std::int64_t kCopyGrain = 1 << 14;
 
-/// So many partitions at once that threads find work to the end.
-inline std::int64_t grainFor(std::int64_t count, const Executor& executor)
-{
-  return std::max<std::int64_t>(1, count / (16 * executor.concurrency()));
-}
-
 /// The voxels of one lattice.
 struct Level
 {

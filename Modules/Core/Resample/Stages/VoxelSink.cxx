@@ -118,15 +118,8 @@ void MeanArena::writeMeans(
     const PackedSums* sums = voxels.sums + first;
     std::int64_t* to = counts() + offset + first;
     Real* means = xyz + 3 * (offset + first);
-    int found = 0;
-    if constexpr (sizeof(Real) == sizeof(float))
-    {
-      found = kernels.packedMeansFloat(map_, voxels.map, cells, sums, size, means, to, nearFace);
-    }
-    else
-    {
-      found = kernels.packedMeansDouble(map_, voxels.map, cells, sums, size, means, to, nearFace);
-    }
+    const int found =
+      kernels.of<Real>().packedMeans(map_, voxels.map, cells, sums, size, means, to, nearFace);
     for (int j = 0; j < found; ++j)
     {
       const auto index = lattice_.indexOf(voxels.firstKey + cells[nearFace[j]]);

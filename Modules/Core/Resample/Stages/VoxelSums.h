@@ -4,6 +4,7 @@
 
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -92,6 +93,20 @@ struct VoxelRun
     if (moments)
     {
       secondMoments.push_back(*moments);
+    }
+  }
+  /// Appends voxels @p first to before @p last of another run.
+  void append(const VoxelRun& from, std::size_t first, std::size_t last)
+  {
+    const auto copy = [=](const auto& source, auto& to)
+    {
+      const auto begin = source.begin();
+      to.insert(to.end(), begin + std::ptrdiff_t(first), begin + std::ptrdiff_t(last));
+    };
+    copy(from.voxels, voxels);
+    if (!from.secondMoments.empty())
+    {
+      copy(from.secondMoments, secondMoments);
     }
   }
   /// Adds to the last voxel.
