@@ -186,8 +186,8 @@ std::string DistributedUpdate::shareArrays(int levels)
   request.keepPointRecords = true;
   request.instructions = settings_.instructionSet;
   const auto reducerOf = [&](const SharedArray& array)
-  { return AttributeReducer(array.attribute.request(), transform_, settings_.instructionSet, smp_); };
-  std::vector<AttributeReducer> own;
+  { return AttributeReducer::create(array.attribute.request(), transform_, settings_.instructionSet, smp_); };
+  std::vector<std::unique_ptr<AttributeReducer>> own;
   for (const SharedArray& array : arrays_)
   {
     own.push_back(reducerOf(array));
@@ -195,15 +195,15 @@ std::string DistributedUpdate::shareArrays(int levels)
   }
   VoxelResampler engine;
   Status status = engine.run(request, smp_);
-  for (AttributeReducer& reducer : own)
+  for (const std::unique_ptr<AttributeReducer>& reducer : own)
   {
-    reducer.prepare(engine.counts(), engine.size(), mostPoints, smp_);
+    reducer->prepare(engine.counts(), engine.size(), mostPoints, smp_);
   }
   const auto add = [&own](const PointRows& rows, const std::int64_t* voxels, int count)
   {
     for (std::size_t i = 0; i < own.size(); ++i)
     {
-      own[i].add(rows.tuples(i), rows.bytes, voxels, count);
+      own[i]->add(rows.tuples(i), rows.bytes, voxels, count);
     }
   };
   status = status == Status::Ok ? engine.visitPointsByVoxel(request, add, smp_) : status;
@@ -215,9 +215,9 @@ std::string DistributedUpdate::shareArrays(int levels)
   for (std::size_t i = 0; i < own.size(); ++i)
   {
     SharedArray& array = arrays_[i];
-    array.merged = std::make_unique<AttributeReducer>(reducerOf(array));
+    array.merged = reducerOf(array);
     array.merged->prepare(made_.counts(), made_.size(), mostPoints, smp_);
-    fits = shared_.exchange(ranks_, own[i], *array.merged) && fits;
+    fits = shared_.exchange(ranks_, *own[i], *array.merged) && fits;
   }
   return this->all(fits) ? std::string() : "Sums of arrays got lost between ranks; are all of one build?";
 }
@@ -228,7 +228,7 @@ void DistributedUpdate::addMeans(int level, vtkIdTypeArray* counts, vtkPointData
   {
     if (level > 0)
     {
-      array.merged->coarsen(made_.parents(level), made_.size(level));
+      array.merged->regroup(made_.parents(level), made_.size(level), 0);
     }
     const vtkSmartPointer<vtkDataArray> tuples = array.attribute.emptyArray();
     pool_.allocate(tuples, made_.size(level));

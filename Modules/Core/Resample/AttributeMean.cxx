@@ -67,15 +67,7 @@ AttributeRange rangeOfReals(
   std::mutex mutex;
   const auto look = [&](const Real* first, std::int64_t count)
   {
-    simd::Magnitudes found;
-    if constexpr (sizeof(Real) == sizeof(float))
-    {
-      found = kernels.magnitudesFloat(first, count);
-    }
-    else
-    {
-      found = kernels.magnitudesDouble(first, count);
-    }
+    const simd::Magnitudes found = kernels.magnitudes[sizeof(Real) == sizeof(double)](first, count);
     const std::lock_guard<std::mutex> lock(mutex);
     largest = std::max(largest, found.largest);
     smallest = std::min(smallest, found.smallest);
@@ -141,7 +133,8 @@ void AttributeMean::chooseParts(std::int64_t mostPoints)
   scale_[1] = std::ldexp(1.0, std::max(shift - 1000, 0));
 }
 
-void AttributeMean::prepare(std::int64_t voxels, std::int64_t mostPoints, const Executor& executor)
+void AttributeMean::prepare(
+  const std::int64_t*, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor)
 {
   mostPoints_ = mostPoints;
   if (isFloating())
@@ -315,17 +308,6 @@ void AttributeMean::add(const void* tuples, std::size_t stride, const std::int64
     });
 }
 
-void AttributeMean::coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels)
-{
-  regroup(parents, voxels, mostPoints_);
-}
-
-void AttributeMean::spread(
-  const std::vector<std::uint32_t>& places, std::int64_t voxels, std::int64_t mostPoints)
-{
-  regroup(places, voxels, std::max(mostPoints, mostPoints_));
-}
-
 /// Cuts a sum in one part, in units of 2^-bits, into parts.
 void AttributeMean::split(std::int64_t sum, int bits, int partBits, std::int64_t* parts)
 {
@@ -338,17 +320,17 @@ void AttributeMean::split(std::int64_t sum, int bits, int partBits, std::int64_t
   *parts += sum * (std::int64_t(1) << (partBits - bits));
 }
 
-template <typename Place>
-void AttributeMean::regroup(const std::vector<Place>& places, std::int64_t voxels, std::int64_t mostPoints)
+void AttributeMean::regroup(
+  const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints)
 {
   const Buffer<std::int64_t> fine = std::move(sums_);
   const Buffer<std::uint8_t> fineSpecial = std::move(special_);
   const int bits = partBits_;
   const auto fineLanes = std::size_t(lanes_);
-  mostPoints_ = mostPoints;
+  mostPoints_ = std::max(mostPoints, mostPoints_);
   if (isFloating())
   {
-    chooseParts(mostPoints);
+    chooseParts(mostPoints_);
   }
   clear(voxels, Executor());
   const auto components = std::size_t(view_.components);

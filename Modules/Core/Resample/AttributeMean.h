@@ -3,16 +3,15 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Base/Executor.h"
 #include "Core/Base/Vector3.h"
-#include "Core/Resample/AttributeView.h"
-#include "Core/Simd/InstructionSet.h"
+#include "Core/Resample/AttributeReducer.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace pointhaptics
@@ -36,7 +35,7 @@ AttributeRange rangeOf(const AttributeView& view, const Executor& executor,
 /// of the exact one (half a unit in the last place for the quotient, as much for the sum), a lone point's is
 /// its value, and none depends on the order. A voxel with NaN or infinities has the mean that IEEE addition
 /// would give. Memory: 8 bytes a voxel, component and part (integers of up to 32 bits: one part, of 64: two).
-class AttributeMean
+class AttributeMean final : public AttributeReducer
 {
 public:
   /// @pre @p range is rangeOf() the array as it is; means are wrong otherwise.
@@ -48,36 +47,21 @@ public:
   {
   }
 
-  /// Drops all sums and makes room for @p voxels of at most @p mostPoints points each, at coarser levels
-  /// too.
-  void prepare(std::int64_t voxels, std::int64_t mostPoints, const Executor& executor = {});
-  /// Adds copies of tuples of the array, each @p stride bytes after the one before and aligned like its
-  /// numbers, to the sums of voxels. Several threads may add at once if no two have a voxel in common.
-  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
-  /// The sums of voxels become those of their parents: see VoxelResampler::parents().
-  void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
-  /// The sums of voxel i become those of voxel places[i] of @p voxels, of at most @p mostPoints points each
-  /// once more are added.
-  void spread(const std::vector<std::uint32_t>& places, std::int64_t voxels, std::int64_t mostPoints);
+  /// Has write() turn the means, of vectors of three numbers - mean.x times the first column and so on - and
+  /// make unit vectors of them, those of integers as long as their mean; 0 where they have no direction, NaN
+  /// where they are not finite.
+  void turnVectors(const std::array<Vec3, 3>& columns) { columns_ = columns; }
 
-  ///@{
-  /// Sums for another process, which averages the rest of the array: those of voxels @p first to before @p
-  /// last, appended to @p bytes. @pre of both: the same range, type and components, and mostPoints of
-  /// prepare().
-  void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const;
-  /// Adds what serialize() appended to the sums of @p voxels, which are as many. @return false, with nothing
-  /// added, for another number of bytes.
-  bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels);
-  ///@}
-
-  /// Means of all voxels in the array's own type; integers are rounded to the nearest, halves away from zero.
-  /// @p counts: points of each voxel.
-  void write(const std::int64_t* counts, void* means, const Executor& executor) const;
-  /// Means of vectors of three numbers, turned - mean.x times the first of @p columns and so on - and made
-  /// unit vectors, those of integers as long as their mean; 0 where they have no direction, NaN where they
-  /// are not finite. Of the array's own type.
-  void writeNormals(
-    const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const;
+  void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
+    const Executor& executor) override;
+  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count) override;
+  void regroup(
+    const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints) override;
+  void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const override;
+  bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels) override;
+  /// Integers are rounded to the nearest, halves away from zero.
+  bool write(const std::int64_t* counts, void* means, const Executor& executor,
+    ProgressObserver* observer) const override;
   /// The mean of one voxel in double: components numbers.
   void mean(std::int64_t voxel, std::int64_t count, double* means) const;
 
@@ -96,23 +80,13 @@ private:
   bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
   void chooseParts(std::int64_t mostPoints);
   static void split(std::int64_t sum, int bits, int partBits, std::int64_t* parts);
-  template <typename Place>
-  void regroup(const std::vector<Place>& places, std::int64_t voxels, std::int64_t mostPoints);
   void clear(std::int64_t voxels, const Executor& executor);
   template <typename Integer>
   void addIntegers(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count);
   template <typename Real>
   void addReals(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count);
-  template <typename Integer>
-  void writeIntegers(const std::int64_t* counts, Integer* means, const Executor& executor) const;
-  template <typename Real>
-  void writeReals(const std::int64_t* counts, Real* means, const Executor& executor) const;
-  template <typename Real>
-  void writeVectors(
-    const std::int64_t* counts, const Vec3 (&columns)[3], Real* vectors, const Executor& executor) const;
-  template <typename Integer>
-  void writeTurned(
-    const std::int64_t* counts, const Vec3 (&columns)[3], Integer* vectors, const Executor& executor) const;
+  template <typename T>
+  void writeTuple(std::int64_t voxel, std::int64_t count, T* tuple) const;
   bool sumsAreWords() const;
   simd::WordSums wordSums(const std::int64_t* counts, std::int64_t begin, std::int64_t end) const;
   const std::int64_t* lanes(std::int64_t voxel, int component) const
@@ -124,6 +98,7 @@ private:
   double realMean(std::int64_t voxel, int component, std::int64_t count) const;
 
   AttributeView view_;
+  std::optional<std::array<Vec3, 3>> columns_; ///< How vectors are turned.
   const simd::AttributeKernels* kernels_;
   int lanes_ = 1; ///< Of 64 bits for each component.
   int partBits_ = 0;

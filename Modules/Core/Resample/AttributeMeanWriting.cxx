@@ -133,162 +133,90 @@ simd::WordSums AttributeMean::wordSums(const std::int64_t* counts, std::int64_t 
     isFloating() ? powerOfTwo(range_.exponent - partBits_) : 1.0 };
 }
 
-template <typename Integer>
-void AttributeMean::writeIntegers(const std::int64_t* counts, Integer* means, const Executor& executor) const
+namespace
 {
-  const int components = view_.components;
-  forRange(executor, voxels_,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      if constexpr (sizeof(Integer) < 8)
-      {
-        if (sumsAreWords())
-        {
-          kernels_->meansInteger[int(view_.type)](wordSums(counts, begin, end), means + components * begin);
-          return;
-        }
-      }
-      for (std::int64_t v = begin; v < end; ++v)
-      {
-        for (int c = 0; c < components; ++c)
-        {
-          const Int128 twice = 2 * integerSum(v, c);
-          const Int128 half = twice < 0 ? -counts[v] : counts[v];
-          means[v * components + c] = Integer((twice + half) / (2 * Int128(counts[v])));
-        }
-      }
-    });
+
+/// A mean vector, turned. Integers have a scale of their own: they keep the length of their mean.
+template <typename T>
+Vec3 turnedMean(const Vec3& mean, const std::array<Vec3, 3>& columns)
+{
+  const Vec3 turned = mean.x * columns[0] + mean.y * columns[1] + mean.z * columns[2];
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    return isFinite(mean) ? normalized(turned, Vec3()) : Vec3(kNaN, kNaN, kNaN);
+  }
+  else
+  {
+    constexpr auto kLow = double(std::numeric_limits<T>::min());
+    constexpr auto kHigh = double(std::numeric_limits<T>::max());
+    // The largest 64-bit integer is no double; the one below is.
+    const double high = sizeof(T) < 8 ? kHigh : std::nextafter(kHigh, 0.0);
+    const double length = norm(turned);
+    const double scale = length > 0.0 ? norm(mean) / length : 0.0;
+    const auto rounded = [&](double x) { return std::clamp(std::round(scale * x), kLow, high); };
+    return { rounded(turned.x), rounded(turned.y), rounded(turned.z) };
+  }
 }
 
-template <typename Real>
-void AttributeMean::writeReals(const std::int64_t* counts, Real* means, const Executor& executor) const
-{
-  const int components = view_.components;
-  forRange(executor, voxels_,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      if (sumsAreWords())
-      {
-        const simd::WordSums sums = wordSums(counts, begin, end);
-        if constexpr (sizeof(Real) == sizeof(float))
-        {
-          kernels_->meansFloat(sums, means + components * begin);
-        }
-        else
-        {
-          kernels_->meansDouble(sums, means + components * begin);
-        }
-        return;
-      }
-      for (std::int64_t v = begin; v < end; ++v)
-      {
-        for (int c = 0; c < components; ++c)
-        {
-          means[v * components + c] = Real(realMean(v, c, counts[v]));
-        }
-      }
-    });
 }
 
-template <typename Real>
-void AttributeMean::writeVectors(
-  const std::int64_t* counts, const Vec3 (&columns)[3], Real* vectors, const Executor& executor) const
+template <typename T>
+void AttributeMean::writeTuple(std::int64_t voxel, std::int64_t count, T* tuple) const
 {
-  const Vec3& x = columns[0];
-  const Vec3& y = columns[1];
-  const Vec3& z = columns[2];
-  const simd::Turn turn = { { { x.x, x.y, x.z }, { y.x, y.y, y.z }, { z.x, z.y, z.z } } };
-  forRange(executor, voxels_,
-    [&](std::int64_t begin, std::int64_t end)
+  if (columns_)
+  {
+    Vec3 vector;
+    mean(voxel, count, &vector.x);
+    vector = turnedMean<T>(vector, *columns_);
+    std::transform(&vector.x, &vector.x + 3, tuple, [](double x) { return T(x); });
+    return;
+  }
+  for (int c = 0; c < view_.components; ++c)
+  {
+    if constexpr (std::is_floating_point_v<T>)
     {
-      if (sumsAreWords())
-      {
-        const simd::WordSums sums = wordSums(counts, begin, end);
-        if constexpr (sizeof(Real) == sizeof(float))
-        {
-          kernels_->unitVectorsFloat(sums, turn, vectors + 3 * begin);
-        }
-        else
-        {
-          kernels_->unitVectorsDouble(sums, turn, vectors + 3 * begin);
-        }
-        return;
-      }
-      for (std::int64_t v = begin; v < end; ++v)
-      {
-        Vec3 sum;
-        mean(v, counts[v], &sum.x);
-        const Vec3 turned = sum.x * x + sum.y * y + sum.z * z;
-        constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-        const Vec3 unit = isFinite(sum) ? normalized(turned, Vec3()) : Vec3(kNaN, kNaN, kNaN);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          vectors[3 * v + axis] = Real(unit[axis]);
-        }
-      }
-    });
+      tuple[c] = T(realMean(voxel, c, count));
+    }
+    else
+    {
+      const Int128 twice = 2 * integerSum(voxel, c);
+      tuple[c] = T((twice + (twice < 0 ? -count : count)) / (2 * Int128(count)));
+    }
+  }
 }
 
-/// Integers have a scale of their own: they keep the length of their mean.
-template <typename Integer>
-void AttributeMean::writeTurned(
-  const std::int64_t* counts, const Vec3 (&columns)[3], Integer* vectors, const Executor& executor) const
+bool AttributeMean::write(
+  const std::int64_t* counts, void* means, const Executor& executor, ProgressObserver*) const
 {
-  constexpr auto kLow = double(std::numeric_limits<Integer>::min());
-  // The largest 64-bit integer is no double; the one below is.
-  const double high = sizeof(Integer) < 8 ? double(std::numeric_limits<Integer>::max())
-                                          : std::nextafter(double(std::numeric_limits<Integer>::max()), 0.0);
-  forRange(executor, voxels_,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t v = begin; v < end; ++v)
-      {
-        Vec3 sum;
-        mean(v, counts[v], &sum.x);
-        const Vec3 turned = sum.x * columns[0] + sum.y * columns[1] + sum.z * columns[2];
-        const double length = norm(turned);
-        const double scale = length > 0.0 ? norm(sum) / length : 0.0;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          vectors[3 * v + axis] = Integer(std::clamp(std::round(scale * turned[axis]), kLow, high));
-        }
-      }
-    });
-}
-
-void AttributeMean::writeNormals(
-  const std::int64_t* counts, const Vec3 (&columns)[3], void* vectors, const Executor& executor) const
-{
+  const bool byKernel = sumsAreWords() && (!columns_ || isFloating());
+  simd::Turn turn = {};
+  for (std::size_t axis = 0; columns_ && axis < 3; ++axis)
+  {
+    std::copy_n(&(*columns_)[axis].x, 3, turn.columns[axis]);
+  }
   withType(view_.type,
     [&](auto example)
     {
       using T = decltype(example);
-      if constexpr (std::is_floating_point_v<T>)
-      {
-        writeVectors<T>(counts, columns, static_cast<T*>(vectors), executor);
-      }
-      else
-      {
-        writeTurned<T>(counts, columns, static_cast<T*>(vectors), executor);
-      }
+      forRange(executor, voxels_,
+        [&](std::int64_t begin, std::int64_t end)
+        {
+          T* to = static_cast<T*>(means) + view_.components * begin;
+          if (byKernel)
+          {
+            const simd::WordSums sums = wordSums(counts, begin, end);
+            columns_ ? kernels_->unitVectors[sizeof(T) == sizeof(double)](sums, turn, to)
+                     : kernels_->means[int(view_.type)](sums, to);
+            return;
+          }
+          for (std::int64_t v = begin; v < end; ++v, to += view_.components)
+          {
+            writeTuple(v, counts[v], to);
+          }
+        });
     });
-}
-
-void AttributeMean::write(const std::int64_t* counts, void* means, const Executor& executor) const
-{
-  withType(view_.type,
-    [&](auto example)
-    {
-      using T = decltype(example);
-      if constexpr (std::is_floating_point_v<T>)
-      {
-        writeReals<T>(counts, static_cast<T*>(means), executor);
-      }
-      else
-      {
-        writeIntegers<T>(counts, static_cast<T*>(means), executor);
-      }
-    });
+  return true;
 }
 
 } // namespace pointhaptics

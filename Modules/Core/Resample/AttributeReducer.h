@@ -5,60 +5,58 @@
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/Executor.h"
 #include "Core/Base/ProgressObserver.h"
-#include "Core/Base/Vector3.h"
-#include "Core/Resample/AttributeMean.h"
-#include "Core/Resample/AttributeTuples.h"
 #include "Core/Resample/AttributeView.h"
 #include "Core/Resample/PointRows.h"
+#include "Core/Simd/InstructionSet.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace pointhaptics
 {
 
-/// Keeps the sums or the tuples of voxels: see isSum().
+/// Keeps what a statistic needs of the tuples of each voxel. Nothing it gives depends on the order of the
+/// points.
 class AttributeReducer
 {
 public:
-  AttributeReducer(const AttributeRequest& request, const AffineTransform& transform,
-    InstructionSet instructions, const Executor& executor);
-
+  /// A statistic of an array. @p transform turns normals.
+  static std::unique_ptr<AttributeReducer> create(const AttributeRequest& request,
+    const AffineTransform& transform, InstructionSet instructions, const Executor& executor);
   /// The tuples that add() needs.
   static TupleSource sourceOf(const AttributeView& view);
+  virtual ~AttributeReducer() = default;
 
-  /// Drops all tuples and makes room for those of @p voxels, @p counts each, at most @p mostPoints.
-  void prepare(
-    const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor = {});
-  /// Adds tuples, each @p stride bytes after the one before. Several threads may add at once if no two have a
-  /// voxel in common.
-  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
-  /// Of sums: voxel i becomes places[i] of @p voxels, of at most @p mostPoints points each by then.
-  void spread(const std::vector<std::uint32_t>& places, std::int64_t voxels, std::int64_t mostPoints);
-  /// For processes that share the points: see AttributeMean and AttributeTuples.
-  void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const
-  {
-    std::visit([&](const auto& ofVoxels) { ofVoxels.serialize(first, last, bytes); }, tuples_);
-  }
-  bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels)
-  {
-    return std::visit([&](auto& ofVoxels) { return ofVoxels.merge(bytes, voxels); }, tuples_);
-  }
-  /// Voxels become their parents: see VoxelResampler::parents().
-  void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
-  /// Writes the tuples of all voxels, @p counts points each. @return false where @p observer, which may be
-  /// null, aborted the work.
-  bool write(
-    const std::int64_t* counts, void* values, const Executor& executor, ProgressObserver* observer) const;
+  /// Drops all tuples and makes room for those of @p voxels, @p counts each (sums do without), at most @p
+  /// mostPoints, at coarser levels too.
+  virtual void prepare(
+    const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor) = 0;
+  /// Adds copies of tuples, each @p stride bytes after the one before and aligned like its numbers. Several
+  /// threads may add at once if no two have a voxel in common.
+  virtual void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count) = 0;
+  /// What voxel i has goes to voxel places[i] of @p voxels: its parent (VoxelResampler::parents()), or itself
+  /// among more voxels. These get at most @p mostPoints points each, if that is more than prepare() was told.
+  /// Only to sums more can be added then.
+  virtual void regroup(
+    const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints) = 0;
 
-private:
-  AttributeStatistic statistic_;
-  Vec3 columns_[3]; ///< How normals are turned.
-  std::variant<AttributeMean, AttributeTuples> tuples_;
+  ///@{
+  /// For another process, which has the rest of the array: what voxels @p first to before @p last have,
+  /// appended to @p bytes. @pre of both: the same request, and mostPoints of prepare().
+  virtual void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const = 0;
+  /// Adds what serialize() appended to @p voxels, which are as many. @return false for bytes that are not
+  /// theirs, or more tuples than there is room for; what was added then is of no use.
+  virtual bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels) = 0;
+  ///@}
+
+  /// Writes the tuples of all voxels, @p counts points each, in the array's own type. @return false where
+  /// @p observer, which may be null, aborted the work.
+  virtual bool write(
+    const std::int64_t* counts, void* values, const Executor& executor, ProgressObserver* observer) const = 0;
 };
 
 } // namespace pointhaptics

@@ -51,10 +51,10 @@ Key mostFrequent(const Key* keys, std::int64_t count, int step)
 
 /// Of many keys.
 template <typename Key>
-Key statisticOf(TupleStatistic statistic, std::vector<Key>& keys)
+Key statisticOf(AttributeStatistic statistic, std::vector<Key>& keys)
 {
   const auto at = keys.begin() + std::ptrdiff_t((keys.size() - 1) / 2);
-  if (statistic == TupleStatistic::Median)
+  if (statistic == AttributeStatistic::Median)
   {
     std::nth_element(keys.begin(), at, keys.end());
     return *at;
@@ -76,7 +76,7 @@ void AttributeTuples::makeRoom(std::int64_t tuples)
   tuples_.reserve((bytes + kWord - 1) / kWord, Pages::Huge);
 }
 
-void AttributeTuples::prepare(const std::int64_t* counts, std::int64_t voxels)
+void AttributeTuples::prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t, const Executor&)
 {
   ends_.assign(counts, counts + voxels);
   makeRoom(simd::countsToPlaces(ends_));
@@ -103,15 +103,15 @@ void AttributeTuples::add(const void* tuples, std::size_t stride, const std::int
     });
 }
 
-void AttributeTuples::coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels)
+void AttributeTuples::regroup(const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t)
 {
   const Buffer<std::uint64_t> fine = std::move(tuples_);
   const std::vector<std::int64_t> fineEnds = std::move(ends_);
   ends_.assign(std::size_t(voxels), 0);
   std::int64_t begin = 0;
-  for (std::size_t v = 0; v < parents.size(); ++v)
+  for (std::size_t v = 0; v < places.size(); ++v)
   {
-    ends_[std::size_t(parents[v])] += fineEnds[v] - std::exchange(begin, fineEnds[v]);
+    ends_[std::size_t(places[v])] += fineEnds[v] - std::exchange(begin, fineEnds[v]);
   }
   makeRoom(simd::countsToPlaces(ends_));
   withType(type_,
@@ -120,10 +120,10 @@ void AttributeTuples::coarsen(const std::vector<std::int64_t>& parents, std::int
       using T = decltype(example);
       const T* from = reinterpret_cast<const T*>(fine.data());
       std::int64_t first = 0;
-      for (std::size_t v = 0; v < parents.size(); ++v)
+      for (std::size_t v = 0; v < places.size(); ++v)
       {
         const std::int64_t size = fineEnds[v] - std::exchange(first, fineEnds[v]);
-        std::int64_t& end = ends_[std::size_t(parents[v])];
+        std::int64_t& end = ends_[std::size_t(places[v])];
         std::copy_n(from, components_ * size, tuple<T>(end));
         from += components_ * size;
         end += size;
@@ -137,7 +137,7 @@ template <typename T>
 void AttributeTuples::writeValues(std::int64_t first, std::int64_t last, T* to) const
 {
   using Key = decltype(orderedKey(T()));
-  const bool isMedian = statistic_ == TupleStatistic::Median;
+  const bool isMedian = statistic_ == AttributeStatistic::Median;
   const std::int64_t mostFew = isMedian ? kFewTuples : kFewForMode;
   std::vector<Key> few(std::size_t(mostFew * components_));
   std::vector<Key> many;
@@ -166,7 +166,8 @@ void AttributeTuples::writeValues(std::int64_t first, std::int64_t last, T* to) 
   }
 }
 
-bool AttributeTuples::write(void* values, const Executor& executor, ProgressObserver* observer) const
+bool AttributeTuples::write(
+  const std::int64_t*, void* values, const Executor& executor, ProgressObserver* observer) const
 {
   return simd::forVoxelSlices(ends_, executor, observer,
     [&](std::int64_t first, std::int64_t last)

@@ -3,9 +3,8 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
-#include "Core/Base/Executor.h"
-#include "Core/Base/ProgressObserver.h"
 #include "Core/Base/ScalarType.h"
+#include "Core/Resample/AttributeReducer.h"
 
 #include <cmath>
 #include <cstddef>
@@ -19,13 +18,6 @@
 
 namespace pointhaptics
 {
-
-/// What is made of the tuples of a voxel, component by component. Both are exact.
-enum class TupleStatistic
-{
-  Mode,   ///< The value that most points have, the smallest of several: for labels.
-  Median, ///< Of an even number the lower middle one.
-};
 
 /// Turns the order of negative numbers around, and back. Without a branch: signs are unpredictable.
 template <typename Key>
@@ -73,39 +65,29 @@ T valueOfKey(Key key)
 /// floating-point numbers all NaNs are one value, the largest, and both zeros are one, which is written as
 /// +0; nothing depends on the order of the points.
 ///
-/// Memory: the tuples themselves, and 8 bytes a voxel; twice that while coarsen() works.
-class AttributeTuples
+/// Memory: the tuples themselves, and 8 bytes a voxel; twice that while regroup() works.
+class AttributeTuples final : public AttributeReducer
 {
 public:
-  /// For tuples of @p components numbers.
-  AttributeTuples(ScalarType type, int components, TupleStatistic statistic = TupleStatistic::Mode)
+  /// For tuples of @p components numbers. @pre @p statistic is Mode or Median
+  AttributeTuples(ScalarType type, int components, AttributeStatistic statistic = AttributeStatistic::Mode)
     : type_(type)
     , components_(components)
     , statistic_(statistic)
   {
   }
 
-  /// Drops all tuples and makes room for those of @p voxels, @p counts each.
-  void prepare(const std::int64_t* counts, std::int64_t voxels);
-  /// Keeps copies of tuples, each @p stride bytes after the one before and aligned like their numbers.
-  /// Several threads may add at once if no two have a voxel in common.
-  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count);
-  /// The tuples of voxels become those of their parents: see VoxelResampler::parents().
-  void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
-
-  ///@{
-  /// Tuples for another process, which has the rest of the array: of voxels @p first to before @p last,
-  /// appended to @p bytes. Each value of a component once, with how many points have it: 16 bytes a value at
-  /// most, and 8 a voxel.
-  void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const;
-  /// Adds what serialize() appended to @p voxels, which are as many. @return false for bytes that are not
-  /// theirs, or more tuples than prepare() made room for; what was added then is of no use.
-  bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels);
-  ///@}
-
-  /// Modes or medians of all voxels, in the tuples' own type. @pre each voxel has as many tuples as it was
-  /// said to get. @return false where @p observer, which may be null, aborted the work.
-  bool write(void* values, const Executor& executor, ProgressObserver* observer) const;
+  void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
+    const Executor& executor) override;
+  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count) override;
+  void regroup(
+    const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints) override;
+  /// Each value of a component once, with how many points have it: 16 bytes a value at most, and 8 a voxel.
+  void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const override;
+  bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels) override;
+  /// @pre each voxel has as many tuples as it was said to get.
+  bool write(const std::int64_t* counts, void* values, const Executor& executor,
+    ProgressObserver* observer) const override;
 
 private:
   std::int64_t voxels() const { return std::int64_t(ends_.size()); }
@@ -127,7 +109,7 @@ private:
 
   ScalarType type_;
   int components_;
-  TupleStatistic statistic_;
+  AttributeStatistic statistic_;
   Buffer<std::uint64_t> tuples_;   ///< Those of a voxel after each other.
   std::int64_t room_ = 0;          ///< For so many tuples.
   std::vector<std::int64_t> ends_; ///< Where the next tuple of each voxel goes.

@@ -1,5 +1,7 @@
 #include "Core/Resample/VoxelReductions.h"
 
+#include "Core/Resample/AttributeMean.h"
+
 namespace pointhaptics
 {
 namespace simd
@@ -43,7 +45,8 @@ VoxelReductions::VoxelReductions(const VoxelRequest& request)
   firstSource_ = request.tuples.size() - request.attributes.size() - others;
   for (const AttributeRequest& attribute : request.attributes)
   {
-    reducers_.emplace_back(attribute, request.transform, request.instructions, Executor());
+    reducers_.push_back(
+      AttributeReducer::create(attribute, request.transform, request.instructions, Executor()));
   }
   if (request.representative != Representative::Mean)
   {
@@ -54,9 +57,9 @@ VoxelReductions::VoxelReductions(const VoxelRequest& request)
 void VoxelReductions::prepare(
   const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor)
 {
-  for (AttributeReducer& reducer : reducers_)
+  for (const auto& reducer : reducers_)
   {
-    reducer.prepare(counts, voxels, mostPoints, executor);
+    reducer->prepare(counts, voxels, mostPoints, executor);
   }
   if (representatives_)
   {
@@ -64,33 +67,25 @@ void VoxelReductions::prepare(
   }
 }
 
-void VoxelReductions::spread(
-  const std::vector<std::uint32_t>& places, std::int64_t voxels, std::int64_t mostPoints)
+void VoxelReductions::regroup(
+  const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints)
 {
-  for (AttributeReducer& reducer : reducers_)
+  for (const auto& reducer : reducers_)
   {
-    reducer.spread(places, voxels, mostPoints);
+    reducer->regroup(places, voxels, mostPoints);
   }
 }
 
 void VoxelReductions::add(const PointRows& rows, const std::int64_t* voxels, int count)
 {
   std::size_t source = firstSource_;
-  for (AttributeReducer& reducer : reducers_)
+  for (const auto& reducer : reducers_)
   {
-    reducer.add(rows.tuples(source++), rows.bytes, voxels, count);
+    reducer->add(rows.tuples(source++), rows.bytes, voxels, count);
   }
   if (representatives_)
   {
     representatives_->add(rows.tuples(source), rows.tuples(source + 1), rows.bytes, voxels, count);
-  }
-}
-
-void VoxelReductions::coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels)
-{
-  for (AttributeReducer& reducer : reducers_)
-  {
-    reducer.coarsen(parents, voxels);
   }
 }
 
@@ -101,7 +96,7 @@ bool VoxelReductions::write(
   for (std::size_t i = 0; i < reducers_.size(); ++i)
   {
     SubProgress writing(observer, double(i) / steps, double(i + 1) / steps);
-    if (!reducers_[i].write(arena.counts() + first, arena.attribute(i, first), executor, &writing))
+    if (!reducers_[i]->write(arena.counts() + first, arena.attribute(i, first), executor, &writing))
     {
       return false;
     }

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -35,19 +36,17 @@ public:
   /// Drops all points and makes room for those of @p voxels, @p counts each, at most @p mostPoints.
   void prepare(
     const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor = {});
-  /// Of sums: voxel i becomes places[i] of @p voxels, of at most @p mostPoints points each by then.
-  void spread(const std::vector<std::uint32_t>& places, std::int64_t voxels, std::int64_t mostPoints);
+  /// See AttributeReducer. @pre no representatives
+  void regroup(const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints);
   /// Several threads may add at once if no two have a voxel in common.
   void add(const PointRows& rows, const std::int64_t* voxels, int count);
-  /// Voxels become their parents: see VoxelResampler::parents(). @pre no representatives
-  void coarsen(const std::vector<std::int64_t>& parents, std::int64_t voxels);
   /// Writes what becomes of the voxels, from @p first on in @p arena. @pre their means and counts are there.
   /// @return false where @p observer, which may be null, aborted the work.
   bool write(MeanArena& arena, std::size_t first, const Executor& executor = {},
     ProgressObserver* observer = nullptr) const;
 
 private:
-  std::vector<AttributeReducer> reducers_; ///< One for each attribute.
+  std::vector<std::unique_ptr<AttributeReducer>> reducers_; ///< One for each attribute.
   std::optional<VoxelRepresentatives> representatives_;
   std::size_t firstSource_ = 0; ///< Of the rows: the first attribute's.
 };

@@ -78,7 +78,7 @@ Status VoxelResampler::Implementation::reduceAgain(
     SubProgress writing(observer, done, std::min(done + ofLevel, 1.0));
     if (l > 0)
     {
-      reductions.coarsen(levels[l].parents, levels[l].size);
+      reductions.regroup(levels[l].parents, levels[l].size, 0);
     }
     status = reductions.write(levels[l].arena, 0, executor, &writing) ? Status::Ok : Status::Aborted;
   }

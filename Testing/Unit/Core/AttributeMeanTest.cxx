@@ -48,7 +48,7 @@ AttributeMean meanOf(const std::vector<T>& values, int components, const Plan& p
 {
   AttributeMean mean({ values.data(), typeOf<T>(), components, std::int64_t(values.size()) / components },
     executor, instructions);
-  mean.prepare(plan.size, mostPoints > 0 ? mostPoints : mean.view().tuples);
+  mean.prepare(nullptr, plan.size, mostPoints > 0 ? mostPoints : mean.view().tuples, {});
   std::vector<std::int64_t> voxels;
   for (const std::int64_t i : plan.order)
   {
@@ -66,7 +66,7 @@ template <typename T>
 std::vector<T> written(const AttributeMean& mean, const Plan& plan, const Executor& executor = {})
 {
   std::vector<T> means(std::size_t(plan.size) * std::size_t(mean.view().components));
-  mean.write(countsOf(plan).data(), means.data(), executor);
+  mean.write(countsOf(plan).data(), means.data(), executor, nullptr);
   return means;
 }
 
@@ -314,18 +314,19 @@ constexpr std::int64_t kManyPoints = std::int64_t(1) << 33;
 template <typename T>
 void expectSameOnAllPaths(const std::vector<T>& values, int components, const Plan& plan)
 {
-  const Vec3 columns[3] = { { 0.1, 2, 0.3 }, { -1, 0.5, 0.2 }, { 0.4, -0.6, 3 } };
+  const std::array<Vec3, 3> columns = { { { 0.1, 2, 0.3 }, { -1, 0.5, 0.2 }, { 0.4, -0.6, 3 } } };
   const std::vector<std::int64_t> counts = countsOf(plan);
   const auto results = [&](InstructionSet set, std::int64_t mostPoints)
   {
-    const AttributeMean mean = meanOf(values, components, plan, {}, 100, mostPoints, set);
+    AttributeMean mean = meanOf(values, components, plan, {}, 100, mostPoints, set);
     std::vector<T> all = written<T>(mean, plan);
     if constexpr (std::is_floating_point_v<T>)
     {
       if (components == 3)
       {
         std::vector<T> vectors(all.size());
-        mean.writeNormals(counts.data(), columns, vectors.data(), {});
+        mean.turnVectors(columns);
+        mean.write(counts.data(), vectors.data(), {}, nullptr);
         all.insert(all.end(), vectors.begin(), vectors.end());
       }
     }
@@ -392,10 +393,11 @@ TEST(AttributeMean, MakesUnitVectorsOfTurnedMeans)
   const std::vector<float> values{ 1, 2, 2, 3, 2, 2, 0, 0, 1, 0, 0, -1 };
   Plan plan = planFor(4, 2, 41);
   plan.voxels = { 0, 0, 1, 1 };
-  const AttributeMean mean = meanOf(values, 3, plan);
-  const Vec3 columns[3] = { { 0, 1, 0 }, { -1, 0, 0 }, { 0, 0, 1 } };
+  AttributeMean mean = meanOf(values, 3, plan);
+  const std::array<Vec3, 3> columns = { { { 0, 1, 0 }, { -1, 0, 0 }, { 0, 0, 1 } } };
   std::vector<float> vectors(6, 7.0F);
-  mean.writeNormals(countsOf(plan).data(), columns, vectors.data(), {});
+  mean.turnVectors(columns);
+  mean.write(countsOf(plan).data(), vectors.data(), {}, nullptr);
   const float third = float(2.0 / std::sqrt(12.0));
   EXPECT_EQ(vectors, (std::vector<float>{ -third, third, third, 0, 0, 0 }));
 }
@@ -437,7 +439,7 @@ TEST(AttributeMean, OfParentsIsThatOfTheirPoints)
     for (const std::int64_t coarse : { 60, 9, 1 })
     {
       const Plan up = planFor(std::size_t(plan.size), coarse, 18);
-      mean.coarsen(up.voxels, coarse);
+      mean.regroup(up.voxels, coarse, 0);
       trial::coarsen(plan, up);
       EXPECT_TRUE(sameBits(written<T>(mean, plan), written<T>(meanOf(values, components, plan), plan)));
     }
@@ -459,10 +461,10 @@ TEST(AttributeMean, StartsFromNothingHoweverOftenItIsPrepared)
     const Plan plan = planFor(300, voxels, 24);
     const std::vector<float> expected = written<float>(meanOf(values, 3, plan), plan);
     AttributeMean mean = meanOf(values, 3, planFor(300, 90, 25));
-    mean.prepare(voxels, 300, trial::BackwardExecutor(17));
+    mean.prepare(nullptr, voxels, 300, trial::BackwardExecutor(17));
     addTuples(mean, values, plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected));
-    mean.prepare(voxels, 300);
+    mean.prepare(nullptr, voxels, 300, {});
     addTuples(mean, values, plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected)) << "once more";
   }

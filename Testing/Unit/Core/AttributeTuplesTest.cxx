@@ -24,12 +24,12 @@ namespace
 /// Adds the tuples in the order of the plan, each with others between it and the next.
 template <typename T>
 AttributeTuples modeOf(const std::vector<T>& values, int components, const Plan& plan, int piece = 100,
-  TupleStatistic statistic = TupleStatistic::Mode)
+  AttributeStatistic statistic = AttributeStatistic::Mode)
 {
   constexpr std::size_t kApart = 3;
   const auto width = std::size_t(components);
   AttributeTuples mode(typeOf<T>(), components, statistic);
-  mode.prepare(countsOf(plan).data(), plan.size);
+  mode.prepare(countsOf(plan).data(), plan.size, 0, {});
   for (std::size_t first = 0; first < plan.order.size(); first += std::size_t(piece))
   {
     const std::size_t count = std::min(std::size_t(piece), plan.order.size() - first);
@@ -51,7 +51,7 @@ std::vector<T> written(
   const AttributeTuples& mode, int components, const Plan& plan, const Executor& executor = {})
 {
   std::vector<T> modes(std::size_t(plan.size) * std::size_t(components));
-  EXPECT_TRUE(mode.write(modes.data(), executor, nullptr));
+  EXPECT_TRUE(mode.write(nullptr, modes.data(), executor, nullptr));
   return modes;
 }
 
@@ -145,7 +145,7 @@ TEST(AttributeTuples, FindsTheLowerMiddleValueOfFewAndOfMany)
         std::sort(ofVoxel.begin(), ofVoxel.end());
         expected.push_back(ofVoxel[(ofVoxel.size() - 1) / 2]);
       }
-      const AttributeTuples median = modeOf(values, components, plan, 100, TupleStatistic::Median);
+      const AttributeTuples median = modeOf(values, components, plan, 100, AttributeStatistic::Median);
       EXPECT_TRUE(sameBits(written<T>(median, components, plan), expected)) << voxels;
     }
   };
@@ -182,7 +182,7 @@ TEST(AttributeTuples, OfParentsIsThatOfTheirPoints)
   for (const std::int64_t coarse : { 90, 12, 1 })
   {
     const Plan up = planFor(std::size_t(plan.size), coarse, 12);
-    mode.coarsen(up.voxels, coarse);
+    mode.regroup(up.voxels, coarse, 0);
     trial::coarsen(plan, up);
     EXPECT_TRUE(sameBits(written<std::uint16_t>(mode, 2, plan), expectedModes(values, 2, plan))) << coarse;
   }
@@ -193,11 +193,11 @@ TEST(AttributeTuples, StartsFromNothingEachTime)
   const std::vector<int> values = labels<int>(900, 3, 13);
   AttributeTuples mode = modeOf(values, 1, planFor(900, 500, 14));
   const Plan plan = planFor(900, 30, 15);
-  mode.prepare(countsOf(plan).data(), plan.size);
+  mode.prepare(countsOf(plan).data(), plan.size, 0, {});
   mode.add(values.data(), sizeof(int), plan.voxels.data(), 900);
   EXPECT_TRUE(sameBits(written<int>(mode, 1, plan), expectedModes(values, 1, plan)));
   const AttributeTuples none(ScalarType::Int32, 1);
-  EXPECT_TRUE(none.write(nullptr, {}, nullptr)) << "no voxels";
+  EXPECT_TRUE(none.write(nullptr, nullptr, {}, nullptr)) << "no voxels";
 }
 
 TEST(AttributeTuples, ReportsProgressAndEndsWhenTheObserverAborts)
@@ -208,9 +208,9 @@ TEST(AttributeTuples, ReportsProgressAndEndsWhenTheObserverAborts)
   const AttributeTuples mode = modeOf(values, 1, plan, 100000);
   std::vector<std::uint8_t> modes(1000);
   trial::CountingObserver patient;
-  EXPECT_TRUE(mode.write(modes.data(), {}, &patient));
+  EXPECT_TRUE(mode.write(nullptr, modes.data(), {}, &patient));
   trial::expectAscendToOne(patient.fractions, 3);
   trial::CountingObserver impatient(2);
-  EXPECT_FALSE(mode.write(modes.data(), {}, &impatient));
+  EXPECT_FALSE(mode.write(nullptr, modes.data(), {}, &impatient));
   EXPECT_EQ(impatient.fractions.size(), 2u);
 }

@@ -231,27 +231,27 @@ std::vector<T> meansOf(Shared& shared, const std::vector<T>& values, int compone
     components, std::int64_t(shared.ownVoxels.size()) };
   const AttributeRange range = commonRange(shared.ranks, rangeOf(view, Executor()));
   AttributeMean own(view, range);
-  own.prepare(std::int64_t(shared.ownCounts.size()), shared.mostPoints);
+  own.prepare(nullptr, std::int64_t(shared.ownCounts.size()), shared.mostPoints, {});
   addPart(own, static_cast<const T*>(view.values), components, shared.ownVoxels);
   AttributeMean merged(view, range);
-  merged.prepare(std::int64_t(shared.counts.size()), shared.mostPoints);
+  merged.prepare(nullptr, std::int64_t(shared.counts.size()), shared.mostPoints, {});
   EXPECT_TRUE(shared.voxels.exchange(shared.ranks, own, merged));
   std::vector<T> means(shared.counts.size() * std::size_t(components));
-  merged.write(shared.counts.data(), means.data(), Executor());
+  merged.write(shared.counts.data(), means.data(), {}, nullptr);
   return means;
 }
 
 std::vector<std::uint8_t> labelsOf(
-  Shared& shared, const std::vector<std::uint8_t>& values, TupleStatistic statistic, std::size_t first)
+  Shared& shared, const std::vector<std::uint8_t>& values, AttributeStatistic statistic, std::size_t first)
 {
   AttributeTuples own(ScalarType::UInt8, 1, statistic);
-  own.prepare(shared.ownCounts.data(), std::int64_t(shared.ownCounts.size()));
+  own.prepare(shared.ownCounts.data(), std::int64_t(shared.ownCounts.size()), 0, {});
   addPart(own, values.data() + first, 1, shared.ownVoxels);
   AttributeTuples merged(ScalarType::UInt8, 1, statistic);
-  merged.prepare(shared.counts.data(), std::int64_t(shared.counts.size()));
+  merged.prepare(shared.counts.data(), std::int64_t(shared.counts.size()), 0, {});
   EXPECT_TRUE(shared.voxels.exchange(shared.ranks, own, merged));
   std::vector<std::uint8_t> labels(shared.counts.size());
-  EXPECT_TRUE(merged.write(labels.data(), Executor(), nullptr));
+  EXPECT_TRUE(merged.write(nullptr, labels.data(), Executor(), nullptr));
   return labels;
 }
 
@@ -279,8 +279,8 @@ Made madeOf(const std::vector<Vec3>& points, const Lattice& lattice, const Array
       made.floats = meansOf(shared, arrays.floats, 3, first);
       made.doubles = meansOf(shared, arrays.doubles, 3, first);
       made.integers = meansOf(shared, arrays.integers, 1, first);
-      made.modes = labelsOf(shared, arrays.labels, TupleStatistic::Mode, first);
-      made.medians = labelsOf(shared, arrays.labels, TupleStatistic::Median, first);
+      made.modes = labelsOf(shared, arrays.labels, AttributeStatistic::Mode, first);
+      made.medians = labelsOf(shared, arrays.labels, AttributeStatistic::Median, first);
     });
   Made all;
   for (const Made& made : ofRanks)
@@ -379,7 +379,7 @@ TEST(SharedVoxels, RefuseSumsOfArraysThatAreNotTheirs)
   const std::vector<float> values = { 1.f, 2.f };
   const AttributeView view{ values.data(), ScalarType::Float, 1, 2 };
   AttributeMean mean(view, Executor());
-  mean.prepare(2, 2);
+  mean.prepare(nullptr, 2, 2, {});
   std::string bytes;
   mean.serialize(0, 2, bytes);
   EXPECT_TRUE(mean.merge(bytes, { 0, 1 }));
@@ -388,15 +388,15 @@ TEST(SharedVoxels, RefuseSumsOfArraysThatAreNotTheirs)
   const std::int64_t counts[2] = { 1, 1 };
   const std::int64_t voxels[2] = { 0, 1 };
   AttributeTuples tuples(ScalarType::Float, 1);
-  tuples.prepare(counts, 2);
+  tuples.prepare(counts, 2, 0, {});
   tuples.add(values.data(), sizeof(float), voxels, 2);
   bytes.clear();
   tuples.serialize(0, 2, bytes);
   AttributeTuples other(ScalarType::Float, 1);
-  other.prepare(counts, 2);
+  other.prepare(counts, 2, 0, {});
   EXPECT_FALSE(other.merge(bytes.substr(0, bytes.size() - 1), { 0, 1 }));
-  other.prepare(counts, 2);
+  other.prepare(counts, 2, 0, {});
   EXPECT_FALSE(other.merge(bytes + bytes, { 0, 1, 0, 1 })); // more than there is room for
-  other.prepare(counts, 2);
+  other.prepare(counts, 2, 0, {});
   EXPECT_TRUE(other.merge(bytes, { 0, 1 }));
 }

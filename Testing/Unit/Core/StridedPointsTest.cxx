@@ -104,14 +104,14 @@ TEST(StridedPoints, BringTheirTuplesToTheirVoxels)
     const AttributeView view{ twins.wide.data(), ScalarType::Float, 3, std::int64_t(Twins<float>::count),
       std::int64_t(7 * sizeof(float)) };
     AttributeMean mean(view, rangeOf(view, {}));
-    mean.prepare(resampler.size(), resampler.mostPoints());
+    mean.prepare(nullptr, resampler.size(), resampler.mostPoints(), {});
     ASSERT_EQ(resampler.visitPointsByVoxel(request,
                 [&](const PointRows& rows, const std::int64_t* voxels, int count)
                 { mean.add(rows.tuples(0), rows.bytes, voxels, count); }),
       Status::Ok);
     std::vector<float> averaged(3 * std::size_t(resampler.size()));
     std::vector<double> means(averaged.size());
-    mean.write(resampler.counts(), averaged.data(), {});
+    mean.write(resampler.counts(), averaged.data(), {}, nullptr);
     resampler.copyMeans(0, means.data());
     for (std::size_t i = 0; i < means.size(); ++i)
     {

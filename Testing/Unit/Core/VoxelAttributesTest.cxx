@@ -97,20 +97,20 @@ std::vector<Tuples> expectedOf(const VoxelRequest& request)
   std::vector<Tuples> all;
   for (const AttributeRequest& attribute : request.attributes)
   {
-    AttributeReducer reducer(attribute, request.transform, InstructionSet::Baseline, {});
+    const auto reducer = AttributeReducer::create(attribute, request.transform, InstructionSet::Baseline, {});
     const TupleSource source = AttributeReducer::sourceOf(attribute.view);
-    reducer.prepare(resampler.counts(), resampler.size(), resampler.mostPoints());
+    reducer->prepare(resampler.counts(), resampler.size(), resampler.mostPoints(), {});
     for (std::int64_t i = 0; i < request.points.size(); ++i)
     {
       const std::int64_t voxel = resampler.voxelIndex()[std::size_t(i)];
       if (voxel >= 0)
       {
-        reducer.add(
+        reducer->add(
           static_cast<const char*>(source.values) + source.step() * std::size_t(i), source.bytes, &voxel, 1);
       }
     }
     all.emplace_back(std::size_t(resampler.size()) * source.bytes);
-    EXPECT_TRUE(reducer.write(resampler.counts(), all.back().data(), {}, nullptr));
+    EXPECT_TRUE(reducer->write(resampler.counts(), all.back().data(), {}, nullptr));
   }
   return all;
 }

@@ -35,22 +35,16 @@ struct Turn
 
 /// Rounded means of integers go through double where sums are below 2^kRealSumBits.
 constexpr int kRealSumBits = 51;
-/// Integer types of up to 32 bits, in the order of ScalarType.
-constexpr int kShortIntegers = 6;
-
 struct AttributeKernels
 {
-  Magnitudes (*magnitudesFloat)(const float* values, std::int64_t count);
-  Magnitudes (*magnitudesDouble)(const double* values, std::int64_t count);
-  /// sum / count unit, each operation rounded.
-  void (*meansFloat)(const WordSums&, float* means);
-  void (*meansDouble)(const WordSums&, double* means);
-  /// sum / count rounded to the nearest integer, halves away from zero. @pre unit is 1.
-  void (*meansInteger[kShortIntegers])(const WordSums&, void* means);
-  /// The same as means, of three components, turned, and divided by their length where that is above 0 and
-  /// finite; else 0.
-  void (*unitVectorsFloat)(const WordSums&, const Turn&, float* vectors);
-  void (*unitVectorsDouble)(const WordSums&, const Turn&, double* vectors);
+  // Of floats and of doubles.
+  Magnitudes (*magnitudes[2])(const void* values, std::int64_t count);
+  /// means, of three components, turned, and divided by their length where that is above 0 and finite; else
+  /// 0.
+  void (*unitVectors[2])(const WordSums&, const Turn&, void* vectors);
+  /// In the order of ScalarType; null for integers of 64 bits. sum / count unit, each operation rounded; of
+  /// integers, whose unit is 1, sum / count rounded to the nearest, halves away from zero.
+  void (*means[10])(const WordSums&, void* means);
 };
 
 } // namespace simd

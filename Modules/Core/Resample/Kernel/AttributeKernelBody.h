@@ -16,8 +16,9 @@ constexpr int kNumbers = 768;
 
 /// By the bits without the sign: they ascend with the magnitude, infinities and NaN above all.
 template <typename Bits, typename Real>
-inline Magnitudes magnitudes(const Real* values, std::int64_t count)
+inline Magnitudes magnitudes(const void* given, std::int64_t count)
 {
+  const auto* values = static_cast<const Real*>(given);
   static_assert(sizeof(Bits) == sizeof(Real), "the bits of a number");
   constexpr Bits kMagnitude = ~(Bits(1) << (8 * sizeof(Bits) - 1));
   const auto bitsOf = [](Real value)
@@ -93,51 +94,45 @@ inline void forPieces(const WordSums& s, Work&& work)
   }
 }
 
-template <typename Real>
-inline void means(const WordSums& s, Real* means)
+template <typename T>
+inline T meanOf(double sum, double count, double unit)
+{
+  if constexpr (T(0.5) != T(0))
+  {
+    return T(sum / count * unit);
+  }
+  // Numbers of so few bits that a rounded quotient does not reach the integer above the exact one.
+  const double half = 0.5 * count;
+  const double mean = (sum + (sum < 0.0 ? -half : half)) / count;
+  return sizeof(T) < 4 ? T(std::int32_t(mean)) : T(std::int64_t(mean));
+}
+
+template <typename T>
+inline void means(const WordSums& s, void* means)
 {
   const double unit = s.unit;
   forPieces(s,
     [&](std::int64_t first, int count, const double* counts)
     {
       const std::int64_t* sums = s.sums + first;
-      Real* to = means + first;
+      T* to = static_cast<T*>(means) + first;
       for (int i = 0; i < count; ++i)
       {
-        to[i] = Real(double(sums[i]) / counts[i] * unit);
-      }
-    });
-}
-
-template <typename Integer>
-inline void integerMeans(const WordSums& s, void* means)
-{
-  // Numbers of so few bits that a rounded quotient does not reach the integer above the exact one.
-  forPieces(s,
-    [&](std::int64_t first, int count, const double* counts)
-    {
-      const std::int64_t* sums = s.sums + first;
-      auto* to = static_cast<Integer*>(means) + first;
-      for (int i = 0; i < count; ++i)
-      {
-        const auto sum = double(sums[i]);
-        const double half = 0.5 * counts[i];
-        const double mean = (sum + (sum < 0.0 ? -half : half)) / counts[i];
-        to[i] = sizeof(Integer) < 4 ? Integer(std::int32_t(mean)) : Integer(std::int64_t(mean));
+        to[i] = meanOf<T>(double(sums[i]), counts[i], unit);
       }
     });
 }
 
 template <typename Real>
-inline void unitVectors(const WordSums& s, const Turn& turn, Real* vectors)
+inline void unitVectors(const WordSums& s, const Turn& turn, void* vectors)
 {
   constexpr int kVectors = kNumbers / 3;
   alignas(64) double mean[kNumbers];
   for (std::int64_t first = 0; first < s.voxels; first += kVectors)
   {
     const int count = s.voxels - first < kVectors ? int(s.voxels - first) : kVectors;
-    means(WordSums{ s.sums + 3 * first, s.counts + first, count, 3, s.unit }, mean);
-    Real* to = vectors + 3 * first;
+    means<double>(WordSums{ s.sums + 3 * first, s.counts + first, count, 3, s.unit }, mean);
+    Real* to = static_cast<Real*>(vectors) + 3 * first;
     for (int i = 0; i < count; ++i)
     {
       double turned[3];
@@ -157,11 +152,11 @@ inline void unitVectors(const WordSums& s, const Turn& turn, Real* vectors)
   }
 }
 
-constexpr AttributeKernels kAttributeKernels = { &magnitudes<std::uint32_t, float>,
-  &magnitudes<std::uint64_t, double>, &means<float>, &means<double>,
-  { &integerMeans<std::int8_t>, &integerMeans<std::uint8_t>, &integerMeans<std::int16_t>,
-    &integerMeans<std::uint16_t>, &integerMeans<std::int32_t>, &integerMeans<std::uint32_t> },
-  &unitVectors<float>, &unitVectors<double> };
+constexpr AttributeKernels kAttributeKernels = { { &magnitudes<std::uint32_t, float>,
+                                                   &magnitudes<std::uint64_t, double> },
+  { &unitVectors<float>, &unitVectors<double> },
+  { &means<std::int8_t>, &means<std::uint8_t>, &means<std::int16_t>, &means<std::uint16_t>,
+    &means<std::int32_t>, &means<std::uint32_t>, nullptr, nullptr, &means<float>, &means<double> } };
 
 }
 } // namespace simd

@@ -182,7 +182,7 @@ void PartitionWorker::reduceRows(const PointRecordPool& pool, AccumulatedPartiti
     sums.reductions = VoxelReductions(reductions_->request);
   }
   places_.empty() ? sums.reductions.prepare(counts_.data(), voxels, mostPoints)
-                  : sums.reductions.spread(places_, voxels, mostPoints);
+                  : sums.reductions.regroup({ places_.begin(), places_.end() }, voxels, mostPoints);
   RowReader reader(reductions_->rows);
   std::int64_t ranksOfBlock[kBlockRecords];
   std::uint32_t* cells = recordCells_.data();

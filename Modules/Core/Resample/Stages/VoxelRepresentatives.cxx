@@ -69,7 +69,7 @@ VoxelRepresentatives::VoxelRepresentatives(const VoxelRequest& request)
       std::max({ request.lattice.spacing.x, request.lattice.spacing.y, request.lattice.spacing.z })))
   , unit_(std::ldexp(1.0, exponent_))
   , scale_(scaleOf(kQuantumBits))
-  , medians_(coordinateType(request.singlePrecision), 3, TupleStatistic::Median)
+  , medians_(coordinateType(request.singlePrecision), 3, AttributeStatistic::Median)
 {
 }
 
@@ -77,7 +77,7 @@ void VoxelRepresentatives::prepare(const std::int64_t* counts, std::int64_t voxe
 {
   if (request_->representative == Representative::Median)
   {
-    medians_.prepare(counts, voxels);
+    medians_.prepare(counts, voxels, 0, Executor());
     return;
   }
   ends_.assign(counts, counts + voxels);
@@ -270,7 +270,7 @@ bool VoxelRepresentatives::write(
 {
   if (request_->representative == Representative::Median)
   {
-    return medians_.write(arena.pointsFrom(firstVoxel), executor, observer);
+    return medians_.write(nullptr, arena.pointsFrom(firstVoxel), executor, observer);
   }
   return forVoxelSlices(ends_, executor, observer,
     [&](std::int64_t begin, std::int64_t end)
