@@ -79,7 +79,7 @@ Status VoxelResampler::Implementation::runBinned(
       return Status::Aborted;
     }
   }
-  return request.levels > 1 ? addLevels(request, 1, executor, observer) : Status::Ok;
+  return request.levels > 1 ? addLevels(request, executor, observer) : Status::Ok;
 }
 
 void VoxelResampler::Implementation::clear()
@@ -159,9 +159,8 @@ bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, bool
   return true;
 }
 
-/// @param levelOfRuns 0 or 1: that of the runs there are.
 Status VoxelResampler::Implementation::addLevels(
-  const VoxelRequest& request, int levelOfRuns, const Executor& executor, ProgressObserver* observer)
+  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   const double finest = fractionOfFinest(request);
   const auto progressAt = [&](int level)
@@ -175,15 +174,12 @@ Status VoxelResampler::Implementation::addLevels(
     SubProgress summing(&part, 0.0, 0.6);
     SubProgress writing(&part, 0.6, request.keys ? 0.8 : 1.0);
     SubProgress looking(&part, 0.8, 1.0);
-    if (l > levelOfRuns)
+    VoxelRuns coarse;
+    if (!sumCoarseVoxels(runs_, finer.lattice, coarse, executor, &summing))
     {
-      VoxelRuns coarse;
-      if (!sumCoarseVoxels(runs_, finer.lattice, coarse, executor, &summing))
-      {
-        return Status::Aborted;
-      }
-      runs_ = std::move(coarse);
+      return Status::Aborted;
     }
+    runs_ = std::move(coarse);
     if (!writeRuns(request, l + 1 < request.levels, level, nullptr, executor, &writing) ||
       (request.keys &&
         !findParents(finer.arena.keys(), finer.size, finer.lattice, level.arena.keys(), level.size,

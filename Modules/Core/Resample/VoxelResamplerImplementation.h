@@ -61,7 +61,6 @@ private:
   void accumulateAndWrite(const VoxelRequest& request, const Executor& executor);
   template <typename Work>
   void forPartitions(const VoxelRequest& request, const Executor& executor, Work&& work);
-  void joinLayers(const Executor& executor);
   Status finishRuns(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   /// Attributes, or the points that stand for voxels, are asked for.
   static bool reduces(const VoxelRequest& request)
@@ -73,8 +72,7 @@ private:
   static double fractionOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
   bool writeRuns(const VoxelRequest& request, bool keeps, simd::Level& level, OutputAllocator* allocator,
     const Executor& executor, ProgressObserver* observer);
-  Status addLevels(
-    const VoxelRequest& request, int levelOfRuns, const Executor& executor, ProgressObserver* observer);
+  Status addLevels(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status visitAgain(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status reduceAgain(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);

@@ -68,8 +68,7 @@ void VoxelResampler::Implementation::accumulateAndWrite(const VoxelRequest& requ
   const Kernels& kernels = kernelsFor(request.instructions);
   const bool keepsSums = keepsRuns_ || request.levels > 1;
   const int fractionBits = binner_.plan().fractionBits;
-  const bool isCoarse = !keepsRuns_ && request.levels > 1;
-  runs_.reset(keepsSums ? binner_.plan().partitions : 0, fractionBits + int(isCoarse));
+  runs_.reset(keepsSums ? binner_.plan().partitions : 0, fractionBits);
   std::size_t room = 0;
   for (std::uint32_t p = 0; !keepsRuns_ && p < binner_.plan().partitions; ++p)
   {
@@ -93,38 +92,12 @@ void VoxelResampler::Implementation::accumulateAndWrite(const VoxelRequest& requ
       }
       if (keepsSums)
       {
-        runs_.add(
-          p, isCoarse ? sumCoarseVoxels(worker.wide(), request.lattice, fractionBits) : worker.wide());
+        runs_.add(p, worker.wide());
       }
       accumulated_[p].reductions = {};
       accumulated_[p].trim();
     });
   writer.finish();
-  if (isCoarse)
-  {
-    joinLayers(executor);
-  }
-}
-
-/// The runs of partitions, which have parts of coarse layers, become those of whole ones.
-void VoxelResampler::Implementation::joinLayers(const Executor& executor)
-{
-  const std::size_t together = binner_.plan().layerShift > 0 ? 1 : 2 * binner_.plan().blocksPerLayer;
-  VoxelRuns layers;
-  layers.reset((runs_.ranges() - 1) / together + 1, runs_.fractionBits());
-  forEachItem(executor, layers.ranges(),
-    [&](std::size_t layer)
-    {
-      for (std::size_t p = layer * together; p < std::min((layer + 1) * together, runs_.ranges()); ++p)
-      {
-        if (runs_.size(p) > 0)
-        {
-          layers.add(layer, runs_.run(p));
-        }
-      }
-      layers.join(layer);
-    });
-  runs_ = std::move(layers);
 }
 
 Status VoxelResampler::Implementation::visitBinned(

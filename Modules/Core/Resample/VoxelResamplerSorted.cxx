@@ -74,7 +74,7 @@ Status VoxelResampler::Implementation::finishRuns(
     return Status::Ok;
   }
   writeRuns(request, request.levels > 1, levels[0], request.allocator, executor, nullptr);
-  return request.levels > 1 ? addLevels(request, 0, executor, observer) : Status::Ok;
+  return request.levels > 1 ? addLevels(request, executor, observer) : Status::Ok;
 }
 
 Status VoxelResampler::Implementation::sum(const VoxelRequest& request, VoxelRun& sums, int& fractionBits,

@@ -189,12 +189,6 @@ bool sumCoarseVoxels(const VoxelRuns& fine, const Lattice& lattice, VoxelRuns& c
   return true;
 }
 
-VoxelRun sumCoarseVoxels(const VoxelRun& fine, const Lattice& lattice, int fractionBits)
-{
-  Scratch scratch;
-  return fine.voxels.empty() ? VoxelRun() : sumPiece({ &fine }, lattice, fractionBits, 0, kNoKey, scratch);
-}
-
 bool findParents(const std::uint64_t* fineKeys, std::int64_t fineVoxels, const Lattice& fine,
   const std::uint64_t* coarseKeys, std::int64_t coarseVoxels, std::vector<std::int64_t>& parents,
   const Executor& executor, ProgressObserver* observer)

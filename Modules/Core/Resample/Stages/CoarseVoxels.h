@@ -20,9 +20,6 @@ namespace simd
 bool sumCoarseVoxels(const VoxelRuns& fine, const Lattice& lattice, VoxelRuns& coarse,
   const Executor& executor, ProgressObserver* observer);
 
-/// The same of one run, whose voxels may be a part of a layer.
-VoxelRun sumCoarseVoxels(const VoxelRun& fine, const Lattice& lattice, int fractionBits);
-
 /// Of each fine voxel, the position of the coarse one it lies in. Keys ascend. @return false where
 /// @p observer, which may be null, ended the work.
 bool findParents(const std::uint64_t* fineKeys, std::int64_t fineVoxels, const Lattice& fine,
