@@ -447,6 +447,8 @@ TEST(AttributeMean, OfParentsIsThatOfTheirPoints)
   expectSame(extremesOf<std::int64_t>(3000, 19), 3);
   expectSame(extremesOf<std::uint8_t>(3000, 20), 1);
   expectSame(magnitudes<double>(3000, -300, 300, 21), 2);
+  // In one part, were it not for how many points a voxel may have.
+  expectSame(magnitudes<double>(3000, 3.0, 3.2, 26), 1);
   std::vector<float> floats = magnitudes<float>(4000, -3, 3, 22);
   expectSame(floats, 4);
   floats[17] = INFINITY;
