@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace pointhaptics
 {
@@ -146,7 +147,7 @@ std::string DistributedUpdate::runOfSums(const vtkSmartPointer<vtkPolyData>* out
   {
     return problemOf(status);
   }
-  status = shared_.share(ranks_, own, levels);
+  status = shared_.share(ranks_, std::move(own), levels);
   VoxelAccumulator::Request wanted;
   wanted.singlePrecision = singlePrecision_;
   wanted.keys = true;

@@ -128,15 +128,17 @@ std::vector<std::int64_t> numbersOfKeys(Ranks& ranks, const std::vector<std::uin
   return all;
 }
 
-Status SharedVoxels::merge(std::vector<std::string> messages, const VoxelAccumulator& own)
+/// @p messages: the sums that each rank gave to this one; @p kept: those that this one, @p rank, keeps.
+Status SharedVoxels::merge(std::vector<std::string> messages, std::size_t rank, VoxelAccumulator kept)
 {
-  voxels_ = VoxelAccumulator(own.lattice(), own.hasCovariances());
+  voxels_ = VoxelAccumulator(kept.lattice(), kept.hasCovariances());
   std::vector<std::vector<std::uint64_t>> keysOfRanks;
-  for (std::string& bytes : messages)
+  for (std::size_t r = 0; r < messages.size(); ++r)
   {
     VoxelAccumulator part{ Lattice() };
-    const Status status = VoxelAccumulator::deserialize(bytes, part);
-    std::string().swap(bytes); // Its memory serves the sums of the next.
+    const Status status = r == rank ? Status::Ok : VoxelAccumulator::deserialize(messages[r], part);
+    std::string().swap(messages[r]); // Its memory serves the sums of the next.
+    part = r == rank ? std::move(kept) : std::move(part);
     keysOfRanks.push_back(part.keys());
     const Status merged = status == Status::Ok ? voxels_.merge(std::move(part)) : status;
     if (merged != Status::Ok)
@@ -171,19 +173,23 @@ void SharedVoxels::findEnds(const std::vector<std::uint64_t>& ownKeys)
   }
 }
 
-Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator& own, int levels)
+/// Sums are freed as soon as they are sent: their memory serves those that come.
+Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator own, int levels)
 {
   const std::vector<std::uint64_t> keys = own.keys();
   ranges_ = shareKeys(ranks, keys, uncutKeys(own.lattice(), levels));
+  this->findEnds(keys);
+  clipped_ = commonSum(ranks, own.clippedPoints());
+  invalid_ = commonSum(ranks, own.invalidPoints());
+  const auto rank = std::size_t(ranks.rank());
   std::vector<std::string> messages;
   for (std::size_t r = 0; r + 1 < ranges_.size(); ++r)
   {
-    messages.push_back(own.serialize(ranges_[r], ranges_[r + 1]));
+    messages.push_back(r == rank ? std::string() : own.serialize(ranges_[r], ranges_[r + 1]));
   }
-  const Status status = this->merge(ranks.exchange(std::move(messages)), own);
-  clipped_ = commonSum(ranks, own.clippedPoints());
-  invalid_ = commonSum(ranks, own.invalidPoints());
-  this->findEnds(keys);
+  VoxelAccumulator kept = own.part(ranges_[rank], ranges_[rank + 1]);
+  own = VoxelAccumulator(Lattice());
+  const Status status = this->merge(ranks.exchange(std::move(messages)), rank, std::move(kept));
   return ranks.reduce(status, [](Status a, Status b) { return a != Status::Ok ? a : b; });
 }
 

@@ -49,10 +49,11 @@ std::vector<std::int64_t> numbersOfKeys(Ranks& ranks, const std::vector<std::uin
 class SharedVoxels
 {
 public:
-  /// @p own: the sums of the points of this rank, all of them on the same lattice. @p levels: the cells of so
-  /// many levels are not cut by the ranges. Afterwards voxels() are the merged ones of this rank's range.
+  /// @p own: the sums of the points of this rank, all of them on the same lattice; give them away, and they
+  /// are freed before others come. @p levels: the cells of so many levels are not cut by the ranges.
+  /// Afterwards voxels() are the merged ones of this rank's range.
   /// Errors, on all ranks: InvalidParameter (other lattices, more points than an accumulator takes).
-  Status share(Ranks& ranks, VoxelAccumulator& own, int levels = 1);
+  Status share(Ranks& ranks, VoxelAccumulator own, int levels = 1);
   VoxelAccumulator& voxels() { return voxels_; }
   /// The ranges of keys of all ranks: see shareKeys().
   const std::vector<std::uint64_t>& ranges() const { return ranges_; }
@@ -82,7 +83,7 @@ public:
   }
 
 private:
-  Status merge(std::vector<std::string> messages, const VoxelAccumulator& own);
+  Status merge(std::vector<std::string> messages, std::size_t rank, VoxelAccumulator kept);
   void findEnds(const std::vector<std::uint64_t>& ownKeys);
 
   VoxelAccumulator voxels_{ Lattice() };

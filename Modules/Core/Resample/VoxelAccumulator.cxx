@@ -33,6 +33,32 @@ public:
     runs.join(0);
     return runs.size(0) > 0 ? runs.run(0) : none;
   }
+  /// Voxels of a range of keys, and their points. Those clipped or invalid go with the first key, 0.
+  struct Range
+  {
+    std::ptrdiff_t begin = 0;
+    std::ptrdiff_t end = 0;
+    std::int64_t points = 0;
+    std::int64_t clipped = 0;
+    std::int64_t invalid = 0;
+  };
+  Range range(std::uint64_t first, std::uint64_t end)
+  {
+    const std::vector<WideSums>& voxels = this->run().voxels;
+    const auto place = [&voxels](std::uint64_t key)
+    {
+      return std::lower_bound(voxels.begin(), voxels.end(), key,
+        [](const WideSums& voxel, std::uint64_t k) { return voxel.key < k; });
+    };
+    const auto begin = place(first);
+    const auto last = std::max(begin, place(end));
+    const bool isFirst = first == 0 && end > 0;
+    Range range{ begin - voxels.begin(), last - voxels.begin(), 0, isFirst ? clipped : 0,
+      isFirst ? invalid : 0 };
+    range.points = std::accumulate(begin, last, range.clipped + range.invalid,
+      [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
+    return range;
+  }
   /// Leaves none.
   VoxelRun takeRun()
   {
@@ -410,31 +436,44 @@ std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
     return bytes;
   }
   const VoxelRun& run = added_->run();
-  const auto place = [&run](std::uint64_t key)
-  {
-    return std::size_t(std::lower_bound(run.voxels.begin(), run.voxels.end(), key,
-                         [](const WideSums& voxel, std::uint64_t k) { return voxel.key < k; }) -
-      run.voxels.begin());
-  };
-  const std::size_t begin = place(first);
-  const std::size_t last = std::max(begin, place(end));
-  const bool isFirst = first == 0 && end > 0;
-  Header header = { lattice_, covariances_, added_->fractionBits, 0, isFirst ? added_->clipped : 0,
-    isFirst ? added_->invalid : 0, last - begin };
-  header.points = std::accumulate(run.voxels.begin() + std::ptrdiff_t(begin),
-    run.voxels.begin() + std::ptrdiff_t(last), header.clipped + header.invalid,
-    [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
+  const Sums::Range range = added_->range(first, end);
+  const auto voxels = std::size_t(range.end - range.begin);
+  Header header = { lattice_, covariances_, added_->fractionBits, range.points, range.clipped, range.invalid,
+    voxels };
   bytes.assign(kMagic, sizeof kMagic);
-  bytes.resize(kHeaderBytes + (last - begin) * bytesOfVoxel(header));
+  bytes.resize(kHeaderBytes + voxels * bytesOfVoxel(header));
   char* to = bytes.data() + sizeof kMagic;
   const auto putNext = [&](const auto& number) { to = put(to, number); };
   forNumbers(header, putNext);
-  for (std::size_t v = begin; v < last; ++v)
+  for (auto v = std::size_t(range.begin); v < std::size_t(range.end); ++v)
   {
     const VoxelSums voxel = run.voxels[v].whole();
     forNumbers(voxel, run.momentsOf(v), putNext);
   }
   return bytes;
+}
+
+VoxelAccumulator VoxelAccumulator::part(std::uint64_t first, std::uint64_t end)
+{
+  VoxelAccumulator part(lattice_, covariances_);
+  if (!this->settle())
+  {
+    return part;
+  }
+  const VoxelRun& run = added_->run();
+  const Sums::Range range = added_->range(first, end);
+  VoxelRun copy;
+  copy.voxels.assign(run.voxels.begin() + range.begin, run.voxels.begin() + range.end);
+  if (covariances_ && range.end > range.begin)
+  {
+    copy.secondMoments.assign(run.secondMoments.begin() + range.begin, run.secondMoments.begin() + range.end);
+  }
+  part.added_->points = range.points;
+  part.added_->clipped = range.clipped;
+  part.added_->invalid = range.invalid;
+  part.added_->fractionBits = added_->fractionBits;
+  part.added_->runs.add(0, std::move(copy));
+  return part;
 }
 
 std::vector<std::uint64_t> VoxelAccumulator::keys(std::int64_t step)
@@ -445,6 +484,7 @@ std::vector<std::uint64_t> VoxelAccumulator::keys(std::int64_t step)
     return keys;
   }
   const std::vector<WideSums>& voxels = added_->run().voxels;
+  keys.reserve(voxels.size() / std::size_t(step) + 1);
   for (std::size_t v = 0; v < voxels.size(); v += std::size_t(step))
   {
     keys.push_back(voxels[v].key);

@@ -79,6 +79,8 @@ public:
   /// The same of the voxels whose keys are from @p first to before @p end, and of their points alone; those
   /// clipped or invalid go with the first key, 0. The parts of all ranges merge to the whole.
   std::string serialize(std::uint64_t first, std::uint64_t end);
+  /// The same part, not as bytes. None where points were subtracted that had not been added.
+  VoxelAccumulator part(std::uint64_t first, std::uint64_t end);
   /// Keys of active voxels in ascending order, every @p step th of them (at least 1). None where points were
   /// subtracted that had not been added.
   std::vector<std::uint64_t> keys(std::int64_t step = 1);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 using namespace pointhaptics;
 using namespace pointhaptics::trial;
@@ -87,7 +88,7 @@ RunResult sharedRun(
       VoxelAccumulator own(lattice, true);
       EXPECT_EQ(own.add(partOf(points, ends, ranks.rank())), Status::Ok);
       SharedVoxels shared;
-      EXPECT_EQ(shared.share(ranks, own, levels), Status::Ok);
+      EXPECT_EQ(shared.share(ranks, std::move(own), levels), Status::Ok);
       VoxelAccumulator::Request wanted;
       wanted.keys = true;
       wanted.levels = levels;
@@ -210,9 +211,10 @@ Shared shareOf(Ranks& ranks, const PointView& part, const Lattice& lattice)
   Shared shared{ ranks, {}, {}, {}, {}, 0 };
   VoxelAccumulator own(lattice);
   EXPECT_EQ(own.add(part), Status::Ok);
-  EXPECT_EQ(shared.voxels.share(ranks, own), Status::Ok);
-  shared.ownVoxels = voxelsOf(part, lattice, own.keys());
-  shared.ownCounts = countsOf(shared.ownVoxels, own.keys().size());
+  const std::vector<std::uint64_t> keys = own.keys();
+  EXPECT_EQ(shared.voxels.share(ranks, std::move(own)), Status::Ok);
+  shared.ownVoxels = voxelsOf(part, lattice, keys);
+  shared.ownCounts = countsOf(shared.ownVoxels, keys.size());
   VoxelResampler made;
   EXPECT_EQ(shared.voxels.voxels().finish({}, made), Status::Ok);
   shared.counts.assign(made.counts(), made.counts() + made.size());
@@ -352,7 +354,7 @@ TEST(SharedVoxels, SendInProportionToVoxelsNotToPoints)
         VoxelAccumulator own(lattice);
         EXPECT_EQ(own.add(PointView(points.data() + share * ranks.rank(), share)), Status::Ok);
         SharedVoxels shared;
-        EXPECT_EQ(shared.share(ranks, own), Status::Ok);
+        EXPECT_EQ(shared.share(ranks, std::move(own)), Status::Ok);
       });
     sent.push_back(job.bytesSent());
   }
@@ -370,7 +372,7 @@ TEST(SharedVoxels, RefuseSumsOfAnotherLatticeOnAllRanks)
     {
       VoxelAccumulator own(latticeOf(4, 4, ranks.rank() == 2 ? 5 : 4));
       SharedVoxels shared;
-      EXPECT_EQ(shared.share(ranks, own), Status::InvalidParameter) << ranks.rank();
+      EXPECT_EQ(shared.share(ranks, std::move(own)), Status::InvalidParameter) << ranks.rank();
     });
 }
 
