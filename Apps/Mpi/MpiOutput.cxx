@@ -4,6 +4,8 @@
 #include "PieceOfCloud.h"
 #include "PiecesFile.h"
 
+#include "IO/Vtk/SharedVtp.h"
+
 #include "Clouds/Pipeline.h"
 
 #include <CLI/CLI.hpp>
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <vector>
 
 namespace pointhaptics
@@ -107,8 +110,13 @@ bool writePieces(Job& job, const std::string& command, const std::string& fileNa
   {
     return writePerRank(job, command, fileName, piece);
   }
-  const vtkSmartPointer<vtkPolyData> all = gatherPieces(job.ranks(), piece);
   std::string problem;
+  const bool isVtp = std::filesystem::path(fileName).extension() == ".vtp";
+  if (isVtp && job.ranks().size() > 1 && io::writeVtpTogether(job.ranks(), piece, fileName, problem))
+  {
+    return job.agree(command, problem);
+  }
+  const vtkSmartPointer<vtkPolyData> all = gatherPieces(job.ranks(), piece);
   if (all)
   {
     writeCloud(all, fileName, command, problem);

@@ -1,13 +1,11 @@
 #include "vtkPointCloudWriter.h"
 
 #include "Bytes/FileBytes.h"
-#include "CloudColumns.h"
 #include "FileProblem.h"
 #include "FormatWriters.h"
-#include "IO/Vtk/ErrorCollector.h"
+#include "IO/Vtk/VtpWriter.h"
 #include "WriteTask.h"
 
-#include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -15,7 +13,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-#include "vtkXMLPolyDataWriter.h"
 
 #include <algorithm>
 #include <new>
@@ -26,66 +23,6 @@ vtkStandardNewMacro(vtkPointCloudWriter);
 
 namespace
 {
-
-/// VTK's writer takes no notice of AbortExecute; this one does at each progress report, at least once an
-/// array: the rest is written nowhere, and Write() fails.
-class VtpWriter : public vtkXMLPolyDataWriter
-{
-public:
-  static VtpWriter* New();
-  vtkTypeMacro(VtpWriter, vtkXMLPolyDataWriter);
-
-protected:
-  void UpdateProgressDiscrete(float progress) override
-  {
-    this->Superclass::UpdateProgressDiscrete(progress);
-    if (this->AbortExecute && this->Stream)
-    {
-      this->Stream->setstate(std::ios::badbit);
-    }
-  }
-};
-vtkStandardNewMacro(VtpWriter);
-
-void writeVtp(vtkPointSet* cloud, const io::WriteTask& task)
-{
-  vtkNew<vtkPolyData> written;
-  if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(cloud))
-  {
-    written->ShallowCopy(polyData);
-  }
-  else
-  {
-    written->SetPoints(cloud->GetPoints());
-    written->GetPointData()->ShallowCopy(cloud->GetPointData());
-    written->GetFieldData()->ShallowCopy(cloud->GetFieldData());
-  }
-  if (written->GetNumberOfCells() == 0)
-  {
-    io::setOneVertexPerPoint(written);
-  }
-  vtkNew<io::ErrorCollector> errors;
-  vtkNew<VtpWriter> writer;
-  writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
-  writer->AddObserver(vtkCommand::ErrorEvent, errors);
-  writer->SetInputData(written);
-  writer->SetFileName(task.out.path().c_str());
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone();
-  writer->SetHeaderTypeToUInt64();
-  io::RelayedProgress progress(writer, task.algorithm, 0.0, 1.0);
-  const bool isWritten = writer->Write() == 1;
-  progress.finish();
-  if (!isWritten || !errors->first().empty())
-  {
-    const bool full = writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError;
-    throw io::FileProblem(full ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError,
-      errors->first().empty() ? "writing stopped" : errors->first(),
-      full ? "free some space on the disk or write elsewhere"
-           : "check the folder, its permissions and the free space");
-  }
-}
 
 struct FileFormat
 {
@@ -243,7 +180,7 @@ void vtkPointCloudWriter::WriteCloud(vtkPointSet* cloud)
         "VTP files cannot be written to a pipe or a device",
         "choose the name of a new file, or .ply, .pcd, .las, .laz, .csv or .xyz");
     }
-    writeVtp(cloud, task);
+    io::writeVtp(cloud, task);
   }
   else
   {

@@ -168,6 +168,32 @@ Status OutputFile::write(std::string_view bytes)
   return reason_.empty() ? Status::Ok : Status::FileNotWritable;
 }
 
+Status OutputFile::join(const std::string& unfinished)
+{
+  this->discard();
+  reason_.clear();
+  cure_.clear();
+  target_ = unfinished;
+  descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+  return descriptor_ >= 0 ? Status::Ok : this->fail(errno);
+}
+
+Status OutputFile::writeAt(std::uint64_t place, std::string_view bytes)
+{
+  while (descriptor_ >= 0 && !bytes.empty())
+  {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place));
+    if (written < 0 && errno != EINTR)
+    {
+      return this->fail(errno);
+    }
+    const std::size_t done = written > 0 ? static_cast<std::size_t>(written) : 0;
+    bytes.remove_prefix(done);
+    place += done;
+  }
+  return descriptor_ >= 0 ? Status::Ok : Status::FileNotWritable;
+}
+
 Status OutputFile::commit()
 {
   if (descriptor_ >= 0)

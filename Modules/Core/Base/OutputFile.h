@@ -5,6 +5,7 @@
 #include "Core/Base/Status.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -29,6 +30,12 @@ public:
   Status open(const std::string& target);
   /// Buffered. A fault is kept: later calls do nothing, commit() returns it.
   Status write(std::string_view bytes);
+  /// Opens the unfinished file, path(), that an OutputFile of another process has open and will commit: this
+  /// one adds parts to it with writeAt(), and its own commit() only closes.
+  Status join(const std::string& unfinished);
+  /// Writes @p bytes to a place of the file, unbuffered; files may have several writers then, and each place
+  /// one of them. Not for pipes and devices, nor together with write().
+  Status writeAt(std::uint64_t place, std::string_view bytes);
   /// Writes the buffer, closes, renames.
   Status commit();
 
