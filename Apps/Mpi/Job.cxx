@@ -7,6 +7,8 @@
 #include <vtkMPIController.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <vector>
 
 namespace pointhaptics
@@ -14,9 +16,27 @@ namespace pointhaptics
 namespace app
 {
 
+namespace
+{
+
+/// Where all ranks run on this machine, they need none of its network hardware, for which Open MPI looks 0.15
+/// s long. What the user chose stays.
+void useMemoryAlone()
+{
+  const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
+  const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  if (all && here && std::strcmp(all, here) == 0)
+  {
+    setenv("OMPI_MCA_pml", "ob1", 0);
+  }
+}
+
+} // namespace
+
 Job::Job(int* argc, char*** argv)
   : ranks_(controller_)
 {
+  useMemoryAlone();
   controller_->Initialize(argc, argv);
   vtkMultiProcessController::SetGlobalController(controller_);
 }
