@@ -21,6 +21,17 @@ fault() {
   exit 1
 }
 
+# What ends a test otherwise says where it was, with all that programs said last.
+explain() {
+  local code="$1"
+  trap - ERR
+  printf 'FAULT: line %s: %s: exit code %s\n' "$2" "$3" "$code"
+  tail -n 20 said said-by-ranks warned warned-by-ranks 2>/dev/null || true
+  exit "$code"
+}
+set -o errtrace
+trap 'explain "$?" "$LINENO" "$BASH_COMMAND"' ERR
+
 # run_ranks N WORDS...: pointhaptics-mpi on N ranks.
 run_ranks() {
   local ranks="$1"
