@@ -8,10 +8,9 @@ namespace pointhaptics
 namespace
 {
 
-void sortByIndex(std::vector<SlabPoint>& points)
+bool comesBefore(const SlabPoint& a, const SlabPoint& b)
 {
-  std::sort(
-    points.begin(), points.end(), [](const SlabPoint& a, const SlabPoint& b) { return a.index < b.index; });
+  return a.index < b.index;
 }
 
 int longestAxis(const Bounds& box)
@@ -80,8 +79,8 @@ SpaceSlabs::SpaceSlabs(Ranks& ranks, const PointView& points, const std::vector<
   {
     messages.push_back(bytesOfValues(ofRank));
   }
+  // By index: each rank has its points in order, and those of the next rank come after them.
   own_ = pointsOf(ranks.exchange(std::move(messages)));
-  sortByIndex(own_);
 }
 
 /// Where one slab ends and the next begins. Every rank shows each n-th of its points, the same n on all.
@@ -129,9 +128,10 @@ std::vector<SlabPoint> SpaceSlabs::withGhosts(const SlabRange& range)
     }
     messages[r] = bytesOfValues(wanted);
   }
-  std::vector<SlabPoint> all = pointsOf(ranks_.exchange(std::move(messages)));
-  all.insert(all.end(), own_.begin(), own_.end());
-  sortByIndex(all);
+  std::vector<SlabPoint> ghosts = pointsOf(ranks_.exchange(std::move(messages)));
+  std::sort(ghosts.begin(), ghosts.end(), &comesBefore);
+  std::vector<SlabPoint> all(ghosts.size() + own_.size());
+  std::merge(ghosts.begin(), ghosts.end(), own_.begin(), own_.end(), all.begin(), &comesBefore);
   return all;
 }
 
