@@ -156,8 +156,10 @@ int PclVoxelMeanSettings::getCentroidIndexAt(const Eigen::Vector3i& voxel) const
 void PclVoxelMean<::pcl::PCLPointCloud2>::applyFilter(::pcl::PCLPointCloud2& output)
 {
   const ::pcl::PCLPointCloud2& cloud = *input_;
+  // Where all of a record is written anew its memory need not be cleared.
+  std::vector<std::uint8_t> kept;
+  kept.swap(output.data);
   output.fields.clear();
-  output.data.clear();
   output.width = output.height = output.point_step = output.row_step = 0;
   output.is_bigendian = ::pcl::PCLPointCloud2().is_bigendian;
   output.is_dense = true;
@@ -184,6 +186,7 @@ void PclVoxelMean<::pcl::PCLPointCloud2>::applyFilter(::pcl::PCLPointCloud2& out
   {
     output.fields = cloud.fields;
     output.point_step = cloud.point_step;
+    output.data.swap(kept);
     output.data.resize(std::size_t(output.point_step) * output.width);
     write(reinterpret_cast<char*>(output.data.data()), output.point_step);
   }

@@ -139,6 +139,7 @@ private:
 ///
 /// A bad leaf size, an unknown field, a cloud without a finite point and more voxels than that give an empty
 /// cloud and a PCL_ERROR. No copy of the points is made, but for those of setIndices() and setFilterLimits().
+/// Bytes between the fields keep what the output had there, as VoxelGrid's do.
 /// One object is used by one thread at a time; inside it runs on vtkSMPTools. Not copyable.
 template <typename PointT>
 class PclVoxelMean
@@ -155,13 +156,17 @@ public:
 protected:
   void applyFilter(PointCloud& output) override
   {
-    output.clear();
+    if (!getDownsampleAllData())
+    {
+      output.clear(); // what is not averaged is that of a new point
+    }
     Input input{ reinterpret_cast<const char*>(this->input_->points.data()),
       std::int64_t(this->input_->size()), sizeof(PointT),
       this->fake_indices_ ? nullptr : this->indices_.get(), this->filter_name_ };
-    if (average(input, ::pcl::getFields<PointT>()))
+    const bool isAveraged = average(input, ::pcl::getFields<PointT>());
+    output.resize(isAveraged ? std::size_t(numberOfVoxels()) : 0);
+    if (isAveraged)
     {
-      output.resize(std::size_t(numberOfVoxels()));
       write(reinterpret_cast<char*>(output.points.data()), sizeof(PointT));
     }
     output.width = ::pcl::uindex_t(output.size());

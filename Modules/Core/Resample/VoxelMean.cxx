@@ -1,6 +1,5 @@
 #include "Core/Resample/VoxelMean.h"
 
-#include "Core/Base/PointBlocks.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -24,9 +23,8 @@ Bounds transformedBounds(const PointView& points, const AffineTransform& transfo
     const auto includeAll = [&](const auto* from)
     {
       using Real = std::decay_t<decltype(*from)>;
-      forPointBlocks(from, points, begin, end,
-        [&](const Real* xyz, std::int64_t count)
-        { kernels.of<Real>().bounds(transform.m, xyz, count, local); });
+      const std::int64_t stride = points.stride();
+      kernels.of<Real>().bounds(transform.m, from + stride * begin, end - begin, stride, local);
     };
     points.floats() ? includeAll(points.floats()) : includeAll(points.doubles());
     if (local[0] <= local[1])

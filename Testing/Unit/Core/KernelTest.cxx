@@ -349,10 +349,10 @@ namespace
 
 /// That of the points that are finite before and after the transform, one by one.
 template <typename Real>
-Bounds plainBoundsOf(const AffineTransform& transform, const std::vector<Real>& xyz)
+Bounds plainBoundsOf(const AffineTransform& transform, const std::vector<Real>& xyz, std::size_t stride)
 {
   Bounds box;
-  for (std::size_t i = 0; i < xyz.size(); i += 3)
+  for (std::size_t i = 0; i < xyz.size(); i += stride)
   {
     const Vec3 p(xyz[i], xyz[i + 1], xyz[i + 2]);
     if (isFinite(p) && isFinite(transform.apply(p)))
@@ -364,18 +364,12 @@ Bounds plainBoundsOf(const AffineTransform& transform, const std::vector<Real>& 
 }
 
 template <typename Real>
-Bounds boundsOf(const Kernels& kernels, const AffineTransform& transform, const std::vector<Real>& xyz)
+Bounds boundsOf(
+  const Kernels& kernels, const AffineTransform& transform, const std::vector<Real>& xyz, std::size_t stride)
 {
   double box[6] = { INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY };
-  const auto count = std::int64_t(xyz.size() / 3);
-  if constexpr (std::is_same_v<Real, float>)
-  {
-    kernels.of<float>().bounds(transform.m, xyz.data(), count, box);
-  }
-  else
-  {
-    kernels.of<double>().bounds(transform.m, xyz.data(), count, box);
-  }
+  const auto count = std::int64_t((xyz.size() + stride - 1) / stride);
+  kernels.of<Real>().bounds(transform.m, xyz.data(), count, std::int64_t(stride), box);
   Bounds bounds;
   if (box[0] <= box[1])
   {
@@ -386,28 +380,29 @@ Bounds boundsOf(const Kernels& kernels, const AffineTransform& transform, const 
 }
 
 template <typename Real>
-void expectBounds(const AffineTransform& transform, const std::vector<Real>& xyz)
+void expectBounds(const AffineTransform& transform, const std::vector<Real>& xyz, std::size_t stride)
 {
-  const Bounds expected = plainBoundsOf(transform, xyz);
+  const Bounds expected = plainBoundsOf(transform, xyz, stride);
   for (const InstructionSet set : heldInstructionSets())
   {
-    const Bounds box = boundsOf(kernelsFor(set), transform, xyz);
+    const Bounds box = boundsOf(kernelsFor(set), transform, xyz, stride);
     ASSERT_EQ(box.minimum, expected.minimum) << int(set);
     ASSERT_EQ(box.maximum, expected.maximum) << int(set);
   }
 }
 
 /// Clouds whose extremes, and what is not finite, are anywhere: at the ends of vectors, blocks and the cloud.
+/// Between points are numbers that are none of theirs, and nothing is behind the last one's z.
 template <typename Real>
-void tryBounds(const AffineTransform& transform)
+void tryBounds(const AffineTransform& transform, std::size_t stride)
 {
   trial::Random random(8);
-  for (const std::size_t size : { 0, 1, 15, 1023, 1024, 1025, 2048, 5000 })
+  for (const std::size_t size : { 0, 1, 15, 16, 17, 1023, 1024, 1025, 2048, 5000 })
   {
     SCOPED_TRACE(size);
     for (int i = 0; i < 60; ++i)
     {
-      std::vector<Real> xyz(3 * size);
+      std::vector<Real> xyz(size > 0 ? stride * size - (stride - 3) : 0);
       for (Real& x : xyz)
       {
         x = Real(random.uniform(-1, 1));
@@ -421,7 +416,11 @@ void tryBounds(const AffineTransform& transform)
         const double values[] = { NAN, INFINITY, -INFINITY, sizeof(Real) == 8 ? 1e300 : 9.0 };
         xyz[random.below(xyz.size())] = Real(values[random.below(4)]);
       }
-      ASSERT_NO_FATAL_FAILURE(expectBounds(transform, xyz));
+      for (std::size_t at = 0; at < xyz.size(); ++at)
+      {
+        xyz[at] = at % stride < 3 ? xyz[at] : i % 2 ? Real(99) : Real(NAN);
+      }
+      ASSERT_NO_FATAL_FAILURE(expectBounds(transform, xyz, stride));
     }
   }
 }
@@ -437,8 +436,12 @@ TEST(BoundsKernel, FindsTheBoxOfTheFinitePoints)
   shear.m[1][2] = 2.5;
   for (const AffineTransform& transform : { AffineTransform(), mirror, shear })
   {
-    SCOPED_TRACE(transform.m[1][2]);
-    ASSERT_NO_FATAL_FAILURE(tryBounds<float>(transform));
-    ASSERT_NO_FATAL_FAILURE(tryBounds<double>(transform));
+    for (const std::size_t stride : { 3, 4, 8 })
+    {
+      SCOPED_TRACE(transform.m[1][2]);
+      SCOPED_TRACE(stride);
+      ASSERT_NO_FATAL_FAILURE(tryBounds<float>(transform, stride));
+      ASSERT_NO_FATAL_FAILURE(tryBounds<double>(transform, stride));
+    }
   }
 }

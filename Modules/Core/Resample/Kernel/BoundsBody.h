@@ -2,8 +2,12 @@
 /// Part of VoxelKernelBody.h: the box of a cloud.
 #pragma once
 
+#include "Core/Base/PointBlocks.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Simd/Words.h"
+
+#include <algorithm>
+#include <cstdint>
 
 namespace pointhaptics
 {
@@ -18,26 +22,34 @@ inline void widen(double box[6], int axis, double low, double high)
   box[2 * axis + 1] = high > box[2 * axis + 1] ? high : box[2 * axis + 1];
 }
 
-/// Points looked at together by keptAxes(): whole vectors.
+/// Most points looked at together by keptAxes().
 constexpr std::int64_t kBoxPoints = 1024;
-
-/// Widens the box by kBoxPoints points under a diagonal matrix and an offset: rounding keeps the order of
-/// numbers, so the ends of each axis are those of the points as they are, moved. @return false, without that,
-/// if they are not finite.
+/// It takes whole vectors.
 template <typename Real>
-inline bool keptAxes(const double matrix[3][4], const Real* xyz, double box[6])
+constexpr std::int64_t kInVector = 8 * kWidth / std::int64_t(sizeof(Real));
+
+/// Widens the box by @p count points, at least one vector, under a diagonal matrix and an offset: rounding
+/// keeps the order of numbers, so the ends of each axis are those of the points as they are, moved. @return
+/// false, without that, if they are not finite. A point is @p Stride numbers, 3 or 4, of which the last is
+/// skipped.
+template <int Stride, typename Real>
+inline bool keptAxes(const double matrix[3][4], const Real* xyz, std::int64_t count, double box[6])
 {
   typedef Real Numbers __attribute__((vector_size(8 * kWidth)));
   typedef Real NumbersAt __attribute__((vector_size(8 * kWidth), aligned(sizeof(Real)), may_alias));
-  constexpr int kInVector = 8 * kWidth / int(sizeof(Real));
-  // Three vectors hold x y z x y z ...: each lane stays with one axis.
+  constexpr int kInOne = int(kInVector<Real>);
+  // So many vectors hold x y z x y z ... of whole points: each lane stays with one axis.
   const auto* at = reinterpret_cast<const NumbersAt*>(xyz);
-  Numbers low[3] = { at[0], at[1], at[2] };
-  Numbers high[3] = { at[0], at[1], at[2] };
-  Numbers check[3] = {};
-  for (std::int64_t i = 0; i < kBoxPoints / kInVector; ++i, at += 3)
+  Numbers low[Stride];
+  Numbers high[Stride];
+  Numbers check[Stride] = {};
+  for (int k = 0; k < Stride; ++k)
   {
-    for (int k = 0; k < 3; ++k)
+    low[k] = high[k] = at[k];
+  }
+  for (std::int64_t i = 0; i < count / kInOne; ++i, at += Stride)
+  {
+    for (int k = 0; k < Stride; ++k)
     {
       const Numbers x = at[k];
       low[k] = x < low[k] ? x : low[k];
@@ -48,17 +60,21 @@ inline bool keptAxes(const double matrix[3][4], const Real* xyz, double box[6])
   double moved[6] = { __builtin_inf(), -__builtin_inf(), __builtin_inf(), -__builtin_inf(), __builtin_inf(),
     -__builtin_inf() };
   double sum = 0.0;
-  for (int i = 0; i < 3 * kInVector; ++i)
+  for (int i = 0; i < Stride * kInOne; ++i)
   {
-    const double ends[2] = { double(low[i / kInVector][i % kInVector]),
-      double(high[i / kInVector][i % kInVector]) };
+    const int axis = i % Stride;
+    if (axis == 3)
+    {
+      continue;
+    }
+    const double ends[2] = { double(low[i / kInOne][i % kInOne]), double(high[i / kInOne][i % kInOne]) };
     for (const double end : ends)
     {
-      const double x = matrix[i % 3][i % 3] * end + matrix[i % 3][3];
+      const double x = matrix[axis][axis] * end + matrix[axis][3];
       sum += x - x;
-      widen(moved, i % 3, x, x);
+      widen(moved, axis, x, x);
     }
-    sum += double(check[i / kInVector][i % kInVector]);
+    sum += double(check[i / kInOne][i % kInOne]);
   }
   for (int axis = 0; sum == 0.0 && axis < 3; ++axis)
   {
@@ -116,18 +132,43 @@ void boundsOfEach(const double matrix[3][4], const Real* xyz, std::int64_t count
   }
 }
 
-template <typename Real>
-void bounds(const double matrix[3][4], const Real* xyz, std::int64_t count, double box[6])
+/// Leaves points that fill no vector.
+template <int Stride, typename Real>
+void boundsOfBlocks(const double matrix[3][4], const Real*& xyz, std::int64_t& count, double box[6])
 {
-  const bool keepsAxes = isDiagonal(matrix);
-  for (; keepsAxes && count >= kBoxPoints; xyz += 3 * kBoxPoints, count -= kBoxPoints)
+  const auto blockOf = [](std::int64_t points)
+  { return std::min(kBoxPoints, points / kInVector<Real> * kInVector<Real>); };
+  constexpr std::int64_t kUnread = Stride - 3; // nothing may lie behind the last one's z
+  for (std::int64_t block; (block = blockOf(count - kUnread)) > 0; xyz += Stride * block, count -= block)
   {
-    if (!keptAxes(matrix, xyz, box))
+    if (!keptAxes<Stride>(matrix, xyz, block, box))
     {
-      boundsOfEach(matrix, xyz, kBoxPoints, box);
+      forPointBlocks(xyz, PointView(xyz, count, Stride), 0, block,
+        [&](const Real* some, std::int64_t size) { boundsOfEach(matrix, some, size, box); });
     }
   }
+}
+
+template <typename Real>
+void boundsOfPacked(const double matrix[3][4], const Real* xyz, std::int64_t count, double box[6])
+{
+  if (isDiagonal(matrix))
+  {
+    boundsOfBlocks<3>(matrix, xyz, count, box);
+  }
   boundsOfEach(matrix, xyz, count, box);
+}
+
+template <typename Real>
+void bounds(
+  const double matrix[3][4], const Real* xyz, std::int64_t count, std::int64_t stride, double box[6])
+{
+  if (stride == 4 && isDiagonal(matrix))
+  {
+    boundsOfBlocks<4>(matrix, xyz, count, box);
+  }
+  forPointBlocks(xyz, PointView(xyz, count, stride), 0, count,
+    [&](const Real* some, std::int64_t size) { boundsOfPacked(matrix, some, size, box); });
 }
 
 }

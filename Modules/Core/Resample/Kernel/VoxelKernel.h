@@ -239,8 +239,10 @@ struct PointKernels
   /// elements past the end.
   int (*packedMeans)(const MeanMap&, const CellMap&, const std::uint32_t* cells, const PackedSums* sums,
     int count, Real* xyz, std::int64_t* counts, int* nearFace);
-  /// Widens a box (x0 x1 y0 y1 z0 z1) by the transformed points that are finite before and after.
-  void (*bounds)(const double matrix[3][4], const Real* xyz, std::int64_t count, double box[6]);
+  /// Widens a box (x0 x1 y0 y1 z0 z1) by the transformed points that are finite before and after. @p stride:
+  /// numbers from one point to the next.
+  void (*bounds)(
+    const double matrix[3][4], const Real* xyz, std::int64_t count, std::int64_t stride, double box[6]);
 };
 
 /// The inner loops for one instruction set.
