@@ -227,4 +227,38 @@ void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFie
   addField(field, "ModelToWorkspace", matrix, 16);
 }
 
+void addArray(vtkPointData* data, vtkDataArray* array, const std::vector<int>& roles)
+{
+  const int index = data->AddArray(array);
+  for (const int role : roles)
+  {
+    data->SetActiveAttribute(index, role);
+  }
+}
+
+bool OutputFiller::fill(int level, vtkPolyData* output, const AddArrays& addArrays,
+  std::optional<std::vector<std::int64_t>>& kept) const
+{
+  vtkPointData* data = output->GetPointData();
+  output->SetPoints(makePoints(engine, level, singlePrecision, allocator, executor));
+  output->SetVerts(makeVertices(vtkIdType(engine.size(level)), pool, executor));
+  const auto counts = makeCounts(engine, level, allocator, executor);
+  if (!addArrays(counts, data))
+  {
+    return false;
+  }
+  data->AddArray(counts);
+  if (covariances)
+  {
+    data->AddArray(makeCovariances(engine, level, allocator, executor));
+  }
+  if (pointIds)
+  {
+    data->AddArray(makeIds(*pointIds, kOriginalPointIds));
+  }
+  kept = keepVoxels(output, counts, minimumPoints, pool, executor);
+  addLattice(engine.lattice(level), transform, output->GetFieldData());
+  return true;
+}
+
 } // namespace pointhaptics

@@ -13,6 +13,7 @@
 #include "vtkType.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,7 @@ class vtkDataArray;
 class vtkDoubleArray;
 class vtkFieldData;
 class vtkIdTypeArray;
+class vtkPointData;
 class vtkPoints;
 class vtkPolyData;
 
@@ -80,5 +82,27 @@ std::optional<std::vector<std::int64_t>> keepVoxels(
   vtkPolyData* cloud, vtkIdTypeArray* counts, vtkIdType minimum, ArrayPool& pool, const Executor& executor);
 /// Records the lattice and the transform: a scene is built from them.
 void addLattice(const Lattice& lattice, const AffineTransform& transform, vtkFieldData* field);
+/// Adds @p array, as the active one of the @p roles of vtkDataSetAttributes::AttributeTypes.
+void addArray(vtkPointData* data, vtkDataArray* array, const std::vector<int>& roles);
+
+/// Fills outputs with what the engine made.
+struct OutputFiller
+{
+  const VoxelResampler& engine;
+  const AffineTransform& transform;
+  ArrayPool& pool;
+  ArrayAllocator& allocator;
+  const Executor& executor;
+  bool singlePrecision = false; ///< That of the request.
+  bool covariances = false;
+  vtkIdType minimumPoints = 1;                       ///< Voxels of fewer are left out.
+  std::optional<std::vector<std::int64_t>> pointIds; ///< The array of KeepOriginalPointIds, if there is one.
+
+  /// Adds the arrays of the points' attributes. @return false where the work was aborted.
+  using AddArrays = std::function<bool(vtkIdTypeArray* counts, vtkPointData* data)>;
+  /// @p kept: of keepVoxels(). @return false where @p addArrays did; the output is not complete then.
+  bool fill(int level, vtkPolyData* output, const AddArrays& addArrays,
+    std::optional<std::vector<std::int64_t>>& kept) const;
+};
 
 } // namespace pointhaptics

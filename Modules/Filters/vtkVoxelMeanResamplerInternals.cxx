@@ -246,13 +246,8 @@ void vtkVoxelMeanResampler::Internals::Release()
   this->Points.reset();
 }
 
-bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPolyData* output)
+bool vtkVoxelMeanResampler::Internals::AddArrays(int level, vtkPointData* data)
 {
-  vtkPointData* data = output->GetPointData();
-  output->SetPoints(
-    makePoints(this->Engine, level, this->Request.singlePrecision, this->Allocator, this->Smp));
-  output->SetVerts(makeVertices(vtkIdType(this->Engine.size(level)), this->Pool, this->Smp));
-  const auto counts = makeCounts(this->Engine, level, this->Allocator, this->Smp);
   // Steps of the filling of all levels.
   const auto steps = double(this->Attributes.size() + 1);
   double done = steps * level;
@@ -264,26 +259,24 @@ bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPo
     {
       return false;
     }
-    const int index = data->AddArray(array);
-    for (const int role : this->Attributes[i].roles)
-    {
-      data->SetActiveAttribute(index, role);
-    }
+    addArray(data, array, this->Attributes[i].roles);
   }
-  data->AddArray(counts);
-  if (this->Request.covariances)
-  {
-    data->AddArray(makeCovariances(this->Engine, level, this->Allocator, this->Smp));
-  }
-  if (this->Filter->Settings.keepOriginalPointIds && this->KeepsPoints())
-  {
-    data->AddArray(makeIds(this->Engine.chosenPoints(), kOriginalPointIds));
-  }
-  this->Kept =
-    keepVoxels(output, counts, this->Filter->Settings.minimumPointsPerVoxel, this->Pool, this->Smp);
-  output->GetFieldData()->PassData(input->GetFieldData());
-  addLattice(this->Engine.lattice(level), this->Request.transform, output->GetFieldData());
   return true;
+}
+
+bool vtkVoxelMeanResampler::Internals::Fill(int level, vtkPointSet* input, vtkPolyData* output)
+{
+  const VoxelMeanSettings& settings = this->Filter->Settings;
+  OutputFiller filler{ this->Engine, this->Request.transform, this->Pool, this->Allocator, this->Smp,
+    this->Request.singlePrecision, this->Request.covariances, settings.minimumPointsPerVoxel, {} };
+  if (settings.keepOriginalPointIds && this->KeepsPoints())
+  {
+    filler.pointIds = this->Engine.chosenPoints();
+  }
+  output->GetFieldData()->PassData(input->GetFieldData());
+  return filler.fill(
+    level, output, [&](vtkIdTypeArray*, vtkPointData* data) { return this->AddArrays(level, data); },
+    this->Kept);
 }
 
 void vtkVoxelMeanResampler::Internals::FillIndex(vtkPointSet* input, vtkPolyData* output) const

@@ -96,6 +96,7 @@ private:
   bool MakeLattice(vtkPointSet* input);
   bool Run(vtkPointSet* input, bool isFirst);
   bool FillAll(vtkPointSet* input, const vtkSmartPointer<vtkPolyData>* outputs);
+  bool AddArrays(int level, vtkPointData* data);
   bool Fill(int level, vtkPointSet* input, vtkPolyData* output);
   void FillIndex(vtkPointSet* input, vtkPolyData* output) const;
   /// Lets go of the input and its arrays.

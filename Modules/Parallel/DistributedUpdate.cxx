@@ -33,15 +33,6 @@ std::vector<std::uint64_t> keysOf(const VoxelResampler& voxels)
   return keys;
 }
 
-void addArray(vtkPointData* data, vtkDataArray* array, const VoxelArray& from)
-{
-  const int index = data->AddArray(array);
-  for (const int role : from.roles)
-  {
-    data->SetActiveAttribute(index, role);
-  }
-}
-
 /// Where all ranks share a status that is not Ok.
 std::string problemOf(Status status)
 {
@@ -235,36 +226,36 @@ void DistributedUpdate::addMeans(int level, vtkIdTypeArray* counts, vtkPointData
     pool_.allocate(tuples, made_.size(level));
     array.merged->write(
       reinterpret_cast<const std::int64_t*>(counts->GetPointer(0)), tuples->GetVoidPointer(0), smp_, nullptr);
-    addArray(data, array.attribute.inOwnType(tuples), array.from);
+    addArray(data, array.attribute.inOwnType(tuples), array.from.roles);
   }
 }
 
 template <typename Function>
 void DistributedUpdate::fill(int level, vtkPolyData* output, Function&& addArrays)
 {
-  vtkPointData* data = output->GetPointData();
-  output->SetPoints(makePoints(made_, level, singlePrecision_, allocator_, smp_));
-  output->SetVerts(makeVertices(vtkIdType(made_.size(level)), pool_, smp_));
-  const auto counts = makeCounts(made_, level, allocator_, smp_);
-  addArrays(counts, data);
-  data->AddArray(counts);
-  if (settings_.computeCovariance)
-  {
-    data->AddArray(makeCovariances(made_, level, allocator_, smp_));
-  }
+  OutputFiller filler{ made_, transform_, pool_, allocator_, smp_, singlePrecision_,
+    settings_.computeCovariance, settings_.minimumPointsPerVoxel, {} };
   if (settings_.keepOriginalPointIds)
   {
-    std::vector<std::int64_t> ids = made_.chosenPoints();
-    std::transform(
-      ids.begin(), ids.end(), ids.begin(), [this](std::int64_t i) { return numbers_[std::size_t(i)]; });
-    data->AddArray(makeIds(ids, kOriginalPointIds));
+    filler.pointIds = made_.chosenPoints();
+    for (std::int64_t& id : *filler.pointIds)
+    {
+      id = numbers_[std::size_t(id)];
+    }
   }
-  auto kept = keepVoxels(output, counts, settings_.minimumPointsPerVoxel, pool_, smp_);
+  std::optional<std::vector<std::int64_t>> kept;
+  static_cast<void>(filler.fill(
+    level, output,
+    [&](vtkIdTypeArray* counts, vtkPointData* data)
+    {
+      addArrays(counts, data);
+      return true;
+    },
+    kept));
   if (level == 0)
   {
     kept_ = std::move(kept);
   }
-  addLattice(made_.lattice(level), transform_, output->GetFieldData());
 }
 
 /// With keys and the voxel of each point.
@@ -355,7 +346,7 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
       {
         addArray(data,
           reducedArray(made_, 0, i, attributes[i], found_[i].isNormal, request, pool_, allocator_, smp_),
-          found_[i]);
+          found_[i].roles);
       }
     });
   return {};
