@@ -2,19 +2,14 @@
 /// The commands of pointhaptics-mpi.
 #pragma once
 
-#include <functional>
+#include "Forward.h"
 
-namespace CLI
-{
-class App;
-}
+#include <functional>
 
 namespace pointhaptics
 {
 namespace app
 {
-
-class Job;
 
 /// What a command line asks for, run after it was parsed on all ranks. @return an ExitCode.
 using MpiWork = std::function<int(Job&)>;

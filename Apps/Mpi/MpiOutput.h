@@ -2,6 +2,7 @@
 /// Clouds of a job: read in pieces, written as one file or as one per rank.
 #pragma once
 
+#include "Forward.h"
 #include "Traffic.h"
 
 #include "Clouds/CloudToCloud.h"
@@ -11,14 +12,10 @@
 
 #include <string>
 
-class vtkPolyData;
-
 namespace pointhaptics
 {
 namespace app
 {
-
-class Job;
 
 /// A rank's part of a cloud.
 struct Piece

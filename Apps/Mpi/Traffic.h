@@ -2,19 +2,14 @@
 /// The option --traffic: what the ranks read and sent.
 #pragma once
 
-#include <cstdint>
+#include "Forward.h"
 
-namespace CLI
-{
-class App;
-}
+#include <cstdint>
 
 namespace pointhaptics
 {
 namespace app
 {
-
-class Job;
 
 /// Bytes of this rank.
 struct Traffic

@@ -1,0 +1,20 @@
+/// @file
+/// Classes that this program's headers name and need not know.
+#pragma once
+
+namespace CLI
+{
+class App;
+}
+
+class vtkPolyData;
+
+namespace pointhaptics
+{
+namespace app
+{
+
+class Job;
+
+} // namespace app
+} // namespace pointhaptics
