@@ -173,9 +173,10 @@ void SharedVoxels::findEnds(const std::vector<std::uint64_t>& ownKeys)
   }
 }
 
-/// Sums are freed as soon as they are sent: their memory serves those that come.
+/// What is no longer needed is freed at once: its memory serves what is sent and what comes.
 Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator own, int levels)
 {
+  own.releaseScratch();
   const std::vector<std::uint64_t> keys = own.keys();
   ranges_ = shareKeys(ranks, keys, uncutKeys(own.lattice(), levels));
   this->findEnds(keys);

@@ -81,6 +81,8 @@ public:
   std::string serialize(std::uint64_t first, std::uint64_t end);
   /// The same part, not as bytes. None where points were subtracted that had not been added.
   VoxelAccumulator part(std::uint64_t first, std::uint64_t end);
+  /// Frees the scratch memory that add() and subtract() keep for the next call.
+  void releaseScratch() { engine_.releaseScratch(); }
   /// Keys of active voxels in ascending order, every @p step th of them (at least 1). None where points were
   /// subtracted that had not been added.
   std::vector<std::uint64_t> keys(std::int64_t step = 1);
