@@ -289,6 +289,14 @@ TEST_F(Bench, TouchIsJudgedAtEdgesOnScansAndOnThinParts)
   EXPECT_EQ(other["scans"]["rows"][0]["mesh"], "stairs");
   EXPECT_EQ(other["scans"]["rows"][0]["points"], 5000);
   EXPECT_FALSE(other.contains("edges"));
+  EXPECT_GT(other["scans"]["rows"][0]["first_contact_us"], 0.0);
+  const json held = json::parse(this->succeed(
+    { "bench", "touch", "--quick", "--json", "--studies", "scans", "--methods", "surface-fit", "--stroke-set",
+      "b", "--points", "5000", "--meshes", "stairs,gear", "--raw", "--instructions", "baseline" }));
+  EXPECT_EQ(held["scans"]["rows"][0]["instructions"], "baseline");
+  EXPECT_EQ(held["scans"]["rows"][0]["rms_percent"], other["scans"]["rows"][0]["rms_percent"]);
+  EXPECT_EQ(held["scans"]["rows"][1]["energy_joule"], other["scans"]["rows"][1]["energy_joule"]);
+  this->refuse(2, { "bench", "touch", "--instructions", "mmx" }, { "bench touch", "--instructions", "avx2" });
   this->refuse(1, { "bench", "touch", "--quick", "--scans", "none.ply" }, { "none.ply" });
   this->refuse(2, { "bench", "touch", "--methods", "ball" }, { "bench touch", "--methods", "surface-fit" });
 }

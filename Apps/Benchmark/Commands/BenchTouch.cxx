@@ -3,6 +3,7 @@
 #include "Benchmark/Commands/BenchScan.h"
 #include "Options/OptionParsing.h"
 
+#include "Benchmark/Harness/Instructions.h"
 #include "Benchmark/Touch/Methods/TouchMethod.h"
 #include "Benchmark/Touch/TouchBenchmark.h"
 
@@ -29,6 +30,7 @@ struct TouchOptions
   std::int64_t points = 0;  ///< 0: the default.
   std::int64_t strokes = 0; ///< 0: the default.
   int strokeSet = 0;
+  int instructions = int(InstructionSet::Automatic);
   bool raw = false;
   bool whole = false;
   CLI::Option* meshesOption = nullptr;
@@ -52,7 +54,13 @@ BenchOutcome runTouch(
   {
     settings.makeQuick();
   }
+  settings.instructions = InstructionSet(options.instructions);
   BenchOutcome outcome;
+  if (!bench::hasInstructions(settings.instructions))
+  {
+    outcome.wrong = "this machine does not have the instruction set of --instructions";
+    return outcome;
+  }
   for (const std::string& file : options.scans)
   {
     bench::proxy::Scan scan;
@@ -97,6 +105,13 @@ BenchRun addTouchOptions(CLI::App& command)
     "Which strokes: two sets that share no place; default a");
   command.add_flag("--raw", options->raw, "Touch the points themselves, no voxels");
   command.add_flag("--whole", options->whole, "One scene of the whole cloud, no finer ones near the hand");
+  std::vector<std::pair<std::string, int>> sets;
+  for (const bench::NamedInstructionSet& one : bench::kInstructionSets)
+  {
+    sets.emplace_back(one.word, int(one.set));
+  }
+  addChoice(command, "--instructions", options->instructions, std::move(sets),
+    "Hold the updates to this instruction set; default the best of the machine");
   addWords(command, "--methods", options->methods, bench::touch::contestantNames(), false,
     "Methods to judge; default all");
   addWords(command, "--studies", options->studies, bench::touch::studyWords(), false,

@@ -225,7 +225,7 @@ ReportPart studyEdges(StudyContext& context)
           continue;
         }
         const double spacing = std::sqrt(24.0 * kHalf * kHalf / double(cloud.points));
-        for (const Contestant& contestant : contestantsNamed(options.methods))
+        for (const Contestant& contestant : contestantsNamed(options.methods, options.instructions))
         {
           context.progress(
             fmt::format("{} over the {} of a box", contestant.name, corner ? "corner" : "edge"));

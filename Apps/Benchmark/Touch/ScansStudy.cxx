@@ -91,7 +91,7 @@ ReportPart studyScans(StudyContext& context)
         part.remarks.push_back("Left out: " + cloud.name + " of " + mesh.name + " have no finite points");
         continue;
       }
-      for (const Contestant& contestant : contestantsNamed(options.methods))
+      for (const Contestant& contestant : contestantsNamed(options.methods, options.instructions))
       {
         context.progress(fmt::format("{} on {} of {}", contestant.name, cloud.name, mesh.name));
         const TouchFigures figures = judge(context, contestant, scene, tasks);

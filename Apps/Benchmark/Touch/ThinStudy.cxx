@@ -242,7 +242,7 @@ ReportPart studyThin(StudyContext& context)
     {
       continue;
     }
-    for (const Contestant& contestant : contestantsNamed(options.methods))
+    for (const Contestant& contestant : contestantsNamed(options.methods, options.instructions))
     {
       context.progress(contestant.name + " on " + item.name);
       addFigures(context, part, { item.name, contestant.name },

@@ -1,5 +1,6 @@
 #include "Benchmark/Touch/TouchBenchmark.h"
 
+#include "Benchmark/Harness/Instructions.h"
 #include "Benchmark/Harness/StudyList.h"
 #include "Benchmark/Touch/Studies.h"
 
@@ -35,7 +36,8 @@ constexpr const char* kMethod =
   "(by more than 4 times the way of the hand and 0.2 mm); phantom and held of the rest of the stroke stand "
   "after a plus sign, and tell less. A stroke ends where a hand that fell through a hole of a scan comes out "
   "through its wall. Times are of each tick the fastest of the walks: median and p99 in "
-  "contact, the maximum of all ticks. Status: percent of the ticks that set each bit of ProxyState::status.";
+  "contact, finding: the longest out of contact or into it, the maximum of all ticks. Status: percent of the "
+  "ticks that set each bit of ProxyState::status.";
 
 /// Names of the bits of ProxyState::status, in their order.
 constexpr const char* kStatusNames[] = { "non-finite", "rounds", "step-limit", "ball", "bit4", "no-scene",
@@ -96,8 +98,9 @@ void setFigureHeader(
 {
   part.table.header = leading;
   part.table.header.insert(part.table.header.end(), own.begin(), own.end());
-  for (const char* name : { "median %", "p95 %", "RMS %", "dir p95", "lost %", "pops", "phantom N", "held",
-         "strokes", "judged %", "step p99", "max", "energy mJ", "p50 us", "p99", "max us", "status %" })
+  for (const char* name :
+    { "median %", "p95 %", "RMS %", "dir p95", "lost %", "pops", "phantom N", "held", "strokes", "judged %",
+      "step p99", "max", "energy mJ", "p50 us", "p99", "finding us", "max us", "status %" })
   {
     part.table.header.emplace_back(name);
   }
@@ -113,7 +116,7 @@ void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string
       withLater(fmt::format("{}", f.held), fmt::format("{}", f.laterHeld), f), fmt::format("{}", f.strokes),
       fmt::format("{:.0f}", f.judgedPercent), fmt::format("{:.2f}", f.stepP99),
       fmt::format("{:.1f}", f.largestStep), brief(1e3 * f.energyJoule), brief(f.p50), brief(f.p99),
-      brief(f.maximum), statusText(f) });
+      brief(f.firstContact), brief(f.maximum), statusText(f) });
   part.table.rows.push_back(std::move(leadingCells));
   nlohmann::ordered_json row = leadingNumbers;
   row.update({ { "median_percent", f.medianPercent }, { "p95_percent", f.p95Percent },
@@ -123,7 +126,8 @@ void addFigures(StudyContext& context, ReportPart& part, std::vector<std::string
     { "held_after_leap", f.laterHeld }, { "strokes", f.strokes }, { "leaps", f.leaps }, { "ticks", f.ticks },
     { "contact_ticks", f.contacts }, { "judged_ticks", f.judged }, { "judged_percent", f.judgedPercent },
     { "step_p99", f.stepP99 }, { "largest_step", f.largestStep }, { "energy_joule", f.energyJoule },
-    { "p50_us", f.p50 }, { "p99_us", f.p99 }, { "max_us", f.maximum } });
+    { "p50_us", f.p50 }, { "p99_us", f.p99 }, { "first_contact_us", f.firstContact }, { "max_us", f.maximum },
+    { "instructions", usedInstructions(context.options.instructions) } });
   nlohmann::ordered_json status = nlohmann::ordered_json::object();
   for (std::size_t bit = 0; bit < kStatusBits; ++bit)
   {

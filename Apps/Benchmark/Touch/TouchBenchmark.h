@@ -7,6 +7,8 @@
 #include "Benchmark/Touch/TouchMesh.h"
 #include "Benchmark/Touch/TouchStrokes.h"
 
+#include "Core/Simd/InstructionSet.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -27,8 +29,9 @@ struct TouchBenchmarkOptions
   std::int64_t points = 543652;     ///< Samples of each mesh; the paper's number.
   int strokes = 60;                 ///< On each mesh.
   StrokeSet strokeSet = StrokeSet::A;
-  bool raw = false;    ///< The points themselves, no voxels.
-  bool local = true;   ///< Finer scenes near the hand, as the program makes them.
+  bool raw = false;  ///< The points themselves, no voxels.
+  bool local = true; ///< Finer scenes near the hand, as the program makes them.
+  InstructionSet instructions = InstructionSet::Automatic; ///< Of the proxies; the forces are the same.
   int repetitions = 2; ///< Walks over each stroke; the fastest tells the time of a tick.
   bool quick = false;
 

@@ -70,6 +70,10 @@ void TouchJudge::add(const TouchTrace& trace, const TouchTruth& truth)
   {
     const ProxyState& state = trace.states[i];
     figures_.nonFinite += !isFinite(state.force) || !isFinite(state.proxy) || !isFinite(state.normal);
+    if (!state.contact || i == 0 || !trace.states[i - 1].contact)
+    {
+      figures_.firstContact = std::max(figures_.firstContact, trace.microseconds[i]);
+    }
     longest_ = std::max(longest_, trace.microseconds[i]);
     if (state.contact)
     {

@@ -43,7 +43,8 @@ struct TouchFigures
   double energyJoule = 0.0; ///< Median over the strokes of what the force returned beyond the truth's.
   double p50 = 0.0;         ///< Update time of a tick in contact, microseconds.
   double p99 = 0.0;
-  double maximum = 0.0;                            ///< Of all ticks, finding the surface among them.
+  double firstContact = 0.0; ///< The longest update out of contact or into it: finding the surface.
+  double maximum = 0.0;      ///< Of all ticks, finding the surface among them.
   std::array<double, kStatusBits> statusPercent{}; ///< Ticks in which each bit of ProxyState::status was set.
   std::int64_t nonFinite = 0;                      ///< States that are not finite: beyond doubt wrong.
 };

@@ -1,4 +1,5 @@
 /// What does an update take with each of the instruction sets this machine has?
+#include "Benchmark/Harness/Instructions.h"
 #include "Benchmark/Harness/Statistics.h"
 #include "Benchmark/Proxy/Strokes.h"
 #include "Benchmark/Proxy/Studies/Studies.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 namespace pointhaptics
 {
@@ -23,24 +25,12 @@ namespace
 constexpr int kFits = 200;
 constexpr int kRoundsOfFits = 50;
 
-struct NamedSet
-{
-  InstructionSet set;
-  const char* name;
-};
-
 /// The fastest first: the others are compared with it.
-std::vector<NamedSet> setsOfThisMachine()
+std::vector<NamedInstructionSet> setsOfThisMachine()
 {
-  std::vector<NamedSet> sets;
-  for (const NamedSet& one : { NamedSet{ InstructionSet::Avx512, "AVX-512" },
-         NamedSet{ InstructionSet::Avx2, "AVX2" }, NamedSet{ InstructionSet::Baseline, "baseline" } })
-  {
-    if (usableInstructionSet(one.set) == one.set)
-    {
-      sets.push_back(one);
-    }
-  }
+  std::vector<NamedInstructionSet> sets;
+  std::copy_if(std::begin(kInstructionSets), std::end(kInstructionSets), std::back_inserter(sets),
+    [](const NamedInstructionSet& one) { return hasInstructions(one.set); });
   return sets;
 }
 
@@ -103,7 +93,7 @@ void addSets(StudyContext& context, ReportPart& part, const std::string& name,
   std::vector<ProxyState> expected;
   double fastestFit = 0.0;
   double fastestTick = 0.0;
-  for (const NamedSet& one : setsOfThisMachine())
+  for (const NamedInstructionSet& one : setsOfThisMachine())
   {
     context.progress(fmt::format("{} with {}", name, one.name));
     SceneSettings sceneSettings;

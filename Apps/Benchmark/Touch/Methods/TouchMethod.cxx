@@ -18,8 +18,8 @@ namespace
 class ProxyTouch : public TouchMethod
 {
 public:
-  explicit ProxyTouch(const HapticParameters& parameters)
-    : proxy_(parameters)
+  ProxyTouch(const HapticParameters& parameters, InstructionSet wanted)
+    : proxy_(parameters, wanted)
   {
   }
   void reset(const TouchScene& scene) override
@@ -51,9 +51,9 @@ private:
   ProxyState last_;
 };
 
-Contestant ofProxy(const std::string& name, const HapticParameters& parameters)
+Contestant ofProxy(const std::string& name, const HapticParameters& parameters, InstructionSet wanted)
 {
-  return { name, [parameters] { return std::make_unique<ProxyTouch>(parameters); } };
+  return { name, [parameters, wanted] { return std::make_unique<ProxyTouch>(parameters, wanted); } };
 }
 
 HapticParameters gradientSteps(const GradientStepsParameters& gains)
@@ -84,15 +84,15 @@ TouchScene makeTouchScene(std::vector<Vec3> points, const TouchSceneSettings& se
   return scene;
 }
 
-std::vector<Contestant> contestants()
+std::vector<Contestant> contestants(InstructionSet wanted)
 {
   std::vector<Contestant> all;
-  all.push_back(ofProxy("surface-fit", {}));
+  all.push_back(ofProxy("surface-fit", {}, wanted));
   HapticParameters sphere;
   sphere.method = ProxyMethod::Sphere;
-  all.push_back(ofProxy("sphere", sphere));
-  all.push_back(ofProxy("gradient-steps-tuned", gradientSteps(GradientStepsParameters::tuned())));
-  all.push_back(ofProxy("gradient-steps-paper", gradientSteps(GradientStepsParameters::paper())));
+  all.push_back(ofProxy("sphere", sphere, wanted));
+  all.push_back(ofProxy("gradient-steps-tuned", gradientSteps(GradientStepsParameters::tuned()), wanted));
+  all.push_back(ofProxy("gradient-steps-paper", gradientSteps(GradientStepsParameters::paper()), wanted));
   all.push_back(
     { "occupancy", [] { return std::make_unique<OccupancyProxy>(ContactParameters().stiffness); } });
   return all;
@@ -108,10 +108,10 @@ std::vector<std::string> contestantNames()
   return names;
 }
 
-std::vector<Contestant> contestantsNamed(const std::vector<std::string>& names)
+std::vector<Contestant> contestantsNamed(const std::vector<std::string>& names, InstructionSet wanted)
 {
   std::vector<Contestant> chosen;
-  for (Contestant& contestant : contestants())
+  for (Contestant& contestant : contestants(wanted))
   {
     if (names.empty() || std::find(names.begin(), names.end(), contestant.name) != names.end())
     {

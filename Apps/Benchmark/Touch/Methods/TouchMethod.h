@@ -55,11 +55,13 @@ struct Contestant
   std::function<std::unique_ptr<TouchMethod>()> make;
 };
 
-/// Every method there is, the program's default first.
-std::vector<Contestant> contestants();
+/// Every method there is, the program's default first. @param wanted the instructions of those that are a
+/// Proxy.
+std::vector<Contestant> contestants(InstructionSet wanted = InstructionSet::Automatic);
 std::vector<std::string> contestantNames();
 /// Those of @p names, all where that is empty.
-std::vector<Contestant> contestantsNamed(const std::vector<std::string>& names);
+std::vector<Contestant> contestantsNamed(
+  const std::vector<std::string>& names, InstructionSet wanted = InstructionSet::Automatic);
 
 } // namespace touch
 } // namespace bench
