@@ -405,12 +405,18 @@ LocalScale HapticScene::fitScale(const Vec3& position) const noexcept
   return cloud_->scale.at(pyramid(), position);
 }
 
+bool HapticScene::nearestPoint(const Vec3& position, double search, Vec3& point) const noexcept
+{
+  double ignored = 0.0;
+  const std::int64_t cell = pyramid().nearest(0, position, search, ignored);
+  point = cell >= 0 ? pyramid().level(0).cells[std::size_t(cell)].mean : point;
+  return cell >= 0;
+}
+
 bool HapticScene::isNear(const Vec3& position) const noexcept
 {
-  bool found = false;
-  pyramid().visitBall(RadiusField::nodeLevel(pyramid()), position, cloud_->scale.reach(),
-    [&](std::uint32_t, const Cell&, double) { found = true; });
-  return found;
+  return pyramid().anyWithin(
+    RadiusField::nodeLevel(pyramid()), position, cloud_->scale.reach(), [](const Cell&) { return true; });
 }
 
 } // namespace pointhaptics

@@ -69,18 +69,24 @@ inline Pack smaller(const Pack& a, const Pack& b)
   return a < b ? a : b;
 }
 
+/// Bit i is set where number i of @p v is below @p x.
+inline unsigned int belowBits(const Pack& v, double x)
+{
+#if defined(__AVX512F__)
+  return __builtin_ia32_cmppd512_mask(v, all(x), 1, 0xff, 4);
+#elif defined(__AVX__)
+  return unsigned(__builtin_ia32_movmskpd256(Pack(v < x)));
+#elif defined(__SSE2__)
+  return unsigned(__builtin_ia32_movmskpd(Pack(v < x)));
+#else
+  return (v[0] < x ? 1u : 0u) | (v[1] < x ? 2u : 0u);
+#endif
+}
+
 /// True where a number of @p v is below @p x.
 inline bool anyBelow(const Pack& v, double x)
 {
-#if defined(__AVX512F__)
-  return __builtin_ia32_cmppd512_mask(v, all(x), 1, 0xff, 4) != 0;
-#elif defined(__AVX__)
-  return __builtin_ia32_movmskpd256(Pack(v < x)) != 0;
-#elif defined(__SSE2__)
-  return __builtin_ia32_movmskpd(Pack(v < x)) != 0;
-#else
-  return v[0] < x || v[1] < x;
-#endif
+  return belowBits(v, x) != 0;
 }
 
 /// Number i is the sum of v[i]: neighbours first, then neighbouring pairs, and so on.

@@ -6,6 +6,7 @@
 #include "Core/Base/PointView.h"
 #include "Core/Base/Status.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -108,6 +109,22 @@ public:
         }
         return true;
       });
+  }
+
+  /// Whether visit(cell) is true for a cell of @p level whose mean is nearer to @p center than @p radius.
+  template <typename Visitor>
+  bool anyWithin(int level, const Vec3& center, double radius, Visitor&& visit) const
+  {
+    const std::vector<Cell>& cells = levels_[std::size_t(level)].cells;
+    bool found = false;
+    visitRuns(level, center, radius,
+      [&](std::uint32_t first, std::uint32_t last)
+      {
+        found = std::any_of(cells.begin() + first, cells.begin() + last,
+          [&](const Cell& cell) { return norm2(cell.mean - center) < radius * radius && visit(cell); });
+        return !found;
+      });
+    return found;
   }
 
   /// Like visitBall, but a mixed cell is replaced by the cells it was merged from, down to level 0.

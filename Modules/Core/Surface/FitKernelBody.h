@@ -342,16 +342,9 @@ int pointsWithin(const BallPoints& points, const Vec3& p, double radius2, int* i
     const Pack dy = load(points.y + i) - p.y;
     const Pack dz = load(points.z + i) - p.z;
     const Pack d2 = dx * dx + dy * dy + dz * dz;
-    if (!simd::anyBelow(d2, radius2))
+    for (unsigned int bits = simd::belowBits(d2, radius2); bits != 0 && found < most; bits &= bits - 1)
     {
-      continue;
-    }
-    for (int lane = 0; lane < simd::kWidth && found < most; ++lane)
-    {
-      if (d2[lane] < radius2)
-      {
-        indices[found++] = i + lane;
-      }
+      indices[found++] = i + __builtin_ctz(bits);
     }
   }
   return found;
@@ -379,17 +372,11 @@ double sweepBall(const BallPoints& points, const Vec3& from, const Vec3& directi
     const Pack isLater = along > reached ? there : simd::all(-1.0);
     const Pack isAhead = along > tangential ? across : simd::all(1.0);
     const Pack missed = isLater < 0.0 ? isAhead : simd::all(1.0);
-    if (!simd::anyBelow(missed, 0.0))
+    for (unsigned int bits = simd::belowBits(missed, 0.0); bits != 0; bits &= bits - 1)
     {
-      continue;
-    }
-    for (int lane = 0; lane < simd::kWidth; ++lane)
-    {
-      if (missed[lane] < 0.0)
-      {
-        const double t = outside[lane] / (along[lane] + std::sqrt(-across[lane]));
-        reached = t < reached ? t : reached;
-      }
+      const int lane = __builtin_ctz(bits);
+      const double t = outside[lane] / (along[lane] + std::sqrt(-across[lane]));
+      reached = t < reached ? t : reached;
     }
   }
   return reached > 0.0 ? reached : 0.0;

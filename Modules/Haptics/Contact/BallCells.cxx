@@ -150,19 +150,16 @@ void BallCells::focus(const Vec3& center, double radius) noexcept
   }
   nearCenter_ = center;
   nearReach_ = kNearMargin * radius;
-  const Vec3 local = center - center_;
-  const double reach2 = nearReach_ * nearReach_;
-  int end = kNear;
-  for (int i = 0; i < size_; ++i)
+  int indices[kCapacity];
+  nearSize_ = kernels_->pointsWithin(
+    points({ 0, size_ }), center - center_, nearReach_ * nearReach_, indices, kCapacity);
+  for (int k = 0; k < nearSize_; ++k)
   {
-    const Vec3 p(x_[i], y_[i], z_[i]);
-    x_[end] = p.x;
-    y_[end] = p.y;
-    z_[end] = p.z;
-    end += norm2(p - local) < reach2 ? 1 : 0;
+    x_[kNear + k] = x_[indices[k]];
+    y_[kNear + k] = y_[indices[k]];
+    z_[kNear + k] = z_[indices[k]];
   }
-  nearSize_ = end - kNear;
-  this->pad(end);
+  this->pad(kNear + nearSize_);
 }
 
 int BallCells::nearest(const Vec3& p, double& distance2) const noexcept
@@ -200,8 +197,20 @@ int BallCells::nearestWithin(const Vec3& p, double radius) const noexcept
 
 double BallCells::sweep(const Vec3& from, const Vec3& direction, double length, double radius) const noexcept
 {
-  return kernels_->sweepBall(points(partAbout(from, radius + length)), from - center_, direction, length,
-    radius, kTangential * radius);
+  const auto sweepIn = [&](const Part& part)
+  {
+    return kernels_->sweepBall(points(part), from - center_, direction, length, radius, kTangential * radius);
+  };
+  // Most ways are short, whatever was asked for.
+  if (this->servesNear(from, radius))
+  {
+    const double reached = sweepIn(Part{ kNear, nearSize_ });
+    if (this->servesNear(from, radius + reached))
+    {
+      return reached;
+    }
+  }
+  return sweepIn(Part{ 0, size_ });
 }
 
 } // namespace pointhaptics

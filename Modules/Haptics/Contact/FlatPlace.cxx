@@ -26,7 +26,14 @@ bool FlatPlace::find(
   const BallCells& cells, const Vec3& center, double radius, double reach, Vec3& away) noexcept
 {
   PointMoments all;
-  cells.visitBall(center, reach, [&](const Vec3& offset, double) { all.add(offset); });
+  Vec3 offsets[BallCells::kCapacity];
+  int size = 0;
+  cells.visitBall(center, reach,
+    [&](const Vec3& offset, double)
+    {
+      all.add(offset);
+      offsets[size++] = offset;
+    });
   Vec3 mean = all.mean();
   away = normalized(mean);
   SymEigen eigen = symmetricEigen(all.covariance());
@@ -38,14 +45,13 @@ bool FlatPlace::find(
   {
     const double gate = std::sqrt(std::max(0.0, eigen.values[0]));
     PointMoments rest;
-    cells.visitBall(center, reach,
-      [&](const Vec3& offset, double)
+    for (int i = 0; i < size; ++i)
+    {
+      if (std::abs(dot(offsets[i] - mean, eigen.vectors[0])) <= gate)
       {
-        if (std::abs(dot(offset - mean, eigen.vectors[0])) <= gate)
-        {
-          rest.add(offset);
-        }
-      });
+        rest.add(offsets[i]);
+      }
+    }
     if (rest.count < kPlanePoints)
     {
       break;
@@ -65,15 +71,12 @@ bool FlatPlace::continuesUnder(
 {
   const Vec3 foot = hip - height(hip) * normal_;
   const Vec3 ahead = normalized(this->along(slipped - hip));
-  bool result = false;
-  scene.pyramid().visitBall(0, foot, kUnder * radius,
-    [&](std::uint32_t, const Cell& cell, double)
+  return scene.pyramid().anyWithin(0, foot, kUnder * radius,
+    [&](const Cell& cell)
     {
       const Vec3 beyond = cell.mean - foot;
-      result =
-        result || (dot(beyond, ahead) > kAhead * radius && std::abs(dot(beyond, normal_)) < kFlat * radius);
+      return dot(beyond, ahead) > kAhead * radius && std::abs(dot(beyond, normal_)) < kFlat * radius;
     });
-  return result;
 }
 
 double FlatPlace::wayAside(

@@ -25,6 +25,9 @@ constexpr double kRises[] = { 0.0, 1.0, 2.0, kHighestRise };
 /// Points within this many radii determine the radius.
 constexpr double kSearch = 4.0;
 
+/// The nearest point is mostly nearer than this many radii.
+constexpr double kNearBy = 1.2;
+
 /// Moves of one slide.
 constexpr int kMostSlides = 24;
 /// What a visit of the pyramid costs, in rounds.
@@ -39,6 +42,8 @@ constexpr double kNearlyOut = 0.8;
 /// A point nearer than this many radii is touched.
 constexpr double kTouch = 1.002;
 constexpr int kMostTouched = 16;
+/// Most moves of a slide are short: so far around the ball its points are looked at, over the radius.
+constexpr double kFocus = 1.2;
 /// Points nearer than so many radii pinch the ball where their normals are so far apart (a cosine).
 constexpr double kPinch = 1.02;
 constexpr double kOpposite = -0.9;
@@ -237,20 +242,18 @@ bool ProxyBall::makeRoom(Work& work, const ProxyBall& before) noexcept
 }
 
 /// The point nearest to @p place; false: there is none within @p search.
-bool ProxyBall::nearestPoint(const Work& work, const Vec3& place, double search, Vec3& point) noexcept
+bool ProxyBall::nearestPoint(const Work& work, const Vec3& place, double search, Vec3& point) const noexcept
 {
-  double d2 = 0.0;
-  const int gathered = work.cells.nearest(place, d2);
-  if (gathered >= 0 && work.cells.holds(work.scene.pyramid(), place, std::sqrt(d2)))
+  const CellPyramid& pyramid = work.scene.pyramid();
+  const double likely = std::min(search, kNearBy * radius_);
+  const int gathered =
+    work.cells.holds(pyramid, place, likely) ? work.cells.nearestWithin(place, likely) : -1;
+  if (gathered >= 0)
   {
     point = work.cells.point(gathered);
-    return d2 < search * search;
+    return true;
   }
-  double ignored = 0.0;
-  const CellPyramid& pyramid = work.scene.pyramid();
-  const std::int64_t found = pyramid.nearest(0, place, search, ignored);
-  point = found >= 0 ? pyramid.level(0).cells[std::size_t(found)].mean : place;
-  return found >= 0;
+  return work.scene.nearestPoint(place, search, point);
 }
 
 /// Finds the radius that the cloud asks for about the ball and ahead: what comes may be sparser, and the ball
@@ -379,7 +382,7 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
     const Vec3 pull = hip - center_;
     const double longest = std::min(norm(pull), radius_);
     gather(work, kTouch * radius_ + longest);
-    work.cells.focus(center_, kTouch * radius_ + longest);
+    work.cells.focus(center_, kFocus * radius_);
     Vec3 normals[kMostTouched];
     int touched = 0;
     work.cells.visitBall(center_, kTouch * radius_,

@@ -86,7 +86,7 @@ private:
   };
 
   void place(Work& work, const Vec3& hip) noexcept;
-  static bool nearestPoint(const Work& work, const Vec3& place, double search, Vec3& point) noexcept;
+  bool nearestPoint(const Work& work, const Vec3& place, double search, Vec3& point) const noexcept;
   void measure(Work& work, const Vec3& hip) noexcept;
   void updateRadius(Work& work, const Vec3& hip) noexcept;
   void walk(Work& work, const Vec3& hip) noexcept;

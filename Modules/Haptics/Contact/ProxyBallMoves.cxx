@@ -58,6 +58,7 @@ bool ProxyBall::mayWait(const Vec3& hip) const noexcept
 bool ProxyBall::glide(Work& work, const Vec3& hip) noexcept
 {
   gather(work, kPlaneReach * radius_);
+  work.cells.focus(center_, kPlaneReach * radius_);
   const Vec3 up = surfaceNormal(work.cells);
   const Vec3 pull = hip - center_;
   const Vec3 lean = pull - dot(pull, up) * up;

@@ -29,6 +29,8 @@ constexpr double kReleaseSlope = 1.25;
 /// fit that sees two faces of a wedge is further from its points.
 constexpr double kOutNear = 0.5;
 constexpr double kOutResidual = 0.01;
+/// How far a point of the fit is from it, over the ball's radius.
+constexpr double kOnFit = 0.1;
 
 double smoothStep(double t) noexcept
 {
@@ -56,13 +58,26 @@ bool SurfaceFitProxy::isPlain() const noexcept
 }
 
 /// Whether the HIP came out through a smooth face beside the one that the ball lies on: it is in front of
-/// that face, and the ball can go there. Bumps between points would hold the ball back at the edge.
+/// that face, and the ball can go there. Bumps between points would hold the ball back at the edge. A HIP
+/// below the fit whose nearest point lies on that fit has come out nowhere.
 bool SurfaceFitProxy::comesOut(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
+  const double near = kOutNear * ball_.radius();
+  if (memory.ball.holds(scene.pyramid(), hip, near) && memory.ball.nearestWithin(hip, near) < 0)
+  {
+    return false;
+  }
+  Vec3 nearest;
+  if (!scene.nearestPoint(hip, near, nearest) ||
+    (hasFit_ && tracker_.height(hip) <= 0.0 &&
+      std::abs(tracker_.heightAboveFit(nearest)) < kOnFit * ball_.radius()))
+  {
+    return false;
+  }
   SurfaceTracker face;
-  if (!face.find(scene, memory.fit, hip, kOutNear * ball_.radius(), hip, hip, kRoundsPerTick) ||
-    face.height(hip) < 0.0 || face.residual() >= kOutResidual * ball_.radius())
+  if (!face.findAt(scene, memory.fit, nearest, hip, hip, kRoundsPerTick) || face.height(hip) < 0.0 ||
+    face.residual() >= kOutResidual * ball_.radius())
   {
     return false;
   }

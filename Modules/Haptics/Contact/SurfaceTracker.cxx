@@ -98,10 +98,15 @@ void SurfaceTracker::flip() noexcept
 bool SurfaceTracker::find(const HapticScene& scene, FitCells& memory, const Vec3& place, double search,
   const Vec3& side, const Vec3& target, int rounds) noexcept
 {
-  double distance = 0.0;
-  const std::int64_t cell = scene.pyramid().nearest(0, place, search, distance);
+  Vec3 cell;
+  return scene.nearestPoint(place, search, cell) && findAt(scene, memory, cell, side, target, rounds);
+}
+
+bool SurfaceTracker::findAt(const HapticScene& scene, FitCells& memory, const Vec3& onSurface,
+  const Vec3& side, const Vec3& target, int rounds) noexcept
+{
   SurfaceTracker found;
-  if (cell < 0 || !found.findSheet(scene, memory, scene.pyramid().level(0).cells[std::size_t(cell)].mean))
+  if (!found.findSheet(scene, memory, onSurface))
   {
     return false;
   }
@@ -208,6 +213,12 @@ void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& t
   frame_.turnTo(normalized(change.applyToNormal(frame_.normal), frame_.normal));
   std::fill(curvature_, curvature_ + 3, 0.0);
   fresh_ = false;
+}
+
+double SurfaceTracker::heightAboveFit(const Vec3& p) const noexcept
+{
+  const Vec3 local = (1.0 / fit_.radius) * fitFrame_.toLocal(p);
+  return fit_.radius * (local.z - fit_.height(local.x, local.y));
 }
 
 bool SurfaceTracker::continuesAround() const noexcept

@@ -26,6 +26,10 @@ public:
   bool find(const HapticScene& scene, FitCells& memory, const Vec3& place, double search, const Vec3& side,
     const Vec3& target, int rounds) noexcept;
 
+  /// The same at the cell @p onSurface.
+  bool findAt(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side,
+    const Vec3& target, int rounds) noexcept;
+
   /// The sheet through the cells about @p onSurface, near enough to follow it; the normal to either side.
   bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
 
@@ -37,6 +41,8 @@ public:
 
   /// Height of a point above the surface, along the normal; negative inside.
   double height(const Vec3& p) const noexcept { return dot(p - frame_.origin, frame_.normal); }
+  /// The same above the last fit itself.
+  double heightAboveFit(const Vec3& p) const noexcept;
   const Vec3& point() const noexcept { return frame_.origin; }
   const Vec3& normal() const noexcept { return frame_.normal; }
   /// The surface point above the tangent offset @p t from point(), and the normal there, by the last fit;

@@ -238,6 +238,11 @@ TEST(CellPyramid, BallEqualsBruteForceOnEveryLevel)
           }
         }
         ASSERT_EQ(found, expected) << "level " << l << " radius " << radius;
+        EXPECT_EQ(pyramid.anyWithin(l, center, radius, [](const Cell&) { return true; }), !expected.empty());
+        EXPECT_FALSE(pyramid.anyWithin(l, center, radius, [](const Cell&) { return false; }));
+        const Cell* const last = expected.empty() ? nullptr : &cells[expected.back()];
+        EXPECT_EQ(pyramid.anyWithin(l, center, radius, [&](const Cell& cell) { return &cell == last; }),
+          last != nullptr);
       }
     }
   }

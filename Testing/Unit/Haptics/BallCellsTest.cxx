@@ -175,7 +175,7 @@ TEST(BallCells, AnswersTheSameBitForBitWhereItWasFocused)
       const double radius = random.uniform(1e-4, 3e-3);
       const double length = random.uniform(0.0, 1e-3);
       const Vec3 direction = random.direction();
-      focused.focus(p, radius + length);
+      focused.focus(p, radius + random.uniform(0.0, 1.0) * length);
       EXPECT_EQ(all.sweep(p, direction, length, radius), focused.sweep(p, direction, length, radius));
       const int nearest[2] = { all.nearestWithin(p, radius), focused.nearestWithin(p, radius) };
       ASSERT_EQ(nearest[0] < 0, nearest[1] < 0);
