@@ -55,16 +55,18 @@ double filledPart(double aside) noexcept
 
 /// The spacing at @p seed if that is at the rim of a hole, or of the sheet, with room for a ball that the
 /// spacing asks for; else @p spacing. There a ball that leans into the hole sees the sheet aslant, and few of
-/// its points.
-double rimSpacing(
-  const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach, double spacing) noexcept
+/// its points. @param middle of the points within @p reach, from the seed.
+double rimSpacing(const HapticScene& scene, const BallCells& near, const Vec3& seed, double reach,
+  const Vec3& middle, double spacing) noexcept
 {
+  const double aside = norm(middle) / reach;
+  if (aside < kRimOffset)
+  {
+    return spacing;
+  }
   PointMoments points;
   visitPoints(scene, near, seed, reach, [&](const Vec3& offset) { points.add(offset); });
-  const Vec3 middle = points.mean();
-  const double aside = norm(middle) / reach;
-  if (aside < kRimOffset ||
-    symmetricEigen(points.covariance()).values[0] > kOneSheet * kOneSheet * reach * reach)
+  if (symmetricEigen(points.covariance()).values[0] > kOneSheet * kOneSheet * reach * reach)
   {
     return spacing;
   }
@@ -87,28 +89,32 @@ double ballRadius(const HapticScene& scene, FitCells& fields, const BallCells& n
   const Vec3 up = normalized(center - seed);
   double points = 0.0;
   double reach = kFirstReach * scene.cellSize();
+  Vec3 middle;
   for (int i = 0; i < kReaches && points < kPoints; ++i, reach *= kReachGrowth)
   {
     double all = 0.0;
     double count = 0.0;
     Vec3 sum;
+    Vec3 sumOfAll;
     visitPoints(scene, near, seed, reach,
       [&](const Vec3& offset)
       {
         all += 1.0;
+        sumOfAll += offset;
         if (std::abs(dot(offset, up)) < kSheetDepth * reach)
         {
           count += 1.0;
           sum += offset;
         }
       });
+    middle = sumOfAll / std::max(1.0, all);
     // Where the sheet ends the points fill a part of the disk alone, and their middle lies aside.
     const double part = filledPart(norm(sum) / (std::max(1.0, count) * reach));
     // Two sheets have twice the points of one; where the gate leaves fewer the surface is bent.
     points = std::max({ 1.0, count / part, all / kMostSheets });
   }
   reach /= kReachGrowth;
-  const double spacing = rimSpacing(scene, near, seed, reach, reach * std::sqrt(kPi / points));
+  const double spacing = rimSpacing(scene, near, seed, reach, middle, reach * std::sqrt(kPi / points));
   // Few points say little: the field, which is smooth, keeps clumps of them from making the ball too small.
   Vec3 ignored;
   const double field = kRadiusOfField * scene.fitScale(seed, fields, ignored).proxyRadius;
