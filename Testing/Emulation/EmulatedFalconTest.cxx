@@ -23,7 +23,6 @@ using namespace pointhaptics::trial;
 
 namespace
 {
-const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
 
 constexpr std::array<std::int16_t, kFalconLegs> kNoTorque{};
 
@@ -115,7 +114,7 @@ TEST_F(EmulatedUsb, TheServoLoopFeelsASphereAndTheHandSettlesInBalance)
   };
   EXPECT_TRUE(eventually(resting)) << loop.latest().state.hip.z << " " << norm(loop.latest().state.force);
   const Vec3 hand = falcon.with([](FalconModel& model) { return model.hand.position; });
-  EXPECT_NEAR(hand.z - kCenter.z, expected, 60e-6);
+  EXPECT_NEAR(hand.z - falcon::kCenter.z, expected, 60e-6);
   loop.stop();
   device.close();
   falcon.with(

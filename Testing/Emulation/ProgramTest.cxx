@@ -23,7 +23,6 @@ using namespace pointhaptics::trial;
 
 namespace
 {
-const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
 constexpr const char* kDirections[] = {
   "   pushed to the right:", "   pushed up:", "   pushed towards you:"
 };
@@ -53,7 +52,7 @@ protected:
       [](FalconModel& model)
       {
         model.expectedFirmware = madeUpFirmware();
-        model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030);
+        model.hand.wanted = model.hand.position = falcon::kCenter + Vec3(0.0, 0.0, 0.030);
       });
   }
   ~EmulatedMachine() override { std::filesystem::remove_all(folder); }
@@ -199,9 +198,9 @@ TEST_F(EmulatedMachine, FeelsASphereUntilTheUserEndsItAndLetsGoInOrder)
     falcon.with(
       [](FalconModel& model)
       {
-        model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030);
+        model.hand.position = falcon::kCenter + Vec3(0.0, 0.0, 0.030);
         model.hand.velocity = {};
-        model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.019);
+        model.hand.wanted = falcon::kCenter + Vec3(0.0, 0.0, 0.019);
       });
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     return falcon.with([](FalconModel& model) { return model.force.z > 0.02; });
@@ -215,7 +214,7 @@ TEST_F(EmulatedMachine, FeelsASphereUntilTheUserEndsItAndLetsGoInOrder)
       return falcon.with(
         [&](FalconModel& model)
         {
-          return std::abs(model.hand.position.z - kCenter.z - expected) < 60e-6 &&
+          return std::abs(model.hand.position.z - falcon::kCenter.z - expected) < 60e-6 &&
             norm(model.hand.velocity) < 1e-4 && std::abs(model.force.z - 0.96) < 0.03;
         });
     }))
@@ -288,7 +287,7 @@ TEST_F(EmulatedMachine, RefusesASpringTheFalconCannotBear)
 TEST_F(EmulatedMachine, DiagnosesAFalconAndWritesTheReport)
 {
   falcon.plugIn();
-  falcon.with([](FalconModel& model) { model.hand.wanted = model.hand.position = kCenter; });
+  falcon.with([](FalconModel& model) { model.hand.wanted = model.hand.position = falcon::kCenter; });
   ASSERT_EQ(run({ "devices", "--diagnose", "--yes", "--falcon-firmware", file.path(), "--report",
               path("report.txt") }),
     0)
@@ -314,7 +313,7 @@ TEST_F(EmulatedMachine, FindsMotorsThatPushTheWrongWay)
   falcon.with(
     [](FalconModel& model)
     {
-      model.hand.wanted = model.hand.position = kCenter;
+      model.hand.wanted = model.hand.position = falcon::kCenter;
       model.motorSign = -1.0;
     });
   EXPECT_EQ(run({ "devices", "--diagnose", "--yes", "--falcon-firmware", file.path(), "--report",

@@ -44,7 +44,7 @@ protected:
       const std::lock_guard<std::mutex> lock(person.mutex);
       const Vec3 way = person.goal - person.place;
       person.place += std::min(1.0, kLargestStep / std::max(norm(way), 1e-12)) * way;
-      moved.hand.position = person.place + Vec3(0.0, 0.0, falcon::kCenterZ);
+      moved.hand.position = person.place + falcon::kCenter;
       moved.buttons = person.buttons;
       framesWithoutTorque = moved.frozenFrames;
     };

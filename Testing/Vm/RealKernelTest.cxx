@@ -20,7 +20,6 @@ using namespace pointhaptics::trial;
 
 namespace
 {
-const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
 /// An emulated processor is some thirty times slower than the one it runs on.
 constexpr double kRate = 100.0;
 constexpr double kStiffness = 150.0; ///< N/m; the Falcon bears 166 at this rate.
@@ -105,7 +104,7 @@ TEST_F(RealKernel, BootsLoadsHomesAndTheHandSettlesInBalance)
       model.wrongEchoes = 1;
       model.zeroBeforeReply = true;
       model.homesByItself = false;
-      model.hand.wanted = model.hand.position = kCenter + Vec3(0.0, 0.0, 0.030);
+      model.hand.wanted = model.hand.position = falcon::kCenter + Vec3(0.0, 0.0, 0.030);
     });
   ASSERT_TRUE(falcon.plugIn());
   FalconDevice device(settings());
@@ -129,8 +128,8 @@ TEST_F(RealKernel, BootsLoadsHomesAndTheHandSettlesInBalance)
   };
   const auto settles = [&] { return desk.touch(loop) && soon(rests, kSecondsToSettle); };
   EXPECT_TRUE(settles() || settles() || settles()) << norm(loop.latest().state.force);
-  EXPECT_NEAR(
-    falcon.with([](FalconModel& model) { return model.hand.position.z; }) - kCenter.z, 0.025 - depth, 60e-6);
+  EXPECT_NEAR(falcon.with([](FalconModel& model) { return model.hand.position.z; }) - falcon::kCenter.z,
+    0.025 - depth, 60e-6);
   loop.stop();
   device.close();
   falcon.with(

@@ -49,7 +49,7 @@ std::unique_ptr<HapticDevice> makeDevice(const Setting& setting)
     const auto onCommand = [time = 0.0](trial::FalconModel& moved) mutable
     {
       time += 1e-3;
-      moved.hand.position = handAt(time) + Vec3(0.0, 0.0, falcon::kCenterZ);
+      moved.hand.position = handAt(time) + falcon::kCenter;
     };
     return std::make_unique<FalconDevice>(
       FalconSettings(), std::make_unique<trial::MemoryBus<>>(std::move(model), onCommand));

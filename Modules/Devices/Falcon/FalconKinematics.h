@@ -25,7 +25,7 @@ namespace falcon
 {
 
 /// Middle of the workspace in the device frame, metres: of the 10 cm cube about it 98.7 % can be reached.
-constexpr double kCenterZ = 0.12;
+constexpr Vec3 kCenter(0.0, 0.0, 0.12);
 
 /// Counts of the motor's encoder per radian of the joint (the drum gears 110 : 14.25).
 double countsPerRadian() noexcept;
@@ -37,7 +37,7 @@ std::array<double, 3> countsFromAngles(const FalconAngles& angles) noexcept;
 bool inverse(const Vec3& position, FalconAngles& angles) noexcept;
 
 /// Position of the grip for @p angles, by Newton's method from @p guess (the last position, or
-/// {0, 0, kCenterZ}), 12 steps at most. False: no convergence to 1e-12 m, a singular pose, or an angle
+/// kCenter), 12 steps at most. False: no convergence to 1e-12 m, a singular pose, or an angle
 /// outside -50 to 140 degrees; @p position is then unchanged.
 bool forward(const FalconAngles& angles, const Vec3& guess, Vec3& position) noexcept;
 

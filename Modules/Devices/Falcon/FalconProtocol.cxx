@@ -8,7 +8,6 @@ namespace pointhaptics
 {
 namespace
 {
-const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
 /// A hand at 5 m/s turns a joint of 6 cm by 83 rad/s, 131,000 counts a second: faster is a broken answer.
 constexpr double kCountsPerSecond = 150000.0;
 constexpr double kFewCounts = 150.0;
@@ -105,7 +104,7 @@ Status FalconProtocol::take(const FalconReply& reply, double elapsed) noexcept
   const FalconAngles angles = falcon::anglesFromCounts(
     { double(reply.encoders[0]), double(reply.encoders[1]), double(reply.encoders[2]) });
   Vec3 position = position_;
-  if (jumped || !falcon::forward(angles, positioned_ ? position_ : kCenter, position))
+  if (jumped || !falcon::forward(angles, positioned_ ? position_ : falcon::kCenter, position))
   {
     ++count_.badReplies;
     chain_.restart();
@@ -192,7 +191,7 @@ Status FalconProtocol::read(FtdiLink& link, double timeSeconds, bool wantArmed, 
   if (status == Status::Ok)
   {
     answered_ = true;
-    hand.position = position_ - kCenter;
+    hand.position = position_ - falcon::kCenter;
     hand.buttons = reply_.buttons;
     hand.isNew = found_;
   }

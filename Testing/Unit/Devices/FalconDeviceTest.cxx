@@ -11,7 +11,6 @@ using namespace pointhaptics::trial;
 
 namespace
 {
-const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
 
 constexpr std::array<std::int16_t, kFalconLegs> kNoTorque{};
 
@@ -162,13 +161,13 @@ TEST(FalconDevice, TheHandSettlesWhereBothSpringsBalance)
   FalconBench bench;
   ASSERT_EQ(bench.device->open(), Status::Ok);
   ASSERT_TRUE(bench.arm(wall));
-  bench.wire.model.hand.wanted = kCenter - Vec3(0.0, 0.0, 0.01);
+  bench.wire.model.hand.wanted = falcon::kCenter - Vec3(0.0, 0.0, 0.01);
   for (int i = 0; i < 2000; ++i)
   {
     ASSERT_EQ(bench.tick(wall), Status::Ok);
   }
   // 200 N/m pull 10 mm below the wall of 800 N/m: at rest 2 mm below it, to half an encoder step.
-  EXPECT_NEAR(bench.wire.model.hand.position.z - kCenter.z, -0.01 * 200.0 / 1000.0, 20e-6);
+  EXPECT_NEAR(bench.wire.model.hand.position.z - falcon::kCenter.z, -0.01 * 200.0 / 1000.0, 20e-6);
   EXPECT_NEAR(bench.hand.position.z, -0.002, 40e-6);
   EXPECT_NEAR(bench.wire.model.force.z, 1.6, 0.03);
   EXPECT_LT(std::hypot(bench.wire.model.force.x, bench.wire.model.force.y), 0.01);
@@ -246,7 +245,7 @@ TEST(FalconDevice, AJumpOfTheEncodersGivesNoForceUntilItIsBelieved)
   FalconBench bench;
   ASSERT_EQ(bench.device->open(), Status::Ok);
   ASSERT_TRUE(bench.arm(push));
-  bench.wire.model.hand.position = kCenter + Vec3(0.03, 0.02, -0.03);
+  bench.wire.model.hand.position = falcon::kCenter + Vec3(0.03, 0.02, -0.03);
   bench.wire.model.hand.wanted = bench.wire.model.hand.position;
   ASSERT_EQ(bench.tick(push), Status::Ok) << "the answer under way is from before";
   const Vec3 before = bench.hand.position;
@@ -278,7 +277,7 @@ TEST(FalconDevice, BelievesNoJumpWhoseAnswersContradictEachOther)
   const Vec3 places[] = { { 0.03, 0.0, 0.0 }, { -0.03, 0.0, 0.0 }, { 0.0, 0.0, -0.04 } };
   for (int i = 0; i < 30; ++i)
   {
-    bench.wire.model.hand.position = bench.wire.model.hand.wanted = kCenter + places[i % 3];
+    bench.wire.model.hand.position = bench.wire.model.hand.wanted = falcon::kCenter + places[i % 3];
     const Status status = bench.tick(push);
     EXPECT_EQ(status, i == 0 ? Status::Ok : Status::DeviceBadReply) << i;
     before = i == 0 ? bench.hand.position : before;
@@ -306,7 +305,7 @@ TEST(FalconDevice, CatchesUpAfterAnAnswerThatCameATickTooLate)
   {
     ASSERT_EQ(bench.tick(), Status::Ok);
   }
-  bench.wire.model.hand.position = bench.wire.model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.003);
+  bench.wire.model.hand.position = bench.wire.model.hand.wanted = falcon::kCenter + Vec3(0.0, 0.0, 0.003);
   bench.wire.model.hand.velocity = {};
   ASSERT_EQ(bench.tick(), Status::Ok);
   ASSERT_EQ(bench.tick(), Status::Ok);
@@ -346,7 +345,7 @@ TEST(FalconDevice, CountsADelayThatWaitingDoesNotCure)
 TEST(FalconDevice, AHandThatHomesElsewhereComesToTheSurfaceAnew)
 {
   FalconBench bench;
-  bench.wire.model.hand.position = bench.wire.model.hand.wanted = kCenter + Vec3(0.0, 0.0, 0.003);
+  bench.wire.model.hand.position = bench.wire.model.hand.wanted = falcon::kCenter + Vec3(0.0, 0.0, 0.003);
   ASSERT_EQ(bench.device->open(), Status::Ok);
   ServoLoop loop;
   loop.publishScene(plane());
@@ -356,7 +355,7 @@ TEST(FalconDevice, AHandThatHomesElsewhereComesToTheSurfaceAnew)
     const std::lock_guard<std::mutex> lock(bench.wire.mutex);
     bench.wire.model.homesByItself = false;
     bench.wire.model.loseHoming();
-    bench.wire.model.hand.position = kCenter - Vec3(0.0, 0.0, 0.03);
+    bench.wire.model.hand.position = falcon::kCenter - Vec3(0.0, 0.0, 0.03);
   }
   ASSERT_TRUE(eventually([&] { return bench.device->state() == FalconState::Unhomed; }));
   {

@@ -12,7 +12,6 @@ using namespace pointhaptics;
 namespace
 {
 constexpr double kTick = 1e-3;
-const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
 
 FalconAngles anglesAt(const Vec3& position)
 {
@@ -34,7 +33,7 @@ FalconForceChain armed(const FalconForceLimits& limits = {})
   FalconForceChain chain(limits);
   for (int i = 0; i < 1100; ++i)
   {
-    chain.step(Vec3(), kCenter, anglesAt(kCenter), true, kTick);
+    chain.step(Vec3(), falcon::kCenter, anglesAt(falcon::kCenter), true, kTick);
   }
   return chain;
 }
@@ -59,7 +58,7 @@ TEST(FalconForceChain, LeavesForcesInsideAllLimitsAsTheyAre)
   FalconForceChain chain = armed(limits);
   for (int i = 0; i < 1000; ++i)
   {
-    const Vec3 p = kCenter + randomForce(random, 0.02);
+    const Vec3 p = falcon::kCenter + randomForce(random, 0.02);
     const Vec3 force = randomForce(random, 4.0 * double(i) / 1000.0);
     const std::array<std::int16_t, 3> motors = chain.step(force, p, anglesAt(p), true, kTick);
     EXPECT_EQ(chain.torques(), torquesOf(force, p)) << "bit for bit";
@@ -79,8 +78,8 @@ TEST(FalconForceChain, ClampsALongForceAndKeepsItsDirection)
   for (int i = 0; i < 1000; ++i)
   {
     const Vec3 direction = randomForce(random, 1.0);
-    chain.step(5.0 * (1 + i) * direction, kCenter, anglesAt(kCenter), true, kTick);
-    const FalconAngles expected = torquesOf(4.0 * direction, kCenter);
+    chain.step(5.0 * (1 + i) * direction, falcon::kCenter, anglesAt(falcon::kCenter), true, kTick);
+    const FalconAngles expected = torquesOf(4.0 * direction, falcon::kCenter);
     for (std::size_t leg = 0; leg < 3; ++leg)
     {
       EXPECT_NEAR(chain.torques()[leg], expected[leg], 1e-12);
@@ -100,11 +99,11 @@ TEST(FalconForceChain, ScalesTorquesTogetherWhenOneIsTooLarge)
   for (int i = 0; i < 1000; ++i)
   {
     const Vec3 force = randomForce(random, 8.0);
-    const FalconAngles wanted = torquesOf(force, kCenter);
+    const FalconAngles wanted = torquesOf(force, falcon::kCenter);
     const auto size = [](const FalconAngles& t) {
       return std::max({ std::abs(t[0]), std::abs(t[1]), std::abs(t[2]) });
     };
-    chain.step(force, kCenter, anglesAt(kCenter), true, kTick);
+    chain.step(force, falcon::kCenter, anglesAt(falcon::kCenter), true, kTick);
     if (size(wanted) <= limits.maximumTorque)
     {
       continue;
@@ -128,7 +127,7 @@ TEST(FalconForceChain, NoMotorValueLeavesItsRangeWhateverTheForce)
   for (int i = 0; i < 20000; ++i)
   {
     const double size = std::pow(10.0, double(random() % 600) - 300.0);
-    const Vec3 p = kCenter + randomForce(random, 0.04);
+    const Vec3 p = falcon::kCenter + randomForce(random, 0.04);
     for (std::int16_t motor : chain.step(randomForce(random, size), p, anglesAt(p), true, kTick))
     {
       ASSERT_LE(std::abs(motor), 4096);
@@ -143,12 +142,12 @@ TEST(FalconForceChain, RampsUpOverASecondAfterArming)
 {
   FalconForceChain chain;
   const Vec3 force(0.0, 0.0, 2.0);
-  const FalconAngles angles = anglesAt(kCenter);
-  EXPECT_TRUE(isZero(chain.step(force, kCenter, angles, false, kTick)));
-  const double full = torquesOf(force, kCenter)[0];
+  const FalconAngles angles = anglesAt(falcon::kCenter);
+  EXPECT_TRUE(isZero(chain.step(force, falcon::kCenter, angles, false, kTick)));
+  const double full = torquesOf(force, falcon::kCenter)[0];
   for (int tick = 1; tick <= 1500; ++tick)
   {
-    chain.step(force, kCenter, angles, true, kTick);
+    chain.step(force, falcon::kCenter, angles, true, kTick);
     ASSERT_NEAR(chain.torques()[0], full * std::min(1.0, tick / 1000.0), 1e-9) << tick;
   }
   EXPECT_EQ(chain.torques()[0], full);
@@ -158,10 +157,10 @@ TEST(FalconForceChain, GivesNothingWhenNotHomedOrNotArmedAndRampsAnew)
 {
   FalconForceChain chain = armed();
   const Vec3 force(0.0, 1.0, 2.0);
-  EXPECT_FALSE(isZero(chain.step(force, kCenter, anglesAt(kCenter), true, kTick)));
-  EXPECT_TRUE(isZero(chain.step(force, kCenter, anglesAt(kCenter), false, kTick)));
+  EXPECT_FALSE(isZero(chain.step(force, falcon::kCenter, anglesAt(falcon::kCenter), true, kTick)));
+  EXPECT_TRUE(isZero(chain.step(force, falcon::kCenter, anglesAt(falcon::kCenter), false, kTick)));
   EXPECT_EQ(chain.ramp(), 0.0);
-  chain.step(force, kCenter, anglesAt(kCenter), true, kTick);
+  chain.step(force, falcon::kCenter, anglesAt(falcon::kCenter), true, kTick);
   EXPECT_NEAR(chain.ramp(), 1e-3, 1e-12);
   chain.restart();
   EXPECT_EQ(chain.ramp(), 0.0);
@@ -171,21 +170,21 @@ TEST(FalconForceChain, GivesNothingForWhatIsNoNumberOrASingularPose)
 {
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
-  const FalconAngles angles = anglesAt(kCenter);
+  const FalconAngles angles = anglesAt(falcon::kCenter);
   const Vec3 force(0.0, 0.0, 2.0);
   FalconForceChain chain = armed();
   std::uint64_t rejected = 0;
   const auto expectZero = [&](const Vec3& f, const Vec3& p, const FalconAngles& a)
   {
-    EXPECT_FALSE(isZero(armed().step(force, kCenter, angles, true, kTick)));
+    EXPECT_FALSE(isZero(armed().step(force, falcon::kCenter, angles, true, kTick)));
     EXPECT_TRUE(isZero(chain.step(f, p, a, true, kTick)));
     EXPECT_EQ(chain.rejectedForces(), ++rejected);
     EXPECT_EQ(chain.ramp(), 0.0) << "the ramp begins anew";
   };
-  expectZero({ nan, 0.0, 0.0 }, kCenter, angles);
-  expectZero({ 0.0, infinity, 0.0 }, kCenter, angles);
+  expectZero({ nan, 0.0, 0.0 }, falcon::kCenter, angles);
+  expectZero({ 0.0, infinity, 0.0 }, falcon::kCenter, angles);
   expectZero(force, { 0.0, 0.0, nan }, angles);
-  expectZero(force, kCenter, { angles[0], nan, angles[2] });
+  expectZero(force, falcon::kCenter, { angles[0], nan, angles[2] });
   expectZero(force, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 });
 }
 
@@ -194,33 +193,33 @@ TEST(FalconForceChain, GrowsNoFasterThanTheSlewLimitAndLetsGoAtOnce)
   FalconForceLimits limits;
   limits.maximumTorqueRate = 10.0;
   FalconForceChain chain = armed(limits);
-  const FalconAngles angles = anglesAt(kCenter);
+  const FalconAngles angles = anglesAt(falcon::kCenter);
   const Vec3 force(0.0, 0.0, 4.0);
   const auto size = [](const FalconAngles& t) { return std::hypot(t[0], t[1], t[2]); };
   double last = 0.0;
   int ticks = 0;
-  while (size(chain.torques()) < size(torquesOf(force, kCenter)) && ticks < 1000)
+  while (size(chain.torques()) < size(torquesOf(force, falcon::kCenter)) && ticks < 1000)
   {
-    chain.step(force, kCenter, angles, true, kTick);
+    chain.step(force, falcon::kCenter, angles, true, kTick);
     ASSERT_LE(size(chain.torques()), last + 0.010001);
     last = size(chain.torques());
     ++ticks;
   }
   EXPECT_GT(ticks, 5);
   EXPECT_LT(ticks, 1000);
-  EXPECT_TRUE(isZero(chain.step(Vec3(), kCenter, angles, true, kTick)));
+  EXPECT_TRUE(isZero(chain.step(Vec3(), falcon::kCenter, angles, true, kTick)));
 }
 
 TEST(FalconForceChain, LongOrOddTimesDoNotSkipTheRamp)
 {
   FalconForceChain chain;
-  const FalconAngles angles = anglesAt(kCenter);
+  const FalconAngles angles = anglesAt(falcon::kCenter);
   for (double dt : { -1.0, 0.0, std::nan("") })
   {
-    chain.step({ 0.0, 0.0, 1.0 }, kCenter, angles, true, dt);
+    chain.step({ 0.0, 0.0, 1.0 }, falcon::kCenter, angles, true, dt);
     EXPECT_EQ(chain.ramp(), 0.0) << dt;
   }
-  chain.step({ 0.0, 0.0, 1.0 }, kCenter, angles, true, 1e9);
+  chain.step({ 0.0, 0.0, 1.0 }, falcon::kCenter, angles, true, 1e9);
   EXPECT_LE(chain.ramp(), 0.1);
 }
 
@@ -234,7 +233,8 @@ TEST(FalconForceLimits, RefusesWhatIsBeyondTheHardware)
     FalconForceChain chain(limits);
     for (int i = 0; i < 2000; ++i)
     {
-      const bool pushes = !isZero(chain.step({ 0.0, 0.0, 1.0 }, kCenter, anglesAt(kCenter), true, kTick));
+      const bool pushes =
+        !isZero(chain.step({ 0.0, 0.0, 1.0 }, falcon::kCenter, anglesAt(falcon::kCenter), true, kTick));
       EXPECT_TRUE(status == Status::Ok || !pushes) << "no force passes under limits that are refused";
     }
     return status;

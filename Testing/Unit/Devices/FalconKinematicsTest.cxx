@@ -13,7 +13,6 @@ using falcon::inverse;
 namespace
 {
 constexpr double kPi = 3.14159265358979323846;
-const Vec3 kCenter(0.0, 0.0, falcon::kCenterZ);
 
 /// Uniform in the 4 cm ball about the workspace's centre.
 Vec3 inBall(std::mt19937_64& random)
@@ -24,7 +23,7 @@ Vec3 inBall(std::mt19937_64& random)
     const Vec3 p(unit(random), unit(random), unit(random));
     if (norm(p) <= 1.0)
     {
-      return kCenter + 0.04 * p;
+      return falcon::kCenter + 0.04 * p;
     }
   }
 }
@@ -75,7 +74,7 @@ TEST(FalconKinematics, LeadsThereAndBackWithinANanometreInTheWholeBall)
     FalconAngles angles;
     Vec3 back;
     ASSERT_TRUE(inverse(p, angles)) << p.x << " " << p.y << " " << p.z;
-    ASSERT_TRUE(forward(angles, kCenter, back)) << p.x << " " << p.y << " " << p.z;
+    ASSERT_TRUE(forward(angles, falcon::kCenter, back)) << p.x << " " << p.y << " " << p.z;
     worst = std::max(worst, norm(back - p));
   }
   std::printf("[ figure   ] forward(inverse(x)) - x: %.2g m at most\n", worst);
@@ -179,8 +178,8 @@ TEST(FalconKinematics, RefusesWhatIsOutOfReachOrNoNumber)
   }
   EXPECT_EQ(angles[2], 3.0);
   Vec3 position(1.0, 1.0, 1.0);
-  EXPECT_FALSE(forward({ std::nan(""), 0.8, 0.8 }, kCenter, position));
-  EXPECT_FALSE(forward({ -2.0, 2.5, 0.8 }, kCenter, position)) << "no joint turns that far";
+  EXPECT_FALSE(forward({ std::nan(""), 0.8, 0.8 }, falcon::kCenter, position));
+  EXPECT_FALSE(forward({ -2.0, 2.5, 0.8 }, falcon::kCenter, position)) << "no joint turns that far";
   EXPECT_EQ(position, Vec3(1.0, 1.0, 1.0));
 }
 
@@ -193,7 +192,7 @@ TEST(FalconKinematics, AnyCountsGiveAPoseThatFitsThemOrNone)
     const auto count = [&] { return double(std::int16_t(random()) / (i % 2 ? 1 : 40)); };
     const FalconAngles angles = falcon::anglesFromCounts({ count(), count(), count() });
     Vec3 p;
-    if (forward(angles, kCenter, p))
+    if (forward(angles, falcon::kCenter, p))
     {
       ++poses;
       ASSERT_TRUE(isFinite(p));

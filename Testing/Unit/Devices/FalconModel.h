@@ -24,8 +24,8 @@ struct FalconHand
   double mass = 0.15;
   double gripStiffness = 200.0;
   double gripDamping = 11.0;
-  Vec3 wanted{ 0.0, 0.0, falcon::kCenterZ };
-  Vec3 position{ 0.0, 0.0, falcon::kCenterZ };
+  Vec3 wanted = falcon::kCenter;
+  Vec3 position = falcon::kCenter;
   Vec3 velocity;
 };
 

@@ -79,7 +79,7 @@ public:
   }
 
 private:
-  static Vec3 center() { return { 0.0, 0.0, falcon::kCenterZ }; }
+  static Vec3 center() { return falcon::kCenter; }
 
   Falcon& falcon_;
   double secondsToWait_;
