@@ -18,7 +18,6 @@ using apptest::parseTable;
 using apptest::Table;
 
 constexpr const char* kSpherePath = POINTHAPTICS_DATA "/Paths/sphere-press-slide.csv";
-constexpr const char* kIdolPath = POINTHAPTICS_DATA "/Paths/idol-touch.csv";
 constexpr double kStiffness = 800.0;
 
 Vec3 vectorOf(const Table& table, const std::string& name, std::size_t row)
@@ -140,9 +139,9 @@ TEST_F(Feel, SaysHowFarAHandThatTouchesNothingStaysAway)
   const std::string placed =
     this->succeed({ "feel", "plane.ply", "--path", "above.csv", "-o", "out.csv", "--scale", "1" });
   EXPECT_EQ(placed.find("--fit"), std::string::npos) << placed;
-  const auto json = nlohmann::json::parse(
+  const auto told = nlohmann::json::parse(
     this->succeed({ "feel", "plane.ply", "--path", "above.csv", "-o", "out.csv", "--json" }));
-  EXPECT_NEAR(json.at("nearest_point_m").get<double>(), 0.31, 0.003);
+  EXPECT_NEAR(told.at("nearest_point_m").get<double>(), 0.31, 0.003);
   this->write("deep.csv", "t,x,y,z\n0,0,0,0.01\n1,0,0,-0.002\n");
   const std::string touched = this->succeed({ "feel", "plane.ply", "--path", "deep.csv", "-o", "out.csv" });
   EXPECT_EQ(touched.find("nearest point"), std::string::npos) << touched;
@@ -176,7 +175,7 @@ TEST_F(Feel, RawPointsAreFeltToo)
 TEST_F(Feel, TheIdolIsTouchedAndFollowed)
 {
   this->succeed({ "generate", "idol", "-n", "200000", "-o", "idol.ply" });
-  const Table out = this->feel("idol.ply", kIdolPath);
+  const Table out = this->feel("idol.ply", apptest::kIdolPath);
   // The hand is nearly a radius of curvature deep in places: there the direction to the nearest point is
   // anybody's guess, but its distance is not, nor that the contact point lies on the surface.
   double contacts = 0.0, offSurface2 = 0.0, depthError2 = 0.0, depth2 = 0.0;
@@ -207,7 +206,8 @@ TEST_F(Feel, NearTheHandScenesAreAsFineAsThePointsUnlessALatticeIsAskedFor)
   this->succeed({ "generate", "idol", "-n", "300000", "-o", "idol.ply" });
   const auto medianOffSurface = [this](const std::vector<std::string>& options, nlohmann::json& summary)
   {
-    std::vector<std::string> words = { "feel", "idol.ply", "--path", kIdolPath, "-o", "out.csv", "--json" };
+    std::vector<std::string> words = { "feel", "idol.ply", "--path", apptest::kIdolPath, "-o", "out.csv",
+      "--json" };
     words.insert(words.end(), options.begin(), options.end());
     summary = nlohmann::json::parse(this->succeed(words));
     const Table out = parseTable(this->read("out.csv"));
@@ -295,9 +295,9 @@ TEST_F(Feel, SameInputSameOutput)
     { std::vector<std::string>{ "--mu-d", "0.2" }, std::vector<std::string>{ "--method", "gradient-steps" },
       std::vector<std::string>{ "--method", "sphere" } })
   {
-    this->feel("idol.ply", kIdolPath, options);
+    this->feel("idol.ply", apptest::kIdolPath, options);
     const std::string first = withoutTimes(this->read("out.csv"));
-    this->feel("idol.ply", kIdolPath, options);
+    this->feel("idol.ply", apptest::kIdolPath, options);
     EXPECT_EQ(withoutTimes(this->read("out.csv")), first);
   }
 }
@@ -309,7 +309,7 @@ TEST_F(Feel, SameOutputWhateverTheThreads)
   for (const int threads : { 1, 2 })
   {
     ASSERT_EQ(setenv("VTK_SMP_MAX_THREADS", std::to_string(threads).c_str(), 1), 0);
-    this->feel("idol.ply", kIdolPath);
+    this->feel("idol.ply", apptest::kIdolPath);
     texts[threads - 1] = withoutTimes(this->read("out.csv"));
   }
   unsetenv("VTK_SMP_MAX_THREADS");

@@ -14,8 +14,6 @@ namespace
 using namespace pointhaptics;
 using apptest::parseTable;
 
-constexpr const char* kIdolPath = POINTHAPTICS_DATA "/Paths/idol-touch.csv";
-
 /// The first 15 columns of a table: all but how long a tick took, and what a recording has beside them.
 std::string felt(const std::string& text)
 {
@@ -42,8 +40,8 @@ protected:
   void record(const std::vector<std::string>& options = {}) const
   {
     this->succeed({ "generate", "idol", "-n", "300000", "-o", "idol.ply" });
-    std::vector<std::string> words = { "feel", "idol.ply", "--path", kIdolPath, "-o", "out.csv", "--record",
-      "rec.csv" };
+    std::vector<std::string> words = { "feel", "idol.ply", "--path", apptest::kIdolPath, "-o", "out.csv",
+      "--record", "rec.csv" };
     words.insert(words.end(), options.begin(), options.end());
     this->succeed(words);
   }
@@ -85,8 +83,9 @@ TEST_F(RecordingCommands, ViewAndFeelFeelAPathAlike)
     { "--unit", "m", "--method", "gradient-steps" }, { "--unit", "m", "--clip", "-1,1,-1,1,-1,0.02" }, {} };
   for (const std::vector<std::string>& some : options)
   {
-    std::vector<std::string> view = { "view", "idol.ply", "--path", kIdolPath, "--trace", "trace.csv" };
-    std::vector<std::string> feel = { "feel", "idol.ply", "--path", kIdolPath, "-o", "out.csv" };
+    std::vector<std::string> view = { "view", "idol.ply", "--path", apptest::kIdolPath, "--trace",
+      "trace.csv" };
+    std::vector<std::string> feel = { "feel", "idol.ply", "--path", apptest::kIdolPath, "-o", "out.csv" };
     view.insert(view.end(), some.begin(), some.end());
     feel.insert(feel.end(), some.begin(), some.end());
     if (some.empty())
@@ -104,8 +103,8 @@ TEST_F(RecordingCommands, ViewAndFeelFeelAPathAlike)
 TEST_F(RecordingCommands, ARecordingOfAClippedCloudIsFeltInItsBox)
 {
   this->succeed({ "generate", "idol", "-n", "50000", "-o", "idol.ply" });
-  const std::vector<std::string> feel = { "feel", "idol.ply", "--path", kIdolPath, "--record", "rec.csv",
-    "-o" };
+  const std::vector<std::string> feel = { "feel", "idol.ply", "--path", apptest::kIdolPath, "--record",
+    "rec.csv", "-o" };
   std::vector<std::string> whole = feel;
   whole.emplace_back("whole.csv");
   this->succeed(whole);
@@ -126,15 +125,17 @@ TEST_F(RecordingCommands, FeelTakesAConfigurationOfTheViewer)
   this->write(
     "view.json", R"({"stiffness": 500, "scale": 0.9, "device": "auto", "camera": "0,0,1,0,0,0,0,1,0",
     "axes": true, "color-by": "Height"})");
-  this->succeed({ "feel", "idol.ply", "--config", "view.json", "--path", kIdolPath, "-o", "configured.csv" });
   this->succeed(
-    { "feel", "idol.ply", "--stiffness", "500", "--scale", "0.9", "--path", kIdolPath, "-o", "out.csv" });
+    { "feel", "idol.ply", "--config", "view.json", "--path", apptest::kIdolPath, "-o", "configured.csv" });
+  this->succeed({ "feel", "idol.ply", "--stiffness", "500", "--scale", "0.9", "--path", apptest::kIdolPath,
+    "-o", "out.csv" });
   EXPECT_EQ(felt(this->read("configured.csv")), felt(this->read("out.csv")));
-  this->succeed({ "feel", "idol.ply", "--config", "view.json", "--stiffness", "800", "--path", kIdolPath,
-    "-o", "overruled.csv" });
+  this->succeed({ "feel", "idol.ply", "--config", "view.json", "--stiffness", "800", "--path",
+    apptest::kIdolPath, "-o", "overruled.csv" });
   EXPECT_NE(felt(this->read("overruled.csv")), felt(this->read("out.csv")));
   this->write("bad.json", R"({"stifness": 500})");
-  this->refuse(1, { "feel", "idol.ply", "--config", "bad.json", "--path", kIdolPath, "-o", "out.csv" },
+  this->refuse(1,
+    { "feel", "idol.ply", "--config", "bad.json", "--path", apptest::kIdolPath, "-o", "out.csv" },
     { "bad.json", "stifness" });
 }
 
@@ -166,9 +167,11 @@ TEST_F(RecordingCommands, WhatCannotBeReplayedIsRefused)
   EXPECT_EQ(view.errors.rfind("pointhaptics view: sphere.ply: ", 0), 0u) << view.errors;
   this->refuse(1, { "feel", "--replay", "out.csv", "-o", "again.csv" }, { "out.csv:1", "no recording" });
   this->refuse(1, { "compare", "idol.ply" }, { "idol.ply:1", "no recording" });
-  this->refuse(2, { "feel", "--replay", "rec.csv", "--path", kIdolPath, "-o", "again.csv" }, { "--replay" });
-  this->refuse(2, { "view", "--replay", "rec.csv", "--path", kIdolPath }, { "--replay" });
-  this->refuse(2, { "feel", "idol.ply", "--raw", "--path", kIdolPath, "-o", "x.csv", "--record", "r.csv" },
+  this->refuse(
+    2, { "feel", "--replay", "rec.csv", "--path", apptest::kIdolPath, "-o", "again.csv" }, { "--replay" });
+  this->refuse(2, { "view", "--replay", "rec.csv", "--path", apptest::kIdolPath }, { "--replay" });
+  this->refuse(2,
+    { "feel", "idol.ply", "--raw", "--path", apptest::kIdolPath, "-o", "x.csv", "--record", "r.csv" },
     { "--record", "--raw" });
   this->refuse(2, { "feel", "-o", "x.csv" }, { "FILE" });
   this->refuse(2, { "view" }, { "FILE" });

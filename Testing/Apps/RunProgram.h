@@ -15,6 +15,8 @@ namespace pointhaptics
 namespace apptest
 {
 
+constexpr const char* kIdolPath = POINTHAPTICS_DATA "/Paths/idol-touch.csv";
+
 struct Outcome
 {
   int exitCode = -1; ///< 128 + signal where a signal ended the program.

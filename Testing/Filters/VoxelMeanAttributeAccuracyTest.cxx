@@ -17,9 +17,9 @@
 namespace
 {
 
-constexpr int kPoints = 20000;
+constexpr int kAccuracyPoints = 20000;
 
-/// A cloud of kPoints in the unit cube and a resampler of n^3 voxels for it.
+/// A cloud of kAccuracyPoints in the unit cube and a resampler of n^3 voxels for it.
 class VoxelMeanAttributeAccuracy : public testing::Test
 {
 protected:
@@ -40,7 +40,7 @@ protected:
   }
   double drawn(double low, double high) { return trial::uniform(engine_, low, high); }
 
-  vtkSmartPointer<vtkPolyData> cloud_ = trial::cloudOf(trial::randomPoints(kPoints, 41));
+  vtkSmartPointer<vtkPolyData> cloud_ = trial::cloudOf(trial::randomPoints(kAccuracyPoints, 41));
   vtkNew<vtkVoxelMeanResampler> resampler_;
   std::mt19937_64 engine_{ 42 };
 };
@@ -145,7 +145,7 @@ TEST_F(VoxelMeanAttributeAccuracy, NanAndInfinityGiveWhatAdditionGives)
     {
       if (turned)
       {
-        cloud_ = trial::reordered(cloud_, trial::randomOrder(kPoints, 3));
+        cloud_ = trial::reordered(cloud_, trial::randomOrder(kAccuracyPoints, 3));
       }
       vtkDataArray* out = averaged(name);
       ASSERT_EQ(out->GetNumberOfTuples(), 6);
@@ -189,7 +189,7 @@ TEST_F(VoxelMeanAttributeAccuracy, BitsAreRoundedToTheNearest)
 {
   vtkNew<vtkBitArray> bits;
   bits->SetName("Bits");
-  for (int i = 0; i < kPoints; ++i)
+  for (int i = 0; i < kAccuracyPoints; ++i)
   {
     bits->InsertNextValue(cloud_->GetPoint(i)[0] < 0.5 ? 1 : (i % 4 == 0));
   }
@@ -252,7 +252,7 @@ TEST_F(VoxelMeanAttributeAccuracy, ArraysOfTheWrongLengthDoNoHarm)
 {
   vtkNew<vtkFloatArray> brief;
   brief->SetName("Brief");
-  brief->SetNumberOfTuples(kPoints / 2);
+  brief->SetNumberOfTuples(kAccuracyPoints / 2);
   brief->Fill(1);
   cloud_->GetPointData()->AddArray(brief);
   trial::addColumns<vtkFloatArray>(cloud_, "Whole", 1, [&](vtkIdType, int) { return drawn(0, 1); });

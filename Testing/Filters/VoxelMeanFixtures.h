@@ -22,6 +22,9 @@
 namespace trial
 {
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// A lattice of n^3 voxels over the unit cube.
 inline void useUnitCube(vtkVoxelMeanResampler* resampler, int n)
 {

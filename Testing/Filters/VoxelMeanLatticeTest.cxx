@@ -14,9 +14,6 @@
 namespace
 {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// A transform whose linear part is scaled and turned by @p linear (row by row), shifted to the unit cube's
 /// centre.
 vtkSmartPointer<vtkTransform> transformBy(const std::vector<double>& linear, double shift = 0.5)
@@ -106,14 +103,14 @@ TEST(VoxelMeanLattice, BoundsWithoutVolumeAreAnError)
 {
   vtkNew<vtkVoxelMeanResampler> resampler;
   resampler->SetInputData(trial::cloudOf(trial::randomPoints(10, 3)));
-  const double bounds[5][6] = { { 0, 0, 0, 1, 0, 1 }, { 0, 1, 1, 0, 0, 1 }, { 0, 1, 0, 1, kNan, 1 },
-    { -kInfinity, 1, 0, 1, 0, 1 }, { -1.7e308, 1.7e308, 0, 1, 0, 1 } };
+  const double bounds[5][6] = { { 0, 0, 0, 1, 0, 1 }, { 0, 1, 1, 0, 0, 1 }, { 0, 1, 0, 1, trial::kNan, 1 },
+    { -trial::kInfinity, 1, 0, 1, 0, 1 }, { -1.7e308, 1.7e308, 0, 1, 0, 1 } };
   for (const double* box : bounds)
   {
     resampler->SetWorkspaceBounds(box);
     trial::expectError(resampler, "must be finite with maximum above minimum");
   }
-  for (const double size : { kNan, kInfinity, -0.1 })
+  for (const double size : { trial::kNan, trial::kInfinity, -0.1 })
   {
     resampler->SetWorkspaceBounds(0, 1, 0, 1, 0, 1);
     resampler->SetVoxelSize(size);
@@ -189,8 +186,8 @@ TEST(VoxelMeanTransforms, SingularAndNonFiniteOnesAreErrors)
     { 1, 0, 0, 0, 1, 0, 0, 0, 0 },
     { 1, 2, 3, 2, 4, 6, 0, 0, 1 },
     { 1, 2, 3, 4, 5, 6, 7, 8, 9 },
-    { kNan, 0, 0, 0, 1, 0, 0, 0, 1 },
-    { 1, 0, kInfinity, 0, 1, 0, 0, 0, 1 },
+    { trial::kNan, 0, 0, 0, 1, 0, 0, 0, 1 },
+    { 1, 0, trial::kInfinity, 0, 1, 0, 0, 0, 1 },
   };
   for (std::size_t t = 0; t < linears.size(); ++t)
   {
@@ -198,7 +195,7 @@ TEST(VoxelMeanTransforms, SingularAndNonFiniteOnesAreErrors)
     resampler->SetTransform(transformBy(linears[t]));
     trial::expectError(resampler, t < 4 ? "use scales other than 0" : "use finite numbers");
   }
-  for (const double shift : { kNan, -kInfinity })
+  for (const double shift : { trial::kNan, -trial::kInfinity })
   {
     resampler->SetTransform(transformBy({ 1, 0, 0, 0, 1, 0, 0, 0, 1 }, shift));
     trial::expectError(resampler, "use finite numbers");

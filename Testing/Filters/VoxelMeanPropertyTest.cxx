@@ -9,7 +9,7 @@ namespace
 {
 
 constexpr std::uint64_t kCases = 150;
-constexpr vtkIdType kPoints = 3000;
+constexpr vtkIdType kDrawnPoints = 3000;
 
 /// Voxel of a coordinate on one axis; NaN where the output's type cannot tell voxels apart.
 double voxelOf(double coordinate, const pointhaptics::Lattice& lattice, int axis, int type)
@@ -40,7 +40,7 @@ TEST(VoxelMeanProperties, EveryPointIsInOneVoxelOrCountedAsLeftOut)
 {
   for (std::uint64_t seed = 0; seed < kCases; ++seed)
   {
-    const trial::VoxelMeanCase drawn = trial::drawCase(seed, kPoints);
+    const trial::VoxelMeanCase drawn = trial::drawCase(seed, kDrawnPoints);
     SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << drawn);
     vtkNew<vtkVoxelMeanResampler> resampler;
     drawn.applyTo(resampler);
@@ -56,7 +56,7 @@ TEST(VoxelMeanProperties, MeansLieInTheirVoxelsWhichAreOrderedXFastest)
 {
   for (std::uint64_t seed = 0; seed < kCases; ++seed)
   {
-    const trial::VoxelMeanCase drawn = trial::drawCase(seed, kPoints);
+    const trial::VoxelMeanCase drawn = trial::drawCase(seed, kDrawnPoints);
     SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << drawn);
     vtkNew<vtkVoxelMeanResampler> resampler;
     drawn.applyTo(resampler);
@@ -160,7 +160,7 @@ TEST(VoxelMeanProperties, ResamplingTwiceKeepsVoxelsAndMeans)
 {
   for (std::uint64_t seed = 0; seed < kCases; ++seed)
   {
-    trial::VoxelMeanCase drawn = trial::drawCase(seed, kPoints);
+    trial::VoxelMeanCase drawn = trial::drawCase(seed, kDrawnPoints);
     drawn.automatic = false;
     SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << drawn);
     vtkNew<vtkVoxelMeanResampler> first;

@@ -12,9 +12,6 @@
 namespace
 {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Random points of the unit cube, scaled, then shifted.
 vtkSmartPointer<vtkPolyData> randomCloud(int n, double scale, const pointhaptics::Vec3& shift, int type)
 {
@@ -269,7 +266,7 @@ TEST(VoxelMeanStress, NanAndInfinityAreDroppedAndCounted)
   for (const int type : { VTK_FLOAT, VTK_DOUBLE })
   {
     std::mt19937_64 engine(6);
-    const double bad[3] = { kNan, kInfinity, -kInfinity };
+    const double bad[3] = { trial::kNan, trial::kInfinity, -trial::kInfinity };
     const auto cloud = trial::cloudBy(
       3000,
       [&](int i)
@@ -302,7 +299,7 @@ TEST(VoxelMeanStress, NanAndInfinityAreDroppedAndCounted)
 TEST(VoxelMeanStress, NothingButInvalidPointsGiveAnEmptyOutput)
 {
   vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(trial::cloudBy(100, [](int i) { return pointhaptics::Vec3(i, kNan, 0); }));
+  resampler->SetInputData(trial::cloudBy(100, [](int i) { return pointhaptics::Vec3(i, trial::kNan, 0); }));
   trial::Ear errors(resampler, vtkCommand::ErrorEvent);
   resampler->Update();
   EXPECT_EQ(errors.count, 0) << errors.last;

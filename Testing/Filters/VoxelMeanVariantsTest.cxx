@@ -46,7 +46,7 @@ void expectAsFromScratch(vtkVoxelMeanResampler* resampler, vtkPolyData* cloud)
 }
 
 /// A scan of 100,000 points in clusters, a hundredth of them not finite.
-vtkSmartPointer<vtkPolyData> scan(std::uint64_t seed, int type, bool withAttributes)
+vtkSmartPointer<vtkPolyData> clusteredScan(std::uint64_t seed, int type, bool withAttributes)
 {
   std::mt19937_64 engine(seed);
   pointhaptics::Vec3 middle{ 0.5, 0.5, 0.5 };
@@ -96,7 +96,7 @@ using Setting = std::tuple<int, bool>;
 class VoxelMeanVariants : public testing::TestWithParam<Setting>
 {
 protected:
-  vtkSmartPointer<vtkPolyData> cloud_ = scan(71, std::get<0>(GetParam()), std::get<1>(GetParam()));
+  vtkSmartPointer<vtkPolyData> cloud_ = clusteredScan(71, std::get<0>(GetParam()), std::get<1>(GetParam()));
   vtkNew<vtkVoxelMeanResampler> resampler_;
   vtkNew<vtkTransform> transform_;
 };
@@ -112,7 +112,7 @@ TEST(VoxelMeanPointIndex, IsUsedUnlessForbidden)
 
 TEST(VoxelMeanPointIndex, ValuesAreLookedThroughAgainWhenTheyChange)
 {
-  const auto cloud = scan(75, VTK_FLOAT, false);
+  const auto cloud = clusteredScan(75, VTK_FLOAT, false);
   vtkNew<vtkFloatArray> values;
   values->SetName("Values");
   values->SetNumberOfTuples(cloud->GetNumberOfPoints());
@@ -207,7 +207,7 @@ TEST_P(VoxelMeanVariants, ThePointIndexFollowsTheInput)
 
 TEST_P(VoxelMeanVariants, ThePointIndexFollowsAnotherInput)
 {
-  const auto other = scan(72, std::get<0>(GetParam()), false);
+  const auto other = clusteredScan(72, std::get<0>(GetParam()), false);
   const auto brief = trial::cloudOf(trial::randomPoints(100, 73));
   vtkNew<vtkPolyData> empty;
   int step = 0;
@@ -236,7 +236,7 @@ TEST_P(VoxelMeanVariants, ThePointIndexFollowsPointsReplacedInTheSameInput)
     expectAsFromScratch(resampler_, cloud_);
     expectAsFromScratch(resampler_, cloud_);
     vtkNew<vtkPoints> points;
-    points->DeepCopy(scan(std::uint64_t(80 + step), std::get<0>(GetParam()), false)->GetPoints());
+    points->DeepCopy(clusteredScan(std::uint64_t(80 + step), std::get<0>(GetParam()), false)->GetPoints());
     cloud_->SetPoints(points);
     expectAsFromScratch(resampler_, cloud_);
   }

@@ -26,7 +26,7 @@ using namespace pointhaptics;
 
 namespace
 {
-constexpr int kSize = 100;
+constexpr int kShadedSize = 100;
 constexpr double kStep = 0.001;
 
 /// A white wall, and 1 mm in front of its left half another one.
@@ -44,7 +44,7 @@ protected:
     renderer_->ResetCameraClippingRange();
     window_->SetOffScreenRendering(1);
     window_->SetMultiSamples(0);
-    window_->SetSize(kSize, kSize);
+    window_->SetSize(kShadedSize, kShadedSize);
     window_->AddRenderer(renderer_);
   }
 
@@ -68,7 +68,7 @@ protected:
     applyDepthShading(renderer_, tolerance);
     window_->Render();
     vtkNew<vtkUnsignedCharArray> row;
-    window_->GetPixelData(0, kSize / 2, kSize - 1, kSize / 2, 0, row);
+    window_->GetPixelData(0, kShadedSize / 2, kShadedSize - 1, kShadedSize / 2, 0, row);
     return *std::min_element(row->GetPointer(0), row->GetPointer(0) + row->GetNumberOfValues());
   }
 
@@ -83,14 +83,14 @@ protected:
     vtkDepthShadingPass::GetPassOf(renderer_)->AddSamples(samples);
     window_->Render();
     vtkNew<vtkUnsignedCharArray> pixels;
-    window_->GetPixelData(0, 0, kSize - 1, kSize - 1, 0, pixels);
+    window_->GetPixelData(0, 0, kShadedSize - 1, kShadedSize - 1, 0, pixels);
     return { pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues() };
   }
 
   std::vector<float> depths()
   {
     vtkNew<vtkFloatArray> values;
-    window_->GetZbufferData(0, 0, kSize - 1, kSize - 1, values);
+    window_->GetZbufferData(0, 0, kShadedSize - 1, kShadedSize - 1, values);
     return { values->GetPointer(0), values->GetPointer(0) + values->GetNumberOfValues() };
   }
 

@@ -27,7 +27,7 @@ namespace
 {
 
 /// A wavy square of 6 cm whose points are 0.3 mm apart on one side and 3 mm on the other, with labels.
-vtkSmartPointer<vtkPolyData> makeCloud()
+vtkSmartPointer<vtkPolyData> makeUnevenCloud()
 {
   vtkNew<vtkPoints> points;
   vtkNew<vtkIntArray> labels;
@@ -91,9 +91,9 @@ protected:
     bandwidth_->ComputeDensityOn();
     bandwidth_->SetMinimumRadius(0.003);
     bandwidth_->SetMaximumRadius(0.006);
-    resampler_->SetInputData(makeCloud());
+    resampler_->SetInputData(makeUnevenCloud());
     bandwidth_->SetInputConnection(resampler_->GetOutputPort());
-    worker_.setCloud(makeCloud());
+    worker_.setCloud(makeUnevenCloud());
   }
 
   std::vector<std::string> ofWorker()

@@ -29,7 +29,7 @@
 namespace
 {
 
-constexpr int kSize = 200;
+constexpr int kSplatSize = 200;
 
 /// Points in a row, 30 mm apart, with lengths of 2, 4 and 6 mm.
 vtkSmartPointer<vtkPolyData> threePoints()
@@ -55,11 +55,11 @@ vtkSmartPointer<vtkPolyData> threePoints()
 int darkPixels(const std::vector<unsigned char>& seen, int middle)
 {
   int dark = 0;
-  for (int y = 0; y < kSize; ++y)
+  for (int y = 0; y < kSplatSize; ++y)
   {
     for (int x = middle - 25; x < middle + 25; ++x)
     {
-      dark += x >= 0 && x < kSize && seen[std::size_t(3 * (y * kSize + x))] < 128;
+      dark += x >= 0 && x < kSplatSize && seen[std::size_t(3 * (y * kSplatSize + x))] < 128;
     }
   }
   return dark;
@@ -84,13 +84,13 @@ TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(0);
-  window->SetSize(kSize, kSize);
+  window->SetSize(kSplatSize, kSplatSize);
   window->AddRenderer(renderer);
   const auto pixels = [&]
   {
     window->Render();
     vtkNew<vtkUnsignedCharArray> data;
-    window->GetPixelData(0, 0, kSize - 1, kSize - 1, 0, data);
+    window->GetPixelData(0, 0, kSplatSize - 1, kSplatSize - 1, 0, data);
     return std::vector<unsigned char>(data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues());
   };
   for (const bool parallel : { false, true })
@@ -99,10 +99,10 @@ TEST(SplatMapper, SplatsAreDiscsAsLargeAsTheirLengthSays)
     renderer->GetActiveCamera()->SetParallelScale(0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
     renderer->ResetCameraClippingRange();
     const std::vector<unsigned char> seen = pixels();
-    const double perMetre = kSize / (2.0 * 0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
+    const double perMetre = kSplatSize / (2.0 * 0.2 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0));
     for (int i = 0; i < 3; ++i)
     {
-      const int dark = darkPixels(seen, int(kSize / 2 + (0.03 * i - 0.03) * perMetre));
+      const int dark = darkPixels(seen, int(kSplatSize / 2 + (0.03 * i - 0.03) * perMetre));
       const double radius = 0.002 * (i + 1) * perMetre;
       EXPECT_NEAR(dark, 3.14159 * radius * radius, 0.1 * 3.14159 * radius * radius + 8.0) << i << parallel;
     }
@@ -145,7 +145,7 @@ struct SplatWindow
     actor->GetProperty()->SetColor(0, 0, 0);
     window->SetOffScreenRendering(1);
     window->SetMultiSamples(0);
-    window->SetSize(kSize, kSize);
+    window->SetSize(kSplatSize, kSplatSize);
     window->AddRenderer(renderer);
   }
 
@@ -153,7 +153,7 @@ struct SplatWindow
   {
     window->Render();
     vtkNew<vtkUnsignedCharArray> data;
-    window->GetPixelData(0, 0, kSize - 1, kSize - 1, 0, data);
+    window->GetPixelData(0, 0, kSplatSize - 1, kSplatSize - 1, 0, data);
     return { data->GetPointer(0), data->GetPointer(0) + data->GetNumberOfValues() };
   }
 
@@ -168,20 +168,20 @@ TEST(SplatMapper, PointsAreDrawnInStepsWhereTheProcessorDrawsThem)
 {
   SKIP_WITHOUT_DISPLAY();
   constexpr vtkIdType kCount = 50000;
-  constexpr auto kStep = pointhaptics::DrawPace::kStep;
+  constexpr auto kPointsAStep = pointhaptics::DrawPace::kStep;
   SplatWindow view(ring(kCount, true));
   view.window->Render();
   auto& pace = pointhaptics::DrawPace::of(vtkOpenGLRenderWindow::SafeDownCast(view.window));
   const std::int64_t before = pace.steps();
   view.window->Render();
-  EXPECT_EQ(pace.steps() - before >= kCount / kStep, pace.isNeeded());
+  EXPECT_EQ(pace.steps() - before >= kCount / kPointsAStep, pace.isNeeded());
   EXPECT_LE(pace.underWay(), pointhaptics::DrawPace::kAhead);
   const std::string library = view.window->ReportCapabilities();
   EXPECT_EQ(pace.isNeeded(), library.find("llvmpipe") != std::string::npos);
   const std::int64_t whole = pace.steps();
   view.splats->SetRanges({ { 0, 10 }, { 20, kCount } });
   view.window->Render();
-  EXPECT_NEAR(double(pace.steps() - whole), pace.isNeeded() ? double(kCount) / kStep : 0.0, 1.0);
+  EXPECT_NEAR(double(pace.steps() - whole), pace.isNeeded() ? double(kCount) / kPointsAStep : 0.0, 1.0);
 }
 
 /// Values that differ by more than rounding does.

@@ -20,7 +20,7 @@ namespace
 
 /// A square of 40 units, points 1 unit apart, at z = 0; the row at the middle is @p height above it, and one
 /// point is far from all.
-vtkSmartPointer<vtkPolyData> makeCloud(double height)
+vtkSmartPointer<vtkPolyData> makeRidge(double height)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -44,7 +44,7 @@ vtkSmartPointer<vtkPolyData> resampled(double height, double scale)
   transform->RotateY(90.0);
   transform->Scale(scale, scale, scale);
   vtkNew<vtkVoxelMeanResampler> resampler;
-  resampler->SetInputData(makeCloud(height));
+  resampler->SetInputData(makeRidge(height));
   resampler->SetTransform(transform);
   resampler->SetVoxelSize(0.5 * scale);
   resampler->ComputeCovarianceOn();

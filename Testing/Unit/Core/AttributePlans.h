@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 #include <vector>
 
@@ -71,12 +70,6 @@ inline void coarsen(Plan& plan, const Plan& parents)
     voxel = parents.voxels[std::size_t(voxel)];
   }
   plan.size = parents.size;
-}
-
-template <typename T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
-{
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 } // namespace trial

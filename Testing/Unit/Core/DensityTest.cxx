@@ -13,14 +13,10 @@
 #include <cmath>
 
 using namespace pointhaptics;
+using trial::view;
 
 namespace
 {
-
-PointView view(const std::vector<Vec3>& points)
-{
-  return { points.data(), std::int64_t(points.size()) };
-}
 
 std::vector<double> densitiesOf(const std::vector<Vec3>& points, const std::vector<double>& bandwidths,
   const Executor& executor = {}, DensityKernel kernel = DensityKernel::Gaussian)

@@ -20,11 +20,6 @@ namespace trial
 constexpr BandwidthRule kRules[] = { BandwidthRule::NormalReference, BandwidthRule::SilvermanRobust,
   BandwidthRule::ScottMultivariate, BandwidthRule::SilvermanMultivariate, BandwidthRule::SheatherJones };
 
-inline PointView view(const std::vector<Vec3>& points)
-{
-  return { points.data(), std::int64_t(points.size()) };
-}
-
 struct Local
 {
   std::vector<double> bandwidths;

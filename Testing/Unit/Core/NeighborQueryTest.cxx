@@ -12,14 +12,10 @@
 #include <memory>
 
 using namespace pointhaptics;
+using trial::view;
 
 namespace
 {
-
-PointView view(const std::vector<Vec3>& points)
-{
-  return { points.data(), std::int64_t(points.size()) };
-}
 
 void expectNearest(const std::vector<Vec3>& points, const std::vector<Vec3>& centers, int k)
 {

@@ -10,6 +10,7 @@
 #include <cmath>
 
 using namespace pointhaptics;
+using trial::view;
 
 namespace
 {
@@ -19,11 +20,6 @@ struct NamedCloud
   const char* name;
   std::vector<Vec3> points;
 };
-
-PointView view(const std::vector<Vec3>& points)
-{
-  return { points.data(), std::int64_t(points.size()) };
-}
 
 std::vector<Vec3> scaled(std::vector<Vec3> points, double scale)
 {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "Core/Base/Executor.h"
+#include "Core/Base/PointView.h"
 #include "Core/Base/Vector3.h"
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <random>
 #include <thread>
 #include <vector>
@@ -15,6 +17,17 @@ namespace pointhaptics
 {
 namespace trial
 {
+
+inline PointView view(const std::vector<Vec3>& points)
+{
+  return { points.data(), std::int64_t(points.size()) };
+}
+
+template <typename T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
+{
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
 
 /// Uniform numbers that do not depend on the standard library's distributions.
 class Random

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -87,16 +86,21 @@ inline RunResult runOf(VoxelResampler& resampler, const VoxelRequest& request, c
   return result;
 }
 
+inline VoxelRequest requestFor(
+  const std::vector<Vec3>& points, const Lattice& lattice, bool covariances = true)
+{
+  VoxelRequest request;
+  request.points = view(points);
+  request.lattice = lattice;
+  request.keys = true;
+  request.covariances = covariances;
+  return request;
+}
+
 inline RunResult runOf(const VoxelRequest& request, const Executor& executor = {})
 {
   VoxelResampler resampler;
   return runOf(resampler, request, executor);
-}
-
-template <typename T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
-{
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 /// All but the parents.

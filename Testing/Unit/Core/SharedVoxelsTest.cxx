@@ -35,7 +35,7 @@ VoxelRequest requestOf(const std::vector<Vec3>& points, const Lattice& lattice, 
 }
 
 /// Where the points of each rank end: uneven, and some ranks have none.
-std::vector<std::size_t> splitOf(int size, std::uint64_t seed)
+std::vector<std::size_t> splitOfPoints(int size, std::uint64_t seed)
 {
   Random random(seed);
   std::vector<std::size_t> ends;
@@ -313,7 +313,7 @@ TEST(SharedVoxels, AreThoseOfOneRunHoweverPointsAndRanksAreSplit)
       }
       for (const int size : kSizes)
       {
-        expectSame(sharedRun(points, lattice, levels, splitOf(size, std::uint64_t(size))), expected,
+        expectSame(sharedRun(points, lattice, levels, splitOfPoints(size, std::uint64_t(size))), expected,
           nameOf(lattice) + ", ranks " + std::to_string(size) + ", levels " + std::to_string(levels));
       }
     }
@@ -329,7 +329,7 @@ TEST(SharedVoxels, ArraysAreThoseOfOneRank)
   ASSERT_TRUE(std::any_of(expected.doubles.begin(), expected.doubles.end(), [](double v) { return v != v; }));
   for (const int size : { 2, 3, 4, 8 })
   {
-    const Made made = madeOf(points, lattice, arrays, splitOf(size, 77));
+    const Made made = madeOf(points, lattice, arrays, splitOfPoints(size, 77));
     const std::string what = "ranks " + std::to_string(size);
     expectSameBits(made.floats, expected.floats, "floats, " + what);
     expectSameBits(made.doubles, expected.doubles, "doubles, " + what);

@@ -8,16 +8,12 @@
 #include <cmath>
 
 using namespace pointhaptics;
+using trial::view;
 
 namespace
 {
 
 using Order = std::vector<std::uint32_t>;
-
-PointView view(const std::vector<Vec3>& points)
-{
-  return { points.data(), std::int64_t(points.size()) };
-}
 
 void expectEachOnce(Order order, std::size_t n)
 {

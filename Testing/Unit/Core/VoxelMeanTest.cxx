@@ -8,17 +8,13 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <cstring>
 
 using namespace pointhaptics;
+using trial::sameBits;
+using trial::view;
 
 namespace
 {
-
-PointView view(const std::vector<Vec3>& points)
-{
-  return { points.data(), std::int64_t(points.size()) };
-}
 
 Lattice unitLattice(std::int64_t n)
 {
@@ -93,12 +89,6 @@ void expectAgrees(const PointView& points, const AffineTransform& transform, con
     }
     ++v;
   }
-}
-
-template <typename T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
-{
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 void expectSameBits(const VoxelMeans& a, const VoxelMeans& b)

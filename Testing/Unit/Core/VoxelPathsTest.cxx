@@ -18,16 +18,6 @@ using namespace pointhaptics::trial;
 namespace
 {
 
-VoxelRequest requestFor(const std::vector<Vec3>& points, const Lattice& lattice, bool covariances = true)
-{
-  VoxelRequest request;
-  request.points = { points.data(), std::int64_t(points.size()) };
-  request.lattice = lattice;
-  request.keys = true;
-  request.covariances = covariances;
-  return request;
-}
-
 /// Unit voxels become ones of edge 1 / count.
 Lattice unitCube(std::int64_t count)
 {

@@ -18,16 +18,6 @@ using namespace pointhaptics::trial;
 namespace
 {
 
-VoxelRequest requestFor(const std::vector<Vec3>& points, const Lattice& lattice, bool covariances = true)
-{
-  VoxelRequest request;
-  request.points = { points.data(), std::int64_t(points.size()) };
-  request.lattice = lattice;
-  request.keys = true;
-  request.covariances = covariances;
-  return request;
-}
-
 /// All but three of @p group points are in one voxel.
 std::vector<Vec3> pointsWithAnOverfullCell(
   std::size_t n, const Lattice& lattice, const Vec3& voxel, std::size_t group = 16)

@@ -18,16 +18,6 @@ using namespace pointhaptics::trial;
 namespace
 {
 
-VoxelRequest requestFor(const std::vector<Vec3>& points, const Lattice& lattice)
-{
-  VoxelRequest request;
-  request.points = { points.data(), std::int64_t(points.size()) };
-  request.lattice = lattice;
-  request.keys = true;
-  request.covariances = true;
-  return request;
-}
-
 /// Every level is what the resampling of the points at its lattice gives, and parents fit.
 void expectLevelsAreDirect(const VoxelRequest& request, const Executor& executor = {})
 {

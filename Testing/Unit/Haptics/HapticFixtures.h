@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <string>
@@ -33,6 +34,14 @@ constexpr int kPaperLarge = 543652;
 
 using Scene = std::shared_ptr<const HapticScene>;
 using Path = std::vector<Vec3>;
+
+/// Ticks under random hands; POINTHAPTICS_STRESS_TICKS=1000000 for a long run.
+inline int stressTicks()
+{
+  const char* text = std::getenv("POINTHAPTICS_STRESS_TICKS");
+  const int asked = text ? std::atoi(text) : 0;
+  return asked > 0 ? asked : 100000;
+}
 
 inline std::vector<Vec3> spherePoints(int n, std::uint64_t seed, double noise = 0.0)
 {

@@ -1,7 +1,5 @@
 #include "BallFixtures.h"
 
-#include <cstdlib>
-
 using namespace pointhaptics;
 using trial::BallInScene;
 using trial::LongVec;
@@ -10,16 +8,8 @@ using trial::Real;
 namespace
 {
 
-/// Ticks under random hands; POINTHAPTICS_STRESS_TICKS=1000000 for a long run.
-int stressTicks()
-{
-  const char* text = std::getenv("POINTHAPTICS_STRESS_TICKS");
-  const int asked = text ? std::atoi(text) : 0;
-  return asked > 0 ? asked : 100000;
-}
-
 /// Sheets, shells, lines, blobs and waves, some of them across each other, each at its own density.
-std::vector<Vec3> randomCloud(trial::Random& random)
+std::vector<Vec3> randomSurfaces(trial::Random& random)
 {
   std::vector<Vec3> points;
   const int parts = 1 + int(random.below(3));
@@ -48,7 +38,7 @@ std::vector<Vec3> randomCloud(trial::Random& random)
 }
 
 /// One move of a hand of at most 1 m/s, mostly: still, slow, fast, a leap, far away.
-Vec3 randomMove(trial::Random& random, const Vec3& hip, Vec3& velocity)
+Vec3 randomHandMove(trial::Random& random, const Vec3& hip, Vec3& velocity)
 {
   switch (random.below(300))
   {
@@ -109,9 +99,9 @@ TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
   int contacts = 0;
   int crowded = 0;
   double mostCovered = 0.0;
-  for (int done = 0; done < stressTicks(); done += kTicksPerCloud)
+  for (int done = 0; done < trial::stressTicks(); done += kTicksPerCloud)
   {
-    const std::vector<Vec3> points = randomCloud(random);
+    const std::vector<Vec3> points = randomSurfaces(random);
     BallInScene hand(random.below(2) == 0 ? trial::rawScene(points) : trial::resampledScene(points));
     BallInScene again = hand.copy();
     const ProxyBall& ball = hand.ball();
@@ -125,7 +115,7 @@ TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
       SCOPED_TRACE(done + tick);
       const ProxyBall before = ball;
       const Vec3 last = hand.hip();
-      const Vec3 asked = randomMove(random, hip, velocity);
+      const Vec3 asked = randomHandMove(random, hip, velocity);
       hand.step(asked);
       again.step(asked);
       hip = norm(asked) < 1.0 ? asked : hip;
@@ -160,9 +150,9 @@ TEST(ProxyBall, KeepsItsPromisesOnRandomCloudsUnderRandomHands)
     }
   }
   trial::recorded("coveredWhereCrowdedOverRadius", mostCovered);
-  trial::recorded("crowdedShare", double(crowded) / stressTicks());
-  EXPECT_GT(contacts, stressTicks() / 20) << "the hand meets something";
-  EXPECT_LT(crowded, stressTicks() / 2);
+  trial::recorded("crowdedShare", double(crowded) / trial::stressTicks());
+  EXPECT_GT(contacts, trial::stressTicks() / 20) << "the hand meets something";
+  EXPECT_LT(crowded, trial::stressTicks() / 2);
 }
 
 TEST(ProxyBall, NeverMovesAwayFromAHandThatRests)

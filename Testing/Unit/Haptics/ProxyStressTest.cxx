@@ -1,20 +1,11 @@
 #include "HapticFixtures.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 using namespace pointhaptics;
 
 namespace
 {
-
-/// Ticks of all stress together; POINTHAPTICS_STRESS_TICKS=1000000 for a long run.
-int stressTicks()
-{
-  const char* text = std::getenv("POINTHAPTICS_STRESS_TICKS");
-  const int asked = text ? std::atoi(text) : 0;
-  return asked > 0 ? asked : 100000;
-}
 
 /// Clouds nobody would choose: blobs, crossing and nearly touching sheets, lines, repeated points, shells
 /// with noise, each at its own density.
@@ -77,7 +68,7 @@ TEST(ProxyStress, KeepsEveryPromiseOnRandomCloudsUnderRandomHands)
   trial::Random random(99);
   HapticParameters parameters;
   int contacts = 0;
-  for (int done = 0; done < stressTicks(); done += kTicksPerCloud)
+  for (int done = 0; done < trial::stressTicks(); done += kTicksPerCloud)
   {
     const std::vector<Vec3> points = randomCloud(random);
     const bool raw = random.below(2) == 0;
@@ -122,5 +113,5 @@ TEST(ProxyStress, KeepsEveryPromiseOnRandomCloudsUnderRandomHands)
       lastHip = asked;
     }
   }
-  EXPECT_GT(contacts, stressTicks() / 100) << "the hand meets something";
+  EXPECT_GT(contacts, trial::stressTicks() / 100) << "the hand meets something";
 }
