@@ -90,6 +90,16 @@ protected:
   }
   ~RecordingTest() override { std::filesystem::remove(file_); }
 
+  /// For the surroundings of a hand.
+  static SceneRequest localRequest()
+  {
+    SceneRequest request;
+    request.voxels = voxels();
+    request.voxels.outputPointsPrecision = PointsPrecision::Double;
+    request.bandwidth.emplace();
+    return request;
+  }
+
   /// Until the loop has made @p ticks more.
   void recordFor(std::uint64_t ticks)
   {
@@ -226,10 +236,7 @@ TEST_F(RecordingTest, ScenesOfPartsAreMadeAgain)
 {
   LocalSceneProvider provider;
   provider.setCloud(cloud_);
-  SceneRequest request;
-  request.voxels = voxels();
-  request.voxels.outputPointsPrecision = PointsPrecision::Double;
-  request.bandwidth.emplace();
+  SceneRequest request = localRequest();
   request.hand = [this]
   {
     Bounds hand;
@@ -261,10 +268,7 @@ TEST_F(RecordingTest, AScenePartThatWasAloneIsMadeAgain)
 {
   LocalSceneProvider provider;
   provider.setCloud(cloud_);
-  SceneRequest request;
-  request.voxels = voxels();
-  request.voxels.outputPointsPrecision = PointsPrecision::Double;
-  request.bandwidth.emplace();
+  SceneRequest request = localRequest();
   Bounds hand;
   hand.include(handAt(0));
   request.hand = [&hand] { return hand; };
