@@ -70,16 +70,17 @@ inline void countEvent(vtkObject*, unsigned long, void* count, void*)
   ++*static_cast<int*>(count);
 }
 
-inline ReadResult readCloud(const std::string& path)
+/// @p reader: with its settings.
+inline ReadResult readCloudBy(vtkPointCloudReader* reader, const std::string& path)
 {
   ReadResult result;
   vtkNew<vtkCallbackCommand> observer;
   observer->SetCallback(&countEvent);
   observer->SetClientData(&result.errorEvents);
-  vtkNew<vtkPointCloudReader> reader;
   reader->AddObserver(vtkCommand::ErrorEvent, observer);
   reader->SetFileName(path.c_str());
   reader->Update();
+  reader->RemoveObserver(observer);
   result.cloud = reader->GetOutput();
   result.error = reader->GetErrorMessage();
   result.format = reader->GetFormat();
@@ -87,6 +88,12 @@ inline ReadResult readCloud(const std::string& path)
   result.notes = reader->GetNotes();
   result.validWithoutPoints = reader->IsValidWithoutPoints();
   return result;
+}
+
+inline ReadResult readCloud(const std::string& path)
+{
+  vtkNew<vtkPointCloudReader> reader;
+  return readCloudBy(reader, path);
 }
 
 /// Empty on success, else the message. @p notes gets what the format could not hold.

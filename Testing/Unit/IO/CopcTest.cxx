@@ -19,24 +19,13 @@ class Copc : public CloudFiles
 protected:
   static ReadResult readPart(const std::string& file, double resolution, const Box* box = nullptr)
   {
-    ReadResult result;
-    vtkNew<vtkCallbackCommand> observer;
-    observer->SetCallback(&countEvent);
-    observer->SetClientData(&result.errorEvents);
     vtkNew<vtkPointCloudReader> reader;
-    reader->AddObserver(vtkCommand::ErrorEvent, observer);
-    reader->SetFileName(file.c_str());
     reader->SetResolution(resolution);
     if (box)
     {
       reader->SetBox(box->data());
     }
-    reader->Update();
-    result.cloud = reader->GetOutput();
-    result.error = reader->GetErrorMessage();
-    result.format = reader->GetFormat();
-    result.code = reader->GetErrorCode();
-    return result;
+    return readCloudBy(reader, file);
   }
   /// x, y, z and gps time of each point, in an order of their own.
   static std::vector<std::array<double, 4>> sorted(const ReadResult& result, const Box* box = nullptr)

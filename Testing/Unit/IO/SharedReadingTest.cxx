@@ -23,17 +23,10 @@ struct PartRead
 
 PartRead readAsRank(const std::string& file, Ranks* ranks)
 {
-  PartRead part;
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetCallback(&countEvent);
-  observer->SetClientData(&part.result.errorEvents);
   vtkNew<vtkPointCloudReader> reader;
-  reader->AddObserver(vtkCommand::ErrorEvent, observer);
-  reader->SetFileName(file.c_str());
   reader->SetRanks(ranks);
-  reader->Update();
-  part.result.cloud = reader->GetOutput();
-  part.result.error = reader->GetErrorMessage();
+  PartRead part;
+  part.result = readCloudBy(reader, file);
   part.failedElsewhere = reader->FailedElsewhere();
   part.bytesRead = reader->GetNumberOfBytesRead();
   return part;
