@@ -12,9 +12,15 @@ namespace
 constexpr double kOnSurface = 1e-6;
 constexpr std::int64_t kSample = 1000;
 constexpr double kHoleRadius = 0.010;
+constexpr double kHalfEdge = 0.05; ///< Of the cube that holds all shapes.
 /// A foot point this far off the normal's line, over the distance, lies on a rim.
 constexpr double kRimSlope = 1e-4;
 constexpr double kEvenZoom = 1e-6;
+
+double largestCoordinate(const Vec3& p)
+{
+  return std::max({ std::abs(p.x), std::abs(p.y), std::abs(p.z) });
+}
 
 template <typename Condition>
 bool holdsForSample(const PointView& points, Condition&& condition)
@@ -58,6 +64,11 @@ double evenScale(const AffineTransform& transform)
 
 bool recognizeShape(const PointView& points, Shape& shape)
 {
+  const auto mayBeOnShape = [](const Vec3& p) { return largestCoordinate(p) < kHalfEdge + kOnSurface; };
+  if (!holdsForSample(points, mayBeOnShape))
+  {
+    return false; // the idol's first foot point takes longer than all others
+  }
   for (int i = 0; i < kNumberOfShapes; ++i)
   {
     Shape candidate = static_cast<Shape>(i);

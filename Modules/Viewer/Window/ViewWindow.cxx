@@ -240,7 +240,6 @@ void ViewWindow::connectStyle()
   style_->SetProps(scene_.props());
   style_->SetOverlay(overlay_);
   style_->GetHand().setPushesPointer(options_.pushPointer);
-  this->findIdeal();
   style_->SetDefaultRenderer(scene_.renderer());
   this->showNote();
   this->observe(vtkInteractorStyleHaptic::ModelChangedEvent, &ViewWindow::onModelChanged);
@@ -438,6 +437,7 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
   this->giveModel(scene_.modelMatrix());
   window_->Render();
   interactor_->Initialize();
+  this->findIdeal(); // the first picture has no chart to compare with
   if (!this->startServo(message))
   {
     return false;

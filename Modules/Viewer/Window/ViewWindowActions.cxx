@@ -247,8 +247,8 @@ void ViewWindow::show(LoadedCloud cloud)
   }
   window_->SetWindowName(("PointHaptics: " + scene_.title()).c_str());
   this->showSliderValues();
-  this->findIdeal();
   style_->GetScenes().poll(); // what is near the hand, before the picture
+  this->findIdeal();
 }
 
 /// What keys have changed while the cloud was read.

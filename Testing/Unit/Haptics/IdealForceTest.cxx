@@ -60,6 +60,7 @@ TEST(IdealForce, DoesNotTakeNoiseOrOtherCloudsForAShape)
     p.x += 1e-5;
   }
   EXPECT_FALSE(recognize(moved, known));
+  EXPECT_FALSE(recognize({ { 0.0, 0.0, 0.0 }, { 0.0, 0.06, 0.0 } }, known)) << "beyond all shapes";
   EXPECT_EQ(known, Shape::Idol);
 }
 
