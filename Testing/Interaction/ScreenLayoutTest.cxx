@@ -276,6 +276,36 @@ TEST_F(ScreenLayoutTest, NothingThatIsShownAtOnceOverlaps)
   }
 }
 
+TEST_F(ScreenLayoutTest, EveryLineOfTheHelpIsReadInASmallWindow)
+{
+  std::string help = "Look     left drag    rotate the view";
+  for (int line = 1; line < 58; ++line)
+  {
+    help += "\n" + std::string(line == 40 ? "Program  " : "         ") + "key " + std::to_string(line);
+  }
+  Screen screen(640, 480, 1.0, false);
+  screen.overlay->SetHelp(help, "H");
+  screen.overlay->SetHelpVisibility(true);
+  int page = 0;
+  do
+  {
+    screen.window->Render();
+    const ScreenRectangle box = screen.layout.places().at(0).box;
+    EXPECT_TRUE(box.left >= 0.0 && box.bottom >= 0.0 && box.right <= 640.0 && box.top <= 365.0)
+      << "page " << page;
+    EXPECT_EQ(screen.overlay->GetHelpPage(), page++);
+  } while (screen.overlay->ShowNextHelpPage());
+  EXPECT_EQ(page, screen.overlay->GetNumberOfHelpPages());
+  EXPECT_TRUE(page == 2 || page == 3) << page;
+  screen.overlay->SetHelpVisibility(false);
+  EXPECT_EQ(screen.overlay->GetHelpPage(), 0) << "from the first page again";
+  Screen large(1280, 1000, 1.0, false);
+  large.overlay->SetHelp(help, "H");
+  large.overlay->SetHelpVisibility(true);
+  large.window->Render();
+  EXPECT_EQ(large.overlay->GetNumberOfHelpPages(), 1);
+}
+
 TEST_F(ScreenLayoutTest, EverythingIsDrawnWhereTheLayoutSays)
 {
   for (const Size& size : kSizes)

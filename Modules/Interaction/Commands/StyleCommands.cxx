@@ -258,8 +258,7 @@ void addShowCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
 {
   StatusText& status = style.GetStatus();
   TouchDisplay& display = style.GetDisplay();
-  const auto help = [&status]
-  { status.showHelp(status.overlay() && !status.overlay()->GetHelpVisibility()); };
+  const auto help = [&status] { status.turnHelp(); };
   const auto pick = [&style]
   {
     if (vtkRenderWindowInteractor* interactor = style.GetInteractor())

@@ -115,7 +115,8 @@ std::vector<double> ScreenLayout::state(vtkRenderer* renderer) const
   const int* origin = renderer->GetOrigin();
   std::vector<double> state{ double(size[0]), double(size[1]), double(origin[0]), double(origin[1]),
     double(renderer->GetRenderWindow()->GetDPI()), corner_ ? corner_() : 0.0,
-    double(sliders_ && sliders_->GetVisibility()), double(progress_ && !progress_->GetText().empty()) };
+    double(overlay_ ? overlay_->GetHelpPage() : 0), double(sliders_ && sliders_->GetVisibility()),
+    double(progress_ && !progress_->GetText().empty()) };
   for (int block = 0; overlay_ && block < Overlay::NumberOfBlocks; ++block)
   {
     state.push_back(double(overlay_->IsBlockShown(block)));

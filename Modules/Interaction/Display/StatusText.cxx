@@ -68,12 +68,12 @@ void StatusText::setPanelVisibility(bool visible)
   lastUpdate_ = kNow;
 }
 
-void StatusText::showHelp(bool visible)
+void StatusText::turnHelp()
 {
-  this->updateHelp();
-  if (overlay_)
+  if (overlay_ && !overlay_->ShowNextHelpPage())
   {
-    overlay_->SetHelpVisibility(visible);
+    this->updateHelp();
+    overlay_->SetHelpVisibility(!overlay_->GetHelpVisibility());
   }
 }
 
@@ -81,7 +81,7 @@ void StatusText::updateHelp()
 {
   if (overlay_)
   {
-    overlay_->SetHelp(commands_.help());
+    overlay_->SetHelp(commands_.help(), commands_.label("help"));
   }
 }
 

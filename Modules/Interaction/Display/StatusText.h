@@ -47,7 +47,8 @@ public:
   ///@}
   /// Of a hand that touches nothing: how far the cloud is. Empty: nothing to say.
   void setDistance(const std::string& distance) { distance_ = distance; }
-  void showHelp(bool visible);
+  /// Shows the help, its next page, or hides it after the last one.
+  void turnHelp();
   /// The help says what the commands are now.
   void updateHelp();
 

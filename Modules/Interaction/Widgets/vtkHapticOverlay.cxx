@@ -10,6 +10,7 @@
 #include "vtkWindow.h"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -20,6 +21,11 @@ namespace
 
 constexpr int kLargestHelp = 16;
 constexpr int kSmallestHelp = 7;
+/// Of a page, where not all lines fit at once.
+constexpr int kPageFont = 10;
+/// Lines of the plate that are none of the list: margins, and which page it is.
+constexpr std::size_t kPlateLines = 2;
+constexpr std::size_t kFooterLines = 2;
 /// Part of the renderer that the list of keys may take.
 constexpr double kHelpPart = 0.98;
 /// Opacity of plates.
@@ -35,16 +41,24 @@ void styleText(vtkTextProperty* text, int size, double plateOpacity)
   text->SetLineSpacing(1.15);
 }
 
-/// Lines of one length: centred as a block, their columns stay in line; with a margin around.
-std::string padded(const std::string& text)
+std::vector<std::string> linesOf(const std::string& text)
 {
   std::vector<std::string> lines;
   std::istringstream stream(text);
-  std::size_t longest = 0;
   for (std::string line; std::getline(stream, line);)
   {
-    longest = std::max(longest, line.size());
     lines.push_back(line);
+  }
+  return lines;
+}
+
+/// Lines of one length: centred as a block, their columns stay in line; with a margin around.
+std::string padded(const std::vector<std::string>& lines)
+{
+  std::size_t longest = 0;
+  for (const std::string& line : lines)
+  {
+    longest = std::max(longest, line.size());
   }
   std::string result(longest + 4, ' ');
   for (const std::string& line : lines)
@@ -66,15 +80,23 @@ void placeCorner(vtkTextActor* actor, bool right, bool top)
   actor->VisibilityOff();
 }
 
-std::vector<std::string> linesOf(const std::string& text)
+/// The @p most lines from @p first on; the first one tells its group again, whose name only the group's first
+/// line has.
+std::vector<std::string> pageOf(const std::vector<std::string>& lines, std::size_t first, std::size_t most)
 {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);)
+  std::vector<std::string> page(lines.begin() + std::ptrdiff_t(first),
+    lines.begin() + std::ptrdiff_t(std::min(lines.size(), first + most)));
+  std::size_t heading = first;
+  while (heading > 0 && lines[heading].rfind(' ', 0) == 0)
   {
-    lines.push_back(line);
+    --heading;
   }
-  return lines;
+  const std::string group = lines[heading].substr(0, lines[heading].find(' '));
+  if (heading < first && page[0].find_first_not_of(' ') > group.size())
+  {
+    page[0].replace(0, group.size(), group);
+  }
+  return page;
 }
 
 /// Bytes of a letter in UTF-8.
@@ -155,7 +177,7 @@ vtkHapticOverlay::~vtkHapticOverlay()
   }
 }
 
-/// Before every render: the largest font with which all lines are seen.
+/// Before every render: the largest font with which all lines are seen, else a page of them.
 void vtkHapticOverlay::FitHelp()
 {
   const int* size = this->Renderer->GetSize();
@@ -167,16 +189,47 @@ void vtkHapticOverlay::FitHelp()
   }
   std::copy(size, size + 2, this->FittedTo);
   this->FittedTo[2] = dots;
+  const std::vector<std::string> lines = linesOf(this->HelpText);
+  this->Help->SetInput(padded(lines).c_str());
+  this->HelpPages = 1;
+  if (!this->FitHelpFont(kLargestHelp, kHelpPart * size[0], kHelpPart * size[1]))
+  {
+    this->FitHelpPage(lines, kHelpPart * size[0], kHelpPart * size[1]);
+  }
+}
+
+/// The largest font up to @p largest with which the plate is no larger; false: none.
+bool vtkHapticOverlay::FitHelpFont(int largest, double width, double height)
+{
   double needed[2] = { 0.0, 0.0 };
-  for (int font = kLargestHelp; font >= kSmallestHelp; --font)
+  for (int font = largest; font >= kSmallestHelp; --font)
   {
     this->Help->GetTextProperty()->SetFontSize(font);
     this->Help->GetSize(this->Renderer, needed);
-    if (needed[0] <= kHelpPart * size[0] && needed[1] <= kHelpPart * size[1])
+    if (needed[0] <= width && needed[1] <= height)
     {
-      return;
+      return true;
     }
   }
+  return false;
+}
+
+/// Of @p lines as many as fit, in a font that is read well.
+void vtkHapticOverlay::FitHelpPage(const std::vector<std::string>& lines, double width, double height)
+{
+  this->FitHelpFont(kPageFont, width, std::numeric_limits<double>::max());
+  double needed[2] = { 0.0, 0.0 };
+  this->Help->GetSize(this->Renderer, needed);
+  const auto room = std::size_t(height * double(lines.size() + kPlateLines) / needed[1]);
+  const std::size_t most = std::max(room, kPlateLines + kFooterLines + 1) - kPlateLines - kFooterLines;
+  this->HelpPages = int((lines.size() + most - 1) / most);
+  this->HelpPage = std::min(this->HelpPage, this->HelpPages - 1);
+  std::vector<std::string> page = pageOf(lines, std::size_t(this->HelpPage) * most, most);
+  const std::string next = this->HelpPage + 1 < this->HelpPages ? ": next" : ": close";
+  page.push_back("");
+  page.push_back("page " + std::to_string(this->HelpPage + 1) + " of " + std::to_string(this->HelpPages) +
+    (this->HelpKey.empty() ? "" : "    " + this->HelpKey + next));
+  this->Help->SetInput(padded(page).c_str());
 }
 
 vtkTextActor* vtkHapticOverlay::ActorOf(int block) const
@@ -258,11 +311,23 @@ bool vtkHapticOverlay::SetDetail(const std::string& text)
   return show(this->Detail, this->DetailText, text, this->TextVisibility);
 }
 
-void vtkHapticOverlay::SetHelp(const std::string& text)
+void vtkHapticOverlay::SetHelp(const std::string& text, const std::string& key)
 {
   this->HelpText = text;
-  this->Help->SetInput(padded(text).c_str());
+  this->HelpKey = key;
+  this->Help->SetInput(padded(linesOf(text)).c_str());
   this->FittedTo[0] = 0;
+}
+
+bool vtkHapticOverlay::ShowNextHelpPage()
+{
+  if (!this->GetHelpVisibility() || this->HelpPage + 1 >= this->HelpPages)
+  {
+    return false;
+  }
+  ++this->HelpPage;
+  this->FittedTo[0] = 0;
+  return true;
 }
 
 std::string vtkHapticOverlay::GetHelp() const
@@ -273,6 +338,9 @@ std::string vtkHapticOverlay::GetHelp() const
 void vtkHapticOverlay::SetHelpVisibility(bool visible)
 {
   this->Help->SetVisibility(visible);
+  this->HelpPage = 0;
+  this->HelpPages = 1;
+  this->FittedTo[0] = 0;
 }
 
 bool vtkHapticOverlay::GetHelpVisibility() const

@@ -16,6 +16,7 @@
 #include "vtkWeakPointer.h" // For the renderer
 
 #include <string> // For the texts
+#include <vector> // For lines
 
 class vtkCallbackCommand;
 class vtkRenderer;
@@ -51,9 +52,19 @@ public:
 
   /**
    * Text of the help plate in the middle. Default: none; vtkInteractorStyleHaptic sets
-   * that of its commands.
+   * that of its commands. @p key, if there is one, is what its last line says to press for the next page.
    */
-  void SetHelp(const std::string& text);
+  void SetHelp(const std::string& text, const std::string& key = {});
+
+  ///@{
+  /**
+   * Where the renderer is too small for all lines of the help, in a font that can be read, they are shown by
+   * pages: ShowNextHelpPage() goes to the next one; false: there is none. The number is known after a render.
+   */
+  bool ShowNextHelpPage();
+  int GetHelpPage() const { return this->HelpPage; }
+  int GetNumberOfHelpPages() const { return this->HelpPages; }
+  ///@}
 
   ///@{
   /**
@@ -120,10 +131,15 @@ protected:
   std::string PanelText;
   std::string DetailText;
   std::string HelpText;
+  std::string HelpKey;
+  int HelpPage = 0;
+  int HelpPages = 1;
   bool TextVisibility = true;
   bool Opaque = false;
 
   void FitHelp();
+  bool FitHelpFont(int largest, double width, double height);
+  void FitHelpPage(const std::vector<std::string>& lines, double width, double height);
   vtkTextActor* ActorOf(int block) const;
   const std::string& TextOf(int block) const;
 
