@@ -16,9 +16,12 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPropCollection.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
+#include <vtkScalarBarActor.h>
 #include <vtkScalarsToColors.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
@@ -134,6 +137,25 @@ TEST_F(HapticViewerTest, EndsReadingWhenItsHostSaysStop)
   HapticViewer viewer(options_, observer_);
   EXPECT_FALSE(viewer.open({ this->writeCloud("large.csv", 400000) }));
   EXPECT_TRUE(viewer.isCancelled()) << viewer.message();
+}
+
+/// A light window that turns dark with the first picture would flash.
+TEST_F(HapticViewerTest, TheGroundBehindTheBarIsThatOfThePicture)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.showsReading = true;
+  HapticViewer* waiting = nullptr;
+  std::string ground = "none";
+  observer_.shouldStop = [&]
+  {
+    vtkRenderer* bar = waiting->renderWindow()->GetRenderers()->GetFirstRenderer();
+    ground = !bar ? "none" : bar->GetGradientBackground() || bar->GetBackground()[0] > 0.2 ? "light" : "dark";
+    return bar != nullptr;
+  };
+  HapticViewer viewer(options_, observer_);
+  waiting = &viewer;
+  viewer.open({ this->writeCloud("large.csv", 1500000) });
+  EXPECT_NE(ground, "light") << "none: it was read too fast for a window";
 }
 
 TEST_F(HapticViewerTest, WritesPicturesOffTheScreen)

@@ -102,7 +102,7 @@ void ViewWindow::showBar(const std::string& words, double part)
   {
     this->openWindow();
   }
-  applyBackground(waiting_);
+  applyGround(waiting_, groundOf(options_.picture));
   progress_->SetProgress(words, part);
   progress_->AddTo(waiting_);
   applyTextScale(window_, options_.picture.fontScale);
