@@ -65,6 +65,9 @@ constexpr double kArrowThickness = 0.06;
 constexpr double kSphereGhost = 0.75;
 constexpr double kFreeSphereGhost = 0.35;
 constexpr double kVisibleMotion = 1e-4;
+/// Radius of a sphere that is drawn: around a larger one, as a few points far apart have, there is nothing to
+/// see.
+constexpr double kLargestSphere = 0.5;
 /// Radius of a sphere that is drawn larger than it is, points: in a close view it would hide what it touches.
 constexpr double kLargestEnlarged = 24.0;
 /// Of the arrow, over its length and thickness.
@@ -495,7 +498,7 @@ bool vtkHapticProps::Update(const ProxyState& state)
   parts.arrowLength = std::min(force * this->ForceScale, kLongestArrow * parts.edge);
   setFrame(parts.hipMatrix, state.hip, { 1, 0, 0 }, kHipRadius * parts.edge, kHipRadius * parts.edge);
   setFrame(parts.normalMatrix, state.proxy, normalized(state.normal), kNormalLength * parts.edge, 1.0);
-  parts.proxy.setVisible(state.radius > 0.0);
+  parts.proxy.setVisible(state.radius > 0.0 && state.radius <= kLargestSphere * parts.edge);
   parts.hip.setVisible(this->HandVisibility);
   parts.normal.setVisible(state.contact);
   const bool pushes = this->HandVisibility && state.contact && force > kSmallestForce;

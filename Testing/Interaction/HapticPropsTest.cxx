@@ -67,6 +67,20 @@ TEST(HapticProps, DrawASmallSphereLargerOnTheSameContactPoint)
   EXPECT_DOUBLE_EQ(sphere->GetElement(2, 3), 0.005);
 }
 
+/// Three points a metre apart: the camera would be in the sphere, and the window pink.
+TEST(HapticProps, HideASphereLargerThanTheWorkspace)
+{
+  vtkNew<vtkHapticProps> props; // the workspace's edge is 0.1 m
+  ProxyState state = makeContact();
+  state.radius = 0.06;
+  props->Update(state);
+  EXPECT_FALSE(props->GetProxyActor()->GetVisibility());
+  EXPECT_TRUE(props->GetNormalActor()->GetVisibility());
+  state.radius = 0.04;
+  props->Update(state);
+  EXPECT_TRUE(props->GetProxyActor()->GetVisibility());
+}
+
 /// A small sphere that is drawn larger hides no more of a close view than of the whole cloud.
 TEST(HapticProps, LimitWhatIsDrawnLargerOnTheScreen)
 {

@@ -5,6 +5,7 @@
 #include "ScenePipeline.h"
 #include "SteadyTime.h"
 
+#include "Core/Base/QuantityText.h"
 #include "Haptics/ServoLoop.h"
 
 #include <cstdio>
@@ -146,9 +147,10 @@ std::string StatusText::statusLine(const ServoLoop* servo) const
     const ServoSample latest = servo->latest();
     const ServoStatistics statistics = servo->statistics();
     std::snprintf(text, sizeof(text),
-      "\nproxy radius %.2f mm    force %.2f N%s\nservo %.0f Hz, %llu deadline misses%s",
-      1e3 * latest.state.radius, norm(latest.state.force), latest.state.contact ? "    in contact" : "",
-      statistics.rateHz, count(statistics.deadlineMisses), this->handMode());
+      "\nproxy radius %s    force %.2f N%s\nservo %.0f Hz, %llu deadline misses%s",
+      lengthText(latest.state.radius).c_str(), norm(latest.state.force),
+      latest.state.contact ? "    in contact" : "", statistics.rateHz, count(statistics.deadlineMisses),
+      this->handMode());
     status += text;
     if (!latest.state.contact && !distance_.empty())
     {
