@@ -1,6 +1,8 @@
 // The style with what is drawn over the cloud: overlay, chart and sliders.
 #include "InteractorStyleFixture.h"
 
+#include "../Unit/SkipWithoutDisplay.h"
+
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticSliders.h"
@@ -10,6 +12,14 @@
 
 #include <vtkActor2D.h>
 #include <vtkActor2DCollection.h>
+#include <vtkAxis.h>
+#include <vtkChartXY.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkDoubleArray.h>
+#include <vtkPropCollection.h>
+#include <vtkRenderWindow.h>
+#include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <chrono>
@@ -197,6 +207,37 @@ int numberOfVisibleTexts(vtkRenderer* renderer)
     count += vtkActor2D::SafeDownCast(actors->GetItemAsObject(i))->GetVisibility() != 0 ? 1 : 0;
   }
   return count;
+}
+
+/// The radius is read from its axis only if there is a number beside that of 0.
+TEST(HapticChart, HasLabelsThatTellTheScaleOfALowChart)
+{
+  SKIP_WITHOUT_DISPLAY();
+  for (const int height : { 115, 400 })
+  {
+    vtkNew<vtkRenderWindow> window;
+    vtkNew<vtkHapticChart> chart;
+    window->SetOffScreenRendering(1);
+    window->SetMultiSamples(0);
+    window->SetSize(640, height);
+    window->SetDPI(72);
+    window->AddRenderer(chart->GetRenderer());
+    for (int i = 0; i < 2000; ++i)
+    {
+      chart->AddSample(0.001 * i, 0.13, 0.00054);
+    }
+    chart->Update();
+    window->Render();
+    auto* context = vtkContextActor::SafeDownCast(chart->GetRenderer()->GetViewProps()->GetLastProp());
+    ASSERT_TRUE(context);
+    auto* drawn = vtkChartXY::SafeDownCast(context->GetScene()->GetItem(0));
+    ASSERT_TRUE(drawn);
+    EXPECT_NEAR(drawn->GetAxis(vtkAxis::RIGHT)->GetMaximum(), height < 200 ? 1.0 : 0.6, 1e-9);
+    for (const int axis : { vtkAxis::LEFT, vtkAxis::RIGHT })
+    {
+      EXPECT_GE(drawn->GetAxis(axis)->GetTickLabels()->GetNumberOfTuples(), 2) << height << " axis " << axis;
+    }
+  }
 }
 
 TEST(HapticOverlay, ShowsTheHelpAlsoWhereItsOtherTextsAreHidden)

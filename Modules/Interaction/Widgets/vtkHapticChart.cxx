@@ -16,11 +16,13 @@
 #include "vtkRenderer.h"
 #include "vtkTable.h"
 #include "vtkTextProperty.h"
+#include "vtkWindow.h"
 #include "vtkWindowToImageFilter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <initializer_list>
 #include <limits>
 
 namespace
@@ -31,6 +33,9 @@ constexpr unsigned char kForceColor[3] = { 205, 85, 0 };
 constexpr unsigned char kRadiusColor[3] = { 190, 30, 110 };
 constexpr unsigned char kIdealColor[3] = { 20, 90, 200 };
 constexpr int kIdealPlot = 2; // of the chart; 0 and 1 are radius and force
+/// Points: a lower chart has few labels beside it.
+constexpr double kLow = 150.0;
+constexpr double kPointsPerInch = 72.0;
 
 struct Sample
 {
@@ -54,11 +59,11 @@ void styleAxis(vtkAxis* axis, const char* title, const unsigned char color[3])
   axis->GetPen()->SetColor(90, 90, 90);
 }
 
-/// The next round number at or above @p value.
-double roundUp(double value)
+/// The next number at or above @p value that is one of @p steps times a power of ten.
+double roundUp(double value, std::initializer_list<double> steps)
 {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (double step : { 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0 })
+  for (double step : steps)
   {
     if (value <= step * power * (1.0 + 1e-12))
     {
@@ -68,10 +73,14 @@ double roundUp(double value)
   return 10.0 * power;
 }
 
-void setRange(vtkAxis* axis, double largest, double smallestRange)
+/// Beside a @p low axis VTK has room for two labels, 1, 2 or 5 apart: other ranges would have that of 0
+/// alone.
+void setRange(vtkAxis* axis, double largest, double smallestRange, bool low)
 {
+  const double needed = std::max(smallestRange, 1.05 * largest);
   axis->SetBehavior(vtkAxis::FIXED);
-  axis->SetRange(0.0, roundUp(std::max(smallestRange, 1.05 * largest)));
+  axis->SetRange(0.0,
+    low ? roundUp(needed, { 1.0, 2.0, 5.0 }) : roundUp(needed, { 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0 }));
 }
 
 } // namespace
@@ -92,7 +101,15 @@ struct vtkHapticChart::Internals
 
   void fill(double begin, double end);
   bool isFlat() const;
+  bool isLow() const;
 };
+
+bool vtkHapticChart::Internals::isLow() const
+{
+  vtkRenderer* drawn = this->renderer;
+  vtkWindow* window = drawn->GetVTKWindow();
+  return window && drawn->GetSize()[1] * kPointsPerInch < kLow * window->GetDPI();
+}
 
 /// One row for each slice that has samples.
 void vtkHapticChart::Internals::fill(double begin, double end)
@@ -303,8 +320,9 @@ bool vtkHapticChart::Update()
     largestForce = std::max<double>(largestForce, parts.ideal->GetValue(i));
     largestRadius = std::max<double>(largestRadius, parts.radius->GetValue(i));
   }
-  setRange(parts.chart->GetAxis(vtkAxis::LEFT), largestForce, 0.1);
-  setRange(parts.chart->GetAxis(vtkAxis::RIGHT), largestRadius, 0.1);
+  const bool low = parts.isLow();
+  setRange(parts.chart->GetAxis(vtkAxis::LEFT), largestForce, 0.1, low);
+  setRange(parts.chart->GetAxis(vtkAxis::RIGHT), largestRadius, 0.1, low);
   return changed;
 }
 
