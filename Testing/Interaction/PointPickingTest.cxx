@@ -149,6 +149,19 @@ TEST(PointPicking, TellsThePlaceOfThePointOfTheFileWithTheDecimalsOfItsGrid)
     "in the file  439112.200  5017906.070  -0.001\nin ");
 }
 
+TEST(PointPicking, TellsABandwidthOnceAndWithItsUnit)
+{
+  vtkNew<vtkPolyData> cloud;
+  addArray(cloud, "MeanBandwidth", 0.000306707);
+  PickedPoint picked;
+  picked.index = 0;
+  EXPECT_NE(describePicked(cloud, picked).find("MeanBandwidth"), std::string::npos);
+  picked.bandwidth = 0.000306707;
+  const std::string text = describePicked(cloud, picked);
+  EXPECT_NE(text.find("bandwidth 0.307 mm"), std::string::npos) << text;
+  EXPECT_EQ(text.find("MeanBandwidth"), std::string::npos) << text;
+}
+
 TEST(PointPicking, NamesTheClassOfALidarPoint)
 {
   const auto lineOf = [](double value)

@@ -2,6 +2,7 @@
 
 #include "../Unit/SkipWithoutDisplay.h"
 #include "CommandRegistry.h"
+#include "vtkHapticOverlay.h"
 #include "vtkInteractorStyleHaptic.h"
 
 #include <gtest/gtest.h>
@@ -16,12 +17,10 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkPropCollection.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
-#include <vtkScalarBarActor.h>
 #include <vtkScalarsToColors.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
@@ -255,6 +254,23 @@ TEST_F(HapticViewerTest, TheFirstPictureOfAWindowWaitsForNoMeans)
   EXPECT_FALSE(viewer.style()->GetScenes().isEmpty());
   EXPECT_EQ(viewer.numberOfResamplings(), 1u);
   EXPECT_GT(viewer.means()->GetNumberOfPoints(), 10000);
+  EXPECT_TRUE(viewer.stop());
+}
+
+TEST_F(HapticViewerTest, TellsOfAPickedPointNothingThatWasMadeForThePicture)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.device = HapticViewerDevice::None;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  const int* size = viewer.renderWindow()->GetSize();
+  viewer.interactor()->SetEventInformation(size[0] / 2, size[1] / 2 + size[1] / 8);
+  EXPECT_TRUE(viewer.style()->GetCommands().run("pick"));
+  const std::string told = viewer.style()->GetStatus().overlay()->GetDetail();
+  EXPECT_NE(told.find("in the file"), std::string::npos) << told;
+  EXPECT_EQ(told.find("Splat"), std::string::npos) << told;
   EXPECT_TRUE(viewer.stop());
 }
 

@@ -350,6 +350,10 @@ std::string describePicked(vtkPolyData* cloud, const PickedPoint& picked, const 
   }
   std::set<std::string> leftOut = ofFile.leftOut;
   leftOut.insert("VoxelCovariance");
+  if (picked.bandwidth > 0.0)
+  {
+    leftOut.insert("MeanBandwidth"); // told above, with its unit
+  }
   if (ofFile.cloud)
   {
     text += describeArrays(ofFile.cloud, ofFile.index, step, leftOut);

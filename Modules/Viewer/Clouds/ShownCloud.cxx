@@ -36,7 +36,6 @@ constexpr double kPointDiameter = 1.1;
 constexpr double kFlatDiameter = 0.7;
 /// Over the spacing of the rays of a frame, flat or not: they lie in a grid, whose diagonals close.
 constexpr double kGridDiameter = 1.5;
-constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: kNoGrowth where the spacing alone rules.
 constexpr double kNoGrowth = 64.0;
 /// A cloud this many times as wide as it is high may be terrain.
 constexpr double kLowParts = 3.0;

@@ -10,6 +10,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <future>
@@ -26,7 +27,11 @@ namespace pointhaptics
 /// Names of the arrays of ShownCloud::points.
 constexpr const char* kSplatLengthName = "SplatLength"; ///< Diameter of each splat, unit of the file.
 constexpr const char* kSplatNormalName = "SplatNormal"; ///< Short integers: kSplatNormalUnit is flat.
+constexpr const char* kSplatGrowthName = "SplatGrowth"; ///< Bytes: 64 where the spacing alone rules.
 constexpr const char* kLookColorName = "LookColor";
+/// All of them: nobody asks what they are at a point.
+constexpr std::array<const char*, 4> kArraysOfPicture = { kSplatLengthName, kSplatNormalName,
+  kSplatGrowthName, kLookColorName };
 constexpr double kSplatNormalUnit = 32767.0;
 
 /// Memory beside the file's arrays: 10 bytes a point, 3 more for colours that are made, and as many as the

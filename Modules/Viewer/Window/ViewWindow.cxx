@@ -236,7 +236,7 @@ void ViewWindow::connectStyle()
   style_->SetBandwidthFilter(scene_.bandwidth());
   style_->SetCloudActor(scene_.actor());
   style_->GetPicker().setPointsOfFile(
-    scene_.pointsActor(), { kSplatLengthName, kSplatNormalName, kLookColorName });
+    scene_.pointsActor(), { kArraysOfPicture.begin(), kArraysOfPicture.end() });
   style_->SetProps(scene_.props());
   style_->SetOverlay(overlay_);
   style_->GetHand().setPushesPointer(options_.pushPointer);
