@@ -74,7 +74,7 @@ void main()
 }
 )";
 
-/// Colours and depths as they are.
+/// Colours and depths as they are, or spread over more pixels.
 constexpr const char* kCopyShader = R"(
 uniform float samples; // that the colours are the sum of
 
@@ -82,7 +82,7 @@ void main()
 {
   ivec2 place = ivec2(texCoord * vec2(textureSize(depths, 0)));
   gl_FragDepth = texelFetch(depths, place, 0).r;
-  gl_FragData[0] = texelFetch(colors, place, 0) / samples;
+  gl_FragData[0] = texture(colors, texCoord) / samples;
 }
 )";
 

@@ -1,6 +1,7 @@
 #include "vtkDepthShadingPass.h"
 
 #include "DepthShadingShaders.h"
+#include "DrawPace.h"
 #include "PictureState.h"
 
 #include "vtkActor2D.h"
@@ -90,6 +91,23 @@ vtkDepthShadingPass* vtkDepthShadingPass::GetPassOf(vtkRenderer* renderer)
     : nullptr;
 }
 
+double vtkDepthShadingPass::ResolutionOf(vtkRenderer* renderer)
+{
+  const vtkDepthShadingPass* pass = GetPassOf(renderer);
+  return pass ? pass->Resolution : 1.0;
+}
+
+void vtkDepthShadingPass::ChooseResolution(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
+{
+  this->ReadWindowSize(state);
+  const double pixels = double(this->Width) * this->Height;
+  const bool isReduced = this->IsMoving && !state->GetRenderer()->GetSelector() &&
+    pixels > kMostMovingPixels && pointhaptics::DrawPace::of(window).isNeeded();
+  this->Resolution = isReduced ? std::sqrt(kMostMovingPixels / pixels) : 1.0;
+  this->W = std::max(1, int(this->Resolution * this->Width));
+  this->H = std::max(1, int(this->Resolution * this->Height));
+}
+
 void vtkDepthShadingPass::PrepareTargets(vtkOpenGLRenderWindow* window)
 {
   if (!this->Frame)
@@ -133,6 +151,7 @@ void vtkDepthShadingPass::RenderRightEye(const vtkRenderState* state)
   right->SetStrength(this->Strength);
   right->SetMinimumLightness(this->MinimumLightness);
   right->SetFillsPinholes(this->FillsPinholes);
+  right->SetIsMoving(this->IsMoving);
   right->IsRightEye = true;
   right->AddSamples(std::exchange(this->SamplesToAddRight, 0));
   const vtkTypeUInt64 before = right->NumberOfPictures;
@@ -168,15 +187,13 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
                   "to SetDelegatePass() and add the renderer to a window.");
     return;
   }
-  this->ReadWindowSize(state);
-  this->W = this->Width;
-  this->H = this->Height;
+  this->ChooseResolution(state, window);
   this->PrepareTargets(window);
   setClippingRangeToSteps(renderer->GetActiveCamera());
 
   std::vector<double> wanted = pointhaptics::pictureState(renderer);
-  const std::array<double, 5> numbers = { this->NoiseLength, this->NoisePerDistance, this->Strength,
-    this->MinimumLightness, this->FillsPinholes ? 1.0 : 0.0 };
+  const std::array<double, 6> numbers = { this->NoiseLength, this->NoisePerDistance, this->Strength,
+    this->MinimumLightness, this->FillsPinholes ? 1.0 : 0.0, this->Resolution };
   const bool sameShades = numbers == this->KeptNumbers;
   const bool isNew = wanted != this->Kept || !sameShades || renderer->GetSelector();
   if (isNew)
@@ -187,6 +204,10 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
     this->Kept = renderer->GetSelector() ? std::vector<double>() : std::move(wanted);
     this->KeptIsShaded = false;
     ++this->NumberOfPictures;
+    if (this->Resolution < 1.0)
+    {
+      this->ShadeKept(renderer, window);
+    }
   }
   else
   {
@@ -199,7 +220,7 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
       }
     }
   }
-  if (!renderer->GetSelector())
+  if (!renderer->GetSelector() && this->Resolution == 1.0)
   {
     this->DrawSamples(state, window, samplesToAdd);
   }
@@ -221,8 +242,7 @@ void vtkDepthShadingPass::DrawSample(const vtkRenderState* state, vtkOpenGLRende
 {
   window->GetState()->PushFramebufferBindings();
   this->Frame->Bind();
-  this->RenderDelegate(
-    state, this->Width, this->Height, this->W, this->H, this->Frame, this->Colors, this->Depths);
+  this->RenderDelegate(state, this->W, this->H, this->W, this->H, this->Frame, this->Colors, this->Depths);
   this->FillPinholes(state->GetRenderer(), window);
   window->GetState()->PopFramebufferBindings();
 }
@@ -262,6 +282,18 @@ void vtkDepthShadingPass::DrawSamples(const vtkRenderState* state, vtkOpenGLRend
   camera->SetWindowCenter(center[0], center[1]);
 }
 
+/// Shades the picture that was drawn last, at its own resolution.
+void vtkDepthShadingPass::ShadeKept(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
+  // The colours that are not shown are of no use any more.
+  this->DrawShaded(this->FillsPinholes ? this->Colors : this->FilledColors, false, renderer, window);
+  if (!this->FillsPinholes)
+  {
+    std::swap(this->Colors, this->FilledColors);
+  }
+  this->KeptIsShaded = true;
+}
+
 /// Shades the sample that was drawn last. The first one begins the sum. Each counts as the bytes it would
 /// have alone, so that the picture does not depend on which frames its samples were drawn in.
 void vtkDepthShadingPass::AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
@@ -270,6 +302,13 @@ void vtkDepthShadingPass::AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow*
   {
     this->Sum->Create2D(unsigned(this->W), unsigned(this->H), 4, VTK_FLOAT, false);
   }
+  this->DrawShaded(this->Sum, this->NumberOfSamples > 1, renderer, window);
+}
+
+/// The sample that was drawn last, into @p colors or added to them.
+void vtkDepthShadingPass::DrawShaded(
+  vtkTextureObject* colors, bool isAdded, vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
   if (!this->PrepareQuad(
         this->SampleQuad, std::string(pointhaptics::kShade) + pointhaptics::kSampleShader, window))
   {
@@ -282,9 +321,9 @@ void vtkDepthShadingPass::AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow*
     vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
     vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
     vtkOpenGLState::ScopedglBlendFuncSeparate sum(state);
-    drawInto(this->SumFrame, this->Sum, nullptr, state);
+    drawInto(this->SumFrame, colors, nullptr, state);
     state->vtkglDisable(GL_DEPTH_TEST);
-    state->SetEnumState(GL_BLEND, this->NumberOfSamples > 1);
+    state->SetEnumState(GL_BLEND, isAdded);
     state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
     this->SampleQuad->Program->SetUniformi("isShaded", this->KeptIsShaded ? 1 : 0);
     this->SetShade(*this->SampleQuad);
@@ -341,8 +380,9 @@ void vtkDepthShadingPass::SetUniforms(
   program->SetUniformi("depths", depths->GetTextureUnit());
   program->SetUniform2f("clipping", clipping);
   program->SetUniformi("isParallel", isParallel ? 1 : 0);
-  program->SetUniformf("pixelSize", static_cast<float>(height / std::max(1, this->Height)));
-  program->SetUniformf("pixelScale", static_cast<float>(std::max(0.5, this->Height / kUsualHeight)));
+  program->SetUniformf("pixelSize", static_cast<float>(height / std::max(1, this->H)));
+  program->SetUniformf(
+    "pixelScale", static_cast<float>(std::max(0.5 * this->Resolution, this->H / kUsualHeight)));
   program->SetUniform2f("noise", noise);
 }
 
@@ -416,9 +456,11 @@ void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* win
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDisable(GL_BLEND);
   const bool isMean = this->NumberOfSamples > 1;
+  vtkTextureObject* colors = isMean ? this->Sum.Get() : this->ShownColors();
+  const int filter = this->Resolution < 1.0 ? vtkTextureObject::Linear : vtkTextureObject::Nearest;
+  colors->SetMagnificationFilter(filter);
   this->CopyQuad->Program->SetUniformf("samples", static_cast<float>(this->NumberOfSamples));
-  this->Draw(*this->CopyQuad, isMean ? this->Sum.Get() : this->ShownColors(),
-    isMean ? this->FirstDepths.Get() : this->ShownDepths(), renderer);
+  this->Draw(*this->CopyQuad, colors, isMean ? this->FirstDepths.Get() : this->ShownDepths(), renderer);
   if (!isMean && !this->KeptIsShaded &&
     this->PrepareQuad(
       this->ShadeQuad, std::string(pointhaptics::kShade) + pointhaptics::kShadeShader, window, true))
@@ -466,6 +508,8 @@ void vtkDepthShadingPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NoiseLength: " << this->NoiseLength << "\n";
   os << indent << "NoisePerDistance: " << this->NoisePerDistance << "\n";
   os << indent << "Strength: " << this->Strength << "\n";
+  os << indent << "IsMoving: " << this->IsMoving << "\n";
+  os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "FillsPinholes: " << this->FillsPinholes << "\n";
   os << indent << "MinimumLightness: " << this->MinimumLightness << "\n";
   os << indent << "NumberOfSamples: " << this->NumberOfSamples << "\n";

@@ -3,6 +3,7 @@
 #include "CloudParts.h"
 #include "DrawPace.h"
 #include "SplatShaders.h"
+#include "vtkDepthShadingPass.h"
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
@@ -361,16 +362,18 @@ void vtkSplatMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRender
   {
     this->SetSurfaceParameters(cells, renderer, actor);
   }
-  double pixels = this->FixedPixels > 0.0 ? this->FixedPixels : kPixelsWithoutArray;
-  double range[3] = { 1.0, std::max(this->FixedPixels, this->LargestPixels), 0.0 };
+  const double resolution = vtkDepthShadingPass::ResolutionOf(renderer);
+  double pixels = resolution * (this->FixedPixels > 0.0 ? this->FixedPixels : kPixelsWithoutArray);
+  double range[3] = { 1.0, resolution * std::max(this->FixedPixels, this->LargestPixels), 0.0 };
   if (this->HasSizes && this->FixedPixels == 0.0)
   {
     // A length at distance w covers as many pixels, for both kinds of projection: w is 1 for a parallel one.
     vtkMatrix4x4* projection =
       renderer->GetActiveCamera()->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1);
     const double modelScale = std::cbrt(std::abs(actor->GetMatrix()->Determinant()));
-    pixels = this->SizeScale * modelScale * 0.5 * renderer->GetSize()[1] * projection->GetElement(1, 1);
-    const double scale = this->Surfaces ? renderer->GetSize()[1] / kUsualHeight : 1.0;
+    const double lines = resolution * renderer->GetSize()[1];
+    pixels = this->SizeScale * modelScale * 0.5 * lines * projection->GetElement(1, 1);
+    const double scale = this->Surfaces ? lines / kUsualHeight : resolution;
     range[0] = std::max(1.0, scale * this->SmallestPixels);
     range[1] = scale * this->LargestPixels;
     range[2] = scale * this->PointPixels;
@@ -453,7 +456,8 @@ void vtkSplatMapper::SetSurfaceParameters(vtkOpenGLHelper& cells, vtkRenderer* r
   const float terms[4] = { static_cast<float>(projection->GetElement(0, 0)),
     static_cast<float>(projection->GetElement(1, 1)), static_cast<float>(projection->GetElement(2, 2)),
     static_cast<float>(projection->GetElement(2, 3)) };
-  const double halfPixel = 1.0 / (projection->GetElement(1, 1) * renderer->GetSize()[1]);
+  const double lines = vtkDepthShadingPass::ResolutionOf(renderer) * renderer->GetSize()[1];
+  const double halfPixel = 1.0 / (projection->GetElement(1, 1) * lines);
   const auto isUsed = [&cells](const char* name) { return cells.Program->IsUniformUsed(name); };
   if (isUsed("splatTurn"))
   {

@@ -106,6 +106,10 @@ void ViewScene::beginFrame()
     placeScalarBar(scalarBar_, renderer_);
   }
   this->detail().beginFrame(steadySeconds());
+  if (vtkDepthShadingPass* shading = vtkDepthShadingPass::GetPassOf(renderer_))
+  {
+    shading->SetIsMoving(this->detail().isInMotion());
+  }
 }
 
 bool ViewScene::refinementDue()

@@ -186,7 +186,7 @@ void LevelOfDetail::beginFrame(double now)
 {
   auto* mapper = vtkPolyDataMapper::SafeDownCast(actor_->GetMapper());
   vtkPolyData* cloud = mapper ? mapper->GetInput() : nullptr;
-  frameIsTypical_ = false;
+  frameIsTypical_ = inMotion_ = false;
   if (!enabled_ || !renderer_ || !cloud || cloud->GetNumberOfPoints() == 0)
   {
     total_ = finest_ = drawn_ = visible_ = cloud ? cloud->GetNumberOfPoints() : 0;
@@ -201,6 +201,7 @@ void LevelOfDetail::beginFrame(double now)
   total_ = cloud->GetNumberOfPoints();
   finest_ = this->finestFor(cloud);
   const std::int64_t before = cloudChanged_ ? -1 : drawn_;
+  inMotion_ = !allOnce_ && (moving_ || now - lastMotion_ < kRestSeconds);
   this->show(cloud, this->wanted(now));
   // At rest a frame may take the picture of the one before, or draw it several times.
   frameIsTypical_ = moving_ && drawn_ == before;

@@ -73,6 +73,8 @@ public:
   /// Whether the last frame was as fine as it gets: all points, but for those below a pixel.
   bool showsAll() const { return drawn_ >= finest_; }
   bool isMoving() const { return moving_; }
+  /// The frame is one of a motion: a better one of the same view comes after kRestSeconds.
+  bool isInMotion() const { return inMotion_; }
   /// Points in the last frame, those out of view included; and without them.
   std::int64_t drawnPoints() const { return drawn_; }
   std::int64_t visiblePoints() const { return visible_; }
@@ -122,6 +124,7 @@ private:
   bool enabled_ = false;
   bool allOnce_ = false;
   bool moving_ = false;
+  bool inMotion_ = false;
   bool cloudChanged_ = false;
   bool frameIsTypical_ = false;  // nothing is uploaded in it
   std::vector<SplatBrick> rows_; // of the whole cloud, in its order
