@@ -31,7 +31,7 @@ using pointhaptics::Ranks;
 using pointhaptics::trial::ThreadJob;
 
 /// The points from @p first to before @p last of one cloud, with an array of each kind.
-vtkSmartPointer<vtkPolyData> rowsOfCloud(vtkIdType first, vtkIdType last)
+vtkSmartPointer<vtkPolyData> rowsOfEveryKind(vtkIdType first, vtkIdType last)
 {
   vtkNew<vtkPolyData> cloud;
   vtkNew<vtkPoints> points;
@@ -106,7 +106,7 @@ protected:
       [&](Ranks& ranks)
       {
         const auto rank = static_cast<std::size_t>(ranks.rank());
-        const vtkSmartPointer<vtkPolyData> piece = rowsOfCloud(ends[rank], ends[rank + 1]);
+        const vtkSmartPointer<vtkPolyData> piece = rowsOfEveryKind(ends[rank], ends[rank + 1]);
         change(piece);
         EXPECT_EQ(pointhaptics::io::writeVtpTogether(ranks, piece, path(name), problems[rank]), isShared);
       });
@@ -114,7 +114,7 @@ protected:
   }
   void expectSame(const std::vector<vtkIdType>& ends, const Change& change) const
   {
-    const vtkSmartPointer<vtkPolyData> all = rowsOfCloud(0, ends.back());
+    const vtkSmartPointer<vtkPolyData> all = rowsOfEveryKind(0, ends.back());
     change(all);
     vtkNew<vtkPointCloudWriter> writer;
     writer->SetFileName(path("expected.vtp").c_str());
