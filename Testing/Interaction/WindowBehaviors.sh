@@ -754,6 +754,17 @@ EscapeCancelsTheFirstFile() {
   said "slow.ply: reading was stopped on request"
 }
 
+KeysBeforeTheFirstFileActOnIt() {
+  make sphere slow.ply
+  open_held slow.ply
+  key w
+  let_it_read
+  shows slow.ply
+  said "settings: pointhaptics-001.json"
+  written=1 settings=pointhaptics-001.json
+  write_settings
+}
+
 CtrlCCancelsTheFirstFile() {
   make sphere slow.ply
   open_held slow.ply

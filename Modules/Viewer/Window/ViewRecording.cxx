@@ -47,8 +47,9 @@ bool ViewWindow::endRecording(std::string& message)
   {
     return false;
   }
-  this->say(fmt::format("recording: {} ({} ticks, {} markers){}", recording_.fileName(),
-    recording_.numberOfTicks(), recording_.numberOfMarkers(), why.empty() ? "" : "; it ends early: " + why));
+  this->say(fmt::format("recording: {} ({} ticks, {} marker{}){}", recording_.fileName(),
+    recording_.numberOfTicks(), recording_.numberOfMarkers(), recording_.numberOfMarkers() == 1 ? "" : "s",
+    why.empty() ? "" : "; it ends early: " + why));
   return true;
 }
 

@@ -146,6 +146,10 @@ bool ViewWindow::awaitCloud(const CloudLoader& loader, const std::string& title)
       }
       const bool cancels = (event == vtkCommand::KeyPressEvent && self.isCancelKey()) || self.shouldStop();
       isRead = !cancels && reader.waitFor(0.0);
+      if (event == vtkCommand::KeyPressEvent && !cancels)
+      {
+        self.waitingKeys_.keep(self.interactor_);
+      }
       if (cancels || isRead)
       {
         leaveEvents(self.interactor_);
@@ -467,6 +471,7 @@ bool ViewWindow::start(std::size_t cloud, const std::string& news, std::string& 
 
 void ViewWindow::handleEvents()
 {
+  waitingKeys_.press(interactor_);
   runEvents(interactor_);
 }
 

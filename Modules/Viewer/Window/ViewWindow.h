@@ -16,6 +16,7 @@
 #include "ScreenLayout.h"
 #include "ViewScene.h"
 #include "ViewTouch.h"
+#include "WaitingKeys.h"
 
 #include "vtkHapticChart.h"
 #include "vtkHapticOverlay.h"
@@ -194,6 +195,7 @@ private:
   vtkNew<vtkHapticProgress> progress_;
   ScreenLayout layout_;
   vtkNew<vtkRenderer> waiting_; // before the first cloud
+  WaitingKeys waitingKeys_;     // of the same time
   PictureControls controls_;
   ColorBarDrag colorBar_;
   DistanceMeasuring measuring_;
