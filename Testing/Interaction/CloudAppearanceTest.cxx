@@ -12,6 +12,8 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <cmath>
@@ -203,6 +205,31 @@ TEST(CloudAppearance, GrowsLighterInEvenSteps)
     last = luminance;
   }
   colors->Delete();
+}
+
+TEST(CloudAppearance, ABarBetweenWholeNumbersHasWholeLabels)
+{
+  struct Case
+  {
+    double low;
+    double high;
+    int labels;
+    const char* format;
+  };
+  vtkNew<vtkLookupTable> colors;
+  vtkNew<vtkScalarBarActor> bar;
+  vtkNew<vtkRenderer> renderer;
+  bar->SetLookupTable(colors);
+  setUpScalarBar(bar);
+  for (const Case& one : { Case{ 1, 3, 3, "%.0f " }, Case{ 1, 4, 4, "%.0f " }, Case{ 0, 8, 5, "%.0f " },
+         Case{ 0, 7, 2, "%.0f " }, Case{ 0, 580, 4, "%.0f " }, Case{ 0.5, 3, 4, "%#.3g " },
+         Case{ 0, 2e6, 4, "%#.3g " }, Case{ 2, 2, 4, "%#.3g " } })
+  {
+    colors->SetRange(one.low, one.high);
+    placeScalarBar(bar, renderer);
+    EXPECT_EQ(bar->GetNumberOfLabels(), one.labels) << one.low << " to " << one.high;
+    EXPECT_STREQ(bar->GetLabelFormat(), one.format) << one.low << " to " << one.high;
+  }
 }
 
 } // namespace

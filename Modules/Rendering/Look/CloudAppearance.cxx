@@ -33,6 +33,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -339,9 +340,28 @@ bool applyCloudAppearance(vtkPolyData* cloud, vtkPolyDataMapper* mapper, vtkActo
   return colorBy.empty();
 }
 
+/// Between whole numbers, such as counts and returns, all labels are whole.
+static void labelScalarBar(vtkScalarBarActor* bar)
+{
+  constexpr double kLongest = 1e6; // others are written with an exponent
+  constexpr double kFew = 100.0;
+  constexpr int kUsualLabels = 4;
+  const double* range = bar->GetLookupTable() ? bar->GetLookupTable()->GetRange() : nullptr;
+  const auto isWhole = [](double end) { return end == std::floor(end) && std::abs(end) < kLongest; };
+  const bool areWhole = range && isWhole(range[0]) && isWhole(range[1]) && range[0] < range[1];
+  int labels = kUsualLabels;
+  if (areWhole && range[1] - range[0] < kFew)
+  {
+    const auto divides = [&](int count) { return std::fmod(range[1] - range[0], count - 1) == 0.0; };
+    const int counts[] = { kUsualLabels, 5, 3, 6, 2 };
+    labels = *std::find_if(std::begin(counts), std::end(counts), divides);
+  }
+  bar->SetNumberOfLabels(labels);
+  bar->SetLabelFormat(areWhole ? "%.0f " : "%#.3g ");
+}
+
 void setUpScalarBar(vtkScalarBarActor* bar)
 {
-  bar->SetNumberOfLabels(4);
   bar->UnconstrainedFontSizeOn();
   for (vtkTextProperty* text :
     { bar->GetTitleTextProperty(), bar->GetLabelTextProperty(), bar->GetAnnotationTextProperty() })
@@ -352,7 +372,7 @@ void setUpScalarBar(vtkScalarBarActor* bar)
     text->BoldOff();
     text->ShadowOff();
   }
-  bar->SetLabelFormat("%#.3g ");
+  labelScalarBar(bar);
 }
 
 /// Whether names stand beside @p bar in the place of numbers.
@@ -402,6 +422,7 @@ BarWidths widthsOf(vtkScalarBarActor* bar, double font)
 static void putScalarBar(
   vtkScalarBarActor* bar, vtkRenderer* renderer, double font, double pixelsPerPoint, const double box[4])
 {
+  labelScalarBar(bar);
   const BarWidths widths = widthsOf(bar, font);
   const double left = hasNames(bar) ? std::max(box[0], box[2] - pixelsPerPoint * widths.box) : box[0];
   const double width = box[2] - left;
