@@ -285,8 +285,18 @@ void vtkDepthShadingPass::DrawSamples(const vtkRenderState* state, vtkOpenGLRend
 /// Shades the picture that was drawn last, at its own resolution.
 void vtkDepthShadingPass::ShadeKept(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
-  // The colours that are not shown are of no use any more.
-  this->DrawShaded(this->FillsPinholes ? this->Colors : this->FilledColors, false, renderer, window);
+  vtkOpenGLState* state = window->GetState();
+  state->PushFramebufferBindings();
+  {
+    vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+    vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+    vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+    // Into the textures that are not shown, which are of no use any more.
+    this->FillsPinholes ? drawInto(this->Frame, this->Colors, this->Depths, state)
+                        : drawInto(this->FilledFrame, this->FilledColors, this->FilledDepths, state);
+    this->DrawPicture(renderer, window);
+  }
+  state->PopFramebufferBindings();
   if (!this->FillsPinholes)
   {
     std::swap(this->Colors, this->FilledColors);
@@ -302,13 +312,6 @@ void vtkDepthShadingPass::AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow*
   {
     this->Sum->Create2D(unsigned(this->W), unsigned(this->H), 4, VTK_FLOAT, false);
   }
-  this->DrawShaded(this->Sum, this->NumberOfSamples > 1, renderer, window);
-}
-
-/// The sample that was drawn last, into @p colors or added to them.
-void vtkDepthShadingPass::DrawShaded(
-  vtkTextureObject* colors, bool isAdded, vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
-{
   if (!this->PrepareQuad(
         this->SampleQuad, std::string(pointhaptics::kShade) + pointhaptics::kSampleShader, window))
   {
@@ -321,9 +324,9 @@ void vtkDepthShadingPass::DrawShaded(
     vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
     vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
     vtkOpenGLState::ScopedglBlendFuncSeparate sum(state);
-    drawInto(this->SumFrame, colors, nullptr, state);
+    drawInto(this->SumFrame, this->Sum, nullptr, state);
     state->vtkglDisable(GL_DEPTH_TEST);
-    state->SetEnumState(GL_BLEND, isAdded);
+    state->SetEnumState(GL_BLEND, this->NumberOfSamples > 1);
     state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
     this->SampleQuad->Program->SetUniformi("isShaded", this->KeptIsShaded ? 1 : 0);
     this->SetShade(*this->SampleQuad);
@@ -436,10 +439,6 @@ void vtkDepthShadingPass::Draw(
 /// Into the frame buffer.
 void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
-  if (!this->PrepareQuad(this->CopyQuad, pointhaptics::kCopyShader, window))
-  {
-    return;
-  }
   vtkOpenGLState* state = window->GetState();
   vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
   vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
@@ -450,6 +449,17 @@ void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* win
   renderer->GetTiledSizeAndOrigin(&width, &height, &x, &y);
   state->vtkglViewport(x, y, width, height);
   state->vtkglScissor(x, y, width, height);
+  this->DrawPicture(renderer, window);
+}
+
+/// What is shown, with its depths, all over what is bound; shaded, if it is not.
+void vtkDepthShadingPass::DrawPicture(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+{
+  if (!this->PrepareQuad(this->CopyQuad, pointhaptics::kCopyShader, window))
+  {
+    return;
+  }
+  vtkOpenGLState* state = window->GetState();
   // Depths are written only where they are tested.
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglDepthFunc(GL_ALWAYS);
@@ -457,8 +467,8 @@ void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* win
   state->vtkglDisable(GL_BLEND);
   const bool isMean = this->NumberOfSamples > 1;
   vtkTextureObject* colors = isMean ? this->Sum.Get() : this->ShownColors();
-  const int filter = this->Resolution < 1.0 ? vtkTextureObject::Linear : vtkTextureObject::Nearest;
-  colors->SetMagnificationFilter(filter);
+  colors->SetMagnificationFilter(
+    this->Resolution < 1.0 ? vtkTextureObject::Linear : vtkTextureObject::Nearest);
   this->CopyQuad->Program->SetUniformf("samples", static_cast<float>(this->NumberOfSamples));
   this->Draw(*this->CopyQuad, colors, isMean ? this->FirstDepths.Get() : this->ShownDepths(), renderer);
   if (!isMean && !this->KeptIsShaded &&

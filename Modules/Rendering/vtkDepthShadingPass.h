@@ -98,7 +98,7 @@ public:
   ///@}
 
   /// Of a picture in motion that the processor draws: 30 a second of a window of 1280 x 800 on two cores.
-  static constexpr int kMostMovingPixels = 1 << 19;
+  static constexpr int kMostMovingPixels = 400000;
   ///@{
   /**
    * Whether the coming picture is one of a motion, seen for a moment. Default: off.
@@ -153,10 +153,9 @@ private:
   void DrawSample(const vtkRenderState* state, vtkOpenGLRenderWindow* window);
   void DrawSamples(const vtkRenderState* state, vtkOpenGLRenderWindow* window, int count);
   void ShadeKept(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void DrawShaded(
-    vtkTextureObject* colors, bool isAdded, vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
+  void DrawPicture(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SetShade(vtkOpenGLQuadHelper& quad);
   void Draw(

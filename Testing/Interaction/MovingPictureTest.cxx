@@ -119,7 +119,7 @@ TEST_F(MovingPicture, HasFewerPixelsAndLooksAlike)
     const std::vector<unsigned char> moving = this->picture(true);
     const double resolution = vtkDepthShadingPass::ResolutionOf(renderer_);
     EXPECT_LE(resolution * resolution * kWidth * kHeight, vtkDepthShadingPass::kMostMovingPixels + 1e-6);
-    EXPECT_GT(resolution, 0.75);
+    EXPECT_GT(resolution, 0.7);
     EXPECT_NE(moving, still);
     // Splats as large, shades as dark.
     EXPECT_LT(meanDifference(moving, still), 2.0);
