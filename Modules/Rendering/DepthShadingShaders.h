@@ -139,22 +139,4 @@ void main()
 }
 )";
 
-/// All at once, for a sum that has no depths.
-constexpr const char* kSampleShader = R"(
-uniform int isShaded;
-
-void main()
-{
-  ivec2 last = textureSize(depths, 0) - ivec2(1);
-  ivec2 place = ivec2(texCoord * vec2(last + ivec2(1)));
-  float depth = texelFetch(depths, place, 0).r;
-  vec4 color = texelFetch(colors, place, 0);
-  if (depth < 1.0 && isShaded == 0)
-  {
-    color.rgb *= shadeAt(place, last, depth);
-  }
-  gl_FragData[0] = floor(255.0 * color + 0.5) / 255.0; // what a picture can hold
-}
-)";
-
 } // namespace pointhaptics

@@ -202,7 +202,6 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
     this->DrawSample(state, window);
     this->KeptNumbers = numbers;
     this->Kept = renderer->GetSelector() ? std::vector<double>() : std::move(wanted);
-    this->KeptIsShaded = false;
     ++this->NumberOfPictures;
     if (this->Resolution < 1.0)
     {
@@ -240,6 +239,7 @@ void vtkDepthShadingPass::RenderEye(const vtkRenderState* state)
 
 void vtkDepthShadingPass::DrawSample(const vtkRenderState* state, vtkOpenGLRenderWindow* window)
 {
+  this->KeptIsShaded = false;
   window->GetState()->PushFramebufferBindings();
   this->Frame->Bind();
   this->RenderDelegate(state, this->W, this->H, this->W, this->H, this->Frame, this->Colors, this->Depths);
@@ -269,7 +269,6 @@ void vtkDepthShadingPass::DrawSamples(const vtkRenderState* state, vtkOpenGLRend
       spare->AllocateDepth(unsigned(this->W), unsigned(this->H), vtkTextureObject::Float32);
     }
   }
-  this->KeptIsShaded = false;
   while (this->NumberOfSamples < end)
   {
     const double* offset = kSamples[this->NumberOfSamples];
@@ -294,7 +293,7 @@ void vtkDepthShadingPass::ShadeKept(vtkRenderer* renderer, vtkOpenGLRenderWindow
     // Into the textures that are not shown, which are of no use any more.
     this->FillsPinholes ? drawInto(this->Frame, this->Colors, this->Depths, state)
                         : drawInto(this->FilledFrame, this->FilledColors, this->FilledDepths, state);
-    this->DrawPicture(renderer, window);
+    this->DrawPicture(this->ShownColors(), this->ShownDepths(), 1, renderer, window);
   }
   state->PopFramebufferBindings();
   if (!this->FillsPinholes)
@@ -304,16 +303,19 @@ void vtkDepthShadingPass::ShadeKept(vtkRenderer* renderer, vtkOpenGLRenderWindow
   this->KeptIsShaded = true;
 }
 
-/// Shades the sample that was drawn last. The first one begins the sum. Each counts as the bytes it would
-/// have alone, so that the picture does not depend on which frames its samples were drawn in.
+/// Adds the sample that was drawn last, shaded. The first one begins the sum. Each counts as the bytes it has
+/// alone, so that the picture does not depend on which frames its samples were drawn in.
 void vtkDepthShadingPass::AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   if (this->Sum->GetWidth() != unsigned(this->W) || this->Sum->GetHeight() != unsigned(this->H))
   {
     this->Sum->Create2D(unsigned(this->W), unsigned(this->H), 4, VTK_FLOAT, false);
   }
-  if (!this->PrepareQuad(
-        this->SampleQuad, std::string(pointhaptics::kShade) + pointhaptics::kSampleShader, window))
+  if (!this->KeptIsShaded)
+  {
+    this->ShadeKept(renderer, window);
+  }
+  if (!this->PrepareQuad(this->CopyQuad, pointhaptics::kCopyShader, window))
   {
     return;
   }
@@ -328,9 +330,8 @@ void vtkDepthShadingPass::AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow*
     state->vtkglDisable(GL_DEPTH_TEST);
     state->SetEnumState(GL_BLEND, this->NumberOfSamples > 1);
     state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
-    this->SampleQuad->Program->SetUniformi("isShaded", this->KeptIsShaded ? 1 : 0);
-    this->SetShade(*this->SampleQuad);
-    this->Draw(*this->SampleQuad, this->ShownColors(), this->ShownDepths(), renderer);
+    this->CopyQuad->Program->SetUniformf("samples", 1.0F);
+    this->Draw(*this->CopyQuad, this->ShownColors(), this->ShownDepths(), renderer);
   }
   state->PopFramebufferBindings();
 }
@@ -449,11 +450,14 @@ void vtkDepthShadingPass::Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* win
   renderer->GetTiledSizeAndOrigin(&width, &height, &x, &y);
   state->vtkglViewport(x, y, width, height);
   state->vtkglScissor(x, y, width, height);
-  this->DrawPicture(renderer, window);
+  const bool isMean = this->NumberOfSamples > 1;
+  this->DrawPicture(isMean ? this->Sum.Get() : this->ShownColors(),
+    isMean ? this->FirstDepths.Get() : this->ShownDepths(), this->NumberOfSamples, renderer, window);
 }
 
-/// What is shown, with its depths, all over what is bound; shaded, if it is not.
-void vtkDepthShadingPass::DrawPicture(vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
+/// All over what is bound. @param colors the sum of @p samples samples, of which one is shaded if it is not.
+void vtkDepthShadingPass::DrawPicture(vtkTextureObject* colors, vtkTextureObject* depths, int samples,
+  vtkRenderer* renderer, vtkOpenGLRenderWindow* window)
 {
   if (!this->PrepareQuad(this->CopyQuad, pointhaptics::kCopyShader, window))
   {
@@ -465,20 +469,18 @@ void vtkDepthShadingPass::DrawPicture(vtkRenderer* renderer, vtkOpenGLRenderWind
   state->vtkglDepthFunc(GL_ALWAYS);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDisable(GL_BLEND);
-  const bool isMean = this->NumberOfSamples > 1;
-  vtkTextureObject* colors = isMean ? this->Sum.Get() : this->ShownColors();
   colors->SetMagnificationFilter(
     this->Resolution < 1.0 ? vtkTextureObject::Linear : vtkTextureObject::Nearest);
-  this->CopyQuad->Program->SetUniformf("samples", static_cast<float>(this->NumberOfSamples));
-  this->Draw(*this->CopyQuad, colors, isMean ? this->FirstDepths.Get() : this->ShownDepths(), renderer);
-  if (!isMean && !this->KeptIsShaded &&
+  this->CopyQuad->Program->SetUniformf("samples", static_cast<float>(samples));
+  this->Draw(*this->CopyQuad, colors, depths, renderer);
+  if (samples == 1 && !this->KeptIsShaded &&
     this->PrepareQuad(
       this->ShadeQuad, std::string(pointhaptics::kShade) + pointhaptics::kShadeShader, window, true))
   {
     state->vtkglDepthMask(GL_FALSE);
     state->vtkglDepthFunc(GL_GREATER);
     this->SetShade(*this->ShadeQuad);
-    this->Draw(*this->ShadeQuad, this->ShownColors(), this->ShownDepths(), renderer);
+    this->Draw(*this->ShadeQuad, colors, depths, renderer);
     state->vtkglDepthMask(GL_TRUE);
   }
   state->vtkglDepthFunc(GL_LEQUAL);
@@ -491,7 +493,7 @@ void vtkDepthShadingPass::ReleaseGraphicsResources(vtkWindow* window)
   {
     this->RightEye->ReleaseGraphicsResources(window);
   }
-  for (auto* quad : { &this->FillQuad, &this->CopyQuad, &this->ShadeQuad, &this->SampleQuad })
+  for (auto* quad : { &this->FillQuad, &this->CopyQuad, &this->ShadeQuad })
   {
     quad->reset();
   }

@@ -155,7 +155,8 @@ private:
   void ShadeKept(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void AddToSum(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void FillPinholes(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
-  void DrawPicture(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
+  void DrawPicture(vtkTextureObject* colors, vtkTextureObject* depths, int samples, vtkRenderer* renderer,
+    vtkOpenGLRenderWindow* window);
   void Show(vtkRenderer* renderer, vtkOpenGLRenderWindow* window);
   void SetShade(vtkOpenGLQuadHelper& quad);
   void Draw(
@@ -183,7 +184,6 @@ private:
   std::unique_ptr<vtkOpenGLQuadHelper> FillQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> CopyQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> ShadeQuad;
-  std::unique_ptr<vtkOpenGLQuadHelper> SampleQuad;
   std::vector<double> Kept; // what the textures show, see pictureState()
   bool KeptIsShaded = false;
   std::array<double, 6> KeptNumbers{}; // all settings they were made with
