@@ -49,21 +49,28 @@ void forRange(const Executor& executor, std::int64_t count, Function&& function)
   forRange(executor, count, kSmallestPiece, std::forward<Function>(function));
 }
 
-/// Calls work(item, scratch) for all items below @p count: each thread takes the next one, with a Scratch of
-/// its own.
-template <typename Scratch, typename Work>
-void forEachItem(const Executor& executor, std::size_t count, Work&& work)
+/// Calls work(item, own) for all items below @p count: each thread takes the next one, and has begin(number)
+/// as its own. No two threads at a time have the same number, which is below the concurrency.
+template <typename Begin, typename Work>
+void forEachItemWith(const Executor& executor, std::size_t count, Begin&& begin, Work&& work)
 {
   std::atomic<std::size_t> next{ 0 };
   forRange(executor, executor.concurrency(), 1,
-    [&](std::int64_t, std::int64_t)
+    [&](std::int64_t number, std::int64_t)
     {
-      Scratch scratch;
+      auto&& own = begin(std::size_t(number));
       for (std::size_t item = next++; item < count; item = next++)
       {
-        work(item, scratch);
+        work(item, own);
       }
     });
+}
+/// The same with a Scratch that each thread makes: work(item, scratch).
+template <typename Scratch, typename Work>
+void forEachItem(const Executor& executor, std::size_t count, Work&& work)
+{
+  forEachItemWith(
+    executor, count, [](std::size_t) { return Scratch(); }, std::forward<Work>(work));
 }
 /// The same without scratch: work(item).
 template <typename Work>

@@ -45,8 +45,10 @@ void VoxelResampler::Implementation::forPartitions(
   {
     worker->prepare(binner_.plan(), request.covariances, reducesInPass_ ? &reductions : nullptr);
   }
-  forItemsByThreads(executor, binner_.plan().partitions,
-    [&](std::int64_t p, std::size_t thread) { work(*workers_[thread], std::uint32_t(p)); });
+  forEachItemWith(
+    executor, binner_.plan().partitions,
+    [&](std::size_t thread) -> PartitionWorker& { return *workers_[thread]; },
+    [&](std::size_t p, PartitionWorker& worker) { work(worker, std::uint32_t(p)); });
   for (const std::unique_ptr<PartitionWorker>& worker : workers_)
   {
     worker->finish();

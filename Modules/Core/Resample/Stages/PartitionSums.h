@@ -82,7 +82,8 @@ public:
   const PartitionVoxels* packed() const { return old_->overfull.voxels.empty() ? &voxels_ : nullptr; }
   /// All the voxels in wide sums.
   VoxelRun wide() const;
-  /// Writes what reduce() asked for to @p arena, from @p offset on. @pre what else is written there is.
+  /// Writes what prepare() was asked to reduce to @p arena, from @p offset on. @pre what else is written
+  /// there is.
   void writeReductions(MeanArena& arena, std::size_t offset) const;
   /// Adds the records of a partition to its accumulated sums.
   void accumulate(

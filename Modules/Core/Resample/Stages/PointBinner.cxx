@@ -146,12 +146,13 @@ void PointBinner::quantizeAndBin(const VoxelRequest& request, const Chunks& chun
     chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), withRows ? rows_.binnedBytes() : 0);
   const std::int64_t pieces = chunks.pieceCount(chunk);
   const std::int64_t grain = std::max<std::int64_t>(1, pieces / (16 * executor.concurrency()));
-  forItemsByThreads(executor, (pieces + grain - 1) / grain,
-    [&](std::int64_t item, std::size_t thread)
+  forEachItemWith(
+    executor, std::size_t((pieces + grain - 1) / grain),
+    [&](std::size_t thread) -> PointRecordWriter& { return pool_.writer(thread); },
+    [&](std::size_t item, PointRecordWriter& writer)
     {
-      const std::int64_t first = item * grain;
+      const std::int64_t first = std::int64_t(item) * grain;
       RowCopier rows = { rows_, request.index, pool_.rows(), 0 };
-      PointRecordWriter& writer = pool_.writer(thread);
       writer.binned = withRows ? &RowCopier::copy : nullptr;
       writer.context = &rows;
       binRanges(kernelsFor(request.instructions), quantizer_, chunks.points(), chunks.pieces(chunk) + first,

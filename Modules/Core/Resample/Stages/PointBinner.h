@@ -8,7 +8,6 @@
 #include "Core/Resample/Stages/PointChunks.h"
 #include "Core/Resample/Stages/PointRecordPool.h"
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -62,22 +61,6 @@ PartitionPlan makePlan(const Lattice& lattice, int indexBits, std::int64_t point
 
 /// An upper bound of a partition's voxels, from its records and accumulated voxels.
 std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size_t accumulated);
-
-/// Calls work(item, thread) for all items below @p count: each thread takes the next one. No two threads at a
-/// time have the same number, which is below the concurrency.
-template <typename Work>
-void forItemsByThreads(const Executor& executor, std::int64_t count, Work&& work)
-{
-  std::atomic<std::int64_t> next{ 0 };
-  forRange(executor, executor.concurrency(), 1,
-    [&](std::int64_t thread, std::int64_t)
-    {
-      for (std::int64_t item = next++; item < count; item = next++)
-      {
-        work(item, std::size_t(thread));
-      }
-    });
-}
 
 /// The first two stages.
 class PointBinner
