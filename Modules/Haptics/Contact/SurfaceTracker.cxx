@@ -8,11 +8,10 @@ namespace pointhaptics
 namespace
 {
 
-/// Converged when a round moves the point by less than this part of the fit radius.
-constexpr double kConverged = 3e-5;
+/// Converged when one more round would move the point by less than this part of the fit radius.
+constexpr double kConverged = 1e-5;
 /// Part of the noise below which moving on is pointless.
-constexpr double kConvergedNoise = 1e-3;
-constexpr double kSmallestDamping = 0.15;
+constexpr double kConvergedNoise = 3e-3;
 constexpr double kAwaySlack = 1e-3;
 /// A point that moves further than this many fit radii from where it started has lost its sheet.
 constexpr double kLostRadii = 2.0;
@@ -92,6 +91,7 @@ void SurfaceTracker::flip() noexcept
 {
   frame_.turnTo(-frame_.normal);
   std::transform(curvature_, curvature_ + 3, curvature_, [](double c) { return -c; });
+  search_.reset();
   fresh_ = false;
 }
 
@@ -152,14 +152,37 @@ bool SurfaceTracker::refit(const HapticScene& scene, FitCells& memory) noexcept
   return true;
 }
 
+/// Where to go from frame_ when the foot is @p step away, on the last fit. @param before null in the first
+/// round.
+void SurfaceTracker::nextPlace(const Round& now, const Round* before, Vec3& place, Vec3& normal) noexcept
+{
+  const auto inPlane = [&](const Vec3& v) {
+    return FootSearch::Way{ dot(v, fitFrame_.a), dot(v, fitFrame_.b) };
+  };
+  if (before)
+  {
+    search_.learn(inPlane(now.origin - before->origin), inPlane(before->step - now.step));
+  }
+  FootSearch::Way way;
+  if (before && now.distance > before->distance + kAwaySlack * fit_.radius)
+  {
+    // It swings about the answer.
+    search_.reset();
+    way = inPlane(0.5 * now.step);
+  }
+  else
+  {
+    way = search_.wayFor(inPlane(now.step));
+  }
+  const FootSearch::Way from = inPlane(now.origin - fitFrame_.origin);
+  pointAt(fit_, fitFrame_, (from.a + way.a) / fit_.radius, (from.b + way.b) / fit_.radius, place, normal);
+}
+
 TrackResult SurfaceTracker::follow(
   const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept
 {
   const Vec3 start = frame_.origin;
-  Vec3 lastPoint = start;
-  Vec3 lastStep;
-  double lastLength = 0.0;
-  double lastDistance = 0.0;
+  Round last;
   for (int round = 0; round < rounds; ++round)
   {
     // The first round takes the fit of the last call: it was made a step too small to matter away.
@@ -168,40 +191,26 @@ TrackResult SurfaceTracker::follow(
       return TrackResult::Lost;
     }
     fresh_ = false;
-    Vec3 foot;
+    Vec3 place;
     Vec3 normal;
-    footPoint(fit_, fitFrame_, target, foot, normal);
-    Vec3 step = foot - frame_.origin;
-    const double length = norm(step);
-    // Rounds that shrink too slowly, or lead away from the target, swing about the answer: shorten the
-    // tangential step, by Barzilai and Borwein's estimate of the slope, at least by half when the last round
-    // went away.
-    const double distance = norm(target - frame_.origin);
-    const bool away = round > 0 && distance > lastDistance + kAwaySlack * fit_.radius;
-    if (round > 0 && (away || length > 0.5 * lastLength))
-    {
-      const Vec3 s = frame_.origin - lastPoint;
-      const Vec3 y = step - lastStep;
-      const double yy = norm2(y);
-      const double part = std::clamp(yy > 0.0 ? -dot(s, y) / yy : 1.0, kSmallestDamping, away ? 0.5 : 1.0);
-      pointAt(fit_, fitFrame_, part / fit_.radius * dot(step, fitFrame_.a),
-        part / fit_.radius * dot(step, fitFrame_.b), foot, normal);
-    }
-    lastDistance = distance;
-    lastPoint = frame_.origin;
-    lastStep = step;
-    lastLength = length;
-    // Negated, so that a foot that is not finite is lost too.
-    if (!(norm(foot - start) <= kLostRadii * fit_.radius))
+    footPoint(fit_, fitFrame_, target, place, normal);
+    const Round now{ frame_.origin, place - frame_.origin, norm(target - frame_.origin) };
+    nextPlace(now, round > 0 ? &last : nullptr, place, normal);
+    // Negated, so that a place that is not finite is lost too.
+    if (!(norm(place - start) <= kLostRadii * fit_.radius))
     {
       return TrackResult::Lost;
     }
-    adopt(foot, normal);
-    if (length <= std::max(kConverged * fit_.radius, kConvergedNoise * fit_.residual))
+    adopt(place, normal);
+    // The next step would be shorter than this one by as much as this one is than the last.
+    const double length = norm(now.step);
+    const double next = round > 0 ? length * std::min(1.0, length / norm(last.step)) : length;
+    if (!(next > std::max(kConverged * fit_.radius, kConvergedNoise * fit_.residual)))
     {
       fresh_ = true;
       return TrackResult::Converged;
     }
+    last = now;
   }
   return TrackResult::RoundLimit;
 }
@@ -212,6 +221,7 @@ void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& t
   frame_.origin = change.apply(frame_.origin);
   frame_.turnTo(normalized(change.applyToNormal(frame_.normal), frame_.normal));
   std::fill(curvature_, curvature_ + 3, 0.0);
+  search_.reset();
   fresh_ = false;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Surface/SurfaceFit.h"
+#include "Haptics/Contact/FootSearch.h"
 #include "Haptics/HapticScene.h"
 
 namespace pointhaptics
@@ -60,6 +61,14 @@ private:
   void flip() noexcept;
   /// Fits anew at frame_. False: there is no surface to fit.
   bool refit(const HapticScene& scene, FitCells& memory) noexcept;
+  /// A round of following: from where, the step to the foot there, and how far the target is.
+  struct Round
+  {
+    Vec3 origin;
+    Vec3 step;
+    double distance = 0.0;
+  };
+  void nextPlace(const Round& now, const Round* before, Vec3& place, Vec3& normal) noexcept;
   void adopt(const Vec3& foot, const Vec3& normal) noexcept;
 
   SurfaceFrame frame_;
@@ -68,6 +77,7 @@ private:
   LocalScale scale_;      ///< At the origin of fitFrame_.
   bool fresh_ = false;    ///< fit_ is valid about frame_: the next step may begin with it.
   double curvature_[3] = { 0.0, 0.0, 0.0 };
+  FootSearch search_; ///< In the tangents of frame_.
 };
 
 } // namespace pointhaptics
