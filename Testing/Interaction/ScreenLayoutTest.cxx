@@ -276,6 +276,15 @@ TEST_F(ScreenLayoutTest, NothingThatIsShownAtOnceOverlaps)
   }
 }
 
+TEST(ScreenScale, AWindowIsNoLargerThanTheScreen)
+{
+  EXPECT_EQ(lengthOnScreen(1280, 640), 576);
+  EXPECT_EQ(lengthOnScreen(800, 480), 432);
+  EXPECT_EQ(lengthOnScreen(640, 640), 640) << "asked for the whole screen";
+  EXPECT_EQ(lengthOnScreen(1280, 3840), 1280);
+  EXPECT_EQ(lengthOnScreen(1280, 0), 1280) << "a screen that is not known";
+}
+
 TEST_F(ScreenLayoutTest, EveryLineOfTheHelpIsReadInASmallWindow)
 {
   std::string help = "Look     left drag    rotate the view";

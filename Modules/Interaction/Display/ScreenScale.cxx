@@ -22,6 +22,8 @@ constexpr int kTallScreen = 1440;
 /// Lines of a window in which texts of the usual size have room, all at once.
 constexpr double kLeastHeight = 600.0;
 constexpr double kLargestScale = 4.0;
+/// Part of the screen of a window that were larger than it.
+constexpr double kBesideFrame = 0.9;
 /// At which a point is a pixel: VTK's default.
 constexpr double kPointsPerInch = 72.0;
 
@@ -39,6 +41,11 @@ double scaleOfScreen(int screenLines, int windowLines)
 {
   const double wanted = screenLines < kTallScreen ? 1.0 : screenLines / kUsualHeight;
   return std::clamp(windowLines / kLeastHeight, 1.0, wanted);
+}
+
+int lengthOnScreen(int wanted, int screen)
+{
+  return screen > 0 && wanted > screen ? int(kBesideFrame * screen) : wanted;
 }
 
 double screenScale(vtkRenderWindow* window)

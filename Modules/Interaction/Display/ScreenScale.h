@@ -22,6 +22,11 @@ POINTHAPTICSINTERACTION_EXPORT void applyTextScale(vtkRenderWindow* window, doub
 /// window.
 POINTHAPTICSINTERACTION_EXPORT double scaleOfScreen(int screenLines, int windowLines);
 
+/// Pixels of a new window of which @p wanted are asked for: on an axis where the @p screen has less, what
+/// leaves room for the window's frame; there the window would end beyond the screen. 0 of a screen: not
+/// known.
+POINTHAPTICSINTERACTION_EXPORT int lengthOnScreen(int wanted, int screen);
+
 /// What comes after Xft.dpi: in the resources @p text of an X server; 0: nothing that is a number.
 POINTHAPTICSINTERACTION_EXPORT double dotsPerInchOf(const char* text);
 

@@ -12,6 +12,23 @@ namespace pointhaptics
 {
 
 #if defined(__unix__) && !defined(__APPLE__)
+namespace
+{
+
+/// Kept until the program ends: a server whose last client goes may begin anew, as that of xvfb-run does, and
+/// cuts the connection that VTK opens meanwhile.
+void* keptDisplay = nullptr;
+
+/// VTK brings the library in; asking for it by name saves a dependency of our own.
+template <typename Function>
+Function functionOfX(const char* name)
+{
+  void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
+  return library ? reinterpret_cast<Function>(dlsym(library, name)) : nullptr;
+}
+
+}
+
 bool displayIsAvailable(std::string& message)
 {
   const char* const cure = "run it on a desktop, under `xvfb-run`, or try `./setup.sh demo`";
@@ -21,37 +38,48 @@ bool displayIsAvailable(std::string& message)
     message = std::string("no display: the environment variable DISPLAY is not set; ") + cure;
     return false;
   }
-  // VTK brings the library in; asking for it by name here saves a dependency of our own.
-  void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
-  using OpenDisplay = void* (*)(const char*);
-  const auto openDisplay = library ? reinterpret_cast<OpenDisplay>(dlsym(library, "XOpenDisplay")) : nullptr;
+  const auto openDisplay = functionOfX<void* (*)(const char*)>("XOpenDisplay");
   if (!openDisplay)
   {
     message = "no display: libX11.so.6 cannot be loaded; install libx11-6";
     return false;
   }
-  // Kept until the program ends: a server whose last client goes may begin anew, as that of xvfb-run does,
-  // and cuts the connection that VTK opens meanwhile.
-  static void* display = nullptr;
   // Such a server refuses who comes while it begins anew: a moment later it does not.
   constexpr int kMostTries = 5;
-  for (int i = 0; !display && i < kMostTries; ++i)
+  for (int i = 0; !keptDisplay && i < kMostTries; ++i)
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(i == 0 ? 0 : 50));
-    display = openDisplay(nullptr);
+    keptDisplay = openDisplay(nullptr);
   }
-  if (!display)
+  if (!keptDisplay)
   {
     message = std::string("no display: the X server \"") + name + "\" (DISPLAY) cannot be reached; " + cure;
     return false;
   }
   return true;
 }
+
+std::array<int, 2> screenSize()
+{
+  const auto screen = functionOfX<int (*)(void*)>("XDefaultScreen");
+  const auto width = functionOfX<int (*)(void*, int)>("XDisplayWidth");
+  const auto height = functionOfX<int (*)(void*, int)>("XDisplayHeight");
+  if (!keptDisplay || !screen || !width || !height)
+  {
+    return {};
+  }
+  return { width(keptDisplay, screen(keptDisplay)), height(keptDisplay, screen(keptDisplay)) };
+}
 #else
 bool displayIsAvailable(std::string& message)
 {
   message.clear();
   return true;
+}
+
+std::array<int, 2> screenSize()
+{
+  return {};
 }
 #endif
 

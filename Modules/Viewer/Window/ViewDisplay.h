@@ -1,9 +1,10 @@
 /// @file
-/// Is there a display to draw on? Asked before the first render window: VTK crashes without one.
+/// The display that windows are drawn on. Asked before the first render window: VTK crashes without one.
 #pragma once
 
 #include "PointHapticsViewerModule.h" // For export macro
 
+#include <array>
 #include <string>
 
 namespace pointhaptics
@@ -12,5 +13,10 @@ namespace pointhaptics
 /// True where a render window can be made. Otherwise @p message says what is missing and the cure. Keeps a
 /// connection to the X server until the program ends. GUI thread only.
 POINTHAPTICSVIEWER_EXPORT bool displayIsAvailable(std::string& message);
+
+/// Pixels of its screen across and up; 0 before displayIsAvailable() was true, and where that has no way to
+/// know. A render window that is asked opens a connection of its own, which it closes before the interactor
+/// has read its last event. GUI thread only.
+POINTHAPTICSVIEWER_EXPORT std::array<int, 2> screenSize();
 
 } // namespace pointhaptics

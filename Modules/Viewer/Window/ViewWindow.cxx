@@ -1,6 +1,7 @@
 #include "ViewWindow.h"
 
 #include "StereoPicture.h"
+#include "ViewDisplay.h"
 #include "ViewEvents.h"
 #include "ViewScene.h"
 
@@ -26,6 +27,7 @@
 #include <vtkTransform.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -88,7 +90,8 @@ void ViewWindow::openWindow()
 {
   window_->SetMultiSamples(0);
   window_->SetStereoCapableWindow(options_.picture.stereo == kQuadBuffers);
-  window_->SetSize(options_.width, options_.height);
+  const auto screen = window_->GetOffScreenRendering() ? std::array<int, 2>() : screenSize();
+  window_->SetSize(lengthOnScreen(options_.width, screen[0]), lengthOnScreen(options_.height, screen[1]));
   window_->SetWindowName("PointHaptics");
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(nullptr); // until there is something to move
