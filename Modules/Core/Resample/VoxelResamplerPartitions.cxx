@@ -1,6 +1,5 @@
 /// VoxelResampler on lattices whose voxels can be divided into partitions.
 #include "Core/Neighbors/PointIndex.h"
-#include "Core/Resample/Stages/VoxelWriter.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
@@ -68,29 +67,34 @@ void VoxelResampler::Implementation::accumulate(const VoxelRequest& request, con
 void VoxelResampler::Implementation::accumulateAndWrite(const VoxelRequest& request, const Executor& executor)
 {
   const Kernels& kernels = kernelsFor(request.instructions);
+  const PartitionPlan& plan = binner_.plan();
   const bool keepsSums = keepsRuns_ || request.levels > 1;
-  const int fractionBits = binner_.plan().fractionBits;
-  runs_.reset(keepsSums ? binner_.plan().partitions : 0, fractionBits);
+  runs_.reset(keepsSums ? plan.partitions : 0, plan.fractionBits);
   std::size_t room = 0;
-  for (std::uint32_t p = 0; !keepsRuns_ && p < binner_.plan().partitions; ++p)
+  for (std::uint32_t p = 0; !keepsRuns_ && p < plan.partitions; ++p)
   {
-    room += mostVoxels(binner_.plan(), binner_.pool().count(p), accumulated_[p].cellCount);
+    room += mostVoxels(plan, binner_.pool().count(p), accumulated_[p].cellCount);
   }
-  VoxelWriter writer(
-    levels[0], binner_.plan().partitions, room, layoutOf(request), fractionBits, request.allocator);
+  Level& level = levels[0];
+  level.arena.prepare(room, layoutOf(request), level.lattice, plan.fractionBits, request.allocator);
+  PartitionOrder order(level.firsts, plan.partitions);
   forPartitions(request, executor,
     [&](PartitionWorker& worker, std::uint32_t p)
     {
-      std::size_t size = 0;
-      worker.load(kernels, binner_.pool(), p, accumulated_[p],
-        [&](std::size_t known)
-        {
-          size = keepsRuns_ ? 0 : known;
-          writer.publish(p, size);
-        });
+      std::size_t offset = 0;
+      try
+      {
+        worker.load(kernels, binner_.pool(), p, accumulated_[p],
+          [&](std::size_t size) { offset = order.append(p, keepsRuns_ ? 0 : size); });
+      }
+      catch (...)
+      {
+        order.giveUp();
+        throw;
+      }
       if (!keepsRuns_)
       {
-        writer.write(kernels, p, size, worker);
+        worker.write(kernels, level.arena, offset);
       }
       if (keepsSums)
       {
@@ -99,7 +103,7 @@ void VoxelResampler::Implementation::accumulateAndWrite(const VoxelRequest& requ
       accumulated_[p].reductions = {};
       accumulated_[p].trim();
     });
-  writer.finish();
+  level.size = std::int64_t(level.firsts.back());
 }
 
 Status VoxelResampler::Implementation::visitBinned(

@@ -247,41 +247,27 @@ TEST(PointQuantizer, DividesAsAPairOnlyWhereThatIsTheQuotient)
   EXPECT_GT(wrong, 0) << "not so for all spacings";
 }
 
-TEST(PartitionOrder, PublishesOffsetsAsSoonAsAllBeforeAreKnown)
+TEST(PartitionOrder, AppendsPartitionsThatThreadsTakeInOrderButCountAtOnce)
 {
-  PartitionOrder order(4);
-  EXPECT_EQ(order.first(0), 0u);
-  EXPECT_EQ(order.first(1), PartitionOrder::kUnknown);
-  order.publish(1, 20);
-  EXPECT_EQ(order.first(2), PartitionOrder::kUnknown);
-  order.publish(0, 3);
-  EXPECT_EQ(order.first(1), 3u);
-  EXPECT_EQ(order.first(2), 23u);
-  order.publish(3, 5);
-  EXPECT_EQ(order.first(3), PartitionOrder::kUnknown);
-  order.publish(2, 0);
-  EXPECT_EQ(order.first(3), 23u);
-  EXPECT_EQ(order.take(), (std::vector<std::size_t>{ 0, 3, 23, 23, 28 }));
-}
-
-TEST(PartitionOrder, KnowsAllOffsetsWhenThreadsPublishAtOnce)
-{
-  constexpr std::uint32_t kPartitions = 2000;
-  constexpr std::uint32_t kThreads = 4;
-  PartitionOrder order(kPartitions);
-  std::atomic<std::uint32_t> next{ 0 };
+  constexpr std::size_t kPartitions = 20000;
+  std::vector<std::size_t> firsts;
+  PartitionOrder order(firsts, kPartitions);
+  std::atomic<std::size_t> next{ 0 };
   std::atomic<int> wrong{ 0 };
+  const auto sizeOf = [](std::size_t p) { return p % 3; };
   std::vector<std::thread> threads;
-  for (std::uint32_t t = 0; t < kThreads; ++t)
+  for (int t = 0; t < 4; ++t)
   {
     threads.emplace_back(
       [&]
       {
-        for (std::uint32_t p = next++; p < kPartitions; p = next++)
+        for (std::size_t p = next++; p < kPartitions; p = next++)
         {
-          order.publish(p, 3);
-          const std::size_t first = order.first(p);
-          wrong += first != PartitionOrder::kUnknown && first != 3 * std::size_t(p);
+          if (p % 7 == 0)
+          {
+            std::this_thread::yield(); // Others come first.
+          }
+          wrong += order.append(p, sizeOf(p)) != p / 3 * 3 + (p % 3 == 2);
         }
       });
   }
@@ -290,12 +276,20 @@ TEST(PartitionOrder, KnowsAllOffsetsWhenThreadsPublishAtOnce)
     thread.join();
   }
   EXPECT_EQ(wrong, 0);
-  const std::vector<std::size_t> firsts = order.take();
-  ASSERT_EQ(firsts.size(), std::size_t(kPartitions) + 1);
-  for (std::uint32_t p = 0; p <= kPartitions; ++p)
+  ASSERT_EQ(firsts.size(), kPartitions + 1);
+  for (std::size_t p = 0; p < kPartitions; ++p)
   {
-    ASSERT_EQ(firsts[p], 3 * std::size_t(p));
+    ASSERT_EQ(firsts[p + 1] - firsts[p], sizeOf(p));
   }
+}
+
+TEST(PartitionOrder, NobodyWaitsForAPartitionThatNoThreadCanCount)
+{
+  std::vector<std::size_t> firsts;
+  PartitionOrder order(firsts, 2);
+  std::thread waiting([&] { order.append(1, 3); });
+  order.giveUp();
+  waiting.join();
 }
 
 TEST(PointQuantizer, DistinguishesOutsideFromInvalid)

@@ -105,7 +105,7 @@ TEST(VoxelRuns, MeansOfSumsThatVectorsCannotTakeLieWhereTheyBelong)
   runs.add(0, run);
   runs.join(0);
   MeanArena arena;
-  arena.prepare(2, { false, true, false }, lattice, 39);
+  arena.prepare(2, { false, true, false }, lattice, 39, nullptr);
   arena.write(0, runs.run(0));
   const double expected[6] = { 7.75, 8.75, 9.75, 1.75, 2.75, 10.75 };
   for (int i = 0; i < 6; ++i)

@@ -194,8 +194,9 @@ void PartitionWorker::reduceRows(const PointRecordPool& pool, AccumulatedPartiti
   reduced_ = &sums.reductions;
 }
 
-void PartitionWorker::writeReductions(MeanArena& arena, std::size_t offset) const
+void PartitionWorker::write(const Kernels& kernels, MeanArena& arena, std::size_t offset) const
 {
+  old_->overfull.voxels.empty() ? arena.write(kernels, offset, voxels_) : arena.write(offset, this->wide());
   if (reductions_ && voxels_.size > 0)
   {
     static_cast<void>(reduced_->write(arena, offset)); // Nobody aborts it.

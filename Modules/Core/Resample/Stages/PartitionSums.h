@@ -78,13 +78,10 @@ public:
     publish(voxels_.size);
     sumRecords(kernels, pool, old_->cellCount > 0 ? *old_ : own_);
   }
-  /// The voxels, if their packed sums are all; else null.
-  const PartitionVoxels* packed() const { return old_->overfull.voxels.empty() ? &voxels_ : nullptr; }
   /// All the voxels in wide sums.
   VoxelRun wide() const;
-  /// Writes what prepare() was asked to reduce to @p arena, from @p offset on. @pre what else is written
-  /// there is.
-  void writeReductions(MeanArena& arena, std::size_t offset) const;
+  /// Writes the voxels, and what prepare() was asked to reduce, to @p arena, from @p offset on.
+  void write(const Kernels& kernels, MeanArena& arena, std::size_t offset) const;
   /// Adds the records of a partition to its accumulated sums.
   void accumulate(
     const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition, AccumulatedPartition& sums);

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <thread>
 #include <vector>
 
 namespace pointhaptics
@@ -35,50 +37,36 @@ struct Level
   }
 };
 
-/// The offset of each partition's first voxel in the output. It is known as soon as all partitions before it
-/// have published how many voxels they have. Threads may publish and read at the same time; none waits.
+/// Gives partitions the offsets of their voxels in the output. Threads take partitions in ascending order and
+/// count one's voxels before they do anything else with it: a thread that has counted waits, if at all, for
+/// one that is counting.
 class PartitionOrder
 {
 public:
-  explicit PartitionOrder(std::uint32_t partitions)
-    : sizes_(partitions)
-    , firsts_(std::size_t(partitions) + 1)
+  /// @p firsts: becomes the offset of each partition, and an end.
+  PartitionOrder(std::vector<std::size_t>& firsts, std::size_t partitions)
+    : firsts_(firsts)
   {
-    for (std::atomic<std::size_t>& size : sizes_)
-    {
-      size.store(kUnknown, std::memory_order_relaxed);
-    }
-    for (std::atomic<std::size_t>& first : firsts_)
-    {
-      first.store(kUnknown, std::memory_order_relaxed);
-    }
-    firsts_[0] = 0;
+    firsts_.assign(partitions + 1, 0);
   }
-  static constexpr std::size_t kUnknown = ~std::size_t(0);
-
-  void publish(std::uint32_t partition, std::size_t size)
+  /// The offset of a partition of @p size voxels. @pre those before it are or were being counted.
+  std::size_t append(std::size_t partition, std::size_t size)
   {
-    // Of two threads that store a partition's size and its offset, the later one sees both and continues.
-    sizes_[partition] = size;
-    for (std::size_t p = partition; p < sizes_.size() && firsts_[p + 1] == kUnknown; ++p)
+    while (known_.load(std::memory_order_acquire) != partition && !givenUp_)
     {
-      const std::size_t first = firsts_[p];
-      const std::size_t known = sizes_[p];
-      if (first == kUnknown || known == kUnknown)
-      {
-        return;
-      }
-      firsts_[p + 1] = first + known;
+      std::this_thread::yield();
     }
+    firsts_[partition + 1] = firsts_[partition] + size;
+    known_.store(partition + 1, std::memory_order_release);
+    return firsts_[partition];
   }
-  /// Or kUnknown.
-  std::size_t first(std::uint32_t partition) const { return firsts_[partition]; }
-  /// The offsets of all partitions, and the total. @pre all sizes are published.
-  std::vector<std::size_t> take() const { return { firsts_.begin(), firsts_.end() }; }
+  /// What is appended is of no use, as a thread could not count: nobody waits any longer.
+  void giveUp() { givenUp_ = true; }
 
 private:
-  std::vector<std::atomic<std::size_t>> sizes_;
-  std::vector<std::atomic<std::size_t>> firsts_; ///< Of those that are known, and what comes next.
+  std::vector<std::size_t>& firsts_;
+  std::atomic<std::size_t> known_{ 0 }; ///< Partitions whose end is known.
+  std::atomic<bool> givenUp_{ false };
 };
 
 /// Copies an array unless it is there already.

@@ -97,15 +97,6 @@ void MeanArena::prepare(std::size_t room, const Layout& layout, const Lattice& l
   }
 }
 
-void MeanArena::write(std::size_t offset, const MeanArena& other, std::size_t size)
-{
-  for (std::size_t i = 0; i < arrays_.size(); ++i)
-  {
-    const std::size_t bytes = arrays_[i].bytes;
-    std::copy_n(other.arrays_[i].values, bytes * size, arrays_[i].values + bytes * offset);
-  }
-}
-
 template <typename Real>
 void MeanArena::writeMeans(
   const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels, Real* xyz)

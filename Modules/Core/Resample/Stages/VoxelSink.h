@@ -50,12 +50,10 @@ public:
   };
 
   void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
-    OutputAllocator* allocator = nullptr);
+    OutputAllocator* allocator);
   /// Writes the voxels of a partition, or of a run, at @p offset.
   void write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
   void write(std::size_t offset, const VoxelRun& run);
-  /// Copies what another arena of the same layout has.
-  void write(std::size_t offset, const MeanArena& other, std::size_t size);
 
   Vec3 point(std::size_t voxel) const
   {
