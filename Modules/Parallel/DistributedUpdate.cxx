@@ -183,7 +183,6 @@ std::string DistributedUpdate::shareArrays(int levels)
   for (const SharedArray& array : arrays_)
   {
     own.push_back(reducerOf(array));
-    request.tuples.push_back(AttributeReducer::sourceOf(array.attribute.view()));
   }
   VoxelResampler engine;
   Status status = engine.run(request, smp_);
@@ -191,11 +190,11 @@ std::string DistributedUpdate::shareArrays(int levels)
   {
     reducer->prepare(engine.counts(), engine.size(), mostPoints, smp_);
   }
-  const auto add = [&own](const PointRows& rows, const std::int64_t* voxels, int count)
+  const auto add = [&own](const std::int64_t* points, const std::int64_t* voxels, int count)
   {
-    for (std::size_t i = 0; i < own.size(); ++i)
+    for (const std::unique_ptr<AttributeReducer>& reducer : own)
     {
-      own[i]->add(rows.tuples(i), rows.bytes, voxels, count);
+      reducer->add(points, voxels, count);
     }
   };
   status = status == Status::Ok ? engine.visitPointsByVoxel(request, add, smp_) : status;
@@ -220,7 +219,7 @@ void DistributedUpdate::addMeans(int level, vtkIdTypeArray* counts, vtkPointData
   {
     if (level > 0)
     {
-      array.merged->regroup(made_.parents(level), made_.size(level), 0);
+      array.merged->regroup(made_.parents(level), made_.size(level));
     }
     const vtkSmartPointer<vtkDataArray> tuples = array.attribute.emptyArray();
     pool_.allocate(tuples, made_.size(level));

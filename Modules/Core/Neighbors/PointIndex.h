@@ -38,6 +38,8 @@ public:
   PointView points() const;
   /// The index in the cloud of a point of points().
   std::int64_t original(std::int64_t i) const { return std::int64_t(originals_[std::size_t(i)]); }
+  /// The same of all.
+  const std::uint32_t* originals() const { return originals_.data(); }
   std::int64_t cloudSize() const { return cloudSize_; }
   std::int64_t invalidPoints() const { return cloudSize_ - size_; }
   std::size_t bytes() const;

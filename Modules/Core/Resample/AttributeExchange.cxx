@@ -82,7 +82,7 @@ void AttributeTuples::serializeVoxel(std::int64_t voxel, std::string& bytes) con
 {
   put(bytes, end(voxel) - begin(voxel));
   std::vector<decltype(orderedKey(T()))> keys;
-  for (int c = 0; c < components_; ++c)
+  for (int c = 0; c < view_.components; ++c)
   {
     keys.clear();
     for (std::int64_t i = begin(voxel); i < end(voxel); ++i)
@@ -102,7 +102,7 @@ void AttributeTuples::serializeVoxel(std::int64_t voxel, std::string& bytes) con
 
 void AttributeTuples::serialize(std::int64_t first, std::int64_t last, std::string& bytes) const
 {
-  withType(type_,
+  withType(view_.type,
     [&](auto example)
     {
       for (std::int64_t v = first; v < last; ++v)
@@ -122,7 +122,7 @@ bool AttributeTuples::mergeVoxel(std::string_view& bytes, std::int64_t voxel)
   {
     return false;
   }
-  for (int c = 0; c < components_; ++c)
+  for (int c = 0; c < view_.components; ++c)
   {
     for (std::int64_t i = 0; i < points;)
     {
@@ -145,7 +145,7 @@ bool AttributeTuples::mergeVoxel(std::string_view& bytes, std::int64_t voxel)
 bool AttributeTuples::merge(std::string_view bytes, const std::vector<std::int64_t>& voxels)
 {
   bool fits = true;
-  withType(type_,
+  withType(view_.type,
     [&](auto example)
     {
       for (std::size_t v = 0; fits && v < voxels.size(); ++v)

@@ -119,13 +119,12 @@ AttributeMean::AttributeMean(
 }
 
 /// How to cut floating-point numbers.
-void AttributeMean::chooseParts(std::int64_t mostPoints)
+void AttributeMean::chooseParts()
 {
   const int bits = range_.exponent - range_.lastBit;
-  const int sumBits = bitsOf(mostPoints);
+  const int sumBits = bitsOf(mostPoints_);
   const bool inOne = bits + sumBits <= 63;
-  // In several parts there is room for all points of the array: more voxels' points may be added.
-  partBits_ = inOne ? bits : std::min(kMostPartBits, 62 - std::max(sumBits, bitsOf(view_.tuples)));
+  partBits_ = inOne ? bits : std::min(kMostPartBits, 62 - sumBits);
   lanes_ = inOne ? 1 : std::min((bits + partBits_ - 1) / partBits_, kMostLanes);
   // In two factors: for tiny arrays one would overflow.
   const int shift = partBits_ - range_.exponent;
@@ -139,7 +138,7 @@ void AttributeMean::prepare(
   mostPoints_ = mostPoints;
   if (isFloating())
   {
-    chooseParts(mostPoints);
+    chooseParts();
   }
   clear(voxels, executor);
 }
@@ -183,24 +182,26 @@ inline void addParts(double scaled, double partScale, int parts, std::int64_t* s
   }
 }
 
-/// Copies of tuples, and the voxels they are added to.
+/// Tuples of points, and the voxels they are added to.
 struct Terms
 {
-  const char* first;
-  std::size_t stride;
+  const AttributeView& view;
+  const std::int64_t* points;
   const std::int64_t* voxels;
   int count;
 };
 
 /// Calls add(sum, value) for each number: the sums have @p Lanes words for each of @p Components components,
-/// or of @p components where the compiler is not to know.
+/// or of the view's where the compiler is not to know.
 template <int Lanes, int Components, typename T, typename Add>
-void forNumbers(const Terms& terms, int components, std::int64_t* sums, const Add& add)
+void forNumbers(const Terms& terms, std::int64_t* sums, const Add& add)
 {
-  const int width = Components > 0 ? Components : components;
+  const int width = Components > 0 ? Components : terms.view.components;
+  const auto* const first = static_cast<const char*>(terms.view.values);
+  const std::int64_t step = terms.view.step();
   for (int i = 0; i < terms.count; ++i)
   {
-    const T* value = reinterpret_cast<const T*>(terms.first + terms.stride * std::size_t(i));
+    const T* value = reinterpret_cast<const T*>(first + step * terms.points[i]);
     std::int64_t* sum = sums + Lanes * width * terms.voxels[i];
     for (int c = 0; c < width; ++c)
     {
@@ -209,20 +210,20 @@ void forNumbers(const Terms& terms, int components, std::int64_t* sums, const Ad
   }
 }
 template <int Lanes, typename T, typename Add>
-void forNumbers(const Terms& terms, int components, std::int64_t* sums, const Add& add)
+void forNumbers(const Terms& terms, std::int64_t* sums, const Add& add)
 {
-  components == 3     ? forNumbers<Lanes, 3, T>(terms, components, sums, add)
-    : components == 1 ? forNumbers<Lanes, 1, T>(terms, components, sums, add)
-                      : forNumbers<Lanes, 0, T>(terms, components, sums, add);
+  terms.view.components == 3     ? forNumbers<Lanes, 3, T>(terms, sums, add)
+    : terms.view.components == 1 ? forNumbers<Lanes, 1, T>(terms, sums, add)
+                                 : forNumbers<Lanes, 0, T>(terms, sums, add);
 }
 
 }
 
 template <typename Integer>
-void AttributeMean::addIntegers(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count)
+void AttributeMean::addIntegers(const std::int64_t* points, const std::int64_t* voxels, int count)
 {
   constexpr int kLanes = sizeof(Integer) == 8 ? 2 : 1;
-  forNumbers<kLanes, Integer>({ tuples, stride, voxels, count }, view_.components, sums_.data(),
+  forNumbers<kLanes, Integer>({ view_, points, voxels, count }, sums_.data(),
     [](std::int64_t* sum, Integer value)
     {
       if constexpr (kLanes == 2)
@@ -238,119 +239,99 @@ void AttributeMean::addIntegers(const char* tuples, std::size_t stride, const st
     });
 }
 
+/// Adds a number in as many parts as there are, and if it is not finite. @p place: of its component.
 template <typename Real>
-void AttributeMean::addReals(const char* first, std::size_t stride, const std::int64_t* voxels, int count)
+void AttributeMean::addInParts(Real value, std::int64_t place)
 {
-  const int components = view_.components;
-  const double scale = scale_[0];
   const double partScale = std::ldexp(1.0, partBits_);
+  std::int64_t* const sum = sums_.data() + lanes_ * place;
+  if (range_.hasNonFinite && !std::isfinite(value))
+  {
+    special_[std::size_t(place)] |= std::isnan(value) ? kSawNaN : value > Real(0) ? kSawPlus : kSawMinus;
+  }
+  else if (lanes_ == 1)
+  {
+    *sum += std::int64_t(double(value) * scale_[0] * scale_[1]);
+  }
+  else if (lanes_ <= kMostScaledLanes)
+  {
+    addParts(double(value) * scale_[0] * scale_[1], partScale, lanes_, sum);
+  }
+  else if (value != Real(0))
+  {
+    // From the part before the one its first bit is in.
+    int exponent;
+    std::frexp(double(value), &exponent);
+    const int part = std::max(0, (range_.exponent - exponent) / partBits_ - 1);
+    const double scaled = std::ldexp(double(value), partBits_ * (part + 1) - range_.exponent);
+    addParts(scaled, partScale, lanes_ - part, sum + part);
+  }
+}
+
+template <typename Real>
+void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* voxels, int count)
+{
+  const Terms terms = { view_, points, voxels, count };
+  const double scale = scale_[0];
   const bool isPlain = !range_.hasNonFinite && scale_[1] == 1.0;
   if (lanes_ == 1 && isPlain)
   {
-    forNumbers<1, Real>({ first, stride, voxels, count }, components, sums_.data(),
+    forNumbers<1, Real>(terms, sums_.data(),
       [=](std::int64_t* sum, Real value) { sum[0] += std::int64_t(double(value) * scale); });
-    return;
   }
-  if (lanes_ == 2 && isPlain)
+  else if (lanes_ == 2 && isPlain)
   {
-    forNumbers<2, Real>({ first, stride, voxels, count }, components, sums_.data(),
+    const double partScale = std::ldexp(1.0, partBits_);
+    forNumbers<2, Real>(terms, sums_.data(),
       [=](std::int64_t* sum, Real value) { addParts(double(value) * scale, partScale, 2, sum); });
-    return;
   }
-  for (int i = 0; i < count; ++i)
+  else
   {
-    const Real* value = reinterpret_cast<const Real*>(first + stride * std::size_t(i));
-    std::int64_t* sum = sums_.data() + std::int64_t(lanes_) * components * voxels[i];
-    for (int c = 0; c < components; ++c)
+    for (int i = 0; i < count; ++i)
     {
-      if (range_.hasNonFinite && !std::isfinite(value[c]))
+      const Real* const value = reinterpret_cast<const Real*>(view_.tuple(points[i]));
+      for (int c = 0; c < view_.components; ++c)
       {
-        special_[std::size_t(components * voxels[i] + c)] |= std::isnan(value[c]) ? kSawNaN
-          : value[c] > Real(0)                                                    ? kSawPlus
-                                                                                  : kSawMinus;
-      }
-      else if (lanes_ == 1)
-      {
-        sum[c] += std::int64_t(double(value[c]) * scale_[0] * scale_[1]);
-      }
-      else if (lanes_ <= kMostScaledLanes)
-      {
-        addParts(double(value[c]) * scale_[0] * scale_[1], partScale, lanes_, sum + lanes_ * c);
-      }
-      else if (value[c] != Real(0))
-      {
-        // From the part before the one its first bit is in.
-        int exponent;
-        std::frexp(double(value[c]), &exponent);
-        const int part = std::max(0, (range_.exponent - exponent) / partBits_ - 1);
-        const double scaled = std::ldexp(double(value[c]), partBits_ * (part + 1) - range_.exponent);
-        addParts(scaled, partScale, lanes_ - part, sum + lanes_ * c + part);
+        addInParts(value[c], view_.components * voxels[i] + c);
       }
     }
   }
 }
 
-void AttributeMean::add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count)
+void AttributeMean::add(const std::int64_t* points, const std::int64_t* voxels, int count)
 {
   withType(view_.type,
     [&](auto example)
     {
       using T = decltype(example);
-      const auto* first = static_cast<const char*>(tuples);
       if constexpr (std::is_floating_point_v<T>)
       {
-        addReals<T>(first, stride, voxels, count);
+        addReals<T>(points, voxels, count);
       }
       else
       {
-        addIntegers<T>(first, stride, voxels, count);
+        addIntegers<T>(points, voxels, count);
       }
     });
 }
 
-/// Cuts a sum in one part, in units of 2^-bits, into parts.
-void AttributeMean::split(std::int64_t sum, int bits, int partBits, std::int64_t* parts)
-{
-  for (; bits > partBits; bits -= partBits)
-  {
-    const std::int64_t part = sum >> (bits - partBits);
-    *parts++ += part;
-    sum -= part * (std::int64_t(1) << (bits - partBits));
-  }
-  *parts += sum * (std::int64_t(1) << (partBits - bits));
-}
-
-void AttributeMean::regroup(
-  const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints)
+void AttributeMean::regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels)
 {
   const Buffer<std::int64_t> fine = std::move(sums_);
   const Buffer<std::uint8_t> fineSpecial = std::move(special_);
-  const int bits = partBits_;
-  const auto fineLanes = std::size_t(lanes_);
-  mostPoints_ = std::max(mostPoints, mostPoints_);
-  if (isFloating())
-  {
-    chooseParts(mostPoints_);
-  }
   clear(voxels, Executor());
   const auto components = std::size_t(view_.components);
-  const std::size_t width = components * fineLanes;
-  const bool splits = fineLanes != std::size_t(lanes_);
-  for (std::size_t v = 0; v < places.size(); ++v)
+  const std::size_t width = components * std::size_t(lanes_);
+  for (std::size_t v = 0; v < parents.size(); ++v)
   {
-    const auto place = std::size_t(places[v]);
-    for (std::size_t c = 0; !splits && c < width; ++c)
+    const auto parent = std::size_t(parents[v]);
+    for (std::size_t c = 0; c < width; ++c)
     {
-      sums_[place * width + c] += fine[v * width + c];
-    }
-    for (std::size_t c = 0; splits && c < components; ++c)
-    {
-      split(fine[v * components + c], bits, partBits_,
-        sums_.data() + (place * components + c) * std::size_t(lanes_));
+      sums_[parent * width + c] += fine[v * width + c];
     }
     for (std::size_t c = 0; range_.hasNonFinite && c < components; ++c)
     {
-      special_[place * components + c] |= fineSpecial[v * components + c];
+      special_[parent * components + c] |= fineSpecial[v * components + c];
     }
   }
 }

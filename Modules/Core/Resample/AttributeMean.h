@@ -54,9 +54,8 @@ public:
 
   void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
     const Executor& executor) override;
-  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count) override;
-  void regroup(
-    const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints) override;
+  void add(const std::int64_t* points, const std::int64_t* voxels, int count) override;
+  void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) override;
   void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const override;
   bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels) override;
   /// Integers are rounded to the nearest, halves away from zero.
@@ -78,13 +77,14 @@ private:
   static constexpr std::uint8_t kSawMinus = 4;
 
   bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
-  void chooseParts(std::int64_t mostPoints);
-  static void split(std::int64_t sum, int bits, int partBits, std::int64_t* parts);
+  void chooseParts();
   void clear(std::int64_t voxels, const Executor& executor);
   template <typename Integer>
-  void addIntegers(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count);
+  void addIntegers(const std::int64_t* points, const std::int64_t* voxels, int count);
   template <typename Real>
-  void addReals(const char* tuples, std::size_t stride, const std::int64_t* voxels, int count);
+  void addReals(const std::int64_t* points, const std::int64_t* voxels, int count);
+  template <typename Real>
+  void addInParts(Real value, std::int64_t place);
   template <typename T>
   void writeTuple(std::int64_t voxel, std::int64_t count, T* tuple) const;
   bool sumsAreWords() const;

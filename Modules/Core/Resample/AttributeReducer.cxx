@@ -12,7 +12,7 @@ std::unique_ptr<AttributeReducer> AttributeReducer::create(const AttributeReques
   const AttributeView& view = request.view;
   if (!isSum(request.statistic))
   {
-    return std::make_unique<AttributeTuples>(view.type, view.components, request.statistic);
+    return std::make_unique<AttributeTuples>(view, request.statistic);
   }
   auto mean = std::make_unique<AttributeMean>(
     view, request.range ? *request.range : rangeOf(view, executor, instructions), instructions);
@@ -22,12 +22,6 @@ std::unique_ptr<AttributeReducer> AttributeReducer::create(const AttributeReques
       transform.applyToNormal({ 0, 0, 1 }) });
   }
   return mean;
-}
-
-TupleSource AttributeReducer::sourceOf(const AttributeView& view)
-{
-  return { view.values, std::size_t(bytesOf(view.type)) * std::size_t(view.components),
-    std::size_t(view.stride) };
 }
 
 } // namespace pointhaptics

@@ -6,10 +6,8 @@
 #include "Core/Base/Executor.h"
 #include "Core/Base/ProgressObserver.h"
 #include "Core/Resample/AttributeView.h"
-#include "Core/Resample/PointRows.h"
 #include "Core/Simd/InstructionSet.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -27,22 +25,17 @@ public:
   /// A statistic of an array. @p transform turns normals.
   static std::unique_ptr<AttributeReducer> create(const AttributeRequest& request,
     const AffineTransform& transform, InstructionSet instructions, const Executor& executor);
-  /// The tuples that add() needs.
-  static TupleSource sourceOf(const AttributeView& view);
   virtual ~AttributeReducer() = default;
 
   /// Drops all tuples and makes room for those of @p voxels, @p counts each (sums do without), at most @p
   /// mostPoints, at coarser levels too.
   virtual void prepare(
     const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor) = 0;
-  /// Adds copies of tuples, each @p stride bytes after the one before and aligned like its numbers. Several
-  /// threads may add at once if no two have a voxel in common.
-  virtual void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count) = 0;
-  /// What voxel i has goes to voxel places[i] of @p voxels: its parent (VoxelResampler::parents()), or itself
-  /// among more voxels. These get at most @p mostPoints points each, if that is more than prepare() was told.
-  /// Only to sums more can be added then.
-  virtual void regroup(
-    const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints) = 0;
+  /// Adds the tuples of points of the array. Several threads may add at once if no two have a voxel in
+  /// common.
+  virtual void add(const std::int64_t* points, const std::int64_t* voxels, int count) = 0;
+  /// What voxel i has goes to voxel parents[i] of @p voxels (VoxelResampler::parents()).
+  virtual void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) = 0;
 
   ///@{
   /// For another process, which has the rest of the array: what voxels @p first to before @p last have,

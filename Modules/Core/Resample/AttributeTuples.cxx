@@ -1,6 +1,6 @@
 #include "Core/Resample/AttributeTuples.h"
 
-#include "Core/Resample/Stages/VoxelSlices.h"
+#include "Core/Resample/VoxelSlices.h"
 
 #include <algorithm>
 #include <utility>
@@ -71,7 +71,7 @@ Key statisticOf(AttributeStatistic statistic, std::vector<Key>& keys)
 void AttributeTuples::makeRoom(std::int64_t tuples)
 {
   constexpr std::size_t kWord = sizeof(std::uint64_t);
-  const std::size_t bytes = std::size_t(tuples * components_ * bytesOf(type_));
+  const std::size_t bytes = std::size_t(tuples * view_.tupleBytes());
   room_ = tuples;
   tuples_.reserve((bytes + kWord - 1) / kWord, Pages::Huge);
 }
@@ -82,50 +82,53 @@ void AttributeTuples::prepare(const std::int64_t* counts, std::int64_t voxels, s
   makeRoom(simd::countsToPlaces(ends_));
 }
 
-void AttributeTuples::add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count)
+void AttributeTuples::add(
+  const AttributeView& view, const std::int64_t* points, const std::int64_t* voxels, int count)
 {
-  withType(type_,
+  withType(view.type,
     [&](auto example)
     {
       using T = decltype(example);
+      const auto* const first = static_cast<const char*>(view.values);
+      const std::int64_t step = view.step();
       const auto addAll = [&](auto components)
       {
-        const auto* from = static_cast<const char*>(tuples);
-        for (int i = 0; i < count; ++i, from += stride)
+        for (int i = 0; i < count; ++i)
         {
-          std::memcpy(tuple<T>(ends_[std::size_t(voxels[i])]++), from, sizeof(T) * std::size_t(components));
+          std::memcpy(tuple<T>(ends_[std::size_t(voxels[i])]++), first + step * points[i],
+            sizeof(T) * std::size_t(components));
         }
       };
       // Without a call for each of the usual tuples.
-      components_ == 3     ? addAll(std::integral_constant<int, 3>())
-        : components_ == 1 ? addAll(std::integral_constant<int, 1>())
-                           : addAll(components_);
+      view.components == 3     ? addAll(std::integral_constant<int, 3>())
+        : view.components == 1 ? addAll(std::integral_constant<int, 1>())
+                               : addAll(view.components);
     });
 }
 
-void AttributeTuples::regroup(const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t)
+void AttributeTuples::regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels)
 {
   const Buffer<std::uint64_t> fine = std::move(tuples_);
   const std::vector<std::int64_t> fineEnds = std::move(ends_);
   ends_.assign(std::size_t(voxels), 0);
   std::int64_t begin = 0;
-  for (std::size_t v = 0; v < places.size(); ++v)
+  for (std::size_t v = 0; v < parents.size(); ++v)
   {
-    ends_[std::size_t(places[v])] += fineEnds[v] - std::exchange(begin, fineEnds[v]);
+    ends_[std::size_t(parents[v])] += fineEnds[v] - std::exchange(begin, fineEnds[v]);
   }
   makeRoom(simd::countsToPlaces(ends_));
-  withType(type_,
+  withType(view_.type,
     [&](auto example)
     {
       using T = decltype(example);
       const T* from = reinterpret_cast<const T*>(fine.data());
       std::int64_t first = 0;
-      for (std::size_t v = 0; v < places.size(); ++v)
+      for (std::size_t v = 0; v < parents.size(); ++v)
       {
         const std::int64_t size = fineEnds[v] - std::exchange(first, fineEnds[v]);
-        std::int64_t& end = ends_[std::size_t(places[v])];
-        std::copy_n(from, components_ * size, tuple<T>(end));
-        from += components_ * size;
+        std::int64_t& end = ends_[std::size_t(parents[v])];
+        std::copy_n(from, view_.components * size, tuple<T>(end));
+        from += view_.components * size;
         end += size;
       }
     });
@@ -139,29 +142,29 @@ void AttributeTuples::writeValues(std::int64_t first, std::int64_t last, T* to) 
   using Key = decltype(orderedKey(T()));
   const bool isMedian = statistic_ == AttributeStatistic::Median;
   const std::int64_t mostFew = isMedian ? kFewTuples : kFewForMode;
-  std::vector<Key> few(std::size_t(mostFew * components_));
+  std::vector<Key> few(std::size_t(mostFew * view_.components));
   std::vector<Key> many;
-  to += components_ * first;
-  for (std::int64_t v = first; v < last; ++v, to += components_)
+  to += view_.components * first;
+  for (std::int64_t v = first; v < last; ++v, to += view_.components)
   {
     const T* const values = tuple<T>(begin(v));
     const std::int64_t size = end(v) - begin(v);
     const std::int64_t middle = (size - 1) / 2;
     if (size <= mostFew)
     {
-      std::transform(values, values + size * components_, few.begin(), &orderedKey<T>);
-      sortFew(few.data(), size, components_, isMedian ? middle : 0);
+      std::transform(values, values + size * view_.components, few.begin(), &orderedKey<T>);
+      sortFew(few.data(), size, view_.components, isMedian ? middle : 0);
     }
-    for (int c = 0; c < components_; ++c)
+    for (int c = 0; c < view_.components; ++c)
     {
       many.clear();
       for (std::int64_t i = 0; size > mostFew && i < size; ++i)
       {
-        many.push_back(orderedKey(values[i * components_ + c]));
+        many.push_back(orderedKey(values[i * view_.components + c]));
       }
       to[c] = valueOfKey<T>(size > mostFew ? statisticOf(statistic_, many)
-          : isMedian                       ? few[std::size_t(middle * components_ + c)]
-                                           : mostFrequent(few.data() + c, size, components_));
+          : isMedian                       ? few[std::size_t(middle * view_.components + c)]
+                                           : mostFrequent(few.data() + c, size, view_.components));
     }
   }
 }
@@ -172,7 +175,7 @@ bool AttributeTuples::write(
   return simd::forVoxelSlices(ends_, executor, observer,
     [&](std::int64_t first, std::int64_t last)
     {
-      withType(type_,
+      withType(view_.type,
         [&](auto example)
         {
           using T = decltype(example);

@@ -69,19 +69,22 @@ T valueOfKey(Key key)
 class AttributeTuples final : public AttributeReducer
 {
 public:
-  /// For tuples of @p components numbers. @pre @p statistic is Mode or Median
-  AttributeTuples(ScalarType type, int components, AttributeStatistic statistic = AttributeStatistic::Mode)
-    : type_(type)
-    , components_(components)
+  /// @pre @p statistic is Mode or Median
+  explicit AttributeTuples(const AttributeView& view, AttributeStatistic statistic = AttributeStatistic::Mode)
+    : view_(view)
     , statistic_(statistic)
   {
   }
 
   void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
     const Executor& executor) override;
-  void add(const void* tuples, std::size_t stride, const std::int64_t* voxels, int count) override;
-  void regroup(
-    const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints) override;
+  void add(const std::int64_t* points, const std::int64_t* voxels, int count) override
+  {
+    this->add(view_, points, voxels, count);
+  }
+  /// The same of another array of such tuples.
+  void add(const AttributeView& view, const std::int64_t* points, const std::int64_t* voxels, int count);
+  void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) override;
   /// Each value of a component once, with how many points have it: 16 bytes a value at most, and 8 a voxel.
   void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const override;
   bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels) override;
@@ -98,7 +101,7 @@ private:
   template <typename T>
   T* tuple(std::int64_t i) const
   {
-    return reinterpret_cast<T*>(tuples_.data()) + components_ * i;
+    return reinterpret_cast<T*>(tuples_.data()) + view_.components * i;
   }
   template <typename T>
   void serializeVoxel(std::int64_t voxel, std::string& bytes) const;
@@ -107,8 +110,7 @@ private:
   template <typename T>
   void writeValues(std::int64_t first, std::int64_t last, T* to) const;
 
-  ScalarType type_;
-  int components_;
+  AttributeView view_;
   AttributeStatistic statistic_;
   Buffer<std::uint64_t> tuples_;   ///< Those of a voxel after each other.
   std::int64_t room_ = 0;          ///< For so many tuples.

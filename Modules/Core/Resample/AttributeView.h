@@ -18,6 +18,11 @@ struct AttributeView
   int components = 1;
   std::int64_t tuples = 0;
   std::int64_t stride = 0; ///< Bytes from one tuple to the next; 0: none lie between.
+
+  std::int64_t tupleBytes() const { return std::int64_t(bytesOf(type)) * components; }
+  /// Bytes from one tuple to the next.
+  std::int64_t step() const { return stride > 0 ? stride : tupleBytes(); }
+  const char* tuple(std::int64_t i) const { return static_cast<const char*>(values) + step() * i; }
 };
 
 /// What must be known of all finite values of a floating-point array before some of them are summed.

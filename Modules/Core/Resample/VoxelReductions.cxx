@@ -1,6 +1,6 @@
 #include "Core/Resample/VoxelReductions.h"
 
-#include "Core/Resample/AttributeMean.h"
+#include "Core/Resample/Kernel/Fetch.h"
 
 namespace pointhaptics
 {
@@ -9,53 +9,33 @@ namespace simd
 namespace
 {
 
-TupleSource coordinatesOf(const PointView& points)
+template <typename Real>
+AttributeView viewOf(const PointView& points, const Real* xyz)
 {
-  const auto source = [&](const auto* xyz) {
-    return TupleSource{ xyz, 3 * sizeof *xyz, std::size_t(points.stride()) * sizeof *xyz };
-  };
-  return points.floats() ? source(points.floats()) : source(points.doubles());
+  return { xyz, sizeof(Real) == sizeof(float) ? ScalarType::Float : ScalarType::Double, 3, points.size(),
+    points.stride() * std::int64_t(sizeof(Real)) };
 }
 
-}
-
-void VoxelReductions::chooseRows(VoxelRequest& request, const Executor& executor)
-{
-  for (AttributeRequest& attribute : request.attributes)
-  {
-    request.tuples.push_back(AttributeReducer::sourceOf(attribute.view));
-    if (isSum(attribute.statistic) && !attribute.range)
-    {
-      attribute.range = rangeOf(attribute.view, executor, request.instructions);
-    }
-  }
-  if (request.representative != Representative::Mean)
-  {
-    request.tuples.push_back(coordinatesOf(request.points));
-  }
-  if (request.representative != Representative::Mean || request.voxelIndex)
-  {
-    request.tuples.emplace_back();
-  }
 }
 
 VoxelReductions::VoxelReductions(const VoxelRequest& request)
 {
-  const std::size_t others = (request.representative != Representative::Mean) ? 2 : request.voxelIndex;
-  firstSource_ = request.tuples.size() - request.attributes.size() - others;
   for (const AttributeRequest& attribute : request.attributes)
   {
     reducers_.push_back(
       AttributeReducer::create(attribute, request.transform, request.instructions, Executor()));
+    views_.push_back(attribute.view);
   }
   if (request.representative != Representative::Mean)
   {
     representatives_.emplace(request);
+    views_.push_back(request.points.floats() ? viewOf(request.points, request.points.floats())
+                                             : viewOf(request.points, request.points.doubles()));
   }
 }
 
-void VoxelReductions::prepare(
-  const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints, const Executor& executor)
+void VoxelReductions::prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
+  const Executor& executor, const NearestRecords* nearest)
 {
   for (const auto& reducer : reducers_)
   {
@@ -63,29 +43,45 @@ void VoxelReductions::prepare(
   }
   if (representatives_)
   {
-    representatives_->prepare(counts, voxels);
+    representatives_->prepare(counts, voxels, nearest);
   }
 }
 
-void VoxelReductions::regroup(
-  const std::vector<std::int64_t>& places, std::int64_t voxels, std::int64_t mostPoints)
+void VoxelReductions::regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels)
 {
   for (const auto& reducer : reducers_)
   {
-    reducer->regroup(places, voxels, mostPoints);
+    reducer->regroup(parents, voxels);
   }
 }
 
-void VoxelReductions::add(const PointRows& rows, const std::int64_t* voxels, int count)
+void VoxelReductions::fetch(const std::int64_t* points, int count) const
 {
-  std::size_t source = firstSource_;
+  // Points in the order of their memory need no fetching.
+  const bool areScattered = count > 0 && points[count - 1] - points[0] != count - 1;
+  for (const AttributeView& view : views_)
+  {
+    const auto* const first = static_cast<const char*>(view.values);
+    const std::int64_t step = view.step();
+    const std::int64_t last = view.tupleBytes() - 1;
+    for (int i = 0; areScattered && i < count; ++i)
+    {
+      const char* const tuple = first + step * points[i];
+      simd::fetch(tuple);
+      simd::fetch(tuple + last);
+    }
+  }
+}
+
+void VoxelReductions::add(const std::int64_t* points, const std::int64_t* voxels, int count)
+{
   for (const auto& reducer : reducers_)
   {
-    reducer->add(rows.tuples(source++), rows.bytes, voxels, count);
+    reducer->add(points, voxels, count);
   }
   if (representatives_)
   {
-    representatives_->add(rows.tuples(source), rows.tuples(source + 1), rows.bytes, voxels, count);
+    representatives_->add(points, voxels, count);
   }
 }
 

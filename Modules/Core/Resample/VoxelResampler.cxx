@@ -1,6 +1,7 @@
 #include "Core/Resample/VoxelResampler.h"
 
 #include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/AttributeMean.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
@@ -46,8 +47,14 @@ Status VoxelResampler::Implementation::run(
     return status;
   }
   VoxelRequest wanted = request;
-  VoxelReductions::chooseRows(wanted, executor);
-  wanted.keys = request.keys || wanted.tuples.size() > request.tuples.size();
+  for (AttributeRequest& attribute : wanted.attributes)
+  {
+    if (isSum(attribute.statistic) && !attribute.range)
+    {
+      attribute.range = rangeOf(attribute.view, executor, request.instructions);
+    }
+  }
+  wanted.keys = request.keys || reduces(request) || request.voxelIndex;
   wanted.keepPointRecords = request.keepPointRecords || request.voxelIndex;
   levels[0].lattice = request.lattice;
   usesPartitions_ = usesPartitions(request.lattice);
@@ -68,16 +75,29 @@ Status VoxelResampler::Implementation::runBinned(
 {
   const Chunks chunks(request, kChunkPoints, executor);
   prepareStages(request, chunks);
-  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  const std::size_t count = chunks.count();
+  const double binned =
+    fractionOfFinest(request) * (reducesInPass_ ? 0.5 : double(count - 1) / double(count));
+  SubProgress binning(observer, 0.0, binned);
+  SubProgress writing(observer, binned, fractionOfFinest(request));
+  for (std::size_t chunk = 0; chunk < count; ++chunk)
   {
-    const bool isLast = chunk + 1 == chunks.count();
-    binner_.quantizeAndBin(request, chunks, chunk, poolHoldsAll_ || reducesInPass_, executor);
+    binner_.quantizeAndBin(
+      request, chunks, chunk, holdsAll_ ? PointBinner::Keep::All : PointBinner::Keep::Records, executor);
     countPoints(binner_.pool().inside(), binner_.pool().invalid());
-    isLast ? accumulateAndWrite(request, executor) : accumulate(request, executor);
-    if (observer && !observer->report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
+    if (chunk + 1 < count)
+    {
+      accumulate(request, executor);
+    }
+    if (chunk + 1 < count && !binning.report(double(chunk + 1) / double(count - 1)))
     {
       return Status::Aborted;
     }
+  }
+  // With a report for each chunk of points that are reduced.
+  if (!accumulateAndWrite(request, reducesInPass_ ? count : 1, executor, &writing))
+  {
+    return Status::Aborted;
   }
   return request.levels > 1 ? addLevels(request, executor, observer) : Status::Ok;
 }
@@ -90,7 +110,7 @@ void VoxelResampler::Implementation::clear()
   clipped = invalid = 0;
   chosenPoints.clear();
   voxelIndex.clear();
-  poolHoldsAll_ = false;
+  holdsAll_ = false;
   reducesInPass_ = false;
   runs_.reset(0, 0);
 }
@@ -113,7 +133,7 @@ MeanArena::Layout VoxelResampler::Implementation::layoutOf(const VoxelRequest& r
     keepsPoints(request.representative) };
   for (const AttributeRequest& attribute : request.attributes)
   {
-    layout.attributeBytes.push_back(AttributeReducer::sourceOf(attribute.view).bytes);
+    layout.attributeBytes.push_back(std::size_t(attribute.view.tupleBytes()));
   }
   return layout;
 }
@@ -194,7 +214,7 @@ Status VoxelResampler::Implementation::addLevels(
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
-  std::size_t sum = binner_.pool().bytes() + sorted_.bytes() + runs_.bytes() +
+  std::size_t sum = binner_.bytes() + sorted_.bytes() + runs_.bytes() +
     (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t);
   for (const std::unique_ptr<PartitionWorker>& worker : workers_)
   {

@@ -9,7 +9,6 @@
 #include "Core/Base/ProgressObserver.h"
 #include "Core/Base/Status.h"
 #include "Core/Resample/AttributeView.h"
-#include "Core/Resample/PointRows.h"
 #include "Core/Resample/Representative.h"
 #include "Core/Simd/InstructionSet.h"
 
@@ -60,12 +59,10 @@ struct VoxelRequest
   bool singlePrecision = false; ///< Means are rounded to float.
   bool covariances = false;
   bool keys = false; ///< For keys(), visitPointsByVoxel() and parents().
-  /// Arrays of the points, to be reduced to a tuple for each voxel. Sums of numbers are made in the pass that
-  /// sums the points, but with several levels and beyond 4096 voxels an axis.
+  /// Arrays of the points, to be reduced to a tuple for each voxel. With several levels, beyond 4096 voxels
+  /// an axis and for more than 20 million points that takes another pass over the points.
   std::vector<AttributeRequest> attributes;
-  /// The attributes of each point that visitPointsByVoxel() passes on.
-  std::vector<TupleSource> tuples;
-  /// Keeps the point records of run(), if one chunk holds all points: visitPointsByVoxel() then needs no
+  /// Keeps the point records of run(), if 16 chunks hold all points: visitPointsByVoxel() then needs no
   /// second pass over the points.
   bool keepPointRecords = false;
   /// What stands for the points of a voxel, in the place of their mean; counts and covariances stay. All but
@@ -107,8 +104,10 @@ struct VoxelRequest
 /// of them its results, where these are not in the caller's memory), a few megabytes (of which up to 1.3 for
 /// each thread where a layer of the lattice has up to 4 million voxels); where points are sorted 64 bytes
 /// (160 with covariances) for each of at most 262,144 points and 66 an active voxel; covariances: 100 an
-/// active voxel more, 132 where points are sorted. One object is used by one thread at a time; the executor's
-/// threads may be many.
+/// active voxel more, 132 where points are sorted. With attributes or VoxelRequest::keepPointRecords: 20
+/// bytes for each of at most 20 million points, with representatives for each point (32 where points are
+/// sorted), and the tuples of modes and medians, for the voxels at work or, where that takes another pass,
+/// for all. One object is used by one thread at a time; the executor's threads may be many.
 class VoxelResampler
 {
 public:
@@ -156,14 +155,11 @@ public:
   /// Of each point its voxel, or -1 where it is clipped or invalid; empty unless it was asked for.
   const std::vector<std::int64_t>& voxelIndex() const;
 
-  /// Visits the points inside, grouped by voxels of level 0: calls visit(rows, voxels, count) for pieces,
-  /// with the attributes of VoxelRequest::tuples and the voxel of each point. Several threads may call it at
-  /// once, but no two of them have a voxel in common.
-  ///
-  /// Tuples are copied beside the point records, so that those of a voxel come together: scratch memory of up
-  /// to 64 bytes for each of at most 1.25 million points. Wider tuples are gathered from the caller's arrays.
+  /// Visits the points inside, grouped by voxels of level 0: calls visit(points, voxels, count) for pieces,
+  /// with the number of each point and that of its voxel. Several threads may call it at once, but no two of
+  /// them have a voxel in common.
   /// @pre run() was Ok with the same request, keys among it. @return Ok or Aborted.
-  using Visitor = std::function<void(const PointRows& rows, const std::int64_t* voxels, int count)>;
+  using Visitor = std::function<void(const std::int64_t* points, const std::int64_t* voxels, int count)>;
   Status visitPointsByVoxel(const VoxelRequest& request, const Visitor& visit, const Executor& executor = {},
     ProgressObserver* observer = nullptr);
 

@@ -58,9 +58,11 @@ private:
   void countPoints(std::int64_t inside, std::int64_t invalidOnes);
   void prepareStages(const VoxelRequest& request, const simd::Chunks& chunks);
   void accumulate(const VoxelRequest& request, const Executor& executor);
-  void accumulateAndWrite(const VoxelRequest& request, const Executor& executor);
+  bool accumulateAndWrite(
+    const VoxelRequest& request, std::size_t rounds, const Executor& executor, ProgressObserver* observer);
   template <typename Work>
-  void forPartitions(const VoxelRequest& request, const Executor& executor, Work&& work);
+  void forPartitions(const VoxelRequest& request, std::uint32_t first, std::uint32_t last,
+    const Executor& executor, Work&& work);
   Status finishRuns(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   /// Attributes, or the points that stand for voxels, are asked for.
   static bool reduces(const VoxelRequest& request)
@@ -76,7 +78,6 @@ private:
   Status visitAgain(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status reduceAgain(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
-  void notePoints(const PointRows& rows, std::size_t numbers, const std::int64_t* voxels, int count);
   Status visitBinned(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
   Status visitSorted(
@@ -85,7 +86,7 @@ private:
   bool keepsRuns_ = false;      ///< For sum().
   bool usesPartitions_ = false; ///< In the last run.
   simd::PointBinner binner_;
-  bool poolHoldsAll_ = false;  ///< The binner's pool holds all points of the last run, with their rows.
+  bool holdsAll_ = false;      ///< The binner has all points of the last run, with their numbers.
   bool reducesInPass_ = false; ///< Attributes and representatives are made where points are summed.
   std::vector<simd::AccumulatedPartition> accumulated_;
   std::vector<std::unique_ptr<simd::PartitionWorker>> workers_; ///< One for each thread.

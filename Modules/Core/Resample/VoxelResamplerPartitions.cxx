@@ -10,6 +10,9 @@ namespace pointhaptics
 
 using namespace simd;
 
+/// So many chunks are kept until all points are summed, each 20 bytes a point.
+constexpr std::size_t kMostHeldChunks = 16;
+
 static_assert(kChunkPoints <= kPointsPerReport, "progress is reported after each chunk");
 
 void VoxelResampler::Implementation::prepareStages(const VoxelRequest& request, const Chunks& chunks)
@@ -20,34 +23,31 @@ void VoxelResampler::Implementation::prepareStages(const VoxelRequest& request, 
   {
     partition.clear();
   }
-  const bool isOneChunk = chunks.count() == 1;
-  const bool areSums = request.representative == Representative::Mean &&
-    std::all_of(request.attributes.begin(), request.attributes.end(),
-      [](const AttributeRequest& attribute) { return isSum(attribute.statistic); });
-  reducesInPass_ = reduces(request) && request.levels == 1 && (isOneChunk || areSums);
-  poolHoldsAll_ = isOneChunk && (request.keepPointRecords || (reduces(request) && !reducesInPass_));
+  // What is not reduced with the last chunk takes another pass.
+  const bool wantsPoints = reduces(request) || request.keepPointRecords;
+  holdsAll_ =
+    wantsPoints && (chunks.count() <= kMostHeldChunks || request.representative != Representative::Mean);
+  reducesInPass_ = holdsAll_ && reduces(request) && request.levels == 1;
   startCounts(request);
 }
 
-/// Calls work(worker, partition) for all partitions: each thread takes the next one, so that those before any
-/// are done or at work.
+/// Calls work(worker, partition) for the partitions from @p first to before @p last: each thread takes the
+/// next one, so that those before any are done or at work.
 template <typename Work>
 void VoxelResampler::Implementation::forPartitions(
-  const VoxelRequest& request, const Executor& executor, Work&& work)
+  const VoxelRequest& request, std::uint32_t first, std::uint32_t last, const Executor& executor, Work&& work)
 {
-  const PartitionReductions reductions = { request, binner_.rows() };
   while (workers_.size() < std::size_t(std::max(executor.concurrency(), 1)))
   {
     workers_.push_back(std::make_unique<PartitionWorker>());
   }
   for (const std::unique_ptr<PartitionWorker>& worker : workers_)
   {
-    worker->prepare(binner_.plan(), request.covariances, reducesInPass_ ? &reductions : nullptr);
+    worker->prepare(request, binner_, reducesInPass_);
   }
   forEachItemWith(
-    executor, binner_.plan().partitions,
-    [&](std::size_t thread) -> PartitionWorker& { return *workers_[thread]; },
-    [&](std::size_t p, PartitionWorker& worker) { work(worker, std::uint32_t(p)); });
+    executor, last - first, [&](std::size_t thread) -> PartitionWorker& { return *workers_[thread]; },
+    [&](std::size_t p, PartitionWorker& worker) { work(worker, first + std::uint32_t(p)); });
   for (const std::unique_ptr<PartitionWorker>& worker : workers_)
   {
     worker->finish();
@@ -57,14 +57,14 @@ void VoxelResampler::Implementation::forPartitions(
 /// Adds the pool's records to the accumulated sums.
 void VoxelResampler::Implementation::accumulate(const VoxelRequest& request, const Executor& executor)
 {
-  const Kernels& kernels = kernelsFor(request.instructions);
-  forPartitions(request, executor,
-    [&](PartitionWorker& worker, std::uint32_t p)
-    { worker.accumulate(kernels, binner_.pool(), p, accumulated_[p]); });
+  forPartitions(request, 0, binner_.plan().partitions, executor,
+    [&](PartitionWorker& worker, std::uint32_t p) { worker.accumulate(p, accumulated_[p]); });
 }
 
 /// The pool's records and the accumulated sums become means, or sums, or both where levels are to follow.
-void VoxelResampler::Implementation::accumulateAndWrite(const VoxelRequest& request, const Executor& executor)
+/// @p rounds: of partitions, with a report after each. @return false where @p observer ended the work.
+bool VoxelResampler::Implementation::accumulateAndWrite(
+  const VoxelRequest& request, std::size_t rounds, const Executor& executor, ProgressObserver* observer)
 {
   const Kernels& kernels = kernelsFor(request.instructions);
   const PartitionPlan& plan = binner_.plan();
@@ -78,60 +78,67 @@ void VoxelResampler::Implementation::accumulateAndWrite(const VoxelRequest& requ
   Level& level = levels[0];
   level.arena.prepare(room, layoutOf(request), level.lattice, plan.fractionBits, request.allocator);
   PartitionOrder order(level.firsts, plan.partitions);
-  forPartitions(request, executor,
-    [&](PartitionWorker& worker, std::uint32_t p)
+  const auto write = [&](PartitionWorker& worker, std::uint32_t p)
+  {
+    std::size_t offset = 0;
+    try
     {
-      std::size_t offset = 0;
-      try
-      {
-        worker.load(kernels, binner_.pool(), p, accumulated_[p],
-          [&](std::size_t size) { offset = order.append(p, keepsRuns_ ? 0 : size); });
-      }
-      catch (...)
-      {
-        order.giveUp();
-        throw;
-      }
-      if (!keepsRuns_)
-      {
-        worker.write(kernels, level.arena, offset);
-      }
-      if (keepsSums)
-      {
-        runs_.add(p, worker.wide());
-      }
-      accumulated_[p].reductions = {};
-      accumulated_[p].trim();
-    });
+      worker.load(
+        p, accumulated_[p], [&](std::size_t size) { offset = order.append(p, keepsRuns_ ? 0 : size); });
+    }
+    catch (...)
+    {
+      order.giveUp();
+      throw;
+    }
+    if (!keepsRuns_)
+    {
+      worker.write(kernels, level.arena, offset);
+    }
+    if (keepsSums)
+    {
+      runs_.add(p, worker.wide());
+    }
+    accumulated_[p].trim();
+  };
+  for (std::size_t round = 0; round < rounds; ++round)
+  {
+    const auto firstOf = [=](std::size_t r) { return std::uint32_t(plan.partitions * r / rounds); };
+    forPartitions(request, firstOf(round), firstOf(round + 1), executor, write);
+    if (observer && !observer->report(double(round + 1) / double(rounds)))
+    {
+      return false;
+    }
+  }
   level.size = std::int64_t(level.firsts.back());
+  return true;
 }
 
 Status VoxelResampler::Implementation::visitBinned(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
   const Chunks chunks(request, kChunkPoints, executor);
-  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  const std::size_t rounds = holdsAll_ ? 1 : chunks.count();
+  for (std::size_t round = 0; round < rounds; ++round)
   {
-    if (!poolHoldsAll_)
+    if (!holdsAll_)
     {
-      binner_.quantizeAndBin(request, chunks, chunk, true, executor);
+      binner_.quantizeAndBin(request, chunks, round, PointBinner::Keep::Numbers, executor);
     }
-    forPartitions(request, executor,
+    forPartitions(request, 0, binner_.plan().partitions, executor,
       [&](PartitionWorker& worker, std::uint32_t p)
       {
-        const std::size_t firstVoxel = levels[0].firsts[p];
-        std::int64_t voxels[kBlockRecords];
-        RowReader reader(binner_.rows());
-        worker.rank(kernelsFor(request.instructions), binner_.pool(), p, levels[0].arena.keys() + firstVoxel,
-          levels[0].firsts[p + 1] - firstVoxel,
-          [&](const char* rows, const std::uint32_t* ranks, int count)
+        const std::size_t first = levels[0].firsts[p];
+        worker.visit(p, levels[0].arena.keys() + first, levels[0].firsts[p + 1] - first, first,
+          [&](const RankedBlock& block, const RankedBlock&)
           {
-            std::transform(ranks, ranks + count, voxels,
-              [=](std::uint32_t rank) { return std::int64_t(firstVoxel + rank); });
-            visit(reader.read(rows, count), voxels, count);
+            if (block.count > 0)
+            {
+              visit(block.points, block.voxels, block.count);
+            }
           });
       });
-    if (observer && !observer->report(double(chunk + 1) / double(chunks.count())))
+    if (observer && !observer->report(double(round + 1) / double(rounds)))
     {
       return Status::Aborted;
     }

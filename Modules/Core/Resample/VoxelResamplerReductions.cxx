@@ -2,7 +2,6 @@
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace pointhaptics
 {
@@ -16,29 +15,16 @@ Status VoxelResampler::Implementation::visitPointsByVoxel(
                          : visitSorted(request, visit, executor, observer);
 }
 
-/// @param numbers the source with the numbers of the points.
-void VoxelResampler::Implementation::notePoints(
-  const PointRows& rows, std::size_t numbers, const std::int64_t* voxels, int count)
-{
-  const char* number = static_cast<const char*>(rows.tuples(numbers));
-  for (int i = 0; i < count; ++i, number += rows.bytes)
-  {
-    std::int64_t point;
-    std::memcpy(&point, number, sizeof point);
-    voxelIndex[std::size_t(point)] = voxels[i];
-  }
-}
-
 /// What the pass that sums did not make: the voxels of the points, and attributes and representatives.
 Status VoxelResampler::Implementation::visitAgain(
   const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
 {
   voxelIndex.assign(request.voxelIndex ? std::size_t(request.points.size()) : 0, -1);
-  const auto note = [&](const PointRows& rows, const std::int64_t* voxels, int count)
+  const auto note = [&](const std::int64_t* points, const std::int64_t* voxels, int count)
   {
-    if (request.voxelIndex)
+    for (int i = 0; request.voxelIndex && i < count; ++i)
     {
-      notePoints(rows, request.tuples.size() - 1, voxels, count);
+      voxelIndex[std::size_t(points[i])] = voxels[i];
     }
   };
   Status status = Status::Ok;
@@ -65,10 +51,11 @@ Status VoxelResampler::Implementation::reduceAgain(
   VoxelReductions reductions(request);
   reductions.prepare(levels[0].arena.counts(), levels[0].size, levels.back().mostPoints(), executor);
   SubProgress visiting(observer, 0.0, 0.6);
-  const auto add = [&](const PointRows& rows, const std::int64_t* voxels, int count)
+  const auto add = [&](const std::int64_t* points, const std::int64_t* voxels, int count)
   {
-    reductions.add(rows, voxels, count);
-    visit(rows, voxels, count);
+    reductions.fetch(points, count);
+    reductions.add(points, voxels, count);
+    visit(points, voxels, count);
   };
   Status status = visitPointsByVoxel(request, add, executor, &visiting);
   const double ofLevel = 0.4 / double(levels.size());
@@ -78,7 +65,7 @@ Status VoxelResampler::Implementation::reduceAgain(
     SubProgress writing(observer, done, std::min(done + ofLevel, 1.0));
     if (l > 0)
     {
-      reductions.regroup(levels[l].parents, levels[l].size, 0);
+      reductions.regroup(levels[l].parents, levels[l].size);
     }
     status = reductions.write(levels[l].arena, 0, executor, &writing) ? Status::Ok : Status::Aborted;
   }

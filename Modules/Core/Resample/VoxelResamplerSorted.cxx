@@ -137,7 +137,6 @@ Status VoxelResampler::Implementation::visitSorted(
   const Chunks chunks(usable, kSortedChunk, executor);
   const std::uint64_t* keys = levels[0].arena.keys();
   const std::uint64_t* end = keys + levels[0].size;
-  binner_.chooseRows(request);
   sorted_.choose(sortedQuantizer(request), request.lattice, chunks);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
@@ -145,7 +144,6 @@ Status VoxelResampler::Implementation::visitSorted(
     forEachItem(executor, sorted_.ranges(),
       [&](std::size_t range)
       {
-        RowReader reader(binner_.rows());
         std::int64_t points[kBlockRecords];
         std::int64_t voxels[kBlockRecords];
         sorted_.forEntries(range,
@@ -157,10 +155,10 @@ Status VoxelResampler::Implementation::visitSorted(
               for (; entry != last && size < int(kBlockRecords); ++entry, ++size)
               {
                 at = firstNotBelow(at, end, entry->key);
-                points[size] = usable.index ? usable.index->original(entry->point) : entry->point;
+                points[size] = chunks.originals() ? chunks.originals()[entry->point] : entry->point;
                 voxels[size] = at - keys;
               }
-              visit(reader.gather(points, size), voxels, size);
+              visit(points, voxels, size);
             }
           });
       });

@@ -26,21 +26,6 @@ namespace
 
 __extension__ typedef __int128 Int128;
 
-/// Adds tuples of @p values in the order of @p points.
-template <typename T>
-void addTuples(AttributeMean& mean, const std::vector<T>& values, const std::int64_t* points,
-  const std::int64_t* voxels, int count)
-{
-  const auto components = std::size_t(mean.view().components);
-  std::vector<T> tuples;
-  for (int i = 0; i < count; ++i)
-  {
-    const T* tuple = values.data() + components * std::size_t(points[i]);
-    tuples.insert(tuples.end(), tuple, tuple + components);
-  }
-  mean.add(tuples.data(), components * sizeof(T), voxels, count);
-}
-
 template <typename T>
 AttributeMean meanOf(const std::vector<T>& values, int components, const Plan& plan,
   const Executor& executor = {}, int piece = 100, std::int64_t mostPoints = 0,
@@ -57,7 +42,7 @@ AttributeMean meanOf(const std::vector<T>& values, int components, const Plan& p
   for (std::size_t first = 0; first < voxels.size(); first += std::size_t(piece))
   {
     const int count = int(std::min(std::size_t(piece), voxels.size() - first));
-    addTuples(mean, values, plan.order.data() + first, voxels.data() + first, count);
+    mean.add(plan.order.data() + first, voxels.data() + first, count);
   }
   return mean;
 }
@@ -439,7 +424,7 @@ TEST(AttributeMean, OfParentsIsThatOfTheirPoints)
     for (const std::int64_t coarse : { 60, 9, 1 })
     {
       const Plan up = planFor(std::size_t(plan.size), coarse, 18);
-      mean.regroup(up.voxels, coarse, 0);
+      mean.regroup(up.voxels, coarse);
       trial::coarsen(plan, up);
       EXPECT_TRUE(sameBits(written<T>(mean, plan), written<T>(meanOf(values, components, plan), plan)));
     }
@@ -464,10 +449,10 @@ TEST(AttributeMean, StartsFromNothingHoweverOftenItIsPrepared)
     const std::vector<float> expected = written<float>(meanOf(values, 3, plan), plan);
     AttributeMean mean = meanOf(values, 3, planFor(300, 90, 25));
     mean.prepare(nullptr, voxels, 300, trial::BackwardExecutor(17));
-    addTuples(mean, values, plan.order.data(), plan.voxels.data(), 300);
+    mean.add(plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected));
     mean.prepare(nullptr, voxels, 300, {});
-    addTuples(mean, values, plan.order.data(), plan.voxels.data(), 300);
+    mean.add(plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected)) << "once more";
   }
 }

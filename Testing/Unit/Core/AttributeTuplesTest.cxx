@@ -21,27 +21,31 @@ using trial::typeOf;
 namespace
 {
 
-/// Adds the tuples in the order of the plan, each with others between it and the next.
+/// Adds the tuples in the order of the plan, from an array that has others between them.
 template <typename T>
 AttributeTuples modeOf(const std::vector<T>& values, int components, const Plan& plan, int piece = 100,
   AttributeStatistic statistic = AttributeStatistic::Mode)
 {
   constexpr std::size_t kApart = 3;
   const auto width = std::size_t(components);
-  AttributeTuples mode(typeOf<T>(), components, statistic);
+  std::vector<T> apart(values.size() * kApart);
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    apart[i / width * width * kApart + i % width] = values[i];
+  }
+  AttributeTuples mode({ apart.data(), typeOf<T>(), components, std::int64_t(values.size() / width),
+                         std::int64_t(kApart * width * sizeof(T)) },
+    statistic);
   mode.prepare(countsOf(plan).data(), plan.size, 0, {});
   for (std::size_t first = 0; first < plan.order.size(); first += std::size_t(piece))
   {
     const std::size_t count = std::min(std::size_t(piece), plan.order.size() - first);
-    std::vector<T> tuples(count * width * kApart);
     std::vector<std::int64_t> voxels;
     for (std::size_t i = 0; i < count; ++i)
     {
-      const auto point = std::size_t(plan.order[first + i]);
-      std::copy_n(values.data() + width * point, width, tuples.data() + width * kApart * i);
-      voxels.push_back(plan.voxels[point]);
+      voxels.push_back(plan.voxels[std::size_t(plan.order[first + i])]);
     }
-    mode.add(tuples.data(), kApart * width * sizeof(T), voxels.data(), int(count));
+    mode.add(plan.order.data() + first, voxels.data(), int(count));
   }
   return mode;
 }
@@ -182,7 +186,7 @@ TEST(AttributeTuples, OfParentsIsThatOfTheirPoints)
   for (const std::int64_t coarse : { 90, 12, 1 })
   {
     const Plan up = planFor(std::size_t(plan.size), coarse, 12);
-    mode.regroup(up.voxels, coarse, 0);
+    mode.regroup(up.voxels, coarse);
     trial::coarsen(plan, up);
     EXPECT_TRUE(sameBits(written<std::uint16_t>(mode, 2, plan), expectedModes(values, 2, plan))) << coarse;
   }
@@ -191,12 +195,14 @@ TEST(AttributeTuples, OfParentsIsThatOfTheirPoints)
 TEST(AttributeTuples, StartsFromNothingEachTime)
 {
   const std::vector<int> values = labels<int>(900, 3, 13);
-  AttributeTuples mode = modeOf(values, 1, planFor(900, 500, 14));
-  const Plan plan = planFor(900, 30, 15);
-  mode.prepare(countsOf(plan).data(), plan.size, 0, {});
-  mode.add(values.data(), sizeof(int), plan.voxels.data(), 900);
-  EXPECT_TRUE(sameBits(written<int>(mode, 1, plan), expectedModes(values, 1, plan)));
-  const AttributeTuples none(ScalarType::Int32, 1);
+  AttributeTuples mode({ values.data(), ScalarType::Int32, 1, 900 });
+  for (const Plan& plan : { planFor(900, 500, 14), planFor(900, 30, 15) })
+  {
+    mode.prepare(countsOf(plan).data(), plan.size, 0, {});
+    mode.add(plan.order.data(), plan.voxels.data(), 900);
+    EXPECT_TRUE(sameBits(written<int>(mode, 1, plan), expectedModes(values, 1, plan)));
+  }
+  const AttributeTuples none({ nullptr, ScalarType::Int32, 1 });
   EXPECT_TRUE(none.write(nullptr, nullptr, {}, nullptr)) << "no voxels";
 }
 

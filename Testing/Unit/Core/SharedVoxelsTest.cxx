@@ -152,14 +152,14 @@ struct Arrays
 };
 
 /// One array in the voxels of one part of the points.
-template <typename T, typename Tuples>
-void addPart(Tuples& tuples, const T* values, int components, const std::vector<std::int64_t>& voxels)
+void addPart(AttributeReducer& tuples, const std::vector<std::int64_t>& voxels)
 {
-  for (std::size_t i = 0; i < voxels.size(); ++i)
+  for (std::int64_t i = 0; i < std::int64_t(voxels.size()); ++i)
   {
-    if (voxels[i] >= 0)
+    const std::int64_t voxel = voxels[std::size_t(i)];
+    if (voxel >= 0)
     {
-      tuples.add(values + std::size_t(components) * i, sizeof(T), &voxels[i], 1);
+      tuples.add(&i, &voxel, 1);
     }
   }
 }
@@ -234,7 +234,7 @@ std::vector<T> meansOf(Shared& shared, const std::vector<T>& values, int compone
   const AttributeRange range = commonRange(shared.ranks, rangeOf(view, Executor()));
   AttributeMean own(view, range);
   own.prepare(nullptr, std::int64_t(shared.ownCounts.size()), shared.mostPoints, {});
-  addPart(own, static_cast<const T*>(view.values), components, shared.ownVoxels);
+  addPart(own, shared.ownVoxels);
   AttributeMean merged(view, range);
   merged.prepare(nullptr, std::int64_t(shared.counts.size()), shared.mostPoints, {});
   EXPECT_TRUE(shared.voxels.exchange(shared.ranks, own, merged));
@@ -246,10 +246,12 @@ std::vector<T> meansOf(Shared& shared, const std::vector<T>& values, int compone
 std::vector<std::uint8_t> labelsOf(
   Shared& shared, const std::vector<std::uint8_t>& values, AttributeStatistic statistic, std::size_t first)
 {
-  AttributeTuples own(ScalarType::UInt8, 1, statistic);
+  const AttributeView view{ values.data() + first, ScalarType::UInt8, 1,
+    std::int64_t(shared.ownVoxels.size()) };
+  AttributeTuples own(view, statistic);
   own.prepare(shared.ownCounts.data(), std::int64_t(shared.ownCounts.size()), 0, {});
-  addPart(own, values.data() + first, 1, shared.ownVoxels);
-  AttributeTuples merged(ScalarType::UInt8, 1, statistic);
+  addPart(own, shared.ownVoxels);
+  AttributeTuples merged(view, statistic);
   merged.prepare(shared.counts.data(), std::int64_t(shared.counts.size()), 0, {});
   EXPECT_TRUE(shared.voxels.exchange(shared.ranks, own, merged));
   std::vector<std::uint8_t> labels(shared.counts.size());
@@ -389,12 +391,12 @@ TEST(SharedVoxels, RefuseSumsOfArraysThatAreNotTheirs)
   EXPECT_FALSE(mean.merge(bytes + "x", { 0, 1 }));
   const std::int64_t counts[2] = { 1, 1 };
   const std::int64_t voxels[2] = { 0, 1 };
-  AttributeTuples tuples(ScalarType::Float, 1);
+  AttributeTuples tuples(view);
   tuples.prepare(counts, 2, 0, {});
-  tuples.add(values.data(), sizeof(float), voxels, 2);
+  tuples.add(voxels, voxels, 2);
   bytes.clear();
   tuples.serialize(0, 2, bytes);
-  AttributeTuples other(ScalarType::Float, 1);
+  AttributeTuples other(view);
   other.prepare(counts, 2, 0, {});
   EXPECT_FALSE(other.merge(bytes.substr(0, bytes.size() - 1), { 0, 1 }));
   other.prepare(counts, 2, 0, {});

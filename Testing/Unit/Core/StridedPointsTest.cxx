@@ -94,20 +94,19 @@ TEST(StridedPoints, BringTheirTuplesToTheirVoxels)
   settings.dimensions = { 10, 10, 10 };
   ASSERT_EQ(makeLattice(settings, transformedBounds(request.points, {}), request.lattice), Status::Ok);
   request.keys = true;
-  // x, y and z themselves, as an attribute: their mean is the point.
-  request.tuples = { { twins.wide.data(), 3 * sizeof(float), 7 * sizeof(float) } };
   for (const bool keep : { false, true })
   {
     request.keepPointRecords = keep;
     VoxelResampler resampler;
     ASSERT_EQ(resampler.run(request), Status::Ok);
+    // x, y and z themselves, as an attribute: their mean is the point.
     const AttributeView view{ twins.wide.data(), ScalarType::Float, 3, std::int64_t(Twins<float>::count),
       std::int64_t(7 * sizeof(float)) };
     AttributeMean mean(view, rangeOf(view, {}));
     mean.prepare(nullptr, resampler.size(), resampler.mostPoints(), {});
     ASSERT_EQ(resampler.visitPointsByVoxel(request,
-                [&](const PointRows& rows, const std::int64_t* voxels, int count)
-                { mean.add(rows.tuples(0), rows.bytes, voxels, count); }),
+                [&](const std::int64_t* numbers, const std::int64_t* voxels, int count)
+                { mean.add(numbers, voxels, count); }),
       Status::Ok);
     std::vector<float> averaged(3 * std::size_t(resampler.size()));
     std::vector<double> means(averaged.size());

@@ -78,7 +78,7 @@ std::vector<Tuples> attributesOf(const VoxelResampler& resampler, const VoxelReq
   for (std::size_t i = 0; i < request.attributes.size(); ++i)
   {
     all.emplace_back(
-      std::size_t(resampler.size(level)) * AttributeReducer::sourceOf(request.attributes[i].view).bytes);
+      std::size_t(resampler.size(level)) * std::size_t(request.attributes[i].view.tupleBytes()));
     resampler.copyAttribute(level, i, all.back().data());
   }
   return all;
@@ -98,18 +98,16 @@ std::vector<Tuples> expectedOf(const VoxelRequest& request)
   for (const AttributeRequest& attribute : request.attributes)
   {
     const auto reducer = AttributeReducer::create(attribute, request.transform, InstructionSet::Baseline, {});
-    const TupleSource source = AttributeReducer::sourceOf(attribute.view);
     reducer->prepare(resampler.counts(), resampler.size(), resampler.mostPoints(), {});
     for (std::int64_t i = 0; i < request.points.size(); ++i)
     {
       const std::int64_t voxel = resampler.voxelIndex()[std::size_t(i)];
       if (voxel >= 0)
       {
-        reducer->add(
-          static_cast<const char*>(source.values) + source.step() * std::size_t(i), source.bytes, &voxel, 1);
+        reducer->add(&i, &voxel, 1);
       }
     }
-    all.emplace_back(std::size_t(resampler.size()) * source.bytes);
+    all.emplace_back(std::size_t(resampler.size() * attribute.view.tupleBytes()));
     EXPECT_TRUE(reducer->write(resampler.counts(), all.back().data(), {}, nullptr));
   }
   return all;
@@ -118,7 +116,8 @@ std::vector<Tuples> expectedOf(const VoxelRequest& request)
 void expectAttributes(VoxelRequest request, const Executor& executor, const std::string& what)
 {
   const std::vector<Tuples> expected = expectedOf(request);
-  for (const std::int64_t chunkPoints : { std::int64_t(0), std::int64_t(1700) })
+  // One chunk, as many as are kept, more.
+  for (const std::int64_t chunkPoints : { 0, 1700, 170 })
   {
     for (const InstructionSet set :
       { InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Automatic })
@@ -194,12 +193,12 @@ TEST(VoxelAttributes, ComeWithRepresentativesAndTheVoxelsOfPointsAsWithout)
   request.attributes.push_back(arrays.label(AttributeStatistic::Mode));
   const std::vector<Tuples> expected = expectedOf(request);
   request.voxelIndex = true;
-  request.tuples = { AttributeReducer::sourceOf(arrays.label(AttributeStatistic::Mode).view) };
   for (const Representative representative : { Representative::Mean, Representative::NearestToMean,
          Representative::NearestToCenter, Representative::Median })
   {
     request.representative = representative;
-    for (const std::int64_t chunkPoints : { std::int64_t(0), std::int64_t(500) })
+    // One chunk, as many as are kept, more.
+    for (const std::int64_t chunkPoints : { 0, 500, 100 })
     {
       request.chunkPoints = chunkPoints;
       VoxelResampler resampler;
@@ -215,7 +214,7 @@ TEST(VoxelAttributes, ComeWithRepresentativesAndTheVoxelsOfPointsAsWithout)
 
 TEST(VoxelAttributes, OfACrowdNeedMorePartsAsPointsCome)
 {
-  // 53 bits each: a word holds sums of 1023 of them, as many as the first chunks have in a voxel.
+  // 53 bits each: a word holds sums of 1023 of them, more than the first chunks have in a voxel.
   constexpr std::size_t kPoints = 5000;
   std::vector<Vec3> points = randomBox(kPoints, 5, { 0, 0, 0 }, { 8, 8, 8 });
   std::vector<double> values(kPoints);
@@ -231,7 +230,7 @@ TEST(VoxelAttributes, OfACrowdNeedMorePartsAsPointsCome)
   request.lattice = latticeOf(8, 8, 8);
   request.attributes = { { { values.data(), ScalarType::Double, 1, std::int64_t(kPoints) } } };
   const std::vector<Tuples> expected = expectedOf(request);
-  for (const std::int64_t chunkPoints : { 250, 600, 5000 })
+  for (const std::int64_t chunkPoints : { 250, 600, 5000, 0 })
   {
     request.chunkPoints = chunkPoints;
     VoxelResampler resampler;

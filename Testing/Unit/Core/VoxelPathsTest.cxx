@@ -77,7 +77,7 @@ TEST(VoxelPaths, MorePointsInFewVoxelsThanOneBatchHoldsAreWhatAFinerLatticeSumsU
     std::vector<std::atomic<std::int64_t>> counts(result.levels[0].counts.size());
     ASSERT_EQ(resampler.visitPointsByVoxel(
                 request,
-                [&](const PointRows&, const std::int64_t* voxels, int count)
+                [&](const std::int64_t*, const std::int64_t* voxels, int count)
                 {
                   for (int i = 0; i < count; ++i)
                   {

@@ -284,11 +284,11 @@ TEST(VoxelResampler, AnAbortLeavesNoVoxelsAndAUsableObject)
     expectSame(runOf(resampler, less), runOf(less), nameOf(lattice));
     CountingObserver again(1);
     EXPECT_EQ(resampler.visitPointsByVoxel(
-                less, [](const PointRows&, const std::int64_t*, int) {}, {}, nullptr),
+                less, [](const std::int64_t*, const std::int64_t*, int) {}, {}, nullptr),
       Status::Ok);
     EXPECT_EQ(resampler.run(request), Status::Ok);
     EXPECT_EQ(resampler.visitPointsByVoxel(
-                request, [](const PointRows&, const std::int64_t*, int) {}, {}, &again),
+                request, [](const std::int64_t*, const std::int64_t*, int) {}, {}, &again),
       Status::Aborted);
   }
 }
@@ -431,7 +431,8 @@ TEST(VoxelResampler, CloudsWithoutAPointInsideAreNoError)
     VoxelResampler resampler;
     EXPECT_EQ(resampler.run(none, {}, &observer), Status::Ok);
     EXPECT_EQ(resampler.size(0) + resampler.size(1), 0);
-    EXPECT_EQ(resampler.visitPointsByVoxel(none, [](const PointRows&, const std::int64_t*, int) { FAIL(); }),
+    EXPECT_EQ(
+      resampler.visitPointsByVoxel(none, [](const std::int64_t*, const std::int64_t*, int) { FAIL(); }),
       Status::Ok);
   }
 }

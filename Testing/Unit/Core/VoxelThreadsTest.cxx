@@ -73,11 +73,9 @@ std::vector<float> meansOf(const std::vector<float>& values, VoxelResampler& res
   AttributeMean mean(
     { values.data(), ScalarType::Float, 3, request.points.size() }, executor, request.instructions);
   mean.prepare(nullptr, resampler.size(), resampler.mostPoints(), executor);
-  const auto add = [&](const PointRows& rows, const std::int64_t* voxels, int count)
-  { mean.add(rows.tuples(0), rows.bytes, voxels, count); };
-  VoxelRequest withValues = request;
-  withValues.tuples = { { values.data(), 3 * sizeof(float) } };
-  EXPECT_EQ(resampler.visitPointsByVoxel(withValues, add, executor), Status::Ok);
+  const auto add = [&](const std::int64_t* points, const std::int64_t* voxels, int count)
+  { mean.add(points, voxels, count); };
+  EXPECT_EQ(resampler.visitPointsByVoxel(request, add, executor), Status::Ok);
   std::vector<float> means(3 * std::size_t(resampler.size()));
   mean.write(resampler.counts(), means.data(), executor, nullptr);
   return means;

@@ -9,8 +9,6 @@
 
 #include <array>
 #include <atomic>
-#include <cstring>
-#include <numeric>
 
 using namespace pointhaptics;
 using namespace pointhaptics::trial;
@@ -50,66 +48,12 @@ void expectLevelsAreDirect(const VoxelRequest& request, const Executor& executor
   }
 }
 
-/// Attributes of test points, functions of their indices.
-struct Attributes
-{
-  std::vector<std::uint8_t> bytes; ///< Three a point.
-  std::vector<double> doubles;
-  std::vector<std::array<std::int32_t, 30>> wide;
-
-  Attributes(std::size_t points, bool isWide)
-  {
-    for (std::size_t i = 0; i < points; ++i)
-    {
-      bytes.insert(bytes.end(), { std::uint8_t(i), std::uint8_t(i >> 8), std::uint8_t(i >> 16) });
-      doubles.push_back(1.0 / double(i + 1));
-      if (isWide)
-      {
-        wide.emplace_back();
-        std::iota(wide.back().begin(), wide.back().end(), std::int32_t(i));
-      }
-    }
-  }
-  std::vector<TupleSource> sources() const
-  {
-    std::vector<TupleSource> all = { { bytes.data(), 3 }, {}, { doubles.data(), sizeof(double) } };
-    if (!wide.empty())
-    {
-      all.push_back({ wide.data(), sizeof wide[0] });
-    }
-    all.push_back({ bytes.data(), 3 });
-    return all;
-  }
-  /// The number of the point that a row is of; -1 if something in it is of another.
-  std::int64_t pointOf(const PointRows& rows, int row) const
-  {
-    const auto tuple = [&](std::size_t source)
-    { return static_cast<const char*>(rows.tuples(source)) + rows.bytes * std::size_t(row); };
-    const auto aligned = [&](std::size_t source, std::size_t alignment)
-    { return reinterpret_cast<std::uintptr_t>(tuple(source)) % alignment == 0; };
-    if (!aligned(1, 8) || !aligned(2, 8) || (!wide.empty() && !aligned(3, 4)))
-    {
-      return -1;
-    }
-    std::int64_t point;
-    std::memcpy(&point, tuple(1), sizeof point);
-    const bool isThere = point >= 0 && std::size_t(point) < doubles.size() &&
-      std::memcmp(tuple(0), bytes.data() + 3 * point, 3) == 0 &&
-      std::memcmp(tuple(wide.empty() ? 3 : 4), bytes.data() + 3 * point, 3) == 0 &&
-      std::memcmp(tuple(2), doubles.data() + point, sizeof(double)) == 0 &&
-      (wide.empty() || std::memcmp(tuple(3), wide.data() + point, sizeof wide[0]) == 0);
-    return isThere ? point : -1;
-  }
-};
-
-/// Notes the visits of points by several threads: every point once, with its attributes, no voxel by two
-/// threads at a time.
+/// Notes the visits of points by several threads: every point once, no voxel by two threads at a time.
 class VisitLog
 {
 public:
-  VisitLog(const Attributes& attributes, std::size_t points, std::size_t voxels)
-    : attributes_(attributes)
-    , voxelOf_(points)
+  VisitLog(std::size_t points, std::size_t voxels)
+    : voxelOf_(points)
     , busy_(voxels)
   {
     clear();
@@ -121,14 +65,15 @@ public:
       voxel = -1;
     }
   }
-  void note(const PointRows& rows, const std::int64_t* voxels, int count)
+  void note(const std::int64_t* points, const std::int64_t* voxels, int count)
   {
     std::vector<std::int64_t> taken;
     for (int i = 0; i < count; ++i)
     {
-      const std::int64_t point = attributes_.pointOf(rows, i);
+      const std::int64_t point = points[i];
       const std::int64_t voxel = voxels[i];
-      if (point < 0 || voxel < 0 || std::size_t(voxel) >= busy_.size())
+      if (point < 0 || std::size_t(point) >= voxelOf_.size() || voxel < 0 ||
+        std::size_t(voxel) >= busy_.size())
       {
         ++faults_;
         continue;
@@ -169,29 +114,25 @@ public:
   }
 
 private:
-  const Attributes& attributes_;
   std::vector<std::atomic<std::int64_t>> voxelOf_; ///< Of each point.
   std::vector<std::atomic<int>> busy_;             ///< Whether a thread is at each voxel.
   std::atomic<std::int64_t> faults_{ 0 };
 };
 
-void expectVisited(VoxelRequest request, bool keepsRecords, bool isWide, const Executor& executor)
+void expectVisited(VoxelRequest request, bool keepsRecords, const Executor& executor)
 {
   request.keepPointRecords = keepsRecords;
-  const auto points = std::size_t(request.points.size());
-  const Attributes attributes(points, isWide);
-  request.tuples = attributes.sources();
   const std::string what = nameOf(request.lattice) + (request.index ? " with an index" : "") +
-    (keepsRecords ? ", keeps records" : "") + (isWide ? ", wide" : "");
+    (keepsRecords ? ", keeps records" : "");
   VoxelResampler resampler;
   const RunResult result = runOf(resampler, request, executor);
   const LevelResult& level = result.levels[0];
-  VisitLog log(attributes, points, level.keys.size());
+  VisitLog log(std::size_t(request.points.size()), level.keys.size());
   for (int round = 0; round < (keepsRecords ? 2 : 1); ++round)
   {
     log.clear();
-    const auto visit = [&](const PointRows& rows, const std::int64_t* voxels, int count)
-    { log.note(rows, voxels, count); };
+    const auto visit = [&](const std::int64_t* points, const std::int64_t* voxels, int count)
+    { log.note(points, voxels, count); };
     ASSERT_EQ(resampler.visitPointsByVoxel(request, visit, executor), Status::Ok);
     log.expectAll(request, level, what);
   }
@@ -200,11 +141,8 @@ void expectVisited(VoxelRequest request, bool keepsRecords, bool isWide, const E
 
 void expectVisited(const VoxelRequest& request, const Executor& executor)
 {
-  for (const bool isWide : { false, true })
-  {
-    expectVisited(request, false, isWide, executor);
-    expectVisited(request, true, isWide, executor);
-  }
+  expectVisited(request, false, executor);
+  expectVisited(request, true, executor);
 }
 
 } // namespace
@@ -344,14 +282,17 @@ TEST(VoxelVisit, ReachesEveryPointOfMoreThanAChunk)
   const Lattice lattice = latticeOf(1000, 1000, 1000);
   const std::vector<Vec3> points = quantisedPoints(13000, 6, lattice);
   VoxelRequest request = requestFor(points, lattice);
-  request.chunkPoints = 5000;
   request.covariances = false;
   PointIndex index;
   ASSERT_EQ(index.build(request.points), Status::Ok);
   request.index = &index;
   request.lattice.origin = { 20, 30, 10 };
   request.lattice.dimensions = { 970, 960, 980 };
-  expectVisited(request, true, false, ThreadedExecutor(2));
+  for (const std::int64_t chunkPoints : { 5000, 500 })
+  {
+    request.chunkPoints = chunkPoints;
+    expectVisited(request, ThreadedExecutor(2));
+  }
 }
 
 TEST(VoxelVisit, AnIndexChangesNoBit)

@@ -26,10 +26,9 @@ struct PointRecordWriter
   std::uint32_t* taken;      ///< Blocks that the pool's writers have taken: they share it.
   std::uint32_t nextBlock;   ///< Of those it took in advance.
   std::uint32_t endBlock;
-  /// Called with the points that were binned, counted from the first range's begin, and the indices of their
-  /// records; or null.
-  void (*binned)(const void* context, const std::uint32_t* points, const std::uint32_t* slots, int count);
-  const void* context;
+  std::uint32_t* numbers;         ///< Beside each record the number of its point; or null.
+  const std::uint32_t* originals; ///< Numbers from the first range's begin on; or null: they ascend.
+  std::uint32_t firstNumber;      ///< Of the first range's begin, then.
   std::int64_t inside;
   std::int64_t invalid;
 };

@@ -26,7 +26,6 @@ struct QuantizedPoints
   alignas(64) PointRecord records[kBatchPoints + kWidest];
   alignas(64) std::uint64_t partitions[kBatchPoints + kWidest];
   alignas(64) std::uint32_t indices[kBatchPoints + kWidest];
-  std::uint32_t slots[kBatchPoints]; ///< Of the records, once they are binned.
 };
 
 /// The vectors that stay the same over all points.
@@ -227,7 +226,7 @@ inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
   // Copies, which no store can change.
   PointRecord** const cursors = writer.cursors;
   const std::uintptr_t blockMask = writer.blockMask;
-  const bool keepsSlots = writer.binned != nullptr;
+  std::uint32_t* const numbers = writer.numbers;
   const auto bin = [&](int i) __attribute__((always_inline))
   {
     const std::uint64_t partition = quantized.partitions[i];
@@ -237,9 +236,12 @@ inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
     // cache.
     fetchToWrite(cursor + 2 * kLineRecords);
     *cursor = quantized.records[i];
-    if (keepsSlots)
+    if (numbers)
     {
-      quantized.slots[i] = std::uint32_t(cursor - writer.records);
+      std::uint32_t* const number = numbers + (cursor - writer.records);
+      fetchToWrite(number + kLineNumbers);
+      *number =
+        writer.originals ? writer.originals[quantized.indices[i]] : writer.firstNumber + quantized.indices[i];
     }
   };
   constexpr int kParts = 16;
@@ -252,10 +254,6 @@ inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
   for (int i = 0; !isFull && i < quantized.size; ++i)
   {
     bin(i);
-  }
-  if (keepsSlots)
-  {
-    writer.binned(writer.context, quantized.indices, quantized.slots, isFull ? kBatchPoints : quantized.size);
   }
   // Points beyond a full batch become the first of the next one.
   const int left = isFull ? quantized.size - kBatchPoints : 0;

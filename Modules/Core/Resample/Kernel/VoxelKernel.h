@@ -43,8 +43,8 @@ constexpr std::uint64_t kPositionMask = (std::uint64_t(1) << kPositionBits) - 1;
 constexpr int kLowBits = 64 - kPositionBits;
 constexpr std::uint64_t kLowMask = (std::uint64_t(1) << kLowBits) - 1;
 
-/// A point record: the quantized position of one point, as low bits of z | x, high bits of z | y. Where
-/// attributes are wanted, the point's tuples or its index lie in a row beside it (PointRecordPool::rows()).
+/// A point record: the quantized position of one point, as low bits of z | x, high bits of z | y. Where more
+/// than sums is wanted, the point's number lies beside it (PointRecordPool).
 struct alignas(16) PointRecord
 {
   std::uint64_t first;
@@ -55,6 +55,7 @@ struct alignas(16) PointRecord
 constexpr std::size_t kBlockRecords = 4096 / sizeof(PointRecord);
 /// Records of a line of the caches.
 constexpr int kLineRecords = 64 / sizeof(PointRecord);
+constexpr int kLineNumbers = 64 / sizeof(std::uint32_t);
 
 /// What of the matrix and the offset there is to work with.
 enum class Motion
@@ -224,6 +225,23 @@ struct CovarianceMap
   double unit[3]; ///< A quantum in the frame of the lattice.
 };
 
+/// Of a voxel the point nearest to a place in it so far.
+struct alignas(64) NearestPoint
+{
+  double target[3]; ///< The place, in quanta from the voxel's lower corner.
+  double yz;        ///< 0: distances are by x alone; else 1.
+  double least;     ///< The square of the least distance so far, and of the second least.
+  double second;
+  std::int64_t point;
+};
+
+/// How offsets in voxels become lengths.
+struct NearestMap
+{
+  int fractionBits;
+  double scale[3];
+};
+
 /// Elements of the widest vectors.
 constexpr int kWidest = 8;
 
@@ -281,6 +299,9 @@ struct Kernels
   /// these. Reads, but does not use, kWidest elements past the end.
   int (*covariances)(const CovarianceMap&, const PackedSums* sums, const SplitSecondMoments* secondMoments,
     int count, double* covariances, int* full);
+  /// Compares the points of records, whose numbers are @p points, with the nearest of their voxels.
+  void (*nearest)(const NearestMap&, const PointRecord* records, const std::int64_t* points,
+    const std::int64_t* voxels, int count, NearestPoint* nearest);
   AttributeKernels attributes;
 };
 

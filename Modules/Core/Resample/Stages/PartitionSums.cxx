@@ -30,18 +30,25 @@ static_assert(kPackedCounts + kChunkPoints < (std::int64_t(1) << 21),
 
 }
 
-void PartitionWorker::prepare(
-  const PartitionPlan& plan, bool covariances, const PartitionReductions* reductions)
+void PartitionWorker::prepare(const VoxelRequest& request, const PointBinner& binner, bool reduces)
 {
-  plan_ = plan;
-  covariances_ = covariances;
-  reductions_ = reductions;
+  request_ = &request;
+  binner_ = &binner;
+  kernels_ = &kernelsFor(request.instructions);
+  covariances_ = request.covariances;
+  reduces_ = reduces;
+  reductions_ = reduces ? VoxelReductions(request) : VoxelReductions();
+  nearest_.reset();
+  if (reduces && keepsPoints(request.representative))
+  {
+    nearest_.emplace(request, binner.quantizer());
+  }
 }
 
 /// Memory that grows with the plan is touched by a thread that works.
 void PartitionWorker::makeTables()
 {
-  const std::size_t words = occupancyWords(plan_);
+  const std::size_t words = occupancyWords(plan());
   if (occupancy_.reserve(words))
   {
     std::fill(occupancy_.data(), occupancy_.data() + words, 0);
@@ -56,16 +63,16 @@ void PartitionWorker::makeTables()
 
 CellRanks PartitionWorker::ranks() const
 {
-  return { occupancy_.data(), rankTable_.data(), occupancyWords(plan_) };
+  return { occupancy_.data(), rankTable_.data(), occupancyWords(plan()) };
 }
 
 /// Builds the rank table for the occupied cells, which are those of one list or two.
-std::size_t PartitionWorker::rankOccupied(const Kernels& kernels, CellList cells, CellList others)
+std::size_t PartitionWorker::rankOccupied(CellList cells, CellList others)
 {
-  isSparse_ = kWordsPerSparseCell * (cells.count + others.count) < occupancyWords(plan_);
+  isSparse_ = kWordsPerSparseCell * (cells.count + others.count) < occupancyWords(plan());
   if (!isSparse_)
   {
-    return kernels.rankWords(ranks(), nullptr);
+    return kernels_->rankWords(ranks(), nullptr);
   }
   for (const CellList& list : { cells, others })
   {
@@ -74,13 +81,13 @@ std::size_t PartitionWorker::rankOccupied(const Kernels& kernels, CellList cells
     fromFourParts(int(list.count),
       [=](int i) { touched[marked[i] / 4096] |= std::uint64_t(1) << (marked[i] / 64 % 64); });
   }
-  return kernels.rankWords(ranks(), touched_.data());
+  return kernels_->rankWords(ranks(), touched_.data());
 }
 
 /// For the same cells, in any order.
 void PartitionWorker::clearOccupancy(CellList cells)
 {
-  const std::size_t words = occupancyWords(plan_);
+  const std::size_t words = occupancyWords(plan());
   if (!isSparse_)
   {
     std::fill(occupancy_.data(), occupancy_.data() + words, 0);
@@ -94,9 +101,10 @@ void PartitionWorker::clearOccupancy(CellList cells)
 }
 
 /// Sets the occupancy bits of the accumulated cells and of the records, and counts them.
-void PartitionWorker::countOccupied(const Kernels& kernels, const PointRecordPool& pool)
+void PartitionWorker::countOccupied()
 {
-  voxels_ = { plan_.cellMap(partition_), plan_.firstKey(partition_), nullptr, nullptr, nullptr, 0 };
+  const PointRecordPool& pool = binner_->pool();
+  voxels_ = { plan().cellMap(partition_), plan().firstKey(partition_), nullptr, nullptr, nullptr, 0 };
   const std::size_t records = pool.count(partition_);
   if (records == 0 && old_->cellCount == 0)
   {
@@ -104,7 +112,7 @@ void PartitionWorker::countOccupied(const Kernels& kernels, const PointRecordPoo
   }
   makeTables();
   recordCells_.reserve(records);
-  kernels.setOccupied(old_->cells.data(), int(old_->cellCount), occupancy_.data());
+  kernels_->setOccupied(old_->cells.data(), int(old_->cellCount), occupancy_.data());
   // The accumulated sums come next and are in no near cache: prefetch a part of them with each block.
   const auto* line = reinterpret_cast<const char*>(old_->packed.data());
   const std::size_t bytes = old_->cellCount * sizeof(PackedSums);
@@ -118,17 +126,16 @@ void PartitionWorker::countOccupied(const Kernels& kernels, const PointRecordPoo
     {
       fetchToWrite(line);
     }
-    kernels.cells(voxels_.map, block.records(), block.count(), block.recordsAhead(), cells);
+    kernels_->cells(voxels_.map, block.records(), block.count(), block.recordsAhead(), cells);
   }
   // All blocks together: records of one block of a scan share words and would wait for each other.
-  kernels.setOccupied(recordCells_.data(), int(records), occupancy_.data());
-  voxels_.size =
-    rankOccupied(kernels, { recordCells_.data(), records }, { old_->cells.data(), old_->cellCount });
+  kernels_->setOccupied(recordCells_.data(), int(records), occupancy_.data());
+  voxels_.size = rankOccupied({ recordCells_.data(), records }, { old_->cells.data(), old_->cellCount });
 }
 
-/// Adds the records to the sums at @p to, which become the voxels.
-void PartitionWorker::sumRecords(
-  const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to)
+/// Adds the records to the sums at @p to, which become the voxels; these are complete where they are
+/// reduced.
+void PartitionWorker::sumRecords(AccumulatedPartition& to, bool reduces)
 {
   if (voxels_.size == 0)
   {
@@ -139,67 +146,71 @@ void PartitionWorker::sumRecords(
     own_.cellCount = 0;
   }
   places_.assign(to.cells.data(), to.cells.data() + to.cellCount);
-  kernels.rank(ranks(), places_.data(), int(places_.size()));
+  kernels_->rank(ranks(), places_.data(), int(places_.size()));
   makeRoom(to);
   const CellSums sums = { to.cells.data(), to.packed.data(),
-    covariances_ ? to.splitSecondMoments.data() : nullptr, covariances_ || reductions_ };
+    covariances_ ? to.splitSecondMoments.data() : nullptr, covariances_ };
   voxels_.cells = sums.cells;
   voxels_.sums = sums.sums;
   voxels_.secondMoments = sums.secondMoments;
   std::uint32_t* cells = recordCells_.data();
+  const PointRecordPool& pool = binner_->pool();
   PointRecordPool::Walk following(pool, pool.following(partition_));
   for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
   {
     const PointRecord* const next = following.next() ? following.records() : block.records();
-    if (reductions_)
+    if (reduces)
     {
-      block.fetchRows(); // for reduceRows()
+      block.fetchNumbers(); // for reduce()
     }
-    kernels.accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
+    kernels_->accumulate(voxels_.map, ranks(), block.records(), cells, block.count(), next, sums);
   }
-  if (reductions_)
+  if (reduces)
   {
-    reduceRows(pool, to);
+    reduce();
   }
   clearOccupancy({ voxels_.cells, voxels_.size });
 }
 
-/// Adds the rows of the records to the reductions of their cells, whose sums are complete.
-void PartitionWorker::reduceRows(const PointRecordPool& pool, AccumulatedPartition& sums)
+/// Reduces the points of the voxels, whose sums are complete.
+void PartitionWorker::reduce()
 {
-  const auto voxels = std::int64_t(voxels_.size);
+  const std::optional<VoxelRun> all =
+    old_->overfull.voxels.empty() ? std::nullopt : std::make_optional(wide());
   counts_.resize(voxels_.size);
-  std::transform(sums.packed.data(), sums.packed.data() + voxels_.size, counts_.begin(), &packedCount);
-  std::int64_t mostPoints = *std::max_element(counts_.begin(), counts_.end());
-  std::int64_t mostBefore = 0;
-  for (const WideSums& overfull : sums.overfull.voxels)
+  for (std::size_t v = 0; v < voxels_.size; ++v)
   {
-    mostBefore = std::max(mostBefore, overfull.count);
+    counts_[v] = all ? all->voxels[v].count : packedCount(voxels_.sums[v]);
   }
-  mostPoints += mostBefore;
-  if (sums.reductions.empty())
+  if (nearest_)
   {
-    sums.reductions = VoxelReductions(reductions_->request);
+    nearest_->prepare(voxels_.size,
+      [&](std::size_t v)
+      { return all ? MeanOffset::of(all->voxels[v].whole()) : MeanOffset::of(voxels_.sums[v]); });
+    visitRanked(0,
+      [&](const RankedBlock& block, const RankedBlock&)
+      { nearest_->add(block.records, block.points, block.voxels, block.count); });
+    nearest_->finish();
   }
-  places_.empty() ? sums.reductions.prepare(counts_.data(), voxels, mostPoints)
-                  : sums.reductions.regroup({ places_.begin(), places_.end() }, voxels, mostPoints);
-  RowReader reader(reductions_->rows);
-  std::int64_t ranksOfBlock[kBlockRecords];
-  std::uint32_t* cells = recordCells_.data();
-  for (PointRecordPool::Walk block(pool, partition_); block.next(); cells += block.count())
+  reductions_.prepare(counts_.data(), std::int64_t(voxels_.size),
+    *std::max_element(counts_.begin(), counts_.end()), {}, nearest_ ? &*nearest_ : nullptr);
+  if (reductions_.needsPoints())
   {
-    std::copy(cells, cells + block.count(), ranksOfBlock); // See CellSums::keepsRanks.
-    sums.reductions.add(reader.read(block.rows(), block.count()), ranksOfBlock, block.count());
+    visitRanked(0,
+      [&](const RankedBlock& block, const RankedBlock& next)
+      {
+        reductions_.fetch(next.points, next.count);
+        reductions_.add(block.points, block.voxels, block.count);
+      });
   }
-  reduced_ = &sums.reductions;
 }
 
 void PartitionWorker::write(const Kernels& kernels, MeanArena& arena, std::size_t offset) const
 {
   old_->overfull.voxels.empty() ? arena.write(kernels, offset, voxels_) : arena.write(offset, this->wide());
-  if (reductions_ && voxels_.size > 0)
+  if (reduces_ && voxels_.size > 0)
   {
-    static_cast<void>(reduced_->write(arena, offset)); // Nobody aborts it.
+    static_cast<void>(reductions_.write(arena, offset)); // Nobody aborts it.
   }
 }
 
@@ -248,22 +259,21 @@ void PartitionWorker::makeRoom(AccumulatedPartition& sums) const
   sums.cellCount = size;
 }
 
-void PartitionWorker::accumulate(
-  const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition, AccumulatedPartition& sums)
+void PartitionWorker::accumulate(std::uint32_t partition, AccumulatedPartition& sums)
 {
   partition_ = partition;
   old_ = &sums;
-  countOccupied(kernels, pool);
-  sumRecords(kernels, pool, sums);
+  countOccupied();
+  sumRecords(sums, false);
   // No voxel has more points than all have together.
-  sums.points += std::int64_t(pool.count(partition));
+  sums.points += std::int64_t(binner_->pool().count(partition));
   VoxelRun overfull;
   for (std::size_t i = 0; sums.points >= kPackedCounts && i < sums.cellCount; ++i)
   {
     if (packedCount(sums.packed[i]) >= kPackedCounts)
     {
       const SecondMoments moments =
-        covariances_ ? whole(sums.splitSecondMoments[i], plan_.fractionBits) : SecondMoments{};
+        covariances_ ? whole(sums.splitSecondMoments[i], plan().fractionBits) : SecondMoments{};
       overfull.push(
         WideSums::of(voxels_.firstKey + sums.cells[i], sums.packed[i]), covariances_ ? &moments : nullptr);
       sums.packed[i] = PackedSums{};
@@ -290,7 +300,7 @@ VoxelRun PartitionWorker::wide() const
   }
   for (std::size_t i = 0; covariances_ && i < voxels_.size; ++i)
   {
-    run.secondMoments.push_back(whole(voxels_.secondMoments[i], plan_.fractionBits));
+    run.secondMoments.push_back(whole(voxels_.secondMoments[i], plan().fractionBits));
   }
   return old_->overfull.voxels.empty() ? run : merged(run, old_->overfull);
 }

@@ -3,12 +3,14 @@
 #pragma once
 
 #include "Core/Base/Buffer.h"
+#include "Core/Resample/Stages/NearestRecords.h"
 #include "Core/Resample/Stages/PointBinner.h"
-#include "Core/Resample/Stages/RowReader.h"
 #include "Core/Resample/Stages/VoxelSink.h"
 #include "Core/Resample/VoxelReductions.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pointhaptics
@@ -25,14 +27,12 @@ struct alignas(kApart) AccumulatedPartition
   std::vector<PackedSums> packed;
   std::vector<SplitSecondMoments> splitSecondMoments;
   VoxelRun overfull;
-  VoxelReductions reductions; ///< Of the cells, where they are made with the sums.
-  std::int64_t points = 0;    ///< In cells; as many or fewer are in their packed sums.
+  std::int64_t points = 0; ///< In cells; as many or fewer are in their packed sums.
 
   void clear()
   {
     cellCount = 0;
     overfull.clear();
-    reductions = {};
     points = 0;
   }
   /// Frees memory that is mostly unused. The sums are dropped then: call it when they are no longer needed.
@@ -51,64 +51,57 @@ struct alignas(kApart) AccumulatedPartition
   }
 };
 
-/// The request for what is made of rows where points are summed, and the rows.
-struct PartitionReductions
+/// Points of a partition: their records, their numbers and those of their voxels.
+struct RankedBlock
 {
-  const VoxelRequest& request;
-  const RowLayout& rows;
+  const PointRecord* records = nullptr;
+  int count = 0;
+  std::int64_t points[kBlockRecords];
+  std::int64_t voxels[kBlockRecords];
 };
 
 /// Works on one partition at a time and is used by one thread at a time.
 class alignas(kApart) PartitionWorker
 {
 public:
-  /// For partitions of a plan. @p reductions: what load() and accumulate() reduce besides; nothing if null.
-  void prepare(const PartitionPlan& plan, bool covariances, const PartitionReductions* reductions);
+  /// For partitions that @p binner filled for @p request; both must outlive the work. @p reduces: load()
+  /// makes what the request wants besides sums, too. All records are kept then.
+  void prepare(const VoxelRequest& request, const PointBinner& binner, bool reduces);
   /// Frees what is of no use for another plan.
-  void finish() { own_.reductions = {}; }
+  void finish() { reductions_ = {}; }
   /// Adds the records of a partition to its @p old sums, which may change. Calls publish(size) as soon as the
   /// number of voxels is known. The voxels are valid until the next call.
   template <typename Publish>
-  void load(const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition,
-    AccumulatedPartition& old, Publish&& publish)
+  void load(std::uint32_t partition, AccumulatedPartition& old, Publish&& publish)
   {
     partition_ = partition;
     old_ = &old;
-    countOccupied(kernels, pool);
+    countOccupied();
     publish(voxels_.size);
-    sumRecords(kernels, pool, old_->cellCount > 0 ? *old_ : own_);
+    sumRecords(old_->cellCount > 0 ? *old_ : own_, reduces_);
   }
   /// All the voxels in wide sums.
   VoxelRun wide() const;
   /// Writes the voxels, and what prepare() was asked to reduce, to @p arena, from @p offset on.
   void write(const Kernels& kernels, MeanArena& arena, std::size_t offset) const;
   /// Adds the records of a partition to its accumulated sums.
-  void accumulate(
-    const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition, AccumulatedPartition& sums);
-  /// Calls visit(rows, ranks, count) with the row of each record and the rank of its voxel among the
-  /// partition's @p keys (ascending).
+  void accumulate(std::uint32_t partition, AccumulatedPartition& sums);
+  /// Calls visit(block, next) for the blocks of a partition, whose voxels' @p keys ascend and are counted
+  /// from
+  /// @p firstVoxel. Blocks may be empty: the first one, and what follows the last.
   template <typename Visit>
-  void rank(const Kernels& kernels, const PointRecordPool& pool, std::uint32_t partition,
-    const std::uint64_t* keys, std::size_t size, Visit&& visit)
+  void visit(std::uint32_t partition, const std::uint64_t* keys, std::size_t size, std::size_t firstVoxel,
+    Visit&& visit)
   {
     makeTables();
-    const CellMap map = plan_.cellMap(partition);
-    const std::uint64_t firstKey = plan_.firstKey(partition);
+    partition_ = partition;
+    const std::uint64_t firstKey = plan().firstKey(partition);
     recordCells_.reserve(size);
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      recordCells_[i] = std::uint32_t(keys[i] - firstKey);
-    }
-    kernels.setOccupied(recordCells_.data(), int(size), occupancy_.data());
-    rankOccupied(kernels, { recordCells_.data(), size }, {});
-    for (PointRecordPool::Walk block(pool, partition); block.next();)
-    {
-      std::uint32_t cells[kBlockRecords];
-      block.fetchRows();
-      kernels.cells(map, block.records(), block.count(), block.recordsAhead(), cells);
-      kernels.rank(ranks(), cells, block.count());
-      visit(block.rows(), cells, block.count());
-    }
+    std::transform(keys, keys + size, recordCells_.data(),
+      [=](std::uint64_t key) { return std::uint32_t(key - firstKey); });
+    kernels_->setOccupied(recordCells_.data(), int(size), occupancy_.data());
+    rankOccupied({ recordCells_.data(), size }, {});
+    visitRanked(firstVoxel, visit);
     clearOccupancy({ recordCells_.data(), size });
   }
   std::size_t bytes() const;
@@ -122,14 +115,51 @@ private:
 
   void makeTables();
   CellRanks ranks() const;
-  std::size_t rankOccupied(const Kernels& kernels, CellList cells, CellList others);
+  const PartitionPlan& plan() const { return binner_->plan(); }
+  std::size_t rankOccupied(CellList cells, CellList others);
   void clearOccupancy(CellList cells);
-  void countOccupied(const Kernels& kernels, const PointRecordPool& pool);
-  void sumRecords(const Kernels& kernels, const PointRecordPool& pool, AccumulatedPartition& to);
+  void countOccupied();
+  void sumRecords(AccumulatedPartition& to, bool reduces);
   void makeRoom(AccumulatedPartition& sums) const;
-  void reduceRows(const PointRecordPool& pool, AccumulatedPartition& sums);
+  /// visit() while the rank table is that of the partition.
+  template <typename Visit>
+  void visitRanked(std::size_t firstVoxel, const Visit& visit)
+  {
+    const CellMap map = plan().cellMap(partition_);
+    std::uint32_t cells[kBlockRecords];
+    RankedBlock blocks[2]; // One is visited while the next one's tuples are on their way.
+    RankedBlock* next = blocks;
+    const auto visitOther = [&]
+    {
+      RankedBlock* const block = next == blocks ? blocks + 1 : blocks;
+      visit(*block, *next);
+      block->count = 0;
+      next = block;
+    };
+    binner_->forPools(
+      [&](const PointRecordPool& pool)
+      {
+        for (PointRecordPool::Walk block(pool, partition_); block.next();)
+        {
+          block.fetchNumbers();
+          next->records = block.records();
+          next->count = block.count();
+          kernels_->cells(map, block.records(), block.count(), block.recordsAhead(), cells);
+          kernels_->rank(ranks(), cells, block.count());
+          std::transform(cells, cells + block.count(), next->voxels,
+            [=](std::uint32_t rank) { return std::int64_t(firstVoxel + rank); });
+          block.copyNumbers(next->points);
+          visitOther();
+        }
+      });
+    visitOther();
+  }
+  void reduce();
 
-  PartitionPlan plan_;
+  const VoxelRequest* request_ = nullptr;
+  const PointBinner* binner_ = nullptr;
+  const Kernels* kernels_ = nullptr;
+  bool reduces_ = false;
   std::uint32_t partition_ = 0;
   AccumulatedPartition* old_ = nullptr;
   PartitionVoxels voxels_;
@@ -139,11 +169,11 @@ private:
   bool isSparse_ = false;
   Buffer<std::uint32_t> rankTable_;
   Buffer<std::uint32_t> recordCells_;
-  AccumulatedPartition own_; ///< Sums that are not accumulated further.
-  const PartitionReductions* reductions_ = nullptr;
-  const VoxelReductions* reduced_ = nullptr; ///< Of the voxels.
-  std::vector<std::uint32_t> places_;        ///< Of the accumulated cells among the voxels.
-  std::vector<std::int64_t> counts_;         ///< Of the voxels.
+  AccumulatedPartition own_;   ///< Sums that are not accumulated further.
+  VoxelReductions reductions_; ///< Of the voxels.
+  std::optional<NearestRecords> nearest_;
+  std::vector<std::uint32_t> places_; ///< Of the accumulated cells among the voxels.
+  std::vector<std::int64_t> counts_;  ///< Of the voxels.
 };
 
 } // namespace simd

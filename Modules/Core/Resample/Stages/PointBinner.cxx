@@ -4,8 +4,8 @@
 #include "Core/Resample/Stages/PointQuantizer.h"
 
 #include <algorithm>
+#include <numeric>
 #include <type_traits>
-#include <vector>
 
 namespace pointhaptics
 {
@@ -30,46 +30,35 @@ std::uint32_t blocks(std::uint32_t count, int shift)
   return ((count - 1) >> shift) + 1;
 }
 
-/// Copies the rows of points beside their records.
-struct RowCopier
+/// Bins ranges of points: all at once, or block by block where other fields lie between points.
+void binRanges(const Kernels& kernels, const PointQuantizer& quantizer, const Chunks& chunks,
+  const PointRange* ranges, std::int64_t count, std::int64_t firstNumber, PointRecordWriter& writer)
 {
-  const RowLayout& layout;
-  const PointIndex* index;
-  char* rows;
-  std::int64_t first; ///< Point that the writer counts from.
-
-  static void copy(const void* context, const std::uint32_t* points, const std::uint32_t* slots, int count)
+  const PointView& points = chunks.points();
+  const auto numberFrom = [&](std::int64_t point)
   {
-    const auto& self = *static_cast<const RowCopier*>(context);
-    std::int64_t numbers[kBlockRecords];
-    std::transform(points, points + count, numbers,
-      [&](std::uint32_t point)
-      { return self.index ? self.index->original(self.first + point) : self.first + point; });
-    self.layout.bin(numbers, slots, count, self.rows);
-  }
-};
-
-/// Bins ranges of points: all at once, or, with rows or where other fields lie between points, one by one.
-void binRanges(const Kernels& kernels, const PointQuantizer& quantizer, const PointView& points,
-  const PointRange* ranges, std::int64_t count, RowCopier& rows, PointRecordWriter& writer)
-{
+    writer.originals = chunks.originals() ? chunks.originals() + point : nullptr;
+    writer.firstNumber = std::uint32_t(point - firstNumber);
+  };
   const auto binAll = [&](const auto* xyz)
   {
     const auto bin = kernels.of<std::decay_t<decltype(*xyz)>>().partition;
-    const bool atOnce = points.stride() == 3 && !writer.binned;
-    if (atOnce)
+    if (points.stride() == 3)
     {
+      numberFrom(ranges[0].begin);
       bin(quantizer, xyz, ranges, count, writer);
+      return;
     }
-    for (std::int64_t r = 0; !atOnce && r < count; ++r)
+    for (std::int64_t r = 0; r < count; ++r)
     {
-      rows.first = ranges[r].begin;
-      forPointBlocks(xyz, points, ranges[r].begin, ranges[r].end,
+      std::int64_t first = ranges[r].begin;
+      forPointBlocks(xyz, points, first, ranges[r].end,
         [&](const auto* block, std::int64_t size)
         {
           const PointRange all = { 0, size };
+          numberFrom(first);
           bin(quantizer, block, &all, 1, writer);
-          rows.first += size;
+          first += size;
         });
     }
   };
@@ -133,31 +122,39 @@ void PointBinner::prepare(const VoxelRequest& request, std::int64_t points)
   quantizer_.blocksPerLayer = plan_.blocksPerLayer;
   quantizer_.rowShift = plan_.rowShift;
   quantizer_.layerShift = plan_.layerShift;
+  used_ = 0;
 }
 
-void PointBinner::quantizeAndBin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk,
-  bool withRows, const Executor& executor)
+void PointBinner::quantizeAndBin(
+  const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, Keep keep, const Executor& executor)
 {
-  if (withRows)
+  used_ = keep == Keep::All ? used_ + 1 : 1;
+  while (pools_.size() < used_)
   {
-    chooseRows(request);
+    pools_.emplace_back();
   }
-  pool_.prepare(
-    chunks.pointCount(chunk), plan_.partitions, executor.concurrency(), withRows ? rows_.binnedBytes() : 0);
+  PointRecordPool& pool = pools_[used_ - 1];
+  // Numbers that an index gives fit four bytes as they are, others counted from their chunk.
   const std::int64_t pieces = chunks.pieceCount(chunk);
+  const std::int64_t firstNumber = chunks.originals() || pieces == 0 ? 0 : chunks.pieces(chunk)->begin;
+  pool.prepare(chunks.pointCount(chunk), plan_.partitions, executor.concurrency(),
+    keep == Keep::Records ? std::nullopt : std::make_optional(firstNumber));
   const std::int64_t grain = std::max<std::int64_t>(1, pieces / (16 * executor.concurrency()));
   forEachItemWith(
     executor, std::size_t((pieces + grain - 1) / grain),
-    [&](std::size_t thread) -> PointRecordWriter& { return pool_.writer(thread); },
+    [&](std::size_t thread) -> PointRecordWriter& { return pool.writer(thread); },
     [&](std::size_t item, PointRecordWriter& writer)
     {
       const std::int64_t first = std::int64_t(item) * grain;
-      RowCopier rows = { rows_, request.index, pool_.rows(), 0 };
-      writer.binned = withRows ? &RowCopier::copy : nullptr;
-      writer.context = &rows;
-      binRanges(kernelsFor(request.instructions), quantizer_, chunks.points(), chunks.pieces(chunk) + first,
-        std::min(grain, pieces - first), rows, writer);
+      binRanges(kernelsFor(request.instructions), quantizer_, chunks, chunks.pieces(chunk) + first,
+        std::min(grain, pieces - first), firstNumber, writer);
     });
+}
+
+std::size_t PointBinner::bytes() const
+{
+  return std::accumulate(pools_.begin(), pools_.end(), std::size_t(0),
+    [](std::size_t sum, const PointRecordPool& pool) { return sum + pool.bytes(); });
 }
 
 } // namespace simd

@@ -4,12 +4,13 @@
 
 #include "Core/Base/Executor.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
-#include "Core/Resample/PointRows.h"
 #include "Core/Resample/Stages/PointChunks.h"
 #include "Core/Resample/Stages/PointRecordPool.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 
 namespace pointhaptics
 {
@@ -66,23 +67,37 @@ std::size_t mostVoxels(const PartitionPlan& plan, std::size_t records, std::size
 class PointBinner
 {
 public:
-  /// For chunks of @p points points, of the lattice and the transform of @p request.
+  /// What is kept of a chunk when it was binned.
+  enum class Keep
+  {
+    Records, ///< Until the next chunk.
+    Numbers, ///< Of the points, beside the records; until the next chunk.
+    All,     ///< Both, beside those of the chunks before.
+  };
+
+  /// For chunks of @p points points, of the lattice and the transform of @p request. Empties the pools.
   void prepare(const VoxelRequest& request, std::int64_t points);
-  /// The tuples of a request lie beside the records.
-  void chooseRows(const VoxelRequest& request) { rows_.choose(request.tuples); }
-  /// Empties the pool; quantizes and bins a chunk, with rows or without.
-  void quantizeAndBin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, bool withRows,
+  /// Quantizes and bins a chunk.
+  void quantizeAndBin(const VoxelRequest& request, const Chunks& chunks, std::size_t chunk, Keep keep,
     const Executor& executor);
 
   const PartitionPlan& plan() const { return plan_; }
-  const PointRecordPool& pool() const { return pool_; }
-  const RowLayout& rows() const { return rows_; }
+  const PointQuantizer& quantizer() const { return quantizer_; }
+  /// Of the last chunk.
+  const PointRecordPool& pool() const { return pools_[used_ - 1]; }
+  /// Calls visit(pool) for those of all chunks that are kept.
+  template <typename Visit>
+  void forPools(const Visit& visit) const
+  {
+    std::for_each(pools_.begin(), pools_.begin() + std::ptrdiff_t(used_), visit);
+  }
+  std::size_t bytes() const;
 
 private:
   alignas(kApart) PartitionPlan plan_;
   alignas(kApart) PointQuantizer quantizer_{};
-  alignas(kApart) PointRecordPool pool_;
-  RowLayout rows_;
+  std::deque<PointRecordPool> pools_;
+  std::size_t used_ = 0;
 };
 
 } // namespace simd

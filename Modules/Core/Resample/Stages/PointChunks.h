@@ -31,6 +31,7 @@ public:
     if (request.index)
     {
       points_ = request.index->points();
+      originals_ = request.index->originals();
       const Lattice& lattice = request.part ? *request.part : request.lattice;
       for (const PointRange& range : request.index->rangesInside(request.transform, lattice, executor))
       {
@@ -49,6 +50,8 @@ public:
     chunks_.push_back(pieces_.size());
   }
   const PointView& points() const { return points_; }
+  /// The numbers of these in the cloud; null: they are those.
+  const std::uint32_t* originals() const { return originals_; }
   std::size_t count() const { return chunks_.size() - 1; }
   const PointRange* pieces(std::size_t chunk) const { return pieces_.data() + chunks_[chunk]; }
   std::int64_t pieceCount(std::size_t chunk) const
@@ -83,6 +86,7 @@ private:
   }
 
   PointView points_;
+  const std::uint32_t* originals_ = nullptr;
   std::vector<PointRange> pieces_;
   std::vector<std::size_t> chunks_; ///< First pieces, and an end.
   std::int64_t inChunk_ = 0;

@@ -26,7 +26,7 @@ std::size_t blockRecordsFor(std::size_t writers)
 }
 
 void PointRecordPool::prepare(
-  std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes)
+  std::int64_t points, std::uint32_t partitions, int writers, std::optional<std::int64_t> firstNumber)
 {
   const std::size_t writerCount = std::size_t(std::max(writers, 1));
   blockRecords_ = blockRecordsFor(writerCount);
@@ -34,8 +34,8 @@ void PointRecordPool::prepare(
     std::size_t(points) / blockRecords_ + writerCount * (2 * partitions + kTakenBlocks);
   records_.reserve(blocks * blockRecords_, Pages::Huge);
   previous_.reserve(blocks);
-  rowBytes_ = rowBytes;
-  rows_.reserve(blocks * blockRecords_ * rowBytes, Pages::Huge);
+  firstNumber_ = firstNumber.value_or(0);
+  numbers_.reserve(firstNumber ? blocks * blockRecords_ : 0, Pages::Huge);
   takenBlocks_ = 0;
   while (writers_.size() < writerCount)
   {
@@ -53,7 +53,7 @@ void PointRecordPool::prepare(
     writer->previous = previous_.data();
     writer->taken = &takenBlocks_;
     writer->nextBlock = writer->endBlock = 0;
-    writer->binned = nullptr;
+    writer->numbers = firstNumber ? numbers_.data() : nullptr;
     writer->inside = 0;
     writer->invalid = 0;
   }
@@ -100,7 +100,7 @@ std::int64_t PointRecordPool::invalid() const
 
 std::size_t PointRecordPool::bytes() const
 {
-  std::size_t sum = records_.bytes() + rows_.bytes() + previous_.bytes();
+  std::size_t sum = records_.bytes() + numbers_.bytes() + previous_.bytes();
   for (const std::unique_ptr<Writer>& writer : writers_)
   {
     sum += writer->cursorStorage.capacity() * sizeof(PointRecord*) +

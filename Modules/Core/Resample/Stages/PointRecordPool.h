@@ -6,8 +6,10 @@
 #include "Core/Resample/Kernel/Fetch.h"
 #include "Core/Resample/Kernel/PointRecordWriter.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pointhaptics
@@ -21,11 +23,10 @@ namespace simd
 class PointRecordPool
 {
 public:
-  /// Room for @p points records of @p partitions partitions, written by @p writers writers, and a row of so
-  /// many bytes beside each. Empties the pool.
-  void prepare(std::int64_t points, std::uint32_t partitions, int writers, std::size_t rowBytes);
-  /// Rows, one beside each record.
-  char* rows() { return rows_.data(); }
+  /// Room for @p points records of @p partitions partitions, written by @p writers writers. Empties the pool.
+  /// @p firstNumber: the number of the point lies beside each record, in 4 bytes counted from that.
+  void prepare(
+    std::int64_t points, std::uint32_t partitions, int writers, std::optional<std::int64_t> firstNumber);
 
   /// For one thread at a time.
   PointRecordWriter& writer(std::size_t number) { return *writers_[number]; }
@@ -48,13 +49,18 @@ public:
       Walk ahead = *this;
       return ahead.next() ? ahead.records() : records();
     }
-    /// Beside each record a row.
-    const char* rows() const { return pool_.rows_.data() + pool_.rowBytes_ * first_; }
-    void fetchRows() const
+    /// The numbers of the points, if they were kept.
+    void copyNumbers(std::int64_t* numbers) const
     {
-      for (std::size_t i = 0; i < pool_.rowBytes_ * std::size_t(count()); i += 64)
+      const std::uint32_t* const from = pool_.numbers_.data() + first_;
+      const std::int64_t first = pool_.firstNumber_;
+      std::transform(from, from + count(), numbers, [=](std::uint32_t number) { return first + number; });
+    }
+    void fetchNumbers() const
+    {
+      for (int i = 0; i < count(); i += kLineNumbers)
       {
-        fetch(rows() + i);
+        fetch(pool_.numbers_.data() + first_ + i);
       }
     }
     int count() const { return int(end_ - first_); }
@@ -85,8 +91,8 @@ private:
 
   std::size_t blockRecords_ = kBlockRecords;
   Buffer<PointRecord> records_;
-  Buffer<char> rows_;
-  std::size_t rowBytes_ = 0;
+  Buffer<std::uint32_t> numbers_;
+  std::int64_t firstNumber_ = 0;
   Buffer<std::uint32_t> previous_;
   alignas(kApart) std::uint32_t takenBlocks_ = 0;
   std::vector<std::unique_ptr<Writer>> writers_;

@@ -1,6 +1,7 @@
 #include "Core/Resample/Stages/VoxelRepresentatives.h"
 
-#include "Core/Resample/Stages/VoxelSlices.h"
+#include "Core/Resample/Kernel/Fetch.h"
+#include "Core/Resample/VoxelSlices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +19,10 @@ namespace
 constexpr int kQuantumBits = 40;
 constexpr std::int64_t kFewPoints = std::int64_t(1) << (56 - kQuantumBits);
 
-ScalarType coordinateType(bool single)
+/// Coordinates of the type that is asked for.
+AttributeView coordinatesFor(const VoxelRequest& request)
 {
-  return single ? ScalarType::Float : ScalarType::Double;
+  return { nullptr, request.singlePrecision ? ScalarType::Float : ScalarType::Double, 3 };
 }
 
 /// The power of two that a length above 0 has in it.
@@ -46,14 +48,12 @@ int compareValues(const AttributeView& view, std::int64_t a, std::int64_t b)
     [&](auto example)
     {
       using T = decltype(example);
-      const char* const values = static_cast<const char*>(view.values);
-      const std::int64_t step = view.stride > 0 ? view.stride : view.components * std::int64_t(sizeof(T));
       for (int c = 0; c < view.components && order == 0; ++c)
       {
         T ofA;
         T ofB;
-        std::memcpy(&ofA, values + step * a + c * std::int64_t(sizeof(T)), sizeof(T));
-        std::memcpy(&ofB, values + step * b + c * std::int64_t(sizeof(T)), sizeof(T));
+        std::memcpy(&ofA, view.tuple(a) + c * std::int64_t(sizeof(T)), sizeof(T));
+        std::memcpy(&ofB, view.tuple(b) + c * std::int64_t(sizeof(T)), sizeof(T));
         order = int(orderedKey(ofB) < orderedKey(ofA)) - int(orderedKey(ofA) < orderedKey(ofB));
       }
     });
@@ -69,67 +69,63 @@ VoxelRepresentatives::VoxelRepresentatives(const VoxelRequest& request)
       std::max({ request.lattice.spacing.x, request.lattice.spacing.y, request.lattice.spacing.z })))
   , unit_(std::ldexp(1.0, exponent_))
   , scale_(scaleOf(kQuantumBits))
-  , medians_(coordinateType(request.singlePrecision), 3, AttributeStatistic::Median)
+  , medians_(coordinatesFor(request), AttributeStatistic::Median)
 {
 }
 
-void VoxelRepresentatives::prepare(const std::int64_t* counts, std::int64_t voxels)
+void VoxelRepresentatives::prepare(
+  const std::int64_t* counts, std::int64_t voxels, const NearestRecords* known)
 {
+  known_ = known;
   if (request_->representative == Representative::Median)
   {
     medians_.prepare(counts, voxels, 0, Executor());
     return;
   }
   ends_.assign(counts, counts + voxels);
-  members_.reserve(std::size_t(countsToPlaces(ends_)), Pages::Huge);
+  for (std::size_t v = 0; known && v < ends_.size(); ++v)
+  {
+    const std::int64_t point = known->point(v);
+    fetch(addressOf(std::max<std::int64_t>(point, 0))); // For write().
+    ends_[v] = point == NearestRecords::kUnknown ? ends_[v] : 0;
+  }
+  const std::int64_t points = countsToPlaces(ends_);
+  members_.reserve(std::size_t(points), Pages::Huge);
+  needsPoints_ = points > 0;
 }
 
 template <typename Real>
-void VoxelRepresentatives::keep(
-  const char* xyz, const char* numbers, std::size_t stride, const std::int64_t* voxels, int count)
+void VoxelRepresentatives::addMedians(const std::int64_t* points, const std::int64_t* voxels, int count)
 {
-  for (int i = 0; i < count; ++i, xyz += stride, numbers += stride)
+  Real places[3 * kBlockRecords];
+  std::int64_t numbers[kBlockRecords];
+  for (int i = 0; i < count; ++i)
   {
-    const auto* point = reinterpret_cast<const Real*>(xyz);
-    const Vec3 place(point[0], point[1], point[2]);
-    Member& member = members_[std::size_t(ends_[std::size_t(voxels[i])]++)];
-    member.place = isIdentity_ ? place : request_->transform.apply(place);
-    std::memcpy(&member.number, numbers, sizeof member.number);
+    const Vec3 place = placeOf(points[i]);
+    std::transform(&place.x, &place.x + 3, places + 3 * i, [](double x) { return Real(x); });
+    numbers[i] = i;
   }
+  AttributeView view = coordinatesFor(*request_);
+  view.values = places;
+  medians_.add(view, numbers, voxels, count);
 }
 
-void VoxelRepresentatives::add(
-  const void* coordinates, const void* numbers, std::size_t stride, const std::int64_t* voxels, int count)
+void VoxelRepresentatives::add(const std::int64_t* points, const std::int64_t* voxels, int count)
 {
-  const char* xyz = static_cast<const char*>(coordinates);
-  const bool isFloat = request_->points.floats() != nullptr;
-  if (request_->representative != Representative::Median)
+  if (request_->representative == Representative::Median)
   {
-    const char* number = static_cast<const char*>(numbers);
-    isFloat ? keep<float>(xyz, number, stride, voxels, count)
-            : keep<double>(xyz, number, stride, voxels, count);
+    request_->singlePrecision ? addMedians<float>(points, voxels, count)
+                              : addMedians<double>(points, voxels, count);
     return;
   }
-  if (isIdentity_ && isFloat == request_->singlePrecision)
+  for (int i = 0; i < count; ++i)
   {
-    medians_.add(coordinates, stride, voxels, count);
-    return;
+    const auto voxel = std::size_t(voxels[i]);
+    if (!known_ || known_->point(voxel) == NearestRecords::kUnknown)
+    {
+      members_[std::size_t(ends_[voxel]++)] = { placeOf(points[i]), points[i] };
+    }
   }
-  Vec3 places[kBlockRecords];
-  float rounded[3 * kBlockRecords];
-  for (int i = 0; i < count; ++i, xyz += stride)
-  {
-    const PointView one = isFloat ? PointView(reinterpret_cast<const float*>(xyz), 1)
-                                  : PointView(reinterpret_cast<const double*>(xyz), 1);
-    places[i] = isIdentity_ ? one[0] : request_->transform.apply(one[0]);
-  }
-  if (!request_->singlePrecision)
-  {
-    medians_.add(places, sizeof(Vec3), voxels, count);
-    return;
-  }
-  std::transform(&places[0].x, &places[0].x + 3 * count, rounded, [](double x) { return float(x); });
-  medians_.add(rounded, 3 * sizeof(float), voxels, count);
 }
 
 VoxelRepresentatives::Scale VoxelRepresentatives::scaleOf(int bits) const
@@ -280,7 +276,9 @@ bool VoxelRepresentatives::write(
         const Member* const first = members_.data() + (v == 0 ? 0 : ends_[std::size_t(v - 1)]);
         const Member* const last = members_.data() + ends_[std::size_t(v)];
         const std::size_t voxel = firstVoxel + std::size_t(v);
-        const Member& member = chosenOf(first, last, arena, voxel);
+        const std::int64_t known = known_ ? known_->point(std::size_t(v)) : NearestRecords::kUnknown;
+        const Member member = known == NearestRecords::kUnknown ? chosenOf(first, last, arena, voxel)
+                                                                : Member{ placeOf(known), known };
         arena.setPoint(voxel, member.place);
         arena.chosen()[voxel] = member.number;
       }
