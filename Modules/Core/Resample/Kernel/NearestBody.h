@@ -15,23 +15,33 @@ namespace
 void nearest(const NearestMap& map, const PointRecord* records, const std::int64_t* points,
   const std::int64_t* voxels, int count, NearestPoint* nearest)
 {
+  typedef float Floats __attribute__((vector_size(16), may_alias));
+  typedef std::int32_t Ints __attribute__((vector_size(16)));
   // Copies, which no store can change.
-  const std::uint64_t mask = (std::uint64_t(1) << map.fractionBits) - 1;
-  const double scale[3] = { map.scale[0], map.scale[1], map.scale[2] };
+  const int left = map.fractionBits - kNearestBits;
+  const std::uint64_t mask = (std::uint64_t(1) << kNearestBits) - 1;
+  const Floats scale = { map.scale[0], map.scale[1], map.scale[2], 0.0f };
   fromFourParts(count,
     [=](int i)
     {
       NearestPoint& to = nearest[voxels[i]];
-      const double x = (double(std::int64_t(xFraction(records[i], mask))) - to.target[0]) * scale[0];
-      const double y = (double(std::int64_t(yFraction(records[i], mask))) - to.target[1]) * scale[1];
-      const double z = (double(std::int64_t(zFraction(records[i], mask))) - to.target[2]) * scale[2];
-      const double distance = x * x + to.yz * (y * y + z * z);
-      const double least = to.least;
-      const double farther = distance > least ? distance : least;
+      const PointRecord& r = records[i];
+      const std::uint64_t z = (r.first & kLowMask) | ((r.second & kLowMask) << kLowBits);
+      const Ints offset = { std::int32_t((r.first >> (kLowBits + left)) & mask),
+        std::int32_t((r.second >> (kLowBits + left)) & mask), std::int32_t((z >> left) & mask), 0 };
+      const Floats d =
+        (__builtin_convertvector(offset, Floats) - reinterpret_cast<const Floats&>(to)) * scale;
+      const Floats squares = d * d;
+      const float distance = squares[0] + to.yz * (squares[1] + squares[2]);
+      const float least = to.least;
+      const float farther = distance > least ? distance : least;
       to.second = to.second < farther ? to.second : farther;
       to.least = distance < least ? distance : least;
-      // Without a branch, which would be unpredictable.
-      to.point ^= (to.point ^ points[i]) & -std::int64_t(distance < least);
+      // Without a branch, which would be unpredictable: numbers that are not negative ascend as their bits do.
+      std::int32_t bits[2];
+      __builtin_memcpy(&bits[0], &distance, sizeof distance);
+      __builtin_memcpy(&bits[1], &least, sizeof least);
+      to.point ^= (to.point ^ points[i]) & ((bits[0] - bits[1]) >> 31);
     });
 }
 

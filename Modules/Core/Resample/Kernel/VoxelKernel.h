@@ -225,21 +225,22 @@ struct CovarianceMap
   double unit[3]; ///< A quantum in the frame of the lattice.
 };
 
-/// Of a voxel the point nearest to a place in it so far.
-struct alignas(64) NearestPoint
+/// Of a voxel the point nearest to a place in it so far. Offsets have kNearestBits bits: floats hold them.
+struct alignas(32) NearestPoint
 {
-  double target[3]; ///< The place, in quanta from the voxel's lower corner.
-  double yz;        ///< 0: distances are by x alone; else 1.
-  double least;     ///< The square of the least distance so far, and of the second least.
-  double second;
+  float target[3]; ///< The place, from the voxel's lower corner.
+  float yz;        ///< 0: distances are by x alone; else 1.
+  float least;     ///< The square of the least distance so far, and of the second least.
+  float second;
   std::int64_t point;
 };
+constexpr int kNearestBits = 24;
 
 /// How offsets in voxels become lengths.
 struct NearestMap
 {
   int fractionBits;
-  double scale[3];
+  float scale[3];
 };
 
 /// Elements of the widest vectors.

@@ -34,20 +34,20 @@ NearestRecords::NearestRecords(const VoxelRequest& request, const PointQuantizer
 {
   const Vec3& spacing = request.lattice.spacing;
   const double longest = std::max({ spacing.x, spacing.y, spacing.z });
-  const double quantum = std::ldexp(longest, -quantizer.fractionBits);
+  const double unit = std::ldexp(longest, -kNearestBits);
   double square = 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    map_.scale[axis] = spacing[axis] / longest;
+    map_.scale[axis] = float(spacing[axis] / longest);
     // And of what exact comparisons are rounded to: see Representative.
     const double exact = longest * std::max(0x1p-40, 0x1p-55 * double(request.points.size()));
-    const double error = (errorOf(request, quantizer, axis) + exact) / quantum;
+    const double error = (errorOf(request, quantizer, axis) + exact) / unit;
     square += error * error;
   }
-  // Of the point and of the target; and of the arithmetic, for distances of up to two voxels.
-  error_ = quantizer.motion == Motion::Compensated
-    ? INFINITY
-    : 2.0 * std::sqrt(square) + std::ldexp(1.0, quantizer.fractionBits - 44);
+  // Of the point and of the target; and of the arithmetic, in which an offset loses three units at most, and
+  // a distance less than four.
+  constexpr double kOfFloats = 16.0;
+  error_ = quantizer.motion == Motion::Compensated ? INFINITY : 2.0 * std::sqrt(square) + kOfFloats;
 }
 
 void NearestRecords::finish()
@@ -56,8 +56,8 @@ void NearestRecords::finish()
   {
     // Distances a and b that are off by e: b - a > 2 e where b^2 - a^2 > 4 e b.
     NearestPoint& nearest = nearest_[v];
-    const double gap = nearest.second - nearest.least;
-    const bool isKnown = gap * gap > 16.0 * error_ * error_ * nearest.second;
+    const double gap = double(nearest.second) - double(nearest.least);
+    const bool isKnown = gap * gap > 16.0 * error_ * error_ * double(nearest.second);
     nearest.point = isKnown ? nearest.point : kUnknown;
   }
 }

@@ -51,14 +51,16 @@ public:
   {
     voxels_ = voxels;
     nearest_.reserve(voxels, Pages::Huge);
-    const double middle = std::ldexp(0.5, map_.fractionBits);
+    const double unit = std::ldexp(1.0, kNearestBits - map_.fractionBits);
+    const auto middle = std::ldexp(0.5f, kNearestBits);
     for (std::size_t v = 0; v < voxels; ++v)
     {
       const MeanOffset mean = meanOf(v);
       // Two points are equally near to their mean: the one with the smaller x is chosen.
-      const double yz = toMean_ && mean.count == 2 ? 0.0 : 1.0;
-      const auto target = [&](int axis) { return toMean_ ? yz * mean.offset[axis] : middle; };
-      nearest_[v] = { { target(0), target(1), target(2) }, yz, kFar, kFar, kUnknown };
+      const bool byX = toMean_ && mean.count == 2;
+      const double factor = byX ? 0.0 : unit;
+      const auto target = [&](int axis) { return toMean_ ? float(factor * mean.offset[axis]) : middle; };
+      nearest_[v] = { { target(0), target(1), target(2) }, byX ? 0.0f : 1.0f, kFar, kFar, kUnknown };
     }
   }
   /// Compares the points of records, @p points, with others of their voxels.
@@ -73,7 +75,7 @@ public:
   static constexpr std::int64_t kUnknown = -1;
 
 private:
-  static constexpr double kFar = 1e150;
+  static constexpr float kFar = 1e30f;
 
   bool toMean_;
   NearestMap map_;

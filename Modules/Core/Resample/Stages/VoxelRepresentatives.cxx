@@ -186,10 +186,12 @@ bool VoxelRepresentatives::goesBefore(const Member& a, const Member& b) const
   return a.number < b.number;
 }
 
-/// The nearest in double; where another is about as near, exactly.
+/// Of voxel @p v here, @p voxel of the arena: the nearest in double; where another is about as near, exactly.
 const VoxelRepresentatives::Member& VoxelRepresentatives::chosenOf(
-  const Member* first, const Member* last, const MeanArena& arena, std::size_t voxel) const
+  std::int64_t v, const MeanArena& arena, std::size_t voxel) const
 {
+  const Member* const first = members_.data() + (v == 0 ? 0 : ends_[std::size_t(v - 1)]);
+  const Member* const last = members_.data() + ends_[std::size_t(v)];
   const std::int64_t count = last - first;
   const bool toMean = request_->representative == Representative::NearestToMean;
   if (count == 1 || (count == 2 && toMean))
@@ -273,12 +275,10 @@ bool VoxelRepresentatives::write(
     {
       for (std::int64_t v = begin; v < end; ++v)
       {
-        const Member* const first = members_.data() + (v == 0 ? 0 : ends_[std::size_t(v - 1)]);
-        const Member* const last = members_.data() + ends_[std::size_t(v)];
         const std::size_t voxel = firstVoxel + std::size_t(v);
         const std::int64_t known = known_ ? known_->point(std::size_t(v)) : NearestRecords::kUnknown;
-        const Member member = known == NearestRecords::kUnknown ? chosenOf(first, last, arena, voxel)
-                                                                : Member{ placeOf(known), known };
+        const Member member =
+          known == NearestRecords::kUnknown ? chosenOf(v, arena, voxel) : Member{ placeOf(known), known };
         arena.setPoint(voxel, member.place);
         arena.chosen()[voxel] = member.number;
       }

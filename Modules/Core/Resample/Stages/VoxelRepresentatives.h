@@ -73,8 +73,7 @@ private:
     Vec3 pivot;
   };
   Middle middleOf(const MeanArena& arena, std::size_t voxel) const;
-  const Member& chosenOf(
-    const Member* first, const Member* last, const MeanArena& arena, std::size_t voxel) const;
+  const Member& chosenOf(std::int64_t v, const MeanArena& arena, std::size_t voxel) const;
   const Member& exactlyChosenOf(const Member* first, const Member* last, const Middle& middle) const;
   bool goesBefore(const Member& a, const Member& b) const;
 
