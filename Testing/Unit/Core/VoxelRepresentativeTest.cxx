@@ -103,7 +103,7 @@ std::vector<Lattice> lattices()
 Vec3 centerOf(const Lattice& lattice, std::uint64_t key)
 {
   const auto index = lattice.indexOf(key);
-  return { double(index[0]) + 0.5, double(index[1]) + 0.5, double(index[2]) + 0.5 };
+  return lattice.origin + Vec3(double(index[0]) + 0.5, double(index[1]) + 0.5, double(index[2]) + 0.5);
 }
 
 void expectOracle(const Cloud& cloud, const VoxelRequest& request, const Chosen& found)
@@ -134,7 +134,7 @@ void expectOracle(const Cloud& cloud, const VoxelRequest& request, const Chosen&
       const std::int64_t nearest = reference::nearestMember(
         request.points, request.transform, voxel, toCenter ? &center : nullptr, cloud.values);
       ASSERT_EQ(found.points[v], nearest) << "voxel " << v << " of " << voxel.members.size() << " points";
-      ASSERT_EQ(found.places[3 * v], cloud.points[std::size_t(nearest)].x);
+      ASSERT_EQ(found.places[3 * v], request.transform.apply(cloud.points[std::size_t(nearest)]).x);
     }
     ++v;
   }
@@ -154,6 +154,52 @@ TEST(VoxelRepresentative, IsTheOraclesOnEveryPath)
       const VoxelRequest request = cloud.request(lattice, representative);
       expectOracle(cloud, request, chosenBy(request));
     }
+  }
+}
+
+/// Points about as far from the centres of their voxels: within @p steps of @p step.
+Cloud nearlyEqual(const Lattice& lattice, std::size_t steps, double step)
+{
+  Cloud cloud(lattice);
+  Random random(17);
+  for (Vec3& point : cloud.points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      point[axis] = double(random.below(std::size_t(lattice.dimensions[std::size_t(axis)]))) + 0.5;
+    }
+    const double sign = random.below(2) == 0 ? -1.0 : 1.0;
+    point[int(random.below(3))] += sign * (0.25 + step * double(random.below(steps)));
+  }
+  return cloud;
+}
+
+TEST(VoxelRepresentative, IsTheOraclesWhereDistancesAreNearlyEqual)
+{
+  const Lattice lattice = latticeOf(9, 9, 9);
+  for (const double step : { 0x1p-27, 0x1p-22, 0x1p-18 })
+  {
+    const Cloud cloud = nearlyEqual(lattice, 8, step);
+    for (const Representative representative : kNearest)
+    {
+      SCOPED_TRACE("steps of " + std::to_string(step));
+      const VoxelRequest request = cloud.request(lattice, representative);
+      expectOracle(cloud, request, chosenBy(request));
+    }
+  }
+}
+
+/// So far away that doubles there keep less of a point than its record has.
+TEST(VoxelRepresentative, IsTheOraclesWhereCoordinatesAreRounded)
+{
+  Lattice lattice = latticeOf(9, 9, 9);
+  const Cloud cloud = nearlyEqual(lattice, 8, 0x1p-18);
+  lattice.origin = { 0x1p36, 0x1p36, 0x1p36 };
+  for (const Representative representative : kNearest)
+  {
+    VoxelRequest request = cloud.request(lattice, representative);
+    request.transform = AffineTransform::translation(lattice.origin);
+    expectOracle(cloud, request, chosenBy(request));
   }
 }
 
