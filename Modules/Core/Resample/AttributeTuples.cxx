@@ -82,28 +82,23 @@ void AttributeTuples::prepare(const std::int64_t* counts, std::int64_t voxels, s
   makeRoom(simd::countsToPlaces(ends_));
 }
 
-void AttributeTuples::add(
-  const AttributeView& view, const std::int64_t* points, const std::int64_t* voxels, int count)
+void AttributeTuples::add(const std::int64_t* points, const std::int64_t* voxels, int count)
 {
-  withType(view.type,
-    [&](auto example)
+  const auto* const first = static_cast<const char*>(view_.values);
+  const std::int64_t step = view_.step();
+  const auto addAll = [&](auto bytes)
+  {
+    for (int i = 0; i < count; ++i)
     {
-      using T = decltype(example);
-      const auto* const first = static_cast<const char*>(view.values);
-      const std::int64_t step = view.step();
-      const auto addAll = [&](auto components)
-      {
-        for (int i = 0; i < count; ++i)
-        {
-          std::memcpy(tuple<T>(ends_[std::size_t(voxels[i])]++), first + step * points[i],
-            sizeof(T) * std::size_t(components));
-        }
-      };
-      // Without a call for each of the usual tuples.
-      view.components == 3     ? addAll(std::integral_constant<int, 3>())
-        : view.components == 1 ? addAll(std::integral_constant<int, 1>())
-                               : addAll(view.components);
-    });
+      addTuple(first + step * points[i], std::size_t(bytes), voxels[i]);
+    }
+  };
+  // Without a call for each of the usual tuples.
+  const std::int64_t bytes = view_.tupleBytes();
+  bytes == 1      ? addAll(std::integral_constant<int, 1>())
+    : bytes == 4  ? addAll(std::integral_constant<int, 4>())
+    : bytes == 12 ? addAll(std::integral_constant<int, 12>())
+                  : addAll(bytes);
 }
 
 void AttributeTuples::regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels)

@@ -66,7 +66,7 @@ T valueOfKey(Key key)
 /// +0; nothing depends on the order of the points.
 ///
 /// Memory: the tuples themselves, and 8 bytes a voxel; twice that while regroup() works.
-class AttributeTuples final : public AttributeReducer
+class AttributeTuples : public AttributeReducer
 {
 public:
   /// @pre @p statistic is Mode or Median
@@ -78,12 +78,7 @@ public:
 
   void prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
     const Executor& executor) override;
-  void add(const std::int64_t* points, const std::int64_t* voxels, int count) override
-  {
-    this->add(view_, points, voxels, count);
-  }
-  /// The same of another array of such tuples.
-  void add(const AttributeView& view, const std::int64_t* points, const std::int64_t* voxels, int count);
+  void add(const std::int64_t* points, const std::int64_t* voxels, int count) override;
   void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) override;
   /// Each value of a component once, with how many points have it: 16 bytes a value at most, and 8 a voxel.
   void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const override;
@@ -91,6 +86,14 @@ public:
   /// @pre each voxel has as many tuples as it was said to get.
   bool write(const std::int64_t* counts, void* values, const Executor& executor,
     ProgressObserver* observer) const override;
+
+protected:
+  /// Adds a tuple of so many bytes, all of it.
+  void addTuple(const void* tuple, std::size_t bytes, std::int64_t voxel)
+  {
+    const auto i = std::size_t(ends_[std::size_t(voxel)]++);
+    std::memcpy(reinterpret_cast<char*>(tuples_.data()) + bytes * i, tuple, bytes);
+  }
 
 private:
   std::int64_t voxels() const { return std::int64_t(ends_.size()); }

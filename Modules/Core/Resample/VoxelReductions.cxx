@@ -1,5 +1,6 @@
 #include "Core/Resample/VoxelReductions.h"
 
+#include "Core/Resample/AttributeTuples.h"
 #include "Core/Resample/Kernel/Fetch.h"
 
 namespace pointhaptics
@@ -9,12 +10,47 @@ namespace simd
 namespace
 {
 
-template <typename Real>
-AttributeView viewOf(const PointView& points, const Real* xyz)
+AttributeView viewOf(const PointView& points)
 {
-  return { xyz, sizeof(Real) == sizeof(float) ? ScalarType::Float : ScalarType::Double, 3, points.size(),
-    points.stride() * std::int64_t(sizeof(Real)) };
+  const bool single = points.floats() != nullptr;
+  return { single ? static_cast<const void*>(points.floats()) : points.doubles(),
+    single ? ScalarType::Float : ScalarType::Double, 3, points.size(),
+    points.stride() * (single ? std::int64_t(sizeof(float)) : std::int64_t(sizeof(double))) };
 }
+
+/// Medians of the points' places, in the type that is asked for.
+class PlaceMedians final : public AttributeTuples
+{
+public:
+  explicit PlaceMedians(const VoxelRequest& request)
+    : AttributeTuples({ nullptr, request.singlePrecision ? ScalarType::Float : ScalarType::Double, 3 },
+        AttributeStatistic::Median)
+    , request_(request)
+    , isIdentity_(request.transform.isIdentity())
+  {
+  }
+  void add(const std::int64_t* points, const std::int64_t* voxels, int count) override
+  {
+    request_.singlePrecision ? this->addPlaces<float>(points, voxels, count)
+                             : this->addPlaces<double>(points, voxels, count);
+  }
+
+private:
+  template <typename Real>
+  void addPlaces(const std::int64_t* points, const std::int64_t* voxels, int count)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      const Vec3 point = request_.points[points[i]];
+      const Vec3 place = isIdentity_ ? point : request_.transform.apply(point);
+      const Real xyz[3] = { Real(place.x), Real(place.y), Real(place.z) };
+      this->addTuple(xyz, sizeof xyz, voxels[i]);
+    }
+  }
+
+  const VoxelRequest& request_;
+  bool isIdentity_;
+};
 
 }
 
@@ -28,22 +64,28 @@ VoxelReductions::VoxelReductions(const VoxelRequest& request)
   }
   if (request.representative != Representative::Mean)
   {
-    representatives_.emplace(request);
-    views_.push_back(request.points.floats() ? viewOf(request.points, request.points.floats())
-                                             : viewOf(request.points, request.points.doubles()));
+    views_.push_back(viewOf(request.points));
+  }
+  if (request.representative == Representative::Median)
+  {
+    reducers_.push_back(std::make_unique<PlaceMedians>(request));
+  }
+  else if (request.representative != Representative::Mean)
+  {
+    nearest_.emplace(request);
   }
 }
 
 void VoxelReductions::prepare(const std::int64_t* counts, std::int64_t voxels, std::int64_t mostPoints,
-  const Executor& executor, const NearestRecords* nearest)
+  const Executor& executor, const NearestRecords* known)
 {
   for (const auto& reducer : reducers_)
   {
     reducer->prepare(counts, voxels, mostPoints, executor);
   }
-  if (representatives_)
+  if (nearest_)
   {
-    representatives_->prepare(counts, voxels, nearest);
+    nearest_->prepare(counts, voxels, known);
   }
 }
 
@@ -79,26 +121,27 @@ void VoxelReductions::add(const std::int64_t* points, const std::int64_t* voxels
   {
     reducer->add(points, voxels, count);
   }
-  if (representatives_)
+  if (nearest_)
   {
-    representatives_->add(points, voxels, count);
+    nearest_->add(points, voxels, count);
   }
 }
 
 bool VoxelReductions::write(
   MeanArena& arena, std::size_t first, const Executor& executor, ProgressObserver* observer) const
 {
-  const double steps = double(reducers_.size()) + double(representatives_.has_value());
+  const double steps = double(reducers_.size()) + double(nearest_.has_value());
   for (std::size_t i = 0; i < reducers_.size(); ++i)
   {
     SubProgress writing(observer, double(i) / steps, double(i + 1) / steps);
-    if (!reducers_[i]->write(arena.counts() + first, arena.attribute(i, first), executor, &writing))
+    void* const to = i < arena.attributes() ? arena.attribute(i, first) : arena.pointsFrom(first);
+    if (!reducers_[i]->write(arena.counts() + first, to, executor, &writing))
     {
       return false;
     }
   }
   SubProgress choosing(observer, double(reducers_.size()) / steps, 1.0);
-  return !representatives_ || representatives_->write(first, arena, executor, &choosing);
+  return !nearest_ || nearest_->write(first, arena, executor, &choosing);
 }
 
 } // namespace simd

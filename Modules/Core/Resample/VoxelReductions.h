@@ -3,8 +3,8 @@
 #pragma once
 
 #include "Core/Resample/AttributeReducer.h"
+#include "Core/Resample/Stages/NearestPoints.h"
 #include "Core/Resample/Stages/NearestRecords.h"
-#include "Core/Resample/Stages/VoxelRepresentatives.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstddef>
@@ -34,10 +34,7 @@ public:
   /// See AttributeReducer. @pre no representatives
   void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels);
   /// Whether anything is to be added.
-  bool needsPoints() const
-  {
-    return !reducers_.empty() || (representatives_ && representatives_->needsPoints());
-  }
+  bool needsPoints() const { return !reducers_.empty() || (nearest_ && nearest_->needsPoints()); }
   /// Fetches what add() reads of points, in time for that.
   void fetch(const std::int64_t* points, int count) const;
   /// Adds points. Several threads may at once if no two have a voxel in common.
@@ -48,9 +45,10 @@ public:
     ProgressObserver* observer = nullptr) const;
 
 private:
-  std::vector<AttributeView> views_;                        ///< What add() reads.
-  std::vector<std::unique_ptr<AttributeReducer>> reducers_; ///< One for each attribute.
-  std::optional<VoxelRepresentatives> representatives_;
+  std::vector<AttributeView> views_; ///< What add() reads.
+  std::vector<std::unique_ptr<AttributeReducer>>
+    reducers_; ///< One for each attribute, one for median places.
+  std::optional<NearestPoints> nearest_;
 };
 
 } // namespace simd
