@@ -86,9 +86,8 @@ public:
   void write(const Kernels& kernels, MeanArena& arena, std::size_t offset) const;
   /// Adds the records of a partition to its accumulated sums.
   void accumulate(std::uint32_t partition, AccumulatedPartition& sums);
-  /// Calls visit(block, next) for the blocks of a partition, whose voxels' @p keys ascend and are counted
-  /// from
-  /// @p firstVoxel. Blocks may be empty: the first one, and what follows the last.
+  /// Calls visit(block, next) for the blocks of a partition, whose voxels' @p keys ascend; voxels are counted
+  /// from @p firstVoxel. Blocks may be empty: the first one, and what follows the last.
   template <typename Visit>
   void visit(std::uint32_t partition, const std::uint64_t* keys, std::size_t size, std::size_t firstVoxel,
     Visit&& visit)
