@@ -58,9 +58,8 @@ Status VoxelResampler::Implementation::run(
   wanted.keepPointRecords = request.keepPointRecords || request.voxelIndex;
   levels[0].lattice = request.lattice;
   usesPartitions_ = usesPartitions(request.lattice);
-  SubProgress summing(observer, 0.0, !reduces(request) && !request.voxelIndex ? 1.0 : 0.5);
-  SubProgress visiting(observer, 0.5, 1.0);
-  status = usesPartitions_ ? runBinned(wanted, executor, &summing) : runSorted(wanted, executor, &summing);
+  status = usesPartitions_ ? runBinned(wanted, executor, observer) : runSorted(wanted, executor, observer);
+  SubProgress visiting(observer, fractionOfSums(wanted), 1.0);
   status = status == Status::Ok ? visitAgain(wanted, executor, &visiting) : status;
   if (status != Status::Ok)
   {
@@ -78,8 +77,9 @@ Status VoxelResampler::Implementation::runBinned(
   const std::size_t count = chunks.count();
   const double binned =
     fractionOfFinest(request) * (reducesInPass_ ? 0.5 : double(count - 1) / double(count));
-  SubProgress binning(observer, 0.0, binned);
-  SubProgress writing(observer, binned, fractionOfFinest(request));
+  SubProgress summing(observer, 0.0, fractionOfSums(request));
+  SubProgress binning(&summing, 0.0, binned);
+  SubProgress writing(&summing, binned, fractionOfFinest(request));
   for (std::size_t chunk = 0; chunk < count; ++chunk)
   {
     binner_.quantizeAndBin(
@@ -99,7 +99,7 @@ Status VoxelResampler::Implementation::runBinned(
   {
     return Status::Aborted;
   }
-  return request.levels > 1 ? addLevels(request, executor, observer) : Status::Ok;
+  return request.levels > 1 ? addLevels(request, executor, &summing) : Status::Ok;
 }
 
 void VoxelResampler::Implementation::clear()

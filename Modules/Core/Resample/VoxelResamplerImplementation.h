@@ -69,8 +69,14 @@ private:
   {
     return !request.attributes.empty() || request.representative != Representative::Mean;
   }
+  /// Another pass over the points, or over what is kept of them.
+  bool visits(const VoxelRequest& request) const
+  {
+    return request.voxelIndex || (reduces(request) && !reducesInPass_);
+  }
   static simd::MeanArena::Layout layoutOf(const VoxelRequest& request);
-  /// The part of the work of run() that the finest level is.
+  /// The part of the work of run() that is not done by a visit, and that of it that the finest level is.
+  double fractionOfSums(const VoxelRequest& request) const { return visits(request) ? 0.5 : 1.0; }
   static double fractionOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
   bool writeRuns(const VoxelRequest& request, bool keeps, simd::Level& level, OutputAllocator* allocator,
     const Executor& executor, ProgressObserver* observer);

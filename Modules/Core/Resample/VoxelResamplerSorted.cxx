@@ -52,16 +52,17 @@ Status VoxelResampler::Implementation::runSorted(
   sorted_.choose(quantizer, request.lattice, chunks);
   runs_.reset(sorted_.ranges(), quantizer.fractionBits);
   startCounts(usable);
+  SubProgress summing(observer, 0.0, fractionOfSums(request));
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
     sorted_.sum(chunks, chunk, request.covariances, runs_, executor);
     countPoints(sorted_.inside(), sorted_.invalid());
-    if (observer && !observer->report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
+    if (!summing.report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }
   }
-  return finishRuns(request, executor, observer);
+  return finishRuns(request, executor, &summing);
 }
 
 /// Means of the runs.
