@@ -37,7 +37,8 @@ void nearest(const NearestMap& map, const PointRecord* records, const std::int64
       const float farther = distance > least ? distance : least;
       to.second = to.second < farther ? to.second : farther;
       to.least = distance < least ? distance : least;
-      // Without a branch, which would be unpredictable: numbers that are not negative ascend as their bits do.
+      // Without a branch, which would be unpredictable: numbers that are not negative ascend as their bits
+      // do.
       std::int32_t bits[2];
       __builtin_memcpy(&bits[0], &distance, sizeof distance);
       __builtin_memcpy(&bits[1], &least, sizeof least);

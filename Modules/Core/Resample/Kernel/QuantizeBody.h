@@ -221,12 +221,16 @@ __attribute__((noinline)) int quantizeGroups(const QuantizerVectors& given, cons
 
 /// Bins quantized points: appends their records to the partitions. It takes turns over the batch: neighbours
 /// in a scan go to one partition, and a record would wait for the cursor that the record before has moved.
+/// @tparam Numbered: with the numbers of the points.
+template <bool Numbered>
 inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
 {
   // Copies, which no store can change.
   PointRecord** const cursors = writer.cursors;
   const std::uintptr_t blockMask = writer.blockMask;
   std::uint32_t* const numbers = writer.numbers;
+  const std::uint32_t* const originals = writer.originals;
+  const std::uint32_t firstNumber = writer.firstNumber;
   const auto bin = [&](int i) __attribute__((always_inline))
   {
     const std::uint64_t partition = quantized.partitions[i];
@@ -236,12 +240,12 @@ inline void binPoints(QuantizedPoints& quantized, PointRecordWriter& writer)
     // cache.
     fetchToWrite(cursor + 2 * kLineRecords);
     *cursor = quantized.records[i];
-    if (numbers)
+    if constexpr (Numbered)
     {
       std::uint32_t* const number = numbers + (cursor - writer.records);
       fetchToWrite(number + kLineNumbers);
-      *number =
-        writer.originals ? writer.originals[quantized.indices[i]] : writer.firstNumber + quantized.indices[i];
+      const std::uint32_t index = quantized.indices[i];
+      *number = originals ? originals[index] : firstNumber + index;
     }
   };
   constexpr int kParts = 16;
@@ -271,6 +275,7 @@ void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointR
   std::int64_t count, PointRecordWriter& writer)
 {
   const QuantizerVectors constants(quantizer);
+  const auto bin = writer.numbers ? &binPoints<true> : &binPoints<false>;
   QuantizedPoints batch;
   const auto quantize = [&](const Real* from, std::int64_t first, int groups, unsigned present)
   {
@@ -280,7 +285,7 @@ void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointR
     writer.inside += batch.size - before;
     if (batch.size >= kBatchPoints)
     {
-      binPoints(batch, writer);
+      bin(batch, writer);
     }
   };
   for (std::int64_t r = 0; r < count; ++r)
@@ -304,7 +309,7 @@ void partitionAll(const PointQuantizer& quantizer, const Real* xyz, const PointR
       quantize(last, i, 1, (1u << unsigned(rest)) - 1);
     }
   }
-  binPoints(batch, writer);
+  bin(batch, writer);
 }
 
 template <Motion motion, typename Real>
