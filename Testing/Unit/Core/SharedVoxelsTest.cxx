@@ -404,3 +404,26 @@ TEST(SharedVoxels, RefuseSumsOfArraysThatAreNotTheirs)
   other.prepare(counts, 2, 0, {});
   EXPECT_TRUE(other.merge(bytes, { 0, 1 }));
 }
+
+TEST(SharedVoxels, SumsOfRanksWithFewPointsAndWithManyFit)
+{
+  // 53 bits and 33 more, in two parts: how they are cut depends on the most points of a voxel alone.
+  const std::vector<double> values = { 0x1p33, 1.0 + 0x1p-52 };
+  AttributeView few{ values.data(), ScalarType::Double, 1, 2 };
+  AttributeView many = few;
+  many.tuples = 10000000; // of which two are added
+  const AttributeRange range = rangeOf(few, Executor());
+  const std::int64_t points[2] = { 0, 1 };
+  const std::int64_t voxels[2] = { 0, 0 };
+  AttributeMean own(many, range);
+  own.prepare(nullptr, 1, 4, {});
+  own.add(points, voxels, 2);
+  std::string bytes;
+  own.serialize(0, 1, bytes);
+  AttributeMean merged(few, range);
+  merged.prepare(nullptr, 1, 4, {});
+  ASSERT_TRUE(merged.merge(bytes, { 0 }));
+  double mean = 0.0;
+  merged.mean(0, 2, &mean);
+  EXPECT_EQ(mean, (0x1p33 + 1.0) / 2);
+}
