@@ -1,11 +1,11 @@
 #include "Core/Resample/VoxelAccumulator.h"
 
+#include "Core/Resample/Stages/VoxelRuns.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -18,53 +18,10 @@ using namespace simd;
 class VoxelAccumulator::Sums
 {
 public:
-  Sums() { runs.reset(1, 0); }
-
-  VoxelRuns runs; ///< One range.
-  int fractionBits = 0;
+  VoxelRuns runs;
   std::int64_t points = 0;
   std::int64_t clipped = 0;
   std::int64_t invalid = 0;
-
-  /// @pre all runs are joined.
-  const VoxelRun& run()
-  {
-    static const VoxelRun none;
-    runs.join(0);
-    return runs.size(0) > 0 ? runs.run(0) : none;
-  }
-  /// Voxels of a range of keys, and their points. Those clipped or invalid go with the first key, 0.
-  struct Range
-  {
-    std::ptrdiff_t begin = 0;
-    std::ptrdiff_t end = 0;
-    std::int64_t points = 0;
-    std::int64_t clipped = 0;
-    std::int64_t invalid = 0;
-  };
-  Range range(std::uint64_t first, std::uint64_t end)
-  {
-    const std::vector<WideSums>& voxels = this->run().voxels;
-    const auto place = [&voxels](std::uint64_t key)
-    {
-      return std::lower_bound(voxels.begin(), voxels.end(), key,
-        [](const WideSums& voxel, std::uint64_t k) { return voxel.key < k; });
-    };
-    const auto begin = place(first);
-    const auto last = std::max(begin, place(end));
-    const bool isFirst = first == 0 && end > 0;
-    Range range{ begin - voxels.begin(), last - voxels.begin(), 0, isFirst ? clipped : 0,
-      isFirst ? invalid : 0 };
-    range.points = std::accumulate(begin, last, range.clipped + range.invalid,
-      [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
-    return range;
-  }
-  /// Leaves none.
-  VoxelRun takeRun()
-  {
-    runs.join(0);
-    return runs.take(0);
-  }
 };
 
 namespace
@@ -248,8 +205,7 @@ bool liesInVoxel(const VoxelSums& voxel, std::int64_t fractionBits)
 bool readVoxels(const char* from, const Header& header, std::uint64_t keys, VoxelRun& run)
 {
   std::int64_t points = header.clipped + header.invalid;
-  run.voxels.reserve(header.voxels);
-  run.secondMoments.reserve(header.covariances ? header.voxels : 0);
+  run.reserve(header.voxels, header.covariances == 1);
   for (std::uint64_t v = 0; v < header.voxels; ++v)
   {
     VoxelSums voxel;
@@ -320,7 +276,7 @@ Status VoxelAccumulator::change(Sums& sums, const PointView& points, const Affin
   request.covariances = covariances_;
   VoxelRun run;
   VoxelResampler::Implementation& engine = *engine_.implementation_;
-  const Status status = engine.sum(request, run, sums.fractionBits, executor, observer);
+  const Status status = engine.sum(request, run, executor, observer);
   if (status != Status::Ok)
   {
     return status;
@@ -328,7 +284,7 @@ Status VoxelAccumulator::change(Sums& sums, const PointView& points, const Affin
   sums.points += points.size();
   sums.clipped += engine.clipped;
   sums.invalid += engine.invalid;
-  sums.runs.add(0, std::move(run));
+  sums.runs.add(std::move(run));
   return Status::Ok;
 }
 
@@ -357,8 +313,7 @@ Status VoxelAccumulator::merge(VoxelAccumulator&& other)
     to.points += from.points;
     to.clipped += from.clipped;
     to.invalid += from.invalid;
-    to.fractionBits = std::max(to.fractionBits, from.fractionBits);
-    to.runs.add(0, from.takeRun());
+    to.runs.add(std::move(from.runs.whole()));
   };
   mergeSums(*added_, *other.added_);
   mergeSums(*subtracted_, *other.subtracted_);
@@ -383,16 +338,15 @@ bool VoxelAccumulator::settle()
   }
   VoxelRun difference;
   if (this->clippedPoints() < 0 || this->invalidPoints() < 0 ||
-    !subtractRun(added_->run(), subtracted_->run(), difference))
+    !subtractRun(added_->runs.whole(), subtracted_->runs.whole(), difference))
   {
     return false;
   }
   auto left = std::make_unique<Sums>();
-  left->fractionBits = added_->fractionBits;
   left->points = this->points();
   left->clipped = this->clippedPoints();
   left->invalid = this->invalidPoints();
-  left->runs.add(0, std::move(difference));
+  left->runs.add(std::move(difference));
   added_ = std::move(left);
   subtracted_ = std::make_unique<Sums>();
   return true;
@@ -414,7 +368,7 @@ Status VoxelAccumulator::finish(
   request.instructions = wanted.instructions;
   request.allocator = wanted.allocator;
   VoxelResampler::Implementation& engine = *result.implementation_;
-  const Status status = engine.finishSums(request, added_->run(), added_->fractionBits, executor, observer);
+  const Status status = engine.finishSums(request, added_->runs.whole(), executor, observer);
   if (status == Status::Ok)
   {
     engine.clipped = added_->clipped;
@@ -425,27 +379,20 @@ Status VoxelAccumulator::finish(
 
 std::string VoxelAccumulator::serialize()
 {
-  return this->serialize(0, std::numeric_limits<std::uint64_t>::max());
-}
-
-std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
-{
   std::string bytes;
   if (!this->settle())
   {
     return bytes;
   }
-  const VoxelRun& run = added_->run();
-  const Sums::Range range = added_->range(first, end);
-  const auto voxels = std::size_t(range.end - range.begin);
-  Header header = { lattice_, covariances_, added_->fractionBits, range.points, range.clipped, range.invalid,
-    voxels };
+  const VoxelRun& run = added_->runs.whole();
+  Header header = { lattice_, covariances_, VoxelResampler::Implementation::fractionBitsOf(lattice_),
+    added_->points, added_->clipped, added_->invalid, run.size() };
   bytes.assign(kMagic, sizeof kMagic);
-  bytes.resize(kHeaderBytes + voxels * bytesOfVoxel(header));
+  bytes.resize(kHeaderBytes + run.size() * bytesOfVoxel(header));
   char* to = bytes.data() + sizeof kMagic;
   const auto putNext = [&](const auto& number) { to = put(to, number); };
   forNumbers(header, putNext);
-  for (auto v = std::size_t(range.begin); v < std::size_t(range.end); ++v)
+  for (std::size_t v = 0; v < run.size(); ++v)
   {
     const VoxelSums voxel = run.voxels[v].whole();
     forNumbers(voxel, run.momentsOf(v), putNext);
@@ -460,34 +407,33 @@ VoxelAccumulator VoxelAccumulator::part(std::uint64_t first, std::uint64_t end)
   {
     return part;
   }
-  const VoxelRun& run = added_->run();
-  const Sums::Range range = added_->range(first, end);
+  const VoxelRun& run = added_->runs.whole();
+  const std::size_t begin = run.find(first);
   VoxelRun copy;
-  copy.voxels.assign(run.voxels.begin() + range.begin, run.voxels.begin() + range.end);
-  if (covariances_ && range.end > range.begin)
+  copy.append(run, begin, std::max(begin, run.find(end)));
+  Sums& sums = *part.added_;
+  if (first == 0 && end > 0)
   {
-    copy.secondMoments.assign(run.secondMoments.begin() + range.begin, run.secondMoments.begin() + range.end);
+    sums.clipped = added_->clipped;
+    sums.invalid = added_->invalid;
   }
-  part.added_->points = range.points;
-  part.added_->clipped = range.clipped;
-  part.added_->invalid = range.invalid;
-  part.added_->fractionBits = added_->fractionBits;
-  part.added_->runs.add(0, std::move(copy));
+  sums.points = std::accumulate(copy.voxels.begin(), copy.voxels.end(), sums.clipped + sums.invalid,
+    [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
+  sums.runs.add(std::move(copy));
   return part;
 }
 
 std::vector<std::uint64_t> VoxelAccumulator::keys(std::int64_t step)
 {
   std::vector<std::uint64_t> keys;
-  if (!this->settle())
+  if (this->settle())
   {
-    return keys;
-  }
-  const std::vector<WideSums>& voxels = added_->run().voxels;
-  keys.reserve(voxels.size() / std::size_t(step) + 1);
-  for (std::size_t v = 0; v < voxels.size(); v += std::size_t(step))
-  {
-    keys.push_back(voxels[v].key);
+    const VoxelRun& run = added_->runs.whole();
+    keys.reserve(run.size() / std::size_t(step) + 1);
+    for (std::size_t v = 0; v < run.size(); v += std::size_t(step))
+    {
+      keys.push_back(run.voxels[v].key);
+    }
   }
   return keys;
 }
@@ -499,8 +445,7 @@ Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& r
   {
     return Status::InvalidParameter;
   }
-  const int indexBits = indexBitsOf(header.lattice);
-  const int fractionBits = positionBitsFor(indexBits) - indexBits;
+  const int fractionBits = VoxelResampler::Implementation::fractionBitsOf(header.lattice);
   const std::uint64_t keys = header.lattice.key(0, 0, header.lattice.dimensions[2]);
   VoxelRun run;
   if ((header.fractionBits != fractionBits && (header.voxels > 0 || header.fractionBits != 0)) ||
@@ -512,8 +457,7 @@ Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& r
   read.added_->points = header.points;
   read.added_->clipped = header.clipped;
   read.added_->invalid = header.invalid;
-  read.added_->fractionBits = int(header.fractionBits);
-  read.added_->runs.add(0, std::move(run));
+  read.added_->runs.add(std::move(run));
   result = std::move(read);
   return Status::Ok;
 }

@@ -76,10 +76,9 @@ public:
   /// The sums as bytes, for a file or another process: a version, the lattice, the voxels; little-endian, the
   /// same for equal sums. Empty where points were subtracted that had not been added.
   std::string serialize();
-  /// The same of the voxels whose keys are from @p first to before @p end, and of their points alone; those
-  /// clipped or invalid go with the first key, 0. The parts of all ranges merge to the whole.
-  std::string serialize(std::uint64_t first, std::uint64_t end);
-  /// The same part, not as bytes. None where points were subtracted that had not been added.
+  /// The voxels whose keys are from @p first to before @p end, and their points alone; those clipped or
+  /// invalid go with the first key, 0. The parts of all ranges merge to the whole. None where points were
+  /// subtracted that had not been added.
   VoxelAccumulator part(std::uint64_t first, std::uint64_t end);
   /// Frees the scratch memory that add() and subtract() keep for the next call.
   void releaseScratch() { engine_.releaseScratch(); }

@@ -59,7 +59,13 @@ Status VoxelResampler::Implementation::run(
   levels[0].lattice = request.lattice;
   usesPartitions_ = usesPartitions(request.lattice);
   status = usesPartitions_ ? runBinned(wanted, executor, observer) : runSorted(wanted, executor, observer);
+  SubProgress summing(observer, 0.0, fractionOfSums(wanted));
   SubProgress visiting(observer, fractionOfSums(wanted), 1.0);
+  if (status == Status::Ok && !keepsSums_)
+  {
+    const VoxelRun sums = std::move(sums_);
+    status = addLevels(wanted, sums, executor, &summing);
+  }
   status = status == Status::Ok ? visitAgain(wanted, executor, &visiting) : status;
   if (status != Status::Ok)
   {
@@ -95,11 +101,8 @@ Status VoxelResampler::Implementation::runBinned(
     }
   }
   // With a report for each chunk of points that are reduced.
-  if (!accumulateAndWrite(request, reducesInPass_ ? count : 1, executor, &writing))
-  {
-    return Status::Aborted;
-  }
-  return request.levels > 1 ? addLevels(request, executor, &summing) : Status::Ok;
+  const std::size_t rounds = reducesInPass_ ? count : 1;
+  return accumulateAndWrite(request, rounds, executor, &writing) ? Status::Ok : Status::Aborted;
 }
 
 void VoxelResampler::Implementation::clear()
@@ -112,7 +115,7 @@ void VoxelResampler::Implementation::clear()
   voxelIndex.clear();
   holdsAll_ = false;
   reducesInPass_ = false;
-  runs_.reset(0, 0);
+  sums_ = VoxelRun();
 }
 
 void VoxelResampler::Implementation::startCounts(const VoxelRequest& request)
@@ -138,72 +141,61 @@ MeanArena::Layout VoxelResampler::Implementation::layoutOf(const VoxelRequest& r
   return layout;
 }
 
-/// Writes the means of the runs to a level. @pre these are joined. @param keeps: they are of use afterwards.
-/// @return false where the observer ended the work.
-bool VoxelResampler::Implementation::writeRuns(const VoxelRequest& request, bool keeps, Level& level,
-  OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer)
+int VoxelResampler::Implementation::fractionBitsOf(const Lattice& lattice)
 {
-  const std::size_t ranges = runs_.ranges();
-  level.firsts.assign(ranges + 1, 0);
-  for (std::size_t range = 0; range < ranges; ++range)
-  {
-    level.firsts[range + 1] = level.firsts[range] + runs_.size(range);
-  }
-  level.size = std::int64_t(level.firsts.back());
-  level.arena.prepare(level.firsts.back(), layoutOf(request), level.lattice, runs_.fractionBits(), allocator);
-  PointProgress progress(observer, level.size, 1);
-  for (std::size_t first = 0, last = 0; first < ranges; first = last)
-  {
-    do
-    {
-      ++last;
-    } while (last < ranges && level.firsts[last] - level.firsts[first] < std::size_t(kPointsPerReport));
-    forEachItem(executor, last - first,
-      [&](std::size_t i)
-      {
-        const std::size_t range = first + i;
-        if (runs_.size(range) > 0)
-        {
-          level.arena.write(level.firsts[range], runs_.run(range));
-        }
-        if (!keeps)
-        {
-          runs_.release(range);
-        }
-      });
-    if (!progress.add(std::int64_t(level.firsts[last] - level.firsts[first])))
-    {
-      return false;
-    }
-  }
-  return true;
+  const int indexBits = indexBitsOf(lattice);
+  return positionBitsFor(indexBits) - indexBits;
 }
 
+/// Writes the means of voxels to a level. @return false where the observer ended the work.
+bool VoxelResampler::Implementation::writeSums(const VoxelRequest& request, const VoxelRun& sums,
+  int fractionBits, Level& level, OutputAllocator* allocator, const Executor& executor,
+  ProgressObserver* observer)
+{
+  level.size = std::int64_t(sums.size());
+  level.arena.prepare(sums.size(), layoutOf(request), level.lattice, fractionBits, allocator);
+  PointProgress progress(observer, level.size, 1);
+  return forReportedSlices(level.size, progress,
+    [&](std::int64_t first, std::int64_t last)
+    {
+      forRange(executor, last - first,
+        [&](std::int64_t begin, std::int64_t end)
+        {
+          const auto offset = std::size_t(first + begin);
+          level.arena.write(offset, sums, offset, std::size_t(first + end));
+        });
+    });
+}
+
+/// @param sums those of the finest level.
 Status VoxelResampler::Implementation::addLevels(
-  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
+  const VoxelRequest& request, const VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
 {
   const double finest = fractionOfFinest(request);
   const auto progressAt = [&](int level)
   { return finest + (1.0 - finest) * double(level - 1) / double(request.levels - 1); };
+  int fractionBits = fractionBitsOf(levels[0].lattice);
+  VoxelRun coarse;
   for (int l = 1; l < request.levels; ++l)
   {
     const Level& finer = levels.back();
+    const VoxelRun& fine = l == 1 ? sums : coarse;
     Level level;
     level.lattice = coarserLattice(finer.lattice);
+    level.parents.resize(fine.size());
     SubProgress part(observer, progressAt(l), progressAt(l + 1));
-    SubProgress summing(&part, 0.0, 0.6);
-    SubProgress writing(&part, 0.6, request.keys ? 0.8 : 1.0);
-    SubProgress looking(&part, 0.8, 1.0);
-    VoxelRuns coarse;
-    if (!sumCoarseVoxels(runs_, finer.lattice, coarse, executor, &summing))
+    SubProgress summing(&part, 0.0, 0.7);
+    SubProgress writing(&part, 0.7, 1.0);
+    VoxelRun next;
+    const bool isSame = level.lattice.dimensions == finer.lattice.dimensions;
+    if (!isSame &&
+      !sumCoarseVoxels(fine, finer.lattice, fractionBits, next, level.parents, executor, &summing))
     {
       return Status::Aborted;
     }
-    runs_ = std::move(coarse);
-    if (!writeRuns(request, l + 1 < request.levels, level, nullptr, executor, &writing) ||
-      (request.keys &&
-        !findParents(finer.arena.keys(), finer.size, finer.lattice, level.arena.keys(), level.size,
-          level.parents, executor, &looking)))
+    fractionBits += !isSame;
+    coarse = isSame ? fine : std::move(next);
+    if (!writeSums(request, coarse, fractionBits, level, nullptr, executor, &writing))
     {
       return Status::Aborted;
     }
@@ -214,7 +206,7 @@ Status VoxelResampler::Implementation::addLevels(
 
 std::size_t VoxelResampler::Implementation::scratchBytes() const
 {
-  std::size_t sum = binner_.bytes() + sorted_.bytes() + runs_.bytes() +
+  std::size_t sum = binner_.bytes() + sorted_.bytes() + sums_.bytes() +
     (chosenPoints.capacity() + voxelIndex.capacity()) * sizeof(std::int64_t);
   for (const std::unique_ptr<PartitionWorker>& worker : workers_)
   {

@@ -102,8 +102,8 @@ struct VoxelRequest
 /// more than two, points are sorted: some tens of them, growing with the logarithm of the points. Memory
 /// beyond input and results: 16 bytes for each of at most 1.25 million points, 60 bytes an active voxel (20
 /// of them its results, where these are not in the caller's memory), a few megabytes (of which up to 1.3 for
-/// each thread where a layer of the lattice has up to 4 million voxels); where points are sorted 64 bytes
-/// (160 with covariances) for each of at most 262,144 points and 66 an active voxel; covariances: 100 an
+/// each thread where a layer of the lattice has up to 4 million voxels); where points are sorted 88 bytes
+/// (184 with covariances) for each of at most 262,144 points and 66 an active voxel; covariances: 100 an
 /// active voxel more, 132 where points are sorted. With attributes or VoxelRequest::keepPointRecords: 20
 /// bytes for each of at most 20 million points, with representatives for each point (32 where points are
 /// sorted), and the tuples of modes and medians, for the voxels at work or, where that takes another pass,

@@ -8,7 +8,6 @@
 #include "Core/Resample/Stages/PointQuantizer.h"
 #include "Core/Resample/Stages/SortedPoints.h"
 #include "Core/Resample/Stages/VoxelLevel.h"
-#include "Core/Resample/Stages/VoxelRuns.h"
 #include "Core/Resample/VoxelReductions.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -33,10 +32,12 @@ public:
   Status visitPointsByVoxel(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
   /// For VoxelAccumulator: the sums of the points in the lattice's voxels, and the levels of such sums.
-  Status sum(const VoxelRequest& request, simd::VoxelRun& sums, int& fractionBits, const Executor& executor,
+  Status sum(
+    const VoxelRequest& request, simd::VoxelRun& sums, const Executor& executor, ProgressObserver* observer);
+  Status finishSums(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
     ProgressObserver* observer);
-  Status finishSums(const VoxelRequest& request, const simd::VoxelRun& sums, int fractionBits,
-    const Executor& executor, ProgressObserver* observer);
+  /// Bits of an offset in a voxel.
+  static int fractionBitsOf(const Lattice& lattice);
 
   std::vector<simd::Level> levels = std::vector<simd::Level>(1);
   std::int64_t clipped = 0;
@@ -63,7 +64,6 @@ private:
   template <typename Work>
   void forPartitions(const VoxelRequest& request, std::uint32_t first, std::uint32_t last,
     const Executor& executor, Work&& work);
-  Status finishRuns(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   /// Attributes, or the points that stand for voxels, are asked for.
   static bool reduces(const VoxelRequest& request)
   {
@@ -78,9 +78,10 @@ private:
   /// The part of the work of run() that is not done by a visit, and that of it that the finest level is.
   double fractionOfSums(const VoxelRequest& request) const { return visits(request) ? 0.5 : 1.0; }
   static double fractionOfFinest(const VoxelRequest& request) { return request.levels > 1 ? 0.5 : 1.0; }
-  bool writeRuns(const VoxelRequest& request, bool keeps, simd::Level& level, OutputAllocator* allocator,
-    const Executor& executor, ProgressObserver* observer);
-  Status addLevels(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
+  bool writeSums(const VoxelRequest& request, const simd::VoxelRun& sums, int fractionBits,
+    simd::Level& level, OutputAllocator* allocator, const Executor& executor, ProgressObserver* observer);
+  Status addLevels(const VoxelRequest& request, const simd::VoxelRun& sums, const Executor& executor,
+    ProgressObserver* observer);
   Status visitAgain(const VoxelRequest& request, const Executor& executor, ProgressObserver* observer);
   Status reduceAgain(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
@@ -89,7 +90,7 @@ private:
   Status visitSorted(
     const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer);
 
-  bool keepsRuns_ = false;      ///< For sum().
+  bool keepsSums_ = false;      ///< For sum().
   bool usesPartitions_ = false; ///< In the last run.
   simd::PointBinner binner_;
   bool holdsAll_ = false;      ///< The binner has all points of the last run, with their numbers.
@@ -97,7 +98,7 @@ private:
   std::vector<simd::AccumulatedPartition> accumulated_;
   std::vector<std::unique_ptr<simd::PartitionWorker>> workers_; ///< One for each thread.
   simd::SortedPoints sorted_;
-  simd::VoxelRuns runs_;
+  simd::VoxelRun sums_; ///< Of the finest level, where means are not all that is made of them.
 };
 
 } // namespace pointhaptics

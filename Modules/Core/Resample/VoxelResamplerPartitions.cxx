@@ -68,10 +68,9 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
 {
   const Kernels& kernels = kernelsFor(request.instructions);
   const PartitionPlan& plan = binner_.plan();
-  const bool keepsSums = keepsRuns_ || request.levels > 1;
-  runs_.reset(keepsSums ? plan.partitions : 0, plan.fractionBits);
+  std::vector<VoxelRun> runs(keepsSums_ || request.levels > 1 ? plan.partitions : 0);
   std::size_t room = 0;
-  for (std::uint32_t p = 0; !keepsRuns_ && p < plan.partitions; ++p)
+  for (std::uint32_t p = 0; !keepsSums_ && p < plan.partitions; ++p)
   {
     room += mostVoxels(plan, binner_.pool().count(p), accumulated_[p].cellCount);
   }
@@ -84,20 +83,20 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
     try
     {
       worker.load(
-        p, accumulated_[p], [&](std::size_t size) { offset = order.append(p, keepsRuns_ ? 0 : size); });
+        p, accumulated_[p], [&](std::size_t size) { offset = order.append(p, keepsSums_ ? 0 : size); });
     }
     catch (...)
     {
       order.giveUp();
       throw;
     }
-    if (!keepsRuns_)
+    if (!keepsSums_)
     {
       worker.write(kernels, level.arena, offset);
     }
-    if (keepsSums)
+    if (!runs.empty())
     {
-      runs_.add(p, worker.wide());
+      runs[p] = worker.wide();
     }
     accumulated_[p].trim();
   };
@@ -111,6 +110,7 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
     }
   }
   level.size = std::int64_t(level.firsts.back());
+  sums_ = concatenated(runs);
   return true;
 }
 

@@ -1,4 +1,4 @@
-/// VoxelResampler on all other lattices: points are sorted by key, range by range.
+/// VoxelResampler on all other lattices: points are sorted by key.
 #include "Core/Neighbors/PointIndex.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
@@ -48,81 +48,70 @@ Status VoxelResampler::Implementation::runSorted(
 {
   const VoxelRequest usable = withUsableIndex(request);
   const Chunks chunks(usable, kSortedChunk, executor);
-  const PointQuantizer quantizer = sortedQuantizer(request);
-  sorted_.choose(quantizer, request.lattice, chunks);
-  runs_.reset(sorted_.ranges(), quantizer.fractionBits);
+  sorted_.prepare(sortedQuantizer(request), request.lattice);
+  std::vector<VoxelRuns> ranges = sorted_.chooseRanges(chunks.points());
   startCounts(usable);
   SubProgress summing(observer, 0.0, fractionOfSums(request));
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
-    sorted_.sum(chunks, chunk, request.covariances, runs_, executor);
+    sorted_.sort(chunks, chunk, executor);
+    sorted_.sum(request.covariances, ranges, executor);
     countPoints(sorted_.inside(), sorted_.invalid());
     if (!summing.report(fractionOfFinest(request) * double(chunk + 1) / double(chunks.count())))
     {
       return Status::Aborted;
     }
   }
-  return finishRuns(request, executor, &summing);
-}
-
-/// Means of the runs.
-Status VoxelResampler::Implementation::finishRuns(
-  const VoxelRequest& request, const Executor& executor, ProgressObserver* observer)
-{
-  forEachItem(executor, runs_.ranges(), [&](std::size_t range) { runs_.join(range); });
-  if (keepsRuns_)
+  std::vector<VoxelRun> runs(ranges.size());
+  forEachItem(
+    executor, ranges.size(), [&](std::size_t range) { runs[range] = std::move(ranges[range].whole()); });
+  if (!keepsSums_)
   {
-    return Status::Ok;
-  }
-  writeRuns(request, request.levels > 1, levels[0], request.allocator, executor, nullptr);
-  return request.levels > 1 ? addLevels(request, executor, observer) : Status::Ok;
-}
-
-Status VoxelResampler::Implementation::sum(const VoxelRequest& request, VoxelRun& sums, int& fractionBits,
-  const Executor& executor, ProgressObserver* observer)
-{
-  keepsRuns_ = true;
-  const Status status = this->run(request, executor, observer);
-  keepsRuns_ = false;
-  fractionBits = status == Status::Ok ? runs_.fractionBits() : fractionBits;
-  std::size_t voxels = 0;
-  for (std::size_t range = 0; range < runs_.ranges(); ++range)
-  {
-    voxels += runs_.size(range);
-  }
-  sums.voxels.reserve(voxels);
-  sums.secondMoments.reserve(request.covariances ? voxels : 0);
-  for (std::size_t range = 0; status == Status::Ok && range < runs_.ranges(); ++range)
-  {
-    if (runs_.size(range) > 0)
+    Level& level = levels[0];
+    level.firsts.assign(1, 0);
+    for (const VoxelRun& run : runs)
     {
-      sums.append(runs_.run(range), 0, runs_.size(range));
-      runs_.release(range);
+      level.firsts.push_back(level.firsts.back() + run.size());
     }
+    level.size = std::int64_t(level.firsts.back());
+    level.arena.prepare(level.firsts.back(), layoutOf(request), level.lattice,
+      fractionBitsOf(request.lattice), request.allocator);
+    forEachItem(executor, runs.size(),
+      [&](std::size_t range)
+      {
+        level.arena.write(level.firsts[range], runs[range], 0, runs[range].size());
+        if (request.levels == 1)
+        {
+          runs[range] = VoxelRun();
+        }
+      });
   }
-  runs_.reset(0, 0);
+  sums_ = concatenated(runs);
+  return Status::Ok;
+}
+
+Status VoxelResampler::Implementation::sum(
+  const VoxelRequest& request, VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
+{
+  keepsSums_ = true;
+  const Status status = this->run(request, executor, observer);
+  keepsSums_ = false;
+  sums = std::move(sums_);
   return status;
 }
 
 /// @param sums the voxels in ascending order.
-Status VoxelResampler::Implementation::finishSums(const VoxelRequest& request, const VoxelRun& sums,
-  int fractionBits, const Executor& executor, ProgressObserver* observer)
+Status VoxelResampler::Implementation::finishSums(
+  const VoxelRequest& request, const VoxelRun& sums, const Executor& executor, ProgressObserver* observer)
 {
   clear();
   Status status = check(request);
   if (status == Status::Ok)
   {
-    constexpr std::size_t kRanges = 64;
     levels[0].lattice = request.lattice;
-    runs_.reset(kRanges, fractionBits);
-    for (std::size_t range = 0; range < kRanges; ++range)
-    {
-      const std::size_t size = sums.voxels.size();
-      VoxelRun run;
-      run.append(sums, size * range / kRanges, size * (range + 1) / kRanges);
-      runs_.add(range, std::move(run));
-    }
-    status = finishRuns(request, executor, observer);
+    writeSums(
+      request, sums, fractionBitsOf(request.lattice), levels[0], request.allocator, executor, nullptr);
+    status = addLevels(request, sums, executor, observer);
   }
   if (status != Status::Ok)
   {
@@ -134,34 +123,37 @@ Status VoxelResampler::Implementation::finishSums(const VoxelRequest& request, c
 Status VoxelResampler::Implementation::visitSorted(
   const VoxelRequest& request, const Visitor& visit, const Executor& executor, ProgressObserver* observer)
 {
+  constexpr std::int64_t kRanges = 64; // of voxels, for the threads
   const VoxelRequest usable = withUsableIndex(request);
   const Chunks chunks(usable, kSortedChunk, executor);
   const std::uint64_t* keys = levels[0].arena.keys();
-  const std::uint64_t* end = keys + levels[0].size;
-  sorted_.choose(sortedQuantizer(request), request.lattice, chunks);
+  sorted_.prepare(sortedQuantizer(request), request.lattice);
   for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
     sorted_.sort(chunks, chunk, executor);
-    forEachItem(executor, sorted_.ranges(),
+    forEachItem(executor, kRanges,
       [&](std::size_t range)
       {
+        const std::uint64_t* const first = keys + levels[0].size * std::int64_t(range) / kRanges;
+        const std::uint64_t* const last = keys + levels[0].size * std::int64_t(range + 1) / kRanges;
         std::int64_t points[kBlockRecords];
         std::int64_t voxels[kBlockRecords];
-        sorted_.forEntries(range,
-          [&](const SortedPoints::Entry* entry, const SortedPoints::Entry* last)
+        for (std::size_t slice = 0; first != last && slice < sorted_.slices(); ++slice)
+        {
+          const auto entries = sorted_.entries(slice, first[0], last[-1]);
+          const std::uint64_t* at = first;
+          for (const SortedPoints::Entry* entry = entries.first; entry != entries.second;)
           {
-            for (const std::uint64_t* at = keys; entry != last;)
+            int size = 0;
+            for (; entry != entries.second && size < int(kBlockRecords); ++entry, ++size)
             {
-              int size = 0;
-              for (; entry != last && size < int(kBlockRecords); ++entry, ++size)
-              {
-                at = firstNotBelow(at, end, entry->key);
-                points[size] = chunks.originals() ? chunks.originals()[entry->point] : entry->point;
-                voxels[size] = at - keys;
-              }
-              visit(points, voxels, size);
+              at = firstNotBelow(at, last, entry->key);
+              points[size] = chunks.originals() ? chunks.originals()[entry->point] : entry->point;
+              voxels[size] = at - keys;
             }
-          });
+            visit(points, voxels, size);
+          }
+        }
       });
     if (observer && !observer->report(double(chunk + 1) / double(chunks.count())))
     {

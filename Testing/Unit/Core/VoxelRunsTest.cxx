@@ -37,7 +37,6 @@ TEST(VoxelRuns, SumsPast64BitsAreExact)
 {
   std::map<std::uint64_t, VoxelSums> expected;
   VoxelRuns runs;
-  runs.reset(1, 39);
   for (std::uint64_t r = 0; r < 60; ++r)
   {
     const VoxelRun run = randomRun(r, 50 + 20 * (r % 7), 5);
@@ -50,11 +49,10 @@ TEST(VoxelRuns, SumsPast64BitsAreExact)
         sums.sums[axis] += Int128(voxel.low[axis]);
       }
     }
-    runs.add(0, run);
+    runs.add(run);
   }
-  runs.join(0);
-  ASSERT_EQ(runs.size(0), expected.size());
-  const VoxelRun& run = runs.run(0);
+  const VoxelRun& run = runs.whole();
+  ASSERT_EQ(run.size(), expected.size());
   ASSERT_EQ(run.secondMoments.size(), expected.size());
   std::size_t v = 0;
   for (const auto& [key, sums] : expected)
@@ -68,14 +66,11 @@ TEST(VoxelRuns, SumsPast64BitsAreExact)
     }
     ++v;
   }
-  runs.release(0);
-  EXPECT_EQ(runs.size(0), 0u);
 }
 
 TEST(VoxelRuns, HoldLittleMoreThanEachVoxelOnceHoweverOftenTheyCome)
 {
   VoxelRuns runs;
-  runs.reset(1, 39);
   const std::size_t voxels = 10000;
   for (std::uint64_t r = 0; r < 100; ++r)
   {
@@ -83,7 +78,7 @@ TEST(VoxelRuns, HoldLittleMoreThanEachVoxelOnceHoweverOftenTheyCome)
     VoxelRun run = randomRun(1, voxels, 3);
     run.secondMoments.clear();
     run.voxels.resize(r == 0 ? voxels : 100 + 90 * r);
-    runs.add(0, run);
+    runs.add(run);
     ASSERT_LE(runs.bytes(), voxels * 66 + 1000);
   }
 }
@@ -101,12 +96,10 @@ TEST(VoxelRuns, MeansOfSumsThatVectorsCannotTakeLieWhereTheyBelong)
   run.voxels.push_back({ lattice.key(7, 8, 9), 4, { 4 * place, 4 * place, 4 * place }, 0 });
   run.voxels.push_back({ lattice.key(1, 2, 10), count, { low, low, low }, high | high << 21 | high << 42 });
   VoxelRuns runs;
-  runs.reset(1, 39);
-  runs.add(0, run);
-  runs.join(0);
+  runs.add(run);
   MeanArena arena;
   arena.prepare(2, { false, true, false }, lattice, 39, nullptr);
-  arena.write(0, runs.run(0));
+  arena.write(0, runs.whole(), 0, 2);
   const double expected[6] = { 7.75, 8.75, 9.75, 1.75, 2.75, 10.75 };
   for (int i = 0; i < 6; ++i)
   {

@@ -2,6 +2,7 @@
 
 #include "Core/Resample/Kernel/Fetch.h"
 #include "Core/Resample/Kernel/InFours.h"
+#include "Core/Resample/Stages/VoxelRuns.h"
 
 #include <algorithm>
 
@@ -207,7 +208,8 @@ void PartitionWorker::reduce()
 
 void PartitionWorker::write(const Kernels& kernels, MeanArena& arena, std::size_t offset) const
 {
-  old_->overfull.voxels.empty() ? arena.write(kernels, offset, voxels_) : arena.write(offset, this->wide());
+  old_->overfull.voxels.empty() ? arena.write(kernels, offset, voxels_)
+                                : arena.write(offset, this->wide(), 0, voxels_.size);
   if (reduces_ && voxels_.size > 0)
   {
     static_cast<void>(reductions_.write(arena, offset)); // Nobody aborts it.
@@ -292,8 +294,7 @@ void PartitionWorker::accumulate(std::uint32_t partition, AccumulatedPartition& 
 VoxelRun PartitionWorker::wide() const
 {
   VoxelRun run;
-  run.voxels.reserve(voxels_.size);
-  run.secondMoments.reserve(covariances_ ? voxels_.size : 0);
+  run.reserve(voxels_.size, covariances_);
   for (std::size_t i = 0; i < voxels_.size; ++i)
   {
     run.voxels.push_back(WideSums::of(voxels_.firstKey + voxels_.cells[i], voxels_.sums[i]));

@@ -13,165 +13,129 @@ namespace simd
 namespace
 {
 
-/// Keys the ranges are chosen by, how many a range must have of them, and how many ranges there are at most.
-constexpr std::int64_t kSamples = 8192;
-constexpr std::size_t kSamplesPerRange = 32;
-constexpr std::size_t kMostRanges = 64;
-/// Points of a slice, at least: their positions stay in the second-level cache.
+/// Points of a slice, about: they stay in the second-level cache.
 constexpr std::int64_t kSlicePoints = 1 << 14;
+/// Points whose keys the ranges are chosen by, how many a range must have, and how many there are at most.
+constexpr std::int64_t kSamples = 1 << 14;
+constexpr std::size_t kSamplesPerRange = 16;
+constexpr std::size_t kMostRanges = 64;
 
 }
 
-std::uint64_t SortedPoints::keyOf(const Position& position) const
+std::vector<VoxelRuns> SortedPoints::chooseRanges(const PointView& points)
 {
-  const auto index = [&](int axis) { return std::int64_t(position.onAxis[axis] >> quantizer_.fractionBits); };
-  return lattice_.key(index(0), index(1), index(2));
-}
-
-void SortedPoints::choose(const PointQuantizer& quantizer, const Lattice& lattice, const Chunks& chunks)
-{
-  quantizer_ = quantizer;
-  lattice_ = lattice;
-  std::int64_t pieces = 0;
-  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+  Slice sample;
+  for (std::int64_t i = 0; i < points.size(); i += points.size() / kSamples + 1)
   {
-    pieces += chunks.pieceCount(chunk);
+    quantize(points, { i, i + 1 }, sample);
   }
-  const std::int64_t ofPiece = kSamples / std::max<std::int64_t>(pieces, 1) + 1;
-  const std::int64_t step = pieces / kSamples + 1;
-  std::vector<std::uint64_t> keys;
-  for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
-  {
-    for (std::int64_t p = 0; p < chunks.pieceCount(chunk); p += step)
-    {
-      const PointRange piece = chunks.pieces(chunk)[p];
-      for (std::int64_t i = piece.begin; i < piece.end; i += (piece.end - piece.begin) / ofPiece + 1)
-      {
-        Position position;
-        if (quantizePoint(quantizer, chunks.points()[i], position.onAxis) == PointLocation::Inside)
-        {
-          keys.push_back(keyOf(position));
-        }
-      }
-    }
-  }
-  std::sort(keys.begin(), keys.end());
-  const std::size_t ranges = std::clamp<std::size_t>(keys.size() / kSamplesPerRange, 1, kMostRanges);
+  std::vector<Entry>& entries = sample.entries;
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.key < b.key; });
+  const std::size_t ranges = std::clamp<std::size_t>(entries.size() / kSamplesPerRange, 1, kMostRanges);
   starts_.assign(1, 0);
   for (std::size_t range = 1; range < ranges; ++range)
   {
-    starts_.push_back(keys[range * keys.size() / ranges]);
+    starts_.push_back(entries[range * entries.size() / ranges].key);
   }
   starts_.push_back(~std::uint64_t(0));
-}
-
-/// Divides a chunk into slices of whole pieces.
-void SortedPoints::cut(const Chunks& chunks, std::size_t chunk)
-{
-  std::size_t slices = 0;
-  std::int64_t points = 0;
-  for (std::int64_t p = 0; p < chunks.pieceCount(chunk); ++p)
-  {
-    if (points == 0)
-    {
-      slices_.resize(std::max(slices_.size(), slices + 1));
-      slices_[slices++].firstPiece = p;
-    }
-    const PointRange piece = chunks.pieces(chunk)[p];
-    points += piece.end - piece.begin;
-    slices_[slices - 1].lastPiece = p + 1;
-    points = points < kSlicePoints ? points : 0;
-  }
-  slices_.resize(slices);
-}
-
-void SortedPoints::sortSlice(
-  const Chunks& chunks, std::size_t chunk, bool keepsPositions, Slice& slice, Scratch& scratch) const
-{
-  slice.entries.clear();
-  slice.invalid = 0;
-  scratch.positions.clear();
-  for (std::int64_t p = slice.firstPiece; p < slice.lastPiece; ++p)
-  {
-    const PointRange piece = chunks.pieces(chunk)[p];
-    for (std::int64_t i = piece.begin; i < piece.end; ++i)
-    {
-      Position position;
-      const PointLocation location = quantizePoint(quantizer_, chunks.points()[i], position.onAxis);
-      slice.invalid += location == PointLocation::Invalid;
-      if (location == PointLocation::Inside)
-      {
-        slice.entries.push_back(
-          { keyOf(position), keepsPositions ? std::int64_t(scratch.positions.size()) : i });
-        scratch.positions.push_back(position);
-      }
-    }
-  }
-  slice.inside = std::int64_t(slice.entries.size());
-  scratch.other.resize(slice.entries.size());
-  radixSort(slice.entries, scratch.other, slice.entries.size(), [](const Entry& entry) { return entry.key; });
-}
-
-void SortedPoints::sumSlice(bool secondMoments, Slice& slice, const Scratch& scratch) const
-{
-  static_assert(2 * kSortedChunk <= std::int64_t(1) << (64 - kPositionBits), "sums of a chunk fit 64 bits");
-  const std::uint64_t mask = (std::uint64_t(1) << quantizer_.fractionBits) - 1;
-  const SecondMoments none{};
-  slice.run.clear();
-  for (const Entry& entry : slice.entries)
-  {
-    if (slice.run.voxels.empty() || slice.run.voxels.back().key != entry.key)
-    {
-      slice.run.push({ entry.key, 0, { 0, 0, 0 }, 0 }, secondMoments ? &none : nullptr);
-    }
-    const std::uint64_t* position = scratch.positions[std::size_t(entry.point)].onAxis;
-    WideSums& voxel = slice.run.voxels.back();
-    ++voxel.count;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      voxel.low[axis] += position[axis] & mask;
-    }
-    if (secondMoments)
-    {
-      addProducts(slice.run.secondMoments.back(), position[0] & mask, position[1] & mask, position[2] & mask);
-    }
-  }
+  return std::vector<VoxelRuns>(ranges);
 }
 
 void SortedPoints::sort(const Chunks& chunks, std::size_t chunk, const Executor& executor)
 {
-  cut(chunks, chunk);
-  forEachItem<Scratch>(executor, slices_.size(),
-    [&](std::size_t slice, Scratch& scratch) { sortSlice(chunks, chunk, false, slices_[slice], scratch); });
+  slices_.resize(std::size_t(chunks.pointCount(chunk) / kSlicePoints + 1));
+  forEachItem<std::vector<Entry>>(executor, slices_.size(),
+    [&](std::size_t s, std::vector<Entry>& other)
+    {
+      const auto firstPiece = [&](std::size_t slice)
+      {
+        return chunks.pieces(chunk) +
+          chunks.pieceCount(chunk) * std::int64_t(slice) / std::int64_t(slices_.size());
+      };
+      Slice& slice = slices_[s];
+      slice.entries.clear();
+      slice.invalid = 0;
+      for (const PointRange* piece = firstPiece(s); piece != firstPiece(s + 1); ++piece)
+      {
+        quantize(chunks.points(), *piece, slice);
+      }
+      slice.size = slice.entries.size();
+      other.resize(std::max(other.size(), slice.size));
+      radixSort(slice.entries, other, slice.size, [](const Entry& entry) { return entry.key; });
+    });
 }
 
-void SortedPoints::sum(
-  const Chunks& chunks, std::size_t chunk, bool secondMoments, VoxelRuns& runs, const Executor& executor)
+void SortedPoints::quantize(const PointView& points, PointRange range, Slice& slice) const
 {
-  cut(chunks, chunk);
-  forEachItem<Scratch>(executor, slices_.size(),
-    [&](std::size_t slice, Scratch& scratch)
+  const std::uint64_t mask = (std::uint64_t(1) << quantizer_.fractionBits) - 1;
+  for (std::int64_t i = range.begin; i < range.end; ++i)
+  {
+    std::uint64_t position[3];
+    const PointLocation location = quantizePoint(quantizer_, points[i], position);
+    slice.invalid += location == PointLocation::Invalid;
+    if (location == PointLocation::Inside)
     {
-      sortSlice(chunks, chunk, true, slices_[slice], scratch);
-      sumSlice(secondMoments, slices_[slice], scratch);
-    });
-  forEachItem(executor, ranges(),
+      const auto index = [&](int axis) { return std::int64_t(position[axis] >> quantizer_.fractionBits); };
+      slice.entries.push_back({ lattice_.key(index(0), index(1), index(2)), i,
+        { position[0] & mask, position[1] & mask, position[2] & mask } });
+    }
+  }
+}
+
+void SortedPoints::sum(bool secondMoments, std::vector<VoxelRuns>& ranges, const Executor& executor)
+{
+  forEachItem(executor, slices_.size(), [&](std::size_t s) { sumSlice(secondMoments, slices_[s]); });
+  forEachItem(executor, ranges.size(),
     [&](std::size_t range)
     {
       for (const Slice& slice : slices_)
       {
         VoxelRun part;
-        part.append(
-          slice.run, place(slice.run.voxels, starts_[range]), place(slice.run.voxels, starts_[range + 1]));
-        runs.add(range, std::move(part));
+        part.append(slice.run, slice.run.find(starts_[range]), slice.run.find(starts_[range + 1]));
+        ranges[range].add(std::move(part));
       }
     });
+}
+
+void SortedPoints::sumSlice(bool secondMoments, Slice& slice)
+{
+  static_assert(2 * kSortedChunk <= std::int64_t(1) << (64 - kPositionBits), "sums of a chunk fit 64 bits");
+  const SecondMoments none{};
+  VoxelRun& run = slice.run;
+  run.clear();
+  for (std::size_t i = 0; i < slice.size; ++i)
+  {
+    const Entry& entry = slice.entries[i];
+    if (i == 0 || slice.entries[i - 1].key != entry.key)
+    {
+      run.push({ entry.key, 0, { 0, 0, 0 }, 0 }, secondMoments ? &none : nullptr);
+    }
+    WideSums& voxel = run.voxels.back();
+    ++voxel.count;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      voxel.low[axis] += entry.offset[axis];
+    }
+    if (secondMoments)
+    {
+      addProducts(run.secondMoments.back(), entry.offset[0], entry.offset[1], entry.offset[2]);
+    }
+  }
+}
+
+std::pair<const SortedPoints::Entry*, const SortedPoints::Entry*> SortedPoints::entries(
+  std::size_t slice, std::uint64_t first, std::uint64_t last) const
+{
+  const Entry* const begin = slices_[slice].entries.data();
+  const Entry* const end = begin + slices_[slice].size;
+  return { std::partition_point(begin, end, [=](const Entry& entry) { return entry.key < first; }),
+    std::partition_point(begin, end, [=](const Entry& entry) { return entry.key <= last; }) };
 }
 
 std::int64_t SortedPoints::inside() const
 {
   return std::accumulate(slices_.begin(), slices_.end(), std::int64_t(0),
-    [](std::int64_t sum, const Slice& slice) { return sum + slice.inside; });
+    [](std::int64_t sum, const Slice& slice) { return sum + std::int64_t(slice.size); });
 }
 
 std::int64_t SortedPoints::invalid() const

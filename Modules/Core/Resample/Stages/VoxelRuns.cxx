@@ -1,5 +1,6 @@
 #include "Core/Resample/Stages/VoxelRuns.h"
 
+#include <numeric>
 #include <utility>
 
 namespace pointhaptics
@@ -12,108 +13,76 @@ namespace
 /// A run that is more than so many times as large as the one after it waits for more: all runs together are
 /// at most a third larger than the largest, and no voxel is copied more than a few times.
 constexpr std::size_t kRunRatio = 4;
-
-/// How many voxels two runs have together.
-std::size_t sizeOfBoth(const VoxelRun& a, const VoxelRun& b)
+/// Calls each(i, j) for the voxels of two runs in order: i in one, j in the other, or its end.
+template <typename Each>
+void forMerged(const VoxelRun& a, const VoxelRun& b, const Each& each)
 {
-  std::size_t inBoth = 0;
-  std::size_t j = 0;
-  for (const WideSums& voxel : a.voxels)
+  for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();)
   {
-    while (j < b.voxels.size() && b.voxels[j].key < voxel.key)
-    {
-      ++j;
-    }
-    inBoth += j < b.voxels.size() && b.voxels[j].key == voxel.key;
+    const bool isIn = i < a.size() && (j == b.size() || a.voxels[i].key <= b.voxels[j].key);
+    const bool isInOther = j < b.size() && (!isIn || b.voxels[j].key == a.voxels[i].key);
+    each(isIn ? i : a.size(), isInOther ? j : b.size());
+    i += isIn;
+    j += isInOther;
   }
-  return a.voxels.size() + b.voxels.size() - inBoth;
 }
 
 }
 
 VoxelRun merged(const VoxelRun& a, const VoxelRun& b)
 {
-  const bool withSecondMoments = !a.secondMoments.empty() || !b.secondMoments.empty();
+  std::size_t size = 0;
+  forMerged(a, b, [&](std::size_t, std::size_t) { ++size; });
   VoxelRun both;
-  const std::size_t voxels = sizeOfBoth(a, b);
-  both.voxels.reserve(voxels);
-  both.secondMoments.reserve(withSecondMoments ? voxels : 0);
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < a.voxels.size() || j < b.voxels.size())
-  {
-    const bool isTheirs = i == a.voxels.size() || (j < b.voxels.size() && b.voxels[j].key < a.voxels[i].key);
-    const VoxelRun& from = isTheirs ? b : a;
-    std::size_t& at = isTheirs ? j : i;
-    const bool isInBoth = !isTheirs && j < b.voxels.size() && b.voxels[j].key == a.voxels[i].key;
-    both.push(from.voxels[at], from.momentsOf(at));
-    ++at;
-    if (isInBoth)
+  both.reserve(size, a.hasMoments() || b.hasMoments());
+  forMerged(a, b,
+    [&](std::size_t i, std::size_t j)
     {
-      both.addToLast(b.voxels[j], b.momentsOf(j));
-      ++j;
-    }
-  }
+      const bool isIn = i < a.size();
+      isIn ? both.push(a.voxels[i], a.momentsOf(i)) : both.push(b.voxels[j], b.momentsOf(j));
+      if (isIn && j < b.size())
+      {
+        both.addToLast(b.voxels[j], b.momentsOf(j));
+      }
+    });
   return both;
 }
 
-void VoxelRuns::reset(std::size_t ranges, int fractionBits)
+void VoxelRuns::add(VoxelRun run)
 {
-  runs_.clear();
-  runs_.resize(ranges);
-  fractionBits_ = fractionBits;
-}
-
-void VoxelRuns::add(std::size_t range, VoxelRun run)
-{
-  if (run.voxels.empty())
+  if (run.size() == 0)
   {
     return;
   }
   run.trim();
-  std::vector<VoxelRun>& runs = runs_[range];
-  runs.push_back(std::move(run));
-  while (
-    runs.size() > 1 && runs[runs.size() - 2].voxels.size() <= kRunRatio * runs[runs.size() - 1].voxels.size())
+  runs_.push_back(std::move(run));
+  while (runs_.size() > 1 && runs_[runs_.size() - 2].size() <= kRunRatio * runs_.back().size())
   {
-    joinLast(range);
+    mergeLast();
   }
 }
 
-void VoxelRuns::join(std::size_t range)
+VoxelRun& VoxelRuns::whole()
 {
-  while (runs_[range].size() > 1)
+  while (runs_.size() > 1)
   {
-    joinLast(range);
+    mergeLast();
   }
+  runs_.resize(1);
+  return runs_[0];
 }
 
-VoxelRun VoxelRuns::take(std::size_t range)
+void VoxelRuns::mergeLast()
 {
-  VoxelRun run = runs_[range].empty() ? VoxelRun() : std::move(runs_[range][0]);
-  this->release(range);
-  return run;
-}
-
-void VoxelRuns::joinLast(std::size_t range)
-{
-  std::vector<VoxelRun>& runs = runs_[range];
-  VoxelRun both = merged(runs[runs.size() - 2], runs[runs.size() - 1]);
-  runs.pop_back();
-  runs.back() = std::move(both);
+  VoxelRun both = merged(runs_[runs_.size() - 2], runs_.back());
+  runs_.pop_back();
+  runs_.back() = std::move(both);
 }
 
 std::size_t VoxelRuns::bytes() const
 {
-  std::size_t sum = runs_.capacity() * sizeof(std::vector<VoxelRun>);
-  for (const std::vector<VoxelRun>& runs : runs_)
-  {
-    for (const VoxelRun& run : runs)
-    {
-      sum += run.bytes();
-    }
-  }
-  return sum;
+  return std::accumulate(runs_.begin(), runs_.end(), runs_.capacity() * sizeof(VoxelRun),
+    [](std::size_t sum, const VoxelRun& run) { return sum + run.bytes(); });
 }
 
 } // namespace simd

@@ -162,11 +162,11 @@ void MeanArena::writeCovariances(const Kernels& kernels, std::size_t offset, con
   }
 }
 
-void MeanArena::write(std::size_t offset, const VoxelRun& run)
+void MeanArena::write(std::size_t offset, const VoxelRun& run, std::size_t first, std::size_t last)
 {
-  for (std::size_t v = 0; v < run.voxels.size(); ++v)
+  for (std::size_t v = first; v < last; ++v)
   {
-    this->write(offset + v, run.voxels[v].whole(), run.momentsOf(v));
+    this->write(offset++, run.voxels[v].whole(), run.momentsOf(v));
   }
 }
 

@@ -51,9 +51,9 @@ public:
 
   void prepare(std::size_t room, const Layout& layout, const Lattice& lattice, int fractionBits,
     OutputAllocator* allocator);
-  /// Writes the voxels of a partition, or of a run, at @p offset.
+  /// Writes the voxels of a partition, or voxels @p first to before @p last of a run, at @p offset.
   void write(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
-  void write(std::size_t offset, const VoxelRun& run);
+  void write(std::size_t offset, const VoxelRun& run, std::size_t first, std::size_t last);
 
   Vec3 point(std::size_t voxel) const
   {

@@ -4,6 +4,7 @@
 
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -82,10 +83,24 @@ struct VoxelRun
   std::vector<WideSums> voxels;
   std::vector<SecondMoments> secondMoments;
 
+  std::size_t size() const { return voxels.size(); }
+  bool hasMoments() const { return !secondMoments.empty(); }
   /// Of a voxel; null unless asked for.
   const SecondMoments* momentsOf(std::size_t voxel) const
   {
-    return secondMoments.empty() ? nullptr : secondMoments.data() + voxel;
+    return hasMoments() ? secondMoments.data() + voxel : nullptr;
+  }
+  /// The first voxel with a key of at least @p key.
+  std::size_t find(std::uint64_t key) const
+  {
+    return std::size_t(std::lower_bound(voxels.begin(), voxels.end(), key,
+                         [](const WideSums& voxel, std::uint64_t k) { return voxel.key < k; }) -
+      voxels.begin());
+  }
+  void reserve(std::size_t size, bool withMoments)
+  {
+    voxels.reserve(size);
+    secondMoments.reserve(withMoments ? size : 0);
   }
   void push(const WideSums& sums, const SecondMoments* moments)
   {
@@ -104,7 +119,7 @@ struct VoxelRun
       to.insert(to.end(), begin + std::ptrdiff_t(first), begin + std::ptrdiff_t(last));
     };
     copy(from.voxels, voxels);
-    if (!from.secondMoments.empty())
+    if (from.hasMoments())
     {
       copy(from.secondMoments, secondMoments);
     }
@@ -138,8 +153,25 @@ struct VoxelRun
   }
 };
 
-/// The sums of two runs.
-VoxelRun merged(const VoxelRun& a, const VoxelRun& b);
+/// One run of several whose keys ascend from one to the next; these are freed.
+inline VoxelRun concatenated(std::vector<VoxelRun>& runs)
+{
+  std::size_t size = 0;
+  bool withMoments = false;
+  for (const VoxelRun& run : runs)
+  {
+    size += run.size();
+    withMoments = withMoments || run.hasMoments();
+  }
+  VoxelRun all;
+  all.reserve(size, withMoments);
+  for (VoxelRun& run : runs)
+  {
+    all.append(run, 0, run.size());
+    run = VoxelRun();
+  }
+  return all;
+}
 
 } // namespace simd
 } // namespace pointhaptics
