@@ -56,6 +56,42 @@ TEST_F(InteractorStyleWidgets, ShowsHelpAndChartOnTheirKeys)
   EXPECT_EQ(renderer_->GetViewport()[1], 0.25);
 }
 
+TEST_F(InteractorStyleWidgets, TheTextsOfAChartEndWithinIt)
+{
+  SKIP_WITHOUT_DISPLAY();
+  struct Case
+  {
+    int width, height, dotsPerInch;
+  };
+  for (const Case& asked : { Case{ 576, 108, 97 }, Case{ 1600, 500, 230 } })
+  {
+    vtkNew<vtkRenderWindow> window;
+    vtkNew<vtkHapticChart> chart;
+    window->SetOffScreenRendering(1);
+    window->SetMultiSamples(0);
+    window->SetSize(asked.width, asked.height);
+    window->SetDPI(asked.dotsPerInch);
+    window->AddRenderer(chart->GetRenderer());
+    chart->AddSample(0.0, 0.0, 0.00109);
+    chart->AddSample(1.0, 0.0, 0.00109);
+    window->Render();
+    chart->Update();
+    window->Render();
+    for (const int row : { 0, asked.height - 1 })
+    {
+      vtkNew<vtkUnsignedCharArray> data;
+      window->GetPixelData(0, row, asked.width - 1, row, 0, data);
+      int inked = 0;
+      for (vtkIdType i = 0; i < data->GetNumberOfValues(); ++i)
+      {
+        inked += data->GetValue(i) < 250;
+      }
+      EXPECT_EQ(inked, 0) << "row " << row << " at " << asked.dotsPerInch << " dots per inch";
+    }
+    window->RemoveRenderer(chart->GetRenderer());
+  }
+}
+
 TEST_F(InteractorStyleWidgets, KeepsThePictureOfAChartThatDidNotChange)
 {
   vtkNew<vtkHapticOverlay> overlay;

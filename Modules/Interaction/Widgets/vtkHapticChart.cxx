@@ -16,6 +16,7 @@
 #include "vtkRenderer.h"
 #include "vtkTable.h"
 #include "vtkTextProperty.h"
+#include "vtkTextRenderer.h"
 #include "vtkWindow.h"
 #include "vtkWindowToImageFilter.h"
 
@@ -36,6 +37,9 @@ constexpr int kIdealPlot = 2; // of the chart; 0 and 1 are radius and force
 /// Points: a lower chart has few labels beside it.
 constexpr double kLow = 150.0;
 constexpr double kPointsPerInch = 72.0;
+constexpr int kFontSize = 13;
+constexpr int kSmallestFontSize = 7;
+constexpr int kVtkBorder = 20; // pixels, beside an axis that is not shown
 
 struct Sample
 {
@@ -52,7 +56,7 @@ void styleAxis(vtkAxis* axis, const char* title, const unsigned char color[3])
   for (vtkTextProperty* text : texts)
   {
     text->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
-    text->SetFontSize(13);
+    text->SetFontSize(kFontSize);
     text->BoldOff();
   }
   axis->GetGridPen()->SetColor(225, 225, 225);
@@ -102,6 +106,7 @@ struct vtkHapticChart::Internals
   void fill(double begin, double end);
   bool isFlat() const;
   bool isLow() const;
+  void fitTexts();
 };
 
 bool vtkHapticChart::Internals::isLow() const
@@ -109,6 +114,36 @@ bool vtkHapticChart::Internals::isLow() const
   vtkRenderer* drawn = this->renderer;
   vtkWindow* window = drawn->GetVTKWindow();
   return window && drawn->GetSize()[1] * kPointsPerInch < kLow * window->GetDPI();
+}
+
+/// The label at the top of an axis, half of which is above it, and the upright titles end within the chart.
+void vtkHapticChart::Internals::fitTexts()
+{
+  vtkRenderer* drawn = this->renderer;
+  vtkWindow* window = drawn->GetVTKWindow();
+  if (!window)
+  {
+    return;
+  }
+  const double letter = kFontSize * window->GetDPI() / kPointsPerInch;
+  const int above = std::max(kVtkBorder, static_cast<int>(std::ceil(0.75 * letter)));
+  this->chart->SetHiddenAxisBorder(above);
+  // Below the axis are a row of labels and a title; twice the way from its middle to the nearer edge.
+  const double room = drawn->GetSize()[1] + above - 3.5 * letter;
+  for (const int which : { vtkAxis::LEFT, vtkAxis::RIGHT })
+  {
+    vtkAxis* axis = this->chart->GetAxis(which);
+    vtkNew<vtkTextProperty> upright;
+    upright->ShallowCopy(axis->GetTitleProperties());
+    upright->SetOrientation(0.0);
+    upright->SetFontSize(kFontSize);
+    int box[4] = {};
+    vtkTextRenderer* texts = vtkTextRenderer::GetInstance();
+    const bool known = texts && texts->GetBoundingBox(upright, axis->GetTitle(), box, window->GetDPI());
+    const double fitting = known ? kFontSize * room / std::max(1, box[1] - box[0]) : kFontSize;
+    axis->GetTitleProperties()->SetFontSize(
+      static_cast<int>(std::clamp<double>(fitting, kSmallestFontSize, kFontSize)));
+  }
 }
 
 /// One row for each slice that has samples.
@@ -320,6 +355,7 @@ bool vtkHapticChart::Update()
     largestForce = std::max<double>(largestForce, parts.ideal->GetValue(i));
     largestRadius = std::max<double>(largestRadius, parts.radius->GetValue(i));
   }
+  parts.fitTexts();
   const bool low = parts.isLow();
   setRange(parts.chart->GetAxis(vtkAxis::LEFT), largestForce, 0.1, low);
   setRange(parts.chart->GetAxis(vtkAxis::RIGHT), largestRadius, 0.1, low);
