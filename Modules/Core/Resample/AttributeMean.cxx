@@ -191,6 +191,15 @@ struct Terms
   int count;
 };
 
+/// Fields of a packed record are not aligned.
+template <typename T>
+T numberOf(const char* tuple, int component)
+{
+  T number;
+  std::memcpy(&number, tuple + std::size_t(component) * sizeof(T), sizeof number);
+  return number;
+}
+
 /// Calls add(sum, value) for each number: the sums have @p Lanes words for each of @p Components components,
 /// or of the view's where the compiler is not to know.
 template <int Lanes, int Components, typename T, typename Add>
@@ -201,11 +210,11 @@ void forNumbers(const Terms& terms, std::int64_t* sums, const Add& add)
   const std::int64_t step = terms.view.step();
   for (int i = 0; i < terms.count; ++i)
   {
-    const T* value = reinterpret_cast<const T*>(first + step * terms.points[i]);
+    const char* const tuple = first + step * terms.points[i];
     std::int64_t* sum = sums + Lanes * width * terms.voxels[i];
     for (int c = 0; c < width; ++c)
     {
-      add(sum + Lanes * c, value[c]);
+      add(sum + Lanes * c, numberOf<T>(tuple, c));
     }
   }
 }
@@ -289,10 +298,10 @@ void AttributeMean::addReals(const std::int64_t* points, const std::int64_t* vox
   {
     for (int i = 0; i < count; ++i)
     {
-      const Real* const value = reinterpret_cast<const Real*>(view_.tuple(points[i]));
+      const char* const tuple = view_.tuple(points[i]);
       for (int c = 0; c < view_.components; ++c)
       {
-        addInParts(value[c], view_.components * voxels[i] + c);
+        addInParts(numberOf<Real>(tuple, c), view_.components * voxels[i] + c);
       }
     }
   }

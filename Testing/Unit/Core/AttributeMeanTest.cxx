@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 using namespace pointhaptics;
@@ -455,4 +456,21 @@ TEST(AttributeMean, StartsFromNothingHoweverOftenItIsPrepared)
     mean.add(plan.order.data(), plan.voxels.data(), 300);
     EXPECT_TRUE(sameBits(written<float>(mean, plan), expected)) << "once more";
   }
+}
+
+/// Nothing but a build with a sanitizer of undefined behaviour can tell alignment; others look at the values.
+TEST(AttributeMean, ReadsFieldsOfPackedRecords)
+{
+  const std::vector<double> values = magnitudes<double>(900, -3, 3, 26);
+  constexpr std::size_t kRecord = 1 + 3 * sizeof(double);
+  std::vector<char> records(300 * kRecord);
+  for (std::size_t i = 0; i < 300; ++i)
+  {
+    std::memcpy(records.data() + i * kRecord + 1, values.data() + 3 * i, 3 * sizeof(double));
+  }
+  const Plan plan = planFor(300, 40, 27);
+  AttributeMean mean({ records.data() + 1, ScalarType::Double, 3, 300, std::int64_t(kRecord) }, Executor());
+  mean.prepare(nullptr, plan.size, 300, {});
+  mean.add(plan.order.data(), plan.voxels.data(), 300);
+  EXPECT_TRUE(sameBits(written<double>(mean, plan), written<double>(meanOf(values, 3, plan), plan)));
 }
