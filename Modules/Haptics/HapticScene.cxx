@@ -405,14 +405,6 @@ LocalScale HapticScene::fitScale(const Vec3& position) const noexcept
   return cloud_->scale.at(pyramid(), position);
 }
 
-bool HapticScene::nearestPoint(const Vec3& position, double search, Vec3& point) const noexcept
-{
-  double ignored = 0.0;
-  const std::int64_t cell = pyramid().nearest(0, position, search, ignored);
-  point = cell >= 0 ? pyramid().level(0).cells[std::size_t(cell)].mean : point;
-  return cell >= 0;
-}
-
 bool HapticScene::isNear(const Vec3& position) const noexcept
 {
   return pyramid().anyWithin(

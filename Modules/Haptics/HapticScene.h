@@ -157,8 +157,6 @@ public:
   double fitRadius(const Vec3& position) const noexcept { return fitScale(position).radius; }
   /// False where no cell of the cloud can be within clearance() of @p position: free space to stride through.
   bool isNear(const Vec3& position) const noexcept;
-  /// The mean of the finest cell nearest to @p position, in @p point; false: none is nearer than @p search.
-  bool nearestPoint(const Vec3& position, double search, Vec3& point) const noexcept;
   double clearance() const { return cloud_->clearance; }
   /// Whether the index cells are counted from the corner that create() was given.
   bool isAligned() const { return cloud_->aligned; }

@@ -195,6 +195,19 @@ int BallCells::nearestWithin(const Vec3& p, double radius) const noexcept
   return count > 0 ? part.first + *nearest : -1;
 }
 
+bool BallCells::nearestOf(
+  const CellPyramid& pyramid, const Vec3& p, double search, Vec3& nearest) const noexcept
+{
+  const double known = pyramid_ == &pyramid && complete_ ? std::min(search, reach_ - norm(p - center_)) : 0.0;
+  const int here = known > 0.0 ? this->nearestWithin(p, known) : -1;
+  double ignored = 0.0;
+  const std::int64_t cell = here < 0 && known < search ? pyramid.nearest(0, p, search, ignored) : -1;
+  nearest = here >= 0 ? this->point(here)
+    : cell >= 0       ? pyramid.level(0).cells[std::size_t(cell)].mean
+                      : nearest;
+  return here >= 0 || cell >= 0;
+}
+
 double BallCells::sweep(const Vec3& from, const Vec3& direction, double length, double radius) const noexcept
 {
   const auto sweepIn = [&](const Part& part)

@@ -58,6 +58,10 @@ public:
   /// The same among those nearer than @p radius.
   int nearestWithin(const Vec3& p, double radius) const noexcept;
 
+  /// The point of @p pyramid nearest to @p p, at most @p search away: mostly it is here. False: there is
+  /// none.
+  bool nearestOf(const CellPyramid& pyramid, const Vec3& p, double search, Vec3& nearest) const noexcept;
+
   /// How far a ball of @p radius at @p from can go along the unit vector @p direction before it would cover a
   /// point: exact, 0 to @p length. Points that it covers already, or that it leaves, do not count unless it
   /// goes deeper. @pre all points within radius + length of @p from are here.

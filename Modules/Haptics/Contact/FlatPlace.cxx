@@ -26,14 +26,7 @@ bool FlatPlace::find(
   const BallCells& cells, const Vec3& center, double radius, double reach, Vec3& away) noexcept
 {
   PointMoments all;
-  Vec3 offsets[BallCells::kCapacity];
-  int size = 0;
-  cells.visitBall(center, reach,
-    [&](const Vec3& offset, double)
-    {
-      all.add(offset);
-      offsets[size++] = offset;
-    });
+  cells.visitBall(center, reach, [&](const Vec3& offset, double) { all.add(offset); });
   Vec3 mean = all.mean();
   away = normalized(mean);
   SymEigen eigen = symmetricEigen(all.covariance());
@@ -45,13 +38,14 @@ bool FlatPlace::find(
   {
     const double gate = std::sqrt(std::max(0.0, eigen.values[0]));
     PointMoments rest;
-    for (int i = 0; i < size; ++i)
-    {
-      if (std::abs(dot(offsets[i] - mean, eigen.vectors[0])) <= gate)
+    cells.visitBall(center, reach,
+      [&](const Vec3& offset, double)
       {
-        rest.add(offsets[i]);
-      }
-    }
+        if (std::abs(dot(offset - mean, eigen.vectors[0])) <= gate)
+        {
+          rest.add(offset);
+        }
+      });
     if (rest.count < kPlanePoints)
     {
       break;

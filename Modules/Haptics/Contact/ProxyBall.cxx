@@ -25,9 +25,6 @@ constexpr double kRises[] = { 0.0, 1.0, 2.0, kHighestRise };
 /// Points within this many radii determine the radius.
 constexpr double kSearch = 4.0;
 
-/// The nearest point is mostly nearer than this many radii.
-constexpr double kNearBy = 1.2;
-
 /// Moves of one slide.
 constexpr int kMostSlides = 24;
 /// What a visit of the pyramid costs, in rounds.
@@ -241,21 +238,6 @@ bool ProxyBall::makeRoom(Work& work, const ProxyBall& before) noexcept
   return false;
 }
 
-/// The point nearest to @p place; false: there is none within @p search.
-bool ProxyBall::nearestPoint(const Work& work, const Vec3& place, double search, Vec3& point) const noexcept
-{
-  const CellPyramid& pyramid = work.scene.pyramid();
-  const double likely = std::min(search, kNearBy * radius_);
-  const int gathered =
-    work.cells.holds(pyramid, place, likely) ? work.cells.nearestWithin(place, likely) : -1;
-  if (gathered >= 0)
-  {
-    point = work.cells.point(gathered);
-    return true;
-  }
-  return work.scene.nearestPoint(place, search, point);
-}
-
 /// Finds the radius that the cloud asks for about the ball and ahead: what comes may be sparser, and the ball
 /// is wide.
 void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
@@ -267,8 +249,10 @@ void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
   Vec3 ignored;
   const double search =
     kSearch * std::max(radius_, work.scene.fitScale(center_, work.fields, ignored).proxyRadius);
+  const auto nearestTo = [&](const Vec3& place, Vec3& point)
+  { return work.cells.nearestOf(work.scene.pyramid(), place, search, point); };
   Vec3 nearest;
-  const bool isFound = nearestPoint(work, center_, search, nearest);
+  const bool isFound = nearestTo(center_, nearest);
   const auto wantedAt = [&](const Vec3& seed)
   { return ballRadius(work.scene, work.fields, work.cells, seed, center_); };
   wanted_ = isFound ? wantedAt(nearest) : radius_;
@@ -276,7 +260,7 @@ void ProxyBall::measure(Work& work, const Vec3& hip) noexcept
   const Vec3 course = hip - hip_;
   const Vec3 ahead = normalized(course - dot(course, up) * up);
   Vec3 next;
-  if (!free_ && nearestPoint(work, center_ + kAhead * radius_ * ahead, search, next) && next != nearest)
+  if (!free_ && nearestTo(center_ + kAhead * radius_ * ahead, next) && next != nearest)
   {
     wanted_ = std::max(wanted_, wantedAt(next));
   }

@@ -86,7 +86,6 @@ private:
   };
 
   void place(Work& work, const Vec3& hip) noexcept;
-  bool nearestPoint(const Work& work, const Vec3& place, double search, Vec3& point) const noexcept;
   void measure(Work& work, const Vec3& hip) noexcept;
   void updateRadius(Work& work, const Vec3& hip) noexcept;
   void walk(Work& work, const Vec3& hip) noexcept;

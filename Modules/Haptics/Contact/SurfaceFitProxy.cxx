@@ -29,6 +29,8 @@ constexpr double kReleaseSlope = 1.25;
 /// fit that sees two faces of a wedge is further from its points.
 constexpr double kOutNear = 0.5;
 constexpr double kOutResidual = 0.01;
+/// Where no face is flat it moves by this many radii before the next is looked at.
+constexpr double kOutAgain = 0.1;
 /// How far a point of the fit is from it, over the ball's radius.
 constexpr double kOnFit = 0.1;
 
@@ -46,6 +48,7 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
   ball_.carry(change, std::cbrt(std::abs(change.determinant())));
   tracker_.carry(from, to);
   friction_.carry(change);
+  isRough_ = false;
   normal_ = normalized(change.applyToNormal(normal_), normal_);
 }
 
@@ -64,25 +67,22 @@ bool SurfaceFitProxy::comesOut(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
 {
   const double near = kOutNear * ball_.radius();
-  if (memory.ball.holds(scene.pyramid(), hip, near) && memory.ball.nearestWithin(hip, near) < 0)
-  {
-    return false;
-  }
+  const double again = kOutAgain * ball_.radius();
   Vec3 nearest;
-  if (!scene.nearestPoint(hip, near, nearest) ||
+  if (!memory.ball.nearestOf(scene.pyramid(), hip, near, nearest) ||
     (hasFit_ && tracker_.height(hip) <= 0.0 &&
-      std::abs(tracker_.heightAboveFit(nearest)) < kOnFit * ball_.radius()))
+      std::abs(tracker_.heightAboveFit(nearest)) < kOnFit * ball_.radius()) ||
+    (isRough_ && norm2(hip - roughAt_) < again * again))
   {
     return false;
   }
   SurfaceTracker face;
-  if (!face.findAt(scene, memory.fit, nearest, hip, hip, kRoundsPerTick) || face.height(hip) < 0.0 ||
-    face.residual() >= kOutResidual * ball_.radius())
-  {
-    return false;
-  }
+  isRough_ = !face.find(scene, memory.fit, nearest, hip, hip, kRoundsPerTick) ||
+    face.residual() >= kOutResidual * ball_.radius();
+  roughAt_ = hip;
   const ProxyBall before = ball_;
-  if (!ball_.goAround(scene, memory.fit, memory.ball, face.point(), face.normal(), status) ||
+  if (isRough_ || face.height(hip) < 0.0 ||
+    !ball_.goAround(scene, memory.fit, memory.ball, face.point(), face.normal(), status) ||
     face.height(ball_.center()) < 0.0)
   {
     ball_ = before;
@@ -120,8 +120,10 @@ double SurfaceFitProxy::fitWeight(
   if (result < kSeekBelow && ticksWithoutFit_++ % kSeekEvery == 0)
   {
     const SurfaceTracker before = tracker_;
-    const bool isFound = tracker_.find(
-      scene, fit, ball_.nearestPoint(hip), 2.0 * ball_.radius(), ball_.center(), hip, kRoundsPerTick);
+    Vec3 nearest;
+    const bool isFound =
+      memory.ball.nearestOf(scene.pyramid(), ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest) &&
+      tracker_.find(scene, fit, nearest, ball_.center(), hip, kRoundsPerTick);
     const double sought = isFound ? weight() : 0.0;
     if (sought > result)
     {
@@ -149,6 +151,7 @@ void SurfaceFitProxy::forgetFit() noexcept
 {
   hasFit_ = false;
   isPatient_ = false;
+  isRough_ = false;
   ticksWithoutFit_ = 0;
 }
 

@@ -71,6 +71,8 @@ private:
   Vec3 normal_{ 0.0, 0.0, 1.0 };
   bool hasFit_ = false;
   bool isPatient_ = false; ///< The fit followed a smooth surface that goes on all around.
+  Vec3 roughAt_;           ///< The HIP when the surface beside it was last seen to be no flat face.
+  bool isRough_ = false;
   int ticksWithoutFit_ = 0;
 };
 

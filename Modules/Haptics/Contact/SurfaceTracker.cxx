@@ -95,15 +95,8 @@ void SurfaceTracker::flip() noexcept
   fresh_ = false;
 }
 
-bool SurfaceTracker::find(const HapticScene& scene, FitCells& memory, const Vec3& place, double search,
-  const Vec3& side, const Vec3& target, int rounds) noexcept
-{
-  Vec3 cell;
-  return scene.nearestPoint(place, search, cell) && findAt(scene, memory, cell, side, target, rounds);
-}
-
-bool SurfaceTracker::findAt(const HapticScene& scene, FitCells& memory, const Vec3& onSurface,
-  const Vec3& side, const Vec3& target, int rounds) noexcept
+bool SurfaceTracker::find(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side,
+  const Vec3& target, int rounds) noexcept
 {
   SurfaceTracker found;
   if (!found.findSheet(scene, memory, onSurface))

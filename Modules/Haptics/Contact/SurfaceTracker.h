@@ -22,13 +22,9 @@ enum class TrackResult
 class SurfaceTracker
 {
 public:
-  /// Finds the sheet at the cell nearest to @p place, at most @p search away, its normal to the side of @p
-  /// side, and follows it to @p target. False, and nothing changes: there is none.
-  bool find(const HapticScene& scene, FitCells& memory, const Vec3& place, double search, const Vec3& side,
-    const Vec3& target, int rounds) noexcept;
-
-  /// The same at the cell @p onSurface.
-  bool findAt(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side,
+  /// Finds the sheet at the cell @p onSurface, its normal to the side of @p side, and follows it to @p
+  /// target. False, and nothing changes: there is none.
+  bool find(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side,
     const Vec3& target, int rounds) noexcept;
 
   /// The sheet through the cells about @p onSurface, near enough to follow it; the normal to either side.

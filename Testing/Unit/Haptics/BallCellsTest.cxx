@@ -188,6 +188,36 @@ TEST(BallCells, AnswersTheSameBitForBitWhereItWasFocused)
   }
 }
 
+TEST(BallCells, FindsTheNearestPointOfThePyramidWhereverThatIs)
+{
+  trial::Random random(19);
+  int here = 0;
+  int beyond = 0;
+  for (int cloud = 0; cloud < 60; ++cloud)
+  {
+    const std::vector<Vec3> points = randomPoints(random, 1 + random.below(2 * BallCells::kCapacity), 0.01);
+    const CellPyramid pyramid = pyramidOf(points, 1e-3);
+    BallCells cells;
+    cells.gather(pyramid, points[0], random.uniform(0.0, 0.01), kCoarse);
+    for (int i = 0; i < 50; ++i)
+    {
+      const Vec3 p = points[0] + random.uniform(0.0, 0.01) * random.direction();
+      const double search = random.uniform(0.0, 0.01);
+      double distance = 0.0;
+      const std::int64_t expected = pyramid.nearest(0, p, search, distance);
+      Vec3 found;
+      ASSERT_EQ(cells.nearestOf(pyramid, p, search, found), expected >= 0);
+      if (expected >= 0)
+      {
+        (cells.holds(pyramid, p, distance) ? here : beyond) += 1;
+        EXPECT_NEAR(norm(found - p), distance, 1e-15);
+      }
+    }
+  }
+  EXPECT_GT(here, 300);
+  EXPECT_GT(beyond, 300);
+}
+
 TEST(BallCells, GathersWhatIsLikelyToBeAskedWhereThereIsRoom)
 {
   trial::Random random(18);
