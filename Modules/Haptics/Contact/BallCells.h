@@ -11,12 +11,12 @@ namespace pointhaptics
 {
 
 /// Points near a center, each coordinate in an array of its own; all lengths in metres of the lattice frame,
-/// coordinates relative to the center. 25 kB, plain state, one thread. No member function allocates or
+/// coordinates relative to the center. 50 kB, plain state, one thread. No member function allocates or
 /// throws.
 class BallCells
 {
 public:
-  static constexpr int kCapacity = 512;
+  static constexpr int kCapacity = 1024;
 
   /// @param wanted the instructions to use, as far as this machine has them; the results are the same.
   explicit BallCells(InstructionSet wanted = InstructionSet::Automatic)
