@@ -68,11 +68,7 @@ std::string DistributedUpdate::chooseArrays()
   for (std::size_t i = 0; this->sharesSums() && i < found_.size(); ++i)
   {
     const VoxelArray& array = found_[i];
-    AttributeValues values =
-      VoxelAttribute(array.array, array.kind, nullptr, settings_.instructionSet, smp_).values();
-    values.range = commonRange(ranks_, values.range);
-    arrays_.push_back(
-      { array, VoxelAttribute(array.array, array.kind, &values, settings_.instructionSet, smp_), nullptr });
+    arrays_.emplace_back(array.array, array.kind, nullptr, settings_.instructionSet, smp_);
   }
   return {};
 }
@@ -132,8 +128,16 @@ int DistributedUpdate::run(const vtkSmartPointer<vtkPolyData>* outputs, int leve
 
 std::string DistributedUpdate::runOfSums(const vtkSmartPointer<vtkPolyData>* outputs, int levels)
 {
-  VoxelAccumulator own(lattice_, settings_.computeCovariance);
-  Status status = own.add(points_.view(), transform_, smp_);
+  std::vector<VoxelAccumulator::Array> kinds;
+  std::vector<AttributeView> views;
+  for (const VoxelAttribute& array : arrays_)
+  {
+    const AttributeRequest request = array.request();
+    kinds.push_back({ request.view.type, request.view.components, request.statistic });
+    views.push_back(request.view);
+  }
+  VoxelAccumulator own(lattice_, settings_.computeCovariance, kinds, transform_);
+  Status status = own.add(points_.view(), views, transform_, smp_);
   if (!this->all(status == Status::Ok))
   {
     return problemOf(status);
@@ -153,79 +157,21 @@ std::string DistributedUpdate::runOfSums(const vtkSmartPointer<vtkPolyData>* out
   clipped_ = shared_.clippedPoints();
   invalid_ = shared_.invalidPoints();
   ranges_ = shared_.ranges();
-  const std::string problem = this->shareArrays(levels);
-  for (int level = 0; problem.empty() && level < levels; ++level)
+  for (int level = 0; level < levels; ++level)
   {
-    this->fill(level, outputs[level],
-      [&](vtkIdTypeArray* counts, vtkPointData* data) { this->addMeans(level, counts, data); });
+    this->fill(
+      level, outputs[level], [&](vtkIdTypeArray*, vtkPointData* data) { this->addMeans(level, data); });
   }
-  return problem;
+  return {};
 }
 
-std::string DistributedUpdate::shareArrays(int levels)
+void DistributedUpdate::addMeans(int level, vtkPointData* data)
 {
-  if (arrays_.empty())
+  for (std::size_t i = 0; i < arrays_.size(); ++i)
   {
-    return {};
-  }
-  const std::int64_t mostPoints = ranks_.reduce(
-    made_.mostPoints(levels - 1), [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
-  VoxelRequest request;
-  request.points = points_.view();
-  request.transform = transform_;
-  request.lattice = shared_.voxels().lattice();
-  request.keys = true;
-  request.keepPointRecords = true;
-  request.instructions = settings_.instructionSet;
-  const auto reducerOf = [&](const SharedArray& array)
-  { return AttributeReducer::create(array.attribute.request(), transform_, settings_.instructionSet, smp_); };
-  std::vector<std::unique_ptr<AttributeReducer>> own;
-  for (const SharedArray& array : arrays_)
-  {
-    own.push_back(reducerOf(array));
-  }
-  VoxelResampler engine;
-  Status status = engine.run(request, smp_);
-  for (const std::unique_ptr<AttributeReducer>& reducer : own)
-  {
-    reducer->prepare(engine.counts(), engine.size(), mostPoints, smp_);
-  }
-  const auto add = [&own](const std::int64_t* points, const std::int64_t* voxels, int count)
-  {
-    for (const std::unique_ptr<AttributeReducer>& reducer : own)
-    {
-      reducer->add(points, voxels, count);
-    }
-  };
-  status = status == Status::Ok ? engine.visitPointsByVoxel(request, add, smp_) : status;
-  if (!this->all(status == Status::Ok))
-  {
-    return "A rank could not average its arrays: " + std::string(message(status)) + ".";
-  }
-  bool fits = true;
-  for (std::size_t i = 0; i < own.size(); ++i)
-  {
-    SharedArray& array = arrays_[i];
-    array.merged = reducerOf(array);
-    array.merged->prepare(made_.counts(), made_.size(), mostPoints, smp_);
-    fits = shared_.exchange(ranks_, *own[i], *array.merged) && fits;
-  }
-  return this->all(fits) ? std::string() : "Sums of arrays got lost between ranks; are all of one build?";
-}
-
-void DistributedUpdate::addMeans(int level, vtkIdTypeArray* counts, vtkPointData* data)
-{
-  for (SharedArray& array : arrays_)
-  {
-    if (level > 0)
-    {
-      array.merged->regroup(made_.parents(level), made_.size(level));
-    }
-    const vtkSmartPointer<vtkDataArray> tuples = array.attribute.emptyArray();
-    pool_.allocate(tuples, made_.size(level));
-    array.merged->write(
-      reinterpret_cast<const std::int64_t*>(counts->GetPointer(0)), tuples->GetVoidPointer(0), smp_, nullptr);
-    addArray(data, array.attribute.inOwnType(tuples), array.from.roles);
+    addArray(data,
+      reducedArray(made_, level, i, arrays_[i], found_[i].isNormal, VoxelRequest(), pool_, allocator_, smp_),
+      found_[i].roles);
   }
 }
 

@@ -8,7 +8,6 @@
 #include "VoxelOutput.h"
 
 #include "Core/Distributed/SharedVoxels.h"
-#include "Core/Resample/AttributeReducer.h"
 #include "Core/Resample/VoxelMeanSettings.h"
 #include "Core/Resample/VoxelResampler.h"
 
@@ -16,7 +15,6 @@
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,14 +26,6 @@ class vtkPolyData;
 
 namespace pointhaptics
 {
-
-/// A point array in the voxels of this rank's points, and in those of this rank's range.
-struct SharedArray
-{
-  VoxelArray from;
-  VoxelAttribute attribute; ///< It knows the range of the values of all ranks.
-  std::unique_ptr<AttributeReducer> merged;
-};
 
 /// The steps of one update. Each returns what is wrong, the same on all ranks, or nothing.
 class DistributedUpdate
@@ -76,8 +66,7 @@ private:
   std::string findOwnVoxels(const Lattice& lattice, VoxelResampler& own);
   // Means: sums are shared.
   std::string runOfSums(const vtkSmartPointer<vtkPolyData>* outputs, int levels);
-  std::string shareArrays(int levels);
-  void addMeans(int level, vtkIdTypeArray* counts, vtkPointData* data);
+  void addMeans(int level, vtkPointData* data);
   // Others, of one level: points go to the rank that has their voxel.
   std::string runOfPoints(vtkPolyData* output);
   vtkSmartPointer<vtkPolyData> sharePoints(const VoxelResampler& own);
@@ -96,7 +85,7 @@ private:
   Lattice lattice_;
   bool singlePrecision_ = true;
   std::vector<VoxelArray> found_;
-  std::vector<SharedArray> arrays_; ///< Of these, where sums are shared.
+  std::vector<VoxelAttribute> arrays_; ///< Of these, where sums are shared.
   std::vector<std::string> dropped_;
   std::int64_t clipped_ = 0; ///< Of all ranks.
   std::int64_t invalid_ = 0;

@@ -51,11 +51,6 @@ AttributeRange joinedRange(const AttributeRange& a, const AttributeRange& b)
   return both;
 }
 
-AttributeRange commonRange(Ranks& ranks, const AttributeRange& own)
-{
-  return ranks.reduce(own, &joinedRange);
-}
-
 std::int64_t commonSum(Ranks& ranks, std::int64_t own)
 {
   return ranks.reduce(own, [](std::int64_t a, std::int64_t b) { return a + b; });
@@ -131,55 +126,30 @@ std::vector<std::int64_t> numbersOfKeys(Ranks& ranks, const std::vector<std::uin
 /// @p messages: the sums that each rank gave to this one; @p kept: those that this one, @p rank, keeps.
 Status SharedVoxels::merge(std::vector<std::string> messages, std::size_t rank, VoxelAccumulator kept)
 {
-  voxels_ = VoxelAccumulator(kept.lattice(), kept.hasCovariances());
-  std::vector<std::vector<std::uint64_t>> keysOfRanks;
+  voxels_ = kept.withoutPoints();
   for (std::size_t r = 0; r < messages.size(); ++r)
   {
     VoxelAccumulator part{ Lattice() };
     const Status status = r == rank ? Status::Ok : VoxelAccumulator::deserialize(messages[r], part);
     std::string().swap(messages[r]); // Its memory serves the sums of the next.
-    part = r == rank ? std::move(kept) : std::move(part);
-    keysOfRanks.push_back(part.keys());
+    if (r == rank)
+    {
+      part = std::move(kept);
+    }
     const Status merged = status == Status::Ok ? voxels_.merge(std::move(part)) : status;
     if (merged != Status::Ok)
     {
       return merged;
     }
   }
-  const std::vector<std::uint64_t> keys = voxels_.keys();
-  places_.clear();
-  for (const std::vector<std::uint64_t>& ofRank : keysOfRanks)
-  {
-    places_.emplace_back().reserve(ofRank.size());
-    auto place = keys.begin();
-    for (const std::uint64_t key : ofRank)
-    {
-      while (*place < key) // It has all keys of each rank.
-      {
-        ++place;
-      }
-      places_.back().push_back(place - keys.begin());
-    }
-  }
   return Status::Ok;
-}
-
-void SharedVoxels::findEnds(const std::vector<std::uint64_t>& ownKeys)
-{
-  ends_.clear();
-  for (const std::uint64_t begin : ranges_)
-  {
-    ends_.push_back(std::lower_bound(ownKeys.begin(), ownKeys.end(), begin) - ownKeys.begin());
-  }
 }
 
 /// What is no longer needed is freed at once: its memory serves what is sent and what comes.
 Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator own, int levels)
 {
   own.releaseScratch();
-  const std::vector<std::uint64_t> keys = own.keys();
-  ranges_ = shareKeys(ranks, keys, uncutKeys(own.lattice(), levels));
-  this->findEnds(keys);
+  ranges_ = shareKeys(ranks, own.keys(), uncutKeys(own.lattice(), levels));
   clipped_ = commonSum(ranks, own.clippedPoints());
   invalid_ = commonSum(ranks, own.invalidPoints());
   const auto rank = std::size_t(ranks.rank());

@@ -6,8 +6,7 @@
 #include "Core/Base/PointView.h"
 #include "Core/Base/Status.h"
 #include "Core/Distributed/Ranks.h"
-#include "Core/Resample/AttributeMean.h"
-#include "Core/Resample/AttributeTuples.h"
+#include "Core/Resample/AttributeView.h"
 #include "Core/Resample/VoxelAccumulator.h"
 
 #include <cstdint>
@@ -20,8 +19,6 @@ namespace pointhaptics
 Bounds commonBounds(Ranks& ranks, const Bounds& own);
 /// The range of an array of which two parts have these.
 AttributeRange joinedRange(const AttributeRange& a, const AttributeRange& b);
-/// The range of an array whose values lie on all ranks.
-AttributeRange commonRange(Ranks& ranks, const AttributeRange& own);
 /// The sum of the numbers of all ranks, on each.
 std::int64_t commonSum(Ranks& ranks, std::int64_t own);
 /// The sum of the numbers of the ranks before this one.
@@ -52,7 +49,8 @@ public:
   /// @p own: the sums of the points of this rank, all of them on the same lattice; give them away, and they
   /// are freed before others come. @p levels: the cells of so many levels are not cut by the ranges.
   /// Afterwards voxels() are the merged ones of this rank's range.
-  /// Errors, on all ranks: InvalidParameter (other lattices, more points than an accumulator takes).
+  /// Errors, on all ranks: InvalidParameter (other lattices or arrays, more points than an accumulator
+  /// takes).
   Status share(Ranks& ranks, VoxelAccumulator own, int levels = 1);
   VoxelAccumulator& voxels() { return voxels_; }
   /// The ranges of keys of all ranks: see shareKeys().
@@ -61,37 +59,13 @@ public:
   std::int64_t clippedPoints() const { return clipped_; }
   std::int64_t invalidPoints() const { return invalid_; }
 
-  /// Exchanges what an array has in the voxels of share(): @p own has one entry for each voxel of this rank's
-  /// points, @p merged, just prepared, one for each of voxels(). Tuples: AttributeMean, AttributeTuples,
-  /// AttributeReducer.
-  /// @return false on ranks that got what does not fit.
-  template <typename Tuples>
-  bool exchange(Ranks& ranks, const Tuples& own, Tuples& merged) const
-  {
-    std::vector<std::string> messages(places_.size());
-    for (std::size_t r = 0; r < messages.size(); ++r)
-    {
-      own.serialize(ends_[r], ends_[r + 1], messages[r]);
-    }
-    messages = ranks.exchange(std::move(messages));
-    bool fits = true;
-    for (std::size_t r = 0; r < messages.size(); ++r)
-    {
-      fits = merged.merge(messages[r], places_[r]) && fits;
-    }
-    return fits;
-  }
-
 private:
   Status merge(std::vector<std::string> messages, std::size_t rank, VoxelAccumulator kept);
-  void findEnds(const std::vector<std::uint64_t>& ownKeys);
 
   VoxelAccumulator voxels_{ Lattice() };
   std::int64_t clipped_ = 0;
   std::int64_t invalid_ = 0;
   std::vector<std::uint64_t> ranges_;
-  std::vector<std::int64_t> ends_;                ///< Of the own voxels for each rank; 0 before the first.
-  std::vector<std::vector<std::int64_t>> places_; ///< In voxels(), of those that each rank sent.
 };
 
 } // namespace pointhaptics

@@ -152,8 +152,8 @@ void AttributeMean::clear(std::int64_t voxels, const Executor& executor)
     [this](std::int64_t begin, std::int64_t end) { std::fill(sums_.data() + begin, sums_.data() + end, 0); });
   if (range_.hasNonFinite)
   {
-    special_.reserve(size);
-    std::fill(special_.data(), special_.data() + size, std::uint8_t(0));
+    nonFinite_.reserve(size);
+    std::fill(nonFinite_.data(), nonFinite_.data() + size, NonFinite());
   }
 }
 
@@ -256,7 +256,8 @@ void AttributeMean::addInParts(Real value, std::int64_t place)
   std::int64_t* const sum = sums_.data() + lanes_ * place;
   if (range_.hasNonFinite && !std::isfinite(value))
   {
-    special_[std::size_t(place)] |= std::isnan(value) ? kSawNaN : value > Real(0) ? kSawPlus : kSawMinus;
+    NonFinite& seen = nonFinite_[std::size_t(place)];
+    ++(std::isnan(value) ? seen.nans : value > Real(0) ? seen.plus : seen.minus);
   }
   else if (lanes_ == 1)
   {
@@ -327,7 +328,7 @@ void AttributeMean::add(const std::int64_t* points, const std::int64_t* voxels, 
 void AttributeMean::regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels)
 {
   const Buffer<std::int64_t> fine = std::move(sums_);
-  const Buffer<std::uint8_t> fineSpecial = std::move(special_);
+  const Buffer<NonFinite> fineNonFinite = std::move(nonFinite_);
   clear(voxels, Executor());
   const auto components = std::size_t(view_.components);
   const std::size_t width = components * std::size_t(lanes_);
@@ -340,7 +341,9 @@ void AttributeMean::regroup(const std::vector<std::int64_t>& parents, std::int64
     }
     for (std::size_t c = 0; range_.hasNonFinite && c < components; ++c)
     {
-      special_[parent * components + c] |= fineSpecial[v * components + c];
+      NonFinite& seen = nonFinite_[parent * components + c];
+      const NonFinite& more = fineNonFinite[v * components + c];
+      seen = { seen.nans + more.nans, seen.plus + more.plus, seen.minus + more.minus };
     }
   }
 }

@@ -10,14 +10,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace pointhaptics
 {
 namespace simd
 {
+__extension__ typedef __int128 Int128;
 struct AttributeKernels;
 struct WordSums;
 }
@@ -56,8 +55,7 @@ public:
     const Executor& executor) override;
   void add(const std::int64_t* points, const std::int64_t* voxels, int count) override;
   void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) override;
-  void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const override;
-  bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels) override;
+  void tally(simd::VoxelTally& to) const override;
   /// Integers are rounded to the nearest, halves away from zero.
   bool write(const std::int64_t* counts, void* means, const Executor& executor,
     ProgressObserver* observer) const override;
@@ -68,13 +66,16 @@ public:
   const AttributeRange& range() const { return range_; }
 
 private:
-  __extension__ typedef __int128 Int128;
   static constexpr int kMostPartBits = 40;
   /// The most parts from the largest double to the last bit of the smallest, at 28 bits each.
   static constexpr int kMostLanes = 80;
-  static constexpr std::uint8_t kSawNaN = 1;
-  static constexpr std::uint8_t kSawPlus = 2;
-  static constexpr std::uint8_t kSawMinus = 4;
+  /// How many numbers are not finite.
+  struct NonFinite
+  {
+    std::int64_t nans = 0;
+    std::int64_t plus = 0;
+    std::int64_t minus = 0;
+  };
 
   bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
   void chooseParts();
@@ -93,7 +94,7 @@ private:
   {
     return sums_.data() + std::int64_t(lanes_) * (std::int64_t(view_.components) * voxel + component);
   }
-  Int128 integerSum(std::int64_t voxel, int component) const;
+  simd::Int128 integerSum(std::int64_t voxel, int component) const;
   double realSum(std::int64_t voxel, int component, int& exponent) const;
   double realMean(std::int64_t voxel, int component, std::int64_t count) const;
 
@@ -106,8 +107,8 @@ private:
   AttributeRange range_;
   std::int64_t voxels_ = 0;
   std::int64_t mostPoints_ = 0;
-  Buffer<std::int64_t> sums_;    ///< [voxel][component][lane]
-  Buffer<std::uint8_t> special_; ///< [voxel][component]: which values that are not finite were seen.
+  Buffer<std::int64_t> sums_;   ///< [voxel][component][lane]
+  Buffer<NonFinite> nonFinite_; ///< [voxel][component], where there are any.
 };
 
 } // namespace pointhaptics

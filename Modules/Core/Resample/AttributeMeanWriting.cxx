@@ -1,7 +1,9 @@
 // From the sums of arrays to their means.
 #include "Core/Resample/AttributeMean.h"
 
+#include "Core/Resample/Kernel/AttributeRounding.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,20 +13,10 @@
 
 namespace pointhaptics
 {
-namespace
-{
+using simd::Int128;
+using simd::powerOfTwo;
 
-double powerOfTwo(int exponent)
-{
-  const std::uint64_t bits = std::uint64_t(exponent + 1023) << 52;
-  double value;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-}
-
-AttributeMean::Int128 AttributeMean::integerSum(std::int64_t voxel, int component) const
+Int128 AttributeMean::integerSum(std::int64_t voxel, int component) const
 {
   const std::int64_t* sum = lanes(voxel, component);
   return lanes_ == 1 ? Int128(sum[0]) : Int128(sum[0]) * (Int128(1) << 32) + sum[1];
@@ -88,21 +80,15 @@ double AttributeMean::realSum(std::int64_t voxel, int component, int& exponent) 
 
 double AttributeMean::realMean(std::int64_t voxel, int component, std::int64_t count) const
 {
-  const std::uint8_t seen =
-    range_.hasNonFinite ? special_[std::size_t(view_.components * voxel + component)] : std::uint8_t(0);
-  if (seen != 0)
+  const NonFinite seen =
+    range_.hasNonFinite ? nonFinite_[std::size_t(view_.components * voxel + component)] : NonFinite();
+  if (seen.nans + seen.plus + seen.minus > 0)
   {
-    const double infinity = std::numeric_limits<double>::infinity();
-    return seen == kSawPlus ? infinity
-      : seen == kSawMinus   ? -infinity
-                            : std::numeric_limits<double>::quiet_NaN();
+    return simd::meanWithNonFinite(seen.nans > 0, seen.plus > 0, seen.minus > 0);
   }
-  // Divided before it is scaled: the scale may reach among the denormals.
   int exponent;
   const double sum = realSum(voxel, component, exponent);
-  // ldexp() takes as long as all the rest.
-  const double mean = sum / double(count);
-  return exponent > -1000 && exponent < 1000 ? mean * powerOfTwo(exponent) : std::ldexp(mean, exponent);
+  return simd::scaledMean(sum, exponent, count);
 }
 
 void AttributeMean::mean(std::int64_t voxel, std::int64_t count, double* means) const
@@ -133,32 +119,28 @@ simd::WordSums AttributeMean::wordSums(const std::int64_t* counts, std::int64_t 
     isFloating() ? powerOfTwo(range_.exponent - partBits_) : 1.0 };
 }
 
-namespace
+void AttributeMean::tally(simd::VoxelTally& to) const
 {
-
-/// A mean vector, turned. Integers have a scale of their own: they keep the length of their mean.
-template <typename T>
-Vec3 turnedMean(const Vec3& mean, const std::array<Vec3, 3>& columns)
-{
-  const Vec3 turned = mean.x * columns[0] + mean.y * columns[1] + mean.z * columns[2];
-  if constexpr (std::is_floating_point_v<T>)
+  simd::TallySum sum;
+  for (std::int64_t voxel = 0; voxel < voxels_; ++voxel)
   {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    return isFinite(mean) ? normalized(turned, Vec3()) : Vec3(kNaN, kNaN, kNaN);
+    for (int c = 0; c < view_.components; ++c)
+    {
+      const std::int64_t* const parts = lanes(voxel, c);
+      for (int part = 0; part < lanes_; ++part)
+      {
+        constexpr int kIntegerPart = 32;
+        sum.add(parts[part],
+          isFloating() ? range_.exponent - (part + 1) * partBits_ : (lanes_ - 1 - part) * kIntegerPart);
+      }
+      if (range_.hasNonFinite)
+      {
+        const NonFinite& seen = nonFinite_[std::size_t(view_.components * voxel + c)];
+        sum.addNonFinite(seen.nans, seen.plus, seen.minus);
+      }
+      sum.moveTo(to);
+    }
   }
-  else
-  {
-    constexpr auto kLow = double(std::numeric_limits<T>::min());
-    constexpr auto kHigh = double(std::numeric_limits<T>::max());
-    // The largest 64-bit integer is no double; the one below is.
-    const double high = sizeof(T) < 8 ? kHigh : std::nextafter(kHigh, 0.0);
-    const double length = norm(turned);
-    const double scale = length > 0.0 ? norm(mean) / length : 0.0;
-    const auto rounded = [&](double x) { return std::clamp(std::round(scale * x), kLow, high); };
-    return { rounded(turned.x), rounded(turned.y), rounded(turned.z) };
-  }
-}
-
 }
 
 template <typename T>
@@ -168,7 +150,7 @@ void AttributeMean::writeTuple(std::int64_t voxel, std::int64_t count, T* tuple)
   {
     Vec3 vector;
     mean(voxel, count, &vector.x);
-    vector = turnedMean<T>(vector, *columns_);
+    vector = simd::turnedMean<T>(vector, *columns_);
     std::transform(&vector.x, &vector.x + 3, tuple, [](double x) { return T(x); });
     return;
   }
@@ -180,8 +162,7 @@ void AttributeMean::writeTuple(std::int64_t voxel, std::int64_t count, T* tuple)
     }
     else
     {
-      const Int128 twice = 2 * integerSum(voxel, c);
-      tuple[c] = T((twice + (twice < 0 ? -count : count)) / (2 * Int128(count)));
+      tuple[c] = simd::roundedMean<T>(integerSum(voxel, c), count);
     }
   }
 }

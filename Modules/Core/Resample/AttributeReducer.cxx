@@ -6,6 +6,12 @@
 namespace pointhaptics
 {
 
+std::array<Vec3, 3> normalColumns(const AffineTransform& transform)
+{
+  return { transform.applyToNormal({ 1, 0, 0 }), transform.applyToNormal({ 0, 1, 0 }),
+    transform.applyToNormal({ 0, 0, 1 }) };
+}
+
 std::unique_ptr<AttributeReducer> AttributeReducer::create(const AttributeRequest& request,
   const AffineTransform& transform, InstructionSet instructions, const Executor& executor)
 {
@@ -18,8 +24,7 @@ std::unique_ptr<AttributeReducer> AttributeReducer::create(const AttributeReques
     view, request.range ? *request.range : rangeOf(view, executor, instructions), instructions);
   if (request.statistic == AttributeStatistic::Normal)
   {
-    mean->turnVectors({ transform.applyToNormal({ 1, 0, 0 }), transform.applyToNormal({ 0, 1, 0 }),
-      transform.applyToNormal({ 0, 0, 1 }) });
+    mean->turnVectors(normalColumns(transform));
   }
   return mean;
 }

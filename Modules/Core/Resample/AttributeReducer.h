@@ -5,17 +5,24 @@
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/Executor.h"
 #include "Core/Base/ProgressObserver.h"
+#include "Core/Base/Vector3.h"
 #include "Core/Resample/AttributeView.h"
 #include "Core/Simd/InstructionSet.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace pointhaptics
 {
+namespace simd
+{
+class VoxelTally;
+}
+
+/// What turns normals: the products of their components with these are added.
+std::array<Vec3, 3> normalColumns(const AffineTransform& transform);
 
 /// Keeps what a statistic needs of the tuples of each voxel. Nothing it gives depends on the order of the
 /// points.
@@ -37,14 +44,8 @@ public:
   /// What voxel i has goes to voxel parents[i] of @p voxels (VoxelResampler::parents()).
   virtual void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) = 0;
 
-  ///@{
-  /// For another process, which has the rest of the array: what voxels @p first to before @p last have,
-  /// appended to @p bytes. @pre of both: the same request, and mostPoints of prepare().
-  virtual void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const = 0;
-  /// Adds what serialize() appended to @p voxels, which are as many. @return false for bytes that are not
-  /// theirs, or more tuples than there is room for; what was added then is of no use.
-  virtual bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels) = 0;
-  ///@}
+  /// Appends what the voxels have, for more to be added.
+  virtual void tally(simd::VoxelTally& to) const = 0;
 
   /// Writes the tuples of all voxels, @p counts points each, in the array's own type. @return false where
   /// @p observer, which may be null, aborted the work.

@@ -1,5 +1,6 @@
 #include "Core/Resample/AttributeTuples.h"
 
+#include "Core/Resample/Stages/VoxelTally.h"
 #include "Core/Resample/VoxelSlices.h"
 
 #include <algorithm>
@@ -72,7 +73,6 @@ void AttributeTuples::makeRoom(std::int64_t tuples)
 {
   constexpr std::size_t kWord = sizeof(std::uint64_t);
   const std::size_t bytes = std::size_t(tuples * view_.tupleBytes());
-  room_ = tuples;
   tuples_.reserve((bytes + kWord - 1) / kWord, Pages::Huge);
 }
 
@@ -162,6 +162,42 @@ void AttributeTuples::writeValues(std::int64_t first, std::int64_t last, T* to) 
                                            : mostFrequent(few.data() + c, size, view_.components));
     }
   }
+}
+
+template <typename T>
+void AttributeTuples::tallyValues(simd::VoxelTally& to) const
+{
+  using Key = decltype(orderedKey(T()));
+  std::vector<Key> keys;
+  std::vector<simd::TallyEntry> list;
+  for (std::int64_t v = 0; v < voxels(); ++v)
+  {
+    for (int c = 0; c < view_.components; ++c)
+    {
+      keys.clear();
+      for (std::int64_t i = begin(v); i < end(v); ++i)
+      {
+        keys.push_back(orderedKey(tuple<T>(i)[c]));
+      }
+      std::sort(keys.begin(), keys.end());
+      list.clear();
+      for (const Key key : keys)
+      {
+        const std::uint64_t tallied = simd::tallyKeyOf(key);
+        if (list.empty() || list.back().key != tallied)
+        {
+          list.push_back({ tallied, 0 });
+        }
+        ++list.back().amount;
+      }
+      to.push(list);
+    }
+  }
+}
+
+void AttributeTuples::tally(simd::VoxelTally& to) const
+{
+  withType(view_.type, [&](auto example) { tallyValues<decltype(example)>(to); });
 }
 
 bool AttributeTuples::write(

@@ -11,8 +11,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <string>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -80,9 +78,7 @@ public:
     const Executor& executor) override;
   void add(const std::int64_t* points, const std::int64_t* voxels, int count) override;
   void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) override;
-  /// Each value of a component once, with how many points have it: 16 bytes a value at most, and 8 a voxel.
-  void serialize(std::int64_t first, std::int64_t last, std::string& bytes) const override;
-  bool merge(std::string_view bytes, const std::vector<std::int64_t>& voxels) override;
+  void tally(simd::VoxelTally& to) const override;
   /// @pre each voxel has as many tuples as it was said to get.
   bool write(const std::int64_t* counts, void* values, const Executor& executor,
     ProgressObserver* observer) const override;
@@ -107,16 +103,13 @@ private:
     return reinterpret_cast<T*>(tuples_.data()) + view_.components * i;
   }
   template <typename T>
-  void serializeVoxel(std::int64_t voxel, std::string& bytes) const;
-  template <typename T>
-  bool mergeVoxel(std::string_view& bytes, std::int64_t voxel);
+  void tallyValues(simd::VoxelTally& to) const;
   template <typename T>
   void writeValues(std::int64_t first, std::int64_t last, T* to) const;
 
   AttributeView view_;
   AttributeStatistic statistic_;
   Buffer<std::uint64_t> tuples_;   ///< Those of a voxel after each other.
-  std::int64_t room_ = 0;          ///< For so many tuples.
   std::vector<std::int64_t> ends_; ///< Where the next tuple of each voxel goes.
 };
 

@@ -58,4 +58,17 @@ struct AttributeRequest
   std::optional<AttributeRange> range = {}; ///< rangeOf() the view as it is, where that is known already.
 };
 
+/// An array of which several clouds bring tuples, and what becomes of them in a voxel.
+struct AccumulatedArray
+{
+  ScalarType type = ScalarType::Float;
+  int components = 1;
+  AttributeStatistic statistic = AttributeStatistic::Mean;
+
+  bool operator==(const AccumulatedArray& other) const
+  {
+    return type == other.type && components == other.components && statistic == other.statistic;
+  }
+};
+
 } // namespace pointhaptics

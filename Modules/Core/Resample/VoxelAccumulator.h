@@ -8,11 +8,13 @@
 #include "Core/Base/PointView.h"
 #include "Core/Base/ProgressObserver.h"
 #include "Core/Base/Status.h"
+#include "Core/Resample/AttributeView.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,33 +29,70 @@ namespace pointhaptics
 ///
 /// Memory: 48 bytes an active voxel, 144 with covariances, at most a third more, and as much for what was
 /// subtracted since the last finish(). Time: that of resampling for the points of a call, and of copying
-/// voxels a few times; finish() costs in proportion to the active voxels. One thread at a time may use an
-/// object. Arrays of attributes are not accumulated.
+/// voxels a few times; finish() costs in proportion to the active voxels. Arrays: 8 bytes a voxel and
+/// component, and 16 for each 32 bits of its sum, mostly one or two, or for each value of a voxel's points
+/// where the most frequent or the middle one is wanted. One thread at a time may use an object.
 class VoxelAccumulator
 {
 public:
-  /// @pre lattice.check() is Ok; add() returns its error otherwise.
-  explicit VoxelAccumulator(const Lattice& lattice, bool covariances = false);
+  /// An array whose tuples each add() brings, and what becomes of them in a voxel.
+  using Array = AccumulatedArray;
+
+  /// @pre lattice.check() is Ok; add() returns its error otherwise. Normals have three components.
+  /// @p commonTransform: of all add() and subtract(), which refuse others. Means of normals are turned by it
+  /// as run() turns them, to the same bits. Without it each call turns its own vectors, by its own transform
+  /// and to their own length: rounded to double, so that what is subtracted must come by the transform it was
+  /// added by.
+  explicit VoxelAccumulator(const Lattice& lattice, bool covariances = false, std::vector<Array> arrays = {},
+    std::optional<AffineTransform> commonTransform = {});
   ~VoxelAccumulator();
   VoxelAccumulator(VoxelAccumulator&&) noexcept;
   VoxelAccumulator& operator=(VoxelAccumulator&&) noexcept;
 
   const Lattice& lattice() const;
   bool hasCovariances() const;
+  const std::vector<Array>& arrays() const { return arrays_; }
+  /// Another one of the same lattice and arrays, without points.
+  VoxelAccumulator withoutPoints() const
+  {
+    return VoxelAccumulator(lattice_, covariances_, arrays_, common_);
+  }
   /// Points added less those subtracted: all, those finite outside the lattice, those NaN or infinite.
   std::int64_t points() const;
   std::int64_t clippedPoints() const;
   std::int64_t invalidPoints() const;
 
-  /// Adds points, mapped by @p transform into the frame of the lattice. Errors: the transform's, the
-  /// lattice's, InvalidParameter (more than kMostPoints in all), Aborted; nothing is added then.
+  /// Adds points, mapped by @p transform into the frame of the lattice, with the @p arrays in the order of
+  /// arrays(). Errors: the transform's, the lattice's, InvalidParameter (more than kMostPoints in all, other
+  /// arrays, fewer tuples than points, a transform that is not the common one), Aborted; nothing is added
+  /// then.
+  Status add(const PointView& points, const std::vector<AttributeView>& arrays,
+    const AffineTransform& transform = {}, const Executor& executor = {},
+    ProgressObserver* observer = nullptr)
+  {
+    return this->change(*added_, points, arrays, transform, executor, observer);
+  }
+  /// Without arrays.
   Status add(const PointView& points, const AffineTransform& transform = {}, const Executor& executor = {},
-    ProgressObserver* observer = nullptr);
-  /// Takes points out that were added, or will be before finish(): the same coordinates and transform.
+    ProgressObserver* observer = nullptr)
+  {
+    return this->change(*added_, points, {}, transform, executor, observer);
+  }
+  /// Takes points out that were added, or will be before finish(): the same coordinates, tuples and
+  /// transform.
+  Status subtract(const PointView& points, const std::vector<AttributeView>& arrays,
+    const AffineTransform& transform = {}, const Executor& executor = {},
+    ProgressObserver* observer = nullptr)
+  {
+    return this->change(*subtracted_, points, arrays, transform, executor, observer);
+  }
   Status subtract(const PointView& points, const AffineTransform& transform = {},
-    const Executor& executor = {}, ProgressObserver* observer = nullptr);
-  /// Adds all of another's sums. InvalidParameter: another lattice, covariances in one of them only, too many
-  /// points; nothing is changed then.
+    const Executor& executor = {}, ProgressObserver* observer = nullptr)
+  {
+    return this->change(*subtracted_, points, {}, transform, executor, observer);
+  }
+  /// Adds all of another's sums. InvalidParameter: another lattice, covariances in one of them only, other
+  /// arrays, another common transform, too many points; nothing is changed then.
   Status merge(const VoxelAccumulator& other);
   /// The same of another one that is no longer needed: its sums are not copied, and it has none afterwards.
   Status merge(VoxelAccumulator&& other);
@@ -67,9 +106,10 @@ public:
     InstructionSet instructions = InstructionSet::Automatic;
     OutputAllocator* allocator = nullptr;
   };
-  /// Makes the levels of @p result: its sizes, means, counts, covariances, keys and parents, as after run().
+  /// Makes the levels of @p result: its sizes, means, counts, covariances, arrays, keys and parents, as after
+  /// run().
   /// Its points cannot be visited. More can be added afterwards. Errors: InvalidParameter (levels, or points
-  /// were subtracted that had not been added, as far as counts tell), Aborted.
+  /// were subtracted that had not been added, as far as counts and the values of labels tell), Aborted.
   Status finish(const Request& request, VoxelResampler& result, const Executor& executor = {},
     ProgressObserver* observer = nullptr);
 
@@ -80,6 +120,8 @@ public:
   /// invalid go with the first key, 0. The parts of all ranges merge to the whole. None where points were
   /// subtracted that had not been added.
   VoxelAccumulator part(std::uint64_t first, std::uint64_t end);
+  /// Of add() and subtract(): see VoxelRequest::chunkPoints.
+  void setChunkPoints(std::int64_t points) { chunkPoints_ = points; }
   /// Frees the scratch memory that add() and subtract() keep for the next call.
   void releaseScratch() { engine_.releaseScratch(); }
   /// Keys of active voxels in ascending order, every @p step th of them (at least 1). None where points were
@@ -95,8 +137,8 @@ public:
 
 private:
   class Sums;
-  Status change(Sums& sums, const PointView& points, const AffineTransform& transform,
-    const Executor& executor, ProgressObserver* observer);
+  Status change(Sums& sums, const PointView& points, const std::vector<AttributeView>& arrays,
+    const AffineTransform& transform, const Executor& executor, ProgressObserver* observer);
   bool settle();
 
   std::unique_ptr<Sums> added_;
@@ -104,6 +146,9 @@ private:
   VoxelResampler engine_;
   Lattice lattice_;
   bool covariances_;
+  std::vector<Array> arrays_;
+  std::int64_t chunkPoints_ = 0;
+  std::optional<AffineTransform> common_; ///< The transform of all points.
 };
 
 } // namespace pointhaptics

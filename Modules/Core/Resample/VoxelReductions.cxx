@@ -55,6 +55,7 @@ private:
 }
 
 VoxelReductions::VoxelReductions(const VoxelRequest& request)
+  : request_(&request)
 {
   for (const AttributeRequest& attribute : request.attributes)
   {
@@ -125,6 +126,18 @@ void VoxelReductions::add(const std::int64_t* points, const std::int64_t* voxels
   {
     nearest_->add(points, voxels, count);
   }
+}
+
+std::vector<VoxelTally> VoxelReductions::tallies() const
+{
+  std::vector<VoxelTally> tallies;
+  for (const AttributeRequest& attribute : request_->attributes)
+  {
+    tallies.emplace_back(
+      AccumulatedArray{ attribute.view.type, attribute.view.components, attribute.statistic });
+    reducers_[tallies.size() - 1]->tally(tallies.back());
+  }
+  return tallies;
 }
 
 bool VoxelReductions::write(

@@ -5,6 +5,7 @@
 #include "Core/Resample/AttributeReducer.h"
 #include "Core/Resample/Stages/NearestPoints.h"
 #include "Core/Resample/Stages/NearestRecords.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 #include "Core/Resample/VoxelResampler.h"
 
 #include <cstddef>
@@ -39,12 +40,15 @@ public:
   void fetch(const std::int64_t* points, int count) const;
   /// Adds points. Several threads may at once if no two have a voxel in common.
   void add(const std::int64_t* points, const std::int64_t* voxels, int count);
+  /// What the arrays have in the voxels, one for each.
+  std::vector<VoxelTally> tallies() const;
   /// Writes what becomes of the voxels, from @p first on in @p arena. @pre their means and counts are there.
   /// @return false where @p observer, which may be null, aborted the work.
   bool write(MeanArena& arena, std::size_t first, const Executor& executor = {},
     ProgressObserver* observer = nullptr) const;
 
 private:
+  const VoxelRequest* request_ = nullptr;
   std::vector<AttributeView> views_; ///< What add() reads.
   std::vector<std::unique_ptr<AttributeReducer>>
     reducers_; ///< One for each attribute, one for median places.

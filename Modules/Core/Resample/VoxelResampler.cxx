@@ -2,9 +2,11 @@
 
 #include "Core/Neighbors/PointIndex.h"
 #include "Core/Resample/AttributeMean.h"
+#include "Core/Resample/AttributeReducer.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
+#include <array>
 
 namespace pointhaptics
 {
@@ -147,6 +149,22 @@ int VoxelResampler::Implementation::fractionBitsOf(const Lattice& lattice)
   return positionBitsFor(indexBits) - indexBits;
 }
 
+namespace
+{
+
+/// Writes the arrays of voxels @p first to before @p last of a run.
+void writeTallies(
+  const VoxelRequest& request, const VoxelRun& sums, std::size_t first, std::size_t last, MeanArena& arena)
+{
+  const std::array<Vec3, 3> columns = normalColumns(request.transform);
+  for (std::size_t i = 0; i < sums.tallies.size(); ++i)
+  {
+    sums.tallies[i].write(first, last, arena.counts() + first, columns, arena.attribute(i, first));
+  }
+}
+
+}
+
 /// Writes the means of voxels to a level. @return false where the observer ended the work.
 bool VoxelResampler::Implementation::writeSums(const VoxelRequest& request, const VoxelRun& sums,
   int fractionBits, Level& level, OutputAllocator* allocator, const Executor& executor,
@@ -163,6 +181,7 @@ bool VoxelResampler::Implementation::writeSums(const VoxelRequest& request, cons
         {
           const auto offset = std::size_t(first + begin);
           level.arena.write(offset, sums, offset, std::size_t(first + end));
+          writeTallies(request, sums, offset, std::size_t(first + end), level.arena);
         });
     });
 }

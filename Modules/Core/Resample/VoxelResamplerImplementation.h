@@ -74,6 +74,8 @@ private:
   {
     return request.voxelIndex || (reduces(request) && !reducesInPass_);
   }
+  /// Sums alone are asked for, and no visit needs the voxels.
+  bool writesMeans(const VoxelRequest& request) const { return !keepsSums_ || visits(request); }
   static simd::MeanArena::Layout layoutOf(const VoxelRequest& request);
   /// The part of the work of run() that is not done by a visit, and that of it that the finest level is.
   double fractionOfSums(const VoxelRequest& request) const { return visits(request) ? 0.5 : 1.0; }

@@ -69,8 +69,9 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
   const Kernels& kernels = kernelsFor(request.instructions);
   const PartitionPlan& plan = binner_.plan();
   std::vector<VoxelRun> runs(keepsSums_ || request.levels > 1 ? plan.partitions : 0);
+  const bool writes = writesMeans(request);
   std::size_t room = 0;
-  for (std::uint32_t p = 0; !keepsSums_ && p < plan.partitions; ++p)
+  for (std::uint32_t p = 0; writes && p < plan.partitions; ++p)
   {
     room += mostVoxels(plan, binner_.pool().count(p), accumulated_[p].cellCount);
   }
@@ -82,21 +83,24 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
     std::size_t offset = 0;
     try
     {
-      worker.load(
-        p, accumulated_[p], [&](std::size_t size) { offset = order.append(p, keepsSums_ ? 0 : size); });
+      worker.load(p, accumulated_[p], [&](std::size_t size) { offset = order.append(p, writes ? size : 0); });
     }
     catch (...)
     {
       order.giveUp();
       throw;
     }
-    if (!keepsSums_)
+    if (writes)
     {
       worker.write(kernels, level.arena, offset);
     }
     if (!runs.empty())
     {
       runs[p] = worker.wide();
+      if (keepsSums_ && reducesInPass_ && runs[p].size() > 0)
+      {
+        runs[p].tallies = worker.tallies();
+      }
     }
     accumulated_[p].trim();
   };

@@ -58,6 +58,11 @@ Status VoxelResampler::Implementation::reduceAgain(
     visit(points, voxels, count);
   };
   Status status = visitPointsByVoxel(request, add, executor, &visiting);
+  if (keepsSums_)
+  {
+    sums_.tallies = reductions.tallies();
+    return status;
+  }
   const double ofLevel = 0.4 / double(levels.size());
   double done = 0.6;
   for (std::size_t l = 0; status == Status::Ok && l < levels.size(); ++l, done += ofLevel)

@@ -65,7 +65,7 @@ Status VoxelResampler::Implementation::runSorted(
   std::vector<VoxelRun> runs(ranges.size());
   forEachItem(
     executor, ranges.size(), [&](std::size_t range) { runs[range] = std::move(ranges[range].whole()); });
-  if (!keepsSums_)
+  if (writesMeans(request))
   {
     Level& level = levels[0];
     level.firsts.assign(1, 0);
@@ -80,7 +80,7 @@ Status VoxelResampler::Implementation::runSorted(
       [&](std::size_t range)
       {
         level.arena.write(level.firsts[range], runs[range], 0, runs[range].size());
-        if (request.levels == 1)
+        if (request.levels == 1 && !keepsSums_)
         {
           runs[range] = VoxelRun();
         }

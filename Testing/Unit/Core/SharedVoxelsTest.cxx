@@ -118,13 +118,6 @@ std::vector<Vec3> cloudOf(const Lattice& lattice)
   return points;
 }
 
-/// A tuple of a mean, its bits.
-template <typename T>
-void expectSameBits(const std::vector<T>& a, const std::vector<T>& b, const std::string& what)
-{
-  EXPECT_TRUE(sameBits(a, b)) << what;
-}
-
 /// The arrays of the test: floats with and without numbers that are not finite, integers, labels.
 struct Arrays
 {
@@ -151,122 +144,38 @@ struct Arrays
   }
 };
 
-/// One array in the voxels of one part of the points.
-void addPart(AttributeReducer& tuples, const std::vector<std::int64_t>& voxels)
+std::vector<VoxelAccumulator::Array> kindsOfArrays()
 {
-  for (std::int64_t i = 0; i < std::int64_t(voxels.size()); ++i)
+  return { { ScalarType::Float, 3, AttributeStatistic::Mean },
+    { ScalarType::Double, 3, AttributeStatistic::Mean }, { ScalarType::Int64, 1, AttributeStatistic::Mean },
+    { ScalarType::UInt8, 1, AttributeStatistic::Mode },
+    { ScalarType::UInt8, 1, AttributeStatistic::Median } };
+}
+
+/// Those of the points from @p first on.
+std::vector<AttributeView> viewsOf(const Arrays& arrays, std::size_t first, std::int64_t points)
+{
+  return { { arrays.floats.data() + 3 * first, ScalarType::Float, 3, points },
+    { arrays.doubles.data() + 3 * first, ScalarType::Double, 3, points },
+    { arrays.integers.data() + first, ScalarType::Int64, 1, points },
+    { arrays.labels.data() + first, ScalarType::UInt8, 1, points },
+    { arrays.labels.data() + first, ScalarType::UInt8, 1, points } };
+}
+
+/// The bytes of each array.
+using Made = std::vector<std::vector<char>>;
+
+Made madeBy(const VoxelResampler& result)
+{
+  Made made;
+  for (std::size_t i = 0; i < kindsOfArrays().size(); ++i)
   {
-    const std::int64_t voxel = voxels[std::size_t(i)];
-    if (voxel >= 0)
-    {
-      tuples.add(&i, &voxel, 1);
-    }
+    const VoxelAccumulator::Array kind = kindsOfArrays()[i];
+    const auto* bytes = static_cast<const char*>(result.attribute(0, i));
+    made.emplace_back(bytes, bytes + result.size() * bytesOf(kind.type) * kind.components);
   }
+  return made;
 }
-
-std::vector<std::int64_t> voxelsOf(
-  const PointView& points, const Lattice& lattice, const std::vector<std::uint64_t>& keys)
-{
-  std::vector<std::int64_t> voxels;
-  for (std::int64_t i = 0; i < points.size(); ++i)
-  {
-    std::int64_t voxel = -1;
-    if (isFinite(points[i]) && lattice.contains(points[i]))
-    {
-      const auto index = Lattice::voxelAt(points[i]);
-      const std::uint64_t key = lattice.key(index[0], index[1], index[2]);
-      voxel = std::lower_bound(keys.begin(), keys.end(), key) - keys.begin();
-    }
-    voxels.push_back(voxel);
-  }
-  return voxels;
-}
-
-/// What a rank knows when arrays are exchanged.
-struct Shared
-{
-  Ranks& ranks;
-  SharedVoxels voxels;
-  std::vector<std::int64_t> ownVoxels; ///< Of its points.
-  std::vector<std::int64_t> ownCounts; ///< Of the voxels of its points.
-  std::vector<std::int64_t> counts;    ///< Of its range.
-  std::int64_t mostPoints = 0;
-};
-
-std::vector<std::int64_t> countsOf(const std::vector<std::int64_t>& voxels, std::size_t size)
-{
-  std::vector<std::int64_t> counts(size, 0);
-  for (const std::int64_t voxel : voxels)
-  {
-    if (voxel >= 0)
-    {
-      ++counts[std::size_t(voxel)];
-    }
-  }
-  return counts;
-}
-
-Shared shareOf(Ranks& ranks, const PointView& part, const Lattice& lattice)
-{
-  Shared shared{ ranks, {}, {}, {}, {}, 0 };
-  VoxelAccumulator own(lattice);
-  EXPECT_EQ(own.add(part), Status::Ok);
-  const std::vector<std::uint64_t> keys = own.keys();
-  EXPECT_EQ(shared.voxels.share(ranks, std::move(own)), Status::Ok);
-  shared.ownVoxels = voxelsOf(part, lattice, keys);
-  shared.ownCounts = countsOf(shared.ownVoxels, keys.size());
-  VoxelResampler made;
-  EXPECT_EQ(shared.voxels.voxels().finish({}, made), Status::Ok);
-  shared.counts.assign(made.counts(), made.counts() + made.size());
-  shared.mostPoints =
-    ranks.reduce(made.mostPoints(), [](std::int64_t a, std::int64_t b) { return std::max(a, b); });
-  return shared;
-}
-
-template <typename T>
-std::vector<T> meansOf(Shared& shared, const std::vector<T>& values, int components, std::size_t first)
-{
-  AttributeView view{ values.data() + first * std::size_t(components),
-    std::is_same_v<T, float>      ? ScalarType::Float
-      : std::is_same_v<T, double> ? ScalarType::Double
-                                  : ScalarType::Int64,
-    components, std::int64_t(shared.ownVoxels.size()) };
-  const AttributeRange range = commonRange(shared.ranks, rangeOf(view, Executor()));
-  AttributeMean own(view, range);
-  own.prepare(nullptr, std::int64_t(shared.ownCounts.size()), shared.mostPoints, {});
-  addPart(own, shared.ownVoxels);
-  AttributeMean merged(view, range);
-  merged.prepare(nullptr, std::int64_t(shared.counts.size()), shared.mostPoints, {});
-  EXPECT_TRUE(shared.voxels.exchange(shared.ranks, own, merged));
-  std::vector<T> means(shared.counts.size() * std::size_t(components));
-  merged.write(shared.counts.data(), means.data(), {}, nullptr);
-  return means;
-}
-
-std::vector<std::uint8_t> labelsOf(
-  Shared& shared, const std::vector<std::uint8_t>& values, AttributeStatistic statistic, std::size_t first)
-{
-  const AttributeView view{ values.data() + first, ScalarType::UInt8, 1,
-    std::int64_t(shared.ownVoxels.size()) };
-  AttributeTuples own(view, statistic);
-  own.prepare(shared.ownCounts.data(), std::int64_t(shared.ownCounts.size()), 0, {});
-  addPart(own, shared.ownVoxels);
-  AttributeTuples merged(view, statistic);
-  merged.prepare(shared.counts.data(), std::int64_t(shared.counts.size()), 0, {});
-  EXPECT_TRUE(shared.voxels.exchange(shared.ranks, own, merged));
-  std::vector<std::uint8_t> labels(shared.counts.size());
-  EXPECT_TRUE(merged.write(nullptr, labels.data(), Executor(), nullptr));
-  return labels;
-}
-
-struct Made
-{
-  std::vector<float> floats;
-  std::vector<double> doubles;
-  std::vector<std::int64_t> integers;
-  std::vector<std::uint8_t> modes;
-  std::vector<std::uint8_t> medians;
-};
 
 Made madeOf(const std::vector<Vec3>& points, const Lattice& lattice, const Arrays& arrays,
   const std::vector<std::size_t>& ends)
@@ -277,23 +186,22 @@ Made madeOf(const std::vector<Vec3>& points, const Lattice& lattice, const Array
   job.run(
     [&](Ranks& ranks)
     {
-      Shared shared = shareOf(ranks, partOf(points, ends, ranks.rank()), lattice);
-      const std::size_t first = ends[std::size_t(ranks.rank())];
-      Made& made = ofRanks[std::size_t(ranks.rank())];
-      made.floats = meansOf(shared, arrays.floats, 3, first);
-      made.doubles = meansOf(shared, arrays.doubles, 3, first);
-      made.integers = meansOf(shared, arrays.integers, 1, first);
-      made.modes = labelsOf(shared, arrays.labels, AttributeStatistic::Mode, first);
-      made.medians = labelsOf(shared, arrays.labels, AttributeStatistic::Median, first);
+      const PointView part = partOf(points, ends, ranks.rank());
+      VoxelAccumulator own(lattice, false, kindsOfArrays());
+      EXPECT_EQ(own.add(part, viewsOf(arrays, ends[std::size_t(ranks.rank())], part.size())), Status::Ok);
+      SharedVoxels shared;
+      EXPECT_EQ(shared.share(ranks, std::move(own)), Status::Ok);
+      VoxelResampler made;
+      EXPECT_EQ(shared.voxels().finish({}, made), Status::Ok);
+      ofRanks[std::size_t(ranks.rank())] = madeBy(made);
     });
-  Made all;
+  Made all(kindsOfArrays().size());
   for (const Made& made : ofRanks)
   {
-    append(all.floats, made.floats);
-    append(all.doubles, made.doubles);
-    append(all.integers, made.integers);
-    append(all.modes, made.modes);
-    append(all.medians, made.medians);
+    for (std::size_t i = 0; i < made.size(); ++i)
+    {
+      append(all[i], made[i]);
+    }
   }
   return all;
 }
@@ -322,22 +230,23 @@ TEST(SharedVoxels, AreThoseOfOneRunHoweverPointsAndRanksAreSplit)
   }
 }
 
-TEST(SharedVoxels, ArraysAreThoseOfOneRank)
+TEST(SharedVoxels, ArraysAreThoseOfOneRun)
 {
   const Lattice lattice = latticeOf(12, 11, 10);
   const std::vector<Vec3> points = cloudOf(lattice);
   const Arrays arrays(9);
-  const Made expected = madeOf(points, lattice, arrays, { 0, kPoints });
-  ASSERT_TRUE(std::any_of(expected.doubles.begin(), expected.doubles.end(), [](double v) { return v != v; }));
-  for (const int size : { 2, 3, 4, 8 })
+  VoxelRequest request = requestOf(points, lattice, 1);
+  const std::vector<AttributeView> views = viewsOf(arrays, 0, std::int64_t(kPoints));
+  for (std::size_t i = 0; i < views.size(); ++i)
   {
-    const Made made = madeOf(points, lattice, arrays, splitOfPoints(size, 77));
-    const std::string what = "ranks " + std::to_string(size);
-    expectSameBits(made.floats, expected.floats, "floats, " + what);
-    expectSameBits(made.doubles, expected.doubles, "doubles, " + what);
-    expectSameBits(made.integers, expected.integers, "integers, " + what);
-    expectSameBits(made.modes, expected.modes, "modes, " + what);
-    expectSameBits(made.medians, expected.medians, "medians, " + what);
+    request.attributes.push_back({ views[i], kindsOfArrays()[i].statistic });
+  }
+  VoxelResampler one;
+  ASSERT_EQ(one.run(request), Status::Ok);
+  const Made expected = madeBy(one);
+  for (const int size : { 1, 2, 3, 4, 8 })
+  {
+    EXPECT_TRUE(madeOf(points, lattice, arrays, splitOfPoints(size, 77)) == expected) << "ranks " << size;
   }
 }
 
@@ -378,52 +287,15 @@ TEST(SharedVoxels, RefuseSumsOfAnotherLatticeOnAllRanks)
     });
 }
 
-TEST(SharedVoxels, RefuseSumsOfArraysThatAreNotTheirs)
+TEST(SharedVoxels, RefuseOtherArraysOnAllRanks)
 {
-  const std::vector<float> values = { 1.f, 2.f };
-  const AttributeView view{ values.data(), ScalarType::Float, 1, 2 };
-  AttributeMean mean(view, Executor());
-  mean.prepare(nullptr, 2, 2, {});
-  std::string bytes;
-  mean.serialize(0, 2, bytes);
-  EXPECT_TRUE(mean.merge(bytes, { 0, 1 }));
-  EXPECT_FALSE(mean.merge(bytes, { 0 }));
-  EXPECT_FALSE(mean.merge(bytes + "x", { 0, 1 }));
-  const std::int64_t counts[2] = { 1, 1 };
-  const std::int64_t voxels[2] = { 0, 1 };
-  AttributeTuples tuples(view);
-  tuples.prepare(counts, 2, 0, {});
-  tuples.add(voxels, voxels, 2);
-  bytes.clear();
-  tuples.serialize(0, 2, bytes);
-  AttributeTuples other(view);
-  other.prepare(counts, 2, 0, {});
-  EXPECT_FALSE(other.merge(bytes.substr(0, bytes.size() - 1), { 0, 1 }));
-  other.prepare(counts, 2, 0, {});
-  EXPECT_FALSE(other.merge(bytes + bytes, { 0, 1, 0, 1 })); // more than there is room for
-  other.prepare(counts, 2, 0, {});
-  EXPECT_TRUE(other.merge(bytes, { 0, 1 }));
-}
-
-TEST(SharedVoxels, SumsOfRanksWithFewPointsAndWithManyFit)
-{
-  // 53 bits and 33 more, in two parts: how they are cut depends on the most points of a voxel alone.
-  const std::vector<double> values = { 0x1p33, 1.0 + 0x1p-52 };
-  AttributeView few{ values.data(), ScalarType::Double, 1, 2 };
-  AttributeView many = few;
-  many.tuples = 10000000; // of which two are added
-  const AttributeRange range = rangeOf(few, Executor());
-  const std::int64_t points[2] = { 0, 1 };
-  const std::int64_t voxels[2] = { 0, 0 };
-  AttributeMean own(many, range);
-  own.prepare(nullptr, 1, 4, {});
-  own.add(points, voxels, 2);
-  std::string bytes;
-  own.serialize(0, 1, bytes);
-  AttributeMean merged(few, range);
-  merged.prepare(nullptr, 1, 4, {});
-  ASSERT_TRUE(merged.merge(bytes, { 0 }));
-  double mean = 0.0;
-  merged.mean(0, 2, &mean);
-  EXPECT_EQ(mean, (0x1p33 + 1.0) / 2);
+  ThreadJob job(3);
+  job.run(
+    [&](Ranks& ranks)
+    {
+      const ScalarType type = ranks.rank() == 2 ? ScalarType::Double : ScalarType::Float;
+      VoxelAccumulator own(latticeOf(4, 4, 4), false, { { type, 1, AttributeStatistic::Mean } });
+      SharedVoxels shared;
+      EXPECT_EQ(shared.share(ranks, std::move(own)), Status::InvalidParameter) << ranks.rank();
+    });
 }

@@ -46,12 +46,12 @@ void setWord(std::string& bytes, std::size_t word, std::uint64_t value)
 
 Status addTo(VoxelAccumulator& sums, const std::vector<Vec3>& points)
 {
-  return sums.add(PointView(points.data(), std::int64_t(points.size())), {});
+  return sums.add(PointView(points.data(), std::int64_t(points.size())));
 }
 
 Status subtractFrom(VoxelAccumulator& sums, const std::vector<Vec3>& points)
 {
-  return sums.subtract(PointView(points.data(), std::int64_t(points.size())), {});
+  return sums.subtract(PointView(points.data(), std::int64_t(points.size())));
 }
 
 Status finish(VoxelAccumulator& sums)
@@ -137,7 +137,7 @@ TEST(VoxelAccumulatorFaults, MorePointsThanItCanCountAreRefusedBeforeTheyAreRead
 {
   VoxelAccumulator sums(latticeOf(4, 4, 4));
   const Vec3 one{ 0.5, 0.5, 0.5 };
-  EXPECT_EQ(sums.add(PointView(&one, VoxelAccumulator::kMostPoints + 1), {}), Status::InvalidParameter);
+  EXPECT_EQ(sums.add(PointView(&one, VoxelAccumulator::kMostPoints + 1)), Status::InvalidParameter);
   EXPECT_EQ(sums.points(), 0);
 }
 

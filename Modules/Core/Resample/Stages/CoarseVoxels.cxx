@@ -107,7 +107,16 @@ VoxelRun sumPiece(const VoxelRun& fine, std::size_t first, std::size_t last, con
     SecondMoments moments = fine.hasMoments() ? fine.secondMoments[entry.voxel] : SecondMoments{};
     SecondMoments* const wanted = fine.hasMoments() ? &moments : nullptr;
     const WideSums voxel = moved(fine.voxels[entry.voxel], entry.key, fractionBits, wanted);
-    i > 0 && sums.voxels.back().key == voxel.key ? sums.addToLast(voxel, wanted) : sums.push(voxel, wanted);
+    if (i > 0 && sums.voxels.back().key == voxel.key)
+    {
+      sums.addToLast(voxel, wanted);
+      static_cast<void>(sums.addTalliesToLast(fine, entry.voxel)); // Sums of points are right.
+    }
+    else
+    {
+      sums.push(voxel, wanted);
+      sums.appendTallies(fine, entry.voxel, entry.voxel + 1);
+    }
     parents[entry.voxel] = std::int64_t(sums.size()) - 1;
   }
   return sums;

@@ -39,10 +39,14 @@ VoxelRun merged(const VoxelRun& a, const VoxelRun& b)
     [&](std::size_t i, std::size_t j)
     {
       const bool isIn = i < a.size();
-      isIn ? both.push(a.voxels[i], a.momentsOf(i)) : both.push(b.voxels[j], b.momentsOf(j));
+      const VoxelRun& from = isIn ? a : b;
+      const std::size_t voxel = isIn ? i : j;
+      both.push(from.voxels[voxel], from.momentsOf(voxel));
+      both.appendTallies(from, voxel, voxel + 1);
       if (isIn && j < b.size())
       {
         both.addToLast(b.voxels[j], b.momentsOf(j));
+        static_cast<void>(both.addTalliesToLast(b, j)); // Sums of points are right.
       }
     });
   return both;

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "Core/Resample/Kernel/VoxelKernel.h"
+#include "Core/Resample/Stages/VoxelTally.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace pointhaptics
@@ -77,11 +79,13 @@ inline void add(SecondMoments& to, const SecondMoments& moments)
   }
 }
 
-/// Voxels in ascending order of their keys. Second moments are empty unless asked for.
+/// Voxels in ascending order of their keys. Second moments are empty unless asked for, and tallies, one for
+/// each array, unless arrays are accumulated.
 struct VoxelRun
 {
   std::vector<WideSums> voxels;
   std::vector<SecondMoments> secondMoments;
+  std::vector<VoxelTally> tallies;
 
   std::size_t size() const { return voxels.size(); }
   bool hasMoments() const { return !secondMoments.empty(); }
@@ -123,6 +127,29 @@ struct VoxelRun
     {
       copy(from.secondMoments, secondMoments);
     }
+    appendTallies(from, first, last);
+  }
+  /// The same of what arrays have there, alone.
+  void appendTallies(const VoxelRun& from, std::size_t first, std::size_t last)
+  {
+    for (std::size_t i = 0; i < from.tallies.size(); ++i)
+    {
+      if (i == tallies.size())
+      {
+        tallies.emplace_back(from.tallies[i].kind());
+      }
+      tallies[i].append(from.tallies[i], first, last);
+    }
+  }
+  /// Adds to what arrays have in the last voxel. @return false where that leaves fewer than no points.
+  bool addTalliesToLast(const VoxelRun& from, std::size_t voxel, int sign = 1)
+  {
+    bool isRight = true;
+    for (std::size_t i = 0; i < from.tallies.size(); ++i)
+    {
+      isRight = tallies[i].addToLast(from.tallies[i], voxel, sign) && isRight;
+    }
+    return isRight;
   }
   /// Adds to the last voxel.
   void addToLast(const WideSums& sums, const SecondMoments* moments)
@@ -137,6 +164,7 @@ struct VoxelRun
   {
     voxels.clear();
     secondMoments.clear();
+    tallies.clear();
   }
   /// Frees memory where much of it is unused.
   void trim()
@@ -149,7 +177,9 @@ struct VoxelRun
   }
   std::size_t bytes() const
   {
-    return voxels.capacity() * sizeof(WideSums) + secondMoments.capacity() * sizeof(SecondMoments);
+    return std::accumulate(tallies.begin(), tallies.end(),
+      voxels.capacity() * sizeof(WideSums) + secondMoments.capacity() * sizeof(SecondMoments),
+      [](std::size_t sum, const VoxelTally& tally) { return sum + tally.bytes(); });
   }
 };
 

@@ -1,0 +1,82 @@
+/// @file
+/// From exact sums to means: how those of arrays are rounded. Private to Core.
+#pragma once
+
+#include "Core/Base/Vector3.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace pointhaptics
+{
+namespace simd
+{
+
+__extension__ typedef __int128 Int128;
+
+/// @pre @p exponent is that of a normal number.
+inline double powerOfTwo(int exponent)
+{
+  const std::uint64_t bits = std::uint64_t(exponent + 1023) << 52;
+  double value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// The mean of numbers whose sum is @p sum 2^exponent. Divided before it is scaled: the scale may reach among
+/// the denormals.
+inline double scaledMean(double sum, int exponent, std::int64_t count)
+{
+  // ldexp() takes as long as all the rest.
+  const double mean = sum / double(count);
+  return exponent > -1000 && exponent < 1000 ? mean * powerOfTwo(exponent) : std::ldexp(mean, exponent);
+}
+
+/// What IEEE addition makes of numbers some of which are not finite.
+inline double meanWithNonFinite(bool sawNaN, bool sawPlus, bool sawMinus)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  return sawNaN || sawPlus == sawMinus ? std::numeric_limits<double>::quiet_NaN()
+    : sawPlus                          ? infinity
+                                       : -infinity;
+}
+
+/// Rounded to the nearest, halves away from zero.
+template <typename T>
+T roundedMean(Int128 sum, std::int64_t count)
+{
+  const Int128 twice = 2 * sum;
+  return T((twice + (twice < 0 ? -count : count)) / (2 * Int128(count)));
+}
+
+/// A mean vector, turned: unit vectors, 0 without a direction, NaN where it is not finite. Integers have a
+/// scale of their own: they keep the length of their mean.
+template <typename T>
+Vec3 turnedMean(const Vec3& mean, const std::array<Vec3, 3>& columns)
+{
+  const Vec3 turned = mean.x * columns[0] + mean.y * columns[1] + mean.z * columns[2];
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    return isFinite(mean) ? normalized(turned, Vec3()) : Vec3(kNaN, kNaN, kNaN);
+  }
+  else
+  {
+    constexpr auto kLow = double(std::numeric_limits<T>::min());
+    constexpr auto kHigh = double(std::numeric_limits<T>::max());
+    // The largest 64-bit integer is no double; the one below is.
+    const double high = sizeof(T) < 8 ? kHigh : std::nextafter(kHigh, 0.0);
+    const double length = norm(turned);
+    const double scale = length > 0.0 ? norm(mean) / length : 0.0;
+    const auto rounded = [&](double x) { return std::clamp(std::round(scale * x), kLow, high); };
+    return { rounded(turned.x), rounded(turned.y), rounded(turned.z) };
+  }
+}
+
+} // namespace simd
+} // namespace pointhaptics

@@ -1,0 +1,306 @@
+// Arrays that are accumulated with the points, against those of one run over all of them.
+#include "Core/Resample/VoxelAccumulator.h"
+
+#include "RandomClouds.h"
+#include "ResamplerRuns.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace pointhaptics;
+using namespace pointhaptics::trial;
+
+namespace
+{
+
+constexpr std::size_t kArrayPoints = 5000;
+constexpr int kArrayLevels = 3;
+
+AffineTransform turnedBy(double degrees)
+{
+  return AffineTransform::translation({ 0.2, 0.1, 0.3 }) * AffineTransform::rotation(degrees, { 1, 2, 3 });
+}
+
+/// Points with arrays of every kind, whose magnitudes differ by the cloud.
+struct ArrayCloud
+{
+  std::vector<Vec3> points;
+  std::vector<float> colors;
+  std::vector<double> reals;
+  std::vector<std::int64_t> integers;
+  std::vector<std::uint8_t> labels;
+  std::vector<float> heights;
+  std::vector<float> normals;
+
+  ArrayCloud(std::size_t size, const Lattice& lattice, std::uint64_t seed, int magnitude)
+    : points(quantisedPoints(size, seed, lattice))
+  {
+    Random random(seed);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        colors.push_back(float(std::ldexp(random.uniform(-1.0, 1.0), magnitude / 10)));
+        normals.push_back(float(random.uniform(-1.0, 1.0)));
+      }
+      reals.push_back(std::ldexp(random.uniform(-1.0, 1.0), magnitude - int(random.below(300))));
+      integers.push_back(std::numeric_limits<std::int64_t>::min() + std::int64_t(random.below(1000)));
+      labels.push_back(std::uint8_t(random.below(5)));
+      heights.push_back(float(random.below(7)) - 3.0f);
+    }
+    reals[1] = -INFINITY;
+    reals[size / 2] = NAN;
+  }
+  PointView view(std::size_t first, std::size_t last) const
+  {
+    return { points.data() + first, std::int64_t(last - first) };
+  }
+  std::vector<AttributeView> arrays(std::size_t first, std::size_t last) const
+  {
+    const auto size = std::int64_t(last - first);
+    return { { colors.data() + 3 * first, ScalarType::Float, 3, size },
+      { reals.data() + first, ScalarType::Double, 1, size },
+      { integers.data() + first, ScalarType::Int64, 1, size },
+      { labels.data() + first, ScalarType::UInt8, 1, size },
+      { heights.data() + first, ScalarType::Float, 1, size },
+      { normals.data() + 3 * first, ScalarType::Float, 3, size } };
+  }
+};
+
+std::vector<VoxelAccumulator::Array> kinds()
+{
+  return { { ScalarType::Float, 3, AttributeStatistic::Mean },
+    { ScalarType::Double, 1, AttributeStatistic::Mean }, { ScalarType::Int64, 1, AttributeStatistic::Mean },
+    { ScalarType::UInt8, 1, AttributeStatistic::Mode }, { ScalarType::Float, 1, AttributeStatistic::Median },
+    { ScalarType::Float, 3, AttributeStatistic::Normal } };
+}
+
+/// The bytes of all arrays at all levels.
+std::string bytesOf(const VoxelResampler& made, int levels = kArrayLevels)
+{
+  std::string bytes;
+  for (int level = 0; level < levels; ++level)
+  {
+    for (std::size_t i = 0; i < kinds().size(); ++i)
+    {
+      const auto size = std::size_t(made.size(level) * pointhaptics::bytesOf(kinds()[i].type)) *
+        std::size_t(kinds()[i].components);
+      std::string tuples(size, 0);
+      made.copyAttribute(level, i, tuples.data());
+      bytes += tuples;
+    }
+  }
+  return bytes;
+}
+
+std::string finished(VoxelAccumulator& sums)
+{
+  VoxelAccumulator::Request wanted;
+  wanted.levels = kArrayLevels;
+  VoxelResampler made;
+  EXPECT_EQ(sums.finish(wanted, made, ThreadedExecutor(2)), Status::Ok);
+  return bytesOf(made);
+}
+
+std::string ofOneRun(const ArrayCloud& cloud, const Lattice& lattice, const AffineTransform& transform)
+{
+  VoxelRequest request;
+  request.points = cloud.view(0, kArrayPoints);
+  request.transform = transform;
+  request.lattice = lattice;
+  request.levels = kArrayLevels;
+  const std::vector<AttributeView> views = cloud.arrays(0, kArrayPoints);
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    request.attributes.push_back({ views[i], kinds()[i].statistic });
+  }
+  VoxelResampler made;
+  EXPECT_EQ(made.run(request), Status::Ok);
+  return bytesOf(made);
+}
+
+std::vector<Lattice> someLattices()
+{
+  return { latticeOf(30, 25, 20), latticeOf(5000, 3, 2), latticeOf(1, 1, 1) };
+}
+
+void addPart(VoxelAccumulator& sums, const ArrayCloud& cloud, std::size_t first, std::size_t last,
+  const Executor& executor = {})
+{
+  EXPECT_EQ(sums.add(cloud.view(first, last), cloud.arrays(first, last), turnedBy(25), executor), Status::Ok);
+}
+
+}
+
+TEST(VoxelAccumulatorArrays, AreThoseOfOneRunHoweverTheyCame)
+{
+  for (const Lattice& lattice : someLattices())
+  {
+    const ArrayCloud cloud(kArrayPoints, lattice, 3, 0);
+    const std::string expected = ofOneRun(cloud, lattice, turnedBy(25));
+    VoxelAccumulator sums(lattice, true, kinds(), turnedBy(25));
+    for (const std::size_t part : randomOrder(40, 4))
+    {
+      addPart(sums, cloud, kArrayPoints * part / 40, kArrayPoints * (part + 1) / 40,
+        ThreadedExecutor(int(part % 3) + 1));
+    }
+    EXPECT_TRUE(finished(sums) == expected) << nameOf(lattice) << ", in parts";
+    VoxelAccumulator first = sums.withoutPoints();
+    VoxelAccumulator second = sums.withoutPoints();
+    addPart(first, cloud, 0, 1700);
+    addPart(second, cloud, 1700, kArrayPoints);
+    VoxelAccumulator read(latticeOf(1, 1, 1));
+    ASSERT_EQ(VoxelAccumulator::deserialize(second.serialize(), read), Status::Ok);
+    ASSERT_EQ(read.merge(first), Status::Ok);
+    EXPECT_TRUE(finished(read) == expected) << nameOf(lattice) << ", merged from bytes";
+    EXPECT_TRUE(read.serialize() == sums.serialize()) << nameOf(lattice);
+  }
+}
+
+TEST(VoxelAccumulatorArrays, AFrameThatCameAndWentLeavesNothing)
+{
+  for (const Lattice& lattice : someLattices())
+  {
+    const ArrayCloud cloud(kArrayPoints, lattice, 3, 0);
+    const ArrayCloud large(1000, lattice, 8, 600); // Its numbers have other digits.
+    VoxelAccumulator sums(lattice, false, kinds(), turnedBy(25));
+    EXPECT_EQ(sums.subtract(large.view(0, 1000), large.arrays(0, 1000), turnedBy(25)), Status::Ok);
+    addPart(sums, large, 0, 400);
+    addPart(sums, cloud, 0, kArrayPoints);
+    addPart(sums, large, 400, 1000);
+    EXPECT_TRUE(finished(sums) == ofOneRun(cloud, lattice, turnedBy(25))) << nameOf(lattice);
+  }
+}
+
+TEST(VoxelAccumulatorArrays, ManyChunksAndFewAreTheSame)
+{
+  // More chunks than are kept at once: arrays take another pass.
+  const Lattice lattice = latticeOf(30, 25, 20);
+  const ArrayCloud cloud(kArrayPoints, lattice, 3, 0);
+  VoxelAccumulator sums(lattice, false, kinds(), turnedBy(25));
+  sums.setChunkPoints(100);
+  addPart(sums, cloud, 0, kArrayPoints);
+  EXPECT_TRUE(finished(sums) == ofOneRun(cloud, lattice, turnedBy(25)));
+}
+
+TEST(VoxelAccumulatorArrays, SumsAreRoundedOnceWhateverIsFarBelow)
+{
+  // Half of the last bit of 1 and next to nothing more, or less; and numbers among the denormals.
+  const Lattice lattice = latticeOf(1, 1, 1);
+  const std::vector<Vec3> points(4, Vec3(0.5, 0.5, 0.5));
+  const std::vector<std::vector<double>> cases = { { 1.0, 0x1p-53, 0x1p-900, 0.0 },
+    { 1.0, 0x1p-53, -0x1p-900, 0.0 }, { 1.0, 0x1p-52 + 0x1p-53, -0x1p-300, 0x1p-1074 },
+    { 0x1p-1074, 0x1p-1070, 0x1p-1060, 0x1p-1074 }, { 0x1p1023, 0x1p1023, 0x1p1023, -0x1p-1074 },
+    { 1.0, -1.0, 0.0, 0.0 }, { -0x1p31, -0x1p-1, 0x1p63, 0x1p95 } };
+  for (const std::vector<double>& values : cases)
+  {
+    const AttributeView view{ values.data(), ScalarType::Double, 1, 4 };
+    VoxelAccumulator sums(lattice, false, { { ScalarType::Double, 1, AttributeStatistic::Mean } });
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      EXPECT_EQ(
+        sums.add(PointView(points.data(), 1), { { &values[i], ScalarType::Double, 1, 1 } }), Status::Ok);
+    }
+    VoxelResampler made;
+    ASSERT_EQ(sums.finish({}, made), Status::Ok);
+    VoxelRequest request;
+    request.points = { points.data(), 4 };
+    request.lattice = lattice;
+    request.attributes = { { view, AttributeStatistic::Mean } };
+    VoxelResampler expected;
+    ASSERT_EQ(expected.run(request), Status::Ok);
+    EXPECT_EQ(*static_cast<const double*>(made.attribute(0, 0)),
+      *static_cast<const double*>(expected.attribute(0, 0)))
+      << values[0] << " " << values[1];
+  }
+}
+
+TEST(VoxelAccumulatorArrays, NormalsOfFramesAreTurnedEachByItsOwn)
+{
+  const Lattice lattice = latticeOf(1, 1, 1);
+  const Vec3 point(0.5, 0.5, 0.5);
+  const AffineTransform about = AffineTransform::translation(point);
+  const auto turn = [&](double degrees) {
+    return about * AffineTransform::rotation(degrees, { 0, 0, 1 }) * AffineTransform::translation(-point);
+  };
+  const double normal[3] = { 2.0, 0.0, 0.0 };
+  const std::vector<AttributeView> view = { { normal, ScalarType::Double, 3, 1 } };
+  const auto meanOf = [&](const std::vector<double>& degrees)
+  {
+    VoxelAccumulator sums(lattice, false, { { ScalarType::Double, 3, AttributeStatistic::Normal } });
+    for (const double angle : degrees)
+    {
+      EXPECT_EQ(sums.add(PointView(&point, 1), view, turn(angle)), Status::Ok);
+    }
+    VoxelResampler made;
+    EXPECT_EQ(sums.finish({}, made), Status::Ok);
+    Vec3 mean;
+    made.copyAttribute(0, 0, &mean.x);
+    return mean;
+  };
+  const Vec3 mean = meanOf({ 0, 90 });
+  EXPECT_NEAR(norm(mean - Vec3(std::sqrt(0.5), std::sqrt(0.5), 0.0)), 0.0, 1e-15);
+  EXPECT_TRUE(meanOf({ 10, 70, 33, 5 }) == meanOf({ 33, 5, 70, 10 }));
+}
+
+TEST(VoxelAccumulatorArrays, OthersAreRefused)
+{
+  const Lattice lattice = latticeOf(4, 4, 4);
+  const ArrayCloud cloud(kArrayPoints, lattice, 3, 0);
+  VoxelAccumulator sums(lattice, false, kinds(), turnedBy(25));
+  const PointView points = cloud.view(0, 100);
+  EXPECT_EQ(sums.add(points, turnedBy(25)), Status::InvalidParameter) << "no arrays";
+  EXPECT_EQ(sums.add(points, cloud.arrays(0, 99), turnedBy(25)), Status::InvalidParameter) << "too few";
+  EXPECT_EQ(sums.add(points, cloud.arrays(0, 100), turnedBy(24)), Status::InvalidParameter);
+  std::vector<AttributeView> views = cloud.arrays(0, 100);
+  std::swap(views[0], views[1]);
+  EXPECT_EQ(sums.add(points, views, turnedBy(25)), Status::InvalidParameter) << "another type";
+  EXPECT_EQ(sums.points(), 0);
+  EXPECT_EQ(sums.merge(VoxelAccumulator(lattice)), Status::InvalidParameter);
+  EXPECT_EQ(sums.merge(VoxelAccumulator(lattice, false, kinds())), Status::InvalidParameter);
+  // A label that no point has, where there are enough points.
+  addPart(sums, cloud, 0, 100);
+  std::vector<std::uint8_t> others(50, 200);
+  views = cloud.arrays(0, 50);
+  views[3].values = others.data();
+  EXPECT_EQ(sums.subtract(cloud.view(0, 50), views, turnedBy(25)), Status::Ok);
+  VoxelResampler made;
+  EXPECT_EQ(sums.finish({}, made), Status::InvalidParameter);
+}
+
+TEST(VoxelAccumulatorArrays, BytesThatNoneWritesAreRefused)
+{
+  const Lattice lattice = latticeOf(4, 3, 2);
+  const ArrayCloud cloud(60, lattice, 3, 0);
+  VoxelAccumulator sums(lattice, false, kinds(), turnedBy(25));
+  addPart(sums, cloud, 0, 60);
+  const std::string bytes = sums.serialize();
+  VoxelAccumulator read(latticeOf(1, 1, 1));
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 50)
+  {
+    ASSERT_EQ(VoxelAccumulator::deserialize(bytes.substr(0, size), read), Status::InvalidParameter) << size;
+  }
+  EXPECT_EQ(VoxelAccumulator::deserialize(bytes + "12345678", read), Status::InvalidParameter);
+  Random random(9);
+  int refused = 0;
+  for (int i = 0; i < 6000; ++i)
+  {
+    std::string changed = bytes;
+    for (int n = 0; n < 1 + i % 3; ++n)
+    {
+      changed[random.below(changed.size())] = char(random.below(i % 2 ? 4 : 256));
+    }
+    VoxelResampler result;
+    const bool isRight = VoxelAccumulator::deserialize(changed, read) == Status::Ok;
+    refused += !isRight;
+    if (isRight)
+    {
+      EXPECT_EQ(read.finish({}, result), Status::Ok);
+    }
+  }
+  EXPECT_GT(refused, 1000);
+}
