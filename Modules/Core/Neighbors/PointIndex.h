@@ -36,9 +36,7 @@ public:
 
   /// The finite points, brick by brick.
   PointView points() const;
-  /// The index in the cloud of a point of points().
-  std::int64_t original(std::int64_t i) const { return std::int64_t(originals_[std::size_t(i)]); }
-  /// The same of all.
+  /// The index in the cloud of each point of points().
   const std::uint32_t* originals() const { return originals_.data(); }
   std::int64_t cloudSize() const { return cloudSize_; }
   std::int64_t invalidPoints() const { return cloudSize_ - size_; }

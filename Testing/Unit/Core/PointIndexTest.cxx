@@ -28,7 +28,7 @@ void expectHoldsFinitePoints(const PointIndex& index, const PointView& cloud)
   const PointView sorted = index.points();
   for (std::int64_t i = 0; i < sorted.size(); ++i)
   {
-    const std::int64_t original = index.original(i);
+    const std::int64_t original = index.originals()[i];
     ASSERT_TRUE(original >= 0 && original < cloud.size());
     ASSERT_FALSE(seen[std::size_t(original)]);
     seen[std::size_t(original)] = true;
