@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 namespace pointhaptics
@@ -52,6 +53,31 @@ double smallestPixels(vtkIdType count)
 {
   const double wanted = kSmallestPixels * std::sqrt(kManyPoints / std::max<double>(1.0, double(count)));
   return std::clamp(wanted, kSmallestPixels, kLargestSmallest);
+}
+
+bool isOnePlace(const PointView& points)
+{
+  for (std::int64_t i = 1; i < points.size(); ++i)
+  {
+    if (!(points[i] == points[0]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The corners of @p box, which lies where @p toWorld leads.
+std::array<Vec3, 8> cornersBefore(const AffineTransform& toWorld, const Bounds& box)
+{
+  const AffineTransform toCloud = toWorld.inverse();
+  std::array<Vec3, 8> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    corners[i] = toCloud.apply({ i & 1 ? box.maximum.x : box.minimum.x, i & 2 ? box.maximum.y : box.minimum.y,
+      i & 4 ? box.maximum.z : box.minimum.z });
+  }
+  return corners;
 }
 
 double halfTangent(vtkCamera* camera)
@@ -254,9 +280,19 @@ CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
   const bool isEmpty = clipped->GetNumberOfPoints() == 0;
   const PointAccess access((isEmpty ? shown_->points : clipped)->GetPoints());
   vtkRenderer* renderer = renderer_;
-  vtkMatrix4x4* model = pointsMatrix_;
-  return fitCamera(
-    access.view(), look, transformOf(model), renderer->GetTiledAspectRatio(), turn, picture_.parallel);
+  vtkMatrix4x4* matrix = pointsMatrix_;
+  const AffineTransform model = transformOf(matrix);
+  const double aspect = renderer->GetTiledAspectRatio();
+  if (isOnePlace(access.view()))
+  {
+    // It has no size that could fill the picture: the workspace does, seen from outside.
+    const std::array<Vec3, 8> corners = cornersBefore(model, workspace_);
+    CloudLook outside = look;
+    outside.kind = CloudKind::Object;
+    return fitCamera(PointView(corners.data(), std::int64_t(corners.size())), outside, model, aspect, turn,
+      picture_.parallel);
+  }
+  return fitCamera(access.view(), look, model, aspect, turn, picture_.parallel);
 }
 
 void ViewScene::placeCamera(const CameraFit& fit)

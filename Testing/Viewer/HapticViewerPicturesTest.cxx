@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
+#include <vector>
 
 using namespace pointhaptics;
 
@@ -62,6 +64,55 @@ TEST_F(HapticViewerPictures, LeavesTheBackgroundOutOfTransparentPictures)
   EXPECT_GT(solid, got->GetNumberOfTuples() / 10);
 }
 
+/// Pixels with red other than what the component @p other says.
+vtkIdType coloredPixels(const std::string& fileName, int other, double difference)
+{
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
+  vtkIdType colored = 0;
+  for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
+  {
+    colored += std::abs(pixels->GetComponent(i, 0) - pixels->GetComponent(i, other)) > difference;
+  }
+  return colored;
+}
+
+/// Points have colours, the brackets of the workspace are grey.
+vtkIdType pixelsOfPoints(const std::string& fileName)
+{
+  return coloredPixels(fileName, 2, 40.0);
+}
+
+TEST_F(HapticViewerPictures, ShowsPointsThatLieAtOnePlace)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.width = 400;
+  options_.height = 300;
+  options_.picture.background = "black";
+  const Vec3 place{ 500000.0, 4000000.0, 100.0 };
+  const std::vector<std::pair<int, int>> clouds = { { 1, 0 }, { 3, 0 }, { 1000, 1 } };
+  for (const auto& [equal, strays] : clouds)
+  {
+    SCOPED_TRACE(equal);
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (int i = 0; i < equal + strays; ++i)
+    {
+      points->InsertNextPoint(place.x + (i < equal ? 0.0 : 2.0), place.y, place.z);
+    }
+    vtkNew<vtkPolyData> cloud;
+    cloud->SetPoints(points);
+    HapticViewer viewer(options_, observer_);
+    ASSERT_TRUE(viewer.open(cloud.Get())) << viewer.message();
+    ASSERT_TRUE(viewer.renderToFile(this->path("place.png"))) << viewer.message();
+    const vtkIdType colored = pixelsOfPoints(this->path("place.png"));
+    EXPECT_GE(colored, 2);
+    EXPECT_LT(colored, 80);
+  }
+}
+
 TEST_F(HapticViewerPictures, MakesAHandfulOfPointsLarge)
 {
   SKIP_WITHOUT_DISPLAY();
@@ -79,16 +130,7 @@ TEST_F(HapticViewerPictures, MakesAHandfulOfPointsLarge)
   HapticViewer viewer(options_, observer_);
   ASSERT_TRUE(viewer.open(cloud.Get())) << viewer.message();
   ASSERT_TRUE(viewer.renderToFile(this->path("few.png"))) << viewer.message();
-  vtkNew<vtkPNGReader> reader;
-  reader->SetFileName(this->path("few.png").c_str());
-  reader->Update();
-  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
-  vtkIdType lit = 0;
-  for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
-  {
-    // Points have colours, the brackets of the workspace are grey.
-    lit += std::abs(pixels->GetComponent(i, 0) - pixels->GetComponent(i, 2)) > 40.0;
-  }
+  const vtkIdType lit = pixelsOfPoints(this->path("few.png"));
   EXPECT_GT(lit, kFew * 3.14159 * 2.5 * 2.5) << "discs of six pixels";
   EXPECT_LT(lit, kFew * 3.14159 * 4.0 * 4.0);
 }
@@ -380,19 +422,10 @@ TEST_F(HapticViewerPictures, LeavesTheHandlesOfTheClippingBoxOutOfTheFigure)
   EXPECT_TRUE(viewer.stop());
 }
 
-/// Pixels with red other than green: what only one eye sees in an anaglyph of a grey cloud.
-int coloredPixels(const std::string& fileName)
+/// What only one eye sees in an anaglyph of a grey cloud.
+vtkIdType pixelsOfOneEye(const std::string& fileName)
 {
-  vtkNew<vtkPNGReader> reader;
-  reader->SetFileName(fileName.c_str());
-  reader->Update();
-  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
-  int colored = 0;
-  for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
-  {
-    colored += std::abs(pixels->GetComponent(i, 0) - pixels->GetComponent(i, 1)) > 60.0;
-  }
-  return colored;
+  return coloredPixels(fileName, 1, 60.0);
 }
 
 TEST_F(HapticViewerPictures, ShowsEachEyeItsPicture)
@@ -406,12 +439,12 @@ TEST_F(HapticViewerPictures, ShowsEachEyeItsPicture)
   HapticViewer plain(options_, observer_);
   ASSERT_TRUE(plain.open(makeSphere())) << plain.message();
   ASSERT_TRUE(plain.renderToFile(this->path("plain.png"))) << plain.message();
-  EXPECT_LT(coloredPixels(this->path("plain.png")), 20);
+  EXPECT_LT(pixelsOfOneEye(this->path("plain.png")), 20);
   options_.picture.stereo = "anaglyph";
   HapticViewer viewer(options_, observer_);
   ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
   ASSERT_TRUE(viewer.renderToFile(this->path("anaglyph.png"))) << viewer.message();
-  const int colored = coloredPixels(this->path("anaglyph.png"));
+  const vtkIdType colored = pixelsOfOneEye(this->path("anaglyph.png"));
   EXPECT_GT(colored, 200);
   // In a window the pictures at rest are kept, one for each eye.
   viewer.renderWindow()->SetOffScreenRendering(1);
@@ -422,11 +455,11 @@ TEST_F(HapticViewerPictures, ShowsEachEyeItsPicture)
   ASSERT_TRUE(viewer.renderToFile(this->path("again.png"))) << viewer.message();
   EXPECT_EQ(shading->GetNumberOfPictures(), pictures);
   EXPECT_EQ(shading->GetNumberOfSamples(), vtkDepthShadingPass::kMostSamples);
-  EXPECT_EQ(coloredPixels(this->path("again.png")), coloredPixels(this->path("window.png")));
+  EXPECT_EQ(pixelsOfOneEye(this->path("again.png")), pixelsOfOneEye(this->path("window.png")));
   EXPECT_TRUE(viewer.style()->GetCommands().run("stereo"));
   EXPECT_EQ(notes_.back(), "stereo: none");
   ASSERT_TRUE(viewer.renderToFile(this->path("one.png"))) << viewer.message();
-  EXPECT_LT(coloredPixels(this->path("one.png")), colored / 4);
+  EXPECT_LT(pixelsOfOneEye(this->path("one.png")), colored / 4);
   EXPECT_TRUE(viewer.style()->GetCommands().run("stereo"));
   EXPECT_EQ(notes_.back(), "stereo: anaglyph");
   EXPECT_TRUE(viewer.stop());

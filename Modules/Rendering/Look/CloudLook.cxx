@@ -240,6 +240,23 @@ void coreOf(std::vector<Vec3>& sample, double share, Vec3& from, Vec3& to)
   }
 }
 
+/// Of what of @p sample lies in the box. That of many equal points is none: there is nothing in it to fit.
+Extremes extremesBetween(
+  const std::vector<Vec3>& sample, const Vec3& from, const Vec3& to, double tx, double ty)
+{
+  Extremes extremes;
+  for (const Vec3& p : sample)
+  {
+    const bool isBetween =
+      p.x >= from.x && p.x <= to.x && p.y >= from.y && p.y <= to.y && p.z >= from.z && p.z <= to.z;
+    if (isBetween && !(from == to))
+    {
+      extremes.include(p, tx, ty);
+    }
+  }
+  return extremes;
+}
+
 CameraFit fitFrame(
   const PointView& cloud, const CloudLook& look, const AffineTransform& toWorld, double aspect)
 {
@@ -430,16 +447,7 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
   Vec3 from;
   Vec3 to;
   coreOf(sample, look.strayShare, from, to);
-  Extremes core;
-  for (const Vec3& p : sample)
-  {
-    const bool isCore =
-      p.x >= from.x && p.x <= to.x && p.y >= from.y && p.y <= to.y && p.z >= from.z && p.z <= to.z;
-    if (isCore)
-    {
-      core.include(p, tx, ty);
-    }
-  }
+  const Extremes core = extremesBetween(sample, from, to, tx, ty);
   // The focal point is what the camera turns about.
   const double depth = 0.5 * (from.z + to.z);
   const auto distanceOf = [&](const Extremes& each)
