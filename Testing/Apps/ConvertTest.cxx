@@ -7,37 +7,14 @@
 
 #include <cmath>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 namespace
 {
 
 using namespace pointhaptics;
+using apptest::InputFrom;
 using apptest::parseTable;
 using apptest::Table;
 using nlohmann::json;
-
-/// While it lives, a file is the standard input of this program and those it starts.
-class InputFrom
-{
-public:
-  explicit InputFrom(const std::string& path)
-    : before_(::dup(STDIN_FILENO))
-  {
-    const int file = ::open(path.c_str(), O_RDONLY);
-    ::dup2(file, STDIN_FILENO);
-    ::close(file);
-  }
-  ~InputFrom()
-  {
-    ::dup2(before_, STDIN_FILENO);
-    ::close(before_);
-  }
-
-private:
-  int before_;
-};
 
 class Convert : public apptest::CommandLine
 {

@@ -142,6 +142,20 @@ std::vector<std::string> CommandLine::files() const
   return names;
 }
 
+InputFrom::InputFrom(const std::string& path)
+  : before_(::dup(STDIN_FILENO))
+{
+  const int file = ::open(path.c_str(), O_RDONLY);
+  ::dup2(file, STDIN_FILENO);
+  ::close(file);
+}
+
+InputFrom::~InputFrom()
+{
+  ::dup2(before_, STDIN_FILENO);
+  ::close(before_);
+}
+
 Table parseTable(const std::string& text)
 {
   std::istringstream lines(text);

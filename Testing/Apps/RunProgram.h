@@ -56,6 +56,17 @@ private:
   std::string folder_;
 };
 
+/// While it lives, a file is the standard input of this program and those it starts.
+class InputFrom
+{
+public:
+  explicit InputFrom(const std::string& path);
+  ~InputFrom();
+
+private:
+  int before_;
+};
+
 /// A CSV file with a header: column name to values.
 using Table = std::map<std::string, std::vector<double>>;
 Table parseTable(const std::string& text);

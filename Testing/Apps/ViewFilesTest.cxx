@@ -12,7 +12,9 @@
 namespace
 {
 
+using pointhaptics::apptest::InputFrom;
 using pointhaptics::apptest::Outcome;
+using pointhaptics::apptest::parseTable;
 
 class ViewFiles : public pointhaptics::apptest::CommandLine
 {
@@ -115,6 +117,34 @@ TEST_F(ViewFiles, AreNotDrawnForADeviceThatIsNotThere)
     parts);
   const Outcome outcome = this->view({ "good.ply" }, { "--device", "none" });
   EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+}
+
+TEST_F(ViewFiles, ComeByStandardInput)
+{
+  {
+    const InputFrom input(this->path("good.ply"));
+    const Outcome outcome = this->view({ "-" });
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_EQ(outcome.errors, "");
+    EXPECT_TRUE(contains(outcome.output, "2000 points")) << outcome.output;
+  }
+  const auto forces = parseTable(this->read("trace.csv")).at("force_z");
+  EXPECT_EQ(this->view({ "good.ply" }).exitCode, 0);
+  EXPECT_EQ(parseTable(this->read("trace.csv")).at("force_z"), forces);
+  EXPECT_GT(*std::max_element(forces.begin(), forces.end()), 0.0);
+  const InputFrom bad(this->path("bad.laz"));
+  const Outcome outcome = this->view({ "-" });
+  EXPECT_EQ(outcome.exitCode, 1);
+  EXPECT_EQ(outcome.errors.rfind("pointhaptics view: standard input: ", 0), 0u) << outcome.errors;
+}
+
+TEST_F(ViewFiles, OfStandardInputSayWhatDoesNotGoWithIt)
+{
+  const InputFrom input(this->path("good.ply"));
+  this->refuse(2, { "view", "-", "-" }, { "standard input can be read once" });
+  this->refuse(2, { "view", "-", "--watch" }, { "--watch: standard input is read once" });
+  this->refuse(2, { "view", "-", "--record", "rec.csv" }, { "--record rec.csv: a recording names the file" });
+  this->refuse(2, { "view", "-", "--write-config", "c.json" }, { "--write-config c.json: settings" });
 }
 
 } // namespace

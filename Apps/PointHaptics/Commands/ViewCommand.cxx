@@ -1,8 +1,10 @@
 #include "Commands/Commands.h"
 
+#include "Clouds/Pipeline.h"
 #include "Terminal/CommandLine.h"
 #include "Terminal/Messages.h"
 #include "Terminal/ProgressBar.h"
+#include "Terminal/StandardStreams.h"
 #include "Terminal/StopSignals.h"
 #include "View/ViewOptions.h"
 #include "View/ViewSettings.h"
@@ -14,9 +16,12 @@
 #include <fmt/format.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -44,6 +49,37 @@ bool checkDevice(const ViewOptions& options, std::string& message)
   return true;
 }
 
+/// What comes by standard input, in a file that lasts as long as this.
+class StandardInput
+{
+public:
+  /// Puts the file in the place of "-". False: @p message.
+  bool take(std::vector<std::string>& files, std::string& message)
+  {
+    const auto place = std::find(files.begin(), files.end(), kStandardStream);
+    if (place == files.end())
+    {
+      return true;
+    }
+    folder_.emplace();
+    *place = folder_->path("standard input"); // the name is the title, too
+    return copyStandardInput(*place, message);
+  }
+  /// @p text without the folder of the file.
+  std::string shown(std::string text) const
+  {
+    const std::string folder = folder_ ? folder_->path("") : std::string();
+    for (std::size_t at = 0; folder_ && (at = text.find(folder, at)) != std::string::npos;)
+    {
+      text.erase(at, folder.size());
+    }
+    return text;
+  }
+
+private:
+  std::optional<TemporaryFolder> folder_;
+};
+
 void showMessage(HapticViewerObserver::Kind kind, const std::string& text)
 {
   switch (kind)
@@ -59,12 +95,13 @@ void showMessage(HapticViewerObserver::Kind kind, const std::string& text)
   }
 }
 
-/// What the viewer says goes to the terminal, what it keeps to JSON files. @p options must outlive the
-/// result.
-HapticViewerObserver observerFor(const ViewOptions& options)
+/// What the viewer says goes to the terminal, what it keeps to JSON files. @p options and @p input must
+/// outlive the result.
+HapticViewerObserver observerFor(const ViewOptions& options, const StandardInput& input)
 {
   HapticViewerObserver observer;
-  observer.message = showMessage;
+  observer.message = [&input](HapticViewerObserver::Kind kind, const std::string& text)
+  { showMessage(kind, input.shown(text)); };
   observer.progress = [bar = std::shared_ptr<ProgressBar>()](const std::string& what, double part) mutable
   {
     if (part >= 1.0)
@@ -141,10 +178,15 @@ int runView(CLI::App& command, ViewOptions& options)
   {
     return fail(kViewCommand, message);
   }
-  HapticViewer viewer(options.viewer, observerFor(options));
+  StandardInput input;
+  if (!input.take(options.files, message))
+  {
+    return fail(kViewCommand, message);
+  }
+  HapticViewer viewer(options.viewer, observerFor(options, input));
   if (!viewer.open(options.files))
   {
-    fail(kViewCommand, viewer.message());
+    fail(kViewCommand, input.shown(viewer.message()));
     return viewer.isCancelled() ? kCancelled : kFailed;
   }
   if (options.verbose)
@@ -156,7 +198,7 @@ int runView(CLI::App& command, ViewOptions& options)
   {
     return fail(kViewCommand, message);
   }
-  return show(options, viewer) ? kSuccess : fail(kViewCommand, viewer.message());
+  return show(options, viewer) ? kSuccess : fail(kViewCommand, input.shown(viewer.message()));
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "View/ViewOptions.h"
 
+#include "Clouds/Pipeline.h"
 #include "Options/ConfigFile.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/KeyedHelp.h"
@@ -126,7 +127,9 @@ void ViewOptions::addTo(CLI::App& command)
 {
   command.add_option("FILE", this->files,
     "Point clouds: PLY, PCD, LAS, LAZ, E57, VTP, OBJ or columns of text; one that cannot be read is skipped "
-    "where there are others, but with --together; with --replay those that were recorded are the default");
+    "where there are others, but with --together; with --replay those that were recorded are the default; - "
+    "is "
+    "standard input");
   command.add_flag("--together", this->viewer.together);
   command.add_flag("--watch", this->viewer.watch, "Read a file again when it changes");
   command.add_option("--screenshot", this->screenshot, "Write this PNG instead of opening a window");
@@ -231,6 +234,35 @@ void ViewOptions::checkFiles() const
   }
 }
 
+/// Ends in a usage error where standard input is to be shown, and cannot be as asked for.
+void ViewOptions::checkStandardInput() const
+{
+  const auto times = std::count(this->files.begin(), this->files.end(), kStandardStream);
+  if (times == 0)
+  {
+    return;
+  }
+  if (times > 1)
+  {
+    throwUsage("-", "", "standard input can be read once; leave out the second one");
+  }
+  if (this->viewer.watch)
+  {
+    throwUsage(
+      "--watch", "", "standard input is read once and does not change; leave it out, or name a file");
+  }
+  if (!this->viewer.record.empty())
+  {
+    throwUsage("--record", this->viewer.record,
+      "a recording names the file of its cloud, and standard input has none; name a file in place of -");
+  }
+  if (!this->writeConfig.empty())
+  {
+    throwUsage("--write-config", this->writeConfig,
+      "settings are written without reading a cloud; leave out -, or --write-config");
+  }
+}
+
 /// The cloud of a recording, and the box that it was felt in.
 bool ViewOptions::takeRecording(std::string& message)
 {
@@ -256,6 +288,7 @@ bool ViewOptions::complete(CLI::App& command, std::string& message)
     return false;
   }
   this->checkFiles();
+  this->checkStandardInput();
   if (!this->viewer.replay.empty() && !this->takeRecording(message))
   {
     return false;

@@ -54,6 +54,7 @@ struct ViewOptions
 private:
   bool readConfig(CLI::App& command, std::string& message);
   void checkFiles() const;
+  void checkStandardInput() const;
   bool takeRecording(std::string& message);
   void completeViewer(CLI::App& command);
 };
