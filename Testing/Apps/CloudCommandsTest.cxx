@@ -121,11 +121,39 @@ TEST_F(CloudCommands, ResampledLasKeepsItsScaleUnlessTheCloudIsTransformed)
   EXPECT_EQ(scaleOf("out.las"), 1e-9);
 }
 
-TEST_F(CloudCommands, BandwidthRefusesACloudWithoutAValidPoint)
+TEST_F(CloudCommands, ACloudWithoutAValidPointIsRefused)
 {
   this->write("in.csv", "x,y,z\nnan,0,0\n0,inf,0\n");
-  this->refuse(1, { "bandwidth", "in.csv", "-o", "out.csv" }, { "bandwidth", "in.csv", "2 points", "NaN" });
-  EXPECT_FALSE(this->exists("out.csv"));
+  this->write("path.csv", "t,x,y,z\n0,0,0,0.03\n");
+  const std::string why =
+    ": in.csv: no point is finite: 2 points with a coordinate that is NaN or infinite; mend the file\n";
+  this->refuse(1, { "bandwidth", "in.csv", "-o", "out.csv" }, { "bandwidth" + why });
+  this->refuse(1, { "resample", "in.csv", "-o", "out.csv" }, { "resample" + why });
+  this->refuse(1, { "feel", "in.csv", "-o", "out.csv", "--path", "path.csv" }, { "feel" + why });
+  this->refuse(1, { "feel", "in.csv", "-o", "out.csv", "--path", "path.csv", "--raw" }, { "feel" + why });
+}
+
+TEST_F(CloudCommands, OnePointIsNotCalledPoints)
+{
+  this->write("in.csv", "x,y,z\n0,0,0\n");
+  this->write("path.csv", "t,x,y,z\n0,0,0,0.03\n");
+  EXPECT_EQ(this->succeed({ "resample", "in.csv", "-o", "out.csv" }),
+    "1 point in, 1 out, 0 clipped, 0 invalid: out.csv\n");
+  EXPECT_EQ(this->succeed({ "convert", "in.csv", "out.ply" }), "1 point: out.ply\n");
+  const std::string shown = this->succeed({ "view", "in.csv", "--path", "path.csv", "--trace", "trace.csv" });
+  EXPECT_EQ(shown.rfind("1 point, ", 0), 0u) << shown;
+}
+
+TEST_F(CloudCommands, InfoNamesTheCommandsThatTakeAUnit)
+{
+  this->write("in.csv", "x,y,z\n0,0,0\n");
+  EXPECT_NE(this->succeed({ "info", "in.csv" })
+              .find("nothing tells the unit; --unit of view, feel and resample does"),
+    std::string::npos);
+  for (const char* command : { "view", "feel", "resample" })
+  {
+    EXPECT_NE(this->succeed({ command, "--help" }).find("--unit"), std::string::npos) << command;
+  }
 }
 
 TEST_F(CloudCommands, TransformsApplyInTheirOrder)

@@ -38,7 +38,7 @@ case "$1" in
   BadInput)
     printf 'x,y,z\nnan,0,0\nnan,1,1\n' >invalid.csv
     expect_end 1 "invalid" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample invalid.csv -o out.ply
-    expect_end 1 "each of the 2 points has a coordinate that is NaN" "$MPIRUN" -n 2 "$MPI_PROGRAM" bandwidth invalid.csv -o out.ply
+    expect_end 1 "2 points with a coordinate that is NaN" "$MPIRUN" -n 2 "$MPI_PROGRAM" bandwidth invalid.csv -o out.ply
     expect_end 1 "unknown extension" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.xls
     expect_end 1 "no/folder" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o out.ply --voxel-index no/folder/i.csv
     expect_end 1 "another name" "$MPIRUN" -n 2 "$MPI_PROGRAM" resample idol.ply -o i.csv --voxel-index i.csv

@@ -1,5 +1,6 @@
 #include "Clouds/BandwidthTask.h"
 
+#include "Clouds/Pipeline.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 
@@ -63,10 +64,8 @@ BandwidthFigures together(const BandwidthFigures& a, const BandwidthFigures& b)
 
 std::string whyNone(const BandwidthCommandOptions& options, const BandwidthFigures& figures)
 {
-  return figures.invalid < figures.points
-    ? std::string()
-    : fmt::format("{}: each of the {} points has a coordinate that is NaN or infinite; mend the file",
-        options.files.input, figures.points);
+  return figures.invalid < figures.points ? std::string()
+                                          : noFinitePoint(options.files.input, figures.points);
 }
 
 void print(const BandwidthCommandOptions& options, const BandwidthFigures& figures)
@@ -79,8 +78,8 @@ void print(const BandwidthCommandOptions& options, const BandwidthFigures& figur
     printJson(object);
     return;
   }
-  fmt::print("{} points, {} invalid, proxy radius {:.6g} to {:.6g}: {}\n", figures.points, figures.invalid,
-    figures.smallestRadius, figures.largestRadius, options.files.output);
+  fmt::print("{}, {} invalid, proxy radius {:.6g} to {:.6g}: {}\n", countOfPoints(figures.points),
+    figures.invalid, figures.smallestRadius, figures.largestRadius, options.files.output);
 }
 
 } // namespace app

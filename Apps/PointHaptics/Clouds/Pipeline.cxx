@@ -190,6 +190,12 @@ vtkSmartPointer<vtkPolyData> transformedPoints(
   return result;
 }
 
+std::string noFinitePoint(const std::string& fileName, std::int64_t count)
+{
+  return fmt::format("{}: no point is finite: {} with a coordinate that is NaN or infinite; mend the file",
+    fileName, countOfPoints(count));
+}
+
 void showNotes(const std::string& command, const std::string& fileName, const Cloud& cloud)
 {
   for (const std::string& note : cloud.notes)

@@ -63,6 +63,9 @@ bool writeCloud(vtkPointSet* points, const std::string& fileName, const std::str
 vtkSmartPointer<vtkPolyData> transformedPoints(
   vtkPolyData* cloud, const AffineTransform& transform, std::int64_t& invalid);
 
+/// That all of so many points are NaN or infinite.
+std::string noFinitePoint(const std::string& fileName, std::int64_t count);
+
 /// Shows the notes of a cloud that was read from @p fileName as warnings of @p command.
 void showNotes(const std::string& command, const std::string& fileName, const Cloud& cloud);
 /// Shows what VTK classes warned of since the last call as warnings of @p command.

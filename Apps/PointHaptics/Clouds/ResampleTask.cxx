@@ -1,5 +1,6 @@
 #include "Clouds/ResampleTask.h"
 
+#include "Clouds/Pipeline.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/Messages.h"
 
@@ -88,6 +89,10 @@ void addVoxelIndex(const std::vector<std::int64_t>& rows, CsvWriter& file)
 
 std::string whyEmpty(const ResampleOptions& options, const ResampleFigures& figures)
 {
+  if (figures.invalid == figures.in)
+  {
+    return noFinitePoint(options.files.input, figures.in);
+  }
   if (figures.clipped + figures.invalid < figures.in)
   {
     return fmt::format("{}: no voxel has {} points; give fewer to --minimum-points, or larger voxels",
@@ -109,8 +114,8 @@ void print(const ResampleOptions& options, const ResampleFigures& figures)
     printJson(result);
     return;
   }
-  fmt::print("{} points in, {} out, {} clipped, {} invalid: {}\n", figures.in, figures.out, figures.clipped,
-    figures.invalid, options.files.output);
+  fmt::print("{} in, {} out, {} clipped, {} invalid: {}\n", countOfPoints(figures.in), figures.out,
+    figures.clipped, figures.invalid, options.files.output);
 }
 
 } // namespace app

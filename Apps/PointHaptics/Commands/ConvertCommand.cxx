@@ -99,7 +99,7 @@ void print(const ConvertOptions& options, vtkIdType points)
   }
   else if (!options.writesStandardOutput())
   {
-    fmt::print("{} points: {}\n", points, options.output());
+    fmt::print("{}: {}\n", countOfPoints(points), options.output());
   }
 }
 

@@ -86,7 +86,7 @@ int runGenerate(const GenerateOptions& options)
   }
   else
   {
-    fmt::print("{} points of {}: {}\n", options.count, shapeName(shape), options.output);
+    fmt::print("{} of {}: {}\n", countOfPoints(options.count), shapeName(shape), options.output);
   }
   return kSuccess;
 }

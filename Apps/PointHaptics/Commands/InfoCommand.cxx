@@ -110,8 +110,8 @@ void printOrigin(const CloudSummary& s)
   {
     const ScanSummary& scan = s.scans[i];
     const std::array<double, 7>& p = scan.pose;
-    fmt::print("  scan {:<3} {}: {} points, scanner at {} {} {}, quaternion {} {} {} {}\n", i + 1, scan.name,
-      scan.points, p[0], p[1], p[2], p[3], p[4], p[5], p[6]);
+    fmt::print("  scan {:<3} {}: {}, scanner at {} {} {}, quaternion {} {} {} {}\n", i + 1, scan.name,
+      countOfPoints(scan.points), p[0], p[1], p[2], p[3], p[4], p[5], p[6]);
   }
 }
 
@@ -131,7 +131,7 @@ void print(const std::string& file, const CloudSummary& s)
     fmt::print("  unit     {} ({})\n", s.unit,
       !s.unitIsGuess   ? "the file says so"
         : s.unitIsTold ? "a guess by size and arrays"
-                       : "nothing tells the unit; --unit does");
+                       : "nothing tells the unit; --unit of view, feel and resample does");
     fmt::print(
       "  spacing  {:.4g} (median distance to the nearest other point; 5 % {:.4g}, 25 % {:.4g}, 75 % {:.4g}, "
       "95 % {:.4g})\n",

@@ -16,6 +16,7 @@
 #include <vtkPolyData.h>
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,14 @@ vtkSmartPointer<vtkPolyData> rawPoints(const FeelOptions& options, vtkPolyData* 
   }
   moved->SetPoints(inside);
   return moved;
+}
+
+/// Why nothing can be felt.
+std::string whyEmpty(const FeelOptions& options, vtkPolyData* cloud)
+{
+  return transformedBounds(cloud, AffineTransform()).empty()
+    ? noFinitePoint(options.file, cloud->GetNumberOfPoints())
+    : options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform";
 }
 
 /// The scene of the whole cloud, as the viewer makes it, and in @p box what of the workspace is felt. Null:
@@ -90,7 +99,7 @@ std::shared_ptr<const HapticScene> resampledScene(
   if (isMade && !loaded.scene)
   {
     message = loaded.means->GetNumberOfPoints() == 0
-      ? options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform"
+      ? whyEmpty(options, cloud)
       : options.file + ": " + pointhaptics::message(loaded.sceneStatus);
   }
   box = loaded.voxels.lattice.automaticWorkspace ? Bounds() : loaded.voxels.lattice.workspace;
@@ -116,8 +125,7 @@ bool makeFeelScenes(const FeelOptions& options, vtkPolyData* cloud, FeelScenes& 
   const vtkSmartPointer<vtkPolyData> prepared = rawPoints(options, felt);
   if (prepared->GetNumberOfPoints() == 0)
   {
-    message =
-      options.file + ": no finite point lies in the workspace; leave out --workspace, or mend the transform";
+    message = whyEmpty(options, cloud);
     return false;
   }
   settings.workspace = options.lattice.workspace();

@@ -123,6 +123,11 @@ void warn(const std::string& command, const std::string& message)
   printNow(stderr, fmt::format("{} {}: warning: {}\n", programName(), command, oneLine(message)));
 }
 
+std::string countOfPoints(std::int64_t count)
+{
+  return fmt::format("{} point{}", count, count == 1 ? "" : "s");
+}
+
 void printNow(std::FILE* stream, const std::string& text) noexcept
 {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stream));

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ void warn(const std::string& command, const std::string& message);
 /// Prints @p text on @p stream at once. Never throws: where nobody reads it any more, or there is no space,
 /// it is lost, and a program that holds a force goes on; main() tells in the end of a stdout that failed.
 void printNow(std::FILE* stream, const std::string& text) noexcept;
+
+/// "1 point", "2 points".
+std::string countOfPoints(std::int64_t count);
 
 /// Prints one object on stdout, in one line; names that are no UTF-8 get replacement characters.
 void printJson(const nlohmann::ordered_json& object);
