@@ -10,6 +10,7 @@
 #include "vtkHapticProps.h"
 #include "vtkVoxelMeanResampler.h"
 
+#include "Core/Base/OutputFile.h"
 #include "Devices/HipPath.h"
 
 #include <algorithm>
@@ -19,7 +20,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -29,6 +29,7 @@
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 namespace pointhaptics
@@ -160,14 +161,16 @@ bool writePicture(vtkRenderWindow* window, const std::function<void()>& render, 
   image = image ? image : grab(window);
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
-  writer->SetFileName(fileName.c_str());
-  vtkNew<vtkCallbackCommand> silence; // the message says it
-  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  writer->AddObserver(vtkCommand::ErrorEvent, silence);
+  writer->WriteToMemoryOn();
   writer->Write();
-  if (writer->GetErrorCode() != 0)
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  OutputFile file;
+  static_cast<void>(file.open(fileName)); // commit() tells
+  static_cast<void>(file.write({ reinterpret_cast<const char*>(bytes->GetPointer(0)),
+    static_cast<std::size_t>(bytes->GetNumberOfValues()) }));
+  if (file.commit() != Status::Ok)
   {
-    message = fmt::format("{}: cannot be written; check that its folder exists and can be written", fileName);
+    message = fmt::format("{}: cannot be written: {}; {}", fileName, file.reason(), file.cure());
     return false;
   }
   return true;

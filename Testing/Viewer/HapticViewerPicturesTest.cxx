@@ -113,6 +113,18 @@ TEST_F(HapticViewerPictures, ShowsPointsThatLieAtOnePlace)
   }
 }
 
+#ifdef __linux__
+TEST_F(HapticViewerPictures, SaysThatTheDiskIsFull)
+{
+  SKIP_WITHOUT_DISPLAY();
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  EXPECT_FALSE(viewer.renderToFile("/dev/full"));
+  EXPECT_EQ(viewer.message(),
+    "/dev/full: cannot be written: No space left on device; free some space on the disk or write elsewhere");
+}
+#endif
+
 TEST_F(HapticViewerPictures, MakesAHandfulOfPointsLarge)
 {
   SKIP_WITHOUT_DISPLAY();

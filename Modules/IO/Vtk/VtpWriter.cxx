@@ -14,11 +14,56 @@
 #include "vtkPolyData.h"
 #include "vtkXMLPolyDataWriter.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <streambuf>
+
 namespace pointhaptics::io
 {
 
 namespace
 {
+
+/// What VTK's stream writes goes by OutputStream, which keeps the reason of a fault: VTK forgets it.
+class OutputBuffer : public std::streambuf
+{
+public:
+  explicit OutputBuffer(OutputStream& out)
+    : out_(out)
+  {
+  }
+
+protected:
+  std::streamsize xsputn(const char* bytes, std::streamsize size) override
+  {
+    out_.writeAt(place_, { bytes, static_cast<std::size_t>(size) }); // where it throws the stream turns bad
+    place_ += static_cast<std::uint64_t>(size);
+    end_ = std::max(end_, place_);
+    return size;
+  }
+  int_type overflow(int_type c) override
+  {
+    const char byte = traits_type::to_char_type(c);
+    return traits_type::eq_int_type(c, traits_type::eof()) || this->xsputn(&byte, 1) == 1
+      ? traits_type::not_eof(c)
+      : traits_type::eof();
+  }
+  pos_type seekoff(off_type offset, std::ios::seekdir from, std::ios::openmode) override
+  {
+    const std::uint64_t base = from == std::ios::cur ? place_ : from == std::ios::end ? end_ : 0;
+    place_ = base + static_cast<std::uint64_t>(offset);
+    return static_cast<off_type>(place_);
+  }
+  pos_type seekpos(pos_type place, std::ios::openmode mode) override
+  {
+    return this->seekoff(off_type(place), std::ios::beg, mode);
+  }
+
+private:
+  OutputStream& out_;
+  std::uint64_t place_ = 0;
+  std::uint64_t end_ = 0;
+};
 
 /// VTK's writer takes no notice of AbortExecute; this one does at each progress report, at least once an
 /// array: the rest is written nowhere, and Write() fails.
@@ -27,8 +72,15 @@ class VtpWriter : public vtkXMLPolyDataWriter
 public:
   static VtpWriter* New();
   vtkTypeMacro(VtpWriter, vtkXMLPolyDataWriter);
+  /// @p buffer gets the bytes, in place of the file that VTK opens.
+  void writeInto(std::streambuf* buffer) { buffer_ = buffer; }
 
 protected:
+  int StartFile() override
+  {
+    this->Stream->rdbuf(buffer_);
+    return this->Superclass::StartFile();
+  }
   void UpdateProgressDiscrete(float progress) override
   {
     this->Superclass::UpdateProgressDiscrete(progress);
@@ -37,6 +89,9 @@ protected:
       this->Stream->setstate(std::ios::badbit);
     }
   }
+
+private:
+  std::streambuf* buffer_ = nullptr;
 };
 vtkStandardNewMacro(VtpWriter);
 
@@ -51,7 +106,7 @@ void useRawData(vtkXMLWriter* writer)
 
 } // namespace
 
-void writeVtp(vtkPointSet* cloud, const WriteTask& task)
+void writeVtp(vtkPointSet* cloud, WriteTask& task)
 {
   vtkNew<vtkPolyData> written;
   if (vtkPolyData* polyData = vtkPolyData::SafeDownCast(cloud))
@@ -69,7 +124,9 @@ void writeVtp(vtkPointSet* cloud, const WriteTask& task)
     setOneVertexPerPoint(written);
   }
   vtkNew<ErrorCollector> errors;
+  OutputBuffer buffer(task.out);
   vtkNew<VtpWriter> writer;
+  writer->writeInto(&buffer);
   useRawData(writer);
   writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   writer->AddObserver(vtkCommand::ErrorEvent, errors);
@@ -78,13 +135,12 @@ void writeVtp(vtkPointSet* cloud, const WriteTask& task)
   RelayedProgress progress(writer, task.algorithm, 0.0, 1.0);
   const bool isWritten = writer->Write() == 1;
   progress.finish();
+  task.out.checkEarlier();
   if (!isWritten || !errors->first().empty())
   {
-    const bool full = writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError;
-    throw FileProblem(full ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError,
+    throw FileProblem(vtkErrorCode::CannotOpenFileError,
       errors->first().empty() ? "writing stopped" : errors->first(),
-      full ? "free some space on the disk or write elsewhere"
-           : "check the folder, its permissions and the free space");
+      "check the folder, its permissions and the free space");
   }
 }
 

@@ -317,6 +317,7 @@ TEST_F(Writer, SaysWhatIsWrongAndLeavesNothingBehind)
 TEST_F(Writer, FullDiskLeavesTheOldFileAsItWas)
 {
   const auto cloud = makeCloud(VTK_DOUBLE);
+  cloud->GetPoints()->SetPoint(7, cloud->GetPoint(6)); // LAS takes no NaN
   rlimit before;
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   void (*handler)(int) = std::signal(SIGXFSZ, SIG_IGN);
@@ -328,7 +329,7 @@ TEST_F(Writer, FullDiskLeavesTheOldFileAsItWas)
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
     const std::string message = writeCloud(cloud, path(name));
     setrlimit(RLIMIT_FSIZE, &before);
-    EXPECT_NE(message, "") << name;
+    EXPECT_NE(message.find("; free some space on the disk or write elsewhere"), std::string::npos) << message;
     EXPECT_EQ(std::filesystem::file_size(path(name)), 3u) << name;
   }
   std::signal(SIGXFSZ, handler);
