@@ -74,6 +74,19 @@ TEST_F(Convert, TakesStandardInputAndOutput)
     "x,y,z\n1,2,3\n");
 }
 
+TEST_F(Convert, TakesItsOutputAsOtherCommandsDo)
+{
+  EXPECT_EQ(this->succeed({ "convert", "in.csv", "-o", "a.ply" }), "2 points: a.ply\n");
+  this->succeed({ "convert", "in.csv", "b.ply" });
+  EXPECT_EQ(this->read("a.ply"), this->read("b.ply"));
+  EXPECT_EQ(
+    this->succeed({ "convert", "--together", "in.csv", "b.ply", "-o", "c.ply" }), "4 points: c.ply\n");
+  EXPECT_EQ(this->succeed({ "convert", "in.csv", "-o", "-", "--output-format", "ply" }), this->read("b.ply"));
+  this->refuse(
+    2, { "convert", "in.csv" }, { "in.csv: nothing says what to write; give a second name, or -o" });
+  this->refuse(2, { "convert", "in.csv", "b.ply", "-o", "d.ply" }, { "2 inputs and one output, d.ply" });
+}
+
 TEST_F(Convert, NamesStandardInputInItsMessages)
 {
   this->write("odd", std::string("\1\2\3\0odd", 7));

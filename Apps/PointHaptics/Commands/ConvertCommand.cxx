@@ -24,11 +24,11 @@ namespace
 {
 
 constexpr const char* kConvertCommand = "convert";
-constexpr int kMostFiles = 100000;
 
 struct ConvertOptions
 {
   std::vector<std::string> files; ///< The last one is written.
+  std::string named;              ///< By -o: becomes the last of the files.
   std::string inputFormat;
   std::string outputFormat;
   bool together = false;
@@ -43,6 +43,11 @@ struct ConvertOptions
 /// What the words of the command line cannot mean together, and the cure; empty where all is well.
 std::string contradiction(const ConvertOptions& options)
 {
+  if (options.files.size() < 2)
+  {
+    return fmt::format(
+      "{}: nothing says what to write; give a second name, or -o and a name", options.files.front());
+  }
   const std::vector<std::string> inputs = options.inputs();
   std::error_code ignored;
   if (inputs.size() > 1 && !options.together)
@@ -103,8 +108,12 @@ void print(const ConvertOptions& options, vtkIdType points)
   }
 }
 
-int runConvert(const ConvertOptions& options)
+int runConvert(ConvertOptions options)
 {
+  if (!options.named.empty())
+  {
+    options.files.push_back(options.named);
+  }
   std::string message = contradiction(options);
   if (!message.empty())
   {
@@ -158,8 +167,9 @@ void addConvertCommand(CLI::App& program, int& exitCode)
       fmt::format("IN... OUT: clouds to read and the file to write, {}; - is standard input or output",
         fmt::join(writableExtensions(), ", ")))
     ->required()
-    ->expected(2, kMostFiles)
     ->type_name("");
+  command->add_option("-o,--output", options->named, "File to write, in place of the last of FILES")
+    ->type_name("OUT");
   command->add_flag("--together", options->together, "Merge several inputs; every array of each is kept");
   addWord(*command, "--input-format", options->inputFormat,
     { "ply", "pcd", "las", "laz", "e57", "vtp", "vtu", "vtk", "obj", "off", "stl", "xyz", "txt", "csv",
