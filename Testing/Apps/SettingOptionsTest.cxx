@@ -27,7 +27,9 @@ struct Parsed
 {
   explicit Parsed(std::vector<std::string> arguments, const nlohmann::ordered_json& configuration = {})
   {
-    const std::string file = ::testing::TempDir() + "SettingOptionsTest.json";
+    // Tests run at once.
+    const std::string file =
+      ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
     options.addTo(command);
     if (!configuration.empty())
     {
