@@ -171,7 +171,7 @@ TEST_F(OutputFileTest, TakesPartsOfSeveralWriters)
 
 TEST_F(OutputFileTest, SaysThatTheDiskIsFull)
 {
-  if (!fs::exists("/dev/full"))
+  if (!fs::is_character_file("/dev/full"))
   {
     GTEST_SKIP() << "no /dev/full on this system";
   }
