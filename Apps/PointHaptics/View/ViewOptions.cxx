@@ -127,9 +127,8 @@ void ViewOptions::addTo(CLI::App& command)
 {
   command.add_option("FILE", this->files,
     "Point clouds: PLY, PCD, LAS, LAZ, E57, VTP, OBJ or columns of text; one that cannot be read is skipped "
-    "where there are others, but with --together; with --replay those that were recorded are the default; - "
-    "is "
-    "standard input");
+    "where there are others, but with --together; with --replay those that were recorded are the "
+    "default; - is standard input");
   command.add_flag("--together", this->viewer.together);
   command.add_flag("--watch", this->viewer.watch, "Read a file again when it changes");
   command.add_option("--screenshot", this->screenshot, "Write this PNG instead of opening a window");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Base/Vector3.h"
+#include "Core/Resample/Kernel/VoxelKernel.h"
 
 #include <algorithm>
 #include <array>
@@ -16,8 +17,6 @@ namespace pointhaptics
 {
 namespace simd
 {
-
-__extension__ typedef __int128 Int128;
 
 /// @pre @p exponent is that of a normal number.
 inline double powerOfTwo(int exponent)

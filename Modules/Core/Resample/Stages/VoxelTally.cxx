@@ -104,67 +104,74 @@ std::uint64_t middleKey(VoxelTally::List list, std::int64_t count)
   return std::find_if(list.first, list.last, isMiddle)->key;
 }
 
+/// Appends a + @p sign b. @p digits: keys below it are those of digits. @return false where there are fewer
+/// than no points with a value.
+bool join(
+  VoxelTally::List a, VoxelTally::List b, int sign, std::uint64_t digits, std::vector<TallyEntry>& list)
+{
+  bool isRight = true;
+  std::int64_t carry = 0;
+  std::uint64_t next = 0; // The key that the carry belongs to.
+  while (a.first != a.last || b.first != b.last || carry != 0)
+  {
+    const std::uint64_t ofA = a.first != a.last ? a.first->key : ~std::uint64_t(0);
+    const std::uint64_t ofB = b.first != b.last ? b.first->key : ~std::uint64_t(0);
+    const std::uint64_t key = carry != 0 ? next : std::min(ofA, ofB);
+    std::int64_t amount = std::exchange(carry, 0);
+    amount += a.first != a.last && ofA == key ? (a.first++)->amount : 0;
+    amount += b.first != b.last && ofB == key ? sign * (b.first++)->amount : 0;
+    if (key < digits)
+    {
+      carry = carryOf(amount);
+      amount -= carry * (std::int64_t(1) << kDigitBits);
+      next = key + 1;
+    }
+    isRight = isRight && (key < digits || amount >= 0);
+    if (amount != 0)
+    {
+      list.push_back({ key, amount });
+    }
+  }
+  return isRight;
+}
+
 }
 
 void TallySum::add(std::int64_t value, int exponent)
 {
   const int above = exponent - kLeastExponent;
-  integers_ += value != 0;
   Int128 left = Int128(value) * (Int128(1) << (above % kDigitBits));
+  more_.clear();
   for (auto key = std::uint64_t(above / kDigitBits); left != 0; ++key)
   {
     const auto digit = std::int64_t(std::int32_t(std::uint32_t(left)));
-    digits_.push_back({ key, digit });
+    if (digit != 0)
+    {
+      more_.push_back({ key, digit });
+    }
     left = (left - digit) >> kDigitBits;
   }
+  both_.clear();
+  static_cast<void>(join({ list_.data(), list_.data() + list_.size() },
+    { more_.data(), more_.data() + more_.size() }, 1, kDigits, both_)); // Digits may be of either sign.
+  list_.swap(both_);
 }
 
 void TallySum::addNonFinite(std::int64_t nans, std::int64_t plus, std::int64_t minus)
 {
-  nonFinite_ = { { kNaNs, nans }, { kPlus, plus }, { kMinus, minus } };
-}
-
-/// Makes one entry of those of a key, each a digit.
-void TallySum::carry()
-{
-  std::sort(
-    digits_.begin(), digits_.end(), [](const TallyEntry& a, const TallyEntry& b) { return a.key < b.key; });
-  std::vector<TallyEntry> list;
-  std::int64_t carry = 0;
-  std::uint64_t key = 0;
-  for (std::size_t i = 0; i < digits_.size() || carry != 0; ++key)
+  for (const TallyEntry& entry : { TallyEntry{ kNaNs, nans }, { kPlus, plus }, { kMinus, minus } })
   {
-    key = carry == 0 ? digits_[i].key : key;
-    std::int64_t amount = carry;
-    for (; i < digits_.size() && digits_[i].key == key; ++i)
+    if (entry.amount != 0)
     {
-      amount += digits_[i].amount;
+      list_.push_back(entry);
     }
-    carry = carryOf(amount);
-    list.push_back({ key, amount - carry * (std::int64_t(1) << kDigitBits) });
   }
-  digits_ = std::move(list);
 }
 
 void TallySum::moveTo(VoxelTally& tally)
 {
-  if (integers_ > 1)
-  {
-    carry();
-  }
-  digits_.insert(digits_.end(), nonFinite_.begin(), nonFinite_.end());
-  digits_.erase(
-    std::remove_if(digits_.begin(), digits_.end(), [](const TallyEntry& entry) { return entry.amount == 0; }),
-    digits_.end());
-  tally.push(digits_);
-  digits_.clear();
-  nonFinite_.clear();
-  integers_ = 0;
-}
-
-bool VoxelTally::isDigit(std::uint64_t key) const
-{
-  return isSum(kind_.statistic) && key < kDigits;
+  tally.push(list_);
+  list_.clear();
 }
 
 VoxelTally::List VoxelTally::list(std::size_t voxel, int component) const
@@ -192,47 +199,18 @@ void VoxelTally::append(const VoxelTally& from, std::size_t first, std::size_t l
     [=](std::size_t end) { return before + (end - begin); });
 }
 
-/// @return false where there are fewer than no points with a value.
-bool VoxelTally::joinInto(List a, List b, int sign, std::vector<TallyEntry>& list) const
-{
-  bool isRight = true;
-  std::int64_t carry = 0;
-  std::uint64_t next = 0; // The key that the carry belongs to.
-  while (a.first != a.last || b.first != b.last || carry != 0)
-  {
-    const std::uint64_t ofA = a.first != a.last ? a.first->key : ~std::uint64_t(0);
-    const std::uint64_t ofB = b.first != b.last ? b.first->key : ~std::uint64_t(0);
-    const std::uint64_t key = carry != 0 ? next : std::min(ofA, ofB);
-    std::int64_t amount = std::exchange(carry, 0);
-    amount += a.first != a.last && ofA == key ? (a.first++)->amount : 0;
-    amount += b.first != b.last && ofB == key ? sign * (b.first++)->amount : 0;
-    if (isDigit(key))
-    {
-      carry = carryOf(amount);
-      amount -= carry * (std::int64_t(1) << kDigitBits);
-      next = key + 1;
-    }
-    isRight = isRight && (isDigit(key) || amount >= 0);
-    if (amount != 0)
-    {
-      list.push_back({ key, amount });
-    }
-  }
-  return isRight;
-}
-
 bool VoxelTally::addToLast(const VoxelTally& from, std::size_t voxel, int sign)
 {
   const std::size_t last = voxels() - 1;
   const auto first = std::size_t(list(last, 0).first - entries_.data());
   bool isRight = true;
-  List own = list(last, 0);
+  const TallyEntry* begin = entries_.data() + first;
   joined_.clear();
   for (int c = 0; c < kind_.components; ++c)
   {
-    own = { c == 0 ? own.first : own.last, list(last, c).last };
-    isRight = joinInto(own, from.list(voxel, c), sign, joined_) && isRight;
-    // The end of this list is no longer needed, but for the next one's start, which is at hand.
+    const List own = { begin, list(last, c).last };
+    begin = own.last; // The end of this list becomes that of the joined one.
+    isRight = join(own, from.list(voxel, c), sign, isSum(kind_.statistic) ? kDigits : 0, joined_) && isRight;
     ends_[ends_.size() - std::size_t(kind_.components - c)] = first + joined_.size();
   }
   entries_.resize(first);

@@ -72,8 +72,6 @@ public:
   }
 
 private:
-  bool isDigit(std::uint64_t key) const;
-  bool joinInto(List a, List b, int sign, std::vector<TallyEntry>& list) const;
   template <typename T>
   bool isListOf(List list, std::int64_t count) const;
   template <typename T>
@@ -91,16 +89,15 @@ class TallySum
 public:
   /// @pre the least bit and the sum have exponents of doubles, or 64 less or more.
   void add(std::int64_t value, int exponent);
+  /// @pre integers come before.
   void addNonFinite(std::int64_t nans, std::int64_t plus, std::int64_t minus);
   /// Appends the list to a tally; it is that of 0 afterwards.
   void moveTo(VoxelTally& tally);
 
 private:
-  void carry();
-
-  std::vector<TallyEntry> digits_; ///< In any order, several of a key; a lone integer's are in order.
-  std::vector<TallyEntry> nonFinite_;
-  int integers_ = 0;
+  std::vector<TallyEntry> list_; ///< Of the sum so far.
+  std::vector<TallyEntry> more_; ///< Scratch: of the next integer, and of both.
+  std::vector<TallyEntry> both_;
 };
 
 /// A key for each value, in the order of orderedKey().
