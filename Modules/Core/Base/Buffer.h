@@ -1,11 +1,13 @@
 /// @file
-/// Raw memory that only grows and is reused: scratch of the inner loops.
+/// Raw memory: scratch of the inner loops that only grows and is reused, and vectors without a first value.
 #pragma once
 
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -20,10 +22,11 @@ enum class Pages
   Huge, ///< For large pieces, where the first touch of small pages costs more than the work on them.
 };
 
+constexpr std::size_t kHugePage = std::size_t(1) << 21;
+
 /// Memory for std::free, in huge pages where it is as large as one. @throw std::bad_alloc
 inline void* allocatePages(std::size_t bytes, Pages pages)
 {
-  constexpr std::size_t kHugePage = std::size_t(1) << 21;
   constexpr std::size_t kSmallAlignment = 4096;
   const bool large = pages == Pages::Huge && bytes >= kHugePage;
   const std::size_t alignment = large ? kHugePage : kSmallAlignment;
@@ -41,6 +44,47 @@ inline void* allocatePages(std::size_t bytes, Pages pages)
 #endif
   return memory;
 }
+
+/// Of PageVector.
+template <typename T>
+struct PageAllocator
+{
+  using value_type = T;
+
+  PageAllocator() = default;
+  template <typename U>
+  PageAllocator(const PageAllocator<U>&) noexcept
+  {
+  }
+  T* allocate(std::size_t count)
+  {
+    const std::size_t bytes = count * sizeof(T);
+    void* const memory = bytes < kLarge ? std::malloc(bytes) : allocatePages(bytes, Pages::Huge);
+    return memory ? static_cast<T*>(memory) : throw std::bad_alloc();
+  }
+  void deallocate(T* memory, std::size_t) { std::free(memory); }
+  template <typename U>
+  void construct(U*) noexcept
+  {
+    static_assert(std::is_trivially_default_constructible_v<U>);
+  }
+  template <typename U, typename... Arguments>
+  void construct(U* at, Arguments&&... arguments)
+  {
+    ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
+  }
+  friend bool operator==(const PageAllocator&, const PageAllocator&) { return true; }
+  friend bool operator!=(const PageAllocator&, const PageAllocator&) { return false; }
+
+private:
+  /// What is smaller is in memory that was used before, more often than not: that needs no first touch.
+  static constexpr std::size_t kLarge = 4 * kHugePage;
+};
+
+/// A vector whose resize() leaves new elements, of a trivial type, uninitialised. Large ones are in huge
+/// pages.
+template <typename T>
+using PageVector = std::vector<T, PageAllocator<T>>;
 
 /// Aligned, uninitialised elements of a trivial type. Growing loses the content.
 template <typename T>

@@ -1,5 +1,6 @@
 /// VoxelResampler on lattices whose voxels can be divided into partitions.
 #include "Core/Neighbors/PointIndex.h"
+#include "Core/Resample/Stages/VoxelRuns.h"
 #include "Core/Resample/VoxelResamplerImplementation.h"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ bool VoxelResampler::Implementation::accumulateAndWrite(
     }
   }
   level.size = std::int64_t(level.firsts.back());
-  sums_ = concatenated(runs);
+  sums_ = concatenated(runs, executor);
   return true;
 }
 

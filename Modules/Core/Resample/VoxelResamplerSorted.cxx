@@ -86,7 +86,7 @@ Status VoxelResampler::Implementation::runSorted(
         }
       });
   }
-  sums_ = concatenated(runs);
+  sums_ = concatenated(runs, executor);
   return Status::Ok;
 }
 

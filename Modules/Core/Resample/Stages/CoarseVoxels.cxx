@@ -1,6 +1,7 @@
 #include "Core/Resample/Stages/CoarseVoxels.h"
 
 #include "Core/Base/RadixSort.h"
+#include "Core/Resample/Stages/VoxelRuns.h"
 
 #include <algorithm>
 
@@ -11,43 +12,11 @@ namespace simd
 namespace
 {
 
-/// The coarse voxels of fine ones that come in ascending order: only a new row takes divisions.
-class CoarseKeys
-{
-public:
-  explicit CoarseKeys(const Lattice& fine)
-    : fine_(fine)
-    , coarse_(coarserLattice(fine))
-  {
-  }
-  /// The coarse voxel's key, then three bits: whether the indices z, y, x of the fine one are odd.
-  std::uint64_t of(std::uint64_t key)
-  {
-    if (key < rowBegin_ || key >= rowEnd_)
-    {
-      const auto index = fine_.indexOf(key);
-      rowBegin_ = key - std::uint64_t(index[0]);
-      rowEnd_ = rowBegin_ + std::uint64_t(fine_.dimensions[0]);
-      coarseRow_ = coarse_.key(0, index[1] / 2, index[2] / 2);
-      oddRow_ = std::uint64_t(index[2] % 2) << 2 | std::uint64_t(index[1] % 2) << 1;
-    }
-    const std::uint64_t x = key - rowBegin_;
-    return (coarseRow_ + x / 2) << 3 | oddRow_ | x % 2;
-  }
-
-private:
-  Lattice fine_;
-  Lattice coarse_;
-  std::uint64_t rowBegin_ = 0;
-  std::uint64_t rowEnd_ = 0;
-  std::uint64_t coarseRow_ = 0;
-  std::uint64_t oddRow_ = 0;
-};
-
-/// A fine voxel on its way into a coarse one.
+/// A fine voxel on its way into a coarse one, whose key is followed by three bits: whether the indices z, y,
+/// x of the fine one are odd.
 struct Entry
 {
-  std::uint64_t key; ///< See CoarseKeys.
+  std::uint64_t key;
   std::size_t voxel;
 };
 
@@ -59,28 +28,35 @@ struct Scratch
 
 /// Moves the offsets of a fine voxel into the coarse one: they grow by half a coarse voxel where the index is
 /// odd. No branch here depends on the voxel: it would be unpredictable.
-WideSums moved(const WideSums& voxel, std::uint64_t coarseKey, int fractionBits, SecondMoments* moments)
+WideSums moved(WideSums voxel, std::uint64_t entryKey, int fractionBits)
+{
+  const UInt128 half = UInt128(voxel.count) << fractionBits;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::uint64_t odd = -(entryKey >> axis & 1); // All bits, or none.
+    voxel.add(axis, std::uint64_t(half) & odd, std::uint64_t(half >> 64) & odd);
+  }
+  voxel.key = entryKey >> 3;
+  return voxel;
+}
+
+/// The same of products of offsets.
+SecondMoments movedMoments(
+  SecondMoments moments, const WideSums& voxel, std::uint64_t entryKey, int fractionBits)
 {
   constexpr int kRows[6] = { 0, 1, 2, 0, 1, 0 };
   constexpr int kColumns[6] = { 0, 1, 2, 1, 2, 2 };
-  VoxelSums sums = voxel.whole();
-  // All bits, or none.
-  const Int128 odd[3] = { -Int128(coarseKey & 1), -Int128(coarseKey >> 1 & 1), -Int128(coarseKey >> 2 & 1) };
-  const Int128 half = Int128(sums.count) << fractionBits;
-  const auto movedSum = [&](int axis) { return UInt128(sums.sums[axis]) << fractionBits; };
-  for (int m = 0; moments && m < 6; ++m)
+  const VoxelSums sums = voxel.whole();
+  const auto masked = [&](int axis, UInt128 value)
+  { return entryKey >> axis & 1 ? value << fractionBits : UInt128(0); };
+  for (int m = 0; m < 6; ++m)
   {
     const int a = kRows[m];
     const int b = kColumns[m];
-    moments->lanes[m] += (UInt128(odd[a]) & movedSum(b)) + (UInt128(odd[b]) & movedSum(a)) +
-      (UInt128(odd[a] & odd[b]) & (UInt128(half) << fractionBits));
+    moments.lanes[m] += masked(a, UInt128(sums.sums[b])) + masked(b, UInt128(sums.sums[a])) +
+      masked(a, masked(b, UInt128(sums.count)));
   }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    sums.sums[axis] += odd[axis] & half;
-  }
-  sums.key = coarseKey >> 3;
-  return WideSums::of(sums);
+  return moments;
 }
 
 /// Fine voxels that one thread takes at once, about, and how many such pieces there are between two reports.
@@ -91,11 +67,15 @@ constexpr std::size_t kPiecesPerReport = kPointsPerReport / kPieceVoxels;
 VoxelRun sumPiece(const VoxelRun& fine, std::size_t first, std::size_t last, const Lattice& lattice,
   int fractionBits, std::vector<std::int64_t>& parents, Scratch& scratch)
 {
-  CoarseKeys coarse(lattice);
+  RowIndices indices(lattice);
+  const Lattice coarse = coarserLattice(lattice);
   scratch.entries.clear();
   for (std::size_t v = first; v < last; ++v)
   {
-    scratch.entries.push_back({ coarse.of(fine.voxels[v].key), v });
+    const auto i = indices.of(fine.voxels[v].key);
+    const std::uint64_t odd =
+      std::uint64_t(i[2] % 2) << 2 | std::uint64_t(i[1] % 2) << 1 | std::uint64_t(i[0] % 2);
+    scratch.entries.push_back({ coarse.key(i[0] / 2, i[1] / 2, i[2] / 2) << 3 | odd, v });
   }
   scratch.other.resize(std::max(last - first, scratch.other.size()));
   radixSort(scratch.entries, scratch.other, last - first, [](const Entry& entry) { return entry.key; });
@@ -104,9 +84,12 @@ VoxelRun sumPiece(const VoxelRun& fine, std::size_t first, std::size_t last, con
   for (std::size_t i = 0; i < last - first; ++i)
   {
     const Entry& entry = scratch.entries[i];
-    SecondMoments moments = fine.hasMoments() ? fine.secondMoments[entry.voxel] : SecondMoments{};
-    SecondMoments* const wanted = fine.hasMoments() ? &moments : nullptr;
-    const WideSums voxel = moved(fine.voxels[entry.voxel], entry.key, fractionBits, wanted);
+    const WideSums& from = fine.voxels[entry.voxel];
+    const WideSums voxel = moved(from, entry.key, fractionBits);
+    const SecondMoments moments = fine.hasMoments()
+      ? movedMoments(fine.secondMoments[entry.voxel], from, entry.key, fractionBits)
+      : SecondMoments{};
+    const SecondMoments* const wanted = fine.hasMoments() ? &moments : nullptr;
     if (i > 0 && sums.voxels.back().key == voxel.key)
     {
       sums.addToLast(voxel, wanted);
@@ -159,7 +142,7 @@ bool sumCoarseVoxels(const VoxelRun& fine, const Lattice& lattice, int fractionB
       parents.begin() + std::ptrdiff_t(firsts[p + 1]), [=](std::int64_t& parent) { parent += before; });
     before += std::int64_t(runs[p].size());
   }
-  coarse = concatenated(runs);
+  coarse = concatenated(runs, executor);
   return true;
 }
 

@@ -294,14 +294,14 @@ void PartitionWorker::accumulate(std::uint32_t partition, AccumulatedPartition& 
 VoxelRun PartitionWorker::wide() const
 {
   VoxelRun run;
-  run.reserve(voxels_.size, covariances_);
+  run.resize(voxels_.size, covariances_);
   for (std::size_t i = 0; i < voxels_.size; ++i)
   {
-    run.voxels.push_back(WideSums::of(voxels_.firstKey + voxels_.cells[i], voxels_.sums[i]));
+    run.voxels[i] = WideSums::of(voxels_.firstKey + voxels_.cells[i], voxels_.sums[i]);
   }
   for (std::size_t i = 0; covariances_ && i < voxels_.size; ++i)
   {
-    run.secondMoments.push_back(whole(voxels_.secondMoments[i], plan().fractionBits));
+    run.secondMoments[i] = whole(voxels_.secondMoments[i], plan().fractionBits);
   }
   return old_->overfull.voxels.empty() ? run : merged(run, old_->overfull);
 }

@@ -52,6 +52,33 @@ VoxelRun merged(const VoxelRun& a, const VoxelRun& b)
   return both;
 }
 
+VoxelRun concatenated(std::vector<VoxelRun>& runs, const Executor& executor)
+{
+  std::vector<std::size_t> firsts = { 0 };
+  bool withMoments = false;
+  for (const VoxelRun& run : runs)
+  {
+    firsts.push_back(firsts.back() + run.size());
+    withMoments = withMoments || run.hasMoments();
+  }
+  VoxelRun all;
+  all.resize(firsts.back(), withMoments);
+  for (const VoxelRun& run : runs)
+  {
+    all.appendTallies(run, 0, run.size());
+  }
+  forEachItem(executor, runs.size(),
+    [&](std::size_t r)
+    {
+      const auto copy = [=](const auto& from, auto& to)
+      { std::copy(from.begin(), from.end(), to.begin() + std::ptrdiff_t(firsts[r])); };
+      copy(runs[r].voxels, all.voxels);
+      copy(runs[r].secondMoments, all.secondMoments);
+      runs[r] = VoxelRun();
+    });
+  return all;
+}
+
 void VoxelRuns::add(VoxelRun run)
 {
   if (run.size() == 0)

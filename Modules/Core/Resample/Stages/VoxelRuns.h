@@ -2,6 +2,7 @@
 /// Sums of voxels that come in several times, in runs that are in order.
 #pragma once
 
+#include "Core/Base/Executor.h"
 #include "Core/Resample/Stages/VoxelSums.h"
 
 #include <cstddef>
@@ -14,6 +15,9 @@ namespace simd
 
 /// The sums of two runs.
 VoxelRun merged(const VoxelRun& a, const VoxelRun& b);
+
+/// One run of several whose keys ascend from one to the next; these are freed.
+VoxelRun concatenated(std::vector<VoxelRun>& runs, const Executor& executor);
 
 /// The sums of the voxels of all points so far. Runs are merged when they are of like size, so that n of them
 /// take n log n time and hold little more than each voxel once.

@@ -164,23 +164,28 @@ void MeanArena::writeCovariances(const Kernels& kernels, std::size_t offset, con
 
 void MeanArena::write(std::size_t offset, const VoxelRun& run, std::size_t first, std::size_t last)
 {
+  RowIndices indices(lattice_);
   for (std::size_t v = first; v < last; ++v)
   {
-    this->write(offset++, run.voxels[v].whole(), run.momentsOf(v));
+    this->write(offset++, run.voxels[v].whole(), indices.of(run.voxels[v].key), run.momentsOf(v));
   }
 }
 
-void MeanArena::write(std::size_t offset, const VoxelSums& voxel, const SecondMoments* secondMoments)
+void MeanArena::write(std::size_t offset, const VoxelSums& voxel, const std::array<std::int64_t, 3>& index,
+  const SecondMoments* secondMoments)
 {
-  const auto index = lattice_.indexOf(voxel.key);
   for (int axis = 0; axis < 3; ++axis)
   {
     const std::int64_t i = index[std::size_t(axis)];
     const double inVoxel = toDouble(voxel.sums[axis]) / double(voxel.count) * map_.quantum;
-    const double coordinate = map_.origin[axis] + (double(i) + inVoxel) * map_.spacing[axis];
-    setCoordinate(offset, axis,
-      layout_.singlePrecision ? double(lattice_.keptInVoxel(float(coordinate), axis, i))
-                              : lattice_.keptInVoxel(coordinate, axis, i));
+    double coordinate = map_.origin[axis] + (double(i) + inVoxel) * map_.spacing[axis];
+    const double margin = map_.faceMargin[axis];
+    if (!(inVoxel > margin && inVoxel < 1.0 - margin))
+    {
+      coordinate = layout_.singlePrecision ? double(lattice_.keptInVoxel(float(coordinate), axis, i))
+                                           : lattice_.keptInVoxel(coordinate, axis, i);
+    }
+    setCoordinate(offset, axis, coordinate);
   }
   counts()[offset] = voxel.count;
   if (layout_.keys)

@@ -8,6 +8,7 @@
 #include "Core/Resample/Stages/VoxelSums.h"
 #include "Core/Resample/VoxelResampler.h"
 
+#include <array>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -121,7 +122,8 @@ private:
   template <typename Real>
   void writeMeans(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels, Real* xyz);
   void writeCovariances(const Kernels& kernels, std::size_t offset, const PartitionVoxels& voxels);
-  void write(std::size_t offset, const VoxelSums& voxel, const SecondMoments* secondMoments);
+  void write(std::size_t offset, const VoxelSums& voxel, const std::array<std::int64_t, 3>& index,
+    const SecondMoments* secondMoments);
 
   Layout layout_;
   Lattice lattice_;

@@ -2,6 +2,7 @@
 /// Exact sums of voxels' points: whole, and in as few words as they need.
 #pragma once
 
+#include "Core/Base/Buffer.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/Stages/VoxelTally.h"
 
@@ -34,14 +35,19 @@ struct WideSums
 
   static constexpr int kHighBits = 21;
 
+  /// Adds the low and the high bits of a sum.
+  void add(int axis, std::uint64_t lowBits, std::uint64_t highBits)
+  {
+    low[axis] += lowBits;
+    high += (highBits + std::uint64_t(low[axis] < lowBits)) << (kHighBits * axis);
+  }
   void add(const WideSums& other)
   {
     count += other.count;
     high += other.high;
     for (int axis = 0; axis < 3; ++axis)
     {
-      low[axis] += other.low[axis];
-      high += std::uint64_t(low[axis] < other.low[axis]) << (kHighBits * axis);
+      this->add(axis, other.low[axis], 0);
     }
   }
   static WideSums of(const VoxelSums& voxel)
@@ -83,8 +89,8 @@ inline void add(SecondMoments& to, const SecondMoments& moments)
 /// each array, unless arrays are accumulated.
 struct VoxelRun
 {
-  std::vector<WideSums> voxels;
-  std::vector<SecondMoments> secondMoments;
+  PageVector<WideSums> voxels;
+  PageVector<SecondMoments> secondMoments;
   std::vector<VoxelTally> tallies;
 
   std::size_t size() const { return voxels.size(); }
@@ -105,6 +111,12 @@ struct VoxelRun
   {
     voxels.reserve(size);
     secondMoments.reserve(withMoments ? size : 0);
+  }
+  /// Without what arrays have.
+  void resize(std::size_t size, bool withMoments)
+  {
+    voxels.resize(size);
+    secondMoments.resize(withMoments ? size : 0);
   }
   void push(const WideSums& sums, const SecondMoments* moments)
   {
@@ -182,26 +194,6 @@ struct VoxelRun
       [](std::size_t sum, const VoxelTally& tally) { return sum + tally.bytes(); });
   }
 };
-
-/// One run of several whose keys ascend from one to the next; these are freed.
-inline VoxelRun concatenated(std::vector<VoxelRun>& runs)
-{
-  std::size_t size = 0;
-  bool withMoments = false;
-  for (const VoxelRun& run : runs)
-  {
-    size += run.size();
-    withMoments = withMoments || run.hasMoments();
-  }
-  VoxelRun all;
-  all.reserve(size, withMoments);
-  for (VoxelRun& run : runs)
-  {
-    all.append(run, 0, run.size());
-    run = VoxelRun();
-  }
-  return all;
-}
 
 } // namespace simd
 } // namespace pointhaptics
