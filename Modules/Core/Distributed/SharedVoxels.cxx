@@ -156,7 +156,7 @@ Status SharedVoxels::share(Ranks& ranks, VoxelAccumulator own, int levels)
   std::vector<std::string> messages;
   for (std::size_t r = 0; r + 1 < ranges_.size(); ++r)
   {
-    messages.push_back(r == rank ? std::string() : own.part(ranges_[r], ranges_[r + 1]).serialize());
+    messages.push_back(r == rank ? std::string() : own.serialize(ranges_[r], ranges_[r + 1]));
   }
   VoxelAccumulator kept = own.part(ranges_[rank], ranges_[rank + 1]);
   own = VoxelAccumulator(Lattice());

@@ -41,7 +41,7 @@ std::vector<std::int64_t> numbersOfKeys(Ranks& ranks, const std::vector<std::uin
 ///
 /// Voxels are exact sums, so it makes no difference where they are merged: the voxels of all ranks, one rank
 /// after the other, are those of one run over all points, bit for bit, however the points are split. What is
-/// sent is in proportion to the active voxels (64 bytes each, 160 with covariances, and the sums of arrays),
+/// sent is in proportion to the active voxels (48 bytes each, 144 with covariances, and the sums of arrays),
 /// not to the points. One thread at a time.
 class SharedVoxels
 {

@@ -153,7 +153,7 @@ void AttributeMean::clear(std::int64_t voxels, const Executor& executor)
   if (range_.hasNonFinite)
   {
     nonFinite_.reserve(size);
-    std::fill(nonFinite_.data(), nonFinite_.data() + size, NonFinite());
+    std::fill(nonFinite_.data(), nonFinite_.data() + size, NonFiniteCount());
   }
 }
 
@@ -256,7 +256,7 @@ void AttributeMean::addInParts(Real value, std::int64_t place)
   std::int64_t* const sum = sums_.data() + lanes_ * place;
   if (range_.hasNonFinite && !std::isfinite(value))
   {
-    NonFinite& seen = nonFinite_[std::size_t(place)];
+    NonFiniteCount& seen = nonFinite_[std::size_t(place)];
     ++(std::isnan(value) ? seen.nans : value > Real(0) ? seen.plus : seen.minus);
   }
   else if (lanes_ == 1)
@@ -328,7 +328,7 @@ void AttributeMean::add(const std::int64_t* points, const std::int64_t* voxels, 
 void AttributeMean::regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels)
 {
   const Buffer<std::int64_t> fine = std::move(sums_);
-  const Buffer<NonFinite> fineNonFinite = std::move(nonFinite_);
+  const Buffer<NonFiniteCount> fineNonFinite = std::move(nonFinite_);
   clear(voxels, Executor());
   const auto components = std::size_t(view_.components);
   const std::size_t width = components * std::size_t(lanes_);
@@ -341,8 +341,8 @@ void AttributeMean::regroup(const std::vector<std::int64_t>& parents, std::int64
     }
     for (std::size_t c = 0; range_.hasNonFinite && c < components; ++c)
     {
-      NonFinite& seen = nonFinite_[parent * components + c];
-      const NonFinite& more = fineNonFinite[v * components + c];
+      NonFiniteCount& seen = nonFinite_[parent * components + c];
+      const NonFiniteCount& more = fineNonFinite[v * components + c];
       seen = { seen.nans + more.nans, seen.plus + more.plus, seen.minus + more.minus };
     }
   }

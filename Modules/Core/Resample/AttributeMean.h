@@ -55,12 +55,12 @@ public:
     const Executor& executor) override;
   void add(const std::int64_t* points, const std::int64_t* voxels, int count) override;
   void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) override;
-  void tally(simd::VoxelTally& to) const override;
+  simd::VoxelTally tally() const override;
   /// Integers are rounded to the nearest, halves away from zero.
   bool write(const std::int64_t* counts, void* means, const Executor& executor,
     ProgressObserver* observer) const override;
-  /// The mean of one voxel in double: components numbers.
-  void mean(std::int64_t voxel, std::int64_t count, double* means) const;
+  /// The mean of a component of one voxel in double.
+  double mean(std::int64_t voxel, int component, std::int64_t count) const;
 
   const AttributeView& view() const { return view_; }
   const AttributeRange& range() const { return range_; }
@@ -69,13 +69,6 @@ private:
   static constexpr int kMostPartBits = 40;
   /// The most parts from the largest double to the last bit of the smallest, at 28 bits each.
   static constexpr int kMostLanes = 80;
-  /// How many numbers are not finite.
-  struct NonFinite
-  {
-    std::int64_t nans = 0;
-    std::int64_t plus = 0;
-    std::int64_t minus = 0;
-  };
 
   bool isFloating() const { return view_.type == ScalarType::Float || view_.type == ScalarType::Double; }
   void chooseParts();
@@ -86,8 +79,7 @@ private:
   void addReals(const std::int64_t* points, const std::int64_t* voxels, int count);
   template <typename Real>
   void addInParts(Real value, std::int64_t place);
-  template <typename T>
-  void writeTuple(std::int64_t voxel, std::int64_t count, T* tuple) const;
+  int exponentOf(int lane) const;
   bool sumsAreWords() const;
   simd::WordSums wordSums(const std::int64_t* counts, std::int64_t begin, std::int64_t end) const;
   const std::int64_t* lanes(std::int64_t voxel, int component) const
@@ -96,7 +88,6 @@ private:
   }
   simd::Int128 integerSum(std::int64_t voxel, int component) const;
   double realSum(std::int64_t voxel, int component, int& exponent) const;
-  double realMean(std::int64_t voxel, int component, std::int64_t count) const;
 
   AttributeView view_;
   std::optional<std::array<Vec3, 3>> columns_; ///< How vectors are turned.
@@ -107,8 +98,8 @@ private:
   AttributeRange range_;
   std::int64_t voxels_ = 0;
   std::int64_t mostPoints_ = 0;
-  Buffer<std::int64_t> sums_;   ///< [voxel][component][lane]
-  Buffer<NonFinite> nonFinite_; ///< [voxel][component], where there are any.
+  Buffer<std::int64_t> sums_;        ///< [voxel][component][lane]
+  Buffer<NonFiniteCount> nonFinite_; ///< [voxel][component], where there are any.
 };
 
 } // namespace pointhaptics

@@ -41,62 +41,32 @@ double AttributeMean::realSum(std::int64_t voxel, int component, int& exponent) 
     return high > -kExact && high < kExact ? double(high) * powerOfTwo(partBits_) + double(low)
                                            : double(Int128(high) * (Int128(1) << partBits_) + low);
   }
-  // Carries from part to part, all of one sign afterwards; rounded once, from the first part that is not 0.
-  std::int64_t parts[kMostLanes];
-  std::copy(sum, sum + lanes_, parts);
-  const auto carry = [&]
+  std::int32_t digits[simd::ExactNumber::kPlaces] = {};
+  for (int part = 0; part < lanes_; ++part)
   {
-    for (int part = lanes_ - 1; part > 0; --part)
-    {
-      const std::int64_t over = parts[part] >> partBits_;
-      parts[part] -= over * (std::int64_t(1) << partBits_);
-      parts[part - 1] += over;
-    }
-  };
-  carry();
-  const bool negative = parts[0] < 0;
-  if (negative)
-  {
-    std::transform(sum, sum + lanes_, parts, [](std::int64_t part) { return -part; });
-    carry();
+    const simd::ShiftedInteger more(sum[part], exponentOf(part));
+    simd::addDigits(more.number(), 1, 0, simd::ExactNumber::kPlaces, digits);
   }
-  int first = 0;
-  while (first + 2 < lanes_ && parts[first] == 0)
-  {
-    ++first;
-  }
-  Int128 whole = Int128(parts[first]) * (Int128(1) << partBits_) + parts[first + 1];
-  int last = first + 1;
-  if (last + 1 < lanes_ && parts[first] >> kMostPartBits == 0)
-  {
-    whole = whole * (Int128(1) << partBits_) + parts[++last];
-  }
-  const bool more =
-    std::any_of(parts + last + 1, parts + lanes_, [](std::int64_t part) { return part != 0; });
-  exponent = range_.exponent - (last + 1) * partBits_ - 1;
-  const auto rounded = double(2 * whole + more);
-  return negative ? -rounded : rounded;
+  return simd::ExactNumber{ 0, simd::ExactNumber::kPlaces, digits }.rounded(exponent);
 }
 
-double AttributeMean::realMean(std::int64_t voxel, int component, std::int64_t count) const
+double AttributeMean::mean(std::int64_t voxel, int component, std::int64_t count) const
 {
-  const NonFinite seen =
-    range_.hasNonFinite ? nonFinite_[std::size_t(view_.components * voxel + component)] : NonFinite();
-  if (seen.nans + seen.plus + seen.minus > 0)
+  if (!isFloating())
   {
-    return simd::meanWithNonFinite(seen.nans > 0, seen.plus > 0, seen.minus > 0);
+    return double(integerSum(voxel, component)) / double(count);
+  }
+  if (range_.hasNonFinite)
+  {
+    const NonFiniteCount& seen = nonFinite_[std::size_t(view_.components * voxel + component)];
+    if (seen.any())
+    {
+      return simd::meanWithNonFinite(seen);
+    }
   }
   int exponent;
   const double sum = realSum(voxel, component, exponent);
   return simd::scaledMean(sum, exponent, count);
-}
-
-void AttributeMean::mean(std::int64_t voxel, std::int64_t count, double* means) const
-{
-  for (int c = 0; c < view_.components; ++c)
-  {
-    means[c] = isFloating() ? realMean(voxel, c, count) : double(integerSum(voxel, c)) / double(count);
-  }
 }
 
 /// Each sum is one word, which the kernels divide.
@@ -119,52 +89,31 @@ simd::WordSums AttributeMean::wordSums(const std::int64_t* counts, std::int64_t 
     isFloating() ? powerOfTwo(range_.exponent - partBits_) : 1.0 };
 }
 
-void AttributeMean::tally(simd::VoxelTally& to) const
+/// Of what is counted in a lane.
+int AttributeMean::exponentOf(int lane) const
 {
-  simd::TallySum sum;
-  for (std::int64_t voxel = 0; voxel < voxels_; ++voxel)
-  {
-    for (int c = 0; c < view_.components; ++c)
-    {
-      const std::int64_t* const parts = lanes(voxel, c);
-      for (int part = 0; part < lanes_; ++part)
-      {
-        constexpr int kIntegerPart = 32;
-        sum.add(parts[part],
-          isFloating() ? range_.exponent - (part + 1) * partBits_ : (lanes_ - 1 - part) * kIntegerPart);
-      }
-      if (range_.hasNonFinite)
-      {
-        const NonFinite& seen = nonFinite_[std::size_t(view_.components * voxel + c)];
-        sum.addNonFinite(seen.nans, seen.plus, seen.minus);
-      }
-      sum.moveTo(to);
-    }
-  }
+  constexpr int kIntegerPart = 32;
+  return isFloating() ? range_.exponent - (lane + 1) * partBits_ : (lanes_ - 1 - lane) * kIntegerPart;
 }
 
-template <typename T>
-void AttributeMean::writeTuple(std::int64_t voxel, std::int64_t count, T* tuple) const
+simd::VoxelTally AttributeMean::tally() const
 {
-  if (columns_)
+  simd::VoxelTally tally;
+  tally.sums.components = view_.components;
+  tally.sums.push(std::size_t(voxels_ * view_.components));
+  for (std::size_t sum = 0; sum < tally.sums.size; ++sum)
   {
-    Vec3 vector;
-    mean(voxel, count, &vector.x);
-    vector = simd::turnedMean<T>(vector, *columns_);
-    std::transform(&vector.x, &vector.x + 3, tuple, [](double x) { return T(x); });
-    return;
-  }
-  for (int c = 0; c < view_.components; ++c)
-  {
-    if constexpr (std::is_floating_point_v<T>)
+    for (int lane = 0; lane < lanes_; ++lane)
     {
-      tuple[c] = T(realMean(voxel, c, count));
+      const std::int64_t part = sums_[sum * std::size_t(lanes_) + std::size_t(lane)];
+      tally.sums.add(sum, simd::ShiftedInteger(part, exponentOf(lane)).number());
     }
-    else
+    if (range_.hasNonFinite)
     {
-      tuple[c] = simd::roundedMean<T>(integerSum(voxel, c), count);
+      static_cast<void>(tally.sums.add(sum, nonFinite_[sum])); // No count is below 0.
     }
   }
+  return tally;
 }
 
 bool AttributeMean::write(
@@ -193,7 +142,9 @@ bool AttributeMean::write(
           }
           for (std::int64_t v = begin; v < end; ++v, to += view_.components)
           {
-            writeTuple(v, counts[v], to);
+            simd::writeMeans(
+              view_.components, counts[v], columns_ ? &*columns_ : nullptr, to,
+              [&](int c) { return mean(v, c, counts[v]); }, [&](int c) { return integerSum(v, c); });
           }
         });
     });

@@ -19,6 +19,7 @@ namespace pointhaptics
 namespace simd
 {
 class VoxelTally;
+struct TallyValues;
 }
 
 /// What turns normals: the products of their components with these are added.
@@ -44,8 +45,8 @@ public:
   /// What voxel i has goes to voxel parents[i] of @p voxels (VoxelResampler::parents()).
   virtual void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) = 0;
 
-  /// Appends what the voxels have, for more to be added.
-  virtual void tally(simd::VoxelTally& to) const = 0;
+  /// What the voxels have, for more to be added.
+  virtual simd::VoxelTally tally() const = 0;
 
   /// Writes the tuples of all voxels, @p counts points each, in the array's own type. @return false where
   /// @p observer, which may be null, aborted the work.

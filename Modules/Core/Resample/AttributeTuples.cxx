@@ -165,11 +165,9 @@ void AttributeTuples::writeValues(std::int64_t first, std::int64_t last, T* to) 
 }
 
 template <typename T>
-void AttributeTuples::tallyValues(simd::VoxelTally& to) const
+void AttributeTuples::tallyValues(simd::TallyValues& to) const
 {
-  using Key = decltype(orderedKey(T()));
-  std::vector<Key> keys;
-  std::vector<simd::TallyEntry> list;
+  std::vector<decltype(orderedKey(T()))> keys;
   for (std::int64_t v = 0; v < voxels(); ++v)
   {
     for (int c = 0; c < view_.components; ++c)
@@ -180,24 +178,25 @@ void AttributeTuples::tallyValues(simd::VoxelTally& to) const
         keys.push_back(orderedKey(tuple<T>(i)[c]));
       }
       std::sort(keys.begin(), keys.end());
-      list.clear();
-      for (const Key key : keys)
+      for (std::size_t i = 0; i < keys.size(); ++i)
       {
-        const std::uint64_t tallied = simd::tallyKeyOf(key);
-        if (list.empty() || list.back().key != tallied)
+        if (i == 0 || keys[i] != keys[i - 1])
         {
-          list.push_back({ tallied, 0 });
+          to.values.push_back({ std::int64_t(keys[i]), 0 });
         }
-        ++list.back().amount;
+        ++to.values.back().points;
       }
-      to.push(list);
+      to.ends.push_back(to.values.size());
     }
   }
 }
 
-void AttributeTuples::tally(simd::VoxelTally& to) const
+simd::VoxelTally AttributeTuples::tally() const
 {
-  withType(view_.type, [&](auto example) { tallyValues<decltype(example)>(to); });
+  simd::VoxelTally tally;
+  tally.values.components = view_.components;
+  withType(view_.type, [&](auto example) { tallyValues<decltype(example)>(tally.values); });
+  return tally;
 }
 
 bool AttributeTuples::write(

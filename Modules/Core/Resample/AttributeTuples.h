@@ -24,8 +24,11 @@ Key turnedNegative(Key key)
   return Key(key ^ ((key >> (8 * sizeof(Key) - 1)) & std::numeric_limits<Key>::max()));
 }
 
-/// An integer for each value, in the order of the values. Of floating-point numbers NaN is the largest, and
-/// both zeros are one.
+/// Of 64-bit integers without a sign, taken as ones with it.
+constexpr std::uint64_t kFirstNegative = std::uint64_t(1) << 63;
+
+/// An integer of at most 63 bits and a sign for each value, in the order of the values. Of floating-point
+/// numbers NaN is the largest, and both zeros are one.
 template <typename T>
 auto orderedKey(T value)
 {
@@ -36,6 +39,10 @@ auto orderedKey(T value)
     std::memcpy(&key, &value, sizeof key);
     return turnedNegative(key);
   }
+  else if constexpr (std::is_same_v<T, std::uint64_t>)
+  {
+    return std::int64_t(value - kFirstNegative);
+  }
   else
   {
     return value;
@@ -43,19 +50,23 @@ auto orderedKey(T value)
 }
 
 /// The value of a key: NaN for all NaNs, +0 for both zeros.
-template <typename T, typename Key>
-T valueOfKey(Key key)
+template <typename T>
+T valueOfKey(std::int64_t key)
 {
   if constexpr (std::is_floating_point_v<T>)
   {
-    key = turnedNegative(key);
+    const auto bits = turnedNegative(decltype(orderedKey(T()))(key));
     T value;
-    std::memcpy(&value, &key, sizeof value);
+    std::memcpy(&value, &bits, sizeof value);
     return value;
+  }
+  else if constexpr (std::is_same_v<T, std::uint64_t>)
+  {
+    return std::uint64_t(key) + kFirstNegative;
   }
   else
   {
-    return key;
+    return T(key);
   }
 }
 
@@ -78,7 +89,7 @@ public:
     const Executor& executor) override;
   void add(const std::int64_t* points, const std::int64_t* voxels, int count) override;
   void regroup(const std::vector<std::int64_t>& parents, std::int64_t voxels) override;
-  void tally(simd::VoxelTally& to) const override;
+  simd::VoxelTally tally() const override;
   /// @pre each voxel has as many tuples as it was said to get.
   bool write(const std::int64_t* counts, void* values, const Executor& executor,
     ProgressObserver* observer) const override;
@@ -103,7 +114,7 @@ private:
     return reinterpret_cast<T*>(tuples_.data()) + view_.components * i;
   }
   template <typename T>
-  void tallyValues(simd::VoxelTally& to) const;
+  void tallyValues(simd::TallyValues& to) const;
   template <typename T>
   void writeValues(std::int64_t first, std::int64_t last, T* to) const;
 

@@ -33,6 +33,16 @@ struct AttributeRange
   bool hasNonFinite = false;
 };
 
+/// How many numbers are not finite.
+struct NonFiniteCount
+{
+  std::int64_t nans = 0;
+  std::int64_t plus = 0;
+  std::int64_t minus = 0;
+
+  bool any() const { return nans > 0 || plus > 0 || minus > 0; }
+};
+
 /// What an array becomes in a voxel. All are exact, and none depends on the order of the points.
 enum class AttributeStatistic
 {

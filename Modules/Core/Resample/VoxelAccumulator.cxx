@@ -129,17 +129,17 @@ bool VoxelAccumulator::hasCovariances() const
 
 std::int64_t VoxelAccumulator::points() const
 {
-  return added_->points - subtracted_->points;
+  return added_->counts.points - subtracted_->counts.points;
 }
 
 std::int64_t VoxelAccumulator::clippedPoints() const
 {
-  return added_->clipped - subtracted_->clipped;
+  return added_->counts.clipped - subtracted_->counts.clipped;
 }
 
 std::int64_t VoxelAccumulator::invalidPoints() const
 {
-  return added_->invalid - subtracted_->invalid;
+  return added_->counts.invalid - subtracted_->counts.invalid;
 }
 
 Status VoxelAccumulator::change(Sums& sums, const PointView& points, const std::vector<AttributeView>& arrays,
@@ -150,7 +150,7 @@ Status VoxelAccumulator::change(Sums& sums, const PointView& points, const std::
     return view.type == array.type && view.components == array.components && view.tuples >= points.size() &&
       (array.statistic != AttributeStatistic::Normal || array.components == 3);
   };
-  if (points.size() > kMostPoints - sums.points || (common_ && !sameTransform(*common_, transform)) ||
+  if (points.size() > kMostPoints - sums.counts.points || (common_ && !sameTransform(*common_, transform)) ||
     !std::equal(arrays_.begin(), arrays_.end(), arrays.begin(), arrays.end(), fits))
   {
     return Status::InvalidParameter;
@@ -179,20 +179,15 @@ Status VoxelAccumulator::change(Sums& sums, const PointView& points, const std::
   {
     return status;
   }
-  for (std::size_t i = 0; i < run.tallies.size(); ++i)
-  {
-    run.tallies[i].setKind(arrays_[i]); // Not of the numbers that were turned.
-  }
-  sums.points += points.size();
-  sums.clipped += engine.clipped;
-  sums.invalid += engine.invalid;
+  sums.counts.add({ points.size(), engine.clipped, engine.invalid });
   sums.runs.add(std::move(run));
   return Status::Ok;
 }
 
 Status VoxelAccumulator::merge(VoxelAccumulator&& other)
 {
-  const auto fits = [](const Sums& a, const Sums& b) { return b.points <= kMostPoints - a.points; };
+  const auto fits = [](const Sums& a, const Sums& b)
+  { return b.counts.points <= kMostPoints - a.counts.points; };
   if (!sameLattice(lattice_, other.lattice_) || covariances_ != other.covariances_ ||
     !(arrays_ == other.arrays_) || !sameTransforms(common_, other.common_) || !fits(*added_, *other.added_) ||
     !fits(*subtracted_, *other.subtracted_))
@@ -201,9 +196,7 @@ Status VoxelAccumulator::merge(VoxelAccumulator&& other)
   }
   const auto mergeSums = [](Sums& to, Sums& from)
   {
-    to.points += from.points;
-    to.clipped += from.clipped;
-    to.invalid += from.invalid;
+    to.counts.add(from.counts);
     to.runs.add(std::move(from.runs.whole()));
   };
   mergeSums(*added_, *other.added_);
@@ -223,7 +216,7 @@ Status VoxelAccumulator::merge(const VoxelAccumulator& other)
 /// Takes what was subtracted out of what was added. @return false where that is not possible.
 bool VoxelAccumulator::settle()
 {
-  if (subtracted_->points == 0)
+  if (subtracted_->counts.points == 0)
   {
     return true;
   }
@@ -233,12 +226,9 @@ bool VoxelAccumulator::settle()
   {
     return false;
   }
-  auto left = std::make_unique<Sums>();
-  left->points = this->points();
-  left->clipped = this->clippedPoints();
-  left->invalid = this->invalidPoints();
-  left->runs.add(std::move(difference));
-  added_ = std::move(left);
+  added_->counts.add(subtracted_->counts, -1);
+  added_->runs = {};
+  added_->runs.add(std::move(difference));
   subtracted_ = std::make_unique<Sums>();
   return true;
 }
@@ -267,32 +257,38 @@ Status VoxelAccumulator::finish(
   const Status status = engine.finishSums(request, added_->runs.whole(), executor, observer);
   if (status == Status::Ok)
   {
-    engine.clipped = added_->clipped;
-    engine.invalid = added_->invalid;
+    engine.clipped = added_->counts.clipped;
+    engine.invalid = added_->counts.invalid;
   }
   return status;
+}
+
+VoxelAccumulator::Sums::Range VoxelAccumulator::Sums::range(std::uint64_t firstKey, std::uint64_t endKey)
+{
+  const VoxelRun& run = runs.whole();
+  const std::size_t first = run.find(firstKey);
+  Range range = { first, std::max(first, run.find(endKey)), {} };
+  if (firstKey == 0 && endKey > 0)
+  {
+    range.counts = { counts.clipped + counts.invalid, counts.clipped, counts.invalid };
+  }
+  range.counts.points = std::accumulate(run.voxels.begin() + std::ptrdiff_t(first),
+    run.voxels.begin() + std::ptrdiff_t(range.last), range.counts.points,
+    [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
+  return range;
 }
 
 VoxelAccumulator VoxelAccumulator::part(std::uint64_t first, std::uint64_t end)
 {
   VoxelAccumulator part = this->withoutPoints();
-  if (!this->settle())
+  if (this->settle())
   {
-    return part;
+    const Sums::Range range = added_->range(first, end);
+    VoxelRun copy;
+    copy.append(added_->runs.whole(), range.first, range.last);
+    part.added_->counts = range.counts;
+    part.added_->runs.add(std::move(copy));
   }
-  const VoxelRun& run = added_->runs.whole();
-  const std::size_t begin = run.find(first);
-  VoxelRun copy;
-  copy.append(run, begin, std::max(begin, run.find(end)));
-  Sums& sums = *part.added_;
-  if (first == 0 && end > 0)
-  {
-    sums.clipped = added_->clipped;
-    sums.invalid = added_->invalid;
-  }
-  sums.points = std::accumulate(copy.voxels.begin(), copy.voxels.end(), sums.clipped + sums.invalid,
-    [](std::int64_t sum, const WideSums& voxel) { return sum + voxel.count; });
-  sums.runs.add(std::move(copy));
   return part;
 }
 

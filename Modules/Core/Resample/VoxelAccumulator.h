@@ -29,9 +29,9 @@ namespace pointhaptics
 ///
 /// Memory: 48 bytes an active voxel, 144 with covariances, at most a third more, and as much for what was
 /// subtracted since the last finish(). Time: that of resampling for the points of a call, and of copying
-/// voxels a few times; finish() costs in proportion to the active voxels. Arrays: 8 bytes a voxel and
-/// component, and 16 for each 32 bits of its sum, mostly one or two, or for each value of a voxel's points
-/// where the most frequent or the middle one is wanted. One thread at a time may use an object.
+/// voxels a few times; finish() costs in proportion to the active voxels. Arrays: 4 bytes a voxel and
+/// component for each 32 bits of the sums, mostly one to three times; where the most frequent or the middle
+/// value is wanted, 8, and 16 for each value of the voxel's points. One thread at a time may use an object.
 class VoxelAccumulator
 {
 public:
@@ -113,9 +113,10 @@ public:
   Status finish(const Request& request, VoxelResampler& result, const Executor& executor = {},
     ProgressObserver* observer = nullptr);
 
-  /// The sums as bytes, for a file or another process: a version, the lattice, the voxels; little-endian, the
-  /// same for equal sums. Empty where points were subtracted that had not been added.
-  std::string serialize();
+  /// The sums as bytes, for a file or another process: a version, the lattice, the voxels, those of part(@p
+  /// first, @p end); little-endian, the same for equal sums. Empty where points were subtracted that had not
+  /// been added.
+  std::string serialize(std::uint64_t first = 0, std::uint64_t end = ~std::uint64_t(0));
   /// The voxels whose keys are from @p first to before @p end, and their points alone; those clipped or
   /// invalid go with the first key, 0. The parts of all ranges merge to the whole. None where points were
   /// subtracted that had not been added.

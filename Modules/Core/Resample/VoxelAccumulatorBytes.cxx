@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 namespace pointhaptics
@@ -15,186 +16,105 @@ using namespace simd;
 namespace
 {
 
-constexpr char kMagic[8] = { 'P', 'H', 'V', 'o', 'x', 'e', 'l', '2' };
-
-/// Writes a number as a word of 64 bits or two, the lowest byte first on every machine. @return its end.
-template <typename Number>
-char* put(char* to, const Number& number)
-{
-  static_assert(sizeof(Number) % sizeof(std::uint64_t) == 0, "whole words");
-  if constexpr (sizeof(Number) > sizeof(std::uint64_t))
-  {
-    return put(put(to, std::uint64_t(number)), std::uint64_t(UInt128(number) >> 64));
-  }
-  else
-  {
-    std::uint64_t word;
-    std::memcpy(&word, &number, sizeof word);
-    for (std::size_t i = 0; i < sizeof word; ++i)
-    {
-      *to++ = char(word >> (8 * i) & 255);
-    }
-    return to;
-  }
-}
-
-/// Reads what put() wrote.
-template <typename Number>
-const char* take(const char* from, Number& number)
-{
-  if constexpr (sizeof(Number) > sizeof(std::uint64_t))
-  {
-    std::uint64_t words[2];
-    from = take(take(from, words[0]), words[1]);
-    number = Number(UInt128(words[1]) << 64 | words[0]);
-  }
-  else
-  {
-    std::uint64_t word = 0;
-    for (std::size_t i = 0; i < sizeof word; ++i)
-    {
-      word |= std::uint64_t(static_cast<unsigned char>(*from++)) << (8 * i);
-    }
-    std::memcpy(&number, &word, sizeof word);
-  }
-  return from;
-}
+/// "PHVoxel3" in the bytes.
+constexpr std::uint64_t kMagic = 0x336c65786f564850;
 
 struct Header
 {
+  std::uint64_t magic;
   Lattice lattice;
-  std::uint64_t covariances = 0;
-  std::int64_t fractionBits = 0;
-  std::int64_t points = 0;
-  std::int64_t clipped = 0;
-  std::int64_t invalid = 0;
-  std::uint64_t voxels = 0;
+  std::uint64_t covariances;
+  std::int64_t fractionBits;
+  PointCounts counts;
 };
 
-constexpr std::size_t kHeaderBytes = sizeof kMagic + (12 + 6) * sizeof(std::uint64_t);
+/// An array's type, components and statistic.
+using ArrayWords = std::array<std::uint64_t, 3>;
 
-/// Calls each(number) for the numbers of a header, in their order.
-template <typename SomeHeader, typename Each>
-void forNumbers(SomeHeader& header, const Each& each)
+/// What is written besides voxels.
+struct Content
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    each(header.lattice.origin[axis]);
-    each(header.lattice.spacing[axis]);
-    each(header.lattice.dimensions[std::size_t(axis)]);
-    each(header.lattice.end[axis]);
-  }
-  each(header.covariances);
-  each(header.fractionBits);
-  each(header.points);
-  each(header.clipped);
-  each(header.invalid);
-  each(header.voxels);
-}
-
-/// The same of a voxel.
-template <typename Sums, typename Moments, typename Each>
-void forNumbers(Sums& voxel, Moments* moments, const Each& each)
-{
-  each(voxel.key);
-  each(voxel.count);
-  std::for_each(voxel.sums, voxel.sums + 3, each);
-  if (moments)
-  {
-    std::for_each(moments->lanes, moments->lanes + 6, each);
-  }
-}
-
-std::size_t bytesOfVoxel(const Header& header)
-{
-  return sizeof(VoxelSums) + (header.covariances ? sizeof(SecondMoments) : 0);
-}
-
-bool isCount(std::int64_t n)
-{
-  return n >= 0 && n <= VoxelAccumulator::kMostPoints;
-}
-
-/// @return false for what no accumulator writes, fewer bytes than its voxels take included.
-bool readHeader(std::string_view bytes, Header& header)
-{
-  if (bytes.size() < kHeaderBytes || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
-  {
-    return false;
-  }
-  const char* from = bytes.data() + sizeof kMagic;
-  forNumbers(header, [&](auto& number) { from = take(from, number); });
-  const Lattice& lattice = header.lattice;
-  const std::size_t left = bytes.size() - kHeaderBytes;
-  return header.covariances <= 1 && header.voxels <= left / bytesOfVoxel(header) && isCount(header.points) &&
-    isCount(header.clipped) && isCount(header.invalid) && lattice.check() == Status::Ok &&
-    !std::isnan(lattice.end.x) && !std::isnan(lattice.end.y) && !std::isnan(lattice.end.z);
-}
-
-/// @return false where a mean would not lie in its voxel.
-bool liesInVoxel(const VoxelSums& voxel, std::int64_t fractionBits)
-{
-  return isCount(voxel.count) && voxel.count > 0 &&
-    std::all_of(voxel.sums, voxel.sums + 3,
-      [&](Int128 sum) {
-        return UInt128(sum) >> (64 + WideSums::kHighBits) == 0 && sum < Int128(voxel.count) << fractionBits;
-      });
-}
-
-/// @param keys above all of the lattice. @pre the bytes are as many as the header says.
-bool readVoxels(const char* from, const Header& header, std::uint64_t keys, VoxelRun& run)
-{
-  std::int64_t points = header.clipped + header.invalid;
-  run.reserve(header.voxels, header.covariances == 1);
-  for (std::uint64_t v = 0; v < header.voxels; ++v)
-  {
-    VoxelSums voxel;
-    SecondMoments moments;
-    SecondMoments* const wanted = header.covariances ? &moments : nullptr;
-    forNumbers(voxel, wanted, [&](auto& number) { from = take(from, number); });
-    if (!liesInVoxel(voxel, header.fractionBits) || voxel.key >= keys ||
-      (v > 0 && voxel.key <= run.voxels.back().key) || voxel.count > header.points - points)
-    {
-      return false;
-    }
-    points += voxel.count;
-    run.push(WideSums::of(voxel), wanted);
-  }
-  return points == header.points;
-}
-
-/// What follows the voxels: the arrays, the common transform, what the arrays have in the voxels.
-struct Arrays
-{
-  std::vector<VoxelAccumulator::Array> kinds;
-  std::optional<AffineTransform> common;
+  Header header;
+  std::vector<ArrayWords> arrays;
+  std::vector<AffineTransform> common; ///< One or none.
 };
 
-/// Words, as long as there are any.
-class WordReader
+/// The numbers that a thing consists of, all of one size.
+template <typename T>
+using NumberOf = std::conditional_t<std::is_same_v<T, SecondMoments>, UInt128,
+  std::conditional_t<sizeof(T) % sizeof(std::uint64_t) == 0, std::uint64_t, std::uint32_t>>;
+template <typename T>
+constexpr std::size_t kNumbersOf = sizeof(T) / sizeof(NumberOf<T>);
+
+/// Writes numbers, the lowest byte first on every machine. Without memory it only counts bytes.
+class Writer
 {
 public:
-  explicit WordReader(std::string_view bytes)
+  explicit Writer(char* memory)
+    : memory_(memory)
+  {
+  }
+  template <typename T>
+  void one(const T& thing)
+  {
+    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(NumberOf<T>) == 0);
+    NumberOf<T> numbers[kNumbersOf<T>];
+    std::memcpy(numbers, &thing, sizeof thing);
+    char* to = memory_ ? memory_ + bytes_ : nullptr;
+    for (std::size_t i = 0; to && i < sizeof thing; ++i)
+    {
+      *to++ = char(numbers[i / sizeof *numbers] >> (8 * (i % sizeof *numbers)) & 255);
+    }
+    bytes_ += sizeof thing;
+  }
+  /// Elements @p first to before @p last. @return how many they are.
+  template <typename Vector>
+  std::uint64_t part(const Vector& elements, std::size_t first, std::size_t last)
+  {
+    this->one(std::uint64_t(last - first));
+    std::for_each(
+      elements.data() + first, elements.data() + last, [this](const auto& element) { this->one(element); });
+    return last - first;
+  }
+  std::size_t bytes() const { return bytes_; }
+
+private:
+  char* memory_;
+  std::size_t bytes_ = 0;
+};
+
+/// Reads what a Writer wrote; zeros beyond the end.
+class Reader
+{
+public:
+  explicit Reader(std::string_view bytes)
     : left_(bytes)
   {
   }
-  /// The next word, or 0 and an end before its time.
-  template <typename Number = std::uint64_t>
-  Number next()
+  template <typename T>
+  void one(T& thing)
   {
-    Number number{};
-    if (left_.size() < sizeof number)
+    NumberOf<T> numbers[kNumbersOf<T>] = {};
+    isWhole_ = isWhole_ && left_.size() >= sizeof thing;
+    for (std::size_t i = 0; isWhole_ && i < sizeof thing; ++i)
     {
-      isWhole_ = false;
-      left_ = {};
-      return number;
+      const auto byte = static_cast<unsigned char>(left_[i]);
+      numbers[i / sizeof *numbers] |= NumberOf<T>(byte) << (8 * (i % sizeof *numbers));
     }
-    take(left_.data(), number);
-    left_.remove_prefix(sizeof number);
-    return number;
+    std::memcpy(&thing, numbers, sizeof thing);
+    left_.remove_prefix(isWhole_ ? sizeof thing : 0);
   }
-  std::size_t words() const { return left_.size() / sizeof(std::uint64_t); }
-  bool isWhole() const { return isWhole_; }
+  /// All elements of a part.
+  template <typename Vector>
+  std::uint64_t part(Vector& elements, std::size_t = 0, std::size_t = 0)
+  {
+    std::uint64_t count = 0;
+    this->one(count);
+    isWhole_ = isWhole_ && count <= left_.size() / sizeof(elements[0]);
+    elements.resize(isWhole_ ? count : 0);
+    std::for_each(elements.begin(), elements.end(), [this](auto& element) { this->one(element); });
+    return elements.size();
+  }
   bool isAtEnd() const { return isWhole_ && left_.empty(); }
 
 private:
@@ -202,159 +122,175 @@ private:
   bool isWhole_ = true;
 };
 
-constexpr std::uint64_t kWordsOfArray = 3;
-constexpr std::uint64_t kWordsOfEntry = 2;
-constexpr std::uint64_t kMostComponents = std::uint64_t(1) << 20;
-
-void putArrays(std::string& bytes, const Arrays& arrays, const VoxelRun& run)
+template <typename Archive>
+void exchange(Archive& archive, VoxelTally& tally, std::size_t first, std::size_t last)
 {
-  const auto put64 = [&](const auto& number)
+  TallySums& sums = tally.sums;
+  archive.one(sums.components);
+  archive.one(sums.first);
+  archive.one(sums.width);
+  const auto ofSums = std::size_t(sums.components);
+  const std::size_t digits = ofSums * std::size_t(sums.width);
+  const bool areFinite = sums.nonFinite.empty();
+  archive.part(sums.digits, first * digits, last * digits);
+  archive.part(sums.nonFinite, areFinite ? 0 : first * ofSums, areFinite ? 0 : last * ofSums);
+  TallyValues& values = tally.values;
+  archive.one(values.components);
+  const auto ofValues = std::size_t(values.components);
+  archive.part(values.ends, first * ofValues, last * ofValues);
+  archive.part(values.values, values.beginOf(first * ofValues), values.beginOf(last * ofValues));
+}
+
+/// Writes voxels @p first to before @p last of a run, or reads a run.
+template <typename Archive>
+void exchange(Archive& archive, Content& content, VoxelRun& run, std::size_t first, std::size_t last)
+{
+  archive.one(content.header);
+  const std::uint64_t voxels = archive.part(run.voxels, first, last);
+  archive.part(run.secondMoments, run.hasMoments() ? first : 0, run.hasMoments() ? last : 0);
+  archive.part(content.arrays, 0, content.arrays.size());
+  archive.part(content.common, 0, content.common.size());
+  for (std::size_t i = 0; voxels > 0 && i < content.arrays.size(); ++i)
   {
-    char word[sizeof number];
-    put(word, number);
-    bytes.append(word, sizeof word);
-  };
-  std::size_t words = 2 + kWordsOfArray * arrays.kinds.size() + 12;
-  for (const VoxelTally& tally : run.tallies)
-  {
-    words += run.size() * std::size_t(tally.kind().components) + kWordsOfEntry * tally.entries();
-  }
-  bytes.reserve(bytes.size() + words * sizeof(std::uint64_t));
-  put64(std::uint64_t(arrays.kinds.size()));
-  for (const VoxelAccumulator::Array& kind : arrays.kinds)
-  {
-    put64(std::uint64_t(kind.type));
-    put64(std::uint64_t(kind.components));
-    put64(std::uint64_t(kind.statistic));
-  }
-  put64(std::uint64_t(arrays.common.has_value()));
-  if (arrays.common)
-  {
-    std::for_each(&arrays.common->m[0][0], &arrays.common->m[0][0] + 12, put64);
-  }
-  for (const VoxelTally& tally : run.tallies)
-  {
-    for (std::size_t i = 0; i < run.size() * std::size_t(tally.kind().components); ++i)
-    {
-      const auto components = std::size_t(tally.kind().components);
-      const VoxelTally::List list = tally.list(i / components, int(i % components));
-      put64(std::uint64_t(list.last - list.first));
-      for (const TallyEntry& entry : list)
-      {
-        put64(entry.key);
-        put64(entry.amount);
-      }
-    }
+    run.tallies.resize(std::max(run.tallies.size(), i + 1));
+    exchange(archive, run.tallies[i], first, last);
   }
 }
 
-/// @return false for arrays that there are not.
-bool readKinds(WordReader& words, Arrays& arrays)
+bool isCount(std::int64_t n)
 {
-  const auto count = words.next();
-  bool isRight = count <= words.words() / kWordsOfArray;
-  for (std::uint64_t i = 0; isRight && i < count; ++i)
-  {
-    const auto type = words.next();
-    const auto components = words.next();
-    const auto statistic = words.next();
-    isRight = type <= std::uint64_t(ScalarType::Double) && components > 0 && components <= kMostComponents &&
-      statistic <= std::uint64_t(AttributeStatistic::Median) &&
-      (AttributeStatistic(statistic) != AttributeStatistic::Normal || components == 3);
-    arrays.kinds.push_back({ ScalarType(type), int(components), AttributeStatistic(statistic) });
-  }
-  const auto hasCommon = words.next();
-  if (isRight && hasCommon == 1)
-  {
-    arrays.common.emplace();
-    std::generate_n(&arrays.common->m[0][0], 12, [&] { return words.next<double>(); });
-  }
-  return isRight && words.isWhole() && hasCommon <= 1 &&
-    (!arrays.common || arrays.common->check() == Status::Ok);
+  return n >= 0 && n <= VoxelAccumulator::kMostPoints;
 }
 
-/// @return false for lists that no tuples make.
-bool readTallies(WordReader& words, const Arrays& arrays, VoxelRun& run)
+bool isRight(const Header& header)
 {
-  std::vector<TallyEntry> list;
-  for (std::size_t i = 0; run.size() > 0 && i < arrays.kinds.size(); ++i)
-  {
-    VoxelTally& tally = run.tallies.emplace_back(arrays.kinds[i]);
-    for (std::size_t v = 0; v < run.size(); ++v)
-    {
-      for (int c = 0; c < arrays.kinds[i].components; ++c)
-      {
-        const auto size = words.next();
-        if (!words.isWhole() || size > words.words() / kWordsOfEntry)
-        {
-          return false;
-        }
-        list.clear();
-        for (std::uint64_t entry = 0; entry < size; ++entry)
-        {
-          const auto key = words.next();
-          list.push_back({ key, words.next<std::int64_t>() });
-        }
-        tally.push(list);
-      }
-      if (!tally.isOf(v, run.voxels[v].count))
-      {
-        return false;
-      }
-    }
-  }
-  return words.isAtEnd();
+  const Lattice& lattice = header.lattice;
+  return header.magic == kMagic && header.covariances <= 1 && isCount(header.counts.points) &&
+    isCount(header.counts.clipped) && isCount(header.counts.invalid) && lattice.check() == Status::Ok &&
+    !std::isnan(lattice.end.x) && !std::isnan(lattice.end.y) && !std::isnan(lattice.end.z);
 }
 
+/// @return false where a mean would not lie in its voxel.
+bool liesInVoxel(const VoxelSums& voxel, std::int64_t fractionBits)
+{
+  return isCount(voxel.count) && voxel.count > 0 &&
+    std::all_of(
+      voxel.sums, voxel.sums + 3, [&](Int128 sum) { return sum < Int128(voxel.count) << fractionBits; });
 }
 
-std::string VoxelAccumulator::serialize()
+/// @return false for voxels that the points of the header do not make. @pre the header is right.
+bool areOf(const Header& header, const VoxelRun& run)
 {
-  std::string bytes;
-  if (!this->settle())
-  {
-    return bytes;
-  }
-  const VoxelRun& run = added_->runs.whole();
-  Header header = { lattice_, covariances_, VoxelResampler::Implementation::fractionBitsOf(lattice_),
-    added_->points, added_->clipped, added_->invalid, run.size() };
-  bytes.assign(kMagic, sizeof kMagic);
-  bytes.resize(kHeaderBytes + run.size() * bytesOfVoxel(header));
-  char* to = bytes.data() + sizeof kMagic;
-  const auto putNext = [&](const auto& number) { to = put(to, number); };
-  forNumbers(header, putNext);
+  const std::uint64_t keys = header.lattice.key(0, 0, header.lattice.dimensions[2]);
+  std::int64_t points = header.counts.clipped + header.counts.invalid;
   for (std::size_t v = 0; v < run.size(); ++v)
   {
-    const VoxelSums voxel = run.voxels[v].whole();
-    forNumbers(voxel, run.momentsOf(v), putNext);
+    const WideSums& voxel = run.voxels[v];
+    if (!liesInVoxel(voxel.whole(), header.fractionBits) || voxel.high >> 3 * WideSums::kHighBits != 0 ||
+      voxel.key >= keys || (v > 0 && voxel.key <= run.voxels[v - 1].key) ||
+      voxel.count > header.counts.points - points)
+    {
+      return false;
+    }
+    points += voxel.count;
   }
-  putArrays(bytes, { arrays_, common_ }, run);
+  return points == header.counts.points &&
+    run.secondMoments.size() == (header.covariances == 1 ? run.size() : 0);
+}
+
+/// @return false for an array that there is not.
+bool readKind(const ArrayWords& words, VoxelAccumulator::Array& kind)
+{
+  constexpr std::uint64_t kMostComponents = std::uint64_t(1) << 20;
+  const auto [type, components, statistic] = words;
+  kind = { ScalarType(type), int(components), AttributeStatistic(statistic) };
+  return type <= std::uint64_t(ScalarType::Double) && components > 0 && components <= kMostComponents &&
+    statistic <= std::uint64_t(AttributeStatistic::Median) &&
+    (kind.statistic != AttributeStatistic::Normal || components == 3);
+}
+
+/// Has what was read of a tally say where it lies. @return false for what an array does not have in the
+/// voxels.
+bool completeTally(const VoxelAccumulator::Array& kind, const VoxelRun& run, VoxelTally& tally)
+{
+  TallySums& sums = tally.sums;
+  TallyValues& values = tally.values;
+  sums.size = run.size() * std::size_t(sums.components);
+  const std::size_t lists = run.size() * std::size_t(values.components);
+  const bool isSummed = isSum(kind.statistic);
+  if (sums.components != (isSummed ? kind.components : 0) || sums.width < int(isSummed) ||
+    sums.width > ExactNumber::kPlaces || sums.first < 0 || sums.first > ExactNumber::kPlaces - sums.width ||
+    sums.digits.size() != sums.size * std::size_t(sums.width) ||
+    (!sums.nonFinite.empty() && sums.nonFinite.size() != sums.size) ||
+    values.components != (isSummed ? 0 : kind.components) || values.ends.size() != lists)
+  {
+    return false;
+  }
+  // Ends of a part are counted from the first value of all.
+  const std::size_t start = lists > 0 ? values.ends.back() - values.values.size() : 0;
+  std::for_each(values.ends.begin(), values.ends.end(), [=](std::size_t& end) { end -= start; });
+  bool isRight = std::is_sorted(values.ends.begin(), values.ends.end());
+  for (std::size_t v = 0; isRight && v < run.size(); ++v)
+  {
+    isRight = tally.isOf(kind, v, run.voxels[v].count);
+  }
+  return isRight;
+}
+
+}
+
+std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
+{
+  if (!this->settle())
+  {
+    return {};
+  }
+  const Sums::Range range = added_->range(first, end);
+  Content content{ { kMagic, lattice_, covariances_, VoxelResampler::Implementation::fractionBitsOf(lattice_),
+                     range.counts },
+    {}, {} };
+  for (const Array& array : arrays_)
+  {
+    content.arrays.push_back(
+      { std::uint64_t(array.type), std::uint64_t(array.components), std::uint64_t(array.statistic) });
+  }
+  content.common.assign(common_.has_value(), common_.value_or(AffineTransform()));
+  Writer counter(nullptr);
+  exchange(counter, content, added_->runs.whole(), range.first, range.last);
+  std::string bytes(counter.bytes(), 0);
+  Writer writer(bytes.data());
+  exchange(writer, content, added_->runs.whole(), range.first, range.last);
   return bytes;
 }
 
 Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& result)
 {
-  Header header;
-  if (!readHeader(bytes, header))
+  Reader reader(bytes);
+  Content content;
+  VoxelRun run;
+  exchange(reader, content, run, 0, 0);
+  const Header& header = content.header;
+  if (!reader.isAtEnd() || !isRight(header) || content.common.size() > 1 ||
+    (!content.common.empty() && content.common[0].check() != Status::Ok))
   {
     return Status::InvalidParameter;
   }
   const int fractionBits = VoxelResampler::Implementation::fractionBitsOf(header.lattice);
-  const std::uint64_t keys = header.lattice.key(0, 0, header.lattice.dimensions[2]);
-  VoxelRun run;
-  Arrays arrays;
-  const std::size_t ofVoxels = std::size_t(header.voxels) * bytesOfVoxel(header);
-  WordReader words(bytes.substr(kHeaderBytes + ofVoxels));
-  if ((header.fractionBits != fractionBits && (header.voxels > 0 || header.fractionBits != 0)) ||
-    !readVoxels(bytes.data() + kHeaderBytes, header, keys, run) || !readKinds(words, arrays) ||
-    !readTallies(words, arrays, run))
+  std::vector<Array> kinds(content.arrays.size());
+  bool areRight = (header.fractionBits == fractionBits || (run.size() == 0 && header.fractionBits == 0)) &&
+    areOf(header, run);
+  for (std::size_t i = 0; areRight && i < kinds.size(); ++i)
+  {
+    areRight = readKind(content.arrays[i], kinds[i]) &&
+      (run.size() == 0 || completeTally(kinds[i], run, run.tallies[i]));
+  }
+  if (!areRight)
   {
     return Status::InvalidParameter;
   }
-  VoxelAccumulator read(header.lattice, header.covariances == 1, arrays.kinds, arrays.common);
-  read.added_->points = header.points;
-  read.added_->clipped = header.clipped;
-  read.added_->invalid = header.invalid;
+  VoxelAccumulator read(header.lattice, header.covariances == 1, std::move(kinds),
+    content.common.empty() ? std::nullopt : std::make_optional(content.common[0]));
+  read.added_->counts = header.counts;
   read.added_->runs.add(std::move(run));
   result = std::move(read);
   return Status::Ok;

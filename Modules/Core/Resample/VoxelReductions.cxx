@@ -131,11 +131,9 @@ void VoxelReductions::add(const std::int64_t* points, const std::int64_t* voxels
 std::vector<VoxelTally> VoxelReductions::tallies() const
 {
   std::vector<VoxelTally> tallies;
-  for (const AttributeRequest& attribute : request_->attributes)
+  for (std::size_t i = 0; i < request_->attributes.size(); ++i)
   {
-    tallies.emplace_back(
-      AccumulatedArray{ attribute.view.type, attribute.view.components, attribute.statistic });
-    reducers_[tallies.size() - 1]->tally(tallies.back());
+    tallies.push_back(reducers_[i]->tally());
   }
   return tallies;
 }

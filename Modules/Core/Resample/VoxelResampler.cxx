@@ -159,7 +159,9 @@ void writeTallies(
   const std::array<Vec3, 3> columns = normalColumns(request.transform);
   for (std::size_t i = 0; i < sums.tallies.size(); ++i)
   {
-    sums.tallies[i].write(first, last, arena.counts() + first, columns, arena.attribute(i, first));
+    const AttributeRequest& array = request.attributes[i];
+    sums.tallies[i].write({ array.view.type, array.view.components, array.statistic }, first, last,
+      arena.counts() + first, columns, arena.attribute(i, first));
   }
 }
 

@@ -271,8 +271,8 @@ TEST(SharedVoxels, SendInProportionToVoxelsNotToPoints)
   }
   EXPECT_LT(double(sent[1]), 1.01 * double(sent[0]));
   // Each rank has all voxels, and sends three quarters of them.
-  EXPECT_GT(sent[1], 3 * 1000 * 64);
-  EXPECT_LT(sent[1], 3 * 1000 * (64 + 32));
+  EXPECT_GT(sent[1], 3 * 1000 * 48);
+  EXPECT_LT(sent[1], 3 * 1000 * (48 + 16));
 }
 
 TEST(SharedVoxels, RefuseSumsOfAnotherLatticeOnAllRanks)

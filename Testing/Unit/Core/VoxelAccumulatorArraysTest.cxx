@@ -1,6 +1,7 @@
 // Arrays that are accumulated with the points, against those of one run over all of them.
 #include "Core/Resample/VoxelAccumulator.h"
 
+#include "AccumulatorBytes.h"
 #include "RandomClouds.h"
 #include "ResamplerRuns.h"
 
@@ -173,6 +174,32 @@ TEST(VoxelAccumulatorArrays, AFrameThatCameAndWentLeavesNothing)
     addPart(sums, cloud, 0, kArrayPoints);
     addPart(sums, large, 400, 1000);
     EXPECT_TRUE(finished(sums) == ofOneRun(cloud, lattice, turnedBy(25))) << nameOf(lattice);
+    VoxelAccumulator alone = sums.withoutPoints();
+    addPart(alone, cloud, 0, kArrayPoints);
+    EXPECT_TRUE(sums.serialize() == alone.serialize()) << nameOf(lattice);
+  }
+}
+
+TEST(VoxelAccumulatorArrays, RangesOfBytesAreThePartsOfTheWhole)
+{
+  for (const Lattice& lattice : someLattices())
+  {
+    const ArrayCloud cloud(kArrayPoints, lattice, 3, 0);
+    VoxelAccumulator sums(lattice, true, kinds(), turnedBy(25));
+    addPart(sums, cloud, 0, kArrayPoints);
+    const std::vector<std::uint64_t> keys = sums.keys();
+    std::vector<std::uint64_t> ends = { 0, 0, keys[keys.size() / 3], keys[keys.size() / 2], keys.back() + 9,
+      ~std::uint64_t(0) };
+    VoxelAccumulator merged = sums.withoutPoints();
+    for (std::size_t i = 1; i < ends.size(); ++i)
+    {
+      VoxelAccumulator read{ Lattice() };
+      ASSERT_EQ(VoxelAccumulator::deserialize(sums.serialize(ends[i - 1], ends[i]), read), Status::Ok);
+      EXPECT_TRUE(read.serialize() == sums.part(ends[i - 1], ends[i]).serialize()) << nameOf(lattice);
+      ASSERT_EQ(merged.merge(std::move(read)), Status::Ok);
+    }
+    EXPECT_TRUE(merged.serialize() == sums.serialize()) << nameOf(lattice);
+    EXPECT_EQ(merged.clippedPoints(), sums.clippedPoints());
   }
 }
 
@@ -278,29 +305,5 @@ TEST(VoxelAccumulatorArrays, BytesThatNoneWritesAreRefused)
   const ArrayCloud cloud(60, lattice, 3, 0);
   VoxelAccumulator sums(lattice, false, kinds(), turnedBy(25));
   addPart(sums, cloud, 0, 60);
-  const std::string bytes = sums.serialize();
-  VoxelAccumulator read(latticeOf(1, 1, 1));
-  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 50)
-  {
-    ASSERT_EQ(VoxelAccumulator::deserialize(bytes.substr(0, size), read), Status::InvalidParameter) << size;
-  }
-  EXPECT_EQ(VoxelAccumulator::deserialize(bytes + "12345678", read), Status::InvalidParameter);
-  Random random(9);
-  int refused = 0;
-  for (int i = 0; i < 6000; ++i)
-  {
-    std::string changed = bytes;
-    for (int n = 0; n < 1 + i % 3; ++n)
-    {
-      changed[random.below(changed.size())] = char(random.below(i % 2 ? 4 : 256));
-    }
-    VoxelResampler result;
-    const bool isRight = VoxelAccumulator::deserialize(changed, read) == Status::Ok;
-    refused += !isRight;
-    if (isRight)
-    {
-      EXPECT_EQ(read.finish({}, result), Status::Ok);
-    }
-  }
-  EXPECT_GT(refused, 1000);
+  EXPECT_GT(refusedOfChanged(sums.serialize(), 6000), 1000);
 }

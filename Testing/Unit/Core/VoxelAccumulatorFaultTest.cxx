@@ -24,7 +24,7 @@ enum Word : std::size_t
   kPointCount = 14,
   kFirstVoxel = 18,
 };
-constexpr std::size_t kVoxelWords = 8; ///< Key, count, three sums of two words.
+constexpr std::size_t kVoxelWords = 6; ///< Key, count, three sums and what is above their words.
 
 std::uint64_t wordAt(const std::string& bytes, std::size_t word)
 {
@@ -115,6 +115,38 @@ TEST(VoxelAccumulatorFaults, BytesWhoseMeansLieOutsideTheirVoxelsAreRefused)
   setWord(bytes, kFirstVoxel + 2, std::uint64_t{ 1 } << bits);
   VoxelAccumulator none(latticeOf(1, 1, 1));
   EXPECT_EQ(VoxelAccumulator::deserialize(bytes, none), Status::InvalidParameter);
+}
+
+TEST(VoxelAccumulatorFaults, BytesWhoseArraysNoPointsHaveAreRefused)
+{
+  const Vec3 point(0.5, 0.5, 0.5);
+  const std::uint8_t label = 255;
+  const float number = NAN;
+  struct Case
+  {
+    AttributeView view;
+    AttributeStatistic statistic;
+    std::size_t fromEnd; ///< Of the byte that is changed.
+    char right;
+    char wrong;
+  };
+  const AttributeView labels{ &label, ScalarType::UInt8, 1, 1 };
+  const AttributeView numbers{ &number, ScalarType::Float, 1, 1 };
+  const Case cases[] = { { labels, AttributeStatistic::Mean, 31, 0, 1 }, // Sums of 255, 255 + 256.
+    { labels, AttributeStatistic::Mode, 8, 1, 2 },                       // How many points have a value.
+    { labels, AttributeStatistic::Mode, 15, 0, 1 },                      // The values 255, 255 + 256.
+    { numbers, AttributeStatistic::Mean, 44, 1, 2 },                     // How many are NaN.
+    { numbers, AttributeStatistic::Mean, 36, 0, 1 } };                   // One NaN, and one infinite.
+  for (const Case& c : cases)
+  {
+    VoxelAccumulator sums(latticeOf(4, 4, 4), false, { { c.view.type, 1, c.statistic } });
+    ASSERT_EQ(sums.add(PointView(&point, 1), { c.view }), Status::Ok);
+    std::string bytes = sums.serialize();
+    char& changed = bytes[bytes.size() - c.fromEnd];
+    EXPECT_EQ(changed, c.right) << c.fromEnd;
+    changed = c.wrong;
+    expectRefused(bytes);
+  }
 }
 
 TEST(VoxelAccumulatorFaults, OtherVoxelsOrAnotherEndAreAnotherLattice)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Core/Base/Vector3.h"
+#include "Core/Resample/AttributeView.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 
 #include <algorithm>
@@ -37,12 +38,12 @@ inline double scaledMean(double sum, int exponent, std::int64_t count)
 }
 
 /// What IEEE addition makes of numbers some of which are not finite.
-inline double meanWithNonFinite(bool sawNaN, bool sawPlus, bool sawMinus)
+inline double meanWithNonFinite(const NonFiniteCount& seen)
 {
   const double infinity = std::numeric_limits<double>::infinity();
-  return sawNaN || sawPlus == sawMinus ? std::numeric_limits<double>::quiet_NaN()
-    : sawPlus                          ? infinity
-                                       : -infinity;
+  return seen.nans > 0 || (seen.plus > 0) == (seen.minus > 0) ? std::numeric_limits<double>::quiet_NaN()
+    : seen.plus > 0                                           ? infinity
+                                                              : -infinity;
 }
 
 /// Rounded to the nearest, halves away from zero.
@@ -74,6 +75,31 @@ Vec3 turnedMean(const Vec3& mean, const std::array<Vec3, 3>& columns)
     const double scale = length > 0.0 ? norm(mean) / length : 0.0;
     const auto rounded = [&](double x) { return std::clamp(std::round(scale * x), kLow, high); };
     return { rounded(turned.x), rounded(turned.y), rounded(turned.z) };
+  }
+}
+
+/// Writes the mean of @p count tuples: of floating-point numbers mean(c) in double, of integers integerSum(c)
+/// divided. @p columns: turn the mean as a vector, unless null.
+template <typename T, typename Mean, typename IntegerSum>
+void writeMeans(int components, std::int64_t count, const std::array<Vec3, 3>* columns, T* tuple,
+  const Mean& mean, const IntegerSum& integerSum)
+{
+  if (columns)
+  {
+    const Vec3 vector = turnedMean<T>({ mean(0), mean(1), mean(2) }, *columns);
+    std::transform(&vector.x, &vector.x + 3, tuple, [](double x) { return T(x); });
+    return;
+  }
+  for (int c = 0; c < components; ++c)
+  {
+    if constexpr (std::is_floating_point_v<T>)
+    {
+      tuple[c] = T(mean(c));
+    }
+    else
+    {
+      tuple[c] = roundedMean<T>(integerSum(c), count);
+    }
   }
 }
 

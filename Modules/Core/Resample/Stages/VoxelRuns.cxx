@@ -106,6 +106,7 @@ VoxelRun& VoxelRuns::whole()
 void VoxelRuns::mergeLast()
 {
   VoxelRun both = merged(runs_[runs_.size() - 2], runs_.back());
+  both.trim();
   runs_.pop_back();
   runs_.back() = std::move(both);
 }

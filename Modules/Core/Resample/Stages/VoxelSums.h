@@ -148,7 +148,7 @@ struct VoxelRun
     {
       if (i == tallies.size())
       {
-        tallies.emplace_back(from.tallies[i].kind());
+        tallies.push_back(from.tallies[i].withoutVoxels());
       }
       tallies[i].append(from.tallies[i], first, last);
     }
@@ -186,6 +186,7 @@ struct VoxelRun
       voxels.shrink_to_fit();
       secondMoments.shrink_to_fit();
     }
+    std::for_each(tallies.begin(), tallies.end(), [](VoxelTally& tally) { tally.trim(); });
   }
   std::size_t bytes() const
   {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <iterator>
-#include <utility>
+#include <limits>
+#include <type_traits>
 
 namespace pointhaptics
 {
@@ -16,321 +16,387 @@ namespace
 {
 
 constexpr int kDigitBits = 32;
-constexpr std::int64_t kHalfDigit = std::int64_t(1) << (kDigitBits - 1);
-/// The exponent of the digit with key 0: below the last bit of a double.
-constexpr int kLeastExponent = -1216;
-/// Beyond the largest sum of doubles.
-constexpr std::uint64_t kDigits = 76;
-/// Numbers that are not finite.
-constexpr std::uint64_t kNaNs = kDigits + 0;
-constexpr std::uint64_t kPlus = kDigits + 1;
-constexpr std::uint64_t kMinus = kDigits + 2;
+constexpr Int128 kBase = Int128(1) << kDigitBits;
 
-int exponentOf(std::uint64_t key)
+int exponentOf(int place)
 {
-  return kDigitBits * int(key) + kLeastExponent;
+  return kDigitBits * (place - ExactNumber::kUnit);
 }
 
-/// What is over when a digit is as small as it may be.
-std::int64_t carryOf(std::int64_t digit)
+/// The lowest digit of a number, which loses it.
+template <typename Integer>
+std::int32_t takeDigit(Integer& number)
 {
-  return (digit + kHalfDigit) >> kDigitBits;
+  const auto digit = std::int32_t(std::uint32_t(number));
+  number = (number - digit) >> kDigitBits;
+  return digit;
 }
 
-/// An integer sum. @pre its digits are those of integers.
-Int128 integerOf(VoxelTally::List digits)
+}
+
+double ExactNumber::rounded(int& exponent) const
 {
-  Int128 sum = 0;
-  for (const TallyEntry& digit : digits)
+  // Three digits from the first that is not 0 have more bits than a double; of the others the sign is enough.
+  int top = size;
+  while (top > 0 && digits[top - 1] == 0)
   {
-    sum += Int128(digit.amount) * (Int128(1) << exponentOf(digit.key));
+    --top;
   }
-  return sum;
-}
-
-/// A sum, rounded once: times 2^exponent it is that of the digits.
-double roundedSum(VoxelTally::List digits, int& exponent)
-{
-  exponent = 0;
-  if (digits.first == digits.last)
-  {
-    return 0.0;
-  }
-  // The first three have more bits than a double; of the others the sign is enough.
-  const std::uint64_t top = digits.last[-1].key;
-  const std::uint64_t least = top < 2 ? 0 : top - 2;
+  const int least = std::max(top - 3, 0);
   Int128 whole = 0;
-  const TallyEntry* entry = digits.last;
-  for (; entry != digits.first && entry[-1].key >= least; --entry)
+  for (int i = top; i > least; --i)
   {
-    whole += Int128(entry[-1].amount) * (Int128(1) << (kDigitBits * int(entry[-1].key - least)));
+    whole = whole * kBase + digits[i - 1];
   }
-  const int rest = entry == digits.first ? 0 : entry[-1].amount > 0 ? 1 : -1;
-  exponent = exponentOf(least) - 2;
+  int below = least;
+  while (below > 0 && digits[below - 1] == 0)
+  {
+    --below;
+  }
+  exponent = exponentOf(first + least) - 2;
+  const int rest = below == 0 ? 0 : digits[below - 1] > 0 ? 1 : -1;
   return double(4 * whole + rest);
 }
 
-double meanOf(VoxelTally::List list, std::int64_t count)
+Int128 ExactNumber::integer() const
 {
-  const auto isFiniteDigit = [](const TallyEntry& entry) { return entry.key < kDigits; };
-  const TallyEntry* const nonFinite = std::partition_point(list.first, list.last, isFiniteDigit);
-  if (nonFinite != list.last)
+  Int128 sum = 0;
+  for (int i = size; i > 0; --i)
   {
-    const auto saw = [&](std::uint64_t key)
-    { return std::any_of(nonFinite, list.last, [=](const TallyEntry& entry) { return entry.key == key; }); };
-    return meanWithNonFinite(saw(kNaNs), saw(kPlus), saw(kMinus));
+    sum = sum * kBase + digits[i - 1];
   }
-  int exponent;
-  const double sum = roundedSum(list, exponent);
-  return scaledMean(sum, exponent, count);
+  return sum * (Int128(1) << exponentOf(first));
 }
 
-/// Of several the first.
-std::uint64_t mostFrequentKey(VoxelTally::List list)
+ShiftedInteger::ShiftedInteger(std::int64_t value, int exponent)
+{
+  const int shift = exponent - exponentOf(0);
+  first_ = shift / kDigitBits;
+  Int128 left = Int128(value) * (Int128(1) << (shift % kDigitBits));
+  while (left != 0)
+  {
+    digits_[size_++] = takeDigit(left);
+  }
+}
+
+std::int64_t addDigits(const ExactNumber& more, int sign, int first, int size, std::int32_t* digits)
+{
+  std::int64_t carry = 0;
+  for (int place = more.first; place < first + size && (place < more.end() || carry != 0); ++place)
+  {
+    std::int32_t& digit = digits[place - first];
+    carry += digit + sign * std::int64_t(more.at(place));
+    digit = takeDigit(carry);
+  }
+  return carry;
+}
+
+/// Has all sums digits from place @p begin to before @p end; others are 0.
+void TallySums::setPlaces(int begin, int end)
+{
+  if (begin == first && end == first + width)
+  {
+    return;
+  }
+  std::vector<std::int32_t> moved;
+  moved.reserve(size * std::size_t(end - begin));
+  for (std::size_t sum = 0; sum < size; ++sum)
+  {
+    for (int place = begin; place < end; ++place)
+    {
+      moved.push_back((*this)[sum].at(place));
+    }
+  }
+  digits = std::move(moved);
+  first = begin;
+  width = end - begin;
+}
+
+void TallySums::cover(int begin, int end)
+{
+  if (width == 0)
+  {
+    setPlaces(begin, end);
+  }
+  else if (begin < end)
+  {
+    setPlaces(std::min(first, begin), std::max(first + width, end));
+  }
+}
+
+void TallySums::push(std::size_t sums)
+{
+  size += sums;
+  digits.resize(size * std::size_t(width));
+  nonFinite.resize(nonFinite.empty() ? 0 : size);
+}
+
+void TallySums::append(const TallySums& from, std::size_t begin, std::size_t end)
+{
+  cover(from.first, from.first + from.width);
+  const std::size_t before = size;
+  push(end - begin);
+  for (std::size_t sum = begin; from.width > 0 && sum < end; ++sum)
+  {
+    std::copy_n(from[sum].digits, from.width,
+      digits.data() + (before + sum - begin) * std::size_t(width) + (from.first - first));
+  }
+  if (!from.nonFinite.empty())
+  {
+    nonFinite.resize(before);
+    nonFinite.insert(nonFinite.end(), from.nonFinite.begin() + std::ptrdiff_t(begin),
+      from.nonFinite.begin() + std::ptrdiff_t(end));
+  }
+}
+
+void TallySums::add(std::size_t sum, const ExactNumber& more, int sign)
+{
+  cover(more.first, more.end());
+  const std::int64_t carry = addDigits(more, sign, first, width, digits.data() + sum * std::size_t(width));
+  if (carry != 0)
+  {
+    cover(first, first + width + 1);
+    digits[(sum + 1) * std::size_t(width) - 1] = std::int32_t(carry);
+  }
+}
+
+bool TallySums::add(std::size_t sum, const NonFiniteCount& more, int sign)
+{
+  nonFinite.resize(size);
+  NonFiniteCount& seen = nonFinite[sum];
+  seen = { seen.nans + sign * more.nans, seen.plus + sign * more.plus, seen.minus + sign * more.minus };
+  return seen.nans >= 0 && seen.plus >= 0 && seen.minus >= 0;
+}
+
+double TallySums::mean(std::size_t sum, std::int64_t count) const
+{
+  if (!nonFinite.empty() && nonFinite[sum].any())
+  {
+    return meanWithNonFinite(nonFinite[sum]);
+  }
+  int exponent;
+  const double rounded = (*this)[sum].rounded(exponent);
+  return scaledMean(rounded, exponent, count);
+}
+
+void TallySums::trim()
+{
+  int low = width;
+  int high = 0;
+  for (std::size_t i = 0; i < digits.size(); i += std::size_t(width))
+  {
+    for (int place = 0; place < width; ++place)
+    {
+      low = digits[i + place] != 0 ? std::min(low, place) : low;
+      high = digits[i + place] != 0 ? std::max(high, place + 1) : high;
+    }
+  }
+  low < high ? setPlaces(first + low, first + high) : setPlaces(ExactNumber::kUnit, ExactNumber::kUnit + 1);
+  digits.shrink_to_fit();
+  if (std::none_of(nonFinite.begin(), nonFinite.end(), [](const NonFiniteCount& seen) { return seen.any(); }))
+  {
+    nonFinite.clear();
+  }
+  nonFinite.shrink_to_fit();
+}
+
+std::int64_t TallyValues::List::mostFrequent() const
 {
   return std::max_element(
-    list.first, list.last, [](const TallyEntry& a, const TallyEntry& b) { return a.amount < b.amount; })
+    first, last, [](const TallyValue& a, const TallyValue& b) { return a.points < b.points; })
     ->key;
 }
 
-std::uint64_t middleKey(VoxelTally::List list, std::int64_t count)
+std::int64_t TallyValues::List::middle(std::int64_t count) const
 {
-  std::int64_t before = 0;
-  const auto isMiddle = [&](const TallyEntry& entry)
+  std::int64_t left = (count - 1) / 2;
+  const TallyValue* value = first;
+  for (; left >= value->points; ++value)
   {
-    before += entry.amount;
-    return before > (count - 1) / 2;
-  };
-  return std::find_if(list.first, list.last, isMiddle)->key;
+    left -= value->points;
+  }
+  return value->key;
 }
 
-/// Appends a + @p sign b. @p digits: keys below it are those of digits. @return false where there are fewer
-/// than no points with a value.
-bool join(
-  VoxelTally::List a, VoxelTally::List b, int sign, std::uint64_t digits, std::vector<TallyEntry>& list)
+void TallyValues::append(const TallyValues& from, std::size_t begin, std::size_t end)
 {
-  bool isRight = true;
-  std::int64_t carry = 0;
-  std::uint64_t next = 0; // The key that the carry belongs to.
-  while (a.first != a.last || b.first != b.last || carry != 0)
+  const auto source = from.values.begin();
+  const std::size_t start = from.beginOf(begin);
+  const std::size_t before = values.size();
+  values.insert(values.end(), source + std::ptrdiff_t(start), source + std::ptrdiff_t(from.beginOf(end)));
+  for (std::size_t list = begin; list < end; ++list)
   {
-    const std::uint64_t ofA = a.first != a.last ? a.first->key : ~std::uint64_t(0);
-    const std::uint64_t ofB = b.first != b.last ? b.first->key : ~std::uint64_t(0);
-    const std::uint64_t key = carry != 0 ? next : std::min(ofA, ofB);
-    std::int64_t amount = std::exchange(carry, 0);
-    amount += a.first != a.last && ofA == key ? (a.first++)->amount : 0;
-    amount += b.first != b.last && ofB == key ? sign * (b.first++)->amount : 0;
-    if (key < digits)
+    ends.push_back(before + from.ends[list] - start);
+  }
+}
+
+bool TallyValues::addToLast(const TallyValues& from, std::size_t begin, int sign)
+{
+  const std::size_t firstOwn = ends.size() - std::size_t(components);
+  const std::size_t start = beginOf(firstOwn);
+  const std::vector<TallyValue> own(values.begin() + std::ptrdiff_t(start), values.end());
+  bool isRight = true;
+  std::size_t a = 0;
+  values.resize(start);
+  for (std::size_t c = 0; c < std::size_t(components); ++c)
+  {
+    const std::size_t endOfOwn = ends[firstOwn + c] - start;
+    const List others = from[begin + c];
+    for (const TallyValue* b = others.first; a < endOfOwn || b < others.last;)
     {
-      carry = carryOf(amount);
-      amount -= carry * (std::int64_t(1) << kDigitBits);
-      next = key + 1;
+      const bool isOwn = a < endOfOwn && (b == others.last || own[a].key <= b->key);
+      TallyValue both = isOwn ? own[a++] : TallyValue{ b->key, 0 };
+      both.points += b < others.last && b->key == both.key ? sign * (b++)->points : 0;
+      isRight = isRight && both.points >= 0;
+      values.insert(values.end(), both.points != 0, both);
     }
-    isRight = isRight && (key < digits || amount >= 0);
-    if (amount != 0)
-    {
-      list.push_back({ key, amount });
-    }
+    ends[firstOwn + c] = values.size();
   }
   return isRight;
 }
 
-}
-
-void TallySum::add(std::int64_t value, int exponent)
+VoxelTally VoxelTally::withoutVoxels() const
 {
-  const int above = exponent - kLeastExponent;
-  Int128 left = Int128(value) * (Int128(1) << (above % kDigitBits));
-  more_.clear();
-  for (auto key = std::uint64_t(above / kDigitBits); left != 0; ++key)
-  {
-    const auto digit = std::int64_t(std::int32_t(std::uint32_t(left)));
-    if (digit != 0)
-    {
-      more_.push_back({ key, digit });
-    }
-    left = (left - digit) >> kDigitBits;
-  }
-  both_.clear();
-  static_cast<void>(join({ list_.data(), list_.data() + list_.size() },
-    { more_.data(), more_.data() + more_.size() }, 1, kDigits, both_)); // Digits may be of either sign.
-  list_.swap(both_);
-}
-
-void TallySum::addNonFinite(std::int64_t nans, std::int64_t plus, std::int64_t minus)
-{
-  for (const TallyEntry& entry : { TallyEntry{ kNaNs, nans }, { kPlus, plus }, { kMinus, minus } })
-  {
-    if (entry.amount != 0)
-    {
-      list_.push_back(entry);
-    }
-  }
-}
-
-void TallySum::moveTo(VoxelTally& tally)
-{
-  tally.push(list_);
-  list_.clear();
-}
-
-VoxelTally::List VoxelTally::list(std::size_t voxel, int component) const
-{
-  const std::size_t i = voxel * std::size_t(kind_.components) + std::size_t(component);
-  return { entries_.data() + (i == 0 ? 0 : ends_[i - 1]), entries_.data() + ends_[i] };
-}
-
-void VoxelTally::push(const std::vector<TallyEntry>& list)
-{
-  entries_.insert(entries_.end(), list.begin(), list.end());
-  ends_.push_back(entries_.size());
+  VoxelTally empty;
+  empty.sums.components = sums.components;
+  empty.values.components = values.components;
+  return empty;
 }
 
 void VoxelTally::append(const VoxelTally& from, std::size_t first, std::size_t last)
 {
-  const auto width = std::size_t(kind_.components);
-  const auto startOf = [&](std::size_t voxel) { return voxel == 0 ? 0 : from.ends_[voxel * width - 1]; };
-  const std::size_t begin = startOf(first);
-  const std::size_t before = entries_.size();
-  entries_.insert(entries_.end(), from.entries_.begin() + std::ptrdiff_t(begin),
-    from.entries_.begin() + std::ptrdiff_t(startOf(last)));
-  std::transform(from.ends_.begin() + std::ptrdiff_t(first * width),
-    from.ends_.begin() + std::ptrdiff_t(last * width), std::back_inserter(ends_),
-    [=](std::size_t end) { return before + (end - begin); });
+  const auto ofSums = std::size_t(sums.components);
+  const auto ofValues = std::size_t(values.components);
+  sums.append(from.sums, first * ofSums, last * ofSums);
+  values.append(from.values, first * ofValues, last * ofValues);
 }
 
 bool VoxelTally::addToLast(const VoxelTally& from, std::size_t voxel, int sign)
 {
-  const std::size_t last = voxels() - 1;
-  const auto first = std::size_t(list(last, 0).first - entries_.data());
   bool isRight = true;
-  const TallyEntry* begin = entries_.data() + first;
-  joined_.clear();
-  for (int c = 0; c < kind_.components; ++c)
+  const std::size_t own = sums.size - std::size_t(sums.components);
+  for (std::size_t c = 0; c < std::size_t(sums.components); ++c)
   {
-    const List own = { begin, list(last, c).last };
-    begin = own.last; // The end of this list becomes that of the joined one.
-    isRight = join(own, from.list(voxel, c), sign, isSum(kind_.statistic) ? kDigits : 0, joined_) && isRight;
-    ends_[ends_.size() - std::size_t(kind_.components - c)] = first + joined_.size();
+    const std::size_t other = voxel * std::size_t(sums.components) + c;
+    sums.add(own + c, from.sums[other], sign);
+    isRight = (from.sums.nonFinite.empty() || sums.add(own + c, from.sums.nonFinite[other], sign)) && isRight;
   }
-  entries_.resize(first);
-  entries_.insert(entries_.end(), joined_.begin(), joined_.end());
-  return isRight;
+  return values.addToLast(from.values, voxel * std::size_t(values.components), sign) && isRight;
 }
 
-template <typename T>
-void VoxelTally::writeTuple(
-  std::size_t voxel, std::int64_t count, const std::array<Vec3, 3>& columns, T* to) const
+namespace
 {
-  using Key = decltype(orderedKey(T()));
-  if (kind_.statistic == AttributeStatistic::Normal)
+
+template <typename T>
+void writeTuple(const VoxelTally& tally, const AccumulatedArray& kind, std::size_t voxel, std::int64_t count,
+  const std::array<Vec3, 3>& columns, T* tuple)
+{
+  const auto at = [&](int c) { return voxel * std::size_t(kind.components) + std::size_t(c); };
+  if (isSum(kind.statistic))
   {
-    Vec3 mean;
-    for (int c = 0; c < 3; ++c)
-    {
-      mean[c] = meanOf(list(voxel, c), count);
-    }
-    mean = turnedMean<T>(mean, columns);
-    std::transform(&mean.x, &mean.x + 3, to, [](double x) { return T(x); });
+    writeMeans(
+      kind.components, count, kind.statistic == AttributeStatistic::Normal ? &columns : nullptr, tuple,
+      [&](int c) { return tally.sums.mean(at(c), count); },
+      [&](int c) { return tally.sums[at(c)].integer(); });
     return;
   }
-  for (int c = 0; c < kind_.components; ++c)
+  for (int c = 0; c < kind.components; ++c)
   {
-    const List values = list(voxel, c);
-    if (kind_.statistic == AttributeStatistic::Mean)
-    {
-      if constexpr (std::is_floating_point_v<T>)
-      {
-        to[c] = T(meanOf(values, count));
-      }
-      else
-      {
-        to[c] = roundedMean<T>(integerOf(values), count);
-      }
-      continue;
-    }
-    const std::uint64_t key =
-      kind_.statistic == AttributeStatistic::Mode ? mostFrequentKey(values) : middleKey(values, count);
-    to[c] = valueOfKey<T>(orderedOfTallyKey<Key>(key));
+    const TallyValues::List list = tally.values[at(c)];
+    tuple[c] =
+      valueOfKey<T>(kind.statistic == AttributeStatistic::Mode ? list.mostFrequent() : list.middle(count));
   }
 }
 
-void VoxelTally::write(std::size_t first, std::size_t last, const std::int64_t* counts,
-  const std::array<Vec3, 3>& columns, void* tuples) const
+bool isOf(const NonFiniteCount& seen, std::int64_t count)
 {
-  withType(kind_.type,
-    [&](auto example)
-    {
-      using T = decltype(example);
-      T* to = static_cast<T*>(tuples);
-      for (std::size_t v = first; v < last; ++v, to += kind_.components)
-      {
-        writeTuple<T>(v, *counts++, columns, to);
-      }
-    });
+  return seen.nans >= 0 && seen.plus >= 0 && seen.minus >= 0 && seen.nans <= count &&
+    seen.plus <= count - seen.nans && seen.minus <= count - seen.nans - seen.plus;
 }
 
+/// Of integers that as many can have the sum.
 template <typename T>
-bool VoxelTally::isListOf(List list, std::int64_t count) const
+bool isSumOf(const ExactNumber& sum, std::int64_t count)
 {
-  const auto ascends = [](const TallyEntry& a, const TallyEntry& b) { return a.key >= b.key; };
-  if (std::adjacent_find(list.first, list.last, ascends) != list.last ||
-    std::any_of(list.first, list.last, [](const TallyEntry& entry) { return entry.amount == 0; }))
+  // 34 bits of points and 64 of each: two bits are in the fourth digit.
+  constexpr int kTop = ExactNumber::kUnit + 3;
+  constexpr std::int64_t kMostOfTop = 4;
+  if (std::is_floating_point_v<T> || sum.size == 0)
+  {
+    return true;
+  }
+  if (sum.first < ExactNumber::kUnit || sum.end() > kTop + 1 ||
+    (sum.end() == kTop + 1 && std::abs(std::int64_t(sum.digits[sum.size - 1])) > kMostOfTop))
   {
     return false;
   }
-  if (!isSum(kind_.statistic))
-  {
-    using Key = decltype(orderedKey(T()));
-    std::int64_t left = count;
-    for (const TallyEntry& value : list)
-    {
-      if (value.amount < 1 || value.amount > left ||
-        tallyKeyOf(orderedOfTallyKey<Key>(value.key)) != value.key)
-      {
-        return false;
-      }
-      left -= value.amount;
-    }
-    return left == 0;
-  }
-  const bool areDigits = std::all_of(list.first, list.last,
-    [&](const TallyEntry& entry)
-    {
-      return entry.key < kDigits
-        ? carryOf(entry.amount) == 0 && entry.amount >= -kHalfDigit
-        : std::is_floating_point_v<T> && entry.key <= kMinus && entry.amount > 0 && entry.amount <= count;
-    });
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    return areDigits;
-  }
-  else
-  {
-    constexpr std::uint64_t kZero = -kLeastExponent / kDigitBits;
-    constexpr std::uint64_t kTop = kZero + 3; // 34 bits of points and 64 of each: two bits are in this one.
-    constexpr std::int64_t kMostOfTop = 4;
-    return areDigits &&
-      (list.first == list.last ||
-        (list.first->key >= kZero && list.last[-1].key <= kTop &&
-          (list.last[-1].key < kTop || std::abs(list.last[-1].amount) <= kMostOfTop) &&
-          integerOf(list) >= Int128(std::numeric_limits<T>::min()) * count &&
-          integerOf(list) <= Int128(std::numeric_limits<T>::max()) * count));
-  }
+  const Int128 integer = sum.integer();
+  return integer >= Int128(std::numeric_limits<T>::lowest()) * count &&
+    integer <= Int128(std::numeric_limits<T>::max()) * count;
 }
 
-bool VoxelTally::isOf(std::size_t voxel, std::int64_t count) const
+template <typename T>
+bool areValuesOf(TallyValues::List list, std::int64_t count)
 {
-  bool isRight = true;
-  withType(kind_.type,
+  using Key = decltype(orderedKey(T()));
+  const auto ascends = [](const TallyValue& a, const TallyValue& b) { return a.key >= b.key; };
+  std::int64_t left = count;
+  for (const TallyValue& value : list)
+  {
+    if (value.points < 1 || value.points > left || value.key != std::int64_t(Key(value.key)))
+    {
+      return false;
+    }
+    left -= value.points;
+  }
+  return left == 0 && std::adjacent_find(list.first, list.last, ascends) == list.last;
+}
+
+}
+
+void VoxelTally::write(const AccumulatedArray& kind, std::size_t first, std::size_t last,
+  const std::int64_t* counts, const std::array<Vec3, 3>& columns, void* tuples) const
+{
+  withType(kind.type,
     [&](auto example)
     {
-      for (int c = 0; isRight && c < kind_.components; ++c)
+      auto* to = static_cast<decltype(example)*>(tuples);
+      for (std::size_t v = first; v < last; ++v, to += kind.components)
       {
-        isRight = isListOf<decltype(example)>(list(voxel, c), count);
+        writeTuple(*this, kind, v, *counts++, columns, to);
+      }
+    });
+}
+
+bool VoxelTally::isOf(const AccumulatedArray& kind, std::size_t voxel, std::int64_t count) const
+{
+  bool isRight = true;
+  withType(kind.type,
+    [&](auto example)
+    {
+      using T = decltype(example);
+      for (int c = 0; isRight && c < kind.components; ++c)
+      {
+        const std::size_t i = voxel * std::size_t(kind.components) + std::size_t(c);
+        isRight = isSum(kind.statistic)
+          ? isSumOf<T>(sums[i], count) && (sums.nonFinite.empty() || simd::isOf(sums.nonFinite[i], count))
+          : areValuesOf<T>(values[i], count);
       }
     });
   return isRight;
+}
+
+void VoxelTally::trim()
+{
+  sums.trim();
+  values.ends.shrink_to_fit();
+  values.values.shrink_to_fit();
+}
+
+std::size_t VoxelTally::bytes() const
+{
+  return sums.digits.capacity() * sizeof(std::int32_t) + sums.nonFinite.capacity() * sizeof(NonFiniteCount) +
+    values.ends.capacity() * sizeof(std::size_t) + values.values.capacity() * sizeof(TallyValue);
 }
 
 } // namespace simd

@@ -1,9 +1,11 @@
 /// @file
-/// What an array has in voxels, in a form that any more can be added to, or taken from.
+/// What an array has in voxels, in a form that any more can be added to, or taken from. It depends on the
+/// tuples alone, not on their order or on how they came.
 #pragma once
 
 #include "Core/Base/Vector3.h"
 #include "Core/Resample/AttributeView.h"
+#include "Core/Resample/Kernel/VoxelKernel.h"
 
 #include <array>
 #include <cstddef>
@@ -15,104 +17,140 @@ namespace pointhaptics
 namespace simd
 {
 
-/// So many of something.
-struct TallyEntry
+/// An exact number, whatever its magnitude: digits of 32 bits, the least first, from -2^31 to below 2^31. A
+/// digit at place 0 is in units of 2^-1216, below the last bit of a double.
+struct ExactNumber
 {
-  std::uint64_t key;
-  std::int64_t amount;
+  int first; ///< The place of the first digit.
+  int size;
+  const std::int32_t* digits;
+
+  static constexpr int kPlaces = 76; ///< Up to beyond the largest sum of doubles.
+  static constexpr int kUnit = 38;   ///< The place of 1.
+
+  int end() const { return first + size; }
+  std::int32_t at(int place) const { return place >= first && place < end() ? digits[place - first] : 0; }
+  /// Rounded once; times 2^exponent it is the number.
+  double rounded(int& exponent) const;
+  /// @pre it is an integer below 2^126.
+  Int128 integer() const;
 };
 
-/// Of each component of each voxel a list of entries, in ascending order of their keys, none of amount 0. It
-/// depends on the tuples alone, not on their order or on how they came.
-///
-/// Of a sum they are its digits, of 32 bits and from -2^31 to below 2^31: an exact number, whatever the
-/// magnitudes of other arrays of the kind were; and how many numbers were not finite. Of values of which the
-/// most frequent or the middle one is wanted: each value, with how many points have it. Memory: 8 bytes a
-/// list, 16 an entry; sums of most arrays have one or two.
-class VoxelTally
+/// An integer times a power of two. @pre its bits lie at places of digits.
+class ShiftedInteger
 {
 public:
-  VoxelTally() = default;
-  explicit VoxelTally(const AccumulatedArray& kind)
-    : kind_(kind)
-  {
-  }
-  const AccumulatedArray& kind() const { return kind_; }
-  /// What it is written as. @pre sums stay sums, others are of values of the same type.
-  void setKind(const AccumulatedArray& kind) { kind_ = kind; }
-  std::size_t voxels() const { return ends_.size() / std::size_t(kind_.components); }
+  ShiftedInteger(std::int64_t value, int exponent);
+  ExactNumber number() const { return { first_, size_, digits_ }; }
 
-  /// Appends a list. Those of a voxel come one after the other.
-  void push(const std::vector<TallyEntry>& list);
-  /// Appends voxels @p first to before @p last of another of this kind.
-  void append(const VoxelTally& from, std::size_t first, std::size_t last);
-  /// Adds @p sign times what a voxel of another has to the last one. @return false where that leaves fewer
-  /// than no points with a value.
-  bool addToLast(const VoxelTally& from, std::size_t voxel, int sign = 1);
-  /// Writes the tuples of voxels @p first to before @p last, of @p counts points each, where those of the
-  /// first belong; vectors turned by @p columns.
-  void write(std::size_t first, std::size_t last, const std::int64_t* counts,
-    const std::array<Vec3, 3>& columns, void* tuples) const;
-  /// Whether tuples of @p count points can have made the lists of a voxel.
-  bool isOf(std::size_t voxel, std::int64_t count) const;
+private:
+  int first_;
+  int size_ = 0;
+  std::int32_t digits_[3];
+};
+
+/// Adds @p sign times a number to another one, whose @p digits are at as many places or more. @return what
+/// its digits have no room for, in units of the place after the last of them.
+std::int64_t addDigits(const ExactNumber& more, int sign, int first, int size, std::int32_t* digits);
+
+/// Sums of numbers, one for each component of each voxel. All have digits at the same places. Memory: 4 bytes
+/// a digit, of which most arrays have one to three.
+class TallySums
+{
+public:
+  int components = 0;
+  int first = 0; ///< The place of the first digit.
+  int width = 0; ///< Digits of a sum.
+  std::size_t size = 0;
+  std::vector<std::int32_t> digits;      ///< [voxel][component][digit]
+  std::vector<NonFiniteCount> nonFinite; ///< [voxel][component], where there are any.
+
+  ExactNumber operator[](std::size_t sum) const
+  {
+    return { first, width, digits.data() + sum * std::size_t(width) };
+  }
+  /// Gives all sums digits from place @p begin to before @p end, too.
+  void cover(int begin, int end);
+  /// Appends sums of no numbers.
+  void push(std::size_t sums);
+  /// Appends the sums from @p begin to before @p end of others.
+  void append(const TallySums& from, std::size_t begin, std::size_t end);
+  void add(std::size_t sum, const ExactNumber& more, int sign = 1);
+  /// @return false where that leaves a count below 0.
+  bool add(std::size_t sum, const NonFiniteCount& more, int sign = 1);
+  /// The mean of @p count numbers.
+  double mean(std::size_t sum, std::int64_t count) const;
+  /// Leaves out digits and counts that are 0 everywhere, but one digit, so that equal sums are kept in the
+  /// same way, and frees memory.
+  void trim();
+
+private:
+  void setPlaces(int begin, int end);
+};
+
+/// So many points have a value, of which this is the orderedKey().
+struct TallyValue
+{
+  std::int64_t key;
+  std::int64_t points;
+};
+
+/// Values of points: for each component of each voxel a list of those that it has, in ascending order.
+/// Memory: 8 bytes a list, 16 a value.
+struct TallyValues
+{
+  int components = 0;
+  std::vector<std::size_t> ends; ///< Of each list.
+  std::vector<TallyValue> values;
 
   struct List
   {
-    const TallyEntry* first;
-    const TallyEntry* last;
+    const TallyValue* first;
+    const TallyValue* last;
 
-    const TallyEntry* begin() const { return first; }
-    const TallyEntry* end() const { return last; }
+    const TallyValue* begin() const { return first; }
+    const TallyValue* end() const { return last; }
+    /// The key that most points have, of several the smallest.
+    std::int64_t mostFrequent() const;
+    /// That of the middle one of @p count points.
+    std::int64_t middle(std::int64_t count) const;
   };
-  List list(std::size_t voxel, int component) const;
-  std::size_t entries() const { return entries_.size(); }
-  std::size_t bytes() const
+  void append(const TallyValues& from, std::size_t begin, std::size_t end);
+  /// Adds to the last lists, as many as a voxel has, @p sign times those from @p begin on. @return false
+  /// where that leaves fewer than no points with a value.
+  bool addToLast(const TallyValues& from, std::size_t begin, int sign);
+  std::size_t beginOf(std::size_t list) const { return list == 0 ? 0 : ends[list - 1]; }
+  List operator[](std::size_t list) const
   {
-    return ends_.capacity() * sizeof(std::size_t) + entries_.capacity() * sizeof(TallyEntry);
+    return { values.data() + beginOf(list), values.data() + ends[list] };
   }
-
-private:
-  template <typename T>
-  bool isListOf(List list, std::int64_t count) const;
-  template <typename T>
-  void writeTuple(std::size_t voxel, std::int64_t count, const std::array<Vec3, 3>& columns, T* to) const;
-
-  AccumulatedArray kind_;
-  std::vector<std::size_t> ends_; ///< Of each list among the entries.
-  std::vector<TallyEntry> entries_;
-  std::vector<TallyEntry> joined_; ///< Scratch of addToLast().
 };
 
-/// Makes the list of a sum from integers times powers of two, and from numbers that are not finite.
-class TallySum
+/// Of an array that is summed the sums, of one whose most frequent or middle values are wanted the values.
+/// The other of the two has no components.
+class VoxelTally
 {
 public:
-  /// @pre the least bit and the sum have exponents of doubles, or 64 less or more.
-  void add(std::int64_t value, int exponent);
-  /// @pre integers come before.
-  void addNonFinite(std::int64_t nans, std::int64_t plus, std::int64_t minus);
-  /// Appends the list to a tally; it is that of 0 afterwards.
-  void moveTo(VoxelTally& tally);
+  TallySums sums;
+  TallyValues values;
 
-private:
-  std::vector<TallyEntry> list_; ///< Of the sum so far.
-  std::vector<TallyEntry> more_; ///< Scratch: of the next integer, and of both.
-  std::vector<TallyEntry> both_;
+  /// Another one like this without voxels.
+  VoxelTally withoutVoxels() const;
+  /// Appends voxels @p first to before @p last of another one like this.
+  void append(const VoxelTally& from, std::size_t first, std::size_t last);
+  /// Adds @p sign times what a voxel of another has to the last one. @return false where that leaves fewer
+  /// than no points with a value.
+  bool addToLast(const VoxelTally& from, std::size_t voxel, int sign);
+  /// Writes the tuples of voxels @p first to before @p last, of @p counts points each; vectors turned by @p
+  /// columns.
+  void write(const AccumulatedArray& kind, std::size_t first, std::size_t last, const std::int64_t* counts,
+    const std::array<Vec3, 3>& columns, void* tuples) const;
+  /// Whether tuples of @p count points can have made what a voxel has.
+  bool isOf(const AccumulatedArray& kind, std::size_t voxel, std::int64_t count) const;
+  /// Frees memory that is not used. Equal tallies are then kept in the same way.
+  void trim();
+  std::size_t bytes() const;
 };
-
-/// A key for each value, in the order of orderedKey().
-template <typename T>
-std::uint64_t tallyKeyOf(T ordered)
-{
-  constexpr std::uint64_t kTop = std::uint64_t(1) << 63;
-  return std::is_signed_v<T> ? std::uint64_t(std::int64_t(ordered)) ^ kTop : std::uint64_t(ordered);
-}
-template <typename T>
-T orderedOfTallyKey(std::uint64_t key)
-{
-  constexpr std::uint64_t kTop = std::uint64_t(1) << 63;
-  return std::is_signed_v<T> ? T(std::int64_t(key ^ kTop)) : T(key);
-}
 
 } // namespace simd
 } // namespace pointhaptics
