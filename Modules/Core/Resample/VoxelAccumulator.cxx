@@ -16,53 +16,6 @@ using namespace simd;
 namespace
 {
 
-/// a - b of what fits 85 bits. @return false where b is more.
-bool subtractSums(const WideSums& a, const WideSums& b, WideSums& difference)
-{
-  VoxelSums sums = a.whole();
-  const VoxelSums other = b.whole();
-  sums.count -= other.count;
-  bool isRight = sums.count >= 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    sums.sums[axis] -= other.sums[axis];
-    isRight = isRight && sums.sums[axis] >= 0 && (sums.count > 0 || sums.sums[axis] == 0);
-  }
-  difference = WideSums::of(sums);
-  return isRight;
-}
-
-/// @return false where @p b has more than @p a.
-bool subtractRun(const VoxelRun& a, const VoxelRun& b, VoxelRun& difference)
-{
-  std::size_t j = 0;
-  for (std::size_t i = 0; i < a.voxels.size(); ++i)
-  {
-    const bool isIn = j < b.voxels.size() && b.voxels[j].key == a.voxels[i].key;
-    WideSums left = a.voxels[i];
-    if (isIn && !subtractSums(a.voxels[i], b.voxels[j], left))
-    {
-      return false;
-    }
-    SecondMoments moments = a.momentsOf(i) ? *a.momentsOf(i) : SecondMoments{};
-    for (int m = 0; isIn && b.momentsOf(j) && m < 6; ++m)
-    {
-      moments.lanes[m] -= b.momentsOf(j)->lanes[m];
-    }
-    if (left.count > 0)
-    {
-      difference.push(left, a.momentsOf(i) ? &moments : nullptr);
-      difference.appendTallies(a, i, i + 1);
-      if (isIn && !difference.addTalliesToLast(b, j, -1))
-      {
-        return false;
-      }
-    }
-    j += isIn;
-  }
-  return j == b.voxels.size();
-}
-
 bool sameTransform(const AffineTransform& a, const AffineTransform& b)
 {
   return std::equal(&a.m[0][0], &a.m[0][0] + 12, &b.m[0][0]);
@@ -116,16 +69,6 @@ VoxelAccumulator::VoxelAccumulator(const Lattice& lattice, bool covariances, std
 VoxelAccumulator::~VoxelAccumulator() = default;
 VoxelAccumulator::VoxelAccumulator(VoxelAccumulator&&) noexcept = default;
 VoxelAccumulator& VoxelAccumulator::operator=(VoxelAccumulator&&) noexcept = default;
-
-const Lattice& VoxelAccumulator::lattice() const
-{
-  return lattice_;
-}
-
-bool VoxelAccumulator::hasCovariances() const
-{
-  return covariances_;
-}
 
 std::int64_t VoxelAccumulator::points() const
 {
@@ -222,7 +165,7 @@ bool VoxelAccumulator::settle()
   }
   VoxelRun difference;
   if (this->clippedPoints() < 0 || this->invalidPoints() < 0 ||
-    !subtractRun(added_->runs.whole(), subtracted_->runs.whole(), difference))
+    !subtracted(added_->runs.whole(), subtracted_->runs.whole(), difference))
   {
     return false;
   }

@@ -49,8 +49,8 @@ public:
   VoxelAccumulator(VoxelAccumulator&&) noexcept;
   VoxelAccumulator& operator=(VoxelAccumulator&&) noexcept;
 
-  const Lattice& lattice() const;
-  bool hasCovariances() const;
+  const Lattice& lattice() const { return lattice_; }
+  bool hasCovariances() const { return covariances_; }
   const std::vector<Array>& arrays() const { return arrays_; }
   /// Another one of the same lattice and arrays, without points.
   VoxelAccumulator withoutPoints() const

@@ -79,6 +79,41 @@ VoxelRun concatenated(std::vector<VoxelRun>& runs, const Executor& executor)
   return all;
 }
 
+bool subtracted(const VoxelRun& from, const VoxelRun& run, VoxelRun& difference)
+{
+  bool isRight = true;
+  forMerged(from, run,
+    [&](std::size_t i, std::size_t j)
+    {
+      if (i == from.size() || j == run.size())
+      {
+        isRight = isRight && i < from.size();
+        difference.append(from, i, i + std::size_t(isRight));
+        return;
+      }
+      VoxelSums left = from.voxels[i].whole();
+      const VoxelSums less = run.voxels[j].whole();
+      left.count -= less.count;
+      isRight = isRight && left.count >= 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        left.sums[axis] -= less.sums[axis];
+        isRight = isRight && left.sums[axis] >= 0 && (left.count > 0 || left.sums[axis] == 0);
+      }
+      if (left.count > 0)
+      {
+        difference.append(from, i, i + 1);
+        difference.voxels.back() = WideSums::of(left);
+        for (int m = 0; run.hasMoments() && m < 6; ++m)
+        {
+          difference.secondMoments.back().lanes[m] -= run.secondMoments[j].lanes[m];
+        }
+        isRight = difference.addTalliesToLast(run, j, -1) && isRight;
+      }
+    });
+  return isRight;
+}
+
 void VoxelRuns::add(VoxelRun run)
 {
   if (run.size() == 0)

@@ -15,6 +15,9 @@ namespace simd
 
 /// The sums of two runs.
 VoxelRun merged(const VoxelRun& a, const VoxelRun& b);
+/// The sums of a run less those of another, without voxels that have no points left. @return false where the
+/// other one has more.
+bool subtracted(const VoxelRun& from, const VoxelRun& run, VoxelRun& difference);
 
 /// One run of several whose keys ascend from one to the next; these are freed.
 VoxelRun concatenated(std::vector<VoxelRun>& runs, const Executor& executor);

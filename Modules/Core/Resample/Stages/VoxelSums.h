@@ -144,12 +144,9 @@ struct VoxelRun
   /// The same of what arrays have there, alone.
   void appendTallies(const VoxelRun& from, std::size_t first, std::size_t last)
   {
+    tallies.resize(std::max(tallies.size(), from.tallies.size())); // A run without voxels has none.
     for (std::size_t i = 0; i < from.tallies.size(); ++i)
     {
-      if (i == tallies.size())
-      {
-        tallies.push_back(from.tallies[i].withoutVoxels());
-      }
       tallies[i].append(from.tallies[i], first, last);
     }
   }

@@ -255,16 +255,10 @@ bool TallyValues::addToLast(const TallyValues& from, std::size_t begin, int sign
   return isRight;
 }
 
-VoxelTally VoxelTally::withoutVoxels() const
-{
-  VoxelTally empty;
-  empty.sums.components = sums.components;
-  empty.values.components = values.components;
-  return empty;
-}
-
 void VoxelTally::append(const VoxelTally& from, std::size_t first, std::size_t last)
 {
+  sums.components = from.sums.components;
+  values.components = from.values.components;
   const auto ofSums = std::size_t(sums.components);
   const auto ofValues = std::size_t(values.components);
   sums.append(from.sums, first * ofSums, last * ofSums);

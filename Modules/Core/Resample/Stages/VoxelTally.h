@@ -134,9 +134,7 @@ public:
   TallySums sums;
   TallyValues values;
 
-  /// Another one like this without voxels.
-  VoxelTally withoutVoxels() const;
-  /// Appends voxels @p first to before @p last of another one like this.
+  /// Appends voxels @p first to before @p last of another one like this; one without voxels becomes like it.
   void append(const VoxelTally& from, std::size_t first, std::size_t last);
   /// Adds @p sign times what a voxel of another has to the last one. @return false where that leaves fewer
   /// than no points with a value.
