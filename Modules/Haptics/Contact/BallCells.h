@@ -11,12 +11,12 @@ namespace pointhaptics
 {
 
 /// Points near a center, each coordinate in an array of its own; all lengths in metres of the lattice frame,
-/// coordinates relative to the center. 50 kB, plain state, one thread. No member function allocates or
+/// coordinates relative to the center. 100 kB, plain state, one thread. No member function allocates or
 /// throws.
 class BallCells
 {
 public:
-  static constexpr int kCapacity = 1024;
+  static constexpr int kCapacity = 2048;
 
   /// @param wanted the instructions to use, as far as this machine has them; the results are the same.
   explicit BallCells(InstructionSet wanted = InstructionSet::Automatic)
@@ -45,6 +45,9 @@ public:
   {
     return pyramid_ == &pyramid && complete_ && norm(p - center_) + radius <= reach_;
   }
+
+  /// The radius about @p p within which all that was asked for is here; below 0: none.
+  double reachAbout(const Vec3& p) const noexcept { return reach_ - norm(p - center_); }
 
   /// How often the pyramid was visited so far: what costs time.
   int passes() const noexcept { return passes_; }

@@ -21,6 +21,8 @@ constexpr double kTooSmall = 0.8;
 constexpr double kHurriedGrowth = 1.3;
 /// Over what it grows by, how high a ball rises for it.
 constexpr double kHighestRise = 4.0;
+/// Most pushes end so far above that, likewise: the points further away are looked at where they do not.
+constexpr double kNearPushes = 2.0;
 constexpr double kRises[] = { 0.0, 1.0, 2.0, kHighestRise };
 /// Points within this many radii determine the radius.
 constexpr double kSearch = 4.0;
@@ -39,6 +41,8 @@ constexpr double kNearlyOut = 0.8;
 /// A point nearer than this many radii is touched.
 constexpr double kTouch = 1.002;
 constexpr int kMostTouched = 16;
+/// A move of a slide goes as far as points are here, unless that is less than this; over the radius.
+constexpr double kShortMove = 0.25;
 /// Most moves of a slide are short: so far around the ball its points are looked at, over the radius.
 constexpr double kFocus = 1.2;
 /// Points nearer than so many radii pinch the ball where their normals are so far apart (a cosine).
@@ -182,8 +186,7 @@ void ProxyBall::place(Work& work, const Vec3& hip) noexcept
   center_ = hip;
   hip_ = hip;
   radius_ = kBallRadiusInSpacings * work.scene.cellSize();
-  isMeasured_ = false;
-  updateRadius(work, hip);
+  measure(work, hip);
   radius_ = wanted_;
   gather(work, 2.0 * radius_);
   double d2 = 0.0;
@@ -217,10 +220,18 @@ bool ProxyBall::makeRoom(Work& work, const ProxyBall& before) noexcept
   const double furthest = radius_ + kHighestRise * growth;
   for (const double part : kRises)
   {
-    center_ = start;
-    gather(work, radius_ + furthest + growth);
-    center_ += part * growth * up;
-    bool isOut = pushOut(work.cells);
+    bool isOut = false;
+    for (const double reach : { std::min((part + kNearPushes) * growth, furthest), furthest })
+    {
+      center_ = start;
+      gather(work, radius_ + reach + growth);
+      center_ += part * growth * up;
+      isOut = pushOut(work.cells);
+      if (norm2(center_ - start) <= reach * reach)
+      {
+        break;
+      }
+    }
     if (isOut && norm2(center_ - start) > furthest * furthest)
     {
       // Pushes led it to where the points that were gathered end.
@@ -364,7 +375,8 @@ void ProxyBall::slide(Work& work, const Vec3& hip) noexcept
   for (int i = 0; i < kMostSlides && work.rounds > 0; ++i, --work.rounds)
   {
     const Vec3 pull = hip - center_;
-    const double longest = std::min(norm(pull), radius_);
+    const double here = work.cells.reachAbout(center_) - (kTouch + kNoWay) * radius_;
+    const double longest = std::min({ norm(pull), radius_, here > kShortMove * radius_ ? here : radius_ });
     gather(work, kTouch * radius_ + longest);
     work.cells.focus(center_, kFocus * radius_);
     Vec3 normals[kMostTouched];
@@ -453,7 +465,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
   {
     place(work, hip);
   }
-  if (!free_ || scene.isNear(center_))
+  else if (!free_ || scene.isNear(center_))
   {
     updateRadius(work, hip);
   }

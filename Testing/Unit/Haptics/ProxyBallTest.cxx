@@ -324,3 +324,48 @@ TEST(ProxyBall, IsScaledWithTheModel)
   EXPECT_LE(norm(carried.ball().center() - 2.0 * hand.ball().center()), 0.2 * carried.ball().radius());
   EXPECT_NEAR(carried.ball().radius(), 2.0 * hand.ball().radius(), 0.2 * carried.ball().radius());
 }
+
+TEST(ProxyBall, LooksForItsPointsAFewTimesATickWhereTheyAreCrowded)
+{
+  // As many as there is room for, and bumps that let it slide in many short moves.
+  trial::Random random(29);
+  HapticSceneInput input;
+  input.points = trial::jitteredPlane(200, 0.02, 0.0, random);
+  for (Vec3& point : input.points)
+  {
+    point.z = 1e-4 * random.uniform(-1, 1);
+  }
+  input.proxyRadii.assign(input.points.size(), 1.7e-3);
+  Status status = Status::Ok;
+  BallInScene hand(HapticScene::create(std::move(input), status));
+  hand.step({ -0.004, 0.0, 0.002 });
+  hand.go({ -0.004, 0.0, -0.0005 }, 0.05);
+  const double likely = 2.1 * hand.ball().radius();
+  const int near = pointsNear(hand.scene(), hand.ball().center(), likely);
+  ASSERT_LT(near, BallCells::kCapacity);
+  ASSERT_GT(pointsNear(hand.scene(), hand.ball().center(), 1.35 * likely), BallCells::kCapacity);
+  hand.takeStatus();
+  int most = 0;
+  for (int i = 1; i <= 200; ++i)
+  {
+    const int before = hand.passes();
+    hand.step({ -0.004 + 4e-5 * i, 0.0, -0.0005 });
+    most = std::max(most, hand.passes() - before);
+  }
+  EXPECT_EQ(hand.takeStatus() & kProxyCellLimit, 0u);
+  EXPECT_LE(most, 6);
+}
+
+TEST(ProxyBall, LooksForItsPointsAFewTimesToBegin)
+{
+  trial::Random random(30);
+  HapticSceneInput input;
+  input.points = trial::jitteredPlane(200, 0.02, 0.0, random);
+  input.proxyRadii.assign(input.points.size(), 1.6e-3);
+  Status status = Status::Ok;
+  BallInScene hand(HapticScene::create(std::move(input), status));
+  hand.step({ 0.0, 0.0, 2e-4 });
+  EXPECT_FALSE(hand.ball().isFree()) << "there is no room for it";
+  EXPECT_EQ(hand.takeStatus() & kProxyCellLimit, 0u);
+  EXPECT_LE(hand.passes(), 3);
+}
