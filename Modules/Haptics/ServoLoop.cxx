@@ -125,6 +125,7 @@ struct ServoLoop::Implementation
   Vec3 lastHip;
   std::uint64_t stillTicks = 0; ///< In a row, without anything to do.
   bool hasUpdates = false;      ///< In this tick.
+  bool holdsModel = false;      ///< In this tick.
   ServoSample sample;
 
   void writeParameters(const HapticParameters& newParameters);
@@ -246,11 +247,15 @@ void ServoLoop::Implementation::run() noexcept
   running.store(false, std::memory_order_release);
 }
 
-/// Returns at @p deadline, and with the tick's code and data at hand if it may wake @p early seconds before;
-/// late where the system wakes the thread late.
+/// Returns at @p deadline with the updates taken, and with the tick's code and data at hand if it may wake @p
+/// early seconds before; late where the system wakes the thread late.
 void ServoLoop::Implementation::waitFor(std::int64_t deadline, double early) noexcept
 {
   sleepUntil(deadline - std::int64_t(1e9 * early));
+  // Whoever let go had published the scene that is to be felt: not the other way about.
+  holdsModel = clutched.load(std::memory_order_acquire);
+  // What is prefetched is a step in the newest scene: the first one there reads what none before it did.
+  applyUpdates();
   if (early > 0.0 && steadyNanoseconds() < deadline)
   {
     step.prefetch();
@@ -268,9 +273,7 @@ Status ServoLoop::Implementation::tick(std::uint64_t number, std::int64_t wake) 
   {
     return input.reading;
   }
-  // Before the updates: whoever let go had published the scene that is to be felt.
-  input.holdsModel = clutched.load(std::memory_order_acquire);
-  applyUpdates();
+  input.holdsModel = holdsModel;
   input.gateIsOpen = gateIsOpen(wake);
   if (beginsAnew.load(std::memory_order_relaxed) && !input.holdsModel && input.gateIsOpen && step.isAtRest())
   {

@@ -29,9 +29,10 @@ struct ServoSettings
   /// Ask that no core falls asleep while the loop runs (/dev/cpu_dma_latency), so that ticks find the core
   /// awake and its caches full; costs power. A refusal is reported.
   bool keepCoresAwake = false;
-  /// The thread wakes so long before each deadline, prefetches its step (Proxy::prefetch()) and spins until
-  /// the deadline: neither the time to wake up nor cold caches are the tick's then. 0 to 1e-3, at most a
-  /// half of the period is used; 0: sleep until the deadline. Costs that part of one core, 10 % at 1 kHz.
+  /// The thread wakes so long before each deadline, prefetches its step (Proxy::prefetch()) in the newest
+  /// scene and spins until the deadline: neither the time to wake up nor cold caches are the tick's then. 0
+  /// to 1e-3, at most a half of the period is used; 0: sleep until the deadline. Costs that part of one core,
+  /// 10 % at 1 kHz.
   double wakeEarlySeconds = 1e-4;
   double watchdogSeconds = 0.0; ///< Without a heartbeat (ServoLoop::keepAlive()) for so long the force is
                                 ///< taken away; 0: never. 0 to 3600.
@@ -97,9 +98,9 @@ struct ServoInputs
 std::string describeRefusals(const ServoStatistics& statistics);
 
 /// Deadlines are absolute times of the steady clock, one period apart; the thread sleeps until shortly before
-/// each (ServoSettings::wakeEarlySeconds). A tick: read the device, take the newest scene and parameters,
-/// step the proxy, guard the force, write it, publish the sample. No step of it allocates, locks, logs or
-/// throws.
+/// each (ServoSettings::wakeEarlySeconds), and takes the newest scene and parameters then. A tick: read the
+/// device, step the proxy, guard the force, write it, publish the sample. No step of it allocates, locks,
+/// logs or throws.
 ///
 /// Faults: a tick whose read() fails sends zero force and steps nothing, and the force grows again from zero
 /// under the guard's slew limit. The proxy keeps its side of the surface over a short fault; after one of 0.1
@@ -141,10 +142,10 @@ public:
   /// False before start(), after stop() and after the end of a path.
   bool running() const noexcept;
 
-  /// The servo thread takes the scene at its next tick; the one before is freed here at a later call, never
-  /// there.
+  /// The servo thread takes the scene when it wakes for its next tick; the one before is freed here at a
+  /// later call, never there.
   void publishScene(std::shared_ptr<const HapticScene> scene);
-  /// Taken at the next tick. InvalidParameter, NotPassive: nothing changes; @p message, where given, names
+  /// Taken as a scene is. InvalidParameter, NotPassive: nothing changes; @p message, where given, names
   /// the limit.
   Status setParameters(const HapticParameters& parameters, std::string* message = nullptr);
   /// While true the hand holds the model instead of feeling it: the force goes to zero over the port's

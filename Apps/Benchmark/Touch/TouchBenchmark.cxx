@@ -35,7 +35,8 @@ constexpr const char* kMethod =
   "beyond the truth's own. The judgement of a stroke ends where the god object leaps from contact to contact "
   "(by more than 4 times the way of the hand and 0.2 mm); phantom and held of the rest of the stroke stand "
   "after a plus sign, and tell less. A stroke ends where a hand that fell through a hole of a scan comes out "
-  "through its wall. Times are of each tick the fastest of the walks: median and p99 in "
+  "through its wall. Before each tick its step is prefetched in the scene that it will be in, as the servo "
+  "loop does. Times are of each tick the fastest of the walks: median and p99 in "
   "contact, finding: the longest out of contact or into it, the maximum of all ticks. Status: percent of the "
   "ticks that set each bit of ProxyState::status.";
 

@@ -148,7 +148,8 @@ TEST_P(EveryMethod, IsTheSameBitForBitWhenRepeated)
 
 TEST_P(EveryMethod, FeelsTheSameBitForBitWhetherStepsArePrefetchedOrNot)
 {
-  const trial::Scene scene = trial::resampledScene(trial::spherePoints(50000, 4, 20e-6));
+  const trial::Scene scenes[] = { trial::resampledScene(trial::spherePoints(50000, 4, 20e-6)),
+    trial::resampledScene(trial::spherePoints(80000, 5, 20e-6)) };
   trial::Path path = probing(0.03);
   const trial::Path slide = trial::sphereSlide(1e-3, 0.05, 300);
   path.insert(path.end(), slide.begin(), slide.end());
@@ -157,11 +158,14 @@ TEST_P(EveryMethod, FeelsTheSameBitForBitWhetherStepsArePrefetchedOrNot)
   Proxy plain(parameters());
   Proxy prefetched(parameters());
   prefetched.prefetch(); // without a scene
-  plain.setScene(scene.get());
-  prefetched.setScene(scene.get());
   int contacts = 0;
   for (std::size_t i = 0; i < path.size(); ++i)
   {
+    if (i % 40 == 0)
+    {
+      plain.setScene(scenes[i / 40 % 2].get());
+      prefetched.setScene(scenes[i / 40 % 2].get());
+    }
     for (std::size_t k = 0; k < i % 3; ++k)
     {
       prefetched.prefetch();

@@ -279,3 +279,29 @@ TEST(ServoLoop, CountsTheScenesItTakes)
   EXPECT_TRUE(eventually([&] { return loop.latest().scenes == 2; }));
   loop.stop();
 }
+
+TEST(ServoLoop, TakesAPublishedSceneBeforeItReadsTheHand)
+{
+  // What it prefetches before the deadline is a step in that scene.
+  constexpr int kPublished = 30;
+  const std::shared_ptr<const HapticScene> first = plane();
+  const std::shared_ptr<const HapticScene> second = plane();
+  ScriptedPort port;
+  port.readStatus = [](int n) { return n < 2 * kPublished ? Status::Ok : Status::EndOfPath; };
+  ServoLoop loop;
+  port.onRead = [&](int n)
+  {
+    if (n == kPublished)
+    {
+      loop.publishScene(second);
+    }
+  };
+  loop.publishScene(first);
+  ASSERT_EQ(loop.start(port, {}, plainSettings()), Status::Ok);
+  ASSERT_TRUE(eventually([&] { return !loop.running(); }));
+  std::vector<ServoSample> samples;
+  loop.takeTrace(samples);
+  ASSERT_GT(samples.size(), std::size_t(kPublished + 1));
+  EXPECT_EQ(samples[kPublished].scene, first->number()) << "it came after the updates of that tick";
+  EXPECT_EQ(samples[kPublished + 1].scene, second->number());
+}

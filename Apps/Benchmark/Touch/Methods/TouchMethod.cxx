@@ -41,6 +41,8 @@ public:
     {
       proxy_.setScene(scene_ = next);
     }
+    // The servo loop does so in the time before each tick, when it has taken the scene.
+    proxy_.prefetch();
   }
   ProxyState step(const Vec3& hip, double dt) override { return last_ = proxy_.step(hip, dt); }
 
