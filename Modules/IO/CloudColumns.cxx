@@ -1,6 +1,7 @@
 #include "CloudColumns.h"
 
 #include "Bytes/NumericType.h"
+#include "Bytes/ShownColors.h"
 #include "FileProblem.h"
 #include "IO/Text/TextScan.h"
 
@@ -26,7 +27,9 @@ namespace
 
 using Names = std::vector<std::vector<std::string>>;
 
-const Names kCoordinates = { { "x", "y", "z" } };
+const Names kCoordinates = { { "x", "y", "z" }, { "easting", "northing", "elevation" },
+  { "easting", "northing", "height" }, { "easting", "northing", "z" } };
+const char* const kDegrees[] = { "lat", "lon", "latitude", "longitude", "long", "lng" };
 const Names kColorsWithAlpha = { { "red", "green", "blue", "alpha" }, { "r", "g", "b", "a" },
   { "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha" } };
 const Names kColors = { { "red", "green", "blue" }, { "r", "g", "b" },
@@ -38,12 +41,26 @@ bool isByte(int type)
   return type == VTK_UNSIGNED_CHAR;
 }
 
+bool isWord(int type)
+{
+  return type == VTK_UNSIGNED_SHORT || isByte(type);
+}
+
+bool isAny(int)
+{
+  return true;
+}
+
 /// The type that holds the values of both.
 int commonType(int a, int b)
 {
   if (a == b)
   {
     return a;
+  }
+  if ((isByte(a) || isWord(a)) && (isByte(b) || isWord(b)))
+  {
+    return VTK_UNSIGNED_SHORT;
   }
   return needsDouble(a) || needsDouble(b) ? VTK_DOUBLE : VTK_FLOAT;
 }
@@ -69,8 +86,11 @@ CloudColumns::CloudColumns(const std::vector<Column>& columns, vtkIdType rows)
   , places_(columns.size())
 {
   planPoints();
-  planNamed(kColorsWithAlpha, "RGBA", &isByte);
-  planNamed(kColors, "RGB", &isByte);
+  if (!planNamed(kColorsWithAlpha, "RGBA", &isByte) && !planNamed(kColors, "RGB", &isByte) &&
+    (planNamed(kColors, "Color16", &isWord) || planNamed(kColors, "Color", &isAny)))
+  {
+    colors_ = arrays_.back();
+  }
   planNamed(kNormals, "Normals", &isFloatingType);
   planNumbered();
 }
@@ -95,16 +115,36 @@ bool CloudColumns::find(const std::vector<std::string>& names, std::vector<std::
 void CloudColumns::planPoints()
 {
   std::vector<std::size_t> found;
-  if (!find(kCoordinates[0], found))
+  if (std::none_of(kCoordinates.begin(), kCoordinates.end(),
+        [&](const std::vector<std::string>& names) { return this->find(names, found); }))
   {
-    failFormat("no columns named x, y and z", "name the three coordinates x, y and z in the header");
+    this->failCoordinates();
   }
   const bool wide =
     std::any_of(found.begin(), found.end(), [&](std::size_t i) { return needsDouble(columns_[i].type); });
   add("Points", found, wide ? VTK_DOUBLE : VTK_FLOAT);
 }
 
-void CloudColumns::planNamed(const Names& names, const char* arrayName, bool (*accepts)(int))
+void CloudColumns::failCoordinates() const
+{
+  constexpr std::size_t kListed = 6;
+  std::string names;
+  bool hasDegrees = false;
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+  {
+    const std::string& name = columns_[i].name;
+    names += i < kListed ? (i == 0 ? " " : ", ") + inQuotes(name) : std::string(i == kListed ? " ..." : "");
+    hasDegrees = hasDegrees ||
+      std::any_of(
+        std::begin(kDegrees), std::end(kDegrees), [&](const char* each) { return equalNoCase(name, each); });
+  }
+  failFormat("no columns named x, y and z, but" + names,
+    hasDegrees
+      ? "degrees are no lengths: project the cloud to metres, such as UTM, and name the columns x, y, z"
+      : "name the three coordinates x, y and z in the header");
+}
+
+bool CloudColumns::planNamed(const Names& names, const char* arrayName, bool (*accepts)(int))
 {
   std::vector<std::size_t> found;
   for (const std::vector<std::string>& candidate : names)
@@ -118,9 +158,10 @@ void CloudColumns::planNamed(const Names& names, const char* arrayName, bool (*a
         type = commonType(type, columns_[i].type);
       }
       add(arrayName, found, type);
-      return;
+      return true;
     }
   }
+  return false;
 }
 
 void CloudColumns::planNumbered()
@@ -191,7 +232,7 @@ ColumnView CloudColumns::target(std::size_t column, int component) const
     std::ptrdiff_t{ size } * array->GetNumberOfComponents(), array->GetDataType() };
 }
 
-void CloudColumns::moveTo(vtkPolyData* cloud)
+void CloudColumns::moveTo(vtkPolyData* cloud, SharedReading* shared)
 {
   vtkNew<vtkPoints> points;
   points->SetData(arrays_[0]);
@@ -199,6 +240,11 @@ void CloudColumns::moveTo(vtkPolyData* cloud)
   for (std::size_t i = 1; i < arrays_.size(); ++i)
   {
     cloud->GetPointData()->AddArray(arrays_[i]);
+  }
+  if (const auto shown = colors_ ? shownColors(colors_, shared) : nullptr)
+  {
+    shown->SetName(unusedName(shown->GetName()).c_str());
+    cloud->GetPointData()->AddArray(shown);
   }
   setActiveAttributes(cloud);
 }

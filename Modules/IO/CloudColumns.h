@@ -16,6 +16,8 @@ class vtkPolyData;
 namespace pointhaptics::io
 {
 
+class SharedReading;
+
 /// More columns than any cloud has: headers with more are refused before names are compared.
 constexpr std::size_t kMostColumns = 4096;
 
@@ -28,9 +30,11 @@ struct Column
 };
 
 /// Plans where each column goes, owns the arrays, and hands them over when they are filled:
-/// - x y z become the points: double when one of them is double or an integer of 4 bytes and more, else
-/// float;
-/// - red green blue [alpha] (or r g b [a]), all unsigned char, become "RGB" or "RGBA", the active scalars;
+/// - x y z (or easting northing elevation|height|z) become the points: double when one of them is double or
+/// an integer of 4 bytes and more, else float;
+/// - red green blue [alpha] (or r g b [a]), all unsigned char, become "RGB" or "RGBA", the active scalars; of
+/// other types they become "Color16" (unsigned short) or "Color", beside an "RGB" made of them
+/// (shownColors());
 /// - nx ny nz or normal_x normal_y normal_z become "Normals", the active normals;
 /// - name_0 name_1 ... in this order become one array "name" (of the widest of their types);
 /// - every other column becomes an array of its name and type.
@@ -45,8 +49,9 @@ public:
   /// Where component @p component of column @p column is to be written.
   ColumnView target(std::size_t column, int component = 0) const;
 
-  /// Gives points, arrays and one vertex per point to @p cloud.
-  void moveTo(vtkPolyData* cloud);
+  /// Gives points, arrays and one vertex per point to @p cloud. @p shared: the ranks that each have a part of
+  /// the rows; collective.
+  void moveTo(vtkPolyData* cloud, SharedReading* shared = nullptr);
 
 private:
   struct Place
@@ -55,7 +60,9 @@ private:
     int component = 0;
   };
   void planPoints();
-  void planNamed(
+  [[noreturn]] void failCoordinates() const;
+  /// @return whether there are such columns.
+  bool planNamed(
     const std::vector<std::vector<std::string>>& names, const char* arrayName, bool (*accepts)(int));
   void planNumbered();
   bool find(const std::vector<std::string>& names, std::vector<std::size_t>& found) const;
@@ -67,6 +74,7 @@ private:
   std::vector<bool> placed_;
   std::vector<Place> places_;
   std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< the first one holds the points
+  vtkSmartPointer<vtkDataArray> colors_;              ///< that are no bytes; null where there are none
 };
 
 /// Gives @p cloud one vertex cell per point and no other cell.

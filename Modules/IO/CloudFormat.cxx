@@ -38,6 +38,8 @@ const Foreign kForeign[] = {
   { "\xfd"
     "7zXZ",
     "this file is xz-compressed", "unpack it first: unxz -k FILE" },
+  { "\xff\xfe"_bytes, "this is text in UTF-16", "save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE" },
+  { "\xfe\xff"_bytes, "this is text in UTF-16", "save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE" },
   { "glTF", "this is a glTF file, which is not read here",
     "convert it to PLY, for example with meshio or Blender" },
 };

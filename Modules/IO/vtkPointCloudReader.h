@@ -8,8 +8,9 @@
  *
  * Output: points, one vertex cell per point, and every scalar field of the file as a point data array with
  * its name and type. Fields that belong together become one array: red green blue [alpha] become "RGB" or
- * "RGBA" (unsigned char, the active scalars), nx ny nz or normal_x normal_y normal_z become "Normals" (the
- * active normals), name_0 name_1 ... become "name". Faces and lines are dropped.
+ * "RGBA" (unsigned char, the active scalars; colours of other types are kept as "Color16" or "Color" beside
+ * an "RGB" made of them), nx ny nz or normal_x normal_y normal_z become "Normals" (the active normals),
+ * name_0 name_1 ... become "name". Faces and lines are dropped.
  *
  * Points are double where the file's numbers need it (double fields, LAS, E57 with scaled integers or poses,
  * text and OBJ with more than 6 significant digits), else float. Points that are NaN or infinite are kept; a
@@ -52,8 +53,9 @@
  * - OFF, NOFF, COFF, CNOFF as text; STL, both kinds: each distinct vertex once, as float, without normals.
  * - OBJ: v x y z [r g b]; vn when there is one per v.
  * - Text (XYZ, TXT, CSV, PTS): separator, header and PTS point count are found by looking; comments start
- *   with # or //; an empty cell reads as NaN. Without a header 4 columns are x y z intensity, 6 are x y z and
- *   red green blue (three integers in 0..255) or normals, 7 are x y z intensity red green blue, and others
+ *   with # or //; an empty cell reads as NaN; a number may have a comma for its point where that separates
+ *   nothing, and stand in quotation marks. Without a header 4 columns are x y z intensity, 6 are x y z and
+ *   red green blue (three integers in 0..65535) or normals, 7 are x y z intensity red green blue, and others
  *   are called column_4 and so on. Columns of integers become int arrays.
  *
  * Faults give an empty output, an error code (vtkErrorCode), a vtkErrorMacro, and GetErrorMessage() with

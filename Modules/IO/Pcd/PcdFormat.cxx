@@ -311,7 +311,7 @@ void readPcd(ReadTask& task, vtkPolyData* cloud)
       fillFromCompressed(task, header, table, columns);
       break;
   }
-  columns.moveTo(cloud);
+  columns.moveTo(cloud, task.shared);
   addFieldData(header, cloud);
 }
 

@@ -195,7 +195,7 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
     task.need(body.offset(), static_cast<std::size_t>(rows.count()) * recordSize);
     fillFixedRecords(body, vertex, static_cast<vtkIdType>(rows.count()), columns, task);
   }
-  columns.moveTo(cloud);
+  columns.moveTo(cloud, task.shared);
 }
 
 /// One ASCII record: a line of numbers.
@@ -339,7 +339,7 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
       task.progress(static_cast<double>(row) / static_cast<double>(rows.count()));
     }
   }
-  columns.moveTo(cloud);
+  columns.moveTo(cloud, task.shared);
 }
 
 } // namespace

@@ -33,8 +33,8 @@ public:
     smallest_ = std::min(smallest_, other.smallest_);
     largest_ = std::max(largest_, other.largest_);
   }
-  /// Whether all are integers in 0..255.
-  bool isByte() const { return isInteger_ && smallest_ >= 0.0 && largest_ <= 255.0; }
+  /// Whether all are integers in 0..@p most.
+  bool isInteger(double most) const { return isInteger_ && smallest_ >= 0.0 && largest_ <= most; }
   double largest() const { return largest_; }
   /// VTK_FLOAT when a float keeps every digit, else VTK_DOUBLE.
   int floatingType() const { return fitsFloat_ ? VTK_FLOAT : VTK_DOUBLE; }

@@ -13,9 +13,11 @@ namespace pointhaptics::io
 namespace
 {
 
-bool areBytes(const std::vector<NumberColumn>& table, std::size_t first)
+/// Integers as colours of 8 or 16 bits are.
+bool areColors(const std::vector<NumberColumn>& table, std::size_t first)
 {
-  return table[first].isByte() && table[first + 1].isByte() && table[first + 2].isByte();
+  return std::all_of(table.begin() + first, table.begin() + first + 3,
+    [](const NumberColumn& column) { return column.isInteger(65535.0); });
 }
 
 /// Names for a table without header.
@@ -26,7 +28,7 @@ std::vector<std::string> guessNames(const std::vector<NumberColumn>& table)
   {
     return { "x", "y", "z", "intensity" };
   }
-  if (count == 6 && areBytes(table, 3))
+  if (count == 6 && areColors(table, 3))
   {
     return { "x", "y", "z", "red", "green", "blue" };
   }
@@ -34,7 +36,7 @@ std::vector<std::string> guessNames(const std::vector<NumberColumn>& table)
   {
     return { "x", "y", "z", "nx", "ny", "nz" };
   }
-  if (count == 7 && areBytes(table, 4))
+  if (count == 7 && areColors(table, 4))
   {
     return { "x", "y", "z", "intensity", "red", "green", "blue" };
   }
@@ -64,7 +66,13 @@ int typeOf(const std::string& name, const NumberColumn& column)
   {
     return column.floatingType();
   }
-  return isColorName(name) && column.isByte() ? VTK_TYPE_UINT8 : column.type();
+  if (isColorName(name) && column.isInteger(255.0))
+  {
+    return VTK_TYPE_UINT8;
+  }
+  return isOneOf(name, { "red", "green", "blue", "r", "g", "b" }) && column.isInteger(65535.0)
+    ? VTK_TYPE_UINT16
+    : column.type();
 }
 
 const char* separatorName(const TextLayout& layout)
@@ -144,7 +152,7 @@ void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPoly
     targets.push_back(columns.target(i));
   }
   storeTable(task, text, layout, targets);
-  columns.moveTo(cloud);
+  columns.moveTo(cloud, task.shared);
 }
 
 void readText(ReadTask& task, vtkPolyData* cloud)
@@ -153,14 +161,25 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   task.need(0, kStartOfText);
   const std::string_view text = withoutByteOrderMark(task.bytes);
   const TextLayout layout = layoutOf(task, text);
-  task.format = layout.hasPointCount ? "PTS" : std::string("text (") + separatorName(layout) + ")";
+  const bool isBlank = layout.columns == 0 && layout.names.empty();
+  task.format = layout.hasPointCount ? "PTS"
+    : isBlank                        ? "text"
+                                     : std::string("text (") + separatorName(layout) + ")";
   if (layout.columns == 0)
   {
     failNoPoints();
   }
+  if (layout.hasPointCount && layout.columns < 3)
+  {
+    failFormat("the first line of data has " + std::to_string(layout.columns) +
+        (layout.columns == 1 ? " column" : " columns"),
+      "write one point per line: x y z; a PTX file, with the scanner's place before its points, is not read: "
+      "export it as E57 or PTS");
+  }
   if (layout.columns < 3 || (!layout.names.empty() && layout.names.size() != layout.columns))
   {
-    failFormat("the first line of data has " + std::to_string(layout.columns) + " columns" +
+    failFormat("the first line of data has " + std::to_string(layout.columns) +
+        (layout.columns == 1 ? " column" : " columns") +
         (layout.names.empty() ? "" : " and the header names " + std::to_string(layout.names.size())),
       "write one point per line: x y z, then one column per name of the header");
   }

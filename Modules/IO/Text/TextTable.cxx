@@ -3,6 +3,7 @@
 #include "CloudColumns.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 
@@ -29,10 +30,64 @@ bool isComment(std::string_view line)
   return line.substr(0, 1) == "#" || line.substr(0, 2) == "//";
 }
 
+/// "0,25" as a spreadsheet of many countries writes it. @return false when it is no such number.
+bool parseWithComma(std::string_view cell, double& value, NumberShape* shape)
+{
+  char copy[64];
+  const std::size_t comma = cell.find(',');
+  if (comma == std::string_view::npos || comma == 0 || comma + 1 == cell.size() ||
+    cell.size() > sizeof(copy) || cell.find('.') != std::string_view::npos)
+  {
+    return false;
+  }
+  std::copy(cell.begin(), cell.end(), copy);
+  copy[comma] = '.';
+  return parseNumber(std::string_view(copy, cell.size()), value, shape);
+}
+
+std::string_view withoutQuotes(std::string_view cell)
+{
+  while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+  {
+    cell = trimmed(cell.substr(1, cell.size() - 2));
+  }
+  return cell;
+}
+
+/// A number with a point or a comma, also within quotation marks.
+bool parseCell(std::string_view cell, double& value, NumberShape* shape = nullptr)
+{
+  if (parseNumber(cell, value, shape))
+  {
+    return true;
+  }
+  cell = withoutQuotes(cell);
+  return parseNumber(cell, value, shape) || parseWithComma(cell, value, shape);
+}
+
+/// "0,25 1 3,5": three words or more that are numbers, in which a comma can separate nothing.
+bool hasDecimalCommas(std::string_view line)
+{
+  std::size_t words = 0;
+  double value = 0.0;
+  for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line))
+  {
+    if (!parseCell(word, value))
+    {
+      return false;
+    }
+    ++words;
+  }
+  return words >= 3;
+}
+
 char separatorOf(std::string_view line)
 {
-  const bool semicolon = line.find(';') != std::string_view::npos;
-  return semicolon ? ';' : line.find(',') != std::string_view::npos ? ',' : ' ';
+  if (line.find(';') != std::string_view::npos)
+  {
+    return ';';
+  }
+  return line.find(',') == std::string_view::npos || hasDecimalCommas(line) ? ' ' : ',';
 }
 
 /// Takes the next cell, trimmed, off the front of @p line. @return false when there is none left.
@@ -79,16 +134,13 @@ bool isHeader(const std::vector<std::string_view>& cells)
 {
   double value = 0.0;
   return !cells.empty() &&
-    std::none_of(cells.begin(), cells.end(), [&](std::string_view cell) { return parseNumber(cell, value); });
+    std::none_of(cells.begin(), cells.end(), [&](std::string_view cell) { return parseCell(cell, value); });
 }
 
 /// ParaView writes "Points:0" for x.
 std::string columnName(std::string_view cell)
 {
-  while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-  {
-    cell = trimmed(cell.substr(1, cell.size() - 2));
-  }
+  cell = withoutQuotes(cell);
   for (int axis = 0; axis < 3; ++axis)
   {
     if (equalNoCase(cell, "Points:" + std::to_string(axis)) ||
@@ -158,7 +210,8 @@ template <typename Sink>
 void TableWalk<Sink>::failCell(std::size_t column, std::string_view cell) const
 {
   failFormat(where() + ", column " + std::to_string(column + 1) + ": " + inQuotes(cell) + " is not a number",
-    "write numbers with a decimal point, the same separator on every line, and comments after #");
+    "write numbers with the same separator on every line, leave columns of texts out, and write comments "
+    "after #");
 }
 
 template <typename Sink>
@@ -195,7 +248,14 @@ void TableWalk<Sink>::addWords(std::string_view line)
     if (!takeNumber(rest, value, &shape))
     {
       const std::string_view word = takeWord(rest);
-      word.empty() ? failColumns(line) : failCell(column, word);
+      if (word.empty())
+      {
+        failColumns(line);
+      }
+      if (!parseCell(word, value, &shape))
+      {
+        failCell(column, word);
+      }
     }
     sink_.number(column, value, shape);
   }
@@ -228,7 +288,7 @@ void TableWalk<Sink>::addSeparated(std::string_view line)
     {
       sink_.empty(column); // a spreadsheet's way to say: not measured
     }
-    else if (parseNumber(cell, value, &shape))
+    else if (parseCell(cell, value, &shape))
     {
       sink_.number(column, value, shape);
     }
@@ -313,6 +373,8 @@ struct StoreSink
         return put(to, value);
       case VTK_TYPE_UINT8:
         return put(to, static_cast<unsigned char>(value));
+      case VTK_TYPE_UINT16:
+        return put(to, static_cast<std::uint16_t>(value));
       default:
         return put(to, static_cast<int>(value));
     }
@@ -355,6 +417,7 @@ TextLayout inspectText(std::string_view text)
     if (layout.names.empty() && isHeader(cells))
     {
       layout.names = columnNames(cells);
+      layout.separator = separator;
       layout.bodyOffset = lines.position();
       layout.bodyLine = lines.lineNumber() + 1;
       continue;

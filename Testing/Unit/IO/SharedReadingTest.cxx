@@ -141,6 +141,12 @@ TEST_F(SharedReading, TextIsCutAtLinesAndHasTheTypesThatAllLinesNeed)
   expectPartsOf(write("block.pts", "3\n0 0 0\n1 0 0\n0 1 0\n"));
 }
 
+TEST_F(SharedReading, ColoursAreScaledByTheLargestOfAllParts)
+{
+  expectPartsOf(write("words.csv", "x,y,z,r,g,b\n0,0,0,1,2,3\n1,0,0,1,2,3\n2,0,0,1,2,3000\n"), false);
+  expectPartsOf(write("floats.csv", "x,y,z,r,g,b\n0,0,0,0.5,1,0\n1,0,0,1,0.5,1\n2,0,0,1.5,200,3\n"), false);
+}
+
 TEST_F(SharedReading, RecordsAreCutEvenly)
 {
   const std::string csv = write("table.csv", table(1001));

@@ -106,13 +106,63 @@ TEST_F(Text, HeaderNamesTheColumns)
   EXPECT_EQ(paraview.value("RGB", 0, 2), 3);
 }
 
+TEST_F(Text, ANumberMayHaveACommaForItsPoint)
+{
+  for (const char* text : { "x;y;z;w\n-0,25;1;3,5e1;7\n1;2,5;3;8\n", "-0,25\t1\t3,5e1\t7\n1 2,5 3 8\n",
+         "X Y Z w\n-0,25 1 3,5e1 7\n1 2,5 3 8\n" })
+  {
+    const ReadResult result = readCloud(write("a.csv", text));
+    ASSERT_EQ(result.error, "") << text;
+    ASSERT_EQ(result.points(), 2) << text;
+    EXPECT_EQ(result.cloud->GetPoint(0)[0], -0.25) << text;
+    EXPECT_EQ(result.cloud->GetPoint(0)[2], 35.0) << text;
+    EXPECT_EQ(result.cloud->GetPoint(1)[1], 2.5) << text;
+  }
+  EXPECT_EQ(readCloud(write("b.csv", "1,2,3\n4,5,6\n")).cloud->GetPoint(1)[2], 6.0) << "they separate";
+  EXPECT_EQ(readCloud(write("c.csv", "\"x\",\"y\",\"z\"\n\"1\",\"2.5\",3\n")).cloud->GetPoint(0)[1], 2.5);
+  expectRefused(readCloud(write("d.csv", "x;y;z\n1.234,5;1;2\n")), "line 2, column 1: '1.234,5'");
+}
+
+TEST_F(Text, ColoursOfSixteenBitsAndFractionsAreShown)
+{
+  const ReadResult words = readCloud(write("a.csv", "x,y,z,r,g,b\n1,2,3,0,256,65535\n1,2,4,7,65279,1\n"));
+  ASSERT_EQ(words.error, "");
+  EXPECT_EQ(words.array("Color16")->GetDataType(), VTK_UNSIGNED_SHORT);
+  EXPECT_EQ(words.value("Color16", 1, 1), 65279);
+  ASSERT_NE(words.cloud->GetPointData()->GetScalars(), nullptr);
+  EXPECT_STREQ(words.cloud->GetPointData()->GetScalars()->GetName(), "RGB");
+  EXPECT_EQ(words.value("RGB", 0, 1), 1);
+  EXPECT_EQ(words.value("RGB", 0, 2), 255);
+  EXPECT_EQ(words.value("RGB", 1, 1), 254);
+  const ReadResult parts =
+    readCloud(write("b.csv", "x y z red green blue\n1 2 3 0 0.5 1\n1 2 3 nan 0.25 0\n"));
+  ASSERT_NE(parts.array("RGB"), nullptr);
+  EXPECT_EQ(parts.value("Color", 0, 1), 0.5);
+  EXPECT_EQ(parts.value("RGB", 0, 1), 128);
+  EXPECT_EQ(parts.value("RGB", 0, 2), 255);
+  EXPECT_EQ(parts.value("RGB", 1, 0), 0);
+  const ReadResult large = readCloud(write("c.csv", "x y z red green blue\n1 2 3 0.5 200 255\n"));
+  EXPECT_EQ(large.value("RGB", 0, 1), 200);
+  EXPECT_EQ(readCloud(write("d.csv", "x y z r g b\n1 2 3 -5 2 3\n")).array("RGB"), nullptr) << "no colours";
+}
+
 TEST_F(Text, NamesTheLineOfWhatIsWrong)
 {
   expectRefused(readCloud(write("a.xyz", "1 2 3\n4 five 6\n")), "line 2, column 2: 'five'");
   expectRefused(readCloud(write("a.xyz", "1 2 3\n4 5\n")), "line 2: 2 columns where 3");
   expectRefused(readCloud(write("a.xyz", "1 2 3\n4 5 6 7\n")), "line 2: 4 columns where 3");
   expectRefused(readCloud(write("a.xyz", "1 2 3\n1e999 5 6\n")), "1e999");
-  expectRefused(readCloud(write("a.csv", "east,north,up\n1,2,3\n")), "x, y and z");
+  expectRefused(
+    readCloud(write("a.csv", "east,north,up\n1,2,3\n")), "x, y and z, but 'east', 'north', 'up'; name the");
+  expectRefused(readCloud(write("a.csv", "lon,lat,height\n11,48,3\n")), "degrees are no lengths");
+  expectRefused(readCloud(write("a.csv",
+                  "\xff\xfe"
+                  "x")),
+    "UTF-16");
+  expectRefused(readCloud(write("a.ptx", "2\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")), "a PTX file");
+  EXPECT_EQ(
+    readCloud(write("a.csv", "Easting,Northing,Elevation\n684766.39,5017773.08,7\n")).cloud->GetPoint(0)[2],
+    7.0);
   expectRefused(readCloud(write("a.csv", "x,y,z\n")), "holds no points");
   expectRefused(readCloud(write("a.csv", "# nothing\n")), "holds no points");
   expectRefused(readCloud(write("a.xyz", "1 2\n3 4\n")), "2 columns");
