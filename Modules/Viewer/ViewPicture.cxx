@@ -1,6 +1,7 @@
 #include "ViewPicture.h"
 
 #include "PathTicks.h"
+#include "PngFile.h"
 #include "Replay.h"
 #include "StereoPicture.h"
 #include "ViewScene.h"
@@ -10,7 +11,6 @@
 #include "vtkHapticProps.h"
 #include "vtkVoxelMeanResampler.h"
 
-#include "Core/Base/OutputFile.h"
 #include "Devices/HipPath.h"
 
 #include <algorithm>
@@ -23,13 +23,11 @@
 #include <vtkCamera.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointSet.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
 #include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 namespace pointhaptics
@@ -159,21 +157,7 @@ bool writePicture(vtkRenderWindow* window, const std::function<void()>& render, 
   vtkSmartPointer<vtkImageData> image = transparent ? grabWithoutGround(window, render) : nullptr;
   render(); // also what the window goes on to show
   image = image ? image : grab(window);
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* bytes = writer->GetResult();
-  OutputFile file;
-  static_cast<void>(file.open(fileName)); // commit() tells
-  static_cast<void>(file.write({ reinterpret_cast<const char*>(bytes->GetPointer(0)),
-    static_cast<std::size_t>(bytes->GetNumberOfValues()) }));
-  if (file.commit() != Status::Ok)
-  {
-    message = fmt::format("{}: cannot be written: {}; {}", fileName, file.reason(), file.cure());
-    return false;
-  }
-  return true;
+  return writePng(image, fileName, message);
 }
 
 namespace
@@ -330,8 +314,7 @@ bool feelAlongPath(ViewScene& scene, const HapticViewerOptions& options, const H
     }
     if (!chart->WriteImage(options.forceChart.c_str()))
     {
-      message = fmt::format(
-        "{}: cannot be written; check that its folder exists and can be written", options.forceChart);
+      message = chart->GetErrorMessage();
       return false;
     }
     note(observer, "force chart: " + options.forceChart);

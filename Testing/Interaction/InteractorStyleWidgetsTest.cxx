@@ -13,6 +13,7 @@
 #include <vtkActor2D.h>
 #include <vtkActor2DCollection.h>
 #include <vtkAxis.h>
+#include <vtkCallbackCommand.h>
 #include <vtkChartXY.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
@@ -20,10 +21,12 @@
 #include <vtkPropCollection.h>
 #include <vtkRenderWindow.h>
 #include <vtkStringArray.h>
+#include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <vector>
 
 using namespace pointhaptics;
@@ -275,6 +278,55 @@ TEST(HapticChart, HasLabelsThatTellTheScaleOfALowChart)
     }
   }
 }
+
+TEST(HapticChart, HasTitlesOfOneSizeThatFollowTheWindow)
+{
+  SKIP_WITHOUT_DISPLAY();
+  vtkNew<vtkRenderWindow> window;
+  vtkNew<vtkHapticChart> chart;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetDPI(97);
+  window->AddRenderer(chart->GetRenderer());
+  auto* context = vtkContextActor::SafeDownCast(chart->GetRenderer()->GetViewProps()->GetLastProp());
+  auto* drawn = vtkChartXY::SafeDownCast(context->GetScene()->GetItem(0));
+  int sizes[2] = {};
+  for (const int height : { 108, 400 })
+  {
+    window->SetSize(576, height);
+    window->Render();
+    chart->Update();
+    int& size = sizes[height > 200];
+    size = drawn->GetAxis(vtkAxis::LEFT)->GetTitleProperties()->GetFontSize();
+    for (const int axis : { vtkAxis::RIGHT, vtkAxis::BOTTOM })
+    {
+      EXPECT_EQ(drawn->GetAxis(axis)->GetTitleProperties()->GetFontSize(), size)
+        << height << " axis " << axis;
+    }
+  }
+  EXPECT_LT(sizes[0], sizes[1]);
+  window->RemoveRenderer(chart->GetRenderer());
+}
+
+#ifdef __linux__
+TEST(HapticChart, SaysThatTheDiskIsFull)
+{
+  SKIP_WITHOUT_DISPLAY();
+  if (!std::filesystem::is_character_file("/dev/full"))
+  {
+    GTEST_SKIP() << "no /dev/full on this system";
+  }
+  vtkNew<vtkHapticChart> chart;
+  chart->AddSample(0.0, 1.0, 0.001);
+  chart->AddSample(1.0, 1.0, 0.001);
+  vtkNew<vtkCallbackCommand> silence;
+  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  chart->AddObserver(vtkCommand::ErrorEvent, silence);
+  EXPECT_FALSE(chart->WriteImage("/dev/full"));
+  EXPECT_EQ(chart->GetErrorMessage(),
+    "/dev/full: cannot be written: No space left on device; free some space on the disk or write elsewhere");
+}
+#endif
 
 TEST(HapticOverlay, ShowsTheHelpAlsoWhereItsOtherTextsAreHidden)
 {

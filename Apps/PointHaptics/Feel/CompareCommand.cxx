@@ -155,7 +155,7 @@ bool drawChart(const CompareOptions& options, const Recording& recording,
   }
   if (!chart->WriteImage(options.chart.c_str(), kChartWidth, kChartHeight))
   {
-    message = options.chart + ": cannot be written; check that its folder exists and can be written";
+    message = chart->GetErrorMessage();
   }
   static_cast<void>(takeVtkErrors());
   return message.empty();

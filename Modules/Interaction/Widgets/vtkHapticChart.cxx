@@ -1,5 +1,7 @@
 #include "vtkHapticChart.h"
 
+#include "PngFile.h"
+
 #include "vtkAxis.h"
 #include "vtkBrush.h"
 #include "vtkChartLegend.h"
@@ -7,9 +9,9 @@
 #include "vtkContextActor.h"
 #include "vtkContextScene.h"
 #include "vtkFloatArray.h"
+#include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPNGWriter.h"
 #include "vtkPen.h"
 #include "vtkPlot.h"
 #include "vtkRenderWindow.h"
@@ -102,6 +104,9 @@ struct vtkHapticChart::Internals
   std::deque<Sample> samples;
   bool paused = false;
   bool wasFlat = false;
+  std::string errorMessage;
+  int fittedHeight = 0; // of the renderer whose texts fit, pixels,
+  int fittedDpi = 0;    // and of its window
 
   void fill(double begin, double end);
   bool isFlat() const;
@@ -117,19 +122,23 @@ bool vtkHapticChart::Internals::isLow() const
 }
 
 /// The label at the top of an axis, half of which is above it, and the upright titles end within the chart.
+/// Titles have one size, the largest that all of them fit in.
 void vtkHapticChart::Internals::fitTexts()
 {
   vtkRenderer* drawn = this->renderer;
   vtkWindow* window = drawn->GetVTKWindow();
-  if (!window)
+  if (!window || (drawn->GetSize()[1] == this->fittedHeight && window->GetDPI() == this->fittedDpi))
   {
     return;
   }
-  const double letter = kFontSize * window->GetDPI() / kPointsPerInch;
+  this->fittedHeight = drawn->GetSize()[1];
+  this->fittedDpi = window->GetDPI();
+  const double letter = kFontSize * this->fittedDpi / kPointsPerInch;
   const int above = std::max(kVtkBorder, static_cast<int>(std::ceil(0.75 * letter)));
   this->chart->SetHiddenAxisBorder(above);
   // Below the axis are a row of labels and a title; twice the way from its middle to the nearer edge.
-  const double room = drawn->GetSize()[1] + above - 3.5 * letter;
+  const double room = this->fittedHeight + above - 3.5 * letter;
+  double fitting = kFontSize;
   for (const int which : { vtkAxis::LEFT, vtkAxis::RIGHT })
   {
     vtkAxis* axis = this->chart->GetAxis(which);
@@ -139,10 +148,15 @@ void vtkHapticChart::Internals::fitTexts()
     upright->SetFontSize(kFontSize);
     int box[4] = {};
     vtkTextRenderer* texts = vtkTextRenderer::GetInstance();
-    const bool known = texts && texts->GetBoundingBox(upright, axis->GetTitle(), box, window->GetDPI());
-    const double fitting = known ? kFontSize * room / std::max(1, box[1] - box[0]) : kFontSize;
-    axis->GetTitleProperties()->SetFontSize(
-      static_cast<int>(std::clamp<double>(fitting, kSmallestFontSize, kFontSize)));
+    if (texts && texts->GetBoundingBox(upright, axis->GetTitle(), box, this->fittedDpi))
+    {
+      fitting = std::min(fitting, kFontSize * room / std::max(1, box[1] - box[0]));
+    }
+  }
+  for (const int which : { vtkAxis::LEFT, vtkAxis::RIGHT, vtkAxis::BOTTOM })
+  {
+    this->chart->GetAxis(which)->GetTitleProperties()->SetFontSize(
+      std::max(kSmallestFontSize, static_cast<int>(fitting)));
   }
 }
 
@@ -380,19 +394,21 @@ bool vtkHapticChart::WriteImage(const char* fileName, int width, int height)
   vtkNew<vtkWindowToImageFilter> grabber;
   grabber->SetInput(renderWindow);
   grabber->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(grabber->GetOutputPort());
-  writer->SetFileName(fileName);
-  writer->Write();
+  grabber->Update();
   renderWindow->RemoveRenderer(this->Parts->renderer);
   this->TimeWindow = window;
-  if (writer->GetErrorCode() != 0)
+  std::string& message = this->Parts->errorMessage;
+  message.clear();
+  if (!pointhaptics::writePng(grabber->GetOutput(), fileName, message))
   {
-    vtkErrorMacro(
-      "Cannot write the chart to " << fileName << ": check that its folder exists and can be written.");
-    return false;
+    vtkErrorMacro(<< message);
   }
-  return true;
+  return message.empty();
+}
+
+const std::string& vtkHapticChart::GetErrorMessage() const
+{
+  return this->Parts->errorMessage;
 }
 
 void vtkHapticChart::PrintSelf(ostream& os, vtkIndent indent)

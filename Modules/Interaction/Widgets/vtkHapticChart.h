@@ -18,6 +18,7 @@
 #include "vtkObject.h"
 
 #include <memory> // For Internals
+#include <string>
 
 class vtkRenderer;
 
@@ -80,9 +81,11 @@ public:
 
   /**
    * Write all samples as a PNG of @p width by @p height pixels, through a window of its own off the screen.
-   * Needs a display as every VTK window does. False, with vtkErrorMacro: the file cannot be written.
+   * Needs a display as every VTK window does. False, with vtkErrorMacro: the file cannot be written, and
+   * GetErrorMessage() says why and names the cure.
    */
   bool WriteImage(const char* fileName, int width = 1000, int height = 420);
+  const std::string& GetErrorMessage() const;
 
 protected:
   vtkHapticChart();

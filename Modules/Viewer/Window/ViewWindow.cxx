@@ -411,8 +411,7 @@ bool ViewWindow::finish(std::string& message)
   {
     if (!wholeChart_->WriteImage(options_.forceChart.c_str()))
     {
-      message = fmt::format(
-        "{}: cannot be written; check that its folder exists and can be written", options_.forceChart);
+      message = wholeChart_->GetErrorMessage();
       return false;
     }
     this->report(HapticViewerObserver::Kind::Note, "force chart: " + options_.forceChart);
