@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
 #include <cstring>
 #include <string>
@@ -44,10 +45,6 @@ constexpr const char* kDevice = "P: /devices/pci0000:00/0000:00:14.0/usb1/1-1\n"
                                 "0904000002ffffff02"
                                 "07058102400000"
                                 "07050202400000\n";
-constexpr auto kLatency = std::chrono::milliseconds(1);
-constexpr int kChipStatusBytes = 2;
-constexpr int kPacket = 64;
-constexpr std::size_t kSetup = 8;
 
 usbdevfs_urb& urbOf(UMockdevIoctlData* data)
 {
@@ -90,8 +87,7 @@ void EmulatedFalcon::plugIn()
     const std::lock_guard<std::mutex> lock(mutex_);
     plugged_ = true;
     claimed_ = false;
-    model_.powerOff();
-    movedTo_ = std::chrono::steady_clock::now();
+    this->powerOn();
   }
   ASSERT_TRUE(umockdev_testbed_add_from_string(bed_, kDevice, &error)) << error->message;
 }
@@ -211,9 +207,9 @@ void EmulatedFalcon::submit(UMockdevIoctlClient* client)
     umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0, sizeof(usbdevfs_urb), nullptr);
   transfer.buffer = umockdev_ioctl_data_resolve(
     transfer.urb, offsetof(usbdevfs_urb, buffer), std::size_t(urbOf(transfer.urb).buffer_length), nullptr);
-  transfer.submitted = std::chrono::steady_clock::now();
+  transfer.submitted = Clock::now();
   const usbdevfs_urb& urb = urbOf(transfer.urb);
-  catchUp();
+  this->catchUp();
   if (urb.type == USBDEVFS_URB_TYPE_CONTROL)
   {
     control(transfer.buffer->data);
@@ -236,26 +232,25 @@ void EmulatedFalcon::control(const std::uint8_t* setup)
   model_.control(setup[1], std::uint16_t(setup[2] | (setup[3] << 8)));
 }
 
-/// A packet from the chip: two status bytes, and what the model has said; without payload only after the
-/// latency timer.
 void EmulatedFalcon::finish(Transfer& transfer)
 {
-  const bool late = std::chrono::steady_clock::now() - transfer.submitted >= kLatency;
-  if (transfer.done || (model_.pending().empty() && !late))
+  if (transfer.done)
   {
     return;
   }
-  std::uint8_t packet[kPacket] = { 0x01, 0x60 };
-  const std::size_t room =
-    std::size_t(std::min(kPacket, urbOf(transfer.urb).buffer_length) - kChipStatusBytes);
-  transfer.length = kChipStatusBytes + int(model_.read(packet + kChipStatusBytes, room));
-  umockdev_ioctl_data_update(transfer.buffer, 0, packet, transfer.length);
-  transfer.done = true;
+  std::vector<std::uint8_t> bytes =
+    this->packet(std::size_t(urbOf(transfer.urb).buffer_length), transfer.submitted);
+  transfer.done = !bytes.empty();
+  if (transfer.done)
+  {
+    transfer.length = int(bytes.size());
+    umockdev_ioctl_data_update(transfer.buffer, 0, bytes.data(), transfer.length);
+  }
 }
 
 void EmulatedFalcon::reap(UMockdevIoctlClient* client)
 {
-  catchUp();
+  this->catchUp();
   for (auto transfer = transfers_.begin(); transfer != transfers_.end(); ++transfer)
   {
     finish(*transfer);
@@ -295,17 +290,6 @@ void EmulatedFalcon::discard(UMockdevIoctlClient* client)
     }
   }
   umockdev_ioctl_client_complete(client, -1, EINVAL);
-}
-
-void EmulatedFalcon::catchUp()
-{
-  const auto now = std::chrono::steady_clock::now();
-  const double seconds = std::chrono::duration<double>(now - movedTo_).count();
-  if (seconds >= 1e-4)
-  {
-    model_.move(std::min(seconds, 0.1));
-    movedTo_ = now;
-  }
 }
 
 } // namespace trial

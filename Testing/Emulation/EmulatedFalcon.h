@@ -2,14 +2,11 @@
 /// A FalconModel behind an emulated USB device: the real libusb talks to it through umockdev.
 #pragma once
 
-#include "../Unit/Devices/FalconModel.h"
+#include "../Unit/Devices/RealTimeFalcon.h"
 
 #include <umockdev.h>
 
-#include <chrono>
 #include <deque>
-#include <memory>
-#include <mutex>
 #include <vector>
 
 namespace pointhaptics
@@ -18,27 +15,18 @@ namespace trial
 {
 
 /// Answers what libusb asks of /dev/bus/usb/001/002 (usbfs): capabilities, claiming, and transfers that are
-/// submitted, reaped and discarded. The hand moves in real time. The test's threads and umockdev's meet at
+/// submitted, reaped and discarded. The test's threads and umockdev's meet at
 /// one mutex.
-class EmulatedFalcon
+class EmulatedFalcon : public RealTimeFalcon
 {
 public:
   explicit EmulatedFalcon(UMockdevTestbed* bed);
   ~EmulatedFalcon();
-  EmulatedFalcon(const EmulatedFalcon&) = delete;
-  EmulatedFalcon& operator=(const EmulatedFalcon&) = delete;
 
   void plugIn();
   /// Transfers under way end with ESHUTDOWN, later calls with ENODEV, then the system says "remove".
   void unplug();
 
-  /// Calls @p use(model) while nobody else touches it.
-  template <typename Use>
-  auto with(Use&& use)
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return use(model_);
-  }
   bool claimed();
   int pendingTransfers();
   /// Every further claim gives this errno; 0: none.
@@ -51,7 +39,7 @@ private:
   {
     UMockdevIoctlData* urb = nullptr;
     UMockdevIoctlData* buffer = nullptr;
-    std::chrono::steady_clock::time_point submitted;
+    Clock::time_point submitted;
     bool done = false;
     int status = 0;
     int length = 0;
@@ -64,14 +52,10 @@ private:
   void discard(UMockdevIoctlClient* client);
   void finish(Transfer& transfer);
   void control(const std::uint8_t* setup);
-  void catchUp();
 
   UMockdevTestbed* bed_;
   UMockdevIoctlBase* handler_ = nullptr;
-  std::mutex mutex_;
-  FalconModel model_;
   std::deque<Transfer> transfers_;
-  std::chrono::steady_clock::time_point movedTo_;
   bool plugged_ = false;
   bool claimed_ = false;
   int refusal_ = 0;

@@ -105,29 +105,13 @@ TEST_F(EmulatedUsb, TheServoLoopFeelsASphereAndTheHandSettlesInBalance)
   ASSERT_EQ(loop.start(device, parameters), Status::Ok);
   ASSERT_TRUE(eventually([&] { return device.state() == FalconState::Armed; }));
   ASSERT_TRUE(desk.touch(loop));
-  // 200 N/m towards 6 mm depth against 800 N/m: at rest at 1.2 mm.
-  const double expected = 0.025 - 0.006 * 200.0 / 1000.0;
-  const auto resting = [&]
-  {
-    const double speed = falcon.with([](FalconModel& model) { return norm(model.hand.velocity); });
-    return std::abs(norm(loop.latest().state.force) - 0.96) < 0.03 && speed < 1e-4;
-  };
-  EXPECT_TRUE(eventually(resting)) << loop.latest().state.hip.z << " " << norm(loop.latest().state.force);
-  const Vec3 hand = falcon.with([](FalconModel& model) { return model.hand.position; });
-  EXPECT_NEAR(hand.z - falcon::kCenter.z, expected, 60e-6);
+  const double stiffness = parameters.contact.stiffness;
+  EXPECT_TRUE(eventually([&] { return desk.rests(loop, stiffness, 0.03); }))
+    << loop.latest().state.hip.z << " " << norm(loop.latest().state.force);
+  desk.expectAtRest(stiffness);
   loop.stop();
   device.close();
-  falcon.with(
-    [](FalconModel& model)
-    {
-      EXPECT_GE(model.frozenFrames, 3);
-      EXPECT_EQ(model.command.leds, kFalconLedNone);
-    });
-  const FalconStatistics statistics = device.statistics();
-  std::printf("[ figure   ] round trips %llu, late %llu, timeouts %llu\n",
-    static_cast<unsigned long long>(statistics.replies),
-    static_cast<unsigned long long>(statistics.lateReplies),
-    static_cast<unsigned long long>(statistics.timeouts));
+  desk.expectShutDown(device);
 }
 
 TEST_F(EmulatedUsb, SurvivesGarbageAndSilence)

@@ -119,30 +119,13 @@ TEST_F(RealKernel, BootsLoadsHomesAndTheHandSettlesInBalance)
     falcon.with([](FalconModel& model) { return model.command.leds; }), kFalconLedBlue | kFalconHomingBit);
   falcon.with([](FalconModel& model) { model.home(); });
   ASSERT_TRUE(soon([&] { return device.state() == FalconState::Armed; }));
-  // 200 N/m towards 6 mm depth against the surface's: at rest where both push alike.
-  const double depth = 0.006 * 200.0 / (200.0 + kStiffness);
-  const auto rests = [&]
-  {
-    const double speed = falcon.with([](FalconModel& model) { return norm(model.hand.velocity); });
-    return std::abs(norm(loop.latest().state.force) - kStiffness * depth) < 0.015 && speed < 1e-4;
-  };
+  const auto rests = [&] { return desk.rests(loop, kStiffness, 0.015); };
   const auto settles = [&] { return desk.touch(loop) && soon(rests, kSecondsToSettle); };
   EXPECT_TRUE(settles() || settles() || settles()) << norm(loop.latest().state.force);
-  EXPECT_NEAR(falcon.with([](FalconModel& model) { return model.hand.position.z; }) - falcon::kCenter.z,
-    0.025 - depth, 60e-6);
+  desk.expectAtRest(kStiffness);
   loop.stop();
   device.close();
-  falcon.with(
-    [](FalconModel& model)
-    {
-      EXPECT_GE(model.frozenFrames, 3);
-      EXPECT_EQ(model.command.leds, kFalconLedNone);
-    });
-  const FalconStatistics statistics = device.statistics();
-  std::printf("[ figure   ] round trips %llu, late %llu, timeouts %llu\n",
-    static_cast<unsigned long long>(statistics.replies),
-    static_cast<unsigned long long>(statistics.lateReplies),
-    static_cast<unsigned long long>(statistics.timeouts));
+  desk.expectShutDown(device);
 }
 
 TEST_F(RealKernel, LetsTheFalconBeUnpluggedInContactAndComeBack)

@@ -23,8 +23,6 @@ namespace
 constexpr const char* kController = "/sys/devices/platform/vhci_hcd.0/";
 constexpr int kFullSpeed = 2;
 constexpr int kBusAndDevice = 0x10002;
-constexpr auto kLatency = std::chrono::milliseconds(1);
-constexpr std::size_t kPacket = 64;
 constexpr double kSecondsToWait = 5.0;
 
 // Words of a USB/IP header; those after the endpoint differ between the commands.
@@ -116,8 +114,10 @@ bool UsbipFalcon::plugIn()
   }
   socket_ = ends[0];
   configured_ = false;
-  with([](FalconModel& model) { model.powerOff(); });
-  movedTo_ = std::chrono::steady_clock::now();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    this->powerOn();
+  }
   thread_ = std::thread([this] { serve(); });
   const bool taken = say("attach",
     "0 " + std::to_string(ends[1]) + " " + std::to_string(kBusAndDevice) + " " + std::to_string(kFullSpeed));
@@ -147,7 +147,7 @@ void UsbipFalcon::serve()
     const int ready = poll(&event, 1, waiting_.empty() ? 100 : 1);
     goesOn = ready <= 0 || takeOne();
     const std::lock_guard<std::mutex> lock(mutex_);
-    catchUp();
+    this->catchUp();
     answerWaiting();
   }
 }
@@ -163,7 +163,7 @@ bool UsbipFalcon::takeOne()
   {
     request.header[i] = ntohl(request.header[i]);
   }
-  request.come = std::chrono::steady_clock::now();
+  request.come = Clock::now();
   const bool isOut = request.header[kCommand] == kSubmit && request.header[kDirection] == 0;
   std::vector<std::uint8_t> data(isOut ? request.header[kLength] : 0);
   if (!receiveAll(socket_, data.data(), data.size()))
@@ -171,7 +171,7 @@ bool UsbipFalcon::takeOne()
     return false;
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  catchUp();
+  this->catchUp();
   if (request.header[kCommand] == kSubmit)
   {
     submit(request, data);
@@ -255,19 +255,18 @@ void UsbipFalcon::unlink(const Header& header)
   reply(to, waited ? -ECONNRESET : 0, {}, 0);
 }
 
-/// Packets from the chip: two status bytes and what the model has said; without payload only after the
-/// latency timer.
 void UsbipFalcon::answerWaiting()
 {
-  const auto now = std::chrono::steady_clock::now();
-  while (!waiting_.empty() && (!model_.pending().empty() || now - waiting_.front().come >= kLatency))
+  while (!waiting_.empty())
   {
-    const Request request = waiting_.front();
+    const std::vector<std::uint8_t> bytes =
+      this->packet(waiting_.front().header[kLength], waiting_.front().come);
+    if (bytes.empty())
+    {
+      return;
+    }
+    this->reply(waiting_.front().header, 0, bytes, std::uint32_t(bytes.size()));
     waiting_.pop_front();
-    std::vector<std::uint8_t> packet = { 0x01, 0x60 };
-    packet.resize(std::min<std::size_t>(kPacket, std::max<std::size_t>(2, request.header[kLength])));
-    packet.resize(2 + model_.read(packet.data() + 2, packet.size() - 2));
-    reply(request.header, 0, packet, std::uint32_t(packet.size()));
   }
 }
 
@@ -288,17 +287,6 @@ void UsbipFalcon::reply(
   if (!data.empty())
   {
     static_cast<void>(send(socket_, data.data(), data.size(), MSG_NOSIGNAL));
-  }
-}
-
-void UsbipFalcon::catchUp()
-{
-  const auto now = std::chrono::steady_clock::now();
-  const double seconds = std::chrono::duration<double>(now - movedTo_).count();
-  if (seconds >= 1e-4)
-  {
-    model_.move(std::min(seconds, 0.1));
-    movedTo_ = now;
   }
 }
 

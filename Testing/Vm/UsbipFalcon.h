@@ -2,14 +2,12 @@
 /// A FalconModel as a USB device of the kernel that runs the test: vhci-hcd takes it from a socket.
 #pragma once
 
-#include "../Unit/Devices/FalconModel.h"
+#include "../Unit/Devices/RealTimeFalcon.h"
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <deque>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -20,27 +18,17 @@ namespace trial
 
 /// Speaks the device's side of USB/IP over a socket pair whose other end the kernel's virtual host controller
 /// holds: the kernel enumerates it, binds its own drivers and lets programs open it, as it does with a cable.
-/// Needs root and the module vhci-hcd. The hand moves in real time.
-class UsbipFalcon
+/// Needs root and the module vhci-hcd.
+class UsbipFalcon : public RealTimeFalcon
 {
 public:
   UsbipFalcon() = default;
   ~UsbipFalcon() { unplug(); }
-  UsbipFalcon(const UsbipFalcon&) = delete;
-  UsbipFalcon& operator=(const UsbipFalcon&) = delete;
 
   /// Power and cable. True once the kernel has given it an address and a configuration.
   bool plugIn();
   /// The wire breaks at once, with whatever is under way; returns when the kernel has let the port go.
   void unplug();
-
-  /// Calls @p use(model) while nobody else touches it.
-  template <typename Use>
-  auto with(Use&& use)
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return use(model_);
-  }
 
 private:
   /// A header of USB/IP, in the byte order of this machine.
@@ -48,7 +36,7 @@ private:
   struct Request
   {
     Header header{};
-    std::chrono::steady_clock::time_point come;
+    Clock::time_point come;
   };
 
   void serve();
@@ -58,11 +46,7 @@ private:
   bool control(const Request& request, std::vector<std::uint8_t>& answer);
   void answerWaiting();
   void reply(const Header& to, int status, const std::vector<std::uint8_t>& data, std::uint32_t length);
-  void catchUp();
 
-  std::mutex mutex_; ///< Of the model.
-  FalconModel model_;
-  std::chrono::steady_clock::time_point movedTo_;
   std::thread thread_;
   int socket_ = -1;
   std::atomic<bool> configured_{ false };

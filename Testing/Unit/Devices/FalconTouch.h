@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <memory>
 
 namespace pointhaptics
@@ -76,6 +78,37 @@ public:
         pushed();
     }
     return felt;
+  }
+
+  /// The person pulls with 200 N/m to 6 mm below the surface, which pushes with @p stiffness: the depth at
+  /// which both forces are the same, metres.
+  static double depthAtRest(double stiffness) { return 0.006 * 200.0 / (200.0 + stiffness); }
+  /// The hand rests there, to @p tolerance newtons.
+  bool rests(const ServoLoop& loop, double stiffness, double tolerance)
+  {
+    const double speed = falcon_.with([](FalconModel& model) { return norm(model.hand.velocity); });
+    const double expected = stiffness * depthAtRest(stiffness);
+    return std::abs(norm(loop.latest().state.force) - expected) < tolerance && speed < 1e-4;
+  }
+  void expectAtRest(double stiffness)
+  {
+    EXPECT_NEAR(falcon_.with([](FalconModel& model) { return model.hand.position.z; }) - center().z,
+      0.025 - depthAtRest(stiffness), 60e-6);
+  }
+  /// After close(): motors and LEDs are off. Prints how the round trips went.
+  void expectShutDown(const FalconDevice& device)
+  {
+    falcon_.with(
+      [](FalconModel& model)
+      {
+        EXPECT_GE(model.frozenFrames, 3);
+        EXPECT_EQ(model.command.leds, kFalconLedNone);
+      });
+    const FalconStatistics statistics = device.statistics();
+    std::printf("[ figure   ] round trips %llu, late %llu, timeouts %llu\n",
+      static_cast<unsigned long long>(statistics.replies),
+      static_cast<unsigned long long>(statistics.lateReplies),
+      static_cast<unsigned long long>(statistics.timeouts));
   }
 
 private:
