@@ -189,7 +189,8 @@ bool vtkHapticFeel::Internals::MakeScenes(vtkHapticFeel* filter, vtkPointSet* cl
   }
   if (felt->GetNumberOfPoints() == 0)
   {
-    message = "no finite point lies in the workspace; leave out the workspace, or mend the transform";
+    message = "no finite point lies in the workspace; mend points that are NaN, leave out the workspace, or "
+              "mend the transform";
     return false;
   }
   FeelSceneSettings settings;

@@ -1,5 +1,6 @@
 """resample and bandwidth: equal to the program bit for bit, and clear about bad input."""
 
+import pathlib
 import unittest
 
 from support import TestCase, run_program, sphere
@@ -188,6 +189,8 @@ class BadInput(TestCase):
             (TypeError, "object", np.full((2, 3), None)),
             (ValueError, "length", [[1, 2, 3], [1, 2]]),
             (TypeError, "object", None),
+            (TypeError, "read() gives that of a file", "scan.ply"),
+            (TypeError, "read() gives that of a file", pathlib.Path("scan.ply")),
             (TypeError, "masked", np.ma.masked_less(np.zeros((2, 3)), 1)),
         ):
             for function in (ph.resample, ph.bandwidth, ph.Scene):
@@ -204,6 +207,7 @@ class BadInput(TestCase):
             (TypeError, "object", {"a": [None] * 10}),
             (TypeError, "name 3", {3: np.zeros(10)}),
             (TypeError, "name ''", {"": np.zeros(10)}),
+            (TypeError, "a list; give a dict", [np.zeros(10)]),
         ):
             with self.subTest(attributes):
                 self.assert_raises(kind, ["attributes", words, "give"], ph.resample, points, attributes=attributes)

@@ -58,6 +58,9 @@ class Feel(TestCase):
         told = self.program("--voxel", 0.001, "--workspace=-0.05,0.05,-0.05,0.05,-0.05,0.05")
         self.compare(scene.feel(self.hand), told)
 
+    def test_it_says_how_many_points_it_has(self):
+        self.assertEqual(repr(ph.Scene(self.points)), f"<pointhaptics.Scene of {len(self.points)} points>")
+
     def test_a_scene_forgets_the_path_before(self):
         scene = ph.Scene(self.points)
         first = scene.feel(self.hand)
@@ -103,7 +106,7 @@ class Feel(TestCase):
                 self.assert_raises(kind, ["path", words], scene.feel, path)
 
     def test_nothing_to_feel(self):
-        self.assert_raises(ValueError, "workspace", ph.Scene(np.full((4, 3), np.nan)).feel, self.hand)
+        self.assert_raises(ValueError, ["workspace", "NaN"], ph.Scene(np.full((4, 3), np.nan)).feel, self.hand)
         far = ph.Scene(self.points, workspace=(1, 2, 1, 2, 1, 2))
         self.assert_raises(ValueError, "workspace", far.feel, self.hand)
 

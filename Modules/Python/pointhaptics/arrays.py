@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from os import PathLike
 from typing import Dict, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
@@ -46,6 +47,8 @@ def _numbers(values: object, name: str) -> np.ndarray:
 
 def as_points(points: object) -> np.ndarray:
     """Points as a C-contiguous (n, 3) array of float32 or float64; integers become float64. Raises where it is none."""
+    if isinstance(points, (str, bytes, PathLike)):
+        raise TypeError(f"points: {points!r}; give an array of shape (n, 3): read() gives that of a file")
     array = _numbers(points, "points")
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"points: shape {array.shape}; give an array of shape (n, 3), one point a row")
@@ -74,6 +77,8 @@ class Cloud:
         vtk_points = core.vtkPoints()
         vtk_points.SetData(to_vtk(self._kept[0]))
         self.data.SetPoints(vtk_points)
+        if not isinstance(attributes, Mapping):
+            raise TypeError(f"attributes: a {type(attributes).__name__}; give a dict of names and arrays")
         for name, values in attributes.items():
             self.add(name, values)
 

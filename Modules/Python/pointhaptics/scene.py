@@ -69,6 +69,9 @@ class Scene:
     def __len__(self) -> int:
         return len(self._cloud)
 
+    def __repr__(self) -> str:
+        return f"<pointhaptics.Scene of {len(self)} points>"
+
     def feel(
         self,
         path: np.ndarray,
