@@ -1,5 +1,7 @@
 #include "VoxelAttribute.h"
 
+#include "Core/Resample/AttributeMean.h"
+
 #include "vtkDataArray.h"
 #include "vtkType.h"
 #include "vtkVariant.h"
@@ -98,8 +100,7 @@ vtkSmartPointer<vtkDataArray> newArray(vtkDataArray* like, int type)
 
 }
 
-VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known,
-  InstructionSet instructions, const Executor& executor)
+VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known)
   : input_(input)
   , plain_(known && known->copy ? known->copy : plainArray(input))
   , kind_(kind)
@@ -107,9 +108,14 @@ VoxelAttribute::VoxelAttribute(vtkDataArray* input, AttributeKind kind, const At
     std::int64_t(plain_->GetNumberOfTuples()) }
 {
   values_.copy = plain_ == input_ ? nullptr : plain_;
-  if (kind == AttributeKind::Mean || kind == AttributeKind::Normal)
+  values_.range = known ? known->range : std::nullopt;
+}
+
+void VoxelAttribute::findRange(InstructionSet instructions, const Executor& executor)
+{
+  if (!values_.range && (kind_ == AttributeKind::Mean || kind_ == AttributeKind::Normal))
   {
-    values_.range = known ? known->range : rangeOf(view_, executor, instructions);
+    values_.range = rangeOf(view_, executor, instructions);
   }
 }
 

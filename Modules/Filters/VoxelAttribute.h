@@ -6,12 +6,13 @@
 
 #include "Core/Base/AffineTransform.h"
 #include "Core/Base/Executor.h"
-#include "Core/Resample/AttributeMean.h"
 #include "Core/Resample/AttributeView.h"
+#include "Core/Simd/InstructionSet.h"
 
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 class vtkDataArray;
@@ -31,7 +32,7 @@ enum class AttributeKind
 /// Properties of an input array, independent of which points are averaged: valid until its values change.
 struct AttributeValues
 {
-  AttributeRange range;
+  std::optional<AttributeRange> range; ///< For means, once it was looked for.
   vtkSmartPointer<vtkDataArray> copy; ///< Plain tuples in memory, where the input is something else; or null.
 };
 
@@ -41,8 +42,9 @@ class VoxelAttribute
 public:
   /// Keeps a reference to @p input; if its memory is not plain tuples of numbers, it is copied first. @p
   /// known: values() of an earlier object of the same input and kind, or null.
-  VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known,
-    InstructionSet instructions, const Executor& executor);
+  VoxelAttribute(vtkDataArray* input, AttributeKind kind, const AttributeValues* known = nullptr);
+  /// For requests of which many are made: each looks for the range otherwise.
+  void findRange(InstructionSet instructions, const Executor& executor);
   const AttributeValues& values() const { return values_; }
 
   /// For the resampler. @pre it is not AttributeKind::Chosen.

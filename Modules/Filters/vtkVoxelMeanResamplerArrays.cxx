@@ -36,10 +36,10 @@ void vtkVoxelMeanResampler::Internals::ChooseArrays(vtkPointSet* input, bool war
     const ArraySeen seen(found.array, ownersTime);
     const auto old = std::find_if(known.begin(), known.end(),
       [&](const KnownValues& values) { return values.seen == seen && values.kind == found.kind; });
-    VoxelAttribute attribute(found.array, found.kind, old == known.end() ? nullptr : &old->values,
-      this->Filter->Settings.instructionSet, this->Smp);
+    VoxelAttribute attribute(found.array, found.kind, old == known.end() ? nullptr : &old->values);
     if (this->Filter->Settings.usePointIndex)
     {
+      attribute.findRange(this->Filter->Settings.instructionSet, this->Smp);
       this->Known.push_back({ seen, found.kind, attribute.values() });
     }
     this->Attributes.push_back({ std::move(attribute), found.roles, found.isNormal });

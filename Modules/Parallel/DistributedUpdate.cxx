@@ -67,8 +67,7 @@ std::string DistributedUpdate::chooseArrays()
   }
   for (std::size_t i = 0; this->sharesSums() && i < found_.size(); ++i)
   {
-    const VoxelArray& array = found_[i];
-    arrays_.emplace_back(array.array, array.kind, nullptr, settings_.instructionSet, smp_);
+    arrays_.emplace_back(found_[i].array, found_[i].kind);
   }
   return {};
 }
@@ -274,8 +273,7 @@ std::string DistributedUpdate::runOfPoints(vtkPolyData* output)
   std::vector<VoxelAttribute> attributes;
   for (std::size_t i = 0; i < found_.size(); ++i)
   {
-    attributes.emplace_back(
-      points->GetPointData()->GetArray(int(i)), found_[i].kind, nullptr, settings_.instructionSet, smp_);
+    attributes.emplace_back(points->GetPointData()->GetArray(int(i)), found_[i].kind);
     keepsPoints(request.representative) ? request.tieBreakers.push_back(attributes.back().view())
                                         : request.attributes.push_back(attributes.back().request());
   }
