@@ -1,36 +1,66 @@
 #include "Haptics/Contact/OffsetSettler.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace pointhaptics
 {
 namespace
 {
+
 /// Rounding of places in the workspace, metres.
 constexpr double kRounding = 1e-12;
+/// Sine below which two directions are one.
+constexpr double kSameDirection = 1e-6;
+
+/// Goes from @p from by at most @p way to @p to. Between directions less than a right angle apart it turns,
+/// so that it gets no shorter on the way than the shorter one.
+Vec3 towards(const Vec3& from, const Vec3& to, double way) noexcept
+{
+  const Vec3 change = to - from;
+  const double distance = norm(change);
+  if (distance <= way)
+  {
+    return to;
+  }
+  const double start = norm(from);
+  const double end = norm(to);
+  const double across = norm(cross(from, to));
+  const double along = dot(from, to);
+  if (!(along > 0.0 && across > kSameDirection * start * end))
+  {
+    return from + (way / distance) * change;
+  }
+  const double angle = std::atan2(across, along);
+  const double fraction = way / std::hypot(end - start, angle * std::max(start, end));
+  const double length = start + fraction * (end - start);
+  const double scale = length / std::sin(angle);
+  return (scale * std::sin((1.0 - fraction) * angle) / start) * from +
+    (scale * std::sin(fraction * angle) / end) * to;
+}
+
 }
 
 Vec3 OffsetSettler::settle(const Vec3& offset, double moved, double shrink) noexcept
 {
   const Vec3 change = offset - last_;
-  const double length = norm(change);
   const double allowed = kFreeSteps * moved + kRounding;
-  if (length > allowed)
-  {
-    remainder_ -= (1.0 - allowed / length) * change;
-  }
+  const bool follows = norm2(change) <= allowed * allowed;
   last_ = offset;
-  if (!settling())
+  if (follows && !isSettling_)
   {
+    felt_ = offset;
     return offset;
   }
-  const double left = norm(remainder_);
-  remainder_ = left > shrink ? (1.0 - shrink / left) * remainder_ : Vec3();
-  return settling() ? offset + remainder_ : offset;
+  felt_ = follows ? towards(felt_ + change, offset, shrink) : towards(felt_, offset, allowed + shrink);
+  isSettling_ = felt_ != offset;
+  return felt_;
 }
 
 void OffsetSettler::resumeFrom(const Vec3& felt) noexcept
 {
-  last_ = felt;
-  remainder_ = Vec3();
+  last_ = felt_ = felt;
+  isSettling_ = false;
 }
 
 } // namespace pointhaptics

@@ -9,11 +9,11 @@ namespace pointhaptics
 {
 
 /// The offset of the contact point from the HIP follows the hand: a tick in which the HIP moves by d may
-/// change it by kFreeSteps d, and such changes pass untouched, bit for bit. What the offset changes beyond
-/// that (the surface was let go at a rim, found again somewhere else, zoomed or swapped, or the nearest point
-/// jumped at a ridge) is kept back as a remainder, which then shrinks by at most a given length a tick to
-/// exactly zero. So the returned offset changes by at most kFreeSteps d plus that length. One thread; no
-/// allocation.
+/// change it by kFreeSteps d, and such changes pass untouched, bit for bit. Where the offset changes by more
+/// (the surface was let go at a rim, found again somewhere else, zoomed or swapped, or the nearest point
+/// jumped at a ridge) the felt one lags, and comes nearer by at most a given length a tick until it is the
+/// offset again. So it changes by at most kFreeSteps d plus that length. It turns from one direction to
+/// another less than a right angle away: the force gets no weaker on the way. One thread; no allocation.
 class OffsetSettler
 {
 public:
@@ -22,16 +22,17 @@ public:
 
   void reset() noexcept { *this = OffsetSettler(); }
   /// @param offset contact point - HIP, metres; zero out of contact. @param moved metres the HIP went since
-  /// the last call. @param shrink metres by which the remainder may shrink in this call, at least 0.
+  /// the last call. @param shrink metres by which the felt offset may come nearer in this call, at least 0.
   /// @return the offset to feel, metres.
   Vec3 settle(const Vec3& offset, double moved, double shrink) noexcept;
   /// The offset was taken back to @p felt without a call, as after a fade.
   void resumeFrom(const Vec3& felt) noexcept;
-  bool settling() const noexcept { return remainder_ != Vec3(); }
+  bool settling() const noexcept { return isSettling_; }
 
 private:
-  Vec3 last_;
-  Vec3 remainder_;
+  Vec3 last_; ///< The offset itself.
+  Vec3 felt_;
+  bool isSettling_ = false;
 };
 
 } // namespace pointhaptics

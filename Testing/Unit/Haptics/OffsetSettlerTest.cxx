@@ -35,6 +35,24 @@ TEST(OffsetSettler, SpreadsAJumpEvenlyAndEndsItExactly)
   EXPECT_FALSE(settler.settling());
 }
 
+TEST(OffsetSettler, TurnsWithoutGettingWeaker)
+{
+  OffsetSettler settler;
+  const Vec3 before{ 0.0, 0.0, 1e-3 };
+  const Vec3 after = 1.2e-3 * Vec3(std::sin(1.3), 0.0, std::cos(1.3));
+  settler.resumeFrom(before);
+  Vec3 last = before;
+  int ticks = 0;
+  for (; last != after; ++ticks)
+  {
+    const Vec3 felt = settler.settle(after, 0.0, 1e-4);
+    ASSERT_GT(norm(felt), norm(last)) << ticks;
+    ASSERT_LE(norm(felt - last), 1e-4 + 1e-11) << ticks;
+    last = felt;
+  }
+  EXPECT_EQ(ticks, 16) << "the length of the arc";
+}
+
 TEST(OffsetSettler, NeverStepsFurtherThanTheHandAndTheLimitAllow)
 {
   constexpr double kShrink = 5e-5;
