@@ -49,6 +49,10 @@ public:
 
   /// The ball is at the HIP.
   bool isFree() const noexcept { return free_; }
+  /// Goes over the bumps between points and down to @p foot of a surface with the unit normal @p up, where no
+  /// point is in its way and it comes no further from the HIP than bumps are high. False: it stays.
+  bool goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot, const Vec3& up,
+    std::uint32_t& status) noexcept;
   /// Goes over the edge of what it lies on and down beside the surface through @p foot with the unit normal
   /// @p up, where no point is in its way and the HIP is then inside it: it came out there. False: it stays.
   bool goAround(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
@@ -94,6 +98,8 @@ private:
   void slide(Work& work, const Vec3& hip) noexcept;
   bool mayWait(const Vec3& hip) const noexcept;
   bool glide(Work& work, const Vec3& hip) noexcept;
+  template <typename IsGood>
+  bool moveAbove(Work& work, const Vec3& foot, const Vec3& up, IsGood&& isGood) noexcept;
   void touchDown(Work& work) noexcept;
   Vec3 surfaceNormal(const BallCells& cells) noexcept;
   bool pushOut(const BallCells& cells) noexcept;

@@ -25,6 +25,8 @@ constexpr double kLifts[kMostLifts] = { 0.0, 0.3, 0.6 };
 /// edge the HIP may be along the face that the ball comes from.
 constexpr double kMostBeside = 2.0;
 constexpr double kAround = 0.1;
+/// How near to a foot a ball lies on it.
+constexpr double kOnFoot = 1.3;
 constexpr double kBeforeEdge = 0.02;
 constexpr double kLeastLean = 0.02;
 constexpr double kLongestGlide = 0.5;
@@ -121,6 +123,15 @@ double ProxyBall::advance(Work& work, const Vec3& direction, double length) noex
   return length - left;
 }
 
+bool ProxyBall::goTo(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
+  const Vec3& up, std::uint32_t& status) noexcept
+{
+  Work work{ scene, fields, cells, kMostRounds, status };
+  const double furthest = norm(hip_ - center_) + kLargestRise * radius_;
+  return this->moveAbove(work, foot, up,
+    [&] { return norm(hip_ - center_) < furthest && norm(center_ - foot) < kOnFoot * radius_; });
+}
+
 bool ProxyBall::goAround(const HapticScene& scene, FitCells& fields, BallCells& cells, const Vec3& foot,
   const Vec3& up, std::uint32_t& status) noexcept
 {
@@ -131,6 +142,14 @@ bool ProxyBall::goAround(const HapticScene& scene, FitCells& fields, BallCells& 
     return false;
   }
   Work work{ scene, fields, cells, kMostRounds, status };
+  return this->moveAbove(work, foot, up, [&] { return free_ || depth(hip_) <= kAround * radius_; });
+}
+
+/// Lifts the ball, goes over edges and bumps, and down to the surface through @p foot with the unit normal
+/// @p up, as far as no point is in the way. It stays where it began unless @p isGood then.
+template <typename IsGood>
+bool ProxyBall::moveAbove(Work& work, const Vec3& foot, const Vec3& up, IsGood&& isGood) noexcept
+{
   const ProxyBall before = *this;
   const double beside = std::clamp(radius_ - dot(center_ - foot, up), 0.0, kMostBeside * radius_);
   for (int i = 1; i < kMostLifts; ++i)
@@ -144,7 +163,7 @@ bool ProxyBall::goAround(const HapticScene& scene, FitCells& fields, BallCells& 
     const Vec3 way = foot + (radius_ + lift) * up - center_;
     advance(work, normalized(way), norm(way));
     slide(work, hip_);
-    if (free_ || depth(hip_) <= kAround * radius_)
+    if (isGood())
     {
       return true;
     }

@@ -113,8 +113,11 @@ double SurfaceFitProxy::fitWeight(
   const auto followed = hasFit_ ? tracker_.follow(scene, fit, hip, kRoundsPerTick) : TrackResult::Lost;
   if (hasFit_)
   {
-    status |= std::uint32_t(followed == TrackResult::RoundLimit ? kProxyRoundLimit : kProxyOk);
-    result = followed == TrackResult::Lost ? 0.0 : weight();
+    status |= std::uint32_t(followed != TrackResult::Converged ? kProxyRoundLimit : kProxyOk);
+    // Where the foot leaps on a ridge the bumps between points would hold the ball.
+    const bool isLed = followed == TrackResult::Far &&
+      ball_.goTo(scene, fit, memory.ball, tracker_.point(), tracker_.normal(), status);
+    result = followed <= TrackResult::RoundLimit || isLed ? weight() : 0.0;
     hasFit_ = result > 0.0;
   }
   if (result < kSeekBelow && ticksWithoutFit_++ % kSeekEvery == 0)

@@ -13,8 +13,12 @@ constexpr double kConverged = 1e-5;
 /// Part of the noise below which moving on is pointless.
 constexpr double kConvergedNoise = 3e-3;
 constexpr double kAwaySlack = 1e-3;
-/// A point that moves further than this many fit radii from where it started has lost its sheet.
-constexpr double kLostRadii = 2.0;
+/// A call moves the point by at most this many fit radii; one that still moves from so many on is far.
+constexpr double kFurthestRadii = 2.0;
+constexpr double kFar = 1.0;
+/// Difference of the slopes of a fit from those that the last one foresaw, up to which both are of one
+/// surface: at edges it is 0.07 and more.
+constexpr double kForeseen = 0.03;
 constexpr int kWidenings = 2;
 constexpr double kWidening = 1.4;
 /// Part of the fit radius in which the fit stands for the surface.
@@ -108,8 +112,9 @@ bool SurfaceTracker::find(const HapticScene& scene, FitCells& memory, const Vec3
     found.flip();
   }
   // From the side, lest it begins on another face beside an edge.
-  if (found.follow(scene, memory, side, rounds) == TrackResult::Lost || found.height(side) < 0.0 ||
-    found.follow(scene, memory, target, rounds) == TrackResult::Lost)
+  const auto reaches = [&](const Vec3& place)
+  { return found.follow(scene, memory, place, rounds) <= TrackResult::RoundLimit; };
+  if (!reaches(side) || found.height(side) < 0.0 || !reaches(target))
   {
     return false;
   }
@@ -175,6 +180,7 @@ TrackResult SurfaceTracker::follow(
   const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept
 {
   const Vec3 start = frame_.origin;
+  bool isForeseen = true;
   Round last;
   for (int round = 0; round < rounds; ++round)
   {
@@ -189,10 +195,14 @@ TrackResult SurfaceTracker::follow(
     footPoint(fit_, fitFrame_, target, place, normal);
     const Round now{ frame_.origin, place - frame_.origin, norm(target - frame_.origin) };
     nextPlace(now, round > 0 ? &last : nullptr, place, normal);
-    // Negated, so that a place that is not finite is lost too.
-    if (!(norm(place - start) <= kLostRadii * fit_.radius))
+    if (!isFinite(place))
     {
       return TrackResult::Lost;
+    }
+    isForeseen = isForeseen && std::hypot(fit_.k[1], fit_.k[2]) < kForeseen;
+    if (norm(place - start) > kFurthestRadii * fit_.radius)
+    {
+      return isForeseen ? TrackResult::Far : TrackResult::Lost;
     }
     adopt(place, normal);
     // The next step would be shorter than this one by as much as this one is than the last.
@@ -205,7 +215,8 @@ TrackResult SurfaceTracker::follow(
     }
     last = now;
   }
-  return TrackResult::RoundLimit;
+  return isForeseen && norm(frame_.origin - start) > kFar * fit_.radius ? TrackResult::Far
+                                                                        : TrackResult::RoundLimit;
 }
 
 void SurfaceTracker::carry(const AffineTransform& from, const AffineTransform& to) noexcept

@@ -14,7 +14,8 @@ enum class TrackResult
 {
   Converged,
   RoundLimit, ///< Still moving after the last round; the point is on the surface, its foot is not exact.
-  Lost,       ///< No surface to fit here, or the point ran away.
+  Far,        ///< As far along one surface as a call goes, and still moving: the foot leapt.
+  Lost,       ///< No surface to fit here, or the point ran away to another.
 };
 
 /// Follows one sheet of a scene. Remembers the side it is on by its normal: no global orientation of the

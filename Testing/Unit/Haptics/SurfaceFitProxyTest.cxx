@@ -51,6 +51,27 @@ void expectOrderlyContact(const std::vector<ProxyState>& states, std::size_t fir
   }
 }
 
+/// A god object on the ridge z = -x^2 / (2 kRidgeRadius): the foot of a HIP that moves in the plane y = 0.
+class RidgeGodObject
+{
+public:
+  static constexpr double kRidgeRadius = 1.5e-3;
+
+  Vec3 follow(const Vec3& hip) noexcept
+  {
+    // Down the slope of the distance, in steps too short to cross to another minimum.
+    for (int i = 0; i < 2000; ++i)
+    {
+      foot_ = Vec3(foot_.x - 0.02 * (foot_.x - hip.x + (hip.z - foot_.z) * foot_.x / kRidgeRadius), 0, 0);
+      foot_.z = -foot_.x * foot_.x / (2.0 * kRidgeRadius);
+    }
+    return foot_;
+  }
+
+private:
+  Vec3 foot_{ -1e-3, 0, -1e-3 * 1e-3 / (2.0 * kRidgeRadius) };
+};
+
 } // namespace
 
 TEST(SurfaceFitProxy, FeelsTheSphereOfThePapersSmallCloud)
@@ -478,5 +499,47 @@ TEST(SurfaceFitProxy, DoesNotFallThroughWhereNoisyPointsBecomeSparse)
       }
       EXPECT_LT(largest, 0.3 * 800.0 * kDepth) << seed << " " << speed;
     }
+  }
+}
+
+// Deeper than its radius a ridge has two nearest points. A god object stays on its slope until that has none
+// any more. Bumps between points held the ball longer, and the force grew on; then it settled through a dip.
+TEST(SurfaceFitProxy, LeapsToTheOtherSlopeOfARidgeWithTheGodObject)
+{
+  constexpr std::size_t kSettlingTicks = 25;
+  for (const int count : { 8000, 40000 })
+  {
+    trial::Random random(5);
+    std::vector<Vec3> points;
+    for (int i = 0; i < count; ++i)
+    {
+      const Vec3 p = random.inBox({ -6e-3, -6e-3, 0 }, { 6e-3, 6e-3, 0 });
+      points.emplace_back(p.x, p.y, -p.x * p.x / (2.0 * RidgeGodObject::kRidgeRadius));
+    }
+    trial::Path path;
+    for (int i = 0; i <= 200; ++i)
+    {
+      path.emplace_back(-5e-4 + 1e-5 * std::max(0, i - 100), 0.0, std::max(1e-3 - 3e-5 * i, -2e-3));
+    }
+    const auto states = trial::feel(trial::resampledScene(points, {}, 1e-4), {}, path);
+    RidgeGodObject truth;
+    double largest = 0.0;
+    std::size_t leap = states.size();
+    for (std::size_t i = 50; i < states.size(); ++i)
+    {
+      const Vec3 foot = truth.follow(states[i].hip);
+      leap = foot.x > 0.0 ? std::min(leap, i) : leap;
+      const double exact = 800.0 * norm(foot - states[i].hip);
+      largest = std::max(largest, exact);
+      const double felt = norm(states[i].force);
+      if (i < leap || i > leap + kSettlingTicks)
+      {
+        ASSERT_NEAR(felt, exact, 0.005 * exact) << count << " points, tick " << i;
+      }
+      ASSERT_LE(felt, 1.002 * largest) << count << " points, tick " << i;
+      ASSERT_GE(felt, 0.995 * exact) << count << " points, tick " << i;
+    }
+    EXPECT_GT(leap, 150u);
+    EXPECT_LT(leap, 170u);
   }
 }
