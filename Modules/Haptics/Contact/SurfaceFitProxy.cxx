@@ -9,8 +9,12 @@ namespace
 {
 
 constexpr int kRoundsPerTick = 8;
-/// While the fit is lost it is sought every so many ticks: what failed a moment ago mostly fails again.
+/// Where the fit is lost it is sought at once, then every so many ticks, a part of the work in each of three:
+/// what failed a moment ago mostly fails again.
 constexpr int kSeekEvery = 4;
+constexpr int kSheetPart = 1;
+constexpr int kSidePart = 2;
+constexpr int kFootPart = 3;
 constexpr double kSeekBelow = 0.5;
 /// RMS distance of the points from the fit, over the ball's radius, up to which the surface is smooth.
 constexpr double kSmoothResidual = 0.03;
@@ -47,6 +51,7 @@ void SurfaceFitProxy::carry(const AffineTransform& from, const AffineTransform& 
   const AffineTransform change = to * from.inverse();
   ball_.carry(change, std::cbrt(std::abs(change.determinant())));
   tracker_.carry(from, to);
+  sought_.carry(from, to);
   friction_.carry(change);
   isRough_ = false;
   normal_ = normalized(change.applyToNormal(normal_), normal_);
@@ -93,6 +98,31 @@ bool SurfaceFitProxy::comesOut(
   return true;
 }
 
+/// Does a part of the search for a fit at the ball; all of it in the first tick without. @return whether
+/// sought_ has come to the foot of the HIP.
+bool SurfaceFitProxy::seek(const HapticScene& scene, Memory& memory, const Vec3& hip) noexcept
+{
+  const bool isAllAtOnce = ticksWithoutFit_ == 0;
+  const int part = ticksWithoutFit_++ % kSeekEvery;
+  if (isAllAtOnce || part == kSheetPart)
+  {
+    Vec3 nearest;
+    isSought_ =
+      memory.ball.nearestOf(scene.pyramid(), ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest) &&
+      sought_.findSheet(scene, memory.fit, nearest, ball_.center());
+  }
+  if (isSought_ && (isAllAtOnce || part == kSidePart))
+  {
+    isSought_ = sought_.followToSide(scene, memory.fit, ball_.center(), kRoundsPerTick);
+  }
+  if (!isSought_ || !(isAllAtOnce || part == kFootPart))
+  {
+    return false;
+  }
+  isSought_ = false;
+  return sought_.reaches(scene, memory.fit, hip, kRoundsPerTick);
+}
+
 /// Follows the fit to the HIP. @return how much of the answer is the fit's, 0 to 1.
 double SurfaceFitProxy::fitWeight(
   const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept
@@ -120,14 +150,10 @@ double SurfaceFitProxy::fitWeight(
     result = followed <= TrackResult::RoundLimit || isLed ? weight() : 0.0;
     hasFit_ = result > 0.0;
   }
-  if (result < kSeekBelow && ticksWithoutFit_++ % kSeekEvery == 0)
+  if (result < kSeekBelow && seek(scene, memory, hip))
   {
-    const SurfaceTracker before = tracker_;
-    Vec3 nearest;
-    const bool isFound =
-      memory.ball.nearestOf(scene.pyramid(), ball_.nearestPoint(hip), 2.0 * ball_.radius(), nearest) &&
-      tracker_.find(scene, fit, nearest, ball_.center(), hip, kRoundsPerTick);
-    const double sought = isFound ? weight() : 0.0;
+    std::swap(tracker_, sought_);
+    const double sought = weight();
     if (sought > result)
     {
       result = sought;
@@ -135,7 +161,7 @@ double SurfaceFitProxy::fitWeight(
     }
     else
     {
-      tracker_ = before;
+      std::swap(tracker_, sought_);
     }
   }
   if (result == 1.0)
@@ -155,6 +181,7 @@ void SurfaceFitProxy::forgetFit() noexcept
   hasFit_ = false;
   isPatient_ = false;
   isRough_ = false;
+  isSought_ = false;
   ticksWithoutFit_ = 0;
 }
 

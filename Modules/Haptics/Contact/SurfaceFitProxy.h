@@ -61,15 +61,18 @@ private:
     bool pressed = false;
   };
 
+  bool seek(const HapticScene& scene, Memory& memory, const Vec3& hip) noexcept;
   double fitWeight(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool comesOut(const HapticScene& scene, Memory& memory, const Vec3& hip, std::uint32_t& status) noexcept;
   bool isPlain() const noexcept;
 
   ProxyBall ball_;
   SurfaceTracker tracker_;
+  SurfaceTracker sought_; ///< What is found of the next one.
   FrictionCone friction_;
   Vec3 normal_{ 0.0, 0.0, 1.0 };
   bool hasFit_ = false;
+  bool isSought_ = false;  ///< The parts of the search so far found something.
   bool isPatient_ = false; ///< The fit followed a smooth surface that goes on all around.
   Vec3 roughAt_;           ///< The HIP when the surface beside it was last seen to be no flat face.
   bool isRough_ = false;

@@ -99,22 +99,36 @@ void SurfaceTracker::flip() noexcept
   fresh_ = false;
 }
 
+bool SurfaceTracker::findSheet(
+  const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side) noexcept
+{
+  const bool isFound = this->findSheet(scene, memory, onSurface);
+  if (isFound && this->height(side) < 0.0)
+  {
+    this->flip();
+  }
+  return isFound;
+}
+
+bool SurfaceTracker::followToSide(
+  const HapticScene& scene, FitCells& memory, const Vec3& side, int rounds) noexcept
+{
+  // Lest it begins on another face beside an edge.
+  return this->reaches(scene, memory, side, rounds) && this->height(side) >= 0.0;
+}
+
+bool SurfaceTracker::reaches(
+  const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept
+{
+  return this->follow(scene, memory, target, rounds) <= TrackResult::RoundLimit;
+}
+
 bool SurfaceTracker::find(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side,
   const Vec3& target, int rounds) noexcept
 {
   SurfaceTracker found;
-  if (!found.findSheet(scene, memory, onSurface))
-  {
-    return false;
-  }
-  if (found.height(side) < 0.0)
-  {
-    found.flip();
-  }
-  // From the side, lest it begins on another face beside an edge.
-  const auto reaches = [&](const Vec3& place)
-  { return found.follow(scene, memory, place, rounds) <= TrackResult::RoundLimit; };
-  if (!reaches(side) || found.height(side) < 0.0 || !reaches(target))
+  if (!found.findSheet(scene, memory, onSurface, side) || !found.followToSide(scene, memory, side, rounds) ||
+    !found.reaches(scene, memory, target, rounds))
   {
     return false;
   }

@@ -28,6 +28,14 @@ public:
   bool find(const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side,
     const Vec3& target, int rounds) noexcept;
 
+  /// The parts of find(), for who has no time for all of them at once: the sheet with its normal to the side
+  /// of @p side, the way to that side, and the way to the target. False: there is none, and what is here is of
+  /// no use.
+  bool findSheet(
+    const HapticScene& scene, FitCells& memory, const Vec3& onSurface, const Vec3& side) noexcept;
+  bool followToSide(const HapticScene& scene, FitCells& memory, const Vec3& side, int rounds) noexcept;
+  bool reaches(const HapticScene& scene, FitCells& memory, const Vec3& target, int rounds) noexcept;
+
   /// The sheet through the cells about @p onSurface, near enough to follow it; the normal to either side.
   bool findSheet(const HapticScene& scene, FitCells& memory, const Vec3& onSurface) noexcept;
 

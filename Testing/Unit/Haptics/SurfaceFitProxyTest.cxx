@@ -543,3 +543,42 @@ TEST(SurfaceFitProxy, LeapsToTheOtherSlopeOfARidgeWithTheGodObject)
     EXPECT_LT(leap, 170u);
   }
 }
+
+TEST(SurfaceFitProxy, FindsTheFitAgainWhereItWasLost)
+{
+  // In a groove the ball lies on both of its faces, and no fit does.
+  constexpr double kSlope = 1.7;
+  constexpr double kDepth = 1e-3;
+  trial::Random random(5);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 60000; ++i)
+  {
+    const double x = random.uniform(-0.01, 0.01);
+    points.emplace_back(x, random.uniform(-0.01, 0.01), kSlope * std::abs(x));
+  }
+  const double below = kDepth * std::sqrt(1.0 + kSlope * kSlope);
+  trial::Path path;
+  for (int i = 0; i < 60; ++i)
+  {
+    path.emplace_back(-0.006, 0.0, 0.006 * kSlope + 0.004 - (0.004 + below) * i / 59);
+  }
+  for (int i = 0; i <= 240; ++i)
+  {
+    const double x = -0.006 + 5e-5 * i;
+    path.emplace_back(x, 0.0, kSlope * std::abs(x) - below);
+  }
+  const auto states = trial::feel(trial::resampledScene(points), {}, path);
+  int inARow = 0;
+  int longest = 0;
+  for (const ProxyState& s : states)
+  {
+    inARow = s.status & kProxyBallContact ? inARow + 1 : 0;
+    longest = std::max(longest, inARow);
+    if (s.hip.x > 0.002)
+    {
+      ASSERT_FALSE(s.status & kProxyBallContact) << s.hip.x;
+      ASSERT_NEAR(norm(s.force), 800.0 * kDepth, 1e-4) << s.hip.x;
+    }
+  }
+  EXPECT_GT(longest, 8) << "it is not found at once";
+}
