@@ -6,8 +6,6 @@
 #include "ViewScene.h"
 
 #include <fmt/format.h>
-#include <vtkCommand.h>
-#include <vtkRenderWindowInteractor.h>
 
 #include <algorithm>
 #include <utility>
@@ -31,43 +29,16 @@ ClipBoxTool::ClipBoxTool(ViewScene& scene, HapticViewerOptions& options,
   std::function<void(const std::string&)> say)
   : scene_(scene)
   , options_(options)
-  , interactor_(interactor)
   , clipped_(std::move(clipped))
   , say_(std::move(say))
+  , button_(
+      interactor, kBoxBeforeTheStyle, [this](const LeftButton::Event& event) { return this->takes(event); })
 {
-  command_->SetClientData(this);
-  command_->SetCallback(
-    [](vtkObject*, unsigned long event, void* self, void*)
-    {
-      auto& tool = *static_cast<ClipBoxTool*>(self);
-      tool.command_->SetAbortFlag(tool.takes(event));
-    });
-  for (const auto event :
-    { vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent })
-  {
-    interactor->AddObserver(event, command_, kBoxBeforeTheStyle);
-  }
-}
-
-ClipBoxTool::~ClipBoxTool()
-{
-  if (interactor_)
-  {
-    interactor_->RemoveObserver(command_);
-  }
 }
 
 Bounds ClipBoxTool::box() const
 {
   return clipBox(options_.clip).value_or(scene_.cloudBounds());
-}
-
-void ClipBoxTool::render()
-{
-  if (interactor_)
-  {
-    interactor_->Render();
-  }
 }
 
 void ClipBoxTool::toggle()
@@ -158,21 +129,18 @@ void ClipBoxTool::finish()
     fmt::format("clipping box: {} {:.6g} {}", kFaceNames[face], clip[std::size_t(face)], scene_.unit().name));
 }
 
-bool ClipBoxTool::takes(unsigned long event)
+bool ClipBoxTool::takes(const LeftButton::Event& event)
 {
-  const int* position = interactor_->GetEventPosition();
   ClipBoxMark& mark = scene_.clipMark();
-  if (event == vtkCommand::LeftButtonPressEvent)
+  if (event.kind == LeftButton::Kind::Press)
   {
-    // With a key held the drag is the model's or the hand's.
-    const bool isPlain = !interactor_->GetShiftKey() && !interactor_->GetControlKey();
-    dragged_ = isPlain ? mark.faceAt(position[0], position[1]).value_or(-1) : -1;
+    dragged_ = event.isPlain ? mark.faceAt(event.x, event.y).value_or(-1) : -1;
     if (dragged_ >= 0)
     {
       mark.setActiveFace(dragged_);
       from_ = this->box();
-      fromX_ = position[0];
-      fromY_ = position[1];
+      fromX_ = event.x;
+      fromY_ = event.y;
       perRight_ = mark.wayOf(dragged_, 1.0, 0.0);
       perUp_ = mark.wayOf(dragged_, 0.0, 1.0);
     }
@@ -182,13 +150,13 @@ bool ClipBoxTool::takes(unsigned long event)
   {
     return false;
   }
-  this->move(dragged_, from_, perRight_ * (position[0] - fromX_) + perUp_ * (position[1] - fromY_));
-  if (event == vtkCommand::LeftButtonReleaseEvent)
+  this->move(dragged_, from_, perRight_ * (event.x - fromX_) + perUp_ * (event.y - fromY_));
+  if (event.kind == LeftButton::Kind::Release)
   {
     dragged_ = -1;
     this->finish();
   }
-  this->render();
+  button_.render();
   return true;
 }
 

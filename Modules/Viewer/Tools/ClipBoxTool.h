@@ -2,11 +2,9 @@
 /// The clipping box under mouse and keys.
 #pragma once
 
-#include "Core/Base/PointView.h"
+#include "LeftButton.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkNew.h>
-#include <vtkWeakPointer.h>
+#include "Core/Base/PointView.h"
 
 #include <functional>
 #include <string>
@@ -29,9 +27,6 @@ public:
   /// box has become another and what is felt is to follow.
   ClipBoxTool(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindowInteractor* interactor,
     std::function<void()> clipped, std::function<void(const std::string&)> say);
-  ~ClipBoxTool();
-  ClipBoxTool(const ClipBoxTool&) = delete;
-  ClipBoxTool& operator=(const ClipBoxTool&) = delete;
 
   /// Shows or hides the box; what it clips stays clipped.
   void toggle();
@@ -48,24 +43,22 @@ public:
   static void addCommands(CommandRegistry& commands, const std::function<ClipBoxTool*()>& tool);
 
 private:
-  bool takes(unsigned long event);
+  bool takes(const LeftButton::Event& event);
   Bounds box() const;
   void move(int face, const Bounds& from, double way);
   void finish();
-  void render();
 
   ViewScene& scene_;
   HapticViewerOptions& options_;
-  vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
   std::function<void()> clipped_;
   std::function<void(const std::string&)> say_;
-  vtkNew<vtkCallbackCommand> command_;
   int dragged_ = -1; ///< A face; below 0: none.
   int fromX_ = 0;
   int fromY_ = 0;
   double perRight_ = 0.0; ///< Way of the dragged face for a pixel, as the drag found it.
   double perUp_ = 0.0;
   Bounds from_;
+  LeftButton button_; ///< Last: it calls this.
 };
 
 } // namespace pointhaptics

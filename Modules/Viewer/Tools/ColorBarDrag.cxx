@@ -3,9 +3,6 @@
 #include "PictureControls.h"
 #include "ViewScene.h"
 
-#include <vtkCommand.h>
-#include <vtkRenderWindowInteractor.h>
-
 #include <utility>
 
 namespace pointhaptics
@@ -20,56 +17,33 @@ constexpr float kBarBeforeTheStyle = 1.0f;
 ColorBarDrag::ColorBarDrag(ViewScene& scene, PictureControls& controls, vtkRenderWindowInteractor* interactor)
   : scene_(scene)
   , controls_(controls)
-  , interactor_(interactor)
+  , button_(
+      interactor, kBarBeforeTheStyle, [this](const LeftButton::Event& event) { return this->takes(event); })
 {
-  command_->SetClientData(this);
-  command_->SetCallback(
-    [](vtkObject*, unsigned long event, void* self, void*)
-    {
-      auto& drag = *static_cast<ColorBarDrag*>(self);
-      drag.command_->SetAbortFlag(drag.takes(event));
-    });
-  for (const auto event :
-    { vtkCommand::LeftButtonPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonReleaseEvent })
-  {
-    interactor->AddObserver(event, command_, kBarBeforeTheStyle);
-  }
 }
 
-ColorBarDrag::~ColorBarDrag()
+bool ColorBarDrag::takes(const LeftButton::Event& event)
 {
-  command_->SetClientData(nullptr);
-  if (interactor_)
+  if (event.kind == LeftButton::Kind::Press)
   {
-    interactor_->RemoveObserver(command_);
-  }
-}
-
-bool ColorBarDrag::takes(unsigned long event)
-{
-  const int* position = interactor_->GetEventPosition();
-  if (event == vtkCommand::LeftButtonPressEvent)
-  {
-    // With a key held the drag is the model's or the hand's.
-    const bool isPlain = !interactor_->GetShiftKey() && !interactor_->GetControlKey();
-    const auto place = isPlain ? scene_.placeOnColorBar(position[0], position[1]) : std::nullopt;
+    const auto place = event.isPlain ? scene_.placeOnColorBar(event.x, event.y) : std::nullopt;
     drags_ = place.has_value();
     if (drags_)
     {
       from_ = place->along;
       pixels_ = place->pixels;
-      fromY_ = position[1];
+      fromY_ = event.y;
       range_ = scene_.shownColorRange();
     }
     return drags_;
   }
-  if (event == vtkCommand::LeftButtonReleaseEvent)
+  if (event.kind == LeftButton::Kind::Release)
   {
     return std::exchange(drags_, false);
   }
   if (drags_)
   {
-    controls_.dragColorRange(range_, from_, from_ + (position[1] - fromY_) / pixels_);
+    controls_.dragColorRange(range_, from_, from_ + (event.y - fromY_) / pixels_);
   }
   return drags_;
 }

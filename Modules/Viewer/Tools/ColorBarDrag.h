@@ -2,9 +2,7 @@
 /// The colour bar under the mouse.
 #pragma once
 
-#include <vtkCallbackCommand.h>
-#include <vtkNew.h>
-#include <vtkWeakPointer.h>
+#include "LeftButton.h"
 
 #include <array>
 
@@ -23,24 +21,20 @@ class ColorBarDrag
 public:
   /// @p scene and @p controls must outlive this.
   ColorBarDrag(ViewScene& scene, PictureControls& controls, vtkRenderWindowInteractor* interactor);
-  ~ColorBarDrag();
-  ColorBarDrag(const ColorBarDrag&) = delete;
-  ColorBarDrag& operator=(const ColorBarDrag&) = delete;
 
 private:
   /// Whether nobody else shall see the event.
-  bool takes(unsigned long event);
+  bool takes(const LeftButton::Event& event);
 
   ViewScene& scene_;
   PictureControls& controls_;
-  vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
-  vtkNew<vtkCallbackCommand> command_;
   bool drags_ = false;
   // The bar as the drag found it: words that come and go may move it.
   double from_ = 0.0; ///< ViewScene::ColorBarPlace::along.
   double pixels_ = 1.0;
   int fromY_ = 0;
   std::array<double, 2> range_{};
+  LeftButton button_; ///< Last: it calls this.
 };
 
 } // namespace pointhaptics

@@ -3,9 +3,6 @@
 #include "HapticViewerOptions.h"
 #include "ViewScene.h"
 
-#include <vtkCommand.h>
-#include <vtkRenderWindowInteractor.h>
-
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -28,24 +25,14 @@ DistanceMeasuring::DistanceMeasuring(ViewScene& scene, HapticViewerOptions& opti
   vtkRenderWindowInteractor* interactor, std::function<void(const std::string&)> say)
   : scene_(scene)
   , options_(options)
-  , interactor_(interactor)
   , say_(std::move(say))
+  , button_(interactor, kJustBeforeTheStyle,
+      [this](const LeftButton::Event& event)
+      {
+        this->follow(event);
+        return false;
+      })
 {
-  command_->SetClientData(this);
-  command_->SetCallback([](vtkObject*, unsigned long event, void* self, void*)
-    { static_cast<DistanceMeasuring*>(self)->follow(event); });
-  for (const auto event : { vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent })
-  {
-    interactor->AddObserver(event, command_, kJustBeforeTheStyle);
-  }
-}
-
-DistanceMeasuring::~DistanceMeasuring()
-{
-  if (interactor_)
-  {
-    interactor_->RemoveObserver(command_);
-  }
 }
 
 void DistanceMeasuring::toggle(const std::string& key)
@@ -72,17 +59,15 @@ bool DistanceMeasuring::end()
   return true;
 }
 
-void DistanceMeasuring::follow(unsigned long event)
+void DistanceMeasuring::follow(const LeftButton::Event& event)
 {
-  const int* position = interactor_->GetEventPosition();
-  if (event == vtkCommand::LeftButtonPressEvent)
+  if (event.kind == LeftButton::Kind::Press)
   {
-    // With a key held the button is the model's or the hand's.
-    isPressed_ = isOn_ && !interactor_->GetShiftKey() && !interactor_->GetControlKey();
-    pressedAt_ = { position[0], position[1] };
+    isPressed_ = isOn_ && event.isPlain;
+    pressedAt_ = { event.x, event.y };
   }
-  else if (std::exchange(isPressed_, false) && isOn_ &&
-    std::hypot(position[0] - pressedAt_[0], position[1] - pressedAt_[1]) <= kClick)
+  else if (event.kind == LeftButton::Kind::Release && std::exchange(isPressed_, false) && isOn_ &&
+    std::hypot(event.x - pressedAt_[0], event.y - pressedAt_[1]) <= kClick)
   {
     this->choose();
   }
@@ -112,10 +97,7 @@ void DistanceMeasuring::choose()
 void DistanceMeasuring::show()
 {
   scene_.setPicture(options_.picture);
-  if (interactor_)
-  {
-    interactor_->Render();
-  }
+  button_.render();
 }
 
 } // namespace pointhaptics

@@ -2,9 +2,7 @@
 /// Distances between points of a cloud under the mouse.
 #pragma once
 
-#include <vtkCallbackCommand.h>
-#include <vtkNew.h>
-#include <vtkWeakPointer.h>
+#include "LeftButton.h"
 
 #include <array>
 #include <functional>
@@ -26,9 +24,6 @@ public:
   /// All must outlive this, the interactor aside. @p say tells the person what was measured.
   DistanceMeasuring(ViewScene& scene, HapticViewerOptions& options, vtkRenderWindowInteractor* interactor,
     std::function<void(const std::string&)> say);
-  ~DistanceMeasuring();
-  DistanceMeasuring(const DistanceMeasuring&) = delete;
-  DistanceMeasuring& operator=(const DistanceMeasuring&) = delete;
 
   /// On, or off without a distance in the picture. @p key is that of the command, for the words.
   void toggle(const std::string& key);
@@ -36,18 +31,17 @@ public:
   bool end();
 
 private:
-  void follow(unsigned long event);
+  void follow(const LeftButton::Event& event);
   void choose();
   void show();
 
   ViewScene& scene_;
   HapticViewerOptions& options_;
-  vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
   std::function<void(const std::string&)> say_;
-  vtkNew<vtkCallbackCommand> command_;
   bool isOn_ = false;
   bool isPressed_ = false;
   std::array<int, 2> pressedAt_{};
+  LeftButton button_; ///< Last: it calls this.
 };
 
 } // namespace pointhaptics

@@ -1,0 +1,52 @@
+/// @file
+/// The left mouse button, for tools that take it before the style does.
+#pragma once
+
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkWeakPointer.h>
+
+#include <functional>
+
+class vtkRenderWindowInteractor;
+
+namespace pointhaptics
+{
+
+/// Observes the button, and the pointer, of an interactor as long as it lives. GUI thread only.
+class LeftButton
+{
+public:
+  enum class Kind
+  {
+    Press,
+    Move, ///< Of the pointer, whether the button is pressed or not.
+    Release,
+  };
+  struct Event
+  {
+    Kind kind = Kind::Press;
+    int x = 0; ///< Pixels of the window, from the left and from below.
+    int y = 0;
+    bool isPlain = true; ///< Neither Shift nor Ctrl is held: with them a drag is the model's or the hand's.
+  };
+
+  /// @p takes returns whether nobody else shall see the event. Tools with a higher @p priority come first;
+  /// the style's is 0.
+  LeftButton(vtkRenderWindowInteractor* interactor, float priority, std::function<bool(const Event&)> takes);
+  ~LeftButton();
+  LeftButton(const LeftButton&) = delete;
+  LeftButton& operator=(const LeftButton&) = delete;
+
+  /// Renders the window, where there still is one.
+  void render();
+
+private:
+  bool takes(unsigned long event);
+
+  vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
+  std::function<bool(const Event&)> takes_;
+  vtkNew<vtkCallbackCommand> command_;
+};
+
+} // namespace pointhaptics
