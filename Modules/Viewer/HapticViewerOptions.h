@@ -78,12 +78,13 @@ struct HapticViewerOptions
   std::string ideal =
     "auto"; ///< Shape whose exact force the chart shows; auto: where the cloud is one; none.
   HapticViewerDevice device = HapticViewerDevice::Auto;
-  FalconSettings falcon;  ///< @c cancelled is taken from HapticViewerObserver where it is empty.
-  std::string path;       ///< File of a hand path, t,x,y,z, that moves the hand instead of a device.
-  std::string replay;     ///< A recording that is felt again instead of a path.
-  std::string record;     ///< A recording to write, from the first tick to the last; empty: a key begins one.
-  std::string trace;      ///< CSV to write, one row a tick; empty: none.
-  std::string forceChart; ///< PNG to write, force and proxy radius over time; empty: none.
+  FalconSettings falcon; ///< @c cancelled is taken from HapticViewerObserver where it is empty.
+  std::string path;      ///< File of a hand path, t,x,y,z, that moves the hand instead of a device.
+  std::string replay;    ///< A recording that is felt again instead of a path.
+  std::string record;    ///< A recording to write, from the first tick to the last; empty: a key begins one.
+  std::string passingFile; ///< One that the host deletes when the viewer ends: recordings keep a copy of it.
+  std::string trace;       ///< CSV to write, one row a tick; empty: none.
+  std::string forceChart;  ///< PNG to write, force and proxy radius over time; empty: none.
 
   // The window.
   std::vector<std::string> bindings; ///< NAME=GESTURES, as CommandRegistry::bind() takes them.

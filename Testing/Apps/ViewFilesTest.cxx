@@ -143,7 +143,6 @@ TEST_F(ViewFiles, OfStandardInputSayWhatDoesNotGoWithIt)
   const InputFrom input(this->path("good.ply"));
   this->refuse(2, { "view", "-", "-" }, { "standard input can be read once" });
   this->refuse(2, { "view", "-", "--watch" }, { "--watch: standard input is read once" });
-  this->refuse(2, { "view", "-", "--record", "rec.csv" }, { "--record rec.csv: a recording names the file" });
   this->refuse(2, { "view", "-", "--write-config", "c.json" }, { "--write-config c.json: settings" });
 }
 

@@ -27,10 +27,11 @@ trap finish EXIT
 make() { "$program" generate "$1" -n 3000 -o "$2" >/dev/null; }
 
 environment=()
+input=/dev/null # of the program
 # start_viewer FILE ARGUMENT...: does not wait for its window. A shell lets what runs in the background ignore Ctrl+C; the
 # program must not.
 start_viewer() {
-  env --default-signal=INT "${environment[@]}" "$program" view "$@" --size 640x480 >said.txt 2>&1 &
+  env --default-signal=INT "${environment[@]}" "$program" view "$@" --size 640x480 <"$input" >said.txt 2>&1 &
   viewer=$!
 }
 # has_keys: until the window in $window takes them.

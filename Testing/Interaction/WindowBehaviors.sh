@@ -662,6 +662,27 @@ feels_again() {
   cmp <(grep -v '^#' "$1" | cut -d, -f1-15) <(cut -d, -f1-15 again.csv) || fail "other forces"
 }
 
+# The cloud has no file that a replay could find: a copy is beside the recording.
+ARecordingOfStandardInputKeepsItsCloud() {
+  make sphere cloud.ply
+  input=cloud.ply
+  start_viewer - --device simulated
+  shows "standard input"
+  has_keys
+  move_to 175 180
+  key f j
+  said "recording to pointhaptics-001.csv"
+  until_true "nothing was touched" touches
+  key j
+  said "recording: pointhaptics-001.csv"
+  key q
+  ends_with 0 "key Q"
+  cmp cloud.ply pointhaptics-001.cloud || fail "another cloud was kept"
+  rm cloud.ply
+  feels_again pointhaptics-001.csv
+  has_value 15 1 pointhaptics-001.csv || fail "the recording has no contact"
+}
+
 AWindowShowsARecording() {
   make sphere cloud.ply
   open_viewer cloud.ply --device simulated --record rec.csv

@@ -62,8 +62,13 @@ public:
       return true;
     }
     folder_.emplace();
-    *place = folder_->path("standard input"); // the name is the title, too
+    *place = this->fileName();
     return copyStandardInput(*place, message);
+  }
+  /// Empty where nothing came by it.
+  std::string fileName() const
+  {
+    return folder_ ? folder_->path("standard input") : std::string(); // the name is the title, too
   }
   /// @p text without the folder of the file.
   std::string shown(std::string text) const
@@ -183,6 +188,7 @@ int runView(CLI::App& command, ViewOptions& options)
   {
     return fail(kViewCommand, message);
   }
+  options.viewer.passingFile = input.fileName();
   HapticViewer viewer(options.viewer, observerFor(options, input));
   if (!viewer.open(options.files))
   {

@@ -250,11 +250,6 @@ void ViewOptions::checkStandardInput() const
     throwUsage(
       "--watch", "", "standard input is read once and does not change; leave it out, or name a file");
   }
-  if (!this->viewer.record.empty())
-  {
-    throwUsage("--record", this->viewer.record,
-      "a recording names the file of its cloud, and standard input has none; name a file in place of -");
-  }
   if (!this->writeConfig.empty())
   {
     throwUsage("--write-config", this->writeConfig,

@@ -2,6 +2,8 @@
 #include "PolyDataAccess.h"
 #include "ViewWindow.h"
 
+#include "Core/Base/OutputFile.h"
+
 #include "vtkVoxelMeanResampler.h"
 
 #include <fmt/format.h>
@@ -10,11 +12,39 @@
 #include <vtkPointSet.h>
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <utility>
 
 namespace pointhaptics
 {
+
+namespace
+{
+
+/// False: @p message says why not.
+bool copyFile(const std::string& from, const std::string& to, std::string& message)
+{
+  constexpr std::size_t kBlock = 1 << 20;
+  std::ifstream input(from, std::ios::binary);
+  std::string block(kBlock, '\0');
+  OutputFile output;
+  static_cast<void>(output.open(to)); // commit() tells
+  while (input)
+  {
+    input.read(block.data(), std::streamsize(block.size()));
+    static_cast<void>(output.write({ block.data(), std::size_t(input.gcount()) }));
+  }
+  if (output.commit() != Status::Ok)
+  {
+    message = fmt::format(
+      "{}: the cloud cannot be kept for the recording: {}; {}", to, output.reason(), output.cure());
+    return false;
+  }
+  return true;
+}
+
+} // namespace
 
 bool ViewWindow::startRecording(const std::string& fileName, std::string& message)
 {
@@ -23,8 +53,17 @@ bool ViewWindow::startRecording(const std::string& fileName, std::string& messag
   header.program = observer_.program;
   header.settings = observer_.describeState ? observer_.describeState(this->state()) : std::string();
   std::error_code error;
-  for (const std::string& file : shown_.empty() ? std::vector<std::string>{ scene_.title() } : shown_)
+  for (std::string file : shown_.empty() ? std::vector<std::string>{ scene_.title() } : shown_)
   {
+    if (file == options_.passingFile && !file.empty())
+    {
+      const std::string copy = std::filesystem::path(fileName).replace_extension(".cloud").string();
+      if (!copyFile(file, copy, message))
+      {
+        return false;
+      }
+      file = copy;
+    }
     const std::filesystem::path path = std::filesystem::absolute(file, error);
     header.cloud.files.push_back(error ? file : path.string());
   }
