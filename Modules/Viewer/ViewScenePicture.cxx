@@ -39,6 +39,9 @@ constexpr double kSmallestPixels = 2.0;
 constexpr double kPointPixels = 4.0;
 /// Of a handful of points, which nobody would see else.
 constexpr double kLargestSmallest = 6.0;
+/// Of points at so few places that they have no surface, and no size.
+constexpr double kLonePixels = 8.0;
+constexpr std::size_t kFewPlaces = 8;
 /// From here on points are as small as can be.
 constexpr double kManyPoints = 2000.0;
 constexpr double kFeltScale = 3.6;
@@ -55,16 +58,18 @@ double smallestPixels(vtkIdType count)
   return std::clamp(wanted, kSmallestPixels, kLargestSmallest);
 }
 
-bool isOnePlace(const PointView& points)
+/// Whether all points are at @p most places.
+bool hasFewPlaces(const PointView& points, std::size_t most)
 {
-  for (std::int64_t i = 1; i < points.size(); ++i)
+  std::vector<Vec3> places;
+  for (std::int64_t i = 0; i < points.size() && places.size() <= most; ++i)
   {
-    if (!(points[i] == points[0]))
+    if (std::find(places.begin(), places.end(), points[i]) == places.end())
     {
-      return false;
+      places.push_back(points[i]);
     }
   }
-  return true;
+  return places.size() <= most;
 }
 
 /// The corners of @p box, which lies where @p toWorld leads.
@@ -207,10 +212,12 @@ void ViewScene::applyPointSizes()
     smallest * std::min(1.0, scale), std::max(smallest, scale * (shown_ ? shown_->look.largestPixels : 1.0)));
   mapper_->SetSizeScale(kFeltScale * scale);
   mapper_->SetPixelRange(kSmallestPixels * std::min(1.0, scale), kFeltLargest * std::max(1.0, scale));
+  const bool isLone = shown_ && hasFewPlaces(PointAccess(shown_->points->GetPoints()).view(), kFewPlaces);
+  const double fixed = fixedPixels_ == 0.0 && isLone ? kLonePixels : fixedPixels_;
   for (vtkSplatMapper* mapper : { mapper_.Get(), pointsMapper_.Get() })
   {
     mapper->SetPointPixels(std::max(kPointPixels, smallest) * scale);
-    mapper->SetFixedPixels(fixedPixels_ * scale);
+    mapper->SetFixedPixels(fixed * scale);
   }
 }
 
@@ -283,7 +290,7 @@ CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
   vtkMatrix4x4* matrix = pointsMatrix_;
   const AffineTransform model = transformOf(matrix);
   const double aspect = renderer->GetTiledAspectRatio();
-  if (isOnePlace(access.view()))
+  if (hasFewPlaces(access.view(), 1))
   {
     // It has no size that could fill the picture: the workspace does, seen from outside.
     const std::array<Vec3, 8> corners = cornersBefore(model, workspace_);

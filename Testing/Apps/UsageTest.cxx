@@ -59,14 +59,14 @@ TEST_F(Usage, HelpNamesTheKeysThatAreBound)
   const std::string usual = help({});
   for (const char* part :
     { "where its axes point; key A ", "proxy and normal; key O ", "one at a time; keys N and B ",
-      "and end; key W writes those of the window ", "default: rgb, or height; key M " })
+      "and end; key W writes those of the window ", "default: rgb, classification, clay or height, what suits; key M " })
   {
     EXPECT_TRUE(says(usual, part)) << part << "\n" << usual;
   }
   const std::string bound = help({ "--bind", "axes=F5,next-file=F7,write-settings=Ctrl+s,figure=,colors=a" });
   for (const char* part :
     { "where its axes point; key F5 ", "proxy and normal --", "one at a time; keys F7 and B ",
-      "and end; key Ctrl+s writes those of the window ", "default: rgb, or height; key A " })
+      "and end; key Ctrl+s writes those of the window ", "default: rgb, classification, clay or height, what suits; key A " })
   {
     EXPECT_TRUE(says(bound, part)) << part << "\n" << bound;
   }

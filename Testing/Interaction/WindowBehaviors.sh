@@ -309,16 +309,16 @@ KeyMGoesThroughTheColors() {
   write_settings
   [[ "$(setting color-by "$settings")" == "" ]] || fail "a colour that nobody chose"
   key m
-  said "coloured by Clay"
+  said "coloured by clay"
   key m
-  said "coloured by Density"
+  said "coloured by density"
   write_settings
   is color-by '"Density"' || fail "the settings do not have the colours"
   key m m
-  said "coloured by Residual, as soon as it is computed"
-  until_true "the status still waits for Residual" grep -qxF "coloured by Residual" said.txt
+  said "coloured by residual, as soon as it is computed"
+  until_true "the status still waits for Residual" grep -qxF "coloured by residual" said.txt
   key m
-  said "coloured by Height"
+  said "coloured by height"
 }
 
 KeyKChangesTheColors() {
@@ -390,9 +390,9 @@ KeyMOffersTheMeansWhatTheyHave() {
   open_viewer cloud.csv --felt
   local step
   for step in 1 2 3 4 5 6; do key m; done
-  said "coloured by Residual"
+  said "coloured by residual"
   key m
-  said "coloured by Height"
+  said "coloured by height"
   never_said "coloured by Intensity"
   key d m m m m m m
   said "coloured by Intensity"

@@ -158,7 +158,7 @@ std::string listOf(const CLI::Option& option)
 /// What options with other values begin with: actions of --bind, and colours that every cloud has.
 std::string beginningsOf(const std::string& option)
 {
-  std::string words = option == "color-by" ? "rgb height density proxyradius residual" : "";
+  std::string words = option == "color-by" ? "rgb clay height density proxyradius residual" : "";
   if (option == "bind")
   {
     for (const std::string& name : HapticViewer::commands().names())

@@ -30,9 +30,10 @@ const std::vector<KeyedHelp>& keyedHelps()
     { "--write-config", "Write the options in force as a file for --config, and end", { "write-settings" },
       " writes those of the window" },
     { "--color-by",
-      "Array to colour by: rgb, height, density, proxyradius, residual (the distance of each voxel mean from "
-      "the surface that is felt) or one of the file, in upper or lower case, with :x, :0 or :magnitude for a "
-      "component of a vector; default: rgb, or height",
+      "Array to colour by: rgb, clay (one colour), height, density, proxyradius, residual (the distance of "
+      "each "
+      "voxel mean from the surface that is felt) or one of the file, in upper or lower case, with :x, :0 or "
+      ":magnitude for a component of a vector; default: rgb, classification, clay or height, what suits",
       { "colors" } },
     { "--push-pointer", "The touch pushes the mouse pointer while the hand follows it", { "push-pointer" } },
     { "--axes", "A box about the cloud with its bounds in metres of the file, and where its axes point",

@@ -25,6 +25,12 @@ unsigned long long count(std::uint64_t n)
   return static_cast<unsigned long long>(n);
 }
 
+/// "1 point", "2 points".
+std::string counted(vtkIdType n, const char* noun)
+{
+  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+}
+
 } // namespace
 
 StatusText::StatusText(const CommandRegistry& commands, const ScenePipeline& scenes, const MouseHand& hand,
@@ -135,9 +141,11 @@ std::string StatusText::statusLine(const ServoLoop* servo) const
 {
   char text[320];
   const bool isPending = scenes_.isEmpty() && !scenes_.isSettled();
-  std::snprintf(text, sizeof(text), isPending ? "%lld points" : "%lld points in %lld active voxels",
-    static_cast<long long>(scenes_.numberOfPoints()), static_cast<long long>(scenes_.numberOfVoxels()));
-  std::string status = text;
+  std::string status = counted(scenes_.numberOfPoints(), "point");
+  if (!isPending)
+  {
+    status += " in " + counted(scenes_.numberOfVoxels(), "active voxel");
+  }
   if (scenes_.isEmpty() && !isPending)
   {
     status += " (nothing in the workspace" + this->resetHint() + ")";
@@ -147,10 +155,10 @@ std::string StatusText::statusLine(const ServoLoop* servo) const
     const ServoSample latest = servo->latest();
     const ServoStatistics statistics = servo->statistics();
     std::snprintf(text, sizeof(text),
-      "\nproxy radius %s    force %.2f N%s\nservo %.0f Hz, %llu deadline misses%s",
+      "\nproxy radius %s    force %.2f N%s\nservo %.0f Hz, %llu deadline miss%s%s",
       lengthText(latest.state.radius).c_str(), norm(latest.state.force),
       latest.state.contact ? "    in contact" : "", statistics.rateHz, count(statistics.deadlineMisses),
-      this->handMode());
+      statistics.deadlineMisses == 1 ? "" : "es", this->handMode());
     status += text;
     if (!latest.state.contact && !distance_.empty())
     {

@@ -247,7 +247,12 @@ bool canColorBy(vtkPolyData* cloud, const std::string& option, const std::string
       message += fmt::format(" {},", withComponents(cloud, each));
     }
   }
-  message += fmt::format("{} {}", hasColors(cloud) ? " rgb," : "", fmt::join(kMadeByPipeline, ", "));
+  message += hasColors(cloud) ? " rgb," : "";
+  for (const char* made : kMadeByPipeline)
+  {
+    message += fmt::format(" {},", colorWord(made));
+  }
+  message.pop_back();
   return false;
 }
 
@@ -361,6 +366,11 @@ Bounds transformedBounds(vtkPolyData* cloud, const AffineTransform& transform)
     }
   }
   return bounds;
+}
+
+std::string colorWord(const std::string& name)
+{
+  return isMadeByPipeline(name) ? lowered(name) : name;
 }
 
 std::string titleOf(const std::vector<std::string>& files)

@@ -100,6 +100,9 @@ POINTHAPTICSVIEWER_EXPORT Bounds transformedBounds(vtkPolyData* cloud, const Aff
 /// The names of @p files without their folders.
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);
 
+/// What options and messages call what a cloud is coloured by: what the pipeline makes in lower case.
+std::string colorWord(const std::string& name);
+
 /// The first of @p notes, and how many there are besides; empty where there is none.
 std::string shortNote(const std::vector<std::string>& notes);
 

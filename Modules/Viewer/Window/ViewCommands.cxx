@@ -40,7 +40,7 @@ void ViewWindow::addCommands(CommandRegistry& commands, ViewWindow* window)
   commands.add({ "axes", "a", "Show", "axes and bounds", call(&Window::toggleAxes), isOpen });
   commands.add(
     { "figure", "o", "Show", "figure: cloud, cube, touch only", call(&Window::toggleFigure), isOpen });
-  commands.add({ "colors", "m", "Show", "color by the next array", call(&Window::showNextColors), isOpen });
+  commands.add({ "colors", "m", "Show", "colour by the next array", call(&Window::showNextColors), isOpen });
   commands.add(
     { "felt", "d", "Show", "voxel means that are felt, or the points", call(&Window::toggleFelt), isOpen });
   commands.add(

@@ -458,7 +458,7 @@ void ViewWindow::showNextColors()
   {
     style_->InvalidateModel();
   }
-  this->say("coloured by " + next + (waits ? kAsSoonAsComputed : ""));
+  this->say("coloured by " + colorWord(next) + (waits ? kAsSoonAsComputed : ""));
   awaitedColors_ = waits ? news_ : std::string();
 }
 
