@@ -173,6 +173,7 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   ownColor_ = colorBy_ != "rgb" && findColorSource(cloud_, colorBy_) ? colorBy_ : std::string();
   cloudOrientation_ = loaded.orientation;
   picture_ = options.picture;
+  near_ = loaded.near;
   this->setClip(options.clip);
   orientation_ = loaded.orientation;
   orientation_.up = normalized(loaded.placement.applyToVector(orientation_.up));

@@ -114,7 +114,8 @@ public:
   void clipFelt();
   /// The box with its handles.
   ClipBoxMark& clipMark() { return clipMark_; }
-  /// Of the finite points of the cloud, in the frame of the file; empty: there is none.
+  /// Of the finite points of the cloud, but for a few far ones, in the frame of the file; empty: there is
+  /// none.
   const Bounds& cloudBounds();
   /// PictureSettings::measure in words: the distance, and in a second line that along each axis. Empty: there
   /// is none.
@@ -278,6 +279,7 @@ private:
   Bounds cloudBounds_;       ///< Of the finite points, as in the file; empty until somebody asks.
   vtkNew<vtkRenderer> renderer_;
   std::vector<double> clip_; ///< As HapticViewerOptions::clip.
+  Bounds near_;              ///< LoadedCloud::near.
   ClipBoxMark clipMark_;
   DistanceMark distance_; ///< Before the renderer it goes.
   LevelOfDetail detail_{ renderer_, pointsActor_ };

@@ -79,7 +79,7 @@ const Bounds& ViewScene::cloudBounds()
 {
   if (cloudBounds_.empty() && cloud_)
   {
-    cloudBounds_ = transformedBounds(cloud_, AffineTransform());
+    cloudBounds_ = near_.empty() ? transformedBounds(cloud_, AffineTransform()) : near_;
   }
   return cloudBounds_;
 }

@@ -131,6 +131,7 @@ TEST_F(CloudCommands, ACloudWithoutAValidPointIsRefused)
   this->refuse(1, { "resample", "in.csv", "-o", "out.csv" }, { "resample" + why });
   this->refuse(1, { "feel", "in.csv", "-o", "out.csv", "--path", "path.csv" }, { "feel" + why });
   this->refuse(1, { "feel", "in.csv", "-o", "out.csv", "--path", "path.csv", "--raw" }, { "feel" + why });
+  this->refuse(1, { "feel", "in.csv", "-o", "out.csv", "--path", "path.csv", "--fit" }, { "feel" + why });
 }
 
 TEST_F(CloudCommands, OnePointIsNotCalledPoints)
@@ -311,6 +312,33 @@ TEST_F(CloudCommands, InfoTellsDuplicatesSpacingAndUnit)
   EXPECT_EQ(json::parse(this->succeed({ "info", "map.csv", "--json" }))["files"][0]["unit"], "m");
   this->write("part.csv", "x,y,z\n0,0,0\n400,200,150\n");
   EXPECT_EQ(json::parse(this->succeed({ "info", "part.csv", "--json" }))["files"][0]["unit"], "mm");
+}
+
+TEST_F(CloudCommands, InfoTellsCoordinatesAsTheFileHasThem)
+{
+  this->write("in.csv", "x,y,z\n-0.1,0.2,0.3\n0.7,0.2,0.4\n");
+  const std::string text = this->succeed({ "info", "in.csv" });
+  EXPECT_NE(text.find("bounds   x -0.1 .. 0.7  y 0.2 .. 0.2  z 0.3 .. 0.4\n"), std::string::npos) << text;
+}
+
+TEST_F(CloudCommands, InfoOfNoSpacingNamesNoVoxel)
+{
+  this->write("one.xyz", "1 2 3\n");
+  const std::string one = this->succeed({ "info", "one.xyz" });
+  EXPECT_NE(one.find("spacing  none"), std::string::npos) << one;
+  EXPECT_EQ(one.find("voxel"), std::string::npos) << one;
+  this->write("none.xyz", "nan nan nan\n");
+  EXPECT_NE(this->succeed({ "info", "none.xyz" }).find("note     no point is finite"), std::string::npos);
+}
+
+TEST_F(CloudCommands, InfoTellsOfPointsFarFromAllOthers)
+{
+  this->succeed({ "generate", "sphere", "-n", "2000", "-o", "sphere.csv" });
+  EXPECT_EQ(this->succeed({ "info", "sphere.csv" }).find("far from"), std::string::npos);
+  this->write("far.csv", this->read("sphere.csv") + "1000000,0,0,0,0,1\n");
+  const std::string far = this->succeed({ "info", "far.csv" });
+  EXPECT_NE(far.find("1 of 2,001 points is far from all others"), std::string::npos) << far;
+  EXPECT_NE(far.find("--clip -0.0"), std::string::npos) << far;
 }
 
 TEST_F(CloudCommands, InfoTellsTheCoordinateSystemAndItsUnit)

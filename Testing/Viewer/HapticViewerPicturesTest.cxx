@@ -114,6 +114,34 @@ TEST_F(HapticViewerPictures, ShowsPointsThatLieAtOnePlace)
   }
 }
 
+TEST_F(HapticViewerPictures, IsThatOfAllPointsButAFarOne)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.picture.background = "black";
+  options_.colorBy = "height";
+  vtkSmartPointer<vtkPolyData> cloud = makeSphere();
+  const auto picture = [&](const char* name)
+  {
+    HapticViewer viewer(options_, observer_);
+    EXPECT_TRUE(viewer.open(cloud.Get())) << viewer.message();
+    EXPECT_TRUE(viewer.renderToFile(this->path(name))) << viewer.message();
+    return coloredPixels(this->path(name), 2, 10.0);
+  };
+  const vtkIdType before = picture("sphere.png");
+  EXPECT_GT(before, 5000);
+  EXPECT_TRUE(warnings_.empty());
+  const Vec3 noData(1e9, 1e9, -1e9);
+  cloud->GetPoints()->InsertNextPoint(&noData.x);
+  cloud->GetPoints()->Modified();
+  EXPECT_NEAR(double(picture("far.png")), double(before), 0.02 * double(before));
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(
+    warnings_[0].find("1 of 20,001 points is far from all others, outside the workspace"), std::string::npos)
+    << warnings_[0];
+  options_.clip = { -2, 2, -2, 2, -2, 2 };
+  EXPECT_NEAR(double(picture("clipped.png")), double(before), 0.02 * double(before));
+}
+
 #ifdef __linux__
 TEST_F(HapticViewerPictures, SaysThatTheDiskIsFull)
 {

@@ -266,7 +266,7 @@ void print(const FeelOptions& options, const FeelScenes& scenes, const Summary& 
     const bool isPlaced =
       options.fit || options.lattice.hasTransform() || !options.lattice.workspace().empty();
     fmt::print("{} of {} ticks in contact; nearest point {} away{}\n", s.contactTicks, s.ticks,
-      lengthText(*nearest, 2),
+      lengthText(*nearest < 1e-9 ? 0.0 : *nearest, 2), // rounding errors
       !isPlaced && *nearest > kDefaultWorkspaceEdge ? "; --fit brings the cloud into the 10 cm workspace"
                                                     : "");
   }

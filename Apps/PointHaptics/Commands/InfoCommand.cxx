@@ -55,6 +55,10 @@ void addOrigin(const CloudSummary& s, nlohmann::ordered_json& result)
   {
     result["notes"] = s.notes;
   }
+  if (!s.farPoints.empty())
+  {
+    result["far_points"] = s.farPoints;
+  }
 }
 
 nlohmann::ordered_json toJson(const std::string& file, const CloudSummary& s)
@@ -115,6 +119,27 @@ void printOrigin(const CloudSummary& s)
   }
 }
 
+/// With the digits that a float, or a double, has for certain: a multiple of 0.01 ends there, too.
+std::string coordinate(const CloudSummary& s, double value)
+{
+  return s.isFloat ? fmt::format("{}", float(value)) : fmt::format("{:.15g}", value);
+}
+
+void printSpacing(const CloudSummary& s)
+{
+  if (!(s.spacing[2] > 0.0))
+  {
+    fmt::print("  spacing  none: all points are at one place\n");
+    return;
+  }
+  fmt::print(
+    "  spacing  {:.4g} (median distance to the nearest other point; 5 % {:.4g}, 25 % {:.4g}, 75 % {:.4g}, "
+    "95 % {:.4g})\n",
+    s.spacing[2], s.spacing[0], s.spacing[1], s.spacing[3], s.spacing[4]);
+  fmt::print("  density  spacing varies {:.3g} : 1 (95 % over 5 %)\n", s.densityVariation);
+  fmt::print("  voxel    {:.3g} holds a few points of a surface (--voxel)\n", s.suggestedVoxel);
+}
+
 void print(const std::string& file, const CloudSummary& s)
 {
   fmt::print("{}\n  format   {}\n  points   {}{}{}\n", file, s.format, s.points,
@@ -124,20 +149,19 @@ void print(const std::string& file, const CloudSummary& s)
   if (!s.bounds.empty())
   {
     const Vec3 low = s.bounds.minimum, high = s.bounds.maximum, size = s.bounds.extent();
-    // The 15 digits that a double has for certain: a multiple of 0.01 ends there, too.
-    fmt::print("  bounds   x {:.15g} .. {:.15g}  y {:.15g} .. {:.15g}  z {:.15g} .. {:.15g}\n", low.x, high.x,
-      low.y, high.y, low.z, high.z);
+    fmt::print("  bounds  ");
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      fmt::print(" {}{} {} .. {}", axis > 0 ? " " : "", "xyz"[axis], coordinate(s, low[axis]),
+        coordinate(s, high[axis]));
+    }
+    fmt::print("\n");
     fmt::print("  size     {:.6g} x {:.6g} x {:.6g}\n", size.x, size.y, size.z);
     fmt::print("  unit     {} ({})\n", s.unit,
       !s.unitIsGuess   ? "the file says so"
         : s.unitIsTold ? "a guess by size and arrays"
                        : "nothing tells the unit; --unit of view, feel and resample does");
-    fmt::print(
-      "  spacing  {:.4g} (median distance to the nearest other point; 5 % {:.4g}, 25 % {:.4g}, 75 % {:.4g}, "
-      "95 % {:.4g})\n",
-      s.spacing[2], s.spacing[0], s.spacing[1], s.spacing[3], s.spacing[4]);
-    fmt::print("  density  spacing varies {:.3g} : 1 (95 % over 5 %)\n", s.densityVariation);
-    fmt::print("  voxel    {:.3g} holds a few points of a surface (--voxel)\n", s.suggestedVoxel);
+    printSpacing(s);
   }
   if (!s.coordinateSystem.empty())
   {
@@ -155,6 +179,15 @@ void print(const std::string& file, const CloudSummary& s)
   for (const std::string& note : s.notes)
   {
     fmt::print("  note     {}\n", note);
+  }
+  if (!s.farPoints.empty())
+  {
+    fmt::print("  note     {}\n", s.farPoints);
+  }
+  if (s.points > 0 && s.bounds.empty())
+  {
+    fmt::print(
+      "  note     no point is finite: view, feel, resample and bandwidth refuse it; mend the file\n");
   }
   if (!s.hint.empty())
   {

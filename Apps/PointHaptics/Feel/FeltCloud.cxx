@@ -87,7 +87,16 @@ std::shared_ptr<const HapticScene> resampledScene(
   LoadedCloud loaded;
   loaded.cloud = cloud;
   loaded.title = options.file;
-  loaded.bounds = transformedBounds(cloud, viewer.transform);
+  findBounds(request, loaded);
+  if (loaded.bounds.empty())
+  {
+    message = whyEmpty(options, cloud);
+    return nullptr;
+  }
+  for (const std::string& note : loaded.notes)
+  {
+    warn("feel", note);
+  }
   placeCloud(request, loaded);
   const bool isMade = resampleCloud(
     request, [] { return !stopIsRequested(); }, loaded, message);

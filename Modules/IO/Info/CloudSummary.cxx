@@ -1,5 +1,6 @@
 #include "IO/Info/CloudSummary.h"
 
+#include "IO/Info/FarPoints.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 
@@ -165,9 +166,9 @@ std::vector<ArraySummary> arraysOf(vtkPolyData* cloud)
 }
 
 /// @param known: what the coordinates are measured in, as far as the file and its points tell.
-void suggest(const LengthUnit& known, CloudSummary& summary)
+void suggest(const LengthUnit& known, const Bounds& bounds, CloudSummary& summary)
 {
-  const Vec3 size = summary.bounds.extent();
+  const Vec3 size = bounds.extent();
   const double longest = std::max({ size.x, size.y, size.z });
   if (!(longest > 0.0) || !std::isfinite(longest))
   {
@@ -205,6 +206,7 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
   summary.chunks = std::int64_t(numberIn(cloud, "Chunks"));
   summary.scans = scansOf(cloud);
   summary.points = cloud->GetNumberOfPoints();
+  summary.isFloat = cloud->GetPoints() && cloud->GetPoints()->GetDataType() == VTK_FLOAT;
   const std::vector<Vec3> points = finitePoints(cloud);
   summary.invalid = summary.points - std::int64_t(points.size());
   for (const Vec3& p : points)
@@ -218,14 +220,18 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format)
   summary.coordinateSystem = io::fieldText(cloud->GetFieldData(), "CoordinateSystem");
   summary.unit = io::fieldText(cloud->GetFieldData(), "LengthUnit");
   summary.unitIsGuess = summary.unit.empty();
-  const LengthUnit unit = lengthUnitOf(cloud, summary.bounds);
+  const FarPoints far = findFarPoints(cloud, summary.bounds);
+  summary.farPoints = far.count > 0
+    ? far.text() + "; view and feel --fit leave out what is far, feel by --clip " + far.clip()
+    : "";
+  const LengthUnit unit = lengthUnitOf(cloud, far.others);
   if (summary.unitIsGuess && !summary.bounds.empty())
   {
     summary.unit = unit.name;
     summary.unitIsTold = unit.evidence != UnitEvidence::None;
   }
   summary.arrays = arraysOf(cloud);
-  suggest(unit, summary);
+  suggest(unit, far.others, summary);
   return summary;
 }
 

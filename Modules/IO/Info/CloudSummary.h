@@ -42,6 +42,7 @@ struct CloudSummary
   std::int64_t points = 0;
   std::int64_t invalid = 0;    ///< NaN or infinite.
   Bounds bounds;               ///< Of the finite points.
+  bool isFloat = false;        ///< Coordinates have the digits of a float.
   std::int64_t duplicates = 0; ///< Finite points at the very place of an earlier one.
   /// Distance to the nearest distinct point, of a sample of the points: what 5, 25, 50, 75 and 95 percent of
   /// them do not exceed. Zero where there are no two places.
@@ -54,6 +55,7 @@ struct CloudSummary
   bool unitIsGuess = true;
   bool unitIsTold = true; ///< False: nothing tells the unit, and metres are taken.
   std::vector<ArraySummary> arrays;
+  std::string farPoints;       ///< Of a few points far from all others, and how to leave them out; or empty.
   std::string hint;            ///< Unit or scale to try where the size is not about that of the workspace.
   double suggestedScale = 1.0; ///< Makes the cloud fill most of the workspace.
 };

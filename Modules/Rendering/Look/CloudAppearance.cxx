@@ -4,6 +4,7 @@
 #include "SmpExecutor.h"
 
 #include "Core/Bandwidth/LocalBandwidth.h"
+#include "Core/Base/Boxes.h"
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
@@ -159,7 +160,7 @@ void colorByArray(vtkPolyDataMapper* mapper, vtkDataArray* array, int component)
 
 } // namespace
 
-double addHeightArray(vtkPolyData* cloud, const Vec3& up)
+double addHeightArray(vtkPolyData* cloud, const Vec3& up, const Bounds& box)
 {
   const vtkIdType count = cloud->GetNumberOfPoints();
   std::vector<double> heights(static_cast<std::size_t>(count));
@@ -170,7 +171,8 @@ double addHeightArray(vtkPolyData* cloud, const Vec3& up)
     cloud->GetPoint(i, &p.x);
     const double height = isFinite(p) ? dot(p, up) : NAN;
     heights[static_cast<std::size_t>(i)] = height;
-    lowest = std::min(lowest, std::isnan(height) ? INFINITY : height);
+    const bool counts = !std::isnan(height) && (box.empty() || contains(box, p));
+    lowest = std::min(lowest, counts ? height : INFINITY);
   }
   vtkNew<vtkFloatArray> array;
   array->SetName(kHeightArrayName);

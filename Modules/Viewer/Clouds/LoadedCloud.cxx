@@ -1,7 +1,9 @@
 #include "LoadedCloud.h"
 
+#include "ClippedCloud.h"
 #include "CloudAppearance.h"
 #include "HapticViewerOptions.h"
+#include "IO/Info/FarPoints.h"
 #include "MergedCloud.h"
 #include "ResampledCloud.h"
 #include "ShownCloud.h"
@@ -305,18 +307,36 @@ ShownRequest showingOf(const CloudRequest& request, vtkPolyData* cloud, const st
   return showing;
 }
 
+/// All points but far ones, which would take the digits of a float from the others. Far ones in the clipping
+/// box stay.
+vtkSmartPointer<vtkPolyData> drawnPoints(const CloudRequest& request, const LoadedCloud& loaded)
+{
+  if (loaded.near.empty())
+  {
+    return loaded.cloud;
+  }
+  Bounds box = loaded.near;
+  if (const std::optional<Bounds> clip = clipBox(request.options->clip))
+  {
+    box.include(clip->minimum);
+    box.include(clip->maximum);
+  }
+  return clippedCloud(loaded.cloud, box);
+}
+
 /// Fills in LoadedCloud::shown, or what is to be measured for it. False: @p goesOn said no.
 bool show(const CloudRequest& request, const std::function<bool()>& goesOn, LoadedCloud& loaded)
 {
-  if (request.measuresLater && loaded.cloud->GetNumberOfPoints() > kMeasuredAtOnce)
+  const vtkSmartPointer<vtkPolyData> drawn = drawnPoints(request, loaded);
+  if (request.measuresLater && drawn->GetNumberOfPoints() > kMeasuredAtOnce)
   {
     loaded.toMeasure = vtkSmartPointer<vtkPolyData>::New();
-    loaded.toMeasure->ShallowCopy(loaded.cloud);
-    loaded.shown = makePlainCloud(loaded.cloud, loaded.showing);
+    loaded.toMeasure->ShallowCopy(drawn);
+    loaded.shown = makePlainCloud(drawn, loaded.showing);
   }
   else
   {
-    loaded.shown = makeShownCloud(loaded.cloud, loaded.showing, goesOn);
+    loaded.shown = makeShownCloud(drawn, loaded.showing, goesOn);
   }
   return loaded.shown != nullptr;
 }
@@ -383,6 +403,34 @@ std::string titleOf(const std::vector<std::string>& files)
   return names;
 }
 
+void findBounds(const CloudRequest& request, LoadedCloud& loaded)
+{
+  const bool isMoved = !request.transform.isIdentity();
+  const bool isFitted = request.options && request.options->fitsWorkspace;
+  loaded.bounds = transformedBounds(loaded.cloud, request.transform);
+  const FarPoints far = isFitted
+    ? findFarPoints(
+        loaded.cloud, isMoved ? transformedBounds(loaded.cloud, AffineTransform()) : loaded.bounds)
+    : FarPoints();
+  if (far.count == 0)
+  {
+    return;
+  }
+  loaded.near = far.others;
+  loaded.bounds = Bounds();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const auto end = [&](int axis)
+    { return ((corner >> axis & 1) != 0 ? far.others.maximum : far.others.minimum)[axis]; };
+    loaded.bounds.include(request.transform.apply({ end(0), end(1), end(2) }));
+  }
+  if (request.options->clip.empty())
+  {
+    loaded.notes.push_back(
+      loaded.title + ": " + far.text() + ", outside the workspace: neither shown nor felt");
+  }
+}
+
 bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& goesOn, LoadedCloud& loaded,
   std::string& message)
 {
@@ -396,7 +444,7 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   }
   result.isCoarse = findings.isCoarse;
   result.notes = std::move(findings.notes);
-  result.bounds = transformedBounds(result.cloud, request.transform);
+  findBounds(request, result);
   if (result.bounds.empty())
   {
     message = fmt::format("{}: no point is finite (all are NaN or infinite); nothing to show", result.title);
@@ -408,12 +456,13 @@ bool loadCloud(const CloudRequest& request, const std::function<bool(double)>& g
   {
     return false;
   }
-  result.showing = request.before ? *request.before : showingOf(request, result.cloud, findings.format);
+  result.showing =
+    request.before ? *request.before : showingOf(request, drawnPoints(request, result), findings.format);
   result.showing.keptArray = result.colorBy;
   result.orientation = result.showing.orientation;
   if (!hasColors(result.cloud) || !request.colorBy.empty())
   {
-    result.heightZero = addHeightArray(result.cloud, result.orientation.up);
+    result.heightZero = addHeightArray(result.cloud, result.orientation.up, result.near);
   }
   const auto askOn = [&goesOn] { return goesOn(1.0); };
   if (request.options && !show(request, askOn, result))

@@ -65,7 +65,8 @@ struct LoadedCloud
 {
   vtkSmartPointer<vtkPolyData> cloud; ///< Nobody else's.
   vtkSmartPointer<vtkPolyData> felt;  ///< What of it was resampled: all, or the points in the clipping box.
-  Bounds bounds;                      ///< Of the finite points, after CloudRequest::transform.
+  Bounds bounds; ///< Of the finite points, after CloudRequest::transform; of a fitted cloud without far ones.
+  Bounds near;   ///< Of all points but a few far ones, which are not drawn; empty: none is far.
   CloudOrientation orientation;
   std::string colorBy;            ///< What was asked for, exactly as the cloud or the pipeline writes it.
   std::string title;              ///< The names of the files, without their folders.
@@ -99,6 +100,9 @@ POINTHAPTICSVIEWER_EXPORT Bounds transformedBounds(vtkPolyData* cloud, const Aff
 
 /// The names of @p files without their folders.
 POINTHAPTICSVIEWER_EXPORT std::string titleOf(const std::vector<std::string>& files);
+
+/// Fills in LoadedCloud::bounds of LoadedCloud::cloud and, where the options fit it, near and a note.
+POINTHAPTICSVIEWER_EXPORT void findBounds(const CloudRequest& request, LoadedCloud& loaded);
 
 /// What options and messages call what a cloud is coloured by: what the pipeline makes in lower case.
 std::string colorWord(const std::string& name);

@@ -1,0 +1,98 @@
+#include "IO/Info/FarPoints.h"
+
+#include "Core/Base/Boxes.h"
+#include "Core/Base/QuantityText.h"
+
+#include "vtkPolyData.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pointhaptics
+{
+namespace
+{
+
+constexpr vtkIdType kLookedAt = 10000;
+constexpr vtkIdType kFewest = 100;       ///< Of fewer points none is called far.
+constexpr std::int64_t kMostPart = 1000; ///< One in so many may be far.
+constexpr double kMostLength = 0.1;      ///< Of the others' longest side over that of all.
+
+double longestSide(const Bounds& bounds)
+{
+  const Vec3 size = bounds.extent();
+  return std::max({ size.x, size.y, size.z });
+}
+
+/// From 1 % to 99 % of some points on each axis, and by as much as its longest side beyond.
+Bounds boxOfMost(vtkPolyData* cloud)
+{
+  const vtkIdType count = cloud->GetNumberOfPoints();
+  const vtkIdType step = std::max<vtkIdType>(1, count / kLookedAt);
+  std::vector<double> values[3];
+  Vec3 p;
+  for (vtkIdType i = 0; i < count; i += step)
+  {
+    cloud->GetPoint(i, &p.x);
+    for (int axis = 0; axis < 3 && isFinite(p); ++axis)
+    {
+      values[axis].push_back(p[axis]);
+    }
+  }
+  Bounds box;
+  for (int axis = 0; axis < 3 && !values[axis].empty(); ++axis)
+  {
+    std::sort(values[axis].begin(), values[axis].end());
+    const std::size_t last = values[axis].size() - 1;
+    box.minimum[axis] = values[axis][last / 100];
+    box.maximum[axis] = values[axis][last - last / 100];
+  }
+  return box.empty() ? box : grown(box, longestSide(box));
+}
+
+} // namespace
+
+std::string FarPoints::text() const
+{
+  return fmt::format(
+    "{} of {} points {} far from all others", countText(count), countText(of), count == 1 ? "is" : "are");
+}
+
+std::string FarPoints::clip() const
+{
+  const Bounds box = grown(others, 0.001 * longestSide(others)); // the digits below do not cut
+  return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", box.minimum.x, box.maximum.x, box.minimum.y,
+    box.maximum.y, box.minimum.z, box.maximum.z);
+}
+
+FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds)
+{
+  FarPoints none;
+  none.others = bounds;
+  if (cloud->GetNumberOfPoints() < kFewest)
+  {
+    return none;
+  }
+  const Bounds box = boxOfMost(cloud);
+  if (box.empty() || !(longestSide(box) > 0.0) || longestSide(box) > 3.0 * kMostLength * longestSide(bounds))
+  {
+    return none;
+  }
+  FarPoints found;
+  Vec3 p;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    cloud->GetPoint(i, &p.x);
+    if (isFinite(p))
+    {
+      ++found.of;
+      contains(box, p) ? found.others.include(p) : static_cast<void>(++found.count);
+    }
+  }
+  const bool areFew = found.count > 0 && found.count * kMostPart <= std::max(found.of, kMostPart);
+  return areFew && longestSide(found.others) <= kMostLength * longestSide(bounds) ? found : none;
+}
+
+} // namespace pointhaptics

@@ -1,0 +1,33 @@
+/// @file
+/// A few points far from all others: stray returns, fill values, faults of a scanner.
+#pragma once
+
+#include "Core/Base/PointView.h"
+
+#include "PointHapticsIOModule.h" // For export macro
+
+#include <cstdint>
+#include <string>
+
+class vtkPolyData;
+
+namespace pointhaptics
+{
+
+struct FarPoints
+{
+  std::int64_t count = 0; ///< 0: there are none.
+  std::int64_t of = 0;    ///< Finite points of the cloud.
+  Bounds others;          ///< Of the points that are not far; of all where none is.
+
+  /// "1 of 3,001 points is far from all others".
+  POINTHAPTICSIO_EXPORT std::string text() const;
+  /// "-1,1,-1,1,-1,1": a box that holds the others, for --clip.
+  POINTHAPTICSIO_EXPORT std::string clip() const;
+};
+
+/// One in a thousand points of @p cloud at most, without which its longest side is a tenth at most. Finite
+/// points lie within @p bounds. Cost: a look at 10,000 points, and at all where they may have far ones.
+POINTHAPTICSIO_EXPORT FarPoints findFarPoints(vtkPolyData* cloud, const Bounds& bounds);
+
+} // namespace pointhaptics
