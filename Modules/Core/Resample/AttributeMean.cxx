@@ -98,15 +98,9 @@ AttributeRange rangeOfReals(
 AttributeRange rangeOf(const AttributeView& view, const Executor& executor, InstructionSet instructions)
 {
   const simd::AttributeKernels& kernels = simd::kernelsFor(instructions).attributes;
-  switch (view.type)
-  {
-    case ScalarType::Float:
-      return rangeOfReals<float>(kernels, view, executor);
-    case ScalarType::Double:
-      return rangeOfReals<double>(kernels, view, executor);
-    default:
-      return {};
-  }
+  return view.type == ScalarType::Float ? rangeOfReals<float>(kernels, view, executor)
+    : view.type == ScalarType::Double   ? rangeOfReals<double>(kernels, view, executor)
+                                        : AttributeRange();
 }
 
 AttributeMean::AttributeMean(

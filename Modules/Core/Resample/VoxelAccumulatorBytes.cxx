@@ -28,14 +28,11 @@ struct Header
   PointCounts counts;
 };
 
-/// An array's type, components and statistic.
-using ArrayWords = std::array<std::uint64_t, 3>;
-
 /// What is written besides voxels.
 struct Content
 {
   Header header;
-  std::vector<ArrayWords> arrays;
+  std::vector<AccumulatedArray> arrays;
   std::vector<AffineTransform> common; ///< One or none.
 };
 
@@ -77,6 +74,7 @@ public:
     return last - first;
   }
   std::size_t bytes() const { return bytes_; }
+  static constexpr bool isWhole() { return true; }
 
 private:
   char* memory_;
@@ -115,6 +113,7 @@ public:
     std::for_each(elements.begin(), elements.end(), [this](auto& element) { this->one(element); });
     return elements.size();
   }
+  bool isWhole() const { return isWhole_; }
   bool isAtEnd() const { return isWhole_ && left_.empty(); }
 
 private:
@@ -150,7 +149,7 @@ void exchange(Archive& archive, Content& content, VoxelRun& run, std::size_t fir
   archive.part(run.secondMoments, run.hasMoments() ? first : 0, run.hasMoments() ? last : 0);
   archive.part(content.arrays, 0, content.arrays.size());
   archive.part(content.common, 0, content.common.size());
-  for (std::size_t i = 0; voxels > 0 && i < content.arrays.size(); ++i)
+  for (std::size_t i = 0; voxels > 0 && archive.isWhole() && i < content.arrays.size(); ++i)
   {
     run.tallies.resize(std::max(run.tallies.size(), i + 1));
     exchange(archive, run.tallies[i], first, last);
@@ -199,19 +198,18 @@ bool areOf(const Header& header, const VoxelRun& run)
 }
 
 /// @return false for an array that there is not.
-bool readKind(const ArrayWords& words, VoxelAccumulator::Array& kind)
+bool isRight(const AccumulatedArray& array)
 {
-  constexpr std::uint64_t kMostComponents = std::uint64_t(1) << 20;
-  const auto [type, components, statistic] = words;
-  kind = { ScalarType(type), int(components), AttributeStatistic(statistic) };
-  return type <= std::uint64_t(ScalarType::Double) && components > 0 && components <= kMostComponents &&
-    statistic <= std::uint64_t(AttributeStatistic::Median) &&
-    (kind.statistic != AttributeStatistic::Normal || components == 3);
+  constexpr int kMostComponents = 1 << 20;
+  return array.type >= ScalarType::Int8 && array.type <= ScalarType::Double && array.components > 0 &&
+    array.components <= kMostComponents && array.statistic >= AttributeStatistic::Mean &&
+    array.statistic <= AttributeStatistic::Median &&
+    (array.statistic != AttributeStatistic::Normal || array.components == 3);
 }
 
 /// Has what was read of a tally say where it lies. @return false for what an array does not have in the
 /// voxels.
-bool completeTally(const VoxelAccumulator::Array& kind, const VoxelRun& run, VoxelTally& tally)
+bool completeTally(const AccumulatedArray& kind, const VoxelRun& run, VoxelTally& tally)
 {
   TallySums& sums = tally.sums;
   TallyValues& values = tally.values;
@@ -248,12 +246,7 @@ std::string VoxelAccumulator::serialize(std::uint64_t first, std::uint64_t end)
   const Sums::Range range = added_->range(first, end);
   Content content{ { kMagic, lattice_, covariances_, VoxelResampler::Implementation::fractionBitsOf(lattice_),
                      range.counts },
-    {}, {} };
-  for (const Array& array : arrays_)
-  {
-    content.arrays.push_back(
-      { std::uint64_t(array.type), std::uint64_t(array.components), std::uint64_t(array.statistic) });
-  }
+    arrays_, {} };
   content.common.assign(common_.has_value(), common_.value_or(AffineTransform()));
   Writer counter(nullptr);
   exchange(counter, content, added_->runs.whole(), range.first, range.last);
@@ -276,19 +269,18 @@ Status VoxelAccumulator::deserialize(std::string_view bytes, VoxelAccumulator& r
     return Status::InvalidParameter;
   }
   const int fractionBits = VoxelResampler::Implementation::fractionBitsOf(header.lattice);
-  std::vector<Array> kinds(content.arrays.size());
   bool areRight = (header.fractionBits == fractionBits || (run.size() == 0 && header.fractionBits == 0)) &&
     areOf(header, run);
-  for (std::size_t i = 0; areRight && i < kinds.size(); ++i)
+  for (std::size_t i = 0; areRight && i < content.arrays.size(); ++i)
   {
-    areRight = readKind(content.arrays[i], kinds[i]) &&
-      (run.size() == 0 || completeTally(kinds[i], run, run.tallies[i]));
+    areRight = isRight(content.arrays[i]) &&
+      (run.size() == 0 || completeTally(content.arrays[i], run, run.tallies[i]));
   }
   if (!areRight)
   {
     return Status::InvalidParameter;
   }
-  VoxelAccumulator read(header.lattice, header.covariances == 1, std::move(kinds),
+  VoxelAccumulator read(header.lattice, header.covariances == 1, std::move(content.arrays),
     content.common.empty() ? std::nullopt : std::make_optional(content.common[0]));
   read.added_->counts = header.counts;
   read.added_->runs.add(std::move(run));
