@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <thread>
 #include <utility>
 
 namespace pointhaptics
@@ -23,17 +24,12 @@ void SoundPlayer::start(const ServoLoop& loop, std::unique_ptr<SoundOutput> outp
 {
   this->stop();
   output_ = std::move(output);
-  ending_ = false;
-  thread_ = std::thread([this, &loop] { this->run(loop); });
+  thread_.start([this, &loop] { this->run(loop); });
 }
 
 void SoundPlayer::stop()
 {
-  ending_ = true;
-  if (thread_.joinable())
-  {
-    thread_.join();
-  }
+  thread_.stop();
   output_.reset();
 }
 
@@ -51,7 +47,7 @@ void SoundPlayer::run(const ServoLoop& loop)
   std::string message;
   using Clock = std::chrono::steady_clock;
   auto due = Clock::now(); // when the block is heard at the earliest
-  while (!ending_)
+  while (!thread_.stopIsRequested())
   {
     // An output that never waits would be given hours at once.
     due = std::max(due, Clock::now());

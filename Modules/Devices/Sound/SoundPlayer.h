@@ -4,11 +4,11 @@
 
 #include "Devices/Sound/SoundOutput.h"
 
-#include <atomic>
+#include "Core/Base/StoppableThread.h"
+
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 
 namespace pointhaptics
 {
@@ -23,16 +23,11 @@ class SoundPlayer
 public:
   static constexpr double kBlockSeconds = 0.005;
 
-  SoundPlayer() = default;
-  ~SoundPlayer() { this->stop(); }
-  SoundPlayer(const SoundPlayer&) = delete;
-  SoundPlayer& operator=(const SoundPlayer&) = delete;
-
   /// Plays @p loop, which must outlive stop(), into @p output; what was played before ends.
   void start(const ServoLoop& loop, std::unique_ptr<SoundOutput> output);
   /// Ends within a few blocks.
   void stop();
-  bool isPlaying() const { return thread_.joinable(); }
+  bool isPlaying() const { return thread_.isStarted(); }
   /// What ended the sound: what failed and the cure. Empty: nothing since the last call.
   std::string takeProblem();
 
@@ -40,10 +35,9 @@ private:
   void run(const ServoLoop& loop);
 
   std::unique_ptr<SoundOutput> output_;
-  std::atomic<bool> ending_{ false };
   std::mutex mutex_;
   std::string problem_; ///< Under the mutex.
-  std::thread thread_;
+  StoppableThread thread_;
 };
 
 } // namespace pointhaptics

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <thread>
 
 namespace pointhaptics
 {
@@ -37,18 +38,7 @@ bool ReplayPlayer::open(const std::string& fileName, vtkPointSet* cloud, std::st
 
 void ReplayPlayer::start(ServoLoop& loop)
 {
-  this->stop();
-  ending_ = false;
-  thread_ = std::thread([this, &loop] { this->run(loop); });
-}
-
-void ReplayPlayer::stop()
-{
-  ending_ = true;
-  if (thread_.joinable())
-  {
-    thread_.join();
-  }
+  thread_.start([this, &loop] { this->run(loop); });
 }
 
 bool ReplayPlayer::takeModel(AffineTransform& model)
@@ -85,7 +75,7 @@ void ReplayPlayer::run(ServoLoop& loop)
   const double begin = recording_.ticks.front().felt[0];
   Clock::time_point start = Clock::now();
   const HapticScene* scene = nullptr;
-  while (!replay.isAtEnd() && !ending_)
+  while (!replay.isAtEnd() && !thread_.stopIsRequested())
   {
     const RecordedTick& row = replay.row();
     const Clock::time_point due = start + secondsOf(row.felt[0] - begin);

@@ -2,16 +2,15 @@
 /// A recording felt again while a window shows it.
 #pragma once
 
+#include "Core/Base/StoppableThread.h"
 #include "Haptics/ServoLoop.h"
 #include "Replay.h"
 
 #include "vtkSmartPointer.h"
 
-#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 
 class vtkPointSet;
 
@@ -24,16 +23,11 @@ namespace pointhaptics
 class ReplayPlayer
 {
 public:
-  ReplayPlayer() = default;
-  ~ReplayPlayer() { this->stop(); }
-  ReplayPlayer(const ReplayPlayer&) = delete;
-  ReplayPlayer& operator=(const ReplayPlayer&) = delete;
-
   /// False: @p message says what is wrong with the file, or that @p cloud is another one.
   bool open(const std::string& fileName, vtkPointSet* cloud, std::string& message);
   /// After open(): feeds @p loop, which must outlive stop(), from the first tick on.
   void start(ServoLoop& loop);
-  void stop();
+  void stop() { thread_.stop(); }
 
   /// Where the model is by now: from the file to the workspace. False: it was not moved since the last call.
   bool takeModel(AffineTransform& model);
@@ -52,8 +46,7 @@ private:
   AffineTransform model_; ///< This and the following under the mutex.
   bool hasModel_ = false;
   std::string message_;
-  std::atomic<bool> ending_{ false };
-  std::thread thread_;
+  StoppableThread thread_;
 };
 
 } // namespace pointhaptics
