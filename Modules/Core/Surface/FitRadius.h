@@ -20,11 +20,15 @@ struct FitNeeds
   double radiusInCells = 3.6;    ///< Least radius over the edge of a finest cell.
   double growth = 1.15;          ///< Of the radii tried against noise, from one to the next.
   bool weighsCubic = true;       ///< Whether fits with cubic terms are tried where the cloud is noisy.
-  bool finerWhereShaped = false; ///< ofFineCells() where the residuals are shape and not noise.
+  bool finerWhereShaped = false; ///< ofFineCells() where the residuals are shape and not noise; in
+                                 ///< fitScales() ofBarePoints() where those of the whole cloud are.
 
   /// For cells about as fine as the points' spacing, the finest that are of use. Where noise calls for cubic
   /// terms, coarser cells serve better.
   static FitNeeds ofFineCells() { return { 16.0, 12.0, 2.4, 1.3, false, false }; }
+
+  /// For single points without noise: the fewest that determine a fit with some to spare.
+  static FitNeeds ofBarePoints() { return { 10.0, 10.0, 2.0, 1.3, false, false }; }
 };
 
 /// The scale of fits at one position; metres.
@@ -34,6 +38,7 @@ struct FitScale
   double radius = 0.0;      ///< Chosen radius: countRadius where the cloud is clean, more where it is noisy.
   double noise = 0.0;       ///< Standard deviation of the points about the surface.
   bool cubic = false;       ///< The radius is one for a fit with cubic terms.
+  double left = 0.0;        ///< The part of the noise that a smaller fit leaves; 0 where none was tried.
 };
 
 /// Lepski's scale search at the cell mean @p seed: a longer radius is accepted while it agrees with every

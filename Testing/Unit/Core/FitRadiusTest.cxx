@@ -165,3 +165,34 @@ TEST(FitScales, AreOnePerNodeAndDoNotDependOnTheExecutor)
     EXPECT_GT(expected[i].gate, 0.0);
   }
 }
+
+// One point a cell: over a node what small fits leave says little, over the cloud it tells shape from noise.
+TEST(FitScales, AreSmallWhereBarePointsHaveShapeAndNoNoise)
+{
+  const auto bareRadius = [](double waves, double noise, bool finer)
+  {
+    trial::Random random(8);
+    std::vector<Cell> cells(20000);
+    for (Cell& cell : cells)
+    {
+      const Vec3 p = random.inBox({ -0.03, -0.03, 0 }, { 0.03, 0.03, 0 });
+      cell.mean = { p.x, p.y,
+        waves * std::sin(1500.0 * p.x) * std::sin(1500.0 * p.y) + noise * random.normal() };
+    }
+    CellPyramid pyramid;
+    std::vector<std::uint32_t> source;
+    EXPECT_EQ(pyramid.build(cells, kVoxel, source), Status::Ok);
+    FitNeeds needs;
+    needs.finerWhereShaped = finer;
+    std::vector<double> radii;
+    for (const LocalScale& scale : fitScales(pyramid, 8e-3, 8e-3, {}, nullptr, needs))
+    {
+      radii.push_back(scale.radius);
+    }
+    std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(radii.size() / 2), radii.end());
+    return radii[radii.size() / 2];
+  };
+  EXPECT_LT(bareRadius(2e-4, 0.0, true), 0.7 * bareRadius(2e-4, 0.0, false));
+  EXPECT_GT(bareRadius(0.0, 2e-5, true), 0.85 * bareRadius(0.0, 2e-5, false));
+  EXPECT_GT(bareRadius(0.0, 1e-4, true), 0.85 * bareRadius(0.0, 1e-4, false));
+}
