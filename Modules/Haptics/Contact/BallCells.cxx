@@ -94,6 +94,7 @@ bool BallCells::gatherFrom(const CellPyramid& pyramid, int level, double likely,
   pyramid.visitRuns(level, center_, reach_,
     [&](std::uint32_t first, std::uint32_t last)
     {
+      looked_ += last - first;
       if (!onePerVoxel)
       {
         fits = add(last - first, [&](std::uint32_t i) { return cells[first + i].mean; });

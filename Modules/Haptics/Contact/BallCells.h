@@ -51,6 +51,8 @@ public:
 
   /// How often the pyramid was visited so far: what costs time.
   int passes() const noexcept { return passes_; }
+  /// How many of its points were looked at so far.
+  std::uint64_t looked() const noexcept { return looked_; }
 
   int size() const noexcept { return size_; }
   Vec3 point(int i) const noexcept { return center_ + Vec3(x_[i], y_[i], z_[i]); }
@@ -130,6 +132,7 @@ private:
   bool complete_ = true;   ///< All points of the cloud, not some or means of them.
   double askedRadius_ = 0.0;
   int passes_ = 0;
+  std::uint64_t looked_ = 0;
   const simd::FitKernels* kernels_;
   const CellPyramid* pyramid_ = nullptr;
 };

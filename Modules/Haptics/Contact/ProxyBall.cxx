@@ -29,8 +29,9 @@ constexpr double kSearch = 4.0;
 
 /// Moves of one slide.
 constexpr int kMostSlides = 24;
-/// What a visit of the pyramid costs, in rounds.
+/// What a visit of the pyramid costs, in rounds: a large ball among dense points looks at thousands of them.
 constexpr int kRoundsOfPass = 3;
+constexpr std::uint64_t kPointsOfRound = 128;
 /// How far a tick in contact looks, over the radius: as far as a glide.
 constexpr double kReachOfTick = 2.1;
 /// Glides of one step.
@@ -135,11 +136,13 @@ void ProxyBall::carry(const AffineTransform& change, double scale) noexcept
 
 void ProxyBall::gather(Work& work, double reach) noexcept
 {
-  const int before = work.cells.passes();
+  const int passes = work.cells.passes();
+  const std::uint64_t looked = work.cells.looked();
   const double likely = free_ ? 0.0 : kReachOfTick * radius_;
   const bool all =
     work.cells.gather(work.scene.pyramid(), center_, reach, radius_ / kBallRadiusInCells, likely);
-  work.rounds -= kRoundsOfPass * (work.cells.passes() - before);
+  work.rounds -=
+    kRoundsOfPass * (work.cells.passes() - passes) + int((work.cells.looked() - looked) / kPointsOfRound);
   work.status |= std::uint32_t(all ? kProxyOk : kProxyCellLimit);
 }
 
@@ -480,7 +483,7 @@ void ProxyBall::step(const HapticScene& scene, FitCells& fields, BallCells& cell
   }
   isHeld_ = false;
   const int glides = isPatient_ ? 1 : kMostGlides;
-  for (int i = 0; i < glides && !free_ && there_; ++i)
+  for (int i = 0; i < glides && !free_ && there_ && work.rounds > 0; ++i)
   {
     if (!glide(work, hip))
     {

@@ -138,8 +138,7 @@ public:
   const HapticScene& scene() const { return *scene_; }
   ProxyBall& ball() { return ball_; }
   const ProxyBall& ball() const { return ball_; }
-  /// How often the points were looked for in the scene so far.
-  int passes() const { return cells_->passes(); }
+  const BallCells& cells() const { return *cells_; }
   /// Bits since the last call.
   std::uint32_t takeStatus()
   {
